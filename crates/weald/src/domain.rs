@@ -1,0 +1,83 @@
+//! The ground a landscape stands on: its grid, the size of its cells, its place on Earth, its no-data mask.
+
+use crate::grid::{Mask, Size};
+
+/// Grid, cell size, georeference and no-data mask, shared by all layers of a landscape.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Domain {
+    /// Columns and rows.
+    pub size: Size,
+    /// Side of the square cells in metres.
+    pub cell: f64,
+    /// Place on Earth, where the ground came from a georeferenced file.
+    pub georeference: Option<Georeference>,
+    /// Cells with data; `None` where all have.
+    pub land: Option<Mask>,
+}
+
+impl Domain {
+    /// A domain without a place on Earth and without no-data cells.
+    pub fn new(size: Size, cell: f64) -> Self {
+        Self { size, cell, georeference: None, land: None }
+    }
+
+    /// Number of cells with data.
+    pub fn land_cells(&self) -> usize {
+        self.land.as_ref().map_or(self.size.cells(), Mask::land_cells)
+    }
+
+    /// Area of one cell in square metres.
+    pub fn cell_area(&self) -> f64 {
+        self.cell * self.cell
+    }
+}
+
+/// Where the grid lies in a coordinate reference system (CRS).
+#[derive(Clone, Debug, PartialEq)]
+pub struct Georeference {
+    /// EPSG code of the CRS, where the file names one.
+    pub epsg: Option<u32>,
+    /// CRS coordinates of the outer corner of the north-western cell: easting (or longitude) and northing
+    /// (or latitude).
+    pub origin: [f64; 2],
+    /// Width and height of a cell in CRS units (metres or degrees), both positive; rows go south.
+    pub pixel: [f64; 2],
+    /// The GeoTIFF keys as read, so that a CRS without an EPSG code survives unchanged.
+    pub keys: Option<GeoKeys>,
+}
+
+impl Georeference {
+    /// Whether the CRS counts in degrees of longitude and latitude.
+    pub fn is_geographic(&self) -> bool {
+        match &self.keys {
+            Some(keys) => keys.is_geographic(),
+            None => self.epsg.is_some_and(|code| (4000..5000).contains(&code)),
+        }
+    }
+}
+
+/// The three GeoTIFF key tags as they stand in a file.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub struct GeoKeys {
+    /// `GeoKeyDirectoryTag` (34735): header of four numbers, then four a key.
+    pub directory: Vec<u16>,
+    /// `GeoDoubleParamsTag` (34736).
+    pub doubles: Vec<f64>,
+    /// `GeoAsciiParamsTag` (34737).
+    pub ascii: String,
+}
+
+impl GeoKeys {
+    const MODEL_TYPE: u16 = 1024;
+    const MODEL_GEOGRAPHIC: u16 = 2;
+
+    /// The value of a key that is stored in the directory itself.
+    pub fn short(&self, key: u16) -> Option<u16> {
+        self.directory.get(4..)?.chunks_exact(4).find(|entry| entry[0] == key && entry[1] == 0).map(|e| e[3])
+    }
+
+    /// Whether the model type is longitude and latitude.
+    pub fn is_geographic(&self) -> bool {
+        self.short(Self::MODEL_TYPE) == Some(Self::MODEL_GEOGRAPHIC)
+    }
+}

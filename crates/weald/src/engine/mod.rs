@@ -1,0 +1,101 @@
+//! Engines, and what a running step knows of the world: seed, engine, progress, interruption, checkpoints.
+
+mod budget;
+
+pub use budget::{Budget, SolidBudget, WaterBudget};
+
+use crate::error::Error;
+
+/// Where and how simulations run. The bits of the result do not depend on it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum Engine {
+    /// All threads of the current rayon pool, in shared memory.
+    #[default]
+    Cpu,
+    /// The domain cut into this many bands that own their memory and exchange halos by messages: what a
+    /// cluster's ranks do, without a cluster.
+    Bands(usize),
+}
+
+impl Engine {
+    /// Name in the report.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Cpu => "cpu",
+            Self::Bands(_) => "bands",
+        }
+    }
+}
+
+/// What a step is given beside the landscape.
+pub struct Job<'a> {
+    /// Seed of this step.
+    pub seed: u64,
+    /// Where simulations run.
+    pub engine: Engine,
+    /// Hears of progress, keeps checkpoints, says when to stop.
+    pub watcher: &'a dyn Watcher,
+    /// State to go on from, where this step was interrupted before.
+    pub resume: Option<SavedSimulation>,
+}
+
+impl std::fmt::Debug for Job<'_> {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        formatter
+            .debug_struct("Job")
+            .field("seed", &self.seed)
+            .field("engine", &self.engine)
+            .finish_non_exhaustive()
+    }
+}
+
+/// The outside world of a run. Every method has a default that does nothing.
+pub trait Watcher: Sync {
+    /// A simulation has done `done` of `total` iterations over `cells` cells each.
+    fn progress(&self, done: u64, total: u64, cells: usize) {
+        let _ = (done, total, cells);
+    }
+
+    /// Whether the user wants the run to end.
+    fn cancelled(&self) -> bool {
+        false
+    }
+
+    /// Whether the time has come for a checkpoint.
+    fn checkpoint_due(&self) -> bool {
+        false
+    }
+
+    /// Keeps the state of the running simulation.
+    ///
+    /// # Errors
+    /// [`Error::Run`] where the state cannot be written.
+    fn checkpoint(&self, state: &SavedSimulation) -> Result<(), Error> {
+        let _ = state;
+        Ok(())
+    }
+}
+
+/// A watcher that does nothing.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Unwatched;
+
+impl Watcher for Unwatched {}
+
+impl Job<'static> {
+    /// A job on the CPU that nobody watches.
+    pub fn unwatched(seed: u64) -> Self {
+        Self { seed, engine: Engine::Cpu, watcher: &Unwatched, resume: None }
+    }
+}
+
+/// The whole state of a simulation between two of its steps.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub struct SavedSimulation {
+    /// Steps done.
+    pub iteration: u64,
+    /// Named planes, row-major.
+    pub planes: Vec<(String, Vec<f32>)>,
+    /// Named sums.
+    pub sums: Vec<(String, Vec<f64>)>,
+}

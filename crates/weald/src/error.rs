@@ -1,0 +1,76 @@
+//! Errors, sorted by who must act.
+
+use std::path::{Path, PathBuf};
+
+/// Everything that can end a run early. [`Error::exit_code`] is the exit code of the command.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    /// The recipe must be mended by its author.
+    #[error("{0}")]
+    Recipe(#[from] RecipeError),
+    /// An input file is damaged or of a kind that Weald does not read.
+    #[error("{}: {what}", path.display())]
+    Input {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong, where, and what would be right.
+        what: String,
+    },
+    /// A stated limit would be passed; nothing was allocated.
+    #[error("{0}")]
+    Limit(String),
+    /// The run itself failed: a NaN, an unwritable folder, a full disk.
+    #[error("{0}")]
+    Run(String),
+    /// The user stopped the run. The message says how to go on.
+    #[error("{0}")]
+    Interrupted(String),
+}
+
+impl Error {
+    /// 1 run failed, 3 bad recipe, 4 bad input file, 5 over a stated limit, 130 interrupted.
+    pub fn exit_code(&self) -> u8 {
+        match self {
+            Self::Run(_) => 1,
+            Self::Recipe(_) => 3,
+            Self::Input { .. } => 4,
+            Self::Limit(_) => 5,
+            Self::Interrupted(_) => 130,
+        }
+    }
+
+    /// A damaged or unreadable input file.
+    pub fn input(path: &Path, what: impl Into<String>) -> Self {
+        Self::Input { path: path.to_owned(), what: what.into() }
+    }
+
+    /// A file or folder that could not be written.
+    pub fn write(path: &Path, cause: &std::io::Error) -> Self {
+        Self::Run(format!("cannot write {}: {cause}", path.display()))
+    }
+}
+
+/// All that is wrong with a recipe, so that one look mends it.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("{}", complaints.iter().map(|c| c.in_file(file)).collect::<Vec<_>>().join("\n"))]
+pub struct RecipeError {
+    /// Name of the recipe file, as the user gave it.
+    pub file: String,
+    /// One complaint a fault, in the order of the file.
+    pub complaints: Vec<Complaint>,
+}
+
+/// One fault of a recipe.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Complaint {
+    /// Line in the file, counted from 1.
+    pub line: usize,
+    /// What is wrong: the key, the value, what is legal, what was probably meant.
+    pub message: String,
+}
+
+impl Complaint {
+    fn in_file(&self, file: &str) -> String {
+        format!("{file}:{}: {}", self.line, self.message)
+    }
+}

@@ -1,0 +1,34 @@
+//! Files that are whole or not there.
+
+use std::fs::File;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use crate::error::Error;
+
+/// Writes `bytes` under a temporary name beside `path`, syncs, and renames. On failure the temporary file is
+/// removed and an older file under `path` stays as it was.
+///
+/// # Errors
+/// [`Error::Run`] naming the file and the cause.
+pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), Error> {
+    let temporary = temporary_name(path);
+    let written = write_and_sync(&temporary, bytes).and_then(|()| std::fs::rename(&temporary, path));
+    written.map_err(|cause| {
+        // The write has failed already; that the leftover cannot be removed either adds nothing.
+        let _ = std::fs::remove_file(&temporary);
+        Error::write(path, &cause)
+    })
+}
+
+fn write_and_sync(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
+    let mut file = File::create(path)?;
+    file.write_all(bytes)?;
+    file.sync_all()
+}
+
+fn temporary_name(path: &Path) -> PathBuf {
+    let mut name = path.file_name().unwrap_or_default().to_owned();
+    name.push(format!(".{}.tmp-weald", std::process::id()));
+    path.with_file_name(name)
+}

@@ -1,0 +1,96 @@
+//! What a step of a recipe is: it declares the layers that it reads and writes, and runs on a landscape.
+
+use std::fmt::Debug;
+
+use crate::engine::{Budget, Job};
+use crate::error::Error;
+use crate::landscape::Landscape;
+use crate::recipe::parameter::{Complaints, Parameter, Parameters};
+use crate::recipe::source::Table;
+
+/// A step with its parameters, checked and ready to run.
+pub trait Step: Debug + Send + Sync {
+    /// Names of the layers it reads.
+    fn reads(&self) -> Vec<String>;
+
+    /// Names and units of the layers it writes.
+    fn writes(&self) -> Vec<(String, &'static str)>;
+
+    /// Faults that concern several parameters at once, each a sentence for the user.
+    fn faults(&self) -> Vec<String> {
+        Vec::new()
+    }
+
+    /// Columns and rows after the step, where it changes them.
+    fn resized(&self) -> Option<(u32, u32)> {
+        None
+    }
+
+    /// Runs on a landscape that has all the layers in [`Step::reads`].
+    fn run(&self, landscape: &mut Landscape, job: &Job<'_>) -> Result<Outcome, Error>;
+}
+
+/// What a step has to report.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Outcome {
+    /// Simulation steps, faults, octaves: what the step counts.
+    pub iterations: u64,
+    /// Where water and solid went, for simulations.
+    pub budget: Option<Budget>,
+    /// What the user should know.
+    pub notes: Vec<String>,
+}
+
+/// Part of the pipeline that a step belongs to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stage {
+    /// Makes ground from nothing.
+    Generate,
+    /// Makes a layer from layers.
+    Combine,
+    /// Changes ground by water and gravity.
+    Erode,
+}
+
+impl Stage {
+    /// The stage's heading in `weald steps`.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::Generate => "generate",
+            Self::Combine => "combine",
+            Self::Erode => "erode",
+        }
+    }
+}
+
+/// A step's declaration in the catalogue.
+#[derive(Clone, Copy, Debug)]
+pub struct Entry {
+    /// Word after `do =`.
+    pub name: &'static str,
+    /// Part of the pipeline.
+    pub stage: Stage,
+    /// What it does, in one sentence.
+    pub summary: &'static str,
+    /// The publication, or "Weald" for what is common practice.
+    pub source: &'static str,
+    /// Declares the parameters.
+    pub parameters: fn() -> Vec<Parameter>,
+    /// Reads them from a recipe.
+    pub read: fn(&Table, &mut Complaints) -> Box<dyn Step>,
+}
+
+impl Entry {
+    /// The declaration of step type `T`.
+    pub const fn of<T: Step + Parameters + 'static>(
+        name: &'static str,
+        stage: Stage,
+        summary: &'static str,
+        source: &'static str,
+    ) -> Self {
+        let read = |table: &Table, complaints: &mut Complaints| -> Box<dyn Step> {
+            Box::new(T::read(table, complaints))
+        };
+        Self { name, stage, summary, source, parameters: T::parameters, read }
+    }
+}
