@@ -1,6 +1,7 @@
 //! Engines, and what a running step knows of the world: seed, engine, progress, interruption, checkpoints.
 
 mod budget;
+pub(crate) mod world;
 
 pub use budget::{Budget, SolidBudget, WaterBudget};
 

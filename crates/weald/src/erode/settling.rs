@@ -1,0 +1,110 @@
+//! How fast water runs, how much it can carry, and what it takes from or gives to the ground.
+//!
+//! Han 2015, eq. 10–16: face velocity is flux over the mean depth of both cells; the mean sine of the slopes
+//! around a cell gives the capacity `K_c |v| sin a · d`; water takes `K_v |v|` (or, in the comparison with
+//! dissolution, a share of the free capacity), keeps what it can carry and drops the rest, of which the
+//! ground gets back the deposit ratio `r`.
+//!
+//! Ground is kept as start height plus change, because a thin film on a high mountain wears less in a step
+//! than the last digit of its height: the change alone has the digits.
+
+use crate::stencil::kernel::kernel;
+
+kernel! {
+    /// Velocity through the eastern or southern face of each cell, in cells a step (eq. 11).
+    pub(crate) struct FaceVelocity {
+        reads { flux, depth, depth_next }
+        updates {}
+        writes { velocity }
+        constants { velocity_epsilon: f32 }
+    }
+    fn cell() {
+        velocity = flux / ((depth.max(0.0) + depth_next.max(0.0)) * 0.5 + velocity_epsilon);
+    }
+}
+
+kernel! {
+    /// Cell velocity from its faces.
+    pub(crate) struct CellVelocity {
+        reads { east, west, south, north }
+        updates {}
+        writes { eastward, southward }
+        constants {}
+    }
+    fn cell() {
+        eastward = (west + east) * 0.5;
+        southward = (north + south) * 0.5;
+    }
+}
+
+/// What both laws of [`SettleByVelocity`] and [`SettleByDissolution`] share: speed and capacity.
+#[inline(always)]
+#[allow(clippy::inline_always, clippy::too_many_arguments)]
+fn speed_and_capacity(faces: [f32; 4], sines: [f32; 4], share: f32, capacity: f32, depth: f32) -> (f32, f32) {
+    let eastward = (faces[0] + faces[1]) * 0.5;
+    let southward = (faces[2] + faces[3]) * 0.5;
+    let speed = (eastward * eastward + southward * southward).sqrt();
+    let sine = ((sines[0] + sines[1]) + (sines[2] + sines[3])) * share;
+    (speed, capacity * speed * sine * depth.max(0.0))
+}
+
+/// Moves the difference between the sediment found and the sediment kept to or from the ground. Water takes
+/// exactly what the ground's rounded change lost, so that nothing vanishes in rounding.
+#[inline(always)]
+#[allow(clippy::inline_always)]
+fn settle(found: f32, kept: f32, change: f32, ratio: f32) -> (f32, f32, f32) {
+    let taken = kept - found;
+    let eroded = change - taken.max(0.0);
+    let deposit = (-taken).max(0.0);
+    let raised = change + ratio * deposit;
+    if taken > 0.0 {
+        (eroded, found + (change - eroded), 0.0)
+    } else {
+        (raised, kept, (1.0 - ratio) * deposit)
+    }
+}
+
+kernel! {
+    /// Takes `K_v |v|` and settles what the water cannot carry (eq. 10, 12–16). `lost` is the part of the
+    /// deposit that shrinking takes out.
+    pub(crate) struct SettleByVelocity {
+        reads {
+            found, depth, change_before, face_east, face_west, face_south, face_north,
+            sine_east, sine_west, sine_south, sine_north, neighbour_share,
+        }
+        updates {}
+        writes { change, sediment, lost }
+        constants { capacity: f32, erosion: f32, deposit_ratio: f32 }
+    }
+    fn cell() {
+        let (speed, most) = speed_and_capacity(
+            [face_west, face_east, face_north, face_south],
+            [sine_west, sine_east, sine_north, sine_south],
+            neighbour_share, capacity, depth,
+        );
+        let kept = (found + erosion * speed).min(most);
+        (change, sediment, lost) = settle(found, kept, change_before, deposit_ratio);
+    }
+}
+
+kernel! {
+    /// Takes the share `K_s` of the free capacity: the dissolution law that Han 2015, fig. 8, compares with.
+    pub(crate) struct SettleByDissolution {
+        reads {
+            found, depth, change_before, face_east, face_west, face_south, face_north,
+            sine_east, sine_west, sine_south, sine_north, neighbour_share,
+        }
+        updates {}
+        writes { change, sediment, lost }
+        constants { capacity: f32, erosion: f32, deposit_ratio: f32 }
+    }
+    fn cell() {
+        let (_, most) = speed_and_capacity(
+            [face_west, face_east, face_north, face_south],
+            [sine_west, sine_east, sine_north, sine_south],
+            neighbour_share, capacity, depth,
+        );
+        let kept = (found + erosion * (most - found).max(0.0)).min(most);
+        (change, sediment, lost) = settle(found, kept, change_before, deposit_ratio);
+    }
+}

@@ -1,0 +1,132 @@
+//! The `thermal` step: gravity lays steep ground to rest.
+
+use pulp::Arch;
+
+use super::links::Links;
+use super::simulation::Simulation;
+use super::thermal::{Scheme, Slide, SlideRows, SlideScratch};
+use super::working::Working;
+use crate::engine::Job;
+use crate::error::Error;
+use crate::landscape::Landscape;
+use crate::parameters;
+use crate::recipe::parameter::LayerName;
+use crate::stencil::chain::{Flow, Process};
+use crate::step::{Entry, Outcome, Stage, Step};
+
+parameters! {
+    /// Thermal weathering as a step of its own.
+    pub struct Thermal {
+        /// How slopes are compared with the talus.
+        scheme: Scheme = Scheme::Isotropic;
+        /// Steepest slope that rests, as a tangent; 0.8 is 39°.
+        talus: f64 = 0.8, range 0.0..=100.0;
+        /// Share of the excess that slides in a step. Unstable above 0.25.
+        strength: f64 = 0.05, range 0.0..=0.25;
+        /// Steps to run.
+        iterations: u32 = 100, range 0..=10_000_000;
+        /// Layer to weather.
+        layer: LayerName = LayerName::of("height");
+    }
+}
+
+parameters! {
+    /// Thermal weathering within every step of `hydraulic`.
+    pub struct ThermalWithin {
+        /// How slopes are compared with the talus.
+        scheme: Scheme = Scheme::Isotropic;
+        /// Steepest slope that rests, as a tangent; 0.8 is 39°.
+        talus: f64 = 0.8, range 0.0..=100.0;
+        /// Share of the excess that slides in a step. Unstable above 0.25.
+        strength: f64 = 0.05, range 0.0..=0.25;
+    }
+}
+
+impl ThermalWithin {
+    /// The method's constants.
+    pub(crate) fn slide(&self) -> Slide {
+        Slide { scheme: self.scheme, talus: self.talus as f32, strength: self.strength as f32 }
+    }
+}
+
+/// The step's declaration.
+pub const ENTRY: Entry = Entry::of::<Thermal>(
+    "thermal",
+    Stage::Erode,
+    "Lets ground steeper than its talus slide until it rests.",
+    "Han 2015, eq. 17–21, doi 10.7583/JKGS.2015.15.6.171",
+);
+
+impl Step for Thermal {
+    fn reads(&self) -> Vec<String> {
+        vec![self.layer.0.clone()]
+    }
+
+    fn writes(&self) -> Vec<(String, &'static str)> {
+        vec![(self.layer.0.clone(), "m")]
+    }
+
+    fn run(&self, landscape: &mut Landscape, job: &Job<'_>) -> Result<Outcome, Error> {
+        let working = Working::new(landscape, &self.layer.0, false)?;
+        let slide = Slide { scheme: self.scheme, talus: self.talus as f32, strength: self.strength as f32 };
+        let links = Links::new(working.size, working.mask.is_some());
+        let process = Sliding { slide, links, arch: Arch::new() };
+        let simulation = Simulation {
+            process: &process,
+            plane_names: &["change"],
+            iterations: u64::from(self.iterations),
+            weather: &|_| (),
+            record: None,
+        };
+        let finished = simulation.run(working.state(1, 0), job)?;
+        Ok(working.store_ground(landscape, &self.layer.0, &finished, u64::from(self.iterations)))
+    }
+}
+
+/// Thermal weathering alone as a stream of rows.
+pub(crate) struct Sliding {
+    pub(crate) slide: Slide,
+    pub(crate) links: Links,
+    pub(crate) arch: Arch,
+}
+
+impl Process for Sliding {
+    type Weather = ();
+    type Scratch = SlideScratch;
+
+    fn state_planes(&self) -> usize {
+        1
+    }
+
+    fn constant_planes(&self) -> usize {
+        1 + self.links.planes()
+    }
+
+    fn lag(&self) -> usize {
+        self.slide.lag()
+    }
+
+    fn reach(&self) -> usize {
+        self.lag() + 1
+    }
+
+    fn scratch(&self, columns: usize) -> SlideScratch {
+        SlideScratch::new(columns)
+    }
+
+    fn advance(&self, flow: &mut Flow<'_, Self>) {
+        self.slide.advance(
+            &SlideRows {
+                base: &flow.constants[0],
+                change: &flow.input[0],
+                links: &self.links,
+                constants: flow.constants,
+                newest: Some(flow.y),
+                span: flow.span.clone(),
+                arch: self.arch,
+            },
+            flow.scratch,
+            &mut flow.output[0],
+        );
+    }
+}

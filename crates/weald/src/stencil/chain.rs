@@ -1,0 +1,218 @@
+//! Steps of a simulation as streams of rows, chained.
+//!
+//! One step takes rows from north to south and gives each row back a few rows later, changed. Chaining the
+//! streams of several steps advances the simulation by that many steps in one passage through memory
+//! (temporal blocking by skewing). A stretch of rows is computed as a small world of its own with walls at
+//! both ends; rows that lie further from an end than `reach` cells a step do not feel it, so that bands with
+//! halos give the same bits as the whole, whatever the number of bands and of steps in a passage.
+
+use std::ops::Range;
+
+use super::ring::Ring;
+use super::rows::Layout;
+
+/// Sums that a process keeps for each row, in the process's own order.
+pub(crate) const SUMS: usize = 5;
+
+/// What happened on one row, summed over its cells and over time.
+pub(crate) type RowSums = [f64; SUMS];
+
+/// A simulation step as a stream of rows.
+pub(crate) trait Process: Sync {
+    /// What differs from step to step: rain or sunshine.
+    type Weather: Copy + Send + Sync;
+    /// Rows in flight within one step.
+    type Scratch: Send;
+
+    /// Planes that steps change.
+    fn state_planes(&self) -> usize;
+    /// Planes that stay, stored behind the state planes.
+    fn constant_planes(&self) -> usize;
+    /// Rows by which a step's output lies behind its input.
+    fn lag(&self) -> usize;
+    /// Farthest row that a row of the output depends on.
+    fn reach(&self) -> usize;
+    /// Memory for one step over rows of this many cells.
+    fn scratch(&self, columns: usize) -> Self::Scratch;
+    /// Takes row `flow.y` in and finishes row `flow.y - lag` of the output.
+    fn advance(&self, flow: &mut Flow<'_, Self>);
+}
+
+/// Everything one step sees when a row comes in.
+pub(crate) struct Flow<'a, P: Process + ?Sized> {
+    /// Planes that stay.
+    pub(crate) constants: &'a [Ring],
+    /// Rows as the step finds them.
+    pub(crate) input: &'a [Ring],
+    /// Rows as the step leaves them.
+    pub(crate) output: &'a mut [Ring],
+    /// Rows in flight.
+    pub(crate) scratch: &'a mut P::Scratch,
+    /// Rain or sunshine of this step.
+    pub(crate) weather: P::Weather,
+    /// The row that comes in; beyond `span.end` when the last rows flow out.
+    pub(crate) y: usize,
+    /// The rows of this small world, between its walls.
+    pub(crate) span: Range<usize>,
+    /// Sums of the rows that this band owns; the others are another band's.
+    pub(crate) sums: &'a mut SumsOfRows<'a>,
+}
+
+impl<P: Process + ?Sized> Flow<'_, P> {
+    /// The row `behind` rows behind the newest, where it exists.
+    pub(crate) fn behind(&self, behind: usize) -> Option<usize> {
+        self.y.checked_sub(behind).filter(|row| self.span.contains(row))
+    }
+}
+
+/// Row sums of the rows that a band owns.
+pub(crate) struct SumsOfRows<'a> {
+    /// First row owned.
+    pub(crate) first: usize,
+    /// One entry a row.
+    pub(crate) rows: &'a mut [RowSums],
+}
+
+impl SumsOfRows<'_> {
+    /// Adds the sum of `cells` to sum number `which` of row `y`, if this band owns the row.
+    pub(crate) fn add(&mut self, y: usize, which: usize, cells: &[f32]) {
+        if let Some(row) = y.checked_sub(self.first).and_then(|row| self.rows.get_mut(row)) {
+            row[which] += sum_in_lanes(cells);
+        }
+    }
+}
+
+/// Sum of a row in sixteen interleaved partial sums, an order that vector units of any width keep. Blocks
+/// of 1024 cells go to `f64` one by one, so that long rows lose nothing.
+fn sum_in_lanes(cells: &[f32]) -> f64 {
+    const LANES: usize = 16;
+    let block_sum = |block: &[f32]| {
+        let mut lanes = [0.0_f32; LANES];
+        let (chunks, rest) = block.as_chunks::<LANES>();
+        for chunk in chunks {
+            for (lane, cell) in lanes.iter_mut().zip(chunk) {
+                *lane += cell;
+            }
+        }
+        let lanes: f64 = lanes.iter().map(|&lane| f64::from(lane)).sum();
+        lanes + rest.iter().map(|&cell| f64::from(cell)).sum::<f64>()
+    };
+    cells.chunks(1024).map(block_sum).sum()
+}
+
+/// Rows in flight between and within the steps of one passage.
+pub(crate) struct Chain<P: Process> {
+    constants: Vec<Ring>,
+    /// `between[t]` holds what step `t` takes in; the last one what the passage gives out.
+    between: Vec<Vec<Ring>>,
+    scratch: Vec<P::Scratch>,
+}
+
+impl<P: Process> Chain<P> {
+    /// Memory for passages of up to `steps` steps.
+    pub(crate) fn new(process: &P, columns: usize, steps: usize) -> Self {
+        let rings = |count, depth| (0..count).map(|_| Ring::new(columns, depth)).collect::<Vec<_>>();
+        // A step looks back over the rows in its own flight; constants serve all steps of the passage.
+        let window = process.lag() + 3;
+        Self {
+            constants: rings(process.constant_planes(), steps * process.lag() + 3),
+            between: (0..=steps).map(|_| rings(process.state_planes(), window)).collect(),
+            scratch: (0..steps).map(|_| process.scratch(columns)).collect(),
+        }
+    }
+}
+
+/// One passage over a stretch of rows.
+pub(crate) struct Passage<'a, P: Process> {
+    pub(crate) process: &'a P,
+    pub(crate) layout: Layout,
+    /// Weather of each step of the passage.
+    pub(crate) weather: &'a [P::Weather],
+    /// Rows to compute, halos included.
+    pub(crate) span: Range<usize>,
+    /// Rows of the span that this band owns: first row and their memory, changed in place.
+    pub(crate) first: usize,
+    pub(crate) own: &'a mut [f32],
+    /// Copies of the rows above and below.
+    pub(crate) above: &'a [f32],
+    pub(crate) below: &'a [f32],
+    pub(crate) sums: &'a mut [RowSums],
+}
+
+impl<P: Process> Passage<'_, P> {
+    /// Advances the owned rows by one step for each entry of `weather`.
+    pub(crate) fn run(mut self, chain: &mut Chain<P>) {
+        let lag = self.process.lag();
+        let steps = self.weather.len();
+        for tick in self.span.start..self.span.end + steps * lag {
+            if tick < self.span.end {
+                self.take_in(chain, tick);
+            }
+            for step in 0..steps {
+                let Some(y) = tick.checked_sub(step * lag) else { continue };
+                if (self.span.start..self.span.end + lag).contains(&y) {
+                    self.advance(chain, step, y);
+                }
+            }
+            if let Some(done) = tick.checked_sub(steps * lag) {
+                self.give_out(&chain.between[steps], done);
+            }
+        }
+    }
+
+    fn advance(&mut self, chain: &mut Chain<P>, step: usize, y: usize) {
+        let (before, after) = chain.between.split_at_mut(step + 1);
+        self.process.advance(&mut Flow {
+            constants: &chain.constants,
+            input: &before[step],
+            output: &mut after[0],
+            scratch: &mut chain.scratch[step],
+            weather: self.weather[step],
+            y,
+            span: self.span.clone(),
+            sums: &mut SumsOfRows { first: self.first, rows: self.sums },
+        });
+    }
+
+    fn own_end(&self) -> usize {
+        self.first + self.own.len() / self.layout.row_length()
+    }
+
+    fn take_in(&self, chain: &mut Chain<P>, y: usize) {
+        let (memory, row) = if y < self.first {
+            (self.above, y - self.span.start)
+        } else if y < self.own_end() {
+            (&*self.own, y - self.first)
+        } else {
+            (self.below, y - self.own_end())
+        };
+        let length = self.layout.row_length();
+        let row = &memory[row * length..][..length];
+        for (plane, ring) in chain.between[0].iter_mut().chain(&mut chain.constants).enumerate() {
+            ring.here_mut(y).copy_from_slice(self.layout.plane(row, plane));
+        }
+    }
+
+    fn give_out(&mut self, rings: &[Ring], y: usize) {
+        if !(self.first..self.own_end()).contains(&y) {
+            return;
+        }
+        let length = self.layout.row_length();
+        let row = &mut self.own[(y - self.first) * length..][..length];
+        for (plane, ring) in rings.iter().enumerate() {
+            self.layout.plane_mut(row, plane).copy_from_slice(ring.here(y));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lanes_sum_what_a_plain_loop_sums() {
+        let cells: Vec<f32> = (0..5000).map(|i| ((i * 37) % 101) as f32 - 50.0).collect();
+        let plain: f64 = cells.iter().map(|&cell| f64::from(cell)).sum();
+        assert_eq!(sum_in_lanes(&cells), plain);
+    }
+}

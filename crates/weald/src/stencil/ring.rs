@@ -1,0 +1,79 @@
+//! Rows in flight: a short memory of the latest rows of one plane, and a row of zeros beyond the edge.
+
+/// Cells before the first cell of a row, so that the western neighbour of column 0 exists and rows start on
+/// a cache line.
+pub(crate) const MARGIN: usize = 16;
+
+/// Length of a row in memory: margin, cells, an eastern neighbour, rounded up to whole cache lines.
+pub(crate) fn segment(columns: usize) -> usize {
+    MARGIN + (columns + 1).next_multiple_of(16)
+}
+
+/// The cells of a row.
+#[inline]
+pub(crate) fn here(row: &[f32], columns: usize) -> &[f32] {
+    &row[MARGIN..][..columns]
+}
+
+/// The cells of a row.
+#[inline]
+pub(crate) fn here_mut(row: &mut [f32], columns: usize) -> &mut [f32] {
+    &mut row[MARGIN..][..columns]
+}
+
+/// The western neighbours of the cells of a row.
+#[inline]
+pub(crate) fn west(row: &[f32], columns: usize) -> &[f32] {
+    &row[MARGIN - 1..][..columns]
+}
+
+/// The eastern neighbours of the cells of a row.
+#[inline]
+pub(crate) fn east(row: &[f32], columns: usize) -> &[f32] {
+    &row[MARGIN + 1..][..columns]
+}
+
+/// The latest `depth` rows of one plane. Row `y` stays until row `y + depth` takes its place.
+#[derive(Clone, Debug)]
+pub(crate) struct Ring {
+    cells: Vec<f32>,
+    columns: usize,
+    depth: usize,
+}
+
+impl Ring {
+    pub(crate) fn new(columns: usize, depth: usize) -> Self {
+        Self { cells: vec![0.0; segment(columns) * depth], columns, depth }
+    }
+
+    fn slot(&self, y: usize) -> std::ops::Range<usize> {
+        let segment = segment(self.columns);
+        let start = y % self.depth * segment;
+        start..start + segment
+    }
+
+    fn row(&self, y: usize) -> &[f32] {
+        &self.cells[self.slot(y)]
+    }
+
+    /// Row `y`.
+    pub(crate) fn here(&self, y: usize) -> &[f32] {
+        here(self.row(y), self.columns)
+    }
+
+    /// Western neighbours of row `y`.
+    pub(crate) fn west(&self, y: usize) -> &[f32] {
+        west(self.row(y), self.columns)
+    }
+
+    /// Eastern neighbours of row `y`.
+    pub(crate) fn east(&self, y: usize) -> &[f32] {
+        east(self.row(y), self.columns)
+    }
+
+    /// Row `y`, to write.
+    pub(crate) fn here_mut(&mut self, y: usize) -> &mut [f32] {
+        let slot = self.slot(y);
+        here_mut(&mut self.cells[slot], self.columns)
+    }
+}

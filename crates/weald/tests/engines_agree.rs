@@ -1,0 +1,138 @@
+//! One body runs every process on every engine: threads, bands and a resumed run give the same bits.
+
+mod common;
+
+use std::sync::Mutex;
+
+use common::{hydraulic, landscape, rough, run_on, worst_difference};
+use weald::engine::{Engine, Job, SavedSimulation, Watcher};
+use weald::erode::hydraulic::{Boundary, Hydraulic, Model, Transport, UptakeLaw};
+use weald::erode::thermal::Scheme;
+use weald::erode::thermal_step::{Thermal, ThermalWithin};
+use weald::grid::Mask;
+use weald::recipe::parameter::Nested;
+use weald::step::Step;
+use weald::{Error, Landscape, Size};
+
+const COLUMNS: usize = 70;
+const ROWS: usize = 90;
+
+/// Every process in every variant that has code of its own.
+fn processes() -> Vec<Box<dyn Step>> {
+    let mut all: Vec<Box<dyn Step>> = Vec::new();
+    let schemes = [Scheme::Axis, Scheme::Isotropic, Scheme::IsotropicSymmetric];
+    for scheme in schemes {
+        all.push(Box::new(Thermal {
+            scheme,
+            iterations: 43,
+            talus: 0.3,
+            strength: 0.2,
+            ..Thermal::default()
+        }));
+    }
+    for model in [Model::Han, Model::Mei] {
+        for transport in [Transport::Upwind, Transport::SemiLagrangian, Transport::MacCormack] {
+            for boundary in [Boundary::Closed, Boundary::Open] {
+                all.push(Box::new(Hydraulic { model, transport, boundary, ..hydraulic(43) }));
+            }
+        }
+        for scheme in schemes {
+            let thermal = Some(Nested(ThermalWithin { scheme, talus: 0.3, ..ThermalWithin::default() }));
+            all.push(Box::new(Hydraulic { model, thermal, deposit_ratio: 0.3, ..hydraulic(43) }));
+        }
+        all.push(Box::new(Hydraulic { model, limiter: false, flow_rate: Some(0.05), ..hydraulic(43) }));
+    }
+    all.push(Box::new(Hydraulic { law: UptakeLaw::Dissolution, ..hydraulic(43) }));
+    all
+}
+
+/// Rough ground, with and without cells that hold no data.
+fn grounds() -> [Landscape; 2] {
+    let whole = landscape(rough(COLUMNS, ROWS, 25.0, 3));
+    let mut masked = whole.clone();
+    let size = Size::new(COLUMNS, ROWS).expect("small");
+    masked.domain.land =
+        Mask::new(size, (0..size.cells()).map(|at| at % 31 != 7 && at % COLUMNS > 3).collect());
+    [whole, masked]
+}
+
+fn assert_same_bits(step: &dyn Step, expected: &Landscape, got: &Landscape, engine: &str) {
+    for ((name, expected), (_, got)) in expected.layers().zip(got.layers()) {
+        let same =
+            expected.field.values().iter().zip(got.field.values()).all(|(a, b)| a.to_bits() == b.to_bits());
+        let worst = worst_difference(&expected.field, &got.field);
+        assert!(same, "{engine}: `{name}` differs by up to {worst}: {step:?}");
+    }
+}
+
+#[test]
+fn threads_and_bands_give_the_same_bits_for_every_process() {
+    for step in processes() {
+        for ground in grounds() {
+            let on_threads = |threads: usize, engine| {
+                let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
+                let mut land = ground.clone();
+                let outcome = pool.install(|| run_on(&*step, &mut land, engine));
+                (land, outcome)
+            };
+            let (expected, outcome) = on_threads(1, Engine::Cpu);
+            let moved =
+                worst_difference(ground.field("height").expect("h"), expected.field("height").expect("h"));
+            assert!(moved > 1e-4, "nothing moved, so agreement would mean nothing: {moved} m, {step:?}");
+            for threads in [2, 3] {
+                let (got, same) = on_threads(threads, Engine::Cpu);
+                assert_same_bits(&*step, &expected, &got, &format!("{threads} threads"));
+                assert_eq!(outcome, same, "{threads} threads: {step:?}");
+            }
+            for bands in [1, 2, 3, 7] {
+                let (got, same) = on_threads(2, Engine::Bands(bands));
+                assert_same_bits(&*step, &expected, &got, &format!("{bands} bands"));
+                assert_eq!(outcome, same, "{bands} bands: {step:?}");
+            }
+        }
+    }
+}
+
+/// Stops the simulation at its first look, and keeps what it saved.
+#[derive(Default)]
+struct Stopper {
+    saved: Mutex<Option<SavedSimulation>>,
+}
+
+impl Watcher for Stopper {
+    fn cancelled(&self) -> bool {
+        true
+    }
+
+    fn checkpoint(&self, state: &SavedSimulation) -> Result<(), Error> {
+        *self.saved.lock().expect("one thread") = Some(state.clone());
+        Ok(())
+    }
+}
+
+#[test]
+fn a_stopped_and_resumed_run_ends_with_the_same_bits() {
+    for model in [Model::Han, Model::Mei] {
+        // Longer than the 256 steps between two looks, and stopped within the steps that means are taken of.
+        let step = Hydraulic { model, rain_period: 400, dry_period: Some(100), ..hydraulic(600) };
+        let start = landscape(rough(48, 40, 20.0, 8));
+        let mut whole = start.clone();
+        let outcome = run_on(&step, &mut whole, Engine::Cpu);
+        let stopper = Stopper::default();
+        let job = Job { seed: 7, engine: Engine::Cpu, watcher: &stopper, resume: None };
+        let stopped = step.run(&mut start.clone(), &job).expect_err("it was stopped");
+        assert!(matches!(stopped, Error::Interrupted(_)), "{stopped}");
+        let saved = stopper.saved.lock().expect("one thread").take().expect("a state was saved");
+        assert!((1..600).contains(&saved.iteration), "stopped on the way: {}", saved.iteration);
+        let mut resumed = start.clone();
+        let job = Job {
+            seed: 7,
+            engine: Engine::Bands(3),
+            watcher: &weald::engine::Unwatched,
+            resume: Some(saved),
+        };
+        let again = step.run(&mut resumed, &job).expect("it goes on");
+        assert_same_bits(&step, &whole, &resumed, "resumed");
+        assert_eq!(outcome, again);
+    }
+}
