@@ -99,7 +99,7 @@ pub(crate) struct AdvectionScratch {
 
 impl AdvectionScratch {
     pub(crate) fn new(columns: usize) -> Self {
-        Self { forward: Ring::new(columns, 4), back: Ring::new(columns, 1), still: Ring::new(columns, 1) }
+        Self { forward: Ring::new(columns, 3), back: Ring::new(columns, 1), still: Ring::new(columns, 1) }
     }
 }
 

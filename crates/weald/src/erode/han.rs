@@ -11,8 +11,8 @@ use pulp::Arch;
 
 use super::advection::{Advection, AdvectionRows, AdvectionScratch};
 use super::links::Links;
-use super::pipes::{Drain, EdgeFlux, Limit, Overfall, Scale, Surface, Unlimited, Water};
-use super::settling::{CellVelocity, FaceVelocity, SettleByDissolution, SettleByVelocity};
+use super::pipes::{Drain, Flux, Limit, Overfall, Scale, Surface, Unlimited};
+use super::settling::{CellVelocity, FaceVelocities, SettleByDissolution, SettleByVelocity};
 use super::sums;
 use super::thermal::{Slide, SlideRows, SlideScratch};
 use super::upwind::Upwind;
@@ -129,24 +129,25 @@ impl Process for Han {
     }
 
     fn scratch(&self, columns: usize) -> HanScratch {
-        let ring = || Ring::new(columns, 4);
-        let deep = || Ring::new(columns, 6);
+        // As many rows as lie between the stage that writes one and the last that reads it, and no more: what
+        // is in flight should stay in the second-level cache.
+        let ring = |depth| Ring::new(columns, depth);
         HanScratch {
-            ground: ring(),
-            surface: ring(),
-            wanted_east: ring(),
-            wanted_south: ring(),
-            sine_east: deep(),
-            sine_south: deep(),
-            share: ring(),
-            concentration: ring(),
-            found: ring(),
-            face_east: ring(),
-            face_south: ring(),
-            settled_change: deep(),
-            settled_sediment: deep(),
-            eastward: deep(),
-            southward: deep(),
+            ground: ring(2),
+            surface: ring(2),
+            wanted_east: ring(2),
+            wanted_south: ring(2),
+            sine_east: ring(3),
+            sine_south: ring(4),
+            share: ring(2),
+            concentration: ring(3),
+            found: ring(2),
+            face_east: ring(1),
+            face_south: ring(2),
+            settled_change: ring(3),
+            settled_sediment: ring(4),
+            eastward: ring(3),
+            southward: ring(3),
             slide: SlideScratch::new(columns),
             advection: AdvectionScratch::new(columns),
             tally: [Ring::new(columns, 1), Ring::new(columns, 1)],
@@ -157,21 +158,18 @@ impl Process for Han {
     fn advance(&self, flow: &mut Flow<'_, Self>) {
         if let Some(y) = flow.behind(0) {
             self.surface(flow, y);
-            self.flux_east(flow, y);
         }
         if let Some(y) = flow.behind(LIMITED) {
-            self.flux_south(flow, y);
+            self.flux(flow, y);
             self.limit(flow, y);
         }
         if let Some(y) = flow.behind(FLOWED) {
             self.scale(flow, y);
-            self.flow_water(flow, y);
-            self.carry(flow, y);
+            self.flow(flow, y);
             self.drain(flow, y);
-            self.face_east(flow, y);
         }
         if let Some(y) = flow.behind(SETTLED) {
-            self.face_south(flow, y);
+            self.faces(flow, y);
             self.settle(flow, y);
         }
         self.slide(flow);
@@ -191,71 +189,56 @@ impl Han {
         .run(self.arch);
     }
 
-    fn flux_east(&self, flow: &mut Flow<'_, Self>, y: usize) {
+    /// Fluxes from row `y` to its eastern and southern neighbours; nothing flows through the wall behind the
+    /// last row, where no link leads on.
+    fn flux(&self, flow: &mut Flow<'_, Self>, y: usize) {
+        let next = flow.next(y);
         let scratch = &mut *flow.scratch;
         let depth = &flow.input[plane::DEPTH];
         let links = self.links.row(flow.constants, y);
-        EdgeFlux {
-            old: flow.input[plane::EAST].here(y),
+        Flux {
+            old_east: flow.input[plane::EAST].here(y),
+            old_south: flow.input[plane::SOUTH].here(y),
             surface: scratch.surface.here(y),
-            surface_next: scratch.surface.east(y),
+            surface_east: scratch.surface.east(y),
+            surface_south: scratch.surface.here(next),
             depth: depth.here(y),
-            depth_next: depth.east(y),
+            depth_east: depth.east(y),
+            depth_south: depth.here(next),
             ground: scratch.ground.here(y),
-            ground_next: scratch.ground.east(y),
-            link: links.east,
-            flux: scratch.wanted_east.here_mut(y),
-            sine: scratch.sine_east.here_mut(y),
+            ground_east: scratch.ground.east(y),
+            ground_south: scratch.ground.here(next),
+            link_east: links.east,
+            link_south: links.south,
+            east: scratch.wanted_east.here_mut(y),
+            south: scratch.wanted_south.here_mut(y),
+            sine_east: scratch.sine_east.here_mut(y),
+            sine_south: scratch.sine_south.here_mut(y),
             flow_rate: self.constants.flow_rate,
         }
         .run(self.arch);
         if self.open {
-            Overfall {
-                old: flow.input[plane::EAST].here(y),
-                depth: depth.here(y),
-                depth_next: depth.east(y),
-                land: links.land,
-                land_next: flow.constants[1].east(y),
-                flux: scratch.wanted_east.here_mut(y),
-                flow_rate: self.constants.flow_rate,
-            }
-            .run(self.arch);
+            self.overfall(flow, y);
         }
     }
 
-    /// Flux from row `y` to the next; nothing flows through the wall behind the last row.
-    fn flux_south(&self, flow: &mut Flow<'_, Self>, y: usize) {
+    fn overfall(&self, flow: &mut Flow<'_, Self>, y: usize) {
+        let next = flow.next(y);
         let scratch = &mut *flow.scratch;
-        let next = y + 1;
-        if next == flow.span.end {
-            scratch.wanted_south.here_mut(y).fill(0.0);
-            scratch.sine_south.here_mut(y).fill(0.0);
-            return;
-        }
         let depth = &flow.input[plane::DEPTH];
-        let links = self.links.row(flow.constants, y);
-        EdgeFlux {
-            old: flow.input[plane::SOUTH].here(y),
-            surface: scratch.surface.here(y),
-            surface_next: scratch.surface.here(next),
-            depth: depth.here(y),
-            depth_next: depth.here(next),
-            ground: scratch.ground.here(y),
-            ground_next: scratch.ground.here(next),
-            link: links.south,
-            flux: scratch.wanted_south.here_mut(y),
-            sine: scratch.sine_south.here_mut(y),
-            flow_rate: self.constants.flow_rate,
-        }
-        .run(self.arch);
-        if self.open {
+        let land = &flow.constants[1];
+        let edges = [
+            (plane::EAST, depth.east(y), land.east(y), &mut scratch.wanted_east),
+            (plane::SOUTH, depth.here(next), land.here(next), &mut scratch.wanted_south),
+        ];
+        for (plane, depth_next, land_next, flux) in edges {
             Overfall {
-                old: flow.input[plane::SOUTH].here(y),
+                old: flow.input[plane].here(y),
                 depth: depth.here(y),
-                depth_next: depth.here(next),
-                land: links.land,
-                land_next: flow.constants[1].here(next),
-                flux: scratch.wanted_south.here_mut(y),
+                depth_next,
+                land: land.here(y),
+                land_next,
+                flux: flux.here_mut(y),
                 flow_rate: self.constants.flow_rate,
             }
             .run(self.arch);
@@ -282,9 +265,9 @@ impl Han {
     }
 
     fn scale(&self, flow: &mut Flow<'_, Self>, y: usize) {
+        let next = flow.next(y);
         let scratch = &*flow.scratch;
         let [_, _, _, east, south] = flow.output else { unreachable!("five state planes") };
-        let next = if y + 1 < flow.span.end { y + 1 } else { y };
         Scale {
             wanted_east: scratch.wanted_east.here(y),
             wanted_south: scratch.wanted_south.here(y),
@@ -297,38 +280,15 @@ impl Han {
         .run(self.arch);
     }
 
-    fn flow_water(&self, flow: &mut Flow<'_, Self>, y: usize) {
+    /// Moves water, and sediment with it unless it is advected later.
+    fn flow(&self, flow: &mut Flow<'_, Self>, y: usize) {
+        let next = flow.next(y);
         let scratch = &mut *flow.scratch;
         let [_, depth, _, east, south] = flow.output else { unreachable!("five state planes") };
-        Water {
-            old: flow.input[plane::DEPTH].here(y),
-            east: east.here(y),
-            west: east.west(y),
-            south: south.here(y),
-            north: before(south, &scratch.still, y, flow.span.start),
-            land: self.links.row(flow.constants, y).land,
-            depth: depth.here_mut(y),
-            sky: scratch.tally[0].here_mut(0),
-            rain: flow.weather.rain,
-            evaporation: flow.weather.evaporation,
-        }
-        .run(self.arch);
-        let which = if flow.weather.rain > 0.0 { sums::RAINED } else { sums::EVAPORATED };
-        flow.sums.add(y, which, scratch.tally[0].here(0));
-    }
-
-    fn carry(&self, flow: &mut Flow<'_, Self>, y: usize) {
-        let scratch = &mut *flow.scratch;
-        let old = flow.input[plane::SEDIMENT].here(y);
-        if self.advection.is_some() {
-            scratch.found.here_mut(y).copy_from_slice(old);
-            return;
-        }
-        let (east, south) = (&flow.output[plane::EAST], &flow.output[plane::SOUTH]);
         let concentration = &scratch.concentration;
-        let next = if y + 1 < flow.span.end { y + 1 } else { y };
         Upwind {
-            old,
+            depth_before: flow.input[plane::DEPTH].here(y),
+            sediment_before: flow.input[plane::SEDIMENT].here(y),
             east: east.here(y),
             west: east.west(y),
             south: south.here(y),
@@ -338,9 +298,19 @@ impl Han {
             concentration_west: concentration.west(y),
             concentration_south: concentration.here(next),
             concentration_north: before(concentration, &scratch.still, y, flow.span.start),
+            land: self.links.row(flow.constants, y).land,
+            depth: depth.here_mut(y),
+            sky: scratch.tally[0].here_mut(0),
             sediment: scratch.found.here_mut(y),
+            rain: flow.weather.rain,
+            evaporation: flow.weather.evaporation,
         }
         .run(self.arch);
+        let which = if flow.weather.rain > 0.0 { sums::RAINED } else { sums::EVAPORATED };
+        flow.sums.add(y, which, scratch.tally[0].here(0));
+        if self.advection.is_some() {
+            scratch.found.here_mut(y).copy_from_slice(flow.input[plane::SEDIMENT].here(y));
+        }
     }
 
     fn drain(&self, flow: &mut Flow<'_, Self>, y: usize) {
@@ -360,26 +330,16 @@ impl Han {
         flow.sums.add(y, sums::SEDIMENT_OUT, sediment_out.here(0));
     }
 
-    fn face_east(&self, flow: &mut Flow<'_, Self>, y: usize) {
+    fn faces(&self, flow: &mut Flow<'_, Self>, y: usize) {
         let depth = &flow.output[plane::DEPTH];
-        FaceVelocity {
-            flux: flow.output[plane::EAST].here(y),
+        FaceVelocities {
+            flux_east: flow.output[plane::EAST].here(y),
+            flux_south: flow.output[plane::SOUTH].here(y),
             depth: depth.here(y),
-            depth_next: depth.east(y),
-            velocity: flow.scratch.face_east.here_mut(y),
-            velocity_epsilon: self.constants.velocity_epsilon,
-        }
-        .run(self.arch);
-    }
-
-    fn face_south(&self, flow: &mut Flow<'_, Self>, y: usize) {
-        let depth = &flow.output[plane::DEPTH];
-        let next = if y + 1 < flow.span.end { y + 1 } else { y };
-        FaceVelocity {
-            flux: flow.output[plane::SOUTH].here(y),
-            depth: depth.here(y),
-            depth_next: depth.here(next),
-            velocity: flow.scratch.face_south.here_mut(y),
+            depth_east: depth.east(y),
+            depth_south: depth.here(flow.next(y)),
+            east: flow.scratch.face_east.here_mut(y),
+            south: flow.scratch.face_south.here_mut(y),
             velocity_epsilon: self.constants.velocity_epsilon,
         }
         .run(self.arch);

@@ -13,9 +13,7 @@ use pulp::Arch;
 use super::advection::{Advection, AdvectionRows, AdvectionScratch};
 use super::han::{Sky, before};
 use super::links::Links;
-use super::mei_kernels::{
-    Carry, Exchange, Load, LoadUnlimited, Outflow, Rained, ScaleOutflow, Sine, WaterAndVelocity,
-};
+use super::mei_kernels::{Carry, Exchange, Load, LoadUnlimited, OpenOutflow, Outflow, Rained, Sines};
 use super::pipes::Drain;
 use super::sums;
 use super::thermal::{Slide, SlideRows, SlideScratch};
@@ -73,12 +71,10 @@ pub(crate) struct MeiScratch {
     rained: Ring,
     ground: Ring,
     surface: Ring,
-    wanted: [Ring; 4],
     sine_east: Ring,
     sine_south: Ring,
     eastward: Ring,
     southward: Ring,
-    found: Ring,
     settled_change: Ring,
     loaded: Ring,
     concentration: Ring,
@@ -112,21 +108,18 @@ impl Process for Mei {
     }
 
     fn scratch(&self, columns: usize) -> MeiScratch {
-        let ring = || Ring::new(columns, 4);
-        let deep = || Ring::new(columns, 6);
+        let ring = |depth| Ring::new(columns, depth);
         MeiScratch {
-            rained: ring(),
-            ground: ring(),
-            surface: ring(),
-            wanted: [ring(), ring(), ring(), ring()],
-            sine_east: ring(),
-            sine_south: ring(),
-            eastward: deep(),
-            southward: deep(),
-            found: ring(),
-            settled_change: deep(),
-            loaded: deep(),
-            concentration: ring(),
+            rained: ring(3),
+            ground: ring(2),
+            surface: ring(3),
+            sine_east: ring(2),
+            sine_south: ring(3),
+            eastward: ring(3),
+            southward: ring(3),
+            settled_change: ring(3),
+            loaded: ring(4),
+            concentration: ring(3),
             slide: SlideScratch::new(columns),
             advection: AdvectionScratch::new(columns),
             tally: [Ring::new(columns, 1), Ring::new(columns, 1)],
@@ -140,12 +133,16 @@ impl Process for Mei {
         }
         if let Some(y) = flow.behind(FLUX) {
             self.outflow(flow, y);
-            self.scale(flow, y);
+            self.sines(flow, y);
         }
         if let Some(y) = flow.behind(EXCHANGED) {
-            self.flow_water(flow, y);
-            self.drain(flow, y);
             self.exchange(flow, y);
+            if self.open {
+                self.drain(flow, y);
+            }
+            if self.advection.is_none() {
+                self.load(flow, y);
+            }
         }
         self.slide(flow);
         self.transport(flow);
@@ -171,76 +168,77 @@ impl Mei {
         if flow.weather.rain > 0.0 {
             flow.sums.add(y, sums::RAINED, scratch.tally[0].here(0));
         }
-        Sine {
-            ground: scratch.ground.here(y),
-            ground_next: scratch.ground.east(y),
-            link: links.east,
-            sine: scratch.sine_east.here_mut(y),
-        }
-        .run(self.arch);
     }
 
     fn outflow(&self, flow: &mut Flow<'_, Self>, y: usize) {
+        let next = flow.next(y);
+        let previous = if y > flow.span.start { y - 1 } else { y };
         let scratch = &mut *flow.scratch;
         let links = self.links.row(flow.constants, y);
-        let previous = if y > flow.span.start { y - 1 } else { y };
-        let next = if y + 1 < flow.span.end { y + 1 } else { y };
-        let [east, west, south, north] = &mut scratch.wanted;
-        let neighbours = [
-            (plane::EAST, scratch.surface.east(y), links.east, east),
-            (plane::WEST, scratch.surface.west(y), links.west, west),
-            (plane::SOUTH, scratch.surface.here(next), links.south, south),
-            (plane::NORTH, scratch.surface.here(previous), links.north, north),
-        ];
-        for (plane, surface_next, link, wanted) in neighbours {
-            Outflow {
-                old: flow.input[plane].here(y),
-                surface: scratch.surface.here(y),
-                surface_next,
-                depth: scratch.rained.here(y),
-                link,
-                land: links.land,
-                outflow: wanted.here_mut(y),
-                flow_rate: self.constants.flow_rate,
-                spill: f32::from(u8::from(self.open)),
-            }
-            .run(self.arch);
-        }
-        Sine {
-            ground: scratch.ground.here(y),
-            ground_next: scratch.ground.here(next),
-            link: links.south,
-            sine: scratch.sine_south.here_mut(y),
-        }
-        .run(self.arch);
-    }
-
-    fn scale(&self, flow: &mut Flow<'_, Self>, y: usize) {
-        let [wanted_east, wanted_west, wanted_south, wanted_north] = &flow.scratch.wanted;
         let [_, _, _, east, west, south, north] = flow.output else { unreachable!("seven state planes") };
-        ScaleOutflow {
-            depth: flow.scratch.rained.here(y),
-            wanted_east: wanted_east.here(y),
-            wanted_west: wanted_west.here(y),
-            wanted_south: wanted_south.here(y),
-            wanted_north: wanted_north.here(y),
-            east: east.here_mut(y),
-            west: west.here_mut(y),
-            south: south.here_mut(y),
-            north: north.here_mut(y),
-            most: if self.constants.limiter { 0.0 } else { f32::INFINITY },
+        let surface = &scratch.surface;
+        macro_rules! outflow {
+            ($Outflow:ident $(, $land:ident)?) => {
+                $Outflow {
+                    old_east: flow.input[plane::EAST].here(y),
+                    old_west: flow.input[plane::WEST].here(y),
+                    old_south: flow.input[plane::SOUTH].here(y),
+                    old_north: flow.input[plane::NORTH].here(y),
+                    surface: surface.here(y),
+                    surface_east: surface.east(y),
+                    surface_west: surface.west(y),
+                    surface_south: surface.here(next),
+                    surface_north: surface.here(previous),
+                    depth: scratch.rained.here(y),
+                    link_east: links.east,
+                    link_west: links.west,
+                    link_south: links.south,
+                    link_north: links.north,
+                    $($land: links.land,)?
+                    east: east.here_mut(y),
+                    west: west.here_mut(y),
+                    south: south.here_mut(y),
+                    north: north.here_mut(y),
+                    flow_rate: self.constants.flow_rate,
+                    most: if self.constants.limiter { 0.0 } else { f32::INFINITY },
+                }
+                .run(self.arch)
+            };
+        }
+        if self.open {
+            outflow!(OpenOutflow, land);
+        } else {
+            outflow!(Outflow);
+        }
+    }
+
+    fn sines(&self, flow: &mut Flow<'_, Self>, y: usize) {
+        let next = flow.next(y);
+        let links = self.links.row(flow.constants, y);
+        let MeiScratch { ground, sine_east, sine_south, .. } = flow.scratch;
+        Sines {
+            ground: ground.here(y),
+            ground_east: ground.east(y),
+            ground_south: ground.here(next),
+            link_east: links.east,
+            link_south: links.south,
+            sine_east: sine_east.here_mut(y),
+            sine_south: sine_south.here_mut(y),
         }
         .run(self.arch);
     }
 
-    fn flow_water(&self, flow: &mut Flow<'_, Self>, y: usize) {
+    fn exchange(&self, flow: &mut Flow<'_, Self>, y: usize) {
         let scratch = &mut *flow.scratch;
-        let [_, depth_out, _, east, west, south, north] = flow.output else {
+        let links = self.links.row(flow.constants, y);
+        let [change_out, depth, _, east, west, south, north] = flow.output else {
             unreachable!("seven state planes")
         };
         let start = flow.span.start;
         let from_south = if y + 1 < flow.span.end { north.here(y + 1) } else { scratch.still.here(0) };
-        WaterAndVelocity {
+        let change = if self.slide.is_some() { &mut scratch.settled_change } else { change_out };
+        let [evaporated, lost] = &mut scratch.tally;
+        Exchange {
             rained: scratch.rained.here(y),
             east: east.here(y),
             west: west.here(y),
@@ -250,68 +248,50 @@ impl Mei {
             from_east: west.east(y),
             from_north: before(south, &scratch.still, y, start),
             from_south,
-            depth: depth_out.here_mut(y),
-            eastward: scratch.eastward.here_mut(y),
-            southward: scratch.southward.here_mut(y),
-            evaporated: scratch.tally[0].here_mut(0),
-            evaporation: flow.weather.evaporation,
-            velocity_epsilon: self.constants.velocity_epsilon,
-        }
-        .run(self.arch);
-        if flow.weather.evaporation > 0.0 {
-            flow.sums.add(y, sums::EVAPORATED, scratch.tally[0].here(0));
-        }
-        scratch.found.here_mut(y).copy_from_slice(flow.input[plane::SEDIMENT].here(y));
-    }
-
-    fn drain(&self, flow: &mut Flow<'_, Self>, y: usize) {
-        if !self.open {
-            return;
-        }
-        let [water_out, sediment_out] = &mut flow.scratch.tally;
-        Drain {
-            land: self.links.row(flow.constants, y).land,
-            depth: flow.output[plane::DEPTH].here_mut(y),
-            sediment: flow.scratch.found.here_mut(y),
-            water_out: water_out.here_mut(0),
-            sediment_out: sediment_out.here_mut(0),
-        }
-        .run(self.arch);
-        flow.sums.add(y, sums::WATER_OUT, water_out.here(0));
-        flow.sums.add(y, sums::SEDIMENT_OUT, sediment_out.here(0));
-    }
-
-    fn exchange(&self, flow: &mut Flow<'_, Self>, y: usize) {
-        let scratch = &mut *flow.scratch;
-        let links = self.links.row(flow.constants, y);
-        let change =
-            if self.slide.is_some() { &mut scratch.settled_change } else { &mut flow.output[plane::CHANGE] };
-        Exchange {
-            found: scratch.found.here(y),
+            found: flow.input[plane::SEDIMENT].here(y),
             change_before: flow.input[plane::CHANGE].here(y),
-            eastward: scratch.eastward.here(y),
-            southward: scratch.southward.here(y),
             sine_east: scratch.sine_east.here(y),
             sine_west: scratch.sine_east.west(y),
             sine_south: scratch.sine_south.here(y),
-            sine_north: before(&scratch.sine_south, &scratch.still, y, flow.span.start),
+            sine_north: before(&scratch.sine_south, &scratch.still, y, start),
             neighbour_share: links.neighbour_share,
             land: links.land,
+            depth: depth.here_mut(y),
+            evaporated: evaporated.here_mut(0),
+            eastward: scratch.eastward.here_mut(y),
+            southward: scratch.southward.here_mut(y),
             change: change.here_mut(y),
             sediment: scratch.loaded.here_mut(y),
-            lost: scratch.tally[0].here_mut(0),
+            lost: lost.here_mut(0),
+            evaporation: flow.weather.evaporation,
+            velocity_epsilon: self.constants.velocity_epsilon,
             capacity: self.constants.capacity,
             erosion: self.constants.erosion,
             deposition: self.constants.deposition,
             deposit_ratio: self.constants.deposit_ratio,
         }
         .run(self.arch);
+        if flow.weather.evaporation > 0.0 {
+            flow.sums.add(y, sums::EVAPORATED, evaporated.here(0));
+        }
         if self.constants.deposit_ratio < 1.0 {
-            flow.sums.add(y, sums::SHRUNK, scratch.tally[0].here(0));
+            flow.sums.add(y, sums::SHRUNK, lost.here(0));
         }
-        if self.advection.is_none() {
-            self.load(flow, y);
+    }
+
+    /// Empties the cells without data. Their sediment came with the step before.
+    fn drain(&self, flow: &mut Flow<'_, Self>, y: usize) {
+        let [water_out, sediment_out] = &mut flow.scratch.tally;
+        Drain {
+            land: self.links.row(flow.constants, y).land,
+            depth: flow.output[plane::DEPTH].here_mut(y),
+            sediment: flow.scratch.loaded.here_mut(y),
+            water_out: water_out.here_mut(0),
+            sediment_out: sediment_out.here_mut(0),
         }
+        .run(self.arch);
+        flow.sums.add(y, sums::WATER_OUT, water_out.here(0));
+        flow.sums.add(y, sums::SEDIMENT_OUT, sediment_out.here(0));
     }
 
     fn load(&self, flow: &mut Flow<'_, Self>, y: usize) {

@@ -1,6 +1,6 @@
 //! What one cell becomes in a step of Mei et al. 2007; [`super::mei`] has the source and the order.
 
-use super::pipes::{KEPT, worth_counting};
+use super::pipes::{KEPT, sine, worth_counting};
 use crate::stencil::kernel::kernel;
 
 /// Least sine that counts as a slope, so that water on level ground still carries something (Mei 2007,
@@ -24,91 +24,106 @@ kernel! {
 }
 
 kernel! {
-    /// Sine of the slope along an edge.
-    pub(crate) struct Sine {
-        reads { ground, ground_next, link }
+    /// Sines of the slopes to the eastern and southern neighbours.
+    pub(crate) struct Sines {
+        reads { ground, ground_east, ground_south, link_east, link_south }
         updates {}
-        writes { sine }
+        writes { sine_east, sine_south }
         constants {}
     }
     fn cell() {
-        let rise = ground_next - ground;
-        sine = rise.abs() * link / (1.0 + rise * rise).sqrt();
+        sine_east = sine(ground_east - ground, link_east);
+        sine_south = sine(ground_south - ground, link_south);
     }
 }
 
+/// The four outflows scaled to the water that the cell has, or to `most` where the scheme runs as it is.
+#[inline(always)]
+#[allow(clippy::inline_always)]
+fn scaled(wanted: [f32; 4], depth: f32, most: f32) -> [f32; 4] {
+    let sum = (wanted[0] + wanted[1]) + (wanted[2] + wanted[3]);
+    let afford = (depth * (1.0 - KEPT)).max(most);
+    let share = if sum > afford { afford / sum } else { 1.0 };
+    wanted.map(|outflow| outflow * share)
+}
+
 kernel! {
-    /// Outflow to one neighbour before scaling. `spill` is 1 where water falls freely into cells without
-    /// data, driven by its own depth.
+    /// Outflows to the four neighbours, scaled.
     pub(crate) struct Outflow {
-        reads { old, surface, surface_next, depth, link, land }
-        updates {}
-        writes { outflow }
-        constants { flow_rate: f32, spill: f32 }
-    }
-    fn cell() {
-        let fall = land * (1.0 - link) * spill;
-        let drop = (surface - surface_next) * link + depth * fall;
-        outflow = (old + flow_rate * drop).max(0.0) * (link + fall);
-    }
-}
-
-kernel! {
-    /// Scales the four outflows to the water that the cell has, or to `most` where the scheme runs as it is.
-    pub(crate) struct ScaleOutflow {
-        reads { depth, wanted_east, wanted_west, wanted_south, wanted_north }
+        reads {
+            old_east, old_west, old_south, old_north, surface, surface_east, surface_west, surface_south,
+            surface_north, depth, link_east, link_west, link_south, link_north,
+        }
         updates {}
         writes { east, west, south, north }
-        constants { most: f32 }
+        constants { flow_rate: f32, most: f32 }
     }
     fn cell() {
-        let wanted = (wanted_east + wanted_west) + (wanted_south + wanted_north);
-        let afford = (depth * (1.0 - KEPT)).max(most);
-        let share = if wanted > afford { afford / wanted } else { 1.0 };
-        east = wanted_east * share;
-        west = wanted_west * share;
-        south = wanted_south * share;
-        north = wanted_north * share;
+        let outflow = |old: f32, next: f32, link: f32| (old + flow_rate * (surface - next)).max(0.0) * link;
+        let wanted = [
+            outflow(old_east, surface_east, link_east),
+            outflow(old_west, surface_west, link_west),
+            outflow(old_south, surface_south, link_south),
+            outflow(old_north, surface_north, link_north),
+        ];
+        [east, west, south, north] = scaled(wanted, depth, most);
     }
 }
 
 kernel! {
-    /// Depth after the fluxes and evaporation, and the velocity of the water that flowed.
-    pub(crate) struct WaterAndVelocity {
-        reads { rained, east, west, south, north, from_west, from_east, from_north, from_south }
+    /// The same where water falls freely into cells without data, driven by its own depth.
+    pub(crate) struct OpenOutflow {
+        reads {
+            old_east, old_west, old_south, old_north, surface, surface_east, surface_west, surface_south,
+            surface_north, depth, link_east, link_west, link_south, link_north, land,
+        }
         updates {}
-        writes { depth, eastward, southward, evaporated }
-        constants { evaporation: f32, velocity_epsilon: f32 }
+        writes { east, west, south, north }
+        constants { flow_rate: f32, most: f32 }
+    }
+    fn cell() {
+        let outflow = |old: f32, next: f32, link: f32| {
+            let drop = if link > 0.0 { surface - next } else { depth };
+            (old + flow_rate * drop).max(0.0) * land
+        };
+        let wanted = [
+            outflow(old_east, surface_east, link_east),
+            outflow(old_west, surface_west, link_west),
+            outflow(old_south, surface_south, link_south),
+            outflow(old_north, surface_north, link_north),
+        ];
+        [east, west, south, north] = scaled(wanted, depth, most);
+    }
+}
+
+kernel! {
+    /// Depth after the fluxes and evaporation, the velocity of the water that flowed, and what it takes from
+    /// or gives to the ground: towards the capacity `C = K_c |v| sin a` by the share `K_s`, from a surplus
+    /// by the share `K_d`.
+    pub(crate) struct Exchange {
+        reads {
+            rained, east, west, south, north, from_west, from_east, from_north, from_south,
+            found, change_before, sine_east, sine_west, sine_south, sine_north, neighbour_share, land,
+        }
+        updates {}
+        writes { depth, evaporated, eastward, southward, change, sediment, lost }
+        constants {
+            evaporation: f32, velocity_epsilon: f32, capacity: f32, erosion: f32, deposition: f32,
+            deposit_ratio: f32,
+        }
     }
     fn cell() {
         let came = (from_west + from_east) + (from_north + from_south);
-        let went = (east + west) + (south + north);
-        let flowed = rained + (came - went);
+        let flowed = rained + (came - ((east + west) + (south + north)));
         let mean_depth = (rained + flowed) * 0.5;
-        let wet = mean_depth > velocity_epsilon;
-        let per_depth = if wet { 0.5 / mean_depth } else { 0.0 };
+        let per_depth = if mean_depth > velocity_epsilon { 0.5 / mean_depth } else { 0.0 };
         eastward = ((from_west - west) + (east - from_east)) * per_depth;
         southward = ((from_north - north) + (south - from_south)) * per_depth;
         depth = worth_counting(flowed * (1.0 - evaporation));
         evaporated = depth - flowed;
-    }
-}
-
-kernel! {
-    /// Erosion towards the capacity `C = K_c |v| sin a` by the share `K_s`, deposition by the share `K_d`.
-    pub(crate) struct Exchange {
-        reads {
-            found, change_before, eastward, southward,
-            sine_east, sine_west, sine_south, sine_north, neighbour_share, land,
-        }
-        updates {}
-        writes { change, sediment, lost }
-        constants { capacity: f32, erosion: f32, deposition: f32, deposit_ratio: f32 }
-    }
-    fn cell() {
         let speed = (eastward * eastward + southward * southward).sqrt();
-        let sine = ((sine_west + sine_east) + (sine_north + sine_south)) * neighbour_share;
-        let room = (capacity * sine.max(LEAST_SINE) * speed - found) * land;
+        let mean_sine = ((sine_west + sine_east) + (sine_north + sine_south)) * neighbour_share;
+        let room = (capacity * mean_sine.max(LEAST_SINE) * speed - found) * land;
         let eroded = change_before - erosion * room.max(0.0);
         let deposit = deposition * (-room).max(0.0);
         change = if room > 0.0 { eroded } else { change_before + deposit_ratio * deposit };

@@ -37,29 +37,48 @@ kernel! {
     }
 }
 
+/// Signed flux through an edge (eq. 4–6); `here` and `next` are surface and depth on its two sides.
+#[inline(always)]
+#[allow(clippy::inline_always)]
+fn edge_flux(old: f32, here: [f32; 2], next: [f32; 2], link: f32, flow_rate: f32) -> f32 {
+    let drop = here[0] - next[0];
+    let donor = if drop > 0.0 { here[1] } else { next[1] };
+    let gained = old + if donor > 0.0 { flow_rate * drop } else { 0.0 };
+    let donor = if gained > 0.0 { here[1] } else { next[1] };
+    if donor > 0.0 { gained * link } else { 0.0 }
+}
+
+/// Sine of the slope along an edge with this rise.
+#[inline(always)]
+#[allow(clippy::inline_always)]
+pub(super) fn sine(rise: f32, link: f32) -> f32 {
+    rise.abs() * link / (1.0 + rise * rise).sqrt()
+}
+
 kernel! {
-    /// Signed flux through the edge to the next cell, east or south (eq. 4–6), and the sine of the slope
-    /// along that edge. `link` is 1 where both cells hold data, else 0.
-    pub(crate) struct EdgeFlux {
-        reads { old, surface, surface_next, depth, depth_next, ground, ground_next, link }
+    /// Flux to the eastern and southern neighbours, and the sines of the slopes along these edges. Links are
+    /// 1 where both cells hold data, else 0.
+    pub(crate) struct Flux {
+        reads {
+            old_east, old_south, surface, surface_east, surface_south, depth, depth_east, depth_south,
+            ground, ground_east, ground_south, link_east, link_south,
+        }
         updates {}
-        writes { flux, sine }
+        writes { east, south, sine_east, sine_south }
         constants { flow_rate: f32 }
     }
     fn cell() {
-        let drop = surface - surface_next;
-        let donor = if drop > 0.0 { depth } else { depth_next };
-        let gained = old + if donor > 0.0 { flow_rate * drop } else { 0.0 };
-        let donor = if gained > 0.0 { depth } else { depth_next };
-        flux = if donor > 0.0 { gained * link } else { 0.0 };
-        let rise = ground_next - ground;
-        sine = rise.abs() * link / (1.0 + rise * rise).sqrt();
+        let here = [surface, depth];
+        east = edge_flux(old_east, here, [surface_east, depth_east], link_east, flow_rate);
+        south = edge_flux(old_south, here, [surface_south, depth_south], link_south, flow_rate);
+        sine_east = sine(ground_east - ground, link_east);
+        sine_south = sine(ground_south - ground, link_south);
     }
 }
 
 kernel! {
     /// Flux from a cell with data into one without: a free overfall, driven by the depth of the giving cell.
-    /// `land` is 1 for data, else 0; other edges keep what [`EdgeFlux`] gave them.
+    /// `land` is 1 for data, else 0; other edges keep what [`Flux`] gave them.
     pub(crate) struct Overfall {
         reads { old, depth, depth_next, land, land_next }
         updates { flux }
@@ -116,22 +135,6 @@ kernel! {
     fn cell() {
         east = wanted_east * if wanted_east > 0.0 { share } else { share_east };
         south = wanted_south * if wanted_south > 0.0 { share } else { share_south };
-    }
-}
-
-kernel! {
-    /// Depth after the fluxes, rain and evaporation of a step (eq. 9), and what the sky gave or took.
-    /// Evaporation stops at dry ground.
-    pub(crate) struct Water {
-        reads { old, east, west, south, north, land }
-        updates {}
-        writes { depth, sky }
-        constants { rain: f32, evaporation: f32 }
-    }
-    fn cell() {
-        let flowed = old + ((west - east) + (north - south));
-        depth = worth_counting(flowed + rain * land - flowed.max(0.0).min(evaporation));
-        sky = depth - flowed;
     }
 }
 

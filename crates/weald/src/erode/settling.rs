@@ -11,15 +11,17 @@
 use crate::stencil::kernel::kernel;
 
 kernel! {
-    /// Velocity through the eastern or southern face of each cell, in cells a step (eq. 11).
-    pub(crate) struct FaceVelocity {
-        reads { flux, depth, depth_next }
+    /// Velocity through the eastern and southern faces of each cell, in cells a step (eq. 11).
+    pub(crate) struct FaceVelocities {
+        reads { flux_east, flux_south, depth, depth_east, depth_south }
         updates {}
-        writes { velocity }
+        writes { east, south }
         constants { velocity_epsilon: f32 }
     }
     fn cell() {
-        velocity = flux / ((depth.max(0.0) + depth_next.max(0.0)) * 0.5 + velocity_epsilon);
+        let here = depth.max(0.0);
+        east = flux_east / ((here + depth_east.max(0.0)) * 0.5 + velocity_epsilon);
+        south = flux_south / ((here + depth_south.max(0.0)) * 0.5 + velocity_epsilon);
     }
 }
 

@@ -165,12 +165,12 @@ pub(crate) struct SlideScratch {
 
 impl SlideScratch {
     pub(crate) fn new(columns: usize) -> Self {
-        let ring = || Ring::new(columns, 4);
+        let ring = |depth| Ring::new(columns, depth);
         Self {
-            ground: ring(),
-            shares: [ring(), ring(), ring(), ring()],
-            to_east: ring(),
-            to_south: ring(),
+            ground: ring(3),
+            shares: [ring(2), ring(2), ring(2), ring(2)],
+            to_east: ring(1),
+            to_south: ring(2),
             still: Ring::new(columns, 1),
         }
     }

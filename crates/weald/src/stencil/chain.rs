@@ -63,6 +63,11 @@ impl<P: Process + ?Sized> Flow<'_, P> {
     pub(crate) fn behind(&self, behind: usize) -> Option<usize> {
         self.y.checked_sub(behind).filter(|row| self.span.contains(row))
     }
+
+    /// The row after `y`, or `y` itself before a wall.
+    pub(crate) fn next(&self, y: usize) -> usize {
+        if y + 1 < self.span.end { y + 1 } else { y }
+    }
 }
 
 /// Row sums of the rows that a band owns.
@@ -112,10 +117,11 @@ impl<P: Process> Chain<P> {
     /// Memory for passages of up to `steps` steps.
     pub(crate) fn new(process: &P, columns: usize, steps: usize) -> Self {
         let rings = |count, depth| (0..count).map(|_| Ring::new(columns, depth)).collect::<Vec<_>>();
-        // A step looks back over the rows in its own flight; constants serve all steps of the passage.
-        let window = process.lag() + 3;
+        // A row of the output may be begun `lag` rows before the next step takes it in, or be looked back at
+        // for as many; no process does both at once. Constants serve all steps of the passage.
+        let window = process.lag() + 1;
         Self {
-            constants: rings(process.constant_planes(), steps * process.lag() + 3),
+            constants: rings(process.constant_planes(), steps * process.lag() + 1),
             between: (0..=steps).map(|_| rings(process.state_planes(), window)).collect(),
             scratch: (0..steps).map(|_| process.scratch(columns)).collect(),
         }
