@@ -1,9 +1,21 @@
 //! Every step there is. Adding one is one file and one line here.
 
+use crate::generate;
 use crate::step::Entry;
 
 /// All steps, in the order of `weald steps`.
-pub const CATALOG: &[Entry] = &[];
+#[rustfmt::skip] // one entry a line, so that branches that add some do not meet
+pub const CATALOG: &[Entry] = &[
+    generate::fault::ENTRY,
+    generate::diamond_square::ENTRY,
+    generate::fbm::ENTRY,
+    generate::ridged::ENTRY,
+    generate::warp::ENTRY,
+    generate::plane::ENTRY,
+    generate::cone::ENTRY,
+    generate::basin::ENTRY,
+    generate::constant::ENTRY,
+];
 
 /// The step of that name.
 pub fn find(name: &str) -> Option<&'static Entry> {
