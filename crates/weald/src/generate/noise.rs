@@ -27,7 +27,7 @@ use crate::random::{splitmix64, unit};
 
 /// Mean of the noise squared over all places and hashes: `8 E[g_x²] ∫w² ∫w²x²` over the unit interval, with
 /// `E[g_x²] = (4/3)² 8/15`.
-pub const VARIANCE: f64 = 0.088237;
+pub const VARIANCE: f64 = 0.088_237;
 
 /// Cells a lattice square must span, on average, for a table of lines to pay.
 const WIDE: usize = 24;

@@ -1,7 +1,7 @@
 //! Every step there is. Adding one is one file and one line here.
 
-use crate::generate;
 use crate::step::Entry;
+use crate::{combine, generate};
 
 /// All steps, in the order of `weald steps`.
 #[rustfmt::skip] // one entry a line, so that branches that add some do not meet
@@ -15,6 +15,14 @@ pub const CATALOG: &[Entry] = &[
     generate::cone::ENTRY,
     generate::basin::ENTRY,
     generate::constant::ENTRY,
+    combine::add::ENTRY,
+    combine::extremes::MAX,
+    combine::extremes::MIN,
+    combine::blend::ENTRY,
+    combine::remap::ENTRY,
+    combine::terrace::ENTRY,
+    combine::smooth::ENTRY,
+    combine::resample::ENTRY,
 ];
 
 /// The step of that name.
