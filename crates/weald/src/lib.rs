@@ -18,6 +18,7 @@ pub mod random;
 pub mod recipe;
 pub mod stencil;
 pub mod step;
+pub mod vectors;
 
 pub use domain::Domain;
 pub use error::Error;

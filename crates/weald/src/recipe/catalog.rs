@@ -1,9 +1,29 @@
 //! Every step there is. Adding one is one file and one line here.
 
 use crate::step::Entry;
+use crate::{combine, generate};
 
 /// All steps, in the order of `weald steps`.
-pub const CATALOG: &[Entry] = &[];
+#[rustfmt::skip] // one entry a line, so that branches that add some do not meet
+pub const CATALOG: &[Entry] = &[
+    generate::fault::ENTRY,
+    generate::diamond_square::ENTRY,
+    generate::fbm::ENTRY,
+    generate::ridged::ENTRY,
+    generate::warp::ENTRY,
+    generate::plane::ENTRY,
+    generate::cone::ENTRY,
+    generate::basin::ENTRY,
+    generate::constant::ENTRY,
+    combine::add::ENTRY,
+    combine::extremes::MAX,
+    combine::extremes::MIN,
+    combine::blend::ENTRY,
+    combine::remap::ENTRY,
+    combine::terrace::ENTRY,
+    combine::smooth::ENTRY,
+    combine::resample::ENTRY,
+];
 
 /// The step of that name.
 pub fn find(name: &str) -> Option<&'static Entry> {

@@ -1,0 +1,91 @@
+//! Fractional Brownian motion: noise at shrinking wavelengths, added.
+//!
+//! ```text
+//! z = relief (1/2 + Σ gain^k n(p lacunarity^k / wavelength) / (5 σ))
+//! ```
+//!
+//! where `σ` is the standard deviation of the sum, a number that follows from the octaves alone. So `relief` is
+//! not stretched to each landscape's own extremes: it is five standard deviations, about what a landscape of some
+//! wavelengths spans, and the same ground comes at any size and resolution.
+//!
+//! Mandelbrot and Van Ness 1968, doi 10.1137/1010093; Musgrave, Kolb, Mace 1989, doi 10.1145/74333.74337.
+
+use super::Generator;
+use super::octaves::{Spectrum, fill_rows, window};
+use crate::domain::Domain;
+use crate::error::Error;
+use crate::grid::Field;
+use crate::parameters;
+use crate::recipe::parameter::LayerName;
+use crate::step::{Entry, Stage};
+
+/// The step's declaration.
+pub const ENTRY: Entry = Entry::of::<Fbm>(
+    "fbm",
+    Stage::Generate,
+    "rolling ground: noise at shrinking wavelengths, added",
+    "Musgrave, Kolb, Mace 1989",
+);
+
+/// Standard deviations that stand for the whole relief.
+pub const DEVIATIONS: f64 = 5.0;
+
+parameters! {
+    /// Fractional Brownian motion.
+    pub struct Fbm {
+        /// Height that a landscape of some wavelengths spans: five standard deviations, around a mean of half.
+        relief: f64 = 1000.0, range 0.0..=1.0e6, unit "m";
+        /// Length of the largest hills and valleys.
+        wavelength: f64 = 5000.0, range 1.0e-3..=1.0e9, unit "m";
+        /// Number of wavelengths added.
+        octaves: u32 = 8, range 1..=16;
+        /// Height of each octave relative to the one before: 0.5 is rolling, 0.7 rugged.
+        gain: f64 = 0.5, range 0.0..=1.0;
+        /// How many times shorter each octave's wavelength is than the one before.
+        lacunarity: f64 = 2.0, range 1.0..=8.0;
+        /// A seed of its own. Without it the landscape's is used, varied for each step.
+        seed: Option<u64> = None, range 0..=9_007_199_254_740_991_i64;
+        /// Layer that is written.
+        into: LayerName = LayerName::of("height");
+    }
+}
+
+impl Generator for Fbm {
+    fn fill(&self, domain: &Domain, seed: u64) -> Result<Field, Error> {
+        let spectrum = self.spectrum();
+        let octaves = spectrum.over(&window(domain), seed);
+        let middle = (self.relief / 2.0) as f32;
+        let scale = (self.relief / (DEVIATIONS * spectrum.deviation())) as f32;
+        Ok(fill_rows(
+            domain,
+            #[inline(always)]
+            |y, row, scratch| {
+                for (octave, amplitude) in &octaves {
+                    octave.add_row(y, *amplitude, row, scratch);
+                }
+                for value in row {
+                    *value = middle + scale * *value;
+                }
+            },
+        ))
+    }
+
+    fn target(&self) -> &LayerName {
+        &self.into
+    }
+
+    fn own_seed(&self) -> Option<u64> {
+        self.seed
+    }
+
+    fn iterations(&self) -> u64 {
+        u64::from(self.octaves)
+    }
+}
+
+impl Fbm {
+    fn spectrum(&self) -> Spectrum {
+        let Self { octaves, wavelength, gain, lacunarity, .. } = *self;
+        Spectrum { octaves, wavelength, gain, lacunarity }
+    }
+}

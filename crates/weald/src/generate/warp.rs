@@ -1,0 +1,98 @@
+//! Domain-warped noise: fBm looked up at places that are themselves displaced by noise, which bends and folds
+//! its forms as rock is folded.
+//!
+//! ```text
+//! z(p) = fbm(p + strength wavelength (a(p), b(p)))
+//! ```
+//!
+//! with `a` and `b` sums of noise of the first [`WARP_OCTAVES`] wavelengths and standard deviation 1. Quilez 2002,
+//! "Domain warping"; Ebert et al., "Texturing and Modeling", 3rd ed. 2003. Heights are scaled as in
+//! [`fbm`](super::fbm).
+
+use super::Generator;
+use super::fbm::DEVIATIONS;
+use super::octaves::{Spectrum, fill_rows, window};
+use crate::domain::Domain;
+use crate::error::Error;
+use crate::grid::Field;
+use crate::parameters;
+use crate::random::splitmix64;
+use crate::recipe::parameter::LayerName;
+use crate::step::{Entry, Stage};
+
+/// The step's declaration.
+pub const ENTRY: Entry = Entry::of::<Warp>(
+    "warp",
+    Stage::Generate,
+    "folded ground: noise at places displaced by noise",
+    "Quilez 2002; Ebert et al. 2003",
+);
+
+/// Octaves of the displacement. More would fray the forms instead of bending them.
+pub const WARP_OCTAVES: u32 = 2;
+
+parameters! {
+    /// Domain-warped noise.
+    pub struct Warp {
+        /// Height that a landscape of some wavelengths spans: five standard deviations, around a mean of half.
+        relief: f64 = 1000.0, range 0.0..=1.0e6, unit "m";
+        /// Length of the largest hills and valleys before they are bent.
+        wavelength: f64 = 5000.0, range 1.0e-3..=1.0e9, unit "m";
+        /// Number of wavelengths added.
+        octaves: u32 = 8, range 1..=16;
+        /// Height of each octave relative to the one before.
+        gain: f64 = 0.5, range 0.0..=1.0;
+        /// How many times shorter each octave's wavelength is than the one before.
+        lacunarity: f64 = 2.0, range 1.0..=8.0;
+        /// Standard deviation of the displacement in wavelengths: 0 is plain fBm, 0.1 bends, 0.3 folds.
+        strength: f64 = 0.15, range 0.0..=4.0;
+        /// A seed of its own. Without it the landscape's is used, varied for each step.
+        seed: Option<u64> = None, range 0..=9_007_199_254_740_991_i64;
+        /// Layer that is written.
+        into: LayerName = LayerName::of("height");
+    }
+}
+
+impl Generator for Warp {
+    fn fill(&self, domain: &Domain, seed: u64) -> Result<Field, Error> {
+        let Self { octaves, wavelength, gain, lacunarity, .. } = *self;
+        let spectrum = Spectrum { octaves, wavelength, gain, lacunarity };
+        let bends = Spectrum { octaves: WARP_OCTAVES, ..spectrum };
+        let octaves = spectrum.over(&window(domain), seed);
+        let [east, south] = [1, 2].map(|axis| bends.over(&window(domain), splitmix64(seed ^ axis)));
+        let metres = (self.strength * wavelength / bends.deviation()) as f32;
+        let middle = (self.relief / 2.0) as f32;
+        let scale = (self.relief / (DEVIATIONS * spectrum.deviation())) as f32;
+        let columns = domain.size.columns;
+        Ok(fill_rows(
+            domain,
+            #[inline(always)]
+            |y, row, scratch| {
+                let [mut dx, mut dy] = [vec![0.0; columns], vec![0.0; columns]];
+                for (bends, way) in [(&east, &mut dx), (&south, &mut dy)] {
+                    for (octave, amplitude) in bends {
+                        octave.add_row(y, amplitude * metres, way, scratch);
+                    }
+                }
+                for (octave, amplitude) in &octaves {
+                    octave.add_displaced_row(y, *amplitude, [&dx, &dy], row);
+                }
+                for value in row {
+                    *value = middle + scale * *value;
+                }
+            },
+        ))
+    }
+
+    fn target(&self) -> &LayerName {
+        &self.into
+    }
+
+    fn own_seed(&self) -> Option<u64> {
+        self.seed
+    }
+
+    fn iterations(&self) -> u64 {
+        u64::from(self.octaves)
+    }
+}
