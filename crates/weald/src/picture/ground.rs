@@ -1,0 +1,133 @@
+//! Fields made ready for drawing: no-data filled from the nearest land, large grids averaged down to the
+//! sheet.
+
+use rayon::prelude::*;
+
+use super::sheet::Sheet;
+use crate::grid::{Field, Mask, Size};
+
+/// The field with no-data cells filled, no finer than the sheet.
+pub(super) fn drawable(field: &Field, land: Option<&Mask>, sheet: &Sheet) -> Field {
+    match land {
+        Some(land) => shrink(&fill(field, land), sheet),
+        None => shrink(field, sheet),
+    }
+}
+
+/// Share of land in every cell of a drawable field; `None` where all is land.
+pub(super) fn land_share(land: Option<&Mask>, sheet: &Sheet) -> Option<Field> {
+    let land = land?;
+    let flags = land.flags().iter().map(|&land| f32::from(u8::from(land))).collect();
+    Some(shrink(&Field::from_values(land.size(), flags), sheet))
+}
+
+/// Rings of no-data cells take the mean of their known neighbours, from the shore outward, so that slopes at
+/// the shore are those of the land.
+fn fill(field: &Field, land: &Mask) -> Field {
+    let size = field.size();
+    let mut filled = field.clone();
+    let mut known = land.flags().to_vec();
+    let mut ring: Vec<usize> =
+        (0..size.cells()).filter(|&cell| !known[cell] && touches(size, &known, cell)).collect();
+    if ring.is_empty() {
+        filled.values_mut().fill(0.0);
+    }
+    while !ring.is_empty() {
+        let means: Vec<f32> = ring.iter().map(|&cell| known_mean(&filled, &known, cell)).collect();
+        for (&cell, mean) in ring.iter().zip(means) {
+            filled.values_mut()[cell] = mean;
+            known[cell] = true;
+        }
+        ring = ring.iter().flat_map(|&cell| neighbours(size, cell)).filter(|&cell| !known[cell]).collect();
+        ring.sort_unstable();
+        ring.dedup();
+    }
+    filled
+}
+
+fn touches(size: Size, known: &[bool], cell: usize) -> bool {
+    neighbours(size, cell).any(|neighbour| known[neighbour])
+}
+
+fn known_mean(field: &Field, known: &[bool], cell: usize) -> f32 {
+    let (mut sum, mut count) = (0.0, 0.0);
+    for neighbour in neighbours(field.size(), cell).filter(|&neighbour| known[neighbour]) {
+        sum += field.values()[neighbour];
+        count += 1.0;
+    }
+    sum / count
+}
+
+/// Row-major positions of the up to eight neighbours of a cell.
+pub(super) fn neighbours(size: Size, cell: usize) -> impl Iterator<Item = usize> {
+    let (x, y) = (cell % size.columns, cell / size.columns);
+    let rows = y.saturating_sub(1)..(y + 2).min(size.rows);
+    let columns = x.saturating_sub(1)..(x + 2).min(size.columns);
+    rows.flat_map(move |y| columns.clone().map(move |x| size.index(x, y))).filter(move |&other| other != cell)
+}
+
+/// Area means on a grid no finer than the sheet; a coarser field comes back as it is.
+pub(super) fn shrink(field: &Field, sheet: &Sheet) -> Field {
+    let from = field.size();
+    let to = Size { columns: from.columns.min(sheet.width), rows: from.rows.min(sheet.height) };
+    if to == from {
+        return field.clone();
+    }
+    let (across, down) = (shares(from.columns, to.columns), shares(from.rows, to.rows));
+    let mut values = vec![0.0; to.cells()];
+    values.par_chunks_mut(to.columns).zip(&down).for_each(|(row, rows)| {
+        for (y, weight) in rows.weighted() {
+            let source = field.row(y);
+            for (value, columns) in row.iter_mut().zip(&across) {
+                *value += weight * columns.weighted().map(|(x, share)| share * source[x]).sum::<f32>();
+            }
+        }
+    });
+    Field::from_values(to, values)
+}
+
+/// The cells that one coarse cell covers along an axis, with the share of each in the mean.
+struct Cover {
+    start: f64,
+    end: f64,
+}
+
+impl Cover {
+    fn weighted(&self) -> impl Iterator<Item = (usize, f32)> {
+        let (start, end) = (self.start, self.end);
+        (start as usize..end.ceil() as usize).map(move |cell| {
+            let covered = (end.min(cell as f64 + 1.0) - start.max(cell as f64)).max(0.0);
+            (cell, (covered / (end - start)) as f32)
+        })
+    }
+}
+
+fn shares(from: usize, to: usize) -> Vec<Cover> {
+    let edge = |i: usize| (i as f64 * from as f64 / to as f64).min(from as f64);
+    (0..to).map(|i| Cover { start: edge(i), end: edge(i + 1) }).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::domain::Domain;
+
+    #[test]
+    fn shrinking_keeps_the_mean() {
+        let size = Size::new(37, 23).expect("legal");
+        let field = Field::from_function(size, |x, y| ((x * 7 + y * 13) % 11) as f32);
+        let sheet = Sheet::new(&Domain::new(size, 1.0), Some(16)).expect("legal");
+        let small = shrink(&field, &sheet);
+        assert_eq!(small.size().columns, 16);
+        let mean = |field: &Field| field.sum() / field.size().cells() as f64;
+        assert!((mean(&small) - mean(&field)).abs() < 1e-4);
+    }
+
+    #[test]
+    fn no_data_is_filled_with_heights_of_the_shore() {
+        let size = Size::new(9, 5).expect("legal");
+        let land = Mask::new(size, (0..45).map(|cell| cell % 9 < 4).collect()).expect("some no-data");
+        let field = Field::from_function(size, |x, _| if x < 4 { 100.0 } else { 0.0 });
+        assert!(fill(&field, &land).values().iter().all(|&height| height == 100.0));
+    }
+}
