@@ -38,7 +38,7 @@ fn fill(field: &Field, land: &Mask) -> Field {
             filled.values_mut()[cell] = mean;
             known[cell] = true;
         }
-        ring = ring.iter().flat_map(|&cell| neighbours(size, cell)).filter(|&cell| !known[cell]).collect();
+        ring = ring.iter().flat_map(|&cell| size.neighbours(cell)).filter(|&cell| !known[cell]).collect();
         ring.sort_unstable();
         ring.dedup();
     }
@@ -46,24 +46,16 @@ fn fill(field: &Field, land: &Mask) -> Field {
 }
 
 fn touches(size: Size, known: &[bool], cell: usize) -> bool {
-    neighbours(size, cell).any(|neighbour| known[neighbour])
+    size.neighbours(cell).any(|neighbour| known[neighbour])
 }
 
 fn known_mean(field: &Field, known: &[bool], cell: usize) -> f32 {
     let (mut sum, mut count) = (0.0, 0.0);
-    for neighbour in neighbours(field.size(), cell).filter(|&neighbour| known[neighbour]) {
+    for neighbour in field.size().neighbours(cell).filter(|&neighbour| known[neighbour]) {
         sum += field.values()[neighbour];
         count += 1.0;
     }
     sum / count
-}
-
-/// Row-major positions of the up to eight neighbours of a cell.
-pub(super) fn neighbours(size: Size, cell: usize) -> impl Iterator<Item = usize> {
-    let (x, y) = (cell % size.columns, cell / size.columns);
-    let rows = y.saturating_sub(1)..(y + 2).min(size.rows);
-    let columns = x.saturating_sub(1)..(x + 2).min(size.columns);
-    rows.flat_map(move |y| columns.clone().map(move |x| size.index(x, y))).filter(move |&other| other != cell)
 }
 
 /// Area means on a grid no finer than the sheet; a coarser field comes back as it is.

@@ -2,7 +2,7 @@
 
 use super::colour::{Linear, linear_of_hex, mix};
 use super::contours::ramp;
-use super::ground::{neighbours, shrink};
+use super::ground::shrink;
 use super::ramp::Ramp;
 use super::sheet::Sheet;
 use super::spline::SplineRow;
@@ -98,7 +98,7 @@ fn drop_puddles(depth: &mut Field) -> bool {
         let mut members = vec![start];
         let mut next = 0;
         while next < members.len() {
-            for other in neighbours(size, members[next]) {
+            for other in size.neighbours(members[next]) {
                 if !seen[other] && depth.values()[other] >= 1.0 {
                     seen[other] = true;
                     members.push(other);

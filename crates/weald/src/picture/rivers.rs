@@ -5,7 +5,6 @@
 //! a forest of streams; the longest way up from each mouth is a river, what joins it a tributary, and spurs of
 //! a few cells, which are banks of a wide river, are left out. Lines widen with the logarithm of discharge.
 
-use super::ground::neighbours;
 use super::lakes::Lakes;
 use super::sheet::Sheet;
 use super::strokes::{Point, Strokes};
@@ -85,7 +84,7 @@ impl Flow {
             let cosine = (x * along_x + y * along_y) / ((x * x + y * y).sqrt() * self.discharge[cell]);
             cosine > NEAREST_THREE && self.is_channel(other)
         };
-        let candidates = neighbours(self.size, cell).filter(ahead);
+        let candidates = self.size.neighbours(cell).filter(ahead);
         candidates.max_by(|&a, &b| self.discharge[a].total_cmp(&self.discharge[b]))
     }
 
