@@ -17,7 +17,7 @@ crate::parameters! {
     /// A map of the values of one layer.
     pub struct Map {
         /// Layer to draw.
-        layer: LayerName = LayerName::needed();
+        of: LayerName = LayerName::needed();
         /// Width of the picture. By default the longer side has one pixel a cell, but 1024 at least and 4096 at most.
         width: Option<u32> = None, range 16..=16384, unit "px";
         /// Colours from the lowest to the highest value.
@@ -34,13 +34,13 @@ crate::parameters! {
 
 impl Picture for Map {
     fn reads(&self) -> Vec<String> {
-        vec![self.layer.0.clone()]
+        vec![self.of.0.clone()]
     }
 
     fn render(&self, landscape: &Landscape) -> Result<Image, Error> {
         let sheet = Sheet::new(&landscape.domain, self.width)?;
         let land = landscape.domain.land.as_ref();
-        let shares = drawable(&self.shares(landscape.field(&self.layer.0)?, land), land, &sheet);
+        let shares = drawable(&self.shares(landscape.field(&self.of.0)?, land), land, &sheet);
         let inked = Inked { shares, land: land_share(land, &sheet), ramp: self.ramp.ramp() };
         Ok(inked.paint(&sheet))
     }

@@ -28,7 +28,7 @@ crate::parameters! {
     /// A shaded relief picture.
     pub struct Relief {
         /// Layer of heights in metres.
-        layer: LayerName = LayerName::of("height");
+        of: LayerName = LayerName::of("height");
         /// Width of the picture. By default the longer side has one pixel a cell, but 1024 at least and 4096 at most.
         width: Option<u32> = None, range 16..=16384, unit "px";
         /// Colours of heights.
@@ -51,7 +51,7 @@ crate::parameters! {
 
 impl Picture for Relief {
     fn reads(&self) -> Vec<String> {
-        vec![self.layer.0.clone()]
+        vec![self.of.0.clone()]
     }
 
     fn optional(&self) -> Vec<String> {
@@ -122,7 +122,7 @@ struct Rows {
 impl Scene {
     fn new(picture: &Relief, landscape: &Landscape, sheet: Sheet) -> Result<Self, Error> {
         let domain = &landscape.domain;
-        let field = landscape.field(&picture.layer.0)?;
+        let field = landscape.field(&picture.of.0)?;
         let (low, high) = field.range(domain.land.as_ref()).unwrap_or((0.0, 0.0));
         let relief = high - low;
         let mut height = drawable(field, domain.land.as_ref(), &sheet);
