@@ -67,6 +67,10 @@ fn a_plane_is_shaded_evenly_along_its_contours_right_up_to_the_border() {
             let spread = row.iter().copied().fold(0.0, f64::max) - row.iter().copied().fold(1.0, f64::min);
             assert!(spread < 0.006, "{columns} × {rows}, row {y}: lightness differs by {spread}");
         }
+        let column: Vec<f64> = (0..image.height).map(|y| lightness(&image, 0, y)).collect();
+        let bend = |three: &[f64]| (three[0] - 2.0 * three[1] + three[2]).abs();
+        let worst = column.windows(3).map(bend).fold(0.0, f64::max);
+        assert!(worst < 0.012, "{columns} × {rows}: lightness bends by {worst} down the slope");
     }
 }
 

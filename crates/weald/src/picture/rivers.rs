@@ -186,6 +186,21 @@ mod tests {
     }
 
     #[test]
+    fn a_river_three_cells_wide_is_one_stream_along_its_deepest_cells() {
+        let size = Size::square(64).expect("legal");
+        let still = Field::filled(size, 0.0);
+        let south = Field::from_function(size, |x, y| match x {
+            32 => 10.0 + y as f32,
+            31 | 33 => 5.0 + 0.5 * y as f32,
+            _ => 0.01,
+        });
+        let flow = Flow::new([&still, &south], &Domain::new(size, 1.0), None).expect("water flows");
+        let streams: Vec<_> = Forest::of(&flow).streams().collect();
+        assert_eq!(streams.len(), 1);
+        assert!(streams[0].len() == 64 && streams[0][..60].iter().all(|cell| cell % 64 == 32));
+    }
+
+    #[test]
     fn still_water_has_no_rivers() {
         let size = Size::square(16).expect("legal");
         let still = Field::filled(size, 0.0);
