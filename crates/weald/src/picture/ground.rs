@@ -58,45 +58,58 @@ fn known_mean(field: &Field, known: &[bool], cell: usize) -> f32 {
     sum / count
 }
 
-/// Area means on a grid no finer than the sheet; a coarser field comes back as it is.
+/// Means over the area of each pixel, on a grid no finer than the sheet; a coarser field comes back as it is.
+///
+/// The mean is of the surface that is linear between cell centres, so that a plane stays a plane.
 pub(super) fn shrink(field: &Field, sheet: &Sheet) -> Field {
     let from = field.size();
     let to = Size { columns: from.columns.min(sheet.width), rows: from.rows.min(sheet.height) };
     if to == from {
         return field.clone();
     }
-    let (across, down) = (shares(from.columns, to.columns), shares(from.rows, to.rows));
+    let (across, down) = (means(from.columns, to.columns), means(from.rows, to.rows));
     let mut values = vec![0.0; to.cells()];
     values.par_chunks_mut(to.columns).zip(&down).for_each(|(row, rows)| {
-        for (y, weight) in rows.weighted() {
+        for &(y, weight) in rows {
             let source = field.row(y);
             for (value, columns) in row.iter_mut().zip(&across) {
-                *value += weight * columns.weighted().map(|(x, share)| share * source[x]).sum::<f32>();
+                *value += weight * columns.iter().map(|&(x, share)| share * source[x]).sum::<f32>();
             }
         }
     });
     Field::from_values(to, values)
 }
 
-/// The cells that one coarse cell covers along an axis, with the share of each in the mean.
-struct Cover {
-    start: f64,
-    end: f64,
+/// For each of `to` stretches of an axis of `from` cells, the weights of cells in its mean.
+fn means(from: usize, to: usize) -> Vec<Vec<(usize, f32)>> {
+    let edge = |stretch: usize| stretch as f64 * from as f64 / to as f64 - 0.5;
+    (0..to).map(|stretch| mean(from, edge(stretch), edge(stretch + 1))).collect()
 }
 
-impl Cover {
-    fn weighted(&self) -> impl Iterator<Item = (usize, f32)> {
-        let (start, end) = (self.start, self.end);
-        (start as usize..end.ceil() as usize).map(move |cell| {
-            let covered = (end.min(cell as f64 + 1.0) - start.max(cell as f64)).max(0.0);
-            (cell, (covered / (end - start)) as f32)
-        })
+/// Weights of cells in the mean from `start` to `end`, in cells from the first centre.
+fn mean(count: usize, start: f64, end: f64) -> Vec<(usize, f32)> {
+    let first = (start.floor() as isize).max(0);
+    let last = (end.ceil() as isize).min(count as isize - 1);
+    let mut weights = vec![0.0; (last - first + 1) as usize];
+    for cell in start.floor() as isize..=end.ceil() as isize {
+        let weight = (tent_below(end - cell as f64) - tent_below(start - cell as f64)) / (end - start);
+        let inside = cell.clamp(first, last);
+        // Beyond the border the surface goes on by point reflection.
+        let mirrored = (2 * inside - cell).clamp(first, last);
+        if cell == inside {
+            weights[(cell - first) as usize] += weight;
+        } else {
+            weights[(inside - first) as usize] += 2.0 * weight;
+            weights[(mirrored - first) as usize] -= weight;
+        }
     }
+    (first as usize..).zip(weights.into_iter().map(|weight| weight as f32)).collect()
 }
 
-fn shares(from: usize, to: usize) -> Vec<Cover> {
-    let edge = |i: usize| (i as f64 * from as f64 / to as f64).min(from as f64);
-    (0..to).map(|i| Cover { start: edge(i), end: edge(i + 1) }).collect()
+/// Integral of the tent `max(0, 1 - |t|)` up to `x`.
+fn tent_below(x: f64) -> f64 {
+    let x = x.clamp(-1.0, 1.0);
+    if x < 0.0 { 0.5 * (1.0 + x) * (1.0 + x) } else { 1.0 - 0.5 * (1.0 - x) * (1.0 - x) }
 }
 
 #[cfg(test)]
@@ -113,6 +126,18 @@ mod tests {
         assert_eq!(small.size().columns, 16);
         let mean = |field: &Field| field.sum() / field.size().cells() as f64;
         assert!((mean(&small) - mean(&field)).abs() < 1e-4);
+    }
+
+    #[test]
+    fn a_shrunk_plane_is_a_plane() {
+        let size = Size::new(300, 200).expect("legal");
+        let sheet = Sheet::new(&Domain::new(size, 1.0), Some(64)).expect("legal");
+        let small = shrink(&Field::from_function(size, |x, y| x as f32 + 4.0 * y as f32), &sheet);
+        let rise = 4.0 * 200.0 / small.size().rows as f32;
+        for y in 1..small.size().rows {
+            let step = small.at(9, y) - small.at(9, y - 1);
+            assert!((step - rise).abs() < 1e-3, "row {y}: {step} instead of {rise}");
+        }
     }
 
     #[test]
