@@ -57,6 +57,15 @@ impl Size {
     pub fn index(self, x: usize, y: usize) -> usize {
         y * self.columns + x
     }
+
+    /// Row-major positions of the up to eight neighbours of a cell, in rising order.
+    pub fn neighbours(self, cell: usize) -> impl Iterator<Item = usize> {
+        let (x, y) = (cell % self.columns, cell / self.columns);
+        let rows = y.saturating_sub(1)..(y + 2).min(self.rows);
+        let columns = x.saturating_sub(1)..(x + 2).min(self.columns);
+        rows.flat_map(move |y| columns.clone().map(move |x| self.index(x, y)))
+            .filter(move |&other| other != cell)
+    }
 }
 
 impl std::fmt::Display for Size {

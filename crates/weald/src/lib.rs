@@ -9,6 +9,7 @@ pub mod domain;
 pub mod engine;
 pub mod erode;
 pub mod error;
+pub mod gallery;
 pub mod generate;
 pub mod grid;
 pub mod io;

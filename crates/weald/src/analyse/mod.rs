@@ -1,1 +1,7 @@
-//! To be written.
+//! Measures of ground and water.
+
+mod component;
+pub mod contour;
+mod gaussian;
+pub mod network;
+mod priority_flood;

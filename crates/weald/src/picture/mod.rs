@@ -1,1 +1,93 @@
-//! To be written.
+//! Pictures of a landscape, one file a kind; [`PICTURES`] is the registry.
+
+mod colour;
+mod contours;
+mod ground;
+mod image;
+mod lakes;
+mod light;
+mod map;
+mod ramp;
+mod relief;
+mod rivers;
+mod sheet;
+mod spline;
+mod strokes;
+mod texture;
+
+pub use colour::{Linear, Oklab, encode, linear_of_hex};
+pub use image::Image;
+pub use map::Map;
+pub use ramp::{Ramp, Scale, Tint};
+pub use relief::Relief;
+
+use std::fmt::Debug;
+
+use crate::error::Error;
+use crate::landscape::Landscape;
+use crate::recipe::parameter::{Complaints, Parameter, Parameters};
+use crate::recipe::source::Table;
+
+/// Warm white: the sheet where there is no data.
+pub const PAPER: Linear = [0.923, 0.896, 0.830];
+
+/// A kind of picture with its parameters, checked and ready to draw.
+pub trait Picture: Debug + Send + Sync {
+    /// Names of the layers it needs.
+    fn reads(&self) -> Vec<String>;
+
+    /// Names of the layers it draws where they exist.
+    fn optional(&self) -> Vec<String> {
+        Vec::new()
+    }
+
+    /// Draws a landscape that has all the layers in [`Picture::reads`].
+    ///
+    /// # Errors
+    /// [`Error::Limit`] where the picture would be too large, [`Error::Run`] where a layer is missing.
+    fn render(&self, landscape: &Landscape) -> Result<Image, Error>;
+}
+
+/// A picture's declaration in the registry.
+#[derive(Clone, Copy, Debug)]
+pub struct PictureEntry {
+    /// Word after `picture =`.
+    pub name: &'static str,
+    /// What it shows, in one sentence.
+    pub summary: &'static str,
+    /// The publication, or "Weald" for what is common practice.
+    pub source: &'static str,
+    /// Declares the parameters.
+    pub parameters: fn() -> Vec<Parameter>,
+    /// Reads them from an `[[output]]` table without its `picture` and `file`.
+    pub read: fn(&Table, &mut Complaints) -> Box<dyn Picture>,
+}
+
+impl PictureEntry {
+    /// The declaration of picture type `T`.
+    pub const fn of<T: Picture + Parameters + 'static>(
+        name: &'static str,
+        summary: &'static str,
+        source: &'static str,
+    ) -> Self {
+        let read = |table: &Table, complaints: &mut Complaints| -> Box<dyn Picture> {
+            Box::new(T::read(table, complaints))
+        };
+        Self { name, summary, source, parameters: T::parameters, read }
+    }
+}
+
+/// All kinds of pictures. Adding one is one file and one line here.
+pub const PICTURES: &[PictureEntry] = &[
+    PictureEntry::of::<Relief>(
+        "relief",
+        "Shaded relief with height tints, contours, lakes and rivers.",
+        "Mark 1992 (lights), Brown 2010 (texture shading), Imhof 1965 (colours and aerial perspective)",
+    ),
+    PictureEntry::of::<Map>("map", "One layer in an even colour ramp, linear or logarithmic.", "Weald"),
+];
+
+/// The picture of that name.
+pub fn find(name: &str) -> Option<&'static PictureEntry> {
+    PICTURES.iter().find(|entry| entry.name == name)
+}

@@ -1,0 +1,108 @@
+//! A steep cone under the thermal schemes: by axes it becomes a square pyramid, isotropically it stays round.
+
+use super::{Figure, FigureOutput, GalleryJob, Measured, Plate, run_steps};
+use crate::analyse::contour::roundness;
+use crate::domain::Domain;
+use crate::error::Error;
+use crate::grid::{Field, Size};
+use crate::landscape::Landscape;
+use crate::picture::{Image, Picture, Relief, Tint};
+
+pub(super) const FIGURE: Figure = Figure {
+    id: "cone",
+    title: "A cone under thermal weathering",
+    source: "Han 2015, doi 10.7583/JKGS.2015.15.6.171, Fig. 2",
+    shows: "Weathering that looks along the axes turns a cone into a pyramid; weathering by the slope of the \
+            surface leaves it a cone.",
+    make,
+};
+
+const SCHEMES: [&str; 3] = ["axis", "isotropic", "isotropic-symmetric"];
+
+/// Slope of the cone before, in heights a cell; the angle of repose is 1.
+const STEEPNESS: f64 = 2.0;
+
+fn make(job: GalleryJob) -> Result<FigureOutput, Error> {
+    let (side, iterations) = job.choose((129, 4000), (33, 100));
+    let start = cone(side)?;
+    let mut images = vec![draw(&start)?];
+    let mut rows = vec![row("before", &start, &start)?];
+    for scheme in SCHEMES {
+        let mut landscape = start.clone();
+        let keys = format!("scheme = {scheme:?}\ntalus = 1.0\nstrength = 0.2\niterations = {iterations}");
+        run_steps(&mut landscape, 0, &[("thermal", &keys)])?;
+        images.push(draw(&landscape)?);
+        rows.push(row(scheme, &start, &landscape)?);
+    }
+    let caption = format!("Before; and after {iterations} steps by axes, isotropic, isotropic and symmetric");
+    Ok(FigureOutput {
+        plates: vec![Plate { name: "schemes", caption, image: Image::beside(&images, 8) }],
+        measured: Measured {
+            header: [
+                "scheme",
+                "least / greatest contour radius",
+                "mean slope",
+                "volume error",
+                "difference when turned",
+            ]
+            .map(str::to_owned)
+            .to_vec(),
+            rows,
+            remarks: vec![
+                "Radius of the contour at half height; slope over the middle half of the flank; volume \
+                 relative to the start; greatest height difference, in cells, to the result turned by 90°."
+                    .to_owned(),
+            ],
+        },
+    })
+}
+
+fn cone(side: usize) -> Result<Landscape, Error> {
+    let mut landscape = Landscape::new(Domain::new(Size::square(side)?, 1.0));
+    // The foot stays clear of the border, also after the flank has slid to the slope of repose.
+    let peak = STEEPNESS * side as f64 / 4.0;
+    run_steps(&mut landscape, 0, &[("cone", &format!("peak = {peak:?}\nslope = {STEEPNESS:?}"))])?;
+    Ok(landscape)
+}
+
+fn draw(landscape: &Landscape) -> Result<Image, Error> {
+    Relief { width: Some(440), ramp: Tint::Desert, exaggeration: Some(0.6), ..Relief::default() }
+        .render(landscape)
+}
+
+fn row(name: &str, start: &Landscape, landscape: &Landscape) -> Result<Vec<String>, Error> {
+    let (before, height) = (start.field("height")?, landscape.field("height")?);
+    let centre = (height.size().columns / 2) as f64;
+    let (low, high) = height.range(None).unwrap_or((0.0, 0.0));
+    let round = roundness(height, [centre; 2], f64::from(low + high) / 2.0);
+    Ok(vec![
+        name.to_owned(),
+        round.map_or_else(|| "open".to_owned(), |round| format!("{round:.3}")),
+        format!("{:.2}", mean_slope(height)),
+        format!("{:.0e}", (height.sum() - before.sum()).abs() / before.sum()),
+        format!("{:.0e}", turned_difference(height)),
+    ])
+}
+
+/// Mean slope of the cells between a quarter and three quarters of the height.
+fn mean_slope(height: &Field) -> f64 {
+    let size = height.size();
+    let (low, high) = height.range(None).unwrap_or((0.0, 0.0));
+    let flank = low + 0.25 * (high - low)..low + 0.75 * (high - low);
+    let (mut sum, mut count) = (0.0, 0.0);
+    for y in 1..size.rows - 1 {
+        for x in (1..size.columns - 1).filter(|&x| flank.contains(&height.at(x, y))) {
+            let east = f64::from(height.at(x + 1, y) - height.at(x - 1, y)) / 2.0;
+            let south = f64::from(height.at(x, y + 1) - height.at(x, y - 1)) / 2.0;
+            sum += (east * east + south * south).sqrt();
+            count += 1.0;
+        }
+    }
+    sum / f64::max(count, 1.0)
+}
+
+fn turned_difference(height: &Field) -> f32 {
+    let last = height.size().columns - 1;
+    let difference = |x: usize, y: usize| (height.at(x, y) - height.at(last - y, x)).abs();
+    (0..=last).flat_map(|y| (0..=last).map(move |x| difference(x, y))).fold(0.0, f32::max)
+}
