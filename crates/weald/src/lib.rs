@@ -4,6 +4,7 @@
 //! as files. This crate holds no window, no command line and no GPU interface.
 
 pub mod analyse;
+pub mod bench;
 pub mod combine;
 pub mod domain;
 pub mod engine;

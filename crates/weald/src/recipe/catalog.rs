@@ -1,7 +1,7 @@
 //! Every step there is. Adding one is one file and one line here.
 
 use crate::step::Entry;
-use crate::{combine, generate};
+use crate::{combine, erode, generate};
 
 /// All steps, in the order of `weald steps`.
 #[rustfmt::skip] // one entry a line, so that branches that add some do not meet
@@ -23,6 +23,8 @@ pub const CATALOG: &[Entry] = &[
     combine::terrace::ENTRY,
     combine::smooth::ENTRY,
     combine::resample::ENTRY,
+    erode::hydraulic::ENTRY,
+    erode::thermal_step::ENTRY,
 ];
 
 /// The step of that name.
