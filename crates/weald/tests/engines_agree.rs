@@ -12,7 +12,7 @@ use weald::erode::thermal_step::{Thermal, ThermalWithin};
 use weald::grid::Mask;
 use weald::recipe::parameter::Nested;
 use weald::step::Step;
-use weald::{Error, Landscape, Size};
+use weald::{Error, Field, Landscape, Size};
 
 const COLUMNS: usize = 70;
 const ROWS: usize = 90;
@@ -46,14 +46,14 @@ fn processes() -> Vec<Box<dyn Step>> {
     all
 }
 
-/// Rough ground, with and without cells that hold no data.
-fn grounds() -> [Landscape; 2] {
+/// Rough ground, with and without cells that hold no data, and ground so wide that it is cut into strips.
+fn grounds() -> [Landscape; 3] {
     let whole = landscape(rough(COLUMNS, ROWS, 25.0, 3));
     let mut masked = whole.clone();
     let size = Size::new(COLUMNS, ROWS).expect("small");
     masked.domain.land =
         Mask::new(size, (0..size.cells()).map(|at| at % 31 != 7 && at % COLUMNS > 3).collect());
-    [whole, masked]
+    [whole, masked, landscape(rough(1000, 40, 25.0, 5))]
 }
 
 fn assert_same_bits(step: &dyn Step, expected: &Landscape, got: &Landscape, engine: &str) {
@@ -134,5 +134,28 @@ fn a_stopped_and_resumed_run_ends_with_the_same_bits() {
         let again = step.run(&mut resumed, &job).expect("it goes on");
         assert_same_bits(&step, &whole, &resumed, "resumed");
         assert_eq!(outcome, again);
+    }
+}
+
+#[test]
+fn strips_of_a_wide_landscape_give_the_bits_of_a_tall_one_turned() {
+    for model in [Model::Han, Model::Mei] {
+        let step = Hydraulic { model, ..hydraulic(60) };
+        let ground = rough(1300, 40, 30.0, 6);
+        let turned = |field: &Field| {
+            let Size { columns, rows } = field.size();
+            Field::from_function(Size { columns: rows, rows: columns }, |x, y| field.at(y, x))
+        };
+        let (mut wide, mut tall) = (landscape(ground.clone()), landscape(turned(&ground)));
+        let wide_budget = run_on(&step, &mut wide, Engine::Cpu).budget.expect("a budget");
+        run_on(&step, &mut tall, Engine::Cpu);
+        let height = wide.field("height").expect("h");
+        assert!(worst_difference(&ground, height) > 0.01, "something moved");
+        assert_eq!(height, &turned(tall.field("height").expect("h")), "{model:?}");
+        assert!(
+            wide_budget.water.error().abs() < 1e-6,
+            "each column is counted once: {:?}",
+            wide_budget.water
+        );
     }
 }

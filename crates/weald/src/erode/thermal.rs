@@ -182,6 +182,8 @@ pub(crate) struct SlideRows<'a> {
     pub(crate) change: &'a Ring,
     pub(crate) links: &'a Links,
     pub(crate) constants: &'a [Ring],
+    /// First column of the rows.
+    pub(crate) column: usize,
     /// Newest row of `change`.
     pub(crate) newest: Option<usize>,
     pub(crate) span: Range<usize>,
@@ -230,7 +232,7 @@ impl Slide {
     }
 
     fn axis(self, rows: &SlideRows<'_>, scratch: &mut SlideScratch, y: usize) {
-        let links = rows.links.row(rows.constants, y);
+        let links = rows.links.row(rows.constants, y, rows.column);
         Axis {
             ground: scratch.ground.here(y),
             ground_east: scratch.ground.east(y),
@@ -246,7 +248,7 @@ impl Slide {
     }
 
     fn triangle(self, rows: &SlideRows<'_>, scratch: &mut SlideScratch, y: usize) {
-        let links = rows.links.row(rows.constants, y);
+        let links = rows.links.row(rows.constants, y, rows.column);
         Triangle {
             ground: scratch.ground.here(y),
             ground_east: scratch.ground.east(y),
@@ -262,7 +264,7 @@ impl Slide {
     }
 
     fn four_triangles(self, rows: &SlideRows<'_>, scratch: &mut SlideScratch, y: usize) {
-        let links = rows.links.row(rows.constants, y);
+        let links = rows.links.row(rows.constants, y, rows.column);
         let [share_east, share_west, share_south, share_north] = &mut scratch.shares;
         let previous = if y > rows.span.start { y - 1 } else { y };
         FourTriangles {

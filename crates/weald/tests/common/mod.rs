@@ -1,5 +1,5 @@
 //! Ground and runs that several tests share.
-#![allow(dead_code, reason = "each test binary uses its own part")]
+#![allow(dead_code, unreachable_pub, reason = "each test binary uses its own part")]
 
 use weald::engine::{Engine, Job, Unwatched};
 use weald::erode::hydraulic::Hydraulic;
