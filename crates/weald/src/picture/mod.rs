@@ -1,5 +1,6 @@
 //! Pictures of a landscape, one file a kind; [`PICTURES`] is the registry.
 
+mod automatic;
 mod colour;
 mod contours;
 mod ground;
@@ -10,6 +11,7 @@ mod map;
 mod ramp;
 mod relief;
 mod rivers;
+mod scene;
 mod sheet;
 mod spline;
 mod strokes;

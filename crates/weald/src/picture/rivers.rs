@@ -12,17 +12,17 @@ use crate::domain::Domain;
 use crate::grid::{Field, Size};
 
 /// Share of the land outside lakes that may be channel.
-const CHANNEL_SHARE: f64 = 0.09;
+const CHANNEL_SHARE: f64 = 0.10;
 
 /// A channel carries at least this many times the discharge of the median cell.
-const ABOVE_MEDIAN: f32 = 10.0;
+const ABOVE_MEDIAN: f32 = 5.0;
 
 /// Shortest stream that is drawn, in cells.
 const SHORTEST: u32 = 7;
 
 /// Width of the finest stream in lines, and its growth with each doubling of the discharge.
 const FINEST: f32 = 1.0;
-const GROWTH: f32 = 0.6;
+const GROWTH: f32 = 0.45;
 
 /// Draws the rivers of a landscape; `None` where nothing flows.
 pub(super) fn draw(
