@@ -3,6 +3,7 @@
 mod automatic;
 mod colour;
 mod contours;
+mod drainage;
 mod ground;
 mod image;
 mod lakes;

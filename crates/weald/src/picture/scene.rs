@@ -188,7 +188,7 @@ impl Water {
         let domain = &landscape.domain;
         let lakes = landscape.field("water").ok().and_then(|water| Lakes::of(water, domain, sheet));
         let flux = landscape.field("flux_x").ok().zip(landscape.field("flux_y").ok());
-        let rivers = flux.and_then(|(x, y)| rivers::draw([x, y], domain, lakes.as_ref(), sheet));
+        let rivers = flux.and_then(|(x, y)| rivers::draw([x, y], domain, sheet));
         Self { lakes, rivers }
     }
 }
