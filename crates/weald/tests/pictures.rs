@@ -137,6 +137,13 @@ fn no_data_stays_paper_and_land_beside_it_is_drawn() {
 }
 
 #[test]
+fn level_ground_with_one_pit_keeps_the_colour_of_its_tint() {
+    let pitted = ground(64, 64, |x, y| if (x, y) == (20, 20) { -300.0 } else { 7.0 });
+    let image = draw(&plain(), &pitted);
+    assert!(lightness(&image, 50, 50) > 0.75, "{:?}", image.pixel(50, 50));
+}
+
+#[test]
 fn a_landscape_without_land_is_a_sheet_of_paper() {
     let mut landscape = ground(8, 8, |_, _| 0.0);
     landscape.domain.land = Mask::new(landscape.domain.size, vec![false; 64]);

@@ -79,9 +79,14 @@ fn row(name: &str, start: &Landscape, landscape: &Landscape) -> Result<Vec<Strin
         name.to_owned(),
         round.map_or_else(|| "open".to_owned(), |round| format!("{round:.3}")),
         format!("{:.2}", mean_slope(height)),
-        format!("{:.0e}", (height.sum() - before.sum()).abs() / before.sum()),
-        format!("{:.0e}", turned_difference(height)),
+        brief((height.sum() - before.sum()).abs() / before.sum()),
+        brief(f64::from(turned_difference(height))),
     ])
+}
+
+/// A small number in one digit; 0 where it is exactly that.
+fn brief(number: f64) -> String {
+    if number == 0.0 { "0".to_owned() } else { format!("{number:.0e}") }
 }
 
 /// Mean slope of the cells between a quarter and three quarters of the height.

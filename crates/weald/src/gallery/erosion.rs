@@ -65,7 +65,7 @@ fn make(job: GalleryJob, runs: &[Run]) -> Result<FigureOutput, Error> {
     for run in runs {
         let landscape = erode(side, iterations, run)?;
         reliefs
-            .push(Relief { width: Some(768), contours: Some(0.0), ..Relief::default() }.render(&landscape)?);
+            .push(Relief { width: Some(640), contours: Some(0.0), ..Relief::default() }.render(&landscape)?);
         flows.push(flow_map(&landscape)?);
         rows.push(row(run.name, &network(&landscape)?));
     }
@@ -110,7 +110,7 @@ fn flow_map(landscape: &Landscape) -> Result<Image, Error> {
     let mut only = Landscape::new(landscape.domain.clone());
     only.insert("flow", "m³/step", Field::from_values(x.size(), flow));
     let (low, high) = (Some(RAIN), Some(RAIN * 5000.0));
-    Map { of: LayerName::of("flow"), width: Some(768), ramp: Scale::Water, logarithmic: true, low, high }
+    Map { of: LayerName::of("flow"), width: Some(512), ramp: Scale::Water, logarithmic: true, low, high }
         .render(&only)
 }
 

@@ -1,4 +1,4 @@
-//! Fault formation: one long run, looked at after 1, 2, 3, 10 and all faults.
+//! Fault formation: one long run, looked at after 1, 2, 3, 10, 100 and all faults.
 //!
 //! The fault step draws whole runs, and the size of a fault, `scale (1 - i/n)`, depends on the length n of
 //! its run. A stage follows from two short runs over the same lines: with `A = Σ ±1` and `B = Σ ±i` over the
@@ -30,14 +30,18 @@ fn make(job: GalleryJob) -> Result<FigureOutput, Error> {
     let (side, faults) = job.choose((256, 400), (32, 20));
     let mut images = Vec::new();
     let mut rows = Vec::new();
-    for stage in [1, 2, 3, 10, faults] {
+    for stage in [1, 2, 3, 10, faults / 4, faults] {
         let height = stage_of(side, stage, faults)?;
         rows.push(row(stage, &height));
         images.push(draw(height)?);
     }
-    let caption = format!("One run of {faults} faults after 1, 2, 3, 10 and {faults} of them");
+    let caption = format!("One run of {faults} faults after 1, 2, 3, 10, {} and all of them", faults / 4);
     Ok(FigureOutput {
-        plates: vec![Plate { name: "stages", caption, image: Image::beside(&images, 8) }],
+        plates: vec![Plate {
+            name: "stages",
+            caption,
+            image: Image::below(&[Image::beside(&images[..3], 8), Image::beside(&images[3..], 8)], 8),
+        }],
         measured: Measured {
             header: ["faults", "plateaus", "lines allow", "lowest", "highest"].map(str::to_owned).to_vec(),
             rows,
@@ -87,12 +91,6 @@ fn row(stage: u32, height: &Field) -> Vec<String> {
 fn draw(height: Field) -> Result<Image, Error> {
     let mut landscape = Landscape::new(Domain::new(height.size(), 1.0));
     landscape.insert("height", "m", height);
-    Relief {
-        width: Some(360),
-        ramp: Tint::Alpine,
-        contours: Some(0.0),
-        exaggeration: Some(0.5),
-        ..Relief::default()
-    }
-    .render(&landscape)
+    Relief { width: Some(512), ramp: Tint::Alpine, contours: Some(0.0), ..Relief::default() }
+        .render(&landscape)
 }

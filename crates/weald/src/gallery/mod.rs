@@ -110,10 +110,10 @@ pub struct Selection<'a> {
     pub job: GalleryJob,
 }
 
-/// [`write`] for any list of figures.
+/// [`write()`] for any list of figures.
 ///
 /// # Errors
-/// As [`write`].
+/// As [`write()`].
 pub fn write_figures(
     figures: &[Figure],
     folder: &Path,

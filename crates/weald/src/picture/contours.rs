@@ -21,6 +21,8 @@ const FLAT: f32 = 1.0 / 600.0;
 pub(super) struct Contours {
     /// Metres between neighbouring lines, above 0.
     pub(super) interval: f32,
+    /// Lowest ground in metres. It bears no line, even where it is a multiple: plains would be ringed by noise.
+    pub(super) lowest: f32,
     /// Width of an ordinary line in pixels.
     pub(super) line: f32,
 }
@@ -36,11 +38,11 @@ impl Contours {
 
     fn family(self, height: f32, rise: f32, interval: f32, width: f32) -> f32 {
         let flat = FLAT * self.interval;
-        if rise <= flat {
+        let nearest = (height / interval).round() * interval;
+        if rise <= flat || nearest <= self.lowest + flat {
             return 0.0;
         }
-        let off = (height / interval - (height / interval).round()).abs() * interval;
-        let cover = (0.5 * width + 0.5 - off / rise).clamp(0.0, 1.0).min(width.max(0.3));
+        let cover = (0.5 * width + 0.5 - (height - nearest).abs() / rise).clamp(0.0, 1.0).min(width.max(0.3));
         let crowded = ramp(interval / rise / width, 0.5 * CROWDED, CROWDED);
         cover * crowded * ramp(rise, flat, 4.0 * flat)
     }
@@ -82,10 +84,11 @@ mod tests {
 
     #[test]
     fn ink_lies_on_multiples_of_the_interval_and_nowhere_else() {
-        let contours = Contours { interval: 10.0, line: 1.0 };
+        let contours = Contours { interval: 10.0, lowest: 20.0, line: 1.0 };
         assert!(contours.ink(30.0, 0.5) > 0.4);
         assert!(contours.ink(50.0, 0.5) > contours.ink(30.0, 0.5));
         assert_eq!(contours.ink(34.0, 0.5), 0.0);
         assert_eq!(contours.ink(30.0, 0.0), 0.0);
+        assert_eq!(contours.ink(20.0, 0.5), 0.0, "the lowest ground");
     }
 }

@@ -23,8 +23,6 @@ const MIDDLE_DEPTH: f32 = 6.0;
 pub(super) struct Lakes {
     /// 1 at the shore, 2 in the water, below 1 on land.
     pub(super) level: Field,
-    /// Cells under lakes, row-major.
-    pub(super) cells: Vec<bool>,
     /// Depth in shallowest depths.
     pub(super) depth: Field,
     ramp: Ramp,
@@ -46,9 +44,7 @@ impl Lakes {
         }
         let level =
             Field::from_values(depth.size(), depth.values().iter().map(|depth| depth.min(2.0)).collect());
-        let cells = depth.values().iter().map(|&depth| depth >= 1.0).collect();
         Some(Self {
-            cells,
             level: shrink(&level, sheet),
             depth: shrink(&depth, sheet),
             ramp: Ramp::through(&[0xa6_d0de, 0x6f_b0cf, 0x3f_83b0, 0x25_5a8c]),

@@ -1,7 +1,9 @@
 //! Pictures of a landscape, one file a kind; [`PICTURES`] is the registry.
 
+mod automatic;
 mod colour;
 mod contours;
+mod drainage;
 mod ground;
 mod image;
 mod lakes;
@@ -10,6 +12,7 @@ mod map;
 mod ramp;
 mod relief;
 mod rivers;
+mod scene;
 mod sheet;
 mod spline;
 mod strokes;
