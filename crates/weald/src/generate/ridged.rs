@@ -59,12 +59,12 @@ impl Generator for Ridged {
         Ok(fill_rows(
             domain,
             #[inline(always)]
-            |y, row, scratch| {
+            |y, row| {
                 let mut weight = vec![1.0; columns];
                 let mut noise = vec![0.0; columns];
                 for (octave, amplitude) in &octaves {
                     noise.fill(0.0);
-                    octave.add_row(y, 1.0, &mut noise, scratch);
+                    octave.add_row(y, 1.0, &mut noise);
                     add_crests(&noise, sharpness, scale * *amplitude, &mut weight, row);
                 }
             },
