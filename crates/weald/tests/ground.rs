@@ -1,4 +1,5 @@
-//! Generators: the same bits on any number of threads, the same ground at any resolution, no preferred direction.
+//! Generators: the same bits on any number of threads, the same ground at any resolution, no preferred
+//! direction.
 
 use proptest::prelude::*;
 use weald::engine::Job;
@@ -156,8 +157,8 @@ fn fbm_faces_all_directions_alike() {
 
 #[test]
 fn gain_sets_how_height_differences_grow_with_distance() {
-    // Halving wavelengths with gain 2^-H gives differences that grow like distance^H, between the shortest and
-    // the longest wavelength.
+    // Halving wavelengths with gain 2^-H gives differences that grow like distance^H, between the shortest
+    // and the longest wavelength.
     for (gain, exponent) in [(0.5_f64.powf(0.5), 0.5), (0.5_f64.powf(0.8), 0.8)] {
         let ground = Fbm { gain, octaves: 12, wavelength: 4096.0, ..Fbm::default() };
         let field = filled(&ground, &domain(1024, 400, 4.0), 2);

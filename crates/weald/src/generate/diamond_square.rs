@@ -1,8 +1,8 @@
 //! Diamond-square: midpoint displacement on a square lattice that doubles at every level.
 //!
-//! From a lattice of step `s` the centre of each square becomes the mean of its four corners (diamond step), then
-//! the middle of each edge the mean of its two ends and the two centres beside it (square step; at the border the
-//! mean of three), each plus a random number in `±a_l`. Level `l` counts from 0 and
+//! From a lattice of step `s` the centre of each square becomes the mean of its four corners (diamond step),
+//! then the middle of each edge the mean of its two ends and the two centres beside it (square step; at the
+//! border the mean of three), each plus a random number in `±a_l`. Level `l` counts from 0 and
 //!
 //! ```text
 //! a_l = 2^(-H l)      H = `roughness`; corners are random in ±1
@@ -10,10 +10,10 @@
 //!
 //! Fournier, Fussell, Carpenter 1982, doi 10.1145/358523.358553; Miller 1986, doi 10.1145/15922.15899.
 //!
-//! What differs: the random numbers are hashes of (seed, level, place), so the order of points does not matter
-//! and a lattice twice as fine has the same large shapes. The lattice has `2^m + 1` points a side, the least that
-//! covers the landscape, and only the part under the landscape is computed: each level is a window of the level
-//! below it, kept as rows without gaps.
+//! What differs: the random numbers are hashes of (seed, level, place), so the order of points does not
+//! matter and a lattice twice as fine has the same large shapes. The lattice has `2^m + 1` points a side, the
+//! least that covers the landscape, and only the part under the landscape is computed: each level is a window
+//! of the level below it, kept as rows without gaps.
 
 use rayon::prelude::*;
 
@@ -86,7 +86,8 @@ fn windows(size: Size, levels: u32) -> Vec<Size> {
     let mut windows = vec![size];
     for level in (0..levels).rev() {
         let finer = windows[windows.len() - 1];
-        // The last row's edges need the centres beyond it, and these the next coarse row, unless the lattice ends.
+        // The last row's edges need the centres beyond it, and these the next coarse row, unless the lattice
+        // ends.
         let coarser = |points: usize| ((points - 1) / 2 + 2).min((1 << level) + 1);
         windows.push(Size { columns: coarser(finer.columns), rows: coarser(finer.rows) });
     }

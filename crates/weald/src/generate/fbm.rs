@@ -4,9 +4,9 @@
 //! z = relief (1/2 + Σ gain^k n(p lacunarity^k / wavelength) / (6 σ))
 //! ```
 //!
-//! where `σ` is the standard deviation of the sum, a number that follows from the octaves alone. So `relief` is
-//! not stretched to each landscape's own extremes: it is six standard deviations, about what a landscape of some
-//! wavelengths spans, and the same ground comes at any size and resolution.
+//! where `σ` is the standard deviation of the sum, a number that follows from the octaves alone. So `relief`
+//! is not stretched to each landscape's own extremes: it is six standard deviations, about what a landscape
+//! of some wavelengths spans, and the same ground comes at any size and resolution.
 //!
 //! Mandelbrot and Van Ness 1968, doi 10.1137/1010093; Musgrave, Kolb, Mace 1989, doi 10.1145/74333.74337.
 

@@ -5,13 +5,13 @@
 //! bits(x, y) = m(EAST x + SOUTH y + start)      modulo 2^32
 //! ```
 //!
-//! where `m` is the finaliser `lowbias32` (C. Wellons, "Prospecting for Hash Functions", 2018), a bijection of 32-bit
-//! numbers in which each input bit flips each output bit with a probability near one half. What differs: a key is
-//! mixed in between its rounds, since `start` alone would only move the pattern.
+//! where `m` is the finaliser `lowbias32` (C. Wellons, "Prospecting for Hash Functions", 2018), a bijection
+//! of 32-bit numbers in which each input bit flips each output bit with a probability near one half. What
+//! differs: a key is mixed in between its rounds, since `start` alone would only move the pattern.
 //!
-//! Points repeat where `EAST x + SOUTH y` is a multiple of 2^32. The two constants are the fractions of 2^32 given by
-//! the plastic number (M. Roberts, "The unreasonable effectiveness of quasirandom sequences", 2018), which spread
-//! points so evenly that equal ones lie more than 2^15 steps apart.
+//! Points repeat where `EAST x + SOUTH y` is a multiple of 2^32. The two constants are the fractions of 2^32
+//! given by the plastic number (M. Roberts, "The unreasonable effectiveness of quasirandom sequences", 2018),
+//! which spread points so evenly that equal ones lie more than 2^15 steps apart.
 
 use crate::random::splitmix64;
 

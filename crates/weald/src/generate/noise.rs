@@ -1,7 +1,7 @@
 //! Gradient noise on a square lattice, row by row.
 //!
-//! Each lattice point holds a gradient `g` from a hash of (seed, octave, point). Between four points the noise is
-//! the quintic blend of the four planes through them:
+//! Each lattice point holds a gradient `g` from a hash of (seed, octave, point). Between four points the
+//! noise is the quintic blend of the four planes through them:
 //!
 //! ```text
 //! n(p) = Σ w(dx) w(dy) g · (p - corner)        w = 1 - f, f(t) = t³ (6 t² - 15 t + 10)
@@ -10,17 +10,17 @@
 //! Perlin 1985, doi 10.1145/325165.325247, and 2002, doi 10.1145/566654.566636.
 //!
 //! What differs: the direction of a gradient is a whole 32-bit hash, not one of a few, so no direction is
-//! preferred; it comes from the parabola `4 t (1 - |t|)` in place of sine and cosine (lengths 1 to 1.061), so that
-//! additions and multiplications alone give the bits. The noise is 0 at lattice points and its forms lean on the
-//! lattice's axes; so that octaves do not do it together, each one's lattice is turned by the angle of the 3-4-5
-//! triangle against the one before and moved by a random part of its step.
+//! preferred; it comes from the parabola `4 t (1 - |t|)` in place of sine and cosine (lengths 1 to 1.061), so
+//! that additions and multiplications alone give the bits. The noise is 0 at lattice points and its forms
+//! lean on the lattice's axes; so that octaves do not do it together, each one's lattice is turned by the
+//! angle of the 3-4-5 triangle against the one before and moved by a random part of its step.
 //!
-//! Noise is within [-1, 1]: at the middle of a square the four planes add up to at most 3/4 for these gradients,
-//! nowhere to more, and gradients are scaled by 4/3. Its variance is [`VARIANCE`].
+//! Noise is within [-1, 1]: at the middle of a square the four planes add up to at most 3/4 for these
+//! gradients, nowhere to more, and gradients are scaled by 4/3. Its variance is [`VARIANCE`].
 //!
-//! A place on the turned lattice is the sum of one part that depends on the column and one that depends on the row,
-//! each a whole number and a fraction ([`Axis`]), so that far from the origin nothing is lost. A shader that is given
-//! these tables makes the same bits.
+//! A place on the turned lattice is the sum of one part that depends on the column and one that depends on
+//! the row, each a whole number and a fraction ([`Axis`]), so that far from the origin nothing is lost. A
+//! shader that is given these tables makes the same bits.
 
 use super::hash::{EAST, Plane, SOUTH};
 use crate::random::{splitmix64, unit};
@@ -50,8 +50,8 @@ struct Axis {
 }
 
 impl Axis {
-    /// Cell `k` lies at `(first + k + 1/2) * step + shift` in both directions. Lattice points are counted in 32 bits
-    /// and repeat after 2^32.
+    /// Cell `k` lies at `(first + k + 1/2) * step + shift` in both directions. Lattice points are counted in
+    /// 32 bits and repeat after 2^32.
     fn new(first: i64, count: usize, step: [f64; 2], shift: [f64; 2]) -> Self {
         let places =
             |k: usize| (0..count).map(move |n| ((first + n as i64) as f64 + 0.5) * step[k] + shift[k]);
@@ -62,9 +62,7 @@ impl Axis {
             rest: [0, 1].map(|k| places(k).map(rest).collect()),
         }
     }
-}
 
-impl Axis {
     #[inline(always)]
     fn first(&self, count: usize) -> ([&[i32]; 2], [&[f32]; 2]) {
         ([0, 1].map(|k| &self.whole[k][..count]), [0, 1].map(|k| &self.rest[k][..count]))
@@ -158,8 +156,8 @@ fn carried(whole: i32, way: f32) -> (i32, f32) {
 /// The lattice point before a place that is `way` steps beyond `whole`, and the way from there.
 #[inline(always)]
 fn stepped(whole: i32, way: f32) -> (i32, f32) {
-    // Adding 1.5 × 2^23 leaves no bits for a fraction, so the sum's last bits count whole steps. A cast to `i32` would
-    // saturate, which the compiler does not vectorise.
+    // Adding 1.5 × 2^23 leaves no bits for a fraction, so the sum's last bits count whole steps. A cast to
+    // `i32` would saturate, which the compiler does not vectorise.
     const ROUND: f32 = 12_582_912.0;
     let way = way.clamp(-4_000_000.0, 4_000_000.0);
     let nearest = way + ROUND;
@@ -211,7 +209,7 @@ mod tests {
     }
 
     fn filled(window: &Window, wavelength: f64, seed: u64) -> Vec<f32> {
-        let octave = Octave::new(window, wavelength, seed, 0);
+        let octave = Octave::new(window, wavelength, seed, 2);
         let mut out = vec![0.0; window.count[0] * window.count[1]];
         for (y, row) in out.chunks_exact_mut(window.count[0]).enumerate() {
             octave.add_row(y, 1.0, row);

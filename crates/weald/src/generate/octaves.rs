@@ -1,7 +1,7 @@
 //! The sum of noise at shrinking wavelengths that `fbm`, `ridged` and `warp` share.
 //!
-//! Octave `k` has wavelength `λ / lacunarity^k` and amplitude `gain^k`. All lengths are in metres, so a recipe
-//! makes the same ground at any resolution.
+//! Octave `k` has wavelength `λ / lacunarity^k` and amplitude `gain^k`. All lengths are in metres, so a
+//! recipe makes the same ground at any resolution.
 
 use rayon::prelude::*;
 
@@ -59,8 +59,8 @@ pub fn window(domain: &Domain) -> Window {
 /// Rows that one task makes.
 const ROWS_A_TASK: usize = 16;
 
-/// Makes a field row by row on all threads, in the widest vectors of the machine. `row` is given the number of
-/// the row and its cells, all 0.
+/// Makes a field row by row on all threads, in the widest vectors of the machine. `row` is given the number
+/// of the row and its cells, all 0.
 pub fn fill_rows<R>(domain: &Domain, row: R) -> Field
 where
     R: Fn(usize, &mut [f32]) + Sync,

@@ -5,8 +5,8 @@
 //! z(p) = fbm(p + strength wavelength (a(p), b(p)))
 //! ```
 //!
-//! with `a` and `b` sums of noise of the first [`WARP_OCTAVES`] wavelengths and standard deviation 1. Quilez 2002,
-//! "Domain warping"; Ebert et al., "Texturing and Modeling", 3rd ed. 2003. Heights are scaled as in
+//! with `a` and `b` sums of noise of the first [`WARP_OCTAVES`] wavelengths and standard deviation 1. Quilez
+//! 2002, "Domain warping"; Ebert et al., "Texturing and Modeling", 3rd ed. 2003. Heights are scaled as in
 //! [`fbm`](super::fbm).
 
 use super::Generator;
