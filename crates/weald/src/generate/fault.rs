@@ -263,16 +263,15 @@ mod tests {
     }
 
     #[test]
-    fn a_point_on_a_line_goes_down() {
-        let line = Line { start: [1, 1], along: [2, 2], steps: 1 };
-        let size = Size::square(5).expect("small");
-        let mut rows = vec![0.0; 25];
-        fill_band(&Edges::of(&[line], size.columns), 0, &mut rows, 1.0);
-        for y in 0..5 {
-            for x in 0..5 {
-                let expected = if line.side(x, y) > 0 { 1.0 } else { -1.0 };
-                assert_eq!(rows[(y * 5 + x) as usize], expected, "at {x}, {y}");
-                assert_eq!(x == y, line.side(x, y) == 0);
+    fn a_point_on_a_line_goes_down_whichever_way_the_line_runs() {
+        for along in [[2, 2], [-2, -2], [3, 0], [-3, 0], [0, 2], [0, -2], [2, -1], [-1, 2]] {
+            let line = Line { start: [2, 2], along, steps: 1 };
+            let mut heights = vec![0.0; 25];
+            fill_band(&Edges::of(&[line], 5), 0, &mut heights, 1.0);
+            assert_eq!(heights[2 * 5 + 2], -1.0, "the point that the line starts from");
+            for (place, height) in (0..).zip(heights) {
+                let up = line.side(place % 5, place / 5) > 0;
+                assert_eq!(height, if up { 1.0 } else { -1.0 }, "{along:?} at {place}");
             }
         }
     }
