@@ -19,7 +19,7 @@
 //! gradients, nowhere to more, and gradients are scaled by 4/3. Its variance is [`VARIANCE`].
 //!
 //! A place on the turned lattice is the sum of one part that depends on the column and one that depends on
-//! the row, each a whole number and a fraction ([`Axis`]), so that far from the origin nothing is lost. A
+//! the row, each a whole number and a fraction (`Axis`), so that far from the origin nothing is lost. A
 //! shader that is given these tables makes the same bits.
 
 use super::hash::{EAST, Plane, SOUTH};
