@@ -1,12 +1,12 @@
-//! Kernels in the widest vectors of the machine: one source, compiled for several instruction sets, chosen at run
-//! time. No operation is fused or reordered, so the bits are the same for each.
+//! Kernels in the widest vectors of the machine: one source, compiled for several instruction sets, chosen at
+//! run time. No operation is fused or reordered, so the bits are the same for each.
 
 use pulp::{Arch, Simd, WithSimd};
 
 /// Runs a kernel compiled for AVX-512, AVX2 or the base instructions, whichever the machine has.
 ///
-/// The closure must be marked `#[inline(always)]`, and so must every function it calls in its inner loops: what is
-/// not inlined is compiled for the base instructions alone.
+/// The closure must be marked `#[inline(always)]`, and so must every function it calls in its inner loops:
+/// what is not inlined is compiled for the base instructions alone.
 #[inline(always)]
 pub fn widest(kernel: impl FnMut()) {
     Arch::new().dispatch(Kernel(kernel));

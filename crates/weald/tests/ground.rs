@@ -1,4 +1,5 @@
-//! Generators: the same bits on any number of threads, the same ground at any resolution, no preferred direction.
+//! Generators: the same bits on any number of threads, the same ground at any resolution, no preferred
+//! direction.
 
 use proptest::prelude::*;
 use weald::engine::Job;
@@ -95,7 +96,7 @@ fn relief_is_about_what_a_landscape_of_some_wavelengths_spans() {
     for seed in 0..6 {
         for noise in [&Fbm::default() as &dyn Generator, &Warp::default()] {
             let (low, high) = filled(noise, &domain(256, 256, 60.0), seed).range(None).expect("cells");
-            assert!((700.0..1350.0).contains(&(high - low)), "{noise:?}, seed {seed}: {low} to {high}");
+            assert!((600.0..1250.0).contains(&(high - low)), "{noise:?}, seed {seed}: {low} to {high}");
         }
         let (low, high) =
             filled(&Ridged::default(), &domain(256, 256, 60.0), seed).range(None).expect("cells");
@@ -156,8 +157,8 @@ fn fbm_faces_all_directions_alike() {
 
 #[test]
 fn gain_sets_how_height_differences_grow_with_distance() {
-    // Halving wavelengths with gain 2^-H gives differences that grow like distance^H, between the shortest and
-    // the longest wavelength.
+    // Halving wavelengths with gain 2^-H gives differences that grow like distance^H, between the shortest
+    // and the longest wavelength.
     for (gain, exponent) in [(0.5_f64.powf(0.5), 0.5), (0.5_f64.powf(0.8), 0.8)] {
         let ground = Fbm { gain, octaves: 12, wavelength: 4096.0, ..Fbm::default() };
         let field = filled(&ground, &domain(1024, 400, 4.0), 2);
@@ -206,7 +207,7 @@ proptest! {
         let fbm = Fbm { wavelength, octaves, gain, lacunarity, ..Fbm::default() };
         let warp = Warp { wavelength, octaves, gain, lacunarity, strength, ..Warp::default() };
         // A sum of n octaves is at most sqrt(n) / sqrt(variance of one) standard deviations from its mean.
-        let bound = 500.0 + 1000.0 / 5.0 * f64::from(octaves).sqrt() / 0.297;
+        let bound = 500.0 + 1000.0 / 6.0 * f64::from(octaves).sqrt() / 0.297;
         for noise in [&fbm as &dyn Generator, &warp] {
             let (low, high) = filled(noise, &domain, seed).range(None).expect("cells");
             prop_assert!(f64::from(low) >= 999.0 - bound && f64::from(high) <= bound + 1.0, "{low} to {high}");

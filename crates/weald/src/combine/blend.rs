@@ -1,4 +1,5 @@
-//! Blends two layers by a mask: `(1 - mask) layer + mask with`. A mask outside 0 to 1 counts as its nearer end.
+//! Blends two layers by a mask: `(1 - mask) layer + mask with`. A mask outside 0 to 1 counts as its nearer
+//! end.
 
 use super::{store, written};
 use crate::engine::Job;

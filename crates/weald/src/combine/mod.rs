@@ -17,8 +17,8 @@ use crate::grid::Field;
 use crate::landscape::Landscape;
 use crate::recipe::parameter::LayerName;
 
-/// What [`Step::writes`](crate::step::Step::writes) says where the unit is that of the layer read, which is known
-/// only when the step runs.
+/// What [`Step::writes`](crate::step::Step::writes) says where the unit is that of the layer read, which is
+/// known only when the step runs.
 pub const UNIT_OF_INPUT: &str = "unit of `layer`";
 
 /// Cells a task works on; results do not depend on it.

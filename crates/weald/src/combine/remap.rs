@@ -31,7 +31,8 @@ parameters! {
         clamp: bool = true;
         /// Exponent of the way from low to high: above 1 lowers the middle, below 1 lifts it.
         gamma: f64 = 1.0, range 0.01..=100.0;
-        /// Heights of a curve at even steps from 0 to 1, joined by lines: `[0, 0, 1]` cuts off the lower half.
+        /// Heights of a curve at even steps from 0 to 1, joined by lines: `[0, 0, 1]` cuts off the lower
+        /// half.
         curve: Vec<f64> = Vec::new(), range 0.0..=1.0;
         /// Layer that is written. Without it, `layer`.
         into: Option<LayerName> = None;

@@ -1,10 +1,11 @@
 //! Brings the whole landscape to another number of cells over the same ground.
 //!
-//! Finer: Catmull-Rom interpolation (Catmull and Rom 1974; Keys 1981 with a = -1/2, doi 10.1109/TASSP.1981.1163711)
-//! through the centres of sixteen cells, kept between the lowest and the highest of them. Next to no-data or the edge
-//! of the grid, where sixteen cells with data do not exist, the mean of the nearest four with data by their
-//! bilinear weights. Coarser: the mean over the part of each old cell that lies in the new one, again of cells with
-//! data. So no value leaves the range of the cells around it: depths stay positive, masks within 0 to 1.
+//! Finer: Catmull-Rom interpolation (Catmull and Rom 1974; Keys 1981 with a = -1/2, doi
+//! 10.1109/TASSP.1981.1163711) through the centres of sixteen cells, kept between the lowest and the highest
+//! of them. Next to no-data or the edge of the grid, where sixteen cells with data do not exist, the mean of
+//! the nearest four with data by their bilinear weights. Coarser: the mean over the part of each old cell
+//! that lies in the new one, again of cells with data. So no value leaves the range of the cells around it:
+//! depths stay positive, masks within 0 to 1.
 //!
 //! A fine cell has data where the old cell under its centre has; a coarse one where half of its area has.
 

@@ -4,9 +4,9 @@
 //! v'(p) = Σ g(|p - q|) v(q) / Σ g(|p - q|)        over cells q with data, g(r) = exp(-r² / 2 radius²)
 //! ```
 //!
-//! The sum ends at three radii. Dividing by the weights of the cells that take part keeps level ground level at the
-//! edges of the grid and of the data ("normalised convolution", Knutsson and Westin 1993,
-//! doi 10.1109/CVPR.1993.341081).
+//! The sum ends at three radii. Dividing by the weights of the cells that take part keeps level ground level
+//! at the edges of the grid and of the data ("normalised convolution", Knutsson and Westin 1993, doi
+//! 10.1109/CVPR.1993.341081).
 
 use rayon::prelude::*;
 

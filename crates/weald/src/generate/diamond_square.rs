@@ -1,8 +1,8 @@
 //! Diamond-square: midpoint displacement on a square lattice that doubles at every level.
 //!
-//! From a lattice of step `s` the centre of each square becomes the mean of its four corners (diamond step), then
-//! the middle of each edge the mean of its two ends and the two centres beside it (square step; at the border the
-//! mean of three), each plus a random number in `±a_l`. Level `l` counts from 0 and
+//! From a lattice of step `s` the centre of each square becomes the mean of its four corners (diamond step),
+//! then the middle of each edge the mean of its two ends and the two centres beside it (square step; at the
+//! border the mean of three), each plus a random number in `±a_l`. Level `l` counts from 0 and
 //!
 //! ```text
 //! a_l = 2^(-H l)      H = `roughness`; corners are random in ±1
@@ -10,14 +10,14 @@
 //!
 //! Fournier, Fussell, Carpenter 1982, doi 10.1145/358523.358553; Miller 1986, doi 10.1145/15922.15899.
 //!
-//! What differs: the random numbers are hashes of (seed, level, place), so the order of points does not matter
-//! and a lattice twice as fine has the same large shapes. The lattice has `2^m + 1` points a side, the least that
-//! covers the landscape, and only the part under the landscape is computed: each level is a window of the level
-//! below it, kept as rows without gaps.
+//! What differs: the random numbers are hashes of (seed, level, place), so the order of points does not
+//! matter and a lattice twice as fine has the same large shapes. The lattice has `2^m + 1` points a side, the
+//! least that covers the landscape, and only the part under the landscape is computed: each level is a window
+//! of the level below it, kept as rows without gaps.
 
 use rayon::prelude::*;
 
-use super::hash::{Plane, RowKey};
+use super::hash::Plane;
 use super::{Generator, relief};
 use crate::domain::Domain;
 use crate::error::Error;
@@ -86,7 +86,8 @@ fn windows(size: Size, levels: u32) -> Vec<Size> {
     let mut windows = vec![size];
     for level in (0..levels).rev() {
         let finer = windows[windows.len() - 1];
-        // The last row's edges need the centres beyond it, and these the next coarse row, unless the lattice ends.
+        // The last row's edges need the centres beyond it, and these the next coarse row, unless the lattice
+        // ends.
         let coarser = |points: usize| ((points - 1) / 2 + 2).min((1 << level) + 1);
         windows.push(Size { columns: coarser(finer.columns), rows: coarser(finer.rows) });
     }
@@ -96,7 +97,7 @@ fn windows(size: Size, levels: u32) -> Vec<Size> {
 
 fn corners(window: Size, seed: u64) -> Field {
     let random = Plane::new(seed, 0);
-    Field::from_function(window, |x, y| random.row(y as i32).signed(x as i32))
+    Field::from_function(window, |x, y| random.signed(x as i32, y as i32))
 }
 
 /// Pairs of rows that one task makes. The first of them repeats one row of centres of the task above.
@@ -152,27 +153,25 @@ impl Refinement {
     /// Centres of the squares between coarse rows `y` and `y + 1`.
     #[inline(always)]
     fn centres(&self, coarse: &Field, y: usize, centres: &mut [f32]) {
-        let key = self.random.row(2 * y as i32 + 1);
         let count = centres.len();
         let [north, south] = [coarse.row(y), coarse.row(y + 1)];
         let (north_east, south_east) = (&north[1..][..count], &south[1..][..count]);
         for x in 0..count {
             let mean = ((north[x] + north_east[x]) + (south[x] + south_east[x])) * 0.25;
-            centres[x] = mean + self.offset(key, 2 * x + 1);
+            centres[x] = mean + self.offset(2 * x + 1, 2 * y + 1);
         }
     }
 
     /// Coarse points in even columns, middles of their edges in odd ones. Beyond the border `beside` is 0.
     #[inline(always)]
     fn even_row(&self, y: usize, coarse: &[f32], beside: [&[f32]; 2], row: &mut [f32]) {
-        let key = self.random.row(y as i32);
         let share = if y == 0 || y == self.side { 1.0 / 3.0 } else { 0.25 };
         let (pairs, last) = row.as_chunks_mut::<2>();
         let count = pairs.len();
         let (east, [above, below]) = (&coarse[1..][..count], beside.map(|centres| &centres[..count]));
         for (x, pair) in pairs.iter_mut().enumerate() {
             let mean = ((coarse[x] + east[x]) + (above[x] + below[x])) * share;
-            *pair = [coarse[x], mean + self.offset(key, 2 * x + 1)];
+            *pair = [coarse[x], mean + self.offset(2 * x + 1, y)];
         }
         if let [last] = last {
             *last = coarse[count];
@@ -182,10 +181,9 @@ impl Refinement {
     /// Middles of edges in even columns, centres in odd ones.
     #[inline(always)]
     fn odd_row(&self, y: usize, coarse: [&[f32]; 2], centres: &[f32], row: &mut [f32]) {
-        let key = self.random.row(y as i32);
         let [north, south] = coarse;
         let middle = |x: usize, west: f32, east: f32, share: f32| {
-            ((north[x] + south[x]) + (west + east)) * share + self.offset(key, 2 * x)
+            ((north[x] + south[x]) + (west + east)) * share + self.offset(2 * x, y)
         };
         let (pairs, last) = row.as_chunks_mut::<2>();
         let count = pairs.len();
@@ -206,8 +204,8 @@ impl Refinement {
     }
 
     #[inline(always)]
-    fn offset(&self, key: RowKey, column: usize) -> f32 {
-        key.signed(column as i32) * self.amplitude
+    fn offset(&self, column: usize, row: usize) -> f32 {
+        self.random.signed(column as i32, row as i32) * self.amplitude
     }
 }
 
@@ -229,14 +227,14 @@ mod tests {
         let side = 1_usize << levels;
         let mut z = vec![vec![0.0_f32; side + 1]; side + 1];
         for (x, y) in [(0, 0), (1, 0), (0, 1), (1, 1)] {
-            z[y * side][x * side] = Plane::new(seed, 0).row(y as i32).signed(x as i32);
+            z[y * side][x * side] = Plane::new(seed, 0).signed(x as i32, y as i32);
         }
         for level in 0..levels {
             let half = side >> (level + 1);
             let amplitude = libm::exp2(-roughness * f64::from(level)) as f32;
             let random = |x: usize, y: usize| {
-                let key = Plane::new(seed, u64::from(level) + 1).row((y / half) as i32);
-                key.signed((x / half) as i32) * amplitude
+                Plane::new(seed, u64::from(level) + 1).signed((x / half) as i32, (y / half) as i32)
+                    * amplitude
             };
             for (y, x) in places(side, half).filter(|(y, x)| y % (2 * half) != 0 && x % (2 * half) != 0) {
                 let corners = (z[y - half][x - half] + z[y - half][x + half])

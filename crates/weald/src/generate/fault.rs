@@ -8,13 +8,13 @@
 //! ```
 //!
 //! so points on the line go down and the last fault has size 0. The method is common in games (see the OGLDEV
-//! tutorial "Fault Formation Terrain"). Lines come from [`Minstd`]: each fault seeds its own generator with the
-//! next number of the run's and takes `p0.x`, `p0.y`, `p1.x`, `p1.y` modulo the size, again if the points are
-//! equal.
+//! tutorial "Fault Formation Terrain"). Lines come from [`Minstd`]: each fault seeds its own generator with
+//! the next number of the run's and takes `p0.x`, `p0.y`, `p1.x`, `p1.y` modulo the size, again if the points
+//! are equal.
 //!
-//! What differs: in one row each fault is a single step, so a row costs one addition a fault and one prefix sum
-//! instead of a comparison for every fault and cell. Steps are counted in units of `scale / n`, which are whole
-//! numbers, so the sum is exact and its order does not matter.
+//! What differs: in one row each fault is a single step, so a row costs one addition a fault and one prefix
+//! sum instead of a comparison for every fault and cell. Steps are counted in units of `scale / n`, which are
+//! whole numbers, so the sum is exact and its order does not matter.
 
 use rayon::prelude::*;
 
@@ -42,11 +42,11 @@ parameters! {
         /// Number of faults. The last one has size 0, so 1 gives a flat map.
         // At 65,536 the largest possible sum of steps still fits in 32 bits.
         iterations: u32 = 200, range 1..=65_536;
-        /// Height by which the first fault would move its sides if there were endlessly many; later ones shrink
-        /// evenly to 0.
+        /// Height by which the first fault would move its sides if there were endlessly many; later ones
+        /// shrink evenly to 0.
         scale: f64 = 10.0, range 0.0..=1.0e6, unit "m";
-        /// Height between the lowest and the highest point. Without it heights lie on both sides of 0, at most
-        /// `scale * (iterations - 1) / 2` from it.
+        /// Height between the lowest and the highest point. Without it heights lie on both sides of 0, at
+        /// most `scale * (iterations - 1) / 2` from it.
         relief: Option<f64> = None, range 0.0..=1.0e6, unit "m";
         /// A seed of its own. Without it the landscape's is used, varied for each step.
         seed: Option<u64> = None, range 0..=9_007_199_254_740_991_i64;
@@ -199,10 +199,10 @@ fn fill_band(edges: &Edges, first: usize, band: &mut [f32], unit: f64) {
 
 /// Where each fault crosses a row, and the jump of the ground there.
 ///
-/// Sides of a line are whole numbers, so "above 0" is the same as "above one half", and no cell lies on the line
-/// moved by that half. Along row `y` it is crossed at `slope * y + offset`; rounding up gives the first cell
-/// beyond. The moved crossing stays `0.5 / |dy|` away from every cell, and on the largest grid (sides of 2^20)
-/// the rounding errors are below `2^-11 / |dy|`, so the cell is exact.
+/// Sides of a line are whole numbers, so "above 0" is the same as "above one half", and no cell lies on the
+/// line moved by that half. Along row `y` it is crossed at `slope * y + offset`; rounding up gives the first
+/// cell beyond. The moved crossing stays `0.5 / |dy|` away from every cell, and on the largest grid (sides of
+/// 2^20) the rounding errors are below `2^-11 / |dy|`, so the cell is exact.
 struct Edges {
     slope: Vec<f64>,
     offset: Vec<f64>,
@@ -263,16 +263,15 @@ mod tests {
     }
 
     #[test]
-    fn a_point_on_a_line_goes_down() {
-        let line = Line { start: [1, 1], along: [2, 2], steps: 1 };
-        let size = Size::square(5).expect("small");
-        let mut rows = vec![0.0; 25];
-        fill_band(&Edges::of(&[line], size.columns), 0, &mut rows, 1.0);
-        for y in 0..5 {
-            for x in 0..5 {
-                let expected = if line.side(x, y) > 0 { 1.0 } else { -1.0 };
-                assert_eq!(rows[(y * 5 + x) as usize], expected, "at {x}, {y}");
-                assert_eq!(x == y, line.side(x, y) == 0);
+    fn a_point_on_a_line_goes_down_whichever_way_the_line_runs() {
+        for along in [[2, 2], [-2, -2], [3, 0], [-3, 0], [0, 2], [0, -2], [2, -1], [-1, 2]] {
+            let line = Line { start: [2, 2], along, steps: 1 };
+            let mut heights = vec![0.0; 25];
+            fill_band(&Edges::of(&[line], 5), 0, &mut heights, 1.0);
+            assert_eq!(heights[2 * 5 + 2], -1.0, "the point that the line starts from");
+            for (place, height) in (0..).zip(heights) {
+                let up = line.side(place % 5, place / 5) > 0;
+                assert_eq!(height, if up { 1.0 } else { -1.0 }, "{along:?} at {place}");
             }
         }
     }

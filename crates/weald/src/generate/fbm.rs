@@ -1,12 +1,12 @@
 //! Fractional Brownian motion: noise at shrinking wavelengths, added.
 //!
 //! ```text
-//! z = relief (1/2 + Σ gain^k n(p lacunarity^k / wavelength) / (5 σ))
+//! z = relief (1/2 + Σ gain^k n(p lacunarity^k / wavelength) / (6 σ))
 //! ```
 //!
-//! where `σ` is the standard deviation of the sum, a number that follows from the octaves alone. So `relief` is
-//! not stretched to each landscape's own extremes: it is five standard deviations, about what a landscape of some
-//! wavelengths spans, and the same ground comes at any size and resolution.
+//! where `σ` is the standard deviation of the sum, a number that follows from the octaves alone. So `relief`
+//! is not stretched to each landscape's own extremes: it is six standard deviations, about what a landscape
+//! of some wavelengths spans, and the same ground comes at any size and resolution.
 //!
 //! Mandelbrot and Van Ness 1968, doi 10.1137/1010093; Musgrave, Kolb, Mace 1989, doi 10.1145/74333.74337.
 
@@ -28,12 +28,12 @@ pub const ENTRY: Entry = Entry::of::<Fbm>(
 );
 
 /// Standard deviations that stand for the whole relief.
-pub const DEVIATIONS: f64 = 5.0;
+pub const DEVIATIONS: f64 = 6.0;
 
 parameters! {
     /// Fractional Brownian motion.
     pub struct Fbm {
-        /// Height that a landscape of some wavelengths spans: five standard deviations, around a mean of half.
+        /// Height that a landscape of some wavelengths spans: six standard deviations, around a mean of half.
         relief: f64 = 1000.0, range 0.0..=1.0e6, unit "m";
         /// Length of the largest hills and valleys.
         wavelength: f64 = 5000.0, range 1.0e-3..=1.0e9, unit "m";
@@ -59,9 +59,9 @@ impl Generator for Fbm {
         Ok(fill_rows(
             domain,
             #[inline(always)]
-            |y, row, scratch| {
+            |y, row| {
                 for (octave, amplitude) in &octaves {
-                    octave.add_row(y, *amplitude, row, scratch);
+                    octave.add_row(y, *amplitude, row);
                 }
                 for value in row {
                     *value = middle + scale * *value;

@@ -1,7 +1,7 @@
 //! Gradient noise on a square lattice, row by row.
 //!
-//! Each lattice point holds a gradient `g` from a hash of (seed, octave, point). Between four points the noise is
-//! the quintic blend of the four planes through them:
+//! Each lattice point holds a gradient `g` from a hash of (seed, octave, point). Between four points the
+//! noise is the quintic blend of the four planes through them:
 //!
 //! ```text
 //! n(p) = Σ w(dx) w(dy) g · (p - corner)        w = 1 - f, f(t) = t³ (6 t² - 15 t + 10)
@@ -10,27 +10,24 @@
 //! Perlin 1985, doi 10.1145/325165.325247, and 2002, doi 10.1145/566654.566636.
 //!
 //! What differs: the direction of a gradient is a whole 32-bit hash, not one of a few, so no direction is
-//! preferred; it comes from the parabola `4 t (1 - |t|)` in place of sine and cosine (lengths 1 to 1.061), so that
-//! additions and multiplications alone give the bits. Every lattice is moved by a random part of its step, since
-//! the noise is 0 at lattice points and octaves would be so at the same places.
+//! preferred; it comes from the parabola `4 t (1 - |t|)` in place of sine and cosine (lengths 1 to 1.061), so
+//! that additions and multiplications alone give the bits. The noise is 0 at lattice points and its forms
+//! lean on the lattice's axes; so that octaves do not do it together, each one's lattice is turned by the
+//! angle of the 3-4-5 triangle against the one before and moved by a random part of its step.
 //!
-//! Noise is within [-1, 1]: at the middle of a square the four planes add up to at most 3/4 for these gradients,
-//! nowhere to more, and gradients are scaled by 4/3. Its variance is [`VARIANCE`].
+//! Noise is within [-1, 1]: at the middle of a square the four planes add up to at most 3/4 for these
+//! gradients, nowhere to more, and gradients are scaled by 4/3. Its variance is [`VARIANCE`].
 //!
-//! A row of cells has one lattice row and one `dy`. There the two gradients of a lattice column come down to one
-//! line `slope * dx + rise`, and a cell is the blend of two lines. Wide lattice squares take the lines from a
-//! table; narrow ones compute them for every cell, in full-width vectors. Both do the same operations on the same
-//! numbers, and so does a shader that is given the tables of [`Axis`].
+//! A place on the turned lattice is the sum of one part that depends on the column and one that depends on
+//! the row, each a whole number and a fraction (`Axis`), so that far from the origin nothing is lost. A
+//! shader that is given these tables makes the same bits.
 
-use super::hash::{Plane, RowKey};
+use super::hash::{EAST, Plane, SOUTH};
 use crate::random::{splitmix64, unit};
 
 /// Mean of the noise squared over all places and hashes: `8 E[g_x²] ∫w² ∫w²x²` over the unit interval, with
 /// `E[g_x²] = (4/3)² 8/15`.
 pub const VARIANCE: f64 = 0.088_237;
-
-/// Cells a lattice square must span, on average, for a table of lines to pay.
-const WIDE: usize = 24;
 
 /// A window of the endless grid of cells: noise does not know where a landscape ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,29 +40,37 @@ pub struct Window {
     pub cell: f64,
 }
 
-/// Cells along one axis as the lattice of one octave sees them.
+/// What the columns, or the rows, of the grid add to places on the lattice of one octave.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Axis {
-    /// Lattice point before each cell.
-    lattice: Vec<i32>,
-    /// Way from that point to the next, 0 to 1.
-    fraction: Vec<f32>,
-    /// `f(fraction)`.
-    fade: Vec<f32>,
-    /// Numbers of neighbouring cells after the same lattice point.
-    spans: Vec<usize>,
+struct Axis {
+    /// Whole lattice steps along the lattice's own two directions.
+    whole: [Vec<i32>; 2],
+    /// The rest, 0 to 1.
+    rest: [Vec<f32>; 2],
 }
 
 impl Axis {
-    /// Cell `k` lies at `(first + k + 1/2) * step + shift` lattice steps. Lattice points are counted in 32 bits
-    /// and repeat after 2^32.
-    fn new(first: i64, count: usize, step: f64, shift: f64) -> Self {
-        let places = (0..count).map(|k| ((first + k as i64) as f64 + 0.5) * step + shift);
-        let lattice: Vec<i32> = places.clone().map(|place| libm::floor(place) as i64 as i32).collect();
-        let fraction: Vec<f32> = places.map(|place| (place - libm::floor(place)) as f32).collect();
-        let fade = fraction.iter().map(|&t| fade(t)).collect();
-        let spans = lattice.chunk_by(|a, b| a == b).map(<[i32]>::len).collect();
-        Self { lattice, fraction, fade, spans }
+    /// Cell `k` lies at `(first + k + 1/2) * step + shift` in both directions. Lattice points are counted in
+    /// 32 bits and repeat after 2^32.
+    fn new(first: i64, count: usize, step: [f64; 2], shift: [f64; 2]) -> Self {
+        let places =
+            |k: usize| (0..count).map(move |n| ((first + n as i64) as f64 + 0.5) * step[k] + shift[k]);
+        let whole = |place: f64| libm::floor(place) as i64 as i32;
+        let rest = |place: f64| (place - libm::floor(place)) as f32;
+        Self {
+            whole: [0, 1].map(|k| places(k).map(whole).collect()),
+            rest: [0, 1].map(|k| places(k).map(rest).collect()),
+        }
+    }
+
+    #[inline(always)]
+    fn first(&self, count: usize) -> ([&[i32]; 2], [&[f32]; 2]) {
+        ([0, 1].map(|k| &self.whole[k][..count]), [0, 1].map(|k| &self.rest[k][..count]))
+    }
+
+    #[inline(always)]
+    fn at(&self, index: usize) -> ([i32; 2], [f32; 2]) {
+        ([0, 1].map(|k| self.whole[k][index]), [0, 1].map(|k| self.rest[k][index]))
     }
 }
 
@@ -75,117 +80,97 @@ pub struct Octave {
     plane: Plane,
     columns: Axis,
     rows: Axis,
-    /// Lattice steps a metre.
-    frequency: f64,
-}
-
-/// Memory that rows share.
-#[derive(Clone, Debug, Default)]
-pub struct Scratch {
-    lines: Vec<Line>,
-}
-
-/// What a lattice column contributes along one row: `slope * dx + rise`.
-#[derive(Clone, Copy, Debug)]
-struct Line {
-    slope: f32,
-    rise: f32,
+    /// Lattice steps a metre, times the cosine and the sine of the lattice's turn.
+    turn: [f64; 2],
 }
 
 impl Octave {
     /// Octave `index` of a seed: lattice steps of `wavelength` metres.
-    pub fn new(window: &Window, wavelength: f64, seed: u64, index: u64) -> Self {
-        let step = window.cell / wavelength;
-        let shift = |axis: u64| unit(splitmix64(splitmix64(seed ^ index.rotate_left(32)) ^ axis));
-        let axis = |k: usize| Axis::new(window.first[k], window.count[k], step, shift(k as u64));
-        Self { plane: Plane::new(seed, index), columns: axis(0), rows: axis(1), frequency: 1.0 / wavelength }
+    pub fn new(window: &Window, wavelength: f64, seed: u64, index: u32) -> Self {
+        let turn = turned(index).map(|part| part / wavelength);
+        let [cos, sin] = turn.map(|part| part * window.cell);
+        let bits = splitmix64(seed ^ u64::from(index).rotate_left(32));
+        let shift = [1, 2].map(|direction| unit(splitmix64(bits ^ direction)));
+        let columns = Axis::new(window.first[0], window.count[0], [cos, sin], shift);
+        let rows = Axis::new(window.first[1], window.count[1], [-sin, cos], [0.0, 0.0]);
+        Self { plane: Plane::new(seed, u64::from(index)), columns, rows, turn }
     }
 
     /// Adds `amplitude` times the noise of row `y` to `out`.
     #[inline(always)]
-    pub fn add_row(&self, y: usize, amplitude: f32, out: &mut [f32], scratch: &mut Scratch) {
-        let row = self.row(y);
-        let squares = self.columns.spans.len();
-        if squares * WIDE > out.len() {
-            return self.add_narrow(&row, amplitude, out);
+    pub fn add_row(&self, y: usize, amplitude: f32, out: &mut [f32]) {
+        let count = out.len();
+        let ([whole_u, whole_v], [rest_u, rest_v]) = self.columns.first(count);
+        let (whole, rest) = self.rows.at(y);
+        for x in 0..count {
+            let u = carried(whole_u[x].wrapping_add(whole[0]), rest_u[x] + rest[0]);
+            let v = carried(whole_v[x].wrapping_add(whole[1]), rest_v[x] + rest[1]);
+            out[x] += amplitude * self.noise(u, v);
         }
-        let first = self.columns.lattice[0];
-        scratch.lines.clear();
-        scratch.lines.extend((0..=squares).map(|k| row.line(first.wrapping_add(k as i32))));
-        self.add_wide(&scratch.lines, amplitude, out);
     }
 
     /// As [`Octave::add_row`], with every cell looked up `dx`, `dy` metres away from its place.
     #[inline(always)]
     pub fn add_displaced_row(&self, y: usize, amplitude: f32, [dx, dy]: [&[f32]; 2], out: &mut [f32]) {
-        let Axis { lattice, fraction, .. } = &self.columns;
-        let (row, along) = (self.rows.lattice[y], self.rows.fraction[y]);
-        let frequency = self.frequency as f32;
         let count = out.len();
-        let (lattice, fraction, dx, dy) = (&lattice[..count], &fraction[..count], &dx[..count], &dy[..count]);
+        let ([whole_u, whole_v], [rest_u, rest_v]) = self.columns.first(count);
+        let (whole, rest) = self.rows.at(y);
+        let ([cos, sin], dx, dy) = (self.turn.map(|part| part as f32), &dx[..count], &dy[..count]);
         for x in 0..count {
-            let (column, to_x) = moved(lattice[x], fraction[x] + dx[x] * frequency);
-            let (row, to_y) = moved(row, along + dy[x] * frequency);
-            let row = self.lattice_row(row, to_y, fade(to_y));
-            out[x] += amplitude * blend(row.line(column), row.line(column.wrapping_add(1)), to_x, fade(to_x));
+            let (du, dv) = (cos * dx[x] - sin * dy[x], sin * dx[x] + cos * dy[x]);
+            let u = stepped(whole_u[x].wrapping_add(whole[0]), rest_u[x] + rest[0] + du);
+            let v = stepped(whole_v[x].wrapping_add(whole[1]), rest_v[x] + rest[1] + dv);
+            out[x] += amplitude * self.noise(u, v);
         }
     }
 
     #[inline(always)]
-    fn row(&self, y: usize) -> LatticeRow {
-        self.lattice_row(self.rows.lattice[y], self.rows.fraction[y], self.rows.fade[y])
+    fn noise(&self, (column, x): (i32, f32), (row, y): (i32, f32)) -> f32 {
+        let north_west = self.plane.point(column, row);
+        let south_west = north_west.wrapping_add(SOUTH);
+        let share = fade(x);
+        let north =
+            mix(self.height(north_west, x, y), self.height(north_west.wrapping_add(EAST), x - 1.0, y), share);
+        let south = mix(
+            self.height(south_west, x, y - 1.0),
+            self.height(south_west.wrapping_add(EAST), x - 1.0, y - 1.0),
+            share,
+        );
+        mix(north, south, fade(y))
     }
 
+    /// Height of the plane through a lattice point, at a place relative to it.
     #[inline(always)]
-    fn lattice_row(&self, row: i32, fraction: f32, fade: f32) -> LatticeRow {
-        LatticeRow { north: self.plane.row(row), south: self.plane.row(row.wrapping_add(1)), fraction, fade }
-    }
-
-    #[inline(always)]
-    fn add_narrow(&self, row: &LatticeRow, amplitude: f32, out: &mut [f32]) {
-        let count = out.len();
-        let Axis { lattice, fraction, fade, .. } = &self.columns;
-        let (lattice, fraction, fade) = (&lattice[..count], &fraction[..count], &fade[..count]);
-        for x in 0..count {
-            let [west, east] = [row.line(lattice[x]), row.line(lattice[x].wrapping_add(1))];
-            out[x] += amplitude * blend(west, east, fraction[x], fade[x]);
-        }
-    }
-
-    #[inline(always)]
-    fn add_wide(&self, lines: &[Line], amplitude: f32, out: &mut [f32]) {
-        let Axis { fraction, fade, spans, .. } = &self.columns;
-        let (mut out, mut fraction, mut fade) = (out, &fraction[..], &fade[..]);
-        for (&count, pair) in spans.iter().zip(lines.windows(2)) {
-            let (cells, rest) = out.split_at_mut(count);
-            for ((cell, &to_x), &fade) in cells.iter_mut().zip(&fraction[..count]).zip(&fade[..count]) {
-                *cell += amplitude * blend(pair[0], pair[1], to_x, fade);
-            }
-            (out, fraction, fade) = (rest, &fraction[count..], &fade[count..]);
-        }
+    fn height(&self, point: u32, x: f32, y: f32) -> f32 {
+        let gradient = gradient(self.plane.bits(point));
+        gradient[0] * x + gradient[1] * y
     }
 }
 
-/// A row of cells between two rows of lattice points.
-struct LatticeRow {
-    north: RowKey,
-    south: RowKey,
-    fraction: f32,
-    fade: f32,
-}
-
-impl LatticeRow {
-    #[inline(always)]
-    fn line(&self, column: i32) -> Line {
-        let [north, south] = [gradient(self.north.bits(column)), gradient(self.south.bits(column))];
-        let (above, below) = (north[1] * self.fraction, south[1] * (self.fraction - 1.0));
-        Line { slope: mix(north[0], south[0], self.fade), rise: mix(above, below, self.fade) }
-    }
-}
-
+/// As [`stepped`] for a `way` from 0 to 2.
 #[inline(always)]
-fn blend(west: Line, east: Line, to_x: f32, fade: f32) -> f32 {
-    mix(west.slope * to_x + west.rise, east.slope * (to_x - 1.0) + east.rise, fade)
+fn carried(whole: i32, way: f32) -> (i32, f32) {
+    if way >= 1.0 { (whole.wrapping_add(1), way - 1.0) } else { (whole, way) }
+}
+
+/// The lattice point before a place that is `way` steps beyond `whole`, and the way from there.
+#[inline(always)]
+fn stepped(whole: i32, way: f32) -> (i32, f32) {
+    // Adding 1.5 × 2^23 leaves no bits for a fraction, so the sum's last bits count whole steps. A cast to
+    // `i32` would saturate, which the compiler does not vectorise.
+    const ROUND: f32 = 12_582_912.0;
+    let way = way.clamp(-4_000_000.0, 4_000_000.0);
+    let nearest = way + ROUND;
+    let rest = way - (nearest - ROUND);
+    let beyond = rest < 0.0;
+    let steps =
+        (nearest.to_bits() as i32).wrapping_sub(ROUND.to_bits() as i32).wrapping_sub(i32::from(beyond));
+    (whole.wrapping_add(steps), if beyond { rest + 1.0 } else { rest })
+}
+
+/// Cosine and sine of `index` turns by the angle of the 3-4-5 triangle, which is no part of a whole turn.
+fn turned(index: u32) -> [f64; 2] {
+    (0..index).fold([1.0, 0.0], |[cos, sin], _| [0.8 * cos - 0.6 * sin, 0.6 * cos + 0.8 * sin])
 }
 
 #[inline(always)]
@@ -198,13 +183,6 @@ fn fade(t: f32) -> f32 {
     t * t * t * (t * (t * 6.0 - 15.0) + 10.0)
 }
 
-/// The lattice point before a place, and the way from there.
-#[inline(always)]
-fn moved(lattice: i32, way: f32) -> (i32, f32) {
-    let whole = way.floor();
-    (lattice.wrapping_add(whole as i32), way - whole)
-}
-
 /// A gradient in a random direction, 4/3 to 1.414 long.
 #[inline(always)]
 fn gradient(bits: u32) -> [f32; 2] {
@@ -212,11 +190,13 @@ fn gradient(bits: u32) -> [f32; 2] {
     [wave(bits.wrapping_add(1 << 30) as i32), wave(bits as i32)]
 }
 
-/// `4/3 sin(π t)` for `t` = `turn` / 2^31, as two parabolas.
+/// `4/3 sin(π t)` for `t` = `turn` / 2^31, as two parabolas: `16/3 t (1 - |t|)`.
 #[inline(always)]
 fn wave(turn: i32) -> f32 {
-    let t = turn as f32 * (1.0 / 2_147_483_648.0);
-    t * (16.0 / 3.0 - 16.0 / 3.0 * t.abs())
+    const HALF_TURN: f32 = 2_147_483_648.0;
+    const RISE: f32 = 16.0 / 3.0 / HALF_TURN;
+    let turn = turn as f32;
+    turn * (RISE - RISE / HALF_TURN * turn.abs())
 }
 
 #[cfg(test)]
@@ -229,26 +209,12 @@ mod tests {
     }
 
     fn filled(window: &Window, wavelength: f64, seed: u64) -> Vec<f32> {
-        let octave = Octave::new(window, wavelength, seed, 0);
+        let octave = Octave::new(window, wavelength, seed, 2);
         let mut out = vec![0.0; window.count[0] * window.count[1]];
         for (y, row) in out.chunks_exact_mut(window.count[0]).enumerate() {
-            octave.add_row(y, 1.0, row, &mut Scratch::default());
+            octave.add_row(y, 1.0, row);
         }
         out
-    }
-
-    #[test]
-    fn a_table_of_lines_gives_the_bits_of_lines_made_for_every_cell() {
-        let window = window([-30, 5], [301, 1], 1.0);
-        for wavelength in [31.0, 45.2, 100.0, 1000.0] {
-            let octave = Octave::new(&window, wavelength, 3, 1);
-            assert!(octave.columns.spans.len() * WIDE <= 301, "the table is used at {wavelength}");
-            let [mut wide, mut narrow] = [vec![0.0; 301], vec![0.0; 301]];
-            octave.add_row(0, 0.7, &mut wide, &mut Scratch::default());
-            octave.add_narrow(&octave.row(0), 0.7, &mut narrow);
-            assert_eq!(wide, narrow);
-            assert!(wide.iter().any(|&value| value.abs() > 0.01));
-        }
     }
 
     #[test]
@@ -257,10 +223,10 @@ mod tests {
         for wavelength in [3.3, 40.0] {
             let octave = Octave::new(&window, wavelength, 3, 1);
             let [mut plain, mut vectors] = [vec![0.0; 97], vec![0.0; 97]];
-            octave.add_row(0, 0.7, &mut plain, &mut Scratch::default());
+            octave.add_row(0, 0.7, &mut plain);
             vectors::widest(
                 #[inline(always)]
-                || octave.add_row(0, 0.7, &mut vectors, &mut Scratch::default()),
+                || octave.add_row(0, 0.7, &mut vectors),
             );
             assert_eq!(plain, vectors);
         }
@@ -271,7 +237,7 @@ mod tests {
         let window = window([0, 0], [64, 1], 1.0);
         let octave = Octave::new(&window, 7.7, 3, 1);
         let [mut plain, mut displaced] = [vec![0.0; 64], vec![0.0; 64]];
-        octave.add_row(0, 1.0, &mut plain, &mut Scratch::default());
+        octave.add_row(0, 1.0, &mut plain);
         octave.add_displaced_row(0, 1.0, [&[0.0; 64], &[0.0; 64]], &mut displaced);
         assert_eq!(plain, displaced);
     }
@@ -281,7 +247,7 @@ mod tests {
         let window = window([0, 0], [64, 9], 1.0);
         let octave = Octave::new(&window, 16.0, 3, 1);
         let [mut there, mut moved] = [vec![0.0; 64], vec![0.0; 64]];
-        octave.add_row(8, 1.0, &mut there, &mut Scratch::default());
+        octave.add_row(8, 1.0, &mut there);
         octave.add_displaced_row(3, 1.0, [&[-7.0; 64], &[5.0; 64]], &mut moved);
         for x in 7..64 {
             assert!((moved[x] - there[x - 7]).abs() < 1e-5, "f32 adds the way in another order");

@@ -1,11 +1,11 @@
 //! The sum of noise at shrinking wavelengths that `fbm`, `ridged` and `warp` share.
 //!
-//! Octave `k` has wavelength `λ / lacunarity^k` and amplitude `gain^k`. All lengths are in metres, so a recipe
-//! makes the same ground at any resolution.
+//! Octave `k` has wavelength `λ / lacunarity^k` and amplitude `gain^k`. All lengths are in metres, so a
+//! recipe makes the same ground at any resolution.
 
 use rayon::prelude::*;
 
-use super::noise::{Octave, Scratch, VARIANCE, Window};
+use super::noise::{Octave, VARIANCE, Window};
 use crate::domain::Domain;
 use crate::grid::Field;
 use crate::vectors;
@@ -28,7 +28,7 @@ impl Spectrum {
     pub fn over(&self, window: &Window, seed: u64) -> Vec<(Octave, f32)> {
         let (mut wavelength, mut amplitude) = (self.wavelength, 1.0);
         let octave = |index: u32| {
-            let made = (Octave::new(window, wavelength, seed, u64::from(index)), amplitude as f32);
+            let made = (Octave::new(window, wavelength, seed, index), amplitude as f32);
             wavelength /= self.lacunarity;
             amplitude *= self.gain;
             made
@@ -59,22 +59,21 @@ pub fn window(domain: &Domain) -> Window {
 /// Rows that one task makes.
 const ROWS_A_TASK: usize = 16;
 
-/// Makes a field row by row on all threads, in the widest vectors of the machine. `row` is given the number of
-/// the row, its cells, all 0, and memory it may use.
+/// Makes a field row by row on all threads, in the widest vectors of the machine. `row` is given the number
+/// of the row and its cells, all 0.
 pub fn fill_rows<R>(domain: &Domain, row: R) -> Field
 where
-    R: Fn(usize, &mut [f32], &mut Scratch) + Sync,
+    R: Fn(usize, &mut [f32]) + Sync,
 {
     let columns = domain.size.columns;
     let mut field = Field::filled(domain.size, 0.0);
     field.values_mut().par_chunks_mut(columns * ROWS_A_TASK).enumerate().for_each(|(task, band)| {
-        let mut scratch = Scratch::default();
         let row = &row;
         vectors::widest(
             #[inline(always)]
             || {
                 for (y, cells) in (task * ROWS_A_TASK..).zip(band.chunks_exact_mut(columns)) {
-                    row(y, cells, &mut scratch);
+                    row(y, cells);
                 }
             },
         );

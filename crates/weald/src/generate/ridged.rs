@@ -1,13 +1,13 @@
-//! Ridged multifractal: noise folded at 0, so that its zero lines become crests; an octave shows where the one
-//! before is high, so that crests are rough and valleys smooth.
+//! Ridged multifractal: noise folded at 0, so that its zero lines become crests; an octave shows where the
+//! one before is high, so that crests are rough and valleys smooth.
 //!
 //! ```text
 //! s_k = w_k (1 - |n_k|)²     w_0 = 1, w_k = clamp(sharpness s_{k-1}, 0, 1)     z = relief Σ gain^k s_k / Σ gain^k
 //! ```
 //!
-//! Musgrave, in Ebert et al., "Texturing and Modeling", 3rd ed. 2003, chapter 16 (`RidgedMultifractal`, offset 1).
-//! Heights lie between 0 and `relief` by construction. What differs: amplitudes are given by `gain` in place of
-//! the exponent `H`, as for `fbm`.
+//! Musgrave, in Ebert et al., "Texturing and Modeling", 3rd ed. 2003, chapter 16 (`RidgedMultifractal`,
+//! offset 1). Heights lie between 0 and `relief` by construction. What differs: amplitudes are given by
+//! `gain` in place of the exponent `H`, as for `fbm`.
 
 use super::Generator;
 use super::octaves::{Spectrum, fill_rows, window};
@@ -59,12 +59,12 @@ impl Generator for Ridged {
         Ok(fill_rows(
             domain,
             #[inline(always)]
-            |y, row, scratch| {
+            |y, row| {
                 let mut weight = vec![1.0; columns];
                 let mut noise = vec![0.0; columns];
                 for (octave, amplitude) in &octaves {
                     noise.fill(0.0);
-                    octave.add_row(y, 1.0, &mut noise, scratch);
+                    octave.add_row(y, 1.0, &mut noise);
                     add_crests(&noise, sharpness, scale * *amplitude, &mut weight, row);
                 }
             },

@@ -5,8 +5,8 @@
 //! z(p) = fbm(p + strength wavelength (a(p), b(p)))
 //! ```
 //!
-//! with `a` and `b` sums of noise of the first [`WARP_OCTAVES`] wavelengths and standard deviation 1. Quilez 2002,
-//! "Domain warping"; Ebert et al., "Texturing and Modeling", 3rd ed. 2003. Heights are scaled as in
+//! with `a` and `b` sums of noise of the first [`WARP_OCTAVES`] wavelengths and standard deviation 1. Quilez
+//! 2002, "Domain warping"; Ebert et al., "Texturing and Modeling", 3rd ed. 2003. Heights are scaled as in
 //! [`fbm`](super::fbm).
 
 use super::Generator;
@@ -34,7 +34,7 @@ pub const WARP_OCTAVES: u32 = 2;
 parameters! {
     /// Domain-warped noise.
     pub struct Warp {
-        /// Height that a landscape of some wavelengths spans: five standard deviations, around a mean of half.
+        /// Height that a landscape of some wavelengths spans: six standard deviations, around a mean of half.
         relief: f64 = 1000.0, range 0.0..=1.0e6, unit "m";
         /// Length of the largest hills and valleys before they are bent.
         wavelength: f64 = 5000.0, range 1.0e-3..=1.0e9, unit "m";
@@ -44,8 +44,8 @@ parameters! {
         gain: f64 = 0.5, range 0.0..=1.0;
         /// How many times shorter each octave's wavelength is than the one before.
         lacunarity: f64 = 2.0, range 1.0..=8.0;
-        /// Standard deviation of the displacement in wavelengths: 0 is plain fBm, 0.1 bends, 0.3 folds.
-        strength: f64 = 0.15, range 0.0..=4.0;
+        /// Standard deviation of the displacement in wavelengths: 0 is plain fBm, 0.05 bends, 0.2 folds.
+        strength: f64 = 0.1, range 0.0..=4.0;
         /// A seed of its own. Without it the landscape's is used, varied for each step.
         seed: Option<u64> = None, range 0..=9_007_199_254_740_991_i64;
         /// Layer that is written.
@@ -67,11 +67,11 @@ impl Generator for Warp {
         Ok(fill_rows(
             domain,
             #[inline(always)]
-            |y, row, scratch| {
+            |y, row| {
                 let [mut dx, mut dy] = [vec![0.0; columns], vec![0.0; columns]];
                 for (bends, way) in [(&east, &mut dx), (&south, &mut dy)] {
                     for (octave, amplitude) in bends {
-                        octave.add_row(y, amplitude * metres, way, scratch);
+                        octave.add_row(y, amplitude * metres, way);
                     }
                 }
                 for (octave, amplitude) in &octaves {
