@@ -110,8 +110,6 @@ pub(crate) struct AdvectionRows<'a> {
     pub(crate) southward: &'a Ring,
     pub(crate) links: &'a Links,
     pub(crate) constants: &'a [Ring],
-    /// First column of the rows.
-    pub(crate) column: usize,
     /// Newest row of the rings above.
     pub(crate) newest: Option<usize>,
     pub(crate) span: Range<usize>,
@@ -125,7 +123,7 @@ impl AdvectionRows<'_> {
 
     fn depart(&self, y: usize, from: &Ring, still: &Ring, arrived: &mut [f32], direction: f32) {
         let nine = Nine::of(from, still, y, &self.span);
-        let link = self.links.row(self.constants, y, self.column);
+        let link = self.links.row(self.constants, y);
         Depart {
             north_west: nine.north[0],
             north: nine.north[1],
@@ -199,7 +197,7 @@ impl Advection {
 fn correct(rows: &AdvectionRows<'_>, y: usize, forward: &[f32], back: &[f32], rings: (&Ring, &mut Ring)) {
     let (still, output) = rings;
     let nine = Nine::of(rows.sediment, still, y, &rows.span);
-    let link = rows.links.row(rows.constants, y, rows.column);
+    let link = rows.links.row(rows.constants, y);
     Correct {
         forward,
         back,

@@ -155,7 +155,7 @@ impl Process for Han {
         }
     }
 
-    fn advance(&self, flow: &mut Flow<'_, '_, Self>) {
+    fn advance(&self, flow: &mut Flow<'_, Self>) {
         if let Some(y) = flow.behind(0) {
             self.surface(flow, y);
         }
@@ -178,7 +178,7 @@ impl Process for Han {
 }
 
 impl Han {
-    fn surface(&self, flow: &mut Flow<'_, '_, Self>, y: usize) {
+    fn surface(&self, flow: &mut Flow<'_, Self>, y: usize) {
         Surface {
             base: flow.constants[0].here(y),
             change: flow.input[plane::CHANGE].here(y),
@@ -191,11 +191,11 @@ impl Han {
 
     /// Fluxes from row `y` to its eastern and southern neighbours; nothing flows through the wall behind the
     /// last row, where no link leads on.
-    fn flux(&self, flow: &mut Flow<'_, '_, Self>, y: usize) {
+    fn flux(&self, flow: &mut Flow<'_, Self>, y: usize) {
         let next = flow.next(y);
         let scratch = &mut *flow.scratch;
         let depth = &flow.input[plane::DEPTH];
-        let links = self.links.row(flow.constants, y, flow.column);
+        let links = self.links.row(flow.constants, y);
         Flux {
             old_east: flow.input[plane::EAST].here(y),
             old_south: flow.input[plane::SOUTH].here(y),
@@ -222,7 +222,7 @@ impl Han {
         }
     }
 
-    fn overfall(&self, flow: &mut Flow<'_, '_, Self>, y: usize) {
+    fn overfall(&self, flow: &mut Flow<'_, Self>, y: usize) {
         let next = flow.next(y);
         let scratch = &mut *flow.scratch;
         let depth = &flow.input[plane::DEPTH];
@@ -245,7 +245,7 @@ impl Han {
         }
     }
 
-    fn limit(&self, flow: &mut Flow<'_, '_, Self>, y: usize) {
+    fn limit(&self, flow: &mut Flow<'_, Self>, y: usize) {
         let scratch = &mut *flow.scratch;
         let depth = flow.input[plane::DEPTH].here(y);
         let sediment = flow.input[plane::SEDIMENT].here(y);
@@ -264,7 +264,7 @@ impl Han {
         }
     }
 
-    fn scale(&self, flow: &mut Flow<'_, '_, Self>, y: usize) {
+    fn scale(&self, flow: &mut Flow<'_, Self>, y: usize) {
         let next = flow.next(y);
         let scratch = &*flow.scratch;
         let [_, _, _, east, south] = flow.output else { unreachable!("five state planes") };
@@ -281,7 +281,7 @@ impl Han {
     }
 
     /// Moves water, and sediment with it unless it is advected later.
-    fn flow(&self, flow: &mut Flow<'_, '_, Self>, y: usize) {
+    fn flow(&self, flow: &mut Flow<'_, Self>, y: usize) {
         let next = flow.next(y);
         let scratch = &mut *flow.scratch;
         let [_, depth, _, east, south] = flow.output else { unreachable!("five state planes") };
@@ -298,7 +298,7 @@ impl Han {
             concentration_west: concentration.west(y),
             concentration_south: concentration.here(next),
             concentration_north: before(concentration, &scratch.still, y, flow.span.start),
-            land: self.links.row(flow.constants, y, flow.column).land,
+            land: self.links.row(flow.constants, y).land,
             depth: depth.here_mut(y),
             sky: scratch.tally[0].here_mut(0),
             sediment: scratch.found.here_mut(y),
@@ -313,13 +313,13 @@ impl Han {
         }
     }
 
-    fn drain(&self, flow: &mut Flow<'_, '_, Self>, y: usize) {
+    fn drain(&self, flow: &mut Flow<'_, Self>, y: usize) {
         if !self.open {
             return;
         }
         let [water_out, sediment_out] = &mut flow.scratch.tally;
         Drain {
-            land: self.links.row(flow.constants, y, flow.column).land,
+            land: self.links.row(flow.constants, y).land,
             depth: flow.output[plane::DEPTH].here_mut(y),
             sediment: flow.scratch.found.here_mut(y),
             water_out: water_out.here_mut(0),
@@ -330,7 +330,7 @@ impl Han {
         flow.sums.add(y, sums::SEDIMENT_OUT, sediment_out.here(0));
     }
 
-    fn faces(&self, flow: &mut Flow<'_, '_, Self>, y: usize) {
+    fn faces(&self, flow: &mut Flow<'_, Self>, y: usize) {
         let depth = &flow.output[plane::DEPTH];
         FaceVelocities {
             flux_east: flow.output[plane::EAST].here(y),
@@ -345,7 +345,7 @@ impl Han {
         .run(self.arch);
     }
 
-    fn settle(&self, flow: &mut Flow<'_, '_, Self>, y: usize) {
+    fn settle(&self, flow: &mut Flow<'_, Self>, y: usize) {
         let scratch = &mut *flow.scratch;
         let start = flow.span.start;
         let [change_out, depth, sediment_out, ..] = flow.output else { unreachable!("five state planes") };
@@ -369,7 +369,7 @@ impl Han {
                     sine_west: scratch.sine_east.west(y),
                     sine_south: scratch.sine_south.here(y),
                     sine_north: arguments.1,
-                    neighbour_share: self.links.row(flow.constants, y, flow.column).neighbour_share,
+                    neighbour_share: self.links.row(flow.constants, y).neighbour_share,
                     change: change.here_mut(y),
                     sediment: sediment.here_mut(y),
                     lost: scratch.tally[0].here_mut(0),
@@ -389,7 +389,7 @@ impl Han {
         }
     }
 
-    fn slide(&self, flow: &mut Flow<'_, '_, Self>) {
+    fn slide(&self, flow: &mut Flow<'_, Self>) {
         let Some(slide) = self.slide else { return };
         slide.advance(
             &SlideRows {
@@ -397,7 +397,6 @@ impl Han {
                 change: &flow.scratch.settled_change,
                 links: &self.links,
                 constants: flow.constants,
-                column: flow.column,
                 newest: flow.y.checked_sub(SETTLED),
                 span: flow.span.clone(),
                 arch: self.arch,
@@ -407,7 +406,7 @@ impl Han {
         );
     }
 
-    fn advect(&self, flow: &mut Flow<'_, '_, Self>) {
+    fn advect(&self, flow: &mut Flow<'_, Self>) {
         let Some(advection) = self.advection else { return };
         let scratch = &mut *flow.scratch;
         let newest = flow.y.checked_sub(SETTLED);
@@ -429,7 +428,6 @@ impl Han {
                 southward: &scratch.southward,
                 links: &self.links,
                 constants: flow.constants,
-                column: flow.column,
                 newest,
                 span: flow.span.clone(),
                 arch: self.arch,

@@ -69,11 +69,10 @@ impl Links {
         if matches!(self, Self::Masked) { MASK_PLANES } else { 0 }
     }
 
-    /// The links of row `y` from a column on; `constants` are the rings of the constant planes, start height
-    /// first.
-    pub(crate) fn row<'a>(&'a self, constants: &'a [Ring], y: usize, column: usize) -> LinkRow<'a> {
+    /// The links of row `y`; `constants` are the rings of the constant planes, start height first.
+    pub(crate) fn row<'a>(&'a self, constants: &'a [Ring], y: usize) -> LinkRow<'a> {
         match self {
-            Self::Whole(whole) => whole.row(y, column),
+            Self::Whole(whole) => whole.row(y),
             Self::Masked => LinkRow {
                 land: constants[1].here(y),
                 east: constants[2].here(y),
@@ -87,16 +86,15 @@ impl Links {
 }
 
 impl WholeLinks {
-    fn row(&self, y: usize, column: usize) -> LinkRow<'_> {
+    fn row(&self, y: usize) -> LinkRow<'_> {
         let below = y + 1 < self.rows;
-        let vertical = |linked: bool| if linked { &self.ones[column..] } else { &self.zeros[column..] };
         LinkRow {
-            land: &self.ones[column..],
-            east: &self.east[column..],
-            south: vertical(below),
-            west: &self.west[column..],
-            north: vertical(y > 0),
-            neighbour_share: &self.shares[usize::from(y > 0) + usize::from(below)][column..],
+            land: &self.ones,
+            east: &self.east,
+            south: if below { &self.ones } else { &self.zeros },
+            west: &self.west,
+            north: if y > 0 { &self.ones } else { &self.zeros },
+            neighbour_share: &self.shares[usize::from(y > 0) + usize::from(below)],
         }
     }
 }

@@ -127,7 +127,7 @@ impl Process for Mei {
         }
     }
 
-    fn advance(&self, flow: &mut Flow<'_, '_, Self>) {
+    fn advance(&self, flow: &mut Flow<'_, Self>) {
         if let Some(y) = flow.behind(0) {
             self.rain(flow, y);
         }
@@ -150,9 +150,9 @@ impl Process for Mei {
 }
 
 impl Mei {
-    fn rain(&self, flow: &mut Flow<'_, '_, Self>, y: usize) {
+    fn rain(&self, flow: &mut Flow<'_, Self>, y: usize) {
         let scratch = &mut *flow.scratch;
-        let links = self.links.row(flow.constants, y, flow.column);
+        let links = self.links.row(flow.constants, y);
         Rained {
             base: flow.constants[0].here(y),
             change: flow.input[plane::CHANGE].here(y),
@@ -170,11 +170,11 @@ impl Mei {
         }
     }
 
-    fn outflow(&self, flow: &mut Flow<'_, '_, Self>, y: usize) {
+    fn outflow(&self, flow: &mut Flow<'_, Self>, y: usize) {
         let next = flow.next(y);
         let previous = if y > flow.span.start { y - 1 } else { y };
         let scratch = &mut *flow.scratch;
-        let links = self.links.row(flow.constants, y, flow.column);
+        let links = self.links.row(flow.constants, y);
         let [_, _, _, east, west, south, north] = flow.output else { unreachable!("seven state planes") };
         let surface = &scratch.surface;
         macro_rules! outflow {
@@ -212,9 +212,9 @@ impl Mei {
         }
     }
 
-    fn sines(&self, flow: &mut Flow<'_, '_, Self>, y: usize) {
+    fn sines(&self, flow: &mut Flow<'_, Self>, y: usize) {
         let next = flow.next(y);
-        let links = self.links.row(flow.constants, y, flow.column);
+        let links = self.links.row(flow.constants, y);
         let MeiScratch { ground, sine_east, sine_south, .. } = flow.scratch;
         Sines {
             ground: ground.here(y),
@@ -228,9 +228,9 @@ impl Mei {
         .run(self.arch);
     }
 
-    fn exchange(&self, flow: &mut Flow<'_, '_, Self>, y: usize) {
+    fn exchange(&self, flow: &mut Flow<'_, Self>, y: usize) {
         let scratch = &mut *flow.scratch;
-        let links = self.links.row(flow.constants, y, flow.column);
+        let links = self.links.row(flow.constants, y);
         let [change_out, depth, _, east, west, south, north] = flow.output else {
             unreachable!("seven state planes")
         };
@@ -280,10 +280,10 @@ impl Mei {
     }
 
     /// Empties the cells without data. Their sediment came with the step before.
-    fn drain(&self, flow: &mut Flow<'_, '_, Self>, y: usize) {
+    fn drain(&self, flow: &mut Flow<'_, Self>, y: usize) {
         let [water_out, sediment_out] = &mut flow.scratch.tally;
         Drain {
-            land: self.links.row(flow.constants, y, flow.column).land,
+            land: self.links.row(flow.constants, y).land,
             depth: flow.output[plane::DEPTH].here_mut(y),
             sediment: flow.scratch.loaded.here_mut(y),
             water_out: water_out.here_mut(0),
@@ -294,7 +294,7 @@ impl Mei {
         flow.sums.add(y, sums::SEDIMENT_OUT, sediment_out.here(0));
     }
 
-    fn load(&self, flow: &mut Flow<'_, '_, Self>, y: usize) {
+    fn load(&self, flow: &mut Flow<'_, Self>, y: usize) {
         let scratch = &mut *flow.scratch;
         let sediment = scratch.loaded.here(y);
         let depth = scratch.rained.here(y);
@@ -309,7 +309,7 @@ impl Mei {
         LoadUnlimited { sediment, depth, east, west, south, north, concentration, epsilon }.run(self.arch);
     }
 
-    fn slide(&self, flow: &mut Flow<'_, '_, Self>) {
+    fn slide(&self, flow: &mut Flow<'_, Self>) {
         let Some(slide) = self.slide else { return };
         slide.advance(
             &SlideRows {
@@ -317,7 +317,6 @@ impl Mei {
                 change: &flow.scratch.settled_change,
                 links: &self.links,
                 constants: flow.constants,
-                column: flow.column,
                 newest: flow.y.checked_sub(EXCHANGED),
                 span: flow.span.clone(),
                 arch: self.arch,
@@ -327,7 +326,7 @@ impl Mei {
         );
     }
 
-    fn transport(&self, flow: &mut Flow<'_, '_, Self>) {
+    fn transport(&self, flow: &mut Flow<'_, Self>) {
         let Some(advection) = self.advection else {
             if let Some(y) = flow.behind(EXCHANGED + 1) {
                 self.carry(flow, y);
@@ -342,7 +341,6 @@ impl Mei {
                 southward: &scratch.southward,
                 links: &self.links,
                 constants: flow.constants,
-                column: flow.column,
                 newest: flow.y.checked_sub(EXCHANGED),
                 span: flow.span.clone(),
                 arch: self.arch,
@@ -352,7 +350,7 @@ impl Mei {
         );
     }
 
-    fn carry(&self, flow: &mut Flow<'_, '_, Self>, y: usize) {
+    fn carry(&self, flow: &mut Flow<'_, Self>, y: usize) {
         let scratch = &*flow.scratch;
         let [_, _, sediment, east, west, south, north] = flow.output else {
             unreachable!("seven state planes")

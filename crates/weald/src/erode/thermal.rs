@@ -182,8 +182,6 @@ pub(crate) struct SlideRows<'a> {
     pub(crate) change: &'a Ring,
     pub(crate) links: &'a Links,
     pub(crate) constants: &'a [Ring],
-    /// First column of the rows.
-    pub(crate) column: usize,
     /// Newest row of `change`.
     pub(crate) newest: Option<usize>,
     pub(crate) span: Range<usize>,
@@ -232,7 +230,7 @@ impl Slide {
     }
 
     fn axis(self, rows: &SlideRows<'_>, scratch: &mut SlideScratch, y: usize) {
-        let links = rows.links.row(rows.constants, y, rows.column);
+        let links = rows.links.row(rows.constants, y);
         Axis {
             ground: scratch.ground.here(y),
             ground_east: scratch.ground.east(y),
@@ -248,7 +246,7 @@ impl Slide {
     }
 
     fn triangle(self, rows: &SlideRows<'_>, scratch: &mut SlideScratch, y: usize) {
-        let links = rows.links.row(rows.constants, y, rows.column);
+        let links = rows.links.row(rows.constants, y);
         Triangle {
             ground: scratch.ground.here(y),
             ground_east: scratch.ground.east(y),
@@ -264,7 +262,7 @@ impl Slide {
     }
 
     fn four_triangles(self, rows: &SlideRows<'_>, scratch: &mut SlideScratch, y: usize) {
-        let links = rows.links.row(rows.constants, y, rows.column);
+        let links = rows.links.row(rows.constants, y);
         let [share_east, share_west, share_south, share_north] = &mut scratch.shares;
         let previous = if y > rows.span.start { y - 1 } else { y };
         FourTriangles {

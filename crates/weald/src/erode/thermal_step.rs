@@ -114,14 +114,13 @@ impl Process for Sliding {
         SlideScratch::new(columns)
     }
 
-    fn advance(&self, flow: &mut Flow<'_, '_, Self>) {
+    fn advance(&self, flow: &mut Flow<'_, Self>) {
         self.slide.advance(
             &SlideRows {
                 base: &flow.constants[0],
                 change: &flow.input[0],
                 links: &self.links,
                 constants: flow.constants,
-                column: flow.column,
                 newest: Some(flow.y),
                 span: flow.span.clone(),
                 arch: self.arch,

@@ -4,8 +4,7 @@
 //! streams of several steps advances the simulation by that many steps in one passage through memory
 //! (temporal blocking by skewing). A stretch of rows is computed as a small world of its own with walls at
 //! both ends; rows that lie further from an end than `reach` cells a step do not feel it, so that bands with
-//! halos give the same bits as the whole, whatever the number of bands and of steps in a passage. Wide grids
-//! are cut into strips of columns in the same way, so that the rows in flight stay in the cache.
+//! halos give the same bits as the whole, whatever the number of bands and of steps in a passage.
 
 use std::ops::Range;
 
@@ -36,11 +35,11 @@ pub(crate) trait Process: Sync {
     /// Memory for one step over rows of this many cells.
     fn scratch(&self, columns: usize) -> Self::Scratch;
     /// Takes row `flow.y` in and finishes row `flow.y - lag` of the output.
-    fn advance(&self, flow: &mut Flow<'_, '_, Self>);
+    fn advance(&self, flow: &mut Flow<'_, Self>);
 }
 
 /// Everything one step sees when a row comes in.
-pub(crate) struct Flow<'a, 's, P: Process + ?Sized> {
+pub(crate) struct Flow<'a, P: Process + ?Sized> {
     /// Planes that stay.
     pub(crate) constants: &'a [Ring],
     /// Rows as the step finds them.
@@ -55,13 +54,11 @@ pub(crate) struct Flow<'a, 's, P: Process + ?Sized> {
     pub(crate) y: usize,
     /// The rows of this small world, between its walls.
     pub(crate) span: Range<usize>,
-    /// Its first column.
-    pub(crate) column: usize,
     /// Sums of the rows that this band owns; the others are another band's.
-    pub(crate) sums: &'a mut SumsOfRows<'s>,
+    pub(crate) sums: &'a mut SumsOfRows<'a>,
 }
 
-impl<P: Process + ?Sized> Flow<'_, '_, P> {
+impl<P: Process + ?Sized> Flow<'_, P> {
     /// The row `behind` rows behind the newest, where it exists.
     pub(crate) fn behind(&self, behind: usize) -> Option<usize> {
         self.y.checked_sub(behind).filter(|row| self.span.contains(row))
@@ -77,21 +74,15 @@ impl<P: Process + ?Sized> Flow<'_, '_, P> {
 pub(crate) struct SumsOfRows<'a> {
     /// First row owned.
     pub(crate) first: usize,
-    /// Cells of a row that count; the others are another strip's.
-    pub(crate) columns: Range<usize>,
-    /// Number of this strip, and of all.
-    pub(crate) strip: usize,
-    pub(crate) strips: usize,
-    /// One entry a row and strip.
+    /// One entry a row.
     pub(crate) rows: &'a mut [RowSums],
 }
 
 impl SumsOfRows<'_> {
     /// Adds the sum of `cells` to sum number `which` of row `y`, if this band owns the row.
     pub(crate) fn add(&mut self, y: usize, which: usize, cells: &[f32]) {
-        let Some(row) = y.checked_sub(self.first) else { return };
-        if let Some(sums) = self.rows.get_mut(row * self.strips + self.strip) {
-            sums[which] += sum_in_lanes(&cells[self.columns.clone()]);
+        if let Some(row) = y.checked_sub(self.first).and_then(|row| self.rows.get_mut(row)) {
+            row[which] += sum_in_lanes(cells);
         }
     }
 }
@@ -137,14 +128,7 @@ impl<P: Process> Chain<P> {
     }
 }
 
-/// A strip of columns: those that it owns, within those that it computes.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) struct Strip {
-    pub(crate) own: Range<usize>,
-    pub(crate) computed: Range<usize>,
-}
-
-/// One passage over a stretch of rows and a strip of columns.
+/// One passage over a stretch of rows.
 pub(crate) struct Passage<'a, P: Process> {
     pub(crate) process: &'a P,
     pub(crate) layout: Layout,
@@ -158,15 +142,11 @@ pub(crate) struct Passage<'a, P: Process> {
     /// Copies of the rows above and below.
     pub(crate) above: &'a [f32],
     pub(crate) below: &'a [f32],
-    pub(crate) strip: &'a Strip,
-    /// The columns west of the strip as they were before the strip there was changed, row after row of the
-    /// owned rows, plane after plane.
-    pub(crate) west: &'a [f32],
-    pub(crate) sums: SumsOfRows<'a>,
+    pub(crate) sums: &'a mut [RowSums],
 }
 
 impl<P: Process> Passage<'_, P> {
-    /// Advances the owned cells by one step for each entry of `weather`.
+    /// Advances the owned rows by one step for each entry of `weather`.
     pub(crate) fn run(mut self, chain: &mut Chain<P>) {
         let lag = self.process.lag();
         let steps = self.weather.len();
@@ -196,8 +176,7 @@ impl<P: Process> Passage<'_, P> {
             weather: self.weather[step],
             y,
             span: self.span.clone(),
-            column: self.strip.computed.start,
-            sums: &mut self.sums,
+            sums: &mut SumsOfRows { first: self.first, rows: self.sums },
         });
     }
 
@@ -205,26 +184,18 @@ impl<P: Process> Passage<'_, P> {
         self.first + self.own.len() / self.layout.row_length()
     }
 
-    /// Copies a row into the chain: from the band's own memory or from the halo above or below.
     fn take_in(&self, chain: &mut Chain<P>, y: usize) {
-        let owned = (self.first..self.own_end()).contains(&y);
         let (memory, row) = if y < self.first {
             (self.above, y - self.span.start)
-        } else if owned {
+        } else if y < self.own_end() {
             (&*self.own, y - self.first)
         } else {
             (self.below, y - self.own_end())
         };
         let length = self.layout.row_length();
         let row = &memory[row * length..][..length];
-        let west = self.strip.own.start - self.strip.computed.start;
         for (plane, ring) in chain.between[0].iter_mut().chain(&mut chain.constants).enumerate() {
-            let cells = ring.here_mut(y);
-            cells.copy_from_slice(&self.layout.plane(row, plane)[self.strip.computed.clone()]);
-            if owned && west > 0 {
-                let saved = ((y - self.first) * self.layout.planes + plane) * west;
-                cells[..west].copy_from_slice(&self.west[saved..][..west]);
-            }
+            ring.here_mut(y).copy_from_slice(self.layout.plane(row, plane));
         }
     }
 
@@ -234,10 +205,8 @@ impl<P: Process> Passage<'_, P> {
         }
         let length = self.layout.row_length();
         let row = &mut self.own[(y - self.first) * length..][..length];
-        let Strip { own, computed } = self.strip;
         for (plane, ring) in rings.iter().enumerate() {
-            let cells = &ring.here(y)[own.start - computed.start..own.end - computed.start];
-            self.layout.plane_mut(row, plane)[own.clone()].copy_from_slice(cells);
+            self.layout.plane_mut(row, plane).copy_from_slice(ring.here(y));
         }
     }
 }
