@@ -58,7 +58,7 @@ fn mutant(bytes: &[u8], seed: u64) -> Vec<u8> {
     let mut mutant = bytes.to_vec();
     for change in 0..=hash2(seed, 0, 0) % 4 {
         let random = hash2(seed, 1, change as i64);
-        let reach = if random & 3 == 0 { mutant.len() } else { mutant.len().min(600) };
+        let reach = if random.is_multiple_of(4) { mutant.len() } else { mutant.len().min(600) };
         let at = (random >> 16) as usize % reach;
         mutant[at] = match random >> 2 & 3 {
             0 => 0,
