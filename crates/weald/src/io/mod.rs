@@ -8,6 +8,7 @@ mod atomic;
 mod fault;
 pub mod geotiff;
 mod info;
+mod limits;
 pub mod npy;
 pub mod png16;
 mod provenance;
@@ -17,6 +18,7 @@ mod square;
 pub use atomic::write_whole;
 pub use fault::Fault;
 pub use info::{Info, describe};
+pub use limits::Limits;
 pub use provenance::Provenance;
 pub use raster::Raster;
 pub use square::square;
@@ -26,39 +28,6 @@ use std::io::Read;
 use std::path::Path;
 
 use crate::error::Error;
-use crate::grid::{MAXIMUM_CELLS, Size};
-
-/// What a reader may use.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Limits {
-    /// Most cells of a raster.
-    pub cells: usize,
-}
-
-impl Default for Limits {
-    fn default() -> Self {
-        Self { cells: MAXIMUM_CELLS }
-    }
-}
-
-impl Limits {
-    /// The size in a header, once it is known to be within limits.
-    ///
-    /// # Errors
-    /// [`Fault::Limit`] with both sides in the message.
-    pub fn size(self, columns: usize, rows: usize) -> Result<Size, Fault> {
-        let size = Size::new(columns, rows).map_err(|error| Fault::Limit(error.to_string()))?;
-        if size.cells() > self.cells {
-            return Err(Fault::Limit(format!("{size} cells are more than the {} allowed here", self.cells)));
-        }
-        Ok(size)
-    }
-
-    /// Longest file that is read: eight bytes a cell, and 64 MiB for all else in the file.
-    fn file_bytes(self) -> u64 {
-        self.cells as u64 * 8 + (64 << 20)
-    }
-}
 
 /// Turns the bytes of a file into a raster.
 pub type Decode = fn(&[u8], Limits) -> Result<Raster, Fault>;

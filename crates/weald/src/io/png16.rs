@@ -8,6 +8,7 @@ use std::io::Cursor;
 
 use png::{BitDepth, ColorType, Decoder, Encoder, Info, Reader};
 
+use super::limits::ensure_can_hold;
 use super::provenance::{MAXIMUM, MINIMUM, finite};
 use super::{Fault, Format, Limits, Provenance, Raster};
 use crate::error::Error;
@@ -37,7 +38,9 @@ pub fn decode(bytes: &[u8], limits: Limits) -> Result<Raster, Fault> {
     let size = limits.size(header.width as usize, header.height as usize)?;
     let depth = grey_depth(header)?;
     let mut reader = decoder.read_info().map_err(|cause| damaged(&cause))?;
-    let mut pixels = vec![0; size.cells() * if depth == BitDepth::Sixteen { 2 } else { 1 }];
+    let pixel_bytes = size.cells() * if depth == BitDepth::Sixteen { 2 } else { 1 };
+    ensure_can_hold(bytes.len(), pixel_bytes)?;
+    let mut pixels = vec![0; pixel_bytes];
     reader.next_frame(&mut pixels).map_err(|cause| damaged(&cause))?;
     reader.finish().map_err(|cause| damaged(&cause))?;
     raster(&reader, size, depth, &pixels)

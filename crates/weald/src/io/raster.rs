@@ -59,7 +59,9 @@ impl Raster {
                 field.at(x, y)
             )));
         }
-        Ok(Self { land, stored, ..Self::from(field) })
+        let eight_bits = "8 bits hold 256 heights, so slopes come out as terraces; 16 bits do not";
+        let notes = if stored.ends_with("int8") { vec![eight_bits.to_owned()] } else { Vec::new() };
+        Ok(Self { land, stored, notes, ..Self::from(field) })
     }
 
     /// Whether the cell at a row-major position holds data.

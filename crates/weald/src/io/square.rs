@@ -32,17 +32,16 @@ pub fn square(raster: Raster) -> Result<(Raster, Option<String>), Error> {
             "the file does not say how large its cells are; give `cell`, in metres".to_owned(),
         ));
     };
-    let sides = Sides::of(&place, raster.field.size())?;
-    let size = sides.square_size(raster.field.size())?;
-    let note = sides.note(size, raster.field.size());
-    let resampled = resample(&raster, size);
     let old = raster.field.size();
+    let sides = Sides::of(&place, old)?;
+    let size = sides.square_size(old)?;
     let pixel = [
-        place.pixel[0] * old.columns as f64 / size.columns as f64,
-        place.pixel[1] * old.rows as f64 / size.rows as f64,
+        place.pixel[0] * (old.columns as f64 / size.columns as f64),
+        place.pixel[1] * (old.rows as f64 / size.rows as f64),
     ];
     let georeference = Some(Georeference { pixel, ..place });
-    Ok((Raster { cell: Some(sides.finer()), georeference, ..resampled }, Some(note)))
+    let squared = Raster { cell: Some(sides.finer()), georeference, ..resample(raster, size) };
+    Ok((squared, Some(sides.note(size, old))))
 }
 
 /// Sides of the cells as they are.
@@ -114,10 +113,10 @@ fn metres_per_degree(latitude: f64) -> (f64, f64) {
 }
 
 /// The same extent in other cells.
-fn resample(raster: &Raster, size: Size) -> Raster {
+fn resample(raster: Raster, size: Size) -> Raster {
     let old = raster.field.size();
     if size == old {
-        return raster.clone();
+        return raster;
     }
     let across: Vec<Between> = (0..size.columns).map(|x| Between::of(x, old.columns, size.columns)).collect();
     let down: Vec<Between> = (0..size.rows).map(|y| Between::of(y, old.rows, size.rows)).collect();
@@ -128,9 +127,9 @@ fn resample(raster: &Raster, size: Size) -> Raster {
         Mask::new(size, cells.collect())
     });
     let field = Field::from_function(size, |x, y| {
-        if nearest_is_land(x, y) { between(raster, &across[x], &down[y]) } else { 0.0 }
+        if nearest_is_land(x, y) { between(&raster, &across[x], &down[y]) } else { 0.0 }
     });
-    Raster { field, land, ..raster.clone() }
+    Raster { field, land, ..raster }
 }
 
 /// A place between two neighbouring cells along one direction.

@@ -37,18 +37,25 @@ struct Entry<'a> {
 pub(super) struct Directory<'a> {
     pub(super) bytes: &'a [u8],
     pub(super) order: Order,
+    widths: &'static Widths,
     entries: Vec<Entry<'a>>,
+    /// Where the next directory lies; 0 behind the last.
+    next: u64,
 }
 
+/// More than any pyramid of overviews has; it also ends a chain that runs in a circle.
+const MAXIMUM_DIRECTORIES: usize = 64;
+
 /// Widths of the fields that differ between TIFF and `BigTIFF`.
+#[derive(Debug)]
 struct Widths {
     entries: usize,
     offset: usize,
     first: usize,
 }
 
-const CLASSIC: Widths = Widths { entries: 2, offset: 4, first: 4 };
-const BIG: Widths = Widths { entries: 8, offset: 8, first: 8 };
+static CLASSIC: Widths = Widths { entries: 2, offset: 4, first: 4 };
+static BIG: Widths = Widths { entries: 8, offset: 8, first: 8 };
 
 const ASCII: u16 = 2;
 const FLOAT: u16 = 11;
@@ -59,14 +66,33 @@ impl<'a> Directory<'a> {
     pub(super) fn parse(bytes: &'a [u8]) -> Result<Self, Fault> {
         let (order, widths) = header(bytes)?;
         let start = order.number(field(bytes, widths.first as u64, widths.offset)?);
+        Self::at(bytes, order, widths, start)
+    }
+
+    fn at(bytes: &'a [u8], order: Order, widths: &'static Widths, start: u64) -> Result<Self, Fault> {
         let count = order.number(field(bytes, start, widths.entries)?);
         let entry_width = 4 + 2 * widths.offset;
-        let length = (count as usize).checked_mul(entry_width);
+        let Some(length) = (count as usize).checked_mul(entry_width) else {
+            return Err(Fault::damaged(format!("the directory at byte {start} claims {count} tags")));
+        };
         let first = start + widths.entries as u64;
-        let table =
-            length.map_or_else(|| Err(truncated(start, count)), |length| field(bytes, first, length))?;
+        let table = field(bytes, first, length)?;
         let entries = table.chunks_exact(entry_width).map(|row| entry(bytes, order, row)).collect();
-        Ok(Self { bytes, order, entries })
+        let next = field(bytes, first + length as u64, widths.offset).map_or(0, |next| order.number(next));
+        Ok(Self { bytes, order, widths, entries, next })
+    }
+
+    /// The directories of the images behind the first one: overviews and masks. Damage among them ends the
+    /// list, since the first image is whole without them.
+    pub(super) fn others(&self) -> Vec<Self> {
+        let mut others: Vec<Self> = Vec::new();
+        let mut next = self.next;
+        while next != 0 && others.len() < MAXIMUM_DIRECTORIES {
+            let Ok(other) = Self::at(self.bytes, self.order, self.widths, next) else { break };
+            next = other.next;
+            others.push(other);
+        }
+        others
     }
 
     fn find(&self, tag: u16) -> Result<Option<(u16, &'a [u8])>, Fault> {
@@ -129,15 +155,15 @@ impl<'a> Directory<'a> {
     }
 }
 
-fn header(bytes: &[u8]) -> Result<(Order, Widths), Fault> {
+fn header(bytes: &[u8]) -> Result<(Order, &'static Widths), Fault> {
     let order = match bytes.get(..2) {
         Some(b"II") => Order::Little,
         Some(b"MM") => Order::Big,
         _ => return Err(Fault::damaged("the file does not begin as a TIFF does, with II or MM")),
     };
     match order.number(field(bytes, 2, 2)?) {
-        42 => Ok((order, CLASSIC)),
-        43 if order.number(field(bytes, 4, 2)?) == 8 => Ok((order, BIG)),
+        42 => Ok((order, &CLASSIC)),
+        43 if order.number(field(bytes, 4, 2)?) == 8 => Ok((order, &BIG)),
         version => {
             Err(Fault::damaged(format!("TIFF version {version}; 42 (TIFF) and 43 (BigTIFF) are read")))
         }
@@ -176,10 +202,6 @@ pub(super) fn field(bytes: &[u8], start: u64, length: usize) -> Result<&[u8], Fa
             bytes.len()
         ))
     })
-}
-
-fn truncated(start: u64, count: u64) -> Fault {
-    Fault::damaged(format!("the directory at byte {start} claims {count} tags; the file is damaged"))
 }
 
 fn wrong_type(tag: u16, kind: u16, wanted: &str) -> Fault {

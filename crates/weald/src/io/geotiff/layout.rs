@@ -1,7 +1,8 @@
 //! How the cells of a file are cut into chunks: strips of whole rows, or tiles.
 
+use super::super::limits::ensure_can_hold;
 use super::super::{Fault, Limits};
-use super::directory::Directory;
+use super::directory::{Directory, field};
 use super::sample::Sample;
 use super::tag;
 use crate::grid::Size;
@@ -14,6 +15,7 @@ pub(super) struct Layout {
     pub(super) chunk: Size,
     /// Tiles pad the last row and column of chunks to full size; strips do not.
     tiled: bool,
+    sample_bytes: usize,
     offsets: Vec<u64>,
     lengths: Vec<u64>,
 }
@@ -29,7 +31,7 @@ const TILES: Tags = Tags { offsets: tag::TILE_OFFSETS, lengths: tag::TILE_BYTE_C
 
 impl Layout {
     /// The layout of a file.
-    pub(super) fn of(directory: &Directory<'_>, limits: Limits) -> Result<Self, Fault> {
+    pub(super) fn of(directory: &Directory<'_>, sample: Sample, limits: Limits) -> Result<Self, Fault> {
         let columns = directory.needed(tag::IMAGE_WIDTH)? as usize;
         let rows = directory.needed(tag::IMAGE_LENGTH)? as usize;
         let size = limits.size(columns, rows)?;
@@ -42,8 +44,10 @@ impl Layout {
         };
         let offsets = directory.numbers(tags.offsets)?.unwrap_or_default();
         let lengths = directory.numbers(tags.lengths)?.unwrap_or_default();
-        let layout = Self { size, chunk, tiled: tile_width.is_some(), offsets, lengths };
+        let sample_bytes = sample.bytes();
+        let layout = Self { size, chunk, tiled: tile_width.is_some(), sample_bytes, offsets, lengths };
         layout.ensure_complete()?;
+        layout.ensure_chunks(directory.bytes)?;
         Ok(layout)
     }
 
@@ -66,47 +70,37 @@ impl Layout {
         self.size.columns.div_ceil(self.chunk.columns)
     }
 
-    /// Rows of a chunk as stored, given the rows of the grid that it covers.
-    pub(super) fn stored_rows(&self, covered: usize) -> usize {
-        if self.tiled { self.chunk.rows } else { covered }
+    /// Bytes of a chunk once it is expanded.
+    pub(super) fn expanded_bytes(&self, index: usize) -> usize {
+        let first_row = index / self.across() * self.chunk.rows;
+        let covered = self.chunk.rows.min(self.size.rows - first_row);
+        let rows = if self.tiled { self.chunk.rows } else { covered };
+        self.row_bytes() * rows
+    }
+
+    /// Bytes of a row of a chunk.
+    pub(super) fn row_bytes(&self) -> usize {
+        self.chunk.columns * self.sample_bytes
     }
 
     /// The bytes of a chunk; `None` for one that a sparse file leaves out, all of it no-data.
-    ///
-    /// A chunk that would have to expand more than any of the compressions can is refused here, before memory
-    /// for it is taken.
-    pub(super) fn chunk_bytes<'a>(
-        &self,
-        directory: &Directory<'a>,
-        index: usize,
-        expanded: usize,
-    ) -> Result<Option<&'a [u8]>, Fault> {
+    pub(super) fn packed<'a>(&self, file: &'a [u8], index: usize) -> Result<Option<&'a [u8]>, Fault> {
         let (offset, length) = (self.offsets[index], self.lengths[index]);
         if offset == 0 && length == 0 {
             return Ok(None);
         }
-        let bytes = usize::try_from(length)
-            .ok()
-            .and_then(|length| super::directory::field(directory.bytes, offset, length).ok());
-        let Some(bytes) = bytes else {
-            return Err(Fault::damaged(format!(
-                "chunk {index} lies at bytes {offset} to {}, but the file ends at byte {}; it is truncated or \
-                 damaged",
-                offset.saturating_add(length),
-                directory.bytes.len()
-            )));
-        };
-        if expanded / MAXIMUM_EXPANSION > bytes.len() {
-            return Err(Fault::damaged(format!(
-                "chunk {index} of {length} bytes cannot hold the {expanded} bytes of its cells"
-            )));
-        }
+        let named = |fault: Fault| Fault::Damaged(format!("chunk {index}: {fault}"));
+        let length = usize::try_from(length).unwrap_or(usize::MAX);
+        let bytes = field(file, offset, length).map_err(named)?;
+        ensure_can_hold(bytes.len(), self.expanded_bytes(index)).map_err(named)?;
         Ok(Some(bytes))
     }
-}
 
-/// Deflate expands at most 1032 times, LZW with 12-bit codes about 1350 times.
-const MAXIMUM_EXPANSION: usize = 2048;
+    /// Whether every chunk lies in the file and can hold its cells, before memory for the cells is taken.
+    fn ensure_chunks(&self, file: &[u8]) -> Result<(), Fault> {
+        (0..self.offsets.len()).try_for_each(|index| self.packed(file, index).map(|_| ()))
+    }
+}
 
 /// Writers give `RowsPerStrip` as 2^32 − 1, or not at all, for one strip of all rows.
 fn strip(directory: &Directory<'_>, size: Size) -> Result<Size, Fault> {

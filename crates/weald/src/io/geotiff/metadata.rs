@@ -16,6 +16,18 @@ pub(super) fn no_data(directory: &Directory<'_>) -> Result<Option<f64>, Fault> {
     Ok(Some(number))
 }
 
+/// Refuses a file whose no-data cells stand in a mask of its own, which would count as data without it.
+pub(super) fn ensure_no_mask(directory: &Directory<'_>) -> Result<(), Fault> {
+    let is_mask = |other: &Directory<'_>| matches!(other.number(tag::NEW_SUBFILE_TYPE), Ok(Some(kind)) if kind & 4 != 0);
+    if !directory.others().iter().any(is_mask) {
+        return Ok(());
+    }
+    Err(Fault::damaged(
+        "the cells without data stand in a mask of its own; turn it into a no-data value with gdalwarp \
+         -dstnodata -9999 in.tif out.tif",
+    ))
+}
+
 /// Where the file came from, if Weald wrote it.
 pub(super) fn provenance(directory: &Directory<'_>) -> Result<Option<Provenance>, Fault> {
     let Some(xml) = directory.text(tag::GDAL_METADATA)? else { return Ok(None) };

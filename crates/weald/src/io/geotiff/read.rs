@@ -15,10 +15,11 @@ use super::{keys, metadata, tag};
 /// [`Fault`] for a file that is damaged, of a kind that is not read, or over the limits.
 pub fn decode(bytes: &[u8], limits: Limits) -> Result<Raster, Fault> {
     let directory = Directory::parse(bytes)?;
+    metadata::ensure_no_mask(&directory)?;
     let sample = sample_of(&directory)?;
     let no_data = metadata::no_data(&directory)?.map(|number| sample.nearest(number));
     let coding = Coding {
-        layout: Layout::of(&directory, limits)?,
+        layout: Layout::of(&directory, sample, limits)?,
         compression: Compression::of(directory.number(tag::COMPRESSION)?.unwrap_or(1))?,
         predictor: Predictor::of(directory.number(tag::PREDICTOR)?.unwrap_or(1), sample)?,
         sample,
@@ -70,25 +71,27 @@ impl Coding<'_> {
     }
 
     fn read_band(&self, band: &mut Band<'_>) -> Result<(), Fault> {
-        let covered = band.values.len() / self.layout.size.columns;
-        let row_bytes = self.layout.chunk.columns * self.sample.bytes();
-        let chunk_bytes = row_bytes * self.layout.stored_rows(covered);
         let mut expanded = Vec::new();
         for across in 0..self.layout.across() {
             let index = band.index * self.layout.across() + across;
-            let Some(packed) = self.layout.chunk_bytes(&self.directory, index, chunk_bytes)? else {
+            let Some(packed) = self.layout.packed(self.directory.bytes, index)? else {
                 self.leave_out(band, across);
                 continue;
             };
-            expanded.resize(chunk_bytes, 0);
+            expanded.resize(self.layout.expanded_bytes(index), 0);
             self.compression
                 .expand(packed, &mut expanded)
                 .map_err(|cause| Fault::damaged(format!("chunk {index} is damaged: {cause}")))?;
-            for (y, row) in expanded.chunks_exact_mut(row_bytes).take(covered).enumerate() {
+            let rows = expanded.chunks_exact_mut(self.layout.row_bytes());
+            for (y, row) in rows.take(self.rows_of(band)).enumerate() {
                 self.read_row(band, self.cells_of_chunk(across, y), row);
             }
         }
         Ok(())
+    }
+
+    fn rows_of(&self, band: &Band<'_>) -> usize {
+        band.values.len() / self.layout.size.columns
     }
 
     /// Positions in a band of row `y` of a chunk.
@@ -114,7 +117,7 @@ impl Coding<'_> {
 
     /// A chunk that a sparse file leaves out is no-data, or 0 where the file declares none.
     fn leave_out(&self, band: &mut Band<'_>, across: usize) {
-        for y in 0..band.values.len() / self.layout.size.columns {
+        for y in 0..self.rows_of(band) {
             band.land[self.cells_of_chunk(across, y)].fill(self.no_data.is_none());
         }
     }

@@ -1,0 +1,52 @@
+//! What a reader may use, so that no file, however damaged, takes more memory than its size warrants.
+
+use super::Fault;
+use crate::grid::{MAXIMUM_CELLS, Size};
+
+/// Deflate expands at most 1032 times, LZW with codes of 12 bits about 1350 times.
+const MAXIMUM_EXPANSION: usize = 2048;
+
+/// What a reader may use.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Limits {
+    /// Most cells of a raster.
+    pub cells: usize,
+}
+
+impl Default for Limits {
+    fn default() -> Self {
+        Self { cells: MAXIMUM_CELLS }
+    }
+}
+
+impl Limits {
+    /// The size in a header, once it is known to be within limits.
+    ///
+    /// # Errors
+    /// [`Fault::Limit`] with both sides in the message.
+    pub fn size(self, columns: usize, rows: usize) -> Result<Size, Fault> {
+        let size = Size::new(columns, rows).map_err(|error| Fault::Limit(error.to_string()))?;
+        if size.cells() > self.cells {
+            return Err(Fault::Limit(format!("{size} cells are more than the {} allowed here", self.cells)));
+        }
+        Ok(size)
+    }
+
+    /// Longest file that is read: eight bytes a cell, and 64 MiB for all else in the file.
+    pub(super) fn file_bytes(self) -> u64 {
+        self.cells as u64 * 8 + (64 << 20)
+    }
+}
+
+/// Whether `packed` bytes can hold `expanded` bytes under any of the compressions.
+///
+/// # Errors
+/// [`Fault::Damaged`] with both numbers.
+pub(super) fn ensure_can_hold(packed: usize, expanded: usize) -> Result<(), Fault> {
+    if expanded / MAXIMUM_EXPANSION <= packed {
+        return Ok(());
+    }
+    Err(Fault::Damaged(format!(
+        "{packed} bytes cannot hold the {expanded} bytes of the cells they stand for"
+    )))
+}
