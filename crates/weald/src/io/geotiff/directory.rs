@@ -84,15 +84,12 @@ impl<'a> Directory<'a> {
 
     /// The directories of the images behind the first one: overviews and masks. Damage among them ends the
     /// list, since the first image is whole without them.
-    pub(super) fn others(&self) -> Vec<Self> {
-        let mut others: Vec<Self> = Vec::new();
-        let mut next = self.next;
-        while next != 0 && others.len() < MAXIMUM_DIRECTORIES {
-            let Ok(other) = Self::at(self.bytes, self.order, self.widths, next) else { break };
-            next = other.next;
-            others.push(other);
-        }
-        others
+    pub(super) fn others(&self) -> impl Iterator<Item = Self> {
+        std::iter::successors(self.next(), Self::next).take(MAXIMUM_DIRECTORIES)
+    }
+
+    fn next(&self) -> Option<Self> {
+        (self.next != 0).then(|| Self::at(self.bytes, self.order, self.widths, self.next).ok())?
     }
 
     fn find(&self, tag: u16) -> Result<Option<(u16, &'a [u8])>, Fault> {

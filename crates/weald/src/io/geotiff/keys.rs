@@ -161,3 +161,52 @@ fn shorts(keys: &[(u16, u16)]) -> GeoKeys {
     let entries = keys.iter().flat_map(|&(key, value)| [key, 0, 1, value]);
     GeoKeys { directory: header.into_iter().chain(entries).collect(), ..GeoKeys::default() }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_matrix_without_rotation_is_a_corner_and_a_cell() {
+        let mut matrix = [0.0; 16];
+        (matrix[0], matrix[3], matrix[5], matrix[7]) = (30.0, 500.0, -20.0, 900.0);
+        assert_eq!(from_matrix(&matrix), Ok(([500.0, 900.0], [30.0, 20.0])));
+        matrix[1] = 1e-3;
+        assert!(from_matrix(&matrix).is_err_and(|fault| fault.to_string().contains("gdalwarp")));
+        assert!(from_matrix(&matrix[..4]).is_err());
+    }
+
+    #[test]
+    fn cells_without_a_size_or_a_place_are_refused() {
+        for (origin, pixel) in [
+            ([0.0, 0.0], [0.0, 1.0]),
+            ([0.0, 0.0], [1.0, -1.0]),
+            ([0.0, 0.0], [f64::NAN, 1.0]),
+            ([0.0, 0.0], [1.0, f64::INFINITY]),
+            ([f64::NAN, 0.0], [1.0, 1.0]),
+        ] {
+            assert!(checked(origin, pixel).is_err(), "cells of {pixel:?} at {origin:?}");
+        }
+    }
+
+    #[test]
+    fn a_unit_of_the_users_own_has_the_size_that_the_doubles_give() {
+        let mut keys = shorts(&[(LINEAR_UNITS, USER_DEFINED)]);
+        assert!(metres_per_unit(Some(&keys)).is_err(), "no size");
+        keys.directory.extend([LINEAR_UNIT_SIZE, tag::GEO_DOUBLE_PARAMETERS, 1, 1]);
+        keys.doubles = vec![6.0, 201.168];
+        assert_eq!(metres_per_unit(Some(&keys)), Ok(201.168));
+        assert!(metres_per_unit(Some(&shorts(&[(LINEAR_UNITS, 9036)]))).is_err(), "kilometres");
+    }
+
+    #[test]
+    fn an_epsg_code_alone_becomes_keys_of_its_kind() {
+        let place = |epsg| Georeference { epsg, origin: [0.0; 2], pixel: [1.0; 2], keys: None };
+        let keys = keys_for(&place(Some(4326))).expect("a code");
+        assert_eq!((keys.short(GEOGRAPHIC_TYPE), keys.short(PROJECTED_TYPE)), (Some(4326), None));
+        let keys = keys_for(&place(Some(32616))).expect("a code");
+        assert_eq!((keys.short(GEOGRAPHIC_TYPE), keys.short(PROJECTED_TYPE)), (None, Some(32616)));
+        assert_eq!(epsg(&keys), Some(32616));
+        assert_eq!(keys_for(&place(None)), None);
+    }
+}

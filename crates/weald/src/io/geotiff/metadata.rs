@@ -19,7 +19,7 @@ pub(super) fn no_data(directory: &Directory<'_>) -> Result<Option<f64>, Fault> {
 /// Refuses a file whose no-data cells stand in a mask of its own, which would count as data without it.
 pub(super) fn ensure_no_mask(directory: &Directory<'_>) -> Result<(), Fault> {
     let is_mask = |other: &Directory<'_>| matches!(other.number(tag::NEW_SUBFILE_TYPE), Ok(Some(kind)) if kind & 4 != 0);
-    if !directory.others().iter().any(is_mask) {
+    if !directory.others().any(|other| is_mask(&other)) {
         return Ok(());
     }
     Err(Fault::damaged(

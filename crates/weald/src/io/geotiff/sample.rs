@@ -163,6 +163,14 @@ mod tests {
         assert_eq!(values, [-2.0, 256.0]);
     }
 
+    /// GDAL before version 3 wrote the least `float32` with 15 digits, which `float32` cannot tell from 17.
+    #[test]
+    fn a_no_data_number_with_too_few_digits_still_marks_its_cells() {
+        let written = "-3.40282346638529e+38".parse().expect("a number");
+        assert_eq!(Sample::Float32.nearest(written), f64::from(f32::MIN));
+        assert_ne!(Sample::Float64.nearest(written), f64::from(f32::MIN));
+    }
+
     #[test]
     fn the_floating_point_predictor_knows_no_byte_order() {
         let mut row: Vec<u8> = Vec::new();
