@@ -88,3 +88,29 @@ fn mutated_files_never_panic_and_stay_within_limits() {
         "{refused} of {all} mutants refused: the mutations do too little"
     );
 }
+
+/// Puts `value` into the one entry of a little-endian TIFF directory that begins as `entry` does.
+fn patched(mut tiff: Vec<u8>, entry: [u8; 8], value: u32) -> Vec<u8> {
+    let at = tiff.windows(8).position(|bytes| bytes == entry).expect("the tag is there") + 8;
+    tiff[at..at + 4].copy_from_slice(&value.to_le_bytes());
+    tiff
+}
+
+#[test]
+fn a_file_that_claims_more_than_it_can_hold_is_refused_before_memory_is_taken() {
+    let raster = Raster::from(Field::filled(Size { columns: 19, rows: 200 }, 1.0));
+    let tiff = geotiff::encode(&raster).expect("finite");
+    // Tag 325, the length of the one tile; 16 bytes for 256 × 200 cells.
+    let tiff = patched(tiff, [0x45, 0x01, 4, 0, 1, 0, 0, 0], 16);
+    let fault = geotiff::decode(&tiff, LIMITS).expect_err("too short");
+    assert!(fault.to_string().contains("chunk 0: 16 bytes cannot hold the 204800 bytes"), "{fault}");
+    let mut png = Vec::new();
+    let mut encoder = png::Encoder::new(&mut png, 16384, 16384);
+    encoder.set_depth(png::BitDepth::Sixteen);
+    drop(encoder.write_header().expect("a header"));
+    // The encoder ends the file with an IEND chunk of 12 bytes; an empty IDAT chunk takes its place.
+    png.truncate(png.len() - 12);
+    let fault = png16::decode(&[png, b"\0\0\0\0IDAT\x35\xaf\x06\x1e".to_vec()].concat(), Limits::default());
+    let fault = fault.expect_err("no image");
+    assert!(fault.to_string().contains("bytes cannot hold the 536870912 bytes"), "{fault}");
+}

@@ -50,3 +50,23 @@ pub(super) fn ensure_can_hold(packed: usize, expanded: usize) -> Result<(), Faul
         "{packed} bytes cannot hold the {expanded} bytes of the cells they stand for"
     )))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_no_compression_can_do_is_refused() {
+        assert!(ensure_can_hold(1000, 1_032_000).is_ok(), "the most that Deflate does");
+        assert!(ensure_can_hold(1000, 2_100_000).is_err());
+        assert!(ensure_can_hold(0, 2047).is_ok(), "too little to matter");
+    }
+
+    #[test]
+    fn a_size_is_refused_from_the_first_cell_too_many() {
+        let limits = Limits { cells: 12 };
+        assert_eq!(limits.size(4, 3), Ok(Size { columns: 4, rows: 3 }));
+        assert!(matches!(limits.size(13, 1), Err(Fault::Limit(_))));
+        assert!(matches!(limits.size(0, 1), Err(Fault::Limit(_))));
+    }
+}

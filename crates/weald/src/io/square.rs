@@ -217,9 +217,13 @@ mod tests {
         let (new, _) = square(placed(plane(size, 0.0, 1.0), [10.0, 17.0], 32633)).expect("square");
         assert_eq!(new.field.size().rows, 102);
         // The first and last rows lie beyond the outermost centres, where there is nothing to go between.
-        for y in 1..new.field.size().rows - 2 {
-            let rise = new.field.at(1, y + 1) - new.field.at(1, y);
-            assert!((rise - 10.0 / 17.0).abs() < 1e-4, "row {y} rises by {rise}");
+        for y in 1..101 {
+            let height = (y as f32 + 0.5) * 60.0 / 102.0 - 0.5;
+            assert!(
+                (new.field.at(1, y) - height).abs() < 1e-4,
+                "row {y}: {} not {height}",
+                new.field.at(1, y)
+            );
         }
     }
 

@@ -13,8 +13,6 @@ pub(super) struct Layout {
     pub(super) size: Size,
     /// Columns and rows of a whole chunk.
     pub(super) chunk: Size,
-    /// Tiles pad the last row and column of chunks to full size; strips do not.
-    tiled: bool,
     sample_bytes: usize,
     offsets: Vec<u64>,
     lengths: Vec<u64>,
@@ -45,7 +43,7 @@ impl Layout {
         let offsets = directory.numbers(tags.offsets)?.unwrap_or_default();
         let lengths = directory.numbers(tags.lengths)?.unwrap_or_default();
         let sample_bytes = sample.bytes();
-        let layout = Self { size, chunk, tiled: tile_width.is_some(), sample_bytes, offsets, lengths };
+        let layout = Self { size, chunk, sample_bytes, offsets, lengths };
         layout.ensure_complete()?;
         layout.ensure_chunks(directory.bytes)?;
         Ok(layout)
@@ -70,12 +68,10 @@ impl Layout {
         self.size.columns.div_ceil(self.chunk.columns)
     }
 
-    /// Bytes of a chunk once it is expanded.
+    /// Bytes of the rows of a chunk that the grid has; the padding below them stays packed.
     pub(super) fn expanded_bytes(&self, index: usize) -> usize {
         let first_row = index / self.across() * self.chunk.rows;
-        let covered = self.chunk.rows.min(self.size.rows - first_row);
-        let rows = if self.tiled { self.chunk.rows } else { covered };
-        self.row_bytes() * rows
+        self.row_bytes() * self.chunk.rows.min(self.size.rows - first_row)
     }
 
     /// Bytes of a row of a chunk.

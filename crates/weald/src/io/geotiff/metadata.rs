@@ -71,8 +71,9 @@ mod tests {
     use super::*;
 
     #[test]
-    fn markup_in_a_provenance_survives() {
+    fn markup_in_a_provenance_is_escaped_and_survives() {
         let written = xml(&example());
+        assert!(written.contains(">water&lt;&quot;&amp;&quot;&gt;</Item>"), "{written}");
         assert_eq!(Provenance::from_items(|key| item(&written, key)), Some(example()));
     }
 

@@ -82,16 +82,11 @@ impl Coding<'_> {
             self.compression
                 .expand(packed, &mut expanded)
                 .map_err(|cause| Fault::damaged(format!("chunk {index} is damaged: {cause}")))?;
-            let rows = expanded.chunks_exact_mut(self.layout.row_bytes());
-            for (y, row) in rows.take(self.rows_of(band)).enumerate() {
+            for (y, row) in expanded.chunks_exact_mut(self.layout.row_bytes()).enumerate() {
                 self.read_row(band, self.cells_of_chunk(across, y), row);
             }
         }
         Ok(())
-    }
-
-    fn rows_of(&self, band: &Band<'_>) -> usize {
-        band.values.len() / self.layout.size.columns
     }
 
     /// Positions in a band of row `y` of a chunk.
@@ -117,7 +112,7 @@ impl Coding<'_> {
 
     /// A chunk that a sparse file leaves out is no-data, or 0 where the file declares none.
     fn leave_out(&self, band: &mut Band<'_>, across: usize) {
-        for y in 0..self.rows_of(band) {
+        for y in 0..band.values.len() / self.layout.size.columns {
             band.land[self.cells_of_chunk(across, y)].fill(self.no_data.is_none());
         }
     }

@@ -163,6 +163,21 @@ mod tests {
         assert_eq!(values, [-2.0, 256.0]);
     }
 
+    #[test]
+    fn all_bits_set_are_minus_one_in_signed_types_and_the_greatest_number_in_unsigned_ones() {
+        for (sample, value) in [
+            (Sample::Signed8, -1.0),
+            (Sample::Signed16, -1.0),
+            (Sample::Signed32, -1.0),
+            (Sample::Unsigned8, 255.0),
+            (Sample::Unsigned16, 65535.0),
+            (Sample::Unsigned32, 4_294_967_295.0),
+        ] {
+            let row = vec![0xff; sample.bytes()];
+            assert_eq!(undone(Predictor::None, &row, sample, Order::Little), [value], "{}", sample.name());
+        }
+    }
+
     /// GDAL before version 3 wrote the least `float32` with 15 digits, which `float32` cannot tell from 17.
     #[test]
     fn a_no_data_number_with_too_few_digits_still_marks_its_cells() {
