@@ -97,3 +97,20 @@ fn read_bytes(path: &Path, limit: u64) -> Result<Vec<u8>, Error> {
     }
     Ok(bytes)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_file_is_read_up_to_its_limit_and_no_further() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("ten.tif");
+        std::fs::write(&path, [7; 10]).expect("written");
+        assert_eq!(read_bytes(&path, 10).expect("within"), [7; 10]);
+        let error = read_bytes(&path, 9).expect_err("over");
+        assert_eq!(error.exit_code(), 5, "{error}");
+        let error = read_bytes(&folder.path().join("none.tif"), 9).expect_err("missing");
+        assert_eq!(error.exit_code(), 4, "{error}");
+    }
+}

@@ -72,6 +72,13 @@ mod tests {
     use super::*;
 
     #[test]
+    fn both_numbers_of_deflate_are_known_and_others_name_what_is_read() {
+        assert_eq!(Compression::of(8), Ok(Compression::Deflate));
+        assert_eq!(Compression::of(32946), Ok(Compression::Deflate));
+        assert!(Compression::of(7).is_err_and(|fault| fault.to_string().contains("compression 7; 1 (none)")));
+    }
+
+    #[test]
     fn a_chunk_that_ends_early_says_how_early() {
         let mut expanded = [0; 8];
         let error = Compression::None.expand(&[1, 2, 3], &mut expanded).expect_err("too short");
