@@ -167,7 +167,7 @@ fn tiles_that_a_sparse_file_leaves_out_are_no_data() {
 fn files_of_an_unread_kind_say_what_would_be_read() {
     assert!(complaint("two_bands.tif").contains("2 bands; choose one with `gdal_translate -b 1"));
     assert!(complaint("zstd.tif").contains("compression 50000"));
-    assert!(complaint("mask.tif").contains("mask of its own"));
+    assert!(complaint("mask.tif").contains("mask of their own"));
     assert!(complaint("rotated.tif").contains("rotated or sheared"));
     let undeclared = complaint("nan_undeclared.tif");
     assert!(undeclared.contains("column 0, row 0 holds NaN"), "{undeclared}");

@@ -53,7 +53,7 @@ impl Info {
             range: raster.field.range(raster.land.as_ref()),
             cell: raster.cell,
             georeference: raster.georeference,
-            no_data_share: 1.0 - land_cells as f64 / size.cells() as f64,
+            no_data_share: (size.cells() - land_cells) as f64 / size.cells() as f64,
             provenance: raster.provenance,
             notes: raster.notes,
         }

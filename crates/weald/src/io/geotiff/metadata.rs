@@ -23,7 +23,7 @@ pub(super) fn ensure_no_mask(directory: &Directory<'_>) -> Result<(), Fault> {
         return Ok(());
     }
     Err(Fault::damaged(
-        "the cells without data stand in a mask of its own; turn it into a no-data value with gdalwarp \
+        "the cells without data stand in a mask of their own; turn it into a no-data value with gdalwarp \
          -dstnodata -9999 in.tif out.tif",
     ))
 }
