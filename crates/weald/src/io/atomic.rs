@@ -32,3 +32,21 @@ fn temporary_name(path: &Path) -> PathBuf {
     name.push(format!(".{}.tmp-weald", std::process::id()));
     path.with_file_name(name)
 }
+
+#[cfg(all(test, target_os = "linux"))]
+mod tests {
+    use super::*;
+
+    /// `/dev/full` refuses every byte as a full disk does; a link puts it in the temporary file's place.
+    #[test]
+    fn a_full_disk_leaves_no_half_file_and_keeps_the_old_one() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("height.tif");
+        std::fs::write(&path, "old").expect("written");
+        std::os::unix::fs::symlink("/dev/full", temporary_name(&path)).expect("linked");
+        let error = write_whole(&path, b"new").expect_err("no space");
+        assert!(error.to_string().contains("height.tif: No space left on device"), "{error}");
+        assert_eq!(std::fs::read(&path).expect("kept"), b"old");
+        assert_eq!(std::fs::read_dir(folder.path()).expect("lists").count(), 1);
+    }
+}

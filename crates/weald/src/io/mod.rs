@@ -1,52 +1,36 @@
 //! Raster files, one file a format. The extension chooses the format; [`FORMATS`] is the registry.
 //!
-//! Every reader checks the sizes in a file's header against [`MAXIMUM_CELLS`](crate::grid::MAXIMUM_CELLS)
-//! before it allocates; every writer writes under a temporary name and renames the whole file.
+//! Every reader works on bytes, so that it can be fuzzed without a file system, and checks the sizes in a
+//! header against its [`Limits`] before it allocates; every writer writes under a temporary name and renames
+//! the whole file.
 
 mod atomic;
+mod fault;
+pub mod geotiff;
+mod info;
+mod limits;
+pub mod npy;
+pub mod png16;
+mod provenance;
+mod raster;
+mod square;
 
 pub use atomic::write_whole;
+pub use fault::Fault;
+pub use info::{Info, describe};
+pub use limits::Limits;
+pub use provenance::Provenance;
+pub use raster::Raster;
+pub use square::square;
 
+use std::fs::File;
+use std::io::Read;
 use std::path::Path;
 
-use crate::domain::Georeference;
 use crate::error::Error;
-use crate::grid::{Field, Mask};
 
-/// A grid of numbers with all that a file can say about it.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Raster {
-    /// The values; no-data cells hold 0.
-    pub field: Field,
-    /// Cells with data; `None` where all have.
-    pub land: Option<Mask>,
-    /// Side of a cell in metres, where the file says it and cells are square.
-    pub cell: Option<f64>,
-    /// Place on Earth.
-    pub georeference: Option<Georeference>,
-    /// Where the values came from.
-    pub provenance: Option<Provenance>,
-}
-
-/// Where a file came from, written into every format that can carry it.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Provenance {
-    /// Version of Weald.
-    pub version: String,
-    /// BLAKE3 hash of the recipe, in hexadecimal.
-    pub recipe_blake3: String,
-    /// Seed of the landscape.
-    pub seed: u64,
-    /// Layer name.
-    pub layer: String,
-    /// Unit of the values.
-    pub unit: String,
-    /// Least and greatest value over the cells with data.
-    pub range: (f64, f64),
-}
-
-/// Reads a file.
-pub type Read = fn(&Path) -> Result<Raster, Error>;
+/// Turns the bytes of a file into a raster.
+pub type Decode = fn(&[u8], Limits) -> Result<Raster, Fault>;
 
 /// Turns a raster into the bytes of a file.
 pub type Encode = fn(&Raster) -> Result<Vec<u8>, Error>;
@@ -59,13 +43,13 @@ pub struct Format {
     /// Extensions in lower case, without the dot.
     pub extensions: &'static [&'static str],
     /// Reads a file, where the format is read.
-    pub read: Option<Read>,
+    pub decode: Option<Decode>,
     /// Writes one, where the format is written.
     pub encode: Option<Encode>,
 }
 
 /// All raster formats.
-pub const FORMATS: &[Format] = &[];
+pub const FORMATS: &[Format] = &[geotiff::FORMAT, png16::FORMAT, npy::FORMAT];
 
 /// The format of a file name.
 ///
@@ -80,16 +64,53 @@ pub fn format_of(path: &Path) -> Result<&'static Format, String> {
 }
 
 /// Reads any raster file.
+///
+/// # Errors
+/// [`Error::Input`] for a file that is missing, damaged or of a kind that is not read, [`Error::Limit`] for
+/// one that is too large.
 pub fn read(path: &Path) -> Result<Raster, Error> {
     let format = format_of(path).map_err(|what| Error::input(path, what))?;
-    let read =
-        format.read.ok_or_else(|| Error::input(path, format!("{} is written, not read", format.name)))?;
-    read(path)
+    let decode =
+        format.decode.ok_or_else(|| Error::input(path, format!("{} is written, not read", format.name)))?;
+    let limits = Limits::default();
+    decode(&read_bytes(path, limits.file_bytes())?, limits).map_err(|fault| fault.of(path))
 }
 
 /// Writes a raster under its whole name only when all of it is on disk.
+///
+/// # Errors
+/// [`Error::Run`] for an unknown extension, values that the format cannot hold, or a failed write.
 pub fn write(path: &Path, raster: &Raster) -> Result<(), Error> {
     let format = format_of(path).map_err(Error::Run)?;
     let encode = format.encode.ok_or_else(|| Error::Run(format!("{} is read, not written", format.name)))?;
     write_whole(path, &encode(raster)?)
+}
+
+/// All bytes of a file, where they are at most `limit`. The length is counted while reading, because a
+/// device or a pipe has none to ask for.
+fn read_bytes(path: &Path, limit: u64) -> Result<Vec<u8>, Error> {
+    let mut bytes = Vec::new();
+    let reading = File::open(path).and_then(|file| file.take(limit + 1).read_to_end(&mut bytes));
+    reading.map_err(|cause| Error::input(path, format!("cannot be read: {cause}")))?;
+    if bytes.len() as u64 > limit {
+        return Err(Fault::Limit(format!("the file is longer than the {limit} bytes that are read")).of(path));
+    }
+    Ok(bytes)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_file_is_read_up_to_its_limit_and_no_further() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("ten.tif");
+        std::fs::write(&path, [7; 10]).expect("written");
+        assert_eq!(read_bytes(&path, 10).expect("within"), [7; 10]);
+        let error = read_bytes(&path, 9).expect_err("over");
+        assert_eq!(error.exit_code(), 5, "{error}");
+        let error = read_bytes(&folder.path().join("none.tif"), 9).expect_err("missing");
+        assert_eq!(error.exit_code(), 4, "{error}");
+    }
 }

@@ -1,0 +1,206 @@
+//! The first tag directory of a TIFF or `BigTIFF` file, in either byte order.
+//!
+//! Nothing is copied until a tag is asked for, and a tag's values must lie within the file, so what is
+//! allocated is at most eight times the file.
+
+use super::super::Fault;
+
+/// Byte order of a file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Order {
+    Little,
+    Big,
+}
+
+impl Order {
+    /// The number in 1 to 8 bytes.
+    pub(super) fn number(self, bytes: &[u8]) -> u64 {
+        let join = |number: u64, byte: &u8| number << 8 | u64::from(*byte);
+        match self {
+            Self::Little => bytes.iter().rev().fold(0, join),
+            Self::Big => bytes.iter().fold(0, join),
+        }
+    }
+}
+
+/// One tag: type of the values, their count, and their bytes in the file.
+#[derive(Debug)]
+struct Entry<'a> {
+    tag: u16,
+    kind: u16,
+    /// `None` where the values lie outside the file: an error only for a tag that is asked for.
+    values: Option<&'a [u8]>,
+}
+
+/// The tags of the first image of a file.
+#[derive(Debug)]
+pub(super) struct Directory<'a> {
+    pub(super) bytes: &'a [u8],
+    pub(super) order: Order,
+    widths: &'static Widths,
+    entries: Vec<Entry<'a>>,
+    /// Where the next directory lies; 0 behind the last.
+    next: u64,
+}
+
+/// More than any pyramid of overviews has; it also ends a chain that runs in a circle.
+const MAXIMUM_DIRECTORIES: usize = 64;
+
+/// Widths of the fields that differ between TIFF and `BigTIFF`.
+#[derive(Debug)]
+struct Widths {
+    entries: usize,
+    offset: usize,
+    first: usize,
+}
+
+static CLASSIC: Widths = Widths { entries: 2, offset: 4, first: 4 };
+static BIG: Widths = Widths { entries: 8, offset: 8, first: 8 };
+
+const ASCII: u16 = 2;
+const FLOAT: u16 = 11;
+const DOUBLE: u16 = 12;
+
+impl<'a> Directory<'a> {
+    /// Finds the first directory.
+    pub(super) fn parse(bytes: &'a [u8]) -> Result<Self, Fault> {
+        let (order, widths) = header(bytes)?;
+        let start = order.number(field(bytes, widths.first as u64, widths.offset)?);
+        Self::at(bytes, order, widths, start)
+    }
+
+    fn at(bytes: &'a [u8], order: Order, widths: &'static Widths, start: u64) -> Result<Self, Fault> {
+        let count = order.number(field(bytes, start, widths.entries)?);
+        let entry_width = 4 + 2 * widths.offset;
+        let Some(length) = (count as usize).checked_mul(entry_width) else {
+            return Err(Fault::damaged(format!("the directory at byte {start} claims {count} tags")));
+        };
+        let first = start + widths.entries as u64;
+        let table = field(bytes, first, length)?;
+        let entries = table.chunks_exact(entry_width).map(|row| entry(bytes, order, row)).collect();
+        let next = field(bytes, first + length as u64, widths.offset).map_or(0, |next| order.number(next));
+        Ok(Self { bytes, order, widths, entries, next })
+    }
+
+    /// The directories of the images behind the first one: overviews and masks. Damage among them ends the
+    /// list, since the first image is whole without them.
+    pub(super) fn others(&self) -> impl Iterator<Item = Self> {
+        std::iter::successors(self.next(), Self::next).take(MAXIMUM_DIRECTORIES)
+    }
+
+    fn next(&self) -> Option<Self> {
+        (self.next != 0).then(|| Self::at(self.bytes, self.order, self.widths, self.next).ok())?
+    }
+
+    fn find(&self, tag: u16) -> Result<Option<(u16, &'a [u8])>, Fault> {
+        let Some(entry) = self.entries.iter().find(|entry| entry.tag == tag) else { return Ok(None) };
+        let values = entry.values.ok_or_else(|| {
+            Fault::damaged(format!(
+                "the values of tag {tag} lie outside the file of {} bytes; the file is truncated or damaged",
+                self.bytes.len()
+            ))
+        })?;
+        Ok(Some((entry.kind, values)))
+    }
+
+    /// The whole numbers of a tag.
+    pub(super) fn numbers(&self, tag: u16) -> Result<Option<Vec<u64>>, Fault> {
+        let Some((kind, values)) = self.find(tag)? else { return Ok(None) };
+        let width = match kind {
+            1 => 1,
+            3 => 2,
+            4 | 13 => 4,
+            16 | 18 => 8,
+            _ => return Err(wrong_type(tag, kind, "whole numbers")),
+        };
+        Ok(Some(values.chunks_exact(width).map(|number| self.order.number(number)).collect()))
+    }
+
+    /// The first whole number of a tag.
+    pub(super) fn number(&self, tag: u16) -> Result<Option<u64>, Fault> {
+        match self.numbers(tag)?.map(|numbers| numbers.first().copied()) {
+            None => Ok(None),
+            Some(Some(number)) => Ok(Some(number)),
+            Some(None) => Err(Fault::damaged(format!("tag {tag} is empty, but must hold a number"))),
+        }
+    }
+
+    /// The first whole number of a tag that the file must have.
+    pub(super) fn needed(&self, tag: u16) -> Result<u64, Fault> {
+        self.number(tag)?.ok_or_else(|| Fault::damaged(format!("tag {tag} is missing; this is no raster")))
+    }
+
+    /// The floating-point numbers of a tag.
+    pub(super) fn doubles(&self, tag: u16) -> Result<Option<Vec<f64>>, Fault> {
+        let Some((kind, values)) = self.find(tag)? else { return Ok(None) };
+        let double = |bytes| f64::from_bits(self.order.number(bytes));
+        let float = |bytes| f64::from(f32::from_bits(self.order.number(bytes) as u32));
+        match kind {
+            DOUBLE => Ok(Some(values.chunks_exact(8).map(double).collect())),
+            FLOAT => Ok(Some(values.chunks_exact(4).map(float).collect())),
+            _ => Err(wrong_type(tag, kind, "floating-point numbers")),
+        }
+    }
+
+    /// The bytes of a tag of text, up to the first NUL.
+    pub(super) fn text(&self, tag: u16) -> Result<Option<&'a [u8]>, Fault> {
+        match self.find(tag)? {
+            None => Ok(None),
+            Some((ASCII, text)) => Ok(text.split(|&byte| byte == 0).next()),
+            Some((kind, _)) => Err(wrong_type(tag, kind, "text")),
+        }
+    }
+}
+
+fn header(bytes: &[u8]) -> Result<(Order, &'static Widths), Fault> {
+    let order = match bytes.get(..2) {
+        Some(b"II") => Order::Little,
+        Some(b"MM") => Order::Big,
+        _ => return Err(Fault::damaged("the file does not begin as a TIFF does, with II or MM")),
+    };
+    match order.number(field(bytes, 2, 2)?) {
+        42 => Ok((order, &CLASSIC)),
+        43 if order.number(field(bytes, 4, 2)?) == 8 => Ok((order, &BIG)),
+        version => {
+            Err(Fault::damaged(format!("TIFF version {version}; 42 (TIFF) and 43 (BigTIFF) are read")))
+        }
+    }
+}
+
+fn entry<'a>(bytes: &'a [u8], order: Order, row: &'a [u8]) -> Entry<'a> {
+    let (tag, kind) = (order.number(&row[..2]) as u16, order.number(&row[2..4]) as u16);
+    let (count, inline) = row[4..].split_at((row.len() - 4) / 2);
+    let length = order.number(count).checked_mul(value_width(kind)).and_then(|n| usize::try_from(n).ok());
+    let values = length.and_then(|length| match inline.get(..length) {
+        Some(values) => Some(values),
+        None => field(bytes, order.number(inline), length).ok(),
+    });
+    Entry { tag, kind, values }
+}
+
+/// Bytes of one value of a TIFF type; 0, and so no values, for a type that does not exist.
+fn value_width(kind: u16) -> u64 {
+    match kind {
+        1 | 2 | 6 | 7 => 1,
+        3 | 8 => 2,
+        4 | 9 | 11 | 13 => 4,
+        5 | 10 | 12 | 16..=18 => 8,
+        _ => 0,
+    }
+}
+
+/// `length` bytes of the file from `start`.
+pub(super) fn field(bytes: &[u8], start: u64, length: usize) -> Result<&[u8], Fault> {
+    let range = usize::try_from(start).ok().and_then(|start| Some(start..start.checked_add(length)?));
+    range.and_then(|range| bytes.get(range)).ok_or_else(|| {
+        Fault::damaged(format!(
+            "{length} bytes from byte {start} on are missing: the file ends at byte {}; it is truncated or \
+             damaged",
+            bytes.len()
+        ))
+    })
+}
+
+fn wrong_type(tag: u16, kind: u16, wanted: &str) -> Fault {
+    Fault::damaged(format!("tag {tag} has values of TIFF type {kind}, but must hold {wanted}"))
+}

@@ -1,0 +1,28 @@
+//! GeoTIFF (OGC 19-008r4 on TIFF 6.0 and `BigTIFF`), one band.
+//!
+//! Read: strips and tiles; no compression, LZW, Deflate; predictors 1, 2 and 3; integers of 8, 16 and 32
+//! bits and floats of 32 and 64; both byte orders. Written: `float32` in tiles of 256 × 256, Deflate,
+//! predictor 3. No-data is GDAL's tag 42113, provenance its tag 42112.
+//!
+//! The tag directory is parsed here rather than by a general TIFF library, so that every size is checked
+//! against the limits and the file before anything is allocated, and tiles decode on all cores.
+
+mod compression;
+mod directory;
+mod keys;
+mod layout;
+mod metadata;
+mod read;
+mod sample;
+mod tag;
+mod write;
+
+pub(super) use keys::metres_per_unit;
+pub use read::decode;
+pub use write::encode;
+
+use super::Format;
+
+/// The entry in the registry of formats.
+pub(super) const FORMAT: Format =
+    Format { name: "GeoTIFF", extensions: &["tif", "tiff"], decode: Some(decode), encode: Some(encode) };

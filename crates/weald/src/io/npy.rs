@@ -1,0 +1,149 @@
+//! `NumPy`'s .npy, format version 1.0 (NEP 1): written as little-endian `float32` in C order, no-data as NaN.
+//!
+//! Read are two-dimensional arrays of floats and integers in either byte order and either array order; NaN is
+//! no-data. The format has no room for provenance, cell size or place: the report has them.
+
+use super::{Fault, Format, Limits, Raster};
+use crate::error::Error;
+use crate::grid::Size;
+
+/// The entry in the registry of formats.
+pub(super) const FORMAT: Format =
+    Format { name: "NumPy array", extensions: &["npy"], decode: Some(decode), encode: Some(encode) };
+
+const MAGIC: &[u8] = b"\x93NUMPY";
+
+/// The bytes of a .npy file.
+///
+/// # Errors
+/// [`Error::Run`] naming a cell with data that holds a NaN or an infinity.
+pub fn encode(raster: &Raster) -> Result<Vec<u8>, Error> {
+    raster.ensure_finite()?;
+    let Size { columns, rows } = raster.field.size();
+    let header = format!("{{'descr': '<f4', 'fortran_order': False, 'shape': ({rows}, {columns}), }}");
+    // Magic, version, length of the header, header and its newline fill whole lines of 64 bytes.
+    let length = (10 + header.len() + 1).next_multiple_of(64) - 10;
+    let mut file = Vec::with_capacity(10 + length + raster.field.size().cells() * 4);
+    file.extend(MAGIC);
+    file.extend([1, 0]);
+    file.extend((length as u16).to_le_bytes());
+    file.extend(format!("{header:<width$}\n", width = length - 1).bytes());
+    for (index, value) in raster.field.values().iter().enumerate() {
+        let value = if raster.is_land_at(index) { *value } else { f32::NAN };
+        file.extend(value.to_le_bytes());
+    }
+    Ok(file)
+}
+
+/// Reads a two-dimensional array.
+///
+/// # Errors
+/// [`Fault`] for a file that is damaged, of a kind that is not read, or over the limits.
+pub fn decode(bytes: &[u8], limits: Limits) -> Result<Raster, Fault> {
+    let (header, data) = split(bytes)?;
+    let kind = Kind::of(entry(header, "descr")?.trim_matches(['\'', '"']))?;
+    let (columns, rows) = shape(entry(header, "shape")?)?;
+    let size = limits.size(columns, rows)?;
+    let is_transposed = entry(header, "fortran_order")? == "True";
+    if data.len() != size.cells() * kind.bytes {
+        return Err(Fault::damaged(format!(
+            "{size} values of {} bytes need {} bytes, but {} follow the header; the file is damaged",
+            kind.bytes,
+            size.cells() * kind.bytes,
+            data.len()
+        )));
+    }
+    let number = |x: usize, y: usize| {
+        let index = if is_transposed { x * size.rows + y } else { y * size.columns + x };
+        kind.value(&data[index * kind.bytes..][..kind.bytes])
+    };
+    let numbers = || (0..size.cells()).map(|index| number(index % size.columns, index / size.columns));
+    let land = numbers().map(|number| !number.is_nan()).collect();
+    let values = numbers().map(|number| if number.is_nan() { 0.0 } else { number as f32 }).collect();
+    Raster::from_file(size, values, land, kind.name)
+}
+
+/// The header's dictionary and the bytes of the values.
+fn split(bytes: &[u8]) -> Result<(&str, &[u8]), Fault> {
+    let damaged = || Fault::damaged("the file does not begin with a .npy header of version 1, 2 or 3");
+    let rest = bytes.strip_prefix(MAGIC).ok_or_else(damaged)?;
+    let (length, rest) = match rest {
+        [1, _, a, b, rest @ ..] => (usize::from(u16::from_le_bytes([*a, *b])), rest),
+        [2 | 3, _, a, b, c, d, rest @ ..] => (u32::from_le_bytes([*a, *b, *c, *d]) as usize, rest),
+        _ => return Err(damaged()),
+    };
+    let (header, data) = rest.split_at_checked(length).ok_or_else(damaged)?;
+    Ok((std::str::from_utf8(header).map_err(|_| damaged())?, data))
+}
+
+/// The text of a value of the header's dictionary, up to the comma that ends it.
+fn entry<'a>(header: &'a str, key: &str) -> Result<&'a str, Fault> {
+    let missing = || Fault::damaged(format!("the .npy header has no `{key}`: {header:?}"));
+    let (_, after) = header.split_once(&format!("'{key}':")).ok_or_else(missing)?;
+    let after = after.trim_start();
+    let end = if after.starts_with('(') { after.find(')') } else { after.find([',', '}']) };
+    Ok(after[..end.ok_or_else(missing)?].trim())
+}
+
+/// Columns and rows from `(rows, columns`.
+fn shape(text: &str) -> Result<(usize, usize), Fault> {
+    let sides: Option<Vec<usize>> = text
+        .trim_start_matches('(')
+        .split(',')
+        .map(str::trim)
+        .filter(|side| !side.is_empty())
+        .map(|side| side.parse().ok())
+        .collect();
+    match sides.as_deref() {
+        Some([rows, columns]) => Ok((*columns, *rows)),
+        _ => Err(Fault::damaged(format!(
+            "an array of shape {text}); two dimensions, rows and columns, are read"
+        ))),
+    }
+}
+
+/// Type of the values.
+struct Kind {
+    name: &'static str,
+    bytes: usize,
+    is_big: bool,
+    value: fn(u64) -> f64,
+}
+
+impl Kind {
+    /// The type behind `NumPy`'s name for it, such as `<f4`.
+    fn of(description: &str) -> Result<Self, Fault> {
+        let (order, kind) = description.split_at_checked(1).unwrap_or_default();
+        let (name, bytes, value): (_, _, fn(u64) -> f64) = match kind {
+            "f4" => ("float32", 4, |bits| f64::from(f32::from_bits(bits as u32))),
+            "f8" => ("float64", 8, f64::from_bits),
+            "i1" => ("int8", 1, |bits| f64::from(bits as i8)),
+            "i2" => ("int16", 2, |bits| f64::from(bits as i16)),
+            "i4" => ("int32", 4, |bits| f64::from(bits as i32)),
+            "i8" => ("int64", 8, |bits| bits as i64 as f64),
+            "u1" => ("uint8", 1, |bits| bits as f64),
+            "u2" => ("uint16", 2, |bits| bits as f64),
+            "u4" => ("uint32", 4, |bits| bits as f64),
+            "u8" => ("uint64", 8, |bits| bits as f64),
+            _ => return Err(unread(description)),
+        };
+        match order {
+            "<" | "|" | "=" => Ok(Self { name, bytes, is_big: false, value }),
+            ">" => Ok(Self { name, bytes, is_big: true, value }),
+            _ => Err(unread(description)),
+        }
+    }
+
+    fn value(&self, bytes: &[u8]) -> f64 {
+        let join = |bits: u64, byte: &u8| bits << 8 | u64::from(*byte);
+        let bits = if self.is_big { bytes.iter().fold(0, join) } else { bytes.iter().rev().fold(0, join) };
+        (self.value)(bits)
+    }
+}
+
+fn unread(description: &str) -> Fault {
+    Fault::damaged(format!(
+        "values of type `{description}`; floats (f4, f8) and integers (i1 to i8, u1 to u8) are read: \
+         array.astype('f4')"
+    ))
+}
