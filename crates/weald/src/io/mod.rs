@@ -5,7 +5,7 @@
 
 mod atomic;
 
-pub use atomic::write_whole;
+pub use atomic::{write_whole, write_whole_with};
 
 use std::path::Path;
 

@@ -34,6 +34,8 @@ pub enum Kind {
     Choice(&'static [&'static str]),
     /// Any text.
     Text,
+    /// Cells a side, or a list of columns and rows.
+    Sides,
     /// The name of a layer.
     Layer,
     /// A list of numbers, each within both bounds.
@@ -46,17 +48,27 @@ impl Kind {
     /// The kind in words, for `weald steps` and errors.
     pub fn in_words(&self) -> String {
         match self {
-            Self::Number(low, high) => format!("number, {low} to {high}"),
-            Self::Integer(low, high) => format!("whole number, {low} to {high}"),
+            Self::Number(low, high) => format!("number, {}", range_in_words(*low, *high)),
+            Self::Integer(low, high) => format!("whole number, {}", range_in_words(low.max(0.0), *high)),
             Self::Flag => "true or false".to_owned(),
             Self::Choice(names) => {
                 names.iter().map(|name| format!("{name:?}")).collect::<Vec<_>>().join(" | ")
             }
             Self::Text => "text".to_owned(),
+            Self::Sides => "whole number from 1, or [columns, rows]".to_owned(),
             Self::Layer => "layer name".to_owned(),
-            Self::Numbers(low, high) => format!("list of numbers, {low} to {high}"),
+            Self::Numbers(low, high) => format!("list of numbers, {}", range_in_words(*low, *high)),
             Self::Table(_) => "table".to_owned(),
         }
+    }
+}
+
+fn range_in_words(low: f64, high: f64) -> String {
+    match (low.is_finite(), high.is_finite()) {
+        (true, true) => format!("{low} to {high}"),
+        (true, false) => format!("at least {low}"),
+        (false, true) => format!("at most {high}"),
+        (false, false) => "any finite".to_owned(),
     }
 }
 
@@ -128,10 +140,10 @@ pub trait ParameterValue: Sized + Clone {
 
 fn within<T: Into<f64> + Copy + std::fmt::Display>(number: T, range: (f64, f64)) -> Result<T, String> {
     let wide: f64 = number.into();
-    if wide >= range.0 && wide <= range.1 {
+    if wide.is_finite() && wide >= range.0 && wide <= range.1 {
         return Ok(number);
     }
-    Err(format!("is {number}, outside {} to {}", range.0, range.1))
+    Err(format!("is {number}, outside its range: {}", range_in_words(range.0, range.1)))
 }
 
 fn wrong(node: &Node, wanted: &str) -> String {
@@ -147,7 +159,7 @@ impl ParameterValue for f64 {
         match node.value {
             Value::Number(number) => within(number, range),
             Value::Integer(number) => within(number as Self, range),
-            _ => Err(wrong(node, &format!("a number from {} to {}", range.0, range.1))),
+            _ => Err(wrong(node, &format!("a {}", Self::kind(range).in_words()))),
         }
     }
 
@@ -164,7 +176,7 @@ macro_rules! whole_number {
             }
 
             fn read(node: &Node, range: (f64, f64), _: &mut Complaints) -> Result<Self, String> {
-                let wanted = || format!("a whole number from {} to {}", range.0, range.1);
+                let wanted = || format!("a {}", Self::kind(range).in_words());
                 let Value::Integer(number) = node.value else { return Err(wrong(node, &wanted())) };
                 within(number as f64, range)?;
                 Self::try_from(number).map_err(|_| wrong(node, &wanted()))
@@ -190,6 +202,58 @@ impl ParameterValue for bool {
 
     fn shown(&self) -> Option<String> {
         Some(self.to_string())
+    }
+}
+
+impl ParameterValue for String {
+    fn kind(_: (f64, f64)) -> Kind {
+        Kind::Text
+    }
+
+    fn read(node: &Node, _: (f64, f64), _: &mut Complaints) -> Result<Self, String> {
+        let Value::Text(text) = &node.value else { return Err(wrong(node, "text in quotes")) };
+        Ok(text.clone())
+    }
+
+    fn shown(&self) -> Option<String> {
+        Some(format!("{self:?}"))
+    }
+}
+
+/// Columns and rows of a grid as a recipe gives them: one number for a square, or a list of two.
+///
+/// The upper limit is that of [`Size`](crate::Size), which has an error of its own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Sides {
+    /// Cells from west to east.
+    pub columns: u64,
+    /// Cells from north to south.
+    pub rows: u64,
+}
+
+impl ParameterValue for Sides {
+    fn kind(_: (f64, f64)) -> Kind {
+        Kind::Sides
+    }
+
+    fn read(node: &Node, _: (f64, f64), _: &mut Complaints) -> Result<Self, String> {
+        let side = |value: &Value| match value {
+            Value::Integer(side) => u64::try_from(*side).ok().filter(|&side| side >= 1),
+            _ => None,
+        };
+        let sides = match &node.value {
+            Value::List(items) => match items.as_slice() {
+                [columns, rows] => side(&columns.value).zip(side(&rows.value)),
+                _ => None,
+            },
+            value => side(value).map(|side| (side, side)),
+        };
+        let (columns, rows) = sides.ok_or_else(|| wrong(node, &format!("a {}", Kind::Sides.in_words())))?;
+        Ok(Self { columns, rows })
+    }
+
+    fn shown(&self) -> Option<String> {
+        Some(format!("[{}, {}]", self.columns, self.rows))
     }
 }
 
