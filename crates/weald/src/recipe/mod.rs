@@ -17,6 +17,7 @@ pub mod schema;
 pub mod source;
 pub mod template;
 #[cfg(test)]
+#[expect(unreachable_pub, reason = "`parameters!` declares public structs")]
 mod testing;
 
 pub use checkpoint::CHECKPOINT_FILE;

@@ -16,7 +16,7 @@ crate::parameters! {
         /// Side of a cell; 1 m where none is given. With `from`, only for a file that does not say it.
         cell: Option<f64> = None, range 0.001..=100_000.0, unit "m";
         /// Seed of all random numbers. Steps of the same kind draw from different numbers.
-        seed: u64 = 0, range 0..=9_007_199_254_740_991;
+        seed: u64 = 0, range 0..=9_007_199_254_740_991_u64;
         /// An elevation model to start from instead of a size, relative to the recipe's folder. It becomes the
         /// layer `height`; its cell size, place on Earth and no-data cells are kept.
         from: Option<String> = None;
