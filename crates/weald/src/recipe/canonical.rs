@@ -53,9 +53,8 @@ fn in_toml(value: &Value) -> String {
             format!("[{}]", items.join(", "))
         }
         Value::Table(table) => {
-            let entry = |(key, node): &(String, Node)| {
-                format!("{} = {}", bare_or_quoted(key), in_toml(&node.value))
-            };
+            let entry =
+                |(key, node): &(String, Node)| format!("{} = {}", bare_or_quoted(key), in_toml(&node.value));
             let entries: Vec<_> = sorted(table).into_iter().map(entry).collect();
             format!("{{ {} }}", entries.join(", "))
         }

@@ -123,7 +123,8 @@ fn read_header(file: &mut HashedReader) -> Result<Header, String> {
         return Err(format!("the header claims {length} bytes; at most {MAXIMUM_HEADER} are read"));
     }
     let header = file.bytes(length as usize)?;
-    let header: Header = serde_json::from_slice(&header).map_err(|error| format!("damaged header: {error}"))?;
+    let header: Header =
+        serde_json::from_slice(&header).map_err(|error| format!("damaged header: {error}"))?;
     let needed = header.body_bytes()?;
     if needed != u128::from(file.left()) {
         return Err(format!("is damaged: the header asks for {needed} bytes, but {} follow", file.left()));

@@ -3,8 +3,8 @@
 //! [`parameter`] declares what a step can be told, [`catalog`] lists the steps, and [`schema`], [`describe`]
 //! and [`template`] tell people and editors about them.
 
-pub mod catalog;
 mod canonical;
+pub mod catalog;
 mod checkpoint;
 pub mod describe;
 mod ground;

@@ -168,7 +168,8 @@ fn resize(landscape: &mut Table, side: u64) -> Result<(), String> {
     let longer = old.columns.max(old.rows);
     let scaled = |old: u64| (i128::from(old) * i128::from(side) / i128::from(longer)).max(1) as i64;
     let sides = [scaled(old.columns), scaled(old.rows)].map(|side| given(Value::Integer(side)));
-    if let Some(cell) = landscape.get("cell").map_or(Some(1.0), |node| f64::read(node, range, &mut ignored).ok())
+    if let Some(cell) =
+        landscape.get("cell").map_or(Some(1.0), |node| f64::read(node, range, &mut ignored).ok())
         && landscape.get("size").is_some()
     {
         landscape.set("cell", given(Value::Number(cell * longer as f64 / side as f64)));

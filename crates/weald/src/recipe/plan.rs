@@ -7,6 +7,8 @@ mod steps;
 #[cfg(test)]
 mod tests;
 
+use std::fs::File;
+use std::io::Read;
 use std::path::Path;
 
 pub use landscape::{Ground, LandscapeKeys};
@@ -18,7 +20,7 @@ use super::overrides::Overrides;
 use super::parameter::Complaints;
 use super::source::{self, Node, Table, Value};
 use super::{canonical, parameter};
-use crate::error::{Error, RecipeError};
+use crate::error::{Complaint, Error, RecipeError};
 use crate::io::{self, Format};
 use crate::picture::{PICTURES, PictureEntry};
 use crate::step::Entry;
@@ -40,6 +42,19 @@ pub struct Recipe {
 }
 
 impl Recipe {
+    /// Reads and checks the recipe in a file. No other file is opened.
+    ///
+    /// # Errors
+    /// As [`Recipe::parse`], and [`Error::Recipe`] for a file that cannot be read.
+    pub fn load(path: &Path, overrides: &Overrides) -> Result<Self, Error> {
+        let file = path.display().to_string();
+        let text = read_text(path).map_err(|cause| {
+            let message = format!("the recipe cannot be read: {cause}");
+            RecipeError { file: file.clone(), complaints: vec![Complaint { line: 1, message }] }
+        })?;
+        Self::parse(&file, &text, overrides)
+    }
+
     /// Reads and checks a recipe. `file` is its name; paths in it are relative to the folder of that name. No
     /// file is opened.
     ///
@@ -75,6 +90,13 @@ impl Recipe {
     pub fn hash(&self) -> String {
         blake3::hash(self.text.as_bytes()).to_hex().to_string()
     }
+}
+
+/// The text of a file, of which no more is read than shows that it is too long.
+fn read_text(path: &Path) -> std::io::Result<String> {
+    let mut text = String::new();
+    File::open(path)?.take(source::MAXIMUM_BYTES as u64 + 1).read_to_string(&mut text)?;
+    Ok(text)
 }
 
 /// The words that a recipe can use.

@@ -9,9 +9,9 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use super::checkpoint::{self, CHECKPOINT_FILE, State};
+use super::ground;
 use super::plan::{Content, Output, Planned, Recipe};
 use super::report::{OutputReport, REPORT_FILE, Report, StepReport};
-use super::ground;
 use crate::engine::{Engine, Job};
 use crate::error::Error;
 use crate::grid::Field;
@@ -38,7 +38,7 @@ pub struct Options {
 impl Options {
     /// On all cores into a folder, with a checkpoint every minute.
     pub fn into_folder(out: impl Into<PathBuf>) -> Self {
-        let checkpoint_every = Duration::from_secs(60);
+        let checkpoint_every = Duration::from_mins(1);
         Self { out: out.into(), engine: Engine::Cpu, threads: None, checkpoint_every, resume: false }
     }
 }
@@ -125,7 +125,9 @@ impl Run<'_> {
             progress.note(&format!("starting anew; the checkpoint {path} is used with --resume only"));
         }
         let (landscape, notes) = ground::load(&self.recipe.ground)?;
-        notes.iter().for_each(|note| progress.note(note));
+        for note in &notes {
+            progress.note(note);
+        }
         Ok(State { landscape, done: 0, simulation: None, steps: Vec::new(), notes })
     }
 
@@ -161,7 +163,9 @@ impl Run<'_> {
             Ok(outcome)
         });
         let outcome = result.map_err(|error| self.explain(error, planned, &desk, resumed_at))?;
-        outcome.notes.iter().for_each(|note| progress.note(note));
+        for note in &outcome.notes {
+            progress.note(note);
+        }
         let seconds = started.elapsed().as_secs_f64();
         state.steps.push(step_report(planned, &landscape, outcome, seconds, resumed_at));
         state.landscape = landscape;
@@ -240,7 +244,9 @@ fn step_report(
     let here = outcome.iterations.saturating_sub(resumed_at.unwrap_or(0));
     let mut notes = outcome.notes;
     if let Some(iteration) = resumed_at {
-        notes.push(format!("went on from a checkpoint after {iteration} iterations; seconds count from there"));
+        notes.push(format!(
+            "went on from a checkpoint after {iteration} iterations; seconds count from there"
+        ));
     }
     StepReport {
         step: planned.entry.name.to_owned(),

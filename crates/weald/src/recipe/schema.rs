@@ -25,18 +25,18 @@ pub fn schema() -> Value {
         "required": ["output"],
         "properties": {
             "landscape": table(&LandscapeKeys::parameters()),
-            "step": { "type": "array", "items": one_of(steps.collect()) },
+            "step": { "type": "array", "items": one_of(&steps.collect::<Vec<_>>()) },
             "output": {
                 "type": "array",
                 "minItems": 1,
-                "items": one_of(std::iter::once(layer_output()).chain(pictures).collect()),
+                "items": one_of(&std::iter::once(layer_output()).chain(pictures).collect::<Vec<_>>()),
             },
         },
         "additionalProperties": false,
     })
 }
 
-fn one_of(alternatives: Vec<Value>) -> Value {
+fn one_of(alternatives: &[Value]) -> Value {
     json!({ "oneOf": alternatives })
 }
 
@@ -139,9 +139,8 @@ mod tests {
     #[test]
     fn every_step_and_picture_is_an_alternative() {
         let schema = schema();
-        let count = |section: &str| {
-            schema["properties"][section]["items"]["oneOf"].as_array().map_or(0, Vec::len)
-        };
+        let count =
+            |section: &str| schema["properties"][section]["items"]["oneOf"].as_array().map_or(0, Vec::len);
         assert_eq!(count("step"), CATALOG.len());
         assert_eq!(count("output"), PICTURES.len() + 1);
     }

@@ -114,7 +114,9 @@ impl Step for Wear {
                 job.watcher.checkpoint(&saved)?;
             }
             let factor = if self.breaks_after == Some(done) { f32::NAN } else { 0.9 };
-            heights.iter_mut().for_each(|height| *height = *height * factor + 0.01);
+            for height in &mut heights {
+                *height = *height * factor + 0.01;
+            }
             done += 1;
             job.watcher.progress(done, self.iterations, size.cells());
         }

@@ -86,7 +86,8 @@ fn file_of(table: &Table, complaints: &mut Complaints) -> Option<PathBuf> {
     let inside = inside(Path::new(text));
     match &inside {
         None => {
-            let message = format!("`file` is {text:?}; it must be a name inside the output folder, without ..");
+            let message =
+                format!("`file` is {text:?}; it must be a name inside the output folder, without ..");
             complaints.add(line, message);
         }
         Some(path) if [REPORT_FILE, CHECKPOINT_FILE].map(Path::new).contains(&path.as_path()) => {

@@ -100,7 +100,8 @@ fn a_step_whose_work_is_lost_is_refused() {
 
 #[test]
 fn outputs_stay_inside_their_folder() {
-    for name in ["/etc/x.bits", "../x.bits", "a/../../x.bits", "", ".", "a/", "report.json", "./report.json"] {
+    for name in ["/etc/x.bits", "../x.bits", "a/../../x.bits", "", ".", "a/", "report.json", "./report.json"]
+    {
         let message = refusal(&with("a/./height.bits", name));
         assert!(message.contains(":12: output: `file` is"), "{name}: {message}");
     }

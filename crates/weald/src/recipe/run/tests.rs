@@ -138,7 +138,8 @@ fn a_file_in_place_of_the_folder_is_found_before_anything_runs() {
 
 #[test]
 fn steps_of_the_same_kind_draw_different_numbers() {
-    let two = RECIPE.replace("[[step]]\ndo = \"wear\"\niterations = 20", "[[step]]\ndo = \"rough\"\ninto = \"b\"");
+    let two =
+        RECIPE.replace("[[step]]\ndo = \"wear\"\niterations = 20", "[[step]]\ndo = \"rough\"\ninto = \"b\"");
     let two = format!("{two}[[output]]\nlayer = \"b\"\nfile = \"b.bits\"\n");
     let out = folder();
     run(&two, out.path(), false, &Silent).expect("runs");
