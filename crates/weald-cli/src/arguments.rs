@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::builder::PossibleValuesParser;
 use clap::{Args, Parser, Subcommand, value_parser};
 use clap_complete::Shell;
+use weald::gallery::FIGURES;
 use weald::recipe::Overrides;
 use weald::recipe::template::TEMPLATES;
 
@@ -56,6 +57,15 @@ pub(crate) enum Command {
         #[arg(value_name = "OUT")]
         output: PathBuf,
     },
+    /// Make the figures of the publications again
+    Gallery {
+        /// A figure to make [default: all]
+        #[arg(long, value_name = "ID", value_parser = figure_ids())]
+        only: Vec<String>,
+        /// Folder of the pictures and their page
+        #[arg(long, value_name = "DIR", default_value = "out/gallery")]
+        out: PathBuf,
+    },
     /// Print the JSON Schema of recipes
     Schema,
     /// Print completions for a shell
@@ -67,6 +77,10 @@ pub(crate) enum Command {
 
 fn template_names() -> PossibleValuesParser {
     PossibleValuesParser::new(TEMPLATES.iter().map(|template| template.name))
+}
+
+fn figure_ids() -> PossibleValuesParser {
+    PossibleValuesParser::new(FIGURES.iter().map(|figure| figure.id))
 }
 
 #[derive(Debug, Args)]

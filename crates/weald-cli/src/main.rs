@@ -24,6 +24,7 @@ fn main() -> ExitCode {
         Command::New { name, template } => commands::new::new(&name, &template),
         Command::Info { file, json } => commands::info::info(&file, json),
         Command::Convert { input, output } => commands::convert::convert(&input, &output),
+        Command::Gallery { only, out } => commands::gallery::gallery(&only, &out),
         Command::Schema => commands::schema::schema(),
         Command::Completions { shell } => commands::completions::completions(shell),
     };

@@ -3,6 +3,7 @@
 pub(crate) mod check;
 pub(crate) mod completions;
 pub(crate) mod convert;
+pub(crate) mod gallery;
 pub(crate) mod info;
 pub(crate) mod new;
 pub(crate) mod run;
