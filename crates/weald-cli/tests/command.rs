@@ -195,7 +195,7 @@ fn a_disk_that_fills_up_ends_with_1_and_leaves_no_half_file() {
 fn a_new_size_keeps_shape_and_extent() {
     let place = Place::with(RECIPE);
     let output = place.weald(&["check", "r.toml", "--size", "8", "--seed", "11"]);
-    assert_eq!(stdout(&output), "r.toml: good; 8 × 4 cells of 40 m, 1 steps, 1 outputs, seed 11\n");
+    assert_eq!(stdout(&output), "r.toml: good; 8 × 4 cells of 40 m, steps: 1, outputs: 1, seed: 11\n");
 }
 
 #[test]
@@ -256,8 +256,7 @@ fn a_reader_that_leaves_early_is_no_failure() {
 #[test]
 fn a_conversion_keeps_the_place_on_earth_and_the_cells_without_data() {
     let place = Place::with(RECIPE);
-    let data = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data/jacksboro_fault_utm16_80m.tif");
-    let data = data.to_str().expect("the path is text");
+    let data = &data("jacksboro_fault_utm16_80m.tif");
     let info = |file: &str| -> serde_json::Value {
         serde_json::from_str(&stdout(&place.weald(&["info", file, "--json"]))).expect("info gives JSON")
     };
@@ -268,6 +267,47 @@ fn a_conversion_keeps_the_place_on_earth_and_the_cells_without_data() {
         assert_eq!(old[key], new[key], "{key}");
     }
     assert!(stdout(&place.weald(&["info", "copy.tif"])).contains("32616"));
+}
+
+fn data(name: &str) -> String {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data").join(name).display().to_string()
+}
+
+/// A recipe that starts from an elevation model and writes it again.
+fn from_file(name: &str, more: &str) -> Place {
+    Place::with(&format!(
+        "[landscape]\nfrom = {:?}\n{more}\n[[output]]\nlayer = \"height\"\nfile = \"height.tif\"\n",
+        data(name)
+    ))
+}
+
+#[test]
+fn ground_from_a_file_keeps_its_place_and_its_cells_without_data() {
+    let place = from_file("jacksboro_fault_utm16_80m.tif", "[[step]]\ndo = \"smooth\"\n");
+    assert_ends(&place, &["run", "r.toml"], 0, &[]);
+    let info = |file: &str| -> serde_json::Value {
+        serde_json::from_str(&stdout(&place.weald(&["info", file, "--json"]))).expect("info gives JSON")
+    };
+    let (old, new) = (info(&data("jacksboro_fault_utm16_80m.tif")), info("out/r/height.tif"));
+    assert!(old["no_data_share"].as_f64() > Some(0.05), "the file has cells without data");
+    for key in ["epsg", "origin", "pixel", "columns", "rows", "no_data_share"] {
+        assert_eq!(old[key], new[key], "{key}");
+    }
+    assert_ne!(old["range"], new["range"], "the step has smoothed something");
+}
+
+#[test]
+fn degrees_become_metres_and_the_run_says_so() {
+    let place = from_file("jacksboro_fault_srtm_wgs84.tif", "");
+    assert_ends(&place, &["run", "r.toml"], 0, &["note: ", "degrees became metres at latitude 36"]);
+    let report = std::fs::read_to_string(place.path("out/r/report.json")).expect("written");
+    assert!(report.contains("degrees became metres"), "{report}");
+}
+
+#[test]
+fn a_cell_size_that_contradicts_the_file_ends_with_4() {
+    let place = from_file("jacksboro_fault_utm16_80m.tif", "cell = 30");
+    assert_ends(&place, &["run", "r.toml"], 4, &["80 m wide", "`cell = 30`", "remove `cell`"]);
 }
 
 const LONG: &str = "\

@@ -15,7 +15,7 @@ pub(crate) fn check(arguments: &CheckArguments) -> Result<(), Failure> {
     let (steps, outputs) = (recipe.steps.len(), recipe.outputs.len());
     let file = &recipe.file;
     stdout::print(&format!(
-        "{file}: good; {ground}, {steps} steps, {outputs} outputs, seed {}\n",
+        "{file}: good; {ground}, steps: {steps}, outputs: {outputs}, seed: {}\n",
         recipe.seed
     ))
 }

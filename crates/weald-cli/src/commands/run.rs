@@ -54,7 +54,7 @@ fn summary(report: &Report, out: &Path) -> String {
 
 fn content(output: &OutputReport) -> String {
     match (&output.layer, &output.unit, output.range) {
-        (Some(layer), Some(unit), Some((low, high))) => format!("{layer}, {low} to {high} {unit}"),
+        (Some(layer), Some(unit), Some((low, high))) => format!("{layer}, {low:.3} to {high:.3} {unit}"),
         (Some(layer), ..) => layer.clone(),
         _ => format!("picture, {}", output.picture.as_deref().unwrap_or_default()),
     }

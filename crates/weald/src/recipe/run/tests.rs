@@ -92,7 +92,8 @@ fn a_run_that_is_stopped_and_resumed_ends_with_the_same_bits() {
         assert!(error.to_string().contains("--resume"), "{error}");
         assert_eq!(files_in(parts.path()), ["checkpoint.weald", "deep"], "no output is there yet");
     }
-    run(RECIPE, parts.path(), true, &Silent).expect("goes on to the end");
+    let report = run(RECIPE, parts.path(), true, &Silent).expect("goes on to the end");
+    assert!(report.steps[1].notes[0].contains("after 14 iterations"), "{:?}", report.steps[1].notes);
     assert_eq!(height(whole.path()), height(parts.path()));
     assert_eq!(files_in(parts.path()), ["deep", "dot.png", "report.json"], "the checkpoint is gone");
 }
@@ -134,6 +135,20 @@ fn a_file_in_place_of_the_folder_is_found_before_anything_runs() {
     std::fs::create_dir_all(out.path().join("dot.png")).expect("makes");
     let error = run(RECIPE, out.path(), false, &heard).expect_err("a folder in place of a file");
     assert!(error.to_string().contains("it is a folder"), "{error}");
+}
+
+#[test]
+fn cells_without_data_are_written_as_such() {
+    let recipe = parse(RECIPE).expect("good");
+    let size = crate::Size::new(3, 1).expect("small");
+    let land = crate::grid::Mask::new(size, vec![true, false, true]);
+    let mut landscape = Landscape::new(crate::Domain { land: land.clone(), ..crate::Domain::new(size, 2.0) });
+    landscape.insert("height", "m", Field::from_values(size, vec![5.0, f32::NAN, 7.0]));
+    let writer = Writer { recipe: &recipe, landscape: &landscape, hash: "" };
+    let raster = writer.raster("height").expect("the layer is there");
+    assert_eq!(raster.field.values(), [5.0, 0.0, 7.0]);
+    assert_eq!(raster.land, land);
+    assert_eq!(raster.provenance.map(|provenance| provenance.range), Some((5.0, 7.0)));
 }
 
 #[test]
