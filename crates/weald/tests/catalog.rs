@@ -55,7 +55,8 @@ fn check_documented(owner: &str, parameters: &[Parameter]) {
 /// The keys that a table cannot do without, each on a line of its own.
 fn needed(parameters: &[Parameter]) -> String {
     let needed = parameters.iter().filter(|parameter| parameter.required);
-    needed.map(|parameter| format!("{} = {}\n", parameter.name, some_value(parameter))).collect()
+    let lines = needed.map(|parameter| format!("{} = {}", parameter.name, some_value(parameter)));
+    lines.chain([String::new()]).collect::<Vec<_>>().join("\n")
 }
 
 fn some_value(parameter: &Parameter) -> String {

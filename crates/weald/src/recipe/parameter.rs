@@ -1,6 +1,10 @@
 //! The one declaration of a step's parameters, from which parsing, range errors, `weald steps`, the JSON
 //! Schema and user interfaces follow. See the [`parameters!`](crate::parameters) macro.
 
+mod sides;
+
+pub use sides::Sides;
+
 use super::source::{Node, Table, Value};
 use crate::error::Complaint;
 
@@ -217,43 +221,6 @@ impl ParameterValue for String {
 
     fn shown(&self) -> Option<String> {
         Some(format!("{self:?}"))
-    }
-}
-
-/// Columns and rows of a grid as a recipe gives them: one number for a square, or a list of two.
-///
-/// The upper limit is that of [`Size`](crate::Size), which has an error of its own.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Sides {
-    /// Cells from west to east.
-    pub columns: u64,
-    /// Cells from north to south.
-    pub rows: u64,
-}
-
-impl ParameterValue for Sides {
-    fn kind(_: (f64, f64)) -> Kind {
-        Kind::Sides
-    }
-
-    fn read(node: &Node, _: (f64, f64), _: &mut Complaints) -> Result<Self, String> {
-        let side = |value: &Value| match value {
-            Value::Integer(side) => u64::try_from(*side).ok().filter(|&side| side >= 1),
-            _ => None,
-        };
-        let sides = match &node.value {
-            Value::List(items) => match items.as_slice() {
-                [columns, rows] => side(&columns.value).zip(side(&rows.value)),
-                _ => None,
-            },
-            value => side(value).map(|side| (side, side)),
-        };
-        let (columns, rows) = sides.ok_or_else(|| wrong(node, &format!("a {}", Kind::Sides.in_words())))?;
-        Ok(Self { columns, rows })
-    }
-
-    fn shown(&self) -> Option<String> {
-        Some(format!("[{}, {}]", self.columns, self.rows))
     }
 }
 

@@ -1,6 +1,8 @@
+use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::*;
+use crate::grid::Field;
 use crate::recipe::testing::parse;
 
 const RECIPE: &str = "\
