@@ -1,11 +1,12 @@
-//! Any text is a table or a complaint with a line.
+//! Any text is a checked recipe or complaints with their lines.
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
-use weald::recipe::source;
+use weald::Error;
+use weald::recipe::{Overrides, Recipe};
 
 fuzz_target!(|text: &str| {
-    if let Err(error) = source::parse("fuzz.toml", text) {
+    if let Err(Error::Recipe(error)) = Recipe::parse("fuzz.toml", text, &Overrides::default()) {
         assert!(error.complaints.iter().all(|complaint| complaint.line >= 1));
     }
 });

@@ -1,3 +1,36 @@
-//! The `weald` command.
+//! The `weald` command: a thin shell around the library of the same name.
+//!
+//! Results go to stdout, progress and messages to stderr. Exit codes: 0 done, 1 run failed, 2 usage, 3 bad
+//! recipe, 4 bad input file, 5 over a stated limit, 130 interrupted.
 
-fn main() {}
+mod arguments;
+mod commands;
+mod failure;
+mod interrupt;
+mod progress;
+mod stdout;
+
+use std::process::ExitCode;
+
+use clap::Parser;
+
+use arguments::{Arguments, Command};
+
+fn main() -> ExitCode {
+    let done = match Arguments::parse().command {
+        Command::Run(arguments) => commands::run::run(&arguments),
+        Command::Check(arguments) => commands::check::check(&arguments),
+        Command::Steps { name } => commands::steps::steps(name.as_deref()),
+        Command::New { name, template } => commands::new::new(&name, &template),
+        Command::Info { file, json } => commands::info::info(&file, json),
+        Command::Convert { input, output } => commands::convert::convert(&input, &output),
+        Command::Gallery { only, out } => commands::gallery::gallery(&only, &out),
+        Command::Bench { size, threads } => commands::bench::bench(&size, &threads),
+        Command::Schema => commands::schema::schema(),
+        Command::Completions { shell } => commands::completions::completions(shell),
+    };
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => failure.report(),
+    }
+}

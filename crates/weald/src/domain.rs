@@ -1,5 +1,7 @@
 //! The ground a landscape stands on: its grid, the size of its cells, its place on Earth, its no-data mask.
 
+use serde::{Deserialize, Serialize};
+
 use crate::grid::{Mask, Size};
 
 /// Grid, cell size, georeference and no-data mask, shared by all layers of a landscape.
@@ -33,7 +35,7 @@ impl Domain {
 }
 
 /// Where the grid lies in a coordinate reference system (CRS).
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Georeference {
     /// EPSG code of the CRS, where the file names one.
     pub epsg: Option<u32>,
@@ -57,7 +59,7 @@ impl Georeference {
 }
 
 /// The three GeoTIFF key tags as they stand in a file.
-#[derive(Clone, Debug, PartialEq, Default)]
+#[derive(Clone, Debug, PartialEq, Default, Serialize, Deserialize)]
 pub struct GeoKeys {
     /// `GeoKeyDirectoryTag` (34735): header of four numbers, then four a key.
     pub directory: Vec<u16>,

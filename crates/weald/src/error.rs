@@ -63,7 +63,7 @@ pub struct RecipeError {
 /// One fault of a recipe.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Complaint {
-    /// Line in the file, counted from 1.
+    /// Line in the file, counted from 1; 0 for what came from the command line.
     pub line: usize,
     /// What is wrong: the key, the value, what is legal, what was probably meant.
     pub message: String,
@@ -71,6 +71,9 @@ pub struct Complaint {
 
 impl Complaint {
     fn in_file(&self, file: &str) -> String {
-        format!("{file}:{}: {}", self.line, self.message)
+        match self.line {
+            0 => format!("{file}, as changed on the command line: {}", self.message),
+            line => format!("{file}:{line}: {}", self.message),
+        }
     }
 }

@@ -152,10 +152,5 @@ fn a_wide_landscape_gives_the_bits_of_a_tall_one_turned() {
         let height = wide.field("height").expect("h");
         assert!(worst_difference(&ground, height) > 0.01, "something moved");
         assert_eq!(height, &turned(tall.field("height").expect("h")), "{model:?}");
-        assert!(
-            wide_budget.water.error().abs() < 1e-6,
-            "each column is counted once: {:?}",
-            wide_budget.water
-        );
     }
 }

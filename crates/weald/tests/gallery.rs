@@ -53,7 +53,6 @@ fn an_unknown_figure_is_refused_with_the_names_there_are() {
 }
 
 #[test]
-#[ignore = "needs steps that are not in the catalogue yet"]
 fn every_figure_can_be_made_as_a_draft() {
     let folder = tempfile::tempdir().expect("a folder");
     let selection = Selection { only: &[], job: GalleryJob { detail: Detail::Draft } };

@@ -17,8 +17,7 @@ use crate::error::Error;
 use crate::grid::{Field, Mask, Size};
 use crate::landscape::Landscape;
 use crate::parameters;
-use crate::recipe::parameter::{Complaints, Kind, ParameterValue};
-use crate::recipe::source::{Node, Value};
+use crate::recipe::parameter::Sides;
 use crate::step::{Entry, Outcome, Stage, Step};
 
 /// The step's declaration.
@@ -33,42 +32,7 @@ parameters! {
     /// Change of resolution.
     pub struct Resample {
         /// Cells a side, or `[columns, rows]`, in the proportion of the landscape.
-        size: Sides = Sides(0, 0);
-    }
-}
-
-/// Columns and rows as a recipe gives them: one number for a square, or two.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Sides(pub u32, pub u32);
-
-impl ParameterValue for Sides {
-    fn kind(_: (f64, f64)) -> Kind {
-        Kind::Numbers(1.0, crate::grid::MAXIMUM_SIDE as f64)
-    }
-
-    fn read(node: &Node, _: (f64, f64), _: &mut Complaints) -> Result<Self, String> {
-        let wanted = || {
-            let given = node.value.shown();
-            format!("is {given}, but must be a whole number of cells a side, or [columns, rows]")
-        };
-        let side = |value: &Value| match value {
-            Value::Integer(number) => u32::try_from(*number).map_err(|_| wanted()),
-            _ => Err(wanted()),
-        };
-        let sides = match &node.value {
-            Value::List(items) if items.len() == 2 => Self(side(&items[0].value)?, side(&items[1].value)?),
-            value => Self(side(value)?, side(value)?),
-        };
-        Size::new(sides.0 as usize, sides.1 as usize).map_err(|error| format!("is out of range: {error}"))?;
-        Ok(sides)
-    }
-
-    fn shown(&self) -> Option<String> {
-        (!self.must_be_given()).then(|| format!("[{}, {}]", self.0, self.1))
-    }
-
-    fn must_be_given(&self) -> bool {
-        self.0 == 0
+        size: Sides = Sides::NEEDED;
     }
 }
 
@@ -82,11 +46,12 @@ impl Step for Resample {
     }
 
     fn resized(&self) -> Option<(u32, u32)> {
-        Some((self.size.0, self.size.1))
+        let side = |cells: u64| u32::try_from(cells).unwrap_or(u32::MAX);
+        Some((side(self.size.columns), side(self.size.rows)))
     }
 
     fn run(&self, landscape: &mut Landscape, _: &Job<'_>) -> Result<Outcome, Error> {
-        let size = Size::new(self.size.0 as usize, self.size.1 as usize)?;
+        let size = Size::new(self.size.columns as usize, self.size.rows as usize)?;
         let change = Change::between(&landscape.domain, size)?;
         let land = change.land();
         let mut resampled = Landscape::new(change.domain(land));

@@ -1,7 +1,7 @@
 //! Files that are whole or not there.
 
 use std::fs::File;
-use std::io::Write;
+use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 use crate::error::Error;
@@ -12,8 +12,19 @@ use crate::error::Error;
 /// # Errors
 /// [`Error::Run`] naming the file and the cause.
 pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), Error> {
+    write_whole_with(path, |file| file.write_all(bytes))
+}
+
+/// As [`write_whole`], for a file that is too large to stand in memory a second time.
+///
+/// # Errors
+/// As [`write_whole`].
+pub fn write_whole_with(
+    path: &Path,
+    write: impl FnOnce(&mut BufWriter<File>) -> std::io::Result<()>,
+) -> Result<(), Error> {
     let temporary = temporary_name(path);
-    let written = write_and_sync(&temporary, bytes).and_then(|()| std::fs::rename(&temporary, path));
+    let written = write_and_sync(&temporary, write).and_then(|()| std::fs::rename(&temporary, path));
     written.map_err(|cause| {
         // The write has failed already; that the leftover cannot be removed either adds nothing.
         let _ = std::fs::remove_file(&temporary);
@@ -21,10 +32,13 @@ pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), Error> {
     })
 }
 
-fn write_and_sync(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
-    let mut file = File::create(path)?;
-    file.write_all(bytes)?;
-    file.sync_all()
+fn write_and_sync(
+    path: &Path,
+    write: impl FnOnce(&mut BufWriter<File>) -> std::io::Result<()>,
+) -> std::io::Result<()> {
+    let mut file = BufWriter::new(File::create(path)?);
+    write(&mut file)?;
+    file.into_inner().map_err(std::io::IntoInnerError::into_error)?.sync_all()
 }
 
 fn temporary_name(path: &Path) -> PathBuf {

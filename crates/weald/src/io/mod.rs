@@ -15,7 +15,7 @@ mod provenance;
 mod raster;
 mod square;
 
-pub use atomic::write_whole;
+pub use atomic::{write_whole, write_whole_with};
 pub use fault::Fault;
 pub use info::{Info, describe};
 pub use limits::Limits;

@@ -1,5 +1,27 @@
-//! Recipes: [`source`] as written, [`parameter`] declarations, the [`catalog`] of steps.
+//! Recipes, from text to files: [`source`] as written, [`Recipe`] as checked, [`Run`] as done.
+//!
+//! [`parameter`] declares what a step can be told, [`catalog`] lists the steps, and [`schema`], [`describe`]
+//! and [`template`] tell people and editors about them.
 
+mod canonical;
 pub mod catalog;
+mod checkpoint;
+pub mod describe;
+mod ground;
+mod overrides;
 pub mod parameter;
+mod plan;
+mod report;
+mod run;
+pub mod schema;
 pub mod source;
+pub mod template;
+#[cfg(test)]
+#[expect(unreachable_pub, reason = "`parameters!` declares public structs")]
+mod testing;
+
+pub use checkpoint::CHECKPOINT_FILE;
+pub use overrides::Overrides;
+pub use plan::{Content, Ground, LandscapeKeys, Output, Planned, Recipe};
+pub use report::{BudgetReport, OutputReport, REPORT_FILE, Report, SolidReport, StepReport, WaterReport};
+pub use run::{Options, Progress, Run, Silent};

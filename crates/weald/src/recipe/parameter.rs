@@ -1,6 +1,10 @@
 //! The one declaration of a step's parameters, from which parsing, range errors, `weald steps`, the JSON
 //! Schema and user interfaces follow. See the [`parameters!`](crate::parameters) macro.
 
+mod sides;
+
+pub use sides::Sides;
+
 use super::source::{Node, Table, Value};
 use crate::error::Complaint;
 
@@ -34,6 +38,8 @@ pub enum Kind {
     Choice(&'static [&'static str]),
     /// Any text.
     Text,
+    /// Cells a side, or a list of columns and rows.
+    Sides,
     /// The name of a layer.
     Layer,
     /// A list of numbers, each within both bounds.
@@ -46,17 +52,27 @@ impl Kind {
     /// The kind in words, for `weald steps` and errors.
     pub fn in_words(&self) -> String {
         match self {
-            Self::Number(low, high) => format!("number, {low} to {high}"),
-            Self::Integer(low, high) => format!("whole number, {low} to {high}"),
+            Self::Number(low, high) => format!("number, {}", range_in_words(*low, *high)),
+            Self::Integer(low, high) => format!("whole number, {}", range_in_words(low.max(0.0), *high)),
             Self::Flag => "true or false".to_owned(),
             Self::Choice(names) => {
                 names.iter().map(|name| format!("{name:?}")).collect::<Vec<_>>().join(" | ")
             }
             Self::Text => "text".to_owned(),
+            Self::Sides => "whole number from 1, or [columns, rows]".to_owned(),
             Self::Layer => "layer name".to_owned(),
-            Self::Numbers(low, high) => format!("list of numbers, {low} to {high}"),
+            Self::Numbers(low, high) => format!("list of numbers, {}", range_in_words(*low, *high)),
             Self::Table(_) => "table".to_owned(),
         }
+    }
+}
+
+fn range_in_words(low: f64, high: f64) -> String {
+    match (low.is_finite(), high.is_finite()) {
+        (true, true) => format!("{low} to {high}"),
+        (true, false) => format!("at least {low}"),
+        (false, true) => format!("at most {high}"),
+        (false, false) => "any finite".to_owned(),
     }
 }
 
@@ -128,10 +144,10 @@ pub trait ParameterValue: Sized + Clone {
 
 fn within<T: Into<f64> + Copy + std::fmt::Display>(number: T, range: (f64, f64)) -> Result<T, String> {
     let wide: f64 = number.into();
-    if wide >= range.0 && wide <= range.1 {
+    if wide.is_finite() && wide >= range.0 && wide <= range.1 {
         return Ok(number);
     }
-    Err(format!("is {number}, outside {} to {}", range.0, range.1))
+    Err(format!("is {number}, outside its range: {}", range_in_words(range.0, range.1)))
 }
 
 fn wrong(node: &Node, wanted: &str) -> String {
@@ -147,7 +163,7 @@ impl ParameterValue for f64 {
         match node.value {
             Value::Number(number) => within(number, range),
             Value::Integer(number) => within(number as Self, range),
-            _ => Err(wrong(node, &format!("a number from {} to {}", range.0, range.1))),
+            _ => Err(wrong(node, &format!("a {}", Self::kind(range).in_words()))),
         }
     }
 
@@ -164,7 +180,7 @@ macro_rules! whole_number {
             }
 
             fn read(node: &Node, range: (f64, f64), _: &mut Complaints) -> Result<Self, String> {
-                let wanted = || format!("a whole number from {} to {}", range.0, range.1);
+                let wanted = || format!("a {}", Self::kind(range).in_words());
                 let Value::Integer(number) = node.value else { return Err(wrong(node, &wanted())) };
                 within(number as f64, range)?;
                 Self::try_from(number).map_err(|_| wrong(node, &wanted()))
@@ -190,6 +206,21 @@ impl ParameterValue for bool {
 
     fn shown(&self) -> Option<String> {
         Some(self.to_string())
+    }
+}
+
+impl ParameterValue for String {
+    fn kind(_: (f64, f64)) -> Kind {
+        Kind::Text
+    }
+
+    fn read(node: &Node, _: (f64, f64), _: &mut Complaints) -> Result<Self, String> {
+        let Value::Text(text) = &node.value else { return Err(wrong(node, "text in quotes")) };
+        Ok(text.clone())
+    }
+
+    fn shown(&self) -> Option<String> {
+        Some(format!("{self:?}"))
     }
 }
 

@@ -62,6 +62,11 @@ impl Table {
         self.entries.iter().find(|(name, _)| name == key).map(|(_, node)| node)
     }
 
+    /// The value of a key, to be changed.
+    pub fn get_mut(&mut self, key: &str) -> Option<&mut Node> {
+        self.entries.iter_mut().find(|(name, _)| name == key).map(|(_, node)| node)
+    }
+
     /// Sets a key, keeping its place where it exists.
     pub fn set(&mut self, key: &str, node: Node) {
         match self.entries.iter_mut().find(|(name, _)| name == key) {

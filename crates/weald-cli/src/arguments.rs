@@ -1,0 +1,189 @@
+//! What the command line can say.
+
+use std::path::PathBuf;
+
+use clap::builder::PossibleValuesParser;
+use clap::{Args, Parser, Subcommand, value_parser};
+use clap_complete::Shell;
+use weald::gallery::FIGURES;
+use weald::recipe::Overrides;
+use weald::recipe::template::TEMPLATES;
+
+/// Turns a recipe into a living landscape.
+#[derive(Debug, Parser)]
+#[command(name = "weald", version, after_help = EXIT_CODES)]
+pub(crate) struct Arguments {
+    #[command(subcommand)]
+    pub(crate) command: Command,
+}
+
+const EXIT_CODES: &str = "\
+Exit codes: 0 done, 1 run failed, 2 usage, 3 bad recipe, 4 bad input file, 5 over a stated limit, 130 interrupted.
+Start with: weald new mine && weald run mine.toml";
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Run a recipe and write its files and report.json
+    Run(RunArguments),
+    /// Check a recipe without running it
+    Check(CheckArguments),
+    /// List all steps, or show the parameters of one
+    Steps {
+        /// The step to show
+        name: Option<String>,
+    },
+    /// Write a commented recipe to start from
+    New {
+        /// Name of the recipe; `.toml` is added
+        name: PathBuf,
+        /// What to start from
+        #[arg(long, default_value = TEMPLATES[0].name, value_parser = template_names())]
+        template: String,
+    },
+    /// Say what is in a raster file
+    Info {
+        /// GeoTIFF, 16-bit PNG or NumPy array
+        file: PathBuf,
+        /// For programs
+        #[arg(long)]
+        json: bool,
+    },
+    /// Convert between raster formats; the extension of OUT chooses
+    Convert {
+        /// The file to read
+        #[arg(value_name = "IN")]
+        input: PathBuf,
+        /// The file to write
+        #[arg(value_name = "OUT")]
+        output: PathBuf,
+    },
+    /// Make the figures of the publications again
+    Gallery {
+        /// A figure to make [default: all]
+        #[arg(long, value_name = "ID", value_parser = figure_ids())]
+        only: Vec<String>,
+        /// Folder of the pictures and their page
+        #[arg(long, value_name = "DIR", default_value = "docs/gallery")]
+        out: PathBuf,
+    },
+    /// Measure rates beside the bandwidth of memory and beside naive versions
+    Bench {
+        /// Cells a side [default: 512 1024 2048]
+        #[arg(long, value_name = "N", num_args = 1.., default_values_t = [512, 1024, 2048])]
+        size: Vec<usize>,
+        /// Threads [default: 1 2]
+        #[arg(long, value_name = "N", num_args = 1.., default_values_t = [1, 2])]
+        threads: Vec<usize>,
+    },
+    /// Print the JSON Schema of recipes
+    Schema,
+    /// Print completions for a shell
+    Completions {
+        /// The shell
+        shell: Shell,
+    },
+}
+
+fn template_names() -> PossibleValuesParser {
+    PossibleValuesParser::new(TEMPLATES.iter().map(|template| template.name))
+}
+
+fn figure_ids() -> PossibleValuesParser {
+    PossibleValuesParser::new(FIGURES.iter().map(|figure| figure.id))
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct CheckArguments {
+    /// The recipe
+    #[arg(value_name = "RECIPE.toml")]
+    pub(crate) recipe: PathBuf,
+    #[command(flatten)]
+    pub(crate) changes: Changes,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct RunArguments {
+    /// The recipe
+    #[arg(value_name = "RECIPE.toml")]
+    pub(crate) recipe: PathBuf,
+    #[command(flatten)]
+    pub(crate) changes: Changes,
+    /// Folder of the files [default: out/ and the recipe's name]
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: Option<PathBuf>,
+    /// Where simulations run: auto, cpu or gpu
+    #[arg(long, default_value = "auto", value_parser = engine)]
+    pub(crate) engine: EngineChoice,
+    /// Threads [default: all cores]
+    #[arg(long, value_name = "N", value_parser = value_parser!(u16).range(1..=1024))]
+    pub(crate) threads: Option<u16>,
+    /// Go on from the checkpoint of an interrupted run
+    #[arg(long)]
+    pub(crate) resume: bool,
+    /// Seconds between checkpoints of a running simulation
+    #[arg(long, value_name = "SECONDS", default_value_t = 60)]
+    pub(crate) checkpoint_every: u64,
+    /// Print errors only
+    #[arg(long)]
+    pub(crate) quiet: bool,
+}
+
+/// Changes to a recipe.
+#[derive(Debug, Args)]
+pub(crate) struct Changes {
+    /// Cells along the longer side; shape and extent stay
+    #[arg(long, value_name = "N", value_parser = value_parser!(u64).range(1..))]
+    size: Option<u64>,
+    /// Another seed
+    #[arg(long, value_name = "N")]
+    seed: Option<u64>,
+    /// Change a value: landscape.cell=10, step.2.iterations=500, or thermal.talus=0.7 for all such steps
+    #[arg(long, value_name = "KEY=VALUE", value_parser = key_and_value)]
+    set: Vec<(String, String)>,
+}
+
+impl Changes {
+    pub(crate) fn overrides(&self) -> Overrides {
+        Overrides { size: self.size, seed: self.seed, set: self.set.clone() }
+    }
+}
+
+fn key_and_value(text: &str) -> Result<(String, String), String> {
+    let (key, value) = text.split_once('=').ok_or("it is written KEY=VALUE, as in landscape.cell=10")?;
+    Ok((key.trim().to_owned(), value.trim().to_owned()))
+}
+
+/// An engine that a user can ask for.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum EngineChoice {
+    /// The best there is.
+    Auto,
+    /// All cores.
+    Cpu,
+    /// The graphics card.
+    Gpu,
+    /// Bands that exchange halos; for tests.
+    Bands(usize),
+}
+
+fn engine(text: &str) -> Result<EngineChoice, String> {
+    let bands = text.strip_prefix("bands:").and_then(|count| count.parse().ok());
+    match (text, bands) {
+        ("auto", _) => Ok(EngineChoice::Auto),
+        ("cpu", _) => Ok(EngineChoice::Cpu),
+        ("gpu", _) => Ok(EngineChoice::Gpu),
+        (_, Some(count @ 1..=1024)) => Ok(EngineChoice::Bands(count)),
+        _ => Err("the engines are auto, cpu and gpu".to_owned()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    #[test]
+    fn the_declaration_of_the_command_line_is_sound() {
+        Arguments::command().debug_assert();
+    }
+}

@@ -1,0 +1,21 @@
+//! `weald check`: what is wrong with a recipe, or what it will do.
+
+use weald::recipe::{Ground, Recipe};
+
+use crate::arguments::CheckArguments;
+use crate::failure::Failure;
+use crate::stdout;
+
+pub(crate) fn check(arguments: &CheckArguments) -> Result<(), Failure> {
+    let recipe = Recipe::load(&arguments.recipe, &arguments.changes.overrides())?;
+    let ground = match &recipe.ground {
+        Ground::Empty { size, cell } => format!("{size} cells of {cell} m"),
+        Ground::File { path, .. } => format!("the ground of {}", path.display()),
+    };
+    let (steps, outputs) = (recipe.steps.len(), recipe.outputs.len());
+    let file = &recipe.file;
+    stdout::print(&format!(
+        "{file}: good; {ground}, steps: {steps}, outputs: {outputs}, seed: {}\n",
+        recipe.seed
+    ))
+}

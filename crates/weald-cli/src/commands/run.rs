@@ -1,0 +1,61 @@
+//! `weald run`.
+
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+use weald::engine::Engine;
+use weald::recipe::{Options, OutputReport, REPORT_FILE, Recipe, Report, Run};
+
+use crate::arguments::{EngineChoice, RunArguments};
+use crate::failure::Failure;
+use crate::progress::Shown;
+use crate::{interrupt, stdout};
+
+pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
+    let recipe = Recipe::load(&arguments.recipe, &arguments.changes.overrides())?;
+    let options = Options {
+        out: arguments.out.clone().unwrap_or_else(|| default_folder(&arguments.recipe)),
+        engine: engine(arguments.engine)?,
+        threads: arguments.threads.map(usize::from),
+        checkpoint_every: Duration::from_secs(arguments.checkpoint_every),
+        resume: arguments.resume,
+    };
+    interrupt::listen()?;
+    let shown = Shown::new(arguments.quiet);
+    let out = options.out.clone();
+    let report = Run { recipe: &recipe, options }.execute(&shown);
+    shown.end();
+    let report = report?;
+    if arguments.quiet { Ok(()) } else { stdout::print(&summary(&report, &out)) }
+}
+
+fn default_folder(recipe: &Path) -> PathBuf {
+    Path::new("out").join(recipe.file_stem().unwrap_or_default())
+}
+
+fn engine(choice: EngineChoice) -> Result<Engine, Failure> {
+    match choice {
+        EngineChoice::Auto | EngineChoice::Cpu => Ok(Engine::Cpu),
+        EngineChoice::Bands(count) => Ok(Engine::Bands(count)),
+        EngineChoice::Gpu => Err(Failure::run("this build has no GPU engine; use --engine cpu")),
+    }
+}
+
+/// A line for each file.
+fn summary(report: &Report, out: &Path) -> String {
+    let mut text = String::new();
+    for output in &report.outputs {
+        let _ = writeln!(text, "{}  {}", out.join(&output.file).display(), content(output));
+    }
+    let _ = writeln!(text, "{}", out.join(REPORT_FILE).display());
+    text
+}
+
+fn content(output: &OutputReport) -> String {
+    match (&output.layer, &output.unit, output.range) {
+        (Some(layer), Some(unit), Some((low, high))) => format!("{layer}, {low:.3} to {high:.3} {unit}"),
+        (Some(layer), ..) => layer.clone(),
+        _ => format!("picture, {}", output.picture.as_deref().unwrap_or_default()),
+    }
+}

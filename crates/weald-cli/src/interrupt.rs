@@ -1,0 +1,25 @@
+//! Ctrl-C and SIGTERM: the first asks for a clean end, the second ends at once.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use crate::failure::Failure;
+
+const INTERRUPTED: i32 = 130;
+
+static ASKED: AtomicBool = AtomicBool::new(false);
+
+/// Listens from now on.
+pub(crate) fn listen() -> Result<(), Failure> {
+    let heard = || {
+        if ASKED.swap(true, Ordering::Relaxed) {
+            std::process::exit(INTERRUPTED);
+        }
+        eprintln!("stopping after a checkpoint; once more to stop at once");
+    };
+    ctrlc::set_handler(heard).map_err(|cause| Failure::run(format!("cannot listen for Ctrl-C: {cause}")))
+}
+
+/// Whether the user has asked for an end.
+pub(crate) fn asked() -> bool {
+    ASKED.load(Ordering::Relaxed)
+}

@@ -1,0 +1,308 @@
+//! The state of a run on disk, so that an interrupted run ends with the same bits as one that was not.
+//!
+//! Layout, all numbers little-endian: `WEALDCP1`; the length of the header as `u64`; the header as JSON; the
+//! no-data mask, one byte a cell, where there is one; each layer and each plane as `f32`; each sum as `f64`;
+//! the BLAKE3 hash of all of that.
+
+mod stream;
+
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+
+use super::report::StepReport;
+use crate::domain::{Domain, Georeference};
+use crate::engine::SavedSimulation;
+use crate::error::Error;
+use crate::grid::{Field, Mask, Size};
+use crate::io::write_whole_with;
+use crate::landscape::Landscape;
+use stream::{HashedReader, HashedWriter};
+
+/// Name of the checkpoint in the output folder.
+pub const CHECKPOINT_FILE: &str = "checkpoint.weald";
+
+const MAGIC: &[u8; 8] = b"WEALDCP1";
+const HASH_BYTES: u64 = 32;
+/// Most bytes of a header: a recipe of the greatest length and ample room for reports.
+const MAXIMUM_HEADER: u64 = 64 << 20;
+
+/// How far a run has come.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct State {
+    /// The landscape as it was before the step that runs now.
+    pub(super) landscape: Landscape,
+    /// Steps done.
+    pub(super) done: usize,
+    /// Where the step that runs now is, if it can go on from there.
+    pub(super) simulation: Option<SavedSimulation>,
+    /// What the steps done have to report.
+    pub(super) steps: Vec<StepReport>,
+    /// What there is to say of the input.
+    pub(super) notes: Vec<String>,
+}
+
+/// All but the planes.
+#[derive(Debug, Serialize, Deserialize)]
+struct Header {
+    version: String,
+    recipe: String,
+    done: usize,
+    columns: usize,
+    rows: usize,
+    cell: f64,
+    georeference: Option<Georeference>,
+    masked: bool,
+    /// Names and units.
+    layers: Vec<(String, String)>,
+    simulation: Option<SimulationHeader>,
+    steps: Vec<StepReport>,
+    notes: Vec<String>,
+}
+
+/// Names and lengths.
+#[derive(Debug, Serialize, Deserialize)]
+struct SimulationHeader {
+    iteration: u64,
+    planes: Vec<(String, u64)>,
+    sums: Vec<(String, u64)>,
+}
+
+/// Writes the state, with `simulation` in place of the state's own.
+pub(super) fn write(
+    path: &Path,
+    recipe: &str,
+    state: &State,
+    simulation: Option<&SavedSimulation>,
+) -> Result<(), Error> {
+    let header = Header::of(recipe, state, simulation);
+    let header = serde_json::to_vec(&header).expect("numbers, texts and lists are JSON");
+    write_whole_with(path, |file| {
+        let mut out = HashedWriter::new(file);
+        out.bytes(MAGIC)?;
+        out.bytes(&(header.len() as u64).to_le_bytes())?;
+        out.bytes(&header)?;
+        if let Some(land) = &state.landscape.domain.land {
+            out.flags(land.flags())?;
+        }
+        for (_, layer) in state.landscape.layers() {
+            out.singles(layer.field.values())?;
+        }
+        for (_, plane) in simulation.iter().flat_map(|simulation| &simulation.planes) {
+            out.singles(plane)?;
+        }
+        for (_, sums) in simulation.iter().flat_map(|simulation| &simulation.sums) {
+            out.doubles(sums)?;
+        }
+        out.finish()
+    })
+}
+
+/// Reads the state of a run of exactly this recipe.
+pub(super) fn read(path: &Path, recipe: &str) -> Result<State, Error> {
+    let wrong = |what: String| Error::input(path, what);
+    let mut file = HashedReader::open(path).map_err(|cause| {
+        wrong(match cause.kind() {
+            std::io::ErrorKind::NotFound => "there is no checkpoint; run without --resume".to_owned(),
+            _ => format!("the checkpoint cannot be read: {cause}"),
+        })
+    })?;
+    let header = read_header(&mut file).map_err(wrong)?;
+    header.fits(recipe).map_err(wrong)?;
+    let state = header.read_state(&mut file).map_err(wrong)?;
+    file.finish().map_err(wrong)?;
+    Ok(state)
+}
+
+fn read_header(file: &mut HashedReader) -> Result<Header, String> {
+    if file.bytes(MAGIC.len())? != MAGIC {
+        return Err("is not a checkpoint of this version of Weald".to_owned());
+    }
+    let length = file.bytes(8)?.try_into().map(u64::from_le_bytes).expect("eight bytes were asked for");
+    if length > MAXIMUM_HEADER {
+        return Err(format!("the header claims {length} bytes; at most {MAXIMUM_HEADER} are read"));
+    }
+    let header = file.bytes(length as usize)?;
+    let header: Header =
+        serde_json::from_slice(&header).map_err(|error| format!("damaged header: {error}"))?;
+    let needed = header.body_bytes()?;
+    if needed != u128::from(file.left()) {
+        return Err(format!("is damaged: the header asks for {needed} bytes, but {} follow", file.left()));
+    }
+    Ok(header)
+}
+
+impl Header {
+    fn of(recipe: &str, state: &State, simulation: Option<&SavedSimulation>) -> Self {
+        let Domain { size, cell, georeference, land } = &state.landscape.domain;
+        Self {
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+            recipe: recipe.to_owned(),
+            done: state.done,
+            columns: size.columns,
+            rows: size.rows,
+            cell: *cell,
+            georeference: georeference.clone(),
+            masked: land.is_some(),
+            layers: state
+                .landscape
+                .layers()
+                .map(|(name, layer)| (name.to_owned(), layer.unit.clone()))
+                .collect(),
+            simulation: simulation.map(SimulationHeader::of),
+            steps: state.steps.clone(),
+            notes: state.notes.clone(),
+        }
+    }
+
+    fn size(&self) -> Result<Size, String> {
+        Size::new(self.columns, self.rows).map_err(|error| error.to_string())
+    }
+
+    /// Bytes after the header, by what it says.
+    fn body_bytes(&self) -> Result<u128, String> {
+        let cells = self.size()?.cells() as u128;
+        let layers = self.layers.len() as u128 * 4 * cells + if self.masked { cells } else { 0 };
+        Ok(layers + self.simulation.as_ref().map_or(0, SimulationHeader::bytes) + u128::from(HASH_BYTES))
+    }
+
+    /// Whether the checkpoint belongs to this recipe and version; if not, what differs.
+    fn fits(&self, recipe: &str) -> Result<(), String> {
+        let version = env!("CARGO_PKG_VERSION");
+        if self.version != version {
+            let old = &self.version;
+            return Err(format!("was written by Weald {old}; this is {version}, whose bits may differ"));
+        }
+        if self.recipe == recipe {
+            return Ok(());
+        }
+        let (mut old, mut new) = (self.recipe.lines(), recipe.lines());
+        loop {
+            let lines = (old.next(), new.next());
+            if lines.0 != lines.1 {
+                let [old, new] = [lines.0, lines.1].map(|line| line.unwrap_or("nothing"));
+                return Err(format!(
+                    "belongs to another recipe: it has `{old}` where this run has `{new}`; give the same \
+                     recipe and options, or run without --resume"
+                ));
+            }
+        }
+    }
+
+    fn read_state(self, file: &mut HashedReader) -> Result<State, String> {
+        let size = self.size()?;
+        let land = if self.masked { Mask::new(size, file.flags(size.cells())?) } else { None };
+        let domain = Domain { size, cell: self.cell, georeference: self.georeference, land };
+        let mut landscape = Landscape::new(domain);
+        for (name, unit) in &self.layers {
+            landscape.insert(name, unit, Field::from_values(size, file.singles(size.cells())?));
+        }
+        let simulation = self.simulation.map(|header| header.read(file)).transpose()?;
+        Ok(State { landscape, done: self.done, simulation, steps: self.steps, notes: self.notes })
+    }
+}
+
+impl SimulationHeader {
+    fn of(simulation: &SavedSimulation) -> Self {
+        let SavedSimulation { iteration, planes, sums } = simulation;
+        let planes = planes.iter().map(|(name, plane)| (name.clone(), plane.len() as u64)).collect();
+        let sums = sums.iter().map(|(name, sums)| (name.clone(), sums.len() as u64)).collect();
+        Self { iteration: *iteration, planes, sums }
+    }
+
+    fn bytes(&self) -> u128 {
+        let total = |list: &[(String, u64)]| list.iter().map(|(_, length)| u128::from(*length)).sum::<u128>();
+        4 * total(&self.planes) + 8 * total(&self.sums)
+    }
+
+    fn read(self, file: &mut HashedReader) -> Result<SavedSimulation, String> {
+        let mut simulation = SavedSimulation { iteration: self.iteration, ..SavedSimulation::default() };
+        for (name, length) in self.planes {
+            simulation.planes.push((name, file.singles(length as usize)?));
+        }
+        for (name, length) in self.sums {
+            simulation.sums.push((name, file.doubles(length as usize)?));
+        }
+        Ok(simulation)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::domain::GeoKeys;
+    use proptest::prelude::*;
+    use std::path::PathBuf;
+
+    fn state() -> State {
+        let size = Size::new(3, 2).expect("small");
+        let mut domain = Domain::new(size, 0.1 + 0.2);
+        domain.land = Mask::new(size, vec![true, false, true, true, true, true]);
+        domain.georeference = Some(Georeference {
+            epsg: Some(32616),
+            origin: [1.0 / 3.0, -2.0e-300],
+            pixel: [80.0, 80.0],
+            keys: Some(GeoKeys { directory: vec![1, 1, 0, 0], doubles: vec![0.1], ascii: "a|".to_owned() }),
+        });
+        let mut landscape = Landscape::new(domain);
+        landscape.insert("height", "m", Field::from_function(size, |x, y| (x + 10 * y) as f32 / 3.0));
+        let simulation = SavedSimulation {
+            iteration: 7,
+            planes: vec![("water".to_owned(), vec![f32::MIN_POSITIVE, -0.0, 3.5])],
+            sums: vec![("rained".to_owned(), vec![0.1, f64::MAX])],
+        };
+        let report = StepReport {
+            step: "slide".to_owned(),
+            seconds: 0.1,
+            cells: 6,
+            iterations: 1,
+            cell_updates_per_second: 1.0 / 3.0,
+            budget: None,
+            notes: Vec::new(),
+        };
+        State { landscape, done: 1, simulation: Some(simulation), steps: vec![report], notes: Vec::new() }
+    }
+
+    fn written() -> (tempfile::TempDir, PathBuf) {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let path = folder.path().join(CHECKPOINT_FILE);
+        let state = state();
+        write(&path, "a = 1\nb = 2\n", &state, state.simulation.as_ref()).expect("writes");
+        (folder, path)
+    }
+
+    #[test]
+    fn a_state_comes_back_to_the_bit() {
+        let (_folder, path) = written();
+        assert_eq!(read(&path, "a = 1\nb = 2\n").expect("reads"), state());
+    }
+
+    #[test]
+    fn another_recipe_is_refused_and_the_difference_shown() {
+        let (_folder, path) = written();
+        let error = read(&path, "a = 1\nb = 3\n").expect_err("another recipe");
+        assert_eq!(error.exit_code(), 4);
+        let message = error.to_string();
+        assert!(message.contains("`b = 2`") && message.contains("`b = 3`"), "{message}");
+    }
+
+    #[test]
+    fn a_missing_checkpoint_says_what_to_do() {
+        let error = read(Path::new("/nowhere/checkpoint.weald"), "").expect_err("missing");
+        assert!(error.to_string().contains("run without --resume"), "{error}");
+    }
+
+    proptest! {
+        #[test]
+        fn no_damaged_checkpoint_is_believed(at in 0_usize..4096, flip in 1_u8..=255, cut in 0_usize..4096) {
+            let (_folder, path) = written();
+            let whole = std::fs::read(&path).expect("just written");
+            let mut flipped = whole.clone();
+            flipped[at % whole.len()] ^= flip;
+            for bytes in [&flipped[..], &whole[..cut % whole.len()]] {
+                std::fs::write(&path, bytes).expect("writes");
+                prop_assert!(read(&path, "a = 1\nb = 2\n").is_err());
+            }
+        }
+    }
+}

@@ -1,0 +1,115 @@
+//! The catalogue as text for people: `weald steps`.
+
+use std::fmt::Write;
+
+use super::catalog::CATALOG;
+use super::parameter::{Kind, Parameter};
+use crate::picture::PICTURES;
+use crate::step::{Entry, Stage};
+
+/// Columns that a line of text may take.
+const WIDTH: usize = 100;
+
+/// All steps and pictures, a line each.
+pub fn overview() -> String {
+    let mut text = String::new();
+    for stage in [Stage::Generate, Stage::Combine, Stage::Erode] {
+        let entries = CATALOG.iter().filter(|entry| entry.stage == stage);
+        list(&mut text, stage.title(), entries.map(|entry| (entry.name, entry.summary)));
+    }
+    list(&mut text, "picture", PICTURES.iter().map(|entry| (entry.name, entry.summary)));
+    text.push_str("`weald steps NAME` shows the parameters of one.\n");
+    text
+}
+
+fn list(text: &mut String, title: &str, items: impl Iterator<Item = (&'static str, &'static str)>) {
+    let _ = writeln!(text, "{title}");
+    for (name, summary) in items {
+        let _ = writeln!(text, "  {name:<18} {summary}");
+    }
+    text.push('\n');
+}
+
+/// One step or picture with all its parameters; an error names what was probably meant.
+pub fn step(name: &str) -> Result<String, String> {
+    if let Some(entry) = CATALOG.iter().find(|entry| entry.name == name) {
+        return Ok(of_entry(entry));
+    }
+    if let Some(entry) = PICTURES.iter().find(|entry| entry.name == name) {
+        return Ok(of(&format!("picture = \"{name}\""), entry.summary, None, &(entry.parameters)()));
+    }
+    let known: Vec<_> =
+        CATALOG.iter().map(|entry| entry.name).chain(PICTURES.iter().map(|entry| entry.name)).collect();
+    Err(match super::parameter::nearest(name, &known) {
+        Some(near) => format!("there is no step {name:?}; did you mean `{near}`?"),
+        None => format!("there is no step {name:?}; there are: {}", known.join(", ")),
+    })
+}
+
+fn of_entry(entry: &Entry) -> String {
+    of(&format!("do = \"{}\"", entry.name), entry.summary, Some(entry.source), &(entry.parameters)())
+}
+
+fn of(key: &str, summary: &str, source: Option<&str>, parameters: &[Parameter]) -> String {
+    let mut text = format!("{key}\n{}", wrapped(summary, 2));
+    if let Some(source) = source {
+        text.push_str(&wrapped(&format!("Source: {source}"), 2));
+    }
+    write_parameters(&mut text, parameters, 0);
+    text
+}
+
+fn write_parameters(text: &mut String, parameters: &[Parameter], indent: usize) {
+    for parameter in parameters {
+        let default = match (&parameter.default, parameter.required) {
+            (Some(default), _) => format!(", default {default}"),
+            (None, true) => ", needed".to_owned(),
+            (None, false) => String::new(),
+        };
+        let unit = if parameter.unit == "1" { String::new() } else { format!(", in {}", parameter.unit) };
+        let kind = parameter.kind.in_words();
+        let _ = writeln!(text, "\n{:indent$}{} ({kind}{unit}{default})", "", parameter.name);
+        text.push_str(&wrapped(parameter.doc, indent + 2));
+        if let Kind::Table(inner) = &parameter.kind {
+            write_parameters(text, inner, indent + 4);
+        }
+    }
+}
+
+/// Text in lines of at most [`WIDTH`] columns.
+fn wrapped(text: &str, indent: usize) -> String {
+    let mut lines = String::new();
+    let mut line = String::new();
+    for word in text.split_whitespace() {
+        if !line.is_empty() && indent + line.chars().count() + 1 + word.chars().count() > WIDTH {
+            let _ = writeln!(lines, "{:indent$}{line}", "");
+            line.clear();
+        }
+        if !line.is_empty() {
+            line.push(' ');
+        }
+        line.push_str(word);
+    }
+    let _ = writeln!(lines, "{:indent$}{line}", "");
+    lines
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::recipe::parameter::Parameters;
+
+    #[test]
+    fn long_text_is_wrapped_between_words() {
+        let text = wrapped(&"word ".repeat(50), 4);
+        assert!(text.lines().count() > 1);
+        assert!(text.lines().all(|line| line.starts_with("    word") && line.len() <= WIDTH), "{text}");
+    }
+
+    #[test]
+    fn a_parameter_is_shown_with_kind_unit_and_default() {
+        let text = of("do = \"x\"", "Does x.", Some("Weald"), &crate::recipe::LandscapeKeys::parameters());
+        assert!(text.contains("cell (number, 0.001 to 100000, in m)"), "{text}");
+        assert!(text.contains("seed (whole number, 0 to 9007199254740991, default 0)"), "{text}");
+    }
+}

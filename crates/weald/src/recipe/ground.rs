@@ -1,0 +1,48 @@
+//! The landscape before the first step.
+
+use std::path::Path;
+
+use super::plan::Ground;
+use crate::domain::Domain;
+use crate::error::Error;
+use crate::grid::Mask;
+use crate::io;
+use crate::landscape::Landscape;
+
+/// Makes or reads the ground; the texts tell the user what had to be done to it.
+pub(super) fn load(ground: &Ground) -> Result<(Landscape, Vec<String>), Error> {
+    match ground {
+        Ground::Empty { size, cell } => Ok((Landscape::new(Domain::new(*size, *cell)), Vec::new())),
+        Ground::File { path, cell } => from_file(path, *cell),
+    }
+}
+
+fn from_file(path: &Path, cell: Option<f64>) -> Result<(Landscape, Vec<String>), Error> {
+    let mut raster = io::read(path)?;
+    let mut notes = raster.notes.clone();
+    match (raster.cell, cell) {
+        (Some(found), Some(given)) if found != given => {
+            return Err(Error::input(
+                path,
+                format!("its cells are {found} m wide, but the recipe says `cell = {given}`; remove `cell`"),
+            ));
+        }
+        (None, Some(given)) if raster.georeference.is_none() => raster.cell = Some(given),
+        _ => {}
+    }
+    let (raster, note) = io::square(raster).map_err(|error| match error {
+        Error::Run(what) => Error::input(path, what),
+        other => other,
+    })?;
+    notes.extend(note);
+    let side = raster.cell.filter(|side| side.is_finite() && *side > 0.0);
+    let side = side.ok_or_else(|| Error::input(path, "has no cell size; give `cell` in [landscape]"))?;
+    if raster.land.as_ref().map_or(0, Mask::land_cells) == 0 && raster.land.is_some() {
+        return Err(Error::input(path, "has no cell with data, so there is no ground to work on"));
+    }
+    let size = raster.field.size();
+    let domain = Domain { size, cell: side, georeference: raster.georeference, land: raster.land };
+    let mut landscape = Landscape::new(domain);
+    landscape.insert("height", "m", raster.field);
+    Ok((landscape, notes))
+}

@@ -1,0 +1,170 @@
+//! The checked recipe. Nothing runs before the whole of it has been checked, and one look shows all faults.
+
+mod landscape;
+mod layers;
+mod outputs;
+mod steps;
+#[cfg(test)]
+mod tests;
+
+use std::fs::File;
+use std::io::Read;
+use std::path::Path;
+
+pub use landscape::{Ground, LandscapeKeys};
+pub use outputs::{Content, Output};
+pub use steps::Planned;
+
+use super::catalog::CATALOG;
+use super::overrides::Overrides;
+use super::parameter::Complaints;
+use super::source::{self, Node, Table, Value};
+use super::{canonical, parameter};
+use crate::error::{Complaint, Error, RecipeError};
+use crate::io::{self, Format};
+use crate::picture::{PICTURES, PictureEntry};
+use crate::step::Entry;
+
+/// A recipe that can run.
+#[derive(Debug)]
+pub struct Recipe {
+    /// Name of the recipe file, as the user gave it.
+    pub file: String,
+    /// What the landscape starts from.
+    pub ground: Ground,
+    /// Seed of the landscape.
+    pub seed: u64,
+    /// What is done, in order.
+    pub steps: Vec<Planned>,
+    /// What is written at the end.
+    pub outputs: Vec<Output>,
+    text: String,
+}
+
+impl Recipe {
+    /// Reads and checks the recipe in a file. No other file is opened.
+    ///
+    /// # Errors
+    /// As [`Recipe::parse`], and [`Error::Recipe`] for a file that cannot be read.
+    pub fn load(path: &Path, overrides: &Overrides) -> Result<Self, Error> {
+        let file = path.display().to_string();
+        let text = read_text(path).map_err(|cause| {
+            let message = format!("the recipe cannot be read: {cause}");
+            RecipeError { file: file.clone(), complaints: vec![Complaint { line: 1, message }] }
+        })?;
+        Self::parse(&file, &text, overrides)
+    }
+
+    /// Reads and checks a recipe. `file` is its name; paths in it are relative to the folder of that name. No
+    /// file is opened.
+    ///
+    /// # Errors
+    /// [`Error::Recipe`] with all faults in the order of their lines; [`Error::Limit`] for a grid too large.
+    pub fn parse(file: &str, text: &str, overrides: &Overrides) -> Result<Self, Error> {
+        Self::parse_with(&Vocabulary::FULL, file, text, overrides)
+    }
+
+    pub(super) fn parse_with(
+        vocabulary: &Vocabulary,
+        file: &str,
+        text: &str,
+        overrides: &Overrides,
+    ) -> Result<Self, Error> {
+        let mut table = source::parse(file, text)?;
+        let mut complaints = Complaints::default();
+        overrides.apply(&mut table, &mut complaints);
+        let recipe = check(vocabulary, file, &table, &mut complaints);
+        if !complaints.found.is_empty() {
+            complaints.found.sort_by_key(|complaint| complaint.line);
+            return Err(RecipeError { file: file.to_owned(), complaints: complaints.found }.into());
+        }
+        recipe
+    }
+
+    /// The recipe in its canonical spelling, after overrides: a recipe that gives the same run.
+    pub fn effective(&self) -> &str {
+        &self.text
+    }
+
+    /// BLAKE3 hash of [`Recipe::effective`], in hexadecimal.
+    pub fn hash(&self) -> String {
+        blake3::hash(self.text.as_bytes()).to_hex().to_string()
+    }
+}
+
+/// The text of a file, of which no more is read than shows that it is too long.
+fn read_text(path: &Path) -> std::io::Result<String> {
+    let mut text = String::new();
+    File::open(path)?.take(source::MAXIMUM_BYTES as u64 + 1).read_to_string(&mut text)?;
+    Ok(text)
+}
+
+/// The words that a recipe can use.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Vocabulary {
+    pub(super) steps: &'static [Entry],
+    pub(super) pictures: &'static [PictureEntry],
+    pub(super) format_of: fn(&Path) -> Result<&'static Format, String>,
+}
+
+impl Vocabulary {
+    const FULL: Self = Self { steps: CATALOG, pictures: PICTURES, format_of: io::format_of };
+}
+
+/// Reads all sections, whatever is wrong with one of them. The result counts only without complaints.
+fn check(
+    vocabulary: &Vocabulary,
+    file: &str,
+    recipe: &Table,
+    complaints: &mut Complaints,
+) -> Result<Recipe, Error> {
+    complaints.subject.clear();
+    complaints.unknown_keys(recipe, &["landscape", "step", "output"]);
+    let folder = Path::new(file).parent().unwrap_or(Path::new(""));
+    let start = landscape::read(vocabulary, recipe, folder, complaints);
+    let (steps, all_understood) = steps::read(vocabulary, recipe, complaints);
+    let outputs = outputs::read(vocabulary, recipe, complaints);
+    complaints.subject.clear();
+    if recipe.get("output").is_none() {
+        complaints.add(1, "a recipe needs an [[output]] table, or its run would leave nothing behind");
+    }
+    if steps.is_empty() && all_understood && matches!(start.ground, Ok(Ground::Empty { .. })) {
+        complaints.add(1, "a recipe needs a [[step]] table, or `from` in [landscape]: there is no ground");
+    }
+    if let (true, Ok(ground)) = (all_understood, &start.ground) {
+        layers::check(ground, &steps, &outputs, complaints);
+    }
+    steps::check_sizes(&steps)?;
+    let (file, text) = (file.to_owned(), canonical::text(recipe));
+    Ok(Recipe { file, ground: start.ground?, seed: start.seed, steps, outputs, text })
+}
+
+/// All tables of a `[[section]]`.
+fn tables<'a>(recipe: &'a Table, section: &str, complaints: &mut Complaints) -> Vec<&'a Table> {
+    let Some(node) = recipe.get(section) else { return Vec::new() };
+    let mut as_table = |item: &'a Node| match &item.value {
+        Value::Table(table) => Some(table),
+        other => {
+            let message = format!("`{section}` holds {}; it is written [[{section}]]", other.shown());
+            complaints.add(item.line, message);
+            None
+        }
+    };
+    match &node.value {
+        Value::List(items) => items.iter().filter_map(as_table).collect(),
+        Value::Table(_) => {
+            complaints.add(node.line, format!("[{section}] has double brackets: [[{section}]]"));
+            Vec::new()
+        }
+        _ => as_table(node).into_iter().collect(),
+    }
+}
+
+/// "; did you mean …" where a name is near, else what there is.
+fn hint(word: &str, known: &[&str]) -> String {
+    match parameter::nearest(word, known) {
+        Some(near) => format!("did you mean `{near}`?"),
+        None if known.is_empty() => "there is none yet".to_owned(),
+        None => format!("there are: {}", known.join(", ")),
+    }
+}

@@ -1,0 +1,102 @@
+//! The `[landscape]` table: what the ground starts from.
+
+use std::path::{Path, PathBuf};
+
+use super::Vocabulary;
+use crate::error::Error;
+use crate::grid::Size;
+use crate::recipe::parameter::{Complaints, Parameters, Sides};
+use crate::recipe::source::{Table, Value};
+
+crate::parameters! {
+    /// The keys of `[landscape]`.
+    pub struct LandscapeKeys {
+        /// Cells a side, or [columns, rows]; at most 2^28 cells in all. Not with `from`.
+        size: Option<Sides> = None;
+        /// Side of a cell; 1 m where none is given. With `from`, only for a file that does not say it.
+        cell: Option<f64> = None, range 0.001..=100_000.0, unit "m";
+        /// Seed of all random numbers. Steps of the same kind draw from different numbers.
+        seed: u64 = 0, range 0..=9_007_199_254_740_991_u64;
+        /// An elevation model to start from instead of a size, relative to the recipe's folder. It becomes the
+        /// layer `height`; its cell size, place on Earth and no-data cells are kept.
+        from: Option<String> = None;
+    }
+}
+
+/// What a landscape starts from.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Ground {
+    /// Nothing yet: a generator makes the ground.
+    Empty {
+        /// Columns and rows.
+        size: Size,
+        /// Side of a cell in metres.
+        cell: f64,
+    },
+    /// An elevation model, which becomes the layer `height`.
+    File {
+        /// The file.
+        path: PathBuf,
+        /// Side of a cell in metres, for a file that does not say it.
+        cell: Option<f64>,
+    },
+}
+
+/// The table as read; a ground over the size limit is an error of its own.
+pub(super) struct Start {
+    pub(super) ground: Result<Ground, Error>,
+    pub(super) seed: u64,
+}
+
+pub(super) fn read(
+    vocabulary: &Vocabulary,
+    recipe: &Table,
+    folder: &Path,
+    complaints: &mut Complaints,
+) -> Start {
+    "landscape".clone_into(&mut complaints.subject);
+    let absent = Table { line: 1, entries: Vec::new() };
+    let table = match recipe.get("landscape").map(|node| (&node.value, node.line)) {
+        Some((Value::Table(table), _)) => table,
+        Some((other, line)) => {
+            complaints.add(line, format!("is {}, but must be a table: [landscape]", other.shown()));
+            let size = Size { columns: 1, rows: 1 };
+            return Start { ground: Ok(Ground::Empty { size, cell: 1.0 }), seed: 0 };
+        }
+        None => &absent,
+    };
+    let keys = LandscapeKeys::read(table, complaints);
+    Start { seed: keys.seed, ground: ground(vocabulary, table, &keys, folder, complaints) }
+}
+
+fn ground(
+    vocabulary: &Vocabulary,
+    table: &Table,
+    keys: &LandscapeKeys,
+    folder: &Path,
+    complaints: &mut Complaints,
+) -> Result<Ground, Error> {
+    let line_of = |key| table.get(key).map_or(table.line, |node| node.line);
+    let Some(from) = &keys.from else {
+        if table.get("size").is_none() && table.get("from").is_none() {
+            complaints.add(table.line, "`size` is needed (cells a side, or [columns, rows]), or `from`");
+        }
+        let sides = keys.size.unwrap_or(Sides { columns: 1, rows: 1 });
+        let side = |side: u64| usize::try_from(side).unwrap_or(usize::MAX);
+        let size = Size::new(side(sides.columns), side(sides.rows))?;
+        return Ok(Ground::Empty { size, cell: keys.cell.unwrap_or(1.0) });
+    };
+    if keys.size.is_some() {
+        let message = "`size` does not go with `from`: it comes from the file; a `resample` step changes it";
+        complaints.add(line_of("size"), message);
+    }
+    let path = folder.join(from);
+    match (vocabulary.format_of)(&path) {
+        Ok(format) if format.decode.is_none() => {
+            complaints.add(line_of("from"), format!("`from`: {} is written, not read", format.name));
+        }
+        Ok(_) => {}
+        Err(problem) => complaints.add(line_of("from"), format!("`from`: {problem}")),
+    }
+    Ok(Ground::File { path, cell: keys.cell })
+}

@@ -1,0 +1,99 @@
+//! The `[[step]]` tables.
+
+use super::{Vocabulary, hint, tables};
+use crate::error::Error;
+use crate::grid::Size;
+use crate::random::splitmix64;
+use crate::recipe::parameter::Complaints;
+use crate::recipe::source::{Node, Table, Value};
+use crate::step::{Entry, Step};
+
+/// A step with its place in the recipe.
+#[derive(Debug)]
+pub struct Planned {
+    /// Its declaration.
+    pub entry: &'static Entry,
+    /// Line of its table.
+    pub line: usize,
+    /// How many steps of the same name come before it.
+    pub occurrence: u64,
+    /// The step, ready to run.
+    pub step: Box<dyn Step>,
+}
+
+impl Planned {
+    /// The step's own seed. The first step of its kind has the landscape's seed, so that adding another kind
+    /// of step does not change what a seed gives.
+    pub fn seed(&self, landscape: u64) -> u64 {
+        match self.occurrence {
+            0 => landscape,
+            occurrence => splitmix64(landscape ^ occurrence),
+        }
+    }
+}
+
+/// Reads all steps, and says whether each of them was understood in full.
+pub(super) fn read(
+    vocabulary: &Vocabulary,
+    recipe: &Table,
+    complaints: &mut Complaints,
+) -> (Vec<Planned>, bool) {
+    let before = complaints.found.len();
+    "step".clone_into(&mut complaints.subject);
+    let mut steps: Vec<Planned> = Vec::new();
+    for table in tables(recipe, "step", complaints) {
+        "step".clone_into(&mut complaints.subject);
+        if let Some(entry) = entry_of(vocabulary, table, complaints) {
+            let occurrence = steps.iter().filter(|earlier| earlier.entry.name == entry.name).count() as u64;
+            let step = read_step(entry, table, complaints);
+            steps.push(Planned { entry, line: table.line, occurrence, step });
+        }
+    }
+    (steps, complaints.found.len() == before)
+}
+
+fn entry_of(vocabulary: &Vocabulary, table: &Table, complaints: &mut Complaints) -> Option<&'static Entry> {
+    let known: Vec<_> = vocabulary.steps.iter().map(|entry| entry.name).collect();
+    match table.get("do") {
+        Some(Node { value: Value::Text(name), line }) => {
+            let entry = vocabulary.steps.iter().find(|entry| entry.name == name);
+            if entry.is_none() {
+                complaints.add(*line, format!("there is no step {name:?}; {}", hint(name, &known)));
+            }
+            entry
+        }
+        Some(Node { value, line }) => {
+            complaints.add(*line, format!("`do` is {}, but must be the name of a step", value.shown()));
+            None
+        }
+        None => {
+            complaints.add(table.line, "`do` is needed: the name of a step, as `weald steps` lists them");
+            None
+        }
+    }
+}
+
+fn read_step(entry: &Entry, table: &Table, complaints: &mut Complaints) -> Box<dyn Step> {
+    entry.name.clone_into(&mut complaints.subject);
+    let before = complaints.found.len();
+    let mut keys = table.clone();
+    keys.take("do");
+    let step = (entry.read)(&keys, complaints);
+    if complaints.found.len() == before {
+        for fault in step.faults() {
+            complaints.add(table.line, fault);
+        }
+    }
+    step
+}
+
+/// Refuses steps that would make a grid over the limit.
+pub(super) fn check_sizes(steps: &[Planned]) -> Result<(), Error> {
+    for planned in steps {
+        if let Some((columns, rows)) = planned.step.resized() {
+            Size::new(columns as usize, rows as usize)
+                .map_err(|error| Error::Limit(format!("{}: {error}", planned.entry.name)))?;
+        }
+    }
+    Ok(())
+}

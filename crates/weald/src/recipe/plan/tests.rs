@@ -1,0 +1,207 @@
+use proptest::prelude::*;
+
+use super::*;
+use crate::recipe::testing::{VOCABULARY, parse, refusal};
+
+const GOOD: &str = "\
+[landscape]
+size = [8, 4]
+cell = 2.5
+seed = 3
+[[step]]
+do = \"rough\"
+[[step]]
+do = \"wear\"
+iterations = 5
+[[output]]
+layer = \"height\"
+file = \"a/./height.bits\"
+[[output]]
+picture = \"dot\"
+file = \"dot.png\"
+";
+
+/// The good recipe with one text in place of another.
+fn with(old: &str, new: &str) -> String {
+    assert!(GOOD.contains(old), "the good recipe has {old:?}");
+    GOOD.replacen(old, new, 1)
+}
+
+#[test]
+fn a_good_recipe_becomes_a_plan() {
+    let recipe = parse(GOOD).expect("good");
+    let size = crate::Size::new(8, 4).expect("small");
+    assert_eq!(recipe.ground, Ground::Empty { size, cell: 2.5 });
+    assert_eq!(recipe.steps.iter().map(|step| step.entry.name).collect::<Vec<_>>(), ["rough", "wear"]);
+    assert_eq!(recipe.outputs[0].file, Path::new("a/height.bits"));
+}
+
+#[test]
+fn the_hash_is_that_of_the_meaning_and_not_of_the_spelling() {
+    let hash = |text: &str| parse(text).expect("good").hash();
+    assert_eq!(hash(GOOD), hash(&with("cell = 2.5\nseed = 3", "# a comment\nseed = 3\ncell = 2.5")));
+    assert_ne!(hash(GOOD), hash(&with("seed = 3", "seed = 4")));
+}
+
+#[test]
+fn the_effective_recipe_gives_the_same_plan() {
+    let recipe = parse(GOOD).expect("good");
+    assert_eq!(parse(recipe.effective()).expect("good").hash(), recipe.hash());
+}
+
+#[test]
+fn a_value_out_of_range_names_file_line_key_value_and_range() {
+    let message = refusal(&with("iterations = 5", "iterations = 0"));
+    assert_eq!(message, "folder/r.toml:9: wear: `iterations` is 0, outside its range: 1 to 1000");
+}
+
+#[test]
+fn a_misspelt_word_is_answered_with_the_nearest_one() {
+    let near = |old, new, meant: &str| {
+        let message = refusal(&with(old, new));
+        assert!(message.contains(&format!("did you mean `{meant}`?")), "{message}");
+    };
+    near("iterations", "iteratoins", "iterations");
+    near("do = \"wear\"", "do = \"waer\"", "wear");
+    near("layer = \"height\"", "layer = \"heigth\"", "height");
+    near("picture = \"dot\"", "picture = \"dots\"", "dot");
+    near("[landscape]", "[landscap]", "landscape");
+    near("seed", "sead", "seed");
+}
+
+#[test]
+fn all_faults_come_in_one_go_in_the_order_of_their_lines() {
+    let text = GOOD.replace("cell = 2.5", "cell = -1").replace("iterations = 5", "iterations = 5.5");
+    let text = text.replace("dot.png", "../dot.png").replace("seed = 3", "sed = 3");
+    let Err(Error::Recipe(error)) = parse(&text) else { panic!("four faults") };
+    assert_eq!(error.complaints.iter().map(|c| c.line).collect::<Vec<_>>(), [3, 4, 9, 15], "{error}");
+}
+
+#[test]
+fn a_layer_must_be_written_before_it_is_read() {
+    let message = refusal(&with("do = \"rough\"", "do = \"rough\"\ninto = \"hight\""));
+    assert!(message.contains("r.toml:8: wear: reads layer `height`"), "{message}");
+    assert!(message.contains("did you mean `hight`?"), "{message}");
+}
+
+#[test]
+fn an_unknown_step_is_no_cause_for_complaints_of_its_layers() {
+    let Err(Error::Recipe(error)) = parse(&with("do = \"rough\"", "do = \"ruogh\"")) else { panic!("bad") };
+    assert_eq!(error.complaints.len(), 1, "{error}");
+}
+
+#[test]
+fn a_step_whose_work_is_lost_is_refused() {
+    let message = refusal(&with("[[step]]\n", "[[step]]\ndo = \"rough\"\n[[step]]\n"));
+    assert!(message.contains("step 1 (`rough`, line 5)"), "{message}");
+    let twice = with("[[output]]", "[[step]]\ndo = \"wear\"\n[[output]]");
+    parse(&twice).expect("the first wear's height is read, so its debris may go");
+}
+
+#[test]
+fn outputs_stay_inside_their_folder() {
+    for name in ["/etc/x.bits", "../x.bits", "a/../../x.bits", "", ".", "a/", "report.json", "./report.json"]
+    {
+        let message = refusal(&with("a/./height.bits", name));
+        assert!(message.contains(":12: output: `file` is"), "{name}: {message}");
+    }
+}
+
+#[test]
+fn the_same_file_twice_is_refused() {
+    let again = "[[output]]\nlayer = \"height\"\nfile = \"a/height.bits\"\n";
+    let message = refusal(&format!("{GOOD}{again}"));
+    assert!(message.contains(":18: output: `file` is a/height.bits a second time; line 10"), "{message}");
+}
+
+#[test]
+fn a_recipe_without_output_or_ground_is_refused() {
+    let message = refusal("[landscape]\nsize = 4\n[[step]]\ndo = \"rough\"\n");
+    assert!(message.contains("needs an [[output]] table"), "{message}");
+    let message = refusal("[landscape]\nsize = 4\n[[output]]\nlayer = \"height\"\nfile = \"a.bits\"\n");
+    assert!(message.contains("needs a [[step]] table"), "{message}");
+    let message = refusal("");
+    assert!(message.contains("`size` is needed"), "{message}");
+}
+
+#[test]
+fn size_and_from_exclude_each_other() {
+    let message = refusal(&with("seed = 3", "from = \"x.bits\""));
+    assert!(message.contains(":2: landscape: `size` does not go with `from`"), "{message}");
+    assert!(message.contains("bits is written, not read"), "{message}");
+}
+
+#[test]
+fn a_grid_over_the_limit_is_an_error_of_its_own() {
+    for size in ["[20000, 20000]", "9223372036854775807"] {
+        let error = parse(&with("[8, 4]", size)).expect_err("too large");
+        assert_eq!(error.exit_code(), 5, "{error}");
+    }
+    for size in ["0", "-4", "[4]", "[4, 0]", "\"4\"", "4.0"] {
+        let error = parse(&with("[8, 4]", size)).expect_err("no size");
+        assert_eq!(error.exit_code(), 3, "{error}");
+        assert!(error.to_string().contains(":2: landscape: `size` is "), "{error}");
+    }
+}
+
+#[test]
+fn numbers_that_are_none_are_refused() {
+    for number in ["nan", "inf", "-inf"] {
+        let message = refusal(&with("cell = 2.5", &format!("cell = {number}")));
+        assert!(message.contains(":3: landscape: `cell` is"), "{message}");
+    }
+}
+
+#[test]
+fn single_brackets_are_answered_with_double_ones() {
+    let message = refusal("[landscape]\nsize = 4\n[step]\ndo = \"rough\"\n[output]\n");
+    assert!(message.contains(":3: step: [step] has double brackets: [[step]]"), "{message}");
+    assert!(message.contains(":5: output: [output] has double brackets: [[output]]"), "{message}");
+}
+
+#[test]
+fn the_first_step_of_a_kind_has_the_seed_of_the_landscape_and_later_ones_their_own() {
+    let more = "[[step]]\ndo = \"rough\"\ninto = \"other\"\n[[output]]";
+    let recipe = parse(&with("[[output]]", more)).expect("good");
+    let seeds: Vec<_> = recipe.steps.iter().map(|step| step.seed(3)).collect();
+    assert_eq!(seeds[..2], [3, 3]);
+    assert_eq!(seeds[2], crate::random::splitmix64(3 ^ 1));
+}
+
+#[test]
+fn overrides_are_checked_like_the_recipe() {
+    let changed = |set: &str, value: &str| {
+        let set = vec![(set.to_owned(), value.to_owned())];
+        Recipe::parse_with(&VOCABULARY, "r.toml", GOOD, &Overrides { set, ..Overrides::default() })
+    };
+    changed("wear.iterations", "7").expect("in range");
+    let message = changed("wear.iterations", "0").expect_err("out of range").to_string();
+    assert_eq!(
+        message,
+        "r.toml, as changed on the command line: wear: `iterations` is 0, outside its range: 1 to 1000"
+    );
+    let message = changed("step.2.iteration", "7").expect_err("unknown").to_string();
+    assert!(message.contains("did you mean `iterations`?"), "{message}");
+}
+
+proptest! {
+    #[test]
+    fn no_text_makes_the_parser_panic(text in any::<String>()) {
+        let _ = Recipe::parse("r.toml", &text, &Overrides::default());
+        let _ = parse(&text);
+    }
+
+    #[test]
+    fn no_mutation_of_a_recipe_makes_the_parser_panic(
+        cuts in prop::collection::vec((0..GOOD.len(), 0..GOOD.len(), 0..GOOD.len()), 1..6),
+    ) {
+        let mut text = GOOD.as_bytes().to_vec();
+        for (from, length, to) in cuts {
+            let (from, to) = (from % text.len().max(1), to % text.len().max(1));
+            let piece: Vec<u8> = text.iter().skip(from).take(length % 20).copied().collect();
+            text.splice(to..to, piece);
+            text.drain(from..(from + length % 10).min(text.len()));
+        }
+        let _ = parse(&String::from_utf8_lossy(&text));
+    }
+}

@@ -1,0 +1,260 @@
+//! Runs a checked recipe: ground, steps, files, report.
+
+mod desk;
+mod folder;
+#[cfg(test)]
+mod tests;
+mod writer;
+
+use std::path::PathBuf;
+use std::time::{Duration, Instant};
+
+use super::checkpoint::{self, CHECKPOINT_FILE, State};
+use super::ground;
+use super::plan::{Planned, Recipe};
+use super::report::{REPORT_FILE, Report, StepReport};
+use crate::engine::{Engine, Job};
+use crate::error::Error;
+use crate::landscape::Landscape;
+use crate::step::Outcome;
+use desk::Desk;
+use writer::Writer;
+
+/// How a recipe is run. None of it changes the result.
+#[derive(Clone, Debug)]
+pub struct Options {
+    /// Folder of the files, which is made where it is missing.
+    pub out: PathBuf,
+    /// Where simulations run.
+    pub engine: Engine,
+    /// Threads; all cores where none are given.
+    pub threads: Option<usize>,
+    /// Time between checkpoints of a running simulation.
+    pub checkpoint_every: Duration,
+    /// Whether to go on from the checkpoint in the folder.
+    pub resume: bool,
+}
+
+impl Options {
+    /// On all cores into a folder, with a checkpoint every minute.
+    pub fn into_folder(out: impl Into<PathBuf>) -> Self {
+        let checkpoint_every = Duration::from_mins(1);
+        Self { out: out.into(), engine: Engine::Cpu, threads: None, checkpoint_every, resume: false }
+    }
+}
+
+/// Hears how a run goes, and says when to stop. Every method has a default that does nothing.
+pub trait Progress: Sync {
+    /// Step `number` of `count`, counted from 1, begins.
+    fn step(&self, number: usize, count: usize, name: &str) {
+        let _ = (number, count, name);
+    }
+
+    /// The step has done `done` of `total` iterations over `cells` cells each.
+    fn progress(&self, done: u64, total: u64, cells: usize) {
+        let _ = (done, total, cells);
+    }
+
+    /// Something that the user should know.
+    fn note(&self, text: &str) {
+        let _ = text;
+    }
+
+    /// Whether the user wants the run to end.
+    fn cancelled(&self) -> bool {
+        false
+    }
+}
+
+/// Progress that nobody hears of.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Silent;
+
+impl Progress for Silent {}
+
+/// A recipe about to be run.
+#[derive(Debug)]
+pub struct Run<'a> {
+    /// What to do.
+    pub recipe: &'a Recipe,
+    /// How.
+    pub options: Options,
+}
+
+impl Run<'_> {
+    /// Runs the recipe and writes its files, the report last.
+    ///
+    /// # Errors
+    /// [`Error::Input`] for a damaged elevation model or checkpoint, [`Error::Run`] where a step or a file
+    /// fails, [`Error::Interrupted`] where `progress` says so; the last two name the checkpoint, if any.
+    pub fn execute(&self, progress: &dyn Progress) -> Result<Report, Error> {
+        let threads = self.options.threads.unwrap_or(0);
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+        let pool = pool.map_err(|cause| Error::Run(format!("cannot start {threads} threads: {cause}")))?;
+        pool.install(|| self.execute_here(progress))
+    }
+
+    fn execute_here(&self, progress: &dyn Progress) -> Result<Report, Error> {
+        folder::prepare(self.recipe, &self.options.out)?;
+        let mut state = self.start(progress)?;
+        while let Some(planned) = self.recipe.steps.get(state.done) {
+            self.stop_if_cancelled(&state, progress)?;
+            progress.step(state.done + 1, self.recipe.steps.len(), planned.entry.name);
+            self.advance(planned, &mut state, progress)?;
+        }
+        self.stop_if_cancelled(&state, progress)?;
+        let report = self.write(state)?;
+        folder::remove_checkpoint(&self.checkpoint())?;
+        Ok(report)
+    }
+
+    fn checkpoint(&self) -> PathBuf {
+        self.options.out.join(CHECKPOINT_FILE)
+    }
+
+    fn start(&self, progress: &dyn Progress) -> Result<State, Error> {
+        let path = self.checkpoint();
+        if self.options.resume {
+            let state = checkpoint::read(&path, self.recipe.effective())?;
+            let done = state.simulation.as_ref().map_or(0, |simulation| simulation.iteration);
+            progress.note(&format!("going on after {} steps and {done} iterations", state.done));
+            return Ok(state);
+        }
+        if path.exists() {
+            let path = path.display();
+            progress.note(&format!("starting anew; the checkpoint {path} is used with --resume only"));
+        }
+        let (landscape, notes) = ground::load(&self.recipe.ground)?;
+        for note in &notes {
+            progress.note(note);
+        }
+        Ok(State { landscape, done: 0, simulation: None, steps: Vec::new(), notes })
+    }
+
+    fn stop_if_cancelled(&self, state: &State, progress: &dyn Progress) -> Result<(), Error> {
+        if !progress.cancelled() {
+            return Ok(());
+        }
+        checkpoint::write(&self.checkpoint(), self.recipe.effective(), state, state.simulation.as_ref())?;
+        Err(self.interrupted(&format!("after {} of {} steps", state.done, self.recipe.steps.len())))
+    }
+
+    fn interrupted(&self, place: &str) -> Error {
+        let checkpoint = self.checkpoint();
+        Error::Interrupted(format!(
+            "interrupted {place}; the same command with --resume goes on from {}",
+            checkpoint.display()
+        ))
+    }
+
+    /// Runs one step on a copy of the landscape, so that a checkpoint can hold what the step began with.
+    fn advance(&self, planned: &Planned, state: &mut State, progress: &dyn Progress) -> Result<(), Error> {
+        let resume = state.simulation.take();
+        let resumed_at = resume.as_ref().map(|simulation| simulation.iteration);
+        let mut landscape = state.landscape.clone();
+        let started = Instant::now();
+        let desk = Desk::new(self, state, progress);
+        let seed = planned.seed(self.recipe.seed);
+        let job = Job { seed, engine: self.options.engine, watcher: &desk, resume };
+        let result = planned.step.run(&mut landscape, &job);
+        drop(job);
+        let result = result.and_then(|outcome| {
+            check_layers(planned, &landscape)?;
+            Ok(outcome)
+        });
+        let outcome = result.map_err(|error| self.explain(error, planned, &desk, resumed_at))?;
+        for note in &outcome.notes {
+            progress.note(note);
+        }
+        let seconds = started.elapsed().as_secs_f64();
+        state.steps.push(step_report(planned, &landscape, outcome, seconds, resumed_at));
+        state.landscape = landscape;
+        state.done += 1;
+        Ok(())
+    }
+
+    /// Says in which step an error arose and where the last state is.
+    fn explain(&self, error: Error, planned: &Planned, desk: &Desk<'_>, resumed_at: Option<u64>) -> Error {
+        let step = format!("step {} (`{}`)", desk.number(), planned.entry.name);
+        let kept = desk.kept().or(resumed_at);
+        match error {
+            Error::Interrupted(_) => match (kept, desk.keep_start_unless(kept.is_some())) {
+                (_, Err(error)) => error,
+                (Some(iteration), Ok(())) => {
+                    self.interrupted(&format!("in {step} after {iteration} iterations"))
+                }
+                (None, Ok(())) => self.interrupted(&format!("in {step}, which will start again")),
+            },
+            Error::Run(what) => match kept {
+                Some(iteration) => Error::Run(format!(
+                    "{step}: {what}; the last good state, after {iteration} iterations, is in {}",
+                    self.checkpoint().display()
+                )),
+                None => Error::Run(format!("{step}: {what}")),
+            },
+            other => other,
+        }
+    }
+
+    /// Writes all outputs, and the report when they are whole.
+    fn write(&self, state: State) -> Result<Report, Error> {
+        let State { landscape, steps, notes, .. } = state;
+        let hash = self.recipe.hash();
+        let writer = Writer { recipe: self.recipe, landscape: &landscape, hash: &hash };
+        let outputs = self.recipe.outputs.iter().map(|output| writer.write(output, &self.options.out));
+        let outputs = outputs.collect::<Result<_, _>>()?;
+        let report = Report {
+            engine: self.options.engine.name().to_owned(),
+            adapter: None,
+            seed: self.recipe.seed,
+            recipe_blake3: hash.clone(),
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+            steps,
+            outputs,
+            notes,
+        };
+        report.write(&self.options.out.join(REPORT_FILE))?;
+        Ok(report)
+    }
+}
+
+/// All layers that a step declares must be there and hold numbers.
+fn check_layers(planned: &Planned, landscape: &Landscape) -> Result<(), Error> {
+    let land = landscape.domain.land.as_ref();
+    for (name, _) in planned.step.writes() {
+        let field = landscape.field(&name)?;
+        if let Some((x, y)) = field.first_not_finite(land) {
+            let value = field.at(x, y);
+            return Err(Error::Run(format!(
+                "layer `{name}` became {value} at column {x}, row {y}; gentler parameters may help"
+            )));
+        }
+    }
+    Ok(())
+}
+
+fn step_report(
+    planned: &Planned,
+    landscape: &Landscape,
+    outcome: Outcome,
+    seconds: f64,
+    resumed_at: Option<u64>,
+) -> StepReport {
+    let cells = landscape.domain.size.cells();
+    let here = outcome.iterations.saturating_sub(resumed_at.unwrap_or(0));
+    let mut notes = outcome.notes;
+    if let Some(iteration) = resumed_at {
+        notes.push(format!(
+            "went on from a checkpoint after {iteration} iterations; seconds count from there"
+        ));
+    }
+    StepReport {
+        step: planned.entry.name.to_owned(),
+        seconds,
+        cells,
+        iterations: outcome.iterations,
+        cell_updates_per_second: cells as f64 * here as f64 / seconds.max(1e-9),
+        budget: outcome.budget.map(Into::into),
+        notes,
+    }
+}

@@ -1,0 +1,164 @@
+use std::path::Path;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use super::*;
+use crate::grid::Field;
+use crate::recipe::testing::parse;
+
+const RECIPE: &str = "\
+[landscape]
+size = [9, 7]
+seed = 5
+[[step]]
+do = \"rough\"
+[[step]]
+do = \"wear\"
+iterations = 20
+[[output]]
+layer = \"height\"
+file = \"deep/height.bits\"
+[[output]]
+picture = \"dot\"
+file = \"dot.png\"
+";
+
+/// Asks for the end once so many iterations are done.
+struct StopsAfter {
+    iterations: u64,
+    heard: AtomicU64,
+}
+
+impl StopsAfter {
+    fn new(iterations: u64) -> Self {
+        Self { iterations, heard: AtomicU64::new(0) }
+    }
+}
+
+impl Progress for StopsAfter {
+    fn progress(&self, _: u64, _: u64, _: usize) {
+        self.heard.fetch_add(1, Ordering::Relaxed);
+    }
+
+    fn cancelled(&self) -> bool {
+        self.heard.load(Ordering::Relaxed) >= self.iterations
+    }
+}
+
+fn run(text: &str, out: &Path, resume: bool, progress: &dyn Progress) -> Result<Report, Error> {
+    let recipe = parse(text).expect("the recipe is good");
+    let options = Options { resume, ..Options::into_folder(out) };
+    Run { recipe: &recipe, options }.execute(progress)
+}
+
+fn folder() -> tempfile::TempDir {
+    tempfile::tempdir().expect("a temporary folder")
+}
+
+fn height(out: &Path) -> Vec<u8> {
+    std::fs::read(out.join("deep/height.bits")).expect("the run wrote it")
+}
+
+fn files_in(folder: &Path) -> Vec<String> {
+    let entries = std::fs::read_dir(folder).expect("the folder exists");
+    let name = |entry: std::io::Result<std::fs::DirEntry>| {
+        entry.expect("readable").file_name().to_string_lossy().into_owned()
+    };
+    let mut names: Vec<_> = entries.map(name).collect();
+    names.sort();
+    names
+}
+
+#[test]
+fn a_run_leaves_its_files_and_a_report_and_nothing_else() {
+    let out = folder();
+    let report = run(RECIPE, out.path(), false, &Silent).expect("runs");
+    assert_eq!(files_in(out.path()), ["deep", "dot.png", "report.json"]);
+    let text = std::fs::read_to_string(out.path().join(REPORT_FILE)).expect("written");
+    let read: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+    for key in ["engine", "adapter", "seed", "recipe_blake3", "version", "steps", "outputs"] {
+        assert!(read.get(key).is_some(), "the report has `{key}`");
+    }
+    assert_eq!(read["steps"][1]["iterations"], 20);
+    assert_eq!(read["outputs"][0]["layer"], "height");
+    assert_eq!(report.recipe_blake3, parse(RECIPE).expect("good").hash());
+}
+
+#[test]
+fn a_run_that_is_stopped_and_resumed_ends_with_the_same_bits() {
+    let (whole, parts) = (folder(), folder());
+    run(RECIPE, whole.path(), false, &Silent).expect("runs");
+    for stop in [1, 4, 9] {
+        let resume = stop > 1;
+        let error = run(RECIPE, parts.path(), resume, &StopsAfter::new(stop)).expect_err("stopped");
+        assert_eq!(error.exit_code(), 130);
+        assert!(error.to_string().contains("--resume"), "{error}");
+        assert_eq!(files_in(parts.path()), ["checkpoint.weald", "deep"], "no output is there yet");
+    }
+    let report = run(RECIPE, parts.path(), true, &Silent).expect("goes on to the end");
+    assert!(report.steps[1].notes[0].contains("after 14 iterations"), "{:?}", report.steps[1].notes);
+    assert_eq!(height(whole.path()), height(parts.path()));
+    assert_eq!(files_in(parts.path()), ["deep", "dot.png", "report.json"], "the checkpoint is gone");
+}
+
+#[test]
+fn the_checkpoint_of_another_recipe_is_refused() {
+    let out = folder();
+    run(RECIPE, out.path(), false, &StopsAfter::new(3)).expect_err("stopped");
+    let other = RECIPE.replace("seed = 5", "seed = 6");
+    let error = run(&other, out.path(), true, &Silent).expect_err("another seed");
+    assert!(error.to_string().contains("`seed = 5`") && error.to_string().contains("`seed = 6`"), "{error}");
+    assert_eq!(error.exit_code(), 4);
+    run(&other, out.path(), false, &Silent).expect("starts anew");
+}
+
+#[test]
+fn a_nan_is_reported_with_step_layer_and_cell_and_the_last_good_state() {
+    let out = folder();
+    let broken = RECIPE.replace("iterations = 20", "iterations = 20\nbreaks_after = 12");
+    let recipe = parse(&broken).expect("good");
+    let options = Options { checkpoint_every: Duration::ZERO, ..Options::into_folder(out.path()) };
+    let error = Run { recipe: &recipe, options }.execute(&Silent).expect_err("a NaN");
+    let message = error.to_string();
+    assert!(message.contains("step 2 (`wear`): layer `height` became NaN at column 0, row 0"), "{message}");
+    assert!(message.contains("checkpoint.weald"), "{message}");
+    assert_eq!(error.exit_code(), 1);
+    assert!(!out.path().join(REPORT_FILE).exists(), "a failed run has no report");
+}
+
+#[test]
+fn a_file_in_place_of_the_folder_is_found_before_anything_runs() {
+    let out = folder();
+    let file = out.path().join("file");
+    std::fs::write(&file, "x").expect("writes");
+    let heard = StopsAfter::new(u64::MAX);
+    let error = run(RECIPE, &file, false, &heard).expect_err("not a folder");
+    assert_eq!(error.exit_code(), 1);
+    assert_eq!(heard.heard.load(Ordering::Relaxed), 0, "nothing ran");
+    std::fs::create_dir_all(out.path().join("dot.png")).expect("makes");
+    let error = run(RECIPE, out.path(), false, &heard).expect_err("a folder in place of a file");
+    assert!(error.to_string().contains("it is a folder"), "{error}");
+}
+
+#[test]
+fn cells_without_data_are_written_as_such() {
+    let recipe = parse(RECIPE).expect("good");
+    let size = crate::Size::new(3, 1).expect("small");
+    let land = crate::grid::Mask::new(size, vec![true, false, true]);
+    let mut landscape = Landscape::new(crate::Domain { land: land.clone(), ..crate::Domain::new(size, 2.0) });
+    landscape.insert("height", "m", Field::from_values(size, vec![5.0, f32::NAN, 7.0]));
+    let writer = Writer { recipe: &recipe, landscape: &landscape, hash: "" };
+    let raster = writer.raster("height").expect("the layer is there");
+    assert_eq!(raster.field.values(), [5.0, 0.0, 7.0]);
+    assert_eq!(raster.land, land);
+    assert_eq!(raster.provenance.map(|provenance| provenance.range), Some((5.0, 7.0)));
+}
+
+#[test]
+fn steps_of_the_same_kind_draw_different_numbers() {
+    let two =
+        RECIPE.replace("[[step]]\ndo = \"wear\"\niterations = 20", "[[step]]\ndo = \"rough\"\ninto = \"b\"");
+    let two = format!("{two}[[output]]\nlayer = \"b\"\nfile = \"b.bits\"\n");
+    let out = folder();
+    run(&two, out.path(), false, &Silent).expect("runs");
+    assert_ne!(height(out.path()), std::fs::read(out.path().join("b.bits")).expect("written"));
+}

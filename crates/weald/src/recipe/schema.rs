@@ -1,0 +1,147 @@
+//! The JSON Schema of recipes, for editors that complete and check TOML: `weald schema`.
+
+use serde_json::{Map, Value, json};
+
+use super::catalog::CATALOG;
+use super::parameter::{Kind, Parameter, Parameters};
+use super::plan::LandscapeKeys;
+use crate::picture::PICTURES;
+
+/// The schema, in the dialect of 2020-12.
+pub fn schema() -> Value {
+    let steps = CATALOG.iter().map(|entry| {
+        let summary = format!("{} Source: {}.", entry.summary, entry.source);
+        alternative("do", entry.name, &summary, &(entry.parameters)())
+    });
+    let pictures = PICTURES.iter().map(|entry| {
+        let mut object = alternative("picture", entry.name, entry.summary, &(entry.parameters)());
+        add_property(&mut object, "file", &file());
+        object
+    });
+    json!({
+        "$schema": "https://json-schema.org/draft/2020-12/schema",
+        "title": "Weald recipe",
+        "type": "object",
+        "required": ["output"],
+        "properties": {
+            "landscape": table(&LandscapeKeys::parameters()),
+            "step": { "type": "array", "items": one_of(&steps.collect::<Vec<_>>()) },
+            "output": {
+                "type": "array",
+                "minItems": 1,
+                "items": one_of(&std::iter::once(layer_output()).chain(pictures).collect::<Vec<_>>()),
+            },
+        },
+        "additionalProperties": false,
+    })
+}
+
+fn one_of(alternatives: &[Value]) -> Value {
+    json!({ "oneOf": alternatives })
+}
+
+fn file() -> Value {
+    json!({ "type": "string", "description": "Name in the output folder; the extension chooses the format." })
+}
+
+fn layer_output() -> Value {
+    let layer = json!({ "type": "string", "description": "The layer that is written." });
+    json!({
+        "type": "object",
+        "properties": { "layer": layer, "file": file() },
+        "required": ["layer", "file"],
+        "additionalProperties": false,
+    })
+}
+
+/// A table that is told from others by the word under `key`.
+fn alternative(key: &str, word: &str, summary: &str, parameters: &[Parameter]) -> Value {
+    let mut object = table(parameters);
+    object["description"] = summary.into();
+    add_property(&mut object, key, &json!({ "const": word }));
+    object
+}
+
+fn add_property(object: &mut Value, key: &str, schema: &Value) {
+    object["properties"][key] = schema.clone();
+    if let Some(required) = object["required"].as_array_mut() {
+        required.push(key.into());
+    }
+}
+
+fn table(parameters: &[Parameter]) -> Value {
+    let properties: Map<String, Value> =
+        parameters.iter().map(|parameter| (parameter.name.to_owned(), property(parameter))).collect();
+    let required: Vec<_> =
+        parameters.iter().filter(|parameter| parameter.required).map(|parameter| parameter.name).collect();
+    json!({
+        "type": "object",
+        "properties": properties,
+        "required": required,
+        "additionalProperties": false,
+    })
+}
+
+fn property(parameter: &Parameter) -> Value {
+    let mut schema = of_kind(&parameter.kind);
+    let doc = parameter.doc.split_whitespace().collect::<Vec<_>>().join(" ");
+    let unit = if parameter.unit == "1" { String::new() } else { format!(" Unit: {}.", parameter.unit) };
+    schema["description"] = format!("{doc}{unit}").into();
+    // Defaults are written in TOML, of which numbers, flags, texts and lists are JSON too.
+    let default = parameter.default.as_ref().and_then(|default| serde_json::from_str::<Value>(default).ok());
+    if let Some(default) = default {
+        schema["default"] = default;
+    }
+    schema
+}
+
+fn of_kind(kind: &Kind) -> Value {
+    match kind {
+        Kind::Number(low, high) => bounded("number", *low, *high),
+        Kind::Integer(low, high) => bounded("integer", low.max(0.0), *high),
+        Kind::Flag => json!({ "type": "boolean" }),
+        Kind::Choice(words) => json!({ "enum": words }),
+        Kind::Text => json!({ "type": "string" }),
+        Kind::Layer => json!({ "type": "string", "pattern": "^[A-Za-z0-9_-]{1,64}$" }),
+        Kind::Numbers(low, high) => json!({ "type": "array", "items": bounded("number", *low, *high) }),
+        Kind::Sides => {
+            let side = json!({ "type": "integer", "minimum": 1 });
+            json!({ "oneOf": [side, { "type": "array", "items": side, "minItems": 2, "maxItems": 2 }] })
+        }
+        Kind::Table(parameters) => table(parameters),
+    }
+}
+
+/// A number type with the bounds that are finite.
+fn bounded(kind: &str, low: f64, high: f64) -> Value {
+    let mut schema = json!({ "type": kind });
+    for (key, bound) in [("minimum", low), ("maximum", high)] {
+        if bound.is_finite() {
+            schema[key] = if kind == "integer" { (bound as u64).into() } else { bound.into() };
+        }
+    }
+    schema
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_schema_tells_ranges_and_defaults_of_the_landscape() {
+        let schema = schema();
+        let landscape = &schema["properties"]["landscape"]["properties"];
+        assert_eq!(landscape["cell"]["maximum"], 100_000.0);
+        assert_eq!(landscape["seed"]["default"], 0);
+        assert_eq!(landscape["seed"]["type"], "integer");
+    }
+
+    #[test]
+    fn every_step_and_picture_is_an_alternative() {
+        let schema = schema();
+        let count =
+            |section: &str| schema["properties"][section]["items"]["oneOf"].as_array().map_or(0, Vec::len);
+        assert_eq!(count("step"), CATALOG.len());
+        assert_eq!(count("output"), PICTURES.len() + 1);
+    }
+}

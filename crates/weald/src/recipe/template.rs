@@ -1,0 +1,40 @@
+//! Commented recipes to start from: `weald new`.
+
+/// A recipe to start from.
+#[derive(Clone, Copy, Debug)]
+pub struct Template {
+    /// Word after `--template`.
+    pub name: &'static str,
+    /// What it makes, in one sentence.
+    pub summary: &'static str,
+    /// The recipe.
+    pub text: &'static str,
+}
+
+/// All templates; the first is taken where none is named.
+pub const TEMPLATES: &[Template] = &[
+    Template {
+        name: "highland",
+        summary: "fractal ground, carved by rain until rivers and valleys stand",
+        text: include_str!("template/highland.toml"),
+    },
+    Template {
+        name: "fault",
+        summary: "fault formation, weathered to slopes that rest",
+        text: include_str!("template/fault.toml"),
+    },
+    Template {
+        name: "dem",
+        summary: "a real elevation model under rain",
+        text: include_str!("template/dem.toml"),
+    },
+];
+
+/// The template of that name; an error says which there are.
+pub fn find(name: &str) -> Result<&'static Template, String> {
+    TEMPLATES.iter().find(|template| template.name == name).ok_or_else(|| {
+        let known: Vec<_> =
+            TEMPLATES.iter().map(|template| format!("{} ({})", template.name, template.summary)).collect();
+        format!("there is no template {name:?}; there are: {}", known.join(", "))
+    })
+}

@@ -1,0 +1,146 @@
+//! A tiny vocabulary for tests of recipes: two steps, one picture, one format.
+
+use std::path::Path;
+
+use super::overrides::Overrides;
+use super::parameter::LayerName;
+use super::plan::{Recipe, Vocabulary};
+use crate::engine::{Job, SavedSimulation};
+use crate::error::Error;
+use crate::grid::Field;
+use crate::io::{Format, Raster};
+use crate::landscape::Landscape;
+use crate::parameters;
+use crate::picture::{Image, Picture, PictureEntry};
+use crate::random::hash2;
+use crate::step::{Entry, Outcome, Stage, Step};
+
+pub(super) const VOCABULARY: Vocabulary = Vocabulary {
+    steps: &[
+        Entry::of::<Rough>("rough", Stage::Generate, "Random heights.", "Weald"),
+        Entry::of::<Wear>("wear", Stage::Erode, "A simulation in small.", "Weald"),
+    ],
+    pictures: &[PictureEntry::of::<Dot>("dot", "One pixel.", "Weald")],
+    format_of,
+};
+
+/// Parses with the tiny vocabulary.
+pub(super) fn parse(text: &str) -> Result<Recipe, Error> {
+    Recipe::parse_with(&VOCABULARY, "folder/r.toml", text, &Overrides::default())
+}
+
+/// The error of a recipe that must be refused.
+pub(super) fn refusal(text: &str) -> String {
+    parse(text).expect_err("the recipe is bad").to_string()
+}
+
+static BITS: Format =
+    Format { name: "bits", extensions: &["bits"], decode: None, encode: Some(|raster| Ok(bits(raster))) };
+
+fn format_of(path: &Path) -> Result<&'static Format, String> {
+    let known = path.extension().is_some_and(|extension| extension == "bits");
+    if known { Ok(&BITS) } else { Err(format!("`{}` is no .bits", path.display())) }
+}
+
+fn bits(raster: &Raster) -> Vec<u8> {
+    raster.field.values().iter().flat_map(|value| value.to_bits().to_le_bytes()).collect()
+}
+
+parameters! {
+    /// Random heights.
+    pub struct Rough {
+        /// Greatest height.
+        relief: f64 = 10.0, range 0.0..=100.0, unit "m";
+        /// Layer that is written.
+        into: LayerName = LayerName::of("height");
+    }
+}
+
+impl Step for Rough {
+    fn reads(&self) -> Vec<String> {
+        Vec::new()
+    }
+
+    fn writes(&self) -> Vec<(String, &'static str)> {
+        vec![(self.into.0.clone(), "m")]
+    }
+
+    fn run(&self, landscape: &mut Landscape, job: &Job<'_>) -> Result<Outcome, Error> {
+        let height = |x: usize, y: usize| {
+            let share = crate::random::unit(hash2(job.seed, x as i64, y as i64));
+            (self.relief * share) as f32
+        };
+        landscape.insert(&self.into.0, "m", Field::from_function(landscape.domain.size, height));
+        Ok(Outcome { iterations: 1, ..Outcome::default() })
+    }
+}
+
+parameters! {
+    /// Heights that wear down a little in every iteration.
+    pub struct Wear {
+        /// Iterations.
+        iterations: u64 = 10, range 1..=1000;
+        /// Iteration after which the heights become NaN, for a test.
+        breaks_after: Option<u64> = None, range 0..=1000;
+        /// Layer that is worn.
+        on: LayerName = LayerName::of("height");
+    }
+}
+
+impl Step for Wear {
+    fn reads(&self) -> Vec<String> {
+        vec![self.on.0.clone()]
+    }
+
+    fn writes(&self) -> Vec<(String, &'static str)> {
+        vec![(self.on.0.clone(), "m"), ("debris".to_owned(), "m")]
+    }
+
+    fn run(&self, landscape: &mut Landscape, job: &Job<'_>) -> Result<Outcome, Error> {
+        let size = landscape.domain.size;
+        let (mut done, mut heights) = match &job.resume {
+            Some(saved) => (saved.iteration, saved.planes[0].1.clone()),
+            None => (0, landscape.field(&self.on.0)?.values().to_vec()),
+        };
+        let mut saved = SavedSimulation::default();
+        while done < self.iterations {
+            saved.iteration = done;
+            saved.planes = vec![("height".to_owned(), heights.clone())];
+            if job.watcher.cancelled() {
+                job.watcher.checkpoint(&saved)?;
+                return Err(Error::Interrupted(String::new()));
+            }
+            if job.watcher.checkpoint_due() {
+                job.watcher.checkpoint(&saved)?;
+            }
+            let factor = if self.breaks_after == Some(done) { f32::NAN } else { 0.9 };
+            for height in &mut heights {
+                *height = *height * factor + 0.01;
+            }
+            done += 1;
+            job.watcher.progress(done, self.iterations, size.cells());
+        }
+        let debris = heights.iter().map(|height| 1.0 - height).collect();
+        landscape.insert("debris", "m", Field::from_values(size, debris));
+        landscape.insert(&self.on.0, "m", Field::from_values(size, heights));
+        Ok(Outcome { iterations: done, ..Outcome::default() })
+    }
+}
+
+parameters! {
+    /// One pixel.
+    pub struct Dot {
+        /// Layer that is shown.
+        of: LayerName = LayerName::of("height");
+    }
+}
+
+impl Picture for Dot {
+    fn reads(&self) -> Vec<String> {
+        vec![self.of.0.clone()]
+    }
+
+    fn render(&self, _: &Landscape) -> Result<Image, Error> {
+        Ok(Image { width: 1, height: 1, rgb: vec![1, 2, 3] })
+    }
+}

@@ -1,0 +1,241 @@
+//! The catalogue keeps its word: every step is documented, refuses what is out of range, and writes the layers
+//! that it declares and no others.
+
+use std::collections::BTreeSet;
+
+use proptest::prelude::*;
+use weald::domain::Domain;
+use weald::engine::Job;
+use weald::grid::Mask;
+use weald::picture::PICTURES;
+use weald::random::{hash2, unit};
+use weald::recipe::catalog::CATALOG;
+use weald::recipe::parameter::{Complaints, Kind, Parameter};
+use weald::recipe::source::{self, Node, Table, Value};
+use weald::step::{Entry, Step};
+use weald::{Field, Landscape, Size};
+
+#[test]
+fn names_are_unique_and_every_step_says_what_it_does_and_where_it_is_from() {
+    let names: BTreeSet<_> = CATALOG.iter().map(|entry| entry.name).collect();
+    assert_eq!(names.len(), CATALOG.len(), "each name stands for one step");
+    for entry in CATALOG {
+        let kebab = entry.name.chars().all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-');
+        assert!(kebab, "{} is in lower case with hyphens", entry.name);
+        assert!(entry.summary.len() > 10, "{} says what it does", entry.name);
+        assert!(!entry.source.is_empty(), "{} says where it is from", entry.name);
+    }
+}
+
+#[test]
+fn every_parameter_has_a_text_a_unit_and_a_range() {
+    for entry in CATALOG {
+        check_documented(entry.name, &(entry.parameters)());
+    }
+    for picture in PICTURES {
+        check_documented(picture.name, &(picture.parameters)());
+    }
+}
+
+fn check_documented(owner: &str, parameters: &[Parameter]) {
+    for parameter in parameters {
+        let name = format!("{owner}.{}", parameter.name);
+        assert!(parameter.doc.len() > 5, "{name} is explained");
+        assert!(!parameter.unit.is_empty(), "{name} has a unit");
+        match &parameter.kind {
+            Kind::Number(low, high) | Kind::Integer(low, high) | Kind::Numbers(low, high) => {
+                assert!(low < high, "{name} has a range");
+            }
+            Kind::Table(inner) => check_documented(&name, inner),
+            _ => {}
+        }
+    }
+}
+
+/// The keys that a table cannot do without, each on a line of its own.
+fn needed(parameters: &[Parameter]) -> String {
+    let needed = parameters.iter().filter(|parameter| parameter.required);
+    let lines = needed.map(|parameter| format!("{} = {}", parameter.name, some_value(parameter)));
+    lines.chain([String::new()]).collect::<Vec<_>>().join("\n")
+}
+
+fn some_value(parameter: &Parameter) -> String {
+    match &parameter.kind {
+        Kind::Number(low, high) => format!("{:?}", (low + high) / 2.0),
+        Kind::Integer(low, _) => format!("{low}"),
+        Kind::Flag => "true".to_owned(),
+        Kind::Choice(words) => format!("{:?}", words[0]),
+        Kind::Numbers(low, high) => format!("[{:?}]", (low + high) / 2.0),
+        Kind::Sides => "16".to_owned(),
+        Kind::Layer | Kind::Text => format!("\"{}_layer\"", parameter.name),
+        Kind::Table(inner) => format!("{{ {} }}", needed(inner).trim().replace('\n', ", ")),
+    }
+}
+
+/// The step of a text of keys, and what is wrong with it.
+fn read(entry: &Entry, text: &str) -> (Box<dyn Step>, Vec<String>) {
+    let table = source::parse("r.toml", text).unwrap_or_else(|error| panic!("{text:?} is TOML: {error}"));
+    read_table(entry, &table)
+}
+
+fn read_table(entry: &Entry, table: &Table) -> (Box<dyn Step>, Vec<String>) {
+    let mut complaints = Complaints { subject: entry.name.to_owned(), ..Complaints::default() };
+    let step = (entry.read)(table, &mut complaints);
+    let shown = complaints.found.iter().map(|fault| format!("{}: {}", fault.line, fault.message)).collect();
+    (step, shown)
+}
+
+#[test]
+fn every_step_takes_its_defaults_unsaid_and_said() {
+    for entry in CATALOG {
+        let parameters = (entry.parameters)();
+        let least = needed(&parameters);
+        assert_eq!(read(entry, &least).1, [""; 0], "{} with what is needed", entry.name);
+        let said = parameters.iter().filter_map(|parameter| {
+            parameter.default.as_ref().map(|default| format!("{} = {default}\n", parameter.name))
+        });
+        let all = least + &said.collect::<String>();
+        assert_eq!(read(entry, &all).1, [""; 0], "{} with all defaults", entry.name);
+    }
+}
+
+/// Values just outside a parameter's range, in TOML, by a share of its bounds.
+fn outside(kind: &Kind, share: f64) -> Vec<String> {
+    match kind {
+        Kind::Number(low, high) => {
+            let beyond = |bound: f64| share * bound.abs().max(1.0);
+            vec![format!("{:?}", low - beyond(*low)), format!("{:?}", high + beyond(*high))]
+        }
+        Kind::Integer(low, high) if *high < 9.0e18 => {
+            vec![format!("{}", low - 1.0), format!("{}", high + 1.0)]
+        }
+        Kind::Integer(low, _) => vec![format!("{}", low - 1.0)],
+        _ => Vec::new(),
+    }
+}
+
+/// A table in which one key, perhaps deep inside, has this value, on line 1.
+fn with_value(path: &[&str], value: &str) -> String {
+    let (last, outer) = path.split_last().expect("a path has a key");
+    let inner = format!("{last} = {value}");
+    outer.iter().rev().fold(inner, |inner, key| format!("{key} = {{ {inner} }}"))
+}
+
+fn check_refusals<'a>(entry: &Entry, path: &mut Vec<&'a str>, parameters: &'a [Parameter], share: f64) {
+    for parameter in parameters {
+        path.push(parameter.name);
+        if let Kind::Table(inner) = &parameter.kind {
+            check_refusals(entry, path, inner, share);
+        }
+        for value in outside(&parameter.kind, share) {
+            let (_, faults) = read(entry, &with_value(path, &value));
+            let range = parameter.kind.in_words();
+            let (_, bounds) = range.split_once(", ").expect("a number's kind names its bounds");
+            let shown = value.strip_suffix(".0").unwrap_or(&value);
+            let told = faults.iter().any(|fault| {
+                fault.starts_with("1: ")
+                    && fault.contains(&format!("`{}`", parameter.name))
+                    && fault.contains(bounds)
+                    && (fault.contains(shown) || fault.contains(&as_displayed(&value)))
+            });
+            assert!(
+                told,
+                "{}.{} = {value} must be refused with {bounds}: {faults:?}",
+                entry.name, parameter.name
+            );
+        }
+        path.pop();
+    }
+}
+
+fn as_displayed(value: &str) -> String {
+    value.parse::<f64>().map_or_else(|_| value.to_owned(), |number| number.to_string())
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(32))]
+    #[test]
+    fn a_value_outside_its_range_is_refused_with_line_key_value_and_range(exponent in -9.0_f64..6.0) {
+        for entry in CATALOG {
+            check_refusals(entry, &mut Vec::new(), &(entry.parameters)(), 10_f64.powf(exponent));
+        }
+    }
+
+    #[test]
+    fn a_value_of_any_type_is_taken_or_refused_but_never_a_panic(which in 0_usize..6, number in any::<i64>()) {
+        let value = [
+            Value::Flag(true),
+            Value::Integer(number),
+            Value::Number(f64::from_bits(number as u64)),
+            Value::Text(number.to_string()),
+            Value::List(vec![Node { line: 1, value: Value::Integer(number) }]),
+            Value::Table(Table::default()),
+        ];
+        for entry in CATALOG {
+            for parameter in (entry.parameters)() {
+                let node = Node { line: 1, value: value[which].clone() };
+                let table = Table { line: 1, entries: vec![(parameter.name.to_owned(), node)] };
+                let (step, faults) = read_table(entry, &table);
+                if faults.is_empty() {
+                    let _ = (step.faults(), step.reads(), step.writes(), step.resized());
+                }
+            }
+        }
+    }
+}
+
+/// Unit of the layers that a step is given here.
+const INPUT_UNIT: &str = "m";
+
+/// Ground for a step: the layers it reads, and one that is none of its business.
+fn ground_for(step: &dyn Step, land: Option<Mask>) -> Landscape {
+    let size = Size::square(16).expect("small");
+    let mut landscape = Landscape::new(Domain { land, ..Domain::new(size, 10.0) });
+    let names = step.reads().into_iter().chain(["bystander".to_owned()]);
+    for (seed, name) in names.enumerate() {
+        let value = |x, y| unit(hash2(seed as u64, x as i64, y as i64)) as f32;
+        landscape.insert(&name, INPUT_UNIT, Field::from_function(size, value));
+    }
+    landscape
+}
+
+fn check_writes(entry: &Entry, land: Option<Mask>) {
+    let name = entry.name;
+    let (step, faults) = read(entry, &needed(&(entry.parameters)()));
+    assert_eq!(faults, [""; 0]);
+    let before = ground_for(step.as_ref(), land);
+    let mut after = before.clone();
+    step.run(&mut after, &Job::unwatched(7)).unwrap_or_else(|error| panic!("{name} runs: {error}"));
+    for (layer, unit) in step.writes() {
+        let written = after.layer(&layer).unwrap_or_else(|error| panic!("{name} writes {layer}: {error}"));
+        let declared = if unit.starts_with("unit of ") { INPUT_UNIT } else { unit };
+        assert_eq!(written.unit, declared, "{name}: the unit of {layer}");
+        assert_eq!(written.field.first_not_finite(after.domain.land.as_ref()), None, "{name}: {layer}");
+    }
+    let declared: BTreeSet<_> = step.writes().into_iter().map(|(layer, _)| layer).collect();
+    let known = |layer: &str| declared.contains(layer) || before.layer(layer).is_ok();
+    assert!(after.layers().all(|(layer, _)| known(layer)), "{name} writes only what it declares");
+    if step.resized().is_some() {
+        return;
+    }
+    assert_eq!(before.domain, after.domain, "{name} leaves the domain alone");
+    for (layer, old) in before.layers().filter(|(layer, _)| !declared.contains(*layer)) {
+        assert_eq!(after.layer(layer).ok(), Some(old), "{name} leaves {layer} alone");
+    }
+}
+
+#[test]
+fn declared_layers_are_written_and_nothing_else() {
+    for entry in CATALOG {
+        check_writes(entry, None);
+    }
+}
+
+#[test]
+fn declared_layers_are_written_where_cells_have_no_data() {
+    let size = Size::square(16).expect("small");
+    let flags: Vec<_> = (0..size.cells()).map(|index| index % 16 > 2 && index % 7 != 0).collect();
+    for entry in CATALOG {
+        check_writes(entry, Mask::new(size, flags.clone()));
+    }
+}
