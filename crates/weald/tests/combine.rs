@@ -5,7 +5,7 @@ use weald::combine::add::Add;
 use weald::combine::blend::Blend;
 use weald::combine::extremes::{Max, Min};
 use weald::combine::remap::Remap;
-use weald::combine::resample::{Resample, Sides};
+use weald::combine::resample::Resample;
 use weald::combine::smooth::Smooth;
 use weald::combine::terrace::Terrace;
 use weald::domain::Georeference;
@@ -13,6 +13,7 @@ use weald::engine::Job;
 use weald::grid::Mask;
 use weald::random::signed2;
 use weald::recipe::parameter::LayerName;
+use weald::recipe::parameter::Sides;
 use weald::step::Step;
 use weald::{Domain, Field, Landscape, Size};
 
@@ -224,7 +225,7 @@ fn plane(columns: usize, rows: usize, cell: f64) -> Landscape {
 }
 
 fn resample(columns: u32, rows: u32) -> Resample {
-    Resample { size: Sides(columns, rows) }
+    Resample { size: Sides { columns: columns.into(), rows: rows.into() } }
 }
 
 #[test]

@@ -108,8 +108,11 @@ fn ground_stays_to_the_bit_when_nothing_erodes() {
     assert_eq!(land.field("height").expect("h"), &before);
 }
 
-/// The eight symmetries of the square, as functions from cell to cell.
-fn symmetries(side: usize) -> [Box<dyn Fn(usize, usize) -> (usize, usize)>; 8] {
+/// A function from cell to cell.
+type Turn = Box<dyn Fn(usize, usize) -> (usize, usize)>;
+
+/// The eight symmetries of the square.
+fn symmetries(side: usize) -> [Turn; 8] {
     let m = side - 1;
     [
         Box::new(|x, y| (x, y)),
@@ -204,7 +207,7 @@ fn cells_without_data_take_no_part() {
         let (high, _) = eroded(1e6, boundary);
         assert!(low == high, "{boundary:?}: what stands in no-data cells reached the land");
         assert!(budget.water.error().abs() < 1e-5 && budget.solid.error().abs() < 1e-5, "{budget:?}");
-        assert_eq!(budget.water.outgoing > budget.water.incoming * 0.5, true, "water evaporates or leaves");
+        assert!(budget.water.outgoing > budget.water.incoming * 0.5, "water evaporates or leaves");
     }
 }
 
