@@ -26,7 +26,6 @@ pub(crate) enum Advection {
 
 /// Value at the departure point of a cell, from the nine cells around it (north to south, west to east).
 #[inline(always)]
-#[allow(clippy::inline_always)]
 fn departure(nine: [[f32; 3]; 3], velocity: [f32; 2], links: [f32; 4]) -> f32 {
     let [west, east, north, south] = weights(velocity, links);
     let across = |row: [f32; 3]| (west * row[0] + east * row[2]) + (1.0 - (west + east)) * row[1];
@@ -35,7 +34,6 @@ fn departure(nine: [[f32; 3]; 3], velocity: [f32; 2], links: [f32; 4]) -> f32 {
 
 /// Weights of the western, eastern, northern and southern neighbours.
 #[inline(always)]
-#[allow(clippy::inline_always)]
 fn weights(velocity: [f32; 2], links: [f32; 4]) -> [f32; 4] {
     let [u, v] = velocity.map(|speed| speed.clamp(-1.0, 1.0));
     [u.max(0.0) * links[0], (-u).max(0.0) * links[1], v.max(0.0) * links[2], (-v).max(0.0) * links[3]]

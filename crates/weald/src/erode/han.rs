@@ -226,16 +226,18 @@ impl Han {
         let next = flow.next(y);
         let scratch = &mut *flow.scratch;
         let depth = &flow.input[plane::DEPTH];
-        let land = &flow.constants[1];
+        let (change, land) = (&flow.input[plane::CHANGE], &flow.constants[1]);
         let edges = [
-            (plane::EAST, depth.east(y), land.east(y), &mut scratch.wanted_east),
-            (plane::SOUTH, depth.here(next), land.here(next), &mut scratch.wanted_south),
+            (plane::EAST, [depth.east(y), change.east(y), land.east(y)], &mut scratch.wanted_east),
+            (plane::SOUTH, [depth.here(next), change.here(next), land.here(next)], &mut scratch.wanted_south),
         ];
-        for (plane, depth_next, land_next, flux) in edges {
+        for (plane, [depth_next, change_next, land_next], flux) in edges {
             Overfall {
                 old: flow.input[plane].here(y),
                 depth: depth.here(y),
                 depth_next,
+                change: change.here(y),
+                change_next,
                 land: land.here(y),
                 land_next,
                 flux: flux.here_mut(y),
@@ -351,6 +353,7 @@ impl Han {
         let [change_out, depth, sediment_out, ..] = flow.output else { unreachable!("five state planes") };
         let change = if self.slide.is_some() { &mut scratch.settled_change } else { change_out };
         let sediment = if self.advection.is_some() { &mut scratch.settled_sediment } else { sediment_out };
+        let links = self.links.row(flow.constants, y);
         let arguments = (
             before(&scratch.face_south, &scratch.still, y, start),
             before(&scratch.sine_south, &scratch.still, y, start),
@@ -369,7 +372,8 @@ impl Han {
                     sine_west: scratch.sine_east.west(y),
                     sine_south: scratch.sine_south.here(y),
                     sine_north: arguments.1,
-                    neighbour_share: self.links.row(flow.constants, y).neighbour_share,
+                    neighbour_share: links.neighbour_share,
+                    yields: links.yields,
                     change: change.here_mut(y),
                     sediment: sediment.here_mut(y),
                     lost: scratch.tally[0].here_mut(0),

@@ -7,8 +7,8 @@ use crate::grid::{Mask, Size};
 use crate::stencil::ring::Ring;
 
 /// Constant planes behind the start height in a world with a mask: land, eastern link, southern link,
-/// reciprocal of the number of neighbours, northern link.
-pub(crate) const MASK_PLANES: usize = 5;
+/// reciprocal of the number of neighbours, northern link, yielding ground.
+pub(crate) const MASK_PLANES: usize = 6;
 
 /// The links of one row.
 #[derive(Clone, Copy)]
@@ -25,6 +25,9 @@ pub(crate) struct LinkRow<'a> {
     pub(crate) north: &'a [f32],
     /// Reciprocal of the number of neighbours that hold data; 0 where there are none.
     pub(crate) neighbour_share: &'a [f32],
+    /// 1 where water may change the ground: on cells with data that do not lie at an open edge. Those hold
+    /// the base level of their rivers, or rivers would cut ever deeper there.
+    pub(crate) yields: &'a [f32],
 }
 
 /// Links of all rows.
@@ -80,6 +83,7 @@ impl Links {
                 west: constants[2].west(y),
                 north: constants[5].here(y),
                 neighbour_share: constants[4].here(y),
+                yields: constants[6].here(y),
             },
         }
     }
@@ -95,6 +99,7 @@ impl WholeLinks {
             west: &self.west,
             north: if y > 0 { &self.ones } else { &self.zeros },
             neighbour_share: &self.shares[usize::from(y > 0) + usize::from(below)],
+            yields: &self.ones,
         }
     }
 }
@@ -103,8 +108,8 @@ fn reciprocal(neighbours: usize) -> f32 {
     if neighbours == 0 { 0.0 } else { 1.0 / neighbours as f32 }
 }
 
-/// The [`MASK_PLANES`] of a mask, row-major.
-pub(crate) fn mask_planes(mask: &Mask) -> [Vec<f32>; MASK_PLANES] {
+/// The [`MASK_PLANES`] of a mask, row-major. `open` says that water leaves over its edges.
+pub(crate) fn mask_planes(mask: &Mask, open: bool) -> [Vec<f32>; MASK_PLANES] {
     let Size { columns, rows } = mask.size();
     let land = |x: usize, y: usize| x < columns && y < rows && mask.is_land(x, y);
     let plane = |value: &dyn Fn(usize, usize) -> f32| -> Vec<f32> {
@@ -123,5 +128,6 @@ pub(crate) fn mask_planes(mask: &Mask) -> [Vec<f32>; MASK_PLANES] {
         plane(&|x, y| flag(land(x, y) && land(x, y + 1))),
         plane(&|x, y| if land(x, y) { reciprocal(neighbours(x, y)) } else { 0.0 }),
         plane(&|x, y| flag(y > 0 && land(x, y) && land(x, y - 1))),
+        plane(&|x, y| flag(land(x, y) && (!open || neighbours(x, y) == 4))),
     ]
 }

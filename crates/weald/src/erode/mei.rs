@@ -178,7 +178,7 @@ impl Mei {
         let [_, _, _, east, west, south, north] = flow.output else { unreachable!("seven state planes") };
         let surface = &scratch.surface;
         macro_rules! outflow {
-            ($Outflow:ident $(, $land:ident)?) => {
+            ($Outflow:ident $(, $land:ident, $base:ident)?) => {
                 $Outflow {
                     old_east: flow.input[plane::EAST].here(y),
                     old_west: flow.input[plane::WEST].here(y),
@@ -194,7 +194,7 @@ impl Mei {
                     link_west: links.west,
                     link_south: links.south,
                     link_north: links.north,
-                    $($land: links.land,)?
+                    $($land: links.land, $base: flow.constants[0].here(y),)?
                     east: east.here_mut(y),
                     west: west.here_mut(y),
                     south: south.here_mut(y),
@@ -206,7 +206,7 @@ impl Mei {
             };
         }
         if self.open {
-            outflow!(OpenOutflow, land);
+            outflow!(OpenOutflow, land, base);
         } else {
             outflow!(Outflow);
         }
@@ -255,7 +255,7 @@ impl Mei {
             sine_south: scratch.sine_south.here(y),
             sine_north: before(&scratch.sine_south, &scratch.still, y, start),
             neighbour_share: links.neighbour_share,
-            land: links.land,
+            yields: links.yields,
             depth: depth.here_mut(y),
             evaporated: evaporated.here_mut(0),
             eastward: scratch.eastward.here_mut(y),

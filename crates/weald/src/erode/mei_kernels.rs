@@ -39,7 +39,6 @@ kernel! {
 
 /// The four outflows scaled to the water that the cell has, or to `most` where the scheme runs as it is.
 #[inline(always)]
-#[allow(clippy::inline_always)]
 fn scaled(wanted: [f32; 4], depth: f32, most: f32) -> [f32; 4] {
     let sum = (wanted[0] + wanted[1]) + (wanted[2] + wanted[3]);
     let afford = (depth * (1.0 - KEPT)).max(most);
@@ -71,11 +70,12 @@ kernel! {
 }
 
 kernel! {
-    /// The same where water falls freely into cells without data, driven by its own depth.
+    /// The same where water falls freely into cells without data, driven by how high it stands over the
+    /// ground of the start.
     pub(crate) struct OpenOutflow {
         reads {
             old_east, old_west, old_south, old_north, surface, surface_east, surface_west, surface_south,
-            surface_north, depth, link_east, link_west, link_south, link_north, land,
+            surface_north, depth, link_east, link_west, link_south, link_north, land, base,
         }
         updates {}
         writes { east, west, south, north }
@@ -83,7 +83,7 @@ kernel! {
     }
     fn cell() {
         let outflow = |old: f32, next: f32, link: f32| {
-            let drop = if link > 0.0 { surface - next } else { depth };
+            let drop = if link > 0.0 { surface - next } else { surface - base };
             (old + flow_rate * drop).max(0.0) * land
         };
         let wanted = [
@@ -103,7 +103,7 @@ kernel! {
     pub(crate) struct Exchange {
         reads {
             rained, east, west, south, north, from_west, from_east, from_north, from_south,
-            found, change_before, sine_east, sine_west, sine_south, sine_north, neighbour_share, land,
+            found, change_before, sine_east, sine_west, sine_south, sine_north, neighbour_share, yields,
         }
         updates {}
         writes { depth, evaporated, eastward, southward, change, sediment, lost }
@@ -123,7 +123,7 @@ kernel! {
         evaporated = depth - flowed;
         let speed = (eastward * eastward + southward * southward).sqrt();
         let mean_sine = ((sine_west + sine_east) + (sine_north + sine_south)) * neighbour_share;
-        let room = (capacity * mean_sine.max(LEAST_SINE) * speed - found) * land;
+        let room = (capacity * mean_sine.max(LEAST_SINE) * speed - found) * yields;
         let eroded = change_before - erosion * room.max(0.0);
         let deposit = deposition * (-room).max(0.0);
         change = if room > 0.0 { eroded } else { change_before + deposit_ratio * deposit };

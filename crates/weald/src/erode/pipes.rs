@@ -18,7 +18,6 @@ const NOTHING: f32 = 1e-20;
 
 /// The amount, or nothing where it is less than counts.
 #[inline(always)]
-#[allow(clippy::inline_always)]
 pub(super) fn worth_counting(amount: f32) -> f32 {
     if amount.abs() < NOTHING { 0.0 } else { amount }
 }
@@ -39,7 +38,6 @@ kernel! {
 
 /// Signed flux through an edge (eq. 4–6); `here` and `next` are surface and depth on its two sides.
 #[inline(always)]
-#[allow(clippy::inline_always)]
 fn edge_flux(old: f32, here: [f32; 2], next: [f32; 2], link: f32, flow_rate: f32) -> f32 {
     let drop = here[0] - next[0];
     let donor = if drop > 0.0 { here[1] } else { next[1] };
@@ -50,7 +48,6 @@ fn edge_flux(old: f32, here: [f32; 2], next: [f32; 2], link: f32, flow_rate: f32
 
 /// Sine of the slope along an edge with this rise.
 #[inline(always)]
-#[allow(clippy::inline_always)]
 pub(super) fn sine(rise: f32, link: f32) -> f32 {
     rise.abs() * link / (1.0 + rise * rise).sqrt()
 }
@@ -77,17 +74,19 @@ kernel! {
 }
 
 kernel! {
-    /// Flux from a cell with data into one without: a free overfall, driven by the depth of the giving cell.
-    /// `land` is 1 for data, else 0; other edges keep what [`Flux`] gave them.
+    /// Flux from a cell with data into one without: a free fall, driven by how high the water stands over
+    /// the ground of the start, which stays the base level of the land behind the edge. `land` is 1 for data,
+    /// else 0; other edges keep what [`Flux`] gave them.
     pub(crate) struct Overfall {
-        reads { old, depth, depth_next, land, land_next }
+        reads { old, depth, depth_next, change, change_next, land, land_next }
         updates { flux }
         writes {}
         constants { flow_rate: f32 }
     }
     fn cell() {
         let outward = land - land_next;
-        let gained = old + flow_rate * (depth * land - depth_next * land_next);
+        let head = (depth + change) * land - (depth_next + change_next) * land_next;
+        let gained = old + flow_rate * head;
         flux = if outward * gained > 0.0 { gained } else if outward == 0.0 { flux } else { 0.0 };
     }
 }

@@ -41,7 +41,7 @@ kernel! {
 
 /// What both laws of [`SettleByVelocity`] and [`SettleByDissolution`] share: speed and capacity.
 #[inline(always)]
-#[allow(clippy::inline_always, clippy::too_many_arguments)]
+#[allow(clippy::too_many_arguments)]
 fn speed_and_capacity(faces: [f32; 4], sines: [f32; 4], share: f32, capacity: f32, depth: f32) -> (f32, f32) {
     let eastward = (faces[0] + faces[1]) * 0.5;
     let southward = (faces[2] + faces[3]) * 0.5;
@@ -50,19 +50,16 @@ fn speed_and_capacity(faces: [f32; 4], sines: [f32; 4], share: f32, capacity: f3
     (speed, capacity * speed * sine * depth.max(0.0))
 }
 
-/// Moves the difference between the sediment found and the sediment kept to or from the ground. Water takes
-/// exactly what the ground's rounded change lost, so that nothing vanishes in rounding.
+/// Takes sediment from the ground, or gives it back where `taken` is negative. Water takes exactly what the
+/// ground's rounded change lost, so that nothing vanishes in rounding.
 #[inline(always)]
-#[allow(clippy::inline_always)]
-fn settle(found: f32, kept: f32, change: f32, ratio: f32) -> (f32, f32, f32) {
-    let taken = kept - found;
+fn settle(found: f32, taken: f32, change: f32, ratio: f32) -> (f32, f32, f32) {
     let eroded = change - taken.max(0.0);
     let deposit = (-taken).max(0.0);
-    let raised = change + ratio * deposit;
     if taken > 0.0 {
         (eroded, found + (change - eroded), 0.0)
     } else {
-        (raised, kept, (1.0 - ratio) * deposit)
+        (change + ratio * deposit, found - deposit, (1.0 - ratio) * deposit)
     }
 }
 
@@ -72,7 +69,7 @@ kernel! {
     pub(crate) struct SettleByVelocity {
         reads {
             found, depth, change_before, face_east, face_west, face_south, face_north,
-            sine_east, sine_west, sine_south, sine_north, neighbour_share,
+            sine_east, sine_west, sine_south, sine_north, neighbour_share, yields,
         }
         updates {}
         writes { change, sediment, lost }
@@ -84,8 +81,8 @@ kernel! {
             [sine_west, sine_east, sine_north, sine_south],
             neighbour_share, capacity, depth,
         );
-        let kept = (found + erosion * speed).min(most);
-        (change, sediment, lost) = settle(found, kept, change_before, deposit_ratio);
+        let taken = ((found + erosion * speed).min(most) - found) * yields;
+        (change, sediment, lost) = settle(found, taken, change_before, deposit_ratio);
     }
 }
 
@@ -94,7 +91,7 @@ kernel! {
     pub(crate) struct SettleByDissolution {
         reads {
             found, depth, change_before, face_east, face_west, face_south, face_north,
-            sine_east, sine_west, sine_south, sine_north, neighbour_share,
+            sine_east, sine_west, sine_south, sine_north, neighbour_share, yields,
         }
         updates {}
         writes { change, sediment, lost }
@@ -106,7 +103,7 @@ kernel! {
             [sine_west, sine_east, sine_north, sine_south],
             neighbour_share, capacity, depth,
         );
-        let kept = (found + erosion * (most - found).max(0.0)).min(most);
-        (change, sediment, lost) = settle(found, kept, change_before, deposit_ratio);
+        let taken = ((found + erosion * (most - found).max(0.0)).min(most) - found) * yields;
+        (change, sediment, lost) = settle(found, taken, change_before, deposit_ratio);
     }
 }

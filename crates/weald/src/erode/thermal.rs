@@ -58,7 +58,6 @@ kernel! {
 
 /// What slides along an edge with step `q`.
 #[inline(always)]
-#[allow(clippy::inline_always)]
 fn along_axis(q: f32, talus: f32, strength: f32) -> f32 {
     strength * (q - q.clamp(-talus, talus))
 }
@@ -79,7 +78,6 @@ kernel! {
 
 /// The share `c` of the steps of a triangle that slides.
 #[inline(always)]
-#[allow(clippy::inline_always)]
 fn sliding_share(step_x: f32, step_y: f32, talus: f32, strength: f32) -> f32 {
     let slope = (step_x * step_x + step_y * step_y).sqrt();
     if slope > talus { strength * (slope - talus) / slope } else { 0.0 }

@@ -83,7 +83,7 @@ impl Working {
 
     /// State planes of zeros, water in plane `depth`, and the constant planes behind them.
     pub(crate) fn state(&self, planes: usize, depth: usize) -> Rows {
-        let masks = self.mask.as_ref().map(mask_planes);
+        let masks = self.mask.as_ref().map(|mask| mask_planes(mask, self.ring > 0));
         let constants = 1 + masks.as_ref().map_or(0, |masks| masks.len());
         let layout = Layout { columns: self.size.columns, planes: planes + constants };
         let mut rows = Rows::new(layout, self.size.rows);

@@ -42,7 +42,7 @@ macro_rules! kernel {
             #[inline(always)]
             fn call(self) {
                 #[inline(always)]
-                #[allow(clippy::too_many_arguments, clippy::inline_always, clippy::needless_late_init)]
+                #[allow(clippy::too_many_arguments, clippy::needless_late_init)]
                 fn cell(
                     $($read: f32,)* $(mut $update: f32,)* $($constant: $Constant,)*
                 ) -> [f32; [$(stringify!($update),)* $(stringify!($write),)*].len()] {
@@ -51,7 +51,7 @@ macro_rules! kernel {
                     [$($update,)* $($write,)*]
                 }
                 #[inline(always)]
-                #[allow(clippy::too_many_arguments, clippy::inline_always)]
+                #[allow(clippy::too_many_arguments)]
                 fn row(
                     cells: usize,
                     $($read: &[f32],)* $($update: &mut [f32],)* $($write: &mut [f32],)* $($constant: $Constant,)*
