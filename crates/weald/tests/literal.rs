@@ -117,7 +117,7 @@ impl Han {
         let brought = |q: &Plane, r: &Plane, x, y| q.at(x - 1, y) - q.at(x, y) + r.at(x, y - 1) - r.at(x, y);
         let depth = Plane::new(|x, y| {
             let flowed = self.d.at(x, y) + brought(&self.fx, &self.fy, x, y);
-            if raining { flowed + 0.01 } else { flowed - flowed.max(0.0).min(0.03) }
+            if raining { flowed + 0.01 } else { flowed - flowed.clamp(0.0, 0.03) }
         });
         let face = |flux: f64, here: f64, next: f64| {
             flux / ((here.max(0.0) + next.max(0.0)) / 2.0 + VELOCITY_EPSILON)
@@ -210,8 +210,8 @@ impl Mei {
             let sum: f64 = wanted.iter().map(|plane| plane.at(x, y)).sum();
             if sum > 0.0 { (rained.at(x, y) / sum).min(1.0) } else { 1.0 }
         });
-        for way in 0..4 {
-            self.outflow[way] = Plane::new(|x, y| wanted[way].at(x, y) * scale.at(x, y));
+        for (outflow, wanted) in self.outflow.iter_mut().zip(&wanted) {
+            *outflow = Plane::new(|x, y| wanted.at(x, y) * scale.at(x, y));
         }
         let out = &self.outflow;
         let into = |way: usize, x: i64, y: i64| out[BACK[way]].at(x + TOWARDS[way].0, y + TOWARDS[way].1);
