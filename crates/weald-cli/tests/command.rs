@@ -338,7 +338,9 @@ fn interrupt(place: &Place, arguments: &[&str], checkpoint: &str) -> Output {
         }
         std::thread::sleep(Duration::from_millis(10));
     }
-    let killed = Command::new("kill").args(["-INT", &child.id().to_string()]).status().expect("kill starts");
+    // The shell's own kill: the program of that name is not on every machine.
+    let kill = format!("kill -INT {}", child.id());
+    let killed = Command::new("sh").args(["-c", &kill]).status().expect("a shell starts");
     assert!(killed.success(), "the run was still there to be interrupted");
     child.wait_with_output().expect("it ends")
 }
