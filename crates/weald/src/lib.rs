@@ -39,7 +39,7 @@
 //! * [`Landscape`], [`Domain`], [`Field`]: layers on a grid with a cell size, a place on Earth, a no-data mask.
 //! * [`step::Step`]: what a step declares and does. Run one on a landscape of your own with [`engine::Job`].
 //! * [`io`]: raster formats. [`picture`]: maps. [`analyse`]: measures of river networks and shapes.
-//! * [`gallery`], [`bench`]: figures of the publications made again, and rates.
+//! * [`gallery`], [`mod@bench`]: figures of the publications made again, and rates.
 //!
 //! Row 0 is north, `x` counts columns eastward and `y` rows southward. Heights and lengths are in metres unless
 //! a name says otherwise, angles in degrees carry the suffix `_deg`. [`Error`] is sorted by who must act.
