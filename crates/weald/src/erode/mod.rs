@@ -1,4 +1,8 @@
 //! Processes that shape ground: water in virtual pipes, sediment, gravity. One file a method.
+//!
+//! [`hydraulic`] is rain and rivers by either of two schemes, [`thermal_step`] gravity alone; [`thermal`] has the
+//! schemes of weathering that both use. Within a process lengths are in cells and time is in steps; rows of cells
+//! stream through its stages, so that several steps pass through memory at once.
 
 mod advection;
 mod han;
