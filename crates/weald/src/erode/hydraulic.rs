@@ -119,7 +119,7 @@ parameters! {
 pub const ENTRY: Entry = Entry::of::<Hydraulic>(
     "hydraulic",
     Stage::Erode,
-    "Carves ground by rain, rivers and sediment.",
+    "carves ground by rain, rivers and sediment",
     "Han 2015, doi 10.7583/JKGS.2015.15.6.171; Mei, Decaudin, Hu 2007, doi 10.1109/PG.2007.15",
 );
 

@@ -53,7 +53,7 @@ impl ThermalWithin {
 pub const ENTRY: Entry = Entry::of::<Thermal>(
     "thermal",
     Stage::Erode,
-    "Lets ground steeper than its talus slide until it rests.",
+    "lets ground steeper than its talus slide until it rests",
     "Han 2015, eq. 17–21, doi 10.7583/JKGS.2015.15.6.171",
 );
 

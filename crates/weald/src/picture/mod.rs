@@ -84,10 +84,10 @@ impl PictureEntry {
 pub const PICTURES: &[PictureEntry] = &[
     PictureEntry::of::<Relief>(
         "relief",
-        "Shaded relief with height tints, contours, lakes and rivers.",
+        "shaded relief with height tints, contours, lakes and rivers",
         "Mark 1992 (lights), Brown 2010 (texture shading), Imhof 1965 (colours and aerial perspective)",
     ),
-    PictureEntry::of::<Map>("map", "One layer in an even colour ramp, linear or logarithmic.", "Weald"),
+    PictureEntry::of::<Map>("map", "one layer in an even colour ramp, linear or logarithmic", "Weald"),
 ];
 
 /// The picture of that name.
