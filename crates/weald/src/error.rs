@@ -60,6 +60,7 @@ fn remedy(cause: ErrorKind) -> &'static str {
         ErrorKind::PermissionDenied | ErrorKind::ReadOnlyFilesystem => {
             "; choose a folder that you may write to"
         }
+        ErrorKind::NotFound => "; make the folder first",
         ErrorKind::AlreadyExists | ErrorKind::NotADirectory => {
             "; a file stands where a folder is needed: choose another folder"
         }

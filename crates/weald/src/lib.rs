@@ -2,6 +2,40 @@
 //!
 //! A recipe is checked whole, then run: generators make ground, simulations carve it, and the layers go out
 //! as files. This crate holds no window, no command line and no GPU interface.
+//!
+//! ```
+//! use weald::recipe::{Overrides, Recipe};
+//!
+//! let text = r#"
+//!     [landscape]
+//!     size = [48, 32]        # columns, rows
+//!     cell = 20.0            # metres
+//!     seed = 7
+//!     [[step]]
+//!     do = "diamond-square"
+//!     relief = 200.0         # metres
+//!     [[step]]
+//!     do = "hydraulic"
+//!     iterations = 120       # one wet and one dry season
+//!     [[output]]
+//!     layer = "height"
+//!     file = "height.tif"
+//! "#;
+//! let recipe = Recipe::parse("valley.toml", text, &Overrides::default())?;
+//!
+//! // All in memory; `weald::recipe::Run` writes the files, keeps checkpoints and reports.
+//! let landscape = recipe.landscape()?;
+//! let (height, erosion) = (landscape.field("height")?, landscape.field("erosion")?);
+//! assert_eq!((height.size().columns, height.size().rows), (48, 32));
+//! let (_, deepest) = erosion.range(None).expect("there are cells");
+//! assert!(deepest > 0.01 && deepest < 200.0, "rain has carved up to {deepest} m");
+//!
+//! // A faulty recipe says where, what is wrong, and what was probably meant.
+//! let error = Recipe::parse("valley.toml", &text.replace("relief", "releif"), &Overrides::default());
+//! let message = error.expect_err("no such key").to_string();
+//! assert_eq!(message, "valley.toml:8: diamond-square: unknown key `releif`; did you mean `relief`?");
+//! # Ok::<(), weald::Error>(())
+//! ```
 
 pub mod analyse;
 pub mod bench;

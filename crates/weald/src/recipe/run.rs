@@ -72,6 +72,22 @@ pub struct Silent;
 
 impl Progress for Silent {}
 
+impl Recipe {
+    /// Runs the steps in memory on the current rayon pool and gives the landscape; no file is written and no
+    /// checkpoint kept.
+    ///
+    /// # Errors
+    /// [`Error::Input`] for a damaged elevation model, [`Error::Run`] where a step fails.
+    pub fn landscape(&self) -> Result<Landscape, Error> {
+        let (mut landscape, _) = ground::load(&self.ground)?;
+        for planned in &self.steps {
+            planned.step.run(&mut landscape, &Job::unwatched(planned.seed(self.seed)))?;
+            check_layers(planned, &landscape)?;
+        }
+        Ok(landscape)
+    }
+}
+
 /// A recipe about to be run.
 #[derive(Debug)]
 pub struct Run<'a> {

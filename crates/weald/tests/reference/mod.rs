@@ -269,7 +269,7 @@ impl World {
             };
             *flux = [(flux[0] + flow_rate * drop).max(0.0), (flux[1] - flow_rate * drop).max(0.0)];
             if let Some((_, sign)) = self.rim(edge) {
-                flux[if sign > 0.0 { 1 } else { 0 }] = 0.0;
+                flux[usize::from(sign > 0.0)] = 0.0;
             }
         }
         self.flux = flux;
@@ -279,7 +279,7 @@ impl World {
         let mut velocity = vec![[0.0; 2]; self.land.len()];
         for (edge, flux) in self.edges.iter().zip(&self.flux) {
             for cell in edge.cells {
-                let mean_depth = (before[cell] + after[cell]) / 2.0;
+                let mean_depth = f64::midpoint(before[cell], after[cell]);
                 if mean_depth > keys.velocity_epsilon.expect("given") {
                     velocity[cell][usize::from(!edge.across)] += (flux[0] - flux[1]) / 2.0 / mean_depth;
                 }

@@ -50,6 +50,16 @@ fn run(text: &str, out: &Path, resume: bool, progress: &dyn Progress) -> Result<
     Run { recipe: &recipe, options }.execute(progress)
 }
 
+#[test]
+fn a_landscape_in_memory_has_the_bits_of_the_file() {
+    let folder = folder();
+    run(RECIPE, folder.path(), false, &Silent).expect("runs");
+    let landscape = parse(RECIPE).expect("good").landscape().expect("runs");
+    let values = landscape.field("height").expect("written").values().iter();
+    let bits: Vec<u8> = values.flat_map(|value| value.to_bits().to_le_bytes()).collect();
+    assert_eq!(bits, height(folder.path()));
+}
+
 /// Sees whether there is a checkpoint when a step begins.
 struct Looks<'a> {
     out: &'a Path,
