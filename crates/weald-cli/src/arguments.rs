@@ -128,14 +128,17 @@ pub(crate) struct RunArguments {
     pub(crate) quiet: bool,
 }
 
+/// Greatest seed: whole numbers beyond it are not all exact where reports are read as JSON.
+const SEEDS: u64 = (1 << 53) - 1;
+
 /// Changes to a recipe.
 #[derive(Debug, Args)]
 pub(crate) struct Changes {
     /// Cells along the longer side; shape and extent stay
-    #[arg(long, value_name = "N", value_parser = value_parser!(u64).range(1..))]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = value_parser!(u64).range(1..))]
     size: Option<u64>,
     /// Another seed
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = value_parser!(u64).range(0..=SEEDS))]
     seed: Option<u64>,
     /// Change a value: landscape.cell=10, step.2.iterations=500, or thermal.talus=0.7 for all such steps
     #[arg(long, value_name = "KEY=VALUE", value_parser = key_and_value)]

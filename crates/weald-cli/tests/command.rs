@@ -99,6 +99,10 @@ fn a_usage_error_ends_with_2() {
     assert_ends(&place, &["run", "r.toml", "--set", "landscape.cell"], 2, &["KEY=VALUE"]);
     assert_ends(&place, &["run", "r.toml", "--engine", "cup"], 2, &["auto, cpu and gpu"]);
     assert_ends(&place, &["run", "r.toml", "--threads", "0"], 2, &["1..=1024"]);
+    assert_ends(&place, &["run", "r.toml", "--size", "0"], 2, &["'0'", "--size"]);
+    assert_ends(&place, &["run", "r.toml", "--seed", "-1"], 2, &["invalid value '-1'"]);
+    let greatest = u64::MAX.to_string();
+    assert_ends(&place, &["run", "r.toml", "--seed", &greatest], 2, &[&greatest, "9007199254740991"]);
     assert_ends(&place, &["steps", "diamond-sqare"], 2, &["did you mean `diamond-square`?"]);
     assert_ends(&place, &["new", "x", "--template", "highlnd"], 2, &["highland"]);
     assert_ends(&place, &["convert", "a.npy", "b.xyz"], 2, &[".npy"]);
@@ -123,6 +127,23 @@ fn a_bad_recipe_ends_with_3_and_names_file_line_key_value_and_range() {
     assert_ends(&place, &["run", "none.toml"], 3, &["none.toml:1: the recipe cannot be read"]);
     let place = Place::with("size = = 3");
     assert_ends(&place, &["check", "r.toml"], 3, &["r.toml:1: "]);
+}
+
+#[test]
+fn a_recipe_that_cannot_be_read_ends_with_3_and_says_what_to_do() {
+    let place = Place::with(RECIPE);
+    assert_ends(&place, &["run", "none.toml"], 3, &["none.toml:1: ", "weald new"]);
+    assert_ends(&place, &["run", "."], 3, &[".:1: the recipe cannot be read"]);
+    let utf_16: Vec<u8> = RECIPE.encode_utf16().flat_map(u16::to_le_bytes).collect();
+    std::fs::write(place.path("utf16.toml"), [&[0xff, 0xfe][..], &utf_16].concat()).expect("written");
+    assert_ends(&place, &["run", "utf16.toml"], 3, &["UTF-8 text"]);
+    std::fs::write(place.path("long.toml"), " ".repeat((1 << 20) + 1)).expect("written");
+    assert_ends(&place, &["run", "long.toml"], 3, &["1048577 bytes; at most 1048576"]);
+    std::fs::write(place.path("twice.toml"), RECIPE.replace("cell", "size")).expect("written");
+    assert_ends(&place, &["run", "twice.toml"], 3, &["twice.toml:3: duplicate key: `size`"]);
+    let windows = format!("\u{feff}{}", RECIPE.replace('\n', "\r\n"));
+    std::fs::write(place.path("windows.toml"), windows).expect("written");
+    assert_ends(&place, &["check", "windows.toml"], 0, &[]);
 }
 
 #[test]
@@ -161,6 +182,9 @@ fn a_bad_input_file_ends_with_4() {
 fn a_grid_over_the_limit_ends_with_5() {
     let place = Place::with(RECIPE);
     assert_ends(&place, &["run", "r.toml", "--size", "100000"], 5, &["100000 × 50000", "smaller"]);
+    // So large that the cell would be too small as well: the size is what the user can mend.
+    assert_ends(&place, &["run", "r.toml", "--size", "99999999"], 5, &["99999999 × 49999999", "smaller"]);
+    assert_ends(&place, &["run", "r.toml", "--set", "landscape.size=100000000"], 5, &["100000000"]);
 }
 
 #[test]
@@ -175,6 +199,7 @@ fn a_folder_that_cannot_be_written_ends_with_1_before_anything_runs() {
         let (code, message) = place.ends(&["run", "r.toml", "--out", out]);
         assert_eq!(code, 1, "{message}");
         assert!(message.contains(out) && !message.contains("step 1"), "{message}");
+        assert!(out != "r.toml" || message.contains("choose another folder"), "{message}");
     }
 }
 
@@ -188,6 +213,7 @@ fn a_disk_that_fills_up_ends_with_1_and_leaves_no_half_file() {
     let message = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(1), "{message}");
     assert!(message.contains("error: cannot write o/height.npy"), "{message}");
+    assert!(message.contains("make room, or choose another folder"), "{message}");
     assert_eq!(place.names("o"), [""; 0]);
 }
 
@@ -267,6 +293,8 @@ fn a_conversion_keeps_the_place_on_earth_and_the_cells_without_data() {
         assert_eq!(old[key], new[key], "{key}");
     }
     assert!(stdout(&place.weald(&["info", "copy.tif"])).contains("32616"));
+    assert_ends(&place, &["convert", data, "copy.npy"], 0, &["note: ", "copy.npy has none; .tif does"]);
+    assert_ends(&place, &["convert", data, "none/copy.tif"], 1, &["none/copy.tif", "make the folder"]);
 }
 
 fn data(name: &str) -> String {

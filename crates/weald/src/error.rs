@@ -1,5 +1,6 @@
 //! Errors, sorted by who must act.
 
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 /// Everything that can end a run early. [`Error::exit_code`] is the exit code of the command.
@@ -46,7 +47,24 @@ impl Error {
 
     /// A file or folder that could not be written.
     pub fn write(path: &Path, cause: &std::io::Error) -> Self {
-        Self::Run(format!("cannot write {}: {cause}", path.display()))
+        Self::Run(format!("cannot write {}: {cause}{}", path.display(), remedy(cause.kind())))
+    }
+}
+
+/// What to do where a file cannot be written, as far as the cause tells.
+fn remedy(cause: ErrorKind) -> &'static str {
+    match cause {
+        ErrorKind::StorageFull | ErrorKind::QuotaExceeded | ErrorKind::FileTooLarge => {
+            "; make room, or choose another folder"
+        }
+        ErrorKind::PermissionDenied | ErrorKind::ReadOnlyFilesystem => {
+            "; choose a folder that you may write to"
+        }
+        ErrorKind::NotFound => "; make the folder first",
+        ErrorKind::AlreadyExists | ErrorKind::NotADirectory => {
+            "; a file stands where a folder is needed: choose another folder"
+        }
+        _ => "",
     }
 }
 

@@ -5,30 +5,36 @@
 //! [engine](engine::Engine). This crate holds no window, no command line and no GPU interface.
 //!
 //! ```
-//! use weald::recipe::{Options, Overrides, Recipe, Run, Silent};
+//! use weald::recipe::{Overrides, Recipe};
 //!
 //! let text = r#"
 //!     [landscape]
-//!     size = 64
-//!     cell = 20.0                 # metres
+//!     size = [48, 32]        # columns, rows
+//!     cell = 20.0            # metres
+//!     seed = 7
 //!     [[step]]
 //!     do = "diamond-square"
-//!     relief = 300.0
+//!     relief = 200.0         # metres
 //!     [[step]]
-//!     do = "hydraulic"            # rain carves it
-//!     iterations = 240
+//!     do = "hydraulic"
+//!     iterations = 120       # one wet and one dry season
 //!     [[output]]
 //!     layer = "height"
 //!     file = "height.tif"
 //! "#;
-//! let recipe = Recipe::parse("hills.toml", text, &Overrides::default())?;
-//! # let folder = tempfile::tempdir().expect("a temporary folder");
-//! # let out = folder.path();
-//! let report = Run { recipe: &recipe, options: Options::into_folder(out) }.execute(&Silent)?;
+//! let recipe = Recipe::parse("valley.toml", text, &Overrides::default())?;
 //!
-//! let budget = report.steps[1].budget.expect("a simulation keeps books");
-//! assert!(budget.water.error.abs() < 1e-6 && budget.solid.error.abs() < 1e-6);
-//! assert!(out.join("height.tif").is_file());
+//! // All in memory; `weald::recipe::Run` writes the files, keeps checkpoints and reports.
+//! let landscape = recipe.landscape()?;
+//! let (height, erosion) = (landscape.field("height")?, landscape.field("erosion")?);
+//! assert_eq!((height.size().columns, height.size().rows), (48, 32));
+//! let (_, deepest) = erosion.range(None).expect("there are cells");
+//! assert!(deepest > 0.01 && deepest < 200.0, "rain has carved up to {deepest} m");
+//!
+//! // A faulty recipe says where, what is wrong, and what was probably meant.
+//! let error = Recipe::parse("valley.toml", &text.replace("relief", "releif"), &Overrides::default());
+//! let message = error.expect_err("no such key").to_string();
+//! assert_eq!(message, "valley.toml:8: diamond-square: unknown key `releif`; did you mean `relief`?");
 //! # Ok::<(), weald::Error>(())
 //! ```
 //!

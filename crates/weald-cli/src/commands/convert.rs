@@ -18,5 +18,13 @@ pub(crate) fn convert(input: &Path, output: &Path) -> Result<(), Failure> {
     for note in &raster.notes {
         eprintln!("note: {note}");
     }
-    Ok(io::write(output, &raster)?)
+    io::write(output, &raster)?;
+    if raster.georeference.is_some() && !format.extensions.contains(&"tif") {
+        eprintln!(
+            "note: {} holds no place on Earth, so {} has none; .tif does",
+            format.name,
+            output.display()
+        );
+    }
+    Ok(())
 }

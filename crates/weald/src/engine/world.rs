@@ -84,10 +84,11 @@ impl<'a, P: Process> World<'a, P> {
         }
     }
 
-    /// Adds `factor` times a plane to `sum`, row-major.
-    pub(crate) fn add_plane_to(&self, plane: usize, factor: f32, sum: &mut [f32]) {
-        for (row, sum) in self.rows().zip(sum.chunks_exact_mut(self.layout.columns)) {
-            for (sum, value) in sum.iter_mut().zip(self.layout.plane(row, plane)) {
+    /// Adds `factor` times a plane to `sum`, row-major; each cell takes the value of the cell that many columns
+    /// east and rows south of it.
+    pub(crate) fn add_plane_to(&self, plane: usize, from: [usize; 2], factor: f32, sum: &mut [f32]) {
+        for (row, sum) in self.rows().skip(from[1]).zip(sum.chunks_exact_mut(self.layout.columns)) {
+            for (sum, value) in sum.iter_mut().zip(self.layout.plane(row, plane).iter().skip(from[0])) {
                 *sum += factor * value;
             }
         }

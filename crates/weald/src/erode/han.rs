@@ -13,6 +13,7 @@ use super::advection::{Advection, AdvectionRows, AdvectionScratch};
 use super::links::Links;
 use super::pipes::{Drain, Flux, Limit, Overfall, Scale, Surface, Unlimited};
 use super::settling::{CellVelocity, FaceVelocities, SettleByDissolution, SettleByVelocity};
+use super::simulation::Part;
 use super::sums;
 use super::thermal::{Slide, SlideRows, SlideScratch};
 use super::upwind::Upwind;
@@ -34,6 +35,12 @@ pub(crate) mod plane {
     /// Number of state planes.
     pub(crate) const COUNT: usize = 5;
 }
+
+/// Mean fluxes through the eastern and southern edge of each cell.
+pub(crate) const MEAN_FLUXES: &[&[Part]] = &[
+    &[Part { plane: plane::EAST, factor: 1.0, from: [0, 0] }],
+    &[Part { plane: plane::SOUTH, factor: 1.0, from: [0, 0] }],
+];
 
 /// How sediment is taken up.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

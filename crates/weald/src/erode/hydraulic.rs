@@ -250,10 +250,7 @@ impl Hydraulic {
             plane_names: &["change", "water", "sediment", "flux_east", "flux_south"],
             iterations: u64::from(self.iterations),
             weather: &|step| self.sky(filled, step),
-            record: Some(Record {
-                steps: self.last_cycle(filled),
-                means: &[(han::plane::EAST, None), (han::plane::SOUTH, None)],
-            }),
+            record: Some(Record { steps: self.last_cycle(filled), means: han::MEAN_FLUXES }),
         };
         let start = working.state(han::plane::COUNT, han::plane::DEPTH);
         let finished = simulation.run(start, job)?;
@@ -280,13 +277,7 @@ impl Hydraulic {
             ],
             iterations: u64::from(self.iterations),
             weather: &|step| self.sky(filled, step),
-            record: Some(Record {
-                steps: self.last_cycle(filled),
-                means: &[
-                    (mei::plane::EAST, Some(mei::plane::WEST)),
-                    (mei::plane::SOUTH, Some(mei::plane::NORTH)),
-                ],
-            }),
+            record: Some(Record { steps: self.last_cycle(filled), means: mei::MEAN_FLUXES }),
         };
         let start = working.state(mei::plane::COUNT, mei::plane::DEPTH);
         let finished = simulation.run(start, job)?;

@@ -15,6 +15,7 @@ use super::han::{Sky, before};
 use super::links::Links;
 use super::mei_kernels::{Carry, Exchange, Load, LoadUnlimited, OpenOutflow, Outflow, Rained, Sines};
 use super::pipes::Drain;
+use super::simulation::Part;
 use super::sums;
 use super::thermal::{Slide, SlideRows, SlideScratch};
 use crate::stencil::chain::{Flow, Process};
@@ -39,6 +40,19 @@ pub(crate) mod plane {
     /// Number of state planes.
     pub(crate) const COUNT: usize = 7;
 }
+
+/// Mean fluxes through the eastern and southern edge of each cell: what it gives, less what its neighbour gives
+/// back.
+pub(crate) const MEAN_FLUXES: &[&[Part]] = &[
+    &[
+        Part { plane: plane::EAST, factor: 1.0, from: [0, 0] },
+        Part { plane: plane::WEST, factor: -1.0, from: [1, 0] },
+    ],
+    &[
+        Part { plane: plane::SOUTH, factor: 1.0, from: [0, 0] },
+        Part { plane: plane::NORTH, factor: -1.0, from: [0, 1] },
+    ],
+];
 
 /// Constants of the method, in cells and steps; names as in the recipe.
 #[derive(Clone, Copy, Debug)]

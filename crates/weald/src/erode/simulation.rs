@@ -24,8 +24,18 @@ pub(crate) struct Simulation<'a, P: Process> {
 pub(crate) struct Record<'a> {
     /// Steps over which to average.
     pub(crate) steps: std::ops::Range<u64>,
-    /// Planes to add and planes to subtract, for each mean.
-    pub(crate) means: &'a [(usize, Option<usize>)],
+    /// Parts of each mean.
+    pub(crate) means: &'a [&'a [Part]],
+}
+
+/// A plane that counts into a mean.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Part {
+    pub(crate) plane: usize,
+    /// Factor that it counts with.
+    pub(crate) factor: f32,
+    /// Cells east and south of a cell where its value is taken from; beyond the edge it is 0.
+    pub(crate) from: [usize; 2],
 }
 
 /// How a simulation ended.
@@ -120,10 +130,9 @@ impl<'a, P: Process> Running<'a, P> {
 
     fn add_to_means(&mut self) {
         let Some(record) = &self.simulation.record else { return };
-        for (mean, &(plus, minus)) in self.means.iter_mut().zip(record.means) {
-            self.world.add_plane_to(plus, 1.0, mean);
-            if let Some(minus) = minus {
-                self.world.add_plane_to(minus, -1.0, mean);
+        for (mean, parts) in self.means.iter_mut().zip(record.means) {
+            for part in *parts {
+                self.world.add_plane_to(part.plane, part.from, part.factor, mean);
             }
         }
     }

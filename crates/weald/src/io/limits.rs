@@ -23,8 +23,11 @@ impl Limits {
     /// The size in a header, once it is known to be within limits.
     ///
     /// # Errors
-    /// [`Fault::Limit`] with both sides in the message.
+    /// [`Fault::Limit`] with both sides in the message; [`Fault::Damaged`] for a grid without a cell.
     pub fn size(self, columns: usize, rows: usize) -> Result<Size, Fault> {
+        if columns == 0 || rows == 0 {
+            return Err(Fault::damaged(format!("{columns} × {rows} cells: there is nothing in it")));
+        }
         let size = Size::new(columns, rows).map_err(|error| Fault::Limit(error.to_string()))?;
         if size.cells() > self.cells {
             return Err(Fault::Limit(format!("{size} cells are more than the {} allowed here", self.cells)));
@@ -67,6 +70,6 @@ mod tests {
         let limits = Limits { cells: 12 };
         assert_eq!(limits.size(4, 3), Ok(Size { columns: 4, rows: 3 }));
         assert!(matches!(limits.size(13, 1), Err(Fault::Limit(_))));
-        assert!(matches!(limits.size(0, 1), Err(Fault::Limit(_))));
+        assert!(matches!(limits.size(0, 1), Err(Fault::Damaged(_))));
     }
 }

@@ -2,6 +2,7 @@
 
 use super::parameter::{Complaints, ParameterValue, Sides, nearest};
 use super::source::{self, Node, Table, Value};
+use crate::grid::Size;
 
 /// Line of a value that stands in no file.
 const COMMAND_LINE: usize = 0;
@@ -167,13 +168,17 @@ fn resize(landscape: &mut Table, side: u64) -> Result<(), String> {
     let old = old.unwrap_or(Sides { columns: 1, rows: 1 });
     let longer = old.columns.max(old.rows);
     let scaled = |old: u64| (i128::from(old) * i128::from(side) / i128::from(longer)).max(1) as i64;
-    let sides = [scaled(old.columns), scaled(old.rows)].map(|side| given(Value::Integer(side)));
-    if let Some(cell) =
-        landscape.get("cell").map_or(Some(1.0), |node| f64::read(node, range, &mut ignored).ok())
+    let sides = [scaled(old.columns), scaled(old.rows)];
+    // Of a size over the limit the user should hear, not of the tiny cell that would follow from it.
+    let fits = Size::new(sides[0] as usize, sides[1] as usize).is_ok();
+    if fits
+        && let Some(cell) =
+            landscape.get("cell").map_or(Some(1.0), |node| f64::read(node, range, &mut ignored).ok())
         && landscape.get("size").is_some()
     {
         landscape.set("cell", given(Value::Number(cell * longer as f64 / side as f64)));
     }
+    let sides = sides.map(|side| given(Value::Integer(side)));
     landscape.set("size", given(Value::List(sides.to_vec())));
     Ok(())
 }

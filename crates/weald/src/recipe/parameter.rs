@@ -182,7 +182,10 @@ macro_rules! whole_number {
             fn read(node: &Node, range: (f64, f64), _: &mut Complaints) -> Result<Self, String> {
                 let wanted = || format!("a {}", Self::kind(range).in_words());
                 let Value::Integer(number) = node.value else { return Err(wrong(node, &wanted())) };
-                within(number as f64, range)?;
+                // The message shows the number as it was written: `f64` cannot hold all of them.
+                within(number as f64, range).map_err(|_| {
+                    format!("is {number}, outside its range: {}", range_in_words(range.0, range.1))
+                })?;
                 Self::try_from(number).map_err(|_| wrong(node, &wanted()))
             }
 

@@ -8,7 +8,7 @@ mod steps;
 mod tests;
 
 use std::fs::File;
-use std::io::Read;
+use std::io::{ErrorKind, Read};
 use std::path::Path;
 
 pub use landscape::{Ground, LandscapeKeys};
@@ -49,7 +49,7 @@ impl Recipe {
     pub fn load(path: &Path, overrides: &Overrides) -> Result<Self, Error> {
         let file = path.display().to_string();
         let text = read_text(path).map_err(|cause| {
-            let message = format!("the recipe cannot be read: {cause}");
+            let message = format!("the recipe cannot be read: {cause}{}", remedy(cause.kind()));
             RecipeError { file: file.clone(), complaints: vec![Complaint { line: 1, message }] }
         })?;
         Self::parse(&file, &text, overrides)
@@ -89,6 +89,16 @@ impl Recipe {
     /// BLAKE3 hash of [`Recipe::effective`], in hexadecimal.
     pub fn hash(&self) -> String {
         blake3::hash(self.text.as_bytes()).to_hex().to_string()
+    }
+}
+
+/// What to do about a recipe that cannot be read, as far as the cause tells.
+fn remedy(cause: ErrorKind) -> &'static str {
+    match cause {
+        ErrorKind::NotFound => "; `weald new NAME` writes one to start from",
+        ErrorKind::IsADirectory => "; give the recipe in it",
+        ErrorKind::InvalidData => "; save it as UTF-8 text",
+        _ => "",
     }
 }
 

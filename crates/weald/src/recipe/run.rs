@@ -17,7 +17,7 @@ use crate::engine::{Engine, Job};
 use crate::error::Error;
 use crate::landscape::Landscape;
 use crate::step::Outcome;
-use desk::Desk;
+use desk::{Clock, Desk};
 use writer::Writer;
 
 /// How a recipe is run. None of it changes the result.
@@ -29,7 +29,7 @@ pub struct Options {
     pub engine: Engine,
     /// Threads; all cores where none are given.
     pub threads: Option<usize>,
-    /// Time between checkpoints of a running simulation.
+    /// Time between checkpoints.
     pub checkpoint_every: Duration,
     /// Whether to go on from the checkpoint in the folder.
     pub resume: bool,
@@ -72,6 +72,22 @@ pub struct Silent;
 
 impl Progress for Silent {}
 
+impl Recipe {
+    /// Runs the steps in memory on the current rayon pool and gives the landscape; no file is written and no
+    /// checkpoint kept.
+    ///
+    /// # Errors
+    /// [`Error::Input`] for a damaged elevation model, [`Error::Run`] where a step fails.
+    pub fn landscape(&self) -> Result<Landscape, Error> {
+        let (mut landscape, _) = ground::load(&self.ground)?;
+        for planned in &self.steps {
+            planned.step.run(&mut landscape, &Job::unwatched(planned.seed(self.seed)))?;
+            check_layers(planned, &landscape)?;
+        }
+        Ok(landscape)
+    }
+}
+
 /// A recipe about to be run.
 #[derive(Debug)]
 pub struct Run<'a> {
@@ -97,10 +113,12 @@ impl Run<'_> {
     fn execute_here(&self, progress: &dyn Progress) -> Result<Report, Error> {
         folder::prepare(self.recipe, &self.options.out)?;
         let mut state = self.start(progress)?;
+        let clock = Clock::start(self.options.checkpoint_every);
         while let Some(planned) = self.recipe.steps.get(state.done) {
             self.stop_if_cancelled(&state, progress)?;
             progress.step(state.done + 1, self.recipe.steps.len(), planned.entry.name);
-            self.advance(planned, &mut state, progress)?;
+            self.advance(planned, &mut state, progress, &clock)?;
+            self.keep_if_due(&state, &clock)?;
         }
         self.stop_if_cancelled(&state, progress)?;
         let report = self.write(state)?;
@@ -131,6 +149,15 @@ impl Run<'_> {
         Ok(State { landscape, done: 0, simulation: None, steps: Vec::new(), notes })
     }
 
+    /// Between two steps, for those that keep no checkpoints of their own.
+    fn keep_if_due(&self, state: &State, clock: &Clock) -> Result<(), Error> {
+        if clock.is_due() {
+            checkpoint::write(&self.checkpoint(), self.recipe.effective(), state, None)?;
+            clock.restart();
+        }
+        Ok(())
+    }
+
     fn stop_if_cancelled(&self, state: &State, progress: &dyn Progress) -> Result<(), Error> {
         if !progress.cancelled() {
             return Ok(());
@@ -148,12 +175,18 @@ impl Run<'_> {
     }
 
     /// Runs one step on a copy of the landscape, so that a checkpoint can hold what the step began with.
-    fn advance(&self, planned: &Planned, state: &mut State, progress: &dyn Progress) -> Result<(), Error> {
+    fn advance(
+        &self,
+        planned: &Planned,
+        state: &mut State,
+        progress: &dyn Progress,
+        clock: &Clock,
+    ) -> Result<(), Error> {
         let resume = state.simulation.take();
         let resumed_at = resume.as_ref().map(|simulation| simulation.iteration);
         let mut landscape = state.landscape.clone();
         let started = Instant::now();
-        let desk = Desk::new(self, state, progress);
+        let desk = Desk::new(self, state, progress, clock);
         let seed = planned.seed(self.recipe.seed);
         let job = Job { seed, engine: self.options.engine, watcher: &desk, resume };
         let result = planned.step.run(&mut landscape, &job);

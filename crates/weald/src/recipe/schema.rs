@@ -5,6 +5,7 @@ use serde_json::{Map, Value, json};
 use super::catalog::CATALOG;
 use super::parameter::{Kind, Parameter, Parameters};
 use super::plan::LandscapeKeys;
+use crate::io::FORMATS;
 use crate::picture::PICTURES;
 
 /// The schema, in the dialect of 2020-12.
@@ -24,7 +25,7 @@ pub fn schema() -> Value {
         "type": "object",
         "required": ["output"],
         "properties": {
-            "landscape": table(&LandscapeKeys::parameters()),
+            "landscape": landscape(),
             "step": { "type": "array", "items": one_of(&steps.collect::<Vec<_>>()) },
             "output": {
                 "type": "array",
@@ -36,16 +37,33 @@ pub fn schema() -> Value {
     })
 }
 
+/// A size and an elevation model exclude each other.
+fn landscape() -> Value {
+    let mut object = table(&LandscapeKeys::parameters());
+    object["not"] = json!({ "required": ["size", "from"] });
+    object
+}
+
 fn one_of(alternatives: &[Value]) -> Value {
     json!({ "oneOf": alternatives })
 }
 
 fn file() -> Value {
-    json!({ "type": "string", "description": "Name in the output folder; the extension chooses the format." })
+    let extensions: Vec<_> = FORMATS.iter().flat_map(|format| format.extensions).copied().collect();
+    // Extensions count in upper and in lower case.
+    let letter = |letter: char| format!("[{letter}{}]", letter.to_ascii_uppercase());
+    let spelt = |word: &&str| word.chars().map(letter).collect::<String>();
+    let pattern = extensions.iter().map(spelt).collect::<Vec<_>>().join("|");
+    json!({
+        "type": "string",
+        "pattern": format!("\\.({pattern})$"),
+        "description": "Name in the output folder; the extension chooses the format.",
+    })
 }
 
 fn layer_output() -> Value {
-    let layer = json!({ "type": "string", "description": "The layer that is written." });
+    let mut layer = of_kind(&Kind::Layer);
+    layer["description"] = "The layer that is written.".into();
     json!({
         "type": "object",
         "properties": { "layer": layer, "file": file() },
@@ -134,6 +152,19 @@ mod tests {
         assert_eq!(landscape["cell"]["maximum"], 100_000.0);
         assert_eq!(landscape["seed"]["default"], 0);
         assert_eq!(landscape["seed"]["type"], "integer");
+        assert_eq!(schema["properties"]["landscape"]["not"]["required"], json!(["size", "from"]));
+    }
+
+    #[test]
+    fn files_and_layers_that_a_run_would_refuse_are_refused() {
+        let schema = schema();
+        let output = &schema["properties"]["output"]["items"]["oneOf"][0]["properties"];
+        assert_eq!(output["layer"]["pattern"], "^[A-Za-z0-9_-]{1,64}$");
+        let pattern = output["file"]["pattern"].as_str().expect("a pattern");
+        assert!(
+            pattern.starts_with(r"\.([tT][iI][fF]|") && pattern.ends_with("|[nN][pP][yY])$"),
+            "{pattern}"
+        );
     }
 
     #[test]

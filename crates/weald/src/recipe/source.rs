@@ -94,7 +94,11 @@ pub fn parse(file: &str, text: &str) -> Result<Table, RecipeError> {
     }
     let lines = Lines::of(text);
     let parsed = DeTable::parse(text).map_err(|error| {
-        fail(lines.line(error.span().map_or(0, |span| span.start)), error.message().to_owned())
+        let span = error.span().unwrap_or(0..0);
+        // The message of some faults, such as a key that is there twice, does not say what it is about.
+        let about = text.get(span.clone()).and_then(|about| about.lines().next()).unwrap_or_default();
+        let about = if about.is_empty() { String::new() } else { format!(": `{about}`") };
+        fail(lines.line(span.start), format!("{}{about}", error.message()))
     })?;
     let mut unfit = Vec::new();
     let table = convert_table(parsed.get_ref(), 1, &lines, &mut unfit);

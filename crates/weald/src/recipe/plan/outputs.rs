@@ -123,7 +123,10 @@ fn content_of(
         (Some(_), None) => layer(vocabulary, table, file, complaints),
         (None, Some(node)) => picture(vocabulary, table, node, file, complaints),
         (Some(_), Some(node)) => {
-            complaints.add(node.line, "`layer` and `picture` exclude each other");
+            complaints.add(
+                node.line,
+                "`layer` and `picture` exclude each other; a picture says `of` which layer it is",
+            );
             None
         }
         (None, None) => {

@@ -1,31 +1,53 @@
 //! What a running step sees of the run: progress goes out, checkpoints go to disk.
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use super::{Progress, Run};
 use crate::engine::{SavedSimulation, Watcher};
 use crate::error::Error;
 use crate::recipe::checkpoint::{self, State};
 
+/// Says when the next checkpoint is due. It runs on from step to step: a recipe of many short steps is a long
+/// run too.
+pub(super) struct Clock {
+    every: Duration,
+    last: Mutex<Instant>,
+}
+
+impl Clock {
+    pub(super) fn start(every: Duration) -> Self {
+        Self { every, last: Mutex::new(Instant::now()) }
+    }
+
+    pub(super) fn is_due(&self) -> bool {
+        locked(&self.last).elapsed() >= self.every
+    }
+
+    /// A checkpoint was written.
+    pub(super) fn restart(&self) {
+        *locked(&self.last) = Instant::now();
+    }
+}
+
 /// The watcher of one step.
 pub(super) struct Desk<'a> {
     run: &'a Run<'a>,
     state: &'a State,
     progress: &'a dyn Progress,
-    log: Mutex<Log>,
-}
-
-/// When the last checkpoint was written, and of which iteration.
-struct Log {
-    at: Instant,
-    iteration: Option<u64>,
+    clock: &'a Clock,
+    /// The iteration of the last checkpoint.
+    kept: Mutex<Option<u64>>,
 }
 
 impl<'a> Desk<'a> {
-    pub(super) fn new(run: &'a Run<'a>, state: &'a State, progress: &'a dyn Progress) -> Self {
-        let log = Mutex::new(Log { at: Instant::now(), iteration: None });
-        Self { run, state, progress, log }
+    pub(super) fn new(
+        run: &'a Run<'a>,
+        state: &'a State,
+        progress: &'a dyn Progress,
+        clock: &'a Clock,
+    ) -> Self {
+        Self { run, state, progress, clock, kept: Mutex::new(None) }
     }
 
     /// The step's place in the recipe, counted from 1.
@@ -35,7 +57,7 @@ impl<'a> Desk<'a> {
 
     /// The iteration of the last checkpoint of this step.
     pub(super) fn kept(&self) -> Option<u64> {
-        self.log().iteration
+        *locked(&self.kept)
     }
 
     /// Keeps the state from before the step, unless there is a later one.
@@ -45,11 +67,11 @@ impl<'a> Desk<'a> {
         }
         checkpoint::write(&self.run.checkpoint(), self.run.recipe.effective(), self.state, None)
     }
+}
 
-    /// A panic elsewhere leaves the log whole, since it is only ever replaced.
-    fn log(&self) -> MutexGuard<'_, Log> {
-        self.log.lock().unwrap_or_else(PoisonError::into_inner)
-    }
+/// A panic elsewhere leaves what is locked here whole, since it is only ever replaced.
+fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 impl Watcher for Desk<'_> {
@@ -62,13 +84,14 @@ impl Watcher for Desk<'_> {
     }
 
     fn checkpoint_due(&self) -> bool {
-        self.log().at.elapsed() >= self.run.options.checkpoint_every
+        self.clock.is_due()
     }
 
     fn checkpoint(&self, simulation: &SavedSimulation) -> Result<(), Error> {
         let path = self.run.checkpoint();
         checkpoint::write(&path, self.run.recipe.effective(), self.state, Some(simulation))?;
-        *self.log() = Log { at: Instant::now(), iteration: Some(simulation.iteration) };
+        self.clock.restart();
+        *locked(&self.kept) = Some(simulation.iteration);
         Ok(())
     }
 }

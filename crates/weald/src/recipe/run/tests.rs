@@ -50,6 +50,45 @@ fn run(text: &str, out: &Path, resume: bool, progress: &dyn Progress) -> Result<
     Run { recipe: &recipe, options }.execute(progress)
 }
 
+#[test]
+fn a_landscape_in_memory_has_the_bits_of_the_file() {
+    let folder = folder();
+    run(RECIPE, folder.path(), false, &Silent).expect("runs");
+    let landscape = parse(RECIPE).expect("good").landscape().expect("runs");
+    let values = landscape.field("height").expect("written").values().iter();
+    let bits: Vec<u8> = values.flat_map(|value| value.to_bits().to_le_bytes()).collect();
+    assert_eq!(bits, height(folder.path()));
+}
+
+/// Sees whether there is a checkpoint when a step begins.
+struct Looks<'a> {
+    out: &'a Path,
+    seen: AtomicU64,
+}
+
+impl Progress for Looks<'_> {
+    fn step(&self, _: usize, _: usize, _: &str) {
+        self.seen.fetch_add(self.out.join(CHECKPOINT_FILE).exists().into(), Ordering::Relaxed);
+    }
+}
+
+#[test]
+fn steps_that_keep_no_checkpoints_of_their_own_get_one_between_them() {
+    let generate = "[[step]]\ndo = \"rough\"\n";
+    let more = format!("{generate}into = \"one\"\n{generate}into = \"two\"\n{generate}");
+    let text = RECIPE.replace(generate, &more).replace("iterations = 20", "iterations = 1");
+    let recipe = parse(&text).expect("the recipe is good");
+    let seen = |checkpoint_every| {
+        let folder = folder();
+        let looks = Looks { out: folder.path(), seen: AtomicU64::new(0) };
+        let options = Options { checkpoint_every, ..Options::into_folder(folder.path()) };
+        Run { recipe: &recipe, options }.execute(&looks).expect("runs");
+        looks.seen.into_inner()
+    };
+    assert_eq!(seen(Duration::ZERO), 3, "before the second, third and fourth step");
+    assert_eq!(seen(Duration::from_hours(1)), 0);
+}
+
 fn folder() -> tempfile::TempDir {
     tempfile::tempdir().expect("a temporary folder")
 }

@@ -1,0 +1,174 @@
+//! The engine, with its fused rows and single precision, against the published equations written down
+//! plainly: what every key does, by amount and sign.
+
+mod common;
+mod reference;
+
+use common::{landscape, rough, run};
+use reference::World;
+use weald::erode::hydraulic::{Boundary, Hydraulic, Model, Transport, UptakeLaw};
+use weald::erode::thermal::Scheme;
+use weald::erode::thermal_step::{Thermal, ThermalWithin};
+use weald::grid::Mask;
+use weald::recipe::parameter::Nested;
+use weald::{Field, Landscape, Size};
+
+const COLUMNS: usize = 17;
+const ROWS: usize = 13;
+
+/// Two whole cycles of rain and sun, with no number at its default.
+fn keys(model: Model) -> Hydraulic {
+    let mei = model == Model::Mei;
+    Hydraulic {
+        model,
+        iterations: 14,
+        flow_rate: Some(0.17),
+        rain: Some(0.03),
+        evaporation: Some(0.02),
+        rain_period: 5,
+        dry_period: Some(2),
+        capacity: Some(if mei { 0.11 } else { 3.0 }),
+        erosion: Some(if mei { 0.23 } else { 0.02 }),
+        deposition: 0.37,
+        deposit_ratio: 0.6,
+        epsilon: Some(0.004),
+        velocity_epsilon: Some(if mei { 0.02 } else { 0.07 }),
+        ..Hydraulic::default()
+    }
+}
+
+/// Every rule that has equations of its own.
+fn variants(model: Model) -> Vec<Hydraulic> {
+    // Unlimited outflows leave films so thin that velocities in them would be rounding errors.
+    let velocity_epsilon = Some(if model == Model::Mei { 0.05 } else { 0.07 });
+    let unlimited = Hydraulic { limiter: false, flow_rate: Some(0.05), velocity_epsilon, ..keys(model) };
+    let mut all = vec![keys(model), unlimited];
+    for transport in [Transport::SemiLagrangian, Transport::MacCormack] {
+        all.push(Hydraulic { transport, ..keys(model) });
+    }
+    for scheme in [Scheme::Axis, Scheme::Isotropic, Scheme::IsotropicSymmetric] {
+        let thermal = ThermalWithin { scheme, talus: 0.4, strength: 0.13 };
+        all.push(Hydraulic { thermal: Some(Nested(thermal)), ..keys(model) });
+    }
+    if model == Model::Han {
+        all.push(Hydraulic { law: UptakeLaw::Dissolution, erosion: Some(0.3), ..keys(model) });
+    }
+    all
+}
+
+/// Rough ground, whole or with a lake of cells without data.
+fn ground(masked: bool) -> Landscape {
+    let mut land = landscape(rough(COLUMNS, ROWS, 8.0, 3));
+    if masked {
+        let size = land.domain.size;
+        let has_data = |at: usize| !(5..8).contains(&(at % COLUMNS)) || !(4..9).contains(&(at / COLUMNS));
+        land.domain.land = Mask::new(size, (0..size.cells()).map(has_data).collect());
+    }
+    land
+}
+
+/// The same world for the reference, within a ring of cells without data.
+fn ringed(land: &Landscape, boundary: Boundary) -> World {
+    let (height, mask) = (land.field("height").expect("h"), land.domain.land.as_ref());
+    let columns = COLUMNS + 2;
+    let inside = |at: usize| {
+        let (x, y) = ((at % columns).checked_sub(1)?, (at / columns).checked_sub(1)?);
+        (x < COLUMNS && y < ROWS && mask.is_none_or(|mask| mask.is_land(x, y))).then_some((x, y))
+    };
+    let cells = 0..columns * (ROWS + 2);
+    let start = cells.clone().map(|at| inside(at).map_or(0.0, |(x, y)| f64::from(height.at(x, y)))).collect();
+    World::new(columns, start, cells.map(|at| inside(at).is_some()).collect(), boundary)
+}
+
+/// The reference's values on the cells of the landscape.
+fn unringed(values: &[f64]) -> Field {
+    let size = Size::new(COLUMNS, ROWS).expect("small");
+    Field::from_function(size, |x, y| values[(y + 1) * (COLUMNS + 2) + x + 1] as f32)
+}
+
+fn assert_alike(name: &str, got: &Field, expected: &Field, keys: &dyn std::fmt::Debug) {
+    let greatest = expected.values().iter().fold(0.0_f32, |most, value| most.max(value.abs()));
+    assert!(greatest > 1e-3, "nothing happened to {name}, so agreement would mean nothing: {keys:?}");
+    for (at, (got, expected)) in got.values().iter().zip(expected.values()).enumerate() {
+        assert!(
+            (got - expected).abs() <= 5e-5 * greatest,
+            "{name} at column {}, row {}: {got}, but {expected} by the equations: {keys:?}",
+            at % COLUMNS,
+            at / COLUMNS,
+        );
+    }
+}
+
+/// Runs both and compares all that they know. The fluxes are means over the last whole cycle.
+fn compare(keys: &Hydraulic, masked: bool) {
+    let mut land = ground(masked);
+    let mut world = ringed(&land, keys.boundary);
+    let cycle = keys.rain_period + keys.dry_period.expect("given");
+    let mut means = [(); 2].map(|()| vec![0.0; world.land.len()]);
+    for number in 0..keys.iterations {
+        world.step(keys, number);
+        if number >= keys.iterations - cycle {
+            for (edge, flux) in world.edges.iter().zip(&world.flux) {
+                means[usize::from(!edge.across)][edge.cells[0]] += (flux[0] - flux[1]) / f64::from(cycle);
+            }
+        }
+    }
+    for at in (0..world.land.len()).filter(|&at| !world.land[at]) {
+        world.sediment[at] = 0.0;
+        for mean in &mut means {
+            mean[at] = 0.0;
+        }
+    }
+    run(keys, &mut land);
+    let layer = |name| land.field(name).expect("written");
+    assert_alike("water", layer("water"), &unringed(&world.depth), keys);
+    assert_alike("flux_x", layer("flux_x"), &unringed(&means[0]), keys);
+    assert_alike("flux_y", layer("flux_y"), &unringed(&means[1]), keys);
+    assert_alike("sediment", layer("sediment"), &unringed(&world.sediment), keys);
+    let [erosion, deposition] = [-1.0, 1.0].map(|sign| {
+        unringed(&world.change.iter().map(|change| (sign * change).max(0.0)).collect::<Vec<_>>())
+    });
+    assert_alike("erosion", layer("erosion"), &erosion, keys);
+    assert_alike("deposition", layer("deposition"), &deposition, keys);
+}
+
+#[test]
+fn hydraulic_erosion_does_what_the_equations_say() {
+    for model in [Model::Han, Model::Mei] {
+        for keys in variants(model) {
+            compare(&keys, false);
+            compare(&keys, true);
+        }
+    }
+}
+
+#[test]
+fn water_falls_over_open_edges_as_the_equations_say() {
+    for model in [Model::Han, Model::Mei] {
+        // Sliding moves the ground along the edges too, where water may not.
+        let sliding = ThermalWithin { scheme: Scheme::Axis, talus: 0.4, strength: 0.13 };
+        for thermal in [None, Some(Nested(sliding))] {
+            for masked in [false, true] {
+                let thermal = thermal.clone();
+                compare(&Hydraulic { boundary: Boundary::Open, thermal, ..keys(model) }, masked);
+            }
+        }
+    }
+}
+
+#[test]
+fn thermal_weathering_does_what_the_equations_say() {
+    for scheme in [Scheme::Axis, Scheme::Isotropic, Scheme::IsotropicSymmetric] {
+        for masked in [false, true] {
+            let mut land = ground(masked);
+            let mut world = ringed(&land, Boundary::Closed);
+            let step = Thermal { scheme, talus: 0.5, strength: 0.21, iterations: 9, ..Thermal::default() };
+            (0..9).for_each(|_| reference::thermal::slide(&mut world, scheme, 0.5, 0.21));
+            let before = land.field("height").expect("h").clone();
+            run(&step, &mut land);
+            let after = land.field("height").expect("h");
+            let moved = Field::from_function(after.size(), |x, y| after.at(x, y) - before.at(x, y));
+            assert_alike("the change", &moved, &unringed(&world.change), &step);
+        }
+    }
+}
