@@ -9,7 +9,6 @@ mod han;
 pub mod hydraulic;
 mod links;
 mod mei;
-mod mei_kernels;
 mod pipes;
 mod settling;
 mod simulation;
@@ -18,3 +17,10 @@ pub mod thermal;
 pub mod thermal_step;
 mod upwind;
 mod working;
+
+use crate::stencil::ring::Ring;
+
+/// The row before `y`, or the still row beyond the wall.
+fn before<'a>(ring: &'a Ring, still: &'a Ring, y: usize, start: usize) -> &'a [f32] {
+    if y > start { ring.here(y - 1) } else { still.here(0) }
+}

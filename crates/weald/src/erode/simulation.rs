@@ -7,6 +7,13 @@ use crate::error::Error;
 use crate::stencil::chain::{Process, RowSums};
 use crate::stencil::rows::Rows;
 
+/// Rain and evaporation of one step, in cells.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Sky {
+    pub(crate) rain: f32,
+    pub(crate) evaporation: f32,
+}
+
 /// A process and how long it runs.
 pub(crate) struct Simulation<'a, P: Process> {
     pub(crate) process: &'a P,

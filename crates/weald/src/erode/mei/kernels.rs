@@ -1,6 +1,6 @@
-//! What one cell becomes in a step of Mei et al. 2007; [`super::mei`] has the source and the order.
+//! What one cell becomes in a step of Mei et al. 2007; [`super`] has the source and the order.
 
-use super::pipes::{KEPT, sine, worth_counting};
+use crate::erode::pipes::{KEPT, sine, worth_counting};
 use crate::stencil::kernel::kernel;
 
 /// Least sine that counts as a slope, so that water on level ground still carries something (Mei 2007,
