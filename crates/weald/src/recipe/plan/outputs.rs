@@ -54,7 +54,7 @@ pub(super) fn read(vocabulary: &Vocabulary, recipe: &Table, complaints: &mut Com
     let mut outputs: Vec<Output> = Vec::new();
     for table in tables(recipe, "output", complaints) {
         let Some(file) = file_of(table, complaints) else { continue };
-        if let Some(earlier) = outputs.iter().find(|earlier| earlier.file == file) {
+        if let Some(earlier) = outputs.iter().find(|earlier| same_file(&earlier.file, &file)) {
             let shown = file.display();
             let message = format!("`file` is {shown} a second time; line {} has it first", earlier.line);
             complaints.add(line_of(table, "file"), message);
@@ -64,6 +64,12 @@ pub(super) fn read(vocabulary: &Vocabulary, recipe: &Table, complaints: &mut Com
         }
     }
     outputs
+}
+
+/// Whether two names would be one file, also where a file system does not tell `A` from `a`.
+fn same_file(a: &Path, b: &Path) -> bool {
+    let lower = |path: &Path| path.to_string_lossy().to_lowercase();
+    lower(a) == lower(b)
 }
 
 fn line_of(table: &Table, key: &str) -> usize {

@@ -112,6 +112,8 @@ fn the_same_file_twice_is_refused() {
     let again = "[[output]]\nlayer = \"height\"\nfile = \"a/height.bits\"\n";
     let message = refusal(&format!("{GOOD}{again}"));
     assert!(message.contains(":18: output: `file` is a/height.bits a second time; line 10"), "{message}");
+    let message = refusal(&format!("{GOOD}{}", again.replace("height.bits", "Height.bits")));
+    assert!(message.contains("a second time"), "some file systems do not tell H from h: {message}");
 }
 
 #[test]
