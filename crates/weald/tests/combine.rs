@@ -153,12 +153,20 @@ fn remap_clamps_bends_and_goes_on_as_it_is_told() {
 }
 
 #[test]
+fn remap_gives_the_unit_that_it_is_told() {
+    let unit = |step: Remap| run(&step, landscape()).layer("height").expect("written").unit.clone();
+    assert_eq!(unit(Remap::default()), "m");
+    assert_eq!(unit(Remap { unit: Some("1".to_owned()), ..Remap::default() }), "1");
+}
+
+#[test]
 fn remap_says_what_is_wrong_with_its_lists() {
     let faults = |step: Remap| step.faults().join("; ");
     assert!(faults(Remap { from: vec![2.0, 1.0], ..Remap::default() }).contains("low below high"));
     assert!(faults(Remap { from: vec![2.0], ..Remap::default() }).contains("[2.0]"));
     assert!(faults(Remap { to: vec![], ..Remap::default() }).contains("two numbers"));
     assert!(faults(Remap { curve: vec![1.0], ..Remap::default() }).contains("two or more"));
+    assert!(faults(Remap { unit: Some("a\nb".to_owned()), ..Remap::default() }).contains("printable"));
     assert!(faults(Remap { gamma: 2.0, clamp: false, ..Remap::default() }).contains("clamp = true"));
 }
 

@@ -6,7 +6,7 @@
 //!
 //! where `c` is the curve through the given heights at even steps from 0 to 1.
 
-use super::{map, store, written};
+use super::{map, store, target, written};
 use crate::engine::Job;
 use crate::error::Error;
 use crate::landscape::Landscape;
@@ -34,10 +34,15 @@ parameters! {
         /// Heights of a curve at even steps from 0 to 1, joined by lines: `[0, 0, 1]` cuts off the lower
         /// half.
         curve: Vec<f64> = Vec::new(), range 0.0..=1.0;
+        /// Unit of the result, for files and the report: `"1"` for a mask. Without it, the unit of `layer`.
+        unit: Option<String> = None;
         /// Layer that is written. Without it, `layer`.
         into: Option<LayerName> = None;
     }
 }
+
+/// Longest unit, in characters.
+const LONGEST_UNIT: usize = 32;
 
 impl Step for Remap {
     fn reads(&self) -> Vec<String> {
@@ -54,6 +59,9 @@ impl Step for Remap {
             [low, high] => low < high,
             _ => false,
         };
+        let unit_is_right = self.unit.as_ref().is_none_or(|unit| {
+            (1..=LONGEST_UNIT).contains(&unit.chars().count()) && !unit.chars().any(char::is_control)
+        });
         let shaped = self.gamma != 1.0 || !self.curve.is_empty();
         let rules = [
             (
@@ -64,6 +72,7 @@ impl Step for Remap {
                 ),
             ),
             (self.to.len() != 2, format!("`to` is {:?}, but must be two numbers, [low, high]", self.to)),
+            (!unit_is_right, format!("`unit` must be 1 to {LONGEST_UNIT} printable characters")),
             (self.curve.len() == 1, "`curve` has one height, but a curve has two or more".to_owned()),
             (
                 shaped && !self.clamp,
@@ -77,7 +86,10 @@ impl Step for Remap {
         let field = landscape.field(&self.layer.0)?;
         let range = self.range_before(field.range(landscape.domain.land.as_ref()));
         let remapped = map(field, |value| self.value(f64::from(value), range) as f32);
-        store(landscape, &self.layer, self.into.as_ref(), remapped)?;
+        match &self.unit {
+            Some(unit) => landscape.insert(target(self.into.as_ref(), &self.layer), unit, remapped),
+            None => store(landscape, &self.layer, self.into.as_ref(), remapped)?,
+        }
         Ok(Outcome::default())
     }
 }
