@@ -67,7 +67,7 @@ parameters! {
         /// Pipe constant k = dt² g A / l: how fast differences in level turn into flow. Unstable above 0.5.
         /// Default 0.4 (han), 0.1 (mei).
         flow_rate: Option<f64> = None, range 0.0001..=0.5;
-        /// Rain a step while it rains. Default 0.01 cells.
+        /// Rain a step while it rains. Default 0.01 cells (han), 0.002 cells (mei).
         rain: Option<f64> = None, range 0.0..=100.0, unit "m/step";
         /// han: evaporation a step in dry periods, default 0.03 cells. mei: share of the depth that
         /// evaporates in every step, default 0.015.
@@ -146,7 +146,7 @@ impl Hydraulic {
             },
             Model::Mei => Filled {
                 flow_rate: number(self.flow_rate, 0.1),
-                rain: length(self.rain, 0.01),
+                rain: length(self.rain, 0.002),
                 evaporation: number(self.evaporation, 0.015),
                 dry_period: self.dry_period.unwrap_or(0),
                 capacity: number(self.capacity, 0.05),
