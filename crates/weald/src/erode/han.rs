@@ -10,23 +10,14 @@
 mod sediment;
 mod water;
 
-use pulp::Arch;
-
-use super::advection::{Advection, AdvectionScratch};
-use super::links::Links;
+use super::setting::{Setting, Settled};
 use super::simulation::{Part, Sky};
-use super::thermal::{Slide, SlideScratch};
 use crate::stencil::chain::{Flow, Process};
 use crate::stencil::ring::Ring;
 
 /// Planes of the state.
 pub(crate) mod plane {
-    /// Change of the ground since the start.
-    pub(crate) const CHANGE: usize = 0;
-    /// Depth of water.
-    pub(crate) const DEPTH: usize = 1;
-    /// Sediment in the water.
-    pub(crate) const SEDIMENT: usize = 2;
+    pub(crate) use crate::erode::setting::plane::{CHANGE, DEPTH, SEDIMENT};
     /// Flux through the eastern edge.
     pub(crate) const EAST: usize = 3;
     /// Flux through the southern edge.
@@ -41,38 +32,25 @@ pub(crate) const MEAN_FLUXES: &[&[Part]] = &[
     &[Part { plane: plane::SOUTH, factor: 1.0, from: [0, 0] }],
 ];
 
-/// How sediment is taken up.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Law {
-    /// By the speed of the water.
-    Velocity,
-    /// By its free capacity.
-    Dissolution,
-}
-
 /// Constants of the method, in cells and steps; names as in the recipe.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct HanConstants {
     pub(crate) flow_rate: f32,
     pub(crate) capacity: f32,
-    pub(crate) erosion: f32,
+    /// Uptake a unit of speed.
+    pub(crate) uptake_by_speed: f32,
+    /// Share of the free capacity that is taken up.
+    pub(crate) uptake_by_capacity: f32,
     pub(crate) deposit_ratio: f32,
     pub(crate) epsilon: f32,
     pub(crate) velocity_epsilon: f32,
     pub(crate) limiter: bool,
-    pub(crate) law: Law,
 }
 
 /// The process.
 pub(crate) struct Han {
     pub(crate) constants: HanConstants,
-    pub(crate) links: Links,
-    /// Whether water falls into cells without data.
-    pub(crate) open: bool,
-    /// Advection by velocity instead of upwind fluxes.
-    pub(crate) advection: Option<Advection>,
-    pub(crate) slide: Option<Slide>,
-    pub(crate) arch: Arch,
+    pub(crate) setting: Setting,
 }
 
 /// Rows in flight within one step.
@@ -88,12 +66,7 @@ pub(crate) struct HanScratch {
     found: Ring,
     face_east: Ring,
     face_south: Ring,
-    settled_change: Ring,
-    settled_sediment: Ring,
-    eastward: Ring,
-    southward: Ring,
-    slide: SlideScratch,
-    advection: AdvectionScratch,
+    settled: Settled,
     /// Rows for the sums.
     tally: [Ring; 2],
     /// The row beyond a wall: nothing flows, nothing stands there.
@@ -114,13 +87,11 @@ impl Process for Han {
     }
 
     fn constant_planes(&self) -> usize {
-        1 + self.links.planes()
+        self.setting.constant_planes()
     }
 
     fn lag(&self) -> usize {
-        let slide = self.slide.map_or(0, Slide::lag);
-        let advection = self.advection.map_or(0, Advection::lag);
-        SETTLED + slide.max(advection)
+        SETTLED + self.setting.lag(0)
     }
 
     fn reach(&self) -> usize {
@@ -143,12 +114,7 @@ impl Process for Han {
             found: ring(2),
             face_east: ring(1),
             face_south: ring(2),
-            settled_change: ring(3),
-            settled_sediment: ring(4),
-            eastward: ring(3),
-            southward: ring(3),
-            slide: SlideScratch::new(columns),
-            advection: AdvectionScratch::new(columns),
+            settled: Settled::new(columns),
             tally: [Ring::new(columns, 1), Ring::new(columns, 1)],
             still: Ring::new(columns, 1),
         }
@@ -165,13 +131,23 @@ impl Process for Han {
         if let Some(y) = flow.behind(FLOWED) {
             self.scale(flow, y);
             self.flow(flow, y);
-            self.drain(flow, y);
+            self.setting.drain(flow, y, |scratch| (&mut scratch.found, &mut scratch.tally));
         }
         if let Some(y) = flow.behind(SETTLED) {
             self.faces(flow, y);
             self.settle(flow, y);
+            if self.setting.advection.is_some() {
+                self.cell_velocity(flow, y);
+            }
         }
-        self.slide(flow);
-        self.advect(flow);
+        let settled = flow.y.checked_sub(SETTLED);
+        self.setting.slide(flow, settled);
+        self.setting.advect(flow, settled);
+    }
+}
+
+impl AsMut<Settled> for HanScratch {
+    fn as_mut(&mut self) -> &mut Settled {
+        &mut self.settled
     }
 }

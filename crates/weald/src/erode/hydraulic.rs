@@ -224,9 +224,6 @@ impl Step for Hydraulic {
         if let Some(water) = &self.initial_water {
             working.set_water(landscape, &water.0)?;
         }
-        match self.model {
-            Model::Han => self.run_han(landscape, job, &filled, &working),
-            Model::Mei => self.run_mei(landscape, job, &filled, &working),
-        }
+        self.run_model(landscape, job, &filled, &working)
     }
 }

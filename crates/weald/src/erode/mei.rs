@@ -12,23 +12,14 @@ mod kernels;
 mod sediment;
 mod water;
 
-use pulp::Arch;
-
-use super::advection::{Advection, AdvectionScratch};
-use super::links::Links;
+use super::setting::{Setting, Settled};
 use super::simulation::{Part, Sky};
-use super::thermal::{Slide, SlideScratch};
 use crate::stencil::chain::{Flow, Process};
 use crate::stencil::ring::Ring;
 
 /// Planes of the state.
 pub(crate) mod plane {
-    /// Change of the ground since the start.
-    pub(crate) const CHANGE: usize = 0;
-    /// Depth of water.
-    pub(crate) const DEPTH: usize = 1;
-    /// Sediment in the water.
-    pub(crate) const SEDIMENT: usize = 2;
+    pub(crate) use crate::erode::setting::plane::{CHANGE, DEPTH, SEDIMENT};
     /// Outflow to the east.
     pub(crate) const EAST: usize = 3;
     /// Outflow to the west.
@@ -71,13 +62,7 @@ pub(crate) struct MeiConstants {
 /// The process.
 pub(crate) struct Mei {
     pub(crate) constants: MeiConstants,
-    pub(crate) links: Links,
-    /// Whether water falls into cells without data.
-    pub(crate) open: bool,
-    /// Advection by velocity instead of upwind fluxes.
-    pub(crate) advection: Option<Advection>,
-    pub(crate) slide: Option<Slide>,
-    pub(crate) arch: Arch,
+    pub(crate) setting: Setting,
 }
 
 /// Rows in flight within one step.
@@ -87,13 +72,8 @@ pub(crate) struct MeiScratch {
     surface: Ring,
     sine_east: Ring,
     sine_south: Ring,
-    eastward: Ring,
-    southward: Ring,
-    settled_change: Ring,
-    loaded: Ring,
     concentration: Ring,
-    slide: SlideScratch,
-    advection: AdvectionScratch,
+    settled: Settled,
     tally: [Ring; 2],
     still: Ring,
 }
@@ -110,11 +90,11 @@ impl Process for Mei {
     }
 
     fn constant_planes(&self) -> usize {
-        1 + self.links.planes()
+        self.setting.constant_planes()
     }
 
     fn lag(&self) -> usize {
-        EXCHANGED + self.slide.map_or(0, Slide::lag).max(self.advection.map_or(1, Advection::lag))
+        EXCHANGED + self.setting.lag(1)
     }
 
     fn reach(&self) -> usize {
@@ -129,13 +109,8 @@ impl Process for Mei {
             surface: ring(3),
             sine_east: ring(2),
             sine_south: ring(3),
-            eastward: ring(3),
-            southward: ring(3),
-            settled_change: ring(3),
-            loaded: ring(4),
             concentration: ring(3),
-            slide: SlideScratch::new(columns),
-            advection: AdvectionScratch::new(columns),
+            settled: Settled::new(columns),
             tally: [Ring::new(columns, 1), Ring::new(columns, 1)],
             still: Ring::new(columns, 1),
         }
@@ -151,14 +126,25 @@ impl Process for Mei {
         }
         if let Some(y) = flow.behind(EXCHANGED) {
             self.exchange(flow, y);
-            if self.open {
-                self.drain(flow, y);
-            }
-            if self.advection.is_none() {
+            // Their sediment came with the transport of the step before.
+            self.setting.drain(flow, y, |scratch| (&mut scratch.settled.sediment, &mut scratch.tally));
+            if self.setting.advection.is_none() {
                 self.load(flow, y);
             }
         }
-        self.slide(flow);
-        self.transport(flow);
+        let settled = flow.y.checked_sub(EXCHANGED);
+        self.setting.slide(flow, settled);
+        self.setting.advect(flow, settled);
+        if self.setting.advection.is_none()
+            && let Some(y) = flow.behind(EXCHANGED + 1)
+        {
+            self.carry(flow, y);
+        }
+    }
+}
+
+impl AsMut<Settled> for MeiScratch {
+    fn as_mut(&mut self) -> &mut Settled {
+        &mut self.settled
     }
 }

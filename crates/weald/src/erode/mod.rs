@@ -10,6 +10,7 @@ pub mod hydraulic;
 mod links;
 mod mei;
 mod pipes;
+mod setting;
 mod settling;
 mod simulation;
 mod sums;

@@ -39,17 +39,6 @@ kernel! {
     }
 }
 
-/// What both laws of [`SettleByVelocity`] and [`SettleByDissolution`] share: speed and capacity.
-#[inline(always)]
-#[allow(clippy::too_many_arguments)]
-fn speed_and_capacity(faces: [f32; 4], sines: [f32; 4], share: f32, capacity: f32, depth: f32) -> (f32, f32) {
-    let eastward = (faces[0] + faces[1]) * 0.5;
-    let southward = (faces[2] + faces[3]) * 0.5;
-    let speed = (eastward * eastward + southward * southward).sqrt();
-    let sine = ((sines[0] + sines[1]) + (sines[2] + sines[3])) * share;
-    (speed, capacity * speed * sine * depth.max(0.0))
-}
-
 /// Takes sediment from the ground, or gives it back where `taken` is negative. Water takes exactly what the
 /// ground's rounded change lost, so that nothing vanishes in rounding.
 #[inline(always)]
@@ -64,46 +53,26 @@ fn settle(found: f32, taken: f32, change: f32, ratio: f32) -> (f32, f32, f32) {
 }
 
 kernel! {
-    /// Takes `K_v |v|` and settles what the water cannot carry (eq. 10, 12–16). `lost` is the part of the
-    /// deposit that shrinking takes out.
-    pub(crate) struct SettleByVelocity {
+    /// Takes sediment by the speed of the water (`K_v |v|`, eq. 13) and by the share `K_s` of its free
+    /// capacity (the dissolution that Han 2015, fig. 8, compares with), and settles what the water cannot
+    /// carry (eq. 10, 12, 14–16). `lost` is the part of the deposit that shrinking takes out.
+    pub(crate) struct Settle {
         reads {
             found, depth, change_before, face_east, face_west, face_south, face_north,
             sine_east, sine_west, sine_south, sine_north, neighbour_share, yields,
         }
         updates {}
         writes { change, sediment, lost }
-        constants { capacity: f32, erosion: f32, deposit_ratio: f32 }
+        constants { capacity: f32, uptake_by_speed: f32, uptake_by_capacity: f32, deposit_ratio: f32 }
     }
     fn cell() {
-        let (speed, most) = speed_and_capacity(
-            [face_west, face_east, face_north, face_south],
-            [sine_west, sine_east, sine_north, sine_south],
-            neighbour_share, capacity, depth,
-        );
-        let taken = ((found + erosion * speed).min(most) - found) * yields;
-        (change, sediment, lost) = settle(found, taken, change_before, deposit_ratio);
-    }
-}
-
-kernel! {
-    /// Takes the share `K_s` of the free capacity: the dissolution law that Han 2015, fig. 8, compares with.
-    pub(crate) struct SettleByDissolution {
-        reads {
-            found, depth, change_before, face_east, face_west, face_south, face_north,
-            sine_east, sine_west, sine_south, sine_north, neighbour_share, yields,
-        }
-        updates {}
-        writes { change, sediment, lost }
-        constants { capacity: f32, erosion: f32, deposit_ratio: f32 }
-    }
-    fn cell() {
-        let (_, most) = speed_and_capacity(
-            [face_west, face_east, face_north, face_south],
-            [sine_west, sine_east, sine_north, sine_south],
-            neighbour_share, capacity, depth,
-        );
-        let taken = ((found + erosion * (most - found).max(0.0)).min(most) - found) * yields;
+        let eastward = (face_west + face_east) * 0.5;
+        let southward = (face_north + face_south) * 0.5;
+        let speed = (eastward * eastward + southward * southward).sqrt();
+        let sine = ((sine_west + sine_east) + (sine_north + sine_south)) * neighbour_share;
+        let most = capacity * speed * sine * depth.max(0.0);
+        let uptake = uptake_by_speed * speed + uptake_by_capacity * (most - found).max(0.0);
+        let taken = ((found + uptake).min(most) - found) * yields;
         (change, sediment, lost) = settle(found, taken, change_before, deposit_ratio);
     }
 }

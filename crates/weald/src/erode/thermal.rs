@@ -219,44 +219,33 @@ impl Slide {
         }
         if let Some(y) = rows.behind(self.lag()) {
             match self.scheme {
-                Scheme::Axis => self.axis(rows, scratch, y),
-                Scheme::Isotropic => self.triangle(rows, scratch, y),
+                Scheme::Axis | Scheme::Isotropic => self.forward(rows, scratch, y),
                 Scheme::IsotropicSymmetric => mean_slide(rows, scratch, y),
             }
             apply(rows, scratch, y, output);
         }
     }
 
-    fn axis(self, rows: &SlideRows<'_>, scratch: &mut SlideScratch, y: usize) {
+    /// What slides from row `y` by one of the kernels that look east and south alone.
+    fn forward(self, rows: &SlideRows<'_>, scratch: &mut SlideScratch, y: usize) {
         let links = rows.links.row(rows.constants, y);
-        Axis {
-            ground: scratch.ground.here(y),
-            ground_east: scratch.ground.east(y),
-            ground_south: scratch.ground.here(rows.next(y)),
-            link_east: links.east,
-            link_south: links.south,
-            to_east: scratch.to_east.here_mut(y),
-            to_south: scratch.to_south.here_mut(y),
-            talus: self.talus,
-            strength: self.strength,
+        macro_rules! slide {
+            ($Kernel:ident) => {
+                $Kernel {
+                    ground: scratch.ground.here(y),
+                    ground_east: scratch.ground.east(y),
+                    ground_south: scratch.ground.here(rows.next(y)),
+                    link_east: links.east,
+                    link_south: links.south,
+                    to_east: scratch.to_east.here_mut(y),
+                    to_south: scratch.to_south.here_mut(y),
+                    talus: self.talus,
+                    strength: self.strength,
+                }
+                .run(rows.arch)
+            };
         }
-        .run(rows.arch);
-    }
-
-    fn triangle(self, rows: &SlideRows<'_>, scratch: &mut SlideScratch, y: usize) {
-        let links = rows.links.row(rows.constants, y);
-        Triangle {
-            ground: scratch.ground.here(y),
-            ground_east: scratch.ground.east(y),
-            ground_south: scratch.ground.here(rows.next(y)),
-            link_east: links.east,
-            link_south: links.south,
-            to_east: scratch.to_east.here_mut(y),
-            to_south: scratch.to_south.here_mut(y),
-            talus: self.talus,
-            strength: self.strength,
-        }
-        .run(rows.arch);
+        if self.scheme == Scheme::Axis { slide!(Axis) } else { slide!(Triangle) }
     }
 
     fn four_triangles(self, rows: &SlideRows<'_>, scratch: &mut SlideScratch, y: usize) {

@@ -78,7 +78,7 @@ impl Step for Thermal {
             weather: &|_| (),
             record: None,
         };
-        let finished = simulation.run(working.state(1, 0), job)?;
+        let finished = simulation.run(working.state(1), job)?;
         Ok(working.store_ground(landscape, &self.layer.0, &finished, u64::from(self.iterations)))
     }
 }

@@ -1,6 +1,7 @@
 //! The ground in working units: lengths in cells, a ring of no-data cells around an open domain, and back.
 
 use super::links::mask_planes;
+use super::setting::plane;
 use super::simulation::{Finished, Flows};
 use crate::engine::{Budget, SolidBudget, WaterBudget};
 use crate::error::Error;
@@ -81,13 +82,15 @@ impl Working {
         self.mask.as_ref().is_none_or(|mask| mask.is_land_at(at))
     }
 
-    /// State planes of zeros, water in plane `depth`, and the constant planes behind them.
-    pub(crate) fn state(&self, planes: usize, depth: usize) -> Rows {
+    /// State planes of zeros, water in that of the depth where there is one, and the constant planes behind.
+    pub(crate) fn state(&self, planes: usize) -> Rows {
         let masks = self.mask.as_ref().map(|mask| mask_planes(mask, self.ring > 0));
         let constants = 1 + masks.as_ref().map_or(0, |masks| masks.len());
         let layout = Layout { columns: self.size.columns, planes: planes + constants };
         let mut rows = Rows::new(layout, self.size.rows);
-        rows.scatter(depth, &self.water);
+        if plane::DEPTH < planes {
+            rows.scatter(plane::DEPTH, &self.water);
+        }
         rows.scatter(planes, &self.base);
         for (at, plane) in masks.iter().flatten().enumerate() {
             rows.scatter(planes + 1 + at, plane);
@@ -119,7 +122,8 @@ impl Working {
         finished: &Finished,
         kept: Kept,
     ) -> Outcome {
-        let [change, depth, sediment] = [0, 1, 2].map(|plane| finished.state.gather(plane));
+        let [change, depth, sediment] =
+            [plane::CHANGE, plane::DEPTH, plane::SEDIMENT].map(|at| finished.state.gather(at));
         let cell = self.cell as f32;
         let moved = self.field(&change, |change| change);
         let budget = self.budget(&change, &depth, &sediment, finished);

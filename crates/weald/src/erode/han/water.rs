@@ -2,7 +2,7 @@
 
 use super::{Han, plane};
 use crate::erode::before;
-use crate::erode::pipes::{Drain, Flux, Limit, Overfall, Scale, Surface, Unlimited};
+use crate::erode::pipes::{Flux, Limit, Overfall, Scale, Surface, Unlimited};
 use crate::erode::sums;
 use crate::erode::upwind::Upwind;
 use crate::stencil::chain::Flow;
@@ -16,7 +16,7 @@ impl Han {
             ground: flow.scratch.ground.here_mut(y),
             surface: flow.scratch.surface.here_mut(y),
         }
-        .run(self.arch);
+        .run(self.setting.arch);
     }
 
     /// Fluxes from row `y` to its eastern and southern neighbours; nothing flows through the wall behind the
@@ -25,7 +25,7 @@ impl Han {
         let next = flow.next(y);
         let scratch = &mut *flow.scratch;
         let depth = &flow.input[plane::DEPTH];
-        let links = self.links.row(flow.constants, y);
+        let links = self.setting.links.row(flow.constants, y);
         Flux {
             old_east: flow.input[plane::EAST].here(y),
             old_south: flow.input[plane::SOUTH].here(y),
@@ -46,8 +46,8 @@ impl Han {
             sine_south: scratch.sine_south.here_mut(y),
             flow_rate: self.constants.flow_rate,
         }
-        .run(self.arch);
-        if self.open {
+        .run(self.setting.arch);
+        if self.setting.open {
             self.overfall(flow, y);
         }
     }
@@ -73,7 +73,7 @@ impl Han {
                 flux: flux.here_mut(y),
                 flow_rate: self.constants.flow_rate,
             }
-            .run(self.arch);
+            .run(self.setting.arch);
         }
     }
 
@@ -89,10 +89,11 @@ impl Han {
         let concentration = scratch.concentration.here_mut(y);
         let epsilon = self.constants.epsilon;
         if self.constants.limiter {
-            Limit { depth, sediment, east, west, south, north, share, concentration, epsilon }.run(self.arch);
+            Limit { depth, sediment, east, west, south, north, share, concentration, epsilon }
+                .run(self.setting.arch);
         } else {
             Unlimited { depth, sediment, east, west, south, north, share, concentration, epsilon }
-                .run(self.arch);
+                .run(self.setting.arch);
         }
     }
 
@@ -109,7 +110,7 @@ impl Han {
             east: east.here_mut(y),
             south: south.here_mut(y),
         }
-        .run(self.arch);
+        .run(self.setting.arch);
     }
 
     /// Moves water, and sediment with it unless it is advected later.
@@ -130,35 +131,18 @@ impl Han {
             concentration_west: concentration.west(y),
             concentration_south: concentration.here(next),
             concentration_north: before(concentration, &scratch.still, y, flow.span.start),
-            land: self.links.row(flow.constants, y).land,
+            land: self.setting.links.row(flow.constants, y).land,
             depth: depth.here_mut(y),
             sky: scratch.tally[0].here_mut(0),
             sediment: scratch.found.here_mut(y),
             rain: flow.weather.rain,
             evaporation: flow.weather.evaporation,
         }
-        .run(self.arch);
+        .run(self.setting.arch);
         let which = if flow.weather.rain > 0.0 { sums::RAINED } else { sums::EVAPORATED };
         flow.sums.add(y, which, scratch.tally[0].here(0));
-        if self.advection.is_some() {
+        if self.setting.advection.is_some() {
             scratch.found.here_mut(y).copy_from_slice(flow.input[plane::SEDIMENT].here(y));
         }
-    }
-
-    pub(super) fn drain(&self, flow: &mut Flow<'_, Self>, y: usize) {
-        if !self.open {
-            return;
-        }
-        let [water_out, sediment_out] = &mut flow.scratch.tally;
-        Drain {
-            land: self.links.row(flow.constants, y).land,
-            depth: flow.output[plane::DEPTH].here_mut(y),
-            sediment: flow.scratch.found.here_mut(y),
-            water_out: water_out.here_mut(0),
-            sediment_out: sediment_out.here_mut(0),
-        }
-        .run(self.arch);
-        flow.sums.add(y, sums::WATER_OUT, water_out.here(0));
-        flow.sums.add(y, sums::SEDIMENT_OUT, sediment_out.here(0));
     }
 }

@@ -5,46 +5,91 @@ use pulp::Arch;
 use super::{Boundary, Filled, Hydraulic, Model, Transport, UptakeLaw};
 use crate::engine::world::World;
 use crate::engine::{Engine, Job};
-use crate::erode::han::{self, Han, HanConstants, Law};
+use crate::erode::han::{self, Han, HanConstants};
 use crate::erode::links::Links;
 use crate::erode::mei::{self, Mei, MeiConstants};
-use crate::erode::simulation::{Record, Simulation};
+use crate::erode::setting::Setting;
+use crate::erode::simulation::{Finished, Part, Record, Simulation, Sky};
 use crate::erode::working::{Kept, Working};
 use crate::error::Error;
 use crate::landscape::Landscape;
 use crate::stencil::chain::Process;
-use crate::stencil::rows::Rows;
 use crate::step::Outcome;
 
+/// A model as the recipe asks for it: its process and what a simulation has to know of its state.
+struct Chosen<P> {
+    process: P,
+    plane_names: &'static [&'static str],
+    means: &'static [&'static [Part]],
+}
+
 impl Hydraulic {
-    pub(super) fn run_han(
+    /// Runs the model on a landscape in working units.
+    pub(super) fn run_model(
         &self,
         landscape: &mut Landscape,
         job: &Job<'_>,
         filled: &Filled,
         working: &Working,
     ) -> Result<Outcome, Error> {
-        let simulation = Simulation {
-            process: &self.han(filled, working),
-            plane_names: &["change", "water", "sediment", "flux_east", "flux_south"],
-            iterations: u64::from(self.iterations),
-            weather: &|step| self.sky(filled, step),
-            record: Some(Record { steps: self.last_cycle(filled), means: han::MEAN_FLUXES }),
-        };
-        let start = working.state(han::plane::COUNT, han::plane::DEPTH);
-        let finished = simulation.run(start, job)?;
-        Ok(working.store(landscape, &self.layer.0, &finished, self.kept()))
+        let finished = match self.model {
+            Model::Han => self.simulate(&self.han(filled, working), job, filled, working),
+            Model::Mei => self.simulate(&self.mei(filled, working), job, filled, working),
+        }?;
+        let conserving = self.transport == Transport::Upwind;
+        let kept = Kept { iterations: u64::from(self.iterations), conserving };
+        Ok(working.store(landscape, &self.layer.0, &finished, kept))
     }
 
-    pub(super) fn run_mei(
+    fn simulate<P: Process<Weather = Sky>>(
         &self,
-        landscape: &mut Landscape,
+        chosen: &Chosen<P>,
         job: &Job<'_>,
         filled: &Filled,
         working: &Working,
-    ) -> Result<Outcome, Error> {
+    ) -> Result<Finished, Error> {
         let simulation = Simulation {
-            process: &self.mei(filled, working),
+            process: &chosen.process,
+            plane_names: chosen.plane_names,
+            iterations: u64::from(self.iterations),
+            weather: &|step| self.sky(filled, step),
+            record: Some(Record { steps: self.last_cycle(filled), means: chosen.means }),
+        };
+        simulation.run(working.state(chosen.process.state_planes()), job)
+    }
+
+    fn han(&self, filled: &Filled, working: &Working) -> Chosen<Han> {
+        let uptake = |law| if self.law == law { filled.erosion } else { 0.0 };
+        let constants = HanConstants {
+            flow_rate: filled.flow_rate,
+            capacity: filled.capacity,
+            uptake_by_speed: uptake(UptakeLaw::Velocity),
+            uptake_by_capacity: uptake(UptakeLaw::Dissolution),
+            deposit_ratio: self.deposit_ratio as f32,
+            epsilon: filled.epsilon,
+            velocity_epsilon: filled.velocity_epsilon,
+            limiter: self.limiter,
+        };
+        Chosen {
+            process: Han { constants, setting: self.setting(working) },
+            plane_names: &["change", "water", "sediment", "flux_east", "flux_south"],
+            means: han::MEAN_FLUXES,
+        }
+    }
+
+    fn mei(&self, filled: &Filled, working: &Working) -> Chosen<Mei> {
+        let constants = MeiConstants {
+            flow_rate: filled.flow_rate,
+            capacity: filled.capacity,
+            erosion: filled.erosion,
+            deposition: self.deposition as f32,
+            deposit_ratio: self.deposit_ratio as f32,
+            epsilon: filled.epsilon,
+            velocity_epsilon: filled.velocity_epsilon,
+            limiter: self.limiter,
+        };
+        Chosen {
+            process: Mei { constants, setting: self.setting(working) },
             plane_names: &[
                 "change",
                 "water",
@@ -54,57 +99,18 @@ impl Hydraulic {
                 "flow_south",
                 "flow_north",
             ],
-            iterations: u64::from(self.iterations),
-            weather: &|step| self.sky(filled, step),
-            record: Some(Record { steps: self.last_cycle(filled), means: mei::MEAN_FLUXES }),
-        };
-        let start = working.state(mei::plane::COUNT, mei::plane::DEPTH);
-        let finished = simulation.run(start, job)?;
-        Ok(working.store(landscape, &self.layer.0, &finished, self.kept()))
+            means: mei::MEAN_FLUXES,
+        }
     }
 
-    fn han(&self, filled: &Filled, working: &Working) -> Han {
-        Han {
-            constants: HanConstants {
-                flow_rate: filled.flow_rate,
-                capacity: filled.capacity,
-                erosion: filled.erosion,
-                deposit_ratio: self.deposit_ratio as f32,
-                epsilon: filled.epsilon,
-                velocity_epsilon: filled.velocity_epsilon,
-                limiter: self.limiter,
-                law: if self.law == UptakeLaw::Velocity { Law::Velocity } else { Law::Dissolution },
-            },
+    fn setting(&self, working: &Working) -> Setting {
+        Setting {
             links: Links::new(working.size, working.mask.is_some()),
             open: self.boundary == Boundary::Open,
             advection: self.advection(),
             slide: self.slide(),
             arch: Arch::new(),
         }
-    }
-
-    fn mei(&self, filled: &Filled, working: &Working) -> Mei {
-        Mei {
-            constants: MeiConstants {
-                flow_rate: filled.flow_rate,
-                capacity: filled.capacity,
-                erosion: filled.erosion,
-                deposition: self.deposition as f32,
-                deposit_ratio: self.deposit_ratio as f32,
-                epsilon: filled.epsilon,
-                velocity_epsilon: filled.velocity_epsilon,
-                limiter: self.limiter,
-            },
-            links: Links::new(working.size, working.mask.is_some()),
-            open: self.boundary == Boundary::Open,
-            advection: self.advection(),
-            slide: self.slide(),
-            arch: Arch::new(),
-        }
-    }
-
-    fn kept(&self) -> Kept {
-        Kept { iterations: u64::from(self.iterations), conserving: self.transport == Transport::Upwind }
     }
 
     /// Seconds that `iterations` steps take on a landscape, set-up and mean fluxes left out: for benchmarks.
@@ -116,20 +122,19 @@ impl Hydraulic {
         let working = Working::new(landscape, &self.layer.0, self.boundary == Boundary::Open)?;
         let weather: Vec<_> = (0..u64::from(self.iterations)).map(|step| self.sky(&filled, step)).collect();
         Ok(match self.model {
-            Model::Han => {
-                let start = working.state(han::plane::COUNT, han::plane::DEPTH);
-                seconds_of(&self.han(&filled, &working), start, &weather, engine)
-            }
-            Model::Mei => {
-                let start = working.state(mei::plane::COUNT, mei::plane::DEPTH);
-                seconds_of(&self.mei(&filled, &working), start, &weather, engine)
-            }
+            Model::Han => seconds_of(&self.han(&filled, &working), &working, &weather, engine),
+            Model::Mei => seconds_of(&self.mei(&filled, &working), &working, &weather, engine),
         })
     }
 }
 
-fn seconds_of<P: Process>(process: &P, start: Rows, weather: &[P::Weather], engine: Engine) -> f64 {
-    let mut world = World::new(process, start, engine);
+fn seconds_of<P: Process<Weather = Sky>>(
+    chosen: &Chosen<P>,
+    working: &Working,
+    weather: &[Sky],
+    engine: Engine,
+) -> f64 {
+    let mut world = World::new(&chosen.process, working.state(chosen.process.state_planes()), engine);
     let begun = std::time::Instant::now();
     world.advance(weather);
     begun.elapsed().as_secs_f64()

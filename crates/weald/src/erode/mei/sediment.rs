@@ -1,23 +1,21 @@
 //! The sediment of a step of Mei et al. 2007: exchange with the ground, sliding, transport.
 
-use super::{EXCHANGED, Mei, plane};
-use crate::erode::advection::AdvectionRows;
+use super::{Mei, plane};
 use crate::erode::before;
 use crate::erode::mei::kernels::{Carry, Exchange, Load, LoadUnlimited};
 use crate::erode::sums;
-use crate::erode::thermal::SlideRows;
 use crate::stencil::chain::Flow;
 
 impl Mei {
     pub(super) fn exchange(&self, flow: &mut Flow<'_, Self>, y: usize) {
         let scratch = &mut *flow.scratch;
-        let links = self.links.row(flow.constants, y);
+        let links = self.setting.links.row(flow.constants, y);
         let [change_out, depth, _, east, west, south, north] = flow.output else {
             unreachable!("seven state planes")
         };
         let start = flow.span.start;
         let from_south = if y + 1 < flow.span.end { north.here(y + 1) } else { scratch.still.here(0) };
-        let change = if self.slide.is_some() { &mut scratch.settled_change } else { change_out };
+        let change = if self.setting.slide.is_some() { &mut scratch.settled.change } else { change_out };
         let [evaporated, lost] = &mut scratch.tally;
         Exchange {
             rained: scratch.rained.here(y),
@@ -39,10 +37,10 @@ impl Mei {
             yields: links.yields,
             depth: depth.here_mut(y),
             evaporated: evaporated.here_mut(0),
-            eastward: scratch.eastward.here_mut(y),
-            southward: scratch.southward.here_mut(y),
+            eastward: scratch.settled.eastward.here_mut(y),
+            southward: scratch.settled.southward.here_mut(y),
             change: change.here_mut(y),
-            sediment: scratch.loaded.here_mut(y),
+            sediment: scratch.settled.sediment.here_mut(y),
             lost: lost.here_mut(0),
             evaporation: flow.weather.evaporation,
             velocity_epsilon: self.constants.velocity_epsilon,
@@ -51,7 +49,7 @@ impl Mei {
             deposition: self.constants.deposition,
             deposit_ratio: self.constants.deposit_ratio,
         }
-        .run(self.arch);
+        .run(self.setting.arch);
         if flow.weather.evaporation > 0.0 {
             flow.sums.add(y, sums::EVAPORATED, evaporated.here(0));
         }
@@ -62,71 +60,31 @@ impl Mei {
 
     pub(super) fn load(&self, flow: &mut Flow<'_, Self>, y: usize) {
         let scratch = &mut *flow.scratch;
-        let sediment = scratch.loaded.here(y);
+        let sediment = scratch.settled.sediment.here(y);
         let depth = scratch.rained.here(y);
         let concentration = scratch.concentration.here_mut(y);
         let epsilon = self.constants.epsilon;
         if self.constants.limiter {
-            Load { sediment, depth, concentration, epsilon }.run(self.arch);
+            Load { sediment, depth, concentration, epsilon }.run(self.setting.arch);
             return;
         }
         let [_, _, _, east, west, south, north] = &*flow.output else { unreachable!("seven state planes") };
         let (east, west, south, north) = (east.here(y), west.here(y), south.here(y), north.here(y));
-        LoadUnlimited { sediment, depth, east, west, south, north, concentration, epsilon }.run(self.arch);
-    }
-
-    pub(super) fn slide(&self, flow: &mut Flow<'_, Self>) {
-        let Some(slide) = self.slide else { return };
-        slide.advance(
-            &SlideRows {
-                base: &flow.constants[0],
-                change: &flow.scratch.settled_change,
-                links: &self.links,
-                constants: flow.constants,
-                newest: flow.y.checked_sub(EXCHANGED),
-                span: flow.span.clone(),
-                arch: self.arch,
-            },
-            &mut flow.scratch.slide,
-            &mut flow.output[plane::CHANGE],
-        );
-    }
-
-    pub(super) fn transport(&self, flow: &mut Flow<'_, Self>) {
-        let Some(advection) = self.advection else {
-            if let Some(y) = flow.behind(EXCHANGED + 1) {
-                self.carry(flow, y);
-            }
-            return;
-        };
-        let scratch = &mut *flow.scratch;
-        advection.advance(
-            &AdvectionRows {
-                sediment: &scratch.loaded,
-                eastward: &scratch.eastward,
-                southward: &scratch.southward,
-                links: &self.links,
-                constants: flow.constants,
-                newest: flow.y.checked_sub(EXCHANGED),
-                span: flow.span.clone(),
-                arch: self.arch,
-            },
-            &mut scratch.advection,
-            &mut flow.output[plane::SEDIMENT],
-        );
+        LoadUnlimited { sediment, depth, east, west, south, north, concentration, epsilon }
+            .run(self.setting.arch);
     }
 
     pub(super) fn carry(&self, flow: &mut Flow<'_, Self>, y: usize) {
+        let next = flow.next(y);
         let scratch = &*flow.scratch;
         let [_, _, sediment, east, west, south, north] = flow.output else {
             unreachable!("seven state planes")
         };
         let (still, start) = (&scratch.still, flow.span.start);
         let concentration = &scratch.concentration;
-        let next = if y + 1 < flow.span.end { y + 1 } else { y };
         let from_south = if y + 1 < flow.span.end { north.here(y + 1) } else { still.here(0) };
         Carry {
-            before: scratch.loaded.here(y),
+            before: scratch.settled.sediment.here(y),
             east: east.here(y),
             west: west.here(y),
             south: south.here(y),
@@ -142,6 +100,6 @@ impl Mei {
             concentration_south: concentration.here(next),
             sediment: sediment.here_mut(y),
         }
-        .run(self.arch);
+        .run(self.setting.arch);
     }
 }

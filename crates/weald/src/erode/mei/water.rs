@@ -2,14 +2,13 @@
 
 use super::{Mei, MeiScratch, plane};
 use crate::erode::mei::kernels::{OpenOutflow, Outflow, Rained, Sines};
-use crate::erode::pipes::Drain;
 use crate::erode::sums;
 use crate::stencil::chain::Flow;
 
 impl Mei {
     pub(super) fn rain(&self, flow: &mut Flow<'_, Self>, y: usize) {
         let scratch = &mut *flow.scratch;
-        let links = self.links.row(flow.constants, y);
+        let links = self.setting.links.row(flow.constants, y);
         Rained {
             base: flow.constants[0].here(y),
             change: flow.input[plane::CHANGE].here(y),
@@ -21,7 +20,7 @@ impl Mei {
             fallen: scratch.tally[0].here_mut(0),
             rain: flow.weather.rain,
         }
-        .run(self.arch);
+        .run(self.setting.arch);
         if flow.weather.rain > 0.0 {
             flow.sums.add(y, sums::RAINED, scratch.tally[0].here(0));
         }
@@ -31,7 +30,7 @@ impl Mei {
         let next = flow.next(y);
         let previous = if y > flow.span.start { y - 1 } else { y };
         let scratch = &mut *flow.scratch;
-        let links = self.links.row(flow.constants, y);
+        let links = self.setting.links.row(flow.constants, y);
         let [_, _, _, east, west, south, north] = flow.output else { unreachable!("seven state planes") };
         let surface = &scratch.surface;
         macro_rules! outflow {
@@ -59,10 +58,10 @@ impl Mei {
                     flow_rate: self.constants.flow_rate,
                     most: if self.constants.limiter { 0.0 } else { f32::INFINITY },
                 }
-                .run(self.arch)
+                .run(self.setting.arch)
             };
         }
-        if self.open {
+        if self.setting.open {
             outflow!(OpenOutflow, land, base);
         } else {
             outflow!(Outflow);
@@ -71,7 +70,7 @@ impl Mei {
 
     pub(super) fn sines(&self, flow: &mut Flow<'_, Self>, y: usize) {
         let next = flow.next(y);
-        let links = self.links.row(flow.constants, y);
+        let links = self.setting.links.row(flow.constants, y);
         let MeiScratch { ground, sine_east, sine_south, .. } = flow.scratch;
         Sines {
             ground: ground.here(y),
@@ -82,21 +81,6 @@ impl Mei {
             sine_east: sine_east.here_mut(y),
             sine_south: sine_south.here_mut(y),
         }
-        .run(self.arch);
-    }
-
-    /// Empties the cells without data. Their sediment came with the step before.
-    pub(super) fn drain(&self, flow: &mut Flow<'_, Self>, y: usize) {
-        let [water_out, sediment_out] = &mut flow.scratch.tally;
-        Drain {
-            land: self.links.row(flow.constants, y).land,
-            depth: flow.output[plane::DEPTH].here_mut(y),
-            sediment: flow.scratch.loaded.here_mut(y),
-            water_out: water_out.here_mut(0),
-            sediment_out: sediment_out.here_mut(0),
-        }
-        .run(self.arch);
-        flow.sums.add(y, sums::WATER_OUT, water_out.here(0));
-        flow.sums.add(y, sums::SEDIMENT_OUT, sediment_out.here(0));
+        .run(self.setting.arch);
     }
 }
