@@ -1,10 +1,11 @@
 //! The command as a user meets it: exit codes, messages, files.
 
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output, Stdio};
-use std::time::Duration;
+mod place;
 
-use tempfile::TempDir;
+use std::path::Path;
+use std::process::{Command, Stdio};
+
+use place::{Place, assert_ends, stdout};
 
 const RECIPE: &str = "\
 [landscape]
@@ -18,62 +19,6 @@ relief = 100.0
 layer = \"height\"
 file = \"height.npy\"
 ";
-
-/// A folder with a recipe in it, in which the command runs.
-struct Place {
-    folder: TempDir,
-}
-
-impl Place {
-    fn with(recipe: &str) -> Self {
-        let folder = tempfile::tempdir().expect("a temporary folder");
-        std::fs::write(folder.path().join("r.toml"), recipe).expect("the recipe is written");
-        Self { folder }
-    }
-
-    fn path(&self, name: &str) -> PathBuf {
-        self.folder.path().join(name)
-    }
-
-    fn command(&self, arguments: &[&str]) -> Command {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_weald"));
-        command.current_dir(self.folder.path()).args(arguments);
-        command
-    }
-
-    fn weald(&self, arguments: &[&str]) -> Output {
-        self.command(arguments).output().expect("the command starts")
-    }
-
-    /// Runs and gives exit code and stderr.
-    fn ends(&self, arguments: &[&str]) -> (i32, String) {
-        let output = self.weald(arguments);
-        (
-            output.status.code().expect("it ends by itself"),
-            String::from_utf8_lossy(&output.stderr).into_owned(),
-        )
-    }
-
-    fn names(&self, folder: &str) -> Vec<String> {
-        let entries = std::fs::read_dir(self.path(folder)).expect("the folder exists");
-        let name = |entry: std::fs::DirEntry| entry.file_name().to_string_lossy().into_owned();
-        let mut names: Vec<_> = entries.map(|entry| name(entry.expect("readable"))).collect();
-        names.sort();
-        names
-    }
-}
-
-fn stdout(output: &Output) -> String {
-    String::from_utf8_lossy(&output.stdout).into_owned()
-}
-
-fn assert_ends(place: &Place, arguments: &[&str], code: i32, parts: &[&str]) {
-    let (found, message) = place.ends(arguments);
-    assert_eq!(found, code, "{arguments:?}: {message}");
-    for part in parts {
-        assert!(message.contains(part), "{arguments:?}: {part:?} is in: {message}");
-    }
-}
 
 #[test]
 fn a_run_writes_its_files_below_the_name_of_the_recipe() {
@@ -209,7 +154,7 @@ fn a_disk_that_fills_up_ends_with_1_and_leaves_no_half_file() {
     let weald = env!("CARGO_BIN_EXE_weald");
     let script = format!("trap '' XFSZ; ulimit -f 1; exec '{weald}' run r.toml --out o");
     let mut shell = Command::new("sh");
-    let output = shell.current_dir(place.folder.path()).args(["-c", &script]).output().expect("sh starts");
+    let output = shell.current_dir(place.path("")).args(["-c", &script]).output().expect("sh starts");
     let message = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(1), "{message}");
     assert!(message.contains("error: cannot write o/height.npy"), "{message}");
@@ -336,76 +281,4 @@ fn degrees_become_metres_and_the_run_says_so() {
 fn a_cell_size_that_contradicts_the_file_ends_with_4() {
     let place = from_file("jacksboro_fault_utm16_80m.tif", "cell = 30");
     assert_ends(&place, &["run", "r.toml"], 4, &["80 m wide", "`cell = 30`", "remove `cell`"]);
-}
-
-const LONG: &str = "\
-[landscape]
-size = 128
-cell = 10.0
-[[step]]
-do = \"diamond-square\"
-relief = 100.0
-[[step]]
-do = \"hydraulic\"
-iterations = 4000
-[[output]]
-layer = \"height\"
-file = \"height.npy\"
-[[output]]
-layer = \"water\"
-file = \"water.npy\"
-";
-
-/// Starts a run and sends it a signal once its first checkpoint is there.
-fn interrupt(place: &Place, arguments: &[&str], checkpoint: &str, signal: &str) -> Output {
-    let mut command = place.command(arguments);
-    let child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("the command starts");
-    for _ in 0..6000 {
-        if place.path(checkpoint).exists() {
-            break;
-        }
-        std::thread::sleep(Duration::from_millis(10));
-    }
-    // The shell's own kill: the program of that name is not on every machine.
-    let kill = format!("kill -{signal} {}", child.id());
-    let killed = Command::new("sh").args(["-c", &kill]).status().expect("a shell starts");
-    assert!(killed.success(), "the run was still there to be interrupted");
-    child.wait_with_output().expect("it ends")
-}
-
-fn assert_same_files(place: &Place) {
-    for file in ["height.npy", "water.npy"] {
-        let [whole, parts] =
-            ["whole", "parts"].map(|out| std::fs::read(place.path(out).join(file)).expect(file));
-        assert!(whole == parts, "{file} has the same bits");
-    }
-}
-
-#[test]
-fn a_killed_run_goes_on_from_its_checkpoint_to_the_same_bits() {
-    let place = Place::with(LONG);
-    assert_ends(&place, &["run", "r.toml", "--out", "whole"], 0, &[]);
-    let arguments = ["run", "r.toml", "--out", "parts", "--checkpoint-every", "0", "--threads", "2"];
-    let output = interrupt(&place, &arguments, "parts/checkpoint.weald", "KILL");
-    assert_eq!(output.status.code(), None, "it had no time to end by itself");
-    assert!(!place.path("parts/height.npy").exists(), "it had not come to its end");
-    assert_ends(&place, &["run", "r.toml", "--out", "parts", "--resume", "--threads", "1"], 0, &[]);
-    assert_same_files(&place);
-}
-
-#[test]
-fn an_interrupted_run_ends_with_130_and_resumes_to_the_same_bits() {
-    let place = Place::with(LONG);
-    assert_ends(&place, &["run", "r.toml", "--out", "whole"], 0, &[]);
-    let arguments = ["run", "r.toml", "--out", "parts", "--checkpoint-every", "0"];
-    let output = interrupt(&place, &arguments, "parts/checkpoint.weald", "INT");
-    let message = String::from_utf8_lossy(&output.stderr);
-    assert_eq!(output.status.code(), Some(130), "{message}");
-    assert!(message.contains("--resume") && message.contains("parts/checkpoint.weald"), "{message}");
-    assert_eq!(place.names("parts"), ["checkpoint.weald"], "no half file is left");
-    let changed = ["run", "r.toml", "--out", "parts", "--resume", "--seed", "1"];
-    assert_ends(&place, &changed, 4, &["another recipe", "seed = 1"]);
-    assert_ends(&place, &["run", "r.toml", "--out", "parts", "--resume"], 0, &[]);
-    assert_same_files(&place);
-    assert_eq!(place.names("parts"), ["height.npy", "report.json", "water.npy"]);
 }

@@ -1,6 +1,7 @@
 //! The size of a grid in a recipe.
 
-use super::{Complaints, Kind, ParameterValue, wrong};
+use super::values::wrong;
+use super::{Complaints, Kind, ParameterValue};
 use crate::recipe::source::{Node, Value};
 
 /// Columns and rows of a grid as a recipe gives them: one number for a square, or a list of two.
