@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use crate::domain::Domain;
 use crate::error::Error;
 use crate::grid::Field;
+use crate::material::Material;
 
 /// A named field with its unit.
 #[derive(Clone, Debug, PartialEq)]
@@ -20,13 +21,15 @@ pub struct Layer {
 pub struct Landscape {
     /// Grid, cell size, georeference, mask.
     pub domain: Domain,
+    /// What the ground is made of, bedrock first: 1 to [`MOST`](crate::material::MOST).
+    pub materials: Vec<Material>,
     layers: BTreeMap<String, Layer>,
 }
 
 impl Landscape {
-    /// A landscape without layers.
+    /// A landscape without layers, of the default materials.
     pub fn new(domain: Domain) -> Self {
-        Self { domain, layers: BTreeMap::new() }
+        Self { domain, materials: Material::default_stack(), layers: BTreeMap::new() }
     }
 
     /// Adds or replaces a layer.

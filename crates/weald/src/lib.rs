@@ -62,6 +62,7 @@ pub mod generate;
 pub mod grid;
 pub mod io;
 pub mod landscape;
+pub mod material;
 pub mod picture;
 pub mod random;
 pub mod recipe;
