@@ -38,11 +38,11 @@ struct Band<P: Process> {
 
 impl<'a, P: Process> World<'a, P> {
     /// A world over `state`, whose layout holds state planes and then constant planes.
-    pub(crate) fn new(process: &'a P, state: Rows, engine: Engine) -> Self {
+    pub(crate) fn new(process: &'a P, state: Rows, engine: &Engine) -> Self {
         let rows = state.count();
         let wanted = match engine {
-            Engine::Cpu => rayon::current_num_threads(),
-            Engine::Bands(count) => count,
+            Engine::Bands(count) => *count,
+            _ => rayon::current_num_threads(),
         };
         let count = wanted.clamp(1, (rows / process.reach()).max(1));
         let block = steps_in_a_passage(process, rows / count);

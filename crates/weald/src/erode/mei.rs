@@ -14,6 +14,7 @@ mod water;
 
 use super::setting::{Setting, Settled};
 use super::simulation::{Part, Sky};
+use crate::engine::program::Program;
 use crate::stencil::chain::{Flow, Process};
 use crate::stencil::ring::Ring;
 
@@ -114,6 +115,10 @@ impl Process for Mei {
             tally: [Ring::new(columns, 1), Ring::new(columns, 1)],
             still: Ring::new(columns, 1),
         }
+    }
+
+    fn program(&self) -> Program {
+        unimplemented!("the shaders of this process")
     }
 
     fn advance(&self, flow: &mut Flow<'_, Self>) {

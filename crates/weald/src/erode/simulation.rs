@@ -1,17 +1,19 @@
 //! Runs a process for many steps: progress, interruption, checkpoints, the watch for NaN, mean fluxes.
 
 use super::sums;
+use crate::engine::uniform::uniform;
 use crate::engine::world::World;
 use crate::engine::{Job, SavedSimulation};
 use crate::error::Error;
 use crate::stencil::chain::{Process, RowSums};
 use crate::stencil::rows::Rows;
 
-/// Rain and evaporation of one step, in cells.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Sky {
-    pub(crate) rain: f32,
-    pub(crate) evaporation: f32,
+uniform! {
+    /// Rain and evaporation of one step, in cells.
+    pub(crate) struct Sky {
+        pub(crate) rain: f32,
+        pub(crate) evaporation: f32,
+    }
 }
 
 /// A process and how long it runs.
@@ -96,7 +98,7 @@ impl<'a, P: Process> Running<'a, P> {
         let cells = start.count() * start.layout.columns;
         let wishes = simulation.record.as_ref().map_or(0, |record| record.means.len());
         let means = vec![vec![0.0; cells]; wishes];
-        let world = World::new(simulation.process, start.clone(), job.engine);
+        let world = World::new(simulation.process, start.clone(), &job.engine);
         let good = Good { done: 0, state: start, row_sums: world.row_sums(), means: means.clone() };
         Self { simulation, job, world, done: 0, cells, means, good }
     }

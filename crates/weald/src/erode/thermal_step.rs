@@ -7,6 +7,7 @@ use super::simulation::Simulation;
 use super::thermal::{Scheme, Slide, SlideRows, SlideScratch};
 use super::working::Working;
 use crate::engine::Job;
+use crate::engine::program::Program;
 use crate::error::Error;
 use crate::landscape::Landscape;
 use crate::parameters;
@@ -112,6 +113,10 @@ impl Process for Sliding {
 
     fn scratch(&self, columns: usize) -> SlideScratch {
         SlideScratch::new(columns)
+    }
+
+    fn program(&self) -> Program {
+        unimplemented!("the shaders of this process")
     }
 
     fn advance(&self, flow: &mut Flow<'_, Self>) {

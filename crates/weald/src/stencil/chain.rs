@@ -10,6 +10,8 @@ use std::ops::Range;
 
 use super::ring::Ring;
 use super::rows::Layout;
+use crate::engine::program::Program;
+use crate::engine::uniform::Uniform;
 
 /// Sums that a process keeps for each row, in the process's own order.
 pub(crate) const SUMS: usize = 5;
@@ -20,7 +22,7 @@ pub(crate) type RowSums = [f64; SUMS];
 /// A simulation step as a stream of rows.
 pub(crate) trait Process: Sync {
     /// What differs from step to step: rain or sunshine.
-    type Weather: Copy + Send + Sync;
+    type Weather: Uniform + Copy + Send + Sync;
     /// Rows in flight within one step.
     type Scratch: Send;
 
@@ -34,6 +36,8 @@ pub(crate) trait Process: Sync {
     fn reach(&self) -> usize;
     /// Memory for one step over rows of this many cells.
     fn scratch(&self, columns: usize) -> Self::Scratch;
+    /// The same step as compute passes.
+    fn program(&self) -> Program;
     /// Takes row `flow.y` in and finishes row `flow.y - lag` of the output.
     fn advance(&self, flow: &mut Flow<'_, Self>);
 }

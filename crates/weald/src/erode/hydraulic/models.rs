@@ -134,7 +134,7 @@ fn seconds_of<P: Process<Weather = Sky>>(
     weather: &[Sky],
     engine: Engine,
 ) -> f64 {
-    let mut world = World::new(&chosen.process, working.state(chosen.process.state_planes()), engine);
+    let mut world = World::new(&chosen.process, working.state(chosen.process.state_planes()), &engine);
     let begun = std::time::Instant::now();
     world.advance(weather);
     begun.elapsed().as_secs_f64()
