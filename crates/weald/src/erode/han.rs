@@ -11,8 +11,10 @@ mod sediment;
 mod water;
 
 use super::setting::{Setting, Settled};
-use super::simulation::{Part, Sky};
+use super::simulation::Sky;
+use crate::engine::machine::{Means, Part};
 use crate::engine::program::Program;
+use crate::grid::Size;
 use crate::stencil::chain::{Flow, Process};
 use crate::stencil::ring::Ring;
 
@@ -28,7 +30,7 @@ pub(crate) mod plane {
 }
 
 /// Mean fluxes through the eastern and southern edge of each cell.
-pub(crate) const MEAN_FLUXES: &[&[Part]] = &[
+pub(crate) const MEAN_FLUXES: Means<'static> = &[
     &[Part { plane: plane::EAST, factor: 1.0, from: [0, 0] }],
     &[Part { plane: plane::SOUTH, factor: 1.0, from: [0, 0] }],
 ];
@@ -119,6 +121,10 @@ impl Process for Han {
             tally: [Ring::new(columns, 1), Ring::new(columns, 1)],
             still: Ring::new(columns, 1),
         }
+    }
+
+    fn sized(&self, size: Size) -> Self {
+        Self { constants: self.constants, setting: self.setting.sized(size) }
     }
 
     fn program(&self) -> Program {

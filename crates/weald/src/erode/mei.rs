@@ -13,8 +13,10 @@ mod sediment;
 mod water;
 
 use super::setting::{Setting, Settled};
-use super::simulation::{Part, Sky};
+use super::simulation::Sky;
+use crate::engine::machine::{Means, Part};
 use crate::engine::program::Program;
+use crate::grid::Size;
 use crate::stencil::chain::{Flow, Process};
 use crate::stencil::ring::Ring;
 
@@ -35,7 +37,7 @@ pub(crate) mod plane {
 
 /// Mean fluxes through the eastern and southern edge of each cell: what it gives, less what its neighbour gives
 /// back.
-pub(crate) const MEAN_FLUXES: &[&[Part]] = &[
+pub(crate) const MEAN_FLUXES: Means<'static> = &[
     &[
         Part { plane: plane::EAST, factor: 1.0, from: [0, 0] },
         Part { plane: plane::WEST, factor: -1.0, from: [1, 0] },
@@ -115,6 +117,10 @@ impl Process for Mei {
             tally: [Ring::new(columns, 1), Ring::new(columns, 1)],
             still: Ring::new(columns, 1),
         }
+    }
+
+    fn sized(&self, size: Size) -> Self {
+        Self { constants: self.constants, setting: self.setting.sized(size) }
     }
 
     fn program(&self) -> Program {

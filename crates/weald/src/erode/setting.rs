@@ -8,6 +8,7 @@ use super::links::Links;
 use super::pipes::Drain;
 use super::sums;
 use super::thermal::{Slide, SlideRows, SlideScratch};
+use crate::grid::Size;
 use crate::stencil::chain::{Flow, Process};
 use crate::stencil::ring::Ring;
 
@@ -57,6 +58,11 @@ impl Settled {
 }
 
 impl Setting {
+    /// The same over a part of the domain.
+    pub(crate) fn sized(&self, size: Size) -> Self {
+        Self { links: self.links.sized(size), ..*self }
+    }
+
     /// Planes that stay: the ground of the start and what the links need.
     pub(crate) fn constant_planes(&self) -> usize {
         1 + self.links.planes()

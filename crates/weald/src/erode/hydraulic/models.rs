@@ -3,13 +3,13 @@
 use pulp::Arch;
 
 use super::{Boundary, Filled, Hydraulic, Model, Transport, UptakeLaw};
-use crate::engine::world::World;
+use crate::engine::machine::{self, Means, Snapshot};
 use crate::engine::{Engine, Job};
 use crate::erode::han::{self, Han, HanConstants};
 use crate::erode::links::Links;
 use crate::erode::mei::{self, Mei, MeiConstants};
 use crate::erode::setting::Setting;
-use crate::erode::simulation::{Finished, Part, Record, Simulation, Sky};
+use crate::erode::simulation::{Finished, Record, Simulation, Sky};
 use crate::erode::working::{Kept, Working};
 use crate::error::Error;
 use crate::landscape::Landscape;
@@ -20,7 +20,7 @@ use crate::step::Outcome;
 struct Chosen<P> {
     process: P,
     plane_names: &'static [&'static str],
-    means: &'static [&'static [Part]],
+    means: Means<'static>,
 }
 
 impl Hydraulic {
@@ -117,14 +117,14 @@ impl Hydraulic {
     ///
     /// # Errors
     /// [`Error::Run`] where the landscape lacks the layer.
-    pub fn seconds(&self, landscape: &Landscape, engine: Engine) -> Result<f64, Error> {
+    pub fn seconds(&self, landscape: &Landscape, engine: &Engine) -> Result<f64, Error> {
         let filled = self.filled(landscape.domain.cell);
         let working = Working::new(landscape, &self.layer.0, self.boundary == Boundary::Open)?;
         let weather: Vec<_> = (0..u64::from(self.iterations)).map(|step| self.sky(&filled, step)).collect();
-        Ok(match self.model {
+        match self.model {
             Model::Han => seconds_of(&self.han(&filled, &working), &working, &weather, engine),
             Model::Mei => seconds_of(&self.mei(&filled, &working), &working, &weather, engine),
-        })
+        }
     }
 }
 
@@ -132,10 +132,15 @@ fn seconds_of<P: Process<Weather = Sky>>(
     chosen: &Chosen<P>,
     working: &Working,
     weather: &[Sky],
-    engine: Engine,
-) -> f64 {
-    let mut world = World::new(&chosen.process, working.state(chosen.process.state_planes()), &engine);
+    engine: &Engine,
+) -> Result<f64, Error> {
+    let start = Snapshot::start(working.state(chosen.process.state_planes()), 0);
+    let mut machine = machine::start(&chosen.process, &[], &start, engine)?;
+    // The first step compiles, allocates and warms up; the look at the end waits for a device.
+    machine.advance(&weather[..1], false)?;
+    machine.first_not_finite()?;
     let begun = std::time::Instant::now();
-    world.advance(weather);
-    begun.elapsed().as_secs_f64()
+    machine.advance(weather, false)?;
+    machine.first_not_finite()?;
+    Ok(begun.elapsed().as_secs_f64())
 }
