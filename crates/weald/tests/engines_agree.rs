@@ -36,6 +36,16 @@ fn processes() -> Vec<Box<dyn Step>> {
                 all.push(Box::new(Hydraulic { model, transport, boundary, ..hydraulic(43) }));
             }
         }
+        for boundary in [Boundary::Closed, Boundary::Open] {
+            let transport = Transport::MacCormack;
+            all.push(Box::new(Hydraulic {
+                model,
+                transport,
+                conserve: Some(false),
+                boundary,
+                ..hydraulic(43)
+            }));
+        }
         for scheme in schemes {
             let thermal = Some(Nested(ThermalWithin { scheme, talus: 0.3, ..ThermalWithin::default() }));
             all.push(Box::new(Hydraulic { model, thermal, deposit_ratio: 0.3, ..hydraulic(43) }));

@@ -147,7 +147,9 @@ impl Process for Han {
         if let Some(y) = flow.behind(SETTLED) {
             self.faces(flow, y);
             self.settle(flow, y);
-            if self.setting.advection.is_some() {
+            if self.setting.in_flux_form() {
+                self.fluxes(flow, y);
+            } else if self.setting.advection.is_some() {
                 self.cell_velocity(flow, y);
             }
         }

@@ -139,7 +139,9 @@ impl Process for Mei {
             self.exchange(flow, y);
             // Their sediment came with the transport of the step before.
             self.setting.drain(flow, y, |scratch| (&mut scratch.settled.sediment, &mut scratch.tally));
-            if self.setting.advection.is_none() {
+            if self.setting.in_flux_form() {
+                self.fluxes(flow, y);
+            } else if self.setting.advection.is_none() {
                 self.load(flow, y);
             }
         }

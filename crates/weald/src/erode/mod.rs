@@ -5,6 +5,7 @@
 //! stream through its stages, so that several steps pass through memory at once.
 
 mod advection;
+mod flux_corrected;
 mod han;
 pub mod hydraulic;
 mod links;

@@ -2,7 +2,7 @@
 
 use pulp::Arch;
 
-use super::{Boundary, Filled, Hydraulic, Model, Transport, UptakeLaw};
+use super::{Boundary, Filled, Hydraulic, Model, UptakeLaw};
 use crate::engine::machine::{self, Means, Snapshot};
 use crate::engine::{Engine, Job};
 use crate::erode::han::{self, Han, HanConstants};
@@ -36,8 +36,7 @@ impl Hydraulic {
             Model::Han => self.simulate(&self.han(filled, working), job, filled, working),
             Model::Mei => self.simulate(&self.mei(filled, working), job, filled, working),
         }?;
-        let conserving = self.transport == Transport::Upwind;
-        let kept = Kept { iterations: u64::from(self.iterations), conserving };
+        let kept = Kept { iterations: u64::from(self.iterations), conserving: self.conserves() };
         Ok(working.store(landscape, &self.layer.0, &finished, kept))
     }
 
@@ -71,7 +70,7 @@ impl Hydraulic {
             limiter: self.limiter,
         };
         Chosen {
-            process: Han { constants, setting: self.setting(working) },
+            process: Han { constants, setting: self.setting(filled, working) },
             plane_names: &["change", "water", "sediment", "flux_east", "flux_south"],
             means: han::MEAN_FLUXES,
         }
@@ -89,7 +88,7 @@ impl Hydraulic {
             limiter: self.limiter,
         };
         Chosen {
-            process: Mei { constants, setting: self.setting(working) },
+            process: Mei { constants, setting: self.setting(filled, working) },
             plane_names: &[
                 "change",
                 "water",
@@ -103,11 +102,11 @@ impl Hydraulic {
         }
     }
 
-    fn setting(&self, working: &Working) -> Setting {
+    fn setting(&self, filled: &Filled, working: &Working) -> Setting {
         Setting {
             links: Links::new(working.size, working.mask.is_some()),
             open: self.boundary == Boundary::Open,
-            advection: self.advection(),
+            advection: self.advection(filled),
             slide: self.slide(),
             arch: Arch::new(),
         }
