@@ -19,6 +19,7 @@ mod simulation;
 mod sums;
 pub mod thermal;
 pub mod thermal_step;
+pub mod transport_step;
 mod upwind;
 mod working;
 

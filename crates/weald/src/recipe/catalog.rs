@@ -25,6 +25,7 @@ pub const CATALOG: &[Entry] = &[
     combine::resample::ENTRY,
     erode::hydraulic::ENTRY,
     erode::thermal_step::ENTRY,
+    erode::transport_step::ENTRY,
 ];
 
 /// The step of that name.
