@@ -13,8 +13,8 @@ const SIDE: usize = 12;
 /// Ground that slopes from 5.5 m in the west to 60.5 m in the east, of these materials.
 fn recipe(materials: &str, steps: &str, outputs: &str) -> String {
     format!(
-        "[landscape]\nsize = {SIDE}\ncell = 1.0\n{materials}[[step]]\ndo = \"plane\"\nrelief = 55.0\nlowest = \
-         5.5\nazimuth_deg = 90.0\n{steps}{outputs}"
+        "[landscape]\nsize = {SIDE}\ncell = 1.0\n{materials}[[step]]\ndo = \"plane\"\nslope = 5.0\nheight = \
+         33.0\nazimuth_deg = 270.0\n{steps}{outputs}"
     )
 }
 
