@@ -46,7 +46,7 @@ fn check_documented(owner: &str, parameters: &[Parameter]) {
             Kind::Number(low, high) | Kind::Integer(low, high) | Kind::Numbers(low, high) => {
                 assert!(low < high, "{name} has a range");
             }
-            Kind::Table(inner) => check_documented(&name, inner),
+            Kind::Table(inner) | Kind::Tables(inner) => check_documented(&name, inner),
             _ => {}
         }
     }
@@ -69,6 +69,7 @@ fn some_value(parameter: &Parameter) -> String {
         Kind::Sides => "16".to_owned(),
         Kind::Layer | Kind::Text => format!("\"{}_layer\"", parameter.name),
         Kind::Table(inner) => format!("{{ {} }}", needed(inner).trim().replace('\n', ", ")),
+        Kind::Tables(inner) => format!("[{{ {} }}]", needed(inner).trim().replace('\n', ", ")),
     }
 }
 

@@ -18,7 +18,7 @@ pub(crate) struct Sky {
 pub(crate) struct Simulation<'a, P: Process> {
     pub(crate) process: &'a P,
     /// Names of the state planes, for checkpoints and errors.
-    pub(crate) plane_names: &'a [&'a str],
+    pub(crate) plane_names: &'a [String],
     /// Steps to run.
     pub(crate) iterations: u64,
     /// Weather of each step.
@@ -150,7 +150,7 @@ impl<'a, P: Process> Running<'a, P> {
 
     fn watch_start(&self) -> Result<(), Error> {
         let Some((x, y, plane)) = self.first_not_finite() else { return Ok(()) };
-        let name = self.simulation.plane_names[plane];
+        let name = &self.simulation.plane_names[plane];
         Err(Error::Run(format!(
             "the simulation starts with a value of `{name}` at column {x}, row {y} that is no number"
         )))
@@ -163,7 +163,7 @@ impl<'a, P: Process> Running<'a, P> {
             let before = self.saved();
             self.advance_to(self.done + 1);
             let Some((x, y, plane)) = self.first_not_finite() else { continue };
-            let name = self.simulation.plane_names[plane];
+            let name = &self.simulation.plane_names[plane];
             let kept = match self.job.watcher.checkpoint(&before) {
                 Ok(()) => "the last good state was kept".to_owned(),
                 Err(error) => format!("the last good state could not be kept: {error}"),
@@ -201,8 +201,7 @@ impl<'a, P: Process> Running<'a, P> {
     fn saved(&self) -> SavedSimulation {
         let state = self.world.state();
         let names = self.simulation.plane_names.iter().enumerate();
-        let mut planes: Vec<_> =
-            names.map(|(plane, name)| ((*name).to_owned(), state.gather(plane))).collect();
+        let mut planes: Vec<_> = names.map(|(plane, name)| (name.clone(), state.gather(plane))).collect();
         planes.extend(self.means.iter().enumerate().map(|(at, mean)| (format!("mean_{at}"), mean.clone())));
         let sums = vec![("rows".to_owned(), self.world.row_sums())];
         SavedSimulation { iteration: self.done, planes, sums }

@@ -25,6 +25,8 @@ pub const CATALOG: &[Entry] = &[
     combine::resample::ENTRY,
     erode::hydraulic::ENTRY,
     erode::thermal_step::ENTRY,
+    erode::slippage_step::ENTRY,
+    erode::dissolution_step::ENTRY,
 ];
 
 /// The step of that name.
