@@ -56,6 +56,8 @@ pub enum Kind {
     Numbers(f64, f64),
     /// A table with parameters of its own.
     Table(Vec<Parameter>),
+    /// A list of such tables.
+    Tables(Vec<Parameter>),
 }
 
 impl Kind {
@@ -75,6 +77,7 @@ impl Kind {
             Self::Layer => "layer name".to_owned(),
             Self::Numbers(low, high) => format!("list of numbers, {}", range_in_words(*low, *high)),
             Self::Table(_) => "table".to_owned(),
+            Self::Tables(_) => "list of tables".to_owned(),
         }
     }
 }

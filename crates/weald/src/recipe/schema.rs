@@ -134,6 +134,7 @@ fn of_kind(kind: &Kind) -> Value {
             json!({ "oneOf": [side, { "type": "array", "items": side, "minItems": 2, "maxItems": 2 }] })
         }
         Kind::Table(parameters) => table(parameters),
+        Kind::Tables(parameters) => json!({ "type": "array", "items": table(parameters) }),
     }
 }
 
