@@ -136,7 +136,7 @@ mod tests {
 
     #[test]
     fn a_parameter_is_shown_with_kind_unit_and_default() {
-        let text = of("do = \"x\"", "Does x.", Some("Weald"), &crate::recipe::LandscapeKeys::parameters());
+        let text = of("do = \"x\"", "Does x.", Some("Weald"), &LandscapeKeys::parameters());
         assert!(text.contains("cell (number, 0.001 to 100000, in m)"), "{text}");
         assert!(text.contains("seed (whole number, 0 to 9007199254740991, default 0)"), "{text}");
     }
