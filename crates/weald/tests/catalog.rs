@@ -50,7 +50,7 @@ fn check_documented(owner: &str, parameters: &[Parameter]) {
             Kind::Number(low, high) | Kind::Integer(low, high) | Kind::Numbers(low, high) => {
                 assert!(low < high, "{name} has a range");
             }
-            Kind::Table(inner) => check_documented(&name, inner),
+            Kind::Table(inner) | Kind::Tables(inner) => check_documented(&name, inner),
             _ => {}
         }
     }
@@ -76,6 +76,7 @@ fn some_value(parameter: &Parameter) -> String {
         Kind::Colour => "\"#102030\"".to_owned(),
         Kind::Raster => format!("{:?}", some_raster()),
         Kind::Table(inner) => format!("{{ {} }}", needed(inner).trim().replace('\n', ", ")),
+        Kind::Tables(inner) => format!("[{{ {} }}]", needed(inner).trim().replace('\n', ", ")),
     }
 }
 

@@ -11,7 +11,10 @@ mod sediment;
 mod water;
 
 use super::setting::{Setting, Settled};
-use super::simulation::{Part, Sky};
+use super::simulation::Sky;
+use crate::engine::machine::{Means, Part};
+use crate::engine::program::Program;
+use crate::grid::Size;
 use crate::stencil::chain::{Flow, Process};
 use crate::stencil::ring::Ring;
 
@@ -27,7 +30,7 @@ pub(crate) mod plane {
 }
 
 /// Mean fluxes through the eastern and southern edge of each cell.
-pub(crate) const MEAN_FLUXES: &[&[Part]] = &[
+pub(crate) const MEAN_FLUXES: Means<'static> = &[
     &[Part { plane: plane::EAST, factor: 1.0, from: [0, 0] }],
     &[Part { plane: plane::SOUTH, factor: 1.0, from: [0, 0] }],
 ];
@@ -120,6 +123,14 @@ impl Process for Han {
         }
     }
 
+    fn sized(&self, size: Size) -> Self {
+        Self { constants: self.constants, setting: self.setting.sized(size) }
+    }
+
+    fn program(&self) -> Program {
+        unimplemented!("the shaders of this process")
+    }
+
     fn advance(&self, flow: &mut Flow<'_, Self>) {
         if let Some(y) = flow.behind(0) {
             self.surface(flow, y);
@@ -136,7 +147,9 @@ impl Process for Han {
         if let Some(y) = flow.behind(SETTLED) {
             self.faces(flow, y);
             self.settle(flow, y);
-            if self.setting.advection.is_some() {
+            if self.setting.in_flux_form() {
+                self.fluxes(flow, y);
+            } else if self.setting.advection.is_some() {
                 self.cell_velocity(flow, y);
             }
         }

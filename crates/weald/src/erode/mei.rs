@@ -8,12 +8,15 @@
 //! (`semi-lagrangian` gives the source's); exchange constants are per step; ground is kept as start plus
 //! change (see [`super::settling`]).
 
-mod kernels;
+pub(crate) mod kernels;
 mod sediment;
 mod water;
 
 use super::setting::{Setting, Settled};
-use super::simulation::{Part, Sky};
+use super::simulation::Sky;
+use crate::engine::machine::{Means, Part};
+use crate::engine::program::Program;
+use crate::grid::Size;
 use crate::stencil::chain::{Flow, Process};
 use crate::stencil::ring::Ring;
 
@@ -34,7 +37,7 @@ pub(crate) mod plane {
 
 /// Mean fluxes through the eastern and southern edge of each cell: what it gives, less what its neighbour gives
 /// back.
-pub(crate) const MEAN_FLUXES: &[&[Part]] = &[
+pub(crate) const MEAN_FLUXES: Means<'static> = &[
     &[
         Part { plane: plane::EAST, factor: 1.0, from: [0, 0] },
         Part { plane: plane::WEST, factor: -1.0, from: [1, 0] },
@@ -116,6 +119,14 @@ impl Process for Mei {
         }
     }
 
+    fn sized(&self, size: Size) -> Self {
+        Self { constants: self.constants, setting: self.setting.sized(size) }
+    }
+
+    fn program(&self) -> Program {
+        unimplemented!("the shaders of this process")
+    }
+
     fn advance(&self, flow: &mut Flow<'_, Self>) {
         if let Some(y) = flow.behind(0) {
             self.rain(flow, y);
@@ -128,7 +139,9 @@ impl Process for Mei {
             self.exchange(flow, y);
             // Their sediment came with the transport of the step before.
             self.setting.drain(flow, y, |scratch| (&mut scratch.settled.sediment, &mut scratch.tally));
-            if self.setting.advection.is_none() {
+            if self.setting.in_flux_form() {
+                self.fluxes(flow, y);
+            } else if self.setting.advection.is_none() {
                 self.load(flow, y);
             }
         }

@@ -7,7 +7,9 @@ use super::simulation::Simulation;
 use super::thermal::{Scheme, Slide, SlideRows, SlideScratch};
 use super::working::Working;
 use crate::engine::Job;
+use crate::engine::program::Program;
 use crate::error::Error;
+use crate::grid::Size;
 use crate::landscape::Landscape;
 use crate::parameters;
 use crate::recipe::parameter::LayerName;
@@ -73,12 +75,12 @@ impl Step for Thermal {
         let process = Sliding { slide, links, arch: Arch::new() };
         let simulation = Simulation {
             process: &process,
-            plane_names: &["change"],
+            plane_names: &["change".to_owned()],
             iterations: u64::from(self.iterations),
             weather: &|_| (),
             record: None,
         };
-        let finished = simulation.run(working.state(1), job)?;
+        let finished = simulation.run(working.state(1, &[]), job)?;
         Ok(working.store_ground(landscape, &self.layer.0, &finished, u64::from(self.iterations)))
     }
 }
@@ -112,6 +114,14 @@ impl Process for Sliding {
 
     fn scratch(&self, columns: usize) -> SlideScratch {
         SlideScratch::new(columns)
+    }
+
+    fn sized(&self, size: Size) -> Self {
+        Self { links: self.links.sized(size), ..*self }
+    }
+
+    fn program(&self) -> Program {
+        unimplemented!("the shaders of this process")
     }
 
     fn advance(&self, flow: &mut Flow<'_, Self>) {

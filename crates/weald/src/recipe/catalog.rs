@@ -29,6 +29,9 @@ pub const CATALOG: &[Entry] = &[
     combine::top_material::ENTRY,
     erode::hydraulic::ENTRY,
     erode::thermal_step::ENTRY,
+    erode::transport_step::ENTRY,
+    erode::slippage_step::ENTRY,
+    erode::dissolution_step::ENTRY,
 ];
 
 /// The step of that name.

@@ -99,7 +99,7 @@ fn write_parameters(text: &mut String, parameters: &[Parameter], indent: usize) 
         let kind = parameter.kind.in_words();
         let _ = writeln!(text, "\n{:indent$}{} ({kind}{unit}{default})", "", parameter.name);
         text.push_str(&wrapped(parameter.doc, indent + 2));
-        if let Kind::Table(inner) = &parameter.kind {
+        if let Kind::Table(inner) | Kind::Tables(inner) = &parameter.kind {
             write_parameters(text, inner, indent + 4);
         }
     }

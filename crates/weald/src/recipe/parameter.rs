@@ -60,6 +60,8 @@ pub enum Kind {
     Numbers(f64, f64),
     /// A table with parameters of its own.
     Table(Vec<Parameter>),
+    /// A list of such tables.
+    Tables(Vec<Parameter>),
 }
 
 impl Kind {
@@ -80,6 +82,7 @@ impl Kind {
             Self::Numbers(low, high) => format!("list of numbers, {}", range_in_words(*low, *high)),
             Self::Places => "[x, y], or a list of places".to_owned(),
             Self::Table(_) => "table".to_owned(),
+            Self::Tables(_) => "list of tables".to_owned(),
         }
     }
 }

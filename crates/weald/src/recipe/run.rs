@@ -190,7 +190,7 @@ impl Run<'_> {
         let started = Instant::now();
         let desk = Desk::new(self, state, progress, clock);
         let seed = planned.seed(self.recipe.seed);
-        let job = Job { seed, engine: self.options.engine, watcher: &desk, resume };
+        let job = Job { seed, engine: self.options.engine.clone(), watcher: &desk, resume };
         let result = planned.step.run(&mut landscape, &job);
         drop(job);
         let result = result.and_then(|outcome| {
@@ -240,7 +240,7 @@ impl Run<'_> {
         let outputs = outputs.collect::<Result<_, _>>()?;
         let report = Report {
             engine: self.options.engine.name().to_owned(),
-            adapter: None,
+            adapter: self.options.engine.adapter(),
             seed: self.recipe.seed,
             recipe_blake3: hash.clone(),
             version: env!("CARGO_PKG_VERSION").to_owned(),

@@ -140,6 +140,7 @@ fn of_kind(kind: &Kind) -> Value {
             json!({ "oneOf": [place, { "type": "array", "items": place, "minItems": 1 }] })
         }
         Kind::Table(parameters) => table(parameters),
+        Kind::Tables(parameters) => json!({ "type": "array", "items": table(parameters) }),
     }
 }
 
