@@ -71,6 +71,7 @@ fn some_value(parameter: &Parameter) -> String {
         Kind::Choice(words) => format!("{:?}", words[0]),
         Kind::Numbers(low, high) => format!("[{:?}]", (low + high) / 2.0),
         Kind::Sides => "16".to_owned(),
+        Kind::Places => "[1.0, 2.0]".to_owned(),
         Kind::Layer | Kind::Text => format!("\"{}_layer\"", parameter.name),
         Kind::Colour => "\"#102030\"".to_owned(),
         Kind::Raster => format!("{:?}", some_raster()),
