@@ -87,3 +87,21 @@ pub fn spring(x: f64, y: f64) -> Nested<Spring> {
 pub fn worst_difference(a: &Field, b: &Field) -> f32 {
     a.values().iter().zip(b.values()).map(|(a, b)| (a - b).abs()).fold(0.0, f32::max)
 }
+
+/// A function from cell to cell.
+pub type Turn = Box<dyn Fn(usize, usize) -> (usize, usize)>;
+
+/// The eight symmetries of the square.
+pub fn symmetries(side: usize) -> [Turn; 8] {
+    let m = side - 1;
+    [
+        Box::new(|x, y| (x, y)),
+        Box::new(move |x, y| (m - x, y)),
+        Box::new(move |x, y| (x, m - y)),
+        Box::new(move |x, y| (m - x, m - y)),
+        Box::new(|x, y| (y, x)),
+        Box::new(move |x, y| (m - y, x)),
+        Box::new(move |x, y| (y, m - x)),
+        Box::new(move |x, y| (m - y, m - x)),
+    ]
+}
