@@ -91,12 +91,12 @@ parameters! {
         /// (mei).
         dry_period: Option<u32> = None, range 0..=10_000_000, unit "steps";
         /// Sediment that a unit of water holds at unit speed and slope (K_c). Default 10 (han), 0.05 (mei),
-        /// 0.05 (stava).
+        /// 0.2 (stava).
         capacity: Option<f64> = None, range 0.0..=10_000.0;
         /// han: uptake a unit of speed (K_v), default 0.005; with law = "dissolution" the share of the free
         /// capacity (K_s), default 0.01. mei: share of the free capacity (K_s), default 0.1.
-        /// stava: factor of the erodibility of every material, default 1.
-        erosion: Option<f64> = None, range 0.0..=1.0;
+        /// stava: factor of the erodibility of every material, default 20.
+        erosion: Option<f64> = None, range 0.0..=10_000.0;
         /// mei, stava: share of the surplus sediment that settles in a step (K_d). han settles all of it.
         deposition: f64 = 0.1, range 0.0..=1.0;
         /// Share of a deposit that the ground gets back (r); below 1 it keeps lakes from filling with more

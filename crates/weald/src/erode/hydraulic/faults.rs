@@ -18,6 +18,10 @@ impl Hydraulic {
         if self.model == Model::Mei && self.evaporation.is_some_and(|share| share > 1.0) {
             faults.push("`evaporation` of model \"mei\" is a share of the depth, 0 to 1".to_owned());
         }
+        if self.model != Model::Stava && self.erosion.is_some_and(|share| share > 1.0) {
+            let model = self.model.word();
+            faults.push(format!("`erosion` of model {model:?} is a share of at most 1"));
+        }
         if self.region.is_some() && self.boundary == Boundary::Open {
             let fault = "`region` has walls around it, so `boundary` must be \"closed\"";
             faults.push(fault.to_owned());
