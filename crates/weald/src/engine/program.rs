@@ -4,6 +4,10 @@
 //! the method only: what it can see (grid, constants, weather, buffers) is written in front of it from the
 //! declarations here, so that host and shader cannot come to disagree about a binding.
 
+pub(crate) mod draft;
+#[cfg(test)]
+pub(crate) mod twin;
+
 use std::fmt::Write;
 
 use super::uniform::Uniform;
@@ -23,6 +27,7 @@ const PRELUDE: &str = include_str!("../stencil/prelude.wgsl");
 const LINKS_WHOLE: &str = include_str!("../stencil/links_whole.wgsl");
 const LINKS_MASKED: &str = include_str!("../stencil/links_masked.wgsl");
 const TALLY: &str = include_str!("../stencil/tally.wgsl");
+const TALLY_NONE: &str = include_str!("../stencil/tally_none.wgsl");
 
 /// One step of a process.
 #[derive(Clone, Debug)]
@@ -106,6 +111,14 @@ impl Uniforms {
     pub fn of<U: Uniform>(values: &U) -> Self {
         Self { name: U::NAME, fields: U::fields(), words: values.words() }
     }
+
+    /// The same struct with the fields of another behind its own.
+    #[must_use]
+    pub fn followed_by<U: Uniform>(mut self, values: &U) -> Self {
+        self.fields.extend(U::fields());
+        self.words.extend(values.words());
+        self
+    }
 }
 
 impl Buffer {
@@ -156,9 +169,7 @@ impl Program {
         let _ = writeln!(text, "const GROUP: u32 = {GROUP}u;\nconst SUMS: u32 = {SUMS}u;");
         text.push_str(PRELUDE);
         text.push_str(if self.mask.is_some() { LINKS_MASKED } else { LINKS_WHOLE });
-        if pass.tallies {
-            text.push_str(TALLY);
-        }
+        text.push_str(if pass.tallies { TALLY } else { TALLY_NONE });
         for shader in &pass.shaders {
             text.push_str(shader);
         }

@@ -9,6 +9,10 @@
 //! Neither conserves sediment; the budget of the run shows what they lose. What differs from the sources:
 //! at walls and no-data cells the departure point stops at the last cell with data.
 
+mod program;
+
+pub(crate) use program::Advected;
+
 use std::ops::Range;
 
 use pulp::Arch;

@@ -10,6 +10,7 @@ pub mod hydraulic;
 mod links;
 mod mei;
 mod pipes;
+mod programs;
 mod setting;
 mod settling;
 mod simulation;
@@ -18,6 +19,8 @@ pub mod thermal;
 pub mod thermal_step;
 mod upwind;
 mod working;
+
+pub use programs::programs;
 
 use crate::stencil::ring::Ring;
 

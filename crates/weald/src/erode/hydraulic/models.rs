@@ -68,10 +68,9 @@ impl Hydraulic {
             deposit_ratio: self.deposit_ratio as f32,
             epsilon: filled.epsilon,
             velocity_epsilon: filled.velocity_epsilon,
-            limiter: self.limiter,
         };
         Chosen {
-            process: Han { constants, setting: self.setting(working) },
+            process: Han { constants, limiter: self.limiter, setting: self.setting(working) },
             plane_names: &["change", "water", "sediment", "flux_east", "flux_south"],
             means: han::MEAN_FLUXES,
         }
@@ -86,10 +85,9 @@ impl Hydraulic {
             deposit_ratio: self.deposit_ratio as f32,
             epsilon: filled.epsilon,
             velocity_epsilon: filled.velocity_epsilon,
-            limiter: self.limiter,
         };
         Chosen {
-            process: Mei { constants, setting: self.setting(working) },
+            process: Mei { constants, limiter: self.limiter, setting: self.setting(working) },
             plane_names: &[
                 "change",
                 "water",
