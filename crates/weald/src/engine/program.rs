@@ -207,6 +207,12 @@ impl Program {
         self.buffers.iter().map(|buffer| 4 * buffer.lanes).sum()
     }
 
+    /// Bytes a cell of the copy that is kept to go back to.
+    pub fn bytes_kept_per_cell(&self) -> usize {
+        let kept = |content: &Content| matches!(content, Content::State(_) | Content::Mean);
+        self.buffers.iter().filter(|buffer| kept(&buffer.content)).map(|buffer| 4 * buffer.lanes).sum()
+    }
+
     /// Bytes a cell of the widest buffer.
     pub fn widest_buffer(&self) -> usize {
         self.buffers.iter().map(|buffer| 4 * buffer.lanes).max().unwrap_or(4)

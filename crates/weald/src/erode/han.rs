@@ -12,9 +12,11 @@ mod sediment;
 mod water;
 
 use super::setting::{Setting, Settled};
-use super::simulation::{Part, Sky};
+use super::simulation::Sky;
+use crate::engine::machine::{Means, Part};
 use crate::engine::program::Program;
 use crate::engine::uniform::uniform;
+use crate::grid::Size;
 use crate::stencil::chain::{Flow, Process};
 use crate::stencil::ring::Ring;
 
@@ -30,7 +32,7 @@ pub(crate) mod plane {
 }
 
 /// Mean fluxes through the eastern and southern edge of each cell.
-pub(crate) const MEAN_FLUXES: &[&[Part]] = &[
+pub(crate) const MEAN_FLUXES: Means<'static> = &[
     &[Part { plane: plane::EAST, factor: 1.0, from: [0, 0] }],
     &[Part { plane: plane::SOUTH, factor: 1.0, from: [0, 0] }],
 ];
@@ -125,6 +127,10 @@ impl Process for Han {
         }
     }
 
+    fn sized(&self, size: Size) -> Self {
+        Self { setting: self.setting.sized(size), ..*self }
+    }
+
     fn program(&self) -> Program {
         self.passes()
     }
@@ -145,7 +151,9 @@ impl Process for Han {
         if let Some(y) = flow.behind(SETTLED) {
             self.faces(flow, y);
             self.settle(flow, y);
-            if self.setting.advection.is_some() {
+            if self.setting.in_flux_form() {
+                self.fluxes(flow, y);
+            } else if self.setting.advection.is_some() {
                 self.cell_velocity(flow, y);
             }
         }

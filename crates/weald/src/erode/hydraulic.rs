@@ -41,7 +41,7 @@ choices! {
         Upwind = "upwind",
         /// Back along the velocity; loses sediment, and the report says how much.
         SemiLagrangian = "semi-lagrangian",
-        /// The same, corrected to second order; loses sediment too.
+        /// Corrected to second order; with `conserve` it loses nothing, without it is the published scheme.
         MacCormack = "maccormack",
     }
 }
@@ -93,6 +93,8 @@ parameters! {
         limiter: bool = true;
         /// How sediment travels.
         transport: Transport = Transport::Upwind;
+        /// Whether transport = "maccormack" takes the form that conserves sediment. Default true.
+        conserve: Option<bool> = None;
         /// Depth added where sediment is divided by depth. Default 0.001 cells.
         epsilon: Option<f64> = None, range 0.000_000_1..=100.0, unit "m";
         /// han: depth added where flux is divided by depth, default 0.1 cells. mei: depth below which water
@@ -157,11 +159,23 @@ impl Hydraulic {
         }
     }
 
-    fn advection(&self) -> Option<Advection> {
+    fn advection(&self, filled: &Filled) -> Option<Advection> {
         match self.transport {
             Transport::Upwind => None,
             Transport::SemiLagrangian => Some(Advection::SemiLagrangian),
+            Transport::MacCormack if self.conserves() => {
+                Some(Advection::FluxCorrected { epsilon: filled.epsilon })
+            }
             Transport::MacCormack => Some(Advection::MacCormack),
+        }
+    }
+
+    /// Whether transport loses no sediment.
+    fn conserves(&self) -> bool {
+        match self.transport {
+            Transport::Upwind => true,
+            Transport::SemiLagrangian => false,
+            Transport::MacCormack => self.conserve.unwrap_or(true),
         }
     }
 
@@ -213,6 +227,17 @@ impl Step for Hydraulic {
         }
         if self.model == Model::Mei && self.evaporation.is_some_and(|share| share > 1.0) {
             faults.push("`evaporation` of model \"mei\" is a share of the depth, 0 to 1".to_owned());
+        }
+        if self.transport == Transport::Upwind && self.conserve == Some(false) {
+            faults
+                .push("`conserve` is false, but transport = \"upwind\" always conserves sediment".to_owned());
+        }
+        if self.transport == Transport::SemiLagrangian && self.conserve == Some(true) {
+            faults.push(
+                "`conserve` is true, but transport = \"semi-lagrangian\" cannot conserve sediment; \
+                 \"maccormack\" and \"upwind\" can"
+                    .to_owned(),
+            );
         }
         faults
     }

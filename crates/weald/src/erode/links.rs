@@ -75,6 +75,11 @@ impl Links {
         Self::Whole(Box::new(WholeLinks { rows, ones, zeros, east, west, shares }))
     }
 
+    /// Links of a part of that size, as if its edges were walls.
+    pub(crate) fn sized(&self, size: Size) -> Self {
+        Self::new(size, matches!(self, Self::Masked))
+    }
+
     /// Number of constant planes that the links need.
     pub(crate) fn planes(&self) -> usize {
         if matches!(self, Self::Masked) { MASK_PLANES } else { 0 }

@@ -14,9 +14,11 @@ mod sediment;
 mod water;
 
 use super::setting::{Setting, Settled};
-use super::simulation::{Part, Sky};
+use super::simulation::Sky;
+use crate::engine::machine::{Means, Part};
 use crate::engine::program::Program;
 use crate::engine::uniform::uniform;
+use crate::grid::Size;
 use crate::stencil::chain::{Flow, Process};
 use crate::stencil::ring::Ring;
 
@@ -37,7 +39,7 @@ pub(crate) mod plane {
 
 /// Mean fluxes through the eastern and southern edge of each cell: what it gives, less what its neighbour gives
 /// back.
-pub(crate) const MEAN_FLUXES: &[&[Part]] = &[
+pub(crate) const MEAN_FLUXES: Means<'static> = &[
     &[
         Part { plane: plane::EAST, factor: 1.0, from: [0, 0] },
         Part { plane: plane::WEST, factor: -1.0, from: [1, 0] },
@@ -120,6 +122,10 @@ impl Process for Mei {
         }
     }
 
+    fn sized(&self, size: Size) -> Self {
+        Self { setting: self.setting.sized(size), ..*self }
+    }
+
     fn program(&self) -> Program {
         self.passes()
     }
@@ -136,7 +142,9 @@ impl Process for Mei {
             self.exchange(flow, y);
             // Their sediment came with the transport of the step before.
             self.setting.drain(flow, y, |scratch| (&mut scratch.settled.sediment, &mut scratch.tally));
-            if self.setting.advection.is_none() {
+            if self.setting.in_flux_form() {
+                self.fluxes(flow, y);
+            } else if self.setting.advection.is_none() {
                 self.load(flow, y);
             }
         }

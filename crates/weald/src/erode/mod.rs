@@ -5,18 +5,22 @@
 //! stream through its stages, so that several steps pass through memory at once.
 
 mod advection;
+mod flux_corrected;
 mod han;
 pub mod hydraulic;
 mod links;
 mod mei;
+mod pace;
 mod pipes;
 mod programs;
+mod saved;
 mod setting;
 mod settling;
 mod simulation;
 mod sums;
 pub mod thermal;
 pub mod thermal_step;
+pub mod transport_step;
 mod upwind;
 mod working;
 

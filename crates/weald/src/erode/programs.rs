@@ -9,6 +9,7 @@ use super::mei::{Mei, MeiConstants};
 use super::setting::Setting;
 use super::thermal::{Scheme, Slide, SlideConstants};
 use super::thermal_step::Sliding;
+use super::transport_step::Carrying;
 use crate::engine::program::Program;
 use crate::grid::Size;
 use crate::stencil::chain::Process;
@@ -33,7 +34,11 @@ pub fn programs() -> Vec<Program> {
                 .program(),
         ]
     });
-    sliding.chain(models).collect()
+    let carrying = [false, true].into_iter().flat_map(|masked| {
+        advections()
+            .map(move |advection| Carrying { advection, links: links(masked), arch: Arch::new() }.program())
+    });
+    sliding.chain(carrying).chain(models).collect()
 }
 
 const HAN: HanConstants = HanConstants {
@@ -73,13 +78,18 @@ impl Variant {
 }
 
 fn settings() -> impl Iterator<Item = Variant> {
-    let advections = [None, Some(Advection::SemiLagrangian), Some(Advection::MacCormack)];
+    let advections = [None].into_iter().chain(advections().map(Some));
     let borders = [(false, false), (true, false), (true, true)];
     borders.into_iter().flat_map(move |(masked, open)| {
-        advections.into_iter().flat_map(move |advection| {
+        advections.clone().flat_map(move |advection| {
             slides().into_iter().map(move |slide| Variant { masked, open, advection, slide })
         })
     })
+}
+
+fn advections() -> impl Iterator<Item = Advection> + Clone {
+    let conserving = Advection::FluxCorrected { epsilon: 0.001 };
+    [Advection::SemiLagrangian, Advection::MacCormack, conserving].into_iter()
 }
 
 fn slides() -> [Option<Slide>; 4] {

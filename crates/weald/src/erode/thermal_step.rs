@@ -11,6 +11,7 @@ use super::working::Working;
 use crate::engine::Job;
 use crate::engine::program::Program;
 use crate::error::Error;
+use crate::grid::Size;
 use crate::landscape::Landscape;
 use crate::parameters;
 use crate::recipe::parameter::LayerName;
@@ -117,6 +118,10 @@ impl Process for Sliding {
 
     fn scratch(&self, columns: usize) -> SlideScratch {
         SlideScratch::new(columns)
+    }
+
+    fn sized(&self, size: Size) -> Self {
+        Self { links: self.links.sized(size), ..*self }
     }
 
     fn program(&self) -> Program {

@@ -138,8 +138,8 @@ impl Working {
         let mut notes = Vec::new();
         if !kept.conserving {
             notes.push(format!(
-                "this transport does not conserve sediment: {:.3e} m³ of solid were {}; transport = \"upwind\" \
-                 conserves it",
+                "this transport does not conserve sediment: {:.3e} m³ of solid were {}; transport = \"upwind\", or \
+                 \"maccormack\" with `conserve`, conserves it",
                 (budget.solid.error() * budget.solid.start).abs(),
                 if budget.solid.error() > 0.0 { "lost" } else { "made" },
             ));

@@ -18,7 +18,9 @@ const FLUX: &str = include_str!("flux.wgsl");
 const FLOW: &str = include_str!("flow.wgsl");
 const FACES: &str = include_str!("faces.wgsl");
 const SETTLE: &str = include_str!("settle.wgsl");
+const SETTLED: &str = include_str!("settled.wgsl");
 const VELOCITY: &str = include_str!("velocity.wgsl");
+const FACES_OF_FLUX: &str = include_str!("faces_of_flux.wgsl");
 const ARRIVE: &str = include_str!("arrive.wgsl");
 const RECORD: &str = include_str!("record.wgsl");
 
@@ -55,16 +57,23 @@ impl Han {
         settle.tallies = self.constants.deposit_ratio < 1.0;
         match self.setting.advection {
             None => draft.swap("sediment", "sediment_next"),
-            Some(advection) => advection.add_to(
-                draft,
-                &Advected {
-                    from: &[SETTLING, FACES, VELOCITY],
-                    into: ARRIVE,
-                    reads: &["sediment_next", "depth_next", "fluxes"],
-                    writes: "sediment",
-                },
-            ),
+            Some(advection) => advection.add_to(draft, &self.advected()),
         }
         self.setting.add_slide_to(draft);
+    }
+
+    fn advected(&self) -> Advected<'static> {
+        let fluxes = self.setting.in_flux_form();
+        Advected {
+            from: if fluxes { &[SETTLED, FACES_OF_FLUX] } else { &[SETTLED, SETTLING, FACES, VELOCITY] },
+            into: &[ARRIVE],
+            reads: if fluxes {
+                &["sediment_next", "fluxes", "depth"]
+            } else {
+                &["sediment_next", "fluxes", "depth_next"]
+            },
+            keeps: &[],
+            writes: "sediment",
+        }
     }
 }

@@ -1,10 +1,6 @@
 
-// What the advection reads and writes.
+// What carries sediment by the velocity of its cell.
 
 fn velocity(cell: vec2<i32>) -> vec2<f32> {
     return cell_velocity(faces(cell));
-}
-
-fn settled_sediment(cell: vec2<i32>) -> f32 {
-    return sediment_next[index(cell)];
 }

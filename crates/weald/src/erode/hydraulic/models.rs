@@ -2,14 +2,14 @@
 
 use pulp::Arch;
 
-use super::{Boundary, Filled, Hydraulic, Model, Transport, UptakeLaw};
-use crate::engine::world::World;
+use super::{Boundary, Filled, Hydraulic, Model, UptakeLaw};
+use crate::engine::machine::{self, Means, Snapshot};
 use crate::engine::{Engine, Job};
 use crate::erode::han::{self, Han, HanConstants};
 use crate::erode::links::Links;
 use crate::erode::mei::{self, Mei, MeiConstants};
 use crate::erode::setting::Setting;
-use crate::erode::simulation::{Finished, Part, Record, Simulation, Sky};
+use crate::erode::simulation::{Finished, Record, Simulation, Sky};
 use crate::erode::working::{Kept, Working};
 use crate::error::Error;
 use crate::landscape::Landscape;
@@ -20,7 +20,7 @@ use crate::step::Outcome;
 struct Chosen<P> {
     process: P,
     plane_names: &'static [&'static str],
-    means: &'static [&'static [Part]],
+    means: Means<'static>,
 }
 
 impl Hydraulic {
@@ -36,8 +36,7 @@ impl Hydraulic {
             Model::Han => self.simulate(&self.han(filled, working), job, filled, working),
             Model::Mei => self.simulate(&self.mei(filled, working), job, filled, working),
         }?;
-        let conserving = self.transport == Transport::Upwind;
-        let kept = Kept { iterations: u64::from(self.iterations), conserving };
+        let kept = Kept { iterations: u64::from(self.iterations), conserving: self.conserves() };
         Ok(working.store(landscape, &self.layer.0, &finished, kept))
     }
 
@@ -70,7 +69,7 @@ impl Hydraulic {
             velocity_epsilon: filled.velocity_epsilon,
         };
         Chosen {
-            process: Han { constants, limiter: self.limiter, setting: self.setting(working) },
+            process: Han { constants, limiter: self.limiter, setting: self.setting(filled, working) },
             plane_names: &["change", "water", "sediment", "flux_east", "flux_south"],
             means: han::MEAN_FLUXES,
         }
@@ -87,7 +86,7 @@ impl Hydraulic {
             velocity_epsilon: filled.velocity_epsilon,
         };
         Chosen {
-            process: Mei { constants, limiter: self.limiter, setting: self.setting(working) },
+            process: Mei { constants, limiter: self.limiter, setting: self.setting(filled, working) },
             plane_names: &[
                 "change",
                 "water",
@@ -101,11 +100,11 @@ impl Hydraulic {
         }
     }
 
-    fn setting(&self, working: &Working) -> Setting {
+    fn setting(&self, filled: &Filled, working: &Working) -> Setting {
         Setting {
             links: Links::new(working.size, working.mask.is_some()),
             open: self.boundary == Boundary::Open,
-            advection: self.advection(),
+            advection: self.advection(filled),
             slide: self.slide(),
             arch: Arch::new(),
         }
@@ -115,14 +114,14 @@ impl Hydraulic {
     ///
     /// # Errors
     /// [`Error::Run`] where the landscape lacks the layer.
-    pub fn seconds(&self, landscape: &Landscape, engine: Engine) -> Result<f64, Error> {
+    pub fn seconds(&self, landscape: &Landscape, engine: &Engine) -> Result<f64, Error> {
         let filled = self.filled(landscape.domain.cell);
         let working = Working::new(landscape, &self.layer.0, self.boundary == Boundary::Open)?;
         let weather: Vec<_> = (0..u64::from(self.iterations)).map(|step| self.sky(&filled, step)).collect();
-        Ok(match self.model {
+        match self.model {
             Model::Han => seconds_of(&self.han(&filled, &working), &working, &weather, engine),
             Model::Mei => seconds_of(&self.mei(&filled, &working), &working, &weather, engine),
-        })
+        }
     }
 }
 
@@ -130,10 +129,15 @@ fn seconds_of<P: Process<Weather = Sky>>(
     chosen: &Chosen<P>,
     working: &Working,
     weather: &[Sky],
-    engine: Engine,
-) -> f64 {
-    let mut world = World::new(&chosen.process, working.state(chosen.process.state_planes()), &engine);
+    engine: &Engine,
+) -> Result<f64, Error> {
+    let start = Snapshot::start(working.state(chosen.process.state_planes()), 0);
+    let mut machine = machine::start(&chosen.process, &[], &start, engine)?;
+    // The first step compiles, allocates and warms up; the look at the end waits for a device.
+    machine.advance(&weather[..1], false)?;
+    machine.first_not_finite()?;
     let begun = std::time::Instant::now();
-    world.advance(weather);
-    begun.elapsed().as_secs_f64()
+    machine.advance(weather, false)?;
+    machine.first_not_finite()?;
+    Ok(begun.elapsed().as_secs_f64())
 }

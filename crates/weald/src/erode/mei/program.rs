@@ -16,9 +16,12 @@ const OUTFLOW: &str = include_str!("outflow.wgsl");
 const CAME: &str = include_str!("came.wgsl");
 const EXCHANGE: &str = include_str!("exchange.wgsl");
 const HAND_ON_LOAD: &str = include_str!("hand_on_load.wgsl");
+const HAND_ON_DEPTH: &str = include_str!("hand_on_depth.wgsl");
 const HAND_ON_VELOCITY: &str = include_str!("hand_on_velocity.wgsl");
 const CARRY: &str = include_str!("carry.wgsl");
+const SETTLED: &str = include_str!("settled.wgsl");
 const VELOCITY: &str = include_str!("velocity.wgsl");
+const FACES_OF_FLUX: &str = include_str!("faces_of_flux.wgsl");
 const ARRIVE: &str = include_str!("arrive.wgsl");
 const RECORD: &str = include_str!("record.wgsl");
 
@@ -53,17 +56,22 @@ fn add_upwind_to(draft: &mut Draft) {
 }
 
 fn add_advection_to(draft: &mut Draft, advection: Advection) {
-    draft.scratch("velocities", 2);
     draft.scratch("carried_next", 2);
-    add_exchange_to(draft, HAND_ON_VELOCITY, "velocities");
-    let model = Advected {
-        from: &[VELOCITY],
-        into: ARRIVE,
-        reads: &["carried", "velocities"],
-        writes: "carried_next",
-    };
-    advection.add_to(draft, &model);
+    if let Advection::FluxCorrected { .. } = advection {
+        draft.scratch("rained_depth", 1);
+        add_exchange_to(draft, HAND_ON_DEPTH, "rained_depth");
+        let from = [SETTLED, CAME, FACES_OF_FLUX];
+        advection.add_to(draft, &advected(&from, &["carried", "outflows", "rained_depth"]));
+    } else {
+        draft.scratch("velocities", 2);
+        add_exchange_to(draft, HAND_ON_VELOCITY, "velocities");
+        advection.add_to(draft, &advected(&[SETTLED, VELOCITY], &["carried", "velocities"]));
+    }
     draft.swap("carried", "carried_next");
+}
+
+fn advected<'a>(from: &'a [&'static str], reads: &'a [&'a str]) -> Advected<'a> {
+    Advected { from, into: &[ARRIVE], reads, keeps: &["carried"], writes: "carried_next" }
 }
 
 fn add_exchange_to(draft: &mut Draft, hand_on: &'static str, handed_on: &str) {
