@@ -61,6 +61,8 @@ pub struct Buffer {
     pub lanes: usize,
     /// Whether lanes are planes one after the other (`array<f32>` of lanes × cells) instead of vectors.
     pub layered: bool,
+    /// Whether its values are whole numbers of 32 bits (`u32`), written and read as the bits of `f32`.
+    pub words: bool,
     /// What is in it.
     pub content: Content,
 }
@@ -76,6 +78,8 @@ pub enum Content {
     Scratch,
     /// Sums over the recorded steps, one lane a wish; zero at the start.
     Mean,
+    /// So many elements that the host writes and all cells read.
+    Table(usize),
 }
 
 /// One dispatch over all cells.
@@ -124,19 +128,37 @@ impl Uniforms {
 impl Buffer {
     /// A buffer of vectors.
     pub fn new(name: &'static str, lanes: usize, content: Content) -> Self {
-        Self { name, lanes, layered: false, content }
+        Self { name, lanes, layered: false, words: false, content }
     }
 
     /// A buffer of planes one after the other.
     pub fn layered(name: &'static str, lanes: usize, content: Content) -> Self {
-        Self { name, lanes, layered: true, content }
+        Self { name, lanes, layered: true, words: false, content }
     }
 
-    fn element(&self) -> &'static str {
+    /// A buffer of vectors of whole numbers.
+    pub fn of_words(name: &'static str, lanes: usize, content: Content) -> Self {
+        Self { words: true, ..Self::new(name, lanes, content) }
+    }
+
+    /// Numbers of four bytes in it for a grid of that many cells.
+    pub fn length(&self, cells: usize) -> usize {
+        match self.content {
+            Content::Table(elements) => self.lanes * elements,
+            _ => self.lanes * cells,
+        }
+    }
+
+    /// Bytes that each cell takes; those of a table do not grow with the grid.
+    fn bytes_per_cell(&self) -> usize {
+        if matches!(self.content, Content::Table(_)) { 0 } else { 4 * self.lanes }
+    }
+
+    fn element(&self) -> String {
+        let number = if self.words { "u32" } else { "f32" };
         match (self.layered, self.lanes) {
-            (true, _) | (false, 1) => "f32",
-            (false, 2) => "vec2<f32>",
-            (false, 4) => "vec4<f32>",
+            (true, _) | (false, 1) => number.to_owned(),
+            (false, lanes @ (2 | 4)) => format!("vec{lanes}<{number}>"),
             (false, other) => unreachable!("a buffer of vectors of {other}"),
         }
     }
@@ -204,7 +226,12 @@ impl Program {
 
     /// Bytes a cell that all buffers take.
     pub fn bytes_per_cell(&self) -> usize {
-        self.buffers.iter().map(|buffer| 4 * buffer.lanes).sum()
+        self.buffers.iter().map(Buffer::bytes_per_cell).sum()
+    }
+
+    /// Bytes of all tables.
+    pub fn table_bytes(&self) -> u64 {
+        self.buffers.iter().map(|buffer| 4 * buffer.length(0) as u64).sum()
     }
 
     /// Bytes a cell of the copy that is kept to go back to.
@@ -215,13 +242,13 @@ impl Program {
 
     /// Bytes a cell of the widest buffer.
     pub fn widest_buffer(&self) -> usize {
-        self.buffers.iter().map(|buffer| 4 * buffer.lanes).max().unwrap_or(4)
+        self.buffers.iter().map(Buffer::bytes_per_cell).max().unwrap_or(4).max(4)
     }
 
     /// Bytes a cell that one step reads and writes, each buffer of a pass counted once: what the memory must
     /// carry at least.
     pub fn bytes_per_cell_step(&self) -> usize {
         let every = self.passes.iter().filter(|pass| !pass.recorded);
-        every.flat_map(|pass| self.bound(pass)).map(|(buffer, _)| 4 * self.buffers[buffer].lanes).sum()
+        every.flat_map(|pass| self.bound(pass)).map(|(buffer, _)| self.buffers[buffer].bytes_per_cell()).sum()
     }
 }
