@@ -13,7 +13,7 @@ const RESERVED: u64 = 8;
 
 /// Cells that a device holds of a program at once, with the copy that is kept to go back to.
 pub(crate) fn most_cells(program: &Program, device: &dyn Device) -> u64 {
-    let memory = device.memory() - device.memory() / RESERVED;
+    let memory = (device.memory() - device.memory() / RESERVED).saturating_sub(program.table_bytes());
     let bytes = program.bytes_per_cell() + program.bytes_kept_per_cell();
     (memory / bytes as u64).min(device.largest_buffer() / program.widest_buffer() as u64)
 }
@@ -59,7 +59,7 @@ pub(crate) fn upload(program: &Program, loaded: &mut dyn Loaded, from: &Snapshot
                     loaded.write(number, &packed(buffer, &lanes))?;
                 }
             }
-            Content::Scratch => {}
+            Content::Scratch | Content::Table(_) => {}
         }
     }
     Ok(())

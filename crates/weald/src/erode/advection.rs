@@ -10,6 +10,10 @@
 //! the form that loses nothing. What differs from the sources:
 //! at walls and no-data cells the departure point stops at the last cell with data.
 
+mod program;
+
+pub(crate) use program::Advected;
+
 use std::ops::Range;
 
 use pulp::Arch;

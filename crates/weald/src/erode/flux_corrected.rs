@@ -21,6 +21,10 @@
 //! [`super::advection`]): sediment goes with the fluxes of the water, not back along a velocity, so its
 //! concentration obeys the minimum and maximum principle and its sum is conserved.
 
+mod program;
+
+pub(crate) use program::add_to;
+
 use super::advection::AdvectionRows;
 use super::before;
 use super::pipes::{KEPT, worth_counting};

@@ -7,6 +7,7 @@
 //! semi-Lagrangian or MacCormack advection, which the source does not have, follows the settling as in
 //! Mei et al. 2007.
 
+mod program;
 mod sediment;
 mod water;
 
@@ -14,6 +15,7 @@ use super::setting::{Setting, Settled};
 use super::simulation::Sky;
 use crate::engine::machine::{Means, Part};
 use crate::engine::program::Program;
+use crate::engine::uniform::uniform;
 use crate::grid::Size;
 use crate::stencil::chain::{Flow, Process};
 use crate::stencil::ring::Ring;
@@ -35,24 +37,26 @@ pub(crate) const MEAN_FLUXES: Means<'static> = &[
     &[Part { plane: plane::SOUTH, factor: 1.0, from: [0, 0] }],
 ];
 
-/// Constants of the method, in cells and steps; names as in the recipe.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct HanConstants {
-    pub(crate) flow_rate: f32,
-    pub(crate) capacity: f32,
-    /// Uptake a unit of speed.
-    pub(crate) uptake_by_speed: f32,
-    /// Share of the free capacity that is taken up.
-    pub(crate) uptake_by_capacity: f32,
-    pub(crate) deposit_ratio: f32,
-    pub(crate) epsilon: f32,
-    pub(crate) velocity_epsilon: f32,
-    pub(crate) limiter: bool,
+uniform! {
+    /// Constants of the method, in cells and steps; names as in the recipe.
+    pub(crate) struct HanConstants {
+        pub(crate) flow_rate: f32,
+        pub(crate) capacity: f32,
+        /// Uptake a unit of speed.
+        pub(crate) uptake_by_speed: f32,
+        /// Share of the free capacity that is taken up.
+        pub(crate) uptake_by_capacity: f32,
+        pub(crate) deposit_ratio: f32,
+        pub(crate) epsilon: f32,
+        pub(crate) velocity_epsilon: f32,
+    }
 }
 
 /// The process.
 pub(crate) struct Han {
     pub(crate) constants: HanConstants,
+    /// Whether outflows are scaled to what their cell has.
+    pub(crate) limiter: bool,
     pub(crate) setting: Setting,
 }
 
@@ -124,11 +128,11 @@ impl Process for Han {
     }
 
     fn sized(&self, size: Size) -> Self {
-        Self { constants: self.constants, setting: self.setting.sized(size) }
+        Self { setting: self.setting.sized(size), ..*self }
     }
 
     fn program(&self) -> Program {
-        unimplemented!("the shaders of this process")
+        self.passes()
     }
 
     fn advance(&self, flow: &mut Flow<'_, Self>) {

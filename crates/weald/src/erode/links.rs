@@ -10,6 +10,14 @@ use crate::stencil::ring::Ring;
 /// reciprocal of the number of neighbours, northern link, yielding ground.
 pub(crate) const MASK_PLANES: usize = 6;
 
+/// Places of the two from which all others follow, behind the last state plane.
+pub(crate) mod plane {
+    /// 1 for data, else 0.
+    pub(crate) const LAND: usize = 1;
+    /// 1 where water may change the ground.
+    pub(crate) const YIELDS: usize = 6;
+}
+
 /// The links of one row.
 #[derive(Clone, Copy)]
 pub(crate) struct LinkRow<'a> {

@@ -9,6 +9,7 @@
 //! change (see [`super::settling`]).
 
 pub(crate) mod kernels;
+mod program;
 mod sediment;
 mod water;
 
@@ -16,6 +17,7 @@ use super::setting::{Setting, Settled};
 use super::simulation::Sky;
 use crate::engine::machine::{Means, Part};
 use crate::engine::program::Program;
+use crate::engine::uniform::uniform;
 use crate::grid::Size;
 use crate::stencil::chain::{Flow, Process};
 use crate::stencil::ring::Ring;
@@ -48,23 +50,24 @@ pub(crate) const MEAN_FLUXES: Means<'static> = &[
     ],
 ];
 
-/// Constants of the method, in cells and steps; names as in the recipe.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct MeiConstants {
-    pub(crate) flow_rate: f32,
-    pub(crate) capacity: f32,
-    pub(crate) erosion: f32,
-    pub(crate) deposition: f32,
-    pub(crate) deposit_ratio: f32,
-    pub(crate) epsilon: f32,
-    pub(crate) velocity_epsilon: f32,
-    /// Whether outflows are scaled to what their cell has.
-    pub(crate) limiter: bool,
+uniform! {
+    /// Constants of the method, in cells and steps; names as in the recipe.
+    pub(crate) struct MeiConstants {
+        pub(crate) flow_rate: f32,
+        pub(crate) capacity: f32,
+        pub(crate) erosion: f32,
+        pub(crate) deposition: f32,
+        pub(crate) deposit_ratio: f32,
+        pub(crate) epsilon: f32,
+        pub(crate) velocity_epsilon: f32,
+    }
 }
 
 /// The process.
 pub(crate) struct Mei {
     pub(crate) constants: MeiConstants,
+    /// Whether outflows are scaled to what their cell has.
+    pub(crate) limiter: bool,
     pub(crate) setting: Setting,
 }
 
@@ -120,11 +123,11 @@ impl Process for Mei {
     }
 
     fn sized(&self, size: Size) -> Self {
-        Self { constants: self.constants, setting: self.setting.sized(size) }
+        Self { setting: self.setting.sized(size), ..*self }
     }
 
     fn program(&self) -> Program {
-        unimplemented!("the shaders of this process")
+        self.passes()
     }
 
     fn advance(&self, flow: &mut Flow<'_, Self>) {

@@ -14,6 +14,7 @@ mod links;
 mod mei;
 mod pace;
 mod pipes;
+mod programs;
 mod saved;
 mod setting;
 mod settling;
@@ -28,6 +29,8 @@ pub mod thermal_step;
 pub mod transport_step;
 mod upwind;
 mod working;
+
+pub use programs::programs;
 
 use crate::stencil::ring::Ring;
 

@@ -1,6 +1,8 @@
 //! What the two water models share: cells and edges, the first planes of the state, and all that follows the
 //! exchange with the ground, which is sliding, advection, and what leaves over an open edge.
 
+mod program;
+
 use pulp::Arch;
 
 use super::advection::{Advection, AdvectionRows, AdvectionScratch};

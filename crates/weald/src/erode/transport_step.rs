@@ -1,5 +1,7 @@
 //! The `transport` step: water that flows steadily carries a layer along.
 
+mod program;
+
 use pulp::Arch;
 
 use super::advection::{Advection, AdvectionRows, AdvectionScratch};
@@ -157,14 +159,14 @@ impl Step for Carry {
 }
 
 /// Transport alone as a stream of rows. Planes: the load; then water, links, and flows or velocities.
-struct Carrying {
-    advection: Advection,
-    links: Links,
-    arch: Arch,
+pub(crate) struct Carrying {
+    pub(crate) advection: Advection,
+    pub(crate) links: Links,
+    pub(crate) arch: Arch,
 }
 
 /// Rows in flight.
-struct CarryingScratch {
+pub(crate) struct CarryingScratch {
     load: Ring,
     depth: Ring,
     eastward: Ring,
@@ -208,7 +210,7 @@ impl Process for Carrying {
     }
 
     fn program(&self) -> Program {
-        unimplemented!("the shaders of this process")
+        self.passes()
     }
 
     fn advance(&self, flow: &mut Flow<'_, Self>) {

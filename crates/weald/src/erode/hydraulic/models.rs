@@ -101,10 +101,9 @@ impl Hydraulic {
             deposit_ratio: self.deposit_ratio as f32,
             epsilon: filled.epsilon,
             velocity_epsilon: filled.velocity_epsilon,
-            limiter: self.limiter,
         };
         Chosen {
-            process: Han { constants, setting: self.setting(filled, working) },
+            process: Han { constants, limiter: self.limiter, setting: self.setting(filled, working) },
             plane_names: named(&["change", "water", "sediment", "flux_east", "flux_south"]),
             means: han::MEAN_FLUXES,
             constants: Vec::new(),
@@ -120,10 +119,9 @@ impl Hydraulic {
             deposit_ratio: self.deposit_ratio as f32,
             epsilon: filled.epsilon,
             velocity_epsilon: filled.velocity_epsilon,
-            limiter: self.limiter,
         };
         Chosen {
-            process: Mei { constants, setting: self.setting(filled, working) },
+            process: Mei { constants, limiter: self.limiter, setting: self.setting(filled, working) },
             plane_names: named(MEI_PLANES),
             means: mei::MEAN_FLUXES,
             constants: Vec::new(),

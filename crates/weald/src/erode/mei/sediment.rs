@@ -82,7 +82,7 @@ impl Mei {
         let depth = scratch.rained.here(y);
         let concentration = scratch.concentration.here_mut(y);
         let epsilon = self.constants.epsilon;
-        if self.constants.limiter {
+        if self.limiter {
             Load { sediment, depth, concentration, epsilon }.run(self.setting.arch);
             return;
         }
