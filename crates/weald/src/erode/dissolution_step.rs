@@ -9,9 +9,10 @@ use super::stack::{Column, REGOLITH, regolith_names, thickness_names};
 use super::stava::digging::{DigScratch, Digging};
 use super::stava::dissolution::{Dissolution, DissolutionScratch, RegolithRows};
 use super::stava::planes::{Planes, REGOLITH_PLANES};
+use super::stava::program::{self, StavaNumbers};
 use super::working::Working;
 use crate::engine::Job;
-use crate::engine::program::Program;
+use crate::engine::program::{Content, Program};
 use crate::error::Error;
 use crate::grid::Size;
 use crate::landscape::Landscape;
@@ -143,15 +144,15 @@ impl DissolutionStep {
 }
 
 /// Dissolution alone as a stream of rows. The last constant plane is the depth of the water.
-struct Dissolving {
-    dissolution: Dissolution,
-    planes: Planes,
-    links: Links,
-    arch: Arch,
+pub(super) struct Dissolving {
+    pub(super) dissolution: Dissolution,
+    pub(super) planes: Planes,
+    pub(super) links: Links,
+    pub(super) arch: Arch,
 }
 
 /// Rows in flight within one step.
-struct DissolvingScratch {
+pub(super) struct DissolvingScratch {
     solid: Vec<Ring>,
     dig: DigScratch,
     dissolution: DissolutionScratch,
@@ -190,7 +191,14 @@ impl Process for Dissolving {
     }
 
     fn program(&self) -> Program {
-        unimplemented!("the shaders of this process")
+        let numbers = StavaNumbers::of(Some(&self.dissolution), None);
+        let deposit = (self.planes, self.dissolution.digging.deposit);
+        let mut draft = program::draft("dissolution", &numbers, deposit, &self.links);
+        let water = self.planes.count() + 1 + self.links.planes();
+        draft.buffer("water", 1, Content::Constant(vec![water]));
+        self.dissolution.add_buffers_to(&mut draft);
+        self.dissolution.add_to(&mut draft, include_str!("stava/standing_lake.wgsl"), "water");
+        draft.finish(self.reach())
     }
 
     fn advance(&self, flow: &mut Flow<'_, Self>) {

@@ -13,6 +13,7 @@ pub(crate) mod digging;
 pub(crate) mod dissolution;
 mod force;
 pub(crate) mod planes;
+pub(crate) mod program;
 pub(crate) mod slippage;
 mod transport;
 pub(crate) mod viscosity;
@@ -154,7 +155,7 @@ impl Process for Stava {
     }
 
     fn program(&self) -> Program {
-        unimplemented!("the shaders of this process")
+        self.passes()
     }
 
     fn advance(&self, flow: &mut Flow<'_, Self>) {
