@@ -417,7 +417,11 @@ fn what_is_done_after_an_undo_replaces_what_was_undone() {
     history.act(other.clone()).expect("good");
     assert_eq!(history.actions(), [steps[0].clone(), other.clone()]);
     assert!(!history.redo().expect("nothing to do"));
-    assert_eq!(&history.session().0, &states(&[steps[0].clone(), other])[2]);
+    let expected = states(&[steps[0].clone(), other]);
+    assert_eq!(history.session().0, expected[2]);
+    history.go_to(0).expect("replays");
+    history.go_to(2).expect("replays");
+    assert_eq!(history.session().0, expected[2], "no snapshot of what was undone is left");
 }
 
 #[test]
