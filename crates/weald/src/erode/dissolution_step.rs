@@ -117,6 +117,7 @@ impl Step for DissolutionStep {
             iterations: u64::from(self.iterations),
             weather: &|_| (),
             record: None,
+            edits: None,
         };
         let start = working.state(planes.count(), &[working.water().to_vec()]);
         let finished = simulation.run(start, job)?;

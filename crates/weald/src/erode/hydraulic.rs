@@ -7,6 +7,8 @@ mod stava;
 
 pub(super) use stava::deposit_of;
 
+use std::path::PathBuf;
+
 use super::advection::Advection;
 use super::dissolution_step::DissolutionWithin;
 use super::simulation::Sky;
@@ -18,7 +20,7 @@ use super::thermal_step::ThermalWithin;
 use crate::engine::Job;
 use crate::error::Error;
 use crate::landscape::Landscape;
-use crate::recipe::parameter::{LayerName, Nested};
+use crate::recipe::parameter::{LayerName, Nested, ScriptFile};
 use crate::step::{Entry, Layered, Outcome, Stage, Step};
 use crate::{choices, parameters};
 use defaults::Filled;
@@ -143,6 +145,9 @@ parameters! {
         deposit: Option<LayerName> = None;
         /// stava: standing water turns ground into regolith that creeps. Default: it does not.
         dissolution: Option<Nested<DissolutionWithin>> = None;
+        /// stava: script of edits, in JSON lines (.jsonl) or TOML: strokes of a brush that happen between the
+        /// steps. Its path starts at the folder of the recipe.
+        edits: Option<ScriptFile> = None;
         /// stava: materials slide off slopes steeper than their talus. Default: they do not.
         slippage: Option<Nested<SlippageWithin>> = None;
     }
@@ -229,6 +234,10 @@ impl Step for Hydraulic {
 
     fn layered(&self) -> Layered {
         if self.model == Model::Stava { Layered::Changes } else { Layered::Never }
+    }
+
+    fn files(&self) -> Vec<PathBuf> {
+        self.edits.iter().map(ScriptFile::path).collect()
     }
 
     fn faults(&self) -> Vec<String> {

@@ -99,6 +99,7 @@ impl Step for SlippageStep {
             iterations: u64::from(self.iterations),
             weather: &|_| (),
             record: None,
+            edits: None,
         };
         let finished = simulation.run(working.state(planes.count(), &[]), job)?;
         Ok(working.store_ground(landscape, &self.layer.0, &finished, u64::from(self.iterations)))
