@@ -189,7 +189,7 @@ fn a_hard_layer_under_a_soft_one_protects_what_is_below() {
         let boundary = Boundary::Open;
         let deposit = Some(LayerName::of("cover"));
         let deposition = 0.0;
-        run(&Hydraulic { model: Model::Stava, boundary, deposit, deposition, ..hydraulic(6000) }, &mut land);
+        run(&Hydraulic { model: Model::Stava, boundary, deposit, deposition, ..hydraulic(600) }, &mut land);
         land
     };
     let (protected, bare) = (eroded("rock"), eroded("clay"));
