@@ -6,7 +6,7 @@ mod reference;
 
 use common::{landscape, rough, run};
 use reference::World;
-use reference::stava::Layers;
+use reference::stava::Column;
 use weald::erode::dissolution_step::DissolutionWithin;
 use weald::erode::hydraulic::{Boundary, Hydraulic, Model, Transport};
 use weald::erode::slippage_step::SlippageWithin;
@@ -123,11 +123,11 @@ fn layer(land: &Landscape, name: &str) -> Vec<f64> {
 }
 
 /// The same world for the reference.
-fn reference_of(land: &Landscape, keys: &Hydraulic) -> Layers {
+fn reference_of(land: &Landscape, keys: &Hydraulic) -> Column {
     let has_data = (0..(COLUMNS + 2) * (ROWS + 2)).map(|at| inside(land, at).is_some()).collect();
     let world = World::new(COLUMNS + 2, layer(land, "height"), has_data, keys.boundary);
     let layers = ["clay", "sand"].map(|name| layer(land, name)).into();
-    let mut reference = Layers::new(world, land.materials.clone(), layers);
+    let mut reference = Column::new(world, land.materials.clone(), layers);
     let painted = |name: &Option<LayerName>, values: &mut Vec<f64>| {
         if let Some(name) = name {
             *values = layer(land, &name.0);

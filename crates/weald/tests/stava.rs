@@ -183,6 +183,7 @@ fn a_hard_layer_under_a_soft_one_protects_what_is_below() {
     let eroded = |hard: &str| {
         let mut land = landscape(slope.clone());
         land.materials = materials(&["sand", hard, "sand"]);
+        land.materials[1].erodibility = 1e-6;
         land.materials[2].name = "cover".to_owned();
         land.insert(hard, "m", Field::filled(size, if hard == "rock" { 0.5 } else { 0.0 }));
         land.insert("cover", "m", Field::filled(size, 0.2));

@@ -6,7 +6,7 @@ use weald::material::Material;
 use weald::recipe::parameter::Nested;
 
 /// A small world of stacked materials.
-pub struct Layers {
+pub struct Column {
     /// Its bedrock, water and sediment; `piled` is all that lies on the bedrock.
     pub world: World,
     pub materials: Vec<Material>,
@@ -20,7 +20,7 @@ pub struct Layers {
     pub source: Vec<f64>,
 }
 
-impl Layers {
+impl Column {
     /// Layers on a bedrock; the world's start is the whole ground.
     pub fn new(mut world: World, materials: Vec<Material>, layers: Vec<Vec<f64>>) -> Self {
         for layer in &layers {

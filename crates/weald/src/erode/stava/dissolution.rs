@@ -121,9 +121,7 @@ impl RegolithRows<'_> {
 
 impl Dissolution {
     /// Rows by which the output lies behind the exchange.
-    pub(crate) fn lag(&self) -> usize {
-        2
-    }
+    pub(crate) const LAG: usize = 2;
 
     /// Exchanges row `y` of the materials with the regolith.
     pub(crate) fn dissolve(
