@@ -1,5 +1,5 @@
 //! Taking from a column of materials from the top down, and laying down what is too much: the exchange that
-//! force-based erosion (Šťava et al. 2008, section 4.1) and dissolution (section 4.2) share.
+//! force-based erosion and dissolution share (Šťava et al. 2008).
 //!
 //! Where there is room for more, each material gives the share that is its own of the room left under the
 //! thickness above it, `min(d_k, K_k max(0, room - Σ_above d))`, and no more than there is; bedrock has no end.
