@@ -26,7 +26,7 @@ use crate::step::{Entry, Layered, Outcome, Stage, Step};
 parameters! {
     /// Dissolution as a step of its own, under water that stands still.
     pub struct DissolutionStep {
-        /// Depth to which standing water soaks the ground (r_max).
+        /// Depth to which standing water soaks the ground (`r_max`).
         depth: f64 = 0.2, range 0.0..=1000.0, unit "m";
         /// Share of the flow of the regolith that friction takes in a step.
         damping: f64 = 0.85, range 0.0..=1.0;
@@ -46,7 +46,7 @@ parameters! {
 parameters! {
     /// Dissolution within every step of `hydraulic`.
     pub struct DissolutionWithin {
-        /// Depth to which standing water soaks the ground (r_max).
+        /// Depth to which standing water soaks the ground (`r_max`).
         depth: f64 = 0.2, range 0.0..=1000.0, unit "m";
         /// Share of the flow of the regolith that friction takes in a step.
         damping: f64 = 0.85, range 0.0..=1.0;
@@ -172,7 +172,7 @@ impl Process for Dissolving {
     }
 
     fn lag(&self) -> usize {
-        self.dissolution.lag()
+        Dissolution::LAG
     }
 
     fn reach(&self) -> usize {

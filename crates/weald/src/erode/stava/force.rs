@@ -1,5 +1,5 @@
 //! Force-based erosion: running water takes from the materials what it has the force to carry, and drops what it
-//! has not (Šťava et al. 2008, section 4.1).
+//! has not (Šťava et al. 2008).
 //!
 //! The capacity is `K_c sin a |v|`, with the mean sine of the slopes around a cell, floored at 0.1. The free
 //! capacity is dug out of the column from the top down ([`super::digging`]).
