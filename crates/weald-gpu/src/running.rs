@@ -11,7 +11,7 @@ use crate::extents::{self, Extents};
 use crate::gpu::Gpu;
 use crate::kept::{Extent, Kept, is_state};
 use crate::memory::Store;
-use crate::pace::Pace;
+use crate::pace::{Load, Pace, Sort};
 use crate::parts::{Bound, Cursor, Part, Work};
 use crate::ready::{Places, Ready, Round};
 use crate::transfer::{self, Transfer};
@@ -46,7 +46,7 @@ impl Running {
         let usage = BufferUsages::STORAGE | BufferUsages::COPY_SRC | BufferUsages::COPY_DST;
         let sums = Store::new(&gpu, "the sums", room.sums_bytes(), usage)?;
         let passes = Places { program, uniforms: &uniforms, buffers: &buffers, sums: &sums }.ready(&gpu)?;
-        let (transfer, watch, pace) = (Transfer::new(&gpu)?, Watch::new(&gpu)?, Pace::new(&gpu));
+        let (transfer, watch, pace) = (Transfer::new(&gpu)?, Watch::new(&gpu)?, Pace::new(gpu.most_moved));
         let mut running = Self {
             program: program.clone(),
             room,
@@ -92,7 +92,8 @@ impl Running {
         let mut cursor = Cursor::default();
         while cursor.step < work.steps {
             let first = cursor.step;
-            let bound = Bound { bytes: self.pace.allowance(), steps: self.uniforms.weather.count() };
+            let bound =
+                Bound { bytes: self.pace.allowance(Sort::Passes), steps: self.uniforms.weather.count() };
             let (parts, bytes) = work.next(&mut cursor, bound);
             let Some(last) = parts.last() else { break };
             let words = weather[first..=last.step].iter().map(Vec::as_slice);
@@ -107,7 +108,8 @@ impl Running {
         let staged = gpu.memory.hold(weather.len() as u64, "staging")?;
         let sees_weather = !self.program.weather.name.is_empty();
         let round = Round { passes, uniforms, extents: *now, odd: buffers.odd(), sees_weather };
-        pace.submit(gpu, bytes, Some(staged), |encoder| {
+        let load = Load { sort: Sort::Passes, bytes, staged: Some(staged) };
+        pace.submit(gpu, load, |encoder| {
             gpu.context.queue.write_buffer(&uniforms.weather.store.buffer, 0, weather);
             round.encode(encoder, parts);
         })
