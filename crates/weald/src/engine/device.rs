@@ -52,7 +52,8 @@ pub trait Loaded: Send {
     /// the cells of `own` alone. What buffers hold is lost, sums start at zero.
     fn begin(&mut self, size: Size, own: &Window) -> Result<(), Error>;
 
-    /// Overwrites a buffer: its lanes cell by cell, row-major, or plane by plane where it is layered.
+    /// Overwrites a buffer: its lanes cell by cell, row-major, or plane by plane where it is layered; of a
+    /// table its lanes element by element. Whole numbers come as the bits of `f32`.
     fn write(&mut self, buffer: usize, values: &[f32]) -> Result<(), Error>;
 
     /// A copy of a buffer, after all steps given so far.

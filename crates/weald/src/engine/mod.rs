@@ -1,8 +1,13 @@
 //! Engines, and what a running step knows of the world: seed, engine, progress, interruption, checkpoints.
 
 mod budget;
+mod cpu;
 pub mod device;
+mod device_machine;
+mod device_tiles;
+pub(crate) mod machine;
 pub mod program;
+mod tiles;
 pub mod uniform;
 pub(crate) mod world;
 

@@ -4,6 +4,10 @@
 //! the method only: what it can see (grid, constants, weather, buffers) is written in front of it from the
 //! declarations here, so that host and shader cannot come to disagree about a binding.
 
+pub(crate) mod draft;
+#[cfg(test)]
+pub(crate) mod twin;
+
 use std::fmt::Write;
 
 use super::uniform::Uniform;
@@ -23,6 +27,7 @@ const PRELUDE: &str = include_str!("../stencil/prelude.wgsl");
 const LINKS_WHOLE: &str = include_str!("../stencil/links_whole.wgsl");
 const LINKS_MASKED: &str = include_str!("../stencil/links_masked.wgsl");
 const TALLY: &str = include_str!("../stencil/tally.wgsl");
+const TALLY_NONE: &str = include_str!("../stencil/tally_none.wgsl");
 
 /// One step of a process.
 #[derive(Clone, Debug)]
@@ -56,6 +61,8 @@ pub struct Buffer {
     pub lanes: usize,
     /// Whether lanes are planes one after the other (`array<f32>` of lanes × cells) instead of vectors.
     pub layered: bool,
+    /// Whether its values are whole numbers of 32 bits (`u32`), written and read as the bits of `f32`.
+    pub words: bool,
     /// What is in it.
     pub content: Content,
 }
@@ -71,6 +78,8 @@ pub enum Content {
     Scratch,
     /// Sums over the recorded steps, one lane a wish; zero at the start.
     Mean,
+    /// So many elements that the host writes and all cells read.
+    Table(usize),
 }
 
 /// One dispatch over all cells.
@@ -106,24 +115,50 @@ impl Uniforms {
     pub fn of<U: Uniform>(values: &U) -> Self {
         Self { name: U::NAME, fields: U::fields(), words: values.words() }
     }
+
+    /// The same struct with the fields of another behind its own.
+    #[must_use]
+    pub fn followed_by<U: Uniform>(mut self, values: &U) -> Self {
+        self.fields.extend(U::fields());
+        self.words.extend(values.words());
+        self
+    }
 }
 
 impl Buffer {
     /// A buffer of vectors.
     pub fn new(name: &'static str, lanes: usize, content: Content) -> Self {
-        Self { name, lanes, layered: false, content }
+        Self { name, lanes, layered: false, words: false, content }
     }
 
     /// A buffer of planes one after the other.
     pub fn layered(name: &'static str, lanes: usize, content: Content) -> Self {
-        Self { name, lanes, layered: true, content }
+        Self { name, lanes, layered: true, words: false, content }
     }
 
-    fn element(&self) -> &'static str {
+    /// A buffer of vectors of whole numbers.
+    pub fn of_words(name: &'static str, lanes: usize, content: Content) -> Self {
+        Self { words: true, ..Self::new(name, lanes, content) }
+    }
+
+    /// Numbers of four bytes in it for a grid of that many cells.
+    pub fn length(&self, cells: usize) -> usize {
+        match self.content {
+            Content::Table(elements) => self.lanes * elements,
+            _ => self.lanes * cells,
+        }
+    }
+
+    /// Bytes that each cell takes; those of a table do not grow with the grid.
+    fn bytes_per_cell(&self) -> usize {
+        if matches!(self.content, Content::Table(_)) { 0 } else { 4 * self.lanes }
+    }
+
+    fn element(&self) -> String {
+        let number = if self.words { "u32" } else { "f32" };
         match (self.layered, self.lanes) {
-            (true, _) | (false, 1) => "f32",
-            (false, 2) => "vec2<f32>",
-            (false, 4) => "vec4<f32>",
+            (true, _) | (false, 1) => number.to_owned(),
+            (false, lanes @ (2 | 4)) => format!("vec{lanes}<{number}>"),
             (false, other) => unreachable!("a buffer of vectors of {other}"),
         }
     }
@@ -156,9 +191,7 @@ impl Program {
         let _ = writeln!(text, "const GROUP: u32 = {GROUP}u;\nconst SUMS: u32 = {SUMS}u;");
         text.push_str(PRELUDE);
         text.push_str(if self.mask.is_some() { LINKS_MASKED } else { LINKS_WHOLE });
-        if pass.tallies {
-            text.push_str(TALLY);
-        }
+        text.push_str(if pass.tallies { TALLY } else { TALLY_NONE });
         for shader in &pass.shaders {
             text.push_str(shader);
         }
@@ -193,18 +226,29 @@ impl Program {
 
     /// Bytes a cell that all buffers take.
     pub fn bytes_per_cell(&self) -> usize {
-        self.buffers.iter().map(|buffer| 4 * buffer.lanes).sum()
+        self.buffers.iter().map(Buffer::bytes_per_cell).sum()
+    }
+
+    /// Bytes of all tables.
+    pub fn table_bytes(&self) -> u64 {
+        self.buffers.iter().map(|buffer| 4 * buffer.length(0) as u64).sum()
+    }
+
+    /// Bytes a cell of the copy that is kept to go back to.
+    pub fn bytes_kept_per_cell(&self) -> usize {
+        let kept = |content: &Content| matches!(content, Content::State(_) | Content::Mean);
+        self.buffers.iter().filter(|buffer| kept(&buffer.content)).map(|buffer| 4 * buffer.lanes).sum()
     }
 
     /// Bytes a cell of the widest buffer.
     pub fn widest_buffer(&self) -> usize {
-        self.buffers.iter().map(|buffer| 4 * buffer.lanes).max().unwrap_or(4)
+        self.buffers.iter().map(Buffer::bytes_per_cell).max().unwrap_or(4).max(4)
     }
 
     /// Bytes a cell that one step reads and writes, each buffer of a pass counted once: what the memory must
     /// carry at least.
     pub fn bytes_per_cell_step(&self) -> usize {
         let every = self.passes.iter().filter(|pass| !pass.recorded);
-        every.flat_map(|pass| self.bound(pass)).map(|(buffer, _)| 4 * self.buffers[buffer].lanes).sum()
+        every.flat_map(|pass| self.bound(pass)).map(|(buffer, _)| self.buffers[buffer].bytes_per_cell()).sum()
     }
 }

@@ -1,23 +1,36 @@
 //! Processes that shape ground: water in virtual pipes, sediment, gravity. One file a method.
 //!
-//! [`hydraulic`] is rain and rivers by either of two schemes, [`thermal_step`] gravity alone; [`thermal`] has the
-//! schemes of weathering that both use. Within a process lengths are in cells and time is in steps; rows of cells
+//! [`hydraulic`] is rain and rivers by one of three schemes, [`thermal_step`] gravity alone; [`thermal`] has the
+//! schemes of weathering that both use. [`slippage_step`] and [`dissolution_step`] are processes of the third
+//! scheme alone. Within a process lengths are in cells and time is in steps; rows of cells
 //! stream through its stages, so that several steps pass through memory at once.
 
 mod advection;
+pub mod dissolution_step;
+mod flux_corrected;
 mod han;
 pub mod hydraulic;
 mod links;
 mod mei;
+mod pace;
 mod pipes;
+mod programs;
+mod saved;
 mod setting;
 mod settling;
 mod simulation;
+pub mod slippage_step;
+pub mod springs;
+mod stack;
+mod stava;
 mod sums;
 pub mod thermal;
 pub mod thermal_step;
+pub mod transport_step;
 mod upwind;
 mod working;
+
+pub use programs::programs;
 
 use crate::stencil::ring::Ring;
 

@@ -3,6 +3,7 @@
 #![allow(unreachable_pub, reason = "the modules of a test belong to it alone")]
 
 pub mod advection;
+pub mod flux_corrected;
 pub mod thermal;
 
 use weald::erode::hydraulic::{Boundary, Hydraulic, Model, Transport, UptakeLaw};
@@ -63,6 +64,7 @@ impl World {
         match keys.model {
             Model::Han => self.han(keys, rain, if raining { 0.0 } else { evaporation }),
             Model::Mei => self.mei(keys, rain, evaporation),
+            Model::Stava => unreachable!("the reference of stava is another"),
         }
         if let Some(Nested(thermal)) = &keys.thermal {
             thermal::slide(self, thermal.scheme, thermal.talus, thermal.strength);
@@ -169,6 +171,7 @@ impl World {
         }
         let mut depth = self.depth.clone();
         self.carry(&mut depth, |_| 1.0);
+        let before = self.depth.clone();
         for (depth, _) in depth.iter_mut().zip(&self.land).filter(|(_, land)| **land) {
             *depth += rain - depth.max(0.0).min(evaporation);
         }
@@ -177,7 +180,7 @@ impl World {
         self.drain();
         let moved = Moved { velocity: self.face_velocities(keys), found: self.sediment.clone() };
         self.settle_han(keys, &sines, &moved);
-        self.advect(keys.transport, &moved.velocity);
+        self.advect(keys, &moved.velocity, &before);
     }
 
     /// Eq. 4 to 6, and the free fall over open edges.
@@ -254,7 +257,7 @@ impl World {
             self.carry(&mut carried, |giver| concentration[giver]);
             self.sediment = carried;
         } else {
-            self.advect(keys.transport, &velocity);
+            self.advect(keys, &velocity, &rained);
         }
     }
 
@@ -299,9 +302,12 @@ impl World {
         }
     }
 
-    fn advect(&mut self, transport: Transport, velocity: &[[f64; 2]]) {
-        self.sediment = match transport {
+    fn advect(&mut self, keys: &Hydraulic, velocity: &[[f64; 2]], depth_before: &[f64]) {
+        self.sediment = match keys.transport {
             Transport::Upwind => return,
+            Transport::MacCormack if keys.conserve != Some(false) => {
+                flux_corrected::carry(self, depth_before, keys.epsilon.expect("given"))
+            }
             Transport::SemiLagrangian => advection::depart(self, &self.sediment, velocity, 1.0),
             Transport::MacCormack => advection::maccormack(self, velocity),
         };
