@@ -50,7 +50,7 @@ fn check_documented(owner: &str, parameters: &[Parameter]) {
             Kind::Number(low, high) | Kind::Integer(low, high) | Kind::Numbers(low, high) => {
                 assert!(low < high, "{name} has a range");
             }
-            Kind::Table(inner) => check_documented(&name, inner),
+            Kind::Table(inner) | Kind::Tables(inner) => check_documented(&name, inner),
             _ => {}
         }
     }
@@ -71,10 +71,12 @@ fn some_value(parameter: &Parameter) -> String {
         Kind::Choice(words) => format!("{:?}", words[0]),
         Kind::Numbers(low, high) => format!("[{:?}]", (low + high) / 2.0),
         Kind::Sides => "16".to_owned(),
+        Kind::Places => "[1.0, 2.0]".to_owned(),
         Kind::Layer | Kind::Text => format!("\"{}_layer\"", parameter.name),
         Kind::Colour => "\"#102030\"".to_owned(),
         Kind::Raster => format!("{:?}", some_raster()),
         Kind::Table(inner) => format!("{{ {} }}", needed(inner).trim().replace('\n', ", ")),
+        Kind::Tables(inner) => format!("[{{ {} }}]", needed(inner).trim().replace('\n', ", ")),
     }
 }
 
@@ -132,16 +134,19 @@ fn outside(kind: &Kind, share: f64) -> Vec<String> {
 }
 
 /// A table in which one key, perhaps deep inside, has this value, on line 1.
-fn with_value(path: &[&str], value: &str) -> String {
+fn with_value(path: &[&Parameter], value: &str) -> String {
     let (last, outer) = path.split_last().expect("a path has a key");
-    let inner = format!("{last} = {value}");
-    outer.iter().rev().fold(inner, |inner, key| format!("{key} = {{ {inner} }}"))
+    let inner = format!("{} = {value}", last.name);
+    outer.iter().rev().fold(inner, |inner, Parameter { name, kind, .. }| match kind {
+        Kind::Tables(_) => format!("{name} = [{{ {inner} }}]"),
+        _ => format!("{name} = {{ {inner} }}"),
+    })
 }
 
-fn check_refusals<'a>(entry: &Entry, path: &mut Vec<&'a str>, parameters: &'a [Parameter], share: f64) {
+fn check_refusals<'a>(entry: &Entry, path: &mut Vec<&'a Parameter>, parameters: &'a [Parameter], share: f64) {
     for parameter in parameters {
-        path.push(parameter.name);
-        if let Kind::Table(inner) = &parameter.kind {
+        path.push(parameter);
+        if let Kind::Table(inner) | Kind::Tables(inner) = &parameter.kind {
             check_refusals(entry, path, inner, share);
         }
         for value in outside(&parameter.kind, share) {

@@ -4,13 +4,15 @@ mod common;
 
 use std::sync::Mutex;
 
-use common::{hydraulic, landscape, rough, run_on, worst_difference};
+use common::{hydraulic, landscape, layered, rough, run_on, spring, stava, worst_difference};
 use weald::engine::{Engine, Job, SavedSimulation, Watcher};
+use weald::erode::dissolution_step::DissolutionStep;
 use weald::erode::hydraulic::{Boundary, Hydraulic, Model, Transport, UptakeLaw};
+use weald::erode::slippage_step::SlippageStep;
 use weald::erode::thermal::Scheme;
 use weald::erode::thermal_step::{Thermal, ThermalWithin};
 use weald::grid::Mask;
-use weald::recipe::parameter::Nested;
+use weald::recipe::parameter::{LayerName, Nested};
 use weald::step::{Outcome, Step};
 use weald::{Error, Field, Landscape, Size};
 
@@ -53,17 +55,60 @@ fn processes() -> Vec<Box<dyn Step>> {
         all.push(Box::new(Hydraulic { model, limiter: false, flow_rate: Some(0.05), ..hydraulic(43) }));
     }
     all.push(Box::new(Hydraulic { law: UptakeLaw::Dissolution, ..hydraulic(43) }));
+    all.push(Box::new(Hydraulic { region: Some(LayerName::of("painted")), ..hydraulic(43) }));
+    all.extend(processes_of_stava());
     all
 }
 
-/// Rough ground, with and without cells that hold no data, and wide ground.
+/// All of stava, each of its processes alone, and each transport.
+fn processes_of_stava() -> Vec<Box<dyn Step>> {
+    let stava = stava(43);
+    let alone = Hydraulic { dissolution: None, slippage: None, viscosity: 0.0, ..stava.clone() };
+    let painted = Some(LayerName::of("painted"));
+    let (rain_layer, region) = (painted.clone(), painted);
+    let mut all = vec![
+        stava.clone(),
+        Hydraulic { boundary: Boundary::Open, ..stava.clone() },
+        Hydraulic { region, ..stava.clone() },
+        alone.clone(),
+        Hydraulic { viscosity: 0.7, ..alone.clone() },
+        Hydraulic { dissolution: stava.dissolution.clone(), ..alone.clone() },
+        Hydraulic { slippage: stava.slippage.clone(), boundary: Boundary::Open, ..alone.clone() },
+        Hydraulic {
+            rain_layer,
+            sources: vec![spring(12.0, 30.0)],
+            drains: vec![spring(50.0, 20.0)],
+            ..alone
+        },
+    ];
+    for transport in [Transport::SemiLagrangian, Transport::MacCormack] {
+        for viscosity in [0.0, 0.7] {
+            all.push(Hydraulic { transport, viscosity, ..stava.clone() });
+        }
+    }
+    let mut all: Vec<Box<dyn Step>> =
+        all.into_iter().map(|step| -> Box<dyn Step> { Box::new(step) }).collect();
+    for softening in [false, true] {
+        all.push(Box::new(SlippageStep {
+            strength: 0.06,
+            softening,
+            iterations: 43,
+            ..SlippageStep::default()
+        }));
+    }
+    let water = LayerName::of("painted");
+    all.push(Box::new(DissolutionStep { water, iterations: 43, ..DissolutionStep::default() }));
+    all
+}
+
+/// Rough ground of three materials, with and without cells that hold no data, and wide ground.
 fn grounds() -> [Landscape; 3] {
-    let whole = landscape(rough(COLUMNS, ROWS, 25.0, 3));
+    let whole = layered(rough(COLUMNS, ROWS, 25.0, 3));
     let mut masked = whole.clone();
     let size = Size::new(COLUMNS, ROWS).expect("small");
     masked.domain.land =
         Mask::new(size, (0..size.cells()).map(|at| at % 31 != 7 && at % COLUMNS > 3).collect());
-    [whole, masked, landscape(rough(1000, 40, 25.0, 5))]
+    [whole, masked, layered(rough(1000, 40, 25.0, 5))]
 }
 
 fn assert_same_bits(step: &dyn Step, expected: &Landscape, got: &Landscape, engine: &str) {
@@ -141,10 +186,10 @@ impl Watcher for Stopper {
 
 #[test]
 fn a_stopped_and_resumed_run_ends_with_the_same_bits() {
-    for model in [Model::Han, Model::Mei] {
+    for model in [hydraulic(600), Hydraulic { model: Model::Mei, ..hydraulic(600) }, stava(600)] {
         // Longer than the 256 steps between two looks, and stopped within the steps that means are taken of.
-        let step = Hydraulic { model, rain_period: 400, dry_period: Some(100), ..hydraulic(600) };
-        let start = landscape(rough(48, 40, 20.0, 8));
+        let step = Hydraulic { rain_period: 400, dry_period: Some(100), ..model };
+        let start = layered(rough(48, 40, 20.0, 8));
         let mut whole = start.clone();
         let outcome = run_on(&step, &mut whole, Engine::Cpu);
         let stopper = Stopper::default();
@@ -168,8 +213,8 @@ fn a_stopped_and_resumed_run_ends_with_the_same_bits() {
 
 #[test]
 fn a_wide_landscape_gives_the_bits_of_a_tall_one_turned() {
-    for model in [Model::Han, Model::Mei] {
-        let step = Hydraulic { model, ..hydraulic(60) };
+    for model in [Model::Han, Model::Mei, Model::Stava] {
+        let step = if model == Model::Stava { stava(60) } else { Hydraulic { model, ..hydraulic(60) } };
         let ground = rough(1300, 40, 30.0, 6);
         let turned = |field: &Field| {
             let Size { columns, rows } = field.size();

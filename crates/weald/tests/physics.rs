@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{hydraulic, landscape, rough, run, worst_difference};
+use common::{hydraulic, landscape, rough, run, symmetries, worst_difference};
 use proptest::prelude::*;
 use weald::erode::hydraulic::{Boundary, Hydraulic, Model, Transport, UptakeLaw};
 use weald::erode::thermal::Scheme;
@@ -106,24 +106,6 @@ fn ground_stays_to_the_bit_when_nothing_erodes() {
     let (_, deepest) = land.field("water").expect("written").range(None).expect("cells");
     assert!(deepest > 0.1, "water flowed: {deepest} m");
     assert_eq!(land.field("height").expect("h"), &before);
-}
-
-/// A function from cell to cell.
-type Turn = Box<dyn Fn(usize, usize) -> (usize, usize)>;
-
-/// The eight symmetries of the square.
-fn symmetries(side: usize) -> [Turn; 8] {
-    let m = side - 1;
-    [
-        Box::new(|x, y| (x, y)),
-        Box::new(move |x, y| (m - x, y)),
-        Box::new(move |x, y| (x, m - y)),
-        Box::new(move |x, y| (m - x, m - y)),
-        Box::new(|x, y| (y, x)),
-        Box::new(move |x, y| (m - y, x)),
-        Box::new(move |x, y| (y, m - x)),
-        Box::new(move |x, y| (m - y, m - x)),
-    ]
 }
 
 /// Greatest difference between eroding a turned landscape and turning an eroded one, over all symmetries.

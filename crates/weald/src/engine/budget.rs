@@ -33,8 +33,10 @@ impl WaterBudget {
 pub struct SolidBudget {
     /// Ground at the start.
     pub start: f64,
-    /// Ground at the end.
+    /// Ground at the end; the bedrock alone where layers are kept apart from it.
     pub ground: f64,
+    /// Loose materials and regolith at the end, where they are kept apart.
+    pub layers: f64,
     /// Carried by water at the end.
     pub suspended: f64,
     /// Carried over an open edge, and what a deposit ratio below 1 takes out.
@@ -42,9 +44,10 @@ pub struct SolidBudget {
 }
 
 impl SolidBudget {
-    /// `(start - ground - suspended - out) / start`; 0 where there was no solid.
+    /// `(start - ground - layers - suspended - out) / start`; 0 where there was no solid.
     pub fn error(&self) -> f64 {
-        relative(self.start - self.ground - self.suspended - self.outgoing, self.start.abs())
+        let left = self.start - self.ground - self.layers - self.suspended - self.outgoing;
+        relative(left, self.start.abs())
     }
 }
 

@@ -1,18 +1,27 @@
-//! The `hydraulic` step: rain carves ground. Presets `han` and `mei` differ only in these keys.
+//! The `hydraulic` step: rain carves ground. Presets `han`, `mei` and `stava` differ only in these keys.
 
+mod defaults;
+mod faults;
 mod models;
+mod stava;
+
+pub(super) use stava::deposit_of;
 
 use super::advection::Advection;
+use super::dissolution_step::DissolutionWithin;
 use super::simulation::Sky;
+use super::slippage_step::SlippageWithin;
+use super::springs::Spring;
+use super::stack::REGOLITH;
 use super::thermal::Slide;
 use super::thermal_step::ThermalWithin;
-use super::working::Working;
 use crate::engine::Job;
 use crate::error::Error;
 use crate::landscape::Landscape;
 use crate::recipe::parameter::{LayerName, Nested};
-use crate::step::{Entry, Outcome, Stage, Step};
+use crate::step::{Entry, Layered, Outcome, Stage, Step};
 use crate::{choices, parameters};
+use defaults::Filled;
 
 choices! {
     /// Whose scheme.
@@ -21,6 +30,8 @@ choices! {
         Han = "han",
         /// Mei, Decaudin, Hu 2007: four outflows, erosion towards a capacity.
         Mei = "mei",
+        /// Šťava et al. 2008: materials in layers, dissolution, slippage, springs.
+        Stava = "stava",
     }
 }
 
@@ -65,23 +76,28 @@ parameters! {
         /// Steps to run.
         iterations: u32 = 1000, range 0..=10_000_000;
         /// Pipe constant k = dt² g A / l: how fast differences in level turn into flow. Unstable above 0.5.
-        /// Default 0.4 (han), 0.1 (mei).
+        /// Default 0.4 (han), 0.1 (mei), 0.0981 (stava).
         flow_rate: Option<f64> = None, range 0.0001..=0.5;
-        /// Rain a step while it rains. Default 0.01 cells (han), 0.002 cells (mei).
+        /// Rain a step while it rains. Default 0.01 cells (han), 0.002 cells (mei),
+        /// 0.01 cells (stava).
         rain: Option<f64> = None, range 0.0..=100.0, unit "m/step";
         /// han: evaporation a step in dry periods, default 0.03 cells. mei: share of the depth that
-        /// evaporates in every step, default 0.015.
+        /// evaporates in every step, default 0.015. stava: evaporation a step, in dry periods or, where
+        /// `dry_period` is 0, always; default 0.03 cells.
         evaporation: Option<f64> = None, range 0.0..=100.0, unit "m/step";
         /// Steps of rain before a dry period. Default 60.
         rain_period: u32 = 60, range 1..=10_000_000, unit "steps";
-        /// Steps without rain that follow; 0 means that it always rains. Default 60 (han), 0 (mei).
+        /// Steps without rain that follow; 0 means that it always rains. Default 60 (han, stava), 0
+        /// (mei).
         dry_period: Option<u32> = None, range 0..=10_000_000, unit "steps";
-        /// Sediment that a unit of water holds at unit speed and slope (K_c). Default 10 (han), 0.05 (mei).
+        /// Sediment that a unit of water holds at unit speed and slope (K_c). Default 10 (han), 0.05 (mei),
+        /// 0.2 (stava).
         capacity: Option<f64> = None, range 0.0..=10_000.0;
         /// han: uptake a unit of speed (K_v), default 0.005; with law = "dissolution" the share of the free
         /// capacity (K_s), default 0.01. mei: share of the free capacity (K_s), default 0.1.
-        erosion: Option<f64> = None, range 0.0..=1.0;
-        /// mei: share of the surplus sediment that settles in a step (K_d). han settles all of it.
+        /// stava: factor of the erodibility of every material, default 20.
+        erosion: Option<f64> = None, range 0.0..=10_000.0;
+        /// mei, stava: share of the surplus sediment that settles in a step (K_d). han settles all of it.
         deposition: f64 = 0.1, range 0.0..=1.0;
         /// Share of a deposit that the ground gets back (r); below 1 it keeps lakes from filling with more
         /// than their water, and the rest is counted as out.
@@ -97,8 +113,8 @@ parameters! {
         conserve: Option<bool> = None;
         /// Depth added where sediment is divided by depth. Default 0.001 cells.
         epsilon: Option<f64> = None, range 0.000_000_1..=100.0, unit "m";
-        /// han: depth added where flux is divided by depth, default 0.1 cells. mei: depth below which water
-        /// stands still, default 0.0001 cells.
+        /// han: depth added where flux is divided by depth, default 0.1 cells. mei, stava: depth below
+        /// which water stands still, default 0.0001 cells.
         velocity_epsilon: Option<f64> = None, range 0.000_000_1..=100.0, unit "m";
         /// What happens at the edge and at no-data cells.
         boundary: Boundary = Boundary::Closed;
@@ -108,6 +124,27 @@ parameters! {
         layer: LayerName = LayerName::of("height");
         /// Layer with the depth of water that stands at the start. Default: none stands.
         initial_water: Option<LayerName> = None;
+        /// Layer that says where to simulate: cells where it is below 0.5 stand still, and nothing passes
+        /// their edge. Default: everywhere.
+        region: Option<LayerName> = None;
+        /// stava: layer with a factor of the rain, cell by cell.
+        rain_layer: Option<LayerName> = None;
+        /// stava: layer with a factor of the evaporation, cell by cell.
+        evaporation_layer: Option<LayerName> = None;
+        /// stava: layer with the water that springs in a step, in metres; drains where it is negative.
+        source_layer: Option<LayerName> = None;
+        /// stava: places where water springs.
+        sources: Vec<Nested<Spring>> = Vec::new();
+        /// stava: places where water drains, as far as there is any.
+        drains: Vec<Nested<Spring>> = Vec::new();
+        /// stava: viscosity of the water, which evens out its velocity; 0 is none.
+        viscosity: f64 = 0.0, range 0.0..=1_000_000.0, unit "m²/step";
+        /// stava: material that settles. Default: the last of the landscape.
+        deposit: Option<LayerName> = None;
+        /// stava: standing water turns ground into regolith that creeps. Default: it does not.
+        dissolution: Option<Nested<DissolutionWithin>> = None;
+        /// stava: materials slide off slopes steeper than their talus. Default: they do not.
+        slippage: Option<Nested<SlippageWithin>> = None;
     }
 }
 
@@ -116,49 +153,11 @@ pub const ENTRY: Entry = Entry::of::<Hydraulic>(
     "hydraulic",
     Stage::Erode,
     "carves ground by rain, rivers and sediment",
-    "Han 2015, doi 10.7583/JKGS.2015.15.6.171; Mei, Decaudin, Hu 2007, doi 10.1109/PG.2007.15",
+    "Han 2015, doi 10.7583/JKGS.2015.15.6.171; Mei, Decaudin, Hu 2007, doi 10.1109/PG.2007.15; \
+     Šťava et al. 2008, doi 10.2312/SCA/SCA08/201-210",
 );
 
-/// Keys with their defaults filled in, in cells and steps.
-struct Filled {
-    flow_rate: f32,
-    rain: f32,
-    evaporation: f32,
-    dry_period: u32,
-    capacity: f32,
-    erosion: f32,
-    epsilon: f32,
-    velocity_epsilon: f32,
-}
-
 impl Hydraulic {
-    fn filled(&self, cell: f64) -> Filled {
-        let length = |given: Option<f64>, cells: f64| given.map_or(cells, |metres| metres / cell) as f32;
-        let number = |given: Option<f64>, default: f64| given.unwrap_or(default) as f32;
-        match self.model {
-            Model::Han => Filled {
-                flow_rate: number(self.flow_rate, 0.4),
-                rain: length(self.rain, 0.01),
-                evaporation: length(self.evaporation, 0.03),
-                dry_period: self.dry_period.unwrap_or(60),
-                capacity: number(self.capacity, if self.law == UptakeLaw::Velocity { 10.0 } else { 1.0 }),
-                erosion: number(self.erosion, if self.law == UptakeLaw::Velocity { 0.005 } else { 0.01 }),
-                epsilon: length(self.epsilon, 0.001),
-                velocity_epsilon: length(self.velocity_epsilon, 0.1),
-            },
-            Model::Mei => Filled {
-                flow_rate: number(self.flow_rate, 0.1),
-                rain: length(self.rain, 0.002),
-                evaporation: number(self.evaporation, 0.015),
-                dry_period: self.dry_period.unwrap_or(0),
-                capacity: number(self.capacity, 0.05),
-                erosion: number(self.erosion, 0.1),
-                epsilon: length(self.epsilon, 0.001),
-                velocity_epsilon: length(self.velocity_epsilon, 0.0001),
-            },
-        }
-    }
-
     fn advection(&self, filled: &Filled) -> Option<Advection> {
         match self.transport {
             Transport::Upwind => None,
@@ -183,12 +182,17 @@ impl Hydraulic {
         self.thermal.as_ref().map(|Nested(thermal)| thermal.slide())
     }
 
-    /// Rain and evaporation of a step: first it rains, then the sun shines; `mei` evaporates always.
+    /// Rain and evaporation of a step: first it rains, then the sun shines; `mei` evaporates always, and `stava`
+    /// where there is no dry period.
     fn sky(&self, filled: &Filled, step: u64) -> Sky {
         let cycle = u64::from(self.rain_period) + u64::from(filled.dry_period);
         let raining = step % cycle < u64::from(self.rain_period);
         let rain = if raining { filled.rain } else { 0.0 };
-        let evaporates = self.model == Model::Mei || !raining;
+        let evaporates = match self.model {
+            Model::Han => !raining,
+            Model::Mei => true,
+            Model::Stava => !raining || filled.dry_period == 0,
+        };
         Sky { rain, evaporation: if evaporates { filled.evaporation } else { 0.0 } }
     }
 
@@ -203,8 +207,9 @@ impl Hydraulic {
 
 impl Step for Hydraulic {
     fn reads(&self) -> Vec<String> {
-        let water = self.initial_water.iter().map(|name| name.0.clone());
-        std::iter::once(self.layer.0.clone()).chain(water).collect()
+        let painted = [&self.rain_layer, &self.evaporation_layer, &self.source_layer];
+        let others = [&self.initial_water, &self.region].into_iter().chain(painted);
+        std::iter::once(&self.layer).chain(others.flatten()).map(|name| name.0.clone()).collect()
     }
 
     fn writes(&self) -> Vec<(String, &'static str)> {
@@ -216,39 +221,23 @@ impl Step for Hydraulic {
             ("erosion", "m"),
             ("deposition", "m"),
         ];
-        let own = own.into_iter().map(|(name, unit)| (name.to_owned(), unit));
+        let regolith = self.dissolution.is_some().then_some((REGOLITH, "m"));
+        let own = own.into_iter().chain(regolith);
+        let own = own.map(|(name, unit)| (name.to_owned(), unit));
         std::iter::once((self.layer.0.clone(), "m")).chain(own).collect()
     }
 
+    fn layered(&self) -> Layered {
+        if self.model == Model::Stava { Layered::Changes } else { Layered::Never }
+    }
+
     fn faults(&self) -> Vec<String> {
-        let mut faults = Vec::new();
-        if self.model == Model::Mei && self.law == UptakeLaw::Dissolution {
-            faults.push("`law` belongs to model \"han\"; mei always erodes towards its capacity".to_owned());
-        }
-        if self.model == Model::Mei && self.evaporation.is_some_and(|share| share > 1.0) {
-            faults.push("`evaporation` of model \"mei\" is a share of the depth, 0 to 1".to_owned());
-        }
-        if self.transport == Transport::Upwind && self.conserve == Some(false) {
-            faults
-                .push("`conserve` is false, but transport = \"upwind\" always conserves sediment".to_owned());
-        }
-        if self.transport == Transport::SemiLagrangian && self.conserve == Some(true) {
-            faults.push(
-                "`conserve` is true, but transport = \"semi-lagrangian\" cannot conserve sediment; \
-                 \"maccormack\" and \"upwind\" can"
-                    .to_owned(),
-            );
-        }
-        faults
+        self.all_faults()
     }
 
     fn run(&self, landscape: &mut Landscape, job: &Job<'_>) -> Result<Outcome, Error> {
         let filled = self.filled(landscape.domain.cell);
-        let open = self.boundary == Boundary::Open;
-        let mut working = Working::new(landscape, &self.layer.0, open)?;
-        if let Some(water) = &self.initial_water {
-            working.set_water(landscape, &water.0)?;
-        }
+        let working = self.working(landscape)?;
         self.run_model(landscape, job, &filled, &working)
     }
 }

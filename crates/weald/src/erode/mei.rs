@@ -8,7 +8,7 @@
 //! (`semi-lagrangian` gives the source's); exchange constants are per step; ground is kept as start plus
 //! change (see [`super::settling`]).
 
-mod kernels;
+pub(crate) mod kernels;
 mod program;
 mod sediment;
 mod water;

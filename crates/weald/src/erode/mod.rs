@@ -1,10 +1,12 @@
 //! Processes that shape ground: water in virtual pipes, sediment, gravity. One file a method.
 //!
-//! [`hydraulic`] is rain and rivers by either of two schemes, [`thermal_step`] gravity alone; [`thermal`] has the
-//! schemes of weathering that both use. Within a process lengths are in cells and time is in steps; rows of cells
+//! [`hydraulic`] is rain and rivers by one of three schemes, [`thermal_step`] gravity alone; [`thermal`] has the
+//! schemes of weathering that both use. [`slippage_step`] and [`dissolution_step`] are processes of the third
+//! scheme alone. Within a process lengths are in cells and time is in steps; rows of cells
 //! stream through its stages, so that several steps pass through memory at once.
 
 mod advection;
+pub mod dissolution_step;
 mod flux_corrected;
 mod han;
 pub mod hydraulic;
@@ -17,6 +19,10 @@ mod saved;
 mod setting;
 mod settling;
 mod simulation;
+pub mod slippage_step;
+pub mod springs;
+mod stack;
+mod stava;
 mod sums;
 pub mod thermal;
 pub mod thermal_step;

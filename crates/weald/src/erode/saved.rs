@@ -14,18 +14,17 @@ pub(crate) struct Saved {
 
 impl Saved {
     /// With the names of its planes.
-    pub(crate) fn named(&self, plane_names: &[&str]) -> SavedSimulation {
+    pub(crate) fn named(&self, plane_names: &[String]) -> SavedSimulation {
         let Snapshot { state, row_sums, means } = &self.snapshot;
         let names = plane_names.iter().enumerate();
-        let mut planes: Vec<_> =
-            names.map(|(plane, name)| ((*name).to_owned(), state.gather(plane))).collect();
+        let mut planes: Vec<_> = names.map(|(plane, name)| (name.clone(), state.gather(plane))).collect();
         planes.extend(means.iter().enumerate().map(|(at, mean)| (format!("mean_{at}"), mean.clone())));
         let sums = vec![("rows".to_owned(), row_sums.as_flattened().to_vec())];
         SavedSimulation { iteration: self.done, planes, sums }
     }
 
     /// This start with the planes, sums and means of a checkpoint.
-    pub(crate) fn resumed(mut self, saved: &SavedSimulation, plane_names: &[&str]) -> Result<Self, Error> {
+    pub(crate) fn resumed(mut self, saved: &SavedSimulation, plane_names: &[String]) -> Result<Self, Error> {
         let cells = self.snapshot.size().cells();
         let plane = |name: &str| {
             let found = saved.planes.iter().find(|(known, _)| known == name);

@@ -24,7 +24,7 @@ uniform! {
 pub(crate) struct Simulation<'a, P: Process> {
     pub(crate) process: &'a P,
     /// Names of the state planes, for checkpoints and errors.
-    pub(crate) plane_names: &'a [&'a str],
+    pub(crate) plane_names: &'a [String],
     /// Steps to run.
     pub(crate) iterations: u64,
     /// Weather of each step.
@@ -117,7 +117,7 @@ impl<'a, P: Process> Running<'a, P> {
     ) -> Result<Self, Error> {
         let state = &from.snapshot.state;
         if let Some([x, y, plane]) = state.first_not_finite(simulation.process.state_planes()) {
-            let name = simulation.plane_names[plane];
+            let name = &simulation.plane_names[plane];
             return Err(Error::Run(format!(
                 "the simulation starts with a value of `{name}` at column {x}, row {y} that is no number"
             )));
@@ -163,7 +163,7 @@ impl<'a, P: Process> Running<'a, P> {
             let before = self.saved()?;
             self.advance_to(self.done + 1)?;
             let Some([x, y, plane]) = self.machine.first_not_finite()? else { continue };
-            let name = self.simulation.plane_names[plane];
+            let name = &self.simulation.plane_names[plane];
             let kept = match self.job.watcher.checkpoint(&before) {
                 Ok(()) => "the last good state was kept".to_owned(),
                 Err(error) => format!("the last good state could not be kept: {error}"),

@@ -79,12 +79,12 @@ impl Step for Thermal {
         let process = Sliding { slide, links, arch: Arch::new() };
         let simulation = Simulation {
             process: &process,
-            plane_names: &["change"],
+            plane_names: &["change".to_owned()],
             iterations: u64::from(self.iterations),
             weather: &|_| (),
             record: None,
         };
-        let finished = simulation.run(working.state(1), job)?;
+        let finished = simulation.run(working.state(1, &[]), job)?;
         Ok(working.store_ground(landscape, &self.layer.0, &finished, u64::from(self.iterations)))
     }
 }

@@ -146,7 +146,7 @@ impl Step for Carry {
         let process = Carrying { advection, links: Links::new(size, masked), arch: Arch::new() };
         let simulation = Simulation {
             process: &process,
-            plane_names: &["load"],
+            plane_names: &["load".to_owned()],
             iterations: u64::from(self.iterations),
             weather: &|_| (),
             record: None,

@@ -3,6 +3,7 @@
 use super::links::mask_planes;
 use super::setting::plane;
 use super::simulation::{Finished, Flows};
+use super::stack::Stack;
 use crate::engine::{Budget, SolidBudget, WaterBudget};
 use crate::error::Error;
 use crate::grid::{Field, Mask, Size};
@@ -18,13 +19,19 @@ pub(crate) struct Working {
     pub(crate) mask: Option<Mask>,
     /// Width of the ring: 1 around an open domain, else 0.
     ring: usize,
-    cell: f64,
+    pub(super) cell: f64,
     /// Ground at the start, in metres, without the ring.
-    start: Field,
-    /// The same in cells, with the ring, above the lowest ground.
-    base: Vec<f32>,
+    pub(super) start: Field,
+    /// The lowest of it.
+    pub(super) lowest: f64,
+    /// The same in cells, with the ring, above the lowest ground; that of the bedrock where there is a stack.
+    pub(super) base: Vec<f32>,
     /// Depth of water at the start, in cells.
     water: Vec<f32>,
+    /// The same in metres, where some stands.
+    standing: Option<Field>,
+    /// Materials on the bedrock, for processes that tell them apart.
+    pub(super) stack: Option<Stack>,
 }
 
 /// What [`Working::store`] has to know of the run.
@@ -38,72 +45,134 @@ pub(crate) struct Kept {
 impl Working {
     /// Takes the ground from a layer. Heights count from the lowest ground, which keeps their digits.
     pub(crate) fn new(landscape: &Landscape, layer: &str, open: bool) -> Result<Self, Error> {
+        Self::within(landscape, layer, open, None)
+    }
+
+    /// The same with walls around a region: cells where that layer is below 0.5 take no part.
+    pub(crate) fn within(
+        landscape: &Landscape,
+        layer: &str,
+        open: bool,
+        region: Option<&str>,
+    ) -> Result<Self, Error> {
         let start = landscape.field(layer)?.clone();
+        let region = region.map(|name| landscape.field(name)).transpose()?;
         let domain = &landscape.domain;
         let ring = usize::from(open);
         let size = Size { columns: domain.size.columns + 2 * ring, rows: domain.size.rows + 2 * ring };
         let lowest = start.range(domain.land.as_ref()).map_or(0.0, |(lowest, _)| f64::from(lowest));
         let mut working = Self {
             size,
-            mask: ringed_mask(domain.land.as_ref(), domain.size, ring),
+            mask: ringed_mask(size, ring, |x, y| {
+                let here = region.is_none_or(|region| region.at(x, y) >= 0.5);
+                here && domain.land.as_ref().is_none_or(|land| land.is_land(x, y))
+            }),
             ring,
             cell: domain.cell,
-            base: vec![0.0; size.cells()],
+            lowest,
+            base: Vec::new(),
             water: vec![0.0; size.cells()],
+            standing: None,
+            stack: None,
             start,
         };
         working.base =
-            working.ringed(|height| ((f64::from(height) - lowest) / domain.cell) as f32, &working.start);
+            working.ringed(|x, y| ((f64::from(working.start.at(x, y)) - lowest) / domain.cell) as f32);
         Ok(working)
     }
 
     /// Takes the depth of standing water from a layer.
     pub(crate) fn set_water(&mut self, landscape: &Landscape, layer: &str) -> Result<(), Error> {
-        let cell = self.cell;
-        self.water = self.ringed(|depth| (f64::from(depth.max(0.0)) / cell) as f32, landscape.field(layer)?);
+        let standing = landscape.field(layer)?.clone();
+        self.water = self.lengths(&standing);
+        self.standing = Some(standing);
         Ok(())
     }
 
-    /// A field with the ring, zero there and on cells without data.
-    fn ringed(&self, convert: impl Fn(f32) -> f32, field: &Field) -> Vec<f32> {
+    /// Where a cell of the landscape stands in the working planes.
+    pub(super) fn place(&self, x: usize, y: usize) -> usize {
+        self.size.index(x + self.ring, y + self.ring)
+    }
+
+    /// Lengths of a field in cells, none below 0, as [`Working::ringed`].
+    pub(super) fn lengths(&self, metres: &Field) -> Vec<f32> {
+        self.ringed(|x, y| (f64::from(metres.at(x, y).max(0.0)) / self.cell) as f32)
+    }
+
+    /// Values with the ring, zero there and on cells without data.
+    pub(super) fn ringed(&self, value: impl Fn(usize, usize) -> f32) -> Vec<f32> {
         let mut cells = vec![0.0; self.size.cells()];
-        for y in 0..field.size().rows {
-            for (x, &value) in field.row(y).iter().enumerate() {
-                let at = self.size.index(x + self.ring, y + self.ring);
+        let Size { columns, rows } = self.start.size();
+        for y in 0..rows {
+            for x in 0..columns {
+                let at = self.place(x, y);
                 if self.is_land(at) {
-                    cells[at] = convert(value);
+                    cells[at] = value(x, y);
                 }
             }
         }
         cells
     }
 
+    /// Depth of water at the start, in cells, with the ring.
+    pub(super) fn water(&self) -> &[f32] {
+        &self.water
+    }
+
     fn is_land(&self, at: usize) -> bool {
         self.mask.as_ref().is_none_or(|mask| mask.is_land_at(at))
     }
 
-    /// State planes of zeros, water in that of the depth where there is one, and the constant planes behind.
-    pub(crate) fn state(&self, planes: usize) -> Rows {
+    /// State planes of zeros with the materials in theirs, and the constant planes behind: the ground, the
+    /// mask, and those that are given.
+    pub(crate) fn state(&self, planes: usize, more: &[Vec<f32>]) -> Rows {
         let masks = self.mask.as_ref().map(|mask| mask_planes(mask, self.ring > 0));
-        let constants = 1 + masks.as_ref().map_or(0, |masks| masks.len());
-        let layout = Layout { columns: self.size.columns, planes: planes + constants };
+        let constants = std::iter::once(&self.base).chain(masks.iter().flatten()).chain(more);
+        let layout = Layout { columns: self.size.columns, planes: planes + constants.clone().count() };
         let mut rows = Rows::new(layout, self.size.rows);
-        if plane::DEPTH < planes {
-            rows.scatter(plane::DEPTH, &self.water);
+        for (at, plane) in constants.enumerate() {
+            rows.scatter(planes + at, plane);
         }
-        rows.scatter(planes, &self.base);
-        for (at, plane) in masks.iter().flatten().enumerate() {
-            rows.scatter(planes + 1 + at, plane);
+        if let Some(stack) = &self.stack {
+            stack.scatter(&mut rows);
         }
         rows
     }
 
-    /// A working plane without the ring, converted.
-    fn field(&self, plane: &[f32], convert: impl Fn(f32) -> f32) -> Field {
+    /// The same with the water that stands, for states that begin with change, depth and sediment.
+    pub(crate) fn water_state(&self, planes: usize, more: &[Vec<f32>]) -> Rows {
+        let mut rows = self.state(planes, more);
+        rows.scatter(plane::DEPTH, &self.water);
+        rows
+    }
+
+    /// A working plane without the ring, converted; 0 on cells that take no part.
+    pub(super) fn field(&self, plane: &[f32], convert: impl Fn(f32) -> f32) -> Field {
+        self.field_or(|at| convert(plane[at]), |_, _| 0.0)
+    }
+
+    /// Values by the place in the working planes, and other values by column and row on cells that take no part.
+    pub(super) fn field_or(
+        &self,
+        value: impl Fn(usize) -> f32,
+        elsewhere: impl Fn(usize, usize) -> f32,
+    ) -> Field {
         Field::from_function(self.start.size(), |x, y| {
-            let at = self.size.index(x + self.ring, y + self.ring);
-            if self.is_land(at) { convert(plane[at]) } else { 0.0 }
+            let at = self.place(x, y);
+            if self.is_land(at) { value(at) } else { elsewhere(x, y) }
         })
+    }
+
+    /// Depths of water in metres; where a region leaves cells out, water stands there as it did.
+    fn depths(&self, depth: &[f32], land: Option<&Mask>) -> Field {
+        let cell = self.cell as f32;
+        self.field_or(
+            |at| depth[at] * cell,
+            |x, y| match &self.standing {
+                Some(standing) if land.is_none_or(|land| land.is_land(x, y)) => standing.at(x, y).max(0.0),
+                _ => 0.0,
+            },
+        )
     }
 
     /// Ground after a change in cells: the start stays to the bit where nothing changed.
@@ -122,13 +191,14 @@ impl Working {
         finished: &Finished,
         kept: Kept,
     ) -> Outcome {
-        let [change, depth, sediment] =
-            [plane::CHANGE, plane::DEPTH, plane::SEDIMENT].map(|at| finished.state.gather(at));
+        let change = self.ground_change(finished);
+        let [depth, sediment] = [plane::DEPTH, plane::SEDIMENT].map(|at| finished.state.gather(at));
         let cell = self.cell as f32;
-        let moved = self.field(&change, |change| change);
-        let budget = self.budget(&change, &depth, &sediment, finished);
-        landscape.insert(layer, "m", self.ground(&moved));
-        landscape.insert("water", "m", self.field(&depth, |depth| depth * cell));
+        let budget = self.budget(&depth, &sediment, finished);
+        landscape.insert(layer, "m", self.ground(&self.field(&change, |change| change)));
+        self.store_stack(landscape, finished);
+        let water = self.depths(&depth, landscape.domain.land.as_ref());
+        landscape.insert("water", "m", water);
         landscape.insert("sediment", "m", self.field(&sediment, |sediment| sediment * cell));
         let volume = cell * cell * cell;
         landscape.insert("flux_x", "m³/step", self.field(&finished.means[0], |flux| flux * volume));
@@ -155,22 +225,27 @@ impl Working {
         finished: &Finished,
         iterations: u64,
     ) -> Outcome {
-        let change = finished.state.gather(0);
+        let change = self.ground_change(finished);
         landscape.insert(layer, "m", self.ground(&self.field(&change, |change| change)));
-        let nothing = vec![0.0; change.len()];
-        let mut budget = self.budget(&change, &nothing, &nothing, finished);
+        self.store_stack(landscape, finished);
+        let mut budget = self.budget(&[], &[], finished);
         budget.water = WaterBudget::default();
         Outcome { iterations, budget: Some(budget), notes: Vec::new() }
     }
 
-    fn budget(&self, change: &[f32], depth: &[f32], sediment: &[f32], finished: &Finished) -> Budget {
+    /// Sum over all cells, row by row.
+    pub(super) fn total(&self, cells: &[f32]) -> f64 {
+        let rows = cells.chunks(self.size.columns);
+        rows.map(|row| row.iter().map(|&cell| f64::from(cell)).sum::<f64>()).sum()
+    }
+
+    fn budget(&self, depth: &[f32], sediment: &[f32], finished: &Finished) -> Budget {
         let volume = self.cell * self.cell * self.cell;
-        let columns = self.size.columns;
-        let total = |cells: &[f32]| -> f64 {
-            cells.chunks(columns).map(|row| row.iter().map(|&cell| f64::from(cell)).sum::<f64>()).sum()
-        };
+        let total = |cells: &[f32]| self.total(cells);
         let flows = Flows::from(finished.sums);
-        let start = total(&self.base);
+        let bedrock = total(&self.base);
+        let change = finished.state.gather(plane::CHANGE);
+        let [loose_before, loose] = self.loose(finished);
         Budget {
             water: WaterBudget {
                 incoming: (flows.rained + total(&self.water)) * volume,
@@ -178,8 +253,9 @@ impl Working {
                 stored: total(depth) * volume,
             },
             solid: SolidBudget {
-                start: start * volume,
-                ground: (start + total(change)) * volume,
+                start: (bedrock + loose_before) * volume,
+                ground: (bedrock + total(&change)) * volume,
+                layers: loose * volume,
                 suspended: total(sediment) * volume,
                 outgoing: flows.solid_out * volume,
             },
@@ -187,13 +263,12 @@ impl Working {
     }
 }
 
-/// The mask with a ring of no-data cells around it.
-fn ringed_mask(land: Option<&Mask>, size: Size, ring: usize) -> Option<Mask> {
-    let ringed = Size { columns: size.columns + 2 * ring, rows: size.rows + 2 * ring };
-    let inside = |at: usize, side: usize| at.checked_sub(ring).filter(|at| *at < side);
+/// The mask of a working grid with a ring of no-data cells around the cells that take part.
+fn ringed_mask(ringed: Size, ring: usize, takes_part: impl Fn(usize, usize) -> bool) -> Option<Mask> {
+    let inside = |at: usize, side: usize| at.checked_sub(ring).filter(|at| *at + 2 * ring < side);
     let flags = (0..ringed.cells()).map(|at| {
-        match (inside(at % ringed.columns, size.columns), inside(at / ringed.columns, size.rows)) {
-            (Some(x), Some(y)) => land.is_none_or(|land| land.is_land(x, y)),
+        match (inside(at % ringed.columns, ringed.columns), inside(at / ringed.columns, ringed.rows)) {
+            (Some(x), Some(y)) => takes_part(x, y),
             _ => false,
         }
     });

@@ -30,6 +30,8 @@ pub const CATALOG: &[Entry] = &[
     erode::hydraulic::ENTRY,
     erode::thermal_step::ENTRY,
     erode::transport_step::ENTRY,
+    erode::slippage_step::ENTRY,
+    erode::dissolution_step::ENTRY,
 ];
 
 /// The step of that name.

@@ -99,7 +99,7 @@ fn write_parameters(text: &mut String, parameters: &[Parameter], indent: usize) 
         let kind = parameter.kind.in_words();
         let _ = writeln!(text, "\n{:indent$}{} ({kind}{unit}{default})", "", parameter.name);
         text.push_str(&wrapped(parameter.doc, indent + 2));
-        if let Kind::Table(inner) = &parameter.kind {
+        if let Kind::Table(inner) | Kind::Tables(inner) = &parameter.kind {
             write_parameters(text, inner, indent + 4);
         }
     }
@@ -136,7 +136,7 @@ mod tests {
 
     #[test]
     fn a_parameter_is_shown_with_kind_unit_and_default() {
-        let text = of("do = \"x\"", "Does x.", Some("Weald"), &crate::recipe::LandscapeKeys::parameters());
+        let text = of("do = \"x\"", "Does x.", Some("Weald"), &LandscapeKeys::parameters());
         assert!(text.contains("cell (number, 0.001 to 100000, in m)"), "{text}");
         assert!(text.contains("seed (whole number, 0 to 9007199254740991, default 0)"), "{text}");
     }

@@ -3,11 +3,13 @@
 
 mod colour;
 mod file;
+mod places;
 mod sides;
 mod values;
 
 pub use colour::Colour;
 pub use file::RasterFile;
+pub use places::Places;
 pub use sides::Sides;
 pub use values::{LayerName, Nested};
 
@@ -52,10 +54,14 @@ pub enum Kind {
     Sides,
     /// The name of a layer.
     Layer,
+    /// A place as a list of two numbers, or a list of places.
+    Places,
     /// A list of numbers, each within both bounds.
     Numbers(f64, f64),
     /// A table with parameters of its own.
     Table(Vec<Parameter>),
+    /// A list of such tables.
+    Tables(Vec<Parameter>),
 }
 
 impl Kind {
@@ -74,7 +80,9 @@ impl Kind {
             Self::Sides => "whole number from 1, or [columns, rows]".to_owned(),
             Self::Layer => "layer name".to_owned(),
             Self::Numbers(low, high) => format!("list of numbers, {}", range_in_words(*low, *high)),
+            Self::Places => "[x, y], or a list of places".to_owned(),
             Self::Table(_) => "table".to_owned(),
+            Self::Tables(_) => "list of tables".to_owned(),
         }
     }
 }

@@ -99,7 +99,7 @@ pub struct SolidReport {
     pub start: f64,
     /// Ground at the end.
     pub bedrock: f64,
-    /// Loose layers at the end; 0 while no step keeps them apart from the ground.
+    /// Loose layers and regolith at the end; 0 where the step does not keep them apart from the ground.
     pub layers: f64,
     /// Carried by water at the end.
     pub suspended: f64,
@@ -137,7 +137,7 @@ impl From<WaterBudget> for WaterReport {
 
 impl From<SolidBudget> for SolidReport {
     fn from(solid: SolidBudget) -> Self {
-        let SolidBudget { start, ground, suspended, outgoing } = solid;
-        Self { start, bedrock: ground, layers: 0.0, suspended, outgoing, error: solid.error() }
+        let SolidBudget { start, ground, layers, suspended, outgoing } = solid;
+        Self { start, bedrock: ground, layers, suspended, outgoing, error: solid.error() }
     }
 }

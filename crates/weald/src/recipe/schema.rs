@@ -133,7 +133,14 @@ fn of_kind(kind: &Kind) -> Value {
             let side = json!({ "type": "integer", "minimum": 1 });
             json!({ "oneOf": [side, { "type": "array", "items": side, "minItems": 2, "maxItems": 2 }] })
         }
+        Kind::Places => {
+            let place = json!({
+                "type": "array", "items": { "type": "number" }, "minItems": 2, "maxItems": 2,
+            });
+            json!({ "oneOf": [place, { "type": "array", "items": place, "minItems": 1 }] })
+        }
         Kind::Table(parameters) => table(parameters),
+        Kind::Tables(parameters) => json!({ "type": "array", "items": table(parameters) }),
     }
 }
 

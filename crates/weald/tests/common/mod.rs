@@ -2,8 +2,13 @@
 #![allow(dead_code, unreachable_pub, reason = "each test binary uses its own part")]
 
 use weald::engine::{Engine, Job, Unwatched};
-use weald::erode::hydraulic::Hydraulic;
+use weald::erode::dissolution_step::DissolutionWithin;
+use weald::erode::hydraulic::{Hydraulic, Model};
+use weald::erode::slippage_step::SlippageWithin;
+use weald::erode::springs::Spring;
+use weald::material::Material;
 use weald::random::signed2;
+use weald::recipe::parameter::Nested;
 use weald::step::{Outcome, Step};
 use weald::{Domain, Field, Landscape, Size};
 
@@ -31,6 +36,21 @@ pub fn landscape(height: Field) -> Landscape {
     landscape
 }
 
+/// The same with clay, soil and sand on the rock, each thick here and thin or missing there, and a layer
+/// `painted` from 0 to 1.
+pub fn layered(height: Field) -> Landscape {
+    let size = height.size();
+    let mut land = landscape(height);
+    land.materials =
+        ["rock", "clay", "soil", "sand"].iter().filter_map(|name| Material::built_in(name)).collect();
+    for (seed, material) in (21..).zip(["clay", "soil", "sand"]) {
+        let patches = rough(size.columns, size.rows, 3.0, seed);
+        land.insert(material, "m", Field::from_function(size, |x, y| (patches.at(x, y) - 1.0).max(0.0)));
+    }
+    land.insert("painted", "1", rough(size.columns, size.rows, 1.0, 20));
+    land
+}
+
 /// Runs a step on an engine.
 pub fn run_on(step: &dyn Step, landscape: &mut Landscape, engine: Engine) -> Outcome {
     let job = Job { seed: 7, engine, watcher: &Unwatched, resume: None };
@@ -47,7 +67,41 @@ pub fn hydraulic(iterations: u32) -> Hydraulic {
     Hydraulic { iterations, ..Hydraulic::default() }
 }
 
+/// `hydraulic` by Šťava et al. with all of its processes.
+pub fn stava(iterations: u32) -> Hydraulic {
+    Hydraulic {
+        model: Model::Stava,
+        viscosity: 0.5,
+        dissolution: Some(Nested(DissolutionWithin::default())),
+        slippage: Some(Nested(SlippageWithin { strength: 0.05, softening: false })),
+        ..hydraulic(iterations)
+    }
+}
+
+/// A spring of a few cells' width.
+pub fn spring(x: f64, y: f64) -> Nested<Spring> {
+    Nested(Spring { x, y, radius: 2.5, rate: 0.05 })
+}
+
 /// Greatest difference of two fields.
 pub fn worst_difference(a: &Field, b: &Field) -> f32 {
     a.values().iter().zip(b.values()).map(|(a, b)| (a - b).abs()).fold(0.0, f32::max)
+}
+
+/// A function from cell to cell.
+pub type Turn = Box<dyn Fn(usize, usize) -> (usize, usize)>;
+
+/// The eight symmetries of the square.
+pub fn symmetries(side: usize) -> [Turn; 8] {
+    let m = side - 1;
+    [
+        Box::new(|x, y| (x, y)),
+        Box::new(move |x, y| (m - x, y)),
+        Box::new(move |x, y| (x, m - y)),
+        Box::new(move |x, y| (m - x, m - y)),
+        Box::new(|x, y| (y, x)),
+        Box::new(move |x, y| (m - y, x)),
+        Box::new(move |x, y| (y, m - x)),
+        Box::new(move |x, y| (m - y, m - x)),
+    ]
 }

@@ -64,6 +64,7 @@ impl World {
         match keys.model {
             Model::Han => self.han(keys, rain, if raining { 0.0 } else { evaporation }),
             Model::Mei => self.mei(keys, rain, evaporation),
+            Model::Stava => unreachable!("the reference of stava is another"),
         }
         if let Some(Nested(thermal)) = &keys.thermal {
             thermal::slide(self, thermal.scheme, thermal.talus, thermal.strength);

@@ -1,4 +1,4 @@
-//! The two models with the keys of a recipe filled in, run or timed.
+//! The three models with the keys of a recipe filled in, run or timed.
 
 use pulp::Arch;
 
@@ -14,16 +14,49 @@ use crate::erode::working::{Kept, Working};
 use crate::error::Error;
 use crate::landscape::Landscape;
 use crate::stencil::chain::Process;
+use crate::stencil::rows::Rows;
 use crate::step::Outcome;
 
+/// Planes with which the states of mei and of stava begin.
+pub(super) const MEI_PLANES: &[&str] =
+    &["change", "water", "sediment", "flow_east", "flow_west", "flow_south", "flow_north"];
+
 /// A model as the recipe asks for it: its process and what a simulation has to know of its state.
-struct Chosen<P> {
-    process: P,
-    plane_names: &'static [&'static str],
-    means: Means<'static>,
+pub(super) struct Chosen<P> {
+    pub(super) process: P,
+    pub(super) plane_names: Vec<String>,
+    pub(super) means: Means<'static>,
+    /// Constant planes behind those of every model.
+    pub(super) constants: Vec<Vec<f32>>,
+}
+
+impl<P: Process> Chosen<P> {
+    fn start(&self, working: &Working) -> Rows {
+        working.water_state(self.process.state_planes(), &self.constants)
+    }
+}
+
+/// Names of planes as a simulation wants them.
+pub(super) fn named(names: &[&str]) -> Vec<String> {
+    names.iter().map(|name| (*name).to_owned()).collect()
 }
 
 impl Hydraulic {
+    /// The landscape in working units.
+    pub(super) fn working(&self, landscape: &Landscape) -> Result<Working, Error> {
+        let open = self.boundary == Boundary::Open;
+        let region = self.region.as_ref().map(|region| region.0.as_str());
+        let mut working = Working::within(landscape, &self.layer.0, open, region)?;
+        if let Some(water) = &self.initial_water {
+            working.set_water(landscape, &water.0)?;
+        }
+        if self.model == Model::Stava {
+            let deposit = self.deposit_of(landscape)?;
+            working.set_stack(landscape, self.column(landscape), deposit)?;
+        }
+        Ok(working)
+    }
+
     /// Runs the model on a landscape in working units.
     pub(super) fn run_model(
         &self,
@@ -35,6 +68,7 @@ impl Hydraulic {
         let finished = match self.model {
             Model::Han => self.simulate(&self.han(filled, working), job, filled, working),
             Model::Mei => self.simulate(&self.mei(filled, working), job, filled, working),
+            Model::Stava => self.simulate(&self.stava(landscape, filled, working)?, job, filled, working),
         }?;
         let kept = Kept { iterations: u64::from(self.iterations), conserving: self.conserves() };
         Ok(working.store(landscape, &self.layer.0, &finished, kept))
@@ -49,12 +83,12 @@ impl Hydraulic {
     ) -> Result<Finished, Error> {
         let simulation = Simulation {
             process: &chosen.process,
-            plane_names: chosen.plane_names,
+            plane_names: &chosen.plane_names,
             iterations: u64::from(self.iterations),
             weather: &|step| self.sky(filled, step),
             record: Some(Record { steps: self.last_cycle(filled), means: chosen.means }),
         };
-        simulation.run(working.state(chosen.process.state_planes()), job)
+        simulation.run(chosen.start(working), job)
     }
 
     fn han(&self, filled: &Filled, working: &Working) -> Chosen<Han> {
@@ -70,8 +104,9 @@ impl Hydraulic {
         };
         Chosen {
             process: Han { constants, limiter: self.limiter, setting: self.setting(filled, working) },
-            plane_names: &["change", "water", "sediment", "flux_east", "flux_south"],
+            plane_names: named(&["change", "water", "sediment", "flux_east", "flux_south"]),
             means: han::MEAN_FLUXES,
+            constants: Vec::new(),
         }
     }
 
@@ -87,20 +122,13 @@ impl Hydraulic {
         };
         Chosen {
             process: Mei { constants, limiter: self.limiter, setting: self.setting(filled, working) },
-            plane_names: &[
-                "change",
-                "water",
-                "sediment",
-                "flow_east",
-                "flow_west",
-                "flow_south",
-                "flow_north",
-            ],
+            plane_names: named(MEI_PLANES),
             means: mei::MEAN_FLUXES,
+            constants: Vec::new(),
         }
     }
 
-    fn setting(&self, filled: &Filled, working: &Working) -> Setting {
+    pub(super) fn setting(&self, filled: &Filled, working: &Working) -> Setting {
         Setting {
             links: Links::new(working.size, working.mask.is_some()),
             open: self.boundary == Boundary::Open,
@@ -116,11 +144,14 @@ impl Hydraulic {
     /// [`Error::Run`] where the landscape lacks the layer.
     pub fn seconds(&self, landscape: &Landscape, engine: &Engine) -> Result<f64, Error> {
         let filled = self.filled(landscape.domain.cell);
-        let working = Working::new(landscape, &self.layer.0, self.boundary == Boundary::Open)?;
+        let working = self.working(landscape)?;
         let weather: Vec<_> = (0..u64::from(self.iterations)).map(|step| self.sky(&filled, step)).collect();
         match self.model {
             Model::Han => seconds_of(&self.han(&filled, &working), &working, &weather, engine),
             Model::Mei => seconds_of(&self.mei(&filled, &working), &working, &weather, engine),
+            Model::Stava => {
+                seconds_of(&self.stava(landscape, &filled, &working)?, &working, &weather, engine)
+            }
         }
     }
 }
@@ -131,7 +162,7 @@ fn seconds_of<P: Process<Weather = Sky>>(
     weather: &[Sky],
     engine: &Engine,
 ) -> Result<f64, Error> {
-    let start = Snapshot::start(working.state(chosen.process.state_planes()), 0);
+    let start = Snapshot::start(chosen.start(working), 0);
     let mut machine = machine::start(&chosen.process, &[], &start, engine)?;
     // The first step compiles, allocates and warms up; the look at the end waits for a device.
     machine.advance(&weather[..1], false)?;

@@ -39,7 +39,7 @@ kernel! {
 
 /// The four outflows scaled to the water that the cell has, or to `most` where the scheme runs as it is.
 #[inline(always)]
-fn scaled(wanted: [f32; 4], depth: f32, most: f32) -> [f32; 4] {
+pub(crate) fn scaled(wanted: [f32; 4], depth: f32, most: f32) -> [f32; 4] {
     let sum = (wanted[0] + wanted[1]) + (wanted[2] + wanted[3]);
     let afford = (depth * (1.0 - KEPT)).max(most);
     let share = if sum > afford { afford / sum } else { 1.0 };

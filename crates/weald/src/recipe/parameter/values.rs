@@ -29,7 +29,12 @@ impl ParameterValue for f64 {
     }
 
     fn shown(&self) -> Option<String> {
-        Some(format!("{self:?}"))
+        (!self.must_be_given()).then(|| format!("{self:?}"))
+    }
+
+    /// A default that is no number means that the recipe must give one.
+    fn must_be_given(&self) -> bool {
+        self.is_nan()
     }
 }
 
@@ -173,5 +178,28 @@ impl<T: Parameters + Clone> ParameterValue for Nested<T> {
 
     fn shown(&self) -> Option<String> {
         None
+    }
+}
+
+/// Most tables in a list.
+const MOST_TABLES: usize = 1000;
+
+impl<T: Parameters + Clone> ParameterValue for Vec<Nested<T>> {
+    fn kind(_: (f64, f64)) -> Kind {
+        Kind::Tables(T::parameters())
+    }
+
+    fn read(node: &Node, range: (f64, f64), complaints: &mut Complaints) -> Result<Self, String> {
+        let Value::List(items) = &node.value else {
+            return Err(wrong(node, "a list of tables [{ … }, …]"));
+        };
+        if items.len() > MOST_TABLES {
+            return Err(format!("has {} tables, but at most {MOST_TABLES} are read", items.len()));
+        }
+        items.iter().map(|item| Nested::read(item, range, complaints)).collect()
+    }
+
+    fn shown(&self) -> Option<String> {
+        self.is_empty().then(|| "[]".to_owned())
     }
 }

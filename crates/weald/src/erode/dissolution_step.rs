@@ -1,0 +1,215 @@
+//! The `dissolution` step: ground under standing water turns into regolith, which creeps downhill.
+
+use pulp::Arch;
+
+use super::hydraulic::deposit_of;
+use super::links::Links;
+use super::simulation::Simulation;
+use super::stack::{Column, REGOLITH, regolith_names, thickness_names};
+use super::stava::digging::{DigScratch, Digging};
+use super::stava::dissolution::{Dissolution, DissolutionScratch, RegolithRows};
+use super::stava::planes::{Planes, REGOLITH_PLANES};
+use super::working::Working;
+use crate::engine::Job;
+use crate::engine::program::Program;
+use crate::error::Error;
+use crate::grid::Size;
+use crate::landscape::Landscape;
+use crate::material::Material;
+use crate::parameters;
+use crate::recipe::parameter::LayerName;
+use crate::stencil::chain::{Flow, Process};
+use crate::stencil::ring::Ring;
+use crate::step::{Entry, Layered, Outcome, Stage, Step};
+
+parameters! {
+    /// Dissolution as a step of its own, under water that stands still.
+    pub struct DissolutionStep {
+        /// Depth to which standing water soaks the ground (r_max).
+        depth: f64 = 0.2, range 0.0..=1000.0, unit "m";
+        /// Share of the flow of the regolith that friction takes in a step.
+        damping: f64 = 0.85, range 0.0..=1.0;
+        /// Pipe constant k of the regolith: how fast differences in level turn into flow. Unstable above 0.5.
+        flow_rate: f64 = 0.0981, range 0.0001..=0.5;
+        /// Material that settles. Default: the last of the landscape.
+        deposit: Option<LayerName> = None;
+        /// Steps to run.
+        iterations: u32 = 100, range 0..=10_000_000;
+        /// Layer with the depth of the water.
+        water: LayerName = LayerName::of("water");
+        /// Layer with the height of the ground.
+        layer: LayerName = LayerName::of("height");
+    }
+}
+
+parameters! {
+    /// Dissolution within every step of `hydraulic`.
+    pub struct DissolutionWithin {
+        /// Depth to which standing water soaks the ground (r_max).
+        depth: f64 = 0.2, range 0.0..=1000.0, unit "m";
+        /// Share of the flow of the regolith that friction takes in a step.
+        damping: f64 = 0.85, range 0.0..=1.0;
+    }
+}
+
+impl DissolutionWithin {
+    /// The method's constants for these materials, with the first plane of the regolith, the flow rate and the
+    /// cell size.
+    pub(crate) fn dissolution(
+        &self,
+        materials: &[Material],
+        deposit: usize,
+        plane: usize,
+        (flow_rate, cell): (f32, f64),
+    ) -> Dissolution {
+        let shares = materials.iter().map(|material| material.solubility as f32).collect();
+        Dissolution {
+            plane,
+            most: (self.depth / cell) as f32,
+            kept: (1.0 - self.damping) as f32,
+            flow_rate,
+            digging: Digging { shares, deposit, deposition: 1.0 },
+        }
+    }
+}
+
+/// The step's declaration.
+pub const ENTRY: Entry = Entry::of::<DissolutionStep>(
+    "dissolution",
+    Stage::Erode,
+    "turns ground under standing water into regolith that creeps downhill",
+    "Šťava et al. 2008, doi 10.2312/SCA/SCA08/201-210",
+);
+
+/// First plane of the regolith, behind the change of the bedrock.
+const REGOLITH_PLANE: usize = 1;
+
+impl Step for DissolutionStep {
+    fn reads(&self) -> Vec<String> {
+        vec![self.layer.0.clone(), self.water.0.clone()]
+    }
+
+    fn writes(&self) -> Vec<(String, &'static str)> {
+        [self.layer.0.as_str(), REGOLITH].map(|name| (name.to_owned(), "m")).into()
+    }
+
+    fn layered(&self) -> Layered {
+        Layered::Changes
+    }
+
+    fn run(&self, landscape: &mut Landscape, job: &Job<'_>) -> Result<Outcome, Error> {
+        let materials = &landscape.materials;
+        let deposit = deposit_of(self.deposit.as_ref(), materials)?;
+        let mut working = Working::new(landscape, &self.layer.0, false)?;
+        working.set_water(landscape, &self.water.0)?;
+        let first_layer = REGOLITH_PLANE + REGOLITH_PLANES;
+        let planes = Planes { first_layer, materials: materials.len() };
+        working.set_stack(landscape, Column { planes, regolith: Some(REGOLITH_PLANE) }, deposit)?;
+        let process = self.process(materials, deposit, planes, &working);
+        let plane_names: Vec<_> = std::iter::once("change".to_owned())
+            .chain(regolith_names())
+            .chain(thickness_names(materials))
+            .collect();
+        let simulation = Simulation {
+            process: &process,
+            plane_names: &plane_names,
+            iterations: u64::from(self.iterations),
+            weather: &|_| (),
+            record: None,
+        };
+        let start = working.state(planes.count(), &[working.water().to_vec()]);
+        let finished = simulation.run(start, job)?;
+        Ok(working.store_ground(landscape, &self.layer.0, &finished, u64::from(self.iterations)))
+    }
+}
+
+impl DissolutionStep {
+    fn process(
+        &self,
+        materials: &[Material],
+        deposit: usize,
+        planes: Planes,
+        working: &Working,
+    ) -> Dissolving {
+        let within = DissolutionWithin { depth: self.depth, damping: self.damping };
+        let numbers = (self.flow_rate as f32, working.cell);
+        Dissolving {
+            dissolution: within.dissolution(materials, deposit, REGOLITH_PLANE, numbers),
+            planes,
+            links: Links::new(working.size, working.mask.is_some()),
+            arch: Arch::new(),
+        }
+    }
+}
+
+/// Dissolution alone as a stream of rows. The last constant plane is the depth of the water.
+struct Dissolving {
+    dissolution: Dissolution,
+    planes: Planes,
+    links: Links,
+    arch: Arch,
+}
+
+/// Rows in flight within one step.
+struct DissolvingScratch {
+    solid: Vec<Ring>,
+    dig: DigScratch,
+    dissolution: DissolutionScratch,
+}
+
+impl Process for Dissolving {
+    type Weather = ();
+    type Scratch = DissolvingScratch;
+
+    fn state_planes(&self) -> usize {
+        self.planes.count()
+    }
+
+    fn constant_planes(&self) -> usize {
+        2 + self.links.planes()
+    }
+
+    fn lag(&self) -> usize {
+        self.dissolution.lag()
+    }
+
+    fn reach(&self) -> usize {
+        self.lag() + 1
+    }
+
+    fn scratch(&self, columns: usize) -> DissolvingScratch {
+        DissolvingScratch {
+            solid: (0..self.planes.materials).map(|_| Ring::new(columns, 1)).collect(),
+            dig: DigScratch::new(columns),
+            dissolution: DissolutionScratch::new(columns),
+        }
+    }
+
+    fn sized(&self, size: Size) -> Self {
+        Self { dissolution: self.dissolution.clone(), links: self.links.sized(size), ..*self }
+    }
+
+    fn program(&self) -> Program {
+        unimplemented!("the shaders of this process")
+    }
+
+    fn advance(&self, flow: &mut Flow<'_, Self>) {
+        let DissolvingScratch { solid, dig, dissolution: scratch } = &mut *flow.scratch;
+        let rows = RegolithRows {
+            depth: &flow.constants[1 + self.links.planes()],
+            before: &flow.input[REGOLITH_PLANE..],
+            base: &flow.constants[0],
+            links: &self.links,
+            constants: flow.constants,
+            newest: Some(flow.y),
+            span: flow.span.clone(),
+            arch: self.arch,
+        };
+        if flow.span.contains(&flow.y) {
+            self.planes.take(flow.input, solid, flow.y);
+            self.dissolution.dissolve(&rows, flow.y, solid, (scratch, dig));
+            self.planes.copy(solid, flow.output, flow.y);
+        }
+        self.dissolution.creep(&rows, scratch, &mut flow.output[REGOLITH_PLANE..]);
+    }
+}

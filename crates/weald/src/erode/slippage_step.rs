@@ -1,0 +1,162 @@
+//! The `slippage` step: every material slides off slopes steeper than its talus.
+
+use pulp::Arch;
+
+use super::links::Links;
+use super::simulation::Simulation;
+use super::stack::{Column, thickness_names};
+use super::stava::planes::Planes;
+use super::stava::slippage::{Slippage, SlippageRows, SlippageScratch};
+use super::working::Working;
+use crate::engine::Job;
+use crate::engine::program::Program;
+use crate::error::Error;
+use crate::grid::Size;
+use crate::landscape::Landscape;
+use crate::material::Material;
+use crate::parameters;
+use crate::recipe::parameter::LayerName;
+use crate::stencil::chain::{Flow, Process};
+use crate::step::{Entry, Layered, Outcome, Stage, Step};
+
+parameters! {
+    /// Slippage as a step of its own.
+    pub struct SlippageStep {
+        /// Share of the excess that slides in a step. Times the number of materials at most 0.25.
+        strength: f64 = 0.03, range 0.0..=0.25;
+        /// Whether rough ground loses its hold and slides off gentler slopes too.
+        softening: bool = false;
+        /// Steps to run.
+        iterations: u32 = 100, range 0..=10_000_000;
+        /// Layer with the height of the ground.
+        layer: LayerName = LayerName::of("height");
+    }
+}
+
+parameters! {
+    /// Slippage within every step of `hydraulic`.
+    pub struct SlippageWithin {
+        /// Share of the excess that slides in a step. Times the number of materials at most 0.25.
+        strength: f64 = 0.03, range 0.0..=0.25;
+        /// Whether rough ground loses its hold and slides off gentler slopes too.
+        softening: bool = false;
+    }
+}
+
+impl SlippageWithin {
+    /// The method's constants for these materials.
+    pub(crate) fn slippage(&self, materials: &[Material]) -> Result<Slippage, Error> {
+        let (strength, count) = (self.strength, materials.len());
+        let most = 0.25 / count as f64;
+        if strength > most {
+            return Err(Error::Run(format!(
+                "slippage: `strength` {strength} is unstable with {count} materials, which slide at once; at most \
+                 {most} is stable"
+            )));
+        }
+        let tangent = |material: &Material| libm::tan(material.talus_deg.to_radians()) as f32;
+        let talus = materials.iter().map(tangent).collect();
+        Ok(Slippage { talus, strength: strength as f32, softening: self.softening })
+    }
+}
+
+/// The step's declaration.
+pub const ENTRY: Entry = Entry::of::<SlippageStep>(
+    "slippage",
+    Stage::Erode,
+    "lets every material slide off slopes steeper than its talus",
+    "Šťava et al. 2008, doi 10.2312/SCA/SCA08/201-210",
+);
+
+impl Step for SlippageStep {
+    fn reads(&self) -> Vec<String> {
+        vec![self.layer.0.clone()]
+    }
+
+    fn writes(&self) -> Vec<(String, &'static str)> {
+        vec![(self.layer.0.clone(), "m")]
+    }
+
+    fn layered(&self) -> Layered {
+        Layered::Changes
+    }
+
+    fn run(&self, landscape: &mut Landscape, job: &Job<'_>) -> Result<Outcome, Error> {
+        let SlippageStep { strength, softening, .. } = *self;
+        let slippage = SlippageWithin { strength, softening }.slippage(&landscape.materials)?;
+        let mut working = Working::new(landscape, &self.layer.0, false)?;
+        let materials = landscape.materials.len();
+        let planes = Planes { first_layer: 1, materials };
+        working.set_stack(landscape, Column { planes, regolith: None }, materials - 1)?;
+        let links = Links::new(working.size, working.mask.is_some());
+        let process = Slipping { slippage, planes, links, arch: Arch::new() };
+        let plane_names: Vec<_> =
+            std::iter::once("change".to_owned()).chain(thickness_names(&landscape.materials)).collect();
+        let simulation = Simulation {
+            process: &process,
+            plane_names: &plane_names,
+            iterations: u64::from(self.iterations),
+            weather: &|_| (),
+            record: None,
+        };
+        let finished = simulation.run(working.state(planes.count(), &[]), job)?;
+        Ok(working.store_ground(landscape, &self.layer.0, &finished, u64::from(self.iterations)))
+    }
+}
+
+/// Slippage alone as a stream of rows.
+struct Slipping {
+    slippage: Slippage,
+    planes: Planes,
+    links: Links,
+    arch: Arch,
+}
+
+impl Process for Slipping {
+    type Weather = ();
+    type Scratch = SlippageScratch;
+
+    fn state_planes(&self) -> usize {
+        self.planes.count()
+    }
+
+    fn constant_planes(&self) -> usize {
+        1 + self.links.planes()
+    }
+
+    fn lag(&self) -> usize {
+        self.slippage.lag()
+    }
+
+    fn reach(&self) -> usize {
+        self.lag() + 1
+    }
+
+    fn scratch(&self, columns: usize) -> SlippageScratch {
+        SlippageScratch::new(columns, self.planes.materials)
+    }
+
+    fn sized(&self, size: Size) -> Self {
+        Self { slippage: self.slippage.clone(), links: self.links.sized(size), ..*self }
+    }
+
+    fn program(&self) -> Program {
+        unimplemented!("the shaders of this process")
+    }
+
+    fn advance(&self, flow: &mut Flow<'_, Self>) {
+        self.slippage.advance(
+            &SlippageRows {
+                solid: flow.input,
+                base: &flow.constants[0],
+                links: &self.links,
+                constants: flow.constants,
+                newest: Some(flow.y),
+                span: flow.span.clone(),
+                arch: self.arch,
+            },
+            flow.scratch,
+            (self.planes, flow.output),
+        );
+    }
+}

@@ -1,0 +1,447 @@
+//! What nature guarantees where ground is made of materials: budgets, rest, symmetry, and who yields first.
+
+mod common;
+
+use common::{hydraulic, landscape, layered, rough, run, spring, stava, symmetries, worst_difference};
+use proptest::prelude::*;
+use weald::engine::{Job, SolidBudget};
+use weald::erode::dissolution_step::{DissolutionStep, DissolutionWithin};
+use weald::erode::hydraulic::{Boundary, Hydraulic, Model, Transport};
+use weald::erode::slippage_step::{SlippageStep, SlippageWithin};
+use weald::erode::springs::Spring;
+use weald::material::Material;
+use weald::recipe::parameter::{LayerName, Nested};
+use weald::step::Step;
+use weald::{Domain, Field, Landscape, Size};
+
+/// Materials, bedrock first, of these names.
+fn materials(names: &[&str]) -> Vec<Material> {
+    names.iter().map(|name| Material::built_in(name).expect("built in")).collect()
+}
+
+fn field<'a>(land: &'a Landscape, name: &str) -> &'a Field {
+    land.field(name).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// Every layer that may not be negative.
+const AMOUNTS: [&str; 6] = ["water", "sediment", "regolith", "clay", "soil", "sand"];
+
+fn assert_nothing_is_negative(land: &Landscape) {
+    for name in AMOUNTS {
+        let Ok(layer) = land.field(name) else { continue };
+        let (least, _) = layer.range(None).expect("cells");
+        assert!(least >= 0.0, "{name} is {least} m somewhere");
+    }
+}
+
+/// The part of the solid that is missing, relative to all that a cell anywhere gained or lost.
+fn error_of_what_moved(solid: &SolidBudget, before: &Landscape, after: &Landscape) -> f64 {
+    let layers = ["bedrock", "clay", "soil", "sand"];
+    let start = |name: &str, at: usize| match name {
+        "bedrock" => {
+            let lying = layers[1..].iter().map(|layer| f64::from(field(before, layer).values()[at]));
+            f64::from(field(before, "height").values()[at]) - lying.sum::<f64>()
+        }
+        _ => f64::from(field(before, name).values()[at]),
+    };
+    let moved = layers.map(|name| {
+        let after = field(after, name).values().iter().enumerate();
+        after.map(|(at, &now)| (f64::from(now) - start(name, at)).abs()).sum::<f64>()
+    });
+    let moved = moved.iter().sum::<f64>() * before.domain.cell.powi(2);
+    solid.error() * solid.start / moved
+}
+
+#[test]
+fn budgets_of_water_and_solid_close_over_3000_steps_closed_and_open() {
+    for boundary in [Boundary::Closed, Boundary::Open] {
+        let mut land = layered(rough(128, 128, 50.0, 3));
+        let before = land.clone();
+        let (sources, drains) = (vec![spring(30.0, 40.0)], vec![spring(90.0, 80.0)]);
+        let step = Hydraulic { boundary, sources, drains, ..stava(3000) };
+        let budget = run(&step, &mut land).budget.expect("a budget");
+        let lowered = worst_difference(field(&before, "height"), field(&land, "height"));
+        assert!(lowered > 0.5, "nothing moved, so a closed budget would mean nothing: {lowered} m");
+        let moved = error_of_what_moved(&budget.solid, &before, &land);
+        let (water, solid) = (budget.water.error(), budget.solid.error());
+        println!("{boundary:?}: water {water:.1e}, solid {solid:.1e}, of what moved {moved:.1e}");
+        assert!(water.abs() < 1e-5, "{:?}", budget.water);
+        assert!(solid.abs() < 1e-6, "{:?}", budget.solid);
+        assert!(moved.abs() < 1e-5, "{moved:e} of what moved is missing: {:?}", budget.solid);
+        assert_nothing_is_negative(&land);
+    }
+}
+
+#[test]
+fn slippage_and_dissolution_alone_lose_no_solid() {
+    let slippage =
+        SlippageStep { strength: 0.06, softening: true, iterations: 2000, ..SlippageStep::default() };
+    let water = LayerName::of("painted");
+    let dissolution = DissolutionStep { water, iterations: 2000, ..DissolutionStep::default() };
+    let steps: [&dyn Step; 2] = [&slippage, &dissolution];
+    for step in steps {
+        let mut land = layered(rough(96, 96, 60.0, 3));
+        let before = land.clone();
+        let solid = run(step, &mut land).budget.expect("a budget").solid;
+        assert!(worst_difference(field(&before, "height"), field(&land, "height")) > 0.05, "{step:?}");
+        let moved = error_of_what_moved(&solid, &before, &land);
+        println!("{:.1e}, of what moved {moved:.1e}: {step:?}", solid.error());
+        assert!(solid.error().abs() < 1e-6, "{step:?}: {solid:?}");
+        assert_nothing_is_negative(&land);
+    }
+}
+
+/// A bowl of rock under soil with a lake. Heights are multiples of 1/64 m, so that ground and depth add up to
+/// the level exactly.
+fn lake() -> Landscape {
+    let grid = Size::square(48).expect("small");
+    let coarse = |height: f32| (height * 64.0).round() / 64.0;
+    let ground = Field::from_function(grid, |x, y| {
+        let bowl = 0.03 * ((x as f32 - 23.5).powi(2) + (y as f32 - 23.5).powi(2));
+        coarse(bowl + ((x * 7 + y * 13) % 5) as f32 * 0.1)
+    });
+    let water = Field::from_function(grid, |x, y| (10.0 - ground.at(x, y)).max(0.0));
+    let soil = Field::from_function(grid, |x, y| coarse(((x * 3 + y * 5) % 7) as f32 * 0.3));
+    let mut land = landscape(ground);
+    land.insert("standing", "m", water);
+    land.insert("soil", "m", soil);
+    land
+}
+
+#[test]
+fn a_lake_on_layers_stays_at_rest_for_three_thousand_steps() {
+    let mut land = lake();
+    let before = land.clone();
+    let step = Hydraulic {
+        rain: Some(0.0),
+        evaporation: Some(0.0),
+        initial_water: Some(LayerName::of("standing")),
+        dissolution: None,
+        slippage: Some(Nested(SlippageWithin { strength: 0.1, softening: false })),
+        ..stava(3000)
+    };
+    // Steeper than the bowl, so that it rests.
+    land.materials = materials(&["rock", "soil"]);
+    land.materials[1].talus_deg = 85.0;
+    land.materials[0].talus_deg = 85.0;
+    run(&step, &mut land);
+    let lowered = worst_difference(field(&before, "standing"), field(&land, "water"));
+    assert!(lowered < 1e-5, "the level moved by {lowered} m");
+    assert_eq!(field(&land, "height"), field(&before, "height"), "water at rest carves nothing");
+    assert_eq!(field(&land, "soil"), field(&before, "soil"), "and moves no soil");
+}
+
+#[test]
+fn layers_stay_to_the_bit_when_nothing_takes_them() {
+    let before = layered(rough(64, 48, 800.0, 9));
+    let mut land = before.clone();
+    land.domain.cell = 20.0;
+    let gentle = Hydraulic { model: Model::Stava, erosion: Some(0.0), ..hydraulic(500) };
+    run(&gentle, &mut land);
+    let (_, deepest) = field(&land, "water").range(None).expect("cells");
+    assert!(deepest > 0.1, "water flowed: {deepest} m");
+    for name in ["height", "clay", "soil", "sand"] {
+        assert_eq!(field(&land, name), field(&before, name), "{name}");
+    }
+}
+
+#[test]
+fn layers_and_water_commute_with_the_eight_symmetries_of_the_square() {
+    let slippage =
+        SlippageStep { strength: 0.06, softening: true, iterations: 100, ..SlippageStep::default() };
+    let water = LayerName::of("painted");
+    let dissolution = DissolutionStep { water, iterations: 100, ..DissolutionStep::default() };
+    let steps: [&dyn Step; 3] = [&stava(200), &slippage, &dissolution];
+    for step in steps {
+        let ground = layered(rough(40, 40, 20.0, 11));
+        let mut straight = ground.clone();
+        run(step, &mut straight);
+        assert!(worst_difference(field(&ground, "height"), field(&straight, "height")) > 0.01, "{step:?}");
+        for turn in symmetries(40) {
+            let turned = |field: &Field| {
+                Field::from_function(field.size(), |x, y| {
+                    let (x, y) = turn(x, y);
+                    field.at(x, y)
+                })
+            };
+            let mut land = ground.clone();
+            for (name, layer) in ground.layers() {
+                land.insert(name, &layer.unit, turned(&layer.field));
+            }
+            run(step, &mut land);
+            for name in ["height", "bedrock", "clay", "soil", "sand"] {
+                assert_eq!(field(&land, name), &turned(field(&straight, name)), "{name}: {step:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_hard_layer_under_a_soft_one_protects_what_is_below() {
+    let size = Size::new(60, 24).expect("small");
+    let slope = Field::from_function(size, |x, _| 0.3 * (60 - x) as f32);
+    let eroded = |hard: &str| {
+        let mut land = landscape(slope.clone());
+        land.materials = materials(&["sand", hard, "sand"]);
+        land.materials[2].name = "cover".to_owned();
+        land.insert(hard, "m", Field::filled(size, if hard == "rock" { 0.5 } else { 0.0 }));
+        land.insert("cover", "m", Field::filled(size, 0.2));
+        let boundary = Boundary::Open;
+        let deposit = Some(LayerName::of("cover"));
+        let deposition = 0.0;
+        run(&Hydraulic { model: Model::Stava, boundary, deposit, deposition, ..hydraulic(6000) }, &mut land);
+        land
+    };
+    let (protected, bare) = (eroded("rock"), eroded("clay"));
+    let inner =
+        |land: &Landscape, name: &str| -> Vec<f32> { (8..50).map(|x| field(land, name).at(x, 12)).collect() };
+    let (cover, rock) = (inner(&protected, "cover"), inner(&protected, "rock"));
+    let gone = cover.iter().filter(|&&left| left < 0.01).count();
+    assert!(gone > 20, "the soft cover is gone in {gone} of 42 cells: {cover:?}");
+    assert!(rock.iter().all(|&left| left > 0.3), "the hard layer stands: {rock:?}");
+    let fallen = |land: &Landscape| -> f32 {
+        let start = inner(land, "bedrock").into_iter().zip(8..50);
+        start.map(|(now, x)| slope.at(x, 12) - 0.2 - now).sum::<f32>() / 42.0
+    };
+    assert!(fallen(&bare) > 0.1, "without it the water digs {} m deeper", fallen(&bare));
+    assert!((fallen(&protected) - 0.5).abs() < 1e-5, "under it nothing moved: {}", fallen(&protected));
+}
+
+/// A valley floor with a bowl, whose outlet is a notch in its eastern rim.
+fn basin() -> Landscape {
+    let size = Size::new(60, 31).expect("small");
+    let ground = Field::from_function(size, |x, y| {
+        let away = ((x as f32 - 20.0).powi(2) + (y as f32 - 15.0).powi(2)).sqrt();
+        let bowl = 10.0 + (away - 10.0).clamp(-6.0, 0.0);
+        if y == 15 && x > 20 { bowl.min(9.0 - 0.2 * (x as f32 - 33.0).max(0.0)) } else { bowl }
+    });
+    landscape(ground)
+}
+
+#[test]
+fn a_source_fills_a_basin_to_its_outlet_and_then_spills() {
+    let mut land = basin();
+    let sources = vec![Nested(Spring { x: 20.5, y: 15.5, radius: 2.0, rate: 0.05 })];
+    let level = |land: &Landscape, x, y| field(land, "height").at(x, y) + field(land, "water").at(x, y);
+    let filled = |land: &mut Landscape, iterations| {
+        let sources = sources.clone();
+        let still = Hydraulic {
+            model: Model::Stava,
+            sources,
+            rain: Some(0.0),
+            evaporation: Some(0.0),
+            erosion: Some(0.0),
+            boundary: Boundary::Open,
+            ..hydraulic(iterations)
+        };
+        run(&still, land).budget.expect("a budget").water
+    };
+    let early = filled(&mut land, 300);
+    assert_eq!(early.outgoing, 0.0, "the basin holds its water at first");
+    assert!(level(&land, 20, 15) > 5.0 && level(&land, 20, 15) < 9.0, "{}", level(&land, 20, 15));
+    let late = filled(&mut land, 4000);
+    let (lake, sill) = (level(&land, 20, 15), 9.0);
+    assert!((lake - sill).abs() < 0.6, "the lake stands at {lake} m, its outlet at {sill} m");
+    assert!(late.outgoing > 0.5 * late.incoming, "it spills: {late:?}");
+    assert!(field(&land, "water").at(50, 15) > 1e-3, "through the notch");
+    assert!(field(&land, "water").at(5, 15) < 1e-3, "and nowhere else");
+}
+
+#[test]
+fn slippage_ends_with_every_material_on_its_talus() {
+    let size = Size::square(48).expect("small");
+    let away = |x: usize, y: usize| ((x as f32 - 23.5).powi(2) + (y as f32 - 23.5).powi(2)).sqrt();
+    let mut land = landscape(Field::from_function(size, |x, y| 10.0 + (12.0 - away(x, y)).max(0.0) * 1.2));
+    land.materials = materials(&["rock", "clay", "sand"]);
+    land.insert("clay", "m", Field::from_function(size, |x, y| (8.0 - away(x, y)).max(0.0)));
+    land.insert("sand", "m", Field::from_function(size, |x, y| (6.0 - away(x, y)).max(0.0) * 0.4));
+    let before = land.clone();
+    run(&SlippageStep { strength: 0.08, iterations: 6000, ..SlippageStep::default() }, &mut land);
+    assert!(worst_difference(field(&before, "height"), field(&land, "height")) > 1.0, "something slid");
+    let mut top = field(&land, "bedrock").clone();
+    for material in &land.materials {
+        if let Ok(layer) = land.field(&material.name) {
+            top = Field::from_function(size, |x, y| top.at(x, y) + layer.at(x, y));
+            let talus = (material.talus_deg as f32).to_radians().tan();
+            let steepest = steepest_where(&top, layer);
+            assert!(steepest < talus * 1.02, "{} lies at {steepest}, but rests at {talus}", material.name);
+        }
+    }
+}
+
+/// Steepest step down from a cell that holds some of a layer.
+fn steepest_where(top: &Field, layer: &Field) -> f32 {
+    let Size { columns, rows } = top.size();
+    let inner = (1..rows - 1).flat_map(|y| (1..columns - 1).map(move |x| (x, y)));
+    let drop = |(x, y): (usize, usize)| {
+        let around = [(x - 1, y), (x + 1, y), (x, y - 1), (x, y + 1)];
+        around.iter().map(|&(nx, ny)| top.at(x, y) - top.at(nx, ny)).fold(0.0, f32::max)
+    };
+    inner.filter(|&(x, y)| layer.at(x, y) > 0.01).map(drop).fold(0.0, f32::max)
+}
+
+/// Soil that falls eastward, under two metres of water in its western half.
+fn shore(fall: f32) -> Landscape {
+    let size = Size::square(32).expect("small");
+    let mut land = landscape(Field::from_function(size, |x, _| 5.0 - fall * x as f32));
+    land.insert("soil", "m", Field::filled(size, 1.0));
+    land.insert("pond", "m", Field::from_function(size, |x, _| if x < 16 { 2.0 } else { 0.0 }));
+    land
+}
+
+#[test]
+fn dissolution_soaks_no_deeper_than_its_depth_and_what_creeps_ashore_settles() {
+    let water = LayerName::of("pond");
+    let step = DissolutionStep { depth: 0.3, water, iterations: 400, ..DissolutionStep::default() };
+    let mut level = shore(0.0);
+    run(&step, &mut level);
+    let (_, most) = field(&level, "regolith").range(None).expect("cells");
+    assert!(most > 0.29 && most <= 0.3 + 1e-6, "regolith stands {most} m deep");
+    let (wet, dry) = (field(&level, "soil").at(3, 10), field(&level, "soil").at(28, 10));
+    assert!((wet - (1.0 - most)).abs() < 1e-5, "it came out of the soil: {wet} m are left");
+    assert_eq!(dry, 1.0, "dry ground does not dissolve");
+    let mut falling = shore(0.1);
+    run(&step, &mut falling);
+    let (shore, inland) = (field(&falling, "soil").at(16, 10), field(&falling, "soil").at(28, 10));
+    assert!(shore > 1.1, "what crept ashore settled there: {shore} m");
+    assert!(inland < 1.0 + 0.5 * (shore - 1.0), "rather than beyond: {inland} m, {shore} m at the shore");
+}
+
+#[test]
+fn solubility_and_cover_decide_what_dissolves() {
+    let size = Size::new(30, 8).expect("small");
+    let mut land = landscape(Field::filled(size, 5.0));
+    land.materials = materials(&["rock", "soil"]);
+    land.insert("soil", "m", Field::from_function(size, |x, _| if x < 15 { 2.0 } else { 0.0 }));
+    land.insert("sea", "m", Field::filled(size, 3.0));
+    let before = field(&land, "height").clone();
+    let water = LayerName::of("sea");
+    run(
+        &DissolutionStep { depth: 0.2, damping: 1.0, water, iterations: 5, ..DissolutionStep::default() },
+        &mut land,
+    );
+    let (soft, hard) = (field(&land, "regolith").at(3, 4), field(&land, "regolith").at(25, 4));
+    assert!(soft > 20.0 * hard && hard > 0.0, "soil gives {soft} m, rock {hard} m");
+    let covered = before.at(3, 4) - 2.0 - field(&land, "bedrock").at(3, 4);
+    assert_eq!(covered, 0.0, "rock under soil stays");
+}
+
+#[test]
+fn what_lies_outside_a_region_stands_still_for_every_model() {
+    for step in [hydraulic(200), Hydraulic { model: Model::Mei, ..hydraulic(200) }, stava(200)] {
+        let mut land = layered(rough(48, 40, 20.0, 5));
+        let size = land.domain.size;
+        land.insert("here", "1", Field::from_function(size, |x, y| f32::from(u8::from(x + y > 40))));
+        land.insert("pond", "m", Field::filled(size, 0.3));
+        let before = land.clone();
+        let region = Some(LayerName::of("here"));
+        let initial_water = Some(LayerName::of("pond"));
+        let budget =
+            run(&Hydraulic { region, initial_water, ..step.clone() }, &mut land).budget.expect("a budget");
+        assert!(budget.water.error().abs() < 1e-5 && budget.solid.error().abs() < 1e-5, "{budget:?}");
+        let still = |name: &str, from: &str| {
+            let (old, new) = (field(&before, from), field(&land, name));
+            let cells = (0..size.cells()).filter(|&at| field(&land, "here").values()[at] < 0.5);
+            cells.filter(|&at| old.values()[at].to_bits() != new.values()[at].to_bits()).count()
+        };
+        let mut layers = vec![("height", "height"), ("water", "pond")];
+        if step.model == Model::Stava {
+            layers.extend([("clay", "clay"), ("soil", "soil"), ("sand", "sand")]);
+        }
+        for (name, from) in layers {
+            assert_eq!(still(name, from), 0, "{:?}: cells outside where {name} changed", step.model);
+        }
+        let moved = worst_difference(field(&before, "height"), field(&land, "height"));
+        assert!(moved > 0.01, "{:?}: nothing moved inside: {moved} m", step.model);
+    }
+}
+
+#[test]
+fn too_much_slippage_for_so_many_materials_is_refused() {
+    let mut land = layered(rough(16, 16, 5.0, 1));
+    let step = SlippageStep { strength: 0.1, ..SlippageStep::default() };
+    let error = step.run(&mut land, &Job::unwatched(1)).expect_err("unstable").to_string();
+    assert!(error.contains("0.1 is unstable with 4 materials") && error.contains("0.0625"), "{error}");
+}
+
+#[test]
+fn keys_of_another_model_are_refused_by_name() {
+    let faults = Hydraulic { viscosity: 1.0, sources: vec![spring(1.0, 1.0)], ..hydraulic(1) }.faults();
+    assert_eq!(faults.len(), 2, "{faults:?}");
+    assert!(faults[0].starts_with("`sources` belongs"), "{faults:?}");
+    let faults = Hydraulic { limiter: false, deposit_ratio: 0.5, ..stava(1) }.faults();
+    assert_eq!(faults.len(), 2, "{faults:?}");
+    assert_eq!(stava(1).faults(), [""; 0]);
+}
+
+/// Landscapes of one to eight materials, thick and thin.
+fn any_ground() -> impl Strategy<Value = Landscape> {
+    let sides = (2_usize..20, 2_usize..20);
+    let numbers = prop::collection::vec((0.0..=1.0, 0.0..=1.0, 0.0..=89.9, 0.0..3.0), 1..=8);
+    (sides, numbers, 0_u64..100, 0.2..=50.0).prop_map(|((columns, rows), numbers, seed, cell)| {
+        let height = rough(columns, rows, 10.0, seed);
+        let mut land = Landscape::new(Domain::new(height.size(), cell));
+        land.insert("height", "m", height);
+        let material = |(at, (erodibility, solubility, talus_deg, thickness)): (usize, _)| Material {
+            name: format!("material-{at}"),
+            erodibility,
+            solubility,
+            talus_deg,
+            colour: [0.5; 3],
+            thickness,
+            bottom: None,
+        };
+        land.materials = numbers.into_iter().enumerate().map(material).collect();
+        land
+    })
+}
+
+fn any_stava() -> impl Strategy<Value = Hydraulic> {
+    let transports =
+        prop_oneof![Just(Transport::Upwind), Just(Transport::SemiLagrangian), Just(Transport::MacCormack)];
+    let boundaries = prop_oneof![Just(Boundary::Closed), Just(Boundary::Open)];
+    let rates = (1e-4..=0.5, 0.0..=1.0, 0.0..=1.0, 0.0..=1.0);
+    let loads = (0.0..=100.0, 0.0..=1.0, 0.0..=50.0, 1e-6..=1.0);
+    let dissolution = prop::option::of((0.0..=3.0, 0.0..=1.0));
+    let slippage = prop::option::of((0.0..=0.03, any::<bool>()));
+    (transports, boundaries, rates, loads, dissolution, slippage, 0_u32..20).prop_map(
+        |(transport, boundary, rates, loads, dissolution, slippage, dry_period)| Hydraulic {
+            transport,
+            boundary,
+            flow_rate: Some(rates.0),
+            rain: Some(rates.1),
+            evaporation: Some(rates.2),
+            deposition: rates.3,
+            capacity: Some(loads.0),
+            erosion: Some(loads.1),
+            viscosity: loads.2,
+            velocity_epsilon: Some(loads.3),
+            rain_period: 7,
+            dry_period: Some(dry_period),
+            dissolution: dissolution.map(|(depth, damping)| Nested(DissolutionWithin { depth, damping })),
+            slippage: slippage.map(|(strength, softening)| Nested(SlippageWithin { strength, softening })),
+            ..stava(60)
+        },
+    )
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(64))]
+
+    #[test]
+    fn no_legal_parameters_make_anything_negative_or_break_the_budget(step in any_stava(), start in any_ground()) {
+        let mut land = start;
+        let budget = run(&step, &mut land).budget.expect("a budget");
+        prop_assert!(budget.water.error().abs() < 1e-5, "{:?}", budget.water);
+        if step.transport == Transport::Upwind {
+            let scale = budget.solid.start.max(land.domain.cell.powi(2));
+            let error = budget.solid.error() * budget.solid.start / scale;
+            prop_assert!(error.abs() < 1e-4, "{:?}", budget.solid);
+        }
+        let names = land.materials[1..].iter().map(|material| material.name.as_str());
+        for name in names.chain(["water", "sediment"]).chain(step.dissolution.is_some().then_some("regolith")) {
+            let (least, _) = field(&land, name).range(None).expect("cells");
+            prop_assert!(least >= 0.0, "{name} is {least} m somewhere");
+        }
+    }
+}
