@@ -5,7 +5,7 @@ use weald::engine::program::Program;
 use weald::grid::Size;
 use wgpu::BufferUsages;
 
-use crate::extents::bytes;
+use crate::extents::bytes_of;
 use crate::gpu::Gpu;
 use crate::memory::Store;
 
@@ -25,7 +25,7 @@ impl Buffers {
         let usage = BufferUsages::STORAGE | BufferUsages::COPY_SRC | BufferUsages::COPY_DST;
         let stores = program.buffers.iter().map(|buffer| {
             let what = format!("buffer `{}` of `{}`", buffer.name, program.name);
-            Store::new(gpu, &what, bytes(size, buffer.lanes), usage)
+            Store::new(gpu, &what, bytes_of(buffer, size), usage)
         });
         Ok(Self { stores: stores.collect::<Result<_, _>>()?, partners, odd: false })
     }

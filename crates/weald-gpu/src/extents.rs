@@ -1,7 +1,7 @@
 //! A grid in cells, workgroups and bytes.
 
 use weald::Error;
-use weald::engine::program::{COUNTED, GROUP, Program};
+use weald::engine::program::{Buffer, COUNTED, Content, GROUP, Program};
 use weald::grid::Size;
 
 use crate::gpu::Gpu;
@@ -60,9 +60,9 @@ impl Extents {
                 "the GPU cannot work on {columns} × {rows} cells; each side may have 1 to {side}"
             )));
         }
-        let widest = program.buffers.iter().max_by_key(|buffer| buffer.lanes);
+        let widest = program.buffers.iter().max_by_key(|buffer| bytes_of(buffer, self.size));
         let largest = gpu.largest_binding();
-        match widest.map(|buffer| (buffer.name, bytes(self.size, buffer.lanes))) {
+        match widest.map(|buffer| (buffer.name, bytes_of(buffer, self.size))) {
             Some((name, bytes)) if bytes > largest => Err(Error::Device(format!(
                 "buffer `{name}` of `{}` takes {} for {columns} × {rows} cells; {} allows {}; use a smaller grid \
                  or --engine cpu",
@@ -73,6 +73,14 @@ impl Extents {
             ))),
             _ => Ok(()),
         }
+    }
+}
+
+/// Bytes that a buffer takes for a grid.
+pub(crate) fn bytes_of(buffer: &Buffer, size: Size) -> u64 {
+    match buffer.content {
+        Content::Table(elements) => bytes(Size { columns: elements, rows: 1 }, buffer.lanes),
+        _ => bytes(size, buffer.lanes),
     }
 }
 

@@ -42,8 +42,9 @@ impl Places<'_> {
         let pipeline = Pipeline::of(gpu, self.program, pass)?;
         let bind = |odd| pipeline.bind(gpu, self.bindings(pass, odd));
         let bound = [bind(false)?, bind(true)?];
-        let lanes = self.program.bound(pass).into_iter().map(|(at, _)| self.program.buffers[at].lanes);
-        let bytes_per_cell = 4 * lanes.sum::<usize>() as u64;
+        let bytes =
+            self.program.bound(pass).into_iter().map(|(at, _)| self.program.buffers[at].bytes_per_cell());
+        let bytes_per_cell = bytes.sum::<usize>() as u64;
         Ok(Ready { pipeline, bound, bytes_per_cell, recorded: pass.recorded })
     }
 

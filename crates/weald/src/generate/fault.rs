@@ -75,7 +75,7 @@ impl Generator for Fault {
 
     fn on_device(&self, domain: &Domain, seed: u64) -> Option<OnDevice> {
         let Size { columns, rows } = domain.size;
-        let fits = columns.max(rows) <= program::MOST_SIDE;
+        let fits = columns.max(rows) <= program::MOST_SIDE && domain.size.cells() > 1;
         fits.then(|| self.sum_of_steps(&lines(domain.size, self.iterations, seed), domain.size))
     }
 
