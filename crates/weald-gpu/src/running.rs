@@ -71,7 +71,7 @@ impl Running {
         for (number, buffer) in self.program.buffers.iter().enumerate() {
             if which(&buffer.content) {
                 let store = self.buffers.now(number);
-                let bytes = extents::bytes_of(buffer, self.now.size);
+                let bytes = extents::bytes(buffer, self.now.size);
                 transfer::clear(&self.gpu, &mut self.pace, &store.buffer, bytes)?;
             }
         }
@@ -80,11 +80,11 @@ impl Running {
 
     /// What now plays the role of a buffer, and the bytes that count.
     fn store(&self, buffer: usize) -> Result<Extent<'_>, Error> {
-        let declared = self.program.buffers.get(buffer).ok_or_else(|| {
+        let found = self.program.buffers.get(buffer).ok_or_else(|| {
             let (name, count) = (self.program.name, self.program.buffers.len());
             Error::Device(format!("`{name}` has {count} buffers, not one with number {buffer}"))
         })?;
-        Ok((self.buffers.now(buffer), extents::bytes_of(declared, self.now.size)))
+        Ok((self.buffers.now(buffer), extents::bytes(found, self.now.size)))
     }
 
     /// All steps in as many submissions as their length takes.
@@ -119,7 +119,7 @@ impl Running {
 /// All that [`Loaded::keep`] copies, as buffers now play their roles.
 fn state<'a>(program: &Program, buffers: &'a Buffers, sums: &'a Store, now: Extents) -> Vec<Extent<'a>> {
     let numbered = program.buffers.iter().enumerate().filter(|(_, buffer)| is_state(&buffer.content));
-    let extents = numbered.map(|(at, buffer)| (buffers.now(at), extents::bytes_of(buffer, now.size)));
+    let extents = numbered.map(|(at, buffer)| (buffers.now(at), extents::bytes(buffer, now.size)));
     extents.chain([(sums, now.sums_bytes())]).collect()
 }
 
