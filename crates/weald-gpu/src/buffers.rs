@@ -9,6 +9,9 @@ use crate::extents::bytes;
 use crate::gpu::Gpu;
 use crate::memory::Store;
 
+/// Least size of a buffer: one element of any kind, so that even an empty table can be bound.
+const LEAST_BYTES: u64 = 16;
+
 /// Buffers that exchange roles after each step: what was written becomes what is read.
 #[derive(Debug)]
 pub(crate) struct Buffers {
@@ -25,7 +28,7 @@ impl Buffers {
         let usage = BufferUsages::STORAGE | BufferUsages::COPY_SRC | BufferUsages::COPY_DST;
         let stores = program.buffers.iter().map(|buffer| {
             let what = format!("buffer `{}` of `{}`", buffer.name, program.name);
-            Store::new(gpu, &what, bytes(size, buffer.lanes), usage)
+            Store::new(gpu, &what, bytes(buffer, size).max(LEAST_BYTES), usage)
         });
         Ok(Self { stores: stores.collect::<Result<_, _>>()?, partners, odd: false })
     }
@@ -54,9 +57,10 @@ impl Buffers {
 fn partners(program: &Program) -> Result<Vec<usize>, Error> {
     let mut partners: Vec<_> = (0..program.buffers.len()).collect();
     for &[one, other] in &program.swaps {
-        let lanes = [one, other].map(|buffer| program.buffers.get(buffer).map(|buffer| buffer.lanes));
+        let alike =
+            |buffer: usize| program.buffers.get(buffer).map(|buffer| (buffer.lanes, buffer.length(1)));
         let alone = [one, other].iter().all(|&buffer| partners.get(buffer) == Some(&buffer));
-        if !alone || one == other || lanes[0] != lanes[1] {
+        if !alone || one == other || alike(one) != alike(other) {
             return Err(Error::Device(format!(
                 "`{}` swaps buffers {one} and {other}; each can be swapped once, with one of as many lanes",
                 program.name

@@ -1,7 +1,7 @@
 //! A grid in cells, workgroups and bytes.
 
 use weald::Error;
-use weald::engine::program::{COUNTED, GROUP, Program};
+use weald::engine::program::{Buffer, COUNTED, Content, GROUP, Program};
 use weald::grid::Size;
 
 use crate::gpu::Gpu;
@@ -35,9 +35,13 @@ impl Extents {
         self.down.div_ceil(self.unit)
     }
 
-    /// Numbers that hold the sums of all workgroups.
+    fn cells(self) -> u64 {
+        product([self.size.columns, self.size.rows, 1, 1])
+    }
+
+    /// Bytes that hold the sums of all workgroups.
     pub(crate) fn sums_bytes(self) -> u64 {
-        (self.across as u64).saturating_mul(self.down as u64).saturating_mul((COUNTED * SUM_BYTES) as u64)
+        product([self.across, self.down, COUNTED, SUM_BYTES])
     }
 
     /// Workgroups of a part, from north to south.
@@ -47,7 +51,7 @@ impl Extents {
 
     /// Whether another grid has room where this one has.
     pub(crate) fn hold(self, other: Self) -> bool {
-        bytes(other.size, 1) <= bytes(self.size, 1) && other.sums_bytes() <= self.sums_bytes()
+        self.cells() >= other.cells() && self.sums_bytes() >= other.sums_bytes()
     }
 
     /// Refuses what no device can do.
@@ -60,9 +64,9 @@ impl Extents {
                 "the GPU cannot work on {columns} × {rows} cells; each side may have 1 to {side}"
             )));
         }
-        let widest = program.buffers.iter().max_by_key(|buffer| buffer.lanes);
+        let named = program.buffers.iter().map(|buffer| (buffer.name, bytes(buffer, self.size)));
         let largest = gpu.largest_binding();
-        match widest.map(|buffer| (buffer.name, bytes(self.size, buffer.lanes))) {
+        match named.max_by_key(|&(_, bytes)| bytes) {
             Some((name, bytes)) if bytes > largest => Err(Error::Device(format!(
                 "buffer `{name}` of `{}` takes {} for {columns} × {rows} cells; {} allows {}; use a smaller grid \
                  or --engine cpu",
@@ -76,9 +80,16 @@ impl Extents {
     }
 }
 
-/// Bytes that so many lanes of a grid take; the greatest number where none holds them.
-pub(crate) fn bytes(size: Size, lanes: usize) -> u64 {
-    [size.columns, size.rows, lanes].iter().fold(4, |bytes: u64, &count| bytes.saturating_mul(count as u64))
+/// Bytes of a buffer over a grid; the greatest number where none holds them.
+pub(crate) fn bytes(buffer: &Buffer, size: Size) -> u64 {
+    match buffer.content {
+        Content::Table(elements) => product([4, buffer.lanes, elements, 1]),
+        _ => product([4, buffer.lanes, size.columns, size.rows]),
+    }
+}
+
+fn product(factors: [usize; 4]) -> u64 {
+    factors.iter().fold(1, |product: u64, &factor| product.saturating_mul(factor as u64))
 }
 
 #[cfg(test)]
@@ -97,6 +108,7 @@ mod tests {
     #[test]
     fn a_size_beyond_all_numbers_takes_the_greatest_number_of_bytes() {
         let size = Size { columns: usize::MAX, rows: usize::MAX };
-        assert_eq!(bytes(size, 4), u64::MAX);
+        let buffer = Buffer::new("vast", 4, Content::Scratch);
+        assert_eq!(bytes(&buffer, size), u64::MAX);
     }
 }

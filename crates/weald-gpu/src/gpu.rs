@@ -109,6 +109,12 @@ impl Gpu {
         self.memory.peak()
     }
 
+    /// Bytes that the driver says the whole device holds, where it says so: to check the count against.
+    #[doc(hidden)]
+    pub fn allocated_by_driver(&self) -> Option<u64> {
+        self.context.device.generate_allocator_report().map(|report| report.total_allocated_bytes)
+    }
+
     /// Bounds what one submission moves, so that tests see work cut into many pieces.
     #[doc(hidden)]
     #[must_use]

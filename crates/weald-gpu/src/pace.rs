@@ -24,46 +24,65 @@ const FIRST_BYTES: f64 = 16e6;
 /// Share of a rate that is kept where the next submission was faster; a slower one counts at once.
 const KEPT: f64 = 0.7;
 
+/// A wait shorter than this was for something already done.
+const GLANCE: Duration = Duration::from_micros(20);
+
+/// Work whose rates have nothing to do with each other.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Sort {
+    /// Passes of the program.
+    Passes,
+    /// Copies of buffers and zeros.
+    Copies,
+    /// Looks for values that are no numbers.
+    Looks,
+}
+
+/// What a submission is.
+#[derive(Debug)]
+pub(crate) struct Load {
+    pub(crate) sort: Sort,
+    /// Bytes that it moves.
+    pub(crate) bytes: u64,
+    /// Staging that the driver keeps until it is done.
+    pub(crate) staged: Option<Held>,
+}
+
 /// Submits work and watches how long it takes.
 #[derive(Debug)]
 pub(crate) struct Pace {
-    seconds_per_byte: f64,
+    /// Seconds a byte of each sort.
+    costs: [f64; 3],
     most_moved: u64,
     flying: VecDeque<Flying>,
-    /// When the device was last known to have finished something.
-    finished: Instant,
+    /// When the last submission was done, where it was waited for.
+    done: Option<Instant>,
 }
 
 #[derive(Debug)]
 struct Flying {
     submission: SubmissionIndex,
-    bytes: u64,
     submitted: Instant,
-    /// Staging that the driver keeps until then.
-    _staged: Option<Held>,
+    load: Load,
 }
 
 impl Pace {
-    pub(crate) fn new(gpu: &Gpu) -> Self {
-        Self {
-            seconds_per_byte: AIM.as_secs_f64() / FIRST_BYTES,
-            most_moved: gpu.most_moved,
-            flying: VecDeque::new(),
-            finished: Instant::now(),
-        }
+    /// A pace that knows nothing yet, with a bound on the bytes of a submission.
+    pub(crate) fn new(most_moved: u64) -> Self {
+        let costs = [AIM.as_secs_f64() / FIRST_BYTES; 3];
+        Self { costs, most_moved, flying: VecDeque::new(), done: None }
     }
 
     /// Bytes that the next submission may move.
-    pub(crate) fn allowance(&self) -> u64 {
-        ((AIM.as_secs_f64() / self.seconds_per_byte) as u64).clamp(1, self.most_moved)
+    pub(crate) fn allowance(&self, sort: Sort) -> u64 {
+        ((AIM.as_secs_f64() / self.costs[sort as usize]) as u64).clamp(1, self.most_moved)
     }
 
-    /// Submits what `encode` says, which moves that many bytes, when there is room for it.
+    /// Submits what `encode` says, and waits until no more than a few submissions are on their way.
     pub(crate) fn submit(
         &mut self,
         gpu: &Gpu,
-        bytes: u64,
-        staged: Option<Held>,
+        load: Load,
         encode: impl FnOnce(&mut CommandEncoder),
     ) -> Result<(), Error> {
         let context = &gpu.context;
@@ -72,7 +91,7 @@ impl Pace {
             encode(&mut encoder);
             Ok(context.queue.submit([encoder.finish()]))
         })?;
-        self.flying.push_back(Flying { submission, bytes, submitted: Instant::now(), _staged: staged });
+        self.flying.push_back(Flying { submission, submitted: Instant::now(), load });
         while self.flying.len() > IN_FLIGHT {
             self.wait_for_oldest(gpu)?;
         }
@@ -88,19 +107,25 @@ impl Pace {
     }
 
     fn wait_for_oldest(&mut self, gpu: &Gpu) -> Result<(), Error> {
-        let Some(oldest) = self.flying.pop_front() else { return Ok(()) };
-        gpu.context.wait(Some(oldest.submission))?;
+        let Some(Flying { submission, submitted, load }) = self.flying.pop_front() else { return Ok(()) };
+        let asked = Instant::now();
+        gpu.context.wait(Some(submission))?;
         let now = Instant::now();
-        let began = self.finished.max(oldest.submitted);
-        self.finished = now;
-        self.learn(oldest.bytes, now.duration_since(began));
+        let began = self.done.map_or(submitted, |done| done.max(submitted));
+        self.done = (now - asked > GLANCE).then_some(now);
+        self.learn(&load, now - began, self.done.is_some());
+        drop(load.staged);
         Ok(())
     }
 
-    /// A submission took that long.
-    fn learn(&mut self, bytes: u64, time: Duration) {
-        let measured = time.as_secs_f64() / bytes.max(1) as f64;
-        self.seconds_per_byte = measured.max(KEPT * self.seconds_per_byte);
+    /// A submission took that long, or less where it was not waited for: that tells of a faster device, never
+    /// of a slower one.
+    fn learn(&mut self, load: &Load, time: Duration, waited: bool) {
+        let cost = &mut self.costs[load.sort as usize];
+        let measured = time.as_secs_f64() / load.bytes.max(1) as f64;
+        if waited || measured < *cost {
+            *cost = measured.max(KEPT * *cost);
+        }
     }
 }
 
@@ -108,32 +133,42 @@ impl Pace {
 mod tests {
     use super::*;
 
-    fn pace() -> Pace {
-        Pace {
-            seconds_per_byte: AIM.as_secs_f64() / FIRST_BYTES,
-            most_moved: u64::MAX,
-            flying: VecDeque::new(),
-            finished: Instant::now(),
-        }
+    fn learn(pace: &mut Pace, bytes: u64, seconds: f64, waited: bool) {
+        let load = Load { sort: Sort::Passes, bytes, staged: None };
+        pace.learn(&load, Duration::from_secs_f64(seconds), waited);
     }
 
     #[test]
     fn submissions_grow_on_a_fast_device_and_shrink_at_once_on_a_slow_one() {
-        let mut pace = pace();
+        let mut pace = Pace::new(u64::MAX);
         for _ in 0..40 {
-            let bytes = pace.allowance();
-            pace.learn(bytes, Duration::from_secs_f64(bytes as f64 / 1e12));
+            let bytes = pace.allowance(Sort::Passes);
+            learn(&mut pace, bytes, bytes as f64 / 1e12, false);
         }
-        let fast = pace.allowance() as f64 / 1e12;
+        let fast = pace.allowance(Sort::Passes) as f64 / 1e12;
         assert!((0.9..1.01).contains(&(fast / AIM.as_secs_f64())), "{fast} s");
-        pace.learn(1_000_000, Duration::from_millis(10));
-        assert!(pace.allowance() <= 4_000_000, "what takes 10 ms for a million takes 40 for four");
+        learn(&mut pace, 1_000_000, 0.01, true);
+        assert!(
+            pace.allowance(Sort::Passes) <= 4_000_000,
+            "what takes 10 ms for a million takes 40 for four"
+        );
     }
 
     #[test]
-    fn a_device_ten_times_slower_than_the_first_guess_is_met_after_one_submission() {
-        let mut pace = pace();
-        pace.learn(FIRST_BYTES as u64, 10 * AIM);
-        assert!((pace.allowance() as f64) < FIRST_BYTES / 9.9);
+    fn what_was_done_before_anyone_asked_says_nothing_of_a_slow_device() {
+        let mut pace = Pace::new(u64::MAX);
+        let before = pace.allowance(Sort::Passes);
+        learn(&mut pace, before, 10.0, false);
+        assert_eq!(pace.allowance(Sort::Passes), before);
+    }
+
+    #[test]
+    fn fast_copies_do_not_lengthen_submissions_of_passes() {
+        let mut pace = Pace::new(u64::MAX);
+        let before = pace.allowance(Sort::Passes);
+        let load = Load { sort: Sort::Copies, bytes: 1 << 20, staged: None };
+        (0..20).for_each(|_| pace.learn(&load, Duration::from_micros(1), true));
+        assert!(pace.allowance(Sort::Copies) > 100 * before);
+        assert_eq!(pace.allowance(Sort::Passes), before);
     }
 }

@@ -12,6 +12,9 @@ use crate::memory::Store;
 use crate::parts::Part;
 use crate::uniforms::Uniforms;
 
+/// Bytes a cell that even a pass which moves nothing is taken to move: it computes.
+const LEAST_PER_CELL: u64 = 4;
+
 /// A pass that can be dispatched.
 #[derive(Debug)]
 pub(crate) struct Ready {
@@ -42,8 +45,9 @@ impl Places<'_> {
         let pipeline = Pipeline::of(gpu, self.program, pass)?;
         let bind = |odd| pipeline.bind(gpu, self.bindings(pass, odd));
         let bound = [bind(false)?, bind(true)?];
-        let lanes = self.program.bound(pass).into_iter().map(|(at, _)| self.program.buffers[at].lanes);
-        let bytes_per_cell = 4 * lanes.sum::<usize>() as u64;
+        let bound_to = self.program.bound(pass).into_iter().map(|(at, _)| &self.program.buffers[at]);
+        let grown = bound_to.map(|buffer| 4 * (buffer.length(1) - buffer.length(0)) as u64);
+        let bytes_per_cell = grown.sum::<u64>().max(LEAST_PER_CELL);
         Ok(Ready { pipeline, bound, bytes_per_cell, recorded: pass.recorded })
     }
 

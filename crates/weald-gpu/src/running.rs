@@ -11,7 +11,7 @@ use crate::extents::{self, Extents};
 use crate::gpu::Gpu;
 use crate::kept::{Extent, Kept, is_state};
 use crate::memory::Store;
-use crate::pace::Pace;
+use crate::pace::{Load, Pace, Sort};
 use crate::parts::{Bound, Cursor, Part, Work};
 use crate::ready::{Places, Ready, Round};
 use crate::transfer::{self, Transfer};
@@ -46,7 +46,7 @@ impl Running {
         let usage = BufferUsages::STORAGE | BufferUsages::COPY_SRC | BufferUsages::COPY_DST;
         let sums = Store::new(&gpu, "the sums", room.sums_bytes(), usage)?;
         let passes = Places { program, uniforms: &uniforms, buffers: &buffers, sums: &sums }.ready(&gpu)?;
-        let (transfer, watch, pace) = (Transfer::new(&gpu)?, Watch::new(&gpu)?, Pace::new(&gpu));
+        let (transfer, watch, pace) = (Transfer::new(&gpu)?, Watch::new(&gpu)?, Pace::new(gpu.most_moved));
         let mut running = Self {
             program: program.clone(),
             room,
@@ -71,7 +71,7 @@ impl Running {
         for (number, buffer) in self.program.buffers.iter().enumerate() {
             if which(&buffer.content) {
                 let store = self.buffers.now(number);
-                let bytes = extents::bytes(self.now.size, buffer.lanes);
+                let bytes = extents::bytes(buffer, self.now.size);
                 transfer::clear(&self.gpu, &mut self.pace, &store.buffer, bytes)?;
             }
         }
@@ -80,11 +80,11 @@ impl Running {
 
     /// What now plays the role of a buffer, and the bytes that count.
     fn store(&self, buffer: usize) -> Result<Extent<'_>, Error> {
-        let lanes = self.program.buffers.get(buffer).map(|buffer| buffer.lanes).ok_or_else(|| {
+        let found = self.program.buffers.get(buffer).ok_or_else(|| {
             let (name, count) = (self.program.name, self.program.buffers.len());
             Error::Device(format!("`{name}` has {count} buffers, not one with number {buffer}"))
         })?;
-        Ok((self.buffers.now(buffer), extents::bytes(self.now.size, lanes)))
+        Ok((self.buffers.now(buffer), extents::bytes(found, self.now.size)))
     }
 
     /// All steps in as many submissions as their length takes.
@@ -92,7 +92,8 @@ impl Running {
         let mut cursor = Cursor::default();
         while cursor.step < work.steps {
             let first = cursor.step;
-            let bound = Bound { bytes: self.pace.allowance(), steps: self.uniforms.weather.count() };
+            let bound =
+                Bound { bytes: self.pace.allowance(Sort::Passes), steps: self.uniforms.weather.count() };
             let (parts, bytes) = work.next(&mut cursor, bound);
             let Some(last) = parts.last() else { break };
             let words = weather[first..=last.step].iter().map(Vec::as_slice);
@@ -107,7 +108,8 @@ impl Running {
         let staged = gpu.memory.hold(weather.len() as u64, "staging")?;
         let sees_weather = !self.program.weather.name.is_empty();
         let round = Round { passes, uniforms, extents: *now, odd: buffers.odd(), sees_weather };
-        pace.submit(gpu, bytes, Some(staged), |encoder| {
+        let load = Load { sort: Sort::Passes, bytes, staged: Some(staged) };
+        pace.submit(gpu, load, |encoder| {
             gpu.context.queue.write_buffer(&uniforms.weather.store.buffer, 0, weather);
             round.encode(encoder, parts);
         })
@@ -117,7 +119,7 @@ impl Running {
 /// All that [`Loaded::keep`] copies, as buffers now play their roles.
 fn state<'a>(program: &Program, buffers: &'a Buffers, sums: &'a Store, now: Extents) -> Vec<Extent<'a>> {
     let numbered = program.buffers.iter().enumerate().filter(|(_, buffer)| is_state(&buffer.content));
-    let extents = numbered.map(|(at, buffer)| (buffers.now(at), extents::bytes(now.size, buffer.lanes)));
+    let extents = numbered.map(|(at, buffer)| (buffers.now(at), extents::bytes(buffer, now.size)));
     extents.chain([(sums, now.sums_bytes())]).collect()
 }
 

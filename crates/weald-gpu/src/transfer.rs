@@ -7,7 +7,7 @@ use wgpu::{Buffer, BufferUsages, MapMode};
 
 use crate::gpu::Gpu;
 use crate::memory::Store;
-use crate::pace::Pace;
+use crate::pace::{Load, Pace, Sort};
 
 /// Share of the budget that one piece of staging takes.
 const SHARE: u64 = 128;
@@ -43,7 +43,7 @@ impl Transfer {
     ) -> Result<Vec<f32>, Error> {
         let mut values = Vec::new();
         for (first, length) in pieces(bytes, self.landing.buffer.size()) {
-            pace.submit(gpu, length, None, |encoder| {
+            pace.submit(gpu, copies(length), |encoder| {
                 encoder.copy_buffer_to_buffer(from, first, &self.landing.buffer, 0, length);
             })?;
             pace.drain(gpu)?;
@@ -89,8 +89,8 @@ pub(crate) fn write(gpu: &Gpu, into: &Buffer, bytes: &[u8]) -> Result<(), Error>
 pub(crate) fn copy(gpu: &Gpu, pace: &mut Pace, [from, into]: [&Buffer; 2], bytes: u64) -> Result<(), Error> {
     let mut first = 0;
     while first < bytes {
-        let length = (bytes - first).min(whole_words(pace.allowance() / 2));
-        pace.submit(gpu, 2 * length, None, |encoder| {
+        let length = (bytes - first).min(whole_words(pace.allowance(Sort::Copies) / 2));
+        pace.submit(gpu, copies(2 * length), |encoder| {
             encoder.copy_buffer_to_buffer(from, first, into, first, length);
         })?;
         first += length;
@@ -102,11 +102,15 @@ pub(crate) fn copy(gpu: &Gpu, pace: &mut Pace, [from, into]: [&Buffer; 2], bytes
 pub(crate) fn clear(gpu: &Gpu, pace: &mut Pace, buffer: &Buffer, bytes: u64) -> Result<(), Error> {
     let mut first = 0;
     while first < bytes {
-        let length = (bytes - first).min(whole_words(pace.allowance()));
-        pace.submit(gpu, length, None, |encoder| encoder.clear_buffer(buffer, first, Some(length)))?;
+        let length = (bytes - first).min(whole_words(pace.allowance(Sort::Copies)));
+        pace.submit(gpu, copies(length), |encoder| encoder.clear_buffer(buffer, first, Some(length)))?;
         first += length;
     }
     Ok(())
+}
+
+fn copies(bytes: u64) -> Load {
+    Load { sort: Sort::Copies, bytes, staged: None }
 }
 
 /// A length that copies may have.

@@ -6,7 +6,7 @@ use wgpu::{BindGroup, Buffer, BufferBindingType, BufferUsages, ComputePassDescri
 use crate::compiled::{Pipeline, entry};
 use crate::gpu::Gpu;
 use crate::memory::Store;
-use crate::pace::Pace;
+use crate::pace::{Load, Pace, Sort};
 use crate::slots::Slots;
 use crate::transfer::{self, Transfer};
 
@@ -64,7 +64,7 @@ impl Watch {
         )?;
         let mut first = 0;
         while first < count {
-            let end = (first + (pace.allowance() / 4).max(1)).min(count);
+            let end = (first + (pace.allowance(Sort::Looks) / 4).max(1)).min(count);
             self.look(gpu, pace, &bound, [first as u32, end as u32])?;
             first = end;
         }
@@ -83,7 +83,8 @@ impl Watch {
         let words = [first, end, groups * GROUP];
         let packed = self.stretch.packed(std::iter::once(words.as_slice()))?;
         let staged = gpu.memory.hold(packed.len() as u64, "staging")?;
-        pace.submit(gpu, 4 * u64::from(end - first), Some(staged), |encoder| {
+        let load = Load { sort: Sort::Looks, bytes: 4 * u64::from(end - first), staged: Some(staged) };
+        pace.submit(gpu, load, |encoder| {
             gpu.context.queue.write_buffer(&self.stretch.store.buffer, 0, &packed);
             let mut pass = encoder.begin_compute_pass(&ComputePassDescriptor::default());
             pass.set_pipeline(&self.pipeline.pipeline);

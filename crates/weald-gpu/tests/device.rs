@@ -2,7 +2,7 @@
 
 mod programs;
 
-use programs::{count, gpu, lanes, load, mix, mix_with_mask, mixed, numbers, weather};
+use programs::{count, gpu, lanes, load, mix, mix_with_mask, mixed, numbers, table, weather};
 use weald::engine::device::{Loaded, Window};
 use weald::grid::Size;
 
@@ -93,6 +93,25 @@ fn vectors_come_cell_by_cell_and_layers_plane_by_plane() {
     let added = |at: usize| (at / SIZE.cells()) as f32 + 8.0;
     let expected: Vec<f32> = planes.iter().enumerate().map(|(at, value)| value + 2.0 * added(at)).collect();
     assert!(loaded.read(1).expect("read") == expected);
+}
+
+#[test]
+fn a_table_of_whole_numbers_is_the_same_for_all_cells_and_grids() {
+    let Some(gpu) = gpu() else { return };
+    let words: Vec<f32> =
+        (0..SIZE.columns as u32).flat_map(|column| [7, 100 + column]).map(f32::from_bits).collect();
+    let mut loaded = load(&gpu, &table(SIZE.columns), SIZE);
+    for size in [SIZE, Size { columns: 5, rows: 3 }] {
+        loaded.begin(size, &Window::whole(size)).expect("begun");
+        loaded.write(0, &vec![1.0; size.cells()]).expect("written");
+        loaded.write(1, &words).expect("written");
+        loaded.run(&[vec![], vec![]], false).expect("ran");
+        let expected: Vec<f32> =
+            (0..size.cells()).map(|cell| (1 + 2 * (100 + cell % size.columns)) as f32).collect();
+        assert!(loaded.read(0).expect("read") == expected, "{size:?}");
+    }
+    let bits: Vec<u32> = loaded.read(1).expect("read").iter().map(|word| word.to_bits()).collect();
+    assert_eq!(bits[..4], [7, 100, 7, 101]);
 }
 
 #[test]

@@ -41,6 +41,26 @@ fn the_budget_is_never_passed_and_comes_back_when_programs_go() {
 }
 
 #[test]
+fn the_count_misses_nothing_that_the_driver_holds() {
+    if gpu().is_none() {
+        return;
+    }
+    let gpu = Gpu::any().expect("a device of its own").with_memory(64 << 20).expect("enough");
+    let Some(before) = gpu.allocated_by_driver() else { return };
+    let size = Size { columns: 1000, rows: 2000 };
+    let mut loaded = load(&gpu, &mix(), size);
+    loaded.keep().expect("kept");
+    loaded.write(0, &numbers(size.cells())).expect("written");
+    loaded.run(&weather(0..40), false).expect("ran");
+    loaded.first_not_finite(0).expect("looked");
+    let held = gpu.allocated_by_driver().expect("it said so before") - before;
+    let (counted, slack) = (gpu.allocated(), 1 << 20);
+    assert!(counted > 24_000_000, "three buffers of 8 MB");
+    assert!(held <= counted + slack, "the driver holds {held} bytes, {counted} are counted");
+    assert!(held <= gpu.memory());
+}
+
+#[test]
 fn a_copy_that_does_not_fit_is_refused_and_the_program_goes_on() {
     let Some(gpu) = gpu() else { return };
     let gpu = gpu.with_memory(4 << 20).expect("enough");

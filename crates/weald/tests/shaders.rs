@@ -9,7 +9,9 @@ use weald::engine::program::{GROUP, MOST_BUFFERS, Pass, Program, Uniforms};
 
 /// Every program of the library.
 fn programs() -> Vec<Program> {
-    weald::erode::programs()
+    let mut programs = weald::erode::programs();
+    programs.extend(weald::generate::programs());
+    programs
 }
 
 /// Every different module: its text, one program that has it, and the pass.

@@ -142,6 +142,30 @@ fn record(@builtin(global_invocation_id) invocation: vec3<u32>) {
     }
 }
 
+/// A program that adds to each cell the whole number that a table holds for its column.
+pub(crate) fn table(columns: usize) -> Program {
+    const LOOK_UP: &str = "
+@compute @workgroup_size(16, 16)
+fn look_up(@builtin(global_invocation_id) invocation: vec3<u32>) {
+    let cell = cell_of(invocation);
+    if (inside(cell)) {
+        found[index(cell)] += f32(of_columns[cell.x].y);
+    }
+}
+";
+    Program {
+        name: "table",
+        buffers: vec![
+            Buffer::new("found", 1, Content::State(vec![0])),
+            Buffer::of_words("of_columns", 2, Content::Table(columns)),
+        ],
+        passes: vec![pass("look_up", LOOK_UP, vec![1], vec![0])],
+        swaps: Vec::new(),
+        weather: Uniforms::default(),
+        ..mix()
+    }
+}
+
 /// A program without weather that adds constants to vectors of four and to three planes.
 pub(crate) fn lanes() -> Program {
     const ADD: &str = "

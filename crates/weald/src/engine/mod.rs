@@ -3,7 +3,7 @@
 mod budget;
 mod cpu;
 pub mod device;
-mod device_machine;
+pub(crate) mod device_machine;
 mod device_tiles;
 pub(crate) mod machine;
 pub mod program;

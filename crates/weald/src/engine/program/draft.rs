@@ -33,9 +33,14 @@ impl Draft {
         Self { program, common: common.to_vec() }
     }
 
+    /// Adds a buffer.
+    pub(crate) fn add(&mut self, buffer: Buffer) {
+        self.program.buffers.push(buffer);
+    }
+
     /// Adds a buffer of vectors with so many values a cell.
     pub(crate) fn buffer(&mut self, name: &'static str, lanes: usize, content: Content) {
-        self.program.buffers.push(Buffer::new(name, lanes, content));
+        self.add(Buffer::new(name, lanes, content));
     }
 
     /// Adds a buffer of what passes hand to each other, or of what becomes state by a swap.
