@@ -64,6 +64,23 @@ impl Edits {
         self.script.next_from(step)
     }
 
+    /// What the user should know after a run of so many steps.
+    pub(crate) fn notes(&self, iterations: u64) -> Vec<String> {
+        let all = self.script.edits().len();
+        let happened = self.script.edits().partition_point(|edit| edit.step < iterations);
+        let mut notes = vec![format!(
+            "{happened} strokes of the script happened; in the budget the ground that they gave or took counts as \
+             solid that went out (below 0: came), the water as rain and evaporation"
+        )];
+        if happened < all {
+            let late = all - happened;
+            notes.push(format!(
+                "{late} strokes did not happen: they come after the last of {iterations} steps"
+            ));
+        }
+        notes
+    }
+
     /// All strokes that happen before a step.
     pub(crate) fn change(&self, step: u64, snapshot: &mut Snapshot) -> Result<(), Error> {
         self.script.before(step).iter().try_for_each(|edit| self.stroke(&edit.brush, snapshot))

@@ -205,7 +205,7 @@ impl Working {
         landscape.insert("flux_y", "m³/step", self.field(&finished.means[1], |flux| flux * volume));
         landscape.insert("erosion", "m", self.field(&change, |change| (-change).max(0.0) * cell));
         landscape.insert("deposition", "m", self.field(&change, |change| change.max(0.0) * cell));
-        let mut notes = Vec::new();
+        let mut notes = finished.notes.clone();
         if !kept.conserving {
             notes.push(format!(
                 "this transport does not conserve sediment: {:.3e} m³ of solid were {}; transport = \"upwind\", or \
@@ -230,7 +230,7 @@ impl Working {
         self.store_stack(landscape, finished);
         let mut budget = self.budget(&[], &[], finished);
         budget.water = WaterBudget::default();
-        Outcome { iterations, budget: Some(budget), notes: Vec::new() }
+        Outcome { iterations, budget: Some(budget), notes: finished.notes.clone() }
     }
 
     /// Sum over all cells, row by row.
