@@ -171,7 +171,7 @@ fn erosion(size: Size, bandwidth: f64, report: &mut (dyn FnMut(&Rate) + Send)) -
     for contender in contenders(iterations) {
         let mut seconds = f64::INFINITY;
         for _ in 0..RUNS {
-            seconds = seconds.min(contender.step.seconds(&landscape, Engine::Cpu)?);
+            seconds = seconds.min(contender.step.seconds(&landscape, &Engine::Cpu)?);
         }
         let millions = size.cells() as f64 * f64::from(iterations) / seconds / 1e6;
         let Contender { name, bytes, operations, aim, .. } = contender;

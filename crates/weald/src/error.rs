@@ -23,6 +23,9 @@ pub enum Error {
     /// The run itself failed: a NaN, an unwritable folder, a full disk.
     #[error("{0}")]
     Run(String),
+    /// A compute device failed: none is there, it was lost, its memory is full.
+    #[error("{0}")]
+    Device(String),
     /// The user stopped the run. The message says how to go on.
     #[error("{0}")]
     Interrupted(String),
@@ -32,7 +35,7 @@ impl Error {
     /// 1 run failed, 3 bad recipe, 4 bad input file, 5 over a stated limit, 130 interrupted.
     pub fn exit_code(&self) -> u8 {
         match self {
-            Self::Run(_) => 1,
+            Self::Run(_) | Self::Device(_) => 1,
             Self::Recipe(_) => 3,
             Self::Input { .. } => 4,
             Self::Limit(_) => 5,

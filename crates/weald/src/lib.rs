@@ -54,6 +54,7 @@ pub mod analyse;
 pub mod bench;
 pub mod combine;
 pub mod domain;
+pub mod edit;
 pub mod engine;
 pub mod erode;
 pub mod error;

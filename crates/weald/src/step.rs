@@ -1,6 +1,7 @@
 //! What a step of a recipe is: it declares the layers that it reads and writes, and runs on a landscape.
 
 use std::fmt::Debug;
+use std::path::PathBuf;
 
 use crate::engine::{Budget, Job};
 use crate::error::Error;
@@ -16,6 +17,16 @@ pub trait Step: Debug + Send + Sync {
     /// Names and units of the layers it writes.
     fn writes(&self) -> Vec<(String, &'static str)>;
 
+    /// What it does with the layers of the materials, whose names only a recipe knows.
+    fn layered(&self) -> Layered {
+        Layered::Never
+    }
+
+    /// Files that it reads.
+    fn files(&self) -> Vec<PathBuf> {
+        Vec::new()
+    }
+
     /// Faults that concern several parameters at once, each a sentence for the user.
     fn faults(&self) -> Vec<String> {
         Vec::new()
@@ -28,6 +39,18 @@ pub trait Step: Debug + Send + Sync {
 
     /// Runs on a landscape that has all the layers in [`Step::reads`].
     fn run(&self, landscape: &mut Landscape, job: &Job<'_>) -> Result<Outcome, Error>;
+}
+
+/// What a step does with the layers of the materials: `bedrock`, and the thickness of each material on it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Layered {
+    /// Nothing.
+    #[default]
+    Never,
+    /// It reads them, where they exist, by [`material::stack`](crate::material::stack).
+    Reads,
+    /// It reads them and writes all of them, beside the layers in [`Step::writes`].
+    Changes,
 }
 
 /// What a step has to report.
@@ -44,6 +67,8 @@ pub struct Outcome {
 /// Part of the pipeline that a step belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stage {
+    /// Takes a layer from a file.
+    Load,
     /// Makes ground from nothing.
     Generate,
     /// Makes a layer from layers.
@@ -56,6 +81,7 @@ impl Stage {
     /// The stage's heading in `weald steps`.
     pub fn title(self) -> &'static str {
         match self {
+            Self::Load => "load",
             Self::Generate => "generate",
             Self::Combine => "combine",
             Self::Erode => "erode",

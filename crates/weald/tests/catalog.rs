@@ -2,17 +2,21 @@
 //! that it declares and no others.
 
 use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+use std::sync::LazyLock;
 
 use proptest::prelude::*;
 use weald::domain::Domain;
 use weald::engine::Job;
 use weald::grid::Mask;
+use weald::io;
+use weald::material::layer_names;
 use weald::picture::PICTURES;
 use weald::random::{hash2, unit};
 use weald::recipe::catalog::CATALOG;
 use weald::recipe::parameter::{Complaints, Kind, Parameter};
 use weald::recipe::source::{self, Node, Table, Value};
-use weald::step::{Entry, Step};
+use weald::step::{Entry, Layered, Step};
 use weald::{Field, Landscape, Size};
 
 #[test]
@@ -67,10 +71,25 @@ fn some_value(parameter: &Parameter) -> String {
         Kind::Choice(words) => format!("{:?}", words[0]),
         Kind::Numbers(low, high) => format!("[{:?}]", (low + high) / 2.0),
         Kind::Sides => "16".to_owned(),
+        Kind::Places => "[1.0, 2.0]".to_owned(),
         Kind::Layer | Kind::Text => format!("\"{}_layer\"", parameter.name),
+        Kind::Script => "\"edits.jsonl\"".to_owned(),
+        Kind::Colour => "\"#102030\"".to_owned(),
+        Kind::Raster => format!("{:?}", some_raster()),
         Kind::Table(inner) => format!("{{ {} }}", needed(inner).trim().replace('\n', ", ")),
         Kind::Tables(inner) => format!("[{{ {} }}]", needed(inner).trim().replace('\n', ", ")),
     }
+}
+
+/// A raster file of as many cells as the ground that steps are given here.
+fn some_raster() -> String {
+    static FILE: LazyLock<PathBuf> = LazyLock::new(|| {
+        let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join("catalog.npy");
+        let size = Size::square(16).expect("small");
+        io::write(&path, &Field::filled(size, 3.5).into()).expect("a raster is written");
+        path
+    });
+    FILE.display().to_string()
 }
 
 /// The step of a text of keys, and what is wrong with it.
@@ -210,15 +229,18 @@ fn check_writes(entry: &Entry, land: Option<Mask>) {
     let before = ground_for(step.as_ref(), land);
     let mut after = before.clone();
     step.run(&mut after, &Job::unwatched(7)).unwrap_or_else(|error| panic!("{name} runs: {error}"));
-    for (layer, unit) in step.writes() {
-        let written = after.layer(&layer).unwrap_or_else(|error| panic!("{name} writes {layer}: {error}"));
-        let declared = if unit.starts_with("unit of ") { INPUT_UNIT } else { unit };
+    let mut writes = step.writes();
+    if step.layered() == Layered::Changes {
+        writes.extend(layer_names(&before.materials).map(|layer| (layer.to_owned(), "m")));
+    }
+    for (layer, unit) in &writes {
+        let written = after.layer(layer).unwrap_or_else(|error| panic!("{name} writes {layer}: {error}"));
+        let declared = if unit.starts_with("unit of ") { INPUT_UNIT } else { *unit };
         assert_eq!(written.unit, declared, "{name}: the unit of {layer}");
         assert_eq!(written.field.first_not_finite(after.domain.land.as_ref()), None, "{name}: {layer}");
     }
-    let declared: BTreeSet<_> = step.writes().into_iter().map(|(layer, _)| layer).collect();
-    let material = |layer: &str| after.materials.iter().any(|material| material.name == layer);
-    let known = |layer: &str| declared.contains(layer) || before.layer(layer).is_ok() || material(layer);
+    let declared: BTreeSet<_> = writes.into_iter().map(|(layer, _)| layer).collect();
+    let known = |layer: &str| declared.contains(layer) || before.layer(layer).is_ok();
     assert!(after.layers().all(|(layer, _)| known(layer)), "{name} writes only what it declares");
     if step.resized().is_some() {
         return;

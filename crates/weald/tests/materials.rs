@@ -1,162 +1,217 @@
-//! Who yields first: hard and soft layers, springs and outlets, taluses, solubilities.
+//! Materials of a recipe, from their tables and files to layers, maps and files.
 
-mod common;
+use std::path::{Path, PathBuf};
 
-use common::{field, hydraulic, landscape, materials, run, worst_difference};
-use weald::erode::dissolution_step::DissolutionStep;
-use weald::erode::hydraulic::{Boundary, Hydraulic, Model};
-use weald::erode::slippage_step::SlippageStep;
-use weald::erode::springs::Spring;
-use weald::recipe::parameter::{LayerName, Nested};
-use weald::{Field, Landscape, Size};
+use tempfile::TempDir;
+use weald::grid::Mask;
+use weald::io::{self, Raster};
+use weald::recipe::{Options, Overrides, Recipe, Run, Silent};
+use weald::{Error, Field, Landscape, Size};
 
-#[test]
-fn a_hard_layer_under_a_soft_one_protects_what_is_below() {
-    let size = Size::new(60, 24).expect("small");
-    let slope = Field::from_function(size, |x, _| 0.3 * (60 - x) as f32);
-    let eroded = |hard: &str| {
-        let mut land = landscape(slope.clone());
-        land.materials = materials(&["sand", hard, "sand"]);
-        land.materials[1].erodibility = 1e-6;
-        land.materials[2].name = "cover".to_owned();
-        land.insert(hard, "m", Field::filled(size, if hard == "rock" { 0.5 } else { 0.0 }));
-        land.insert("cover", "m", Field::filled(size, 0.2));
-        let boundary = Boundary::Open;
-        let deposit = Some(LayerName::of("cover"));
-        let deposition = 0.0;
-        run(&Hydraulic { model: Model::Stava, boundary, deposit, deposition, ..hydraulic(600) }, &mut land);
-        land
-    };
-    let (protected, bare) = (eroded("rock"), eroded("clay"));
-    let inner =
-        |land: &Landscape, name: &str| -> Vec<f32> { (8..50).map(|x| field(land, name).at(x, 12)).collect() };
-    let (cover, rock) = (inner(&protected, "cover"), inner(&protected, "rock"));
-    let gone = cover.iter().filter(|&&left| left < 0.01).count();
-    assert!(gone > 20, "the soft cover is gone in {gone} of 42 cells: {cover:?}");
-    assert!(rock.iter().all(|&left| left > 0.3), "the hard layer stands: {rock:?}");
-    let fallen = |land: &Landscape| -> f32 {
-        let start = inner(land, "bedrock").into_iter().zip(8..50);
-        start.map(|(now, x)| slope.at(x, 12) - 0.2 - now).sum::<f32>() / 42.0
-    };
-    assert!(fallen(&bare) > 0.1, "without it the water digs {} m deeper", fallen(&bare));
-    assert!((fallen(&protected) - 0.5).abs() < 1e-5, "under it nothing moved: {}", fallen(&protected));
+const SIDE: usize = 12;
+
+/// Ground that slopes from 5.5 m in the west to 60.5 m in the east, of these materials.
+fn recipe(materials: &str, steps: &str, outputs: &str) -> String {
+    format!(
+        "[landscape]\nsize = {SIDE}\ncell = 1.0\n{materials}[[step]]\ndo = \"plane\"\nslope = 5.0\nheight = \
+         33.0\nazimuth_deg = 270.0\n{steps}{outputs}"
+    )
 }
 
-/// A valley floor with a bowl, whose outlet is a notch in its eastern rim.
-fn basin() -> Landscape {
-    let size = Size::new(60, 31).expect("small");
-    let ground = Field::from_function(size, |x, y| {
-        let away = ((x as f32 - 20.0).powi(2) + (y as f32 - 15.0).powi(2)).sqrt();
-        let bowl = 10.0 + (away - 10.0).clamp(-6.0, 0.0);
-        if y == 15 && x > 20 { bowl.min(9.0 - 0.2 * (x as f32 - 33.0).max(0.0)) } else { bowl }
-    });
-    landscape(ground)
+fn output(layer: &str, file: &str) -> String {
+    format!("[[output]]\nlayer = \"{layer}\"\nfile = \"{file}\"\n")
 }
 
-#[test]
-fn a_source_fills_a_basin_to_its_outlet_and_then_spills() {
-    let mut land = basin();
-    let sources = vec![Nested(Spring { x: 20.5, y: 15.5, radius: 2.0, rate: 0.05 })];
-    let level = |land: &Landscape, x, y| field(land, "height").at(x, y) + field(land, "water").at(x, y);
-    let filled = |land: &mut Landscape, iterations| {
-        let sources = sources.clone();
-        let still = Hydraulic {
-            model: Model::Stava,
-            sources,
-            rain: Some(0.0),
-            evaporation: Some(0.0),
-            erosion: Some(0.0),
-            boundary: Boundary::Open,
-            ..hydraulic(iterations)
-        };
-        run(&still, land).budget.expect("a budget").water
-    };
-    let early = filled(&mut land, 300);
-    assert_eq!(early.outgoing, 0.0, "the basin holds its water at first");
-    assert!(level(&land, 20, 15) > 5.0 && level(&land, 20, 15) < 9.0, "{}", level(&land, 20, 15));
-    let late = filled(&mut land, 4000);
-    let (lake, sill) = (level(&land, 20, 15), 9.0);
-    assert!((lake - sill).abs() < 0.6, "the lake stands at {lake} m, its outlet at {sill} m");
-    assert!(late.outgoing > 0.5 * late.incoming, "it spills: {late:?}");
-    assert!(field(&land, "water").at(50, 15) > 1e-3, "through the notch");
-    assert!(field(&land, "water").at(5, 15) < 1e-3, "and nowhere else");
-}
+/// A folder with a recipe in it.
+struct Place(TempDir);
 
-#[test]
-fn slippage_ends_with_every_material_on_its_talus() {
-    let size = Size::square(48).expect("small");
-    let away = |x: usize, y: usize| ((x as f32 - 23.5).powi(2) + (y as f32 - 23.5).powi(2)).sqrt();
-    let mut land = landscape(Field::from_function(size, |x, y| 10.0 + (12.0 - away(x, y)).max(0.0) * 1.2));
-    land.materials = materials(&["rock", "clay", "sand"]);
-    land.insert("clay", "m", Field::from_function(size, |x, y| (8.0 - away(x, y)).max(0.0)));
-    land.insert("sand", "m", Field::from_function(size, |x, y| (6.0 - away(x, y)).max(0.0) * 0.4));
-    let before = land.clone();
-    run(&SlippageStep { strength: 0.08, iterations: 6000, ..SlippageStep::default() }, &mut land);
-    assert!(worst_difference(field(&before, "height"), field(&land, "height")) > 1.0, "something slid");
-    let mut top = field(&land, "bedrock").clone();
-    for material in &land.materials {
-        if let Ok(layer) = land.field(&material.name) {
-            top = Field::from_function(size, |x, y| top.at(x, y) + layer.at(x, y));
-            let talus = (material.talus_deg as f32).to_radians().tan();
-            let steepest = steepest_where(&top, layer);
-            assert!(steepest < talus * 1.02, "{} lies at {steepest}, but rests at {talus}", material.name);
-        }
+impl Place {
+    fn new() -> Self {
+        Self(tempfile::tempdir().expect("a folder"))
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.0.path().join(name)
+    }
+
+    fn raster(&self, name: &str, raster: impl Into<Raster>) {
+        io::write(&self.path(name), &raster.into()).expect("a raster is written");
+    }
+
+    fn recipe(&self, text: &str) -> Recipe {
+        let file = self.path("r.toml").display().to_string();
+        Recipe::parse(&file, text, &Overrides::default()).unwrap_or_else(|error| panic!("{error}\n{text}"))
+    }
+
+    fn landscape(&self, text: &str) -> Result<Landscape, Error> {
+        self.recipe(text).landscape()
+    }
+
+    fn run(&self, text: &str) -> PathBuf {
+        let out = self.path("out");
+        let options = Options::into_folder(&out);
+        Run { recipe: &self.recipe(text), options }.execute(&Silent).expect("runs");
+        out
     }
 }
 
-/// Steepest step down from a cell that holds some of a layer.
-fn steepest_where(top: &Field, layer: &Field) -> f32 {
-    let Size { columns, rows } = top.size();
-    let inner = (1..rows - 1).flat_map(|y| (1..columns - 1).map(move |x| (x, y)));
-    let drop = |(x, y): (usize, usize)| {
-        let around = [(x - 1, y), (x + 1, y), (x, y - 1), (x, y + 1)];
-        around.iter().map(|&(nx, ny)| top.at(x, y) - top.at(nx, ny)).fold(0.0, f32::max)
+fn refusal(text: &str) -> String {
+    let faults = Recipe::parse("r.toml", text, &Overrides::default());
+    faults.expect_err("the recipe is bad").to_string()
+}
+
+fn field(side: usize, value: impl FnMut(usize, usize) -> f32) -> Field {
+    Field::from_function(Size::square(side).expect("small"), value)
+}
+
+fn thickness() -> Field {
+    field(SIDE, |x, y| (x * y) as f32 / 7.0)
+}
+
+const LAYERS: &str = "[[step]]\ndo = \"layers\"\n";
+
+const STRATA: &str = "[[material]]\nname = \"rock\"\n[[material]]\nname = \"clay\"\nbottom = 20\n\
+                      [[material]]\nname = \"sand\"\nbottom = 40\n[[material]]\nname = \"soil\"\nthickness = 0.5\n";
+
+#[test]
+fn strata_lie_level_in_the_slope_and_leave_the_rest_to_the_bedrock() {
+    let text = recipe(STRATA, LAYERS, &output("clay", "clay.tif"));
+    let landscape = Place::new().landscape(&text).expect("runs");
+    let layer = |name: &str| landscape.field(name).expect("the step writes it");
+    let (height, bedrock) = (layer("height"), layer("bedrock"));
+    assert!(height.at(0, 0) < 20.0 && height.at(SIDE - 1, 0) > 41.0, "the slope cuts all strata");
+    for x in 0..SIDE {
+        let roof = height.at(x, 3) - 0.5;
+        let expected = [roof.min(20.0), (roof.min(40.0) - 20.0).max(0.0), (roof - 40.0).max(0.0), 0.5];
+        let found = ["bedrock", "clay", "sand", "soil"].map(|name| layer(name).at(x, 3));
+        for (found, expected) in found.iter().zip(expected) {
+            assert!((found - expected).abs() < 1e-5, "column {x}: {found} instead of {expected}");
+        }
+    }
+    assert_ne!(bedrock, height);
+}
+
+#[test]
+fn the_map_of_materials_counts_from_the_bedrock_and_passes_over_films() {
+    let map = "[[step]]\ndo = \"top-material\"\n";
+    let top = |steps: &str| {
+        let text = recipe(STRATA, steps, &output("material", "material.npy"));
+        let landscape = Place::new().landscape(&text).expect("runs");
+        let map = landscape.field("material").expect("written");
+        [0, 5, SIDE - 1].map(|x| map.at(x, 0))
     };
-    inner.filter(|&(x, y)| layer.at(x, y) > 0.01).map(drop).fold(0.0, f32::max)
-}
-
-/// Soil that falls eastward, under two metres of water in its western half.
-fn shore(fall: f32) -> Landscape {
-    let size = Size::square(32).expect("small");
-    let mut land = landscape(Field::from_function(size, |x, _| 5.0 - fall * x as f32));
-    land.insert("soil", "m", Field::filled(size, 1.0));
-    land.insert("pond", "m", Field::from_function(size, |x, _| if x < 16 { 2.0 } else { 0.0 }));
-    land
+    assert_eq!(top(map), [3.0; 3], "half a metre of soil lies everywhere");
+    assert_eq!(top(&format!("{map}thinnest = 0.6\n")), [0.0, 1.0, 2.0]);
 }
 
 #[test]
-fn dissolution_soaks_no_deeper_than_its_depth_and_what_creeps_ashore_settles() {
-    let water = LayerName::of("pond");
-    let step = DissolutionStep { depth: 0.3, water, iterations: 400, ..DissolutionStep::default() };
-    let mut level = shore(0.0);
-    run(&step, &mut level);
-    let (_, most) = field(&level, "regolith").range(None).expect("cells");
-    assert!(most > 0.29 && most <= 0.3 + 1e-6, "regolith stands {most} m deep");
-    let (wet, dry) = (field(&level, "soil").at(3, 10), field(&level, "soil").at(28, 10));
-    assert!((wet - (1.0 - most)).abs() < 1e-5, "it came out of the soil: {wet} m are left");
-    assert_eq!(dry, 1.0, "dry ground does not dissolve");
-    let mut falling = shore(0.1);
-    run(&step, &mut falling);
-    let (shore, inland) = (field(&falling, "soil").at(16, 10), field(&falling, "soil").at(28, 10));
-    assert!(shore > 1.1, "what crept ashore settled there: {shore} m");
-    assert!(inland < 1.0 + 0.5 * (shore - 1.0), "rather than beyond: {inland} m, {shore} m at the shore");
+fn a_layer_goes_out_as_a_geotiff_and_comes_back_to_the_bit() {
+    let place = Place::new();
+    place.raster("sand.tif", thickness());
+    let material = "[[material]]\nname = \"granite\"\n[[material]]\nname = \"sand\"\nfrom = \"sand.tif\"\n";
+    let out =
+        place.run(&recipe(material, LAYERS, &(output("sand", "sand.tif") + &output("bedrock", "b.tif"))));
+    assert_eq!(io::read(&out.join("sand.tif")).expect("written").field, thickness());
+    let back = material.replace("sand.tif", "out/sand.tif");
+    let again = place.landscape(&recipe(&back, "", &output("sand", "sand.tif"))).expect("runs");
+    assert_eq!(again.field("sand").expect("loaded"), &thickness());
+    assert_eq!(again.materials[0].name, "granite");
 }
 
 #[test]
-fn solubility_and_cover_decide_what_dissolves() {
-    let size = Size::new(30, 8).expect("small");
-    let mut land = landscape(Field::filled(size, 5.0));
-    land.materials = materials(&["rock", "soil"]);
-    land.insert("soil", "m", Field::from_function(size, |x, _| if x < 15 { 2.0 } else { 0.0 }));
-    land.insert("sea", "m", Field::filled(size, 3.0));
-    let before = field(&land, "height").clone();
-    let water = LayerName::of("sea");
-    run(
-        &DissolutionStep { depth: 0.2, damping: 1.0, water, iterations: 5, ..DissolutionStep::default() },
-        &mut land,
+fn a_file_of_thicknesses_is_scaled_and_must_fit_the_landscape() {
+    let place = Place::new();
+    let from = |file: &str, scale: &str| {
+        let material = format!(
+            "[[material]]\nname = \"rock\"\n[[material]]\nname = \"sand\"\nfrom = \"{file}\"\n{scale}"
+        );
+        place.landscape(&recipe(&material, "", &output("sand", "sand.tif")))
+    };
+    place.raster("sand.npy", thickness());
+    let doubled = from("sand.npy", "scale = 2.0\n").expect("fits");
+    assert_eq!(doubled.field("sand").expect("loaded").at(5, 7), 2.0 * thickness().at(5, 7));
+    place.raster("wide.npy", field(SIDE + 1, |_, _| 1.0));
+    let error = from("wide.npy", "").expect_err("another size");
+    let message = error.to_string();
+    assert!(
+        message.contains("wide.npy") && message.contains("13 × 13") && message.contains("12 × 12"),
+        "{message}"
     );
-    let (soft, hard) = (field(&land, "regolith").at(3, 4), field(&land, "regolith").at(25, 4));
-    assert!(soft > 20.0 * hard && hard > 0.0, "soil gives {soft} m, rock {hard} m");
-    let covered = before.at(3, 4) - 2.0 - field(&land, "bedrock").at(3, 4);
-    assert_eq!(covered, 0.0, "rock under soil stays");
+    assert_eq!(error.exit_code(), 4);
+    assert_eq!(from("none.npy", "").expect_err("missing").exit_code(), 4);
+}
+
+#[test]
+fn a_thickness_below_nothing_is_refused_where_it_is_used() {
+    let place = Place::new();
+    place.raster("sand.npy", field(SIDE, |x, _| 2.0 - x as f32));
+    let material = "[[material]]\nname = \"rock\"\n[[material]]\nname = \"sand\"\nfrom = \"sand.npy\"\n";
+    let message = place.landscape(&recipe(material, LAYERS, &output("sand", "a.tif"))).expect_err("negative");
+    assert!(message.to_string().contains("`sand` holds -1 at column 3, row 0"), "{message}");
+}
+
+fn load(keys: &str) -> String {
+    format!("[[step]]\ndo = \"load\"\n{keys}")
+}
+
+#[test]
+fn load_scales_shifts_and_resamples() {
+    let place = Place::new();
+    place.raster("slope.npy", field(2 * SIDE, |x, _| x as f32));
+    let keys = "file = \"slope.npy\"\ninto = \"sand\"\nscale = 2.0\noffset = -1.0\n";
+    let text = |more: &str| recipe("", &load(&format!("{keys}{more}")), &output("sand", "sand.tif"));
+    let message = place.landscape(&text("")).expect_err("another size").to_string();
+    assert!(message.contains("24 × 24") && message.contains("resample = true"), "{message}");
+    let loaded = place.landscape(&text("resample = true\n")).expect("resampled");
+    let row: Vec<_> = loaded.field("sand").expect("loaded").row(0).to_vec();
+    assert_eq!(row, (0..SIDE).map(|x| 2.0 * (2.0 * x as f32 + 0.5) - 1.0).collect::<Vec<_>>());
+}
+
+#[test]
+fn cells_without_data_need_a_value_where_the_landscape_has_ground() {
+    let place = Place::new();
+    let holes = Mask::new(thickness().size(), (0..SIDE * SIDE).map(|cell| cell != 17).collect());
+    place.raster("holes.tif", Raster { land: holes, ..thickness().into() });
+    let keys = "file = \"holes.tif\"\ninto = \"sand\"\n";
+    let text = |more: &str| recipe("", &load(&format!("{keys}{more}")), &output("sand", "sand.tif"));
+    let message = place.landscape(&text("")).expect_err("a hole").to_string();
+    assert!(message.contains("column 5, row 1 has no data") && message.contains("no_data"), "{message}");
+    let filled = place.landscape(&text("no_data = 9.0\n")).expect("filled");
+    assert_eq!(filled.field("sand").expect("loaded").at(5, 1), 9.0);
+}
+
+#[test]
+fn layers_of_materials_are_there_only_once_something_writes_them() {
+    let sand = output("sand", "sand.tif");
+    let message = refusal(&recipe(STRATA, "", &sand));
+    assert!(message.contains("needs layer `sand`") && message.contains("a `layers` step"), "{message}");
+    let message = refusal(&recipe(STRATA, LAYERS, &output("rock", "rock.tif")));
+    assert!(message.contains("the layer of the first material is `bedrock`"), "{message}");
+    let unread = load("file = \"sand.tif\"\ninto = \"sand\"\n");
+    let refused = refusal(&recipe(STRATA, &format!("{unread}{unread}{LAYERS}"), &sand));
+    assert!(refused.contains("overwrites all that step 2 (`load`"), "{refused}");
+    let read = recipe(STRATA, &format!("{unread}{LAYERS}"), &sand);
+    Recipe::parse("r.toml", &read, &Overrides::default()).expect("`layers` reads what `load` wrote");
+}
+
+#[test]
+fn no_output_overwrites_a_file_that_the_recipe_reads() {
+    let place = Place::new();
+    std::fs::create_dir(place.path("out")).expect("a folder");
+    place.raster("out/sand.tif", thickness());
+    let steps = load("file = \"out/sand.tif\"\ninto = \"sand\"\n");
+    let recipe = place.recipe(&recipe("", &steps, &output("sand", "sand.tif")));
+    assert_eq!(recipe.inputs(), [Path::new(&place.path("out/sand.tif"))]);
+    let options = Options::into_folder(place.path("out"));
+    let message = Run { recipe: &recipe, options }.execute(&Silent).expect_err("its own input").to_string();
+    assert!(message.contains("is an input of the recipe and would be overwritten"), "{message}");
+}
+
+#[test]
+fn materials_survive_a_change_of_resolution() {
+    let resample = format!("[[step]]\ndo = \"resample\"\nsize = 6\n{LAYERS}");
+    let landscape =
+        Place::new().landscape(&recipe(STRATA, &resample, &output("clay", "clay.tif"))).expect("runs");
+    assert_eq!(landscape.materials.len(), 4);
+    assert_eq!(landscape.field("clay").expect("written").size().columns, 6);
 }

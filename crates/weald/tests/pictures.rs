@@ -1,8 +1,10 @@
 //! What the pictures show, judged from their pixels.
 
 use weald::grid::Mask;
+use weald::material::Material;
 use weald::picture::{
-    Image, Map, Oklab, PAPER, PICTURES, Picture, Relief, Scale, Tint, encode, linear_of_hex,
+    Along, Image, Map, Materials, Oklab, PAPER, PICTURES, Picture, Relief, Scale, Section, Tint, encode,
+    linear_of_hex,
 };
 use weald::recipe::parameter::LayerName;
 use weald::{Domain, Field, Landscape, Size};
@@ -226,4 +228,72 @@ fn every_kind_of_picture_documents_all_its_parameters() {
             assert!(parameter.doc.len() > 10, "{}: {}", entry.name, parameter.name);
         }
     }
+}
+
+/// A slope from 0 m in the west to 630 m in the east, with two strata, pure red from 200 m and pure blue from 400 m.
+fn strata() -> Landscape {
+    let mut landscape = ground(64, 64, |x, _| 10.0 * x as f32);
+    let stratum = |name: &str, bottom, colour| Material {
+        name: name.to_owned(),
+        bottom: Some(bottom),
+        colour,
+        ..Material::built_in("clay").expect("built in")
+    };
+    landscape.materials.truncate(1);
+    landscape.materials.push(stratum("red", 200.0, [1.0, 0.0, 0.0]));
+    landscape.materials.push(stratum("blue", 400.0, [0.0, 0.0, 1.0]));
+    landscape
+}
+
+fn hue(image: &Image, x: usize, y: usize) -> &'static str {
+    let [r, g, b] = image.pixel(x, y);
+    match (r > g.saturating_add(60), b > g.saturating_add(60)) {
+        (true, false) => "red",
+        (false, true) => "blue",
+        _ => "grey",
+    }
+}
+
+#[test]
+fn strata_crop_out_in_bands_on_a_picture_of_materials() {
+    let materials = Materials { width: Some(64), water: false, ..Materials::default() };
+    let image = draw(&materials, &strata());
+    let bands = [10, 30, 55].map(|x| hue(&image, x, 32));
+    assert_eq!(bands, ["grey", "red", "blue"]);
+}
+
+#[test]
+fn a_section_shows_strata_from_the_bedrock_up_water_on_them_and_nothing_above() {
+    let mut landscape = strata();
+    let water = Field::from_function(landscape.domain.size, |x, _| (150.0 - 10.0 * x as f32).max(0.0));
+    landscape.insert("water", "m", water);
+    let image = draw(&Section { width: 640, ..Section::default() }, &landscape);
+    let column = |x: usize| (0..image.height).map(|y| hue(&image, x, y)).collect::<Vec<_>>();
+    let east = column(620);
+    // Lines between the strata are thinner than three pixels.
+    let bands = east.chunk_by(|a, b| a == b).filter(|run| run.len() > 3);
+    let seen: Vec<_> = bands.map(|run| run[0]).collect();
+    assert_eq!(seen, ["grey", "blue", "red", "grey"], "sky, the upper stratum, the lower one, bedrock");
+    let [blue, red] = ["blue", "red"].map(|hue| east.iter().filter(|seen| **seen == hue).count() as f64);
+    assert!((blue / red - 1.1).abs() < 0.08, "blue is 220 m thick there, red 200 m: {blue} and {red} pixels");
+    let wet = |image: &Image| {
+        (0..image.height).any(|y| matches!(image.pixel(60, y), [r, _, b] if b > r.saturating_add(50)))
+    };
+    assert!(wet(&image), "the lake in the west is seen");
+    let dry = draw(&Section { width: 640, water: false, ..Section::default() }, &landscape);
+    assert!(!wet(&dry));
+}
+
+#[test]
+fn a_section_stands_in_its_exaggeration_and_along_a_column_the_ground_is_level() {
+    let image = |along, exaggeration| {
+        draw(&Section { width: 640, along, exaggeration, ..Section::default() }, &strata())
+    };
+    let [once, thrice] = [1.0, 3.0].map(|factor| image(Along::Row, Some(factor)).height as f64);
+    assert!((thrice / once - 3.0).abs() < 0.02, "{once} and {thrice} pixels high");
+    let column = image(Along::Column, None);
+    let surface = |x: usize| (0..column.height).position(|y| hue(&column, x, y) == "red");
+    assert!(surface(100).is_some() && surface(100) == surface(600));
+    let endless = Section { width: 16384, exaggeration: Some(1000.0), ..Section::default() };
+    assert_eq!(endless.render(&strata()).expect_err("too high").exit_code(), 5);
 }

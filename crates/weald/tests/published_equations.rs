@@ -46,6 +46,7 @@ fn variants(model: Model) -> Vec<Hydraulic> {
     for transport in [Transport::SemiLagrangian, Transport::MacCormack] {
         all.push(Hydraulic { transport, ..keys(model) });
     }
+    all.push(Hydraulic { transport: Transport::MacCormack, conserve: Some(false), ..keys(model) });
     for scheme in [Scheme::Axis, Scheme::Isotropic, Scheme::IsotropicSymmetric] {
         let thermal = ThermalWithin { scheme, talus: 0.4, strength: 0.13 };
         all.push(Hydraulic { thermal: Some(Nested(thermal)), ..keys(model) });

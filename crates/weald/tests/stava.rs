@@ -230,6 +230,7 @@ fn any_ground() -> impl Strategy<Value = Landscape> {
             talus_deg,
             colour: [0.5; 3],
             thickness,
+            bottom: None,
         };
         land.materials = numbers.into_iter().enumerate().map(material).collect();
         land

@@ -5,10 +5,12 @@
 pub mod add;
 pub mod blend;
 pub mod extremes;
+pub mod layers;
 pub mod remap;
 pub mod resample;
 pub mod smooth;
 pub mod terrace;
+pub mod top_material;
 
 use rayon::prelude::*;
 

@@ -55,12 +55,22 @@ impl Step for Resample {
         let change = Change::between(&landscape.domain, size)?;
         let land = change.land();
         let mut resampled = Landscape::new(change.domain(land));
+        resampled.materials.clone_from(&landscape.materials);
         for (name, layer) in landscape.layers() {
             resampled.insert(name, &layer.unit, change.field(&layer.field));
         }
         *landscape = resampled;
         Ok(Outcome::default())
     }
+}
+
+/// A field on `old` brought to another number of cells over the same ground, and where it has data.
+///
+/// # Errors
+/// [`Error::Run`] where the cells would not be square.
+pub(crate) fn resampled(old: &Domain, field: &Field, size: Size) -> Result<(Field, Option<Mask>), Error> {
+    let change = Change::between(old, size)?;
+    Ok((change.field(field), change.land()))
 }
 
 /// From one grid to another over the same ground.

@@ -1,14 +1,26 @@
 //! Engines, and what a running step knows of the world: seed, engine, progress, interruption, checkpoints.
 
 mod budget;
+mod cpu;
+pub mod device;
+pub(crate) mod device_machine;
+mod device_tiles;
+pub(crate) mod machine;
+pub mod program;
+mod tiles;
+pub mod uniform;
 pub(crate) mod world;
 
 pub use budget::{Budget, SolidBudget, WaterBudget};
 
-use crate::error::Error;
+use std::sync::Arc;
 
-/// Where and how simulations run. The bits of the result do not depend on it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+use crate::error::Error;
+use crate::grid::Size;
+use device::Device;
+
+/// Where and how simulations run. On all but devices the bits of the result do not depend on it.
+#[derive(Clone, Debug, Default)]
 pub enum Engine {
     /// All threads of the current rayon pool, in shared memory.
     #[default]
@@ -16,14 +28,31 @@ pub enum Engine {
     /// The domain cut into this many bands that own their memory and exchange halos by messages: what a
     /// cluster's ranks do, without a cluster.
     Bands(usize),
+    /// The domain cut into tiles of up to this many columns and rows, one after the other: what a device
+    /// does whose memory is too small, without a device.
+    Tiles(Size),
+    /// A device; an error where it fails.
+    Device(Arc<dyn Device>),
+    /// A device, and the CPU from the last checkpoint on where it fails.
+    DeviceElseCpu(Arc<dyn Device>),
 }
 
 impl Engine {
     /// Name in the report.
-    pub fn name(self) -> &'static str {
+    pub fn name(&self) -> &'static str {
         match self {
             Self::Cpu => "cpu",
             Self::Bands(_) => "bands",
+            Self::Tiles(_) => "tiles",
+            Self::Device(_) | Self::DeviceElseCpu(_) => "gpu",
+        }
+    }
+
+    /// The adapter in the report.
+    pub fn adapter(&self) -> Option<String> {
+        match self {
+            Self::Device(device) | Self::DeviceElseCpu(device) => Some(device.adapter()),
+            _ => None,
         }
     }
 }

@@ -8,9 +8,8 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
-use super::Engine;
 use crate::stencil::chain::{Chain, Passage, Process, RowSums, SUMS};
-use crate::stencil::rows::{Layout, Rows};
+use crate::stencil::rows::{Layout, Rows, first_not_finite};
 
 /// A simulation's rows, bands and sums.
 pub(crate) struct World<'a, P: Process> {
@@ -22,6 +21,8 @@ pub(crate) struct World<'a, P: Process> {
     block: usize,
     /// Whether bands own their memory.
     owned: bool,
+    /// Columns of which sums are counted.
+    columns: Range<usize>,
     shared: Rows,
 }
 
@@ -37,13 +38,12 @@ struct Band<P: Process> {
 }
 
 impl<'a, P: Process> World<'a, P> {
-    /// A world over `state`, whose layout holds state planes and then constant planes.
-    pub(crate) fn new(process: &'a P, state: Rows, engine: Engine) -> Self {
+    /// A world over `state`, whose layout holds state planes and then constant planes: in that many bands that
+    /// own their memory, or one a thread that share it. Sums count the cells of `columns` alone.
+    pub(crate) fn new(process: &'a P, state: Rows, bands: Option<usize>, columns: Range<usize>) -> Self {
         let rows = state.count();
-        let wanted = match engine {
-            Engine::Cpu => rayon::current_num_threads(),
-            Engine::Bands(count) => count,
-        };
+        let owned = bands.is_some();
+        let wanted = bands.unwrap_or_else(rayon::current_num_threads);
         let count = wanted.clamp(1, (rows / process.reach()).max(1));
         let block = steps_in_a_passage(process, rows / count);
         let bands = (0..count)
@@ -56,8 +56,8 @@ impl<'a, P: Process> World<'a, P> {
                 sums: vec![[0.0; SUMS]; rows * (band + 1) / count - rows * band / count],
             })
             .collect();
-        let owned = matches!(engine, Engine::Bands(_));
-        let mut world = Self { process, layout: state.layout, rows, bands, block, owned, shared: state };
+        let mut world =
+            Self { process, layout: state.layout, rows, bands, block, owned, columns, shared: state };
         world.deal_out();
         world
     }
@@ -65,6 +65,11 @@ impl<'a, P: Process> World<'a, P> {
     /// Steps that one passage can do.
     pub(crate) fn block(&self) -> usize {
         self.block
+    }
+
+    /// Counts the sums of these columns alone from now on.
+    pub(crate) fn count_columns(&mut self, columns: Range<usize>) {
+        self.columns = columns;
     }
 
     /// Replaces the state; sums stay.
@@ -95,14 +100,8 @@ impl<'a, P: Process> World<'a, P> {
     }
 
     /// Column, row and plane of the first value that is a NaN or an infinity, over the first `planes` planes.
-    pub(crate) fn first_not_finite(&self, planes: usize) -> Option<(usize, usize, usize)> {
-        // A fold over all cells, rather than a search, is what the compiler turns into vector code.
-        let finite = |row: &[f32]| row.iter().fold(true, |all, value| all & value.is_finite());
-        self.rows().enumerate().find_map(|(y, row)| {
-            let plane = (0..planes).find(|&plane| !finite(self.layout.plane(row, plane)))?;
-            let x = self.layout.plane(row, plane).iter().position(|value| !value.is_finite())?;
-            Some((x, y, plane))
-        })
+    pub(crate) fn first_not_finite(&self, planes: usize) -> Option<[usize; 3]> {
+        first_not_finite(self.layout, self.rows(), planes)
     }
 
     /// The memory of all rows, in one part or one a band.
@@ -121,26 +120,15 @@ impl<'a, P: Process> World<'a, P> {
         Rows { layout: self.layout, memory }
     }
 
-    /// Sums over all rows, added from north to south whatever the bands.
-    pub(crate) fn sums(&self) -> RowSums {
-        let mut total = [0.0; SUMS];
-        for row in self.bands.iter().flat_map(|band| &band.sums) {
-            for (total, sum) in total.iter_mut().zip(row) {
-                *total += sum;
-            }
-        }
-        total
-    }
-
-    /// Sums of each row, for a checkpoint.
-    pub(crate) fn row_sums(&self) -> Vec<f64> {
-        self.bands.iter().flat_map(|band| band.sums.iter().flatten().copied()).collect()
+    /// Sums of each row.
+    pub(crate) fn row_sums(&self) -> Vec<RowSums> {
+        self.bands.iter().flat_map(|band| band.sums.iter().copied()).collect()
     }
 
     /// Puts back the sums of each row.
-    pub(crate) fn set_row_sums(&mut self, sums: &[f64]) {
+    pub(crate) fn set_row_sums(&mut self, sums: &[RowSums]) {
         let rows = self.bands.iter_mut().flat_map(|band| &mut band.sums);
-        for (row, saved) in rows.zip(sums.chunks_exact(SUMS)) {
+        for (row, saved) in rows.zip(sums) {
             row.copy_from_slice(saved);
         }
     }
@@ -214,7 +202,18 @@ impl<'a, P: Process> World<'a, P> {
             let span = own.start - above.len() / length..own.end + below.len() / length;
             let first = own.start;
             work.push((
-                Passage { process, layout, weather, span, first, own: own_memory, above, below, sums },
+                Passage {
+                    process,
+                    layout,
+                    weather,
+                    span,
+                    first,
+                    own: own_memory,
+                    above,
+                    below,
+                    sums,
+                    columns: self.columns.clone(),
+                },
                 chain,
             ));
         }

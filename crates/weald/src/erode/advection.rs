@@ -6,22 +6,33 @@
 //! 10.1007/s10915-007-9166-4; used by Šťava et al. 2008): with `A = SL(s, v)` and `B = SL(A, -v)`,
 //! `s' = A + (s - B) / 2`, clamped to the four cells around the departure point.
 //!
-//! Neither conserves sediment; the budget of the run shows what they lose. What differs from the sources:
+//! Neither conserves sediment; the budget of the run shows what they lose, and [`super::flux_corrected`] is
+//! the form that loses nothing. What differs from the sources:
 //! at walls and no-data cells the departure point stops at the last cell with data.
+
+mod program;
+
+pub(crate) use program::Advected;
 
 use std::ops::Range;
 
 use pulp::Arch;
 
+use super::flux_corrected::{self, FluxCorrectedScratch};
 use super::links::Links;
 use crate::stencil::kernel::kernel;
 use crate::stencil::ring::Ring;
 
-/// Which of the two.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// Which of them.
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Advection {
     SemiLagrangian,
     MacCormack,
+    /// MacCormack in flux form, which conserves: [`super::flux_corrected`].
+    FluxCorrected {
+        /// Depth added where sediment is divided by depth.
+        epsilon: f32,
+    },
 }
 
 /// Value at the departure point of a cell, from the nine cells around it (north to south, west to east).
@@ -93,17 +104,26 @@ pub(crate) struct AdvectionScratch {
     forward: Ring,
     back: Ring,
     still: Ring,
+    flux_corrected: FluxCorrectedScratch,
 }
 
 impl AdvectionScratch {
     pub(crate) fn new(columns: usize) -> Self {
-        Self { forward: Ring::new(columns, 3), back: Ring::new(columns, 1), still: Ring::new(columns, 1) }
+        Self {
+            forward: Ring::new(columns, 3),
+            back: Ring::new(columns, 1),
+            still: Ring::new(columns, 1),
+            flux_corrected: FluxCorrectedScratch::new(columns),
+        }
     }
 }
 
 /// What the transport reads.
 pub(crate) struct AdvectionRows<'a> {
     pub(crate) sediment: &'a Ring,
+    /// Water before it flowed; its newest row is read alone.
+    pub(crate) depth: &'a Ring,
+    /// Velocities, or water through the eastern and southern faces where transport is in flux form.
     pub(crate) eastward: &'a Ring,
     pub(crate) southward: &'a Ring,
     pub(crate) links: &'a Links,
@@ -115,8 +135,13 @@ pub(crate) struct AdvectionRows<'a> {
 }
 
 impl AdvectionRows<'_> {
-    fn behind(&self, behind: usize) -> Option<usize> {
+    pub(super) fn behind(&self, behind: usize) -> Option<usize> {
         self.newest?.checked_sub(behind).filter(|y| self.span.contains(y))
+    }
+
+    /// The row after `y`, or `y` itself before a wall, where no link leads on.
+    pub(super) fn next(&self, y: usize) -> usize {
+        if y + 1 < self.span.end { y + 1 } else { y }
     }
 
     fn depart(&self, y: usize, from: &Ring, still: &Ring, arrived: &mut [f32], direction: f32) {
@@ -169,26 +194,34 @@ impl Advection {
         match self {
             Self::SemiLagrangian => 1,
             Self::MacCormack => 2,
+            Self::FluxCorrected { .. } => flux_corrected::LAG,
         }
     }
 
     /// Moves the sediment of the next row that is ready.
     pub(crate) fn advance(self, rows: &AdvectionRows<'_>, scratch: &mut AdvectionScratch, output: &mut Ring) {
-        let AdvectionScratch { forward, back, still } = scratch;
-        if let Some(y) = rows.behind(1) {
-            let arrived = match self {
-                Self::SemiLagrangian => output.here_mut(y),
-                Self::MacCormack => forward.here_mut(y),
-            };
-            rows.depart(y, rows.sediment, still, arrived, 1.0);
+        match self {
+            Self::SemiLagrangian => {
+                if let Some(y) = rows.behind(1) {
+                    rows.depart(y, rows.sediment, &scratch.still, output.here_mut(y), 1.0);
+                }
+            }
+            Self::MacCormack => maccormack(rows, scratch, output),
+            Self::FluxCorrected { epsilon } => {
+                flux_corrected::advance(rows, epsilon, &mut scratch.flux_corrected, output);
+            }
         }
-        if self == Self::SemiLagrangian {
-            return;
-        }
-        if let Some(y) = rows.behind(2) {
-            rows.depart(y, forward, still, back.here_mut(0), -1.0);
-            correct(rows, y, forward.here(y), back.here(0), (still, output));
-        }
+    }
+}
+
+fn maccormack(rows: &AdvectionRows<'_>, scratch: &mut AdvectionScratch, output: &mut Ring) {
+    let AdvectionScratch { forward, back, still, .. } = scratch;
+    if let Some(y) = rows.behind(1) {
+        rows.depart(y, rows.sediment, still, forward.here_mut(y), 1.0);
+    }
+    if let Some(y) = rows.behind(2) {
+        rows.depart(y, forward, still, back.here_mut(0), -1.0);
+        correct(rows, y, forward.here(y), back.here(0), (still, output));
     }
 }
 

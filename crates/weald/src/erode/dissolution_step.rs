@@ -5,20 +5,23 @@ use pulp::Arch;
 use super::hydraulic::deposit_of;
 use super::links::Links;
 use super::simulation::Simulation;
-use super::stack::{BEDROCK, Column, REGOLITH};
+use super::stack::{Column, REGOLITH};
 use super::stava::digging::{DigScratch, Digging};
 use super::stava::dissolution::{Dissolution, DissolutionScratch, RegolithRows};
 use super::stava::planes::{Planes, REGOLITH_PLANES};
+use super::stava::program::{self, StavaNumbers};
 use super::working::Working;
 use crate::engine::Job;
+use crate::engine::program::{Content, Program};
 use crate::error::Error;
+use crate::grid::Size;
 use crate::landscape::Landscape;
 use crate::material::Material;
 use crate::parameters;
 use crate::recipe::parameter::LayerName;
 use crate::stencil::chain::{Flow, Process};
 use crate::stencil::ring::Ring;
-use crate::step::{Entry, Outcome, Stage, Step};
+use crate::step::{Entry, Layered, Outcome, Stage, Step};
 
 parameters! {
     /// Dissolution as a step of its own, under water that stands still.
@@ -88,7 +91,11 @@ impl Step for DissolutionStep {
     }
 
     fn writes(&self) -> Vec<(String, &'static str)> {
-        [self.layer.0.as_str(), BEDROCK, REGOLITH].map(|name| (name.to_owned(), "m")).into()
+        [self.layer.0.as_str(), REGOLITH].map(|name| (name.to_owned(), "m")).into()
+    }
+
+    fn layered(&self) -> Layered {
+        Layered::Changes
     }
 
     fn run(&self, landscape: &mut Landscape, job: &Job<'_>) -> Result<Outcome, Error> {
@@ -99,7 +106,7 @@ impl Step for DissolutionStep {
         let first_layer = REGOLITH_PLANE + REGOLITH_PLANES;
         let planes = Planes { first_layer, materials: materials.len() };
         let column = Column { planes, regolith: Some(REGOLITH_PLANE) };
-        working.set_stack(landscape, column, deposit);
+        working.set_stack(landscape, column, deposit)?;
         let process = self.process(materials, deposit, planes, &working);
         let plane_names: Vec<_> =
             std::iter::once("change".to_owned()).chain(column.names(materials)).collect();
@@ -109,6 +116,7 @@ impl Step for DissolutionStep {
             iterations: u64::from(self.iterations),
             weather: &|_| (),
             record: None,
+            edits: None,
         };
         let start = working.state(planes.count(), &[working.water().to_vec()]);
         let finished = simulation.run(start, job)?;
@@ -136,15 +144,15 @@ impl DissolutionStep {
 }
 
 /// Dissolution alone as a stream of rows. The last constant plane is the depth of the water.
-struct Dissolving {
-    dissolution: Dissolution,
-    planes: Planes,
-    links: Links,
-    arch: Arch,
+pub(super) struct Dissolving {
+    pub(super) dissolution: Dissolution,
+    pub(super) planes: Planes,
+    pub(super) links: Links,
+    pub(super) arch: Arch,
 }
 
 /// Rows in flight within one step.
-struct DissolvingScratch {
+pub(super) struct DissolvingScratch {
     solid: Vec<Ring>,
     dig: DigScratch,
     dissolution: DissolutionScratch,
@@ -176,6 +184,21 @@ impl Process for Dissolving {
             dig: DigScratch::new(columns),
             dissolution: DissolutionScratch::new(columns),
         }
+    }
+
+    fn sized(&self, size: Size) -> Self {
+        Self { dissolution: self.dissolution.clone(), links: self.links.sized(size), ..*self }
+    }
+
+    fn program(&self) -> Program {
+        let numbers = StavaNumbers::of(Some(&self.dissolution), None);
+        let deposit = (self.planes, self.dissolution.digging.deposit);
+        let mut draft = program::draft("dissolution", &numbers, deposit, &self.links);
+        let water = self.planes.count() + 1 + self.links.planes();
+        draft.buffer("water", 1, Content::Constant(vec![water]));
+        self.dissolution.add_buffers_to(&mut draft);
+        self.dissolution.add_to(&mut draft, include_str!("stava/standing_lake.wgsl"), "water");
+        draft.finish(self.reach())
     }
 
     fn advance(&self, flow: &mut Flow<'_, Self>) {

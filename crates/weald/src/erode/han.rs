@@ -7,11 +7,16 @@
 //! semi-Lagrangian or MacCormack advection, which the source does not have, follows the settling as in
 //! Mei et al. 2007.
 
+mod program;
 mod sediment;
 mod water;
 
 use super::setting::{Setting, Settled};
-use super::simulation::{Part, Sky};
+use super::simulation::Sky;
+use crate::engine::machine::{Means, Part};
+use crate::engine::program::Program;
+use crate::engine::uniform::uniform;
+use crate::grid::Size;
 use crate::stencil::chain::{Flow, Process};
 use crate::stencil::ring::Ring;
 
@@ -27,29 +32,31 @@ pub(crate) mod plane {
 }
 
 /// Mean fluxes through the eastern and southern edge of each cell.
-pub(crate) const MEAN_FLUXES: &[&[Part]] = &[
+pub(crate) const MEAN_FLUXES: Means<'static> = &[
     &[Part { plane: plane::EAST, factor: 1.0, from: [0, 0] }],
     &[Part { plane: plane::SOUTH, factor: 1.0, from: [0, 0] }],
 ];
 
-/// Constants of the method, in cells and steps; names as in the recipe.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct HanConstants {
-    pub(crate) flow_rate: f32,
-    pub(crate) capacity: f32,
-    /// Uptake a unit of speed.
-    pub(crate) uptake_by_speed: f32,
-    /// Share of the free capacity that is taken up.
-    pub(crate) uptake_by_capacity: f32,
-    pub(crate) deposit_ratio: f32,
-    pub(crate) epsilon: f32,
-    pub(crate) velocity_epsilon: f32,
-    pub(crate) limiter: bool,
+uniform! {
+    /// Constants of the method, in cells and steps; names as in the recipe.
+    pub(crate) struct HanConstants {
+        pub(crate) flow_rate: f32,
+        pub(crate) capacity: f32,
+        /// Uptake a unit of speed.
+        pub(crate) uptake_by_speed: f32,
+        /// Share of the free capacity that is taken up.
+        pub(crate) uptake_by_capacity: f32,
+        pub(crate) deposit_ratio: f32,
+        pub(crate) epsilon: f32,
+        pub(crate) velocity_epsilon: f32,
+    }
 }
 
 /// The process.
 pub(crate) struct Han {
     pub(crate) constants: HanConstants,
+    /// Whether outflows are scaled to what their cell has.
+    pub(crate) limiter: bool,
     pub(crate) setting: Setting,
 }
 
@@ -120,6 +127,14 @@ impl Process for Han {
         }
     }
 
+    fn sized(&self, size: Size) -> Self {
+        Self { setting: self.setting.sized(size), ..*self }
+    }
+
+    fn program(&self) -> Program {
+        self.passes()
+    }
+
     fn advance(&self, flow: &mut Flow<'_, Self>) {
         if let Some(y) = flow.behind(0) {
             self.surface(flow, y);
@@ -136,7 +151,9 @@ impl Process for Han {
         if let Some(y) = flow.behind(SETTLED) {
             self.faces(flow, y);
             self.settle(flow, y);
-            if self.setting.advection.is_some() {
+            if self.setting.in_flux_form() {
+                self.fluxes(flow, y);
+            } else if self.setting.advection.is_some() {
                 self.cell_velocity(flow, y);
             }
         }

@@ -7,19 +7,21 @@ mod stava;
 
 pub(super) use stava::deposit_of;
 
+use std::path::PathBuf;
+
 use super::advection::Advection;
 use super::dissolution_step::DissolutionWithin;
 use super::simulation::Sky;
 use super::slippage_step::SlippageWithin;
 use super::springs::Spring;
-use super::stack::{BEDROCK, REGOLITH};
+use super::stack::REGOLITH;
 use super::thermal::Slide;
 use super::thermal_step::ThermalWithin;
 use crate::engine::Job;
 use crate::error::Error;
 use crate::landscape::Landscape;
-use crate::recipe::parameter::{LayerName, Nested};
-use crate::step::{Entry, Outcome, Stage, Step};
+use crate::recipe::parameter::{LayerName, Nested, ScriptFile};
+use crate::step::{Entry, Layered, Outcome, Stage, Step};
 use crate::{choices, parameters};
 use defaults::Filled;
 
@@ -52,7 +54,7 @@ choices! {
         Upwind = "upwind",
         /// Back along the velocity; loses sediment, and the report says how much.
         SemiLagrangian = "semi-lagrangian",
-        /// The same, corrected to second order; loses sediment too.
+        /// Corrected to second order; with `conserve` it loses nothing, without it is the published scheme.
         MacCormack = "maccormack",
     }
 }
@@ -109,6 +111,8 @@ parameters! {
         limiter: bool = true;
         /// How sediment travels.
         transport: Transport = Transport::Upwind;
+        /// Whether transport = "maccormack" takes the form that conserves sediment. Default true.
+        conserve: Option<bool> = None;
         /// Depth added where sediment is divided by depth. Default 0.001 cells.
         epsilon: Option<f64> = None, range 0.000_000_1..=100.0, unit "m";
         /// han: depth added where flux is divided by depth, default 0.1 cells. mei, stava: depth below
@@ -141,6 +145,9 @@ parameters! {
         deposit: Option<LayerName> = None;
         /// stava: standing water turns ground into regolith that creeps. Default: it does not.
         dissolution: Option<Nested<DissolutionWithin>> = None;
+        /// stava: script of edits, in JSON lines (.jsonl) or TOML: strokes of a brush that happen between the
+        /// steps. Its path starts at the folder of the recipe.
+        edits: Option<ScriptFile> = None;
         /// stava: materials slide off slopes steeper than their talus. Default: they do not.
         slippage: Option<Nested<SlippageWithin>> = None;
     }
@@ -156,11 +163,23 @@ pub const ENTRY: Entry = Entry::of::<Hydraulic>(
 );
 
 impl Hydraulic {
-    fn advection(&self) -> Option<Advection> {
+    fn advection(&self, filled: &Filled) -> Option<Advection> {
         match self.transport {
             Transport::Upwind => None,
             Transport::SemiLagrangian => Some(Advection::SemiLagrangian),
+            Transport::MacCormack if self.conserves() => {
+                Some(Advection::FluxCorrected { epsilon: filled.epsilon })
+            }
             Transport::MacCormack => Some(Advection::MacCormack),
+        }
+    }
+
+    /// Whether transport loses no sediment.
+    fn conserves(&self) -> bool {
+        match self.transport {
+            Transport::Upwind => true,
+            Transport::SemiLagrangian => false,
+            Transport::MacCormack => self.conserve.unwrap_or(true),
         }
     }
 
@@ -207,11 +226,18 @@ impl Step for Hydraulic {
             ("erosion", "m"),
             ("deposition", "m"),
         ];
-        let bedrock = (self.model == Model::Stava).then_some((BEDROCK, "m"));
         let regolith = self.dissolution.is_some().then_some((REGOLITH, "m"));
-        let own = own.into_iter().chain(bedrock).chain(regolith);
+        let own = own.into_iter().chain(regolith);
         let own = own.map(|(name, unit)| (name.to_owned(), unit));
         std::iter::once((self.layer.0.clone(), "m")).chain(own).collect()
+    }
+
+    fn layered(&self) -> Layered {
+        if self.model == Model::Stava { Layered::Changes } else { Layered::Never }
+    }
+
+    fn files(&self) -> Vec<PathBuf> {
+        self.edits.iter().map(ScriptFile::path).collect()
     }
 
     fn faults(&self) -> Vec<String> {

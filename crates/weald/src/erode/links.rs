@@ -10,6 +10,14 @@ use crate::stencil::ring::Ring;
 /// reciprocal of the number of neighbours, northern link, yielding ground.
 pub(crate) const MASK_PLANES: usize = 6;
 
+/// Places of the two from which all others follow, behind the last state plane.
+pub(crate) mod plane {
+    /// 1 for data, else 0.
+    pub(crate) const LAND: usize = 1;
+    /// 1 where water may change the ground.
+    pub(crate) const YIELDS: usize = 6;
+}
+
 /// The links of one row.
 #[derive(Clone, Copy)]
 pub(crate) struct LinkRow<'a> {
@@ -65,6 +73,11 @@ impl Links {
         let shares = [vertical(0), vertical(1), vertical(2)];
         let (ones, zeros) = (vec![1.0; columns], vec![0.0; columns]);
         Self::Whole(Box::new(WholeLinks { rows, ones, zeros, east, west, shares }))
+    }
+
+    /// Links of a part of that size, as if its edges were walls.
+    pub(crate) fn sized(&self, size: Size) -> Self {
+        Self::new(size, matches!(self, Self::Masked))
     }
 
     /// Number of constant planes that the links need.

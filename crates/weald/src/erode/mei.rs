@@ -9,11 +9,16 @@
 //! change (see [`super::settling`]).
 
 pub(crate) mod kernels;
+mod program;
 mod sediment;
 mod water;
 
 use super::setting::{Setting, Settled};
-use super::simulation::{Part, Sky};
+use super::simulation::Sky;
+use crate::engine::machine::{Means, Part};
+use crate::engine::program::Program;
+use crate::engine::uniform::uniform;
+use crate::grid::Size;
 use crate::stencil::chain::{Flow, Process};
 use crate::stencil::ring::Ring;
 
@@ -34,7 +39,7 @@ pub(crate) mod plane {
 
 /// Mean fluxes through the eastern and southern edge of each cell: what it gives, less what its neighbour gives
 /// back.
-pub(crate) const MEAN_FLUXES: &[&[Part]] = &[
+pub(crate) const MEAN_FLUXES: Means<'static> = &[
     &[
         Part { plane: plane::EAST, factor: 1.0, from: [0, 0] },
         Part { plane: plane::WEST, factor: -1.0, from: [1, 0] },
@@ -45,23 +50,24 @@ pub(crate) const MEAN_FLUXES: &[&[Part]] = &[
     ],
 ];
 
-/// Constants of the method, in cells and steps; names as in the recipe.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct MeiConstants {
-    pub(crate) flow_rate: f32,
-    pub(crate) capacity: f32,
-    pub(crate) erosion: f32,
-    pub(crate) deposition: f32,
-    pub(crate) deposit_ratio: f32,
-    pub(crate) epsilon: f32,
-    pub(crate) velocity_epsilon: f32,
-    /// Whether outflows are scaled to what their cell has.
-    pub(crate) limiter: bool,
+uniform! {
+    /// Constants of the method, in cells and steps; names as in the recipe.
+    pub(crate) struct MeiConstants {
+        pub(crate) flow_rate: f32,
+        pub(crate) capacity: f32,
+        pub(crate) erosion: f32,
+        pub(crate) deposition: f32,
+        pub(crate) deposit_ratio: f32,
+        pub(crate) epsilon: f32,
+        pub(crate) velocity_epsilon: f32,
+    }
 }
 
 /// The process.
 pub(crate) struct Mei {
     pub(crate) constants: MeiConstants,
+    /// Whether outflows are scaled to what their cell has.
+    pub(crate) limiter: bool,
     pub(crate) setting: Setting,
 }
 
@@ -116,6 +122,14 @@ impl Process for Mei {
         }
     }
 
+    fn sized(&self, size: Size) -> Self {
+        Self { setting: self.setting.sized(size), ..*self }
+    }
+
+    fn program(&self) -> Program {
+        self.passes()
+    }
+
     fn advance(&self, flow: &mut Flow<'_, Self>) {
         if let Some(y) = flow.behind(0) {
             self.rain(flow, y);
@@ -128,7 +142,9 @@ impl Process for Mei {
             self.exchange(flow, y);
             // Their sediment came with the transport of the step before.
             self.setting.drain(flow, y, |scratch| (&mut scratch.settled.sediment, &mut scratch.tally));
-            if self.setting.advection.is_none() {
+            if self.setting.in_flux_form() {
+                self.fluxes(flow, y);
+            } else if self.setting.advection.is_none() {
                 self.load(flow, y);
             }
         }

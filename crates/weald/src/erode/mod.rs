@@ -7,11 +7,16 @@
 
 mod advection;
 pub mod dissolution_step;
+mod edits;
+mod flux_corrected;
 mod han;
 pub mod hydraulic;
 mod links;
 mod mei;
+mod pace;
 mod pipes;
+mod programs;
+mod saved;
 mod setting;
 mod settling;
 mod simulation;
@@ -22,8 +27,11 @@ mod stava;
 mod sums;
 pub mod thermal;
 pub mod thermal_step;
+pub mod transport_step;
 mod upwind;
 mod working;
+
+pub use programs::programs;
 
 use crate::stencil::ring::Ring;
 

@@ -152,3 +152,16 @@ kernel! {
         sediment *= land;
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::engine::program::twin::number;
+
+    #[test]
+    fn the_shader_has_the_same_constants() {
+        let shader = include_str!("pipes.wgsl");
+        assert_eq!(number(shader, "KEPT") as f32, KEPT);
+        assert_eq!(number(shader, "NOTHING") as f32, NOTHING);
+    }
+}

@@ -1,6 +1,8 @@
 //! What the two water models share: cells and edges, the first planes of the state, and all that follows the
 //! exchange with the ground, which is sliding, advection, and what leaves over an open edge.
 
+mod program;
+
 use pulp::Arch;
 
 use super::advection::{Advection, AdvectionRows, AdvectionScratch};
@@ -8,6 +10,7 @@ use super::links::Links;
 use super::pipes::Drain;
 use super::sums;
 use super::thermal::{Slide, SlideRows, SlideScratch};
+use crate::grid::Size;
 use crate::stencil::chain::{Flow, Process};
 use crate::stencil::ring::Ring;
 
@@ -36,6 +39,9 @@ pub(crate) struct Setting {
 pub(crate) struct Settled {
     pub(crate) change: Ring,
     pub(crate) sediment: Ring,
+    /// Water before it flowed, for transport in flux form.
+    pub(crate) depth: Ring,
+    /// Velocities, or the fluxes themselves for transport in flux form.
     pub(crate) eastward: Ring,
     pub(crate) southward: Ring,
     slide: SlideScratch,
@@ -48,6 +54,7 @@ impl Settled {
         Self {
             change: ring(3),
             sediment: ring(4),
+            depth: ring(1),
             eastward: ring(3),
             southward: ring(3),
             slide: SlideScratch::new(columns),
@@ -57,6 +64,11 @@ impl Settled {
 }
 
 impl Setting {
+    /// The same over a part of the domain.
+    pub(crate) fn sized(&self, size: Size) -> Self {
+        Self { links: self.links.sized(size), ..*self }
+    }
+
     /// Planes that stay: the ground of the start and what the links need.
     pub(crate) fn constant_planes(&self) -> usize {
         1 + self.links.planes()
@@ -89,6 +101,11 @@ impl Setting {
         );
     }
 
+    /// Whether sediment goes with the fluxes of the water and not by its velocity.
+    pub(crate) fn in_flux_form(&self) -> bool {
+        matches!(self.advection, Some(Advection::FluxCorrected { .. }))
+    }
+
     /// Advects the sediment of the next row that is ready, unless it goes upwind.
     pub(crate) fn advect<P>(&self, flow: &mut Flow<'_, P>, settled: Option<usize>)
     where
@@ -99,6 +116,7 @@ impl Setting {
         advection.advance(
             &AdvectionRows {
                 sediment: &rows.sediment,
+                depth: &rows.depth,
                 eastward: &rows.eastward,
                 southward: &rows.southward,
                 links: &self.links,

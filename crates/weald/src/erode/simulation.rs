@@ -1,17 +1,24 @@
 //! Runs a process for many steps: progress, interruption, checkpoints, the watch for NaN, mean fluxes.
 
+use std::time::Instant;
+
+use super::edits::Edits;
+use super::pace::Pace;
+use super::saved::Saved;
 use super::sums;
-use crate::engine::world::World;
-use crate::engine::{Job, SavedSimulation};
+use crate::engine::machine::{self, Machine, Means, Snapshot};
+use crate::engine::uniform::uniform;
+use crate::engine::{Engine, Job, SavedSimulation};
 use crate::error::Error;
 use crate::stencil::chain::{Process, RowSums};
 use crate::stencil::rows::Rows;
 
-/// Rain and evaporation of one step, in cells.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Sky {
-    pub(crate) rain: f32,
-    pub(crate) evaporation: f32,
+uniform! {
+    /// Rain and evaporation of one step, in cells.
+    pub(crate) struct Sky {
+        pub(crate) rain: f32,
+        pub(crate) evaporation: f32,
+    }
 }
 
 /// A process and how long it runs.
@@ -25,6 +32,8 @@ pub(crate) struct Simulation<'a, P: Process> {
     pub(crate) weather: &'a (dyn Fn(u64) -> P::Weather + Sync),
     /// Fluxes to average, and over which steps.
     pub(crate) record: Option<Record<'a>>,
+    /// What a person changes between the steps.
+    pub(crate) edits: Option<&'a Edits>,
 }
 
 /// A wish for mean values.
@@ -32,17 +41,7 @@ pub(crate) struct Record<'a> {
     /// Steps over which to average.
     pub(crate) steps: std::ops::Range<u64>,
     /// Parts of each mean.
-    pub(crate) means: &'a [&'a [Part]],
-}
-
-/// A plane that counts into a mean.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Part {
-    pub(crate) plane: usize,
-    /// Factor that it counts with.
-    pub(crate) factor: f32,
-    /// Cells east and south of a cell where its value is taken from; beyond the edge it is 0.
-    pub(crate) from: [usize; 2],
+    pub(crate) means: Means<'a>,
 }
 
 /// How a simulation ended.
@@ -51,145 +50,179 @@ pub(crate) struct Finished {
     pub(crate) sums: RowSums,
     /// One mean a wish, row-major.
     pub(crate) means: Vec<Vec<f32>>,
+    /// What the user should know of the engine.
+    pub(crate) notes: Vec<String>,
 }
 
-/// Between two looks for NaN, interruption and checkpoints: about this many cell-steps.
-const CELL_STEPS_BETWEEN_LOOKS: usize = 100_000_000;
-
 impl<P: Process> Simulation<'_, P> {
-    /// Runs from `start`, or from where `job` resumes.
+    /// Runs from `start`, or from where `job` resumes. Where the engine is a device that may be replaced, a
+    /// failure of it is followed by the CPU from the last state that came back.
     pub(crate) fn run(&self, start: Rows, job: &Job<'_>) -> Result<Finished, Error> {
-        let mut running = Running::new(self, start, job);
-        if let Some(saved) = &job.resume {
-            running.resume(saved)?;
+        let start = Snapshot::start(start, self.means().len());
+        let first = Saved { done: 0, snapshot: start };
+        let mut first = match &job.resume {
+            Some(saved) => first.resumed(saved, self.plane_names)?,
+            None => first,
+        };
+        if let (Some(edits), 1..) = (self.edits, first.done) {
+            edits.catch_up(first.done, &mut first.snapshot)?;
         }
-        running.watch_start()?;
+        let mut last = matches!(job.engine, Engine::DeviceElseCpu(_)).then(|| first.clone());
+        match (self.run_on(&job.engine, first, job, last.as_mut()), last) {
+            (Err(Error::Device(what)), Some(last)) => {
+                let note = format!("{what}; went on on the CPU after {} iterations", last.done);
+                let mut finished = self.run_on(&Engine::Cpu, last, job, None)?;
+                finished.notes.push(note);
+                Ok(finished)
+            }
+            (result, _) => result,
+        }
+    }
+
+    /// Runs on one engine; `last` becomes the last state that was taken from it.
+    fn run_on(
+        &self,
+        engine: &Engine,
+        from: Saved,
+        job: &Job<'_>,
+        last: Option<&mut Saved>,
+    ) -> Result<Finished, Error> {
+        let mut running = Running::new(self, engine, from, job, last)?;
         while running.done < self.iterations {
+            running.edit()?;
             running.stretch()?;
             job.watcher.progress(running.done, self.iterations, running.cells);
             running.heed()?;
         }
-        Ok(running.finish())
+        running.finish()
+    }
+
+    fn means(&self) -> Means<'_> {
+        self.record.as_ref().map_or(&[], |record| record.means)
     }
 }
 
 struct Running<'a, P: Process> {
     simulation: &'a Simulation<'a, P>,
     job: &'a Job<'a>,
-    world: World<'a, P>,
+    machine: Box<dyn Machine<P::Weather> + 'a>,
+    pace: Pace,
     done: u64,
     cells: usize,
-    means: Vec<Vec<f32>>,
-    /// The state at the last look, when all was well.
-    good: Good,
-}
-
-struct Good {
-    done: u64,
-    state: Rows,
-    row_sums: Vec<f64>,
-    means: Vec<Vec<f32>>,
+    /// Steps at the last look, when all was well.
+    good: u64,
+    last: Option<&'a mut Saved>,
+    /// The state before the edits that came last.
+    unedited: Option<Saved>,
 }
 
 impl<'a, P: Process> Running<'a, P> {
-    fn new(simulation: &'a Simulation<'a, P>, start: Rows, job: &'a Job<'a>) -> Self {
-        let cells = start.count() * start.layout.columns;
-        let wishes = simulation.record.as_ref().map_or(0, |record| record.means.len());
-        let means = vec![vec![0.0; cells]; wishes];
-        let world = World::new(simulation.process, start.clone(), job.engine);
-        let good = Good { done: 0, state: start, row_sums: world.row_sums(), means: means.clone() };
-        Self { simulation, job, world, done: 0, cells, means, good }
+    fn new(
+        simulation: &'a Simulation<'a, P>,
+        engine: &Engine,
+        from: Saved,
+        job: &'a Job<'a>,
+        last: Option<&'a mut Saved>,
+    ) -> Result<Self, Error> {
+        let state = &from.snapshot.state;
+        if let Some([x, y, plane]) = state.first_not_finite(simulation.process.state_planes()) {
+            let name = &simulation.plane_names[plane];
+            return Err(Error::Run(format!(
+                "the simulation starts with a value of `{name}` at column {x}, row {y} that is no number"
+            )));
+        }
+        let cells = from.snapshot.size().cells();
+        let machine = machine::start(simulation.process, simulation.means(), &from.snapshot, engine)?;
+        let pace = Pace::new(engine, cells, machine.block());
+        Ok(Self {
+            simulation,
+            job,
+            machine,
+            pace,
+            done: from.done,
+            cells,
+            good: from.done,
+            last,
+            unedited: None,
+        })
+    }
+
+    /// The edits that happen here. Every state that is kept at their step is the one before them.
+    fn edit(&mut self) -> Result<(), Error> {
+        let Some(edits) = self.simulation.edits.filter(|edits| edits.next_from(self.done) == Some(self.done))
+        else {
+            return Ok(());
+        };
+        let mut snapshot = self.machine.snapshot()?;
+        self.unedited = Some(Saved { done: self.done, snapshot: snapshot.clone() });
+        edits.change(self.done, &mut snapshot)?;
+        self.machine.restore(&snapshot)
     }
 
     /// One stretch of steps, and a look at the result.
     fn stretch(&mut self) -> Result<(), Error> {
-        let between = (CELL_STEPS_BETWEEN_LOOKS / self.cells).clamp(self.world.block(), 256) as u64;
-        let end = (self.done + between).min(self.simulation.iterations);
-        self.advance_to(end);
-        if self.first_not_finite().is_some() {
-            return Err(self.find_the_fault(end));
+        let end = (self.done + self.pace.steps()).min(self.simulation.iterations);
+        let next = self.simulation.edits.and_then(|edits| edits.next_from(self.done + 1));
+        let end = next.map_or(end, |next| end.min(next));
+        let begun = Instant::now();
+        self.advance_to(end)?;
+        if self.machine.first_not_finite()?.is_some() {
+            return Err(self.find_the_fault(end)?);
         }
-        self.good.done = self.done;
-        self.world.copy_state(&mut self.good.state);
-        self.good.row_sums = self.world.row_sums();
-        self.good.means.clone_from(&self.means);
+        self.pace.took(begun.elapsed());
+        self.good = self.done;
+        self.machine.keep()
+    }
+
+    /// Steps within the record, and those before and after it, are given to the machine apart.
+    fn advance_to(&mut self, end: u64) -> Result<(), Error> {
+        let record = self.simulation.record.as_ref().map_or(end..end, |record| record.steps.clone());
+        while self.done < end {
+            let recorded = record.contains(&self.done);
+            let border = if recorded { record.end } else { record.start };
+            let stop = if border > self.done { end.min(border) } else { end };
+            let weather: Vec<_> = (self.done..stop).map(self.simulation.weather).collect();
+            self.machine.advance(&weather, recorded)?;
+            self.done = stop;
+        }
         Ok(())
     }
 
-    fn advance_to(&mut self, end: u64) {
-        while self.done < end {
-            let record = self.simulation.record.as_ref().map_or(end..end, |record| record.steps.clone());
-            let stop = if record.contains(&self.done) {
-                self.done + 1
-            } else if self.done < record.start {
-                end.min(record.start)
-            } else {
-                end
-            };
-            let weather: Vec<_> = (self.done..stop).map(self.simulation.weather).collect();
-            self.world.advance(&weather);
-            if record.contains(&self.done) {
-                self.add_to_means();
-            }
-            self.done = stop;
-        }
-    }
-
-    fn add_to_means(&mut self) {
-        let Some(record) = &self.simulation.record else { return };
-        for (mean, parts) in self.means.iter_mut().zip(record.means) {
-            for part in *parts {
-                self.world.add_plane_to(part.plane, part.from, part.factor, mean);
-            }
-        }
-    }
-
-    fn first_not_finite(&self) -> Option<(usize, usize, usize)> {
-        self.world.first_not_finite(self.simulation.process.state_planes())
-    }
-
-    fn watch_start(&self) -> Result<(), Error> {
-        let Some((x, y, plane)) = self.first_not_finite() else { return Ok(()) };
-        let name = &self.simulation.plane_names[plane];
-        Err(Error::Run(format!(
-            "the simulation starts with a value of `{name}` at column {x}, row {y} that is no number"
-        )))
-    }
-
     /// Goes back to the last good state, steps one by one to the fault, and keeps the state before it.
-    fn find_the_fault(&mut self, end: u64) -> Error {
-        self.go_back();
+    fn find_the_fault(&mut self, end: u64) -> Result<Error, Error> {
+        self.machine.go_back()?;
+        self.done = self.good;
         while self.done < end {
-            let before = self.saved();
-            self.advance_to(self.done + 1);
-            let Some((x, y, plane)) = self.first_not_finite() else { continue };
+            let unedited = self.unedited.as_ref().filter(|unedited| unedited.done == self.done);
+            let before = match unedited {
+                Some(unedited) => unedited.named(self.simulation.plane_names),
+                None => self.saved()?,
+            };
+            self.advance_to(self.done + 1)?;
+            let Some([x, y, plane]) = self.machine.first_not_finite()? else { continue };
             let name = &self.simulation.plane_names[plane];
             let kept = match self.job.watcher.checkpoint(&before) {
                 Ok(()) => "the last good state was kept".to_owned(),
                 Err(error) => format!("the last good state could not be kept: {error}"),
             };
-            return Error::Run(format!(
+            return Ok(Error::Run(format!(
                 "step {}: `{name}` at column {x}, row {y} is no longer a finite number; {kept}; a lower \
                  `flow_rate` or `erosion`, or `limiter = true`, makes the scheme stable",
                 self.done
-            ));
+            )));
         }
-        Error::Run(format!("a value that is not finite appeared before step {end} and did not appear again"))
-    }
-
-    fn go_back(&mut self) {
-        self.world.set_state(&self.good.state);
-        self.world.set_row_sums(&self.good.row_sums);
-        self.means.clone_from(&self.good.means);
-        self.done = self.good.done;
+        Ok(Error::Run(format!(
+            "a value that is not finite appeared before step {end} and did not appear again"
+        )))
     }
 
     /// Ends when the user wants it, and keeps a checkpoint then and when one is due.
-    fn heed(&self) -> Result<(), Error> {
+    fn heed(&mut self) -> Result<(), Error> {
         let watcher = self.job.watcher;
         let stop = watcher.cancelled() && self.done < self.simulation.iterations;
         if stop || watcher.checkpoint_due() {
-            watcher.checkpoint(&self.saved())?;
+            let saved = self.saved()?;
+            watcher.checkpoint(&saved)?;
         }
         if stop {
             let all = self.simulation.iterations;
@@ -198,48 +231,25 @@ impl<'a, P: Process> Running<'a, P> {
         Ok(())
     }
 
-    fn saved(&self) -> SavedSimulation {
-        let state = self.world.state();
-        let names = self.simulation.plane_names.iter().enumerate();
-        let mut planes: Vec<_> = names.map(|(plane, name)| (name.clone(), state.gather(plane))).collect();
-        planes.extend(self.means.iter().enumerate().map(|(at, mean)| (format!("mean_{at}"), mean.clone())));
-        let sums = vec![("rows".to_owned(), self.world.row_sums())];
-        SavedSimulation { iteration: self.done, planes, sums }
-    }
-
-    fn resume(&mut self, saved: &SavedSimulation) -> Result<(), Error> {
-        let plane = |name: &str| {
-            let found = saved.planes.iter().find(|(known, _)| known == name);
-            let values = found.map(|(_, values)| values).filter(|values| values.len() == self.cells);
-            values.ok_or_else(|| {
-                Error::Run(format!("the checkpoint has no plane `{name}` of {} cells", self.cells))
-            })
-        };
-        let mut state = self.world.state();
-        for (at, name) in self.simulation.plane_names.iter().enumerate() {
-            state.scatter(at, plane(name)?);
+    fn saved(&mut self) -> Result<SavedSimulation, Error> {
+        let saved = Saved { done: self.done, snapshot: self.machine.snapshot()? };
+        let named = saved.named(self.simulation.plane_names);
+        if let Some(last) = &mut self.last {
+            **last = saved;
         }
-        let means: Result<Vec<_>, _> =
-            (0..self.means.len()).map(|at| plane(&format!("mean_{at}")).cloned()).collect();
-        self.means = means?;
-        let row_sums = saved.sums.iter().find(|(name, _)| name == "rows").map(|(_, sums)| sums);
-        let expected = self.world.row_sums().len();
-        let row_sums = row_sums
-            .filter(|sums| sums.len() == expected)
-            .ok_or_else(|| Error::Run(format!("the checkpoint has no sums of {expected} numbers")))?;
-        self.world.set_state(&state);
-        self.world.set_row_sums(row_sums);
-        self.done = saved.iteration;
-        self.good = Good { done: self.done, state, row_sums: row_sums.clone(), means: self.means.clone() };
-        Ok(())
+        Ok(named)
     }
 
-    fn finish(self) -> Finished {
+    fn finish(mut self) -> Result<Finished, Error> {
         let steps = self.simulation.record.as_ref().map_or(1, |record| record.steps.end - record.steps.start);
         let scale = 1.0 / steps.max(1) as f32;
-        let means =
-            self.means.into_iter().map(|mean| mean.into_iter().map(|sum| sum * scale).collect()).collect();
-        Finished { state: self.world.state(), sums: self.world.sums(), means }
+        let Snapshot { state, row_sums, mut means } = self.machine.snapshot()?;
+        means.iter_mut().flatten().for_each(|sum| *sum *= scale);
+        let mut sums = RowSums::default();
+        for row in &row_sums {
+            sums.iter_mut().zip(row).for_each(|(total, sum)| *total += sum);
+        }
+        Ok(Finished { state, sums, means, notes: Vec::new() })
     }
 }
 

@@ -5,18 +5,21 @@ use pulp::Arch;
 use super::hydraulic::deposit_of;
 use super::links::Links;
 use super::simulation::Simulation;
-use super::stack::{BEDROCK, Column};
+use super::stack::Column;
 use super::stava::planes::Planes;
+use super::stava::program::{self, StavaNumbers};
 use super::stava::slippage::{Slippage, SlippageRows, SlippageScratch};
 use super::working::Working;
 use crate::engine::Job;
+use crate::engine::program::Program;
 use crate::error::Error;
+use crate::grid::Size;
 use crate::landscape::Landscape;
 use crate::material::Material;
 use crate::parameters;
 use crate::recipe::parameter::LayerName;
 use crate::stencil::chain::{Flow, Process};
-use crate::step::{Entry, Outcome, Stage, Step};
+use crate::step::{Entry, Layered, Outcome, Stage, Step};
 
 parameters! {
     /// Slippage as a step of its own.
@@ -74,7 +77,11 @@ impl Step for SlippageStep {
     }
 
     fn writes(&self) -> Vec<(String, &'static str)> {
-        [self.layer.0.as_str(), BEDROCK].map(|name| (name.to_owned(), "m")).into()
+        vec![(self.layer.0.clone(), "m")]
+    }
+
+    fn layered(&self) -> Layered {
+        Layered::Changes
     }
 
     fn run(&self, landscape: &mut Landscape, job: &Job<'_>) -> Result<Outcome, Error> {
@@ -83,7 +90,7 @@ impl Step for SlippageStep {
         let mut working = Working::new(landscape, &self.layer.0, false)?;
         let planes = Planes { first_layer: 1, materials: landscape.materials.len() };
         let column = Column { planes, regolith: None };
-        working.set_stack(landscape, column, deposit_of(None, &landscape.materials)?);
+        working.set_stack(landscape, column, deposit_of(None, &landscape.materials)?)?;
         let links = Links::new(working.size, working.mask.is_some());
         let process = Slipping { slippage, planes, links, arch: Arch::new() };
         let plane_names: Vec<_> =
@@ -94,6 +101,7 @@ impl Step for SlippageStep {
             iterations: u64::from(self.iterations),
             weather: &|_| (),
             record: None,
+            edits: None,
         };
         let finished = simulation.run(working.state(planes.count(), &[]), job)?;
         Ok(working.store_ground(landscape, &self.layer.0, &finished, u64::from(self.iterations)))
@@ -101,11 +109,11 @@ impl Step for SlippageStep {
 }
 
 /// Slippage alone as a stream of rows.
-struct Slipping {
-    slippage: Slippage,
-    planes: Planes,
-    links: Links,
-    arch: Arch,
+pub(super) struct Slipping {
+    pub(super) slippage: Slippage,
+    pub(super) planes: Planes,
+    pub(super) links: Links,
+    pub(super) arch: Arch,
 }
 
 impl Process for Slipping {
@@ -130,6 +138,17 @@ impl Process for Slipping {
 
     fn scratch(&self, columns: usize) -> SlippageScratch {
         SlippageScratch::new(columns, self.planes.materials)
+    }
+
+    fn sized(&self, size: Size) -> Self {
+        Self { slippage: self.slippage.clone(), links: self.links.sized(size), ..*self }
+    }
+
+    fn program(&self) -> Program {
+        let numbers = StavaNumbers::of(None, Some(&self.slippage));
+        let mut draft = program::draft("slippage", &numbers, (self.planes, 0), &self.links);
+        self.slippage.add_to(&mut draft, self.planes.materials);
+        draft.finish(self.reach())
     }
 
     fn advance(&self, flow: &mut Flow<'_, Self>) {

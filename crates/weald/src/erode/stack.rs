@@ -4,16 +4,14 @@
 use super::simulation::Finished;
 use super::stava::planes::Planes;
 use super::working::Working;
+use crate::error::Error;
 use crate::grid::Field;
 use crate::landscape::Landscape;
-use crate::material::Material;
+use crate::material::{self, BEDROCK, Material};
 use crate::stencil::rows::Rows;
 
 /// Layer of the regolith.
 pub(crate) const REGOLITH: &str = "regolith";
-
-/// Layer of the height of the top of the bedrock.
-pub(crate) const BEDROCK: &str = "bedrock";
 
 /// Where the materials of a process stand in its state.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -67,18 +65,16 @@ impl Stack {
 }
 
 impl Working {
-    /// Takes the thickness of each material above the bedrock from the layer of its name, or as the material
-    /// says. Regolith of an earlier step goes on as regolith, or settles as material `deposit`.
-    pub(crate) fn set_stack(&mut self, landscape: &Landscape, column: Column, deposit: usize) {
+    /// Takes the thickness of each material above the bedrock as [`material::stack`] says. Regolith of an earlier step goes on as regolith, or settles as material `deposit`.
+    pub(crate) fn set_stack(
+        &mut self,
+        landscape: &Landscape,
+        column: Column,
+        deposit: usize,
+    ) -> Result<(), Error> {
         let size = self.start.size();
+        let mut metres = material::stack(landscape, &self.start)?;
         let not_negative = |field: &Field| Field::from_function(size, |x, y| field.at(x, y).max(0.0));
-        let mut metres: Vec<_> = landscape.materials[1..]
-            .iter()
-            .map(|material| match landscape.field(&material.name) {
-                Ok(field) => not_negative(field),
-                Err(_) => Field::filled(size, material.thickness.max(0.0) as f32),
-            })
-            .collect();
         let before = landscape.field(REGOLITH).ok().map(not_negative);
         let had_regolith = before.is_some();
         if column.regolith.is_some() {
@@ -95,6 +91,7 @@ impl Working {
             ((bedrock - self.lowest) / self.cell) as f32
         });
         self.stack = Some(stack);
+        Ok(())
     }
 
     /// Change of the ground in cells: of the bedrock and of all that lies on it.

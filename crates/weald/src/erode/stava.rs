@@ -13,6 +13,7 @@ pub(crate) mod digging;
 pub(crate) mod dissolution;
 mod force;
 pub(crate) mod planes;
+pub(crate) mod program;
 pub(crate) mod slippage;
 mod transport;
 pub(crate) mod viscosity;
@@ -27,6 +28,8 @@ use viscosity::{Viscosity, ViscosityRows, ViscosityScratch};
 
 use super::setting::{Setting, Settled};
 use super::simulation::Sky;
+use crate::engine::program::Program;
+use crate::grid::Size;
 use crate::stencil::chain::{Flow, Process};
 use crate::stencil::ring::Ring;
 
@@ -139,6 +142,20 @@ impl Process for Stava {
             ones,
             still: ring(1),
         }
+    }
+
+    fn sized(&self, size: Size) -> Self {
+        Self {
+            erosion: self.erosion.clone(),
+            dissolution: self.dissolution.clone(),
+            slippage: self.slippage.clone(),
+            setting: self.setting.sized(size),
+            ..*self
+        }
+    }
+
+    fn program(&self) -> Program {
+        self.passes()
     }
 
     fn advance(&self, flow: &mut Flow<'_, Self>) {

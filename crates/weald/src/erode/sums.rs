@@ -10,3 +10,26 @@ pub(crate) const SHRUNK: usize = 2;
 pub(crate) const WATER_OUT: usize = 3;
 /// Sediment that left over an open edge.
 pub(crate) const SEDIMENT_OUT: usize = 4;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::engine::program::twin::number;
+    use crate::stencil::chain::SUMS;
+
+    #[test]
+    fn the_shaders_count_in_the_same_places() {
+        let shader = include_str!("sums.wgsl");
+        let ours = [
+            ("RAINED", RAINED),
+            ("EVAPORATED", EVAPORATED),
+            ("SHRUNK", SHRUNK),
+            ("WATER_OUT", WATER_OUT),
+            ("SEDIMENT_OUT", SEDIMENT_OUT),
+        ];
+        assert_eq!(ours.len(), SUMS);
+        for (name, place) in ours {
+            assert_eq!(number(shader, name) as usize, place, "{name}");
+        }
+    }
+}

@@ -12,12 +12,15 @@
 //!
 //! All conserve the ground, and are stable for `K_t` up to 1/4.
 
+mod program;
+
 use std::ops::Range;
 
 use pulp::Arch;
 
 use super::links::Links;
 use crate::choices;
+use crate::engine::uniform::uniform;
 use crate::stencil::kernel::kernel;
 use crate::stencil::ring::Ring;
 
@@ -33,14 +36,21 @@ choices! {
     }
 }
 
-/// Constants of the method, heights in cells.
+uniform! {
+    /// Constants of the method, heights in cells.
+    pub(crate) struct SlideConstants {
+        /// Steepest slope that rests, as a tangent.
+        pub(crate) talus: f32,
+        /// Share of the excess that slides in a step.
+        pub(crate) strength: f32,
+    }
+}
+
+/// The method.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Slide {
     pub(crate) scheme: Scheme,
-    /// Steepest slope that rests, as a tangent.
-    pub(crate) talus: f32,
-    /// Share of the excess that slides in a step.
-    pub(crate) strength: f32,
+    pub(crate) constants: SlideConstants,
 }
 
 kernel! {
@@ -239,8 +249,8 @@ impl Slide {
                     link_south: links.south,
                     to_east: scratch.to_east.here_mut(y),
                     to_south: scratch.to_south.here_mut(y),
-                    talus: self.talus,
-                    strength: self.strength,
+                    talus: self.constants.talus,
+                    strength: self.constants.strength,
                 }
                 .run(rows.arch)
             };
@@ -266,8 +276,8 @@ impl Slide {
             share_west: share_west.here_mut(y),
             share_south: share_south.here_mut(y),
             share_north: share_north.here_mut(y),
-            talus: self.talus,
-            strength: self.strength,
+            talus: self.constants.talus,
+            strength: self.constants.strength,
         }
         .run(rows.arch);
     }

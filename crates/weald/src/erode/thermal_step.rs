@@ -1,13 +1,17 @@
 //! The `thermal` step: gravity lays steep ground to rest.
 
+mod program;
+
 use pulp::Arch;
 
 use super::links::Links;
 use super::simulation::Simulation;
-use super::thermal::{Scheme, Slide, SlideRows, SlideScratch};
+use super::thermal::{Scheme, Slide, SlideConstants, SlideRows, SlideScratch};
 use super::working::Working;
 use crate::engine::Job;
+use crate::engine::program::Program;
 use crate::error::Error;
+use crate::grid::Size;
 use crate::landscape::Landscape;
 use crate::parameters;
 use crate::recipe::parameter::LayerName;
@@ -45,7 +49,8 @@ parameters! {
 impl ThermalWithin {
     /// The method's constants.
     pub(crate) fn slide(&self) -> Slide {
-        Slide { scheme: self.scheme, talus: self.talus as f32, strength: self.strength as f32 }
+        let constants = SlideConstants { talus: self.talus as f32, strength: self.strength as f32 };
+        Slide { scheme: self.scheme, constants }
     }
 }
 
@@ -68,7 +73,8 @@ impl Step for Thermal {
 
     fn run(&self, landscape: &mut Landscape, job: &Job<'_>) -> Result<Outcome, Error> {
         let working = Working::new(landscape, &self.layer.0, false)?;
-        let slide = Slide { scheme: self.scheme, talus: self.talus as f32, strength: self.strength as f32 };
+        let within = ThermalWithin { scheme: self.scheme, talus: self.talus, strength: self.strength };
+        let slide = within.slide();
         let links = Links::new(working.size, working.mask.is_some());
         let process = Sliding { slide, links, arch: Arch::new() };
         let simulation = Simulation {
@@ -77,6 +83,7 @@ impl Step for Thermal {
             iterations: u64::from(self.iterations),
             weather: &|_| (),
             record: None,
+            edits: None,
         };
         let finished = simulation.run(working.state(1, &[]), job)?;
         Ok(working.store_ground(landscape, &self.layer.0, &finished, u64::from(self.iterations)))
@@ -112,6 +119,14 @@ impl Process for Sliding {
 
     fn scratch(&self, columns: usize) -> SlideScratch {
         SlideScratch::new(columns)
+    }
+
+    fn sized(&self, size: Size) -> Self {
+        Self { links: self.links.sized(size), ..*self }
+    }
+
+    fn program(&self) -> Program {
+        self.passes()
     }
 
     fn advance(&self, flow: &mut Flow<'_, Self>) {

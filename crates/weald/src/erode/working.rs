@@ -18,7 +18,7 @@ pub(crate) struct Working {
     /// Cells with data; `None` where all have.
     pub(crate) mask: Option<Mask>,
     /// Width of the ring: 1 around an open domain, else 0.
-    ring: usize,
+    pub(super) ring: usize,
     pub(super) cell: f64,
     /// Ground at the start, in metres, without the ring.
     pub(super) start: Field,
@@ -208,8 +208,8 @@ impl Working {
         let mut notes = Vec::new();
         if !kept.conserving {
             notes.push(format!(
-                "this transport does not conserve sediment: {:.3e} m³ of solid were {}; transport = \"upwind\" \
-                 conserves it",
+                "this transport does not conserve sediment: {:.3e} m³ of solid were {}; transport = \"upwind\", or \
+                 \"maccormack\" with `conserve`, conserves it",
                 (budget.solid.error() * budget.solid.start).abs(),
                 if budget.solid.error() > 0.0 { "lost" } else { "made" },
             ));

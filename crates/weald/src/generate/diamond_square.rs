@@ -15,9 +15,12 @@
 //! least that covers the landscape, and only the part under the landscape is computed: each level is a window
 //! of the level below it, kept as rows without gaps.
 
+mod program;
+
 use rayon::prelude::*;
 
 use super::hash::Plane;
+use super::on_device::OnDevice;
 use super::{Generator, relief};
 use crate::domain::Domain;
 use crate::error::Error;
@@ -56,7 +59,7 @@ impl Generator for DiamondSquare {
         let mut lattice = corners(windows[0], seed);
         for (level, &window) in (0..levels).zip(&windows[1..]) {
             let refinement = Refinement {
-                amplitude: libm::exp2(-self.roughness * f64::from(level)) as f32,
+                amplitude: self.amplitude(level),
                 random: Plane::new(seed, u64::from(level) + 1),
                 side: 2 << level,
             };
@@ -66,12 +69,28 @@ impl Generator for DiamondSquare {
         Ok(lattice)
     }
 
+    fn on_device(&self, domain: &Domain, seed: u64) -> Option<OnDevice> {
+        Some(self.lattice(domain.size, seed))
+    }
+
+    fn finish(&self, domain: &Domain, made: Vec<f32>) -> Field {
+        let mut lattice = Field::from_values(domain.size, made[..domain.size.cells()].to_vec());
+        relief::rescale(&mut lattice, self.relief as f32);
+        lattice
+    }
+
     fn target(&self) -> &LayerName {
         &self.into
     }
 
     fn own_seed(&self) -> Option<u64> {
         self.seed
+    }
+}
+
+impl DiamondSquare {
+    fn amplitude(&self, level: u32) -> f32 {
+        libm::exp2(-self.roughness * f64::from(level)) as f32
     }
 }
 

@@ -16,9 +16,12 @@
 //! sum instead of a comparison for every fault and cell. Steps are counted in units of `scale / n`, which are
 //! whole numbers, so the sum is exact and its order does not matter.
 
+mod program;
+
 use rayon::prelude::*;
 
 use super::minstd::Minstd;
+use super::on_device::OnDevice;
 use super::{Generator, relief};
 use crate::domain::Domain;
 use crate::error::Error;
@@ -68,6 +71,18 @@ impl Generator for Fault {
             );
         });
         Ok(self.brought_to_relief(field))
+    }
+
+    fn on_device(&self, domain: &Domain, seed: u64) -> Option<OnDevice> {
+        let Size { columns, rows } = domain.size;
+        let fits = columns.max(rows) <= program::MOST_SIDE && domain.size.cells() > 1;
+        fits.then(|| self.sum_of_steps(&lines(domain.size, self.iterations, seed), domain.size))
+    }
+
+    fn finish(&self, domain: &Domain, made: Vec<f32>) -> Field {
+        let unit = self.scale / f64::from(self.iterations);
+        let heights = made.into_iter().map(|steps| metres(steps.to_bits() as i32, unit)).collect();
+        self.brought_to_relief(Field::from_values(domain.size, heights))
     }
 
     fn target(&self) -> &LayerName {

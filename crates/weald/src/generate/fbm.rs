@@ -11,8 +11,11 @@
 //! Mandelbrot and Van Ness 1968, doi 10.1137/1010093; Musgrave, Kolb, Mace 1989, doi 10.1145/74333.74337.
 
 use super::Generator;
-use super::octaves::{Spectrum, fill_rows, window};
+use super::octaves::{OctavePass, Spectrum, fill_rows, window};
+use super::on_device::OnDevice;
 use crate::domain::Domain;
+use crate::engine::program::Uniforms;
+use crate::engine::uniform::uniform;
 use crate::error::Error;
 use crate::grid::Field;
 use crate::parameters;
@@ -50,12 +53,20 @@ parameters! {
     }
 }
 
+uniform! {
+    /// What the shader has to know.
+    struct FbmConstants {
+        octaves: u32,
+        rows: u32,
+        middle: f32,
+        scale: f32,
+    }
+}
+
 impl Generator for Fbm {
     fn fill(&self, domain: &Domain, seed: u64) -> Result<Field, Error> {
-        let spectrum = self.spectrum();
-        let octaves = spectrum.over(&window(domain), seed);
-        let middle = (self.relief / 2.0) as f32;
-        let scale = (self.relief / (DEVIATIONS * spectrum.deviation())) as f32;
+        let octaves = self.spectrum().over(&window(domain), seed);
+        let FbmConstants { middle, scale, .. } = self.constants(domain);
         Ok(fill_rows(
             domain,
             #[inline(always)]
@@ -68,6 +79,16 @@ impl Generator for Fbm {
                 }
             },
         ))
+    }
+
+    fn on_device(&self, domain: &Domain, seed: u64) -> Option<OnDevice> {
+        let pass = OctavePass {
+            name: "fbm",
+            shaders: &[include_str!("fbm.wgsl")],
+            constants: Uniforms::of(&self.constants(domain)),
+            octaves: self.spectrum().over(&window(domain), seed),
+        };
+        Some(pass.on_device(domain))
     }
 
     fn target(&self) -> &LayerName {
@@ -87,5 +108,11 @@ impl Fbm {
     fn spectrum(&self) -> Spectrum {
         let Self { octaves, wavelength, gain, lacunarity, .. } = *self;
         Spectrum { octaves, wavelength, gain, lacunarity }
+    }
+
+    fn constants(&self, domain: &Domain) -> FbmConstants {
+        let middle = (self.relief / 2.0) as f32;
+        let scale = (self.relief / (DEVIATIONS * self.spectrum().deviation())) as f32;
+        FbmConstants { octaves: self.octaves, rows: domain.size.rows as u32, middle, scale }
     }
 }

@@ -35,6 +35,11 @@ impl Plane {
         Self { start: bits as u32, key: (bits >> 32) as u32 }
     }
 
+    /// Start and key, for shaders.
+    pub(crate) fn words(self) -> [u32; 2] {
+        [self.start, self.key]
+    }
+
     /// The number of a point, to which [`EAST`] and [`SOUTH`] may be added.
     #[inline(always)]
     pub fn point(self, x: i32, y: i32) -> u32 {
@@ -61,6 +66,7 @@ impl Plane {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::engine::program::twin::number;
 
     const SIDE: i32 = 512;
 
@@ -72,6 +78,13 @@ mod tests {
     fn correlation(values: &[f64], apart: usize) -> f64 {
         let pairs = values.iter().zip(&values[apart..]);
         3.0 * pairs.map(|(a, b)| a * b).sum::<f64>() / (values.len() - apart) as f64
+    }
+
+    #[test]
+    fn the_shader_has_the_same_constants() {
+        let shader = include_str!("hash.wgsl");
+        assert_eq!(number(shader, "STEP_EAST"), f64::from(EAST));
+        assert_eq!(number(shader, "STEP_SOUTH"), f64::from(SOUTH));
     }
 
     #[test]

@@ -13,6 +13,7 @@ pub mod hash;
 pub mod minstd;
 pub mod noise;
 pub mod octaves;
+pub mod on_device;
 pub mod plane;
 pub mod relief;
 pub mod ridged;
@@ -21,12 +22,14 @@ pub mod warp;
 use std::fmt::Debug;
 
 use crate::domain::Domain;
-use crate::engine::Job;
+use crate::engine::program::Program;
+use crate::engine::{Engine, Job};
 use crate::error::Error;
-use crate::grid::Field;
+use crate::grid::{Field, Size};
 use crate::landscape::Landscape;
 use crate::recipe::parameter::LayerName;
 use crate::step::{Outcome, Step};
+use on_device::OnDevice;
 
 /// A step that makes one layer from nothing but the size of the ground and a seed.
 pub trait Generator: Debug + Send + Sync {
@@ -35,6 +38,17 @@ pub trait Generator: Debug + Send + Sync {
     /// # Errors
     /// [`Error::Run`] where the method cannot work on such a grid.
     fn fill(&self, domain: &Domain, seed: u64) -> Result<Field, Error>;
+
+    /// The same heights as work for a device; `None` where the CPU makes them.
+    fn on_device(&self, domain: &Domain, seed: u64) -> Option<OnDevice> {
+        let _ = (domain, seed);
+        None
+    }
+
+    /// Heights in metres from what a device made of [`Generator::on_device`].
+    fn finish(&self, domain: &Domain, made: Vec<f32>) -> Field {
+        Field::from_values(domain.size, made)
+    }
 
     /// The layer that it writes.
     fn target(&self) -> &LayerName;
@@ -70,10 +84,46 @@ impl<T: Generator> Step for T {
 
     fn run(&self, landscape: &mut Landscape, job: &Job<'_>) -> Result<Outcome, Error> {
         let seed = self.own_seed().unwrap_or(job.seed);
-        let field = self.fill(&landscape.domain, seed)?;
+        let (field, notes) = heights(self, &landscape.domain, seed, &job.engine)?;
         landscape.insert(&self.target().0, "m", field);
-        Ok(Outcome { iterations: self.iterations(), ..Outcome::default() })
+        Ok(Outcome { iterations: self.iterations(), notes, ..Outcome::default() })
     }
+}
+
+/// Heights made where the engine says, and what there is to say about it.
+fn heights(
+    generator: &impl Generator,
+    domain: &Domain,
+    seed: u64,
+    engine: &Engine,
+) -> Result<(Field, Vec<String>), Error> {
+    let (Engine::Device(device) | Engine::DeviceElseCpu(device)) = engine else {
+        return Ok((generator.fill(domain, seed)?, Vec::new()));
+    };
+    let Some(work) = generator.on_device(domain, seed) else {
+        return Ok((generator.fill(domain, seed)?, Vec::new()));
+    };
+    match (work.run(&**device), engine) {
+        (Ok(made), _) => Ok((generator.finish(domain, made), Vec::new())),
+        (Err(error), Engine::DeviceElseCpu(_)) => {
+            let note = format!("the device could not make this ground, so the CPU did: {error}");
+            Ok((generator.fill(domain, seed)?, vec![note]))
+        }
+        (Err(error), _) => Err(error),
+    }
+}
+
+/// The programs of all generators that a device can run, for tests of the shaders.
+pub fn programs() -> Vec<Program> {
+    let domain = Domain::new(Size { columns: 5, rows: 4 }, 1.0);
+    let made = [
+        fbm::Fbm::default().on_device(&domain, 1),
+        ridged::Ridged::default().on_device(&domain, 1),
+        warp::Warp::default().on_device(&domain, 1),
+        fault::Fault::default().on_device(&domain, 1),
+        diamond_square::DiamondSquare::default().on_device(&domain, 1),
+    ];
+    made.into_iter().flatten().map(|work| work.program).collect()
 }
 
 /// Distance in metres of a cell's centre from a point given in metres from the western and the northern edge;

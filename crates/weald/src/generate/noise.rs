@@ -22,6 +22,8 @@
 //! the row, each a whole number and a fraction (`Axis`), so that far from the origin nothing is lost. A
 //! shader that is given these tables makes the same bits.
 
+mod table;
+
 use super::hash::{EAST, Plane, SOUTH};
 use crate::random::{splitmix64, unit};
 

@@ -3,6 +3,10 @@
 //! Octave `k` has wavelength `λ / lacunarity^k` and amplitude `gain^k`. All lengths are in metres, so a
 //! recipe makes the same ground at any resolution.
 
+mod program;
+
+pub(crate) use program::OctavePass;
+
 use rayon::prelude::*;
 
 use super::noise::{Octave, VARIANCE, Window};

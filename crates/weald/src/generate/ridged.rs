@@ -10,8 +10,12 @@
 //! `gain` in place of the exponent `H`, as for `fbm`.
 
 use super::Generator;
-use super::octaves::{Spectrum, fill_rows, window};
+use super::noise::Octave;
+use super::octaves::{OctavePass, Spectrum, fill_rows, window};
+use super::on_device::OnDevice;
 use crate::domain::Domain;
+use crate::engine::program::Uniforms;
+use crate::engine::uniform::uniform;
 use crate::error::Error;
 use crate::grid::Field;
 use crate::parameters;
@@ -48,12 +52,29 @@ parameters! {
     }
 }
 
-impl Generator for Ridged {
-    fn fill(&self, domain: &Domain, seed: u64) -> Result<Field, Error> {
+uniform! {
+    /// What the shader has to know.
+    struct RidgedConstants {
+        octaves: u32,
+        rows: u32,
+        sharpness: f32,
+    }
+}
+
+impl Ridged {
+    /// The octaves, each with the height of its crests.
+    fn scaled_octaves(&self, domain: &Domain, seed: u64) -> Vec<(Octave, f32)> {
         let Self { octaves, wavelength, gain, lacunarity, .. } = *self;
         let spectrum = Spectrum { octaves, wavelength, gain, lacunarity };
-        let octaves = spectrum.over(&window(domain), seed);
         let scale = (self.relief / spectrum.bound()) as f32;
+        let octaves = spectrum.over(&window(domain), seed).into_iter();
+        octaves.map(|(octave, amplitude)| (octave, scale * amplitude)).collect()
+    }
+}
+
+impl Generator for Ridged {
+    fn fill(&self, domain: &Domain, seed: u64) -> Result<Field, Error> {
+        let octaves = self.scaled_octaves(domain, seed);
         let sharpness = self.sharpness as f32;
         let columns = domain.size.columns;
         Ok(fill_rows(
@@ -65,10 +86,25 @@ impl Generator for Ridged {
                 for (octave, amplitude) in &octaves {
                     noise.fill(0.0);
                     octave.add_row(y, 1.0, &mut noise);
-                    add_crests(&noise, sharpness, scale * *amplitude, &mut weight, row);
+                    add_crests(&noise, sharpness, *amplitude, &mut weight, row);
                 }
             },
         ))
+    }
+
+    fn on_device(&self, domain: &Domain, seed: u64) -> Option<OnDevice> {
+        let constants = RidgedConstants {
+            octaves: self.octaves,
+            rows: domain.size.rows as u32,
+            sharpness: self.sharpness as f32,
+        };
+        let pass = OctavePass {
+            name: "ridged",
+            shaders: &[include_str!("ridged.wgsl")],
+            constants: Uniforms::of(&constants),
+            octaves: self.scaled_octaves(domain, seed),
+        };
+        Some(pass.on_device(domain))
     }
 
     fn target(&self) -> &LayerName {

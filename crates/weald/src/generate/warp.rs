@@ -11,8 +11,12 @@
 
 use super::Generator;
 use super::fbm::DEVIATIONS;
-use super::octaves::{Spectrum, fill_rows, window};
+use super::noise::Octave;
+use super::octaves::{OctavePass, Spectrum, fill_rows, window};
+use super::on_device::OnDevice;
 use crate::domain::Domain;
+use crate::engine::program::Uniforms;
+use crate::engine::uniform::uniform;
 use crate::error::Error;
 use crate::grid::Field;
 use crate::parameters;
@@ -53,16 +57,46 @@ parameters! {
     }
 }
 
+uniform! {
+    /// What the shader has to know.
+    struct WarpConstants {
+        octaves: u32,
+        bends: u32,
+        rows: u32,
+        middle: f32,
+        scale: f32,
+    }
+}
+
+impl Warp {
+    fn spectrum(&self) -> Spectrum {
+        let Self { octaves, wavelength, gain, lacunarity, .. } = *self;
+        Spectrum { octaves, wavelength, gain, lacunarity }
+    }
+
+    /// The octaves of the displacements to the east and to the south, in metres.
+    fn bends(&self, domain: &Domain, seed: u64) -> [Vec<(Octave, f32)>; 2] {
+        let bends = Spectrum { octaves: WARP_OCTAVES, ..self.spectrum() };
+        let metres = (self.strength * self.wavelength / bends.deviation()) as f32;
+        [1, 2].map(|axis| {
+            let octaves = bends.over(&window(domain), splitmix64(seed ^ axis)).into_iter();
+            octaves.map(|(octave, amplitude)| (octave, amplitude * metres)).collect()
+        })
+    }
+
+    fn constants(&self, domain: &Domain) -> WarpConstants {
+        let middle = (self.relief / 2.0) as f32;
+        let scale = (self.relief / (DEVIATIONS * self.spectrum().deviation())) as f32;
+        let rows = domain.size.rows as u32;
+        WarpConstants { octaves: self.octaves, bends: WARP_OCTAVES, rows, middle, scale }
+    }
+}
+
 impl Generator for Warp {
     fn fill(&self, domain: &Domain, seed: u64) -> Result<Field, Error> {
-        let Self { octaves, wavelength, gain, lacunarity, .. } = *self;
-        let spectrum = Spectrum { octaves, wavelength, gain, lacunarity };
-        let bends = Spectrum { octaves: WARP_OCTAVES, ..spectrum };
-        let octaves = spectrum.over(&window(domain), seed);
-        let [east, south] = [1, 2].map(|axis| bends.over(&window(domain), splitmix64(seed ^ axis)));
-        let metres = (self.strength * wavelength / bends.deviation()) as f32;
-        let middle = (self.relief / 2.0) as f32;
-        let scale = (self.relief / (DEVIATIONS * spectrum.deviation())) as f32;
+        let octaves = self.spectrum().over(&window(domain), seed);
+        let [east, south] = self.bends(domain, seed);
+        let WarpConstants { middle, scale, .. } = self.constants(domain);
         let columns = domain.size.columns;
         Ok(fill_rows(
             domain,
@@ -71,7 +105,7 @@ impl Generator for Warp {
                 let [mut dx, mut dy] = [vec![0.0; columns], vec![0.0; columns]];
                 for (bends, way) in [(&east, &mut dx), (&south, &mut dy)] {
                     for (octave, amplitude) in bends {
-                        octave.add_row(y, amplitude * metres, way);
+                        octave.add_row(y, *amplitude, way);
                     }
                 }
                 for (octave, amplitude) in &octaves {
@@ -82,6 +116,17 @@ impl Generator for Warp {
                 }
             },
         ))
+    }
+
+    fn on_device(&self, domain: &Domain, seed: u64) -> Option<OnDevice> {
+        let octaves = self.spectrum().over(&window(domain), seed);
+        let pass = OctavePass {
+            name: "warp",
+            shaders: &[include_str!("octaves/displaced.wgsl"), include_str!("warp.wgsl")],
+            constants: Uniforms::of(&self.constants(domain)),
+            octaves: octaves.into_iter().chain(self.bends(domain, seed).into_iter().flatten()).collect(),
+        };
+        Some(pass.on_device(domain))
     }
 
     fn target(&self) -> &LayerName {

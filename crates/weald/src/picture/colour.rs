@@ -60,12 +60,18 @@ fn cube(x: f64) -> f64 {
 
 /// Linear light of an sRGB colour written as `0xrrggbb`.
 pub fn linear_of_hex(hex: u32) -> Linear {
-    [16, 8, 0].map(|shift| {
-        let encoded = f64::from((hex >> shift) & 0xff) / 255.0;
-        let linear =
-            if encoded <= 0.040_45 { encoded / 12.92 } else { libm::pow((encoded + 0.055) / 1.055, 2.4) };
-        linear as f32
-    })
+    [16, 8, 0].map(|shift| linear_of_channel(f64::from((hex >> shift) & 0xff) / 255.0))
+}
+
+/// Linear light of an sRGB colour, 0 to 1.
+pub(super) fn linear_of_srgb(colour: [f32; 3]) -> Linear {
+    colour.map(|channel| linear_of_channel(f64::from(channel)))
+}
+
+fn linear_of_channel(encoded: f64) -> f32 {
+    let linear =
+        if encoded <= 0.040_45 { encoded / 12.92 } else { libm::pow((encoded + 0.055) / 1.055, 2.4) };
+    linear as f32
 }
 
 /// `from` at `share` 0, `to` at 1, mixed as light mixes.

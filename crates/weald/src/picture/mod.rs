@@ -3,16 +3,21 @@
 mod automatic;
 mod colour;
 mod contours;
+mod cut;
+mod digits;
 mod drainage;
 mod ground;
 mod image;
 mod lakes;
 mod light;
 mod map;
+mod materials;
+mod paint;
 mod ramp;
 mod relief;
 mod rivers;
 mod scene;
+mod section;
 mod sheet;
 mod spline;
 mod strokes;
@@ -21,8 +26,10 @@ mod texture;
 pub use colour::{Linear, Oklab, encode, linear_of_hex};
 pub use image::Image;
 pub use map::Map;
+pub use materials::Materials;
 pub use ramp::{Ramp, Scale, Tint};
 pub use relief::Relief;
+pub use section::{Along, Section};
 
 use std::fmt::Debug;
 
@@ -86,6 +93,16 @@ pub const PICTURES: &[PictureEntry] = &[
         "relief",
         "shaded relief with height tints, contours, lakes and rivers",
         "Mark 1992 (lights), Brown 2010 (texture shading), Imhof 1965 (colours and aerial perspective)",
+    ),
+    PictureEntry::of::<Materials>(
+        "materials",
+        "shaded relief in the colours of the materials at the surface, with lakes and rivers",
+        "Weald; lights and shading as in a relief picture",
+    ),
+    PictureEntry::of::<Section>(
+        "section",
+        "the ground cut open along a row or a column, with its layers and the water on it",
+        "Weald",
     ),
     PictureEntry::of::<Map>("map", "one layer in an even colour ramp, linear or logarithmic", "Weald"),
 ];

@@ -5,11 +5,9 @@
 //! Aerial perspective after Eduard Imhof, "Kartographische Geländedarstellung" (1965): contrast grows with
 //! height, and valleys lie in a light haze.
 
-use rayon::prelude::*;
-
-use super::colour::encode;
+use super::paint::Paint;
 use super::ramp::Tint;
-use super::scene::{Rows, Scene};
+use super::scene::Scene;
 use super::sheet::Sheet;
 use super::{Image, Picture};
 use crate::error::Error;
@@ -52,14 +50,7 @@ impl Picture for Relief {
 
     fn render(&self, landscape: &Landscape) -> Result<Image, Error> {
         let sheet = Sheet::new(&landscape.domain, self.width)?;
-        let scene = Scene::new(self, landscape, sheet)?;
-        let mut rgb = vec![0; 3 * sheet.width * sheet.height];
-        rgb.par_chunks_mut(3 * sheet.width).enumerate().for_each_init(Rows::default, |rows, (y, out)| {
-            scene.evaluate(y, rows);
-            for (x, pixel) in out.chunks_exact_mut(3).enumerate() {
-                pixel.copy_from_slice(&encode(scene.pixel(x, y, rows)));
-            }
-        });
-        Ok(Image { width: sheet.width, height: sheet.height, rgb })
+        let paint = Paint::Tints(self.ramp.ramp());
+        Ok(Scene::new(self, landscape, sheet, paint)?.draw())
     }
 }

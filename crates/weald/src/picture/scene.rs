@@ -1,19 +1,21 @@
 //! A landscape made ready for a relief picture, and the colour of each of its pixels.
 
-use super::PAPER;
+use rayon::prelude::*;
+
 use super::automatic;
-use super::colour::{Linear, linear_of_hex, mix};
+use super::colour::{Linear, encode, linear_of_hex, mix};
 use super::contours::{Contours, automatic_interval, ramp};
 use super::ground::{drawable, land_share};
 use super::lakes::{Lakes, Rise};
 use super::light::{Lights, shoulder};
-use super::ramp::Ramp;
+use super::paint::Paint;
 use super::relief::Relief;
 use super::rivers;
 use super::sheet::Sheet;
 use super::spline::{Spline, SplineRow};
 use super::strokes::Strokes;
 use super::texture::texture;
+use super::{Image, PAPER};
 use crate::error::Error;
 use crate::grid::Field;
 use crate::landscape::Landscape;
@@ -41,7 +43,7 @@ pub(super) struct Scene {
     tints: [f32; 2],
     /// Rise drawn for a rise of one metre a cell.
     steepness: [f32; 2],
-    ramp: Ramp,
+    paint: Paint,
     lights: Lights,
     contours: Option<Contours>,
     water: Water,
@@ -50,16 +52,22 @@ pub(super) struct Scene {
 
 /// The fields along one row of pixels.
 #[derive(Default)]
-pub(super) struct Rows {
+struct Rows {
     height: SplineRow,
     texture: SplineRow,
     land: SplineRow,
     level: SplineRow,
     depth: SplineRow,
+    paint: [SplineRow; 3],
 }
 
 impl Scene {
-    pub(super) fn new(picture: &Relief, landscape: &Landscape, sheet: Sheet) -> Result<Self, Error> {
+    pub(super) fn new(
+        picture: &Relief,
+        landscape: &Landscape,
+        sheet: Sheet,
+        paint: Paint,
+    ) -> Result<Self, Error> {
         let land = landscape.domain.land.as_ref();
         let field = landscape.field(&picture.of.0)?;
         let (low, high) = field.range(land).unwrap_or((0.0, 0.0));
@@ -80,7 +88,7 @@ impl Scene {
             land,
             low,
             steepness: spacing.map(|spacing| (exaggeration / spacing) as f32),
-            ramp: picture.ramp.ramp(),
+            paint,
             lights: Lights::new(picture.sun_azimuth_deg, picture.sun_altitude_deg),
             contours: contours.map(|interval| Contours { interval: interval as f32, lowest: low, line }),
             water,
@@ -89,9 +97,25 @@ impl Scene {
         })
     }
 
+    /// The picture.
+    pub(super) fn draw(&self) -> Image {
+        let mut rgb = vec![0; 3 * self.sheet.width * self.sheet.height];
+        rgb.par_chunks_mut(3 * self.sheet.width).enumerate().for_each_init(
+            Rows::default,
+            |rows, (y, out)| {
+                self.evaluate(y, rows);
+                for (x, pixel) in out.chunks_exact_mut(3).enumerate() {
+                    pixel.copy_from_slice(&encode(self.pixel(x, y, rows)));
+                }
+            },
+        );
+        Image { width: self.sheet.width, height: self.sheet.height, rgb }
+    }
+
     /// Evaluates the fields along row `y` of the sheet.
-    pub(super) fn evaluate(&self, y: usize, rows: &mut Rows) {
+    fn evaluate(&self, y: usize, rows: &mut Rows) {
         self.spline.row(&self.height, y, &mut rows.height);
+        self.paint.evaluate(&self.spline, y, &mut rows.paint);
         self.spline.row(&self.texture, y, &mut rows.texture);
         if let Some(land) = &self.land {
             self.spline.row(land, y, &mut rows.land);
@@ -103,7 +127,7 @@ impl Scene {
     }
 
     /// The colour of a pixel of the evaluated row.
-    pub(super) fn pixel(&self, x: usize, y: usize, rows: &Rows) -> Linear {
+    fn pixel(&self, x: usize, y: usize, rows: &Rows) -> Linear {
         let land = match &self.land {
             Some(_) => land_cover(Rise::at(&rows.land, x, self.cells_a_pixel())),
             None => 1.0,
@@ -132,7 +156,8 @@ impl Scene {
         let contrast = 0.84 + 0.28 * share;
         let texture = rows.texture.value[x];
         let bump = 1.0 + TEXTURE_STRENGTH * contrast * texture / (1.0 + texture * texture).sqrt();
-        let tint = mix(self.ramp.at(share), self.inks.haze, 0.14 * (1.0 - ramp(share, 0.0, 0.45)));
+        let tint =
+            mix(self.paint.at(x, share, &rows.paint), self.inks.haze, 0.14 * (1.0 - ramp(share, 0.0, 0.45)));
         let lit = |c: usize| {
             let room = (1.0 / tint[c] - 1.0).clamp(LEAST_ROOM, SUNLIT_ROOM);
             tint[c] * shoulder((1.0 + contrast * (light[c] - 1.0)).max(0.0) * bump, room)

@@ -1,5 +1,6 @@
 //! Every step there is. Adding one is one file and one line here.
 
+use super::load;
 use crate::step::Entry;
 use crate::{combine, erode, generate};
 
@@ -15,6 +16,7 @@ pub const CATALOG: &[Entry] = &[
     generate::cone::ENTRY,
     generate::basin::ENTRY,
     generate::constant::ENTRY,
+    load::ENTRY,
     combine::add::ENTRY,
     combine::extremes::MAX,
     combine::extremes::MIN,
@@ -23,8 +25,11 @@ pub const CATALOG: &[Entry] = &[
     combine::terrace::ENTRY,
     combine::smooth::ENTRY,
     combine::resample::ENTRY,
+    combine::layers::ENTRY,
+    combine::top_material::ENTRY,
     erode::hydraulic::ENTRY,
     erode::thermal_step::ENTRY,
+    erode::transport_step::ENTRY,
     erode::slippage_step::ENTRY,
     erode::dissolution_step::ENTRY,
 ];

@@ -3,17 +3,42 @@
 use std::fmt::Write;
 
 use super::catalog::CATALOG;
-use super::parameter::{Kind, Parameter};
+use super::parameter::{Kind, Parameter, Parameters};
+use super::plan::{LandscapeKeys, MaterialKeys};
 use crate::picture::PICTURES;
 use crate::step::{Entry, Stage};
 
 /// Columns that a line of text may take.
 const WIDTH: usize = 100;
 
-/// All steps and pictures, a line each.
+/// A table of a recipe that is neither step nor picture.
+struct LandscapeTable {
+    name: &'static str,
+    header: &'static str,
+    summary: &'static str,
+    parameters: fn() -> Vec<Parameter>,
+}
+
+const TABLES: &[LandscapeTable] = &[
+    LandscapeTable {
+        name: "landscape",
+        header: "[landscape]",
+        summary: "what the ground starts from",
+        parameters: LandscapeKeys::parameters,
+    },
+    LandscapeTable {
+        name: "material",
+        header: "[[material]]",
+        summary: "what the ground is made of: a table a material, bedrock first, 8 at most",
+        parameters: MaterialKeys::parameters,
+    },
+];
+
+/// All tables, steps and pictures, a line each.
 pub fn overview() -> String {
     let mut text = String::new();
-    for stage in [Stage::Generate, Stage::Combine, Stage::Erode] {
+    list(&mut text, "tables of the landscape", TABLES.iter().map(|table| (table.name, table.summary)));
+    for stage in [Stage::Load, Stage::Generate, Stage::Combine, Stage::Erode] {
         let entries = CATALOG.iter().filter(|entry| entry.stage == stage);
         list(&mut text, stage.title(), entries.map(|entry| (entry.name, entry.summary)));
     }
@@ -30,7 +55,7 @@ fn list(text: &mut String, title: &str, items: impl Iterator<Item = (&'static st
     text.push('\n');
 }
 
-/// One step or picture with all its parameters; an error names what was probably meant.
+/// One table, step or picture with all its parameters; an error names what was probably meant.
 pub fn step(name: &str) -> Result<String, String> {
     if let Some(entry) = CATALOG.iter().find(|entry| entry.name == name) {
         return Ok(of_entry(entry));
@@ -38,8 +63,12 @@ pub fn step(name: &str) -> Result<String, String> {
     if let Some(entry) = PICTURES.iter().find(|entry| entry.name == name) {
         return Ok(of(&format!("picture = \"{name}\""), entry.summary, None, &(entry.parameters)()));
     }
-    let known: Vec<_> =
-        CATALOG.iter().map(|entry| entry.name).chain(PICTURES.iter().map(|entry| entry.name)).collect();
+    if let Some(table) = TABLES.iter().find(|table| table.name == name) {
+        return Ok(of(table.header, table.summary, None, &(table.parameters)()));
+    }
+    let tables = TABLES.iter().map(|table| table.name);
+    let steps = CATALOG.iter().map(|entry| entry.name);
+    let known: Vec<_> = tables.chain(steps).chain(PICTURES.iter().map(|entry| entry.name)).collect();
     Err(match super::parameter::nearest(name, &known) {
         Some(near) => format!("there is no step {name:?}; did you mean `{near}`?"),
         None => format!("there is no step {name:?}; there are: {}", known.join(", ")),
@@ -97,7 +126,6 @@ fn wrapped(text: &str, indent: usize) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::recipe::parameter::Parameters;
 
     #[test]
     fn long_text_is_wrapped_between_words() {
@@ -108,7 +136,7 @@ mod tests {
 
     #[test]
     fn a_parameter_is_shown_with_kind_unit_and_default() {
-        let text = of("do = \"x\"", "Does x.", Some("Weald"), &crate::recipe::LandscapeKeys::parameters());
+        let text = of("do = \"x\"", "Does x.", Some("Weald"), &LandscapeKeys::parameters());
         assert!(text.contains("cell (number, 0.001 to 100000, in m)"), "{text}");
         assert!(text.contains("seed (whole number, 0 to 9007199254740991, default 0)"), "{text}");
     }

@@ -2,19 +2,35 @@
 
 use std::path::Path;
 
-use super::plan::Ground;
+use super::layer_file::LayerFile;
+use super::plan::{Ground, Recipe};
 use crate::domain::Domain;
 use crate::error::Error;
 use crate::grid::Mask;
 use crate::io;
 use crate::landscape::Landscape;
+use crate::material::Material;
 
-/// Makes or reads the ground; the texts tell the user what had to be done to it.
-pub(super) fn load(ground: &Ground) -> Result<(Landscape, Vec<String>), Error> {
-    match ground {
-        Ground::Empty { size, cell } => Ok((Landscape::new(Domain::new(*size, *cell)), Vec::new())),
-        Ground::File { path, cell } => from_file(path, *cell),
+/// Makes or reads the ground and its materials; the texts tell the user what had to be done to it.
+pub(super) fn load(recipe: &Recipe) -> Result<(Landscape, Vec<String>), Error> {
+    let (mut landscape, mut notes) = match &recipe.ground {
+        Ground::Empty { size, cell } => (Landscape::new(Domain::new(*size, *cell)), Vec::new()),
+        Ground::File { path, cell } => from_file(path, *cell)?,
+    };
+    landscape.materials = materials(recipe);
+    for planned in &recipe.materials {
+        let Some((path, scale)) = planned.file.clone() else { continue };
+        let file = LayerFile { path, scale, offset: 0.0, resample: false, no_data: None };
+        let (thickness, more) = file.read(&landscape.domain)?;
+        landscape.insert(&planned.material.name, "m", thickness);
+        notes.extend(more);
     }
+    Ok((landscape, notes))
+}
+
+/// What the ground is made of.
+pub(super) fn materials(recipe: &Recipe) -> Vec<Material> {
+    recipe.materials.iter().map(|planned| planned.material.clone()).collect()
 }
 
 fn from_file(path: &Path, cell: Option<f64>) -> Result<(Landscape, Vec<String>), Error> {

@@ -8,6 +8,8 @@ pub mod catalog;
 mod checkpoint;
 pub mod describe;
 mod ground;
+mod layer_file;
+pub mod load;
 mod overrides;
 pub mod parameter;
 mod plan;
@@ -22,6 +24,8 @@ mod testing;
 
 pub use checkpoint::CHECKPOINT_FILE;
 pub use overrides::Overrides;
-pub use plan::{Content, Ground, LandscapeKeys, Output, Planned, Recipe};
+pub use plan::{
+    BuiltIn, Content, Ground, LandscapeKeys, MaterialKeys, Output, Planned, PlannedMaterial, Recipe,
+};
 pub use report::{BudgetReport, OutputReport, REPORT_FILE, Report, SolidReport, StepReport, WaterReport};
 pub use run::{Options, Progress, Run, Silent};

@@ -15,8 +15,8 @@ pub struct Overrides {
     pub size: Option<u64>,
     /// Seed of the landscape.
     pub seed: Option<u64>,
-    /// Paths and values: `landscape.cell`, `step.2.iterations`, `output.1.file`, or `thermal.talus` for all
-    /// steps of that name. A value is TOML; what is no TOML is text.
+    /// Paths and values: `landscape.cell`, `material.2.thickness`, `step.2.iterations`, `output.1.file`, or
+    /// `thermal.talus` for all steps of that name. A value is TOML; what is no TOML is text.
     pub set: Vec<(String, String)>,
 }
 
@@ -87,7 +87,7 @@ fn set(recipe: &mut Table, path: &str, value: &Value) -> Result<(), String> {
     let parts: Vec<&str> = path.split('.').collect();
     let (tables, keys) = match parts.as_slice() {
         ["landscape", keys @ ..] => (vec![landscape_of(recipe)], keys),
-        [section @ ("step" | "output"), number, keys @ ..] => {
+        [section @ ("material" | "step" | "output"), number, keys @ ..] => {
             (vec![numbered(recipe, section, number)?], keys)
         }
         [name, keys @ ..] => (steps_named(recipe, name)?, keys),
@@ -147,7 +147,7 @@ fn steps_named<'a>(recipe: &'a mut Table, name: &str) -> Result<Vec<&'a mut Tabl
         return Ok(named);
     }
     let mut known: Vec<_> = others.iter().filter_map(|table| done_by(table)).collect();
-    known.extend(["landscape", "step", "output"].map(str::to_owned));
+    known.extend(["landscape", "material", "step", "output"].map(str::to_owned));
     let known: Vec<_> = known.iter().map(String::as_str).collect();
     Err(match nearest(name, &known) {
         Some(near) => format!("this recipe has no step `{name}`; did you mean `{near}`?"),

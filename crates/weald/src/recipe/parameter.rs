@@ -1,9 +1,15 @@
 //! The one declaration of a step's parameters, from which parsing, range errors, `weald steps`, the JSON
 //! Schema and user interfaces follow. See the [`parameters!`](crate::parameters) macro.
 
+mod colour;
+mod file;
+mod places;
 mod sides;
 mod values;
 
+pub use colour::Colour;
+pub use file::{RasterFile, ScriptFile};
+pub use places::Places;
 pub use sides::Sides;
 pub use values::{LayerName, Nested};
 
@@ -40,10 +46,18 @@ pub enum Kind {
     Choice(&'static [&'static str]),
     /// Any text.
     Text,
+    /// A raster file that is read; its path starts at the folder of the recipe.
+    Raster,
+    /// A script of edits that is read; its path starts at the folder of the recipe.
+    Script,
+    /// A colour as `"#rrggbb"`.
+    Colour,
     /// Cells a side, or a list of columns and rows.
     Sides,
     /// The name of a layer.
     Layer,
+    /// A place as a list of two numbers, or a list of places.
+    Places,
     /// A list of numbers, each within both bounds.
     Numbers(f64, f64),
     /// A table with parameters of its own.
@@ -63,9 +77,13 @@ impl Kind {
                 names.iter().map(|name| format!("{name:?}")).collect::<Vec<_>>().join(" | ")
             }
             Self::Text => "text".to_owned(),
+            Self::Raster => "raster file".to_owned(),
+            Self::Script => "script of edits".to_owned(),
+            Self::Colour => "colour \"#rrggbb\"".to_owned(),
             Self::Sides => "whole number from 1, or [columns, rows]".to_owned(),
             Self::Layer => "layer name".to_owned(),
             Self::Numbers(low, high) => format!("list of numbers, {}", range_in_words(*low, *high)),
+            Self::Places => "[x, y], or a list of places".to_owned(),
             Self::Table(_) => "table".to_owned(),
             Self::Tables(_) => "list of tables".to_owned(),
         }

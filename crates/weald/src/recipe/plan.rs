@@ -1,7 +1,9 @@
 //! The checked recipe. Nothing runs before the whole of it has been checked, and one look shows all faults.
 
+mod files;
 mod landscape;
 mod layers;
+mod materials;
 mod outputs;
 mod steps;
 #[cfg(test)]
@@ -9,12 +11,15 @@ mod tests;
 
 use std::fs::File;
 use std::io::{ErrorKind, Read};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 pub use landscape::{Ground, LandscapeKeys};
+pub use materials::{BuiltIn, MaterialKeys, PlannedMaterial};
 pub use outputs::{Content, Output};
 pub use steps::Planned;
 
+use self::files::Files;
+use self::layers::Made;
 use super::catalog::CATALOG;
 use super::overrides::Overrides;
 use super::parameter::Complaints;
@@ -34,6 +39,8 @@ pub struct Recipe {
     pub ground: Ground,
     /// Seed of the landscape.
     pub seed: u64,
+    /// What the ground is made of, bedrock first.
+    pub materials: Vec<PlannedMaterial>,
     /// What is done, in order.
     pub steps: Vec<Planned>,
     /// What is written at the end.
@@ -42,6 +49,17 @@ pub struct Recipe {
 }
 
 impl Recipe {
+    /// All files that a run reads beside the recipe.
+    pub fn inputs(&self) -> Vec<PathBuf> {
+        let ground = match &self.ground {
+            Ground::File { path, .. } => Some(path.clone()),
+            Ground::Empty { .. } => None,
+        };
+        let materials = self.materials.iter().filter_map(|planned| Some(planned.file.as_ref()?.0.clone()));
+        let steps = self.steps.iter().flat_map(|planned| planned.step.files());
+        ground.into_iter().chain(materials).chain(steps).collect()
+    }
+
     /// Reads and checks the recipe in a file. No other file is opened.
     ///
     /// # Errors
@@ -129,10 +147,11 @@ fn check(
     complaints: &mut Complaints,
 ) -> Result<Recipe, Error> {
     complaints.subject.clear();
-    complaints.unknown_keys(recipe, &["landscape", "step", "output"]);
-    let folder = Path::new(file).parent().unwrap_or(Path::new(""));
-    let start = landscape::read(vocabulary, recipe, folder, complaints);
-    let (steps, all_understood) = steps::read(vocabulary, recipe, complaints);
+    complaints.unknown_keys(recipe, &["landscape", "material", "step", "output"]);
+    let files = Files { vocabulary, folder: Path::new(file).parent().unwrap_or(Path::new("")) };
+    let start = landscape::read(files, recipe, complaints);
+    let materials = materials::read(files, recipe, complaints);
+    let (steps, all_understood) = steps::read(files, recipe, complaints);
     let outputs = outputs::read(vocabulary, recipe, complaints);
     complaints.subject.clear();
     if recipe.get("output").is_none() {
@@ -142,11 +161,12 @@ fn check(
         complaints.add(1, "a recipe needs a [[step]] table, or `from` in [landscape]: there is no ground");
     }
     if let (true, Ok(ground)) = (all_understood, &start.ground) {
-        layers::check(ground, &steps, &outputs, complaints);
+        let made = Made { ground, materials: &materials, steps: &steps };
+        layers::check(&made, &outputs, complaints);
     }
     steps::check_sizes(&steps)?;
     let (file, text) = (file.to_owned(), canonical::text(recipe));
-    Ok(Recipe { file, ground: start.ground?, seed: start.seed, steps, outputs, text })
+    Ok(Recipe { file, ground: start.ground?, seed: start.seed, materials, steps, outputs, text })
 }
 
 /// All tables of a `[[section]]`.

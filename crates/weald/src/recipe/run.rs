@@ -16,7 +16,8 @@ use super::report::{REPORT_FILE, Report, StepReport};
 use crate::engine::{Engine, Job};
 use crate::error::Error;
 use crate::landscape::Landscape;
-use crate::step::Outcome;
+use crate::material::layer_names;
+use crate::step::{Layered, Outcome};
 use desk::{Clock, Desk};
 use writer::Writer;
 
@@ -79,7 +80,7 @@ impl Recipe {
     /// # Errors
     /// [`Error::Input`] for a damaged elevation model, [`Error::Run`] where a step fails.
     pub fn landscape(&self) -> Result<Landscape, Error> {
-        let (mut landscape, _) = ground::load(&self.ground)?;
+        let (mut landscape, _) = ground::load(self)?;
         for planned in &self.steps {
             planned.step.run(&mut landscape, &Job::unwatched(planned.seed(self.seed)))?;
             check_layers(planned, &landscape)?;
@@ -133,7 +134,8 @@ impl Run<'_> {
     fn start(&self, progress: &dyn Progress) -> Result<State, Error> {
         let path = self.checkpoint();
         if self.options.resume {
-            let state = checkpoint::read(&path, self.recipe.effective())?;
+            let mut state = checkpoint::read(&path, self.recipe.effective())?;
+            state.landscape.materials = ground::materials(self.recipe);
             let done = state.simulation.as_ref().map_or(0, |simulation| simulation.iteration);
             progress.note(&format!("going on after {} steps and {done} iterations", state.done));
             return Ok(state);
@@ -142,7 +144,7 @@ impl Run<'_> {
             let path = path.display();
             progress.note(&format!("starting anew; the checkpoint {path} is used with --resume only"));
         }
-        let (landscape, notes) = ground::load(&self.recipe.ground)?;
+        let (landscape, notes) = ground::load(self.recipe)?;
         for note in &notes {
             progress.note(note);
         }
@@ -188,7 +190,7 @@ impl Run<'_> {
         let started = Instant::now();
         let desk = Desk::new(self, state, progress, clock);
         let seed = planned.seed(self.recipe.seed);
-        let job = Job { seed, engine: self.options.engine, watcher: &desk, resume };
+        let job = Job { seed, engine: self.options.engine.clone(), watcher: &desk, resume };
         let result = planned.step.run(&mut landscape, &job);
         drop(job);
         let result = result.and_then(|outcome| {
@@ -238,7 +240,7 @@ impl Run<'_> {
         let outputs = outputs.collect::<Result<_, _>>()?;
         let report = Report {
             engine: self.options.engine.name().to_owned(),
-            adapter: None,
+            adapter: self.options.engine.adapter(),
             seed: self.recipe.seed,
             recipe_blake3: hash.clone(),
             version: env!("CARGO_PKG_VERSION").to_owned(),
@@ -254,7 +256,11 @@ impl Run<'_> {
 /// All layers that a step declares must be there and hold numbers.
 fn check_layers(planned: &Planned, landscape: &Landscape) -> Result<(), Error> {
     let land = landscape.domain.land.as_ref();
-    for (name, _) in planned.step.writes() {
+    let mut written: Vec<_> = planned.step.writes().into_iter().map(|(name, _)| name).collect();
+    if planned.step.layered() == Layered::Changes {
+        written.extend(layer_names(&landscape.materials).map(str::to_owned));
+    }
+    for name in written {
         let field = landscape.field(&name)?;
         if let Some((x, y)) = field.first_not_finite(land) {
             let value = field.at(x, y);

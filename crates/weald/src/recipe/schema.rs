@@ -4,8 +4,9 @@ use serde_json::{Map, Value, json};
 
 use super::catalog::CATALOG;
 use super::parameter::{Kind, Parameter, Parameters};
-use super::plan::LandscapeKeys;
+use super::plan::{LandscapeKeys, MaterialKeys};
 use crate::io::FORMATS;
+use crate::material::MOST;
 use crate::picture::PICTURES;
 
 /// The schema, in the dialect of 2020-12.
@@ -26,6 +27,11 @@ pub fn schema() -> Value {
         "required": ["output"],
         "properties": {
             "landscape": landscape(),
+            "material": {
+                "type": "array",
+                "maxItems": MOST,
+                "items": table(&MaterialKeys::parameters()),
+            },
             "step": { "type": "array", "items": one_of(&steps.collect::<Vec<_>>()) },
             "output": {
                 "type": "array",
@@ -119,12 +125,19 @@ fn of_kind(kind: &Kind) -> Value {
         Kind::Integer(low, high) => bounded("integer", low.max(0.0), *high),
         Kind::Flag => json!({ "type": "boolean" }),
         Kind::Choice(words) => json!({ "enum": words }),
-        Kind::Text => json!({ "type": "string" }),
+        Kind::Text | Kind::Raster | Kind::Script => json!({ "type": "string" }),
+        Kind::Colour => json!({ "type": "string", "pattern": "^#[0-9A-Fa-f]{6}$" }),
         Kind::Layer => json!({ "type": "string", "pattern": "^[A-Za-z0-9_-]{1,64}$" }),
         Kind::Numbers(low, high) => json!({ "type": "array", "items": bounded("number", *low, *high) }),
         Kind::Sides => {
             let side = json!({ "type": "integer", "minimum": 1 });
             json!({ "oneOf": [side, { "type": "array", "items": side, "minItems": 2, "maxItems": 2 }] })
+        }
+        Kind::Places => {
+            let place = json!({
+                "type": "array", "items": { "type": "number" }, "minItems": 2, "maxItems": 2,
+            });
+            json!({ "oneOf": [place, { "type": "array", "items": place, "minItems": 1 }] })
         }
         Kind::Table(parameters) => table(parameters),
         Kind::Tables(parameters) => json!({ "type": "array", "items": table(parameters) }),
@@ -166,6 +179,15 @@ mod tests {
             pattern.starts_with(r"\.([tT][iI][fF]|") && pattern.ends_with("|[nN][pP][yY])$"),
             "{pattern}"
         );
+    }
+
+    #[test]
+    fn materials_are_described_and_counted() {
+        let materials = &schema()["properties"]["material"];
+        assert_eq!(materials["maxItems"], 8);
+        assert_eq!(materials["items"]["required"], json!(["name"]));
+        assert_eq!(materials["items"]["properties"]["colour"]["pattern"], "^#[0-9A-Fa-f]{6}$");
+        assert_eq!(materials["items"]["properties"]["like"]["enum"][0], "rock");
     }
 
     #[test]

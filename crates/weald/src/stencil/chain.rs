@@ -10,6 +10,9 @@ use std::ops::Range;
 
 use super::ring::Ring;
 use super::rows::Layout;
+use crate::engine::program::Program;
+use crate::engine::uniform::Uniform;
+use crate::grid::Size;
 
 /// Sums that a process keeps for each row, in the process's own order.
 pub(crate) const SUMS: usize = 5;
@@ -20,7 +23,7 @@ pub(crate) type RowSums = [f64; SUMS];
 /// A simulation step as a stream of rows.
 pub(crate) trait Process: Sync {
     /// What differs from step to step: rain or sunshine.
-    type Weather: Copy + Send + Sync;
+    type Weather: Uniform + Copy + Send + Sync;
     /// Rows in flight within one step.
     type Scratch: Send;
 
@@ -34,6 +37,12 @@ pub(crate) trait Process: Sync {
     fn reach(&self) -> usize;
     /// Memory for one step over rows of this many cells.
     fn scratch(&self, columns: usize) -> Self::Scratch;
+    /// The same process over a part of the domain, as if it were the whole.
+    fn sized(&self, size: Size) -> Self
+    where
+        Self: Sized;
+    /// The same step as compute passes.
+    fn program(&self) -> Program;
     /// Takes row `flow.y` in and finishes row `flow.y - lag` of the output.
     fn advance(&self, flow: &mut Flow<'_, Self>);
 }
@@ -76,13 +85,15 @@ pub(crate) struct SumsOfRows<'a> {
     pub(crate) first: usize,
     /// One entry a row.
     pub(crate) rows: &'a mut [RowSums],
+    /// Columns that are counted.
+    pub(crate) columns: Range<usize>,
 }
 
 impl SumsOfRows<'_> {
     /// Adds the sum of `cells` to sum number `which` of row `y`, if this band owns the row.
     pub(crate) fn add(&mut self, y: usize, which: usize, cells: &[f32]) {
         if let Some(row) = y.checked_sub(self.first).and_then(|row| self.rows.get_mut(row)) {
-            row[which] += sum_in_lanes(cells);
+            row[which] += sum_in_lanes(&cells[self.columns.clone()]);
         }
     }
 }
@@ -143,6 +154,8 @@ pub(crate) struct Passage<'a, P: Process> {
     pub(crate) above: &'a [f32],
     pub(crate) below: &'a [f32],
     pub(crate) sums: &'a mut [RowSums],
+    /// Columns of which the sums are counted.
+    pub(crate) columns: Range<usize>,
 }
 
 impl<P: Process> Passage<'_, P> {
@@ -176,7 +189,7 @@ impl<P: Process> Passage<'_, P> {
             weather: self.weather[step],
             y,
             span: self.span.clone(),
-            sums: &mut SumsOfRows { first: self.first, rows: self.sums },
+            sums: &mut SumsOfRows { first: self.first, rows: self.sums, columns: self.columns.clone() },
         });
     }
 

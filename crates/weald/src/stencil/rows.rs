@@ -73,6 +73,11 @@ impl Rows {
         self.layout.plane_mut(&mut self.memory[y * length..][..length], plane)
     }
 
+    /// Column, row and plane of the first value that is a NaN or an infinity, over the first `planes` planes.
+    pub(crate) fn first_not_finite(&self, planes: usize) -> Option<[usize; 3]> {
+        first_not_finite(self.layout, self.memory.chunks_exact(self.layout.row_length()), planes)
+    }
+
     /// A copy of one plane, row-major without padding.
     pub(crate) fn gather(&self, plane: usize) -> Vec<f32> {
         (0..self.count()).flat_map(|y| self.plane(y, plane).iter().copied()).collect()
@@ -84,4 +89,19 @@ impl Rows {
             self.plane_mut(y, plane).copy_from_slice(row);
         }
     }
+}
+
+/// Column, row and plane of the first value that is a NaN or an infinity, over the first `planes` planes.
+pub(crate) fn first_not_finite<'a>(
+    layout: Layout,
+    rows: impl Iterator<Item = &'a [f32]>,
+    planes: usize,
+) -> Option<[usize; 3]> {
+    // A fold over all cells, rather than a search, is what the compiler turns into vector code.
+    let finite = |row: &[f32]| row.iter().fold(true, |all, value| all & value.is_finite());
+    rows.enumerate().find_map(|(y, row)| {
+        let plane = (0..planes).find(|&plane| !finite(layout.plane(row, plane)))?;
+        let x = layout.plane(row, plane).iter().position(|value| !value.is_finite())?;
+        Some([x, y, plane])
+    })
 }

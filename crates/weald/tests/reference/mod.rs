@@ -7,6 +7,7 @@
 )]
 
 pub mod advection;
+pub mod flux_corrected;
 pub mod stava;
 pub mod thermal;
 
@@ -177,6 +178,7 @@ impl World {
         }
         let mut depth = self.depth.clone();
         self.carry(&mut depth, |_| 1.0);
+        let before = self.depth.clone();
         for (depth, _) in depth.iter_mut().zip(&self.land).filter(|(_, land)| **land) {
             *depth += rain - depth.max(0.0).min(evaporation);
         }
@@ -185,7 +187,7 @@ impl World {
         self.drain();
         let moved = Moved { velocity: self.face_velocities(keys), found: self.sediment.clone() };
         self.settle_han(keys, &sines, &moved);
-        self.advect(keys.transport, &moved.velocity);
+        self.advect(keys, &moved.velocity, &before);
     }
 
     /// Eq. 4 to 6, and the free fall over open edges.
@@ -262,7 +264,7 @@ impl World {
             self.carry(&mut carried, |giver| concentration[giver]);
             self.sediment = carried;
         } else {
-            self.advect(keys.transport, &velocity);
+            self.advect(keys, &velocity, &rained);
         }
     }
 
@@ -307,9 +309,12 @@ impl World {
         }
     }
 
-    fn advect(&mut self, transport: Transport, velocity: &[[f64; 2]]) {
-        self.sediment = match transport {
+    fn advect(&mut self, keys: &Hydraulic, velocity: &[[f64; 2]], depth_before: &[f64]) {
+        self.sediment = match keys.transport {
             Transport::Upwind => return,
+            Transport::MacCormack if keys.conserve != Some(false) => {
+                flux_corrected::carry(self, depth_before, keys.epsilon.expect("given"))
+            }
             Transport::SemiLagrangian => advection::depart(self, &self.sediment, velocity, 1.0),
             Transport::MacCormack => advection::maccormack(self, velocity),
         };

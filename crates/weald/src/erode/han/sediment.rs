@@ -58,6 +58,14 @@ impl Han {
         }
     }
 
+    /// Fluxes through the faces and the water before them, for transport in flux form.
+    pub(super) fn fluxes(&self, flow: &mut Flow<'_, Self>, y: usize) {
+        let settled = &mut flow.scratch.settled;
+        settled.eastward.here_mut(y).copy_from_slice(flow.output[plane::EAST].here(y));
+        settled.southward.here_mut(y).copy_from_slice(flow.output[plane::SOUTH].here(y));
+        settled.depth.here_mut(y).copy_from_slice(flow.input[plane::DEPTH].here(y));
+    }
+
     /// Velocities of the cells, for the advection.
     pub(super) fn cell_velocity(&self, flow: &mut Flow<'_, Self>, y: usize) {
         let scratch = &mut *flow.scratch;

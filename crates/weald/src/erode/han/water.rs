@@ -88,7 +88,7 @@ impl Han {
         let share = scratch.share.here_mut(y);
         let concentration = scratch.concentration.here_mut(y);
         let epsilon = self.constants.epsilon;
-        if self.constants.limiter {
+        if self.limiter {
             Limit { depth, sediment, east, west, south, north, share, concentration, epsilon }
                 .run(self.setting.arch);
         } else {

@@ -1,6 +1,6 @@
 //! Keys that mean nothing together, told before anything runs.
 
-use super::{Boundary, Hydraulic, Model, UptakeLaw};
+use super::{Boundary, Hydraulic, Model, Transport, UptakeLaw};
 
 impl Hydraulic {
     pub(super) fn all_faults(&self) -> Vec<String> {
@@ -26,7 +26,22 @@ impl Hydraulic {
             let fault = "`region` has walls around it, so `boundary` must be \"closed\"";
             faults.push(fault.to_owned());
         }
+        faults.extend(self.faults_of_transport());
         faults
+    }
+
+    fn faults_of_transport(&self) -> Option<String> {
+        match (self.transport, self.conserve) {
+            (Transport::Upwind, Some(false)) => {
+                Some("`conserve` is false, but transport = \"upwind\" always conserves sediment".to_owned())
+            }
+            (Transport::SemiLagrangian, Some(true)) => Some(
+                "`conserve` is true, but transport = \"semi-lagrangian\" cannot conserve sediment; \
+                 \"maccormack\" and \"upwind\" can"
+                    .to_owned(),
+            ),
+            _ => None,
+        }
     }
 
     /// What stava does not know.
@@ -45,6 +60,7 @@ impl Hydraulic {
     /// What only stava knows.
     fn keys_of_stava(&self) -> Vec<String> {
         let given = [
+            ("edits", self.edits.is_some()),
             ("rain_layer", self.rain_layer.is_some()),
             ("evaporation_layer", self.evaporation_layer.is_some()),
             ("source_layer", self.source_layer.is_some()),

@@ -2,14 +2,15 @@
 
 use pulp::Arch;
 
-use super::{Boundary, Filled, Hydraulic, Model, Transport, UptakeLaw};
-use crate::engine::world::World;
+use super::{Boundary, Filled, Hydraulic, Model, UptakeLaw};
+use crate::engine::machine::{self, Means, Snapshot};
 use crate::engine::{Engine, Job};
+use crate::erode::edits::Edits;
 use crate::erode::han::{self, Han, HanConstants};
 use crate::erode::links::Links;
 use crate::erode::mei::{self, Mei, MeiConstants};
 use crate::erode::setting::Setting;
-use crate::erode::simulation::{Finished, Part, Record, Simulation, Sky};
+use crate::erode::simulation::{Finished, Record, Simulation, Sky};
 use crate::erode::working::{Kept, Working};
 use crate::error::Error;
 use crate::landscape::Landscape;
@@ -25,9 +26,11 @@ pub(super) const MEI_PLANES: &[&str] =
 pub(super) struct Chosen<P> {
     pub(super) process: P,
     pub(super) plane_names: Vec<String>,
-    pub(super) means: &'static [&'static [Part]],
+    pub(super) means: Means<'static>,
     /// Constant planes behind those of every model.
     pub(super) constants: Vec<Vec<f32>>,
+    /// What a person changes between the steps.
+    pub(super) edits: Option<Edits>,
 }
 
 impl<P: Process> Chosen<P> {
@@ -52,7 +55,7 @@ impl Hydraulic {
         }
         if self.model == Model::Stava {
             let deposit = self.deposit_of(landscape)?;
-            working.set_stack(landscape, self.column(landscape), deposit);
+            working.set_stack(landscape, self.column(landscape), deposit)?;
         }
         Ok(working)
     }
@@ -70,8 +73,7 @@ impl Hydraulic {
             Model::Mei => self.simulate(&self.mei(filled, working), job, filled, working),
             Model::Stava => self.simulate(&self.stava(landscape, filled, working)?, job, filled, working),
         }?;
-        let conserving = self.transport == Transport::Upwind;
-        let kept = Kept { iterations: u64::from(self.iterations), conserving };
+        let kept = Kept { iterations: u64::from(self.iterations), conserving: self.conserves() };
         Ok(working.store(landscape, &self.layer.0, &finished, kept))
     }
 
@@ -88,6 +90,7 @@ impl Hydraulic {
             iterations: u64::from(self.iterations),
             weather: &|step| self.sky(filled, step),
             record: Some(Record { steps: self.last_cycle(filled), means: chosen.means }),
+            edits: chosen.edits.as_ref(),
         };
         simulation.run(chosen.start(working), job)
     }
@@ -102,13 +105,13 @@ impl Hydraulic {
             deposit_ratio: self.deposit_ratio as f32,
             epsilon: filled.epsilon,
             velocity_epsilon: filled.velocity_epsilon,
-            limiter: self.limiter,
         };
         Chosen {
-            process: Han { constants, setting: self.setting(working) },
+            process: Han { constants, limiter: self.limiter, setting: self.setting(filled, working) },
             plane_names: named(&["change", "water", "sediment", "flux_east", "flux_south"]),
             means: han::MEAN_FLUXES,
             constants: Vec::new(),
+            edits: None,
         }
     }
 
@@ -121,21 +124,21 @@ impl Hydraulic {
             deposit_ratio: self.deposit_ratio as f32,
             epsilon: filled.epsilon,
             velocity_epsilon: filled.velocity_epsilon,
-            limiter: self.limiter,
         };
         Chosen {
-            process: Mei { constants, setting: self.setting(working) },
+            process: Mei { constants, limiter: self.limiter, setting: self.setting(filled, working) },
             plane_names: named(MEI_PLANES),
             means: mei::MEAN_FLUXES,
             constants: Vec::new(),
+            edits: None,
         }
     }
 
-    pub(super) fn setting(&self, working: &Working) -> Setting {
+    pub(super) fn setting(&self, filled: &Filled, working: &Working) -> Setting {
         Setting {
             links: Links::new(working.size, working.mask.is_some()),
             open: self.boundary == Boundary::Open,
-            advection: self.advection(),
+            advection: self.advection(filled),
             slide: self.slide(),
             arch: Arch::new(),
         }
@@ -145,17 +148,17 @@ impl Hydraulic {
     ///
     /// # Errors
     /// [`Error::Run`] where the landscape lacks the layer.
-    pub fn seconds(&self, landscape: &Landscape, engine: Engine) -> Result<f64, Error> {
+    pub fn seconds(&self, landscape: &Landscape, engine: &Engine) -> Result<f64, Error> {
         let filled = self.filled(landscape.domain.cell);
         let working = self.working(landscape)?;
         let weather: Vec<_> = (0..u64::from(self.iterations)).map(|step| self.sky(&filled, step)).collect();
-        Ok(match self.model {
+        match self.model {
             Model::Han => seconds_of(&self.han(&filled, &working), &working, &weather, engine),
             Model::Mei => seconds_of(&self.mei(&filled, &working), &working, &weather, engine),
             Model::Stava => {
                 seconds_of(&self.stava(landscape, &filled, &working)?, &working, &weather, engine)
             }
-        })
+        }
     }
 }
 
@@ -163,10 +166,15 @@ fn seconds_of<P: Process<Weather = Sky>>(
     chosen: &Chosen<P>,
     working: &Working,
     weather: &[Sky],
-    engine: Engine,
-) -> f64 {
-    let mut world = World::new(&chosen.process, chosen.start(working), engine);
+    engine: &Engine,
+) -> Result<f64, Error> {
+    let start = Snapshot::start(chosen.start(working), 0);
+    let mut machine = machine::start(&chosen.process, &[], &start, engine)?;
+    // The first step compiles, allocates and warms up; the look at the end waits for a device.
+    machine.advance(&weather[..1], false)?;
+    machine.first_not_finite()?;
     let begun = std::time::Instant::now();
-    world.advance(weather);
-    begun.elapsed().as_secs_f64()
+    machine.advance(weather, false)?;
+    machine.first_not_finite()?;
+    Ok(begun.elapsed().as_secs_f64())
 }

@@ -2,6 +2,8 @@
 
 use super::models::{Chosen, MEI_PLANES, named};
 use super::{Filled, Hydraulic};
+use crate::edit::Script;
+use crate::erode::edits::{Edits, Place};
 use crate::erode::mei;
 use crate::erode::springs;
 use crate::erode::stack::Column;
@@ -39,6 +41,7 @@ impl Hydraulic {
     ) -> Result<Chosen<Stava>, Error> {
         let column = self.column(landscape);
         let weather = self.weather_planes(landscape, working)?;
+        let edits = self.edits(landscape, working)?;
         let process = Stava {
             constants: StavaConstants {
                 flow_rate: filled.flow_rate,
@@ -52,11 +55,11 @@ impl Hydraulic {
             erosion: self.digging(landscape, filled)?,
             dissolution: self.dissolution_in(landscape, filled)?,
             slippage: self.slippage_in(landscape)?,
-            setting: self.setting(working),
+            setting: self.setting(filled, working),
         };
         let mut plane_names = named(MEI_PLANES);
         plane_names.extend(column.names(&landscape.materials));
-        Ok(Chosen { process, plane_names, means: mei::MEAN_FLUXES, constants: weather })
+        Ok(Chosen { process, plane_names, means: mei::MEAN_FLUXES, constants: weather, edits })
     }
 
     fn viscosity_in(&self, cell: f64) -> Option<Viscosity> {
@@ -85,12 +88,22 @@ impl Hydraulic {
         within.map(|Nested(within)| within.slippage(&landscape.materials)).transpose()
     }
 
+    /// The strokes of the script, which is read here.
+    fn edits(&self, landscape: &Landscape, working: &Working) -> Result<Option<Edits>, Error> {
+        let Some(file) = &self.edits else { return Ok(None) };
+        let names: Vec<_> = landscape.materials.iter().map(|material| material.name.as_str()).collect();
+        let script = Script::load(&file.path(), &names)?;
+        let place = Place::of(working, self.column(landscape));
+        Edits::new(script, names.into_iter().map(str::to_owned).collect(), place).map(Some)
+    }
+
     /// Share of the rain, share of the evaporation, and sources in cells a step; none where nothing is painted.
     fn weather_planes(&self, landscape: &Landscape, working: &Working) -> Result<Vec<Vec<f32>>, Error> {
         let layer = |name: &Option<LayerName>| name.as_ref().map(|name| landscape.field(&name.0)).transpose();
         let shares = [layer(&self.rain_layer)?, layer(&self.evaporation_layer)?];
         let painted = layer(&self.source_layer)?;
         let plain = painted.is_none() && self.sources.is_empty() && self.drains.is_empty();
+        let plain = plain && self.edits.is_none();
         if plain && shares == [None, None] {
             return Ok(Vec::new());
         }

@@ -177,3 +177,14 @@ kernel! {
         sediment = worth_counting(before + (came - went));
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::LEAST_SINE;
+    use crate::engine::program::twin::number;
+
+    #[test]
+    fn the_shader_has_the_same_constants() {
+        assert_eq!(number(include_str!("kernels.wgsl"), "LEAST_SINE") as f32, LEAST_SINE);
+    }
+}

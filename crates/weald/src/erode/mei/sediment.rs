@@ -2,6 +2,7 @@
 
 use super::{Mei, plane};
 use crate::erode::before;
+use crate::erode::flux_corrected::NetFlux;
 use crate::erode::mei::kernels::{Carry, Exchange, Load, LoadUnlimited};
 use crate::erode::sums;
 use crate::stencil::chain::Flow;
@@ -58,13 +59,30 @@ impl Mei {
         }
     }
 
+    /// Fluxes through the faces and the water before them, for transport in flux form.
+    pub(super) fn fluxes(&self, flow: &mut Flow<'_, Self>, y: usize) {
+        let scratch = &mut *flow.scratch;
+        let [_, _, _, east, west, south, north] = &*flow.output else { unreachable!("seven state planes") };
+        let from_south = if y + 1 < flow.span.end { north.here(y + 1) } else { scratch.still.here(0) };
+        scratch.settled.depth.here_mut(y).copy_from_slice(scratch.rained.here(y));
+        NetFlux {
+            east: east.here(y),
+            from_east: west.east(y),
+            south: south.here(y),
+            from_south,
+            eastward: scratch.settled.eastward.here_mut(y),
+            southward: scratch.settled.southward.here_mut(y),
+        }
+        .run(self.setting.arch);
+    }
+
     pub(super) fn load(&self, flow: &mut Flow<'_, Self>, y: usize) {
         let scratch = &mut *flow.scratch;
         let sediment = scratch.settled.sediment.here(y);
         let depth = scratch.rained.here(y);
         let concentration = scratch.concentration.here_mut(y);
         let epsilon = self.constants.epsilon;
-        if self.constants.limiter {
+        if self.limiter {
             Load { sediment, depth, concentration, epsilon }.run(self.setting.arch);
             return;
         }

@@ -56,7 +56,7 @@ impl Mei {
                     south: south.here_mut(y),
                     north: north.here_mut(y),
                     flow_rate: self.constants.flow_rate,
-                    most: if self.constants.limiter { 0.0 } else { f32::INFINITY },
+                    most: if self.limiter { 0.0 } else { f32::INFINITY },
                 }
                 .run(self.setting.arch)
             };

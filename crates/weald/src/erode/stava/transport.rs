@@ -3,12 +3,18 @@
 
 use super::Stava;
 use crate::erode::before;
+use crate::erode::flux_corrected::NetFlux;
 use crate::erode::mei::kernels::{Carry, Load};
 use crate::stencil::chain::Flow;
 
 impl Stava {
     /// Moves the sediment of the next row that is ready.
     pub(super) fn transport(&self, flow: &mut Flow<'_, Self>) {
+        if self.setting.in_flux_form()
+            && let Some(y) = flow.behind(self.exchanged())
+        {
+            self.fluxes(flow, y);
+        }
         if self.setting.advection.is_some() {
             self.setting.advect(flow, flow.y.checked_sub(self.exchanged()));
             return;
@@ -19,6 +25,25 @@ impl Stava {
         if let Some(y) = flow.behind(self.exchanged() + 1) {
             self.carry(flow, y);
         }
+    }
+
+    /// Fluxes through the faces and the water before them, for transport in flux form.
+    fn fluxes(&self, flow: &mut Flow<'_, Self>, y: usize) {
+        let scratch = &mut *flow.scratch;
+        let [_, _, _, east, west, south, north, ..] = &*flow.output else {
+            unreachable!("seven planes and more")
+        };
+        let from_south = if y + 1 < flow.span.end { north.here(y + 1) } else { scratch.still.here(0) };
+        scratch.settled.depth.here_mut(y).copy_from_slice(scratch.rained.here(y));
+        NetFlux {
+            east: east.here(y),
+            from_east: west.east(y),
+            south: south.here(y),
+            from_south,
+            eastward: scratch.settled.eastward.here_mut(y),
+            southward: scratch.settled.southward.here_mut(y),
+        }
+        .run(self.setting.arch);
     }
 
     fn load(&self, flow: &mut Flow<'_, Self>, y: usize) {

@@ -1,11 +1,11 @@
 //! The `[landscape]` table: what the ground starts from.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-use super::Vocabulary;
+use super::files::Files;
 use crate::error::Error;
 use crate::grid::Size;
-use crate::recipe::parameter::{Complaints, Parameters, Sides};
+use crate::recipe::parameter::{Complaints, Parameters, RasterFile, Sides};
 use crate::recipe::source::{Table, Value};
 
 crate::parameters! {
@@ -19,7 +19,7 @@ crate::parameters! {
         seed: u64 = 0, range 0..=9_007_199_254_740_991_u64;
         /// An elevation model to start from instead of a size, relative to the recipe's folder. It becomes the
         /// layer `height`; its cell size, place on Earth and no-data cells are kept.
-        from: Option<String> = None;
+        from: Option<RasterFile> = None;
     }
 }
 
@@ -48,12 +48,7 @@ pub(super) struct Start {
     pub(super) seed: u64,
 }
 
-pub(super) fn read(
-    vocabulary: &Vocabulary,
-    recipe: &Table,
-    folder: &Path,
-    complaints: &mut Complaints,
-) -> Start {
+pub(super) fn read(files: Files<'_>, recipe: &Table, complaints: &mut Complaints) -> Start {
     "landscape".clone_into(&mut complaints.subject);
     let absent = Table { line: 1, entries: Vec::new() };
     let table = match recipe.get("landscape").map(|node| (&node.value, node.line)) {
@@ -65,18 +60,12 @@ pub(super) fn read(
         }
         None => &absent,
     };
-    let keys = LandscapeKeys::read(table, complaints);
-    Start { seed: keys.seed, ground: ground(vocabulary, table, &keys, folder, complaints) }
+    let table = files.placed(table, &LandscapeKeys::parameters(), complaints);
+    let keys = LandscapeKeys::read(&table, complaints);
+    Start { seed: keys.seed, ground: ground(&table, &keys, complaints) }
 }
 
-fn ground(
-    vocabulary: &Vocabulary,
-    table: &Table,
-    keys: &LandscapeKeys,
-    folder: &Path,
-    complaints: &mut Complaints,
-) -> Result<Ground, Error> {
-    let line_of = |key| table.get(key).map_or(table.line, |node| node.line);
+fn ground(table: &Table, keys: &LandscapeKeys, complaints: &mut Complaints) -> Result<Ground, Error> {
     let Some(from) = &keys.from else {
         if table.get("size").is_none() && table.get("from").is_none() {
             complaints.add(table.line, "`size` is needed (cells a side, or [columns, rows]), or `from`");
@@ -88,15 +77,7 @@ fn ground(
     };
     if keys.size.is_some() {
         let message = "`size` does not go with `from`: it comes from the file; a `resample` step changes it";
-        complaints.add(line_of("size"), message);
+        complaints.add(table.get("size").map_or(table.line, |node| node.line), message);
     }
-    let path = folder.join(from);
-    match (vocabulary.format_of)(&path) {
-        Ok(format) if format.decode.is_none() => {
-            complaints.add(line_of("from"), format!("`from`: {} is written, not read", format.name));
-        }
-        Ok(_) => {}
-        Err(problem) => complaints.add(line_of("from"), format!("`from`: {problem}")),
-    }
-    Ok(Ground::File { path, cell: keys.cell })
+    Ok(Ground::File { path: from.path(), cell: keys.cell })
 }

@@ -2,24 +2,41 @@
 
 use std::collections::BTreeMap;
 
-use super::{Ground, Output, Planned, hint};
+use super::{Ground, Output, Planned, PlannedMaterial, hint};
+use crate::material::{BEDROCK, Material, layer_names};
 use crate::recipe::parameter::Complaints;
+use crate::step::Layered;
 
-pub(super) fn check(ground: &Ground, steps: &[Planned], outputs: &[Output], complaints: &mut Complaints) {
-    let mut layers = Layers::default();
-    if let Ground::File { path, .. } = ground {
-        layers.write(&format!("`from` ({})", path.display()), &["height".to_owned()]);
-    }
-    for (index, planned) in steps.iter().enumerate() {
+/// All that makes layers.
+pub(super) struct Made<'a> {
+    pub(super) ground: &'a Ground,
+    pub(super) materials: &'a [PlannedMaterial],
+    pub(super) steps: &'a [Planned],
+}
+
+pub(super) fn check(made: &Made<'_>, outputs: &[Output], complaints: &mut Complaints) {
+    let mut layers = made.at_the_start();
+    let materials: Vec<_> = made.materials.iter().map(|planned| planned.material.clone()).collect();
+    for (index, planned) in made.steps.iter().enumerate() {
         planned.entry.name.clone_into(&mut complaints.subject);
         for name in planned.step.reads() {
             if !layers.read(&name) {
-                let message =
-                    format!("reads layer `{name}`, which no earlier step writes; {}", layers.hint(&name));
+                let hint = layers.hint(&name, &materials);
+                let message = format!("reads layer `{name}`, which no earlier step writes; {hint}");
                 complaints.add(planned.line, message);
             }
         }
-        let written: Vec<_> = planned.step.writes().into_iter().map(|(name, _)| name).collect();
+        let layered = planned.step.layered();
+        if layered != Layered::Never {
+            // A material without a layer is made from its declaration, so none of them need be there.
+            for name in layer_names(&materials) {
+                layers.read(name);
+            }
+        }
+        let mut written: Vec<_> = planned.step.writes().into_iter().map(|(name, _)| name).collect();
+        if layered == Layered::Changes {
+            written.extend(layer_names(&materials).map(str::to_owned));
+        }
         let title = format!("step {} (`{}`, line {})", index + 1, planned.entry.name, planned.line);
         for lost in layers.write(&title, &written) {
             let message = format!(
@@ -33,11 +50,26 @@ pub(super) fn check(ground: &Ground, steps: &[Planned], outputs: &[Output], comp
     for output in outputs {
         for name in output.reads() {
             if !layers.read(&name) {
-                let (file, hint) = (output.file.display(), layers.hint(&name));
+                let (file, hint) = (output.file.display(), layers.hint(&name, &materials));
                 let message = format!("{file} needs layer `{name}`, which no step writes; {hint}");
                 complaints.add(output.line, message);
             }
         }
+    }
+}
+
+impl Made<'_> {
+    /// The layers before the first step: those that are read from files.
+    fn at_the_start(&self) -> Layers {
+        let mut layers = Layers::default();
+        if let Ground::File { path, .. } = self.ground {
+            layers.write(&format!("`from` ({})", path.display()), &["height".to_owned()]);
+        }
+        for planned in self.materials.iter().filter(|planned| planned.file.is_some()) {
+            let name = &planned.material.name;
+            layers.write(&format!("material `{name}` (line {})", planned.line), std::slice::from_ref(name));
+        }
+        layers
     }
 }
 
@@ -83,7 +115,13 @@ impl Layers {
         lost
     }
 
-    fn hint(&self, name: &str) -> String {
+    fn hint(&self, name: &str, materials: &[Material]) -> String {
+        if materials.first().is_some_and(|first| first.name == name) {
+            return format!("the layer of the first material is `{BEDROCK}`");
+        }
+        if materials.iter().any(|material| material.name == name) {
+            return "a `layers` step writes the layers of all materials".to_owned();
+        }
         hint(name, &self.writer_of.keys().map(String::as_str).collect::<Vec<_>>())
     }
 }

@@ -1,5 +1,6 @@
 //! The `[[step]]` tables.
 
+use super::files::Files;
 use super::{Vocabulary, hint, tables};
 use crate::error::Error;
 use crate::grid::Size;
@@ -33,19 +34,15 @@ impl Planned {
 }
 
 /// Reads all steps, and says whether each of them was understood in full.
-pub(super) fn read(
-    vocabulary: &Vocabulary,
-    recipe: &Table,
-    complaints: &mut Complaints,
-) -> (Vec<Planned>, bool) {
+pub(super) fn read(files: Files<'_>, recipe: &Table, complaints: &mut Complaints) -> (Vec<Planned>, bool) {
     let before = complaints.found.len();
     "step".clone_into(&mut complaints.subject);
     let mut steps: Vec<Planned> = Vec::new();
     for table in tables(recipe, "step", complaints) {
         "step".clone_into(&mut complaints.subject);
-        if let Some(entry) = entry_of(vocabulary, table, complaints) {
+        if let Some(entry) = entry_of(files.vocabulary, table, complaints) {
             let occurrence = steps.iter().filter(|earlier| earlier.entry.name == entry.name).count() as u64;
-            let step = read_step(entry, table, complaints);
+            let step = read_step(files, entry, table, complaints);
             steps.push(Planned { entry, line: table.line, occurrence, step });
         }
     }
@@ -73,10 +70,10 @@ fn entry_of(vocabulary: &Vocabulary, table: &Table, complaints: &mut Complaints)
     }
 }
 
-fn read_step(entry: &Entry, table: &Table, complaints: &mut Complaints) -> Box<dyn Step> {
+fn read_step(files: Files<'_>, entry: &Entry, table: &Table, complaints: &mut Complaints) -> Box<dyn Step> {
     entry.name.clone_into(&mut complaints.subject);
     let before = complaints.found.len();
-    let mut keys = table.clone();
+    let mut keys = files.placed(table, &(entry.parameters)(), complaints);
     keys.take("do");
     let step = (entry.read)(&keys, complaints);
     if complaints.found.len() == before {

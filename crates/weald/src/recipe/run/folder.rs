@@ -4,22 +4,21 @@ use std::path::Path;
 
 use crate::error::Error;
 use crate::io::write_whole;
-use crate::recipe::plan::{Ground, Recipe};
+use crate::recipe::plan::Recipe;
 
 /// Makes the folder and those of the outputs, and tries to write into each.
 pub(super) fn prepare(recipe: &Recipe, out: &Path) -> Result<(), Error> {
     make(out)?;
+    let inputs = recipe.inputs();
     for output in &recipe.outputs {
         let path = out.join(&output.file);
         make(path.parent().unwrap_or(out))?;
         if path.is_dir() {
             return Err(Error::Run(format!("cannot write {}: it is a folder", path.display())));
         }
-        if let Ground::File { path: input, .. } = &recipe.ground
-            && same_file(input, &path)
-        {
+        if inputs.iter().any(|input| same_file(input, &path)) {
             return Err(Error::Run(format!(
-                "{} is the recipe's own input and would be overwritten; choose another --out folder",
+                "{} is an input of the recipe and would be overwritten; choose another --out folder",
                 path.display()
             )));
         }

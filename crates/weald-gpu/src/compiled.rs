@@ -1,0 +1,106 @@
+//! Passes as pipelines, and what they are bound to.
+
+use std::sync::PoisonError;
+
+use weald::Error;
+use weald::engine::program::{MOST_BUFFERS, Pass, Program};
+use wgpu::{
+    BindGroup, BindGroupDescriptor, BindGroupEntry, BindGroupLayout, BindGroupLayoutDescriptor,
+    BindGroupLayoutEntry, BindingResource, BindingType, BufferBindingType, ComputePipeline,
+    ComputePipelineDescriptor, PipelineCompilationOptions, PipelineLayoutDescriptor, ShaderModuleDescriptor,
+    ShaderSource, ShaderStages,
+};
+
+use crate::gpu::Gpu;
+
+/// A compiled pass, which programs with the same module share.
+#[derive(Clone, Debug)]
+pub(crate) struct Pipeline {
+    pub(crate) pipeline: ComputePipeline,
+    layout: BindGroupLayout,
+}
+
+/// What a pass is bound to, by binding.
+pub(crate) type Bindings<'a> = Vec<(u32, BindingResource<'a>)>;
+
+impl Pipeline {
+    /// The pipeline of a pass, compiled where it is new.
+    pub(crate) fn of(gpu: &Gpu, program: &Program, pass: &Pass) -> Result<Self, Error> {
+        let what = format!("pass `{}` of `{}`", pass.name, program.name);
+        let buffers = program.bound(pass).len() + usize::from(pass.tallies);
+        if buffers > MOST_BUFFERS {
+            return Err(Error::Device(format!(
+                "{what} binds {buffers} buffers; at most {MOST_BUFFERS} work"
+            )));
+        }
+        let key = (pass.name.to_owned(), program.module(pass));
+        let mut known = gpu.context.pipelines.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(pipeline) = known.get(&key) {
+            return Ok(pipeline.clone());
+        }
+        let entries = entries(program, pass);
+        let pipeline = gpu.context.attempt(&what, || Ok(Self::compile(gpu, pass.name, &key.1, &entries)))?;
+        known.insert(key, pipeline.clone());
+        Ok(pipeline)
+    }
+
+    /// Compiles a module whose entry point has this name.
+    pub(crate) fn compile(gpu: &Gpu, name: &str, module: &str, entries: &[BindGroupLayoutEntry]) -> Self {
+        let device = &gpu.context.device;
+        let layout =
+            device.create_bind_group_layout(&BindGroupLayoutDescriptor { label: Some(name), entries });
+        let whole = device.create_pipeline_layout(&PipelineLayoutDescriptor {
+            label: Some(name),
+            bind_group_layouts: &[Some(&layout)],
+            immediate_size: 0,
+        });
+        let source = ShaderSource::Wgsl(module.into());
+        let module = device.create_shader_module(ShaderModuleDescriptor { label: Some(name), source });
+        let pipeline = device.create_compute_pipeline(&ComputePipelineDescriptor {
+            label: Some(name),
+            layout: Some(&whole),
+            module: &module,
+            entry_point: Some(name),
+            compilation_options: PipelineCompilationOptions::default(),
+            cache: None,
+        });
+        Self { pipeline, layout }
+    }
+
+    /// Binds resources.
+    pub(crate) fn bind(&self, gpu: &Gpu, bindings: Bindings<'_>) -> Result<BindGroup, Error> {
+        let entries: Vec<_> =
+            bindings.into_iter().map(|(binding, resource)| BindGroupEntry { binding, resource }).collect();
+        let description = BindGroupDescriptor { label: None, layout: &self.layout, entries: &entries };
+        gpu.context.attempt("binding buffers", || Ok(gpu.context.device.create_bind_group(&description)))
+    }
+}
+
+/// The bindings that [`Program::module`] declares.
+fn entries(program: &Program, pass: &Pass) -> Vec<BindGroupLayoutEntry> {
+    let mut entries = vec![entry(0, BufferBindingType::Uniform, true)];
+    if !program.constants.name.is_empty() {
+        entries.push(entry(1, BufferBindingType::Uniform, false));
+    }
+    if !program.weather.name.is_empty() {
+        entries.push(entry(2, BufferBindingType::Uniform, true));
+    }
+    let written = program.bound(pass).into_iter().map(|(_, written)| written);
+    let storage = written.chain(pass.tallies.then_some(true));
+    entries.extend(
+        (3..).zip(storage).map(|(binding, written)| {
+            entry(binding, BufferBindingType::Storage { read_only: !written }, false)
+        }),
+    );
+    entries
+}
+
+/// A binding of a buffer.
+pub(crate) fn entry(binding: u32, ty: BufferBindingType, has_dynamic_offset: bool) -> BindGroupLayoutEntry {
+    BindGroupLayoutEntry {
+        binding,
+        visibility: ShaderStages::COMPUTE,
+        ty: BindingType::Buffer { ty, has_dynamic_offset, min_binding_size: None },
+        count: None,
+    }
+}

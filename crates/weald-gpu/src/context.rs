@@ -1,0 +1,95 @@
+//! An open device: calls whose errors come back, and waiting for it.
+
+use std::collections::HashMap;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::{Arc, Mutex};
+use std::time::Duration;
+
+use weald::Error;
+use weald::engine::program::MOST_BUFFERS;
+use wgpu::{DeviceDescriptor, DeviceType, ErrorFilter, Limits, MemoryHints, SubmissionIndex};
+
+use crate::adapter;
+use crate::compiled::Pipeline;
+use crate::faults::{Faults, explain};
+
+/// Longest wait for a submission, which is made to take a tenth of a second: then the device hangs.
+const PATIENCE: Duration = Duration::from_mins(2);
+
+/// Memory from which the driver cuts small buffers. Small blocks waste little of a small budget.
+const BLOCK_BYTES: u64 = 4 << 20;
+
+/// A device and its queue.
+#[derive(Debug)]
+pub(crate) struct Context {
+    pub(crate) device: wgpu::Device,
+    pub(crate) queue: wgpu::Queue,
+    /// Adapter and driver.
+    pub(crate) adapter: String,
+    pub(crate) kind: DeviceType,
+    pub(crate) limits: Limits,
+    /// Pipelines by the name of their pass and the text of their module.
+    pub(crate) pipelines: Mutex<HashMap<(String, String), Pipeline>>,
+    faults: Arc<Faults>,
+}
+
+impl Context {
+    /// Opens a device with its largest buffers, and otherwise with what browsers grant too.
+    pub(crate) fn open(adapter: &wgpu::Adapter) -> Result<Self, Error> {
+        let name = adapter::describe(adapter);
+        let limits = limits(&adapter.limits());
+        let description = DeviceDescriptor {
+            required_limits: limits.clone(),
+            memory_hints: MemoryHints::Manual {
+                suballocated_device_memory_block_size: BLOCK_BYTES..BLOCK_BYTES,
+            },
+            ..DeviceDescriptor::default()
+        };
+        let opened = pollster::block_on(adapter.request_device(&description));
+        let (device, queue) = opened
+            .map_err(|cause| Error::Device(format!("{name} cannot be opened: {cause}; use --engine cpu")))?;
+        let (faults, kind) = (Faults::of(&device), adapter.get_info().device_type);
+        Ok(Self { device, queue, adapter: name, kind, limits, pipelines: Mutex::default(), faults })
+    }
+
+    /// Does something on the device. Whatever wgpu finds wrong with it becomes an error that names `what`.
+    pub(crate) fn attempt<T>(&self, what: &str, work: impl FnOnce() -> Result<T, Error>) -> Result<T, Error> {
+        self.faults.check(what)?;
+        let filters = [ErrorFilter::OutOfMemory, ErrorFilter::Validation, ErrorFilter::Internal];
+        let scopes = filters.map(|filter| self.device.push_error_scope(filter));
+        let done = work();
+        let caught = scopes.into_iter().rev().filter_map(|scope| pollster::block_on(scope.pop())).last();
+        self.faults.check(what)?;
+        match caught {
+            Some(error) => Err(explain(what, &error)),
+            None => done,
+        }
+    }
+
+    /// Waits until a submission is done, or all of them.
+    pub(crate) fn wait(&self, submission: Option<SubmissionIndex>) -> Result<(), Error> {
+        let wait = wgpu::PollType::Wait { submission_index: submission, timeout: Some(PATIENCE) };
+        // Where the device is lost during the wait, wgpu 30 panics instead of returning an error.
+        let polled = catch_unwind(AssertUnwindSafe(|| self.device.poll(wait)));
+        if polled.is_err() {
+            self.faults.lose("while work was waited for");
+        }
+        self.faults.check("waiting for the GPU")?;
+        match polled {
+            Ok(Err(cause)) => {
+                Err(Error::Device(format!("the GPU does not answer: {cause}; use --engine cpu")))
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+/// What is asked of a device: the least that programs need, and the largest buffers there are.
+fn limits(offered: &Limits) -> Limits {
+    Limits {
+        max_storage_buffers_per_shader_stage: MOST_BUFFERS as u32,
+        max_buffer_size: offered.max_buffer_size,
+        max_storage_buffer_binding_size: offered.max_storage_buffer_binding_size,
+        ..Limits::defaults().or_worse_values_from(offered)
+    }
+}

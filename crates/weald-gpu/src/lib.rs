@@ -1,0 +1,39 @@
+//! Runs Weald's processes on a graphics card: Vulkan, Metal or Direct3D 12, by wgpu.
+//!
+//! A [`Gpu`] is a [`weald::engine::device::Device`]. The library hands it programs that are data; here they
+//! become buffers, pipelines and submissions. State stays on the device until it is asked for. Every error is
+//! [`weald::Error::Device`]: no adapter, memory full, device lost; a fault of the device never panics.
+//!
+//! ```no_run
+//! # fn main() -> Result<(), weald::Error> {
+//! use weald::engine::Engine;
+//! use weald_gpu::Gpu;
+//!
+//! let engine = match Gpu::hardware()? {
+//!     Some(gpu) => Engine::DeviceElseCpu(std::sync::Arc::new(gpu)),
+//!     None => Engine::Cpu,
+//! };
+//! # Ok(())
+//! # }
+//! ```
+
+mod adapter;
+mod bandwidth;
+mod buffers;
+mod compiled;
+mod context;
+mod extents;
+mod faults;
+mod gpu;
+mod kept;
+mod memory;
+mod pace;
+mod parts;
+mod ready;
+mod running;
+mod slots;
+mod transfer;
+mod uniforms;
+mod watch;
+
+pub use gpu::Gpu;

@@ -1,0 +1,208 @@
+//! A program on the device, with its state.
+
+use weald::Error;
+use weald::engine::device::{Loaded, Window};
+use weald::engine::program::{COUNTED, Content, GROUP, Program};
+use weald::grid::Size;
+use wgpu::BufferUsages;
+
+use crate::buffers::Buffers;
+use crate::extents::{self, Extents};
+use crate::gpu::Gpu;
+use crate::kept::{Extent, Kept, is_state};
+use crate::memory::Store;
+use crate::pace::{Load, Pace, Sort};
+use crate::parts::{Bound, Cursor, Part, Work};
+use crate::ready::{Places, Ready, Round};
+use crate::transfer::{self, Transfer};
+use crate::uniforms::Uniforms;
+use crate::watch::Watch;
+
+/// A loaded program.
+#[derive(Debug)]
+pub(crate) struct Running {
+    gpu: Gpu,
+    program: Program,
+    /// The grid that there is memory for, and the one that it works on.
+    room: Extents,
+    now: Extents,
+    buffers: Buffers,
+    sums: Store,
+    uniforms: Uniforms,
+    passes: Vec<Ready>,
+    pace: Pace,
+    transfer: Transfer,
+    watch: Watch,
+    kept: Kept,
+}
+
+impl Running {
+    /// Compiles a program and makes its buffers.
+    pub(crate) fn new(gpu: Gpu, program: &Program, size: Size) -> Result<Self, Error> {
+        Extents::of(size, 1).check(&gpu, program)?;
+        let uniforms = Uniforms::new(&gpu, program)?;
+        let room = Extents::of(size, uniforms.grid.count());
+        let buffers = Buffers::new(&gpu, program, size)?;
+        let usage = BufferUsages::STORAGE | BufferUsages::COPY_SRC | BufferUsages::COPY_DST;
+        let sums = Store::new(&gpu, "the sums", room.sums_bytes(), usage)?;
+        let passes = Places { program, uniforms: &uniforms, buffers: &buffers, sums: &sums }.ready(&gpu)?;
+        let (transfer, watch, pace) = (Transfer::new(&gpu)?, Watch::new(&gpu)?, Pace::new(gpu.most_moved));
+        let mut running = Self {
+            program: program.clone(),
+            room,
+            now: room,
+            buffers,
+            sums,
+            uniforms,
+            passes,
+            pace,
+            transfer,
+            watch,
+            kept: Kept::default(),
+            gpu,
+        };
+        running.clear(|_| true)?;
+        running.begin(size, &Window::whole(size))?;
+        Ok(running)
+    }
+
+    /// Sets buffers of some contents to zero.
+    fn clear(&mut self, which: impl Fn(&Content) -> bool) -> Result<(), Error> {
+        for (number, buffer) in self.program.buffers.iter().enumerate() {
+            if which(&buffer.content) {
+                let store = self.buffers.now(number);
+                let bytes = extents::bytes(buffer, self.now.size);
+                transfer::clear(&self.gpu, &mut self.pace, &store.buffer, bytes)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// What now plays the role of a buffer, and the bytes that count.
+    fn store(&self, buffer: usize) -> Result<Extent<'_>, Error> {
+        let found = self.program.buffers.get(buffer).ok_or_else(|| {
+            let (name, count) = (self.program.name, self.program.buffers.len());
+            Error::Device(format!("`{name}` has {count} buffers, not one with number {buffer}"))
+        })?;
+        Ok((self.buffers.now(buffer), extents::bytes(found, self.now.size)))
+    }
+
+    /// All steps in as many submissions as their length takes.
+    fn submit_all(&mut self, work: &Work, weather: &[Vec<u32>]) -> Result<(), Error> {
+        let mut cursor = Cursor::default();
+        while cursor.step < work.steps {
+            let first = cursor.step;
+            let bound =
+                Bound { bytes: self.pace.allowance(Sort::Passes), steps: self.uniforms.weather.count() };
+            let (parts, bytes) = work.next(&mut cursor, bound);
+            let Some(last) = parts.last() else { break };
+            let words = weather[first..=last.step].iter().map(Vec::as_slice);
+            let packed = self.uniforms.weather.packed(words)?;
+            self.submit(&parts, bytes, &packed)?;
+        }
+        Ok(())
+    }
+
+    fn submit(&mut self, parts: &[Part], bytes: u64, weather: &[u8]) -> Result<(), Error> {
+        let Self { gpu, uniforms, pace, passes, buffers, now, .. } = self;
+        let staged = gpu.memory.hold(weather.len() as u64, "staging")?;
+        let sees_weather = !self.program.weather.name.is_empty();
+        let round = Round { passes, uniforms, extents: *now, odd: buffers.odd(), sees_weather };
+        let load = Load { sort: Sort::Passes, bytes, staged: Some(staged) };
+        pace.submit(gpu, load, |encoder| {
+            gpu.context.queue.write_buffer(&uniforms.weather.store.buffer, 0, weather);
+            round.encode(encoder, parts);
+        })
+    }
+}
+
+/// All that [`Loaded::keep`] copies, as buffers now play their roles.
+fn state<'a>(program: &Program, buffers: &'a Buffers, sums: &'a Store, now: Extents) -> Vec<Extent<'a>> {
+    let numbered = program.buffers.iter().enumerate().filter(|(_, buffer)| is_state(&buffer.content));
+    let extents = numbered.map(|(at, buffer)| (buffers.now(at), extents::bytes(buffer, now.size)));
+    extents.chain([(sums, now.sums_bytes())]).collect()
+}
+
+impl Loaded for Running {
+    fn begin(&mut self, size: Size, own: &Window) -> Result<(), Error> {
+        let now = Extents::of(size, self.uniforms.grid.count());
+        now.check(&self.gpu, &self.program)?;
+        if !self.room.hold(now) {
+            let ([columns, rows], room) = ([size.columns, size.rows], self.room.size);
+            return Err(Error::Device(format!(
+                "`{}` was loaded for {} × {} cells and cannot begin on {columns} × {rows}",
+                self.program.name, room.columns, room.rows
+            )));
+        }
+        self.pace.drain(&self.gpu)?;
+        self.uniforms.set_grid(&self.gpu, now, own)?;
+        self.now = now;
+        self.buffers.set_odd(false);
+        self.kept.forget();
+        self.clear(|content| *content == Content::Mean)?;
+        self.clear_sums()
+    }
+
+    fn write(&mut self, buffer: usize, values: &[f32]) -> Result<(), Error> {
+        let (store, bytes) = self.store(buffer)?;
+        if 4 * values.len() as u64 != bytes {
+            let (name, given) = (self.program.buffers[buffer].name, values.len());
+            return Err(Error::Device(format!("buffer `{name}` takes {} numbers, not {given}", bytes / 4)));
+        }
+        transfer::write(&self.gpu, &store.buffer, bytemuck::cast_slice(values))
+    }
+
+    fn read(&mut self, buffer: usize) -> Result<Vec<f32>, Error> {
+        let bytes = self.store(buffer)?.1;
+        let store = self.buffers.now(buffer);
+        self.transfer.read(&self.gpu, &mut self.pace, &store.buffer, bytes)
+    }
+
+    fn run(&mut self, weather: &[Vec<u32>], recorded: bool) -> Result<(), Error> {
+        let cells = (self.now.unit * GROUP * self.now.size.columns) as u64;
+        let running = self.passes.iter().enumerate().filter(|(_, pass)| recorded || !pass.recorded);
+        let passes = running.map(|(number, pass)| (number, cells * pass.bytes_per_cell)).collect();
+        self.submit_all(&Work { passes, steps: weather.len(), units: self.now.units() }, weather)?;
+        self.buffers.set_odd(self.buffers.odd() ^ (weather.len() % 2 == 1));
+        Ok(())
+    }
+
+    fn sums(&mut self) -> Result<Vec<f64>, Error> {
+        let bytes = self.now.sums_bytes();
+        let values = self.transfer.read(&self.gpu, &mut self.pace, &self.sums.buffer, bytes)?;
+        let mut sums = vec![0.0; COUNTED];
+        for group in values.chunks_exact(2 * COUNTED) {
+            for (sum, counted) in sums.iter_mut().zip(group.chunks_exact(2)) {
+                *sum += f64::from(counted[0]) + f64::from(counted[1]);
+            }
+        }
+        Ok(sums)
+    }
+
+    fn clear_sums(&mut self) -> Result<(), Error> {
+        transfer::clear(&self.gpu, &mut self.pace, &self.sums.buffer, self.now.sums_bytes())
+    }
+
+    fn first_not_finite(&mut self, buffer: usize) -> Result<Option<usize>, Error> {
+        let bytes = self.store(buffer)?.1;
+        let searched = (&self.buffers.now(buffer).buffer, bytes / 4);
+        self.watch.first(&self.gpu, &mut self.pace, &self.transfer, searched)
+    }
+
+    fn keep(&mut self) -> Result<(), Error> {
+        let state = state(&self.program, &self.buffers, &self.sums, self.now);
+        self.kept.keep(&self.gpu, &mut self.pace, &state)
+    }
+
+    fn go_back(&mut self) -> Result<(), Error> {
+        let state = state(&self.program, &self.buffers, &self.sums, self.now);
+        self.kept.go_back(&self.gpu, &mut self.pace, &state)
+    }
+}
+
+impl Drop for Running {
+    /// Memory counts as held until the device no longer works on it.
+    fn drop(&mut self) {
+        let _ = self.pace.drain(&self.gpu);
+    }
+}

@@ -1,0 +1,136 @@
+//! Numbers to the device and back, piece by piece through little memory.
+
+use std::sync::mpsc;
+
+use weald::Error;
+use wgpu::{Buffer, BufferUsages, MapMode};
+
+use crate::gpu::Gpu;
+use crate::memory::Store;
+use crate::pace::{Load, Pace, Sort};
+
+/// Share of the budget that one piece of staging takes.
+const SHARE: u64 = 128;
+
+/// Least and most bytes of a piece.
+const PIECE_BYTES: [u64; 2] = [16 << 10, 16 << 20];
+
+/// Bytes of a piece under the budget of a device.
+pub(crate) fn piece_bytes(gpu: &Gpu) -> u64 {
+    (gpu.memory.budget() / SHARE).clamp(PIECE_BYTES[0], PIECE_BYTES[1]) & !255
+}
+
+/// Carries numbers between a program's buffers and the machine.
+#[derive(Debug)]
+pub(crate) struct Transfer {
+    /// Where the device puts a piece for the machine to read.
+    landing: Store,
+}
+
+impl Transfer {
+    pub(crate) fn new(gpu: &Gpu) -> Result<Self, Error> {
+        let usage = BufferUsages::MAP_READ | BufferUsages::COPY_DST;
+        Ok(Self { landing: Store::new(gpu, "a buffer to read back", piece_bytes(gpu), usage)? })
+    }
+
+    /// The first bytes of a buffer, after all that was submitted.
+    pub(crate) fn read(
+        &self,
+        gpu: &Gpu,
+        pace: &mut Pace,
+        from: &Buffer,
+        bytes: u64,
+    ) -> Result<Vec<f32>, Error> {
+        let mut values = Vec::new();
+        for (first, length) in pieces(bytes, self.landing.buffer.size()) {
+            pace.submit(gpu, copies(length), |encoder| {
+                encoder.copy_buffer_to_buffer(from, first, &self.landing.buffer, 0, length);
+            })?;
+            pace.drain(gpu)?;
+            self.take(gpu, length, &mut values)?;
+        }
+        Ok(values)
+    }
+
+    /// Appends what has landed.
+    fn take(&self, gpu: &Gpu, length: u64, values: &mut Vec<f32>) -> Result<(), Error> {
+        let landing = &self.landing.buffer;
+        gpu.context.attempt("reading back", || {
+            let (sender, mapped) = mpsc::channel();
+            landing.map_async(MapMode::Read, 0..length, move |result| drop(sender.send(result)));
+            gpu.context.wait(None)?;
+            let failed =
+                |cause: &dyn std::fmt::Display| Error::Device(format!("reading back failed: {cause}"));
+            mapped.recv().map_err(|cause| failed(&cause))?.map_err(|cause| failed(&cause))?;
+            let view = landing.get_mapped_range(0..length).map_err(|cause| failed(&cause))?;
+            values.extend_from_slice(bytemuck::cast_slice(&view));
+            drop(view);
+            landing.unmap();
+            Ok(())
+        })
+    }
+}
+
+/// Overwrites the start of a buffer, after all that was submitted.
+pub(crate) fn write(gpu: &Gpu, into: &Buffer, bytes: &[u8]) -> Result<(), Error> {
+    for (first, length) in pieces(bytes.len() as u64, piece_bytes(gpu)) {
+        let piece = &bytes[first as usize..][..length as usize];
+        let _staged = gpu.memory.hold(length, "staging")?;
+        let submission = gpu.context.attempt("writing to the GPU", || {
+            gpu.context.queue.write_buffer(into, first, piece);
+            Ok(gpu.context.queue.submit([]))
+        })?;
+        gpu.context.wait(Some(submission))?;
+    }
+    Ok(())
+}
+
+/// Copies the first bytes of a buffer over another's.
+pub(crate) fn copy(gpu: &Gpu, pace: &mut Pace, [from, into]: [&Buffer; 2], bytes: u64) -> Result<(), Error> {
+    let mut first = 0;
+    while first < bytes {
+        let length = (bytes - first).min(whole_words(pace.allowance(Sort::Copies) / 2));
+        pace.submit(gpu, copies(2 * length), |encoder| {
+            encoder.copy_buffer_to_buffer(from, first, into, first, length);
+        })?;
+        first += length;
+    }
+    Ok(())
+}
+
+/// Sets the first bytes of a buffer to zero.
+pub(crate) fn clear(gpu: &Gpu, pace: &mut Pace, buffer: &Buffer, bytes: u64) -> Result<(), Error> {
+    let mut first = 0;
+    while first < bytes {
+        let length = (bytes - first).min(whole_words(pace.allowance(Sort::Copies)));
+        pace.submit(gpu, copies(length), |encoder| encoder.clear_buffer(buffer, first, Some(length)))?;
+        first += length;
+    }
+    Ok(())
+}
+
+fn copies(bytes: u64) -> Load {
+    Load { sort: Sort::Copies, bytes, staged: None }
+}
+
+/// A length that copies may have.
+fn whole_words(bytes: u64) -> u64 {
+    (bytes & !255).max(256)
+}
+
+/// First byte and length of each piece.
+fn pieces(bytes: u64, most: u64) -> impl Iterator<Item = (u64, u64)> {
+    (0..bytes).step_by(most as usize).map(move |first| (first, most.min(bytes - first)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn pieces_cover_everything_once() {
+        assert_eq!(pieces(10, 4).collect::<Vec<_>>(), [(0, 4), (4, 4), (8, 2)]);
+        assert_eq!(pieces(8, 4).collect::<Vec<_>>(), [(0, 4), (4, 4)]);
+        assert_eq!(pieces(0, 4).count(), 0);
+    }
+}

@@ -1,0 +1,39 @@
+//! Changing a landscape by hand while it is simulated, as a library: no window, no mouse, the same bits again.
+//!
+//! A [`Brush`] changes a [`Canvas`], plain fields over a rectangle of cells that any engine can hand over and
+//! take back. A [`Script`] says which stroke happens before which simulation step, and a [`History`] goes back
+//! and forth over strokes and steps.
+//!
+//! ```
+//! use weald::edit::{Area, Brush, Canvas, Effect, Falloff};
+//! use weald::material::Material;
+//! use weald::Size;
+//!
+//! let area = Area { first: [0, 0], size: Size::square(32)? };
+//! let mut canvas = Canvas::level(area, 10.0, &Material::default_stack());
+//! let levee = Brush {
+//!     path: vec![[40.0, 160.0], [280.0, 160.0]],
+//!     radius: 25.0,
+//!     falloff: Falloff::Smooth,
+//!     strength: 1.0,
+//!     effect: Effect::Add { material: "soil".to_owned(), thickness: 3.0 },
+//! };
+//! let moved = levee.paint(&mut canvas)?;
+//! assert!(moved.solid_added > 10_000.0 && moved.solid_removed == 0.0, "{moved:?}");
+//! assert!(canvas.thickness[0].at(16, 16) > 2.5, "the levee is nearly 3 m high along its middle");
+//! # Ok::<(), weald::Error>(())
+//! ```
+
+mod brush;
+mod canvas;
+mod history;
+mod keys;
+mod paint;
+mod script;
+
+pub use brush::{Brush, Effect, Falloff};
+pub use canvas::{Area, Canvas};
+pub use history::{Action, History, Session};
+pub use keys::{EditKeys, MAXIMUM_PLACES};
+pub use paint::Volumes;
+pub use script::{Edit, Layout, MAXIMUM_BYTES, MAXIMUM_STROKES, Script};

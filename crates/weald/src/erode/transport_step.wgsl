@@ -1,0 +1,5 @@
+
+/// Constants of the transport; the twin of `CarryConstants`.
+struct CarryConstants {
+    epsilon: f32,
+}

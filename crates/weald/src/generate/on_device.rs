@@ -1,0 +1,73 @@
+//! Generators on a device: one program, tables from the host, and the landscape in bands of rows where the
+//! device's memory does not hold it whole.
+
+use crate::engine::device::{Device, Loaded, Window};
+use crate::engine::device_machine::most_cells;
+use crate::engine::program::Program;
+use crate::error::Error;
+use crate::grid::Size;
+
+/// A generator's program and what it reads.
+pub struct OnDevice {
+    pub(crate) program: Program,
+    /// Names and contents of the tables.
+    pub(crate) tables: Vec<(&'static str, Vec<u32>)>,
+    /// The grid that it works on.
+    pub(crate) size: Size,
+    /// Whether rows can be made band by band.
+    pub(crate) in_bands: bool,
+    /// Weather of each step for the band that begins with a row.
+    pub(crate) steps: Box<dyn Fn(u32) -> Vec<Vec<u32>>>,
+    /// The buffer that holds the result after the last step.
+    pub(crate) result: &'static str,
+}
+
+impl std::fmt::Debug for OnDevice {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        formatter.debug_struct("OnDevice").field("program", &self.program.name).finish_non_exhaustive()
+    }
+}
+
+impl OnDevice {
+    /// The result of all cells of the grid, row-major.
+    pub(crate) fn run(&self, device: &dyn Device) -> Result<Vec<f32>, Error> {
+        let Size { columns, rows } = self.size;
+        let most = self.rows_at_once(device)?;
+        let mut loaded = device.load(&self.program, Size { columns, rows: most })?;
+        let mut result = Vec::with_capacity(self.size.cells());
+        for first in (0..rows).step_by(most) {
+            let band = Size { columns, rows: most.min(rows - first) };
+            loaded.begin(band, &Window::whole(band))?;
+            self.write_tables(&mut *loaded)?;
+            loaded.run(&(self.steps)(first as u32), false)?;
+            result.extend(loaded.read(self.program.buffer(self.result))?);
+        }
+        Ok(result)
+    }
+
+    /// Rows that the device's memory holds.
+    fn rows_at_once(&self, device: &dyn Device) -> Result<usize, Error> {
+        let Size { columns, rows } = self.size;
+        let most = (most_cells(&self.program, device) / columns as u64) as usize;
+        if most >= rows {
+            return Ok(rows);
+        }
+        if self.in_bands && most > 0 {
+            return Ok(most);
+        }
+        Err(Error::Limit(format!(
+            "`{}` of {columns} × {rows} cells does not fit into the {} bytes of the device's memory: give it more \
+             with --gpu-memory, or use --engine cpu",
+            self.program.name,
+            device.memory(),
+        )))
+    }
+
+    fn write_tables(&self, loaded: &mut dyn Loaded) -> Result<(), Error> {
+        for (name, words) in &self.tables {
+            let bits: Vec<_> = words.iter().copied().map(f32::from_bits).collect();
+            loaded.write(self.program.buffer(name), &bits)?;
+        }
+        Ok(())
+    }
+}

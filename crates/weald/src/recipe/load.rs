@@ -1,0 +1,64 @@
+//! Loads a layer from a raster file: `value · scale + offset` in each cell.
+//!
+//! It stands beside [`catalog`](super::catalog) and not among the stages, which know no files.
+
+use std::path::PathBuf;
+
+use super::layer_file::LayerFile;
+use super::parameter::{LayerName, RasterFile};
+use crate::engine::Job;
+use crate::error::Error;
+use crate::landscape::Landscape;
+use crate::parameters;
+use crate::step::{Entry, Outcome, Stage, Step};
+
+/// The step's declaration.
+pub const ENTRY: Entry = Entry::of::<Load>("load", Stage::Load, "loads a layer from a raster file", "Weald");
+
+parameters! {
+    /// A layer from a file.
+    pub struct Load {
+        /// Raster file of any format that is read, as many cells as the landscape; its path starts at the
+        /// folder of the recipe.
+        file: RasterFile = RasterFile::needed();
+        /// Layer that is written, in metres: heights, or the thickness of the material of that name.
+        into: LayerName = LayerName::needed();
+        /// Metres that a 1 in the file stands for. A 16-bit PNG holds 0 to 65535 where it says nothing else.
+        scale: f64 = 1.0, range -1.0e9..=1.0e9;
+        /// Metres that are added.
+        offset: f64 = 0.0, range -1.0e9..=1.0e9, unit "m";
+        /// Whether a file of another number of cells is brought to that of the landscape, as by a `resample`
+        /// step.
+        resample: bool = false;
+        /// Value, in metres, of cells without data. Without it, they are an error where the landscape has
+        /// ground.
+        no_data: Option<f64> = None, range -1.0e9..=1.0e9, unit "m";
+    }
+}
+
+impl Step for Load {
+    fn reads(&self) -> Vec<String> {
+        Vec::new()
+    }
+
+    fn writes(&self) -> Vec<(String, &'static str)> {
+        vec![(self.into.0.clone(), "m")]
+    }
+
+    fn files(&self) -> Vec<PathBuf> {
+        vec![self.file.path()]
+    }
+
+    fn run(&self, landscape: &mut Landscape, _: &Job<'_>) -> Result<Outcome, Error> {
+        let file = LayerFile {
+            path: self.file.path(),
+            scale: self.scale,
+            offset: self.offset,
+            resample: self.resample,
+            no_data: self.no_data,
+        };
+        let (field, notes) = file.read(&landscape.domain)?;
+        landscape.insert(&self.into.0, "m", field);
+        Ok(Outcome { iterations: 1, notes, ..Outcome::default() })
+    }
+}

@@ -1,0 +1,161 @@
+//! Every shader is parsed, validated and compared with the host, without a GPU.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use naga::valid::{Capabilities, GlobalUse, ModuleInfo, ValidationFlags, Validator};
+use naga::{AddressSpace, ArraySize, Module, Scalar, StructMember, TypeInner, VectorSize};
+use weald::engine::program::{GROUP, MOST_BUFFERS, Pass, Program, Uniforms};
+
+/// Every program of the library.
+fn programs() -> Vec<Program> {
+    let mut programs = weald::erode::programs();
+    programs.extend(weald::generate::programs());
+    programs
+}
+
+/// Every different module: its text, one program that has it, and the pass.
+fn modules() -> BTreeMap<String, (Program, Pass)> {
+    let passes = programs().into_iter().flat_map(|program| {
+        let passes = program.passes.clone();
+        passes.into_iter().map(move |pass| (program.module(&pass), (program.clone(), pass)))
+    });
+    passes.collect()
+}
+
+fn checked(text: &str, pass: &Pass) -> (Module, ModuleInfo) {
+    let parsed = naga::front::wgsl::parse_str(text);
+    let module = parsed.unwrap_or_else(|error| panic!("{}: {}", pass.name, error.emit_to_string(text)));
+    let info = Validator::new(ValidationFlags::all(), Capabilities::empty()).validate(&module);
+    let info = info.unwrap_or_else(|error| panic!("{}: {}", pass.name, error.emit_to_string(text)));
+    (module, info)
+}
+
+#[test]
+fn every_module_has_the_one_entry_point_of_its_pass() {
+    let modules = modules();
+    assert!(modules.len() > 50, "{} modules", modules.len());
+    for (text, (_, pass)) in &modules {
+        let (module, _) = checked(text, pass);
+        let entries: Vec<_> = module.entry_points.iter().map(|entry| entry.name.as_str()).collect();
+        assert_eq!(entries, [pass.name]);
+        assert_eq!(module.entry_points[0].workgroup_size, [GROUP as u32, GROUP as u32, 1], "{}", pass.name);
+    }
+}
+
+#[test]
+fn every_pass_uses_what_it_declares_and_no_more_than_browsers_allow() {
+    for (text, (program, pass)) in &modules() {
+        let (module, info) = checked(text, pass);
+        let entry = info.get_entry_point(0);
+        let storage = module
+            .global_variables
+            .iter()
+            .filter(|(_, variable)| matches!(variable.space, AddressSpace::Storage { .. }));
+        let mut count = 0;
+        for (handle, variable) in storage {
+            count += 1;
+            let name = variable.name.as_deref().expect("buffers have names");
+            let written = pass.writes.iter().any(|&buffer| program.buffers[buffer].name == name);
+            let used = entry[handle];
+            assert!(name == "mask" || !used.is_empty(), "{} {}: `{name}` is idle", program.name, pass.name);
+            let writes = used.contains(GlobalUse::WRITE);
+            assert_eq!(writes, written || name == "sums", "{} {}: `{name}`", program.name, pass.name);
+        }
+        assert!((1..=MOST_BUFFERS).contains(&count), "{} {}: {count}", program.name, pass.name);
+    }
+}
+
+#[test]
+fn every_shader_of_the_tree_is_part_of_a_module() {
+    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let shaders = shaders_below(&source);
+    assert!(shaders.len() > 20, "{}", shaders.len());
+    let modules = modules();
+    for path in shaders {
+        let text = std::fs::read_to_string(&path).expect("a readable shader");
+        assert!(modules.keys().any(|module| module.contains(&text)), "{} is in no module", path.display());
+    }
+}
+
+fn shaders_below(folder: &Path) -> Vec<PathBuf> {
+    let entries = std::fs::read_dir(folder).expect("a folder of sources");
+    let paths = entries.map(|entry| entry.expect("a readable folder").path());
+    paths
+        .flat_map(|path| match path.extension() {
+            _ if path.is_dir() => shaders_below(&path),
+            Some(extension) if extension == "wgsl" => vec![path],
+            _ => Vec::new(),
+        })
+        .collect()
+}
+
+#[test]
+fn structs_of_the_host_lie_in_memory_as_their_twins_do() {
+    let mut compared = 0;
+    for (text, (program, pass)) in &modules() {
+        let (module, _) = checked(text, pass);
+        for uniforms in [&program.constants, &program.weather] {
+            if !uniforms.name.is_empty() {
+                assert_same_layout(&module, uniforms, program.name);
+                compared += 1;
+            }
+        }
+    }
+    assert!(compared > 50, "{compared} structs");
+}
+
+fn assert_same_layout(module: &Module, uniforms: &Uniforms, process: &str) {
+    let named = module.types.iter().find(|(_, kind)| kind.name.as_deref() == Some(uniforms.name));
+    let Some((_, kind)) = named else { panic!("{process}: no struct `{}`", uniforms.name) };
+    let TypeInner::Struct { members, span } = &kind.inner else { panic!("`{}`", uniforms.name) };
+    let twin: Vec<_> = members.iter().map(|member| described(module, member)).collect();
+    let mut offset = 0;
+    let host: Vec<_> = uniforms
+        .fields
+        .iter()
+        .map(|(name, kind)| {
+            let here = offset;
+            offset += if *kind == MATERIALS { 128 } else { 4 };
+            ((*name).to_owned(), (*kind).to_owned(), here)
+        })
+        .collect();
+    assert_eq!(twin, host, "{process}: `{}`", uniforms.name);
+    assert_eq!(*span as usize, 4 * uniforms.words.len(), "{process}: `{}`", uniforms.name);
+}
+
+/// Four numbers a material, without gaps.
+const MATERIALS: &str = "array<vec4<f32>, 8>";
+
+/// Name, type and offset.
+fn described(module: &Module, member: &StructMember) -> (String, String, u32) {
+    let kind = match module.types[member.ty].inner {
+        TypeInner::Scalar(Scalar::F32) => "f32",
+        TypeInner::Scalar(Scalar::U32) => "u32",
+        TypeInner::Array { base, size: ArraySize::Constant(count), stride: 16 } => {
+            assert_eq!(count.get(), 8);
+            let four = TypeInner::Vector { size: VectorSize::Quad, scalar: Scalar::F32 };
+            assert_eq!(module.types[base].inner, four);
+            MATERIALS
+        }
+        ref other => panic!("a member of type {other:?}"),
+    };
+    (member.name.clone().expect("members have names"), kind.to_owned(), member.offset)
+}
+
+#[test]
+fn bindings_follow_the_order_that_the_program_states() {
+    for (text, (program, pass)) in &modules() {
+        let (module, _) = checked(text, pass);
+        let binding = |name: &str| {
+            let found =
+                module.global_variables.iter().find(|(_, global)| global.name.as_deref() == Some(name));
+            let (_, global) = found.unwrap_or_else(|| panic!("{}: no variable `{name}`", pass.name));
+            global.binding.expect("buffers are bound").binding as usize
+        };
+        assert_eq!(binding("grid"), 0);
+        for (at, (buffer, _)) in program.bound(pass).into_iter().enumerate() {
+            assert_eq!(binding(program.buffers[buffer].name), 3 + at, "{}", pass.name);
+        }
+    }
+}
