@@ -81,6 +81,12 @@ impl Working {
         Ok(working)
     }
 
+    /// Makes room for a mask that may change.
+    pub(super) fn set_changing_mask(&mut self) {
+        let size = self.size;
+        self.mask.get_or_insert_with(|| Mask::always(size, vec![true; size.cells()]));
+    }
+
     /// Takes the depth of standing water from a layer.
     pub(crate) fn set_water(&mut self, landscape: &Landscape, layer: &str) -> Result<(), Error> {
         let standing = landscape.field(layer)?.clone();

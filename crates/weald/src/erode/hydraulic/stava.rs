@@ -38,10 +38,11 @@ impl Hydraulic {
         landscape: &Landscape,
         filled: &Filled,
         working: &Working,
+        script: Option<Script>,
     ) -> Result<Chosen<Stava>, Error> {
         let column = self.column(landscape);
-        let weather = self.weather_planes(landscape, working)?;
-        let edits = self.edits(landscape, working)?;
+        let weather = self.weather_planes(landscape, working, script.is_some())?;
+        let edits = script.map(|script| self.edits(script, landscape, working)).transpose()?;
         let process = Stava {
             constants: StavaConstants {
                 flow_rate: filled.flow_rate,
@@ -88,23 +89,30 @@ impl Hydraulic {
         within.map(|Nested(within)| within.slippage(&landscape.materials)).transpose()
     }
 
-    /// The strokes of the script, which is read here.
-    fn edits(&self, landscape: &Landscape, working: &Working) -> Result<Option<Edits>, Error> {
-        let Some(file) = &self.edits else { return Ok(None) };
+    /// The script of strokes, which is read here.
+    pub(super) fn script(&self, landscape: &Landscape) -> Result<Option<Script>, Error> {
         let names: Vec<_> = landscape.materials.iter().map(|material| material.name.as_str()).collect();
-        let script = Script::load(&file.path(), &names)?;
-        let place = Place::of(working, self.column(landscape));
-        Edits::new(script, names.into_iter().map(str::to_owned).collect(), place).map(Some)
+        self.edits.as_ref().map(|file| Script::load(&file.path(), &names)).transpose()
     }
 
-    /// Share of the rain, share of the evaporation, and sources in cells a step; none where nothing is painted.
-    fn weather_planes(&self, landscape: &Landscape, working: &Working) -> Result<Vec<Vec<f32>>, Error> {
+    fn edits(&self, script: Script, landscape: &Landscape, working: &Working) -> Result<Edits, Error> {
+        let names = landscape.materials.iter().map(|material| material.name.clone()).collect();
+        Edits::new(script, names, Place::of(working, self.column(landscape)))
+    }
+
+    /// Share of the rain, share of the evaporation, and sources in cells a step; none where nothing is painted
+    /// and none of it changes.
+    fn weather_planes(
+        &self,
+        landscape: &Landscape,
+        working: &Working,
+        changes: bool,
+    ) -> Result<Vec<Vec<f32>>, Error> {
         let layer = |name: &Option<LayerName>| name.as_ref().map(|name| landscape.field(&name.0)).transpose();
         let shares = [layer(&self.rain_layer)?, layer(&self.evaporation_layer)?];
         let painted = layer(&self.source_layer)?;
         let plain = painted.is_none() && self.sources.is_empty() && self.drains.is_empty();
-        let plain = plain && self.edits.is_none();
-        if plain && shares == [None, None] {
+        if plain && !changes && shares == [None, None] {
             return Ok(Vec::new());
         }
         let share =
