@@ -11,18 +11,24 @@ use super::dab;
 
 /// A recipe with a simulation of layered ground that a script edits.
 fn edited(script: &Script, folder: &Path) -> Recipe {
+    edited_within(script, folder, "closed")
+}
+
+fn edited_within(script: &Script, folder: &Path, boundary: &str) -> Recipe {
     script.save(&folder.join("s.jsonl")).expect("written");
-    let text = "[landscape]\nsize = [40, 32]\ncell = 4.0\nseed = 3\n\
+    let text = format!(
+        "[landscape]\nsize = [40, 32]\ncell = 4.0\nseed = 3\n\
                 [[material]]\nname = \"rock\"\n[[material]]\nname = \"sand\"\nbottom = 30\n\
                 [[material]]\nname = \"soil\"\nthickness = 1\n\
                 [[step]]\ndo = \"diamond-square\"\nrelief = 60\n\
                 [[step]]\ndo = \"hydraulic\"\nmodel = \"stava\"\niterations = 500\nrain_period = 20\n\
-                dry_period = 20\nedits = \"s.jsonl\"\nslippage = {}\n\
+                dry_period = 20\nedits = \"s.jsonl\"\nslippage = {{}}\nboundary = \"{boundary}\"\n\
                 [[output]]\nlayer = \"height\"\nfile = \"height.npy\"\n\
                 [[output]]\nlayer = \"sand\"\nfile = \"sand.npy\"\n\
-                [[output]]\nlayer = \"water\"\nfile = \"water.npy\"\n";
+                [[output]]\nlayer = \"water\"\nfile = \"water.npy\"\n"
+    );
     let file = folder.join("r.toml").display().to_string();
-    Recipe::parse(&file, text, &Overrides::default()).unwrap_or_else(|error| panic!("{error}"))
+    Recipe::parse(&file, &text, &Overrides::default()).unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// Fifty strokes of all kinds that a run can follow, spread over 500 steps.
@@ -97,11 +103,11 @@ fn fifty_strokes_over_500_steps_replay_to_the_same_bits_on_every_cpu_engine_and_
 }
 
 #[test]
-fn a_script_with_a_fault_or_a_frost_ends_the_run_with_its_reason() {
+fn a_script_with_a_fault_or_a_frost_at_an_open_border_ends_the_run_with_its_reason() {
     let folder = tempfile::tempdir().expect("a folder");
     let frost = Script::new(vec![Edit { step: 7, brush: dab(Effect::Freeze) }]);
-    let message = edited(&frost, folder.path()).landscape().expect_err("no frost").to_string();
-    assert!(message.contains("before step 7") && message.contains("`region`"), "{message}");
+    let message = edited_within(&frost, folder.path(), "open").landscape().expect_err("no frost").to_string();
+    assert!(message.contains("freezes") && message.contains("closed"), "{message}");
     let recipe = edited(&Script::default(), folder.path());
     assert_eq!(recipe.inputs(), [folder.path().join("s.jsonl")]);
     std::fs::write(folder.path().join("s.jsonl"), "{\"do\": \"thaw\"}\n").expect("written");

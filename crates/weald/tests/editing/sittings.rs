@@ -1,5 +1,5 @@
 use proptest::prelude::*;
-use weald::edit::{Action, Brush, Effect, History, Session};
+use weald::edit::{Action, Brush, Effect, Falloff, History, Session};
 use weald::engine::Engine;
 use weald::erode::dissolution_step::DissolutionWithin;
 use weald::erode::hydraulic::{Boundary, Hydraulic, Model, Sitting};
@@ -26,9 +26,13 @@ fn step() -> Hydraulic {
 fn land() -> Landscape {
     let canvas = canvas(24, 18);
     let mut land = Landscape::new(weald::Domain::new(canvas.size(), canvas.cell));
-    land.materials =
-        canvas.materials.iter().map(|name| weald::material::Material::built_in(name).expect("built in")).collect();
-    let surface = Field::from_values(canvas.size(), (0..24 * 18).map(|at| canvas.surface(at) as f32).collect());
+    land.materials = canvas
+        .materials
+        .iter()
+        .map(|name| weald::material::Material::built_in(name).expect("built in"))
+        .collect();
+    let surface =
+        Field::from_values(canvas.size(), (0..24 * 18).map(|at| canvas.surface(at) as f32).collect());
     land.insert("height", "m", surface);
     for (name, thickness) in canvas.materials.iter().skip(1).zip(&canvas.thickness) {
         land.insert(name, "m", thickness.clone());
@@ -59,20 +63,20 @@ proptest! {
                 history.act(action.clone())?;
             }
             let end = history.session_mut().snapshot()?;
-            prop_assert!(start != end, "something happened");
+            assert!(start != end, "something happened");
             while history.undo()? {
-                prop_assert!(history.used() <= budget);
+                assert!(history.used() <= budget);
             }
-            prop_assert!(history.session_mut().snapshot()? == start, "undone");
+            assert!(history.session_mut().snapshot()? == start, "undone");
             while history.redo()? {}
-            prop_assert!(history.session_mut().snapshot()? == end, "redone");
+            assert!(history.session_mut().snapshot()? == end, "redone");
             let again = sit(&Engine::Bands(2), |mut fresh| {
                 actions.iter().try_for_each(|action| fresh.apply(action))?;
                 fresh.snapshot()
             });
-            prop_assert!(again == end, "a fresh replay in bands");
-            Ok(Ok(()))
-        })?;
+            assert!(again == end, "a fresh replay in bands");
+            Ok(())
+        });
     }
 }
 
@@ -81,7 +85,7 @@ fn frozen_ground_stands_still_with_its_water_until_it_thaws() {
     sit(&Engine::Cpu, |mut sitting| {
         let whole = sitting.whole();
         sitting.apply(&Action::Steps(9))?;
-        let frost = Brush { path: vec![[48.0, 36.0]], radius: 20.0, ..dab(Effect::Freeze) };
+        let frost = Brush { path: vec![[48.0, 36.0]], radius: 16.0, falloff: Falloff::Hard, ..dab(Effect::Freeze) };
         sitting.apply(&Action::Stroke(frost.clone()))?;
         let before = sitting.canvas(whole)?;
         let is_frozen = |at: usize| before.frozen.values()[at] > 0.0;
