@@ -195,6 +195,12 @@ impl Mask {
         land.contains(&false).then_some(Self { size, land })
     }
 
+    /// A mask from row-major flags, also where every cell is land: for worlds in which that may change.
+    pub(crate) fn always(size: Size, land: Vec<bool>) -> Self {
+        assert_eq!(land.len(), size.cells(), "one flag a cell");
+        Self { size, land }
+    }
+
     /// Columns and rows.
     pub fn size(&self) -> Size {
         self.size

@@ -38,10 +38,16 @@ pub trait Session {
     type Snapshot;
 
     /// A copy of the state.
-    fn snapshot(&self) -> Self::Snapshot;
+    ///
+    /// # Errors
+    /// [`Error::Device`] where the state cannot be read from the device that holds it.
+    fn snapshot(&mut self) -> Result<Self::Snapshot, Error>;
 
     /// Goes back to a state.
-    fn restore(&mut self, snapshot: &Self::Snapshot);
+    ///
+    /// # Errors
+    /// As [`Session::snapshot`].
+    fn restore(&mut self, snapshot: &Self::Snapshot) -> Result<(), Error>;
 
     /// Does one thing.
     ///
@@ -70,9 +76,9 @@ impl<S: Session> History<S> {
     /// A history that begins here and keeps at most `budget` bytes of snapshots.
     ///
     /// # Errors
-    /// [`Error::Limit`] where not even the start fits.
-    pub fn new(session: S, budget: usize) -> Result<Self, Error> {
-        let start = session.snapshot();
+    /// [`Error::Limit`] where not even the start fits; those of the session.
+    pub fn new(mut session: S, budget: usize) -> Result<Self, Error> {
+        let start = session.snapshot()?;
         let used = S::bytes(&start);
         if used > budget {
             return Err(Error::Limit(format!(
@@ -85,6 +91,11 @@ impl<S: Session> History<S> {
     /// The session as it is now.
     pub fn session(&self) -> &S {
         &self.session
+    }
+
+    /// The session as it is now, to read from a device; what it is given to do escapes the history.
+    pub fn session_mut(&mut self) -> &mut S {
+        &mut self.session
     }
 
     /// All actions, those that are undone too.
@@ -115,8 +126,7 @@ impl<S: Session> History<S> {
         self.actions.truncate(self.done);
         self.actions.push(action);
         self.done += 1;
-        self.keep();
-        Ok(())
+        self.keep()
     }
 
     /// Takes the last action back; `false` where there is none.
@@ -162,7 +172,7 @@ impl<S: Session> History<S> {
     /// Restores the nearest snapshot and goes on from there.
     fn arrive(&mut self, done: usize) -> Result<(), Error> {
         let from = self.nearest(done);
-        self.session.restore(&self.kept[&from]);
+        self.session.restore(&self.kept[&from])?;
         self.done = from;
         self.replay(done)
     }
@@ -172,26 +182,26 @@ impl<S: Session> History<S> {
             self.session.apply(&self.actions[self.done])?;
             self.done += 1;
         }
-        self.keep();
-        Ok(())
+        self.keep()
     }
 
     /// Keeps the state here, if there is room for it once others have gone.
-    fn keep(&mut self) {
+    fn keep(&mut self) -> Result<(), Error> {
         if self.kept.contains_key(&self.done) {
-            return;
+            return Ok(());
         }
         // A state is about as large as the first one, and room is made before it is copied.
         let wanted = S::bytes(&self.kept[&0]);
         if !self.make_room(wanted) {
-            return;
+            return Ok(());
         }
-        let snapshot = self.session.snapshot();
+        let snapshot = self.session.snapshot()?;
         let bytes = S::bytes(&snapshot);
         if bytes <= wanted || self.make_room(bytes) {
             self.used += bytes;
             self.kept.insert(self.done, snapshot);
         }
+        Ok(())
     }
 
     /// Drops snapshots until so many bytes are free; `false` where they cannot be.

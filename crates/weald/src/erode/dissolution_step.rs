@@ -5,7 +5,7 @@ use pulp::Arch;
 use super::hydraulic::deposit_of;
 use super::links::Links;
 use super::simulation::Simulation;
-use super::stack::{Column, REGOLITH, regolith_names, thickness_names};
+use super::stack::{Column, REGOLITH};
 use super::stava::digging::{DigScratch, Digging};
 use super::stava::dissolution::{Dissolution, DissolutionScratch, RegolithRows};
 use super::stava::planes::{Planes, REGOLITH_PLANES};
@@ -63,7 +63,7 @@ impl DissolutionWithin {
         plane: usize,
         (flow_rate, cell): (f32, f64),
     ) -> Dissolution {
-        let shares = materials.iter().map(|material| material.solubility as f32).collect();
+        let shares = materials.iter().map(|material| material.solubility.clamp(0.0, 1.0) as f32).collect();
         Dissolution {
             plane,
             most: (self.depth / cell) as f32,
@@ -105,12 +105,11 @@ impl Step for DissolutionStep {
         working.set_water(landscape, &self.water.0)?;
         let first_layer = REGOLITH_PLANE + REGOLITH_PLANES;
         let planes = Planes { first_layer, materials: materials.len() };
-        working.set_stack(landscape, Column { planes, regolith: Some(REGOLITH_PLANE) }, deposit)?;
+        let column = Column { planes, regolith: Some(REGOLITH_PLANE) };
+        working.set_stack(landscape, column, deposit)?;
         let process = self.process(materials, deposit, planes, &working);
-        let plane_names: Vec<_> = std::iter::once("change".to_owned())
-            .chain(regolith_names())
-            .chain(thickness_names(materials))
-            .collect();
+        let plane_names: Vec<_> =
+            std::iter::once("change".to_owned()).chain(column.names(materials)).collect();
         let simulation = Simulation {
             process: &process,
             plane_names: &plane_names,

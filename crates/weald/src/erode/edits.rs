@@ -4,6 +4,7 @@
 //! that went out (below 0 where some came), so that the budget closes over it. Only cells that a stroke changed
 //! get new values.
 
+use super::links::{MASK_PLANES, mask_planes};
 use super::stack::Column;
 use super::stava::{WEATHER_PLANES, plane};
 use super::sums;
@@ -48,15 +49,20 @@ impl Edits {
     /// # Errors
     /// [`Error::Run`] for a stroke that this simulation cannot follow.
     pub(crate) fn new(script: Script, materials: Vec<String>, place: Place) -> Result<Self, Error> {
-        let stills = |edit: &&Edit| matches!(edit.brush.effect, Effect::Freeze | Effect::Thaw);
-        match script.edits().iter().find(stills) {
-            Some(edit) => Err(Error::Run(format!(
-                "the script freezes or thaws ground before step {}, which cannot be done within a run; give the \
-                 step a `region` outside which all stands still",
-                edit.step
-            ))),
-            None => Ok(Self { script, materials, place }),
+        let edits = Self { script, materials, place };
+        edits.script.edits().iter().try_for_each(|edit| edits.allow(&edit.brush))?;
+        Ok(edits)
+    }
+
+    /// What stands still has walls, and where the border is open water would fall through them.
+    fn allow(&self, brush: &Brush) -> Result<(), Error> {
+        if self.place.ring == 0 || !stills(&brush.effect) {
+            return Ok(());
         }
+        Err(Error::Run(
+            "a stroke freezes or thaws ground, which needs boundary = \"closed\"; here it is \"open\""
+                .to_owned(),
+        ))
     }
 
     /// The first step, from `step` on, before which something happens.
@@ -64,31 +70,60 @@ impl Edits {
         self.script.next_from(step)
     }
 
+    /// What the user should know after a run of so many steps.
+    pub(crate) fn notes(&self, iterations: u64) -> Vec<String> {
+        let all = self.script.edits().len();
+        let happened = self.script.edits().partition_point(|edit| edit.step < iterations);
+        let mut notes = vec![format!(
+            "{happened} strokes of the script happened; in the budget the ground that they gave or took counts as \
+             solid that went out (below 0: came), the water as rain and evaporation"
+        )];
+        if happened < all {
+            let late = all - happened;
+            notes.push(format!(
+                "{late} strokes did not happen: they come after the last of {iterations} steps"
+            ));
+        }
+        notes
+    }
+
     /// All strokes that happen before a step.
     pub(crate) fn change(&self, step: u64, snapshot: &mut Snapshot) -> Result<(), Error> {
         self.script.before(step).iter().try_for_each(|edit| self.stroke(&edit.brush, snapshot))
     }
 
-    /// Paints the weather again as it was after `done` steps: a checkpoint does not hold it.
+    /// Paints the weather, and what stands still, again as they were after `done` steps: a checkpoint does not
+    /// hold them.
     pub(crate) fn catch_up(&self, done: u64, snapshot: &mut Snapshot) -> Result<(), Error> {
-        let weather = |edit: &&Edit| {
-            matches!(edit.brush.effect, Effect::Source { .. } | Effect::Drain { .. } | Effect::Rain { .. })
+        let weather = |effect: &Effect| {
+            matches!(effect, Effect::Source { .. } | Effect::Drain { .. } | Effect::Rain { .. })
         };
+        let stays = |edit: &&Edit| weather(&edit.brush.effect) || stills(&edit.brush.effect);
         let earlier = self.script.edits().iter().filter(|edit| edit.step < done);
-        earlier.filter(weather).try_for_each(|edit| self.stroke(&edit.brush, snapshot))
+        earlier.filter(stays).try_for_each(|edit| self.stroke(&edit.brush, snapshot))
     }
 
-    fn stroke(&self, brush: &Brush, snapshot: &mut Snapshot) -> Result<(), Error> {
+    /// One stroke.
+    pub(crate) fn stroke(&self, brush: &Brush, snapshot: &mut Snapshot) -> Result<(), Error> {
+        self.allow(brush)?;
         let Some(area) = brush.area(self.place.size, self.place.cell) else { return Ok(()) };
         let before = self.canvas(area, &snapshot.state);
         let mut after = before.clone();
         brush.paint(&mut after)?;
         self.take_back(&before, &after, snapshot);
+        if before.frozen != after.frozen {
+            self.freeze(&after, &mut snapshot.state);
+        }
         Ok(())
     }
 
+    /// The whole of the landscape.
+    pub(crate) fn whole(&self) -> Area {
+        Area { first: [0, 0], size: self.place.size }
+    }
+
     /// A rectangle of the state, in metres.
-    fn canvas(&self, area: Area, state: &Rows) -> Canvas {
+    pub(crate) fn canvas(&self, area: Area, state: &Rows) -> Canvas {
         let Place { cell, lowest, ref land, column, .. } = self.place;
         let base = column.planes.count();
         let metres =
@@ -115,7 +150,36 @@ impl Edits {
             water: metres(plane::DEPTH),
             source: metres(source),
             rain: self.cut(area, |x, y| state.plane(y, rain)[x]),
-            frozen: Field::filled(area.size, 0.0),
+            frozen: self.frozen(area, state),
+        }
+    }
+
+    /// Where cells that take part stand still.
+    fn frozen(&self, area: Area, state: &Rows) -> Field {
+        let Place { ref land, column, ring, .. } = self.place;
+        let Some(masked) = mask_plane(column, state) else { return Field::filled(area.size, 0.0) };
+        self.cut(area, |x, y| {
+            let takes_part = land.as_ref().is_none_or(|land| land.is_land(x - ring, y - ring));
+            f32::from(u8::from(takes_part && state.plane(y, masked)[x] == 0.0))
+        })
+    }
+
+    /// Puts walls around what stands still, and takes them away from what does not.
+    fn freeze(&self, after: &Canvas, state: &mut Rows) {
+        let Place { ref land, column, .. } = self.place;
+        let masked = mask_plane(column, state).expect("a world with edits has a mask");
+        let columns = state.layout.columns;
+        let mut flags: Vec<_> = state.gather(masked).into_iter().map(|land| land > 0.0).collect();
+        for y in 0..after.frozen.size().rows {
+            for (x, &frozen) in after.frozen.row(y).iter().enumerate() {
+                let [x, y] = [after.first[0] + x, after.first[1] + y];
+                let takes_part = land.as_ref().is_none_or(|land| land.is_land(x, y));
+                flags[y * columns + x] = takes_part && frozen == 0.0;
+            }
+        }
+        let mask = Mask::always(Size { columns, rows: state.count() }, flags);
+        for (at, plane) in mask_planes(&mask, false).iter().enumerate() {
+            state.scatter(masked + at, plane);
         }
     }
 
@@ -152,6 +216,17 @@ impl Edits {
             }
         }
     }
+}
+
+/// Whether a stroke makes ground stand still, or ends it.
+fn stills(effect: &Effect) -> bool {
+    matches!(effect, Effect::Freeze | Effect::Thaw)
+}
+
+/// The first of the planes of the mask, where the world has them: behind the ground of the start.
+fn mask_plane(column: Column, state: &Rows) -> Option<usize> {
+    let first = column.planes.count() + 1;
+    (state.layout.planes >= first + MASK_PLANES + WEATHER_PLANES).then_some(first)
 }
 
 /// The planes of the rain and of the sources, which are the first and the last of the weather.

@@ -3,8 +3,10 @@
 mod defaults;
 mod faults;
 mod models;
+mod sitting;
 mod stava;
 
+pub use sitting::{Moment, Sitting};
 pub(super) use stava::deposit_of;
 
 use std::path::PathBuf;

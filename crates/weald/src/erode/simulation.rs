@@ -67,6 +67,12 @@ impl<P: Process> Simulation<'_, P> {
         if let (Some(edits), 1..) = (self.edits, first.done) {
             edits.catch_up(first.done, &mut first.snapshot)?;
         }
+        let mut finished = self.run_from(first, job)?;
+        finished.notes.extend(self.edits.iter().flat_map(|edits| edits.notes(self.iterations)));
+        Ok(finished)
+    }
+
+    fn run_from(&self, first: Saved, job: &Job<'_>) -> Result<Finished, Error> {
         let mut last = matches!(job.engine, Engine::DeviceElseCpu(_)).then(|| first.clone());
         match (self.run_on(&job.engine, first, job, last.as_mut()), last) {
             (Err(Error::Device(what)), Some(last)) => {

@@ -2,9 +2,10 @@
 
 use pulp::Arch;
 
+use super::hydraulic::deposit_of;
 use super::links::Links;
 use super::simulation::Simulation;
-use super::stack::{Column, thickness_names};
+use super::stack::Column;
 use super::stava::planes::Planes;
 use super::stava::program::{self, StavaNumbers};
 use super::stava::slippage::{Slippage, SlippageRows, SlippageScratch};
@@ -55,7 +56,8 @@ impl SlippageWithin {
                  {most} is stable"
             )));
         }
-        let tangent = |material: &Material| libm::tan(material.talus_deg.to_radians()) as f32;
+        let tangent =
+            |material: &Material| libm::tan(material.talus_deg.clamp(0.0, 90.0).to_radians()).max(0.0) as f32;
         let talus = materials.iter().map(tangent).collect();
         Ok(Slippage { talus, strength: strength as f32, softening: self.softening })
     }
@@ -86,13 +88,13 @@ impl Step for SlippageStep {
         let SlippageStep { strength, softening, .. } = *self;
         let slippage = SlippageWithin { strength, softening }.slippage(&landscape.materials)?;
         let mut working = Working::new(landscape, &self.layer.0, false)?;
-        let materials = landscape.materials.len();
-        let planes = Planes { first_layer: 1, materials };
-        working.set_stack(landscape, Column { planes, regolith: None }, materials - 1)?;
+        let planes = Planes { first_layer: 1, materials: landscape.materials.len() };
+        let column = Column { planes, regolith: None };
+        working.set_stack(landscape, column, deposit_of(None, &landscape.materials)?)?;
         let links = Links::new(working.size, working.mask.is_some());
         let process = Slipping { slippage, planes, links, arch: Arch::new() };
         let plane_names: Vec<_> =
-            std::iter::once("change".to_owned()).chain(thickness_names(&landscape.materials)).collect();
+            std::iter::once("change".to_owned()).chain(column.names(&landscape.materials)).collect();
         let simulation = Simulation {
             process: &process,
             plane_names: &plane_names,

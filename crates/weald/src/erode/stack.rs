@@ -34,14 +34,14 @@ pub(crate) struct Stack {
     had_regolith: bool,
 }
 
-/// Names of the planes of the regolith.
-pub(crate) fn regolith_names() -> impl Iterator<Item = String> {
-    ["", "_east", "_west", "_south", "_north"].into_iter().map(|direction| format!("{REGOLITH}{direction}"))
-}
-
-/// Names of the planes of the materials above the bedrock.
-pub(crate) fn thickness_names(materials: &[Material]) -> impl Iterator<Item = String> {
-    materials[1..].iter().map(|material| format!("thickness_{}", material.name))
+impl Column {
+    /// Names of the planes of the regolith and of the materials above the bedrock.
+    pub(crate) fn names(self, materials: &[Material]) -> impl Iterator<Item = String> + '_ {
+        let directions: &[&str] =
+            if self.regolith.is_some() { &["", "_east", "_west", "_south", "_north"] } else { &[] };
+        let regolith = directions.iter().map(|direction| format!("{REGOLITH}{direction}"));
+        regolith.chain(materials[1..].iter().map(|material| format!("thickness_{}", material.name)))
+    }
 }
 
 impl Stack {

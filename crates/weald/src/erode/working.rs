@@ -81,6 +81,12 @@ impl Working {
         Ok(working)
     }
 
+    /// Makes room for a mask that may change.
+    pub(super) fn set_changing_mask(&mut self) {
+        let size = self.size;
+        self.mask.get_or_insert_with(|| Mask::always(size, vec![true; size.cells()]));
+    }
+
     /// Takes the depth of standing water from a layer.
     pub(crate) fn set_water(&mut self, landscape: &Landscape, layer: &str) -> Result<(), Error> {
         let standing = landscape.field(layer)?.clone();
@@ -205,7 +211,7 @@ impl Working {
         landscape.insert("flux_y", "m³/step", self.field(&finished.means[1], |flux| flux * volume));
         landscape.insert("erosion", "m", self.field(&change, |change| (-change).max(0.0) * cell));
         landscape.insert("deposition", "m", self.field(&change, |change| change.max(0.0) * cell));
-        let mut notes = Vec::new();
+        let mut notes = finished.notes.clone();
         if !kept.conserving {
             notes.push(format!(
                 "this transport does not conserve sediment: {:.3e} m³ of solid were {}; transport = \"upwind\", or \
@@ -230,7 +236,7 @@ impl Working {
         self.store_stack(landscape, finished);
         let mut budget = self.budget(&[], &[], finished);
         budget.water = WaterBudget::default();
-        Outcome { iterations, budget: Some(budget), notes: Vec::new() }
+        Outcome { iterations, budget: Some(budget), notes: finished.notes.clone() }
     }
 
     /// Sum over all cells, row by row.

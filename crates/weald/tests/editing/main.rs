@@ -4,6 +4,7 @@
 mod brushes;
 mod runs;
 mod scripts;
+mod sittings;
 mod undo;
 
 use proptest::prelude::*;

@@ -31,16 +31,18 @@ fn fifty() -> Script {
     let random = |seed: u64, stroke: u64| unit(hash2(seed, stroke as i64, 0));
     let edit = |stroke: u64| {
         let amount = 0.5 + 2.0 * random(1, stroke);
-        let effect = match stroke % 9 {
-            0 => Effect::Add { material: name(stroke / 9), thickness: amount },
-            1 => Effect::Remove { material: name(stroke / 9), thickness: amount },
+        let effect = match stroke % 11 {
+            0 => Effect::Add { material: name(stroke / 11), thickness: amount },
+            1 => Effect::Remove { material: name(stroke / 11), thickness: amount },
             2 => Effect::AddWater { depth: amount },
             3 => Effect::RemoveWater { depth: amount },
             4 => Effect::Smooth { times: 2 },
             5 => Effect::Flatten { height: 20.0 + 10.0 * amount },
             6 => Effect::Source { rate: 0.1 * amount },
             7 => Effect::Drain { rate: 0.1 * amount },
-            _ => Effect::Rain { factor: amount },
+            8 => Effect::Rain { factor: amount },
+            9 => Effect::Freeze,
+            _ => Effect::Thaw,
         };
         let end = |seed: u64| [160.0 * random(seed, stroke), 128.0 * random(seed + 1, stroke)];
         let brush = Brush { path: vec![end(2), end(4)], radius: 12.0, strength: 0.7, ..dab(effect) };
@@ -84,6 +86,11 @@ fn fifty_strokes_over_500_steps_replay_to_the_same_bits_on_every_cpu_engine_and_
     }
     let budget = report.steps[1].budget.as_ref().expect("a simulation has one");
     assert!(budget.solid.error.abs() < 1e-5 && budget.water.error.abs() < 1e-5, "{budget:?}");
+    assert!(
+        report.steps[1].notes[0].starts_with("50 strokes of the script happened"),
+        "{:?}",
+        report.steps[1].notes
+    );
     let untouched = edited(&Script::default(), folder.path()).landscape().expect("runs");
     let touched = edited(&fifty(), folder.path()).landscape().expect("runs");
     assert_ne!(touched.field("height").ok(), untouched.field("height").ok(), "the strokes did something");

@@ -29,12 +29,13 @@ impl Toy {
 impl Session for Toy {
     type Snapshot = Canvas;
 
-    fn snapshot(&self) -> Canvas {
-        self.0.clone()
+    fn snapshot(&mut self) -> Result<Canvas, Error> {
+        Ok(self.0.clone())
     }
 
-    fn restore(&mut self, snapshot: &Canvas) {
+    fn restore(&mut self, snapshot: &Canvas) -> Result<(), Error> {
         self.0.clone_from(snapshot);
+        Ok(())
     }
 
     fn apply(&mut self, action: &Action) -> Result<(), Error> {
@@ -61,7 +62,7 @@ fn states(actions: &[Action]) -> Vec<Canvas> {
     let mut toy = Toy::new();
     let after = actions.iter().map(|action| {
         toy.apply(action).expect("the action is good");
-        toy.snapshot()
+        toy.0.clone()
     });
     std::iter::once(Toy::new().0).chain(after).collect()
 }

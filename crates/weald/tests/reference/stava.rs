@@ -178,7 +178,7 @@ impl Column {
 
     fn transport(&mut self, keys: &Hydraulic, rained: &[f64], velocity: &[[f64; 2]]) {
         if keys.transport != Transport::Upwind {
-            return self.world.advect(keys.transport, velocity);
+            return self.world.advect(keys, velocity, rained);
         }
         let mut carried = self.world.sediment.clone();
         let concentration = self.world.concentration(&self.world.sediment, rained, keys);

@@ -35,7 +35,7 @@ pub(super) struct Chosen<P> {
 }
 
 impl<P: Process> Chosen<P> {
-    fn start(&self, working: &Working) -> Rows {
+    pub(super) fn start(&self, working: &Working) -> Rows {
         working.water_state(self.process.state_planes(), &self.constants)
     }
 }
@@ -58,6 +58,9 @@ impl Hydraulic {
             let deposit = self.deposit_of(landscape)?;
             working.set_stack(landscape, self.column(landscape), deposit)?;
         }
+        if self.edits.is_some() {
+            working.set_changing_mask();
+        }
         Ok(working)
     }
 
@@ -72,7 +75,10 @@ impl Hydraulic {
         let finished = match self.model {
             Model::Han => self.simulate(&self.han(filled, working), job, filled, working),
             Model::Mei => self.simulate(&self.mei(filled, working), job, filled, working),
-            Model::Stava => self.simulate(&self.stava(landscape, filled, working)?, job, filled, working),
+            Model::Stava => {
+                let script = self.script(landscape)?;
+                self.simulate(&self.stava(landscape, filled, working, script)?, job, filled, working)
+            }
         }?;
         let kept = Kept { iterations: u64::from(self.iterations), conserving: self.conserves() };
         Ok(working.store(landscape, &self.layer.0, &finished, kept))
@@ -168,7 +174,7 @@ impl Hydraulic {
             Model::Han => seconds_of(&self.han(&filled, &working), &working, &weather, engine),
             Model::Mei => seconds_of(&self.mei(&filled, &working), &working, &weather, engine),
             Model::Stava => {
-                seconds_of(&self.stava(landscape, &filled, &working)?, &working, &weather, engine)
+                seconds_of(&self.stava(landscape, &filled, &working, None)?, &working, &weather, engine)
             }
         }
     }

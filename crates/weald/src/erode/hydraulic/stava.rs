@@ -6,9 +6,11 @@ use crate::edit::Script;
 use crate::erode::edits::{Edits, Place};
 use crate::erode::mei;
 use crate::erode::springs;
-use crate::erode::stack::{Column, regolith_names, thickness_names};
+use crate::erode::stack::Column;
 use crate::erode::stava::digging::Digging;
+use crate::erode::stava::dissolution::Dissolution;
 use crate::erode::stava::planes::{Planes, REGOLITH_PLANES};
+use crate::erode::stava::slippage::Slippage;
 use crate::erode::stava::viscosity::Viscosity;
 use crate::erode::stava::{Stava, StavaConstants, plane};
 use crate::erode::working::Working;
@@ -36,19 +38,11 @@ impl Hydraulic {
         landscape: &Landscape,
         filled: &Filled,
         working: &Working,
+        script: Option<Script>,
     ) -> Result<Chosen<Stava>, Error> {
-        let Column { planes, regolith } = self.column(landscape);
-        let materials = &landscape.materials;
-        let deposit = self.deposit_of(landscape)?;
-        let constants = self.weather_planes(landscape, working)?;
-        let edits = self.edits(landscape, working)?;
-        let cell = landscape.domain.cell;
-        let viscosity = (self.viscosity / (cell * cell)) as f32;
-        let share = |material: &Material| (material.erodibility as f32 * filled.erosion).min(1.0);
-        let dissolution = regolith.zip(self.dissolution.as_ref()).map(|(plane, Nested(within))| {
-            within.dissolution(materials, deposit, plane, (filled.flow_rate, cell))
-        });
-        let slippage = self.slippage.as_ref().map(|Nested(within)| within.slippage(materials)).transpose()?;
+        let column = self.column(landscape);
+        let weather = self.weather_planes(landscape, working, script.is_some())?;
+        let edits = script.map(|script| self.edits(script, landscape, working)).transpose()?;
         let process = Stava {
             constants: StavaConstants {
                 flow_rate: filled.flow_rate,
@@ -56,41 +50,69 @@ impl Hydraulic {
                 epsilon: filled.epsilon,
                 velocity_epsilon: filled.velocity_epsilon,
             },
-            planes,
-            painted: !constants.is_empty(),
-            viscosity: (viscosity > 0.0).then(|| Viscosity::new(viscosity)),
-            erosion: Digging {
-                shares: materials.iter().map(share).collect(),
-                deposit,
-                deposition: self.deposition as f32,
-            },
-            dissolution,
-            slippage,
+            planes: column.planes,
+            painted: !weather.is_empty(),
+            viscosity: self.viscosity_in(landscape.domain.cell),
+            erosion: self.digging(landscape, filled)?,
+            dissolution: self.dissolution_in(landscape, filled)?,
+            slippage: self.slippage_in(landscape)?,
             setting: self.setting(filled, working),
         };
         let mut plane_names = named(MEI_PLANES);
-        plane_names.extend(regolith.into_iter().flat_map(|_| regolith_names()));
-        plane_names.extend(thickness_names(materials));
-        Ok(Chosen { process, plane_names, means: mei::MEAN_FLUXES, constants, edits })
+        plane_names.extend(column.names(&landscape.materials));
+        Ok(Chosen { process, plane_names, means: mei::MEAN_FLUXES, constants: weather, edits })
     }
 
-    /// The strokes of the script, which is read here.
-    fn edits(&self, landscape: &Landscape, working: &Working) -> Result<Option<Edits>, Error> {
-        let Some(file) = &self.edits else { return Ok(None) };
+    fn viscosity_in(&self, cell: f64) -> Option<Viscosity> {
+        let viscosity = (self.viscosity / (cell * cell)) as f32;
+        (viscosity > 0.0).then(|| Viscosity::new(viscosity))
+    }
+
+    fn digging(&self, landscape: &Landscape, filled: &Filled) -> Result<Digging, Error> {
+        let share = |material: &Material| (material.erodibility as f32 * filled.erosion).clamp(0.0, 1.0);
+        Ok(Digging {
+            shares: landscape.materials.iter().map(share).collect(),
+            deposit: self.deposit_of(landscape)?,
+            deposition: self.deposition as f32,
+        })
+    }
+
+    fn dissolution_in(&self, landscape: &Landscape, filled: &Filled) -> Result<Option<Dissolution>, Error> {
+        let Some(Nested(within)) = &self.dissolution else { return Ok(None) };
+        let deposit = self.deposit_of(landscape)?;
+        let numbers = (filled.flow_rate, landscape.domain.cell);
+        Ok(Some(within.dissolution(&landscape.materials, deposit, plane::COUNT, numbers)))
+    }
+
+    fn slippage_in(&self, landscape: &Landscape) -> Result<Option<Slippage>, Error> {
+        let within = self.slippage.as_ref();
+        within.map(|Nested(within)| within.slippage(&landscape.materials)).transpose()
+    }
+
+    /// The script of strokes, which is read here.
+    pub(super) fn script(&self, landscape: &Landscape) -> Result<Option<Script>, Error> {
         let names: Vec<_> = landscape.materials.iter().map(|material| material.name.as_str()).collect();
-        let script = Script::load(&file.path(), &names)?;
-        let place = Place::of(working, self.column(landscape));
-        Edits::new(script, names.into_iter().map(str::to_owned).collect(), place).map(Some)
+        self.edits.as_ref().map(|file| Script::load(&file.path(), &names)).transpose()
     }
 
-    /// Share of the rain, share of the evaporation, and sources in cells a step; none where nothing is painted.
-    fn weather_planes(&self, landscape: &Landscape, working: &Working) -> Result<Vec<Vec<f32>>, Error> {
+    fn edits(&self, script: Script, landscape: &Landscape, working: &Working) -> Result<Edits, Error> {
+        let names = landscape.materials.iter().map(|material| material.name.clone()).collect();
+        Edits::new(script, names, Place::of(working, self.column(landscape)))
+    }
+
+    /// Share of the rain, share of the evaporation, and sources in cells a step; none where nothing is painted
+    /// and none of it changes.
+    fn weather_planes(
+        &self,
+        landscape: &Landscape,
+        working: &Working,
+        changes: bool,
+    ) -> Result<Vec<Vec<f32>>, Error> {
         let layer = |name: &Option<LayerName>| name.as_ref().map(|name| landscape.field(&name.0)).transpose();
         let shares = [layer(&self.rain_layer)?, layer(&self.evaporation_layer)?];
         let painted = layer(&self.source_layer)?;
         let plain = painted.is_none() && self.sources.is_empty() && self.drains.is_empty();
-        let plain = plain && self.edits.is_none();
-        if plain && shares == [None, None] {
+        if plain && !changes && shares == [None, None] {
             return Ok(Vec::new());
         }
         let share =
@@ -104,7 +126,10 @@ impl Hydraulic {
 
 /// Number of the material that settles: the one named, or the last.
 pub(in crate::erode) fn deposit_of(name: Option<&LayerName>, materials: &[Material]) -> Result<usize, Error> {
-    let Some(LayerName(name)) = name else { return Ok(materials.len() - 1) };
+    let Some(last) = materials.len().checked_sub(1) else {
+        return Err(Error::Run("the landscape has no materials; it needs a bedrock at least".to_owned()));
+    };
+    let Some(LayerName(name)) = name else { return Ok(last) };
     materials.iter().position(|material| material.name == *name).ok_or_else(|| {
         let known: Vec<_> = materials.iter().map(|material| material.name.as_str()).collect();
         Error::Run(format!("`deposit` names material `{name}`; the landscape has: {}", known.join(", ")))

@@ -21,12 +21,16 @@ fn dig(at: u32, room: f32, found: f32, which: u32, deposition: f32) -> f32 {
     return lay_down(layer_of(DEPOSIT, at), room, found, taken, deposition);
 }
 
-/// Lays down a share of the surplus, and adds what was taken.
+/// A number less this share of itself rounds to the next lower one.
+const LAST_DIGIT: f32 = 1.5 * 0.5 * 1.1920929e-7;
+
+/// Lays down a share of the surplus, and adds what was taken. A thickness that rounds up by more than is carried is
+/// rounded down.
 fn lay_down(place: u32, room: f32, found: f32, taken: f32, deposition: f32) -> f32 {
     let thickness = column[place];
-    let after = thickness + deposition * max(-room, 0.0);
-    let settled = after - thickness;
-    let enough = settled <= found;
-    column[place] = select(thickness, after, enough);
-    return worth_counting(found + select(taken, taken - settled, enough));
+    let up = thickness + deposition * max(-room, 0.0);
+    let down = max(up - abs(up) * LAST_DIGIT, thickness);
+    let after = select(down, up, up - thickness <= found);
+    column[place] = after;
+    return worth_counting(found + (taken - (after - thickness)));
 }

@@ -19,7 +19,7 @@ kernel! {
     }
     fn cell() {
         let wet = before + (rain * rain_share + source.max(0.0)) * land;
-        let dried = evaporation * evaporation_share + (-source).max(0.0);
+        let dried = (evaporation * evaporation_share + (-source).max(0.0)) * land;
         depth = worth_counting(wet - dried.min(wet));
         came = wet - before;
         went = depth - wet;

@@ -1,0 +1,118 @@
+use proptest::prelude::*;
+use weald::edit::{Action, Brush, Effect, History, Session};
+use weald::engine::Engine;
+use weald::erode::dissolution_step::DissolutionWithin;
+use weald::erode::hydraulic::{Boundary, Hydraulic, Model, Sitting};
+use weald::erode::slippage_step::SlippageWithin;
+use weald::recipe::parameter::Nested;
+use weald::{Error, Field, Landscape};
+
+use super::{any_brush, canvas, dab};
+
+/// All processes of stava under short rains.
+fn step() -> Hydraulic {
+    Hydraulic {
+        model: Model::Stava,
+        rain: Some(0.02),
+        rain_period: 7,
+        dry_period: Some(5),
+        dissolution: Some(Nested(DissolutionWithin::default())),
+        slippage: Some(Nested(SlippageWithin::default())),
+        ..Hydraulic::default()
+    }
+}
+
+/// The rough ground of the canvas as a landscape.
+fn land() -> Landscape {
+    let canvas = canvas(24, 18);
+    let mut land = Landscape::new(weald::Domain::new(canvas.size(), canvas.cell));
+    land.materials =
+        canvas.materials.iter().map(|name| weald::material::Material::built_in(name).expect("built in")).collect();
+    let surface = Field::from_values(canvas.size(), (0..24 * 18).map(|at| canvas.surface(at) as f32).collect());
+    land.insert("height", "m", surface);
+    for (name, thickness) in canvas.materials.iter().skip(1).zip(&canvas.thickness) {
+        land.insert(name, "m", thickness.clone());
+    }
+    land
+}
+
+fn any_action() -> impl Strategy<Value = Action> {
+    prop_oneof![(1_u64..12).prop_map(Action::Steps), any_brush().prop_map(Action::Stroke)]
+}
+
+fn sit<R>(engine: &Engine, hold: impl FnOnce(Sitting<'_>) -> Result<R, Error>) -> R {
+    step().sit(&land(), engine, hold).unwrap_or_else(|error| panic!("{error}"))
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(100))]
+
+    #[test]
+    fn a_real_simulation_undone_and_redone_has_the_same_bits(
+        actions in prop::collection::vec(any_action(), 3..14), room in 1_usize..5,
+    ) {
+        sit(&Engine::Cpu, |mut sitting| {
+            let start = sitting.snapshot()?;
+            let budget = room * Sitting::bytes(&start);
+            let mut history = History::new(sitting, budget)?;
+            for action in &actions {
+                history.act(action.clone())?;
+            }
+            let end = history.session_mut().snapshot()?;
+            prop_assert!(start != end, "something happened");
+            while history.undo()? {
+                prop_assert!(history.used() <= budget);
+            }
+            prop_assert!(history.session_mut().snapshot()? == start, "undone");
+            while history.redo()? {}
+            prop_assert!(history.session_mut().snapshot()? == end, "redone");
+            let again = sit(&Engine::Bands(2), |mut fresh| {
+                actions.iter().try_for_each(|action| fresh.apply(action))?;
+                fresh.snapshot()
+            });
+            prop_assert!(again == end, "a fresh replay in bands");
+            Ok(Ok(()))
+        })?;
+    }
+}
+
+#[test]
+fn frozen_ground_stands_still_with_its_water_until_it_thaws() {
+    sit(&Engine::Cpu, |mut sitting| {
+        let whole = sitting.whole();
+        sitting.apply(&Action::Steps(9))?;
+        let frost = Brush { path: vec![[48.0, 36.0]], radius: 20.0, ..dab(Effect::Freeze) };
+        sitting.apply(&Action::Stroke(frost.clone()))?;
+        let before = sitting.canvas(whole)?;
+        let is_frozen = |at: usize| before.frozen.values()[at] > 0.0;
+        let frozen: Vec<_> = (0..whole.size.cells()).filter(|&at| is_frozen(at)).collect();
+        assert!(frozen.len() > 20 && frozen.len() < whole.size.cells() / 2, "{} cells", frozen.len());
+        assert!(frozen.iter().any(|&at| before.water.values()[at] > 0.0), "there is water to hold");
+        sitting.apply(&Action::Steps(60))?;
+        let after = sitting.canvas(whole)?;
+        for ((name, before), (_, after)) in before.fields().zip(after.fields()) {
+            for &at in &frozen {
+                assert_eq!(before.values()[at].to_bits(), after.values()[at].to_bits(), "{name} at {at}");
+            }
+        }
+        assert!(before.bedrock != after.bedrock, "the rest goes on");
+        let warmth = Brush { effect: Effect::Thaw, ..frost };
+        sitting.apply(&Action::Stroke(warmth))?;
+        sitting.apply(&Action::Steps(60))?;
+        let thawed = sitting.canvas(whole)?;
+        assert!(frozen.iter().any(|&at| thawed.water.values()[at] != after.water.values()[at]), "it goes on");
+        assert!(thawed.frozen.values().iter().all(|&frozen| frozen == 0.0));
+        Ok(())
+    });
+}
+
+#[test]
+fn what_cannot_be_held_in_hand_is_refused() {
+    let han = Hydraulic { model: Model::Han, ..Hydraulic::default() };
+    let error = han.sit(&land(), &Engine::Cpu, |_| Ok(())).expect_err("no layers");
+    assert!(error.to_string().contains("stava"), "{error}");
+    let open = Hydraulic { boundary: Boundary::Open, ..step() };
+    let frost = Action::Stroke(dab(Effect::Freeze));
+    let error = open.sit(&land(), &Engine::Cpu, |mut sitting| sitting.apply(&frost)).expect_err("open");
+    assert!(error.to_string().contains("boundary"), "{error}");
+}
