@@ -158,7 +158,7 @@ impl Hydraulic {
         Ok(match self.model {
             Model::Han => self.han(&filled, &working).process.program(),
             Model::Mei => self.mei(&filled, &working).process.program(),
-            Model::Stava => self.stava(landscape, &filled, &working)?.process.program(),
+            Model::Stava => self.stava(landscape, &filled, &working, None)?.process.program(),
         })
     }
 
