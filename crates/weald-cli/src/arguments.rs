@@ -69,14 +69,7 @@ pub(crate) enum Command {
         out: PathBuf,
     },
     /// Measure rates beside the bandwidth of memory and beside naive versions
-    Bench {
-        /// Cells a side [default: 512 1024 2048]
-        #[arg(long, value_name = "N", num_args = 1.., default_values_t = [512, 1024, 2048])]
-        size: Vec<usize>,
-        /// Threads [default: 1 2]
-        #[arg(long, value_name = "N", num_args = 1.., default_values_t = [1, 2])]
-        threads: Vec<usize>,
-    },
+    Bench(BenchArguments),
     /// Print the JSON Schema of recipes
     Schema,
     /// Print completions for a shell
@@ -132,6 +125,22 @@ pub(crate) struct RunArguments {
     /// Print errors only
     #[arg(long)]
     pub(crate) quiet: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct BenchArguments {
+    /// What is measured: cpu or gpu
+    #[arg(long, default_value = "cpu", value_parser = ["cpu", "gpu"])]
+    pub(crate) engine: String,
+    /// Cells a side [default: 512 1024 2048; with a graphics card 4096 too]
+    #[arg(long, value_name = "N", num_args = 1..)]
+    pub(crate) size: Vec<usize>,
+    /// Threads, with --engine cpu
+    #[arg(long, value_name = "N", num_args = 1.., default_values_t = [1, 2])]
+    pub(crate) threads: Vec<usize>,
+    /// Most memory of the graphics card, as in 512MiB; larger sizes are left out
+    #[arg(long, value_name = "BYTES", value_parser = engine::memory)]
+    pub(crate) gpu_memory: Option<u64>,
 }
 
 /// Greatest seed: whole numbers beyond it are not all exact where reports are read as JSON.

@@ -26,7 +26,7 @@ fn main() -> ExitCode {
         Command::Info { file, json } => commands::info::info(&file, json),
         Command::Convert { input, output } => commands::convert::convert(&input, &output),
         Command::Gallery { only, out } => commands::gallery::gallery(&only, &out),
-        Command::Bench { size, threads } => commands::bench::bench(&size, &threads),
+        Command::Bench(arguments) => commands::bench::bench(&arguments),
         Command::Schema => commands::schema::schema(),
         Command::Completions { shell } => commands::completions::completions(shell),
     };

@@ -2,6 +2,10 @@
 //!
 //! Figures are the best of several runs, since other work on a machine only ever makes a run slower.
 
+mod device;
+
+pub use device::run_on;
+
 use std::time::Instant;
 
 use rayon::prelude::*;
@@ -32,8 +36,8 @@ pub struct Rate {
     pub name: String,
     /// Columns and rows.
     pub size: Size,
-    /// Threads.
-    pub threads: usize,
+    /// Threads; none on a device.
+    pub threads: Option<usize>,
     /// Million cells, or cell-steps, a second.
     pub millions: f64,
     /// What it is compared with.
@@ -54,6 +58,13 @@ pub enum Beside {
         /// Rate to aim for, in million cell-steps a second.
         aim: f64,
     },
+    /// The rate at which a device could carry what its passes read and write.
+    Copies {
+        /// Bytes a cell-step, each buffer of a pass counted once.
+        bytes: usize,
+        /// Bandwidth of copying within the device's memory, in bytes a second.
+        bandwidth: f64,
+    },
     /// A naive version, in million cells a second.
     Naive(f64),
     /// Nothing.
@@ -64,7 +75,8 @@ impl std::fmt::Display for Rate {
     fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let Self { name, size, threads, millions, .. } = self;
         let size = format!("{} × {}", size.columns, size.rows);
-        write!(out, "{name:<24} {size:>11}  {threads} thr  {millions:>7.0} M/s")?;
+        let threads = threads.map_or("gpu  ".to_owned(), |threads| format!("{threads} thr"));
+        write!(out, "{name:<24} {size:>11}  {threads}  {millions:>7.0} M/s")?;
         match self.beside {
             Beside::Memory { bytes, operations, bandwidth, aim } => {
                 let bound = bandwidth / bytes as f64 / 1e6;
@@ -75,6 +87,15 @@ impl std::fmt::Display for Rate {
                     100.0 * millions / bound,
                     bandwidth / 1e9,
                     millions / aim,
+                )
+            }
+            Beside::Copies { bytes, bandwidth } => {
+                let bound = bandwidth / bytes as f64 / 1e6;
+                let share = 100.0 * millions / bound;
+                write!(
+                    out,
+                    "  {bytes} B a cell-step; {share:.0} % of the {bound:.0} M/s that copying at {:.0} GB/s bounds",
+                    bandwidth / 1e9,
                 )
             }
             Beside::Naive(naive) => write!(out, "  {:.0} times the naive {naive:.1} M/s", millions / naive),
@@ -176,7 +197,7 @@ fn erosion(size: Size, bandwidth: f64, report: &mut (dyn FnMut(&Rate) + Send)) -
         let millions = size.cells() as f64 * f64::from(iterations) / seconds / 1e6;
         let Contender { name, bytes, operations, aim, .. } = contender;
         let beside = Beside::Memory { bytes, operations, bandwidth, aim: aim * speed_up };
-        report(&Rate { name: name.to_owned(), size, threads, millions, beside });
+        report(&Rate { name: name.to_owned(), size, threads: Some(threads), millions, beside });
     }
     Ok(())
 }
@@ -201,7 +222,7 @@ fn generators(size: Size, report: &mut (dyn FnMut(&Rate) + Send)) -> Result<(), 
         if let Some(error) = failed {
             return Err(error);
         }
-        let (threads, millions) = (rayon::current_num_threads(), size.cells() as f64 / seconds / 1e6);
+        let (threads, millions) = (Some(rayon::current_num_threads()), size.cells() as f64 / seconds / 1e6);
         report(&Rate { name: name.to_owned(), size, threads, millions, beside });
     }
     Ok(())

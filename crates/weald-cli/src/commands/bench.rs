@@ -1,14 +1,52 @@
 //! `weald bench`.
 
+use std::fmt::Display;
+use std::sync::Arc;
+
+use weald::engine::device::Device;
+use weald_gpu::Gpu;
+
+use crate::arguments::BenchArguments;
+use crate::engine::with_memory;
 use crate::failure::Failure;
 use crate::stdout;
 
-pub(crate) fn bench(sizes: &[usize], threads: &[usize]) -> Result<(), Failure> {
+/// Cells a side where none are given: on the CPU, a graphics card, and software that acts as one.
+const SIDES: &[usize] = &[512, 1024, 2048];
+const SIDES_OF_A_CARD: &[usize] = &[512, 1024, 2048, 4096];
+const SIDES_OF_SOFTWARE: &[usize] = &[256];
+
+pub(crate) fn bench(arguments: &BenchArguments) -> Result<(), Failure> {
     let mut unwritten = None;
-    weald::bench::run(sizes, threads, &mut |rate| {
-        if let Err(failure) = stdout::print(&format!("{rate}\n")) {
+    let mut print = |line: &dyn Display| {
+        if let Err(failure) = stdout::print(&format!("{line}\n")) {
             unwritten = Some(failure);
         }
-    })?;
+    };
+    if arguments.engine == "gpu" {
+        on_the_gpu(arguments, &mut print)?;
+    } else {
+        let sides = given_or(&arguments.size, SIDES);
+        weald::bench::run(sides, &arguments.threads, &mut |rate| print(rate))?;
+    }
     unwritten.map_or(Ok(()), Err)
+}
+
+fn on_the_gpu(arguments: &BenchArguments, print: &mut dyn FnMut(&dyn Display)) -> Result<(), Failure> {
+    let gpu = with_memory(Gpu::any()?, arguments.gpu_memory)?;
+    print(&gpu.adapter());
+    let usual = if gpu.is_software() { SIDES_OF_SOFTWARE } else { SIDES_OF_A_CARD };
+    if gpu.is_software() && arguments.size.is_empty() {
+        print(
+            &"software that acts as a graphics card: only a small grid is measured, and its rates say little",
+        );
+    }
+    let bandwidth = gpu.copy_bandwidth()?;
+    let device: Arc<dyn Device> = Arc::new(gpu);
+    weald::bench::run_on(&device, bandwidth, given_or(&arguments.size, usual), print)?;
+    Ok(())
+}
+
+fn given_or<'a>(given: &'a [usize], usual: &'a [usize]) -> &'a [usize] {
+    if given.is_empty() { usual } else { given }
 }

@@ -4,6 +4,7 @@ use pulp::Arch;
 
 use super::{Boundary, Filled, Hydraulic, Model, UptakeLaw};
 use crate::engine::machine::{self, Means, Snapshot};
+use crate::engine::program::Program;
 use crate::engine::{Engine, Job};
 use crate::erode::edits::Edits;
 use crate::erode::han::{self, Han, HanConstants};
@@ -148,6 +149,17 @@ impl Hydraulic {
             slide: self.slide(),
             arch: Arch::new(),
         }
+    }
+
+    /// The model on a landscape as compute passes.
+    pub(crate) fn program(&self, landscape: &Landscape) -> Result<Program, Error> {
+        let filled = self.filled(landscape.domain.cell);
+        let working = self.working(landscape)?;
+        Ok(match self.model {
+            Model::Han => self.han(&filled, &working).process.program(),
+            Model::Mei => self.mei(&filled, &working).process.program(),
+            Model::Stava => self.stava(landscape, &filled, &working, None)?.process.program(),
+        })
     }
 
     /// Seconds that `iterations` steps take on a landscape, set-up and mean fluxes left out: for benchmarks.
