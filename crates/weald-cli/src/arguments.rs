@@ -9,6 +9,8 @@ use weald::gallery::FIGURES;
 use weald::recipe::Overrides;
 use weald::recipe::template::TEMPLATES;
 
+use crate::engine::{self, Choice};
+
 /// Turns a recipe into a living landscape.
 #[derive(Debug, Parser)]
 #[command(name = "weald", version, after_help = EXIT_CODES)]
@@ -112,8 +114,12 @@ pub(crate) struct RunArguments {
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
     /// Where simulations run: auto, cpu or gpu
-    #[arg(long, default_value = "auto", value_parser = engine)]
-    pub(crate) engine: EngineChoice,
+    #[arg(long, default_value = "auto", value_parser = engine::choice)]
+    pub(crate) engine: Choice,
+    /// Most memory of the graphics card, as in 512MiB; larger grids go tile by tile [default: 4GiB, 2GiB where
+    /// the machine's own is used]
+    #[arg(long, value_name = "BYTES", value_parser = engine::memory)]
+    pub(crate) gpu_memory: Option<u64>,
     /// Threads [default: all cores]
     #[arg(long, value_name = "N", value_parser = value_parser!(u16).range(1..=1024))]
     pub(crate) threads: Option<u16>,
@@ -154,30 +160,6 @@ impl Changes {
 fn key_and_value(text: &str) -> Result<(String, String), String> {
     let (key, value) = text.split_once('=').ok_or("it is written KEY=VALUE, as in landscape.cell=10")?;
     Ok((key.trim().to_owned(), value.trim().to_owned()))
-}
-
-/// An engine that a user can ask for.
-#[derive(Clone, Copy, Debug)]
-pub(crate) enum EngineChoice {
-    /// The best there is.
-    Auto,
-    /// All cores.
-    Cpu,
-    /// The graphics card.
-    Gpu,
-    /// Bands that exchange halos; for tests.
-    Bands(usize),
-}
-
-fn engine(text: &str) -> Result<EngineChoice, String> {
-    let bands = text.strip_prefix("bands:").and_then(|count| count.parse().ok());
-    match (text, bands) {
-        ("auto", _) => Ok(EngineChoice::Auto),
-        ("cpu", _) => Ok(EngineChoice::Cpu),
-        ("gpu", _) => Ok(EngineChoice::Gpu),
-        (_, Some(count @ 1..=1024)) => Ok(EngineChoice::Bands(count)),
-        _ => Err("the engines are auto, cpu and gpu".to_owned()),
-    }
 }
 
 #[cfg(test)]

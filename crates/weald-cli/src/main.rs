@@ -5,6 +5,7 @@
 
 mod arguments;
 mod commands;
+mod engine;
 mod failure;
 mod interrupt;
 mod progress;

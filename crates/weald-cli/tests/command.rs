@@ -133,11 +133,6 @@ fn a_grid_over_the_limit_ends_with_5() {
 }
 
 #[test]
-fn an_engine_that_is_not_there_ends_with_1() {
-    assert_ends(&Place::with(RECIPE), &["run", "r.toml", "--engine", "gpu"], 1, &["--engine cpu"]);
-}
-
-#[test]
 fn a_folder_that_cannot_be_written_ends_with_1_before_anything_runs() {
     let place = Place::with(RECIPE);
     for out in ["r.toml", "/proc/weald"] {

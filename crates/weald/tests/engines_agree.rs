@@ -62,7 +62,8 @@ fn processes() -> Vec<Box<dyn Step>> {
 
 /// All of stava, each of its processes alone, and each transport.
 fn processes_of_stava() -> Vec<Box<dyn Step>> {
-    let stava = stava(43);
+    // Heavy rain and few steps: these are many, and something must move.
+    let stava = Hydraulic { rain: Some(0.05), ..stava(15) };
     let alone = Hydraulic { dissolution: None, slippage: None, viscosity: 0.0, ..stava.clone() };
     let painted = Some(LayerName::of("painted"));
     let (rain_layer, region) = (painted.clone(), painted);
@@ -92,12 +93,12 @@ fn processes_of_stava() -> Vec<Box<dyn Step>> {
         all.push(Box::new(SlippageStep {
             strength: 0.06,
             softening,
-            iterations: 43,
+            iterations: 15,
             ..SlippageStep::default()
         }));
     }
     let water = LayerName::of("painted");
-    all.push(Box::new(DissolutionStep { water, iterations: 43, ..DissolutionStep::default() }));
+    all.push(Box::new(DissolutionStep { water, iterations: 15, ..DissolutionStep::default() }));
     all
 }
 

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use naga::valid::{Capabilities, GlobalUse, ModuleInfo, ValidationFlags, Validator};
-use naga::{AddressSpace, Module, Scalar, StructMember, TypeInner};
+use naga::{AddressSpace, ArraySize, Module, Scalar, StructMember, TypeInner, VectorSize};
 use weald::engine::program::{GROUP, MOST_BUFFERS, Pass, Program, Uniforms};
 
 /// Every program of the library.
@@ -110,18 +110,34 @@ fn assert_same_layout(module: &Module, uniforms: &Uniforms, process: &str) {
     let Some((_, kind)) = named else { panic!("{process}: no struct `{}`", uniforms.name) };
     let TypeInner::Struct { members, span } = &kind.inner else { panic!("`{}`", uniforms.name) };
     let twin: Vec<_> = members.iter().map(|member| described(module, member)).collect();
-    let host = uniforms.fields.iter().enumerate();
-    let host: Vec<_> =
-        host.map(|(at, (name, kind))| ((*name).to_owned(), (*kind).to_owned(), 4 * at as u32)).collect();
+    let mut offset = 0;
+    let host: Vec<_> = uniforms
+        .fields
+        .iter()
+        .map(|(name, kind)| {
+            let here = offset;
+            offset += if *kind == MATERIALS { 128 } else { 4 };
+            ((*name).to_owned(), (*kind).to_owned(), here)
+        })
+        .collect();
     assert_eq!(twin, host, "{process}: `{}`", uniforms.name);
     assert_eq!(*span as usize, 4 * uniforms.words.len(), "{process}: `{}`", uniforms.name);
 }
+
+/// Four numbers a material, without gaps.
+const MATERIALS: &str = "array<vec4<f32>, 8>";
 
 /// Name, type and offset.
 fn described(module: &Module, member: &StructMember) -> (String, String, u32) {
     let kind = match module.types[member.ty].inner {
         TypeInner::Scalar(Scalar::F32) => "f32",
         TypeInner::Scalar(Scalar::U32) => "u32",
+        TypeInner::Array { base, size: ArraySize::Constant(count), stride: 16 } => {
+            assert_eq!(count.get(), 8);
+            let four = TypeInner::Vector { size: VectorSize::Quad, scalar: Scalar::F32 };
+            assert_eq!(module.types[base].inner, four);
+            MATERIALS
+        }
         ref other => panic!("a member of type {other:?}"),
     };
     (member.name.clone().expect("members have names"), kind.to_owned(), member.offset)

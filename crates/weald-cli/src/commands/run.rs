@@ -4,25 +4,28 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use weald::engine::Engine;
-use weald::recipe::{Options, OutputReport, REPORT_FILE, Recipe, Report, Run};
+use weald::recipe::{Options, OutputReport, Progress, REPORT_FILE, Recipe, Report, Run};
 
-use crate::arguments::{EngineChoice, RunArguments};
+use crate::arguments::RunArguments;
 use crate::failure::Failure;
 use crate::progress::Shown;
 use crate::{interrupt, stdout};
 
 pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     let recipe = Recipe::load(&arguments.recipe, &arguments.changes.overrides())?;
+    let chosen = arguments.engine.open(arguments.gpu_memory)?;
     let options = Options {
         out: arguments.out.clone().unwrap_or_else(|| default_folder(&arguments.recipe)),
-        engine: engine(arguments.engine)?,
+        engine: chosen.engine,
         threads: arguments.threads.map(usize::from),
         checkpoint_every: Duration::from_secs(arguments.checkpoint_every),
         resume: arguments.resume,
     };
     interrupt::listen()?;
     let shown = Shown::new(arguments.quiet);
+    if let Some(note) = &chosen.note {
+        shown.note(note);
+    }
     let out = options.out.clone();
     let report = Run { recipe: &recipe, options }.execute(&shown);
     shown.end();
@@ -32,14 +35,6 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
 
 fn default_folder(recipe: &Path) -> PathBuf {
     Path::new("out").join(recipe.file_stem().unwrap_or_default())
-}
-
-fn engine(choice: EngineChoice) -> Result<Engine, Failure> {
-    match choice {
-        EngineChoice::Auto | EngineChoice::Cpu => Ok(Engine::Cpu),
-        EngineChoice::Bands(count) => Ok(Engine::Bands(count)),
-        EngineChoice::Gpu => Err(Failure::run("this build has no GPU engine; use --engine cpu")),
-    }
 }
 
 /// A line for each file.

@@ -167,7 +167,7 @@ impl Brush {
 fn span([low, high]: [f64; 2], count: usize) -> Option<[usize; 2]> {
     let first = (libm::floor(low) - 1.0).max(0.0);
     let end = (libm::ceil(high) + 1.0).min(count as f64);
-    (first < end).then(|| [first as usize, end as usize])
+    (first < end).then_some([first as usize, end as usize])
 }
 
 fn square_of_distance(place: [f64; 2], from: [f64; 2], to: [f64; 2]) -> f64 {

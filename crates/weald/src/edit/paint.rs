@@ -54,12 +54,12 @@ impl Brush {
         let mut volumes = Volumes::default();
         match &self.effect {
             Effect::Add { material, thickness } => {
-                let layer = layer(canvas, material)?;
-                lay(layer, &touched, *thickness, &mut volumes);
+                let mut layer = layer(canvas, material)?;
+                lay(&mut layer, &touched, *thickness, &mut volumes);
             }
             Effect::Remove { material, thickness } => {
-                let layer = layer(canvas, material)?;
-                lay(layer, &touched, -thickness, &mut volumes);
+                let mut layer = layer(canvas, material)?;
+                lay(&mut layer, &touched, -thickness, &mut volumes);
             }
             Effect::AddWater { depth } => pour(&mut canvas.water, &touched, *depth, &mut volumes),
             Effect::RemoveWater { depth } => pour(&mut canvas.water, &touched, -depth, &mut volumes),
@@ -147,7 +147,7 @@ fn add(value: &mut f32, amount: f64, least: f64) -> f64 {
     f64::from(*value) - old
 }
 
-fn lay(layer: Ground<'_>, touched: &[(usize, f64)], amount: f64, volumes: &mut Volumes) {
+fn lay(layer: &mut Ground<'_>, touched: &[(usize, f64)], amount: f64, volumes: &mut Volumes) {
     for &(cell, weight) in touched {
         volumes.solid(add(&mut layer.field.values_mut()[cell], weight * amount, layer.least));
     }

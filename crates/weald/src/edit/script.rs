@@ -160,8 +160,8 @@ fn one(edit: &Edit, layout: Layout) -> String {
             format!("{{{}}}\n", keys.join(", "))
         }
         Layout::Toml => {
-            let lines: String = keys.map(|(key, value)| format!("{key} = {value}\n")).collect();
-            format!("[[edit]]\n{lines}\n")
+            let lines: Vec<_> = keys.map(|(key, value)| format!("{key} = {value}\n")).collect();
+            format!("[[edit]]\n{}\n", lines.concat())
         }
     }
 }

@@ -46,6 +46,8 @@ pub struct Program {
     pub weather: Uniforms,
     /// Switches that are known when shaders are compiled: `const NAME: bool`.
     pub flags: Vec<(&'static str, bool)>,
+    /// Counts that are known when shaders are compiled: `const NAME: u32`.
+    pub counts: Vec<(&'static str, usize)>,
     /// Buffer with (land, yields), where the world has cells without data.
     pub mask: Option<usize>,
     /// Cells of the farthest neighbour that a cell depends on in one step.
@@ -187,6 +189,9 @@ impl Program {
         let mut text = self.bindings(pass);
         for (name, value) in &self.flags {
             let _ = writeln!(text, "const {name}: bool = {value};");
+        }
+        for (name, value) in &self.counts {
+            let _ = writeln!(text, "const {name}: u32 = {value}u;");
         }
         let _ = writeln!(text, "const GROUP: u32 = {GROUP}u;\nconst SUMS: u32 = {SUMS}u;");
         text.push_str(PRELUDE);

@@ -1,6 +1,8 @@
 //! Structs of 32-bit numbers that a shader sees under the same names.
 
-/// A struct that shaders read as a uniform: same name, same fields in the same order, four bytes each.
+use crate::material::MOST;
+
+/// A struct that shaders read as a uniform: same name, same fields in the same order without gaps.
 pub trait Uniform {
     /// Name of the struct.
     const NAME: &'static str;
@@ -25,28 +27,37 @@ impl Uniform for () {
     }
 }
 
-/// A number of four bytes.
-pub trait Word: Copy {
-    /// Its type in WGSL.
+/// Numbers of four bytes each.
+pub trait Words: Copy {
+    /// Their type in WGSL.
     const WGSL: &'static str;
 
-    /// Its bits.
-    fn word(self) -> u32;
+    /// Their bits.
+    fn words(self) -> Vec<u32>;
 }
 
-impl Word for f32 {
+impl Words for f32 {
     const WGSL: &'static str = "f32";
 
-    fn word(self) -> u32 {
-        self.to_bits()
+    fn words(self) -> Vec<u32> {
+        vec![self.to_bits()]
     }
 }
 
-impl Word for u32 {
+impl Words for u32 {
     const WGSL: &'static str = "u32";
 
-    fn word(self) -> u32 {
-        self
+    fn words(self) -> Vec<u32> {
+        vec![self]
+    }
+}
+
+/// Four numbers for each material. Uniforms begin with it, since its place is a multiple of sixteen bytes.
+impl Words for [[f32; 4]; MOST] {
+    const WGSL: &'static str = "array<vec4<f32>, 8>";
+
+    fn words(self) -> Vec<u32> {
+        self.as_flattened().iter().map(|number| number.to_bits()).collect()
     }
 }
 
@@ -63,11 +74,11 @@ macro_rules! uniform {
             const NAME: &'static str = stringify!($Struct);
 
             fn fields() -> Vec<(&'static str, &'static str)> {
-                vec![$( (stringify!($field), <$Type as $crate::engine::uniform::Word>::WGSL) ),*]
+                vec![$( (stringify!($field), <$Type as $crate::engine::uniform::Words>::WGSL) ),*]
             }
 
             fn words(&self) -> Vec<u32> {
-                vec![$( $crate::engine::uniform::Word::word(self.$field) ),*]
+                [$( $crate::engine::uniform::Words::words(self.$field) ),*].concat()
             }
         }
     };

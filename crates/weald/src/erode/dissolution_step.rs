@@ -9,9 +9,10 @@ use super::stack::{Column, REGOLITH, regolith_names, thickness_names};
 use super::stava::digging::{DigScratch, Digging};
 use super::stava::dissolution::{Dissolution, DissolutionScratch, RegolithRows};
 use super::stava::planes::{Planes, REGOLITH_PLANES};
+use super::stava::program::{self, StavaNumbers};
 use super::working::Working;
 use crate::engine::Job;
-use crate::engine::program::Program;
+use crate::engine::program::{Content, Program};
 use crate::error::Error;
 use crate::grid::Size;
 use crate::landscape::Landscape;
@@ -25,7 +26,7 @@ use crate::step::{Entry, Layered, Outcome, Stage, Step};
 parameters! {
     /// Dissolution as a step of its own, under water that stands still.
     pub struct DissolutionStep {
-        /// Depth to which standing water soaks the ground (r_max).
+        /// Depth to which standing water soaks the ground (`r_max`).
         depth: f64 = 0.2, range 0.0..=1000.0, unit "m";
         /// Share of the flow of the regolith that friction takes in a step.
         damping: f64 = 0.85, range 0.0..=1.0;
@@ -45,7 +46,7 @@ parameters! {
 parameters! {
     /// Dissolution within every step of `hydraulic`.
     pub struct DissolutionWithin {
-        /// Depth to which standing water soaks the ground (r_max).
+        /// Depth to which standing water soaks the ground (`r_max`).
         depth: f64 = 0.2, range 0.0..=1000.0, unit "m";
         /// Share of the flow of the regolith that friction takes in a step.
         damping: f64 = 0.85, range 0.0..=1.0;
@@ -116,6 +117,7 @@ impl Step for DissolutionStep {
             iterations: u64::from(self.iterations),
             weather: &|_| (),
             record: None,
+            edits: None,
         };
         let start = working.state(planes.count(), &[working.water().to_vec()]);
         let finished = simulation.run(start, job)?;
@@ -143,15 +145,15 @@ impl DissolutionStep {
 }
 
 /// Dissolution alone as a stream of rows. The last constant plane is the depth of the water.
-struct Dissolving {
-    dissolution: Dissolution,
-    planes: Planes,
-    links: Links,
-    arch: Arch,
+pub(super) struct Dissolving {
+    pub(super) dissolution: Dissolution,
+    pub(super) planes: Planes,
+    pub(super) links: Links,
+    pub(super) arch: Arch,
 }
 
 /// Rows in flight within one step.
-struct DissolvingScratch {
+pub(super) struct DissolvingScratch {
     solid: Vec<Ring>,
     dig: DigScratch,
     dissolution: DissolutionScratch,
@@ -170,7 +172,7 @@ impl Process for Dissolving {
     }
 
     fn lag(&self) -> usize {
-        self.dissolution.lag()
+        Dissolution::LAG
     }
 
     fn reach(&self) -> usize {
@@ -190,7 +192,14 @@ impl Process for Dissolving {
     }
 
     fn program(&self) -> Program {
-        unimplemented!("the shaders of this process")
+        let numbers = StavaNumbers::of(Some(&self.dissolution), None);
+        let deposit = (self.planes, self.dissolution.digging.deposit);
+        let mut draft = program::draft("dissolution", &numbers, deposit, &self.links);
+        let water = self.planes.count() + 1 + self.links.planes();
+        draft.buffer("water", 1, Content::Constant(vec![water]));
+        self.dissolution.add_buffers_to(&mut draft);
+        self.dissolution.add_to(&mut draft, include_str!("stava/standing_lake.wgsl"), "water");
+        draft.finish(self.reach())
     }
 
     fn advance(&self, flow: &mut Flow<'_, Self>) {

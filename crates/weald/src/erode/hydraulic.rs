@@ -7,6 +7,8 @@ mod stava;
 
 pub(super) use stava::deposit_of;
 
+use std::path::PathBuf;
+
 use super::advection::Advection;
 use super::dissolution_step::DissolutionWithin;
 use super::simulation::Sky;
@@ -18,7 +20,7 @@ use super::thermal_step::ThermalWithin;
 use crate::engine::Job;
 use crate::error::Error;
 use crate::landscape::Landscape;
-use crate::recipe::parameter::{LayerName, Nested};
+use crate::recipe::parameter::{LayerName, Nested, ScriptFile};
 use crate::step::{Entry, Layered, Outcome, Stage, Step};
 use crate::{choices, parameters};
 use defaults::Filled;
@@ -78,12 +80,12 @@ parameters! {
         /// Pipe constant k = dt² g A / l: how fast differences in level turn into flow. Unstable above 0.5.
         /// Default 0.4 (han), 0.1 (mei), 0.0981 (stava).
         flow_rate: Option<f64> = None, range 0.0001..=0.5;
-        /// Rain a step while it rains. Default 0.01 cells (han), 0.002 cells (mei),
-        /// 0.01 cells (stava).
+        /// Rain a step while it rains. Default 0.01 cells (han), 0.002 cells (mei,
+        /// stava).
         rain: Option<f64> = None, range 0.0..=100.0, unit "m/step";
         /// han: evaporation a step in dry periods, default 0.03 cells. mei: share of the depth that
         /// evaporates in every step, default 0.015. stava: evaporation a step, in dry periods or, where
-        /// `dry_period` is 0, always; default 0.03 cells.
+        /// `dry_period` is 0, always; default 0.006 cells.
         evaporation: Option<f64> = None, range 0.0..=100.0, unit "m/step";
         /// Steps of rain before a dry period. Default 60.
         rain_period: u32 = 60, range 1..=10_000_000, unit "steps";
@@ -91,7 +93,7 @@ parameters! {
         /// (mei).
         dry_period: Option<u32> = None, range 0..=10_000_000, unit "steps";
         /// Sediment that a unit of water holds at unit speed and slope (K_c). Default 10 (han), 0.05 (mei),
-        /// 0.2 (stava).
+        /// 0.5 (stava).
         capacity: Option<f64> = None, range 0.0..=10_000.0;
         /// han: uptake a unit of speed (K_v), default 0.005; with law = "dissolution" the share of the free
         /// capacity (K_s), default 0.01. mei: share of the free capacity (K_s), default 0.1.
@@ -114,7 +116,7 @@ parameters! {
         /// Depth added where sediment is divided by depth. Default 0.001 cells.
         epsilon: Option<f64> = None, range 0.000_000_1..=100.0, unit "m";
         /// han: depth added where flux is divided by depth, default 0.1 cells. mei, stava: depth below
-        /// which water stands still, default 0.0001 cells.
+        /// which water stands still, default 0.0001 cells (mei), 0.02 cells (stava).
         velocity_epsilon: Option<f64> = None, range 0.000_000_1..=100.0, unit "m";
         /// What happens at the edge and at no-data cells.
         boundary: Boundary = Boundary::Closed;
@@ -143,6 +145,9 @@ parameters! {
         deposit: Option<LayerName> = None;
         /// stava: standing water turns ground into regolith that creeps. Default: it does not.
         dissolution: Option<Nested<DissolutionWithin>> = None;
+        /// stava: script of edits, in JSON lines (.jsonl) or TOML: strokes of a brush that happen between the
+        /// steps. Its path starts at the folder of the recipe.
+        edits: Option<ScriptFile> = None;
         /// stava: materials slide off slopes steeper than their talus. Default: they do not.
         slippage: Option<Nested<SlippageWithin>> = None;
     }
@@ -229,6 +234,10 @@ impl Step for Hydraulic {
 
     fn layered(&self) -> Layered {
         if self.model == Model::Stava { Layered::Changes } else { Layered::Never }
+    }
+
+    fn files(&self) -> Vec<PathBuf> {
+        self.edits.iter().map(ScriptFile::path).collect()
     }
 
     fn faults(&self) -> Vec<String> {

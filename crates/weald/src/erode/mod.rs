@@ -7,6 +7,7 @@
 
 mod advection;
 pub mod dissolution_step;
+mod edits;
 mod flux_corrected;
 mod han;
 pub mod hydraulic;

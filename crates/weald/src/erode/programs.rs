@@ -1,5 +1,7 @@
 //! Every program that the processes can give, for tests of the shaders.
 
+mod layered;
+
 use pulp::Arch;
 
 use super::advection::Advection;
@@ -38,7 +40,7 @@ pub fn programs() -> Vec<Program> {
         advections()
             .map(move |advection| Carrying { advection, links: links(masked), arch: Arch::new() }.program())
     });
-    sliding.chain(carrying).chain(models).collect()
+    sliding.chain(carrying).chain(models).chain(layered::programs()).collect()
 }
 
 const HAN: HanConstants = HanConstants {

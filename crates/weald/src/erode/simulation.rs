@@ -2,6 +2,7 @@
 
 use std::time::Instant;
 
+use super::edits::Edits;
 use super::pace::Pace;
 use super::saved::Saved;
 use super::sums;
@@ -31,6 +32,8 @@ pub(crate) struct Simulation<'a, P: Process> {
     pub(crate) weather: &'a (dyn Fn(u64) -> P::Weather + Sync),
     /// Fluxes to average, and over which steps.
     pub(crate) record: Option<Record<'a>>,
+    /// What a person changes between the steps.
+    pub(crate) edits: Option<&'a Edits>,
 }
 
 /// A wish for mean values.
@@ -57,10 +60,13 @@ impl<P: Process> Simulation<'_, P> {
     pub(crate) fn run(&self, start: Rows, job: &Job<'_>) -> Result<Finished, Error> {
         let start = Snapshot::start(start, self.means().len());
         let first = Saved { done: 0, snapshot: start };
-        let first = match &job.resume {
+        let mut first = match &job.resume {
             Some(saved) => first.resumed(saved, self.plane_names)?,
             None => first,
         };
+        if let (Some(edits), 1..) = (self.edits, first.done) {
+            edits.catch_up(first.done, &mut first.snapshot)?;
+        }
         let mut last = matches!(job.engine, Engine::DeviceElseCpu(_)).then(|| first.clone());
         match (self.run_on(&job.engine, first, job, last.as_mut()), last) {
             (Err(Error::Device(what)), Some(last)) => {
@@ -83,6 +89,7 @@ impl<P: Process> Simulation<'_, P> {
     ) -> Result<Finished, Error> {
         let mut running = Running::new(self, engine, from, job, last)?;
         while running.done < self.iterations {
+            running.edit()?;
             running.stretch()?;
             job.watcher.progress(running.done, self.iterations, running.cells);
             running.heed()?;
@@ -105,6 +112,8 @@ struct Running<'a, P: Process> {
     /// Steps at the last look, when all was well.
     good: u64,
     last: Option<&'a mut Saved>,
+    /// The state before the edits that came last.
+    unedited: Option<Saved>,
 }
 
 impl<'a, P: Process> Running<'a, P> {
@@ -125,12 +134,36 @@ impl<'a, P: Process> Running<'a, P> {
         let cells = from.snapshot.size().cells();
         let machine = machine::start(simulation.process, simulation.means(), &from.snapshot, engine)?;
         let pace = Pace::new(engine, cells, machine.block());
-        Ok(Self { simulation, job, machine, pace, done: from.done, cells, good: from.done, last })
+        Ok(Self {
+            simulation,
+            job,
+            machine,
+            pace,
+            done: from.done,
+            cells,
+            good: from.done,
+            last,
+            unedited: None,
+        })
+    }
+
+    /// The edits that happen here. Every state that is kept at their step is the one before them.
+    fn edit(&mut self) -> Result<(), Error> {
+        let Some(edits) = self.simulation.edits.filter(|edits| edits.next_from(self.done) == Some(self.done))
+        else {
+            return Ok(());
+        };
+        let mut snapshot = self.machine.snapshot()?;
+        self.unedited = Some(Saved { done: self.done, snapshot: snapshot.clone() });
+        edits.change(self.done, &mut snapshot)?;
+        self.machine.restore(&snapshot)
     }
 
     /// One stretch of steps, and a look at the result.
     fn stretch(&mut self) -> Result<(), Error> {
         let end = (self.done + self.pace.steps()).min(self.simulation.iterations);
+        let next = self.simulation.edits.and_then(|edits| edits.next_from(self.done + 1));
+        let end = next.map_or(end, |next| end.min(next));
         let begun = Instant::now();
         self.advance_to(end)?;
         if self.machine.first_not_finite()?.is_some() {
@@ -160,7 +193,11 @@ impl<'a, P: Process> Running<'a, P> {
         self.machine.go_back()?;
         self.done = self.good;
         while self.done < end {
-            let before = self.saved()?;
+            let unedited = self.unedited.as_ref().filter(|unedited| unedited.done == self.done);
+            let before = match unedited {
+                Some(unedited) => unedited.named(self.simulation.plane_names),
+                None => self.saved()?,
+            };
             self.advance_to(self.done + 1)?;
             let Some([x, y, plane]) = self.machine.first_not_finite()? else { continue };
             let name = &self.simulation.plane_names[plane];

@@ -6,6 +6,7 @@ use super::links::Links;
 use super::simulation::Simulation;
 use super::stack::{Column, thickness_names};
 use super::stava::planes::Planes;
+use super::stava::program::{self, StavaNumbers};
 use super::stava::slippage::{Slippage, SlippageRows, SlippageScratch};
 use super::working::Working;
 use crate::engine::Job;
@@ -98,6 +99,7 @@ impl Step for SlippageStep {
             iterations: u64::from(self.iterations),
             weather: &|_| (),
             record: None,
+            edits: None,
         };
         let finished = simulation.run(working.state(planes.count(), &[]), job)?;
         Ok(working.store_ground(landscape, &self.layer.0, &finished, u64::from(self.iterations)))
@@ -105,11 +107,11 @@ impl Step for SlippageStep {
 }
 
 /// Slippage alone as a stream of rows.
-struct Slipping {
-    slippage: Slippage,
-    planes: Planes,
-    links: Links,
-    arch: Arch,
+pub(super) struct Slipping {
+    pub(super) slippage: Slippage,
+    pub(super) planes: Planes,
+    pub(super) links: Links,
+    pub(super) arch: Arch,
 }
 
 impl Process for Slipping {
@@ -141,7 +143,10 @@ impl Process for Slipping {
     }
 
     fn program(&self) -> Program {
-        unimplemented!("the shaders of this process")
+        let numbers = StavaNumbers::of(None, Some(&self.slippage));
+        let mut draft = program::draft("slippage", &numbers, (self.planes, 0), &self.links);
+        self.slippage.add_to(&mut draft, self.planes.materials);
+        draft.finish(self.reach())
     }
 
     fn advance(&self, flow: &mut Flow<'_, Self>) {

@@ -1,5 +1,5 @@
 //! Springs and drains: places where water comes or goes, `q exp(-r² / R²)` a step at distance `r` (Šťava et al.
-//! 2008, section 3.2). Where less than a millionth of the peak is left, nothing is.
+//! 2008). Where less than a millionth of the peak is left, nothing is.
 
 use crate::domain::Domain;
 use crate::grid::Field;

@@ -13,6 +13,7 @@ pub(crate) mod digging;
 pub(crate) mod dissolution;
 mod force;
 pub(crate) mod planes;
+pub(crate) mod program;
 pub(crate) mod slippage;
 mod transport;
 pub(crate) mod viscosity;
@@ -91,7 +92,7 @@ const MOVED: usize = 2;
 impl Stava {
     /// Rows by which the exchange with the ground lies behind the input.
     fn exchanged(&self) -> usize {
-        MOVED + self.viscosity.map_or(0, Viscosity::lag)
+        MOVED + self.viscosity.map_or(0, |_| Viscosity::LAG)
     }
 }
 
@@ -108,7 +109,7 @@ impl Process for Stava {
     }
 
     fn lag(&self) -> usize {
-        let dissolution = self.dissolution.as_ref().map_or(0, Dissolution::lag);
+        let dissolution = self.dissolution.as_ref().map_or(0, |_| Dissolution::LAG);
         let slippage = self.slippage.as_ref().map_or(0, Slippage::lag);
         self.exchanged() + self.setting.lag(1).max(dissolution).max(slippage)
     }
@@ -154,7 +155,7 @@ impl Process for Stava {
     }
 
     fn program(&self) -> Program {
-        unimplemented!("the shaders of this process")
+        self.passes()
     }
 
     fn advance(&self, flow: &mut Flow<'_, Self>) {

@@ -150,6 +150,7 @@ impl Step for Carry {
             iterations: u64::from(self.iterations),
             weather: &|_| (),
             record: None,
+            edits: None,
         };
         let finished = simulation.run(self.state(landscape, advection)?, job)?;
         let unit = landscape.layer(&self.layer.0)?.unit.clone();

@@ -18,7 +18,7 @@ pub(crate) struct Working {
     /// Cells with data; `None` where all have.
     pub(crate) mask: Option<Mask>,
     /// Width of the ring: 1 around an open domain, else 0.
-    ring: usize,
+    pub(super) ring: usize,
     pub(super) cell: f64,
     /// Ground at the start, in metres, without the ring.
     pub(super) start: Field,

@@ -8,7 +8,7 @@ mod sides;
 mod values;
 
 pub use colour::Colour;
-pub use file::RasterFile;
+pub use file::{RasterFile, ScriptFile};
 pub use places::Places;
 pub use sides::Sides;
 pub use values::{LayerName, Nested};
@@ -48,6 +48,8 @@ pub enum Kind {
     Text,
     /// A raster file that is read; its path starts at the folder of the recipe.
     Raster,
+    /// A script of edits that is read; its path starts at the folder of the recipe.
+    Script,
     /// A colour as `"#rrggbb"`.
     Colour,
     /// Cells a side, or a list of columns and rows.
@@ -76,6 +78,7 @@ impl Kind {
             }
             Self::Text => "text".to_owned(),
             Self::Raster => "raster file".to_owned(),
+            Self::Script => "script of edits".to_owned(),
             Self::Colour => "colour \"#rrggbb\"".to_owned(),
             Self::Sides => "whole number from 1, or [columns, rows]".to_owned(),
             Self::Layer => "layer name".to_owned(),

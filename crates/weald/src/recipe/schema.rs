@@ -125,7 +125,7 @@ fn of_kind(kind: &Kind) -> Value {
         Kind::Integer(low, high) => bounded("integer", low.max(0.0), *high),
         Kind::Flag => json!({ "type": "boolean" }),
         Kind::Choice(words) => json!({ "enum": words }),
-        Kind::Text | Kind::Raster => json!({ "type": "string" }),
+        Kind::Text | Kind::Raster | Kind::Script => json!({ "type": "string" }),
         Kind::Colour => json!({ "type": "string", "pattern": "^#[0-9A-Fa-f]{6}$" }),
         Kind::Layer => json!({ "type": "string", "pattern": "^[A-Za-z0-9_-]{1,64}$" }),
         Kind::Numbers(low, high) => json!({ "type": "array", "items": bounded("number", *low, *high) }),

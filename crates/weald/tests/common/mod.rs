@@ -105,3 +105,13 @@ pub fn symmetries(side: usize) -> [Turn; 8] {
         Box::new(move |x, y| (m - y, m - x)),
     ]
 }
+
+/// Materials, bedrock first, of these names.
+pub fn materials(names: &[&str]) -> Vec<Material> {
+    names.iter().map(|name| Material::built_in(name).expect("built in")).collect()
+}
+
+/// The field of a layer that must be there.
+pub fn field<'a>(land: &'a Landscape, name: &str) -> &'a Field {
+    land.field(name).unwrap_or_else(|error| panic!("{error}"))
+}

@@ -1,9 +1,14 @@
 //! The published equations once more, as plainly as they can be written: `f64`, one list of edges, no rows in
 //! flight, no fusing, nothing shared with the engine. Slow, and meant to be compared with.
-#![allow(unreachable_pub, reason = "the modules of a test belong to it alone")]
+#![allow(
+    dead_code,
+    unreachable_pub,
+    reason = "the modules of a test belong to it alone, and it uses its own part"
+)]
 
 pub mod advection;
 pub mod flux_corrected;
+pub mod stava;
 pub mod thermal;
 
 use weald::erode::hydraulic::{Boundary, Hydraulic, Model, Transport, UptakeLaw};
@@ -22,6 +27,8 @@ pub struct World {
     pub edges: Vec<Edge>,
     pub start: Vec<f64>,
     pub change: Vec<f64>,
+    /// What lies on the bedrock, where `start` and `change` are the bedrock alone.
+    pub piled: Vec<f64>,
     pub depth: Vec<f64>,
     pub sediment: Vec<f64>,
     /// Flow through each edge from its first to its second cell, and the other way round. Han has one signed
@@ -51,8 +58,8 @@ impl World {
         }
         let zeros = vec![0.0; land.len()];
         let flux = vec![[0.0; 2]; edges.len()];
-        let [change, depth, sediment] = [(); 3].map(|()| zeros.clone());
-        Self { columns, land, edges, start, change, depth, sediment, flux }
+        let [change, piled, depth, sediment] = [(); 4].map(|()| zeros.clone());
+        Self { columns, land, edges, start, change, piled, depth, sediment, flux }
     }
 
     /// One step of `keys`, all of whose optional numbers must be given.
@@ -64,7 +71,7 @@ impl World {
         match keys.model {
             Model::Han => self.han(keys, rain, if raining { 0.0 } else { evaporation }),
             Model::Mei => self.mei(keys, rain, evaporation),
-            Model::Stava => unreachable!("the reference of stava is another"),
+            Model::Stava => unreachable!("the layers of stava are in a module of their own"),
         }
         if let Some(Nested(thermal)) = &keys.thermal {
             thermal::slide(self, thermal.scheme, thermal.talus, thermal.strength);
@@ -72,7 +79,7 @@ impl World {
     }
 
     fn ground(&self) -> Vec<f64> {
-        self.start.iter().zip(&self.change).map(|(start, change)| start + change).collect()
+        (0..self.start.len()).map(|at| self.start[at] + self.change[at] + self.piled[at]).collect()
     }
 
     /// The edge's cell with data, where it has but one, and the sign of a flux out of it.

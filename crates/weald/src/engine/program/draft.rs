@@ -26,6 +26,7 @@ impl Draft {
             constants,
             weather,
             flags: Vec::new(),
+            counts: Vec::new(),
             mask: None,
             reach: 0,
         };
@@ -56,6 +57,16 @@ impl Draft {
     /// Adds a switch.
     pub(crate) fn flag(&mut self, name: &'static str, value: bool) {
         self.program.flags.push((name, value));
+    }
+
+    /// Adds a count.
+    pub(crate) fn count(&mut self, name: &'static str, value: usize) {
+        self.program.counts.push((name, value));
+    }
+
+    /// Adds a buffer of planes one after the other.
+    pub(crate) fn layered(&mut self, name: &'static str, lanes: usize, content: Content) {
+        self.program.buffers.push(Buffer::layered(name, lanes, content));
     }
 
     /// Adds a pass that is made of these shaders, reads and writes these buffers, and counts nothing.

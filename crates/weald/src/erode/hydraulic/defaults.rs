@@ -41,13 +41,14 @@ impl Hydraulic {
             },
             Model::Stava => Filled {
                 flow_rate: number(self.flow_rate, 0.0981),
-                rain: length(self.rain, 0.01),
-                evaporation: length(self.evaporation, 0.03),
+                rain: length(self.rain, 0.002),
+                evaporation: length(self.evaporation, 0.006),
                 dry_period: self.dry_period.unwrap_or(60),
-                capacity: number(self.capacity, 0.2),
+                capacity: number(self.capacity, 0.5),
                 erosion: number(self.erosion, 20.0),
                 epsilon: length(self.epsilon, 0.001),
-                velocity_epsilon: length(self.velocity_epsilon, 0.0001),
+                // Films on slopes would wear all ground alike: only water that has gathered carves.
+                velocity_epsilon: length(self.velocity_epsilon, 0.02),
             },
         }
     }

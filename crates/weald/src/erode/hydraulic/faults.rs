@@ -60,6 +60,7 @@ impl Hydraulic {
     /// What only stava knows.
     fn keys_of_stava(&self) -> Vec<String> {
         let given = [
+            ("edits", self.edits.is_some()),
             ("rain_layer", self.rain_layer.is_some()),
             ("evaporation_layer", self.evaporation_layer.is_some()),
             ("source_layer", self.source_layer.is_some()),

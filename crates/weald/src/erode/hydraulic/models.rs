@@ -5,6 +5,7 @@ use pulp::Arch;
 use super::{Boundary, Filled, Hydraulic, Model, UptakeLaw};
 use crate::engine::machine::{self, Means, Snapshot};
 use crate::engine::{Engine, Job};
+use crate::erode::edits::Edits;
 use crate::erode::han::{self, Han, HanConstants};
 use crate::erode::links::Links;
 use crate::erode::mei::{self, Mei, MeiConstants};
@@ -28,6 +29,8 @@ pub(super) struct Chosen<P> {
     pub(super) means: Means<'static>,
     /// Constant planes behind those of every model.
     pub(super) constants: Vec<Vec<f32>>,
+    /// What a person changes between the steps.
+    pub(super) edits: Option<Edits>,
 }
 
 impl<P: Process> Chosen<P> {
@@ -87,6 +90,7 @@ impl Hydraulic {
             iterations: u64::from(self.iterations),
             weather: &|step| self.sky(filled, step),
             record: Some(Record { steps: self.last_cycle(filled), means: chosen.means }),
+            edits: chosen.edits.as_ref(),
         };
         simulation.run(chosen.start(working), job)
     }
@@ -107,6 +111,7 @@ impl Hydraulic {
             plane_names: named(&["change", "water", "sediment", "flux_east", "flux_south"]),
             means: han::MEAN_FLUXES,
             constants: Vec::new(),
+            edits: None,
         }
     }
 
@@ -125,6 +130,7 @@ impl Hydraulic {
             plane_names: named(MEI_PLANES),
             means: mei::MEAN_FLUXES,
             constants: Vec::new(),
+            edits: None,
         }
     }
 

@@ -2,6 +2,8 @@
 
 use super::models::{Chosen, MEI_PLANES, named};
 use super::{Filled, Hydraulic};
+use crate::edit::Script;
+use crate::erode::edits::{Edits, Place};
 use crate::erode::mei;
 use crate::erode::springs;
 use crate::erode::stack::{Column, regolith_names, thickness_names};
@@ -39,6 +41,7 @@ impl Hydraulic {
         let materials = &landscape.materials;
         let deposit = self.deposit_of(landscape)?;
         let constants = self.weather_planes(landscape, working)?;
+        let edits = self.edits(landscape, working)?;
         let cell = landscape.domain.cell;
         let viscosity = (self.viscosity / (cell * cell)) as f32;
         let share = |material: &Material| (material.erodibility as f32 * filled.erosion).min(1.0);
@@ -68,7 +71,16 @@ impl Hydraulic {
         let mut plane_names = named(MEI_PLANES);
         plane_names.extend(regolith.into_iter().flat_map(|_| regolith_names()));
         plane_names.extend(thickness_names(materials));
-        Ok(Chosen { process, plane_names, means: mei::MEAN_FLUXES, constants })
+        Ok(Chosen { process, plane_names, means: mei::MEAN_FLUXES, constants, edits })
+    }
+
+    /// The strokes of the script, which is read here.
+    fn edits(&self, landscape: &Landscape, working: &Working) -> Result<Option<Edits>, Error> {
+        let Some(file) = &self.edits else { return Ok(None) };
+        let names: Vec<_> = landscape.materials.iter().map(|material| material.name.as_str()).collect();
+        let script = Script::load(&file.path(), &names)?;
+        let place = Place::of(working, self.column(landscape));
+        Edits::new(script, names.into_iter().map(str::to_owned).collect(), place).map(Some)
     }
 
     /// Share of the rain, share of the evaporation, and sources in cells a step; none where nothing is painted.
@@ -77,6 +89,7 @@ impl Hydraulic {
         let shares = [layer(&self.rain_layer)?, layer(&self.evaporation_layer)?];
         let painted = layer(&self.source_layer)?;
         let plain = painted.is_none() && self.sources.is_empty() && self.drains.is_empty();
+        let plain = plain && self.edits.is_none();
         if plain && shares == [None, None] {
             return Ok(Vec::new());
         }

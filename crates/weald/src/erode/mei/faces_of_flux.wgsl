@@ -8,7 +8,3 @@ fn face_east(cell: vec2<i32>) -> f32 {
 fn face_south(cell: vec2<i32>) -> f32 {
     return outflow_of(cell).z - outflow_of(cell + SOUTH).w;
 }
-
-fn water_before(cell: vec2<i32>) -> f32 {
-    return rained_depth[index(cell)];
-}

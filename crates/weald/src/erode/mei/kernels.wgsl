@@ -1,28 +1,7 @@
 
-// What one cell becomes in a step of Mei et al. 2007; the twin of kernels.rs. Vectors of outflows hold those to
-// the east, west, south and north.
+// What one cell becomes in a step of Mei et al. 2007; the twin of kernels.rs.
 
 const LEAST_SINE: f32 = 0.05;
-
-/// What leaves a cell.
-fn sum_of(outflow: vec4<f32>) -> f32 {
-    return (outflow.x + outflow.y) + (outflow.z + outflow.w);
-}
-
-/// The four outflows scaled to the water that the cell has.
-fn scaled(wanted: vec4<f32>, depth: f32) -> vec4<f32> {
-    let sum = sum_of(wanted);
-    let afford = max(depth * (1.0 - KEPT), 0.0);
-    return wanted * select(1.0, afford / sum, sum > afford);
-}
-
-/// Velocity of the water that flowed; `came` holds what came from the east, west, south and north.
-fn flow_velocity(outflow: vec4<f32>, came: vec4<f32>, mean_depth: f32, velocity_epsilon: f32) -> vec2<f32> {
-    let per_depth = select(0.0, 0.5 / mean_depth, mean_depth > velocity_epsilon);
-    let eastward = ((came.y - outflow.y) + (outflow.x - came.x)) * per_depth;
-    let southward = ((came.w - outflow.w) + (outflow.z - came.z)) * per_depth;
-    return vec2<f32>(eastward, southward);
-}
 
 /// Change of the ground, sediment in the water, and the part of the deposit that shrinking takes out.
 struct Exchanged {

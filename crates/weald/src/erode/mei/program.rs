@@ -10,6 +10,7 @@ use crate::stencil::chain::Process;
 const CONSTANTS: &str = include_str!("../mei.wgsl");
 const PIPES: &str = include_str!("../pipes.wgsl");
 const SLOPES: &str = include_str!("../settling/slopes.wgsl");
+const FLOWS: &str = include_str!("flows.wgsl");
 const KERNELS: &str = include_str!("kernels.wgsl");
 const RAINED: &str = include_str!("rained.wgsl");
 const OUTFLOW: &str = include_str!("outflow.wgsl");
@@ -22,6 +23,7 @@ const CARRY: &str = include_str!("carry.wgsl");
 const SETTLED: &str = include_str!("settled.wgsl");
 const VELOCITY: &str = include_str!("velocity.wgsl");
 const FACES_OF_FLUX: &str = include_str!("faces_of_flux.wgsl");
+const WATER_BEFORE: &str = include_str!("water_before.wgsl");
 const ARRIVE: &str = include_str!("arrive.wgsl");
 const RECORD: &str = include_str!("record.wgsl");
 
@@ -38,7 +40,8 @@ impl Mei {
         draft.buffer("outflows", 4, Content::State(OUTFLOWS.to_vec()));
         draft.buffer("means", 2, Content::Mean);
         let reads = ["base", "change", "carried"];
-        draft.pass("outflow", &[PIPES, KERNELS, RAINED, OUTFLOW], &reads, &["outflows"]).tallies = true;
+        draft.pass("outflow", &[PIPES, FLOWS, KERNELS, RAINED, OUTFLOW], &reads, &["outflows"]).tallies =
+            true;
         match self.setting.advection {
             None => add_upwind_to(&mut draft),
             Some(advection) => add_advection_to(&mut draft, advection),
@@ -52,7 +55,7 @@ impl Mei {
 fn add_upwind_to(draft: &mut Draft) {
     draft.scratch("concentration", 1);
     add_exchange_to(draft, HAND_ON_LOAD, "concentration");
-    draft.pass("carry", &[PIPES, KERNELS, CAME, CARRY], &["outflows", "concentration"], &["carried"]);
+    draft.pass("carry", &[PIPES, FLOWS, KERNELS, CAME, CARRY], &["outflows", "concentration"], &["carried"]);
 }
 
 fn add_advection_to(draft: &mut Draft, advection: Advection) {
@@ -60,7 +63,7 @@ fn add_advection_to(draft: &mut Draft, advection: Advection) {
     if let Advection::FluxCorrected { .. } = advection {
         draft.scratch("rained_depth", 1);
         add_exchange_to(draft, HAND_ON_DEPTH, "rained_depth");
-        let from = [SETTLED, CAME, FACES_OF_FLUX];
+        let from = [SETTLED, CAME, FACES_OF_FLUX, WATER_BEFORE];
         advection.add_to(draft, &advected(&from, &["carried", "outflows", "rained_depth"]));
     } else {
         draft.scratch("velocities", 2);
@@ -75,7 +78,7 @@ fn advected<'a>(from: &'a [&'static str], reads: &'a [&'a str]) -> Advected<'a> 
 }
 
 fn add_exchange_to(draft: &mut Draft, hand_on: &'static str, handed_on: &str) {
-    let shaders = [PIPES, SLOPES, KERNELS, RAINED, CAME, EXCHANGE, hand_on];
+    let shaders = [PIPES, SLOPES, FLOWS, KERNELS, RAINED, CAME, EXCHANGE, hand_on];
     let reads = ["base", "change", "outflows"];
     draft.pass("exchange", &shaders, &reads, &["settled", "carried", handed_on]).tallies = true;
 }

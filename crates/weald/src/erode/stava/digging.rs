@@ -1,5 +1,5 @@
 //! Taking from a column of materials from the top down, and laying down what is too much: the exchange that
-//! force-based erosion (Šťava et al. 2008, section 4.1) and dissolution (section 4.2) share.
+//! force-based erosion and dissolution share (Šťava et al. 2008).
 //!
 //! Where there is room for more, each material gives the share that is its own of the room left under the
 //! thickness above it, `min(d_k, K_k max(0, room - Σ_above d))`, and no more than there is; bedrock has no end.
@@ -55,9 +55,13 @@ kernel! {
     }
 }
 
+/// One and a half times half the distance of a number to the next: a number less this share of itself rounds to
+/// the next lower one.
+const LAST_DIGIT: f32 = 1.5 * 0.5 * f32::EPSILON;
+
 kernel! {
-    /// Lays down a share of the surplus, and adds what was taken. A deposit that rounds up to more than is
-    /// carried waits until more has come.
+    /// Lays down a share of the surplus, and adds what was taken. A thickness that rounds up by more than is
+    /// carried is rounded down, so that the rest is never negative.
     pub(crate) struct LayDown {
         reads { found, room, taken }
         updates { thickness }
@@ -65,11 +69,11 @@ kernel! {
         constants { deposition: f32 }
     }
     fn cell() {
-        let after = thickness + deposition * (-room).max(0.0);
-        let settled = after - thickness;
-        let enough = settled <= found;
-        carried = worth_counting(found + if enough { taken - settled } else { taken });
-        thickness = if enough { after } else { thickness };
+        let up = thickness + deposition * (-room).max(0.0);
+        let down = (up - up.abs() * LAST_DIGIT).max(thickness);
+        let after = if up - thickness <= found { up } else { down };
+        carried = worth_counting(found + (taken - (after - thickness)));
+        thickness = after;
     }
 }
 

@@ -1,5 +1,5 @@
 //! Dissolution: ground under standing water turns into regolith, which creeps downhill as a viscous fluid
-//! (Šťava et al. 2008, section 4.2, after Beneš 2007).
+//! (Šťava et al. 2008, after Beneš 2007).
 //!
 //! Regolith `r` strives for `min(r_max, w)`. What is missing is dug out of the column by the solubility of each
 //! material ([`super::digging`]); what is too much settles at once. It then flows like the water, by pipes over
@@ -121,9 +121,7 @@ impl RegolithRows<'_> {
 
 impl Dissolution {
     /// Rows by which the output lies behind the exchange.
-    pub(crate) fn lag(&self) -> usize {
-        2
-    }
+    pub(crate) const LAG: usize = 2;
 
     /// Exchanges row `y` of the materials with the regolith.
     pub(crate) fn dissolve(

@@ -1,5 +1,5 @@
 //! Force-based erosion: running water takes from the materials what it has the force to carry, and drops what it
-//! has not (Šťava et al. 2008, section 4.1).
+//! has not (Šťava et al. 2008).
 //!
 //! The capacity is `K_c sin a |v|`, with the mean sine of the slopes around a cell, floored at 0.1. The free
 //! capacity is dug out of the column from the top down ([`super::digging`]).
@@ -10,7 +10,7 @@ use crate::stencil::chain::Flow;
 use crate::stencil::kernel::kernel;
 
 /// Least sine that counts as a slope, so that water on level ground still carries something.
-const LEAST_SINE: f32 = 0.1;
+const LEAST_SLOPE: f32 = 0.1;
 
 kernel! {
     /// Capacity that is free; negative where the water carries too much.
@@ -25,7 +25,7 @@ kernel! {
     fn cell() {
         let speed = (eastward * eastward + southward * southward).sqrt();
         let mean_sine = ((sine_west + sine_east) + (sine_north + sine_south)) * neighbour_share;
-        room = (capacity * mean_sine.max(LEAST_SINE) * speed - found) * yields;
+        room = (capacity * mean_sine.max(LEAST_SLOPE) * speed - found) * yields;
     }
 }
 

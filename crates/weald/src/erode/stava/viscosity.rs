@@ -90,9 +90,7 @@ impl Viscosity {
     }
 
     /// Rows by which the output lies behind the newest input.
-    pub(crate) fn lag(self) -> usize {
-        2
-    }
+    pub(crate) const LAG: usize = 2;
 
     /// Diffuses the next rows that are ready.
     pub(crate) fn advance(

@@ -1,4 +1,4 @@
-//! Water in virtual pipes with four outflows a cell (Šťava et al. 2008, section 3.1; the scheme is that of
+//! Water in virtual pipes with four outflows a cell (Šťava et al. 2008; the scheme is that of
 //! [`crate::erode::mei`]), and its velocity: flux differences over the mean depth of the step.
 
 use super::{Stava, StavaScratch, plane};

@@ -1,4 +1,4 @@
-//! Water that comes and goes: springs, drains, rain, evaporation (Šťava et al. 2008, section 3.2).
+//! Water that comes and goes: springs, drains, rain, evaporation (Šťava et al. 2008).
 //!
 //! `w' = max(0, w + R r + q⁺ - q⁻ - E e)` with rain `R` and evaporation `E` a step, the painted shares `r` and
 //! `e`, and the sources `q`, which drain where they are negative.

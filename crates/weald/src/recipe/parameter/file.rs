@@ -39,3 +39,29 @@ impl ParameterValue for RasterFile {
         self.0.is_empty()
     }
 }
+
+/// A script of edits that is read when the recipe runs. The plan makes its path start at the recipe's folder
+/// and checks that its extension names a layout.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct ScriptFile(pub String);
+
+impl ScriptFile {
+    /// Where the file is.
+    pub fn path(&self) -> PathBuf {
+        Path::new(&self.0).to_owned()
+    }
+}
+
+impl ParameterValue for ScriptFile {
+    fn kind(_: (f64, f64)) -> Kind {
+        Kind::Script
+    }
+
+    fn read(node: &Node, range: (f64, f64), complaints: &mut Complaints) -> Result<Self, String> {
+        String::read(node, range, complaints).map(Self)
+    }
+
+    fn shown(&self) -> Option<String> {
+        (!self.0.is_empty()).then(|| format!("{:?}", self.0))
+    }
+}

@@ -1,8 +1,9 @@
-//! Raster files that a recipe names: their paths start at its folder, their formats are known before it runs.
+//! Files that a recipe names: their paths start at its folder, their formats are known before it runs.
 
 use std::path::Path;
 
 use super::Vocabulary;
+use crate::edit::Layout;
 use crate::recipe::parameter::{Complaints, Kind, Parameter};
 use crate::recipe::source::{Node, Table, Value};
 
@@ -18,10 +19,10 @@ impl Files<'_> {
     /// The table with each file where it is. No file is opened.
     pub(super) fn placed(&self, table: &Table, keys: &[Parameter], complaints: &mut Complaints) -> Table {
         let mut placed = table.clone();
-        for key in keys.iter().filter(|key| matches!(key.kind, Kind::Raster)) {
+        for key in keys.iter().filter(|key| matches!(key.kind, Kind::Raster | Kind::Script)) {
             let Some(Node { value: Value::Text(name), line }) = placed.get_mut(key.name) else { continue };
             let path = self.folder.join(&*name);
-            if let Some(problem) = self.problem(&path) {
+            if let Some(problem) = self.problem(&path, &key.kind) {
                 complaints.add(*line, format!("`{}`: {problem}", key.name));
             }
             *name = path.to_string_lossy().into_owned();
@@ -29,7 +30,10 @@ impl Files<'_> {
         placed
     }
 
-    fn problem(&self, path: &Path) -> Option<String> {
+    fn problem(&self, path: &Path, kind: &Kind) -> Option<String> {
+        if matches!(kind, Kind::Script) {
+            return Layout::of(path).err();
+        }
         match (self.vocabulary.format_of)(path) {
             Ok(format) if format.decode.is_none() => Some(format!("{} is written, not read", format.name)),
             Ok(_) => None,

@@ -93,7 +93,10 @@ pub(super) fn read(files: Files<'_>, recipe: &Table, complaints: &mut Complaints
 fn material(keys: &MaterialKeys, bedrock: bool) -> Material {
     let name = &keys.name.0;
     let usual = if bedrock { BuiltIn::Rock } else { BuiltIn::Soil };
-    let like = keys.like.map(BuiltIn::word).unwrap_or(name);
+    let like = match keys.like {
+        Some(like) => like.word(),
+        None => name,
+    };
     let like = Material::built_in(like).or_else(|| Material::built_in(usual.word()));
     let like = like.expect("every word of `BuiltIn` is a built-in material");
     Material {
@@ -253,7 +256,8 @@ mod tests {
     #[test]
     fn a_ninth_material_is_refused() {
         let some = |count: usize| {
-            recipe(&(0..count).map(|i| format!("[[material]]\nname = \"m{i}\"\n")).collect::<String>())
+            let tables: Vec<_> = (0..count).map(|i| format!("[[material]]\nname = \"m{i}\"\n")).collect();
+            recipe(&tables.concat())
         };
         parse(&some(8)).expect("eight are fine");
         let message = refusal(&some(9));

@@ -1,0 +1,73 @@
+//! `--engine` and `--gpu-memory` as a user meets them.
+
+mod place;
+
+use place::{Place, assert_ends};
+
+const RECIPE: &str = "\
+[landscape]
+size = [96, 64]
+cell = 10.0
+seed = 3
+[[step]]
+do = \"diamond-square\"
+relief = 100.0
+[[step]]
+do = \"hydraulic\"
+iterations = 20
+[[output]]
+layer = \"height\"
+file = \"height.npy\"
+";
+
+/// Whether a developer without any adapter leaves these tests out.
+fn left_out() -> bool {
+    let left_out = std::env::var_os("WEALD_NO_GPU").is_some_and(|value| value == "1");
+    if left_out {
+        println!("WEALD_NO_GPU=1 is set: this test of the GPU engine is left out");
+    }
+    left_out
+}
+
+#[test]
+fn a_run_on_the_gpu_says_so_in_its_report_and_names_the_adapter() {
+    if left_out() {
+        return;
+    }
+    let place = Place::with(RECIPE);
+    assert_ends(&place, &["run", "r.toml", "--engine", "gpu", "--gpu-memory", "64MiB"], 0, &[]);
+    let report = std::fs::read_to_string(place.path("out/r/report.json")).expect("the report");
+    assert!(report.contains("\"engine\": \"gpu\""), "{report}");
+    assert!(report.contains("\"adapter\": \"") && !report.contains("\"adapter\": \"\""), "{report}");
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn without_an_adapter_the_gpu_ends_with_1_and_auto_runs_on_the_cpu() {
+    let place = Place::with(RECIPE);
+    let run = |engine: &str| {
+        let mut command = place.command(&["run", "r.toml", "--engine", engine, "--quiet"]);
+        // The loader of Vulkan finds no driver there.
+        let command = command.env("VK_DRIVER_FILES", "/none").env("VK_ICD_FILENAMES", "/none");
+        let output = command.output().expect("the command starts");
+        (output.status.code(), String::from_utf8_lossy(&output.stderr).into_owned())
+    };
+    let (code, message) = run("gpu");
+    assert_eq!(code, Some(1), "{message}");
+    for part in ["Vulkan", "none at all", "mesa-vulkan-drivers", "--engine cpu"] {
+        assert!(message.contains(part), "{part}: {message}");
+    }
+    assert_eq!(run("auto").0, Some(0));
+    let report = std::fs::read_to_string(place.path("out/r/report.json")).expect("the report");
+    assert!(report.contains("\"engine\": \"cpu\"") && report.contains("\"adapter\": null"), "{report}");
+}
+
+#[test]
+fn gpu_memory_that_makes_no_sense_is_a_usage_error() {
+    let place = Place::with(RECIPE);
+    for (memory, part) in [("64MB", "`MB` is no unit"), ("lots", "no unit"), ("10KiB", "at least 1MiB")] {
+        assert_ends(&place, &["run", "r.toml", "--engine", "gpu", "--gpu-memory", memory], 2, &[part]);
+    }
+    let with_cpu = ["run", "r.toml", "--engine", "cpu", "--gpu-memory", "64MiB"];
+    assert_ends(&place, &with_cpu, 2, &["--engine gpu or auto"]);
+}

@@ -1,0 +1,4 @@
+
+fn regolith_of(at: u32) -> f32 {
+    return regolith[at];
+}

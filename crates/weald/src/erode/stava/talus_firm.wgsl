@@ -1,0 +1,5 @@
+
+/// The talus of a material between two cells.
+fn talus_between(cell: vec2<i32>, next: vec2<i32>, material: u32) -> f32 {
+    return constants.materials[material].z;
+}
