@@ -152,7 +152,7 @@ impl Buffer {
     }
 
     /// Bytes that each cell takes; those of a table do not grow with the grid.
-    pub fn bytes_per_cell(&self) -> usize {
+    fn bytes_per_cell(&self) -> usize {
         if matches!(self.content, Content::Table(_)) { 0 } else { 4 * self.lanes }
     }
 

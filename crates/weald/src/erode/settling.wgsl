@@ -21,7 +21,7 @@ struct Settled {
 /// Takes sediment from the ground, or gives it back where `taken` is negative.
 fn settle_taken(found: f32, taken: f32, change: f32, ratio: f32) -> Settled {
     if (taken > 0.0) {
-        let eroded = change - max(taken, 0.0);
+        let eroded = exact(change - max(taken, 0.0));
         return Settled(eroded, found + (change - eroded), 0.0);
     }
     let deposit = max(-taken, 0.0);

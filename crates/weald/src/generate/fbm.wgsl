@@ -11,9 +11,9 @@ struct FbmConstants {
 fn height_at(cell: vec2<i32>) -> f32 {
     var sum = 0.0;
     for (var octave = 0u; octave < constants.octaves; octave++) {
-        sum += amplitude_of(octave) * octave_at(octave, cell);
+        sum += exact(amplitude_of(octave) * octave_at(octave, cell));
     }
-    return constants.middle + constants.scale * sum;
+    return constants.middle + exact(constants.scale * sum);
 }
 
 @compute @workgroup_size(16, 16)

@@ -103,12 +103,16 @@ fn heights(
     let Some(work) = generator.on_device(domain, seed) else {
         return Ok((generator.fill(domain, seed)?, Vec::new()));
     };
+    let instead = |reason: String| {
+        let note = format!("the device could not make this ground, so the CPU did: {reason}");
+        Ok((generator.fill(domain, seed)?, vec![note]))
+    };
+    if let Some(reason) = work.too_large_for(&**device) {
+        return instead(reason);
+    }
     match (work.run(&**device), engine) {
         (Ok(made), _) => Ok((generator.finish(domain, made), Vec::new())),
-        (Err(error), Engine::DeviceElseCpu(_)) => {
-            let note = format!("the device could not make this ground, so the CPU did: {error}");
-            Ok((generator.fill(domain, seed)?, vec![note]))
-        }
+        (Err(error), Engine::DeviceElseCpu(_)) => instead(error.to_string()),
         (Err(error), _) => Err(error),
     }
 }

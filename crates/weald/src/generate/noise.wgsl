@@ -4,7 +4,6 @@
 
 const HALF_TURN: f32 = 2147483648.0;
 const RISE: f32 = 16.0f / 3.0f / HALF_TURN;
-const ROUND: f32 = 12582912.0;
 
 /// A lattice point before a place, and the way from there.
 struct Place {
@@ -23,31 +22,28 @@ fn carried_over(whole: i32, way: f32) -> Place {
 /// The lattice point before a place that is `way` steps beyond `whole`, and the way from there.
 fn stepped(whole: i32, far: f32) -> Place {
     let way = clamp(far, -4000000.0, 4000000.0);
-    let nearest = way + ROUND;
-    let rest = way - (nearest - ROUND);
-    let beyond = rest < 0.0;
-    let steps = bitcast<i32>(nearest) - bitcast<i32>(ROUND) - select(0, 1, beyond);
-    return Place(whole + steps, select(rest, rest + 1.0, beyond));
+    let steps = floor(way);
+    return Place(whole + i32(steps), way - steps);
 }
 
 fn mixed(a: f32, b: f32, share: f32) -> f32 {
-    return a + share * (b - a);
+    return a + exact(share * exact(b - a));
 }
 
 fn fade(t: f32) -> f32 {
-    return t * t * t * (t * (t * 6.0 - 15.0) + 10.0);
+    return exact(t * t * t) * (exact(t * (exact(t * 6.0) - 15.0)) + 10.0);
 }
 
 /// `4/3 sin(π t)` for `t` = `turn` / 2^31, as two parabolas.
 fn wave(turn: i32) -> f32 {
     let part = f32(turn);
-    return part * (RISE - RISE / HALF_TURN * abs(part));
+    return part * (RISE - exact(RISE / HALF_TURN * abs(part)));
 }
 
 /// Height of the plane through a lattice point, at a place relative to it.
 fn height_of(plane: vec2<u32>, point: u32, x: f32, y: f32) -> f32 {
     let bits = bits_of(plane, point);
-    return wave(bitcast<i32>(bits + (1u << 30u))) * x + wave(bitcast<i32>(bits)) * y;
+    return exact(wave(bitcast<i32>(bits + (1u << 30u))) * x) + exact(wave(bitcast<i32>(bits)) * y);
 }
 
 fn noise(plane: vec2<u32>, u: Place, v: Place) -> f32 {

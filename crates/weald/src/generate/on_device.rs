@@ -29,10 +29,10 @@ impl std::fmt::Debug for OnDevice {
 }
 
 impl OnDevice {
-    /// The result of all cells of the grid, row-major.
+    /// The result of all cells of the grid, row-major, on a device that it is not too large for.
     pub(crate) fn run(&self, device: &dyn Device) -> Result<Vec<f32>, Error> {
         let Size { columns, rows } = self.size;
-        let most = self.rows_at_once(device)?;
+        let most = self.rows_at_once(device);
         let mut loaded = device.load(&self.program, Size { columns, rows: most })?;
         let mut result = Vec::with_capacity(self.size.cells());
         for first in (0..rows).step_by(most) {
@@ -45,22 +45,21 @@ impl OnDevice {
         Ok(result)
     }
 
+    /// Why the device's memory is too small, where it is.
+    pub(crate) fn too_large_for(&self, device: &dyn Device) -> Option<String> {
+        let most = self.rows_at_once(device);
+        let fits = most == self.size.rows || self.in_bands && most > 0;
+        (!fits).then(|| {
+            let Size { columns, rows } = self.size;
+            let (name, memory) = (self.program.name, device.memory());
+            format!("{columns} × {rows} cells of `{name}` do not fit into {memory} bytes of its memory")
+        })
+    }
+
     /// Rows that the device's memory holds.
-    fn rows_at_once(&self, device: &dyn Device) -> Result<usize, Error> {
-        let Size { columns, rows } = self.size;
-        let most = (most_cells(&self.program, device) / columns as u64) as usize;
-        if most >= rows {
-            return Ok(rows);
-        }
-        if self.in_bands && most > 0 {
-            return Ok(most);
-        }
-        Err(Error::Limit(format!(
-            "`{}` of {columns} × {rows} cells does not fit into the {} bytes of the device's memory: give it more \
-             with --gpu-memory, or use --engine cpu",
-            self.program.name,
-            device.memory(),
-        )))
+    fn rows_at_once(&self, device: &dyn Device) -> usize {
+        let most = most_cells(&self.program, device) / self.size.columns as u64;
+        most.min(self.size.rows as u64) as usize
     }
 
     fn write_tables(&self, loaded: &mut dyn Loaded) -> Result<(), Error> {

@@ -12,8 +12,8 @@ fn height_at(cell: vec2<i32>) -> f32 {
     var sum = 0.0;
     for (var octave = 0u; octave < constants.octaves; octave++) {
         let fold = 1.0 - abs(octave_at(octave, cell));
-        let crest = weight * fold * fold;
-        sum += amplitude_of(octave) * crest;
+        let crest = exact(weight * fold * fold);
+        sum += exact(amplitude_of(octave) * crest);
         weight = clamp(constants.sharpness * crest, 0.0, 1.0);
     }
     return sum;

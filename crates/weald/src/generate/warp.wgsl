@@ -14,7 +14,7 @@ struct WarpConstants {
 fn bend(first: u32, cell: vec2<i32>) -> f32 {
     var sum = 0.0;
     for (var octave = first; octave < first + constants.bends; octave++) {
-        sum += amplitude_of(octave) * octave_at(octave, cell);
+        sum += exact(amplitude_of(octave) * octave_at(octave, cell));
     }
     return sum;
 }
@@ -23,9 +23,9 @@ fn height_at(cell: vec2<i32>) -> f32 {
     let away = vec2<f32>(bend(constants.octaves, cell), bend(constants.octaves + constants.bends, cell));
     var sum = 0.0;
     for (var octave = 0u; octave < constants.octaves; octave++) {
-        sum += amplitude_of(octave) * displaced_octave_at(octave, cell, away);
+        sum += exact(amplitude_of(octave) * displaced_octave_at(octave, cell, away));
     }
-    return constants.middle + constants.scale * sum;
+    return constants.middle + exact(constants.scale * sum);
 }
 
 @compute @workgroup_size(16, 16)

@@ -28,17 +28,11 @@ fn owned(cell: vec2<i32>) -> bool {
         && row >= grid.own_first_row && row < grid.own_end_row;
 }
 
-/// The same number, of which the compiler knows nothing: no grid has 2^31 rows, but only we know. Without it
-/// compilers for which `a + b - a` is `b` take the rounding error for zero.
-fn hidden(value: f32) -> f32 {
-    return bitcast<f32>(bitcast<u32>(value) ^ (grid.rows >> 31u));
-}
-
 fn add_exactly(slot: u32, amount: f32) {
     let before = sums[slot];
-    let total = hidden(before.x + amount);
-    let added = hidden(total - before.x);
-    let kept = hidden(total - added);
-    let error = hidden(before.x - kept) + hidden(amount - added);
+    let total = exact(before.x + amount);
+    let added = exact(total - before.x);
+    let kept = exact(total - added);
+    let error = exact(before.x - kept) + exact(amount - added);
     sums[slot] = vec2<f32>(total, before.y + error);
 }

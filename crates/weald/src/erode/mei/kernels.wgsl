@@ -13,7 +13,7 @@ struct Exchanged {
 /// What water with `room` for sediment takes from the ground, or gives to it where room is negative.
 fn exchange_for(room: f32, found: f32, change_before: f32) -> Exchanged {
     if (room > 0.0) {
-        let eroded = change_before - constants.erosion * max(room, 0.0);
+        let eroded = exact(change_before - constants.erosion * max(room, 0.0));
         return Exchanged(eroded, found + (change_before - eroded), 0.0);
     }
     let deposit = constants.deposition * max(-room, 0.0);

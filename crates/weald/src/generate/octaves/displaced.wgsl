@@ -6,7 +6,7 @@ fn displaced_octave_at(octave: u32, cell: vec2<i32>, away: vec2<f32>) -> f32 {
     let whole = bitcast<vec2<i32>>(column.xy) + bitcast<vec2<i32>>(row.xy);
     let rest = bitcast<vec2<f32>>(column.zw) + bitcast<vec2<f32>>(row.zw);
     let turn = bitcast<vec2<f32>>(octaves[2u * octave + 1u].xy);
-    let du = turn.x * away.x - turn.y * away.y;
-    let dv = turn.y * away.x + turn.x * away.y;
+    let du = exact(turn.x * away.x) - exact(turn.y * away.y);
+    let dv = exact(turn.y * away.x) + exact(turn.x * away.y);
     return noise(plane_of(octave), stepped(whole.x, rest.x + du), stepped(whole.y, rest.y + dv));
 }
