@@ -85,7 +85,8 @@ fn frozen_ground_stands_still_with_its_water_until_it_thaws() {
     sit(&Engine::Cpu, |mut sitting| {
         let whole = sitting.whole();
         sitting.apply(&Action::Steps(9))?;
-        let frost = Brush { path: vec![[48.0, 36.0]], radius: 16.0, falloff: Falloff::Hard, ..dab(Effect::Freeze) };
+        let frost =
+            Brush { path: vec![[48.0, 36.0]], radius: 16.0, falloff: Falloff::Hard, ..dab(Effect::Freeze) };
         sitting.apply(&Action::Stroke(frost.clone()))?;
         let before = sitting.canvas(whole)?;
         let is_frozen = |at: usize| before.frozen.values()[at] > 0.0;
