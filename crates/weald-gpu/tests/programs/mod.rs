@@ -88,6 +88,7 @@ pub(crate) fn mix() -> Program {
         constants: Uniforms::default(),
         weather: Uniforms { name: "Weather", fields: vec![("rain", "u32")], words: vec![0] },
         flags: Vec::new(),
+        counts: Vec::new(),
         mask: None,
         reach: 1,
     }
