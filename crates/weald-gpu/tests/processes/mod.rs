@@ -1,0 +1,121 @@
+//! Every process, and the grounds that all engines run them on.
+
+use weald::erode::dissolution_step::DissolutionStep;
+use weald::erode::hydraulic::{Boundary, Hydraulic, Model, Transport, UptakeLaw};
+use weald::erode::slippage_step::SlippageStep;
+use weald::erode::thermal::Scheme;
+use weald::erode::thermal_step::{Thermal, ThermalWithin};
+use weald::grid::Mask;
+use weald::recipe::parameter::{LayerName, Nested};
+use weald::step::Step;
+use weald::{Landscape, Size};
+
+use crate::common::{hydraulic, layered, rough, spring, stava};
+
+const COLUMNS: usize = 70;
+const ROWS: usize = 90;
+
+/// No multiple of the steps of a passage.
+const STEPS: u32 = 21;
+
+/// Every process in every variant that has code of its own.
+pub(crate) fn processes() -> Vec<Box<dyn Step>> {
+    let mut all: Vec<Box<dyn Step>> = Vec::new();
+    let schemes = [Scheme::Axis, Scheme::Isotropic, Scheme::IsotropicSymmetric];
+    for scheme in schemes {
+        all.push(Box::new(Thermal {
+            scheme,
+            iterations: STEPS,
+            talus: 0.3,
+            strength: 0.2,
+            ..Thermal::default()
+        }));
+    }
+    for model in [Model::Han, Model::Mei] {
+        for transport in [Transport::Upwind, Transport::SemiLagrangian, Transport::MacCormack] {
+            for boundary in [Boundary::Closed, Boundary::Open] {
+                all.push(Box::new(Hydraulic { model, transport, boundary, ..hydraulic(STEPS) }));
+            }
+        }
+        for boundary in [Boundary::Closed, Boundary::Open] {
+            let transport = Transport::MacCormack;
+            all.push(Box::new(Hydraulic {
+                model,
+                transport,
+                conserve: Some(false),
+                boundary,
+                ..hydraulic(STEPS)
+            }));
+        }
+        for scheme in schemes {
+            let thermal = Some(Nested(ThermalWithin { scheme, talus: 0.3, ..ThermalWithin::default() }));
+            all.push(Box::new(Hydraulic { model, thermal, deposit_ratio: 0.3, ..hydraulic(STEPS) }));
+        }
+        all.push(Box::new(Hydraulic { model, limiter: false, flow_rate: Some(0.05), ..hydraulic(STEPS) }));
+    }
+    all.push(Box::new(Hydraulic { law: UptakeLaw::Dissolution, ..hydraulic(STEPS) }));
+    all.push(Box::new(Hydraulic { region: Some(LayerName::of("painted")), ..hydraulic(STEPS) }));
+    all.extend(processes_of_stava());
+    all
+}
+
+/// All of stava, each of its processes alone, and each transport.
+fn processes_of_stava() -> Vec<Box<dyn Step>> {
+    // Heavy rain and few steps: these are many, and something must move.
+    let stava = Hydraulic { rain: Some(0.05), ..stava(15) };
+    let alone = Hydraulic { dissolution: None, slippage: None, viscosity: 0.0, ..stava.clone() };
+    let painted = Some(LayerName::of("painted"));
+    let (rain_layer, region) = (painted.clone(), painted);
+    let mut all = vec![
+        stava.clone(),
+        Hydraulic { boundary: Boundary::Open, ..stava.clone() },
+        Hydraulic { region, ..stava.clone() },
+        alone.clone(),
+        Hydraulic { viscosity: 0.7, ..alone.clone() },
+        Hydraulic { dissolution: stava.dissolution.clone(), ..alone.clone() },
+        Hydraulic { slippage: stava.slippage.clone(), boundary: Boundary::Open, ..alone.clone() },
+        Hydraulic {
+            rain_layer,
+            sources: vec![spring(12.0, 30.0)],
+            drains: vec![spring(50.0, 20.0)],
+            ..alone
+        },
+    ];
+    for transport in [Transport::SemiLagrangian, Transport::MacCormack] {
+        for viscosity in [0.0, 0.7] {
+            all.push(Hydraulic { transport, viscosity, ..stava.clone() });
+        }
+    }
+    let mut all: Vec<Box<dyn Step>> =
+        all.into_iter().map(|step| -> Box<dyn Step> { Box::new(step) }).collect();
+    for softening in [false, true] {
+        all.push(Box::new(SlippageStep {
+            strength: 0.06,
+            softening,
+            iterations: 15,
+            ..SlippageStep::default()
+        }));
+    }
+    let water = LayerName::of("painted");
+    all.push(Box::new(DissolutionStep { water, iterations: 15, ..DissolutionStep::default() }));
+    all
+}
+
+/// Rough ground of three materials.
+pub(crate) fn whole() -> Landscape {
+    layered(rough(COLUMNS, ROWS, 25.0, 3))
+}
+
+/// The same with cells that hold no data.
+pub(crate) fn masked() -> Landscape {
+    let mut masked = whole();
+    let size = Size::new(COLUMNS, ROWS).expect("small");
+    let land = (0..size.cells()).map(|at| at % 31 != 7 && at % COLUMNS > 3).collect();
+    masked.domain.land = Mask::new(size, land);
+    masked
+}
+
+/// Wide ground.
+pub(crate) fn wide() -> Landscape {
+    layered(rough(1000, 40, 25.0, 5))
+}
