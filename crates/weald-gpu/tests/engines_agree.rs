@@ -56,9 +56,12 @@ fn agree_on(ground: &Landscape) {
             let (got, sums) = run(&*step, ground, &Engine::Device(Arc::new(gpu.clone())), 1);
             assert_near(&*step, &expected, &got);
             assert_near_budget(&outcome, &sums, 1e-4);
-            let (tiles, sums) = run_in_tiles(&*step, ground, &gpu);
-            assert_same_bits(&*step, &got, &tiles, "tiles of a device");
-            assert_near_budget(&outcome, &sums, 1e-4);
+            // The wide ground would be cut into hundreds, with nothing new to see.
+            if ground.domain.size.cells() < 10_000 {
+                let (tiles, sums) = run_in_tiles(&*step, ground, &gpu);
+                assert_same_bits(&*step, &got, &tiles, "tiles of a device");
+                assert_near_budget(&outcome, &sums, 1e-4);
+            }
         }
     }
 }

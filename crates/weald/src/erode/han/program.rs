@@ -36,18 +36,10 @@ impl Han {
         draft.scratch("depth_next", 1);
         draft.scratch("sediment_next", 1);
         draft.buffer("means", 2, Content::Mean);
-        self.add_water_to(&mut draft);
+        add_water_to(&mut draft);
         self.add_sediment_to(&mut draft);
         draft.pass("record", &[RECORD], &["fluxes"], &["means"]).recorded = true;
         draft.finish(self.reach())
-    }
-
-    fn add_water_to(&self, draft: &mut Draft) {
-        draft.pass("flux", &[PIPES, FLUX], &["base", "change", "depth", "fluxes"], &["wanted"]);
-        let reads = ["depth", "sediment", "wanted"];
-        let writes = ["fluxes", "depth_next", "sediment_next"];
-        draft.pass("flow", &[PIPES, UPWIND, FLOW], &reads, &writes).tallies = true;
-        draft.swap("depth", "depth_next");
     }
 
     fn add_sediment_to(&self, draft: &mut Draft) {
@@ -76,4 +68,12 @@ impl Han {
             writes: "sediment",
         }
     }
+}
+
+fn add_water_to(draft: &mut Draft) {
+    draft.pass("flux", &[PIPES, FLUX], &["base", "change", "depth", "fluxes"], &["wanted"]);
+    let reads = ["depth", "sediment", "wanted"];
+    let writes = ["fluxes", "depth_next", "sediment_next"];
+    draft.pass("flow", &[PIPES, UPWIND, FLOW], &reads, &writes).tallies = true;
+    draft.swap("depth", "depth_next");
 }
