@@ -22,6 +22,7 @@ use super::thermal_step::ThermalWithin;
 use crate::engine::Job;
 use crate::error::Error;
 use crate::landscape::Landscape;
+use crate::material::Material;
 use crate::recipe::parameter::{LayerName, Nested, ScriptFile};
 use crate::step::{Entry, Layered, Outcome, Stage, Step};
 use crate::{choices, parameters};
@@ -244,6 +245,10 @@ impl Step for Hydraulic {
 
     fn faults(&self) -> Vec<String> {
         self.all_faults()
+    }
+
+    fn faults_among(&self, materials: &[Material]) -> Vec<String> {
+        self.all_faults_among(materials)
     }
 
     fn run(&self, landscape: &mut Landscape, job: &Job<'_>) -> Result<Outcome, Error> {

@@ -18,7 +18,7 @@ use crate::error::Error;
 use crate::grid::Field;
 use crate::landscape::Landscape;
 use crate::material::Material;
-use crate::recipe::parameter::{LayerName, Nested};
+use crate::recipe::parameter::{LayerName, Nested, nearest};
 
 impl Hydraulic {
     /// Where the materials stand in the state.
@@ -30,7 +30,7 @@ impl Hydraulic {
 
     /// Number of the material that settles.
     pub(super) fn deposit_of(&self, landscape: &Landscape) -> Result<usize, Error> {
-        deposit_of(self.deposit.as_ref(), &landscape.materials)
+        deposit_of(self.deposit.as_ref(), &landscape.materials).map_err(Error::Run)
     }
 
     pub(super) fn stava(
@@ -124,14 +124,19 @@ impl Hydraulic {
     }
 }
 
-/// Number of the material that settles: the one named, or the last.
-pub(in crate::erode) fn deposit_of(name: Option<&LayerName>, materials: &[Material]) -> Result<usize, Error> {
+/// Number of the material that settles: the one named, or the last; else a sentence for the user.
+pub(in crate::erode) fn deposit_of(
+    name: Option<&LayerName>,
+    materials: &[Material],
+) -> Result<usize, String> {
     let Some(last) = materials.len().checked_sub(1) else {
-        return Err(Error::Run("the landscape has no materials; it needs a bedrock at least".to_owned()));
+        return Err("the landscape has no materials; it needs a bedrock at least".to_owned());
     };
     let Some(LayerName(name)) = name else { return Ok(last) };
     materials.iter().position(|material| material.name == *name).ok_or_else(|| {
         let known: Vec<_> = materials.iter().map(|material| material.name.as_str()).collect();
-        Error::Run(format!("`deposit` names material `{name}`; the landscape has: {}", known.join(", ")))
+        let near = nearest(name, &known).map(|near| format!("; did you mean `{near}`?"));
+        let near = near.unwrap_or_default();
+        format!("`deposit` is {name:?}, but must be a material of the landscape: {}{near}", known.join(", "))
     })
 }
