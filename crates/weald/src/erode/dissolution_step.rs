@@ -178,10 +178,6 @@ impl Process for Dissolving {
         Dissolution::LAG
     }
 
-    fn reach(&self) -> usize {
-        self.lag() + 1
-    }
-
     fn scratch(&self, columns: usize) -> DissolvingScratch {
         DissolvingScratch {
             solid: (0..self.planes.materials).map(|_| Ring::new(columns, 1)).collect(),

@@ -101,10 +101,6 @@ impl Process for Han {
         SETTLED + self.setting.lag(0)
     }
 
-    fn reach(&self) -> usize {
-        self.lag() + 1
-    }
-
     fn scratch(&self, columns: usize) -> HanScratch {
         // As many rows as lie between the stage that writes one and the last that reads it, and no more: what
         // is in flight should stay in the second-level cache.

@@ -112,8 +112,8 @@ parameters! {
         /// Whether a cell gives no more water than it has. `false` is the scheme as printed: han lets depths
         /// go negative.
         limiter: bool = true;
-        /// How sediment travels.
-        transport: Transport = Transport::Upwind;
+        /// How sediment travels. Default "upwind" (han, mei), "maccormack" (stava).
+        transport: Option<Transport> = None;
         /// Whether transport = "maccormack" takes the form that conserves sediment. Default true.
         conserve: Option<bool> = None;
         /// Depth added where sediment is divided by depth. Default 0.001 cells.
@@ -166,8 +166,15 @@ pub const ENTRY: Entry = Entry::of::<Hydraulic>(
 );
 
 impl Hydraulic {
+    /// How sediment travels, where the recipe says nothing as in the model's publication; but Mei et al. lose
+    /// sediment, so there upwind stands in.
+    pub fn transport(&self) -> Transport {
+        let usual = if self.model == Model::Stava { Transport::MacCormack } else { Transport::Upwind };
+        self.transport.unwrap_or(usual)
+    }
+
     fn advection(&self, filled: &Filled) -> Option<Advection> {
-        match self.transport {
+        match self.transport() {
             Transport::Upwind => None,
             Transport::SemiLagrangian => Some(Advection::SemiLagrangian),
             Transport::MacCormack if self.conserves() => {
@@ -179,7 +186,7 @@ impl Hydraulic {
 
     /// Whether transport loses no sediment.
     fn conserves(&self) -> bool {
-        match self.transport {
+        match self.transport() {
             Transport::Upwind => true,
             Transport::SemiLagrangian => false,
             Transport::MacCormack => self.conserve.unwrap_or(true),

@@ -9,6 +9,7 @@ mod advection;
 pub mod dissolution_step;
 mod edits;
 mod flux_corrected;
+mod four_outflows;
 mod han;
 pub mod hydraulic;
 mod links;

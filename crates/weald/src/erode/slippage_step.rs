@@ -153,10 +153,6 @@ impl Process for Slipping {
         self.slippage.lag()
     }
 
-    fn reach(&self) -> usize {
-        self.lag() + 1
-    }
-
     fn scratch(&self, columns: usize) -> SlippageScratch {
         SlippageScratch::new(columns, self.planes.materials)
     }

@@ -114,10 +114,6 @@ impl Process for Stava {
         self.exchanged() + self.setting.lag(1).max(dissolution).max(slippage)
     }
 
-    fn reach(&self) -> usize {
-        self.lag() + 1
-    }
-
     fn scratch(&self, columns: usize) -> StavaScratch {
         let ring = |depth| Ring::new(columns, depth);
         let looked_back = self.exchanged() + 1;

@@ -42,7 +42,7 @@ impl Hydraulic {
     }
 
     fn faults_of_transport(&self) -> Option<String> {
-        match (self.transport, self.conserve) {
+        match (self.transport(), self.conserve) {
             (Transport::Upwind, Some(false)) => {
                 Some("`conserve` is false, but transport = \"upwind\" always conserves sediment".to_owned())
             }
