@@ -28,6 +28,15 @@ pub trait Step: Debug + Send + Sync {
         Vec::new()
     }
 
+    /// Looks at the files that steer it, so that their faults are told before anything runs.
+    ///
+    /// # Errors
+    /// Those of the files.
+    fn look_ahead(&self, materials: &[Material]) -> Result<(), Error> {
+        let _ = materials;
+        Ok(())
+    }
+
     /// Faults that concern several parameters at once, each a sentence for the user.
     fn faults(&self) -> Vec<String> {
         Vec::new()

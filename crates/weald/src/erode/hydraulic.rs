@@ -148,11 +148,11 @@ parameters! {
         deposit: Option<LayerName> = None;
         /// stava: standing water turns ground into regolith that creeps. Default: it does not.
         dissolution: Option<Nested<DissolutionWithin>> = None;
+        /// stava: materials slide off slopes steeper than their talus. Default: they do not.
+        slippage: Option<Nested<SlippageWithin>> = None;
         /// stava: script of edits, in JSON lines (.jsonl) or TOML: strokes of a brush that happen between the
         /// steps. Its path starts at the folder of the recipe.
         edits: Option<ScriptFile> = None;
-        /// stava: materials slide off slopes steeper than their talus. Default: they do not.
-        slippage: Option<Nested<SlippageWithin>> = None;
     }
 }
 
@@ -248,6 +248,10 @@ impl Step for Hydraulic {
 
     fn files(&self) -> Vec<PathBuf> {
         self.edits.iter().map(ScriptFile::path).collect()
+    }
+
+    fn look_ahead(&self, materials: &[Material]) -> Result<(), Error> {
+        self.script(materials).map(drop)
     }
 
     fn faults(&self) -> Vec<String> {

@@ -66,8 +66,8 @@ impl SlippageWithin {
         let most = 0.25 / count as f64;
         (strength > most).then(|| {
             format!(
-                "`strength` of slippage is {strength}, but must be at most {most} with {count} materials: all of \
-                 them slide at once"
+                "`strength` is {strength}, but must be at most 0.25 / {count} = {most:.4}: all {count} materials \
+                 slide at once"
             )
         })
     }

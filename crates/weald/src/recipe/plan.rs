@@ -159,7 +159,7 @@ fn check(
     if recipe.get("output").is_none() {
         complaints.add(1, "a recipe needs an [[output]] table, or its run would leave nothing behind");
     }
-    if let (true, Ok(ground)) = (all_understood, &start.ground) {
+    if let (true, Ok(ground)) = (all_understood && materials_understood, &start.ground) {
         let made = Made { ground, materials: &materials, steps: &steps };
         layers::check(&made, &outputs, complaints);
     }

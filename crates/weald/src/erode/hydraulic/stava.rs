@@ -1,9 +1,9 @@
 //! The model of Šťava et al. with the keys of a recipe filled in.
 
 use super::models::{Chosen, MEI_PLANES, named};
-use super::{Filled, Hydraulic};
+use super::{Boundary, Filled, Hydraulic};
 use crate::edit::Script;
-use crate::erode::edits::{Edits, Place};
+use crate::erode::edits::{self, Edits, Place};
 use crate::erode::mei;
 use crate::erode::springs;
 use crate::erode::stack::Column;
@@ -18,7 +18,7 @@ use crate::error::Error;
 use crate::grid::Field;
 use crate::landscape::Landscape;
 use crate::material::Material;
-use crate::recipe::parameter::{LayerName, Nested, nearest};
+use crate::recipe::parameter::{LayerName, Nested, ScriptFile, nearest};
 
 impl Hydraulic {
     /// Where the materials stand in the state.
@@ -42,7 +42,7 @@ impl Hydraulic {
     ) -> Result<Chosen<Stava>, Error> {
         let column = self.column(landscape);
         let weather = self.weather_planes(landscape, working, script.is_some())?;
-        let edits = script.map(|script| self.edits(script, landscape, working)).transpose()?;
+        let edits = script.map(|script| self.edits(script, landscape, working));
         let process = Stava {
             constants: StavaConstants {
                 flow_rate: filled.flow_rate,
@@ -90,12 +90,15 @@ impl Hydraulic {
     }
 
     /// The script of strokes, which is read here.
-    pub(super) fn script(&self, landscape: &Landscape) -> Result<Option<Script>, Error> {
-        let names: Vec<_> = landscape.materials.iter().map(|material| material.name.as_str()).collect();
-        self.edits.as_ref().map(|file| Script::load(&file.path(), &names)).transpose()
+    pub(super) fn script(&self, materials: &[Material]) -> Result<Option<Script>, Error> {
+        let Some(path) = self.edits.as_ref().map(ScriptFile::path) else { return Ok(None) };
+        let names: Vec<_> = materials.iter().map(|material| material.name.as_str()).collect();
+        let script = Script::load(&path, &names)?;
+        edits::check(&script, self.boundary == Boundary::Open).map_err(|what| Error::input(&path, what))?;
+        Ok(Some(script))
     }
 
-    fn edits(&self, script: Script, landscape: &Landscape, working: &Working) -> Result<Edits, Error> {
+    fn edits(&self, script: Script, landscape: &Landscape, working: &Working) -> Edits {
         let names = landscape.materials.iter().map(|material| material.name.clone()).collect();
         Edits::new(script, names, Place::of(working, self.column(landscape)))
     }
