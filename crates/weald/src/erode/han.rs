@@ -148,7 +148,7 @@ impl Process for Han {
             self.faces(flow, y);
             self.settle(flow, y);
             if self.setting.in_flux_form() {
-                self.fluxes(flow, y);
+                Self::fluxes(flow, y);
             } else if self.setting.advection.is_some() {
                 self.cell_velocity(flow, y);
             }

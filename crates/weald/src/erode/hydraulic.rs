@@ -22,6 +22,7 @@ use super::thermal_step::ThermalWithin;
 use crate::engine::Job;
 use crate::error::Error;
 use crate::landscape::Landscape;
+use crate::material::Material;
 use crate::recipe::parameter::{LayerName, Nested, ScriptFile};
 use crate::step::{Entry, Layered, Outcome, Stage, Step};
 use crate::{choices, parameters};
@@ -147,11 +148,11 @@ parameters! {
         deposit: Option<LayerName> = None;
         /// stava: standing water turns ground into regolith that creeps. Default: it does not.
         dissolution: Option<Nested<DissolutionWithin>> = None;
+        /// stava: materials slide off slopes steeper than their talus. Default: they do not.
+        slippage: Option<Nested<SlippageWithin>> = None;
         /// stava: script of edits, in JSON lines (.jsonl) or TOML: strokes of a brush that happen between the
         /// steps. Its path starts at the folder of the recipe.
         edits: Option<ScriptFile> = None;
-        /// stava: materials slide off slopes steeper than their talus. Default: they do not.
-        slippage: Option<Nested<SlippageWithin>> = None;
     }
 }
 
@@ -249,8 +250,16 @@ impl Step for Hydraulic {
         self.edits.iter().map(ScriptFile::path).collect()
     }
 
+    fn look_ahead(&self, materials: &[Material]) -> Result<(), Error> {
+        self.script(materials).map(drop)
+    }
+
     fn faults(&self) -> Vec<String> {
         self.all_faults()
+    }
+
+    fn faults_among(&self, materials: &[Material]) -> Vec<String> {
+        self.all_faults_among(materials)
     }
 
     fn run(&self, landscape: &mut Landscape, job: &Job<'_>) -> Result<Outcome, Error> {

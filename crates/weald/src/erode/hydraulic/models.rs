@@ -13,6 +13,7 @@ use crate::erode::links::Links;
 use crate::erode::mei::{self, Mei, MeiConstants};
 use crate::erode::setting::Setting;
 use crate::erode::simulation::{Finished, Record, Simulation, Sky};
+use crate::erode::springs;
 use crate::erode::working::{Kept, Working};
 use crate::error::Error;
 use crate::landscape::Landscape;
@@ -79,12 +80,16 @@ impl Hydraulic {
             Model::Han => self.simulate(&self.han(filled, working), job, filled, working),
             Model::Mei => self.simulate(&self.mei(filled, working), job, filled, working),
             Model::Stava => {
-                let script = self.script(landscape)?;
+                let script = self.script(&landscape.materials)?;
                 self.simulate(&self.stava(landscape, filled, working, script)?, job, filled, working)
             }
         }?;
         let kept = Kept { iterations: u64::from(self.iterations), conserving: self.conserves() };
-        Ok(working.store(landscape, &self.layer.0, &finished, kept))
+        let mut outcome = working.store(landscape, &self.layer.0, &finished, kept);
+        for (key, springs) in [("sources", &self.sources), ("drains", &self.drains)] {
+            outcome.notes.extend(springs::out_of_reach(&landscape.domain, key, springs));
+        }
+        Ok(outcome)
     }
 
     fn simulate<P: Process<Weather = Sky>>(
