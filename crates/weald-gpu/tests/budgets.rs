@@ -39,16 +39,14 @@ fn assert_closed(name: &str, land: &Landscape, budget: &Budget, moved: f64) {
 #[test]
 fn conserving_transport_loses_nothing_in_3000_steps() {
     let Some(gpu) = programs::gpu() else { return };
-    for model in [Model::Han, Model::Mei] {
-        for boundary in [Boundary::Closed, Boundary::Open] {
-            let mut land = landscape(rough(SIDE, SIDE, 25.0, 4));
-            let step = Hydraulic { model, transport: Transport::MacCormack, boundary, ..hydraulic(STEPS) };
-            let budget = run(&step, &mut land, &gpu);
-            let eroded: f64 = field(&land, "erosion").values().iter().map(|&e| f64::from(e)).sum();
-            assert!(eroded > 1.0, "nothing moved, so a closed budget would mean nothing: {eroded} m³");
-            let moved = budget.solid.error() * budget.solid.start / eroded;
-            assert_closed(&format!("{model:?} {boundary:?}"), &land, &budget, moved);
-        }
+    for (model, boundary) in [(Model::Han, Boundary::Open), (Model::Mei, Boundary::Closed)] {
+        let mut land = landscape(rough(SIDE, SIDE, 25.0, 4));
+        let step = Hydraulic { model, transport: Transport::MacCormack, boundary, ..hydraulic(STEPS) };
+        let budget = run(&step, &mut land, &gpu);
+        let eroded: f64 = field(&land, "erosion").values().iter().map(|&e| f64::from(e)).sum();
+        assert!(eroded > 1.0, "nothing moved, so a closed budget would mean nothing: {eroded} m³");
+        let moved = budget.solid.error() * budget.solid.start / eroded;
+        assert_closed(&format!("{model:?} {boundary:?}"), &land, &budget, moved);
     }
 }
 

@@ -15,7 +15,7 @@ use weald::recipe::parameter::ScriptFile;
 use weald::{Error, Landscape};
 
 /// Metres that a device may differ by from the CPU in its worst cell: as without strokes.
-const WORST: f32 = 1e-2;
+const WORST: f32 = 1e-4;
 
 fn ground() -> Landscape {
     layered(rough(50, 40, 25.0, 3))
@@ -89,7 +89,7 @@ fn a_sitting_on_a_device_comes_near_the_same_on_the_cpu() {
     {
         if name != "frozen" && name != "soil" {
             let changed = worst_difference(expected, untouched);
-            assert!(changed > 5.0 * WORST, "strokes change `{name}` by {changed} alone");
+            assert!(changed > 100.0 * WORST, "strokes change `{name}` by {changed} alone");
         }
         let worst = worst_difference(expected, got);
         assert!(worst < WORST, "`{name}` differs by up to {worst} m");

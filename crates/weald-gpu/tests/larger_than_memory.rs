@@ -14,7 +14,7 @@ use weald::engine::program::Program;
 use weald::erode::hydraulic::{Hydraulic, Model, Transport};
 use weald::erode::slippage_step::SlippageWithin;
 use weald::recipe::parameter::{LayerName, Nested};
-use weald::{Error, Landscape, Size};
+use weald::{Error, Field, Landscape, Size};
 use weald_gpu::Gpu;
 
 /// A device that remembers for what grids it was asked.
@@ -80,7 +80,7 @@ fn short_cycle(step: Hydraulic) -> Hydraulic {
 
 #[test]
 fn six_million_cells_run_in_64_mebibytes_and_equal_the_whole() {
-    let step = short_cycle(Hydraulic { model: Model::Mei, ..hydraulic(8) });
+    let step = short_cycle(Hydraulic { model: Model::Mei, ..hydraulic(6) });
     let ground = landscape(rough(3000, 2000, 400.0, 5));
     assert_tiles_are_the_whole(&step, &ground, 64 << 20, 6);
 }
@@ -98,9 +98,8 @@ fn layers_tables_and_painted_weather_run_in_tiles_and_equal_the_whole() {
         ..short_cycle(stava(20))
     };
     let mut ground = layered(rough(300, 200, 60.0, 5));
-    let everywhere_but_here = weald::Field::from_function(ground.domain.size, |x, y| {
-        if (100..110).contains(&x) && y > 50 { 0.0 } else { 1.0 }
-    });
-    ground.insert("painted", "1", everywhere_but_here);
+    let wall = |x: usize, y: usize| (100..110).contains(&x) && y > 50;
+    let but_a_wall = Field::from_function(ground.domain.size, |x, y| if wall(x, y) { 0.0 } else { 1.0 });
+    ground.insert("painted", "1", but_a_wall);
     assert_tiles_are_the_whole(&step, &ground, 4 << 20, 4);
 }
