@@ -2,10 +2,10 @@
 
 mod common;
 
-use common::worst_difference;
+use common::{error_of_what_moved, worst_difference};
 use common::{field, hydraulic, landscape, layered, materials, rough, run, spring, stava, symmetries};
 use proptest::prelude::*;
-use weald::engine::{Job, SolidBudget};
+use weald::engine::Job;
 use weald::erode::dissolution_step::{DissolutionStep, DissolutionWithin};
 use weald::erode::hydraulic::{Boundary, Hydraulic, Model, Transport};
 use weald::erode::slippage_step::{SlippageStep, SlippageWithin};
@@ -23,24 +23,6 @@ fn assert_nothing_is_negative(land: &Landscape) {
         let (least, _) = layer.range(None).expect("cells");
         assert!(least >= 0.0, "{name} is {least} m somewhere");
     }
-}
-
-/// The part of the solid that is missing, relative to all that a cell anywhere gained or lost.
-fn error_of_what_moved(solid: &SolidBudget, before: &Landscape, after: &Landscape) -> f64 {
-    let layers = ["bedrock", "clay", "soil", "sand"];
-    let start = |name: &str, at: usize| match name {
-        "bedrock" => {
-            let lying = layers[1..].iter().map(|layer| f64::from(field(before, layer).values()[at]));
-            f64::from(field(before, "height").values()[at]) - lying.sum::<f64>()
-        }
-        _ => f64::from(field(before, name).values()[at]),
-    };
-    let moved = layers.map(|name| {
-        let after = field(after, name).values().iter().enumerate();
-        after.map(|(at, &now)| (f64::from(now) - start(name, at)).abs()).sum::<f64>()
-    });
-    let moved = moved.iter().sum::<f64>() * before.domain.cell.powi(2);
-    solid.error() * solid.start / moved
 }
 
 #[test]
