@@ -22,7 +22,7 @@ fn make(job: GalleryJob) -> Result<FigureOutput, Error> {
     let (columns, rows, iterations) = job.choose((128, 80, 1500), (40, 32, 60));
     let start = valley(Size::new(columns, rows)?);
     let keys = format!(
-        "boundary = \"open\"\nerosion = 5.0\ncapacity = 1.0\nsources = [{{ x = {:?}, y = {:?}, radius = 3.0, \
+        "erosion = 5.0\ncapacity = 2.0\nviscosity = 0.2\nsources = [{{ x = {:?}, y = {:?}, radius = 3.0, \
          rate = 0.05 }}]",
         0.1 * columns as f64,
         0.5 * rows as f64
@@ -42,21 +42,21 @@ fn make(job: GalleryJob) -> Result<FigureOutput, Error> {
     Ok(FigureOutput { plates, measured: measured(&landscapes)? })
 }
 
-/// A plain that falls to the east, 3 m of soil on 5 m of gravel on rock, with a winding channel.
+/// A plain that falls to the east, level beds of soil and gravel on rock, with a winding channel.
 fn valley(size: Size) -> Landscape {
     let rows = size.rows as f64;
     let height = Field::from_function(size, |x, y| {
         let middle = 0.5 * rows + 0.1 * rows * libm::sin((x as f64 - 0.1 * size.columns as f64) / 13.0);
         let away = (y as f64 + 0.5 - middle).abs();
-        (30.0 - 0.08 * x as f64 - (2.5 - 0.5 * away).max(0.0)) as f32
+        (30.0 - 0.04 * x as f64 - (2.0 - 0.3 * away).max(0.0)) as f32
     });
     let mut landscape = ground(
         height,
         CELL,
         vec![material("rock", "rock"), material("gravel", "gravel"), material("soil", "soil")],
     );
-    landscape.materials[1].thickness = 5.0;
-    landscape.materials[2].thickness = 3.0;
+    landscape.materials[1].bottom = Some(18.0);
+    landscape.materials[2].bottom = Some(24.0);
     landscape
 }
 

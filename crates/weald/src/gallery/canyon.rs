@@ -27,13 +27,13 @@ struct Bed {
 }
 
 const BEDS: [Bed; 3] = [
-    Bed { name: "granite", bottom: 0.0, top: 45.0 },
-    Bed { name: "shale", bottom: 45.0, top: 95.0 },
-    Bed { name: "sandstone", bottom: 95.0, top: 125.0 },
+    Bed { name: "granite", bottom: 58.0, top: 78.0 },
+    Bed { name: "shale", bottom: 78.0, top: 100.0 },
+    Bed { name: "sandstone", bottom: 100.0, top: 120.0 },
 ];
 
 fn make(job: GalleryJob) -> Result<FigureOutput, Error> {
-    let (columns, rows, iterations) = job.choose((192, 128, 3000), (48, 32, 60));
+    let (columns, rows, iterations) = job.choose((192, 128, 2400), (48, 32, 60));
     let start = plateau(Size::new(columns, rows)?);
     let after = simulated(&start, iterations, &keys(columns, rows))?;
     let plates = [
@@ -54,7 +54,7 @@ fn plateau(size: Size) -> Landscape {
     let height = Field::from_function(size, |x, y| {
         let (x, y) = (x as f64 + 0.5, y as f64 + 0.5);
         let middle = rows * (0.5 + 0.12 * libm::sin(x / columns * 7.0));
-        let valley = 108.0 - 0.03 * CELL * x + 0.25 * CELL * (y - middle).abs();
+        let valley = 100.0 - 0.03 * CELL * x + 0.7 * CELL * (y - middle).abs();
         let cliff = 8.0 + 0.8 * CELL * (0.9 * columns - x);
         valley.min(120.0 - 0.005 * CELL * x).min(cliff).max(14.0 - 0.02 * CELL * x) as f32
     });
@@ -69,9 +69,9 @@ fn materials() -> Vec<Material> {
         ..material(name, like)
     };
     let mut beds = vec![
-        bed("granite", "rock", 0.003, 75.0, None),
-        bed("shale", "clay", 0.05, 32.0, Some(45.0)),
-        bed("sandstone", "rock", 0.004, 75.0, Some(95.0)),
+        bed("granite", "rock", 0.01, 75.0, None),
+        bed("shale", "clay", 0.05, 32.0, Some(78.0)),
+        bed("sandstone", "rock", 0.004, 75.0, Some(100.0)),
         material("sand", "sand"),
     ];
     beds[2].colour = [0.82, 0.60, 0.38];
@@ -81,8 +81,8 @@ fn materials() -> Vec<Material> {
 fn keys(columns: usize, rows: usize) -> String {
     let y = rows as f64 * (0.5 + 0.12 * libm::sin(0.7)) * CELL;
     format!(
-        "boundary = \"open\"\nrain = 1e-5\nevaporation = 0.0\ncapacity = 4.0\nerosion = 1.0\ndeposition = 0.05\n\
-         viscosity = 5.0\nvelocity_epsilon = 0.01\ntransport = \"maccormack\"\ndissolution = {{ depth = 0.2 }}\n\
+        "capacity = 4.0\nerosion = 1.0\ndeposition = 0.05\n\
+         viscosity = 5.0\ntransport = \"maccormack\"\ndissolution = {{ depth = 0.2 }}\n\
          slippage = {{ strength = 0.05 }}\nsources = [{{ x = {:?}, y = {y:?}, radius = 20.0, rate = 0.05 }}]",
         0.1 * columns as f64 * CELL
     )
@@ -113,7 +113,7 @@ fn columns(height: &Field) -> std::ops::Range<usize> {
 
 fn width(height: &Field, bed: &Bed) -> f64 {
     let middle = f32::midpoint(bed.bottom, bed.top);
-    let below = |x: usize| (0..height.size().rows).filter(|&y| height.at(x, y) < middle).count();
+    let below = |x: usize| (1..height.size().rows - 1).filter(|&y| height.at(x, y) < middle).count();
     let columns = columns(height);
     CELL * columns.clone().map(below).sum::<usize>() as f64 / columns.len() as f64
 }
@@ -123,10 +123,11 @@ fn slope(height: &Field, bed: &Bed) -> f64 {
     let fifth = (bed.top - bed.bottom) / 5.0;
     let range = bed.bottom + fifth..bed.top - fifth;
     let size = height.size();
-    let cells = columns(height).flat_map(|x| (0..size.rows).map(move |y| size.index(x, y)));
+    let cells = columns(height).flat_map(|x| (1..size.rows - 1).map(move |y| size.index(x, y)));
     let falls: Vec<f64> = cells
         .filter(|&at| range.contains(&height.values()[at]))
         .map(|at| layered::steepest_fall(height, at, CELL))
         .collect();
-    libm::atan(falls.iter().sum::<f64>() / falls.len().max(1) as f64).to_degrees()
+    let cells = falls.len().max(1);
+    libm::atan(falls.into_iter().fold(0.0, |sum, fall| sum + fall) / cells as f64).to_degrees()
 }

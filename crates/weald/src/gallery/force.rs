@@ -1,6 +1,6 @@
 //! Force-based erosion against dissolution on the same ground.
 
-use super::layered::{SOURCE, cut_open, from_above, ground, material, simulated, steepest_fall, texts};
+use super::layered::{SOURCE, cut_open, four, from_above, ground, material, simulated, steepest_fall, texts};
 use super::{Figure, FigureOutput, GalleryJob, Measured, Plate};
 use crate::error::Error;
 use crate::grid::{Field, Size};
@@ -20,11 +20,11 @@ fn make(job: GalleryJob) -> Result<FigureOutput, Error> {
     let (columns, rows, iterations) = job.choose((128, 80, 2000), (40, 32, 60));
     let start = stream(Size::new(columns, rows)?);
     let keys = format!(
-        "boundary = \"open\"\nsources = [{{ x = {:?}, y = {:?}, radius = 3.0, rate = 0.04 }}]",
+        "sources = [{{ x = {:?}, y = {:?}, radius = 3.0, rate = 0.04 }}]",
         0.1 * columns as f64,
         0.5 * rows as f64
     );
-    let forced = simulated(&start, iterations, &format!("{keys}\nerosion = 4.0"))?;
+    let forced = simulated(&start, iterations, &format!("{keys}\nerosion = 4.0\nviscosity = 0.2"))?;
     let dissolved =
         simulated(&start, iterations, &format!("{keys}\nerosion = 0.0\ndissolution = {{ depth = 0.3 }}"))?;
     let landscapes = [&start, &forced, &dissolved];
@@ -103,7 +103,7 @@ fn roughness(height: &Field, inner: &[usize]) -> f64 {
         (y - size.rows as f64 * (0.5 + 0.08 * libm::sin(x / 15.0))).abs() < 4.0
     };
     let rough = |&at: &usize| {
-        let mean = size.neighbours(at).map(|next| f64::from(height.values()[next])).sum::<f64>() / 4.0;
+        let mean = four(size, at).iter().map(|&next| f64::from(height.values()[next])).sum::<f64>() / 4.0;
         (f64::from(height.values()[at]) - mean).abs()
     };
     let bed: Vec<f64> = inner.iter().filter(in_bed).map(rough).collect();

@@ -5,7 +5,7 @@ use super::{Figure, FigureOutput, GalleryJob, Measured, Plate};
 use crate::error::Error;
 use crate::grid::{Field, Size};
 use crate::landscape::Landscape;
-use crate::picture::Along;
+use crate::picture::{Along, Image};
 
 pub(super) const FIGURE: Figure = Figure {
     id: "lake",
@@ -20,24 +20,32 @@ pub(super) const FIGURE: Figure = Figure {
 const OUTLET: f32 = 9.0;
 
 fn make(job: GalleryJob) -> Result<FigureOutput, Error> {
-    let (columns, rows, iterations) = job.choose((120, 72, [600, 9000, 4000]), (40, 24, [40, 60, 80]));
+    let (columns, rows, iterations) = job.choose((120, 72, [600, 6000, 3000]), (40, 24, [40, 60, 80]));
     let start = hollow(Size::new(columns, rows)?);
     let stages = Stages { columns, rows, iterations };
-    let filling = simulated(&start, iterations[0], &stages.keys(0.0, "closed"))?;
+    let filling = simulated(&start, iterations[0], &stages.keys(0.0))?;
     let full = stages.full(&start)?;
-    let spilling = simulated(&full, iterations[2], &stages.keys(4.0, "open"))?;
+    let spilling = simulated(&full, iterations[2], &stages.keys(1.0))?;
     let landscapes = [&start, &filling, &full, &spilling];
     let caption =
         |view| format!("Before, filling, full to its outlet, and after the spill has carved it, {view}");
     let plates = vec![
-        Plate { name: "relief", caption: caption("from above"), image: from_above(&landscapes)? },
+        Plate { name: "relief", caption: caption("from above"), image: paired(&landscapes, from_above)? },
         Plate {
             name: "section",
             caption: caption("cut along the outlet"),
-            image: cut_open(&landscapes, Along::Row, 0.5)?,
+            image: paired(&landscapes, |pair| cut_open(pair, Along::Row, 0.5))?,
         },
     ];
     Ok(FigureOutput { plates, measured: measured(&landscapes)? })
+}
+
+/// Four pictures in two rows.
+fn paired(
+    landscapes: &[&Landscape; 4],
+    draw: impl Fn(&[&Landscape]) -> Result<Image, Error>,
+) -> Result<Image, Error> {
+    Ok(Image::below(&[draw(&landscapes[..2])?, draw(&landscapes[2..])?], 10))
 }
 
 struct Stages {
@@ -47,9 +55,9 @@ struct Stages {
 }
 
 impl Stages {
-    fn keys(&self, erosion: f64, boundary: &str) -> String {
+    fn keys(&self, erosion: f64) -> String {
         format!(
-            "boundary = {boundary:?}\nerosion = {erosion:?}\ninitial_water = \"stands\"\ncapacity = 1.0\n\
+            "erosion = {erosion:?}\ninitial_water = \"stands\"\nviscosity = 0.2\nslippage = {{}}\n\
              sources = [{{ x = {:?}, y = {:?}, radius = 3.0, rate = 0.05 }}]",
             self.columns as f64 / 3.0,
             self.rows as f64 / 2.0
@@ -63,11 +71,7 @@ impl Stages {
         let above = |&ground: &f32| (OUTLET + 0.3 - ground).max(0.0);
         let water = height.values().iter().map(above).collect();
         brimming.insert("stands", "m", Field::from_values(height.size(), water));
-        let mut full = simulated(
-            &brimming,
-            self.iterations[1],
-            "boundary = \"open\"\nerosion = 0.0\ninitial_water = \"stands\"",
-        )?;
+        let mut full = simulated(&brimming, self.iterations[1], "erosion = 0.0\ninitial_water = \"stands\"")?;
         let water = full.field("water")?.clone();
         full.insert("stands", "m", water);
         Ok(full)

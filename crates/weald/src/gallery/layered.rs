@@ -3,7 +3,7 @@
 use super::run_steps;
 use crate::domain::Domain;
 use crate::error::Error;
-use crate::grid::Field;
+use crate::grid::{Field, Size};
 use crate::landscape::Landscape;
 use crate::material::Material;
 use crate::picture::{Along, Image, Materials, Picture, Section};
@@ -25,11 +25,12 @@ pub(super) fn ground(height: Field, cell: f64, materials: Vec<Material>) -> Land
     landscape
 }
 
-/// The ground after a run of the model that rains and evaporates nothing unless `keys` say so.
+/// The ground after a run of the model over open edges, without rain and evaporation.
 pub(super) fn simulated(start: &Landscape, iterations: u32, keys: &str) -> Result<Landscape, Error> {
     let mut landscape = start.clone();
-    let sky = if keys.contains("rain =") { "" } else { "rain = 0.0\nevaporation = 0.0\n" };
-    let keys = format!("model = \"stava\"\niterations = {iterations}\n{sky}{keys}");
+    let keys = format!(
+        "model = \"stava\"\niterations = {iterations}\nrain = 0.0\nevaporation = 0.0\nboundary = \"open\"\n{keys}"
+    );
     run_steps(&mut landscape, 0, &[("hydraulic", &keys)])?;
     Ok(landscape)
 }
@@ -50,11 +51,15 @@ fn beside(landscapes: &[&Landscape], picture: &dyn Picture) -> Result<Image, Err
     Ok(Image::beside(&images?, 10))
 }
 
-/// Steepest fall from a cell to its four neighbours, as a tangent.
+/// The four neighbours of a cell that is not at the edge.
+pub(super) fn four(size: Size, at: usize) -> [usize; 4] {
+    [at - size.columns, at - 1, at + 1, at + size.columns]
+}
+
+/// Steepest fall to one of the four neighbours from a cell that is not at the edge, as a tangent.
 pub(super) fn steepest_fall(height: &Field, at: usize, cell: f64) -> f64 {
-    let here = height.values()[at];
-    let fall = |next: usize| f64::from(here - height.values()[next]);
-    height.size().neighbours(at).map(fall).fold(0.0, f64::max) / cell
+    let fall = |next: usize| f64::from(height.values()[at] - height.values()[next]);
+    four(height.size(), at).map(fall).into_iter().fold(0.0, f64::max) / cell
 }
 
 /// Headings or cells of a table.

@@ -6,7 +6,7 @@ use crate::edit::{Area, Brush, Canvas, Effect, Falloff};
 use crate::error::Error;
 use crate::grid::{Field, Size};
 use crate::landscape::Landscape;
-use crate::picture::Along;
+use crate::picture::{Along, Image};
 
 pub(super) const FIGURE: Figure = Figure {
     id: "levee",
@@ -22,7 +22,7 @@ fn make(job: GalleryJob) -> Result<FigureOutput, Error> {
     let start = lowland(Size::new(columns, rows)?);
     let guarded = with_levee(&start)?;
     let keys = format!(
-        "boundary = \"open\"\nerosion = 0.2\nsources = [{{ x = {:?}, y = {:?}, radius = 3.0, rate = 0.04 }}]",
+        "erosion = 0.0\nsources = [{{ x = {:?}, y = {:?}, radius = 3.0, rate = 0.12 }}]",
         0.06 * columns as f64,
         0.35 * rows as f64
     );
@@ -34,13 +34,12 @@ fn make(job: GalleryJob) -> Result<FigureOutput, Error> {
         format!("Before and after {iterations} steps, without the levee above and with it below, {view}")
     };
     let sections = |pair: &[&Landscape]| cut_open(pair, Along::Column, 0.5);
-    let below = crate::picture::Image::below;
     let plates = vec![
-        Plate { name: "relief", caption: caption("from above"), image: below(&[upper, lower], 10) },
+        Plate { name: "relief", caption: caption("from above"), image: Image::below(&[upper, lower], 10) },
         Plate {
             name: "section",
             caption: caption("cut across the river"),
-            image: below(&[sections(&[&start, &flooded])?, sections(&[&guarded, &held])?], 10),
+            image: Image::below(&[sections(&[&start, &flooded])?, sections(&[&guarded, &held])?], 10),
         },
     ];
     Ok(FigureOutput { plates, measured: measured(&[&start, &flooded, &guarded, &held])? })
@@ -56,9 +55,9 @@ fn lowland(size: Size) -> Landscape {
     let rows = size.rows as f64;
     let height = Field::from_function(size, |x, y| {
         let south = y as f64 + 0.5 - RIVER * rows;
-        let bed = (1.0 - 0.15 * south.abs()).max(0.0);
-        let north = 0.3 * (-south - 4.0).max(0.0);
-        (20.0 - 0.01 * x as f64 + north - 0.05 * south.max(0.0) - bed) as f32
+        let bed = (0.6 - 0.1 * south.abs()).max(0.0);
+        let north = 0.08 * (-south - 6.0).max(0.0);
+        (20.0 - 0.01 * x as f64 + north - 0.02 * south.max(0.0) - bed) as f32
     });
     let mut landscape = ground(height, 1.0, vec![material("rock", "rock"), material("soil", "soil")]);
     landscape.materials[1].thickness = 2.0;
