@@ -9,7 +9,7 @@ mod programs;
 use std::sync::Arc;
 
 use common::{run_on, worst_difference};
-use processes::{masked, processes, whole, wide};
+use processes::{masked, processes, whole, whole_models, wide};
 use weald::engine::device::{Device, Loaded};
 use weald::engine::program::Program;
 use weald::engine::{Engine, Job, Unwatched};
@@ -17,19 +17,21 @@ use weald::step::{Outcome, Step};
 use weald::{Error, Landscape, Size};
 use weald_gpu::Gpu;
 
-/// Metres that a device may differ by from the CPU in its worst cell, and on average. Its compiler may take sums
-/// and products in another order or fuse them, and its quotients and roots may be some units off in the last
-/// place. Where such a digit decides whether water flows, one cell differs by more: up to 2 mm were seen.
-const WORST: f32 = 1e-2;
-const MEAN: f32 = 1e-5;
+/// Metres that a device may differ by from the CPU in its worst cell, and on average. What rests on rounding is
+/// rounded on both alike, but a device's quotients and roots may be some units off in the last place, and its
+/// compiler may fuse a product with a sum. A last place is 2e-6 m on ground 25 m high; three of them in the worst
+/// cell, and a sixth of one on average, were seen. Where such a digit decides whether water flows, a cell differs
+/// by more: a tenth of a millimetre leaves room for it.
+const WORST: f32 = 1e-4;
+const MEAN: f32 = 2e-6;
 
 /// An engine on so many threads.
 type Named = (String, Engine, usize);
 
 /// Engines that give the bits of one thread, and whether their sums do too.
 fn exact_engines() -> impl Iterator<Item = (Named, bool)> {
-    let threads = [2, 3].map(|count| ((format!("{count} threads"), Engine::Cpu, count), true));
-    let bands = [1, 2, 3, 7].map(|count| ((format!("{count} bands"), Engine::Bands(count), 2), true));
+    let threads = [3].map(|count| ((format!("{count} threads"), Engine::Cpu, count), true));
+    let bands = [2, 7].map(|count| ((format!("{count} bands"), Engine::Bands(count), 2), true));
     let tiles = [(37, 41), (1000, 17)].map(|(columns, rows)| {
         let size = Size::new(columns, rows).expect("small");
         ((format!("tiles of {columns} x {rows}"), Engine::Tiles(size), 2), false)
@@ -37,9 +39,16 @@ fn exact_engines() -> impl Iterator<Item = (Named, bool)> {
     threads.into_iter().chain(bands).chain(tiles)
 }
 
-/// The body: every process on every engine.
-fn agree_on(ground: &Landscape) {
-    for step in processes() {
+/// Whether a ground is run in the tiles of a device too.
+#[derive(Clone, Copy, PartialEq)]
+enum DeviceTiles {
+    Yes,
+    No,
+}
+
+/// The body: processes on every engine.
+fn agree_on(ground: &Landscape, processes: Vec<Box<dyn Step>>, tiles: DeviceTiles) {
+    for step in processes {
         let (expected, outcome) = run(&*step, ground, &Engine::Cpu, 1);
         let moved =
             worst_difference(ground.field("height").expect("h"), expected.field("height").expect("h"));
@@ -56,8 +65,7 @@ fn agree_on(ground: &Landscape) {
             let (got, sums) = run(&*step, ground, &Engine::Device(Arc::new(gpu.clone())), 1);
             assert_near(&*step, &expected, &got);
             assert_near_budget(&outcome, &sums, 1e-4);
-            // The wide ground would be cut into hundreds, with nothing new to see.
-            if ground.domain.size.cells() < 10_000 {
+            if tiles == DeviceTiles::Yes {
                 let (tiles, sums) = run_in_tiles(&*step, ground, &gpu);
                 assert_same_bits(&*step, &got, &tiles, "tiles of a device");
                 assert_near_budget(&outcome, &sums, 1e-4);
@@ -68,17 +76,17 @@ fn agree_on(ground: &Landscape) {
 
 #[test]
 fn engines_agree_on_a_grid_that_is_all_land() {
-    agree_on(&whole());
+    agree_on(&whole(), processes(), DeviceTiles::No);
 }
 
 #[test]
 fn engines_agree_around_cells_without_data() {
-    agree_on(&masked());
+    agree_on(&masked(), processes(), DeviceTiles::Yes);
 }
 
 #[test]
 fn engines_agree_on_wide_ground() {
-    agree_on(&wide());
+    agree_on(&wide(), whole_models(), DeviceTiles::No);
 }
 
 /// A landscape and what its step says of it, made on so many threads.

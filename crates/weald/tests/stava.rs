@@ -2,10 +2,10 @@
 
 mod common;
 
-use common::worst_difference;
+use common::{error_of_what_moved, worst_difference};
 use common::{field, hydraulic, landscape, layered, materials, rough, run, spring, stava, symmetries};
 use proptest::prelude::*;
-use weald::engine::{Job, SolidBudget};
+use weald::engine::Job;
 use weald::erode::dissolution_step::{DissolutionStep, DissolutionWithin};
 use weald::erode::hydraulic::{Boundary, Hydraulic, Model, Transport};
 use weald::erode::slippage_step::{SlippageStep, SlippageWithin};
@@ -23,24 +23,6 @@ fn assert_nothing_is_negative(land: &Landscape) {
         let (least, _) = layer.range(None).expect("cells");
         assert!(least >= 0.0, "{name} is {least} m somewhere");
     }
-}
-
-/// The part of the solid that is missing, relative to all that a cell anywhere gained or lost.
-fn error_of_what_moved(solid: &SolidBudget, before: &Landscape, after: &Landscape) -> f64 {
-    let layers = ["bedrock", "clay", "soil", "sand"];
-    let start = |name: &str, at: usize| match name {
-        "bedrock" => {
-            let lying = layers[1..].iter().map(|layer| f64::from(field(before, layer).values()[at]));
-            f64::from(field(before, "height").values()[at]) - lying.sum::<f64>()
-        }
-        _ => f64::from(field(before, name).values()[at]),
-    };
-    let moved = layers.map(|name| {
-        let after = field(after, name).values().iter().enumerate();
-        after.map(|(at, &now)| (f64::from(now) - start(name, at)).abs()).sum::<f64>()
-    });
-    let moved = moved.iter().sum::<f64>() * before.domain.cell.powi(2);
-    solid.error() * solid.start / moved
 }
 
 #[test]
@@ -195,6 +177,46 @@ fn what_lies_outside_a_region_stands_still_for_every_model() {
         let moved = worst_difference(field(&before, "height"), field(&land, "height"));
         assert!(moved > 0.01, "{:?}: nothing moved inside: {moved} m", step.model);
     }
+}
+
+#[test]
+fn a_region_alone_becomes_what_it_becomes_beside_another_far_away() {
+    for step in [hydraulic(150), Hydraulic { model: Model::Mei, ..hydraulic(150) }, stava(150)] {
+        let eroded = |corners: &[[usize; 2]]| {
+            let mut land = layered(rough(60, 44, 20.0, 5));
+            let inside = |x: usize, y: usize| {
+                corners
+                    .iter()
+                    .any(|[left, top]| (*left..left + 20).contains(&x) && (*top..top + 18).contains(&y))
+            };
+            let here = Field::from_function(land.domain.size, |x, y| f32::from(u8::from(inside(x, y))));
+            land.insert("here", "1", here);
+            let sources = if step.model == Model::Stava { vec![spring(12.0, 13.0)] } else { Vec::new() };
+            let region = Some(LayerName::of("here"));
+            run(&Hydraulic { region, sources, ..step.clone() }, &mut land);
+            land
+        };
+        let (alone, both) = (eroded(&[[5, 6]]), eroded(&[[5, 6], [38, 24]]));
+        assert!(
+            worst_difference(field(&alone, "height"), field(&both, "height")) > 0.01,
+            "the other is elsewhere"
+        );
+        for name in ["height", "water", "sediment", "flux_x"] {
+            for (x, y) in (5..25).flat_map(|x| (6..24).map(move |y| (x, y))) {
+                let [alone, both] = [&alone, &both].map(|land| field(land, name).at(x, y).to_bits());
+                assert_eq!(alone, both, "{:?}: {name} at {x}, {y}", step.model);
+            }
+        }
+    }
+}
+
+#[test]
+fn a_region_that_holds_no_cell_is_refused() {
+    let mut land = layered(rough(16, 16, 5.0, 1));
+    land.insert("here", "1", Field::filled(land.domain.size, 0.4));
+    let step = Hydraulic { region: Some(LayerName::of("here")), ..stava(5) };
+    let error = step.run(&mut land, &Job::unwatched(1)).expect_err("nowhere").to_string();
+    assert!(error.contains("`here` is below 0.5 everywhere"), "{error}");
 }
 
 #[test]

@@ -106,6 +106,15 @@ fn processes_of_stava() -> Vec<Box<dyn Step>> {
     all
 }
 
+/// Each model once, with thermal weathering or all of its processes.
+pub(crate) fn whole_models() -> Vec<Box<dyn Step>> {
+    let thermal = Some(Nested(ThermalWithin { talus: 0.3, ..ThermalWithin::default() }));
+    let han = Hydraulic { thermal, ..hydraulic(STEPS) };
+    let mei = Hydraulic { model: Model::Mei, ..han.clone() };
+    let stava = Hydraulic { rain: Some(0.05), ..stava(STEPS) };
+    vec![Box::new(han), Box::new(mei), Box::new(stava)]
+}
+
 /// Rough ground of three materials.
 pub(crate) fn whole() -> Landscape {
     layered(rough(COLUMNS, ROWS, 25.0, 3))

@@ -32,7 +32,7 @@ impl Place {
     pub(crate) fn of(working: &Working, column: Column) -> Self {
         let size = working.start.size();
         let cells = (0..size.rows).flat_map(|y| (0..size.columns).map(move |x| working.place(x, y)));
-        let takes_part = |mask: &Mask| cells.map(|at| mask.is_land_at(at)).collect();
+        let takes_part = |mask: &Mask| cells.map(|at| at.is_some_and(|at| mask.is_land_at(at))).collect();
         let land = working.mask.as_ref().and_then(|mask| Mask::new(size, takes_part(mask)));
         Self { size, ring: working.ring, cell: working.cell, lowest: working.lowest, land, column }
     }

@@ -264,7 +264,7 @@ impl Step for Hydraulic {
 
     fn run(&self, landscape: &mut Landscape, job: &Job<'_>) -> Result<Outcome, Error> {
         let filled = self.filled(landscape.domain.cell);
-        let working = self.working(landscape)?;
+        let working = self.working(landscape, self.edits.is_some())?;
         self.run_model(landscape, job, &filled, &working)
     }
 }

@@ -9,6 +9,7 @@
 mod advection;
 pub mod dissolution_step;
 mod edits;
+mod extent;
 mod flux_corrected;
 mod four_outflows;
 mod han;

@@ -54,5 +54,5 @@ fn unlimited(depth: f32, sediment: f32, outflow: f32, epsilon: f32) -> Limited {
 
 /// The flux through an edge, scaled to what its giving cell can afford.
 fn scale(wanted: f32, share: f32, share_next: f32) -> f32 {
-    return wanted * select(share_next, share, wanted > 0.0);
+    return exact(wanted * select(share_next, share, wanted > 0.0));
 }

@@ -9,14 +9,14 @@ struct Flowed {
 
 /// `flux` holds the fluxes through the eastern, western, southern and northern edge.
 fn flow_of_water(before: f32, flux: vec4<f32>, land: f32, rain: f32, evaporation: f32) -> Flowed {
-    let flowed = before + ((flux.y - flux.x) + (flux.w - flux.z));
-    let depth = worth_counting(flowed + rain * land - min(max(flowed, 0.0), evaporation));
+    let flowed = exact(before + ((flux.y - flux.x) + (flux.w - flux.z)));
+    let depth = exact(worth_counting(flowed + rain * land - min(max(flowed, 0.0), evaporation)));
     return Flowed(depth, depth - flowed);
 }
 
 /// Sediment through an edge: the flux with the concentration of the cell that it comes from.
 fn carried_by(flux: f32, concentration_behind: f32, concentration_ahead: f32) -> f32 {
-    return flux * select(concentration_ahead, concentration_behind, flux >= 0.0);
+    return exact(flux * select(concentration_ahead, concentration_behind, flux >= 0.0));
 }
 
 /// Sediment after the fluxes of a step; `around` holds the concentrations of the four neighbours.

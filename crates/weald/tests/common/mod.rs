@@ -1,7 +1,7 @@
 //! Ground and runs that several tests share.
 #![allow(dead_code, unreachable_pub, reason = "each test binary uses its own part")]
 
-use weald::engine::{Engine, Job, Unwatched};
+use weald::engine::{Engine, Job, SolidBudget, Unwatched};
 use weald::erode::dissolution_step::DissolutionWithin;
 use weald::erode::hydraulic::{Hydraulic, Model};
 use weald::erode::slippage_step::SlippageWithin;
@@ -114,4 +114,22 @@ pub fn materials(names: &[&str]) -> Vec<Material> {
 /// The field of a layer that must be there.
 pub fn field<'a>(land: &'a Landscape, name: &str) -> &'a Field {
     land.field(name).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// The part of the solid that is missing, relative to all that a cell anywhere gained or lost.
+pub fn error_of_what_moved(solid: &SolidBudget, before: &Landscape, after: &Landscape) -> f64 {
+    let layers = ["bedrock", "clay", "soil", "sand"];
+    let start = |name: &str, at: usize| match name {
+        "bedrock" => {
+            let lying = layers[1..].iter().map(|layer| f64::from(field(before, layer).values()[at]));
+            f64::from(field(before, "height").values()[at]) - lying.sum::<f64>()
+        }
+        _ => f64::from(field(before, name).values()[at]),
+    };
+    let moved = layers.map(|name| {
+        let after = field(after, name).values().iter().enumerate();
+        after.map(|(at, &now)| (f64::from(now) - start(name, at)).abs()).sum::<f64>()
+    });
+    let moved = moved.iter().sum::<f64>() * before.domain.cell.powi(2);
+    solid.error() * solid.start / moved
 }

@@ -4,7 +4,7 @@
 /// An antidiffusive flux as far as the giving and the taking cell allow, by their shares of gains and losses;
 /// `giver` is the western or northern one.
 fn limited_by(flux: f32, giver: vec2<f32>, taker: vec2<f32>) -> f32 {
-    return flux * select(min(giver.x, taker.y), min(giver.y, taker.x), flux > 0.0);
+    return exact(flux * select(min(giver.x, taker.y), min(giver.y, taker.x), flux > 0.0));
 }
 
 @compute @workgroup_size(16, 16)

@@ -28,6 +28,6 @@ fn range(@builtin(global_invocation_id) invocation: vec3<u32>) {
     let lost = (max(flux.x, 0.0) + max(-flux.y, 0.0)) + (max(flux.z, 0.0) + max(-flux.w, 0.0));
     if (inside(cell)) {
         shares[index(cell)] =
-            vec2<f32>(fitting(top * own.y - own.x, gained), fitting(own.x - bottom * own.y, lost));
+            vec2<f32>(fitting(exact(top * own.y) - own.x, gained), fitting(own.x - exact(bottom * own.y), lost));
     }
 }

@@ -10,9 +10,9 @@ fn exchange(@builtin(global_invocation_id) invocation: vec3<u32>) {
     let found = carried[at].y;
     let flowing = outflow_of(cell);
     let came = came_to(cell);
-    let flowed = before + (((came.y + came.x) + (came.w + came.z)) - sum_of(flowing));
+    let flowed = exact(before + (((came.y + came.x) + (came.w + came.z)) - sum_of(flowing)));
     let velocity = flow_velocity(flowing, came, (before + flowed) * 0.5, constants.velocity_epsilon);
-    let depth = worth_counting(flowed * (1.0 - weather.evaporation));
+    let depth = exact(worth_counting(flowed * (1.0 - weather.evaporation)));
     let speed = sqrt(velocity.x * velocity.x + velocity.y * velocity.y);
     let capacity = constants.capacity * max(mean_sine(cell), LEAST_SINE) * speed;
     let room = (capacity - found) * yields(cell);

@@ -16,7 +16,7 @@ fn exchange_for(room: f32, found: f32, change_before: f32) -> Exchanged {
         let eroded = exact(change_before - constants.erosion * max(room, 0.0));
         return Exchanged(eroded, found + (change_before - eroded), 0.0);
     }
-    let deposit = constants.deposition * max(-room, 0.0);
+    let deposit = exact(constants.deposition * max(-room, 0.0));
     let ratio = constants.deposit_ratio;
     return Exchanged(change_before + ratio * deposit, found - deposit, (1.0 - ratio) * deposit);
 }

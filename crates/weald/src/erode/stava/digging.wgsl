@@ -10,12 +10,12 @@ fn dig(at: u32, room: f32, found: f32, which: u32, deposition: f32) -> f32 {
         let place = layer_of(material, at);
         let thickness = column[place];
         let wanted = constants.materials[material][which] * max(room - above, 0.0);
-        let left = worth_counting(thickness - min(wanted, thickness));
+        let left = exact(worth_counting(thickness - min(wanted, thickness)));
         taken += thickness - left;
         above += thickness;
         column[place] = left;
     }
-    let bedrock = column[at] - constants.materials[0][which] * max(room - above, 0.0);
+    let bedrock = exact(column[at] - constants.materials[0][which] * max(room - above, 0.0));
     taken += column[at] - bedrock;
     column[at] = bedrock;
     return lay_down(layer_of(DEPOSIT, at), room, found, taken, deposition);
@@ -28,8 +28,8 @@ const LAST_DIGIT: f32 = 1.5 * 0.5 * 1.1920929e-7;
 /// rounded down.
 fn lay_down(place: u32, room: f32, found: f32, taken: f32, deposition: f32) -> f32 {
     let thickness = column[place];
-    let up = thickness + deposition * max(-room, 0.0);
-    let down = max(up - abs(up) * LAST_DIGIT, thickness);
+    let up = exact(thickness + deposition * max(-room, 0.0));
+    let down = max(exact(up - abs(up) * LAST_DIGIT), thickness);
     let after = select(down, up, up - thickness <= found);
     column[place] = after;
     return worth_counting(found + (taken - (after - thickness)));

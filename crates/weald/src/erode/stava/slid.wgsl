@@ -9,10 +9,10 @@ fn share(cell: vec2<i32>, material: u32) -> f32 {
 fn slid_thickness(cell: vec2<i32>, material: u32) -> f32 {
     let wanted = sliding(cell, material);
     let here = share(cell, material);
-    let east = wanted.x * select(share(cell + EAST, material), here, wanted.x > 0.0);
-    let west = wanted.y * select(here, share(cell + WEST, material), wanted.y > 0.0);
-    let south = wanted.z * select(share(cell + SOUTH, material), here, wanted.z > 0.0);
-    let north = wanted.w * select(here, share(cell + NORTH, material), wanted.w > 0.0);
+    let east = exact(wanted.x * select(share(cell + EAST, material), here, wanted.x > 0.0));
+    let west = exact(wanted.y * select(here, share(cell + WEST, material), wanted.y > 0.0));
+    let south = exact(wanted.z * select(share(cell + SOUTH, material), here, wanted.z > 0.0));
+    let north = exact(wanted.w * select(here, share(cell + NORTH, material), wanted.w > 0.0));
     let before = column[layer_of(material, index(cell))];
     return worth_counting(before + ((west - east) + (north - south)));
 }

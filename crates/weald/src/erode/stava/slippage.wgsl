@@ -5,7 +5,7 @@
 fn slides(cell: vec2<i32>, next: vec2<i32>, material: u32) -> f32 {
     let step = tops[layer_of(material, index(cell))] - tops[layer_of(material, index(next))];
     let talus = talus_between(cell, next, material);
-    return link(cell, next) * (constants.slippage * (step - clamp(step, -talus, talus)));
+    return exact(link(cell, next) * (constants.slippage * (step - clamp(step, -talus, talus))));
 }
 
 /// What of a material wants to slide through the eastern, western, southern and northern edge, positive to the east
