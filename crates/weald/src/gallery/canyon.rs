@@ -54,7 +54,7 @@ fn plateau(size: Size) -> Landscape {
     let height = Field::from_function(size, |x, y| {
         let (x, y) = (x as f64 + 0.5, y as f64 + 0.5);
         let middle = rows * (0.5 + 0.12 * libm::sin(x / columns * 7.0));
-        let valley = 100.0 - 0.03 * CELL * x + 0.7 * CELL * (y - middle).abs();
+        let valley = 92.0 - 0.03 * CELL * x + 0.7 * CELL * (y - middle).abs();
         let cliff = 8.0 + 0.8 * CELL * (0.9 * columns - x);
         valley.min(120.0 - 0.005 * CELL * x).min(cliff).max(14.0 - 0.02 * CELL * x) as f32
     });
