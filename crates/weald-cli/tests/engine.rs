@@ -41,6 +41,38 @@ fn a_run_on_the_gpu_says_so_in_its_report_and_names_the_adapter() {
     assert!(report.contains("\"adapter\": \"") && !report.contains("\"adapter\": \"\""), "{report}");
 }
 
+/// By which the loader of Vulkan finds Mesa's driver that computes on the CPU, and no other.
+#[cfg(target_os = "linux")]
+fn software_driver() -> Option<std::path::PathBuf> {
+    let drivers = std::fs::read_dir("/usr/share/vulkan/icd.d").ok()?;
+    let mut paths = drivers.filter_map(|driver| Some(driver.ok()?.path()));
+    paths.find(|path| path.file_name().is_some_and(|name| name.to_string_lossy().starts_with("lvp_icd")))
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn auto_never_takes_software_for_a_graphics_card_and_gpu_does() {
+    let Some(driver) = software_driver().filter(|_| !left_out()) else {
+        println!("there is no software driver of Vulkan: this test is left out");
+        return;
+    };
+    let place = Place::with(RECIPE);
+    let run = |engine: &str| {
+        let mut command = place.command(&["run", "r.toml", "--engine", engine]);
+        let command = command.env("VK_DRIVER_FILES", &driver).env("VK_ICD_FILENAMES", &driver);
+        let output = command.output().expect("the command starts");
+        let stderr = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(0), "{engine}: {stderr}");
+        let report = std::fs::read_to_string(place.path("out/r/report.json")).expect("the report");
+        (stderr, report)
+    };
+    let (stderr, report) = run("auto");
+    assert!(report.contains("\"engine\": \"cpu\"") && report.contains("\"adapter\": null"), "{report}");
+    assert!(stderr.lines().all(|line| line.starts_with("step ")), "something is odd: {stderr}");
+    let (_, report) = run("gpu");
+    assert!(report.contains("\"engine\": \"gpu\"") && report.contains("llvmpipe"), "{report}");
+}
+
 #[cfg(target_os = "linux")]
 #[test]
 fn without_an_adapter_the_gpu_ends_with_1_and_auto_runs_on_the_cpu() {

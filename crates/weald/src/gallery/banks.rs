@@ -18,6 +18,9 @@ pub(super) const FIGURE: Figure = Figure {
 
 const CELL: f64 = 1.0;
 
+/// A running river keeps its banks a little steeper than they rest.
+const MARGIN_DEG: f64 = 5.0;
+
 fn make(job: GalleryJob) -> Result<FigureOutput, Error> {
     let (columns, rows, iterations) = job.choose((128, 80, 1500), (40, 32, 60));
     let start = valley(Size::new(columns, rows)?);
@@ -48,15 +51,15 @@ fn valley(size: Size) -> Landscape {
     let height = Field::from_function(size, |x, y| {
         let middle = 0.5 * rows + 0.1 * rows * libm::sin((x as f64 - 0.1 * size.columns as f64) / 13.0);
         let away = (y as f64 + 0.5 - middle).abs();
-        (30.0 - 0.04 * x as f64 - (2.0 - 0.3 * away).max(0.0)) as f32
+        (30.0 - 0.02 * x as f64 - (2.0 - 0.3 * away).max(0.0)) as f32
     });
     let mut landscape = ground(
         height,
         CELL,
         vec![material("rock", "rock"), material("gravel", "gravel"), material("soil", "soil")],
     );
-    landscape.materials[1].bottom = Some(18.0);
-    landscape.materials[2].bottom = Some(24.0);
+    landscape.materials[1].bottom = Some(20.0);
+    landscape.materials[2].bottom = Some(27.0);
     landscape
 }
 
@@ -68,8 +71,8 @@ fn measured(landscapes: &[&Landscape; 3]) -> Result<Measured, Error> {
         header: texts(["ground", "gravel too steep", "soil too steep", "steepest, °"]),
         rows: rows?,
         remarks: texts([
-            "Cells whose layer falls to a neighbour by more than its talus and a fiftieth, and the steepest \
-             fall of the soil; the edge is left out.",
+            "Cells whose layer falls to a neighbour more steeply than its talus by 5° or more, and the steepest fall of \
+             the ground; the edge is left out.",
         ]),
     })
 }
@@ -83,9 +86,10 @@ fn row(name: &str, landscape: &Landscape) -> Result<Vec<String>, Error> {
     let mut cells = vec![name.to_owned()];
     for layer in [0, 1] {
         let top = top_of(height, &stack[layer + 1..]);
-        let talus = libm::tan(landscape.materials[layer + 1].talus_deg.to_radians());
+        let steep_deg = landscape.materials[layer + 1].talus_deg + MARGIN_DEG;
+        let steepest = libm::tan(steep_deg.to_radians());
         let too_steep =
-            |&&at: &&usize| stack[layer].values()[at] > 0.01 && steepest_fall(&top, at, CELL) > 1.02 * talus;
+            |&&at: &&usize| stack[layer].values()[at] > 0.01 && steepest_fall(&top, at, CELL) > steepest;
         cells.push(inner.iter().filter(too_steep).count().to_string());
     }
     let steepest = inner.iter().map(|&at| steepest_fall(height, at, CELL)).fold(0.0, f64::max);

@@ -27,8 +27,8 @@ struct Bed {
 }
 
 const BEDS: [Bed; 3] = [
-    Bed { name: "granite", bottom: 58.0, top: 78.0 },
-    Bed { name: "shale", bottom: 78.0, top: 100.0 },
+    Bed { name: "granite", bottom: 68.0, top: 84.0 },
+    Bed { name: "shale", bottom: 84.0, top: 100.0 },
     Bed { name: "sandstone", bottom: 100.0, top: 120.0 },
 ];
 
@@ -54,7 +54,7 @@ fn plateau(size: Size) -> Landscape {
     let height = Field::from_function(size, |x, y| {
         let (x, y) = (x as f64 + 0.5, y as f64 + 0.5);
         let middle = rows * (0.5 + 0.12 * libm::sin(x / columns * 7.0));
-        let valley = 100.0 - 0.03 * CELL * x + 0.7 * CELL * (y - middle).abs();
+        let valley = 98.0 - 0.03 * CELL * x + 0.7 * CELL * (y - middle).abs();
         let cliff = 8.0 + 0.8 * CELL * (0.9 * columns - x);
         valley.min(120.0 - 0.005 * CELL * x).min(cliff).max(14.0 - 0.02 * CELL * x) as f32
     });
@@ -70,7 +70,7 @@ fn materials() -> Vec<Material> {
     };
     let mut beds = vec![
         bed("granite", "rock", 0.01, 75.0, None),
-        bed("shale", "clay", 0.05, 32.0, Some(78.0)),
+        bed("shale", "clay", 0.05, 32.0, Some(84.0)),
         bed("sandstone", "rock", 0.004, 75.0, Some(100.0)),
         material("sand", "sand"),
     ];

@@ -1,6 +1,6 @@
 //! Force-based erosion against dissolution on the same ground.
 
-use super::layered::{SOURCE, cut_open, four, from_above, ground, material, simulated, steepest_fall, texts};
+use super::layered::{SOURCE, cut_open, four, from_above, ground, material, simulated, texts};
 use super::{Figure, FigureOutput, GalleryJob, Measured, Plate};
 use crate::error::Error;
 use crate::grid::{Field, Size};
@@ -11,8 +11,8 @@ pub(super) const FIGURE: Figure = Figure {
     id: "force",
     title: "Force-based erosion against dissolution",
     source: SOURCE,
-    shows: "Running water cuts where it is fast, which makes a channel with steep banks. Dissolution softens whatever \
-            lies under water, fast or slow, and what creeps evens the bed out.",
+    shows: "Running water cuts where it is fast and leaves its bed rough. Dissolution softens whatever lies under \
+            water, fast or slow, and what softened creeps and evens the bed out.",
     make,
 };
 
@@ -62,13 +62,7 @@ fn measured(landscapes: &[&Landscape; 3]) -> Result<Measured, Error> {
     let rows: Result<Vec<_>, Error> =
         names.into_iter().zip(landscapes).map(|(name, after)| row(name, landscapes[0], after)).collect();
     Ok(Measured {
-        header: texts([
-            "erosion",
-            "deepest cut, m",
-            "moved, m³",
-            "roughness of the bed, m",
-            "steepest bank, °",
-        ]),
+        header: texts(["erosion", "deepest cut, m", "moved, m³", "roughness of the bed, m"]),
         rows: rows?,
         remarks: texts([
             "Without the first fifth, where the source is, and the edge. The bed is what lies within four cells \
@@ -86,13 +80,11 @@ fn row(name: &str, start: &Landscape, after: &Landscape) -> Result<Vec<String>, 
     let lost = |at: usize| f64::from(before.values()[at] - height.values()[at]);
     let deepest = inner.iter().map(|&at| lost(at)).fold(0.0, f64::max);
     let moved: f64 = inner.iter().map(|&at| lost(at).abs()).sum();
-    let steepest = inner.iter().map(|&at| steepest_fall(height, at, 1.0)).fold(0.0, f64::max);
     Ok(vec![
         name.to_owned(),
         format!("{deepest:.2}"),
         format!("{moved:.0}"),
         format!("{:.3}", roughness(height, &inner)),
-        format!("{:.0}", libm::atan(steepest).to_degrees()),
     ])
 }
 

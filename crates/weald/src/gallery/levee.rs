@@ -13,7 +13,7 @@ pub(super) const FIGURE: Figure = Figure {
     title: "A painted levee",
     source: SOURCE,
     shows: "A person adds material while water runs. Here a stroke of the brush lays a levee of the topmost material \
-            along a river, and the low ground behind it stays dry.",
+            beside a river that leaves its bed, and the low ground behind it stays dry.",
     make,
 };
 
@@ -55,7 +55,9 @@ fn lowland(size: Size) -> Landscape {
     let rows = size.rows as f64;
     let height = Field::from_function(size, |x, y| {
         let south = y as f64 + 0.5 - RIVER * rows;
-        let bed = (0.6 - 0.1 * south.abs()).max(0.0);
+        // Half way the bed runs out, and the river leaves it.
+        let depth = 0.6 * (2.0 - 4.0 * x as f64 / size.columns as f64).clamp(0.0, 1.0);
+        let bed = (depth - 0.1 * south.abs()).max(0.0);
         let north = 0.08 * (-south - 6.0).max(0.0);
         (20.0 - 0.01 * x as f64 + north - 0.02 * south.max(0.0) - bed) as f32
     });

@@ -232,7 +232,12 @@ impl Stava {
         }
         shaders.push(include_str!("weather.wgsl"));
         draft.pass("weather_and_ground", &shaders, &reads, &["levels"]).tallies = true;
-        draft.pass("outflow", &[PIPES, FLOWS, include_str!("outflow.wgsl")], &["levels"], &["outflows"]);
+        draft.pass(
+            "outflow",
+            &[PIPES, FLOWS, include_str!("../four_outflows.wgsl"), include_str!("outflow.wgsl")],
+            &["levels"],
+            &["outflows"],
+        );
     }
 
     fn add_erosion_to(&self, draft: &mut Draft) {
