@@ -4,6 +4,7 @@
 
 pub mod add;
 pub mod blend;
+pub mod displace;
 pub mod extremes;
 pub mod layers;
 pub mod remap;

@@ -24,6 +24,7 @@ pub const CATALOG: &[Entry] = &[
     combine::remap::ENTRY,
     combine::terrace::ENTRY,
     combine::smooth::ENTRY,
+    combine::displace::ENTRY,
     combine::resample::ENTRY,
     combine::layers::ENTRY,
     combine::top_material::ENTRY,
