@@ -45,7 +45,7 @@
 //! * [`generate`], [`combine`], [`erode`]: the steps, one file a method, each with its equation and source.
 //! * [`Landscape`], [`Domain`], [`Field`]: layers on a grid with a cell size, a place on Earth, a no-data mask.
 //! * [`material`]: what ground is made of, in layers; [`edit`]: brushes, scripts of strokes, undo and redo.
-//! * [`erode::Hydraulic::sit`]: a simulation to hold in hand, for an editor of your own.
+//! * [`erode::hydraulic::Hydraulic::sit`]: a simulation to hold in hand, for an editor of your own.
 //! * [`step::Step`]: what a step declares and does. Run one on a landscape of your own with [`engine::Job`].
 //! * [`io`]: raster formats. [`picture`]: maps. [`analyse`]: measures of river networks and shapes.
 //! * [`gallery`], [`mod@bench`]: figures of the publications made again, and rates.
