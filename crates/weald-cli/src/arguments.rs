@@ -111,7 +111,7 @@ pub(crate) struct RunArguments {
     pub(crate) engine: Choice,
     /// Most memory of the graphics card, as in 512MiB; larger grids go tile by tile [default: 4GiB, 2GiB where
     /// the machine's own is used]
-    #[arg(long, value_name = "BYTES", value_parser = engine::memory)]
+    #[arg(long, value_name = "BYTES", allow_negative_numbers = true, value_parser = engine::memory)]
     pub(crate) gpu_memory: Option<u64>,
     /// Threads [default: all cores]
     #[arg(long, value_name = "N", value_parser = value_parser!(u16).range(1..=1024))]
@@ -139,7 +139,7 @@ pub(crate) struct BenchArguments {
     #[arg(long, value_name = "N", num_args = 1.., default_values_t = [1, 2])]
     pub(crate) threads: Vec<usize>,
     /// Most memory of the graphics card, as in 512MiB; larger sizes are left out
-    #[arg(long, value_name = "BYTES", value_parser = engine::memory)]
+    #[arg(long, value_name = "BYTES", allow_negative_numbers = true, value_parser = engine::memory)]
     pub(crate) gpu_memory: Option<u64>,
 }
 

@@ -9,6 +9,7 @@
 //! use weald::engine::Engine;
 //! use weald_gpu::Gpu;
 //!
+//! // As `weald run --engine auto`: a graphics card, and the CPU where there is none or it fails.
 //! let engine = match Gpu::hardware()? {
 //!     Some(gpu) => Engine::DeviceElseCpu(std::sync::Arc::new(gpu)),
 //!     None => Engine::Cpu,

@@ -41,7 +41,7 @@ fn conserving_transport_loses_nothing_in_3000_steps() {
     let Some(gpu) = programs::gpu() else { return };
     for (model, boundary) in [(Model::Han, Boundary::Open), (Model::Mei, Boundary::Closed)] {
         let mut land = landscape(rough(SIDE, SIDE, 25.0, 4));
-        let step = Hydraulic { model, transport: Transport::MacCormack, boundary, ..hydraulic(STEPS) };
+        let step = Hydraulic { model, transport: Some(Transport::MacCormack), boundary, ..hydraulic(STEPS) };
         let budget = run(&step, &mut land, &gpu);
         let eroded: f64 = field(&land, "erosion").values().iter().map(|&e| f64::from(e)).sum();
         assert!(eroded > 1.0, "nothing moved, so a closed budget would mean nothing: {eroded} m³");
@@ -57,7 +57,7 @@ fn all_processes_of_stava_lose_nothing_in_3000_steps() {
         let mut land = layered(rough(SIDE, SIDE, 50.0, 3));
         let before = land.clone();
         let (sources, drains) = (vec![spring(12.0, 16.0)], vec![spring(35.0, 30.0)]);
-        let transport = Transport::MacCormack;
+        let transport = Some(Transport::MacCormack);
         let step = Hydraulic { boundary, transport, sources, drains, ..stava(STEPS) };
         let budget = run(&step, &mut land, &gpu);
         let lowered = common::worst_difference(field(&before, "height"), field(&land, "height"));

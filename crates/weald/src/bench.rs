@@ -173,7 +173,7 @@ fn contenders(iterations: u32) -> [Contender; 4] {
         Contender { name: "mei", step: mei.clone(), bytes: 60, operations: 90, aim: 400.0 },
         Contender {
             name: "mei, semi-lagrangian",
-            step: Hydraulic { transport: Transport::SemiLagrangian, ..mei },
+            step: Hydraulic { transport: Some(Transport::SemiLagrangian), ..mei },
             bytes: 60,
             operations: 110,
             aim: 400.0,

@@ -1,8 +1,9 @@
 //! **Weald** turns a recipe into a living landscape.
 //!
 //! A [`Recipe`](recipe::Recipe) is checked whole, then [run](recipe::Run): generators make ground, simulations
-//! carve it, and the layers go out as files. The result is the same bits for any number of threads and on any
-//! [engine](engine::Engine). This crate holds no window, no command line and no GPU interface.
+//! carve it, and the layers go out as files. The result is the same bits for any number of threads, bands and
+//! tiles of an [engine](engine::Engine). This crate holds no window, no command line and no GPU interface: the
+//! crate `weald-gpu` brings the last, as an [`engine::device::Device`].
 //!
 //! ```
 //! use weald::recipe::{Overrides, Recipe};
@@ -43,6 +44,8 @@
 //! * [`recipe`]: what a recipe can say, how it is checked and run; [`recipe::catalog`] lists all steps.
 //! * [`generate`], [`combine`], [`erode`]: the steps, one file a method, each with its equation and source.
 //! * [`Landscape`], [`Domain`], [`Field`]: layers on a grid with a cell size, a place on Earth, a no-data mask.
+//! * [`material`]: what ground is made of, in layers; [`edit`]: brushes, scripts of strokes, undo and redo.
+//! * [`erode::Hydraulic::sit`]: a simulation to hold in hand, for an editor of your own.
 //! * [`step::Step`]: what a step declares and does. Run one on a landscape of your own with [`engine::Job`].
 //! * [`io`]: raster formats. [`picture`]: maps. [`analyse`]: measures of river networks and shapes.
 //! * [`gallery`], [`mod@bench`]: figures of the publications made again, and rates.

@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use crate::engine::{Budget, Job};
 use crate::error::Error;
 use crate::landscape::Landscape;
+use crate::material::Material;
 use crate::recipe::parameter::{Complaints, Parameter, Parameters};
 use crate::recipe::source::Table;
 
@@ -27,8 +28,23 @@ pub trait Step: Debug + Send + Sync {
         Vec::new()
     }
 
+    /// Looks at the files that steer it, so that their faults are told before anything runs.
+    ///
+    /// # Errors
+    /// Those of the files.
+    fn look_ahead(&self, materials: &[Material]) -> Result<(), Error> {
+        let _ = materials;
+        Ok(())
+    }
+
     /// Faults that concern several parameters at once, each a sentence for the user.
     fn faults(&self) -> Vec<String> {
+        Vec::new()
+    }
+
+    /// Faults that only show beside the materials of the recipe, each a sentence for the user.
+    fn faults_among(&self, materials: &[Material]) -> Vec<String> {
+        let _ = materials;
         Vec::new()
     }
 

@@ -60,3 +60,60 @@ fn every_figure_can_be_made_as_a_draft() {
     let pictures = std::fs::read_dir(folder.path()).expect("a folder").count() - 1;
     assert!(pictures >= FIGURES.len(), "{pictures} pictures");
 }
+
+/// The measures of a figure as it stands in the gallery: the number in a row and a column.
+fn measured(id: &str) -> impl Fn(usize, usize) -> f64 {
+    let figure = FIGURES.iter().find(|figure| figure.id == id).expect("there is such a figure");
+    let rows = (figure.make)(GalleryJob::default()).expect("it can be made").measured.rows;
+    move |row, column| {
+        let cell = rows[row][column].trim_end_matches(" %");
+        cell.parse().unwrap_or_else(|_| panic!("`{cell}` is a number"))
+    }
+}
+
+#[test]
+fn in_the_canyon_hard_beds_stand_steeper_than_the_soft_one_which_is_cut_back() {
+    let of = measured("canyon");
+    let [sandstone, shale] = [0, 1];
+    assert!(of(shale, 2) > 1.5 * of(shale, 1), "the shale went from {} to {} m", of(shale, 1), of(shale, 2));
+    assert!(of(sandstone, 4) > of(sandstone, 3) + 5.0, "the sandstone steepens from {}°", of(sandstone, 3));
+    assert!(of(sandstone, 4) > of(shale, 4) + 12.0, "{}° over {}°", of(sandstone, 4), of(shale, 4));
+}
+
+#[test]
+fn force_cuts_deeper_and_roughens_the_bed_that_dissolution_evens_out() {
+    let of = measured("force");
+    let [before, force, dissolution] = [0, 1, 2];
+    assert!(of(dissolution, 1) > 0.5 && of(force, 1) > 1.3 * of(dissolution, 1), "{}", of(force, 1));
+    assert!(of(force, 3) > of(before, 3), "force leaves {} m", of(force, 3));
+    assert!(of(dissolution, 3) < 0.2 * of(before, 3), "dissolution leaves {} m", of(dissolution, 3));
+}
+
+#[test]
+fn slippage_leaves_no_bank_much_steeper_than_its_talus() {
+    let of = measured("banks");
+    let [before, cut, slid] = [0, 1, 2];
+    assert_eq!(of(before, 2), 0.0, "the banks rest before");
+    assert!(of(cut, 2) > 50.0, "the river cuts {} cells of soil too steep", of(cut, 2));
+    assert!(of(slid, 2) < 0.1 * of(cut, 2), "{} of them are left", of(slid, 2));
+}
+
+#[test]
+fn a_lake_rises_to_its_outlet_within_a_centimetre_and_sinks_as_its_spill_carves() {
+    let of = measured("lake");
+    let [before, filling, full, spilled] = [0, 1, 2, 3];
+    assert!(of(before, 1) < of(filling, 1) && of(filling, 1) < of(full, 1), "the lake rises");
+    assert_eq!((of(before, 3), of(filling, 3)), (0.0, 0.0), "nothing spills before it is full");
+    assert!((of(full, 1) - of(full, 2)).abs() < 0.01, "{} m at an outlet of {}", of(full, 1), of(full, 2));
+    assert!(of(spilled, 2) < of(full, 2) - 0.5 && of(spilled, 1) < of(full, 1) - 0.5, "the spill carves");
+    assert!(of(spilled, 3) > 1.0, "and water runs beyond");
+}
+
+#[test]
+fn land_behind_a_painted_levee_stays_dry_that_is_flooded_without() {
+    let of = measured("levee");
+    let [without, with] = [1, 3];
+    assert!(of(without, 2) > 20.0, "{} % are flooded without", of(without, 2));
+    assert_eq!(of(with, 1), 0.0, "no cell is with it");
+    assert!(of(with, 3) >= of(without, 3) * 0.9, "the river is there: {} m", of(with, 3));
+}

@@ -1,11 +1,12 @@
 //! Materials of a recipe, from their tables and files to layers, maps and files.
 
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use tempfile::TempDir;
 use weald::grid::Mask;
 use weald::io::{self, Raster};
-use weald::recipe::{Options, Overrides, Recipe, Run, Silent};
+use weald::recipe::{Options, Overrides, Progress, Recipe, Run, Silent};
 use weald::{Error, Field, Landscape, Size};
 
 const SIDE: usize = 12;
@@ -214,4 +215,43 @@ fn materials_survive_a_change_of_resolution() {
         Place::new().landscape(&recipe(STRATA, &resample, &output("clay", "clay.tif"))).expect("runs");
     assert_eq!(landscape.materials.len(), 4);
     assert_eq!(landscape.field("clay").expect("written").size().columns, 6);
+}
+
+#[test]
+fn steps_that_do_not_go_with_the_materials_are_told_before_anything_runs() {
+    let told = |step: &str, part: &str| {
+        let message = refusal(&recipe(STRATA, step, &output("clay", "clay.tif")));
+        assert!(message.starts_with("r.toml:") && message.contains(part), "{message}");
+    };
+    let hydraulic = "[[step]]\ndo = \"hydraulic\"\nmodel = \"stava\"\n";
+    told(&format!("{hydraulic}deposit = \"caly\"\n"), "`deposit` is \"caly\"");
+    told(&format!("{hydraulic}deposit = \"caly\"\n"), "did you mean `clay`?");
+    told(&format!("{hydraulic}slippage = {{ strength = 0.07 }}\n"), "at most 0.25 / 4 = 0.0625");
+    told("[[step]]\ndo = \"slippage\"\nstrength = 0.07\n", "slippage: `strength` is 0.07");
+    let water = "[[step]]\ndo = \"constant\"\ninto = \"water\"\n";
+    told(&format!("{water}[[step]]\ndo = \"dissolution\"\ndeposit = \"mud\"\n"), "`deposit` is \"mud\"");
+    let stable =
+        recipe(STRATA, &format!("{hydraulic}slippage = {{ strength = 0.0625 }}\n"), &output("clay", "c.tif"));
+    Recipe::parse("r.toml", &stable, &Overrides::default()).expect("that much is stable");
+}
+
+#[test]
+fn a_file_that_is_not_there_is_told_before_the_first_step() {
+    let place = Place::new();
+    let recipe =
+        place.recipe(&recipe("", &load("file = \"none.tif\"\ninto = \"sand\"\n"), &output("sand", "s.tif")));
+    let steps = Heard(AtomicUsize::new(0));
+    let options = Options::into_folder(place.path("out"));
+    let error = Run { recipe: &recipe, options }.execute(&steps).expect_err("no such file");
+    assert_eq!((error.exit_code(), steps.0.into_inner()), (4, 0), "{error}");
+    assert!(error.to_string().contains("none.tif: cannot be read"), "{error}");
+}
+
+/// Counts the steps that begin.
+struct Heard(AtomicUsize);
+
+impl Progress for Heard {
+    fn step(&self, _: usize, _: usize, _: &str) {
+        self.0.fetch_add(1, Ordering::Relaxed);
+    }
 }

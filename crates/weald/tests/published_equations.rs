@@ -44,9 +44,9 @@ fn variants(model: Model) -> Vec<Hydraulic> {
     let unlimited = Hydraulic { limiter: false, flow_rate: Some(0.05), velocity_epsilon, ..keys(model) };
     let mut all = vec![keys(model), unlimited];
     for transport in [Transport::SemiLagrangian, Transport::MacCormack] {
-        all.push(Hydraulic { transport, ..keys(model) });
+        all.push(Hydraulic { transport: Some(transport), ..keys(model) });
     }
-    all.push(Hydraulic { transport: Transport::MacCormack, conserve: Some(false), ..keys(model) });
+    all.push(Hydraulic { transport: Some(Transport::MacCormack), conserve: Some(false), ..keys(model) });
     for scheme in [Scheme::Axis, Scheme::Isotropic, Scheme::IsotropicSymmetric] {
         let thermal = ThermalWithin { scheme, talus: 0.4, strength: 0.13 };
         all.push(Hydraulic { thermal: Some(Nested(thermal)), ..keys(model) });

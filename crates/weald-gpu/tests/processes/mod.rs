@@ -34,11 +34,16 @@ pub(crate) fn processes() -> Vec<Box<dyn Step>> {
     for model in [Model::Han, Model::Mei] {
         for transport in [Transport::Upwind, Transport::SemiLagrangian, Transport::MacCormack] {
             for boundary in [Boundary::Closed, Boundary::Open] {
-                all.push(Box::new(Hydraulic { model, transport, boundary, ..hydraulic(STEPS) }));
+                all.push(Box::new(Hydraulic {
+                    model,
+                    transport: Some(transport),
+                    boundary,
+                    ..hydraulic(STEPS)
+                }));
             }
         }
         for boundary in [Boundary::Closed, Boundary::Open] {
-            let transport = Transport::MacCormack;
+            let transport = Some(Transport::MacCormack);
             all.push(Box::new(Hydraulic {
                 model,
                 transport,
@@ -81,9 +86,9 @@ fn processes_of_stava() -> Vec<Box<dyn Step>> {
             ..alone
         },
     ];
-    for transport in [Transport::SemiLagrangian, Transport::MacCormack] {
+    for transport in [Transport::Upwind, Transport::SemiLagrangian] {
         for viscosity in [0.0, 0.7] {
-            all.push(Hydraulic { transport, viscosity, ..stava.clone() });
+            all.push(Hydraulic { transport: Some(transport), viscosity, ..stava.clone() });
         }
     }
     let mut all: Vec<Box<dyn Step>> =

@@ -196,13 +196,20 @@ fn json_lines(text: &str, complaints: &mut Complaints) -> Vec<Table> {
         match serde_json::from_str(text).map(|value| node(value, line)) {
             Ok(Node { value: Value::Table(table), .. }) => tables.push(table),
             Ok(other) => complaints.add(line, format!("is {}, but must be {{ … }}", other.value.shown())),
-            Err(error) => complaints.add(line, format!("is no JSON: {error}")),
+            Err(error) => complaints.add(line, no_json(&error)),
         }
         if complaints.found.len() >= MOST_FAULTS {
             break;
         }
     }
     tables
+}
+
+/// The parser counts lines within the one that it was given.
+fn no_json(error: &serde_json::Error) -> String {
+    let told = error.to_string();
+    let what = told.split(" at line ").next().unwrap_or(&told);
+    format!("is no JSON at column {}: {what}; an edit is one line, {{ … }}", error.column())
 }
 
 fn node(value: serde_json::Value, line: usize) -> Node {

@@ -98,9 +98,13 @@ impl Step for DissolutionStep {
         Layered::Changes
     }
 
+    fn faults_among(&self, materials: &[Material]) -> Vec<String> {
+        deposit_of(self.deposit.as_ref(), materials).err().into_iter().collect()
+    }
+
     fn run(&self, landscape: &mut Landscape, job: &Job<'_>) -> Result<Outcome, Error> {
         let materials = &landscape.materials;
-        let deposit = deposit_of(self.deposit.as_ref(), materials)?;
+        let deposit = deposit_of(self.deposit.as_ref(), materials).map_err(Error::Run)?;
         let mut working = Working::new(landscape, &self.layer.0, false)?;
         working.set_water(landscape, &self.water.0)?;
         let first_layer = REGOLITH_PLANE + REGOLITH_PLANES;
@@ -174,10 +178,6 @@ impl Process for Dissolving {
         Dissolution::LAG
     }
 
-    fn reach(&self) -> usize {
-        self.lag() + 1
-    }
-
     fn scratch(&self, columns: usize) -> DissolvingScratch {
         DissolvingScratch {
             solid: (0..self.planes.materials).map(|_| Ring::new(columns, 1)).collect(),
@@ -197,7 +197,7 @@ impl Process for Dissolving {
         let water = self.planes.count() + 1 + self.links.planes();
         draft.buffer("water", 1, Content::Constant(vec![water]));
         self.dissolution.add_buffers_to(&mut draft);
-        self.dissolution.add_to(&mut draft, include_str!("stava/standing_lake.wgsl"), "water");
+        Dissolution::add_to(&mut draft, include_str!("stava/standing_lake.wgsl"), "water");
         draft.finish(self.reach())
     }
 

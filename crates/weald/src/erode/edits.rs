@@ -32,7 +32,7 @@ impl Place {
     pub(crate) fn of(working: &Working, column: Column) -> Self {
         let size = working.start.size();
         let cells = (0..size.rows).flat_map(|y| (0..size.columns).map(move |x| working.place(x, y)));
-        let takes_part = |mask: &Mask| cells.map(|at| mask.is_land_at(at)).collect();
+        let takes_part = |mask: &Mask| cells.map(|at| at.is_some_and(|at| mask.is_land_at(at))).collect();
         let land = working.mask.as_ref().and_then(|mask| Mask::new(size, takes_part(mask)));
         Self { size, ring: working.ring, cell: working.cell, lowest: working.lowest, land, column }
     }
@@ -46,23 +46,9 @@ pub(crate) struct Edits {
 }
 
 impl Edits {
-    /// # Errors
-    /// [`Error::Run`] for a stroke that this simulation cannot follow.
-    pub(crate) fn new(script: Script, materials: Vec<String>, place: Place) -> Result<Self, Error> {
-        let edits = Self { script, materials, place };
-        edits.script.edits().iter().try_for_each(|edit| edits.allow(&edit.brush))?;
-        Ok(edits)
-    }
-
-    /// What stands still has walls, and where the border is open water would fall through them.
-    fn allow(&self, brush: &Brush) -> Result<(), Error> {
-        if self.place.ring == 0 || !stills(&brush.effect) {
-            return Ok(());
-        }
-        Err(Error::Run(
-            "a stroke freezes or thaws ground, which needs boundary = \"closed\"; here it is \"open\""
-                .to_owned(),
-        ))
+    /// Strokes that pass [`check`].
+    pub(crate) fn new(script: Script, materials: Vec<String>, place: Place) -> Self {
+        Self { script, materials, place }
     }
 
     /// The first step, from `step` on, before which something happens.
@@ -72,16 +58,22 @@ impl Edits {
 
     /// What the user should know after a run of so many steps.
     pub(crate) fn notes(&self, iterations: u64) -> Vec<String> {
-        let all = self.script.edits().len();
-        let happened = self.script.edits().partition_point(|edit| edit.step < iterations);
+        let edits = self.script.edits();
+        let (happened, late) = edits.split_at(edits.partition_point(|edit| edit.step < iterations));
+        let Place { size, cell, .. } = self.place;
+        let beside = happened.iter().filter(|edit| edit.brush.area(size, cell).is_none()).count();
         let mut notes = vec![format!(
-            "{happened} strokes of the script happened; in the budget the ground that they gave or took counts as \
-             solid that went out (below 0: came), the water as rain and evaporation"
+            "strokes of the script that happened: {}; in the budget the ground that they gave or took counts as \
+             solid that went out (below 0: came), the water as rain and evaporation",
+            happened.len()
         )];
-        if happened < all {
-            let late = all - happened;
+        if beside > 0 {
+            notes.push(format!("strokes that touched no cell of the landscape: {beside}"));
+        }
+        if !late.is_empty() {
+            let late = late.len();
             notes.push(format!(
-                "{late} strokes did not happen: they come after the last of {iterations} steps"
+                "strokes that did not happen, since they come after the last of {iterations} steps: {late}"
             ));
         }
         notes
@@ -105,7 +97,7 @@ impl Edits {
 
     /// One stroke.
     pub(crate) fn stroke(&self, brush: &Brush, snapshot: &mut Snapshot) -> Result<(), Error> {
-        self.allow(brush)?;
+        check_stroke(brush, self.place.ring > 0).map_err(Error::Run)?;
         let Some(area) = brush.area(self.place.size, self.place.cell) else { return Ok(()) };
         let before = self.canvas(area, &snapshot.state);
         let mut after = before.clone();
@@ -216,6 +208,25 @@ impl Edits {
             }
         }
     }
+}
+
+/// Complains of the first edit that a simulation cannot follow.
+pub(super) fn check(script: &Script, open: bool) -> Result<(), String> {
+    script.edits().iter().try_for_each(|Edit { step, brush }| {
+        check_stroke(brush, open).map_err(|what| format!("before step {step} {what}"))
+    })
+}
+
+/// What stands still has walls, and where the border is open water would fall through them.
+fn check_stroke(brush: &Brush, open: bool) -> Result<(), String> {
+    if open && stills(&brush.effect) {
+        return Err(
+            "a stroke freezes or thaws ground, which needs boundary = \"closed\" in the step; it is \
+                    \"open\""
+                .to_owned(),
+        );
+    }
+    Ok(())
 }
 
 /// Whether a stroke makes ground stand still, or ends it.

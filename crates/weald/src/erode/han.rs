@@ -101,10 +101,6 @@ impl Process for Han {
         SETTLED + self.setting.lag(0)
     }
 
-    fn reach(&self) -> usize {
-        self.lag() + 1
-    }
-
     fn scratch(&self, columns: usize) -> HanScratch {
         // As many rows as lie between the stage that writes one and the last that reads it, and no more: what
         // is in flight should stay in the second-level cache.
@@ -152,7 +148,7 @@ impl Process for Han {
             self.faces(flow, y);
             self.settle(flow, y);
             if self.setting.in_flux_form() {
-                self.fluxes(flow, y);
+                Self::fluxes(flow, y);
             } else if self.setting.advection.is_some() {
                 self.cell_velocity(flow, y);
             }

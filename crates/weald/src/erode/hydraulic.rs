@@ -22,6 +22,7 @@ use super::thermal_step::ThermalWithin;
 use crate::engine::Job;
 use crate::error::Error;
 use crate::landscape::Landscape;
+use crate::material::Material;
 use crate::recipe::parameter::{LayerName, Nested, ScriptFile};
 use crate::step::{Entry, Layered, Outcome, Stage, Step};
 use crate::{choices, parameters};
@@ -111,8 +112,8 @@ parameters! {
         /// Whether a cell gives no more water than it has. `false` is the scheme as printed: han lets depths
         /// go negative.
         limiter: bool = true;
-        /// How sediment travels.
-        transport: Transport = Transport::Upwind;
+        /// How sediment travels. Default "upwind" (han, mei), "maccormack" (stava).
+        transport: Option<Transport> = None;
         /// Whether transport = "maccormack" takes the form that conserves sediment. Default true.
         conserve: Option<bool> = None;
         /// Depth added where sediment is divided by depth. Default 0.001 cells.
@@ -147,11 +148,11 @@ parameters! {
         deposit: Option<LayerName> = None;
         /// stava: standing water turns ground into regolith that creeps. Default: it does not.
         dissolution: Option<Nested<DissolutionWithin>> = None;
+        /// stava: materials slide off slopes steeper than their talus. Default: they do not.
+        slippage: Option<Nested<SlippageWithin>> = None;
         /// stava: script of edits, in JSON lines (.jsonl) or TOML: strokes of a brush that happen between the
         /// steps. Its path starts at the folder of the recipe.
         edits: Option<ScriptFile> = None;
-        /// stava: materials slide off slopes steeper than their talus. Default: they do not.
-        slippage: Option<Nested<SlippageWithin>> = None;
     }
 }
 
@@ -165,8 +166,15 @@ pub const ENTRY: Entry = Entry::of::<Hydraulic>(
 );
 
 impl Hydraulic {
+    /// How sediment travels, where the recipe says nothing as in the model's publication; but Mei et al. lose
+    /// sediment, so there upwind stands in.
+    pub fn transport(&self) -> Transport {
+        let usual = if self.model == Model::Stava { Transport::MacCormack } else { Transport::Upwind };
+        self.transport.unwrap_or(usual)
+    }
+
     fn advection(&self, filled: &Filled) -> Option<Advection> {
-        match self.transport {
+        match self.transport() {
             Transport::Upwind => None,
             Transport::SemiLagrangian => Some(Advection::SemiLagrangian),
             Transport::MacCormack if self.conserves() => {
@@ -178,7 +186,7 @@ impl Hydraulic {
 
     /// Whether transport loses no sediment.
     fn conserves(&self) -> bool {
-        match self.transport {
+        match self.transport() {
             Transport::Upwind => true,
             Transport::SemiLagrangian => false,
             Transport::MacCormack => self.conserve.unwrap_or(true),
@@ -242,13 +250,21 @@ impl Step for Hydraulic {
         self.edits.iter().map(ScriptFile::path).collect()
     }
 
+    fn look_ahead(&self, materials: &[Material]) -> Result<(), Error> {
+        self.script(materials).map(drop)
+    }
+
     fn faults(&self) -> Vec<String> {
         self.all_faults()
     }
 
+    fn faults_among(&self, materials: &[Material]) -> Vec<String> {
+        self.all_faults_among(materials)
+    }
+
     fn run(&self, landscape: &mut Landscape, job: &Job<'_>) -> Result<Outcome, Error> {
         let filled = self.filled(landscape.domain.cell);
-        let working = self.working(landscape)?;
+        let working = self.working(landscape, self.edits.is_some())?;
         self.run_model(landscape, job, &filled, &working)
     }
 }

@@ -103,10 +103,6 @@ impl Process for Mei {
         EXCHANGED + self.setting.lag(1)
     }
 
-    fn reach(&self) -> usize {
-        self.lag() + 1
-    }
-
     fn scratch(&self, columns: usize) -> MeiScratch {
         let ring = |depth| Ring::new(columns, depth);
         MeiScratch {

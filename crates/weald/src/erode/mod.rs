@@ -2,13 +2,16 @@
 //!
 //! [`hydraulic`] is rain and rivers by one of three schemes, [`thermal_step`] gravity alone; [`thermal`] has the
 //! schemes of weathering that both use. [`slippage_step`] and [`dissolution_step`] are processes of the third
-//! scheme alone. Within a process lengths are in cells and time is in steps; rows of cells
-//! stream through its stages, so that several steps pass through memory at once.
+//! scheme alone, [`transport_step`] carries a layer by water that flows steadily. Within a process lengths are in
+//! cells and time is in steps; rows of cells stream through its stages, so that several steps pass through memory
+//! at once. Each process is also a program for a compute device, of shaders that stand beside its kernels.
 
 mod advection;
 pub mod dissolution_step;
 mod edits;
+mod extent;
 mod flux_corrected;
+mod four_outflows;
 mod han;
 pub mod hydraulic;
 mod links;

@@ -93,7 +93,9 @@ impl<P: Process> Simulation<'_, P> {
         job: &Job<'_>,
         last: Option<&mut Saved>,
     ) -> Result<Finished, Error> {
-        let mut running = Running::new(self, engine, from, job, last)?;
+        let mut running = Running::new(self, engine, &from, job, last)?;
+        // The machine has taken its own copy, and states are large.
+        drop(from);
         while running.done < self.iterations {
             running.edit()?;
             running.stretch()?;
@@ -126,7 +128,7 @@ impl<'a, P: Process> Running<'a, P> {
     fn new(
         simulation: &'a Simulation<'a, P>,
         engine: &Engine,
-        from: Saved,
+        from: &Saved,
         job: &'a Job<'a>,
         last: Option<&'a mut Saved>,
     ) -> Result<Self, Error> {

@@ -47,19 +47,29 @@ parameters! {
 
 impl SlippageWithin {
     /// The method's constants for these materials.
+    ///
+    /// # Errors
+    /// [`Error::Run`] for a strength that is unstable with so many.
     pub(crate) fn slippage(&self, materials: &[Material]) -> Result<Slippage, Error> {
-        let (strength, count) = (self.strength, materials.len());
-        let most = 0.25 / count as f64;
-        if strength > most {
-            return Err(Error::Run(format!(
-                "slippage: `strength` {strength} is unstable with {count} materials, which slide at once; at most \
-                 {most} is stable"
-            )));
+        if let Some(fault) = self.fault_among(materials) {
+            return Err(Error::Run(fault));
         }
         let tangent =
             |material: &Material| libm::tan(material.talus_deg.clamp(0.0, 90.0).to_radians()).max(0.0) as f32;
         let talus = materials.iter().map(tangent).collect();
-        Ok(Slippage { talus, strength: strength as f32, softening: self.softening })
+        Ok(Slippage { talus, strength: self.strength as f32, softening: self.softening })
+    }
+
+    /// Materials slide at once, so the share of each is bounded by their number.
+    pub(super) fn fault_among(&self, materials: &[Material]) -> Option<String> {
+        let (strength, count) = (self.strength, materials.len());
+        let most = 0.25 / count as f64;
+        (strength > most).then(|| {
+            format!(
+                "`strength` is {strength}, but must be at most 0.25 / {count} = {most:.4}: all {count} materials \
+                 slide at once"
+            )
+        })
     }
 }
 
@@ -84,13 +94,17 @@ impl Step for SlippageStep {
         Layered::Changes
     }
 
+    fn faults_among(&self, materials: &[Material]) -> Vec<String> {
+        self.within().fault_among(materials).into_iter().collect()
+    }
+
     fn run(&self, landscape: &mut Landscape, job: &Job<'_>) -> Result<Outcome, Error> {
-        let SlippageStep { strength, softening, .. } = *self;
-        let slippage = SlippageWithin { strength, softening }.slippage(&landscape.materials)?;
+        let slippage = self.within().slippage(&landscape.materials)?;
         let mut working = Working::new(landscape, &self.layer.0, false)?;
         let planes = Planes { first_layer: 1, materials: landscape.materials.len() };
         let column = Column { planes, regolith: None };
-        working.set_stack(landscape, column, deposit_of(None, &landscape.materials)?)?;
+        let deposit = deposit_of(None, &landscape.materials).map_err(Error::Run)?;
+        working.set_stack(landscape, column, deposit)?;
         let links = Links::new(working.size, working.mask.is_some());
         let process = Slipping { slippage, planes, links, arch: Arch::new() };
         let plane_names: Vec<_> =
@@ -105,6 +119,13 @@ impl Step for SlippageStep {
         };
         let finished = simulation.run(working.state(planes.count(), &[]), job)?;
         Ok(working.store_ground(landscape, &self.layer.0, &finished, u64::from(self.iterations)))
+    }
+}
+
+impl SlippageStep {
+    fn within(&self) -> SlippageWithin {
+        let Self { strength, softening, .. } = *self;
+        SlippageWithin { strength, softening }
     }
 }
 
@@ -130,10 +151,6 @@ impl Process for Slipping {
 
     fn lag(&self) -> usize {
         self.slippage.lag()
-    }
-
-    fn reach(&self) -> usize {
-        self.lag() + 1
     }
 
     fn scratch(&self, columns: usize) -> SlippageScratch {

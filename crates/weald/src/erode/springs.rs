@@ -1,6 +1,8 @@
 //! Springs and drains: places where water comes or goes, `q exp(-r² / R²)` a step at distance `r` (Šťava et al.
 //! 2008). Where less than a millionth of the peak is left, nothing is.
 
+use std::ops::Range;
+
 use crate::domain::Domain;
 use crate::grid::Field;
 use crate::parameters;
@@ -24,16 +26,22 @@ parameters! {
 const LEAST_SHARE: f64 = 1e-6;
 
 impl Spring {
-    /// Adds `sign` times its water to a field on a domain, in metres a step.
-    pub(crate) fn add_to(&self, field: &mut Field, domain: &Domain, sign: f64) {
+    /// Columns and rows that it can reach.
+    fn reached(&self, domain: &Domain) -> [Range<usize>; 2] {
         let widest = self.radius * libm::sqrt(-libm::log(LEAST_SHARE));
         let cells = |middle: f64, side: usize| {
             let first = ((middle - widest) / domain.cell - 0.5).ceil().clamp(0.0, side as f64);
             let end = ((middle + widest) / domain.cell + 0.5).floor().clamp(first, side as f64);
             first as usize..end as usize
         };
-        for y in cells(self.y, domain.size.rows) {
-            for x in cells(self.x, domain.size.columns) {
+        [cells(self.x, domain.size.columns), cells(self.y, domain.size.rows)]
+    }
+
+    /// Adds `sign` times its water to a field on a domain, in metres a step.
+    pub(crate) fn add_to(&self, field: &mut Field, domain: &Domain, sign: f64) {
+        let [columns, rows] = self.reached(domain);
+        for y in rows {
+            for x in columns.clone() {
                 let [east, south] =
                     [(x, self.x), (y, self.y)].map(|(at, middle)| (at as f64 + 0.5) * domain.cell - middle);
                 let share = libm::exp(-(east * east + south * south) / (self.radius * self.radius));
@@ -61,6 +69,19 @@ pub(crate) fn field_of(
     field
 }
 
+/// Says which of the springs under a key of the recipe reach no cell of the landscape.
+pub(crate) fn out_of_reach(domain: &Domain, key: &str, springs: &[Nested<Spring>]) -> Vec<String> {
+    let far = |spring: &&Nested<Spring>| spring.0.reached(domain).iter().any(Range::is_empty);
+    let [width, height] = [domain.size.columns, domain.size.rows].map(|cells| cells as f64 * domain.cell);
+    let told = |Nested(Spring { x, y, .. }): &Nested<Spring>| {
+        format!(
+            "`{key}`: the one at x = {x}, y = {y} reaches no cell of the landscape, which is {width} m wide and \
+             {height} m high"
+        )
+    };
+    springs.iter().filter(far).map(told).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -76,5 +97,16 @@ mod tests {
         assert!((volume / expected - 1.0).abs() < 1e-5, "{volume} m³ a step, not {expected}");
         let both = field_of(&domain, None, &[Nested(spring.clone())], &[Nested(spring)]);
         assert!(both.values().iter().all(|&left| left == 0.0), "a drain takes what a spring gives");
+    }
+
+    #[test]
+    fn a_spring_beside_the_landscape_is_told_and_one_whose_rim_reaches_it_is_not() {
+        let domain = Domain::new(Size::square(64).expect("small"), 10.0);
+        let at = |x: f64| [Nested(Spring { x, y: 300.0, radius: 40.0, rate: 0.5 })];
+        for (x, told) in [(320.0, 0), (-100.0, 0), (-200.0, 1), (740.0, 0), (900.0, 1)] {
+            assert_eq!(out_of_reach(&domain, "sources", &at(x)).len(), told, "at {x}");
+            let given = field_of(&domain, None, &at(x), &[]).sum();
+            assert_eq!(given == 0.0, told == 1, "at {x} it gives {given}");
+        }
     }
 }

@@ -142,8 +142,8 @@ impl Working {
     fn thickness(&self, now: &[f32], start: &[f32], metres: &Field) -> Field {
         let cell = self.cell as f32;
         Field::from_function(metres.size(), |x, y| {
-            let at = self.place(x, y);
-            if now[at] == start[at] { metres.at(x, y) } else { now[at] * cell }
+            let changed = self.place(x, y).filter(|&at| now[at] != start[at]);
+            changed.map_or_else(|| metres.at(x, y), |at| now[at] * cell)
         })
     }
 }

@@ -5,9 +5,9 @@
 //! 10.2312/SCA/SCA08/201-210. Ground is a column of materials, bedrock first; water takes from the top down what
 //! each material yields, and lays down one that the user names. Lengths are in cells and time in steps, so that
 //! `k = dt² g A / l` is the flow rate. What differs from the source: walls do not clone their neighbours, so that
-//! nothing is lost there; transport is upwind by default, for the same reason; the bedrock is kept as start plus
-//! change, which has the digits of a small change on a high mountain; what settles is the material that the
-//! recipe names, whatever was taken before. Each process has its own file and can be left out.
+//! nothing is lost there; MacCormack transport has a conserving form, for the same reason; the bedrock is kept as
+//! start plus change, which has the digits of a small change on a high mountain; what settles is the material that
+//! the recipe names, whatever was taken before. Each process has its own file and can be left out.
 
 pub(crate) mod digging;
 pub(crate) mod dissolution;
@@ -112,10 +112,6 @@ impl Process for Stava {
         let dissolution = self.dissolution.as_ref().map_or(0, |_| Dissolution::LAG);
         let slippage = self.slippage.as_ref().map_or(0, Slippage::lag);
         self.exchanged() + self.setting.lag(1).max(dissolution).max(slippage)
-    }
-
-    fn reach(&self) -> usize {
-        self.lag() + 1
     }
 
     fn scratch(&self, columns: usize) -> StavaScratch {

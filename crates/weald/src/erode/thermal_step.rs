@@ -113,10 +113,6 @@ impl Process for Sliding {
         self.slide.lag()
     }
 
-    fn reach(&self) -> usize {
-        self.lag() + 1
-    }
-
     fn scratch(&self, columns: usize) -> SlideScratch {
         SlideScratch::new(columns)
     }

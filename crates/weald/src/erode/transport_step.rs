@@ -191,10 +191,6 @@ impl Process for Carrying {
         self.advection.lag()
     }
 
-    fn reach(&self) -> usize {
-        self.lag() + 1
-    }
-
     fn scratch(&self, columns: usize) -> CarryingScratch {
         let ring = |depth| Ring::new(columns, depth);
         CarryingScratch {

@@ -1,9 +1,11 @@
 //! The ground in working units: lengths in cells, a ring of no-data cells around an open domain, and back.
 
+use super::extent::Extent;
 use super::links::mask_planes;
 use super::setting::plane;
 use super::simulation::{Finished, Flows};
 use super::stack::Stack;
+use crate::engine::device::Window;
 use crate::engine::{Budget, SolidBudget, WaterBudget};
 use crate::error::Error;
 use crate::grid::{Field, Mask, Size};
@@ -15,6 +17,8 @@ use crate::step::Outcome;
 pub(crate) struct Working {
     /// Columns and rows, the ring included.
     pub(crate) size: Size,
+    /// The part of the landscape that is simulated.
+    window: Window,
     /// Cells with data; `None` where all have.
     pub(crate) mask: Option<Mask>,
     /// Width of the ring: 1 around an open domain, else 0.
@@ -45,25 +49,24 @@ pub(crate) struct Kept {
 impl Working {
     /// Takes the ground from a layer. Heights count from the lowest ground, which keeps their digits.
     pub(crate) fn new(landscape: &Landscape, layer: &str, open: bool) -> Result<Self, Error> {
-        Self::within(landscape, layer, open, None)
+        Self::within(landscape, layer, &Extent { open, region: None, cropped: false })
     }
 
-    /// The same with walls around a region: cells where that layer is below 0.5 take no part.
-    pub(crate) fn within(
-        landscape: &Landscape,
-        layer: &str,
-        open: bool,
-        region: Option<&str>,
-    ) -> Result<Self, Error> {
+    /// The same over a part of the landscape.
+    pub(crate) fn within(landscape: &Landscape, layer: &str, extent: &Extent<'_>) -> Result<Self, Error> {
         let start = landscape.field(layer)?.clone();
-        let region = region.map(|name| landscape.field(name)).transpose()?;
+        let region = extent.region.map(|name| landscape.field(name)).transpose()?;
         let domain = &landscape.domain;
-        let ring = usize::from(open);
-        let size = Size { columns: domain.size.columns + 2 * ring, rows: domain.size.rows + 2 * ring };
+        let ring = usize::from(extent.open);
+        let window = extent.window(landscape)?;
+        let size = Size { columns: window.columns.len() + 2 * ring, rows: window.rows.len() + 2 * ring };
+        let first = [window.columns.start, window.rows.start];
         let lowest = start.range(domain.land.as_ref()).map_or(0.0, |(lowest, _)| f64::from(lowest));
         let mut working = Self {
             size,
+            window,
             mask: ringed_mask(size, ring, |x, y| {
+                let [x, y] = [x + first[0], y + first[1]];
                 let here = region.is_none_or(|region| region.at(x, y) >= 0.5);
                 here && domain.land.as_ref().is_none_or(|land| land.is_land(x, y))
             }),
@@ -95,9 +98,11 @@ impl Working {
         Ok(())
     }
 
-    /// Where a cell of the landscape stands in the working planes.
-    pub(super) fn place(&self, x: usize, y: usize) -> usize {
-        self.size.index(x + self.ring, y + self.ring)
+    /// Where a cell of the landscape stands in the working planes, if it is simulated.
+    pub(super) fn place(&self, x: usize, y: usize) -> Option<usize> {
+        let Window { columns, rows } = &self.window;
+        let inside = columns.contains(&x) && rows.contains(&y);
+        inside.then(|| self.size.index(x - columns.start + self.ring, y - rows.start + self.ring))
     }
 
     /// Lengths of a field in cells, none below 0, as [`Working::ringed`].
@@ -108,11 +113,9 @@ impl Working {
     /// Values with the ring, zero there and on cells without data.
     pub(super) fn ringed(&self, value: impl Fn(usize, usize) -> f32) -> Vec<f32> {
         let mut cells = vec![0.0; self.size.cells()];
-        let Size { columns, rows } = self.start.size();
-        for y in 0..rows {
-            for x in 0..columns {
-                let at = self.place(x, y);
-                if self.is_land(at) {
+        for y in self.window.rows.clone() {
+            for x in self.window.columns.clone() {
+                if let Some(at) = self.place(x, y).filter(|&at| self.is_land(at)) {
                     cells[at] = value(x, y);
                 }
             }
@@ -163,9 +166,9 @@ impl Working {
         value: impl Fn(usize) -> f32,
         elsewhere: impl Fn(usize, usize) -> f32,
     ) -> Field {
-        Field::from_function(self.start.size(), |x, y| {
-            let at = self.place(x, y);
-            if self.is_land(at) { value(at) } else { elsewhere(x, y) }
+        Field::from_function(self.start.size(), |x, y| match self.place(x, y) {
+            Some(at) if self.is_land(at) => value(at),
+            _ => elsewhere(x, y),
         })
     }
 

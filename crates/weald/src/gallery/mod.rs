@@ -1,8 +1,14 @@
 //! The figures of the publications that Weald implements, made again and measured. [`FIGURES`] is the registry.
 
+mod banks;
+mod canyon;
 mod cone;
 mod erosion;
 mod fault;
+mod force;
+mod lake;
+mod layered;
+mod levee;
 mod page;
 mod start;
 mod steps;
@@ -89,8 +95,18 @@ pub struct Measured {
 }
 
 /// All figures in the order of the page. Adding one is one file and one line here.
-pub const FIGURES: &[Figure] =
-    &[fault::FIGURE, cone::FIGURE, start::FIGURE, erosion::WEATHERING, erosion::DISSOLUTION];
+pub const FIGURES: &[Figure] = &[
+    fault::FIGURE,
+    cone::FIGURE,
+    start::FIGURE,
+    erosion::WEATHERING,
+    erosion::DISSOLUTION,
+    canyon::FIGURE,
+    force::FIGURE,
+    banks::FIGURE,
+    lake::FIGURE,
+    levee::FIGURE,
+];
 
 /// Makes the figures named in `only`, or all where it is empty, and writes their pictures and `index.md` into
 /// a folder. Sections of other figures on an older page stay. `progress` hears the id of each figure begun.

@@ -150,19 +150,21 @@ fn check(
     complaints.unknown_keys(recipe, &["landscape", "material", "step", "output"]);
     let files = Files { vocabulary, folder: Path::new(file).parent().unwrap_or(Path::new("")) };
     let start = landscape::read(files, recipe, complaints);
+    let before = complaints.found.len();
     let materials = materials::read(files, recipe, complaints);
+    let materials_understood = complaints.found.len() == before;
     let (steps, all_understood) = steps::read(files, recipe, complaints);
     let outputs = outputs::read(vocabulary, recipe, complaints);
     complaints.subject.clear();
     if recipe.get("output").is_none() {
         complaints.add(1, "a recipe needs an [[output]] table, or its run would leave nothing behind");
     }
-    if steps.is_empty() && all_understood && matches!(start.ground, Ok(Ground::Empty { .. })) {
-        complaints.add(1, "a recipe needs a [[step]] table, or `from` in [landscape]: there is no ground");
-    }
-    if let (true, Ok(ground)) = (all_understood, &start.ground) {
+    if let (true, Ok(ground)) = (all_understood && materials_understood, &start.ground) {
         let made = Made { ground, materials: &materials, steps: &steps };
         layers::check(&made, &outputs, complaints);
+    }
+    if materials_understood {
+        steps::check_materials(&steps, &materials, complaints);
     }
     steps::check_sizes(&steps)?;
     let (file, text) = (file.to_owned(), canonical::text(recipe));

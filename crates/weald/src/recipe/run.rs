@@ -2,6 +2,7 @@
 
 mod desk;
 mod folder;
+mod inputs;
 #[cfg(test)]
 mod tests;
 mod writer;
@@ -144,6 +145,7 @@ impl Run<'_> {
             let path = path.display();
             progress.note(&format!("starting anew; the checkpoint {path} is used with --resume only"));
         }
+        inputs::check(self.recipe)?;
         let (landscape, notes) = ground::load(self.recipe)?;
         for note in &notes {
             progress.note(note);

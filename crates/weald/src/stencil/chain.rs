@@ -34,7 +34,9 @@ pub(crate) trait Process: Sync {
     /// Rows by which a step's output lies behind its input.
     fn lag(&self) -> usize;
     /// Farthest row that a row of the output depends on.
-    fn reach(&self) -> usize;
+    fn reach(&self) -> usize {
+        self.lag() + 1
+    }
     /// Memory for one step over rows of this many cells.
     fn scratch(&self, columns: usize) -> Self::Scratch;
     /// The same process over a part of the domain, as if it were the whole.

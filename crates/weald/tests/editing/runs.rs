@@ -93,7 +93,7 @@ fn fifty_strokes_over_500_steps_replay_to_the_same_bits_on_every_cpu_engine_and_
     let budget = report.steps[1].budget.as_ref().expect("a simulation has one");
     assert!(budget.solid.error.abs() < 1e-5 && budget.water.error.abs() < 1e-5, "{budget:?}");
     assert!(
-        report.steps[1].notes[0].starts_with("50 strokes of the script happened"),
+        report.steps[1].notes[0].starts_with("strokes of the script that happened: 50;"),
         "{:?}",
         report.steps[1].notes
     );

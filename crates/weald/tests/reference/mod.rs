@@ -172,7 +172,7 @@ impl World {
         }
         let sines = self.sines();
         let mut found = self.sediment.clone();
-        if keys.transport == Transport::Upwind {
+        if keys.transport() == Transport::Upwind {
             let concentration = self.concentration(&self.sediment, &self.depth, keys);
             self.carry(&mut found, |giver| concentration[giver]);
         }
@@ -258,7 +258,7 @@ impl World {
         let sines = self.sines();
         self.exchange(keys, &sines, &velocity);
         self.drain();
-        if keys.transport == Transport::Upwind {
+        if keys.transport() == Transport::Upwind {
             let mut carried = self.sediment.clone();
             let concentration = self.concentration(&self.sediment, &rained, keys);
             self.carry(&mut carried, |giver| concentration[giver]);
@@ -310,7 +310,7 @@ impl World {
     }
 
     fn advect(&mut self, keys: &Hydraulic, velocity: &[[f64; 2]], depth_before: &[f64]) {
-        self.sediment = match keys.transport {
+        self.sediment = match keys.transport() {
             Transport::Upwind => return,
             Transport::MacCormack if keys.conserve != Some(false) => {
                 flux_corrected::carry(self, depth_before, keys.epsilon.expect("given"))

@@ -177,7 +177,7 @@ impl Column {
     }
 
     fn transport(&mut self, keys: &Hydraulic, rained: &[f64], velocity: &[[f64; 2]]) {
-        if keys.transport != Transport::Upwind {
+        if keys.transport() != Transport::Upwind {
             return self.world.advect(keys, velocity, rained);
         }
         let mut carried = self.world.sediment.clone();

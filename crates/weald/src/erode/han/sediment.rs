@@ -59,7 +59,7 @@ impl Han {
     }
 
     /// Fluxes through the faces and the water before them, for transport in flux form.
-    pub(super) fn fluxes(&self, flow: &mut Flow<'_, Self>, y: usize) {
+    pub(super) fn fluxes(flow: &mut Flow<'_, Self>, y: usize) {
         let settled = &mut flow.scratch.settled;
         settled.eastward.here_mut(y).copy_from_slice(flow.output[plane::EAST].here(y));
         settled.southward.here_mut(y).copy_from_slice(flow.output[plane::SOUTH].here(y));

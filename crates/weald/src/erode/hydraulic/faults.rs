@@ -1,11 +1,22 @@
 //! Keys that mean nothing together, told before anything runs.
 
-use super::{Boundary, Hydraulic, Model, Transport, UptakeLaw};
+use super::{Boundary, Hydraulic, Model, Transport, UptakeLaw, deposit_of};
+use crate::material::Material;
+use crate::recipe::parameter::Nested;
 
 impl Hydraulic {
     pub(super) fn all_faults(&self) -> Vec<String> {
         let own = if self.model == Model::Stava { self.faults_of_stava() } else { self.keys_of_stava() };
         own.into_iter().chain(self.faults_of_any()).collect()
+    }
+
+    pub(super) fn all_faults_among(&self, materials: &[Material]) -> Vec<String> {
+        if self.model != Model::Stava {
+            return Vec::new();
+        }
+        let deposit = deposit_of(self.deposit.as_ref(), materials).err();
+        let slippage = self.slippage.as_ref().and_then(|Nested(within)| within.fault_among(materials));
+        deposit.into_iter().chain(slippage).collect()
     }
 
     fn faults_of_any(&self) -> Vec<String> {
@@ -31,7 +42,7 @@ impl Hydraulic {
     }
 
     fn faults_of_transport(&self) -> Option<String> {
-        match (self.transport, self.conserve) {
+        match (self.transport(), self.conserve) {
             (Transport::Upwind, Some(false)) => {
                 Some("`conserve` is false, but transport = \"upwind\" always conserves sediment".to_owned())
             }

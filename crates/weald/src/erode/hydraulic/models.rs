@@ -7,11 +7,13 @@ use crate::engine::machine::{self, Means, Snapshot};
 use crate::engine::program::Program;
 use crate::engine::{Engine, Job};
 use crate::erode::edits::Edits;
+use crate::erode::extent::Extent;
 use crate::erode::han::{self, Han, HanConstants};
 use crate::erode::links::Links;
 use crate::erode::mei::{self, Mei, MeiConstants};
 use crate::erode::setting::Setting;
 use crate::erode::simulation::{Finished, Record, Simulation, Sky};
+use crate::erode::springs;
 use crate::erode::working::{Kept, Working};
 use crate::error::Error;
 use crate::landscape::Landscape;
@@ -46,11 +48,13 @@ pub(super) fn named(names: &[&str]) -> Vec<String> {
 }
 
 impl Hydraulic {
-    /// The landscape in working units.
-    pub(super) fn working(&self, landscape: &Landscape) -> Result<Working, Error> {
+    /// The landscape in working units, such that strokes can change it where it is `editable`.
+    pub(super) fn working(&self, landscape: &Landscape, editable: bool) -> Result<Working, Error> {
         let open = self.boundary == Boundary::Open;
         let region = self.region.as_ref().map(|region| region.0.as_str());
-        let mut working = Working::within(landscape, &self.layer.0, open, region)?;
+        // Strokes count their places from the corner of the landscape.
+        let extent = Extent { open, region, cropped: !editable };
+        let mut working = Working::within(landscape, &self.layer.0, &extent)?;
         if let Some(water) = &self.initial_water {
             working.set_water(landscape, &water.0)?;
         }
@@ -58,7 +62,7 @@ impl Hydraulic {
             let deposit = self.deposit_of(landscape)?;
             working.set_stack(landscape, self.column(landscape), deposit)?;
         }
-        if self.edits.is_some() {
+        if editable {
             working.set_changing_mask();
         }
         Ok(working)
@@ -76,12 +80,16 @@ impl Hydraulic {
             Model::Han => self.simulate(&self.han(filled, working), job, filled, working),
             Model::Mei => self.simulate(&self.mei(filled, working), job, filled, working),
             Model::Stava => {
-                let script = self.script(landscape)?;
+                let script = self.script(&landscape.materials)?;
                 self.simulate(&self.stava(landscape, filled, working, script)?, job, filled, working)
             }
         }?;
         let kept = Kept { iterations: u64::from(self.iterations), conserving: self.conserves() };
-        Ok(working.store(landscape, &self.layer.0, &finished, kept))
+        let mut outcome = working.store(landscape, &self.layer.0, &finished, kept);
+        for (key, springs) in [("sources", &self.sources), ("drains", &self.drains)] {
+            outcome.notes.extend(springs::out_of_reach(&landscape.domain, key, springs));
+        }
+        Ok(outcome)
     }
 
     fn simulate<P: Process<Weather = Sky>>(
@@ -154,7 +162,7 @@ impl Hydraulic {
     /// The model on a landscape as compute passes.
     pub(crate) fn program(&self, landscape: &Landscape) -> Result<Program, Error> {
         let filled = self.filled(landscape.domain.cell);
-        let working = self.working(landscape)?;
+        let working = self.working(landscape, false)?;
         Ok(match self.model {
             Model::Han => self.han(&filled, &working).process.program(),
             Model::Mei => self.mei(&filled, &working).process.program(),
@@ -168,7 +176,7 @@ impl Hydraulic {
     /// [`Error::Run`] where the landscape lacks the layer.
     pub fn seconds(&self, landscape: &Landscape, engine: &Engine) -> Result<f64, Error> {
         let filled = self.filled(landscape.domain.cell);
-        let working = self.working(landscape)?;
+        let working = self.working(landscape, false)?;
         let weather: Vec<_> = (0..u64::from(self.iterations)).map(|step| self.sky(&filled, step)).collect();
         match self.model {
             Model::Han => seconds_of(&self.han(&filled, &working), &working, &weather, engine),

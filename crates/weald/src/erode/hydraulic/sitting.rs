@@ -58,8 +58,7 @@ impl Hydraulic {
             return Err(Error::Run(format!("model \"{model}\" knows no layers to edit; use \"stava\"")));
         }
         let filled = self.filled(landscape.domain.cell);
-        let mut working = self.working(landscape)?;
-        working.set_changing_mask();
+        let working = self.working(landscape, true)?;
         let chosen = self.stava(landscape, &filled, &working, Some(Script::default()))?;
         let start = Snapshot::start(chosen.start(&working), 0);
         let machine = machine::start(&chosen.process, &[], &start, engine)?;

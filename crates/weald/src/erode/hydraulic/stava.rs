@@ -1,9 +1,9 @@
 //! The model of Šťava et al. with the keys of a recipe filled in.
 
 use super::models::{Chosen, MEI_PLANES, named};
-use super::{Filled, Hydraulic};
+use super::{Boundary, Filled, Hydraulic};
 use crate::edit::Script;
-use crate::erode::edits::{Edits, Place};
+use crate::erode::edits::{self, Edits, Place};
 use crate::erode::mei;
 use crate::erode::springs;
 use crate::erode::stack::Column;
@@ -18,7 +18,7 @@ use crate::error::Error;
 use crate::grid::Field;
 use crate::landscape::Landscape;
 use crate::material::Material;
-use crate::recipe::parameter::{LayerName, Nested};
+use crate::recipe::parameter::{LayerName, Nested, ScriptFile, nearest};
 
 impl Hydraulic {
     /// Where the materials stand in the state.
@@ -30,7 +30,7 @@ impl Hydraulic {
 
     /// Number of the material that settles.
     pub(super) fn deposit_of(&self, landscape: &Landscape) -> Result<usize, Error> {
-        deposit_of(self.deposit.as_ref(), &landscape.materials)
+        deposit_of(self.deposit.as_ref(), &landscape.materials).map_err(Error::Run)
     }
 
     pub(super) fn stava(
@@ -42,7 +42,7 @@ impl Hydraulic {
     ) -> Result<Chosen<Stava>, Error> {
         let column = self.column(landscape);
         let weather = self.weather_planes(landscape, working, script.is_some())?;
-        let edits = script.map(|script| self.edits(script, landscape, working)).transpose()?;
+        let edits = script.map(|script| self.edits(script, landscape, working));
         let process = Stava {
             constants: StavaConstants {
                 flow_rate: filled.flow_rate,
@@ -90,12 +90,15 @@ impl Hydraulic {
     }
 
     /// The script of strokes, which is read here.
-    pub(super) fn script(&self, landscape: &Landscape) -> Result<Option<Script>, Error> {
-        let names: Vec<_> = landscape.materials.iter().map(|material| material.name.as_str()).collect();
-        self.edits.as_ref().map(|file| Script::load(&file.path(), &names)).transpose()
+    pub(super) fn script(&self, materials: &[Material]) -> Result<Option<Script>, Error> {
+        let Some(path) = self.edits.as_ref().map(ScriptFile::path) else { return Ok(None) };
+        let names: Vec<_> = materials.iter().map(|material| material.name.as_str()).collect();
+        let script = Script::load(&path, &names)?;
+        edits::check(&script, self.boundary == Boundary::Open).map_err(|what| Error::input(&path, what))?;
+        Ok(Some(script))
     }
 
-    fn edits(&self, script: Script, landscape: &Landscape, working: &Working) -> Result<Edits, Error> {
+    fn edits(&self, script: Script, landscape: &Landscape, working: &Working) -> Edits {
         let names = landscape.materials.iter().map(|material| material.name.clone()).collect();
         Edits::new(script, names, Place::of(working, self.column(landscape)))
     }
@@ -124,14 +127,19 @@ impl Hydraulic {
     }
 }
 
-/// Number of the material that settles: the one named, or the last.
-pub(in crate::erode) fn deposit_of(name: Option<&LayerName>, materials: &[Material]) -> Result<usize, Error> {
+/// Number of the material that settles: the one named, or the last; else a sentence for the user.
+pub(in crate::erode) fn deposit_of(
+    name: Option<&LayerName>,
+    materials: &[Material],
+) -> Result<usize, String> {
     let Some(last) = materials.len().checked_sub(1) else {
-        return Err(Error::Run("the landscape has no materials; it needs a bedrock at least".to_owned()));
+        return Err("the landscape has no materials; it needs a bedrock at least".to_owned());
     };
     let Some(LayerName(name)) = name else { return Ok(last) };
     materials.iter().position(|material| material.name == *name).ok_or_else(|| {
         let known: Vec<_> = materials.iter().map(|material| material.name.as_str()).collect();
-        Error::Run(format!("`deposit` names material `{name}`; the landscape has: {}", known.join(", ")))
+        let near = nearest(name, &known).map(|near| format!("; did you mean `{near}`?"));
+        let near = near.unwrap_or_default();
+        format!("`deposit` is {name:?}, but must be a material of the landscape: {}{near}", known.join(", "))
     })
 }

@@ -13,6 +13,7 @@ const SLOPES: &str = include_str!("../settling/slopes.wgsl");
 const FLOWS: &str = include_str!("flows.wgsl");
 const KERNELS: &str = include_str!("kernels.wgsl");
 const RAINED: &str = include_str!("rained.wgsl");
+const FOUR_OUTFLOWS: &str = include_str!("../four_outflows.wgsl");
 const OUTFLOW: &str = include_str!("outflow.wgsl");
 const CAME: &str = include_str!("came.wgsl");
 const EXCHANGE: &str = include_str!("exchange.wgsl");
@@ -40,8 +41,9 @@ impl Mei {
         draft.buffer("outflows", 4, Content::State(OUTFLOWS.to_vec()));
         draft.buffer("means", 2, Content::Mean);
         let reads = ["base", "change", "carried"];
-        draft.pass("outflow", &[PIPES, FLOWS, KERNELS, RAINED, OUTFLOW], &reads, &["outflows"]).tallies =
-            true;
+        draft
+            .pass("outflow", &[PIPES, FLOWS, KERNELS, RAINED, FOUR_OUTFLOWS, OUTFLOW], &reads, &["outflows"])
+            .tallies = true;
         match self.setting.advection {
             None => add_upwind_to(&mut draft),
             Some(advection) => add_advection_to(&mut draft, advection),

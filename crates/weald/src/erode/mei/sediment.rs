@@ -1,39 +1,40 @@
 //! The sediment of a step of Mei et al. 2007: exchange with the ground, sliding, transport.
 
-use super::{Mei, plane};
+use super::{Mei, MeiScratch, plane};
 use crate::erode::before;
-use crate::erode::flux_corrected::NetFlux;
-use crate::erode::mei::kernels::{Carry, Exchange, Load, LoadUnlimited};
+use crate::erode::four_outflows::{Row, carry_upwind, hand_on_fluxes, inflows, outflows_of};
+use crate::erode::mei::kernels::{Exchange, Load, LoadUnlimited};
 use crate::erode::sums;
 use crate::stencil::chain::Flow;
 
 impl Mei {
     pub(super) fn exchange(&self, flow: &mut Flow<'_, Self>, y: usize) {
+        let row = Row::of(flow, y);
         let scratch = &mut *flow.scratch;
         let links = self.setting.links.row(flow.constants, y);
-        let [change_out, depth, _, east, west, south, north] = flow.output else {
+        let ([change_out, depth, ..], outflows) = flow.output.split_at_mut(plane::EAST) else {
             unreachable!("seven state planes")
         };
-        let start = flow.span.start;
-        let from_south = if y + 1 < flow.span.end { north.here(y + 1) } else { scratch.still.here(0) };
+        let [from_east, from_west, from_south, from_north] = inflows(outflows, &scratch.still, &row);
+        let [east, west, south, north] = outflows_of(outflows).map(|ring| ring.here(y));
         let change = if self.setting.slide.is_some() { &mut scratch.settled.change } else { change_out };
         let [evaporated, lost] = &mut scratch.tally;
         Exchange {
             rained: scratch.rained.here(y),
-            east: east.here(y),
-            west: west.here(y),
-            south: south.here(y),
-            north: north.here(y),
-            from_west: east.west(y),
-            from_east: west.east(y),
-            from_north: before(south, &scratch.still, y, start),
+            east,
+            west,
+            south,
+            north,
+            from_west,
+            from_east,
+            from_north,
             from_south,
             found: flow.input[plane::SEDIMENT].here(y),
             change_before: flow.input[plane::CHANGE].here(y),
             sine_east: scratch.sine_east.here(y),
             sine_west: scratch.sine_east.west(y),
             sine_south: scratch.sine_south.here(y),
-            sine_north: before(&scratch.sine_south, &scratch.still, y, start),
+            sine_north: before(&scratch.sine_south, &scratch.still, y, flow.span.start),
             neighbour_share: links.neighbour_share,
             yields: links.yields,
             depth: depth.here_mut(y),
@@ -61,19 +62,9 @@ impl Mei {
 
     /// Fluxes through the faces and the water before them, for transport in flux form.
     pub(super) fn fluxes(&self, flow: &mut Flow<'_, Self>, y: usize) {
-        let scratch = &mut *flow.scratch;
-        let [_, _, _, east, west, south, north] = &*flow.output else { unreachable!("seven state planes") };
-        let from_south = if y + 1 < flow.span.end { north.here(y + 1) } else { scratch.still.here(0) };
-        scratch.settled.depth.here_mut(y).copy_from_slice(scratch.rained.here(y));
-        NetFlux {
-            east: east.here(y),
-            from_east: west.east(y),
-            south: south.here(y),
-            from_south,
-            eastward: scratch.settled.eastward.here_mut(y),
-            southward: scratch.settled.southward.here_mut(y),
-        }
-        .run(self.setting.arch);
+        let row = Row::of(flow, y);
+        let MeiScratch { rained, still, settled, .. } = &mut *flow.scratch;
+        hand_on_fluxes(&self.setting, flow.output, (rained.here(y), still), &row, settled);
     }
 
     pub(super) fn load(&self, flow: &mut Flow<'_, Self>, y: usize) {
@@ -93,31 +84,8 @@ impl Mei {
     }
 
     pub(super) fn carry(&self, flow: &mut Flow<'_, Self>, y: usize) {
-        let next = flow.next(y);
-        let scratch = &*flow.scratch;
-        let [_, _, sediment, east, west, south, north] = flow.output else {
-            unreachable!("seven state planes")
-        };
-        let (still, start) = (&scratch.still, flow.span.start);
-        let concentration = &scratch.concentration;
-        let from_south = if y + 1 < flow.span.end { north.here(y + 1) } else { still.here(0) };
-        Carry {
-            before: scratch.settled.sediment.here(y),
-            east: east.here(y),
-            west: west.here(y),
-            south: south.here(y),
-            north: north.here(y),
-            from_west: east.west(y),
-            from_east: west.east(y),
-            from_north: before(south, still, y, start),
-            from_south,
-            concentration: concentration.here(y),
-            concentration_west: concentration.west(y),
-            concentration_east: concentration.east(y),
-            concentration_north: before(concentration, still, y, start),
-            concentration_south: concentration.here(next),
-            sediment: sediment.here_mut(y),
-        }
-        .run(self.setting.arch);
+        let row = Row::of(flow, y);
+        let MeiScratch { settled, concentration, still, .. } = &*flow.scratch;
+        carry_upwind(&self.setting, (&settled.sediment, concentration), still, &row, flow.output);
     }
 }

@@ -1,7 +1,8 @@
 //! The water of a step of Mei et al. 2007: rain, outflow, and what leaves over an open edge.
 
 use super::{Mei, MeiScratch, plane};
-use crate::erode::mei::kernels::{OpenOutflow, Outflow, Rained, Sines};
+use crate::erode::four_outflows::{Pouring, Row, sines};
+use crate::erode::mei::kernels::Rained;
 use crate::erode::sums;
 use crate::stencil::chain::Flow;
 
@@ -27,60 +28,24 @@ impl Mei {
     }
 
     pub(super) fn outflow(&self, flow: &mut Flow<'_, Self>, y: usize) {
-        let next = flow.next(y);
-        let previous = if y > flow.span.start { y - 1 } else { y };
-        let scratch = &mut *flow.scratch;
-        let links = self.setting.links.row(flow.constants, y);
-        let [_, _, _, east, west, south, north] = flow.output else { unreachable!("seven state planes") };
-        let surface = &scratch.surface;
-        macro_rules! outflow {
-            ($Outflow:ident $(, $land:ident, $base:ident)?) => {
-                $Outflow {
-                    old_east: flow.input[plane::EAST].here(y),
-                    old_west: flow.input[plane::WEST].here(y),
-                    old_south: flow.input[plane::SOUTH].here(y),
-                    old_north: flow.input[plane::NORTH].here(y),
-                    surface: surface.here(y),
-                    surface_east: surface.east(y),
-                    surface_west: surface.west(y),
-                    surface_south: surface.here(next),
-                    surface_north: surface.here(previous),
-                    depth: scratch.rained.here(y),
-                    link_east: links.east,
-                    link_west: links.west,
-                    link_south: links.south,
-                    link_north: links.north,
-                    $($land: links.land, $base: flow.constants[0].here(y),)?
-                    east: east.here_mut(y),
-                    west: west.here_mut(y),
-                    south: south.here_mut(y),
-                    north: north.here_mut(y),
-                    flow_rate: self.constants.flow_rate,
-                    most: if self.limiter { 0.0 } else { f32::INFINITY },
-                }
-                .run(self.setting.arch)
-            };
+        let row = Row::of(flow, y);
+        let MeiScratch { surface, rained, .. } = &*flow.scratch;
+        Pouring {
+            setting: &self.setting,
+            constants: flow.constants,
+            input: flow.input,
+            surface,
+            depth: rained,
+            base: flow.constants[0].here(y),
+            flow_rate: self.constants.flow_rate,
+            most: if self.limiter { 0.0 } else { f32::INFINITY },
         }
-        if self.setting.open {
-            outflow!(OpenOutflow, land, base);
-        } else {
-            outflow!(Outflow);
-        }
+        .pour(&row, flow.output);
     }
 
     pub(super) fn sines(&self, flow: &mut Flow<'_, Self>, y: usize) {
-        let next = flow.next(y);
-        let links = self.setting.links.row(flow.constants, y);
+        let row = Row::of(flow, y);
         let MeiScratch { ground, sine_east, sine_south, .. } = flow.scratch;
-        Sines {
-            ground: ground.here(y),
-            ground_east: ground.east(y),
-            ground_south: ground.here(next),
-            link_east: links.east,
-            link_south: links.south,
-            sine_east: sine_east.here_mut(y),
-            sine_south: sine_south.here_mut(y),
-        }
-        .run(self.setting.arch);
+        sines(&self.setting, flow.constants, ground, &row, [sine_east, sine_south]);
     }
 }

@@ -125,7 +125,7 @@ pub(crate) fn draft(
 impl Dissolution {
     /// Adds the passes of dissolution and of the flow of regolith. `standing` is the shader that knows the water, in
     /// the buffer `water`.
-    pub(crate) fn add_to(&self, draft: &mut Draft, standing: &'static str, water: &str) {
+    pub(crate) fn add_to(draft: &mut Draft, standing: &'static str, water: &str) {
         draft.scratch("solid", 1);
         let shaders = [PIPES, COLUMN, DIGGING, standing, include_str!("dissolution.wgsl")];
         draft.pass("dissolve", &shaders, &["base", water], &["column", "regolith", "solid"]);
@@ -184,8 +184,8 @@ impl Stava {
         }
         self.add_water_to(&mut draft);
         self.add_erosion_to(&mut draft);
-        if let Some(dissolution) = &self.dissolution {
-            dissolution.add_to(&mut draft, include_str!("standing_flow.wgsl"), "carried");
+        if self.dissolution.is_some() {
+            Dissolution::add_to(&mut draft, include_str!("standing_flow.wgsl"), "carried");
         }
         self.add_transport_to(&mut draft);
         if let Some(slippage) = &self.slippage {
@@ -232,7 +232,12 @@ impl Stava {
         }
         shaders.push(include_str!("weather.wgsl"));
         draft.pass("weather_and_ground", &shaders, &reads, &["levels"]).tallies = true;
-        draft.pass("outflow", &[PIPES, FLOWS, include_str!("outflow.wgsl")], &["levels"], &["outflows"]);
+        draft.pass(
+            "outflow",
+            &[PIPES, FLOWS, include_str!("../four_outflows.wgsl"), include_str!("outflow.wgsl")],
+            &["levels"],
+            &["outflows"],
+        );
     }
 
     fn add_erosion_to(&self, draft: &mut Draft) {
@@ -244,7 +249,7 @@ impl Stava {
         let mut writes = vec!["carried", "column"];
         let mut shaders = vec![PIPES, FLOWS, CAME, MOVED, DIGGING];
         if self.viscosity.is_some() {
-            self.add_viscosity_to(draft);
+            Self::add_viscosity_to(draft);
             reads.push("velocities");
             shaders.push(include_str!("speed_diffused.wgsl"));
         } else {
@@ -264,7 +269,7 @@ impl Stava {
         draft.pass("erode", &shaders, &reads, &writes).tallies = self.setting.open;
     }
 
-    fn add_viscosity_to(&self, draft: &mut Draft) {
+    fn add_viscosity_to(draft: &mut Draft) {
         draft.scratch("velocities_once", 2);
         let shaders = [PIPES, FLOWS, CAME, MOVED, include_str!("velocity.wgsl")];
         draft.pass("velocity_before_diffusion", &shaders, &["levels", "outflows"], &["velocities"]);

@@ -1,10 +1,9 @@
 //! Transport of sediment: upwind with the outflows of the step and the depth before them, as in
 //! [`crate::erode::mei`], or by velocity as the setting says.
 
-use super::Stava;
-use crate::erode::before;
-use crate::erode::flux_corrected::NetFlux;
-use crate::erode::mei::kernels::{Carry, Load};
+use super::{Stava, StavaScratch};
+use crate::erode::four_outflows::{Row, carry_upwind, hand_on_fluxes};
+use crate::erode::mei::kernels::Load;
 use crate::stencil::chain::Flow;
 
 impl Stava {
@@ -29,21 +28,9 @@ impl Stava {
 
     /// Fluxes through the faces and the water before them, for transport in flux form.
     fn fluxes(&self, flow: &mut Flow<'_, Self>, y: usize) {
-        let scratch = &mut *flow.scratch;
-        let [_, _, _, east, west, south, north, ..] = &*flow.output else {
-            unreachable!("seven planes and more")
-        };
-        let from_south = if y + 1 < flow.span.end { north.here(y + 1) } else { scratch.still.here(0) };
-        scratch.settled.depth.here_mut(y).copy_from_slice(scratch.rained.here(y));
-        NetFlux {
-            east: east.here(y),
-            from_east: west.east(y),
-            south: south.here(y),
-            from_south,
-            eastward: scratch.settled.eastward.here_mut(y),
-            southward: scratch.settled.southward.here_mut(y),
-        }
-        .run(self.setting.arch);
+        let row = Row::of(flow, y);
+        let StavaScratch { rained, still, settled, .. } = &mut *flow.scratch;
+        hand_on_fluxes(&self.setting, flow.output, (rained.here(y), still), &row, settled);
     }
 
     fn load(&self, flow: &mut Flow<'_, Self>, y: usize) {
@@ -58,30 +45,8 @@ impl Stava {
     }
 
     fn carry(&self, flow: &mut Flow<'_, Self>, y: usize) {
-        let next = flow.next(y);
-        let scratch = &*flow.scratch;
-        let [_, _, sediment, east, west, south, north, ..] = flow.output else {
-            unreachable!("seven planes and more")
-        };
-        let (still, start) = (&scratch.still, flow.span.start);
-        let concentration = &scratch.concentration;
-        Carry {
-            before: scratch.settled.sediment.here(y),
-            east: east.here(y),
-            west: west.here(y),
-            south: south.here(y),
-            north: north.here(y),
-            from_west: east.west(y),
-            from_east: west.east(y),
-            from_north: before(south, still, y, start),
-            from_south: if y + 1 < flow.span.end { north.here(y + 1) } else { still.here(0) },
-            concentration: concentration.here(y),
-            concentration_west: concentration.west(y),
-            concentration_east: concentration.east(y),
-            concentration_north: before(concentration, still, y, start),
-            concentration_south: concentration.here(next),
-            sediment: sediment.here_mut(y),
-        }
-        .run(self.setting.arch);
+        let row = Row::of(flow, y);
+        let StavaScratch { settled, concentration, still, .. } = &*flow.scratch;
+        carry_upwind(&self.setting, (&settled.sediment, concentration), still, &row, flow.output);
     }
 }

@@ -2,8 +2,7 @@
 //! [`crate::erode::mei`]), and its velocity: flux differences over the mean depth of the step.
 
 use super::{Stava, StavaScratch, plane};
-use crate::erode::before;
-use crate::erode::mei::kernels::{OpenOutflow, Outflow, Sines};
+use crate::erode::four_outflows::{Pouring, Row, inflows, outflows_of, sines};
 use crate::erode::pipes::worth_counting;
 use crate::erode::stava::planes::{Pile, pile};
 use crate::stencil::chain::Flow;
@@ -43,67 +42,30 @@ impl Stava {
     }
 
     pub(super) fn outflow(&self, flow: &mut Flow<'_, Self>, y: usize) {
-        let next = flow.next(y);
-        let previous = if y > flow.span.start { y - 1 } else { y };
-        let scratch = &mut *flow.scratch;
-        let links = self.setting.links.row(flow.constants, y);
-        let [_, _, _, east, west, south, north, ..] = flow.output else {
-            unreachable!("seven planes and more")
-        };
-        let surface = &scratch.surface;
-        macro_rules! outflow {
-            ($Outflow:ident $(, $land:ident, $base:ident)?) => {
-                $Outflow {
-                    old_east: flow.input[plane::EAST].here(y),
-                    old_west: flow.input[plane::WEST].here(y),
-                    old_south: flow.input[plane::SOUTH].here(y),
-                    old_north: flow.input[plane::NORTH].here(y),
-                    surface: surface.here(y),
-                    surface_east: surface.east(y),
-                    surface_west: surface.west(y),
-                    surface_south: surface.here(next),
-                    surface_north: surface.here(previous),
-                    depth: scratch.rained.here(y),
-                    link_east: links.east,
-                    link_west: links.west,
-                    link_south: links.south,
-                    link_north: links.north,
-                    // Over an open edge water falls from the ground as it is: layers have no start of their own.
-                    $($land: links.land, $base: scratch.ground.here(y),)?
-                    east: east.here_mut(y),
-                    west: west.here_mut(y),
-                    south: south.here_mut(y),
-                    north: north.here_mut(y),
-                    flow_rate: self.constants.flow_rate,
-                    most: 0.0,
-                }
-                .run(self.setting.arch)
-            };
+        let row = Row::of(flow, y);
+        let StavaScratch { ground, surface, rained, .. } = &*flow.scratch;
+        Pouring {
+            setting: &self.setting,
+            constants: flow.constants,
+            input: flow.input,
+            surface,
+            depth: rained,
+            // Over an open edge water falls from the ground as it is: layers have no start of their own.
+            base: ground.here(y),
+            flow_rate: self.constants.flow_rate,
+            most: 0.0,
         }
-        if self.setting.open {
-            outflow!(OpenOutflow, land, base);
-        } else {
-            outflow!(Outflow);
-        }
+        .pour(&row, flow.output);
     }
 
     pub(super) fn sines(&self, flow: &mut Flow<'_, Self>, y: usize) {
-        let next = flow.next(y);
-        let links = self.setting.links.row(flow.constants, y);
-        let StavaScratch { ground, sine_east, sine_south, .. } = flow.scratch;
-        Sines {
-            ground: ground.here(y),
-            ground_east: ground.east(y),
-            ground_south: ground.here(next),
-            link_east: links.east,
-            link_south: links.south,
-            sine_east: sine_east.here_mut(y),
-            sine_south: sine_south.here_mut(y),
-        }
-        .run(self.setting.arch);
+        let row = Row::of(flow, y);
+        let StavaScratch { ground, sine_east, sine_south, .. } = &mut *flow.scratch;
+        sines(&self.setting, flow.constants, ground, &row, [sine_east, sine_south]);
     }
 
     pub(super) fn moved(&self, flow: &mut Flow<'_, Self>, y: usize) {
+        let row = Row::of(flow, y);
         let StavaScratch { rained, eastward, southward, settled, still, .. } = &mut *flow.scratch;
         let velocity = if self.viscosity.is_some() {
             [eastward, southward]
@@ -111,20 +73,20 @@ impl Stava {
             [&mut settled.eastward, &mut settled.southward]
         };
         let [eastward, southward] = velocity.map(|ring| ring.here_mut(y));
-        let [_, depth, _, east, west, south, north, ..] = flow.output else {
-            unreachable!("seven planes and more")
-        };
+        let (before, outflows) = flow.output.split_at_mut(plane::EAST);
+        let [from_east, from_west, from_south, from_north] = inflows(outflows, still, &row);
+        let [east, west, south, north] = outflows_of(outflows).map(|ring| ring.here(y));
         Moved {
             rained: rained.here(y),
-            east: east.here(y),
-            west: west.here(y),
-            south: south.here(y),
-            north: north.here(y),
-            from_west: east.west(y),
-            from_east: west.east(y),
-            from_north: before(south, still, y, flow.span.start),
-            from_south: if y + 1 < flow.span.end { north.here(y + 1) } else { still.here(0) },
-            depth: depth.here_mut(y),
+            east,
+            west,
+            south,
+            north,
+            from_west,
+            from_east,
+            from_north,
+            from_south,
+            depth: before[plane::DEPTH].here_mut(y),
             eastward,
             southward,
             velocity_epsilon: self.constants.velocity_epsilon,

@@ -15,36 +15,16 @@ pub(super) struct Made<'a> {
 }
 
 pub(super) fn check(made: &Made<'_>, outputs: &[Output], complaints: &mut Complaints) {
+    if made.steps.is_empty() && matches!(made.ground, Ground::Empty { .. }) {
+        complaints.subject.clear();
+        complaints.add(1, "a recipe needs a [[step]] table, or `from` in [landscape]: there is no ground");
+    }
     let mut layers = made.at_the_start();
     let materials: Vec<_> = made.materials.iter().map(|planned| planned.material.clone()).collect();
     for (index, planned) in made.steps.iter().enumerate() {
         planned.entry.name.clone_into(&mut complaints.subject);
-        for name in planned.step.reads() {
-            if !layers.read(&name) {
-                let hint = layers.hint(&name, &materials);
-                let message = format!("reads layer `{name}`, which no earlier step writes; {hint}");
-                complaints.add(planned.line, message);
-            }
-        }
-        let layered = planned.step.layered();
-        if layered != Layered::Never {
-            // A material without a layer is made from its declaration, so none of them need be there.
-            for name in layer_names(&materials) {
-                layers.read(name);
-            }
-        }
-        let mut written: Vec<_> = planned.step.writes().into_iter().map(|(name, _)| name).collect();
-        if layered == Layered::Changes {
-            written.extend(layer_names(&materials).map(str::to_owned));
-        }
-        let title = format!("step {} (`{}`, line {})", index + 1, planned.entry.name, planned.line);
-        for lost in layers.write(&title, &written) {
-            let message = format!(
-                "overwrites all that {lost} made before any step reads it; remove that one, or write to \
-                 another layer"
-            );
-            complaints.add(planned.line, message);
-        }
+        layers.check_reads(planned, &materials, complaints);
+        layers.check_writes(index + 1, planned, &materials, complaints);
     }
     "output".clone_into(&mut complaints.subject);
     for output in outputs {
@@ -89,6 +69,43 @@ struct Writer {
 }
 
 impl Layers {
+    fn check_reads(&mut self, planned: &Planned, materials: &[Material], complaints: &mut Complaints) {
+        for name in planned.step.reads() {
+            if !self.read(&name) {
+                let hint = self.hint(&name, materials);
+                let message = format!("reads layer `{name}`, which no earlier step writes; {hint}");
+                complaints.add(planned.line, message);
+            }
+        }
+        if planned.step.layered() != Layered::Never {
+            // A material without a layer is made from its declaration, so none of them need be there.
+            for name in layer_names(materials) {
+                self.read(name);
+            }
+        }
+    }
+
+    fn check_writes(
+        &mut self,
+        number: usize,
+        planned: &Planned,
+        materials: &[Material],
+        complaints: &mut Complaints,
+    ) {
+        let mut written: Vec<_> = planned.step.writes().into_iter().map(|(name, _)| name).collect();
+        if planned.step.layered() == Layered::Changes {
+            written.extend(layer_names(materials).map(str::to_owned));
+        }
+        let title = format!("step {number} (`{}`, line {})", planned.entry.name, planned.line);
+        for lost in self.write(&title, &written) {
+            let message = format!(
+                "overwrites all that {lost} made before any step reads it; remove that one, or write to \
+                 another layer"
+            );
+            complaints.add(planned.line, message);
+        }
+    }
+
     /// Whether the layer exists, which is noted as read.
     fn read(&mut self, name: &str) -> bool {
         let writer = self.writer_of.get(name);

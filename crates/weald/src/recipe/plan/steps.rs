@@ -1,7 +1,7 @@
 //! The `[[step]]` tables.
 
 use super::files::Files;
-use super::{Vocabulary, hint, tables};
+use super::{PlannedMaterial, Vocabulary, hint, tables};
 use crate::error::Error;
 use crate::grid::Size;
 use crate::random::splitmix64;
@@ -82,6 +82,17 @@ fn read_step(files: Files<'_>, entry: &Entry, table: &Table, complaints: &mut Co
         }
     }
     step
+}
+
+/// Complains of steps that do not go with the materials of the recipe.
+pub(super) fn check_materials(steps: &[Planned], materials: &[PlannedMaterial], complaints: &mut Complaints) {
+    let materials: Vec<_> = materials.iter().map(|planned| planned.material.clone()).collect();
+    for planned in steps {
+        planned.entry.name.clone_into(&mut complaints.subject);
+        for fault in planned.step.faults_among(&materials) {
+            complaints.add(planned.line, fault);
+        }
+    }
 }
 
 /// Refuses steps that would make a grid over the limit.

@@ -1,0 +1,121 @@
+//! A painted levee holds a river back from low ground.
+
+use super::layered::{SOURCE, cut_open, from_above, ground, material, simulated, texts};
+use super::{Figure, FigureOutput, GalleryJob, Measured, Plate};
+use crate::edit::{Area, Brush, Canvas, Effect, Falloff};
+use crate::error::Error;
+use crate::grid::{Field, Size};
+use crate::landscape::Landscape;
+use crate::picture::{Along, Image};
+
+pub(super) const FIGURE: Figure = Figure {
+    id: "levee",
+    title: "A painted levee",
+    source: SOURCE,
+    shows: "A person adds material while water runs. Here a stroke of the brush lays a levee of the topmost material \
+            beside a river that leaves its bed, and the low ground behind it stays dry.",
+    make,
+};
+
+fn make(job: GalleryJob) -> Result<FigureOutput, Error> {
+    let (columns, rows, iterations) = job.choose((128, 80, 2500), (40, 32, 80));
+    let start = lowland(Size::new(columns, rows)?);
+    let guarded = with_levee(&start)?;
+    let keys = format!(
+        "erosion = 0.0\nsources = [{{ x = {:?}, y = {:?}, radius = 3.0, rate = 0.12 }}]",
+        0.06 * columns as f64,
+        0.35 * rows as f64
+    );
+    let flooded = simulated(&start, iterations, &keys)?;
+    let held = simulated(&guarded, iterations, &keys)?;
+    let upper = from_above(&[&start, &flooded])?;
+    let lower = from_above(&[&guarded, &held])?;
+    let caption = |view| {
+        format!("Before and after {iterations} steps, without the levee above and with it below, {view}")
+    };
+    let sections = |pair: &[&Landscape]| cut_open(pair, Along::Column, 0.5);
+    let plates = vec![
+        Plate { name: "relief", caption: caption("from above"), image: Image::below(&[upper, lower], 10) },
+        Plate {
+            name: "section",
+            caption: caption("cut across the river"),
+            image: Image::below(&[sections(&[&start, &flooded])?, sections(&[&guarded, &held])?], 10),
+        },
+    ];
+    Ok(FigureOutput { plates, measured: measured(&[&start, &flooded, &guarded, &held])? })
+}
+
+/// Middle of the river's bed, as a share of the way from north to south.
+const RIVER: f64 = 0.35;
+/// Middle of the levee, in the same way.
+const LEVEE: f64 = 0.52;
+
+/// A plain that falls gently to the south of a shallow river, which falls to the east.
+fn lowland(size: Size) -> Landscape {
+    let rows = size.rows as f64;
+    let height = Field::from_function(size, |x, y| {
+        let south = y as f64 + 0.5 - RIVER * rows;
+        // Half way the bed runs out, and the river leaves it.
+        let depth = 0.6 * (2.0 - 4.0 * x as f64 / size.columns as f64).clamp(0.0, 1.0);
+        let bed = (depth - 0.1 * south.abs()).max(0.0);
+        let north = 0.08 * (-south - 6.0).max(0.0);
+        (20.0 - 0.01 * x as f64 + north - 0.02 * south.max(0.0) - bed) as f32
+    });
+    let mut landscape = ground(height, 1.0, vec![material("rock", "rock"), material("soil", "soil")]);
+    landscape.materials[1].thickness = 2.0;
+    landscape
+}
+
+/// The ground with a line of the topmost material painted along the river.
+fn with_levee(start: &Landscape) -> Result<Landscape, Error> {
+    let mut landscape = start.clone();
+    let (size, cell) = (landscape.domain.size, landscape.domain.cell);
+    let mut canvas = Canvas::level(Area { first: [0, 0], size }, cell, &landscape.materials);
+    let y = LEVEE * size.rows as f64 * cell;
+    let soil = landscape.materials[1].clone();
+    Brush {
+        path: vec![[0.0, y], [size.columns as f64 * cell, y]],
+        radius: 4.0 * cell,
+        falloff: Falloff::Smooth,
+        strength: 1.0,
+        effect: Effect::Add { material: soil.name.clone(), thickness: 3.0 },
+    }
+    .paint(&mut canvas)?;
+    let levee = &canvas.thickness[0];
+    let height = start.field("height")?;
+    let raised = height.values().iter().zip(levee.values()).map(|(ground, levee)| ground + levee).collect();
+    let soils = levee.values().iter().map(|levee| soil.thickness as f32 + levee).collect();
+    landscape.insert("height", "m", Field::from_values(size, raised));
+    landscape.insert(&soil.name, "m", Field::from_values(size, soils));
+    Ok(landscape)
+}
+
+fn measured(landscapes: &[&Landscape; 4]) -> Result<Measured, Error> {
+    let names = ["without, before", "without, after", "with, before", "with, after"];
+    let rows: Result<Vec<_>, Error> =
+        names.into_iter().zip(landscapes).map(|(name, landscape)| row(name, landscape)).collect();
+    Ok(Measured {
+        header: texts(["levee", "flooded behind it", "share", "river, m"]),
+        rows: rows?,
+        remarks: texts([
+            "Cells beyond the levee with more than a centimetre of water, and their share of the ground there; the \
+             greatest depth of the river half way.",
+        ]),
+    })
+}
+
+fn row(name: &str, landscape: &Landscape) -> Result<Vec<String>, Error> {
+    let size = landscape.domain.size;
+    let dry = Field::filled(size, 0.0);
+    let water = landscape.field("water").unwrap_or(&dry);
+    let first = (LEVEE * size.rows as f64) as usize + 4;
+    let behind = size.columns * (size.rows - first);
+    let flooded = (first..size.rows).flat_map(|y| water.row(y)).filter(|&&depth| depth > 0.01).count();
+    let river = (0..first).map(|y| water.at(size.columns / 2, y)).fold(0.0, f32::max);
+    Ok(vec![
+        name.to_owned(),
+        flooded.to_string(),
+        format!("{:.0} %", 100.0 * flooded as f64 / behind as f64),
+        format!("{river:.2}"),
+    ])
+}
