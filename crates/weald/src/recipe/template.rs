@@ -24,6 +24,11 @@ pub const TEMPLATES: &[Template] = &[
         text: include_str!("template/fault.toml"),
     },
     Template {
+        name: "layers",
+        summary: "a river through hard and soft beds, with slides from its banks",
+        text: include_str!("template/layers.toml"),
+    },
+    Template {
         name: "dem",
         summary: "a real elevation model under rain",
         text: include_str!("template/dem.toml"),
