@@ -89,7 +89,7 @@ fn six_million_cells_run_in_64_mebibytes_and_equal_the_whole() {
 fn layers_tables_and_painted_weather_run_in_tiles_and_equal_the_whole() {
     let painted = Some(LayerName::of("painted"));
     let step = Hydraulic {
-        transport: Transport::MacCormack,
+        transport: Some(Transport::MacCormack),
         slippage: Some(Nested(SlippageWithin { strength: 0.05, softening: true })),
         rain_layer: painted.clone(),
         region: painted,

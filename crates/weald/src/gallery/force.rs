@@ -50,7 +50,7 @@ fn stream(size: Size) -> Landscape {
         let middle = 0.5 * rows + 0.08 * rows * libm::sin(x / 15.0);
         let away = (y - middle).abs();
         let humps = 0.25 * libm::sin(x * 0.9) * libm::cos(y * 0.8);
-        (25.0 - 0.06 * x + 0.12 * away + 0.5 * (away - 4.0).max(0.0).min(4.0) + humps) as f32
+        (25.0 - 0.06 * x + 0.12 * away + 0.5 * (away - 4.0).clamp(0.0, 4.0) + humps) as f32
     });
     let mut landscape = ground(height, 1.0, vec![material("rock", "rock"), material("soil", "soil")]);
     landscape.materials[1].thickness = 8.0;

@@ -42,7 +42,7 @@ fn make(job: GalleryJob) -> Result<FigureOutput, Error> {
             image: Image::below(&[sections(&[&start, &flooded])?, sections(&[&guarded, &held])?], 10),
         },
     ];
-    Ok(FigureOutput { plates, measured: measured(&[&start, &flooded, &guarded, &held])? })
+    Ok(FigureOutput { plates, measured: measured(&[&start, &flooded, &guarded, &held]) })
 }
 
 /// Middle of the river's bed, as a share of the way from north to south.
@@ -90,21 +90,20 @@ fn with_levee(start: &Landscape) -> Result<Landscape, Error> {
     Ok(landscape)
 }
 
-fn measured(landscapes: &[&Landscape; 4]) -> Result<Measured, Error> {
+fn measured(landscapes: &[&Landscape; 4]) -> Measured {
     let names = ["without, before", "without, after", "with, before", "with, after"];
-    let rows: Result<Vec<_>, Error> =
-        names.into_iter().zip(landscapes).map(|(name, landscape)| row(name, landscape)).collect();
-    Ok(Measured {
+    let rows = names.into_iter().zip(landscapes).map(|(name, landscape)| row(name, landscape)).collect();
+    Measured {
         header: texts(["levee", "flooded behind it", "share", "river, m"]),
-        rows: rows?,
+        rows,
         remarks: texts([
             "Cells beyond the levee with more than a centimetre of water, and their share of the ground there; the \
              greatest depth of the river half way.",
         ]),
-    })
+    }
 }
 
-fn row(name: &str, landscape: &Landscape) -> Result<Vec<String>, Error> {
+fn row(name: &str, landscape: &Landscape) -> Vec<String> {
     let size = landscape.domain.size;
     let dry = Field::filled(size, 0.0);
     let water = landscape.field("water").unwrap_or(&dry);
@@ -112,10 +111,10 @@ fn row(name: &str, landscape: &Landscape) -> Result<Vec<String>, Error> {
     let behind = size.columns * (size.rows - first);
     let flooded = (first..size.rows).flat_map(|y| water.row(y)).filter(|&&depth| depth > 0.01).count();
     let river = (0..first).map(|y| water.at(size.columns / 2, y)).fold(0.0, f32::max);
-    Ok(vec![
+    vec![
         name.to_owned(),
         flooded.to_string(),
         format!("{:.0} %", 100.0 * flooded as f64 / behind as f64),
         format!("{river:.2}"),
-    ])
+    ]
 }
