@@ -135,7 +135,7 @@ fn run_in_tiles(step: &dyn Step, ground: &Landscape, gpu: &Gpu) -> (Landscape, O
     };
     let too_small = |memory: &u64| matches!(run_with(*memory, false), Err(Error::Limit(_)));
     let least =
-        (12..).map(|power| 1 << power).find(|memory| !too_small(memory)).expect("some memory is enough");
+        (12..40).map(|power| 1 << power).find(|memory| !too_small(memory)).expect("some memory is enough");
     run_with(8 * least, true).expect("more than the least is enough")
 }
 
