@@ -12,7 +12,8 @@ pub(super) const FIGURE: Figure = Figure {
     id: "levee",
     title: "A painted levee",
     source: SOURCE,
-    shows: "A stroke of the brush lays a levee of the topmost material beside a river that leaves its bed, and the low ground behind it stays dry.",
+    shows: "A stroke of the brush lays a levee of the topmost material beside a river that leaves its bed, \
+            and the low ground behind it stays dry.",
     make,
 };
 
