@@ -126,7 +126,8 @@ proptest! {
         prop_assert!((total(after) - total(&dye)).abs() < 1e-5 * total(&dye));
         prop_assert!(after.range(None).expect("cells").0 >= 0.0, "{:?}", after.range(None));
         let mut tiled = start;
-        run_on(&step, &mut tiled, Engine::Tiles(Size::new(9, 8).expect("small")));
+        let outcome = run_on(&step, &mut tiled, Engine::Tiles(Size::new(9, 8).expect("small")));
+        prop_assert_eq!(outcome.notes, ["ran tile by tile: 9 tiles of up to 9 x 8 cells"]);
         prop_assert_eq!(after, tiled.field("dye").expect("d"));
     }
 }

@@ -30,6 +30,11 @@ pub(crate) trait Machine<W> {
     /// A copy of everything.
     fn snapshot(&mut self) -> Result<Snapshot, Error>;
 
+    /// What the user should know of how it works.
+    fn note(&self) -> Option<String> {
+        None
+    }
+
     /// Replaces everything.
     fn restore(&mut self, snapshot: &Snapshot) -> Result<(), Error>;
 }

@@ -182,6 +182,12 @@ impl<W, K: Worker<W>> Machine<W> for Tiled<K> {
         Ok(())
     }
 
+    fn note(&self) -> Option<String> {
+        let (tiles, own) = (self.plan.tiles(self.now.size()).count(), self.plan.own);
+        let (columns, rows) = (own.columns, own.rows);
+        Some(format!("ran tile by tile: {tiles} tiles of up to {columns} x {rows} cells"))
+    }
+
     fn first_not_finite(&mut self) -> Result<Option<[usize; 3]>, Error> {
         Ok(self.now.state.first_not_finite(self.now.state.layout.planes))
     }

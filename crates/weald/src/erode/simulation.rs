@@ -257,7 +257,7 @@ impl<'a, P: Process> Running<'a, P> {
         for row in &row_sums {
             sums.iter_mut().zip(row).for_each(|(total, sum)| *total += sum);
         }
-        Ok(Finished { state, sums, means, notes: Vec::new() })
+        Ok(Finished { state, sums, means, notes: self.machine.note().into_iter().collect() })
     }
 }
 
