@@ -16,10 +16,8 @@ pub(crate) use program::Advected;
 
 use std::ops::Range;
 
-use pulp::Arch;
-
 use super::flux_corrected::{self, FluxCorrectedScratch};
-use super::links::Links;
+use super::sweep::Sweep;
 use crate::stencil::kernel::kernel;
 use crate::stencil::ring::Ring;
 
@@ -126,27 +124,13 @@ pub(crate) struct AdvectionRows<'a> {
     /// Velocities, or water through the eastern and southern faces where transport is in flux form.
     pub(crate) eastward: &'a Ring,
     pub(crate) southward: &'a Ring,
-    pub(crate) links: &'a Links,
-    pub(crate) constants: &'a [Ring],
-    /// Newest row of the rings above.
-    pub(crate) newest: Option<usize>,
-    pub(crate) span: Range<usize>,
-    pub(crate) arch: Arch,
+    pub(crate) sweep: Sweep<'a>,
 }
 
 impl AdvectionRows<'_> {
-    pub(super) fn behind(&self, behind: usize) -> Option<usize> {
-        self.newest?.checked_sub(behind).filter(|y| self.span.contains(y))
-    }
-
-    /// The row after `y`, or `y` itself before a wall, where no link leads on.
-    pub(super) fn next(&self, y: usize) -> usize {
-        if y + 1 < self.span.end { y + 1 } else { y }
-    }
-
     fn depart(&self, y: usize, from: &Ring, still: &Ring, arrived: &mut [f32], direction: f32) {
-        let nine = Nine::of(from, still, y, &self.span);
-        let link = self.links.row(self.constants, y);
+        let nine = Nine::of(from, still, y, &self.sweep.span);
+        let link = self.sweep.links(y);
         Depart {
             north_west: nine.north[0],
             north: nine.north[1],
@@ -166,7 +150,7 @@ impl AdvectionRows<'_> {
             arrived,
             direction,
         }
-        .run(self.arch);
+        .run(self.sweep.arch);
     }
 }
 
@@ -202,7 +186,7 @@ impl Advection {
     pub(crate) fn advance(self, rows: &AdvectionRows<'_>, scratch: &mut AdvectionScratch, output: &mut Ring) {
         match self {
             Self::SemiLagrangian => {
-                if let Some(y) = rows.behind(1) {
+                if let Some(y) = rows.sweep.behind(1) {
                     rows.depart(y, rows.sediment, &scratch.still, output.here_mut(y), 1.0);
                 }
             }
@@ -216,10 +200,10 @@ impl Advection {
 
 fn maccormack(rows: &AdvectionRows<'_>, scratch: &mut AdvectionScratch, output: &mut Ring) {
     let AdvectionScratch { forward, back, still, .. } = scratch;
-    if let Some(y) = rows.behind(1) {
+    if let Some(y) = rows.sweep.behind(1) {
         rows.depart(y, rows.sediment, still, forward.here_mut(y), 1.0);
     }
-    if let Some(y) = rows.behind(2) {
+    if let Some(y) = rows.sweep.behind(2) {
         rows.depart(y, forward, still, back.here_mut(0), -1.0);
         correct(rows, y, forward.here(y), back.here(0), (still, output));
     }
@@ -227,8 +211,8 @@ fn maccormack(rows: &AdvectionRows<'_>, scratch: &mut AdvectionScratch, output: 
 
 fn correct(rows: &AdvectionRows<'_>, y: usize, forward: &[f32], back: &[f32], rings: (&Ring, &mut Ring)) {
     let (still, output) = rings;
-    let nine = Nine::of(rows.sediment, still, y, &rows.span);
-    let link = rows.links.row(rows.constants, y);
+    let nine = Nine::of(rows.sediment, still, y, &rows.sweep.span);
+    let link = rows.sweep.links(y);
     Correct {
         forward,
         back,
@@ -249,5 +233,5 @@ fn correct(rows: &AdvectionRows<'_>, y: usize, forward: &[f32], back: &[f32], ri
         south_east: nine.south[2],
         arrived: output.here_mut(y),
     }
-    .run(rows.arch);
+    .run(rows.sweep.arch);
 }

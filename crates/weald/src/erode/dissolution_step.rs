@@ -10,6 +10,7 @@ use super::stava::digging::{DigScratch, Digging};
 use super::stava::dissolution::{Dissolution, DissolutionScratch, RegolithRows};
 use super::stava::planes::{Planes, REGOLITH_PLANES};
 use super::stava::program::{self, StavaNumbers};
+use super::sweep::Sweep;
 use super::working::Working;
 use crate::engine::Job;
 use crate::engine::program::{Content, Program};
@@ -114,14 +115,7 @@ impl Step for DissolutionStep {
         let process = self.process(materials, deposit, planes, &working);
         let plane_names: Vec<_> =
             std::iter::once("change".to_owned()).chain(column.names(materials)).collect();
-        let simulation = Simulation {
-            process: &process,
-            plane_names: &plane_names,
-            iterations: u64::from(self.iterations),
-            weather: &|_| (),
-            record: None,
-            edits: None,
-        };
+        let simulation = Simulation::alone(&process, &plane_names, self.iterations);
         let start = working.state(planes.count(), &[working.water().to_vec()]);
         let finished = simulation.run(start, job)?;
         Ok(working.store_ground(landscape, &self.layer.0, &finished, u64::from(self.iterations)))
@@ -207,11 +201,13 @@ impl Process for Dissolving {
             depth: &flow.constants[1 + self.links.planes()],
             before: &flow.input[REGOLITH_PLANE..],
             base: &flow.constants[0],
-            links: &self.links,
-            constants: flow.constants,
-            newest: Some(flow.y),
-            span: flow.span.clone(),
-            arch: self.arch,
+            sweep: Sweep {
+                links: &self.links,
+                constants: flow.constants,
+                newest: Some(flow.y),
+                span: flow.span.clone(),
+                arch: self.arch,
+            },
         };
         if flow.span.contains(&flow.y) {
             self.planes.take(flow.input, solid, flow.y);

@@ -77,16 +77,16 @@ pub(crate) fn advance(
     scratch: &mut FluxCorrectedScratch,
     output: &mut Ring,
 ) {
-    if let Some(y) = rows.behind(0) {
+    if let Some(y) = rows.sweep.behind(0) {
         mix(rows, epsilon, scratch, y);
     }
-    if let Some(y) = rows.behind(1) {
+    if let Some(y) = rows.sweep.behind(1) {
         low_order(rows, scratch, y);
     }
-    if let Some(y) = rows.behind(2) {
+    if let Some(y) = rows.sweep.behind(2) {
         range(rows, scratch, y);
     }
-    if let Some(y) = rows.behind(LAG) {
+    if let Some(y) = rows.sweep.behind(LAG) {
         correct(rows, scratch, y, output.here_mut(y));
     }
 }
@@ -98,16 +98,16 @@ fn mix(rows: &AdvectionRows<'_>, epsilon: f32, scratch: &mut FluxCorrectedScratc
         east: rows.eastward.here(y),
         west: rows.eastward.west(y),
         south: rows.southward.here(y),
-        north: before(rows.southward, &scratch.still, y, rows.span.start),
+        north: before(rows.southward, &scratch.still, y, rows.sweep.span.start),
         concentration: scratch.concentration.here_mut(y),
         volume: scratch.volume.here_mut(y),
         epsilon,
     }
-    .run(rows.arch);
+    .run(rows.sweep.arch);
 }
 
 fn low_order(rows: &AdvectionRows<'_>, scratch: &mut FluxCorrectedScratch, y: usize) {
-    let (next, links) = (rows.next(y), rows.links.row(rows.constants, y));
+    let (next, links) = (rows.sweep.next(y), rows.sweep.links(y));
     let (concentration, volume) = (&scratch.concentration, &scratch.volume);
     LowOrder {
         sediment: rows.sediment.here(y),
@@ -117,12 +117,12 @@ fn low_order(rows: &AdvectionRows<'_>, scratch: &mut FluxCorrectedScratch, y: us
         east: rows.eastward.here(y),
         west: rows.eastward.west(y),
         south: rows.southward.here(y),
-        north: before(rows.southward, &scratch.still, y, rows.span.start),
+        north: before(rows.southward, &scratch.still, y, rows.sweep.span.start),
         concentration: concentration.here(y),
         concentration_east: concentration.east(y),
         concentration_west: concentration.west(y),
         concentration_south: concentration.here(next),
-        concentration_north: before(concentration, &scratch.still, y, rows.span.start),
+        concentration_north: before(concentration, &scratch.still, y, rows.sweep.span.start),
         link_east: links.east,
         link_south: links.south,
         low: scratch.low.here_mut(y),
@@ -132,12 +132,12 @@ fn low_order(rows: &AdvectionRows<'_>, scratch: &mut FluxCorrectedScratch, y: us
         to_east: scratch.to_east.here_mut(y),
         to_south: scratch.to_south.here_mut(y),
     }
-    .run(rows.arch);
+    .run(rows.sweep.arch);
 }
 
 fn range(rows: &AdvectionRows<'_>, scratch: &mut FluxCorrectedScratch, y: usize) {
     let FluxCorrectedScratch { low, after, least, most, to_east, to_south, gain, loss, still, .. } = scratch;
-    let (next, start, links) = (rows.next(y), rows.span.start, rows.links.row(rows.constants, y));
+    let (next, start, links) = (rows.sweep.next(y), rows.sweep.span.start, rows.sweep.links(y));
     Range {
         low: low.here(y),
         after: after.here(y),
@@ -162,12 +162,12 @@ fn range(rows: &AdvectionRows<'_>, scratch: &mut FluxCorrectedScratch, y: usize)
         gain: gain.here_mut(y),
         loss: loss.here_mut(y),
     }
-    .run(rows.arch);
+    .run(rows.sweep.arch);
 }
 
 fn correct(rows: &AdvectionRows<'_>, scratch: &FluxCorrectedScratch, y: usize, sediment: &mut [f32]) {
     let FluxCorrectedScratch { low, to_east, to_south, gain, loss, still, .. } = scratch;
-    let (next, start) = (rows.next(y), rows.span.start);
+    let (next, start) = (rows.sweep.next(y), rows.sweep.span.start);
     Corrected {
         low: low.here(y),
         to_east: to_east.here(y),
@@ -186,5 +186,5 @@ fn correct(rows: &AdvectionRows<'_>, scratch: &FluxCorrectedScratch, y: usize, s
         loss_north: before(loss, still, y, start),
         sediment,
     }
-    .run(rows.arch);
+    .run(rows.sweep.arch);
 }

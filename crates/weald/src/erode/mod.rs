@@ -28,6 +28,7 @@ pub mod springs;
 mod stack;
 mod stava;
 mod sums;
+mod sweep;
 pub mod thermal;
 pub mod thermal_step;
 pub mod transport_step;

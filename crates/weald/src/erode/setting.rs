@@ -9,6 +9,7 @@ use super::advection::{Advection, AdvectionRows, AdvectionScratch};
 use super::links::Links;
 use super::pipes::Drain;
 use super::sums;
+use super::sweep::Sweep;
 use super::thermal::{Slide, SlideRows, SlideScratch};
 use crate::grid::Size;
 use crate::stencil::chain::{Flow, Process};
@@ -90,11 +91,13 @@ impl Setting {
             &SlideRows {
                 base: &flow.constants[0],
                 change: &rows.change,
-                links: &self.links,
-                constants: flow.constants,
-                newest: settled,
-                span: flow.span.clone(),
-                arch: self.arch,
+                sweep: Sweep {
+                    links: &self.links,
+                    constants: flow.constants,
+                    newest: settled,
+                    span: flow.span.clone(),
+                    arch: self.arch,
+                },
             },
             &mut rows.slide,
             &mut flow.output[plane::CHANGE],
@@ -119,11 +122,13 @@ impl Setting {
                 depth: &rows.depth,
                 eastward: &rows.eastward,
                 southward: &rows.southward,
-                links: &self.links,
-                constants: flow.constants,
-                newest: settled,
-                span: flow.span.clone(),
-                arch: self.arch,
+                sweep: Sweep {
+                    links: &self.links,
+                    constants: flow.constants,
+                    newest: settled,
+                    span: flow.span.clone(),
+                    arch: self.arch,
+                },
             },
             &mut rows.advection,
             &mut flow.output[plane::SEDIMENT],

@@ -54,6 +54,14 @@ pub(crate) struct Finished {
     pub(crate) notes: Vec<String>,
 }
 
+impl<'a, P: Process<Weather = ()>> Simulation<'a, P> {
+    /// A process of its own, without weather, means and edits.
+    pub(crate) fn alone(process: &'a P, plane_names: &'a [String], iterations: u32) -> Self {
+        let iterations = u64::from(iterations);
+        Self { process, plane_names, iterations, weather: &|_| (), record: None, edits: None }
+    }
+}
+
 impl<P: Process> Simulation<'_, P> {
     /// Runs from `start`, or from where `job` resumes. Where the engine is a device that may be replaced, a
     /// failure of it is followed by the CPU from the last state that came back.

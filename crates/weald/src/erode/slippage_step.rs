@@ -9,6 +9,7 @@ use super::stack::Column;
 use super::stava::planes::Planes;
 use super::stava::program::{self, StavaNumbers};
 use super::stava::slippage::{Slippage, SlippageRows, SlippageScratch};
+use super::sweep::Sweep;
 use super::working::Working;
 use crate::engine::Job;
 use crate::engine::program::Program;
@@ -109,14 +110,7 @@ impl Step for SlippageStep {
         let process = Slipping { slippage, planes, links, arch: Arch::new() };
         let plane_names: Vec<_> =
             std::iter::once("change".to_owned()).chain(column.names(&landscape.materials)).collect();
-        let simulation = Simulation {
-            process: &process,
-            plane_names: &plane_names,
-            iterations: u64::from(self.iterations),
-            weather: &|_| (),
-            record: None,
-            edits: None,
-        };
+        let simulation = Simulation::alone(&process, &plane_names, self.iterations);
         let finished = simulation.run(working.state(planes.count(), &[]), job)?;
         Ok(working.store_ground(landscape, &self.layer.0, &finished, u64::from(self.iterations)))
     }
@@ -173,11 +167,13 @@ impl Process for Slipping {
             &SlippageRows {
                 solid: flow.input,
                 base: &flow.constants[0],
-                links: &self.links,
-                constants: flow.constants,
-                newest: Some(flow.y),
-                span: flow.span.clone(),
-                arch: self.arch,
+                sweep: Sweep {
+                    links: &self.links,
+                    constants: flow.constants,
+                    newest: Some(flow.y),
+                    span: flow.span.clone(),
+                    arch: self.arch,
+                },
             },
             flow.scratch,
             (self.planes, flow.output),

@@ -28,6 +28,7 @@ use viscosity::{Viscosity, ViscosityRows, ViscosityScratch};
 
 use super::setting::{Setting, Settled};
 use super::simulation::Sky;
+use super::sweep::Sweep;
 use crate::engine::program::Program;
 use crate::grid::Size;
 use crate::stencil::chain::{Flow, Process};
@@ -186,11 +187,13 @@ impl Stava {
         viscosity.advance(
             &ViscosityRows {
                 velocity: [eastward, southward],
-                links: &self.setting.links,
-                constants: flow.constants,
-                newest: flow.y.checked_sub(MOVED),
-                span: flow.span.clone(),
-                arch: self.setting.arch,
+                sweep: Sweep {
+                    links: &self.setting.links,
+                    constants: flow.constants,
+                    newest: flow.y.checked_sub(MOVED),
+                    span: flow.span.clone(),
+                    arch: self.setting.arch,
+                },
             },
             scratch,
             [&mut settled.eastward, &mut settled.southward],
@@ -205,11 +208,13 @@ impl Stava {
                 depth: &flow.output[plane::DEPTH],
                 before: &flow.input[dissolution.plane..],
                 base: &flow.constants[0],
-                links: &self.setting.links,
-                constants: flow.constants,
-                newest: Some(y),
-                span: flow.span.clone(),
-                arch: self.setting.arch,
+                sweep: Sweep {
+                    links: &self.setting.links,
+                    constants: flow.constants,
+                    newest: Some(y),
+                    span: flow.span.clone(),
+                    arch: self.setting.arch,
+                },
             },
             y,
             &mut scratch.solid,
@@ -224,11 +229,13 @@ impl Stava {
             depth: &before[plane::DEPTH],
             before: &flow.input[dissolution.plane..],
             base: &flow.constants[0],
-            links: &self.setting.links,
-            constants: flow.constants,
-            newest: flow.y.checked_sub(self.exchanged()),
-            span: flow.span.clone(),
-            arch: self.setting.arch,
+            sweep: Sweep {
+                links: &self.setting.links,
+                constants: flow.constants,
+                newest: flow.y.checked_sub(self.exchanged()),
+                span: flow.span.clone(),
+                arch: self.setting.arch,
+            },
         };
         dissolution.creep(&rows, &flow.scratch.dissolution, after);
     }
@@ -247,11 +254,13 @@ impl Stava {
             &SlippageRows {
                 solid,
                 base: &flow.constants[0],
-                links: &self.setting.links,
-                constants: flow.constants,
-                newest,
-                span: flow.span.clone(),
-                arch: self.setting.arch,
+                sweep: Sweep {
+                    links: &self.setting.links,
+                    constants: flow.constants,
+                    newest,
+                    span: flow.span.clone(),
+                    arch: self.setting.arch,
+                },
             },
             scratch,
             (self.planes, flow.output),

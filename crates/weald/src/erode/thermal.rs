@@ -14,11 +14,7 @@
 
 mod program;
 
-use std::ops::Range;
-
-use pulp::Arch;
-
-use super::links::Links;
+use super::sweep::Sweep;
 use crate::choices;
 use crate::engine::uniform::uniform;
 use crate::stencil::kernel::kernel;
@@ -188,23 +184,7 @@ impl SlideScratch {
 pub(crate) struct SlideRows<'a> {
     pub(crate) base: &'a Ring,
     pub(crate) change: &'a Ring,
-    pub(crate) links: &'a Links,
-    pub(crate) constants: &'a [Ring],
-    /// Newest row of `change`.
-    pub(crate) newest: Option<usize>,
-    pub(crate) span: Range<usize>,
-    pub(crate) arch: Arch,
-}
-
-impl SlideRows<'_> {
-    fn behind(&self, behind: usize) -> Option<usize> {
-        self.newest?.checked_sub(behind).filter(|y| self.span.contains(y))
-    }
-
-    /// The row after `y`, or `y` itself before a wall, where no link leads on.
-    fn next(&self, y: usize) -> usize {
-        if y + 1 < self.span.end { y + 1 } else { y }
-    }
+    pub(crate) sweep: Sweep<'a>,
 }
 
 impl Slide {
@@ -218,16 +198,16 @@ impl Slide {
 
     /// Slides the next row that is ready.
     pub(crate) fn advance(self, rows: &SlideRows<'_>, scratch: &mut SlideScratch, output: &mut Ring) {
-        if let Some(y) = rows.behind(0) {
+        if let Some(y) = rows.sweep.behind(0) {
             let ground = scratch.ground.here_mut(y);
-            Ground { base: rows.base.here(y), change: rows.change.here(y), ground }.run(rows.arch);
+            Ground { base: rows.base.here(y), change: rows.change.here(y), ground }.run(rows.sweep.arch);
         }
         if self.scheme == Scheme::IsotropicSymmetric
-            && let Some(y) = rows.behind(1)
+            && let Some(y) = rows.sweep.behind(1)
         {
             self.four_triangles(rows, scratch, y);
         }
-        if let Some(y) = rows.behind(self.lag()) {
+        if let Some(y) = rows.sweep.behind(self.lag()) {
             match self.scheme {
                 Scheme::Axis | Scheme::Isotropic => self.forward(rows, scratch, y),
                 Scheme::IsotropicSymmetric => mean_slide(rows, scratch, y),
@@ -238,13 +218,13 @@ impl Slide {
 
     /// What slides from row `y` by one of the kernels that look east and south alone.
     fn forward(self, rows: &SlideRows<'_>, scratch: &mut SlideScratch, y: usize) {
-        let links = rows.links.row(rows.constants, y);
+        let links = rows.sweep.links(y);
         macro_rules! slide {
             ($Kernel:ident) => {
                 $Kernel {
                     ground: scratch.ground.here(y),
                     ground_east: scratch.ground.east(y),
-                    ground_south: scratch.ground.here(rows.next(y)),
+                    ground_south: scratch.ground.here(rows.sweep.next(y)),
                     link_east: links.east,
                     link_south: links.south,
                     to_east: scratch.to_east.here_mut(y),
@@ -252,21 +232,21 @@ impl Slide {
                     talus: self.constants.talus,
                     strength: self.constants.strength,
                 }
-                .run(rows.arch)
+                .run(rows.sweep.arch)
             };
         }
         if self.scheme == Scheme::Axis { slide!(Axis) } else { slide!(Triangle) }
     }
 
     fn four_triangles(self, rows: &SlideRows<'_>, scratch: &mut SlideScratch, y: usize) {
-        let links = rows.links.row(rows.constants, y);
+        let links = rows.sweep.links(y);
         let [share_east, share_west, share_south, share_north] = &mut scratch.shares;
-        let previous = if y > rows.span.start { y - 1 } else { y };
+        let previous = rows.sweep.previous(y);
         FourTriangles {
             ground: scratch.ground.here(y),
             ground_east: scratch.ground.east(y),
             ground_west: scratch.ground.west(y),
-            ground_south: scratch.ground.here(rows.next(y)),
+            ground_south: scratch.ground.here(rows.sweep.next(y)),
             ground_north: scratch.ground.here(previous),
             link_east: links.east,
             link_west: links.west,
@@ -279,7 +259,7 @@ impl Slide {
             talus: self.constants.talus,
             strength: self.constants.strength,
         }
-        .run(rows.arch);
+        .run(rows.sweep.arch);
     }
 }
 
@@ -288,20 +268,20 @@ fn mean_slide(rows: &SlideRows<'_>, scratch: &mut SlideScratch, y: usize) {
     MeanSlide {
         ground: scratch.ground.here(y),
         ground_east: scratch.ground.east(y),
-        ground_south: scratch.ground.here(rows.next(y)),
+        ground_south: scratch.ground.here(rows.sweep.next(y)),
         from_west: share_east.here(y),
         from_east: share_west.east(y),
         from_north: share_south.here(y),
-        from_south: share_north.here(rows.next(y)),
+        from_south: share_north.here(rows.sweep.next(y)),
         to_east: scratch.to_east.here_mut(y),
         to_south: scratch.to_south.here_mut(y),
     }
-    .run(rows.arch);
+    .run(rows.sweep.arch);
 }
 
 fn apply(rows: &SlideRows<'_>, scratch: &SlideScratch, y: usize, output: &mut Ring) {
     let SlideScratch { to_east, to_south, still, .. } = scratch;
-    let from_north = if y > rows.span.start { to_south.here(y - 1) } else { still.here(0) };
+    let from_north = if y > rows.sweep.span.start { to_south.here(y - 1) } else { still.here(0) };
     Apply {
         before: rows.change.here(y),
         to_east: to_east.here(y),
@@ -310,5 +290,5 @@ fn apply(rows: &SlideRows<'_>, scratch: &SlideScratch, y: usize, output: &mut Ri
         from_north,
         change: output.here_mut(y),
     }
-    .run(rows.arch);
+    .run(rows.sweep.arch);
 }

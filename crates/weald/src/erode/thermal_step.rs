@@ -6,6 +6,7 @@ use pulp::Arch;
 
 use super::links::Links;
 use super::simulation::Simulation;
+use super::sweep::Sweep;
 use super::thermal::{Scheme, Slide, SlideConstants, SlideRows, SlideScratch};
 use super::working::Working;
 use crate::engine::Job;
@@ -77,14 +78,8 @@ impl Step for Thermal {
         let slide = within.slide();
         let links = Links::new(working.size, working.mask.is_some());
         let process = Sliding { slide, links, arch: Arch::new() };
-        let simulation = Simulation {
-            process: &process,
-            plane_names: &["change".to_owned()],
-            iterations: u64::from(self.iterations),
-            weather: &|_| (),
-            record: None,
-            edits: None,
-        };
+        let plane_names = ["change".to_owned()];
+        let simulation = Simulation::alone(&process, &plane_names, self.iterations);
         let finished = simulation.run(working.state(1, &[]), job)?;
         Ok(working.store_ground(landscape, &self.layer.0, &finished, u64::from(self.iterations)))
     }
@@ -130,11 +125,13 @@ impl Process for Sliding {
             &SlideRows {
                 base: &flow.constants[0],
                 change: &flow.input[0],
-                links: &self.links,
-                constants: flow.constants,
-                newest: Some(flow.y),
-                span: flow.span.clone(),
-                arch: self.arch,
+                sweep: Sweep {
+                    links: &self.links,
+                    constants: flow.constants,
+                    newest: Some(flow.y),
+                    span: flow.span.clone(),
+                    arch: self.arch,
+                },
             },
             flow.scratch,
             &mut flow.output[0],

@@ -7,6 +7,7 @@ use pulp::Arch;
 use super::advection::{Advection, AdvectionRows, AdvectionScratch};
 use super::links::{Links, mask_planes};
 use super::simulation::Simulation;
+use super::sweep::Sweep;
 use crate::domain::Domain;
 use crate::engine::Job;
 use crate::engine::program::Program;
@@ -144,14 +145,8 @@ impl Step for Carry {
         let (size, masked) = (landscape.domain.size, landscape.domain.land.is_some());
         let advection = self.advection(landscape.domain.cell);
         let process = Carrying { advection, links: Links::new(size, masked), arch: Arch::new() };
-        let simulation = Simulation {
-            process: &process,
-            plane_names: &["load".to_owned()],
-            iterations: u64::from(self.iterations),
-            weather: &|_| (),
-            record: None,
-            edits: None,
-        };
+        let plane_names = ["load".to_owned()];
+        let simulation = Simulation::alone(&process, &plane_names, self.iterations);
         let finished = simulation.run(self.state(landscape, advection)?, job)?;
         let unit = landscape.layer(&self.layer.0)?.unit.clone();
         landscape.insert(&self.layer.0, &unit, Field::from_values(size, finished.state.gather(0)));
@@ -225,11 +220,13 @@ impl Process for Carrying {
             depth: &scratch.depth,
             eastward: &scratch.eastward,
             southward: &scratch.southward,
-            links: &self.links,
-            constants: flow.constants,
-            newest: Some(flow.y),
-            span: flow.span.clone(),
-            arch: self.arch,
+            sweep: Sweep {
+                links: &self.links,
+                constants: flow.constants,
+                newest: Some(flow.y),
+                span: flow.span.clone(),
+                arch: self.arch,
+            },
         };
         self.advection.advance(&rows, &mut scratch.advection, &mut flow.output[0]);
     }

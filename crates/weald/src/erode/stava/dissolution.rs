@@ -7,16 +7,12 @@
 //! Regolith does not leave over open edges. Between its flow and the next exchange there may be more than
 //! `r_max` in a cell.
 
-use std::ops::Range;
-
-use pulp::Arch;
-
 use super::digging::{DigScratch, Digging};
 use super::planes::{Pile, pile};
 use crate::erode::before;
-use crate::erode::links::Links;
 use crate::erode::mei::kernels::scaled;
 use crate::erode::pipes::worth_counting;
+use crate::erode::sweep::Sweep;
 use crate::stencil::kernel::kernel;
 use crate::stencil::ring::Ring;
 
@@ -105,18 +101,7 @@ pub(crate) struct RegolithRows<'a> {
     /// The regolith planes as the step finds them.
     pub(crate) before: &'a [Ring],
     pub(crate) base: &'a Ring,
-    pub(crate) links: &'a Links,
-    pub(crate) constants: &'a [Ring],
-    /// Newest row that was dissolved.
-    pub(crate) newest: Option<usize>,
-    pub(crate) span: Range<usize>,
-    pub(crate) arch: Arch,
-}
-
-impl RegolithRows<'_> {
-    fn behind(&self, behind: usize) -> Option<usize> {
-        self.newest?.checked_sub(behind).filter(|y| self.span.contains(y))
-    }
+    pub(crate) sweep: Sweep<'a>,
 }
 
 impl Dissolution {
@@ -135,24 +120,24 @@ impl Dissolution {
         Missing {
             depth: rows.depth.here(y),
             regolith: found,
-            yields: rows.links.row(rows.constants, y).yields,
+            yields: rows.sweep.links(y).yields,
             room: dig.room.here_mut(0),
             most: self.most,
         }
-        .run(rows.arch);
-        self.digging.exchange((solid, y), (found, scratch.regolith.here_mut(y)), dig, rows.arch);
+        .run(rows.sweep.arch);
+        self.digging.exchange((solid, y), (found, scratch.regolith.here_mut(y)), dig, rows.sweep.arch);
         let surface = scratch.surface.here_mut(y);
         let layers = solid[1..].iter().map(|layer| layer.here(y));
-        pile(rows.arch, [rows.base.here(y), solid[0].here(y)], layers, surface);
-        Pile { thickness: scratch.regolith.here(y), ground: surface }.run(rows.arch);
+        pile(rows.sweep.arch, [rows.base.here(y), solid[0].here(y)], layers, surface);
+        Pile { thickness: scratch.regolith.here(y), ground: surface }.run(rows.sweep.arch);
     }
 
     /// Moves the regolith of the next rows that are ready; `output` begins with its planes.
     pub(crate) fn creep(&self, rows: &RegolithRows<'_>, scratch: &DissolutionScratch, output: &mut [Ring]) {
-        if let Some(y) = rows.behind(1) {
+        if let Some(y) = rows.sweep.behind(1) {
             self.outflow(rows, scratch, output, y);
         }
-        if let Some(y) = rows.behind(2) {
+        if let Some(y) = rows.sweep.behind(2) {
             crept(rows, scratch, output, y);
         }
     }
@@ -162,11 +147,11 @@ impl Dissolution {
             unreachable!("five planes of regolith")
         };
         let [_, east, west, south, north, ..] = output else { unreachable!("five planes of regolith") };
-        let links = rows.links.row(rows.constants, y);
+        let links = rows.sweep.links(y);
         let surface = &scratch.surface;
         // Behind a wall no link leads on, so that the row that stands for it does not matter.
-        let next = if y + 1 < rows.span.end { y + 1 } else { y };
-        let previous = if y > rows.span.start { y - 1 } else { y };
+        let next = rows.sweep.next(y);
+        let previous = rows.sweep.previous(y);
         Creep {
             old_east: old_east.here(y),
             old_west: old_west.here(y),
@@ -189,7 +174,7 @@ impl Dissolution {
             flow_rate: self.flow_rate,
             kept: self.kept,
         }
-        .run(rows.arch);
+        .run(rows.sweep.arch);
     }
 }
 
@@ -204,9 +189,9 @@ fn crept(rows: &RegolithRows<'_>, scratch: &DissolutionScratch, output: &mut [Ri
         north: north.here(y),
         from_west: east.west(y),
         from_east: west.east(y),
-        from_north: before(south, still, y, rows.span.start),
-        from_south: if y + 1 < rows.span.end { north.here(y + 1) } else { still.here(0) },
+        from_north: before(south, still, y, rows.sweep.span.start),
+        from_south: if y + 1 < rows.sweep.span.end { north.here(y + 1) } else { still.here(0) },
         regolith: regolith.here_mut(y),
     }
-    .run(rows.arch);
+    .run(rows.sweep.arch);
 }

@@ -8,16 +8,12 @@
 
 mod kernels;
 
-use std::ops::Range;
-
-use kernels::{Afford, Slid, SoftAxis, Softened};
-use pulp::Arch;
-
 use super::planes::{Pile, Planes};
 use crate::erode::before;
-use crate::erode::links::Links;
+use crate::erode::sweep::Sweep;
 use crate::erode::thermal::{Apply, Axis, Ground};
 use crate::stencil::ring::Ring;
+use kernels::{Afford, Slid, SoftAxis, Softened};
 
 /// Constants of the method.
 #[derive(Clone, Debug, PartialEq)]
@@ -60,23 +56,7 @@ pub(crate) struct SlippageRows<'a> {
     /// Change of the bedrock and thickness of the materials on it.
     pub(crate) solid: &'a [Ring],
     pub(crate) base: &'a Ring,
-    pub(crate) links: &'a Links,
-    pub(crate) constants: &'a [Ring],
-    /// Newest row of `solid`.
-    pub(crate) newest: Option<usize>,
-    pub(crate) span: Range<usize>,
-    pub(crate) arch: Arch,
-}
-
-impl SlippageRows<'_> {
-    fn behind(&self, behind: usize) -> Option<usize> {
-        self.newest?.checked_sub(behind).filter(|y| self.span.contains(y))
-    }
-
-    /// The row after `y`, or `y` itself before a wall, where no link leads on.
-    fn next(&self, y: usize) -> usize {
-        if y + 1 < self.span.end { y + 1 } else { y }
-    }
+    pub(crate) sweep: Sweep<'a>,
 }
 
 impl Slippage {
@@ -92,23 +72,23 @@ impl Slippage {
         scratch: &mut SlippageScratch,
         (planes, output): (Planes, &mut [Ring]),
     ) {
-        if let Some(y) = rows.behind(0) {
+        if let Some(y) = rows.sweep.behind(0) {
             tops(rows, scratch, y);
         }
         let SlippageScratch { materials, still } = scratch;
         for (material, sliding) in materials.iter_mut().enumerate() {
             if self.softening
-                && let Some(y) = rows.behind(1)
+                && let Some(y) = rows.sweep.behind(1)
             {
                 soften(rows, sliding, y, self.talus[material]);
             }
-            if let Some(y) = rows.behind(self.lag() - 1) {
+            if let Some(y) = rows.sweep.behind(self.lag() - 1) {
                 self.want(rows, sliding, y, self.talus[material]);
                 if material > 0 {
                     afford(rows, sliding, still, (y, &rows.solid[material]));
                 }
             }
-            if let Some(y) = rows.behind(self.lag()) {
+            if let Some(y) = rows.sweep.behind(self.lag()) {
                 let (solid, after) = (&rows.solid[material], &mut output[planes.of(material)]);
                 match material {
                     0 => bedrock_slid(rows, sliding, still, y, (solid, after)),
@@ -119,15 +99,15 @@ impl Slippage {
     }
 
     fn want(&self, rows: &SlippageRows<'_>, sliding: &mut Sliding, y: usize, talus: f32) {
-        let links = rows.links.row(rows.constants, y);
+        let links = rows.sweep.links(y);
         let Sliding { top, talus: softened, to_east, to_south, .. } = sliding;
-        let [ground, ground_east, ground_south] = [top.here(y), top.east(y), top.here(rows.next(y))];
+        let [ground, ground_east, ground_south] = [top.here(y), top.east(y), top.here(rows.sweep.next(y))];
         let [link_east, link_south] = [links.east, links.south];
         let [to_east, to_south] = [to_east.here_mut(y), to_south.here_mut(y)];
         let strength = self.strength;
         if self.softening {
             let talus = softened.here(y);
-            let [talus_east, talus_south] = [softened.east(y), softened.here(rows.next(y))];
+            let [talus_east, talus_south] = [softened.east(y), softened.here(rows.sweep.next(y))];
             SoftAxis {
                 ground,
                 ground_east,
@@ -141,7 +121,7 @@ impl Slippage {
                 to_south,
                 strength,
             }
-            .run(rows.arch);
+            .run(rows.sweep.arch);
         } else {
             Axis {
                 ground,
@@ -154,7 +134,7 @@ impl Slippage {
                 talus,
                 strength,
             }
-            .run(rows.arch);
+            .run(rows.sweep.arch);
         }
     }
 }
@@ -162,24 +142,24 @@ impl Slippage {
 /// Heights of the tops of all materials, from the bedrock up.
 fn tops(rows: &SlippageRows<'_>, scratch: &mut SlippageScratch, y: usize) {
     let (base, change) = (rows.base.here(y), rows.solid[0].here(y));
-    Ground { base, change, ground: scratch.materials[0].top.here_mut(y) }.run(rows.arch);
+    Ground { base, change, ground: scratch.materials[0].top.here_mut(y) }.run(rows.sweep.arch);
     for material in 1..scratch.materials.len() {
         let (below, above) = scratch.materials.split_at_mut(material);
         let ground = above[0].top.here_mut(y);
         ground.copy_from_slice(below[material - 1].top.here(y));
-        Pile { thickness: rows.solid[material].here(y), ground }.run(rows.arch);
+        Pile { thickness: rows.solid[material].here(y), ground }.run(rows.sweep.arch);
     }
 }
 
 fn soften(rows: &SlippageRows<'_>, sliding: &mut Sliding, y: usize, talus: f32) {
-    let links = rows.links.row(rows.constants, y);
+    let links = rows.sweep.links(y);
     let top = &sliding.top;
-    let previous = if y > rows.span.start { y - 1 } else { y };
+    let previous = rows.sweep.previous(y);
     Softened {
         ground: top.here(y),
         ground_east: top.east(y),
         ground_west: top.west(y),
-        ground_south: top.here(rows.next(y)),
+        ground_south: top.here(rows.sweep.next(y)),
         ground_north: top.here(previous),
         link_east: links.east,
         link_west: links.west,
@@ -189,7 +169,7 @@ fn soften(rows: &SlippageRows<'_>, sliding: &mut Sliding, y: usize, talus: f32) 
         softened: sliding.talus.here_mut(y),
         talus,
     }
-    .run(rows.arch);
+    .run(rows.sweep.arch);
 }
 
 fn afford(rows: &SlippageRows<'_>, sliding: &mut Sliding, still: &Ring, (y, thickness): (usize, &Ring)) {
@@ -199,10 +179,10 @@ fn afford(rows: &SlippageRows<'_>, sliding: &mut Sliding, still: &Ring, (y, thic
         east: to_east.here(y),
         west: to_east.west(y),
         south: to_south.here(y),
-        north: before(to_south, still, y, rows.span.start),
+        north: before(to_south, still, y, rows.sweep.span.start),
         share: share.here_mut(y),
     }
-    .run(rows.arch);
+    .run(rows.sweep.arch);
 }
 
 fn bedrock_slid(
@@ -217,10 +197,10 @@ fn bedrock_slid(
         to_east: sliding.to_east.here(y),
         from_west: sliding.to_east.west(y),
         to_south: sliding.to_south.here(y),
-        from_north: before(&sliding.to_south, still, y, rows.span.start),
+        from_north: before(&sliding.to_south, still, y, rows.sweep.span.start),
         change: after.here_mut(y),
     }
-    .run(rows.arch);
+    .run(rows.sweep.arch);
 }
 
 fn slid(
@@ -236,13 +216,13 @@ fn slid(
         to_east: to_east.here(y),
         from_west: to_east.west(y),
         to_south: to_south.here(y),
-        from_north: before(to_south, still, y, rows.span.start),
+        from_north: before(to_south, still, y, rows.sweep.span.start),
         share: share.here(y),
         share_east: share.east(y),
         share_west: share.west(y),
-        share_south: share.here(rows.next(y)),
-        share_north: before(share, still, y, rows.span.start),
+        share_south: share.here(rows.sweep.next(y)),
+        share_north: before(share, still, y, rows.sweep.span.start),
         thickness: after.here_mut(y),
     }
-    .run(rows.arch);
+    .run(rows.sweep.arch);
 }

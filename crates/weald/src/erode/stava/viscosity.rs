@@ -3,11 +3,7 @@
 //!
 //! Walls are free-slip: beyond them stands the cell's own velocity, which leaves the mean as it is.
 
-use std::ops::Range;
-
-use pulp::Arch;
-
-use crate::erode::links::Links;
+use crate::erode::sweep::Sweep;
 use crate::stencil::kernel::kernel;
 use crate::stencil::ring::Ring;
 
@@ -48,24 +44,15 @@ impl ViscosityScratch {
 pub(crate) struct ViscosityRows<'a> {
     /// Eastward and southward velocity.
     pub(crate) velocity: [&'a Ring; 2],
-    pub(crate) links: &'a Links,
-    pub(crate) constants: &'a [Ring],
-    /// Newest row of the rings above.
-    pub(crate) newest: Option<usize>,
-    pub(crate) span: Range<usize>,
-    pub(crate) arch: Arch,
+    pub(crate) sweep: Sweep<'a>,
 }
 
 impl ViscosityRows<'_> {
-    fn behind(&self, behind: usize) -> Option<usize> {
-        self.newest?.checked_sub(behind).filter(|y| self.span.contains(y))
-    }
-
     fn sweep(&self, from: &Ring, to: &mut Ring, y: usize, share: f32) {
-        let links = self.links.row(self.constants, y);
+        let links = self.sweep.links(y);
         // Behind a wall no link leads on, so that the row that stands for it does not matter.
-        let next = if y + 1 < self.span.end { y + 1 } else { y };
-        let previous = if y > self.span.start { y - 1 } else { y };
+        let next = self.sweep.next(y);
+        let previous = self.sweep.previous(y);
         Diffuse {
             here: from.here(y),
             east: from.east(y),
@@ -79,7 +66,7 @@ impl ViscosityRows<'_> {
             diffused: to.here_mut(y),
             share,
         }
-        .run(self.arch);
+        .run(self.sweep.arch);
     }
 }
 
@@ -100,10 +87,10 @@ impl Viscosity {
         diffused: [&mut Ring; 2],
     ) {
         for ((from, once), to) in rows.velocity.into_iter().zip(&mut scratch.once).zip(diffused) {
-            if let Some(y) = rows.behind(1) {
+            if let Some(y) = rows.sweep.behind(1) {
                 rows.sweep(from, once, y, self.share);
             }
-            if let Some(y) = rows.behind(2) {
+            if let Some(y) = rows.sweep.behind(2) {
                 rows.sweep(once, to, y, self.share);
             }
         }
