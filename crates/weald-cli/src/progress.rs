@@ -1,6 +1,7 @@
 //! Progress on stderr: a bar on a terminal, a line every few seconds elsewhere.
 
 use std::io::IsTerminal;
+use std::path::Path;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
@@ -93,6 +94,18 @@ impl Progress for Shown {
         } else if now.line_at.elapsed() >= LINE_EVERY {
             now.line_at = Instant::now();
             eprintln!("{} {done}/{total} {speed}", now.title);
+        }
+    }
+
+    fn output(&self, number: usize, count: usize, file: &Path) {
+        let title = format!("file {number}/{count} {}", file.display());
+        match &self.bar {
+            Some(bar) => {
+                bar.reset();
+                bar.set_prefix(title);
+                bar.set_message("");
+            }
+            None => self.say(&title),
         }
     }
 

@@ -3,13 +3,19 @@
 //! Read are two-dimensional arrays of floats and integers in either byte order and either array order; NaN is
 //! no-data. The format has no room for provenance, cell size or place: the report has them.
 
-use super::{Fault, Format, Limits, Raster};
+use super::{Decode, Encode, Fault, Format, Holds, Knowledge, Limits, Raster};
 use crate::error::Error;
 use crate::grid::Size;
 
 /// The entry in the registry of formats.
-pub(super) const FORMAT: Format =
-    Format { name: "NumPy array", extensions: &["npy"], decode: Some(decode), encode: Some(encode) };
+pub(super) const FORMAT: Format = Format {
+    name: "NumPy array",
+    extensions: &["npy"],
+    decode: Some(Decode::File(decode)),
+    encode: Some(Encode::File(encode)),
+    holds: Holds { omits: &[Knowledge::Cell, Knowledge::Place, Knowledge::Provenance], ..Holds::ALL },
+    presets: &[],
+};
 
 const MAGIC: &[u8] = b"\x93NUMPY";
 

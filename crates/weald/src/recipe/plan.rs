@@ -26,6 +26,7 @@ use super::parameter::Complaints;
 use super::source::{self, Node, Table, Value};
 use super::{canonical, parameter};
 use crate::error::{Complaint, Error, RecipeError};
+use crate::export::{EXPORTS, ExportEntry};
 use crate::io::{self, Format};
 use crate::picture::{PICTURES, PictureEntry};
 use crate::step::Entry;
@@ -132,11 +133,13 @@ fn read_text(path: &Path) -> std::io::Result<String> {
 pub(super) struct Vocabulary {
     pub(super) steps: &'static [Entry],
     pub(super) pictures: &'static [PictureEntry],
+    pub(super) exports: &'static [ExportEntry],
     pub(super) format_of: fn(&Path) -> Result<&'static Format, String>,
 }
 
 impl Vocabulary {
-    const FULL: Self = Self { steps: CATALOG, pictures: PICTURES, format_of: io::format_of };
+    const FULL: Self =
+        Self { steps: CATALOG, pictures: PICTURES, exports: EXPORTS, format_of: io::format_of };
 }
 
 /// Reads all sections, whatever is wrong with one of them. The result counts only without complaints.

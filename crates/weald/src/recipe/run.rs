@@ -7,15 +7,16 @@ mod inputs;
 mod tests;
 mod writer;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use super::checkpoint::{self, CHECKPOINT_FILE, State};
 use super::ground;
 use super::plan::{Planned, Recipe};
-use super::report::{REPORT_FILE, Report, StepReport};
+use super::report::{OutputReport, REPORT_FILE, Report, StepReport};
 use crate::engine::{Engine, Job};
 use crate::error::Error;
+use crate::export::Finished;
 use crate::landscape::Landscape;
 use crate::material::layer_names;
 use crate::step::{Layered, Outcome};
@@ -55,6 +56,11 @@ pub trait Progress: Sync {
     /// The step has done `done` of `total` iterations over `cells` cells each.
     fn progress(&self, done: u64, total: u64, cells: usize) {
         let _ = (done, total, cells);
+    }
+
+    /// Output `number` of `count`, counted from 1, is made.
+    fn output(&self, number: usize, count: usize, file: &Path) {
+        let _ = (number, count, file);
     }
 
     /// Something that the user should know.
@@ -122,8 +128,7 @@ impl Run<'_> {
             self.advance(planned, &mut state, progress, &clock)?;
             self.keep_if_due(&state, &clock)?;
         }
-        self.stop_if_cancelled(&state, progress)?;
-        let report = self.write(state)?;
+        let report = self.write(state, progress)?;
         folder::remove_checkpoint(&self.checkpoint())?;
         Ok(report)
     }
@@ -233,18 +238,39 @@ impl Run<'_> {
         }
     }
 
+    fn outputs(
+        &self,
+        state: &State,
+        hash: &str,
+        progress: &dyn Progress,
+    ) -> Result<Vec<OutputReport>, Error> {
+        let finished = Finished {
+            landscape: &state.landscape,
+            steps: &state.steps,
+            recipe: &self.recipe.file,
+            hash,
+            seed: self.recipe.seed,
+        };
+        let (writer, count) = (Writer { finished }, self.recipe.outputs.len());
+        let mut reports = Vec::with_capacity(count);
+        for (index, output) in self.recipe.outputs.iter().enumerate() {
+            self.stop_if_cancelled(state, progress)?;
+            progress.output(index + 1, count, &output.file);
+            reports.push(writer.write(output, &self.options.out)?);
+        }
+        Ok(reports)
+    }
+
     /// Writes all outputs, and the report when they are whole.
-    fn write(&self, state: State) -> Result<Report, Error> {
-        let State { landscape, steps, notes, .. } = state;
+    fn write(&self, state: State, progress: &dyn Progress) -> Result<Report, Error> {
         let hash = self.recipe.hash();
-        let writer = Writer { recipe: self.recipe, landscape: &landscape, hash: &hash };
-        let outputs = self.recipe.outputs.iter().map(|output| writer.write(output, &self.options.out));
-        let outputs = outputs.collect::<Result<_, _>>()?;
+        let outputs = self.outputs(&state, &hash, progress)?;
+        let State { steps, notes, .. } = state;
         let report = Report {
             engine: self.options.engine.name().to_owned(),
             adapter: self.options.engine.adapter(),
             seed: self.recipe.seed,
-            recipe_blake3: hash.clone(),
+            recipe_blake3: hash,
             version: env!("CARGO_PKG_VERSION").to_owned(),
             steps,
             outputs,
@@ -296,6 +322,7 @@ fn step_report(
         iterations: outcome.iterations,
         cell_updates_per_second: cells as f64 * here as f64 / seconds.max(1e-9),
         budget: outcome.budget.map(Into::into),
+        measures: outcome.measures.into_iter().map(|(name, value)| (name.to_owned(), value)).collect(),
         notes,
     }
 }

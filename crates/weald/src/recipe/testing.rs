@@ -7,8 +7,9 @@ use super::parameter::LayerName;
 use super::plan::{Recipe, Vocabulary};
 use crate::engine::{Job, SavedSimulation};
 use crate::error::Error;
+use crate::export::{Export, ExportEntry, Finished};
 use crate::grid::Field;
-use crate::io::{Format, Raster};
+use crate::io::{Encode, Format, Holds, Knowledge, Part, Preset, Raster};
 use crate::landscape::Landscape;
 use crate::parameters;
 use crate::picture::{Image, Picture, PictureEntry};
@@ -21,6 +22,7 @@ pub(super) const VOCABULARY: Vocabulary = Vocabulary {
         Entry::of::<Wear>("wear", Stage::Erode, "A simulation in small.", "Weald"),
     ],
     pictures: &[PictureEntry::of::<Dot>("dot", "One pixel.", "Weald")],
+    exports: &[ExportEntry::of::<Tally>("tally", &["txt"], "The number of cells.", "Weald")],
     format_of,
 };
 
@@ -34,8 +36,19 @@ pub(super) fn refusal(text: &str) -> String {
     parse(text).expect_err("the recipe is bad").to_string()
 }
 
-static BITS: Format =
-    Format { name: "bits", extensions: &["bits"], decode: None, encode: Some(|raster| Ok(bits(raster))) };
+static BITS: Format = Format {
+    name: "bits",
+    extensions: &["bits"],
+    decode: None,
+    encode: Some(Encode::File(|raster| Ok(bits(raster)))),
+    holds: Holds { omits: &[Knowledge::Cell], ..Holds::ALL },
+    presets: &[Preset {
+        name: "twice",
+        summary: "every value twice",
+        encode: Encode::File(|raster| Ok(bits(raster).repeat(2))),
+        holds: Holds::ALL,
+    }],
+};
 
 fn format_of(path: &Path) -> Result<&'static Format, String> {
     let known = path.extension().is_some_and(|extension| extension == "bits");
@@ -142,5 +155,29 @@ impl Picture for Dot {
 
     fn render(&self, _: &Landscape) -> Result<Image, Error> {
         Ok(Image { width: 1, height: 1, rgb: vec![1, 2, 3] })
+    }
+}
+
+parameters! {
+    /// The number of cells, and beside it that of the steps.
+    pub struct Tally {
+        /// Layer that must be there.
+        of: LayerName = LayerName::of("height");
+    }
+}
+
+impl Export for Tally {
+    fn reads(&self) -> Vec<String> {
+        vec![self.of.0.clone()]
+    }
+
+    fn notes(&self, _: &Finished<'_>) -> Vec<String> {
+        vec!["counted".to_owned()]
+    }
+
+    fn parts(&self, finished: &Finished<'_>, _: &Path) -> Result<Vec<Part>, Error> {
+        let cells = finished.landscape.domain.size.cells().to_string();
+        let steps = finished.steps.len().to_string();
+        Ok(vec![Part::own(cells.into_bytes()), Part::sibling("_steps.txt", steps.into_bytes())])
     }
 }

@@ -207,3 +207,27 @@ proptest! {
         let _ = parse(&String::from_utf8_lossy(&text));
     }
 }
+
+#[test]
+fn outputs_that_cannot_be_written_say_what_there_is() {
+    let output = |keys: &str| {
+        let steps = "[landscape]\nsize = 9\n[[step]]\ndo = \"rough\"\n[[output]]\n";
+        refusal(&format!("{steps}{keys}\n"))
+    };
+    let says = |keys: &str, words: &str| {
+        let message = output(keys);
+        assert!(message.contains(words), "{keys}: {message}");
+    };
+    says("export = \"taly\"\nfile = \"a.txt\"", "there is no export \"taly\"; did you mean `tally`?");
+    says("export = \"tally\"\nfile = \"a.png\"", "`file` is a.png; a tally is a .txt");
+    says("export = \"tally\"\nof = \"heigth\"\nfile = \"a.txt\"", "needs layer `heigth`");
+    says(
+        "layer = \"height\"\nexport = \"tally\"\nfile = \"a.txt\"",
+        "`layer` and `export` exclude each other",
+    );
+    says(
+        "layer = \"height\"\nfile = \"a.bits\"\npreset = \"thrice\"",
+        "bits has no preset \"thrice\"; it has: twice",
+    );
+    says("file = \"a.bits\"", "`layer`, `picture` or `export` is needed");
+}

@@ -185,7 +185,9 @@ fn cells_without_data_are_written_as_such() {
     let land = crate::grid::Mask::new(size, vec![true, false, true]);
     let mut landscape = Landscape::new(crate::Domain { land: land.clone(), ..crate::Domain::new(size, 2.0) });
     landscape.insert("height", "m", Field::from_values(size, vec![5.0, f32::NAN, 7.0]));
-    let writer = Writer { recipe: &recipe, landscape: &landscape, hash: "" };
+    let finished =
+        Finished { landscape: &landscape, steps: &[], recipe: &recipe.file, hash: "", seed: recipe.seed };
+    let writer = Writer { finished };
     let raster = writer.raster("height").expect("the layer is there");
     assert_eq!(raster.field.values(), [5.0, 0.0, 7.0]);
     assert_eq!(raster.land, land);
@@ -200,4 +202,46 @@ fn steps_of_the_same_kind_draw_different_numbers() {
     let out = folder();
     run(&two, out.path(), false, &Silent).expect("runs");
     assert_ne!(height(out.path()), std::fs::read(out.path().join("b.bits")).expect("written"));
+}
+
+const OTHERS: &str = "\
+[landscape]
+size = [9, 7]
+seed = 5
+[[step]]
+do = \"rough\"
+[[output]]
+layer = \"height\"
+file = \"height.bits\"
+preset = \"twice\"
+[[output]]
+layer = \"height\"
+file = \"once.bits\"
+[[output]]
+export = \"tally\"
+file = \"deep/tally.txt\"
+";
+
+#[test]
+fn an_export_writes_all_its_files_and_the_report_names_them() {
+    let folder = folder();
+    let report = run(OTHERS, folder.path(), false, &Silent).expect("runs");
+    let text = |name: &str| std::fs::read_to_string(folder.path().join(name)).expect("written");
+    assert_eq!((text("deep/tally.txt").as_str(), text("deep/tally_steps.txt").as_str()), ("63", "1"));
+    let output = &report.outputs[2];
+    assert_eq!(output.export.as_deref(), Some("tally"));
+    assert_eq!(
+        (&output.companions, &output.notes),
+        (&vec!["deep/tally_steps.txt".to_owned()], &vec!["counted".to_owned()])
+    );
+}
+
+#[test]
+fn a_preset_chooses_how_a_layer_is_written_and_losses_are_reported() {
+    let folder = folder();
+    let report = run(OTHERS, folder.path(), false, &Silent).expect("runs");
+    let bytes = |name: &str| std::fs::read(folder.path().join(name)).expect("written");
+    assert_eq!(bytes("height.bits"), bytes("once.bits").repeat(2));
+    assert!(report.outputs[0].notes.is_empty());
+    assert_eq!(report.outputs[1].notes, ["the side of a cell is left out"]);
 }

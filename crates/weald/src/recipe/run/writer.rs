@@ -1,66 +1,93 @@
-//! Layers and pictures become files, each with its provenance.
+//! Layers, pictures and exports become files, each with its provenance.
 
 use std::path::Path;
 
 use crate::error::Error;
+use crate::export::{Export, Finished};
 use crate::grid::Field;
-use crate::io::{Provenance, Raster, write_whole};
-use crate::landscape::Landscape;
-use crate::recipe::plan::{Content, Output, Recipe};
+use crate::io::{Encode, Holds, Part, PartName, Provenance, Raster, write_parts, write_whole};
+use crate::picture::Picture;
+use crate::recipe::plan::{Content, Output};
 use crate::recipe::report::OutputReport;
 
-/// Turns layers into files.
+/// Turns a finished landscape into files.
 pub(super) struct Writer<'a> {
-    pub(super) recipe: &'a Recipe,
-    pub(super) landscape: &'a Landscape,
-    pub(super) hash: &'a str,
+    pub(super) finished: Finished<'a>,
+}
+
+/// What an output is to become.
+struct Target<'a> {
+    folder: &'a Path,
+    file: &'a Path,
 }
 
 impl Writer<'_> {
     pub(super) fn write(&self, output: &Output, folder: &Path) -> Result<OutputReport, Error> {
-        let path = folder.join(&output.file);
-        let file = output.file.display().to_string();
-        match &output.content {
-            Content::Picture { name, picture } => {
-                let text = [
-                    ("Software".to_owned(), format!("Weald {}", env!("CARGO_PKG_VERSION"))),
-                    ("WEALD_RECIPE_BLAKE3".to_owned(), self.hash.to_owned()),
-                    ("WEALD_SEED".to_owned(), self.recipe.seed.to_string()),
-                ];
-                write_whole(&path, &picture.render(self.landscape)?.to_png(&text))?;
-                let picture = Some((*name).to_owned());
-                Ok(OutputReport { file, layer: None, picture, unit: None, range: None })
-            }
-            Content::Layer { name, format } => {
-                let raster = self.raster(name)?;
-                let encode = format.encode.expect("the plan takes only formats that are written");
-                write_whole(&path, &encode(&raster)?)?;
-                let provenance = raster.provenance.expect("every raster of a run says where it is from");
-                let range = self.range(name)?;
-                Ok(OutputReport {
-                    file,
-                    layer: Some(provenance.layer),
-                    picture: None,
-                    unit: Some(provenance.unit),
-                    range,
-                })
-            }
-        }
+        let target = Target { folder, file: &output.file };
+        let report = match &output.content {
+            Content::Picture { name, picture } => self.picture(&target, name, picture.as_ref()),
+            Content::Layer { name, encode, holds } => self.layer(&target, name, (*encode, *holds)),
+            Content::Export { name, export } => self.export(&target, name, export.as_ref()),
+        }?;
+        Ok(OutputReport { file: output.file.display().to_string(), ..report })
+    }
+
+    fn picture(&self, target: &Target<'_>, name: &str, picture: &dyn Picture) -> Result<OutputReport, Error> {
+        let text = [
+            ("Software".to_owned(), format!("Weald {}", env!("CARGO_PKG_VERSION"))),
+            ("WEALD_RECIPE_BLAKE3".to_owned(), self.finished.hash.to_owned()),
+            ("WEALD_SEED".to_owned(), self.finished.seed.to_string()),
+        ];
+        let image = picture.render(self.finished.landscape)?;
+        write_whole(&target.folder.join(target.file), &image.to_png(&text))?;
+        Ok(OutputReport { picture: Some(name.to_owned()), ..OutputReport::default() })
+    }
+
+    fn layer(
+        &self,
+        target: &Target<'_>,
+        name: &str,
+        (encode, holds): (Encode, Holds),
+    ) -> Result<OutputReport, Error> {
+        let raster = self.raster(name)?;
+        let parts = encode.parts(&raster)?;
+        write_parts(&target.folder.join(target.file), &parts)?;
+        let notes = holds.losses(&raster);
+        let unit = self.finished.landscape.layer(name)?.unit.clone();
+        Ok(OutputReport {
+            layer: Some(name.to_owned()),
+            unit: Some(unit),
+            range: self.range(name)?,
+            companions: target.companions(&parts),
+            notes,
+            ..OutputReport::default()
+        })
+    }
+
+    fn export(&self, target: &Target<'_>, name: &str, export: &dyn Export) -> Result<OutputReport, Error> {
+        let parts = export.parts(&self.finished, target.file)?;
+        write_parts(&target.folder.join(target.file), &parts)?;
+        Ok(OutputReport {
+            export: Some(name.to_owned()),
+            companions: target.companions(&parts),
+            notes: export.notes(&self.finished),
+            ..OutputReport::default()
+        })
     }
 
     fn range(&self, name: &str) -> Result<Option<(f64, f64)>, Error> {
-        let range = self.landscape.field(name)?.range(self.landscape.domain.land.as_ref());
+        let range = self.finished.landscape.field(name)?.range(self.finished.landscape.domain.land.as_ref());
         Ok(range.map(|(low, high)| (low.into(), high.into())))
     }
 
     /// The layer with 0 in its no-data cells.
     pub(super) fn raster(&self, name: &str) -> Result<Raster, Error> {
-        let layer = self.landscape.layer(name)?;
-        let domain = &self.landscape.domain;
+        let layer = self.finished.landscape.layer(name)?;
+        let domain = &self.finished.landscape.domain;
         let provenance = Provenance {
             version: env!("CARGO_PKG_VERSION").to_owned(),
-            recipe_blake3: self.hash.to_owned(),
-            seed: self.recipe.seed,
+            recipe_blake3: self.finished.hash.to_owned(),
+            seed: self.finished.seed,
             layer: name.to_owned(),
             unit: layer.unit.clone(),
             range: self.range(name)?.unwrap_or((0.0, 0.0)),
@@ -78,5 +105,13 @@ impl Writer<'_> {
             provenance: Some(provenance),
             ..Raster::from(field)
         })
+    }
+}
+
+impl Target<'_> {
+    /// Files beside the output itself; those inside it go without saying.
+    fn companions(&self, parts: &[Part]) -> Vec<String> {
+        let beside = |part: &&Part| matches!(part.name, PartName::Beside(_) | PartName::Sibling(_));
+        parts.iter().filter(beside).map(|part| part.name.path(self.file).display().to_string()).collect()
     }
 }
