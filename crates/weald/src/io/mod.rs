@@ -17,7 +17,7 @@ mod provenance;
 mod raster;
 mod square;
 
-pub use atomic::{write_parts, write_whole, write_whole_with};
+pub use atomic::{write_parts, write_through, write_whole, write_whole_with};
 pub use fault::Fault;
 pub use format::{Decode, DecodeFile, Encode, Format, Holds, Knowledge, Preset, Values};
 pub use info::{Info, describe};

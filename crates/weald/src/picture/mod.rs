@@ -51,6 +51,13 @@ pub trait Picture: Debug + Send + Sync {
         Vec::new()
     }
 
+    /// The same picture from a camera that has gone a share of a turn around the landscape, 0 to 1, clockwise
+    /// from above; `None` for a picture without a camera.
+    fn turned(&self, share: f64) -> Option<Box<dyn Picture>> {
+        let _ = share;
+        None
+    }
+
     /// Draws a landscape that has all the layers in [`Picture::reads`].
     ///
     /// # Errors
