@@ -216,7 +216,9 @@ fn ground_for(step: &dyn Step, land: Option<Mask>) -> Landscape {
     let mut landscape = Landscape::new(Domain { land, ..Domain::new(size, 10.0) });
     let names = step.reads().into_iter().chain(["bystander".to_owned()]);
     for (seed, name) in names.enumerate() {
-        let value = |x, y| unit(hash2(seed as u64, x as i64, y as i64)) as f32;
+        let random = |x, y| unit(hash2(seed as u64, x as i64, y as i64)) as f32;
+        // Not all numbers are directions; 0 is.
+        let value = |x, y| if name == "flow_direction" { 0.0 } else { random(x, y) };
         landscape.insert(&name, INPUT_UNIT, Field::from_function(size, value));
     }
     landscape

@@ -41,6 +41,9 @@ pub const CATALOG: &[Entry] = &[
     analyse::soil::ENTRY,
     analyse::select::ENTRY,
     analyse::network_step::ENTRY,
+    analyse::flow::ENTRY,
+    analyse::rivers::ENTRY,
+    analyse::lakes::ENTRY,
 ];
 
 /// The step of that name.
