@@ -116,6 +116,10 @@ impl Picture for View {
         ["soil", "wetness", "deposition"].iter().chain(water).map(|name| (*name).to_owned()).collect()
     }
 
+    fn turned(&self, share: f64) -> Option<Box<dyn Picture>> {
+        Some(Box::new(Self::turned(self, share)))
+    }
+
     fn render(&self, landscape: &Landscape) -> Result<Image, Error> {
         self.check()?;
         let scene = Scene::new(self, landscape)?;
