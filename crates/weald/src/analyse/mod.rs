@@ -8,9 +8,12 @@ pub mod directions;
 pub mod flow;
 mod gaussian;
 pub mod lakes;
+pub mod moisture;
 pub mod network;
 mod priority_flood;
 pub mod rivers;
+pub mod watersheds;
+pub mod wetness;
 
 use rayon::prelude::*;
 
