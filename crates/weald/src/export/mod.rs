@@ -1,6 +1,8 @@
 //! What a landscape becomes for other programs beyond one raster: meshes, vectors, sets of tiles, pages.
 //! One file a kind; [`EXPORTS`] is the registry.
 
+pub mod report;
+
 use std::fmt::Debug;
 use std::path::Path;
 
@@ -89,6 +91,7 @@ impl ExportEntry {
 /// All kinds of exports. Adding one is one file and one line here.
 #[rustfmt::skip] // one entry a line, so that branches that add some do not meet
 pub const EXPORTS: &[ExportEntry] = &[
+    report::ENTRY,
 ];
 
 /// The export of that name.
