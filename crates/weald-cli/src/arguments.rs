@@ -58,6 +58,9 @@ pub(crate) enum Command {
         /// The file to write
         #[arg(value_name = "OUT")]
         output: PathBuf,
+        /// Write it the way one reader wants it, such as `blender`
+        #[arg(long, value_name = "READER")]
+        preset: Option<String>,
     },
     /// Make the figures of the publications again
     Gallery {

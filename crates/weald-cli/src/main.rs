@@ -24,7 +24,9 @@ fn main() -> ExitCode {
         Command::Steps { name } => commands::steps::steps(name.as_deref()),
         Command::New { name, template } => commands::new::new(&name, &template),
         Command::Info { file, json } => commands::info::info(&file, json),
-        Command::Convert { input, output } => commands::convert::convert(&input, &output),
+        Command::Convert { input, output, preset } => {
+            commands::convert::convert(&input, &output, preset.as_deref())
+        }
         Command::Gallery { only, out } => commands::gallery::gallery(&only, &out),
         Command::Bench(arguments) => commands::bench::bench(&arguments),
         Command::Schema => commands::schema::schema(),

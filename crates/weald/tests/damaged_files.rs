@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use weald::grid::{Field, Mask, Size};
-use weald::io::{Decode, Limits, Raster, geotiff, npy, png16};
+use weald::io::{DecodeFile, Limits, Raster, geotiff, npy, png16};
 use weald::random::hash2;
 
 const LIMITS: Limits = Limits { cells: 1 << 16 };
@@ -16,12 +16,12 @@ fn fixture(name: &str) -> Vec<u8> {
     std::fs::read(path).expect("a fixture")
 }
 
-fn files() -> Vec<(Decode, Vec<u8>)> {
+fn files() -> Vec<(DecodeFile, Vec<u8>)> {
     let size = Size { columns: 19, rows: 11 };
     let land = Mask::new(size, (0..size.cells()).map(|index| index % 5 != 0).collect());
     let field = Field::from_function(size, |x, y| (x * y) as f32);
     let raster = Raster { land, cell: Some(3.0), ..Raster::from(field) };
-    let mut files: Vec<(Decode, Vec<u8>)> = vec![
+    let mut files: Vec<(DecodeFile, Vec<u8>)> = vec![
         (geotiff::decode, geotiff::encode(&raster).expect("finite")),
         (png16::decode, png16::encode(&raster).expect("finite")),
         (png16::decode, fixture("uint16.png")),
@@ -35,7 +35,7 @@ fn files() -> Vec<(Decode, Vec<u8>)> {
         "int32_big_endian_lzw_predictor2.tif",
         "sparse.tif",
     ];
-    files.extend(tiffs.map(|name| (geotiff::decode as Decode, fixture(name))));
+    files.extend(tiffs.map(|name| (geotiff::decode as DecodeFile, fixture(name))));
     files
 }
 

@@ -42,6 +42,9 @@ fn summary(report: &Report, out: &Path) -> String {
     let mut text = String::new();
     for output in &report.outputs {
         let _ = writeln!(text, "{}  {}", out.join(&output.file).display(), content(output));
+        for companion in &output.companions {
+            let _ = writeln!(text, "{}", out.join(companion).display());
+        }
     }
     let _ = writeln!(text, "{}", out.join(REPORT_FILE).display());
     text
@@ -51,6 +54,9 @@ fn content(output: &OutputReport) -> String {
     match (&output.layer, &output.unit, output.range) {
         (Some(layer), Some(unit), Some((low, high))) => format!("{layer}, {low:.3} to {high:.3} {unit}"),
         (Some(layer), ..) => layer.clone(),
-        _ => format!("picture, {}", output.picture.as_deref().unwrap_or_default()),
+        _ => match (&output.picture, &output.export) {
+            (Some(picture), _) => format!("picture, {picture}"),
+            (_, export) => format!("export, {}", export.as_deref().unwrap_or_default()),
+        },
     }
 }

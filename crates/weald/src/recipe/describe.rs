@@ -4,14 +4,15 @@ use std::fmt::Write;
 
 use super::catalog::CATALOG;
 use super::parameter::{Kind, Parameter, Parameters};
-use super::plan::{LandscapeKeys, MaterialKeys};
+use super::plan::{FilmKeys, LandscapeKeys, MaterialKeys};
+use crate::export::EXPORTS;
 use crate::picture::PICTURES;
 use crate::step::{Entry, Stage};
 
 /// Columns that a line of text may take.
 const WIDTH: usize = 100;
 
-/// A table of a recipe that is neither step nor picture.
+/// A table of a recipe that is neither step nor output.
 struct LandscapeTable {
     name: &'static str,
     header: &'static str,
@@ -32,17 +33,24 @@ const TABLES: &[LandscapeTable] = &[
         summary: "what the ground is made of: a table a material, bedrock first, 8 at most",
         parameters: MaterialKeys::parameters,
     },
+    LandscapeTable {
+        name: "film",
+        header: "[[output]] picture = …",
+        summary: "keys that make a film of a picture: numbered .png, and a video where `file` is a .mp4 or .webm",
+        parameters: FilmKeys::parameters,
+    },
 ];
 
-/// All tables, steps and pictures, a line each.
+/// All tables, steps, pictures and exports, a line each.
 pub fn overview() -> String {
     let mut text = String::new();
-    list(&mut text, "tables of the landscape", TABLES.iter().map(|table| (table.name, table.summary)));
-    for stage in [Stage::Load, Stage::Generate, Stage::Combine, Stage::Erode] {
+    list(&mut text, "tables", TABLES.iter().map(|table| (table.name, table.summary)));
+    for stage in Stage::ALL {
         let entries = CATALOG.iter().filter(|entry| entry.stage == stage);
         list(&mut text, stage.title(), entries.map(|entry| (entry.name, entry.summary)));
     }
     list(&mut text, "picture", PICTURES.iter().map(|entry| (entry.name, entry.summary)));
+    list(&mut text, "export", EXPORTS.iter().map(|entry| (entry.name, entry.summary)));
     text.push_str("`weald steps NAME` shows the parameters of one.\n");
     text
 }
@@ -55,7 +63,7 @@ fn list(text: &mut String, title: &str, items: impl Iterator<Item = (&'static st
     text.push('\n');
 }
 
-/// One table, step or picture with all its parameters; an error names what was probably meant.
+/// One table, step, picture or export with all its parameters; an error names what was probably meant.
 pub fn step(name: &str) -> Result<String, String> {
     if let Some(entry) = CATALOG.iter().find(|entry| entry.name == name) {
         return Ok(of_entry(entry));
@@ -63,12 +71,18 @@ pub fn step(name: &str) -> Result<String, String> {
     if let Some(entry) = PICTURES.iter().find(|entry| entry.name == name) {
         return Ok(of(&format!("picture = \"{name}\""), entry.summary, None, &(entry.parameters)()));
     }
+    if let Some(entry) = EXPORTS.iter().find(|entry| entry.name == name) {
+        let key = format!("export = \"{name}\"");
+        return Ok(of(&key, entry.summary, Some(entry.source), &(entry.parameters)()));
+    }
     if let Some(table) = TABLES.iter().find(|table| table.name == name) {
         return Ok(of(table.header, table.summary, None, &(table.parameters)()));
     }
     let tables = TABLES.iter().map(|table| table.name);
     let steps = CATALOG.iter().map(|entry| entry.name);
-    let known: Vec<_> = tables.chain(steps).chain(PICTURES.iter().map(|entry| entry.name)).collect();
+    let pictures = PICTURES.iter().map(|entry| entry.name);
+    let exports = EXPORTS.iter().map(|entry| entry.name);
+    let known: Vec<_> = tables.chain(steps).chain(pictures).chain(exports).collect();
     Err(match super::parameter::nearest(name, &known) {
         Some(near) => format!("there is no step {name:?}; did you mean `{near}`?"),
         None => format!("there is no step {name:?}; there are: {}", known.join(", ")),

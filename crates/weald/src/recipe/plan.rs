@@ -1,6 +1,7 @@
 //! The checked recipe. Nothing runs before the whole of it has been checked, and one look shows all faults.
 
 mod files;
+mod films;
 mod landscape;
 mod layers;
 mod materials;
@@ -13,6 +14,7 @@ use std::fs::File;
 use std::io::{ErrorKind, Read};
 use std::path::{Path, PathBuf};
 
+pub use films::{Film, FilmKeys, Motion};
 pub use landscape::{Ground, LandscapeKeys};
 pub use materials::{BuiltIn, MaterialKeys, PlannedMaterial};
 pub use outputs::{Content, Output};
@@ -26,6 +28,7 @@ use super::parameter::Complaints;
 use super::source::{self, Node, Table, Value};
 use super::{canonical, parameter};
 use crate::error::{Complaint, Error, RecipeError};
+use crate::export::{EXPORTS, ExportEntry};
 use crate::io::{self, Format};
 use crate::picture::{PICTURES, PictureEntry};
 use crate::step::Entry;
@@ -132,11 +135,13 @@ fn read_text(path: &Path) -> std::io::Result<String> {
 pub(super) struct Vocabulary {
     pub(super) steps: &'static [Entry],
     pub(super) pictures: &'static [PictureEntry],
+    pub(super) exports: &'static [ExportEntry],
     pub(super) format_of: fn(&Path) -> Result<&'static Format, String>,
 }
 
 impl Vocabulary {
-    const FULL: Self = Self { steps: CATALOG, pictures: PICTURES, format_of: io::format_of };
+    const FULL: Self =
+        Self { steps: CATALOG, pictures: PICTURES, exports: EXPORTS, format_of: io::format_of };
 }
 
 /// Reads all sections, whatever is wrong with one of them. The result counts only without complaints.
