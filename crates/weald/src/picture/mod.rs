@@ -1,5 +1,6 @@
 //! Pictures of a landscape, one file a kind; [`PICTURES`] is the registry.
 
+mod albedo;
 mod automatic;
 mod colour;
 mod contours;
@@ -23,6 +24,7 @@ mod spline;
 mod strokes;
 mod texture;
 
+pub(crate) use albedo::{Pigment, albedo};
 pub use colour::{Linear, Oklab, encode, linear_of_hex};
 pub use image::Image;
 pub use map::Map;
