@@ -1,7 +1,37 @@
-//! Measures of ground and water.
+//! Reading the land: flow, rivers and lakes, and measures of ground and water.
+//!
+//! What is measured is a function of fields and masks first, and a step of a recipe second.
 
 mod component;
 pub mod contour;
+pub mod directions;
+pub mod flow;
 mod gaussian;
+pub mod lakes;
 pub mod network;
 mod priority_flood;
+pub mod rivers;
+
+use rayon::prelude::*;
+
+use crate::error::Error;
+use crate::grid::{Field, Size};
+use crate::landscape::Landscape;
+
+/// Cells a task works on; no result depends on it.
+const CELLS_A_TASK: usize = 1 << 14;
+
+/// Refuses a layer that holds a NaN or an infinity in a cell with data.
+fn ensure_finite(landscape: &Landscape, name: &str) -> Result<(), Error> {
+    let domain = &landscape.domain;
+    let Some((x, y)) = landscape.field(name)?.first_not_finite(domain.land.as_ref()) else { return Ok(()) };
+    Err(Error::Run(format!(
+        "the layer `{name}` is not a finite number in column {x}, row {y}; mend it, or mark the cell as no-data"
+    )))
+}
+
+/// Sums of each cell as a layer, in another unit.
+fn scaled(size: Size, sums: &[f64], unit: f64) -> Field {
+    let values = sums.par_iter().with_min_len(CELLS_A_TASK).map(|sum| (sum * unit) as f32);
+    Field::from_values(size, values.collect())
+}
