@@ -2,7 +2,7 @@
 //!
 //! What is measured is a function of fields and masks first, and a step of a recipe second.
 
-mod component;
+pub(crate) mod component;
 pub mod contour;
 pub mod directions;
 pub mod flow;

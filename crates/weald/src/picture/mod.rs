@@ -25,6 +25,7 @@ mod strokes;
 mod texture;
 
 pub(crate) use albedo::{Pigment, albedo};
+pub(crate) use colour::linear_of_srgb;
 pub use colour::{Linear, Oklab, encode, linear_of_hex};
 pub use image::Image;
 pub use map::Map;

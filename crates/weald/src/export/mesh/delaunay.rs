@@ -295,7 +295,11 @@ mod tests {
         for void in [[0, 0], [3, 0], [0, 3], [3, 3]] {
             let mut mesh = Delaunay::new(4, 4, |point| point == void);
             let inwards = |at: u32| if at == 0 { 1 } else { at - 1 };
-            let ring = [[inwards(void[0]), inwards(void[1])], [inwards(void[0]), void[1]], [void[0], inwards(void[1])]];
+            let ring = [
+                [inwards(void[0]), inwards(void[1])],
+                [inwards(void[0]), void[1]],
+                [void[0], inwards(void[1])],
+            ];
             for point in ring {
                 let triangle = mesh.locate(point, 0);
                 mesh.insert(point, triangle);

@@ -65,9 +65,9 @@ impl Document {
     pub(super) fn positions(&mut self, vectors: &[[f32; 3]]) -> Value {
         let bound = |pick: fn(f32, f32) -> f32| {
             let first = vectors.first().copied().unwrap_or_default();
-            vectors.iter().fold(first, |bound, vector| {
-                std::array::from_fn(|axis| pick(bound[axis], vector[axis]))
-            })
+            vectors
+                .iter()
+                .fold(first, |bound, vector| std::array::from_fn(|axis| pick(bound[axis], vector[axis])))
         };
         let (low, high) = (bound(f32::min), bound(f32::max));
         let accessor = self.vectors(vectors);
@@ -109,8 +109,9 @@ impl Document {
         };
         let view = self.view(&bytes, Some(ELEMENT_ARRAY_BUFFER));
         let count = 3 * triangles.len();
-        self.accessors
-            .push(json!({ "bufferView": view, "componentType": component, "count": count, "type": "SCALAR" }));
+        self.accessors.push(
+            json!({ "bufferView": view, "componentType": component, "count": count, "type": "SCALAR" }),
+        );
         self.accessors.len() - 1
     }
 

@@ -113,7 +113,8 @@ fn worst(surface: &Surface<'_>, triangle: [Point; 3]) -> Worst {
     let mut worst = Worst::default();
     for_each_row(triangle, |row, columns| {
         let first = *columns.start();
-        let cells = surface.height.row(row)[columns.clone()].iter().zip(&surface.strictness.row(row)[columns]);
+        let cells =
+            surface.height.row(row)[columns.clone()].iter().zip(&surface.strictness.row(row)[columns]);
         for (column, (&height, &strictness)) in (first..).zip(cells) {
             let deviation = (plane.at(column, row) - f64::from(height)).abs() as f32 * strictness;
             if deviation > worst.deviation {

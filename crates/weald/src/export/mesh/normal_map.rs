@@ -30,7 +30,8 @@ pub(super) fn normal_map(mesh: &Tin, vertices: &Vertices, sampling: &Sampling<'_
         });
         for_each_texel(sampling, corners, |[x, y], shares| {
             let [east, south] = sampling.slopes(x, y);
-            let normal_of = |part: fn(&(Vector, Vector)) -> Vector| blend(frames.each_ref().map(part), shares);
+            let normal_of =
+                |part: fn(&(Vector, Vector)) -> Vector| blend(frames.each_ref().map(part), shares);
             let texel = texel(normal(east, south), normal_of(|frame| frame.0), normal_of(|frame| frame.1));
             map.texels[sampling.texels.index(x, y)] = Some(texel);
         });
@@ -59,11 +60,7 @@ fn texel(wanted: Vector, normal: Vector, tangent: Vector) -> [u8; 3] {
 }
 
 /// Calls `visit` with each texel whose centre lies in a triangle, and the shares of the three corners in it.
-fn for_each_texel(
-    sampling: &Sampling<'_>,
-    corners: [Point; 3],
-    mut visit: impl FnMut([usize; 2], [f64; 3]),
-) {
+fn for_each_texel(sampling: &Sampling<'_>, corners: [Point; 3], mut visit: impl FnMut([usize; 2], [f64; 3])) {
     let [a, b, c] = corners.map(|corner| sampling.texel_of(corner));
     let area = (b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1]);
     let range = |axis: usize, count: usize| {

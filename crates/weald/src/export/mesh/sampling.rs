@@ -49,10 +49,7 @@ impl<'a> Sampling<'a> {
     pub(super) fn texel_of(&self, [x, y]: Point) -> [f64; 2] {
         let scaled =
             |at: u32, texels: usize, cells: usize| (f64::from(at) + 0.5) * texels as f64 / cells as f64 - 0.5;
-        [
-            scaled(x, self.texels.columns, self.grid.columns),
-            scaled(y, self.texels.rows, self.grid.rows),
-        ]
+        [scaled(x, self.texels.columns, self.grid.columns), scaled(y, self.texels.rows, self.grid.rows)]
     }
 }
 

@@ -26,11 +26,8 @@ fn span(triangle: [Point; 3], row: u32) -> [i64; 2] {
         if !(a[1]..=b[1]).contains(&row) {
             continue;
         }
-        let [low, high] = if a[1] == b[1] {
-            [a[0].min(b[0]), a[0].max(b[0])].map(i64::from)
-        } else {
-            crossing(a, b, row)
-        };
+        let [low, high] =
+            if a[1] == b[1] { [a[0].min(b[0]), a[0].max(b[0])].map(i64::from) } else { crossing(a, b, row) };
         (left, right) = (left.min(low), right.max(high));
     }
     [left, right]

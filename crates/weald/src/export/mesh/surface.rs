@@ -14,6 +14,9 @@ pub(super) struct Surface<'a> {
     pub(super) strictness: Field,
 }
 
+/// By how much deviations in 32 bits may come out too small.
+const ROUNDING: f64 = 1.0 + 1e-6;
+
 impl<'a> Surface<'a> {
     /// A surface to be followed to `error` metres everywhere.
     pub(super) fn new(height: &'a Field, land: Option<&'a Mask>, error: f64) -> Self {
@@ -21,13 +24,9 @@ impl<'a> Surface<'a> {
     }
 
     /// A surface each cell of which bears its own deviation, in metres.
-    pub(super) fn bearing(
-        height: &'a Field,
-        land: Option<&'a Mask>,
-        error: impl Fn(usize) -> f64,
-    ) -> Self {
+    pub(super) fn bearing(height: &'a Field, land: Option<&'a Mask>, error: impl Fn(usize) -> f64) -> Self {
         let is_land = |cell: usize| land.is_none_or(|land| land.is_land_at(cell));
-        let strictness = |cell: usize| if is_land(cell) { (1.0 / error(cell)) as f32 } else { 0.0 };
+        let strictness = |cell: usize| if is_land(cell) { (ROUNDING / error(cell)) as f32 } else { 0.0 };
         let strictness = (0..height.size().cells()).map(strictness).collect();
         Self { height, land, strictness: Field::from_values(height.size(), strictness) }
     }

@@ -1,7 +1,5 @@
 //! A finished mesh over the grid: a triangulated irregular network.
 
-use std::collections::BTreeMap;
-
 use super::delaunay::{Delaunay, Point};
 use super::plane::Plane;
 use super::scan::for_each_row;
@@ -62,16 +60,12 @@ impl Tin {
 
     /// Edges that bound one triangle alone, each in the direction of its triangle, in rising order.
     pub(super) fn outline(&self) -> Vec<[u32; 2]> {
-        let mut sides = BTreeMap::new();
-        for [a, b, c] in &self.triangles {
-            for edge in [[*a, *b], [*b, *c], [*c, *a]] {
-                let [first, second] = edge;
-                if sides.remove(&[second, first]).is_none() {
-                    sides.insert(edge, ());
-                }
-            }
-        }
-        sides.into_keys().collect()
+        let sides = |&[a, b, c]: &[u32; 3]| [[a, b], [b, c], [c, a]];
+        let mut sides: Vec<_> = self.triangles.iter().flat_map(sides).collect();
+        let ends = |&[a, b]: &[u32; 2]| [a.min(b), a.max(b)];
+        sides.sort_unstable_by_key(ends);
+        let shared = sides.chunk_by(|first, second| ends(first) == ends(second));
+        shared.filter(|sides| sides.len() == 1).map(|sides| sides[0]).collect()
     }
 }
 

@@ -4,6 +4,7 @@
 //! it, under the bank, so that the shore is where the two surfaces meet and not a stair of cells.
 
 use super::surface::Surface;
+use crate::analyse::component::components;
 use crate::domain::Domain;
 use crate::grid::{Field, Mask};
 use crate::landscape::Landscape;
@@ -18,8 +19,6 @@ pub(super) struct Water {
     pub(super) level: Field,
     /// Where the sheet is.
     pub(super) sheet: Mask,
-    /// Cells that are wet.
-    wet: Vec<bool>,
 }
 
 impl Water {
@@ -32,26 +31,27 @@ impl Water {
         let is_wet = |(cell, &depth): (usize, &f32)| depth >= shallowest && is_land(cell);
         let mut wet: Vec<_> = depth.values().iter().enumerate().map(is_wet).collect();
         drop_puddles(&mut wet, domain);
-        wet.contains(&true).then(|| Self::over(ground, depth, wet, domain))
+        wet.contains(&true).then(|| Self::over(ground, depth, &wet, domain))
     }
 
-    fn over(ground: &Field, depth: &Field, wet: Vec<bool>, domain: &Domain) -> Self {
+    fn over(ground: &Field, depth: &Field, wet: &[bool], domain: &Domain) -> Self {
         let size = domain.size;
         let mut level = ground.clone();
         for (level, depth) in level.values_mut().iter_mut().zip(depth.values()) {
             *level += depth;
         }
-        let mut sheet = wet.clone();
+        let mut sheet = wet.to_vec();
         let is_land = |cell: usize| domain.land.as_ref().is_none_or(|land| land.is_land_at(cell));
         for cell in (0..size.cells()).filter(|&cell| !wet[cell] && is_land(cell)) {
-            let beside = || size.neighbours(cell).filter(|&other| wet[other]);
-            let levels = beside().map(|other| ground.values()[other] + depth.values()[other]);
+            let beside = size.neighbours(cell).filter(|&other| wet[other]);
+            let levels = beside.map(|other| ground.values()[other] + depth.values()[other]);
             if let Some(lowest) = levels.min_by(f32::total_cmp) {
                 sheet[cell] = true;
-                level.values_mut()[cell] = lowest;
+                // Where the ground falls away from water, the sheet comes down to it.
+                level.values_mut()[cell] = level.values()[cell].min(lowest);
             }
         }
-        Self { level, sheet: Mask::always(size, sheet), wet }
+        Self { level, sheet: Mask::always(size, sheet) }
     }
 
     /// The ground, to be followed to `error` metres, and beside water closely enough to stay on its side of it.
@@ -65,11 +65,6 @@ impl Water {
         };
         Surface::bearing(ground, land, bears)
     }
-
-    /// Number of wet cells.
-    pub(super) fn wet_cells(&self) -> usize {
-        self.wet.iter().filter(|&&wet| wet).count()
-    }
 }
 
 /// Share of the distance between ground and water by which the ground may be off.
@@ -79,24 +74,8 @@ const CLEARANCE: f64 = 0.5;
 const STRICTEST: f64 = 0.2;
 
 fn drop_puddles(wet: &mut [bool], domain: &Domain) {
-    let mut seen = vec![false; wet.len()];
-    for start in 0..wet.len() {
-        if seen[start] || !wet[start] {
-            continue;
-        }
-        seen[start] = true;
-        let mut members = vec![start];
-        let mut next = 0;
-        while let Some(&cell) = members.get(next) {
-            for other in domain.size.neighbours(cell).filter(|&other| wet[other]) {
-                if !std::mem::replace(&mut seen[other], true) {
-                    members.push(other);
-                }
-            }
-            next += 1;
-        }
-        if members.len() < SMALLEST {
-            members.iter().for_each(|&member| wet[member] = false);
-        }
+    let patches = components(domain.size, wet);
+    for puddle in patches.into_iter().filter(|patch| patch.len() < SMALLEST) {
+        puddle.into_iter().for_each(|cell| wet[cell] = false);
     }
 }
