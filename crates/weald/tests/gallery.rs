@@ -1,7 +1,7 @@
 //! The frame of the gallery, and every figure in it as a draft.
 
 use weald::gallery::{
-    Detail, FIGURES, Figure, FigureOutput, GalleryJob, Measured, Plate, Selection, write_figures,
+    Claim, Detail, FIGURES, Figure, FigureOutput, GalleryJob, Measured, Plate, Selection, Verdict, write_figures,
 };
 use weald::picture::Image;
 
@@ -10,11 +10,13 @@ fn plate(job: GalleryJob) -> FigureOutput {
     let plates = vec![Plate { name: "view", caption: "A sheet".to_owned(), image: Image::paper(side, side) }];
     let rows = vec![vec!["paper".to_owned(), side.to_string()]];
     let header = vec!["kind".to_owned(), "side".to_owned()];
-    FigureOutput { plates, measured: Measured { header, rows, remarks: vec!["Blank.".to_owned()] } }
+    let measured = Measured { header, rows, remarks: vec!["Blank.".to_owned()] };
+    let claims = vec![Claim::new("Paper is blank", Verdict::of(side > 2), format!("{side} cells"))];
+    FigureOutput { plates, measured, claims }
 }
 
 fn figure(id: &'static str) -> Figure {
-    Figure { id, title: "A test", source: "Weald", shows: "Paper.", make: |job| Ok(plate(job)) }
+    Figure { id, title: "A test", source: "Weald", shows: "Paper.", seconds: 0, make: |job| Ok(plate(job)) }
 }
 
 #[test]
@@ -38,7 +40,7 @@ fn making_one_figure_again_keeps_the_sections_of_the_others() {
     let full = Selection { only: &[], job: GalleryJob::default() };
     write_figures(&figures, folder.path(), &full, &|_| {}).expect("writes");
     let draft = Selection { only: &["two".to_owned()], job: GalleryJob { detail: Detail::Draft } };
-    write_figures(&figures, folder.path(), &draft, &|id| assert_eq!(id, "two")).expect("writes");
+    write_figures(&figures, folder.path(), &draft, &|begun| assert_eq!((begun.figure.id, begun.number, begun.count), ("two", 1, 1))).expect("writes");
     let page = std::fs::read_to_string(folder.path().join("index.md")).expect("a page");
     let (one, two) = (page.find("| paper | 4 |").expect("one"), page.find("| paper | 2 |").expect("two"));
     assert!(one < two, "{page}");

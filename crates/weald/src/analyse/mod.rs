@@ -1,16 +1,32 @@
-//! Reading the land: flow, rivers and lakes, and measures of ground and water.
+//! Reading the land: layers of what its shape means for water, light and plants, and measures of ground and water.
 //!
-//! What is measured is a function of fields and masks first, and a step of a recipe second.
+//! What is measured is a function of fields and masks first, and a step of a recipe second. Each step of
+//! [`Stage::Analyse`](crate::step::Stage::Analyse) stands in a file of its name and says unit and range of what it
+//! writes.
 
+pub mod aspect;
+mod cells;
 pub(crate) mod component;
 pub mod contour;
+pub mod curvature;
 pub mod directions;
 pub mod flow;
 mod gaussian;
+mod horizon;
 pub mod lakes;
+mod latitude;
 pub mod network;
+pub mod network_step;
+pub mod occlusion;
 mod priority_flood;
+mod quadric;
 pub mod rivers;
+pub mod select;
+mod sky;
+pub mod slope;
+pub mod soil;
+mod sun;
+pub mod sunlight;
 
 use rayon::prelude::*;
 

@@ -242,6 +242,10 @@ impl Step for Hydraulic {
         std::iter::once((self.layer.0.clone(), "m")).chain(own).collect()
     }
 
+    fn watched(&self) -> u64 {
+        u64::from(self.iterations)
+    }
+
     fn layered(&self) -> Layered {
         if self.model == Model::Stava { Layered::Changes } else { Layered::Never }
     }

@@ -1,18 +1,33 @@
 //! The figures of the publications that Weald implements, made again and measured. [`FIGURES`] is the registry.
 
+mod ages;
 mod banks;
 mod canyon;
+mod cases;
+mod claim;
 mod cone;
-mod erosion;
+mod deposits;
+mod dissolution;
+mod drift;
 mod fault;
+mod flow_rate;
 mod force;
+mod forms;
+mod han;
 mod lake;
 mod layered;
 mod levee;
 mod page;
+mod parameters;
+mod printed;
+mod spacing;
+mod stability;
 mod start;
 mod steps;
+mod views;
+mod weathering;
 
+pub use claim::{Claim, Verdict};
 pub use steps::run_steps;
 
 use std::path::Path;
@@ -32,6 +47,8 @@ pub struct Figure {
     pub source: &'static str,
     /// What the source shows and claims.
     pub shows: &'static str,
+    /// About how many seconds it takes at full detail on two cores, for those who wait.
+    pub seconds: u32,
     /// Makes it.
     pub make: fn(GalleryJob) -> Result<FigureOutput, Error>,
 }
@@ -70,6 +87,8 @@ pub struct FigureOutput {
     pub plates: Vec<Plate>,
     /// What was measured.
     pub measured: Measured,
+    /// What the source claims, judged by the measures.
+    pub claims: Vec<Claim>,
 }
 
 /// One picture of a figure.
@@ -99,8 +118,18 @@ pub const FIGURES: &[Figure] = &[
     fault::FIGURE,
     cone::FIGURE,
     start::FIGURE,
-    erosion::WEATHERING,
-    erosion::DISSOLUTION,
+    parameters::FIGURE,
+    stability::FIGURE,
+    flow_rate::FIGURE,
+    forms::FIGURE,
+    cases::FIGURE,
+    weathering::FIGURE,
+    spacing::FIGURE,
+    deposits::FIGURE,
+    ages::FIGURE,
+    dissolution::FIGURE,
+    printed::FIGURE,
+    drift::FIGURE,
     canyon::FIGURE,
     force::FIGURE,
     banks::FIGURE,
@@ -108,12 +137,23 @@ pub const FIGURES: &[Figure] = &[
     levee::FIGURE,
 ];
 
+/// A figure that is about to be made.
+#[derive(Clone, Copy, Debug)]
+pub struct Begun<'a> {
+    /// The figure.
+    pub figure: &'a Figure,
+    /// Its place among those that are made, counted from 1.
+    pub number: usize,
+    /// How many are made.
+    pub count: usize,
+}
+
 /// Makes the figures named in `only`, or all where it is empty, and writes their pictures and `index.md` into
-/// a folder. Sections of other figures on an older page stay. `progress` hears the id of each figure begun.
+/// a folder. Sections of other figures on an older page stay. `progress` hears of each figure begun.
 ///
 /// # Errors
 /// [`Error::Run`] for an unknown id, a failed step, or a folder that cannot be written.
-pub fn write(folder: &Path, only: &[String], progress: &dyn Fn(&str)) -> Result<(), Error> {
+pub fn write(folder: &Path, only: &[String], progress: &dyn Fn(Begun<'_>)) -> Result<(), Error> {
     write_figures(FIGURES, folder, &Selection { only, job: GalleryJob::default() }, progress)
 }
 
@@ -126,7 +166,8 @@ pub struct Selection<'a> {
     pub job: GalleryJob,
 }
 
-/// [`write()`] for any list of figures.
+/// [`write()`] for any list of figures. The page is written after each, so that what is done stays if the rest
+/// is interrupted.
 ///
 /// # Errors
 /// As [`write()`].
@@ -134,25 +175,30 @@ pub fn write_figures(
     figures: &[Figure],
     folder: &Path,
     selection: &Selection<'_>,
-    progress: &dyn Fn(&str),
+    progress: &dyn Fn(Begun<'_>),
 ) -> Result<(), Error> {
     check_ids(figures, selection.only)?;
     std::fs::create_dir_all(folder).map_err(|cause| Error::write(folder, &cause))?;
     let page = folder.join("index.md");
     let mut sections = page::sections(&page);
-    for figure in figures.iter().filter(|figure| selected(figure, selection.only)) {
-        progress(figure.id);
+    let chosen: Vec<_> = figures.iter().filter(|figure| selected(figure, selection.only)).collect();
+    for (place, figure) in chosen.iter().enumerate() {
+        progress(Begun { figure, number: place + 1, count: chosen.len() });
         let output = (figure.make)(selection.job)?;
-        for plate in &output.plates {
-            let text = [
-                ("Title".to_owned(), figure.title.to_owned()),
-                ("Source".to_owned(), figure.source.to_owned()),
-            ];
-            write_whole(&folder.join(page::file_name(figure, plate)), &plate.image.to_png(&text))?;
-        }
+        write_plates(figure, &output, folder)?;
         sections.insert(figure.id.to_owned(), page::section(figure, &output));
+        write_whole(&page, page::assemble(figures, &sections).as_bytes())?;
     }
-    write_whole(&page, page::assemble(figures, &sections).as_bytes())
+    Ok(())
+}
+
+fn write_plates(figure: &Figure, output: &FigureOutput, folder: &Path) -> Result<(), Error> {
+    let text =
+        [("Title".to_owned(), figure.title.to_owned()), ("Source".to_owned(), figure.source.to_owned())];
+    for plate in &output.plates {
+        write_whole(&folder.join(page::file_name(figure, plate)), &plate.image.to_png(&text))?;
+    }
+    Ok(())
 }
 
 fn selected(figure: &Figure, only: &[String]) -> bool {
@@ -167,4 +213,9 @@ fn check_ids(figures: &[Figure], only: &[String]) -> Result<(), Error> {
         }
         None => Ok(()),
     }
+}
+
+/// Headings or cells of a table.
+fn texts<const N: usize>(texts: [&str; N]) -> Vec<String> {
+    texts.map(str::to_owned).to_vec()
 }

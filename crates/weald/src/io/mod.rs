@@ -5,19 +5,22 @@
 //! the whole file.
 
 mod atomic;
+pub(crate) mod cf;
 mod fault;
 mod format;
 pub mod geotiff;
 mod info;
 mod limits;
+pub mod netcdf;
 pub mod npy;
+mod number;
 mod parts;
 pub mod png16;
 mod provenance;
 mod raster;
 mod square;
 
-pub use atomic::{write_parts, write_whole, write_whole_with};
+pub use atomic::{write_parts, write_through, write_whole, write_whole_with};
 pub use fault::Fault;
 pub use format::{Decode, DecodeFile, Encode, Format, Holds, Knowledge, Preset, Values};
 pub use info::{Info, describe};
@@ -35,7 +38,13 @@ use self::parts::OnDisk;
 use crate::error::Error;
 
 /// All raster formats.
-pub const FORMATS: &[Format] = &[geotiff::FORMAT, png16::FORMAT, npy::FORMAT];
+#[rustfmt::skip] // one entry a line, so that branches that add some do not meet
+pub const FORMATS: &[Format] = &[
+    geotiff::FORMAT,
+    png16::FORMAT,
+    npy::FORMAT,
+    netcdf::FORMAT,
+];
 
 /// The format of a file name.
 ///

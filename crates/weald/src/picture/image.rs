@@ -1,7 +1,10 @@
 //! A finished picture and its PNG.
 
-use super::PAPER;
 use super::colour::encode;
+use super::{PAPER, digits};
+
+/// Colour of numbers.
+const INK: [u8; 3] = [70, 64, 56];
 
 /// Eight bits a channel, sRGB, row-major from the top left.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -70,6 +73,14 @@ impl Image {
         whole
     }
 
+    /// The picture below a line with a number, or with several apart by spaces.
+    pub fn numbered(&self, number: &str) -> Self {
+        let side = 2;
+        let mut line = Self::paper(self.width, (digits::HEIGHT + 4) * side);
+        digits::write(&mut line, number, [2 * side, 2 * side], side, INK);
+        Self::below(&[line, self.clone()], 0)
+    }
+
     fn paste(&mut self, image: &Self, left: usize, top: usize) {
         for (y, row) in image.rgb.chunks_exact(3 * image.width).enumerate() {
             let start = 3 * ((top + y) * self.width + left);
@@ -92,6 +103,15 @@ mod tests {
         assert_eq!(pixels, image.rgb);
         let text = &reader.info().utf8_text[0];
         assert_eq!((text.keyword.as_str(), text.get_text().expect("text").as_str()), ("weald", "größe 7 m"));
+    }
+
+    #[test]
+    fn a_number_stands_above_its_picture_and_leaves_it_as_it_was() {
+        let image = Image { width: 40, height: 2, rgb: (0..240).collect() };
+        let numbered = image.numbered("0.5 3");
+        let above = numbered.height - image.height;
+        assert_eq!(numbered.rgb[3 * 40 * above..], image.rgb);
+        assert!(numbered.rgb[..3 * 40 * above].chunks(3).any(|pixel| *pixel == INK), "there is a number");
     }
 
     #[test]

@@ -7,6 +7,7 @@ mod contours;
 mod cut;
 mod digits;
 mod drainage;
+mod font;
 mod ground;
 mod image;
 mod lakes;
@@ -23,6 +24,7 @@ mod sheet;
 mod spline;
 mod strokes;
 mod texture;
+mod view;
 
 pub(crate) use albedo::{Pigment, albedo};
 pub(crate) use colour::linear_of_srgb;
@@ -33,6 +35,7 @@ pub use materials::Materials;
 pub use ramp::{Ramp, Scale, Tint};
 pub use relief::Relief;
 pub use section::{Along, Section};
+pub use view::{Cover, View};
 
 use std::fmt::Debug;
 
@@ -52,6 +55,13 @@ pub trait Picture: Debug + Send + Sync {
     /// Names of the layers it draws where they exist.
     fn optional(&self) -> Vec<String> {
         Vec::new()
+    }
+
+    /// The same picture from a camera that has gone a share of a turn around the landscape, 0 to 1, clockwise
+    /// from above; `None` for a picture without a camera.
+    fn turned(&self, share: f64) -> Option<Box<dyn Picture>> {
+        let _ = share;
+        None
     }
 
     /// Draws a landscape that has all the layers in [`Picture::reads`].
@@ -106,6 +116,11 @@ pub const PICTURES: &[PictureEntry] = &[
         "section",
         "the ground cut open along a row or a column, with its layers and the water on it",
         "Weald",
+    ),
+    PictureEntry::of::<View>(
+        "view",
+        "a perspective view with sun, sky, haze and water",
+        "Tevs 2008 (rays), Hillaire 2020 (sky), Max 1988 (horizons), Koschmieder 1924 (haze)",
     ),
     PictureEntry::of::<Map>("map", "one layer in an even colour ramp, linear or logarithmic", "Weald"),
 ];

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use super::catalog::CATALOG;
 use super::parameter::{Kind, Parameter, Parameters};
-use super::plan::{LandscapeKeys, MaterialKeys};
+use super::plan::{FilmKeys, LandscapeKeys, MaterialKeys};
 use crate::export::EXPORTS;
 use crate::picture::PICTURES;
 use crate::step::{Entry, Stage};
@@ -33,12 +33,18 @@ const TABLES: &[LandscapeTable] = &[
         summary: "what the ground is made of: a table a material, bedrock first, 8 at most",
         parameters: MaterialKeys::parameters,
     },
+    LandscapeTable {
+        name: "film",
+        header: "[[output]] picture = …",
+        summary: "keys that make a film of a picture: numbered .png, and a video where `file` is a .mp4 or .webm",
+        parameters: FilmKeys::parameters,
+    },
 ];
 
 /// All tables, steps, pictures and exports, a line each.
 pub fn overview() -> String {
     let mut text = String::new();
-    list(&mut text, "tables of the landscape", TABLES.iter().map(|table| (table.name, table.summary)));
+    list(&mut text, "tables", TABLES.iter().map(|table| (table.name, table.summary)));
     for stage in Stage::ALL {
         let entries = CATALOG.iter().filter(|entry| entry.stage == stage);
         list(&mut text, stage.title(), entries.map(|entry| (entry.name, entry.summary)));

@@ -1,6 +1,7 @@
 //! The checked recipe. Nothing runs before the whole of it has been checked, and one look shows all faults.
 
 mod files;
+mod films;
 mod landscape;
 mod layers;
 mod materials;
@@ -13,6 +14,7 @@ use std::fs::File;
 use std::io::{ErrorKind, Read};
 use std::path::{Path, PathBuf};
 
+pub use films::{Film, FilmKeys, Motion};
 pub use landscape::{Ground, LandscapeKeys};
 pub use materials::{BuiltIn, MaterialKeys, PlannedMaterial};
 pub use outputs::{Content, Output};

@@ -87,20 +87,34 @@ impl Ways<'_> {
 
     /// Lowers the cells of a channel to its pit, as far as a cell that is no higher.
     fn cut(&self, basin: u32, surface: &mut Surface) {
-        let pit = self.pit_level(basin);
-        let mut current = basin;
-        loop {
+        let pit = self.basins.pits[basin as usize];
+        let level = self.ground[pit];
+        let (mut current, mut way) = (basin, self.across(surface, pit, basin));
+        way.remove(0);
+        while lower(surface, &way, level) {
             let exit = self.exits[current as usize];
-            let ascent = self.descent(surface, exit.from);
-            if !lower(surface, ascent.iter().rev().skip(1), pit) || exit.into == 0 {
-                return;
-            }
-            let descent = self.descent(surface, exit.to);
-            if !lower(surface, descent.iter(), pit) {
-                return;
-            }
             current = exit.into;
+            if current == 0 {
+                return;
+            }
+            way = self.across(surface, exit.to, current);
+            if self.pit_level(current) <= level {
+                // The channel ends on the way down to this pit.
+                way = self.descent(surface, exit.to);
+            }
         }
+    }
+
+    /// The cells from one of a basin down, and up again to its pass, from where the two ways part.
+    fn across(&self, surface: &Surface, from: usize, basin: u32) -> Vec<usize> {
+        let mut down = self.descent(surface, from);
+        let mut up = self.descent(surface, self.exits[basin as usize].from);
+        while down.len() > 1 && up.len() > 1 && down[down.len() - 2] == up[up.len() - 2] {
+            down.pop();
+            up.pop();
+        }
+        down.extend(up.iter().rev().skip(1));
+        down
     }
 
     /// The cells from one down to its pit.
@@ -114,7 +128,7 @@ impl Ways<'_> {
 }
 
 /// Lowers cells to a level; false where one is no higher and the channel ends.
-fn lower<'a>(surface: &mut Surface, cells: impl Iterator<Item = &'a usize>, level: f32) -> bool {
+fn lower(surface: &mut Surface, cells: &[usize], level: f32) -> bool {
     for &cell in cells {
         if surface.level[cell] <= level {
             return false;

@@ -41,7 +41,9 @@ parameters! {
         from: Source = Source::Depressions;
         /// For `from = "water"`: layer of the depth of water.
         water: LayerName = LayerName::of("water");
-        /// Lakes that are nowhere deeper are left out. Water of a simulation that is no deeper counts as a film.
+        /// For `from = "water"`: water no deeper is a film of rain and not part of a lake.
+        film: f64 = 0.1, range 0.0..=1000.0, unit "m";
+        /// Lakes that are nowhere deeper are left out.
         depth: f64 = 1.0, range 0.0..=1.0e6, unit "m";
         /// Smaller lakes are left out. Without it, those of fewer than 12 cells.
         area: Option<f64> = None, range 0.0..=1.0e15, unit "m²";
@@ -75,18 +77,17 @@ impl Step for LakesStep {
         for name in self.reads() {
             ensure_finite(landscape, &name)?;
         }
-        let standing = self.standing(landscape)?;
-        let lakes = self.large_enough(landscape, &standing);
-        let size = landscape.domain.size;
         let ground = landscape.field(&self.of.0)?;
-        let mut number = Field::filled(size, 0.0);
-        let (mut level, mut depth) = (ground.clone(), Field::filled(size, 0.0));
+        let surface = self.surface(landscape)?;
+        let lakes = self.large_enough(landscape, ground, &surface);
+        let mut number = Field::filled(ground.size(), 0.0);
+        let (mut level, mut depth) = (ground.clone(), number.clone());
         for (at, cells) in lakes.iter().enumerate().take(MOST_LAKES as usize) {
-            let surface = level_of(cells, ground, &standing);
+            let mean = mean_level(cells, &surface);
             for &cell in cells {
                 number.values_mut()[cell] = (at + 1) as f32;
-                level.values_mut()[cell] = surface;
-                depth.values_mut()[cell] = (surface - ground.values()[cell]).max(0.0);
+                level.values_mut()[cell] = mean;
+                depth.values_mut()[cell] = (mean - ground.values()[cell]).max(0.0);
             }
         }
         landscape.insert("lake", "1", number);
@@ -98,33 +99,35 @@ impl Step for LakesStep {
 }
 
 impl LakesStep {
-    /// Depth of standing water in each cell; 0 where there is no data.
-    fn standing(&self, landscape: &Landscape) -> Result<Vec<f32>, Error> {
-        let domain = &landscape.domain;
+    /// Height of the surface of standing water in each cell; that of the ground where there is none.
+    fn surface(&self, landscape: &Landscape) -> Result<Vec<f32>, Error> {
+        let land = landscape.domain.land.as_ref();
         let ground = landscape.field(&self.of.0)?;
         let routing = Routing { sea_level: self.sea_level, ..Routing::default() };
-        let routed = route(ground, domain.land.as_ref(), &routing);
-        let depth = |cell: usize| match self.from {
-            Source::Depressions => Ok(routed.surface.values()[cell] - ground.values()[cell]),
-            Source::Water => {
-                let depth = landscape.field(&self.water.0)?.values()[cell];
-                Ok(if f64::from(depth) > self.depth { depth } else { 0.0 })
-            }
+        let routed = route(ground, land, &routing);
+        let water = match self.from {
+            Source::Depressions => None,
+            Source::Water => Some(landscape.field(&self.water.0)?.values()),
         };
-        let dry = |cell: usize| {
-            routed.directions.is_sea(cell) || domain.land.as_ref().is_some_and(|land| !land.is_land_at(cell))
+        let surface = |(cell, &ground): (usize, &f32)| match water {
+            _ if routed.directions.is_sea(cell) || land.is_some_and(|land| !land.is_land_at(cell)) => ground,
+            None => routed.surface.values()[cell],
+            Some(depth) if f64::from(depth[cell]) > self.film => ground + depth[cell],
+            Some(_) => ground,
         };
-        (0..domain.size.cells()).map(|cell| if dry(cell) { Ok(0.0) } else { depth(cell) }).collect()
+        Ok(ground.values().iter().enumerate().map(surface).collect())
     }
 
     /// Connected water that is a lake, the largest first.
-    fn large_enough(&self, landscape: &Landscape, standing: &[f32]) -> Vec<Vec<usize>> {
+    fn large_enough(&self, landscape: &Landscape, ground: &Field, surface: &[f32]) -> Vec<Vec<usize>> {
         let domain = &landscape.domain;
         let least_cells = self.area.map_or(FEWEST_CELLS, |area| area / domain.cell_area());
-        let wet: Vec<bool> = standing.iter().map(|&depth| depth > 0.0).collect();
+        let depth: Vec<f32> =
+            surface.iter().zip(ground.values()).map(|(surface, ground)| surface - ground).collect();
+        let wet: Vec<bool> = depth.iter().map(|&depth| depth > 0.0).collect();
         let mut lakes = components(domain.size, &wet);
         lakes.retain(|cells| {
-            let deepest = cells.iter().map(|&cell| standing[cell]).fold(0.0, f32::max);
+            let deepest = cells.iter().map(|&cell| depth[cell]).fold(0.0, f32::max);
             cells.len() as f64 >= least_cells && f64::from(deepest) > self.depth
         });
         // Of two of the same size, the one further north and west.
@@ -133,10 +136,10 @@ impl LakesStep {
     }
 }
 
-/// Height of the surface of a lake: that of its water on average, the same in all cells of a full depression.
-fn level_of(cells: &[usize], ground: &Field, standing: &[f32]) -> f32 {
-    let surface = |&cell: &usize| f64::from(ground.values()[cell] + standing[cell]);
-    let first = surface(&cells[0]);
-    let above_first: f64 = cells.iter().map(|cell| surface(cell) - first).sum();
+/// Height of the surface of a lake: that of its water on average, which is the same in all cells of a full
+/// depression.
+fn mean_level(cells: &[usize], surface: &[f32]) -> f32 {
+    let first = f64::from(surface[cells[0]]);
+    let above_first: f64 = cells.iter().map(|&cell| f64::from(surface[cell]) - first).sum();
     (first + above_first / cells.len() as f64) as f32
 }

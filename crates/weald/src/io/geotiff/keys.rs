@@ -162,9 +162,41 @@ fn shorts(keys: &[(u16, u16)]) -> GeoKeys {
     GeoKeys { directory: header.into_iter().chain(entries).collect(), ..GeoKeys::default() }
 }
 
+/// The keys of a CRS by its code alone: longitude and latitude, or a grid in a unit of so many metres.
+pub(in crate::io) fn keys_by_code(epsg: Option<u32>, is_geographic: bool, metres: f64) -> GeoKeys {
+    let code = epsg.and_then(|code| u16::try_from(code).ok()).unwrap_or(USER_DEFINED);
+    if is_geographic {
+        return shorts(&[(MODEL_TYPE, GEOGRAPHIC), (RASTER_TYPE, PIXEL_IS_AREA), (GEOGRAPHIC_TYPE, code)]);
+    }
+    let named = [METRE, FOOT, SURVEY_FOOT].into_iter().find(|unit| {
+        let keys = shorts(&[(LINEAR_UNITS, *unit)]);
+        metres_per_unit(Some(&keys)) == Ok(metres)
+    });
+    let unit = (LINEAR_UNITS, named.unwrap_or(USER_DEFINED));
+    let mut keys =
+        shorts(&[(MODEL_TYPE, PROJECTED), (RASTER_TYPE, PIXEL_IS_AREA), (PROJECTED_TYPE, code), unit]);
+    if named.is_none() {
+        keys.directory[3] += 1;
+        keys.directory.extend([LINEAR_UNIT_SIZE, tag::GEO_DOUBLE_PARAMETERS, 1, 0]);
+        keys.doubles = vec![metres];
+    }
+    keys
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn keys_of_a_unit_give_its_metres_again() {
+        for metres in [1.0, 0.3048, 1200.0 / 3937.0, 201.168] {
+            let keys = keys_by_code(Some(2264), false, metres);
+            assert_eq!(metres_per_unit(Some(&keys)), Ok(metres));
+            assert_eq!((epsg(&keys), keys.is_geographic()), (Some(2264), false));
+            assert_eq!(keys.directory.len(), 4 + 4 * usize::from(keys.directory[3]));
+        }
+        assert!(keys_by_code(None, true, 1.0).is_geographic());
+    }
 
     #[test]
     fn a_matrix_without_rotation_is_a_corner_and_a_cell() {
