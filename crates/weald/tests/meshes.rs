@@ -101,16 +101,16 @@ fn saved(glb: &[u8]) -> (tempfile::TempDir, PathBuf) {
 #[test]
 fn the_khronos_validator_has_no_error_and_no_warning_for_any_kind_of_mesh() {
     let modules = client("gltf/node_modules");
-    let plain = Mesh { colours: Colours::Plain, normal_map: false, water: false, ..Mesh::default() };
-    let full = Mesh { skirt: 50.0, texture: Some(64), ..Mesh::default() };
-    let materials = Mesh { colours: Colours::Materials, texture: Some(300), error: 20.0, ..Mesh::default() };
+    let plain = Mesh { colours: Some(Colours::Plain), normal_map: false, water: false, ..Mesh::default() };
+    let full = Mesh { colours: Some(Colours::Natural), skirt: 50.0, texture: Some(64), ..Mesh::default() };
+    let tints = Mesh { colours: Some(Colours::Tints), texture: Some(300), error: 20.0, ..Mesh::default() };
     let mut fine = common::landscape(common::rough(300, 300, 300.0, 3));
     fine.domain.cell = 0.25;
     let every_cell = Mesh { error: 0.001, normal_map: false, texture: Some(16), ..Mesh::default() };
     for (mesh, landscape, meshes) in [
         (plain, mountains(false), 1),
         (full, mountains(true), 3),
-        (materials, mountains(false), 2),
+        (tints, mountains(false), 2),
         (every_cell, fine, 1),
     ] {
         let glb = written(&mesh, &landscape);

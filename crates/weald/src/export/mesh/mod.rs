@@ -51,16 +51,18 @@ use crate::grid::Field;
 use crate::io::Part;
 use crate::landscape::Landscape;
 use crate::material::Material;
-use crate::picture::{Pigment, Tint, albedo, linear_of_srgb};
+use crate::picture::{Cover, Image, Tint, View, albedo, linear_of_srgb, tinted};
 use crate::recipe::parameter::LayerName;
 
 crate::choices! {
     /// Colours of a mesh.
     pub enum Colours {
+        /// Meadow, forest, scree, rock and snow, as in a picture `view`.
+        Natural = "natural",
+        /// Those of the materials at the surface, as in a picture `view`.
+        Materials = "materials",
         /// By height, in the tints of `ramp`.
         Tints = "tints",
-        /// Those of the materials at the surface.
-        Materials = "materials",
         /// One colour, that of the bedrock, and no texture.
         Plain = "plain",
     }
@@ -74,8 +76,11 @@ crate::parameters! {
         /// Greatest distance, straight up or down, of the mesh from the ground at the centre of any cell. The mesh
         /// has as few triangles as greedy insertion finds for it.
         error: f64 = 1.0, range 0.001..=10000.0, unit "m";
-        /// Colours of the ground, without light and shade.
-        colours: Colours = Colours::Tints;
+        /// Colours of the ground, without light and shade. By default `materials` where the recipe names materials of
+        /// its own, else `natural`.
+        colours: Option<Colours> = None;
+        /// Elevation from which snow lies on natural ground that is not too steep. By default there is none.
+        snow_line: Option<f64> = None, unit "m";
         /// Colours of heights, for `colours = "tints"`.
         ramp: Tint = Tint::Hypsometric;
         /// Width of the colour texture. By default its longer side has one texel a cell, but 1024 at least and 4096 at
@@ -103,7 +108,8 @@ impl Export for Mesh {
     }
 
     fn optional(&self) -> Vec<String> {
-        if self.water { ["water", "lake_depth"].map(str::to_owned).to_vec() } else { Vec::new() }
+        let water: &[&str] = if self.water { &["water", "lake_depth", "flux_x", "flux_y"] } else { &[] };
+        ["soil", "wetness", "deposition"].iter().chain(water).map(|name| (*name).to_owned()).collect()
     }
 
     fn notes(&self, finished: &Finished<'_>) -> Vec<String> {
@@ -193,22 +199,36 @@ impl Mesh {
         landscape: &Landscape,
         normal_map: Option<usize>,
     ) -> Result<usize, Error> {
-        let pigment = match self.colours {
-            Colours::Tints => Pigment::Tints(self.ramp),
-            Colours::Materials => Pigment::Materials,
-            Colours::Plain => {
-                let colour = bedrock_colour(&landscape.materials);
-                return Ok(document.material(rough(
-                    "terrain",
-                    &json!({ "baseColorFactor": colour }),
-                    normal_map,
-                )));
-            }
+        let Some(image) = self.image(landscape)? else {
+            let colour = bedrock_colour(&landscape.materials);
+            return Ok(document.material(rough(
+                "terrain",
+                &json!({ "baseColorFactor": colour }),
+                normal_map,
+            )));
         };
-        let png = albedo(landscape, &self.of.0, pigment, self.texture)?.to_png(&[]);
-        let texture = document.texture("colours", &png);
+        let texture = document.texture("colours", &image.to_png(&[]));
         let colour = json!({ "baseColorTexture": { "index": texture } });
         Ok(document.material(rough("terrain", &colour, normal_map)))
+    }
+
+    /// The colours, where there is more than one.
+    fn image(&self, landscape: &Landscape) -> Result<Option<Image>, Error> {
+        let ground = match self.colours {
+            Some(Colours::Plain) => return Ok(None),
+            Some(Colours::Tints) => return tinted(landscape, &self.of.0, self.ramp, self.texture).map(Some),
+            Some(Colours::Natural) => Some(Cover::Natural),
+            Some(Colours::Materials) => Some(Cover::Materials),
+            None => None,
+        };
+        let view = View {
+            of: self.of.clone(),
+            ground,
+            snow_line: self.snow_line,
+            water: self.water,
+            ..View::default()
+        };
+        albedo(&view, landscape, self.texture).map(Some)
     }
 
     fn add_skirt(&self, document: &mut Document, landscape: &Landscape, mesh: &Tin, vertices: &Vertices) {
