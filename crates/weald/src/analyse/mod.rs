@@ -6,7 +6,7 @@
 
 pub mod aspect;
 mod cells;
-mod component;
+pub(crate) mod component;
 pub mod contour;
 pub mod curvature;
 pub mod directions;

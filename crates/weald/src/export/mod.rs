@@ -1,7 +1,12 @@
 //! What a landscape becomes for other programs beyond one raster: meshes, vectors, sets of tiles, pages.
 //! One file a kind; [`EXPORTS`] is the registry.
 
+mod mesh;
 pub mod report;
+mod vector;
+
+pub use mesh::{Colours, Mesh};
+pub use vector::{LakeAreas, RiverLines};
 
 use std::fmt::Debug;
 use std::path::Path;
@@ -92,6 +97,9 @@ impl ExportEntry {
 #[rustfmt::skip] // one entry a line, so that branches that add some do not meet
 pub const EXPORTS: &[ExportEntry] = &[
     report::ENTRY,
+    ExportEntry::of::<Mesh>("mesh", &["glb"], "the ground and its water as meshes of triangles, true to a stated error, with textures", "Garland and Heckbert 1995 (triangles), Mikkelsen 2008 (tangents), glTF 2.0"),
+    ExportEntry::of::<RiverLines>("rivers", &["geojson", "json"], "rivers as lines with width, depth, discharge and order", "Weald; RFC 7946"),
+    ExportEntry::of::<LakeAreas>("lakes", &["geojson", "json"], "lakes as areas with level, depth and volume", "Weald; RFC 7946"),
 ];
 
 /// The export of that name.

@@ -1,5 +1,6 @@
 //! Pictures of a landscape, one file a kind; [`PICTURES`] is the registry.
 
+mod albedo;
 mod automatic;
 mod colour;
 mod contours;
@@ -25,6 +26,8 @@ mod strokes;
 mod texture;
 mod view;
 
+pub(crate) use albedo::tinted;
+pub(crate) use colour::linear_of_srgb;
 pub use colour::{Linear, Oklab, encode, linear_of_hex};
 pub use image::Image;
 pub use map::Map;
@@ -32,6 +35,7 @@ pub use materials::Materials;
 pub use ramp::{Ramp, Scale, Tint};
 pub use relief::Relief;
 pub use section::{Along, Section};
+pub(crate) use view::albedo;
 pub use view::{Cover, View};
 
 use std::fmt::Debug;

@@ -7,6 +7,7 @@
 //! and the land; on the way to the eye light pales in the haze. Pixels depend on their place alone, so any number of
 //! threads gives the same picture.
 
+mod albedo;
 mod atmosphere;
 mod camera;
 mod cover;
@@ -24,6 +25,8 @@ mod terrain;
 mod tone;
 mod vector;
 mod water;
+
+pub(crate) use albedo::albedo;
 
 use rayon::prelude::*;
 
