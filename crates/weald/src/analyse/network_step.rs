@@ -3,8 +3,6 @@
 //! What they are says [`network`](super::network). They depend on the grid, so only landscapes of the same size
 //! compare, at the end of a dry period.
 
-use std::collections::BTreeMap;
-
 use super::network::{NetworkInput, measure};
 use crate::engine::Job;
 use crate::error::Error;
@@ -61,14 +59,10 @@ impl Step for Network {
             mean_flux_y: landscape.field(&self.flux_y.0)?,
             mean_rain: rain * landscape.domain.cell_area(),
             cell,
+            before: None,
+            land: landscape.domain.land.as_ref(),
         });
-        let measures = BTreeMap::from([
-            ("chan", measures.chan),
-            ("reach", measures.reach),
-            ("valley_largest", measures.valley_largest),
-            ("drains", measures.drains),
-            ("pits", measures.pits as f64),
-        ]);
+        let measures = measures.named().into_iter().collect();
         Ok(Outcome { iterations: 1, measures, ..Outcome::default() })
     }
 }

@@ -50,7 +50,9 @@ impl Header {
         let version = version(bytes)?;
         let mut cursor = Cursor::new(bytes, version == 5);
         let records = cursor.count().map_err(|_| {
-            Fault::damaged("the number of records was never written; `nccopy` mends a file that a program still held")
+            Fault::damaged(
+                "the number of records was never written; `nccopy` mends a file that a program still held",
+            )
         })?;
         let dimensions = list(&mut cursor, tag::DIMENSIONS, |cursor| Dimension::of(cursor, records))?;
         let attributes = attributes(&mut cursor)?;
