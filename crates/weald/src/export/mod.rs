@@ -1,6 +1,10 @@
 //! What a landscape becomes for other programs beyond one raster: meshes, vectors, sets of tiles, pages.
 //! One file a kind; [`EXPORTS`] is the registry.
 
+mod layers;
+
+pub use layers::Layers;
+
 use std::fmt::Debug;
 use std::path::Path;
 
@@ -89,6 +93,7 @@ impl ExportEntry {
 /// All kinds of exports. Adding one is one file and one line here.
 #[rustfmt::skip] // one entry a line, so that branches that add some do not meet
 pub const EXPORTS: &[ExportEntry] = &[
+    ExportEntry::of::<Layers>("layers", layers::EXTENSIONS, "several layers in one file: NetCDF or Zarr", "CF conventions 1.11, Zarr 3.0"),
 ];
 
 /// The export of that name.
