@@ -7,6 +7,9 @@ mod vector;
 
 pub use mesh::{Colours, Mesh};
 pub use vector::{LakeAreas, RiverLines};
+mod layers;
+
+pub use layers::Layers;
 
 use std::fmt::Debug;
 use std::path::Path;
@@ -100,6 +103,7 @@ pub const EXPORTS: &[ExportEntry] = &[
     ExportEntry::of::<Mesh>("mesh", &["glb"], "the ground and its water as meshes of triangles, true to a stated error, with textures", "Garland and Heckbert 1995 (triangles), Mikkelsen 2008 (tangents), glTF 2.0"),
     ExportEntry::of::<RiverLines>("rivers", &["geojson", "json"], "rivers as lines with width, depth, discharge and order", "Weald; RFC 7946"),
     ExportEntry::of::<LakeAreas>("lakes", &["geojson", "json"], "lakes as areas with level, depth and volume", "Weald; RFC 7946"),
+    ExportEntry::of::<Layers>("layers", layers::EXTENSIONS, "several layers in one file: NetCDF or Zarr", "CF conventions 1.11, Zarr 3.0"),
 ];
 
 /// The export of that name.

@@ -105,9 +105,7 @@ impl Knowledge {
             Self::NoData => "cells without data are written as the lowest value",
             Self::Cell => "the side of a cell is left out",
             Self::Place => "the place on Earth is left out; .tif holds it",
-            Self::UncodedCrs => {
-                "the CRS has no EPSG code with a definition, so that only Weald finds it; .tif holds it for all"
-            }
+            Self::UncodedCrs => cf::UNTOLD,
             Self::Provenance => "unit, seed and the hash of the recipe are left out; report.json has them",
         }
     }
