@@ -18,9 +18,9 @@ pub(crate) fn gallery(only: &[String], out: &Path) -> Result<(), Failure> {
 }
 
 fn line(Begun { figure, number, count }: Begun<'_>) -> String {
-    let mut line = format!("figure {number}/{count} {}", figure.id);
-    if figure.seconds >= LONG {
-        line += &format!(", about {} s on two cores", figure.seconds);
-    }
-    line
+    let time = match figure.seconds {
+        LONG.. => format!(", about {} s on two cores", figure.seconds),
+        _ => String::new(),
+    };
+    format!("figure {number}/{count} {}{time}", figure.id)
 }

@@ -5,9 +5,6 @@ use rayon::prelude::*;
 use crate::domain::Domain;
 use crate::grid::Field;
 
-/// Cells a task works on; results do not depend on it.
-pub(super) const CELLS_A_TASK: usize = 1 << 12;
-
 /// A field from column and row. Cells without data hold 0.
 pub(super) fn field_of(domain: &Domain, value: impl Fn(usize, usize) -> f64 + Sync) -> Field {
     let [field] = fields_of(domain, |x, y| [value(x, y)]);

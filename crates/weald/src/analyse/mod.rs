@@ -15,6 +15,7 @@ mod gaussian;
 mod horizon;
 pub mod lakes;
 mod latitude;
+pub mod moisture;
 pub mod network;
 pub mod network_step;
 pub mod occlusion;
@@ -27,6 +28,8 @@ pub mod slope;
 pub mod soil;
 mod sun;
 pub mod sunlight;
+pub mod watersheds;
+pub mod wetness;
 
 use rayon::prelude::*;
 

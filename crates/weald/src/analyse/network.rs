@@ -10,6 +10,7 @@ mod drainage;
 mod ground;
 mod hack;
 mod power_law;
+mod river_width;
 mod slope_area;
 mod strahler;
 mod transects;
@@ -55,6 +56,8 @@ pub struct NetworkInput<'a> {
 pub struct NetworkMeasures {
     /// Share of cells whose mean flow carries the rain of at least 100 cells.
     pub chan: f64,
+    /// Mean width in cells of the rivers that these cells make outside lakes; `None` where there are none.
+    pub river_width: Option<f64>,
     /// Length of the longest connected valley over the longer side of the grid, among the twentieth of the land
     /// that lies deepest below its surroundings.
     pub reach: f64,
@@ -91,17 +94,21 @@ pub fn measure(input: &NetworkInput<'_>) -> NetworkMeasures {
     for field in [input.depth, input.mean_flux_x, input.mean_flux_y].into_iter().chain(input.before) {
         assert_eq!(field.size(), size, "all fields have the size of the ground");
     }
-    let in_cells = |field: &Field| field.values().iter().map(|&value| f64::from(value) / input.cell).collect();
+    let in_cells =
+        |field: &Field| field.values().iter().map(|&value| f64::from(value) / input.cell).collect();
     let (height, depth) = (in_cells(input.ground), in_cells(input.depth));
     let ground = Ground { size, land: input.land, height, depth };
     let lakes = ground.lakes();
     let drainage = Drainage::new(&ground, &lakes);
     let carries = discharge::effective_areas(input);
+    let river: Vec<bool> =
+        carries.iter().zip(&lakes).map(|(&area, lake)| area >= CHANNEL_AREA && !lake).collect();
     let carries: Vec<f64> = ground.cells().map(|cell| carries[cell]).collect();
     let valley = valleys::valleys(&ground);
     let channels = strahler::channels(&drainage, &lakes);
     NetworkMeasures {
         chan: share_of_channels(&carries),
+        river_width: river_width::river_width(size, &river),
         reach: valley.reach,
         valley_largest: valley.largest,
         drains: draining_share(&drainage, &lakes),

@@ -6,7 +6,7 @@
 
 use rayon::prelude::*;
 
-use super::cells::CELLS_A_TASK;
+use super::CELLS_A_TASK;
 use super::horizon::Ground;
 use super::sky::{Facet, Ray};
 use crate::domain::Domain;

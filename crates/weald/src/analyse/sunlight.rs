@@ -14,7 +14,7 @@
 
 use rayon::prelude::*;
 
-use super::cells::CELLS_A_TASK;
+use super::CELLS_A_TASK;
 use super::horizon::{Direction, Ground};
 use super::latitude::latitude_deg;
 use super::sky::{Facet, Ray};

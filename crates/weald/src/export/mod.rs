@@ -2,6 +2,7 @@
 //! One file a kind; [`EXPORTS`] is the registry.
 
 mod mesh;
+pub mod report;
 mod vector;
 
 pub use mesh::{Colours, Mesh};
@@ -95,6 +96,7 @@ impl ExportEntry {
 /// All kinds of exports. Adding one is one file and one line here.
 #[rustfmt::skip] // one entry a line, so that branches that add some do not meet
 pub const EXPORTS: &[ExportEntry] = &[
+    report::ENTRY,
     ExportEntry::of::<Mesh>("mesh", &["glb"], "the ground and its water as meshes of triangles, true to a stated error, with textures", "Garland and Heckbert 1995 (triangles), Mikkelsen 2008 (tangents), glTF 2.0"),
     ExportEntry::of::<RiverLines>("rivers", &["geojson", "json"], "rivers as lines with width, depth, discharge and order", "Weald; RFC 7946"),
     ExportEntry::of::<LakeAreas>("lakes", &["geojson", "json"], "lakes as areas with level, depth and volume", "Weald; RFC 7946"),

@@ -24,25 +24,27 @@ fn make(job: GalleryJob) -> Result<FigureOutput, Error> {
     // Row by row of the picture: all ages of a seed.
     let runs: Vec<Run> = SEEDS.iter().flat_map(|&seed| ages.map(|age| Run { seed, ..run(age) })).collect();
     let runs = han::run_all(&runs)?;
-    let width = job.choose(420, 32);
-    let plate = |name, what: &str, draw: fn(&Landscape, u32) -> Result<Image, Error>| -> Result<Plate, Error> {
-        let [young, middle, old] = ages;
-        let caption = format!("{what} after {young}, {middle} and {old} steps; seed 3 above, 7 below");
-        let image = views::sheet(&runs, ages.len(), |landscape| draw(landscape, width))?;
-        Ok(Plate { name, caption, image })
-    };
+    let width = job.choose(380, 32);
+    let plate =
+        |name, what: &str, draw: fn(&Landscape, u32) -> Result<Image, Error>| -> Result<Plate, Error> {
+            let [young, middle, old] = ages;
+            let caption = format!("{what} after {young}, {middle} and {old} steps; seed 3 above, 7 below");
+            let image = views::sheet(&runs, ages.len(), |landscape| draw(landscape, width))?;
+            Ok(Plate { name, caption, image })
+        };
     Ok(FigureOutput {
         plates: vec![
             plate("relief", "Ground and water", views::relief)?,
             plate("flow", "Mean discharge", views::flow)?,
         ],
         measured: Measured {
-            header: texts(["run", "seed", "channel heads", "valley spacing", "valley width", "Strahler order"]),
+            header: texts(["run", "seed", "channel heads", "river width", "valley width", "valley spacing"]),
             rows: runs.iter().map(row).collect(),
             remarks: texts([
-                "Heads: where on the flooded ground 100 cells begin to drain through one. Valleys as rows and columns of \
-                 the grid cut them, where they are a cell deep or more: length of line a valley, and mean width at half \
-                 the depth, in cells.",
+                "Heads: where on the flooded ground 100 cells begin to drain through one. Rivers: cells outside lakes that \
+                 carry the runoff of 100 cells or more; their area over their length. Valleys as rows and columns of the \
+                 grid cut them, where they are a cell deep or more: mean width at half the depth, and length of line a \
+                 valley. All in cells.",
             ]),
         },
         claims: claims(&runs, ages.len()),
@@ -54,15 +56,20 @@ fn form(ran: &Ran) -> [f64; 2] {
     ran.measures.valleys.map_or([0.0; 2], |form| [form.spacing, form.width])
 }
 
+/// Width of the rivers in cells; 0 where there are none.
+fn river(ran: &Ran) -> f64 {
+    ran.measures.river_width.unwrap_or(0.0)
+}
+
 fn row(ran: &Ran) -> Vec<String> {
     let [spacing, width] = form(ran);
     vec![
         ran.run.name.clone(),
         ran.run.seed.to_string(),
         ran.measures.heads.to_string(),
-        format!("{spacing:.1}"),
+        format!("{:.2}", river(ran)),
         format!("{width:.1}"),
-        ran.measures.strahler.to_string(),
+        format!("{spacing:.1}"),
     ]
 }
 
@@ -72,16 +79,22 @@ fn claims(runs: &[Ran], ages: usize) -> Vec<Claim> {
         let row = |runs: &&[Ran]| runs.iter().map(number).collect::<Vec<_>>().join(" → ");
         seeds.iter().map(row).collect::<Vec<_>>().join(" and ")
     };
-    let wider = seeds.iter().all(|runs| runs.is_sorted_by(|a, b| form(a)[1] < form(b)[1]));
-    let fewer = seeds.iter().all(|runs| runs.is_sorted_by(|a, b| a.measures.heads > b.measures.heads));
+    let young_and_old = || seeds.iter().map(|runs| [&runs[0], &runs[ages - 1]]);
+    let valleys = young_and_old().all(|[young, old]| form(young)[1] < form(old)[1]);
+    let rivers = young_and_old().all(|[young, old]| river(young) < river(old));
+    let fewer = young_and_old().all(|[young, old]| young.measures.heads > old.measures.heads);
     vec![
         Claim::new(
-            "Rivers widen",
-            Verdict::of(wider),
-            format!("valley width {} cells on the two seeds", rows(&|ran| format!("{:.1}", form(ran)[1]))),
+            "The longer the run, the wider the rivers",
+            Verdict::under("of valleys, not of the water in them", valleys, valleys && rivers),
+            format!(
+                "on the two seeds rivers are {} and valleys {} cells wide",
+                rows(&|ran| format!("{:.2}", river(ran))),
+                rows(&|ran| format!("{:.1}", form(ran)[1]))
+            ),
         ),
         Claim::new(
-            "Tributaries become simpler",
+            "The longer the run, the simpler the tributaries",
             Verdict::of(fewer),
             format!("channel heads {} on the two seeds", rows(&|ran| ran.measures.heads.to_string())),
         ),

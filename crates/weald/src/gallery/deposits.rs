@@ -23,7 +23,7 @@ fn make(job: GalleryJob) -> Result<FigureOutput, Error> {
     let run = |ratio: f64| Run::new(job, &format!("r = {ratio}"), &format!("deposit_ratio = {ratio:?}"));
     let water = Run::new(job, "water only", "erosion = 0.0");
     let runs = han::run_all(&[vec![water], RATIOS.map(run).to_vec()].concat())?;
-    let width = job.choose(480, 32);
+    let width = job.choose(400, 32);
     let image = views::sheet(&runs, 4, |landscape| views::relief(landscape, width))?;
     let fills = runs.iter().map(|ran| Fill::of(ran, &runs[0])).collect::<Result<Vec<_>, _>>()?;
     Ok(FigureOutput {
@@ -94,7 +94,8 @@ fn claims(fills: &[Fill]) -> Vec<Claim> {
             Verdict::of(fills.is_sorted_by(|a, b| a.land > b.land) && least.land < 0.1 * whole.land),
             format!(
                 "{} of the lakes' cells become land at r = 0.2; the highest fill is {:.1} cells",
-                percent(least), least.highest
+                percent(least),
+                least.highest
             ),
         ),
     ]

@@ -29,7 +29,7 @@ fn make(job: GalleryJob) -> Result<FigureOutput, Error> {
     let before = start.field("height")?;
     let run = |(_, keys): (&str, &str)| -> Result<Landscape, Error> {
         let mut landscape = start.clone();
-        let keys = format!("model = \"mei\"\niterations = {iterations}\n{keys}");
+        let keys = format!("model = \"mei\"\ncapacity = 0.01\niterations = {iterations}\n{keys}");
         run_steps(&mut landscape, 0, &[("hydraulic", &keys)])?;
         Ok(landscape)
     };
@@ -42,11 +42,10 @@ fn make(job: GalleryJob) -> Result<FigureOutput, Error> {
     Ok(FigureOutput {
         plates: vec![Plate { name: "relief", caption, image: views::laid_out(&images, 3) }],
         measured: Measured {
-            header: texts(["transport", "soil lost", "mean change", "lost / changed"]),
+            header: texts(["transport", "soil made or lost", "mean change", "share of it"]),
             rows: names.iter().zip(&soils).map(|(name, soil)| soil.row(name)).collect(),
             remarks: texts([
-                "In cells of height over the whole ground. Lost: what neither lies on the ground nor is carried; all edges \
-                 are closed. Mean change: of the ground, up or down.",
+                "In cells of height over the whole ground. Made or lost: what lies on the ground and is carried, less what was there before; all edges are closed. Mean change: of the ground, up or down.",
             ]),
         },
         claims: claims(&soils),
@@ -55,7 +54,7 @@ fn make(job: GalleryJob) -> Result<FigureOutput, Error> {
 
 /// Where the soil went, in cells of height over the whole ground.
 struct Soil {
-    lost: f64,
+    made: f64,
     changed: f64,
 }
 
@@ -66,23 +65,28 @@ impl Soil {
         let change = |(&after, &before): (&f32, &f32)| f64::from(after) - f64::from(before);
         let changes = || height.values().iter().zip(before.values()).map(change);
         Ok(Self {
-            lost: -(changes().sum::<f64>() + sediment.sum()) / cells,
+            made: (changes().sum::<f64>() + sediment.sum()) / cells,
             changed: changes().map(f64::abs).sum::<f64>() / cells,
         })
     }
 
     fn share(&self) -> f64 {
-        self.lost / self.changed
+        self.made.abs() / self.changed
     }
 
     fn row(&self, name: &str) -> Vec<String> {
         vec![
             name.to_owned(),
-            format!("{:.5}", self.lost),
+            signed(self.made),
             format!("{:.3}", self.changed),
             format!("{:.2} %", 100.0 * self.share()),
         ]
     }
+}
+
+/// With its sign, unless it rounds to 0.
+fn signed(number: f64) -> String {
+    if number.abs() < 5e-6 { "0".to_owned() } else { format!("{number:+.3}") }
 }
 
 fn claims(soils: &[Soil]) -> Vec<Claim> {
@@ -90,13 +94,13 @@ fn claims(soils: &[Soil]) -> Vec<Claim> {
     vec![
         Claim::new(
             "Semi-Lagrangian transport does not conserve soil",
-            Verdict::of(published.share().abs() > 0.01),
-            format!("{:.1} % of what the ground changed by is gone", 100.0 * published.share()),
+            Verdict::of(published.share() > 0.01),
+            format!("it amounts to {:.1} % of what the ground changed by", 100.0 * published.share()),
         ),
         Claim::new(
             "Transport with the fluxes does",
-            Verdict::of(fluxes.changed > 0.0 && fluxes.share().abs() < 1e-3),
-            format!("{:.4} %", 100.0 * fluxes.share().abs()),
+            Verdict::of(fluxes.changed > 0.0 && fluxes.share() < 1e-3),
+            format!("{:.4} %", 100.0 * fluxes.share()),
         ),
     ]
 }

@@ -56,7 +56,9 @@ fn claims(stages: &[Stage]) -> Vec<Claim> {
     let allowed = stages.iter().all(|stage| stage.plateaus as u64 <= stage.most());
     vec![Claim::new(
         "A single fault is a cliff, a few make plateaus, many make hills",
-        Verdict::of(allowed && first.plateaus == 2 && third.plateaus > 2 && last.plateaus > 50 * third.plateaus),
+        Verdict::of(
+            allowed && first.plateaus == 2 && third.plateaus > 2 && last.plateaus > 50 * third.plateaus,
+        ),
         format!(
             "{} heights after one fault, {} after three, {} after {}; never more than the lines allow",
             first.plateaus, third.plateaus, last.plateaus, last.faults

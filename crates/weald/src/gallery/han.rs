@@ -86,8 +86,7 @@ impl Ran {
 }
 
 /// What [`Ran::is_network`] asks for, in words.
-pub(super) const RULE: &str =
-    "a network has twice the `chan` of water that does not erode, `reach` above 0.15 and `drains` of 0.3 or more";
+pub(super) const RULE: &str = "a network has twice the `chan` of water that does not erode, `reach` above 0.15 and `drains` of 0.3 or more";
 
 /// Makes all runs, at the same time as far as there are cores.
 pub(super) fn run_all(runs: &[Run]) -> Result<Vec<Ran>, Error> {
@@ -120,13 +119,7 @@ pub(super) const MEANING: &str = "`chan`: share of cells that carry the runoff o
 /// Name and network measures of a run.
 pub(super) fn row(ran: &Ran) -> Vec<String> {
     let NetworkMeasures { chan, reach, drains, pits, .. } = ran.measures;
-    vec![
-        ran.run.name.clone(),
-        share(chan),
-        format!("{reach:.2}"),
-        format!("{drains:.2}"),
-        pits.to_string(),
-    ]
+    vec![ran.run.name.clone(), share(chan), format!("{reach:.2}"), format!("{drains:.2}"), pits.to_string()]
 }
 
 /// A share in four digits, or as a power of ten where those would be zeros.

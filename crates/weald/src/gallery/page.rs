@@ -90,7 +90,8 @@ fn claims(claims: &[Claim]) -> String {
     if claims.is_empty() {
         return String::new();
     }
-    let rows =
-        claims.iter().map(|claim| row(&[claim.says.clone(), claim.verdict.to_string(), claim.measure.clone()]));
+    let rows = claims
+        .iter()
+        .map(|claim| row(&[claim.says.clone(), claim.verdict.to_string(), claim.measure.clone()]));
     CLAIMS.to_owned() + &rows.collect::<String>()
 }

@@ -26,7 +26,12 @@ const TABLE: [[&str; 4]; 12] = [
     ["K_c", "capacity", "10.0", "sediment that a unit of water holds at unit speed and slope"],
     ["K_v", "erosion", "0.005", "uptake a unit of speed"],
     ["r", "deposit_ratio", "1.0", "share of a deposit that the ground gets back"],
-    ["K_t", "thermal.strength", "0.05", "share of the excess slope that slides in a step, in figures with weathering"],
+    [
+        "K_t",
+        "thermal.strength",
+        "0.05",
+        "share of the excess slope that slides in a step, in figures with weathering",
+    ],
     ["tan φ", "thermal.talus", "0.8", "slope that rests, in figures with weathering"],
 ];
 
@@ -45,7 +50,9 @@ fn make(job: GalleryJob) -> Result<FigureOutput, Error> {
         measured: Measured {
             header: texts(["symbol", "key", "value", "what it is"]),
             rows: TABLE.map(texts).into(),
-            remarks: texts(["Ground of 256 × 256 cells with a relief of 50 cells, 3600 steps, unless a figure says otherwise."]),
+            remarks: texts([
+                "Ground of 256 × 256 cells with a relief of 50 cells, 3600 steps, unless a figure says otherwise.",
+            ]),
         },
         claims: vec![Claim::new(
             "Results hardly depend on ε",

@@ -1,6 +1,6 @@
 //! How large k may be: a lake at rest with the least ripples, left to itself.
 
-use super::views::{laid_out, map};
+use super::views::laid_out;
 use super::{Claim, Figure, FigureOutput, GalleryJob, Measured, Plate, Verdict, texts};
 use crate::domain::Domain;
 use crate::engine::Job;
@@ -8,7 +8,7 @@ use crate::erode::hydraulic::Hydraulic;
 use crate::error::Error;
 use crate::grid::{Field, Size};
 use crate::landscape::Landscape;
-use crate::picture::{Image, Picture, Scale};
+use crate::picture::{Image, Scale, encode};
 use crate::random::signed2;
 use crate::recipe::parameter::LayerName;
 use crate::step::Step;
@@ -32,14 +32,17 @@ const RIPPLES: f32 = 0.01;
 
 fn make(job: GalleryJob) -> Result<FigureOutput, Error> {
     let (side, iterations) = job.choose((64, 300), (16, 300));
-    let lakes = RATES.map(|rate| left_alone(side, iterations, rate)).into_iter().collect::<Result<Vec<_>, _>>()?;
+    let lakes =
+        RATES.map(|rate| left_alone(side, iterations, rate)).into_iter().collect::<Result<Vec<_>, _>>()?;
     let growth: Vec<f64> = lakes.iter().map(amplification).collect();
-    let images = lakes.iter().map(surface).collect::<Result<Vec<_>, _>>()?;
+    let images: Vec<Image> = lakes.iter().map(surface).collect();
     let rows = RATES.iter().zip(&growth);
     Ok(FigureOutput {
         plates: vec![Plate {
             name: "lake",
-            caption: format!("The surface of a lake after {iterations} steps with k of 0.4, 0.49, 0.5 and 0.501"),
+            caption: format!(
+                "The corner of a lake after {iterations} steps with k of 0.4, 0.49, 0.5 and 0.501"
+            ),
             image: laid_out(&images, 4),
         }],
         measured: Measured {
@@ -89,7 +92,21 @@ fn amplification(lake: &Landscape) -> f64 {
     f64::from(away / RIPPLES)
 }
 
-fn surface(lake: &Landscape) -> Result<Image, Error> {
-    let [low, high] = [-5.0, 5.0].map(|ripples| Some(f64::from(DEPTH + ripples * RIPPLES)));
-    crate::picture::Map { width: Some(320), ramp: Scale::Water, low, high, ..map("water") }.render(lake)
+/// Cells a side, from the corner, and pixels a cell of the drawing.
+const DRAWN: usize = 12;
+const PIXELS: usize = 26;
+
+/// Levels up to this many ripples away have colours of their own.
+const RANGE: f32 = 5.0;
+
+/// The corner of the lake, a square a cell: what is smoothed would hide waves of two cells.
+fn surface(lake: &Landscape) -> Image {
+    let depth = lake.field("water").expect("a run leaves water");
+    let ramp = Scale::Water.ramp();
+    let side = DRAWN * PIXELS;
+    let colour = |pixel: usize| {
+        let (x, y) = (pixel % side / PIXELS, pixel / side / PIXELS);
+        encode(ramp.at(0.5 + (depth.at(x, y) - DEPTH) / (2.0 * RANGE * RIPPLES)))
+    };
+    Image { width: side, height: side, rgb: (0..side * side).flat_map(colour).collect() }
 }

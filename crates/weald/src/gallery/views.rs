@@ -31,13 +31,18 @@ pub(super) fn bare(landscape: &Landscape, width: u32) -> Result<Image, Error> {
         .render(landscape)
 }
 
-/// Mean discharge on a logarithmic scale.
-pub(super) fn flow(landscape: &Landscape, width: u32) -> Result<Image, Error> {
+/// Mean discharge of each cell.
+pub(super) fn discharge(landscape: &Landscape) -> Result<Field, Error> {
     let (x, y) = (landscape.field("flux_x")?, landscape.field("flux_y")?);
     let strength = |(&x, &y): (&f32, &f32)| (x * x + y * y).sqrt();
     let flow = x.values().iter().zip(y.values()).map(strength).collect();
+    Ok(Field::from_values(x.size(), flow))
+}
+
+/// Mean discharge on a logarithmic scale.
+pub(super) fn flow(landscape: &Landscape, width: u32) -> Result<Image, Error> {
     let mut only = Landscape::new(landscape.domain.clone());
-    only.insert("flow", "m³/step", Field::from_values(x.size(), flow));
+    only.insert("flow", "m³/step", discharge(landscape)?);
     let [low, high] = DISCHARGES.map(|cells| Some(RAIN * cells));
     Map { width: Some(width), ramp: Scale::Water, logarithmic: true, low, high, ..map("flow") }.render(&only)
 }

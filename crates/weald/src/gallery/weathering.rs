@@ -15,14 +15,17 @@ pub(super) const FIGURE: Figure = Figure {
     make,
 };
 
+/// Tangent of the angle at which the ground rests.
+const TALUS: f64 = 0.8;
+
 fn make(job: GalleryJob) -> Result<FigureOutput, Error> {
     let runs = [
         Run::new(job, "water only", "erosion = 0.0"),
         Run::new(job, "erosion", ""),
-        Run::new(job, "erosion and weathering", &weathered(0.8)),
+        Run::new(job, "erosion and weathering", &weathered(TALUS)),
     ];
     let runs = han::run_all(&runs)?;
-    let width = job.choose(600, 32);
+    let width = job.choose(520, 32);
     let relief = views::sheet(&runs, 3, |landscape| views::relief(landscape, width))?;
     let flow = views::sheet(&runs, 3, |landscape| views::flow(landscape, width))?;
     Ok(FigureOutput {
@@ -41,12 +44,17 @@ fn section(job: GalleryJob, runs: &[Ran]) -> Result<Plate, Error> {
     let (side, corner) = job.choose((112, 96), (16, 8));
     let cut = |ran: &Ran| -> Result<Image, Error> {
         let part = views::part(&ran.landscape, [corner; 2], side)?;
-        let picture = Section { width: job.choose(600, 64), exaggeration: Some(1.0), water: false, ..Section::default() };
+        let picture = Section {
+            width: job.choose(1120, 64),
+            exaggeration: Some(1.0),
+            water: false,
+            ..Section::default()
+        };
         picture.render(&part)
     };
     let images = runs.iter().map(cut).collect::<Result<Vec<_>, _>>()?;
-    let what = format!("{side} cells of the mountains cut open from west to east");
-    Ok(views::plate("section", &what, runs, views::laid_out(&images, 3)))
+    let what = format!("{side} cells of the mountains cut open from west to east, from top to bottom,");
+    Ok(views::plate("section", &what, runs, views::laid_out(&images, 1)))
 }
 
 fn measured(runs: &[Ran]) -> Measured {
@@ -89,6 +97,8 @@ fn steep_deg(ran: &Ran) -> f64 {
 fn claims(runs: &[Ran]) -> Vec<Claim> {
     let [water, eroded, weathered] = [&runs[0], &runs[1], &runs[2]];
     let [[slot, slot_shape], [valley, valley_shape]] = [form(eroded), form(weathered)];
+    let [steep, rests] = [steep_deg(eroded), steep_deg(weathered)];
+    let talus = libm::atan(TALUS).to_degrees();
     vec![
         Claim::new(
             "Erosion by velocity makes a network of rivers",
@@ -100,9 +110,10 @@ fn claims(runs: &[Ran]) -> Vec<Claim> {
         ),
         Claim::new(
             "Thermal weathering turns slots into V-shaped valleys",
-            Verdict::of(valley > 1.3 * slot && valley_shape < slot_shape),
+            Verdict::of(valley > 1.3 * slot && valley_shape < slot_shape && rests < talus + 3.0),
             format!(
-                "valleys widen from {slot:.1} to {valley:.1} cells; their shape goes from {slot_shape:.2} to {valley_shape:.2}"
+                "valleys widen from {slot:.1} to {valley:.1} cells, their shape goes from {slot_shape:.2} to {valley_shape:.2}, \
+                 the slope of the steepest tenth from {steep:.0}° to {rests:.0}°, where tan φ is {talus:.0}°"
             ),
         ),
     ]

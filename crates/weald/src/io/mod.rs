@@ -19,6 +19,7 @@ pub mod png16;
 mod provenance;
 mod raster;
 mod square;
+pub mod zarr;
 
 pub use atomic::{write_parts, write_through, write_whole, write_whole_with};
 pub use fault::Fault;
@@ -44,6 +45,7 @@ pub const FORMATS: &[Format] = &[
     png16::FORMAT,
     npy::FORMAT,
     netcdf::FORMAT,
+    zarr::FORMAT,
 ];
 
 /// The format of a file name.

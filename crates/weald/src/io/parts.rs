@@ -1,6 +1,6 @@
 //! Rasters and exports of several files: a description beside the values, a set of tiles, a folder of chunks.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 use super::{Fault, read_at_most};
@@ -75,6 +75,12 @@ pub trait Parts {
     /// # Errors
     /// [`Fault::Limit`] for one that is longer, [`Fault::Damaged`] for one that cannot be read.
     fn read(&self, name: &PartName, most: u64) -> Result<Option<Vec<u8>>, Fault>;
+
+    /// Names of the folders right inside that of the output, in order.
+    ///
+    /// # Errors
+    /// [`Fault::Damaged`] where they cannot be listed.
+    fn folders(&self) -> Result<Vec<String>, Fault>;
 }
 
 /// Parts on disk, of the raster at a path.
@@ -88,6 +94,18 @@ impl Parts for OnDisk {
             return Ok(None);
         }
         read_at_most(&path, most).map(Some)
+    }
+
+    fn folders(&self) -> Result<Vec<String>, Fault> {
+        let unlisted = |cause| Fault::damaged(format!("cannot be listed: {cause}"));
+        let mut folders = Vec::new();
+        for entry in std::fs::read_dir(&self.0).map_err(unlisted)? {
+            let entry = entry.map_err(unlisted)?;
+            let name = entry.file_name().into_string().ok().filter(|_| entry.path().is_dir());
+            folders.extend(name);
+        }
+        folders.sort();
+        Ok(folders)
     }
 }
 
@@ -119,5 +137,15 @@ impl Parts for InMemory {
             )));
         }
         Ok(Some(bytes.clone()))
+    }
+
+    fn folders(&self) -> Result<Vec<String>, Fault> {
+        let folder_of = |path: &PathBuf| {
+            let mut inside = path.strip_prefix(&self.file).ok()?.components();
+            let first = inside.next()?.as_os_str().to_str()?.to_owned();
+            inside.next().map(|_| first)
+        };
+        let folders: BTreeSet<String> = self.files.keys().filter_map(folder_of).collect();
+        Ok(folders.into_iter().collect())
     }
 }

@@ -74,6 +74,7 @@ impl Image {
     }
 
     /// The picture below a line with a number, or with several apart by spaces.
+    #[must_use]
     pub fn numbered(&self, number: &str) -> Self {
         let side = 2;
         let mut line = Self::paper(self.width, (digits::HEIGHT + 4) * side);

@@ -44,6 +44,9 @@ pub const CATALOG: &[Entry] = &[
     analyse::flow::ENTRY,
     analyse::rivers::ENTRY,
     analyse::lakes::ENTRY,
+    analyse::watersheds::ENTRY,
+    analyse::wetness::ENTRY,
+    analyse::moisture::ENTRY,
 ];
 
 /// The step of that name.

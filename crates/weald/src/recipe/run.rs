@@ -37,13 +37,22 @@ pub struct Options {
     pub checkpoint_every: Duration,
     /// Whether to go on from the checkpoint in the folder.
     pub resume: bool,
+    /// Whether `report.json` is written beside the outputs.
+    pub report: bool,
 }
 
 impl Options {
     /// On all cores into a folder, with a checkpoint every minute.
     pub fn into_folder(out: impl Into<PathBuf>) -> Self {
         let checkpoint_every = Duration::from_mins(1);
-        Self { out: out.into(), engine: Engine::Cpu, threads: None, checkpoint_every, resume: false }
+        Self {
+            out: out.into(),
+            engine: Engine::Cpu,
+            threads: None,
+            checkpoint_every,
+            resume: false,
+            report: true,
+        }
     }
 }
 
@@ -107,7 +116,7 @@ pub struct Run<'a> {
 }
 
 impl Run<'_> {
-    /// Runs the recipe and writes its files, the report last.
+    /// Runs the recipe and writes its files, the report last if it is wanted.
     ///
     /// # Errors
     /// [`Error::Input`] for a damaged elevation model or checkpoint, [`Error::Run`] where a step or a file
@@ -287,7 +296,9 @@ impl Run<'_> {
             outputs,
             notes,
         };
-        report.write(&self.options.out.join(REPORT_FILE))?;
+        if self.options.report {
+            report.write(&self.options.out.join(REPORT_FILE))?;
+        }
         Ok(report)
     }
 }

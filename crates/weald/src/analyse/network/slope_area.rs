@@ -27,7 +27,8 @@ mod tests {
     #[test]
     fn rivers_that_flatten_with_the_root_of_their_area_have_a_concavity_of_a_half() {
         // Area grows by a cell a row; the first row drains over the border.
-        let height = |_: f64, y: f64| -> f64 { -(1..y as u32).map(|area| 1.0 / f64::from(area).sqrt()).sum::<f64>() };
+        let height =
+            |_: f64, y: f64| -> f64 { -(1..y as u32).map(|area| 1.0 / f64::from(area).sqrt()).sum::<f64>() };
         let found = theta(&dry(16, 200, height)).expect("five octaves");
         assert!((found - 0.5).abs() < 0.01, "{found}");
     }
