@@ -233,7 +233,12 @@ fn a_conversion_keeps_the_place_on_earth_and_the_cells_without_data() {
         assert_eq!(old[key], new[key], "{key}");
     }
     assert!(stdout(&place.weald(&["info", "copy.tif"])).contains("32616"));
-    assert_ends(&place, &["convert", data, "copy.npy"], 0, &["note: copy.npy: the place on Earth is left out; .tif holds it"]);
+    assert_ends(
+        &place,
+        &["convert", data, "copy.npy"],
+        0,
+        &["note: copy.npy: the place on Earth is left out; .tif holds it"],
+    );
     assert_ends(&place, &["convert", data, "none/copy.tif"], 1, &["none/copy.tif", "make the folder"]);
 }
 

@@ -1,6 +1,17 @@
 //! What a landscape becomes for other programs beyond one raster: meshes, vectors, sets of tiles, pages.
 //! One file a kind; [`EXPORTS`] is the registry.
 
+mod terrain3d;
+mod terrain_tiles;
+mod unity;
+mod unreal;
+mod vertices;
+
+pub use terrain_tiles::Weight;
+pub use terrain3d::Terrain3d;
+pub use unity::Unity;
+pub use unreal::Unreal;
+
 use std::fmt::Debug;
 use std::path::Path;
 
@@ -89,6 +100,9 @@ impl ExportEntry {
 /// All kinds of exports. Adding one is one file and one line here.
 #[rustfmt::skip] // one entry a line, so that branches that add some do not meet
 pub const EXPORTS: &[ExportEntry] = &[
+    unreal::ENTRY,
+    unity::ENTRY,
+    terrain3d::ENTRY,
 ];
 
 /// The export of that name.

@@ -1,7 +1,7 @@
 //! What a raster format is: how it is read and written, and what it can hold.
 
 use super::parts::{Part, Parts};
-use super::{Fault, Limits, Raster};
+use super::{Fault, Limits, Raster, asc};
 use crate::error::Error;
 
 /// Turns the bytes of a file into a raster.
@@ -58,6 +58,8 @@ pub enum Knowledge {
     Cell,
     /// The place on Earth.
     Place,
+    /// A CRS that has no spelling in a `.prj` file.
+    UnspelledCrs,
     /// Where the values came from.
     Provenance,
 }
@@ -93,6 +95,7 @@ impl Knowledge {
             Self::NoData => raster.land.is_some(),
             Self::Cell => raster.cell.is_some(),
             Self::Place => raster.georeference.is_some(),
+            Self::UnspelledCrs => raster.georeference.as_ref().is_some_and(|place| !asc::is_spelled(place)),
             Self::Provenance => raster.provenance.is_some(),
         }
     }
@@ -102,6 +105,9 @@ impl Knowledge {
             Self::NoData => "cells without data are written as the lowest value",
             Self::Cell => "the side of a cell is left out",
             Self::Place => "the place on Earth is left out; .tif holds it",
+            Self::UnspelledCrs => {
+                "the CRS is left out, so corner and cells are numbers without a unit; .tif holds it"
+            }
             Self::Provenance => "unit, seed and the hash of the recipe are left out; report.json has them",
         }
     }

@@ -4,7 +4,9 @@
 //! header against its [`Limits`] before it allocates; every writer writes under a temporary name and renames
 //! the whole file.
 
+pub mod asc;
 mod atomic;
+pub mod exr;
 mod fault;
 mod format;
 pub mod geotiff;
@@ -15,6 +17,7 @@ mod parts;
 pub mod png16;
 mod provenance;
 mod raster;
+pub mod raw;
 mod square;
 
 pub use atomic::{write_parts, write_whole, write_whole_with};
@@ -35,7 +38,16 @@ use self::parts::OnDisk;
 use crate::error::Error;
 
 /// All raster formats.
-pub const FORMATS: &[Format] = &[geotiff::FORMAT, png16::FORMAT, npy::FORMAT];
+#[rustfmt::skip] // one entry a line, so that branches that add some do not meet
+pub const FORMATS: &[Format] = &[
+    geotiff::FORMAT,
+    png16::FORMAT,
+    exr::FORMAT,
+    raw::FORMAT_16,
+    raw::FORMAT_32,
+    asc::FORMAT,
+    npy::FORMAT,
+];
 
 /// The format of a file name.
 ///
