@@ -150,6 +150,7 @@ fn pits(ground: &Ground<'_>) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::grid::Size;
 
     const SIDE: usize = 80;
 

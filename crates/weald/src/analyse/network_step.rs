@@ -56,11 +56,13 @@ impl Step for Network {
         let rain = self.rain.unwrap_or(USUAL_RAIN * cell);
         let measures = measure(&NetworkInput {
             ground: landscape.field(&self.of.0)?,
+            before: None,
             depth: landscape.field(&self.water.0)?,
             mean_flux_x: landscape.field(&self.flux_x.0)?,
             mean_flux_y: landscape.field(&self.flux_y.0)?,
             mean_rain: rain * landscape.domain.cell_area(),
             cell,
+            land: landscape.domain.land.as_ref(),
         });
         let measures = BTreeMap::from([
             ("chan", measures.chan),
