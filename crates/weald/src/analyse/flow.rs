@@ -28,12 +28,14 @@ mod descent;
 mod fill;
 mod flats;
 mod multiple;
+mod naive;
 mod passes;
 mod step;
 mod surface;
 
 pub use accumulate::accumulate;
 pub use multiple::{MultipleFlow, accumulate_multiple};
+pub(crate) use naive::naive;
 pub(in crate::analyse) use step::MILLIMETRES_A_YEAR;
 pub use step::{ENTRY, FlowStep, Method};
 

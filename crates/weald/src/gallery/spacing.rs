@@ -18,7 +18,7 @@ const TALUS: [f64; 3] = [1.6, 0.8, 0.4];
 const SEEDS: [u64; 2] = [3, 7];
 
 fn make(job: GalleryJob) -> Result<FigureOutput, Error> {
-    let run = |talus: f64| Run::new(job, &format!("tan φ {talus}"), &weathered(talus));
+    let run = |talus: f64| Run::new(job, &format!("talus {talus}"), &weathered(talus));
     // Row by row of the picture: all slopes of a seed.
     let runs: Vec<Run> = TALUS.iter().map(|&talus| run(talus)).collect();
     let runs: Vec<Run> =
@@ -29,7 +29,8 @@ fn make(job: GalleryJob) -> Result<FigureOutput, Error> {
         views::bare(&views::part(landscape, [corner; 2], side)?, width)
     })?;
     let caption = format!(
-        "The middle {side} × {side} cells after {} steps, with tan φ of 1.6, 0.8 and 0.4; seed 3 above, 7 below",
+        "The middle {side} × {side} cells after {} steps, with tan φ of 1.6, 0.8 and 0.4; seed 3 above, 7 \
+         below",
         runs[0].run.iterations
     );
     Ok(FigureOutput {
@@ -38,8 +39,9 @@ fn make(job: GalleryJob) -> Result<FigureOutput, Error> {
             header: texts(["run", "seed", "channel heads", "valley spacing", "valley width"]),
             rows: runs.iter().map(row).collect(),
             remarks: texts([
-                "Heads: where on the flooded ground 100 cells begin to drain through one. Spacing: length of all rows and \
-                 columns over the number of valleys a cell deep or more on them; width: at half their depth; in cells.",
+                "Heads: where on the flooded ground 100 cells begin to drain through one. Spacing: length \
+                 of all rows and columns over the number of valleys a cell deep or more on them; width: at \
+                 half their depth; in cells.",
             ]),
         },
         claims: vec![claim(&runs)],

@@ -69,13 +69,14 @@ pub(super) fn part(landscape: &Landscape, corner: [usize; 2], side: usize) -> Re
     Ok(part)
 }
 
-/// Draws each run and lays the pictures out in rows of `columns`.
+/// Draws each run below its name and lays the pictures out in rows of `columns`.
 pub(super) fn sheet(
     runs: &[Ran],
     columns: usize,
     draw: impl Fn(&Landscape) -> Result<Image, Error>,
 ) -> Result<Image, Error> {
-    let images = runs.iter().map(|ran| draw(&ran.landscape)).collect::<Result<Vec<_>, _>>()?;
+    let titled = |ran: &Ran| Ok(draw(&ran.landscape)?.titled(&ran.run.name));
+    let images = runs.iter().map(titled).collect::<Result<Vec<_>, Error>>()?;
     Ok(laid_out(&images, columns))
 }
 

@@ -140,7 +140,8 @@ fn glyph(sign: char) -> (&'static str, f32) {
 
 /// Columns and rows of the points of a line.
 fn points(line: &str) -> Vec<[f32; 2]> {
-    let figures: Vec<f32> = line.chars().filter_map(|figure| figure.to_digit(16)).map(|figure| figure as f32).collect();
+    let figures: Vec<f32> =
+        line.chars().filter_map(|figure| figure.to_digit(16)).map(|figure| figure as f32).collect();
     figures.chunks_exact(2).map(|pair| [pair[0], pair[1]]).collect()
 }
 
@@ -180,7 +181,8 @@ impl Pen {
     /// Writes a text whose top left corner is at (`left`, `top`). What does not fit on the picture is cut off.
     pub(super) fn write(&self, image: &mut Image, text: &str, [left, top]: [f32; 2]) {
         let rim = 2.0 * self.unit + 2.0;
-        let size = [self.width(text) + 2.0 * rim, self.unit * 10.0 + 2.0 * rim].map(|side| side.ceil() as usize);
+        let size =
+            [self.width(text) + 2.0 * rim, self.unit * 10.0 + 2.0 * rim].map(|side| side.ceil() as usize);
         let corner = [left - rim, top - rim].map(f32::floor);
         let mut strokes = Strokes::new(size[0], size[1]);
         let mut place = left - corner[0];
@@ -251,7 +253,12 @@ mod tests {
             assert!(!inked(look).is_empty() && *look != unknown, "{} is a box", signs[at]);
             let same = looks[..at].iter().position(|other| other == look);
             // A bar is a bar: capital I and small l differ in nothing but their neighbours.
-            assert!(same.is_none() || "Il|".contains(signs[at]), "{} looks like {}", signs[at], signs[same.unwrap_or(0)]);
+            assert!(
+                same.is_none() || "Il|".contains(signs[at]),
+                "{} looks like {}",
+                signs[at],
+                signs[same.unwrap_or(0)]
+            );
         }
     }
 

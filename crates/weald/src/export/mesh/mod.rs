@@ -95,7 +95,7 @@ crate::parameters! {
         /// Depth from which water is drawn: rain lies on all slopes as a film.
         shallowest: f64 = 0.5, range 0.001..=1000.0, unit "m";
         /// Depth of walls below the lowest point that close the edges of the mesh; 0 leaves them open.
-        skirt: f64 = 0.0, range 0.0..=100000.0, unit "m";
+        skirt: f64 = 0.0, range 0.0..=100_000.0, unit "m";
     }
 }
 

@@ -77,7 +77,8 @@ mod tests {
 
     #[test]
     fn coordinates_that_are_not_even_are_refused() {
-        for coordinates in [[0.0, 1.0, 3.0], [0.0, f64::NAN, 2.0], [1.0, 1.0, 1.0], [0.0, 1.0, f64::INFINITY]] {
+        for coordinates in [[0.0, 1.0, 3.0], [0.0, f64::NAN, 2.0], [1.0, 1.0, 1.0], [0.0, 1.0, f64::INFINITY]]
+        {
             assert!(Centres::of("x", &coordinates).is_err(), "{coordinates:?}");
         }
         assert!(Centres::of("x", &[f64::NAN]).is_err());

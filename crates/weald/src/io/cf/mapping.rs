@@ -130,7 +130,10 @@ mod tests {
             assert_eq!(epsg_of(wkt_of(code).expect("known")), Some(code));
         }
         assert_eq!(epsg_of("PROJCRS[\"x\",ID[\"EPSG\",32616]]\n"), Some(32616));
-        assert_eq!(epsg_of("PROJCS[\"own\",UNIT[\"metre\",1,AUTHORITY[\"EPSG\",\"9001\"]],AXIS[\"E\",EAST]]"), None);
+        assert_eq!(
+            epsg_of("PROJCS[\"own\",UNIT[\"metre\",1,AUTHORITY[\"EPSG\",\"9001\"]],AXIS[\"E\",EAST]]"),
+            None
+        );
         assert_eq!(epsg_of("PROJCS[\"own\",UNIT[\"metre\",1,AUTHORITY[\"EPSG\",\"9001\"]]]"), None);
     }
 }

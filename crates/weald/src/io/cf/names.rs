@@ -67,7 +67,8 @@ impl Names {
         let mut names: Vec<String> = Vec::new();
         for layer in layers {
             let landlab = of_layer(layer).and_then(|known| known.landlab);
-            let wanted = landlab.filter(|_| self == Self::Landlab).map_or_else(|| legal(layer), str::to_owned);
+            let wanted =
+                landlab.filter(|_| self == Self::Landlab).map_or_else(|| legal(layer), str::to_owned);
             let is_free = |name: &String| !names.contains(name) && !taken.contains(&name.as_str());
             let numbered = (2..).map(|number| format!("{wanted}_{number}"));
             let free = std::iter::once(wanted.clone()).chain(numbered).find(is_free);

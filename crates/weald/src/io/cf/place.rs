@@ -73,12 +73,15 @@ impl Grid {
         let told = crs.as_ref().and_then(|crs| crs.transform).filter(|numbers| self.agrees_with(*numbers));
         let is_local = crs.is_none() && self.unit != Unit::Degrees;
         // A grid without a place begins at 0, so that its side follows from the attribute alone.
-        let alone = cell.filter(|cell| is_local && self.agrees_with([0.0, *cell, cell * self.y.count as f64, -cell]));
+        let alone =
+            cell.filter(|cell| is_local && self.agrees_with([0.0, *cell, cell * self.y.count as f64, -cell]));
         if let Some(cell) = alone {
             return Place { cell: Some(cell), ..Place::default() };
         }
-        let Some(([west, width], [north, height])) = told.map(pairs).or_else(|| self.from_coordinates()) else {
-            let notes = vec!["one row or column of cells does not tell their side; the place is left out".to_owned()];
+        let Some(([west, width], [north, height])) = told.map(pairs).or_else(|| self.from_coordinates())
+        else {
+            let notes =
+                vec!["one row or column of cells does not tell their side; the place is left out".to_owned()];
             return Place { notes, ..Place::default() };
         };
         let crs = crs.unwrap_or_default();

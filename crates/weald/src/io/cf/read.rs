@@ -142,6 +142,7 @@ impl Packing {
         if number.is_nan() || self.fills.iter().any(is_fill) {
             return None;
         }
-        Some(if (self.scale, self.offset) == (1.0, 0.0) { number } else { number * self.scale + self.offset } as f32)
+        Some(if (self.scale, self.offset) == (1.0, 0.0) { number } else { number * self.scale + self.offset }
+            as f32)
     }
 }

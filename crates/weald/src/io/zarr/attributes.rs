@@ -28,12 +28,12 @@ pub(super) fn of_json(attributes: Option<&Value>) -> Attributes {
 
 fn attribute(name: &str, value: &Value) -> Option<Attribute> {
     match value {
-        Value::String(text) if name == "_FillValue" => fill(text).map(|number| Attribute::Doubles(vec![number])),
+        Value::String(text) if name == "_FillValue" => {
+            fill(text).map(|number| Attribute::Doubles(vec![number]))
+        }
         Value::String(text) => Some(Attribute::Text(text.clone())),
         Value::Number(number) => number.as_f64().map(|number| Attribute::Doubles(vec![number])),
-        Value::Array(items) => {
-            items.iter().map(Value::as_f64).collect::<Option<_>>().map(Attribute::Doubles)
-        }
+        Value::Array(items) => items.iter().map(Value::as_f64).collect::<Option<_>>().map(Attribute::Doubles),
         _ => None,
     }
 }

@@ -37,7 +37,8 @@ impl<'a> Rows<'a> {
         for (axis, length) in chunk.iter().enumerate() {
             origin[axis] = place[axis] * length;
         }
-        let extent = shape.iter().zip(chunk).zip(&origin).map(|((all, chunk), first)| (*chunk).min(all - first));
+        let extent =
+            shape.iter().zip(chunk).zip(&origin).map(|((all, chunk), first)| (*chunk).min(all - first));
         Self { shape, chunk, origin, extent: extent.collect() }
     }
 

@@ -56,7 +56,8 @@ impl Array {
             shape: self.shape.clone(),
             attributes: self.attributes(),
             stored: data_type.and_then(Number::of).map_or("unknown", |number| number.name),
-            is_number: data_type.is_some_and(|name| ["float", "int", "uint"].iter().any(|kind| name.starts_with(kind))),
+            is_number: data_type
+                .is_some_and(|name| ["float", "int", "uint"].iter().any(|kind| name.starts_with(kind))),
             default_fill: None,
         }
     }
@@ -78,8 +79,9 @@ impl Array {
             ))
         })?;
         let grid = &self.json["chunk_grid"];
-        let chunk = lengths(&grid["configuration"]["chunk_shape"])
-            .filter(|chunk| grid["name"] == "regular" && chunk.len() == self.shape.len() && !chunk.contains(&0));
+        let chunk = lengths(&grid["configuration"]["chunk_shape"]).filter(|chunk| {
+            grid["name"] == "regular" && chunk.len() == self.shape.len() && !chunk.contains(&0)
+        });
         Ok(Storage {
             number,
             chunk: chunk.ok_or_else(|| wrong("chunk_grid"))?,
@@ -107,7 +109,9 @@ impl Storage {
 
 fn damaged(name: &str, key: &str, value: &Value) -> Fault {
     let shown: String = value.to_string().chars().take(200).collect();
-    Fault::damaged(format!("`{name}`: `{key}` is {shown}, which Zarr version 3 does not have or Weald not read"))
+    Fault::damaged(format!(
+        "`{name}`: `{key}` is {shown}, which Zarr version 3 does not have or Weald not read"
+    ))
 }
 
 fn lengths(list: &Value) -> Option<Vec<usize>> {

@@ -26,7 +26,10 @@ pub fn decode(parts: &dyn Parts, limits: Limits) -> Result<Raster, Fault> {
         _ => return Err(Fault::damaged("zarr.json describes neither a group nor an array")),
     };
     let described = arrays.iter().map(Array::described).collect();
-    cf::read(&Folder { parts, limits, attributes: attributes::of_json(root.get("attributes")), arrays, described }, limits)
+    cf::read(
+        &Folder { parts, limits, attributes: attributes::of_json(root.get("attributes")), arrays, described },
+        limits,
+    )
 }
 
 /// The description in the folder of that name.
@@ -70,7 +73,12 @@ fn arrays_of_group(parts: &dyn Parts, root: &Value) -> Result<Vec<Array>, Fault>
         }
     }
     let is_array = |(_, node): &&(String, Value)| node["node_type"] == "array";
-    nodes.iter().filter(is_array).take(MOST_ARRAYS).map(|(name, node)| Array::of(plain(name)?, node)).collect()
+    nodes
+        .iter()
+        .filter(is_array)
+        .take(MOST_ARRAYS)
+        .map(|(name, node)| Array::of(plain(name)?, node))
+        .collect()
 }
 
 /// The name, where it leads to a folder within that of the group.

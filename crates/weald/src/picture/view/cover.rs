@@ -146,7 +146,10 @@ impl Cover {
         let trees = self.trees(spot, moisture, patchy);
         let crown = (0.4 + 1.1 * fine.value + 0.5 * broad).clamp(0.0, 1.0);
         let meadow = Skin { albedo: grass, bump: texture.rough(0.16) };
-        let wood = Skin { albedo: mix(self.palette.forest[0], self.palette.forest[1], crown), bump: texture.rough(0.55) };
+        let wood = Skin {
+            albedo: mix(self.palette.forest[0], self.palette.forest[1], crown),
+            bump: texture.rough(0.55),
+        };
         let green = meadow.mixed(&wood, trees);
 
         let soil = self.sites.soil(spot.place);

@@ -77,7 +77,8 @@ impl Scene {
             terrain.point([0.5 + 0.5 * size.columns as f32, 0.5 + 0.5 * size.rows as f32], 0.0)
         };
         let away = subtract(camera.eye, centre);
-        let visibility = view.visibility.unwrap_or(CLEAR * f64::from(dot(away, away).sqrt().max(extent(&setting))));
+        let visibility =
+            view.visibility.unwrap_or(CLEAR * f64::from(dot(away, away).sqrt().max(extent(&setting))));
         let pixels = [view.width as usize, view.height as usize];
         Ok(Self {
             skylight: Skylight::new(&sky, &terrain.top, terrain.spacing, SKYLIGHT_CELLS),
@@ -131,7 +132,8 @@ impl Scene {
         }
         let footprint = self.footprint(hit.way);
         let ground = self.setting.bed.at(hit.place);
-        let depth = self.setting.level.as_ref().map_or(f32::NEG_INFINITY, |level| level.at(hit.place) - ground);
+        let depth =
+            self.setting.level.as_ref().map_or(f32::NEG_INFINITY, |level| level.at(hit.place) - ground);
         if depth > 0.0 {
             return self.lake(ray, hit, point, depth / self.setting.exaggeration);
         }
@@ -182,9 +184,14 @@ impl Scene {
         let steep = (1.0 - normal[2] * normal[2]).max(0.0).sqrt() / normal[2].max(1e-3) / stretch;
         let run = (normal[0] * normal[0] + normal[1] * normal[1]).sqrt().max(1e-6);
         let fall = [normal[0] / run, normal[1] / run];
-        let spot = Spot { place, fall, point: [point[0], point[1], height / stretch], slope: steep, footprint };
+        let spot =
+            Spot { place, fall, point: [point[0], point[1], height / stretch], slope: steep, footprint };
         let skin = self.cover.at(&spot);
-        let rough = unit([normal[0] - normal[2] * skin.bump[0] * stretch, normal[1] - normal[2] * skin.bump[1] * stretch, normal[2]]);
+        let rough = unit([
+            normal[0] - normal[2] * skin.bump[0] * stretch,
+            normal[1] - normal[2] * skin.bump[1] * stretch,
+            normal[2],
+        ]);
         let albedo = water::wetted(skin.albedo, above, terrain.cell());
         let light = self.lit(point, rough, &self.skylight.at(self.share(place)));
         scale(filter(albedo, light), std::f32::consts::FRAC_1_PI)
@@ -269,16 +276,14 @@ fn extent(setting: &Setting) -> f32 {
 fn plain_light(sky: &Sky, setting: &Setting) -> Skylight {
     let terrain = &setting.terrain;
     let (inner, size) = (terrain.top.size(), Size { columns: 3 * PLAIN_CELLS, rows: 3 * PLAIN_CELLS });
-    let share = |cell: usize, cells: usize| {
-        0.5 + ((cell as f32 + 0.5) / PLAIN_CELLS as f32 - 1.0) * cells as f32
-    };
+    let share =
+        |cell: usize, cells: usize| 0.5 + ((cell as f32 + 0.5) / PLAIN_CELLS as f32 - 1.0) * cells as f32;
     let height = Field::from_function(size, |x, y| {
         let place = [share(x, inner.columns), share(y, inner.rows)];
         if terrain.is_land(place) { terrain.top.at(place) } else { terrain.base }
     });
-    let spacing = [0, 1].map(|axis| {
-        terrain.spacing[axis] * [inner.columns, inner.rows][axis] as f32 / PLAIN_CELLS as f32
-    });
+    let spacing = [0, 1]
+        .map(|axis| terrain.spacing[axis] * [inner.columns, inner.rows][axis] as f32 / PLAIN_CELLS as f32);
     Skylight::new(sky, &Surface::new(&height), spacing, 3 * PLAIN_CELLS)
 }
 
@@ -292,5 +297,7 @@ fn samples(count: u32) -> Vec<[f32; 2]> {
         let share = 0.5 + f64::from(sample) * step;
         tent(share - share.floor()) as f32 * 0.8
     };
-    (0..count).map(|sample| [place(sample, 0.754_877_666_246_692_8), place(sample, 0.569_840_290_998_053_3)]).collect()
+    (0..count)
+        .map(|sample| [place(sample, 0.754_877_666_246_692_8), place(sample, 0.569_840_290_998_053_3)])
+        .collect()
 }

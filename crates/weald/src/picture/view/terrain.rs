@@ -64,7 +64,8 @@ pub(super) struct Hit {
 impl Terrain {
     pub(super) fn new(spacing: [f32; 2], top: Surface, land: Option<Surface>, base: f32) -> Self {
         let is_empty = |x: usize, y: usize| {
-            land.as_ref().is_some_and(|land| land.patch(x, y).into_iter().flatten().all(|&share| share <= 0.0))
+            land.as_ref()
+                .is_some_and(|land| land.patch(x, y).into_iter().flatten().all(|&share| share <= 0.0))
         };
         let pyramid = Pyramid::new(&top, is_empty);
         Self { spacing, top, base, pyramid, land }
