@@ -161,6 +161,7 @@ fn share_of_channels(carries: &[f64]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::grid::Size;
 
     const SIDE: usize = 80;
 
