@@ -102,7 +102,11 @@ proptest! {
     fn breaching_lowers_only_and_leaves_no_depression(
         seed in 0_u64..1 << 40, columns in 2_usize..70, rows in 2_usize..70, one_in in 5_u64..400, deepest in 0.0_f64..8.0,
     ) {
-        let height = rough(columns, rows, 40.0, seed);
+        let mut height = rough(columns, rows, 40.0, seed);
+        if seed % 2 == 0 {
+            // Whole metres make plateaus, also at the bottom of pits.
+            height.values_mut().iter_mut().for_each(|value| *value = value.round());
+        }
         let land = holes(height.size(), seed, one_in);
         let whole = breached(&height, land.as_ref(), f64::INFINITY);
         check_ways(&whole, land.as_ref());

@@ -5,9 +5,10 @@
 
 use std::collections::BTreeMap;
 
-use super::network::{NetworkInput, measure};
+use super::network::{NetworkInput, NetworkMeasures, measure};
 use crate::engine::Job;
 use crate::error::Error;
+use crate::grid::Field;
 use crate::landscape::Landscape;
 use crate::parameters;
 use crate::recipe::parameter::LayerName;
@@ -36,6 +37,10 @@ parameters! {
         flux_x: LayerName = LayerName::of("flux_x");
         /// The same to the south.
         flux_y: LayerName = LayerName::of("flux_y");
+        /// Layer of the depth that was eroded, in metres.
+        erosion: LayerName = LayerName::of("erosion");
+        /// Layer of the depth that was deposited, in metres.
+        deposition: LayerName = LayerName::of("deposition");
         /// Mean rain of a whole cycle of rain and sun: `rain` of `hydraulic` by the share of the steps in which it
         /// rains. Without it, 0.005 cells, which is that of `hydraulic` with its defaults.
         rain: Option<f64> = None, range 1.0e-9..=100.0, unit "m/step";
@@ -44,7 +49,8 @@ parameters! {
 
 impl Step for Network {
     fn reads(&self) -> Vec<String> {
-        [&self.of, &self.water, &self.flux_x, &self.flux_y].map(|name| name.0.clone()).into()
+        let layers = [&self.of, &self.water, &self.flux_x, &self.flux_y, &self.erosion, &self.deposition];
+        layers.map(|name| name.0.clone()).into()
     }
 
     fn writes(&self) -> Vec<(String, &'static str)> {
@@ -52,23 +58,55 @@ impl Step for Network {
     }
 
     fn run(&self, landscape: &mut Landscape, _: &Job<'_>) -> Result<Outcome, Error> {
-        let cell = landscape.domain.cell;
-        let rain = self.rain.unwrap_or(USUAL_RAIN * cell);
+        let domain = &landscape.domain;
+        let field = |name: &LayerName| landscape.field(&name.0);
+        let before = before(field(&self.of)?, field(&self.erosion)?, field(&self.deposition)?);
+        let rain = self.rain.unwrap_or(USUAL_RAIN * domain.cell);
         let measures = measure(&NetworkInput {
-            ground: landscape.field(&self.of.0)?,
-            depth: landscape.field(&self.water.0)?,
-            mean_flux_x: landscape.field(&self.flux_x.0)?,
-            mean_flux_y: landscape.field(&self.flux_y.0)?,
-            mean_rain: rain * landscape.domain.cell_area(),
-            cell,
+            ground: field(&self.of)?,
+            before: Some(&before),
+            depth: field(&self.water)?,
+            mean_flux_x: field(&self.flux_x)?,
+            mean_flux_y: field(&self.flux_y)?,
+            mean_rain: rain * domain.cell_area(),
+            cell: domain.cell,
+            land: domain.land.as_ref(),
         });
-        let measures = BTreeMap::from([
-            ("chan", measures.chan),
-            ("reach", measures.reach),
-            ("valley_largest", measures.valley_largest),
-            ("drains", measures.drains),
-            ("pits", measures.pits as f64),
-        ]);
-        Ok(Outcome { iterations: 1, measures, ..Outcome::default() })
+        Ok(Outcome { iterations: 1, measures: named(&measures), ..Outcome::default() })
     }
+}
+
+/// The ground before the water changed it.
+fn before(ground: &Field, erosion: &Field, deposition: &Field) -> Field {
+    let changes = erosion.values().iter().zip(deposition.values());
+    let values =
+        ground.values().iter().zip(changes).map(|(now, (eroded, deposited))| now + eroded - deposited);
+    Field::from_values(ground.size(), values.collect())
+}
+
+/// The measures that there are, by the names of the report.
+fn named(measures: &NetworkMeasures) -> BTreeMap<&'static str, f64> {
+    let valleys = measures.valleys.as_ref();
+    let carve = measures.carve.as_ref();
+    let named = [
+        ("chan", Some(measures.chan)),
+        ("river_width", measures.river_width),
+        ("reach", Some(measures.reach)),
+        ("valley_largest", Some(measures.valley_largest)),
+        ("drains", Some(measures.drains)),
+        ("pits", Some(measures.pits as f64)),
+        ("heads", Some(measures.heads as f64)),
+        ("strahler", Some(f64::from(measures.strahler))),
+        ("theta", measures.theta),
+        ("hack", measures.hack),
+        ("flux_gini", Some(measures.flux_gini)),
+        ("valley_spacing", valleys.map(|valleys| valleys.spacing)),
+        ("valley_width", valleys.map(|valleys| valleys.width)),
+        ("valley_shape", valleys.map(|valleys| valleys.shape)),
+        ("valley_depth", valleys.map(|valleys| valleys.depth)),
+        ("carve_reach", carve.map(|carve| carve.reach)),
+        ("carve_largest", carve.map(|carve| carve.largest)),
+        ("carve_against_area", carve.map(|carve| carve.against_area)),
+    ];
+    named.into_iter().filter_map(|(name, value)| Some((name, value?))).collect()
 }
