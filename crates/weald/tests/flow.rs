@@ -111,6 +111,10 @@ proptest! {
         let whole = breached(&height, land.as_ref(), f64::INFINITY);
         check_ways(&whole, land.as_ref());
         prop_assert!(whole.surface.values().iter().zip(height.values()).all(|(after, before)| after <= before));
+        let by_the_sea = Routing {
+            depressions: Depressions::Breach, sea_level: Some(12.0), ..Routing::default()
+        };
+        check_ways(&route(&height, land.as_ref(), &by_the_sea), land.as_ref());
         let partly = breached(&height, land.as_ref(), deepest);
         check_ways(&partly, land.as_ref());
         let fill = filled(&height, land.as_ref());

@@ -93,10 +93,11 @@ impl Ways<'_> {
         while lower(surface, &way, level) {
             let exit = self.exits[current as usize];
             current = exit.into;
-            if current == 0 {
+            if exit.to == exit.from {
                 return;
             }
-            if self.pit_level(current) <= level {
+            // Basin 0 has land as well: the slopes that descend to the sea.
+            if current == 0 || self.pit_level(current) <= level {
                 lower(surface, &self.descent(surface, exit.to), level);
                 return;
             }
