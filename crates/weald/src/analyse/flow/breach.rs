@@ -6,7 +6,7 @@
 //! down the other side (the carving of Cordonnier et al. 2019, doi 10.5194/esurf-7-549-2019), not along the way
 //! by which a queue came. Depressions that need a deeper cut than allowed are left, to be filled, as in
 //! Lindsay's hybrid. The result does not depend on the order of the pits: each cell ends as low as the lowest
-//! pit whose channel passes it.
+//! pit whose channel passes it. A hollow below the sea is drained by a channel as deep as the hollow.
 
 use super::basins::Basins;
 use super::passes::Passes;
