@@ -94,7 +94,8 @@ fn properties(id: usize, reach: &Reach) -> Map<String, Value> {
         End::Confluence => ("confluence", None),
         End::Lake(lake) => ("lake", Some(lake)),
     };
-    let lowest = lowest(reach);
+    // Where the reach joins another or a lake, this is still as large as the reach itself.
+    let lowest = reach.points[reach.points.len() - 1];
     let properties = json!({
         "id": id,
         "order": reach.order,
@@ -110,11 +111,4 @@ fn properties(id: usize, reach: &Reach) -> Map<String, Value> {
         "downstream": reach.downstream,
     });
     properties.as_object().cloned().unwrap_or_default()
-}
-
-/// The last point that is the reach's own: where it joins another or a lake, the last of all is in that.
-fn lowest(reach: &Reach) -> RiverPoint {
-    let shared = usize::from(reach.end != End::Outlet);
-    let last = reach.points.len() - 1;
-    reach.points[last.saturating_sub(shared)]
 }
