@@ -1,4 +1,4 @@
-//! Rivers and lakes as GeoJSON, and what GDAL finds in them.
+//! Rivers and lakes as `GeoJSON`, and what GDAL finds in them.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
