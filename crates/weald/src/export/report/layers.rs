@@ -138,15 +138,18 @@ fn legend(map: &Map, values: &Values) -> String {
         format!("#{red:02x}{green:02x}{blue:02x}")
     };
     let colours: Vec<_> = (0..STOPS).map(colour).collect();
+    // Beside 360, a thousandth is 0.
+    let nothing = if map.logarithmic { 0.0 } else { 1e-3 * (high - low) };
+    let shown = |value: f64| if value.abs() < nothing { rough(0.0) } else { rough(value) };
     let less = if values.least < low { "≤ " } else { "" };
     let more = if values.greatest > high { "≥ " } else { "" };
     format!(
         "<span class=\"ramp\" style=\"background:linear-gradient(to right,{})\"></span>\n\
          <span class=\"ends\"><span>{less}{}</span><span>{}</span><span>{more}{}</span></span>",
         colours.join(","),
-        rough(low),
-        rough(middle),
-        rough(high)
+        shown(low),
+        shown(middle),
+        shown(high)
     )
 }
 
