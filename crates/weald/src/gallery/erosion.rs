@@ -110,8 +110,16 @@ fn flow_map(landscape: &Landscape) -> Result<Image, Error> {
     let mut only = Landscape::new(landscape.domain.clone());
     only.insert("flow", "m³/step", Field::from_values(x.size(), flow));
     let (low, high) = (Some(RAIN), Some(RAIN * 5000.0));
-    Map { of: LayerName::of("flow"), width: Some(512), ramp: Scale::Water, logarithmic: true, low, high }
-        .render(&only)
+    Map {
+        of: LayerName::of("flow"),
+        width: Some(512),
+        ramp: Scale::Water,
+        logarithmic: true,
+        low,
+        high,
+        legend: false,
+    }
+    .render(&only)
 }
 
 fn header() -> Vec<String> {

@@ -10,6 +10,7 @@ mod font;
 mod ground;
 mod image;
 mod lakes;
+mod legend;
 mod light;
 mod map;
 mod materials;
@@ -23,6 +24,7 @@ mod sheet;
 mod spline;
 mod strokes;
 mod texture;
+mod ticks;
 mod view;
 
 pub use colour::{Linear, Oklab, encode, linear_of_hex};

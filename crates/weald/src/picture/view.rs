@@ -78,8 +78,8 @@ crate::parameters! {
         sun_altitude_deg: f64 = 28.0, range 1.0..=90.0, unit "deg";
         /// Diameter of the sun in the sky: a larger one has softer shadows.
         sun_diameter_deg: f64 = 0.53, range 0.01..=20.0, unit "deg";
-        /// How far one sees through the haze at the lowest ground. By default seven times as far as from the
-        /// camera to the middle of the landscape.
+        /// How far one sees through the haze at the lowest ground. By default so far that of the light from the
+        /// middle of the landscape a seventh is lost on the way to the camera.
         visibility: Option<f64> = None, range 1.0..=1.0e12, unit "m";
         /// Brightness: each 1 more is twice as bright.
         exposure: f64 = 0.0, range -8.0..=8.0, unit "stops";

@@ -164,7 +164,8 @@ fn scattered_often(height: f64, sun: f64) -> Colour {
             let sunlit = transmittance(above, sun);
             let [rayleigh, mie] = densities(above);
             for c in 0..3 {
-                let scattering = through[c] * length * (rayleigh * RAYLEIGH[c] + mie * MIE) / DIRECTIONS as f64;
+                let scattering =
+                    through[c] * length * (rayleigh * RAYLEIGH[c] + mie * MIE) / DIRECTIONS as f64;
                 second[c] += scattering * sunlit[c] / (4.0 * std::f64::consts::PI);
                 again[c] += scattering;
             }

@@ -204,3 +204,65 @@ fn turned_about(points: &[Vector], centre: Vector) -> Vec<Vector> {
     };
     turns.flat_map(|turn| points.iter().map(move |point| turned(point, turn))).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::grid::{Field, Size};
+    use crate::random::{hash2, unit as uniform};
+    use proptest::prelude::*;
+
+    fn terrain([columns, rows]: [usize; 2], cell: f32, relief: f32, seed: u64) -> Terrain {
+        let size = Size::new(columns, rows).expect("small");
+        let height =
+            Field::from_function(size, |x, y| relief * uniform(hash2(seed, x as i64, y as i64)) as f32);
+        Terrain::new([cell; 2], &height, None, -0.05 * cell * columns as f32)
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(200))]
+
+        #[test]
+        fn the_usual_camera_stands_above_any_ground_and_sees_all_of_it(
+            sides in [1..40_usize, 1..40_usize], cell in 0.1_f32..200.0, relief in 0.0_f32..9000.0,
+            azimuth_deg in 0.0..360.0, altitude_deg in 0.0..=90.0, field_of_view_deg in 10.0..80.0, turn in 0.0..1.0,
+            turns: bool, seed: u64,
+        ) {
+            let terrain = terrain(sides, cell, relief, seed);
+            let view = View { azimuth_deg, altitude_deg, field_of_view_deg, ..View::default() };
+            let view = if turns { view.turned(turn) } else { view };
+            let camera = Camera::new(&view, &terrain, 1.0);
+            let place = terrain.place(camera.eye);
+            prop_assert!(!terrain.is_land(place) || camera.eye[2] > terrain.top.at(place));
+            for point in outline(&terrain) {
+                let seen = camera.project(point);
+                prop_assert!(seen.is_some_and(|[x, y]| x.abs() < 1.0 && y.abs() < 1.0), "{point:?} at {seen:?}");
+            }
+        }
+
+        #[test]
+        fn a_camera_below_the_ground_is_lifted_out_of_it(x in 0.0..400.0, y in 0.0..400.0, distance in 1.0..500.0, seed: u64) {
+            let terrain = terrain([40, 40], 10.0, 300.0, seed);
+            let target = Some(Places(vec![[x, y]]));
+            let low = View { target: target.clone(), distance: Some(distance), altitude_deg: 0.0, ..View::default() };
+            let standing = View { eye: target, eye_height: 0.0, target: Some(Places(vec![[200.0, 200.0]])), ..View::default() };
+            for view in [low, standing] {
+                let camera = Camera::new(&view, &terrain, 1.0);
+                let place = terrain.place(camera.eye);
+                prop_assert!(!terrain.is_land(place) || camera.eye[2] >= terrain.top.at(place) + 1.9);
+            }
+        }
+    }
+
+    #[test]
+    fn a_quarter_turn_moves_the_camera_a_quarter_of_the_way_round() {
+        let terrain = terrain([30, 30], 10.0, 50.0, 3);
+        let at = |share: f64| Camera::new(&View::default().turned(share), &terrain, 1.0);
+        let (start, quarter, whole) = (at(0.0), at(0.25), at(1.0));
+        let middle = middle(&terrain);
+        let [from, to] = [start, quarter].map(|camera| subtract(camera.eye, middle));
+        assert!((from[0] + to[1]).abs() < 0.5 && (from[1] - to[0]).abs() < 0.5, "{from:?} {to:?}");
+        assert!((dot(from, from) - dot(to, to)).abs() < 1e-2 * dot(from, from));
+        assert!(subtract(start.eye, whole.eye).iter().all(|metres| metres.abs() < 0.1));
+    }
+}

@@ -90,8 +90,8 @@ struct Palette {
 
 impl Default for Palette {
     fn default() -> Self {
-        let [lush, meadow, dry, alpine] = [0x51_6630, 0x68_713c, 0x8d_8455, 0x79_754c].map(linear_of_hex);
-        let forest = [0x22_2f1b, 0x3f_4d2b].map(linear_of_hex);
+        let [lush, meadow, dry, alpine] = [0x46_6230, 0x5a_6a38, 0x7c_7748, 0x66_6841].map(linear_of_hex);
+        let forest = [0x26_341e, 0x44_5330].map(linear_of_hex);
         let rock = [0x83_7c72, 0x55_4e47, 0x9a_8c7a].map(linear_of_hex);
         let [scree, gravel, snow] = [0x95_8d80, 0xa9_9d86, 0xee_f1f5].map(linear_of_hex);
         Self { lush, meadow, dry, alpine, forest, rock, scree, gravel, snow }
@@ -146,7 +146,10 @@ impl Cover {
         let trees = self.trees(spot, moisture, patchy);
         let crown = (0.4 + 1.1 * fine.value + 0.5 * broad).clamp(0.0, 1.0);
         let meadow = Skin { albedo: grass, bump: texture.rough(0.16) };
-        let wood = Skin { albedo: mix(self.palette.forest[0], self.palette.forest[1], crown), bump: texture.rough(0.55) };
+        let wood = Skin {
+            albedo: mix(self.palette.forest[0], self.palette.forest[1], crown),
+            bump: texture.rough(0.55),
+        };
         let green = meadow.mixed(&wood, trees);
 
         let soil = self.sites.soil(spot.place);

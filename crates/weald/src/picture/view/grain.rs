@@ -17,7 +17,8 @@ pub(super) struct Grain {
 /// Bits of a lattice point: the finaliser `lowbias32` (C. Wellons 2018).
 #[inline(always)]
 fn bits(x: i32, y: i32, seed: u32) -> u32 {
-    let mut h = (x as u32).wrapping_mul(0xc13f_a9a9).wrapping_add((y as u32).wrapping_mul(0x91e1_0da5)) ^ seed;
+    let mut h =
+        (x as u32).wrapping_mul(0xc13f_a9a9).wrapping_add((y as u32).wrapping_mul(0x91e1_0da5)) ^ seed;
     h = (h ^ (h >> 16)).wrapping_mul(0x7feb_352d);
     h = (h ^ (h >> 15)).wrapping_mul(0x846c_a68b);
     h ^ (h >> 16)
@@ -43,14 +44,21 @@ pub(super) fn grain(place: [f32; 2], seed: u32) -> Grain {
     let (u, v) = (place[0] - corner[0], place[1] - corner[1]);
     let ease = |t: f32| t * t * t * (t * (t * 6.0 - 15.0) + 10.0);
     let ease_slope = |t: f32| 30.0 * t * t * (t * (t - 2.0) + 1.0);
-    let g = [gradient(x, y, seed), gradient(x + 1, y, seed), gradient(x, y + 1, seed), gradient(x + 1, y + 1, seed)];
+    let g = [
+        gradient(x, y, seed),
+        gradient(x + 1, y, seed),
+        gradient(x, y + 1, seed),
+        gradient(x + 1, y + 1, seed),
+    ];
     let plane = |g: [f32; 2], u: f32, v: f32| g[0] * u + g[1] * v;
     let [a, b] = [plane(g[0], u, v), plane(g[1], u - 1.0, v)];
     let [c, d] = [plane(g[2], u, v - 1.0), plane(g[3], u - 1.0, v - 1.0)];
     let (across, down) = (ease(u), ease(v));
     let twist = a - b - c + d;
     let blend = |k: usize| {
-        g[0][k] + across * (g[1][k] - g[0][k]) + down * (g[2][k] - g[0][k])
+        g[0][k]
+            + across * (g[1][k] - g[0][k])
+            + down * (g[2][k] - g[0][k])
             + across * down * (g[0][k] - g[1][k] - g[2][k] + g[3][k])
     };
     Grain {
@@ -94,7 +102,10 @@ impl Octaves {
             if seen <= 0.0 {
                 break;
             }
-            let here = grain(place.map(|metres| metres / wavelength), self.seed.wrapping_add(octave.wrapping_mul(0x9e37_79b9)));
+            let here = grain(
+                place.map(|metres| metres / wavelength),
+                self.seed.wrapping_add(octave.wrapping_mul(0x9e37_79b9)),
+            );
             sum.value += seen * here.value;
             let [a, b] = here.slope.map(|slope| seen * slope / wavelength);
             sum.slope[0] += turn[0] * a - turn[1] * b;
@@ -120,7 +131,8 @@ mod tests {
             let point = [i as f32 * 3.7, i as f32 * -1.9, 0.0];
             let at = |dx: f32, dy: f32| octaves.at([point[0] + dx, point[1] + dy, 0.0], 0.0);
             let here = at(0.0, 0.0);
-            let measured = [at(0.05, 0.0).value - at(-0.05, 0.0).value, at(0.0, 0.05).value - at(0.0, -0.05).value];
+            let measured =
+                [at(0.05, 0.0).value - at(-0.05, 0.0).value, at(0.0, 0.05).value - at(0.0, -0.05).value];
             for (slope, rise) in here.slope.iter().zip(measured) {
                 assert!((slope - rise / 0.1).abs() < 5e-3, "{slope} for {}", rise / 0.1);
                 steepest = steepest.max(slope.abs());

@@ -36,6 +36,12 @@ impl Haze {
         Self { extinction: CONTRAST / visibility as f32, scale_height: SCALE_HEIGHT * exaggeration }
     }
 
+    /// Haze that takes so much, as an optical depth, from light on its way along a ray.
+    pub(super) fn of_depth(depth: f32, ray: &Ray, way: f32, exaggeration: f32) -> Self {
+        let unit = Self { extinction: 1.0, scale_height: SCALE_HEIGHT * exaggeration };
+        Self { extinction: depth / unit.column(ray, way).max(1e-3), ..unit }
+    }
+
     /// The light that arrives at the start of a ray, of `radiance` that starts `way` metres along it.
     #[inline]
     pub(super) fn veil(&self, radiance: Vector, ray: &Ray, way: f32, sky: &Sky) -> Vector {

@@ -96,7 +96,8 @@ impl Pyramid {
         loop {
             let level = &self.levels[walk.level];
             let (exit, axis) = walk.exit(line, span[1]);
-            let here = level.highest[(walk.leaf[1] >> walk.level) * level.columns + (walk.leaf[0] >> walk.level)];
+            let here =
+                level.highest[(walk.leaf[1] >> walk.level) * level.columns + (walk.leaf[0] >> walk.level)];
             if seeker.may_find([walk.way, exit], here) {
                 if walk.level > 0 {
                     walk.level -= 1;
@@ -167,7 +168,8 @@ impl Walk {
         let counts = [finest.columns, finest.rows];
         let [square, beside] = [axis, other].map(|axis| self.leaf[axis] >> self.level);
         let next = if line.step[axis] > 0.0 { square + 1 } else { square.wrapping_sub(1) };
-        let leaf = if line.step[axis] > 0.0 { next << self.level } else { (square << self.level).wrapping_sub(1) };
+        let leaf =
+            if line.step[axis] > 0.0 { next << self.level } else { (square << self.level).wrapping_sub(1) };
         if leaf >= counts[axis] {
             return false;
         }

@@ -46,7 +46,8 @@ impl Setting {
     pub(super) fn new(view: &View, landscape: &Landscape) -> Result<(Self, Sites), Error> {
         let domain = &landscape.domain;
         let longer = domain.size.columns.max(domain.size.rows) as u32;
-        let width = (u64::from(longer.min(LONGEST)) * domain.size.columns as u64 / u64::from(longer)).max(1) as u32;
+        let width =
+            (u64::from(longer.min(LONGEST)) * domain.size.columns as u64 / u64::from(longer)).max(1) as u32;
         let sheet = Sheet::new(domain, Some(width))?;
         let mask = domain.land.as_ref();
         let field = landscape.field(&view.of.0)?;
@@ -66,9 +67,10 @@ impl Setting {
             (domain.cell * domain.size.rows as f64 / size.rows as f64) as f32,
         ];
         let extent = (domain.cell * longer as f64) as f32;
-        let land = land_share(mask, &sheet).map(|land| Surface::new(&land));
-        let terrain = Terrain::new(spacing, Surface::new(&top), land, -BASE * extent);
-        let materials = view.ground.map_or_else(|| names_materials(landscape), |cover| cover == super::Cover::Materials);
+        let land = land_share(mask, &sheet);
+        let terrain = Terrain::new(spacing, &top, land.as_ref(), -BASE * extent);
+        let materials =
+            view.ground.map_or_else(|| names_materials(landscape), |cover| cover == super::Cover::Materials);
         let relief = high - low;
         let limits = Limits {
             rock: rock_slope(view, &ground, spacing, exaggeration),
@@ -124,7 +126,8 @@ fn rock_slope(view: &View, ground: &Field, spacing: [f32; 2], exaggeration: f32)
         let south = (ground.at(x, (y + 1).min(size.rows - 1)) - ground.at(x, y)) / spacing[1];
         (east * east + south * south).sqrt() / exaggeration
     };
-    let mut slopes: Vec<f32> = (0..size.cells()).map(|cell| slope(cell % size.columns, cell / size.columns)).collect();
+    let mut slopes: Vec<f32> =
+        (0..size.cells()).map(|cell| slope(cell % size.columns, cell / size.columns)).collect();
     slopes.sort_unstable_by(f32::total_cmp);
     let steep = slopes[((slopes.len() - 1) as f64 * BELOW_ROCK) as usize];
     let [low, high] = ROCK_DEG.map(|degrees| libm::tan(degrees.to_radians()) as f32);

@@ -89,7 +89,8 @@ impl Strata {
 
     /// A rock's colour with its beds, which are gently folded.
     fn bedded(&self, colour: Linear, point: Vector, height: f32, seed: u32) -> Linear {
-        let fold = Octaves { wavelength: 60.0 * self.bed, count: 2, gain: 0.4, seed: 0x71 }.at(point, 0.0).value;
+        let fold =
+            Octaves { wavelength: 60.0 * self.bed, count: 2, gain: 0.4, seed: 0x71 }.at(point, 0.0).value;
         let level = height / self.bed + 5.0 * fold;
         let thick = grain([0.7 * level, 0.37], 0x72 + seed).value;
         let thin = grain([3.1 * level, 0.61], 0x73 + seed).value;

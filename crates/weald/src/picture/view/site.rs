@@ -89,7 +89,8 @@ pub(super) fn names_materials(landscape: &Landscape) -> bool {
 
 fn colours(landscape: &Landscape, ground: &Field) -> Result<Vec<Linear>, Error> {
     let stack = stack(landscape, ground)?;
-    let inks: Vec<Linear> = landscape.materials.iter().map(|material| linear_of_srgb(material.colour)).collect();
+    let inks: Vec<Linear> =
+        landscape.materials.iter().map(|material| linear_of_srgb(material.colour)).collect();
     let surface = |cell: usize| {
         let layers = stack.iter().zip(&inks[1..]);
         layers.fold(inks[0], |below, (layer, &ink)| {
@@ -101,7 +102,9 @@ fn colours(landscape: &Landscape, ground: &Field) -> Result<Vec<Linear>, Error> 
 }
 
 fn mean(colours: &[Linear]) -> Linear {
-    std::array::from_fn(|c| (colours.iter().map(|colour| f64::from(colour[c])).sum::<f64>() / colours.len() as f64) as f32)
+    std::array::from_fn(|c| {
+        (colours.iter().map(|colour| f64::from(colour[c])).sum::<f64>() / colours.len() as f64) as f32
+    })
 }
 
 /// How far places lie below their surroundings, in root mean squares, brought to 0 to 1.
@@ -117,7 +120,8 @@ fn hollows(height: &Field) -> Field {
 }
 
 fn below(mean: &Field, height: &Field) -> Field {
-    let depths: Vec<f32> = mean.values().iter().zip(height.values()).map(|(mean, height)| mean - height).collect();
+    let depths: Vec<f32> =
+        mean.values().iter().zip(height.values()).map(|(mean, height)| mean - height).collect();
     let squares: f64 = depths.iter().map(|&depth| f64::from(depth) * f64::from(depth)).sum();
     let usual = (squares / depths.len() as f64).sqrt().max(1e-9) as f32;
     Field::from_values(height.size(), depths.into_iter().map(|depth| depth / usual).collect())
@@ -134,6 +138,7 @@ fn ranked(field: &Field) -> Field {
 
 /// The effect of a thickness of soil, from that of none to that of much.
 fn covered(soil: &Field, [none, much]: [f32; 2]) -> Field {
-    let share = |&thickness: &f32| none + (much - none) * thickness.max(0.0) / (thickness.max(0.0) + HALF_SOIL);
+    let share =
+        |&thickness: &f32| none + (much - none) * thickness.max(0.0) / (thickness.max(0.0) + HALF_SOIL);
     Field::from_values(soil.size(), soil.values().iter().map(share).collect())
 }

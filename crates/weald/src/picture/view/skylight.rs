@@ -98,7 +98,8 @@ struct Averages {
 impl Averages {
     fn new(height: &Field) -> Self {
         let mut levels = vec![height.clone()];
-        while let Some(finer) = levels.last().filter(|field| field.size().columns.min(field.size().rows) > 3) {
+        while let Some(finer) = levels.last().filter(|field| field.size().columns.min(field.size().rows) > 3)
+        {
             levels.push(halved(finer));
         }
         let highest = height.values().iter().copied().fold(f32::NEG_INFINITY, f32::max);
@@ -122,7 +123,10 @@ fn halved(finer: &Field) -> Field {
     let size = Size { columns: from.columns.div_ceil(2), rows: from.rows.div_ceil(2) };
     Field::from_function(size, |x, y| {
         let (right, below) = ((2 * x + 1).min(from.columns - 1), (2 * y + 1).min(from.rows - 1));
-        0.25 * (finer.at(2 * x, 2 * y) + finer.at(right, 2 * y) + finer.at(2 * x, below) + finer.at(right, below))
+        0.25 * (finer.at(2 * x, 2 * y)
+            + finer.at(right, 2 * y)
+            + finer.at(2 * x, below)
+            + finer.at(right, below))
     })
 }
 
@@ -240,7 +244,9 @@ mod tests {
         let flat = Skylight::new(&sky, &Surface::new(&Field::filled(size, 5.0)), [10.0; 2], 512);
         let seen = flat.at([0.5; 2]);
         assert!(seen.iter().flatten().zip(open.iter().flatten()).all(|(a, b)| (a - b).abs() < 1e-3));
-        let pit = Field::from_function(size, |x, y| if (14..19).contains(&x) && (14..19).contains(&y) { -100.0 } else { 0.0 });
+        let pit = Field::from_function(size, |x, y| {
+            if (14..19).contains(&x) && (14..19).contains(&y) { -100.0 } else { 0.0 }
+        });
         let pit = Skylight::new(&sky, &Surface::new(&pit), [10.0; 2], 512);
         assert!(pit.at([0.5; 2])[3][2] < 0.25 * open[3][2], "{:?}", pit.at([0.5; 2])[3]);
     }

@@ -116,7 +116,8 @@ fn reflected(field: &Field, x: usize, y: usize) -> f32 {
         (Some(edge), None) => 2.0 * field.at(edge, y) - field.at(x, y),
         (None, Some(edge)) => 2.0 * field.at(x, edge) - field.at(x, y),
         (Some(column), Some(row)) => {
-            2.0 * (2.0 * field.at(column, row) - field.at(x, row)) - (2.0 * field.at(column, y) - field.at(x, y))
+            2.0 * (2.0 * field.at(column, row) - field.at(x, row))
+                - (2.0 * field.at(column, y) - field.at(x, y))
         }
     }
 }

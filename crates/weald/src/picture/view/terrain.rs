@@ -8,6 +8,8 @@
 use super::pyramid::{Line, Pyramid, Seeker};
 use super::surface::Surface;
 use super::vector::{Vector, add, scale, unit};
+use crate::grid::Field;
+use crate::picture::texture::smoothed;
 
 /// Error of a hit, as a share of the side of a cell.
 const CLOSE: f32 = 5e-4;
@@ -21,6 +23,9 @@ const HALVINGS: usize = 16;
 /// Looks into each patch that the edge of the land crosses.
 const EDGE_LOOKS: usize = 6;
 
+/// Gaps, in cells, of the smoothings after which an edge shows its direction.
+const OUTLINE: [usize; 4] = [1, 2, 4, 8];
+
 /// The ground.
 #[derive(Debug)]
 pub(super) struct Terrain {
@@ -30,6 +35,8 @@ pub(super) struct Terrain {
     pub(super) top: Surface,
     /// Share of land; `None` where all is land.
     pub(super) land: Option<Surface>,
+    /// The same, smoothed: sides that follow the steps of a slanted edge are lit as one.
+    outline: Option<Surface>,
     /// Height of the plain that the landscape stands on, below 0.
     pub(super) base: f32,
     pyramid: Pyramid,
@@ -62,12 +69,17 @@ pub(super) struct Hit {
 }
 
 impl Terrain {
-    pub(super) fn new(spacing: [f32; 2], top: Surface, land: Option<Surface>, base: f32) -> Self {
+    pub(super) fn new(spacing: [f32; 2], top: &Field, land: Option<&Field>, base: f32) -> Self {
+        let outline = land.map(|land| {
+            Surface::new(&OUTLINE.into_iter().fold(land.clone(), |land, gap| smoothed(&land, gap)))
+        });
+        let (top, land) = (Surface::new(top), land.map(Surface::new));
         let is_empty = |x: usize, y: usize| {
-            land.as_ref().is_some_and(|land| land.patch(x, y).into_iter().flatten().all(|&share| share <= 0.0))
+            land.as_ref()
+                .is_some_and(|land| land.patch(x, y).into_iter().flatten().all(|&share| share <= 0.0))
         };
         let pyramid = Pyramid::new(&top, is_empty);
-        Self { spacing, top, base, pyramid, land }
+        Self { spacing, top, base, pyramid, land, outline }
     }
 
     /// The highest point that anything may have.
@@ -273,11 +285,11 @@ impl Meeting<'_> {
 
     /// The normal of the edge where the ray passed it below the surface.
     fn edge_normal(&self, way: f32) -> Option<Vector> {
-        let land = self.terrain.land.as_ref()?;
+        let outline = self.terrain.outline.as_ref()?;
         if self.above(way) > -40.0 * CLOSE * self.terrain.cell() {
             return None;
         }
-        let [_, east, south] = land.with_slope(self.line.at(way));
+        let [_, east, south] = outline.with_slope(self.line.at(way));
         let outward = [-east / self.terrain.spacing[0], south / self.terrain.spacing[1], 0.0];
         (outward[0] != 0.0 || outward[1] != 0.0).then(|| unit(outward))
     }
@@ -341,5 +353,118 @@ impl Seeker for Rising<'_> {
             }
         }
         self.steepest >= self.enough
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::grid::Size;
+    use crate::random::{hash2, unit as uniform};
+
+    const CELL: f32 = 10.0;
+
+    fn terrain(side: usize, height: impl FnMut(usize, usize) -> f32, land: Option<&Field>) -> Terrain {
+        let size = Size::square(side).expect("small");
+        Terrain::new([CELL; 2], &Field::from_function(size, height), land, -30.0)
+    }
+
+    fn random(seed: u64, at: i64) -> f32 {
+        uniform(hash2(seed, at, 7)) as f32
+    }
+
+    /// A ray from somewhere above a landscape of that side to somewhere on it.
+    fn ray(side: usize, at: i64) -> Ray {
+        let extent = side as f32 * CELL;
+        let place = |seed: u64| extent * (1.6 * random(seed, at) - 0.3);
+        let from = [place(1), -place(2), 40.0 + 120.0 * random(3, at)];
+        let onto = [extent * random(4, at), -extent * random(5, at), 20.0 * random(6, at)];
+        Ray { from, direction: unit([onto[0] - from[0], onto[1] - from[1], onto[2] - from[2]]) }
+    }
+
+    #[test]
+    fn rays_meet_random_ground_where_the_finest_steps_do() {
+        let ground = terrain(24, |x, y| 40.0 * random(9, (24 * y + x) as i64), None);
+        let mut met = 0;
+        for at in 0..400 {
+            let ray = ray(24, at);
+            let line = ground.line(ray.from, ray.direction);
+            let above = |way: f32| ray.at(way)[2] - ground.top.at(line.at(way));
+            let Some([enter, leave]) = line.crossing(&ground.top) else { continue };
+            let enter = enter.max(0.0);
+            let steps = ((leave - enter) / 0.05) as usize;
+            let stepped = (0..steps).map(|step| enter + 0.05 * step as f32).find(|&way| above(way) <= 0.0);
+            let hit = ground.trace(&ray, [0.0, f32::INFINITY]);
+            match (stepped, hit) {
+                (Some(stepped), Some(hit)) => {
+                    met += 1;
+                    assert!(hit.way <= stepped + 0.02, "ray {at}: {} m instead of {stepped} m", hit.way);
+                    // Where the ray only grazes a crest the steps may have missed it.
+                    assert!(
+                        hit.side.is_some() || above(hit.way).abs() < 0.02,
+                        "ray {at}: {} m off",
+                        above(hit.way)
+                    );
+                    assert!(hit.way > stepped - 0.1 || above(hit.way + 0.02) < 0.02, "ray {at}");
+                }
+                (None, None) => {}
+                (None, Some(hit)) => {
+                    assert!(above(hit.way).abs() < 0.02 || ray.at(hit.way)[2] < 0.0, "ray {at}")
+                }
+                (Some(stepped), None) => {
+                    assert!(ray.at(stepped)[2] < ground.base, "ray {at} missed the ground at {stepped} m");
+                }
+            }
+        }
+        assert!(met > 250, "{met} rays met the ground");
+    }
+
+    #[test]
+    fn a_ray_meets_a_tilted_plane_where_geometry_says() {
+        let plane = terrain(40, |x, y| 2.0 * x as f32 + y as f32, None);
+        for at in 0..100 {
+            let ray = Ray {
+                from: [200.0, -200.0, 300.0],
+                direction: unit([random(1, at) - 0.5, random(2, at) - 0.5, -0.8]),
+            };
+            let hit = plane.trace(&ray, [0.0, f32::INFINITY]).expect("it looks down");
+            // Height = 0.2 east + 0.1 south of the centre of the first cell.
+            let rise = |v: Vector| 0.2 * v[0] - 0.1 * v[1] - v[2];
+            let expected = -(rise(ray.from) - 1.5) / rise(ray.direction);
+            assert!((hit.way - expected).abs() < 0.03, "{} m instead of {expected} m", hit.way);
+        }
+    }
+
+    #[test]
+    fn a_cliff_throws_a_shadow_as_long_as_its_height_over_the_tangent_of_the_sun() {
+        let cliff = terrain(200, |x, _| if x < 40 { 300.0 } else { 0.0 }, None);
+        for altitude in [15.0_f64, 25.0, 40.0] {
+            let sun = crate::picture::view::vector::towards(270.0, altitude);
+            let steep = libm::tan(altitude.to_radians()) as f32;
+            let dark = |metres: f32| {
+                let from = [400.0 + metres, -1000.0, 0.0];
+                cliff.horizon(from, sun, [0.5 * steep, 2.0 * steep]) > steep
+            };
+            let end = (0..1500).find(|&metres| metres > 30 && !dark(metres as f32)).expect("the shadow ends");
+            let expected = 300.0 / steep;
+            assert!((end as f32 - expected).abs() < 1.5 * CELL, "{end} m instead of {expected} m");
+        }
+    }
+
+    #[test]
+    fn what_has_no_data_is_never_met() {
+        let size = Size::square(24).expect("small");
+        let is_land =
+            |x: usize, y: usize| (x as f32 - 11.5).hypot(y as f32 - 11.5) < 8.0 && (x, y) != (12, 12);
+        let land = Field::from_function(size, |x, y| f32::from(u8::from(is_land(x, y))));
+        let ground = terrain(24, |x, y| 60.0 * random(9, (24 * y + x) as i64), Some(&land));
+        let (mut met, mut sides) = (0, 0);
+        for at in 0..400 {
+            let Some(hit) = ground.trace(&ray(24, at), [0.0, f32::INFINITY]) else { continue };
+            met += 1;
+            sides += usize::from(hit.side.is_some());
+            assert!(ground.is_land(hit.place), "ray {at} met {:?}", hit.place);
+        }
+        assert!(met > 60 && sides > 10, "{met} met, {sides} of them sides");
     }
 }

@@ -18,7 +18,7 @@ const BACK: [Vector; 3] =
 const WHITE: f32 = 1.5;
 
 /// How far the picture's white follows the colour of the light on level ground, 0 to 1.
-const ADAPTATION: f32 = 0.6;
+const ADAPTATION: f32 = 0.75;
 
 /// The most, in surfaces that are drawn as white, that one ray counts.
 const BRIGHTEST: f32 = 12.0;
@@ -60,7 +60,8 @@ impl Tone {
     /// Linear light on the screen, 0 to 1.
     fn curve(&self, radiance: Vector) -> Vector {
         let exposed = std::array::from_fn(|c| radiance[c].max(0.0) * self.gain[c]);
-        let film = transform(&INTO, exposed).map(|v| (v * (v + 0.024_578_6) - 0.000_090_537) / (v * (0.983_729 * v + 0.432_951) + 0.238_081));
+        let film = transform(&INTO, exposed)
+            .map(|v| (v * (v + 0.024_578_6) - 0.000_090_537) / (v * (0.983_729 * v + 0.432_951) + 0.238_081));
         transform(&BACK, film).map(|channel| channel.clamp(0.0, 1.0))
     }
 }
@@ -86,7 +87,9 @@ mod tests {
     #[test]
     fn dither_keeps_the_mean_of_a_gradient_finer_than_a_byte() {
         let tone = Tone::new([3.0; 3], 0.0);
-        let mean = |light: f32| (0..4096).map(|p| f64::from(tone.bytes([light; 3], [p % 64, p / 64])[1])).sum::<f64>() / 4096.0;
+        let mean = |light: f32| {
+            (0..4096).map(|p| f64::from(tone.bytes([light; 3], [p % 64, p / 64])[1])).sum::<f64>() / 4096.0
+        };
         let means: Vec<f64> = (0..10).map(|i| mean(0.3 + 0.0005 * i as f32)).collect();
         assert!(means.windows(2).all(|pair| pair[1] > pair[0]), "{means:?}");
         assert!(means[9] - means[0] < 3.0);

@@ -49,17 +49,27 @@ pub(super) fn levels(landscape: &Landscape, ground: &Field) -> Option<Field> {
     let wet = lakes::depths(water, domain)?;
     let cell = domain.cell as f32;
     let mut known: Vec<bool> = wet.values().iter().map(|&depth| depth >= 1.0).collect();
-    let mut level: Vec<f32> = ground.values().iter().zip(water.values()).map(|(ground, water)| ground + water).collect();
+    let mut level: Vec<f32> =
+        ground.values().iter().zip(water.values()).map(|(ground, water)| ground + water).collect();
     let size = ground.size();
     let mut front: Vec<usize> = (0..size.cells()).filter(|&cell| known[cell]).collect();
     for _ in 0..RINGS {
-        let mut next: Vec<usize> = front.iter().flat_map(|&cell| size.neighbours(cell)).filter(|&cell| !known[cell]).collect();
+        let mut next: Vec<usize> =
+            front.iter().flat_map(|&cell| size.neighbours(cell)).filter(|&cell| !known[cell]).collect();
         next.sort_unstable();
         next.dedup();
-        let levels: Vec<f32> = next.iter().map(|&at| {
-            let shallow = water.values()[at] >= SHALLOW * cell && domain.land.as_ref().is_none_or(|land| land.is_land_at(at));
-            if shallow { level[at] } else { mean_of_known(&level, &known, size, at).min(ground.values()[at] - DRY * cell) }
-        }).collect();
+        let levels: Vec<f32> = next
+            .iter()
+            .map(|&at| {
+                let shallow = water.values()[at] >= SHALLOW * cell
+                    && domain.land.as_ref().is_none_or(|land| land.is_land_at(at));
+                if shallow {
+                    level[at]
+                } else {
+                    mean_of_known(&level, &known, size, at).min(ground.values()[at] - DRY * cell)
+                }
+            })
+            .collect();
         for (&cell, height) in next.iter().zip(levels) {
             level[cell] = height;
             known[cell] = true;
@@ -100,7 +110,8 @@ impl Rivers {
         let (width, height) = (pixels(domain.size.columns), pixels(domain.size.rows));
         let square_kilometres = domain.cell_area() as f32 * 1e-6;
         let strokes = rivers::strokes(flux, domain, [width, height], |reach| {
-            let metres = BANKFULL * libm::powf(reach.area * square_kilometres, BANKFULL_GROWTH) * broader as f32;
+            let metres =
+                BANKFULL * libm::powf(reach.area * square_kilometres, BANKFULL_GROWTH) * broader as f32;
             let width = metres / domain.cell as f32 * scale;
             Point { x: reach.x * scale, y: reach.y * scale, width, opacity: 1.0 }
         })?;
