@@ -88,10 +88,10 @@ crate::parameters! {
         /// What colours the ground. By default `materials` where the recipe names materials of its own, else
         /// `natural`.
         ground: Option<Cover> = None;
-        /// Slope from which natural ground is bare rock. By default that of the steepest sixth of the land, but
-        /// between 24° and 42°.
+        /// Slope from which natural ground is bare rock. By default that of the steepest tenth of the land, but
+        /// between 30° and 42°.
         rock_deg: Option<f64> = None, range 1.0..=89.0, unit "deg";
-        /// Elevation up to which trees grow on natural ground. By default the lower 55 % of the relief.
+        /// Elevation up to which trees grow on natural ground. By default the lower 60 % of the relief.
         tree_line: Option<f64> = None, unit "m";
         /// Elevation from which snow lies on natural ground that is not too steep. By default there is none.
         snow_line: Option<f64> = None, unit "m";

@@ -22,7 +22,7 @@ use crate::picture::colour::{Linear, linear_of_hex, mix};
 const SKYLIGHT_CELLS: usize = 1024;
 
 /// Cells of the plain along the landscape's side for which the visible sky is known; the plain is three such sides wide.
-const PLAIN_CELLS: usize = 64;
+const PLAIN_CELLS: usize = 40;
 
 /// Optical depth of the haze between the eye and the middle of the landscape.
 const USUAL_HAZE: f32 = 0.13;

@@ -26,7 +26,7 @@ const BELOW_ROCK: f64 = 0.90;
 const ROCK_DEG: [f64; 2] = [30.0, 42.0];
 
 /// Share of the relief up to which trees grow.
-const TREES: f64 = 0.55;
+const TREES: f64 = 0.6;
 
 /// All of a landscape that light can fall on. Heights are above the lowest ground, times the exaggeration.
 #[derive(Debug)]

@@ -2,7 +2,7 @@
 //!
 //! World coordinates are metres: east and north of the north-western corner, and up from the lowest ground, heights
 //! times the exaggeration. What a ray meets is found on the very surface that is shaded: in each patch the height of
-//! the ray above the spline is looked at in both halves and at the lowest point of the parabola through them, and its
+//! the ray above the spline is looked at in four places and at the lowest points of the parabolas through them, and its
 //! root is closed in on by false position (the Illinois variant).
 
 use super::pyramid::{Line, Pyramid, Seeker};
@@ -19,6 +19,9 @@ const STEPS: usize = 24;
 
 /// Halvings that find the edge of the land.
 const HALVINGS: usize = 16;
+
+/// Pieces of a patch in each of which the ray's height above the ground is taken as a parabola.
+const PIECES: usize = 2;
 
 /// Looks into each patch that the edge of the land crosses.
 const EDGE_LOOKS: usize = 6;
@@ -216,20 +219,29 @@ impl Meeting<'_> {
 
     /// A span at whose end the ray is below the ground, and at whose start above it.
     fn bracket(&self, [near, far]: [f32; 2]) -> Option<[(f32, f32); 2]> {
-        let ends = [near, 0.5 * (near + far), far].map(|way| (way, self.above(way)));
-        let [first, middle, last] = ends;
-        if first.1 <= 0.0 {
-            return Some([first, first]);
+        let mut before = (near, self.above(near));
+        if before.1 <= 0.0 {
+            return Some([before, before]);
         }
-        if middle.1 <= 0.0 {
-            return Some([first, middle]);
+        let piece = (far - near) / PIECES as f32;
+        for look in 0..PIECES {
+            let at = |share: f32| {
+                let way = near + (look as f32 + share) * piece;
+                (way, self.above(way))
+            };
+            let (middle, last) = (at(0.5), at(1.0));
+            if middle.1 <= 0.0 {
+                return Some([before, middle]);
+            }
+            if let Some(dip) = self.dip([before, middle, last]) {
+                return Some([if dip.0 < middle.0 { before } else { middle }, dip]);
+            }
+            if last.1 <= 0.0 {
+                return Some([middle, last]);
+            }
+            before = last;
         }
-        let dip = self.dip(ends);
-        match dip {
-            Some(dip) if dip.0 < middle.0 => Some([first, dip]),
-            Some(dip) => Some([middle, dip]),
-            None => (last.1 <= 0.0).then_some([middle, last]),
-        }
+        None
     }
 
     /// The lowest point of the parabola through three places, if the ray is below the ground there.
