@@ -1,7 +1,7 @@
 //! What a perspective view shows, judged from its pixels.
 
 use weald::grid::Mask;
-use weald::picture::{Cover, Image, Picture, View};
+use weald::picture::{GroundColour, Image, Picture, View};
 use weald::{Domain, Field, Landscape, Size};
 
 /// A mountain beside a lake, 64 cells of 20 m.
@@ -137,7 +137,7 @@ fn materials_colour_the_ground_where_that_is_wished() {
             .count()
     };
     let named = draw(&above(), &landscape);
-    let natural = draw(&View { ground: Some(Cover::Natural), ..above() }, &landscape);
+    let natural = draw(&View { ground: Some(GroundColour::Natural), ..above() }, &landscape);
     assert!(red(&named) > 5000 && red(&natural) < 500, "{} and {} red pixels", red(&named), red(&natural));
 }
 

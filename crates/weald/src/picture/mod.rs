@@ -34,7 +34,7 @@ pub use materials::Materials;
 pub use ramp::{Ramp, Scale, Tint};
 pub use relief::Relief;
 pub use section::{Along, Section};
-pub use view::{Cover, View};
+pub use view::{GroundColour, View};
 
 use std::fmt::Debug;
 

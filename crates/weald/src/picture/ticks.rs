@@ -64,7 +64,7 @@ fn written(value: f64, step: f64) -> String {
         return "0".to_owned();
     }
     let sign = if value < 0.0 { "−" } else { "" };
-    if size >= LARGE || size < SMALL {
+    if !(SMALL..LARGE).contains(&size) {
         return format!("{sign}{}", with_power(value.abs()));
     }
     let places = if step > 0.0 { libm::ceil(-libm::log10(step) - 1e-9).max(0.0) as usize } else { 3 };

@@ -35,7 +35,7 @@ use scene::Scene;
 
 crate::choices! {
     /// What the ground of a view is coloured by.
-    pub enum Cover {
+    pub enum GroundColour {
         /// Meadow, forest, scree, rock and snow, by slope, height, soil and moisture.
         Natural = "natural",
         /// The materials at the surface.
@@ -87,7 +87,7 @@ crate::parameters! {
         exaggeration: f64 = 1.0, range 0.01..=100.0;
         /// What colours the ground. By default `materials` where the recipe names materials of its own, else
         /// `natural`.
-        ground: Option<Cover> = None;
+        ground: Option<GroundColour> = None;
         /// Slope from which natural ground is bare rock. By default that of the steepest tenth of the land, but
         /// between 30° and 42°.
         rock_deg: Option<f64> = None, range 1.0..=89.0, unit "deg";

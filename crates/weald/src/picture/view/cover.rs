@@ -93,7 +93,7 @@ impl Default for Palette {
         let [lush, meadow, dry, alpine] = [0x44_622f, 0x54_6a37, 0x78_7648, 0x62_683f].map(linear_of_hex);
         let forest = [0x26_341e, 0x44_5330].map(linear_of_hex);
         let rock = [0x83_7c72, 0x55_4e47, 0x9a_8c7a].map(linear_of_hex);
-        let [scree, gravel, snow] = [0x95_8d80, 0xa9_9d86, 0xee_f1f5].map(linear_of_hex);
+        let [scree, gravel, snow] = [0x95_8d80, 0xa9_9d86, 0xe4_e8ee].map(linear_of_hex);
         Self { lush, meadow, dry, alpine, forest, rock, scree, gravel, snow }
     }
 }
@@ -159,7 +159,7 @@ impl Cover {
         let stony = green.mixed(&scree, 0.8 * ramp(steep, 0.97, 1.10) * (1.0 - 0.6 * trees));
         let rock = Skin { albedo: self.rock(spot, texture), bump: texture.rough(0.45) };
         let ground = stony.mixed(&rock, ramp(steep, 1.08, 1.22));
-        let snow = Skin { albedo: self.palette.snow, bump: texture.rough(0.05) };
+        let snow = Skin { albedo: scale(self.palette.snow, 1.0 + 0.12 * streak), bump: texture.rough(0.10) };
         ground.mixed(&snow, self.snow(spot, patchy))
     }
 

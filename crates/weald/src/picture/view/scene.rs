@@ -1,5 +1,7 @@
 //! The light that reaches each pixel of a view.
 
+use std::f32::consts::FRAC_1_PI;
+
 use super::View;
 use super::camera::Camera;
 use super::cover::{Cover, Spot};
@@ -63,32 +65,24 @@ pub(super) struct Scene {
 impl Scene {
     pub(super) fn new(view: &View, landscape: &Landscape) -> Result<Self, Error> {
         let (setting, sites) = Setting::new(view, landscape)?;
-        let sun = towards(view.sun_azimuth_deg, view.sun_altitude_deg);
-        let sky = Sky::new(sun, view.sun_diameter_deg);
+        let sky = Sky::new(towards(view.sun_azimuth_deg, view.sun_altitude_deg), view.sun_diameter_deg);
         let terrain = &setting.terrain;
         let camera = Camera::new(view, terrain, setting.exaggeration);
-        let level = sky.on_level_ground();
         let cover = Cover::new(sites, setting.limits);
-        let bounce = scale(filter(cover.mean(), level), BOUNCE * std::f32::consts::FRAC_1_PI);
-        let plain = linear_of_hex(PLAIN);
-        let plain_radiance = scale(filter(plain, level), std::f32::consts::FRAC_1_PI);
-        let centre = {
-            let size = terrain.top.size();
-            terrain.point([0.5 + 0.5 * size.columns as f32, 0.5 + 0.5 * size.rows as f32], 0.0)
-        };
-        let haze = haze(view, &camera, centre, setting.exaggeration);
+        let (level, plain) = (sky.on_level_ground(), linear_of_hex(PLAIN));
+        let sent_back = |albedo: Linear, share: f32| scale(filter(albedo, level), share * FRAC_1_PI);
         let pixels = [view.width as usize, view.height as usize];
         Ok(Self {
             skylight: Skylight::new(&sky, &terrain.top, terrain.spacing, SKYLIGHT_CELLS),
             plain_light: plain_light(&sky, &setting),
             open: skylight::open(&sky),
-            sides: SideLight::new(&sky, plain_radiance),
-            haze,
+            sides: SideLight::new(&sky, sent_back(plain, 1.0)),
+            bounce: sent_back(cover.mean(), BOUNCE),
+            haze: haze(view, &camera, setting.centre(), setting.exaggeration),
             tone: Tone::new(level, view.exposure),
             samples: samples(view.samples),
             pixel_angle: camera.pixel_angle(pixels[0]),
-            is_empty: !Setting::has_land(landscape),
-            bounce,
+            is_empty: landscape.domain.land_cells() == 0,
             plain,
             pixels,
             sky,
@@ -163,7 +157,7 @@ impl Scene {
         let limits = [steepness(altitude - radius), steepness(altitude + radius)];
         let horizon = libm::atanf(self.setting.terrain.horizon(point, sun, limits));
         let free = ((altitude - horizon) / radius).clamp(-1.0, 1.0);
-        0.5 + (free * (1.0 - free * free).sqrt() + libm::asinf(free)) * std::f32::consts::FRAC_1_PI
+        0.5 + (free * (1.0 - free * free).sqrt() + libm::asinf(free)) * FRAC_1_PI
     }
 
     /// Light of sun and sky on a normal.
@@ -179,11 +173,11 @@ impl Scene {
         let terrain = &self.setting.terrain;
         let normal = terrain.normal([east, south]);
         let stretch = self.setting.exaggeration;
-        let steep = (1.0 - normal[2] * normal[2]).max(0.0).sqrt() / normal[2].max(1e-3) / stretch;
-        let run = (normal[0] * normal[0] + normal[1] * normal[1]).sqrt().max(1e-6);
-        let fall = [normal[0] / run, normal[1] / run];
-        let spot =
-            Spot { place, fall, point: [point[0], point[1], height / stretch], slope: steep, footprint };
+        let run = (normal[0] * normal[0] + normal[1] * normal[1]).sqrt();
+        let fall = [0, 1].map(|axis| normal[axis] / run.max(1e-6));
+        let point_of_cover = [point[0], point[1], height / stretch];
+        let slope = run / normal[2].max(1e-3) / stretch;
+        let spot = Spot { place, fall, point: point_of_cover, slope, footprint };
         let skin = self.cover.at(&spot);
         let rough = unit([
             normal[0] - normal[2] * skin.bump[0] * stretch,
@@ -192,7 +186,7 @@ impl Scene {
         ]);
         let albedo = water::wetted(skin.albedo, above, terrain.cell());
         let light = self.lit(point, rough, &self.skylight.at(self.share(place)));
-        scale(filter(albedo, light), std::f32::consts::FRAC_1_PI)
+        scale(filter(albedo, light), FRAC_1_PI)
     }
 
     /// Water of a depth.
@@ -242,7 +236,7 @@ impl Scene {
         let outside = add(point, scale(normal, 1.5 * self.setting.terrain.cell()));
         let sun = if facing > 0.0 { facing * self.sun_seen(outside) } else { 0.0 };
         let light = add(scale(self.sky.sunlight, sun), self.sides.on(normal));
-        scale(filter(albedo, light), std::f32::consts::FRAC_1_PI)
+        scale(filter(albedo, light), FRAC_1_PI)
     }
 
     /// The plain that the landscape stands on, which is lost in the haze of the horizon.
@@ -255,9 +249,9 @@ impl Scene {
         let inside = share.iter().all(|share| (0.0..=1.0).contains(share));
         let seen = if inside { self.plain_light.at(share) } else { self.open };
         let light = self.lit(point, [0.0, 0.0, 1.0], &seen);
-        let radiance = scale(filter(self.plain, light), std::f32::consts::FRAC_1_PI);
+        let radiance = scale(filter(self.plain, light), FRAC_1_PI);
         let near = self.haze.veil(radiance, ray, way, &self.sky);
-        let reach = PLAIN_REACH * extent(&self.setting);
+        let reach = PLAIN_REACH * self.setting.extent();
         let lost = 1.0 - libm::expf(-(way / reach) * (way / reach) * 0.25);
         mix(near, self.sky.radiance([ray.direction[0], ray.direction[1], 0.0]), lost)
     }
@@ -272,13 +266,6 @@ fn haze(view: &View, camera: &Camera, centre: Vector, exaggeration: f32) -> Haze
     let way = dot(away, away).sqrt().max(1e-3);
     let ray = Ray { from: camera.eye, direction: scale(away, 1.0 / way) };
     Haze::of_depth(USUAL_HAZE, &ray, way, exaggeration)
-}
-
-/// The diagonal of the landscape in metres.
-fn extent(setting: &Setting) -> f32 {
-    let (size, spacing) = (setting.terrain.top.size(), setting.terrain.spacing);
-    let sides = [size.columns as f32 * spacing[0], size.rows as f32 * spacing[1]];
-    (sides[0] * sides[0] + sides[1] * sides[1]).sqrt()
 }
 
 /// The sky that is seen from the plain, three times as wide as the landscape.

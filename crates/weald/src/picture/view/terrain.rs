@@ -82,7 +82,7 @@ impl Terrain {
                 .is_some_and(|land| land.patch(x, y).into_iter().flatten().all(|&share| share <= 0.0))
         };
         let pyramid = Pyramid::new(&top, is_empty);
-        Self { spacing, top, base, pyramid, land, outline }
+        Self { spacing, top, land, outline, base, pyramid }
     }
 
     /// The highest point that anything may have.
@@ -421,7 +421,7 @@ mod tests {
                 }
                 (None, None) => {}
                 (None, Some(hit)) => {
-                    assert!(above(hit.way).abs() < 0.02 || ray.at(hit.way)[2] < 0.0, "ray {at}")
+                    assert!(above(hit.way).abs() < 0.02 || ray.at(hit.way)[2] < 0.0, "ray {at}");
                 }
                 (Some(stepped), None) => {
                     assert!(ray.at(stepped)[2] < ground.base, "ray {at} missed the ground at {stepped} m");
