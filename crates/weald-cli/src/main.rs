@@ -20,11 +20,14 @@ use arguments::{Arguments, Command};
 fn main() -> ExitCode {
     let done = match Arguments::parse().command {
         Command::Run(arguments) => commands::run::run(&arguments),
+        Command::Report(arguments) => commands::report::report(&arguments),
         Command::Check(arguments) => commands::check::check(&arguments),
         Command::Steps { name } => commands::steps::steps(name.as_deref()),
         Command::New { name, template } => commands::new::new(&name, &template),
         Command::Info { file, json } => commands::info::info(&file, json),
-        Command::Convert { input, output } => commands::convert::convert(&input, &output),
+        Command::Convert { input, output, preset } => {
+            commands::convert::convert(&input, &output, preset.as_deref())
+        }
         Command::Gallery { only, out } => commands::gallery::gallery(&only, &out),
         Command::Bench(arguments) => commands::bench::bench(&arguments),
         Command::Schema => commands::schema::schema(),

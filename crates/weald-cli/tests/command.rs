@@ -31,6 +31,19 @@ fn a_run_writes_its_files_below_the_name_of_the_recipe() {
 }
 
 #[test]
+fn a_report_writes_one_page_and_nothing_else() {
+    let place = Place::with(RECIPE);
+    let output = place.weald(&["report", "r.toml", "--size", "24"]);
+    assert!(output.status.success(), "{output:?}");
+    assert_eq!(stdout(&output), "out/r/report.html\n");
+    assert_eq!(place.names("out/r"), ["report.html"]);
+    let output = place.weald(&["report", "r.toml", "--out", "pages/mine.html", "--quiet"]);
+    assert!(output.status.success() && output.stdout.is_empty() && output.stderr.is_empty(), "{output:?}");
+    assert_eq!(place.names("pages"), ["mine.html"]);
+    assert_ends(&place, &["report", "r.toml", "--out", "page.pdf"], 2, &["page.pdf", ".html"]);
+}
+
+#[test]
 fn a_quiet_run_prints_nothing() {
     let output = Place::with(RECIPE).weald(&["run", "r.toml", "--quiet"]);
     assert!(output.status.success() && output.stdout.is_empty() && output.stderr.is_empty(), "{output:?}");
@@ -233,7 +246,12 @@ fn a_conversion_keeps_the_place_on_earth_and_the_cells_without_data() {
         assert_eq!(old[key], new[key], "{key}");
     }
     assert!(stdout(&place.weald(&["info", "copy.tif"])).contains("32616"));
-    assert_ends(&place, &["convert", data, "copy.npy"], 0, &["note: ", "copy.npy has none; .tif does"]);
+    assert_ends(
+        &place,
+        &["convert", data, "copy.npy"],
+        0,
+        &["note: copy.npy: the place on Earth is left out; .tif holds it"],
+    );
     assert_ends(&place, &["convert", data, "none/copy.tif"], 1, &["none/copy.tif", "make the folder"]);
 }
 

@@ -47,7 +47,8 @@
 //! * [`material`]: what ground is made of, in layers; [`edit`]: brushes, scripts of strokes, undo and redo.
 //! * [`erode::hydraulic::Hydraulic::sit`]: a simulation to hold in hand, for an editor of your own.
 //! * [`step::Step`]: what a step declares and does. Run one on a landscape of your own with [`engine::Job`].
-//! * [`io`]: raster formats. [`picture`]: maps. [`analyse`]: measures of river networks and shapes.
+//! * [`analyse`]: slope, flow, rivers, light, soil and other layers, and measures of river networks.
+//! * [`io`]: raster formats. [`picture`]: maps and views. [`export`]: meshes, vectors, sets for engines, pages.
 //! * [`gallery`], [`mod@bench`]: figures of the publications made again, and rates.
 //!
 //! Row 0 is north, `x` counts columns eastward and `y` rows southward. Heights and lengths are in metres unless
@@ -61,6 +62,7 @@ pub mod edit;
 pub mod engine;
 pub mod erode;
 pub mod error;
+pub mod export;
 pub mod gallery;
 pub mod generate;
 pub mod grid;

@@ -1,5 +1,6 @@
 //! What a step of a recipe is: it declares the layers that it reads and writes, and runs on a landscape.
 
+use std::collections::BTreeMap;
 use std::fmt::Debug;
 use std::path::PathBuf;
 
@@ -48,6 +49,18 @@ pub trait Step: Debug + Send + Sync {
         Vec::new()
     }
 
+    /// Least and greatest value that a layer of [`Step::writes`] can hold, where the method bounds it. Every
+    /// layer of an analysis has a range; an infinite end says that there is no bound on that side.
+    fn range(&self, layer: &str) -> Option<(f64, f64)> {
+        let _ = layer;
+        None
+    }
+
+    /// Iterations between which its landscape can be looked at; 0 where it cannot.
+    fn watched(&self) -> u64 {
+        0
+    }
+
     /// Columns and rows after the step, where it changes them.
     fn resized(&self) -> Option<(u32, u32)> {
         None
@@ -76,6 +89,8 @@ pub struct Outcome {
     pub iterations: u64,
     /// Where water and solid went, for simulations.
     pub budget: Option<Budget>,
+    /// What was measured, by name.
+    pub measures: BTreeMap<&'static str, f64>,
     /// What the user should know.
     pub notes: Vec<String>,
 }
@@ -91,9 +106,14 @@ pub enum Stage {
     Combine,
     /// Changes ground by water and gravity.
     Erode,
+    /// Reads the land: makes layers and measures from layers.
+    Analyse,
 }
 
 impl Stage {
+    /// All stages, in the order of `weald steps`.
+    pub const ALL: [Self; 5] = [Self::Load, Self::Generate, Self::Combine, Self::Erode, Self::Analyse];
+
     /// The stage's heading in `weald steps`.
     pub fn title(self) -> &'static str {
         match self {
@@ -101,6 +121,7 @@ impl Stage {
             Self::Generate => "generate",
             Self::Combine => "combine",
             Self::Erode => "erode",
+            Self::Analyse => "analyse",
         }
     }
 }

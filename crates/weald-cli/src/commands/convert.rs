@@ -6,25 +6,16 @@ use weald::io;
 
 use crate::failure::Failure;
 
-pub(crate) fn convert(input: &Path, output: &Path) -> Result<(), Failure> {
+pub(crate) fn convert(input: &Path, output: &Path, preset: Option<&str>) -> Result<(), Failure> {
     let format = io::format_of(output).map_err(Failure::usage)?;
-    if format.encode.is_none() {
-        return Err(Failure::usage(format!(
-            "{} is read, not written; choose another extension",
-            format.name
-        )));
-    }
+    let (encode, holds) = format.writing(preset).map_err(Failure::usage)?;
     let raster = io::read(input)?;
     for note in &raster.notes {
         eprintln!("note: {note}");
     }
-    io::write(output, &raster)?;
-    if raster.georeference.is_some() && !format.extensions.contains(&"tif") {
-        eprintln!(
-            "note: {} holds no place on Earth, so {} has none; .tif does",
-            format.name,
-            output.display()
-        );
+    io::write_parts(output, &encode.parts(&raster)?)?;
+    for loss in holds.losses(&raster) {
+        eprintln!("note: {}: {loss}", output.display());
     }
     Ok(())
 }

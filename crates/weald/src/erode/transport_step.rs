@@ -150,7 +150,7 @@ impl Step for Carry {
         let finished = simulation.run(self.state(landscape, advection)?, job)?;
         let unit = landscape.layer(&self.layer.0)?.unit.clone();
         landscape.insert(&self.layer.0, &unit, Field::from_values(size, finished.state.gather(0)));
-        Ok(Outcome { iterations: u64::from(self.iterations), budget: None, notes: finished.notes })
+        Ok(Outcome { iterations: u64::from(self.iterations), notes: finished.notes, ..Outcome::default() })
     }
 }
 

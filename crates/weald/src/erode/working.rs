@@ -223,7 +223,7 @@ impl Working {
                 if budget.solid.error() > 0.0 { "lost" } else { "made" },
             ));
         }
-        Outcome { iterations: kept.iterations, budget: Some(budget), notes }
+        Outcome { iterations: kept.iterations, budget: Some(budget), notes, ..Outcome::default() }
     }
 
     /// Writes the ground alone.
@@ -239,7 +239,7 @@ impl Working {
         self.store_stack(landscape, finished);
         let mut budget = self.budget(&[], &[], finished);
         budget.water = WaterBudget::default();
-        Outcome { iterations, budget: Some(budget), notes: finished.notes.clone() }
+        Outcome { iterations, budget: Some(budget), notes: finished.notes.clone(), ..Outcome::default() }
     }
 
     /// Sum over all cells, row by row.

@@ -4,6 +4,7 @@ use std::fs::File;
 use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 
+use super::parts::{Part, PartName, followed};
 use crate::error::Error;
 
 /// Writes `bytes` under a temporary name beside `path`, syncs, and renames. On failure the temporary file is
@@ -30,6 +31,75 @@ pub fn write_whole_with(
         let _ = std::fs::remove_file(&temporary);
         Error::write(path, &cause)
     })
+}
+
+/// Has another program write a file: it gets the temporary name.
+///
+/// # Errors
+/// As [`write_whole`], and those of `write`.
+pub fn write_through(path: &Path, write: impl FnOnce(&Path) -> Result<(), Error>) -> Result<(), Error> {
+    let temporary = temporary_name(path);
+    let renamed = || std::fs::rename(&temporary, path).map_err(|cause| Error::write(path, &cause));
+    write(&temporary).and_then(|()| renamed()).inspect_err(|_| {
+        // The write has failed already; that there may be no leftover to remove adds nothing.
+        let _ = std::fs::remove_file(&temporary);
+    })
+}
+
+/// Writes all files of a raster or an export: none of them has its name before all of them are whole. Parts
+/// in a folder replace an older folder of that name.
+///
+/// # Errors
+/// As [`write_whole`]; names are those of the parts.
+pub fn write_parts(path: &Path, parts: &[Part]) -> Result<(), Error> {
+    if parts.iter().any(|part| matches!(part.name, PartName::Inside(_))) {
+        return write_folder(path, parts);
+    }
+    let named: Vec<_> = parts.iter().map(|part| (part.name.path(path), &part.bytes)).collect();
+    let discard = |error| {
+        // What failed is told; that a leftover cannot be removed either adds nothing.
+        for (path, _) in &named {
+            let _ = std::fs::remove_file(temporary_name(path));
+        }
+        error
+    };
+    for (path, bytes) in &named {
+        let written = write_and_sync(&temporary_name(path), |file| file.write_all(bytes));
+        written.map_err(|cause| discard(Error::write(path, &cause)))?;
+    }
+    // The file itself comes last, so that whoever sees it finds what lies beside it.
+    for (path, _) in named.iter().rev() {
+        std::fs::rename(temporary_name(path), path).map_err(|cause| discard(Error::write(path, &cause)))?;
+    }
+    Ok(())
+}
+
+/// Writes a folder under a temporary name and puts it in the place of the older one.
+fn write_folder(path: &Path, parts: &[Part]) -> Result<(), Error> {
+    let (fresh, stale) = (temporary_name(path), temporary_name(&followed(path, ".old")));
+    let swapped = fill(&fresh, parts).and_then(|()| {
+        if path.exists() {
+            std::fs::rename(path, &stale)?;
+        }
+        std::fs::rename(&fresh, path)
+    });
+    // Both are leftovers by now; that one of them is not there is the usual case.
+    let _ = std::fs::remove_dir_all(&fresh);
+    swapped.map_err(|cause| Error::write(path, &cause))?;
+    let _ = std::fs::remove_dir_all(&stale);
+    Ok(())
+}
+
+fn fill(folder: &Path, parts: &[Part]) -> std::io::Result<()> {
+    std::fs::create_dir_all(folder)?;
+    for part in parts {
+        let path = part.name.path(folder);
+        if let Some(parent) = path.parent() {
+            std::fs::create_dir_all(parent)?;
+        }
+        write_and_sync(&path, |file| file.write_all(&part.bytes))?;
+    }
+    Ok(())
 }
 
 fn write_and_sync(
@@ -61,6 +131,31 @@ mod tests {
         let error = write_whole(&path, b"new").expect_err("no space");
         assert!(error.to_string().contains("height.tif: No space left on device"), "{error}");
         assert_eq!(std::fs::read(&path).expect("kept"), b"old");
+        assert_eq!(std::fs::read_dir(folder.path()).expect("lists").count(), 1);
+    }
+
+    #[test]
+    fn a_failed_part_leaves_none_of_the_others() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("height.raw");
+        let side = folder.path().join("height.raw.json");
+        std::os::unix::fs::symlink("/dev/full", temporary_name(&side)).expect("linked");
+        let error =
+            write_parts(&path, &[Part::own(b"heights".to_vec()), Part::beside(".json", b"{}".to_vec())])
+                .expect_err("no space");
+        assert!(error.to_string().contains("height.raw.json: No space left on device"), "{error}");
+        assert_eq!(std::fs::read_dir(folder.path()).expect("lists").count(), 0);
+    }
+
+    #[test]
+    fn a_folder_takes_the_place_of_the_older_one_with_all_it_held() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("height.zarr");
+        let part = |name, bytes: &[u8]| Part::inside(name, bytes.to_vec());
+        write_parts(&path, &[part("c/0/0", b"old"), part("c/0/1", b"old")]).expect("written");
+        write_parts(&path, &[part("c/0/0", b"new")]).expect("written");
+        assert_eq!(std::fs::read(path.join("c/0/0")).expect("there"), b"new");
+        assert!(!path.join("c/0/1").exists());
         assert_eq!(std::fs::read_dir(folder.path()).expect("lists").count(), 1);
     }
 }

@@ -4,21 +4,32 @@
 //! header against its [`Limits`] before it allocates; every writer writes under a temporary name and renames
 //! the whole file.
 
+pub mod asc;
 mod atomic;
+pub(crate) mod cf;
+pub mod exr;
 mod fault;
+mod format;
 pub mod geotiff;
 mod info;
 mod limits;
+pub mod netcdf;
 pub mod npy;
+mod number;
+mod parts;
 pub mod png16;
 mod provenance;
 mod raster;
+pub mod raw;
 mod square;
+pub mod zarr;
 
-pub use atomic::{write_whole, write_whole_with};
+pub use atomic::{write_parts, write_through, write_whole, write_whole_with};
 pub use fault::Fault;
+pub use format::{Decode, DecodeFile, Encode, Format, Holds, Knowledge, Preset, Values};
 pub use info::{Info, describe};
 pub use limits::Limits;
+pub use parts::{InMemory, Part, PartName, Parts};
 pub use provenance::Provenance;
 pub use raster::Raster;
 pub use square::square;
@@ -27,29 +38,22 @@ use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
+use self::parts::OnDisk;
 use crate::error::Error;
 
-/// Turns the bytes of a file into a raster.
-pub type Decode = fn(&[u8], Limits) -> Result<Raster, Fault>;
-
-/// Turns a raster into the bytes of a file.
-pub type Encode = fn(&Raster) -> Result<Vec<u8>, Error>;
-
-/// A raster format.
-#[derive(Clone, Copy, Debug)]
-pub struct Format {
-    /// Name for messages.
-    pub name: &'static str,
-    /// Extensions in lower case, without the dot.
-    pub extensions: &'static [&'static str],
-    /// Reads a file, where the format is read.
-    pub decode: Option<Decode>,
-    /// Writes one, where the format is written.
-    pub encode: Option<Encode>,
-}
-
 /// All raster formats.
-pub const FORMATS: &[Format] = &[geotiff::FORMAT, png16::FORMAT, npy::FORMAT];
+#[rustfmt::skip] // one entry a line, so that branches that add some do not meet
+pub const FORMATS: &[Format] = &[
+    geotiff::FORMAT,
+    png16::FORMAT,
+    exr::FORMAT,
+    raw::FORMAT_16,
+    raw::FORMAT_32,
+    asc::FORMAT,
+    npy::FORMAT,
+    netcdf::FORMAT,
+    zarr::FORMAT,
+];
 
 /// The format of a file name.
 ///
@@ -70,10 +74,15 @@ pub fn format_of(path: &Path) -> Result<&'static Format, String> {
 /// one that is too large.
 pub fn read(path: &Path) -> Result<Raster, Error> {
     let format = format_of(path).map_err(|what| Error::input(path, what))?;
-    let decode =
-        format.decode.ok_or_else(|| Error::input(path, format!("{} is written, not read", format.name)))?;
     let limits = Limits::default();
-    decode(&read_bytes(path, limits.file_bytes())?, limits).map_err(|fault| fault.of(path))
+    let raster = match format.decode {
+        Some(Decode::File(decode)) => {
+            read_at_most(path, limits.file_bytes()).and_then(|bytes| decode(&bytes, limits))
+        }
+        Some(Decode::Parts(decode)) => decode(&OnDisk(path.to_owned()), limits),
+        None => Err(Fault::damaged(format!("{} is written, not read", format.name))),
+    };
+    raster.map_err(|fault| fault.of(path))
 }
 
 /// Writes a raster under its whole name only when all of it is on disk.
@@ -82,18 +91,18 @@ pub fn read(path: &Path) -> Result<Raster, Error> {
 /// [`Error::Run`] for an unknown extension, values that the format cannot hold, or a failed write.
 pub fn write(path: &Path, raster: &Raster) -> Result<(), Error> {
     let format = format_of(path).map_err(Error::Run)?;
-    let encode = format.encode.ok_or_else(|| Error::Run(format!("{} is read, not written", format.name)))?;
-    write_whole(path, &encode(raster)?)
+    let (encode, _) = format.writing(None).map_err(Error::Run)?;
+    write_parts(path, &encode.parts(raster)?)
 }
 
 /// All bytes of a file, where they are at most `limit`. The length is counted while reading, because a
 /// device or a pipe has none to ask for.
-fn read_bytes(path: &Path, limit: u64) -> Result<Vec<u8>, Error> {
+fn read_at_most(path: &Path, limit: u64) -> Result<Vec<u8>, Fault> {
     let mut bytes = Vec::new();
     let reading = File::open(path).and_then(|file| file.take(limit + 1).read_to_end(&mut bytes));
-    reading.map_err(|cause| Error::input(path, format!("cannot be read: {cause}")))?;
+    reading.map_err(|cause| Fault::damaged(format!("cannot be read: {cause}")))?;
     if bytes.len() as u64 > limit {
-        return Err(Fault::Limit(format!("the file is longer than the {limit} bytes that are read")).of(path));
+        return Err(Fault::Limit(format!("the file is longer than the {limit} bytes that are read")));
     }
     Ok(bytes)
 }
@@ -107,10 +116,11 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("ten.tif");
         std::fs::write(&path, [7; 10]).expect("written");
-        assert_eq!(read_bytes(&path, 10).expect("within"), [7; 10]);
-        let error = read_bytes(&path, 9).expect_err("over");
+        assert_eq!(read_at_most(&path, 10).expect("within"), [7; 10]);
+        let error = read_at_most(&path, 9).expect_err("over").of(&path);
         assert_eq!(error.exit_code(), 5, "{error}");
-        let error = read_bytes(&folder.path().join("none.tif"), 9).expect_err("missing");
+        let missing = folder.path().join("none.tif");
+        let error = read_at_most(&missing, 9).expect_err("missing").of(&missing);
         assert_eq!(error.exit_code(), 4, "{error}");
     }
 }

@@ -3,13 +3,20 @@
 //! Read are two-dimensional arrays of floats and integers in either byte order and either array order; NaN is
 //! no-data. The format has no room for provenance, cell size or place: the report has them.
 
-use super::{Fault, Format, Limits, Raster};
+use super::number::Number;
+use super::{Decode, Encode, Fault, Format, Holds, Knowledge, Limits, Raster};
 use crate::error::Error;
 use crate::grid::Size;
 
 /// The entry in the registry of formats.
-pub(super) const FORMAT: Format =
-    Format { name: "NumPy array", extensions: &["npy"], decode: Some(decode), encode: Some(encode) };
+pub(super) const FORMAT: Format = Format {
+    name: "NumPy array",
+    extensions: &["npy"],
+    decode: Some(Decode::File(decode)),
+    encode: Some(Encode::File(encode)),
+    holds: Holds { omits: &[Knowledge::Cell, Knowledge::Place, Knowledge::Provenance], ..Holds::ALL },
+    presets: &[],
+};
 
 const MAGIC: &[u8] = b"\x93NUMPY";
 
@@ -45,22 +52,22 @@ pub fn decode(bytes: &[u8], limits: Limits) -> Result<Raster, Fault> {
     let (columns, rows) = shape(entry(header, "shape")?)?;
     let size = limits.size(columns, rows)?;
     let is_transposed = entry(header, "fortran_order")? == "True";
-    if data.len() != size.cells() * kind.bytes {
+    if data.len() != size.cells() * kind.number.bytes {
         return Err(Fault::damaged(format!(
             "{size} values of {} bytes need {} bytes, but {} follow the header; the file is damaged",
-            kind.bytes,
-            size.cells() * kind.bytes,
+            kind.number.bytes,
+            size.cells() * kind.number.bytes,
             data.len()
         )));
     }
     let number = |x: usize, y: usize| {
         let index = if is_transposed { x * size.rows + y } else { y * size.columns + x };
-        kind.value(&data[index * kind.bytes..][..kind.bytes])
+        kind.number.value(&data[index * kind.number.bytes..][..kind.number.bytes], kind.is_big)
     };
     let numbers = || (0..size.cells()).map(|index| number(index % size.columns, index / size.columns));
     let land = numbers().map(|number| !number.is_nan()).collect();
     let values = numbers().map(|number| if number.is_nan() { 0.0 } else { number as f32 }).collect();
-    Raster::from_file(size, values, land, kind.name)
+    Raster::from_file(size, values, land, kind.number.name)
 }
 
 /// The header's dictionary and the bytes of the values.
@@ -102,42 +109,31 @@ fn shape(text: &str) -> Result<(usize, usize), Fault> {
     }
 }
 
-/// Type of the values.
+/// Type of the values, and their order of bytes.
 struct Kind {
-    name: &'static str,
-    bytes: usize,
+    number: Number,
     is_big: bool,
-    value: fn(u64) -> f64,
 }
 
 impl Kind {
     /// The type behind `NumPy`'s name for it, such as `<f4`.
     fn of(description: &str) -> Result<Self, Fault> {
         let (order, kind) = description.split_at_checked(1).unwrap_or_default();
-        let (name, bytes, value): (_, _, fn(u64) -> f64) = match kind {
-            "f4" => ("float32", 4, |bits| f64::from(f32::from_bits(bits as u32))),
-            "f8" => ("float64", 8, f64::from_bits),
-            "i1" => ("int8", 1, |bits| f64::from(bits as i8)),
-            "i2" => ("int16", 2, |bits| f64::from(bits as i16)),
-            "i4" => ("int32", 4, |bits| f64::from(bits as i32)),
-            "i8" => ("int64", 8, |bits| bits as i64 as f64),
-            "u1" => ("uint8", 1, |bits| bits as f64),
-            "u2" => ("uint16", 2, |bits| bits as f64),
-            "u4" => ("uint32", 4, |bits| bits as f64),
-            "u8" => ("uint64", 8, |bits| bits as f64),
+        let (family, bytes) = kind.split_at_checked(1).unwrap_or_default();
+        let family = match family {
+            "f" => "float",
+            "i" => "int",
+            "u" => "uint",
             _ => return Err(unread(description)),
         };
+        let bits = bytes.parse().ok().filter(|bytes| (1..=8_u32).contains(bytes)).map(|bytes| bytes * 8);
+        let number = bits.and_then(|bits| Number::of(&format!("{family}{bits}")));
+        let number = number.ok_or_else(|| unread(description))?;
         match order {
-            "<" | "|" | "=" => Ok(Self { name, bytes, is_big: false, value }),
-            ">" => Ok(Self { name, bytes, is_big: true, value }),
+            "<" | "|" | "=" => Ok(Self { number, is_big: false }),
+            ">" => Ok(Self { number, is_big: true }),
             _ => Err(unread(description)),
         }
-    }
-
-    fn value(&self, bytes: &[u8]) -> f64 {
-        let join = |bits: u64, byte: &u8| bits << 8 | u64::from(*byte);
-        let bits = if self.is_big { bytes.iter().fold(0, join) } else { bytes.iter().rev().fold(0, join) };
-        (self.value)(bits)
     }
 }
 

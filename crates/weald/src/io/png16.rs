@@ -10,13 +10,19 @@ use png::{BitDepth, ColorType, Decoder, Encoder, Info, Reader};
 
 use super::limits::ensure_can_hold;
 use super::provenance::{MAXIMUM, MINIMUM, finite};
-use super::{Fault, Format, Limits, Provenance, Raster};
+use super::{Decode, Encode, Fault, Format, Holds, Knowledge, Limits, Provenance, Raster, Values};
 use crate::error::Error;
 use crate::grid::Size;
 
 /// The entry in the registry of formats.
-pub(super) const FORMAT: Format =
-    Format { name: "16-bit PNG", extensions: &["png"], decode: Some(decode), encode: Some(encode) };
+pub(super) const FORMAT: Format = Format {
+    name: "16-bit PNG",
+    extensions: &["png"],
+    decode: Some(Decode::File(decode)),
+    encode: Some(Encode::File(encode)),
+    holds: Holds { values: Values::Steps16, omits: &[Knowledge::Place] },
+    presets: &[],
+};
 
 /// Key of the side of a cell in metres.
 const CELL: &str = "WEALD_CELL_METRES";

@@ -1,5 +1,6 @@
 //! Pictures of a landscape, one file a kind; [`PICTURES`] is the registry.
 
+mod albedo;
 mod automatic;
 mod colour;
 mod contours;
@@ -27,6 +28,8 @@ mod texture;
 mod ticks;
 mod view;
 
+pub(crate) use albedo::tinted;
+pub(crate) use colour::linear_of_srgb;
 pub use colour::{Linear, Oklab, encode, linear_of_hex};
 pub use image::Image;
 pub use map::Map;
@@ -34,6 +37,7 @@ pub use materials::Materials;
 pub use ramp::{Ramp, Scale, Tint};
 pub use relief::Relief;
 pub use section::{Along, Section};
+pub(crate) use view::albedo;
 pub use view::{GroundColour, View};
 
 use std::fmt::Debug;
@@ -54,6 +58,13 @@ pub trait Picture: Debug + Send + Sync {
     /// Names of the layers it draws where they exist.
     fn optional(&self) -> Vec<String> {
         Vec::new()
+    }
+
+    /// The same picture from a camera that has gone a share of a turn around the landscape, 0 to 1, clockwise
+    /// from above; `None` for a picture without a camera.
+    fn turned(&self, share: f64) -> Option<Box<dyn Picture>> {
+        let _ = share;
+        None
     }
 
     /// Draws a landscape that has all the layers in [`Picture::reads`].

@@ -7,6 +7,7 @@
 //! and the land; on the way to the eye light pales in the haze. Pixels depend on their place alone, so any number of
 //! threads gives the same picture.
 
+mod albedo;
 mod atmosphere;
 mod camera;
 mod cover;
@@ -24,6 +25,8 @@ mod terrain;
 mod tone;
 mod vector;
 mod water;
+
+pub(crate) use albedo::albedo;
 
 use rayon::prelude::*;
 
@@ -114,6 +117,10 @@ impl Picture for View {
     fn optional(&self) -> Vec<String> {
         let water: &[&str] = if self.water { &["water", "flux_x", "flux_y"] } else { &[] };
         ["soil", "wetness", "deposition"].iter().chain(water).map(|name| (*name).to_owned()).collect()
+    }
+
+    fn turned(&self, share: f64) -> Option<Box<dyn Picture>> {
+        Some(Box::new(Self::turned(self, share)))
     }
 
     fn render(&self, landscape: &Landscape) -> Result<Image, Error> {

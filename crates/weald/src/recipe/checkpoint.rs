@@ -258,6 +258,7 @@ mod tests {
             iterations: 1,
             cell_updates_per_second: 1.0 / 3.0,
             budget: None,
+            measures: [("reach".to_owned(), 0.25)].into(),
             notes: Vec::new(),
         };
         State { landscape, done: 1, simulation: Some(simulation), steps: vec![report], notes: Vec::new() }

@@ -3,12 +3,14 @@
 
 mod colour;
 mod file;
+mod layer_names;
 mod places;
 mod sides;
 mod values;
 
 pub use colour::Colour;
 pub use file::{RasterFile, ScriptFile};
+pub use layer_names::LayerNames;
 pub use places::Places;
 pub use sides::Sides;
 pub use values::{LayerName, Nested};
@@ -56,6 +58,8 @@ pub enum Kind {
     Sides,
     /// The name of a layer.
     Layer,
+    /// A list of names of layers.
+    Layers,
     /// A place as a list of two numbers, or a list of places.
     Places,
     /// A list of numbers, each within both bounds.
@@ -82,6 +86,7 @@ impl Kind {
             Self::Colour => "colour \"#rrggbb\"".to_owned(),
             Self::Sides => "whole number from 1, or [columns, rows]".to_owned(),
             Self::Layer => "layer name".to_owned(),
+            Self::Layers => "list of layer names".to_owned(),
             Self::Numbers(low, high) => format!("list of numbers, {}", range_in_words(*low, *high)),
             Self::Places => "[x, y], or a list of places".to_owned(),
             Self::Table(_) => "table".to_owned(),
@@ -165,6 +170,11 @@ pub trait ParameterValue: Sized + Clone {
     }
 }
 
+/// The key of a field: its name, without the mark of those that are words of Rust, as in `r#where`.
+pub fn key(field: &'static str) -> &'static str {
+    field.strip_prefix("r#").unwrap_or(field)
+}
+
 /// Reads one key of a table, or takes its default.
 pub fn read_key<T: ParameterValue>(
     table: &Table,
@@ -209,7 +219,7 @@ macro_rules! parameters {
                 vec![$( {
                     let default: $Type = $default;
                     $crate::recipe::parameter::Parameter {
-                        name: stringify!($name),
+                        name: $crate::recipe::parameter::key(stringify!($name)),
                         doc: concat!($($doc, "\n",)+).trim_ascii(),
                         unit: $crate::parameters!(@unit $($unit)?),
                         kind: <$Type as ParameterValue>::kind($crate::parameters!(@range $($low, $high)?)),
@@ -223,9 +233,10 @@ macro_rules! parameters {
                 table: &$crate::recipe::source::Table,
                 complaints: &mut $crate::recipe::parameter::Complaints,
             ) -> Self {
-                complaints.unknown_keys(table, &[$(stringify!($name)),*]);
-                Self { $( $name: $crate::recipe::parameter::read_key(
-                    table, stringify!($name), $default, $crate::parameters!(@range $($low, $high)?), complaints,
+                use $crate::recipe::parameter::{key, read_key};
+                complaints.unknown_keys(table, &[$(key(stringify!($name))),*]);
+                Self { $( $name: read_key(
+                    table, key(stringify!($name)), $default, $crate::parameters!(@range $($low, $high)?), complaints,
                 ), )* }
             }
         }

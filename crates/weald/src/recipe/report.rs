@@ -1,5 +1,6 @@
 //! `report.json`: what a run did, how fast, and where water and solid went.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
@@ -48,12 +49,15 @@ pub struct StepReport {
     /// Where water and solid went, for simulations.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub budget: Option<BudgetReport>,
+    /// What was measured, by name.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty", default)]
+    pub measures: BTreeMap<String, f64>,
     /// What the user should know.
     pub notes: Vec<String>,
 }
 
 /// A file that was written.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct OutputReport {
     /// Path inside the output folder.
     pub file: String,
@@ -62,10 +66,22 @@ pub struct OutputReport {
     /// The kind of picture, if it is one.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub picture: Option<String>,
+    /// The kind of export, if it is one.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub export: Option<String>,
+    /// Pictures of a film, numbered from 0.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub frames: Option<u64>,
+    /// Files beside it that belong to it.
+    #[serde(skip_serializing_if = "Vec::is_empty", default)]
+    pub companions: Vec<String>,
     /// Unit of the layer.
     pub unit: Option<String>,
     /// Least and greatest value of the layer over the cells with data.
     pub range: Option<(f64, f64)>,
+    /// What the user should know, such as what the format cannot hold.
+    #[serde(skip_serializing_if = "Vec::is_empty", default)]
+    pub notes: Vec<String>,
 }
 
 /// Water and solid in cubic metres; errors are relative.

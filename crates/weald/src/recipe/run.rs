@@ -1,21 +1,23 @@
 //! Runs a checked recipe: ground, steps, files, report.
 
 mod desk;
+mod film;
 mod folder;
 mod inputs;
 #[cfg(test)]
 mod tests;
 mod writer;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use super::checkpoint::{self, CHECKPOINT_FILE, State};
 use super::ground;
-use super::plan::{Planned, Recipe};
-use super::report::{REPORT_FILE, Report, StepReport};
+use super::plan::{Output, Planned, Recipe};
+use super::report::{OutputReport, REPORT_FILE, Report, StepReport};
 use crate::engine::{Engine, Job};
 use crate::error::Error;
+use crate::export::Finished;
 use crate::landscape::Landscape;
 use crate::material::layer_names;
 use crate::step::{Layered, Outcome};
@@ -35,13 +37,22 @@ pub struct Options {
     pub checkpoint_every: Duration,
     /// Whether to go on from the checkpoint in the folder.
     pub resume: bool,
+    /// Whether `report.json` is written beside the outputs.
+    pub report: bool,
 }
 
 impl Options {
     /// On all cores into a folder, with a checkpoint every minute.
     pub fn into_folder(out: impl Into<PathBuf>) -> Self {
         let checkpoint_every = Duration::from_mins(1);
-        Self { out: out.into(), engine: Engine::Cpu, threads: None, checkpoint_every, resume: false }
+        Self {
+            out: out.into(),
+            engine: Engine::Cpu,
+            threads: None,
+            checkpoint_every,
+            resume: false,
+            report: true,
+        }
     }
 }
 
@@ -55,6 +66,11 @@ pub trait Progress: Sync {
     /// The step has done `done` of `total` iterations over `cells` cells each.
     fn progress(&self, done: u64, total: u64, cells: usize) {
         let _ = (done, total, cells);
+    }
+
+    /// Output `number` of `count`, counted from 1, is made.
+    fn output(&self, number: usize, count: usize, file: &Path) {
+        let _ = (number, count, file);
     }
 
     /// Something that the user should know.
@@ -100,7 +116,7 @@ pub struct Run<'a> {
 }
 
 impl Run<'_> {
-    /// Runs the recipe and writes its files, the report last.
+    /// Runs the recipe and writes its files, the report last if it is wanted.
     ///
     /// # Errors
     /// [`Error::Input`] for a damaged elevation model or checkpoint, [`Error::Run`] where a step or a file
@@ -122,8 +138,7 @@ impl Run<'_> {
             self.advance(planned, &mut state, progress, &clock)?;
             self.keep_if_due(&state, &clock)?;
         }
-        self.stop_if_cancelled(&state, progress)?;
-        let report = self.write(state)?;
+        let report = self.write(state, progress)?;
         folder::remove_checkpoint(&self.checkpoint())?;
         Ok(report)
     }
@@ -146,6 +161,9 @@ impl Run<'_> {
             progress.note(&format!("starting anew; the checkpoint {path} is used with --resume only"));
         }
         inputs::check(self.recipe)?;
+        if self.recipe.outputs.iter().any(Output::is_video) && !film::ffmpeg_is_there() {
+            progress.note(film::NO_FFMPEG);
+        }
         let (landscape, notes) = ground::load(self.recipe)?;
         for note in &notes {
             progress.note(note);
@@ -233,24 +251,54 @@ impl Run<'_> {
         }
     }
 
+    fn outputs(
+        &self,
+        state: &State,
+        hash: &str,
+        progress: &dyn Progress,
+    ) -> Result<Vec<OutputReport>, Error> {
+        let finished = Finished {
+            landscape: &state.landscape,
+            steps: &state.steps,
+            recipe: &self.recipe.file,
+            hash,
+            seed: self.recipe.seed,
+        };
+        let next_frame = |frame, frames| {
+            progress.progress(frame, frames, 0);
+            self.stop_if_cancelled(state, progress)
+        };
+        let writer = Writer { finished, recipe: self.recipe, next_frame: &next_frame };
+        let count = self.recipe.outputs.len();
+        let mut reports = Vec::with_capacity(count);
+        for (index, output) in self.recipe.outputs.iter().enumerate() {
+            self.stop_if_cancelled(state, progress)?;
+            progress.output(index + 1, count, &output.file);
+            let report = writer.write(output, &self.options.out)?;
+            report.notes.iter().for_each(|note| progress.note(&format!("{}: {note}", report.file)));
+            reports.push(report);
+        }
+        Ok(reports)
+    }
+
     /// Writes all outputs, and the report when they are whole.
-    fn write(&self, state: State) -> Result<Report, Error> {
-        let State { landscape, steps, notes, .. } = state;
+    fn write(&self, state: State, progress: &dyn Progress) -> Result<Report, Error> {
         let hash = self.recipe.hash();
-        let writer = Writer { recipe: self.recipe, landscape: &landscape, hash: &hash };
-        let outputs = self.recipe.outputs.iter().map(|output| writer.write(output, &self.options.out));
-        let outputs = outputs.collect::<Result<_, _>>()?;
+        let outputs = self.outputs(&state, &hash, progress)?;
+        let State { steps, notes, .. } = state;
         let report = Report {
             engine: self.options.engine.name().to_owned(),
             adapter: self.options.engine.adapter(),
             seed: self.recipe.seed,
-            recipe_blake3: hash.clone(),
+            recipe_blake3: hash,
             version: env!("CARGO_PKG_VERSION").to_owned(),
             steps,
             outputs,
             notes,
         };
-        report.write(&self.options.out.join(REPORT_FILE))?;
+        if self.options.report {
+            report.write(&self.options.out.join(REPORT_FILE))?;
+        }
         Ok(report)
     }
 }
@@ -296,6 +344,7 @@ fn step_report(
         iterations: outcome.iterations,
         cell_updates_per_second: cells as f64 * here as f64 / seconds.max(1e-9),
         budget: outcome.budget.map(Into::into),
+        measures: outcome.measures.into_iter().map(|(name, value)| (name.to_owned(), value)).collect(),
         notes,
     }
 }

@@ -1,10 +1,13 @@
 //! The JSON Schema of recipes, for editors that complete and check TOML: `weald schema`.
 
+use std::collections::BTreeSet;
+
 use serde_json::{Map, Value, json};
 
 use super::catalog::CATALOG;
 use super::parameter::{Kind, Parameter, Parameters};
-use super::plan::{LandscapeKeys, MaterialKeys};
+use super::plan::{FilmKeys, LandscapeKeys, MaterialKeys};
+use crate::export::EXPORTS;
 use crate::io::FORMATS;
 use crate::material::MOST;
 use crate::picture::PICTURES;
@@ -17,9 +20,19 @@ pub fn schema() -> Value {
     });
     let pictures = PICTURES.iter().map(|entry| {
         let mut object = alternative("picture", entry.name, entry.summary, &(entry.parameters)());
-        add_property(&mut object, "file", &file());
+        add_property(&mut object, "file", &file(&["png", "mp4", "webm"]));
+        for key in FilmKeys::parameters() {
+            object["properties"][key.name] = property(&key);
+        }
         object
     });
+    let exports = EXPORTS.iter().map(|entry| {
+        let summary = format!("{} Source: {}.", entry.summary, entry.source);
+        let mut object = alternative("export", entry.name, &summary, &(entry.parameters)());
+        add_property(&mut object, "file", &file(entry.extensions));
+        object
+    });
+    let outputs: Vec<_> = std::iter::once(layer_output()).chain(pictures).chain(exports).collect();
     json!({
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": "Weald recipe",
@@ -36,7 +49,7 @@ pub fn schema() -> Value {
             "output": {
                 "type": "array",
                 "minItems": 1,
-                "items": one_of(&std::iter::once(layer_output()).chain(pictures).collect::<Vec<_>>()),
+                "items": one_of(&outputs),
             },
         },
         "additionalProperties": false,
@@ -54,8 +67,7 @@ fn one_of(alternatives: &[Value]) -> Value {
     json!({ "oneOf": alternatives })
 }
 
-fn file() -> Value {
-    let extensions: Vec<_> = FORMATS.iter().flat_map(|format| format.extensions).copied().collect();
+fn file(extensions: &[&str]) -> Value {
     // Extensions count in upper and in lower case.
     let letter = |letter: char| format!("[{letter}{}]", letter.to_ascii_uppercase());
     let spelt = |word: &&str| word.chars().map(letter).collect::<String>();
@@ -70,12 +82,21 @@ fn file() -> Value {
 fn layer_output() -> Value {
     let mut layer = of_kind(&Kind::Layer);
     layer["description"] = "The layer that is written.".into();
+    let extensions: Vec<_> = FORMATS.iter().flat_map(|format| format.extensions).copied().collect();
     json!({
         "type": "object",
-        "properties": { "layer": layer, "file": file() },
+        "properties": { "layer": layer, "file": file(&extensions), "preset": preset() },
         "required": ["layer", "file"],
         "additionalProperties": false,
     })
+}
+
+/// The readers that a layer can be written for, of all formats.
+fn preset() -> Value {
+    let presets: Vec<_> = FORMATS.iter().flat_map(|format| format.presets).collect();
+    let names: BTreeSet<_> = presets.iter().map(|preset| preset.name).collect();
+    let told: Vec<_> = presets.iter().map(|preset| format!("{}: {}", preset.name, preset.summary)).collect();
+    json!({ "enum": names, "description": told.join(". ") })
 }
 
 /// A table that is told from others by the word under `key`.
@@ -128,6 +149,7 @@ fn of_kind(kind: &Kind) -> Value {
         Kind::Text | Kind::Raster | Kind::Script => json!({ "type": "string" }),
         Kind::Colour => json!({ "type": "string", "pattern": "^#[0-9A-Fa-f]{6}$" }),
         Kind::Layer => json!({ "type": "string", "pattern": "^[A-Za-z0-9_-]{1,64}$" }),
+        Kind::Layers => json!({ "type": "array", "items": of_kind(&Kind::Layer), "uniqueItems": true }),
         Kind::Numbers(low, high) => json!({ "type": "array", "items": bounded("number", *low, *high) }),
         Kind::Sides => {
             let side = json!({ "type": "integer", "minimum": 1 });
@@ -175,10 +197,7 @@ mod tests {
         let output = &schema["properties"]["output"]["items"]["oneOf"][0]["properties"];
         assert_eq!(output["layer"]["pattern"], "^[A-Za-z0-9_-]{1,64}$");
         let pattern = output["file"]["pattern"].as_str().expect("a pattern");
-        assert!(
-            pattern.starts_with(r"\.([tT][iI][fF]|") && pattern.ends_with("|[nN][pP][yY])$"),
-            "{pattern}"
-        );
+        assert!(pattern.starts_with(r"\.([tT][iI][fF]|") && pattern.contains("|[nN][pP][yY]"), "{pattern}");
     }
 
     #[test]
@@ -191,11 +210,11 @@ mod tests {
     }
 
     #[test]
-    fn every_step_and_picture_is_an_alternative() {
+    fn every_step_picture_and_export_is_an_alternative() {
         let schema = schema();
         let count =
             |section: &str| schema["properties"][section]["items"]["oneOf"].as_array().map_or(0, Vec::len);
         assert_eq!(count("step"), CATALOG.len());
-        assert_eq!(count("output"), PICTURES.len() + 1);
+        assert_eq!(count("output"), PICTURES.len() + EXPORTS.len() + 1);
     }
 }

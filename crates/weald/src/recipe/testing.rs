@@ -7,8 +7,9 @@ use super::parameter::LayerName;
 use super::plan::{Recipe, Vocabulary};
 use crate::engine::{Job, SavedSimulation};
 use crate::error::Error;
+use crate::export::{Export, ExportEntry, Finished};
 use crate::grid::Field;
-use crate::io::{Format, Raster};
+use crate::io::{Encode, Format, Holds, Knowledge, Part, Preset, Raster};
 use crate::landscape::Landscape;
 use crate::parameters;
 use crate::picture::{Image, Picture, PictureEntry};
@@ -21,6 +22,7 @@ pub(super) const VOCABULARY: Vocabulary = Vocabulary {
         Entry::of::<Wear>("wear", Stage::Erode, "A simulation in small.", "Weald"),
     ],
     pictures: &[PictureEntry::of::<Dot>("dot", "One pixel.", "Weald")],
+    exports: &[ExportEntry::of::<Tally>("tally", &["txt"], "The number of cells.", "Weald")],
     format_of,
 };
 
@@ -34,8 +36,19 @@ pub(super) fn refusal(text: &str) -> String {
     parse(text).expect_err("the recipe is bad").to_string()
 }
 
-static BITS: Format =
-    Format { name: "bits", extensions: &["bits"], decode: None, encode: Some(|raster| Ok(bits(raster))) };
+static BITS: Format = Format {
+    name: "bits",
+    extensions: &["bits"],
+    decode: None,
+    encode: Some(Encode::File(|raster| Ok(bits(raster)))),
+    holds: Holds { omits: &[Knowledge::Cell], ..Holds::ALL },
+    presets: &[Preset {
+        name: "twice",
+        summary: "every value twice",
+        encode: Encode::File(|raster| Ok(bits(raster).repeat(2))),
+        holds: Holds::ALL,
+    }],
+};
 
 fn format_of(path: &Path) -> Result<&'static Format, String> {
     let known = path.extension().is_some_and(|extension| extension == "bits");
@@ -96,6 +109,10 @@ impl Step for Wear {
         vec![(self.on.0.clone(), "m"), ("debris".to_owned(), "m")]
     }
 
+    fn watched(&self) -> u64 {
+        self.iterations
+    }
+
     fn run(&self, landscape: &mut Landscape, job: &Job<'_>) -> Result<Outcome, Error> {
         let size = landscape.domain.size;
         let (mut done, mut heights) = match &job.resume {
@@ -104,6 +121,7 @@ impl Step for Wear {
         };
         let mut saved = SavedSimulation::default();
         while done < self.iterations {
+            Self::look(done, &heights, landscape, job)?;
             saved.iteration = done;
             saved.planes = vec![("height".to_owned(), heights.clone())];
             if job.watcher.cancelled() {
@@ -120,10 +138,22 @@ impl Step for Wear {
             done += 1;
             job.watcher.progress(done, self.iterations, size.cells());
         }
+        Self::look(done, &heights, landscape, job)?;
         let debris = heights.iter().map(|height| 1.0 - height).collect();
         landscape.insert("debris", "m", Field::from_values(size, debris));
         landscape.insert(&self.on.0, "m", Field::from_values(size, heights));
         Ok(Outcome { iterations: done, ..Outcome::default() })
+    }
+}
+
+impl Wear {
+    fn look(done: u64, heights: &[f32], landscape: &Landscape, job: &Job<'_>) -> Result<(), Error> {
+        if job.watcher.next_look(done) != Some(done) {
+            return Ok(());
+        }
+        let mut seen = landscape.clone();
+        seen.insert("height", "m", Field::from_values(seen.domain.size, heights.to_vec()));
+        job.watcher.look(done, &seen)
     }
 }
 
@@ -132,6 +162,8 @@ parameters! {
     pub struct Dot {
         /// Layer that is shown.
         of: LayerName = LayerName::of("height");
+        /// Share of a turn that the camera has gone.
+        share: f64 = 0.0, range 0.0..=1.0;
     }
 }
 
@@ -140,7 +172,36 @@ impl Picture for Dot {
         vec![self.of.0.clone()]
     }
 
-    fn render(&self, _: &Landscape) -> Result<Image, Error> {
-        Ok(Image { width: 1, height: 1, rgb: vec![1, 2, 3] })
+    fn turned(&self, share: f64) -> Option<Box<dyn Picture>> {
+        Some(Box::new(Self { share, ..self.clone() }))
+    }
+
+    fn render(&self, landscape: &Landscape) -> Result<Image, Error> {
+        let height = landscape.field(&self.of.0)?.at(0, 0);
+        Ok(Image { width: 1, height: 1, rgb: vec![1, height as u8, (self.share * 8.0) as u8] })
+    }
+}
+
+parameters! {
+    /// The number of cells, and beside it that of the steps.
+    pub struct Tally {
+        /// Layer that must be there.
+        of: LayerName = LayerName::of("height");
+    }
+}
+
+impl Export for Tally {
+    fn reads(&self) -> Vec<String> {
+        vec![self.of.0.clone()]
+    }
+
+    fn notes(&self, _: &Finished<'_>) -> Vec<String> {
+        vec!["counted".to_owned()]
+    }
+
+    fn parts(&self, finished: &Finished<'_>, _: &Path) -> Result<Vec<Part>, Error> {
+        let cells = finished.landscape.domain.size.cells().to_string();
+        let steps = finished.steps.len().to_string();
+        Ok(vec![Part::own(cells.into_bytes()), Part::sibling("_steps.txt", steps.into_bytes())])
     }
 }

@@ -138,6 +138,29 @@ pub(in crate::io) fn metres_per_unit(keys: Option<&GeoKeys>) -> Result<f64, Faul
     }
 }
 
+/// Units of projected CRSs that are read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::io) enum Unit {
+    Metre,
+    Foot,
+    SurveyFoot,
+}
+
+/// The keys of a CRS of which no more is known: projected in a unit, or of longitude and latitude.
+pub(in crate::io) fn plain_keys(epsg: Option<u32>, unit: Option<Unit>) -> GeoKeys {
+    let code = epsg.and_then(|code| u16::try_from(code).ok()).unwrap_or(USER_DEFINED);
+    let Some(unit) = unit else {
+        return shorts(&[(MODEL_TYPE, GEOGRAPHIC), (RASTER_TYPE, PIXEL_IS_AREA), (GEOGRAPHIC_TYPE, code)]);
+    };
+    let unit = match unit {
+        Unit::Metre => METRE,
+        Unit::Foot => FOOT,
+        Unit::SurveyFoot => SURVEY_FOOT,
+    };
+    let kind = [(MODEL_TYPE, PROJECTED), (RASTER_TYPE, PIXEL_IS_AREA), (PROJECTED_TYPE, code)];
+    shorts(&[kind.as_slice(), &[(LINEAR_UNITS, unit)]].concat())
+}
+
 /// The value of a key that is stored among the doubles.
 fn double(keys: &GeoKeys, key: u16) -> Option<f64> {
     let mut entries = keys.directory.get(4..)?.chunks_exact(4);
@@ -162,9 +185,41 @@ fn shorts(keys: &[(u16, u16)]) -> GeoKeys {
     GeoKeys { directory: header.into_iter().chain(entries).collect(), ..GeoKeys::default() }
 }
 
+/// The keys of a CRS by its code alone: longitude and latitude, or a grid in a unit of so many metres.
+pub(in crate::io) fn keys_by_code(epsg: Option<u32>, is_geographic: bool, metres: f64) -> GeoKeys {
+    let code = epsg.and_then(|code| u16::try_from(code).ok()).unwrap_or(USER_DEFINED);
+    if is_geographic {
+        return shorts(&[(MODEL_TYPE, GEOGRAPHIC), (RASTER_TYPE, PIXEL_IS_AREA), (GEOGRAPHIC_TYPE, code)]);
+    }
+    let named = [METRE, FOOT, SURVEY_FOOT].into_iter().find(|unit| {
+        let keys = shorts(&[(LINEAR_UNITS, *unit)]);
+        metres_per_unit(Some(&keys)) == Ok(metres)
+    });
+    let unit = (LINEAR_UNITS, named.unwrap_or(USER_DEFINED));
+    let mut keys =
+        shorts(&[(MODEL_TYPE, PROJECTED), (RASTER_TYPE, PIXEL_IS_AREA), (PROJECTED_TYPE, code), unit]);
+    if named.is_none() {
+        keys.directory[3] += 1;
+        keys.directory.extend([LINEAR_UNIT_SIZE, tag::GEO_DOUBLE_PARAMETERS, 1, 0]);
+        keys.doubles = vec![metres];
+    }
+    keys
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn keys_of_a_unit_give_its_metres_again() {
+        for metres in [1.0, 0.3048, 1200.0 / 3937.0, 201.168] {
+            let keys = keys_by_code(Some(2264), false, metres);
+            assert_eq!(metres_per_unit(Some(&keys)), Ok(metres));
+            assert_eq!((epsg(&keys), keys.is_geographic()), (Some(2264), false));
+            assert_eq!(keys.directory.len(), 4 + 4 * usize::from(keys.directory[3]));
+        }
+        assert!(keys_by_code(None, true, 1.0).is_geographic());
+    }
 
     #[test]
     fn a_matrix_without_rotation_is_a_corner_and_a_cell() {

@@ -17,12 +17,18 @@ mod sample;
 mod tag;
 mod write;
 
-pub(super) use keys::metres_per_unit;
+pub(super) use keys::{Unit, keys_by_code, metres_per_unit, plain_keys};
 pub use read::decode;
 pub use write::encode;
 
-use super::Format;
+use super::{Decode, Encode, Format, Holds};
 
 /// The entry in the registry of formats.
-pub(super) const FORMAT: Format =
-    Format { name: "GeoTIFF", extensions: &["tif", "tiff"], decode: Some(decode), encode: Some(encode) };
+pub(super) const FORMAT: Format = Format {
+    name: "GeoTIFF",
+    extensions: &["tif", "tiff"],
+    decode: Some(Decode::File(decode)),
+    encode: Some(Encode::File(encode)),
+    holds: Holds::ALL,
+    presets: &[],
+};

@@ -2,8 +2,10 @@
 
 use std::path::{Component, Path, PathBuf};
 
+use super::films::{self, Film, Motion};
 use super::{Vocabulary, hint, tables};
-use crate::io::Format;
+use crate::export::Export;
+use crate::io::{Encode, Holds};
 use crate::picture::Picture;
 use crate::recipe::parameter::{Complaints, LayerName, read_key};
 use crate::recipe::source::{Node, Table, Value};
@@ -28,7 +30,9 @@ pub enum Content {
         /// Its name.
         name: String,
         /// How it is written.
-        format: &'static Format,
+        encode: Encode,
+        /// What of it the file holds.
+        holds: Holds,
     },
     /// A picture.
     Picture {
@@ -37,14 +41,41 @@ pub enum Content {
         /// The picture, ready to be drawn.
         picture: Box<dyn Picture>,
     },
+    /// Pictures in a row.
+    Film {
+        /// Their kind.
+        name: &'static str,
+        /// What each shows.
+        picture: Box<dyn Picture>,
+        /// How it moves.
+        film: Film,
+    },
+    /// Files for other programs.
+    Export {
+        /// Its kind.
+        name: &'static str,
+        /// The export, ready to be written.
+        export: Box<dyn Export>,
+    },
 }
 
 impl Output {
+    /// Whether it is a film with a video.
+    pub fn is_video(&self) -> bool {
+        matches!(self.content, Content::Film { .. }) && Film::is_video(&self.file)
+    }
+
+    /// Whether it is a time-lapse of the simulations.
+    pub fn lapses(&self) -> bool {
+        matches!(&self.content, Content::Film { film: Film { motion: Motion::Lapse(_), .. }, .. })
+    }
+
     /// Names of the layers that it needs.
     pub fn reads(&self) -> Vec<String> {
         match &self.content {
             Content::Layer { name, .. } => vec![name.clone()],
-            Content::Picture { picture, .. } => picture.reads(),
+            Content::Picture { picture, .. } | Content::Film { picture, .. } => picture.reads(),
+            Content::Export { export, .. } => export.reads(),
         }
     }
 }
@@ -125,23 +156,28 @@ fn content_of(
     file: &Path,
     complaints: &mut Complaints,
 ) -> Option<Content> {
-    match (table.get("layer"), table.get("picture")) {
-        (Some(_), None) => layer(vocabulary, table, file, complaints),
-        (None, Some(node)) => picture(vocabulary, table, node, file, complaints),
-        (Some(_), Some(node)) => {
-            complaints.add(
-                node.line,
-                "`layer` and `picture` exclude each other; a picture says `of` which layer it is",
+    let named: Vec<_> = CONTENTS.iter().filter_map(|key| Some((*key, table.get(key)?))).collect();
+    match named.as_slice() {
+        [("layer", _)] => layer(vocabulary, table, file, complaints),
+        [("picture", node)] => picture(vocabulary, table, node, file, complaints),
+        [("export", node)] => export(vocabulary, table, node, file, complaints),
+        [(first, _), (second, node), ..] => {
+            let message = format!(
+                "`{first}` and `{second}` exclude each other; pictures and exports say `of` which layer they are"
             );
+            complaints.add(node.line, message);
             None
         }
-        (None, None) => {
-            complaints.unknown_keys(table, &["layer", "picture", "file"]);
-            complaints.add(table.line, "`layer` or `picture` is needed: what the file shows");
+        _ => {
+            complaints.unknown_keys(table, &["layer", "picture", "export", "file"]);
+            complaints.add(table.line, "`layer`, `picture` or `export` is needed: what the file shows");
             None
         }
     }
 }
+
+/// Keys of which an output has one.
+const CONTENTS: [&str; 3] = ["layer", "picture", "export"];
 
 fn layer(
     vocabulary: &Vocabulary,
@@ -150,17 +186,24 @@ fn layer(
     complaints: &mut Complaints,
 ) -> Option<Content> {
     let before = complaints.found.len();
-    complaints.unknown_keys(table, &["layer", "file"]);
+    complaints.unknown_keys(table, &["layer", "file", "preset"]);
     let range = (f64::NEG_INFINITY, f64::INFINITY);
     let name = read_key(table, "layer", LayerName::needed(), range, complaints).0;
-    let format = (vocabulary.format_of)(file).and_then(|format| match format.encode {
-        Some(_) => Ok(format),
-        None => Err(format!("{} is read, not written", format.name)),
-    });
-    match format {
-        Ok(format) => (complaints.found.len() == before).then_some(Content::Layer { name, format }),
+    let preset: Option<String> = read_key(table, "preset", None, range, complaints);
+    let format = match (vocabulary.format_of)(file) {
+        Ok(format) => format,
         Err(problem) => {
             complaints.add(line_of(table, "file"), format!("`file`: {problem}"));
+            return None;
+        }
+    };
+    match format.writing(preset.as_deref()) {
+        Ok((encode, holds)) => {
+            (complaints.found.len() == before).then_some(Content::Layer { name, encode, holds })
+        }
+        Err(problem) => {
+            let key = if preset.is_some() { "preset" } else { "file" };
+            complaints.add(line_of(table, key), format!("`{key}`: {problem}"));
             None
         }
     }
@@ -174,23 +217,80 @@ fn picture(
     complaints: &mut Complaints,
 ) -> Option<Content> {
     let known: Vec<_> = vocabulary.pictures.iter().map(|entry| entry.name).collect();
-    let Value::Text(name) = &kind.value else {
-        complaints.add(kind.line, format!("`picture` is {}, but must be text", kind.value.shown()));
+    let name = word("picture", kind, &known, complaints)?;
+    let entry = vocabulary.pictures.iter().find(|entry| entry.name == name)?;
+    let mut table = table.clone();
+    entry.name.clone_into(&mut complaints.subject);
+    let film = films::take(&mut table, complaints);
+    let (what, extensions) =
+        if film.is_some() { ("film", films::EXTENSIONS) } else { ("picture", &["png"] as &[_]) };
+    ensure_extension(&table, file, (what, extensions), complaints);
+    let picture = with_keys(entry.name, "picture", &table, complaints, entry.read);
+    let Some(film) = film else { return Some(Content::Picture { name: entry.name, picture }) };
+    if let Some(fault) = films::fault(&film, entry.name, picture.as_ref()) {
+        complaints.add(table.line, fault);
+    }
+    Some(Content::Film { name: entry.name, picture, film })
+}
+
+fn export(
+    vocabulary: &Vocabulary,
+    table: &Table,
+    kind: &Node,
+    file: &Path,
+    complaints: &mut Complaints,
+) -> Option<Content> {
+    let known: Vec<_> = vocabulary.exports.iter().map(|entry| entry.name).collect();
+    let name = word("export", kind, &known, complaints)?;
+    let entry = vocabulary.exports.iter().find(|entry| entry.name == name)?;
+    ensure_extension(table, file, (entry.name, entry.extensions), complaints);
+    let export = with_keys(entry.name, "export", table, complaints, entry.read);
+    for fault in export.faults() {
+        complaints.add(table.line, fault);
+    }
+    Some(Content::Export { name: entry.name, export })
+}
+
+/// The word under `key`, where it is a known one.
+fn word(key: &str, node: &Node, known: &[&str], complaints: &mut Complaints) -> Option<String> {
+    let Value::Text(name) = &node.value else {
+        complaints.add(node.line, format!("`{key}` is {}, but must be text", node.value.shown()));
         return None;
     };
-    let Some(entry) = vocabulary.pictures.iter().find(|entry| entry.name == name) else {
-        complaints.add(kind.line, format!("there is no picture {name:?}; {}", hint(name, &known)));
+    if !known.contains(&name.as_str()) {
+        complaints.add(node.line, format!("there is no {key} {name:?}; {}", hint(name, known)));
         return None;
-    };
-    if !file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("png")) {
-        let message = format!("`file` is {}; a picture is a .png", file.display());
+    }
+    Some(name.clone())
+}
+
+fn ensure_extension(
+    table: &Table,
+    file: &Path,
+    (what, extensions): (&str, &[&str]),
+    complaints: &mut Complaints,
+) {
+    let extension = file.extension().and_then(|extension| extension.to_str()).unwrap_or_default();
+    if !extensions.iter().any(|known| extension.eq_ignore_ascii_case(known)) {
+        let known = extensions.join(" or .");
+        let message = format!("`file` is {}; a {what} is a .{known}", file.display());
         complaints.add(line_of(table, "file"), message);
     }
+}
+
+/// Reads the keys of a picture or an export: all but its kind and its file.
+fn with_keys<T>(
+    subject: &str,
+    key: &str,
+    table: &Table,
+    complaints: &mut Complaints,
+    read: fn(&Table, &mut Complaints) -> T,
+) -> T {
     let mut keys = table.clone();
-    keys.take("picture");
+    keys.take(key);
     keys.take("file");
-    entry.name.clone_into(&mut complaints.subject);
-    let picture = (entry.read)(&keys, complaints);
+    subject.clone_into(&mut complaints.subject);
+    let read = read(&keys, complaints);
     "output".clone_into(&mut complaints.subject);
-    Some(Content::Picture { name: entry.name, picture })
+    read
 }

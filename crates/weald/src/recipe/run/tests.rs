@@ -185,7 +185,9 @@ fn cells_without_data_are_written_as_such() {
     let land = crate::grid::Mask::new(size, vec![true, false, true]);
     let mut landscape = Landscape::new(crate::Domain { land: land.clone(), ..crate::Domain::new(size, 2.0) });
     landscape.insert("height", "m", Field::from_values(size, vec![5.0, f32::NAN, 7.0]));
-    let writer = Writer { recipe: &recipe, landscape: &landscape, hash: "" };
+    let finished =
+        Finished { landscape: &landscape, steps: &[], recipe: &recipe.file, hash: "", seed: recipe.seed };
+    let writer = Writer { finished, recipe: &recipe, next_frame: &|_, _| Ok(()) };
     let raster = writer.raster("height").expect("the layer is there");
     assert_eq!(raster.field.values(), [5.0, 0.0, 7.0]);
     assert_eq!(raster.land, land);
@@ -200,4 +202,104 @@ fn steps_of_the_same_kind_draw_different_numbers() {
     let out = folder();
     run(&two, out.path(), false, &Silent).expect("runs");
     assert_ne!(height(out.path()), std::fs::read(out.path().join("b.bits")).expect("written"));
+}
+
+const OTHERS: &str = "\
+[landscape]
+size = [9, 7]
+seed = 5
+[[step]]
+do = \"rough\"
+[[output]]
+layer = \"height\"
+file = \"height.bits\"
+preset = \"twice\"
+[[output]]
+layer = \"height\"
+file = \"once.bits\"
+[[output]]
+export = \"tally\"
+file = \"deep/tally.txt\"
+";
+
+#[test]
+fn an_export_writes_all_its_files_and_the_report_names_them() {
+    let folder = folder();
+    let report = run(OTHERS, folder.path(), false, &Silent).expect("runs");
+    let text = |name: &str| std::fs::read_to_string(folder.path().join(name)).expect("written");
+    assert_eq!((text("deep/tally.txt").as_str(), text("deep/tally_steps.txt").as_str()), ("63", "1"));
+    let output = &report.outputs[2];
+    assert_eq!(output.export.as_deref(), Some("tally"));
+    assert_eq!(
+        (&output.companions, &output.notes),
+        (&vec!["deep/tally_steps.txt".to_owned()], &vec!["counted".to_owned()])
+    );
+}
+
+#[test]
+fn a_preset_chooses_how_a_layer_is_written_and_losses_are_reported() {
+    let folder = folder();
+    let report = run(OTHERS, folder.path(), false, &Silent).expect("runs");
+    let bytes = |name: &str| std::fs::read(folder.path().join(name)).expect("written");
+    assert_eq!(bytes("height.bits"), bytes("once.bits").repeat(2));
+    assert!(report.outputs[0].notes.is_empty());
+    assert_eq!(report.outputs[1].notes, ["the side of a cell is left out"]);
+}
+
+/// Frame `number` of a film, as the numbers in its one pixel.
+fn frame(folder: &Path, film: &str, number: usize) -> Vec<u8> {
+    let file = std::fs::File::open(folder.join(format!("{film}-{number:05}.png"))).expect("a frame");
+    let mut reader = png::Decoder::new(std::io::BufReader::new(file)).read_info().expect("a PNG");
+    let mut pixel = vec![0; 3];
+    reader.next_frame(&mut pixel).expect("one pixel");
+    pixel
+}
+
+const FILMS: &str = "\
+[landscape]
+size = [9, 7]
+seed = 5
+[[step]]
+do = \"rough\"
+relief = 100.0
+[[step]]
+do = \"wear\"
+iterations = 10
+[[step]]
+do = \"wear\"
+iterations = 7
+[[output]]
+picture = \"dot\"
+every = 3
+file = \"rise.png\"
+[[output]]
+picture = \"dot\"
+frames = 4
+file = \"turn.png\"
+";
+
+#[test]
+fn a_time_lapse_shows_each_moment_once_and_a_turn_goes_once_around() {
+    let folder = folder();
+    let report = run(FILMS, folder.path(), false, &Silent).expect("runs");
+    // 0, 3, 6 and 9 of the first simulation, 3 and 6 of the second.
+    assert_eq!((report.outputs[0].frames, report.outputs[1].frames), (Some(6), Some(4)));
+    let heights: Vec<_> = (0..6).map(|number| frame(folder.path(), "rise", number)[1]).collect();
+    assert!(heights[0] > 10, "{heights:?}");
+    assert!(heights.windows(2).all(|pair| pair[1] < pair[0]), "{heights:?}");
+    assert!(!folder.path().join("rise-00006.png").exists());
+    let shares: Vec<_> = (0..4).map(|number| frame(folder.path(), "turn", number)[2]).collect();
+    assert_eq!(shares, [0, 2, 4, 6]);
+}
+
+#[test]
+fn an_interrupted_time_lapse_goes_on_with_the_same_frames() {
+    let (whole, halves) = (folder(), folder());
+    run(FILMS, whole.path(), false, &Silent).expect("runs");
+    run(FILMS, halves.path(), false, &StopsAfter::new(13)).expect_err("stopped");
+    assert!(halves.path().join("rise-00003.png").exists() && !halves.path().join("rise-00005.png").exists());
+    run(FILMS, halves.path(), true, &Silent).expect("goes on");
+    for number in 0..6 {
+        assert_eq!(frame(halves.path(), "rise", number), frame(whole.path(), "rise", number), "{number}");
+    }
 }

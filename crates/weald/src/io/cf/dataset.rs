@@ -1,0 +1,158 @@
+//! The arrays and attributes of a file, ready to be packed as `NetCDF` or Zarr.
+
+use super::super::provenance;
+use super::attribute::{Attribute, Attributes};
+use super::crs;
+use super::names::{of_layer, udunits};
+use super::sheet::{Layer, Sheet};
+use super::{CELL, GRID_MAPPING};
+use crate::error::Error;
+use crate::grid::{Field, Mask, Size};
+
+/// All of a file.
+#[derive(Debug)]
+pub(crate) struct Dataset<'a> {
+    pub(crate) size: Size,
+    pub(crate) attributes: Attributes,
+    pub(crate) variables: Vec<Variable<'a>>,
+}
+
+/// One array.
+#[derive(Debug)]
+pub(crate) struct Variable<'a> {
+    pub(crate) name: String,
+    pub(crate) attributes: Attributes,
+    pub(crate) values: Values<'a>,
+}
+
+/// The numbers of an array, and by that its dimensions.
+#[derive(Debug)]
+pub(crate) enum Values<'a> {
+    /// A number without a dimension, there for its attributes.
+    Nothing,
+    /// Centres of the cells along an axis.
+    Along(Axis, Vec<f64>),
+    /// A number a cell, over (`y`, `x`); NaN without data.
+    Cells(&'a Field, Option<&'a Mask>),
+}
+
+/// A dimension.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Axis {
+    /// From north to south.
+    Y,
+    /// From west to east.
+    X,
+}
+
+/// Name of a layer of which nothing is known.
+const NAMELESS: &str = "layer";
+
+impl<'a> Dataset<'a> {
+    /// # Errors
+    /// [`Error::Run`] naming a cell with data that holds a NaN or an infinity.
+    pub(crate) fn of(sheet: &Sheet<'a>) -> Result<Self, Error> {
+        sheet.ensure_finite()?;
+        let mut variables = coordinates(sheet);
+        let grid_mapping = sheet.georeference.map(|place| Variable {
+            name: GRID_MAPPING.to_owned(),
+            attributes: crs::attributes(place),
+            values: Values::Nothing,
+        });
+        variables.extend(grid_mapping);
+        let layers: Vec<_> = sheet.layers.iter().map(|layer| layer.name().unwrap_or(NAMELESS)).collect();
+        let names = sheet.names.of_variables(&layers, &["y", "x", GRID_MAPPING]);
+        let cells = sheet.layers.iter().zip(names).map(|(layer, name)| Variable {
+            name,
+            attributes: layer_attributes(layer, sheet.georeference.is_some()),
+            values: Values::Cells(layer.field, sheet.land),
+        });
+        variables.extend(cells);
+        Ok(Self { size: sheet.size(), attributes: file_attributes(sheet), variables })
+    }
+}
+
+impl Values<'_> {
+    /// The dimensions, slowest first.
+    pub(crate) fn axes(&self) -> &'static [Axis] {
+        match self {
+            Self::Nothing => &[],
+            Self::Along(Axis::Y, _) => &[Axis::Y],
+            Self::Along(Axis::X, _) => &[Axis::X],
+            Self::Cells(..) => &[Axis::Y, Axis::X],
+        }
+    }
+}
+
+impl Axis {
+    /// Name of the dimension and of its coordinate.
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Self::Y => "y",
+            Self::X => "x",
+        }
+    }
+
+    /// Cells along it.
+    pub(crate) fn length(self, size: Size) -> usize {
+        match self {
+            Self::Y => size.rows,
+            Self::X => size.columns,
+        }
+    }
+}
+
+/// The centres of the cells, where the corner and the side of a cell are known.
+fn coordinates<'a>(sheet: &Sheet<'_>) -> Vec<Variable<'a>> {
+    let size = sheet.size();
+    let local = || sheet.cell.map(|cell| ([0.0, cell * size.rows as f64], [cell; 2]));
+    let place = sheet.georeference.map(|place| (place.origin, place.pixel));
+    let Some((origin, pixel)) = place.or_else(local) else { return Vec::new() };
+    let y = (0..size.rows).map(|row| origin[1] - (row as f64 + 0.5) * pixel[1]).collect();
+    let x = (0..size.columns).map(|column| origin[0] + (column as f64 + 0.5) * pixel[0]).collect();
+    [(Axis::Y, y), (Axis::X, x)]
+        .map(|(axis, centres)| Variable {
+            name: axis.name().to_owned(),
+            attributes: crs::axis_attributes(axis, sheet.georeference),
+            values: Values::Along(axis, centres),
+        })
+        .into()
+}
+
+/// Keys of a provenance that hold for one layer alone.
+const OF_LAYER: [&str; 4] = [provenance::LAYER, provenance::UNIT, provenance::MINIMUM, provenance::MAXIMUM];
+
+fn file_attributes(sheet: &Sheet<'_>) -> Attributes {
+    let mut attributes = Attributes::default();
+    attributes.add("Conventions", "CF-1.11");
+    if let Some(provenance) = sheet.layers.iter().find_map(|layer| layer.provenance.as_ref()) {
+        attributes.add("source", format!("Weald {}", provenance.version));
+        let items = provenance.items().into_iter().filter(|(key, _)| !OF_LAYER.contains(key));
+        items.for_each(|(key, text)| attributes.add(key, text));
+    }
+    if let Some(cell) = sheet.cell {
+        attributes.add(CELL, cell);
+    }
+    attributes
+}
+
+fn layer_attributes(layer: &Layer<'_>, is_placed: bool) -> Attributes {
+    let mut attributes = Attributes::default();
+    if let Some(provenance) = &layer.provenance {
+        let known = of_layer(&provenance.layer);
+        let long = known.map_or(provenance.layer.as_str(), |known| known.long);
+        let per_step = if provenance.unit.ends_with("/step") { ", per step" } else { "" };
+        attributes.add("long_name", format!("{long}{per_step}"));
+        let standard = known.and_then(|known| known.standard);
+        standard.into_iter().for_each(|name| attributes.add("standard_name", name));
+        let landlab = known.and_then(|known| known.landlab);
+        landlab.into_iter().for_each(|name| attributes.add("landlab_name", name));
+        attributes.add("units", udunits(&provenance.unit));
+        let items = provenance.items().into_iter().filter(|(key, _)| OF_LAYER.contains(key));
+        items.for_each(|(key, text)| attributes.add(key, text));
+    }
+    if is_placed {
+        attributes.add("grid_mapping", Attribute::from(GRID_MAPPING));
+    }
+    attributes
+}

@@ -1,0 +1,66 @@
+//! What goes into a file: one grid and the layers on it.
+
+use super::super::{Provenance, Raster};
+use super::Names;
+use crate::domain::Georeference;
+use crate::error::Error;
+use crate::grid::{Field, Mask, Size};
+
+/// Layers of one grid that become one file.
+#[derive(Clone, Debug)]
+pub(crate) struct Sheet<'a> {
+    pub(crate) cell: Option<f64>,
+    pub(crate) georeference: Option<&'a Georeference>,
+    pub(crate) land: Option<&'a Mask>,
+    /// At least one; all of one size.
+    pub(crate) layers: Vec<Layer<'a>>,
+    pub(crate) names: Names,
+}
+
+/// A field and where it came from.
+#[derive(Clone, Debug)]
+pub(crate) struct Layer<'a> {
+    pub(crate) field: &'a Field,
+    pub(crate) provenance: Option<Provenance>,
+}
+
+impl<'a> Sheet<'a> {
+    /// One raster.
+    pub(crate) fn of(raster: &'a Raster, names: Names) -> Self {
+        Self {
+            cell: raster.cell,
+            georeference: raster.georeference.as_ref(),
+            land: raster.land.as_ref(),
+            layers: vec![Layer { field: &raster.field, provenance: raster.provenance.clone() }],
+            names,
+        }
+    }
+
+    pub(super) fn size(&self) -> Size {
+        self.layers[0].field.size()
+    }
+
+    /// Whether all values can be written.
+    ///
+    /// # Errors
+    /// [`Error::Run`] naming the first cell with data that holds a NaN or an infinity.
+    pub(super) fn ensure_finite(&self) -> Result<(), Error> {
+        for layer in &self.layers {
+            if let Some((x, y)) = layer.field.first_not_finite(self.land) {
+                let name = layer.name().map_or_else(String::new, |name| format!(" of layer `{name}`"));
+                return Err(Error::Run(format!(
+                    "column {x}, row {y}{name} holds {}, which no file may carry as data",
+                    layer.field.at(x, y)
+                )));
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Layer<'_> {
+    /// Its name, where that is known.
+    pub(super) fn name(&self) -> Option<&str> {
+        self.provenance.as_ref().map(|provenance| provenance.layer.as_str())
+    }
+}

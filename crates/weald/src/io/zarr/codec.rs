@@ -1,0 +1,162 @@
+//! Codecs: what was done to the bytes of a chunk, undone.
+
+use std::io::Read;
+
+use flate2::read::MultiGzDecoder;
+use ruzstd::decoding::StreamingDecoder;
+use serde_json::Value;
+
+use super::super::Fault;
+
+/// Largest window of Zstandard that is given memory for a chunk that is no larger itself.
+const WINDOW: u64 = 8 << 20;
+
+/// Codecs of an array.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Codecs {
+    /// Whether the most significant byte of a number comes first.
+    pub(super) is_big: bool,
+    /// In the order of encoding.
+    packings: Vec<Packing>,
+}
+
+/// A codec from bytes to bytes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Packing {
+    Gzip,
+    Zstd,
+    Crc32c,
+}
+
+impl Codecs {
+    /// # Errors
+    /// [`Fault::Damaged`] naming a codec that is not read, or where `bytes` is not the first.
+    pub(super) fn of(array: &str, codecs: &Value) -> Result<Self, Fault> {
+        let listed = codecs.as_array().map(Vec::as_slice).unwrap_or_default();
+        let [first, rest @ ..] = listed else {
+            return Err(Fault::damaged(format!("`{array}` has no codecs; `bytes` is needed at least")));
+        };
+        if name(first) != "bytes" {
+            return Err(unread(array, name(first)));
+        }
+        let is_big = match first["configuration"]["endian"].as_str() {
+            None | Some("little") => false,
+            Some("big") => true,
+            Some(endian) => return Err(Fault::damaged(format!("`{array}`: bytes in {endian:?} order"))),
+        };
+        let packing = |codec: &Value| match name(codec) {
+            "gzip" => Ok(Packing::Gzip),
+            "zstd" => Ok(Packing::Zstd),
+            "crc32c" => Ok(Packing::Crc32c),
+            other => Err(unread(array, other)),
+        };
+        Ok(Self { is_big, packings: rest.iter().map(packing).collect::<Result<_, _>>()? })
+    }
+
+    /// Most bytes that a chunk of `length` bytes has in a file: packing what cannot be packed adds a little.
+    pub(super) fn most(&self, length: usize) -> u64 {
+        length as u64 + length as u64 / 64 + 4096
+    }
+
+    /// The numbers' bytes, exactly `length` of them.
+    ///
+    /// # Errors
+    /// [`Fault::Damaged`] for bytes that do not unpack to that.
+    pub(super) fn decode(&self, packed: Vec<u8>, length: usize) -> Result<Vec<u8>, Fault> {
+        let mut bytes = packed;
+        for (position, packing) in self.packings.iter().enumerate().rev() {
+            // Only the last step has to give the numbers; what stood before it may be a little longer.
+            let most = if position == 0 { length as u64 } else { self.most(length) };
+            bytes = packing.undo(&bytes, most)?;
+        }
+        if bytes.len() != length {
+            return Err(Fault::damaged(format!("{} bytes in a chunk of {length}", bytes.len())));
+        }
+        Ok(bytes)
+    }
+}
+
+fn name(codec: &Value) -> &str {
+    // A codec without configuration may stand as its name alone.
+    codec["name"].as_str().or_else(|| codec.as_str()).unwrap_or("?")
+}
+
+fn unread(array: &str, codec: &str) -> Fault {
+    Fault::damaged(format!(
+        "`{array}` is packed with codec `{codec}`; bytes, gzip, zstd and crc32c are read: with xarray \
+         ds.to_zarr(path, encoding={{'{array}': {{'compressors': None, 'shards': None}}}}), in C order"
+    ))
+}
+
+impl Packing {
+    fn undo(self, bytes: &[u8], most: u64) -> Result<Vec<u8>, Fault> {
+        match self {
+            Self::Gzip => at_most(MultiGzDecoder::new(bytes), most, "gzip"),
+            Self::Zstd => {
+                let window = most.next_power_of_two().max(WINDOW);
+                let decoder = StreamingDecoder::new_with_max_window_size(bytes, window);
+                let decoder = decoder.map_err(|cause| Fault::damaged(format!("zstd: {cause}")))?;
+                at_most(decoder, most, "zstd")
+            }
+            Self::Crc32c => {
+                let parts = bytes.split_last_chunk::<4>();
+                let whole = parts.filter(|(bytes, sum)| crc32c(bytes).to_le_bytes() == **sum);
+                let (bytes, _) = whole.ok_or_else(|| Fault::damaged("a chunk does not match its crc32c"))?;
+                Ok(bytes.to_vec())
+            }
+        }
+    }
+}
+
+/// What a decoder gives, if that is not more than `most`. Memory grows with what is really there.
+fn at_most(decoder: impl Read, most: u64, codec: &str) -> Result<Vec<u8>, Fault> {
+    let mut bytes = Vec::new();
+    let read = decoder.take(most + 1).read_to_end(&mut bytes);
+    read.map_err(|cause| Fault::damaged(format!("a chunk is damaged: {codec}: {cause}")))?;
+    if bytes.len() as u64 > most {
+        return Err(Fault::damaged(format!("a chunk unpacks to more than its {most} bytes")));
+    }
+    Ok(bytes)
+}
+
+/// Castagnoli's cyclic redundancy check (RFC 3720, appendix B.4), reflected.
+fn crc32c(bytes: &[u8]) -> u32 {
+    let step = |sum: u32, _| if sum & 1 == 1 { sum >> 1 ^ 0x82f6_3b78 } else { sum >> 1 };
+    !bytes.iter().fold(u32::MAX, |sum, byte| (0..8).fold(sum ^ u32::from(*byte), step))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    /// RFC 3720, appendix B.4.
+    #[test]
+    fn the_check_sum_is_that_of_the_specification() {
+        assert_eq!(crc32c(&[0; 32]), 0x8a91_36aa);
+        assert_eq!(crc32c(b"123456789"), 0xe306_9283);
+    }
+
+    #[test]
+    fn codecs_that_are_not_read_are_named() {
+        let of = |codecs: Value| Codecs::of("height", &codecs).map_err(|fault| fault.to_string());
+        assert!(of(json!([{ "name": "bytes" }, { "name": "gzip" }, "crc32c"])).is_ok());
+        for codec in ["blosc", "sharding_indexed", "transpose"] {
+            let error = of(json!([{ "name": "bytes" }, { "name": codec }])).expect_err("unread");
+            assert!(error.contains(&format!("codec `{codec}`")), "{error}");
+            assert!(of(json!([{ "name": codec }, { "name": "bytes" }])).is_err());
+        }
+        assert!(of(json!([])).is_err() && of(json!(null)).is_err());
+    }
+
+    #[test]
+    fn a_chunk_that_does_not_match_its_sum_or_its_length_is_refused() {
+        let codecs = Codecs::of("a", &json!([{ "name": "bytes" }, { "name": "crc32c" }])).expect("read");
+        let sum = crc32c(&[1, 2, 3, 4]).to_le_bytes();
+        let packed = [[1, 2, 3, 4], sum].concat();
+        assert_eq!(codecs.decode(packed.clone(), 4), Ok(vec![1, 2, 3, 4]));
+        assert!(codecs.decode(packed.clone(), 8).is_err(), "too short");
+        assert!(codecs.decode(packed[..7].to_vec(), 3).is_err(), "another sum");
+        assert!(codecs.decode(vec![1], 0).is_err(), "no sum");
+    }
+}
