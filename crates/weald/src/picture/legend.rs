@@ -1,10 +1,10 @@
 //! The strip beside a map: what its colours stand for, and a scale bar.
 
+use super::Image;
 use super::colour::{Linear, encode, linear_of_hex};
 use super::font::{Pen, blend};
 use super::ramp::Ramp;
 use super::ticks::{Ticks, step};
-use super::{Image, PAPER};
 
 /// Pixels of the map's longer side a unit; all lengths here are in units.
 const PIXELS_A_UNIT: f32 = 620.0;
@@ -178,7 +178,7 @@ fn distance(metres: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::picture::Scale;
+    use crate::picture::{PAPER, Scale};
 
     fn legend(ticks: Ticks, metres_a_pixel: f64) -> Image {
         let key = Key::Bar { ramp: Scale::Grey.ramp(), ticks };

@@ -8,7 +8,6 @@
 
 use super::grain::Octaves;
 use super::vector::{Vector, add, dot, filter, scale, unit};
-use crate::domain::Domain;
 use crate::grid::{Field, Size};
 use crate::landscape::Landscape;
 use crate::picture::colour::mix;
@@ -181,6 +180,7 @@ pub(super) fn wetted(albedo: Vector, above: f32, cell: f32) -> Vector {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::domain::Domain;
 
     #[test]
     fn a_lake_is_level_over_its_shore_and_dry_ground_lies_above_it() {
