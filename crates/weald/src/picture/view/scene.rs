@@ -3,28 +3,24 @@
 use std::f32::consts::FRAC_1_PI;
 
 use super::View;
-use super::camera::Camera;
+use super::camera::{self, Camera};
 use super::cover::{Cover, Spot};
 use super::haze::Haze;
+use super::plain;
 use super::setting::Setting;
 use super::side::SideLight;
 use super::sky::Sky;
 use super::skylight::{self, Seen, Skylight};
-use super::surface::Surface;
 use super::terrain::{Hit, Ray};
 use super::tone::Tone;
 use super::vector::{Vector, add, dot, filter, mirrored, scale, subtract, towards, unit};
 use super::water;
 use crate::error::Error;
-use crate::grid::{Field, Size};
 use crate::landscape::Landscape;
 use crate::picture::colour::{Linear, linear_of_hex, mix};
 
 /// Most cells, along the longer side, for which the visible sky is known.
 const SKYLIGHT_CELLS: usize = 1024;
-
-/// Cells of the plain along the landscape's side for which the visible sky is known; the plain is three such sides wide.
-const PLAIN_CELLS: usize = 40;
 
 /// Optical depth of the haze between the eye and the middle of the landscape.
 const USUAL_HAZE: f32 = 0.13;
@@ -74,13 +70,13 @@ impl Scene {
         let pixels = [view.width as usize, view.height as usize];
         Ok(Self {
             skylight: Skylight::new(&sky, &terrain.top, terrain.spacing, SKYLIGHT_CELLS),
-            plain_light: plain_light(&sky, &setting),
+            plain_light: plain::light(&sky, &setting.terrain),
             open: skylight::open(&sky),
             sides: SideLight::new(&sky, sent_back(plain, 1.0)),
             bounce: sent_back(cover.mean(), BOUNCE),
             haze: haze(view, &camera, setting.centre(), setting.exaggeration),
             tone: Tone::new(level, view.exposure),
-            samples: samples(view.samples),
+            samples: camera::samples(view.samples),
             pixel_angle: camera.pixel_angle(pixels[0]),
             is_empty: landscape.domain.land_cells() == 0,
             plain,
@@ -268,40 +264,11 @@ fn haze(view: &View, camera: &Camera, centre: Vector, exaggeration: f32) -> Haze
     Haze::of_depth(USUAL_HAZE, &ray, way, exaggeration)
 }
 
-/// The sky that is seen from the plain, three times as wide as the landscape.
-fn plain_light(sky: &Sky, setting: &Setting) -> Skylight {
-    let terrain = &setting.terrain;
-    let (inner, size) = (terrain.top.size(), Size { columns: 3 * PLAIN_CELLS, rows: 3 * PLAIN_CELLS });
-    let share =
-        |cell: usize, cells: usize| 0.5 + ((cell as f32 + 0.5) / PLAIN_CELLS as f32 - 1.0) * cells as f32;
-    let height = Field::from_function(size, |x, y| {
-        let place = [share(x, inner.columns), share(y, inner.rows)];
-        if terrain.is_land(place) { terrain.top.at(place) } else { terrain.base }
-    });
-    let spacing = [0, 1]
-        .map(|axis| terrain.spacing[axis] * [inner.columns, inner.rows][axis] as f32 / PLAIN_CELLS as f32);
-    Skylight::new(sky, &Surface::new(&height), spacing, 3 * PLAIN_CELLS)
-}
-
-/// Places of the rays within a pixel, from its middle: spread by the plastic number (M. Roberts 2018) and drawn
-/// towards the middle as a tent filter weighs them, two pixels wide.
-fn samples(count: u32) -> Vec<[f32; 2]> {
-    let tent = |share: f64| {
-        if share < 0.5 { (2.0 * share).sqrt() - 1.0 } else { 1.0 - (2.0 - 2.0 * share).sqrt() }
-    };
-    let place = |sample: u32, step: f64| {
-        let share = 0.5 + f64::from(sample) * step;
-        tent(share - share.floor()) as f32 * 0.8
-    };
-    (0..count)
-        .map(|sample| [place(sample, 0.754_877_666_246_692_8), place(sample, 0.569_840_290_998_053_3)])
-        .collect()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::domain::Domain;
+    use crate::grid::{Field, Size};
 
     /// Ground of 10 m cells with the water that fills it up to a level.
     fn scene(view: &View, columns: usize, height: impl FnMut(usize, usize) -> f32, level: f32) -> Scene {
