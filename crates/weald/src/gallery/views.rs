@@ -55,7 +55,7 @@ pub(super) fn depth(landscape: &Landscape, width: u32) -> Result<Image, Error> {
 
 /// A map of a layer.
 pub(super) fn map(layer: &str) -> Map {
-    Map { of: LayerName::of(layer), ..Map::default() }
+    Map { of: LayerName::of(layer), legend: false, ..Map::default() }
 }
 
 /// A square of `side` cells whose north-western cell is at `corner` (column, row).

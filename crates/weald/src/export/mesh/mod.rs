@@ -51,7 +51,7 @@ use crate::grid::Field;
 use crate::io::Part;
 use crate::landscape::Landscape;
 use crate::material::Material;
-use crate::picture::{Cover, Image, Tint, View, albedo, linear_of_srgb, tinted};
+use crate::picture::{GroundColour, Image, Tint, View, albedo, linear_of_srgb, tinted};
 use crate::recipe::parameter::LayerName;
 
 crate::choices! {
@@ -217,8 +217,8 @@ impl Mesh {
         let ground = match self.colours {
             Some(Colours::Plain) => return Ok(None),
             Some(Colours::Tints) => return tinted(landscape, &self.of.0, self.ramp, self.texture).map(Some),
-            Some(Colours::Natural) => Some(Cover::Natural),
-            Some(Colours::Materials) => Some(Cover::Materials),
+            Some(Colours::Natural) => Some(GroundColour::Natural),
+            Some(Colours::Materials) => Some(GroundColour::Materials),
             None => None,
         };
         let view = View {

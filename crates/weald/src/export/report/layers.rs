@@ -122,6 +122,8 @@ fn map(
         logarithmic: values.is_logarithmic(layer),
         low: Some(low),
         high: Some(high),
+        // The page has a legend of its own.
+        legend: false,
     };
     let unit = if layer.unit == "1" { String::new() } else { format!(", {}", escape(&layer.unit)) };
     let caption = format!("<strong>{}</strong>{unit}\n{}", escape(name), legend(&map, values));
