@@ -1,4 +1,4 @@
-//! Real programs open the meshes: the validator of the Khronos Group, and Blender.
+//! Real programs open the meshes: the validator of the Khronos Group, and Blender; and Blender the images for it.
 //!
 //! `clients/install` installs them into `target/clients`. A test fails where one is missing, because a skipped proof
 //! proves nothing.
@@ -12,6 +12,7 @@ use serde_json::Value;
 use weald::domain::Georeference;
 use weald::export::{Colours, Export, Finished, Mesh};
 use weald::grid::{Mask, Size};
+use weald::io;
 use weald::material::Material;
 use weald::{Domain, Field, Landscape};
 
@@ -173,6 +174,27 @@ fn check_vertices(glb: &[u8], terrain: &Value) {
     }
     assert!(places.len() > 500, "{} vertices", places.len());
     assert!(same_tangents * 100 >= places.len() * 99, "{same_tangents} tangents of {} agree", places.len());
+}
+
+#[test]
+fn blender_reads_every_height_of_an_image_that_is_written_for_it() {
+    let size = Size::new(37, 23).expect("small");
+    let field = Field::from_function(size, |x, y| 1000.0 + 3.25 * x as f32 - 0.5 * y as f32);
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("height.exr");
+    let (encode, _) = io::format_of(&path).expect("known").writing(Some("blender")).expect("a preset");
+    io::write_parts(&path, &encode.parts(&field.clone().into()).expect("fits")).expect("written");
+    let python = client("blender/bin/python");
+    let found = said(Command::new(python).arg(root().join("clients/blender_image.py")).arg(&path));
+    assert_eq!(
+        (&found["width"], &found["height"], &found["is_float"]),
+        (&37.into(), &23.into(), &true.into())
+    );
+    let values = found["values"].as_array().expect("a list");
+    assert_eq!(values.len(), size.cells());
+    for (value, height) in values.iter().zip(field.values()) {
+        assert_eq!(value.as_f64(), Some(f64::from(*height)));
+    }
 }
 
 #[test]

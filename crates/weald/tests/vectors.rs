@@ -79,7 +79,9 @@ fn extent(file: &Value) -> [f64; 4] {
         if let [Some(x), Some(y), Some(_)] = [0, 1, 2].map(|at| list.get(at).and_then(Value::as_f64)) {
             *extent = [extent[0].min(x), extent[1].min(y), extent[2].max(x), extent[3].max(y)];
         } else {
-            list.iter().for_each(|inner| visit(inner, extent));
+            for inner in list {
+                visit(inner, extent);
+            }
         }
     }
     let mut extent = [f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY];
