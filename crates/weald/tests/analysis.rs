@@ -218,7 +218,7 @@ fn northern_slopes_are_darker_in_the_north_and_lighter_in_the_south() {
 fn soil_is_deep_where_water_laid_it_down_and_gone_where_water_wore_the_ground() {
     let mut ground = land(31, |east, north| 5.0 * (east * 0.01).sin() + 0.05 * north);
     let size = ground.domain.size;
-    ground.insert("erosion", "m", Field::from_function(size, |x, _| if x < 10 { 30.0 } else { 0.0 }));
+    ground.insert("erosion", "m", Field::from_function(size, |x, _| if x < 10 { 300.0 } else { 0.0 }));
     ground.insert("deposition", "m", Field::from_function(size, |x, _| if x > 20 { 4.0 } else { 0.0 }));
     let plain = after(ground.clone(), "soil", "");
     let worn = after(ground, "soil", "erosion = \"erosion\"\ndeposition = \"deposition\"");
@@ -246,6 +246,26 @@ fn a_selection_meets_conditions_on_several_layers_and_a_mask_can_go_into_another
     assert!(sums.iter().all(|&sum| sum == 1.0));
 }
 
+#[test]
+fn erosion_and_deposition_are_what_the_ground_lost_and_gained_in_metres() {
+    let thermal = "thermal = { talus = 0.4, strength = 0.1 }";
+    for keys in ["model = \"han\"", "model = \"mei\"", "model = \"stava\"\nslippage = {}", thermal] {
+        let rough = land(33, |east, north| 40.0 * (east * 0.04).sin() + 30.0 * (north * 0.05).cos());
+        let before = rough.field("height").expect("there").clone();
+        let worn = after(rough, "hydraulic", &format!("iterations = 240\n{keys}"));
+        let layers = ["height", "erosion", "deposition"].map(|layer| values(&worn, layer));
+        let mut moved = 0.0_f64;
+        for cell in 0..33 * 33 {
+            let [height, lost, gained] = layers.map(|layer| f64::from(layer[cell]));
+            assert!(lost >= 0.0 && gained >= 0.0 && lost * gained == 0.0, "{keys}: cell {cell}");
+            let change = height - f64::from(before.values()[cell]);
+            assert!((change - (gained - lost)).abs() < 2e-5, "{keys}: {change} m in cell {cell}");
+            moved += lost;
+        }
+        assert!(moved > 0.1, "{keys}: {moved} m were moved in all");
+    }
+}
+
 fn parsed(step: &str) -> Result<Recipe, Error> {
     let text = format!(
         "[landscape]\nsize = 48\ncell = 20.0\n[[step]]\ndo = \"diamond-square\"\nrelief = 300.0\n[[step]]\n\
@@ -258,7 +278,7 @@ fn parsed(step: &str) -> Result<Recipe, Error> {
 fn a_recipe_is_told_of_an_empty_selection_and_of_layers_that_are_not_there() {
     let refusal = |step| parsed(step).expect_err("refused").to_string();
     let empty = refusal("[[step]]\ndo = \"select\"");
-    assert!(empty.contains("r.toml:9: select: `where` is empty"), "{empty}");
+    assert!(empty.contains("r.toml:10: select: `where` is empty"), "{empty}");
     let missing = refusal("[[step]]\ndo = \"soil\"\nmoisture = \"moisture\"");
     assert!(missing.contains("soil: reads layer `moisture`, which no earlier step writes"), "{missing}");
 }

@@ -73,6 +73,7 @@ fn some_value(parameter: &Parameter) -> String {
         Kind::Sides => "16".to_owned(),
         Kind::Places => "[1.0, 2.0]".to_owned(),
         Kind::Layer | Kind::Text => format!("\"{}_layer\"", parameter.name),
+        Kind::Layers => format!("[\"{}_layer\"]", parameter.name),
         Kind::Script => "\"edits.jsonl\"".to_owned(),
         Kind::Colour => "\"#102030\"".to_owned(),
         Kind::Raster => format!("{:?}", some_raster()),

@@ -129,7 +129,7 @@ fn no_data_stays_paper_and_land_beside_it_is_drawn() {
     let field = landscape.field("height").expect("is there").clone();
     let holed = Field::from_function(size, |x, y| if hole(64 * y + x) { f32::NAN } else { field.at(x, y) });
     landscape.insert("height", "m", holed);
-    let map = Map { of: LayerName::of("height"), width: Some(128), ..Map::default() };
+    let map = Map { of: LayerName::of("height"), width: Some(128), legend: false, ..Map::default() };
     for image in [draw(&Relief { width: Some(128), ..Relief::default() }, &landscape), draw(&map, &landscape)]
     {
         assert_eq!(image.pixel(100, 64), encode(PAPER));
@@ -201,7 +201,13 @@ fn a_picture_beyond_the_limit_is_refused_before_it_is_drawn() {
 #[test]
 fn a_grid_larger_than_the_picture_keeps_its_mean_colour() {
     let checker = ground(512, 512, |x, y| ((x + y) % 2) as f32);
-    let map = Map { of: LayerName::of("height"), width: Some(64), ramp: Scale::Grey, ..Map::default() };
+    let map = Map {
+        of: LayerName::of("height"),
+        width: Some(64),
+        ramp: Scale::Grey,
+        legend: false,
+        ..Map::default()
+    };
     let image = draw(&map, &checker);
     let even = ground(64, 64, |x, _| if x == 0 { 0.0 } else { 0.5 });
     let middle = draw(&Map { high: Some(1.0), ..map }, &even);
@@ -212,8 +218,15 @@ fn a_grid_larger_than_the_picture_keeps_its_mean_colour() {
 fn a_logarithmic_map_gives_every_decade_the_same_span_of_colour() {
     let decades = ground(64, 64, |x, _| [1.0, 10.0, 100.0, 1000.0][x / 16]);
     let (low, high) = (Some(1.0), Some(1000.0));
-    let map =
-        Map { of: LayerName::of("height"), width: Some(64), ramp: Scale::Grey, logarithmic: true, low, high };
+    let map = Map {
+        of: LayerName::of("height"),
+        width: Some(64),
+        ramp: Scale::Grey,
+        logarithmic: true,
+        low,
+        high,
+        legend: false,
+    };
     let image = draw(&map, &decades);
     let light: Vec<f64> = [8, 24, 40, 56].map(|x| lightness(&image, x, 32)).to_vec();
     let steps: Vec<f64> = light.windows(2).map(|pair| pair[1] - pair[0]).collect();

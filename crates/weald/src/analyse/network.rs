@@ -7,6 +7,7 @@
 mod carve;
 mod discharge;
 mod drainage;
+mod drains;
 mod ground;
 mod hack;
 mod power_law;
@@ -25,9 +26,6 @@ use ground::Ground;
 
 /// Cells whose runoff makes a channel.
 const CHANNEL_AREA: f64 = 100.0;
-
-/// A pit deeper than this, in cells, cuts off the land above it.
-const PIT_DEPTH: f64 = 0.5;
 
 /// A landscape at the end of a dry period.
 #[derive(Clone, Copy, Debug)]
@@ -85,6 +83,38 @@ pub struct NetworkMeasures {
     pub carve: Option<Carve>,
 }
 
+impl NetworkMeasures {
+    /// All measures that there are, by name; lengths in cells.
+    pub fn named(&self) -> Vec<(&'static str, f64)> {
+        let always = [
+            ("chan", self.chan),
+            ("reach", self.reach),
+            ("valley_largest", self.valley_largest),
+            ("drains", self.drains),
+            ("pits", self.pits as f64),
+            ("heads", self.heads as f64),
+            ("strahler", f64::from(self.strahler)),
+            ("flux_gini", self.flux_gini),
+        ];
+        let valley = |of: fn(&ValleyForm) -> f64| self.valleys.as_ref().map(of);
+        let carve = |of: fn(&Carve) -> f64| self.carve.as_ref().map(of);
+        let where_known = [
+            ("river_width", self.river_width),
+            ("theta", self.theta),
+            ("hack", self.hack),
+            ("valley_spacing", valley(|form| form.spacing)),
+            ("valley_width", valley(|form| form.width)),
+            ("valley_shape", valley(|form| form.shape)),
+            ("valley_depth", valley(|form| form.depth)),
+            ("carve_reach", carve(|carve| carve.reach)),
+            ("carve_largest", carve(|carve| carve.largest)),
+            ("carve_against_area", carve(|carve| carve.against_area)),
+        ];
+        let where_known = where_known.into_iter().filter_map(|(name, value)| Some((name, value?)));
+        always.into_iter().chain(where_known).collect()
+    }
+}
+
 /// Measures a landscape.
 ///
 /// # Panics
@@ -105,14 +135,14 @@ pub fn measure(input: &NetworkInput<'_>) -> NetworkMeasures {
         carries.iter().zip(&lakes).map(|(&area, lake)| area >= CHANNEL_AREA && !lake).collect();
     let carries: Vec<f64> = ground.cells().map(|cell| carries[cell]).collect();
     let valley = valleys::valleys(&ground);
-    let channels = strahler::channels(&drainage, &lakes);
+    let channels = strahler::channels(&drainage);
     NetworkMeasures {
         chan: share_of_channels(&carries),
         river_width: river_width::river_width(size, &river),
         reach: valley.reach,
         valley_largest: valley.largest,
-        drains: draining_share(&drainage, &lakes),
-        pits: pits(&ground),
+        drains: drains::draining_share(&ground, &lakes),
+        pits: drains::pits(&ground),
         heads: channels.heads,
         strahler: channels.order,
         theta: slope_area::theta(&drainage),
@@ -128,28 +158,10 @@ fn share_of_channels(carries: &[f64]) -> f64 {
     channels.count() as f64 / carries.len().max(1) as f64
 }
 
-fn draining_share(drainage: &Drainage, lakes: &[bool]) -> f64 {
-    let mut passes = vec![true; lakes.len()];
-    let (mut land, mut draining) = (0_usize, 0_usize);
-    for &cell in &drainage.order {
-        passes[cell] = passes[drainage.flood[cell].next] && drainage.filled[cell] <= PIT_DEPTH;
-        if !lakes[cell] {
-            land += 1;
-            draining += usize::from(passes[cell]);
-        }
-    }
-    draining as f64 / land.max(1) as f64
-}
-
-fn pits(ground: &Ground<'_>) -> usize {
-    let inner = ground.cells().filter(|&cell| !ground.on_rim(cell));
-    let height = &ground.height;
-    inner.filter(|&cell| ground.size.neighbours(cell).all(|other| height[other] >= height[cell])).count()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::grid::Size;
 
     const SIDE: usize = 80;
 

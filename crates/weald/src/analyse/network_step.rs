@@ -3,9 +3,7 @@
 //! What they are says [`network`](super::network). They depend on the grid, so only landscapes of the same size
 //! compare, at the end of a dry period.
 
-use std::collections::BTreeMap;
-
-use super::network::{NetworkInput, NetworkMeasures, measure};
+use super::network::{NetworkInput, measure};
 use crate::engine::Job;
 use crate::error::Error;
 use crate::grid::Field;
@@ -72,7 +70,8 @@ impl Step for Network {
             cell: domain.cell,
             land: domain.land.as_ref(),
         });
-        Ok(Outcome { iterations: 1, measures: named(&measures), ..Outcome::default() })
+        let measures = measures.named().into_iter().collect();
+        Ok(Outcome { iterations: 1, measures, ..Outcome::default() })
     }
 }
 
@@ -82,31 +81,4 @@ fn before(ground: &Field, erosion: &Field, deposition: &Field) -> Field {
     let values =
         ground.values().iter().zip(changes).map(|(now, (eroded, deposited))| now + eroded - deposited);
     Field::from_values(ground.size(), values.collect())
-}
-
-/// The measures that there are, by the names of the report.
-fn named(measures: &NetworkMeasures) -> BTreeMap<&'static str, f64> {
-    let valleys = measures.valleys.as_ref();
-    let carve = measures.carve.as_ref();
-    let named = [
-        ("chan", Some(measures.chan)),
-        ("river_width", measures.river_width),
-        ("reach", Some(measures.reach)),
-        ("valley_largest", Some(measures.valley_largest)),
-        ("drains", Some(measures.drains)),
-        ("pits", Some(measures.pits as f64)),
-        ("heads", Some(measures.heads as f64)),
-        ("strahler", Some(f64::from(measures.strahler))),
-        ("theta", measures.theta),
-        ("hack", measures.hack),
-        ("flux_gini", Some(measures.flux_gini)),
-        ("valley_spacing", valleys.map(|valleys| valleys.spacing)),
-        ("valley_width", valleys.map(|valleys| valleys.width)),
-        ("valley_shape", valleys.map(|valleys| valleys.shape)),
-        ("valley_depth", valleys.map(|valleys| valleys.depth)),
-        ("carve_reach", carve.map(|carve| carve.reach)),
-        ("carve_largest", carve.map(|carve| carve.largest)),
-        ("carve_against_area", carve.map(|carve| carve.against_area)),
-    ];
-    named.into_iter().filter_map(|(name, value)| Some((name, value?))).collect()
 }

@@ -1,4 +1,8 @@
 //! The `hydraulic` step: rain carves ground. Presets `han`, `mei` and `stava` differ only in these keys.
+//!
+//! Its layers `erosion` and `deposition` are what the ground lost and gained in metres between the start of this step
+//! and its end, all materials, regolith and sliding together; of each cell one of them is 0. What was laid down and
+//! worn away again is in neither.
 
 mod defaults;
 mod faults;

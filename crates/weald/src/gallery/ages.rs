@@ -41,10 +41,10 @@ fn make(job: GalleryJob) -> Result<FigureOutput, Error> {
             header: texts(["run", "seed", "channel heads", "river width", "valley width", "valley spacing"]),
             rows: runs.iter().map(row).collect(),
             remarks: texts([
-                "Heads: where on the flooded ground 100 cells begin to drain through one. Rivers: cells outside lakes that \
-                 carry the runoff of 100 cells or more; their area over their length. Valleys as rows and columns of the \
-                 grid cut them, where they are a cell deep or more: mean width at half the depth, and length of line a \
-                 valley. All in cells.",
+                "Heads: where on the flooded ground 100 cells begin to drain through one. Rivers: cells \
+                 outside lakes that carry the runoff of 100 cells or more; their area over their length. \
+                 Valleys as rows and columns of the grid cut them, where they are a cell deep or more: \
+                 mean width at half the depth, and length of line a valley. All in cells.",
             ]),
         },
         claims: claims(&runs, ages.len()),

@@ -11,8 +11,8 @@ pub(super) const FIGURE: Figure = Figure {
     id: "banks",
     title: "Slippage of undercut banks",
     source: SOURCE,
-    shows: "A river cuts into its banks and makes them too steep to rest. Slippage lays each material back to its \
-            own talus.",
+    shows: "A river cuts into its banks and makes them too steep to rest. Slippage lays each material back \
+            to its own talus.",
     seconds: 2,
     make,
 };
@@ -49,8 +49,8 @@ fn make(job: GalleryJob) -> Result<FigureOutput, Error> {
         header: texts(["ground", "gravel too steep", "soil too steep", "steepest, °"]),
         rows: banks.iter().map(Banks::row).collect(),
         remarks: texts([
-            "Cells whose layer falls to a neighbour more steeply than its talus by 5° or more, and the steepest fall of \
-             the ground; the edge is left out.",
+            "Cells whose layer falls to a neighbour more steeply than its talus by 5° or more, and the \
+             steepest fall of the ground; the edge is left out.",
         ]),
     };
     Ok(FigureOutput { plates, measured, claims: claims(&banks) })

@@ -36,7 +36,9 @@ fn make(job: GalleryJob) -> Result<FigureOutput, Error> {
     let lands = WAYS.map(run).into_iter().collect::<Result<Vec<_>, _>>()?;
     let soils = lands.iter().map(|land| Soil::of(land, before)).collect::<Result<Vec<_>, _>>()?;
     let width = job.choose(480, 32);
-    let images = lands.iter().map(|land| views::relief(land, width)).collect::<Result<Vec<_>, _>>()?;
+    let titled = |(name, _): (&str, &str), land| Ok(views::relief(land, width)?.titled(name));
+    let images = WAYS.into_iter().zip(&lands).map(|(way, land)| titled(way, land));
+    let images = images.collect::<Result<Vec<_>, Error>>()?;
     let names = WAYS.map(|(name, _)| name);
     let caption = format!("Ground and water after {iterations} steps: {}", names.join("; "));
     Ok(FigureOutput {
@@ -45,7 +47,9 @@ fn make(job: GalleryJob) -> Result<FigureOutput, Error> {
             header: texts(["transport", "soil made or lost", "mean change", "share of it"]),
             rows: names.iter().zip(&soils).map(|(name, soil)| soil.row(name)).collect(),
             remarks: texts([
-                "In cells of height over the whole ground. Made or lost: what lies on the ground and is carried, less what was there before; all edges are closed. Mean change: of the ground, up or down.",
+                "In cells of height over the whole ground. Made or lost: what lies on the ground and is \
+                 carried, less what was there before; all edges are closed. Mean change: of the ground, up \
+                 or down.",
             ]),
         },
         claims: claims(&soils),

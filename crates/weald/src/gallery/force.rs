@@ -11,8 +11,8 @@ pub(super) const FIGURE: Figure = Figure {
     id: "force",
     title: "Force-based erosion against dissolution",
     source: SOURCE,
-    shows: "Running water cuts where it is fast and leaves its bed rough. Dissolution softens whatever lies under \
-            water, fast or slow, and what softened creeps and evens the bed out.",
+    shows: "Running water cuts where it is fast and leaves its bed rough. Dissolution softens whatever \
+            lies under water, fast or slow, and what softened creeps and evens the bed out.",
     seconds: 2,
     make,
 };
@@ -46,8 +46,9 @@ fn make(job: GalleryJob) -> Result<FigureOutput, Error> {
         header: texts(["erosion", "deepest cut, m", "moved, m³", "roughness of the bed, m"]),
         rows: beds.iter().map(Bed::row).collect(),
         remarks: texts([
-            "Without the first fifth, where the source is, and the edge. The bed is what lies within four cells \
-             of the middle of the valley; its roughness is the mean difference to the mean of four neighbours.",
+            "Without the first fifth, where the source is, and the edge. The bed is what lies within four \
+             cells of the middle of the valley; its roughness is the mean difference to the mean of four \
+             neighbours.",
         ]),
     };
     Ok(FigureOutput { plates, measured, claims: claims(&beds) })
@@ -111,7 +112,8 @@ fn claims(beds: &[Bed]) -> Vec<Claim> {
             "Force-based erosion cuts where water is fast",
             Verdict::of(deeper && rough > was),
             format!(
-                "its deepest cut is {:.2} m, that of dissolution {:.2} m; it roughens the bed from {was:.3} to {rough:.3} m",
+                "its deepest cut is {:.2} m, that of dissolution {:.2} m; it roughens the bed from \
+                 {was:.3} to {rough:.3} m",
                 forced.deepest_cut, dissolved.deepest_cut
             ),
         ),

@@ -3,15 +3,14 @@
 use super::han::{self, MEANING, RULE, Ran, Run};
 use super::{Claim, Figure, FigureOutput, GalleryJob, Measured, Plate, Verdict, views};
 use crate::error::Error;
-use crate::landscape::Landscape;
 use crate::picture::Image;
 
 pub(super) const FIGURE: Figure = Figure {
     id: "forms",
     title: "Forms by capacity and strength",
     source: "Han 2015, doi 10.7583/JKGS.2015.15.6.171, Table 2",
-    shows: "There are a capacity K_c and a strength K_v at which a network of rivers forms. With too small a strength \
-            little happens; with too large a one the ground breaks up into short gullies.",
+    shows: "There are a capacity K_c and a strength K_v at which a network of rivers forms. With too small \
+            a strength little happens; with too large a one the ground breaks up into short gullies.",
     seconds: 30,
     make,
 };
@@ -22,7 +21,7 @@ const STRENGTHS: [f64; 6] = [3e-4, 1e-3, 3e-3, 1e-2, 3e-2, 1e-1];
 
 fn make(job: GalleryJob) -> Result<FigureOutput, Error> {
     let run = |capacity: f64, strength: f64| {
-        let name = format!("{capacity} {strength}");
+        let name = format!("K_c {capacity}, K_v {strength}");
         Run::new(job, &name, &format!("capacity = {capacity:?}\nerosion = {strength:?}"))
     };
     let table = CAPACITIES.iter().flat_map(|&capacity| STRENGTHS.map(|strength| run(capacity, strength)));
@@ -31,8 +30,12 @@ fn make(job: GalleryJob) -> Result<FigureOutput, Error> {
     let water = runs.pop().expect("it was asked for");
     let width = job.choose(208, 32);
     let plates = [
-        ("relief", "Ground and water", sheet(&runs, |land| views::relief(land, width))?),
-        ("flow", "Mean discharge", sheet(&runs, |land| views::flow(land, width))?),
+        (
+            "relief",
+            "Ground and water",
+            views::sheet(&runs, STRENGTHS.len(), |land| views::relief(land, width))?,
+        ),
+        ("flow", "Mean discharge", views::sheet(&runs, STRENGTHS.len(), |land| views::flow(land, width))?),
     ];
     Ok(FigureOutput {
         plates: plates.map(|(name, what, image)| plate(name, what, &runs, image)).into(),
@@ -41,18 +44,11 @@ fn make(job: GalleryJob) -> Result<FigureOutput, Error> {
     })
 }
 
-/// All pictures with K_c and K_v above each.
-fn sheet(runs: &[Ran], draw: impl Fn(&Landscape) -> Result<Image, Error>) -> Result<Image, Error> {
-    let labelled = |ran: &Ran| Ok(draw(&ran.landscape)?.numbered(&ran.run.name));
-    let images = runs.iter().map(labelled).collect::<Result<Vec<_>, Error>>()?;
-    Ok(views::laid_out(&images, STRENGTHS.len()))
-}
-
 fn plate(name: &'static str, what: &str, runs: &[Ran], image: Image) -> Plate {
     let steps = runs[0].run.iterations;
     Plate {
         name,
-        caption: format!("{what} after {steps} steps; above each picture K_c, which grows downward, and K_v"),
+        caption: format!("{what} after {steps} steps; K_c grows downward, K_v to the right"),
         image,
     }
 }
@@ -73,8 +69,7 @@ fn measured(runs: &[Ran]) -> Measured {
 fn claims(runs: &[Ran], water: &Ran) -> Vec<Claim> {
     let by_capacity: Vec<&[Ran]> = runs.chunks(STRENGTHS.len()).collect();
     let networks: Vec<&Ran> = runs.iter().filter(|ran| ran.is_network(water)).collect();
-    let names =
-        networks.iter().map(|ran| format!("({})", ran.run.name.replace(' ', ", "))).collect::<Vec<_>>();
+    let names = networks.iter().map(|ran| format!("({})", ran.run.name)).collect::<Vec<_>>();
     let most = |column: usize| by_capacity.iter().map(|row| row[column].measures.chan).fold(0.0, f64::max);
     let weakest = most(0);
     let strongest = most(STRENGTHS.len() - 1);
@@ -84,7 +79,7 @@ fn claims(runs: &[Ran], water: &Ran) -> Vec<Claim> {
         Claim::new(
             "There are K_c and K_v at which networks form",
             Verdict::of(!networks.is_empty() && networks.len() < runs.len()),
-            format!("(K_c, K_v) of {}; {RULE}, here {:.4}", names.join(", "), water.measures.chan),
+            format!("{}; {RULE}, here {:.4}", names.join(", "), water.measures.chan),
         ),
         Claim::new(
             "With too small a K_v forms come slowly",
@@ -99,7 +94,8 @@ fn claims(runs: &[Ran], water: &Ran) -> Vec<Claim> {
             "With too large a K_v only short gullies form",
             Verdict::of(strongest < 0.1 * best),
             format!(
-                "`chan` is at most {strongest:.4} and `reach` at most {longest:.2} at K_v 0.1; the best `chan` is {best:.4}"
+                "`chan` is at most {strongest:.4} and `reach` at most {longest:.2} at K_v 0.1; the best \
+                 `chan` is {best:.4}"
             ),
         ),
     ]

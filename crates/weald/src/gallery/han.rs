@@ -52,7 +52,8 @@ impl Run {
         let mut landscape = start_terrain(self.side, self.seed)?;
         let before = landscape.field("height")?.clone();
         let keys = format!(
-            "model = \"han\"\niterations = {}\nrain = {RAIN:?}\nrain_period = {PERIOD}\ndry_period = {PERIOD}\n{}",
+            "model = \"han\"\niterations = {}\nrain = {RAIN:?}\nrain_period = {PERIOD}\ndry_period = \
+             {PERIOD}\n{}",
             self.iterations, self.keys
         );
         run_steps(&mut landscape, 0, &[("hydraulic", &keys)])?;
@@ -86,7 +87,8 @@ impl Ran {
 }
 
 /// What [`Ran::is_network`] asks for, in words.
-pub(super) const RULE: &str = "a network has twice the `chan` of water that does not erode, `reach` above 0.15 and `drains` of 0.3 or more";
+pub(super) const RULE: &str = "a network has twice the `chan` of water that does not erode, `reach` above \
+                               0.15 and `drains` of 0.3 or more";
 
 /// Makes all runs, at the same time as far as there are cores.
 pub(super) fn run_all(runs: &[Run]) -> Result<Vec<Ran>, Error> {
@@ -112,9 +114,11 @@ pub(super) fn header() -> Vec<String> {
 }
 
 /// What they mean.
-pub(super) const MEANING: &str = "`chan`: share of cells that carry the runoff of 100 cells or more. `reach`: length of \
-    the longest connected valley over the side. `drains`: share of the land from which water reaches a lake or the \
-    border without crossing a pit deeper than half a cell. `pits`: cells without a lower neighbour.";
+pub(super) const MEANING: &str = "`chan`: share of cells that carry the runoff of 100 cells or more. \
+                                  `reach`: length of the longest connected valley over the side. `drains`: \
+                                  share of the land from which water reaches a lake or the border without \
+                                  crossing a pit deeper than half a cell. `pits`: cells without a lower \
+                                  neighbour.";
 
 /// Name and network measures of a run.
 pub(super) fn row(ran: &Ran) -> Vec<String> {

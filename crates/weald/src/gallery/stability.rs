@@ -35,7 +35,8 @@ fn make(job: GalleryJob) -> Result<FigureOutput, Error> {
     let lakes =
         RATES.map(|rate| left_alone(side, iterations, rate)).into_iter().collect::<Result<Vec<_>, _>>()?;
     let growth: Vec<f64> = lakes.iter().map(amplification).collect();
-    let images: Vec<Image> = lakes.iter().map(surface).collect();
+    let drawn = RATES.iter().zip(&lakes).map(|(rate, lake)| surface(lake).titled(&format!("k = {rate:?}")));
+    let images: Vec<Image> = drawn.collect();
     let rows = RATES.iter().zip(&growth);
     Ok(FigureOutput {
         plates: vec![Plate {

@@ -55,7 +55,7 @@ pub(super) fn depth(landscape: &Landscape, width: u32) -> Result<Image, Error> {
 
 /// A map of a layer.
 pub(super) fn map(layer: &str) -> Map {
-    Map { of: LayerName::of(layer), ..Map::default() }
+    Map { of: LayerName::of(layer), legend: false, ..Map::default() }
 }
 
 /// A square of `side` cells whose north-western cell is at `corner` (column, row).
@@ -69,13 +69,14 @@ pub(super) fn part(landscape: &Landscape, corner: [usize; 2], side: usize) -> Re
     Ok(part)
 }
 
-/// Draws each run and lays the pictures out in rows of `columns`.
+/// Draws each run below its name and lays the pictures out in rows of `columns`.
 pub(super) fn sheet(
     runs: &[Ran],
     columns: usize,
     draw: impl Fn(&Landscape) -> Result<Image, Error>,
 ) -> Result<Image, Error> {
-    let images = runs.iter().map(|ran| draw(&ran.landscape)).collect::<Result<Vec<_>, _>>()?;
+    let titled = |ran: &Ran| Ok(draw(&ran.landscape)?.titled(&ran.run.name));
+    let images = runs.iter().map(titled).collect::<Result<Vec<_>, Error>>()?;
     Ok(laid_out(&images, columns))
 }
 

@@ -50,7 +50,7 @@ fn section(job: GalleryJob, runs: &[Ran]) -> Result<Plate, Error> {
             water: false,
             ..Section::default()
         };
-        picture.render(&part)
+        Ok(picture.render(&part)?.titled(&ran.run.name))
     };
     let images = runs.iter().map(cut).collect::<Result<Vec<_>, _>>()?;
     let what = format!("{side} cells of the mountains cut open from west to east, from top to bottom,");
@@ -71,9 +71,11 @@ fn measured(runs: &[Ran]) -> Measured {
     }
 }
 
-const MEANING_OF_FORM: &str = "Valleys as rows and columns of the grid cut them, where they are a cell deep or more: \
-    mean width at half their depth in cells, and `shape`, the ratio of their widths at a quarter and at three quarters \
-    of the depth, a third for a V and 1 for a slot. The steepest tenth: slope that one cell in ten exceeds.";
+const MEANING_OF_FORM: &str = "Valleys as rows and columns of the grid cut them, where they are a cell \
+                               deep or more: mean width at half their depth in cells, and `shape`, the \
+                               ratio of their widths at a quarter and at three quarters of the depth, a \
+                               third for a V and 1 for a slot. The steepest tenth: slope that one cell in \
+                               ten exceeds.";
 
 /// Width and shape of the valleys; 0 where there are none.
 fn form(ran: &Ran) -> [f64; 2] {
@@ -112,8 +114,9 @@ fn claims(runs: &[Ran]) -> Vec<Claim> {
             "Thermal weathering turns slots into V-shaped valleys",
             Verdict::of(valley > 1.3 * slot && valley_shape < slot_shape && rests < talus + 3.0),
             format!(
-                "valleys widen from {slot:.1} to {valley:.1} cells, their shape goes from {slot_shape:.2} to {valley_shape:.2}, \
-                 the slope of the steepest tenth from {steep:.0}° to {rests:.0}°, where tan φ is {talus:.0}°"
+                "valleys widen from {slot:.1} to {valley:.1} cells, their shape goes from {slot_shape:.2} \
+                 to {valley_shape:.2}, the slope of the steepest tenth from {steep:.0}° to {rests:.0}°, \
+                 where tan φ is {talus:.0}°"
             ),
         ),
     ]

@@ -1,10 +1,11 @@
 //! A finished picture and its PNG.
 
 use super::colour::encode;
-use super::{PAPER, digits};
+use super::font::Pen;
+use super::{Linear, PAPER};
 
-/// Colour of numbers.
-const INK: [u8; 3] = [70, 64, 56];
+/// Colour of writing.
+const INK: Linear = [0.06, 0.05, 0.04];
 
 /// Eight bits a channel, sRGB, row-major from the top left.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -73,12 +74,12 @@ impl Image {
         whole
     }
 
-    /// The picture below a line with a number, or with several apart by spaces.
+    /// The picture below a line of writing.
     #[must_use]
-    pub fn numbered(&self, number: &str) -> Self {
-        let side = 2;
-        let mut line = Self::paper(self.width, (digits::HEIGHT + 4) * side);
-        digits::write(&mut line, number, [2 * side, 2 * side], side, INK);
+    pub fn titled(&self, title: &str) -> Self {
+        let pen = Pen { unit: 1.25, ink: INK };
+        let mut line = Self::paper(self.width, (2.6 * pen.height()) as usize);
+        pen.write(&mut line, title, [2.0, 0.7 * pen.height()]);
         Self::below(&[line, self.clone()], 0)
     }
 
@@ -107,12 +108,13 @@ mod tests {
     }
 
     #[test]
-    fn a_number_stands_above_its_picture_and_leaves_it_as_it_was() {
+    fn a_title_stands_above_its_picture_and_leaves_it_as_it_was() {
         let image = Image { width: 40, height: 2, rgb: (0..240).collect() };
-        let numbered = image.numbered("0.5 3");
-        let above = numbered.height - image.height;
-        assert_eq!(numbered.rgb[3 * 40 * above..], image.rgb);
-        assert!(numbered.rgb[..3 * 40 * above].chunks(3).any(|pixel| *pixel == INK), "there is a number");
+        let titled = image.titled("k 0.5");
+        let above = titled.height - image.height;
+        assert_eq!(titled.rgb[3 * 40 * above..], image.rgb);
+        let dark = titled.rgb[..3 * 40 * above].chunks(3).filter(|pixel| pixel[0] < 100).count();
+        assert!(dark > 20, "{dark} dark pixels");
     }
 
     #[test]

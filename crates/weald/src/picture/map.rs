@@ -4,9 +4,11 @@ use rayon::prelude::*;
 
 use super::colour::{encode, mix};
 use super::ground::{drawable, land_share};
+use super::legend::{Key, Legend};
 use super::ramp::{Ramp, Scale};
 use super::sheet::Sheet;
 use super::spline::{Spline, SplineRow};
+use super::ticks::Ticks;
 use super::{Image, PAPER, Picture};
 use crate::error::Error;
 use crate::grid::{Field, Mask};
@@ -25,10 +27,14 @@ crate::parameters! {
         /// Whether colours follow the logarithm of the absolute value, as suits discharge.
         logarithmic: bool = false;
         /// Value of the first colour, in the layer's unit. By default the lowest; on a logarithmic map a
-        /// ten-thousandth of the highest.
+        /// ten-thousandth of the highest; with the ramp `balance` as far below 0 as the last is above.
         low: Option<f64> = None;
-        /// Value of the last colour, in the layer's unit. By default the highest.
+        /// Value of the last colour, in the layer's unit. By default the highest; with the ramp `balance` the
+        /// greatest distance from 0.
         high: Option<f64> = None;
+        /// Whether a strip beside the map has its colours with their values, the layer's name and unit, and a
+        /// scale bar.
+        legend: bool = true;
     }
 }
 
@@ -40,9 +46,22 @@ impl Picture for Map {
     fn render(&self, landscape: &Landscape) -> Result<Image, Error> {
         let sheet = Sheet::new(&landscape.domain, self.width)?;
         let land = landscape.domain.land.as_ref();
-        let shares = drawable(&self.shares(landscape.field(&self.of.0)?, land), land, &sheet);
+        let layer = landscape.layer(&self.of.0)?;
+        let range = self.range(&layer.field, land);
+        let shares = drawable(&self.shares(&layer.field, range), land, &sheet);
         let inked = Inked { shares, land: land_share(land, &sheet), ramp: self.ramp.ramp() };
-        Ok(inked.paint(&sheet))
+        let map = inked.paint(&sheet);
+        if !self.legend {
+            return Ok(map);
+        }
+        let ticks = if self.logarithmic { Ticks::logarithmic(range) } else { Ticks::linear(range) };
+        let legend = Legend {
+            title: &self.of.0,
+            unit: &layer.unit,
+            key: Key::Bar { ramp: inked.ramp, ticks },
+            metres_a_pixel: sheet.metres_a_pixel,
+        };
+        Ok(legend.beside(map))
     }
 }
 
@@ -51,9 +70,7 @@ const LOGARITHMIC_SHARE: f64 = 1e-4;
 
 impl Map {
     /// Places on the ramp, 0 to 1.
-    fn shares(&self, field: &Field, land: Option<&Mask>) -> Field {
-        let (lowest, highest) = self.range(field, land);
-        let (low, high) = (self.low.unwrap_or(lowest), self.high.unwrap_or(highest));
+    fn shares(&self, field: &Field, [low, high]: [f64; 2]) -> Field {
         let logarithm = |value: f64| libm::log(value.abs().max(f64::MIN_POSITIVE));
         let share = |&value: &f32| {
             let value = f64::from(value);
@@ -67,14 +84,20 @@ impl Map {
         Field::from_values(field.size(), field.values().par_iter().map(share).collect())
     }
 
-    fn range(&self, field: &Field, land: Option<&Mask>) -> (f64, f64) {
+    /// Values of the first and the last colour.
+    fn range(&self, field: &Field, land: Option<&Mask>) -> [f64; 2] {
         let (low, high) =
             field.range(land).map_or((0.0, 0.0), |(low, high)| (f64::from(low), f64::from(high)));
-        if !self.logarithmic {
-            return (low, high);
+        let farthest = low.abs().max(high.abs());
+        if self.logarithmic {
+            let high = self.high.unwrap_or(farthest);
+            return [self.low.unwrap_or(high * LOGARITHMIC_SHARE), high];
         }
-        let high = self.high.unwrap_or(low.abs().max(high.abs()));
-        (high * LOGARITHMIC_SHARE, high)
+        if self.ramp.is_centred() {
+            let high = self.high.or(self.low.map(|low| -low)).unwrap_or(farthest);
+            return [self.low.unwrap_or(-high), high];
+        }
+        [self.low.unwrap_or(low), self.high.unwrap_or(high)]
     }
 }
 

@@ -3,6 +3,8 @@
 //! Drawn as [`Relief`], with the colour of each cell's materials in place of height tints: thin covers let
 //! what they lie on shine through, and strata that crop out on slopes show as bands.
 
+use super::colour::linear_of_srgb;
+use super::legend::{Key, Legend};
 use super::paint::Paint;
 use super::scene::Scene;
 use super::sheet::Sheet;
@@ -30,6 +32,8 @@ crate::parameters! {
         contours: f64 = 0.0, range 0.0..=100_000.0, unit "m";
         /// Whether lakes (layer `water`) and rivers (layers `flux_x`, `flux_y`) are drawn where they exist.
         water: bool = true;
+        /// Whether a strip beside the picture names the materials in their colours and has a scale bar.
+        legend: bool = false;
     }
 }
 
@@ -46,7 +50,16 @@ impl Picture for Materials {
         let sheet = Sheet::new(&landscape.domain, self.width)?;
         let ground = landscape.field(&self.of.0)?;
         let paint = Paint::of_materials(landscape, ground, self.thinnest as f32, &sheet)?;
-        Ok(Scene::new(&self.relief(), landscape, sheet, paint)?.draw())
+        let picture = Scene::new(&self.relief(), landscape, sheet, paint)?.draw();
+        if !self.legend {
+            return Ok(picture);
+        }
+        let named = landscape.materials.iter().rev();
+        let entries =
+            named.map(|material| (material.name.clone(), linear_of_srgb(material.colour))).collect();
+        let key = Key::Names(entries);
+        Ok(Legend { title: "materials", unit: "1", key, metres_a_pixel: sheet.metres_a_pixel }
+            .beside(picture))
     }
 }
 

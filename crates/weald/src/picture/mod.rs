@@ -11,6 +11,7 @@ mod font;
 mod ground;
 mod image;
 mod lakes;
+mod legend;
 mod light;
 mod map;
 mod materials;
@@ -24,6 +25,7 @@ mod sheet;
 mod spline;
 mod strokes;
 mod texture;
+mod ticks;
 mod view;
 
 pub(crate) use albedo::tinted;
@@ -36,7 +38,7 @@ pub use ramp::{Ramp, Scale, Tint};
 pub use relief::Relief;
 pub use section::{Along, Section};
 pub(crate) use view::albedo;
-pub use view::{Cover, View};
+pub use view::{GroundColour, View};
 
 use std::fmt::Debug;
 

@@ -13,7 +13,10 @@ mod camera;
 mod cover;
 mod grain;
 mod haze;
+mod meeting;
+mod plain;
 mod pyramid;
+mod rising;
 mod scene;
 mod setting;
 mod side;
@@ -38,7 +41,7 @@ use scene::Scene;
 
 crate::choices! {
     /// What the ground of a view is coloured by.
-    pub enum Cover {
+    pub enum GroundColour {
         /// Meadow, forest, scree, rock and snow, by slope, height, soil and moisture.
         Natural = "natural",
         /// The materials at the surface.
@@ -81,8 +84,8 @@ crate::parameters! {
         sun_altitude_deg: f64 = 28.0, range 1.0..=90.0, unit "deg";
         /// Diameter of the sun in the sky: a larger one has softer shadows.
         sun_diameter_deg: f64 = 0.53, range 0.01..=20.0, unit "deg";
-        /// How far one sees through the haze at the lowest ground. By default seven times as far as from the
-        /// camera to the middle of the landscape.
+        /// How far one sees through the haze at the lowest ground. By default so far that of the light from the
+        /// middle of the landscape a seventh is lost on the way to the camera.
         visibility: Option<f64> = None, range 1.0..=1.0e12, unit "m";
         /// Brightness: each 1 more is twice as bright.
         exposure: f64 = 0.0, range -8.0..=8.0, unit "stops";
@@ -90,11 +93,11 @@ crate::parameters! {
         exaggeration: f64 = 1.0, range 0.01..=100.0;
         /// What colours the ground. By default `materials` where the recipe names materials of its own, else
         /// `natural`.
-        ground: Option<Cover> = None;
-        /// Slope from which natural ground is bare rock. By default that of the steepest sixth of the land, but
-        /// between 24° and 42°.
+        ground: Option<GroundColour> = None;
+        /// Slope from which natural ground is bare rock. By default that of the steepest tenth of the land, but
+        /// between 30° and 42°.
         rock_deg: Option<f64> = None, range 1.0..=89.0, unit "deg";
-        /// Elevation up to which trees grow on natural ground. By default the lower 55 % of the relief.
+        /// Elevation up to which trees grow on natural ground. By default the lower 60 % of the relief.
         tree_line: Option<f64> = None, unit "m";
         /// Elevation from which snow lies on natural ground that is not too steep. By default there is none.
         snow_line: Option<f64> = None, unit "m";

@@ -3,12 +3,14 @@
 
 mod colour;
 mod file;
+mod layer_names;
 mod places;
 mod sides;
 mod values;
 
 pub use colour::Colour;
 pub use file::{RasterFile, ScriptFile};
+pub use layer_names::LayerNames;
 pub use places::Places;
 pub use sides::Sides;
 pub use values::{LayerName, Nested};
@@ -56,6 +58,8 @@ pub enum Kind {
     Sides,
     /// The name of a layer.
     Layer,
+    /// A list of names of layers.
+    Layers,
     /// A place as a list of two numbers, or a list of places.
     Places,
     /// A list of numbers, each within both bounds.
@@ -82,6 +86,7 @@ impl Kind {
             Self::Colour => "colour \"#rrggbb\"".to_owned(),
             Self::Sides => "whole number from 1, or [columns, rows]".to_owned(),
             Self::Layer => "layer name".to_owned(),
+            Self::Layers => "list of layer names".to_owned(),
             Self::Numbers(low, high) => format!("list of numbers, {}", range_in_words(*low, *high)),
             Self::Places => "[x, y], or a list of places".to_owned(),
             Self::Table(_) => "table".to_owned(),

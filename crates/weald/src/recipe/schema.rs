@@ -1,5 +1,7 @@
 //! The JSON Schema of recipes, for editors that complete and check TOML: `weald schema`.
 
+use std::collections::BTreeSet;
+
 use serde_json::{Map, Value, json};
 
 use super::catalog::CATALOG;
@@ -92,7 +94,7 @@ fn layer_output() -> Value {
 /// The readers that a layer can be written for, of all formats.
 fn preset() -> Value {
     let presets: Vec<_> = FORMATS.iter().flat_map(|format| format.presets).collect();
-    let names: Vec<_> = presets.iter().map(|preset| preset.name).collect();
+    let names: BTreeSet<_> = presets.iter().map(|preset| preset.name).collect();
     let told: Vec<_> = presets.iter().map(|preset| format!("{}: {}", preset.name, preset.summary)).collect();
     json!({ "enum": names, "description": told.join(". ") })
 }
@@ -147,6 +149,7 @@ fn of_kind(kind: &Kind) -> Value {
         Kind::Text | Kind::Raster | Kind::Script => json!({ "type": "string" }),
         Kind::Colour => json!({ "type": "string", "pattern": "^#[0-9A-Fa-f]{6}$" }),
         Kind::Layer => json!({ "type": "string", "pattern": "^[A-Za-z0-9_-]{1,64}$" }),
+        Kind::Layers => json!({ "type": "array", "items": of_kind(&Kind::Layer), "uniqueItems": true }),
         Kind::Numbers(low, high) => json!({ "type": "array", "items": bounded("number", *low, *high) }),
         Kind::Sides => {
             let side = json!({ "type": "integer", "minimum": 1 });

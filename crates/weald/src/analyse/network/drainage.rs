@@ -1,91 +1,51 @@
-//! Where each cell drains to: the steepest of eight ways down the flooded ground, into lakes and over the rim.
-//!
-//! Pits are filled by priority-flood. On filled ground, which is level, water takes the way by which the flood
-//! came. Source: O'Callaghan and Mark 1984, "The extraction of drainage networks from digital elevation data",
-//! doi 10.1016/S0734-189X(84)80011-0 (D8). Differs: diagonal falls are divided by √2, and pits are filled.
+//! Where the land drains to, into lakes and over its rim, by [`flow`](crate::analyse::flow): pits filled, D8.
 
 use super::ground::Ground;
-use crate::analyse::priority_flood::{Flooded, priority_flood};
-use crate::grid::Size;
+use crate::analyse::directions::Directions;
+use crate::analyse::flow::{Routing, accumulate, route};
+use crate::grid::{Field, Mask, Size};
 
-/// The tree of ways to the outlets.
+/// The ways of the land outside lakes.
 pub(super) struct Drainage {
     size: Size,
-    /// Land cells from the outlets upwards: each comes after the one that it drains to.
+    directions: Directions,
+    /// Heights with pits filled, in cells.
+    surface: Field,
+    /// Land outside lakes from the outlets upwards: each cell comes after the one that it drains to.
     pub(super) order: Vec<usize>,
-    /// The next cell on the way down; the cell itself for an outlet.
-    pub(super) next: Vec<usize>,
-    /// Height in cells at which water runs off, and the way by which the flood came.
-    pub(super) flood: Vec<Flooded>,
-    /// How deep the ground lies below that height, in cells.
-    pub(super) filled: Vec<f64>,
-    /// Cells that drain through each cell, itself included.
+    /// Cells that drain through each cell, itself included; 0 in lakes and where there is no land.
     pub(super) area: Vec<f64>,
 }
 
 impl Drainage {
-    /// The drainage of a ground into `lakes` and over its rim.
+    /// The drainage of a ground. What reaches a lake has arrived.
     pub(super) fn new(ground: &Ground<'_>, lakes: &[bool]) -> Self {
-        let surface = |cell: usize| match (ground.is_land(cell), lakes[cell]) {
-            (false, _) => f64::INFINITY,
-            (true, true) => ground.height[cell] + ground.depth[cell],
-            (true, false) => ground.height[cell],
-        };
         let size = ground.size;
-        let surface: Vec<f64> = (0..size.cells()).map(surface).collect();
-        let outlets: Vec<bool> = (0..size.cells())
-            .map(|cell| ground.is_land(cell) && (lakes[cell] || ground.on_rim(cell)))
-            .collect();
-        let (order, flood) = priority_flood(size, &surface, &outlets);
-        let order: Vec<usize> = order.into_iter().filter(|&cell| ground.is_land(cell)).collect();
-        let next: Vec<usize> = (0..size.cells()).map(|cell| steepest(size, &flood, cell)).collect();
-        let area = accumulated(&order, &next);
-        let filled = flood.iter().zip(&surface).map(|(flood, surface)| flood.level - surface).collect();
-        Self { size, order, next, flood, filled, area }
+        let height = Field::from_values(size, ground.height.iter().map(|&height| height as f32).collect());
+        let dry = (0..size.cells()).map(|cell| ground.is_land(cell) && !lakes[cell]).collect();
+        let dry = Mask::new(size, dry);
+        let routed = route(&height, dry.as_ref(), &Routing::default());
+        let area = accumulate(&routed.directions, dry.as_ref(), None);
+        let order = routed.directions.upward(|cell| dry.as_ref().is_none_or(|dry| dry.is_land_at(cell)));
+        Self { size, directions: routed.directions, surface: routed.surface, order, area }
     }
 
-    /// Whether water ends in a cell.
-    pub(super) fn is_outlet(&self, cell: usize) -> bool {
-        self.next[cell] == cell
+    /// The cell to which a cell drains; `None` where water has arrived.
+    pub(super) fn next(&self, cell: usize) -> Option<usize> {
+        self.directions.downstream(cell)
     }
 
-    /// Length in cells of the way from a cell to the next.
-    pub(super) fn step(&self, cell: usize) -> f64 {
-        distance(self.size, cell, self.next[cell])
+    /// Length in cells of the way from a cell to a neighbour.
+    pub(super) fn step(&self, cell: usize, next: usize) -> f64 {
+        let columns = self.size.columns;
+        let diagonal = cell % columns != next % columns && cell / columns != next / columns;
+        if diagonal { std::f64::consts::SQRT_2 } else { 1.0 }
     }
-}
 
-/// Distance of the centres of two neighbours, in cells.
-fn distance(size: Size, cell: usize, other: usize) -> f64 {
-    let diagonal = cell % size.columns != other % size.columns && cell / size.columns != other / size.columns;
-    if diagonal { std::f64::consts::SQRT_2 } else { 1.0 }
-}
-
-/// An outlet is its own next; elsewhere what lies strictly lower was flooded before, so the ways never close.
-fn steepest(size: Size, flood: &[Flooded], cell: usize) -> usize {
-    let Flooded { level, next } = flood[cell];
-    if next == cell {
-        return cell;
+    /// How far water falls from a cell to a neighbour, in cells.
+    pub(super) fn fall(&self, cell: usize, next: usize) -> f64 {
+        f64::from(self.surface.values()[cell]) - f64::from(self.surface.values()[next])
     }
-    let mut best = (0.0, next);
-    for other in size.neighbours(cell) {
-        let fall = (level - flood[other].level) / distance(size, cell, other);
-        if fall > best.0 {
-            best = (fall, other);
-        }
-    }
-    best.1
-}
-
-fn accumulated(order: &[usize], next: &[usize]) -> Vec<f64> {
-    let mut area = vec![0.0; next.len()];
-    for &cell in order.iter().rev() {
-        area[cell] += 1.0;
-        if next[cell] != cell {
-            area[next[cell]] += area[cell];
-        }
-    }
-    area
 }
 
 #[cfg(test)]
@@ -107,19 +67,14 @@ pub(super) mod tests {
     }
 
     #[test]
-    fn every_cell_of_rough_ground_with_pits_drains_over_the_rim_and_none_is_counted_twice() {
-        let rough = |x: f64, y: f64| crate::random::signed2(5, x as i64, y as i64) + 0.01 * x;
-        let drainage = dry(40, 30, rough);
-        assert!(drainage.filled.iter().any(|&filled| filled > 0.1), "there are pits");
-        let outlets = (0..1200).filter(|&cell| drainage.is_outlet(cell));
-        assert_eq!(outlets.map(|cell| drainage.area[cell]).sum::<f64>(), 1200.0);
-    }
-
-    #[test]
-    fn a_slope_drains_straight_down_and_gathers_a_cell_a_row() {
-        let drainage = dry(9, 20, |_, y| -y);
-        let area: Vec<f64> = (0..20).map(|y| drainage.area[y * 9 + 4]).collect();
-        // The first row is an outlet too, being at the border.
-        assert_eq!(area[1..], (1..20).map(f64::from).collect::<Vec<_>>());
+    fn what_drains_to_a_lake_has_arrived() {
+        let size = Size::new(9, 20).expect("legal");
+        let height = (0..180).map(|cell| -f64::from(cell / 9)).collect();
+        let ground = Ground { size, land: None, height, depth: vec![0.0; 180] };
+        let lakes: Vec<bool> = (0..180).map(|cell| (90..108).contains(&cell)).collect();
+        let drainage = Drainage::new(&ground, &lakes);
+        let area = |y: usize| drainage.area[y * 9 + 4];
+        assert_eq!([area(9), area(10), area(11), area(12)], [10.0, 0.0, 0.0, 1.0]);
+        assert_eq!(drainage.next(9 * 9 + 4), None);
     }
 }

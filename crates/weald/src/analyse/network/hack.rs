@@ -16,10 +16,11 @@ pub(super) fn exponent_of_length(drainage: &Drainage) -> Option<f64> {
 
 /// Cells along the longest way down to each cell, itself included.
 fn lengths(drainage: &Drainage) -> Vec<f64> {
-    let mut length = vec![1.0; drainage.next.len()];
-    for &cell in drainage.order.iter().rev().filter(|&&cell| !drainage.is_outlet(cell)) {
-        let next = drainage.next[cell];
-        length[next] = f64::max(length[next], length[cell] + drainage.step(cell));
+    let mut length = vec![1.0; drainage.area.len()];
+    for &cell in drainage.order.iter().rev() {
+        if let Some(next) = drainage.next(cell) {
+            length[next] = f64::max(length[next], length[cell] + drainage.step(cell, next));
+        }
     }
     length
 }

@@ -11,12 +11,11 @@ const LEAST_AREA: f64 = 8.0;
 
 /// θ over octaves of area from 8 cells upwards; `None` where fewer than three octaves have ten cells each.
 pub(super) fn theta(drainage: &Drainage) -> Option<f64> {
-    let inner = drainage.order.iter().copied().filter(|&cell| !drainage.is_outlet(cell));
-    let sample = |cell: usize| {
-        let fall = drainage.flood[cell].level - drainage.flood[drainage.next[cell]].level;
-        [drainage.area[cell], fall / drainage.step(cell)]
+    let sample = |&cell: &usize| {
+        let next = drainage.next(cell)?;
+        Some([drainage.area[cell], drainage.fall(cell, next) / drainage.step(cell, next)])
     };
-    exponent(inner.map(sample), LEAST_AREA).map(|exponent| -exponent)
+    exponent(drainage.order.iter().filter_map(sample), LEAST_AREA).map(|exponent| -exponent)
 }
 
 #[cfg(test)]

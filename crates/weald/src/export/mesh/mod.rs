@@ -51,7 +51,7 @@ use crate::grid::Field;
 use crate::io::Part;
 use crate::landscape::Landscape;
 use crate::material::Material;
-use crate::picture::{Cover, Image, Tint, View, albedo, linear_of_srgb, tinted};
+use crate::picture::{GroundColour, Image, Tint, View, albedo, linear_of_srgb, tinted};
 use crate::recipe::parameter::LayerName;
 
 crate::choices! {
@@ -95,7 +95,7 @@ crate::parameters! {
         /// Depth from which water is drawn: rain lies on all slopes as a film.
         shallowest: f64 = 0.5, range 0.001..=1000.0, unit "m";
         /// Depth of walls below the lowest point that close the edges of the mesh; 0 leaves them open.
-        skirt: f64 = 0.0, range 0.0..=100000.0, unit "m";
+        skirt: f64 = 0.0, range 0.0..=100_000.0, unit "m";
     }
 }
 
@@ -180,7 +180,7 @@ impl Mesh {
             attributes.insert("TANGENT".to_owned(), document.vectors(&signed(&vertices.tangents)));
         }
         let material = self.ground_material(document, landscape, normal_map)?;
-        document.add(document::Part {
+        document.add(&document::Part {
             name: "terrain",
             attributes,
             triangles: &mesh.triangles,
@@ -217,8 +217,8 @@ impl Mesh {
         let ground = match self.colours {
             Some(Colours::Plain) => return Ok(None),
             Some(Colours::Tints) => return tinted(landscape, &self.of.0, self.ramp, self.texture).map(Some),
-            Some(Colours::Natural) => Some(Cover::Natural),
-            Some(Colours::Materials) => Some(Cover::Materials),
+            Some(Colours::Natural) => Some(GroundColour::Natural),
+            Some(Colours::Materials) => Some(GroundColour::Materials),
             None => None,
         };
         let view = View {
@@ -239,7 +239,7 @@ impl Mesh {
         let mut attributes = Map::new();
         attributes.insert("POSITION".to_owned(), document.positions(&single(&skirt.positions)));
         attributes.insert("NORMAL".to_owned(), document.vectors(&single(&skirt.normals)));
-        document.add(document::Part {
+        document.add(&document::Part {
             name: "skirt",
             attributes,
             triangles: &skirt.triangles,
@@ -266,7 +266,7 @@ impl Mesh {
             },
         }));
         let (triangles, vertices) = (mesh.triangles.as_slice(), mesh.points.len());
-        document.add(document::Part { name: "water", attributes, triangles, vertices, material });
+        document.add(&document::Part { name: "water", attributes, triangles, vertices, material });
         Ok(())
     }
 }

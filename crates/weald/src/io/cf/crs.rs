@@ -10,6 +10,10 @@ use crate::domain::{GeoKeys, Georeference};
 /// Attributes with the `GeoTIFF` keys of a raster that came from such a file.
 const KEYS: [&str; 3] = ["GeoKeyDirectory", "GeoDoubleParams", "GeoAsciiParams"];
 
+/// What the user is told of another CRS.
+pub(crate) const UNTOLD: &str =
+    "the CRS has no EPSG code with a definition, so that only Weald finds it; .tif holds it for all";
+
 /// Whether other programs find the CRS in a file of arrays: it has an EPSG code with a known definition.
 pub(crate) fn is_told_to_all(place: &Georeference) -> bool {
     place.epsg.is_some_and(|code| mapping::wkt_of(code).is_some())

@@ -22,7 +22,7 @@ mod read;
 mod sheet;
 
 pub(crate) use attribute::{Attribute, Attributes};
-pub(crate) use crs::is_told_to_all;
+pub(crate) use crs::{UNTOLD, is_told_to_all};
 pub(crate) use dataset::{Axis, Dataset, Values, Variable};
 pub(crate) use names::Names;
 pub(crate) use read::{Described, Source, read};

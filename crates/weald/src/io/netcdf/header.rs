@@ -176,12 +176,13 @@ fn numbers(name: &str, axes: &[usize], dimensions: &[Dimension]) -> Result<(usiz
         let dimension = dimensions.get(*axis).ok_or_else(|| {
             Fault::damaged(format!("`{name}` has dimension {axis}, but there are {}", dimensions.len()))
         })?;
-        if !dimension.is_record {
-            record = record.checked_mul(dimension.length).ok_or_else(|| too_large(name))?;
-        } else if position == 0 {
-            records = dimension.length;
-        } else {
-            return Err(Fault::damaged(format!("`{name}` grows along a dimension that is not its first")));
+        match (dimension.is_record, position) {
+            (false, _) => record = record.checked_mul(dimension.length).ok_or_else(|| too_large(name))?,
+            (true, 0) => records = dimension.length,
+            (true, _) => {
+                let what = format!("`{name}` grows along a dimension that is not its first");
+                return Err(Fault::damaged(what));
+            }
         }
     }
     Ok((record, records))

@@ -67,7 +67,7 @@ impl Codecs {
         for (position, packing) in self.packings.iter().enumerate().rev() {
             // Only the last step has to give the numbers; what stood before it may be a little longer.
             let most = if position == 0 { length as u64 } else { self.most(length) };
-            bytes = packing.undo(bytes, most)?;
+            bytes = packing.undo(&bytes, most)?;
         }
         if bytes.len() != length {
             return Err(Fault::damaged(format!("{} bytes in a chunk of {length}", bytes.len())));
@@ -89,12 +89,12 @@ fn unread(array: &str, codec: &str) -> Fault {
 }
 
 impl Packing {
-    fn undo(self, bytes: Vec<u8>, most: u64) -> Result<Vec<u8>, Fault> {
+    fn undo(self, bytes: &[u8], most: u64) -> Result<Vec<u8>, Fault> {
         match self {
-            Self::Gzip => at_most(MultiGzDecoder::new(bytes.as_slice()), most, "gzip"),
+            Self::Gzip => at_most(MultiGzDecoder::new(bytes), most, "gzip"),
             Self::Zstd => {
                 let window = most.next_power_of_two().max(WINDOW);
-                let decoder = StreamingDecoder::new_with_max_window_size(bytes.as_slice(), window);
+                let decoder = StreamingDecoder::new_with_max_window_size(bytes, window);
                 let decoder = decoder.map_err(|cause| Fault::damaged(format!("zstd: {cause}")))?;
                 at_most(decoder, most, "zstd")
             }

@@ -4,8 +4,8 @@
 //! was scattered once is integrated along each direction; light that was scattered more often is taken as even in
 //! direction and summed as a geometric series: Sébastien Hillaire 2020, "A scalable and production ready sky and
 //! atmosphere rendering technique", doi 10.1111/cgf.14050, with his coefficients (after Bruneton and Neyret 2008,
-//! doi 10.1111/j.1467-8659.2008.01245.x). What differs: there is nine times
-//! as much haze, the optical depth 0.05 of a clear day over land; the integrals depend on the elevation of a direction alone,
+//! doi 10.1111/j.1467-8659.2008.01245.x). What differs: there is six times
+//! as much haze, the optical depth 0.03 of a clear day over land; the integrals depend on the elevation of a direction alone,
 //! being taken at right angles to the sun, and the phase functions are applied where the sky is looked up; the
 //! ground sends nothing back into the air.
 
@@ -22,8 +22,8 @@ const RAYLEIGH: Colour = [5.802e-6, 13.558e-6, 33.1e-6];
 const RAYLEIGH_HEIGHT: f64 = 8000.0;
 
 /// Scattering and extinction by haze at sea level, a metre, and their scale height.
-const MIE: f64 = 3.6e-5;
-const MIE_EXTINCTION: f64 = 4.0e-5;
+const MIE: f64 = 2.4e-5;
+const MIE_EXTINCTION: f64 = 2.7e-5;
 const MIE_HEIGHT: f64 = 1200.0;
 
 /// Absorption by ozone at 25 km, a metre.

@@ -90,10 +90,10 @@ struct Palette {
 
 impl Default for Palette {
     fn default() -> Self {
-        let [lush, meadow, dry, alpine] = [0x51_6630, 0x68_713c, 0x8d_8455, 0x79_754c].map(linear_of_hex);
-        let forest = [0x22_2f1b, 0x3f_4d2b].map(linear_of_hex);
+        let [lush, meadow, dry, alpine] = [0x44_622f, 0x54_6a37, 0x78_7648, 0x62_683f].map(linear_of_hex);
+        let forest = [0x26_341e, 0x44_5330].map(linear_of_hex);
         let rock = [0x83_7c72, 0x55_4e47, 0x9a_8c7a].map(linear_of_hex);
-        let [scree, gravel, snow] = [0x95_8d80, 0xa9_9d86, 0xee_f1f5].map(linear_of_hex);
+        let [scree, gravel, snow] = [0x95_8d80, 0xa9_9d86, 0xe4_e8ee].map(linear_of_hex);
         Self { lush, meadow, dry, alpine, forest, rock, scree, gravel, snow }
     }
 }
@@ -156,10 +156,10 @@ impl Cover {
         let steep = spot.slope / self.limits.rock + 0.25 * patchy + 0.55 * streak + 0.4 * (0.4 - soil);
         let pebbles = scale(self.palette.scree, 1.0 + 0.45 * fine.value + 0.4 * streak);
         let scree = Skin { albedo: pebbles, bump: texture.rough(0.18) };
-        let stony = green.mixed(&scree, 0.8 * ramp(steep, 0.90, 1.02) * (1.0 - 0.6 * trees));
+        let stony = green.mixed(&scree, 0.8 * ramp(steep, 0.97, 1.10) * (1.0 - 0.6 * trees));
         let rock = Skin { albedo: self.rock(spot, texture), bump: texture.rough(0.45) };
-        let ground = stony.mixed(&rock, ramp(steep, 1.03, 1.15));
-        let snow = Skin { albedo: self.palette.snow, bump: texture.rough(0.05) };
+        let ground = stony.mixed(&rock, ramp(steep, 1.08, 1.22));
+        let snow = Skin { albedo: scale(self.palette.snow, 1.0 + 0.12 * streak), bump: texture.rough(0.10) };
         ground.mixed(&snow, self.snow(spot, patchy))
     }
 
@@ -189,7 +189,7 @@ impl Cover {
     fn trees(&self, spot: &Spot, moisture: f32, patchy: f32) -> f32 {
         let line = (self.limits.trees - spot.point[2]) / (0.12 * self.limits.relief).max(1e-3);
         let steep = ramp(spot.slope / self.limits.rock, 0.85, 1.15);
-        let wood = 1.1 * (moisture - 0.5) + 0.9 * patchy + 0.4 * line.clamp(-2.0, 0.6) - 0.5 * steep;
+        let wood = 1.1 * (moisture - 0.5) + 0.9 * patchy + 0.4 * line.clamp(-2.0, 0.8) - 0.5 * steep;
         ramp(wood, 0.10, 0.24)
     }
 

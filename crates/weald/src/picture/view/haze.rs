@@ -36,9 +36,15 @@ impl Haze {
         Self { extinction: CONTRAST / visibility as f32, scale_height: SCALE_HEIGHT * exaggeration }
     }
 
+    /// Haze that takes so much, as an optical depth, from light on its way along a ray.
+    pub(super) fn of_depth(depth: f32, ray: &Ray, way: f32, exaggeration: f32) -> Self {
+        let unit = Self { extinction: 1.0, scale_height: SCALE_HEIGHT * exaggeration };
+        Self { extinction: depth / unit.column(ray, way).max(1e-3), ..unit }
+    }
+
     /// The light that arrives at the start of a ray, of `radiance` that starts `way` metres along it.
     #[inline]
-    pub(super) fn veil(&self, radiance: Vector, ray: &Ray, way: f32, sky: &Sky) -> Vector {
+    pub(super) fn veil(self, radiance: Vector, ray: &Ray, way: f32, sky: &Sky) -> Vector {
         let depth = self.extinction * self.column(ray, way);
         let through = TINT.map(|tint| libm::expf(-tint * depth));
         let horizon = sky.radiance([ray.direction[0], ray.direction[1], 0.0]);
@@ -47,7 +53,7 @@ impl Haze {
     }
 
     /// Length of the air at the lowest ground that would veil as much.
-    fn column(&self, ray: &Ray, way: f32) -> f32 {
+    fn column(self, ray: &Ray, way: f32) -> f32 {
         let start = libm::expf(-ray.from[2].max(0.0) / self.scale_height);
         let climb = ray.direction[2] * way / self.scale_height;
         // (1 - e^-x) / x, which is 1 - x/2 for level rays.

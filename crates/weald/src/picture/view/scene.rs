@@ -1,31 +1,29 @@
 //! The light that reaches each pixel of a view.
 
+use std::f32::consts::FRAC_1_PI;
+
 use super::View;
-use super::camera::Camera;
+use super::camera::{self, Camera};
 use super::cover::{Cover, Spot};
 use super::haze::Haze;
+use super::plain;
 use super::setting::Setting;
 use super::side::SideLight;
 use super::sky::Sky;
 use super::skylight::{self, Seen, Skylight};
-use super::surface::Surface;
 use super::terrain::{Hit, Ray};
 use super::tone::Tone;
 use super::vector::{Vector, add, dot, filter, mirrored, scale, subtract, towards, unit};
 use super::water;
 use crate::error::Error;
-use crate::grid::{Field, Size};
 use crate::landscape::Landscape;
 use crate::picture::colour::{Linear, linear_of_hex, mix};
 
 /// Most cells, along the longer side, for which the visible sky is known.
 const SKYLIGHT_CELLS: usize = 1024;
 
-/// Cells of the plain along the landscape's side for which the visible sky is known; the plain is three such sides wide.
-const PLAIN_CELLS: usize = 64;
-
-/// How many times as far as to the middle of the landscape one sees through the haze.
-const CLEAR: f64 = 7.0;
+/// Optical depth of the haze between the eye and the middle of the landscape.
+const USUAL_HAZE: f32 = 0.13;
 
 /// Distance, in diagonals of the landscape, over which the plain is lost in the haze.
 const PLAIN_REACH: f32 = 2.6;
@@ -34,7 +32,7 @@ const PLAIN_REACH: f32 = 2.6;
 const BOUNCE: f32 = 0.5;
 
 /// Colour of the plain.
-const PLAIN: u32 = 0xc9_c4b8;
+const PLAIN: u32 = 0xd0_c6b4;
 
 /// Colour of water in a cut side.
 const CUT_WATER: u32 = 0x1d_4a58;
@@ -63,34 +61,24 @@ pub(super) struct Scene {
 impl Scene {
     pub(super) fn new(view: &View, landscape: &Landscape) -> Result<Self, Error> {
         let (setting, sites) = Setting::new(view, landscape)?;
-        let sun = towards(view.sun_azimuth_deg, view.sun_altitude_deg);
-        let sky = Sky::new(sun, view.sun_diameter_deg);
+        let sky = Sky::new(towards(view.sun_azimuth_deg, view.sun_altitude_deg), view.sun_diameter_deg);
         let terrain = &setting.terrain;
         let camera = Camera::new(view, terrain, setting.exaggeration);
-        let level = sky.on_level_ground();
         let cover = Cover::new(sites, setting.limits);
-        let bounce = scale(filter(cover.mean(), level), BOUNCE * std::f32::consts::FRAC_1_PI);
-        let plain = linear_of_hex(PLAIN);
-        let plain_radiance = scale(filter(plain, level), std::f32::consts::FRAC_1_PI);
-        let centre = {
-            let size = terrain.top.size();
-            terrain.point([0.5 + 0.5 * size.columns as f32, 0.5 + 0.5 * size.rows as f32], 0.0)
-        };
-        let away = subtract(camera.eye, centre);
-        let visibility =
-            view.visibility.unwrap_or(CLEAR * f64::from(dot(away, away).sqrt().max(extent(&setting))));
+        let (level, plain) = (sky.on_level_ground(), linear_of_hex(PLAIN));
+        let sent_back = |albedo: Linear, share: f32| scale(filter(albedo, level), share * FRAC_1_PI);
         let pixels = [view.width as usize, view.height as usize];
         Ok(Self {
             skylight: Skylight::new(&sky, &terrain.top, terrain.spacing, SKYLIGHT_CELLS),
-            plain_light: plain_light(&sky, &setting),
+            plain_light: plain::light(&sky, &setting.terrain),
             open: skylight::open(&sky),
-            sides: SideLight::new(&sky, plain_radiance),
-            haze: Haze::new(visibility, setting.exaggeration),
+            sides: SideLight::new(&sky, sent_back(plain, 1.0)),
+            bounce: sent_back(cover.mean(), BOUNCE),
+            haze: haze(view, &camera, setting.centre(), setting.exaggeration),
             tone: Tone::new(level, view.exposure),
-            samples: samples(view.samples),
+            samples: camera::samples(view.samples),
             pixel_angle: camera.pixel_angle(pixels[0]),
-            is_empty: !Setting::has_land(landscape),
-            bounce,
+            is_empty: landscape.domain.land_cells() == 0,
             plain,
             pixels,
             sky,
@@ -165,7 +153,7 @@ impl Scene {
         let limits = [steepness(altitude - radius), steepness(altitude + radius)];
         let horizon = libm::atanf(self.setting.terrain.horizon(point, sun, limits));
         let free = ((altitude - horizon) / radius).clamp(-1.0, 1.0);
-        0.5 + (free * (1.0 - free * free).sqrt() + libm::asinf(free)) * std::f32::consts::FRAC_1_PI
+        0.5 + (free * (1.0 - free * free).sqrt() + libm::asinf(free)) * FRAC_1_PI
     }
 
     /// Light of sun and sky on a normal.
@@ -181,11 +169,11 @@ impl Scene {
         let terrain = &self.setting.terrain;
         let normal = terrain.normal([east, south]);
         let stretch = self.setting.exaggeration;
-        let steep = (1.0 - normal[2] * normal[2]).max(0.0).sqrt() / normal[2].max(1e-3) / stretch;
-        let run = (normal[0] * normal[0] + normal[1] * normal[1]).sqrt().max(1e-6);
-        let fall = [normal[0] / run, normal[1] / run];
-        let spot =
-            Spot { place, fall, point: [point[0], point[1], height / stretch], slope: steep, footprint };
+        let run = (normal[0] * normal[0] + normal[1] * normal[1]).sqrt();
+        let fall = [0, 1].map(|axis| normal[axis] / run.max(1e-6));
+        let point_of_cover = [point[0], point[1], height / stretch];
+        let slope = run / normal[2].max(1e-3) / stretch;
+        let spot = Spot { place, fall, point: point_of_cover, slope, footprint };
         let skin = self.cover.at(&spot);
         let rough = unit([
             normal[0] - normal[2] * skin.bump[0] * stretch,
@@ -194,7 +182,7 @@ impl Scene {
         ]);
         let albedo = water::wetted(skin.albedo, above, terrain.cell());
         let light = self.lit(point, rough, &self.skylight.at(self.share(place)));
-        scale(filter(albedo, light), std::f32::consts::FRAC_1_PI)
+        scale(filter(albedo, light), FRAC_1_PI)
     }
 
     /// Water of a depth.
@@ -202,7 +190,7 @@ impl Scene {
         let terrain = &self.setting.terrain;
         let back = scale(ray.direction, -1.0);
         let footprint = self.footprint(hit.way) / back[2].max(0.05).sqrt();
-        let normal = water::ripples(point, 0.7 * terrain.cell(), footprint);
+        let normal = water::ripples(point, (0.25 * terrain.cell()).min(6.0), footprint);
         let seen = self.skylight.at(self.share(hit.place));
         let share = water::mirrored_share(dot(back, normal));
         let mut direction = mirrored(ray.direction, normal);
@@ -241,10 +229,10 @@ impl Scene {
             self.setting.strata.albedo(place, point, [point[2] / stretch, surface / stretch])
         };
         let facing = dot(normal, self.sky.sun).max(0.0);
-        let outside = add(point, scale(normal, 0.01 * self.setting.terrain.cell()));
+        let outside = add(point, scale(normal, 1.5 * self.setting.terrain.cell()));
         let sun = if facing > 0.0 { facing * self.sun_seen(outside) } else { 0.0 };
         let light = add(scale(self.sky.sunlight, sun), self.sides.on(normal));
-        scale(filter(albedo, light), std::f32::consts::FRAC_1_PI)
+        scale(filter(albedo, light), FRAC_1_PI)
     }
 
     /// The plain that the landscape stands on, which is lost in the haze of the horizon.
@@ -257,47 +245,85 @@ impl Scene {
         let inside = share.iter().all(|share| (0.0..=1.0).contains(share));
         let seen = if inside { self.plain_light.at(share) } else { self.open };
         let light = self.lit(point, [0.0, 0.0, 1.0], &seen);
-        let radiance = scale(filter(self.plain, light), std::f32::consts::FRAC_1_PI);
+        let radiance = scale(filter(self.plain, light), FRAC_1_PI);
         let near = self.haze.veil(radiance, ray, way, &self.sky);
-        let reach = PLAIN_REACH * extent(&self.setting);
+        let reach = PLAIN_REACH * self.setting.extent();
         let lost = 1.0 - libm::expf(-(way / reach) * (way / reach) * 0.25);
         mix(near, self.sky.radiance([ray.direction[0], ray.direction[1], 0.0]), lost)
     }
 }
 
-/// The diagonal of the landscape in metres.
-fn extent(setting: &Setting) -> f32 {
-    let (size, spacing) = (setting.terrain.top.size(), setting.terrain.spacing);
-    let sides = [size.columns as f32 * spacing[0], size.rows as f32 * spacing[1]];
-    (sides[0] * sides[0] + sides[1] * sides[1]).sqrt()
+/// The haze of a view whose camera looks over the landscape around `centre`.
+fn haze(view: &View, camera: &Camera, centre: Vector, exaggeration: f32) -> Haze {
+    if let Some(visibility) = view.visibility {
+        return Haze::new(visibility, exaggeration);
+    }
+    let away = subtract(centre, camera.eye);
+    let way = dot(away, away).sqrt().max(1e-3);
+    let ray = Ray { from: camera.eye, direction: scale(away, 1.0 / way) };
+    Haze::of_depth(USUAL_HAZE, &ray, way, exaggeration)
 }
 
-/// The sky that is seen from the plain, three times as wide as the landscape.
-fn plain_light(sky: &Sky, setting: &Setting) -> Skylight {
-    let terrain = &setting.terrain;
-    let (inner, size) = (terrain.top.size(), Size { columns: 3 * PLAIN_CELLS, rows: 3 * PLAIN_CELLS });
-    let share =
-        |cell: usize, cells: usize| 0.5 + ((cell as f32 + 0.5) / PLAIN_CELLS as f32 - 1.0) * cells as f32;
-    let height = Field::from_function(size, |x, y| {
-        let place = [share(x, inner.columns), share(y, inner.rows)];
-        if terrain.is_land(place) { terrain.top.at(place) } else { terrain.base }
-    });
-    let spacing = [0, 1]
-        .map(|axis| terrain.spacing[axis] * [inner.columns, inner.rows][axis] as f32 / PLAIN_CELLS as f32);
-    Skylight::new(sky, &Surface::new(&height), spacing, 3 * PLAIN_CELLS)
-}
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::domain::Domain;
+    use crate::grid::{Field, Size};
 
-/// Places of the rays within a pixel, from its middle: spread by the plastic number (M. Roberts 2018) and drawn
-/// towards the middle as a tent filter weighs them, two pixels wide.
-fn samples(count: u32) -> Vec<[f32; 2]> {
-    let tent = |share: f64| {
-        if share < 0.5 { (2.0 * share).sqrt() - 1.0 } else { 1.0 - (2.0 - 2.0 * share).sqrt() }
-    };
-    let place = |sample: u32, step: f64| {
-        let share = 0.5 + f64::from(sample) * step;
-        tent(share - share.floor()) as f32 * 0.8
-    };
-    (0..count)
-        .map(|sample| [place(sample, 0.754_877_666_246_692_8), place(sample, 0.569_840_290_998_053_3)])
-        .collect()
+    /// Ground of 10 m cells with the water that fills it up to a level.
+    fn scene(view: &View, columns: usize, height: impl FnMut(usize, usize) -> f32, level: f32) -> Scene {
+        let size = Size::new(columns, 80).expect("small");
+        let mut landscape = Landscape::new(Domain::new(size, 10.0));
+        let ground = Field::from_function(size, height);
+        let water = ground.values().iter().map(|ground| (level - ground).max(0.0)).collect();
+        landscape.insert("water", "m", Field::from_values(size, water));
+        landscape.insert("height", "m", ground);
+        Scene::new(view, &landscape).expect("it can be drawn")
+    }
+
+    fn low_sun() -> View {
+        View { sun_azimuth_deg: 270.0, sun_altitude_deg: 20.0, sun_diameter_deg: 2.0, ..View::default() }
+    }
+
+    /// Metres, along a line eastward from a cliff that is `height` metres high, over which the sun comes out.
+    fn penumbra(height: f32) -> f32 {
+        let scene = scene(&low_sun(), 300, |x, _| if x < 30 { height } else { 0.0 }, -1.0);
+        let seen = |metres: usize| scene.sun_seen([300.0 + metres as f32, -400.0, 0.0]);
+        let first = (20..2600).find(|&metres| seen(metres) > 0.1).expect("the sun comes out");
+        let last = (first..2700).find(|&metres| seen(metres) > 0.9).expect("and is whole");
+        (last - first) as f32
+    }
+
+    #[test]
+    fn the_penumbra_is_as_wide_as_the_sun_makes_it_and_widens_with_the_distance() {
+        let [near, far] = [150.0, 600.0].map(penumbra);
+        assert!((far / near - 4.0).abs() < 0.5, "{near} m and {far} m");
+        // From a tenth to nine tenths of a disc of 2° are 1.37°, on ground that the rays meet at 20°.
+        let distance = 600.0 / libm::sinf(20_f32.to_radians());
+        let expected = distance * 1.37_f32.to_radians() / libm::sinf(20_f32.to_radians());
+        assert!((far / expected - 1.0).abs() < 0.15, "{far} m instead of {expected} m");
+    }
+
+    #[test]
+    fn open_water_mirrors_the_sky_and_a_cliff_beside_it() {
+        let scene = scene(&low_sun(), 120, |x, _| if x < 40 { 400.0 } else { 0.0 }, 20.0);
+        let from = |direction: Vector| Ray { from: [700.0, -400.0, 20.0], direction: unit(direction) };
+        for direction in [[1.0, 0.0, 0.3], [0.6, 0.5, 0.4], [0.0, 0.0, 1.0]] {
+            let ray = from(direction);
+            assert_eq!(scene.mirrored_light(&ray), scene.sky.radiance(ray.direction));
+        }
+        let cliff = from([-1.0, 0.0, 0.2]);
+        let [mirrored, sky] = [scene.mirrored_light(&cliff), scene.sky.radiance(cliff.direction)];
+        assert!(mirrored[2] < 0.7 * sky[2], "{mirrored:?} before a sky of {sky:?}");
+    }
+
+    #[test]
+    fn light_on_an_open_plain_is_that_of_sun_and_sky() {
+        let scene = scene(&low_sun(), 60, |_, _| 0.0, -1.0);
+        let point = [300.0, -400.0, 0.0];
+        let light = scene.lit(point, [0.0, 0.0, 1.0], &scene.skylight.at([0.5; 2]));
+        for (light, expected) in light.into_iter().zip(scene.sky.on_level_ground()) {
+            assert!((light / expected - 1.0).abs() < 0.03, "{light} instead of {expected}");
+        }
+    }
 }

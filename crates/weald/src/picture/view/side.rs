@@ -94,7 +94,7 @@ impl Strata {
         let level = height / self.bed + 5.0 * fold;
         let thick = grain([0.7 * level, 0.37], 0x72 + seed).value;
         let thin = grain([3.1 * level, 0.61], 0x73 + seed).value;
-        let tone = 1.0 + 0.75 * thick + 0.35 * thin;
+        let tone = 0.82 + 0.7 * thick + 0.35 * thin;
         let warmth = 0.16 * grain([0.9 * level, 5.3], 0x74).value;
         std::array::from_fn(|c| (colour[c] * tone * (1.0 + warmth * (1.0 - c as f32))).clamp(0.01, 0.9))
     }

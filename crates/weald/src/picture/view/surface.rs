@@ -109,28 +109,32 @@ impl Surface {
 /// The control point of a column and a row, both counted from the rim.
 fn reflected(field: &Field, x: usize, y: usize) -> f32 {
     let size = field.size();
-    let (x, edge_x) = mirror(x, size.columns);
-    let (y, edge_y) = mirror(y, size.rows);
-    match (edge_x, edge_y) {
-        (None, None) => field.at(x, y),
-        (Some(edge), None) => 2.0 * field.at(edge, y) - field.at(x, y),
-        (None, Some(edge)) => 2.0 * field.at(x, edge) - field.at(x, y),
-        (Some(column), Some(row)) => {
-            2.0 * (2.0 * field.at(column, row) - field.at(x, row))
-                - (2.0 * field.at(column, y) - field.at(x, y))
-        }
-    }
+    let (across, down) = (Reflection::of(x, size.columns), Reflection::of(y, size.rows));
+    down.of_values(|row| across.of_values(|column| field.at(column, row)))
 }
 
-/// The cell to read, and the border cell it is reflected at, if it lies beyond.
-fn mirror(place: usize, count: usize) -> (usize, Option<usize>) {
-    let last = count as isize - 1;
-    let cell = place as isize - RIM as isize;
-    let edge = cell.clamp(0, last);
-    if cell == edge {
-        return (cell as usize, None);
+/// What a control point beyond the border is made of: its border cell and what lies as far inside of that.
+struct Reflection {
+    edge: usize,
+    inside: usize,
+    /// How many times as far outside it is as the cell inside; 0 within the field.
+    beyond: f32,
+}
+
+impl Reflection {
+    fn of(place: usize, count: usize) -> Self {
+        let last = count as isize - 1;
+        let cell = place as isize - RIM as isize;
+        let edge = cell.clamp(0, last);
+        let inside = (2 * edge - cell).clamp(0, last);
+        let beyond = if inside == edge { 0.0 } else { (cell - edge) as f32 / (edge - inside) as f32 };
+        Self { edge: edge as usize, inside: inside as usize, beyond }
     }
-    ((2 * edge - cell).clamp(0, last) as usize, Some(edge as usize))
+
+    fn of_values(&self, value: impl Fn(usize) -> f32) -> f32 {
+        let edge = value(self.edge);
+        edge + self.beyond * (edge - value(self.inside))
+    }
 }
 
 #[cfg(test)]

@@ -1,25 +1,18 @@
 //! The ground with its water and edges, and what a ray meets of it.
 //!
 //! World coordinates are metres: east and north of the north-western corner, and up from the lowest ground, heights
-//! times the exaggeration. What a ray meets is found on the very surface that is shaded: in each patch the height of
-//! the ray above the spline is looked at in both halves and at the lowest point of the parabola through them, and its
-//! root is closed in on by false position (the Illinois variant).
+//! times the exaggeration. What a ray meets is found on the very surface that is shaded.
 
-use super::pyramid::{Line, Pyramid, Seeker};
+use super::meeting::Meeting;
+use super::pyramid::{Line, Pyramid};
+use super::rising::Rising;
 use super::surface::Surface;
 use super::vector::{Vector, add, scale, unit};
+use crate::grid::Field;
+use crate::picture::texture::smoothed;
 
-/// Error of a hit, as a share of the side of a cell.
-const CLOSE: f32 = 5e-4;
-
-/// Most steps of false position.
-const STEPS: usize = 24;
-
-/// Halvings that find the edge of the land.
-const HALVINGS: usize = 16;
-
-/// Looks into each patch that the edge of the land crosses.
-const EDGE_LOOKS: usize = 6;
+/// Gaps, in cells, of the smoothings after which an edge shows its direction.
+const OUTLINE: [usize; 4] = [1, 2, 4, 8];
 
 /// The ground.
 #[derive(Debug)]
@@ -30,6 +23,8 @@ pub(super) struct Terrain {
     pub(super) top: Surface,
     /// Share of land; `None` where all is land.
     pub(super) land: Option<Surface>,
+    /// The same, smoothed: sides that follow the steps of a slanted edge are lit as one.
+    pub(super) outline: Option<Surface>,
     /// Height of the plain that the landscape stands on, below 0.
     pub(super) base: f32,
     pyramid: Pyramid,
@@ -62,13 +57,17 @@ pub(super) struct Hit {
 }
 
 impl Terrain {
-    pub(super) fn new(spacing: [f32; 2], top: Surface, land: Option<Surface>, base: f32) -> Self {
+    pub(super) fn new(spacing: [f32; 2], top: &Field, land: Option<&Field>, base: f32) -> Self {
+        let outline = land.map(|land| {
+            Surface::new(&OUTLINE.into_iter().fold(land.clone(), |land, gap| smoothed(&land, gap)))
+        });
+        let (top, land) = (Surface::new(top), land.map(Surface::new));
         let is_empty = |x: usize, y: usize| {
             land.as_ref()
                 .is_some_and(|land| land.patch(x, y).into_iter().flatten().all(|&share| share <= 0.0))
         };
         let pyramid = Pyramid::new(&top, is_empty);
-        Self { spacing, top, base, pyramid, land }
+        Self { spacing, top, land, outline, base, pyramid }
     }
 
     /// The highest point that anything may have.
@@ -94,7 +93,7 @@ impl Terrain {
         inside(place[0], size.columns) && inside(place[1], size.rows) && self.has_data(place)
     }
 
-    fn has_data(&self, place: [f32; 2]) -> bool {
+    pub(super) fn has_data(&self, place: [f32; 2]) -> bool {
         self.land.as_ref().is_none_or(|land| land.at(place) >= 0.5)
     }
 
@@ -181,133 +180,10 @@ impl Terrain {
         }
         seeker.steepest
     }
-}
 
-/// Looks for the first meeting of a ray with the ground.
-struct Meeting<'a> {
-    terrain: &'a Terrain,
-    ray: &'a Ray,
-    line: &'a Line,
-    hit: Option<Hit>,
-}
-
-impl Meeting<'_> {
-    #[inline(always)]
-    fn height(&self, way: f32) -> f32 {
-        self.ray.from[2] + self.ray.direction[2] * way
-    }
-
-    /// Height of the ray above the ground.
-    #[inline(always)]
-    fn above(&self, way: f32) -> f32 {
-        self.height(way) - self.terrain.top.at(self.line.at(way))
-    }
-
-    /// A span at whose end the ray is below the ground, and at whose start above it.
-    fn bracket(&self, [near, far]: [f32; 2]) -> Option<[(f32, f32); 2]> {
-        let ends = [near, 0.5 * (near + far), far].map(|way| (way, self.above(way)));
-        let [first, middle, last] = ends;
-        if first.1 <= 0.0 {
-            return Some([first, first]);
-        }
-        if middle.1 <= 0.0 {
-            return Some([first, middle]);
-        }
-        let dip = self.dip(ends);
-        match dip {
-            Some(dip) if dip.0 < middle.0 => Some([first, dip]),
-            Some(dip) => Some([middle, dip]),
-            None => (last.1 <= 0.0).then_some([middle, last]),
-        }
-    }
-
-    /// The lowest point of the parabola through three places, if the ray is below the ground there.
-    fn dip(&self, [first, middle, last]: [(f32, f32); 3]) -> Option<(f32, f32)> {
-        let bend = first.1 - 2.0 * middle.1 + last.1;
-        let turn = 0.5 * (first.1 - last.1) / bend;
-        if bend <= 0.0 || turn.abs() >= 1.0 {
-            return None;
-        }
-        let way = middle.0 + turn * (last.0 - middle.0);
-        let above = self.above(way);
-        (above <= 0.0).then_some((way, above))
-    }
-
-    /// The root between two ways by false position.
-    fn close_in(&self, [mut near, mut far]: [(f32, f32); 2]) -> f32 {
-        let tolerance = CLOSE * self.terrain.cell();
-        for _ in 0..STEPS {
-            if near.1 - far.1 <= 0.0 {
-                break;
-            }
-            let way = near.0 + (far.0 - near.0) * near.1 / (near.1 - far.1);
-            let above = self.above(way);
-            if above.abs() < tolerance {
-                return way;
-            }
-            if above > 0.0 {
-                near = (way, above);
-                far.1 *= 0.5;
-            } else {
-                far = (way, above);
-                near.1 *= 0.5;
-            }
-        }
-        far.0
-    }
-
-    fn is_inside(&self, way: f32) -> bool {
-        self.above(way) <= 0.0 && self.terrain.has_data(self.line.at(way))
-    }
-
-    /// The first way within a patch on the edge of the land at which the ray is in the ground.
-    fn enter_edge(&self, [near, far]: [f32; 2]) -> Option<f32> {
-        let at = |look: usize| near + (far - near) * look as f32 / EDGE_LOOKS as f32;
-        let first = (0..=EDGE_LOOKS).find(|&look| self.is_inside(at(look)))?;
-        let (mut outside, mut inside) = (at(first.saturating_sub(1)), at(first));
-        for _ in 0..HALVINGS {
-            let middle = 0.5 * (outside + inside);
-            if self.is_inside(middle) { inside = middle } else { outside = middle }
-        }
-        Some(inside)
-    }
-
-    /// The normal of the edge where the ray passed it below the surface.
-    fn edge_normal(&self, way: f32) -> Option<Vector> {
-        let land = self.terrain.land.as_ref()?;
-        if self.above(way) > -40.0 * CLOSE * self.terrain.cell() {
-            return None;
-        }
-        let [_, east, south] = land.with_slope(self.line.at(way));
-        let outward = [-east / self.terrain.spacing[0], south / self.terrain.spacing[1], 0.0];
-        (outward[0] != 0.0 || outward[1] != 0.0).then(|| unit(outward))
-    }
-}
-
-impl Seeker for Meeting<'_> {
-    #[inline(always)]
-    fn may_find(&self, [near, far]: [f32; 2], highest: f32) -> bool {
-        self.height(near).min(self.height(far)) <= highest
-    }
-
-    #[inline(always)]
-    fn look(&mut self, span: [f32; 2]) -> bool {
-        if self.terrain.is_edge(self.line.at(0.5 * (span[0] + span[1]))) {
-            let Some(way) = self.enter_edge(span) else { return false };
-            self.hit = Some(Hit { way, place: self.line.at(way), side: self.edge_normal(way) });
-            return true;
-        }
-        let Some(bracket) = self.bracket(span) else { return false };
-        let way = self.close_in(bracket);
-        self.hit = Some(Hit { way, place: self.line.at(way), side: None });
-        true
-    }
-}
-
-impl Terrain {
     /// Whether the patch of a place is partly no land.
     #[inline(always)]
-    fn is_edge(&self, place: [f32; 2]) -> bool {
+    pub(super) fn is_edge(&self, place: [f32; 2]) -> bool {
         let Some(land) = &self.land else { return false };
         let [columns, rows] = land.patches();
         let x = (place[0].max(0.0) as usize).min(columns - 1);
@@ -316,31 +192,115 @@ impl Terrain {
     }
 }
 
-/// Looks for the steepest rise along a line.
-struct Rising<'a> {
-    terrain: &'a Terrain,
-    line: &'a Line,
-    height: f32,
-    steepest: f32,
-    enough: f32,
-}
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::grid::Size;
+    use crate::random::{hash2, unit as uniform};
 
-impl Seeker for Rising<'_> {
-    #[inline(always)]
-    fn may_find(&self, [near, _]: [f32; 2], highest: f32) -> bool {
-        highest - self.height > self.steepest * near
+    const CELL: f32 = 10.0;
+
+    fn terrain(side: usize, height: impl FnMut(usize, usize) -> f32, land: Option<&Field>) -> Terrain {
+        let size = Size::square(side).expect("small");
+        Terrain::new([CELL; 2], &Field::from_function(size, height), land, -30.0)
     }
 
-    #[inline(always)]
-    fn look(&mut self, [near, far]: [f32; 2]) -> bool {
-        for share in [0.0_f32, 0.35, 0.7, 1.0] {
-            let way = near + (far - near) * share;
-            let place = self.line.at(way);
-            let rise = (self.terrain.top.at(place) - self.height) / way;
-            if rise > self.steepest && (self.terrain.land.is_none() || self.terrain.has_data(place)) {
-                self.steepest = rise;
+    fn random(seed: u64, at: i64) -> f32 {
+        uniform(hash2(seed, at, 7)) as f32
+    }
+
+    /// A ray from somewhere above a landscape of that side to somewhere on it.
+    fn ray(side: usize, at: i64) -> Ray {
+        let extent = side as f32 * CELL;
+        let place = |seed: u64| extent * (1.6 * random(seed, at) - 0.3);
+        let from = [place(1), -place(2), 40.0 + 120.0 * random(3, at)];
+        let onto = [extent * random(4, at), -extent * random(5, at), 20.0 * random(6, at)];
+        Ray { from, direction: unit([onto[0] - from[0], onto[1] - from[1], onto[2] - from[2]]) }
+    }
+
+    #[test]
+    fn rays_meet_random_ground_where_the_finest_steps_do() {
+        let ground = terrain(24, |x, y| 40.0 * random(9, (24 * y + x) as i64), None);
+        let mut met = 0;
+        for at in 0..3000 {
+            let ray = ray(24, at);
+            let line = ground.line(ray.from, ray.direction);
+            let above = |way: f32| ray.at(way)[2] - ground.top.at(line.at(way));
+            let Some([enter, leave]) = line.crossing(&ground.top) else { continue };
+            let enter = enter.max(0.0);
+            let steps = ((leave - enter) / 0.05) as usize;
+            let stepped = (0..steps).map(|step| enter + 0.05 * step as f32).find(|&way| above(way) <= 0.0);
+            let hit = ground.trace(&ray, [0.0, f32::INFINITY]);
+            match (stepped, hit) {
+                (Some(stepped), Some(hit)) => {
+                    met += 1;
+                    assert!(hit.way <= stepped + 0.02, "ray {at}: {} m instead of {stepped} m", hit.way);
+                    // Where the ray only grazes a crest the steps may have missed it.
+                    assert!(
+                        hit.side.is_some() || above(hit.way).abs() < 0.02,
+                        "ray {at}: {} m off",
+                        above(hit.way)
+                    );
+                    assert!(hit.way > stepped - 0.1 || above(hit.way + 0.02) < 0.02, "ray {at}");
+                }
+                (None, None) => {}
+                (None, Some(hit)) => {
+                    assert!(above(hit.way).abs() < 0.02 || ray.at(hit.way)[2] < 0.0, "ray {at}");
+                }
+                (Some(stepped), None) => {
+                    assert!(ray.at(stepped)[2] < ground.base, "ray {at} missed the ground at {stepped} m");
+                }
             }
         }
-        self.steepest >= self.enough
+        assert!(met > 1800, "{met} rays met the ground");
+    }
+
+    #[test]
+    fn a_ray_meets_a_tilted_plane_where_geometry_says() {
+        let plane = terrain(40, |x, y| 2.0 * x as f32 + y as f32, None);
+        for at in 0..100 {
+            let ray = Ray {
+                from: [200.0, -200.0, 300.0],
+                direction: unit([random(1, at) - 0.5, random(2, at) - 0.5, -0.8]),
+            };
+            let hit = plane.trace(&ray, [0.0, f32::INFINITY]).expect("it looks down");
+            // Height = 0.2 east + 0.1 south of the centre of the first cell.
+            let rise = |v: Vector| 0.2 * v[0] - 0.1 * v[1] - v[2];
+            let expected = -(rise(ray.from) - 1.5) / rise(ray.direction);
+            assert!((hit.way - expected).abs() < 0.03, "{} m instead of {expected} m", hit.way);
+        }
+    }
+
+    #[test]
+    fn a_cliff_throws_a_shadow_as_long_as_its_height_over_the_tangent_of_the_sun() {
+        let cliff = terrain(200, |x, _| if x < 40 { 300.0 } else { 0.0 }, None);
+        for altitude in [15.0_f64, 25.0, 40.0] {
+            let sun = crate::picture::view::vector::towards(270.0, altitude);
+            let steep = libm::tan(altitude.to_radians()) as f32;
+            let dark = |metres: f32| {
+                let from = [400.0 + metres, -1000.0, 0.0];
+                cliff.horizon(from, sun, [0.5 * steep, 2.0 * steep]) > steep
+            };
+            let end = (0..1500).find(|&metres| metres > 30 && !dark(metres as f32)).expect("the shadow ends");
+            let expected = 300.0 / steep;
+            assert!((end as f32 - expected).abs() < 1.5 * CELL, "{end} m instead of {expected} m");
+        }
+    }
+
+    #[test]
+    fn what_has_no_data_is_never_met() {
+        let size = Size::square(24).expect("small");
+        let is_land =
+            |x: usize, y: usize| (x as f32 - 11.5).hypot(y as f32 - 11.5) < 8.0 && (x, y) != (12, 12);
+        let land = Field::from_function(size, |x, y| f32::from(u8::from(is_land(x, y))));
+        let ground = terrain(24, |x, y| 60.0 * random(9, (24 * y + x) as i64), Some(&land));
+        let (mut met, mut sides) = (0, 0);
+        for at in 0..400 {
+            let Some(hit) = ground.trace(&ray(24, at), [0.0, f32::INFINITY]) else { continue };
+            met += 1;
+            sides += usize::from(hit.side.is_some());
+            assert!(ground.is_land(hit.place), "ray {at} met {:?}", hit.place);
+        }
+        assert!(met > 60 && sides > 10, "{met} met, {sides} of them sides");
     }
 }

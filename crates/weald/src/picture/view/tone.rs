@@ -18,7 +18,7 @@ const BACK: [Vector; 3] =
 const WHITE: f32 = 1.5;
 
 /// How far the picture's white follows the colour of the light on level ground, 0 to 1.
-const ADAPTATION: f32 = 0.6;
+const ADAPTATION: f32 = 0.75;
 
 /// The most, in surfaces that are drawn as white, that one ray counts.
 const BRIGHTEST: f32 = 12.0;

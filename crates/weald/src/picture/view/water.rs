@@ -8,8 +8,7 @@
 
 use super::grain::Octaves;
 use super::vector::{Vector, add, dot, filter, scale, unit};
-use crate::domain::Domain;
-use crate::grid::Field;
+use crate::grid::{Field, Size};
 use crate::landscape::Landscape;
 use crate::picture::colour::mix;
 use crate::picture::strokes::{Point, Strokes};
@@ -42,47 +41,49 @@ const SWALLOWED: Vector = [0.42, 0.13, 0.11];
 /// Mean square of the slopes of ripples too small to be seen.
 const ROUGHNESS: f32 = 0.006;
 
-/// Levels of lakes above the lowest ground, in metres: below the ground where it is dry. `None` without a lake.
+/// Levels of lakes in metres: below the ground where it is dry. `None` without a lake.
 pub(super) fn levels(landscape: &Landscape, ground: &Field) -> Option<Field> {
     let domain = &landscape.domain;
     let water = landscape.field("water").ok()?;
-    let wet = lakes::depths(water, domain)?;
-    let cell = domain.cell as f32;
-    let mut known: Vec<bool> = wet.values().iter().map(|&depth| depth >= 1.0).collect();
-    let mut level: Vec<f32> =
-        ground.values().iter().zip(water.values()).map(|(ground, water)| ground + water).collect();
-    let size = ground.size();
-    let mut front: Vec<usize> = (0..size.cells()).filter(|&cell| known[cell]).collect();
+    let lakes = lakes::depths(water, domain)?;
+    let (size, cell) = (ground.size(), domain.cell as f32);
+    let is_wet = |at: usize| {
+        let land = domain.land.as_ref().is_none_or(|land| land.is_land_at(at));
+        land && water.values()[at] >= SHALLOW * cell
+    };
+    let surface = |at: usize| ground.values()[at] + water.values()[at];
+    let mut known: Vec<bool> = lakes.values().iter().map(|&depth| depth >= 1.0).collect();
+    let mut wet = known.clone();
+    let mut level: Vec<f32> = (0..size.cells()).map(surface).collect();
+    let mut front: Vec<usize> = (0..size.cells()).filter(|&at| known[at]).collect();
     for _ in 0..RINGS {
-        let mut next: Vec<usize> =
-            front.iter().flat_map(|&cell| size.neighbours(cell)).filter(|&cell| !known[cell]).collect();
-        next.sort_unstable();
-        next.dedup();
-        let levels: Vec<f32> = next
-            .iter()
-            .map(|&at| {
-                let shallow = water.values()[at] >= SHALLOW * cell
-                    && domain.land.as_ref().is_none_or(|land| land.is_land_at(at));
-                if shallow {
-                    level[at]
-                } else {
-                    mean_of_known(&level, &known, size, at).min(ground.values()[at] - DRY * cell)
-                }
-            })
-            .collect();
-        for (&cell, height) in next.iter().zip(levels) {
-            level[cell] = height;
-            known[cell] = true;
+        let next = ring(size, &front, &known);
+        let means: Vec<f32> = next.iter().map(|&at| mean_of_known(&level, &known, size, at)).collect();
+        for (&at, mean) in next.iter().zip(means) {
+            wet[at] = is_wet(at);
+            level[at] = if wet[at] { level[at] } else { mean };
+            known[at] = true;
         }
         front = next;
     }
-    for (at, level) in level.iter_mut().enumerate().filter(|&(at, _)| !known[at]) {
-        *level = ground.values()[at] - cell;
-    }
-    Some(Field::from_values(size, level))
+    let above_dry_ground = |at: usize| match (known[at], wet[at]) {
+        (_, true) => level[at],
+        (true, false) => level[at].min(ground.values()[at] - DRY * cell),
+        (false, false) => ground.values()[at] - cell,
+    };
+    Some(Field::from_values(size, (0..size.cells()).map(above_dry_ground).collect()))
 }
 
-fn mean_of_known(level: &[f32], known: &[bool], size: crate::grid::Size, cell: usize) -> f32 {
+/// Unknown neighbours of the cells of a front, in rising order.
+fn ring(size: Size, front: &[usize], known: &[bool]) -> Vec<usize> {
+    let mut ring: Vec<usize> =
+        front.iter().flat_map(|&at| size.neighbours(at)).filter(|&at| !known[at]).collect();
+    ring.sort_unstable();
+    ring.dedup();
+    ring
+}
+
+fn mean_of_known(level: &[f32], known: &[bool], size: Size, cell: usize) -> f32 {
     let (mut sum, mut count) = (0.0, 0.0);
     for other in size.neighbours(cell).filter(|&other| known[other]) {
         sum += level[other];
@@ -179,7 +180,7 @@ pub(super) fn wetted(albedo: Vector, above: f32, cell: f32) -> Vector {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::grid::Size;
+    use crate::domain::Domain;
 
     #[test]
     fn a_lake_is_level_over_its_shore_and_dry_ground_lies_above_it() {

@@ -1,0 +1,154 @@
+//! Where a ray meets the ground within a patch.
+//!
+//! The height of the ray above the spline is looked at in four places and at the lowest points of the parabolas through
+//! them; where it changes its sign, the root is closed in on by false position (the Illinois variant: Dowell and Jarratt
+//! 1971, doi 10.1007/BF01934364). In patches on the edge of the land, being inside it is looked at and halved instead.
+
+use super::pyramid::{Line, Seeker};
+use super::terrain::{Hit, Ray, Terrain};
+use super::vector::{Vector, unit};
+
+/// Error of a hit, as a share of the side of a cell.
+const CLOSE: f32 = 5e-4;
+
+/// Most steps of false position.
+const STEPS: usize = 24;
+
+/// Halvings that find the edge of the land.
+const HALVINGS: usize = 16;
+
+/// Pieces of a patch in each of which the ray's height above the ground is taken as a parabola.
+const PIECES: usize = 2;
+
+/// Looks into each patch that the edge of the land crosses.
+const EDGE_LOOKS: usize = 6;
+
+/// Looks for the first meeting of a ray with the ground.
+pub(super) struct Meeting<'a> {
+    pub(super) terrain: &'a Terrain,
+    pub(super) ray: &'a Ray,
+    pub(super) line: &'a Line,
+    pub(super) hit: Option<Hit>,
+}
+
+impl Meeting<'_> {
+    #[inline(always)]
+    fn height(&self, way: f32) -> f32 {
+        self.ray.from[2] + self.ray.direction[2] * way
+    }
+
+    /// Height of the ray above the ground.
+    #[inline(always)]
+    fn above(&self, way: f32) -> f32 {
+        self.height(way) - self.terrain.top.at(self.line.at(way))
+    }
+
+    /// A span at whose end the ray is below the ground, and at whose start above it.
+    fn bracket(&self, [near, far]: [f32; 2]) -> Option<[(f32, f32); 2]> {
+        let mut before = (near, self.above(near));
+        if before.1 <= 0.0 {
+            return Some([before, before]);
+        }
+        let piece = (far - near) / PIECES as f32;
+        for look in 0..PIECES {
+            let at = |share: f32| {
+                let way = near + (look as f32 + share) * piece;
+                (way, self.above(way))
+            };
+            let (middle, last) = (at(0.5), at(1.0));
+            if middle.1 <= 0.0 {
+                return Some([before, middle]);
+            }
+            if let Some(dip) = self.dip([before, middle, last]) {
+                return Some([if dip.0 < middle.0 { before } else { middle }, dip]);
+            }
+            if last.1 <= 0.0 {
+                return Some([middle, last]);
+            }
+            before = last;
+        }
+        None
+    }
+
+    /// The lowest point of the parabola through three places, if the ray is below the ground there.
+    fn dip(&self, [first, middle, last]: [(f32, f32); 3]) -> Option<(f32, f32)> {
+        let bend = first.1 - 2.0 * middle.1 + last.1;
+        let turn = 0.5 * (first.1 - last.1) / bend;
+        if bend <= 0.0 || turn.abs() >= 1.0 {
+            return None;
+        }
+        let way = middle.0 + turn * (last.0 - middle.0);
+        let above = self.above(way);
+        (above <= 0.0).then_some((way, above))
+    }
+
+    /// The root between two ways by false position.
+    fn close_in(&self, [mut near, mut far]: [(f32, f32); 2]) -> f32 {
+        let tolerance = CLOSE * self.terrain.cell();
+        for _ in 0..STEPS {
+            if near.1 - far.1 <= 0.0 {
+                break;
+            }
+            let way = near.0 + (far.0 - near.0) * near.1 / (near.1 - far.1);
+            let above = self.above(way);
+            if above.abs() < tolerance {
+                return way;
+            }
+            if above > 0.0 {
+                near = (way, above);
+                far.1 *= 0.5;
+            } else {
+                far = (way, above);
+                near.1 *= 0.5;
+            }
+        }
+        far.0
+    }
+
+    fn is_inside(&self, way: f32) -> bool {
+        self.above(way) <= 0.0 && self.terrain.has_data(self.line.at(way))
+    }
+
+    /// The first way within a patch on the edge of the land at which the ray is in the ground.
+    fn enter_edge(&self, [near, far]: [f32; 2]) -> Option<f32> {
+        let at = |look: usize| near + (far - near) * look as f32 / EDGE_LOOKS as f32;
+        let first = (0..=EDGE_LOOKS).find(|&look| self.is_inside(at(look)))?;
+        let (mut outside, mut inside) = (at(first.saturating_sub(1)), at(first));
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (outside + inside);
+            if self.is_inside(middle) { inside = middle } else { outside = middle }
+        }
+        Some(inside)
+    }
+
+    /// The normal of the edge where the ray passed it below the surface.
+    fn edge_normal(&self, way: f32) -> Option<Vector> {
+        let outline = self.terrain.outline.as_ref()?;
+        if self.above(way) > -40.0 * CLOSE * self.terrain.cell() {
+            return None;
+        }
+        let [_, east, south] = outline.with_slope(self.line.at(way));
+        let outward = [-east / self.terrain.spacing[0], south / self.terrain.spacing[1], 0.0];
+        (outward[0] != 0.0 || outward[1] != 0.0).then(|| unit(outward))
+    }
+}
+
+impl Seeker for Meeting<'_> {
+    #[inline(always)]
+    fn may_find(&self, [near, far]: [f32; 2], highest: f32) -> bool {
+        self.height(near).min(self.height(far)) <= highest
+    }
+
+    #[inline(always)]
+    fn look(&mut self, span: [f32; 2]) -> bool {
+        if self.terrain.is_edge(self.line.at(0.5 * (span[0] + span[1]))) {
+            let Some(way) = self.enter_edge(span) else { return false };
+            self.hit = Some(Hit { way, place: self.line.at(way), side: self.edge_normal(way) });
+            return true;
+        }
+        let Some(bracket) = self.bracket(span) else { return false };
+        let way = self.close_in(bracket);
+        self.hit = Some(Hit { way, place: self.line.at(way), side: None });
+        true
+    }
+}

@@ -1,0 +1,36 @@
+//! How steeply the ground rises along a line: the horizon that the sun sinks behind.
+
+use super::pyramid::{Line, Seeker};
+use super::terrain::Terrain;
+
+/// Looks for the steepest rise along a line.
+pub(super) struct Rising<'a> {
+    pub(super) terrain: &'a Terrain,
+    pub(super) line: &'a Line,
+    /// Height from which it rises.
+    pub(super) height: f32,
+    /// The steepest rise so far.
+    pub(super) steepest: f32,
+    /// The rise at which the search ends.
+    pub(super) enough: f32,
+}
+
+impl Seeker for Rising<'_> {
+    #[inline(always)]
+    fn may_find(&self, [near, _]: [f32; 2], highest: f32) -> bool {
+        highest - self.height > self.steepest * near
+    }
+
+    #[inline(always)]
+    fn look(&mut self, [near, far]: [f32; 2]) -> bool {
+        for share in [0.0_f32, 0.35, 0.7, 1.0] {
+            let way = near + (far - near) * share;
+            let place = self.line.at(way);
+            let rise = (self.terrain.top.at(place) - self.height) / way;
+            if rise > self.steepest && (self.terrain.land.is_none() || self.terrain.has_data(place)) {
+                self.steepest = rise;
+            }
+        }
+        self.steepest >= self.enough
+    }
+}
