@@ -122,8 +122,10 @@ fn check_reach(land: &Landscape, rivers: &Rivers, at: usize) {
     }
 }
 
-/// Strahler's rule, by the reaches that meet at the start of one.
+/// Strahler's rule, by the reaches that meet at the start of one. In a lake they meet one after the other.
 fn check_order(rivers: &Rivers, at: usize) {
+    let meet_in_a_lake = |other: &Reach| other.downstream == Some(at) && matches!(other.end, End::Lake(_));
+    let in_a_lake = rivers.reaches.iter().filter(|other| meet_in_a_lake(other)).count() > 1;
     let mut orders: Vec<u32> =
         rivers.reaches.iter().filter(|other| other.downstream == Some(at)).map(|other| other.order).collect();
     orders.sort_unstable_by(|a, b| b.cmp(a));
@@ -132,7 +134,8 @@ fn check_order(rivers: &Rivers, at: usize) {
         [first, second, ..] if first == second => first + 1,
         [first, ..] => *first,
     };
-    assert_eq!(rivers.reaches[at].order, expected, "{orders:?}");
+    let order = rivers.reaches[at].order;
+    assert!(order == expected || in_a_lake && order > expected, "{order}: {orders:?}");
 }
 
 #[test]

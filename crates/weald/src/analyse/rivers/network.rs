@@ -31,13 +31,13 @@ impl Network {
         Self { member, upward }
     }
 
-    /// Strahler's order of each member; 0 elsewhere.
-    pub(super) fn orders(&self, directions: &Directions) -> Vec<u32> {
+    /// Strahler's order of each member; 0 elsewhere. A lake hands on the orders of the rivers that flow into it; no
+    /// river has its head in one.
+    pub(super) fn orders(&self, directions: &Directions, is_lake: impl Fn(usize) -> bool) -> Vec<u32> {
         let mut order = vec![0; self.member.len()];
         for &cell in self.upward.iter().rev() {
-            let donors =
-                || directions.upstream(cell).filter(|&other| self.member[other]).map(|other| order[other]);
-            let highest = donors().max().unwrap_or(1);
+            let donors = || directions.upstream(cell).map(|other| order[other]).filter(|&order| order > 0);
+            let highest = donors().max().unwrap_or(u32::from(!is_lake(cell)));
             let meeting = donors().filter(|&order| order == highest).count() > 1;
             order[cell] = highest + u32::from(meeting);
         }

@@ -83,11 +83,8 @@ impl Step for RiversStep {
         let network = Network::of(&directions, upslope, domain.land.as_ref(), least);
         let discharge = self.discharges(landscape)?;
         let lakes = self.lakes.as_ref().map(|name| landscape.field(&name.0)).transpose()?;
-        let of_river = |cell: usize| {
-            network.member[cell]
-                && !directions.is_sea(cell)
-                && lakes.is_none_or(|lakes| lakes.values()[cell] == 0.0)
-        };
+        let is_lake = |cell: usize| lakes.is_some_and(|lakes| lakes.values()[cell] > 0.0);
+        let of_river = |cell: usize| network.member[cell] && !directions.is_sea(cell) && !is_lake(cell);
         let on_rivers = |value: &dyn Fn(usize) -> f64| {
             let values =
                 (0..network.member.len()).map(|cell| if of_river(cell) { value(cell) as f32 } else { 0.0 });
@@ -95,7 +92,7 @@ impl Step for RiversStep {
         };
         let power = |cell: usize, exponent| libm::pow(f64::from(discharge.values()[cell]).max(0.0), exponent);
         let levels = network.levels(&directions, landscape.field(&self.of.0)?);
-        let orders = network.orders(&directions);
+        let orders = network.orders(&directions, is_lake);
         let fields = [
             on_rivers(&|_| 1.0),
             on_rivers(&|cell| self.width * power(cell, self.width_exponent)),
