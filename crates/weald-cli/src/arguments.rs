@@ -27,6 +27,8 @@ Start with: weald new mine && weald run mine.toml";
 pub(crate) enum Command {
     /// Run a recipe and write its files and report.json
     Run(RunArguments),
+    /// Run a recipe and write one HTML page about it, and nothing else
+    Report(ReportArguments),
     /// Check a recipe without running it
     Check(CheckArguments),
     /// List all steps, or show the parameters of one
@@ -109,6 +111,27 @@ pub(crate) struct RunArguments {
     /// Folder of the files [default: out/ and the recipe's name]
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) running: Running,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct ReportArguments {
+    /// The recipe
+    #[arg(value_name = "RECIPE.toml")]
+    pub(crate) recipe: PathBuf,
+    #[command(flatten)]
+    pub(crate) changes: Changes,
+    /// The page [default: report.html in out/ and the recipe's name]
+    #[arg(long, value_name = "FILE.html")]
+    pub(crate) out: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) running: Running,
+}
+
+/// How a recipe is run.
+#[derive(Debug, Args)]
+pub(crate) struct Running {
     /// Where simulations run: auto, cpu or gpu
     #[arg(long, default_value = "auto", value_parser = engine::choice)]
     pub(crate) engine: Choice,

@@ -8,14 +8,22 @@ const INTERRUPTED: i32 = 130;
 
 static ASKED: AtomicBool = AtomicBool::new(false);
 
+/// Ends the command at the first of them, for what leaves nothing half done.
+pub(crate) fn end_at_once() -> Result<(), Failure> {
+    handle(|| std::process::exit(INTERRUPTED))
+}
+
 /// Listens from now on.
 pub(crate) fn listen() -> Result<(), Failure> {
-    let heard = || {
+    handle(|| {
         if ASKED.swap(true, Ordering::Relaxed) {
             std::process::exit(INTERRUPTED);
         }
         eprintln!("stopping after a checkpoint; once more to stop at once");
-    };
+    })
+}
+
+fn handle(heard: impl FnMut() + Send + 'static) -> Result<(), Failure> {
     ctrlc::set_handler(heard).map_err(|cause| Failure::run(format!("cannot listen for Ctrl-C: {cause}")))
 }
 

@@ -20,6 +20,7 @@ use arguments::{Arguments, Command};
 fn main() -> ExitCode {
     let done = match Arguments::parse().command {
         Command::Run(arguments) => commands::run::run(&arguments),
+        Command::Report(arguments) => commands::report::report(&arguments),
         Command::Check(arguments) => commands::check::check(&arguments),
         Command::Steps { name } => commands::steps::steps(name.as_deref()),
         Command::New { name, template } => commands::new::new(&name, &template),

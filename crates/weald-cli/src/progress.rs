@@ -102,11 +102,12 @@ impl Progress for Shown {
         match &self.bar {
             Some(bar) => {
                 bar.reset();
-                bar.set_prefix(title);
+                bar.set_prefix(title.clone());
                 bar.set_message("");
             }
             None => self.say(&title),
         }
+        *self.now() = Now { title, first: None, line_at: Instant::now() };
     }
 
     fn note(&self, text: &str) {
@@ -127,7 +128,11 @@ fn speed(done: u64, left: u64, cells: usize, time: Duration) -> String {
     let rate = done as f64 / seconds;
     let remaining = (left as f64 / rate).ceil() as u64;
     let (minutes, seconds) = (remaining / 60, remaining % 60);
-    format!("{:.0} million cell-steps/s, {minutes}:{seconds:02} left", rate * cells as f64 / 1e6)
+    let left = format!("{minutes}:{seconds:02} left");
+    if cells == 0 {
+        return left;
+    }
+    format!("{:.0} million cell-steps/s, {left}", rate * cells as f64 / 1e6)
 }
 
 #[cfg(test)]
@@ -139,5 +144,6 @@ mod tests {
         let text = speed(100, 900, 1_000_000, Duration::from_secs(10));
         assert_eq!(text, "10 million cell-steps/s, 1:30 left");
         assert_eq!(speed(0, 900, 1, Duration::from_secs(10)), "");
+        assert_eq!(speed(1, 3, 0, Duration::from_secs(10)), "0:30 left");
     }
 }

@@ -31,6 +31,19 @@ fn a_run_writes_its_files_below_the_name_of_the_recipe() {
 }
 
 #[test]
+fn a_report_writes_one_page_and_nothing_else() {
+    let place = Place::with(RECIPE);
+    let output = place.weald(&["report", "r.toml", "--size", "24"]);
+    assert!(output.status.success(), "{output:?}");
+    assert_eq!(stdout(&output), "out/r/report.html\n");
+    assert_eq!(place.names("out/r"), ["report.html"]);
+    let output = place.weald(&["report", "r.toml", "--out", "pages/mine.html", "--quiet"]);
+    assert!(output.status.success() && output.stdout.is_empty() && output.stderr.is_empty(), "{output:?}");
+    assert_eq!(place.names("pages"), ["mine.html"]);
+    assert_ends(&place, &["report", "r.toml", "--out", "page.pdf"], 2, &["page.pdf", ".html"]);
+}
+
+#[test]
 fn a_quiet_run_prints_nothing() {
     let output = Place::with(RECIPE).weald(&["run", "r.toml", "--quiet"]);
     assert!(output.status.success() && output.stdout.is_empty() && output.stderr.is_empty(), "{output:?}");

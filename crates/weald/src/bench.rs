@@ -3,6 +3,7 @@
 //! Figures are the best of several runs, since other work on a machine only ever makes a run slower.
 
 mod device;
+mod flow;
 
 pub use device::run_on;
 
@@ -65,6 +66,15 @@ pub enum Beside {
         /// Bandwidth of copying within the device's memory, in bytes a second.
         bandwidth: f64,
     },
+    /// The rate at which memory could carry what the passes of a method read and write, and a naive version.
+    Passes {
+        /// Bytes a cell, each array of a pass counted once.
+        bytes: usize,
+        /// Bandwidth of reading and writing in place, in bytes a second, with as many threads.
+        bandwidth: f64,
+        /// The naive version, in million cells a second.
+        naive: f64,
+    },
     /// A naive version, in million cells a second.
     Naive(f64),
     /// Nothing.
@@ -98,13 +108,26 @@ impl std::fmt::Display for Rate {
                     bandwidth / 1e9,
                 )
             }
+            Beside::Passes { bytes, bandwidth, naive } => {
+                let bound = bandwidth / bytes as f64 / 1e6;
+                let milliseconds = self.size.cells() as f64 / millions / 1e3;
+                write!(
+                    out,
+                    "  {milliseconds:.0} ms; {bytes} B a cell, {:.0} % of the {bound:.0} M/s that memory bounds at \
+                     {:.0} GB/s; {:.0} times the naive {naive:.1} M/s",
+                    100.0 * millions / bound,
+                    bandwidth / 1e9,
+                    millions / naive,
+                )
+            }
             Beside::Naive(naive) => write!(out, "  {:.0} times the naive {naive:.1} M/s", millions / naive),
             Beside::Alone => Ok(()),
         }
     }
 }
 
-/// Measures erosion at each size and thread count, then the generators at the greatest size; `report` hears
+/// Measures erosion at each size and thread count, then the generators and
+/// flow over the ground at the greatest size; `report` hears
 /// each rate as it is known.
 ///
 /// # Errors
@@ -119,7 +142,8 @@ pub fn run(sides: &[usize], threads: &[usize], report: &mut (dyn FnMut(&Rate) + 
                 erosion(Size::square(side)?, bandwidth, report)?;
             }
             let greatest = sides.iter().copied().max().unwrap_or(1024);
-            generators(Size::square(greatest)?, report)
+            generators(Size::square(greatest)?, report)?;
+            flow::flow(Size::square(greatest)?, bandwidth, report)
         })?;
     }
     Ok(())

@@ -56,6 +56,11 @@ pub trait Step: Debug + Send + Sync {
         None
     }
 
+    /// Iterations between which its landscape can be looked at; 0 where it cannot.
+    fn watched(&self) -> u64 {
+        0
+    }
+
     /// Columns and rows after the step, where it changes them.
     fn resized(&self) -> Option<(u32, u32)> {
         None

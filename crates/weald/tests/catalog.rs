@@ -16,7 +16,7 @@ use weald::random::{hash2, unit};
 use weald::recipe::catalog::CATALOG;
 use weald::recipe::parameter::{Complaints, Kind, Parameter};
 use weald::recipe::source::{self, Node, Table, Value};
-use weald::step::{Entry, Layered, Step};
+use weald::step::{Entry, Layered, Stage, Step};
 use weald::{Field, Landscape, Size};
 
 #[test]
@@ -217,7 +217,9 @@ fn ground_for(step: &dyn Step, land: Option<Mask>) -> Landscape {
     let mut landscape = Landscape::new(Domain { land, ..Domain::new(size, 10.0) });
     let names = step.reads().into_iter().chain(["bystander".to_owned()]);
     for (seed, name) in names.enumerate() {
-        let value = |x, y| unit(hash2(seed as u64, x as i64, y as i64)) as f32;
+        let random = |x, y| unit(hash2(seed as u64, x as i64, y as i64)) as f32;
+        // Not all numbers are directions; 0 is.
+        let value = |x, y| if name == "flow_direction" { 0.0 } else { random(x, y) };
         landscape.insert(&name, INPUT_UNIT, Field::from_function(size, value));
     }
     landscape
@@ -239,6 +241,7 @@ fn check_writes(entry: &Entry, land: Option<Mask>) {
         let declared = if unit.starts_with("unit of ") { INPUT_UNIT } else { *unit };
         assert_eq!(written.unit, declared, "{name}: the unit of {layer}");
         assert_eq!(written.field.first_not_finite(after.domain.land.as_ref()), None, "{name}: {layer}");
+        check_range(entry, step.as_ref(), layer, &after);
     }
     let declared: BTreeSet<_> = writes.into_iter().map(|(layer, _)| layer).collect();
     let known = |layer: &str| declared.contains(layer) || before.layer(layer).is_ok();
@@ -250,6 +253,18 @@ fn check_writes(entry: &Entry, land: Option<Mask>) {
     for (layer, old) in before.layers().filter(|(layer, _)| !declared.contains(*layer)) {
         assert_eq!(after.layer(layer).ok(), Some(old), "{name} leaves {layer} alone");
     }
+}
+
+/// A layer holds nothing outside the range that its step declares; layers of analyses all have one.
+fn check_range(entry: &Entry, step: &dyn Step, layer: &str, after: &Landscape) {
+    let range = step.range(layer);
+    assert!(range.is_some() || entry.stage != Stage::Analyse, "{}: {layer} has a range", entry.name);
+    let Some((low, high)) = range else { return };
+    assert!(low < high, "{}: {layer} from {low} to {high}", entry.name);
+    let held = after.field(layer).expect("written").range(after.domain.land.as_ref());
+    let (least, most) = held.expect("there are cells with data");
+    let within = f64::from(least) >= low && f64::from(most) <= high;
+    assert!(within, "{}: {layer} holds {least} to {most}, outside {low} to {high}", entry.name);
 }
 
 #[test]

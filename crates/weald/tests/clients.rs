@@ -1,6 +1,7 @@
-//! Real clients open what Weald writes: GDAL the GeoTIFF and PNG files, `NumPy` the arrays.
+//! Real clients open what Weald writes: GDAL the GeoTIFF, PNG and ASCII files, the OpenEXR tools the EXR files,
+//! `NumPy` the arrays.
 //!
-//! The clients come from the Debian packages `gdal-bin` and `python3-numpy`. A test fails where one is
+//! The clients come from the Debian packages `gdal-bin`, `openexr` and `python3-numpy`. A test fails where one is
 //! missing, because a skipped proof proves nothing.
 
 use std::path::{Path, PathBuf};
@@ -150,6 +151,108 @@ fn gdal_reads_a_png_as_greys_of_its_range() {
         } else {
             let read = low + (f64::from(grey) - 1.0) * step;
             assert!((read - f64::from(value)).abs() <= 0.5001 * step, "{read} for {value}");
+        }
+    }
+}
+
+#[test]
+fn gdal_reads_every_cell_and_the_place_of_an_ascii_grid() {
+    let raster = raster();
+    for (epsg, name) in [(32616, "UTM zone 16N"), (26916, "NAD83 / UTM zone 16N"), (32733, "UTM zone 33S")] {
+        let mut raster = raster.clone();
+        raster.georeference.as_mut().expect("placed").epsg = Some(epsg);
+        let (_folder, path) = written(&raster, "height.asc");
+        let info = gdalinfo(&path);
+        assert_eq!(
+            info["geoTransform"],
+            serde_json::json!([730_900.75, 80.0, 0.0, 4_069_271.25, 0.0, -80.0])
+        );
+        assert_eq!(info["size"], serde_json::json!([300, 270]));
+        let wkt = info["coordinateSystem"]["wkt"].as_str().expect("a CRS");
+        assert!(wkt.contains(name) && wkt.ends_with(&format!("ID[\"EPSG\",{epsg}]]")), "{wkt}");
+        let band = &info["bands"][0];
+        assert_eq!((&band["type"], &band["noDataValue"]), (&"Float32".into(), &(-9999.0).into()));
+        assert!(gdal_values(&path) == expected(&raster, -9999.0), "GDAL reads other values");
+    }
+    let place = Georeference { epsg: Some(4326), origin: [-84.5, 36.75], pixel: [0.001, 0.002], keys: None };
+    let degrees = Raster { georeference: Some(place), cell: None, ..raster };
+    let (_folder, path) = written(&degrees, "degrees.asc");
+    let info = gdalinfo(&path);
+    assert_eq!(info["geoTransform"], serde_json::json!([-84.5, 0.001, 0.0, 36.75, 0.0, -0.002]));
+    let wkt = info["coordinateSystem"]["wkt"].as_str().expect("a CRS");
+    assert!(wkt.contains("GEOGCRS[\"WGS 84\"") && wkt.ends_with("ID[\"EPSG\",4326]]"), "{wkt}");
+}
+
+#[test]
+fn weald_reads_the_ascii_grids_that_gdal_writes() {
+    let raster = raster();
+    let (folder, path) = written(&raster, "height.tif");
+    let grid = folder.path().join("gdal.asc");
+    let digits = ["-co", "SIGNIFICANT_DIGITS=9"];
+    let files = [shown(&path), shown(&grid)];
+    let arguments = [["-q", "-of", "AAIGrid"].as_slice(), &digits, &files].concat();
+    output("gdal_translate", "gdal-bin", &arguments);
+    let again = io::read(&grid).expect("reads");
+    assert!(again.field == raster.field && again.land == raster.land, "other values");
+    assert_eq!(again.cell, raster.cell);
+    let place = |raster: &Raster| raster.georeference.as_ref().map(|it| (it.epsg, it.origin, it.pixel));
+    assert_eq!(place(&again), place(&raster));
+}
+
+/// The library of the OpenEXR tools unpacks every sample and packs them again, in tiles.
+#[test]
+fn the_openexr_tools_read_every_cell_of_an_exr_and_weald_reads_theirs() {
+    let raster = raster();
+    let (folder, path) = written(&raster, "height.exr");
+    let header = output("exrheader", "openexr", &[shown(&path)]);
+    let header = String::from_utf8_lossy(&header);
+    for line in [
+        "    Y, 32-bit floating-point, sampling 1 1",
+        "dataWindow (type box2i): (0 0) - (299 269)",
+        "WEALD_CELL_METRES (type double): 80",
+        "WEALD_EPSG (type int): 32616",
+        "WEALD_UNIT (type string): \"m\"",
+    ] {
+        assert!(header.contains(line), "{line} is not in:\n{header}");
+    }
+    for compression in ["none", "rle", "zips", "zip", "piz"] {
+        let tiled = folder.path().join(format!("{compression}.exr"));
+        let arguments = ["-z", compression, "-t", "64", "48", shown(&path), shown(&tiled)];
+        output("exrmaketiled", "openexr", &arguments);
+        let again = io::read(&tiled).expect("reads");
+        assert!(again.field == raster.field && again.land == raster.land, "{compression}: other values");
+        assert_eq!(again.provenance, raster.provenance, "{compression}");
+    }
+}
+
+#[test]
+fn the_openexr_tools_find_the_channels_that_each_reader_wants() {
+    let raster = raster();
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("height.exr");
+    for (preset, expected) in [
+        (
+            "blender",
+            ["B, 32-bit floating-point", "G, 32-bit floating-point", "R, 32-bit floating-point"].as_slice(),
+        ),
+        ("terrain3d", &["R, 32-bit floating-point"]),
+        ("hterrain", &["R, 16-bit floating-point"]),
+    ] {
+        let (encode, _) = io::format_of(&path).expect("known").writing(Some(preset)).expect("a preset");
+        io::write_parts(&path, &encode.parts(&raster).expect("fits")).expect("written");
+        let header = output("exrheader", "openexr", &[shown(&path)]);
+        let header = String::from_utf8_lossy(&header).into_owned();
+        let channels: Vec<_> =
+            header.lines().filter_map(|line| line.trim().strip_suffix(", sampling 1 1")).collect();
+        assert_eq!(channels, expected, "{preset}");
+        let tiled = folder.path().join("tiled.exr");
+        output("exrmaketiled", "openexr", &["-z", "none", shown(&path), shown(&tiled)]);
+        let (low, _) = raster.field.range(raster.land.as_ref()).expect("land");
+        let again = io::read(&tiled).expect("reads");
+        assert_eq!(again.land, None, "{preset} has no NaN");
+        for (value, wanted) in again.field.values().iter().zip(self::expected(&raster, low)) {
+            let within = if preset == "hterrain" { wanted.abs() / 2048.0 } else { 0.0 };
+            assert!((value - wanted).abs() <= within, "{preset}: {value} for {wanted}");
         }
     }
 }

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use weald::grid::{Field, Mask, Size};
-use weald::io::{DecodeFile, Limits, Raster, geotiff, npy, png16};
+use weald::io::{DecodeFile, Fault, InMemory, Limits, Part, Raster, asc, exr, geotiff, npy, png16, raw};
 use weald::random::hash2;
 
 const LIMITS: Limits = Limits { cells: 1 << 16 };
@@ -16,6 +16,22 @@ fn fixture(name: &str) -> Vec<u8> {
     std::fs::read(path).expect("a fixture")
 }
 
+/// A grid in digits, without a CRS.
+fn decode_asc(bytes: &[u8], limits: Limits) -> Result<Raster, Fault> {
+    asc::decode(&InMemory::of("land.asc", vec![Part::own(bytes.to_vec())]), limits)
+}
+
+/// A description, a NUL, and the numbers that it describes.
+fn decode_raw(bytes: &[u8], limits: Limits) -> Result<Raster, Fault> {
+    let nul = bytes.iter().position(|&byte| byte == 0).ok_or_else(|| Fault::damaged("no NUL"))?;
+    let parts = vec![Part::beside(".json", bytes[..nul].to_vec()), Part::own(bytes[nul + 1..].to_vec())];
+    raw::decode_16(&InMemory::of("land.raw", parts), limits)
+}
+
+fn described_numbers(parts: &[Part]) -> Vec<u8> {
+    [parts[1].bytes.as_slice(), &[0], &parts[0].bytes].concat()
+}
+
 fn files() -> Vec<(DecodeFile, Vec<u8>)> {
     let size = Size { columns: 19, rows: 11 };
     let land = Mask::new(size, (0..size.cells()).map(|index| index % 5 != 0).collect());
@@ -26,7 +42,16 @@ fn files() -> Vec<(DecodeFile, Vec<u8>)> {
         (png16::decode, png16::encode(&raster).expect("finite")),
         (png16::decode, fixture("uint16.png")),
         (npy::decode, npy::encode(&raster).expect("finite")),
+        (exr::decode, exr::encode(&raster).expect("finite")),
+        (decode_raw, described_numbers(&raw::encode_16(&raster).expect("finite"))),
+        (decode_raw, described_numbers(&raw::encode_32(&raster).expect("finite"))),
+        (decode_asc, asc::encode(&raster).expect("finite").swap_remove(0).bytes),
     ];
+    for name in
+        ["none_half", "rle_float", "zips_uint", "piz_float", "piz_half", "piz_float_tiles", "zip_grey_rgb"]
+    {
+        files.push((exr::decode, fixture(&format!("exr/{name}.exr"))));
+    }
     let tiffs = [
         "bigtiff_big_endian_tiles.tif",
         "float32_strips_lzw_predictor2.tif",

@@ -1,7 +1,8 @@
 //! The frame of the gallery, and every figure in it as a draft.
 
 use weald::gallery::{
-    Detail, FIGURES, Figure, FigureOutput, GalleryJob, Measured, Plate, Selection, write_figures,
+    Claim, Detail, FIGURES, Figure, FigureOutput, GalleryJob, Measured, Plate, Selection, Verdict,
+    write_figures,
 };
 use weald::picture::Image;
 
@@ -10,11 +11,13 @@ fn plate(job: GalleryJob) -> FigureOutput {
     let plates = vec![Plate { name: "view", caption: "A sheet".to_owned(), image: Image::paper(side, side) }];
     let rows = vec![vec!["paper".to_owned(), side.to_string()]];
     let header = vec!["kind".to_owned(), "side".to_owned()];
-    FigureOutput { plates, measured: Measured { header, rows, remarks: vec!["Blank.".to_owned()] } }
+    let measured = Measured { header, rows, remarks: vec!["Blank.".to_owned()] };
+    let claims = vec![Claim::new("Paper is blank", Verdict::of(side > 2), format!("{side} cells"))];
+    FigureOutput { plates, measured, claims }
 }
 
 fn figure(id: &'static str) -> Figure {
-    Figure { id, title: "A test", source: "Weald", shows: "Paper.", make: |job| Ok(plate(job)) }
+    Figure { id, title: "A test", source: "Weald", shows: "Paper.", seconds: 0, make: |job| Ok(plate(job)) }
 }
 
 #[test]
@@ -32,13 +35,35 @@ fn a_page_names_source_claim_picture_and_measures() {
 }
 
 #[test]
+fn all_claims_stand_at_the_head_of_the_page_with_their_verdicts() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let write = |only: &[String], detail| {
+        let selection = Selection { only, job: GalleryJob { detail } };
+        write_figures(&[figure("one"), figure("two")], folder.path(), &selection, &|_| {}).expect("writes");
+        std::fs::read_to_string(folder.path().join("index.md")).expect("a page")
+    };
+    let page = write(&[], Detail::Full);
+    let head = page.split_once("<!-- figure").expect("a head").0;
+    assert!(head.contains("| [one](#one) | Paper is blank | **shown** |"), "{head}");
+    assert!(page.contains("| Paper is blank | **shown** | 4 cells |"), "{page}");
+    // The other figure's verdict stays when one is made again.
+    let page = write(&["two".to_owned()], Detail::Draft);
+    let head = page.split_once("<!-- figure").expect("a head").0;
+    assert!(head.contains("| [one](#one) | Paper is blank | **shown** |"), "{head}");
+    assert!(head.contains("| [two](#two) | Paper is blank | **not reproduced** |"), "{head}");
+}
+
+#[test]
 fn making_one_figure_again_keeps_the_sections_of_the_others() {
     let folder = tempfile::tempdir().expect("a folder");
     let figures = [figure("one"), figure("two")];
     let full = Selection { only: &[], job: GalleryJob::default() };
     write_figures(&figures, folder.path(), &full, &|_| {}).expect("writes");
     let draft = Selection { only: &["two".to_owned()], job: GalleryJob { detail: Detail::Draft } };
-    write_figures(&figures, folder.path(), &draft, &|id| assert_eq!(id, "two")).expect("writes");
+    write_figures(&figures, folder.path(), &draft, &|begun| {
+        assert_eq!((begun.figure.id, begun.number, begun.count), ("two", 1, 1))
+    })
+    .expect("writes");
     let page = std::fs::read_to_string(folder.path().join("index.md")).expect("a page");
     let (one, two) = (page.find("| paper | 4 |").expect("one"), page.find("| paper | 2 |").expect("two"));
     assert!(one < two, "{page}");
@@ -59,6 +84,10 @@ fn every_figure_can_be_made_as_a_draft() {
     write_figures(FIGURES, folder.path(), &selection, &|_| {}).expect("writes");
     let pictures = std::fs::read_dir(folder.path()).expect("a folder").count() - 1;
     assert!(pictures >= FIGURES.len(), "{pictures} pictures");
+    let page = std::fs::read_to_string(folder.path().join("index.md")).expect("a page");
+    for figure in FIGURES {
+        assert!(page.contains(&format!("| [{0}](#{0}) | ", figure.id)), "{} claims nothing", figure.id);
+    }
 }
 
 /// The measures of a figure as it stands in the gallery: the number in a row and a column.

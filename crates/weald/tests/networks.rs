@@ -18,11 +18,13 @@ fn eroded(seed: u64, keys: &str) -> NetworkMeasures {
     let field = |name| land.field(name).expect("written");
     measure(&NetworkInput {
         ground: field("height"),
+        before: None,
         depth: field("water"),
         mean_flux_x: field("flux_x"),
         mean_flux_y: field("flux_y"),
         mean_rain: 0.005,
         cell: 1.0,
+        land: None,
     })
 }
 

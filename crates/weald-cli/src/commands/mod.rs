@@ -7,6 +7,7 @@ pub(crate) mod convert;
 pub(crate) mod gallery;
 pub(crate) mod info;
 pub(crate) mod new;
+pub(crate) mod report;
 pub(crate) mod run;
 pub(crate) mod schema;
 pub(crate) mod steps;

@@ -6,34 +6,40 @@ use std::time::Duration;
 
 use weald::recipe::{Options, OutputReport, Progress, REPORT_FILE, Recipe, Report, Run};
 
-use crate::arguments::RunArguments;
+use crate::arguments::{RunArguments, Running};
 use crate::failure::Failure;
 use crate::progress::Shown;
 use crate::{interrupt, stdout};
 
 pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     let recipe = Recipe::load(&arguments.recipe, &arguments.changes.overrides())?;
-    let chosen = arguments.engine.open(arguments.gpu_memory)?;
+    let out = arguments.out.clone().unwrap_or_else(|| default_folder(&arguments.recipe));
+    let report = execute(&recipe, Options::into_folder(&out), &arguments.running)?;
+    if arguments.running.quiet { Ok(()) } else { stdout::print(&summary(&report, &out)) }
+}
+
+/// Runs a recipe as the command line says, with progress on stderr.
+pub(super) fn execute(recipe: &Recipe, options: Options, running: &Running) -> Result<Report, Failure> {
+    let chosen = running.engine.open(running.gpu_memory)?;
     let options = Options {
-        out: arguments.out.clone().unwrap_or_else(|| default_folder(&arguments.recipe)),
         engine: chosen.engine,
-        threads: arguments.threads.map(usize::from),
-        checkpoint_every: Duration::from_secs(arguments.checkpoint_every),
-        resume: arguments.resume,
+        threads: running.threads.map(usize::from),
+        checkpoint_every: Duration::from_secs(running.checkpoint_every),
+        resume: running.resume,
+        ..options
     };
     interrupt::listen()?;
-    let shown = Shown::new(arguments.quiet);
+    let shown = Shown::new(running.quiet);
     if let Some(note) = &chosen.note {
         shown.note(note);
     }
-    let out = options.out.clone();
-    let report = Run { recipe: &recipe, options }.execute(&shown);
+    let report = Run { recipe, options }.execute(&shown);
     shown.end();
-    let report = report?;
-    if arguments.quiet { Ok(()) } else { stdout::print(&summary(&report, &out)) }
+    Ok(report?)
 }
 
-fn default_folder(recipe: &Path) -> PathBuf {
+/// Where the files of a recipe go.
+pub(super) fn default_folder(recipe: &Path) -> PathBuf {
     Path::new("out").join(recipe.file_stem().unwrap_or_default())
 }
 

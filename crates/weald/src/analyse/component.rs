@@ -5,7 +5,7 @@ use std::collections::VecDeque;
 use crate::grid::Size;
 
 /// The components of the cells that are `member`, each a list of cells, in the order of their first cells.
-pub(super) fn components(size: Size, member: &[bool]) -> Vec<Vec<usize>> {
+pub(crate) fn components(size: Size, member: &[bool]) -> Vec<Vec<usize>> {
     let mut open = member.to_vec();
     let mut found = Vec::new();
     for start in 0..open.len() {

@@ -1,37 +1,39 @@
-//! How far a landscape has formed a network of rivers, in four numbers.
+//! How far a landscape has formed a network of rivers.
 //!
 //! Lengths, heights and depths are in cells. Common measures of digital elevation models, chosen so that they
 //! tell connected river networks from scattered gullies; they depend on the grid, so only landscapes of the
-//! same size compare.
+//! same size compare. Cells without data take no part; what drains to their edge has arrived.
 
-use super::component::{components, geodesic_length};
-use super::gaussian::{Grid, gaussian};
-use super::priority_flood::priority_flood;
-use crate::grid::{Field, Size};
+mod carve;
+mod discharge;
+mod drainage;
+mod drains;
+mod ground;
+mod hack;
+mod power_law;
+mod river_width;
+mod slope_area;
+mod strahler;
+mod transects;
+mod valleys;
+
+pub use carve::Carve;
+pub use transects::ValleyForm;
+
+use crate::grid::{Field, Mask};
+use drainage::Drainage;
+use ground::Ground;
 
 /// Cells whose runoff makes a channel.
 const CHANNEL_AREA: f64 = 100.0;
-
-/// Standard deviation, in cells, of the mean that valleys lie below.
-const SURROUNDINGS: f64 = 3.0;
-
-/// Share of the cells, those that lie deepest below their surroundings, that count as valley.
-const VALLEY_SHARE: f64 = 0.05;
-
-/// A lake is deeper than this, in cells.
-const LAKE_DEPTH: f64 = 0.5;
-
-/// And has at least this many cells.
-const LAKE_CELLS: usize = 64;
-
-/// A pit deeper than this, in cells, cuts off the land above it.
-const PIT_DEPTH: f64 = 0.5;
 
 /// A landscape at the end of a dry period.
 #[derive(Clone, Copy, Debug)]
 pub struct NetworkInput<'a> {
     /// Height of the ground in metres.
     pub ground: &'a Field,
+    /// Height of the ground in metres before it was eroded, where it is known.
+    pub before: Option<&'a Field>,
     /// Depth of water in metres.
     pub depth: &'a Field,
     /// Mean flux through the eastern face of each cell over whole rain cycles, in cell areas of cell height
@@ -43,6 +45,8 @@ pub struct NetworkInput<'a> {
     pub mean_rain: f64,
     /// Side of a cell in metres.
     pub cell: f64,
+    /// Cells with data; `None` where all have.
+    pub land: Option<&'a Mask>,
 }
 
 /// The measures.
@@ -50,7 +54,10 @@ pub struct NetworkInput<'a> {
 pub struct NetworkMeasures {
     /// Share of cells whose mean flow carries the rain of at least 100 cells.
     pub chan: f64,
-    /// Length of the longest connected valley over the longer side of the grid.
+    /// Mean width in cells of the rivers that these cells make outside lakes; `None` where there are none.
+    pub river_width: Option<f64>,
+    /// Length of the longest connected valley over the longer side of the grid, among the twentieth of the land
+    /// that lies deepest below its surroundings.
     pub reach: f64,
     /// Share of the valley cells that belong to the largest connected valley.
     pub valley_largest: f64,
@@ -59,6 +66,53 @@ pub struct NetworkMeasures {
     pub drains: f64,
     /// Inner cells without a lower neighbour among eight.
     pub pits: usize,
+    /// Places where channels begin: on the flooded ground 100 cells drain through them.
+    pub heads: usize,
+    /// Greatest Strahler order of these channels.
+    pub strahler: u32,
+    /// Concavity θ: slope falls with area as `A^-θ`. `None` on grids too small to tell.
+    pub theta: Option<f64>,
+    /// Hack's exponent h: the longest river of a basin grows as `A^h`. `None` on grids too small to tell.
+    pub hack: Option<f64>,
+    /// Gini coefficient of the mean flow of the cells: 0 where it is the same everywhere, nearly 1 where one
+    /// cell has all.
+    pub flux_gini: f64,
+    /// Spacing, width and shape of the valleys; `None` where none is a cell deep.
+    pub valleys: Option<ValleyForm>,
+    /// Connection of the deepest cuts, where the ground before is known.
+    pub carve: Option<Carve>,
+}
+
+impl NetworkMeasures {
+    /// All measures that there are, by name; lengths in cells.
+    pub fn named(&self) -> Vec<(&'static str, f64)> {
+        let always = [
+            ("chan", self.chan),
+            ("reach", self.reach),
+            ("valley_largest", self.valley_largest),
+            ("drains", self.drains),
+            ("pits", self.pits as f64),
+            ("heads", self.heads as f64),
+            ("strahler", f64::from(self.strahler)),
+            ("flux_gini", self.flux_gini),
+        ];
+        let valley = |of: fn(&ValleyForm) -> f64| self.valleys.as_ref().map(of);
+        let carve = |of: fn(&Carve) -> f64| self.carve.as_ref().map(of);
+        let where_known = [
+            ("river_width", self.river_width),
+            ("theta", self.theta),
+            ("hack", self.hack),
+            ("valley_spacing", valley(|form| form.spacing)),
+            ("valley_width", valley(|form| form.width)),
+            ("valley_shape", valley(|form| form.shape)),
+            ("valley_depth", valley(|form| form.depth)),
+            ("carve_reach", carve(|carve| carve.reach)),
+            ("carve_largest", carve(|carve| carve.largest)),
+            ("carve_against_area", carve(|carve| carve.against_area)),
+        ];
+        let where_known = where_known.into_iter().filter_map(|(name, value)| Some((name, value?)));
+        always.into_iter().chain(where_known).collect()
+    }
 }
 
 /// Measures a landscape.
@@ -67,102 +121,47 @@ pub struct NetworkMeasures {
 /// If the fields differ in size: a bug of the caller.
 pub fn measure(input: &NetworkInput<'_>) -> NetworkMeasures {
     let size = input.ground.size();
-    for field in [input.depth, input.mean_flux_x, input.mean_flux_y] {
+    for field in [input.depth, input.mean_flux_x, input.mean_flux_y].into_iter().chain(input.before) {
         assert_eq!(field.size(), size, "all fields have the size of the ground");
     }
-    let ground = in_cells(input.ground, input.cell);
-    let depth = in_cells(input.depth, input.cell);
-    let valley = valleys(size, &ground);
+    let in_cells =
+        |field: &Field| field.values().iter().map(|&value| f64::from(value) / input.cell).collect();
+    let (height, depth) = (in_cells(input.ground), in_cells(input.depth));
+    let ground = Ground { size, land: input.land, height, depth };
+    let lakes = ground.lakes();
+    let drainage = Drainage::new(&ground, &lakes);
+    let carries = discharge::effective_areas(input);
+    let river: Vec<bool> =
+        carries.iter().zip(&lakes).map(|(&area, lake)| area >= CHANNEL_AREA && !lake).collect();
+    let carries: Vec<f64> = ground.cells().map(|cell| carries[cell]).collect();
+    let valley = valleys::valleys(&ground);
+    let channels = strahler::channels(&drainage);
     NetworkMeasures {
-        chan: channel_share(input),
-        reach: valley.length as f64 / size.columns.max(size.rows) as f64,
-        valley_largest: valley.share,
-        drains: draining_share(size, &ground, &depth),
-        pits: pits(size, &ground),
+        chan: share_of_channels(&carries),
+        river_width: river_width::river_width(size, &river),
+        reach: valley.reach,
+        valley_largest: valley.largest,
+        drains: drains::draining_share(&ground, &lakes),
+        pits: drains::pits(&ground),
+        heads: channels.heads,
+        strahler: channels.order,
+        theta: slope_area::theta(&drainage),
+        hack: hack::exponent_of_length(&drainage),
+        flux_gini: discharge::gini(carries),
+        valleys: transects::valley_form(&ground),
+        carve: input.before.map(|before| carve::carve(&ground, &in_cells(before), &drainage)),
     }
 }
 
-fn in_cells(field: &Field, cell: f64) -> Vec<f64> {
-    field.values().iter().map(|&value| f64::from(value) / cell).collect()
-}
-
-/// The flow vector of a cell is the half-sum of the fluxes through its two faces of each axis; none passes the
-/// border.
-fn channel_share(input: &NetworkInput<'_>) -> f64 {
-    let size = input.ground.size();
-    let (east, south) = (input.mean_flux_x, input.mean_flux_y);
-    let carries = |x: usize, y: usize| {
-        let west = if x > 0 { f64::from(east.at(x - 1, y)) } else { 0.0 };
-        let north = if y > 0 { f64::from(south.at(x, y - 1)) } else { 0.0 };
-        let flow_x = 0.5 * (west + f64::from(east.at(x, y)));
-        let flow_y = 0.5 * (north + f64::from(south.at(x, y)));
-        (flow_x * flow_x + flow_y * flow_y).sqrt() >= CHANNEL_AREA * input.mean_rain
-    };
-    let channels =
-        (0..size.rows).flat_map(|y| (0..size.columns).map(move |x| (x, y))).filter(|&(x, y)| carries(x, y));
-    channels.count() as f64 / size.cells() as f64
-}
-
-/// The largest connected valley.
-struct Valley {
-    length: usize,
-    share: f64,
-}
-
-fn valleys(size: Size, ground: &[f64]) -> Valley {
-    let mean = gaussian(&Grid { columns: size.columns, values: ground.to_vec() }, SURROUNDINGS);
-    let below: Vec<f64> = mean.values.iter().zip(ground).map(|(mean, ground)| mean - ground).collect();
-    let mut sorted = below.clone();
-    let place = ((1.0 - VALLEY_SHARE) * sorted.len() as f64) as usize;
-    let least = *sorted.select_nth_unstable_by(place, f64::total_cmp).1;
-    let member: Vec<bool> = below.iter().map(|&below| below >= least && below > 0.0).collect();
-    let components = components(size, &member);
-    let Some(largest) = components.iter().max_by_key(|component| component.len()) else {
-        return Valley { length: 0, share: 0.0 };
-    };
-    let cells: usize = components.iter().map(Vec::len).sum();
-    Valley { length: geodesic_length(size, largest), share: largest.len() as f64 / cells as f64 }
-}
-
-fn draining_share(size: Size, ground: &[f64], depth: &[f64]) -> f64 {
-    let lakes = lakes(size, depth);
-    let surface: Vec<f64> =
-        (0..size.cells()).map(|c| if lakes[c] { ground[c] + depth[c] } else { ground[c] }).collect();
-    let outlets: Vec<bool> = (0..size.cells()).map(|cell| lakes[cell] || on_border(size, cell)).collect();
-    let (order, flood) = priority_flood(size, &surface, &outlets);
-    let mut passes = vec![true; size.cells()];
-    for cell in order {
-        let filled = flood[cell].level - surface[cell];
-        passes[cell] = passes[flood[cell].next] && filled <= PIT_DEPTH;
-    }
-    let land = || (0..size.cells()).filter(|&cell| !lakes[cell]);
-    land().filter(|&cell| passes[cell]).count() as f64 / land().count().max(1) as f64
-}
-
-fn lakes(size: Size, depth: &[f64]) -> Vec<bool> {
-    let deep: Vec<bool> = depth.iter().map(|&depth| depth > LAKE_DEPTH).collect();
-    let mut lakes = vec![false; size.cells()];
-    for lake in components(size, &deep).into_iter().filter(|lake| lake.len() >= LAKE_CELLS) {
-        for cell in lake {
-            lakes[cell] = true;
-        }
-    }
-    lakes
-}
-
-fn on_border(size: Size, cell: usize) -> bool {
-    let (x, y) = (cell % size.columns, cell / size.columns);
-    x == 0 || y == 0 || x + 1 == size.columns || y + 1 == size.rows
-}
-
-fn pits(size: Size, ground: &[f64]) -> usize {
-    let inner = (0..size.cells()).filter(|&cell| !on_border(size, cell));
-    inner.filter(|&cell| size.neighbours(cell).all(|other| ground[other] >= ground[cell])).count()
+fn share_of_channels(carries: &[f64]) -> f64 {
+    let channels = carries.iter().filter(|&&area| area >= CHANNEL_AREA);
+    channels.count() as f64 / carries.len().max(1) as f64
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::grid::Size;
 
     const SIDE: usize = 80;
 
@@ -172,8 +171,21 @@ mod tests {
 
     fn dry(ground: &Field, cell: f64) -> NetworkMeasures {
         let none = Field::filled(size(), 0.0);
-        let (depth, mean_flux_x, mean_flux_y) = (&none, &none, &none);
-        measure(&NetworkInput { ground, depth, mean_flux_x, mean_flux_y, mean_rain: 0.005, cell })
+        measure(&NetworkInput { cell, ..still(ground, &none) })
+    }
+
+    /// Ground on which `none` flows and stands.
+    fn still<'a>(ground: &'a Field, none: &'a Field) -> NetworkInput<'a> {
+        NetworkInput {
+            ground,
+            before: None,
+            depth: none,
+            mean_flux_x: none,
+            mean_flux_y: none,
+            mean_rain: 0.005,
+            cell: 1.0,
+            land: None,
+        }
     }
 
     #[test]
@@ -223,17 +235,7 @@ mod tests {
         });
         let water = Field::from_values(size(), bowl.values().iter().map(|h| (8.0 - h).max(0.0)).collect());
         let none = Field::filled(size(), 0.0);
-        let with = |depth| {
-            let flux = &none;
-            measure(&NetworkInput {
-                ground: &bowl,
-                depth,
-                mean_flux_x: flux,
-                mean_flux_y: flux,
-                mean_rain: 1.0,
-                cell: 1.0,
-            })
-        };
+        let with = |depth| measure(&NetworkInput { depth, ..still(&bowl, &none) });
         assert_eq!(with(&water).drains, 1.0);
         assert!(with(&none).drains < 0.6);
     }
@@ -243,15 +245,34 @@ mod tests {
         let ground = Field::filled(size(), 0.0);
         let south = Field::from_function(size(), |x, y| if x == 40 { y as f32 * 2.0 * 0.005 } else { 0.0 });
         let none = Field::filled(size(), 0.0);
-        let input = NetworkInput {
-            ground: &ground,
-            depth: &none,
-            mean_flux_x: &none,
-            mean_flux_y: &south,
-            mean_rain: 0.005,
-            cell: 1.0,
-        };
+        let input = NetworkInput { mean_flux_y: &south, ..still(&ground, &none) };
         let channel = measure(&input).chan * (SIDE * SIDE) as f64;
         assert_eq!(channel.round(), 29.0, "half-sums 2y - 1 from row 51 to row 79");
+    }
+
+    #[test]
+    fn what_was_carved_connects_where_a_ditch_was_cut() {
+        let before = Field::from_function(size(), |x, _| x as f32);
+        let ditch = |y: usize, width: f32| if (y as f32 - 40.0).abs() < width { 5.0 } else { 0.0 };
+        let after = Field::from_function(size(), |x, y| x as f32 - ditch(y, 1.0));
+        let none = Field::filled(size(), 0.0);
+        let carve = measure(&NetworkInput { before: Some(&before), ..still(&after, &none) }).carve;
+        let carve = carve.expect("the ground before is known");
+        assert_eq!((carve.reach, carve.largest), ((SIDE - 1) as f64 / SIDE as f64, 1.0));
+        assert_eq!(dry(&after, 1.0).carve, None);
+    }
+
+    #[test]
+    fn cells_without_data_are_no_pits_no_valleys_and_take_what_drains_to_them() {
+        let hole = |x: usize, y: usize| (30..50).contains(&x) && (30..50).contains(&y);
+        // Without the mask, a deep pit without a way out.
+        let ground = Field::from_function(size(), |x, y| if hole(x, y) { -500.0 } else { x as f32 });
+        let land = (0..SIDE * SIDE).map(|cell| !hole(cell % SIDE, cell / SIDE)).collect();
+        let land = Mask::new(size(), land);
+        let none = Field::filled(size(), 0.0);
+        let masked = measure(&NetworkInput { land: land.as_ref(), ..still(&ground, &none) });
+        assert_eq!((masked.drains, masked.pits, masked.valleys), (1.0, 0, None));
+        let whole = dry(&ground, 1.0);
+        assert!(whole.drains < 0.9 && whole.valleys.is_some(), "{whole:?}");
     }
 }

@@ -17,6 +17,7 @@ use std::sync::Arc;
 
 use crate::error::Error;
 use crate::grid::Size;
+use crate::landscape::Landscape;
 use device::Device;
 
 /// Where and how simulations run. On all but devices the bits of the result do not depend on it.
@@ -94,6 +95,21 @@ pub trait Watcher: Sync {
     /// Whether the time has come for a checkpoint.
     fn checkpoint_due(&self) -> bool {
         false
+    }
+
+    /// The first number of steps, from `done` on, after which it wants to see the landscape.
+    fn next_look(&self, done: u64) -> Option<u64> {
+        let _ = done;
+        None
+    }
+
+    /// Sees the landscape of the running simulation after `done` steps.
+    ///
+    /// # Errors
+    /// [`Error::Run`] where what is made of it cannot be written.
+    fn look(&self, done: u64, landscape: &Landscape) -> Result<(), Error> {
+        let _ = (done, landscape);
+        Ok(())
     }
 
     /// Keeps the state of the running simulation.

@@ -1,4 +1,8 @@
 //! The `hydraulic` step: rain carves ground. Presets `han`, `mei` and `stava` differ only in these keys.
+//!
+//! Its layers `erosion` and `deposition` are what the ground lost and gained in metres between the start of this step
+//! and its end, all materials, regolith and sliding together; of each cell one of them is 0. What was laid down and
+//! worn away again is in neither.
 
 mod defaults;
 mod faults;
@@ -240,6 +244,10 @@ impl Step for Hydraulic {
         let own = own.into_iter().chain(regolith);
         let own = own.map(|(name, unit)| (name.to_owned(), unit));
         std::iter::once((self.layer.0.clone(), "m")).chain(own).collect()
+    }
+
+    fn watched(&self) -> u64 {
+        u64::from(self.iterations)
     }
 
     fn layered(&self) -> Layered {

@@ -15,6 +15,7 @@ mod four_outflows;
 mod han;
 pub mod hydraulic;
 mod links;
+mod look;
 mod mei;
 mod pace;
 mod pipes;

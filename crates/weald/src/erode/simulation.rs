@@ -3,6 +3,7 @@
 use std::time::Instant;
 
 use super::edits::Edits;
+use super::look::{self, Seen};
 use super::pace::Pace;
 use super::saved::Saved;
 use super::sums;
@@ -34,6 +35,8 @@ pub(crate) struct Simulation<'a, P: Process> {
     pub(crate) record: Option<Record<'a>>,
     /// What a person changes between the steps.
     pub(crate) edits: Option<&'a Edits>,
+    /// What its states look like, where it can be looked at.
+    pub(crate) seen: Option<Seen<'a>>,
 }
 
 /// A wish for mean values.
@@ -58,7 +61,7 @@ impl<'a, P: Process<Weather = ()>> Simulation<'a, P> {
     /// A process of its own, without weather, means and edits.
     pub(crate) fn alone(process: &'a P, plane_names: &'a [String], iterations: u32) -> Self {
         let iterations = u64::from(iterations);
-        Self { process, plane_names, iterations, weather: &|_| (), record: None, edits: None }
+        Self { process, plane_names, iterations, weather: &|_| (), record: None, edits: None, seen: None }
     }
 }
 
@@ -105,11 +108,13 @@ impl<P: Process> Simulation<'_, P> {
         // The machine has taken its own copy, and states are large.
         drop(from);
         while running.done < self.iterations {
+            running.look()?;
             running.edit()?;
             running.stretch()?;
             job.watcher.progress(running.done, self.iterations, running.cells);
             running.heed()?;
         }
+        running.look()?;
         running.finish()
     }
 
@@ -163,6 +168,13 @@ impl<'a, P: Process> Running<'a, P> {
         })
     }
 
+    /// Shows the state to whoever wants to see it here.
+    fn look(&mut self) -> Result<(), Error> {
+        let means = self.simulation.means();
+        let finished = || Ok(Finished::of_moment(self.machine.snapshot()?, means));
+        look::show(self.job.watcher, self.done, finished, self.simulation.seen)
+    }
+
     /// The edits that happen here. Every state that is kept at their step is the one before them.
     fn edit(&mut self) -> Result<(), Error> {
         let Some(edits) = self.simulation.edits.filter(|edits| edits.next_from(self.done) == Some(self.done))
@@ -179,7 +191,8 @@ impl<'a, P: Process> Running<'a, P> {
     fn stretch(&mut self) -> Result<(), Error> {
         let end = (self.done + self.pace.steps()).min(self.simulation.iterations);
         let next = self.simulation.edits.and_then(|edits| edits.next_from(self.done + 1));
-        let end = next.map_or(end, |next| end.min(next));
+        let look = self.simulation.seen.and_then(|_| self.job.watcher.next_look(self.done + 1));
+        let end = next.into_iter().chain(look).fold(end, u64::min);
         let begun = Instant::now();
         self.advance_to(end)?;
         if self.machine.first_not_finite()?.is_some() {
@@ -261,11 +274,12 @@ impl<'a, P: Process> Running<'a, P> {
         let scale = 1.0 / steps.max(1) as f32;
         let Snapshot { state, row_sums, mut means } = self.machine.snapshot()?;
         means.iter_mut().flatten().for_each(|sum| *sum *= scale);
-        let mut sums = RowSums::default();
-        for row in &row_sums {
-            sums.iter_mut().zip(row).for_each(|(total, sum)| *total += sum);
-        }
-        Ok(Finished { state, sums, means, notes: self.machine.note().into_iter().collect() })
+        Ok(Finished {
+            state,
+            sums: look::total(&row_sums),
+            means,
+            notes: self.machine.note().into_iter().collect(),
+        })
     }
 }
 

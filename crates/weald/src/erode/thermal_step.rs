@@ -5,7 +5,7 @@ mod program;
 use pulp::Arch;
 
 use super::links::Links;
-use super::simulation::Simulation;
+use super::simulation::{Finished, Simulation};
 use super::sweep::Sweep;
 use super::thermal::{Scheme, Slide, SlideConstants, SlideRows, SlideScratch};
 use super::working::Working;
@@ -72,6 +72,10 @@ impl Step for Thermal {
         vec![(self.layer.0.clone(), "m")]
     }
 
+    fn watched(&self) -> u64 {
+        u64::from(self.iterations)
+    }
+
     fn run(&self, landscape: &mut Landscape, job: &Job<'_>) -> Result<Outcome, Error> {
         let working = Working::new(landscape, &self.layer.0, false)?;
         let within = ThermalWithin { scheme: self.scheme, talus: self.talus, strength: self.strength };
@@ -79,9 +83,15 @@ impl Step for Thermal {
         let links = Links::new(working.size, working.mask.is_some());
         let process = Sliding { slide, links, arch: Arch::new() };
         let plane_names = ["change".to_owned()];
-        let simulation = Simulation::alone(&process, &plane_names, self.iterations);
+        let seen = |finished: &Finished| {
+            let mut seen = landscape.clone();
+            working.store_ground(&mut seen, &self.layer.0, finished, self.watched());
+            seen
+        };
+        let simulation =
+            Simulation { seen: Some(&seen), ..Simulation::alone(&process, &plane_names, self.iterations) };
         let finished = simulation.run(working.state(1, &[]), job)?;
-        Ok(working.store_ground(landscape, &self.layer.0, &finished, u64::from(self.iterations)))
+        Ok(working.store_ground(landscape, &self.layer.0, &finished, self.watched()))
     }
 }
 

@@ -2,8 +2,22 @@
 //! One file a kind; [`EXPORTS`] is the registry.
 
 mod layers;
+mod mesh;
+pub mod report;
+mod terrain3d;
+mod terrain_tiles;
+mod unity;
+mod unreal;
+mod vector;
+mod vertices;
 
 pub use layers::Layers;
+pub use mesh::{Colours, Mesh};
+pub use terrain_tiles::Weight;
+pub use terrain3d::Terrain3d;
+pub use unity::Unity;
+pub use unreal::Unreal;
+pub use vector::{LakeAreas, RiverLines};
 
 use std::fmt::Debug;
 use std::path::Path;
@@ -93,7 +107,14 @@ impl ExportEntry {
 /// All kinds of exports. Adding one is one file and one line here.
 #[rustfmt::skip] // one entry a line, so that branches that add some do not meet
 pub const EXPORTS: &[ExportEntry] = &[
+    report::ENTRY,
+    ExportEntry::of::<Mesh>("mesh", &["glb"], "the ground and its water as meshes of triangles, true to a stated error, with textures", "Garland and Heckbert 1995 (triangles), Mikkelsen 2008 (tangents), glTF 2.0"),
+    ExportEntry::of::<RiverLines>("rivers", &["geojson", "json"], "rivers as lines with width, depth, discharge and order", "Weald; RFC 7946"),
+    ExportEntry::of::<LakeAreas>("lakes", &["geojson", "json"], "lakes as areas with level, depth and volume", "Weald; RFC 7946"),
     ExportEntry::of::<Layers>("layers", layers::EXTENSIONS, "several layers in one file: NetCDF or Zarr", "CF conventions 1.11, Zarr 3.0"),
+    unreal::ENTRY,
+    unity::ENTRY,
+    terrain3d::ENTRY,
 ];
 
 /// The export of that name.

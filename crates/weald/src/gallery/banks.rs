@@ -1,7 +1,7 @@
 //! Banks that a river undercuts: they stand too steep, or slide.
 
-use super::layered::{SOURCE, cut_open, from_above, ground, material, simulated, steepest_fall, texts};
-use super::{Figure, FigureOutput, GalleryJob, Measured, Plate};
+use super::layered::{SOURCE, cut_open, from_above, ground, material, simulated, steepest_fall};
+use super::{Claim, Figure, FigureOutput, GalleryJob, Measured, Plate, Verdict, texts};
 use crate::error::Error;
 use crate::grid::{Field, Size};
 use crate::landscape::Landscape;
@@ -11,8 +11,9 @@ pub(super) const FIGURE: Figure = Figure {
     id: "banks",
     title: "Slippage of undercut banks",
     source: SOURCE,
-    shows: "A river cuts into its banks and makes them too steep to rest. Slippage lays each material back to its \
-            own talus.",
+    shows: "A river cuts into its banks and makes them too steep to rest. Slippage lays each material back \
+            to its own talus.",
+    seconds: 2,
     make,
 };
 
@@ -42,7 +43,17 @@ fn make(job: GalleryJob) -> Result<FigureOutput, Error> {
             image: cut_open(&landscapes, Along::Column, 0.5)?,
         },
     ];
-    Ok(FigureOutput { plates, measured: measured(&landscapes)? })
+    let banks = ["before", "without slippage", "with slippage"].into_iter().zip(landscapes);
+    let banks = banks.map(|(name, landscape)| Banks::of(name, landscape)).collect::<Result<Vec<_>, _>>()?;
+    let measured = Measured {
+        header: texts(["ground", "gravel too steep", "soil too steep", "steepest, °"]),
+        rows: banks.iter().map(Banks::row).collect(),
+        remarks: texts([
+            "Cells whose layer falls to a neighbour more steeply than its talus by 5° or more, and the \
+             steepest fall of the ground; the edge is left out.",
+        ]),
+    };
+    Ok(FigureOutput { plates, measured, claims: claims(&banks) })
 }
 
 /// A plain that falls to the east, level beds of soil and gravel on rock, with a winding channel.
@@ -63,38 +74,48 @@ fn valley(size: Size) -> Landscape {
     landscape
 }
 
-fn measured(landscapes: &[&Landscape; 3]) -> Result<Measured, Error> {
-    let names = ["before", "without slippage", "with slippage"];
-    let rows: Result<Vec<_>, Error> =
-        names.into_iter().zip(landscapes).map(|(name, landscape)| row(name, landscape)).collect();
-    Ok(Measured {
-        header: texts(["ground", "gravel too steep", "soil too steep", "steepest, °"]),
-        rows: rows?,
-        remarks: texts([
-            "Cells whose layer falls to a neighbour more steeply than its talus by 5° or more, and the steepest fall of \
-             the ground; the edge is left out.",
-        ]),
-    })
+/// How steep the ground stands.
+struct Banks {
+    name: &'static str,
+    /// Cells of gravel and of soil that are too steep.
+    too_steep: [usize; 2],
+    steepest_deg: f64,
 }
 
-fn row(name: &str, landscape: &Landscape) -> Result<Vec<String>, Error> {
-    let height = landscape.field("height")?;
-    let stack = crate::material::stack(landscape, height)?;
-    let size = height.size();
-    let inner: Vec<usize> =
-        (2..size.rows - 2).flat_map(|y| (2..size.columns - 2).map(move |x| size.index(x, y))).collect();
-    let mut cells = vec![name.to_owned()];
-    for layer in [0, 1] {
-        let top = top_of(height, &stack[layer + 1..]);
-        let steep_deg = landscape.materials[layer + 1].talus_deg + MARGIN_DEG;
-        let steepest = libm::tan(steep_deg.to_radians());
-        let too_steep =
-            |&&at: &&usize| stack[layer].values()[at] > 0.01 && steepest_fall(&top, at, CELL) > steepest;
-        cells.push(inner.iter().filter(too_steep).count().to_string());
+impl Banks {
+    fn of(name: &'static str, landscape: &Landscape) -> Result<Self, Error> {
+        let height = landscape.field("height")?;
+        let stack = crate::material::stack(landscape, height)?;
+        let size = height.size();
+        let inner: Vec<usize> =
+            (2..size.rows - 2).flat_map(|y| (2..size.columns - 2).map(move |x| size.index(x, y))).collect();
+        let too_steep = |layer: usize| {
+            let top = top_of(height, &stack[layer + 1..]);
+            let steepest_deg = landscape.materials[layer + 1].talus_deg + MARGIN_DEG;
+            let steepest = libm::tan(steepest_deg.to_radians());
+            let falls =
+                |&&at: &&usize| stack[layer].values()[at] > 0.01 && steepest_fall(&top, at, CELL) > steepest;
+            inner.iter().filter(falls).count()
+        };
+        let steepest = inner.iter().map(|&at| steepest_fall(height, at, CELL)).fold(0.0, f64::max);
+        let steepest_deg = libm::atan(steepest).to_degrees();
+        Ok(Self { name, too_steep: [0, 1].map(too_steep), steepest_deg })
     }
-    let steepest = inner.iter().map(|&at| steepest_fall(height, at, CELL)).fold(0.0, f64::max);
-    cells.push(format!("{:.0}", libm::atan(steepest).to_degrees()));
-    Ok(cells)
+
+    fn row(&self) -> Vec<String> {
+        let [gravel, soil] = self.too_steep.map(|cells| cells.to_string());
+        vec![self.name.to_owned(), gravel, soil, format!("{:.0}", self.steepest_deg)]
+    }
+}
+
+fn claims(banks: &[Banks]) -> Vec<Claim> {
+    let [before, cut, slid] = [0, 1, 2].map(|stage| banks[stage].too_steep);
+    let both = |[gravel, soil]: [usize; 2]| format!("{gravel} cells of gravel and {soil} of soil");
+    vec![Claim::new(
+        "Slippage lays undercut banks back to their talus",
+        Verdict::of(before == [0, 0] && cut[1] > 0 && 10 * slid[1] < cut[1] && 10 * slid[0] <= cut[0]),
+        format!("too steep are {} without slippage, {} with it", both(cut), both(slid)),
+    )]
 }
 
 /// The ground without the layers above.

@@ -1,7 +1,7 @@
 //! A canyon in level beds: hard ones stand as ledges, soft ones are cut back.
 
-use super::layered::{self, SOURCE, cut_open, from_above, ground, material, simulated, texts};
-use super::{Figure, FigureOutput, GalleryJob, Measured, Plate};
+use super::layered::{self, SOURCE, cut_open, from_above, ground, material, simulated};
+use super::{Claim, Figure, FigureOutput, GalleryJob, Measured, Plate, Verdict, texts};
 use crate::error::Error;
 use crate::grid::{Field, Size};
 use crate::landscape::Landscape;
@@ -14,6 +14,7 @@ pub(super) const FIGURE: Figure = Figure {
     source: SOURCE,
     shows: "Water cuts through layers from the top down. Hard layers stand as ledges, soft ones are cut back to the \
             slope on which they rest.",
+    seconds: 2,
     make,
 };
 
@@ -45,7 +46,20 @@ fn make(job: GalleryJob) -> Result<FigureOutput, Error> {
         caption: format!("Before and after {iterations} steps, {view}"),
         image,
     };
-    Ok(FigureOutput { plates: plates.map(plate).into(), measured: measured(&start, &after)? })
+    let heights = [start.field("height")?, after.field("height")?];
+    let walls: Vec<Wall> = BEDS.iter().rev().map(|bed| Wall::of(bed, heights)).collect();
+    Ok(FigureOutput {
+        plates: plates.map(plate).into(),
+        measured: Measured {
+            header: texts(["bed", "width before, m", "after", "slope before, °", "after"]),
+            rows: walls.iter().map(Wall::row).collect(),
+            remarks: texts([
+                "Mean width of the valley at half the height of the bed, and mean slope of the walls there, \
+                 between a fifth and four fifths of its height.",
+            ]),
+        },
+        claims: claims(&walls),
+    })
 }
 
 /// A plateau of level beds above a lowland, with a shallow winding valley.
@@ -88,21 +102,45 @@ fn keys(columns: usize, rows: usize) -> String {
     )
 }
 
-fn measured(start: &Landscape, after: &Landscape) -> Result<Measured, Error> {
-    let heights = [start.field("height")?, after.field("height")?];
-    let row = |bed: &Bed| {
-        let widths = heights.map(|height| format!("{:.0}", width(height, bed)));
-        let slopes = heights.map(|height| format!("{:.0}", slope(height, bed)));
-        [vec![bed.name.to_owned()], widths.to_vec(), slopes.to_vec()].concat()
-    };
-    Ok(Measured {
-        header: texts(["bed", "width before, m", "after", "slope before, °", "after"]),
-        rows: BEDS.iter().rev().map(row).collect(),
-        remarks: texts([
-            "Mean width of the valley at half the height of the bed, and mean slope of the walls there, between \
-             a fifth and four fifths of its height.",
-        ]),
-    })
+/// The valley's walls in one bed, before and after.
+struct Wall {
+    bed: &'static str,
+    widths: [f64; 2],
+    slopes_deg: [f64; 2],
+}
+
+impl Wall {
+    fn of(bed: &Bed, heights: [&Field; 2]) -> Self {
+        Self {
+            bed: bed.name,
+            widths: heights.map(|height| width(height, bed)),
+            slopes_deg: heights.map(|height| slope(height, bed)),
+        }
+    }
+
+    fn row(&self) -> Vec<String> {
+        let numbers = self.widths.iter().chain(&self.slopes_deg).map(|number| format!("{number:.0}"));
+        std::iter::once(self.bed.to_owned()).chain(numbers).collect()
+    }
+}
+
+fn claims(walls: &[Wall]) -> Vec<Claim> {
+    let [sandstone, shale] = [&walls[0], &walls[1]];
+    let [before, hard] = sandstone.slopes_deg;
+    let soft = shale.slopes_deg[1];
+    let [narrow, wide] = shale.widths;
+    vec![
+        Claim::new(
+            "Hard layers stand as ledges",
+            Verdict::of(hard > before + 5.0 && hard > soft + 12.0),
+            format!("the sandstone steepens from {before:.0}° to {hard:.0}°, the shale lies at {soft:.0}°"),
+        ),
+        Claim::new(
+            "Soft layers are cut back",
+            Verdict::of(wide > 1.5 * narrow),
+            format!("the valley in the shale widens from {narrow:.0} to {wide:.0} m"),
+        ),
+    ]
 }
 
 /// The part of the plateau that is measured: away from source and cliff.

@@ -1,6 +1,6 @@
 //! A steep cone under the thermal schemes: by axes it becomes a square pyramid, isotropically it stays round.
 
-use super::{Figure, FigureOutput, GalleryJob, Measured, Plate, run_steps};
+use super::{Claim, Figure, FigureOutput, GalleryJob, Measured, Plate, Verdict, run_steps, texts};
 use crate::analyse::contour::roundness;
 use crate::domain::Domain;
 use crate::error::Error;
@@ -14,6 +14,7 @@ pub(super) const FIGURE: Figure = Figure {
     source: "Han 2015, doi 10.7583/JKGS.2015.15.6.171, Fig. 2",
     shows: "Weathering that looks along the axes turns a cone into a pyramid; weathering by the slope of the \
             surface leaves it a cone.",
+    seconds: 2,
     make,
 };
 
@@ -26,35 +27,56 @@ fn make(job: GalleryJob) -> Result<FigureOutput, Error> {
     let (side, iterations) = job.choose((129, 4000), (33, 100));
     let start = cone(side)?;
     let mut images = vec![draw(&start)?];
-    let mut rows = vec![row("before", &start, &start)?];
+    let mut shapes = vec![Shape::of("before", &start, &start)?];
     for scheme in SCHEMES {
         let mut landscape = start.clone();
         let keys = format!("scheme = {scheme:?}\ntalus = 1.0\nstrength = 0.2\niterations = {iterations}");
         run_steps(&mut landscape, 0, &[("thermal", &keys)])?;
         images.push(draw(&landscape)?);
-        rows.push(row(scheme, &start, &landscape)?);
+        shapes.push(Shape::of(scheme, &start, &landscape)?);
     }
     let caption = format!("Before; and after {iterations} steps by axes, isotropic, isotropic and symmetric");
     Ok(FigureOutput {
         plates: vec![Plate { name: "schemes", caption, image: Image::beside(&images, 8) }],
         measured: Measured {
-            header: [
+            header: texts([
                 "scheme",
                 "least / greatest contour radius",
                 "mean slope",
                 "volume error",
                 "difference when turned",
-            ]
-            .map(str::to_owned)
-            .to_vec(),
-            rows,
-            remarks: vec![
+            ]),
+            rows: shapes.iter().map(Shape::row).collect(),
+            remarks: texts([
                 "Radius of the contour at half height; slope over the middle half of the flank; volume \
-                 relative to the start; greatest height difference, in cells, to the result turned by 90°."
-                    .to_owned(),
-            ],
+                 relative to the start; greatest height difference, in cells, to the result turned by 90°.",
+            ]),
         },
+        claims: claims(&shapes),
     })
+}
+
+/// A circle at half height is told from other shapes down to this ratio of its radii.
+const ROUND: f64 = 0.98;
+
+/// A square has 0.71; the one that weathering by axes makes is a little rounder.
+const SQUARE: f64 = 0.85;
+
+fn claims(shapes: &[Shape]) -> Vec<Claim> {
+    let roundness: Vec<f64> = shapes[1..].iter().map(|shape| shape.roundness.unwrap_or(0.0)).collect();
+    let [by_axes, isotropic] = [roundness[0], roundness[1].min(roundness[2])];
+    vec![
+        Claim::new(
+            "Weathering along the axes turns a cone into a pyramid",
+            Verdict::of(by_axes < SQUARE),
+            format!("least over greatest radius {by_axes:.3}; 1 is a circle, 0.707 a square"),
+        ),
+        Claim::new(
+            "Weathering by the slope of the surface leaves it a cone",
+            Verdict::of(isotropic >= ROUND),
+            format!("least over greatest radius {isotropic:.3}"),
+        ),
+    ]
 }
 
 fn cone(side: usize) -> Result<Landscape, Error> {
@@ -70,18 +92,39 @@ fn draw(landscape: &Landscape) -> Result<Image, Error> {
         .render(landscape)
 }
 
-fn row(name: &str, start: &Landscape, landscape: &Landscape) -> Result<Vec<String>, Error> {
-    let (before, height) = (start.field("height")?, landscape.field("height")?);
-    let centre = (height.size().columns / 2) as f64;
-    let (low, high) = height.range(None).unwrap_or((0.0, 0.0));
-    let round = roundness(height, [centre; 2], f64::from(low + high) / 2.0);
-    Ok(vec![
-        name.to_owned(),
-        round.map_or_else(|| "open".to_owned(), |round| format!("{round:.3}")),
-        format!("{:.2}", mean_slope(height)),
-        brief((height.sum() - before.sum()).abs() / before.sum()),
-        brief(f64::from(turned_difference(height))),
-    ])
+/// What is left of the cone.
+struct Shape {
+    scheme: &'static str,
+    /// `None` where the contour at half height is not closed.
+    roundness: Option<f64>,
+    slope: f64,
+    volume_error: f64,
+    turned: f32,
+}
+
+impl Shape {
+    fn of(scheme: &'static str, start: &Landscape, landscape: &Landscape) -> Result<Self, Error> {
+        let (before, height) = (start.field("height")?, landscape.field("height")?);
+        let centre = (height.size().columns / 2) as f64;
+        let (low, high) = height.range(None).unwrap_or((0.0, 0.0));
+        Ok(Self {
+            scheme,
+            roundness: roundness(height, [centre; 2], f64::from(low + high) / 2.0),
+            slope: mean_slope(height),
+            volume_error: (height.sum() - before.sum()).abs() / before.sum(),
+            turned: turned_difference(height),
+        })
+    }
+
+    fn row(&self) -> Vec<String> {
+        vec![
+            self.scheme.to_owned(),
+            self.roundness.map_or_else(|| "open".to_owned(), |round| format!("{round:.3}")),
+            format!("{:.2}", self.slope),
+            brief(self.volume_error),
+            brief(f64::from(self.turned)),
+        ]
+    }
 }
 
 /// A small number in one digit; 0 where it is exactly that.

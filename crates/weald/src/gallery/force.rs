@@ -1,7 +1,7 @@
 //! Force-based erosion against dissolution on the same ground.
 
-use super::layered::{SOURCE, cut_open, four, from_above, ground, material, simulated, texts};
-use super::{Figure, FigureOutput, GalleryJob, Measured, Plate};
+use super::layered::{SOURCE, cut_open, four, from_above, ground, material, simulated};
+use super::{Claim, Figure, FigureOutput, GalleryJob, Measured, Plate, Verdict, texts};
 use crate::error::Error;
 use crate::grid::{Field, Size};
 use crate::landscape::Landscape;
@@ -11,8 +11,9 @@ pub(super) const FIGURE: Figure = Figure {
     id: "force",
     title: "Force-based erosion against dissolution",
     source: SOURCE,
-    shows: "Running water cuts where it is fast and leaves its bed rough. Dissolution softens whatever lies under \
-            water, fast or slow, and what softened creeps and evens the bed out.",
+    shows: "Running water cuts where it is fast and leaves its bed rough. Dissolution softens whatever \
+            lies under water, fast or slow, and what softened creeps and evens the bed out.",
+    seconds: 2,
     make,
 };
 
@@ -39,7 +40,18 @@ fn make(job: GalleryJob) -> Result<FigureOutput, Error> {
             image: cut_open(&landscapes, Along::Column, 0.6)?,
         },
     ];
-    Ok(FigureOutput { plates, measured: measured(&landscapes)? })
+    let beds = ["before", "force-based", "dissolution"].into_iter().zip(landscapes);
+    let beds = beds.map(|(name, after)| Bed::of(name, &start, after)).collect::<Result<Vec<_>, _>>()?;
+    let measured = Measured {
+        header: texts(["erosion", "deepest cut, m", "moved, m³", "roughness of the bed, m"]),
+        rows: beds.iter().map(Bed::row).collect(),
+        remarks: texts([
+            "Without the first fifth, where the source is, and the edge. The bed is what lies within four \
+             cells of the middle of the valley; its roughness is the mean difference to the mean of four \
+             neighbours.",
+        ]),
+    };
+    Ok(FigureOutput { plates, measured, claims: claims(&beds) })
 }
 
 /// A valley with a stream bed, rough from humps a few cells wide, in deep soil.
@@ -57,35 +69,60 @@ fn stream(size: Size) -> Landscape {
     landscape
 }
 
-fn measured(landscapes: &[&Landscape; 3]) -> Result<Measured, Error> {
-    let names = ["before", "force-based", "dissolution"];
-    let rows: Result<Vec<_>, Error> =
-        names.into_iter().zip(landscapes).map(|(name, after)| row(name, landscapes[0], after)).collect();
-    Ok(Measured {
-        header: texts(["erosion", "deepest cut, m", "moved, m³", "roughness of the bed, m"]),
-        rows: rows?,
-        remarks: texts([
-            "Without the first fifth, where the source is, and the edge. The bed is what lies within four cells \
-             of the middle of the valley; its roughness is the mean difference to the mean of four neighbours.",
-        ]),
-    })
+/// What became of the stream's bed.
+struct Bed {
+    erosion: &'static str,
+    deepest_cut: f64,
+    moved: f64,
+    roughness: f64,
 }
 
-fn row(name: &str, start: &Landscape, after: &Landscape) -> Result<Vec<String>, Error> {
-    let (before, height) = (start.field("height")?, after.field("height")?);
-    let size = height.size();
-    let inner: Vec<usize> = (2..size.rows - 2)
-        .flat_map(|y| (size.columns / 5..size.columns - 4).map(move |x| size.index(x, y)))
-        .collect();
-    let lost = |at: usize| f64::from(before.values()[at] - height.values()[at]);
-    let deepest = inner.iter().map(|&at| lost(at)).fold(0.0, f64::max);
-    let moved: f64 = inner.iter().map(|&at| lost(at).abs()).sum();
-    Ok(vec![
-        name.to_owned(),
-        format!("{deepest:.2}"),
-        format!("{moved:.0}"),
-        format!("{:.3}", roughness(height, &inner)),
-    ])
+impl Bed {
+    fn of(erosion: &'static str, start: &Landscape, after: &Landscape) -> Result<Self, Error> {
+        let (before, height) = (start.field("height")?, after.field("height")?);
+        let size = height.size();
+        let inner: Vec<usize> = (2..size.rows - 2)
+            .flat_map(|y| (size.columns / 5..size.columns - 4).map(move |x| size.index(x, y)))
+            .collect();
+        let lost = |&at: &usize| f64::from(before.values()[at] - height.values()[at]);
+        Ok(Self {
+            erosion,
+            deepest_cut: inner.iter().map(lost).fold(0.0, f64::max),
+            moved: inner.iter().map(|at| lost(at).abs()).sum(),
+            roughness: roughness(height, &inner),
+        })
+    }
+
+    fn row(&self) -> Vec<String> {
+        vec![
+            self.erosion.to_owned(),
+            format!("{:.2}", self.deepest_cut),
+            format!("{:.0}", self.moved),
+            format!("{:.3}", self.roughness),
+        ]
+    }
+}
+
+fn claims(beds: &[Bed]) -> Vec<Claim> {
+    let [before, forced, dissolved] = [&beds[0], &beds[1], &beds[2]];
+    let deeper = dissolved.deepest_cut > 0.5 && forced.deepest_cut > 1.3 * dissolved.deepest_cut;
+    let (was, rough, even) = (before.roughness, forced.roughness, dissolved.roughness);
+    vec![
+        Claim::new(
+            "Force-based erosion cuts where water is fast",
+            Verdict::of(deeper && rough > was),
+            format!(
+                "its deepest cut is {:.2} m, that of dissolution {:.2} m; it roughens the bed from \
+                 {was:.3} to {rough:.3} m",
+                forced.deepest_cut, dissolved.deepest_cut
+            ),
+        ),
+        Claim::new(
+            "Dissolution softens what lies under water and evens the bed out",
+            Verdict::of(dissolved.moved > 0.0 && even < 0.2 * was),
+            format!("roughness of the bed falls from {was:.3} to {even:.3} m"),
+        ),
+    ]
 }
 
 fn roughness(height: &Field, inner: &[usize]) -> f64 {

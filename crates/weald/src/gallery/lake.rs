@@ -1,7 +1,7 @@
 //! A source fills a hollow until its water finds an outlet, which it then carves.
 
-use super::layered::{SOURCE, cut_open, from_above, ground, material, simulated, texts};
-use super::{Figure, FigureOutput, GalleryJob, Measured, Plate};
+use super::layered::{SOURCE, cut_open, from_above, ground, material, simulated};
+use super::{Claim, Figure, FigureOutput, GalleryJob, Measured, Plate, Verdict, texts};
 use crate::error::Error;
 use crate::grid::{Field, Size};
 use crate::landscape::Landscape;
@@ -13,6 +13,7 @@ pub(super) const FIGURE: Figure = Figure {
     source: SOURCE,
     shows: "A source fills a hollow. The lake rises to the lowest place of its rim and spills over it; what spills \
             carves the outlet deeper, and the lake sinks with it.",
+    seconds: 4,
     make,
 };
 
@@ -37,7 +38,16 @@ fn make(job: GalleryJob) -> Result<FigureOutput, Error> {
             image: paired(&landscapes, |pair| cut_open(pair, Along::Row, 0.5))?,
         },
     ];
-    Ok(FigureOutput { plates, measured: measured(&landscapes)? })
+    let names = ["before", "filling", "full", "spilled"].into_iter().zip(landscapes);
+    let levels = names.map(|(name, landscape)| Levels::of(name, landscape)).collect::<Result<Vec<_>, _>>()?;
+    let measured = Measured {
+        header: texts(["stage", "lake level, m", "outlet, m", "water beyond it, m³"]),
+        rows: levels.iter().map(Levels::row).collect(),
+        remarks: texts([
+            "Level in the middle of the lake; the outlet is the highest ground on the lowest way out of it.",
+        ]),
+    };
+    Ok(FigureOutput { plates, measured, claims: claims(&levels) })
 }
 
 /// Four pictures in two rows.
@@ -96,30 +106,57 @@ fn hollow(size: Size) -> Landscape {
     landscape
 }
 
-fn measured(landscapes: &[&Landscape; 4]) -> Result<Measured, Error> {
-    let names = ["before", "filling", "full", "spilled"];
-    let rows: Result<Vec<_>, Error> =
-        names.into_iter().zip(landscapes).map(|(name, landscape)| row(name, landscape)).collect();
-    Ok(Measured {
-        header: texts(["stage", "lake level, m", "outlet, m", "water beyond it, m³"]),
-        rows: rows?,
-        remarks: texts([
-            "Level in the middle of the lake; the outlet is the highest ground on the lowest way out of it.",
-        ]),
-    })
+/// Heights of a stage in metres.
+struct Levels {
+    stage: &'static str,
+    lake: f32,
+    outlet: f32,
+    /// Water beyond the outlet in cubic metres.
+    spilt: f32,
 }
 
-fn row(name: &str, landscape: &Landscape) -> Result<Vec<String>, Error> {
-    let (height, size) = (landscape.field("height")?, landscape.domain.size);
-    let dry = Field::filled(size, 0.0);
-    let water = landscape.field("water").unwrap_or(&dry);
-    let (x, y) = (size.columns / 3, size.rows / 2);
-    let level = height.at(x, y) + water.at(x, y);
-    let rim = x..size.columns - 1;
-    // Every way out crosses each of these columns.
-    let lowest = |x: usize| (0..size.rows).map(|y| height.at(x, y)).fold(f32::INFINITY, f32::min);
-    let outlet = rim.map(lowest).fold(f32::NEG_INFINITY, f32::max);
-    let beyond = size.columns * 3 / 4..size.columns - 1;
-    let spilt: f32 = beyond.flat_map(|x| (0..size.rows).map(move |y| water.at(x, y))).sum();
-    Ok(vec![name.to_owned(), format!("{level:.3}"), format!("{outlet:.3}"), format!("{spilt:.1}")])
+impl Levels {
+    fn of(stage: &'static str, landscape: &Landscape) -> Result<Self, Error> {
+        let (height, size) = (landscape.field("height")?, landscape.domain.size);
+        let dry = Field::filled(size, 0.0);
+        let water = landscape.field("water").unwrap_or(&dry);
+        let (x, y) = (size.columns / 3, size.rows / 2);
+        let rim = x..size.columns - 1;
+        // Every way out crosses each of these columns.
+        let lowest = |x: usize| (0..size.rows).map(|y| height.at(x, y)).fold(f32::INFINITY, f32::min);
+        let beyond = size.columns * 3 / 4..size.columns - 1;
+        Ok(Self {
+            stage,
+            lake: height.at(x, y) + water.at(x, y),
+            outlet: rim.map(lowest).fold(f32::NEG_INFINITY, f32::max),
+            spilt: beyond.flat_map(|x| (0..size.rows).map(move |y| water.at(x, y))).sum(),
+        })
+    }
+
+    fn row(&self) -> Vec<String> {
+        let Self { stage, lake, outlet, spilt } = self;
+        vec![(*stage).to_owned(), format!("{lake:.3}"), format!("{outlet:.3}"), format!("{spilt:.1}")]
+    }
+}
+
+fn claims(levels: &[Levels]) -> Vec<Claim> {
+    let [before, filling, full, spilled] = [0, 1, 2, 3].map(|stage| &levels[stage]);
+    let rises = before.lake < filling.lake && filling.lake < full.lake && filling.spilt == 0.0;
+    let carved = full.outlet - spilled.outlet > 0.5 && full.lake - spilled.lake > 0.5;
+    vec![
+        Claim::new(
+            "A lake rises to the lowest place of its rim",
+            Verdict::of(rises && (full.lake - full.outlet).abs() < 0.01),
+            format!("it stands at {:.3} m, its outlet at {:.3} m", full.lake, full.outlet),
+        ),
+        Claim::new(
+            "What spills carves the outlet, and the lake sinks with it",
+            Verdict::of(carved && spilled.spilt > 0.0),
+            format!(
+                "the outlet sinks by {:.2} m, the lake by {:.2} m",
+                full.outlet - spilled.outlet,
+                full.lake - spilled.lake
+            ),
+        ),
+    ]
 }

@@ -61,8 +61,3 @@ pub(super) fn steepest_fall(height: &Field, at: usize, cell: f64) -> f64 {
     let fall = |next: usize| f64::from(height.values()[at] - height.values()[next]);
     four(height.size(), at).map(fall).into_iter().fold(0.0, f64::max) / cell
 }
-
-/// Headings or cells of a table.
-pub(super) fn texts<const N: usize>(texts: [&str; N]) -> Vec<String> {
-    texts.map(str::to_owned).to_vec()
-}

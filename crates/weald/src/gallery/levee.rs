@@ -1,7 +1,7 @@
 //! A painted levee holds a river back from low ground.
 
-use super::layered::{SOURCE, cut_open, from_above, ground, material, simulated, texts};
-use super::{Figure, FigureOutput, GalleryJob, Measured, Plate};
+use super::layered::{SOURCE, cut_open, from_above, ground, material, simulated};
+use super::{Claim, Figure, FigureOutput, GalleryJob, Measured, Plate, Verdict, texts};
 use crate::edit::{Area, Brush, Canvas, Effect, Falloff};
 use crate::error::Error;
 use crate::grid::{Field, Size};
@@ -14,6 +14,7 @@ pub(super) const FIGURE: Figure = Figure {
     source: SOURCE,
     shows: "A stroke of the brush lays a levee of the topmost material beside a river that leaves its bed, \
             and the low ground behind it stays dry.",
+    seconds: 2,
     make,
 };
 
@@ -42,7 +43,18 @@ fn make(job: GalleryJob) -> Result<FigureOutput, Error> {
             image: Image::below(&[sections(&[&start, &flooded])?, sections(&[&guarded, &held])?], 10),
         },
     ];
-    Ok(FigureOutput { plates, measured: measured(&[&start, &flooded, &guarded, &held]) })
+    let names = ["without, before", "without, after", "with, before", "with, after"];
+    let lands = names.into_iter().zip([&start, &flooded, &guarded, &held]);
+    let lands: Vec<Lowland> = lands.map(|(name, landscape)| Lowland::of(name, landscape)).collect();
+    let measured = Measured {
+        header: texts(["levee", "flooded behind it", "share", "river, m"]),
+        rows: lands.iter().map(Lowland::row).collect(),
+        remarks: texts([
+            "Cells beyond the levee with more than a centimetre of water, and their share of the ground there; the \
+             greatest depth of the river half way.",
+        ]),
+    };
+    Ok(FigureOutput { plates, measured, claims: claims(&lands) })
 }
 
 /// Middle of the river's bed, as a share of the way from north to south.
@@ -90,31 +102,42 @@ fn with_levee(start: &Landscape) -> Result<Landscape, Error> {
     Ok(landscape)
 }
 
-fn measured(landscapes: &[&Landscape; 4]) -> Measured {
-    let names = ["without, before", "without, after", "with, before", "with, after"];
-    let rows = names.into_iter().zip(landscapes).map(|(name, landscape)| row(name, landscape)).collect();
-    Measured {
-        header: texts(["levee", "flooded behind it", "share", "river, m"]),
-        rows,
-        remarks: texts([
-            "Cells beyond the levee with more than a centimetre of water, and their share of the ground there; the \
-             greatest depth of the river half way.",
-        ]),
+/// Water on the land behind the levee, and in the river before it.
+struct Lowland {
+    name: &'static str,
+    flooded: usize,
+    share: f64,
+    river: f32,
+}
+
+impl Lowland {
+    fn of(name: &'static str, landscape: &Landscape) -> Self {
+        let size = landscape.domain.size;
+        let dry = Field::filled(size, 0.0);
+        let water = landscape.field("water").unwrap_or(&dry);
+        let first = (LEVEE * size.rows as f64) as usize + 4;
+        let behind = size.columns * (size.rows - first);
+        let flooded = (first..size.rows).flat_map(|y| water.row(y)).filter(|&&depth| depth > 0.01).count();
+        let river = (0..first).map(|y| water.at(size.columns / 2, y)).fold(0.0, f32::max);
+        Self { name, flooded, share: flooded as f64 / behind as f64, river }
+    }
+
+    fn row(&self) -> Vec<String> {
+        vec![
+            self.name.to_owned(),
+            self.flooded.to_string(),
+            format!("{:.0} %", 100.0 * self.share),
+            format!("{:.2}", self.river),
+        ]
     }
 }
 
-fn row(name: &str, landscape: &Landscape) -> Vec<String> {
-    let size = landscape.domain.size;
-    let dry = Field::filled(size, 0.0);
-    let water = landscape.field("water").unwrap_or(&dry);
-    let first = (LEVEE * size.rows as f64) as usize + 4;
-    let behind = size.columns * (size.rows - first);
-    let flooded = (first..size.rows).flat_map(|y| water.row(y)).filter(|&&depth| depth > 0.01).count();
-    let river = (0..first).map(|y| water.at(size.columns / 2, y)).fold(0.0, f32::max);
-    vec![
-        name.to_owned(),
-        flooded.to_string(),
-        format!("{:.0} %", 100.0 * flooded as f64 / behind as f64),
-        format!("{river:.2}"),
-    ]
+fn claims(lands: &[Lowland]) -> Vec<Claim> {
+    let [without, with] = [&lands[1], &lands[3]];
+    let river = with.river > 0.0 && with.river >= 0.9 * without.river;
+    vec![Claim::new(
+        "Soil that a user adds changes where the water goes: land behind a painted levee stays dry",
+        Verdict::of(without.share > 0.2 && with.flooded == 0 && river),
+        format!("flooded are {} cells without the levee, {} with it", without.flooded, with.flooded),
+    )]
 }

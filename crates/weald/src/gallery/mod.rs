@@ -1,24 +1,38 @@
 //! The figures of the publications that Weald implements, made again and measured. [`FIGURES`] is the registry.
 
+mod ages;
 mod banks;
 mod canyon;
+mod cases;
+mod claim;
 mod cone;
-mod erosion;
+mod deposits;
+mod dissolution;
+mod drift;
 mod fault;
+mod flow_rate;
 mod force;
+mod forms;
+mod han;
 mod lake;
 mod layered;
 mod levee;
 mod page;
+mod parameters;
+mod printed;
+mod spacing;
+mod stability;
 mod start;
 mod steps;
+mod views;
+mod weathering;
+mod write;
 
+pub use claim::{Claim, Verdict};
 pub use steps::run_steps;
-
-use std::path::Path;
+pub use write::{Begun, Selection, write, write_figures};
 
 use crate::error::Error;
-use crate::io::write_whole;
 use crate::picture::Image;
 
 /// A figure's declaration.
@@ -32,6 +46,8 @@ pub struct Figure {
     pub source: &'static str,
     /// What the source shows and claims.
     pub shows: &'static str,
+    /// About how many seconds it takes at full detail on two cores, for those who wait.
+    pub seconds: u32,
     /// Makes it.
     pub make: fn(GalleryJob) -> Result<FigureOutput, Error>,
 }
@@ -70,6 +86,8 @@ pub struct FigureOutput {
     pub plates: Vec<Plate>,
     /// What was measured.
     pub measured: Measured,
+    /// What the source claims, judged by the measures.
+    pub claims: Vec<Claim>,
 }
 
 /// One picture of a figure.
@@ -99,8 +117,18 @@ pub const FIGURES: &[Figure] = &[
     fault::FIGURE,
     cone::FIGURE,
     start::FIGURE,
-    erosion::WEATHERING,
-    erosion::DISSOLUTION,
+    parameters::FIGURE,
+    stability::FIGURE,
+    flow_rate::FIGURE,
+    forms::FIGURE,
+    cases::FIGURE,
+    weathering::FIGURE,
+    spacing::FIGURE,
+    deposits::FIGURE,
+    ages::FIGURE,
+    dissolution::FIGURE,
+    printed::FIGURE,
+    drift::FIGURE,
     canyon::FIGURE,
     force::FIGURE,
     banks::FIGURE,
@@ -108,63 +136,7 @@ pub const FIGURES: &[Figure] = &[
     levee::FIGURE,
 ];
 
-/// Makes the figures named in `only`, or all where it is empty, and writes their pictures and `index.md` into
-/// a folder. Sections of other figures on an older page stay. `progress` hears the id of each figure begun.
-///
-/// # Errors
-/// [`Error::Run`] for an unknown id, a failed step, or a folder that cannot be written.
-pub fn write(folder: &Path, only: &[String], progress: &dyn Fn(&str)) -> Result<(), Error> {
-    write_figures(FIGURES, folder, &Selection { only, job: GalleryJob::default() }, progress)
-}
-
-/// Which figures to make, and how.
-#[derive(Clone, Copy, Debug)]
-pub struct Selection<'a> {
-    /// Ids of the figures; all where empty.
-    pub only: &'a [String],
-    /// What each is given.
-    pub job: GalleryJob,
-}
-
-/// [`write()`] for any list of figures.
-///
-/// # Errors
-/// As [`write()`].
-pub fn write_figures(
-    figures: &[Figure],
-    folder: &Path,
-    selection: &Selection<'_>,
-    progress: &dyn Fn(&str),
-) -> Result<(), Error> {
-    check_ids(figures, selection.only)?;
-    std::fs::create_dir_all(folder).map_err(|cause| Error::write(folder, &cause))?;
-    let page = folder.join("index.md");
-    let mut sections = page::sections(&page);
-    for figure in figures.iter().filter(|figure| selected(figure, selection.only)) {
-        progress(figure.id);
-        let output = (figure.make)(selection.job)?;
-        for plate in &output.plates {
-            let text = [
-                ("Title".to_owned(), figure.title.to_owned()),
-                ("Source".to_owned(), figure.source.to_owned()),
-            ];
-            write_whole(&folder.join(page::file_name(figure, plate)), &plate.image.to_png(&text))?;
-        }
-        sections.insert(figure.id.to_owned(), page::section(figure, &output));
-    }
-    write_whole(&page, page::assemble(figures, &sections).as_bytes())
-}
-
-fn selected(figure: &Figure, only: &[String]) -> bool {
-    only.is_empty() || only.iter().any(|id| id == figure.id)
-}
-
-fn check_ids(figures: &[Figure], only: &[String]) -> Result<(), Error> {
-    let known: Vec<&str> = figures.iter().map(|figure| figure.id).collect();
-    match only.iter().find(|id| !known.contains(&id.as_str())) {
-        Some(id) => {
-            Err(Error::Run(format!("there is no figure `{id}`; the figures are: {}", known.join(", "))))
-        }
-        None => Ok(()),
-    }
+/// Headings or cells of a table.
+fn texts<const N: usize>(texts: [&str; N]) -> Vec<String> {
+    texts.map(str::to_owned).to_vec()
 }

@@ -1,16 +1,21 @@
-//! The page that says for each figure what the source shows and what came out here.
+//! The page that says for each figure what the source shows and what came out here; above them all claims.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::path::Path;
 
-use super::{Figure, FigureOutput, Measured, Plate};
+use super::{Claim, Figure, FigureOutput, Measured, Plate};
 
-const HEAD: &str =
-    "# Gallery\n\nFigures of the publications that Weald implements, made again by `weald gallery`.\n";
+const HEAD: &str = "# Gallery\n\nFigures of the publications that Weald implements, made again by `weald gallery`. \
+    Each verdict follows from numbers of the run that made the figure: **shown**, **shown under a condition**, or \
+    **not reproduced**. Fig. 1 of Han 2015 is a sketch of the pipes between cells; it shows no result and is not \
+    made again.\n";
 
 /// Starts the section of a figure, so that it can be replaced alone.
 const MARK: &str = "<!-- figure ";
+
+/// Starts the claims of a section: a table of claim, verdict and measure that ends with an empty line.
+const CLAIMS: &str = "\n| claim | verdict | measured |\n| --- | --- | --- |\n";
 
 /// Name of a plate's file.
 pub(super) fn file_name(figure: &Figure, plate: &Plate) -> String {
@@ -29,24 +34,48 @@ pub(super) fn sections(page: &Path) -> BTreeMap<String, String> {
 
 /// The whole page, in the order of `figures`.
 pub(super) fn assemble(figures: &[Figure], sections: &BTreeMap<String, String>) -> String {
-    let present = figures.iter().filter_map(|figure| Some((figure.id, sections.get(figure.id)?)));
-    let sections = present.map(|(id, section)| format!("\n{MARK}{id} -->\n{}\n", section.trim_end()));
-    std::iter::once(HEAD.to_owned()).chain(sections).collect()
+    let present: Vec<(&Figure, &String)> =
+        figures.iter().filter_map(|figure| Some((figure, sections.get(figure.id)?))).collect();
+    let mut text = HEAD.to_owned() + &summary(&present);
+    for (Figure { id, .. }, section) in present {
+        // Writing to a string cannot fail.
+        let _ = write!(text, "\n{MARK}{id} -->\n{}\n", section.trim_end());
+    }
+    text
+}
+
+/// All claims with their verdicts, each with a way to its figure.
+fn summary(present: &[(&Figure, &String)]) -> String {
+    let mut text = "\n| figure | claim | verdict |\n| --- | --- | --- |\n".to_owned();
+    for (figure, section) in present {
+        let claims = section.split_once(CLAIMS).map_or("", |(_, claims)| claims);
+        for line in claims.lines().take_while(|line| !line.is_empty()) {
+            let mut cells = line.trim_matches('|').split(" | ");
+            let (claim, verdict) = (cells.next().unwrap_or_default(), cells.next().unwrap_or_default());
+            let _ = writeln!(text, "| [{0}](#{0}) | {1} | {verdict} |", figure.id, claim.trim());
+        }
+    }
+    text
 }
 
 /// The section of one figure.
 pub(super) fn section(figure: &Figure, output: &FigureOutput) -> String {
-    let mut text = format!("## {}\n\nSource: {}.\n\n{}\n", figure.title, figure.source, figure.shows);
+    let Figure { id, title, source, shows, .. } = figure;
+    let mut text = format!("<a id=\"{id}\"></a>\n\n## {title}\n\nSource: {source}.\n\n{shows}\n");
     for plate in &output.plates {
         let caption = &plate.caption;
-        // Writing to a string cannot fail.
         let _ = write!(text, "\n![{caption}]({})\n\n*{caption}*\n", file_name(figure, plate));
     }
-    text + &table(&output.measured)
+    text + &table(&output.measured) + &claims(&output.claims)
+}
+
+fn row(cells: &[String]) -> String {
+    // A bar would end the cell.
+    let cells: Vec<String> = cells.iter().map(|cell| cell.replace('|', "\\|")).collect();
+    format!("| {} |\n", cells.join(" | "))
 }
 
 fn table(measured: &Measured) -> String {
-    let row = |cells: &[String]| format!("| {} |\n", cells.join(" | "));
     let mut text = String::new();
     if !measured.header.is_empty() {
         let rule = vec!["---".to_owned(); measured.header.len()];
@@ -55,4 +84,14 @@ fn table(measured: &Measured) -> String {
     }
     text.extend(measured.remarks.iter().map(|remark| format!("\n{remark}\n")));
     text
+}
+
+fn claims(claims: &[Claim]) -> String {
+    if claims.is_empty() {
+        return String::new();
+    }
+    let rows = claims
+        .iter()
+        .map(|claim| row(&[claim.says.clone(), claim.verdict.to_string(), claim.measure.clone()]));
+    CLAIMS.to_owned() + &rows.collect::<String>()
 }

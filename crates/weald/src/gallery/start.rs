@@ -1,45 +1,68 @@
 //! The fractal ground that erosion starts from.
 
-use super::{Figure, FigureOutput, GalleryJob, Measured, Plate, run_steps};
+use super::{Claim, Figure, FigureOutput, GalleryJob, Measured, Plate, Verdict, han, run_steps, views};
+use crate::analyse::network::{NetworkInput, measure};
 use crate::domain::Domain;
 use crate::error::Error;
-use crate::grid::Size;
+use crate::grid::{Field, Size};
 use crate::landscape::Landscape;
-use crate::picture::{Picture, Relief};
 
 pub(super) const FIGURE: Figure = Figure {
     id: "start",
     title: "Start terrain",
     source: "Han 2015, doi 10.7583/JKGS.2015.15.6.171, Fig. 3; Fournier, Fussell and Carpenter 1982, doi 10.1145/358523.358553",
     shows: "A height field by the diamond-square method: rough at all scales, without valleys that connect.",
+    seconds: 2,
     make,
 };
 
-/// Seed of the start terrain in all erosion figures.
-const SEED: u64 = 3;
+/// Seed of the ground in figures that show a single one.
+pub(super) const SEED: u64 = 3;
 
 /// Fractal ground of `side` cells with a relief of a fifth of that, cells of size 1.
-pub(super) fn start_terrain(side: usize) -> Result<Landscape, Error> {
+pub(super) fn start_terrain(side: usize, seed: u64) -> Result<Landscape, Error> {
     let mut landscape = Landscape::new(Domain::new(Size::square(side)?, 1.0));
     let keys = format!("relief = {:?}\nroughness = 0.9", side as f64 / 256.0 * 50.0);
-    run_steps(&mut landscape, SEED, &[("diamond-square", &keys)])?;
+    run_steps(&mut landscape, seed, &[("diamond-square", &keys)])?;
     Ok(landscape)
 }
 
 fn make(job: GalleryJob) -> Result<FigureOutput, Error> {
     let side = job.choose(256, 32);
-    let landscape = start_terrain(side)?;
+    let landscape = start_terrain(side, SEED)?;
     let (low, high) = landscape.field("height")?.range(None).unwrap_or((0.0, 0.0));
-    let image = Relief { width: Some(768), contours: Some(0.0), ..Relief::default() }.render(&landscape)?;
+    let image = views::bare(&landscape, 768)?;
+    let caption = format!("{side} × {side} cells, roughness 0.9");
     Ok(FigureOutput {
-        plates: vec![Plate {
-            name: "relief",
-            caption: format!("{side} × {side} cells, roughness 0.9"),
-            image,
-        }],
+        plates: vec![Plate { name: "relief", caption, image }],
         measured: Measured {
             remarks: vec![format!("Heights from {low:.1} to {high:.1} cells.")],
             ..Measured::default()
         },
+        claims: vec![without_valleys(job, &landscape)?],
     })
+}
+
+fn without_valleys(job: GalleryJob, landscape: &Landscape) -> Result<Claim, Error> {
+    let size = landscape.domain.size;
+    let dry = Field::filled(size, 0.0);
+    let still = measure(&NetworkInput {
+        ground: landscape.field("height")?,
+        before: None,
+        depth: &dry,
+        mean_flux_x: &dry,
+        mean_flux_y: &dry,
+        mean_rain: 1.0,
+        cell: 1.0,
+        land: None,
+    });
+    let eroded = &han::run_all(&[han::Run::new(job, "erosion", "")])?[0].measures;
+    Ok(Claim::new(
+        "Fractal ground has no valleys that connect; erosion makes them",
+        Verdict::of(eroded.reach > 3.0 * still.reach),
+        format!(
+            "the longest connected valley measures {:.2} of the side, after erosion {:.2}; the ground has {} pits",
+            still.reach, eroded.reach, still.pits
+        ),
+    ))
 }

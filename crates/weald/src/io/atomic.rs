@@ -33,6 +33,19 @@ pub fn write_whole_with(
     })
 }
 
+/// Has another program write a file: it gets the temporary name.
+///
+/// # Errors
+/// As [`write_whole`], and those of `write`.
+pub fn write_through(path: &Path, write: impl FnOnce(&Path) -> Result<(), Error>) -> Result<(), Error> {
+    let temporary = temporary_name(path);
+    let renamed = || std::fs::rename(&temporary, path).map_err(|cause| Error::write(path, &cause));
+    write(&temporary).and_then(|()| renamed()).inspect_err(|_| {
+        // The write has failed already; that there may be no leftover to remove adds nothing.
+        let _ = std::fs::remove_file(&temporary);
+    })
+}
+
 /// Writes all files of a raster or an export: none of them has its name before all of them are whole. Parts
 /// in a folder replace an older folder of that name.
 ///

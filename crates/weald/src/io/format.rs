@@ -1,7 +1,7 @@
 //! What a raster format is: how it is read and written, and what it can hold.
 
 use super::parts::{Part, Parts};
-use super::{Fault, Limits, Raster, cf};
+use super::{Fault, Limits, Raster, asc, cf};
 use crate::error::Error;
 
 /// Turns the bytes of a file into a raster.
@@ -60,6 +60,8 @@ pub enum Knowledge {
     Place,
     /// A CRS without an EPSG code that has a definition.
     UncodedCrs,
+    /// A CRS that has no spelling in a `.prj` file.
+    UnspelledCrs,
     /// Where the values came from.
     Provenance,
 }
@@ -96,6 +98,7 @@ impl Knowledge {
             Self::Cell => raster.cell.is_some(),
             Self::Place => raster.georeference.is_some(),
             Self::UncodedCrs => raster.georeference.as_ref().is_some_and(|place| !cf::is_told_to_all(place)),
+            Self::UnspelledCrs => raster.georeference.as_ref().is_some_and(|place| !asc::is_spelled(place)),
             Self::Provenance => raster.provenance.is_some(),
         }
     }
@@ -106,6 +109,9 @@ impl Knowledge {
             Self::Cell => "the side of a cell is left out",
             Self::Place => "the place on Earth is left out; .tif holds it",
             Self::UncodedCrs => cf::UNTOLD,
+            Self::UnspelledCrs => {
+                "the CRS is left out, so corner and cells are numbers without a unit; .tif holds it"
+            }
             Self::Provenance => "unit, seed and the hash of the recipe are left out; report.json has them",
         }
     }

@@ -35,9 +35,10 @@ impl Limits {
         Ok(size)
     }
 
-    /// Longest file that is read: eight bytes a cell, and 64 MiB for all else in the file.
+    /// Longest file that is read: sixteen bytes a cell, which is a number in digits with its space, and 64 MiB
+    /// for all else in the file.
     pub(super) fn file_bytes(self) -> u64 {
-        self.cells as u64 * 8 + (64 << 20)
+        self.cells as u64 * 16 + (64 << 20)
     }
 }
 

@@ -4,8 +4,10 @@
 //! header against its [`Limits`] before it allocates; every writer writes under a temporary name and renames
 //! the whole file.
 
+pub mod asc;
 mod atomic;
 pub(crate) mod cf;
+pub mod exr;
 mod fault;
 mod format;
 pub mod geotiff;
@@ -18,10 +20,11 @@ mod parts;
 pub mod png16;
 mod provenance;
 mod raster;
+pub mod raw;
 mod square;
 pub mod zarr;
 
-pub use atomic::{write_parts, write_whole, write_whole_with};
+pub use atomic::{write_parts, write_through, write_whole, write_whole_with};
 pub use fault::Fault;
 pub use format::{Decode, DecodeFile, Encode, Format, Holds, Knowledge, Preset, Values};
 pub use info::{Info, describe};
@@ -43,6 +46,10 @@ use crate::error::Error;
 pub const FORMATS: &[Format] = &[
     geotiff::FORMAT,
     png16::FORMAT,
+    exr::FORMAT,
+    raw::FORMAT_16,
+    raw::FORMAT_32,
+    asc::FORMAT,
     npy::FORMAT,
     netcdf::FORMAT,
     zarr::FORMAT,

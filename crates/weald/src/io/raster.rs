@@ -6,6 +6,9 @@ use crate::grid::{Field, Mask, Size};
 
 use super::{Fault, Provenance};
 
+/// Numbers that may stand for no-data, in the order in which they are tried before NaN.
+const NO_DATA: [f32; 2] = [-9999.0, -99999.0];
+
 /// A grid of numbers with all that a file can say about it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Raster {
@@ -72,6 +75,12 @@ impl Raster {
     /// Least and greatest value over the cells with data; both 0 where none has.
     pub(super) fn range(&self) -> (f32, f32) {
         self.field.range(self.land.as_ref()).unwrap_or_default()
+    }
+
+    /// A number that no cell with data holds, for no-data cells; NaN where the usual ones are within the range.
+    pub(super) fn number_for_no_data(&self) -> f32 {
+        let (low, high) = self.range();
+        NO_DATA.into_iter().find(|number| !(low..=high).contains(number)).unwrap_or(f32::NAN)
     }
 
     /// Whether the values can go into a file of finite numbers.

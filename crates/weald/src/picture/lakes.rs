@@ -32,16 +32,7 @@ pub(super) struct Lakes {
 impl Lakes {
     /// The lakes in a layer of water depths in metres; `None` where there are none.
     pub(super) fn of(water: &Field, domain: &Domain, sheet: &Sheet) -> Option<Self> {
-        let shallowest = (SHALLOWEST * domain.cell) as f32;
-        let relative = |(cell, &depth): (usize, &f32)| {
-            let land = domain.land.as_ref().is_none_or(|land| land.is_land_at(cell));
-            if land && depth.is_finite() { depth.max(0.0) / shallowest } else { 0.0 }
-        };
-        let mut depth =
-            Field::from_values(water.size(), water.values().iter().enumerate().map(relative).collect());
-        if !drop_puddles(&mut depth) {
-            return None;
-        }
+        let depth = depths(water, domain)?;
         let level =
             Field::from_values(depth.size(), depth.values().iter().map(|depth| depth.min(2.0)).collect());
         Some(Self {
@@ -61,6 +52,18 @@ impl Lakes {
         let shore = 1.0 - ramp(pixels_inside, 0.4 * line, 1.6 * line);
         (mix(self.ramp.at(share), self.shore, 0.8 * shore), cover)
     }
+}
+
+/// Depths in shallowest depths: 1 and more in lakes, less outside; `None` where there are no lakes.
+pub(super) fn depths(water: &Field, domain: &Domain) -> Option<Field> {
+    let shallowest = (SHALLOWEST * domain.cell) as f32;
+    let relative = |(cell, &depth): (usize, &f32)| {
+        let land = domain.land.as_ref().is_none_or(|land| land.is_land_at(cell));
+        if land && depth.is_finite() { depth.max(0.0) / shallowest } else { 0.0 }
+    };
+    let mut depth =
+        Field::from_values(water.size(), water.values().iter().enumerate().map(relative).collect());
+    drop_puddles(&mut depth).then_some(depth)
 }
 
 /// A value and its steepest rise in one pixel.

@@ -1,11 +1,13 @@
 //! Pictures of a landscape, one file a kind; [`PICTURES`] is the registry.
 
+mod albedo;
 mod automatic;
 mod colour;
 mod contours;
 mod cut;
 mod digits;
 mod drainage;
+mod font;
 mod ground;
 mod image;
 mod lakes;
@@ -22,7 +24,10 @@ mod sheet;
 mod spline;
 mod strokes;
 mod texture;
+mod view;
 
+pub(crate) use albedo::tinted;
+pub(crate) use colour::linear_of_srgb;
 pub use colour::{Linear, Oklab, encode, linear_of_hex};
 pub use image::Image;
 pub use map::Map;
@@ -30,6 +35,8 @@ pub use materials::Materials;
 pub use ramp::{Ramp, Scale, Tint};
 pub use relief::Relief;
 pub use section::{Along, Section};
+pub(crate) use view::albedo;
+pub use view::{Cover, View};
 
 use std::fmt::Debug;
 
@@ -49,6 +56,13 @@ pub trait Picture: Debug + Send + Sync {
     /// Names of the layers it draws where they exist.
     fn optional(&self) -> Vec<String> {
         Vec::new()
+    }
+
+    /// The same picture from a camera that has gone a share of a turn around the landscape, 0 to 1, clockwise
+    /// from above; `None` for a picture without a camera.
+    fn turned(&self, share: f64) -> Option<Box<dyn Picture>> {
+        let _ = share;
+        None
     }
 
     /// Draws a landscape that has all the layers in [`Picture::reads`].
@@ -103,6 +117,11 @@ pub const PICTURES: &[PictureEntry] = &[
         "section",
         "the ground cut open along a row or a column, with its layers and the water on it",
         "Weald",
+    ),
+    PictureEntry::of::<View>(
+        "view",
+        "a perspective view with sun, sky, haze and water",
+        "Tevs 2008 (rays), Hillaire 2020 (sky), Max 1988 (horizons), Koschmieder 1924 (haze)",
     ),
     PictureEntry::of::<Map>("map", "one layer in an even colour ramp, linear or logarithmic", "Weald"),
 ];

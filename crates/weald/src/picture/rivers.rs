@@ -26,10 +26,37 @@ const GROWTH: f32 = 0.45;
 
 /// Draws the rivers of a landscape; `None` where nothing flows.
 pub(super) fn draw(flux: [&Field; 2], domain: &Domain, sheet: &Sheet) -> Option<Strokes> {
+    strokes(flux, domain, [sheet.width, sheet.height], |reach| Point {
+        x: reach.x * sheet.across() as f32,
+        y: reach.y * sheet.down() as f32,
+        width: sheet.line() * (FINEST + GROWTH * reach.doublings),
+        opacity: (0.65 + 0.12 * reach.doublings).min(1.0),
+    })
+}
+
+/// A cell of a river.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Reach {
+    /// Cells from the western and the northern edge to its middle.
+    pub(super) x: f32,
+    pub(super) y: f32,
+    /// Cells that it drains.
+    pub(super) area: f32,
+    /// How often the area has doubled since the river began.
+    pub(super) doublings: f32,
+}
+
+/// Draws the rivers on a canvas of so many pixels, each reach as `point` says; `None` where nothing flows.
+pub(super) fn strokes(
+    flux: [&Field; 2],
+    domain: &Domain,
+    [width, height]: [usize; 2],
+    point: impl Fn(Reach) -> Point,
+) -> Option<Strokes> {
     let channels = Channels::of(Drainage::of(flux, domain), domain.size)?;
-    let mut strokes = Strokes::new(sheet.width, sheet.height);
+    let mut strokes = Strokes::new(width, height);
     for stream in Forest::of(&channels).streams() {
-        let points: Vec<_> = stream.iter().map(|&cell| channels.point(cell, sheet)).collect();
+        let points: Vec<_> = stream.iter().map(|&cell| point(channels.reach(cell))).collect();
         strokes.draw(&points);
     }
     Some(strokes)
@@ -54,13 +81,13 @@ impl Channels {
         self.drainage.area[cell] >= self.least_area && self.drainage.discharge[cell] >= self.least_discharge
     }
 
-    fn point(&self, cell: usize, sheet: &Sheet) -> Point {
-        let doublings = libm::log2f(self.drainage.area[cell] / self.least_area).max(0.0);
-        Point {
-            x: ((cell % self.size.columns) as f64 + 0.5) as f32 * sheet.across() as f32,
-            y: ((cell / self.size.columns) as f64 + 0.5) as f32 * sheet.down() as f32,
-            width: sheet.line() * (FINEST + GROWTH * doublings),
-            opacity: (0.65 + 0.12 * doublings).min(1.0),
+    fn reach(&self, cell: usize) -> Reach {
+        let area = self.drainage.area[cell];
+        Reach {
+            x: ((cell % self.size.columns) as f64 + 0.5) as f32,
+            y: ((cell / self.size.columns) as f64 + 0.5) as f32,
+            area,
+            doublings: libm::log2f(area / self.least_area).max(0.0),
         }
     }
 }

@@ -49,6 +49,11 @@ impl Strokes {
         smooth.windows(2).for_each(|pair| self.segment(pair[0], pair[1]));
     }
 
+    /// Draws a line straight from point to point.
+    pub(super) fn draw_straight(&mut self, points: &[Point]) {
+        points.windows(2).for_each(|pair| self.segment(pair[0], pair[1]));
+    }
+
     fn segment(&mut self, from: Point, to: Point) {
         let reach = from.width.max(to.width) * 0.5 + 1.0;
         let height = self.cover.len() / self.width;

@@ -28,7 +28,7 @@ pub(super) fn texture(height: &Field) -> Field {
         if 4 * gap >= size.columns.min(size.rows) {
             break;
         }
-        let coarser = smooth_columns(&smooth_rows(&coarse, gap), gap);
+        let coarser = smoothed(&coarse, gap);
         let weight = libm::exp2(-FLATTENING * f64::from(octave)) as f32;
         for ((sum, fine), smooth) in sum.values_mut().iter_mut().zip(coarse.values()).zip(coarser.values()) {
             *sum += weight * (fine - smooth);
@@ -36,6 +36,11 @@ pub(super) fn texture(height: &Field) -> Field {
         coarse = coarser;
     }
     sum
+}
+
+/// One step of the transform: the field smoothed by five taps along each axis, `gap` cells apart.
+pub(super) fn smoothed(field: &Field, gap: usize) -> Field {
+    smooth_columns(&smooth_rows(field, gap), gap)
 }
 
 const KERNEL: [f32; 5] = [1.0 / 16.0, 4.0 / 16.0, 6.0 / 16.0, 4.0 / 16.0, 1.0 / 16.0];
@@ -47,7 +52,7 @@ fn reflect(position: isize, count: usize) -> (usize, Option<usize>) {
     if border == position {
         return (position as usize, None);
     }
-    ((2 * border - position) as usize, Some(border as usize))
+    ((2 * border - position).clamp(0, last) as usize, Some(border as usize))
 }
 
 fn smooth_rows(field: &Field, gap: usize) -> Field {

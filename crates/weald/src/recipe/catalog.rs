@@ -2,7 +2,7 @@
 
 use super::load;
 use crate::step::Entry;
-use crate::{combine, erode, generate};
+use crate::{analyse, combine, erode, generate};
 
 /// All steps, in the order of `weald steps`.
 #[rustfmt::skip] // one entry a line, so that branches that add some do not meet
@@ -33,6 +33,20 @@ pub const CATALOG: &[Entry] = &[
     erode::transport_step::ENTRY,
     erode::slippage_step::ENTRY,
     erode::dissolution_step::ENTRY,
+    analyse::slope::ENTRY,
+    analyse::aspect::ENTRY,
+    analyse::curvature::ENTRY,
+    analyse::sunlight::ENTRY,
+    analyse::occlusion::ENTRY,
+    analyse::soil::ENTRY,
+    analyse::select::ENTRY,
+    analyse::network_step::ENTRY,
+    analyse::flow::ENTRY,
+    analyse::rivers::ENTRY,
+    analyse::lakes::ENTRY,
+    analyse::watersheds::ENTRY,
+    analyse::wetness::ENTRY,
+    analyse::moisture::ENTRY,
 ];
 
 /// The step of that name.

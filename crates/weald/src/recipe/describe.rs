@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use super::catalog::CATALOG;
 use super::parameter::{Kind, Parameter, Parameters};
-use super::plan::{LandscapeKeys, MaterialKeys};
+use super::plan::{FilmKeys, LandscapeKeys, MaterialKeys};
 use crate::export::EXPORTS;
 use crate::picture::PICTURES;
 use crate::step::{Entry, Stage};
@@ -33,12 +33,18 @@ const TABLES: &[LandscapeTable] = &[
         summary: "what the ground is made of: a table a material, bedrock first, 8 at most",
         parameters: MaterialKeys::parameters,
     },
+    LandscapeTable {
+        name: "film",
+        header: "[[output]] picture = …",
+        summary: "keys that make a film of a picture: numbered .png, and a video where `file` is a .mp4 or .webm",
+        parameters: FilmKeys::parameters,
+    },
 ];
 
 /// All tables, steps, pictures and exports, a line each.
 pub fn overview() -> String {
     let mut text = String::new();
-    list(&mut text, "tables of the landscape", TABLES.iter().map(|table| (table.name, table.summary)));
+    list(&mut text, "tables", TABLES.iter().map(|table| (table.name, table.summary)));
     for stage in Stage::ALL {
         let entries = CATALOG.iter().filter(|entry| entry.stage == stage);
         list(&mut text, stage.title(), entries.map(|entry| (entry.name, entry.summary)));
@@ -57,20 +63,21 @@ fn list(text: &mut String, title: &str, items: impl Iterator<Item = (&'static st
     text.push('\n');
 }
 
-/// One table, step, picture or export with all its parameters; an error names what was probably meant.
+/// The steps, pictures, exports and tables of that name with all their parameters; an error names what was probably
+/// meant.
 pub fn step(name: &str) -> Result<String, String> {
-    if let Some(entry) = CATALOG.iter().find(|entry| entry.name == name) {
-        return Ok(of_entry(entry));
-    }
-    if let Some(entry) = PICTURES.iter().find(|entry| entry.name == name) {
-        return Ok(of(&format!("picture = \"{name}\""), entry.summary, None, &(entry.parameters)()));
-    }
-    if let Some(entry) = EXPORTS.iter().find(|entry| entry.name == name) {
-        let key = format!("export = \"{name}\"");
-        return Ok(of(&key, entry.summary, Some(entry.source), &(entry.parameters)()));
-    }
-    if let Some(table) = TABLES.iter().find(|table| table.name == name) {
-        return Ok(of(table.header, table.summary, None, &(table.parameters)()));
+    let steps = CATALOG.iter().filter(|entry| entry.name == name).map(of_entry);
+    let pictures = PICTURES.iter().filter(|entry| entry.name == name);
+    let pictures = pictures
+        .map(|entry| of(&format!("picture = \"{name}\""), entry.summary, None, &(entry.parameters)()));
+    let exports = EXPORTS.iter().filter(|entry| entry.name == name).map(|entry| {
+        of(&format!("export = \"{name}\""), entry.summary, Some(entry.source), &(entry.parameters)())
+    });
+    let tables = TABLES.iter().filter(|table| table.name == name);
+    let tables = tables.map(|table| of(table.header, table.summary, None, &(table.parameters)()));
+    let found: Vec<_> = steps.chain(pictures).chain(exports).chain(tables).collect();
+    if !found.is_empty() {
+        return Ok(found.join("\n"));
     }
     let tables = TABLES.iter().map(|table| table.name);
     let steps = CATALOG.iter().map(|entry| entry.name);
@@ -140,6 +147,12 @@ mod tests {
         let text = wrapped(&"word ".repeat(50), 4);
         assert!(text.lines().count() > 1);
         assert!(text.lines().all(|line| line.starts_with("    word") && line.len() <= WIDTH), "{text}");
+    }
+
+    #[test]
+    fn a_step_and_an_export_of_one_name_are_both_shown() {
+        let text = step("rivers").expect("both are there");
+        assert!(text.starts_with("do = \"rivers\"") && text.contains("\n\nexport = \"rivers\""), "{text}");
     }
 
     #[test]

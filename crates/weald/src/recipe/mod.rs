@@ -25,7 +25,8 @@ mod testing;
 pub use checkpoint::CHECKPOINT_FILE;
 pub use overrides::Overrides;
 pub use plan::{
-    BuiltIn, Content, Ground, LandscapeKeys, MaterialKeys, Output, Planned, PlannedMaterial, Recipe,
+    BuiltIn, Content, Film, FilmKeys, Ground, LandscapeKeys, MaterialKeys, Motion, Output, Planned,
+    PlannedMaterial, Recipe,
 };
 pub use report::{BudgetReport, OutputReport, REPORT_FILE, Report, SolidReport, StepReport, WaterReport};
 pub use run::{Options, Progress, Run, Silent};

@@ -170,6 +170,11 @@ pub trait ParameterValue: Sized + Clone {
     }
 }
 
+/// The key of a field: its name, without the mark of those that are words of Rust, as in `r#where`.
+pub fn key(field: &'static str) -> &'static str {
+    field.strip_prefix("r#").unwrap_or(field)
+}
+
 /// Reads one key of a table, or takes its default.
 pub fn read_key<T: ParameterValue>(
     table: &Table,
@@ -214,7 +219,7 @@ macro_rules! parameters {
                 vec![$( {
                     let default: $Type = $default;
                     $crate::recipe::parameter::Parameter {
-                        name: stringify!($name),
+                        name: $crate::recipe::parameter::key(stringify!($name)),
                         doc: concat!($($doc, "\n",)+).trim_ascii(),
                         unit: $crate::parameters!(@unit $($unit)?),
                         kind: <$Type as ParameterValue>::kind($crate::parameters!(@range $($low, $high)?)),
@@ -228,9 +233,10 @@ macro_rules! parameters {
                 table: &$crate::recipe::source::Table,
                 complaints: &mut $crate::recipe::parameter::Complaints,
             ) -> Self {
-                complaints.unknown_keys(table, &[$(stringify!($name)),*]);
-                Self { $( $name: $crate::recipe::parameter::read_key(
-                    table, stringify!($name), $default, $crate::parameters!(@range $($low, $high)?), complaints,
+                use $crate::recipe::parameter::{key, read_key};
+                complaints.unknown_keys(table, &[$(key(stringify!($name))),*]);
+                Self { $( $name: read_key(
+                    table, key(stringify!($name)), $default, $crate::parameters!(@range $($low, $high)?), complaints,
                 ), )* }
             }
         }

@@ -1,6 +1,7 @@
 //! The checked recipe. Nothing runs before the whole of it has been checked, and one look shows all faults.
 
 mod files;
+mod films;
 mod landscape;
 mod layers;
 mod materials;
@@ -13,6 +14,7 @@ use std::fs::File;
 use std::io::{ErrorKind, Read};
 use std::path::{Path, PathBuf};
 
+pub use films::{Film, FilmKeys, Motion};
 pub use landscape::{Ground, LandscapeKeys};
 pub use materials::{BuiltIn, MaterialKeys, PlannedMaterial};
 pub use outputs::{Content, Output};
@@ -26,7 +28,7 @@ use super::parameter::Complaints;
 use super::source::{self, Node, Table, Value};
 use super::{canonical, parameter};
 use crate::error::{Complaint, Error, RecipeError};
-use crate::export::{EXPORTS, ExportEntry};
+use crate::export::{EXPORTS, ExportEntry, report};
 use crate::io::{self, Format};
 use crate::picture::{PICTURES, PictureEntry};
 use crate::step::Entry;
@@ -103,6 +105,38 @@ impl Recipe {
     /// The recipe in its canonical spelling, after overrides: a recipe that gives the same run.
     pub fn effective(&self) -> &str {
         &self.text
+    }
+
+    /// The recipe with one output alone: a page about the run, with the keys of the recipe's own page if it has one.
+    /// The hash stays that of the recipe as written.
+    ///
+    /// # Errors
+    /// [`Error::Recipe`] where nothing makes the layer `height`, which a page needs that no recipe describes.
+    pub fn for_page(mut self, file: &Path) -> Result<Self, Error> {
+        let is_page = |output: &Output| matches!(output.content, Content::Export { name, .. } if name == report::ENTRY.name);
+        let mut outputs = std::mem::take(&mut self.outputs);
+        let own = outputs.iter().position(is_page).map(|at| outputs.swap_remove(at));
+        let page = own.map_or_else(|| self.usual_page(), Ok)?;
+        self.outputs = vec![Output { file: file.to_owned(), ..page }];
+        Ok(self)
+    }
+
+    fn usual_page(&self) -> Result<Output, Error> {
+        let page = report::Page::default();
+        let name = &page.of.0;
+        let written = self.steps.iter().flat_map(|planned| planned.step.writes());
+        let is_there = matches!(self.ground, Ground::File { .. })
+            || written.into_iter().any(|(layer, _)| layer == *name);
+        if !is_there {
+            let message = format!(
+                "a page needs layer `{name}`, which no step writes; an [[output]] with export = \"report\" can say `of` \
+                 which layer of heights it is"
+            );
+            let complaints = vec![Complaint { line: 1, message }];
+            return Err(RecipeError { file: self.file.clone(), complaints }.into());
+        }
+        let content = Content::Export { name: report::ENTRY.name, export: Box::new(page) };
+        Ok(Output { line: 0, file: PathBuf::new(), content })
     }
 
     /// BLAKE3 hash of [`Recipe::effective`], in hexadecimal.

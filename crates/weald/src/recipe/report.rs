@@ -69,6 +69,9 @@ pub struct OutputReport {
     /// The kind of export, if it is one.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub export: Option<String>,
+    /// Pictures of a film, numbered from 0.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub frames: Option<u64>,
     /// Files beside it that belong to it.
     #[serde(skip_serializing_if = "Vec::is_empty", default)]
     pub companions: Vec<String>,

@@ -1,6 +1,7 @@
 //! Runs a checked recipe: ground, steps, files, report.
 
 mod desk;
+mod film;
 mod folder;
 mod inputs;
 #[cfg(test)]
@@ -12,7 +13,7 @@ use std::time::{Duration, Instant};
 
 use super::checkpoint::{self, CHECKPOINT_FILE, State};
 use super::ground;
-use super::plan::{Planned, Recipe};
+use super::plan::{Output, Planned, Recipe};
 use super::report::{OutputReport, REPORT_FILE, Report, StepReport};
 use crate::engine::{Engine, Job};
 use crate::error::Error;
@@ -36,13 +37,22 @@ pub struct Options {
     pub checkpoint_every: Duration,
     /// Whether to go on from the checkpoint in the folder.
     pub resume: bool,
+    /// Whether `report.json` is written beside the outputs.
+    pub report: bool,
 }
 
 impl Options {
     /// On all cores into a folder, with a checkpoint every minute.
     pub fn into_folder(out: impl Into<PathBuf>) -> Self {
         let checkpoint_every = Duration::from_mins(1);
-        Self { out: out.into(), engine: Engine::Cpu, threads: None, checkpoint_every, resume: false }
+        Self {
+            out: out.into(),
+            engine: Engine::Cpu,
+            threads: None,
+            checkpoint_every,
+            resume: false,
+            report: true,
+        }
     }
 }
 
@@ -106,7 +116,7 @@ pub struct Run<'a> {
 }
 
 impl Run<'_> {
-    /// Runs the recipe and writes its files, the report last.
+    /// Runs the recipe and writes its files, the report last if it is wanted.
     ///
     /// # Errors
     /// [`Error::Input`] for a damaged elevation model or checkpoint, [`Error::Run`] where a step or a file
@@ -151,6 +161,9 @@ impl Run<'_> {
             progress.note(&format!("starting anew; the checkpoint {path} is used with --resume only"));
         }
         inputs::check(self.recipe)?;
+        if self.recipe.outputs.iter().any(Output::is_video) && !film::ffmpeg_is_there() {
+            progress.note(film::NO_FFMPEG);
+        }
         let (landscape, notes) = ground::load(self.recipe)?;
         for note in &notes {
             progress.note(note);
@@ -251,12 +264,19 @@ impl Run<'_> {
             hash,
             seed: self.recipe.seed,
         };
-        let (writer, count) = (Writer { finished }, self.recipe.outputs.len());
+        let next_frame = |frame, frames| {
+            progress.progress(frame, frames, 0);
+            self.stop_if_cancelled(state, progress)
+        };
+        let writer = Writer { finished, recipe: self.recipe, next_frame: &next_frame };
+        let count = self.recipe.outputs.len();
         let mut reports = Vec::with_capacity(count);
         for (index, output) in self.recipe.outputs.iter().enumerate() {
             self.stop_if_cancelled(state, progress)?;
             progress.output(index + 1, count, &output.file);
-            reports.push(writer.write(output, &self.options.out)?);
+            let report = writer.write(output, &self.options.out)?;
+            report.notes.iter().for_each(|note| progress.note(&format!("{}: {note}", report.file)));
+            reports.push(report);
         }
         Ok(reports)
     }
@@ -276,7 +296,9 @@ impl Run<'_> {
             outputs,
             notes,
         };
-        report.write(&self.options.out.join(REPORT_FILE))?;
+        if self.options.report {
+            report.write(&self.options.out.join(REPORT_FILE))?;
+        }
         Ok(report)
     }
 }

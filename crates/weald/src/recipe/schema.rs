@@ -6,7 +6,7 @@ use serde_json::{Map, Value, json};
 
 use super::catalog::CATALOG;
 use super::parameter::{Kind, Parameter, Parameters};
-use super::plan::{LandscapeKeys, MaterialKeys};
+use super::plan::{FilmKeys, LandscapeKeys, MaterialKeys};
 use crate::export::EXPORTS;
 use crate::io::FORMATS;
 use crate::material::MOST;
@@ -20,7 +20,10 @@ pub fn schema() -> Value {
     });
     let pictures = PICTURES.iter().map(|entry| {
         let mut object = alternative("picture", entry.name, entry.summary, &(entry.parameters)());
-        add_property(&mut object, "file", &file(&["png"]));
+        add_property(&mut object, "file", &file(&["png", "mp4", "webm"]));
+        for key in FilmKeys::parameters() {
+            object["properties"][key.name] = property(&key);
+        }
         object
     });
     let exports = EXPORTS.iter().map(|entry| {

@@ -109,6 +109,10 @@ impl Step for Wear {
         vec![(self.on.0.clone(), "m"), ("debris".to_owned(), "m")]
     }
 
+    fn watched(&self) -> u64 {
+        self.iterations
+    }
+
     fn run(&self, landscape: &mut Landscape, job: &Job<'_>) -> Result<Outcome, Error> {
         let size = landscape.domain.size;
         let (mut done, mut heights) = match &job.resume {
@@ -117,6 +121,7 @@ impl Step for Wear {
         };
         let mut saved = SavedSimulation::default();
         while done < self.iterations {
+            Self::look(done, &heights, landscape, job)?;
             saved.iteration = done;
             saved.planes = vec![("height".to_owned(), heights.clone())];
             if job.watcher.cancelled() {
@@ -133,10 +138,22 @@ impl Step for Wear {
             done += 1;
             job.watcher.progress(done, self.iterations, size.cells());
         }
+        Self::look(done, &heights, landscape, job)?;
         let debris = heights.iter().map(|height| 1.0 - height).collect();
         landscape.insert("debris", "m", Field::from_values(size, debris));
         landscape.insert(&self.on.0, "m", Field::from_values(size, heights));
         Ok(Outcome { iterations: done, ..Outcome::default() })
+    }
+}
+
+impl Wear {
+    fn look(done: u64, heights: &[f32], landscape: &Landscape, job: &Job<'_>) -> Result<(), Error> {
+        if job.watcher.next_look(done) != Some(done) {
+            return Ok(());
+        }
+        let mut seen = landscape.clone();
+        seen.insert("height", "m", Field::from_values(seen.domain.size, heights.to_vec()));
+        job.watcher.look(done, &seen)
     }
 }
 
@@ -145,6 +162,8 @@ parameters! {
     pub struct Dot {
         /// Layer that is shown.
         of: LayerName = LayerName::of("height");
+        /// Share of a turn that the camera has gone.
+        share: f64 = 0.0, range 0.0..=1.0;
     }
 }
 
@@ -153,8 +172,13 @@ impl Picture for Dot {
         vec![self.of.0.clone()]
     }
 
-    fn render(&self, _: &Landscape) -> Result<Image, Error> {
-        Ok(Image { width: 1, height: 1, rgb: vec![1, 2, 3] })
+    fn turned(&self, share: f64) -> Option<Box<dyn Picture>> {
+        Some(Box::new(Self { share, ..self.clone() }))
+    }
+
+    fn render(&self, landscape: &Landscape) -> Result<Image, Error> {
+        let height = landscape.field(&self.of.0)?.at(0, 0);
+        Ok(Image { width: 1, height: 1, rgb: vec![1, height as u8, (self.share * 8.0) as u8] })
     }
 }
 

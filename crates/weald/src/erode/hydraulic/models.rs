@@ -77,19 +77,23 @@ impl Hydraulic {
         working: &Working,
     ) -> Result<Outcome, Error> {
         let finished = match self.model {
-            Model::Han => self.simulate(&self.han(filled, working), job, filled, working),
-            Model::Mei => self.simulate(&self.mei(filled, working), job, filled, working),
+            Model::Han => self.simulate(&self.han(filled, working), job, filled, (working, landscape)),
+            Model::Mei => self.simulate(&self.mei(filled, working), job, filled, (working, landscape)),
             Model::Stava => {
                 let script = self.script(&landscape.materials)?;
-                self.simulate(&self.stava(landscape, filled, working, script)?, job, filled, working)
+                let chosen = self.stava(landscape, filled, working, script)?;
+                self.simulate(&chosen, job, filled, (working, landscape))
             }
         }?;
-        let kept = Kept { iterations: u64::from(self.iterations), conserving: self.conserves() };
-        let mut outcome = working.store(landscape, &self.layer.0, &finished, kept);
+        let mut outcome = working.store(landscape, &self.layer.0, &finished, self.kept());
         for (key, springs) in [("sources", &self.sources), ("drains", &self.drains)] {
             outcome.notes.extend(springs::out_of_reach(&landscape.domain, key, springs));
         }
         Ok(outcome)
+    }
+
+    fn kept(&self) -> Kept {
+        Kept { iterations: u64::from(self.iterations), conserving: self.conserves() }
     }
 
     fn simulate<P: Process<Weather = Sky>>(
@@ -97,8 +101,13 @@ impl Hydraulic {
         chosen: &Chosen<P>,
         job: &Job<'_>,
         filled: &Filled,
-        working: &Working,
+        (working, landscape): (&Working, &Landscape),
     ) -> Result<Finished, Error> {
+        let seen = |finished: &Finished| {
+            let mut seen = landscape.clone();
+            working.store(&mut seen, &self.layer.0, finished, self.kept());
+            seen
+        };
         let simulation = Simulation {
             process: &chosen.process,
             plane_names: &chosen.plane_names,
@@ -106,6 +115,7 @@ impl Hydraulic {
             weather: &|step| self.sky(filled, step),
             record: Some(Record { steps: self.last_cycle(filled), means: chosen.means }),
             edits: chosen.edits.as_ref(),
+            seen: Some(&seen),
         };
         simulation.run(chosen.start(working), job)
     }

@@ -17,16 +17,13 @@ use crate::grid::Size;
 /// Side of a tile in cells.
 const TILE: usize = 256;
 
-/// Numbers that may stand for no-data, in the order in which they are tried before NaN.
-const NO_DATA: [f32; 2] = [-9999.0, -99999.0];
-
 /// The bytes of a GeoTIFF file.
 ///
 /// # Errors
 /// [`Error::Run`] naming a cell with data that holds a NaN or an infinity.
 pub fn encode(raster: &Raster) -> Result<Vec<u8>, Error> {
     raster.ensure_finite()?;
-    let no_data = no_data_for(raster);
+    let no_data = raster.number_for_no_data();
     let across = raster.field.size().columns.div_ceil(TILE);
     let down = raster.field.size().rows.div_ceil(TILE);
     let tiles: Vec<Vec<u8>> = (0..across * down)
@@ -34,12 +31,6 @@ pub fn encode(raster: &Raster) -> Result<Vec<u8>, Error> {
         .map(|tile| pack(&tile_rows(raster, tile % across * TILE, tile / across * TILE, no_data)))
         .collect();
     Ok(assemble(tags(raster, no_data), &tiles))
-}
-
-/// A number for no-data that no cell with data holds.
-fn no_data_for(raster: &Raster) -> f32 {
-    let (low, high) = raster.range();
-    NO_DATA.into_iter().find(|number| !(low..=high).contains(number)).unwrap_or(f32::NAN)
 }
 
 /// The bytes of a tile with its predictor applied; beyond the grid it holds no-data.

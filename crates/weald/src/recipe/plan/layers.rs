@@ -25,8 +25,16 @@ pub(super) fn check(made: &Made<'_>, outputs: &[Output], complaints: &mut Compla
         planned.entry.name.clone_into(&mut complaints.subject);
         layers.check_reads(planned, &materials, complaints);
         layers.check_writes(index + 1, planned, &materials, complaints);
+        if planned.step.watched() > 0 {
+            "output".clone_into(&mut complaints.subject);
+            layers.check_lapses(outputs, &planned.title(index + 1), complaints);
+        }
     }
     "output".clone_into(&mut complaints.subject);
+    let simulates = made.steps.iter().any(|planned| planned.step.watched() > 0);
+    for output in outputs.iter().filter(|output| output.lapses() && !simulates) {
+        complaints.add(output.line, "`every` counts the iterations of simulations, and no step simulates");
+    }
     for output in outputs {
         for name in output.reads() {
             if !layers.read(&name) {
@@ -96,13 +104,28 @@ impl Layers {
         if planned.step.layered() == Layered::Changes {
             written.extend(layer_names(materials).map(str::to_owned));
         }
-        let title = format!("step {number} (`{}`, line {})", planned.entry.name, planned.line);
+        let title = planned.title(number);
         for lost in self.write(&title, &written) {
             let message = format!(
                 "overwrites all that {lost} made before any step reads it; remove that one, or write to \
                  another layer"
             );
             complaints.add(planned.line, message);
+        }
+    }
+
+    /// A time-lapse sees the landscape within a step, before later steps have made their layers.
+    fn check_lapses(&mut self, outputs: &[Output], step: &str, complaints: &mut Complaints) {
+        let lapses = outputs.iter().filter(|output| output.lapses());
+        for (output, name) in
+            lapses.flat_map(|output| output.reads().into_iter().map(move |name| (output, name)))
+        {
+            if !self.read(&name) {
+                let file = output.file.display();
+                let message =
+                    format!("{file} shows layer `{name}` during {step}, but no step writes it before");
+                complaints.add(output.line, message);
+            }
         }
     }
 

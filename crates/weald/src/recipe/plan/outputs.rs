@@ -2,6 +2,7 @@
 
 use std::path::{Component, Path, PathBuf};
 
+use super::films::{self, Film, Motion};
 use super::{Vocabulary, hint, tables};
 use crate::export::Export;
 use crate::io::{Encode, Holds};
@@ -40,6 +41,15 @@ pub enum Content {
         /// The picture, ready to be drawn.
         picture: Box<dyn Picture>,
     },
+    /// Pictures in a row.
+    Film {
+        /// Their kind.
+        name: &'static str,
+        /// What each shows.
+        picture: Box<dyn Picture>,
+        /// How it moves.
+        film: Film,
+    },
     /// Files for other programs.
     Export {
         /// Its kind.
@@ -50,11 +60,21 @@ pub enum Content {
 }
 
 impl Output {
+    /// Whether it is a film with a video.
+    pub fn is_video(&self) -> bool {
+        matches!(self.content, Content::Film { .. }) && Film::is_video(&self.file)
+    }
+
+    /// Whether it is a time-lapse of the simulations.
+    pub fn lapses(&self) -> bool {
+        matches!(&self.content, Content::Film { film: Film { motion: Motion::Lapse(_), .. }, .. })
+    }
+
     /// Names of the layers that it needs.
     pub fn reads(&self) -> Vec<String> {
         match &self.content {
             Content::Layer { name, .. } => vec![name.clone()],
-            Content::Picture { picture, .. } => picture.reads(),
+            Content::Picture { picture, .. } | Content::Film { picture, .. } => picture.reads(),
             Content::Export { export, .. } => export.reads(),
         }
     }
@@ -199,9 +219,18 @@ fn picture(
     let known: Vec<_> = vocabulary.pictures.iter().map(|entry| entry.name).collect();
     let name = word("picture", kind, &known, complaints)?;
     let entry = vocabulary.pictures.iter().find(|entry| entry.name == name)?;
-    ensure_extension(table, file, ("picture", &["png"]), complaints);
-    let picture = with_keys(entry.name, "picture", table, complaints, entry.read);
-    Some(Content::Picture { name: entry.name, picture })
+    let mut table = table.clone();
+    entry.name.clone_into(&mut complaints.subject);
+    let film = films::take(&mut table, complaints);
+    let (what, extensions) =
+        if film.is_some() { ("film", films::EXTENSIONS) } else { ("picture", &["png"] as &[_]) };
+    ensure_extension(&table, file, (what, extensions), complaints);
+    let picture = with_keys(entry.name, "picture", &table, complaints, entry.read);
+    let Some(film) = film else { return Some(Content::Picture { name: entry.name, picture }) };
+    if let Some(fault) = films::fault(&film, entry.name, picture.as_ref()) {
+        complaints.add(table.line, fault);
+    }
+    Some(Content::Film { name: entry.name, picture, film })
 }
 
 fn export(

@@ -23,6 +23,11 @@ pub struct Planned {
 }
 
 impl Planned {
+    /// The step in a message; `number` counts from 1.
+    pub(super) fn title(&self, number: usize) -> String {
+        format!("step {number} (`{}`, line {})", self.entry.name, self.line)
+    }
+
     /// The step's own seed. The first step of its kind has the landscape's seed, so that adding another kind
     /// of step does not change what a seed gives.
     pub fn seed(&self, landscape: u64) -> u64 {

@@ -231,3 +231,21 @@ fn outputs_that_cannot_be_written_say_what_there_is() {
     );
     says("file = \"a.bits\"", "`layer`, `picture` or `export` is needed");
 }
+
+#[test]
+fn films_that_cannot_be_made_say_why() {
+    let says = |steps: &str, keys: &str, words: &str| {
+        let text = format!("[landscape]\nsize = 9\n{steps}[[output]]\npicture = \"dot\"\n{keys}\n");
+        let message = refusal(&text);
+        assert!(message.contains(words), "{keys}: {message}");
+    };
+    let rough = "[[step]]\ndo = \"rough\"\n";
+    let wear = "[[step]]\ndo = \"rough\"\n[[step]]\ndo = \"wear\"\n";
+    says(rough, "file = \"a.mp4\"", "`file` is a.mp4; a picture is a .png");
+    says(wear, "every = 3\nfile = \"a.gif\"", "`file` is a.gif; a film is a .png or .mp4 or .webm");
+    says(rough, "every = 3\nfile = \"a.png\"", "no step simulates");
+    says(wear, "every = 3\nframes = 4\nfile = \"a.png\"", "exclude each other");
+    says(wear, "frames = 1\nfile = \"a.png\"", "`frames` is 1, outside its range: 2 to 9999");
+    says(wear, "frames_per_second = 30\nfile = \"a.png\"", "a still has no speed");
+    says(wear, "every = 3\nof = \"debris2\"\nfile = \"a.png\"", "shows layer `debris2` during step 2");
+}

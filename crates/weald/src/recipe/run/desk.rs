@@ -3,9 +3,11 @@
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
+use super::film::Lapses;
 use super::{Progress, Run};
 use crate::engine::{SavedSimulation, Watcher};
 use crate::error::Error;
+use crate::landscape::Landscape;
 use crate::recipe::checkpoint::{self, State};
 
 /// Says when the next checkpoint is due. It runs on from step to step: a recipe of many short steps is a long
@@ -38,6 +40,7 @@ pub(super) struct Desk<'a> {
     clock: &'a Clock,
     /// The iteration of the last checkpoint.
     kept: Mutex<Option<u64>>,
+    lapses: Lapses<'a>,
 }
 
 impl<'a> Desk<'a> {
@@ -47,7 +50,8 @@ impl<'a> Desk<'a> {
         progress: &'a dyn Progress,
         clock: &'a Clock,
     ) -> Self {
-        Self { run, state, progress, clock, kept: Mutex::new(None) }
+        let lapses = Lapses::during(run.recipe, state.done, &run.options.out);
+        Self { run, state, progress, clock, kept: Mutex::new(None), lapses }
     }
 
     /// The step's place in the recipe, counted from 1.
@@ -85,6 +89,14 @@ impl Watcher for Desk<'_> {
 
     fn checkpoint_due(&self) -> bool {
         self.clock.is_due()
+    }
+
+    fn next_look(&self, done: u64) -> Option<u64> {
+        self.lapses.next(done)
+    }
+
+    fn look(&self, done: u64, landscape: &Landscape) -> Result<(), Error> {
+        self.lapses.draw(done, landscape)
     }
 
     fn checkpoint(&self, simulation: &SavedSimulation) -> Result<(), Error> {

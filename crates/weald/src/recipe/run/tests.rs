@@ -187,7 +187,7 @@ fn cells_without_data_are_written_as_such() {
     landscape.insert("height", "m", Field::from_values(size, vec![5.0, f32::NAN, 7.0]));
     let finished =
         Finished { landscape: &landscape, steps: &[], recipe: &recipe.file, hash: "", seed: recipe.seed };
-    let writer = Writer { finished };
+    let writer = Writer { finished, recipe: &recipe, next_frame: &|_, _| Ok(()) };
     let raster = writer.raster("height").expect("the layer is there");
     assert_eq!(raster.field.values(), [5.0, 0.0, 7.0]);
     assert_eq!(raster.land, land);
@@ -244,4 +244,62 @@ fn a_preset_chooses_how_a_layer_is_written_and_losses_are_reported() {
     assert_eq!(bytes("height.bits"), bytes("once.bits").repeat(2));
     assert!(report.outputs[0].notes.is_empty());
     assert_eq!(report.outputs[1].notes, ["the side of a cell is left out"]);
+}
+
+/// Frame `number` of a film, as the numbers in its one pixel.
+fn frame(folder: &Path, film: &str, number: usize) -> Vec<u8> {
+    let file = std::fs::File::open(folder.join(format!("{film}-{number:05}.png"))).expect("a frame");
+    let mut reader = png::Decoder::new(std::io::BufReader::new(file)).read_info().expect("a PNG");
+    let mut pixel = vec![0; 3];
+    reader.next_frame(&mut pixel).expect("one pixel");
+    pixel
+}
+
+const FILMS: &str = "\
+[landscape]
+size = [9, 7]
+seed = 5
+[[step]]
+do = \"rough\"
+relief = 100.0
+[[step]]
+do = \"wear\"
+iterations = 10
+[[step]]
+do = \"wear\"
+iterations = 7
+[[output]]
+picture = \"dot\"
+every = 3
+file = \"rise.png\"
+[[output]]
+picture = \"dot\"
+frames = 4
+file = \"turn.png\"
+";
+
+#[test]
+fn a_time_lapse_shows_each_moment_once_and_a_turn_goes_once_around() {
+    let folder = folder();
+    let report = run(FILMS, folder.path(), false, &Silent).expect("runs");
+    // 0, 3, 6 and 9 of the first simulation, 3 and 6 of the second.
+    assert_eq!((report.outputs[0].frames, report.outputs[1].frames), (Some(6), Some(4)));
+    let heights: Vec<_> = (0..6).map(|number| frame(folder.path(), "rise", number)[1]).collect();
+    assert!(heights[0] > 10, "{heights:?}");
+    assert!(heights.windows(2).all(|pair| pair[1] < pair[0]), "{heights:?}");
+    assert!(!folder.path().join("rise-00006.png").exists());
+    let shares: Vec<_> = (0..4).map(|number| frame(folder.path(), "turn", number)[2]).collect();
+    assert_eq!(shares, [0, 2, 4, 6]);
+}
+
+#[test]
+fn an_interrupted_time_lapse_goes_on_with_the_same_frames() {
+    let (whole, halves) = (folder(), folder());
+    run(FILMS, whole.path(), false, &Silent).expect("runs");
+    run(FILMS, halves.path(), false, &StopsAfter::new(13)).expect_err("stopped");
+    assert!(halves.path().join("rise-00003.png").exists() && !halves.path().join("rise-00005.png").exists());
+    run(FILMS, halves.path(), true, &Silent).expect("goes on");
+    for number in 0..6 {
+        assert_eq!(frame(halves.path(), "rise", number), frame(whole.path(), "rise", number), "{number}");
+    }
 }

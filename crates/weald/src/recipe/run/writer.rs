@@ -2,17 +2,21 @@
 
 use std::path::Path;
 
+use super::film;
 use crate::error::Error;
 use crate::export::{Export, Finished};
 use crate::grid::Field;
 use crate::io::{Encode, Holds, Part, PartName, Provenance, Raster, write_parts, write_whole};
 use crate::picture::Picture;
-use crate::recipe::plan::{Content, Output};
+use crate::recipe::plan::{Content, Film, Motion, Output, Recipe};
 use crate::recipe::report::OutputReport;
 
 /// Turns a finished landscape into files.
 pub(super) struct Writer<'a> {
     pub(super) finished: Finished<'a>,
+    pub(super) recipe: &'a Recipe,
+    /// Hears how far a film is, and says whether to go on.
+    pub(super) next_frame: &'a dyn Fn(u64, u64) -> Result<(), Error>,
 }
 
 /// What an output is to become.
@@ -27,20 +31,58 @@ impl Writer<'_> {
         let report = match &output.content {
             Content::Picture { name, picture } => self.picture(&target, name, picture.as_ref()),
             Content::Layer { name, encode, holds } => self.layer(&target, name, (*encode, *holds)),
+            Content::Film { name, picture, film } => self.film(&target, name, (picture.as_ref(), film)),
             Content::Export { name, export } => self.export(&target, name, export.as_ref()),
         }?;
         Ok(OutputReport { file: output.file.display().to_string(), ..report })
     }
 
     fn picture(&self, target: &Target<'_>, name: &str, picture: &dyn Picture) -> Result<OutputReport, Error> {
+        self.draw(picture, &target.folder.join(target.file))?;
+        Ok(OutputReport { picture: Some(name.to_owned()), ..OutputReport::default() })
+    }
+
+    fn draw(&self, picture: &dyn Picture, path: &Path) -> Result<(), Error> {
         let text = [
             ("Software".to_owned(), format!("Weald {}", env!("CARGO_PKG_VERSION"))),
             ("WEALD_RECIPE_BLAKE3".to_owned(), self.finished.hash.to_owned()),
             ("WEALD_SEED".to_owned(), self.finished.seed.to_string()),
         ];
-        let image = picture.render(self.finished.landscape)?;
-        write_whole(&target.folder.join(target.file), &image.to_png(&text))?;
-        Ok(OutputReport { picture: Some(name.to_owned()), ..OutputReport::default() })
+        write_whole(path, &picture.render(self.finished.landscape)?.to_png(&text))
+    }
+
+    /// The frames of a time-lapse are there by now; those of a turn are drawn.
+    fn film(
+        &self,
+        target: &Target<'_>,
+        name: &str,
+        (picture, film): (&dyn Picture, &Film),
+    ) -> Result<OutputReport, Error> {
+        let path = target.folder.join(target.file);
+        let frames = match film.motion {
+            Motion::Lapse(every) => film::lapse_frames(self.recipe, every),
+            Motion::Turn(frames) => self.turn(picture, &path, u64::from(frames))?,
+        };
+        let wanted = Film::is_video(target.file);
+        let possible = wanted && film::ffmpeg_is_there();
+        if possible {
+            film::video(&path, film, frames)?;
+        }
+        let notes = if wanted && !possible { vec![film::NO_FFMPEG.to_owned()] } else { Vec::new() };
+        let picture = Some(name.to_owned());
+        Ok(OutputReport { picture, frames: Some(frames), notes, ..OutputReport::default() })
+    }
+
+    fn turn(&self, picture: &dyn Picture, path: &Path, frames: u64) -> Result<u64, Error> {
+        for frame in 0..frames {
+            (self.next_frame)(frame, frames)?;
+            let turned = picture.turned(frame as f64 / frames as f64);
+            self.draw(
+                turned.expect("the plan takes only pictures that turn").as_ref(),
+                &Film::frame(path, frame),
+            )?;
+        }
+        Ok(frames)
     }
 
     fn layer(

@@ -1,0 +1,79 @@
+//! Fills depressions: each cell rises to the least height that its way to an outlet must pass.
+//!
+//! Basins are joined over their passes from the lowest up (Kruskal 1956). When a set of basins is joined with
+//! the outside, water in all of them stands as high as that pass, since all earlier passes were lower.
+
+use rayon::prelude::*;
+
+use super::basins::Basins;
+use super::passes::Passes;
+use super::surface::{ROWS_A_TASK, Surface};
+
+/// Raises the cells of depressions to the height at which they overflow.
+pub(super) fn fill(surface: &mut Surface, basins: &Basins, passes: &Passes) {
+    let spills = spills(basins.count(), passes);
+    let cells = surface.level.par_iter_mut().zip(&basins.labels);
+    cells.with_min_len(ROWS_A_TASK * surface.stride).for_each(|(level, &basin)| {
+        *level = level.max(spills[basin as usize]);
+    });
+}
+
+/// The height at which each basin overflows; basin 0 never fills.
+fn spills(count: usize, passes: &Passes) -> Vec<f32> {
+    let mut spills = vec![f32::NEG_INFINITY; count];
+    let mut sets = Sets::new(count);
+    for pass in &passes.tree {
+        let [a, b] = pass.basins.map(|basin| sets.root(basin));
+        if a != 0 && b != 0 {
+            sets.join(a, b);
+            continue;
+        }
+        let inland = a.max(b);
+        sets.members(inland, |basin| spills[basin as usize] = pass.level);
+        sets.drain(inland);
+    }
+    spills
+}
+
+/// Sets of basins, each a ring of its members.
+struct Sets {
+    parent: Vec<u32>,
+    next: Vec<u32>,
+}
+
+impl Sets {
+    fn new(count: usize) -> Self {
+        let own: Vec<u32> = (0..count as u32).collect();
+        Self { parent: own.clone(), next: own }
+    }
+
+    fn root(&mut self, mut basin: u32) -> u32 {
+        while self.parent[basin as usize] != basin {
+            let above = self.parent[self.parent[basin as usize] as usize];
+            self.parent[basin as usize] = above;
+            basin = above;
+        }
+        basin
+    }
+
+    fn join(&mut self, a: u32, b: u32) {
+        self.parent[a.max(b) as usize] = a.min(b);
+        self.next.swap(a as usize, b as usize);
+    }
+
+    /// Makes a set part of the outside. Its ring is not needed any more.
+    fn drain(&mut self, root: u32) {
+        self.parent[root as usize] = 0;
+    }
+
+    fn members(&self, root: u32, mut each: impl FnMut(u32)) {
+        let mut member = root;
+        loop {
+            each(member);
+            member = self.next[member as usize];
+            if member == root {
+                return;
+            }
+        }
+    }
+}

@@ -1,0 +1,120 @@
+//! Rivers as lines.
+
+use std::path::Path;
+
+use serde_json::{Map, Value, json};
+
+use super::geojson::{Feature, Geometry, rounded, write};
+use super::place::Place;
+use crate::analyse::rivers::{End, Reach, RiverPoint, Rivers, Start};
+use crate::error::Error;
+use crate::export::{Export, Finished};
+use crate::io::Part;
+
+crate::parameters! {
+    /// Rivers as lines, a feature for each reach between confluences.
+    ///
+    /// A point is where the river runs and the height of its water. A feature has its `id`, the Strahler `order`, and
+    /// at its lower end `width` and `depth` in metres, `discharge` in m³/s and `upstream_area` in m²; its `length` in
+    /// metres; where it begins (`start`: "head", "confluence" or "lake") and ends (`end`: "outlet", "lake", "sea" or
+    /// "confluence"), with the numbers of the lakes `from_lake` and `to_lake`; `downstream`, the `id` of the reach that
+    /// carries its water on; and `river`, the same number for all reaches of one river from its head to its mouth, 0
+    /// for the longest.
+    pub struct RiverLines {
+        /// Least Strahler order of the reaches that are written.
+        order: u32 = 1, range 1..=20;
+    }
+}
+
+impl Export for RiverLines {
+    fn reads(&self) -> Vec<String> {
+        let layers = [
+            "river",
+            "river_width",
+            "river_depth",
+            "river_level",
+            "discharge",
+            "strahler",
+            "flow_direction",
+            "accumulation",
+        ];
+        layers.map(str::to_owned).to_vec()
+    }
+
+    fn optional(&self) -> Vec<String> {
+        vec!["lake".to_owned()]
+    }
+
+    fn notes(&self, finished: &Finished<'_>) -> Vec<String> {
+        Place(&finished.landscape.domain).note().into_iter().collect()
+    }
+
+    fn parts(&self, finished: &Finished<'_>, _: &Path) -> Result<Vec<Part>, Error> {
+        let rivers = Rivers::of(finished.landscape)?;
+        let place = Place(&finished.landscape.domain);
+        let stems = stem_of_each(&rivers);
+        let reaches = rivers.reaches.iter().zip(stems).enumerate();
+        let features: Vec<_> = reaches
+            .filter(|(_, (reach, _))| reach.order >= self.order)
+            .map(|(id, (reach, stem))| feature(place, id, reach, stem))
+            .collect();
+        Ok(vec![Part::own(write("rivers", place, &features, finished))])
+    }
+}
+
+/// For each reach the number of the river that it is part of.
+fn stem_of_each(rivers: &Rivers) -> Vec<usize> {
+    let mut stems = vec![0; rivers.reaches.len()];
+    for (number, stem) in rivers.stems().into_iter().enumerate() {
+        stem.into_iter().for_each(|reach| stems[reach] = number);
+    }
+    stems
+}
+
+fn feature(place: Place<'_>, id: usize, reach: &Reach, stem: usize) -> Feature {
+    let position = |point: &RiverPoint| {
+        let [x, y] = place.at([point.x, point.y]);
+        [x, y, point.z]
+    };
+    let geometry = Geometry::Line(reach.points.iter().map(position).collect());
+    let mut properties = properties(id, reach);
+    properties.insert("river".to_owned(), stem.into());
+    Feature { id: id as u64, geometry, properties }
+}
+
+fn properties(id: usize, reach: &Reach) -> Map<String, Value> {
+    let (start, from_lake) = match reach.start {
+        Start::Head => ("head", None),
+        Start::Confluence => ("confluence", None),
+        Start::Lake(lake) => ("lake", Some(lake)),
+    };
+    let (end, to_lake) = match reach.end {
+        End::Outlet => ("outlet", None),
+        End::Sea => ("sea", None),
+        End::Confluence => ("confluence", None),
+        End::Lake(lake) => ("lake", Some(lake)),
+    };
+    let lowest = lowest(reach);
+    let properties = json!({
+        "id": id,
+        "order": reach.order,
+        "length": rounded(reach.length(), 3),
+        "width": rounded(lowest.width, 3),
+        "depth": rounded(lowest.depth, 3),
+        "discharge": rounded(lowest.discharge, 6),
+        "upstream_area": rounded(lowest.area, 3),
+        "start": start,
+        "from_lake": from_lake,
+        "end": end,
+        "to_lake": to_lake,
+        "downstream": reach.downstream,
+    });
+    properties.as_object().cloned().unwrap_or_default()
+}
+
+/// The last point that is the reach's own: where it joins another or a lake, the last of all is in that.
+fn lowest(reach: &Reach) -> RiverPoint {
+    let shared = usize::from(reach.end != End::Outlet);
+    let last = reach.points.len() - 1;
+    reach.points[last.saturating_sub(shared)]
+}

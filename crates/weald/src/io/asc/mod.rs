@@ -1,0 +1,31 @@
+//! ESRI ASCII grid (`.asc`): a header of a few words and numbers, then rows of numbers from north to south.
+//!
+//! Numbers are written with as many digits as bring the same bits back. The CRS stands beside the grid in a
+//! `.prj` file, as ESRI's well-known text, for the systems that [`crs`] can spell. The corner is the
+//! south-western one in the file; where that of the north-west was finer than a `f64` of the other can tell,
+//! it comes back within its last digit.
+
+mod crs;
+mod header;
+mod read;
+mod write;
+
+pub use read::decode;
+pub use write::encode;
+
+pub(super) use crs::is_spelled;
+
+use super::{Decode, Encode, Format, Holds, Knowledge};
+
+/// The entry in the registry of formats.
+pub(super) const FORMAT: Format = Format {
+    name: "ESRI ASCII grid",
+    extensions: &["asc"],
+    decode: Some(Decode::Parts(decode)),
+    encode: Some(Encode::Parts(encode)),
+    holds: Holds { omits: &[Knowledge::UnspelledCrs, Knowledge::Provenance], ..Holds::ALL },
+    presets: &[],
+};
+
+/// What follows the name of the grid in that of the file with its CRS.
+const CRS_FILE: &str = ".prj";

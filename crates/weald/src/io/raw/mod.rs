@@ -1,0 +1,38 @@
+//! Bare numbers (`.raw`, `.r16`, `.r32`) with their description beside them in `NAME.json`, as in
+//! `land.r16.json`: see [`Sidecar`](sidecar::Sidecar).
+//!
+//! `.raw` and `.r16` are 16-bit whole numbers, little-endian, scaled to the range of the layer; where cells
+//! have no data these hold 0 and the lowest value is 1. `.r32` are the 32-bit floats themselves, no-data as
+//! NaN. Rows go from north to south. A square file without a description is read as its raw numbers.
+
+mod read;
+mod sidecar;
+mod write;
+
+pub use read::{decode_16, decode_32};
+pub use write::{encode_16, encode_32};
+
+use super::{Decode, Encode, Format, Holds, Values};
+
+/// The entry of 16-bit files in the registry of formats.
+pub(super) const FORMAT_16: Format = Format {
+    name: "16-bit raw",
+    extensions: &["raw", "r16"],
+    decode: Some(Decode::Parts(decode_16)),
+    encode: Some(Encode::Parts(encode_16)),
+    holds: Holds { values: Values::Steps16, ..Holds::ALL },
+    presets: &[],
+};
+
+/// The entry of 32-bit files in the registry of formats.
+pub(super) const FORMAT_32: Format = Format {
+    name: "32-bit raw",
+    extensions: &["r32"],
+    decode: Some(Decode::Parts(decode_32)),
+    encode: Some(Encode::Parts(encode_32)),
+    holds: Holds::ALL,
+    presets: &[],
+};
+
+/// What follows the whole name of the file in that of its description.
+const SIDECAR: &str = ".json";

@@ -1,0 +1,88 @@
+//! Aerial perspective: what lies far away pales into the colour of the horizon.
+//!
+//! ```text
+//! L = L₀ T + L_h (1 - T)      T = e^(-β d)      β = 3.912 / visibility
+//! ```
+//!
+//! Koschmieder 1924: at the distance `visibility` 2 % of the contrast are left. `L_h` is the radiance of the horizon
+//! in that direction, which is brighter and warmer near the sun. Two fifths of `β` belong to molecules and scatter
+//! blue more than red; the rest belongs to droplets, which are all the same to them. Haze thins with height, by the
+//! factor e every [`SCALE_HEIGHT`] metres, and the sum over a straight ray is taken exactly.
+
+use super::sky::Sky;
+use super::terrain::Ray;
+use super::vector::{Vector, add, filter};
+
+/// `-ln 0.02`: what is left of the contrast at the visibility.
+const CONTRAST: f32 = 3.912;
+
+/// Extinction of red, green and blue, relative to green.
+const TINT: Vector = [0.77, 1.0, 1.58];
+
+/// Height over which the haze thins by the factor e, in metres.
+const SCALE_HEIGHT: f32 = 1800.0;
+
+/// Haze over a landscape.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Haze {
+    /// Extinction of green at the lowest ground, a metre.
+    extinction: f32,
+    scale_height: f32,
+}
+
+impl Haze {
+    /// Haze through which one sees so many metres, over heights that are drawn so many times higher.
+    pub(super) fn new(visibility: f64, exaggeration: f32) -> Self {
+        Self { extinction: CONTRAST / visibility as f32, scale_height: SCALE_HEIGHT * exaggeration }
+    }
+
+    /// The light that arrives at the start of a ray, of `radiance` that starts `way` metres along it.
+    #[inline]
+    pub(super) fn veil(&self, radiance: Vector, ray: &Ray, way: f32, sky: &Sky) -> Vector {
+        let depth = self.extinction * self.column(ray, way);
+        let through = TINT.map(|tint| libm::expf(-tint * depth));
+        let horizon = sky.radiance([ray.direction[0], ray.direction[1], 0.0]);
+        let lost = through.map(|through| 1.0 - through);
+        add(filter(radiance, through), filter(horizon, lost))
+    }
+
+    /// Length of the air at the lowest ground that would veil as much.
+    fn column(&self, ray: &Ray, way: f32) -> f32 {
+        let start = libm::expf(-ray.from[2].max(0.0) / self.scale_height);
+        let climb = ray.direction[2] * way / self.scale_height;
+        // (1 - e^-x) / x, which is 1 - x/2 for level rays.
+        let mean = if climb.abs() < 1e-3 { 1.0 - 0.5 * climb } else { -libm::expm1f(-climb) / climb };
+        start * mean * way
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::vector::towards;
+    use super::*;
+
+    fn level(way: f32, visibility: f64) -> Vector {
+        let ray = Ray { from: [0.0; 3], direction: [0.0, 1.0, 0.0] };
+        Haze::new(visibility, 1.0).veil([0.0; 3], &ray, way, &Sky::new(towards(90.0, 30.0), 0.53))
+    }
+
+    #[test]
+    fn nothing_changes_in_endless_visibility_and_little_is_left_at_the_visibility() {
+        assert_eq!(level(10_000.0, f64::INFINITY), [0.0; 3]);
+        let horizon = Sky::new(towards(90.0, 30.0), 0.53).radiance([0.0, 1.0, 0.0]);
+        let share = level(20_000.0, 20_000.0)[1] / horizon[1];
+        assert!((share - 0.98).abs() < 1e-3, "{share}");
+    }
+
+    #[test]
+    fn a_steep_ray_meets_the_haze_that_many_short_pieces_of_it_meet() {
+        let haze = Haze::new(5000.0, 1.0);
+        let ray = Ray { from: [0.0, 0.0, 4000.0], direction: [0.6, 0.0, -0.8] };
+        let pieces = (0..5000).map(|metre| {
+            let height = 4000.0 - 0.8 * (metre as f32 + 0.5);
+            libm::expf(-height / SCALE_HEIGHT)
+        });
+        let sum: f32 = pieces.sum();
+        assert!((haze.column(&ray, 5000.0) / sum - 1.0).abs() < 1e-3);
+    }
+}

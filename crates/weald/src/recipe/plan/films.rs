@@ -1,0 +1,90 @@
+//! Outputs that move: a picture of every so many iterations of the simulations, or one that turns.
+
+use std::path::{Path, PathBuf};
+
+use crate::picture::Picture;
+use crate::recipe::parameter::{Complaints, Parameters};
+use crate::recipe::source::Table;
+
+crate::parameters! {
+    /// Keys that make a film of a picture.
+    pub struct FilmKeys {
+        /// Iterations of the simulations from one frame to the next.
+        every: Option<u64> = None, range 1..=1_000_000_000;
+        /// Frames of a whole turn around the landscape, for a picture that has a camera.
+        frames: Option<u32> = None, range 2..=9999;
+        /// Frames that a video shows in a second.
+        frames_per_second: Option<f64> = None, range 1.0..=240.0, unit "1/s";
+    }
+}
+
+/// Frames a second of a video, where the recipe says nothing.
+const USUAL_RATE: f64 = 24.0;
+
+/// Extensions of a film: numbered pictures alone, or pictures and a video.
+pub(super) const EXTENSIONS: &[&str] = &["png", "mp4", "webm"];
+
+/// How a picture moves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Motion {
+    /// A frame every so many iterations of the simulations.
+    Lapse(u64),
+    /// So many frames once around.
+    Turn(u32),
+}
+
+/// A film as a recipe asks for it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Film {
+    /// What changes from frame to frame.
+    pub motion: Motion,
+    /// Frames a second of the video.
+    pub frames_per_second: f64,
+}
+
+impl Film {
+    /// Name of a frame, counted from 0: `rise.mp4` has `rise-00000.png` and so on.
+    pub fn frame(file: &Path, number: u64) -> PathBuf {
+        let stem = file.file_stem().unwrap_or_default().to_string_lossy();
+        file.with_file_name(format!("{stem}-{number:05}.png"))
+    }
+
+    /// Whether a video is made of the frames.
+    pub fn is_video(file: &Path) -> bool {
+        !file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("png"))
+    }
+}
+
+/// Takes the keys of a film out of the table of a picture; `None` where it is a still.
+pub(super) fn take(table: &mut Table, complaints: &mut Complaints) -> Option<Film> {
+    let mut own = Table { line: table.line, ..Table::default() };
+    for parameter in FilmKeys::parameters() {
+        if let Some(node) = table.take(parameter.name) {
+            own.set(parameter.name, node);
+        }
+    }
+    let keys = FilmKeys::read(&own, complaints);
+    let motion = match (keys.every, keys.frames) {
+        (Some(every), None) => Motion::Lapse(every),
+        (None, Some(frames)) => Motion::Turn(frames),
+        (Some(_), Some(_)) => {
+            let message = "`every` and `frames` exclude each other: a film lapses or turns";
+            complaints.add(table.line, message);
+            return None;
+        }
+        (None, None) => {
+            if keys.frames_per_second.is_some() {
+                let message = "`frames_per_second` needs `every` or `frames`: a still has no speed";
+                complaints.add(table.line, message);
+            }
+            return None;
+        }
+    };
+    Some(Film { motion, frames_per_second: keys.frames_per_second.unwrap_or(USUAL_RATE) })
+}
+
+/// What stands against the film of a picture.
+pub(super) fn fault(film: &Film, name: &str, picture: &dyn Picture) -> Option<String> {
+    let stands = matches!(film.motion, Motion::Turn(_)) && picture.turned(0.0).is_none();
+    stands.then(|| format!("a {name} has no camera that `frames` could turn; `every` shows it in time"))
+}

@@ -1,0 +1,18 @@
+//! Any bytes are a raster or a fault; what was read is written and read again the same.
+#![no_main]
+
+use libfuzzer_sys::fuzz_target;
+use weald::io::{Limits, exr};
+
+const LIMITS: Limits = Limits { cells: 1 << 16 };
+
+fuzz_target!(|bytes: &[u8]| {
+    let Ok(raster) = exr::decode(bytes, LIMITS) else { return };
+    assert!(raster.field.size().cells() <= LIMITS.cells);
+    if raster.field.size().cells() <= 256 {
+        let written = exr::encode(&raster).expect("a raster that was read is finite");
+        let again = exr::decode(&written, LIMITS).expect("what was written can be read");
+        assert_eq!((again.field, again.land), (raster.field, raster.land));
+        assert_eq!((again.cell, again.georeference), (raster.cell, raster.georeference));
+    }
+});

@@ -1,0 +1,15 @@
+//! Any bytes are a raster or a fault; what was read is written and read again the same.
+#![no_main]
+
+use libfuzzer_sys::fuzz_target;
+use weald::io::{Limits, npy};
+
+const LIMITS: Limits = Limits { cells: 1 << 16 };
+
+fuzz_target!(|bytes: &[u8]| {
+    let Ok(raster) = npy::decode(bytes, LIMITS) else { return };
+    assert!(raster.field.size().cells() <= LIMITS.cells);
+    let written = npy::encode(&raster).expect("a raster that was read is finite");
+    let again = npy::decode(&written, LIMITS).expect("what was written can be read");
+    assert_eq!((again.field, again.land), (raster.field, raster.land));
+});
