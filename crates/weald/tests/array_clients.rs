@@ -192,6 +192,24 @@ fn xarray_reads_every_cell_and_the_place_of_both_formats() {
 }
 
 #[test]
+fn xarray_and_gdal_place_the_rows_that_landlab_wants_first_in_the_south() {
+    let raster = raster();
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("height.nc");
+    let (encode, _) =
+        io::format_of(&path).and_then(|format| format.writing(Some("landlab"))).expect("a preset");
+    io::write_parts(&path, &encode.parts(&raster).expect("finite")).expect("written");
+    let found = python(SUMMARY, &[shown(&path), "netcdf4", "topographic__elevation"]);
+    assert_eq!(found["y"], json!([4_047_711.25, 4_069_231.25]));
+    let north = raster.field.row(0).iter().map(|value| f64::from(*value)).sum::<f64>() / 300.0;
+    assert!((found["north"].as_f64().expect("a mean") - north).abs() < 1e-3, "row 0 is north");
+    let raw = path.with_extension("gdal");
+    gdal("gdal_translate", &["-q", "-of", "ENVI", shown(&path), shown(&raw)]);
+    assert_values(&raster, &std::fs::read(raw).expect("gdal_translate wrote it"));
+    assert_eq!(gdalinfo(&path)["geoTransform"], json!([730_900.75, 80.0, 0.0, 4_069_271.25, 0.0, -80.0]));
+}
+
+#[test]
 fn zarr_python_reads_the_group_and_its_chunks() {
     let (_folder, path) = written(&raster(), "height.zarr");
     let script = "
@@ -246,6 +264,8 @@ fn weald_reads_what_gdal_writes_as_netcdf() {
 
 /// Writes the heights 0, 1, 2 / 10, 11, 12 with the north-western one missing, from south to north.
 const DATA: &str = "
+import warnings
+warnings.simplefilter('ignore')
 data = xarray.Dataset({'topographic__elevation': (('time', 'lat', 'lon'), numpy.array([[[10., 11, 12], [numpy.nan, 1, 2]]]))},
     {'lat': numpy.array([46.5, 47.5], 'f4'), 'lon': numpy.array([8.25, 8.75, 9.25], 'f4')})
 data['other'] = data.topographic__elevation * 3
@@ -268,77 +288,90 @@ fn assert_data(path: &Path, stored: &str, how: &str) {
 #[test]
 fn weald_reads_what_xarray_writes_as_netcdf() {
     let folder = tempfile::tempdir().expect("a folder");
-    let path = folder.path().join("data.nc");
-    for (stored, encoding) in [
-        ("float64", "{}"),
-        ("float32", "{'dtype': 'f4', '_FillValue': -9999.0}"),
-        ("int16", "{'dtype': 'i2', 'scale_factor': 0.5, 'add_offset': 3.0, '_FillValue': -7}"),
-        ("int8", "{'dtype': 'i1', '_FillValue': -1}"),
-    ] {
-        for format in ["NETCDF3_CLASSIC", "NETCDF3_64BIT", "NETCDF3_64BIT_DATA"] {
-            let script = format!(
-                "{DATA}\ndata.to_netcdf(path, engine='netcdf4', format='{format}', unlimited_dims=['time'],\
-                 encoding={{'topographic__elevation': {encoding}}})"
-            );
-            python(&script, &[shown(&path)]);
-            assert_data(&path, stored, &format!("{format}, {encoding}"));
-        }
-    }
+    let script = format!(
+        "{DATA}
+formats = ['NETCDF3_CLASSIC', 'NETCDF3_64BIT', 'NETCDF3_64BIT_DATA']
+encodings = {{
+    'float64': {{}},
+    'float32': {{'dtype': 'f4', '_FillValue': -9999.0}},
+    'int16': {{'dtype': 'i2', 'scale_factor': 0.5, 'add_offset': 3.0, '_FillValue': -7}},
+    'int8': {{'dtype': 'i1', '_FillValue': -1}},
+}}
+for format in formats:
+    for name, encoding in encodings.items():
+        data.to_netcdf(f'{{path}}/{{name}}_{{format}}.nc', engine='netcdf4', format=format, unlimited_dims=['time'],
+            encoding={{'topographic__elevation': encoding}})
+print(json.dumps([[name, f'{{name}}_{{format}}.nc'] for format in formats for name in encodings]))"
+    );
+    assert_files(folder.path(), &script, 12);
 }
 
 #[test]
 fn weald_reads_what_xarray_writes_as_zarr() {
     let folder = tempfile::tempdir().expect("a folder");
-    let path = folder.path().join("data.zarr");
-    for (stored, encoding) in [
-        ("float64", "{}"),
-        ("float32", "{'dtype': 'f4', '_FillValue': -9999.0, 'compressors': None}"),
-        (
-            "float64",
-            "{'chunks': (1, 1, 2), 'compressors': [zarr.codecs.GzipCodec(), zarr.codecs.Crc32cCodec()]}",
-        ),
-        ("float64", "{'chunks': (1, 2, 2), 'serializer': zarr.codecs.BytesCodec(endian='big')}"),
-        ("int16", "{'dtype': 'i2', 'scale_factor': 0.5, 'add_offset': 3.0, '_FillValue': -7}"),
-    ] {
-        for consolidated in ["True", "False"] {
-            let script = format!(
-                "{DATA}\nimport warnings; warnings.simplefilter('ignore')\ndata.to_zarr(path, mode='w', zarr_format=3,\
-                 consolidated={consolidated}, encoding={{'topographic__elevation': {encoding}}})"
-            );
-            python(&script, &[shown(&path)]);
-            assert_data(&path, stored, &format!("consolidated = {consolidated}, {encoding}"));
-        }
+    let script = format!(
+        "{DATA}
+encodings = [
+    ('float64', {{}}),
+    ('float32', {{'dtype': 'f4', '_FillValue': -9999.0, 'compressors': None}}),
+    ('float64', {{'chunks': (1, 1, 2), 'compressors': [zarr.codecs.GzipCodec(), zarr.codecs.Crc32cCodec()]}}),
+    ('float64', {{'chunks': (1, 2, 2), 'serializer': zarr.codecs.BytesCodec(endian='big')}}),
+    ('int16', {{'dtype': 'i2', 'scale_factor': 0.5, 'add_offset': 3.0, '_FillValue': -7}}),
+]
+files = []
+for consolidated in [True, False]:
+    for name, encoding in encodings:
+        files.append([name, f'{{len(files)}}_{{name}}.zarr'])
+        data.to_zarr(f'{{path}}/{{files[-1][1]}}', zarr_format=3, consolidated=consolidated,
+            encoding={{'topographic__elevation': encoding}})
+print(json.dumps(files))"
+    );
+    assert_files(folder.path(), &script, 10);
+}
+
+/// Each file that a script wrote and printed, behind the type of its numbers, holds the raster of [`DATA`].
+fn assert_files(folder: &Path, script: &str, count: usize) {
+    let printed = python(script, &[shown(folder)]);
+    let files: Vec<[String; 2]> = serde_json::from_value(printed).expect("pairs of type and name");
+    assert_eq!(files.len(), count);
+    for [stored, name] in files {
+        assert_data(&folder.join(&name), &stored, &name);
     }
 }
+
+/// Files that are not read, and what is said of them.
+const REFUSED: [(&str, &str); 7] = [
+    ("four.nc", "nccopy -k classic"),
+    ("two.zarr", "zarr_format=3"),
+    ("blosc.zarr", "codec `blosc`"),
+    ("nameless.nc", "one, other"),
+    ("deep.nc", "ds.isel(time=0)"),
+    ("uneven.nc", "coordinate 1 of `lon`"),
+    ("west.nc", "ds.sortby('lon')"),
+];
 
 #[test]
 fn what_xarray_writes_in_another_way_is_refused_with_a_remedy() {
     let folder = tempfile::tempdir().expect("a folder");
-    let complaint = |name: &str, script: &str| {
-        let path = folder.path().join(name);
-        python(
-            &format!("{DATA}\nimport warnings; warnings.simplefilter('ignore')\n{script}"),
-            &[shown(&path)],
-        );
-        io::read(&path).expect_err("unread").to_string()
-    };
-    let four = complaint("four.nc", "data.to_netcdf(path, engine='netcdf4')");
-    assert!(four.contains("nccopy -k classic"), "{four}");
-    let two = complaint("two.zarr", "data.to_zarr(path, zarr_format=2)");
-    assert!(two.contains("zarr_format=3"), "{two}");
-    let blosc = "data.to_zarr(path, zarr_format=3, encoding={'topographic__elevation': {'compressors': zarr.codecs.BloscCodec()}})";
-    let blosc = complaint("blosc.zarr", blosc);
-    assert!(blosc.contains("codec `blosc`"), "{blosc}");
-    let classic =
-        |change: &str| format!("{change}\ndata.to_netcdf(path, engine='netcdf4', format='NETCDF3_CLASSIC')");
-    let nameless = complaint("nameless.nc", &classic("data = data.rename(topographic__elevation='one')"));
-    assert!(nameless.contains("one, other"), "{nameless}");
-    let deep = complaint("deep.nc", &classic("data = xarray.concat([data, data], 'time')"));
-    assert!(deep.contains("ds.isel(time=0)"), "{deep}");
-    let uneven = complaint("uneven.nc", &classic("data = data.assign_coords(lon=('lon', [8.0, 8.5, 9.5]))"));
-    assert!(uneven.contains("coordinate 1 of `lon`"), "{uneven}");
-    let west = complaint("west.nc", &classic("data = data.isel(lon=slice(None, None, -1))"));
-    assert!(west.contains("ds.sortby('lon')"), "{west}");
+    let script = format!(
+        "{DATA}
+blosc = {{'topographic__elevation': {{'compressors': zarr.codecs.BloscCodec()}}}}
+data.to_netcdf(path + '/four.nc', engine='netcdf4')
+data.to_zarr(path + '/two.zarr', zarr_format=2)
+data.to_zarr(path + '/blosc.zarr', zarr_format=3, encoding=blosc)
+for name, other in {{
+    'nameless': data.rename(topographic__elevation='one'),
+    'deep': xarray.concat([data, data], 'time'),
+    'uneven': data.assign_coords(lon=('lon', [8.0, 8.5, 9.5])),
+    'west': data.isel(lon=slice(None, None, -1)),
+}}.items():
+    other.to_netcdf(f'{{path}}/{{name}}.nc', engine='netcdf4', format='NETCDF3_CLASSIC')"
+    );
+    python(&script, &[shown(folder.path())]);
+    for (name, remedy) in REFUSED {
+        let complaint = io::read(&folder.path().join(name)).expect_err(name).to_string();
+        assert!(complaint.contains(remedy), "{name}: {complaint}");
+    }
 }
 
 /// The place follows the coordinates, and not the numbers beside them that still tell of the whole.

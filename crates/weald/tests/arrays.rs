@@ -152,6 +152,19 @@ fn layers_have_the_names_of_landlab_and_are_known_by_them() {
     }
 }
 
+/// landlab numbers its nodes from the south-western corner and takes rows as they come.
+#[test]
+fn rows_for_landlab_begin_in_the_south() {
+    let (raster, nc, _) = for_landlab("height");
+    let usual = netcdf::encode(&raster).expect("finite");
+    let rows =
+        |file: &[u8]| file[file.len() - 7 * 5 * 4..].chunks(28).map(<[u8]>::to_vec).collect::<Vec<_>>();
+    let (mut south_up, north_up) = (rows(&nc), rows(&usual));
+    assert_ne!(south_up, north_up);
+    south_up.reverse();
+    assert_eq!(south_up, north_up);
+}
+
 #[test]
 fn a_folder_may_hold_a_single_array() {
     let raster = any_raster(7, 5, 2);

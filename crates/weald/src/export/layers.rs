@@ -26,7 +26,8 @@ parameters! {
     pub struct Layers {
         /// Layers that are written; all of the landscape where none are named.
         layers: LayerNames = LayerNames::default();
-        /// Whose names the arrays have. Without it, those of the layers.
+        /// Whose names the arrays have, and whose order the rows. Without it, names are those of the layers and
+        /// rows begin in the north.
         preset: Option<Reader> = None;
     }
 }

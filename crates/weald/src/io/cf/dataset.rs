@@ -33,7 +33,15 @@ pub(crate) enum Values<'a> {
     /// Centres of the cells along an axis.
     Along(Axis, Vec<f64>),
     /// A number a cell, over (`y`, `x`); NaN without data.
-    Cells(&'a Field, Option<&'a Mask>),
+    Cells(Cells<'a>),
+}
+
+/// The values of a layer, in the order of the file's rows.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Cells<'a> {
+    field: &'a Field,
+    land: Option<&'a Mask>,
+    is_south_up: bool,
 }
 
 /// A dimension.
@@ -62,10 +70,11 @@ impl<'a> Dataset<'a> {
         variables.extend(grid_mapping);
         let layers: Vec<_> = sheet.layers.iter().map(|layer| layer.name().unwrap_or(NAMELESS)).collect();
         let names = sheet.names.of_variables(&layers, &["y", "x", GRID_MAPPING]);
+        let is_south_up = sheet.is_south_up();
         let cells = sheet.layers.iter().zip(names).map(|(layer, name)| Variable {
             name,
             attributes: layer_attributes(layer, sheet.georeference.is_some()),
-            values: Values::Cells(layer.field, sheet.land),
+            values: Values::Cells(Cells { field: layer.field, land: sheet.land, is_south_up }),
         });
         variables.extend(cells);
         Ok(Self { size: sheet.size(), attributes: file_attributes(sheet), variables })
@@ -81,6 +90,18 @@ impl Values<'_> {
             Self::Along(Axis::X, _) => &[Axis::X],
             Self::Cells(..) => &[Axis::Y, Axis::X],
         }
+    }
+}
+
+impl Cells<'_> {
+    pub(crate) fn size(&self) -> Size {
+        self.field.size()
+    }
+
+    /// The value in a column and a row of the file; NaN without data.
+    pub(crate) fn at(&self, x: usize, row: usize) -> f32 {
+        let y = if self.is_south_up { self.size().rows - 1 - row } else { row };
+        if self.land.is_none_or(|land| land.is_land(x, y)) { self.field.at(x, y) } else { f32::NAN }
     }
 }
 
@@ -108,7 +129,10 @@ fn coordinates<'a>(sheet: &Sheet<'_>) -> Vec<Variable<'a>> {
     let local = || sheet.cell.map(|cell| ([0.0, cell * size.rows as f64], [cell; 2]));
     let place = sheet.georeference.map(|place| (place.origin, place.pixel));
     let Some((origin, pixel)) = place.or_else(local) else { return Vec::new() };
-    let y = (0..size.rows).map(|row| origin[1] - (row as f64 + 0.5) * pixel[1]).collect();
+    let mut y: Vec<f64> = (0..size.rows).map(|row| origin[1] - (row as f64 + 0.5) * pixel[1]).collect();
+    if sheet.is_south_up() {
+        y.reverse();
+    }
     let x = (0..size.columns).map(|column| origin[0] + (column as f64 + 0.5) * pixel[0]).collect();
     [(Axis::Y, y), (Axis::X, x)]
         .map(|(axis, centres)| Variable {

@@ -1,12 +1,13 @@
 //! What arrays say of themselves by the Climate and Forecast conventions (CF 1.11): the common part of `NetCDF`
 //! files and Zarr groups.
 //!
-//! Written: dimensions `y` and `x` with the centres of the cells as coordinates (row 0 is north, so `y` falls),
-//! a variable a layer with `units`, `long_name`, `standard_name` where CF has one and `landlab_name` where
-//! landlab has one, and a variable `spatial_ref` that holds the CRS three times, for readers of CF
-//! (`grid_mapping_name` and its parameters), of WKT (`crs_wkt`) and of GDAL (`spatial_ref`, `GeoTransform`).
-//! No-data is NaN, provenance is attributes. Numbers that coordinates alone would round (the side of a cell, the
-//! corner) stand beside them, and are believed on reading as long as the coordinates agree.
+//! Written: dimensions `y` and `x` with the centres of the cells as coordinates (row 0 is north, so `y` falls, but
+//! for landlab, which counts from the south), a variable a layer with `units`, `long_name`, `standard_name` where
+//! CF has one and `landlab_name` where landlab has one, and a variable `spatial_ref` that holds the CRS three
+//! times, for readers of CF (`grid_mapping_name` and its parameters), of WKT (`crs_wkt`) and of GDAL
+//! (`spatial_ref`, `GeoTransform`). No-data is NaN, provenance is attributes. Numbers that coordinates alone would
+//! round (the side of a cell, the corner) stand beside them, and are believed on reading as long as the coordinates
+//! agree.
 //!
 //! Read: a variable over (rows, columns), rising or falling `y`, packed or not, in metres, kilometres, feet or
 //! degrees; see [`read`].
@@ -23,7 +24,7 @@ mod sheet;
 
 pub(crate) use attribute::{Attribute, Attributes};
 pub(crate) use crs::{UNTOLD, is_told_to_all};
-pub(crate) use dataset::{Axis, Dataset, Values, Variable};
+pub(crate) use dataset::{Axis, Cells, Dataset, Values, Variable};
 pub(crate) use names::Names;
 pub(crate) use read::{Described, Source, read};
 pub(crate) use sheet::{Layer, Sheet};

@@ -6,7 +6,7 @@ pub(crate) enum Names {
     /// Those of the layers.
     #[default]
     Weald,
-    /// Those of landlab's standard names, where it has one.
+    /// Those of landlab's standard names, where it has one; rows begin in the south, as landlab's nodes do.
     Landlab,
 }
 

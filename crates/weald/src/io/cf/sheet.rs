@@ -36,6 +36,12 @@ impl<'a> Sheet<'a> {
         }
     }
 
+    /// Whether the first row of the file is the southern one, as landlab counts its nodes; others go by the
+    /// coordinates.
+    pub(super) fn is_south_up(&self) -> bool {
+        self.names == Names::Landlab
+    }
+
     pub(super) fn size(&self) -> Size {
         self.layers[0].field.size()
     }

@@ -2,7 +2,7 @@
 //! offsets of 64 bits, CDF-5 with sizes of 64 bits.
 //!
 //! Written is CDF-1, or CDF-2 where an offset needs it, with the attributes of [`cf`]; the preset `landlab` names
-//! the variables as landlab does. Read is any of the three, as far as [`cf`] reads its arrays. `NetCDF`-4 is
+//! the variables and orders the rows as landlab does. Read is any of the three, as far as [`cf`] reads its arrays. `NetCDF`-4 is
 //! another format (HDF5) and is not read: `nccopy -k classic` or `gdal_translate -co FORMAT=NC` turns it.
 //!
 //! The header is parsed here, so that every size is checked against the limits and the file before anything is
@@ -31,7 +31,7 @@ pub(super) const FORMAT: Format = Format {
     holds: HOLDS,
     presets: &[Preset {
         name: "landlab",
-        summary: "variables have landlab's names, such as topographic__elevation",
+        summary: "variables have landlab's names, such as topographic__elevation, and rows begin in the south",
         encode: Encode::File(encode_for_landlab),
         holds: HOLDS,
     }],

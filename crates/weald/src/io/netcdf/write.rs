@@ -137,10 +137,9 @@ fn numbers(values: &Values<'_>, file: &mut Vec<u8>) {
     match values {
         Values::Nothing => file.extend(0_i32.to_be_bytes()),
         Values::Along(_, centres) => file.extend(big_endian(centres, f64::to_be_bytes)),
-        Values::Cells(field, land) => {
-            for (cell, value) in field.values().iter().enumerate() {
-                let is_land = land.is_none_or(|land| land.is_land_at(cell));
-                file.extend(if is_land { *value } else { f32::NAN }.to_be_bytes());
+        Values::Cells(cells) => {
+            for row in 0..cells.size().rows {
+                file.extend((0..cells.size().columns).flat_map(|x| cells.at(x, row).to_be_bytes()));
             }
         }
     }

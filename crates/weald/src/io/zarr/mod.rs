@@ -32,7 +32,7 @@ pub(super) const FORMAT: Format = Format {
     holds: HOLDS,
     presets: &[Preset {
         name: "landlab",
-        summary: "arrays have landlab's names, such as topographic__elevation",
+        summary: "arrays have landlab's names, such as topographic__elevation, and rows begin in the south",
         encode: Encode::Parts(encode_for_landlab),
         holds: HOLDS,
     }],

@@ -8,9 +8,9 @@ use rayon::prelude::*;
 use serde_json::{Map, Value, json};
 
 use super::super::Part;
-use super::super::cf::{Dataset, Values, Variable};
+use super::super::cf::{Cells, Dataset, Values, Variable};
 use super::{DESCRIPTION, attributes};
-use crate::grid::{Field, Mask, Size};
+use crate::grid::Size;
 
 /// Cells along each side of a chunk of a layer.
 const CHUNK: usize = 256;
@@ -78,12 +78,12 @@ fn chunks(variable: &Variable<'_>) -> Vec<Part> {
             let bytes: Vec<u8> = centres.iter().flat_map(|centre| centre.to_le_bytes()).collect();
             vec![part("c/0", &bytes)]
         }
-        Values::Cells(field, land) => {
-            let across = field.size().columns.div_ceil(CHUNK);
-            let count = across * field.size().rows.div_ceil(CHUNK);
+        Values::Cells(cells) => {
+            let across = cells.size().columns.div_ceil(CHUNK);
+            let count = across * cells.size().rows.div_ceil(CHUNK);
             let chunk = |number: usize| {
                 let (x, y) = (number % across, number / across);
-                Some(part(&format!("c/{y}/{x}"), &cells(field, *land, (x, y))?))
+                Some(part(&format!("c/{y}/{x}"), &chunk_of(cells, (x, y))?))
             };
             (0..count).into_par_iter().filter_map(chunk).collect()
         }
@@ -91,20 +91,16 @@ fn chunks(variable: &Variable<'_>) -> Vec<Part> {
 }
 
 /// The bytes of a chunk of cells, filled up with NaN beyond the edges; `None` where no cell has data.
-fn cells(field: &Field, land: Option<&Mask>, (chunk_x, chunk_y): (usize, usize)) -> Option<Vec<u8>> {
-    let size = field.size();
+fn chunk_of(cells: &Cells<'_>, (chunk_x, chunk_y): (usize, usize)) -> Option<Vec<u8>> {
+    let size = cells.size();
     let (width, height) = (CHUNK.min(size.columns), CHUNK.min(size.rows));
-    let value = |x: usize, y: usize| {
-        let is_there = x < size.columns && y < size.rows && land.is_none_or(|land| land.is_land(x, y));
-        is_there.then(|| field.at(x, y))
-    };
     let mut bytes = Vec::with_capacity(width * height * 4);
     let mut has_data = false;
     for y in chunk_y * height..(chunk_y + 1) * height {
         for x in chunk_x * width..(chunk_x + 1) * width {
-            let value = value(x, y);
-            has_data |= value.is_some();
-            bytes.extend(value.unwrap_or(f32::NAN).to_le_bytes());
+            let value = if x < size.columns && y < size.rows { cells.at(x, y) } else { f32::NAN };
+            has_data |= !value.is_nan();
+            bytes.extend(value.to_le_bytes());
         }
     }
     has_data.then_some(bytes)
