@@ -218,7 +218,7 @@ fn northern_slopes_are_darker_in_the_north_and_lighter_in_the_south() {
 fn soil_is_deep_where_water_laid_it_down_and_gone_where_water_wore_the_ground() {
     let mut ground = land(31, |east, north| 5.0 * (east * 0.01).sin() + 0.05 * north);
     let size = ground.domain.size;
-    ground.insert("erosion", "m", Field::from_function(size, |x, _| if x < 10 { 30.0 } else { 0.0 }));
+    ground.insert("erosion", "m", Field::from_function(size, |x, _| if x < 10 { 300.0 } else { 0.0 }));
     ground.insert("deposition", "m", Field::from_function(size, |x, _| if x > 20 { 4.0 } else { 0.0 }));
     let plain = after(ground.clone(), "soil", "");
     let worn = after(ground, "soil", "erosion = \"erosion\"\ndeposition = \"deposition\"");

@@ -215,7 +215,7 @@ fn the_openexr_tools_read_every_cell_of_an_exr_and_weald_reads_theirs() {
     ] {
         assert!(header.contains(line), "{line} is not in:\n{header}");
     }
-    for compression in ["none", "rle", "zips", "zip", "piz"] {
+    for compression in ["none", "rle", "zip", "piz"] {
         let tiled = folder.path().join(format!("{compression}.exr"));
         let arguments = ["-z", compression, "-t", "64", "48", shown(&path), shown(&tiled)];
         output("exrmaketiled", "openexr", &arguments);

@@ -140,6 +140,7 @@ fn no_river_rises_on_its_way_down() {
     assert!(profile.len() > 20, "the valley has a river");
     // From the head, far from the end on the right, down to the end on the left: down the page.
     assert!(profile.windows(2).all(|pair| pair[1].0 <= pair[0].0 && pair[1].1 >= pair[0].1 - 0.11));
+    assert!(profile[profile.len() - 1].1 - profile[0].1 > 50.0, "the river falls");
     assert!(
         page.contains("The recipe has no steps <code>flow</code>"),
         "the page says where its rivers are from"

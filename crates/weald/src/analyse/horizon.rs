@@ -302,9 +302,8 @@ mod tests {
         let ways = [(0, -1), (1, -1), (1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0), (-1, -1)];
         for (number, way) in ways.into_iter().enumerate() {
             let horizon = ground.horizon(std::f64::consts::FRAC_PI_4 * number as f64);
-            for cell in 0..size.cells() {
+            for (cell, &found) in horizon.iter().enumerate() {
                 let expected = searched(&field, cell % 37, cell / 37, way, 2.0);
-                let found = horizon[cell];
                 let same = found == expected || (found - expected).abs() < 1e-5;
                 assert!(same, "cell {cell}, direction {way:?}: {found} instead of {expected}");
             }

@@ -1,7 +1,7 @@
 //! How deep the soil is, and how well it feeds plants.
 //!
 //! ```text
-//! dh/dt = P exp(-h / h₀) - ∇·q + (deposition - erosion) / T          q = -K ∇z / (1 - (|∇z| / S)²)
+//! dh/dt = P exp(-h / h₀) - ∇·q + (deposition - recent · erosion) / T          q = -K ∇z / (1 - (|∇z| / S)²)
 //! ```
 //!
 //! over the age T of the soil: rock weathers the slower the deeper it is buried (Heimsath et al. 1997, doi
@@ -46,10 +46,12 @@ parameters! {
     pub struct Soil {
         /// Layer of heights in metres.
         of: LayerName = LayerName::of("height");
-        /// Layer of what water took away while the soil formed, in metres, such as `erosion`. Without it, nothing.
+        /// Layer of what water took away, in metres, such as `erosion`. Without it, nothing.
         erosion: Option<LayerName> = None;
-        /// Layer of what water laid down while the soil formed, in metres, such as `deposition`. Without it,
-        /// nothing.
+        /// Share of it that fell in the time in which the soil formed: a simulation soon wears what takes land a
+        /// hundred times as long.
+        recent_erosion: f64 = 0.01, range 0.0..=1.0;
+        /// Layer of what water laid down and left, in metres, such as `deposition`. Without it, nothing.
         deposition: Option<LayerName> = None;
         /// Layer of moisture from 0 to 1. Without it, moisture limits nothing.
         moisture: Option<LayerName> = None;
@@ -112,7 +114,7 @@ impl Step for Soil {
         let (moisture, loose) = (layer(&self.moisture)?, layer(&self.loose)?);
         let [depth, fertility] = fields_of(domain, |x, y| {
             let deposit = deposition.at(x, y);
-            let gain = deposit.unwrap_or(0.0) - erosion.at(x, y).unwrap_or(0.0);
+            let gain = deposit.unwrap_or(0.0) - self.recent_erosion * erosion.at(x, y).unwrap_or(0.0);
             let depth = self.depth(surface.at(x, y), loose.at(x, y).unwrap_or(0.0), gain);
             [depth, self.fertility(depth, moisture.at(x, y), deposit)]
         });

@@ -69,10 +69,7 @@ impl Page {
         let body = [
             self.head(finished, &title)?,
             section("The ground", &hypsometry::charts(&ground)),
-            section(
-                "Rivers",
-                &[profiles::chart(&ground, self.profiles as usize), slope_area::chart(&ground)].concat(),
-            ),
+            section("Rivers", &self.rivers(&ground)),
             section("Layers", &layers::section(finished.landscape, self)?),
             section("Steps", &steps::table_of(finished)),
             section("Budgets", &budgets::tables(finished)),
@@ -86,6 +83,10 @@ impl Page {
              </head>\n<body>\n<main>\n{}</main>\n</body>\n</html>\n",
             body.concat()
         ))
+    }
+
+    fn rivers(&self, ground: &Ground) -> String {
+        profiles::charts(ground, self.profiles as usize, &slope_area::chart(ground))
     }
 
     /// The title, what the land is in one line, and its picture.

@@ -6,7 +6,7 @@
 //! down the other side (the carving of Cordonnier et al. 2019, doi 10.5194/esurf-7-549-2019), not along the way
 //! by which a queue came. Depressions that need a deeper cut than allowed are left, to be filled, as in
 //! Lindsay's hybrid. The result does not depend on the order of the pits: each cell ends as low as the lowest
-//! pit whose channel passes it.
+//! pit whose channel passes it. A hollow below the sea is drained by a channel as deep as the hollow.
 
 use super::basins::Basins;
 use super::passes::Passes;
@@ -85,23 +85,23 @@ impl Ways<'_> {
         highest - pit
     }
 
-    /// Lowers the cells of a channel to its pit, as far as a cell that is no higher.
+    /// Lowers the cells of a channel to its pit, as far as one that is lower already.
     fn cut(&self, basin: u32, surface: &mut Surface) {
         let pit = self.basins.pits[basin as usize];
         let level = self.ground[pit];
         let (mut current, mut way) = (basin, self.across(surface, pit, basin));
-        way.remove(0);
         while lower(surface, &way, level) {
             let exit = self.exits[current as usize];
             current = exit.into;
-            if current == 0 {
+            if exit.to == exit.from {
+                return;
+            }
+            // Basin 0 has land as well: the slopes that descend to the sea.
+            if current == 0 || self.pit_level(current) <= level {
+                lower(surface, &self.descent(surface, exit.to), level);
                 return;
             }
             way = self.across(surface, exit.to, current);
-            if self.pit_level(current) <= level {
-                // The channel ends on the way down to this pit.
-                way = self.descent(surface, exit.to);
-            }
         }
     }
 
@@ -127,10 +127,11 @@ impl Ways<'_> {
     }
 }
 
-/// Lowers cells to a level; false where one is no higher and the channel ends.
+/// Lowers cells to a level; false where one is lower, since its own way leads on from there. One as low may be of
+/// the plateau in which the pit lies, and leads nowhere yet.
 fn lower(surface: &mut Surface, cells: &[usize], level: f32) -> bool {
     for &cell in cells {
-        if surface.level[cell] <= level {
+        if surface.level[cell] < level {
             return false;
         }
         surface.level[cell] = level;

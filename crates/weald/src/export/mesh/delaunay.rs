@@ -76,7 +76,7 @@ impl Delaunay {
     pub(super) fn locate(&self, point: Point, from: u32) -> u32 {
         let mut triangle = from;
         // Walks always towards the point, which in a Delaunay triangulation goes in no circle.
-        while let Some(edge) = self.edges(triangle).find(|&edge| self.side(edge, point) < 0) {
+        while let Some(edge) = edges(triangle).find(|&edge| self.side(edge, point) < 0) {
             triangle = self.twins[edge as usize] / 3;
         }
         triangle
@@ -86,7 +86,7 @@ impl Delaunay {
     pub(super) fn insert(&mut self, point: Point, triangle: u32) {
         let new = self.points.len() as u32;
         self.points.push(point);
-        let on_edge = self.edges(triangle).find(|&edge| self.side(edge, point) == 0);
+        let on_edge = edges(triangle).find(|&edge| self.side(edge, point) == 0);
         match on_edge {
             Some(edge) => self.split_edge(edge, new),
             None => self.split_triangle(triangle, new),
@@ -98,10 +98,6 @@ impl Delaunay {
 
     fn place(&self, point: u32) -> Point {
         self.points[point as usize]
-    }
-
-    fn edges(&self, triangle: u32) -> std::ops::Range<u32> {
-        3 * triangle..3 * triangle + 3
     }
 
     fn start(&self, edge: u32) -> u32 {
@@ -205,6 +201,10 @@ impl Delaunay {
         let is_tie_lost = || (is_void(a) || is_void(b)) && !is_void(new) && !is_void(across);
         circle > 0 || circle == 0 && is_tie_lost()
     }
+}
+
+fn edges(triangle: u32) -> std::ops::Range<u32> {
+    3 * triangle..3 * triangle + 3
 }
 
 fn next(edge: u32) -> u32 {

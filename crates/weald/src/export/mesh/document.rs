@@ -92,7 +92,7 @@ impl Document {
     }
 
     /// Adds a mesh with a node of its name.
-    pub(super) fn add(&mut self, part: Part<'_>) {
+    pub(super) fn add(&mut self, part: &Part<'_>) {
         let indices = self.indices(part.triangles, part.vertices);
         let primitive =
             json!({ "attributes": part.attributes, "indices": indices, "material": part.material });

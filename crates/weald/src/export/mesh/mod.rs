@@ -180,7 +180,7 @@ impl Mesh {
             attributes.insert("TANGENT".to_owned(), document.vectors(&signed(&vertices.tangents)));
         }
         let material = self.ground_material(document, landscape, normal_map)?;
-        document.add(document::Part {
+        document.add(&document::Part {
             name: "terrain",
             attributes,
             triangles: &mesh.triangles,
@@ -239,7 +239,7 @@ impl Mesh {
         let mut attributes = Map::new();
         attributes.insert("POSITION".to_owned(), document.positions(&single(&skirt.positions)));
         attributes.insert("NORMAL".to_owned(), document.vectors(&single(&skirt.normals)));
-        document.add(document::Part {
+        document.add(&document::Part {
             name: "skirt",
             attributes,
             triangles: &skirt.triangles,
@@ -266,7 +266,7 @@ impl Mesh {
             },
         }));
         let (triangles, vertices) = (mesh.triangles.as_slice(), mesh.points.len());
-        document.add(document::Part { name: "water", attributes, triangles, vertices, material });
+        document.add(&document::Part { name: "water", attributes, triangles, vertices, material });
         Ok(())
     }
 }

@@ -8,6 +8,9 @@
 
 use super::vector::{Vector, add_scaled, cross, dot, unit};
 
+/// Square of a sum of directions that cancel each other, as on two walls that face each other.
+const LEAST: f64 = 1e-12;
+
 /// A tangent for each vertex, of length 1 and across its normal.
 ///
 /// The texture's u runs along the first axis and its v along the third.
@@ -24,7 +27,9 @@ pub(super) fn tangents(positions: &[Vector], normals: &[Vector], triangles: &[[u
             *sum = add_scaled(*sum, laid(eastward, normal), angle);
         }
     }
-    sums.into_iter().map(unit).collect()
+    let finished =
+        |(sum, &normal)| if dot(sum, sum) > LEAST { unit(sum) } else { laid([1.0, 0.0, 0.0], normal) };
+    sums.into_iter().zip(normals).map(finished).collect()
 }
 
 /// The direction in the plane of a triangle that looks eastward from above.

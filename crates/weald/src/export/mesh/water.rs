@@ -75,7 +75,7 @@ const STRICTEST: f64 = 0.2;
 
 fn drop_puddles(wet: &mut [bool], domain: &Domain) {
     let patches = components(domain.size, wet);
-    for puddle in patches.into_iter().filter(|patch| patch.len() < SMALLEST) {
-        puddle.into_iter().for_each(|cell| wet[cell] = false);
+    for cell in patches.into_iter().filter(|patch| patch.len() < SMALLEST).flatten() {
+        wet[cell] = false;
     }
 }

@@ -3,7 +3,7 @@
 use super::figures::{plain, power_of_ten};
 
 /// Ticks that an axis has about.
-const TICKS: f64 = 6.0;
+const TICKS: f64 = 8.5;
 
 /// A place on an axis that is named.
 #[derive(Clone, Debug, PartialEq)]

@@ -23,6 +23,15 @@ pub(super) fn number(value: f64) -> String {
     format!("{} × 10<sup>{}</sup>", minus(trimmed(digits)), minus(power))
 }
 
+/// A number to three digits, for legends.
+pub(super) fn rough(value: f64) -> String {
+    if value == 0.0 || !value.is_finite() {
+        return number(value);
+    }
+    let unit = libm::exp10(f64::from(power_of_ten(value) - 2));
+    number(libm::round(value / unit) * unit)
+}
+
 /// A whole number with its thousands apart.
 pub(super) fn count(value: u64) -> String {
     grouped(&value.to_string())
@@ -92,5 +101,6 @@ mod tests {
             ("1000".to_owned(), "12\u{202f}345\u{202f}678".to_owned())
         );
         assert_eq!(plain(-0.001, 1), "0");
+        assert_eq!([179.9, 0.012_345, -15_963.0].map(rough), ["180", "0.0123", "−16\u{202f}000"]);
     }
 }

@@ -82,7 +82,7 @@ pub(super) fn in_words(landscape: &Landscape, height: &str) -> Result<String, Er
         format!(", {} of them without data", count(missing as u64))
     };
     Ok(format!(
-        "{} × {} km in {columns} × {rows} cells of {} m{without}; {} to {} m above zero.",
+        "{} × {} km in {columns} × {rows} cells of {} m{without}; heights from {} to {} m.",
         kilometres(columns),
         kilometres(rows),
         number(domain.cell),

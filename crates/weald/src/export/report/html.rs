@@ -68,7 +68,7 @@ impl Cell {
 
 /// A table with a caption; the first cell of each row names the row.
 pub(super) fn table(caption: &str, header: &[&str], rows: &[Vec<Cell>]) -> String {
-    let head: String = header
+    let head: Vec<_> = header
         .iter()
         .enumerate()
         .map(|(column, name)| {
@@ -76,10 +76,12 @@ pub(super) fn table(caption: &str, header: &[&str], rows: &[Vec<Cell>]) -> Strin
             format!("<th scope=\"col\"{}>{name}</th>", if numbers { " class=\"number\"" } else { "" })
         })
         .collect();
-    let body: String = rows.iter().map(|row| format!("<tr>{}</tr>\n", cells(row))).collect();
+    let body: Vec<_> = rows.iter().map(|row| format!("<tr>{}</tr>\n", cells(row))).collect();
     format!(
-        "<div class=\"scroll\">\n<table>\n<caption>{caption}</caption>\n<thead>\n<tr>{head}</tr>\n</thead>\n\
-         <tbody>\n{body}</tbody>\n</table>\n</div>\n"
+        "<div class=\"scroll\">\n<table>\n<caption>{caption}</caption>\n<thead>\n<tr>{}</tr>\n</thead>\n\
+         <tbody>\n{}</tbody>\n</table>\n</div>\n",
+        head.concat(),
+        body.concat()
     )
 }
 

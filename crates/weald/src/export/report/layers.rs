@@ -1,7 +1,7 @@
 //! A map and the statistics of each layer.
 
 use super::Page;
-use super::figures::number;
+use super::figures::{number, rough};
 use super::html::{Cell, escape, figure, picture, table};
 use crate::domain::Domain;
 use crate::error::Error;
@@ -89,6 +89,12 @@ impl Values {
             [0.0, 1.0]
         } else if self.is_logarithmic(layer) {
             [self.greatest * DECADES, self.greatest]
+        } else if layer.unit == "deg" {
+            [self.least, self.greatest]
+        } else if self.usual[0] < 0.0 && self.usual[1] > 0.0 {
+            // The middle colour is that of 0.
+            let most = self.usual[1].max(-self.usual[0]);
+            [-most, most]
         } else if self.usual[1] > self.usual[0] {
             self.usual
         } else {
@@ -134,15 +140,18 @@ fn legend(map: &Map, values: &Values) -> String {
         format!("#{red:02x}{green:02x}{blue:02x}")
     };
     let colours: Vec<_> = (0..STOPS).map(colour).collect();
+    // Beside 360, a thousandth is 0.
+    let nothing = if map.logarithmic { 0.0 } else { 1e-3 * (high - low) };
+    let shown = |value: f64| if value.abs() < nothing { rough(0.0) } else { rough(value) };
     let less = if values.least < low { "≤ " } else { "" };
     let more = if values.greatest > high { "≥ " } else { "" };
     format!(
         "<span class=\"ramp\" style=\"background:linear-gradient(to right,{})\"></span>\n\
          <span class=\"ends\"><span>{less}{}</span><span>{}</span><span>{more}{}</span></span>",
         colours.join(","),
-        number(low),
-        number(middle),
-        number(high)
+        shown(low),
+        shown(middle),
+        shown(high)
     )
 }
 

@@ -23,13 +23,17 @@ struct Stem<'a> {
     order: u32,
 }
 
-/// Map, profiles and a table of the longest rivers; nothing where there are none.
-pub(super) fn chart(ground: &Ground, most: usize) -> String {
+/// Map and profiles of the longest rivers with the chart `beside`, and a table of them.
+pub(super) fn charts(ground: &Ground, most: usize, beside: &str) -> String {
     let stems = stems(ground, most.min(SERIES));
     if stems.is_empty() {
-        return "<p>No river is large enough to be told of.</p>\n".to_owned();
+        return format!("<p>No river is large enough to be told of.</p>\n{beside}");
     }
-    format!("<div class=\"pair\">\n{}{}</div>\n{}", map(ground, &stems), profiles(&stems), list(&stems))
+    let (map, profiles) = (map(ground, &stems), profiles(&stems));
+    format!(
+        "<div class=\"pair\">\n{map}<div class=\"stack\">\n{profiles}{beside}</div>\n</div>\n{}",
+        list(&stems)
+    )
 }
 
 fn stems(ground: &Ground, most: usize) -> Vec<Stem<'_>> {

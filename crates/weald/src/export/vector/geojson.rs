@@ -1,6 +1,6 @@
-//! Lines and areas with properties as GeoJSON.
+//! Lines and areas with properties as `GeoJSON`.
 //!
-//! Butler et al., "The GeoJSON format", RFC 7946 (2016), doi:10.17487/RFC7946: shores run anticlockwise, islands
+//! Butler et al., "The `GeoJSON` format", RFC 7946 (2016), doi:10.17487/RFC7946: shores run anticlockwise, islands
 //! clockwise, and rings end where they begin. RFC 7946 knows longitude and latitude in WGS 84 alone; for another CRS the
 //! file has the member `crs` of the format's first edition (2008), which GDAL and what stands on it read. `null` there
 //! says that there is no CRS.
@@ -38,16 +38,15 @@ pub(super) enum Geometry {
 
 /// A file of features, one a line.
 pub(super) fn write(name: &str, place: Place<'_>, features: &[Feature], finished: &Finished<'_>) -> Vec<u8> {
-    let mut text = format!("{{\n\"type\": \"FeatureCollection\",\n\"name\": {},\n", json!(name));
+    let mut members =
+        vec!["\"type\": \"FeatureCollection\"".to_owned(), format!("\"name\": {}", json!(name))];
     if place.epsg() != Some(WGS_84) {
-        text += &format!("\"crs\": {},\n", crs(place));
+        members.push(format!("\"crs\": {}", crs(place)));
     }
-    text += &format!("\"weald\": {},\n\"features\": [", provenance(finished));
-    for (index, feature) in features.iter().enumerate() {
-        let separator = if index == 0 { "\n" } else { ",\n" };
-        text += &format!("{separator}{}", feature.json(place.digits()));
-    }
-    text += "\n]\n}\n";
+    members.push(format!("\"weald\": {}", provenance(finished)));
+    let features: Vec<_> = features.iter().map(|feature| feature.json(place.digits()).to_string()).collect();
+    members.push(format!("\"features\": [\n{}\n]", features.join(",\n")));
+    let text = format!("{{\n{}\n}}\n", members.join(",\n"));
     text.into_bytes()
 }
 

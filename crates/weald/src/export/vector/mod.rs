@@ -1,4 +1,4 @@
-//! Rivers and lakes as lines and areas for maps, in GeoJSON.
+//! Rivers and lakes as lines and areas for maps, in `GeoJSON`.
 
 mod geojson;
 mod lakes;

@@ -7,6 +7,7 @@ use serde_json::{Map, Value, json};
 use super::geojson::{Feature, Geometry, rounded, write};
 use super::place::Place;
 use crate::analyse::rivers::{End, Reach, RiverPoint, Rivers, Start};
+use crate::domain::Domain;
 use crate::error::Error;
 use crate::export::{Export, Finished};
 use crate::io::Part;
@@ -66,12 +67,40 @@ impl Export for RiverLines {
 fn stem_of_each(rivers: &Rivers) -> Vec<usize> {
     let mut stems = vec![0; rivers.reaches.len()];
     for (number, stem) in rivers.stems().into_iter().enumerate() {
-        stem.into_iter().for_each(|reach| stems[reach] = number);
+        for reach in stem {
+            stems[reach] = number;
+        }
     }
     stems
 }
 
+/// The reach as a line, which has two points: one of a single cell goes on to the edge of the cell.
+fn drawn(domain: &Domain, reach: &Reach) -> Reach {
+    let mut reach = reach.clone();
+    if let [only] = reach.points.as_slice() {
+        let edge = at_the_edge(domain, only);
+        reach.points.push(edge);
+    }
+    reach
+}
+
+/// The point moved by half a cell towards the nearest edge of the grid, where a river of one cell leaves it.
+fn at_the_edge(domain: &Domain, point: &RiverPoint) -> RiverPoint {
+    let half = 0.5 * domain.cell;
+    let [width, height] = [domain.size.columns, domain.size.rows].map(|count| count as f64 * domain.cell);
+    let ways = [
+        (point.x, [-half, 0.0]),
+        (width - point.x, [half, 0.0]),
+        (point.y, [0.0, -half]),
+        (height - point.y, [0.0, half]),
+    ];
+    let nearest = ways.into_iter().min_by(|a, b| a.0.total_cmp(&b.0));
+    let (_, [east, south]) = nearest.expect("a grid has four edges");
+    RiverPoint { x: point.x + east, y: point.y + south, ..*point }
+}
+
 fn feature(place: Place<'_>, id: usize, reach: &Reach, stem: usize) -> Feature {
+    let reach = &drawn(place.0, reach);
     let position = |point: &RiverPoint| {
         let [x, y] = place.at([point.x, point.y]);
         [x, y, point.z]
@@ -94,7 +123,8 @@ fn properties(id: usize, reach: &Reach) -> Map<String, Value> {
         End::Confluence => ("confluence", None),
         End::Lake(lake) => ("lake", Some(lake)),
     };
-    let lowest = lowest(reach);
+    // Where the reach joins another or a lake, this is still as large as the reach itself.
+    let lowest = reach.points[reach.points.len() - 1];
     let properties = json!({
         "id": id,
         "order": reach.order,
@@ -110,11 +140,4 @@ fn properties(id: usize, reach: &Reach) -> Map<String, Value> {
         "downstream": reach.downstream,
     });
     properties.as_object().cloned().unwrap_or_default()
-}
-
-/// The last point that is the reach's own: where it joins another or a lake, the last of all is in that.
-fn lowest(reach: &Reach) -> RiverPoint {
-    let shared = usize::from(reach.end != End::Outlet);
-    let last = reach.points.len() - 1;
-    reach.points[last.saturating_sub(shared)]
 }

@@ -1,7 +1,7 @@
 //! ESRI ASCII grid (`.asc`): a header of a few words and numbers, then rows of numbers from north to south.
 //!
 //! Numbers are written with as many digits as bring the same bits back. The CRS stands beside the grid in a
-//! `.prj` file, as ESRI's well-known text, for the systems that [`crs`] can spell. The corner is the
+//! `.prj` file, as ESRI's well-known text, for longitude and latitude and the UTM zones of WGS 84, NAD83 and ETRS89. The corner is the
 //! south-western one in the file; where that of the north-west was finer than a `f64` of the other can tell,
 //! it comes back within its last digit.
 

@@ -26,7 +26,11 @@ pub fn decode(parts: &dyn Parts, limits: Limits) -> Result<Raster, Fault> {
     })?;
     let mut tokens = text.split_ascii_whitespace().peekable();
     let header = Header::parse(&mut tokens, limits)?;
-    let raster = values(&header, bytes.len(), &mut tokens)?;
+    let mut raster = values(&header, bytes.len(), &mut tokens)?;
+    if !bytes.ends_with(b"\n") {
+        let note = "the file does not end with the end of a line: its last number may have been cut off";
+        raster.notes.push(note.to_owned());
+    }
     let crs = parts.read(&PartName::Sibling(CRS_FILE.to_owned()), CRS_BYTES)?;
     let crs = crs.map(|text| crs::read(&String::from_utf8_lossy(&text))).transpose()?;
     placed(raster, &header, crs)

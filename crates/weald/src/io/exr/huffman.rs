@@ -80,7 +80,7 @@ impl Code {
             let (length, count) = match bits.number(6)? {
                 LONG_RUN => (0, bits.number(8)? + SHORTEST_LONG_RUN),
                 run @ SHORT_RUN.. => (0, run - SHORT_RUN + 2),
-                length => (length as usize, 1),
+                length => (length as u8, 1),
             };
             lengths.extend(std::iter::repeat_n(length, count as usize));
         }
@@ -91,10 +91,10 @@ impl Code {
     }
 
     /// The code of symbols from `first` on with these lengths; 0 for those that do not occur.
-    fn of(lengths: &[usize], first: usize, last: usize) -> Self {
+    fn of(lengths: &[u8], first: usize, last: usize) -> Self {
         let mut starts = [0; LONGEST + 2];
         for &length in lengths.iter().filter(|&&length| length > 0) {
-            starts[length + 1] += 1;
+            starts[usize::from(length) + 1] += 1;
         }
         let mut codes = [0; LONGEST + 1];
         let mut next = 0;

@@ -1,5 +1,8 @@
 //! Bare numbers (`.raw`, `.r16`, `.r32`) with their description beside them in `NAME.json`, as in
-//! `land.r16.json`: see [`Sidecar`](sidecar::Sidecar).
+//! `land.r16.json`: `columns`, `rows`, `type` (`uint16` or `float32`), `byte_order` (`little`, the default, or
+//! `big`), `value_of_0` and `value_of_65535` for whole numbers, `no_data` (a number or `"NaN"`),
+//! `cell_metres`, `place` (EPSG code, north-western corner, cell in CRS units) and `provenance`. All but the
+//! first three may be left out.
 //!
 //! `.raw` and `.r16` are 16-bit whole numbers, little-endian, scaled to the range of the layer; where cells
 //! have no data these hold 0 and the lowest value is 1. `.r32` are the 32-bit floats themselves, no-data as
