@@ -234,7 +234,9 @@ mod tests {
             match (stepped, hit) {
                 (Some(stepped), Some(hit)) => {
                     met += 1;
-                    assert!(hit.way <= stepped + 0.02, "ray {at}: {} m instead of {stepped} m", hit.way);
+                    // Two centimetres of height are more than the error of a hit, and much way where a ray grazes.
+                    let early = hit.way <= stepped + 0.02 || above(stepped) > -0.02;
+                    assert!(early, "ray {at}: {} m instead of {stepped} m", hit.way);
                     // Where the ray only grazes a crest the steps may have missed it.
                     assert!(
                         hit.side.is_some() || above(hit.way).abs() < 0.02,
