@@ -47,8 +47,7 @@ parameters! {
 
 impl Step for Network {
     fn reads(&self) -> Vec<String> {
-        let layers =
-            [&self.of, &self.water, &self.flux_x, &self.flux_y, &self.erosion, &self.deposition];
+        let layers = [&self.of, &self.water, &self.flux_x, &self.flux_y, &self.erosion, &self.deposition];
         layers.map(|name| name.0.clone()).into()
     }
 
@@ -79,6 +78,7 @@ impl Step for Network {
 /// The ground before the water changed it.
 fn before(ground: &Field, erosion: &Field, deposition: &Field) -> Field {
     let changes = erosion.values().iter().zip(deposition.values());
-    let values = ground.values().iter().zip(changes).map(|(now, (eroded, deposited))| now + eroded - deposited);
+    let values =
+        ground.values().iter().zip(changes).map(|(now, (eroded, deposited))| now + eroded - deposited);
     Field::from_values(ground.size(), values.collect())
 }
