@@ -24,8 +24,8 @@ impl Centres {
         let centres = Self { first, last, count: coordinates.len() };
         let step = centres.step().unwrap_or(1.0);
         let is_off = |index: usize, coordinate: f64| {
-            // Turned round, so that a NaN is off as well.
-            !((coordinate - (first + index as f64 * step)).abs() <= TOLERANCE * step.abs()) || step == 0.0
+            let off = (coordinate - (first + index as f64 * step)).abs();
+            off.is_nan() || off > TOLERANCE * step.abs() || step == 0.0
         };
         let off = coordinates.iter().enumerate().find(|(index, coordinate)| is_off(*index, **coordinate));
         match off {

@@ -168,9 +168,13 @@ fn layer_attributes(layer: &Layer<'_>, is_placed: bool) -> Attributes {
         let per_step = if provenance.unit.ends_with("/step") { ", per step" } else { "" };
         attributes.add("long_name", format!("{long}{per_step}"));
         let standard = known.and_then(|known| known.standard);
-        standard.into_iter().for_each(|name| attributes.add("standard_name", name));
+        if let Some(name) = standard {
+            attributes.add("standard_name", name);
+        }
         let landlab = known.and_then(|known| known.landlab);
-        landlab.into_iter().for_each(|name| attributes.add("landlab_name", name));
+        if let Some(name) = landlab {
+            attributes.add("landlab_name", name);
+        }
         attributes.add("units", udunits(&provenance.unit));
         let items = provenance.items().into_iter().filter(|(key, _)| OF_LAYER.contains(key));
         items.for_each(|(key, text)| attributes.add(key, text));

@@ -78,7 +78,7 @@ impl Grid {
         if let Some(cell) = alone {
             return Place { cell: Some(cell), ..Place::default() };
         }
-        let Some(([west, width], [north, height])) = told.map(pairs).or_else(|| self.from_coordinates())
+        let Some(([west, width], [north, height])) = told.map(pairs).or_else(|| self.corner_and_sides())
         else {
             let notes =
                 vec!["one row or column of cells does not tell their side; the place is left out".to_owned()];
@@ -108,7 +108,7 @@ impl Grid {
     }
 
     /// West and width, north and height.
-    fn from_coordinates(&self) -> Option<([f64; 2], [f64; 2])> {
+    fn corner_and_sides(&self) -> Option<([f64; 2], [f64; 2])> {
         let (width, height) = (self.x.step()?, -self.y.step()?);
         Some(([self.x.first - 0.5 * width, width], [self.y.first + 0.5 * height, height]))
     }

@@ -95,10 +95,8 @@ impl Header {
         let (kind, count, bytes) = match value {
             Attribute::Text(text) => (CHARACTER, text.len(), text.as_bytes().to_vec()),
             Attribute::Float(number) => (FLOAT, 1, number.to_be_bytes().to_vec()),
-            Attribute::Doubles(numbers) => (DOUBLE, numbers.len(), big_endian(numbers, |n| n.to_be_bytes())),
-            Attribute::Integers(numbers) => {
-                (INTEGER, numbers.len(), big_endian(numbers, |n| n.to_be_bytes()))
-            }
+            Attribute::Doubles(numbers) => (DOUBLE, numbers.len(), big_endian(numbers, f64::to_be_bytes)),
+            Attribute::Integers(numbers) => (INTEGER, numbers.len(), big_endian(numbers, i32::to_be_bytes)),
         };
         self.word(kind);
         self.word(count as u32);

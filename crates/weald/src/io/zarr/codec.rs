@@ -54,7 +54,7 @@ impl Codecs {
     }
 
     /// Most bytes that a chunk of `length` bytes has in a file: packing what cannot be packed adds a little.
-    pub(super) fn most(&self, length: usize) -> u64 {
+    pub(super) fn most(length: usize) -> u64 {
         length as u64 + length as u64 / 64 + 4096
     }
 
@@ -66,7 +66,7 @@ impl Codecs {
         let mut bytes = packed;
         for (position, packing) in self.packings.iter().enumerate().rev() {
             // Only the last step has to give the numbers; what stood before it may be a little longer.
-            let most = if position == 0 { length as u64 } else { self.most(length) };
+            let most = if position == 0 { length as u64 } else { Self::most(length) };
             bytes = packing.undo(&bytes, most)?;
         }
         if bytes.len() != length {

@@ -5,6 +5,7 @@ use serde_json::Value;
 use super::super::cf::{self, Attributes, Described, Source};
 use super::super::{Fault, Limits, PartName, Parts, Raster};
 use super::chunks::{Rows, place};
+use super::codec::Codecs;
 use super::metadata::{Array, Storage};
 use super::{DESCRIPTION, attributes};
 
@@ -115,7 +116,7 @@ impl Source for Folder<'_> {
         for number in 0..counts.iter().product() {
             let at = place(number, &counts);
             let key = within(&array.name, &storage.key(&at[..counts.len()]));
-            let packed = self.parts.read(&PartName::Inside(key.clone()), storage.codecs.most(length))?;
+            let packed = self.parts.read(&PartName::Inside(key.clone()), Codecs::most(length))?;
             let chunk = packed.map(|packed| storage.codecs.decode(packed, length)).transpose();
             let chunk = chunk.map_err(|fault| Fault::damaged(format!("{key}: {fault}")))?;
             let rows = Rows::of(&array.shape, &storage.chunk, &at);
