@@ -258,6 +258,20 @@ mod tests {
     }
 
     #[test]
+    fn a_ray_that_cuts_a_crest_by_a_centimetre_meets_it() {
+        for lee in [5.0_f32, 12.0, 20.0, 28.0] {
+            let ridge =
+                terrain(24, |x, _| [30.0, 40.0, lee].get(x.wrapping_sub(11)).copied().unwrap_or(0.0), None);
+            let crest =
+                (0..24_000).map(|at| ridge.top.at([at as f32 * 1e-3 + 0.5, 12.0])).fold(0.0, f32::max);
+            let ray = |below: f32| Ray { from: [-50.0, -115.0, crest - below], direction: [1.0, 0.0, 0.0] };
+            let met = |below: f32| ridge.trace(&ray(below), [0.0, f32::INFINITY]).is_some();
+            assert!(met(0.01), "behind the crest the ground falls to {lee} m");
+            assert!(!met(-0.01));
+        }
+    }
+
+    #[test]
     fn a_ray_meets_a_tilted_plane_where_geometry_says() {
         let plane = terrain(40, |x, y| 2.0 * x as f32 + y as f32, None);
         for at in 0..100 {
