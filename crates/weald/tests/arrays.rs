@@ -236,7 +236,7 @@ fn a_chunk_of_another_length_than_its_description_says_is_refused() {
     for side in [6, 8] {
         let chunk = json!([5, side]);
         let lie = changed(&whole, "layer", |array| {
-            array["chunk_grid"]["configuration"]["chunk_shape"] = chunk.clone()
+            array["chunk_grid"]["configuration"]["chunk_shape"] = chunk.clone();
         });
         let fault = zarr::decode(&lie, LIMITS).expect_err("140 bytes are in the chunk").to_string();
         assert!(fault.contains("layer/c/0/0") && fault.contains(&format!("{}", 20 * side)), "{fault}");

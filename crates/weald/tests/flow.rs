@@ -25,7 +25,10 @@ fn breached(height: &Field, land: Option<&Mask>, deepest_breach: f64) -> Routed 
 
 /// Random cells without data.
 fn holes(size: Size, seed: u64, one_in: u64) -> Option<Mask> {
-    Mask::new(size, (0..size.cells()).map(|cell| hash2(seed, cell as i64, 5) % one_in != 0).collect())
+    Mask::new(
+        size,
+        (0..size.cells()).map(|cell| !hash2(seed, cell as i64, 5).is_multiple_of(one_in)).collect(),
+    )
 }
 
 fn is_land(land: Option<&Mask>, cell: usize) -> bool {
@@ -281,7 +284,7 @@ fn level_ground_drains_away_from_what_is_higher_through_its_middle() {
     let size = Size::new(21, 9).expect("legal");
     let floor = Field::from_function(size, |x, y| match (x, y) {
         (20, 4) => 0.0,
-        (0, _) | (20, _) | (_, 0 | 8) => 9.0,
+        (0 | 20, _) | (_, 0 | 8) => 9.0,
         _ => 1.0,
     });
     let routed = filled(&floor, None);

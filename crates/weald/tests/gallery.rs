@@ -61,7 +61,7 @@ fn making_one_figure_again_keeps_the_sections_of_the_others() {
     write_figures(&figures, folder.path(), &full, &|_| {}).expect("writes");
     let draft = Selection { only: &["two".to_owned()], job: GalleryJob { detail: Detail::Draft } };
     write_figures(&figures, folder.path(), &draft, &|begun| {
-        assert_eq!((begun.figure.id, begun.number, begun.count), ("two", 1, 1))
+        assert_eq!((begun.figure.id, begun.number, begun.count), ("two", 1, 1));
     })
     .expect("writes");
     let page = std::fs::read_to_string(folder.path().join("index.md")).expect("a page");

@@ -27,7 +27,7 @@ fn run(step: &dyn Step, land: &mut Landscape, seed: u64) {
 /// Ground by a generator with its defaults; every other has holes in its data.
 fn ground(entry: &Entry, seed: u64) -> Landscape {
     let size = Size::new(COLUMNS, ROWS).expect("legal");
-    let holes = (0..size.cells()).map(|cell| hash2(seed, cell as i64, 1) % 60 != 0).collect();
+    let holes = (0..size.cells()).map(|cell| !hash2(seed, cell as i64, 1).is_multiple_of(60)).collect();
     let land = if seed % 2 == 1 { Mask::new(size, holes) } else { None };
     let mut landscape = Landscape::new(Domain { land, ..Domain::new(size, 20.0) });
     let step = (entry.read)(&Table::default(), &mut Complaints::default());
@@ -40,7 +40,7 @@ fn analysed(entry: &Entry, seed: u64) -> Landscape {
     let mut land = ground(entry, seed);
     let choice = |at: i64, of: u64| hash2(seed, at, 9) % of;
     let (low, high) =
-        land.field("height").and_then(|h| Ok(h.range(land.domain.land.as_ref()))).expect("h").expect("cells");
+        land.field("height").map(|h| h.range(land.domain.land.as_ref())).expect("h").expect("cells");
     let sea_level = (choice(1, 3) == 0).then(|| f64::from(low) + 0.3 * f64::from(high - low));
     let breached = choice(2, 3) == 0;
     let flow = FlowStep {
@@ -147,7 +147,9 @@ fn on_two_hundred_seeds_of_every_generator_rivers_reach_an_end_and_rain_is_conse
             let river = values(&land, "river");
             let of_rivers: Vec<usize> = (0..river.len()).filter(|&cell| river[cell] > 0.0).collect();
             cells += of_rivers.len();
-            of_rivers.iter().for_each(|&cell| check_end_of(&land, cell));
+            for &cell in &of_rivers {
+                check_end_of(&land, cell);
+            }
             let rivers = Rivers::of(&land).expect("the layers are there");
             for (at, reach) in rivers.reaches.iter().enumerate() {
                 check_reach(&land, &rivers, at);

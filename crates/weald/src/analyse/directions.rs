@@ -48,7 +48,7 @@ impl Directions {
         for cell in (0..size.cells()).filter(|&cell| has_data(cell)) {
             let value = layer.values()[cell];
             let code = (0..=SEA).find(|&code| f32::from(code) == value);
-            let within = code.filter(|&code| leads_within(size, cell, code, &has_data));
+            let within = code.filter(|&code| leads_within(size, cell, code, has_data));
             codes[cell] = within.ok_or_else(|| bad_code(size, cell, value))?;
         }
         let directions = Self { size, codes };
