@@ -322,7 +322,8 @@ fn a_recipe_writes_each_set() {
     let mut recipe = String::from("[landscape]\nsize = [40, 30]\ncell = 10\n[[step]]\ndo = \"fbm\"\n");
     for (name, file) in [("unreal", "u.png"), ("unity", "v.raw"), ("terrain3d", "g.exr")] {
         assert!(EXPORTS.iter().any(|entry| entry.name == name));
-        recipe += &format!("[[output]]\nexport = \"{name}\"\nfile = \"{file}\"\n");
+        let output = format!("[[output]]\nexport = \"{name}\"\nfile = \"{file}\"\n");
+        recipe.push_str(&output);
     }
     let folder = tempfile::tempdir().expect("a folder");
     let recipe = weald::recipe::Recipe::parse("set.toml", &recipe, &weald::recipe::Overrides::default())

@@ -8,7 +8,8 @@
 //! 10.1080/02626667909491834. Areas come from flow that divides, the slope is that of the ways down in
 //! proportion to their shares (Quinn et al. 1991, doi 10.1002/hyp.3360050106). Differs: the length of contour
 //! is not a constant of the direction. What leaves a cell moves on by `d`, the mean of the steps to its
-//! neighbours by their shares, so `a = A |d| / cell²`, which is exact on planes in every direction.
+//! neighbours by their shares, and falls by `h`, the mean of the falls. So `a = A |d| / cell²` and `tan β = h / |d|`:
+//! both are those of the plane on planes along the axes and the diagonals.
 
 use rayon::prelude::*;
 
@@ -81,7 +82,7 @@ pub fn wetness(flow: &MultipleFlow<'_>, cell: f64, least_slope: f64) -> Field {
         }
         let outflow = Outflow::of(flow, at);
         let by_contour = cells * outflow.step * cell;
-        let slope = (outflow.drop / cell).max(least_slope);
+        let slope = (outflow.fall / (outflow.step * cell)).max(least_slope);
         libm::log(by_contour / slope) as f32
     };
     let values = upslope.par_iter().enumerate().with_min_len(CELLS_A_TASK).map(index).collect();
@@ -92,8 +93,8 @@ pub fn wetness(flow: &MultipleFlow<'_>, cell: f64, least_slope: f64) -> Field {
 struct Outflow {
     /// How far it moves on, in cells.
     step: f64,
-    /// Mean drop by length of the ways, in metres a cell.
-    drop: f64,
+    /// How far it falls, in metres.
+    fall: f64,
 }
 
 impl Outflow {
@@ -101,19 +102,18 @@ impl Outflow {
         let Routed { surface, directions } = flow.routed;
         if directions.downstream(cell).is_none() {
             // Water leaves straight over the edge.
-            return Self { step: 1.0, drop: 0.0 };
+            return Self { step: 1.0, fall: 0.0 };
         }
         let columns = surface.size().columns as isize;
-        let (mut to, mut drop) = ([0.0, 0.0], 0.0);
+        let (mut to, mut fall) = ([0.0, 0.0], 0.0);
         for (share, (east, south)) in
             flow.shares(cell).into_iter().zip(STEPS).filter(|(share, _)| *share > 0.0)
         {
             to = [to[0] + share * east as f64, to[1] + share * south as f64];
             let other = cell.wrapping_add_signed(south * columns + east);
-            let fall = f64::from(surface.values()[cell]) - f64::from(surface.values()[other]);
-            drop += share * fall / libm::hypot(east as f64, south as f64);
+            fall += share * (f64::from(surface.values()[cell]) - f64::from(surface.values()[other]));
         }
-        Self { step: libm::hypot(to[0], to[1]).max(LEAST_STEP), drop }
+        Self { step: libm::hypot(to[0], to[1]).max(LEAST_STEP), fall }
     }
 }
 

@@ -144,13 +144,26 @@ impl Axis {
     }
 }
 
-/// First cell and weights of a tent around a place.
+/// First cell and weights of the mean under a tent around a place, of ground that is linear between cells: a slope
+/// keeps its heights wherever the tent stands, which a tent of the cells alone does not give it.
 fn tent(place: f64, radius: f64) -> (i64, Vec<f64>) {
-    let first = libm::floor(place - radius) as i64 + 1;
-    let last = (libm::ceil(place + radius) as i64 - 1).max(first);
-    let weights: Vec<f64> = (first..=last).map(|cell| 1.0 - (cell as f64 - place).abs() / radius).collect();
-    let sum: f64 = weights.iter().sum();
-    (first, weights.into_iter().map(|weight| weight / sum).collect())
+    let first = libm::floor(place - radius) as i64;
+    let last = libm::ceil(place + radius) as i64;
+    (first, (first..=last).map(|cell| under_tent(cell as f64 - place, radius)).collect())
+}
+
+/// Share in the mean of a cell that lies `distance` from the middle: a hat of one cell a side folded with the tent,
+/// piece by piece a cubic.
+fn under_tent(distance: f64, radius: f64) -> f64 {
+    const SECOND_DIFFERENCE: [(f64, f64); 3] = [(-1.0, 1.0), (0.0, -2.0), (1.0, 1.0)];
+    let mut sum = 0.0;
+    for (cell, of_hat) in SECOND_DIFFERENCE {
+        for (side, of_tent) in SECOND_DIFFERENCE {
+            let beyond = (cell + side * radius - distance.abs()).max(0.0);
+            sum += of_hat * of_tent * beyond * beyond * beyond;
+        }
+    }
+    sum / (6.0 * radius * radius)
 }
 
 /// First of four cells around a place and their weights.

@@ -28,6 +28,7 @@ mod tests {
         let valley = Field::from_function(size, |x, y| 100.0 - y as f32 + 3.0 * (x as f32 - 20.0).abs());
         let ours = accumulate(&route(&valley, None, &Routing::default()).directions, None, None);
         let (mouth, plain) = (size.index(20, 59), naive(&valley));
-        assert!((plain[mouth] / ours[mouth] - 1.0).abs() < 0.2, "{} beside {}", plain[mouth], ours[mouth]);
+        // Water takes the way by which the flood came: next to the rim that is the rim, and not the steepest.
+        assert!((plain[mouth] / ours[mouth] - 1.0).abs() < 0.25, "{} beside {}", plain[mouth], ours[mouth]);
     }
 }

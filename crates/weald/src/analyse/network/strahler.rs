@@ -58,7 +58,9 @@ impl Tributaries {
 #[cfg(test)]
 mod tests {
     use super::super::drainage::tests::dry;
+    use super::super::ground::Ground;
     use super::*;
+    use crate::grid::{Mask, Size};
 
     #[test]
     fn two_rivers_of_the_same_order_make_one_of_the_next_and_a_smaller_one_does_not() {
@@ -74,19 +76,20 @@ mod tests {
     #[test]
     fn rivers_side_by_side_have_a_head_each_and_stay_of_the_first_order() {
         let parallel = dry(12, 300, |_, y| -y);
-        // The outermost columns are rim.
-        assert_eq!(channels(&parallel), Channels { heads: 10, order: 1 });
+        assert_eq!(channels(&parallel), Channels { heads: 12, order: 1 });
     }
 
     #[test]
     fn two_valleys_that_meet_have_two_heads_and_make_a_river_of_the_second_order() {
-        let [middle, apart, meeting] = [20.0, 10.0, 100.0];
-        let height = |x: f64, y: f64| {
-            let from_middle = (x - middle).abs();
-            let slope = if y < meeting { (from_middle - apart).abs() } else { from_middle - 2.0 * apart };
-            slope - 0.5 * y
-        };
-        let meeting = dry(41, 160, height);
-        assert_eq!(channels(&meeting), Channels { heads: 2, order: 2 });
+        // Land is nothing but a Y of single cells, whose arms are longer than the hundred cells of a channel.
+        let size = Size::new(41, 260).expect("legal");
+        let [meeting, apart] = [140_usize, 10];
+        let from_middle = |y: usize| meeting.saturating_sub(y).min(apart);
+        let on_y = |cell: usize| (cell % 41).abs_diff(20) == from_middle(cell / 41);
+        let land = Mask::new(size, (0..size.cells()).map(on_y).collect());
+        let height = (0..size.cells()).map(|cell| -((cell / 41) as f64)).collect();
+        let ground = Ground { size, land: land.as_ref(), height, depth: vec![0.0; size.cells()] };
+        let drainage = Drainage::new(&ground, &vec![false; size.cells()]);
+        assert_eq!(channels(&drainage), Channels { heads: 2, order: 2 });
     }
 }

@@ -153,7 +153,7 @@ mod tests {
 
     #[test]
     fn slots_are_as_wide_below_as_above_and_waves_lie_between() {
-        let slots = form(|x| if x % 20.0 < 4.0 { 0.0 } else { 30.0 }).expect("valleys");
+        let slots = form(|x| if x % 20.0 < 12.0 { 0.0 } else { 30.0 }).expect("valleys");
         assert!(slots.shape > 0.85, "{slots:?}");
         let waves = form(|x| 4.0 * libm::sin(x / 40.0 * std::f64::consts::TAU)).expect("valleys");
         assert!((waves.shape - 0.5).abs() < 0.01, "{waves:?}");
