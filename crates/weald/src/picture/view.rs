@@ -119,7 +119,7 @@ impl Picture for View {
 
     fn optional(&self) -> Vec<String> {
         let water: &[&str] = if self.water { &["water", "flux_x", "flux_y"] } else { &[] };
-        ["soil", "wetness", "deposition"].iter().chain(water).map(|name| (*name).to_owned()).collect()
+        ["soil_depth", "moisture", "deposition"].iter().chain(water).map(|name| (*name).to_owned()).collect()
     }
 
     fn turned(&self, share: f64) -> Option<Box<dyn Picture>> {

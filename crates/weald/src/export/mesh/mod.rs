@@ -109,7 +109,7 @@ impl Export for Mesh {
 
     fn optional(&self) -> Vec<String> {
         let water: &[&str] = if self.water { &["water", "lake_depth", "flux_x", "flux_y"] } else { &[] };
-        ["soil", "wetness", "deposition"].iter().chain(water).map(|name| (*name).to_owned()).collect()
+        ["soil_depth", "moisture", "deposition"].iter().chain(water).map(|name| (*name).to_owned()).collect()
     }
 
     fn notes(&self, finished: &Finished<'_>) -> Vec<String> {

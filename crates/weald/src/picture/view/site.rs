@@ -1,8 +1,9 @@
 //! What the landscape says of each place: moisture, soil, the materials at the surface.
 //!
-//! Layers `wetness` and `soil` are used where they exist. Without them moisture is that of the form of the ground, as
-//! water gathers in hollows: how far a place lies below its surroundings of some ten and some forty cells; and soil is
-//! what is deposited, or stays, on gentle slopes.
+//! Moisture is that of the form of the ground, as water gathers in hollows: how far a place lies below its
+//! surroundings of some ten and some forty cells. A layer `moisture` says the other half, evened out over a few
+//! cells, since plants do not follow each thread of water. Soil is the layer `soil_depth`; without it what is deposited,
+//! or stays, on gentle slopes.
 
 use super::surface::Surface;
 use crate::error::Error;
@@ -40,9 +41,13 @@ impl Sites {
         let land = landscape.domain.land.as_ref();
         let height = drawable(ground, land, sheet);
         let layer = |name: &str| landscape.field(name).ok().map(|field| drawable(field, land, sheet));
-        let moisture = layer("wetness").map_or_else(|| hollows(&height), |wetness| ranked(&wetness));
+        let hollows = hollows(&height);
+        let moisture = match layer("moisture") {
+            Some(moisture) => mean_of(&hollows, &ranked(&even(&moisture))),
+            None => hollows,
+        };
         let deposits = || layer("deposition").map(|deposits| covered(&deposits, [0.35, 0.85]));
-        let soil = layer("soil").map(|soil| covered(&soil, [0.0, 1.0])).or_else(deposits);
+        let soil = layer("soil_depth").map(|soil| covered(&even(&soil), [0.0, 1.0])).or_else(deposits);
         let soil = soil.unwrap_or_else(|| Field::filled(height.size(), 0.5));
         let colours = if materials { Some(colours(landscape, ground)?) } else { None };
         let channel = |cells: &[Linear], c: usize| {
@@ -119,6 +124,16 @@ fn hollows(height: &Field) -> Field {
     Field::from_values(height.size(), near.values().iter().zip(far.values()).map(depth).collect())
 }
 
+/// Without what differs from cell to cell.
+fn even(field: &Field) -> Field {
+    [1, 2].into_iter().fold(field.clone(), |field, gap| smoothed(&field, gap))
+}
+
+fn mean_of(one: &Field, other: &Field) -> Field {
+    let means = one.values().iter().zip(other.values()).map(|(one, other)| 0.5 * (one + other));
+    Field::from_values(one.size(), means.collect())
+}
+
 fn below(mean: &Field, height: &Field) -> Field {
     let depths: Vec<f32> =
         mean.values().iter().zip(height.values()).map(|(mean, height)| mean - height).collect();
@@ -127,7 +142,7 @@ fn below(mean: &Field, height: &Field) -> Field {
     Field::from_values(height.size(), depths.into_iter().map(|depth| depth / usual).collect())
 }
 
-/// Share of the cells that hold less, so that a wetness index of any range has dry and wet places.
+/// Share of the cells that hold less, so that moisture of any range has dry and wet places.
 fn ranked(field: &Field) -> Field {
     let mut sorted = field.values().to_vec();
     sorted.sort_unstable_by(f32::total_cmp);
