@@ -233,6 +233,27 @@ fn a_reader_that_leaves_early_is_no_failure() {
 }
 
 #[test]
+fn a_film_becomes_a_video_of_all_its_frames() {
+    let still =
+        RECIPE.replace("layer = \"height\"\nfile = \"height.npy\"", "picture = \"view\"\nfile = \"v.png\"");
+    let small = "width = 65\nheight = 33\nsamples = 1\nframes = 5\n";
+    for video in ["turn.mp4", "turn.webm"] {
+        let place = Place::with(&format!("{}{small}", still.replace("v.png", video)));
+        assert_ends(&place, &["run", "r.toml"], 0, &["file 1/1 turn"]);
+        let mut names: Vec<_> = (0..5).map(|number| format!("turn-0000{number}.png")).collect();
+        names.extend([video.to_owned()]);
+        names.insert(0, "report.json".to_owned());
+        assert_eq!(place.names("out/r"), names);
+        let entries = ["-v", "error", "-count_frames", "-show_entries", "stream=width,height,nb_read_frames"];
+        let mut probe = Command::new("ffprobe");
+        let probe =
+            probe.args(entries).args(["-of", "csv=p=0"]).arg(place.path("out/r").join(video)).output();
+        let probe = probe.expect("ffprobe is there; install it: apt-get install ffmpeg");
+        assert_eq!(stdout(&probe).trim(), "64,32,5", "{video}");
+    }
+}
+
+#[test]
 fn a_conversion_keeps_the_place_on_earth_and_the_cells_without_data() {
     let place = Place::with(RECIPE);
     let data = &data("jacksboro_fault_utm16_80m.tif");

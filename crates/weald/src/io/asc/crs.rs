@@ -5,7 +5,7 @@
 use std::fmt::Write;
 
 use super::super::Fault;
-use super::super::geotiff::{Unit, plain_keys};
+use super::super::geotiff::keys_by_code;
 use crate::domain::{GeoKeys, Georeference};
 
 /// A geographic CRS and the EPSG codes of the UTM zones on it.
@@ -144,8 +144,8 @@ pub(super) fn read(text: &str) -> Result<(Option<u32>, Option<GeoKeys>), Fault> 
     }
     let kind = text.split('[').next().unwrap_or_default().trim().to_ascii_uppercase();
     match kind.as_str() {
-        "GEOGCS" | "GEOGCRS" | "GEODCRS" => Ok((epsg, Some(plain_keys(epsg, None)))),
-        "PROJCS" | "PROJCRS" => Ok((epsg, Some(plain_keys(epsg, Some(unit(text)?))))),
+        "GEOGCS" | "GEOGCRS" | "GEODCRS" => Ok((epsg, Some(keys_by_code(epsg, true, 1.0)))),
+        "PROJCS" | "PROJCRS" => Ok((epsg, Some(keys_by_code(epsg, false, metres_a_unit(text)?)))),
         _ => Err(Fault::damaged(format!(
             "the .prj beside it begins with {kind:?}; PROJCS or GEOGCS, a CRS as well-known text, is read: \
              gdalsrsinfo -o wkt_esri EPSG:32633, or remove the file"
@@ -169,15 +169,14 @@ fn by_name(text: &str) -> Option<u32> {
     codes().find(|&code| Crs::of(code).is_some_and(|crs| crs.name() == name))
 }
 
-/// The unit of a projected CRS: the last one in its text.
-fn unit(text: &str) -> Result<Unit, Fault> {
+/// Metres in the unit of a projected CRS: the last one in its text.
+fn metres_a_unit(text: &str) -> Result<f64, Fault> {
     let number = text.rsplit_once("UNIT[").and_then(|(_, unit)| {
         let number = unit.split(',').nth(1)?.split(']').next()?;
         number.trim().parse::<f64>().ok()
     });
     let near = |metres: f64| number.is_some_and(|number| (number / metres - 1.0).abs() < 1e-8);
-    let known = [(1.0, Unit::Metre), (0.3048, Unit::Foot), (1200.0 / 3937.0, Unit::SurveyFoot)];
-    known.into_iter().find(|(metres, _)| near(*metres)).map(|(_, unit)| unit).ok_or_else(|| {
+    [1.0, 0.3048, 1200.0 / 3937.0].into_iter().find(|metres| near(*metres)).ok_or_else(|| {
         let shown = number.map_or("none".to_owned(), |number| number.to_string());
         Fault::damaged(format!(
             "the .prj beside it gives {shown} as metres in a unit; 1 (metre), 0.3048 and 1200/3937 (feet) are \

@@ -138,29 +138,6 @@ pub(in crate::io) fn metres_per_unit(keys: Option<&GeoKeys>) -> Result<f64, Faul
     }
 }
 
-/// Units of projected CRSs that are read.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::io) enum Unit {
-    Metre,
-    Foot,
-    SurveyFoot,
-}
-
-/// The keys of a CRS of which no more is known: projected in a unit, or of longitude and latitude.
-pub(in crate::io) fn plain_keys(epsg: Option<u32>, unit: Option<Unit>) -> GeoKeys {
-    let code = epsg.and_then(|code| u16::try_from(code).ok()).unwrap_or(USER_DEFINED);
-    let Some(unit) = unit else {
-        return shorts(&[(MODEL_TYPE, GEOGRAPHIC), (RASTER_TYPE, PIXEL_IS_AREA), (GEOGRAPHIC_TYPE, code)]);
-    };
-    let unit = match unit {
-        Unit::Metre => METRE,
-        Unit::Foot => FOOT,
-        Unit::SurveyFoot => SURVEY_FOOT,
-    };
-    let kind = [(MODEL_TYPE, PROJECTED), (RASTER_TYPE, PIXEL_IS_AREA), (PROJECTED_TYPE, code)];
-    shorts(&[kind.as_slice(), &[(LINEAR_UNITS, unit)]].concat())
-}
-
 /// The value of a key that is stored among the doubles.
 fn double(keys: &GeoKeys, key: u16) -> Option<f64> {
     let mut entries = keys.directory.get(4..)?.chunks_exact(4);

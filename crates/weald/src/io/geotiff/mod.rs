@@ -17,7 +17,7 @@ mod sample;
 mod tag;
 mod write;
 
-pub(super) use keys::{Unit, keys_by_code, metres_per_unit, plain_keys};
+pub(super) use keys::{keys_by_code, metres_per_unit};
 pub use read::decode;
 pub use write::encode;
 
