@@ -45,6 +45,19 @@ impl Shown {
         }
     }
 
+    /// Another step or file begins.
+    fn begin(&self, title: String) {
+        match &self.bar {
+            Some(bar) => {
+                bar.reset();
+                bar.set_prefix(title.clone());
+                bar.set_message("");
+            }
+            None => self.say(&title),
+        }
+        *self.now() = Now { title, first: None, line_at: Instant::now() };
+    }
+
     fn say(&self, line: &str) {
         match &self.bar {
             Some(bar) => bar.suspend(|| eprintln!("{line}")),
@@ -68,16 +81,7 @@ fn bar() -> ProgressBar {
 
 impl Progress for Shown {
     fn step(&self, number: usize, count: usize, name: &str) {
-        let title = format!("step {number}/{count} {name}");
-        match &self.bar {
-            Some(bar) => {
-                bar.reset();
-                bar.set_prefix(title.clone());
-                bar.set_message("");
-            }
-            None => self.say(&title),
-        }
-        *self.now() = Now { title, first: None, line_at: Instant::now() };
+        self.begin(format!("step {number}/{count} {name}"));
     }
 
     fn progress(&self, done: u64, total: u64, cells: usize) {
@@ -98,16 +102,7 @@ impl Progress for Shown {
     }
 
     fn output(&self, number: usize, count: usize, file: &Path) {
-        let title = format!("file {number}/{count} {}", file.display());
-        match &self.bar {
-            Some(bar) => {
-                bar.reset();
-                bar.set_prefix(title.clone());
-                bar.set_message("");
-            }
-            None => self.say(&title),
-        }
-        *self.now() = Now { title, first: None, line_at: Instant::now() };
+        self.begin(format!("file {number}/{count} {}", file.display()));
     }
 
     fn note(&self, text: &str) {

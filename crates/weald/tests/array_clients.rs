@@ -4,16 +4,15 @@
 //! GDAL comes from the Debian package `gdal-bin`, the Python packages from `clients/install arrays`. A test fails
 //! where one is missing, because a skipped proof proves nothing.
 
+mod rasters;
+
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use rasters::{at, hills, written};
 use serde_json::{Value, json};
-use tempfile::TempDir;
-use weald::domain::Georeference;
-use weald::grid::{Field, Mask, Size};
-use weald::io::{self, Provenance, Raster};
-
-const SIZE: Size = Size { columns: 300, rows: 270 };
+use weald::grid::{Field, Size};
+use weald::io::{self, Raster};
 
 /// Standard output of a program that must be there and succeed.
 fn output(program: &Path, remedy: &str, arguments: &[&str]) -> Vec<u8> {
@@ -46,37 +45,6 @@ fn shown(path: &Path) -> &str {
     path.to_str().expect("a temporary folder has a plain name")
 }
 
-/// Hills between 100 and 300 m with a round lake of no-data.
-fn raster() -> Raster {
-    let height = |x: usize, y: usize| 200.0 + 100.0 * ((x * x + 7 * y) as f32 * 0.001).sin();
-    let is_land = |index: usize| (index % 300).abs_diff(150).pow(2) + (index / 300).abs_diff(90).pow(2) > 900;
-    let land = Mask::new(SIZE, (0..SIZE.cells()).map(is_land).collect());
-    let field = Field::from_function(SIZE, |x, y| if is_land(SIZE.index(x, y)) { height(x, y) } else { 0.0 });
-    let (low, high) = field.range(land.as_ref()).expect("land");
-    let provenance = Provenance {
-        version: "0.1.0".to_owned(),
-        recipe_blake3: "af13".repeat(16),
-        seed: 7,
-        layer: "height".to_owned(),
-        unit: "m".to_owned(),
-        range: (f64::from(low), f64::from(high)),
-    };
-    Raster { land, provenance: Some(provenance), ..at(32616, [730_900.75, 4_069_271.25], [80.0; 2], field) }
-}
-
-fn at(epsg: u32, origin: [f64; 2], pixel: [f64; 2], field: Field) -> Raster {
-    let georeference = Some(Georeference { epsg: Some(epsg), origin, pixel, keys: None });
-    let cell = (epsg != 4326).then_some(pixel[0]);
-    Raster { cell, georeference, ..Raster::from(field) }
-}
-
-fn written(raster: &Raster, name: &str) -> (TempDir, PathBuf) {
-    let folder = tempfile::tempdir().expect("a folder");
-    let path = folder.path().join(name);
-    io::write(&path, raster).expect("written");
-    (folder, path)
-}
-
 /// What a client must find: the value, or NaN for no-data.
 fn assert_values(raster: &Raster, bytes: &[u8]) {
     let found = bytes.chunks_exact(4).map(|four| f32::from_le_bytes([four[0], four[1], four[2], four[3]]));
@@ -97,7 +65,7 @@ fn gdalinfo(path: &Path) -> Value {
 
 #[test]
 fn gdal_reads_every_cell_and_the_place_of_a_netcdf_file() {
-    let raster = raster();
+    let raster = hills();
     let (_folder, path) = written(&raster, "height.nc");
     let info = gdalinfo(&path);
     assert_eq!(info["geoTransform"], json!([730_900.75, 80.0, 0.0, 4_069_271.25, 0.0, -80.0]));
@@ -141,7 +109,7 @@ fn gdal_finds_the_crs_of_any_code_in_a_netcdf_file() {
 
 #[test]
 fn gdal_finds_the_cell_size_of_a_ground_without_a_place() {
-    let raster = Raster { georeference: None, land: None, cell: Some(20.0), ..raster() };
+    let raster = Raster { georeference: None, land: None, cell: Some(20.0), ..hills() };
     let (_folder, path) = written(&raster, "height.nc");
     let info = gdalinfo(&path);
     assert_eq!(info["geoTransform"], json!([0.0, 20.0, 0.0, 5400.0, 0.0, -20.0]));
@@ -164,7 +132,7 @@ with xarray.open_dataset(path, engine=sys.argv[2], decode_coords='all') as data:
 
 #[test]
 fn xarray_reads_every_cell_and_the_place_of_both_formats() {
-    let raster = raster();
+    let raster = hills();
     let north = raster.field.row(0).iter().map(|value| f64::from(*value)).sum::<f64>() / 300.0;
     for (name, engine) in [("height.nc", "netcdf4"), ("height.zarr", "zarr")] {
         let (_folder, path) = written(&raster, name);
@@ -193,7 +161,7 @@ fn xarray_reads_every_cell_and_the_place_of_both_formats() {
 
 #[test]
 fn xarray_and_gdal_place_the_rows_that_landlab_wants_first_in_the_south() {
-    let raster = raster();
+    let raster = hills();
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("height.nc");
     let (encode, _) =
@@ -211,7 +179,7 @@ fn xarray_and_gdal_place_the_rows_that_landlab_wants_first_in_the_south() {
 
 #[test]
 fn zarr_python_reads_the_group_and_its_chunks() {
-    let (_folder, path) = written(&raster(), "height.zarr");
+    let (_folder, path) = written(&hills(), "height.zarr");
     let script = "
 group = zarr.open_group(path, mode='r')
 height = group['height']
@@ -377,7 +345,7 @@ for name, other in {{
 /// The place follows the coordinates, and not the numbers beside them that still tell of the whole.
 #[test]
 fn a_part_that_xarray_cut_out_of_a_file_lies_where_it_lay() {
-    let raster = raster();
+    let raster = hills();
     let (folder, path) = written(&raster, "height.nc");
     let part = folder.path().join("part.nc");
     let script = "

@@ -1,9 +1,12 @@
 //! Files of arrays: what Weald writes it reads back to the bit, and what is damaged or lies is refused.
 
+mod rasters;
+
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use proptest::prelude::*;
+use rasters::any_raster;
 use serde_json::{Value, json};
 use weald::domain::{GeoKeys, Georeference};
 use weald::grid::{Field, Mask, Size};
@@ -11,18 +14,6 @@ use weald::io::{Encode, Fault, Format, InMemory, Limits, Provenance, Raster, for
 use weald::random::hash2;
 
 const LIMITS: Limits = Limits { cells: 1 << 16 };
-
-/// Any finite bit patterns, about one cell in eight without data.
-fn any_raster(columns: usize, rows: usize, seed: u64) -> Raster {
-    let size = Size { columns, rows };
-    let bits = |index: usize| hash2(seed, index as i64, 0);
-    let is_land = |index: usize| bits(index) >> 61 != 0;
-    let value = |index: usize| Some(f32::from_bits(bits(index) as u32)).filter(|value| value.is_finite());
-    let values = |index: usize| if is_land(index) { value(index).unwrap_or(-9999.0) } else { 0.0 };
-    let land = Mask::new(size, (0..size.cells()).map(is_land).collect());
-    let field = Field::from_values(size, (0..size.cells()).map(values).collect());
-    Raster { land, ..Raster::from(field) }
-}
 
 /// What a raster can know of its place: none, a cell, metres, degrees with a cell, survey feet of no EPSG code.
 fn placed(raster: Raster, kind: u8) -> Raster {

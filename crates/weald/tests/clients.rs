@@ -4,16 +4,15 @@
 //! The clients come from the Debian packages `gdal-bin`, `openexr` and `python3-numpy`. A test fails where one is
 //! missing, because a skipped proof proves nothing.
 
-use std::path::{Path, PathBuf};
+mod rasters;
+
+use std::path::Path;
 use std::process::Command;
 
+use rasters::{HILLS, hills, written};
 use serde_json::Value;
-use tempfile::TempDir;
 use weald::domain::Georeference;
-use weald::grid::{Field, Mask, Size};
-use weald::io::{self, Provenance, Raster};
-
-const SIZE: Size = Size { columns: 300, rows: 270 };
+use weald::io::{self, Raster};
 
 /// Standard output of a program that must be there and succeed.
 fn output(program: &str, package: &str, arguments: &[&str]) -> Vec<u8> {
@@ -43,37 +42,6 @@ fn shown(path: &Path) -> &str {
     path.to_str().expect("a temporary folder has a plain name")
 }
 
-/// Hills between 100 and 300 m with a round lake of no-data.
-fn raster() -> Raster {
-    let height = |x: usize, y: usize| 200.0 + 100.0 * ((x * x + 7 * y) as f32 * 0.001).sin();
-    let is_land = |index: usize| (index % 300).abs_diff(150).pow(2) + (index / 300).abs_diff(90).pow(2) > 900;
-    let land = Mask::new(SIZE, (0..SIZE.cells()).map(is_land).collect());
-    let mut field = Field::from_function(SIZE, height);
-    for (index, value) in field.values_mut().iter_mut().enumerate().filter(|(index, _)| !is_land(*index)) {
-        *value = if is_land(index) { *value } else { 0.0 };
-    }
-    let (low, high) = field.range(land.as_ref()).expect("land");
-    let provenance = Some(Provenance {
-        version: "0.1.0".to_owned(),
-        recipe_blake3: "af13".repeat(16),
-        seed: 7,
-        layer: "height".to_owned(),
-        unit: "m".to_owned(),
-        range: (f64::from(low), f64::from(high)),
-    });
-    let georeference =
-        Georeference { epsg: Some(32616), origin: [730_900.75, 4_069_271.25], pixel: [80.0; 2], keys: None };
-    let georeference = Some(georeference);
-    Raster { land, cell: Some(80.0), georeference, provenance, ..Raster::from(field) }
-}
-
-fn written(raster: &Raster, name: &str) -> (TempDir, PathBuf) {
-    let folder = tempfile::tempdir().expect("a folder");
-    let path = folder.path().join(name);
-    io::write(&path, raster).expect("written");
-    (folder, path)
-}
-
 /// What a client must find: the value, or its number for no-data.
 fn expected(raster: &Raster, no_data: f32) -> Vec<f32> {
     let land = raster.land.as_ref();
@@ -85,7 +53,7 @@ fn expected(raster: &Raster, no_data: f32) -> Vec<f32> {
 
 #[test]
 fn gdal_reads_every_cell_and_the_place_of_a_geotiff() {
-    let raster = raster();
+    let raster = hills();
     let (_folder, path) = written(&raster, "height.tif");
     let info = gdalinfo(&path);
     assert_eq!(info["geoTransform"], serde_json::json!([730_900.75, 80.0, 0.0, 4_069_271.25, 0.0, -80.0]));
@@ -105,7 +73,7 @@ fn gdal_reads_every_cell_and_the_place_of_a_geotiff() {
 
 #[test]
 fn gdal_finds_the_cell_size_of_a_ground_without_a_place() {
-    let raster = Raster { georeference: None, land: None, cell: Some(20.0), ..raster() };
+    let raster = Raster { georeference: None, land: None, cell: Some(20.0), ..hills() };
     let (_folder, path) = written(&raster, "height.tif");
     let info = gdalinfo(&path);
     assert_eq!(info["geoTransform"], serde_json::json!([0.0, 20.0, 0.0, 5400.0, 0.0, -20.0]));
@@ -133,7 +101,7 @@ fn gdal_finds_the_crs_of_a_model_that_was_read_and_made_square() {
 
 #[test]
 fn gdal_reads_a_png_as_greys_of_its_range() {
-    let raster = raster();
+    let raster = hills();
     let (_folder, path) = written(&raster, "height.png");
     let info = gdalinfo(&path);
     assert_eq!(
@@ -157,7 +125,7 @@ fn gdal_reads_a_png_as_greys_of_its_range() {
 
 #[test]
 fn gdal_reads_every_cell_and_the_place_of_an_ascii_grid() {
-    let raster = raster();
+    let raster = hills();
     for (epsg, name) in [(32616, "UTM zone 16N"), (26916, "NAD83 / UTM zone 16N"), (32733, "UTM zone 33S")] {
         let mut raster = raster.clone();
         raster.georeference.as_mut().expect("placed").epsg = Some(epsg);
@@ -185,7 +153,7 @@ fn gdal_reads_every_cell_and_the_place_of_an_ascii_grid() {
 
 #[test]
 fn weald_reads_the_ascii_grids_that_gdal_writes() {
-    let raster = raster();
+    let raster = hills();
     let (folder, path) = written(&raster, "height.tif");
     let grid = folder.path().join("gdal.asc");
     let digits = ["-co", "SIGNIFICANT_DIGITS=9"];
@@ -202,7 +170,7 @@ fn weald_reads_the_ascii_grids_that_gdal_writes() {
 /// The library of the OpenEXR tools unpacks every sample and packs them again, in tiles.
 #[test]
 fn the_openexr_tools_read_every_cell_of_an_exr_and_weald_reads_theirs() {
-    let raster = raster();
+    let raster = hills();
     let (folder, path) = written(&raster, "height.exr");
     let header = output("exrheader", "openexr", &[shown(&path)]);
     let header = String::from_utf8_lossy(&header);
@@ -227,7 +195,7 @@ fn the_openexr_tools_read_every_cell_of_an_exr_and_weald_reads_theirs() {
 
 #[test]
 fn the_openexr_tools_find_the_channels_that_each_reader_wants() {
-    let raster = raster();
+    let raster = hills();
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("height.exr");
     for (preset, expected) in [
@@ -268,7 +236,7 @@ fn python() -> &'static str {
 
 #[test]
 fn numpy_reads_every_cell_of_an_array() {
-    let raster = raster();
+    let raster = hills();
     let (_folder, path) = written(&raster, "height.npy");
     let script = "import numpy, sys; a = numpy.load(sys.argv[1]); print(a.dtype.str, a.shape, a.flags.c_contiguous);\
                   a.tofile(sys.argv[1] + '.raw')";
@@ -276,7 +244,7 @@ fn numpy_reads_every_cell_of_an_array() {
     assert_eq!(String::from_utf8_lossy(&printed).trim(), "<f4 (270, 300) True");
     let raw = std::fs::read(path.with_extension("npy.raw")).expect("NumPy wrote it");
     let values = raw.chunks_exact(4).map(|four| f32::from_le_bytes([four[0], four[1], four[2], four[3]]));
-    assert_eq!(values.len(), SIZE.cells());
+    assert_eq!(values.len(), HILLS.cells());
     for (value, expected) in values.zip(expected(&raster, f32::NAN)) {
         assert!(value == expected || value.is_nan() && expected.is_nan(), "{value} for {expected}");
     }

@@ -1,11 +1,14 @@
 //! OpenEXR, bare numbers and ASCII grids: what other programs wrote is read, what Weald writes comes back, and
 //! what a format cannot hold is said.
 
+mod rasters;
+
 use std::path::Path;
 
 use proptest::prelude::*;
+use rasters::any_raster;
 use weald::domain::{GeoKeys, Georeference};
-use weald::grid::{Field, Mask, Size};
+use weald::grid::{Field, Size};
 use weald::io::{
     self, Decode, Encode, FORMATS, Fault, Holds, InMemory, Knowledge, Limits, Part, Provenance, Raster,
     Values, asc, exr, raw,
@@ -120,17 +123,6 @@ fn half_floats_that_would_overflow_are_refused_with_their_cell() {
     let parts = encode.parts(&Raster::from(field(1000.4))).expect("fits");
     let again = exr::decode(&parts[0].bytes, Limits::default()).expect("reads");
     assert_eq!((again.field.values(), again.stored), ([1.0, 1000.5].as_slice(), "float16"));
-}
-
-/// Any finite bit patterns, about one cell in eight without data.
-fn any_raster(columns: usize, rows: usize, seed: u64) -> Raster {
-    let size = Size { columns, rows };
-    let bits = |index: usize| hash2(seed, index as i64, 0);
-    let is_land = |index: usize| bits(index) >> 61 != 0;
-    let value = |index: usize| Some(f32::from_bits(bits(index) as u32)).filter(|value| value.is_finite());
-    let values = |index: usize| if is_land(index) { value(index).unwrap_or(-9999.0) } else { 0.0 };
-    let land = Mask::new(size, (0..size.cells()).map(is_land).collect());
-    Raster { land, ..Raster::from(Field::from_values(size, (0..size.cells()).map(values).collect())) }
 }
 
 /// Heights, as a raster of a landscape has them.

@@ -1,8 +1,11 @@
 //! Raster files are read as GDAL reads them, and what Weald writes it reads back to the bit.
 
+mod rasters;
+
 use std::path::{Path, PathBuf};
 
 use proptest::prelude::*;
+use rasters::any_raster;
 use tempfile::tempdir;
 use weald::Error;
 use weald::domain::Georeference;
@@ -253,18 +256,6 @@ fn a_failed_write_leaves_nothing_and_keeps_what_was_there() {
     let error = io::write(&kept, &broken).expect_err("NaN");
     assert!(error.to_string().contains("column 0, row 0 holds NaN"), "{error}");
     assert_eq!(std::fs::read(&kept).expect("there"), before);
-}
-
-/// Any finite bit patterns, about one cell in eight without data, with all that a GeoTIFF can carry.
-fn any_raster(columns: usize, rows: usize, seed: u64) -> Raster {
-    let size = Size { columns, rows };
-    let bits = |index: usize| hash2(seed, index as i64, 0);
-    let is_land = |index: usize| bits(index) >> 61 != 0;
-    let value = |index: usize| Some(f32::from_bits(bits(index) as u32)).filter(|value| value.is_finite());
-    let values = |index: usize| if is_land(index) { value(index).unwrap_or(-9999.0) } else { 0.0 };
-    let land = Mask::new(size, (0..size.cells()).map(is_land).collect());
-    let field = Field::from_values(size, (0..size.cells()).map(values).collect());
-    Raster { land, ..Raster::from(field) }
 }
 
 fn provenance() -> Provenance {

@@ -1,8 +1,8 @@
 //! `NetCDF` in its classic format (Unidata, "The `NetCDF` Classic Format Specification"): CDF-1, CDF-2 with
 //! offsets of 64 bits, CDF-5 with sizes of 64 bits.
 //!
-//! Written is CDF-1, or CDF-2 where an offset needs it, with the attributes of [`cf`]; the preset `landlab` names
-//! the variables and orders the rows as landlab does. Read is any of the three, as far as [`cf`] reads its arrays. `NetCDF`-4 is
+//! Written is CDF-1, or CDF-2 where an offset needs it, with the attributes of `cf`; the preset `landlab` names
+//! the variables and orders the rows as landlab does. Read is any of the three, as far as `cf` reads its arrays. `NetCDF`-4 is
 //! another format (HDF5) and is not read: `nccopy -k classic` or `gdal_translate -co FORMAT=NC` turns it.
 //!
 //! The header is parsed here, so that every size is checked against the limits and the file before anything is

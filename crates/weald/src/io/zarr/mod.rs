@@ -1,6 +1,6 @@
 //! Zarr version 3 (Zarr core specification 3.0): a folder with descriptions in JSON and chunks of numbers.
 //!
-//! Written is a group with the attributes of [`cf`](super::cf) and metadata consolidated, so that xarray opens it
+//! Written is a group with the attributes of `cf` and metadata consolidated, so that xarray opens it
 //! as a dataset; layers in chunks of 256 × 256, little-endian, gzip; chunks without any data are left out, as NaN
 //! fills them. Read is a group or a single array, in regular chunks with the codecs `bytes`, `gzip`, `zstd` and
 //! `crc32c`; other codecs are named in the error.
