@@ -136,7 +136,7 @@ impl Axis {
                 Taps::carried_on(first, &weights, cells)
             }),
             near: each(&|place| {
-                let (first, weights) = tent(place, step.max(1.0));
+                let (first, weights) = if step > 1.0 { tent(place, step) } else { linear(place) };
                 Taps::cut_off(first, &weights, cells)
             }),
             nearest: (0..vertices).map(|vertex| place(vertex).round() as usize).collect(),
@@ -164,6 +164,12 @@ fn under_tent(distance: f64, radius: f64) -> f64 {
         }
     }
     sum / (6.0 * radius * radius)
+}
+
+/// First of two cells around a place and their weights.
+fn linear(place: f64) -> (i64, Vec<f64>) {
+    let before = libm::floor(place);
+    (before as i64, vec![1.0 - (place - before), place - before])
 }
 
 /// First of four cells around a place and their weights.
