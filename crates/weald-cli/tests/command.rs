@@ -233,6 +233,15 @@ fn a_reader_that_leaves_early_is_no_failure() {
 }
 
 #[test]
+fn a_second_run_replaces_the_folder_of_the_first() {
+    let place = Place::with(&RECIPE.replace("height.npy", "height.zarr"));
+    for _ in 0..2 {
+        assert_ends(&place, &["run", "r.toml"], 0, &[]);
+        assert_eq!(place.names("out/r"), ["height.zarr", "report.json"]);
+    }
+}
+
+#[test]
 fn a_film_becomes_a_video_of_all_its_frames() {
     let still =
         RECIPE.replace("layer = \"height\"\nfile = \"height.npy\"", "picture = \"view\"\nfile = \"v.png\"");

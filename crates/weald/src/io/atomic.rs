@@ -76,6 +76,12 @@ pub fn write_parts(path: &Path, parts: &[Part]) -> Result<(), Error> {
 
 /// Writes a folder under a temporary name and puts it in the place of the older one.
 fn write_folder(path: &Path, parts: &[Part]) -> Result<(), Error> {
+    if path.is_dir() && !parts.iter().any(|part| part.name.path(path).exists()) {
+        let path = path.display();
+        let message =
+            format!("cannot write {path}: the folder there holds other things; remove or rename it");
+        return Err(Error::Run(message));
+    }
     let (fresh, stale) = (temporary_name(path), temporary_name(&followed(path, ".old")));
     let swapped = fill(&fresh, parts).and_then(|()| {
         if path.exists() {
@@ -145,6 +151,17 @@ mod tests {
                 .expect_err("no space");
         assert!(error.to_string().contains("height.raw.json: No space left on device"), "{error}");
         assert_eq!(std::fs::read_dir(folder.path()).expect("lists").count(), 0);
+    }
+
+    #[test]
+    fn a_folder_of_other_things_is_left_alone() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("height.zarr");
+        std::fs::create_dir(&path).expect("made");
+        std::fs::write(path.join("letters.txt"), "dear").expect("written");
+        let error = write_parts(&path, &[Part::inside("zarr.json", b"{}".to_vec())]).expect_err("taken");
+        assert!(error.to_string().contains("holds other things"), "{error}");
+        assert_eq!(std::fs::read(path.join("letters.txt")).expect("kept"), b"dear");
     }
 
     #[test]

@@ -13,7 +13,8 @@ pub(super) fn prepare(recipe: &Recipe, out: &Path) -> Result<(), Error> {
     for output in &recipe.outputs {
         let path = out.join(&output.file);
         make(path.parent().unwrap_or(out))?;
-        if path.is_dir() {
+        let is_store = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("zarr"));
+        if path.is_dir() && !is_store {
             return Err(Error::Run(format!("cannot write {}: it is a folder", path.display())));
         }
         if inputs.iter().any(|input| same_file(input, &path)) {
