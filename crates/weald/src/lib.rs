@@ -66,6 +66,7 @@ pub mod export;
 pub mod gallery;
 pub mod generate;
 pub mod grid;
+pub mod grow;
 pub mod io;
 pub mod landscape;
 pub mod material;

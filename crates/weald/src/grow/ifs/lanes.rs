@@ -1,0 +1,139 @@
+//! The inner loop of random iteration: one map for each of 64 lanes, in the widest vectors of the machine.
+//!
+//! A draw is a hash of (key, step): two words of key enter a 32-bit hash that multiplies twice (after Wellons 2018,
+//! "Prospecting for hash functions"), and its halves are the draws of two steps. Coefficients are chosen by comparing
+//! the draw with the bounds of all maps: a chain of selections is what vectors can do, a look-up is not.
+
+use super::game::Lanes;
+use super::table::Table;
+use crate::vectors::widest;
+
+/// Points that run side by side.
+pub const LANES: usize = 64;
+
+/// One coordinate of all lanes.
+pub type Row = [f32; LANES];
+
+/// Lanes that are computed together, so that their state stays in registers.
+const GROUP: usize = 16;
+
+/// Plays as many steps as `points` has rows.
+pub(super) fn play(table: &Table, lanes: &mut Lanes, points: &mut [[Row; 3]], taken: &mut [[u8; LANES]]) {
+    match (table.maps.len(), table.planar) {
+        (2, true) => steps::<2, true>(table, lanes, points, taken),
+        (3, true) => steps::<3, true>(table, lanes, points, taken),
+        (4, true) => steps::<4, true>(table, lanes, points, taken),
+        (5, true) => steps::<5, true>(table, lanes, points, taken),
+        (8, true) => steps::<8, true>(table, lanes, points, taken),
+        (4, false) => steps::<4, false>(table, lanes, points, taken),
+        (5, false) => steps::<5, false>(table, lanes, points, taken),
+        (6, false) => steps::<6, false>(table, lanes, points, taken),
+        _ => steps_by_table(table, lanes, points, taken),
+    }
+}
+
+fn steps<const N: usize, const PLANAR: bool>(
+    table: &Table,
+    lanes: &mut Lanes,
+    points: &mut [[Row; 3]],
+    taken: &mut [[u8; LANES]],
+) {
+    let maps: [[[f32; 4]; 3]; N] = std::array::from_fn(|map| table.maps[map]);
+    let bounds: [u32; N] = std::array::from_fn(|map| table.bounds[map]);
+    widest(
+        #[inline(always)]
+        || {
+            for (points, taken) in points.iter_mut().zip(taken.iter_mut()) {
+                for group in 0..LANES / GROUP {
+                    step::<N, PLANAR>(&maps, &bounds, lanes, group * GROUP, points, taken);
+                }
+                lanes.step += 1;
+            }
+        },
+    );
+}
+
+/// One step of one group of lanes.
+#[inline(always)]
+fn step<const N: usize, const PLANAR: bool>(
+    maps: &[[[f32; 4]; 3]; N],
+    bounds: &[u32; N],
+    lanes: &mut Lanes,
+    from: usize,
+    points: &mut [Row; 3],
+    taken: &mut [u8; LANES],
+) {
+    for lane in from..from + GROUP {
+        let draw = draw(lanes.keys[0][lane], lanes.keys[1][lane], lanes.step);
+        let mut digit = 0;
+        let mut map = maps[0];
+        for other in 1..N {
+            let chosen = draw >= bounds[other];
+            digit = if chosen { other as u8 } else { digit };
+            for row in 0..3 {
+                for column in 0..4 {
+                    map[row][column] = if chosen { maps[other][row][column] } else { map[row][column] };
+                }
+            }
+        }
+        let at = [lanes.at[0][lane], lanes.at[1][lane], lanes.at[2][lane]];
+        let image = if PLANAR { planar(&map, at) } else { spatial(&map, at) };
+        for axis in 0..3 {
+            lanes.at[axis][lane] = image[axis];
+            points[axis][lane] = image[axis];
+        }
+        taken[lane] = digit;
+    }
+}
+
+/// The same for any number of maps, by looking them up: the same bits, more slowly.
+fn steps_by_table(table: &Table, lanes: &mut Lanes, points: &mut [[Row; 3]], taken: &mut [[u8; LANES]]) {
+    for (points, taken) in points.iter_mut().zip(taken.iter_mut()) {
+        for lane in 0..LANES {
+            let draw = draw(lanes.keys[0][lane], lanes.keys[1][lane], lanes.step);
+            let digit = table.bounds.partition_point(|&bound| bound <= draw) - 1;
+            let at = [lanes.at[0][lane], lanes.at[1][lane], lanes.at[2][lane]];
+            let map = &table.maps[digit];
+            let image = if table.planar { planar(map, at) } else { spatial(map, at) };
+            for axis in 0..3 {
+                lanes.at[axis][lane] = image[axis];
+                points[axis][lane] = image[axis];
+            }
+            taken[lane] = digit as u8;
+        }
+        lanes.step += 1;
+    }
+}
+
+#[inline(always)]
+fn planar(map: &[[f32; 4]; 3], [x, y, _]: [f32; 3]) -> [f32; 3] {
+    let row = |[a, b, _, t]: [f32; 4]| a * x + b * y + t;
+    [row(map[0]), row(map[1]), 0.0]
+}
+
+#[inline(always)]
+fn spatial(map: &[[f32; 4]; 3], [x, y, z]: [f32; 3]) -> [f32; 3] {
+    let row = |[a, b, c, t]: [f32; 4]| a * x + b * y + c * z + t;
+    [row(map[0]), row(map[1]), row(map[2])]
+}
+
+/// 16 random bits for a step of a lane.
+#[inline(always)]
+fn draw(key: u32, other_key: u32, step: u32) -> u32 {
+    let mut bits = (step >> 1).wrapping_mul(0x9e37_79b9).wrapping_add(key);
+    bits = (bits ^ (bits >> 16)).wrapping_mul(0x7feb_352d);
+    bits = (bits ^ (bits >> 15)).wrapping_add(other_key).wrapping_mul(0x846c_a68b);
+    bits ^= bits >> 16;
+    if step & 1 == 0 { bits >> 16 } else { bits & 0xffff }
+}
+
+/// Points of both ways to choose maps, for a test.
+#[cfg(test)]
+pub(super) fn both(table: &Table, ifs: &super::Ifs, steps: usize) -> [Vec<[Row; 3]>; 2] {
+    let rows = || (vec![[[0.0; LANES]; 3]; steps], vec![[0; LANES]; steps]);
+    let (mut chosen, mut taken) = rows();
+    play(table, &mut Lanes::at_root(ifs, 9), &mut chosen, &mut taken);
+    let (mut looked_up, mut taken) = rows();
+    steps_by_table(table, &mut Lanes::at_root(ifs, 9), &mut looked_up, &mut taken);
+    [chosen, looked_up]
+}
