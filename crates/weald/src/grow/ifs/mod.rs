@@ -5,8 +5,10 @@
 
 pub mod address;
 pub mod code;
+pub mod deform;
 pub mod expansion;
 pub mod game;
+pub mod histogram;
 pub mod lanes;
 pub mod map;
 pub mod shapes;
@@ -15,11 +17,15 @@ pub mod system;
 pub mod table;
 #[cfg(test)]
 mod tests;
+pub mod wind;
 
 pub use address::code_of;
 pub use code::{Code, Digits};
+pub use deform::{Deform, Deformation};
 pub use expansion::Coded;
 pub use game::{Block, Game};
+pub use histogram::{Histogram, Window};
 pub use map::{Map, Point};
 pub use system::{Draft, Ifs, IfsFault, Role, Weighted, even_probabilities};
 pub use table::Table;
+pub use wind::{Pose, Sway, Wind};
