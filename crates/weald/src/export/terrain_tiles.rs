@@ -131,15 +131,13 @@ pub(super) fn extension(file: &Path) -> String {
 /// Where the landscape lies and where it came from.
 pub(super) fn source(finished: &Finished<'_>, layer: &LayerName) -> Value {
     let place = finished.landscape.domain.georeference.as_ref();
-    let first =
-        place.map(|place| [place.origin[0] + 0.5 * place.pixel[0], place.origin[1] - 0.5 * place.pixel[1]]);
     json!({
         "weald": env!("CARGO_PKG_VERSION"),
         "recipe_blake3": finished.hash,
         "seed": finished.seed,
         "layer": layer.0,
         "epsg": place.and_then(|place| place.epsg),
-        "north_western_vertex": first,
+        "north_western_vertex": place.map(|place| place.at([0.5; 2])),
     })
 }
 
