@@ -49,6 +49,17 @@ pub struct Georeference {
 }
 
 impl Georeference {
+    /// CRS coordinates of the point that lies so many `columns` east and `rows` south of the north-western corner;
+    /// the centre of cell (`x`, `y`) is at `[x + 0.5, y + 0.5]`.
+    pub fn at(&self, [columns, rows]: [f64; 2]) -> [f64; 2] {
+        [self.origin[0] + columns * self.pixel[0], self.origin[1] - rows * self.pixel[1]]
+    }
+
+    /// CRS coordinates of the middle of a grid.
+    pub fn middle(&self, size: Size) -> [f64; 2] {
+        self.at([size.columns, size.rows].map(|count| 0.5 * count as f64))
+    }
+
     /// Whether the CRS counts in degrees of longitude and latitude.
     pub fn is_geographic(&self) -> bool {
         match &self.keys {
@@ -81,5 +92,18 @@ impl GeoKeys {
     /// Whether the model type is longitude and latitude.
     pub fn is_geographic(&self) -> bool {
         self.short(Self::MODEL_TYPE) == Some(Self::MODEL_GEOGRAPHIC)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn columns_go_east_and_rows_go_south() {
+        let place = Georeference { epsg: None, origin: [10.0, 40.0], pixel: [2.0, 3.0], keys: None };
+        assert_eq!(place.at([0.0; 2]), [10.0, 40.0]);
+        assert_eq!(place.at([0.5, 0.5]), [11.0, 38.5]);
+        assert_eq!(place.middle(Size { columns: 5, rows: 4 }), [15.0, 34.0]);
     }
 }

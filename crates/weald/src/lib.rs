@@ -57,6 +57,7 @@
 pub mod analyse;
 pub mod bench;
 pub mod combine;
+mod connected;
 pub mod domain;
 pub mod edit;
 pub mod engine;

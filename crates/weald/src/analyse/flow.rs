@@ -10,6 +10,7 @@
 //! | `descent` | steepest descent of every cell, by rows |
 //! | `basins` | the cells that descend to the same pit |
 //! | `passes` | the passes between basins that matter: a minimum spanning tree |
+//! | `union` | sets of basins that were joined |
 //! | `fill` | the level at which water leaves each basin: what priority-flood gives |
 //! | `breach` | channels through the rims instead |
 //! | `flats` | directions over level ground |
@@ -32,6 +33,7 @@ mod naive;
 mod passes;
 mod step;
 mod surface;
+mod union;
 
 pub use accumulate::accumulate;
 pub use multiple::{MultipleFlow, accumulate_multiple};

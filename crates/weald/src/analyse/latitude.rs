@@ -20,9 +20,7 @@ const FALSE_NORTHING: f64 = 10_000_000.0;
 /// Latitude of the middle of a landscape in degrees, north positive; `None` where its CRS does not tell.
 pub(super) fn latitude_deg(domain: &Domain) -> Option<f64> {
     let place = domain.georeference.as_ref()?;
-    let (columns, rows) = (domain.size.columns as f64, domain.size.rows as f64);
-    let east = place.origin[0] + 0.5 * columns * place.pixel[0];
-    let north = place.origin[1] - 0.5 * rows * place.pixel[1];
+    let [east, north] = place.middle(domain.size);
     let latitude = if place.is_geographic() {
         north
     } else {

@@ -6,7 +6,6 @@
 
 pub mod aspect;
 mod cells;
-pub(crate) mod component;
 pub mod contour;
 pub mod curvature;
 pub mod directions;

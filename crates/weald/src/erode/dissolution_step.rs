@@ -196,18 +196,13 @@ impl Process for Dissolving {
     }
 
     fn advance(&self, flow: &mut Flow<'_, Self>) {
+        let sweep = Sweep::of(flow, &self.links, self.arch, Some(flow.y));
         let DissolvingScratch { solid, dig, dissolution: scratch } = &mut *flow.scratch;
         let rows = RegolithRows {
             depth: &flow.constants[1 + self.links.planes()],
             before: &flow.input[REGOLITH_PLANE..],
             base: &flow.constants[0],
-            sweep: Sweep {
-                links: &self.links,
-                constants: flow.constants,
-                newest: Some(flow.y),
-                span: flow.span.clone(),
-                arch: self.arch,
-            },
+            sweep,
         };
         if flow.span.contains(&flow.y) {
             self.planes.take(flow.input, solid, flow.y);

@@ -80,25 +80,25 @@ impl Setting {
         self.slide.map_or(0, Slide::lag).max(self.advection.map_or(upwind, Advection::lag))
     }
 
+    /// The sweep of a part that reads rows up to `newest`.
+    pub(crate) fn sweep<'a, 'flow: 'a, P: Process>(
+        &'a self,
+        flow: &Flow<'flow, P>,
+        newest: Option<usize>,
+    ) -> Sweep<'a> {
+        Sweep::of(flow, &self.links, self.arch, newest)
+    }
+
     /// Slides the ground of the next row that is ready; `settled` is the row of the exchange.
     pub(crate) fn slide<P>(&self, flow: &mut Flow<'_, P>, settled: Option<usize>)
     where
         P: Process<Scratch: AsMut<Settled>>,
     {
         let Some(slide) = self.slide else { return };
+        let sweep = self.sweep(flow, settled);
         let rows = flow.scratch.as_mut();
         slide.advance(
-            &SlideRows {
-                base: &flow.constants[0],
-                change: &rows.change,
-                sweep: Sweep {
-                    links: &self.links,
-                    constants: flow.constants,
-                    newest: settled,
-                    span: flow.span.clone(),
-                    arch: self.arch,
-                },
-            },
+            &SlideRows { base: &flow.constants[0], change: &rows.change, sweep },
             &mut rows.slide,
             &mut flow.output[plane::CHANGE],
         );
@@ -115,6 +115,7 @@ impl Setting {
         P: Process<Scratch: AsMut<Settled>>,
     {
         let Some(advection) = self.advection else { return };
+        let sweep = self.sweep(flow, settled);
         let rows = flow.scratch.as_mut();
         advection.advance(
             &AdvectionRows {
@@ -122,13 +123,7 @@ impl Setting {
                 depth: &rows.depth,
                 eastward: &rows.eastward,
                 southward: &rows.southward,
-                sweep: Sweep {
-                    links: &self.links,
-                    constants: flow.constants,
-                    newest: settled,
-                    span: flow.span.clone(),
-                    arch: self.arch,
-                },
+                sweep,
             },
             &mut rows.advection,
             &mut flow.output[plane::SEDIMENT],

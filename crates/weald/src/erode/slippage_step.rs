@@ -163,18 +163,9 @@ impl Process for Slipping {
     }
 
     fn advance(&self, flow: &mut Flow<'_, Self>) {
+        let sweep = Sweep::of(flow, &self.links, self.arch, Some(flow.y));
         self.slippage.advance(
-            &SlippageRows {
-                solid: flow.input,
-                base: &flow.constants[0],
-                sweep: Sweep {
-                    links: &self.links,
-                    constants: flow.constants,
-                    newest: Some(flow.y),
-                    span: flow.span.clone(),
-                    arch: self.arch,
-                },
-            },
+            &SlippageRows { solid: flow.input, base: &flow.constants[0], sweep },
             flow.scratch,
             (self.planes, flow.output),
         );

@@ -28,7 +28,6 @@ use viscosity::{Viscosity, ViscosityRows, ViscosityScratch};
 
 use super::setting::{Setting, Settled};
 use super::simulation::Sky;
-use super::sweep::Sweep;
 use crate::engine::program::Program;
 use crate::grid::Size;
 use crate::stencil::chain::{Flow, Process};
@@ -183,18 +182,10 @@ impl Process for Stava {
 impl Stava {
     fn diffuse(&self, flow: &mut Flow<'_, Self>) {
         let Some(viscosity) = self.viscosity else { return };
+        let sweep = self.setting.sweep(flow, flow.y.checked_sub(MOVED));
         let StavaScratch { eastward, southward, viscosity: scratch, settled, .. } = &mut *flow.scratch;
         viscosity.advance(
-            &ViscosityRows {
-                velocity: [eastward, southward],
-                sweep: Sweep {
-                    links: &self.setting.links,
-                    constants: flow.constants,
-                    newest: flow.y.checked_sub(MOVED),
-                    span: flow.span.clone(),
-                    arch: self.setting.arch,
-                },
-            },
+            &ViscosityRows { velocity: [eastward, southward], sweep },
             scratch,
             [&mut settled.eastward, &mut settled.southward],
         );
@@ -202,19 +193,14 @@ impl Stava {
 
     fn dissolve(&self, flow: &mut Flow<'_, Self>, y: usize) {
         let Some(dissolution) = &self.dissolution else { return };
+        let sweep = self.setting.sweep(flow, Some(y));
         let scratch = &mut *flow.scratch;
         dissolution.dissolve(
             &RegolithRows {
                 depth: &flow.output[plane::DEPTH],
                 before: &flow.input[dissolution.plane..],
                 base: &flow.constants[0],
-                sweep: Sweep {
-                    links: &self.setting.links,
-                    constants: flow.constants,
-                    newest: Some(y),
-                    span: flow.span.clone(),
-                    arch: self.setting.arch,
-                },
+                sweep,
             },
             y,
             &mut scratch.solid,
@@ -224,26 +210,22 @@ impl Stava {
 
     fn creep(&self, flow: &mut Flow<'_, Self>) {
         let Some(dissolution) = &self.dissolution else { return };
+        let sweep = self.setting.sweep(flow, flow.y.checked_sub(self.exchanged()));
         let (before, after) = flow.output.split_at_mut(dissolution.plane);
         let rows = RegolithRows {
             depth: &before[plane::DEPTH],
             before: &flow.input[dissolution.plane..],
             base: &flow.constants[0],
-            sweep: Sweep {
-                links: &self.setting.links,
-                constants: flow.constants,
-                newest: flow.y.checked_sub(self.exchanged()),
-                span: flow.span.clone(),
-                arch: self.setting.arch,
-            },
+            sweep,
         };
         dissolution.creep(&rows, &flow.scratch.dissolution, after);
     }
 
     /// Slippage, or the materials as they are where there is none.
     fn slip(&self, flow: &mut Flow<'_, Self>) {
-        let StavaScratch { solid, slippage: scratch, .. } = &mut *flow.scratch;
         let newest = flow.y.checked_sub(self.exchanged());
+        let sweep = self.setting.sweep(flow, newest);
+        let StavaScratch { solid, slippage: scratch, .. } = &mut *flow.scratch;
         let Some(slippage) = &self.slippage else {
             if let Some(y) = newest.filter(|y| flow.span.contains(y)) {
                 self.planes.copy(solid, flow.output, y);
@@ -251,17 +233,7 @@ impl Stava {
             return;
         };
         slippage.advance(
-            &SlippageRows {
-                solid,
-                base: &flow.constants[0],
-                sweep: Sweep {
-                    links: &self.setting.links,
-                    constants: flow.constants,
-                    newest,
-                    span: flow.span.clone(),
-                    arch: self.setting.arch,
-                },
-            },
+            &SlippageRows { solid, base: &flow.constants[0], sweep },
             scratch,
             (self.planes, flow.output),
         );

@@ -5,6 +5,7 @@ use std::ops::Range;
 use pulp::Arch;
 
 use super::links::{LinkRow, Links};
+use crate::stencil::chain::{Flow, Process};
 use crate::stencil::ring::Ring;
 
 /// A sweep of a part of a step over the rows of a small world, between its walls.
@@ -19,7 +20,17 @@ pub(crate) struct Sweep<'a> {
     pub(crate) arch: Arch,
 }
 
-impl Sweep<'_> {
+impl<'a> Sweep<'a> {
+    /// The sweep of a part that reads rows up to `newest` of what flows by.
+    pub(super) fn of<'flow: 'a, P: Process + ?Sized>(
+        flow: &Flow<'flow, P>,
+        links: &'a Links,
+        arch: Arch,
+        newest: Option<usize>,
+    ) -> Self {
+        Self { links, constants: flow.constants, newest, span: flow.span.clone(), arch }
+    }
+
     /// The row `behind` rows behind the newest, where it exists.
     pub(crate) fn behind(&self, behind: usize) -> Option<usize> {
         self.newest?.checked_sub(behind).filter(|y| self.span.contains(y))

@@ -131,18 +131,9 @@ impl Process for Sliding {
     }
 
     fn advance(&self, flow: &mut Flow<'_, Self>) {
+        let sweep = Sweep::of(flow, &self.links, self.arch, Some(flow.y));
         self.slide.advance(
-            &SlideRows {
-                base: &flow.constants[0],
-                change: &flow.input[0],
-                sweep: Sweep {
-                    links: &self.links,
-                    constants: flow.constants,
-                    newest: Some(flow.y),
-                    span: flow.span.clone(),
-                    arch: self.arch,
-                },
-            },
+            &SlideRows { base: &flow.constants[0], change: &flow.input[0], sweep },
             flow.scratch,
             &mut flow.output[0],
         );

@@ -206,6 +206,7 @@ impl Process for Carrying {
     }
 
     fn advance(&self, flow: &mut Flow<'_, Self>) {
+        let sweep = Sweep::of(flow, &self.links, self.arch, Some(flow.y));
         let scratch = &mut *flow.scratch;
         let flows = 1 + self.links.planes();
         if flow.span.contains(&flow.y) {
@@ -220,13 +221,7 @@ impl Process for Carrying {
             depth: &scratch.depth,
             eastward: &scratch.eastward,
             southward: &scratch.southward,
-            sweep: Sweep {
-                links: &self.links,
-                constants: flow.constants,
-                newest: Some(flow.y),
-                span: flow.span.clone(),
-                arch: self.arch,
-            },
+            sweep,
         };
         self.advection.advance(&rows, &mut scratch.advection, &mut flow.output[0]);
     }

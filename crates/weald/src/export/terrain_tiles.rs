@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use png::{BitDepth, ColorType, Encoder};
+use png::{BitDepth, ColorType};
 use serde_json::{Value, json};
 
 use super::Finished;
@@ -10,6 +10,7 @@ use super::vertices::Vertices;
 use crate::error::Error;
 use crate::grid::Size;
 use crate::io::Part;
+use crate::io::png::Pixels;
 use crate::recipe::parameter::LayerName;
 
 crate::parameters! {
@@ -106,16 +107,7 @@ pub(super) fn png_8(size: Size, numbers: &[u8]) -> Result<Vec<u8>, Error> {
 }
 
 fn grey(size: Size, depth: BitDepth, bytes: &[u8]) -> Result<Vec<u8>, Error> {
-    let mut file = Vec::new();
-    let mut encoder = Encoder::new(&mut file, size.columns as u32, size.rows as u32);
-    encoder.set_color(ColorType::Grayscale);
-    encoder.set_depth(depth);
-    let written = encoder.write_header().and_then(|mut writer| {
-        writer.write_image_data(bytes)?;
-        writer.finish()
-    });
-    written.map_err(|cause| Error::Run(format!("the PNG could not be made: {cause}")))?;
-    Ok(file)
+    Pixels { sides: [size.columns, size.rows], channels: ColorType::Grayscale, depth, bytes }.file()
 }
 
 /// The description of a set, beside the file that names it.
@@ -131,15 +123,13 @@ pub(super) fn extension(file: &Path) -> String {
 /// Where the landscape lies and where it came from.
 pub(super) fn source(finished: &Finished<'_>, layer: &LayerName) -> Value {
     let place = finished.landscape.domain.georeference.as_ref();
-    let first =
-        place.map(|place| [place.origin[0] + 0.5 * place.pixel[0], place.origin[1] - 0.5 * place.pixel[1]]);
     json!({
         "weald": env!("CARGO_PKG_VERSION"),
         "recipe_blake3": finished.hash,
         "seed": finished.seed,
         "layer": layer.0,
         "epsg": place.and_then(|place| place.epsg),
-        "north_western_vertex": first,
+        "north_western_vertex": place.map(|place| place.at([0.5; 2])),
     })
 }
 

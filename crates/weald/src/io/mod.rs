@@ -17,6 +17,7 @@ pub mod netcdf;
 pub mod npy;
 mod number;
 mod parts;
+pub(crate) mod png;
 pub mod png16;
 mod provenance;
 mod raster;

@@ -6,9 +6,10 @@
 
 use std::io::Cursor;
 
-use png::{BitDepth, ColorType, Decoder, Encoder, Info, Reader};
+use png::{BitDepth, ColorType, Decoder, Info, Reader};
 
 use super::limits::ensure_can_hold;
+use super::png::Pixels;
 use super::provenance::{MAXIMUM, MINIMUM, finite};
 use super::{Decode, Encode, Fault, Format, Holds, Knowledge, Limits, Provenance, Raster, Values};
 use crate::error::Error;
@@ -156,31 +157,26 @@ pub fn encode(raster: &Raster) -> Result<Vec<u8>, Error> {
         let grey = if raster.is_land_at(index) { scale.grey(*value) } else { 0 };
         pixels.extend(grey.to_be_bytes());
     }
-    let failed = |cause| Error::Run(format!("the PNG could not be made: {cause}"));
-    pack(raster, &texts(raster, low, high), &pixels).map_err(failed)
+    pack(raster, &texts(raster, low, high), &pixels)
 }
 
-fn pack(raster: &Raster, texts: &[(&str, String)], pixels: &[u8]) -> Result<Vec<u8>, png::EncodingError> {
+fn pack(raster: &Raster, texts: &[(&str, String)], pixels: &[u8]) -> Result<Vec<u8>, Error> {
     let Size { columns, rows } = raster.field.size();
-    let mut file = Vec::new();
-    let mut encoder = Encoder::new(&mut file, columns as u32, rows as u32);
-    encoder.set_color(ColorType::Grayscale);
-    encoder.set_depth(BitDepth::Sixteen);
-    if raster.land.is_some() {
-        encoder.set_trns(vec![0, 0]);
-    }
-    for (key, text) in texts {
-        let (key, text) = ((*key).to_owned(), text.clone());
-        if text.is_ascii() {
-            encoder.add_text_chunk(key, text)?;
-        } else {
-            encoder.add_itxt_chunk(key, text)?;
+    let (channels, depth) = (ColorType::Grayscale, BitDepth::Sixteen);
+    Pixels { sides: [columns, rows], channels, depth, bytes: pixels }.marked(|encoder| {
+        if raster.land.is_some() {
+            encoder.set_trns(vec![0, 0]);
         }
-    }
-    let mut writer = encoder.write_header()?;
-    writer.write_image_data(pixels)?;
-    writer.finish()?;
-    Ok(file)
+        for (key, text) in texts {
+            let (key, text) = ((*key).to_owned(), text.clone());
+            if text.is_ascii() {
+                encoder.add_text_chunk(key, text)?;
+            } else {
+                encoder.add_itxt_chunk(key, text)?;
+            }
+        }
+        Ok(())
+    })
 }
 
 /// The range always, for without it the greys mean nothing; the rest where it is known.

@@ -65,7 +65,7 @@ impl Sides {
                 latitude: None,
             });
         }
-        let latitude = place.origin[1] - 0.5 * place.pixel[1] * size.rows as f64;
+        let [_, latitude] = place.middle(size);
         if latitude.abs() >= 90.0 {
             return Err(Error::Run(format!(
                 "the middle of the file lies at latitude {latitude}°, but must lie between the poles"

@@ -1,8 +1,11 @@
 //! A finished picture and its PNG.
 
+use png::{BitDepth, ColorType, SrgbRenderingIntent};
+
 use super::colour::encode;
 use super::font::Pen;
 use super::{Linear, PAPER};
+use crate::io::png::Pixels;
 
 /// Colour of writing.
 const INK: Linear = [0.06, 0.05, 0.04];
@@ -32,18 +35,13 @@ impl Image {
 
     /// The bytes of a PNG file with a text chunk for each keyword (1 to 79 Latin letters) and its text.
     pub fn to_png(&self, text: &[(String, String)]) -> Vec<u8> {
-        let mut bytes = Vec::new();
-        let mut encoder = png::Encoder::new(&mut bytes, self.width as u32, self.height as u32);
-        encoder.set_color(png::ColorType::Rgb);
-        encoder.set_depth(png::BitDepth::Eight);
-        encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
-        for (keyword, text) in text {
-            encoder.add_itxt_chunk(keyword.clone(), text.clone()).expect("any text fits an iTXt chunk");
-        }
-        let mut writer = encoder.write_header().expect("writing to memory cannot fail");
-        writer.write_image_data(&self.rgb).expect("the buffer holds width × height pixels");
-        writer.finish().expect("writing to memory cannot fail");
-        bytes
+        let (channels, depth) = (ColorType::Rgb, BitDepth::Eight);
+        let pixels = Pixels { sides: [self.width, self.height], channels, depth, bytes: &self.rgb };
+        let file = pixels.marked(|encoder| {
+            encoder.set_source_srgb(SrgbRenderingIntent::Perceptual);
+            text.iter().try_for_each(|(keyword, text)| encoder.add_itxt_chunk(keyword.clone(), text.clone()))
+        });
+        file.expect("any text fits an iTXt chunk, and the buffer holds width × height pixels")
     }
 
     /// Pictures from left to right, their tops level, `gap` pixels of paper between.

@@ -6,6 +6,7 @@ use super::ground::shrink;
 use super::ramp::Ramp;
 use super::sheet::Sheet;
 use super::spline::SplineRow;
+use crate::connected::components;
 use crate::domain::Domain;
 use crate::grid::Field;
 
@@ -86,29 +87,13 @@ impl Rise {
 
 /// Lowers the depth of puddles below the shore; says whether a lake is left.
 fn drop_puddles(depth: &mut Field) -> bool {
-    let size = depth.size();
-    let mut seen = vec![false; size.cells()];
+    let wet: Vec<bool> = depth.values().iter().map(|&depth| depth >= 1.0).collect();
     let mut lakes = false;
-    for start in 0..size.cells() {
-        if seen[start] || depth.values()[start] < 1.0 {
-            continue;
-        }
-        seen[start] = true;
-        let mut members = vec![start];
-        let mut next = 0;
-        while next < members.len() {
-            for other in size.neighbours(members[next]) {
-                if !seen[other] && depth.values()[other] >= 1.0 {
-                    seen[other] = true;
-                    members.push(other);
-                }
-            }
-            next += 1;
-        }
-        lakes |= members.len() >= SMALLEST;
-        if members.len() < SMALLEST {
-            for &member in &members {
-                depth.values_mut()[member] = 0.5;
+    for cells in components(depth.size(), &wet) {
+        lakes |= cells.len() >= SMALLEST;
+        if cells.len() < SMALLEST {
+            for cell in cells {
+                depth.values_mut()[cell] = 0.5;
             }
         }
     }

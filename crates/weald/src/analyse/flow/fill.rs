@@ -8,6 +8,7 @@ use rayon::prelude::*;
 use super::basins::Basins;
 use super::passes::Passes;
 use super::surface::{ROWS_A_TASK, Surface};
+use super::union::Union;
 
 /// Raises the cells of depressions to the height at which they overflow.
 pub(super) fn fill(surface: &mut Surface, basins: &Basins, passes: &Passes) {
@@ -23,7 +24,7 @@ fn spills(count: usize, passes: &Passes) -> Vec<f32> {
     let mut spills = vec![f32::NEG_INFINITY; count];
     let mut sets = Sets::new(count);
     for pass in &passes.tree {
-        let [a, b] = pass.basins.map(|basin| sets.root(basin));
+        let [a, b] = pass.basins.map(|basin| sets.union.root(basin));
         if a != 0 && b != 0 {
             sets.join(a, b);
             continue;
@@ -37,33 +38,23 @@ fn spills(count: usize, passes: &Passes) -> Vec<f32> {
 
 /// Sets of basins, each a ring of its members.
 struct Sets {
-    parent: Vec<u32>,
+    union: Union,
     next: Vec<u32>,
 }
 
 impl Sets {
     fn new(count: usize) -> Self {
-        let own: Vec<u32> = (0..count as u32).collect();
-        Self { parent: own.clone(), next: own }
-    }
-
-    fn root(&mut self, mut basin: u32) -> u32 {
-        while self.parent[basin as usize] != basin {
-            let above = self.parent[self.parent[basin as usize] as usize];
-            self.parent[basin as usize] = above;
-            basin = above;
-        }
-        basin
+        Self { union: Union::new(count), next: (0..count as u32).collect() }
     }
 
     fn join(&mut self, a: u32, b: u32) {
-        self.parent[a.max(b) as usize] = a.min(b);
+        self.union.join([a, b]);
         self.next.swap(a as usize, b as usize);
     }
 
     /// Makes a set part of the outside. Its ring is not needed any more.
     fn drain(&mut self, root: u32) {
-        self.parent[root as usize] = 0;
+        self.union.join([root, 0]);
     }
 
     fn members(&self, root: u32, mut each: impl FnMut(u32)) {

@@ -10,6 +10,7 @@ use rayon::prelude::*;
 
 use super::basins::Basins;
 use super::surface::Surface;
+use super::union::Union;
 
 /// Rows of a band.
 const BAND: usize = 32;
@@ -157,40 +158,6 @@ impl Found {
         if remembered.0 != pair || packed < remembered.1 {
             *remembered = (pair, packed);
             self.passes.push(packed);
-        }
-    }
-}
-
-/// Disjoint sets of basins.
-struct Union {
-    parent: Vec<u32>,
-}
-
-impl Union {
-    fn new(basins: usize) -> Self {
-        Self { parent: (0..basins as u32).collect() }
-    }
-
-    /// Joins the sets of two basins; false where they are one already.
-    fn join(&mut self, basins: [u32; 2]) -> bool {
-        let [a, b] = basins.map(|basin| self.root(basin));
-        self.parent[a.max(b) as usize] = a.min(b);
-        a != b
-    }
-
-    fn root(&mut self, mut basin: u32) -> u32 {
-        while self.parent[basin as usize] != basin {
-            let above = self.parent[self.parent[basin as usize] as usize];
-            self.parent[basin as usize] = above;
-            basin = above;
-        }
-        basin
-    }
-
-    /// Makes basins sets of their own again, once all that were joined are told.
-    fn forget(&mut self, basins: [u32; 2]) {
-        for basin in basins {
-            self.parent[basin as usize] = basin;
         }
     }
 }

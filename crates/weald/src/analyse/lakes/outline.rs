@@ -9,6 +9,7 @@
 use std::collections::BTreeMap;
 
 use super::Polygon;
+use crate::connected::areas;
 use crate::grid::Size;
 
 /// Corner of cells: column and row of the cell south-east of it.
@@ -70,27 +71,10 @@ impl Areas<'_> {
 
     /// Connected parts of areas, by edges alone: the same number for each cell of one.
     fn parts(&self) -> Vec<u32> {
-        let columns = self.size.columns;
         let mut parts = vec![0; self.numbers.len()];
-        let mut found = 0;
-        for start in 0..parts.len() {
-            if self.numbers[start] == 0 || parts[start] != 0 {
-                continue;
-            }
-            found += 1;
-            parts[start] = found;
-            let mut open = vec![start];
-            while let Some(cell) = open.pop() {
-                let x = cell % columns;
-                let west = (x > 0).then(|| cell - 1);
-                let east = (x + 1 < columns).then_some(cell + 1);
-                let south = Some(cell + columns).filter(|&cell| cell < parts.len());
-                for other in [west, east, south, cell.checked_sub(columns)].into_iter().flatten() {
-                    if parts[other] == 0 && self.numbers[other] == self.numbers[start] {
-                        parts[other] = found;
-                        open.push(other);
-                    }
-                }
+        for (cells, part) in areas(self.size, self.numbers).into_iter().zip(1..) {
+            for cell in cells {
+                parts[cell] = part;
             }
         }
         parts

@@ -3,9 +3,9 @@
 use std::collections::BTreeMap;
 
 use super::MOST_LAKES;
-use crate::analyse::component::components;
 use crate::analyse::ensure_finite;
 use crate::analyse::flow::{Routing, route};
+use crate::connected::components;
 use crate::engine::Job;
 use crate::error::Error;
 use crate::grid::Field;

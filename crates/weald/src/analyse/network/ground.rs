@@ -1,6 +1,6 @@
 //! Ground and water in cells, as all measures of a network want them.
 
-use crate::analyse::component::components;
+use crate::connected::components;
 use crate::grid::{Mask, Size};
 
 /// A lake is deeper than this, in cells.

@@ -1,8 +1,8 @@
 //! The longest connected valley: cells that lie deepest below their surroundings, or were carved deepest.
 
 use super::ground::Ground;
-use crate::analyse::component::{components, geodesic_length};
 use crate::analyse::gaussian::{Grid, gaussian};
+use crate::connected::{components, geodesic_length};
 
 /// Standard deviation, in cells, of the mean that valleys lie below.
 const SURROUNDINGS: f64 = 3.0;

@@ -22,11 +22,11 @@ pub(super) fn of(finished: &Finished<'_>, mesh: &Mesh, deviation: f64) -> Value 
 /// The middle of the domain in its CRS; nothing where it has no place.
 fn origin(domain: &Domain) -> Value {
     let Some(place) = &domain.georeference else { return Value::Null };
-    let [columns, rows] = [domain.size.columns, domain.size.rows].map(|count| count as f64);
+    let [x, y] = place.middle(domain.size);
     json!({
         "crs": place.epsg.map(|code| format!("EPSG:{code}")),
-        "x": place.origin[0] + 0.5 * columns * place.pixel[0],
-        "y": place.origin[1] - 0.5 * rows * place.pixel[1],
+        "x": x,
+        "y": y,
         "crs_units_a_metre": [place.pixel[0] / domain.cell, place.pixel[1] / domain.cell],
     })
 }

@@ -4,7 +4,7 @@
 //! it, under the bank, so that the shore is where the two surfaces meet and not a stair of cells.
 
 use super::surface::Surface;
-use crate::analyse::component::components;
+use crate::connected::components;
 use crate::domain::Domain;
 use crate::grid::{Field, Mask};
 use crate::landscape::Landscape;

@@ -12,10 +12,7 @@ impl Place<'_> {
     pub(super) fn at(self, [x, y]: [f64; 2]) -> [f64; 2] {
         let domain = self.0;
         match &domain.georeference {
-            Some(place) => [
-                place.origin[0] + x / domain.cell * place.pixel[0],
-                place.origin[1] - y / domain.cell * place.pixel[1],
-            ],
+            Some(place) => place.at([x / domain.cell, y / domain.cell]),
             None => [x, domain.size.rows as f64 * domain.cell - y],
         }
     }

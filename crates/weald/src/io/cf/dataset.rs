@@ -6,6 +6,7 @@ use super::crs;
 use super::names::{of_layer, udunits};
 use super::sheet::{Layer, Sheet};
 use super::{CELL, GRID_MAPPING};
+use crate::domain::Georeference;
 use crate::error::Error;
 use crate::grid::{Field, Mask, Size};
 
@@ -126,14 +127,19 @@ impl Axis {
 /// The centres of the cells, where the corner and the side of a cell are known.
 fn coordinates<'a>(sheet: &Sheet<'_>) -> Vec<Variable<'a>> {
     let size = sheet.size();
-    let local = || sheet.cell.map(|cell| ([0.0, cell * size.rows as f64], [cell; 2]));
-    let place = sheet.georeference.map(|place| (place.origin, place.pixel));
-    let Some((origin, pixel)) = place.or_else(local) else { return Vec::new() };
-    let mut y: Vec<f64> = (0..size.rows).map(|row| origin[1] - (row as f64 + 0.5) * pixel[1]).collect();
+    let local = sheet.cell.map(|cell| Georeference {
+        epsg: None,
+        origin: [0.0, cell * size.rows as f64],
+        pixel: [cell; 2],
+        keys: None,
+    });
+    let Some(place) = sheet.georeference.or(local.as_ref()) else { return Vec::new() };
+    let centre = |at: usize| place.at([at as f64 + 0.5; 2]);
+    let mut y: Vec<f64> = (0..size.rows).map(|row| centre(row)[1]).collect();
     if sheet.is_south_up() {
         y.reverse();
     }
-    let x = (0..size.columns).map(|column| origin[0] + (column as f64 + 0.5) * pixel[0]).collect();
+    let x = (0..size.columns).map(|column| centre(column)[0]).collect();
     [(Axis::Y, y), (Axis::X, x)]
         .map(|(axis, centres)| Variable {
             name: axis.name().to_owned(),

@@ -4,9 +4,9 @@ use std::path::{Component, Path, PathBuf};
 
 use super::films::{self, Film, Motion};
 use super::{Vocabulary, hint, tables};
-use crate::export::Export;
+use crate::export::{Export, ExportEntry};
 use crate::io::{Encode, Holds};
-use crate::picture::Picture;
+use crate::picture::{Picture, PictureEntry};
 use crate::recipe::parameter::{Complaints, LayerName, read_key};
 use crate::recipe::source::{Node, Table, Value};
 use crate::recipe::{CHECKPOINT_FILE, REPORT_FILE};
@@ -159,8 +159,14 @@ fn content_of(
     let named: Vec<_> = CONTENTS.iter().filter_map(|key| Some((*key, table.get(key)?))).collect();
     match named.as_slice() {
         [("layer", _)] => layer(vocabulary, table, file, complaints),
-        [("picture", node)] => picture(vocabulary, table, node, file, complaints),
-        [("export", node)] => export(vocabulary, table, node, file, complaints),
+        [("picture", node)] => {
+            let entry = entry_of("picture", node, (vocabulary.pictures, |entry| entry.name), complaints)?;
+            Some(picture(entry, table, file, complaints))
+        }
+        [("export", node)] => {
+            let entry = entry_of("export", node, (vocabulary.exports, |entry| entry.name), complaints)?;
+            Some(export(entry, table, file, complaints))
+        }
         [(first, _), (second, node), ..] => {
             let message = format!(
                 "`{first}` and `{second}` exclude each other; pictures and exports say `of` which layer they are"
@@ -209,16 +215,7 @@ fn layer(
     }
 }
 
-fn picture(
-    vocabulary: &Vocabulary,
-    table: &Table,
-    kind: &Node,
-    file: &Path,
-    complaints: &mut Complaints,
-) -> Option<Content> {
-    let known: Vec<_> = vocabulary.pictures.iter().map(|entry| entry.name).collect();
-    let name = word("picture", kind, &known, complaints)?;
-    let entry = vocabulary.pictures.iter().find(|entry| entry.name == name)?;
+fn picture(entry: &PictureEntry, table: &Table, file: &Path, complaints: &mut Complaints) -> Content {
     let mut table = table.clone();
     entry.name.clone_into(&mut complaints.subject);
     let film = films::take(&mut table, complaints);
@@ -226,42 +223,39 @@ fn picture(
         if film.is_some() { ("film", films::EXTENSIONS) } else { ("picture", &["png"] as &[_]) };
     ensure_extension(&table, file, (what, extensions), complaints);
     let picture = with_keys(entry.name, "picture", &table, complaints, entry.read);
-    let Some(film) = film else { return Some(Content::Picture { name: entry.name, picture }) };
+    let Some(film) = film else { return Content::Picture { name: entry.name, picture } };
     if let Some(fault) = films::fault(&film, entry.name, picture.as_ref()) {
         complaints.add(table.line, fault);
     }
-    Some(Content::Film { name: entry.name, picture, film })
+    Content::Film { name: entry.name, picture, film }
 }
 
-fn export(
-    vocabulary: &Vocabulary,
-    table: &Table,
-    kind: &Node,
-    file: &Path,
-    complaints: &mut Complaints,
-) -> Option<Content> {
-    let known: Vec<_> = vocabulary.exports.iter().map(|entry| entry.name).collect();
-    let name = word("export", kind, &known, complaints)?;
-    let entry = vocabulary.exports.iter().find(|entry| entry.name == name)?;
+fn export(entry: &ExportEntry, table: &Table, file: &Path, complaints: &mut Complaints) -> Content {
     ensure_extension(table, file, (entry.name, entry.extensions), complaints);
     let export = with_keys(entry.name, "export", table, complaints, entry.read);
     for fault in export.faults() {
         complaints.add(table.line, fault);
     }
-    Some(Content::Export { name: entry.name, export })
+    Content::Export { name: entry.name, export }
 }
 
-/// The word under `key`, where it is a known one.
-fn word(key: &str, node: &Node, known: &[&str], complaints: &mut Complaints) -> Option<String> {
+/// The entry whose name stands under `key`, where it is a known one.
+fn entry_of<T>(
+    key: &str,
+    node: &Node,
+    (entries, name_of): (&'static [T], fn(&T) -> &'static str),
+    complaints: &mut Complaints,
+) -> Option<&'static T> {
     let Value::Text(name) = &node.value else {
         complaints.add(node.line, format!("`{key}` is {}, but must be text", node.value.shown()));
         return None;
     };
-    if !known.contains(&name.as_str()) {
-        complaints.add(node.line, format!("there is no {key} {name:?}; {}", hint(name, known)));
-        return None;
+    let entry = entries.iter().find(|entry| name_of(entry) == name);
+    if entry.is_none() {
+        let known: Vec<_> = entries.iter().map(name_of).collect();
+        complaints.add(node.line, format!("there is no {key} {name:?}; {}", hint(name, &known)));
     }
-    Some(name.clone())
+    entry
 }
 
 fn ensure_extension(

@@ -1,12 +1,28 @@
-//! Connected cells: components by edges and corners, and how long one is.
+//! Connected cells: components, and how long one is.
 
 use std::collections::VecDeque;
 
 use crate::grid::Size;
 
-/// The components of the cells that are `member`, each a list of cells, in the order of their first cells.
+/// The components by edges and corners of the cells that are `member`, each a list of cells, in the order of their
+/// first cells.
 pub(crate) fn components(size: Size, member: &[bool]) -> Vec<Vec<usize>> {
-    let mut open = member.to_vec();
+    reached(member.to_vec(), |cell| size.neighbours(cell))
+}
+
+/// The components by edges alone of cells of the same number other than 0, as [`components`].
+pub(crate) fn areas(size: Size, numbers: &[u32]) -> Vec<Vec<usize>> {
+    let numbered = numbers.iter().map(|&number| number != 0).collect();
+    let aside = |cell: usize, other: usize| {
+        cell % size.columns == other % size.columns || cell / size.columns == other / size.columns
+    };
+    reached(numbered, |cell| {
+        size.neighbours(cell).filter(move |&other| aside(cell, other) && numbers[other] == numbers[cell])
+    })
+}
+
+/// The sets of `open` cells that reach each other by the ways that lead `on` from each.
+fn reached<Ways: Iterator<Item = usize>>(mut open: Vec<bool>, on: impl Fn(usize) -> Ways) -> Vec<Vec<usize>> {
     let mut found = Vec::new();
     for start in 0..open.len() {
         if !std::mem::take(&mut open[start]) {
@@ -16,7 +32,7 @@ pub(crate) fn components(size: Size, member: &[bool]) -> Vec<Vec<usize>> {
         let mut next = 0;
         while let Some(&cell) = cells.get(next) {
             next += 1;
-            cells.extend(size.neighbours(cell).filter(|&other| std::mem::take(&mut open[other])));
+            cells.extend(on(cell).filter(|&other| std::mem::take(&mut open[other])));
         }
         found.push(cells);
     }
@@ -25,7 +41,7 @@ pub(crate) fn components(size: Size, member: &[bool]) -> Vec<Vec<usize>> {
 
 /// Steps of the longest shortest way through a component, by a double sweep: the cell farthest from any cell,
 /// and the distance of the cell farthest from that one. Exact on trees, a lower bound elsewhere.
-pub(super) fn geodesic_length(size: Size, component: &[usize]) -> usize {
+pub(crate) fn geodesic_length(size: Size, component: &[usize]) -> usize {
     let Some(&any) = component.first() else { return 0 };
     let mut member = vec![false; size.cells()];
     for &cell in component {
@@ -62,6 +78,13 @@ mod tests {
         let (size, member) = drawn(&["#..#", ".#..", "#..#"]);
         let sizes: Vec<_> = components(size, &member).iter().map(Vec::len).collect();
         assert_eq!(sizes, [3, 1, 1]);
+    }
+
+    #[test]
+    fn areas_meet_at_edges_alone_and_only_where_their_numbers_are_the_same() {
+        let size = Size::new(4, 3).expect("legal");
+        let found = areas(size, &[1, 1, 2, 0, 0, 1, 2, 0, 3, 0, 0, 2]);
+        assert_eq!(found, [vec![0, 1, 5], vec![2, 6], vec![8], vec![11]]);
     }
 
     #[test]
