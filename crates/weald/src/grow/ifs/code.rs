@@ -94,6 +94,12 @@ impl Code {
         code
     }
 
+    /// From packed words whose bits beyond `length` digits are 0.
+    #[inline]
+    pub(super) fn of_words(digits: Digits, length: usize, words: [u64; 4]) -> Self {
+        Self { words, length: length as u16, bits: digits.bits }
+    }
+
     /// Reads `113` where digits are below ten, or `1,1,3`, which may end in a comma.
     ///
     /// # Errors

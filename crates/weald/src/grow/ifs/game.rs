@@ -21,7 +21,7 @@ const STEPS: usize = 4096;
 pub const CHUNK: u64 = (STEPS * LANES) as u64;
 
 /// Steps handed over at a time: their points fit the first-level cache beside what is made of them.
-const BLOCK_STEPS: usize = 32;
+pub(super) const BLOCK_STEPS: usize = 32;
 
 /// Random iteration of one fractal.
 #[derive(Clone, Debug)]
@@ -115,6 +115,16 @@ impl Block {
     /// Rows of [`LANES`] points; of the last row, only those up to [`Block::len`] count.
     pub fn rows(&self) -> &[[Row; 3]] {
         &self.points[..self.count.div_ceil(LANES)]
+    }
+
+    /// Maps taken before the first point, a row a step: as many as a code has digits.
+    pub(super) fn history(&self) -> &[[u8; LANES]] {
+        &self.taken[..self.history]
+    }
+
+    /// Maps taken on the way to the points, a row a step.
+    pub(super) fn taken(&self) -> &[[u8; LANES]] {
+        &self.taken[self.history..][..self.count.div_ceil(LANES)]
     }
 
     /// The maps that were taken last on the way to the points of a row: the coarsest digits of their codes.

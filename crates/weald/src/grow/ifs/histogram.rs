@@ -4,7 +4,7 @@
 //! eight bits; each time one runs over, 256 is added to a second count of 32 bits, which is rare. A picture of 1024² then
 //! works in 1 MiB instead of 4.
 
-use super::game::Block;
+use super::game::{BLOCK_STEPS, Block};
 use super::lanes::{LANES, Row};
 use crate::vectors::widest;
 
@@ -15,7 +15,7 @@ pub struct Window {
     pub low: [f32; 2],
     /// Cells for one unit of length.
     pub scale: [f32; 2],
-    /// Columns and rows.
+    /// Columns and rows, below 2²² each.
     pub size: [u32; 2],
 }
 
@@ -37,17 +37,14 @@ impl Histogram {
 
     /// Counts the points of a block.
     pub fn count(&mut self, block: &Block) {
+        let mut cells = [[0_u32; LANES]; BLOCK_STEPS];
         let rows = block.rows();
-        let mut cells = [0_u32; LANES];
-        for (number, [x, y, _]) in rows.iter().enumerate() {
-            cells_of(&self.window, x, y, &mut cells);
-            let valid = (block.len() - number * LANES).min(LANES);
-            for &cell in &cells[..valid] {
-                let count = &mut self.low[cell as usize];
-                *count = count.wrapping_add(1);
-                if *count == 0 {
-                    self.high[cell as usize] += 256;
-                }
+        cells_of(&self.window, rows, &mut cells[..rows.len()]);
+        for &cell in &cells.as_flattened()[..block.len()] {
+            let count = &mut self.low[cell as usize];
+            *count = count.wrapping_add(1);
+            if *count == 0 {
+                self.high[cell as usize] += 256;
             }
         }
     }
@@ -74,23 +71,39 @@ impl Histogram {
     }
 }
 
-/// The cells of a row of points; what lies outside gets the one beyond the last.
-fn cells_of(window: &Window, x: &Row, y: &Row, cells: &mut [u32; LANES]) {
+/// The cells of rows of points; what lies outside gets the one beyond the last.
+fn cells_of(window: &Window, points: &[[Row; 3]], cells: &mut [[u32; LANES]]) {
     let Window { low, scale, size: [columns, rows] } = *window;
     let (width, height) = (columns as f32, rows as f32);
     let beyond = columns * rows;
     widest(
         #[inline(always)]
         || {
-            for lane in 0..LANES {
-                let column = (x[lane] - low[0]) * scale[0];
-                let row = (y[lane] - low[1]) * scale[1];
-                let inside = column >= 0.0 && row >= 0.0 && column < width && row < height;
-                let cell = (row as i32 as u32).wrapping_mul(columns).wrapping_add(column as i32 as u32);
-                cells[lane] = if inside { cell } else { beyond };
+            let (low, scale, columns, width, height, beyond) = (low, scale, columns, width, height, beyond);
+            for ([x, y, _], cells) in points.iter().zip(cells.iter_mut()) {
+                // Copies, which nothing that is written can be: so whole vectors are read and written.
+                let (x, y, mut found) = (*x, *y, [0; LANES]);
+                for lane in 0..LANES {
+                    let column = (x[lane] - low[0]) * scale[0];
+                    let row = (y[lane] - low[1]) * scale[1];
+                    let inside = (column >= 0.0) & (row >= 0.0) & (column < width) & (row < height);
+                    let cell = floor(row).wrapping_mul(columns).wrapping_add(floor(column));
+                    found[lane] = if inside { cell } else { beyond };
+                }
+                *cells = found;
             }
         },
     );
+}
+
+/// The whole number below a number from 0 to below 2²²; anything for others. A cast saturates, which vectors cannot do:
+/// adding 2²³ rounds to the nearest whole number and leaves it in the low bits.
+#[inline(always)]
+fn floor(number: f32) -> u32 {
+    const SHIFT: f32 = 8_388_608.0;
+    let nearest = number + SHIFT;
+    let above = nearest - SHIFT > number;
+    (nearest.to_bits() & 0x007f_ffff).wrapping_sub(u32::from(above))
 }
 
 #[cfg(test)]
@@ -105,7 +118,7 @@ mod tests {
         let window = Window { low: [0.0, 0.25], scale: [8.0, 8.0], size: [8, 6] };
         let points = 300_000;
         let (mut whole, mut half) = (Histogram::new(window), Histogram::new(window));
-        let mut expected = vec![0_u32; 49];
+        let mut expected = [0_u32; 49];
         Game::new(&ifs, 1).points(points, |block| {
             let into = if block.first % 8192 == 0 { &mut whole } else { &mut half };
             into.count(block);

@@ -14,9 +14,6 @@ pub const LANES: usize = 64;
 /// One coordinate of all lanes.
 pub type Row = [f32; LANES];
 
-/// Lanes that are computed together, so that their state stays in registers.
-const GROUP: usize = 16;
-
 /// Plays as many steps as `points` has rows.
 pub(super) fn play(table: &Table, lanes: &mut Lanes, points: &mut [[Row; 3]], taken: &mut [[u8; LANES]]) {
     match (table.maps.len(), table.planar) {
@@ -38,52 +35,83 @@ fn steps<const N: usize, const PLANAR: bool>(
     points: &mut [[Row; 3]],
     taken: &mut [[u8; LANES]],
 ) {
-    let maps: [[[f32; 4]; 3]; N] = std::array::from_fn(|map| table.maps[map]);
+    // Coefficient by coefficient, so that each is chosen by itself.
+    let coefficients: [[[f32; N]; 4]; 3] = std::array::from_fn(|row| {
+        std::array::from_fn(|column| std::array::from_fn(|map| table.maps[map][row][column]))
+    });
     let bounds: [u32; N] = std::array::from_fn(|map| table.bounds[map]);
     widest(
         #[inline(always)]
         || {
+            // Copies, which nothing that is written can be: so they stay in registers.
+            let (coefficients, bounds) = (coefficients, bounds);
             for (points, taken) in points.iter_mut().zip(taken.iter_mut()) {
-                for group in 0..LANES / GROUP {
-                    step::<N, PLANAR>(&maps, &bounds, lanes, group * GROUP, points, taken);
-                }
+                step::<N, PLANAR>(&coefficients, &bounds, lanes, points, taken);
                 lanes.step += 1;
             }
         },
     );
 }
 
-/// One step of one group of lanes.
+/// One step of all lanes.
 #[inline(always)]
 fn step<const N: usize, const PLANAR: bool>(
-    maps: &[[[f32; 4]; 3]; N],
+    coefficients: &[[[f32; N]; 4]; 3],
     bounds: &[u32; N],
     lanes: &mut Lanes,
-    from: usize,
     points: &mut [Row; 3],
     taken: &mut [u8; LANES],
 ) {
-    for lane in from..from + GROUP {
-        let draw = draw(lanes.keys[0][lane], lanes.keys[1][lane], lanes.step);
-        let mut digit = 0;
-        let mut map = maps[0];
-        for other in 1..N {
-            let chosen = draw >= bounds[other];
-            digit = if chosen { other as u8 } else { digit };
-            for row in 0..3 {
-                for column in 0..4 {
-                    map[row][column] = if chosen { maps[other][row][column] } else { map[row][column] };
-                }
-            }
+    let [xs, ys, zs] = &mut lanes.at;
+    let [keys, other_keys] = &lanes.keys;
+    let [out_x, out_y, out_z] = points;
+    let [[a, b, c, t], [d, e, f, u], [g, h, i, v]] = coefficients;
+    for lane in 0..LANES {
+        let draw = draw(keys[lane], other_keys[lane], lanes.step);
+        let (x, y) = (xs[lane], ys[lane]);
+        if PLANAR {
+            xs[lane] = chosen(draw, bounds, a) * x + chosen(draw, bounds, b) * y + chosen(draw, bounds, t);
+            ys[lane] = chosen(draw, bounds, d) * x + chosen(draw, bounds, e) * y + chosen(draw, bounds, u);
+        } else {
+            let z = zs[lane];
+            xs[lane] = chosen(draw, bounds, a) * x
+                + chosen(draw, bounds, b) * y
+                + chosen(draw, bounds, c) * z
+                + chosen(draw, bounds, t);
+            ys[lane] = chosen(draw, bounds, d) * x
+                + chosen(draw, bounds, e) * y
+                + chosen(draw, bounds, f) * z
+                + chosen(draw, bounds, u);
+            zs[lane] = chosen(draw, bounds, g) * x
+                + chosen(draw, bounds, h) * y
+                + chosen(draw, bounds, i) * z
+                + chosen(draw, bounds, v);
+            out_z[lane] = zs[lane];
         }
-        let at = [lanes.at[0][lane], lanes.at[1][lane], lanes.at[2][lane]];
-        let image = if PLANAR { planar(&map, at) } else { spatial(&map, at) };
-        for axis in 0..3 {
-            lanes.at[axis][lane] = image[axis];
-            points[axis][lane] = image[axis];
-        }
-        taken[lane] = digit;
+        out_x[lane] = xs[lane];
+        out_y[lane] = ys[lane];
+        taken[lane] = digit(draw, bounds);
     }
+}
+
+/// The value of the map that a draw takes.
+#[inline(always)]
+fn chosen<const N: usize>(draw: u32, bounds: &[u32; N], values: &[f32; N]) -> f32 {
+    let mut value = values[0];
+    for map in 1..N {
+        value = if draw >= bounds[map] { values[map] } else { value };
+    }
+    value
+}
+
+/// The map that a draw takes.
+#[inline(always)]
+fn digit<const N: usize>(draw: u32, bounds: &[u32; N]) -> u8 {
+    let mut digit = 0;
+    for &bound in &bounds[1..] {
+        digit += u32::from(draw >= bound);
+    }
+    digit as u8
 }
 
 /// The same for any number of maps, by looking them up: the same bits, more slowly.
@@ -124,7 +152,7 @@ fn draw(key: u32, other_key: u32, step: u32) -> u32 {
     bits = (bits ^ (bits >> 16)).wrapping_mul(0x7feb_352d);
     bits = (bits ^ (bits >> 15)).wrapping_add(other_key).wrapping_mul(0x846c_a68b);
     bits ^= bits >> 16;
-    if step & 1 == 0 { bits >> 16 } else { bits & 0xffff }
+    (bits >> (16 * (!step & 1))) & 0xffff
 }
 
 /// Points of both ways to choose maps, for a test.

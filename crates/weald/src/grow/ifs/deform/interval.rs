@@ -1,11 +1,11 @@
 //! Places of a code, counted from 1 as in the source: only digits within them change.
 
-/// Places `from` to `to`, both included, counted from 1, coarsest first: k_b and k_e of the source.
+/// Places `from` to `to`, both included, counted from 1, coarsest first: `k_b` and `k_e` of the source.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Interval {
-    /// The first, k_b.
+    /// The first, `k_b`.
     pub from: usize,
-    /// The last, k_e.
+    /// The last, `k_e`.
     pub to: usize,
 }
 

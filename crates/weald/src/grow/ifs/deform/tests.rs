@@ -140,7 +140,7 @@ proptest! {
     fn parts_carry_the_parts_within_them(angle in 0.1..1.0_f64, inner in 0.1..1.0_f64, wrong_order: bool) {
         let ifs = ifs("fern");
         let code = |text: &str| Code::parse(ifs.digits(), text).expect("digits");
-        let mut parts = vec![Part::turned(code("1"), angle, 1.0), Part::turned(code("13"), inner, 1.0)];
+        let mut parts = [Part::turned(code("1"), angle, 1.0), Part::turned(code("13"), inner, 1.0)];
         if wrong_order {
             parts.reverse();
         }

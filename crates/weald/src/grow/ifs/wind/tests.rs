@@ -147,7 +147,7 @@ proptest! {
         speed in 0.0..60.0_f64, gusts in 0.0..1.0_f64, seconds in 0.0..100.0_f64, direction_deg in -180.0..180.0_f64,
     ) {
         let (ifs, sway) = plant("fern-3d");
-        let wind = Wind { speed, gusts, direction_deg, ..Wind::default() };
+        let wind = Wind { speed, direction_deg, gusts, ..Wind::default() };
         let pose = wind.pose(seconds);
         let numbers = pose.numbers();
         prop_assert!(numbers.len() == 12 + ORDERS * PHASES && numbers.iter().all(|x| x.is_finite()));
