@@ -36,12 +36,7 @@ impl Image {
     /// The bytes of a PNG file with a text chunk for each keyword (1 to 79 Latin letters) and its text.
     pub fn to_png(&self, text: &[(String, String)]) -> Vec<u8> {
         let (channels, depth) = (ColorType::Rgb, BitDepth::Eight);
-        let pixels = Pixels { sides: [self.width, self.height], channels, depth, bytes: &self.rgb };
-        let file = pixels.marked(|encoder| {
-            encoder.set_source_srgb(SrgbRenderingIntent::Perceptual);
-            text.iter().try_for_each(|(keyword, text)| encoder.add_itxt_chunk(keyword.clone(), text.clone()))
-        });
-        file.expect("any text fits an iTXt chunk, and the buffer holds width × height pixels")
+        coloured_png(&Pixels { sides: [self.width, self.height], channels, depth, bytes: &self.rgb }, text)
     }
 
     /// Pictures from left to right, their tops level, `gap` pixels of paper between.
@@ -87,6 +82,15 @@ impl Image {
             self.rgb[start..start + row.len()].copy_from_slice(row);
         }
     }
+}
+
+/// The bytes of a PNG file of eight bits a channel in sRGB, with texts.
+pub(super) fn coloured_png(pixels: &Pixels<'_>, text: &[(String, String)]) -> Vec<u8> {
+    let file = pixels.marked(|encoder| {
+        encoder.set_source_srgb(SrgbRenderingIntent::Perceptual);
+        text.iter().try_for_each(|(keyword, text)| encoder.add_itxt_chunk(keyword.clone(), text.clone()))
+    });
+    file.expect("any text fits an iTXt chunk, and the buffer holds width × height pixels")
 }
 
 #[cfg(test)]
