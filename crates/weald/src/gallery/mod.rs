@@ -14,6 +14,7 @@ mod flow_rate;
 mod force;
 mod forms;
 mod han;
+mod ifs;
 mod lake;
 mod layered;
 mod levee;
@@ -134,6 +135,22 @@ pub const FIGURES: &[Figure] = &[
     banks::FIGURE,
     lake::FIGURE,
     levee::FIGURE,
+    ifs::FIGURE_1,
+    ifs::FIGURE_2,
+    ifs::FIGURE_3,
+    ifs::FIGURE_4,
+    ifs::FIGURE_5,
+    ifs::FIGURE_6,
+    ifs::FIGURE_7,
+    ifs::FIGURE_8,
+    ifs::FIGURE_9,
+    ifs::FIGURE_10,
+    ifs::FIGURE_11,
+    ifs::FIGURE_12,
+    ifs::FIGURE_13,
+    ifs::FIGURE_14,
+    ifs::FIGURE_15,
+    ifs::FIGURE_16,
 ];
 
 /// Headings or cells of a table.

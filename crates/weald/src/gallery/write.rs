@@ -71,11 +71,19 @@ fn write_plates(figure: &Figure, output: &FigureOutput, folder: &Path) -> Result
 }
 
 fn selected(figure: &Figure, only: &[String]) -> bool {
-    only.is_empty() || only.iter().any(|id| id == figure.id)
+    only.is_empty() || only.iter().any(|id| id == figure.id || group(figure) == Some(id))
+}
+
+/// What stands before the number of a figure, as `ifs` in `ifs-5`: it selects all figures of a publication.
+fn group(figure: &Figure) -> Option<&str> {
+    let (group, number) = figure.id.rsplit_once('-')?;
+    number.bytes().all(|byte| byte.is_ascii_digit()).then_some(group)
 }
 
 fn check_ids(figures: &[Figure], only: &[String]) -> Result<(), Error> {
-    let known: Vec<&str> = figures.iter().map(|figure| figure.id).collect();
+    let mut known: Vec<&str> =
+        figures.iter().flat_map(|figure| group(figure).into_iter().chain([figure.id])).collect();
+    known.dedup();
     match only.iter().find(|id| !known.contains(&id.as_str())) {
         Some(id) => {
             Err(Error::Run(format!("there is no figure `{id}`; the figures are: {}", known.join(", "))))

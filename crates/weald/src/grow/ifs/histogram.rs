@@ -86,7 +86,7 @@ fn cells_of(window: &Window, points: &[[Row; 3]], cells: &mut [[u32; LANES]]) {
                 for lane in 0..LANES {
                     let column = (x[lane] - low[0]) * scale[0];
                     let row = (y[lane] - low[1]) * scale[1];
-                    let inside = (column >= 0.0) & (row >= 0.0) & (column < width) & (row < height);
+                    let inside = column >= 0.0 && row >= 0.0 && column < width && row < height;
                     let cell = floor(row).wrapping_mul(columns).wrapping_add(floor(column));
                     found[lane] = if inside { cell } else { beyond };
                 }

@@ -56,7 +56,10 @@ mod tests {
         let camera = Camera::new([0.0; 3], 90.0, 0.0, [0.5, 2.0]);
         let [right, up, nearer] = camera.seen([2.0, 1.0, -1.0]);
         assert!((nearer - 2.0).abs() < 1e-12, "east is where the camera stands");
-        assert!((right - 2.0).abs() < 1e-12 && (up - 2.0).abs() < 1e-12, "twice as large at half the distance");
+        assert!(
+            (right - 2.0).abs() < 1e-12 && (up - 2.0).abs() < 1e-12,
+            "twice as large at half the distance"
+        );
     }
 
     #[test]

@@ -120,8 +120,10 @@ impl Density {
         for first in (0..chunks).step_by(BATCH as usize) {
             look(first * CHUNK, points)?;
             let batch = first..(first + BATCH).min(chunks);
-            let entries: Vec<_> =
-                batch.into_par_iter().map(|chunk| drawing.chunk(&game, chunk, points - chunk * CHUNK)).collect();
+            let entries: Vec<_> = batch
+                .into_par_iter()
+                .map(|chunk| drawing.chunk(&game, chunk, points - chunk * CHUNK))
+                .collect();
             buckets.par_chunks_mut(band).enumerate().for_each(|(number, buckets)| {
                 for entry in entries.iter().flat_map(|bands| &bands[number]) {
                     buckets[entry.bucket as usize].add(palette[usize::from(entry.tinge)]);

@@ -92,7 +92,9 @@ impl Frame {
         let longest = wide.max(high).max(f64::MIN_POSITIVE);
         let (width, height) = match size {
             Some(sides) => checked(sides)?,
-            None => [wide, high].map(|side| (USUAL_SIDE * (side / longest).max(NARROWEST)).round() as usize).into(),
+            None => [wide, high]
+                .map(|side| (USUAL_SIDE * (side / longest).max(NARROWEST)).round() as usize)
+                .into(),
         };
         let room = |pixels: usize| pixels as f64 - 2.0 * margin * width.min(height) as f64;
         let fit = |pixels: usize, side: f64| room(pixels) / side.max(1e-6 * longest);
@@ -158,7 +160,8 @@ mod tests {
     fn a_size_is_kept_and_too_large_a_one_refused() {
         let frame = Frame::around(&EXTENT, Some(Sides { columns: 300, rows: 100 }), 0.0).expect("small");
         assert_eq!((frame.width, frame.height, frame.scale), (300, 100, 12.5));
-        let error = Frame::around(&EXTENT, Some(Sides { columns: 1 << 20, rows: 1 << 20 }), 0.0).expect_err("huge");
+        let error =
+            Frame::around(&EXTENT, Some(Sides { columns: 1 << 20, rows: 1 << 20 }), 0.0).expect_err("huge");
         assert_eq!(error.exit_code(), 5, "{error}");
     }
 

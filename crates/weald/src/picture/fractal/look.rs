@@ -10,8 +10,8 @@ use super::marks::{Mark, Opened, Shape, marks};
 use super::palette::{Palette, Table};
 use super::plot::plot;
 use super::subject::{Motion, Subject};
-use super::tone::{Covered, Tone};
 use super::svg;
+use super::tone::{Covered, Tone};
 use crate::error::Error;
 use crate::grow::ifs::Ifs;
 use crate::recipe::parameter::{Colour, Sides};
@@ -143,7 +143,13 @@ impl Setting {
 
 impl Look {
     /// A fractal as it is looked at, after `share` of a turn around it.
-    pub fn subject<'a>(&self, ifs: &'a Ifs, motion: Option<&'a Motion>, seed: u64, share: f64) -> Subject<'a> {
+    pub fn subject<'a>(
+        &self,
+        ifs: &'a Ifs,
+        motion: Option<&'a Motion<'a>>,
+        seed: u64,
+        share: f64,
+    ) -> Subject<'a> {
         let usual = if ifs.is_planar() { [0.0; 2] } else { USUAL_VIEW_DEG };
         let turn = self.turn_deg.unwrap_or(usual[0]) + 360.0 * share;
         let tilt = self.tilt_deg.unwrap_or(usual[1]);

@@ -87,7 +87,10 @@ fn check(subject: &Subject<'_>, frame: &Frame, opened: Opened) -> Result<(), Err
         Opened::ToDepth(depth) => format!("choose a smaller `depth` than {depth}"),
         Opened::ToPixels(pixels) => format!("choose a larger `finest` than {pixels} pixels"),
     };
-    Err(Error::Limit(format!("{}: {count} parts; at most {MOST_MARKS} are drawn: {remedy}", subject.ifs.name())))
+    Err(Error::Limit(format!(
+        "{}: {count} parts; at most {MOST_MARKS} are drawn: {remedy}",
+        subject.ifs.name()
+    )))
 }
 
 struct Maker<'a> {
@@ -100,7 +103,8 @@ struct Maker<'a> {
 impl Maker<'_> {
     fn mark(&self, part: &Part) -> Mark {
         let middle = self.subject.seen_at(part.map.at(self.subject.ifs.root()), &part.code);
-        let mut corners: Vec<[f64; 2]> = self.extremes.iter().map(|extreme| self.corner(part, extreme)).collect();
+        let mut corners: Vec<[f64; 2]> =
+            self.extremes.iter().map(|extreme| self.corner(part, extreme)).collect();
         if corners.is_empty() {
             corners.push(self.frame.place(middle));
         }
@@ -131,7 +135,8 @@ fn extremes(subject: &Subject<'_>) -> Vec<(Point, Code)> {
     Game::new(subject.ifs, 0).points(PROBES, |block| {
         for number in 0..block.len() {
             let at = block.point(number).map(f64::from);
-            let reach = |direction: &Point| direction[0] * at[0] + direction[1] * at[1] + direction[2] * at[2];
+            let reach =
+                |direction: &Point| direction[0] * at[0] + direction[1] * at[1] + direction[2] * at[2];
             if found.is_empty() {
                 let code = block.code(number, subject.ifs);
                 found = directions.iter().map(|direction| (reach(direction), at, code)).collect();

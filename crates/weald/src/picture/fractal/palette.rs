@@ -71,7 +71,12 @@ impl Table {
             let far = 1.0 - step as f32 / (STEPS - 1) as f32;
             mix(colour(place), haze, HAZE * far)
         };
-        Self((0..PLACES).flat_map(|place| (0..STEPS).map(move |step| (place, step))).map(|(p, s)| faded(p, s)).collect())
+        Self(
+            (0..PLACES)
+                .flat_map(|place| (0..STEPS).map(move |step| (place, step)))
+                .map(|(p, s)| faded(p, s))
+                .collect(),
+        )
     }
 
     #[inline]

@@ -21,7 +21,12 @@ const DOT_CORNERS: usize = 12;
 ///
 /// # Errors
 /// [`Error::Limit`] where the smaller pixels would take more than 2 GiB.
-pub(super) fn plot(marks: &[Mark], shape: Shape, frame: &Frame, table: &Table) -> Result<Vec<Covered>, Error> {
+pub(super) fn plot(
+    marks: &[Mark],
+    shape: Shape,
+    frame: &Frame,
+    table: &Table,
+) -> Result<Vec<Covered>, Error> {
     let bytes = frame.pixels() * (FINE * FINE * size_of::<u16>()) as u64;
     if bytes > MAXIMUM_BYTES {
         let [width, height] = [frame.width, frame.height];
@@ -50,7 +55,8 @@ impl Canvas {
     }
 
     fn paint(&mut self, mark: &Mark, shape: Shape) {
-        let corners: Vec<[f64; 2]> = outline(mark, shape).map(|corner| corner.map(|x| x * FINE as f64)).collect();
+        let corners: Vec<[f64; 2]> =
+            outline(mark, shape).map(|corner| corner.map(|x| x * FINE as f64)).collect();
         if corners.iter().flatten().any(|x| !x.is_finite()) {
             return;
         }

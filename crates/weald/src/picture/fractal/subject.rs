@@ -6,7 +6,7 @@ use super::camera::Camera;
 use crate::grow::ifs::{Block, Code, Ifs, Point};
 
 /// Moves the points of a fractal before they are drawn: a deformation, the wind, several of them in turn.
-pub type Motion = dyn Fn(Point, &Code) -> Point + Sync;
+pub type Motion<'a> = dyn Fn(Point, &Code) -> Point + Sync + 'a;
 
 /// A fractal to be drawn.
 #[derive(Clone, Copy)]
@@ -14,7 +14,7 @@ pub struct Subject<'a> {
     /// The fractal.
     pub ifs: &'a Ifs,
     /// What moves its points; points without it cost no codes.
-    pub motion: Option<&'a Motion>,
+    pub motion: Option<&'a Motion<'a>>,
     /// Where it is seen from.
     pub camera: Camera,
     /// Whether the camera stands in front of a fractal of the plane.
@@ -24,7 +24,6 @@ pub struct Subject<'a> {
 }
 
 impl Subject<'_> {
-
     /// Where a point of the game is seen: right, up, nearer.
     #[inline]
     pub(super) fn seen(&self, block: &Block, number: usize) -> Point {

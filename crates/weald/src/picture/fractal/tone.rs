@@ -140,15 +140,12 @@ impl Cover {
 }
 
 /// Sums down the rows around a row of pixels, a sum for each column of buckets.
-fn column_sums(
-    density: &Density,
-    first: usize,
-    weights: &[(isize, f32)],
-    cover: &Cover,
-) -> Vec<Covered> {
+fn column_sums(density: &Density, first: usize, weights: &[(isize, f32)], cover: &Cover) -> Vec<Covered> {
     let mut sums = vec![[0.0; 4]; density.width];
     for &(distance, weight) in weights {
-        let Some(row) = first.checked_add_signed(distance).filter(|&row| row < density.height) else { continue };
+        let Some(row) = first.checked_add_signed(distance).filter(|&row| row < density.height) else {
+            continue;
+        };
         let buckets = &density.buckets[row * density.width..(row + 1) * density.width];
         for (sum, bucket) in sums.iter_mut().zip(buckets) {
             add(sum, cover.of(bucket), weight);
