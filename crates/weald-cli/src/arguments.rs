@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::builder::PossibleValuesParser;
 use clap::{Args, Parser, Subcommand, value_parser};
 use clap_complete::Shell;
-use weald::gallery::FIGURES;
+use weald::gallery::{self, FIGURES};
 use weald::recipe::Overrides;
 use weald::recipe::template::TEMPLATES;
 
@@ -66,7 +66,7 @@ pub(crate) enum Command {
     },
     /// Make the figures of the publications again
     Gallery {
-        /// A figure to make [default: all]
+        /// A figure, or all of a publication as in `ifs` [default: all]
         #[arg(long, value_name = "ID", value_parser = figure_ids())]
         only: Vec<String>,
         /// Folder of the pictures and their page
@@ -89,7 +89,7 @@ fn template_names() -> PossibleValuesParser {
 }
 
 fn figure_ids() -> PossibleValuesParser {
-    PossibleValuesParser::new(FIGURES.iter().map(|figure| figure.id))
+    PossibleValuesParser::new(gallery::selectable(FIGURES))
 }
 
 #[derive(Debug, Args)]

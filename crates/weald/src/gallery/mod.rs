@@ -31,7 +31,7 @@ mod write;
 
 pub use claim::{Claim, Verdict};
 pub use steps::run_steps;
-pub use write::{Begun, Selection, write, write_figures};
+pub use write::{Begun, Selection, selectable, write, write_figures};
 
 use crate::error::Error;
 use crate::picture::Image;

@@ -80,10 +80,16 @@ fn group(figure: &Figure) -> Option<&str> {
     number.bytes().all(|byte| byte.is_ascii_digit()).then_some(group)
 }
 
+/// Every word that selects figures: ids, and groups such as `ifs` before their first figure.
+pub fn selectable<'a>(figures: &'a [Figure]) -> impl Iterator<Item = &'a str> {
+    figures.iter().enumerate().flat_map(|(place, figure)| {
+        let begins = place == 0 || group(&figures[place - 1]) != group(figure);
+        group(figure).filter(|_| begins).into_iter().chain([figure.id])
+    })
+}
+
 fn check_ids(figures: &[Figure], only: &[String]) -> Result<(), Error> {
-    let mut known: Vec<&str> =
-        figures.iter().flat_map(|figure| group(figure).into_iter().chain([figure.id])).collect();
-    known.dedup();
+    let known: Vec<&str> = selectable(figures).collect();
     match only.iter().find(|id| !known.contains(&id.as_str())) {
         Some(id) => {
             Err(Error::Run(format!("there is no figure `{id}`; the figures are: {}", known.join(", "))))
