@@ -225,7 +225,9 @@ fn structs_of_plants_lie_in_memory_as_their_twins_do() {
     for (shader, structs) in SHADERS.iter().zip(of_each) {
         let (module, _) = checked(shader.text, shader.name);
         assert_eq!(structs.len(), shader.uniforms.len());
-        structs.iter().for_each(|uniforms| assert_same_layout(&module, uniforms, shader.name));
+        for uniforms in structs {
+            assert_same_layout(&module, uniforms, shader.name);
+        }
     }
 }
 

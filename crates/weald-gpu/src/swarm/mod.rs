@@ -87,14 +87,15 @@ impl Swarm {
         Self::at_rest(points, ifs)
     }
 
-    /// Points of a plant with their codes, of which the first 128 bits count.
+    /// Points of a plant with their codes, of which as many digits count as those of the fractal have and 128 bits hold.
     ///
     /// # Errors
     /// As [`Swarm::new`].
     pub fn of(gpu: &Gpu, ifs: &Ifs, coded: &[([f32; 3], Code)]) -> Result<Self, Error> {
         let points = Points::new(gpu, coded.len() as u64, true, SWARM_BYTES)?;
         let rests: Vec<_> = coded.iter().map(|&([x, y, z], _)| [x, y, z, 0.0]).collect();
-        let codes: Vec<_> = coded.iter().map(|(_, code)| packed(code)).collect();
+        let length = digits_on_a_device(ifs);
+        let codes: Vec<_> = coded.iter().map(|(_, code)| packed(&code.prefix(length))).collect();
         points.write(&rests, |piece| &piece.rests)?;
         points.write(&codes, |piece| &piece.codes)?;
         Self::at_rest(points, ifs)
@@ -137,7 +138,8 @@ impl Swarm {
         self.points.read(|_, piece| &piece.rests).map(without_fourth)
     }
 
-    /// The codes of all points, read back: as many digits as those of the fractal have and 128 bits hold.
+    /// The codes of all points, read back: as many digits as those of the fractal have and 128 bits hold. Shorter ones
+    /// that were given go on with zeros.
     ///
     /// # Errors
     /// [`Error::Device`] where the device fails.

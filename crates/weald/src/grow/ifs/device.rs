@@ -109,15 +109,10 @@ pub fn packed(code: &Code) -> [u32; WORDS] {
     [(coarse >> 32) as u32, coarse as u32, (fine >> 32) as u32, fine as u32]
 }
 
-/// The code of so many digits that a device holds as these words.
-pub fn unpacked(digits: Digits, length: usize, words: [u32; WORDS]) -> Code {
-    let bits = digits.bits();
-    let digit = |place: usize| {
-        let start = place * bits;
-        let shifted = words[start / 32] >> (32 - bits - start % 32);
-        (shifted & ((1 << bits) - 1)) as u8
-    };
-    Code::packed(digits, (0..length.min(32 * WORDS / bits)).map(digit))
+/// The code of so many digits that a device holds as these words, whose bits beyond are 0.
+pub fn unpacked(digits: Digits, length: usize, [a, b, c, d]: [u32; WORDS]) -> Code {
+    let joined = |coarse: u32, fine: u32| u64::from(coarse) << 32 | u64::from(fine);
+    Code::of_words(digits, length, [joined(a, b), joined(c, d), 0, 0])
 }
 
 /// So many ones, coarsest first.

@@ -69,7 +69,7 @@ impl<'a> Game<'a> {
     /// Plays one chunk of `points` points, at most [`CHUNK`], and shows them block by block.
     pub fn chunk(&self, chunk: u64, points: u64, mut look: impl FnMut(&Block)) {
         let history = self.ifs.code_digits();
-        let mut lanes = Lanes::at_root(self.ifs, self.keys(chunk));
+        let mut lanes = Lanes::at_root(self.ifs, &self.keys(chunk));
         let mut block = Block {
             first: chunk * CHUNK,
             points: vec![[[0.0; LANES]; 3]; BLOCK_STEPS],
@@ -182,8 +182,8 @@ pub(super) struct Lanes {
 }
 
 impl Lanes {
-    pub(super) fn at_root(ifs: &Ifs, keys: [[u32; LANES]; 2]) -> Self {
-        Self { at: ifs.root().map(|x| [x as f32; LANES]), keys, step: 0 }
+    pub(super) fn at_root(ifs: &Ifs, keys: &[[u32; LANES]; 2]) -> Self {
+        Self { at: ifs.root().map(|x| [x as f32; LANES]), keys: *keys, step: 0 }
     }
 }
 
