@@ -4,6 +4,7 @@ use std::sync::PoisonError;
 
 use weald::Error;
 use weald::engine::program::{MOST_BUFFERS, Pass, Program};
+use weald::grow::ifs::device::Shader;
 use wgpu::{
     BindGroup, BindGroupDescriptor, BindGroupEntry, BindGroupLayout, BindGroupLayoutDescriptor,
     BindGroupLayoutEntry, BindingResource, BindingType, BufferBindingType, ComputePipeline,
@@ -33,13 +34,31 @@ impl Pipeline {
                 "{what} binds {buffers} buffers; at most {MOST_BUFFERS} work"
             )));
         }
-        let key = (pass.name.to_owned(), program.module(pass));
+        Self::known(gpu, &what, (pass.name, program.module(pass)), &entries(program, pass))
+    }
+
+    /// The pipeline of a shader of plants.
+    pub(crate) fn of_plants(gpu: &Gpu, shader: &Shader) -> Result<Self, Error> {
+        let uniforms = shader.uniforms.iter().map(|_| BufferBindingType::Uniform);
+        let storage = shader.buffers.iter().map(|&(_, written)| storage(written));
+        let kinds = (0..).zip(uniforms.chain(storage));
+        let entries: Vec<_> = kinds.map(|(binding, kind)| entry(binding, kind, false)).collect();
+        Self::known(gpu, shader.name, (shader.name, shader.text.to_owned()), &entries)
+    }
+
+    /// A module whose entry point has this name, compiled where it is new.
+    fn known(
+        gpu: &Gpu,
+        what: &str,
+        (name, module): (&str, String),
+        entries: &[BindGroupLayoutEntry],
+    ) -> Result<Self, Error> {
+        let key = (name.to_owned(), module);
         let mut known = gpu.context.pipelines.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(pipeline) = known.get(&key) {
             return Ok(pipeline.clone());
         }
-        let entries = entries(program, pass);
-        let pipeline = gpu.context.attempt(&what, || Ok(Self::compile(gpu, pass.name, &key.1, &entries)))?;
+        let pipeline = gpu.context.attempt(what, || Ok(Self::compile(gpu, name, &key.1, entries)))?;
         known.insert(key, pipeline.clone());
         Ok(pipeline)
     }
@@ -86,13 +105,13 @@ fn entries(program: &Program, pass: &Pass) -> Vec<BindGroupLayoutEntry> {
         entries.push(entry(2, BufferBindingType::Uniform, true));
     }
     let written = program.bound(pass).into_iter().map(|(_, written)| written);
-    let storage = written.chain(pass.tallies.then_some(true));
-    entries.extend(
-        (3..).zip(storage).map(|(binding, written)| {
-            entry(binding, BufferBindingType::Storage { read_only: !written }, false)
-        }),
-    );
+    let written = written.chain(pass.tallies.then_some(true));
+    entries.extend((3..).zip(written).map(|(binding, written)| entry(binding, storage(written), false)));
     entries
+}
+
+fn storage(written: bool) -> BufferBindingType {
+    BufferBindingType::Storage { read_only: !written }
 }
 
 /// A binding of a buffer.

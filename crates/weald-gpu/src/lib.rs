@@ -17,6 +17,8 @@
 //! # Ok(())
 //! # }
 //! ```
+//!
+//! A [`Cloud`] is the points of a fractal on a device, a [`Swarm`] a plant there that sways.
 
 mod adapter;
 mod bandwidth;
@@ -33,8 +35,10 @@ mod parts;
 mod ready;
 mod running;
 mod slots;
+mod swarm;
 mod transfer;
 mod uniforms;
 mod watch;
 
 pub use gpu::Gpu;
+pub use swarm::{Cloud, Swarm, SwarmRates};

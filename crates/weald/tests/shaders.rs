@@ -6,6 +6,9 @@ use std::path::{Path, PathBuf};
 use naga::valid::{Capabilities, GlobalUse, ModuleInfo, ValidationFlags, Validator};
 use naga::{AddressSpace, ArraySize, Module, Scalar, StructMember, TypeInner, VectorSize};
 use weald::engine::program::{GROUP, MOST_BUFFERS, Pass, Program, Uniforms};
+use weald::grow::ifs::device::{Rules, SHADERS, Shader, Stretch};
+use weald::grow::ifs::wind::{Plant, Pose};
+use weald::grow::ifs::{Game, Sway, shapes};
 
 /// Every program of the library.
 fn programs() -> Vec<Program> {
@@ -23,11 +26,11 @@ fn modules() -> BTreeMap<String, (Program, Pass)> {
     passes.collect()
 }
 
-fn checked(text: &str, pass: &Pass) -> (Module, ModuleInfo) {
+fn checked(text: &str, name: &str) -> (Module, ModuleInfo) {
     let parsed = naga::front::wgsl::parse_str(text);
-    let module = parsed.unwrap_or_else(|error| panic!("{}: {}", pass.name, error.emit_to_string(text)));
+    let module = parsed.unwrap_or_else(|error| panic!("{name}: {}", error.emit_to_string(text)));
     let info = Validator::new(ValidationFlags::all(), Capabilities::empty()).validate(&module);
-    let info = info.unwrap_or_else(|error| panic!("{}: {}", pass.name, error.emit_to_string(text)));
+    let info = info.unwrap_or_else(|error| panic!("{name}: {}", error.emit_to_string(text)));
     (module, info)
 }
 
@@ -36,7 +39,7 @@ fn every_module_has_the_one_entry_point_of_its_pass() {
     let modules = modules();
     assert!(modules.len() > 50, "{} modules", modules.len());
     for (text, (_, pass)) in &modules {
-        let (module, _) = checked(text, pass);
+        let (module, _) = checked(text, pass.name);
         let entries: Vec<_> = module.entry_points.iter().map(|entry| entry.name.as_str()).collect();
         assert_eq!(entries, [pass.name]);
         assert_eq!(module.entry_points[0].workgroup_size, [GROUP as u32, GROUP as u32, 1], "{}", pass.name);
@@ -46,7 +49,7 @@ fn every_module_has_the_one_entry_point_of_its_pass() {
 #[test]
 fn every_pass_uses_what_it_declares_and_no_more_than_browsers_allow() {
     for (text, (program, pass)) in &modules() {
-        let (module, info) = checked(text, pass);
+        let (module, info) = checked(text, pass.name);
         let entry = info.get_entry_point(0);
         let storage = module
             .global_variables
@@ -74,7 +77,9 @@ fn every_shader_of_the_tree_is_part_of_a_module() {
     let modules = modules();
     for path in shaders {
         let text = std::fs::read_to_string(&path).expect("a readable shader");
-        assert!(modules.keys().any(|module| module.contains(&text)), "{} is in no module", path.display());
+        let part_of_a_module = modules.keys().any(|module| module.contains(&text));
+        let of_plants = SHADERS.iter().any(|shader| shader.text == text);
+        assert!(part_of_a_module || of_plants, "{} is in no module", path.display());
     }
 }
 
@@ -94,7 +99,7 @@ fn shaders_below(folder: &Path) -> Vec<PathBuf> {
 fn structs_of_the_host_lie_in_memory_as_their_twins_do() {
     let mut compared = 0;
     for (text, (program, pass)) in &modules() {
-        let (module, _) = checked(text, pass);
+        let (module, _) = checked(text, pass.name);
         for uniforms in [&program.constants, &program.weather] {
             if !uniforms.name.is_empty() {
                 assert_same_layout(&module, uniforms, program.name);
@@ -116,37 +121,57 @@ fn assert_same_layout(module: &Module, uniforms: &Uniforms, process: &str) {
         .iter()
         .map(|(name, kind)| {
             let here = offset;
-            offset += if *kind == MATERIALS { 128 } else { 4 };
+            offset += bytes(kind);
             ((*name).to_owned(), (*kind).to_owned(), here)
         })
         .collect();
     assert_eq!(twin, host, "{process}: `{}`", uniforms.name);
-    assert_eq!(*span as usize, 4 * uniforms.words.len(), "{process}: `{}`", uniforms.name);
+    let whole = if uniforms.fields.iter().any(|(_, kind)| bytes(kind) > 4) { 16 } else { 4 };
+    assert_eq!(
+        *span as usize,
+        (4 * uniforms.words.len()).next_multiple_of(whole),
+        "{process}: `{}`",
+        uniforms.name
+    );
 }
 
-/// Four numbers a material, without gaps.
-const MATERIALS: &str = "array<vec4<f32>, 8>";
+/// Bytes of a type, and of nothing between its members.
+fn bytes(kind: &str) -> u32 {
+    match kind {
+        "f32" | "u32" => 4,
+        "vec4<f32>" | "vec4<u32>" => 16,
+        array => {
+            let count = array.trim_start_matches("array<vec4<f32>, ").trim_end_matches('>').parse::<u32>();
+            16 * count.unwrap_or_else(|_| panic!("a member of type {array}"))
+        }
+    }
+}
 
 /// Name, type and offset.
 fn described(module: &Module, member: &StructMember) -> (String, String, u32) {
     let kind = match module.types[member.ty].inner {
+        TypeInner::Array { base, size: ArraySize::Constant(count), stride: 16 } => {
+            format!("array<{}, {count}>", number(&module.types[base].inner))
+        }
+        ref other => number(other).to_owned(),
+    };
+    (member.name.clone().expect("members have names"), kind, member.offset)
+}
+
+fn number(kind: &TypeInner) -> &'static str {
+    match *kind {
         TypeInner::Scalar(Scalar::F32) => "f32",
         TypeInner::Scalar(Scalar::U32) => "u32",
-        TypeInner::Array { base, size: ArraySize::Constant(count), stride: 16 } => {
-            assert_eq!(count.get(), 8);
-            let four = TypeInner::Vector { size: VectorSize::Quad, scalar: Scalar::F32 };
-            assert_eq!(module.types[base].inner, four);
-            MATERIALS
-        }
+        TypeInner::Vector { size: VectorSize::Quad, scalar: Scalar::F32 } => "vec4<f32>",
+        TypeInner::Vector { size: VectorSize::Quad, scalar: Scalar::U32 } => "vec4<u32>",
         ref other => panic!("a member of type {other:?}"),
-    };
-    (member.name.clone().expect("members have names"), kind.to_owned(), member.offset)
+    }
 }
 
 #[test]
 fn bindings_follow_the_order_that_the_program_states() {
     for (text, (program, pass)) in &modules() {
-        let (module, _) = checked(text, pass);
+        let (module, _) = checked(text, pass.name);
         let binding = |name: &str| {
             let found =
                 module.global_variables.iter().find(|(_, global)| global.name.as_deref() == Some(name));
@@ -157,5 +182,69 @@ fn bindings_follow_the_order_that_the_program_states() {
         for (at, (buffer, _)) in program.bound(pass).into_iter().enumerate() {
             assert_eq!(binding(program.buffers[buffer].name), 3 + at, "{}", pass.name);
         }
+    }
+}
+
+#[test]
+fn shaders_of_plants_are_valid_and_bound_in_the_order_of_their_lists() {
+    for shader in SHADERS {
+        let (module, info) = checked(shader.text, shader.name);
+        let entries: Vec<_> = module.entry_points.iter().map(|entry| entry.name.as_str()).collect();
+        assert_eq!(entries, [shader.name]);
+        assert_eq!(module.entry_points[0].workgroup_size, [shader.group, 1, 1], "{}", shader.name);
+        let used = |name: &str, binding: usize| {
+            let named = |global: &naga::GlobalVariable| global.name.as_deref() == Some(name);
+            let found = module.global_variables.iter().find(|(_, global)| named(global));
+            let (handle, global) = found.unwrap_or_else(|| panic!("{}: no variable `{name}`", shader.name));
+            assert_eq!(global.binding.map(|at| at.binding as usize), Some(binding), "{name}");
+            info.get_entry_point(0)[handle]
+        };
+        let uniforms = shader.uniforms.len();
+        for (binding, name) in shader.uniforms.iter().enumerate() {
+            assert!(used(name, binding).contains(GlobalUse::READ), "{name} is idle");
+        }
+        for (place, &(name, written)) in shader.buffers.iter().enumerate() {
+            let found = used(name, uniforms + place);
+            assert!(!found.is_empty() && found.contains(GlobalUse::WRITE) == written, "{name}: {found:?}");
+        }
+        assert_eq!(module.global_variables.len(), uniforms + shader.buffers.len(), "{}", shader.name);
+        assert!(shader.buffers.len() <= MOST_BUFFERS, "{}", shader.name);
+    }
+}
+
+#[test]
+fn structs_of_plants_lie_in_memory_as_their_twins_do() {
+    let ifs = shapes::find("fern").expect("built in").ifs();
+    let stretch = Uniforms::of(&Stretch { first: 0, points: 0 });
+    let rules: Rules = Game::new(&ifs, 1).rules(true);
+    let plant: Plant = Sway::of(&ifs).plant();
+    let of_each: [&[Uniforms]; 2] = [
+        &[Uniforms::of(&rules), stretch.clone()],
+        &[Uniforms::of(&plant), Uniforms::of(&Pose::calm()), stretch],
+    ];
+    for (shader, structs) in SHADERS.iter().zip(of_each) {
+        let (module, _) = checked(shader.text, shader.name);
+        assert_eq!(structs.len(), shader.uniforms.len());
+        for uniforms in structs {
+            assert_same_layout(&module, uniforms, shader.name);
+        }
+    }
+}
+
+#[test]
+fn constants_of_plants_are_those_of_the_host() {
+    use weald::grow::ifs::{game, lanes, wind};
+    let host = [
+        ("play", "LANES", lanes::LANES),
+        ("play", "STEPS", game::STEPS),
+        ("sway", "ORDERS", wind::ORDERS),
+        ("sway", "PHASES", wind::PHASES),
+    ];
+    for (shader, name, value) in host {
+        let of = |shader: &Shader| shader.text.contains(&format!("const {name}: u32 = {value}u;"));
+        assert!(
+            SHADERS.iter().any(|found| found.name == shader && of(found)),
+            "{shader}: {name} is not {value}"
+        );
     }
 }

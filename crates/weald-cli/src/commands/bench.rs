@@ -4,7 +4,7 @@ use std::fmt::Display;
 use std::sync::Arc;
 
 use weald::engine::device::Device;
-use weald_gpu::Gpu;
+use weald_gpu::{Gpu, SwarmRates};
 
 use crate::arguments::BenchArguments;
 use crate::engine::with_memory;
@@ -41,10 +41,17 @@ fn on_the_gpu(arguments: &BenchArguments, print: &mut dyn FnMut(&dyn Display)) -
             &"software that acts as a graphics card: only a small grid is measured, and its rates say little",
         );
     }
+    print(&fern_rates(&gpu)?);
     let bandwidth = gpu.copy_bandwidth()?;
     let device: Arc<dyn Device> = Arc::new(gpu);
     weald::bench::run_on(&device, bandwidth, given_or(&arguments.size, usual), print)?;
     Ok(())
+}
+
+/// A fern on the device: its points made, and in the wind.
+fn fern_rates(gpu: &Gpu) -> Result<SwarmRates, Failure> {
+    let fern = weald::grow::ifs::shapes::find("fern").expect("built in").ifs();
+    Ok(SwarmRates::of(gpu, &fern)?)
 }
 
 fn given_or<'a>(given: &'a [usize], usual: &'a [usize]) -> &'a [usize] {

@@ -61,6 +61,31 @@ impl Words for [[f32; 4]; MOST] {
     }
 }
 
+/// Vectors of four. Uniforms that hold some begin with them.
+impl Words for [f32; 4] {
+    const WGSL: &'static str = "vec4<f32>";
+
+    fn words(self) -> Vec<u32> {
+        self.map(f32::to_bits).to_vec()
+    }
+}
+
+impl Words for [u32; 4] {
+    const WGSL: &'static str = "vec4<u32>";
+
+    fn words(self) -> Vec<u32> {
+        self.to_vec()
+    }
+}
+
+impl Words for [[f32; 4]; 6] {
+    const WGSL: &'static str = "array<vec4<f32>, 6>";
+
+    fn words(self) -> Vec<u32> {
+        self.as_flattened().iter().map(|number| number.to_bits()).collect()
+    }
+}
+
 /// Declares a struct that implements [`Uniform`]; its WGSL twin stands in the shader that reads it.
 macro_rules! uniform {
     ($(#[$meta:meta])* $vis:vis struct $Struct:ident {

@@ -15,7 +15,7 @@ use super::table::Table;
 use crate::random::splitmix64;
 
 /// Steps of a chunk whose points count.
-const STEPS: usize = 4096;
+pub const STEPS: usize = 4096;
 
 /// Points of a chunk.
 pub const CHUNK: u64 = (STEPS * LANES) as u64;
@@ -26,7 +26,7 @@ pub(super) const BLOCK_STEPS: usize = 32;
 /// Random iteration of one fractal.
 #[derive(Clone, Debug)]
 pub struct Game<'a> {
-    ifs: &'a Ifs,
+    pub(super) ifs: &'a Ifs,
     table: Table,
     seed: u64,
 }
@@ -49,6 +49,18 @@ impl<'a> Game<'a> {
         Self { ifs, table: Table::of(ifs), seed }
     }
 
+    /// Its maps and their bounds.
+    pub fn table(&self) -> &Table {
+        &self.table
+    }
+
+    /// The key of each lane of a chunk, in two words.
+    pub fn keys(&self, chunk: u64) -> [[u32; LANES]; 2] {
+        let key = splitmix64(self.seed ^ splitmix64(chunk));
+        let keys: [u64; LANES] = std::array::from_fn(|lane| splitmix64(key ^ lane as u64));
+        [keys.map(|key| key as u32), keys.map(|key| (key >> 32) as u32)]
+    }
+
     /// Shares that the maps really get, in 65536ths.
     pub fn shares(&self) -> Vec<u32> {
         self.table.shares()
@@ -57,7 +69,7 @@ impl<'a> Game<'a> {
     /// Plays one chunk of `points` points, at most [`CHUNK`], and shows them block by block.
     pub fn chunk(&self, chunk: u64, points: u64, mut look: impl FnMut(&Block)) {
         let history = self.ifs.code_digits();
-        let mut lanes = Lanes::at_root(self.ifs, splitmix64(self.seed ^ splitmix64(chunk)));
+        let mut lanes = Lanes::at_root(self.ifs, &self.keys(chunk));
         let mut block = Block {
             first: chunk * CHUNK,
             points: vec![[[0.0; LANES]; 3]; BLOCK_STEPS],
@@ -170,13 +182,8 @@ pub(super) struct Lanes {
 }
 
 impl Lanes {
-    pub(super) fn at_root(ifs: &Ifs, key: u64) -> Self {
-        let keys: [u64; LANES] = std::array::from_fn(|lane| splitmix64(key ^ lane as u64));
-        Self {
-            at: ifs.root().map(|x| [x as f32; LANES]),
-            keys: [keys.map(|key| key as u32), keys.map(|key| (key >> 32) as u32)],
-            step: 0,
-        }
+    pub(super) fn at_root(ifs: &Ifs, keys: &[[u32; LANES]; 2]) -> Self {
+        Self { at: ifs.root().map(|x| [x as f32; LANES]), keys: *keys, step: 0 }
     }
 }
 

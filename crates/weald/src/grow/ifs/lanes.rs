@@ -159,9 +159,10 @@ fn draw(key: u32, other_key: u32, step: u32) -> u32 {
 #[cfg(test)]
 pub(super) fn both(table: &Table, ifs: &super::Ifs, steps: usize) -> [Vec<[Row; 3]>; 2] {
     let rows = || (vec![[[0.0; LANES]; 3]; steps], vec![[0; LANES]; steps]);
+    let lanes = || Lanes::at_root(ifs, &super::Game::new(ifs, 9).keys(0));
     let (mut chosen, mut taken) = rows();
-    play(table, &mut Lanes::at_root(ifs, 9), &mut chosen, &mut taken);
+    play(table, &mut lanes(), &mut chosen, &mut taken);
     let (mut looked_up, mut taken) = rows();
-    steps_by_table(table, &mut Lanes::at_root(ifs, 9), &mut looked_up, &mut taken);
+    steps_by_table(table, &mut lanes(), &mut looked_up, &mut taken);
     [chosen, looked_up]
 }

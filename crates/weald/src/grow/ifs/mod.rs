@@ -6,6 +6,7 @@
 pub mod address;
 pub mod code;
 pub mod deform;
+pub mod device;
 pub mod expansion;
 pub mod game;
 pub mod histogram;

@@ -13,12 +13,14 @@
 //! A joint is carried by the part from which it hangs and is the fixed point of the turn of what hangs there: it never
 //! parts. Without wind every turn is nothing and every point keeps its bits.
 
+mod device;
 mod sway;
 #[cfg(test)]
 mod tests;
 
 use std::f64::consts::TAU;
 
+pub use device::{Plant, SWAY};
 pub use sway::{Sway, WORDS};
 
 use super::system::Role;
@@ -30,9 +32,6 @@ pub const ORDERS: usize = 4;
 
 /// Phases that parts of an order can have.
 pub const PHASES: usize = 64;
-
-/// Text of the shader; see [`Sway::rows`] and [`Pose::numbers`] for what it is given.
-pub const SHADER: &str = include_str!("sway.wgsl");
 
 parameters! {
     /// The wind.

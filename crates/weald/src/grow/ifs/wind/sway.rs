@@ -9,7 +9,7 @@ use super::{ORDERS, PHASES, Pose, Role};
 use crate::grow::ifs::system::Ifs;
 
 /// Deepest digit that turns; what is finer goes with it.
-const DEPTH: usize = 24;
+pub(super) const DEPTH: usize = 24;
 
 /// Words of 32 bits of a code that a shader is given, coarsest first.
 pub const WORDS: usize = 4;
@@ -28,11 +28,11 @@ const SPREAD: u32 = 0x9e37_79b1;
 pub struct Sway {
     maps: Vec<Affine>,
     roles: Vec<Role>,
-    root: [f32; 3],
+    pub(super) root: [f32; 3],
     /// Share of the turn of an axis for each digit along it.
-    bends: [f32; DEPTH],
-    depth: usize,
-    bits: usize,
+    pub(super) bends: [f32; DEPTH],
+    pub(super) depth: usize,
+    pub(super) bits: usize,
 }
 
 /// Rows of `A`, each followed by its part of `t`.
@@ -131,21 +131,6 @@ impl Sway {
         };
         let rows = self.maps.iter().zip(&self.roles);
         rows.flat_map(|(map, &of)| [map[0], map[1], map[2], [role(of), 0.0, 0.0, 0.0]]).collect()
-    }
-
-    /// Shares of the turn along an axis, in fours.
-    pub fn bends(&self) -> &[f32; DEPTH] {
-        &self.bends
-    }
-
-    /// Where the root is.
-    pub fn root(&self) -> [f32; 3] {
-        self.root
-    }
-
-    /// Digits that turn, and the bits of each.
-    pub fn depth_and_bits(&self) -> [u32; 2] {
-        [self.depth as u32, self.bits as u32]
     }
 }
 

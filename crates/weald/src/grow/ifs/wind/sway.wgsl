@@ -10,11 +10,9 @@ const BRANCH: f32 = 2.0;
 
 struct Plant {
     root: vec4<f32>,
+    bends: array<vec4<f32>, 6>,
     depth: u32,
     bits: u32,
-    points: u32,
-    stride: u32,
-    bends: array<vec4<f32>, 6>,
 }
 
 struct Pose {
@@ -24,6 +22,12 @@ struct Pose {
     swing: array<vec4<f32>, 64>,
 }
 
+struct Stretch {
+    // Workgroup with which the dispatch begins.
+    first: u32,
+    points: u32,
+}
+
 struct Motion {
     turn: vec4<f32>,
     shift: vec3<f32>,
@@ -31,15 +35,16 @@ struct Motion {
 
 @group(0) @binding(0) var<uniform> plant: Plant;
 @group(0) @binding(1) var<uniform> pose: Pose;
-@group(0) @binding(2) var<storage, read> rows: array<vec4<f32>>;
-@group(0) @binding(3) var<storage, read> rests: array<vec4<f32>>;
-@group(0) @binding(4) var<storage, read> codes: array<vec4<u32>>;
-@group(0) @binding(5) var<storage, read_write> swayed: array<vec4<f32>>;
+@group(0) @binding(2) var<uniform> stretch: Stretch;
+@group(0) @binding(3) var<storage, read> rows: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read> rests: array<vec4<f32>>;
+@group(0) @binding(5) var<storage, read> codes: array<vec4<u32>>;
+@group(0) @binding(6) var<storage, read_write> swayed: array<vec4<f32>>;
 
 @compute @workgroup_size(256)
-fn sway(@builtin(global_invocation_id) id: vec3<u32>) {
-    let point = id.y * plant.stride + id.x;
-    if id.x >= plant.stride || point >= plant.points {
+fn sway(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) place: u32) {
+    let point = (stretch.first + group.x) * 256u + place;
+    if point >= stretch.points {
         return;
     }
     let motion = descend(codes[point]);
