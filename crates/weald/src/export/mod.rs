@@ -54,6 +54,11 @@ pub trait Export: Debug + Send + Sync {
         Vec::new()
     }
 
+    /// Names of the fractals it writes.
+    fn fractals(&self) -> Vec<String> {
+        Vec::new()
+    }
+
     /// Faults that concern several parameters at once, each a sentence for the user.
     fn faults(&self) -> Vec<String> {
         Vec::new()

@@ -25,8 +25,8 @@ mod testing;
 pub use checkpoint::CHECKPOINT_FILE;
 pub use overrides::Overrides;
 pub use plan::{
-    BuiltIn, Content, Film, FilmKeys, Ground, LandscapeKeys, MaterialKeys, Motion, Output, Planned,
-    PlannedMaterial, Recipe,
+    BuiltIn, Content, FILM_EXTENSIONS, Film, FilmKeys, FractalKeys, Ground, LandscapeKeys, MaterialKeys,
+    Motion, Output, Planned, PlannedFractal, PlannedMaterial, PlantRole, Recipe, Seedling,
 };
 pub use report::{BudgetReport, OutputReport, REPORT_FILE, Report, SolidReport, StepReport, WaterReport};
 pub use run::{Options, Progress, Run, Silent};
