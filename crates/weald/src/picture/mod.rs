@@ -37,7 +37,7 @@ pub use apng::write_apng;
 pub(crate) use colour::linear_of_srgb;
 pub use colour::{Linear, Oklab, encode, linear_of_hex};
 pub use cutout::Cutout;
-pub use growth::Growth;
+pub use growth::{Growth, GrowthKeys};
 pub use image::Image;
 pub use map::Map;
 pub use materials::Materials;

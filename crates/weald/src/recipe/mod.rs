@@ -7,6 +7,7 @@ mod canonical;
 pub mod catalog;
 mod checkpoint;
 pub mod describe;
+mod fractal;
 mod ground;
 mod layer_file;
 pub mod load;
@@ -23,6 +24,7 @@ pub mod template;
 mod testing;
 
 pub use checkpoint::CHECKPOINT_FILE;
+pub use fractal::FractalRequest;
 pub use overrides::Overrides;
 pub use plan::{
     BuiltIn, Content, FILM_EXTENSIONS, Film, FilmKeys, FractalKeys, Ground, LandscapeKeys, MaterialKeys,

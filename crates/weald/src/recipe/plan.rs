@@ -76,12 +76,21 @@ impl Recipe {
     /// # Errors
     /// As [`Recipe::parse`], and [`Error::Recipe`] for a file that cannot be read.
     pub fn load(path: &Path, overrides: &Overrides) -> Result<Self, Error> {
-        let file = path.display().to_string();
-        let text = read_text(path).map_err(|cause| {
+        Self::parse(&path.display().to_string(), &Self::text_of(path)?, overrides)
+    }
+
+    /// The text of a recipe in a file.
+    pub(super) fn text_of(path: &Path) -> Result<String, RecipeError> {
+        read_text(path).map_err(|cause| {
             let message = format!("the recipe cannot be read: {cause}{}", remedy(cause.kind()));
-            RecipeError { file: file.clone(), complaints: vec![Complaint { line: 1, message }] }
-        })?;
-        Self::parse(&file, &text, overrides)
+            let file = path.display().to_string();
+            RecipeError { file, complaints: vec![Complaint { line: 1, message }] }
+        })
+    }
+
+    /// A recipe that was put together as a table.
+    pub(super) fn of_table(file: &str, table: &Table) -> Result<Self, Error> {
+        Self::checked(&Vocabulary::FULL, file, table, Complaints::default())
     }
 
     /// Reads and checks a recipe. `file` is its name; paths in it are relative to the folder of that name. No
@@ -102,7 +111,16 @@ impl Recipe {
         let mut table = source::parse(file, text)?;
         let mut complaints = Complaints::default();
         overrides.apply(&mut table, &mut complaints);
-        let recipe = check(vocabulary, file, &table, &mut complaints);
+        Self::checked(vocabulary, file, &table, complaints)
+    }
+
+    fn checked(
+        vocabulary: &Vocabulary,
+        file: &str,
+        table: &Table,
+        mut complaints: Complaints,
+    ) -> Result<Self, Error> {
+        let recipe = check(vocabulary, file, table, &mut complaints);
         if !complaints.found.is_empty() {
             complaints.found.sort_by_key(|complaint| complaint.line);
             return Err(RecipeError { file: file.to_owned(), complaints: complaints.found }.into());
