@@ -3,12 +3,19 @@
 use std::path::PathBuf;
 
 use clap::builder::PossibleValuesParser;
-use clap::{Args, Parser, Subcommand, value_parser};
+use clap::{ArgMatches, Args, FromArgMatches, Parser, Subcommand, value_parser};
 use clap_complete::Shell;
+use weald::export::Points;
 use weald::gallery::{self, FIGURES};
-use weald::recipe::Overrides;
+use weald::grow::ifs::Wind;
+use weald::grow::ifs::deform::DeformKeys;
+use weald::picture::GrowthKeys;
+use weald::picture::fractal::Look;
+use weald::recipe::parameter::Parameters;
 use weald::recipe::template::TEMPLATES;
+use weald::recipe::{FilmKeys, Overrides};
 
+use crate::declared::Declared;
 use crate::engine::{self, Choice};
 
 /// Turns a recipe into a living landscape.
@@ -73,6 +80,8 @@ pub(crate) enum Command {
         #[arg(long, value_name = "DIR", default_value = "docs/gallery")]
         out: PathBuf,
     },
+    /// Draw a plant or set of an iterated function system, still or in the wind
+    Fractal(FractalArguments),
     /// Measure rates beside the bandwidth of memory and beside naive versions
     Bench(BenchArguments),
     /// Print the JSON Schema of recipes
@@ -167,6 +176,96 @@ pub(crate) struct BenchArguments {
     /// Most memory of the graphics card, as in 512MiB; larger sizes are left out
     #[arg(long, value_name = "BYTES", allow_negative_numbers = true, value_parser = engine::memory)]
     pub(crate) gpu_memory: Option<u64>,
+}
+
+#[derive(Debug)]
+pub(crate) struct FractalArguments {
+    pub(crate) name: String,
+    pub(crate) output: Option<PathBuf>,
+    pub(crate) points: Option<PathBuf>,
+    pub(crate) threads: Option<u16>,
+    pub(crate) quiet: bool,
+    /// Keys and values of the deformation, of the picture, and of the points.
+    pub(crate) deform: Vec<(String, String)>,
+    pub(crate) picture: Vec<(String, String)>,
+    pub(crate) export: Vec<(String, String)>,
+}
+
+/// What of [`FractalArguments`] is not declared by the library.
+#[derive(Debug, Args)]
+struct FractalFiles {
+    /// A built-in fractal, a .flame file, or a recipe with a [[fractal]] table; `list` names the built-in ones
+    name: String,
+    /// .png, .svg, or with --frames .apng, .mp4, .webm or numbered .png [default: NAME.png]
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// Write the points: .csv, .ply or .npy
+    #[arg(long, value_name = "FILE")]
+    points: Option<PathBuf>,
+    /// Threads [default: all cores]
+    #[arg(long, value_name = "N", value_parser = value_parser!(u16).range(1..=1024))]
+    threads: Option<u16>,
+    /// Print errors only
+    #[arg(long)]
+    quiet: bool,
+}
+
+const LOOK: Declared =
+    Declared { parameters: Look::parameters, heading: "Picture", within: None, renamed: &[], without: &[] };
+
+const GROWTH: Declared =
+    Declared { parameters: GrowthKeys::parameters, without: &["fractal", "wind"], ..LOOK };
+
+const FILM: Declared =
+    Declared { parameters: FilmKeys::parameters, heading: "Film", without: &["every"], ..LOOK };
+
+const WIND: Declared = Declared {
+    parameters: Wind::parameters,
+    heading: "Wind",
+    within: Some("wind"),
+    renamed: &[("speed", "wind")],
+    without: &[],
+};
+
+const DEFORM: Declared = Declared {
+    parameters: DeformKeys::parameters,
+    heading: "Deformation",
+    renamed: &[("by", "deform")],
+    ..LOOK
+};
+
+const POINTS: Declared = Declared {
+    parameters: Points::parameters,
+    heading: "Points",
+    without: &["fractal", "depth", "seed"],
+    ..LOOK
+};
+
+const FRACTAL: [Declared; 6] = [LOOK, GROWTH, FILM, WIND, DEFORM, POINTS];
+
+impl Args for FractalArguments {
+    fn augment_args(command: clap::Command) -> clap::Command {
+        FRACTAL.iter().fold(FractalFiles::augment_args(command), |command, declared| declared.add_to(command))
+    }
+
+    fn augment_args_for_update(command: clap::Command) -> clap::Command {
+        Self::augment_args(command)
+    }
+}
+
+impl FromArgMatches for FractalArguments {
+    fn from_arg_matches(matches: &ArgMatches) -> Result<Self, clap::Error> {
+        let FractalFiles { name, output, points, threads, quiet } = FractalFiles::from_arg_matches(matches)?;
+        let picture =
+            [LOOK, GROWTH, FILM, WIND].iter().flat_map(|declared| declared.given(matches)).collect();
+        let (deform, export) = (DEFORM.given(matches), POINTS.given(matches));
+        Ok(Self { name, output, points, threads, quiet, deform, picture, export })
+    }
+
+    fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), clap::Error> {
+        *self = Self::from_arg_matches(matches)?;
+        Ok(())
+    }
 }
 
 /// Greatest seed: whole numbers beyond it are not all exact where reports are read as JSON.

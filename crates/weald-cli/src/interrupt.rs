@@ -15,12 +15,19 @@ pub(crate) fn end_at_once() -> Result<(), Failure> {
 
 /// Listens from now on.
 pub(crate) fn listen() -> Result<(), Failure> {
-    handle(|| {
-        if ASKED.swap(true, Ordering::Relaxed) {
-            std::process::exit(INTERRUPTED);
-        }
-        eprintln!("stopping after a checkpoint; once more to stop at once");
-    })
+    handle(|| ask("stopping after a checkpoint; once more to stop at once"))
+}
+
+/// Listens for a command that keeps no checkpoints.
+pub(crate) fn listen_without_checkpoint() -> Result<(), Failure> {
+    handle(|| ask("stopping; once more to stop at once"))
+}
+
+fn ask(answer: &str) {
+    if ASKED.swap(true, Ordering::Relaxed) {
+        std::process::exit(INTERRUPTED);
+    }
+    eprintln!("{answer}");
 }
 
 fn handle(heard: impl FnMut() + Send + 'static) -> Result<(), Failure> {

@@ -5,6 +5,7 @@
 
 mod arguments;
 mod commands;
+mod declared;
 mod engine;
 mod failure;
 mod interrupt;
@@ -29,6 +30,7 @@ fn main() -> ExitCode {
             commands::convert::convert(&input, &output, preset.as_deref())
         }
         Command::Gallery { only, out } => commands::gallery::gallery(&only, &out),
+        Command::Fractal(arguments) => commands::fractal::fractal(&arguments),
         Command::Bench(arguments) => commands::bench::bench(&arguments),
         Command::Schema => commands::schema::schema(),
         Command::Completions { shell } => commands::completions::completions(shell),

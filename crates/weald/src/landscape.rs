@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use crate::domain::Domain;
 use crate::error::Error;
 use crate::grid::Field;
+use crate::grow::Fractal;
 use crate::material::Material;
 
 /// A named field with its unit.
@@ -23,13 +24,15 @@ pub struct Landscape {
     pub domain: Domain,
     /// What the ground is made of, bedrock first: 1 to [`MOST`](crate::material::MOST).
     pub materials: Vec<Material>,
+    /// The fractals of the recipe; built-in ones are there without.
+    pub fractals: Vec<Fractal>,
     layers: BTreeMap<String, Layer>,
 }
 
 impl Landscape {
     /// A landscape without layers, of the default materials.
     pub fn new(domain: Domain) -> Self {
-        Self { domain, materials: Material::default_stack(), layers: BTreeMap::new() }
+        Self { domain, materials: Material::default_stack(), fractals: Vec::new(), layers: BTreeMap::new() }
     }
 
     /// Adds or replaces a layer.

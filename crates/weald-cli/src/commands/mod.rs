@@ -4,6 +4,7 @@ pub(crate) mod bench;
 pub(crate) mod check;
 pub(crate) mod completions;
 pub(crate) mod convert;
+pub(crate) mod fractal;
 pub(crate) mod gallery;
 pub(crate) mod info;
 pub(crate) mod new;

@@ -3,6 +3,7 @@
 
 mod layers;
 mod mesh;
+mod points;
 pub mod report;
 mod terrain3d;
 mod terrain_tiles;
@@ -13,6 +14,7 @@ mod vertices;
 
 pub use layers::Layers;
 pub use mesh::{Colours, Mesh};
+pub use points::Points;
 pub use terrain_tiles::Weight;
 pub use terrain3d::Terrain3d;
 pub use unity::Unity;
@@ -51,6 +53,11 @@ pub trait Export: Debug + Send + Sync {
 
     /// Names of the layers it uses where they exist.
     fn optional(&self) -> Vec<String> {
+        Vec::new()
+    }
+
+    /// Names of the fractals it writes.
+    fn fractals(&self) -> Vec<String> {
         Vec::new()
     }
 
@@ -112,6 +119,7 @@ pub const EXPORTS: &[ExportEntry] = &[
     ExportEntry::of::<RiverLines>("rivers", &["geojson", "json"], "rivers as lines with width, depth, discharge and order", "Weald; RFC 7946"),
     ExportEntry::of::<LakeAreas>("lakes", &["geojson", "json"], "lakes as areas with level, depth and volume", "Weald; RFC 7946"),
     ExportEntry::of::<Layers>("layers", layers::EXTENSIONS, "several layers in one file: NetCDF or Zarr", "CF conventions 1.11, Zarr 3.0"),
+    ExportEntry::of::<Points>("points", points::EXTENSIONS, "the points of a fractal with their codes", "Barnsley 1988; PLY 1.0, NumPy's NEP 1"),
     unreal::ENTRY,
     unity::ENTRY,
     terrain3d::ENTRY,

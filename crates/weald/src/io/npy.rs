@@ -27,19 +27,25 @@ const MAGIC: &[u8] = b"\x93NUMPY";
 pub fn encode(raster: &Raster) -> Result<Vec<u8>, Error> {
     raster.ensure_finite()?;
     let Size { columns, rows } = raster.field.size();
-    let header = format!("{{'descr': '<f4', 'fortran_order': False, 'shape': ({rows}, {columns}), }}");
-    // Magic, version, length of the header, header and its newline fill whole lines of 64 bytes.
-    let length = (10 + header.len() + 1).next_multiple_of(64) - 10;
-    let mut file = Vec::with_capacity(10 + length + raster.field.size().cells() * 4);
-    file.extend(MAGIC);
-    file.extend([1, 0]);
-    file.extend((length as u16).to_le_bytes());
-    file.extend(format!("{header:<width$}\n", width = length - 1).bytes());
+    let mut file = header("<f4", [rows, columns]);
+    file.reserve(raster.field.size().cells() * 4);
     for (index, value) in raster.field.values().iter().enumerate() {
         let value = if raster.is_land_at(index) { *value } else { f32::NAN };
         file.extend(value.to_le_bytes());
     }
     Ok(file)
+}
+
+/// What stands before the numbers of a two-dimensional array in C order.
+pub(crate) fn header(kind: &str, [rows, columns]: [usize; 2]) -> Vec<u8> {
+    let header = format!("{{'descr': '{kind}', 'fortran_order': False, 'shape': ({rows}, {columns}), }}");
+    // Magic, version, length of the header, header and its newline fill whole lines of 64 bytes.
+    let length = (10 + header.len() + 1).next_multiple_of(64) - 10;
+    let mut file = MAGIC.to_vec();
+    file.extend([1, 0]);
+    file.extend((length as u16).to_le_bytes());
+    file.extend(format!("{header:<width$}\n", width = length - 1).bytes());
+    file
 }
 
 /// Reads a two-dimensional array.

@@ -1,6 +1,7 @@
 //! Pictures of a landscape, one file a kind; [`PICTURES`] is the registry.
 
 mod albedo;
+mod apng;
 mod automatic;
 mod colour;
 mod contours;
@@ -11,6 +12,7 @@ mod drainage;
 mod font;
 pub mod fractal;
 mod ground;
+mod growth;
 mod image;
 mod lakes;
 mod legend;
@@ -31,9 +33,11 @@ mod ticks;
 mod view;
 
 pub(crate) use albedo::tinted;
+pub use apng::write_apng;
 pub(crate) use colour::linear_of_srgb;
 pub use colour::{Linear, Oklab, encode, linear_of_hex};
 pub use cutout::Cutout;
+pub use growth::{Growth, GrowthKeys};
 pub use image::Image;
 pub use map::Map;
 pub use materials::Materials;
@@ -63,10 +67,16 @@ pub trait Picture: Debug + Send + Sync {
         Vec::new()
     }
 
-    /// The same picture from a camera that has gone a share of a turn around the landscape, 0 to 1, clockwise
-    /// from above; `None` for a picture without a camera.
-    fn turned(&self, share: f64) -> Option<Box<dyn Picture>> {
-        let _ = share;
+    /// Names of the fractals it draws.
+    fn fractals(&self) -> Vec<String> {
+        Vec::new()
+    }
+
+    /// The same picture at a share, 0 to 1, of a film of so many seconds: from a camera that has gone that share of a
+    /// turn around the landscape, clockwise from above, or in the wind of that moment; `None` for a picture that does
+    /// not move.
+    fn turned(&self, share: f64, seconds: f64) -> Option<Box<dyn Picture>> {
+        let _ = (share, seconds);
         None
     }
 
@@ -75,7 +85,28 @@ pub trait Picture: Debug + Send + Sync {
     /// # Errors
     /// [`Error::Limit`] where the picture would be too large, [`Error::Run`] where a layer is missing.
     fn render(&self, landscape: &Landscape) -> Result<Image, Error>;
+
+    /// The same with a background that may show through. `watch` hears how far the drawing is and may end it.
+    ///
+    /// # Errors
+    /// As [`Picture::render`], and those of `watch`.
+    fn cutout(&self, landscape: &Landscape, watch: &mut Watch<'_>) -> Result<Cutout, Error> {
+        let _ = watch;
+        self.render(landscape).map(Cutout::from)
+    }
+
+    /// The picture as vectors, for those whose [`PictureEntry::extensions`] have `svg`.
+    ///
+    /// # Errors
+    /// As [`Picture::render`].
+    fn svg(&self, landscape: &Landscape) -> Result<String, Error> {
+        let _ = landscape;
+        Err(Error::Run("this picture has no vectors; choose a .png".to_owned()))
+    }
 }
+
+/// Hears how much of a drawing is done, of how much, and says whether to go on.
+pub type Watch<'a> = dyn FnMut(u64, u64) -> Result<(), Error> + 'a;
 
 /// A picture's declaration in the registry.
 #[derive(Clone, Copy, Debug)]
@@ -86,6 +117,8 @@ pub struct PictureEntry {
     pub summary: &'static str,
     /// The publication, or "Weald" for what is common practice.
     pub source: &'static str,
+    /// Extensions of a still in lower case, without the dot.
+    pub extensions: &'static [&'static str],
     /// Declares the parameters.
     pub parameters: fn() -> Vec<Parameter>,
     /// Reads them from an `[[output]]` table without its `picture` and `file`.
@@ -102,7 +135,12 @@ impl PictureEntry {
         let read = |table: &Table, complaints: &mut Complaints| -> Box<dyn Picture> {
             Box::new(T::read(table, complaints))
         };
-        Self { name, summary, source, parameters: T::parameters, read }
+        Self { name, summary, source, extensions: &["png"], parameters: T::parameters, read }
+    }
+
+    /// The same with other extensions.
+    const fn into_files(self, extensions: &'static [&'static str]) -> Self {
+        Self { extensions, ..self }
     }
 }
 
@@ -128,6 +166,12 @@ pub const PICTURES: &[PictureEntry] = &[
         "a perspective view with sun, sky, haze and water",
         "Tevs 2008 (rays), Hillaire 2020 (sky), Max 1988 (horizons), Koschmieder 1924 (haze)",
     ),
+    PictureEntry::of::<Growth>(
+        "fractal",
+        "a plant or set of an iterated function system: the density of its points, or its parts",
+        "Draves and Reckase 2003 (light), Barnsley 1988 (points), Han and Kim 2007 (deformations)",
+    )
+    .into_files(&["png", "svg"]),
     PictureEntry::of::<Map>("map", "one layer in an even colour ramp, linear or logarithmic", "Weald"),
 ];
 

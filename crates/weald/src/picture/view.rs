@@ -122,7 +122,7 @@ impl Picture for View {
         ["soil_depth", "moisture", "deposition"].iter().chain(water).map(|name| (*name).to_owned()).collect()
     }
 
-    fn turned(&self, share: f64) -> Option<Box<dyn Picture>> {
+    fn turned(&self, share: f64, _: f64) -> Option<Box<dyn Picture>> {
         Some(Box::new(Self::turned(self, share)))
     }
 

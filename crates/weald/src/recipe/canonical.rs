@@ -10,7 +10,7 @@ use super::source::{Node, Table, Value};
 /// The text of a recipe after overrides.
 pub(super) fn text(recipe: &Table) -> String {
     let mut text = String::new();
-    for section in ["landscape", "material", "step", "output"] {
+    for section in ["landscape", "material", "fractal", "step", "output"] {
         match recipe.get(section).map(|node| &node.value) {
             Some(Value::Table(table)) => write_section(&mut text, &format!("[{section}]"), table),
             Some(Value::List(items)) => {

@@ -3,10 +3,11 @@
 use std::path::Path;
 
 use super::layer_file::LayerFile;
-use super::plan::{Ground, Recipe};
+use super::plan::{Ground, PlannedFractal, Recipe, Seedling};
 use crate::domain::Domain;
 use crate::error::Error;
 use crate::grid::Mask;
+use crate::grow::Fractal;
 use crate::io;
 use crate::landscape::Landscape;
 use crate::material::Material;
@@ -18,6 +19,7 @@ pub(super) fn load(recipe: &Recipe) -> Result<(Landscape, Vec<String>), Error> {
         Ground::File { path, cell } => from_file(path, *cell)?,
     };
     landscape.materials = materials(recipe);
+    landscape.fractals = fractals(recipe)?;
     for planned in &recipe.materials {
         let Some((path, scale)) = planned.file.clone() else { continue };
         let file = LayerFile { path, scale, offset: 0.0, resample: false, no_data: None };
@@ -31,6 +33,27 @@ pub(super) fn load(recipe: &Recipe) -> Result<(Landscape, Vec<String>), Error> {
 /// What the ground is made of.
 pub(super) fn materials(recipe: &Recipe) -> Vec<Material> {
     recipe.materials.iter().map(|planned| planned.material.clone()).collect()
+}
+
+/// The fractals of the recipe, those of files with them.
+pub(super) fn fractals(recipe: &Recipe) -> Result<Vec<Fractal>, Error> {
+    recipe.fractals.iter().map(fractal).collect()
+}
+
+fn fractal(planned: &PlannedFractal) -> Result<Fractal, Error> {
+    let ifs = match &planned.seedling {
+        Seedling::Known(ifs) => (**ifs).clone(),
+        Seedling::Flame { path, number } => flame(path, *number)?,
+    };
+    let fractal = Fractal { name: planned.name.clone(), ifs, deform: planned.deform.clone() };
+    if let (Seedling::Flame { path, .. }, Err(faults)) = (&planned.seedling, fractal.deformation()) {
+        let name = &planned.name;
+        return Err(Error::input(
+            path,
+            format!("its fractal does not go with the deformations of `{name}`: {}", faults.join("; ")),
+        ));
+    }
+    Ok(fractal)
 }
 
 fn from_file(path: &Path, cell: Option<f64>) -> Result<(Landscape, Vec<String>), Error> {
@@ -61,4 +84,8 @@ fn from_file(path: &Path, cell: Option<f64>) -> Result<(Landscape, Vec<String>),
     let mut landscape = Landscape::new(domain);
     landscape.insert("height", "m", raster.field);
     Ok((landscape, notes))
+}
+
+fn flame(path: &Path, number: usize) -> Result<crate::grow::ifs::Ifs, Error> {
+    Err(Error::input(path, format!("flame {number}: to be read")))
 }

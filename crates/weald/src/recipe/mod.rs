@@ -7,6 +7,7 @@ mod canonical;
 pub mod catalog;
 mod checkpoint;
 pub mod describe;
+mod fractal;
 mod ground;
 mod layer_file;
 pub mod load;
@@ -23,10 +24,11 @@ pub mod template;
 mod testing;
 
 pub use checkpoint::CHECKPOINT_FILE;
+pub use fractal::FractalRequest;
 pub use overrides::Overrides;
 pub use plan::{
-    BuiltIn, Content, Film, FilmKeys, Ground, LandscapeKeys, MaterialKeys, Motion, Output, Planned,
-    PlannedMaterial, Recipe,
+    BuiltIn, Content, FILM_EXTENSIONS, Film, FilmKeys, FractalKeys, Ground, LandscapeKeys, MaterialKeys,
+    Motion, Output, Planned, PlannedFractal, PlannedMaterial, PlantRole, Recipe, Seedling,
 };
 pub use report::{BudgetReport, OutputReport, REPORT_FILE, Report, SolidReport, StepReport, WaterReport};
 pub use run::{Options, Progress, Run, Silent};

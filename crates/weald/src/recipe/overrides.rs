@@ -40,12 +40,13 @@ impl Overrides {
     }
 }
 
-fn given(value: Value) -> Node {
+/// A value that stands in no file.
+pub(super) fn given(value: Value) -> Node {
     Node { line: COMMAND_LINE, value }
 }
 
 /// Reads a value as TOML; bare words, which TOML does not know, are text.
-fn value_of(text: &str) -> Value {
+pub(super) fn value_of(text: &str) -> Value {
     let parsed = source::parse("", &format!("value = {text}"));
     match parsed.map(|table| table.entries) {
         Ok(entries) if entries.len() == 1 => at_command_line(entries[0].1.value.clone()),
@@ -87,7 +88,7 @@ fn set(recipe: &mut Table, path: &str, value: &Value) -> Result<(), String> {
     let parts: Vec<&str> = path.split('.').collect();
     let (tables, keys) = match parts.as_slice() {
         ["landscape", keys @ ..] => (vec![landscape_of(recipe)], keys),
-        [section @ ("material" | "step" | "output"), number, keys @ ..] => {
+        [section @ ("material" | "fractal" | "step" | "output"), number, keys @ ..] => {
             (vec![numbered(recipe, section, number)?], keys)
         }
         [name, keys @ ..] => (steps_named(recipe, name)?, keys),

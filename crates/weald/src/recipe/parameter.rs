@@ -9,7 +9,7 @@ mod sides;
 mod values;
 
 pub use colour::Colour;
-pub use file::{RasterFile, ScriptFile};
+pub use file::{FlameFile, RasterFile, ScriptFile};
 pub use layer_names::LayerNames;
 pub use places::Places;
 pub use sides::Sides;
@@ -52,6 +52,8 @@ pub enum Kind {
     Raster,
     /// A script of edits that is read; its path starts at the folder of the recipe.
     Script,
+    /// A file of flames that is read; its path starts at the folder of the recipe.
+    Flame,
     /// A colour as `"#rrggbb"`.
     Colour,
     /// Cells a side, or a list of columns and rows.
@@ -64,6 +66,10 @@ pub enum Kind {
     Places,
     /// A list of numbers, each within both bounds.
     Numbers(f64, f64),
+    /// A list of lists of numbers.
+    Rows,
+    /// A list of these words.
+    Choices(&'static [&'static str]),
     /// A table with parameters of its own.
     Table(Vec<Parameter>),
     /// A list of such tables.
@@ -83,11 +89,14 @@ impl Kind {
             Self::Text => "text".to_owned(),
             Self::Raster => "raster file".to_owned(),
             Self::Script => "script of edits".to_owned(),
+            Self::Flame => ".flame file".to_owned(),
             Self::Colour => "colour \"#rrggbb\"".to_owned(),
             Self::Sides => "whole number from 1, or [columns, rows]".to_owned(),
             Self::Layer => "layer name".to_owned(),
             Self::Layers => "list of layer names".to_owned(),
             Self::Numbers(low, high) => format!("list of numbers, {}", range_in_words(*low, *high)),
+            Self::Rows => "list of lists of numbers".to_owned(),
+            Self::Choices(names) => format!("list of {}", Self::Choice(names).in_words()),
             Self::Places => "[x, y], or a list of places".to_owned(),
             Self::Table(_) => "table".to_owned(),
             Self::Tables(_) => "list of tables".to_owned(),
@@ -111,6 +120,13 @@ pub trait Parameters: Sized + Default {
 
     /// Reads the keys of a table; faults go to `complaints`, and their keys keep their defaults.
     fn read(table: &Table, complaints: &mut Complaints) -> Self;
+}
+
+/// The keys of a table that are parameters of `T`, for a table that holds those of several.
+pub fn keys_of<T: Parameters>(table: &Table) -> Table {
+    let own: Vec<_> = T::parameters().iter().map(|parameter| parameter.name).collect();
+    let entries = table.entries.iter().filter(|(key, _)| own.contains(&key.as_str()));
+    Table { line: table.line, entries: entries.cloned().collect() }
 }
 
 /// Collects the faults of a recipe while it is read.

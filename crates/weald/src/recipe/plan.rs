@@ -2,6 +2,7 @@
 
 mod files;
 mod films;
+mod fractals;
 mod landscape;
 mod layers;
 mod materials;
@@ -14,7 +15,8 @@ use std::fs::File;
 use std::io::{ErrorKind, Read};
 use std::path::{Path, PathBuf};
 
-pub use films::{Film, FilmKeys, Motion};
+pub use films::{EXTENSIONS as FILM_EXTENSIONS, Film, FilmKeys, Motion};
+pub use fractals::{FractalKeys, PlannedFractal, PlantRole, Seedling};
 pub use landscape::{Ground, LandscapeKeys};
 pub use materials::{BuiltIn, MaterialKeys, PlannedMaterial};
 pub use outputs::{Content, Output};
@@ -44,6 +46,8 @@ pub struct Recipe {
     pub seed: u64,
     /// What the ground is made of, bedrock first.
     pub materials: Vec<PlannedMaterial>,
+    /// Plants and sets that outputs name.
+    pub fractals: Vec<PlannedFractal>,
     /// What is done, in order.
     pub steps: Vec<Planned>,
     /// What is written at the end.
@@ -60,7 +64,11 @@ impl Recipe {
         };
         let materials = self.materials.iter().filter_map(|planned| Some(planned.file.as_ref()?.0.clone()));
         let steps = self.steps.iter().flat_map(|planned| planned.step.files());
-        ground.into_iter().chain(materials).chain(steps).collect()
+        let flames = self.fractals.iter().filter_map(|planned| match &planned.seedling {
+            Seedling::Flame { path, .. } => Some(path.clone()),
+            Seedling::Known(_) => None,
+        });
+        ground.into_iter().chain(materials).chain(flames).chain(steps).collect()
     }
 
     /// Reads and checks the recipe in a file. No other file is opened.
@@ -68,12 +76,21 @@ impl Recipe {
     /// # Errors
     /// As [`Recipe::parse`], and [`Error::Recipe`] for a file that cannot be read.
     pub fn load(path: &Path, overrides: &Overrides) -> Result<Self, Error> {
-        let file = path.display().to_string();
-        let text = read_text(path).map_err(|cause| {
+        Self::parse(&path.display().to_string(), &Self::text_of(path)?, overrides)
+    }
+
+    /// The text of a recipe in a file.
+    pub(super) fn text_of(path: &Path) -> Result<String, RecipeError> {
+        read_text(path).map_err(|cause| {
             let message = format!("the recipe cannot be read: {cause}{}", remedy(cause.kind()));
-            RecipeError { file: file.clone(), complaints: vec![Complaint { line: 1, message }] }
-        })?;
-        Self::parse(&file, &text, overrides)
+            let file = path.display().to_string();
+            RecipeError { file, complaints: vec![Complaint { line: 1, message }] }
+        })
+    }
+
+    /// A recipe that was put together as a table.
+    pub(super) fn of_table(file: &str, table: &Table) -> Result<Self, Error> {
+        Self::checked(&Vocabulary::FULL, file, table, Complaints::default())
     }
 
     /// Reads and checks a recipe. `file` is its name; paths in it are relative to the folder of that name. No
@@ -94,7 +111,16 @@ impl Recipe {
         let mut table = source::parse(file, text)?;
         let mut complaints = Complaints::default();
         overrides.apply(&mut table, &mut complaints);
-        let recipe = check(vocabulary, file, &table, &mut complaints);
+        Self::checked(vocabulary, file, &table, complaints)
+    }
+
+    fn checked(
+        vocabulary: &Vocabulary,
+        file: &str,
+        table: &Table,
+        mut complaints: Complaints,
+    ) -> Result<Self, Error> {
+        let recipe = check(vocabulary, file, table, &mut complaints);
         if !complaints.found.is_empty() {
             complaints.found.sort_by_key(|complaint| complaint.line);
             return Err(RecipeError { file: file.to_owned(), complaints: complaints.found }.into());
@@ -184,14 +210,20 @@ fn check(
     complaints: &mut Complaints,
 ) -> Result<Recipe, Error> {
     complaints.subject.clear();
-    complaints.unknown_keys(recipe, &["landscape", "material", "step", "output"]);
+    complaints.unknown_keys(recipe, &["landscape", "material", "fractal", "step", "output"]);
     let files = Files { vocabulary, folder: Path::new(file).parent().unwrap_or(Path::new("")) };
     let start = landscape::read(files, recipe, complaints);
     let before = complaints.found.len();
     let materials = materials::read(files, recipe, complaints);
     let materials_understood = complaints.found.len() == before;
+    let before = complaints.found.len();
+    let fractals = fractals::read(files, recipe, complaints);
+    let fractals_understood = complaints.found.len() == before;
     let (steps, all_understood) = steps::read(files, recipe, complaints);
     let outputs = outputs::read(vocabulary, recipe, complaints);
+    if fractals_understood {
+        fractals::check_names(&fractals, &outputs, complaints);
+    }
     complaints.subject.clear();
     if recipe.get("output").is_none() {
         complaints.add(1, "a recipe needs an [[output]] table, or its run would leave nothing behind");
@@ -205,7 +237,7 @@ fn check(
     }
     steps::check_sizes(&steps)?;
     let (file, text) = (file.to_owned(), canonical::text(recipe));
-    Ok(Recipe { file, ground: start.ground?, seed: start.seed, materials, steps, outputs, text })
+    Ok(Recipe { file, ground: start.ground?, seed: start.seed, materials, fractals, steps, outputs, text })
 }
 
 /// All tables of a `[[section]]`.

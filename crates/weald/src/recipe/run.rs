@@ -152,6 +152,7 @@ impl Run<'_> {
         if self.options.resume {
             let mut state = checkpoint::read(&path, self.recipe.effective())?;
             state.landscape.materials = ground::materials(self.recipe);
+            state.landscape.fractals = ground::fractals(self.recipe)?;
             let done = state.simulation.as_ref().map_or(0, |simulation| simulation.iteration);
             progress.note(&format!("going on after {} steps and {done} iterations", state.done));
             return Ok(state);
@@ -183,6 +184,9 @@ impl Run<'_> {
     fn stop_if_cancelled(&self, state: &State, progress: &dyn Progress) -> Result<(), Error> {
         if !progress.cancelled() {
             return Ok(());
+        }
+        if self.recipe.steps.is_empty() {
+            return Err(Error::Interrupted("interrupted; every file that is there is whole".to_owned()));
         }
         checkpoint::write(&self.checkpoint(), self.recipe.effective(), state, state.simulation.as_ref())?;
         Err(self.interrupted(&format!("after {} of {} steps", state.done, self.recipe.steps.len())))

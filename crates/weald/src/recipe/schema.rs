@@ -6,7 +6,7 @@ use serde_json::{Map, Value, json};
 
 use super::catalog::CATALOG;
 use super::parameter::{Kind, Parameter, Parameters};
-use super::plan::{FilmKeys, LandscapeKeys, MaterialKeys};
+use super::plan::{FILM_EXTENSIONS, FilmKeys, FractalKeys, LandscapeKeys, MaterialKeys};
 use crate::export::EXPORTS;
 use crate::io::FORMATS;
 use crate::material::MOST;
@@ -20,7 +20,8 @@ pub fn schema() -> Value {
     });
     let pictures = PICTURES.iter().map(|entry| {
         let mut object = alternative("picture", entry.name, entry.summary, &(entry.parameters)());
-        add_property(&mut object, "file", &file(&["png", "mp4", "webm"]));
+        let extensions: Vec<_> = entry.extensions.iter().chain(FILM_EXTENSIONS).copied().collect();
+        add_property(&mut object, "file", &file(&extensions));
         for key in FilmKeys::parameters() {
             object["properties"][key.name] = property(&key);
         }
@@ -45,6 +46,7 @@ pub fn schema() -> Value {
                 "maxItems": MOST,
                 "items": table(&MaterialKeys::parameters()),
             },
+            "fractal": { "type": "array", "items": table(&FractalKeys::parameters()) },
             "step": { "type": "array", "items": one_of(&steps.collect::<Vec<_>>()) },
             "output": {
                 "type": "array",
@@ -146,11 +148,15 @@ fn of_kind(kind: &Kind) -> Value {
         Kind::Integer(low, high) => bounded("integer", low.max(0.0), *high),
         Kind::Flag => json!({ "type": "boolean" }),
         Kind::Choice(words) => json!({ "enum": words }),
-        Kind::Text | Kind::Raster | Kind::Script => json!({ "type": "string" }),
+        Kind::Text | Kind::Raster | Kind::Script | Kind::Flame => json!({ "type": "string" }),
         Kind::Colour => json!({ "type": "string", "pattern": "^#[0-9A-Fa-f]{6}$" }),
         Kind::Layer => json!({ "type": "string", "pattern": "^[A-Za-z0-9_-]{1,64}$" }),
         Kind::Layers => json!({ "type": "array", "items": of_kind(&Kind::Layer), "uniqueItems": true }),
         Kind::Numbers(low, high) => json!({ "type": "array", "items": bounded("number", *low, *high) }),
+        Kind::Rows => {
+            json!({ "type": "array", "items": of_kind(&Kind::Numbers(f64::NEG_INFINITY, f64::INFINITY)) })
+        }
+        Kind::Choices(words) => json!({ "type": "array", "items": of_kind(&Kind::Choice(words)) }),
         Kind::Sides => {
             let side = json!({ "type": "integer", "minimum": 1 });
             json!({ "oneOf": [side, { "type": "array", "items": side, "minItems": 2, "maxItems": 2 }] })

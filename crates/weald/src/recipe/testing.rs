@@ -172,7 +172,7 @@ impl Picture for Dot {
         vec![self.of.0.clone()]
     }
 
-    fn turned(&self, share: f64) -> Option<Box<dyn Picture>> {
+    fn turned(&self, share: f64, _: f64) -> Option<Box<dyn Picture>> {
         Some(Box::new(Self { share, ..self.clone() }))
     }
 

@@ -6,6 +6,7 @@
 
 use rayon::prelude::*;
 
+use super::super::Watch;
 use super::colouring::Colouring;
 use super::frame::Frame;
 use super::palette::{self, Tinge};
@@ -98,17 +99,17 @@ struct Drawing<'a> {
 }
 
 impl Density {
-    /// Plays the game into a histogram. `look` hears how many points are done, of how many, and may end it.
+    /// Plays the game into a histogram. `watch` hears how many points are done, of how many, and may end it.
     ///
     /// # Errors
     /// [`Error::Limit`] where the histogram would take more than 4 GiB or the points are more than 10^12, and those
-    /// of `look`.
+    /// of `watch`.
     pub(super) fn count(
         subject: &Subject<'_>,
         (colouring, palette): (Colouring, &[[u16; 3]]),
         frame: &Frame,
         sampling: Sampling,
-        look: &mut dyn FnMut(u64, u64) -> Result<(), Error>,
+        watch: &mut Watch<'_>,
     ) -> Result<Self, Error> {
         let points = checked(frame, sampling)?;
         let [width, height] = [frame.width, frame.height].map(|side| side * sampling.supersample);
@@ -118,7 +119,7 @@ impl Density {
         let game = Game::new(subject.ifs, subject.seed);
         let chunks = points.div_ceil(CHUNK);
         for first in (0..chunks).step_by(BATCH as usize) {
-            look(first * CHUNK, points)?;
+            watch(first * CHUNK, points)?;
             let batch = first..(first + BATCH).min(chunks);
             let entries: Vec<_> = batch
                 .into_par_iter()
@@ -130,7 +131,7 @@ impl Density {
                 }
             });
         }
-        look(points, points)?;
+        watch(points, points)?;
         Ok(Self { width, height, buckets, points })
     }
 

@@ -1,5 +1,6 @@
 //! How a fractal is drawn, declared once for recipes and for the command line.
 
+use super::super::Watch;
 use super::super::colour::{Linear, encode, linear_of_hex, linear_of_srgb};
 use super::super::cutout::Cutout;
 use super::camera::Camera;
@@ -160,19 +161,19 @@ impl Look {
         Subject { ifs, motion, camera, frontal, seed }
     }
 
-    /// The picture. `look` hears how many points are done, of how many, and may end it.
+    /// The picture. `watch` hears how many points are done, of how many, and may end it.
     ///
     /// # Errors
-    /// [`Error::Limit`] where memory or marks are beyond their limits, and those of `look`.
+    /// [`Error::Limit`] where memory or marks are beyond their limits, and those of `watch`.
     pub fn draw(
         &self,
         subject: &Subject<'_>,
         setting: &Setting,
-        look: &mut dyn FnMut(u64, u64) -> Result<(), Error>,
+        watch: &mut Watch<'_>,
     ) -> Result<Cutout, Error> {
         let pixels = match self.shape() {
             None => {
-                let density = self.count(subject, setting, look)?;
+                let density = self.count(subject, setting, watch)?;
                 let usual_share = setting.usual_share.unwrap_or_else(|| density.usual_share());
                 self.tone().develop(&density, self.supersample as usize, usual_share)
             }
@@ -202,14 +203,14 @@ impl Look {
         &self,
         subject: &Subject<'_>,
         setting: &Setting,
-        look: &mut dyn FnMut(u64, u64) -> Result<(), Error>,
+        watch: &mut Watch<'_>,
     ) -> Result<Density, Error> {
         let sampling = Sampling {
             samples: self.samples.unwrap_or(setting.usual_samples),
             supersample: self.supersample as usize,
         };
         let colours = (self.colouring(subject.ifs), &*self.table().whole_numbers());
-        Density::count(subject, colours, &setting.frame, sampling, look)
+        Density::count(subject, colours, &setting.frame, sampling, watch)
     }
 
     fn shape(&self) -> Option<Shape> {

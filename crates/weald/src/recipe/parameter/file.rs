@@ -65,3 +65,28 @@ impl ParameterValue for ScriptFile {
         (!self.0.is_empty()).then(|| format!("{:?}", self.0))
     }
 }
+
+/// A file of flames, of which a fractal takes the affine parts. The plan makes its path start at the recipe's folder.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct FlameFile(pub String);
+
+impl FlameFile {
+    /// Where the file is.
+    pub fn path(&self) -> PathBuf {
+        Path::new(&self.0).to_owned()
+    }
+}
+
+impl ParameterValue for FlameFile {
+    fn kind(_: (f64, f64)) -> Kind {
+        Kind::Flame
+    }
+
+    fn read(node: &Node, range: (f64, f64), complaints: &mut Complaints) -> Result<Self, String> {
+        String::read(node, range, complaints).map(Self)
+    }
+
+    fn shown(&self) -> Option<String> {
+        (!self.0.is_empty()).then(|| format!("{:?}", self.0))
+    }
+}

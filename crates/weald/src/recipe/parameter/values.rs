@@ -108,6 +108,21 @@ impl ParameterValue for Vec<f64> {
     }
 }
 
+impl ParameterValue for Vec<Vec<f64>> {
+    fn kind(_: (f64, f64)) -> Kind {
+        Kind::Rows
+    }
+
+    fn read(node: &Node, range: (f64, f64), complaints: &mut Complaints) -> Result<Self, String> {
+        let Value::List(items) = &node.value else { return Err(wrong(node, "a list of lists of numbers")) };
+        items.iter().map(|item| Vec::read(item, range, complaints)).collect()
+    }
+
+    fn shown(&self) -> Option<String> {
+        Some(format!("{self:?}"))
+    }
+}
+
 /// The name of a layer that a step reads or writes.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct LayerName(pub String);

@@ -19,7 +19,7 @@ impl Files<'_> {
     /// The table with each file where it is. No file is opened.
     pub(super) fn placed(&self, table: &Table, keys: &[Parameter], complaints: &mut Complaints) -> Table {
         let mut placed = table.clone();
-        for key in keys.iter().filter(|key| matches!(key.kind, Kind::Raster | Kind::Script)) {
+        for key in keys.iter().filter(|key| matches!(key.kind, Kind::Raster | Kind::Script | Kind::Flame)) {
             let Some(Node { value: Value::Text(name), line }) = placed.get_mut(key.name) else { continue };
             let path = self.folder.join(&*name);
             if let Some(problem) = self.problem(&path, &key.kind) {
@@ -31,6 +31,10 @@ impl Files<'_> {
     }
 
     fn problem(&self, path: &Path, kind: &Kind) -> Option<String> {
+        if matches!(kind, Kind::Flame) {
+            let is_flame = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("flame"));
+            return (!is_flame).then(|| format!("{} is no .flame file", path.display()));
+        }
         if matches!(kind, Kind::Script) {
             return Layout::of(path).err();
         }

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use crate::picture::Picture;
-use crate::recipe::parameter::{Complaints, Parameters};
+use crate::recipe::parameter::{Complaints, Parameters, keys_of};
 use crate::recipe::source::Table;
 
 crate::parameters! {
@@ -11,7 +11,8 @@ crate::parameters! {
     pub struct FilmKeys {
         /// Iterations of the simulations from one frame to the next.
         every: Option<u64> = None, range 1..=1_000_000_000;
-        /// Frames of a whole turn around the landscape, for a picture that has a camera.
+        /// Frames of a whole turn around the landscape, for a picture that has a camera; of a fractal in the wind those
+        /// after which its motion begins again.
         frames: Option<u32> = None, range 2..=9999;
         /// Frames that a video shows in a second.
         frames_per_second: Option<f64> = None, range 1.0..=240.0, unit "1/s";
@@ -21,8 +22,8 @@ crate::parameters! {
 /// Frames a second of a video, where the recipe says nothing.
 const USUAL_RATE: f64 = 24.0;
 
-/// Extensions of a film: numbered pictures alone, or pictures and a video.
-pub(super) const EXTENSIONS: &[&str] = &["png", "mp4", "webm"];
+/// Extensions of a film: numbered pictures alone, one file of all pictures, or pictures and a video.
+pub const EXTENSIONS: &[&str] = &["png", "apng", "mp4", "webm"];
 
 /// How a picture moves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -51,17 +52,29 @@ impl Film {
 
     /// Whether a video is made of the frames.
     pub fn is_video(file: &Path) -> bool {
-        !file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("png"))
+        !["png", "apng"].iter().any(|still| has_extension(file, still))
     }
+
+    /// Whether one file of the PNG kind holds all frames.
+    pub fn is_apng(file: &Path) -> bool {
+        has_extension(file, "apng")
+    }
+
+    /// How long it lasts with so many frames, in seconds.
+    pub fn seconds(&self, frames: u64) -> f64 {
+        frames as f64 / self.frames_per_second
+    }
+}
+
+fn has_extension(file: &Path, wanted: &str) -> bool {
+    file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case(wanted))
 }
 
 /// Takes the keys of a film out of the table of a picture; `None` where it is a still.
 pub(super) fn take(table: &mut Table, complaints: &mut Complaints) -> Option<Film> {
-    let mut own = Table { line: table.line, ..Table::default() };
-    for parameter in FilmKeys::parameters() {
-        if let Some(node) = table.take(parameter.name) {
-            own.set(parameter.name, node);
-        }
+    let own = keys_of::<FilmKeys>(table);
+    for (key, _) in &own.entries {
+        table.take(key);
     }
     let keys = FilmKeys::read(&own, complaints);
     let motion = match (keys.every, keys.frames) {
@@ -85,6 +98,6 @@ pub(super) fn take(table: &mut Table, complaints: &mut Complaints) -> Option<Fil
 
 /// What stands against the film of a picture.
 pub(super) fn fault(film: &Film, name: &str, picture: &dyn Picture) -> Option<String> {
-    let stands = matches!(film.motion, Motion::Turn(_)) && picture.turned(0.0).is_none();
+    let stands = matches!(film.motion, Motion::Turn(_)) && picture.turned(0.0, 1.0).is_none();
     stands.then(|| format!("a {name} has no camera that `frames` could turn; `every` shows it in time"))
 }

@@ -6,7 +6,7 @@ use super::files::Files;
 use crate::error::Error;
 use crate::grid::Size;
 use crate::recipe::parameter::{Complaints, Parameters, RasterFile, Sides};
-use crate::recipe::source::{Table, Value};
+use crate::recipe::source::{Node, Table, Value};
 
 crate::parameters! {
     /// The keys of `[landscape]`.
@@ -58,11 +58,26 @@ pub(super) fn read(files: Files<'_>, recipe: &Table, complaints: &mut Complaints
             let size = Size { columns: 1, rows: 1 };
             return Start { ground: Ok(Ground::Empty { size, cell: 1.0 }), seed: 0 };
         }
+        None if is_needless(recipe) => {
+            let size = Size { columns: 1, rows: 1 };
+            return Start { ground: Ok(Ground::Empty { size, cell: 1.0 }), seed: 0 };
+        }
         None => &absent,
     };
     let table = files.placed(table, &LandscapeKeys::parameters(), complaints);
     let keys = LandscapeKeys::read(&table, complaints);
     Start { seed: keys.seed, ground: ground(&table, &keys, complaints) }
+}
+
+/// Whether a recipe of fractals alone has nothing to do with a landscape.
+fn is_needless(recipe: &Table) -> bool {
+    let is_of_a_fractal =
+        |node: &Node| matches!(&node.value, Value::Table(table) if table.get("fractal").is_some());
+    let outputs = match recipe.get("output").map(|node| &node.value) {
+        Some(Value::List(items)) => items.as_slice(),
+        _ => &[],
+    };
+    recipe.get("step").is_none() && !outputs.is_empty() && outputs.iter().all(is_of_a_fractal)
 }
 
 fn ground(table: &Table, keys: &LandscapeKeys, complaints: &mut Complaints) -> Result<Ground, Error> {

@@ -15,7 +15,8 @@ pub(super) struct Made<'a> {
 }
 
 pub(super) fn check(made: &Made<'_>, outputs: &[Output], complaints: &mut Complaints) {
-    if made.steps.is_empty() && matches!(made.ground, Ground::Empty { .. }) {
+    let wants_ground = outputs.is_empty() || !outputs.iter().all(Output::needs_no_ground);
+    if wants_ground && made.steps.is_empty() && matches!(made.ground, Ground::Empty { .. }) {
         complaints.subject.clear();
         complaints.add(1, "a recipe needs a [[step]] table, or `from` in [landscape]: there is no ground");
     }

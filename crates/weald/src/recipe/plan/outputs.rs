@@ -80,6 +80,22 @@ impl Output {
     }
 }
 
+impl Output {
+    /// Names of the fractals that it shows.
+    pub fn fractals(&self) -> Vec<String> {
+        match &self.content {
+            Content::Picture { picture, .. } | Content::Film { picture, .. } => picture.fractals(),
+            Content::Export { export, .. } => export.fractals(),
+            Content::Layer { .. } => Vec::new(),
+        }
+    }
+
+    /// Whether it shows fractals and nothing of a landscape.
+    pub fn needs_no_ground(&self) -> bool {
+        self.reads().is_empty() && !self.fractals().is_empty()
+    }
+}
+
 pub(super) fn read(vocabulary: &Vocabulary, recipe: &Table, complaints: &mut Complaints) -> Vec<Output> {
     "output".clone_into(&mut complaints.subject);
     let mut outputs: Vec<Output> = Vec::new();
@@ -220,7 +236,7 @@ fn picture(entry: &PictureEntry, table: &Table, file: &Path, complaints: &mut Co
     entry.name.clone_into(&mut complaints.subject);
     let film = films::take(&mut table, complaints);
     let (what, extensions) =
-        if film.is_some() { ("film", films::EXTENSIONS) } else { ("picture", &["png"] as &[_]) };
+        if film.is_some() { ("film", films::EXTENSIONS) } else { ("picture", entry.extensions) };
     ensure_extension(&table, file, (what, extensions), complaints);
     let picture = with_keys(entry.name, "picture", &table, complaints, entry.read);
     let Some(film) = film else { return Content::Picture { name: entry.name, picture } };

@@ -6,7 +6,7 @@ use std::process::{Command, Stdio};
 use crate::error::Error;
 use crate::io::{write_through, write_whole};
 use crate::landscape::Landscape;
-use crate::picture::Picture;
+use crate::picture::{Cutout, Image, Picture};
 use crate::recipe::plan::{Content, Film, Motion, Output, Recipe};
 
 /// A time-lapse of a recipe.
@@ -72,6 +72,20 @@ impl<'a> Lapse<'a> {
 /// Frames of a time-lapse of the whole recipe.
 pub(super) fn lapse_frames(recipe: &Recipe, every: u64) -> u64 {
     1 + recipe.steps.iter().map(|planned| planned.step.watched() / every).sum::<u64>()
+}
+
+/// A frame that was written, read again.
+pub(super) fn drawn(path: &Path, number: u64) -> Result<Cutout, Error> {
+    let frame = Film::frame(path, number);
+    let unread =
+        |cause: &dyn std::fmt::Display| Error::input(&frame, format!("cannot be read again: {cause}"));
+    let file = std::fs::File::open(&frame).map_err(|cause| unread(&cause))?;
+    let mut reader =
+        png::Decoder::new(std::io::BufReader::new(file)).read_info().map_err(|cause| unread(&cause))?;
+    let [width, height] = [reader.info().width, reader.info().height].map(|side| side as usize);
+    let mut rgb = vec![0; 3 * width * height];
+    reader.next_frame(&mut rgb).map_err(|cause| unread(&cause))?;
+    Ok(Image { width, height, rgb }.into())
 }
 
 /// Whether videos can be made.

@@ -7,7 +7,7 @@ use crate::error::Error;
 use crate::export::{Export, Finished};
 use crate::grid::Field;
 use crate::io::{Encode, Holds, Part, PartName, Provenance, Raster, write_parts, write_whole};
-use crate::picture::Picture;
+use crate::picture::{Cutout, Picture, write_apng};
 use crate::recipe::plan::{Content, Film, Motion, Output, Recipe};
 use crate::recipe::report::OutputReport;
 
@@ -17,6 +17,32 @@ pub(super) struct Writer<'a> {
     pub(super) recipe: &'a Recipe,
     /// Hears how far a film is, and says whether to go on.
     pub(super) next_frame: &'a dyn Fn(u64, u64) -> Result<(), Error>,
+}
+
+/// A film of a picture that moves by itself.
+struct Turn<'a> {
+    writer: &'a Writer<'a>,
+    picture: &'a dyn Picture,
+    frames: u64,
+    seconds: f64,
+}
+
+impl Turn<'_> {
+    fn frame(&self, frame: u64) -> Result<Cutout, Error> {
+        (self.writer.next_frame)(frame, self.frames)?;
+        let turned = self.picture.turned(frame as f64 / self.frames as f64, self.seconds);
+        let turned = turned.expect("the plan takes only pictures that turn");
+        let mut go_on = |_, _| (self.writer.next_frame)(frame, self.frames);
+        turned.cutout(self.writer.finished.landscape, &mut go_on)
+    }
+
+    /// Numbered pictures.
+    fn write(&self, path: &Path) -> Result<(), Error> {
+        for frame in 0..self.frames {
+            write_whole(&Film::frame(path, frame), &self.frame(frame)?.to_png(&self.writer.text()))?;
+        }
+        Ok(())
+    }
 }
 
 /// What an output is to become.
@@ -38,17 +64,24 @@ impl Writer<'_> {
     }
 
     fn picture(&self, target: &Target<'_>, name: &str, picture: &dyn Picture) -> Result<OutputReport, Error> {
-        self.draw(picture, &target.folder.join(target.file))?;
+        let path = target.folder.join(target.file);
+        if path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("svg")) {
+            write_whole(&path, picture.svg(self.finished.landscape)?.as_bytes())?;
+        } else {
+            let cutout =
+                picture.cutout(self.finished.landscape, &mut |done, all| (self.next_frame)(done, all))?;
+            write_whole(&path, &cutout.to_png(&self.text()))?;
+        }
         Ok(OutputReport { picture: Some(name.to_owned()), ..OutputReport::default() })
     }
 
-    fn draw(&self, picture: &dyn Picture, path: &Path) -> Result<(), Error> {
-        let text = [
+    /// What a picture says of its origin.
+    fn text(&self) -> [(String, String); 3] {
+        [
             ("Software".to_owned(), format!("Weald {}", env!("CARGO_PKG_VERSION"))),
             ("WEALD_RECIPE_BLAKE3".to_owned(), self.finished.hash.to_owned()),
             ("WEALD_SEED".to_owned(), self.finished.seed.to_string()),
-        ];
-        write_whole(path, &picture.render(self.finished.landscape)?.to_png(&text))
+        ]
     }
 
     /// The frames of a time-lapse are there by now; those of a turn are drawn.
@@ -61,28 +94,27 @@ impl Writer<'_> {
         let path = target.folder.join(target.file);
         let frames = match film.motion {
             Motion::Lapse(every) => film::lapse_frames(self.recipe, every),
-            Motion::Turn(frames) => self.turn(picture, &path, u64::from(frames))?,
+            Motion::Turn(frames) => u64::from(frames),
         };
+        let turn = Turn { writer: self, picture, seconds: film.seconds(frames), frames };
         let wanted = Film::is_video(target.file);
         let possible = wanted && film::ffmpeg_is_there();
+        match film.motion {
+            Motion::Turn(_) if Film::is_apng(target.file) => {
+                write_apng(&path, (frames, film.frames_per_second), |frame| turn.frame(frame))?;
+            }
+            Motion::Turn(_) => turn.write(&path)?,
+            Motion::Lapse(_) if Film::is_apng(target.file) => {
+                write_apng(&path, (frames, film.frames_per_second), |frame| film::drawn(&path, frame))?;
+            }
+            Motion::Lapse(_) => {}
+        }
         if possible {
             film::video(&path, film, frames)?;
         }
         let notes = if wanted && !possible { vec![film::NO_FFMPEG.to_owned()] } else { Vec::new() };
         let picture = Some(name.to_owned());
         Ok(OutputReport { picture, frames: Some(frames), notes, ..OutputReport::default() })
-    }
-
-    fn turn(&self, picture: &dyn Picture, path: &Path, frames: u64) -> Result<u64, Error> {
-        for frame in 0..frames {
-            (self.next_frame)(frame, frames)?;
-            let turned = picture.turned(frame as f64 / frames as f64);
-            self.draw(
-                turned.expect("the plan takes only pictures that turn").as_ref(),
-                &Film::frame(path, frame),
-            )?;
-        }
-        Ok(frames)
     }
 
     fn layer(

@@ -1,0 +1,393 @@
+//! The `[[fractal]]` tables: plants and sets that pictures and later steps name.
+
+use std::path::PathBuf;
+
+use super::files::Files;
+use super::{Output, hint, tables};
+use crate::grow::Fractal;
+use crate::grow::ifs::deform::DeformKeys;
+use crate::grow::ifs::{Draft, Ifs, IfsFault, Map, Role, Weighted, even_probabilities, shapes};
+use crate::recipe::parameter::{Complaints, FlameFile, Kind, LayerName, Nested, ParameterValue, Parameters};
+use crate::recipe::source::{Node, Table, Value};
+
+crate::choices! {
+    /// What a map makes of a plant.
+    pub enum PlantRole {
+        /// The stem between two joints.
+        Stem = "stem",
+        /// What goes on along the axis.
+        Trunk = "trunk",
+        /// A branch, frond or leaf.
+        Branch = "branch",
+    }
+}
+
+impl ParameterValue for Vec<PlantRole> {
+    fn kind(range: (f64, f64)) -> Kind {
+        let Kind::Choice(words) = PlantRole::kind(range) else { return Kind::Text };
+        Kind::Choices(words)
+    }
+
+    fn read(node: &Node, range: (f64, f64), complaints: &mut Complaints) -> Result<Self, String> {
+        let Value::List(items) = &node.value else {
+            return Err(format!("is {}, but must be a {}", node.value.shown(), Self::kind(range).in_words()));
+        };
+        items.iter().map(|item| PlantRole::read(item, range, complaints)).collect()
+    }
+
+    fn shown(&self) -> Option<String> {
+        let words: Vec<_> = self.iter().map(|role| format!("{:?}", role.word())).collect();
+        Some(format!("[{}]", words.join(", ")))
+    }
+}
+
+crate::parameters! {
+    /// The keys of `[[fractal]]`. It is made of one of `of`, `maps` and `flame`.
+    pub struct FractalKeys {
+        /// Name by which outputs call it.
+        name: LayerName = LayerName::needed();
+        /// Name of a built-in fractal.
+        of: Option<String> = None;
+        /// Affine maps in the order of their digits: [a, b, c, d, e, f] for (a x + b y + e, c x + d y + f), or twelve
+        /// numbers in space, three rows of a matrix, each followed by its part of the shift.
+        maps: Vec<Vec<f64>> = Vec::new();
+        /// Share of the points that each map gets; they sum to 1. By default by how much area or volume it keeps.
+        probabilities: Vec<f64> = Vec::new();
+        /// What each map makes of a plant, for colours and wind: by default all are branches.
+        roles: Vec<PlantRole> = Vec::new();
+        /// File of flames, of which the affine parts are taken.
+        flame: Option<FlameFile> = None;
+        /// Which flame of the file.
+        flame_number: u32 = 1, range 1..=10_000;
+        /// Digits of the codes of its points. By default what a ten-thousandth of its size needs.
+        code_digits: Option<u64> = None, range 1..=256;
+        /// Deformations.
+        deform: Vec<Nested<DeformKeys>> = Vec::new();
+    }
+}
+
+/// A fractal of a recipe.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PlannedFractal {
+    /// Line of its table.
+    pub line: usize,
+    /// Its name.
+    pub name: String,
+    /// What it is made of.
+    pub seedling: Seedling,
+    /// Its deformations.
+    pub deform: Vec<DeformKeys>,
+}
+
+/// What a fractal is made of.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Seedling {
+    /// Maps that are known; boxed because they are many numbers.
+    Known(Box<Ifs>),
+    /// A file that is read when the recipe runs.
+    Flame {
+        /// Where it is.
+        path: PathBuf,
+        /// Which of its flames, counted from 1.
+        number: usize,
+    },
+}
+
+pub(super) fn read(files: Files<'_>, recipe: &Table, complaints: &mut Complaints) -> Vec<PlannedFractal> {
+    "fractal".clone_into(&mut complaints.subject);
+    let mut fractals: Vec<PlannedFractal> = Vec::new();
+    for table in tables(recipe, "fractal", complaints) {
+        let before = complaints.found.len();
+        let placed = files.placed(table, &FractalKeys::parameters(), complaints);
+        let keys = FractalKeys::read(&placed, complaints);
+        if let Some(twin) = fractals.iter().find(|earlier| earlier.name == keys.name.0) {
+            let message =
+                format!("`name` is {:?} a second time; line {} has it first", keys.name.0, twin.line);
+            complaints.add(line_of(table, "name"), message);
+        }
+        if complaints.found.len() > before {
+            continue;
+        }
+        match (Written { table, keys: &keys }).seedling() {
+            Ok(seedling) => fractals.push(planned(table, keys, seedling, complaints)),
+            Err((line, message)) => complaints.add(line, message),
+        }
+    }
+    fractals
+}
+
+/// The fractal, once its deformations fit it.
+fn planned(
+    table: &Table,
+    keys: FractalKeys,
+    seedling: Seedling,
+    complaints: &mut Complaints,
+) -> PlannedFractal {
+    let deform: Vec<DeformKeys> = keys.deform.into_iter().map(|Nested(keys)| keys).collect();
+    if let Seedling::Known(ifs) = &seedling {
+        for (line, fault) in deform_faults(table, ifs, &deform) {
+            complaints.add(line, fault);
+        }
+    }
+    PlannedFractal { line: table.line, name: keys.name.0, seedling, deform }
+}
+
+/// What stands against each deformation alone, with its line, or against all of them together.
+fn deform_faults(table: &Table, ifs: &Ifs, deform: &[DeformKeys]) -> Vec<(usize, String)> {
+    let node = table.get("deform");
+    let lines: Vec<usize> = match node.map(|node| &node.value) {
+        Some(Value::List(items)) => items.iter().map(|item| item.line).collect(),
+        _ => Vec::new(),
+    };
+    let fractal = |deform: &[DeformKeys]| {
+        let deform = deform.to_vec();
+        Fractal { name: String::new(), ifs: ifs.clone(), deform }.deformation().err().unwrap_or_default()
+    };
+    let mut faults = Vec::new();
+    for (one, &line) in deform.iter().zip(&lines) {
+        let kind = one.by.map_or("deform", |by| by.word());
+        faults.extend(
+            fractal(std::slice::from_ref(one)).into_iter().map(|fault| (line, format!("{kind}: {fault}"))),
+        );
+    }
+    if faults.is_empty() {
+        let line = node.map_or(table.line, |node| node.line);
+        faults.extend(fractal(deform).into_iter().map(|fault| (line, fault)));
+    }
+    faults
+}
+
+fn line_of(table: &Table, key: &str) -> usize {
+    table.get(key).map_or(table.line, |node| node.line)
+}
+
+/// A table with its keys.
+struct Written<'a> {
+    table: &'a Table,
+    keys: &'a FractalKeys,
+}
+
+type At<T> = Result<T, (usize, String)>;
+
+impl Written<'_> {
+    fn seedling(&self) -> At<Seedling> {
+        let given: Vec<_> =
+            ["of", "maps", "flame"].into_iter().filter(|key| self.table.get(key).is_some()).collect();
+        match given.as_slice() {
+            ["of"] => self.built_in().map(|ifs| Seedling::Known(Box::new(ifs))),
+            ["maps"] => self.of_maps().map(|ifs| Seedling::Known(Box::new(ifs))),
+            ["flame"] => self.flame(),
+            [first, second, ..] => {
+                let message =
+                    format!("`{first}` and `{second}` exclude each other: a fractal is made of one of them");
+                Err((line_of(self.table, second), message))
+            }
+            _ => Err((
+                self.table.line,
+                "`of`, `maps` or `flame` is needed: a built-in fractal, its maps, or a file".to_owned(),
+            )),
+        }
+    }
+
+    fn at(&self, key: &str, message: impl Into<String>) -> (usize, String) {
+        (line_of(self.table, key), message.into())
+    }
+
+    /// Keys that go with `maps` alone.
+    fn refuse_keys_of_maps(&self) -> At<()> {
+        match ["probabilities", "roles"].into_iter().find(|key| self.table.get(key).is_some()) {
+            Some(key) => Err(self.at(key, format!("`{key}` goes with `maps` alone"))),
+            None => Ok(()),
+        }
+    }
+
+    fn built_in(&self) -> At<Ifs> {
+        self.refuse_keys_of_maps()?;
+        let name = self.keys.of.as_deref().unwrap_or_default();
+        let Some(shape) = shapes::find(name) else {
+            let known: Vec<_> = shapes::SHAPES.iter().map(|shape| shape.name).collect();
+            return Err(
+                self.at("of", format!("there is no built-in fractal {name:?}; {}", hint(name, &known)))
+            );
+        };
+        let ifs = shape.ifs();
+        let code_digits = self.keys.code_digits.map_or(ifs.code_digits(), |digits| digits as usize);
+        let (name, maps) = (self.keys.name.0.clone(), ifs.maps().to_vec());
+        self.checked(Draft { name, maps, code_digits: Some(code_digits) })
+    }
+
+    fn flame(&self) -> At<Seedling> {
+        self.refuse_keys_of_maps()?;
+        let path = self.keys.flame.as_ref().map(FlameFile::path).unwrap_or_default();
+        Ok(Seedling::Flame { path, number: self.keys.flame_number as usize })
+    }
+
+    fn of_maps(&self) -> At<Ifs> {
+        let count = self.keys.maps.len();
+        let maps: Vec<Map> = (0..count).map(|place| self.map(place)).collect::<At<_>>()?;
+        self.as_many("probabilities", self.keys.probabilities.len(), count)?;
+        self.as_many("roles", self.keys.roles.len(), count)?;
+        let probabilities = if self.keys.probabilities.is_empty() {
+            even_probabilities(&maps)
+        } else {
+            self.keys.probabilities.clone()
+        };
+        let role = |map: usize| self.keys.roles.get(map).map_or(Role::Branch, |role| role.role());
+        let weighted = maps.into_iter().zip(probabilities).enumerate();
+        let maps =
+            weighted.map(|(number, (map, probability))| Weighted { map, probability, role: role(number) });
+        let name = self.keys.name.0.clone();
+        let code_digits = self.keys.code_digits.map(|digits| digits as usize);
+        self.checked(Draft { name, maps: maps.collect(), code_digits })
+    }
+
+    fn map(&self, place: usize) -> At<Map> {
+        let numbers = &self.keys.maps[place];
+        if let Ok(six) = <[f64; 6]>::try_from(numbers.as_slice()) {
+            return Ok(Map::planar(six));
+        }
+        if numbers.len() == 12 {
+            let row = |row: usize| std::array::from_fn(|column| numbers[4 * row + column]);
+            return Ok(Map::spatial([row(0), row(1), row(2)]));
+        }
+        let message =
+            format!("map {place} has {} numbers; a map of the plane has 6, one of space 12", numbers.len());
+        Err((self.line_of_map(place), message))
+    }
+
+    fn line_of_map(&self, place: usize) -> usize {
+        match self.table.get("maps").map(|node| &node.value) {
+            Some(Value::List(items)) => items.get(place).map_or(self.table.line, |item| item.line),
+            _ => self.table.line,
+        }
+    }
+
+    fn as_many(&self, key: &str, found: usize, maps: usize) -> At<()> {
+        if found == 0 || found == maps {
+            return Ok(());
+        }
+        Err(self.at(key, format!("`{key}` has {found} entries for {maps} maps; each map needs one")))
+    }
+
+    fn checked(&self, draft: Draft) -> At<Ifs> {
+        Ifs::new(draft).map_err(|fault| {
+            let line = match &fault {
+                IfsFault::NotFinite(map) | IfsFault::NotContracting { map, .. } => self.line_of_map(*map),
+                IfsFault::Probability { .. } | IfsFault::ProbabilitySum(_) => {
+                    line_of(self.table, "probabilities")
+                }
+                IfsFault::CodeLength { .. } => line_of(self.table, "code_digits"),
+                IfsFault::TooFew(_) | IfsFault::TooMany(_) => line_of(self.table, "maps"),
+            };
+            (line, fault.to_string())
+        })
+    }
+}
+
+impl PlantRole {
+    fn role(self) -> Role {
+        match self {
+            Self::Stem => Role::Stem,
+            Self::Trunk => Role::Trunk,
+            Self::Branch => Role::Branch,
+        }
+    }
+}
+
+/// Complains of outputs that name a fractal that is not there.
+pub(super) fn check_names(fractals: &[PlannedFractal], outputs: &[Output], complaints: &mut Complaints) {
+    "output".clone_into(&mut complaints.subject);
+    let own = fractals.iter().map(|fractal| fractal.name.as_str());
+    let known: Vec<_> = own.chain(shapes::SHAPES.iter().map(|shape| shape.name)).collect();
+    for output in outputs {
+        for name in output.fractals().iter().filter(|name| !known.contains(&name.as_str())) {
+            let message = format!("there is no fractal {name:?}; {}", hint(name, &known));
+            complaints.add(output.line, message);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::recipe::testing::{parse, refusal};
+
+    /// A recipe whose fractal begins on line 2, and its name stands on line 3.
+    fn recipe(keys: &str) -> String {
+        format!(
+            "# fractals\n[[fractal]]\nname = \"mine\"\n{keys}[landscape]\nsize = 4\n[[step]]\ndo = \"rough\"\n\
+             [[output]]\nlayer = \"height\"\nfile = \"a.bits\"\n"
+        )
+    }
+
+    const HALVES: &str = "maps = [\n[0.5, 0, 0, 0.5, 0, 0],\n[0.5, 0, 0, 0.5, 0.5, 0],\n]\n";
+
+    fn known(keys: &str) -> Ifs {
+        let recipe = parse(&recipe(keys)).expect("good");
+        match &recipe.fractals[0].seedling {
+            Seedling::Known(ifs) => (**ifs).clone(),
+            Seedling::Flame { .. } => panic!("no file"),
+        }
+    }
+
+    #[test]
+    fn maps_of_plane_and_space_become_a_fractal_with_roles_and_shares() {
+        let ifs = known(&format!("{HALVES}roles = [\"trunk\", \"branch\"]\nprobabilities = [0.25, 0.75]\n"));
+        assert_eq!(ifs.maps()[1].map.offset, [0.5, 0.0, 0.0]);
+        assert_eq!((ifs.maps()[0].role, ifs.maps()[1].probability), (Role::Trunk, 0.75));
+        let space = known("maps = [[0.5,0,0,0, 0,0.5,0,0, 0,0,0.5,1], [0.5,0,0,1, 0,0.5,0,0, 0,0,0.5,0]]\n");
+        assert!(!space.is_planar());
+        assert_eq!(space.maps()[0].map.offset, [0.0, 0.0, 1.0]);
+        assert_eq!(known("of = \"fern\"\ncode_digits = 20\n").code_digits(), 20);
+    }
+
+    #[test]
+    fn every_fault_of_a_fractal_is_told_with_its_line() {
+        let told = |keys: &str, parts: &[&str]| {
+            let message = refusal(&recipe(keys));
+            assert!(parts.iter().all(|part| message.contains(part)), "{message}");
+        };
+        told("maps = []\n", &["r.toml:4: fractal: a fractal needs at least 2 maps and has 0"]);
+        told(&format!("maps = [{}]\n", "[0.5,0,0,0.5,0,0],".repeat(257)), &[":4: ", "257 maps is too large"]);
+        told(
+            "maps = [\n[0.5, 0, 0, 0.5, 0, 0],\n[1.5, 0, 0, 0.5, 0, 0],\n]\n",
+            &[":6: fractal: map 1 does not contract: it lengthens by 1.500"],
+        );
+        told("maps = [\n[0.5, 0, 0],\n]\n", &[":5: fractal: map 0 has 3 numbers", "6", "12"]);
+        told(
+            &format!("{HALVES}probabilities = [0.5, 0.4]\n"),
+            &[":8: fractal: the probabilities sum to 0.9"],
+        );
+        told(&format!("{HALVES}probabilities = [1.5, -0.5]\n"), &[":8: ", "probability of map 0 is 1.5"]);
+        told(&format!("{HALVES}probabilities = [1.0]\n"), &[":8: ", "1 entries for 2 maps"]);
+        told(&format!("{HALVES}roles = [\"leaf\", \"stem\"]\n"), &[":8: ", "\"leaf\"", "\"branch\""]);
+        told("of = \"fern\"\ncode_digits = 200\n", &[":5: fractal: codes of 200 digits do not fit", "128"]);
+        told("of = \"fren\"\n", &[":4: ", "did you mean `fern`?"]);
+        told("of = \"fern\"\nmaps = []\n", &[":5: ", "`of` and `maps` exclude each other"]);
+        told("", &[":2: fractal: `of`, `maps` or `flame` is needed"]);
+        told("of = \"fern\"\nroles = [\"stem\"]\n", &[":5: ", "goes with `maps` alone"]);
+        told(
+            "of = \"fern\"\n[[fractal]]\nname = \"mine\"\nof = \"tree\"\n",
+            &[":6: ", "a second time; line 2"],
+        );
+    }
+
+    #[test]
+    fn every_fault_of_a_deformation_is_told_with_its_line() {
+        let told = |deform: &str, parts: &[&str]| {
+            let message = refusal(&recipe(&format!("of = \"fern\"\ndeform = [\n{deform},\n]\n")));
+            assert!(parts.iter().all(|part| message.contains(part)), "{message}");
+        };
+        told("{ by = \"swap\", from = 7, to = 5 }", &["r.toml:6: fractal: swap: `from` is 7 and `to` is 5"]);
+        told("{ by = \"swap\", from = 1, to = 99 }", &[":6: fractal: swap: `to` is 99", "64 digits"]);
+        told("{ by = \"swap\", to = 99 }", &[":6: fractal: swap: `from` is needed"]);
+        told("{ by = \"swap\", from = 0, to = 9 }", &[":6: ", "`from` is 0, outside its range: 1 to 256"]);
+        told("{ from = 1, to = 2 }", &[":6: fractal: deform: `by` is needed"]);
+        told("{ by = \"spin\" }", &[":6: ", "\"spin\"", "\"permutation\""]);
+        told("{ by = \"part\", part = \"14\" }", &[":6: fractal: part: `part`: 4 is no digit"]);
+        told(
+            "{ by = \"field\" },\n{ by = \"displacement\", from = 1, to = 2, vectors = [1] }",
+            &[":7: fractal: displacement: `vectors` has 1 numbers; 4 maps need 8"],
+        );
+    }
+}
