@@ -97,7 +97,9 @@ impl Points {
             None => played(ifs, (self.count, self.seed)),
         };
         if !deformation.is_nothing() {
-            points.iter_mut().for_each(|point| point.at = deformation.apply(point.at, &point.code));
+            for point in &mut points {
+                point.at = deformation.apply(point.at, &point.code);
+            }
         }
         Ok(points)
     }

@@ -169,13 +169,16 @@ impl Drawing<'_> {
     fn chunk(&self, game: &Game<'_>, chunk: u64, points: u64) -> Vec<Vec<Entry>> {
         let usual = CHUNK as usize / BANDS;
         let mut bands: Vec<Vec<Entry>> = (0..BANDS).map(|_| Vec::with_capacity(usual)).collect();
-        let mut running = self.colouring.running();
+        let (mut running, mut packer) = (self.colouring.running(), self.subject.packer());
         game.chunk(chunk, points, |block| {
+            if let Some(packer) = &mut packer {
+                packer.pack(block);
+            }
             for row in 0..block.rows().len() {
                 let colours = running.row(block, row);
                 let lanes = LANES.min(block.len() - row * LANES);
                 for (lane, &colour) in colours[..lanes].iter().enumerate() {
-                    let seen = self.subject.seen(block, row * LANES + lane);
+                    let seen = self.subject.seen(block, row * LANES + lane, packer.as_ref());
                     let Some(bucket) = self.bucket(seen) else { continue };
                     let tinge = palette::tinge(colour, self.frame.nearness(seen[2]));
                     bands[bucket / self.band].push(Entry { bucket: (bucket % self.band) as u32, tinge });

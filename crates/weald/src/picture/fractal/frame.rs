@@ -37,10 +37,13 @@ impl Extent {
             let [low, high] = subject.ifs.bounds();
             return Self::NONE.and(subject.camera.seen(low)).and(subject.camera.seen(high));
         }
-        let mut extent = Self::NONE;
+        let (mut extent, mut packer) = (Self::NONE, subject.packer());
         Game::new(subject.ifs, 0).points(PROBES, |block| {
+            if let Some(packer) = &mut packer {
+                packer.pack(block);
+            }
             for number in 0..block.len() {
-                extent = extent.and(subject.seen(block, number));
+                extent = extent.and(subject.seen(block, number, packer.as_ref()));
             }
         });
         extent

@@ -28,7 +28,7 @@ crate::choices! {
 impl Palette {
     fn ramp(self) -> Ramp {
         Ramp::through(match self {
-            Self::Fern => &[0x2a_2e14, 0x1c_4a26, 0x2c_7231, 0x4f_9a38, 0x8a_c03f, 0xc3_da62],
+            Self::Fern => &[0x2a_2e14, 0x14_3f20, 0x20_662a, 0x41_8f2f, 0x7c_b637, 0xb8_d352],
             Self::Spruce => &[0x3a_2c1e, 0x14_3a34, 0x1f_5a48, 0x3a_7d61, 0x70_a384, 0xb0_cbaa],
             Self::Autumn => &[0x3a_2014, 0x7a_2418, 0xb5_3a1a, 0xd9_6a1e, 0xe8_a22c, 0xf2_d25a],
             Self::Bark => &[0x22_1a16, 0x4a_382c, 0x75_5e4a, 0x9c_8770, 0xc4_b49e],
@@ -47,7 +47,7 @@ pub(super) const PLACES: usize = 256;
 pub(super) const STEPS: usize = 16;
 
 /// Share of the haze in the colour of the farthest part.
-const HAZE: f32 = 0.55;
+const HAZE: f32 = 0.42;
 
 /// A colour of a [`Table`]: a place on the palette, and how near.
 pub(super) type Tinge = u16;
@@ -102,7 +102,7 @@ mod tests {
         assert_eq!(table.colour(tinge(0, 1.0)), ramp.at(0.0));
         assert_eq!(table.colour(tinge(u16::MAX, 1.0)), ramp.at(1.0));
         let far = table.colour(tinge(0, 0.0));
-        assert!(far.iter().all(|channel| (0.7..0.8).contains(channel)), "{far:?}");
+        assert!(far.iter().all(|channel| (0.42..0.55).contains(channel)), "{far:?}");
     }
 
     #[test]

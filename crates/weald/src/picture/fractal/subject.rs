@@ -3,7 +3,7 @@
 use std::fmt;
 
 use super::camera::Camera;
-use crate::grow::ifs::{Block, Code, Ifs, Point};
+use crate::grow::ifs::{Block, Code, Ifs, Packer, Point};
 
 /// Moves the points of a fractal before they are drawn: a deformation, the wind, several of them in turn.
 pub type Motion<'a> = dyn Fn(Point, &Code) -> Point + Sync + 'a;
@@ -24,12 +24,17 @@ pub struct Subject<'a> {
 }
 
 impl Subject<'_> {
-    /// Where a point of the game is seen: right, up, nearer.
+    /// What packs the codes of its points, where something moves them.
+    pub(super) fn packer(&self) -> Option<Packer> {
+        self.motion.map(|_| Packer::of(self.ifs))
+    }
+
+    /// Where a point of the game is seen: right, up, nearer. Of points that move, the block has been packed.
     #[inline]
-    pub(super) fn seen(&self, block: &Block, number: usize) -> Point {
+    pub(super) fn seen(&self, block: &Block, number: usize, packer: Option<&Packer>) -> Point {
         let at = block.point(number).map(f64::from);
-        let at = match self.motion {
-            Some(motion) => motion(at, &block.code(number, self.ifs)),
+        let at = match self.motion.zip(packer) {
+            Some((motion, packer)) => motion(at, &packer.code(number)),
             None => at,
         };
         self.camera.seen(at)

@@ -16,7 +16,7 @@ use super::super::colour::encode;
 use super::density::{Bucket, Density};
 
 /// How many times as dense as usual a bucket is that is covered whole.
-const WHOLE: f64 = 2.0;
+const WHOLE: f64 = 1.6;
 
 /// Bend of the logarithm: how many times its start is steeper than a straight line to its end, nearly.
 const BEND: f64 = 30.0;
