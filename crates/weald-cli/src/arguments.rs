@@ -173,6 +173,9 @@ pub(crate) struct BenchArguments {
     /// Threads, with --engine cpu
     #[arg(long, value_name = "N", num_args = 1.., default_values_t = [1, 2])]
     pub(crate) threads: Vec<usize>,
+    /// Only points of fractals, with --engine cpu; beside flam3 where it is installed
+    #[arg(long, conflicts_with_all = ["size", "gpu_memory"])]
+    pub(crate) fractals: bool,
     /// Most memory of the graphics card, as in 512MiB; larger sizes are left out
     #[arg(long, value_name = "BYTES", allow_negative_numbers = true, value_parser = engine::memory)]
     pub(crate) gpu_memory: Option<u64>,

@@ -4,8 +4,10 @@
 
 mod device;
 mod flow;
+mod fractal;
 
 pub use device::run_on;
+pub use fractal::{PointRate, fractals};
 
 use std::time::Instant;
 

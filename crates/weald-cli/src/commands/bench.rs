@@ -26,8 +26,11 @@ pub(crate) fn bench(arguments: &BenchArguments) -> Result<(), Failure> {
     if arguments.engine == "gpu" {
         on_the_gpu(arguments, &mut print)?;
     } else {
-        let sides = given_or(&arguments.size, SIDES);
-        weald::bench::run(sides, &arguments.threads, &mut |rate| print(rate))?;
+        if !arguments.fractals {
+            let sides = given_or(&arguments.size, SIDES);
+            weald::bench::run(sides, &arguments.threads, &mut |rate| print(rate))?;
+        }
+        weald::bench::fractals(&arguments.threads, &mut print)?;
     }
     unwritten.map_or(Ok(()), Err)
 }

@@ -98,7 +98,7 @@ pub fn write(path: &Path, raster: &Raster) -> Result<(), Error> {
 
 /// All bytes of a file, where they are at most `limit`. The length is counted while reading, because a
 /// device or a pipe has none to ask for.
-fn read_at_most(path: &Path, limit: u64) -> Result<Vec<u8>, Fault> {
+pub(crate) fn read_at_most(path: &Path, limit: u64) -> Result<Vec<u8>, Fault> {
     let mut bytes = Vec::new();
     let reading = File::open(path).and_then(|file| file.take(limit + 1).read_to_end(&mut bytes));
     reading.map_err(|cause| Fault::damaged(format!("cannot be read: {cause}")))?;

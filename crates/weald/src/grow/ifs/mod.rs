@@ -8,6 +8,7 @@ pub mod code;
 pub mod deform;
 pub mod device;
 pub mod expansion;
+pub mod flame;
 pub mod game;
 pub mod histogram;
 pub mod lanes;

@@ -58,8 +58,8 @@ pub enum IfsFault {
     NotFinite(usize),
     /// A map that does not contract, nor do maps in a row.
     #[error(
-        "map {map} does not contract: it lengthens by {ratio:.3}, and maps in a row do too; \
-         each must bring points closer, by a ratio below 1"
+        "map {map} does not contract: it lengthens by {ratio:.4}, and maps in a row do too; \
+         each must bring points closer, by a ratio of at most {SLOWEST}"
     )]
     NotContracting {
         /// Number of the map.
@@ -67,6 +67,9 @@ pub enum IfsFault {
         /// Its greatest singular value.
         ratio: f64,
     },
+    /// Numbers so large that the points have none.
+    #[error("its points lie beyond what numbers hold; choose smaller offsets")]
+    Boundless,
     /// A probability out of range.
     #[error("the probability of map {map} is {value}; it must be above 0 and at most 1")]
     Probability {
@@ -90,6 +93,18 @@ pub enum IfsFault {
     },
 }
 
+impl IfsFault {
+    /// Number of the map that is to be mended, where it is one.
+    pub fn map(&self) -> Option<usize> {
+        match *self {
+            Self::NotFinite(map) | Self::NotContracting { map, .. } | Self::Probability { map, .. } => {
+                Some(map)
+            }
+            _ => None,
+        }
+    }
+}
+
 /// How fast words of maps contract.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Contraction {
@@ -100,6 +115,10 @@ struct Contraction {
     /// Greatest ratio of such a word.
     ratio: f64,
 }
+
+/// Ratio of the slowest maps, or words of maps, that count as contracting: closer to 1, codes would need more digits than
+/// they have, and the box of the fractal more steps than anyone waits for.
+const SLOWEST: f64 = 0.999;
 
 /// Least share that random iteration can tell apart.
 pub const LEAST_PROBABILITY: f64 = 1.0 / 65536.0;
@@ -144,6 +163,9 @@ impl Ifs {
             bounds: [root; 2],
         };
         ifs.bounds = support::bounds(&ifs);
+        if !ifs.diameter().is_finite() {
+            return Err(IfsFault::Boundless);
+        }
         ifs.code_digits = ifs.checked_length(draft.code_digits)?;
         Ok(ifs)
     }
@@ -274,12 +296,12 @@ fn contraction(maps: &[Map]) -> Result<Contraction, IfsFault> {
     let mut word = 1;
     while maps.len().checked_pow(word).is_some_and(|count| count <= MOST_WORDS) {
         let ratio = greatest(&words(maps, word as usize));
-        if ratio < 1.0 {
+        if ratio <= SLOWEST {
             return Ok(Contraction { single, word: word as usize, ratio });
         }
         word += 1;
     }
-    let map = maps.iter().position(|map| map.ratio() >= 1.0).unwrap_or(0);
+    let map = maps.iter().position(|map| map.ratio() > SLOWEST).unwrap_or(0);
     Err(IfsFault::NotContracting { map, ratio: maps[map].ratio() })
 }
 
