@@ -277,7 +277,9 @@ impl Written<'_> {
                     line_of(self.table, "probabilities")
                 }
                 IfsFault::CodeLength { .. } => line_of(self.table, "code_digits"),
-                IfsFault::TooFew(_) | IfsFault::TooMany(_) => line_of(self.table, "maps"),
+                IfsFault::TooFew(_) | IfsFault::TooMany(_) | IfsFault::Boundless => {
+                    line_of(self.table, "maps")
+                }
             };
             (line, fault.to_string())
         })
