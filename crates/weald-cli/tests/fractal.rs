@@ -78,7 +78,7 @@ fn vectors_and_points_are_written() {
 fn faults_of_the_command_line_end_with_2_and_limits_with_5() {
     let place = Place::with("");
     let ends = |arguments: &[&str], code, part: &str| {
-        assert_ends(&place, &[&["fractal"], arguments].concat(), code, &[part])
+        assert_ends(&place, &[&["fractal"], arguments].concat(), code, &[part]);
     };
     ends(&["fren"], 2, "did you mean `fern`?");
     ends(&["fern", "--deform", "swap", "--from", "7", "--to", "5"], 2, "`from` is 7 and `to` is 5");

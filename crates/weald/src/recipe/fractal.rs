@@ -75,14 +75,12 @@ impl FractalRequest {
             Some(Value::List(items)) => items.first(),
             _ => None,
         };
-        match first {
-            Some(Node { value: Value::Table(table), .. }) => Ok(table.clone()),
-            _ => {
-                let message = "there is no [[fractal]] table to be drawn".to_owned();
-                let complaints = vec![Complaint { line: 1, message }];
-                Err(RecipeError { file: self.of.clone(), complaints }.into())
-            }
+        if let Some(Node { value: Value::Table(table), .. }) = first {
+            return Ok(table.clone());
         }
+        let message = "there is no [[fractal]] table to be drawn".to_owned();
+        let complaints = vec![Complaint { line: 1, message }];
+        Err(RecipeError { file: self.of.clone(), complaints }.into())
     }
 }
 

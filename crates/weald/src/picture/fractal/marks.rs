@@ -117,7 +117,7 @@ impl Maker<'_> {
         if self.subject.motion.is_none() {
             return self.frame.place(self.subject.camera.seen(at));
         }
-        let code = code.digits().fold(part.code, |longer, digit| longer.with(digit));
+        let code = code.digits().fold(part.code, Code::with);
         self.frame.place(self.subject.seen_at(at, &code))
     }
 }

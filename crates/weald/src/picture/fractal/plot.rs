@@ -37,7 +37,9 @@ pub(super) fn plot(
         )));
     }
     let mut canvas = Canvas::new(frame);
-    marks.iter().for_each(|mark| canvas.paint(mark, shape));
+    for mark in marks {
+        canvas.paint(mark, shape);
+    }
     Ok(canvas.pixels(table))
 }
 

@@ -42,9 +42,9 @@ crate::parameters! {
     pub struct DeformKeys {
         /// Kind of the deformation.
         by: Option<By> = None;
-        /// First place of the codes that counts, k_b: 1 is the coarsest. Not for fields and parts.
+        /// First place of the codes that counts, `k_b`: 1 is the coarsest. Not for fields and parts.
         from: Option<u64> = None, range 1..=256;
-        /// Last place that counts, k_e. Not for fields and parts.
+        /// Last place that counts, `k_e`. Not for fields and parts.
         to: Option<u64> = None, range 1..=256;
         /// The two digits of a swap, by default 1 and 2; the digit of an insertion, 0; the digit that goes and the one
         /// that comes of a replacement, 2 and 0.
