@@ -3,6 +3,7 @@
 
 mod layers;
 mod mesh;
+mod plants;
 pub mod report;
 mod terrain3d;
 mod terrain_tiles;
@@ -13,6 +14,7 @@ mod vertices;
 
 pub use layers::Layers;
 pub use mesh::{Colours, Mesh};
+pub use plants::PlantSet;
 pub use terrain_tiles::Weight;
 pub use terrain3d::Terrain3d;
 pub use unity::Unity;
@@ -48,6 +50,11 @@ pub struct Finished<'a> {
 pub trait Export: Debug + Send + Sync {
     /// Names of the layers it needs.
     fn reads(&self) -> Vec<String>;
+
+    /// Names of the plants it needs.
+    fn plants(&self) -> Vec<String> {
+        Vec::new()
+    }
 
     /// Names of the layers it uses where they exist.
     fn optional(&self) -> Vec<String> {
@@ -112,6 +119,7 @@ pub const EXPORTS: &[ExportEntry] = &[
     ExportEntry::of::<RiverLines>("rivers", &["geojson", "json"], "rivers as lines with width, depth, discharge and order", "Weald; RFC 7946"),
     ExportEntry::of::<LakeAreas>("lakes", &["geojson", "json"], "lakes as areas with level, depth and volume", "Weald; RFC 7946"),
     ExportEntry::of::<Layers>("layers", layers::EXTENSIONS, "several layers in one file: NetCDF or Zarr", "CF conventions 1.11, Zarr 3.0"),
+    ExportEntry::of::<PlantSet>("plants", &["glb", "csv", "ply"], "plants with their places, leaning, sizes and phases: as instances of a mesh, a table, or a cloud of points", "glTF 2.0 with EXT_mesh_gpu_instancing; RFC 4180; Turk 1994, The PLY polygon file format"),
     unreal::ENTRY,
     unity::ENTRY,
     terrain3d::ENTRY,

@@ -7,6 +7,7 @@ pub mod address;
 pub mod code;
 pub mod deform;
 pub mod expansion;
+pub mod foliage;
 pub mod game;
 pub mod histogram;
 pub mod lanes;
