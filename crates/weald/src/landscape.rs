@@ -1,12 +1,14 @@
-//! A landscape: one domain and the named layers on it.
+//! A landscape: one domain, the named layers on it, and the plants.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use crate::domain::Domain;
 use crate::error::Error;
 use crate::grid::Field;
 use crate::grow::Fractal;
 use crate::material::Material;
+use crate::plants::Plants;
 
 /// A named field with its unit.
 #[derive(Clone, Debug, PartialEq)]
@@ -17,7 +19,7 @@ pub struct Layer {
     pub field: Field,
 }
 
-/// A domain and its layers. Layers come out in the order of their names, whatever the order they went in.
+/// A domain, its layers and its plants. Layers come out in the order of their names, whatever the order they went in.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Landscape {
     /// Grid, cell size, georeference, mask.
@@ -27,12 +29,15 @@ pub struct Landscape {
     /// The fractals of the recipe; built-in ones are there without.
     pub fractals: Vec<Fractal>,
     layers: BTreeMap<String, Layer>,
+    /// Shared, because each step works on a copy of the landscape.
+    plants: BTreeMap<String, Arc<Plants>>,
 }
 
 impl Landscape {
     /// A landscape without layers, of the default materials.
     pub fn new(domain: Domain) -> Self {
-        Self { domain, materials: Material::default_stack(), fractals: Vec::new(), layers: BTreeMap::new() }
+        let (layers, plants) = (BTreeMap::new(), BTreeMap::new());
+        Self { domain, materials: Material::default_stack(), fractals: Vec::new(), layers, plants }
     }
 
     /// Adds or replaces a layer.
@@ -71,5 +76,26 @@ impl Landscape {
     /// All layers in the order of their names.
     pub fn layers(&self) -> impl Iterator<Item = (&str, &Layer)> {
         self.layers.iter().map(|(name, layer)| (name.as_str(), layer))
+    }
+
+    /// Adds or replaces plants.
+    pub fn plant(&mut self, name: &str, plants: impl Into<Arc<Plants>>) {
+        self.plants.insert(name.to_owned(), plants.into());
+    }
+
+    /// The plants of that name.
+    ///
+    /// # Errors
+    /// [`Error::Run`] naming the plants that exist.
+    pub fn plants(&self, name: &str) -> Result<&Arc<Plants>, Error> {
+        self.plants.get(name).ok_or_else(|| {
+            let known: Vec<_> = self.plants.keys().map(String::as_str).collect();
+            Error::Run(format!("there are no plants `{name}`; the landscape has: {}", known.join(", ")))
+        })
+    }
+
+    /// All plants in the order of their names.
+    pub fn all_plants(&self) -> impl Iterator<Item = (&str, &Arc<Plants>)> {
+        self.plants.iter().map(|(name, plants)| (name.as_str(), plants))
     }
 }

@@ -48,6 +48,7 @@
 //! * [`erode::hydraulic::Hydraulic::sit`]: a simulation to hold in hand, for an editor of your own.
 //! * [`step::Step`]: what a step declares and does. Run one on a landscape of your own with [`engine::Job`].
 //! * [`analyse`]: slope, flow, rivers, light, soil and other layers, and measures of river networks.
+//! * [`grow`]: plants, and where they stand.
 //! * [`io`]: raster formats. [`picture`]: maps and views. [`export`]: meshes, vectors, sets for engines, pages.
 //! * [`gallery`], [`mod@bench`]: figures of the publications made again, and rates.
 //!
@@ -57,6 +58,7 @@
 pub mod analyse;
 pub mod bench;
 pub mod combine;
+pub mod condition;
 mod connected;
 pub mod domain;
 pub mod edit;
@@ -72,6 +74,7 @@ pub mod io;
 pub mod landscape;
 pub mod material;
 pub mod picture;
+pub mod plants;
 pub mod random;
 pub mod recipe;
 pub mod stencil;

@@ -19,6 +19,11 @@ pub trait Step: Debug + Send + Sync {
     /// Names and units of the layers it writes.
     fn writes(&self) -> Vec<(String, &'static str)>;
 
+    /// Names of the plants that it sets.
+    fn plants(&self) -> Vec<String> {
+        Vec::new()
+    }
+
     /// What it does with the layers of the materials, whose names only a recipe knows.
     fn layered(&self) -> Layered {
         Layered::Never
@@ -108,11 +113,14 @@ pub enum Stage {
     Erode,
     /// Reads the land: makes layers and measures from layers.
     Analyse,
+    /// Sets plants on the land.
+    Grow,
 }
 
 impl Stage {
     /// All stages, in the order of `weald steps`.
-    pub const ALL: [Self; 5] = [Self::Load, Self::Generate, Self::Combine, Self::Erode, Self::Analyse];
+    pub const ALL: [Self; 6] =
+        [Self::Load, Self::Generate, Self::Combine, Self::Erode, Self::Analyse, Self::Grow];
 
     /// The stage's heading in `weald steps`.
     pub fn title(self) -> &'static str {
@@ -122,6 +130,7 @@ impl Stage {
             Self::Combine => "combine",
             Self::Erode => "erode",
             Self::Analyse => "analyse",
+            Self::Grow => "grow",
         }
     }
 }

@@ -8,6 +8,7 @@ mod common;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use common::clients::{client, root, said, validated};
 use serde_json::Value;
 use weald::domain::Georeference;
 use weald::export::{Colours, Export, Finished, Mesh};
@@ -19,30 +20,6 @@ use weald::{Domain, Field, Landscape};
 const COLUMNS: usize = 90;
 const ROWS: usize = 60;
 const CELL: f64 = 25.0;
-
-fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
-}
-
-/// A file of a client, which must be installed.
-fn client(file: &str) -> PathBuf {
-    let folder =
-        std::env::var_os("WEALD_CLIENTS").map_or_else(|| root().join("target/clients"), PathBuf::from);
-    let path = folder.join(file);
-    assert!(path.exists(), "{} is missing; install it: clients/install", path.display());
-    path
-}
-
-/// What a program prints in its last line, as JSON.
-fn said(command: &mut Command) -> Value {
-    let output = command.output().unwrap_or_else(|cause| panic!("{command:?} does not start: {cause}"));
-    let message = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success(), "{command:?}: {message}");
-    let text = String::from_utf8_lossy(&output.stdout);
-    let last = text.trim_end().lines().next_back().unwrap_or_default();
-    serde_json::from_str(last)
-        .unwrap_or_else(|cause| panic!("{command:?} says no JSON ({cause}): {text}{message}"))
-}
 
 /// Mountains with a lake, a place and, where asked for, a hole.
 fn mountains(hole: bool) -> Landscape {
@@ -101,7 +78,6 @@ fn saved(glb: &[u8]) -> (tempfile::TempDir, PathBuf) {
 
 #[test]
 fn the_khronos_validator_has_no_error_and_no_warning_for_any_kind_of_mesh() {
-    let modules = client("gltf/node_modules");
     let plain = Mesh { colours: Some(Colours::Plain), normal_map: false, water: false, ..Mesh::default() };
     let full = Mesh { colours: Some(Colours::Natural), skirt: 50.0, texture: Some(64), ..Mesh::default() };
     let tints = Mesh { colours: Some(Colours::Tints), texture: Some(300), error: 20.0, ..Mesh::default() };
@@ -116,8 +92,7 @@ fn the_khronos_validator_has_no_error_and_no_warning_for_any_kind_of_mesh() {
     ] {
         let glb = written(&mesh, &landscape);
         let (_folder, path) = saved(&glb);
-        let script = root().join("clients/validate_glb.cjs");
-        let report = said(Command::new("node").arg(script).arg(&path).env("NODE_PATH", &modules));
+        let report = validated(&path);
         let (issues, info) = (&report["issues"], &report["info"]);
         for kind in ["numErrors", "numWarnings"] {
             assert_eq!(issues[kind], 0, "{mesh:?}: {issues}");

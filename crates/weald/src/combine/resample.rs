@@ -59,6 +59,9 @@ impl Step for Resample {
         for (name, layer) in landscape.layers() {
             resampled.insert(name, &layer.unit, change.field(&layer.field));
         }
+        for (name, plants) in landscape.all_plants() {
+            resampled.plant(name, plants.clone());
+        }
         *landscape = resampled;
         Ok(Outcome::default())
     }

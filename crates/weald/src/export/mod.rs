@@ -3,6 +3,7 @@
 
 mod layers;
 mod mesh;
+mod plants;
 mod points;
 pub mod report;
 mod terrain3d;
@@ -14,6 +15,7 @@ mod vertices;
 
 pub use layers::Layers;
 pub use mesh::{Colours, Mesh};
+pub use plants::PlantSet;
 pub use points::Points;
 pub use terrain_tiles::Weight;
 pub use terrain3d::Terrain3d;
@@ -50,6 +52,11 @@ pub struct Finished<'a> {
 pub trait Export: Debug + Send + Sync {
     /// Names of the layers it needs.
     fn reads(&self) -> Vec<String>;
+
+    /// Names of the plants it needs.
+    fn plants(&self) -> Vec<String> {
+        Vec::new()
+    }
 
     /// Names of the layers it uses where they exist.
     fn optional(&self) -> Vec<String> {
@@ -120,6 +127,7 @@ pub const EXPORTS: &[ExportEntry] = &[
     ExportEntry::of::<LakeAreas>("lakes", &["geojson", "json"], "lakes as areas with level, depth and volume", "Weald; RFC 7946"),
     ExportEntry::of::<Layers>("layers", layers::EXTENSIONS, "several layers in one file: NetCDF or Zarr", "CF conventions 1.11, Zarr 3.0"),
     ExportEntry::of::<Points>("points", points::EXTENSIONS, "the points of a fractal with their codes", "Barnsley 1988; PLY 1.0, NumPy's NEP 1"),
+    ExportEntry::of::<PlantSet>("plants", &["glb", "csv", "ply"], "plants with their places, leaning, sizes and phases: as instances of a mesh, a table, or a cloud of points", "glTF 2.0 with EXT_mesh_gpu_instancing; RFC 4180; Turk 1994, The PLY polygon file format"),
     unreal::ENTRY,
     unity::ENTRY,
     terrain3d::ENTRY,

@@ -1,6 +1,7 @@
-//! What grows on the land: plants from the codes of fractals.
+//! What grows on the land: plants from the codes of fractals, and where they stand.
 
 pub mod ifs;
+pub mod scatter;
 
 use std::borrow::Cow;
 

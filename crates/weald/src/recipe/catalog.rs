@@ -2,7 +2,7 @@
 
 use super::load;
 use crate::step::Entry;
-use crate::{analyse, combine, erode, generate};
+use crate::{analyse, combine, erode, generate, grow};
 
 /// All steps, in the order of `weald steps`.
 #[rustfmt::skip] // one entry a line, so that branches that add some do not meet
@@ -47,6 +47,7 @@ pub const CATALOG: &[Entry] = &[
     analyse::watersheds::ENTRY,
     analyse::wetness::ENTRY,
     analyse::moisture::ENTRY,
+    grow::scatter::ENTRY,
 ];
 
 /// The step of that name.

@@ -1,9 +1,10 @@
 //! The state of a run on disk, so that an interrupted run ends with the same bits as one that was not.
 //!
 //! Layout, all numbers little-endian: `WEALDCP1`; the length of the header as `u64`; the header as JSON; the
-//! no-data mask, one byte a cell, where there is one; each layer and each plane as `f32`; each sum as `f64`;
-//! the BLAKE3 hash of all of that.
+//! no-data mask, one byte a cell, where there is one; each layer as `f32`; each plant as its numbers; each plane as
+//! `f32`; each sum as `f64`; the BLAKE3 hash of all of that.
 
+mod planted;
 mod stream;
 
 use std::path::Path;
@@ -17,6 +18,7 @@ use crate::error::Error;
 use crate::grid::{Field, Mask, Size};
 use crate::io::write_whole_with;
 use crate::landscape::Landscape;
+use planted::PlantsHeader;
 use stream::{HashedReader, HashedWriter};
 
 /// Name of the checkpoint in the output folder.
@@ -55,6 +57,7 @@ struct Header {
     masked: bool,
     /// Names and units.
     layers: Vec<(String, String)>,
+    plants: Vec<PlantsHeader>,
     simulation: Option<SimulationHeader>,
     steps: Vec<StepReport>,
     notes: Vec<String>,
@@ -87,6 +90,9 @@ pub(super) fn write(
         }
         for (_, layer) in state.landscape.layers() {
             out.singles(layer.field.values())?;
+        }
+        for (_, plants) in state.landscape.all_plants() {
+            planted::write(plants, &mut out)?;
         }
         for (_, plane) in simulation.iter().flat_map(|simulation| &simulation.planes) {
             out.singles(plane)?;
@@ -149,6 +155,11 @@ impl Header {
                 .layers()
                 .map(|(name, layer)| (name.to_owned(), layer.unit.clone()))
                 .collect(),
+            plants: state
+                .landscape
+                .all_plants()
+                .map(|(name, plants)| PlantsHeader::of(name, plants))
+                .collect(),
             simulation: simulation.map(SimulationHeader::of),
             steps: state.steps.clone(),
             notes: state.notes.clone(),
@@ -163,7 +174,11 @@ impl Header {
     fn body_bytes(&self) -> Result<u128, String> {
         let cells = self.size()?.cells() as u128;
         let layers = self.layers.len() as u128 * 4 * cells + if self.masked { cells } else { 0 };
-        Ok(layers + self.simulation.as_ref().map_or(0, SimulationHeader::bytes) + u128::from(HASH_BYTES))
+        let plants: u128 = self.plants.iter().map(PlantsHeader::bytes).sum();
+        Ok(layers
+            + plants
+            + self.simulation.as_ref().map_or(0, SimulationHeader::bytes)
+            + u128::from(HASH_BYTES))
     }
 
     /// Whether the checkpoint belongs to this recipe and version; if not, what differs.
@@ -196,6 +211,10 @@ impl Header {
         let mut landscape = Landscape::new(domain);
         for (name, unit) in &self.layers {
             landscape.insert(name, unit, Field::from_values(size, file.singles(size.cells())?));
+        }
+        for header in self.plants {
+            let (name, plants) = header.read(file)?;
+            landscape.plant(&name, plants);
         }
         let simulation = self.simulation.map(|header| header.read(file)).transpose()?;
         Ok(State { landscape, done: self.done, simulation, steps: self.steps, notes: self.notes })
@@ -231,6 +250,7 @@ impl SimulationHeader {
 mod tests {
     use super::*;
     use crate::domain::GeoKeys;
+    use crate::plants::{Plant, Plants};
     use proptest::prelude::*;
     use std::path::PathBuf;
 
@@ -246,6 +266,15 @@ mod tests {
         });
         let mut landscape = Landscape::new(domain);
         landscape.insert("height", "m", Field::from_function(size, |x, y| (x + 10 * y) as f32 / 3.0));
+        let plant = |at: f64| Plant {
+            place: [at, 0.1, 1.0 / 3.0],
+            up: [0.0, -0.6, 0.8],
+            turn: 6.1,
+            ..Plant::default()
+        };
+        let plants = vec![plant(0.5), plant(f64::MIN_POSITIVE)];
+        landscape.plant("ferns", Plants { kind: "fern".to_owned(), spacing: 0.7, plants });
+        landscape.plant("none", Plants { kind: "tree".to_owned(), spacing: 2.0, plants: Vec::new() });
         let simulation = SavedSimulation {
             iteration: 7,
             planes: vec![("water".to_owned(), vec![f32::MIN_POSITIVE, -0.0, 3.5])],

@@ -23,7 +23,7 @@ const MOST_SHORT: usize = 65_535;
 
 /// A document as it grows.
 #[derive(Debug, Default)]
-pub(super) struct Document {
+pub(in crate::export) struct Document {
     bytes: Vec<u8>,
     views: Vec<Value>,
     accessors: Vec<Value>,
@@ -32,28 +32,39 @@ pub(super) struct Document {
     materials: Vec<Value>,
     meshes: Vec<Value>,
     nodes: Vec<Value>,
+    /// Extensions without which the file means nothing.
+    extensions: Vec<&'static str>,
 }
 
 /// A mesh to be added.
 #[derive(Debug)]
-pub(super) struct Part<'a> {
+pub(in crate::export) struct Part<'a> {
     /// Name of its node.
-    pub(super) name: &'a str,
+    pub(in crate::export) name: &'a str,
     /// Names of attributes and their accessors.
-    pub(super) attributes: Map<String, Value>,
+    pub(in crate::export) attributes: Map<String, Value>,
     /// Vertices of each triangle.
-    pub(super) triangles: &'a [[u32; 3]],
+    pub(in crate::export) triangles: &'a [[u32; 3]],
     /// Number of vertices.
-    pub(super) vertices: usize,
+    pub(in crate::export) vertices: usize,
     /// Its material.
-    pub(super) material: usize,
+    pub(in crate::export) material: usize,
 }
 
 impl Document {
     /// Adds an accessor to vectors, one a vertex, and gives its number.
-    pub(super) fn vectors<const N: usize>(&mut self, vectors: &[[f32; N]]) -> Value {
+    pub(in crate::export) fn vectors<const N: usize>(&mut self, vectors: &[[f32; N]]) -> Value {
+        self.numbers(vectors, Some(ARRAY_BUFFER))
+    }
+
+    /// The same, one an instance.
+    pub(in crate::export) fn instances<const N: usize>(&mut self, vectors: &[[f32; N]]) -> Value {
+        self.numbers(vectors, None)
+    }
+
+    fn numbers<const N: usize>(&mut self, vectors: &[[f32; N]], target: Option<u32>) -> Value {
         let bytes: Vec<u8> = vectors.as_flattened().iter().flat_map(|number| number.to_le_bytes()).collect();
-        let view = self.view(&bytes, Some(ARRAY_BUFFER));
+        let view = self.view(&bytes, target);
         let kind = ["SCALAR", "VEC2", "VEC3", "VEC4"][N - 1];
         self.accessors.push(
             json!({ "bufferView": view, "componentType": FLOAT, "count": vectors.len(), "type": kind }),
@@ -62,7 +73,7 @@ impl Document {
     }
 
     /// The same with the bounds that positions must have.
-    pub(super) fn positions(&mut self, vectors: &[[f32; 3]]) -> Value {
+    pub(in crate::export) fn positions(&mut self, vectors: &[[f32; 3]]) -> Value {
         let bound = |pick: fn(f32, f32) -> f32| {
             let first = vectors.first().copied().unwrap_or_default();
             vectors
@@ -78,7 +89,7 @@ impl Document {
     }
 
     /// Adds an image with a texture of it and gives the texture's number.
-    pub(super) fn texture(&mut self, name: &str, png: &[u8]) -> usize {
+    pub(in crate::export) fn texture(&mut self, name: &str, png: &[u8]) -> usize {
         let view = self.view(png, None);
         self.images.push(json!({ "name": name, "mimeType": "image/png", "bufferView": view }));
         self.textures.push(json!({ "name": name, "sampler": 0, "source": self.images.len() - 1 }));
@@ -86,18 +97,34 @@ impl Document {
     }
 
     /// Adds a material and gives its number.
-    pub(super) fn material(&mut self, material: Value) -> usize {
+    pub(in crate::export) fn material(&mut self, material: Value) -> usize {
         self.materials.push(material);
         self.materials.len() - 1
     }
 
     /// Adds a mesh with a node of its name.
-    pub(super) fn add(&mut self, part: &Part<'_>) {
+    pub(in crate::export) fn add(&mut self, part: &Part<'_>) {
+        let mesh = self.mesh(part);
+        self.node(json!({ "name": part.name, "mesh": mesh }));
+    }
+
+    /// Adds a node.
+    pub(in crate::export) fn node(&mut self, node: Value) {
+        self.nodes.push(node);
+    }
+
+    /// Names an extension that a reader must know.
+    pub(in crate::export) fn require(&mut self, extension: &'static str) {
+        self.extensions.push(extension);
+    }
+
+    /// Adds a mesh without a node and gives its number.
+    pub(in crate::export) fn mesh(&mut self, part: &Part<'_>) -> usize {
         let indices = self.indices(part.triangles, part.vertices);
         let primitive =
             json!({ "attributes": part.attributes, "indices": indices, "material": part.material });
         self.meshes.push(json!({ "name": part.name, "primitives": [primitive] }));
-        self.nodes.push(json!({ "name": part.name, "mesh": self.meshes.len() - 1 }));
+        self.meshes.len() - 1
     }
 
     fn indices(&mut self, triangles: &[[u32; 3]], vertices: usize) -> usize {
@@ -130,20 +157,26 @@ impl Document {
     ///
     /// # Errors
     /// [`Error::Limit`] where it would be longer than 4 GiB, which its header cannot say.
-    pub(super) fn finish(self, extras: &Value) -> Result<Vec<u8>, Error> {
+    pub(in crate::export) fn finish(self, extras: &Value) -> Result<Vec<u8>, Error> {
         let nodes: Vec<_> = (0..self.nodes.len()).collect();
         let mut document = Map::new();
         let generator = format!("Weald {}", env!("CARGO_PKG_VERSION"));
         let asset = json!({ "version": "2.0", "generator": generator, "extras": extras });
         document.insert("asset".to_owned(), asset);
         document.insert("scene".to_owned(), 0.into());
-        document.insert("scenes".to_owned(), json!([{ "name": "landscape", "nodes": nodes }]));
+        let mut scene = json!({ "name": "landscape" });
+        if !nodes.is_empty() {
+            scene["nodes"] = nodes.into();
+        }
+        document.insert("scenes".to_owned(), json!([scene]));
         document.insert("buffers".to_owned(), json!([{ "byteLength": self.bytes.len() }]));
         let sampler = json!({
             "magFilter": LINEAR, "minFilter": LINEAR_MIPMAP_LINEAR, "wrapS": CLAMP_TO_EDGE, "wrapT": CLAMP_TO_EDGE
         });
         let samplers = if self.textures.is_empty() { Vec::new() } else { vec![sampler] };
         for (key, list) in [
+            ("extensionsUsed", self.extensions.iter().map(|&name| name.into()).collect()),
+            ("extensionsRequired", self.extensions.iter().map(|&name| name.into()).collect()),
             ("nodes", self.nodes),
             ("meshes", self.meshes),
             ("materials", self.materials),
@@ -167,7 +200,8 @@ fn container(mut json: Vec<u8>, bytes: Vec<u8>) -> Result<Vec<u8>, Error> {
     let whole = 12 + 8 + json.len() + 8 + bytes.len();
     let length = u32::try_from(whole).map_err(|_| {
         Error::Limit(format!(
-            "a .glb of {whole} bytes; its header holds at most {}: choose a larger `error` or a smaller `texture`",
+            "a .glb of {whole} bytes; its header holds at most {}: choose a larger `error`, a smaller `texture`, or fewer \
+             plants",
             u32::MAX
         ))
     })?;

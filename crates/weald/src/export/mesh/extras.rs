@@ -7,20 +7,26 @@ use crate::domain::Domain;
 
 /// Where the mesh came from, how true it is and where it lies.
 pub(super) fn of(finished: &Finished<'_>, mesh: &Mesh, deviation: f64) -> Value {
+    let mut extras = source(finished);
+    extras["layer"] = mesh.of.0.clone().into();
+    extras["error"] = mesh.error.into();
+    extras["greatest_deviation"] = deviation.into();
+    extras
+}
+
+/// Where a file came from and where its origin lies.
+pub(in crate::export) fn source(finished: &Finished<'_>) -> Value {
     json!({
         "recipe": finished.recipe,
         "recipe_blake3": finished.hash,
         "seed": finished.seed,
-        "layer": mesh.of.0,
         "axes": "metres; x east, y up, z south",
-        "error": mesh.error,
-        "greatest_deviation": deviation,
         "origin": origin(&finished.landscape.domain),
     })
 }
 
 /// The middle of the domain in its CRS; nothing where it has no place.
-fn origin(domain: &Domain) -> Value {
+pub(in crate::export) fn origin(domain: &Domain) -> Value {
     let Some(place) = &domain.georeference else { return Value::Null };
     let [x, y] = place.middle(domain.size);
     json!({

@@ -11,8 +11,8 @@
 //! where its origin lies in the CRS.
 
 mod delaunay;
-mod document;
-mod extras;
+pub(super) mod document;
+pub(super) mod extras;
 mod frame;
 mod greedy;
 mod normal_map;

@@ -105,7 +105,7 @@ fn area(ring: &[Position]) -> f64 {
 }
 
 /// A number to that many digits behind the point, in as few digits as tell it.
-pub(super) fn rounded(number: f64, digits: u32) -> f64 {
+pub(in crate::export) fn rounded(number: f64, digits: u32) -> f64 {
     let scale = 10_f64.powi(digits as i32);
     // Adding 0 makes a plain 0 of -0.
     libm::round(number * scale) / scale + 0.0

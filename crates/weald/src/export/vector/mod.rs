@@ -1,8 +1,8 @@
 //! Rivers and lakes as lines and areas for maps, in `GeoJSON`.
 
-mod geojson;
+pub(super) mod geojson;
 mod lakes;
-mod place;
+pub(super) mod place;
 mod rivers;
 
 pub use lakes::LakeAreas;

@@ -4,12 +4,12 @@ use crate::domain::{Domain, Georeference};
 
 /// The coordinates of a file: those of the CRS, or metres from the south-western corner where there is none.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Place<'a>(pub(super) &'a Domain);
+pub(in crate::export) struct Place<'a>(pub(in crate::export) &'a Domain);
 
 impl Place<'_> {
     /// Easting (or longitude) and northing (or latitude) of a point that lies `x` metres east of the western and `y`
     /// metres south of the northern edge of the grid.
-    pub(super) fn at(self, [x, y]: [f64; 2]) -> [f64; 2] {
+    pub(in crate::export) fn at(self, [x, y]: [f64; 2]) -> [f64; 2] {
         let domain = self.0;
         match &domain.georeference {
             Some(place) => place.at([x / domain.cell, y / domain.cell]),
@@ -18,17 +18,17 @@ impl Place<'_> {
     }
 
     /// Digits behind the point of a coordinate that stand for a millimetre or so.
-    pub(super) fn digits(self) -> u32 {
+    pub(in crate::export) fn digits(self) -> u32 {
         if self.0.georeference.as_ref().is_some_and(Georeference::is_geographic) { 8 } else { 3 }
     }
 
     /// The EPSG code of the CRS.
-    pub(super) fn epsg(self) -> Option<u32> {
+    pub(in crate::export) fn epsg(self) -> Option<u32> {
         self.0.georeference.as_ref()?.epsg
     }
 
     /// What the user should know of coordinates that no CRS is named for.
-    pub(super) fn note(self) -> Option<String> {
+    pub(in crate::export) fn note(self) -> Option<String> {
         let text = match &self.0.georeference {
             Some(place) if place.epsg.is_some() => return None,
             Some(_) => {

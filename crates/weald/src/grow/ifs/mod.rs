@@ -9,6 +9,7 @@ pub mod deform;
 pub mod device;
 pub mod expansion;
 pub mod flame;
+pub mod foliage;
 pub mod game;
 pub mod histogram;
 pub mod lanes;

@@ -37,7 +37,8 @@ impl<W: Write> HashedWriter<W> {
         self.in_chunks(numbers, |number| number.to_le_bytes())
     }
 
-    fn in_chunks<T, const N: usize>(
+    /// Items, each as so many bytes.
+    pub(super) fn in_chunks<T, const N: usize>(
         &mut self,
         items: &[T],
         to_bytes: impl Fn(&T) -> [u8; N],
@@ -96,7 +97,8 @@ impl HashedReader {
         self.in_chunks(count, f64::from_le_bytes)
     }
 
-    fn in_chunks<T, const N: usize>(
+    /// So many items, each of so many bytes.
+    pub(super) fn in_chunks<T, const N: usize>(
         &mut self,
         count: usize,
         from_bytes: impl Fn([u8; N]) -> T,

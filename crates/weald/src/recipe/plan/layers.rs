@@ -1,6 +1,6 @@
 //! Which layers exist when: every layer that is read must have been written, and no step may work in vain.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::{Ground, Output, Planned, PlannedMaterial, hint};
 use crate::material::{BEDROCK, Material, layer_names};
@@ -43,6 +43,21 @@ pub(super) fn check(made: &Made<'_>, outputs: &[Output], complaints: &mut Compla
                 let message = format!("{file} needs layer `{name}`, which no step writes; {hint}");
                 complaints.add(output.line, message);
             }
+        }
+    }
+    check_plants(made.steps, outputs, complaints);
+}
+
+/// Complains of outputs of plants that no step sets.
+fn check_plants(steps: &[Planned], outputs: &[Output], complaints: &mut Complaints) {
+    let set: BTreeSet<_> = steps.iter().flat_map(|planned| planned.step.plants()).collect();
+    let known: Vec<_> = set.iter().map(String::as_str).collect();
+    for (output, name) in
+        outputs.iter().flat_map(|output| output.plants().into_iter().map(move |name| (output, name)))
+    {
+        if !set.contains(&name) {
+            let (file, hint) = (output.file.display(), hint(&name, &known));
+            complaints.add(output.line, format!("{file} needs plants `{name}`, which no step sets; {hint}"));
         }
     }
 }

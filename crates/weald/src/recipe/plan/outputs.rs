@@ -78,6 +78,14 @@ impl Output {
             Content::Export { export, .. } => export.reads(),
         }
     }
+
+    /// Names of the plants that it needs.
+    pub fn plants(&self) -> Vec<String> {
+        match &self.content {
+            Content::Export { export, .. } => export.plants(),
+            _ => Vec::new(),
+        }
+    }
 }
 
 impl Output {

@@ -1,0 +1,174 @@
+//! Plants as one mesh in many places, in binary glTF: by `EXT_mesh_gpu_instancing` (Khronos Group, 2021), which a card
+//! draws in one go, and by nodes that share the mesh, which every reader knows.
+//!
+//! For the wind a vertex has three more texture coordinates: `TEXCOORD_1` is how far it bends with the whole plant and in
+//! which phase, `TEXCOORD_2` the same with its leaf, `TEXCOORD_3` the number of branchings below it and its stiffness
+//! ([`foliage`](crate::grow::ifs::foliage)). An instance has `_PHASE`, to be added to both phases; a node has it under
+//! `extras`.
+
+use png::{BitDepth, ColorType};
+use serde_json::{Map, Value, json};
+
+use super::up_in_mesh;
+use crate::error::Error;
+use crate::export::Finished;
+use crate::export::mesh::document::{Document, Part};
+use crate::export::mesh::extras::source;
+use crate::grow::ifs::foliage::{Foliage, Texture};
+use crate::io::png::Pixels;
+use crate::plants::Plant;
+
+const INSTANCING: &str = "EXT_mesh_gpu_instancing";
+
+/// Opacity from which a texel is leaf.
+const CUTOFF: f32 = 0.3;
+
+/// Leaves scatter light almost evenly.
+const ROUGHNESS: f32 = 0.85;
+
+/// One plant, one metre high.
+pub(super) struct Model {
+    pub(super) foliage: Foliage,
+    pub(super) texture: Texture,
+}
+
+/// All that is in a file.
+pub(super) struct Scene<'a> {
+    pub(super) name: &'a str,
+    pub(super) model: &'a Model,
+    pub(super) plants: &'a [Plant],
+    pub(super) finished: &'a Finished<'a>,
+}
+
+impl Scene<'_> {
+    /// The file with one node for all plants.
+    pub(super) fn instanced(&self) -> Result<Vec<u8>, Error> {
+        let mut document = Document::default();
+        let mesh = self.mesh(&mut document)?;
+        if self.plants.is_empty() {
+            return document.finish(&self.extras());
+        }
+        let places: Vec<_> = self.plants.iter().map(|plant| self.place(plant)).collect();
+        let rotations: Vec<_> = self.plants.iter().map(rotation).collect();
+        let scales: Vec<_> = self.plants.iter().map(|plant| [plant.size; 3]).collect();
+        let phases: Vec<_> = self.plants.iter().map(|plant| [plant.phase]).collect();
+        let attributes = json!({
+            "TRANSLATION": document.instances(&places),
+            "ROTATION": document.instances(&rotations),
+            "SCALE": document.instances(&scales),
+            "_PHASE": document.instances(&phases),
+        });
+        document.require(INSTANCING);
+        document.node(json!({
+            "name": self.name, "mesh": mesh, "extensions": { INSTANCING: { "attributes": attributes } },
+        }));
+        document.finish(&self.extras())
+    }
+
+    /// The file with a node for each plant.
+    pub(super) fn nodes(&self) -> Result<Vec<u8>, Error> {
+        let mut document = Document::default();
+        let mesh = self.mesh(&mut document)?;
+        for (id, plant) in self.plants.iter().enumerate() {
+            let scale = [plant.size; 3];
+            document.node(json!({
+                "name": format!("{}-{id}", self.name),
+                "mesh": mesh,
+                "translation": self.place(plant),
+                "rotation": rotation(plant),
+                "scale": scale,
+                "extras": { "phase": plant.phase },
+            }));
+        }
+        document.finish(&self.extras())
+    }
+
+    fn extras(&self) -> Value {
+        let mut extras = source(self.finished);
+        extras["plants"] = self.plants.len().into();
+        extras
+    }
+
+    /// Where a plant stands: metres east, up and south of the middle of the domain.
+    fn place(&self, plant: &Plant) -> [f32; 3] {
+        let domain = &self.finished.landscape.domain;
+        let middle = [domain.size.columns, domain.size.rows].map(|count| 0.5 * count as f64 * domain.cell);
+        let [x, y, z] = plant.place;
+        [x - middle[0], z, y - middle[1]].map(|number| number as f32)
+    }
+
+    fn mesh(&self, document: &mut Document) -> Result<usize, Error> {
+        let Model { foliage, texture } = self.model;
+        let texture = document.texture("leaves", &png(texture)?);
+        let material = document.material(json!({
+            "name": self.name,
+            "doubleSided": true,
+            "alphaMode": "MASK",
+            "alphaCutoff": CUTOFF,
+            "pbrMetallicRoughness": {
+                "baseColorTexture": { "index": texture }, "metallicFactor": 0.0, "roughnessFactor": ROUGHNESS,
+            },
+        }));
+        let mut attributes = Map::new();
+        let mut add = |name: &str, accessor: Value| attributes.insert(name.to_owned(), accessor);
+        add("POSITION", document.positions(&foliage.positions));
+        add("NORMAL", document.vectors(&foliage.normals));
+        for (number, pairs) in
+            [&foliage.textures, &foliage.bends, &foliage.flutters, &foliage.branches].into_iter().enumerate()
+        {
+            add(&format!("TEXCOORD_{number}"), document.vectors(pairs));
+        }
+        let (triangles, vertices) = (foliage.triangles.as_slice(), foliage.positions.len());
+        Ok(document.mesh(&Part { name: self.name, attributes, triangles, vertices, material }))
+    }
+}
+
+/// The rotation as a quaternion x, y, z, w: first the turn about the stem, then the lean.
+fn rotation(plant: &Plant) -> [f32; 4] {
+    let (sine, cosine) = libm::sincos(-0.5 * f64::from(plant.turn));
+    // The shortest way from upright to the stem turns about the horizontal at right angles to both.
+    let [east, up, south] = up_in_mesh(plant).map(f64::from);
+    let [x, z, w] = [south, -east, 1.0 + up];
+    let length = (x * x + z * z + w * w).sqrt();
+    let [x, z, w] = [x / length, z / length, w / length];
+    let turned = [x * cosine - z * sine, w * sine, z * cosine + x * sine, w * cosine];
+    turned.map(|number| number as f32)
+}
+
+fn png(texture: &Texture) -> Result<Vec<u8>, Error> {
+    let Texture { width, height, rgba } = texture;
+    let pixels =
+        Pixels { sides: [*width, *height], channels: ColorType::Rgba, depth: BitDepth::Eight, bytes: rgba };
+    pixels.marked(|encoder| {
+        encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
+        Ok(())
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn turned([x, y, z, w]: [f32; 4], [a, b, c]: [f32; 3]) -> [f32; 3] {
+        let cross = |[a, b, c]: [f32; 3]| [y * c - z * b, z * a - x * c, x * b - y * a];
+        let t = cross([a, b, c]).map(|number| 2.0 * number);
+        let u = cross(t);
+        [a + w * t[0] + u[0], b + w * t[1] + u[1], c + w * t[2] + u[2]]
+    }
+
+    fn apart(a: [f32; 3], b: [f32; 3]) -> f32 {
+        a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f32::max)
+    }
+
+    #[test]
+    fn a_plant_points_along_its_stem_and_turns_clockwise_seen_from_above() {
+        let quarter = std::f32::consts::FRAC_PI_2;
+        let upright = Plant { up: [0.0, 0.0, 1.0], turn: quarter, ..Plant::default() };
+        // East, up, south: a quarter clockwise brings east to south.
+        assert!(apart(turned(rotation(&upright), [1.0, 0.0, 0.0]), [0.0, 0.0, 1.0]) < 1e-6);
+        for turn in [0.0, 1.0, 4.0] {
+            let leaning = Plant { up: [0.6, -0.48, 0.64], turn, ..Plant::default() };
+            assert!(apart(turned(rotation(&leaning), [0.0, 1.0, 0.0]), [0.6, 0.64, -0.48]) < 1e-6);
+        }
+    }
+}

@@ -1,0 +1,125 @@
+//! Plants for other programs: as instances of a mesh, as a table, as a cloud of points.
+//!
+//! The extension says which. A `.glb` has the axes and the origin of the exported ground, so that plants stand on it; a
+//! `.ply` the same with z up and y north; a `.csv` the coordinates of the CRS where there is one.
+
+mod cloud;
+mod instances;
+mod table;
+
+use std::path::Path;
+use std::sync::Arc;
+
+use super::vector::place::Place;
+use super::{Export, Finished};
+use crate::error::Error;
+use crate::grow::ifs::foliage::{self, Foliage, Habit, Texture};
+use crate::grow::ifs::{Ifs, shapes};
+use crate::io::Part;
+use crate::plants::{Plant, Plants};
+use crate::recipe::parameter::{Colour, LayerName};
+
+crate::parameters! {
+    /// The plants that a step `scatter` set.
+    pub struct PlantSet {
+        /// Name of the plants.
+        of: LayerName = LayerName::of("plants");
+        /// Fronds or planes of a plant. By default 8 fronds for a fern, 3 planes that cross for other flat shapes, and
+        /// shapes of space alone. For a `.glb`.
+        fronds: Option<u32> = None, range 1..=64;
+        /// Height of the picture on the leaves. For a `.glb`.
+        texture: u32 = 512, range 32..=4096, unit "px";
+        /// Colour of leaves. For a `.glb`.
+        leaf: Colour = Colour([0.49, 0.66, 0.27]);
+        /// Colour of stems. For a `.glb`.
+        stem: Colour = Colour([0.37, 0.33, 0.18]);
+    }
+}
+
+/// Most plants of which a file of nodes is written: some 20 MB.
+const MOST_NODES: usize = 100_000;
+
+/// What an extension stands for.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Kind {
+    Instances,
+    Table,
+    Cloud,
+}
+
+impl Export for PlantSet {
+    fn reads(&self) -> Vec<String> {
+        Vec::new()
+    }
+
+    fn plants(&self) -> Vec<String> {
+        vec![self.of.0.clone()]
+    }
+
+    fn notes(&self, finished: &Finished<'_>) -> Vec<String> {
+        let Ok(plants) = finished.landscape.plants(&self.of.0) else { return Vec::new() };
+        let none = plants.plants.is_empty().then(|| {
+            format!(
+                "there is not one plant of `{}`; milder conditions in its `scatter` step may help",
+                self.of.0
+            )
+        });
+        let many = (plants.plants.len() > MOST_NODES).then(|| {
+            format!(
+                "more than {MOST_NODES} plants: a `.glb` has instances, and no file of nodes lies beside it"
+            )
+        });
+        none.into_iter().chain(many).collect()
+    }
+
+    fn parts(&self, finished: &Finished<'_>, file: &Path) -> Result<Vec<Part>, Error> {
+        let plants = finished.landscape.plants(&self.of.0)?;
+        match kind(file) {
+            Kind::Instances => self.meshes(finished, plants),
+            Kind::Table => Ok(vec![Part::own(table::of(plants, Place(&finished.landscape.domain)))]),
+            Kind::Cloud => Ok(vec![Part::own(cloud::of(plants, finished))]),
+        }
+    }
+}
+
+fn kind(file: &Path) -> Kind {
+    let is = |wanted: &str| file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case(wanted));
+    match (is("csv"), is("ply")) {
+        (true, _) => Kind::Table,
+        (_, true) => Kind::Cloud,
+        _ => Kind::Instances,
+    }
+}
+
+impl PlantSet {
+    /// The file with instances and, beside it, that with nodes.
+    fn meshes(&self, finished: &Finished<'_>, plants: &Arc<Plants>) -> Result<Vec<Part>, Error> {
+        let model = self.model(&plants.kind)?;
+        let scene = instances::Scene { name: &self.of.0, model: &model, plants: &plants.plants, finished };
+        let mut parts = vec![Part::own(scene.instanced()?)];
+        if plants.plants.len() <= MOST_NODES {
+            parts.push(Part::sibling(".nodes.glb", scene.nodes()?));
+        }
+        Ok(parts)
+    }
+
+    fn model(&self, kind: &str) -> Result<instances::Model, Error> {
+        let ifs = fractal(kind)?;
+        let colours = foliage::Colours { leaf: self.leaf.0, stem: self.stem.0 };
+        Ok(instances::Model {
+            foliage: Foliage::of(&ifs, Habit::of(&ifs, self.fronds)),
+            texture: Texture::of(&ifs, self.texture as usize, colours),
+        })
+    }
+}
+
+fn fractal(kind: &str) -> Result<Ifs, Error> {
+    let shape = shapes::find(kind).ok_or_else(|| Error::Run(format!("there is no fractal `{kind}`")))?;
+    Ok(shape.ifs())
+}
+
+/// The unit vector along the stem in the axes of a mesh: east, up, south.
+fn up_in_mesh(plant: &Plant) -> [f32; 3] {
+    let [east, south, up] = plant.up;
+    [east, up, south]
+}

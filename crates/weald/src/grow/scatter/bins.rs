@@ -1,0 +1,93 @@
+//! Where the places of a window are: a bin for each square of the first round, which holds one place at most.
+
+use super::pattern::{LEVELS, Pattern, Square, squared};
+
+/// No place.
+const NONE: u32 = u32::MAX;
+
+/// Nothing is known of what else is in the square.
+const FOG: u32 = u32::MAX - 1;
+
+/// The bins of a level.
+pub(super) struct Bins {
+    level: usize,
+    first: [i64; 2],
+    counts: [i64; 2],
+    side: f64,
+    content: Vec<u32>,
+    is_empty: bool,
+}
+
+impl Bins {
+    /// The bins of a rectangle, given in squares of the last level.
+    pub(super) fn new(pattern: &Pattern<'_>, level: usize, [low, high]: [[i64; 2]; 2]) -> Self {
+        let factor = 1 << (LEVELS - 1 - level);
+        let first = low.map(|at| at * factor);
+        let counts = [0, 1].map(|axis| (high[axis] - low[axis]) * factor);
+        let content = vec![NONE; (counts[0] * counts[1]) as usize];
+        Self { level, first, counts, side: pattern.side(level), content, is_empty: true }
+    }
+
+    /// The squares of the first round.
+    pub(super) fn squares(&self) -> impl Iterator<Item = Square> + use<> {
+        let (level, first, [columns, rows]) = (self.level, self.first, self.counts);
+        (0..columns * rows).map(move |bin| {
+            let at = [first[0] + bin % columns, first[1] + bin / columns];
+            Square { level, cuts: 0, at }
+        })
+    }
+
+    /// Puts a place into its bin.
+    pub(super) fn put(&mut self, at: [f64; 2], place: usize) {
+        let bin = self.at(at);
+        self.content[bin] = place as u32;
+        self.is_empty = false;
+    }
+
+    /// Says that nothing is known of the rest of the square at a place.
+    pub(super) fn cover_in_fog(&mut self, at: [f64; 2]) {
+        let bin = self.at(at);
+        self.content[bin] = FOG;
+        self.is_empty = false;
+    }
+
+    /// The place in a bin.
+    pub(super) fn place(&self, bin: usize) -> Option<usize> {
+        Some(self.content[bin]).filter(|&content| content < FOG).map(|content| content as usize)
+    }
+
+    pub(super) fn is_in_fog(&self, bin: usize) -> bool {
+        self.content[bin] == FOG
+    }
+
+    pub(super) fn is_in_fog_at(&self, at: [f64; 2]) -> bool {
+        self.is_in_fog(self.at(at))
+    }
+
+    /// The bins that come as near as that.
+    pub(super) fn near(&self, at: [f64; 2], reach: f64) -> impl Iterator<Item = usize> + use<> {
+        let end = |axis: usize, way: f64| self.index(axis, at[axis] + way);
+        let first = end(1, -reach);
+        let rows = first..if self.is_empty { first } else { end(1, reach) + 1 };
+        let (from, to, columns) = (end(0, -reach), end(0, reach), self.counts[0]);
+        rows.flat_map(move |y| (y * columns + from..=y * columns + to).map(|bin| bin as usize))
+    }
+
+    /// The square of the distance from a place to the nearest point of a bin.
+    pub(super) fn distance_squared(&self, bin: usize, at: [f64; 2]) -> f64 {
+        let bin = [bin as i64 % self.counts[0], bin as i64 / self.counts[0]];
+        let nearest = [0, 1].map(|axis| {
+            let low = (self.first[axis] + bin[axis]) as f64 * self.side;
+            at[axis].clamp(low, low + self.side)
+        });
+        squared(nearest, at)
+    }
+
+    fn at(&self, at: [f64; 2]) -> usize {
+        (self.index(1, at[1]) * self.counts[0] + self.index(0, at[0])) as usize
+    }
+
+    fn index(&self, axis: usize, along: f64) -> i64 {
+        (libm::floor(along / self.side) as i64 - self.first[axis]).clamp(0, self.counts[axis] - 1)
+    }
+}

@@ -1,0 +1,214 @@
+//! What the ground is to a plant at any place on it: how well it suits, how high it is, which way it faces.
+//!
+//! Ground is where a height lies between heights: in the square between the centres of four cells with data, and in
+//! half of the square of three. That is the ground of an exported mesh, so nothing stands beside it. Values there are
+//! bilinear between the four, or linear between the three.
+
+use super::pattern::Suitability;
+use crate::condition::Condition;
+use crate::domain::Domain;
+use crate::error::Error;
+use crate::grid::Field;
+use crate::landscape::Landscape;
+
+/// The cells around a place, with their weights.
+type Corners = [(usize, f64); 4];
+
+/// The ground and the conditions on it.
+pub(super) struct Site<'a> {
+    domain: &'a Domain,
+    height: &'a Field,
+    conditions: Vec<(&'a Condition, &'a Field)>,
+    /// Depth of water, and the depth that plants bear.
+    water: Option<(&'a Field, f64)>,
+    /// Bounds on the suitability in each square between four centres, row-major.
+    bounds: Vec<[f64; 2]>,
+}
+
+impl<'a> Site<'a> {
+    /// The ground of a landscape under these conditions, where water is at most so deep.
+    ///
+    /// # Errors
+    /// [`Error::Run`] where a layer is missing.
+    pub(super) fn new(
+        landscape: &'a Landscape,
+        height: &str,
+        conditions: impl Iterator<Item = &'a Condition>,
+        deepest: f64,
+    ) -> Result<Self, Error> {
+        let with_field = |condition: &'a Condition| Ok((condition, landscape.field(&condition.layer.0)?));
+        let conditions = conditions.map(with_field).collect::<Result<_, Error>>()?;
+        let (domain, height) = (&landscape.domain, landscape.field(height)?);
+        let water = landscape.field("water").ok().map(|depth| (depth, deepest));
+        let mut site = Self { domain, height, conditions, water, bounds: Vec::new() };
+        let [across, down] = site.squares();
+        site.bounds =
+            (0..across * down).map(|square| site.bounds_of(square % across, square / across)).collect();
+        Ok(site)
+    }
+
+    /// The sum of the suitability over the ground, in square metres.
+    pub(super) fn suitable_area(&self) -> f64 {
+        const PARTS: usize = 4;
+        let [across, down] = self.squares();
+        let (part, cell) = (1.0 / PARTS as f64, self.domain.cell);
+        let place = |at: usize| (0.5 + (at as f64 + 0.5) * part) * cell;
+        let row = |y: usize| -> f64 {
+            let bound = |x: usize| self.bounds[y / PARTS * across + x / PARTS];
+            let value = |x: usize| match bound(x) {
+                [least, most] if least == most => least,
+                _ => self.suitability([place(x), place(y)]),
+            };
+            (0..PARTS * across).map(value).sum()
+        };
+        (0..PARTS * down).map(row).sum::<f64>() * (part * cell) * (part * cell)
+    }
+
+    /// Height of the ground in metres.
+    pub(super) fn height(&self, place: [f64; 2]) -> Option<f64> {
+        self.corners(place).map(|corners| between(self.height, &corners))
+    }
+
+    /// Unit normal of the ground, by differences over a cell: east, south, up.
+    pub(super) fn normal(&self, place: [f64; 2]) -> [f64; 3] {
+        let half = 0.5 * self.domain.cell;
+        let rise = |axis: usize| {
+            let at = |way: f64| {
+                let mut there = place;
+                there[axis] += way;
+                self.height(there).map(|height| (way, height))
+            };
+            let (Some(before), Some(behind)) = (at(-half).or(at(0.0)), at(half).or(at(0.0))) else {
+                return 0.0;
+            };
+            if behind.0 > before.0 { (behind.1 - before.1) / (behind.0 - before.0) } else { 0.0 }
+        };
+        unit([-rise(0), -rise(1), 1.0])
+    }
+
+    /// Squares between four centres, across and down.
+    fn squares(&self) -> [usize; 2] {
+        [self.domain.size.columns - 1, self.domain.size.rows - 1]
+    }
+
+    /// Steps from the first centre to a place.
+    fn steps(&self, place: f64) -> f64 {
+        place / self.domain.cell - 0.5
+    }
+
+    fn is_land(&self, cell: usize) -> bool {
+        self.domain.land.as_ref().is_none_or(|land| land.is_land_at(cell))
+    }
+
+    /// Those of the four cells around a place that bear it, with their weights.
+    fn corners(&self, place: [f64; 2]) -> Option<Corners> {
+        let [across, down] = self.squares();
+        let [u, v] = place.map(|along| self.steps(along));
+        if across * down == 0 || u < 0.0 || v < 0.0 || u > across as f64 || v > down as f64 {
+            return None;
+        }
+        let (x, y) = ((u as usize).min(across - 1), (v as usize).min(down - 1));
+        let (u, v) = (u - x as f64, v - y as f64);
+        let cells = self.around(x, y);
+        let weights = [(1.0 - u) * (1.0 - v), u * (1.0 - v), (1.0 - u) * v, u * v];
+        let mut void = (0..4).filter(|&corner| !self.is_land(cells[corner]));
+        match (void.next(), void.next()) {
+            (None, _) => Some(std::array::from_fn(|corner| (cells[corner], weights[corner]))),
+            (Some(missing), None) => half_square(missing, [u, v])
+                .map(|weights| std::array::from_fn(|corner| (cells[corner], weights[corner]))),
+            _ => None,
+        }
+    }
+
+    /// The cells around a square: north-west, north-east, south-west, south-east.
+    fn around(&self, x: usize, y: usize) -> [usize; 4] {
+        let first = self.domain.size.index(x, y);
+        [first, first + 1, first + self.domain.size.columns, first + self.domain.size.columns + 1]
+    }
+
+    fn bounds_of(&self, x: usize, y: usize) -> [f64; 2] {
+        let cells = self.around(x, y);
+        let land: Vec<_> = cells.into_iter().filter(|&cell| self.is_land(cell)).collect();
+        if land.len() < 3 {
+            return [0.0; 2];
+        }
+        let range = |field: &Field| {
+            let values = land.iter().map(|&cell| f64::from(field.values()[cell]));
+            values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| {
+                [low.min(value), high.max(value)]
+            })
+        };
+        let mut bounds = [if land.len() == 4 { 1.0 } else { 0.0 }, 1.0];
+        for (condition, field) in &self.conditions {
+            let [least, most] = condition.between(range(field));
+            bounds = [bounds[0] * least, bounds[1] * most];
+        }
+        match self.water.map(|(depth, deepest)| (range(depth), deepest)) {
+            Some(([least, _], deepest)) if least > deepest => [0.0; 2],
+            Some(([_, most], deepest)) if most > deepest => [0.0, bounds[1]],
+            _ => bounds,
+        }
+    }
+}
+
+impl Suitability for Site<'_> {
+    fn extent(&self) -> [f64; 2] {
+        [self.domain.size.columns, self.domain.size.rows].map(|count| count as f64 * self.domain.cell)
+    }
+
+    fn suitability(&self, place: [f64; 2]) -> f64 {
+        let Some(corners) = self.corners(place) else { return 0.0 };
+        if self.water.is_some_and(|(depth, deepest)| between(depth, &corners) > deepest) {
+            return 0.0;
+        }
+        self.conditions.iter().map(|(condition, field)| condition.mask(between(field, &corners))).product()
+    }
+
+    fn bounds(&self, [low, high]: [[f64; 2]; 2]) -> [f64; 2] {
+        let [across, down] = self.squares();
+        if across * down == 0 {
+            return [0.0; 2];
+        }
+        let square = |place: f64, count: usize| (self.steps(place).max(0.0) as usize).min(count - 1);
+        let mut bounds = [f64::INFINITY, 0.0_f64];
+        for y in square(low[1], down)..=square(high[1], down) {
+            for x in square(low[0], across)..=square(high[0], across) {
+                let [least, most] = self.bounds[y * across + x];
+                bounds = [bounds[0].min(least), bounds[1].max(most)];
+            }
+        }
+        // Beside the outermost centres there is no ground.
+        let outside =
+            |axis: usize, count: usize| self.steps(low[axis]) < 0.0 || self.steps(high[axis]) > count as f64;
+        if outside(0, across) || outside(1, down) { [0.0, bounds[1]] } else { bounds }
+    }
+}
+
+/// Weights of three corners of a square, where the place lies between them.
+fn half_square(missing: usize, [u, v]: [f64; 2]) -> Option<[f64; 4]> {
+    let weights = match missing {
+        0 => [0.0, 1.0 - v, 1.0 - u, u + v - 1.0],
+        1 => [1.0 - v, 0.0, v - u, u],
+        2 => [1.0 - u, u - v, 0.0, v],
+        _ => [1.0 - u - v, u, v, 0.0],
+    };
+    weights.iter().all(|weight| *weight >= 0.0).then_some(weights)
+}
+
+/// The value between the corners, and never beyond them by rounding; those without weight take no part, whatever they
+/// hold.
+fn between(field: &Field, corners: &Corners) -> f64 {
+    let (mut sum, mut least, mut most) = (0.0, f64::INFINITY, f64::NEG_INFINITY);
+    for &(cell, weight) in corners.iter().filter(|(_, weight)| *weight != 0.0) {
+        let value = f64::from(field.values()[cell]);
+        sum += value * weight;
+        (least, most) = (least.min(value), most.max(value));
+    }
+    sum.clamp(least, most)
+}
+
+/// The vector at length 1.
+pub(super) fn unit(vector: [f64; 3]) -> [f64; 3] {
+    let length = vector.iter().map(|number| number * number).sum::<f64>().sqrt();
+    vector.map(|number| number / length)
+}

@@ -1,0 +1,140 @@
+//! A rectangle of a pattern with a margin, settled by itself.
+//!
+//! A candidate that a place overlaps is out. One that may be overlapped by something beyond the window is unknown, and
+//! puts its square in fog: from there on no candidate is drawn in it, and what might overlap with something in it is
+//! unknown too. All others are places, and the same that the whole has there.
+
+use super::bins::Bins;
+use super::pattern::{LEVELS, Pattern, Place, Square, overlap, squared};
+
+/// How often a square of the first round is cut into four.
+const CUTS: u8 = 5;
+
+/// Rounds between two cuts.
+const ROUNDS: u8 = 3;
+
+/// A rectangle of a pattern.
+pub(super) struct Window<'a> {
+    pattern: &'a Pattern<'a>,
+    /// North-western and south-eastern corner of what is to be found, in metres.
+    tile: [[f64; 2]; 2],
+    /// How far discs may reach without meeting one from beyond the margin.
+    inner: [[f64; 2]; 2],
+    bins: [Bins; LEVELS],
+    places: Vec<Place>,
+}
+
+/// What the places around a candidate make of it.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Verdict {
+    Place,
+    Unknown,
+    Out,
+}
+
+/// A candidate of the tile is unknown: the margin is too narrow.
+struct Unsettled;
+
+impl<'a> Window<'a> {
+    /// The tile, a rectangle of squares of the last level, with a margin of so many of them.
+    pub(super) fn around(pattern: &'a Pattern<'a>, tile: [[i64; 2]; 2], margin: i64) -> Self {
+        let side = pattern.side(LEVELS - 1);
+        let count = pattern.ground.extent().map(|length| (length / side) as i64 + 1);
+        let low = tile[0].map(|at| (at - margin).max(0));
+        let high = [0, 1].map(|axis| (tile[1][axis] + margin).min(count[axis]));
+        let reach = 0.5 * pattern.greatest(LEVELS - 1);
+        // There are no discs beyond the landscape.
+        let first = |at: i64| if at == 0 { f64::NEG_INFINITY } else { at as f64 * side + reach };
+        let last = |axis: usize| {
+            if high[axis] == count[axis] { f64::INFINITY } else { high[axis] as f64 * side - reach }
+        };
+        Self {
+            pattern,
+            tile: tile.map(|corner| corner.map(|at| at as f64 * side)),
+            inner: [low.map(first), [last(0), last(1)]],
+            bins: std::array::from_fn(|level| Bins::new(pattern, level, [low, high])),
+            places: Vec::new(),
+        }
+    }
+
+    /// The places of the tile; `None` where the margin is too narrow to know them.
+    pub(super) fn settled(mut self) -> Option<Vec<Place>> {
+        let mut open: Vec<_> = self.bins.iter().flat_map(Bins::squares).collect();
+        open.retain(|square| self.pattern.may_suit(*square));
+        for round in 0..=CUTS * ROUNDS {
+            self.draw(&open, round).ok()?;
+            open.retain(|square| self.has_room(*square));
+            if round % ROUNDS == ROUNDS - 1 {
+                open = open.into_iter().flat_map(Square::quarters).collect();
+                open.retain(|square| self.pattern.may_suit(*square) && self.has_room(*square));
+            }
+        }
+        self.places.retain(|place| is_in(self.tile, place.at));
+        Some(self.places)
+    }
+
+    /// Judges the candidates of a round in their order.
+    fn draw(&mut self, open: &[Square], round: u8) -> Result<(), Unsettled> {
+        let mut candidates: Vec<_> = open
+            .iter()
+            .filter_map(|&square| Some((self.pattern.candidate(square, round)?, square.level)))
+            .collect();
+        candidates.sort_unstable_by_key(|(place, _)| place.rank);
+        for (candidate, level) in candidates {
+            match self.verdict(&candidate) {
+                Verdict::Out => {}
+                Verdict::Place => {
+                    self.bins[level].put(candidate.at, self.places.len());
+                    self.places.push(candidate);
+                }
+                Verdict::Unknown if is_in(self.tile, candidate.at) => return Err(Unsettled),
+                Verdict::Unknown => self.bins[level].cover_in_fog(candidate.at),
+            }
+        }
+        Ok(())
+    }
+
+    fn verdict(&self, candidate: &Place) -> Verdict {
+        let half = 0.5 * candidate.diameter;
+        let [low, high] = self.inner;
+        let fits =
+            |axis: usize| candidate.at[axis] - half >= low[axis] && candidate.at[axis] + half <= high[axis];
+        let mut is_known = fits(0) && fits(1);
+        for (level, bins) in self.bins.iter().enumerate() {
+            let reach = half + 0.5 * self.pattern.greatest(level);
+            for bin in bins.near(candidate.at, reach) {
+                if bins.place(bin).is_some_and(|place| overlap(&self.places[place], candidate)) {
+                    return Verdict::Out;
+                }
+                is_known &=
+                    !(bins.is_in_fog(bin) && bins.distance_squared(bin, candidate.at) < reach * reach);
+            }
+        }
+        if is_known { Verdict::Place } else { Verdict::Unknown }
+    }
+
+    /// Whether a square is out of the fog and not under a single disc, which would leave no room in it.
+    fn has_room(&self, square: Square) -> bool {
+        let [low, high] = self.pattern.corners(square);
+        let middle = [0, 1].map(|axis| 0.5 * (low[axis] + high[axis]));
+        if self.bins[square.level].is_in_fog_at(middle) {
+            return false;
+        }
+        let least = 0.5 * self.pattern.least(square.level);
+        let covers = |place: &Place| {
+            let at = place.at;
+            let farthest = [0, 1].map(|axis| if at[axis] < middle[axis] { high[axis] } else { low[axis] });
+            let apart = least + 0.5 * place.diameter;
+            squared(at, farthest) < apart * apart
+        };
+        !self.bins.iter().enumerate().any(|(level, bins)| {
+            let reach = least + 0.5 * self.pattern.greatest(level);
+            bins.near(middle, reach)
+                .any(|bin| bins.place(bin).is_some_and(|place| covers(&self.places[place])))
+        })
+    }
+}
+
+fn is_in([low, high]: [[f64; 2]; 2], at: [f64; 2]) -> bool {
+    (0..2).all(|axis| at[axis] >= low[axis] && at[axis] < high[axis])
+}
