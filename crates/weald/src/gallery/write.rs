@@ -81,7 +81,7 @@ fn group(figure: &Figure) -> Option<&str> {
 }
 
 /// Every word that selects figures: ids, and groups such as `ifs` before their first figure.
-pub fn selectable<'a>(figures: &'a [Figure]) -> impl Iterator<Item = &'a str> {
+pub fn selectable(figures: &[Figure]) -> impl Iterator<Item = &str> {
     figures.iter().enumerate().flat_map(|(place, figure)| {
         let begins = place == 0 || group(&figures[place - 1]) != group(figure);
         group(figure).filter(|_| begins).into_iter().chain([figure.id])

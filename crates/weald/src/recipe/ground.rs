@@ -8,6 +8,7 @@ use crate::domain::Domain;
 use crate::error::Error;
 use crate::grid::Mask;
 use crate::grow::Fractal;
+use crate::grow::ifs::{Ifs, flame};
 use crate::io;
 use crate::landscape::Landscape;
 use crate::material::Material;
@@ -86,6 +87,10 @@ fn from_file(path: &Path, cell: Option<f64>) -> Result<(Landscape, Vec<String>),
     Ok((landscape, notes))
 }
 
-fn flame(path: &Path, number: usize) -> Result<crate::grow::ifs::Ifs, Error> {
-    Err(Error::input(path, format!("flame {number}: to be read")))
+/// One flame of a file, counted from 1.
+fn flame(path: &Path, number: usize) -> Result<Ifs, Error> {
+    let flames = flame::read(path)?;
+    let count = flames.len();
+    let found = number.checked_sub(1).and_then(|place| flames.into_iter().nth(place));
+    found.ok_or_else(|| Error::input(path, format!("has {count} flames; there is no number {number}")))
 }

@@ -114,10 +114,11 @@ impl Wind {
         }
     }
 
-    /// The moments of a film that begins again after its last frame.
-    pub fn poses(&self, frames: u32) -> impl Iterator<Item = Pose> + '_ {
-        let loop_seconds = self.seconds.unwrap_or(f64::from(frames) / 24.0);
-        (0..frames).map(move |frame| self.pose(loop_seconds * (f64::from(frame) / f64::from(frames))))
+    /// The moments of a film that begins again after its last frame; without `seconds` it has 24 frames a second.
+    pub fn poses(&self, frames: u32) -> impl Iterator<Item = Pose> {
+        let seconds = self.seconds.unwrap_or(f64::from(frames.max(1)) / 24.0);
+        let looped = Self { seconds: Some(seconds), ..self.clone() };
+        (0..frames).map(move |frame| looped.pose(seconds * (f64::from(frame) / f64::from(frames))))
     }
 
     /// Speed with its gusts, never below 0.
