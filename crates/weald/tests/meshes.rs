@@ -4,11 +4,12 @@
 //! proves nothing.
 
 mod common;
+mod programs;
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use common::clients::{client, root, said, validated};
+use programs::{client, root, said, validated};
 use serde_json::Value;
 use weald::domain::Georeference;
 use weald::export::{Colours, Export, Finished, Mesh};

@@ -1,12 +1,13 @@
 //! Plants as other programs get them: the validator of the Khronos Group, Blender, tables and clouds of points.
 
 mod common;
+mod programs;
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::Arc;
 
-use common::clients::{client, root, said, validated};
+use programs::{client, root, said, validated};
 use serde_json::Value;
 use weald::domain::Georeference;
 use weald::engine::Job;

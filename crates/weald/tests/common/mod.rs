@@ -1,8 +1,6 @@
 //! Ground and runs that several tests share.
 #![allow(dead_code, unreachable_pub, reason = "each test binary uses its own part")]
 
-pub mod clients;
-
 use weald::engine::{Engine, Job, SolidBudget, Unwatched};
 use weald::erode::dissolution_step::DissolutionWithin;
 use weald::erode::hydraulic::{Hydraulic, Model};
