@@ -131,8 +131,7 @@ fn is_shaping(attribute: &str) -> bool {
     let is_other = OTHERS.contains(&attribute)
         || SPATIAL.contains(&attribute)
         || OTHER_BEGINNINGS.iter().any(|beginning| attribute.starts_with(beginning));
-    is_known
-        || !(is_other || is_parameters_of_mobius(attribute) || VARIATIONS.iter().any(|v| is_parameter(&v)))
+    is_known || !(is_other || is_parameters_of_mobius(attribute) || VARIATIONS.iter().any(is_parameter))
 }
 
 fn is_parameters_of_mobius(attribute: &str) -> bool {
