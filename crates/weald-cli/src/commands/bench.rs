@@ -17,6 +17,9 @@ const SIDES_OF_A_CARD: &[usize] = &[512, 1024, 2048, 4096];
 const SIDES_OF_SOFTWARE: &[usize] = &[256];
 
 pub(crate) fn bench(arguments: &BenchArguments) -> Result<(), Failure> {
+    if arguments.fractals && arguments.engine == "gpu" {
+        return Err(Failure::usage("--fractals measures the CPU; leave out --engine gpu"));
+    }
     let mut unwritten = None;
     let mut print = |line: &dyn Display| {
         if let Err(failure) = stdout::print(&format!("{line}\n")) {

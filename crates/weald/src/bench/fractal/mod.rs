@@ -78,7 +78,9 @@ pub fn fractals(threads: &[usize], report: &mut (dyn FnMut(&dyn Display) + Send)
         let theirs = flam3.as_ref().map(|flam3| flam3.rate(&ifs, SIDE, count)).transpose()?;
         let pool = rayon::ThreadPoolBuilder::new().num_threads(count).build();
         let pool = pool.map_err(|cause| Error::Run(format!("cannot start {count} threads: {cause}")))?;
-        pool.install(|| ours(&ifs, theirs).iter().for_each(|rate| report(rate)));
+        for rate in pool.install(|| ours(&ifs, theirs)) {
+            report(&rate);
+        }
         if let Some(millions) = theirs {
             let name = "flam3, into 1024², with colours".to_owned();
             report(&PointRate { name, threads: count, millions, bytes: None, beside: Vec::new() });
@@ -173,6 +175,8 @@ fn counted(game: &Game<'_>, window: Window, chunks: usize) -> Histogram {
     };
     let parts: Vec<Histogram> = (0..threads).into_par_iter().map(part).collect();
     let mut sum = Histogram::new(window);
-    parts.iter().for_each(|part| sum.add(part));
+    for part in &parts {
+        sum.add(part);
+    }
     sum
 }

@@ -194,6 +194,8 @@ impl<'a> Parts<'a> {
             self.xforms.iter().filter(|(_, xform)| !symmetry::is_isometry(&xform.map)).collect();
         let place = fault.map().filter(|_| !contracting.is_empty());
         let element = place.map_or(flame, |map| contracting[map % contracting.len()].0);
-        element.fault(&fault.to_string())
+        let sheared = self.last.is_some() && matches!(fault, IfsFault::NotContracting { .. });
+        let cause = if sheared { "; a `finalxform` that stretches the shape less may help" } else { "" };
+        element.fault(&format!("{fault}{cause}"))
     }
 }

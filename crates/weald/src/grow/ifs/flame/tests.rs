@@ -208,14 +208,14 @@ fn symmetries_draw_the_density_that_flam3_draws() {
         assert!(off < 0.01, "kind {kind}: {theirs:?} {ours:?}");
         assert!(theirs[2] > 0.05, "{theirs:?}");
         // As flam3 writes it: the element and its xforms as well.
-        let rounded: String = all[2..]
+        let rounded: Vec<String> = all[2..]
             .iter()
             .map(|(map, _)| {
                 let coefs = xform::numbers(map).map(|number| format!("{number:.6}")).join(" ");
                 format!("<xform weight=\"1\" linear=\"1\" coefs=\"{coefs}\"/>")
             })
             .collect();
-        let twice = one(&flame(&xforms[0], &xforms[1], &(element + &rounded)));
+        let twice = one(&flame(&xforms[0], &xforms[1], &(element + &rounded.concat())));
         assert_eq!(twice.maps().len(), 2 * order, "kind {kind}");
     }
 }

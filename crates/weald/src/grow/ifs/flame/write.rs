@@ -97,8 +97,8 @@ fn palette() -> String {
         let along = f64::from(place) / 255.0 * (COLOURS.len() - 1) as f64;
         let from = (along as usize).min(COLOURS.len() - 2);
         let share = along - from as f64;
-        for channel in 0..3 {
-            let value = COLOURS[from][channel] * (1.0 - share) + COLOURS[from + 1][channel] * share;
+        for (low, high) in COLOURS[from].iter().zip(COLOURS[from + 1]) {
+            let value = low * (1.0 - share) + high * share;
             let _ = write!(text, "{:02X}", value.round() as u8);
         }
     }
@@ -115,7 +115,7 @@ fn escaped(name: &str) -> String {
             '"' => text += "&quot;",
             // No XML file may hold them.
             character if character.is_control() || matches!(character, '\u{fffe}' | '\u{ffff}') => {
-                text.push(' ')
+                text.push(' ');
             }
             character => text.push(character),
         }
