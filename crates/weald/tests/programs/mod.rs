@@ -6,12 +6,12 @@ use std::process::Command;
 use serde_json::Value;
 
 /// The folder of the project.
-pub fn root() -> PathBuf {
+pub(crate) fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
 }
 
 /// A file of a client, which must be installed.
-pub fn client(file: &str) -> PathBuf {
+pub(crate) fn client(file: &str) -> PathBuf {
     let folder =
         std::env::var_os("WEALD_CLIENTS").map_or_else(|| root().join("target/clients"), PathBuf::from);
     let path = folder.join(file);
@@ -20,7 +20,7 @@ pub fn client(file: &str) -> PathBuf {
 }
 
 /// What a program prints in its last line, as JSON.
-pub fn said(command: &mut Command) -> Value {
+pub(crate) fn said(command: &mut Command) -> Value {
     let output = command.output().unwrap_or_else(|cause| panic!("{command:?} does not start: {cause}"));
     let message = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success(), "{command:?}: {message}");
@@ -31,7 +31,7 @@ pub fn said(command: &mut Command) -> Value {
 }
 
 /// What the Khronos validator says of a `.glb`.
-pub fn validated(path: &Path) -> Value {
+pub(crate) fn validated(path: &Path) -> Value {
     let script = root().join("clients/validate_glb.cjs");
     said(Command::new("node").arg(script).arg(path).env("NODE_PATH", client("gltf/node_modules")))
 }

@@ -3,6 +3,8 @@
 //! The deterministic algorithm (Barnsley 1988, section III.8): N maps give N^d parts of d digits. Parts come out in
 //! the order of their codes.
 
+use std::cell::Cell;
+
 use super::code::Code;
 use super::map::{Map, Point};
 use super::system::Ifs;
@@ -56,11 +58,13 @@ pub fn parts(ifs: &Ifs, depth: usize, mut look: impl FnMut(&Part)) -> Result<(),
 pub fn parts_of_size(ifs: &Ifs, size: f64, mut look: impl FnMut(&Part)) -> Result<(), Error> {
     let whole = Part { code: Code::empty(ifs.digits()), map: Map::IDENTITY };
     let small = |part: &Part| part.map.ratio() <= size;
-    let mut count = 0_u64;
-    descend(ifs, whole, ifs.digits().room(), &small, &mut |_| count += 1);
-    if count > MOST_PARTS {
+    let count = Cell::new(0_u64);
+    // Beyond the limit every part ends the way down, so that counting ends soon.
+    let enough = |part: &Part| count.get() > MOST_PARTS || small(part);
+    descend(ifs, whole, ifs.digits().room(), &enough, &mut |_| count.set(count.get() + 1));
+    if count.get() > MOST_PARTS {
         return Err(Error::Limit(format!(
-            "{}: parts of {size} of its size are {count}; at most {MOST_PARTS} are expanded, so choose a larger size",
+            "{}: parts of {size} of its size are more than the {MOST_PARTS} that are expanded; choose a larger size",
             ifs.name()
         )));
     }

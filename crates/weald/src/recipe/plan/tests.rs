@@ -242,7 +242,7 @@ fn films_that_cannot_be_made_say_why() {
     let rough = "[[step]]\ndo = \"rough\"\n";
     let wear = "[[step]]\ndo = \"rough\"\n[[step]]\ndo = \"wear\"\n";
     says(rough, "file = \"a.mp4\"", "`file` is a.mp4; a picture is a .png");
-    says(wear, "every = 3\nfile = \"a.gif\"", "`file` is a.gif; a film is a .png or .mp4 or .webm");
+    says(wear, "every = 3\nfile = \"a.gif\"", "`file` is a.gif; a film is a .png or .apng or .mp4 or .webm");
     says(rough, "every = 3\nfile = \"a.png\"", "no step simulates");
     says(wear, "every = 3\nframes = 4\nfile = \"a.png\"", "exclude each other");
     says(wear, "frames = 1\nfile = \"a.png\"", "`frames` is 1, outside its range: 2 to 9999");
