@@ -130,9 +130,10 @@ mod tests {
             Game::new(&ifs, 1).points(20_000, |block| {
                 for row in 0..block.rows().len() {
                     let colours = running.row(block, row);
-                    for lane in 0..LANES.min(block.len() - row * LANES) {
-                        let of_code = colouring.of(&block.code(row * LANES + lane, &ifs));
-                        worst = worst.max(of_code.abs_diff(colours[lane]));
+                    let numbers = row * LANES..block.len();
+                    for (number, colour) in numbers.zip(colours) {
+                        let of_code = colouring.of(&block.code(number, &ifs));
+                        worst = worst.max(of_code.abs_diff(colour));
                         seen = [seen[0].min(of_code), seen[1].max(of_code)];
                     }
                 }
