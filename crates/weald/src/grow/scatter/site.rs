@@ -200,7 +200,10 @@ impl Suitability for Site<'_> {
 
     fn bounds(&self, [low, high]: [[f64; 2]; 2]) -> [f64; 2] {
         let [across, down] = self.squares();
-        if across * down == 0 {
+        // Beside the outermost centres there is no ground.
+        let is_beside =
+            |axis: usize, count: usize| self.steps(high[axis]) < 0.0 || self.steps(low[axis]) > count as f64;
+        if across * down == 0 || is_beside(0, across) || is_beside(1, down) {
             return [0.0; 2];
         }
         let square = |place: f64, count: usize| (self.steps(place).max(0.0) as usize).min(count - 1);
