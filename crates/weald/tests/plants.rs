@@ -11,10 +11,11 @@ use programs::{client, root, said, validated};
 use serde_json::Value;
 use weald::domain::Georeference;
 use weald::engine::Job;
-use weald::export::{Export, Finished, PlantSet};
+use weald::export::{Export, Finished, Mesh, PlantSet};
 use weald::grow::scatter::Scatter;
 use weald::io::{InMemory, write_parts};
 use weald::plants::Plants;
+use weald::recipe::parameter::Nested;
 use weald::recipe::{Overrides, Recipe};
 use weald::step::Step;
 use weald::{Domain, Landscape, Size};
@@ -112,6 +113,29 @@ fn check_plants(found: &Value, plants: &Plants) {
         assert!(off.iter().all(|off| *off < 1e-3), "{up:?} for {:?}", plant.up);
         assert!((size - f64::from(plant.size)).abs() < 1e-3, "{size} m for {}", plant.size);
     }
+}
+
+#[test]
+fn plants_can_stand_on_a_coarse_mesh_which_is_off_the_ground_by_no_more_than_its_error() {
+    let (landscape, plants) = planted("fern");
+    let finished =
+        Finished { landscape: &landscape, steps: &[], recipe: "hills.toml", hash: "af13", seed: 7 };
+    let heights = |error: Option<f64>| -> Vec<f64> {
+        let on = error.map(|error| Nested(Mesh { error, water: false, ..Mesh::default() }));
+        let parts = PlantSet { on, ..PlantSet::default() }
+            .parts(&finished, Path::new("plants.csv"))
+            .expect("a table");
+        let text = String::from_utf8(parts[0].bytes.clone()).expect("text");
+        text.lines().skip(1).map(|row| row.split(',').nth(3).expect("z").parse().expect("a number")).collect()
+    };
+    let off = |heights: &[f64]| -> f64 {
+        let apart = heights.iter().zip(&plants.plants).map(|(height, plant)| (height - plant.place[2]).abs());
+        apart.fold(0.0, f64::max)
+    };
+    assert!(off(&heights(None)) < 1e-3);
+    let coarse = off(&heights(Some(4.0)));
+    // Between centres the triangle and the bilinear ground may be a little further apart.
+    assert!((2.0..6.0).contains(&coarse), "{coarse} m");
 }
 
 #[test]

@@ -21,6 +21,7 @@ mod sampling;
 mod scan;
 mod skirt;
 mod slopes;
+mod standing;
 mod surface;
 mod tangent;
 #[cfg(test)]
@@ -123,11 +124,7 @@ impl Export for Mesh {
         let landscape = finished.landscape;
         let ground = ground_of(landscape, &self.of.0)?;
         let water = self.water.then(|| Water::of(landscape, ground, self.shallowest as f32)).flatten();
-        let land = landscape.domain.land.as_ref();
-        let surface = match &water {
-            Some(water) => water.spared(ground, land, self.error),
-            None => Surface::new(ground, land, self.error),
-        };
+        let surface = self.surface(landscape, ground, water.as_ref());
         let mesh = follow(&surface, MOST_VERTICES)?;
         if mesh.triangles.is_empty() {
             return Err(Error::Run(
@@ -161,6 +158,15 @@ fn ground_of<'a>(landscape: &'a Landscape, name: &str) -> Result<&'a Field, Erro
 }
 
 impl Mesh {
+    /// What the triangles are to follow: the ground, and beside water more closely.
+    fn surface<'a>(&self, landscape: &'a Landscape, ground: &'a Field, water: Option<&Water>) -> Surface<'a> {
+        let land = landscape.domain.land.as_ref();
+        match water {
+            Some(water) => water.spared(ground, land, self.error),
+            None => Surface::new(ground, land, self.error),
+        }
+    }
+
     fn add_ground(
         &self,
         document: &mut Document,

@@ -35,6 +35,12 @@ impl Plane {
     /// Height at the centre of a cell.
     #[inline]
     pub(super) fn at(&self, column: usize, row: usize) -> f64 {
-        self.height + self.east * (column as f64 - self.column) + self.south * (row as f64 - self.row)
+        self.between([column as f64, row as f64])
+    }
+
+    /// Height at a place between centres, by column and row.
+    #[inline]
+    pub(super) fn between(&self, [column, row]: [f64; 2]) -> f64 {
+        self.height + self.east * (column - self.column) + self.south * (row - self.row)
     }
 }

@@ -11,19 +11,23 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::vector::place::Place;
-use super::{Export, Finished};
+use super::{Export, Finished, Mesh};
 use crate::error::Error;
 use crate::grow::ifs::foliage::{self, Foliage, Habit, Texture};
 use crate::grow::ifs::{Ifs, shapes};
 use crate::io::Part;
+use crate::landscape::Landscape;
 use crate::plants::{Plant, Plants};
-use crate::recipe::parameter::{Colour, LayerName};
+use crate::recipe::parameter::{Colour, LayerName, Nested};
 
 crate::parameters! {
     /// The plants that a step `scatter` set.
     pub struct PlantSet {
         /// Name of the plants.
         of: LayerName = LayerName::of("plants");
+        /// The keys of the export `mesh` on which the plants are to stand, as in `on = { error = 2 }`: the mesh is off
+        /// the ground by its error. Without it, plants stand on the ground itself.
+        on: Option<Nested<Mesh>> = None;
         /// Fronds or planes of a plant. By default 8 fronds for a fern, 3 planes that cross for other flat shapes, and
         /// shapes of space alone. For a `.glb`.
         fronds: Option<u32> = None, range 1..=64;
@@ -49,7 +53,11 @@ enum Kind {
 
 impl Export for PlantSet {
     fn reads(&self) -> Vec<String> {
-        Vec::new()
+        self.on.iter().flat_map(|Nested(mesh)| mesh.reads()).collect()
+    }
+
+    fn optional(&self) -> Vec<String> {
+        self.on.iter().flat_map(|Nested(mesh)| mesh.optional()).collect()
     }
 
     fn plants(&self) -> Vec<String> {
@@ -73,7 +81,7 @@ impl Export for PlantSet {
     }
 
     fn parts(&self, finished: &Finished<'_>, file: &Path) -> Result<Vec<Part>, Error> {
-        let plants = finished.landscape.plants(&self.of.0)?;
+        let plants = &self.standing(finished.landscape)?;
         match kind(file) {
             Kind::Instances => self.meshes(finished, plants),
             Kind::Table => Ok(vec![Part::own(table::of(plants, Place(&finished.landscape.domain)))]),
@@ -101,6 +109,18 @@ impl PlantSet {
             parts.push(Part::sibling(".nodes.glb", scene.nodes()?));
         }
         Ok(parts)
+    }
+
+    /// The plants, on the mesh that is asked for.
+    fn standing(&self, landscape: &Landscape) -> Result<Arc<Plants>, Error> {
+        let plants = landscape.plants(&self.of.0)?;
+        let Some(Nested(mesh)) = &self.on else { return Ok(plants.clone()) };
+        let places: Vec<_> = plants.plants.iter().map(|plant| [plant.place[0], plant.place[1]]).collect();
+        let mut plants = Plants::clone(plants);
+        for (plant, height) in plants.plants.iter_mut().zip(mesh.heights(landscape, &places)?) {
+            plant.place[2] = height.unwrap_or(plant.place[2]);
+        }
+        Ok(Arc::new(plants))
     }
 
     fn model(&self, kind: &str) -> Result<instances::Model, Error> {

@@ -1,6 +1,6 @@
 //! Where the places of a window are: a bin for each square of the first round, which holds one place at most.
 
-use super::pattern::{LEVELS, Pattern, Square, squared};
+use super::pattern::{LEVELS, Pattern, Place, Square, squared};
 
 /// No place.
 const NONE: u32 = u32::MAX;
@@ -15,7 +15,10 @@ pub(super) struct Bins {
     counts: [i64; 2],
     side: f64,
     content: Vec<u32>,
-    is_empty: bool,
+    /// Widest disc that there may be, in metres; 0 as long as there is nothing.
+    widest: f64,
+    /// Widest disc of the level.
+    greatest: f64,
 }
 
 impl Bins {
@@ -25,7 +28,8 @@ impl Bins {
         let first = low.map(|at| at * factor);
         let counts = [0, 1].map(|axis| (high[axis] - low[axis]) * factor);
         let content = vec![NONE; (counts[0] * counts[1]) as usize];
-        Self { level, first, counts, side: pattern.side(level), content, is_empty: true }
+        let greatest = pattern.greatest(level);
+        Self { level, first, counts, side: pattern.side(level), content, widest: 0.0, greatest }
     }
 
     /// The squares of the first round.
@@ -38,17 +42,17 @@ impl Bins {
     }
 
     /// Puts a place into its bin.
-    pub(super) fn put(&mut self, at: [f64; 2], place: usize) {
-        let bin = self.at(at);
-        self.content[bin] = place as u32;
-        self.is_empty = false;
+    pub(super) fn put(&mut self, number: usize, place: &Place) {
+        let bin = self.at(place.at);
+        self.content[bin] = number as u32;
+        self.widest = self.widest.max(place.diameter);
     }
 
     /// Says that nothing is known of the rest of the square at a place.
     pub(super) fn cover_in_fog(&mut self, at: [f64; 2]) {
         let bin = self.at(at);
         self.content[bin] = FOG;
-        self.is_empty = false;
+        self.widest = self.greatest;
     }
 
     /// The place in a bin.
@@ -64,12 +68,26 @@ impl Bins {
         self.is_in_fog(self.at(at))
     }
 
+    /// Whether nothing is known to be in a bin.
+    pub(super) fn is_free(&self, square: Square) -> bool {
+        let [x, y] = [0, 1].map(|axis| square.at[axis] - self.first[axis]);
+        self.content[(y * self.counts[0] + x) as usize] == NONE
+    }
+
+    /// How far the middle of a disc of half that width may be from one that it meets here.
+    pub(super) fn reach(&self, half: f64) -> f64 {
+        half + 0.5 * self.widest
+    }
+
     /// The bins that come as near as that.
     pub(super) fn near(&self, at: [f64; 2], reach: f64) -> impl Iterator<Item = usize> + use<> {
         let end = |axis: usize, way: f64| self.index(axis, at[axis] + way);
-        let first = end(1, -reach);
-        let rows = first..if self.is_empty { first } else { end(1, reach) + 1 };
-        let (from, to, columns) = (end(0, -reach), end(0, reach), self.counts[0]);
+        let (rows, from, to) = if self.widest == 0.0 {
+            (0..0, 0, 0)
+        } else {
+            (end(1, -reach)..end(1, reach) + 1, end(0, -reach), end(0, reach))
+        };
+        let columns = self.counts[0];
         rows.flat_map(move |y| (y * columns + from..=y * columns + to).map(|bin| bin as usize))
     }
 
@@ -88,6 +106,6 @@ impl Bins {
     }
 
     fn index(&self, axis: usize, along: f64) -> i64 {
-        (libm::floor(along / self.side) as i64 - self.first[axis]).clamp(0, self.counts[axis] - 1)
+        ((along.max(0.0) / self.side) as i64 - self.first[axis]).clamp(0, self.counts[axis] - 1)
     }
 }

@@ -126,28 +126,62 @@ impl<'a> Site<'a> {
         [first, first + 1, first + self.domain.size.columns, first + self.domain.size.columns + 1]
     }
 
+    /// Bounds on the suitability of the square between four centres, from its corners.
     fn bounds_of(&self, x: usize, y: usize) -> [f64; 2] {
         let cells = self.around(x, y);
         let land: Vec<_> = cells.into_iter().filter(|&cell| self.is_land(cell)).collect();
         if land.len() < 3 {
             return [0.0; 2];
         }
-        let range = |field: &Field| {
-            let values = land.iter().map(|&cell| f64::from(field.values()[cell]));
-            values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| {
-                [low.min(value), high.max(value)]
-            })
-        };
-        let mut bounds = [if land.len() == 4 { 1.0 } else { 0.0 }, 1.0];
+        self.product(land.len() == 4, |field| {
+            Range::of(land.iter().map(|&cell| f64::from(field.values()[cell])))
+        })
+    }
+
+    /// Bounds on the suitability of a rectangle within such a square: what is bilinear is greatest and least in corners.
+    fn bounds_within(&self, [low, high]: [[f64; 2]; 2]) -> [f64; 2] {
+        let corners = [low, [high[0], low[1]], [low[0], high[1]], high].map(|place| self.corners(place));
+        let ground: Vec<_> = corners.iter().flatten().collect();
+        if ground.is_empty() {
+            return [0.0; 2];
+        }
+        self.product(ground.len() == 4, |field| {
+            // Where a part is no ground, the ground ends between the corners: all that bears it counts.
+            let whole = ground.iter().flat_map(|corners| corners.iter()).filter(|(_, weight)| *weight != 0.0);
+            if ground.len() == 4 {
+                Range::of(ground.iter().map(|corners| between(field, corners)))
+            } else {
+                Range::of(whole.map(|&(cell, _)| f64::from(field.values()[cell])))
+            }
+        })
+    }
+
+    /// The product of the bounds of all conditions.
+    fn product(&self, is_all_ground: bool, range: impl Fn(&Field) -> Range) -> [f64; 2] {
+        let mut bounds = [if is_all_ground { 1.0 } else { 0.0 }, 1.0];
         for (condition, field) in &self.conditions {
-            let [least, most] = condition.between(range(field));
-            bounds = [bounds[0] * least, bounds[1] * most];
+            let Range { least, most } = range(field);
+            let [low, high] = condition.between([least, most]);
+            bounds = [bounds[0] * low, bounds[1] * high];
         }
         match self.water.map(|(depth, deepest)| (range(depth), deepest)) {
-            Some(([least, _], deepest)) if least > deepest => [0.0; 2],
-            Some(([_, most], deepest)) if most > deepest => [0.0, bounds[1]],
+            Some((depth, deepest)) if depth.least > deepest => [0.0; 2],
+            Some((depth, deepest)) if depth.most > deepest => [0.0, bounds[1]],
             _ => bounds,
         }
+    }
+}
+
+/// Least and greatest of some values.
+struct Range {
+    least: f64,
+    most: f64,
+}
+
+impl Range {
+    fn of(values: impl Iterator<Item = f64>) -> Self {
+        let none = Self { least: f64::INFINITY, most: f64::NEG_INFINITY };
+        values.fold(none, |range, value| Self { least: range.least.min(value), most: range.most.max(value) })
     }
 }
 
@@ -166,16 +200,24 @@ impl Suitability for Site<'_> {
 
     fn bounds(&self, [low, high]: [[f64; 2]; 2]) -> [f64; 2] {
         let [across, down] = self.squares();
-        if across * down == 0 {
+        // Beside the outermost centres there is no ground.
+        let is_beside =
+            |axis: usize, count: usize| self.steps(high[axis]) < 0.0 || self.steps(low[axis]) > count as f64;
+        if across * down == 0 || is_beside(0, across) || is_beside(1, down) {
             return [0.0; 2];
         }
         let square = |place: f64, count: usize| (self.steps(place).max(0.0) as usize).min(count - 1);
+        let first = [square(low[0], across), square(low[1], down)];
+        let last = [square(high[0], across), square(high[1], down)];
         let mut bounds = [f64::INFINITY, 0.0_f64];
-        for y in square(low[1], down)..=square(high[1], down) {
-            for x in square(low[0], across)..=square(high[0], across) {
+        for y in first[1]..=last[1] {
+            for x in first[0]..=last[0] {
                 let [least, most] = self.bounds[y * across + x];
                 bounds = [bounds[0].min(least), bounds[1].max(most)];
             }
+        }
+        if first == last && bounds[0] < bounds[1] {
+            return self.bounds_within([low, high]);
         }
         // Beside the outermost centres there is no ground.
         let outside =

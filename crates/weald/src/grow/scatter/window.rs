@@ -7,11 +7,11 @@
 use super::bins::Bins;
 use super::pattern::{LEVELS, Pattern, Place, Square, overlap, squared};
 
-/// How often a square of the first round is cut into four.
-const CUTS: u8 = 5;
-
-/// Rounds between two cuts.
+/// Rounds before squares are cut for the first time.
 const ROUNDS: u8 = 3;
+
+/// How often squares are cut into four, with a round after each.
+const CUTS: u8 = 6;
 
 /// A rectangle of a pattern.
 pub(super) struct Window<'a> {
@@ -61,13 +61,15 @@ impl<'a> Window<'a> {
     pub(super) fn settled(mut self) -> Option<Vec<Place>> {
         let mut open: Vec<_> = self.bins.iter().flat_map(Bins::squares).collect();
         open.retain(|square| self.pattern.may_suit(*square));
-        for round in 0..=CUTS * ROUNDS {
+        for round in 0..ROUNDS {
             self.draw(&open, round).ok()?;
-            open.retain(|square| self.has_room(*square));
-            if round % ROUNDS == ROUNDS - 1 {
-                open = open.into_iter().flat_map(Square::quarters).collect();
-                open.retain(|square| self.pattern.may_suit(*square) && self.has_room(*square));
-            }
+            open.retain(|square| self.bins[square.level].is_free(*square));
+        }
+        open.retain(|square| self.has_room(*square));
+        for cut in 0..CUTS {
+            open = open.into_iter().flat_map(Square::quarters).collect();
+            open.retain(|square| self.has_room(*square) && self.pattern.may_suit(*square));
+            self.draw(&open, ROUNDS + cut).ok()?;
         }
         self.places.retain(|place| is_in(self.tile, place.at));
         Some(self.places)
@@ -84,7 +86,7 @@ impl<'a> Window<'a> {
             match self.verdict(&candidate) {
                 Verdict::Out => {}
                 Verdict::Place => {
-                    self.bins[level].put(candidate.at, self.places.len());
+                    self.bins[level].put(self.places.len(), &candidate);
                     self.places.push(candidate);
                 }
                 Verdict::Unknown if is_in(self.tile, candidate.at) => return Err(Unsettled),
@@ -100,8 +102,8 @@ impl<'a> Window<'a> {
         let fits =
             |axis: usize| candidate.at[axis] - half >= low[axis] && candidate.at[axis] + half <= high[axis];
         let mut is_known = fits(0) && fits(1);
-        for (level, bins) in self.bins.iter().enumerate() {
-            let reach = half + 0.5 * self.pattern.greatest(level);
+        for bins in &self.bins {
+            let reach = bins.reach(half);
             for bin in bins.near(candidate.at, reach) {
                 if bins.place(bin).is_some_and(|place| overlap(&self.places[place], candidate)) {
                     return Verdict::Out;
@@ -127,8 +129,8 @@ impl<'a> Window<'a> {
             let apart = least + 0.5 * place.diameter;
             squared(at, farthest) < apart * apart
         };
-        !self.bins.iter().enumerate().any(|(level, bins)| {
-            let reach = least + 0.5 * self.pattern.greatest(level);
+        !self.bins.iter().any(|bins| {
+            let reach = bins.reach(least);
             bins.near(middle, reach)
                 .any(|bin| bins.place(bin).is_some_and(|place| covers(&self.places[place])))
         })
