@@ -197,7 +197,7 @@ pub(crate) struct FractalArguments {
 /// What of [`FractalArguments`] is not declared by the library.
 #[derive(Debug, Args)]
 struct FractalFiles {
-    /// A built-in fractal, a .flame file, or a recipe with a [[fractal]] table; `list` names the built-in ones
+    /// A built-in fractal, a .flame file, or a recipe with tables `fractal`; `list` names the built-in ones
     name: String,
     /// .png, .svg, or with --frames .apng, .mp4, .webm or numbered .png [default: NAME.png]
     #[arg(short, long, value_name = "FILE")]

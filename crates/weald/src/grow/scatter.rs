@@ -2,7 +2,7 @@
 //! place in the wind.
 //!
 //! The suitability of a place is the product of conditions on layers, each a range with soft edges; it sets how densely
-//! plants stand ([pattern]). Asked for a number of plants, the step looks for the widest spacing at which as many find
+//! plants stand (`pattern.rs`). Asked for a number of plants, the step looks for the widest spacing at which as many find
 //! room, within three in a hundred, and takes those of the first ranks; so the same number stands as evenly as it can.
 
 mod bins;

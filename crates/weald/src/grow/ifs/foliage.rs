@@ -2,8 +2,8 @@
 //!
 //! Every part of a fractal is an affine image of the whole, so one picture of the whole is the texture of all leaves: a
 //! card is the box of the plant under the map of the part. From the whole the walk follows the maps: what goes on along
-//! the axis ([`Role::Trunk`]) until it is small, branches until they are small enough for a card. The image of the stem
-//! ([`Role::Stem`]) under each part on the way is a ribbon.
+//! the axis (`Role::Trunk`) until it is small, branches until they are small enough for a card. The image of the stem
+//! (`Role::Stem`) under each part on the way is a ribbon.
 //!
 //! Flat shapes get their depth from their [habit](Habit): fronds that arch around the root, or planes that cross.
 //!

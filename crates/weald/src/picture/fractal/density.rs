@@ -143,7 +143,7 @@ impl Density {
     /// How large a share of the points lies in the bucket of a usual point: the mean of `(n - 1) / (N - 1)` over the
     /// points, `Σ n (n - 1) / (N - 1) Σ n`. Of all measures of how dense a shape is this one neither changes with the
     /// number of points nor is biased by it. Stems and tips, where points pile up, are left out: buckets of more
-    /// than [`PILED`] times the mean of the rest.
+    /// than `PILED` times the mean of the rest.
     pub fn usual_share(&self) -> f64 {
         let mut usual = f64::INFINITY;
         for _ in 0..ROUNDS {

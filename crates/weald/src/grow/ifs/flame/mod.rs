@@ -7,7 +7,7 @@
 //!
 //! In a flame `y` grows downwards, here upwards: reading and writing turn it round, so that a picture stays upright.
 //! `weight`s are divided by their sum. A `finalxform`, which moves points where they are drawn, is a change of units of
-//! all maps. Symmetries do not contract, but what they draw does: see [`symmetry`].
+//! all maps. Symmetries do not contract, but what they draw does: see `symmetry.rs`.
 //!
 //! What differs: colours, camera, motion and filters of a file are not read, and those that are written are our own.
 //! What no affine map can say (other variations, `chaos`, hidden xforms) is refused.
