@@ -143,6 +143,11 @@ impl Pattern<'_> {
     /// beyond may go before them. Where the tile itself has an unknown place the margin is doubled.
     pub(super) fn tile(&self, tile: [[i64; 2]; 2]) -> Vec<Place> {
         const MARGIN: i64 = 4;
+        let side = self.side(LEVELS - 1);
+        let [_, most] = self.ground.bounds(tile.map(|corner| corner.map(|at| at as f64 * side)));
+        if most <= 0.0 {
+            return Vec::new();
+        }
         let mut margin = MARGIN;
         loop {
             if let Some(places) = Window::around(self, tile, margin).settled() {
@@ -192,11 +197,12 @@ impl Pattern<'_> {
         Some(Place { suitability, diameter, ..place })
     }
 
-    /// Whether a square may hold places of its level.
-    pub(super) fn may_suit(&self, square: Square) -> bool {
+    /// Least diameter that discs of a square may have; `None` where it cannot hold places of its level.
+    pub(super) fn least_in(&self, square: Square) -> Option<f64> {
         let [least, most] = self.ground.bounds(self.corners(square));
-        let (first, last) = (level_of(most), level_of(least).unwrap_or(LEVELS - 1));
-        first.is_some_and(|first| (first..=last).contains(&square.level))
+        let (first, last) = (level_of(most)?, level_of(least).unwrap_or(LEVELS - 1));
+        let may_suit = (first..=last).contains(&square.level);
+        may_suit.then(|| self.least(square.level).max(self.spacing / most.max(SPARSEST).sqrt()))
     }
 }
 

@@ -107,8 +107,12 @@ impl<'a> Site<'a> {
         if across * down == 0 || u < 0.0 || v < 0.0 || u > across as f64 || v > down as f64 {
             return None;
         }
-        let (x, y) = ((u as usize).min(across - 1), (v as usize).min(down - 1));
-        let (u, v) = (u - x as f64, v - y as f64);
+        self.corners_in([(u as usize).min(across - 1), (v as usize).min(down - 1)], [u, v])
+    }
+
+    /// The same of a place in a given square or on its edge, in steps.
+    fn corners_in(&self, [x, y]: [usize; 2], [u, v]: [f64; 2]) -> Option<Corners> {
+        let (u, v) = ((u - x as f64).clamp(0.0, 1.0), (v - y as f64).clamp(0.0, 1.0));
         let cells = self.around(x, y);
         let weights = [(1.0 - u) * (1.0 - v), u * (1.0 - v), (1.0 - u) * v, u * v];
         let mut void = (0..4).filter(|&corner| !self.is_land(cells[corner]));
@@ -138,22 +142,22 @@ impl<'a> Site<'a> {
         })
     }
 
-    /// Bounds on the suitability of a rectangle within such a square: what is bilinear is greatest and least in corners.
-    fn bounds_within(&self, [low, high]: [[f64; 2]; 2]) -> [f64; 2] {
-        let corners = [low, [high[0], low[1]], [low[0], high[1]], high].map(|place| self.corners(place));
-        let ground: Vec<_> = corners.iter().flatten().collect();
-        if ground.is_empty() {
-            return [0.0; 2];
+    /// Bounds on the suitability of the part of a rectangle, in steps, that lies in such a square: what is bilinear is
+    /// greatest and least in corners.
+    fn bounds_within(&self, [x, y]: [usize; 2], [low, high]: [[f64; 2]; 2]) -> [f64; 2] {
+        let whole = self.bounds[y * self.squares()[0] + x];
+        if whole[0] == whole[1] {
+            return whole;
         }
-        self.product(ground.len() == 4, |field| {
-            // Where a part is no ground, the ground ends between the corners: all that bears it counts.
-            let whole = ground.iter().flat_map(|corners| corners.iter()).filter(|(_, weight)| *weight != 0.0);
-            if ground.len() == 4 {
-                Range::of(ground.iter().map(|corners| between(field, corners)))
-            } else {
-                Range::of(whole.map(|&(cell, _)| f64::from(field.values()[cell])))
-            }
-        })
+        let corners = [low, [high[0], low[1]], [low[0], high[1]], high];
+        match corners.map(|place| self.corners_in([x, y], place)) {
+            [Some(a), Some(b), Some(c), Some(d)] => self.product(true, |field| {
+                Range::of([&a, &b, &c, &d].map(|corners| between(field, corners)).into_iter())
+            }),
+            [None, None, None, None] => [0.0; 2],
+            // The ground ends between the corners.
+            _ => [0.0, whole[1]],
+        }
     }
 
     /// The product of the bounds of all conditions.
@@ -206,22 +210,22 @@ impl Suitability for Site<'_> {
         if across * down == 0 || is_beside(0, across) || is_beside(1, down) {
             return [0.0; 2];
         }
-        let square = |place: f64, count: usize| (self.steps(place).max(0.0) as usize).min(count - 1);
-        let first = [square(low[0], across), square(low[1], down)];
-        let last = [square(high[0], across), square(high[1], down)];
+        let steps = [low, high].map(|corner| corner.map(|along| self.steps(along)));
+        let square = |corner: [f64; 2]| {
+            let at = |axis: usize, count: usize| (corner[axis].max(0.0) as usize).min(count - 1);
+            [at(0, across), at(1, down)]
+        };
+        let (first, last) = (square(steps[0]), square(steps[1]));
+        let is_small = last[0] - first[0] < 2 && last[1] - first[1] < 2;
         let mut bounds = [f64::INFINITY, 0.0_f64];
         for y in first[1]..=last[1] {
             for x in first[0]..=last[0] {
-                let [least, most] = self.bounds[y * across + x];
+                let [least, most] =
+                    if is_small { self.bounds_within([x, y], steps) } else { self.bounds[y * across + x] };
                 bounds = [bounds[0].min(least), bounds[1].max(most)];
             }
         }
-        if first == last && bounds[0] < bounds[1] {
-            return self.bounds_within([low, high]);
-        }
-        // Beside the outermost centres there is no ground.
-        let outside =
-            |axis: usize, count: usize| self.steps(low[axis]) < 0.0 || self.steps(high[axis]) > count as f64;
+        let outside = |axis: usize, count: usize| steps[0][axis] < 0.0 || steps[1][axis] > count as f64;
         if outside(0, across) || outside(1, down) { [0.0, bounds[1]] } else { bounds }
     }
 }

@@ -60,15 +60,15 @@ impl<'a> Window<'a> {
     /// The places of the tile; `None` where the margin is too narrow to know them.
     pub(super) fn settled(mut self) -> Option<Vec<Place>> {
         let mut open: Vec<_> = self.bins.iter().flat_map(Bins::squares).collect();
-        open.retain(|square| self.pattern.may_suit(*square));
+        open.retain(|square| self.pattern.least_in(*square).is_some());
         for round in 0..ROUNDS {
             self.draw(&open, round).ok()?;
             open.retain(|square| self.bins[square.level].is_free(*square));
         }
-        open.retain(|square| self.has_room(*square));
+        open.retain(|square| self.may_hold_more(*square));
         for cut in 0..CUTS {
             open = open.into_iter().flat_map(Square::quarters).collect();
-            open.retain(|square| self.has_room(*square) && self.pattern.may_suit(*square));
+            open.retain(|square| self.may_hold_more(*square));
             self.draw(&open, ROUNDS + cut).ok()?;
         }
         self.places.retain(|place| is_in(self.tile, place.at));
@@ -115,14 +115,21 @@ impl<'a> Window<'a> {
         if is_known { Verdict::Place } else { Verdict::Unknown }
     }
 
-    /// Whether a square is out of the fog and not under a single disc, which would leave no room in it.
-    fn has_room(&self, square: Square) -> bool {
+    /// Whether a square may hold places, and has room for one.
+    fn may_hold_more(&self, square: Square) -> bool {
+        // Most squares are under a disc of their level already, which is soon known.
+        self.has_room(square, self.pattern.least(square.level))
+            && self.pattern.least_in(square).is_some_and(|least| self.has_room(square, least))
+    }
+
+    /// Whether a square is out of the fog and not so deep under a single disc that no other of that diameter has room.
+    fn has_room(&self, square: Square, diameter: f64) -> bool {
         let [low, high] = self.pattern.corners(square);
         let middle = [0, 1].map(|axis| 0.5 * (low[axis] + high[axis]));
         if self.bins[square.level].is_in_fog_at(middle) {
             return false;
         }
-        let least = 0.5 * self.pattern.least(square.level);
+        let least = 0.5 * diameter;
         let covers = |place: &Place| {
             let at = place.at;
             let farthest = [0, 1].map(|axis| if at[axis] < middle[axis] { high[axis] } else { low[axis] });
