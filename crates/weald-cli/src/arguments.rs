@@ -179,6 +179,9 @@ pub(crate) struct BenchArguments {
     /// Only points of fractals, with --engine cpu; beside flam3 where it is installed
     #[arg(long, conflicts_with_all = ["size", "gpu_memory"])]
     pub(crate) fractals: bool,
+    /// Only the parts of a drawn picture, on the graphics device
+    #[arg(long, conflicts_with_all = ["size", "fractals"])]
+    pub(crate) render: bool,
     /// Most memory of the graphics card, as in 512MiB; larger sizes are left out
     #[arg(long, value_name = "BYTES", allow_negative_numbers = true, value_parser = engine::memory)]
     pub(crate) gpu_memory: Option<u64>,

@@ -12,6 +12,7 @@ use wgpu::{DeviceDescriptor, DeviceType, ErrorFilter, Limits, MemoryHints, Submi
 use crate::adapter;
 use crate::compiled::Pipeline;
 use crate::faults::{Faults, explain};
+use crate::render::FEATURES;
 
 /// Longest wait for a submission, which is made to take a tenth of a second: then the device hangs.
 const PATIENCE: Duration = Duration::from_mins(2);
@@ -39,6 +40,8 @@ impl Context {
         let name = adapter::describe(adapter);
         let limits = limits(&adapter.limits());
         let description = DeviceDescriptor {
+            // Clocks of passes, where there are some, are for benches.
+            required_features: adapter.features() & FEATURES,
             required_limits: limits.clone(),
             memory_hints: MemoryHints::Manual {
                 suballocated_device_memory_block_size: BLOCK_BYTES..BLOCK_BYTES,

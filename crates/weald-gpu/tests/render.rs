@@ -7,7 +7,7 @@ use weald::grid::Mask;
 use weald::picture::{Camera, Image, Oklab, Stage, View, linear_of_hex};
 use weald::recipe::{Overrides, Recipe};
 use weald::{Error, Field, Landscape};
-use weald_gpu::{Gpu, RenderOptions, Renderer, TestLook};
+use weald_gpu::{Gpu, RenderOptions, Renderer, TestLook, Timings};
 
 const SIZE: [u32; 2] = [320, 180];
 
@@ -252,6 +252,19 @@ fn what_has_no_data_is_open_and_has_walls() {
     let view = View { sun_altitude_deg: 90.0, ..view() };
     let (mean, worst) = distances(&gpu, &view, &landscape, None);
     assert!(mean < 0.012 && worst < 0.05, "mean {mean}, one in twenty {worst}");
+}
+
+#[test]
+fn the_parts_of_a_picture_take_time_and_no_more_than_all_of_it() {
+    let Some(gpu) = gpu() else { return };
+    let stage = Stage::new(&view(), &mountains()).expect("a stage");
+    let mut renderer = renderer(&gpu, &stage, 4);
+    let before = renderer.render(&stage.camera()).expect("drawn");
+    let timings = renderer.measure(&stage.camera(), 1).expect("lavapipe has a clock");
+    let Timings { shadows, ground, behind, film, picture } = timings;
+    assert!([shadows, ground, behind, film].iter().all(|part| !part.is_zero()), "{timings:?}");
+    assert!(shadows + ground + behind + film <= picture, "{timings:?}");
+    assert_eq!(renderer.render(&stage.camera()).expect("drawn"), before, "measuring changes nothing");
 }
 
 #[test]

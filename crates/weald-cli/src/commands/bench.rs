@@ -26,7 +26,9 @@ pub(crate) fn bench(arguments: &BenchArguments) -> Result<(), Failure> {
             unwritten = Some(failure);
         }
     };
-    if arguments.engine == "gpu" {
+    if arguments.render {
+        super::bench_render::run(arguments.gpu_memory, &mut print)?;
+    } else if arguments.engine == "gpu" {
         on_the_gpu(arguments, &mut print)?;
     } else {
         if !arguments.fractals {

@@ -1,6 +1,7 @@
 //! The commands, one file each.
 
 pub(crate) mod bench;
+pub(crate) mod bench_render;
 pub(crate) mod check;
 pub(crate) mod completions;
 pub(crate) mod convert;

@@ -16,6 +16,7 @@ use wgpu::{
 use super::maps::Maps;
 use super::passes::STAGE_GROUP;
 use super::targets::Targets;
+use super::timing::{Moment, Timer};
 use crate::gpu::Gpu;
 
 /// The film, with a pipeline for each format that it was asked for.
@@ -71,7 +72,7 @@ impl Film {
         &mut self,
         gpu: &Gpu,
         encoder: &mut CommandEncoder,
-        maps: &Maps,
+        (maps, timer): (&Maps, Option<&Timer>),
         target: &TextureView,
     ) -> Result<(), Error> {
         let format = target.texture().format();
@@ -88,6 +89,8 @@ impl Film {
         let mut pass = encoder.begin_render_pass(&RenderPassDescriptor {
             label: Some("film"),
             color_attachments: &[Some(attachment)],
+            timestamp_writes: timer
+                .map(|timer| timer.around(Some(Moment::FilmBegins), Some(Moment::FilmEnds))),
             ..RenderPassDescriptor::default()
         });
         pass.set_pipeline(pipeline);

@@ -18,6 +18,7 @@ mod spacing;
 mod targets;
 mod terrain;
 mod textures;
+mod timing;
 
 use weald::Error;
 use weald::engine::device::Device;
@@ -27,11 +28,14 @@ use crate::gpu::Gpu;
 use film::Film;
 use frame::{Drawn, Frame};
 use maps::Maps;
-use passes::{Layouts, Passes};
+use passes::{Drawing, Layouts, Passes};
 use picture::Landing;
 use shadows::Shadows;
 use targets::Targets;
 use terrain::Terrain;
+pub(crate) use timing::FEATURES;
+use timing::Timer;
+pub use timing::Timings;
 
 /// How large and how smooth pictures are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -98,6 +102,7 @@ pub struct Renderer {
     targets: Targets,
     film: Film,
     look: TestLook,
+    timer: Option<Timer>,
     /// Moment of the next picture, by which water flows.
     seconds: f32,
 }
@@ -130,6 +135,7 @@ impl Renderer {
             targets,
             film,
             look: TestLook::default(),
+            timer: None,
             seconds: 0.0,
         })
     }
@@ -173,10 +179,12 @@ impl Renderer {
         let drawn = Drawn { seconds: self.seconds, ..drawn };
         self.frame.write(&self.gpu, camera, self.options.size[0], &drawn);
         let groups = [&self.frame.caster_group, &self.maps.group];
-        self.shadows.draw(encoder, groups, &self.passes.casters, &self.terrain);
+        let timer = self.timer.as_ref();
+        let drawing = Drawing { terrain: &self.terrain, bare: self.look.bare, timer };
+        self.shadows.draw(encoder, groups, &self.passes.casters, drawing);
         let groups = [&self.frame.group, &self.maps.group];
-        self.passes.draw(encoder, &self.targets, groups, (&self.terrain, self.look.bare));
-        self.film.develop(&self.gpu, encoder, &self.maps, target)
+        self.passes.draw(encoder, &self.targets, groups, drawing);
+        self.film.develop(&self.gpu, encoder, (&self.maps, timer), target)
     }
 
     /// As [`Renderer::render`] with what tests look for.

@@ -16,6 +16,7 @@ use super::maps::Maps;
 use super::shadows::Shadows;
 use super::targets::{DEPTH, LIGHT, Targets};
 use super::terrain::{PATCH_BYTES, RIM_BYTES, SIDE_BYTES, Terrain};
+use super::timing::{Moment, Timer};
 use crate::gpu::Gpu;
 
 /// Group of the stage's maps and numbers.
@@ -72,6 +73,15 @@ impl Casters {
         pass.set_pipeline(&self.rims);
         terrain.draw_rims(pass);
     }
+}
+
+/// What a picture is drawn of.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Drawing<'a> {
+    pub(super) terrain: &'a Terrain,
+    /// Whether what lies behind the landscape is left out.
+    pub(super) bare: bool,
+    pub(super) timer: Option<&'a Timer>,
 }
 
 /// The layouts of all groups.
@@ -160,18 +170,19 @@ impl Passes {
         }
     }
 
-    /// Draws all light of a picture; what lies behind the landscape is left out of a bare one.
+    /// Draws all light of a picture; all passes but those of shadows and film.
     pub(super) fn draw(
         &self,
         encoder: &mut CommandEncoder,
         targets: &Targets,
         groups: [&BindGroup; 2],
-        (terrain, bare): (&Terrain, bool),
+        drawing: Drawing<'_>,
     ) {
         let (view, resolve_target) = match &targets.sampled {
             Some(sampled) => (&sampled.view, Some(&targets.light.view)),
             None => (&targets.light.view, None),
         };
+        let Drawing { terrain, bare, timer } = drawing;
         let ops = Operations { load: LoadOp::Clear(MAGENTA), store: StoreOp::Store };
         let depth = Operations { load: LoadOp::Clear(0.0), store: StoreOp::Discard };
         let mut pass = encoder.begin_render_pass(&RenderPassDescriptor {
@@ -187,6 +198,8 @@ impl Passes {
                 depth_ops: Some(depth),
                 stencil_ops: None,
             }),
+            timestamp_writes: timer
+                .map(|timer| timer.around(Some(Moment::LightBegins), Some(Moment::LightEnds))),
             ..RenderPassDescriptor::default()
         });
         for (at, group) in (0..).zip(groups) {
@@ -194,6 +207,9 @@ impl Passes {
         }
         pass.set_pipeline(&self.ground);
         terrain.draw_ground(&mut pass, 0);
+        if let Some(timer) = timer {
+            timer.note(&mut pass, Moment::GroundEnds);
+        }
         pass.set_pipeline(&self.sides);
         terrain.draw_sides(&mut pass, 0);
         pass.set_pipeline(&self.rims);
@@ -210,10 +226,13 @@ impl Maker<'_> {
     fn light(&self, pipeline: &Pipeline<'_>) -> RenderPipeline {
         let target = ColorTargetState { format: LIGHT, blend: None, write_mask: ColorWrites::ALL };
         let names = ["vertex", "fragment"].map(|stage| format!("{}_{stage}", pipeline.name));
+        let holes = [("HOLES", f64::from(self.has_holes))];
+        let compilation_options =
+            PipelineCompilationOptions { constants: &holes, ..PipelineCompilationOptions::default() };
         let fragment = FragmentState {
             module: &self.module,
             entry_point: Some(&names[1]),
-            compilation_options: PipelineCompilationOptions::default(),
+            compilation_options,
             targets: &[Some(target)],
         };
         self.pipeline(pipeline, &names[0], (&self.layout, self.samples), Some(fragment))

@@ -5,7 +5,7 @@ use std::sync::mpsc;
 use weald::Error;
 use weald::picture::Image;
 use wgpu::{
-    BufferUsages, COPY_BYTES_PER_ROW_ALIGNMENT, CommandEncoder, Extent3d, MapMode, Origin3d,
+    Buffer, BufferUsages, COPY_BYTES_PER_ROW_ALIGNMENT, CommandEncoder, Extent3d, MapMode, Origin3d,
     TexelCopyBufferInfo, TexelCopyBufferLayout, TexelCopyTextureInfo, TextureAspect, TextureFormat,
     TextureUsages, TextureView,
 };
@@ -54,21 +54,29 @@ impl Landing {
     /// The picture, when all that was submitted is done.
     pub(super) fn image(self, gpu: &Gpu) -> Result<Image, Error> {
         let [width, height] = self.size.map(|side| side as usize);
-        gpu.context.attempt("reading a picture back", || {
-            let failed =
-                |cause: &dyn std::fmt::Display| Error::Device(format!("reading back failed: {cause}"));
-            let (sender, mapped) = mpsc::channel();
-            let memory = &self.memory.buffer;
-            memory.map_async(MapMode::Read, .., move |result| drop(sender.send(result)));
-            gpu.context.wait(None)?;
-            mapped.recv().map_err(|cause| failed(&cause))?.map_err(|cause| failed(&cause))?;
-            let bytes = memory.get_mapped_range(..).map_err(|cause| failed(&cause))?;
+        let rgb = landed(gpu, &self.memory.buffer, |bytes| {
             let rows = bytes.chunks_exact(row_bytes(self.size[0]) as usize);
             let pixels = rows.flat_map(|row| row[..PIXEL as usize * width].chunks_exact(PIXEL as usize));
-            let rgb = pixels.flat_map(|pixel| [pixel[0], pixel[1], pixel[2]]).collect();
-            Ok(Image { width, height, rgb })
-        })
+            pixels.flat_map(|pixel| [pixel[0], pixel[1], pixel[2]]).collect()
+        })?;
+        Ok(Image { width, height, rgb })
     }
+}
+
+/// What is read of a buffer, when all that was submitted is done.
+pub(super) fn landed<T>(gpu: &Gpu, buffer: &Buffer, read: impl FnOnce(&[u8]) -> T) -> Result<T, Error> {
+    gpu.context.attempt("reading back", || {
+        let failed = |cause: &dyn std::fmt::Display| Error::Device(format!("reading back failed: {cause}"));
+        let (sender, mapped) = mpsc::channel();
+        buffer.map_async(MapMode::Read, .., move |result| drop(sender.send(result)));
+        gpu.context.wait(None)?;
+        mapped.recv().map_err(|cause| failed(&cause))?.map_err(|cause| failed(&cause))?;
+        let bytes = buffer.get_mapped_range(..).map_err(|cause| failed(&cause))?;
+        let value = read(&bytes);
+        drop(bytes);
+        buffer.unmap();
+        Ok(value)
+    })
 }
 
 /// Bytes of a row in memory, which copies want to be whole pieces.

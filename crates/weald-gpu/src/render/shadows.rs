@@ -4,15 +4,16 @@ use weald::Error;
 use wgpu::{
     BindGroup, BindGroupDescriptor, BindGroupEntry, BindGroupLayout, BindGroupLayoutDescriptor,
     BindGroupLayoutEntry, BindingResource, BindingType, BufferBinding, BufferBindingType, BufferUsages,
-    CommandEncoder, LoadOp, Operations, RenderPassDepthStencilAttachment, RenderPassDescriptor, ShaderStages,
-    StoreOp, TextureUsages, TextureView, TextureViewDescriptor, TextureViewDimension,
+    CommandEncoder, LoadOp, Operations, RenderPassDepthStencilAttachment, RenderPassDescriptor,
+    RenderPassTimestampWrites, ShaderStages, StoreOp, TextureUsages, TextureView, TextureViewDescriptor,
+    TextureViewDimension,
 };
 
 use super::cascades::{CASCADES, TEXELS};
-use super::passes::Casters;
+use super::passes::{Casters, Drawing};
 use super::targets::DEPTH;
-use super::terrain::Terrain;
 use super::textures::{Canvas, Shape};
+use super::timing::{Moment, Timer};
 use crate::gpu::Gpu;
 use crate::memory::Store;
 
@@ -64,7 +65,7 @@ impl Shadows {
         encoder: &mut CommandEncoder,
         groups: [&BindGroup; 2],
         casters: &Casters,
-        terrain: &Terrain,
+        Drawing { terrain, timer, .. }: Drawing<'_>,
     ) {
         for (number, (view, cascade)) in self.layers.iter().enumerate() {
             let depth = Operations { load: LoadOp::Clear(1.0), store: StoreOp::Store };
@@ -75,6 +76,7 @@ impl Shadows {
                     depth_ops: Some(depth),
                     stencil_ops: None,
                 }),
+                timestamp_writes: timer.and_then(|timer| ends(timer, number)),
                 ..RenderPassDescriptor::default()
             });
             for (at, group) in (0..).zip([groups[0], groups[1], cascade]) {
@@ -82,6 +84,15 @@ impl Shadows {
             }
             casters.draw(&mut pass, terrain, number + 1);
         }
+    }
+}
+
+/// What the pass of a cascade notes: the first when it begins, the last when it ends.
+fn ends(timer: &Timer, cascade: usize) -> Option<RenderPassTimestampWrites<'_>> {
+    match cascade {
+        0 => Some(timer.around(Some(Moment::ShadowsBegin), None)),
+        _ if cascade == CASCADES - 1 => Some(timer.around(None, Some(Moment::ShadowsEnd))),
+        _ => None,
     }
 }
 

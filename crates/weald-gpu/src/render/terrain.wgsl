@@ -2,6 +2,9 @@
 
 const QUADS = 16u;
 
+// Whether some of the landscape has no data. Where it has not, no fragment can be discarded, so that depth is known early.
+override HOLES: bool = true;
+
 struct Ground {
     @builtin(position) @invariant position: vec4<f32>,
     @location(0) point: vec3<f32>,
@@ -58,7 +61,7 @@ fn side_vertex(
 }
 
 fn is_land(place: vec2<f32>) -> bool {
-    return stage.has.y == 0.0 || spline_at(land, place) >= 0.5;
+    return !HOLES || spline_at(land, place) >= 0.5;
 }
 
 @fragment
