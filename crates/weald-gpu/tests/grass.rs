@@ -74,10 +74,7 @@ fn ten_thousand_vertices_of_all_species_are_those_of_the_cpu() {
             high += usize::from(vertex.place[1] > 0.1 * top);
         }
         println!("{bend:?}: off by {apart:.1e} of the height, normals by {turned:.1e}");
-        assert!(
-            heads > 100 && high > 500,
-            "{heads} in heads, {high} high: else agreement would mean little"
-        );
+        assert!(heads > 100 && high > 500, "{heads} in heads, {high} high: else agreement would mean little");
         assert!(apart <= APART, "{apart:e}");
         assert!(turned <= TURNED, "{turned:e}");
     }

@@ -24,6 +24,7 @@ const DISTANCE: u32 = 2;
 const HEIGHT: u32 = 3;
 const LEAN: u32 = 4;
 const FACING: u32 = 5;
+const PHASE: u32 = 6;
 
 /// Share of its height that a blade keeps that is trodden flat.
 const TRODDEN: f32 = 0.08;
@@ -84,6 +85,28 @@ pub struct Vertex {
     pub head: f32,
     /// 0 at the root to 1 at the tip.
     pub along: f32,
+}
+
+impl Set {
+    /// The direction of its first blade in turns, 0 to 1, clockwise from east seen from above.
+    #[inline]
+    pub fn turns(&self) -> f32 {
+        lot(self.seed, 0, YAW)
+    }
+
+    /// Where in a gust it is, 0 to 1: neighbours do not sway as one.
+    #[inline]
+    pub fn phase(&self) -> f32 {
+        lot(self.seed, 0, PHASE)
+    }
+
+    /// The height in metres that its blades have on the average, but for chance.
+    pub fn height(&self, species: &Species, bend: Bend) -> f32 {
+        let growth = Growth::at(&species.curves, self.soil, self.light);
+        let turn = growth.bend * species.bending * bend.of_a_level();
+        let stem = trodden(Spline::of(&points(growth.height, turn), self.level), self.trodden);
+        (highest(&stem) * species.height * (1.0 / LEVELS as f32)).min(self.cut * species.top())
+    }
 }
 
 impl Blade {
@@ -161,7 +184,7 @@ impl Blade {
     }
 
     /// All vertices of so many rows, from the root, left before right.
-    pub fn vertices(&self, rows: usize) -> impl Iterator<Item = Vertex> {
+    pub fn vertices(self, rows: usize) -> impl Iterator<Item = Vertex> {
         let last = rows.saturating_sub(1).max(1) as f32;
         (0..rows).flat_map(move |row| [-1.0, 1.0].map(|side| self.vertex(row as f32 / last, side)))
     }

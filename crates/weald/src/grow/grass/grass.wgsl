@@ -12,6 +12,7 @@ const DISTANCE: u32 = 2u;
 const HEIGHT: u32 = 3u;
 const LEAN: u32 = 4u;
 const FACING: u32 = 5u;
+const PHASE: u32 = 6u;
 const TRODDEN: f32 = 0.08;
 const STALK_WIDTH: f32 = 0.3;
 
@@ -236,6 +237,11 @@ fn cubic(a: vec2<f32>, b: vec2<f32>, c: vec2<f32>, d: vec2<f32>, t: f32) -> vec4
 fn around(seed: u32, number: u32, lot_of_blade: f32) -> f32 {
     let turns = lot(seed, 0u, YAW) + (f32(number) + lot_of_blade) * (1.0 / f32(BLADES));
     return turns - floor(turns);
+}
+
+// Where in a gust a set is: neighbours do not sway as one.
+fn phase_of(tuft: Set) -> f32 {
+    return lot(tuft.seed, 0u, PHASE);
 }
 
 fn trodden_point(point: vec2<f32>, upright: f32, lying: f32) -> vec2<f32> {

@@ -15,6 +15,7 @@
 
 use super::curves::Curves;
 use super::lots::{cosine, sine};
+use crate::choices;
 
 /// Levels of growth.
 pub const LEVELS: usize = 4;
@@ -25,14 +26,14 @@ pub const MOST_BEND: f32 = std::f32::consts::FRAC_PI_3;
 /// Radians of bend for each unit of γ: π / 1.75 / 3.
 pub const BEND_OF_GAMMA: f32 = 0.598_398_6;
 
-/// What θ means.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Bend {
-    /// The bend of the whole blade: each level turns by θ/4, and a tip is never below its root.
-    #[default]
-    Total,
-    /// The bend of each level, as printed.
-    Printed,
+choices! {
+    /// What θ means.
+    pub enum Bend {
+        /// The bend of the whole blade: each level turns by θ/4, and a tip is never below its root.
+        Total = "total",
+        /// The bend of each level, as printed.
+        Printed = "printed",
+    }
 }
 
 impl Bend {

@@ -10,8 +10,12 @@ pub mod device;
 pub mod growth;
 pub mod instance;
 mod lots;
+pub mod meadow;
+#[cfg(test)]
+mod meadow_tests;
 pub mod species;
 pub mod spline;
+pub mod step;
 #[cfg(test)]
 mod tests;
 
@@ -20,5 +24,6 @@ pub use curves::{Curves, LightCurve, SoilCurve};
 pub use device::Grasses;
 pub use growth::{Bend, Growth, LEVELS};
 pub use instance::{Instance, Packed};
+pub use meadow::{Area, Maps, Meadow};
 pub use species::{SPECIES, Species};
 pub use spline::Spline;
