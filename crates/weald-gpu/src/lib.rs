@@ -18,7 +18,7 @@
 //! # }
 //! ```
 //!
-//! A [`Cloud`] is the points of a fractal on a device, a [`Swarm`] a plant there that sways.
+//! A [`Cloud`] is the points of a fractal on a device, a [`Swarm`] a plant there that sways. [`grow_blades`] grows grass there.
 
 mod adapter;
 mod bandwidth;
@@ -41,4 +41,4 @@ mod uniforms;
 mod watch;
 
 pub use gpu::Gpu;
-pub use swarm::{Cloud, Swarm, SwarmRates};
+pub use swarm::{Cloud, Swarm, SwarmRates, grow_blades};

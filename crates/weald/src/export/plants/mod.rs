@@ -7,6 +7,8 @@ mod cloud;
 mod instances;
 mod table;
 
+pub(super) use instances::INSTANCING;
+
 use std::borrow::Cow;
 use std::path::Path;
 use std::sync::Arc;
@@ -43,7 +45,7 @@ crate::parameters! {
 }
 
 /// Most plants of which a file of nodes is written: some 20 MB.
-const MOST_NODES: usize = 100_000;
+pub(super) const MOST_NODES: usize = 100_000;
 
 /// What an extension stands for.
 #[derive(Clone, Copy, PartialEq, Eq)]
