@@ -10,6 +10,7 @@ mod engine;
 mod failure;
 mod interrupt;
 mod progress;
+mod shot;
 mod stdout;
 
 use std::process::ExitCode;
@@ -32,6 +33,7 @@ fn main() -> ExitCode {
         Command::Gallery { only, out } => commands::gallery::gallery(&only, &out),
         Command::Fractal(arguments) => commands::fractal::fractal(&arguments),
         Command::Bench(arguments) => commands::bench::bench(&arguments),
+        Command::Render(arguments) => commands::render::render(&arguments),
         Command::Schema => commands::schema::schema(),
         Command::Completions { shell } => commands::completions::completions(shell),
     };

@@ -96,6 +96,15 @@ pub(crate) fn none(found: &[String], wanted: Wanted) -> Error {
     ))
 }
 
+/// Nothing draws: what to do.
+pub(crate) fn none_that_draws() -> Error {
+    Error::Device(
+        "there is no graphics device with Vulkan, Metal or Direct3D 12 to draw on; install the driver of the graphics \
+         card, or a software one (Debian, Ubuntu: mesa-vulkan-drivers), or draw on the processor by --fallback view"
+            .to_owned(),
+    )
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -49,6 +49,18 @@ impl Gpu {
         Self::wanted(Wanted::Any)
     }
 
+    /// As [`Gpu::any`] for drawing, whose error says what draws without a device.
+    ///
+    /// # Errors
+    /// As [`Gpu::any`].
+    pub fn for_drawing() -> Result<Self, Error> {
+        let adapters = adapter::all();
+        match adapter::best(adapters, Wanted::Any) {
+            Some(adapter) => Self::open(&adapter),
+            None => Err(adapter::none_that_draws()),
+        }
+    }
+
     /// Software that acts as a graphics card: slow, and the same on every machine.
     ///
     /// # Errors

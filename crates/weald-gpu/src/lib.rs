@@ -18,6 +18,8 @@
 //! # }
 //! ```
 //!
+//! A [`Renderer`] draws a landscape, offscreen or into a window.
+//!
 //! A [`Cloud`] is the points of a fractal on a device, a [`Swarm`] a plant there that sways. [`grow_blades`] grows grass there.
 
 mod adapter;
@@ -33,6 +35,7 @@ mod memory;
 mod pace;
 mod parts;
 mod ready;
+mod render;
 mod running;
 mod slots;
 mod swarm;
@@ -41,4 +44,7 @@ mod uniforms;
 mod watch;
 
 pub use gpu::Gpu;
+#[doc(hidden)]
+pub use render::TestLook;
+pub use render::{Options as RenderOptions, Renderer};
 pub use swarm::{Cloud, Swarm, SwarmRates, grow_blades};

@@ -11,6 +11,8 @@ use weald::grow::grass::{Bend, Grasses, SPECIES};
 use weald::grow::ifs::device::{Rules, Shader, Stretch};
 use weald::grow::ifs::wind::{Plant, Pose};
 use weald::grow::ifs::{Game, Sway, shapes};
+use weald::picture::{Stage, View};
+use weald::{Domain, Field, Landscape, Size};
 
 /// Every program of the library.
 fn programs() -> Vec<Program> {
@@ -71,15 +73,35 @@ fn every_pass_uses_what_it_declares_and_no_more_than_browsers_allow() {
     }
 }
 
+/// A hill, ready to be drawn.
+fn stage() -> Stage {
+    let size = Size::square(8).expect("small");
+    let mut landscape = Landscape::new(Domain::new(size, 10.0));
+    landscape.insert("height", "m", Field::from_function(size, |x, y| (x * y) as f32));
+    Stage::new(&View::default(), &landscape).expect("it can be drawn")
+}
+
+#[test]
+fn the_numbers_of_a_stage_are_as_many_as_its_shaders_read() {
+    let stage = stage();
+    let (module, _) = checked(&stage.shader(0), "stage");
+    let read = module.global_variables.iter().find(|(_, variable)| variable.name.as_deref() == Some("stage"));
+    let (_, variable) = read.expect("the numbers are declared");
+    let TypeInner::Struct { span, .. } = module.types[variable.ty].inner else { panic!("no struct") };
+    assert!(span > 1000);
+    assert_eq!(stage.numbers().len(), span as usize);
+}
+
 #[test]
 fn every_shader_of_the_tree_is_part_of_a_module() {
     let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
     let shaders = shaders_below(&source);
     assert!(shaders.len() > 20, "{}", shaders.len());
     let modules = modules();
+    let stage = stage().shader(0);
     for path in shaders {
         let text = std::fs::read_to_string(&path).expect("a readable shader");
-        let part_of_a_module = modules.keys().any(|module| module.contains(&text));
+        let part_of_a_module = modules.keys().chain([&stage]).any(|module| module.contains(&text));
         let of_plants = SHADERS.iter().any(|shader| shader.text.contains(&text));
         assert!(part_of_a_module || of_plants, "{} is in no module", path.display());
     }

@@ -8,6 +8,7 @@ pub(crate) mod fractal;
 pub(crate) mod gallery;
 pub(crate) mod info;
 pub(crate) mod new;
+pub(crate) mod render;
 pub(crate) mod report;
 pub(crate) mod run;
 pub(crate) mod schema;

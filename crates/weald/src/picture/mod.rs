@@ -45,7 +45,7 @@ pub use ramp::{Ramp, Scale, Tint};
 pub use relief::Relief;
 pub use section::{Along, Section};
 pub(crate) use view::albedo;
-pub use view::{GroundColour, View};
+pub use view::{Camera, GroundColour, MapKind, Rim, Stage, StageMap, View};
 
 use std::fmt::Debug;
 
@@ -77,6 +77,11 @@ pub trait Picture: Debug + Send + Sync {
     /// not move.
     fn turned(&self, share: f64, seconds: f64) -> Option<Box<dyn Picture>> {
         let _ = (share, seconds);
+        None
+    }
+
+    /// The view that this picture is, for those that have a stage which a renderer on a device can draw.
+    fn as_view(&self) -> Option<&View> {
         None
     }
 

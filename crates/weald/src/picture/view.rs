@@ -11,11 +11,15 @@ mod albedo;
 mod atmosphere;
 mod camera;
 mod cover;
+mod flow;
 mod grain;
 mod haze;
+mod maps;
 mod meeting;
+mod numbers;
 mod plain;
 mod pyramid;
+mod rim;
 mod rising;
 mod scene;
 mod setting;
@@ -23,13 +27,19 @@ mod side;
 mod site;
 mod sky;
 mod skylight;
+mod stage;
 mod surface;
 mod terrain;
 mod tone;
+mod twin;
 mod vector;
 mod water;
 
 pub(crate) use albedo::albedo;
+pub use camera::Camera;
+pub use maps::{MapKind, StageMap};
+pub use rim::Rim;
+pub use stage::Stage;
 
 use rayon::prelude::*;
 
@@ -126,9 +136,27 @@ impl Picture for View {
         Some(Box::new(Self::turned(self, share)))
     }
 
+    fn as_view(&self) -> Option<&View> {
+        Some(self)
+    }
+
     fn render(&self, landscape: &Landscape) -> Result<Image, Error> {
+        self.drawn(landscape, None)
+    }
+}
+
+impl View {
+    /// The view from another camera than its own.
+    ///
+    /// # Errors
+    /// As [`Picture::render`].
+    pub fn seen_from(&self, landscape: &Landscape, camera: Camera) -> Result<Image, Error> {
+        self.drawn(landscape, Some(camera))
+    }
+
+    fn drawn(&self, landscape: &Landscape, from: Option<Camera>) -> Result<Image, Error> {
         self.check()?;
-        let scene = Scene::new(self, landscape)?;
+        let scene = Scene::new(self, landscape, from)?;
         let (width, height) = (self.width as usize, self.height as usize);
         let mut rgb = vec![0; 3 * width * height];
         rgb.par_chunks_mut(3 * width).enumerate().for_each(|(y, row)| {
@@ -138,9 +166,7 @@ impl Picture for View {
         });
         Ok(Image { width, height, rgb })
     }
-}
 
-impl View {
     /// The view with its camera further on by a share of a turn, for the frames of a turntable: `share` 0 is the
     /// first of them, 0.25 a quarter of the way round.
     #[must_use]

@@ -85,7 +85,7 @@ impl FractalRequest {
 }
 
 /// Keys with dots lead into tables.
-fn table_of(keys: &[(String, String)]) -> Table {
+pub(super) fn table_of(keys: &[(String, String)]) -> Table {
     let mut table = Table::default();
     for (key, text) in keys {
         match key.split_once('.') {

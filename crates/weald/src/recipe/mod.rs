@@ -22,6 +22,7 @@ pub mod template;
 #[cfg(test)]
 #[expect(unreachable_pub, reason = "`parameters!` declares public structs")]
 mod testing;
+mod view_request;
 
 pub use checkpoint::CHECKPOINT_FILE;
 pub use fractal::FractalRequest;
@@ -32,3 +33,4 @@ pub use plan::{
 };
 pub use report::{BudgetReport, OutputReport, REPORT_FILE, Report, SolidReport, StepReport, WaterReport};
 pub use run::{Options, Progress, Run, Silent};
+pub use view_request::ViewRequest;

@@ -93,6 +93,11 @@ impl Recipe {
         Self::checked(&Vocabulary::FULL, file, table, Complaints::default())
     }
 
+    /// The same of one that was read from a file, with the complaints about its changes.
+    pub(super) fn of_changed_table(file: &str, table: &Table, complaints: Complaints) -> Result<Self, Error> {
+        Self::checked(&Vocabulary::FULL, file, table, complaints)
+    }
+
     /// Reads and checks a recipe. `file` is its name; paths in it are relative to the folder of that name. No
     /// file is opened.
     ///

@@ -128,8 +128,27 @@ impl Run<'_> {
         pool.install(|| self.execute_here(progress))
     }
 
+    /// Runs the steps on the current rayon pool and gives the landscape in place of files. Checkpoints are kept in the
+    /// folder as [`Run::execute`] keeps them.
+    ///
+    /// # Errors
+    /// As [`Run::execute`].
+    pub fn landscape(&self, progress: &dyn Progress) -> Result<Landscape, Error> {
+        folder::prepare(self.recipe, &self.options.out)?;
+        let state = self.finish_steps(progress)?;
+        folder::remove_checkpoint(&self.checkpoint())?;
+        Ok(state.landscape)
+    }
+
     fn execute_here(&self, progress: &dyn Progress) -> Result<Report, Error> {
         folder::prepare(self.recipe, &self.options.out)?;
+        let state = self.finish_steps(progress)?;
+        let report = self.write(state, progress)?;
+        folder::remove_checkpoint(&self.checkpoint())?;
+        Ok(report)
+    }
+
+    fn finish_steps(&self, progress: &dyn Progress) -> Result<State, Error> {
         let mut state = self.start(progress)?;
         let clock = Clock::start(self.options.checkpoint_every);
         while let Some(planned) = self.recipe.steps.get(state.done) {
@@ -138,9 +157,7 @@ impl Run<'_> {
             self.advance(planned, &mut state, progress, &clock)?;
             self.keep_if_due(&state, &clock)?;
         }
-        let report = self.write(state, progress)?;
-        folder::remove_checkpoint(&self.checkpoint())?;
-        Ok(report)
+        Ok(state)
     }
 
     fn checkpoint(&self) -> PathBuf {

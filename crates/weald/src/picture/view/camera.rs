@@ -21,15 +21,20 @@ const TURNS: usize = 16;
 const CLEARANCE: f32 = 2.0;
 const CLEARANCE_CELLS: f32 = 0.15;
 
-/// A pinhole camera.
+/// A pinhole camera. Its coordinates are metres east and north of the landscape's north-western corner, and up from
+/// the lowest ground, heights times the exaggeration.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Camera {
-    pub(super) eye: Vector,
-    forward: Vector,
-    right: Vector,
-    up: Vector,
+pub struct Camera {
+    /// Where it stands.
+    pub eye: [f32; 3],
+    /// Where it looks, of length 1.
+    pub forward: [f32; 3],
+    /// Rightward in the picture, of length 1.
+    pub right: [f32; 3],
+    /// Upward in the picture, of length 1.
+    pub up: [f32; 3],
     /// Tangents of half the angles that the picture takes across and upward.
-    half: [f32; 2],
+    pub half: [f32; 2],
 }
 
 impl Camera {
@@ -57,7 +62,8 @@ impl Camera {
         camera
     }
 
-    fn looking(eye: Vector, forward: Vector, half: [f32; 2]) -> Self {
+    /// A camera at a point that looks in a direction of length 1, with such tangents of half its angles.
+    pub fn looking(eye: [f32; 3], forward: [f32; 3], half: [f32; 2]) -> Self {
         let side = cross(forward, [0.0, 0.0, 1.0]);
         // Straight down, north is up.
         let right = if dot(side, side) > 1e-10 { unit(side) } else { [1.0, 0.0, 0.0] };
@@ -141,8 +147,27 @@ impl Camera {
     }
 
     /// Width of a pixel as an angle, in radians, in the middle of a picture of so many pixels.
-    pub(super) fn pixel_angle(&self, width: usize) -> f32 {
+    pub fn pixel_angle(&self, width: usize) -> f32 {
         2.0 * self.half[0] / width as f32
+    }
+
+    /// This camera at another point.
+    #[must_use]
+    pub fn at(self, eye: [f32; 3]) -> Self {
+        Self { eye, ..self }
+    }
+
+    /// This camera, looking at a point that is not its own.
+    #[must_use]
+    pub fn towards(self, target: [f32; 3]) -> Self {
+        Self::looking(self.eye, unit(subtract(target, self.eye)), self.half)
+    }
+
+    /// This camera, gone round a point by an angle in degrees, clockwise seen from above.
+    #[must_use]
+    pub fn turned(mut self, centre: [f32; 3], turn_deg: f64) -> Self {
+        self.turn(centre, turn_deg);
+        self
     }
 
     fn turn(&mut self, centre: Vector, turn_deg: f64) {
@@ -174,7 +199,7 @@ fn on_ground(terrain: &Terrain, [east, south]: [f64; 2], above: f32) -> Vector {
 }
 
 /// The middle of the landscape, half-way up.
-fn middle(terrain: &Terrain) -> Vector {
+pub(super) fn middle(terrain: &Terrain) -> Vector {
     let size = terrain.top.size();
     let place = [0.5 + 0.5 * size.columns as f32, 0.5 + 0.5 * size.rows as f32];
     terrain.point(place, 0.5 * (terrain.base + terrain.highest()))

@@ -59,6 +59,14 @@ impl Texture {
     }
 }
 
+/// Slope that bumps come near but do not pass: from close by, many octaves would add up to needles.
+const STEEPEST: f32 = 0.75;
+
+fn no_steeper(bump: [f32; 2]) -> [f32; 2] {
+    let square = (bump[0] * bump[0] + bump[1] * bump[1]) / (STEEPEST * STEEPEST);
+    bump.map(|slope| slope / (1.0 + square).sqrt())
+}
+
 /// Limits of the kinds of ground.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Limits {
@@ -76,16 +84,16 @@ pub(super) struct Limits {
 
 /// Colours of natural ground in linear light.
 #[derive(Debug)]
-struct Palette {
-    lush: Linear,
-    meadow: Linear,
-    dry: Linear,
-    alpine: Linear,
-    forest: [Linear; 2],
-    rock: [Linear; 3],
-    scree: Linear,
-    gravel: Linear,
-    snow: Linear,
+pub(super) struct Palette {
+    pub(super) lush: Linear,
+    pub(super) meadow: Linear,
+    pub(super) dry: Linear,
+    pub(super) alpine: Linear,
+    pub(super) forest: [Linear; 2],
+    pub(super) rock: [Linear; 3],
+    pub(super) scree: Linear,
+    pub(super) gravel: Linear,
+    pub(super) snow: Linear,
 }
 
 impl Default for Palette {
@@ -118,6 +126,11 @@ impl Cover {
         Self { sites, limits, palette: Palette::default() }
     }
 
+    /// The colours of natural ground.
+    pub(super) fn palette(&self) -> &Palette {
+        &self.palette
+    }
+
     /// Colour and roughness of a spot.
     pub(super) fn at(&self, spot: &Spot) -> Skin {
         let cell = self.limits.cell;
@@ -133,7 +146,7 @@ impl Cover {
             Some(albedo) => self.of_material(spot, albedo, &texture),
             None => self.natural(spot, &texture),
         };
-        Skin { albedo: skin.albedo.map(|c| c.clamp(0.01, 0.9)), ..skin }
+        Skin { albedo: skin.albedo.map(|c| c.clamp(0.01, 0.9)), bump: no_steeper(skin.bump) }
     }
 
     fn natural(&self, spot: &Spot, texture: &Texture) -> Skin {

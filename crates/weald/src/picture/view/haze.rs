@@ -17,7 +17,7 @@ use super::vector::{Vector, add, filter};
 const CONTRAST: f32 = 3.912;
 
 /// Extinction of red, green and blue, relative to green.
-const TINT: Vector = [0.77, 1.0, 1.58];
+pub(super) const TINT: Vector = [0.77, 1.0, 1.58];
 
 /// Height over which the haze thins by the factor e, in metres.
 const SCALE_HEIGHT: f32 = 1800.0;
@@ -26,8 +26,8 @@ const SCALE_HEIGHT: f32 = 1800.0;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Haze {
     /// Extinction of green at the lowest ground, a metre.
-    extinction: f32,
-    scale_height: f32,
+    pub(super) extinction: f32,
+    pub(super) scale_height: f32,
 }
 
 impl Haze {

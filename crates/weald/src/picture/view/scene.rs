@@ -1,91 +1,47 @@
 //! The light that reaches each pixel of a view.
 
 use std::f32::consts::FRAC_1_PI;
+use std::ops::Deref;
 
 use super::View;
 use super::camera::{self, Camera};
-use super::cover::{Cover, Spot};
-use super::haze::Haze;
-use super::plain;
-use super::setting::Setting;
-use super::side::SideLight;
-use super::sky::Sky;
-use super::skylight::{self, Seen, Skylight};
+use super::cover::Spot;
+use super::skylight::{self, Seen};
+use super::stage::{CUT_WATER, Stage};
 use super::terrain::{Hit, Ray};
-use super::tone::Tone;
-use super::vector::{Vector, add, dot, filter, mirrored, scale, subtract, towards, unit};
+use super::vector::{Vector, add, dot, filter, mirrored, scale, unit};
 use super::water;
 use crate::error::Error;
 use crate::landscape::Landscape;
-use crate::picture::colour::{Linear, linear_of_hex, mix};
-
-/// Most cells, along the longer side, for which the visible sky is known.
-const SKYLIGHT_CELLS: usize = 1024;
-
-/// Optical depth of the haze between the eye and the middle of the landscape.
-const USUAL_HAZE: f32 = 0.13;
-
-/// Distance, in diagonals of the landscape, over which the plain is lost in the haze.
-const PLAIN_REACH: f32 = 2.6;
-
-/// Share of the light on level ground that sunlit ground around sends into shadows.
-const BOUNCE: f32 = 0.5;
-
-/// Colour of the plain.
-const PLAIN: u32 = 0xd0_c6b4;
-
-/// Colour of water in a cut side.
-const CUT_WATER: u32 = 0x1d_4a58;
+use crate::picture::colour::{linear_of_hex, mix};
 
 /// Everything that a pixel needs to know.
 pub(super) struct Scene {
-    setting: Setting,
-    cover: Cover,
-    camera: Camera,
-    sky: Sky,
-    skylight: Skylight,
-    plain_light: Skylight,
-    open: Seen,
-    sides: SideLight,
-    haze: Haze,
-    tone: Tone,
-    /// Radiance of the ground around that is seen from hidden places.
-    bounce: Vector,
-    plain: Linear,
+    stage: Stage,
     pixels: [usize; 2],
     samples: Vec<[f32; 2]>,
     pixel_angle: f32,
-    is_empty: bool,
+}
+
+impl Deref for Scene {
+    type Target = Stage;
+
+    fn deref(&self) -> &Stage {
+        &self.stage
+    }
 }
 
 impl Scene {
-    pub(super) fn new(view: &View, landscape: &Landscape) -> Result<Self, Error> {
-        let (setting, sites) = Setting::new(view, landscape)?;
-        let sky = Sky::new(towards(view.sun_azimuth_deg, view.sun_altitude_deg), view.sun_diameter_deg);
-        let terrain = &setting.terrain;
-        let camera = Camera::new(view, terrain, setting.exaggeration);
-        let cover = Cover::new(sites, setting.limits);
-        let (level, plain) = (sky.on_level_ground(), linear_of_hex(PLAIN));
-        let sent_back = |albedo: Linear, share: f32| scale(filter(albedo, level), share * FRAC_1_PI);
+    /// The view from its own camera, or from another.
+    pub(super) fn new(view: &View, landscape: &Landscape, from: Option<Camera>) -> Result<Self, Error> {
+        let stage = Stage::new(view, landscape)?;
+        let stage = match from {
+            Some(camera) => stage.seen_from(camera),
+            None => stage,
+        };
         let pixels = [view.width as usize, view.height as usize];
-        Ok(Self {
-            skylight: Skylight::new(&sky, &terrain.top, terrain.spacing, SKYLIGHT_CELLS),
-            plain_light: plain::light(&sky, &setting.terrain),
-            open: skylight::open(&sky),
-            sides: SideLight::new(&sky, sent_back(plain, 1.0)),
-            bounce: sent_back(cover.mean(), BOUNCE),
-            haze: haze(view, &camera, setting.centre(), setting.exaggeration),
-            tone: Tone::new(level, view.exposure),
-            samples: camera::samples(view.samples),
-            pixel_angle: camera.pixel_angle(pixels[0]),
-            is_empty: landscape.domain.land_cells() == 0,
-            plain,
-            pixels,
-            sky,
-            camera,
-            cover,
-            setting,
-        })
+        let pixel_angle = stage.camera.pixel_angle(pixels[0]);
+        Ok(Self { stage, pixels, samples: camera::samples(view.samples), pixel_angle })
     }
 
     /// The bytes of a pixel, counted from the top left.
@@ -135,12 +91,6 @@ impl Scene {
 
     fn footprint(&self, way: f32) -> f32 {
         way * self.pixel_angle
-    }
-
-    /// A place in shares of the landscape.
-    fn share(&self, place: [f32; 2]) -> [f32; 2] {
-        let size = self.setting.terrain.top.size();
-        [(place[0] - 0.5) / size.columns as f32, (place[1] - 0.5) / size.rows as f32]
     }
 
     /// Share of the sun's disc that is seen from a point: the part of a disc that a straight horizon leaves free.
@@ -247,21 +197,10 @@ impl Scene {
         let light = self.lit(point, [0.0, 0.0, 1.0], &seen);
         let radiance = scale(filter(self.plain, light), FRAC_1_PI);
         let near = self.haze.veil(radiance, ray, way, &self.sky);
-        let reach = PLAIN_REACH * self.setting.extent();
+        let reach = self.plain_reach();
         let lost = 1.0 - libm::expf(-(way / reach) * (way / reach) * 0.25);
         mix(near, self.sky.radiance([ray.direction[0], ray.direction[1], 0.0]), lost)
     }
-}
-
-/// The haze of a view whose camera looks over the landscape around `centre`.
-fn haze(view: &View, camera: &Camera, centre: Vector, exaggeration: f32) -> Haze {
-    if let Some(visibility) = view.visibility {
-        return Haze::new(visibility, exaggeration);
-    }
-    let away = subtract(centre, camera.eye);
-    let way = dot(away, away).sqrt().max(1e-3);
-    let ray = Ray { from: camera.eye, direction: scale(away, 1.0 / way) };
-    Haze::of_depth(USUAL_HAZE, &ray, way, exaggeration)
 }
 
 #[cfg(test)]
@@ -278,7 +217,7 @@ mod tests {
         let water = ground.values().iter().map(|ground| (level - ground).max(0.0)).collect();
         landscape.insert("water", "m", Field::from_values(size, water));
         landscape.insert("height", "m", ground);
-        Scene::new(view, &landscape).expect("it can be drawn")
+        Scene::new(view, &landscape, None).expect("it can be drawn")
     }
 
     fn low_sun() -> View {

@@ -1,6 +1,7 @@
 //! A landscape made ready for a view: surfaces, water, limits of the kinds of ground.
 
 use super::cover::Limits;
+use super::flow::Flow;
 use super::side::Strata;
 use super::site::{Sites, names_materials};
 use super::surface::Surface;
@@ -39,9 +40,13 @@ pub(super) struct Setting {
     /// Levels of lakes, below the ground where it is dry.
     pub(super) level: Option<Surface>,
     pub(super) rivers: Option<Rivers>,
+    /// How water runs.
+    pub(super) flow: Option<Flow>,
     pub(super) strata: Strata,
     pub(super) limits: Limits,
     pub(super) exaggeration: f32,
+    /// Elevation of the lowest ground in metres.
+    pub(super) low: f32,
 }
 
 impl Setting {
@@ -61,14 +66,17 @@ impl Setting {
         let wished = view.ground.map(|colour| colour == GroundColour::Materials);
         let materials = wished.unwrap_or_else(|| names_materials(landscape));
         let sites = Sites::new(landscape, field, &frame.sheet, materials)?;
+        let terrain = Terrain::new(spacing, &top, land.as_ref(), -base);
         let setting = Self {
-            terrain: Terrain::new(spacing, &top, land.as_ref(), -base),
+            flow: if view.water { Flow::of(landscape, &terrain, &frame.sheet) } else { None },
+            terrain,
             level: level.as_ref().map(Surface::new),
             rivers: if view.water { Rivers::of(landscape, view.river_width) } else { None },
             strata: strata(landscape, field, &frame.sheet, limits.relief + base / frame.exaggeration)?,
             bed: Surface::new(&ground),
             limits,
             exaggeration: frame.exaggeration,
+            low,
         };
         Ok((setting, sites))
     }

@@ -7,12 +7,12 @@ use super::vector::{Vector, add, dot, scale};
 use crate::picture::colour::{Linear, linear_of_hex, mix};
 
 /// Normals of upright sides for which the light of the sky is known.
-const NORMALS: usize = 32;
+pub(super) const NORMALS: usize = 32;
 
 /// Light of the open sky on upright sides.
 #[derive(Debug)]
 pub(super) struct SideLight {
-    light: [Vector; NORMALS],
+    pub(super) light: [Vector; NORMALS],
 }
 
 impl SideLight {
@@ -54,13 +54,13 @@ fn sky_on(sky: &Sky, normal: Vector) -> Vector {
 #[derive(Debug)]
 pub(super) struct Strata {
     /// Materials above the bedrock, lowest first: thickness in metres and colour.
-    materials: Vec<(Surface, Linear)>,
-    bedrock: Linear,
+    pub(super) materials: Vec<(Surface, Linear)>,
+    pub(super) bedrock: Linear,
     /// Usual thickness of a bed, in metres.
-    bed: f32,
-    soil: Linear,
+    pub(super) bed: f32,
+    pub(super) soil: Linear,
     /// Thickness of the dark band of soil, in metres.
-    soil_thickness: f32,
+    pub(super) soil_thickness: f32,
 }
 
 impl Strata {

@@ -24,9 +24,9 @@ const HALF_SOIL: f32 = 0.5;
 /// What places are like.
 #[derive(Debug)]
 pub(super) struct Sites {
-    moisture: Surface,
-    soil: Surface,
-    materials: Option<[Surface; 3]>,
+    pub(super) moisture: Surface,
+    pub(super) soil: Surface,
+    pub(super) materials: Option<[Surface; 3]>,
     mean: Option<Linear>,
 }
 
@@ -60,6 +60,11 @@ impl Sites {
             mean: colours.as_deref().map(mean),
             materials: colours.map(|cells| [0, 1, 2].map(|c| channel(&cells, c))),
         })
+    }
+
+    /// Whether the materials at the surface are shown.
+    pub(super) fn shows_materials(&self) -> bool {
+        self.materials.is_some()
     }
 
     /// From 0 dry to 1 wet.

@@ -4,7 +4,7 @@ use super::atmosphere::{Atmosphere, Scattered};
 use super::vector::{Vector, add, dot, scale};
 
 /// Pieces of the table over the elevation.
-const PIECES: usize = 96;
+pub(super) const PIECES: usize = 96;
 
 /// How strongly haze scatters forward: the glow around the sun.
 const FORWARD: f32 = 0.76;
@@ -19,7 +19,7 @@ pub(super) struct Sky {
     /// Half the angle that the sun's disc takes, in radians.
     pub(super) sun_radius: f32,
     /// By the square root of the sine of the elevation, which is finest at the horizon.
-    table: Vec<Scattered>,
+    pub(super) table: Vec<Scattered>,
 }
 
 impl Sky {

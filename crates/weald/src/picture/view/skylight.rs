@@ -34,8 +34,8 @@ pub(super) type Seen = [Vector; 4];
 /// Visible sky at the cells of a grid.
 #[derive(Debug)]
 pub(super) struct Skylight {
-    size: Size,
-    seen: Vec<Seen>,
+    pub(super) size: Size,
+    pub(super) seen: Vec<Seen>,
 }
 
 /// Light of the sky above an elevation, by direction and elevation.

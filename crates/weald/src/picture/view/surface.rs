@@ -19,7 +19,7 @@ pub(super) struct Surface {
     /// Cells without the rim.
     size: Size,
     stride: usize,
-    control: Vec<f32>,
+    pub(super) control: Vec<f32>,
 }
 
 /// Weights of four successive control points.
@@ -62,6 +62,11 @@ impl Surface {
     /// Columns and rows of the field.
     pub(super) fn size(&self) -> Size {
         self.size
+    }
+
+    /// Columns and rows of the control points.
+    pub(super) fn controls(&self) -> [usize; 2] {
+        [self.stride, self.size.rows + 2 * RIM]
     }
 
     /// Columns and rows of the patches.

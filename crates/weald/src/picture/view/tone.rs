@@ -9,10 +9,13 @@ use super::vector::{Vector, luminance};
 use crate::random::{hash2, unit};
 
 /// sRGB to the space of the curve, and back.
-const INTO: [Vector; 3] =
+pub(super) const INTO: [Vector; 3] =
     [[0.597_19, 0.354_58, 0.048_23], [0.076, 0.908_34, 0.015_66], [0.028_4, 0.133_83, 0.837_77]];
-const BACK: [Vector; 3] =
+pub(super) const BACK: [Vector; 3] =
     [[1.604_75, -0.531_08, -0.073_67], [-0.102_08, 1.108_13, -0.006_05], [-0.003_27, -0.072_76, 1.076_02]];
+
+/// The curve `(v (v + a) + b) / (v (c v + d) + e)`.
+pub(super) const CURVE: [f32; 5] = [0.024_578_6, -0.000_090_537, 0.983_729, 0.432_951, 0.238_081];
 
 /// Radiance, before the curve, of a white surface in full light.
 const WHITE: f32 = 1.5;
@@ -21,7 +24,7 @@ const WHITE: f32 = 1.5;
 const ADAPTATION: f32 = 0.75;
 
 /// The most, in surfaces that are drawn as white, that one ray counts.
-const BRIGHTEST: f32 = 12.0;
+pub(super) const BRIGHTEST: f32 = 12.0;
 
 /// A camera's exposure.
 #[derive(Clone, Copy, Debug)]
@@ -52,6 +55,11 @@ impl Tone {
         })
     }
 
+    /// Factor on radiance before the curve.
+    pub(super) fn gain(&self) -> Vector {
+        self.gain
+    }
+
     /// A radiance, but no more than some times what is drawn as white.
     pub(super) fn limited(&self, radiance: Vector) -> Vector {
         std::array::from_fn(|c| radiance[c].min(BRIGHTEST / self.gain[c]))
@@ -60,8 +68,8 @@ impl Tone {
     /// Linear light on the screen, 0 to 1.
     fn curve(&self, radiance: Vector) -> Vector {
         let exposed = std::array::from_fn(|c| radiance[c].max(0.0) * self.gain[c]);
-        let film = transform(&INTO, exposed)
-            .map(|v| (v * (v + 0.024_578_6) - 0.000_090_537) / (v * (0.983_729 * v + 0.432_951) + 0.238_081));
+        let [a, b, c, d, e] = CURVE;
+        let film = transform(&INTO, exposed).map(|v| (v * (v + a) + b) / (v * (c * v + d) + e));
         transform(&BACK, film).map(|channel| channel.clamp(0.0, 1.0))
     }
 }

@@ -35,11 +35,14 @@ const BANKFULL_GROWTH: f32 = 0.4;
 const MIRRORED: f32 = 0.02;
 
 /// Light that clear and deep water sends back, and how fast a metre of it swallows the light of the bed.
-const BODY: Vector = [0.016, 0.052, 0.058];
-const SWALLOWED: Vector = [0.42, 0.13, 0.11];
+pub(super) const BODY: Vector = [0.016, 0.052, 0.058];
+pub(super) const SWALLOWED: Vector = [0.42, 0.13, 0.11];
 
 /// Mean square of the slopes of ripples too small to be seen.
 const ROUGHNESS: f32 = 0.006;
+
+/// Share of light that is mirrored at right angles, and roughness, as shaders get them.
+pub(super) const OPTICS: [f32; 2] = [MIRRORED, ROUGHNESS];
 
 /// Levels of lakes in metres: below the ground where it is dry. `None` without a lake.
 pub(super) fn levels(landscape: &Landscape, ground: &Field) -> Option<Field> {
@@ -95,9 +98,9 @@ fn mean_of_known(level: &[f32], known: &[bool], size: Size, cell: usize) -> f32 
 /// The share of river in each spot of a landscape.
 #[derive(Debug)]
 pub(super) struct Rivers {
-    strokes: Strokes,
-    width: usize,
-    height: usize,
+    pub(super) strokes: Strokes,
+    pub(super) width: usize,
+    pub(super) height: usize,
 }
 
 impl Rivers {

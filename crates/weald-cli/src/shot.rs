@@ -1,0 +1,199 @@
+//! Where the camera of `weald render` stands, as the command line says it.
+
+use weald::picture::{Camera, Stage, View};
+
+use crate::arguments::RenderFiles;
+use crate::failure::Failure;
+
+/// A place in metres east and south of the north-western corner, with an elevation if one was given.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Point {
+    east: f64,
+    south: f64,
+    elevation: Option<f64>,
+}
+
+/// Reads `X,Y` or `X,Y,Z`.
+pub(crate) fn point(text: &str) -> Result<Point, String> {
+    let wrong = || "it is written X,Y,Z or X,Y in metres, as in 5200,6100,1300".to_owned();
+    let numbers: Vec<f64> =
+        text.split(',').map(|part| part.trim().parse().map_err(|_| wrong())).collect::<Result<_, _>>()?;
+    if !numbers.iter().all(|number| number.is_finite() && number.abs() <= MOST_METRES) {
+        return Err(format!("its numbers lie between -{MOST_METRES} and {MOST_METRES} m"));
+    }
+    match numbers[..] {
+        [east, south] => Ok(Point { east, south, elevation: None }),
+        [east, south, elevation] => Ok(Point { east, south, elevation: Some(elevation) }),
+        _ => Err(wrong()),
+    }
+}
+
+/// Farthest that a camera may be, in metres.
+const MOST_METRES: f64 = 1e8;
+
+/// Reads `WxH`.
+pub(crate) fn size(text: &str) -> Result<[u32; 2], String> {
+    let sides = text
+        .split_once(['x', 'X'])
+        .and_then(|(width, height)| Some([width.trim().parse().ok()?, height.trim().parse().ok()?]));
+    sides.ok_or_else(|| "it is written WIDTHxHEIGHT in pixels, as in 1920x1080".to_owned())
+}
+
+/// The cameras of all frames.
+pub(crate) fn cameras(files: &RenderFiles, view: &View, stage: &Stage) -> Result<Vec<Camera>, Failure> {
+    if !files.through.is_empty() {
+        return flight(files, stage);
+    }
+    let Some(place) = files.camera else {
+        if files.eye.is_some() {
+            return Err(Failure::usage("--eye METRES goes with --camera X,Y, the place on the ground"));
+        }
+        return Ok(turned(view, stage, files));
+    };
+    let eye = standing(place, files.eye, stage)?;
+    let camera = looking(stage, eye, target(files, stage))?;
+    let frames = files.turntable.unwrap_or(1);
+    let about = target(files, stage).unwrap_or_else(|| stage.middle());
+    Ok((0..frames).map(|frame| camera.turned(about, 360.0 * f64::from(frame) / f64::from(frames))).collect())
+}
+
+/// The view's own camera, at each frame of a turntable.
+fn turned(view: &View, stage: &Stage, files: &RenderFiles) -> Vec<Camera> {
+    let Some(frames) = files.turntable else {
+        return match target(files, stage) {
+            Some(target) => vec![stage.camera().towards(target)],
+            None => vec![stage.camera()],
+        };
+    };
+    (0..frames).map(|frame| stage.camera_of(&view.turned(f64::from(frame) / f64::from(frames)))).collect()
+}
+
+fn drawn(point: Point, stage: &Stage) -> [f32; 3] {
+    let ground = || stage.top_at([point.east, point.south]).unwrap_or(0.0);
+    let height = point.elevation.map_or_else(ground, |elevation| stage.drawn_height(elevation));
+    [point.east as f32, -point.south as f32, height]
+}
+
+fn target(files: &RenderFiles, stage: &Stage) -> Option<[f32; 3]> {
+    files.target.map(|target| drawn(target, stage))
+}
+
+/// Where an eye stands, above the ground.
+fn standing(place: Point, eye: Option<f64>, stage: &Stage) -> Result<[f32; 3], Failure> {
+    let Point { east, south, elevation } = place;
+    let ground = stage.top_at([east, south]);
+    let height = match (elevation, eye) {
+        (None, None) => {
+            return Err(Failure::usage(
+                "--camera X,Y needs an elevation, X,Y,Z, or --eye METRES above the ground",
+            ));
+        }
+        (Some(_), Some(_)) => {
+            return Err(Failure::usage(
+                "--camera X,Y,Z and --eye both say how high the camera is; leave out one",
+            ));
+        }
+        (Some(elevation), None) => stage.drawn_height(elevation),
+        (None, Some(eye)) => {
+            ground.unwrap_or(stage.base()) + (stage.drawn_height(eye) - stage.drawn_height(0.0))
+        }
+    };
+    let lowest = ground.unwrap_or(stage.base());
+    if height < lowest + LEAST_CLEARANCE {
+        return Err(Failure::usage(format!(
+            "the camera at {east},{south} is {:.2} m above the ground; it must be {LEAST_CLEARANCE} m at least: give a \
+             higher --camera X,Y,Z, or --camera X,Y --eye 1.7",
+            height - lowest
+        )));
+    }
+    Ok([east as f32, -south as f32, height])
+}
+
+/// Least height of a camera above the ground, in metres.
+const LEAST_CLEARANCE: f32 = 0.1;
+
+fn looking(stage: &Stage, eye: [f32; 3], target: Option<[f32; 3]>) -> Result<Camera, Failure> {
+    let target = target.unwrap_or_else(|| {
+        // Who stands on the ground looks level.
+        let [east, north, up] = stage.middle();
+        if eye[2] > stage.highest() { [east, north, up] } else { [east, north, eye[2]] }
+    });
+    if (0..3).all(|axis| (target[axis] - eye[axis]).abs() < 1e-3) {
+        return Err(Failure::usage("--camera and --target are the same point; move one of them"));
+    }
+    Ok(stage.camera().at(eye).towards(target))
+}
+
+/// Cameras along a smooth line through all points, evenly in time.
+fn flight(files: &RenderFiles, stage: &Stage) -> Result<Vec<Camera>, Failure> {
+    let points = files.camera.iter().chain(&files.through);
+    let points: Vec<_> = points.map(|&point| standing(point, files.eye, stage)).collect::<Result<_, _>>()?;
+    let frames = files.frames.expect("clap asks for it");
+    let ahead = target(files, stage);
+    let place = |share: f64| along(&points, share);
+    (0..frames)
+        .map(|frame| {
+            let share = f64::from(frame) / f64::from(frames - 1);
+            let eye = place(share);
+            let [before, after] = [place(share - 0.01), place(share + 0.01)];
+            let straight = std::array::from_fn(|axis| eye[axis] + after[axis] - before[axis]);
+            looking(stage, eye, Some(ahead.unwrap_or(straight)))
+        })
+        .collect()
+}
+
+/// Catmull and Rom's spline through points, 1974; beyond its ends it goes straight on.
+fn along(points: &[[f32; 3]], share: f64) -> [f32; 3] {
+    let last = points.len() - 1;
+    let way = share * last as f64;
+    let first = (way.max(0.0) as usize).min(last - 1);
+    let t = (way - first as f64) as f32;
+    let at = |index: isize| {
+        let inside = index.clamp(0, last as isize) as usize;
+        let mirror = (2 * inside as isize - index).clamp(0, last as isize) as usize;
+        let beyond = f32::from(u8::from(index < 0 || index > last as isize));
+        std::array::from_fn::<f32, 3, _>(|axis| {
+            points[inside][axis] + beyond * (points[inside][axis] - points[mirror][axis])
+        })
+    };
+    let first = first as isize;
+    let [a, b, c, d] = [at(first - 1), at(first), at(first + 1), at(first + 2)];
+    std::array::from_fn(|axis| {
+        let (a, b, c, d) = (a[axis], b[axis], c[axis], d[axis]);
+        0.5 * (2.0 * b
+            + t * (c - a)
+            + t * t * (2.0 * a - 5.0 * b + 4.0 * c - d)
+            + t * t * t * (3.0 * (b - c) + d - a))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn points_and_sizes_are_read_or_refused_with_what_would_be_right() {
+        assert_eq!(point("1,-2.5,30"), Ok(Point { east: 1.0, south: -2.5, elevation: Some(30.0) }));
+        assert_eq!(point(" 4, 5"), Ok(Point { east: 4.0, south: 5.0, elevation: None }));
+        for text in ["", "1", "1,2,3,4", "a,b", "1,NaN", "1,inf,2"] {
+            assert!(point(text).is_err(), "{text}");
+        }
+        assert_eq!(size("320x180"), Ok([320, 180]));
+        for text in ["", "320", "x", "-1x3", "1.5x2"] {
+            assert!(size(text).expect_err("no size").contains("1920x1080"), "{text}");
+        }
+    }
+
+    #[test]
+    fn a_flight_goes_through_its_points_in_equal_times() {
+        let points = [[0.0, 0.0, 10.0], [100.0, 0.0, 20.0], [100.0, 80.0, 5.0]];
+        assert_eq!(along(&points, 0.0), points[0]);
+        assert_eq!(along(&points, 0.5), points[1]);
+        assert_eq!(along(&points, 1.0), points[2]);
+        let steps: Vec<_> = (0..=40).map(|step| along(&points, f64::from(step) / 40.0)).collect();
+        let longest = steps
+            .windows(2)
+            .map(|pair| (0..3).map(|axis| (pair[1][axis] - pair[0][axis]).powi(2)).sum::<f32>().sqrt());
+        assert!(longest.fold(0.0, f32::max) < 9.0, "no leap");
+    }
+}

@@ -1,0 +1,27 @@
+// What one picture is drawn from, and where points of the stage lie in it.
+
+struct Frame {
+    // The eye, and the angle of a pixel.
+    eye: vec4<f32>,
+    // Directions of the camera; with the nearest distance that is drawn, and the tangents of half its angles.
+    forward: vec4<f32>,
+    right: vec4<f32>,
+    up: vec4<f32>,
+    // Place of the eye, and its height above all ground.
+    stand: vec4<f32>,
+    // Distances between which the vertices of each level slide.
+    slides: array<vec4<f32>, 26>,
+}
+
+@group(0) @binding(0) var<uniform> frame: Frame;
+
+// Depth is 1 at the nearest distance and 0 infinitely far, which is what keeps all digits of floating point.
+fn projected(point: vec3<f32>) -> vec4<f32> {
+    let relative = point - frame.eye.xyz;
+    return vec4<f32>(
+        dot(relative, frame.right.xyz) / frame.right.w,
+        dot(relative, frame.up.xyz) / frame.up.w,
+        frame.forward.w,
+        dot(relative, frame.forward.xyz),
+    );
+}

@@ -1,0 +1,177 @@
+//! Which patches of the ground are drawn, and how finely: a quadtree by distance, without cracks.
+//!
+//! The ground is a quadtree. Level 0 has the finest spacing of vertices; a square of each level is drawn as quarters of
+//! [`QUADS`] by [`QUADS`] quads. A level is used up to a distance at which the error of the next one, on the screen,
+//! is no longer seen ([`super::spacing`]); before that distance its odd vertices slide onto their even neighbours, so
+//! that it becomes the next level before that begins. Filip Strugar 2009, "Continuous distance-dependent level of
+//! detail for rendering heightmaps", doi 10.1080/2151237X.2009.10129287. What differs: distances count what is level
+//! alone, and one height of the eye for all, so that what is near is known exactly and does not hang on heights.
+
+use super::frustum::{Frustum, Heights};
+use super::spacing::Ranges;
+
+/// Quads along a side of what is drawn at once: a quarter of a square.
+pub(crate) const QUADS: u32 = 16;
+
+/// Quads along a side of a square.
+const SQUARE: f32 = 2.0 * QUADS as f32;
+
+/// Vertices of the finest level on the side of a cell.
+pub(crate) const FINEST: f32 = 0.125;
+
+/// Most levels: enough for the largest grid.
+pub(crate) const MOST_LEVELS: usize = 26;
+
+/// A patch of the ground that is drawn: [`QUADS`] by [`QUADS`] quads.
+#[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+#[repr(C)]
+pub(crate) struct Patch {
+    /// North-western corner, in places of the stage.
+    pub(crate) corner: [f32; 2],
+    /// Cells between vertices.
+    pub(crate) spacing: f32,
+    /// Level of detail.
+    pub(crate) level: f32,
+}
+
+/// The ground from which patches are selected.
+#[derive(Debug)]
+pub(crate) struct Lattice {
+    /// Columns and rows of cells.
+    pub(crate) cells: [f32; 2],
+    /// Metres of a cell.
+    pub(crate) metres: [f32; 2],
+    /// Levels from the finest to the one whose single square is the whole ground.
+    pub(crate) levels: usize,
+}
+
+/// From where the ground is looked at.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Standpoint {
+    /// Place of the eye.
+    pub(crate) place: [f32; 2],
+    /// Height of the eye above all ground, in metres.
+    pub(crate) above: f32,
+}
+
+/// Looks through the quadtree.
+struct Selection<'a> {
+    lattice: &'a Lattice,
+    ranges: &'a Ranges,
+    from: Standpoint,
+    heights: &'a Heights,
+    frusta: &'a [Frustum],
+    patches: Vec<(f32, Patch)>,
+}
+
+impl Lattice {
+    /// The ground of so many cells.
+    pub(crate) fn new(cells: [f32; 2], metres: [f32; 2]) -> Self {
+        let longer = cells[0].max(cells[1]);
+        let mut levels = 1;
+        while Self::side(levels - 1) < longer && levels < MOST_LEVELS {
+            levels += 1;
+        }
+        Self { cells, metres, levels }
+    }
+
+    /// Cells between vertices of a level.
+    pub(crate) fn spacing(level: usize) -> f32 {
+        FINEST * (1_u32 << level) as f32
+    }
+
+    /// Cells along the side of a square.
+    fn side(level: usize) -> f32 {
+        SQUARE * Self::spacing(level)
+    }
+
+    /// Patches in sight of any of the frusta, the nearest first.
+    pub(crate) fn select(
+        &self,
+        from: Standpoint,
+        ranges: &Ranges,
+        heights: &Heights,
+        frusta: &[Frustum],
+    ) -> Vec<Patch> {
+        let mut selection = Selection { lattice: self, ranges, from, heights, frusta, patches: Vec::new() };
+        selection.square([0.5; 2], self.levels - 1);
+        let mut patches = selection.patches;
+        patches.sort_by(|a, b| a.0.total_cmp(&b.0));
+        patches.into_iter().map(|(_, patch)| patch).collect()
+    }
+
+    /// Least distance of a square from a standpoint.
+    fn distance(&self, from: Standpoint, corner: [f32; 2], side: f32) -> f32 {
+        let away = |axis: usize| {
+            let beyond = (corner[axis] - from.place[axis]).max(from.place[axis] - corner[axis] - side);
+            beyond.max(0.0) * self.metres[axis]
+        };
+        let [east, south] = [away(0), away(1)];
+        (from.above * from.above + east * east + south * south).sqrt()
+    }
+}
+
+impl Selection<'_> {
+    fn is_drawn(&self, corner: [f32; 2], side: f32) -> bool {
+        let inside = (0..2).all(|axis| corner[axis] < self.lattice.cells[axis] + 0.5);
+        inside && {
+            let box_of = self.heights.box_of(corner, side);
+            self.frusta.iter().any(|frustum| frustum.meets(&box_of))
+        }
+    }
+
+    fn square(&mut self, corner: [f32; 2], level: usize) {
+        let side = Lattice::side(level);
+        if !self.is_drawn(corner, side) {
+            return;
+        }
+        let half = 0.5 * side;
+        for [x, y] in [[0.0, 0.0], [half, 0.0], [0.0, half], [half, half]] {
+            let quarter = [corner[0] + x, corner[1] + y];
+            let distance = self.lattice.distance(self.from, quarter, half);
+            if level > 0 && distance <= self.ranges.end(level - 1) {
+                self.square(quarter, level - 1);
+            } else if self.is_drawn(quarter, half) {
+                let patch = Patch { corner: quarter, spacing: Lattice::spacing(level), level: level as f32 };
+                self.patches.push((distance, patch));
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn everything(cells: [f32; 2], from: Standpoint) -> (Lattice, Vec<Patch>) {
+        let lattice = Lattice::new(cells, [10.0; 2]);
+        let ranges = Ranges::new(&[3.0; MOST_LEVELS], 1.0, 10.0);
+        let patches = lattice.select(from, &ranges, &Heights::flat(), &[Frustum::everything()]);
+        (lattice, patches)
+    }
+
+    #[test]
+    fn patches_cover_each_place_once() {
+        for place in [[0.0, 0.0], [700.0, 300.0], [-900.0, 3000.0]] {
+            let (lattice, patches) = everything([1500.0, 900.0], Standpoint { place, above: 30.0 });
+            assert!(patches.iter().any(|patch| patch.level != patches[0].level), "several levels");
+            for sample in 0..4000_u32 {
+                let x = 0.5 + lattice.cells[0] * ((sample as f32 * 0.754_877_7).fract());
+                let y = 0.5 + lattice.cells[1] * ((sample as f32 * 0.569_840_3).fract());
+                let covers = |patch: &&Patch| {
+                    let side = QUADS as f32 * patch.spacing;
+                    let [left, top] = patch.corner;
+                    (left..left + side).contains(&x) && (top..top + side).contains(&y)
+                };
+                assert_eq!(patches.iter().filter(covers).count(), 1, "({x}, {y})");
+            }
+        }
+    }
+
+    #[test]
+    fn the_finest_patch_lies_below_the_eye_and_levels_grow_outward() {
+        let (_, patches) = everything([4000.0, 4000.0], Standpoint { place: [1000.0; 2], above: 0.0 });
+        assert_eq!(patches[0].level, 0.0);
+        assert!(patches.last().expect("some").level > 2.0);
+    }
+}

@@ -1,0 +1,163 @@
+//! The maps and numbers of a stage on the device.
+
+use half::f16;
+use weald::Error;
+use weald::picture::{MapKind, Stage, StageMap};
+use wgpu::{
+    AddressMode, BindGroup, BindGroupDescriptor, BindGroupEntry, BindGroupLayout, BindGroupLayoutDescriptor,
+    BindGroupLayoutEntry, BindingResource, BindingType, BufferBindingType, BufferUsages, Extent3d,
+    FilterMode, Origin3d, SamplerBindingType, SamplerDescriptor, ShaderStages, TexelCopyBufferLayout,
+    TexelCopyTextureInfo, TextureAspect, TextureFormat, TextureSampleType, TextureUsages,
+    TextureViewDimension,
+};
+
+use super::textures::{Canvas, Shape};
+use crate::gpu::Gpu;
+use crate::memory::Store;
+
+/// Binding of the first map; before it are the numbers and the sampler.
+const FIRST_MAP: u32 = 2;
+
+/// Rows of a map that go to the device at once, so that little is staged.
+const ROWS: usize = 256;
+
+/// All that shaders know of a stage.
+#[derive(Debug)]
+pub(super) struct Maps {
+    pub(super) layout: BindGroupLayout,
+    pub(super) group: BindGroup,
+    _numbers: Store,
+    _canvases: Vec<Canvas>,
+}
+
+impl Maps {
+    pub(super) fn new(gpu: &Gpu, stage: &Stage, maps: &[StageMap]) -> Result<Self, Error> {
+        let bytes = stage.numbers();
+        let usage = BufferUsages::UNIFORM | BufferUsages::COPY_DST;
+        let numbers = Store::new(gpu, "the numbers of a landscape", bytes.len() as u64, usage)?;
+        gpu.context.queue.write_buffer(&numbers.buffer, 0, &bytes);
+        let canvases: Vec<_> = maps.iter().map(|map| upload(gpu, map)).collect::<Result<_, _>>()?;
+        let layout = layout(gpu);
+        let group = bind(gpu, &layout, &numbers, &canvases)?;
+        Ok(Self { layout, group, _numbers: numbers, _canvases: canvases })
+    }
+}
+
+fn format(kind: MapKind) -> TextureFormat {
+    match kind {
+        MapKind::Exact => TextureFormat::R32Float,
+        MapKind::Smooth => TextureFormat::Rgba16Float,
+        MapKind::Share => TextureFormat::R8Unorm,
+    }
+}
+
+fn upload(gpu: &Gpu, map: &StageMap) -> Result<Canvas, Error> {
+    let size = map.size.map(|side| side as u32);
+    let usage = TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_DST;
+    let shape = Shape {
+        layers: map.layers as u32,
+        is_array: is_array(map.name),
+        ..Shape::flat(size, format(map.kind), usage)
+    };
+    let canvas = Canvas::new(gpu, &format!("the map `{}`", map.name), shape)?;
+    let row = map.size[0] * map.kind.channels();
+    for (layer, values) in map.values.chunks(row * map.size[1]).enumerate() {
+        for (piece, rows) in values.chunks(row * ROWS).enumerate() {
+            write(gpu, &canvas, map, [layer, piece * ROWS], rows)?;
+        }
+    }
+    Ok(canvas)
+}
+
+fn is_array(name: &str) -> bool {
+    Stage::map_kinds().any(|(known, _, is_array)| known == name && is_array)
+}
+
+/// Writes some rows of a layer, and waits until they are there.
+fn write(
+    gpu: &Gpu,
+    canvas: &Canvas,
+    map: &StageMap,
+    [layer, row]: [usize; 2],
+    values: &[f32],
+) -> Result<(), Error> {
+    let bytes = texels(map.kind, values);
+    let columns = map.size[0];
+    let rows = values.len() / (columns * map.kind.channels());
+    let _staged = gpu.memory.hold(bytes.len() as u64, "staging")?;
+    let submission = gpu.context.attempt("bringing maps to the GPU", || {
+        let place = TexelCopyTextureInfo {
+            texture: &canvas.texture,
+            mip_level: 0,
+            origin: Origin3d { x: 0, y: row as u32, z: layer as u32 },
+            aspect: TextureAspect::All,
+        };
+        let layout = TexelCopyBufferLayout {
+            offset: 0,
+            bytes_per_row: Some((bytes.len() / rows) as u32),
+            rows_per_image: None,
+        };
+        let size = Extent3d { width: columns as u32, height: rows as u32, depth_or_array_layers: 1 };
+        gpu.context.queue.write_texture(place, &bytes, layout, size);
+        Ok(gpu.context.queue.submit([]))
+    })?;
+    gpu.context.wait(Some(submission))
+}
+
+fn texels(kind: MapKind, values: &[f32]) -> Vec<u8> {
+    match kind {
+        MapKind::Exact => bytemuck::cast_slice(values).to_vec(),
+        MapKind::Smooth => values.iter().flat_map(|&value| f16::from_f32(value).to_le_bytes()).collect(),
+        MapKind::Share => values.iter().map(|value| (value.clamp(0.0, 1.0) * 255.0 + 0.5) as u8).collect(),
+    }
+}
+
+fn layout(gpu: &Gpu) -> BindGroupLayout {
+    let entry = |binding, ty| BindGroupLayoutEntry {
+        binding,
+        visibility: ShaderStages::VERTEX_FRAGMENT,
+        ty,
+        count: None,
+    };
+    let numbers = BindingType::Buffer {
+        ty: BufferBindingType::Uniform,
+        has_dynamic_offset: false,
+        min_binding_size: None,
+    };
+    let mut entries = vec![entry(0, numbers), entry(1, BindingType::Sampler(SamplerBindingType::Filtering))];
+    entries.extend((FIRST_MAP..).zip(Stage::map_kinds()).map(|(binding, (_, kind, is_array))| {
+        let filterable = kind != MapKind::Exact;
+        let view_dimension = if is_array { TextureViewDimension::D2Array } else { TextureViewDimension::D2 };
+        let sample_type = TextureSampleType::Float { filterable };
+        entry(binding, BindingType::Texture { sample_type, view_dimension, multisampled: false })
+    }));
+    let description = BindGroupLayoutDescriptor { label: Some("stage"), entries: &entries };
+    gpu.context.device.create_bind_group_layout(&description)
+}
+
+fn bind(
+    gpu: &Gpu,
+    layout: &BindGroupLayout,
+    numbers: &Store,
+    canvases: &[Canvas],
+) -> Result<BindGroup, Error> {
+    let clamp = AddressMode::ClampToEdge;
+    let sampler = gpu.context.device.create_sampler(&SamplerDescriptor {
+        label: Some("between"),
+        address_mode_u: clamp,
+        address_mode_v: clamp,
+        mag_filter: FilterMode::Linear,
+        min_filter: FilterMode::Linear,
+        ..SamplerDescriptor::default()
+    });
+    let mut entries = vec![
+        BindGroupEntry { binding: 0, resource: numbers.buffer.as_entire_binding() },
+        BindGroupEntry { binding: 1, resource: BindingResource::Sampler(&sampler) },
+    ];
+    entries.extend((FIRST_MAP..).zip(canvases).map(|(binding, canvas)| BindGroupEntry {
+        binding,
+        resource: BindingResource::TextureView(&canvas.view),
+    }));
+    let description = BindGroupDescriptor { label: Some("stage"), layout, entries: &entries };
+    gpu.context.attempt("binding maps", || Ok(gpu.context.device.create_bind_group(&description)))
+}

@@ -1,0 +1,195 @@
+//! Draws a landscape in real time, offscreen or into a window, by the same passes.
+//!
+//! What is drawn is a [`Stage`] of the library: its surfaces, colours, light and air, which the ray-marched view draws as
+//! well, become textures and numbers once; each picture then takes a camera. The passes: ground by level of detail
+//! ([`lattice`]), cut sides, plain and sky, all into linear light of 16-bit floats with depth reversed; then the film
+//! brings light to the numbers of a picture.
+
+mod film;
+mod frame;
+mod frustum;
+mod lattice;
+mod maps;
+mod passes;
+mod picture;
+mod spacing;
+mod targets;
+mod terrain;
+mod textures;
+
+use weald::Error;
+use weald::engine::device::Device;
+use weald::picture::{Camera, Image, Stage};
+
+use crate::gpu::Gpu;
+use film::Film;
+use frame::Frame;
+use maps::Maps;
+use passes::Passes;
+use picture::Landing;
+use targets::Targets;
+use terrain::Terrain;
+
+/// How large and how smooth pictures are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Options {
+    /// Width and height in pixels.
+    pub size: [u32; 2],
+    /// Samples a pixel at the edges of what is drawn: 1 or 4.
+    pub samples: u32,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self { size: [1920, 1080], samples: 4 }
+    }
+}
+
+/// Numbers of samples that every device has.
+const SAMPLES: [u32; 2] = [1, 4];
+
+impl Options {
+    /// Refuses what a device cannot draw, before anything is allocated.
+    ///
+    /// # Errors
+    /// [`Error::Limit`] for a size or a number of samples that it does not have.
+    pub fn check(&self, gpu: &Gpu) -> Result<(), Error> {
+        let most = gpu.context.limits.max_texture_dimension_2d;
+        let [width, height] = self.size;
+        if !(1..=most).contains(&width) || !(1..=most).contains(&height) {
+            return Err(Error::Limit(format!(
+                "a picture of {width} × {height} pixels: {} draws 1 to {most} a side; choose another --size",
+                gpu.adapter()
+            )));
+        }
+        if !SAMPLES.contains(&self.samples) {
+            return Err(Error::Limit(format!(
+                "{} samples a pixel; every device has 1 and 4: choose --samples 4",
+                self.samples
+            )));
+        }
+        Ok(())
+    }
+}
+
+/// What tests look for.
+#[doc(hidden)]
+#[derive(Clone, Copy, Debug, Default)]
+pub struct TestLook {
+    /// Whether what is behind the landscape is magenta.
+    pub bare: bool,
+    /// From where levels of detail are chosen, in place of the camera's point.
+    pub detail_from: Option<[f32; 3]>,
+}
+
+/// A stage on a device, ready to be drawn from any camera.
+#[derive(Debug)]
+pub struct Renderer {
+    gpu: Gpu,
+    options: Options,
+    maps: Maps,
+    frame: Frame,
+    terrain: Terrain,
+    passes: Passes,
+    targets: Targets,
+    film: Film,
+    look: TestLook,
+}
+
+impl Renderer {
+    /// Brings a stage to a device.
+    ///
+    /// # Errors
+    /// [`Error::Limit`] for a size or number of samples that the device does not have, [`Error::Device`] where its
+    /// memory does not suffice or it fails.
+    pub fn new(gpu: &Gpu, stage: &Stage, options: Options) -> Result<Self, Error> {
+        options.check(gpu)?;
+        let source = stage.maps();
+        let maps = Maps::new(gpu, stage, &source)?;
+        let terrain = Terrain::new(gpu, stage, &source)?;
+        let frame = Frame::new(gpu)?;
+        let passes = Passes::new(gpu, stage, [&frame.layout, &maps.layout], options.samples)?;
+        let targets = Targets::new(gpu, options)?;
+        let film = Film::new(gpu, stage, &maps, &targets)?;
+        Ok(Self {
+            gpu: gpu.clone(),
+            options,
+            maps,
+            frame,
+            terrain,
+            passes,
+            targets,
+            film,
+            look: TestLook::default(),
+        })
+    }
+
+    /// Draws the picture of a camera.
+    ///
+    /// # Errors
+    /// [`Error::Run`] for a camera whose numbers are not finite, [`Error::Device`] where the device fails.
+    pub fn render(&mut self, camera: &Camera) -> Result<Image, Error> {
+        let landing = Landing::new(&self.gpu, self.options.size)?;
+        let context = self.gpu.context.clone();
+        context.attempt("drawing", || {
+            let mut encoder =
+                context.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+            self.encode(camera, &mut encoder, &landing.view)?;
+            landing.collect(&mut encoder);
+            context.queue.submit([encoder.finish()]);
+            Ok(())
+        })?;
+        landing.image(&self.gpu)
+    }
+
+    /// Encodes the picture of a camera into a view of the renderer's size, of which the format is
+    /// `Rgba8Unorm` or `Bgra8Unorm` and holds numbers of sRGB: a picture's, or a window's.
+    ///
+    /// # Errors
+    /// As [`Renderer::render`].
+    pub fn encode(
+        &mut self,
+        camera: &Camera,
+        encoder: &mut wgpu::CommandEncoder,
+        target: &wgpu::TextureView,
+    ) -> Result<(), Error> {
+        check_camera(camera)?;
+        let drawn = self.terrain.prepare(&self.gpu, camera, self.options.size, self.look.detail_from)?;
+        self.frame.write(&self.gpu, camera, self.options.size[0], &drawn);
+        let groups = [&self.frame.group, &self.maps.group];
+        self.passes.draw(encoder, &self.targets, groups, (&self.terrain, self.look.bare));
+        self.film.develop(&self.gpu, encoder, &self.maps, target)
+    }
+
+    /// As [`Renderer::render`] with what tests look for.
+    #[doc(hidden)]
+    pub fn render_for_a_test(&mut self, camera: &Camera, look: TestLook) -> Result<Image, Error> {
+        self.look = look;
+        let image = self.render(camera);
+        self.look = TestLook::default();
+        image
+    }
+
+    /// How many triangles the ground of a camera takes.
+    ///
+    /// # Errors
+    /// As [`Renderer::render`].
+    pub fn triangles(&mut self, camera: &Camera) -> Result<u64, Error> {
+        check_camera(camera)?;
+        self.terrain.prepare(&self.gpu, camera, self.options.size, None)?;
+        Ok(self.terrain.triangles())
+    }
+}
+
+fn check_camera(camera: &Camera) -> Result<(), Error> {
+    let Camera { eye, forward, right, up, half } = camera;
+    let numbers = [eye, forward, right, up].into_iter().flatten().chain(half);
+    if numbers.clone().all(|number| number.is_finite()) && half.iter().all(|&half| half > 0.0) {
+        return Ok(());
+    }
+    let found: Vec<_> = numbers.map(f32::to_string).collect();
+    Err(Error::Run(format!(
+        "the camera has the numbers {}: all must be finite, and its angles above 0",
+        found.join(" ")
+    )))
+}

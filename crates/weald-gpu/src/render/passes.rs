@@ -1,0 +1,205 @@
+//! The pipelines that draw light, and their order.
+
+use weald::Error;
+use weald::picture::Stage;
+use wgpu::{
+    BindGroup, BindGroupLayout, Color, ColorTargetState, ColorWrites, CommandEncoder, CompareFunction,
+    DepthBiasState, DepthStencilState, Device, FragmentState, LoadOp, MultisampleState, Operations,
+    PipelineCompilationOptions, PipelineLayout, PipelineLayoutDescriptor, PrimitiveState,
+    RenderPassColorAttachment, RenderPassDepthStencilAttachment, RenderPassDescriptor, RenderPipeline,
+    RenderPipelineDescriptor, ShaderModule, ShaderModuleDescriptor, ShaderSource, StencilState, StoreOp,
+    VertexAttribute, VertexBufferLayout, VertexFormat, VertexState, VertexStepMode,
+};
+
+use super::targets::{DEPTH, LIGHT, Targets};
+use super::terrain::{PATCH_BYTES, RIM_BYTES, SIDE_BYTES, Terrain};
+use crate::gpu::Gpu;
+
+/// Group of the stage's maps and numbers.
+pub(super) const STAGE_GROUP: u32 = 1;
+
+/// The passes' own shaders, each after those that it calls.
+const SHADERS: [&str; 5] = [
+    include_str!("frame.wgsl"),
+    include_str!("shadows.wgsl"),
+    include_str!("water.wgsl"),
+    include_str!("terrain.wgsl"),
+    include_str!("backdrop.wgsl"),
+];
+
+/// A patch, and for sides its edge.
+const ATTRIBUTES: [VertexAttribute; 2] = [
+    VertexAttribute { format: VertexFormat::Float32x4, offset: 0, shader_location: 0 },
+    VertexAttribute { format: VertexFormat::Uint32, offset: PATCH_BYTES, shader_location: 1 },
+];
+
+/// The ends of a wall, and its normals there.
+const RIM_ATTRIBUTES: [VertexAttribute; 2] = [
+    VertexAttribute { format: VertexFormat::Float32x4, offset: 0, shader_location: 0 },
+    VertexAttribute { format: VertexFormat::Float32x4, offset: 16, shader_location: 1 },
+];
+
+/// The pipelines of a picture's light.
+#[derive(Debug)]
+pub(super) struct Passes {
+    ground: RenderPipeline,
+    sides: RenderPipeline,
+    rims: RenderPipeline,
+    backdrop: RenderPipeline,
+}
+
+/// What nothing drew on: no light of a landscape.
+const MAGENTA: Color = Color { r: 0.1, g: 0.0, b: 0.1, a: 1.0 };
+
+/// What pipelines have in common.
+struct Maker<'a> {
+    device: &'a Device,
+    module: ShaderModule,
+    layout: PipelineLayout,
+    samples: u32,
+}
+
+/// What one pipeline is.
+struct Pipeline<'a> {
+    name: &'a str,
+    buffers: &'a [Option<VertexBufferLayout<'a>>],
+    depth: (bool, CompareFunction),
+}
+
+impl Passes {
+    pub(super) fn new(
+        gpu: &Gpu,
+        stage: &Stage,
+        groups: [&BindGroupLayout; 2],
+        samples: u32,
+    ) -> Result<Self, Error> {
+        let text = SHADERS.iter().fold(stage.shader(STAGE_GROUP), |text, shader| text + "\n" + shader);
+        gpu.context.attempt("making the pipelines of a picture", || {
+            let device = &gpu.context.device;
+            let source = ShaderSource::Wgsl(text.into());
+            let layout = PipelineLayoutDescriptor {
+                label: Some("picture"),
+                bind_group_layouts: &groups.map(Some),
+                immediate_size: 0,
+            };
+            let maker = Maker {
+                device,
+                module: device
+                    .create_shader_module(ShaderModuleDescriptor { label: Some("picture"), source }),
+                layout: device.create_pipeline_layout(&layout),
+                samples,
+            };
+            Ok(Self::of(&maker))
+        })
+    }
+
+    fn of(maker: &Maker<'_>) -> Self {
+        let instances = |bytes, attributes| VertexBufferLayout {
+            array_stride: bytes,
+            step_mode: VertexStepMode::Instance,
+            attributes,
+        };
+        let solid = (true, CompareFunction::Greater);
+        Self {
+            ground: maker.pipeline(&Pipeline {
+                name: "ground",
+                buffers: &[Some(instances(PATCH_BYTES, &ATTRIBUTES[..1]))],
+                depth: solid,
+            }),
+            sides: maker.pipeline(&Pipeline {
+                name: "side",
+                buffers: &[Some(instances(SIDE_BYTES, &ATTRIBUTES))],
+                depth: solid,
+            }),
+            rims: maker.pipeline(&Pipeline {
+                name: "rim",
+                buffers: &[Some(instances(RIM_BYTES, &RIM_ATTRIBUTES))],
+                depth: solid,
+            }),
+            backdrop: maker.pipeline(&Pipeline {
+                name: "backdrop",
+                buffers: &[],
+                depth: (false, CompareFunction::GreaterEqual),
+            }),
+        }
+    }
+
+    /// Draws all light of a picture; what lies behind the landscape is left out of a bare one.
+    pub(super) fn draw(
+        &self,
+        encoder: &mut CommandEncoder,
+        targets: &Targets,
+        groups: [&BindGroup; 2],
+        (terrain, bare): (&Terrain, bool),
+    ) {
+        let (view, resolve_target) = match &targets.sampled {
+            Some(sampled) => (&sampled.view, Some(&targets.light.view)),
+            None => (&targets.light.view, None),
+        };
+        let ops = Operations { load: LoadOp::Clear(MAGENTA), store: StoreOp::Store };
+        let depth = Operations { load: LoadOp::Clear(0.0), store: StoreOp::Discard };
+        let mut pass = encoder.begin_render_pass(&RenderPassDescriptor {
+            label: Some("light"),
+            color_attachments: &[Some(RenderPassColorAttachment {
+                view,
+                depth_slice: None,
+                resolve_target,
+                ops,
+            })],
+            depth_stencil_attachment: Some(RenderPassDepthStencilAttachment {
+                view: &targets.depth.view,
+                depth_ops: Some(depth),
+                stencil_ops: None,
+            }),
+            ..RenderPassDescriptor::default()
+        });
+        for (at, group) in (0..).zip(groups) {
+            pass.set_bind_group(at, group, &[]);
+        }
+        pass.set_pipeline(&self.ground);
+        terrain.draw_ground(&mut pass);
+        pass.set_pipeline(&self.sides);
+        terrain.draw_sides(&mut pass);
+        pass.set_pipeline(&self.rims);
+        terrain.draw_rims(&mut pass);
+        if !bare {
+            pass.set_pipeline(&self.backdrop);
+            pass.draw(0..3, 0..1);
+        }
+    }
+}
+
+impl Maker<'_> {
+    /// The pipeline of the entry points `NAME_vertex` and `NAME_fragment`.
+    fn pipeline(&self, pipeline: &Pipeline<'_>) -> RenderPipeline {
+        let (depth_write, compare) = pipeline.depth;
+        let target = ColorTargetState { format: LIGHT, blend: None, write_mask: ColorWrites::ALL };
+        self.device.create_render_pipeline(&RenderPipelineDescriptor {
+            label: Some(pipeline.name),
+            layout: Some(&self.layout),
+            vertex: VertexState {
+                module: &self.module,
+                entry_point: Some(&format!("{}_vertex", pipeline.name)),
+                compilation_options: PipelineCompilationOptions::default(),
+                buffers: pipeline.buffers,
+            },
+            primitive: PrimitiveState::default(),
+            depth_stencil: Some(DepthStencilState {
+                format: DEPTH,
+                depth_write_enabled: Some(depth_write),
+                depth_compare: Some(compare),
+                stencil: StencilState::default(),
+                bias: DepthBiasState::default(),
+            }),
+            multisample: MultisampleState { count: self.samples, ..MultisampleState::default() },
+            fragment: Some(FragmentState {
+                module: &self.module,
+                entry_point: Some(&format!("{}_fragment", pipeline.name)),
+                compilation_options: PipelineCompilationOptions::default(),
+                targets: &[Some(target)],
+            }),
+            multiview_mask: None,
+            cache: None,
+        })
+    }
+}

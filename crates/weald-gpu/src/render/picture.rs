@@ -1,0 +1,77 @@
+//! A picture that comes back from the device.
+
+use std::sync::mpsc;
+
+use weald::Error;
+use weald::picture::Image;
+use wgpu::{
+    BufferUsages, COPY_BYTES_PER_ROW_ALIGNMENT, CommandEncoder, Extent3d, MapMode, Origin3d,
+    TexelCopyBufferInfo, TexelCopyBufferLayout, TexelCopyTextureInfo, TextureAspect, TextureFormat,
+    TextureUsages, TextureView,
+};
+
+use super::textures::{Canvas, Shape};
+use crate::gpu::Gpu;
+use crate::memory::Store;
+
+/// Bytes of a pixel.
+const PIXEL: u32 = 4;
+
+/// A canvas for a finished picture, and the memory through which it comes back.
+#[derive(Debug)]
+pub(super) struct Landing {
+    size: [u32; 2],
+    canvas: Canvas,
+    /// Of the canvas.
+    pub(super) view: TextureView,
+    memory: Store,
+}
+
+impl Landing {
+    pub(super) fn new(gpu: &Gpu, size: [u32; 2]) -> Result<Self, Error> {
+        let usage = TextureUsages::RENDER_ATTACHMENT | TextureUsages::COPY_SRC;
+        let canvas = Canvas::new(gpu, "a picture", Shape::flat(size, TextureFormat::Rgba8Unorm, usage))?;
+        let bytes = u64::from(row_bytes(size[0])) * u64::from(size[1]);
+        let memory = Store::new(gpu, "a picture", bytes, BufferUsages::COPY_DST | BufferUsages::MAP_READ)?;
+        Ok(Self { size, view: canvas.view.clone(), canvas, memory })
+    }
+
+    /// Encodes the copy into memory.
+    pub(super) fn collect(&self, encoder: &mut CommandEncoder) {
+        let [width, height] = self.size;
+        let from = TexelCopyTextureInfo {
+            texture: &self.canvas.texture,
+            mip_level: 0,
+            origin: Origin3d::ZERO,
+            aspect: TextureAspect::All,
+        };
+        let layout =
+            TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(row_bytes(width)), rows_per_image: None };
+        let into = TexelCopyBufferInfo { buffer: &self.memory.buffer, layout };
+        encoder.copy_texture_to_buffer(from, into, Extent3d { width, height, depth_or_array_layers: 1 });
+    }
+
+    /// The picture, when all that was submitted is done.
+    pub(super) fn image(self, gpu: &Gpu) -> Result<Image, Error> {
+        let [width, height] = self.size.map(|side| side as usize);
+        gpu.context.attempt("reading a picture back", || {
+            let failed =
+                |cause: &dyn std::fmt::Display| Error::Device(format!("reading back failed: {cause}"));
+            let (sender, mapped) = mpsc::channel();
+            let memory = &self.memory.buffer;
+            memory.map_async(MapMode::Read, .., move |result| drop(sender.send(result)));
+            gpu.context.wait(None)?;
+            mapped.recv().map_err(|cause| failed(&cause))?.map_err(|cause| failed(&cause))?;
+            let bytes = memory.get_mapped_range(..).map_err(|cause| failed(&cause))?;
+            let rows = bytes.chunks_exact(row_bytes(self.size[0]) as usize);
+            let pixels = rows.flat_map(|row| row[..PIXEL as usize * width].chunks_exact(PIXEL as usize));
+            let rgb = pixels.flat_map(|pixel| [pixel[0], pixel[1], pixel[2]]).collect();
+            Ok(Image { width, height, rgb })
+        })
+    }
+}
+
+/// Bytes of a row in memory, which copies want to be whole pieces.
+fn row_bytes(width: u32) -> u32 {
+    (PIXEL * width).next_multiple_of(COPY_BYTES_PER_ROW_ALIGNMENT)
+}

@@ -1,0 +1,212 @@
+//! The patches of ground that a camera sees, on the device.
+
+use weald::Error;
+use weald::picture::{Camera, Rim, Stage, StageMap};
+use wgpu::{Buffer, BufferUsages, IndexFormat, RenderPass};
+
+use super::frame::Drawn;
+use super::frustum::{Frustum, Heights};
+use super::lattice::{Lattice, Patch, QUADS, Standpoint};
+use super::spacing::{Ranges, errors};
+use crate::gpu::Gpu;
+use crate::memory::Store;
+
+/// Pixels that the error of the ground may take on the screen.
+const ERROR: f32 = 1.0;
+
+/// Vertices of a wall.
+const WALL: u32 = 6;
+
+/// Patches for which there is room at first.
+const ROOM: usize = 1024;
+
+/// The ground of a stage, and the patches of its last picture.
+#[derive(Debug)]
+pub(super) struct Terrain {
+    lattice: Lattice,
+    heights: Heights,
+    errors: Vec<f32>,
+    is_empty: bool,
+    grid: Indices,
+    wall: Indices,
+    patches: Instances<Patch>,
+    sides: Instances<Side>,
+    rims: Instances<[f32; 8]>,
+}
+
+/// A patch with the edge of it that has a wall: 0 to 3 for north, east, south, west.
+#[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+#[repr(C)]
+struct Side {
+    patch: Patch,
+    edge: u32,
+}
+
+/// Bytes between two instances.
+pub(super) const PATCH_BYTES: u64 = size_of::<Patch>() as u64;
+pub(super) const RIM_BYTES: u64 = size_of::<[f32; 8]>() as u64;
+pub(super) const SIDE_BYTES: u64 = size_of::<Side>() as u64;
+
+impl Terrain {
+    pub(super) fn new(gpu: &Gpu, stage: &Stage, maps: &[StageMap]) -> Result<Self, Error> {
+        let top = maps.iter().find(|map| map.name == "top").expect("every stage has a ground");
+        let (cells, metres) = (stage.cells().map(|cells| cells as f32), stage.spacing());
+        let lattice = Lattice::new(cells, metres);
+        Ok(Self {
+            heights: Heights::new(top, metres, stage.base()),
+            errors: errors(top, lattice.levels),
+            is_empty: stage.is_empty(),
+            grid: Indices::new(gpu, "indices of a patch", &grid(QUADS, QUADS))?,
+            wall: Indices::new(gpu, "indices of a wall", &grid(QUADS, 1))?,
+            patches: Instances::new(gpu, "patches")?,
+            sides: Instances::new(gpu, "sides")?,
+            rims: rims(gpu, stage)?,
+            lattice,
+        })
+    }
+
+    /// Selects what a camera sees for a picture of such a size.
+    pub(super) fn prepare(
+        &mut self,
+        gpu: &Gpu,
+        camera: &Camera,
+        size: [u32; 2],
+        detail_from: Option<[f32; 3]>,
+    ) -> Result<Drawn, Error> {
+        let cell = self.lattice.metres[0].max(self.lattice.metres[1]);
+        let reach = 1.0 / (ERROR * camera.pixel_angle(size[0] as usize));
+        let ranges = Ranges::new(&self.errors, reach, cell);
+        let [east, north, up] = detail_from.unwrap_or(camera.eye);
+        let [width, height] = self.lattice.metres;
+        let place = [0.5 + east / width, 0.5 - north / height];
+        let stand = Standpoint { place, above: (up - self.heights.highest()).max(0.0) };
+        let frusta = [Frustum::of(camera)];
+        let patches = if self.is_empty {
+            Vec::new()
+        } else {
+            self.lattice.select(stand, &ranges, &self.heights, &frusta)
+        };
+        let sides: Vec<_> = patches.iter().flat_map(|patch| self.sides_of(*patch)).collect();
+        self.patches.write(gpu, &patches)?;
+        self.sides.write(gpu, &sides)?;
+        Ok(Drawn { stand, slides: ranges.slides() })
+    }
+
+    /// The edges of a patch at which the landscape ends.
+    fn sides_of(&self, patch: Patch) -> impl Iterator<Item = Side> {
+        let side = QUADS as f32 * patch.spacing;
+        let [west, north] = patch.corner.map(|at| at == 0.5);
+        let [east, south] = [0, 1].map(|axis| patch.corner[axis] + side >= self.lattice.cells[axis] + 0.5);
+        let edges = [north, east, south, west].into_iter().zip(0..);
+        edges.filter(|(is_end, _)| *is_end).map(move |(_, edge)| Side { patch, edge })
+    }
+
+    /// Triangles of the last picture.
+    pub(super) fn triangles(&self) -> u64 {
+        let quads = u64::from(QUADS) * u64::from(self.patches.count * QUADS + self.sides.count);
+        2 * quads
+    }
+
+    /// Draws the ground by the pipeline that is set.
+    pub(super) fn draw_ground(&self, pass: &mut RenderPass<'_>) {
+        self.grid.draw(pass, &self.patches);
+    }
+
+    /// Draws the walls around what has no data by the pipeline that is set.
+    pub(super) fn draw_rims(&self, pass: &mut RenderPass<'_>) {
+        if self.rims.count > 0 {
+            pass.set_vertex_buffer(0, self.rims.buffer().slice(..));
+            pass.draw(0..WALL, 0..self.rims.count);
+        }
+    }
+
+    /// Draws the sides by the pipeline that is set.
+    pub(super) fn draw_sides(&self, pass: &mut RenderPass<'_>) {
+        self.wall.draw(pass, &self.sides);
+    }
+}
+
+/// The walls around what has no data: the ends of each, and the normals there.
+fn rims(gpu: &Gpu, stage: &Stage) -> Result<Instances<[f32; 8]>, Error> {
+    let of = |rim: Rim| {
+        let [[a, b], [c, d]] = rim.ends;
+        let [[e, f], [g, h]] = rim.normals;
+        [a, b, c, d, e, f, g, h]
+    };
+    let rims: Vec<_> = stage.rims().into_iter().map(of).collect();
+    let mut instances = Instances::new(gpu, "walls around what has no data")?;
+    instances.write(gpu, &rims)?;
+    Ok(instances)
+}
+
+/// Triangles of so many quads, whose vertices are counted row by row. The diagonals run as those of the next level do,
+/// so that a patch whose odd vertices have slid away is a patch of that level.
+fn grid(across: u32, down: u32) -> Vec<u16> {
+    let vertex = |x: u32, y: u32| (y * (across + 1) + x) as u16;
+    let quads = (0..down).flat_map(|y| (0..across).map(move |x| [x, y]));
+    let triangles = quads.flat_map(|[x, y]| {
+        let [a, b, c, d] = [vertex(x, y), vertex(x + 1, y), vertex(x, y + 1), vertex(x + 1, y + 1)];
+        [a, c, b, b, c, d]
+    });
+    triangles.collect()
+}
+
+/// Triangles by the numbers of their vertices.
+#[derive(Debug)]
+struct Indices {
+    store: Store,
+    count: u32,
+}
+
+impl Indices {
+    fn new(gpu: &Gpu, what: &str, indices: &[u16]) -> Result<Self, Error> {
+        let bytes: &[u8] = bytemuck::cast_slice(indices);
+        let usage = BufferUsages::INDEX | BufferUsages::COPY_DST;
+        let store = Store::new(gpu, what, bytes.len() as u64, usage)?;
+        gpu.context.queue.write_buffer(&store.buffer, 0, bytes);
+        Ok(Self { store, count: indices.len() as u32 })
+    }
+
+    fn draw<T: bytemuck::Pod>(&self, pass: &mut RenderPass<'_>, instances: &Instances<T>) {
+        if instances.count == 0 {
+            return;
+        }
+        pass.set_vertex_buffer(0, instances.buffer().slice(..));
+        pass.set_index_buffer(self.store.buffer.slice(..), IndexFormat::Uint16);
+        pass.draw_indexed(0..self.count, 0, 0..instances.count);
+    }
+}
+
+/// Instances, of which the buffer grows.
+#[derive(Debug)]
+struct Instances<T> {
+    what: &'static str,
+    store: Store,
+    count: u32,
+    kind: std::marker::PhantomData<T>,
+}
+
+impl<T: bytemuck::Pod> Instances<T> {
+    fn new(gpu: &Gpu, what: &'static str) -> Result<Self, Error> {
+        Ok(Self { what, store: Self::room(gpu, what, ROOM)?, count: 0, kind: std::marker::PhantomData })
+    }
+
+    fn room(gpu: &Gpu, what: &str, count: usize) -> Result<Store, Error> {
+        let bytes = (count * size_of::<T>()) as u64;
+        Store::new(gpu, what, bytes, BufferUsages::VERTEX | BufferUsages::COPY_DST)
+    }
+
+    fn buffer(&self) -> &Buffer {
+        &self.store.buffer
+    }
+
+    fn write(&mut self, gpu: &Gpu, instances: &[T]) -> Result<(), Error> {
+        let bytes: &[u8] = bytemuck::cast_slice(instances);
+        if bytes.len() as u64 > self.store.buffer.size() {
+            self.store = Self::room(gpu, self.what, instances.len().next_power_of_two())?;
+        }
+        gpu.context.queue.write_buffer(&self.store.buffer, 0, bytes);
+        self.count = instances.len() as u32;
+        Ok(())
+    }
+}

@@ -1,0 +1,144 @@
+// The ground: patches whose vertices slide onto the next level of detail, shaded as in the ray-marched view.
+
+const QUADS = 16u;
+
+struct Ground {
+    @builtin(position) @invariant position: vec4<f32>,
+    @location(0) point: vec3<f32>,
+}
+
+// The place of a vertex of a patch: its corner, spacing and level.
+fn vertex_place(patch_of: vec4<f32>, at: vec2<f32>) -> vec2<f32> {
+    let start = patch_of.xy + at * patch_of.z;
+    let slide = frame.slides[u32(patch_of.w)];
+    let away = (start - frame.stand.xy) * stage.grid.zw;
+    let distance = length(vec3<f32>(away, frame.stand.z));
+    let share = clamp((distance - slide.x) / (slide.y - slide.x), 0.0, 1.0);
+    let odd = fract(at * 0.5) * 2.0;
+    let place = start - odd * (share * patch_of.z);
+    return min(place, stage.grid.xy + 0.5);
+}
+
+fn ground_point(place: vec2<f32>) -> vec3<f32> {
+    return point_of(place, spline_at(top, place));
+}
+
+@vertex
+fn ground_vertex(@builtin(vertex_index) index: u32, @location(0) patch_of: vec4<f32>) -> Ground {
+    let at = vec2<f32>(f32(index % (QUADS + 1u)), f32(index / (QUADS + 1u)));
+    let point = ground_point(vertex_place(patch_of, at));
+    return Ground(projected(point), point);
+}
+
+// A wall below one edge of a patch: x along it, y 0 on the ground and 1 on the base. `edge` is 0 to 3 for north, east,
+// south, west.
+@vertex
+fn side_vertex(
+    @builtin(vertex_index) index: u32,
+    @location(0) patch_of: vec4<f32>,
+    @location(1) edge: u32,
+) -> Ground {
+    let along = f32(index % (QUADS + 1u));
+    // The end of the landscape may lie within a patch; vertices beyond it are drawn back onto it.
+    let far = f32(QUADS);
+    let ats = array<vec2<f32>, 4>(
+        vec2<f32>(along, 0.0), vec2<f32>(far, along), vec2<f32>(along, far), vec2<f32>(0.0, along),
+    );
+    var point = ground_point(vertex_place(patch_of, ats[edge]));
+    if index > QUADS {
+        point.z = stage.plain.w;
+    }
+    return Ground(projected(point), point);
+}
+
+fn is_land(place: vec2<f32>) -> bool {
+    return stage.has.y == 0.0 || spline_at(land, place) >= 0.5;
+}
+
+@fragment
+fn ground_fragment(in: Ground) -> @location(0) vec4<f32> {
+    let place = place_of(in.point);
+    if !is_land(place) {
+        discard;
+    }
+    let relative = in.point - frame.eye.xyz;
+    let way = length(relative);
+    let direction = relative / way;
+    let footprint = way * frame.eye.w;
+    let surface = spline_with_slope(bed, place);
+    let depth = lake_depth(place, surface.x);
+    let sun = sun_seen(in.point, normal_of(surface.yz));
+    var river = 0.0;
+    if stage.has.w > 0.0 && depth <= 0.0 {
+        river = textureSampleLevel(rivers, between, share_of(place), 0.0).x;
+    }
+    var radiance = vec3<f32>(0.0);
+    if depth <= 0.0 && river < 1.0 {
+        let skin = ground_skin(place, surface, footprint, -depth);
+        let normal = roughened(normal_of(surface.yz), skin.bump);
+        radiance = skin.albedo * lit(normal, seen_at(skylight, share_of(place)), sun) / PI;
+    }
+    if depth > 0.0 {
+        radiance = water_radiance(place, in.point, direction, way, depth / stage.scale.y, sun);
+    } else if river > 0.0 {
+        radiance = mix(radiance, water_radiance(place, in.point, direction, way, 1.2 * river, sun), river);
+    }
+    return vec4<f32>(limited(veil(radiance, frame.eye.xyz, direction, way)), 1.0);
+}
+
+fn side_colour(point: vec3<f32>, normal: vec3<f32>) -> vec4<f32> {
+    let relative = point - frame.eye.xyz;
+    let way = length(relative);
+    let place = clamp(place_of(point), vec2<f32>(0.5), stage.grid.xy + 0.5);
+    let outside = point + normal * 1.5 * stage.scale.w;
+    let radiance = side_radiance(place, point, normal, sun_seen(outside, normal));
+    return vec4<f32>(limited(veil(radiance, frame.eye.xyz, relative / way, way)), 1.0);
+}
+
+struct Wall {
+    @builtin(position) position: vec4<f32>,
+    @location(0) point: vec3<f32>,
+    @location(1) normal: vec2<f32>,
+}
+
+// A wall along the rim of what has no data, from one place to another.
+@vertex
+fn rim_vertex(
+    @builtin(vertex_index) index: u32,
+    @location(0) ends: vec4<f32>,
+    @location(1) normals: vec4<f32>,
+) -> Wall {
+    // Two triangles: above first, above last, below first; above last, below last, below first.
+    let is_last = index == 1u || index == 3u || index == 4u;
+    let place = select(ends.xy, ends.zw, is_last);
+    var point = ground_point(place);
+    if index == 2u || index == 4u || index == 5u {
+        point.z = stage.plain.w;
+    }
+    return Wall(projected(point), point, select(normals.xy, normals.zw, is_last));
+}
+
+@fragment
+fn rim_fragment(in: Wall) -> @location(0) vec4<f32> {
+    return side_colour(in.point, normalize(vec3<f32>(in.normal, 0.0)));
+}
+
+@fragment
+fn side_fragment(in: Ground) -> @location(0) vec4<f32> {
+    let place = place_of(in.point);
+    if !is_land(clamp(place, vec2<f32>(0.5), stage.grid.xy + 0.5)) {
+        discard;
+    }
+    let from_low = place - 0.5;
+    let from_high = stage.grid.xy + 0.5 - place;
+    let nearest = min(min(from_low.x, from_low.y), min(from_high.x, from_high.y));
+    var normal = vec3<f32>(0.0, -1.0, 0.0);
+    if from_low.x == nearest {
+        normal = vec3<f32>(-1.0, 0.0, 0.0);
+    } else if from_high.x == nearest {
+        normal = vec3<f32>(1.0, 0.0, 0.0);
+    } else if from_low.y == nearest {
+        normal = vec3<f32>(0.0, 1.0, 0.0);
+    }
+    return side_colour(in.point, normal);
+}

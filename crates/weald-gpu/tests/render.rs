@@ -1,0 +1,213 @@
+//! What is drawn on a device: without cracks, without leaps, the same twice, and as the ray-marched view has it.
+
+mod programs;
+
+use programs::gpu;
+use weald::grid::Mask;
+use weald::picture::{Camera, Image, Oklab, Stage, View, linear_of_hex};
+use weald::recipe::{Overrides, Recipe};
+use weald::{Error, Landscape};
+use weald_gpu::{Gpu, RenderOptions, Renderer, TestLook};
+
+const SIZE: [u32; 2] = [320, 180];
+
+/// Mountains of 20 m cells with a lake in their lowest third, and the sun high enough for short shadows.
+fn mountains() -> Landscape {
+    let text = "[landscape]\nsize = 160\ncell = 20.0\nseed = 5\n[[step]]\ndo = \"diamond-square\"\nrelief = 700.0\n\
+                roughness = 0.9\n[[output]]\nlayer = \"height\"\nfile = \"a.tif\"\n";
+    let recipe = Recipe::parse("mountains.toml", text, &Overrides::default()).expect("a recipe");
+    recipe.landscape().expect("ground")
+}
+
+fn view() -> View {
+    let [width, height] = SIZE;
+    View { width, height, field_of_view_deg: 50.0, ..View::default() }
+}
+
+fn options(samples: u32) -> RenderOptions {
+    RenderOptions { size: SIZE, samples }
+}
+
+fn renderer(gpu: &Gpu, stage: &Stage, samples: u32) -> Renderer {
+    Renderer::new(gpu, stage, options(samples)).expect("it can be drawn")
+}
+
+/// A camera so many metres above the ground of a place, looking down by an angle, northward and turned.
+fn above(stage: &Stage, [east, south]: [f64; 2], metres: f32, down_deg: f32, turn_deg: f32) -> Camera {
+    let ground = stage.top_at([east, south]).expect("on the land");
+    let (down, turn) = (down_deg.to_radians(), turn_deg.to_radians());
+    let forward = [down.cos() * turn.sin(), down.cos() * turn.cos(), -down.sin()];
+    let eye = [east as f32, -south as f32, ground + metres];
+    Camera::looking(eye, forward, stage.camera().half)
+}
+
+fn is_magenta(pixel: [u8; 3]) -> bool {
+    let [r, g, b] = pixel.map(i32::from);
+    r - g > 60 && b - g > 60
+}
+
+fn magenta(image: &Image) -> usize {
+    image.rgb.chunks_exact(3).filter(|pixel| is_magenta([pixel[0], pixel[1], pixel[2]])).count()
+}
+
+#[test]
+fn closed_ground_has_no_cracks_from_any_camera() {
+    let Some(gpu) = gpu() else { return };
+    let stage = Stage::new(&view(), &mountains()).expect("a stage");
+    let mut renderer = renderer(&gpu, &stage, 1);
+    let bare = TestLook { bare: true, ..TestLook::default() };
+    let up = Camera::looking([1600.0, -1600.0, 900.0], [0.0, 0.6, 0.8], stage.camera().half);
+    let sky = renderer.render_for_a_test(&up, bare).expect("drawn");
+    assert_eq!(magenta(&sky), 320 * 180, "what nothing drew on is seen");
+    let mut levels = 0;
+    for look in 0..24_u16 {
+        let look = f32::from(look);
+        let place =
+            [1600.0 + 300.0 * f64::from((look * 2.4).sin()), 1700.0 + 300.0 * f64::from((look * 1.7).cos())];
+        let camera = above(&stage, place, 15.0 + 12.0 * look, 32.0 + look, 47.0 * look);
+        let image = renderer.render_for_a_test(&camera, bare).expect("drawn");
+        assert_eq!(magenta(&image), 0, "cracks from camera {look}");
+        levels += u32::from(renderer.triangles(&camera).expect("counted") > 20_000);
+    }
+    assert!(levels > 5, "the pictures have much ground");
+}
+
+/// Greatest change of a channel, and the mean of all.
+fn change(a: &Image, b: &Image) -> (u8, f64) {
+    let changes = a.rgb.iter().zip(&b.rgb).map(|(a, b)| a.abs_diff(*b));
+    let (mut most, mut sum) = (0, 0.0);
+    for change in changes {
+        most = most.max(change);
+        sum += f64::from(change);
+    }
+    (most, sum / a.rgb.len() as f64)
+}
+
+/// Greatest mean change of a picture between levels of detail that are chosen two metres apart, in bytes a channel.
+const MEAN_CHANGE: f64 = 0.05;
+
+/// Greatest share of its channels that may change by more than eight bytes.
+const SEEN_CHANGE: f64 = 5e-4;
+
+#[test]
+fn levels_of_detail_pass_into_each_other_without_leaps() {
+    let Some(gpu) = gpu() else { return };
+    let stage = Stage::new(&view(), &mountains()).expect("a stage");
+    let mut renderer = renderer(&gpu, &stage, 4);
+    let camera = above(&stage, [1600.0, 2600.0], 60.0, 12.0, 5.0);
+    let mut drawn = |step: u16| {
+        let mut eye = camera.eye;
+        eye[1] -= 2.0 * f32::from(step);
+        let look = TestLook { detail_from: Some(eye), ..TestLook::default() };
+        renderer.render_for_a_test(&camera, look).expect("drawn")
+    };
+    let first = drawn(0);
+    let mut before = first.clone();
+    for step in 1..60 {
+        let next = drawn(step);
+        let (_, mean) = change(&before, &next);
+        let seen = before.rgb.iter().zip(&next.rgb).filter(|(a, b)| a.abs_diff(**b) > 8).count();
+        assert!(mean < MEAN_CHANGE, "step {step}: {mean} bytes in the mean");
+        let share = seen as f64 / next.rgb.len() as f64;
+        assert!(share < SEEN_CHANGE, "step {step}: a share of {share} changes by more than 8 bytes");
+        before = next;
+    }
+    assert!(change(&first, &before).0 > 2, "levels of detail did change");
+}
+
+#[test]
+fn a_picture_drawn_twice_is_the_same_to_the_bit() {
+    let Some(gpu) = gpu() else { return };
+    let stage = Stage::new(&view(), &mountains()).expect("a stage");
+    let camera = stage.camera();
+    let mut renderer = renderer(&gpu, &stage, 4);
+    let once = renderer.render(&camera).expect("drawn");
+    let other = above(&stage, [1600.0, 1600.0], 200.0, 20.0, 30.0);
+    assert_ne!(renderer.render(&other).expect("drawn"), once, "another camera sees something else");
+    assert_eq!(renderer.render(&camera).expect("drawn"), once);
+    let mut again = self::renderer(&gpu, &stage, 4);
+    assert_eq!(again.render(&camera).expect("drawn"), once);
+}
+
+/// Means of Oklab over squares of eight pixels, so that edges and dither do not count.
+fn squares(image: &Image) -> Vec<Oklab> {
+    let side = 8;
+    let mut means = Vec::new();
+    for top in (0..image.height - side).step_by(side) {
+        for left in (0..image.width - side).step_by(side) {
+            let mut sum = [0.0_f64; 3];
+            for pixel in 0..side * side {
+                let [r, g, b] = image.pixel(left + pixel % side, top + pixel / side).map(u32::from);
+                let Oklab { lightness, a, b } = Oklab::of(linear_of_hex(r << 16 | g << 8 | b));
+                sum = [sum[0] + lightness, sum[1] + a, sum[2] + b];
+            }
+            let [lightness, a, b] = sum.map(|sum| sum / (side * side) as f64);
+            means.push(Oklab { lightness, a, b });
+        }
+    }
+    means
+}
+
+/// Distances of a device's picture from the ray-marched one: the mean, and that which one square in twenty passes.
+fn distances(gpu: &Gpu, view: &View, landscape: &Landscape, camera: Option<Camera>) -> (f64, f64) {
+    let stage = Stage::new(view, landscape).expect("a stage");
+    let camera = camera.unwrap_or_else(|| stage.camera());
+    let drawn = renderer(gpu, &stage.seen_from(camera), 4).render(&camera).expect("drawn");
+    let marched = view.seen_from(landscape, camera).expect("marched");
+    let pairs = squares(&drawn).into_iter().zip(squares(&marched));
+    let mut distances: Vec<f64> = pairs.map(|(a, b)| a.distance(b)).collect();
+    distances.sort_by(f64::total_cmp);
+    let mean = distances.iter().sum::<f64>() / distances.len() as f64;
+    (mean, distances[distances.len() * 19 / 20])
+}
+
+#[test]
+fn ground_sky_and_sides_have_the_colours_of_the_ray_marched_view() {
+    let Some(gpu) = gpu() else { return };
+    let landscape = mountains();
+    // A sun overhead throws no shadows.
+    let view = View { sun_altitude_deg: 90.0, ..view() };
+    let stage = Stage::new(&view, &landscape).expect("a stage");
+    let low = above(&stage, [1500.0, 2700.0], 90.0, 4.0, 0.0);
+    for camera in [None, Some(low)] {
+        let (mean, worst) = distances(&gpu, &view, &landscape, camera);
+        // 0.02 is about the least difference that the eye sees.
+        assert!(mean < 0.006 && worst < 0.02, "mean {mean}, one in twenty {worst}");
+    }
+}
+
+#[test]
+fn what_has_no_data_is_open_and_has_walls() {
+    let Some(gpu) = gpu() else { return };
+    let mut landscape = mountains();
+    let size = landscape.domain.size;
+    let island = |cell: usize| {
+        let [x, y] = [cell % size.columns, cell / size.columns].map(|at| at as f64 - 80.0);
+        (15.0..70.0).contains(&x.hypot(y))
+    };
+    landscape.domain.land = Mask::new(size, (0..size.cells()).map(island).collect());
+    let view = View { sun_altitude_deg: 90.0, ..view() };
+    let (mean, worst) = distances(&gpu, &view, &landscape, None);
+    assert!(mean < 0.012 && worst < 0.05, "mean {mean}, one in twenty {worst}");
+}
+
+#[test]
+fn sizes_and_cameras_that_cannot_be_drawn_are_refused() {
+    let Some(gpu) = gpu() else { return };
+    let stage = Stage::new(&view(), &mountains()).expect("a stage");
+    // A budget that no other test takes from.
+    let gpu = gpu.with_memory(1 << 30).expect("a legal budget");
+    let held = gpu.allocated();
+    for (size, samples) in [([0, 10], 1), ([10, 100_000], 4), ([320, 180], 3), ([320, 180], 64)] {
+        let error = Renderer::new(&gpu, &stage, RenderOptions { size, samples }).expect_err("refused");
+        assert!(matches!(error, Error::Limit(_)), "{error}");
+        assert_eq!(gpu.allocated(), held, "nothing was allocated");
+    }
+    let mut renderer = renderer(&gpu, &stage, 1);
+    for number in [f32::NAN, f32::INFINITY] {
+        let camera = stage.camera().at([number, 0.0, 10.0]);
+        assert!(renderer.render(&camera).expect_err("refused").to_string().contains("finite"));
+    }
+    drop(renderer);
+    assert_eq!(gpu.allocated(), held, "all is given back");
+}

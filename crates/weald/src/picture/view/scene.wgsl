@@ -1,0 +1,61 @@
+// Twin of `scene.rs`: the light that starts at ground, cut sides and the plain, for the share of the sun that is seen.
+
+fn lit(normal: vec3<f32>, seen: Seen, sun: f32) -> vec3<f32> {
+    let facing = max(dot(normal, stage.sun.xyz), 0.0);
+    return stage.sunlight.xyz * (facing * sun) + skylight_on(seen, normal);
+}
+
+// Whether a place lies under a lake, how deep, or so far above it in negative numbers.
+fn lake_depth(place: vec2<f32>, ground: f32) -> f32 {
+    if stage.has.x == 0.0 {
+        return -1e9;
+    }
+    return spline_at(level, place) - ground;
+}
+
+// Dry ground on a surface of a height and a rise by the cell, as colour and roughness.
+fn ground_skin(place: vec2<f32>, surface: vec3<f32>, footprint: f32, above: f32) -> Skin {
+    let normal = normal_of(surface.yz);
+    let stretch = stage.scale.y;
+    let run = length(normal.xy);
+    let point = vec3<f32>(point_of(place, 0.0).xy, surface.x / stretch);
+    let slope = run / max(normal.z, 1e-3) / stretch;
+    var skin = cover_at(Spot(place, point, slope, normal.xy / max(run, 1e-6), footprint));
+    skin.albedo = wetted(skin.albedo, above);
+    return skin;
+}
+
+// The normal of a surface with the roughness of its skin.
+fn roughened(normal: vec3<f32>, bump: vec2<f32>) -> vec3<f32> {
+    return normalize(vec3<f32>(normal.xy - normal.z * bump * stage.scale.y, normal.z));
+}
+
+// A cut side.
+fn side_radiance(place: vec2<f32>, point: vec3<f32>, normal: vec3<f32>, sun: f32) -> vec3<f32> {
+    let stretch = stage.scale.y;
+    let surface = spline_at(bed, place);
+    var albedo = stage.cut_water.xyz;
+    if point.z <= surface {
+        albedo = strata_albedo(place, point, point.z / stretch, surface / stretch);
+    }
+    let facing = max(dot(normal, stage.sun.xyz), 0.0);
+    return albedo * (stage.sunlight.xyz * (facing * sun) + side_light(normal)) / PI;
+}
+
+// The light of the sky on a point of the plain.
+fn plain_seen(point: vec3<f32>) -> Seen {
+    let share = (share_of(place_of(point)) + 1.0) / 3.0;
+    if all(share >= vec2<f32>(0.0)) && all(share <= vec2<f32>(1.0)) {
+        return seen_at(plain_light, share);
+    }
+    return open_sky();
+}
+
+// The plain that the landscape stands on, which is lost in the haze of the horizon.
+fn plain_radiance(eye: vec3<f32>, direction: vec3<f32>, way: f32, sun: f32) -> vec3<f32> {
+    let seen = plain_seen(eye + direction * way);
+    let radiance = stage.plain.xyz * lit(vec3<f32>(0.0, 0.0, 1.0), seen, sun) / PI;
+    let near = veil(radiance, eye, direction, way);
+    let far = way / stage.haze.z;
+    return mix(near, sky_radiance(vec3<f32>(direction.xy, 0.0)), 1.0 - exp(-0.25 * far * far));
+}

@@ -1,0 +1,46 @@
+// Twin of `side.rs`: the cut sides of a landscape.
+
+// The light of the sky and of the plain on a side of that level normal.
+fn side_light(normal: vec3<f32>) -> vec3<f32> {
+    let turn = atan2(normal.x, normal.y) / (2.0 * PI);
+    let place = fract(turn) * f32(SIDE_NORMALS);
+    let first = i32(place);
+    let low = stage.side_light[first % SIDE_NORMALS].xyz;
+    return mix(low, stage.side_light[(first + 1) % SIDE_NORMALS].xyz, place - floor(place));
+}
+
+// A rock's colour with its beds, which are gently folded.
+fn bedded(colour: vec3<f32>, point: vec3<f32>, height: f32, seed: u32) -> vec3<f32> {
+    let fold = octaves_at(Octaves(60.0 * stage.strata.x, 2u, 0.4, 0x71u), point.xy, 0.0).value;
+    let level = height / stage.strata.x + 5.0 * fold;
+    let thick = grain(vec2<f32>(0.7 * level, 0.37), 0x72u + seed).value;
+    let thin = grain(vec2<f32>(3.1 * level, 0.61), 0x73u + seed).value;
+    let tone = 0.82 + 0.7 * thick + 0.35 * thin;
+    let warmth = 0.16 * grain(vec2<f32>(0.9 * level, 5.3), 0x74u).value;
+    let tint = 1.0 + warmth * vec3<f32>(1.0, 0.0, -1.0);
+    return clamp(colour * tone * tint, vec3<f32>(0.01), vec3<f32>(0.9));
+}
+
+// Thickness of a material above the bedrock, counted from 0.
+fn strata_thickness(place: vec2<f32>, material: i32) -> f32 {
+    let share = (place + 1.5) / vec2<f32>(textureDimensions(strata));
+    return max(textureSampleLevel(strata, between, share, material / 4, 0.0)[material % 4], 0.0);
+}
+
+// Colour of the ground at a place and a height in metres, whose surface is at `surface`.
+fn strata_albedo(place: vec2<f32>, point: vec3<f32>, height: f32, surface: f32) -> vec3<f32> {
+    var roof = surface;
+    let count = i32(stage.strata.z);
+    for (var material = count - 1; material >= 0; material--) {
+        roof -= strata_thickness(place, material);
+        if height >= roof {
+            return bedded(stage.strata_colours[material].xyz, point, height, u32(material) + 1u);
+        }
+    }
+    let bare = bedded(stage.strata_bedrock.xyz, point, height, 0u);
+    if count > 0 {
+        return bare;
+    }
+    let deep = (surface - height) / max(stage.strata.y, 1e-6);
+    return mix(stage.strata_soil.xyz, bare, clamp(2.0 * deep - 1.0, 0.0, 1.0));
+}

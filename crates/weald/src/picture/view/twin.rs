@@ -1,0 +1,38 @@
+//! The shaders of a stage: the numbers and maps of it that they see, and the twins of its functions.
+
+use std::fmt::Write;
+
+use super::maps::MapKind;
+use super::stage::Stage;
+
+/// The twins, each after those that it calls.
+const TWINS: [&str; 9] = [
+    include_str!("surface.wgsl"),
+    include_str!("grain.wgsl"),
+    include_str!("sky.wgsl"),
+    include_str!("haze.wgsl"),
+    include_str!("tone.wgsl"),
+    include_str!("cover.wgsl"),
+    include_str!("water.wgsl"),
+    include_str!("skylight.wgsl"),
+    include_str!("side.wgsl"),
+];
+
+/// What is made of them.
+const SCENE: &str = include_str!("scene.wgsl");
+
+impl Stage {
+    /// What a shader that draws the stage begins with: its numbers at binding 0 of a group, a sampler `between` at 1,
+    /// the maps of [`Stage::map_kinds`] from 2 on, and the functions of the view.
+    pub fn shader(&self, group: u32) -> String {
+        let mut text = self.declaration();
+        let _ = writeln!(text, "@group({group}) @binding(0) var<uniform> stage: Stage;");
+        let _ = writeln!(text, "@group({group}) @binding(1) var between: sampler;");
+        for (binding, (name, kind, is_array)) in (2..).zip(Self::map_kinds()) {
+            let shape = if is_array { "texture_2d_array<f32>" } else { "texture_2d<f32>" };
+            debug_assert!(!is_array || kind == MapKind::Smooth, "{name}: only smooth maps have layers");
+            let _ = writeln!(text, "@group({group}) @binding({binding}) var {name}: {shape};");
+        }
+        TWINS.iter().chain([&SCENE]).fold(text, |text, twin| text + "\n" + twin)
+    }
+}
