@@ -117,9 +117,8 @@ mod tests {
     fn ranges_at_least_double_and_slides_lie_between_them() {
         let ranges = Ranges::new(&[0.0, 0.1, 40.0, 41.0, 42.0], 100.0, 10.0);
         let slides = ranges.slides();
-        for level in 1..4 {
+        for (level, &[start, end, ..]) in slides.iter().enumerate().take(4).skip(1) {
             assert!(ranges.end(level) >= 2.0 * ranges.end(level - 1));
-            let [start, end, ..] = slides[level];
             assert!(start > ranges.end(level - 1) && start < end && end == ranges.end(level));
         }
     }
