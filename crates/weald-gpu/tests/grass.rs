@@ -49,7 +49,7 @@ fn on_the_cpu(packed: Packed, [number, along, east, south]: [f32; 4], bend: Bend
     let species = &SPECIES[instance.species as usize];
     let number = number as u32;
     let blade = Blade::of(species, &instance.tuft, number / 2, bend);
-    let side = if number % 2 == 0 { -1.0 } else { 1.0 };
+    let side = if number.is_multiple_of(2) { -1.0 } else { 1.0 };
     (blade.swayed(&blade.vertex(along, side), [east, south]), species.top())
 }
 
