@@ -32,7 +32,7 @@ fn make(job: GalleryJob) -> FigureOutput {
         for species in &SPECIES {
             let height = set(GROUNDS[0]).height(species, Bend::Total) * species.stalk.max(1.0);
             images.push(
-                portrait(species, &clump(&set(ground), 0.1 * height), 1.25 * height, size)
+                portrait(species, &clump(&set(ground), 0.1 * height), 1.45 * height, size)
                     .titled(species.name),
             );
         }
