@@ -179,6 +179,9 @@ pub(crate) struct BenchArguments {
     /// Only points of fractals, with --engine cpu; beside flam3 where it is installed
     #[arg(long, conflicts_with_all = ["size", "gpu_memory"])]
     pub(crate) fractals: bool,
+    /// Only sets and blades of grass, with --engine cpu
+    #[arg(long, conflicts_with_all = ["size", "gpu_memory", "fractals"])]
+    pub(crate) grass: bool,
     /// Most memory of the graphics card, as in 512MiB; larger sizes are left out
     #[arg(long, value_name = "BYTES", allow_negative_numbers = true, value_parser = engine::memory)]
     pub(crate) gpu_memory: Option<u64>,

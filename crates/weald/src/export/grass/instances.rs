@@ -197,11 +197,11 @@ impl Scene<'_> {
     }
 }
 
-/// A number of an instance.
-type Said = fn(&Scene<'_>, &Standing) -> f32;
+/// A number that is said of an instance.
+type Attribute = (&'static str, fn(&Scene<'_>, &Standing) -> f32);
 
 /// What is said of an instance beside where it stands.
-const ATTRIBUTES: [(&str, Said); 7] = [
+const ATTRIBUTES: [Attribute; 7] = [
     ("soil", |_, set| set.instance.tuft.soil),
     ("light", |_, set| set.instance.tuft.light),
     ("level", |_, set| set.instance.tuft.level),

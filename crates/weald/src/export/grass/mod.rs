@@ -97,10 +97,15 @@ impl GrassSets {
     /// The sets with the heights at which they stand.
     fn standing(&self, landscape: &Landscape, meadow: &Meadow) -> Result<Vec<Standing>, Error> {
         let area = self.area_of(meadow);
+        let (expected, most) = (meadow.expected(&area), f64::from(self.most));
         // The count varies a little about what is expected; far beyond the limit nothing is made.
-        self.ensure_few(meadow.expected(&area) * 0.9)?;
+        if expected > 1.2 * most {
+            return Err(self.too_many(expected));
+        }
         let sets: Vec<_> = meadow.sets(&area).into_iter().map(Instance::unpack).collect();
-        self.ensure_few(sets.len() as f64)?;
+        if sets.len() as f64 > most {
+            return Err(self.too_many(sets.len() as f64));
+        }
         let places: Vec<_> = sets.iter().map(|set| set.place.map(f64::from)).collect();
         let ground = landscape.field(&self.ground.0)?;
         let on_mesh = match &self.on {
@@ -115,14 +120,11 @@ impl GrassSets {
         Ok(standing.collect())
     }
 
-    fn ensure_few(&self, sets: f64) -> Result<(), Error> {
-        if sets <= f64::from(self.most) {
-            return Ok(());
-        }
-        Err(Error::Limit(format!(
+    fn too_many(&self, sets: f64) -> Error {
+        Error::Limit(format!(
             "grass: some {sets:.0} sets of `{}` stand in the `area`, but `most` is {}; choose a smaller `area`, fewer `sets` \
              in the step, or a larger `most`",
             self.of.0, self.most
-        )))
+        ))
     }
 }

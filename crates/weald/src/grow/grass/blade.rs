@@ -189,11 +189,11 @@ impl Blade {
         (0..rows).flat_map(move |row| [-1.0, 1.0].map(|side| self.vertex(row as f32 / last, side)))
     }
 
-    /// How much of its width a head has: 0 outside it, 1 at its widest.
+    /// How much of its width a head has: 0 outside it, 1 at its widest, a third from its foot.
     #[inline]
     fn bulge(&self, along: f32) -> f32 {
         let inside = ((along - 1.0) / self.head_length.max(1e-6) + 1.0).clamp(0.0, 1.0);
-        4.0 * inside * (1.0 - inside)
+        6.75 * inside * (1.0 - inside) * (1.0 - inside)
     }
 }
 

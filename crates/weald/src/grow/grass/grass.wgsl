@@ -300,7 +300,7 @@ fn blade_of(species: u32, tuft: Set, number: u32) -> Blade {
 
 fn bulge_of(blade: Blade, along: f32) -> f32 {
     let inside = clamp((along - 1.0) / max(blade.head_length, 1e-6) + 1.0, 0.0, 1.0);
-    return 4.0 * inside * (1.0 - inside);
+    return 6.75 * inside * (1.0 - inside) * (1.0 - inside);
 }
 
 fn vertex_of(blade: Blade, along: f32, side: f32) -> Vertex {

@@ -16,7 +16,7 @@ use super::growth::Bend;
 use super::instance::{Instance, Packed};
 use super::species::Species;
 use crate::grid::{Field, Mask, Size};
-use crate::random::{hash2, splitmix64};
+use crate::random::splitmix64;
 
 /// Grass on a landscape.
 #[derive(Clone, Debug, PartialEq)]
@@ -102,8 +102,9 @@ impl Meadow {
         let (first, last) = (square(high.0), square(high.1));
         let at_once = SQUARES_A_TASK.div_ceil((columns.end - columns.start) as usize);
         let of_row = |row: usize| {
-            let sets = columns.clone().filter_map(|column| self.set(column, first + row as i64));
-            sets.filter(|set| area.holds(set)).collect::<Vec<_>>()
+            let (row, mut sets) = (Row::of(self, first + row as i64), Vec::new());
+            sets.extend(columns.clone().filter_map(|column| row.set(column)).filter(|set| area.holds(set)));
+            sets
         };
         let rows = (0..(last - first + 1) as usize).into_par_iter();
         rows.with_min_len(at_once).map(of_row).collect::<Vec<_>>().concat()
@@ -125,48 +126,65 @@ impl Meadow {
 
     /// The height of the ground under a set, between the centres of cells; none beyond the outermost.
     pub fn height(ground: &Field, cell: f64, place: [f32; 2]) -> Option<f32> {
-        Corners::around(ground.size(), cell, place).map(|corners| corners.value(ground))
+        Corners::around(ground.size(), 1.0 / cell, place).map(|corners| corners.value(ground))
     }
 
     /// Side of a square in metres.
     fn side(&self) -> f64 {
         1.0 / self.densest.sqrt()
     }
+}
+
+/// What the squares of a row have in common.
+struct Row<'a> {
+    meadow: &'a Meadow,
+    number: i64,
+    /// The hash of the seed and the row: with a column it makes [`hash2`](crate::random::hash2).
+    key: u64,
+    side: f64,
+    cells_a_metre: f64,
+}
+
+impl<'a> Row<'a> {
+    fn of(meadow: &'a Meadow, number: i64) -> Self {
+        let key = splitmix64(splitmix64(meadow.seed) ^ number as u64);
+        Self { meadow, number, key, side: meadow.side(), cells_a_metre: 1.0 / meadow.maps.cell }
+    }
 
     /// The set of a square.
     #[inline]
-    fn set(&self, column: i64, row: i64) -> Option<Packed> {
-        let bits = hash2(self.seed, column, row);
+    fn set(&self, column: i64) -> Option<Packed> {
+        let (meadow, maps) = (self.meadow, &self.meadow.maps);
+        let bits = splitmix64(self.key ^ column as u64);
         let off = |shift: u32| 0.5 + JITTER * (f64::from((bits >> shift) as u16) / 65536.0 - 0.5);
-        let side = self.side();
-        let place =
-            [(column as f64 + off(0)) * side, (row as f64 + off(16)) * side].map(|along| along as f32);
-        let maps = &self.maps;
-        let corners = Corners::around(maps.density.size(), maps.cell, place)?;
-        if !maps.land.as_ref().is_none_or(|land| corners.cells.iter().all(|&cell| land.is_land_at(cell))) {
-            return None;
-        }
-        let rank =
-            (column as u32).wrapping_mul(RANK_OF_COLUMN).wrapping_add((row as u32).wrapping_mul(RANK_OF_ROW));
-        if rank as f32 * (1.0 / 4_294_967_296.0) >= corners.value(&maps.density) {
-            return None;
-        }
-        if maps.water.as_ref().is_some_and(|water| corners.value(water) > self.deepest) {
+        let place = [(column as f64 + off(0)) * self.side, (self.number as f64 + off(16)) * self.side];
+        let place = place.map(|along| along as f32);
+        let corners = Corners::around(maps.density.size(), self.cells_a_metre, place)?;
+        if rank(column, self.number) >= corners.value(&maps.density) || !maps.bears(&corners, meadow.deepest)
+        {
             return None;
         }
         let share = |map: &Option<Field>| map.as_ref().map_or(0.0, |map| corners.value(map).clamp(0.0, 1.0));
-        let species = maps.species(&corners, splitmix64(bits));
-        let left = (self.mown_height / self.species[species].top()).min(1.0);
+        let species = maps.species(&corners, bits);
+        let left = (meadow.mown_height / meadow.species[species].top()).min(1.0);
         let tuft = Set {
             soil: corners.value(&maps.soil),
             light: corners.value(&maps.light),
-            level: self.level,
+            level: meadow.level,
             cut: 1.0 - share(&maps.mown) * (1.0 - left),
             trodden: share(&maps.trodden),
             seed: (bits >> 48) as u32,
         };
         Some(Instance { place, species: species as u32, tuft }.pack())
     }
+}
+
+/// The density, 0 to 1, above which a square has a set.
+#[inline]
+fn rank(column: i64, row: i64) -> f32 {
+    let columns = (column as u32).wrapping_mul(RANK_OF_COLUMN);
+    let rank = columns.wrapping_add((row as u32).wrapping_mul(RANK_OF_ROW));
+    rank as f32 * (1.0 / 4_294_967_296.0)
 }
 
 impl Area {
@@ -186,14 +204,15 @@ struct Corners {
 impl Corners {
     /// The cells around a place, none beyond the outermost centres: grass stands on the mesh of the centres.
     #[inline]
-    fn around(size: Size, cell: f64, place: [f32; 2]) -> Option<Self> {
-        let [u, v] = place.map(|along| f64::from(along) / cell - 0.5);
+    fn around(size: Size, cells_a_metre: f64, place: [f32; 2]) -> Option<Self> {
+        let [u, v] = place.map(|along| f64::from(along) * cells_a_metre - 0.5);
         if u < 0.0 || v < 0.0 || u >= (size.columns - 1) as f64 || v >= (size.rows - 1) as f64 {
             return None;
         }
-        let first = size.index(u as usize, v as usize);
+        let (x, y) = (u as usize, v as usize);
+        let first = size.index(x, y);
         let cells = [first, first + 1, first + size.columns, first + size.columns + 1];
-        Some(Self { cells, along: [u - u.floor(), v - v.floor()].map(|share| share as f32) })
+        Some(Self { cells, along: [(u - x as f64) as f32, (v - y as f64) as f32] })
     }
 
     #[inline]
@@ -207,6 +226,14 @@ impl Corners {
 }
 
 impl Maps {
+    /// Whether all cells around are ground, and water is no deeper there.
+    #[inline]
+    fn bears(&self, corners: &Corners, deepest: f32) -> bool {
+        let is_land = |land: &Mask| corners.cells.iter().all(|&cell| land.is_land_at(cell));
+        self.land.as_ref().is_none_or(is_land)
+            && self.water.as_ref().is_none_or(|water| corners.value(water) <= deepest)
+    }
+
     /// The species that grows there: drawn by the shares of one of the cells, which is drawn by its weight. So the
     /// chance of each goes evenly from cell to cell.
     #[inline]
@@ -214,6 +241,7 @@ impl Maps {
         let Some((last, _)) = self.shares.split_last().filter(|(_, others)| !others.is_empty()) else {
             return 0;
         };
+        let bits = splitmix64(bits);
         let lot = |shift: u32| f32::from((bits >> shift) as u16) * (1.0 / 65536.0);
         let drawn = usize::from(lot(0) < corners.along[0]) + 2 * usize::from(lot(16) < corners.along[1]);
         // The drawn cell may have no grass where its neighbour has.
