@@ -177,6 +177,21 @@ fn ground_sky_and_sides_have_the_colours_of_the_ray_marched_view() {
 }
 
 #[test]
+fn shadows_lie_where_the_ray_marched_view_has_them() {
+    let Some(gpu) = gpu() else { return };
+    let landscape = mountains();
+    for altitude in [14.0, 30.0] {
+        let view = View { sun_altitude_deg: altitude, azimuth_deg: 120.0, ..view() };
+        let stage = Stage::new(&view, &landscape).expect("a stage");
+        let low = above(&stage, [1500.0, 2700.0], 90.0, 4.0, 60.0);
+        for camera in [None, Some(low)] {
+            let (mean, worst) = distances(&gpu, &view, &landscape, camera);
+            assert!(mean < 0.004 && worst < 0.02, "sun at {altitude}°: mean {mean}, one in twenty {worst}");
+        }
+    }
+}
+
+#[test]
 fn what_has_no_data_is_open_and_has_walls() {
     let Some(gpu) = gpu() else { return };
     let mut landscape = mountains();

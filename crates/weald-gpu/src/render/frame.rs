@@ -4,10 +4,13 @@ use weald::Error;
 use weald::picture::Camera;
 use wgpu::{
     BindGroup, BindGroupDescriptor, BindGroupEntry, BindGroupLayout, BindGroupLayoutDescriptor,
-    BindGroupLayoutEntry, BindingType, BufferBindingType, BufferUsages, ShaderStages,
+    BindGroupLayoutEntry, BindingResource, BindingType, BufferBindingType, BufferUsages, CompareFunction,
+    FilterMode, SamplerBindingType, SamplerDescriptor, ShaderStages, TextureSampleType, TextureViewDimension,
 };
 
+use super::cascades::{CASCADES, Cascades};
 use super::lattice::{MOST_LEVELS, Standpoint};
+use super::textures::Canvas;
 use crate::gpu::Gpu;
 use crate::memory::Store;
 
@@ -24,6 +27,9 @@ struct Numbers {
     up: [f32; 4],
     stand: [f32; 4],
     slides: [[f32; 4]; MOST_LEVELS],
+    sun_right: [f32; 4],
+    sun_up: [f32; 4],
+    cascades: [[f32; 4]; CASCADES],
 }
 
 /// What a camera's ground was selected for.
@@ -31,39 +37,47 @@ struct Numbers {
 pub(super) struct Drawn {
     pub(super) stand: Standpoint,
     pub(super) slides: [[f32; 4]; MOST_LEVELS],
+    pub(super) cascades: Cascades,
 }
 
-/// The numbers of a picture on the device.
+/// The numbers of a picture on the device, and what shadows are looked up in.
 #[derive(Debug)]
 pub(super) struct Frame {
     pub(super) layout: BindGroupLayout,
     pub(super) group: BindGroup,
+    /// The numbers alone, for what throws shadows.
+    pub(super) caster_layout: BindGroupLayout,
+    pub(super) caster_group: BindGroup,
     numbers: Store,
 }
 
 impl Frame {
-    pub(super) fn new(gpu: &Gpu) -> Result<Self, Error> {
+    pub(super) fn new(gpu: &Gpu, shadows: &Canvas) -> Result<Self, Error> {
         let usage = BufferUsages::UNIFORM | BufferUsages::COPY_DST;
-        let bytes = size_of::<Numbers>() as u64;
-        let numbers = Store::new(gpu, "the numbers of a picture", bytes, usage)?;
-        let entry = BindGroupLayoutEntry {
-            binding: 0,
-            visibility: ShaderStages::VERTEX_FRAGMENT,
-            ty: BindingType::Buffer {
-                ty: BufferBindingType::Uniform,
-                has_dynamic_offset: false,
-                min_binding_size: None,
-            },
-            count: None,
+        let numbers = Store::new(gpu, "the numbers of a picture", size_of::<Numbers>() as u64, usage)?;
+        let device = &gpu.context.device;
+        let layout = |entries: &[BindGroupLayoutEntry]| {
+            device.create_bind_group_layout(&BindGroupLayoutDescriptor { label: Some("frame"), entries })
         };
-        let description = BindGroupLayoutDescriptor { label: Some("frame"), entries: &[entry] };
-        let layout = gpu.context.device.create_bind_group_layout(&description);
-        let entries = [BindGroupEntry { binding: 0, resource: numbers.buffer.as_entire_binding() }];
-        let description = BindGroupDescriptor { label: Some("frame"), layout: &layout, entries: &entries };
-        let group = gpu
-            .context
-            .attempt("binding a picture", || Ok(gpu.context.device.create_bind_group(&description)))?;
-        Ok(Self { layout, group, numbers })
+        let (layout, caster_layout) = (layout(&entries()), layout(&entries()[..1]));
+        let sampler = device.create_sampler(&SamplerDescriptor {
+            label: Some("shadows"),
+            compare: Some(CompareFunction::LessEqual),
+            mag_filter: FilterMode::Linear,
+            min_filter: FilterMode::Linear,
+            ..SamplerDescriptor::default()
+        });
+        let entries = [
+            BindGroupEntry { binding: 0, resource: numbers.buffer.as_entire_binding() },
+            BindGroupEntry { binding: 1, resource: BindingResource::TextureView(&shadows.view) },
+            BindGroupEntry { binding: 2, resource: BindingResource::Sampler(&sampler) },
+        ];
+        let bind = |layout: &BindGroupLayout, entries: &[BindGroupEntry<'_>]| {
+            let description = BindGroupDescriptor { label: Some("frame"), layout, entries };
+            gpu.context.attempt("binding a picture", || Ok(device.create_bind_group(&description)))
+        };
+        let (group, caster_group) = (bind(&layout, &entries)?, bind(&caster_layout, &entries[..1])?);
+        Ok(Self { layout, group, caster_layout, caster_group, numbers })
     }
 
     /// Sets the numbers of the next picture.
@@ -77,7 +91,31 @@ impl Frame {
             up: with(camera.up, camera.half[1]),
             stand: [x, y, drawn.stand.above, 0.0],
             slides: drawn.slides,
+            sun_right: with(drawn.cascades.right, drawn.cascades.depths[0]),
+            sun_up: with(drawn.cascades.up, drawn.cascades.depths[1]),
+            cascades: drawn.cascades.squares,
         };
         gpu.context.queue.write_buffer(&self.numbers.buffer, 0, bytemuck::bytes_of(&numbers));
     }
+}
+
+/// The bindings of `frame.wgsl` and `shadows.wgsl`.
+fn entries() -> [BindGroupLayoutEntry; 3] {
+    let numbers = BindingType::Buffer {
+        ty: BufferBindingType::Uniform,
+        has_dynamic_offset: false,
+        min_binding_size: None,
+    };
+    let depths = BindingType::Texture {
+        sample_type: TextureSampleType::Depth,
+        view_dimension: TextureViewDimension::D2Array,
+        multisampled: false,
+    };
+    let entry = |binding, ty| BindGroupLayoutEntry {
+        binding,
+        visibility: ShaderStages::VERTEX_FRAGMENT,
+        ty,
+        count: None,
+    };
+    [entry(0, numbers), entry(1, depths), entry(2, BindingType::Sampler(SamplerBindingType::Comparison))]
 }

@@ -11,6 +11,11 @@ struct Frame {
     stand: vec4<f32>,
     // Distances between which the vertices of each level slide.
     slides: array<vec4<f32>, 26>,
+    // Directions across the sun's rays; with the height from which depths count, and their range.
+    sun_right: vec4<f32>,
+    sun_up: vec4<f32>,
+    // Middle and half the sides of each cascade, along those directions.
+    cascades: array<vec4<f32>, 4>,
 }
 
 @group(0) @binding(0) var<uniform> frame: Frame;

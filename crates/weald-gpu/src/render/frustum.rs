@@ -27,6 +27,13 @@ impl Frustum {
         Self { planes: planes.map(|normal| plane(normal, camera.eye)).collect() }
     }
 
+    /// What lies between two bounds along each of two directions.
+    pub(crate) fn between(axes: [[f32; 3]; 2], bounds: [[f32; 2]; 2]) -> Self {
+        let planes = axes.into_iter().zip(bounds);
+        let planes = planes.flat_map(|([x, y, z], [low, high])| [[x, y, z, -low], [-x, -y, -z, high]]);
+        Self { planes: planes.collect() }
+    }
+
     /// All there is.
     #[cfg(test)]
     pub(crate) fn everything() -> Self {

@@ -60,7 +60,7 @@ struct Selection<'a> {
     ranges: &'a Ranges,
     from: Standpoint,
     heights: &'a Heights,
-    frusta: &'a [Frustum],
+    view: &'a Frustum,
     patches: Vec<(f32, Patch)>,
 }
 
@@ -85,15 +85,15 @@ impl Lattice {
         SQUARE * Self::spacing(level)
     }
 
-    /// Patches in sight of any of the frusta, the nearest first.
+    /// Patches in sight of a view, the nearest first.
     pub(crate) fn select(
         &self,
         from: Standpoint,
         ranges: &Ranges,
         heights: &Heights,
-        frusta: &[Frustum],
+        view: &Frustum,
     ) -> Vec<Patch> {
-        let mut selection = Selection { lattice: self, ranges, from, heights, frusta, patches: Vec::new() };
+        let mut selection = Selection { lattice: self, ranges, from, heights, view, patches: Vec::new() };
         selection.square([0.5; 2], self.levels - 1);
         let mut patches = selection.patches;
         patches.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -116,7 +116,7 @@ impl Selection<'_> {
         let inside = (0..2).all(|axis| corner[axis] < self.lattice.cells[axis] + 0.5);
         inside && {
             let box_of = self.heights.box_of(corner, side);
-            self.frusta.iter().any(|frustum| frustum.meets(&box_of))
+            self.view.meets(&box_of)
         }
     }
 
@@ -146,7 +146,7 @@ mod tests {
     fn everything(cells: [f32; 2], from: Standpoint) -> (Lattice, Vec<Patch>) {
         let lattice = Lattice::new(cells, [10.0; 2]);
         let ranges = Ranges::new(&[3.0; MOST_LEVELS], 1.0, 10.0);
-        let patches = lattice.select(from, &ranges, &Heights::flat(), &[Frustum::everything()]);
+        let patches = lattice.select(from, &ranges, &Heights::flat(), &Frustum::everything());
         (lattice, patches)
     }
 

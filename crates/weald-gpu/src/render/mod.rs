@@ -5,6 +5,7 @@
 //! ([`lattice`]), cut sides, plain and sky, all into linear light of 16-bit floats with depth reversed; then the film
 //! brings light to the numbers of a picture.
 
+mod cascades;
 mod film;
 mod frame;
 mod frustum;
@@ -12,6 +13,7 @@ mod lattice;
 mod maps;
 mod passes;
 mod picture;
+mod shadows;
 mod spacing;
 mod targets;
 mod terrain;
@@ -25,8 +27,9 @@ use crate::gpu::Gpu;
 use film::Film;
 use frame::Frame;
 use maps::Maps;
-use passes::Passes;
+use passes::{Layouts, Passes};
 use picture::Landing;
+use shadows::Shadows;
 use targets::Targets;
 use terrain::Terrain;
 
@@ -91,6 +94,7 @@ pub struct Renderer {
     frame: Frame,
     terrain: Terrain,
     passes: Passes,
+    shadows: Shadows,
     targets: Targets,
     film: Film,
     look: TestLook,
@@ -107,8 +111,10 @@ impl Renderer {
         let source = stage.maps();
         let maps = Maps::new(gpu, stage, &source)?;
         let terrain = Terrain::new(gpu, stage, &source)?;
-        let frame = Frame::new(gpu)?;
-        let passes = Passes::new(gpu, stage, [&frame.layout, &maps.layout], options.samples)?;
+        let shadows = Shadows::new(gpu)?;
+        let frame = Frame::new(gpu, &shadows.canvas)?;
+        let layouts = Layouts { frame: &frame, maps: &maps, shadows: &shadows };
+        let passes = Passes::new(gpu, stage, layouts, options.samples)?;
         let targets = Targets::new(gpu, options)?;
         let film = Film::new(gpu, stage, &maps, &targets)?;
         Ok(Self {
@@ -118,6 +124,7 @@ impl Renderer {
             frame,
             terrain,
             passes,
+            shadows,
             targets,
             film,
             look: TestLook::default(),
@@ -156,6 +163,8 @@ impl Renderer {
         check_camera(camera)?;
         let drawn = self.terrain.prepare(&self.gpu, camera, self.options.size, self.look.detail_from)?;
         self.frame.write(&self.gpu, camera, self.options.size[0], &drawn);
+        let groups = [&self.frame.caster_group, &self.maps.group];
+        self.shadows.draw(encoder, groups, &self.passes.casters, &self.terrain);
         let groups = [&self.frame.group, &self.maps.group];
         self.passes.draw(encoder, &self.targets, groups, (&self.terrain, self.look.bare));
         self.film.develop(&self.gpu, encoder, &self.maps, target)

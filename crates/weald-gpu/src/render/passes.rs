@@ -5,12 +5,15 @@ use weald::picture::Stage;
 use wgpu::{
     BindGroup, BindGroupLayout, Color, ColorTargetState, ColorWrites, CommandEncoder, CompareFunction,
     DepthBiasState, DepthStencilState, Device, FragmentState, LoadOp, MultisampleState, Operations,
-    PipelineCompilationOptions, PipelineLayout, PipelineLayoutDescriptor, PrimitiveState,
+    PipelineCompilationOptions, PipelineLayout, PipelineLayoutDescriptor, PrimitiveState, RenderPass,
     RenderPassColorAttachment, RenderPassDepthStencilAttachment, RenderPassDescriptor, RenderPipeline,
     RenderPipelineDescriptor, ShaderModule, ShaderModuleDescriptor, ShaderSource, StencilState, StoreOp,
     VertexAttribute, VertexBufferLayout, VertexFormat, VertexState, VertexStepMode,
 };
 
+use super::frame::Frame;
+use super::maps::Maps;
+use super::shadows::Shadows;
 use super::targets::{DEPTH, LIGHT, Targets};
 use super::terrain::{PATCH_BYTES, RIM_BYTES, SIDE_BYTES, Terrain};
 use crate::gpu::Gpu;
@@ -19,11 +22,13 @@ use crate::gpu::Gpu;
 pub(super) const STAGE_GROUP: u32 = 1;
 
 /// The passes' own shaders, each after those that it calls.
-const SHADERS: [&str; 5] = [
+const SHADERS: [&str; 7] = [
     include_str!("frame.wgsl"),
     include_str!("shadows.wgsl"),
     include_str!("water.wgsl"),
+    include_str!("detail.wgsl"),
     include_str!("terrain.wgsl"),
+    include_str!("casters.wgsl"),
     include_str!("backdrop.wgsl"),
 ];
 
@@ -46,6 +51,35 @@ pub(super) struct Passes {
     sides: RenderPipeline,
     rims: RenderPipeline,
     backdrop: RenderPipeline,
+    pub(super) casters: Casters,
+}
+
+/// The pipelines of what throws shadows.
+#[derive(Debug)]
+pub(super) struct Casters {
+    ground: RenderPipeline,
+    sides: RenderPipeline,
+    rims: RenderPipeline,
+}
+
+impl Casters {
+    /// Draws the casters of a view, 1 for the first cascade.
+    pub(super) fn draw(&self, pass: &mut RenderPass<'_>, terrain: &Terrain, view: usize) {
+        pass.set_pipeline(&self.ground);
+        terrain.draw_ground(pass, view);
+        pass.set_pipeline(&self.sides);
+        terrain.draw_sides(pass, view);
+        pass.set_pipeline(&self.rims);
+        terrain.draw_rims(pass);
+    }
+}
+
+/// The layouts of all groups.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Layouts<'a> {
+    pub(super) frame: &'a Frame,
+    pub(super) maps: &'a Maps,
+    pub(super) shadows: &'a Shadows,
 }
 
 /// What nothing drew on: no light of a landscape.
@@ -56,7 +90,9 @@ struct Maker<'a> {
     device: &'a Device,
     module: ShaderModule,
     layout: PipelineLayout,
+    casters: PipelineLayout,
     samples: u32,
+    has_holes: bool,
 }
 
 /// What one pipeline is.
@@ -67,27 +103,27 @@ struct Pipeline<'a> {
 }
 
 impl Passes {
-    pub(super) fn new(
-        gpu: &Gpu,
-        stage: &Stage,
-        groups: [&BindGroupLayout; 2],
-        samples: u32,
-    ) -> Result<Self, Error> {
+    pub(super) fn new(gpu: &Gpu, stage: &Stage, layouts: Layouts<'_>, samples: u32) -> Result<Self, Error> {
         let text = SHADERS.iter().fold(stage.shader(STAGE_GROUP), |text, shader| text + "\n" + shader);
         gpu.context.attempt("making the pipelines of a picture", || {
             let device = &gpu.context.device;
             let source = ShaderSource::Wgsl(text.into());
-            let layout = PipelineLayoutDescriptor {
-                label: Some("picture"),
-                bind_group_layouts: &groups.map(Some),
-                immediate_size: 0,
+            let Layouts { frame, maps, shadows } = layouts;
+            let whole = |groups: &[Option<&BindGroupLayout>]| {
+                device.create_pipeline_layout(&PipelineLayoutDescriptor {
+                    label: Some("picture"),
+                    bind_group_layouts: groups,
+                    immediate_size: 0,
+                })
             };
             let maker = Maker {
                 device,
                 module: device
                     .create_shader_module(ShaderModuleDescriptor { label: Some("picture"), source }),
-                layout: device.create_pipeline_layout(&layout),
+                layout: whole(&[Some(&frame.layout), Some(&maps.layout)]),
+                casters: whole(&[Some(&frame.caster_layout), Some(&maps.layout), Some(&shadows.layout)]),
                 samples,
+                has_holes: stage.has_holes(),
             };
             Ok(Self::of(&maker))
         })
@@ -99,28 +135,28 @@ impl Passes {
             step_mode: VertexStepMode::Instance,
             attributes,
         };
-        let solid = (true, CompareFunction::Greater);
+        let patches = [Some(instances(PATCH_BYTES, &ATTRIBUTES[..1]))];
+        let sides = [Some(instances(SIDE_BYTES, &ATTRIBUTES[..]))];
+        let rims = [Some(instances(RIM_BYTES, &RIM_ATTRIBUTES[..]))];
+        let solid = |name, buffers| {
+            let depth = (true, CompareFunction::Greater);
+            maker.light(&Pipeline { name, buffers, depth })
+        };
+        let caster = |name, buffers| {
+            let depth = (true, CompareFunction::Less);
+            maker.caster(&Pipeline { name, buffers, depth })
+        };
+        let depth = (false, CompareFunction::GreaterEqual);
         Self {
-            ground: maker.pipeline(&Pipeline {
-                name: "ground",
-                buffers: &[Some(instances(PATCH_BYTES, &ATTRIBUTES[..1]))],
-                depth: solid,
-            }),
-            sides: maker.pipeline(&Pipeline {
-                name: "side",
-                buffers: &[Some(instances(SIDE_BYTES, &ATTRIBUTES))],
-                depth: solid,
-            }),
-            rims: maker.pipeline(&Pipeline {
-                name: "rim",
-                buffers: &[Some(instances(RIM_BYTES, &RIM_ATTRIBUTES))],
-                depth: solid,
-            }),
-            backdrop: maker.pipeline(&Pipeline {
-                name: "backdrop",
-                buffers: &[],
-                depth: (false, CompareFunction::GreaterEqual),
-            }),
+            ground: solid("ground", &patches),
+            sides: solid("side", &sides),
+            rims: solid("rim", &rims),
+            backdrop: maker.light(&Pipeline { name: "backdrop", buffers: &[], depth }),
+            casters: Casters {
+                ground: caster("ground", &patches),
+                sides: caster("side", &sides),
+                rims: caster("rim", &rims),
+            },
         }
     }
 
@@ -157,9 +193,9 @@ impl Passes {
             pass.set_bind_group(at, group, &[]);
         }
         pass.set_pipeline(&self.ground);
-        terrain.draw_ground(&mut pass);
+        terrain.draw_ground(&mut pass, 0);
         pass.set_pipeline(&self.sides);
-        terrain.draw_sides(&mut pass);
+        terrain.draw_sides(&mut pass, 0);
         pass.set_pipeline(&self.rims);
         terrain.draw_rims(&mut pass);
         if !bare {
@@ -171,15 +207,44 @@ impl Passes {
 
 impl Maker<'_> {
     /// The pipeline of the entry points `NAME_vertex` and `NAME_fragment`.
-    fn pipeline(&self, pipeline: &Pipeline<'_>) -> RenderPipeline {
-        let (depth_write, compare) = pipeline.depth;
+    fn light(&self, pipeline: &Pipeline<'_>) -> RenderPipeline {
         let target = ColorTargetState { format: LIGHT, blend: None, write_mask: ColorWrites::ALL };
+        let names = ["vertex", "fragment"].map(|stage| format!("{}_{stage}", pipeline.name));
+        let fragment = FragmentState {
+            module: &self.module,
+            entry_point: Some(&names[1]),
+            compilation_options: PipelineCompilationOptions::default(),
+            targets: &[Some(target)],
+        };
+        self.pipeline(pipeline, &names[0], (&self.layout, self.samples), Some(fragment))
+    }
+
+    /// The pipeline of the entry point `NAME_caster`, with `caster_fragment` where there are holes.
+    fn caster(&self, pipeline: &Pipeline<'_>) -> RenderPipeline {
+        let fragment = FragmentState {
+            module: &self.module,
+            entry_point: Some("caster_fragment"),
+            compilation_options: PipelineCompilationOptions::default(),
+            targets: &[],
+        };
+        let name = format!("{}_caster", pipeline.name);
+        self.pipeline(pipeline, &name, (&self.casters, 1), self.has_holes.then_some(fragment))
+    }
+
+    fn pipeline(
+        &self,
+        pipeline: &Pipeline<'_>,
+        vertex: &str,
+        (layout, samples): (&PipelineLayout, u32),
+        fragment: Option<FragmentState<'_>>,
+    ) -> RenderPipeline {
+        let (depth_write, compare) = pipeline.depth;
         self.device.create_render_pipeline(&RenderPipelineDescriptor {
             label: Some(pipeline.name),
-            layout: Some(&self.layout),
+            layout: Some(layout),
             vertex: VertexState {
                 module: &self.module,
-                entry_point: Some(&format!("{}_vertex", pipeline.name)),
+                entry_point: Some(vertex),
                 compilation_options: PipelineCompilationOptions::default(),
                 buffers: pipeline.buffers,
             },
@@ -191,13 +256,8 @@ impl Maker<'_> {
                 stencil: StencilState::default(),
                 bias: DepthBiasState::default(),
             }),
-            multisample: MultisampleState { count: self.samples, ..MultisampleState::default() },
-            fragment: Some(FragmentState {
-                module: &self.module,
-                entry_point: Some(&format!("{}_fragment", pipeline.name)),
-                compilation_options: PipelineCompilationOptions::default(),
-                targets: &[Some(target)],
-            }),
+            multisample: MultisampleState { count: samples, ..MultisampleState::default() },
+            fragment,
             multiview_mask: None,
             cache: None,
         })

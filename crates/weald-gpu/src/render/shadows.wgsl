@@ -1,5 +1,89 @@
-// The share of the sun's disc that is seen from a point.
+// The share of the sun's disc that is seen from a point: cascades of depths as the sun sees them.
+//
+// Each cascade is a square of the plane that faces the sun; the last holds the whole landscape, so that it holds all
+// shadows that it throws on the plain as well. How wide a shadow's edge is follows from how far away what throws it is
+// and how large the sun is: Fernando 2005, "Percentage-closer soft shadows", doi 10.1145/1187112.1187153. What differs:
+// looks lie on a fixed grid, not at random, so that nothing flickers or is grainy.
+
+const CASCADES = 4;
+
+// Share of a cascade's side over which it passes into the next.
+const PASSING = 0.08;
+
+// Widest edge of a shadow, as a radius in texels.
+const WIDEST = 3.0;
+
+@group(0) @binding(1) var shadow_depths: texture_depth_2d_array;
+@group(0) @binding(2) var shadow_between: sampler_comparison;
+
+// Where a point lies in a cascade: from -1 to 1, and its depth from the sun, 0 to 1.
+fn in_cascade(point: vec3<f32>, cascade: i32) -> vec3<f32> {
+    let square = frame.cascades[cascade];
+    let aside = vec2<f32>(dot(point, frame.sun_right.xyz), dot(point, frame.sun_up.xyz));
+    let depth = (frame.sun_right.w - dot(point, stage.sun.xyz)) / frame.sun_up.w;
+    return vec3<f32>((aside - square.xy) / square.zw, depth);
+}
+
+// Mean distance from the sun of what is nearer to it than a depth, around a place; above 1 where nothing is.
+fn blocker_depth(place: vec2<f32>, cascade: i32, depth: f32) -> f32 {
+    let size = vec2<f32>(textureDimensions(shadow_depths));
+    let last = vec2<i32>(size) - 1;
+    var sum = 0.0;
+    var count = 0.0;
+    for (var look = 0; look < 9; look++) {
+        let offset = vec2<f32>(f32(look % 3 - 1), f32(look / 3 - 1)) * 2.0;
+        let texel = clamp(vec2<i32>(place * size + offset), vec2<i32>(0), last);
+        let found = textureLoad(shadow_depths, texel, cascade, 0);
+        if found < depth {
+            sum += found;
+            count += 1.0;
+        }
+    }
+    return select(2.0, sum / max(count, 1.0), count > 0.0);
+}
+
+fn seen_in_cascade(point: vec3<f32>, normal: vec3<f32>, cascade: i32) -> f32 {
+    let square = frame.cascades[cascade];
+    let size = f32(textureDimensions(shadow_depths).x);
+    let texel = 2.0 * max(square.z, square.w) / size;
+    let facing = clamp(dot(normal, stage.sun.xyz), 0.0, 1.0);
+    // Off the surface by as much as it may rise within the looks.
+    let lifted = point + normal * texel * (0.5 + 2.0 * sqrt(1.0 - facing * facing));
+    let at = in_cascade(lifted, cascade);
+    let place = at.xy * vec2<f32>(0.5, -0.5) + 0.5;
+    let range = frame.sun_up.w;
+    let depth = min(at.z - 0.5 * texel / range, 1.0);
+    let blocker = blocker_depth(place, cascade, depth);
+    if blocker > 1.0 {
+        // Around a point without anything before it there may still be the start of an edge.
+        return textureSampleCompareLevel(shadow_depths, shadow_between, place, cascade, depth);
+    }
+    let width = (depth - blocker) * range * tan(stage.sun.w) / texel;
+    let spacing = clamp(width, 0.75, WIDEST) * 0.5;
+    var sum = 0.0;
+    for (var look = 0; look < 16; look++) {
+        let offset = (vec2<f32>(f32(look % 4), f32(look / 4)) - 1.5) * spacing / size;
+        sum += textureSampleCompareLevel(shadow_depths, shadow_between, place + offset, cascade, depth);
+    }
+    return sum / 16.0;
+}
 
 fn sun_seen(point: vec3<f32>, normal: vec3<f32>) -> f32 {
-    return 1.0;
+    var passed = 1.0;
+    var seen = 0.0;
+    for (var cascade = 0; cascade < CASCADES; cascade++) {
+        let at = abs(in_cascade(point, cascade).xy);
+        let inside = 1.0 - max(at.x, at.y);
+        if inside <= 0.0 {
+            continue;
+        }
+        // The last one ends where the landscape does.
+        let share = select(clamp(inside / PASSING, 0.0, 1.0), 1.0, cascade == CASCADES - 1);
+        seen += passed * share * seen_in_cascade(point, normal, cascade);
+        passed *= 1.0 - share;
+        if passed <= 0.0 {
+            break;
+        }
+    }
+    return seen + passed;
 }

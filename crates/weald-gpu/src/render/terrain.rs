@@ -4,8 +4,9 @@ use weald::Error;
 use weald::picture::{Camera, Rim, Stage, StageMap};
 use wgpu::{Buffer, BufferUsages, IndexFormat, RenderPass};
 
+use super::cascades::{CASCADES, Cascades};
 use super::frame::Drawn;
-use super::frustum::{Frustum, Heights};
+use super::frustum::{Box3, Frustum, Heights};
 use super::lattice::{Lattice, Patch, QUADS, Standpoint};
 use super::spacing::{Ranges, errors};
 use crate::gpu::Gpu;
@@ -27,10 +28,12 @@ pub(super) struct Terrain {
     heights: Heights,
     errors: Vec<f32>,
     is_empty: bool,
+    /// Direction of the sun.
+    sun: [f32; 3],
     grid: Indices,
     wall: Indices,
-    patches: Instances<Patch>,
-    sides: Instances<Side>,
+    /// What the camera sees, and each cascade of the sun.
+    seen: Vec<Seen>,
     rims: Instances<[f32; 8]>,
 }
 
@@ -40,6 +43,24 @@ pub(super) struct Terrain {
 struct Side {
     patch: Patch,
     edge: u32,
+}
+
+/// The patches and sides in one view.
+#[derive(Debug)]
+struct Seen {
+    patches: Instances<Patch>,
+    sides: Instances<Side>,
+}
+
+impl Seen {
+    fn new(gpu: &Gpu) -> Result<Self, Error> {
+        Ok(Self { patches: Instances::new(gpu, "patches")?, sides: Instances::new(gpu, "sides")? })
+    }
+
+    fn write(&mut self, gpu: &Gpu, patches: &[Patch], sides: &[Side]) -> Result<(), Error> {
+        self.patches.write(gpu, patches)?;
+        self.sides.write(gpu, sides)
+    }
 }
 
 /// Bytes between two instances.
@@ -56,10 +77,10 @@ impl Terrain {
             heights: Heights::new(top, metres, stage.base()),
             errors: errors(top, lattice.levels),
             is_empty: stage.is_empty(),
+            sun: stage.sun(),
             grid: Indices::new(gpu, "indices of a patch", &grid(QUADS, QUADS))?,
             wall: Indices::new(gpu, "indices of a wall", &grid(QUADS, 1))?,
-            patches: Instances::new(gpu, "patches")?,
-            sides: Instances::new(gpu, "sides")?,
+            seen: (0..=CASCADES).map(|_| Seen::new(gpu)).collect::<Result<_, _>>()?,
             rims: rims(gpu, stage)?,
             lattice,
         })
@@ -80,16 +101,27 @@ impl Terrain {
         let [width, height] = self.lattice.metres;
         let place = [0.5 + east / width, 0.5 - north / height];
         let stand = Standpoint { place, above: (up - self.heights.highest()).max(0.0) };
-        let frusta = [Frustum::of(camera)];
-        let patches = if self.is_empty {
-            Vec::new()
-        } else {
-            self.lattice.select(stand, &ranges, &self.heights, &frusta)
-        };
-        let sides: Vec<_> = patches.iter().flat_map(|patch| self.sides_of(*patch)).collect();
-        self.patches.write(gpu, &patches)?;
-        self.sides.write(gpu, &sides)?;
-        Ok(Drawn { stand, slides: ranges.slides() })
+        let cascades = Cascades::new(self.sun, camera, &self.bounds());
+        let columns = (0..CASCADES).map(|cascade| cascades.column(cascade));
+        let views: Vec<_> = [Frustum::of(camera)].into_iter().chain(columns).collect();
+        for (number, view) in views.iter().enumerate() {
+            let patches = if self.is_empty {
+                Vec::new()
+            } else {
+                self.lattice.select(stand, &ranges, &self.heights, view)
+            };
+            let sides: Vec<_> = patches.iter().flat_map(|patch| self.sides_of(*patch)).collect();
+            self.seen[number].write(gpu, &patches, &sides)?;
+        }
+        Ok(Drawn { stand, slides: ranges.slides(), cascades })
+    }
+
+    /// The box around all of it.
+    fn bounds(&self) -> Box3 {
+        let side = self.lattice.cells[0].max(self.lattice.cells[1]);
+        let [low, mut high] = self.heights.box_of([0.5; 2], side);
+        high[0] = low[0] + self.lattice.cells[0] * self.lattice.metres[0];
+        [[low[0], high[1] - self.lattice.cells[1] * self.lattice.metres[1], low[2]], high]
     }
 
     /// The edges of a patch at which the landscape ends.
@@ -103,13 +135,14 @@ impl Terrain {
 
     /// Triangles of the last picture.
     pub(super) fn triangles(&self) -> u64 {
-        let quads = u64::from(QUADS) * u64::from(self.patches.count * QUADS + self.sides.count);
+        let Seen { patches, sides } = &self.seen[0];
+        let quads = u64::from(QUADS) * u64::from(patches.count * QUADS + sides.count);
         2 * quads
     }
 
-    /// Draws the ground by the pipeline that is set.
-    pub(super) fn draw_ground(&self, pass: &mut RenderPass<'_>) {
-        self.grid.draw(pass, &self.patches);
+    /// Draws the ground that the camera sees, 0, or a cascade, from 1 on, by the pipeline that is set.
+    pub(super) fn draw_ground(&self, pass: &mut RenderPass<'_>, view: usize) {
+        self.grid.draw(pass, &self.seen[view].patches);
     }
 
     /// Draws the walls around what has no data by the pipeline that is set.
@@ -120,9 +153,9 @@ impl Terrain {
         }
     }
 
-    /// Draws the sides by the pipeline that is set.
-    pub(super) fn draw_sides(&self, pass: &mut RenderPass<'_>) {
-        self.wall.draw(pass, &self.sides);
+    /// Draws the sides of such a view by the pipeline that is set.
+    pub(super) fn draw_sides(&self, pass: &mut RenderPass<'_>, view: usize) {
+        self.wall.draw(pass, &self.seen[view].sides);
     }
 }
 

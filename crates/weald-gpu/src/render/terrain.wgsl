@@ -23,31 +23,37 @@ fn ground_point(place: vec2<f32>) -> vec3<f32> {
     return point_of(place, spline_at(top, place));
 }
 
+fn ground_at_vertex(index: u32, patch_of: vec4<f32>) -> vec3<f32> {
+    let at = vec2<f32>(f32(index % (QUADS + 1u)), f32(index / (QUADS + 1u)));
+    return ground_point(vertex_place(patch_of, at));
+}
+
 @vertex
 fn ground_vertex(@builtin(vertex_index) index: u32, @location(0) patch_of: vec4<f32>) -> Ground {
-    let at = vec2<f32>(f32(index % (QUADS + 1u)), f32(index / (QUADS + 1u)));
-    let point = ground_point(vertex_place(patch_of, at));
+    let point = ground_at_vertex(index, patch_of);
     return Ground(projected(point), point);
 }
 
 // A wall below one edge of a patch: x along it, y 0 on the ground and 1 on the base. `edge` is 0 to 3 for north, east,
 // south, west.
-@vertex
-fn side_vertex(
-    @builtin(vertex_index) index: u32,
-    @location(0) patch_of: vec4<f32>,
-    @location(1) edge: u32,
-) -> Ground {
+fn side_at_vertex(index: u32, patch_of: vec4<f32>, edge: u32) -> vec3<f32> {
     let along = f32(index % (QUADS + 1u));
     // The end of the landscape may lie within a patch; vertices beyond it are drawn back onto it.
     let far = f32(QUADS);
     let ats = array<vec2<f32>, 4>(
         vec2<f32>(along, 0.0), vec2<f32>(far, along), vec2<f32>(along, far), vec2<f32>(0.0, along),
     );
-    var point = ground_point(vertex_place(patch_of, ats[edge]));
-    if index > QUADS {
-        point.z = stage.plain.w;
-    }
+    let point = ground_point(vertex_place(patch_of, ats[edge]));
+    return select(point, vec3<f32>(point.xy, stage.plain.w), index > QUADS);
+}
+
+@vertex
+fn side_vertex(
+    @builtin(vertex_index) index: u32,
+    @location(0) patch_of: vec4<f32>,
+    @location(1) edge: u32,
+) -> Ground {
+    let point = side_at_vertex(index, patch_of, edge);
     return Ground(projected(point), point);
 }
 
@@ -74,8 +80,9 @@ fn ground_fragment(in: Ground) -> @location(0) vec4<f32> {
     }
     var radiance = vec3<f32>(0.0);
     if depth <= 0.0 && river < 1.0 {
-        let skin = ground_skin(place, surface, footprint, -depth);
-        let normal = roughened(normal_of(surface.yz), skin.bump);
+        let smooth_normal = normal_of(surface.yz);
+        let skin = with_detail(ground_skin(place, surface, footprint, -depth), in.point, smooth_normal, footprint);
+        let normal = roughened(smooth_normal, skin.bump);
         radiance = skin.albedo * lit(normal, seen_at(skylight, share_of(place)), sun) / PI;
     }
     if depth > 0.0 {
@@ -101,6 +108,17 @@ struct Wall {
     @location(1) normal: vec2<f32>,
 }
 
+// Two triangles: above first, above last, below first; above last, below last, below first.
+fn is_rim_end(index: u32) -> bool {
+    return index == 1u || index == 3u || index == 4u;
+}
+
+fn rim_at_vertex(index: u32, ends: vec4<f32>) -> vec3<f32> {
+    let point = ground_point(select(ends.xy, ends.zw, is_rim_end(index)));
+    let is_below = index == 2u || index == 4u || index == 5u;
+    return select(point, vec3<f32>(point.xy, stage.plain.w), is_below);
+}
+
 // A wall along the rim of what has no data, from one place to another.
 @vertex
 fn rim_vertex(
@@ -108,14 +126,8 @@ fn rim_vertex(
     @location(0) ends: vec4<f32>,
     @location(1) normals: vec4<f32>,
 ) -> Wall {
-    // Two triangles: above first, above last, below first; above last, below last, below first.
-    let is_last = index == 1u || index == 3u || index == 4u;
-    let place = select(ends.xy, ends.zw, is_last);
-    var point = ground_point(place);
-    if index == 2u || index == 4u || index == 5u {
-        point.z = stage.plain.w;
-    }
-    return Wall(projected(point), point, select(normals.xy, normals.zw, is_last));
+    let point = rim_at_vertex(index, ends);
+    return Wall(projected(point), point, select(normals.xy, normals.zw, is_rim_end(index)));
 }
 
 @fragment

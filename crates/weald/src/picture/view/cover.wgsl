@@ -11,9 +11,11 @@ struct Spot {
     footprint: f32,
 }
 
+// With the shares of wood, scree, rock and snow, which have detail of their own from close by.
 struct Skin {
     albedo: vec3<f32>,
     bump: vec2<f32>,
+    kinds: vec4<f32>,
 }
 
 struct Texture {
@@ -23,7 +25,9 @@ struct Texture {
 }
 
 fn mixed(skin: Skin, other: Skin, share: f32) -> Skin {
-    return Skin(mix(skin.albedo, other.albedo, share), mix(skin.bump, other.bump, share));
+    return Skin(
+        mix(skin.albedo, other.albedo, share), mix(skin.bump, other.bump, share), mix(skin.kinds, other.kinds, share),
+    );
 }
 
 // 0 below `low`, 1 above `high`, smooth between.
@@ -63,18 +67,18 @@ fn natural(spot: Spot, texture: Texture) -> Skin {
     let turf = grass(moisture + 0.55 * patchy, high + 0.25 * patchy) * (1.0 + 0.5 * fine + 0.35 * texture.streak);
     let wooded = trees(spot, moisture, patchy);
     let crown = clamp(0.4 + 1.1 * fine + 0.5 * texture.broad, 0.0, 1.0);
-    let meadow = Skin(turf, rough(texture, 0.16));
-    let wood = Skin(mix(stage.forest_dark.xyz, stage.forest_light.xyz, crown), rough(texture, 0.55));
+    let meadow = Skin(turf, rough(texture, 0.16), vec4<f32>(0.0));
+    let wood = Skin(mix(stage.forest_dark.xyz, stage.forest_light.xyz, crown), rough(texture, 0.55), vec4<f32>(1.0, 0.0, 0.0, 0.0));
     let green = mixed(meadow, wood, wooded);
 
     let soil = here.y;
     let steep = spot.slope / stage.limits.x + 0.25 * patchy + 0.55 * texture.streak + 0.4 * (0.4 - soil);
     let pebbles = stage.scree.xyz * (1.0 + 0.45 * fine + 0.4 * texture.streak);
-    let scree = Skin(pebbles, rough(texture, 0.18));
+    let scree = Skin(pebbles, rough(texture, 0.18), vec4<f32>(0.0, 1.0, 0.0, 0.0));
     let stony = mixed(green, scree, 0.8 * ramp(steep, 0.97, 1.10) * (1.0 - 0.6 * wooded));
-    let bare = Skin(rock(spot, texture), rough(texture, 0.45));
+    let bare = Skin(rock(spot, texture), rough(texture, 0.45), vec4<f32>(0.0, 0.0, 1.0, 0.0));
     let ground = mixed(stony, bare, ramp(steep, 1.08, 1.22));
-    let snow = Skin(stage.snow.xyz * (1.0 + 0.12 * texture.streak), rough(texture, 0.10));
+    let snow = Skin(stage.snow.xyz * (1.0 + 0.12 * texture.streak), rough(texture, 0.10), vec4<f32>(0.0, 0.0, 0.0, 1.0));
     return mixed(ground, snow, snow_share(spot, moisture, patchy));
 }
 
@@ -136,5 +140,5 @@ fn of_material(spot: Spot, albedo: vec3<f32>, texture: Texture) -> Skin {
     let beds = grain(vec2<f32>(level, 0.4), 0x21u).value + 0.6 * grain(vec2<f32>(3.1 * level, 0.7), 0x22u).value;
     let fine = (0.3 + 0.3 * steep) * texture.fine.value + 0.6 * texture.streak;
     let tone = 1.0 + 0.28 * texture.broad + fine + 0.5 * steep * beds;
-    return Skin(albedo * tone, rough(texture, 0.12 + 0.4 * steep));
+    return Skin(albedo * tone, rough(texture, 0.12 + 0.4 * steep), vec4<f32>(0.0, 0.3, 0.7 * steep, 0.0));
 }

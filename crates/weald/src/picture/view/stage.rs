@@ -131,6 +131,16 @@ impl Stage {
         self.setting.terrain.base
     }
 
+    /// Whether some of it has no data.
+    pub fn has_holes(&self) -> bool {
+        self.setting.terrain.land.is_some()
+    }
+
+    /// Direction of the sun, of length 1.
+    pub fn sun(&self) -> [f32; 3] {
+        self.sky.sun
+    }
+
     /// Whether there is no land at all.
     pub fn is_empty(&self) -> bool {
         self.is_empty

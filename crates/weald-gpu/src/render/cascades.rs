@@ -1,0 +1,149 @@
+//! Which parts of the landscape the sun's depths are kept of, for a camera.
+//!
+//! Each cascade is a square across the sun's rays around the sphere that holds what the camera sees up to a distance, so
+//! that it neither turns nor grows with the camera; its middle moves by whole texels, so that the edges of shadows stay
+//! where they are (Valient 2008, "Stable rendering of cascaded shadow maps", Shader X6). The last holds all.
+
+use weald::picture::Camera;
+
+use super::frustum::{Box3, Frustum};
+
+/// Cascades, of which the last holds the whole landscape.
+pub(super) const CASCADES: usize = 4;
+
+/// Texels along the side of a cascade.
+pub(super) const TEXELS: u32 = 2048;
+
+/// Distances from the camera, in metres, up to which all but the last reach.
+const REACHES: [f32; CASCADES - 1] = [36.0, 300.0, 2400.0];
+
+/// Share by which the last is wider than the landscape.
+const MARGIN: f32 = 1.02;
+
+/// The cascades of a camera.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Cascades {
+    /// Directions across the sun's rays.
+    pub(super) right: [f32; 3],
+    pub(super) up: [f32; 3],
+    /// Height along the rays from which depths count, and how far they count.
+    pub(super) depths: [f32; 2],
+    /// Middle and half the sides of each.
+    pub(super) squares: [[f32; 4]; CASCADES],
+}
+
+fn dot(a: [f32; 3], b: [f32; 3]) -> f32 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+/// Directions across the rays of a sun.
+fn across(sun: [f32; 3]) -> [[f32; 3]; 2] {
+    let run = sun[0].hypot(sun[1]);
+    let right = if run > 1e-6 { [sun[1] / run, -sun[0] / run, 0.0] } else { [1.0, 0.0, 0.0] };
+    let up = [
+        right[1] * sun[2] - right[2] * sun[1],
+        right[2] * sun[0] - right[0] * sun[2],
+        right[0] * sun[1] - right[1] * sun[0],
+    ];
+    [right, up]
+}
+
+/// Least and greatest of a direction over the corners of a box.
+fn extent(of: &Box3, along: [f32; 3]) -> [f32; 2] {
+    let corner = |bits: usize| std::array::from_fn(|axis| of[bits >> axis & 1][axis]);
+    let heights = (0..8).map(|bits| dot(corner(bits), along));
+    heights.fold([f32::INFINITY, f32::NEG_INFINITY], |[low, high], at| [low.min(at), high.max(at)])
+}
+
+impl Cascades {
+    /// For a sun in a direction and a landscape within a box.
+    pub(super) fn new(sun: [f32; 3], camera: &Camera, landscape: &Box3) -> Self {
+        let [right, up] = across(sun);
+        let [low, high] = extent(landscape, sun);
+        let whole = [extent(landscape, right), extent(landscape, up)];
+        let [middle_x, middle_y] = whole.map(|[low, high]| 0.5 * (low + high));
+        let [half_x, half_y] = whole.map(|[low, high]| 0.5 * MARGIN * (high - low).max(1e-3));
+        let near = REACHES.map(|reach| square(camera, [right, up], reach));
+        let squares = std::array::from_fn(|cascade| {
+            near.get(cascade).copied().unwrap_or([middle_x, middle_y, half_x, half_y])
+        });
+        Self { right, up, depths: [high, (high - low).max(1e-3)], squares }
+    }
+
+    /// What lies in the column of a cascade.
+    pub(super) fn column(&self, cascade: usize) -> Frustum {
+        let [x, y, half_x, half_y] = self.squares[cascade];
+        Frustum::between([self.right, self.up], [[x - half_x, x + half_x], [y - half_y, y + half_y]])
+    }
+}
+
+/// The square around what a camera sees up to a distance.
+fn square(camera: &Camera, axes: [[f32; 3]; 2], reach: f32) -> [f32; 4] {
+    let spread = camera.half[0].hypot(camera.half[1]);
+    let (ahead, radius) = if spread < 1.0 {
+        (0.5 * reach * (1.0 + spread * spread), 0.5 * reach * (1.0 + spread * spread))
+    } else {
+        (reach, reach * spread)
+    };
+    let middle: [f32; 3] = std::array::from_fn(|axis| camera.eye[axis] + ahead * camera.forward[axis]);
+    let texel = 2.0 * radius / TEXELS as f32;
+    let [x, y] = axes.map(|axis| (dot(middle, axis) / texel).round() * texel);
+    [x, y, radius, radius]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use weald::picture::{Stage, View};
+    use weald::{Domain, Field, Landscape, Size};
+
+    fn stage() -> Stage {
+        let size = Size::square(20).expect("small");
+        let mut landscape = Landscape::new(Domain::new(size, 10.0));
+        landscape.insert("height", "m", Field::from_function(size, |x, y| (x * y) as f32));
+        Stage::new(&View::default(), &landscape).expect("a stage")
+    }
+
+    #[test]
+    fn a_moving_and_turning_camera_moves_cascades_by_whole_texels_and_leaves_their_size() {
+        let stage = stage();
+        let landscape = [[0.0, -200.0, -10.0], [200.0, 0.0, 400.0]];
+        let camera = Camera::looking([50.0, -90.0, 30.0], [0.6, 0.8, 0.0], [0.5, 0.3]);
+        let first = Cascades::new(stage.sun(), &camera, &landscape);
+        let mut moved = 0;
+        for step in 1..40_u16 {
+            let step = f32::from(step);
+            let turn = 0.01 * step;
+            let camera = Camera::looking(
+                [50.0 + 0.013 * step, -90.0, 30.0],
+                [turn.cos(), turn.sin(), 0.0],
+                [0.5, 0.3],
+            );
+            let next = Cascades::new(stage.sun(), &camera, &landscape);
+            assert_eq!(next.squares[CASCADES - 1], first.squares[CASCADES - 1], "the last holds all, always");
+            for (a, b) in first.squares.iter().zip(&next.squares).take(CASCADES - 1) {
+                assert_eq!(a[2], b[2]);
+                let texels = (b[0] - a[0]) / (2.0 * a[2] / TEXELS as f32);
+                assert!((texels - texels.round()).abs() < 2e-2, "{texels}");
+                moved += usize::from(texels.round() != 0.0);
+            }
+        }
+        assert!(moved > 30);
+    }
+
+    #[test]
+    fn the_last_cascade_holds_every_corner_and_depths_begin_at_the_sun() {
+        let stage = stage();
+        let landscape = [[0.0, -200.0, -10.0], [200.0, 0.0, 400.0]];
+        let cascades = Cascades::new(stage.sun(), &stage.camera(), &landscape);
+        let [x, y, half_x, half_y] = cascades.squares[CASCADES - 1];
+        for bits in 0..8_usize {
+            let corner: [f32; 3] = std::array::from_fn(|axis| landscape[bits >> axis & 1][axis]);
+            assert!((dot(corner, cascades.right) - x).abs() < half_x);
+            assert!((dot(corner, cascades.up) - y).abs() < half_y);
+            let depth = (cascades.depths[0] - dot(corner, stage.sun())) / cascades.depths[1];
+            assert!((-1e-5..=1.0 + 1e-5).contains(&depth), "{depth}");
+        }
+        assert!(dot(cascades.right, cascades.up).abs() < 1e-6 && dot(cascades.up, stage.sun()).abs() < 1e-6);
+    }
+}

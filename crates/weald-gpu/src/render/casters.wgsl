@@ -1,0 +1,51 @@
+// What throws shadows, as the sun sees it: the vertices of the ground, its sides and rims in a cascade.
+
+@group(2) @binding(0) var<uniform> caster_cascade: vec4<i32>;
+
+struct Caster {
+    @builtin(position) position: vec4<f32>,
+    @location(0) point: vec3<f32>,
+}
+
+fn cast_shadow(point: vec3<f32>) -> Caster {
+    return Caster(vec4<f32>(in_caster_cascade(point), 1.0), point);
+}
+
+// As `in_cascade`, of the cascade that is drawn.
+fn in_caster_cascade(point: vec3<f32>) -> vec3<f32> {
+    let square = frame.cascades[caster_cascade.x];
+    let aside = vec2<f32>(dot(point, frame.sun_right.xyz), dot(point, frame.sun_up.xyz));
+    let depth = (frame.sun_right.w - dot(point, stage.sun.xyz)) / frame.sun_up.w;
+    return vec3<f32>((aside - square.xy) / square.zw, depth);
+}
+
+@vertex
+fn ground_caster(@builtin(vertex_index) index: u32, @location(0) patch_of: vec4<f32>) -> Caster {
+    return cast_shadow(ground_at_vertex(index, patch_of));
+}
+
+@vertex
+fn side_caster(
+    @builtin(vertex_index) index: u32,
+    @location(0) patch_of: vec4<f32>,
+    @location(1) edge: u32,
+) -> Caster {
+    return cast_shadow(side_at_vertex(index, patch_of, edge));
+}
+
+@vertex
+fn rim_caster(
+    @builtin(vertex_index) index: u32,
+    @location(0) ends: vec4<f32>,
+    @location(1) normals: vec4<f32>,
+) -> Caster {
+    return cast_shadow(rim_at_vertex(index, ends));
+}
+
+// Where there is no land there is no shadow.
+@fragment
+fn caster_fragment(in: Caster) {
+    if !is_land(clamp(place_of(in.point), vec2<f32>(0.5), stage.grid.xy + 0.5)) {
+        discard;
+    }
+}
