@@ -6,7 +6,7 @@ use programs::gpu;
 use weald::grid::Mask;
 use weald::picture::{Camera, Image, Oklab, Stage, View, linear_of_hex};
 use weald::recipe::{Overrides, Recipe};
-use weald::{Error, Landscape};
+use weald::{Error, Field, Landscape};
 use weald_gpu::{Gpu, RenderOptions, Renderer, TestLook};
 
 const SIZE: [u32; 2] = [320, 180];
@@ -189,6 +189,54 @@ fn shadows_lie_where_the_ray_marched_view_has_them() {
             assert!(mean < 0.004 && worst < 0.02, "sun at {altitude}°: mean {mean}, one in twenty {worst}");
         }
     }
+}
+
+/// The mountains with water up to a third of their height, which flows eastward.
+fn lakes() -> Landscape {
+    let mut landscape = mountains();
+    let height = landscape.field("height").expect("there").clone();
+    let (low, high) = height.range(None).expect("cells");
+    let level = low + 0.35 * (high - low);
+    let water = height.values().iter().map(|height| (level - height).max(0.0)).collect();
+    landscape.insert("water", "m", Field::from_values(height.size(), water));
+    landscape.insert("flux_x", "m³/step", Field::filled(height.size(), 2.0));
+    landscape.insert("flux_y", "m³/step", Field::filled(height.size(), 0.0));
+    landscape
+}
+
+#[test]
+fn lakes_lie_where_the_ray_marched_view_has_them_in_its_colours() {
+    let Some(gpu) = gpu() else { return };
+    let landscape = lakes();
+    let stage = Stage::new(&view(), &landscape).expect("a stage");
+    let low = above(&stage, [1500.0, 2700.0], 250.0, 20.0, 0.0);
+    for camera in [None, Some(low)] {
+        let (mean, worst) = distances(&gpu, &view(), &landscape, camera);
+        // It mirrors the land at the same places, but with finer ripples.
+        assert!(mean < 0.010 && worst < 0.05, "mean {mean}, one in twenty {worst}");
+    }
+}
+
+#[test]
+fn water_moves_with_time_and_nothing_else_does() {
+    let Some(gpu) = gpu() else { return };
+    let (wet, dry) = (lakes(), mountains());
+    // Over the deepest place that is not at the edge.
+    let water = wet.field("water").expect("there");
+    let cells = (40..120).flat_map(|y| (40..120).map(move |x| (x, y)));
+    let deepest = cells.max_by(|a, b| water.at(a.0, a.1).total_cmp(&water.at(b.0, b.1))).expect("cells");
+    let place = [20.0 * (deepest.0 as f64 + 0.5), 20.0 * (deepest.1 as f64 + 0.5)];
+    let moved = |landscape: &Landscape| {
+        let stage = Stage::new(&view(), landscape).expect("a stage");
+        let camera = above(&stage, place, 12.0, 18.0, 0.0);
+        let mut renderer = renderer(&gpu, &stage, 1);
+        let first = renderer.render(&camera).expect("drawn");
+        renderer.set_moment(0.7);
+        change(&first, &renderer.render(&camera).expect("drawn"))
+    };
+    let (most, mean) = moved(&wet);
+    assert!(most > 8 && mean > 0.2, "the water stands still: {most}, {mean}");
+    assert_eq!(moved(&dry), (0, 0.0));
 }
 
 #[test]

@@ -15,8 +15,8 @@ use crate::failure::Failure;
 use crate::progress::Shown;
 use crate::{interrupt, shot, stdout};
 
-/// Draws the picture of a camera.
-type Draw<'a> = dyn FnMut(&Camera) -> Result<Image, Error> + 'a;
+/// Draws the picture of a frame and its camera.
+type Draw<'a> = dyn FnMut(usize, &Camera) -> Result<Image, Error> + 'a;
 
 /// Frames of an animated picture that are shown in a second.
 const FRAMES_PER_SECOND: f64 = 24.0;
@@ -41,9 +41,12 @@ pub(crate) fn render(arguments: &RenderArguments) -> Result<(), Failure> {
     let mut draw: Box<Draw<'_>> = match device {
         Some((gpu, options)) => {
             let mut renderer = Renderer::new(&gpu, &stage, options)?;
-            Box::new(move |camera| renderer.render(camera))
+            Box::new(move |number, camera| {
+                renderer.set_moment(number as f32 / FRAMES_PER_SECOND as f32);
+                renderer.render(camera)
+            })
         }
-        None => Box::new(move |&camera| view.seen_from(&landscape, camera)),
+        None => Box::new(move |_, &camera| view.seen_from(&landscape, camera)),
     };
     write(files, &output, &cameras, &mut *draw)
 }
@@ -106,7 +109,7 @@ fn write(files: &RenderFiles, output: &Path, cameras: &[Camera], draw: &mut Draw
         if interrupt::asked() {
             return Err(Error::Interrupted("interrupted; every file that is there is whole".to_owned()));
         }
-        draw(&cameras[number])
+        draw(number, &cameras[number])
     };
     if Film::is_apng(output) {
         let frames = (cameras.len() as u64, FRAMES_PER_SECOND);

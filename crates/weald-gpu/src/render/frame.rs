@@ -26,6 +26,7 @@ struct Numbers {
     right: [f32; 4],
     up: [f32; 4],
     stand: [f32; 4],
+    moment: [f32; 4],
     slides: [[f32; 4]; MOST_LEVELS],
     sun_right: [f32; 4],
     sun_up: [f32; 4],
@@ -37,6 +38,8 @@ struct Numbers {
 pub(super) struct Drawn {
     pub(super) stand: Standpoint,
     pub(super) slides: [[f32; 4]; MOST_LEVELS],
+    /// Seconds since the beginning.
+    pub(super) seconds: f32,
     pub(super) cascades: Cascades,
 }
 
@@ -90,6 +93,7 @@ impl Frame {
             right: with(camera.right, camera.half[0]),
             up: with(camera.up, camera.half[1]),
             stand: [x, y, drawn.stand.above, 0.0],
+            moment: [drawn.seconds, 0.0, 0.0, 0.0],
             slides: drawn.slides,
             sun_right: with(drawn.cascades.right, drawn.cascades.depths[0]),
             sun_up: with(drawn.cascades.up, drawn.cascades.depths[1]),

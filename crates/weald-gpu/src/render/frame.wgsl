@@ -9,6 +9,8 @@ struct Frame {
     up: vec4<f32>,
     // Place of the eye, and its height above all ground.
     stand: vec4<f32>,
+    // Seconds since the beginning.
+    moment: vec4<f32>,
     // Distances between which the vertices of each level slide.
     slides: array<vec4<f32>, 26>,
     // Directions across the sun's rays; with the height from which depths count, and their range.

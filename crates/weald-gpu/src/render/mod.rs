@@ -25,7 +25,7 @@ use weald::picture::{Camera, Image, Stage};
 
 use crate::gpu::Gpu;
 use film::Film;
-use frame::Frame;
+use frame::{Drawn, Frame};
 use maps::Maps;
 use passes::{Layouts, Passes};
 use picture::Landing;
@@ -98,6 +98,8 @@ pub struct Renderer {
     targets: Targets,
     film: Film,
     look: TestLook,
+    /// Moment of the next picture, by which water flows.
+    seconds: f32,
 }
 
 impl Renderer {
@@ -128,7 +130,13 @@ impl Renderer {
             targets,
             film,
             look: TestLook::default(),
+            seconds: 0.0,
         })
+    }
+
+    /// Sets the moment of the next pictures, in seconds: water flows by it.
+    pub fn set_moment(&mut self, seconds: f32) {
+        self.seconds = seconds;
     }
 
     /// Draws the picture of a camera.
@@ -162,6 +170,7 @@ impl Renderer {
     ) -> Result<(), Error> {
         check_camera(camera)?;
         let drawn = self.terrain.prepare(&self.gpu, camera, self.options.size, self.look.detail_from)?;
+        let drawn = Drawn { seconds: self.seconds, ..drawn };
         self.frame.write(&self.gpu, camera, self.options.size[0], &drawn);
         let groups = [&self.frame.caster_group, &self.maps.group];
         self.shadows.draw(encoder, groups, &self.passes.casters, &self.terrain);

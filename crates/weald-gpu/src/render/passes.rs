@@ -25,8 +25,8 @@ pub(super) const STAGE_GROUP: u32 = 1;
 const SHADERS: [&str; 7] = [
     include_str!("frame.wgsl"),
     include_str!("shadows.wgsl"),
-    include_str!("water.wgsl"),
     include_str!("detail.wgsl"),
+    include_str!("water.wgsl"),
     include_str!("terrain.wgsl"),
     include_str!("casters.wgsl"),
     include_str!("backdrop.wgsl"),

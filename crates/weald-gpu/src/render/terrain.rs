@@ -113,7 +113,7 @@ impl Terrain {
             let sides: Vec<_> = patches.iter().flat_map(|patch| self.sides_of(*patch)).collect();
             self.seen[number].write(gpu, &patches, &sides)?;
         }
-        Ok(Drawn { stand, slides: ranges.slides(), cascades })
+        Ok(Drawn { stand, slides: ranges.slides(), seconds: 0.0, cascades })
     }
 
     /// The box around all of it.

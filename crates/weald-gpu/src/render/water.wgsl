@@ -1,5 +1,157 @@
-// Water where the ground is looked at: what it mirrors, and what comes out of it.
+// Water where the ground is looked at: how it ripples, flows and foams, what it mirrors, and what comes out of it.
 
+// Seconds for which ripples are carried along before they are taken back: by Vlachos 2010, "Water flow in Portal 2",
+// two of them half a turn apart, each unseen when it is taken back.
+const CARRIED = 2.6;
+
+// Metres of height lost in a second between which water foams.
+const FOAMS = vec2<f32>(0.25, 2.4);
+
+// Share of light that foam sends back.
+const FOAM = 0.78;
+
+// Octaves of ripples below those that the ray-marched view has, for close by.
+const FINER = 6u;
+
+// Looks along a mirrored ray, and how much further each is.
+const LOOKS = 44;
+const FURTHER = 1.17;
+
+// How far two sets of ripples are carried, and the share of the second.
+struct Carried {
+    ways: vec2<f32>,
+    share: f32,
+}
+
+fn carried(point: vec2<f32>) -> Carried {
+    // Places are not in step with each other, or all ripples would be taken back at once.
+    let place = octaves_at(Octaves(60.0, 2u, 0.5, 0x53u), point, 0.0).value;
+    let phase = frame.moment.x / CARRIED + 2.0 * place;
+    let ways = fract(vec2<f32>(phase, phase + 0.5));
+    return Carried(CARRIED * ways, abs(2.0 * ways.x - 1.0));
+}
+
+// Slopes of ripples at a point that came from upstream: of the broad ones, and of all.
+fn ripple_slopes(point: vec2<f32>, wave: f32, footprint: f32, seed: u32) -> vec4<f32> {
+    let broad = octaves_at(Octaves(wave, 3u, 0.55, 0x52u + seed), point, footprint).slope;
+    let finer = octaves_at(Octaves(wave * 0.125, FINER, 0.43, 0x54u + seed), point, footprint).slope;
+    return vec4<f32>(broad, broad + 0.09 * finer);
+}
+
+// Normals of water: without the finest ripples, which would tear the picture of a shore to shreds, and with them.
+struct Ripples {
+    broad: vec3<f32>,
+    all: vec3<f32>,
+}
+
+// The normals of water whose surface is tilted and flows with a velocity.
+fn flowing(point: vec2<f32>, tilt: vec3<f32>, footprint: f32, velocity: vec2<f32>) -> Ripples {
+    let wave = min(0.25 * stage.scale.w, 6.0);
+    let calm = octaves_at(Octaves(30.0 * wave, 2u, 0.5, 0x51u), point, 0.0).value;
+    let along = carried(point);
+    // Level water has ripples of the wind, which drift slowly.
+    let drift = velocity + vec2<f32>(0.25, 0.12);
+    let first = ripple_slopes(point - drift * along.ways.x, wave, footprint, 0u);
+    let second = ripple_slopes(point - drift * along.ways.y, wave, footprint, 16u);
+    let strength = 0.035 * wave * (1.0 + 0.9 * calm) * (1.0 + 0.35 * length(velocity));
+    let evenness = inverseSqrt(along.share * along.share + (1.0 - along.share) * (1.0 - along.share));
+    let slopes = strength * evenness * mix(first, second, along.share);
+    let level = tilt.xy / tilt.z;
+    return Ripples(
+        normalize(vec3<f32>(level - 0.5 * slopes.xy, 1.0)), normalize(vec3<f32>(level - slopes.zw, 1.0)),
+    );
+}
+
+// Share of foam on water of a velocity that loses so much height in a second.
+fn foam_share(point: vec2<f32>, footprint: f32, velocity: vec2<f32>, lost: f32) -> f32 {
+    let fast = clamp((lost - FOAMS.x) / (FOAMS.y - FOAMS.x), 0.0, 1.0);
+    if fast <= 0.0 {
+        return 0.0;
+    }
+    let along = carried(point);
+    var bubbles = vec2<f32>(0.0);
+    for (var turn = 0; turn < 2; turn++) {
+        let here = point - velocity * along.ways[turn];
+        let seed = u32(turn) * 16u;
+        let clumps = octaves_at(Octaves(3.0, 6u, 0.62, 0x57u + seed), here, footprint).value;
+        bubbles[turn] = clumps;
+    }
+    let texture = mix(bubbles.x, bubbles.y, along.share);
+    return clamp((2.4 * texture + 0.9 * fast - 0.5) * 1.5, 0.0, 1.0) * (0.3 + 0.4 * fast);
+}
+
+// Height of the ground, or of the water on it, linear between control points: near enough for a look.
+fn rough_height(place: vec2<f32>) -> f32 {
+    let at = clamp(place, vec2<f32>(0.5), stage.grid.xy + 0.5) + 1.0;
+    let corner = floor(at);
+    let t = at - corner;
+    let first = vec2<i32>(corner);
+    let above = mix(textureLoad(top, first, 0).x, textureLoad(top, first + vec2<i32>(1, 0), 0).x, t.x);
+    let below = mix(
+        textureLoad(top, first + vec2<i32>(0, 1), 0).x, textureLoad(top, first + vec2<i32>(1, 1), 0).x, t.x,
+    );
+    return mix(above, below, t.y);
+}
+
+// How far along a ray the land lies; negative where it meets none.
+fn land_along(start: vec3<f32>, direction: vec3<f32>) -> f32 {
+    var before = 0.5 * stage.scale.w;
+    var way = before;
+    for (var look = 0; look < LOOKS; look++) {
+        let point = start + direction * way;
+        let place = place_of(point);
+        let is_outside = any(place < vec2<f32>(0.5)) || any(place > stage.grid.xy + 0.5);
+        if is_outside || point.z > stage.scale.z {
+            return -1.0;
+        }
+        if point.z < rough_height(place) {
+            for (var halving = 0; halving < 5; halving++) {
+                let middle = 0.5 * (before + way);
+                let here = start + direction * middle;
+                if here.z < rough_height(place_of(here)) {
+                    way = middle;
+                } else {
+                    before = middle;
+                }
+            }
+            return way;
+        }
+        before = way;
+        way = way * FURTHER + 0.25 * stage.scale.w;
+    }
+    return -1.0;
+}
+
+// The light that water mirrors: land with its own colours in a direction, or the sky in another.
+fn mirrored_light(start: vec3<f32>, direction: vec3<f32>, upward: vec3<f32>, way_before: f32) -> vec3<f32> {
+    let way = land_along(start, direction);
+    if way < 0.0 {
+        return sky_radiance(upward);
+    }
+    let point = start + direction * way;
+    let place = place_of(point);
+    let surface = spline_with_slope(bed, place);
+    let normal = normal_of(surface.yz);
+    let footprint = max(0.25 * stage.scale.w, (way + way_before) * frame.eye.w);
+    let skin = ground_skin(place, surface, footprint, 1e9);
+    let sun = sun_seen(point + normal * 0.1 * stage.scale.w, normal);
+    let radiance = skin.albedo * lit(roughened(normal, skin.bump), seen_at(skylight, share_of(place)), sun) / PI;
+    return veil(radiance, start, direction, way);
+}
+
+// The bed below shallow water, with its stones.
+fn bed_albedo(point: vec3<f32>, footprint: f32) -> vec3<f32> {
+    let gravel = Skin(stage.gravel.xyz, vec2<f32>(0.0), vec4<f32>(0.0, 1.0, 0.0, 0.0));
+    return with_detail(gravel, vec3<f32>(point.xy, 0.0), vec3<f32>(0.0, 0.0, 1.0), footprint).albedo;
+}
+
+// The direction in which water throws a ray: none into itself.
+fn mirrored(direction: vec3<f32>, normal: vec3<f32>, tilt: vec3<f32>) -> vec3<f32> {
+    let away = reflect(direction, normal);
+    return normalize(away + tilt * max(0.02 - dot(away, tilt), 0.0));
+}
+
+// The light of water of a depth at a place.
 fn water_radiance(
     place: vec2<f32>,
     point: vec3<f32>,
@@ -10,13 +162,16 @@ fn water_radiance(
 ) -> vec3<f32> {
     let back = -direction;
     let footprint = way * frame.eye.w / sqrt(max(back.z, 0.05));
-    let normal = ripples(point.xy, min(0.25 * stage.scale.w, 6.0), footprint);
+    let running = smooth_at(flow, place).xyz;
+    let tilt = normal_of(spline_with_slope(top, place).yz);
+    let ripples = flowing(point.xy, tilt, footprint, running.xy);
+    let normal = ripples.all;
     let seen = seen_at(skylight, share_of(place));
     let share = mirrored_share(dot(back, normal));
-    var away = reflect(direction, normal);
-    away.z = max(away.z, 0.01);
-    let reflection = sky_radiance(normalize(away));
-    let light = stage.sunlight.xyz * (sun * stage.sun.z) + skylight_on(seen, vec3<f32>(0.0, 0.0, 1.0));
-    let below = water_body(stage.gravel.xyz, depth, light);
-    return mix(below, reflection, share) + stage.sunlight.xyz * (sun * glint(back, normal, stage.sun.xyz));
+    let reflection = mirrored_light(point, mirrored(direction, ripples.broad, tilt), mirrored(direction, normal, tilt), way);
+    let up = vec3<f32>(0.0, 0.0, 1.0);
+    let light = stage.sunlight.xyz * (sun * stage.sun.z) + skylight_on(seen, up);
+    let below = water_body(bed_albedo(point, footprint), depth, light);
+    let surface = mix(below, reflection, share) + stage.sunlight.xyz * (sun * glint(back, normal, stage.sun.xyz));
+    return mix(surface, FOAM * light / PI, foam_share(point.xy, footprint, running.xy, running.z));
 }

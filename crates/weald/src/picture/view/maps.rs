@@ -138,7 +138,7 @@ fn of_strata(strata: &Strata) -> Values {
 
 fn of_flow(flow: Option<&Flow>) -> Values {
     let [east, north] = flow.map(|flow| flow.velocity.each_ref().map(Some)).unwrap_or_default();
-    smooth([east, north, None, None])
+    smooth([east, north, flow.map(|flow| &flow.lost), None])
 }
 
 fn of_rivers(rivers: Option<&Rivers>) -> Values {
