@@ -4,7 +4,7 @@
 const { readFileSync } = require('node:fs');
 const { validateBytes } = require('gltf-validator');
 
-validateBytes(new Uint8Array(readFileSync(process.argv[2])), { maxIssues: 20 })
+validateBytes(new Uint8Array(readFileSync(process.argv[2])), { maxIssues: 1000 })
     .then((report) => console.log(JSON.stringify(report)))
     .catch((error) => {
         console.error(`no glTF file: ${error}`);

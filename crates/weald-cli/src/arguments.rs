@@ -180,8 +180,11 @@ pub(crate) struct BenchArguments {
     #[arg(long, conflicts_with_all = ["size", "gpu_memory"])]
     pub(crate) fractals: bool,
     /// Only the parts of a drawn picture, on the graphics device
-    #[arg(long, conflicts_with_all = ["size", "fractals"])]
+    #[arg(long, conflicts_with_all = ["size", "fractals", "grass"])]
     pub(crate) render: bool,
+    /// Only sets and blades of grass, with --engine cpu
+    #[arg(long, conflicts_with_all = ["size", "gpu_memory", "fractals"])]
+    pub(crate) grass: bool,
     /// Most memory of the graphics card, as in 512MiB; larger sizes are left out
     #[arg(long, value_name = "BYTES", allow_negative_numbers = true, value_parser = engine::memory)]
     pub(crate) gpu_memory: Option<u64>,

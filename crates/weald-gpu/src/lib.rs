@@ -20,7 +20,7 @@
 //!
 //! A [`Renderer`] draws a landscape, offscreen or into a window.
 //!
-//! A [`Cloud`] is the points of a fractal on a device, a [`Swarm`] a plant there that sways.
+//! A [`Cloud`] is the points of a fractal on a device, a [`Swarm`] a plant there that sways. [`grow_blades`] grows grass there.
 
 mod adapter;
 mod bandwidth;
@@ -47,4 +47,4 @@ pub use gpu::Gpu;
 #[doc(hidden)]
 pub use render::TestLook;
 pub use render::{Options as RenderOptions, Renderer, Timings};
-pub use swarm::{Cloud, Swarm, SwarmRates};
+pub use swarm::{Cloud, Swarm, SwarmRates, grow_blades};

@@ -5,9 +5,11 @@
 mod device;
 mod flow;
 mod fractal;
+mod grass;
 
 pub use device::run_on;
 pub use fractal::{PointRate, fractals};
+pub use grass::{GrassRate, grass};
 
 use std::time::Instant;
 

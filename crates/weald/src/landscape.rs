@@ -1,4 +1,4 @@
-//! A landscape: one domain, the named layers on it, and the plants.
+//! A landscape: one domain, the named layers on it, the plants, and the grass.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -7,6 +7,7 @@ use crate::domain::Domain;
 use crate::error::Error;
 use crate::grid::Field;
 use crate::grow::Fractal;
+use crate::grow::grass::Meadow;
 use crate::material::Material;
 use crate::plants::Plants;
 
@@ -19,7 +20,7 @@ pub struct Layer {
     pub field: Field,
 }
 
-/// A domain, its layers and its plants. Layers come out in the order of their names, whatever the order they went in.
+/// A domain, its layers, its plants and its grass. Layers come out in the order of their names, whatever the order they went in.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Landscape {
     /// Grid, cell size, georeference, mask.
@@ -31,13 +32,14 @@ pub struct Landscape {
     layers: BTreeMap<String, Layer>,
     /// Shared, because each step works on a copy of the landscape.
     plants: BTreeMap<String, Arc<Plants>>,
+    meadows: BTreeMap<String, Arc<Meadow>>,
 }
 
 impl Landscape {
     /// A landscape without layers, of the default materials.
     pub fn new(domain: Domain) -> Self {
-        let (layers, plants) = (BTreeMap::new(), BTreeMap::new());
-        Self { domain, materials: Material::default_stack(), fractals: Vec::new(), layers, plants }
+        let (layers, plants, meadows) = (BTreeMap::new(), BTreeMap::new(), BTreeMap::new());
+        Self { domain, materials: Material::default_stack(), fractals: Vec::new(), layers, plants, meadows }
     }
 
     /// Adds or replaces a layer.
@@ -97,5 +99,26 @@ impl Landscape {
     /// All plants in the order of their names.
     pub fn all_plants(&self) -> impl Iterator<Item = (&str, &Arc<Plants>)> {
         self.plants.iter().map(|(name, plants)| (name.as_str(), plants))
+    }
+
+    /// Adds or replaces grass.
+    pub fn sow(&mut self, name: &str, meadow: impl Into<Arc<Meadow>>) {
+        self.meadows.insert(name.to_owned(), meadow.into());
+    }
+
+    /// The grass of that name.
+    ///
+    /// # Errors
+    /// [`Error::Run`] naming the grass that exists.
+    pub fn meadow(&self, name: &str) -> Result<&Arc<Meadow>, Error> {
+        self.meadows.get(name).ok_or_else(|| {
+            let known: Vec<_> = self.meadows.keys().map(String::as_str).collect();
+            Error::Run(format!("there is no grass `{name}`; the landscape has: {}", known.join(", ")))
+        })
+    }
+
+    /// All grass in the order of the names.
+    pub fn all_meadows(&self) -> impl Iterator<Item = (&str, &Arc<Meadow>)> {
+        self.meadows.iter().map(|(name, meadow)| (name.as_str(), meadow))
     }
 }

@@ -24,6 +24,16 @@ pub trait Step: Debug + Send + Sync {
         Vec::new()
     }
 
+    /// Names of the fractals that these plants are.
+    fn fractals(&self) -> Vec<String> {
+        Vec::new()
+    }
+
+    /// Names of the grass that it grows.
+    fn meadows(&self) -> Vec<String> {
+        Vec::new()
+    }
+
     /// What it does with the layers of the materials, whose names only a recipe knows.
     fn layered(&self) -> Layered {
         Layered::Never

@@ -16,7 +16,7 @@ use weald::grow::scatter::Scatter;
 use weald::io::{InMemory, write_parts};
 use weald::plants::Plants;
 use weald::recipe::parameter::Nested;
-use weald::recipe::{Overrides, Recipe};
+use weald::recipe::{Options, Overrides, Recipe, Run, Silent};
 use weald::step::Step;
 use weald::{Domain, Landscape, Size};
 
@@ -209,4 +209,31 @@ fn plants_that_no_step_sets_and_fractals_that_there_are_not_are_told_before_anyt
     );
     let message = refused("fernn", "ferns").expect_err("no such fractal");
     assert!(message.contains("there is no fractal \"fernn\"; did you mean `fern`?"), "{message}");
+}
+
+/// A recipe that plants a fractal of its own.
+fn own_plant(keys: &str) -> String {
+    format!(
+        "[landscape]\nsize = 16\n[[fractal]]\nname = \"fork\"\nmaps = [\n[0.5, -0.3, 0.3, 0.5, 0.0, 0.4],\n\
+         [0.5, 0.3, -0.3, 0.5, 0.0, 0.4],\n[0.02, 0.0, 0.0, 0.4, 0.0, 0.0],\n]\n{keys}[[step]]\ndo = \"fbm\"\n\
+         [[step]]\ndo = \"scatter\"\nplant = \"fork\"\ncount = 9\n[[output]]\nexport = \"plants\"\n\
+         of = \"plants\"\nfile = \"forks.glb\"\n"
+    )
+}
+
+#[test]
+fn a_fractal_of_the_recipe_is_planted_but_not_a_bent_one() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let recipe = Recipe::parse("r.toml", &own_plant(""), &Overrides::default()).expect("good");
+    let run = Run { recipe: &recipe, options: Options::into_folder(folder.path()) };
+    run.execute(&Silent).expect("runs");
+    let report = validated(&folder.path().join("forks.nodes.glb"));
+    assert_eq!(report["issues"]["numErrors"], 0, "{report}");
+    assert_eq!(report["info"]["drawCallCount"], 1, "{report}");
+    let bytes = std::fs::read(folder.path().join("forks.nodes.glb")).expect("written");
+    let text = String::from_utf8_lossy(&bytes);
+    assert_eq!(text.matches("\"rotation\"").count(), 9, "a node for each plant");
+    let bent = own_plant("deform = [{ by = \"swap\", from = 1, to = 2 }]\n");
+    let error = Recipe::parse("r.toml", &bent, &Overrides::default()).expect_err("bent");
+    assert!(error.to_string().contains("r.toml:13: scatter: the fractal \"fork\" has `deform`"), "{error}");
 }

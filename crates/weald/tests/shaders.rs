@@ -6,7 +6,9 @@ use std::path::{Path, PathBuf};
 use naga::valid::{Capabilities, GlobalUse, ModuleInfo, ValidationFlags, Validator};
 use naga::{AddressSpace, ArraySize, Module, Scalar, StructMember, TypeInner, VectorSize};
 use weald::engine::program::{GROUP, MOST_BUFFERS, Pass, Program, Uniforms};
-use weald::grow::ifs::device::{Rules, SHADERS, Shader, Stretch};
+use weald::grow::SHADERS;
+use weald::grow::grass::{Bend, Grasses, SPECIES};
+use weald::grow::ifs::device::{Rules, Shader, Stretch};
 use weald::grow::ifs::wind::{Plant, Pose};
 use weald::grow::ifs::{Game, Sway, shapes};
 use weald::picture::{Stage, View};
@@ -100,7 +102,7 @@ fn every_shader_of_the_tree_is_part_of_a_module() {
     for path in shaders {
         let text = std::fs::read_to_string(&path).expect("a readable shader");
         let part_of_a_module = modules.keys().chain([&stage]).any(|module| module.contains(&text));
-        let of_plants = SHADERS.iter().any(|shader| shader.text == text);
+        let of_plants = SHADERS.iter().any(|shader| shader.text.contains(&text));
         assert!(part_of_a_module || of_plants, "{} is in no module", path.display());
     }
 }
@@ -240,9 +242,11 @@ fn structs_of_plants_lie_in_memory_as_their_twins_do() {
     let stretch = Uniforms::of(&Stretch { first: 0, points: 0 });
     let rules: Rules = Game::new(&ifs, 1).rules(true);
     let plant: Plant = Sway::of(&ifs).plant();
-    let of_each: [&[Uniforms]; 2] = [
+    let grasses = Grasses::new(&SPECIES, Bend::Total);
+    let of_each: [&[Uniforms]; 3] = [
         &[Uniforms::of(&rules), stretch.clone()],
-        &[Uniforms::of(&plant), Uniforms::of(&Pose::calm()), stretch],
+        &[Uniforms::of(&plant), Uniforms::of(&Pose::calm()), stretch.clone()],
+        &[Uniforms::of(&grasses), stretch],
     ];
     for (shader, structs) in SHADERS.iter().zip(of_each) {
         let (module, _) = checked(shader.text, shader.name);
@@ -255,15 +259,25 @@ fn structs_of_plants_lie_in_memory_as_their_twins_do() {
 
 #[test]
 fn constants_of_plants_are_those_of_the_host() {
+    use weald::grow::grass::{BLADES, curves, growth, species};
     use weald::grow::ifs::{game, lanes, wind};
     let host = [
         ("play", "LANES", lanes::LANES),
         ("play", "STEPS", game::STEPS),
         ("sway", "ORDERS", wind::ORDERS),
         ("sway", "PHASES", wind::PHASES),
-    ];
-    for (shader, name, value) in host {
-        let of = |shader: &Shader| shader.text.contains(&format!("const {name}: u32 = {value}u;"));
+        ("grow", "BLADES", BLADES as usize),
+        ("grow", "ROWS", species::ROWS),
+    ]
+    .map(|(shader, name, value)| (shader, name, format!("u32 = {value}u")));
+    let numbers = [
+        ("JOINT", curves::JOINT),
+        ("MOST_BEND", growth::MOST_BEND),
+        ("BEND_OF_GAMMA", growth::BEND_OF_GAMMA),
+    ]
+    .map(|(name, value)| ("grow", name, format!("f32 = {value}")));
+    for (shader, name, value) in host.into_iter().chain(numbers) {
+        let of = |shader: &Shader| shader.text.contains(&format!("const {name}: {value};"));
         assert!(
             SHADERS.iter().any(|found| found.name == shader && of(found)),
             "{shader}: {name} is not {value}"

@@ -20,6 +20,9 @@ pub(crate) fn bench(arguments: &BenchArguments) -> Result<(), Failure> {
     if arguments.fractals && arguments.engine == "gpu" {
         return Err(Failure::usage("--fractals measures the CPU; leave out --engine gpu"));
     }
+    if arguments.grass && arguments.engine == "gpu" {
+        return Err(Failure::usage("--grass measures the CPU; leave out --engine gpu"));
+    }
     let mut unwritten = None;
     let mut print = |line: &dyn Display| {
         if let Err(failure) = stdout::print(&format!("{line}\n")) {
@@ -31,11 +34,16 @@ pub(crate) fn bench(arguments: &BenchArguments) -> Result<(), Failure> {
     } else if arguments.engine == "gpu" {
         on_the_gpu(arguments, &mut print)?;
     } else {
-        if !arguments.fractals {
+        if !arguments.fractals && !arguments.grass {
             let sides = given_or(&arguments.size, SIDES);
             weald::bench::run(sides, &arguments.threads, &mut |rate| print(rate))?;
         }
-        weald::bench::fractals(&arguments.threads, &mut print)?;
+        if !arguments.grass {
+            weald::bench::fractals(&arguments.threads, &mut print)?;
+        }
+        if !arguments.fractals {
+            weald::bench::grass(&arguments.threads, &mut print)?;
+        }
     }
     unwritten.map_or(Ok(()), Err)
 }

@@ -1,10 +1,12 @@
 //! Fractals on a device: clouds of points, and swarms that sway in the wind.
 
+mod blades;
 mod pass;
 mod play;
 mod points;
 mod rates;
 
+pub use blades::grow_blades;
 pub use rates::SwarmRates;
 
 use weald::Error;

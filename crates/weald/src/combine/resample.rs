@@ -62,6 +62,9 @@ impl Step for Resample {
         for (name, plants) in landscape.all_plants() {
             resampled.plant(name, plants.clone());
         }
+        for (name, meadow) in landscape.all_meadows() {
+            resampled.sow(name, meadow.clone());
+        }
         *landscape = resampled;
         Ok(Outcome::default())
     }

@@ -1,6 +1,7 @@
 //! What a landscape becomes for other programs beyond one raster: meshes, vectors, sets of tiles, pages.
 //! One file a kind; [`EXPORTS`] is the registry.
 
+mod grass;
 mod layers;
 mod mesh;
 mod plants;
@@ -13,6 +14,7 @@ mod unreal;
 mod vector;
 mod vertices;
 
+pub use grass::GrassSets;
 pub use layers::Layers;
 pub use mesh::{Colours, Mesh};
 pub use plants::PlantSet;
@@ -55,6 +57,11 @@ pub trait Export: Debug + Send + Sync {
 
     /// Names of the plants it needs.
     fn plants(&self) -> Vec<String> {
+        Vec::new()
+    }
+
+    /// Names of the grass it needs.
+    fn meadows(&self) -> Vec<String> {
         Vec::new()
     }
 
@@ -128,6 +135,7 @@ pub const EXPORTS: &[ExportEntry] = &[
     ExportEntry::of::<Layers>("layers", layers::EXTENSIONS, "several layers in one file: NetCDF or Zarr", "CF conventions 1.11, Zarr 3.0"),
     ExportEntry::of::<Points>("points", points::EXTENSIONS, "the points of a fractal with their codes", "Barnsley 1988; PLY 1.0, NumPy's NEP 1"),
     ExportEntry::of::<PlantSet>("plants", &["glb", "csv", "ply"], "plants with their places, leaning, sizes and phases: as instances of a mesh, a table, or a cloud of points", "glTF 2.0 with EXT_mesh_gpu_instancing; RFC 4180; Turk 1994, The PLY polygon file format"),
+    ExportEntry::of::<GrassSets>("grass", &["glb"], "grass as instances of a set of each species, with the soil, light and wind of each", "glTF 2.0 with EXT_mesh_gpu_instancing"),
     unreal::ENTRY,
     unity::ENTRY,
     terrain3d::ENTRY,

@@ -13,6 +13,7 @@ mod fault;
 mod flow_rate;
 mod force;
 mod forms;
+mod grass;
 mod han;
 mod ifs;
 mod lake;
@@ -151,6 +152,13 @@ pub const FIGURES: &[Figure] = &[
     ifs::FIGURE_14,
     ifs::FIGURE_15,
     ifs::FIGURE_16,
+    grass::FIGURE_2,
+    grass::FIGURE_3,
+    grass::FIGURE_5,
+    grass::FIGURE_5B,
+    grass::FIGURE_6,
+    grass::FIGURE_10,
+    grass::FIGURE_11,
 ];
 
 /// Headings or cells of a table.

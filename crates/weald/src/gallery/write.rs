@@ -74,10 +74,10 @@ fn selected(figure: &Figure, only: &[String]) -> bool {
     only.is_empty() || only.iter().any(|id| id == figure.id || group(figure) == Some(id))
 }
 
-/// What stands before the number of a figure, as `ifs` in `ifs-5`: it selects all figures of a publication.
+/// What stands before the number of a figure, as `ifs` in `ifs-5` and `grass` in `grass-5b`: it selects all figures of a publication.
 fn group(figure: &Figure) -> Option<&str> {
     let (group, number) = figure.id.rsplit_once('-')?;
-    number.bytes().all(|byte| byte.is_ascii_digit()).then_some(group)
+    number.starts_with(|first: char| first.is_ascii_digit()).then_some(group)
 }
 
 /// Every word that selects figures: ids, and groups such as `ifs` before their first figure.

@@ -1,12 +1,17 @@
 //! What grows on the land: plants from the codes of fractals, and where they stand.
 
+pub mod grass;
 pub mod ifs;
 pub mod scatter;
 
 use std::borrow::Cow;
 
 use self::ifs::deform::DeformKeys;
+use self::ifs::device::Shader;
 use self::ifs::{Deformation, Ifs, shapes};
+
+/// All shaders of plants.
+pub const SHADERS: [Shader; 3] = [ifs::device::PLAY, ifs::wind::SWAY, grass::device::GROW];
 
 /// A fractal by its name, with what deforms it: a `[[fractal]]` table of a recipe.
 #[derive(Clone, Debug, PartialEq)]

@@ -12,7 +12,6 @@ mod site;
 mod tests;
 mod window;
 
-use super::ifs::shapes;
 use crate::condition::Condition;
 use crate::domain::Domain;
 use crate::engine::Job;
@@ -22,7 +21,7 @@ use crate::landscape::Landscape;
 use crate::parameters;
 use crate::plants::{Plant, Plants};
 use crate::random;
-use crate::recipe::parameter::{LayerName, Nested, nearest};
+use crate::recipe::parameter::{LayerName, Nested};
 use crate::step::{Entry, Outcome, Stage, Step};
 use pattern::{DENSITY, Pattern, Place};
 use rayon::prelude::*;
@@ -45,7 +44,7 @@ parameters! {
     pub struct Scatter {
         /// Name of the plants, and of the layer that counts them.
         into: LayerName = LayerName::of("plants");
-        /// What is planted: the name of a fractal.
+        /// What is planted: a fractal, of the recipe or built in.
         plant: String = "fern".to_owned();
         /// Layer of heights in metres.
         of: LayerName = LayerName::of("height");
@@ -83,6 +82,10 @@ impl Step for Scatter {
         vec![self.into.0.clone()]
     }
 
+    fn fractals(&self) -> Vec<String> {
+        vec![self.plant.clone()]
+    }
+
     fn range(&self, _: &str) -> Option<(f64, f64)> {
         Some((0.0, f64::INFINITY))
     }
@@ -97,16 +100,7 @@ impl Step for Scatter {
                 Some(format!("`size` has {} numbers; it needs two, the least and the greatest", other.len()))
             }
         };
-        let known: Vec<_> = shapes::SHAPES.iter().map(|shape| shape.name).collect();
-        let plant = shapes::find(&self.plant).is_none().then(|| {
-            let hint = match nearest(&self.plant, &known) {
-                Some(near) => format!("did you mean `{near}`?"),
-                None => format!("there are: {}", known.join(", ")),
-            };
-            format!("there is no fractal {:?}; {hint}", self.plant)
-        });
         size.into_iter()
-            .chain(plant)
             .chain(self.r#where.iter().filter_map(|Nested(condition)| condition.fault()))
             .collect()
     }

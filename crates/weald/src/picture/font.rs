@@ -161,25 +161,25 @@ pub(super) fn width(text: &str) -> f32 {
 
 /// How a text is written.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Pen {
+pub(crate) struct Pen {
     /// Pixels a unit: a capital is eight times as high.
-    pub(super) unit: f32,
-    pub(super) ink: Linear,
+    pub(crate) unit: f32,
+    pub(crate) ink: Linear,
 }
 
 impl Pen {
     /// Width of a text in pixels.
-    pub(super) fn width(&self, text: &str) -> f32 {
+    pub(crate) fn width(&self, text: &str) -> f32 {
         self.unit * width(text)
     }
 
     /// Height of a capital in pixels.
-    pub(super) fn height(&self) -> f32 {
+    pub(crate) fn height(&self) -> f32 {
         self.unit * CAPITAL
     }
 
     /// Writes a text whose top left corner is at (`left`, `top`). What does not fit on the picture is cut off.
-    pub(super) fn write(&self, image: &mut Image, text: &str, [left, top]: [f32; 2]) {
+    pub(crate) fn write(&self, image: &mut Image, text: &str, [left, top]: [f32; 2]) {
         let rim = 2.0 * self.unit + 2.0;
         let size =
             [self.width(text) + 2.0 * rim, self.unit * 10.0 + 2.0 * rim].map(|side| side.ceil() as usize);
@@ -217,7 +217,7 @@ impl Pen {
 }
 
 /// Mixes ink into a pixel, if it is on the picture.
-pub(super) fn blend(image: &mut Image, [x, y]: [f32; 2], ink: Linear, cover: f32) {
+pub(crate) fn blend(image: &mut Image, [x, y]: [f32; 2], ink: Linear, cover: f32) {
     if cover <= 0.0 || x < 0.0 || y < 0.0 || x >= image.width as f32 || y >= image.height as f32 {
         return;
     }

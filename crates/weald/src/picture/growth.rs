@@ -6,7 +6,9 @@ use super::fractal::{Extent, Look, Motion, Setting, Subject};
 use super::{Cutout, Image, Picture, Watch};
 use crate::error::Error;
 use crate::grow::Fractal;
-use crate::grow::ifs::{Code, Deformation, Point, Pose, Sway, Wind};
+use crate::grow::ifs::lanes::LANES;
+use crate::grow::ifs::wind::Posed;
+use crate::grow::ifs::{Block, Code, Deformation, Packer, Point, Pose, Sway, Wind};
 use crate::landscape::Landscape;
 use crate::recipe::parameter::{Complaints, LayerName, Nested, Parameter, Parameters, keys_of};
 use crate::recipe::source::Table;
@@ -153,16 +155,62 @@ impl Plant<'_> {
     ) -> Result<T, Error> {
         let pose = self.growth.pose(share);
         let turn = if pose.is_some() { 0.0 } else { share };
-        let moved = |point: Point, code: &Code| self.moved(pose.as_ref(), point, code);
-        let rests = self.deformation.is_nothing() && pose.is_none();
-        let motion: Option<&Motion<'_>> = if rests { None } else { Some(&moved) };
+        let moved = Moved { deformation: self.deformation, sway: &self.sway, pose: pose.as_ref() };
+        let wind = pose.as_ref().map(|pose| Posed::new(&self.sway, pose));
+        let swaying = wind.map(|wind| Swaying { moved, wind });
+        let motion: Option<&dyn Motion> = match &swaying {
+            Some(swaying) => Some(swaying),
+            None if self.deformation.is_nothing() => None,
+            None => Some(&moved),
+        };
         draw(&self.growth.look.subject(&fractal.ifs, motion, self.growth.keys.seed, turn))
     }
+}
 
-    fn moved(&self, pose: Option<&Pose>, point: Point, code: &Code) -> Point {
-        let bent = if self.deformation.is_nothing() { point } else { self.deformation.apply(point, code) };
-        let Some(pose) = pose else { return bent };
-        let swayed = self.sway.at(pose, bent.map(|x| x as f32), |place| code.digit(place));
-        swayed.map(f64::from)
+/// What moves one point after the other.
+#[derive(Clone, Copy)]
+struct Moved<'a> {
+    deformation: &'a Deformation<'a>,
+    sway: &'a Sway,
+    pose: Option<&'a Pose>,
+}
+
+impl Moved<'_> {
+    fn bent(&self, point: Point, code: &Code) -> Point {
+        if self.deformation.is_nothing() { point } else { self.deformation.apply(point, code) }
+    }
+}
+
+impl Motion for Moved<'_> {
+    fn moved(&self, point: Point, code: &Code) -> Point {
+        let bent = self.bent(point, code);
+        let Some(pose) = self.pose else { return bent };
+        self.sway.at(pose, bent.map(|x| x as f32), |place| code.digit(place)).map(f64::from)
+    }
+}
+
+/// What moves rows of points where there is wind.
+struct Swaying<'a> {
+    moved: Moved<'a>,
+    wind: Posed<'a>,
+}
+
+impl Motion for Swaying<'_> {
+    fn moved(&self, point: Point, code: &Code) -> Point {
+        self.moved.moved(point, code)
+    }
+
+    fn row(&self, block: &Block, row: usize, packer: &Packer) -> [[f64; LANES]; 3] {
+        let mut rests = block.rows()[row];
+        if !self.moved.deformation.is_nothing() {
+            for lane in 0..LANES.min(block.len() - row * LANES) {
+                let number = row * LANES + lane;
+                let bent = self.moved.bent(block.point(number).map(f64::from), &packer.code(number));
+                for (axis, x) in rests.iter_mut().zip(bent) {
+                    axis[lane] = x as f32;
+                }
+            }
+        }
+        self.wind.row(|place| block.digits(row, place), &rests).map(|axis| axis.map(f64::from))
     }
 }

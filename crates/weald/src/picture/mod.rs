@@ -37,6 +37,7 @@ pub use apng::write_apng;
 pub(crate) use colour::linear_of_srgb;
 pub use colour::{Linear, Oklab, encode, linear_of_hex};
 pub use cutout::Cutout;
+pub(crate) use font::{Pen, blend};
 pub use growth::{Growth, GrowthKeys};
 pub use image::Image;
 pub use map::Map;
@@ -44,6 +45,7 @@ pub use materials::Materials;
 pub use ramp::{Ramp, Scale, Tint};
 pub use relief::Relief;
 pub use section::{Along, Section};
+pub(crate) use strokes::{Point as StrokePoint, Strokes};
 pub(crate) use view::albedo;
 pub use view::{Camera, GroundColour, MapKind, Rim, Stage, StageMap, View};
 

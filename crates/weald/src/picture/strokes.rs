@@ -2,15 +2,15 @@
 
 /// A point of a line.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Point {
+pub(crate) struct Point {
     /// Pixels from the left edge of the sheet.
-    pub(super) x: f32,
+    pub(crate) x: f32,
     /// Pixels from its top.
-    pub(super) y: f32,
+    pub(crate) y: f32,
     /// Width of the line here, in pixels.
-    pub(super) width: f32,
+    pub(crate) width: f32,
     /// 0 invisible to 1 opaque.
-    pub(super) opacity: f32,
+    pub(crate) opacity: f32,
 }
 
 impl Point {
@@ -27,30 +27,30 @@ impl Point {
 
 /// Cover of a whole sheet, 0 to 1 a pixel. Where lines cross the stronger one counts, so their order does not.
 #[derive(Debug)]
-pub(super) struct Strokes {
+pub(crate) struct Strokes {
     width: usize,
     cover: Vec<f32>,
 }
 
 impl Strokes {
     /// A sheet without lines.
-    pub(super) fn new(width: usize, height: usize) -> Self {
+    pub(crate) fn new(width: usize, height: usize) -> Self {
         Self { width, cover: vec![0.0; width * height] }
     }
 
     /// Cover along row `y`.
-    pub(super) fn row(&self, y: usize) -> &[f32] {
+    pub(crate) fn row(&self, y: usize) -> &[f32] {
         &self.cover[y * self.width..][..self.width]
     }
 
     /// Draws a line through `points`, smoothed.
-    pub(super) fn draw(&mut self, points: &[Point]) {
+    pub(crate) fn draw(&mut self, points: &[Point]) {
         let smooth = smoothed(&smoothed(points));
         smooth.windows(2).for_each(|pair| self.segment(pair[0], pair[1]));
     }
 
     /// Draws a line straight from point to point.
-    pub(super) fn draw_straight(&mut self, points: &[Point]) {
+    pub(crate) fn draw_straight(&mut self, points: &[Point]) {
         points.windows(2).for_each(|pair| self.segment(pair[0], pair[1]));
     }
 

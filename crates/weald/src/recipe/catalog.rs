@@ -48,6 +48,7 @@ pub const CATALOG: &[Entry] = &[
     analyse::wetness::ENTRY,
     analyse::moisture::ENTRY,
     grow::scatter::ENTRY,
+    grow::grass::step::ENTRY,
 ];
 
 /// The step of that name.

@@ -1,9 +1,10 @@
 //! The state of a run on disk, so that an interrupted run ends with the same bits as one that was not.
 //!
 //! Layout, all numbers little-endian: `WEALDCP1`; the length of the header as `u64`; the header as JSON; the
-//! no-data mask, one byte a cell, where there is one; each layer as `f32`; each plant as its numbers; each plane as
-//! `f32`; each sum as `f64`; the BLAKE3 hash of all of that.
+//! no-data mask, one byte a cell, where there is one; each layer as `f32`; each plant as its numbers; the maps of
+//! all grass; each plane as `f32`; each sum as `f64`; the BLAKE3 hash of all of that.
 
+mod grown;
 mod planted;
 mod stream;
 
@@ -18,6 +19,7 @@ use crate::error::Error;
 use crate::grid::{Field, Mask, Size};
 use crate::io::write_whole_with;
 use crate::landscape::Landscape;
+use grown::MeadowHeader;
 use planted::PlantsHeader;
 use stream::{HashedReader, HashedWriter};
 
@@ -58,6 +60,7 @@ struct Header {
     /// Names and units.
     layers: Vec<(String, String)>,
     plants: Vec<PlantsHeader>,
+    meadows: Vec<MeadowHeader>,
     simulation: Option<SimulationHeader>,
     steps: Vec<StepReport>,
     notes: Vec<String>,
@@ -93,6 +96,9 @@ pub(super) fn write(
         }
         for (_, plants) in state.landscape.all_plants() {
             planted::write(plants, &mut out)?;
+        }
+        for (_, meadow) in state.landscape.all_meadows() {
+            grown::write(meadow, &mut out)?;
         }
         for (_, plane) in simulation.iter().flat_map(|simulation| &simulation.planes) {
             out.singles(plane)?;
@@ -160,6 +166,11 @@ impl Header {
                 .all_plants()
                 .map(|(name, plants)| PlantsHeader::of(name, plants))
                 .collect(),
+            meadows: state
+                .landscape
+                .all_meadows()
+                .map(|(name, meadow)| MeadowHeader::of(name, meadow))
+                .collect(),
             simulation: simulation.map(SimulationHeader::of),
             steps: state.steps.clone(),
             notes: state.notes.clone(),
@@ -175,8 +186,10 @@ impl Header {
         let cells = self.size()?.cells() as u128;
         let layers = self.layers.len() as u128 * 4 * cells + if self.masked { cells } else { 0 };
         let plants: u128 = self.plants.iter().map(PlantsHeader::bytes).sum();
+        let meadows: u128 = self.meadows.iter().map(MeadowHeader::bytes).sum();
         Ok(layers
             + plants
+            + meadows
             + self.simulation.as_ref().map_or(0, SimulationHeader::bytes)
             + u128::from(HASH_BYTES))
     }
@@ -216,6 +229,10 @@ impl Header {
             let (name, plants) = header.read(file)?;
             landscape.plant(&name, plants);
         }
+        for header in self.meadows {
+            let (name, meadow) = header.read(file)?;
+            landscape.sow(&name, meadow);
+        }
         let simulation = self.simulation.map(|header| header.read(file)).transpose()?;
         Ok(State { landscape, done: self.done, simulation, steps: self.steps, notes: self.notes })
     }
@@ -250,6 +267,7 @@ impl SimulationHeader {
 mod tests {
     use super::*;
     use crate::domain::GeoKeys;
+    use crate::grow::grass::{Bend, Maps, Meadow, SPECIES, Species};
     use crate::plants::{Plant, Plants};
     use proptest::prelude::*;
     use std::path::PathBuf;
@@ -275,6 +293,30 @@ mod tests {
         let plants = vec![plant(0.5), plant(f64::MIN_POSITIVE)];
         landscape.plant("ferns", Plants { kind: "fern".to_owned(), spacing: 0.7, plants });
         landscape.plant("none", Plants { kind: "tree".to_owned(), spacing: 2.0, plants: Vec::new() });
+        let map = || Field::from_function(size, |x, y| (x + 3 * y) as f32 / 7.0);
+        landscape.sow(
+            "lawn",
+            Meadow {
+                species: vec![SPECIES[1].clone(), Species { height: 0.1, ..SPECIES[3].clone() }],
+                bend: Bend::Printed,
+                seed: u64::MAX,
+                densest: 0.1,
+                level: 1.0 / 3.0,
+                mown_height: 0.04,
+                deepest: 0.0,
+                maps: Maps {
+                    cell: 0.3,
+                    land: landscape.domain.land.clone(),
+                    density: map(),
+                    soil: map(),
+                    light: map(),
+                    shares: vec![map(), map()],
+                    water: None,
+                    mown: Some(map()),
+                    trodden: None,
+                },
+            },
+        );
         let simulation = SavedSimulation {
             iteration: 7,
             planes: vec![("water".to_owned(), vec![f32::MIN_POSITIVE, -0.0, 3.5])],

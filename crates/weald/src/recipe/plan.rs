@@ -227,7 +227,7 @@ fn check(
     let (steps, all_understood) = steps::read(files, recipe, complaints);
     let outputs = outputs::read(vocabulary, recipe, complaints);
     if fractals_understood {
-        fractals::check_names(&fractals, &outputs, complaints);
+        fractals::check_names(&fractals, &steps, &outputs, complaints);
     }
     complaints.subject.clear();
     if recipe.get("output").is_none() {

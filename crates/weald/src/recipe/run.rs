@@ -324,7 +324,7 @@ impl Run<'_> {
     }
 }
 
-/// All layers that a step declares must be there and hold numbers, and all plants must be there.
+/// All layers that a step declares must be there and hold numbers, and all plants and grass must be there.
 fn check_layers(planned: &Planned, landscape: &Landscape) -> Result<(), Error> {
     let land = landscape.domain.land.as_ref();
     let mut written: Vec<_> = planned.step.writes().into_iter().map(|(name, _)| name).collect();
@@ -340,7 +340,8 @@ fn check_layers(planned: &Planned, landscape: &Landscape) -> Result<(), Error> {
             )));
         }
     }
-    planned.step.plants().iter().try_for_each(|name| landscape.plants(name).map(drop))
+    planned.step.plants().iter().try_for_each(|name| landscape.plants(name).map(drop))?;
+    planned.step.meadows().iter().try_for_each(|name| landscape.meadow(name).map(drop))
 }
 
 fn step_report(

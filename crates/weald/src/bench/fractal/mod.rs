@@ -15,7 +15,7 @@ use super::RUNS;
 use crate::error::Error;
 use crate::grow::ifs::flame::Frame;
 use crate::grow::ifs::game::CHUNK;
-use crate::grow::ifs::{Code, Game, Histogram, Ifs, Window, shapes};
+use crate::grow::ifs::{Code, Game, Histogram, Ifs, Packer, Window, shapes};
 
 /// Columns and rows of the picture.
 const SIDE: u32 = 1024;
@@ -154,13 +154,14 @@ fn each_chunk(game: &Game<'_>, chunks: usize) {
 }
 
 fn each_coded_chunk(game: &Game<'_>, ifs: &Ifs, chunks: usize) {
-    (0..chunks as u64).into_par_iter().for_each(|chunk| {
-        game.chunk(chunk, CHUNK, |block| {
-            for number in 0..block.len() {
-                black_box((block.point(number), block.code(number, ifs)));
-            }
-        });
-    });
+    (0..chunks as u64).into_par_iter().for_each_init(
+        || Packer::of(ifs),
+        |packer, chunk| {
+            game.chunk(chunk, CHUNK, |block| {
+                black_box((block.rows(), packer.pack(block)));
+            });
+        },
+    );
 }
 
 /// A histogram for each thread, added at the end.

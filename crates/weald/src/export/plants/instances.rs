@@ -18,7 +18,7 @@ use crate::grow::ifs::foliage::{Foliage, Texture};
 use crate::io::png::Pixels;
 use crate::plants::Plant;
 
-const INSTANCING: &str = "EXT_mesh_gpu_instancing";
+pub(in crate::export) const INSTANCING: &str = "EXT_mesh_gpu_instancing";
 
 /// Opacity from which a texel is leaf.
 const CUTOFF: f32 = 0.3;

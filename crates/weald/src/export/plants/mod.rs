@@ -7,14 +7,18 @@ mod cloud;
 mod instances;
 mod table;
 
+pub(super) use instances::INSTANCING;
+
+use std::borrow::Cow;
 use std::path::Path;
 use std::sync::Arc;
 
 use super::vector::place::Place;
 use super::{Export, Finished, Mesh};
 use crate::error::Error;
+use crate::grow::Fractal;
+use crate::grow::ifs::Ifs;
 use crate::grow::ifs::foliage::{self, Foliage, Habit, Texture};
-use crate::grow::ifs::{Ifs, shapes};
 use crate::io::Part;
 use crate::landscape::Landscape;
 use crate::plants::{Plant, Plants};
@@ -41,7 +45,7 @@ crate::parameters! {
 }
 
 /// Most plants of which a file of nodes is written: some 20 MB.
-const MOST_NODES: usize = 100_000;
+pub(super) const MOST_NODES: usize = 100_000;
 
 /// What an extension stands for.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -102,7 +106,8 @@ fn kind(file: &Path) -> Kind {
 impl PlantSet {
     /// The file with instances and, beside it, that with nodes.
     fn meshes(&self, finished: &Finished<'_>, plants: &Arc<Plants>) -> Result<Vec<Part>, Error> {
-        let model = self.model(&plants.kind)?;
+        let fractal = fractal(&finished.landscape.fractals, &plants.kind)?;
+        let model = self.model(&fractal.ifs);
         let scene = instances::Scene { name: &self.of.0, model: &model, plants: &plants.plants, finished };
         let mut parts = vec![Part::own(scene.instanced()?)];
         if plants.plants.len() <= MOST_NODES {
@@ -123,19 +128,17 @@ impl PlantSet {
         Ok(Arc::new(plants))
     }
 
-    fn model(&self, kind: &str) -> Result<instances::Model, Error> {
-        let ifs = fractal(kind)?;
+    fn model(&self, ifs: &Ifs) -> instances::Model {
         let colours = foliage::Colours { leaf: self.leaf.0, stem: self.stem.0 };
-        Ok(instances::Model {
-            foliage: Foliage::of(&ifs, Habit::of(&ifs, self.fronds)),
-            texture: Texture::of(&ifs, self.texture as usize, colours),
-        })
+        instances::Model {
+            foliage: Foliage::of(ifs, Habit::of(ifs, self.fronds)),
+            texture: Texture::of(ifs, self.texture as usize, colours),
+        }
     }
 }
 
-fn fractal(kind: &str) -> Result<Ifs, Error> {
-    let shape = shapes::find(kind).ok_or_else(|| Error::Run(format!("there is no fractal `{kind}`")))?;
-    Ok(shape.ifs())
+fn fractal<'a>(known: &'a [Fractal], kind: &str) -> Result<Cow<'a, Fractal>, Error> {
+    Fractal::named(known, kind).ok_or_else(|| Error::Run(format!("there is no fractal `{kind}`")))
 }
 
 /// The unit vector along the stem in the axes of a mesh: east, up, south.

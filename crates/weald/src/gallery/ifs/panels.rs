@@ -29,7 +29,7 @@ pub(super) fn deformation(ifs: &Ifs, deforms: Vec<Deform>) -> Result<Deformation
 /// A panel: its title, and what moves its points.
 pub(super) struct Panel<'a> {
     pub(super) title: &'a str,
-    pub(super) motion: Option<&'a Motion<'a>>,
+    pub(super) motion: Option<&'a dyn Motion>,
 }
 
 /// Panels of one shape in one frame that holds them all, side by side.

@@ -36,9 +36,6 @@ pub const PLAY: Shader = Shader {
     buffers: &[("maps", false), ("bounds", false), ("keys", false), ("rests", true), ("codes", true)],
 };
 
-/// All shaders of plants.
-pub const SHADERS: [Shader; 2] = [PLAY, super::wind::SWAY];
-
 uniform! {
     /// What a dispatch works on.
     pub struct Stretch {

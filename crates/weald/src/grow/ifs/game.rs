@@ -144,6 +144,12 @@ impl Block {
         &self.taken[self.history + row]
     }
 
+    /// A digit of the codes of a row of points, coarsest first from 0.
+    #[inline]
+    pub fn digits(&self, row: usize, place: usize) -> &[u8; LANES] {
+        &self.taken[self.history + row - place]
+    }
+
     /// One point.
     #[inline]
     pub fn point(&self, number: usize) -> [f32; 3] {

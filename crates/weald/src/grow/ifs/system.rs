@@ -79,7 +79,10 @@ pub enum IfsFault {
         value: f64,
     },
     /// Probabilities that do not sum to 1.
-    #[error("the probabilities sum to {0}, not to 1; divide each by their sum, or leave all of them out")]
+    #[error(
+        "the probabilities sum to {sum}, not to 1; divide each by their sum, or leave all of them out",
+        sum = without_rounding(*.0)
+    )]
     ProbabilitySum(f64),
     /// Codes longer than the packing.
     #[error("codes of {digits} digits do not fit: with {maps} maps a code holds 1 to {room}")]
@@ -322,4 +325,10 @@ pub fn even_probabilities(maps: &[Map]) -> Vec<f64> {
         sizes.iter().map(|size| (size / total.max(f64::MIN_POSITIVE)).max(floor)).collect();
     let sum: f64 = shares.iter().sum();
     shares.iter().map(|share| share / sum).collect()
+}
+
+/// A sum as one would write it by hand.
+fn without_rounding(sum: f64) -> f64 {
+    const DIGITS: f64 = 1e9;
+    (sum * DIGITS).round() / DIGITS
 }

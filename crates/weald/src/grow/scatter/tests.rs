@@ -282,3 +282,53 @@ proptest! {
         prop_assert_eq!(pattern.in_tiles(tile, &Unwatched).expect("nobody interrupts"), whole);
     }
 }
+
+/// Rough ground with holes, a shore, and two conditions.
+fn rough_site(seed: u64) -> (Landscape, Vec<Condition>) {
+    let size = Size::new(24, 18).expect("small");
+    let value = move |stream: i64, x: usize, y: usize| {
+        random::unit(random::hash2(seed ^ stream as u64, x as i64, y as i64)) as f32
+    };
+    let mut domain = Domain::new(size, 10.0);
+    domain.land =
+        Mask::new(size, (0..size.cells()).map(|cell| value(9, cell % 24, cell / 24) < 0.95).collect());
+    let mut landscape = Landscape::new(domain);
+    for (stream, (name, scale)) in
+        [("height", 50.0), ("soil", 1.0), ("light", 1.0), ("water", 0.2)].iter().enumerate()
+    {
+        let field = Field::from_function(size, |x, y| scale * value(stream as i64, x, y));
+        landscape.insert(name, "1", field);
+    }
+    let above =
+        Condition { layer: LayerName::of("soil"), above: Some(0.3), soft: 0.5, ..Condition::default() };
+    let below =
+        Condition { layer: LayerName::of("light"), below: Some(0.8), soft: 0.1, ..Condition::default() };
+    (landscape, vec![above, below])
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(64))]
+    #[test]
+    fn no_place_of_a_rectangle_is_better_or_worse_than_its_bounds(
+        seed in any::<u64>(), corner in [-5.0..240.0_f64, -5.0..180.0_f64], side in 0.01..30.0_f64,
+    ) {
+        let (landscape, conditions) = rough_site(seed);
+        let site = Site::new(&landscape, "height", conditions.iter(), 0.1).expect("layers are there");
+        let mut suits = 0;
+        for step in 0..40 {
+            let side = if step % 2 == 0 { side } else { 0.05 * side };
+            let low = [0, 1].map(|axis| corner[axis] + 7.3 * f64::from(step % 5) * (axis as f64 - 0.4));
+            let [least, most] = site.bounds([low, low.map(|at| at + side)]);
+            for probe in 0..49 {
+                let at = [low[0] + side * f64::from(probe % 7) / 6.0, low[1] + side * f64::from(probe / 7) / 6.0];
+                let suitability = site.suitability(at);
+                suits += usize::from(suitability > 0.0);
+                prop_assert!(
+                    suitability >= least - 1e-6 && suitability <= most + 1e-6,
+                    "{suitability} at {at:?}, within {least} and {most}"
+                );
+            }
+        }
+        prop_assume!(suits > 0);
+    }
+}

@@ -14,7 +14,6 @@ use super::subject::Subject;
 use crate::error::Error;
 use crate::grow::ifs::Game;
 use crate::grow::ifs::game::CHUNK;
-use crate::grow::ifs::lanes::LANES;
 
 /// Most memory of a histogram: 4 GiB.
 const MAXIMUM_BYTES: u64 = 4 << 30;
@@ -176,9 +175,8 @@ impl Drawing<'_> {
             }
             for row in 0..block.rows().len() {
                 let colours = running.row(block, row);
-                let lanes = LANES.min(block.len() - row * LANES);
-                for (lane, &colour) in colours[..lanes].iter().enumerate() {
-                    let seen = self.subject.seen(block, row * LANES + lane, packer.as_ref());
+                let seen = self.subject.seen(block, row, packer.as_ref());
+                for (seen, &colour) in seen.zip(&colours) {
                     let Some(bucket) = self.bucket(seen) else { continue };
                     let tinge = palette::tinge(colour, self.frame.nearness(seen[2]));
                     bands[bucket / self.band].push(Entry { bucket: (bucket % self.band) as u32, tinge });

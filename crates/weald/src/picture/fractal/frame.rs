@@ -42,8 +42,8 @@ impl Extent {
             if let Some(packer) = &mut packer {
                 packer.pack(block);
             }
-            for number in 0..block.len() {
-                extent = extent.and(subject.seen(block, number, packer.as_ref()));
+            for row in 0..block.rows().len() {
+                extent = subject.seen(block, row, packer.as_ref()).fold(extent, Self::and);
             }
         });
         extent

@@ -147,7 +147,7 @@ impl Look {
     pub fn subject<'a>(
         &self,
         ifs: &'a Ifs,
-        motion: Option<&'a Motion<'a>>,
+        motion: Option<&'a dyn Motion>,
         seed: u64,
         share: f64,
     ) -> Subject<'a> {

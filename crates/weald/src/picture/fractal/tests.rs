@@ -14,7 +14,7 @@ fn look(columns: u64, rows: u64) -> Look {
     Look { size: Some(Sides { columns, rows }), samples: Some(40.0), ..Look::default() }
 }
 
-fn picture(look: &Look, ifs: &Ifs, motion: Option<&Motion<'_>>) -> Cutout {
+fn picture(look: &Look, ifs: &Ifs, motion: Option<&dyn Motion>) -> Cutout {
     let subject = look.subject(ifs, motion, 1, 0.0);
     let setting = Setting::of_still(look, &Extent::of(&subject)).expect("small");
     look.draw(&subject, &setting, &mut |_, _| Ok(())).expect("draws")
@@ -79,11 +79,11 @@ fn the_gasket_is_the_same_in_its_mirror_and_has_its_holes() {
 fn threads_do_not_change_a_byte() {
     let turned = |point: Point, code: &Code| [point[0] + 0.01 * f64::from(code.digit(2)), point[1], point[2]];
     let look = Look { samples: Some(60.0), ..look(100, 120) };
-    let drawn = |threads: usize, motion: Option<&Motion<'_>>| {
+    let drawn = |threads: usize, motion: Option<&dyn Motion>| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
         pool.install(|| picture(&look, &ifs("fern"), motion))
     };
-    for motion in [None, Some(&turned as &Motion<'_>)] {
+    for motion in [None, Some(&turned as &dyn Motion)] {
         let one = drawn(1, motion);
         assert!(darkness(&one) > 0.1);
         assert!([2, 3].iter().all(|&threads| drawn(threads, motion) == one));

@@ -27,7 +27,7 @@ type Named = Vec<(&'static str, [f32; 4])>;
 const SKY_TABLE: usize = 3 * (PIECES + 1);
 
 impl Stage {
-    /// The numbers of the stage, laid out as [`Stage::declaration`] says.
+    /// The numbers of the stage, laid out as `Stage::declaration` says.
     pub fn numbers(&self) -> Vec<u8> {
         let named = self.named().into_iter().map(|(_, values)| values);
         let sky = self.sky.table.iter().flat_map(|part| [part.rayleigh, part.mie, part.multiple]);

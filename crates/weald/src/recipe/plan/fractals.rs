@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use super::files::Files;
-use super::{Output, hint, tables};
+use super::{Output, Planned, hint, tables};
 use crate::grow::Fractal;
 use crate::grow::ifs::deform::DeformKeys;
 use crate::grow::ifs::{Draft, Ifs, IfsFault, Map, Role, Weighted, even_probabilities, shapes};
@@ -296,15 +296,44 @@ impl PlantRole {
     }
 }
 
-/// Complains of outputs that name a fractal that is not there.
-pub(super) fn check_names(fractals: &[PlannedFractal], outputs: &[Output], complaints: &mut Complaints) {
-    "output".clone_into(&mut complaints.subject);
+/// Complains of steps and outputs that name a fractal that is not there.
+pub(super) fn check_names(
+    fractals: &[PlannedFractal],
+    steps: &[Planned],
+    outputs: &[Output],
+    complaints: &mut Complaints,
+) {
     let own = fractals.iter().map(|fractal| fractal.name.as_str());
     let known: Vec<_> = own.chain(shapes::SHAPES.iter().map(|shape| shape.name)).collect();
+    let mut check = |subject: &str, line: usize, names: Vec<String>| {
+        subject.clone_into(&mut complaints.subject);
+        for name in names.iter().filter(|name| !known.contains(&name.as_str())) {
+            complaints.add(line, format!("there is no fractal {name:?}; {}", hint(name, &known)));
+        }
+    };
+    for planned in steps {
+        check(planned.entry.name, planned.line, planned.step.fractals());
+    }
     for output in outputs {
-        for name in output.fractals().iter().filter(|name| !known.contains(&name.as_str())) {
-            let message = format!("there is no fractal {name:?}; {}", hint(name, &known));
-            complaints.add(output.line, message);
+        check("output", output.line, output.fractals());
+    }
+    check_plants(fractals, steps, complaints);
+}
+
+/// Complains of planted fractals that are deformed: leaves and fronds are made from the maps.
+fn check_plants(fractals: &[PlannedFractal], steps: &[Planned], complaints: &mut Complaints) {
+    for planned in steps {
+        planned.entry.name.clone_into(&mut complaints.subject);
+        let names = planned.step.fractals();
+        let is_bent = |fractal: &&PlannedFractal| names.contains(&fractal.name) && !fractal.deform.is_empty();
+        for bent in fractals.iter().filter(is_bent) {
+            complaints.add(
+                planned.line,
+                format!(
+                    "the fractal {:?} has `deform`, but plants have the shape of the maps alone; plant one without it",
+                    bent.name
+                ),
+            );
         }
     }
 }

@@ -45,19 +45,23 @@ pub(super) fn check(made: &Made<'_>, outputs: &[Output], complaints: &mut Compla
             }
         }
     }
-    check_plants(made.steps, outputs, complaints);
+    check_grown(made.steps, outputs, complaints);
 }
 
-/// Complains of outputs of plants that no step sets.
-fn check_plants(steps: &[Planned], outputs: &[Output], complaints: &mut Complaints) {
-    let set: BTreeSet<_> = steps.iter().flat_map(|planned| planned.step.plants()).collect();
-    let known: Vec<_> = set.iter().map(String::as_str).collect();
-    for (output, name) in
-        outputs.iter().flat_map(|output| output.plants().into_iter().map(move |name| (output, name)))
-    {
-        if !set.contains(&name) {
-            let (file, hint) = (output.file.display(), hint(&name, &known));
-            complaints.add(output.line, format!("{file} needs plants `{name}`, which no step sets; {hint}"));
+/// Complains of outputs of plants that no step sets, and of grass that none grows.
+fn check_grown(steps: &[Planned], outputs: &[Output], complaints: &mut Complaints) {
+    let plants: BTreeSet<_> = steps.iter().flat_map(|planned| planned.step.plants()).collect();
+    let meadows: BTreeSet<_> = steps.iter().flat_map(|planned| planned.step.meadows()).collect();
+    for output in outputs {
+        for (needed, grown, what) in
+            [(output.plants(), &plants, ["plants", "sets"]), (output.meadows(), &meadows, ["grass", "grows"])]
+        {
+            let known: Vec<_> = grown.iter().map(String::as_str).collect();
+            for name in needed.iter().filter(|&name| !grown.contains(name)) {
+                let (file, hint, [what, does]) = (output.file.display(), hint(name, &known), what);
+                complaints
+                    .add(output.line, format!("{file} needs {what} `{name}`, which no step {does}; {hint}"));
+            }
         }
     }
 }

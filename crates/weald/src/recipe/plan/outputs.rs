@@ -86,6 +86,14 @@ impl Output {
             _ => Vec::new(),
         }
     }
+
+    /// Names of the grass that it needs.
+    pub fn meadows(&self) -> Vec<String> {
+        match &self.content {
+            Content::Export { export, .. } => export.meadows(),
+            _ => Vec::new(),
+        }
+    }
 }
 
 impl Output {

@@ -82,12 +82,54 @@ impl DeformKeys {
     /// A sentence for the user.
     pub fn of(&self, ifs: &Ifs) -> Result<Deform, String> {
         let by = self.by.ok_or("`by` is needed: the kind of the deformation, as \"permutation\"")?;
+        self.ensure_all_belong(by)?;
         match by {
             By::Field => self.field(ifs).map(Deform::Field),
             By::Part => self.part(ifs).map(Deform::Part),
             By::Displacement => self.displacement(ifs).map(Deform::Displacement),
             _ => self.code_change(by),
         }
+    }
+
+    /// Refuses keys that a deformation of this kind would not heed.
+    fn ensure_all_belong(&self, by: By) -> Result<(), String> {
+        let legal: &[&str] = match by {
+            By::Permutation | By::Reversal => &["from", "to"],
+            By::Swap | By::Insertion | By::Replacement => &["from", "to", "digits"],
+            By::Field => &["amplitude", "along_x", "along_y", "along_z", "units"],
+            By::Displacement => &["from", "to", "delta", "vectors", "units"],
+            By::Part => &["part", "angle_deg", "factor", "linear"],
+        };
+        match self.given().find(|key| !legal.contains(key)) {
+            None => Ok(()),
+            Some(key) => Err(format!(
+                "`{key}` means nothing for this kind of deformation, whose keys are: {}",
+                legal.join(", ")
+            )),
+        }
+    }
+
+    /// The keys that are not as they are when absent.
+    fn given(&self) -> impl Iterator<Item = &'static str> {
+        let absent = Self::default();
+        [
+            ("from", self.from.is_some()),
+            ("to", self.to.is_some()),
+            ("digits", !self.digits.is_empty()),
+            ("delta", self.delta != absent.delta),
+            ("vectors", !self.vectors.is_empty()),
+            ("amplitude", self.amplitude != absent.amplitude),
+            ("along_x", !self.along_x.is_empty()),
+            ("along_y", !self.along_y.is_empty()),
+            ("along_z", !self.along_z.is_empty()),
+            ("units", self.units != absent.units),
+            ("part", !self.part.is_empty()),
+            ("angle_deg", self.angle_deg != absent.angle_deg),
+            ("factor", self.factor != absent.factor),
+            ("linear", !self.linear.is_empty()),
+        ]
+        .into_iter()
+        .filter_map(|(key, is_given)| is_given.then_some(key))
     }
 
     fn interval(&self) -> Result<Interval, String> {
@@ -224,7 +266,11 @@ mod tests {
         assert!(
             fault(DeformKeys { digits: vec![1.0], ..swap.clone() }).contains("1 digits, but must have 2")
         );
-        assert!(fault(DeformKeys { digits: vec![1.0, 0.5], ..swap }).contains("whole numbers"));
+        assert!(fault(DeformKeys { digits: vec![1.0, 0.5], ..swap.clone() }).contains("whole numbers"));
+        assert_eq!(
+            fault(DeformKeys { delta: 0.5, ..swap }),
+            "`delta` means nothing for this kind of deformation, whose keys are: from, to, digits"
+        );
         let part = DeformKeys { by: Some(By::Part), part: "03".to_owned(), ..DeformKeys::default() };
         assert!(fault(part).starts_with("`part`: 3 is no digit"));
     }

@@ -14,6 +14,7 @@
 //! parts. Without wind every turn is nothing and every point keeps its bits.
 
 mod device;
+mod row;
 mod sway;
 #[cfg(test)]
 mod tests;
@@ -21,6 +22,7 @@ mod tests;
 use std::f64::consts::TAU;
 
 pub use device::{Plant, SWAY};
+pub use row::Posed;
 pub use sway::{Sway, WORDS};
 
 use super::system::Role;

@@ -15,10 +15,10 @@ pub(super) const DEPTH: usize = 24;
 pub const WORDS: usize = 4;
 
 /// Share of an order's turn that a branch makes at its joint; its axis makes as much again along its length.
-const AT_JOINT: f32 = 0.7;
+pub(super) const AT_JOINT: f32 = 0.7;
 
 /// How much later the next joint of an axis swings, in phases.
-const LAG: u32 = 3;
+pub(super) const LAG: u32 = 3;
 
 /// Factor of the hash that gives branches their phases.
 const SPREAD: u32 = 0x9e37_79b1;
@@ -26,8 +26,8 @@ const SPREAD: u32 = 0x9e37_79b1;
 /// A plant that can sway: its maps in single precision and what they make of it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sway {
-    maps: Vec<Affine>,
-    roles: Vec<Role>,
+    pub(super) maps: Vec<Affine>,
+    pub(super) roles: Vec<Role>,
     pub(super) root: [f32; 3],
     /// Share of the turn of an axis for each digit along it.
     pub(super) bends: [f32; DEPTH],
@@ -36,14 +36,22 @@ pub struct Sway {
 }
 
 /// Rows of `A`, each followed by its part of `t`.
-type Affine = [[f32; 4]; 3];
+pub(super) type Affine = [[f32; 4]; 3];
 
 /// A rigid motion: a unit quaternion (x, y, z, w), then a shift.
 #[derive(Clone, Copy, Debug)]
-struct Motion {
-    turn: [f32; 4],
-    shift: [f32; 3],
+pub(super) struct Motion {
+    pub(super) turn: [f32; 4],
+    pub(super) shift: [f32; 3],
 }
+
+impl Motion {
+    /// None.
+    pub(super) const NONE: Self = Self { turn: [0.0, 0.0, 0.0, 1.0], shift: [0.0; 3] };
+}
+
+/// The map of the whole plant.
+pub(super) const WHOLE: Affine = [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]];
 
 impl Sway {
     /// A plant at rest.
@@ -69,7 +77,7 @@ impl Sway {
     /// Where a point goes whose rest is `rest` and whose digits, coarsest first, are `digit`.
     #[inline]
     pub fn at(&self, pose: &Pose, rest: [f32; 3], digit: impl Fn(usize) -> u8) -> [f32; 3] {
-        let mut motion = Motion { turn: [0.0, 0.0, 0.0, 1.0], shift: [0.0; 3] };
+        let mut motion = Motion::NONE;
         self.descend(pose, digit, |_, after, _| motion = after);
         carried(motion, rest)
     }
@@ -93,8 +101,7 @@ impl Sway {
         digit: impl Fn(usize) -> u8,
         mut look: impl FnMut(Motion, Motion, [f32; 3]),
     ) {
-        let mut part: Affine = [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]];
-        let mut motion = Motion { turn: [0.0, 0.0, 0.0, 1.0], shift: [0.0; 3] };
+        let (mut part, mut motion) = (WHOLE, Motion::NONE);
         let (mut order, mut along, mut hash, mut phase) = (0, 0, 0_u32, 0_u32);
         for place in 0..self.depth {
             let digit = usize::from(digit(place));
@@ -103,8 +110,7 @@ impl Sway {
                 break;
             }
             part = after(&part, &self.maps[digit]);
-            hash = (hash ^ (digit as u32 + 1)).wrapping_mul(SPREAD);
-            hash ^= hash >> 15;
+            hash = hashed(hash, digit as u32);
             let share = if role == Role::Branch {
                 order = (order + 1).min(ORDERS - 1);
                 along = 0;
@@ -117,7 +123,8 @@ impl Sway {
             let joint = at(&part, self.root);
             let swing = pose.swing[order][((phase + PHASES as u32 - along as u32) as usize) % PHASES];
             let before = motion;
-            motion = turned(motion, joint, turn_of(pose, direction(&part), pose.lean[order], swing, share));
+            let half = turn_of((pose.wind, pose.across), direction(&part), [pose.lean[order], swing, share]);
+            motion = turned(motion, joint, half);
             look(before, motion, joint);
         }
     }
@@ -146,17 +153,28 @@ fn bends(ifs: &Ifs) -> [f32; DEPTH] {
     })
 }
 
+/// The hash of a branch, one digit further.
+#[inline(always)]
+pub(super) fn hashed(hash: u32, digit: u32) -> u32 {
+    let mixed = (hash ^ (digit + 1)).wrapping_mul(SPREAD);
+    mixed ^ (mixed >> 15)
+}
+
 /// Half of the vector about which, and by which, a part turns.
-#[inline]
-fn turn_of(pose: &Pose, direction: [f32; 3], lean: f32, swing: f32, share: f32) -> [f32; 3] {
-    let out = cross(direction, pose.wind);
+#[inline(always)]
+pub(super) fn turn_of(
+    (wind, across): ([f32; 3], [f32; 3]),
+    direction: [f32; 3],
+    [lean, swing, share]: [f32; 3],
+) -> [f32; 3] {
+    let out = cross(direction, wind);
     let half = 0.5 * share;
-    std::array::from_fn(|i| half * (lean * out[i] + swing * pose.across[i]))
+    std::array::from_fn(|i| half * (lean * out[i] + swing * across[i]))
 }
 
 /// The direction of a part's axis: that of the plant, `y`, seen through its map.
-#[inline]
-fn direction(part: &Affine) -> [f32; 3] {
+#[inline(always)]
+pub(super) fn direction(part: &Affine) -> [f32; 3] {
     let axis = [part[0][1], part[1][1], part[2][1]];
     let length = dot(axis, axis).sqrt();
     let shorten = 1.0 / length.max(1e-20);
@@ -164,8 +182,8 @@ fn direction(part: &Affine) -> [f32; 3] {
 }
 
 /// A motion, and then a turn about where it puts a joint.
-#[inline]
-fn turned(motion: Motion, joint: [f32; 3], half: [f32; 3]) -> Motion {
+#[inline(always)]
+pub(super) fn turned(motion: Motion, joint: [f32; 3], half: [f32; 3]) -> Motion {
     let joint = carried(motion, joint);
     let scale = 1.0 / (1.0 + dot(half, half)).sqrt();
     let turn = [half[0] * scale, half[1] * scale, half[2] * scale, scale];
@@ -173,21 +191,21 @@ fn turned(motion: Motion, joint: [f32; 3], half: [f32; 3]) -> Motion {
     Motion { turn: product(turn, motion.turn), shift: std::array::from_fn(|i| joint[i] + arm[i]) }
 }
 
-#[inline]
-fn carried(motion: Motion, point: [f32; 3]) -> [f32; 3] {
+#[inline(always)]
+pub(super) fn carried(motion: Motion, point: [f32; 3]) -> [f32; 3] {
     let turned = rotated(motion.turn, point);
     std::array::from_fn(|i| turned[i] + motion.shift[i])
 }
 
-#[inline]
-fn rotated([x, y, z, w]: [f32; 4], v: [f32; 3]) -> [f32; 3] {
+#[inline(always)]
+pub(super) fn rotated([x, y, z, w]: [f32; 4], v: [f32; 3]) -> [f32; 3] {
     let once = cross([x, y, z], v).map(|c| 2.0 * c);
     let again = cross([x, y, z], once);
     std::array::from_fn(|i| v[i] + w * once[i] + again[i])
 }
 
-#[inline]
-fn product([ax, ay, az, aw]: [f32; 4], [bx, by, bz, bw]: [f32; 4]) -> [f32; 4] {
+#[inline(always)]
+pub(super) fn product([ax, ay, az, aw]: [f32; 4], [bx, by, bz, bw]: [f32; 4]) -> [f32; 4] {
     [
         aw * bx + ax * bw + ay * bz - az * by,
         aw * by - ax * bz + ay * bw + az * bx,
@@ -196,8 +214,8 @@ fn product([ax, ay, az, aw]: [f32; 4], [bx, by, bz, bw]: [f32; 4]) -> [f32; 4] {
     ]
 }
 
-#[inline]
-fn after(outer: &Affine, inner: &Affine) -> Affine {
+#[inline(always)]
+pub(super) fn after(outer: &Affine, inner: &Affine) -> Affine {
     std::array::from_fn(|i| {
         std::array::from_fn(|j| {
             let sum = outer[i][0] * inner[0][j] + outer[i][1] * inner[1][j] + outer[i][2] * inner[2][j];
@@ -206,22 +224,22 @@ fn after(outer: &Affine, inner: &Affine) -> Affine {
     })
 }
 
-#[inline]
-fn at(map: &Affine, [x, y, z]: [f32; 3]) -> [f32; 3] {
+#[inline(always)]
+pub(super) fn at(map: &Affine, [x, y, z]: [f32; 3]) -> [f32; 3] {
     std::array::from_fn(|i| map[i][0] * x + map[i][1] * y + map[i][2] * z + map[i][3])
 }
 
-#[inline]
-fn dot(a: [f32; 3], b: [f32; 3]) -> f32 {
+#[inline(always)]
+pub(super) fn dot(a: [f32; 3], b: [f32; 3]) -> f32 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-#[inline]
-fn cross(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
+#[inline(always)]
+pub(super) fn cross(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
-#[inline]
-fn subtract(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
+#[inline(always)]
+pub(super) fn subtract(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
     std::array::from_fn(|i| a[i] - b[i])
 }

@@ -3,9 +3,11 @@
 use proptest::prelude::*;
 
 use super::*;
+use crate::grow::ifs::Ifs;
 use crate::grow::ifs::code::Code;
 use crate::grow::ifs::game::Game;
-use crate::grow::ifs::{Ifs, shapes};
+use crate::grow::ifs::lanes::LANES;
+use crate::grow::ifs::shapes::{self, SHAPES};
 
 const PLANTS: [&str; 8] =
     ["fern", "cyclosorus", "culcita", "fishbone", "tree", "shrub", "fern-3d", "conifer"];
@@ -41,6 +43,30 @@ fn a_calm_plant_keeps_its_bits() {
             assert_eq!(sway.at(&calm, point, |place| code.digit(place)), point, "{name} {code}");
         }
     }
+}
+
+#[test]
+fn sixty_four_points_at_once_have_the_bits_of_each() {
+    let mut moved = 0;
+    for shape in SHAPES {
+        let (ifs, sway) = plant(shape.name);
+        let pose = squall().pose(1.7);
+        let posed = Posed::new(&sway, &pose);
+        Game::new(&ifs, 3).points(4096, |block| {
+            for (row, rests) in block.rows().iter().enumerate() {
+                let swayed = posed.row(|place| block.digits(row, place), rests);
+                for lane in 0..LANES {
+                    let number = row * LANES + lane;
+                    let rest = block.point(number);
+                    let alone = sway.at(&pose, rest, |place| block.digit(number, place));
+                    let together = swayed.map(|axis| axis[lane]);
+                    assert_eq!(together.map(f32::to_bits), alone.map(f32::to_bits), "{}", shape.name);
+                    moved += usize::from(apart(rest, alone) > 0.01);
+                }
+            }
+        });
+    }
+    assert!(moved > 20_000, "{moved} points moved");
 }
 
 #[test]
