@@ -254,6 +254,82 @@ fn what_has_no_data_is_open_and_has_walls() {
     assert!(mean < 0.012 && worst < 0.05, "mean {mean}, one in twenty {worst}");
 }
 
+/// A gentle meadow, 120 m wide.
+fn meadow() -> Landscape {
+    let constant = |layer: &str, value: f64| {
+        format!("[[step]]\ndo = \"constant\"\nvalue = {value}\ninto = \"{layer}\"\n")
+    };
+    let maps: String = [("fertility", 0.8), ("light", 0.7), ("moisture", 0.6)]
+        .iter()
+        .map(|&(layer, value)| constant(layer, value))
+        .collect::<Vec<_>>()
+        .concat();
+    let text = format!(
+        "[landscape]\nsize = 60\ncell = 2.0\nseed = 5\n[[step]]\ndo = \"fbm\"\nrelief = 6.0\n{maps}\
+         [[step]]\ndo = \"grass\"\nsets = 20.0\n[[output]]\nlayer = \"height\"\nfile = \"a.tif\"\n"
+    );
+    let recipe = Recipe::parse("meadow.toml", &text, &Overrides::default()).expect("a recipe");
+    recipe.landscape().expect("a meadow")
+}
+
+/// Share of the channels in which two pictures differ by more than eight bytes.
+fn share_changed(a: &Image, b: &Image) -> f64 {
+    let changed = a.rgb.iter().zip(&b.rgb).filter(|(a, b)| a.abs_diff(**b) > 8).count();
+    changed as f64 / a.rgb.len() as f64
+}
+
+#[test]
+fn grass_stands_around_the_camera_thins_out_and_sways() {
+    let Some(gpu) = gpu() else { return };
+    let landscape = meadow();
+    let stage = Stage::new(&view(), &landscape).expect("a stage");
+    let near = above(&stage, [60.0, 70.0], 1.5, 12.0, 0.0);
+    let mut renderer = renderer(&gpu, &stage, 4);
+    let drawn = |renderer: &mut Renderer, camera| renderer.render(camera).expect("drawn");
+    let high = near.at([60.0, -70.0, 130.0]);
+    let (bare, bare_high) = (drawn(&mut renderer, &near), drawn(&mut renderer, &high));
+    renderer.plant(&stage, &landscape).expect("planted");
+    let grown = drawn(&mut renderer, &near);
+    assert!(share_changed(&bare, &grown) > 0.2, "blades stand before the ground");
+    assert_eq!(drawn(&mut renderer, &high), bare_high, "from 130 m none is seen");
+    assert!(
+        share_changed(&grown, &drawn(&mut renderer, &near)) < 1e-4,
+        "the same, but for blades at one depth"
+    );
+    renderer.set_moment(0.8);
+    let later = drawn(&mut renderer, &near);
+    let swayed = share_changed(&grown, &later);
+    assert!(swayed > 0.02, "a share of {swayed} moved in the wind");
+}
+
+/// Greatest share of the channels that change by more than eight bytes where sets are chosen a centimetre apart.
+const SUNK: f64 = 0.006;
+
+#[test]
+fn sets_become_fewer_and_blades_coarser_without_leaps() {
+    let Some(gpu) = gpu() else { return };
+    let landscape = meadow();
+    let stage = Stage::new(&view(), &landscape).expect("a stage");
+    let mut renderer = renderer(&gpu, &stage, 4);
+    renderer.plant(&stage, &landscape).expect("planted");
+    let camera = above(&stage, [60.0, 90.0], 2.0, 8.0, 0.0);
+    let mut drawn = |step: u8| {
+        let [east, north, up] = camera.eye;
+        let eye = [east, north - 0.01 * f32::from(step), up];
+        let look = TestLook { detail_from: Some(eye), ..TestLook::default() };
+        renderer.render_for_a_test(&camera, look).expect("drawn")
+    };
+    let (first, mut before) = (drawn(0), drawn(0));
+    for step in 1..12 {
+        let next = drawn(step);
+        let share = share_changed(&before, &next);
+        assert!(share < SUNK, "step {step}: a share of {share} leaps");
+        before = next;
+    }
+    let far = drawn(250);
+    assert!(share_changed(&first, &far) > 2.0 * SUNK, "sets did become fewer");
+}
+
 #[test]
 fn the_parts_of_a_picture_take_time_and_no_more_than_all_of_it() {
     let Some(gpu) = gpu() else { return };

@@ -41,6 +41,7 @@ pub(crate) fn render(arguments: &RenderArguments) -> Result<(), Failure> {
     let mut draw: Box<Draw<'_>> = match device {
         Some((gpu, options)) => {
             let mut renderer = Renderer::new(&gpu, &stage, options)?;
+            renderer.plant(&stage, &landscape)?;
             Box::new(move |number, camera| {
                 renderer.set_moment(number as f32 / FRAMES_PER_SECOND as f32);
                 renderer.render(camera)

@@ -7,6 +7,9 @@ const DETAIL_FROM = 0.30;
 // Longest of its wavelengths in metres.
 const DETAIL_LENGTH = 0.9;
 
+// Share that is left, at one's feet, of the bumps that are seen from afar.
+const AFAR = 0.35;
+
 // Stones: how high one stands at a place that is counted in stones, which way it leans, and a tone for each.
 struct Stone {
     height: f32,
@@ -127,6 +130,7 @@ fn with_detail(skin: Skin, point: vec3<f32>, normal: vec3<f32>, footprint: f32) 
     let warm = vec3<f32>(1.0 + 0.28 * detail.hue, 1.0 + 0.10 * detail.hue, 1.0 - 0.22 * detail.hue);
     var near = skin;
     near.albedo = clamp(skin.albedo * mix(vec3<f32>(1.0), max(1.0 + detail.tone, 0.25) * warm, shown), vec3<f32>(0.01), vec3<f32>(0.9));
-    near.bump = skin.bump + shown * detail.bump / sqrt(1.0 + dot(detail.bump, detail.bump));
+    // What looks like a bump from afar is tufts and stones from close by, and would stand in black shade.
+    near.bump = mix(1.0, AFAR, shown) * skin.bump + shown * detail.bump / sqrt(1.0 + dot(detail.bump, detail.bump));
     return near;
 }

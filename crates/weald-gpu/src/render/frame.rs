@@ -38,6 +38,8 @@ struct Numbers {
 pub(super) struct Drawn {
     pub(super) stand: Standpoint,
     pub(super) slides: [[f32; 4]; MOST_LEVELS],
+    /// The point from which detail is chosen.
+    pub(super) detail_from: [f32; 3],
     /// Seconds since the beginning.
     pub(super) seconds: f32,
     pub(super) cascades: Cascades,
@@ -87,13 +89,14 @@ impl Frame {
     pub(super) fn write(&self, gpu: &Gpu, camera: &Camera, width: u32, drawn: &Drawn) {
         let with = |[x, y, z]: [f32; 3], w: f32| [x, y, z, w];
         let [x, y] = drawn.stand.place;
+        let [near_x, near_y, near_z] = drawn.detail_from;
         let numbers = Numbers {
             eye: with(camera.eye, camera.pixel_angle(width as usize)),
             forward: with(camera.forward, NEAREST),
             right: with(camera.right, camera.half[0]),
             up: with(camera.up, camera.half[1]),
             stand: [x, y, drawn.stand.above, 0.0],
-            moment: [drawn.seconds, 0.0, 0.0, 0.0],
+            moment: [drawn.seconds, near_x, near_y, near_z],
             slides: drawn.slides,
             sun_right: with(drawn.cascades.right, drawn.cascades.depths[0]),
             sun_up: with(drawn.cascades.up, drawn.cascades.depths[1]),
@@ -117,7 +120,7 @@ fn entries() -> [BindGroupLayoutEntry; 3] {
     };
     let entry = |binding, ty| BindGroupLayoutEntry {
         binding,
-        visibility: ShaderStages::VERTEX_FRAGMENT,
+        visibility: ShaderStages::VERTEX_FRAGMENT | ShaderStages::COMPUTE,
         ty,
         count: None,
     };

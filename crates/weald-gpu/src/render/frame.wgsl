@@ -9,7 +9,7 @@ struct Frame {
     up: vec4<f32>,
     // Place of the eye, and its height above all ground.
     stand: vec4<f32>,
-    // Seconds since the beginning.
+    // Seconds since the beginning, and the point from which detail is chosen: the eye.
     moment: vec4<f32>,
     // Distances between which the vertices of each level slide.
     slides: array<vec4<f32>, 26>,

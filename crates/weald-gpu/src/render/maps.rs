@@ -115,7 +115,7 @@ fn texels(kind: MapKind, values: &[f32]) -> Vec<u8> {
 fn layout(gpu: &Gpu) -> BindGroupLayout {
     let entry = |binding, ty| BindGroupLayoutEntry {
         binding,
-        visibility: ShaderStages::VERTEX_FRAGMENT,
+        visibility: ShaderStages::VERTEX_FRAGMENT | ShaderStages::COMPUTE,
         ty,
         count: None,
     };

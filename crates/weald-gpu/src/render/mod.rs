@@ -9,6 +9,7 @@ mod cascades;
 mod film;
 mod frame;
 mod frustum;
+mod grass;
 mod lattice;
 mod maps;
 mod passes;
@@ -20,13 +21,14 @@ mod terrain;
 mod textures;
 mod timing;
 
-use weald::Error;
 use weald::engine::device::Device;
 use weald::picture::{Camera, Image, Stage};
+use weald::{Error, Landscape};
 
 use crate::gpu::Gpu;
 use film::Film;
 use frame::{Drawn, Frame};
+use grass::Grass;
 use maps::Maps;
 use passes::{Drawing, Layouts, Passes};
 use picture::Landing;
@@ -97,6 +99,7 @@ pub struct Renderer {
     maps: Maps,
     frame: Frame,
     terrain: Terrain,
+    grass: Option<Grass>,
     passes: Passes,
     shadows: Shadows,
     targets: Targets,
@@ -130,6 +133,7 @@ impl Renderer {
             maps,
             frame,
             terrain,
+            grass: None,
             passes,
             shadows,
             targets,
@@ -138,6 +142,16 @@ impl Renderer {
             timer: None,
             seconds: 0.0,
         })
+    }
+
+    /// Plants what grows in the stage's landscape: its grass.
+    ///
+    /// # Errors
+    /// [`Error::Device`] where the device's memory does not suffice or it fails.
+    pub fn plant(&mut self, stage: &Stage, landscape: &Landscape) -> Result<(), Error> {
+        let layouts = Layouts { frame: &self.frame, maps: &self.maps, shadows: &self.shadows };
+        self.grass = Grass::new(&self.gpu, (stage, landscape), layouts, self.options.samples)?;
+        Ok(())
     }
 
     /// Sets the moment of the next pictures, in seconds: water flows by it.
@@ -179,8 +193,13 @@ impl Renderer {
         let drawn = Drawn { seconds: self.seconds, ..drawn };
         self.frame.write(&self.gpu, camera, self.options.size[0], &drawn);
         let groups = [&self.frame.caster_group, &self.maps.group];
+        if let Some(grass) = &mut self.grass {
+            grass.prepare(&self.gpu, camera)?;
+            grass.choose(encoder, groups);
+        }
         let timer = self.timer.as_ref();
-        let drawing = Drawing { terrain: &self.terrain, bare: self.look.bare, timer };
+        let drawing =
+            Drawing { terrain: &self.terrain, grass: self.grass.as_ref(), bare: self.look.bare, timer };
         self.shadows.draw(encoder, groups, &self.passes.casters, drawing);
         let groups = [&self.frame.group, &self.maps.group];
         self.passes.draw(encoder, &self.targets, groups, drawing);

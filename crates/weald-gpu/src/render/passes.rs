@@ -5,13 +5,14 @@ use weald::picture::Stage;
 use wgpu::{
     BindGroup, BindGroupLayout, Color, ColorTargetState, ColorWrites, CommandEncoder, CompareFunction,
     DepthBiasState, DepthStencilState, Device, FragmentState, LoadOp, MultisampleState, Operations,
-    PipelineCompilationOptions, PipelineLayout, PipelineLayoutDescriptor, PrimitiveState, RenderPass,
-    RenderPassColorAttachment, RenderPassDepthStencilAttachment, RenderPassDescriptor, RenderPipeline,
-    RenderPipelineDescriptor, ShaderModule, ShaderModuleDescriptor, ShaderSource, StencilState, StoreOp,
-    VertexAttribute, VertexBufferLayout, VertexFormat, VertexState, VertexStepMode,
+    PipelineCompilationOptions, PipelineLayout, PipelineLayoutDescriptor, PrimitiveState, PrimitiveTopology,
+    RenderPass, RenderPassColorAttachment, RenderPassDepthStencilAttachment, RenderPassDescriptor,
+    RenderPipeline, RenderPipelineDescriptor, ShaderModule, ShaderModuleDescriptor, ShaderSource,
+    StencilState, StoreOp, VertexAttribute, VertexBufferLayout, VertexFormat, VertexState, VertexStepMode,
 };
 
 use super::frame::Frame;
+use super::grass::Grass;
 use super::maps::Maps;
 use super::shadows::Shadows;
 use super::targets::{DEPTH, LIGHT, Targets};
@@ -79,6 +80,7 @@ impl Casters {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Drawing<'a> {
     pub(super) terrain: &'a Terrain,
+    pub(super) grass: Option<&'a Grass>,
     /// Whether what lies behind the landscape is left out.
     pub(super) bare: bool,
     pub(super) timer: Option<&'a Timer>,
@@ -182,7 +184,7 @@ impl Passes {
             Some(sampled) => (&sampled.view, Some(&targets.light.view)),
             None => (&targets.light.view, None),
         };
-        let Drawing { terrain, bare, timer } = drawing;
+        let Drawing { terrain, grass, bare, timer } = drawing;
         let ops = Operations { load: LoadOp::Clear(MAGENTA), store: StoreOp::Store };
         let depth = Operations { load: LoadOp::Clear(0.0), store: StoreOp::Discard };
         let mut pass = encoder.begin_render_pass(&RenderPassDescriptor {
@@ -217,6 +219,9 @@ impl Passes {
         if !bare {
             pass.set_pipeline(&self.backdrop);
             pass.draw(0..3, 0..1);
+        }
+        if let Some(grass) = grass {
+            grass.draw(&mut pass);
         }
     }
 }
@@ -268,17 +273,52 @@ impl Maker<'_> {
                 buffers: pipeline.buffers,
             },
             primitive: PrimitiveState::default(),
-            depth_stencil: Some(DepthStencilState {
-                format: DEPTH,
-                depth_write_enabled: Some(depth_write),
-                depth_compare: Some(compare),
-                stencil: StencilState::default(),
-                bias: DepthBiasState::default(),
-            }),
+            depth_stencil: Some(depth_state(depth_write, compare)),
             multisample: MultisampleState { count: samples, ..MultisampleState::default() },
             fragment,
             multiview_mask: None,
             cache: None,
         })
+    }
+}
+
+/// A pipeline of strips without buffers, from a vertex entry point to `blade_fragment`.
+pub(super) fn strips(
+    device: &Device,
+    (module, layout): (&ShaderModule, &PipelineLayout),
+    vertex: &str,
+    samples: u32,
+) -> RenderPipeline {
+    let target = ColorTargetState { format: LIGHT, blend: None, write_mask: ColorWrites::ALL };
+    device.create_render_pipeline(&RenderPipelineDescriptor {
+        label: Some(vertex),
+        layout: Some(layout),
+        vertex: VertexState {
+            module,
+            entry_point: Some(vertex),
+            compilation_options: PipelineCompilationOptions::default(),
+            buffers: &[],
+        },
+        primitive: PrimitiveState { topology: PrimitiveTopology::TriangleStrip, ..PrimitiveState::default() },
+        depth_stencil: Some(depth_state(true, CompareFunction::Greater)),
+        multisample: MultisampleState { count: samples, ..MultisampleState::default() },
+        fragment: Some(FragmentState {
+            module,
+            entry_point: Some("blade_fragment"),
+            compilation_options: PipelineCompilationOptions::default(),
+            targets: &[Some(target)],
+        }),
+        multiview_mask: None,
+        cache: None,
+    })
+}
+
+fn depth_state(depth_write: bool, compare: CompareFunction) -> DepthStencilState {
+    DepthStencilState {
+        format: DEPTH,
+        depth_write_enabled: Some(depth_write),
+        depth_compare: Some(compare),
+        stencil: StencilState::default(),
+        bias: DepthBiasState::default(),
     }
 }

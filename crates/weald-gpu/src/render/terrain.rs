@@ -97,7 +97,8 @@ impl Terrain {
         let cell = self.lattice.metres[0].max(self.lattice.metres[1]);
         let reach = 1.0 / (ERROR * camera.pixel_angle(size[0] as usize));
         let ranges = Ranges::new(&self.errors, reach, cell);
-        let [east, north, up] = detail_from.unwrap_or(camera.eye);
+        let detail_from = detail_from.unwrap_or(camera.eye);
+        let [east, north, up] = detail_from;
         let [width, height] = self.lattice.metres;
         let place = [0.5 + east / width, 0.5 - north / height];
         let stand = Standpoint { place, above: (up - self.heights.highest()).max(0.0) };
@@ -113,7 +114,7 @@ impl Terrain {
             let sides: Vec<_> = patches.iter().flat_map(|patch| self.sides_of(*patch)).collect();
             self.seen[number].write(gpu, &patches, &sides)?;
         }
-        Ok(Drawn { stand, slides: ranges.slides(), seconds: 0.0, cascades })
+        Ok(Drawn { stand, slides: ranges.slides(), detail_from, seconds: 0.0, cascades })
     }
 
     /// The box around all of it.

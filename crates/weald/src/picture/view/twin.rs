@@ -5,26 +5,33 @@ use std::fmt::Write;
 use super::maps::MapKind;
 use super::stage::Stage;
 
-/// The twins, each after those that it calls.
-const TWINS: [&str; 9] = [
+/// The twins of place, light and air, each after those that it calls.
+const LIGHT: [&str; 6] = [
     include_str!("surface.wgsl"),
     include_str!("grain.wgsl"),
     include_str!("sky.wgsl"),
     include_str!("haze.wgsl"),
     include_str!("tone.wgsl"),
-    include_str!("cover.wgsl"),
-    include_str!("water.wgsl"),
     include_str!("skylight.wgsl"),
-    include_str!("side.wgsl"),
 ];
 
-/// What is made of them.
-const SCENE: &str = include_str!("scene.wgsl");
+/// Those of ground and water, which call them.
+const GROUND: [&str; 4] = [
+    include_str!("cover.wgsl"),
+    include_str!("water.wgsl"),
+    include_str!("side.wgsl"),
+    include_str!("scene.wgsl"),
+];
 
 impl Stage {
     /// What a shader that draws the stage begins with: its numbers at binding 0 of a group, a sampler `between` at 1,
     /// the maps of [`Stage::map_kinds`] from 2 on, and the functions of the view.
     pub fn shader(&self, group: u32) -> String {
+        GROUND.iter().fold(self.shader_of_light(group), |text, twin| text + "\n" + twin)
+    }
+
+    /// The same with the functions of place, light and air alone, for what stands on the ground.
+    pub fn shader_of_light(&self, group: u32) -> String {
         let mut text = self.declaration();
         let _ = writeln!(text, "@group({group}) @binding(0) var<uniform> stage: Stage;");
         let _ = writeln!(text, "@group({group}) @binding(1) var between: sampler;");
@@ -33,6 +40,6 @@ impl Stage {
             debug_assert!(!is_array || kind == MapKind::Smooth, "{name}: only smooth maps have layers");
             let _ = writeln!(text, "@group({group}) @binding({binding}) var {name}: {shape};");
         }
-        TWINS.iter().chain([&SCENE]).fold(text, |text, twin| text + "\n" + twin)
+        LIGHT.iter().fold(text, |text, twin| text + "\n" + twin)
     }
 }

@@ -1,0 +1,93 @@
+// Blades of grass, lit from both sides.
+
+@group(2) @binding(0) var<uniform> grasses: Grasses;
+@group(2) @binding(1) var<storage, read> sets: array<vec4<u32>>;
+@group(2) @binding(2) var<storage, read> kept: array<u32>;
+
+struct Leaf {
+    @builtin(position) position: vec4<f32>,
+    @location(0) point: vec3<f32>,
+    @location(1) normal: vec3<f32>,
+    @location(2) colour: vec3<f32>,
+    // Share of the sun that is seen, and how open the place is among other blades.
+    @location(3) light: vec2<f32>,
+}
+
+// Vertices of a blade in each list, two a row.
+const BLADE_ROWS = array<u32, 3>(9u, 5u, 3u);
+
+// The push of the wind at a place: gusts that travel, by which neighbours sway nearly as one.
+fn grass_push(place: vec2<f32>, phase: f32) -> vec2<f32> {
+    let seconds = frame.moment.x;
+    let gust = octaves_at(Octaves(14.0, 3u, 0.6, 0x61u), place - seconds * vec2<f32>(3.2, -1.4), 0.0);
+    let flutter = 0.05 * sine_of(1.7 * seconds + phase);
+    let strength = 0.16 + 0.28 * gust.value + flutter;
+    return strength * vec2<f32>(0.92, 0.39);
+}
+
+fn sine_of(turns: f32) -> f32 {
+    return sin(6.2831853 * fract(turns));
+}
+
+fn leaf(list: u32, vertex: u32, instance_number: u32) -> Leaf {
+    let count = arrayLength(&sets);
+    let number = kept[list * count + instance_number / BLADES];
+    let instance = unpack(sets[number]);
+    let root = grass_root(instance.place);
+    let distance = length(root - frame.moment.yzw);
+    let tall = grass_height_share(instance.tuft, distance);
+    let along = f32(vertex / 2u) / f32(BLADE_ROWS[list] - 1u);
+    let side = f32(vertex % 2u) * 2.0 - 1.0;
+    var blade = blade_of(instance.species, instance.tuft, instance_number % BLADES);
+    // Fewer blades are broader, so that a meadow stays as thick; none is thinner than it can be seen.
+    let broader = 1.0 / sqrt(max(grass_share(distance), 0.05));
+    let seen = 0.8 * distance * frame.eye.w;
+    blade.width = max(blade.width * min(broader, 2.6), min(seen, 0.03));
+    let still = vertex_of(blade, along, side);
+    let push = grass_push(instance.place * vec2<f32>(1.0, -1.0), phase_of(instance.tuft));
+    let here = swayed(blade, still, vec2<f32>(push.x, -push.y));
+    let offset = vec3<f32>(here.place.x, -here.place.z, here.place.y * tall - 0.02);
+    let point = root + offset;
+    let normal = vec3<f32>(here.normal.x, -here.normal.z, here.normal.y);
+    let sun = sun_seen(root + vec3<f32>(0.0, 0.0, 0.3), vec3<f32>(0.0, 0.0, 1.0));
+    let open = 0.3 + 0.7 * along;
+    return Leaf(
+        projected(point), point, normal, colour_of(instance.species, here.blend, here.head), vec2<f32>(sun, open),
+    );
+}
+
+@vertex
+fn near_blade(@builtin(vertex_index) vertex: u32, @builtin(instance_index) number: u32) -> Leaf {
+    return leaf(0u, vertex, number);
+}
+
+@vertex
+fn middle_blade(@builtin(vertex_index) vertex: u32, @builtin(instance_index) number: u32) -> Leaf {
+    return leaf(1u, vertex, number);
+}
+
+@vertex
+fn far_blade(@builtin(vertex_index) vertex: u32, @builtin(instance_index) number: u32) -> Leaf {
+    return leaf(2u, vertex, number);
+}
+
+@fragment
+fn blade_fragment(in: Leaf) -> @location(0) vec4<f32> {
+    let relative = in.point - frame.eye.xyz;
+    let way = length(relative);
+    let direction = relative / way;
+    var normal = normalize(in.normal);
+    if dot(normal, direction) > 0.0 {
+        normal = -normal;
+    }
+    let facing = dot(normal, stage.sun.xyz);
+    // What a blade sends back, and what shines through it, yellower; among others less light comes to its foot.
+    let front = max(facing, 0.0);
+    let through = THROUGH * max(-facing, 0.0) * vec3<f32>(1.15, 1.05, 0.55);
+    let sun = stage.sunlight.xyz * in.light.x * (front + through) * in.light.y;
+    let up = normalize(normal + vec3<f32>(0.0, 0.0, 1.4));
+    let seen = seen_at(skylight, share_of(place_of(in.point)));
+    let sky = skylight_on(seen, up) * in.light.y;
+    let radiance = in.colour * (sun + sky) / PI;
+    return vec4<f32>(limited(veil(radiance, frame.eye.xyz, direction, way)), 1.0);
+}
