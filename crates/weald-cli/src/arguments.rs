@@ -1,23 +1,20 @@
 //! What the command line can say.
 
+mod fractal;
+mod render;
+
 use std::path::PathBuf;
 
 use clap::builder::PossibleValuesParser;
-use clap::{ArgMatches, Args, FromArgMatches, Parser, Subcommand, value_parser};
+use clap::{Args, Parser, Subcommand, value_parser};
 use clap_complete::Shell;
-use weald::export::Points;
 use weald::gallery::{self, FIGURES};
-use weald::grow::ifs::Wind;
-use weald::grow::ifs::deform::DeformKeys;
-use weald::picture::fractal::Look;
-use weald::picture::{GrowthKeys, View};
-use weald::recipe::parameter::Parameters;
+use weald::recipe::Overrides;
 use weald::recipe::template::TEMPLATES;
-use weald::recipe::{FilmKeys, Overrides};
 
-use crate::declared::Declared;
+pub(crate) use self::fractal::FractalArguments;
+pub(crate) use self::render::{RenderArguments, RenderFiles};
 use crate::engine::{self, Choice};
-use crate::shot;
 
 /// Turns a recipe into a living landscape.
 #[derive(Debug, Parser)]
@@ -188,178 +185,6 @@ pub(crate) struct BenchArguments {
     /// Most memory of the graphics card, as in 512MiB; larger sizes are left out
     #[arg(long, value_name = "BYTES", allow_negative_numbers = true, value_parser = engine::memory)]
     pub(crate) gpu_memory: Option<u64>,
-}
-
-#[derive(Debug)]
-pub(crate) struct FractalArguments {
-    pub(crate) name: String,
-    pub(crate) output: Option<PathBuf>,
-    pub(crate) points: Option<PathBuf>,
-    pub(crate) threads: Option<u16>,
-    pub(crate) quiet: bool,
-    /// Keys and values of the deformation, of the picture, and of the points.
-    pub(crate) deform: Vec<(String, String)>,
-    pub(crate) picture: Vec<(String, String)>,
-    pub(crate) export: Vec<(String, String)>,
-}
-
-/// What of [`FractalArguments`] is not declared by the library.
-#[derive(Debug, Args)]
-struct FractalFiles {
-    /// A built-in fractal, a .flame file, or a recipe with tables `fractal`; `list` names the built-in ones
-    name: String,
-    /// .png, .svg, or with --frames .apng, .mp4, .webm or numbered .png [default: NAME.png]
-    #[arg(short, long, value_name = "FILE")]
-    output: Option<PathBuf>,
-    /// Write the points: .csv, .ply or .npy
-    #[arg(long, value_name = "FILE")]
-    points: Option<PathBuf>,
-    /// Threads [default: all cores]
-    #[arg(long, value_name = "N", value_parser = value_parser!(u16).range(1..=1024))]
-    threads: Option<u16>,
-    /// Print errors only
-    #[arg(long)]
-    quiet: bool,
-}
-
-const LOOK: Declared =
-    Declared { parameters: Look::parameters, heading: "Picture", within: None, renamed: &[], without: &[] };
-
-const GROWTH: Declared =
-    Declared { parameters: GrowthKeys::parameters, without: &["fractal", "wind"], ..LOOK };
-
-const FILM: Declared =
-    Declared { parameters: FilmKeys::parameters, heading: "Film", without: &["every"], ..LOOK };
-
-const WIND: Declared = Declared {
-    parameters: Wind::parameters,
-    heading: "Wind",
-    within: Some("wind"),
-    renamed: &[("speed", "wind")],
-    without: &[],
-};
-
-const DEFORM: Declared = Declared {
-    parameters: DeformKeys::parameters,
-    heading: "Deformation",
-    renamed: &[("by", "deform")],
-    ..LOOK
-};
-
-const POINTS: Declared = Declared {
-    parameters: Points::parameters,
-    heading: "Points",
-    without: &["fractal", "depth", "seed"],
-    ..LOOK
-};
-
-const FRACTAL: [Declared; 6] = [LOOK, GROWTH, FILM, WIND, DEFORM, POINTS];
-
-impl Args for FractalArguments {
-    fn augment_args(command: clap::Command) -> clap::Command {
-        FRACTAL.iter().fold(FractalFiles::augment_args(command), |command, declared| declared.add_to(command))
-    }
-
-    fn augment_args_for_update(command: clap::Command) -> clap::Command {
-        Self::augment_args(command)
-    }
-}
-
-impl FromArgMatches for FractalArguments {
-    fn from_arg_matches(matches: &ArgMatches) -> Result<Self, clap::Error> {
-        let FractalFiles { name, output, points, threads, quiet } = FractalFiles::from_arg_matches(matches)?;
-        let picture =
-            [LOOK, GROWTH, FILM, WIND].iter().flat_map(|declared| declared.given(matches)).collect();
-        let (deform, export) = (DEFORM.given(matches), POINTS.given(matches));
-        Ok(Self { name, output, points, threads, quiet, deform, picture, export })
-    }
-
-    fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), clap::Error> {
-        *self = Self::from_arg_matches(matches)?;
-        Ok(())
-    }
-}
-
-#[derive(Debug)]
-pub(crate) struct RenderArguments {
-    pub(crate) files: RenderFiles,
-    /// Keys and values of the view.
-    pub(crate) view: Vec<(String, String)>,
-}
-
-/// What of [`RenderArguments`] is not declared by the library.
-#[derive(Debug, Args)]
-pub(crate) struct RenderFiles {
-    /// The recipe; its first view says of what colour ground and light are
-    #[arg(value_name = "RECIPE.toml")]
-    pub(crate) recipe: PathBuf,
-    /// .png, or of several frames numbered .png or one .apng [default: NAME.png]
-    #[arg(short, long, value_name = "FILE")]
-    pub(crate) output: Option<PathBuf>,
-    /// Width and height of the picture in pixels
-    #[arg(long, value_name = "WxH", default_value = "1920x1080", value_parser = shot::size)]
-    pub(crate) size: [u32; 2],
-    /// Samples a pixel at edges: 1 or 4
-    #[arg(long, value_name = "N", default_value_t = 4)]
-    pub(crate) samples: u32,
-    /// Where the camera stands: metres east and south of the north-western corner, and its elevation
-    #[arg(long, value_name = "X,Y,Z", allow_negative_numbers = true, value_parser = shot::point)]
-    pub(crate) camera: Option<shot::Point>,
-    /// Height of the eye above the ground at --camera X,Y: a person's view
-    #[arg(long, value_name = "METRES")]
-    pub(crate) eye: Option<f64>,
-    /// What the camera looks at: X,Y,Z, or X,Y on the ground [default: the middle of the landscape]
-    #[arg(long, value_name = "X,Y,Z", allow_negative_numbers = true, value_parser = shot::point)]
-    pub(crate) target: Option<shot::Point>,
-    /// Frames of a whole turn around what the camera looks at
-    #[arg(long, value_name = "FRAMES", value_parser = value_parser!(u32).range(2..=9999), conflicts_with_all = ["through", "eye"])]
-    pub(crate) turntable: Option<u32>,
-    /// Further points that the camera flies through after --camera; it looks ahead, or at --target
-    #[arg(long, value_name = "X,Y,Z", num_args = 1.., requires_all = ["camera", "frames"], allow_negative_numbers = true, value_parser = shot::point)]
-    pub(crate) through: Vec<shot::Point>,
-    /// Frames of a flight
-    #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(2..=9999), requires = "through")]
-    pub(crate) frames: Option<u32>,
-    /// Draw on the processor where there is no graphics device: view, which is ray-marched
-    #[arg(long, value_name = "PICTURE", value_parser = ["view"])]
-    pub(crate) fallback: Option<String>,
-    /// Cells along the longer side of the landscape; shape and extent stay
-    #[arg(long, value_name = "N", value_parser = value_parser!(u64).range(1..))]
-    pub(crate) cells: Option<u64>,
-    #[command(flatten)]
-    pub(crate) values: Values,
-    #[command(flatten)]
-    pub(crate) running: Running,
-}
-
-/// Keys of a view; its camera and size are told otherwise.
-const VIEW: Declared = Declared {
-    parameters: View::parameters,
-    heading: "View",
-    renamed: &[("field_of_view_deg", "fov")],
-    without: &["width", "height", "samples", "target", "eye", "eye_height", "turn_deg"],
-    ..LOOK
-};
-
-impl Args for RenderArguments {
-    fn augment_args(command: clap::Command) -> clap::Command {
-        VIEW.add_to(RenderFiles::augment_args(command))
-    }
-
-    fn augment_args_for_update(command: clap::Command) -> clap::Command {
-        Self::augment_args(command)
-    }
-}
-
-impl FromArgMatches for RenderArguments {
-    fn from_arg_matches(matches: &ArgMatches) -> Result<Self, clap::Error> {
-        Ok(Self { files: RenderFiles::from_arg_matches(matches)?, view: VIEW.given(matches) })
-    }
-
-    fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), clap::Error> {
-        *self = Self::from_arg_matches(matches)?;
-        Ok(())
-    }
 }
 
 /// Greatest seed: whole numbers beyond it are not all exact where reports are read as JSON.

@@ -2,7 +2,7 @@
 
 mod place;
 
-use place::{Place, assert_ends};
+use place::{Place, assert_ends, left_out};
 
 const RECIPE: &str = "\
 [landscape]
@@ -19,15 +19,6 @@ iterations = 20
 layer = \"height\"
 file = \"height.npy\"
 ";
-
-/// Whether a developer without any adapter leaves these tests out.
-fn left_out() -> bool {
-    let left_out = std::env::var_os("WEALD_NO_GPU").is_some_and(|value| value == "1");
-    if left_out {
-        println!("WEALD_NO_GPU=1 is set: this test of the GPU engine is left out");
-    }
-    left_out
-}
 
 #[test]
 fn a_run_on_the_gpu_says_so_in_its_report_and_names_the_adapter() {

@@ -2,7 +2,7 @@
 
 mod place;
 
-use place::{Place, assert_ends};
+use place::{Place, assert_ends, left_out};
 
 const RECIPE: &str = "\
 [landscape]
@@ -16,15 +16,6 @@ relief = 100.0
 layer = \"height\"
 file = \"height.npy\"
 ";
-
-/// Whether a developer without any adapter leaves these tests out.
-fn left_out() -> bool {
-    let left_out = std::env::var_os("WEALD_NO_GPU").is_some_and(|value| value == "1");
-    if left_out {
-        println!("WEALD_NO_GPU=1 is set: this test of drawing is left out");
-    }
-    left_out
-}
 
 fn sides(place: &Place, file: &str) -> (u32, u32) {
     let bytes = std::fs::read(place.path(file)).expect("the picture is there");

@@ -2,22 +2,13 @@
 
 mod programs;
 
-use programs::{count, gpu, load, mix, numbers, pass, weather};
-use weald::Error;
+use programs::{count, gpu, load, mix, numbers, pass, refusal, weather};
 use weald::engine::device::{Device, Window};
 use weald::engine::program::{Program, Uniforms};
 use weald::grid::Size;
 use weald_gpu::Gpu;
 
 const SIZE: Size = Size { columns: 100, rows: 60 };
-
-fn refusal<T>(result: Result<T, Error>) -> String {
-    match result {
-        Err(Error::Device(message)) => message,
-        Err(other) => panic!("an error of another kind: {other}"),
-        Ok(_) => panic!("it was not refused"),
-    }
-}
 
 #[test]
 fn the_budget_is_never_passed_and_comes_back_when_programs_go() {

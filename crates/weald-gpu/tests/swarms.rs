@@ -2,8 +2,7 @@
 
 mod programs;
 
-use programs::gpu;
-use weald::Error;
+use programs::{gpu, refusal};
 use weald::grow::ifs::device::digits_on_a_device;
 use weald::grow::ifs::game::CHUNK;
 use weald::grow::ifs::map::Map;
@@ -222,14 +221,6 @@ fn points_in_pieces_and_in_many_submissions_are_the_same() {
     assert!(small.peak() > 48 * count && small.peak() <= 32 << 20);
     assert_eq!(small.allocated(), 0);
     assert!(all(&gpu.moving_at_most(3_000_000)) == whole, "submissions of three megabytes");
-}
-
-fn refusal<T>(result: Result<T, Error>) -> String {
-    match result {
-        Err(Error::Device(message)) => message,
-        Err(other) => panic!("an error of another kind: {other}"),
-        Ok(_) => panic!("it was not refused"),
-    }
 }
 
 #[test]

@@ -28,6 +28,11 @@ impl Domain {
         self.land.as_ref().map_or(self.size.cells(), Mask::land_cells)
     }
 
+    /// Metres from west to east and from north to south.
+    pub fn extent(&self) -> [f64; 2] {
+        [self.size.columns, self.size.rows].map(|count| count as f64 * self.cell)
+    }
+
     /// Area of one cell in square metres.
     pub fn cell_area(&self) -> f64 {
         self.cell * self.cell

@@ -1,18 +1,16 @@
 //! `weald render`.
 
 use std::path::{Path, PathBuf};
-use std::time::Duration;
 
+use weald::Error;
 use weald::picture::{Camera, Cutout, Image, Stage, View, write_apng};
-use weald::recipe::{Film, Options, Progress, Recipe, Run, ViewRequest};
-use weald::{Error, Landscape};
+use weald::recipe::{Film, Options, ViewRequest};
 use weald_gpu::{Gpu, RenderOptions, Renderer};
 
-use super::run::default_folder;
+use super::run::{default_folder, watched};
 use crate::arguments::{RenderArguments, RenderFiles};
 use crate::engine::with_memory;
 use crate::failure::Failure;
-use crate::progress::Shown;
 use crate::{interrupt, shot, stdout};
 
 /// Draws the picture of a frame and its camera.
@@ -34,7 +32,8 @@ pub(crate) fn render(arguments: &RenderArguments) -> Result<(), Failure> {
     let view = View { width, height, ..view };
     // What cannot be drawn is told before an hour of simulation.
     let device = device(files)?;
-    let landscape = landscape(&recipe, files)?;
+    let options = Options::into_folder(default_folder(&files.recipe));
+    let landscape = watched(&recipe, options, &files.running, |run, shown| run.landscape(shown))?;
     let stage = Stage::new(&view, &landscape)?;
     let cameras = shot::cameras(files, &view, &stage)?;
     let stage = stage.seen_from(cameras[0]);
@@ -64,27 +63,6 @@ fn device(files: &RenderFiles) -> Result<Option<(Gpu, RenderOptions)>, Failure> 
         Err(_) if files.fallback.is_some() => Ok(None),
         Err(error) => Err(error.into()),
     }
-}
-
-/// The finished landscape, with progress on stderr.
-fn landscape(recipe: &Recipe, files: &RenderFiles) -> Result<Landscape, Failure> {
-    let running = &files.running;
-    let chosen = running.engine.open(running.gpu_memory)?;
-    let options = Options {
-        engine: chosen.engine,
-        threads: running.threads.map(usize::from),
-        checkpoint_every: Duration::from_secs(running.checkpoint_every),
-        resume: running.resume,
-        ..Options::into_folder(default_folder(&files.recipe))
-    };
-    interrupt::listen()?;
-    let shown = Shown::new(running.quiet);
-    if let Some(note) = &chosen.note {
-        shown.note(note);
-    }
-    let landscape = Run { recipe, options }.landscape(&shown);
-    shown.end();
-    Ok(landscape?)
 }
 
 /// The file, whose kind must suit the number of frames.

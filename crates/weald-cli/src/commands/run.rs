@@ -4,6 +4,7 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
+use weald::Error;
 use weald::recipe::{Options, OutputReport, Progress, REPORT_FILE, Recipe, Report, Run};
 
 use crate::arguments::{RunArguments, Running};
@@ -18,8 +19,18 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     if arguments.running.quiet { Ok(()) } else { stdout::print(&summary(&report, &out)) }
 }
 
-/// Runs a recipe as the command line says, with progress on stderr.
+/// Runs a recipe as the command line says, with progress on stderr, and hands over its files' report.
 pub(super) fn execute(recipe: &Recipe, options: Options, running: &Running) -> Result<Report, Failure> {
+    watched(recipe, options, running, |run, shown| run.execute(shown))
+}
+
+/// The same, for what `work` makes of the run.
+pub(super) fn watched<T>(
+    recipe: &Recipe,
+    options: Options,
+    running: &Running,
+    work: impl FnOnce(&Run<'_>, &Shown) -> Result<T, Error>,
+) -> Result<T, Failure> {
     let chosen = running.engine.open(running.gpu_memory)?;
     let options = Options {
         engine: chosen.engine,
@@ -33,9 +44,9 @@ pub(super) fn execute(recipe: &Recipe, options: Options, running: &Running) -> R
     if let Some(note) = &chosen.note {
         shown.note(note);
     }
-    let report = Run { recipe, options }.execute(&shown);
+    let done = work(&Run { recipe, options }, &shown);
     shown.end();
-    Ok(report?)
+    Ok(done?)
 }
 
 /// Where the files of a recipe go.

@@ -61,3 +61,12 @@ pub fn assert_ends(place: &Place, arguments: &[&str], code: i32, parts: &[&str])
         assert!(message.contains(part), "{arguments:?}: {part:?} is in: {message}");
     }
 }
+
+/// Whether a developer without any adapter leaves a test out that needs one.
+pub fn left_out() -> bool {
+    let left_out = std::env::var_os("WEALD_NO_GPU").is_some_and(|value| value == "1");
+    if left_out {
+        println!("WEALD_NO_GPU=1 is set: this test of a device is left out");
+    }
+    left_out
+}

@@ -8,15 +8,7 @@ struct Caster {
 }
 
 fn cast_shadow(point: vec3<f32>) -> Caster {
-    return Caster(vec4<f32>(in_caster_cascade(point), 1.0), point);
-}
-
-// As `in_cascade`, of the cascade that is drawn.
-fn in_caster_cascade(point: vec3<f32>) -> vec3<f32> {
-    let square = frame.cascades[caster_cascade.x];
-    let aside = vec2<f32>(dot(point, frame.sun_right.xyz), dot(point, frame.sun_up.xyz));
-    let depth = (frame.sun_right.w - dot(point, stage.sun.xyz)) / frame.sun_up.w;
-    return vec3<f32>((aside - square.xy) / square.zw, depth);
+    return Caster(vec4<f32>(in_cascade(point, caster_cascade.x), 1.0), point);
 }
 
 @vertex

@@ -4,6 +4,7 @@
 
 use std::sync::OnceLock;
 
+use weald::Error;
 use weald::engine::device::{Device, Loaded};
 use weald::engine::program::{Buffer, Content, Pass, Program, Uniforms};
 use weald::grid::Size;
@@ -21,6 +22,15 @@ pub(crate) fn gpu() -> Option<Gpu> {
         Some(Gpu::any().expect("tests of the GPU engine need an adapter"))
     };
     GPU.get_or_init(open).clone()
+}
+
+/// What a device says that refuses something.
+pub(crate) fn refusal<T>(result: Result<T, Error>) -> String {
+    match result {
+        Err(Error::Device(message)) => message,
+        Err(other) => panic!("an error of another kind: {other}"),
+        Ok(_) => panic!("it was not refused"),
+    }
 }
 
 pub(crate) fn load(gpu: &Gpu, program: &Program, size: Size) -> Box<dyn Loaded> {

@@ -10,9 +10,9 @@ use serde_json::{Map, Value, json};
 
 use crate::error::Error;
 use crate::export::Finished;
+use crate::export::copies::{Copies, Placed, place_in_mesh};
 use crate::export::mesh::document::{Document, Part};
 use crate::export::mesh::extras::source;
-use crate::export::plants::INSTANCING;
 use crate::grow::grass::{BLADES, Blade, Growth, Instance, LEVELS, Meadow, Set, blade};
 
 /// Blades scatter light almost evenly.
@@ -56,28 +56,8 @@ impl Scene<'_> {
     /// The file with a node for each species.
     pub(super) fn instanced(&self) -> Result<Vec<u8>, Error> {
         let mut document = Document::default();
-        let kinds = self.kinds(&mut document);
-        if !kinds.is_empty() {
-            document.require(INSTANCING);
-        }
-        for kind in &kinds {
-            let of = |number: fn(&Self, &Standing) -> f32| -> Vec<[f32; 1]> {
-                kind.sets.iter().map(|set| [number(self, set)]).collect()
-            };
-            let places: Vec<_> = kind.sets.iter().map(|set| self.place(set)).collect();
-            let rotations: Vec<_> = kind.sets.iter().map(|set| rotation(set)).collect();
-            let scales: Vec<_> = kind.sets.iter().map(|set| [self.scale(set, kind); 3]).collect();
-            let mut attributes = Map::new();
-            let mut add = |name: &str, accessor: Value| attributes.insert(name.to_owned(), accessor);
-            add("TRANSLATION", document.instances(&places));
-            add("ROTATION", document.instances(&rotations));
-            add("SCALE", document.instances(&scales));
-            for (name, number) in ATTRIBUTES {
-                add(&format!("_{}", name.to_ascii_uppercase()), document.instances(&of(number)));
-            }
-            document.node(json!({
-                "name": kind.name, "mesh": kind.mesh, "extensions": { INSTANCING: { "attributes": attributes } },
-            }));
+        for kind in self.kinds(&mut document) {
+            self.copies(&kind).instanced(&mut document);
         }
         document.finish(&self.extras())
     }
@@ -86,21 +66,22 @@ impl Scene<'_> {
     pub(super) fn nodes(&self) -> Result<Vec<u8>, Error> {
         let mut document = Document::default();
         for kind in self.kinds(&mut document) {
-            for (id, set) in kind.sets.iter().enumerate() {
-                let numbers =
-                    ATTRIBUTES.iter().map(|(name, number)| ((*name).to_owned(), number(self, set).into()));
-                let scale = [self.scale(set, &kind); 3];
-                document.node(json!({
-                    "name": format!("{}-{id}", kind.name),
-                    "mesh": kind.mesh,
-                    "translation": self.place(set),
-                    "rotation": rotation(set),
-                    "scale": scale,
-                    "extras": Value::Object(numbers.collect()),
-                }));
-            }
+            self.copies(&kind).nodes(&mut document);
         }
         document.finish(&self.extras())
+    }
+
+    fn copies<'b>(&self, kind: &'b Kind<'_>) -> Copies<'b> {
+        let domain = &self.finished.landscape.domain;
+        let placed = kind.sets.iter().map(|set| Placed {
+            place: place_in_mesh(domain, set.instance.place.map(f64::from), f64::from(set.height)),
+            rotation: rotation(set),
+            scale: self.scale(set, kind),
+        });
+        let numbers = ATTRIBUTES
+            .iter()
+            .map(|(name, number)| (*name, kind.sets.iter().map(|set| number(self, set)).collect()));
+        Copies { name: &kind.name, mesh: kind.mesh, placed: placed.collect(), numbers: numbers.collect() }
     }
 
     fn extras(&self) -> Value {
@@ -140,14 +121,6 @@ impl Scene<'_> {
     fn scale(&self, set: &Standing, kind: &Kind<'_>) -> f32 {
         // Bare ground is a very small set: a scale of 0 has no inverse.
         (self.height(set.instance.species as usize, &set.instance.tuft) / kind.height.max(1e-6)).max(1e-3)
-    }
-
-    /// Where a set stands: metres east, up and south of the middle of the domain.
-    fn place(&self, set: &Standing) -> [f32; 3] {
-        let domain = &self.finished.landscape.domain;
-        let middle = [domain.size.columns, domain.size.rows].map(|count| 0.5 * count as f64 * domain.cell);
-        let [x, y] = set.instance.place.map(f64::from);
-        [(x - middle[0]) as f32, set.height, (y - middle[1]) as f32]
     }
 
     fn blend(&self, set: &Standing) -> f32 {

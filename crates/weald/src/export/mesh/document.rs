@@ -113,9 +113,11 @@ impl Document {
         self.nodes.push(node);
     }
 
-    /// Names an extension that a reader must know.
+    /// Names an extension that a reader must know; once, however often it is asked for.
     pub(in crate::export) fn require(&mut self, extension: &'static str) {
-        self.extensions.push(extension);
+        if !self.extensions.contains(&extension) {
+            self.extensions.push(extension);
+        }
     }
 
     /// Adds a mesh without a node and gives its number.

@@ -26,8 +26,7 @@ pub(super) fn of(plants: &Plants, finished: &Finished<'_>) -> Vec<u8> {
     add("property int id\nend_header\n".to_owned());
     let mut bytes = header.into_bytes();
     bytes.reserve(plants.plants.len() * 4 * (PROPERTIES.len() + 1));
-    let size = finished.landscape.domain.size;
-    let middle = [size.columns, size.rows].map(|count| 0.5 * count as f64 * finished.landscape.domain.cell);
+    let middle = finished.landscape.domain.extent().map(|length| 0.5 * length);
     for (id, plant) in plants.plants.iter().enumerate() {
         for number in numbers(plant, middle) {
             bytes.extend(number.to_le_bytes());

@@ -12,13 +12,12 @@ use serde_json::{Map, Value, json};
 use super::up_in_mesh;
 use crate::error::Error;
 use crate::export::Finished;
+use crate::export::copies::{Copies, Placed, place_in_mesh};
 use crate::export::mesh::document::{Document, Part};
 use crate::export::mesh::extras::source;
 use crate::grow::ifs::foliage::{Foliage, Texture};
 use crate::io::png::Pixels;
 use crate::plants::Plant;
-
-pub(in crate::export) const INSTANCING: &str = "EXT_mesh_gpu_instancing";
 
 /// Opacity from which a texel is leaf.
 const CUTOFF: f32 = 0.3;
@@ -44,57 +43,32 @@ impl Scene<'_> {
     /// The file with one node for all plants.
     pub(super) fn instanced(&self) -> Result<Vec<u8>, Error> {
         let mut document = Document::default();
-        let mesh = self.mesh(&mut document)?;
-        if self.plants.is_empty() {
-            return document.finish(&self.extras());
-        }
-        let places: Vec<_> = self.plants.iter().map(|plant| self.place(plant)).collect();
-        let rotations: Vec<_> = self.plants.iter().map(rotation).collect();
-        let scales: Vec<_> = self.plants.iter().map(|plant| [plant.size; 3]).collect();
-        let phases: Vec<_> = self.plants.iter().map(|plant| [plant.phase]).collect();
-        let attributes = json!({
-            "TRANSLATION": document.instances(&places),
-            "ROTATION": document.instances(&rotations),
-            "SCALE": document.instances(&scales),
-            "_PHASE": document.instances(&phases),
-        });
-        document.require(INSTANCING);
-        document.node(json!({
-            "name": self.name, "mesh": mesh, "extensions": { INSTANCING: { "attributes": attributes } },
-        }));
+        self.copies(&mut document)?.instanced(&mut document);
         document.finish(&self.extras())
     }
 
     /// The file with a node for each plant.
     pub(super) fn nodes(&self) -> Result<Vec<u8>, Error> {
         let mut document = Document::default();
-        let mesh = self.mesh(&mut document)?;
-        for (id, plant) in self.plants.iter().enumerate() {
-            let scale = [plant.size; 3];
-            document.node(json!({
-                "name": format!("{}-{id}", self.name),
-                "mesh": mesh,
-                "translation": self.place(plant),
-                "rotation": rotation(plant),
-                "scale": scale,
-                "extras": { "phase": plant.phase },
-            }));
-        }
+        self.copies(&mut document)?.nodes(&mut document);
         document.finish(&self.extras())
+    }
+
+    fn copies(&self, document: &mut Document) -> Result<Copies<'_>, Error> {
+        let placed = self.plants.iter().map(|plant| {
+            let [x, y, z] = plant.place;
+            let place = place_in_mesh(&self.finished.landscape.domain, [x, y], z);
+            Placed { place, rotation: rotation(plant), scale: plant.size }
+        });
+        let phases = self.plants.iter().map(|plant| plant.phase).collect();
+        let (name, mesh) = (self.name, self.mesh(document)?);
+        Ok(Copies { name, mesh, placed: placed.collect(), numbers: vec![("phase", phases)] })
     }
 
     fn extras(&self) -> Value {
         let mut extras = source(self.finished);
         extras["plants"] = self.plants.len().into();
         extras
-    }
-
-    /// Where a plant stands: metres east, up and south of the middle of the domain.
-    fn place(&self, plant: &Plant) -> [f32; 3] {
-        let domain = &self.finished.landscape.domain;
-        let middle = [domain.size.columns, domain.size.rows].map(|count| 0.5 * count as f64 * domain.cell);
-        let [x, y, z] = plant.place;
-        [x - middle[0], z, y - middle[1]].map(|number| number as f32)
     }
 
     fn mesh(&self, document: &mut Document) -> Result<usize, Error> {

@@ -7,8 +7,6 @@ mod cloud;
 mod instances;
 mod table;
 
-pub(super) use instances::INSTANCING;
-
 use std::borrow::Cow;
 use std::path::Path;
 use std::sync::Arc;

@@ -87,7 +87,7 @@ fn drawn(domain: &Domain, reach: &Reach) -> Reach {
 /// The point moved by half a cell towards the nearest edge of the grid, where a river of one cell leaves it.
 fn at_the_edge(domain: &Domain, point: &RiverPoint) -> RiverPoint {
     let half = 0.5 * domain.cell;
-    let [width, height] = [domain.size.columns, domain.size.rows].map(|count| count as f64 * domain.cell);
+    let [width, height] = domain.extent();
     let ways = [
         (point.x, [-half, 0.0]),
         (width - point.x, [half, 0.0]),

@@ -22,6 +22,17 @@ pub enum Role {
     Branch,
 }
 
+impl Role {
+    /// Its number in tables of vectors and shaders.
+    pub(super) const fn number(self) -> u8 {
+        match self {
+            Self::Stem => 0,
+            Self::Trunk => 1,
+            Self::Branch => 2,
+        }
+    }
+}
+
 /// A map with its share of the points.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Weighted {

@@ -191,7 +191,7 @@ impl Range {
 
 impl Suitability for Site<'_> {
     fn extent(&self) -> [f64; 2] {
-        [self.domain.size.columns, self.domain.size.rows].map(|count| count as f64 * self.domain.cell)
+        self.domain.extent()
     }
 
     fn suitability(&self, place: [f64; 2]) -> f64 {

@@ -1,12 +1,17 @@
 //! The `[[fractal]]` tables: plants and sets that pictures and later steps name.
 
+mod names;
+mod written;
+
 use std::path::PathBuf;
 
+pub(in crate::recipe::plan) use self::names::check_names;
+use self::written::Written;
 use super::files::Files;
-use super::{Output, Planned, hint, tables};
+use super::tables;
 use crate::grow::Fractal;
 use crate::grow::ifs::deform::DeformKeys;
-use crate::grow::ifs::{Draft, Ifs, IfsFault, Map, Role, Weighted, even_probabilities, shapes};
+use crate::grow::ifs::{Ifs, Role};
 use crate::recipe::parameter::{Complaints, FlameFile, Kind, LayerName, Nested, ParameterValue, Parameters};
 use crate::recipe::source::{Node, Table, Value};
 
@@ -161,179 +166,12 @@ fn line_of(table: &Table, key: &str) -> usize {
     table.get(key).map_or(table.line, |node| node.line)
 }
 
-/// A table with its keys.
-struct Written<'a> {
-    table: &'a Table,
-    keys: &'a FractalKeys,
-}
-
-type At<T> = Result<T, (usize, String)>;
-
-impl Written<'_> {
-    fn seedling(&self) -> At<Seedling> {
-        let given: Vec<_> =
-            ["of", "maps", "flame"].into_iter().filter(|key| self.table.get(key).is_some()).collect();
-        match given.as_slice() {
-            ["of"] => self.built_in().map(|ifs| Seedling::Known(Box::new(ifs))),
-            ["maps"] => self.of_maps().map(|ifs| Seedling::Known(Box::new(ifs))),
-            ["flame"] => self.flame(),
-            [first, second, ..] => {
-                let message =
-                    format!("`{first}` and `{second}` exclude each other: a fractal is made of one of them");
-                Err((line_of(self.table, second), message))
-            }
-            _ => Err((
-                self.table.line,
-                "`of`, `maps` or `flame` is needed: a built-in fractal, its maps, or a file".to_owned(),
-            )),
-        }
-    }
-
-    fn at(&self, key: &str, message: impl Into<String>) -> (usize, String) {
-        (line_of(self.table, key), message.into())
-    }
-
-    /// Keys that go with `maps` alone.
-    fn refuse_keys_of_maps(&self) -> At<()> {
-        match ["probabilities", "roles"].into_iter().find(|key| self.table.get(key).is_some()) {
-            Some(key) => Err(self.at(key, format!("`{key}` goes with `maps` alone"))),
-            None => Ok(()),
-        }
-    }
-
-    fn built_in(&self) -> At<Ifs> {
-        self.refuse_keys_of_maps()?;
-        let name = self.keys.of.as_deref().unwrap_or_default();
-        let Some(shape) = shapes::find(name) else {
-            let known: Vec<_> = shapes::SHAPES.iter().map(|shape| shape.name).collect();
-            return Err(
-                self.at("of", format!("there is no built-in fractal {name:?}; {}", hint(name, &known)))
-            );
-        };
-        let ifs = shape.ifs();
-        let code_digits = self.keys.code_digits.map_or(ifs.code_digits(), |digits| digits as usize);
-        let (name, maps) = (self.keys.name.0.clone(), ifs.maps().to_vec());
-        self.checked(Draft { name, maps, code_digits: Some(code_digits) })
-    }
-
-    fn flame(&self) -> At<Seedling> {
-        self.refuse_keys_of_maps()?;
-        let path = self.keys.flame.as_ref().map(FlameFile::path).unwrap_or_default();
-        Ok(Seedling::Flame { path, number: self.keys.flame_number as usize })
-    }
-
-    fn of_maps(&self) -> At<Ifs> {
-        let count = self.keys.maps.len();
-        let maps: Vec<Map> = (0..count).map(|place| self.map(place)).collect::<At<_>>()?;
-        self.as_many("probabilities", self.keys.probabilities.len(), count)?;
-        self.as_many("roles", self.keys.roles.len(), count)?;
-        let probabilities = if self.keys.probabilities.is_empty() {
-            even_probabilities(&maps)
-        } else {
-            self.keys.probabilities.clone()
-        };
-        let role = |map: usize| self.keys.roles.get(map).map_or(Role::Branch, |role| role.role());
-        let weighted = maps.into_iter().zip(probabilities).enumerate();
-        let maps =
-            weighted.map(|(number, (map, probability))| Weighted { map, probability, role: role(number) });
-        let name = self.keys.name.0.clone();
-        let code_digits = self.keys.code_digits.map(|digits| digits as usize);
-        self.checked(Draft { name, maps: maps.collect(), code_digits })
-    }
-
-    fn map(&self, place: usize) -> At<Map> {
-        let numbers = &self.keys.maps[place];
-        if let Ok(six) = <[f64; 6]>::try_from(numbers.as_slice()) {
-            return Ok(Map::planar(six));
-        }
-        if numbers.len() == 12 {
-            let row = |row: usize| std::array::from_fn(|column| numbers[4 * row + column]);
-            return Ok(Map::spatial([row(0), row(1), row(2)]));
-        }
-        let message =
-            format!("map {place} has {} numbers; a map of the plane has 6, one of space 12", numbers.len());
-        Err((self.line_of_map(place), message))
-    }
-
-    fn line_of_map(&self, place: usize) -> usize {
-        match self.table.get("maps").map(|node| &node.value) {
-            Some(Value::List(items)) => items.get(place).map_or(self.table.line, |item| item.line),
-            _ => self.table.line,
-        }
-    }
-
-    fn as_many(&self, key: &str, found: usize, maps: usize) -> At<()> {
-        if found == 0 || found == maps {
-            return Ok(());
-        }
-        Err(self.at(key, format!("`{key}` has {found} entries for {maps} maps; each map needs one")))
-    }
-
-    fn checked(&self, draft: Draft) -> At<Ifs> {
-        Ifs::new(draft).map_err(|fault| {
-            let line = match &fault {
-                IfsFault::NotFinite(map) | IfsFault::NotContracting { map, .. } => self.line_of_map(*map),
-                IfsFault::Probability { .. } | IfsFault::ProbabilitySum(_) => {
-                    line_of(self.table, "probabilities")
-                }
-                IfsFault::CodeLength { .. } => line_of(self.table, "code_digits"),
-                IfsFault::TooFew(_) | IfsFault::TooMany(_) | IfsFault::Boundless => {
-                    line_of(self.table, "maps")
-                }
-            };
-            (line, fault.to_string())
-        })
-    }
-}
-
 impl PlantRole {
     fn role(self) -> Role {
         match self {
             Self::Stem => Role::Stem,
             Self::Trunk => Role::Trunk,
             Self::Branch => Role::Branch,
-        }
-    }
-}
-
-/// Complains of steps and outputs that name a fractal that is not there.
-pub(super) fn check_names(
-    fractals: &[PlannedFractal],
-    steps: &[Planned],
-    outputs: &[Output],
-    complaints: &mut Complaints,
-) {
-    let own = fractals.iter().map(|fractal| fractal.name.as_str());
-    let known: Vec<_> = own.chain(shapes::SHAPES.iter().map(|shape| shape.name)).collect();
-    let mut check = |subject: &str, line: usize, names: Vec<String>| {
-        subject.clone_into(&mut complaints.subject);
-        for name in names.iter().filter(|name| !known.contains(&name.as_str())) {
-            complaints.add(line, format!("there is no fractal {name:?}; {}", hint(name, &known)));
-        }
-    };
-    for planned in steps {
-        check(planned.entry.name, planned.line, planned.step.fractals());
-    }
-    for output in outputs {
-        check("output", output.line, output.fractals());
-    }
-    check_plants(fractals, steps, complaints);
-}
-
-/// Complains of planted fractals that are deformed: leaves and fronds are made from the maps.
-fn check_plants(fractals: &[PlannedFractal], steps: &[Planned], complaints: &mut Complaints) {
-    for planned in steps {
-        planned.entry.name.clone_into(&mut complaints.subject);
-        let names = planned.step.fractals();
-        let is_bent = |fractal: &&PlannedFractal| names.contains(&fractal.name) && !fractal.deform.is_empty();
-        for bent in fractals.iter().filter(is_bent) {
-            complaints.add(
-                planned.line,
-                format!(
-                    "the fractal {:?} has `deform`, but plants have the shape of the maps alone; plant one without it",
-                    bent.name
-                ),
-            );
         }
     }
 }

@@ -11,6 +11,10 @@ use crate::vectors::widest;
 /// Maps that a digit can name.
 const DIGITS: usize = 256;
 
+/// Numbers of roles.
+const STEM: u32 = Role::Stem.number() as u32;
+const BRANCH: u32 = Role::Branch.number() as u32;
+
 /// Bends that an index of five bits can name.
 const BENDS: usize = DEPTH.next_power_of_two();
 
@@ -21,7 +25,7 @@ pub struct Posed<'a> {
     pose: &'a Pose,
     /// Numbers of the maps, each for all maps.
     maps: Box<[[f32; DIGITS]; 12]>,
-    /// 0 for stems, 1 for trunks, 2 for branches.
+    /// Their roles, by number.
     roles: [u32; DIGITS],
     bends: [f32; BENDS],
     swing: [f32; ORDERS * PHASES],
@@ -49,11 +53,7 @@ impl<'a> Posed<'a> {
             for (number, value) in map.as_flattened().iter().enumerate() {
                 maps[number][digit] = *value;
             }
-            roles[digit] = match role {
-                Role::Stem => 0,
-                Role::Trunk => 1,
-                Role::Branch => 2,
-            };
+            roles[digit] = u32::from(role.number());
         }
         let mut bends = [0.0; BENDS];
         bends[..DEPTH].copy_from_slice(&sway.bends);
@@ -148,14 +148,14 @@ impl Way {
     #[inline(always)]
     fn branch(&mut self, place: u32, digits: &[u8; LANES], roles: &[u32; LANES]) {
         for lane in 0..LANES {
-            let is_branch = roles[lane] == 2;
+            let is_branch = roles[lane] == BRANCH;
             let hash = hashed(self.hash[lane], u32::from(digits[lane]));
             let (order, along, phase) = (self.order[lane], self.along[lane], self.phase[lane]);
             self.hash[lane] = hash;
             self.order[lane] = if is_branch { (order + 1).min(ORDERS as u32 - 1) } else { order };
             self.along[lane] = if is_branch { 0 } else { along + 1 };
             self.phase[lane] = if is_branch { (hash >> 28) + LAG * place } else { phase };
-            self.goes_on[lane] = if roles[lane] == 0 { 0 } else { self.goes_on[lane] };
+            self.goes_on[lane] = if roles[lane] == STEM { 0 } else { self.goes_on[lane] };
         }
     }
 

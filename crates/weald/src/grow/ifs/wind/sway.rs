@@ -131,13 +131,9 @@ impl Sway {
 
     /// Its maps in the order of the shader: three rows a map, the role in the first number of a fourth row.
     pub fn rows(&self) -> Vec<[f32; 4]> {
-        let role = |role: Role| match role {
-            Role::Stem => 0.0,
-            Role::Trunk => 1.0,
-            Role::Branch => 2.0,
-        };
         let rows = self.maps.iter().zip(&self.roles);
-        rows.flat_map(|(map, &of)| [map[0], map[1], map[2], [role(of), 0.0, 0.0, 0.0]]).collect()
+        rows.flat_map(|(map, &of)| [map[0], map[1], map[2], [f32::from(of.number()), 0.0, 0.0, 0.0]])
+            .collect()
     }
 }
 

@@ -1,0 +1,93 @@
+//! What `weald render` is told: files and cameras, and keys of the view that the library declares.
+
+use std::path::PathBuf;
+
+use clap::{ArgMatches, Args, FromArgMatches, value_parser};
+use weald::picture::View;
+use weald::recipe::parameter::Parameters;
+
+use super::{Running, Values};
+use crate::declared::Declared;
+use crate::shot;
+
+#[derive(Debug)]
+pub(crate) struct RenderArguments {
+    pub(crate) files: RenderFiles,
+    /// Keys and values of the view.
+    pub(crate) view: Vec<(String, String)>,
+}
+
+/// What of [`RenderArguments`] is not declared by the library.
+#[derive(Debug, Args)]
+pub(crate) struct RenderFiles {
+    /// The recipe; its first view says of what colour ground and light are
+    #[arg(value_name = "RECIPE.toml")]
+    pub(crate) recipe: PathBuf,
+    /// .png, or of several frames numbered .png or one .apng [default: NAME.png]
+    #[arg(short, long, value_name = "FILE")]
+    pub(crate) output: Option<PathBuf>,
+    /// Width and height of the picture in pixels
+    #[arg(long, value_name = "WxH", default_value = "1920x1080", value_parser = shot::size)]
+    pub(crate) size: [u32; 2],
+    /// Samples a pixel at edges: 1 or 4
+    #[arg(long, value_name = "N", default_value_t = 4)]
+    pub(crate) samples: u32,
+    /// Where the camera stands: metres east and south of the north-western corner, and its elevation
+    #[arg(long, value_name = "X,Y,Z", allow_negative_numbers = true, value_parser = shot::point)]
+    pub(crate) camera: Option<shot::Point>,
+    /// Height of the eye above the ground at --camera X,Y: a person's view
+    #[arg(long, value_name = "METRES")]
+    pub(crate) eye: Option<f64>,
+    /// What the camera looks at: X,Y,Z, or X,Y on the ground [default: the middle of the landscape]
+    #[arg(long, value_name = "X,Y,Z", allow_negative_numbers = true, value_parser = shot::point)]
+    pub(crate) target: Option<shot::Point>,
+    /// Frames of a whole turn around what the camera looks at
+    #[arg(long, value_name = "FRAMES", value_parser = value_parser!(u32).range(2..=9999), conflicts_with_all = ["through", "eye"])]
+    pub(crate) turntable: Option<u32>,
+    /// Further points that the camera flies through after --camera; it looks ahead, or at --target
+    #[arg(long, value_name = "X,Y,Z", num_args = 1.., requires_all = ["camera", "frames"], allow_negative_numbers = true, value_parser = shot::point)]
+    pub(crate) through: Vec<shot::Point>,
+    /// Frames of a flight
+    #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(2..=9999), requires = "through")]
+    pub(crate) frames: Option<u32>,
+    /// Draw on the processor where there is no graphics device: view, which is ray-marched
+    #[arg(long, value_name = "PICTURE", value_parser = ["view"])]
+    pub(crate) fallback: Option<String>,
+    /// Cells along the longer side of the landscape; shape and extent stay
+    #[arg(long, value_name = "N", value_parser = value_parser!(u64).range(1..))]
+    pub(crate) cells: Option<u64>,
+    #[command(flatten)]
+    pub(crate) values: Values,
+    #[command(flatten)]
+    pub(crate) running: Running,
+}
+
+/// Keys of a view; its camera and size are told otherwise.
+const VIEW: Declared = Declared {
+    parameters: View::parameters,
+    heading: "View",
+    within: None,
+    renamed: &[("field_of_view_deg", "fov")],
+    without: &["width", "height", "samples", "target", "eye", "eye_height", "turn_deg"],
+};
+
+impl Args for RenderArguments {
+    fn augment_args(command: clap::Command) -> clap::Command {
+        VIEW.add_to(RenderFiles::augment_args(command))
+    }
+
+    fn augment_args_for_update(command: clap::Command) -> clap::Command {
+        Self::augment_args(command)
+    }
+}
+
+impl FromArgMatches for RenderArguments {
+    fn from_arg_matches(matches: &ArgMatches) -> Result<Self, clap::Error> {
+        Ok(Self { files: RenderFiles::from_arg_matches(matches)?, view: VIEW.given(matches) })
+    }
+
+    fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), clap::Error> {
+        *self = Self::from_arg_matches(matches)?;
+        Ok(())
+    }
+}
