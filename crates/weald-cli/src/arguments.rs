@@ -157,6 +157,9 @@ pub(crate) struct Running {
     /// Seconds between checkpoints of a running simulation
     #[arg(long, value_name = "SECONDS", default_value_t = 60)]
     pub(crate) checkpoint_every: u64,
+    /// Draw pictures of kind `render` on the processor where there is no graphics device: view, which is ray-marched
+    #[arg(long, value_name = "PICTURE", value_parser = ["view"])]
+    pub(crate) fallback: Option<String>,
     /// Print errors only
     #[arg(long)]
     pub(crate) quiet: bool,

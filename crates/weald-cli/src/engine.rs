@@ -4,8 +4,10 @@ use std::sync::Arc;
 
 use weald::engine::Engine;
 use weald::grid::Size;
+use weald::picture::{RayMarched, RenderDevice};
 use weald_gpu::Gpu;
 
+use crate::arguments::Running;
 use crate::failure::Failure;
 
 /// An engine that a user can ask for.
@@ -57,6 +59,15 @@ fn automatic(memory: Option<u64>) -> Result<Chosen, Failure> {
         None => Engine::Cpu,
     };
     Ok(Chosen { engine, note })
+}
+
+/// The device that draws; the processor where it is to and there is no device.
+pub(crate) fn drawing(running: &Running) -> Result<Arc<dyn RenderDevice>, Failure> {
+    match Gpu::for_drawing() {
+        Ok(gpu) => Ok(Arc::new(with_memory(gpu, running.gpu_memory)?)),
+        Err(_) if running.fallback.is_some() => Ok(Arc::new(RayMarched)),
+        Err(error) => Err(error.into()),
+    }
 }
 
 /// The device with the budget that the user gave, if any.

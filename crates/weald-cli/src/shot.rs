@@ -1,6 +1,6 @@
 //! Where the camera of `weald render` stands, as the command line says it.
 
-use weald::picture::{Camera, Stage, View};
+use weald::picture::{Camera, Flight, Stage, View};
 
 use crate::arguments::RenderFiles;
 use crate::failure::Failure;
@@ -94,9 +94,7 @@ fn standing(place: Point, eye: Option<f64>, stage: &Stage) -> Result<[f32; 3], F
             ));
         }
         (Some(elevation), None) => stage.drawn_height(elevation),
-        (None, Some(eye)) => {
-            ground.unwrap_or(stage.base()) + (stage.drawn_height(eye) - stage.drawn_height(0.0))
-        }
+        (None, Some(eye)) => stage.above_ground([east, south], eye)[2],
     };
     let lowest = ground.unwrap_or(stage.base());
     if height < lowest + LEAST_CLEARANCE {
@@ -127,44 +125,11 @@ fn looking(stage: &Stage, eye: [f32; 3], target: Option<[f32; 3]>) -> Result<Cam
 /// Cameras along a smooth line through all points, evenly in time.
 fn flight(files: &RenderFiles, stage: &Stage) -> Result<Vec<Camera>, Failure> {
     let points = files.camera.iter().chain(&files.through);
-    let points: Vec<_> = points.map(|&point| standing(point, files.eye, stage)).collect::<Result<_, _>>()?;
+    let points = points.map(|&point| standing(point, files.eye, stage)).collect::<Result<_, _>>()?;
+    let flight = Flight { points, target: target(files, stage) };
     let frames = files.frames.expect("clap asks for it");
-    let ahead = target(files, stage);
-    let place = |share: f64| along(&points, share);
-    (0..frames)
-        .map(|frame| {
-            let share = f64::from(frame) / f64::from(frames - 1);
-            let eye = place(share);
-            let [before, after] = [place(share - 0.01), place(share + 0.01)];
-            let straight = std::array::from_fn(|axis| eye[axis] + after[axis] - before[axis]);
-            looking(stage, eye, Some(ahead.unwrap_or(straight)))
-        })
-        .collect()
-}
-
-/// Catmull and Rom's spline through points, 1974; beyond its ends it goes straight on.
-fn along(points: &[[f32; 3]], share: f64) -> [f32; 3] {
-    let last = points.len() - 1;
-    let way = share * last as f64;
-    let first = (way.max(0.0) as usize).min(last - 1);
-    let t = (way - first as f64) as f32;
-    let at = |index: isize| {
-        let inside = index.clamp(0, last as isize) as usize;
-        let mirror = (2 * inside as isize - index).clamp(0, last as isize) as usize;
-        let beyond = f32::from(u8::from(index < 0 || index > last as isize));
-        std::array::from_fn::<f32, 3, _>(|axis| {
-            points[inside][axis] + beyond * (points[inside][axis] - points[mirror][axis])
-        })
-    };
-    let first = first as isize;
-    let [a, b, c, d] = [at(first - 1), at(first), at(first + 1), at(first + 2)];
-    std::array::from_fn(|axis| {
-        let (a, b, c, d) = (a[axis], b[axis], c[axis], d[axis]);
-        0.5 * (2.0 * b
-            + t * (c - a)
-            + t * t * (2.0 * a - 5.0 * b + 4.0 * c - d)
-            + t * t * t * (3.0 * (b - c) + d - a))
-    })
+    let share = |frame| f64::from(frame) / f64::from(frames - 1);
+    Ok((0..frames).map(|frame| flight.camera(share(frame), stage.camera())).collect())
 }
 
 #[cfg(test)]
@@ -182,18 +147,5 @@ mod tests {
         for text in ["", "320", "x", "-1x3", "1.5x2"] {
             assert!(size(text).expect_err("no size").contains("1920x1080"), "{text}");
         }
-    }
-
-    #[test]
-    fn a_flight_goes_through_its_points_in_equal_times() {
-        let points = [[0.0, 0.0, 10.0], [100.0, 0.0, 20.0], [100.0, 80.0, 5.0]];
-        assert_eq!(along(&points, 0.0), points[0]);
-        assert_eq!(along(&points, 0.5), points[1]);
-        assert_eq!(along(&points, 1.0), points[2]);
-        let steps: Vec<_> = (0..=40).map(|step| along(&points, f64::from(step) / 40.0)).collect();
-        let longest = steps
-            .windows(2)
-            .map(|pair| (0..3).map(|axis| (pair[1][axis] - pair[0][axis]).powi(2)).sum::<f32>().sqrt());
-        assert!(longest.fold(0.0, f32::max) < 9.0, "no leap");
     }
 }

@@ -23,7 +23,7 @@ pub(crate) struct RenderFiles {
     /// The recipe; its first view says of what colour ground and light are
     #[arg(value_name = "RECIPE.toml")]
     pub(crate) recipe: PathBuf,
-    /// .png, or of several frames numbered .png or one .apng [default: NAME.png]
+    /// .png, or of several frames numbered .png, one .apng, or .png and an .mp4 or .webm [default: NAME.png]
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output: Option<PathBuf>,
     /// Width and height of the picture in pixels
@@ -50,9 +50,6 @@ pub(crate) struct RenderFiles {
     /// Frames of a flight
     #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(2..=9999), requires = "through")]
     pub(crate) frames: Option<u32>,
-    /// Draw on the processor where there is no graphics device: view, which is ray-marched
-    #[arg(long, value_name = "PICTURE", value_parser = ["view"])]
-    pub(crate) fallback: Option<String>,
     /// Cells along the longer side of the landscape; shape and extent stay
     #[arg(long, value_name = "N", value_parser = value_parser!(u64).range(1..))]
     pub(crate) cells: Option<u64>,

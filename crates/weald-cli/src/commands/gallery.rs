@@ -2,7 +2,10 @@
 
 use std::path::Path;
 
+use weald::Error;
 use weald::gallery::{self, Begun};
+use weald::picture::RenderDevice;
+use weald_gpu::Gpu;
 
 use crate::failure::Failure;
 use crate::{interrupt, stdout};
@@ -13,7 +16,15 @@ const LONG: u32 = 5;
 /// Files are written whole or not at all, and the page after each figure: an interruption may end it at once.
 pub(crate) fn gallery(only: &[String], out: &Path) -> Result<(), Failure> {
     interrupt::end_at_once()?;
-    gallery::write(out, only, &|begun| eprintln!("{}", line(begun)))?;
+    // A figure that needs a device says so itself, but not why there is none.
+    let opened = Gpu::for_drawing();
+    let device = opened.as_ref().ok().map(|gpu| gpu as &dyn RenderDevice);
+    match (gallery::write(out, only, device, &|begun| eprintln!("{}", line(begun))), opened) {
+        (Err(Error::Device(figure)), Err(why)) => {
+            return Err(Error::Device(format!("{figure}: {why}")).into());
+        }
+        (done, _) => done?,
+    }
     stdout::print(&format!("{}\n", out.join("index.md").display()))
 }
 

@@ -3,20 +3,17 @@
 use std::path::{Path, PathBuf};
 
 use weald::Error;
-use weald::picture::{Camera, Cutout, Image, Stage, View, write_apng};
-use weald::recipe::{Film, Options, ViewRequest};
-use weald_gpu::{Gpu, RenderOptions, Renderer};
+use weald::picture::{Camera, Cutout, RenderScene, Rendering, Stage, View};
+use weald::recipe::{FILM_EXTENSIONS, Film, Frames, Options, Progress, ViewRequest};
 
 use super::run::{default_folder, watched};
 use crate::arguments::{RenderArguments, RenderFiles};
-use crate::engine::with_memory;
+use crate::engine::drawing;
 use crate::failure::Failure;
+use crate::progress::Shown;
 use crate::{interrupt, shot, stdout};
 
-/// Draws the picture of a frame and its camera.
-type Draw<'a> = dyn FnMut(usize, &Camera) -> Result<Image, Error> + 'a;
-
-/// Frames of an animated picture that are shown in a second.
+/// Frames of a film that are shown in a second.
 const FRAMES_PER_SECOND: f64 = 24.0;
 
 pub(crate) fn render(arguments: &RenderArguments) -> Result<(), Failure> {
@@ -31,46 +28,27 @@ pub(crate) fn render(arguments: &RenderArguments) -> Result<(), Failure> {
     let [width, height] = files.size;
     let view = View { width, height, ..view };
     // What cannot be drawn is told before an hour of simulation.
-    let device = device(files)?;
+    let device = drawing(&files.running)?;
+    device.check(files.size, files.samples)?;
     let options = Options::into_folder(default_folder(&files.recipe));
     let landscape = watched(&recipe, options, &files.running, |run, shown| run.landscape(shown))?;
     let stage = Stage::new(&view, &landscape)?;
     let cameras = shot::cameras(files, &view, &stage)?;
     let stage = stage.seen_from(cameras[0]);
-    let mut draw: Box<Draw<'_>> = match device {
-        Some((gpu, options)) => {
-            let mut renderer = Renderer::new(&gpu, &stage, options)?;
-            renderer.plant(&stage, &landscape)?;
-            Box::new(move |number, camera| {
-                renderer.set_moment(number as f32 / FRAMES_PER_SECOND as f32);
-                renderer.render(camera)
-            })
-        }
-        None => Box::new(move |_, &camera| view.seen_from(&landscape, camera)),
-    };
-    write(files, &output, &cameras, &mut *draw)
+    let scene = RenderScene { view: &view, stage: &stage, landscape: &landscape, samples: files.samples };
+    write(files, &output, &cameras, device.set_up(&scene)?.as_mut())
 }
 
-/// The device that draws; none where the processor is to and there is no device.
-fn device(files: &RenderFiles) -> Result<Option<(Gpu, RenderOptions)>, Failure> {
-    let options = RenderOptions { size: files.size, samples: files.samples };
-    match Gpu::for_drawing() {
-        Ok(gpu) => {
-            let gpu = with_memory(gpu, files.running.gpu_memory)?;
-            options.check(&gpu)?;
-            Ok(Some((gpu, options)))
-        }
-        Err(_) if files.fallback.is_some() => Ok(None),
-        Err(error) => Err(error.into()),
-    }
+/// Whether there are several frames.
+fn moves(files: &RenderFiles) -> bool {
+    files.turntable.is_some() || !files.through.is_empty()
 }
 
 /// The file, whose kind must suit the number of frames.
 fn output(files: &RenderFiles) -> Result<PathBuf, Failure> {
     let usual = || Path::new(files.recipe.file_stem().unwrap_or_default()).with_extension("png");
     let output = files.output.clone().unwrap_or_else(usual);
-    let moves = files.turntable.is_some() || !files.through.is_empty();
-    let legal: &[&str] = if moves { &["png", "apng"] } else { &["png"] };
+    let legal = if moves(files) { FILM_EXTENSIONS } else { &["png"] };
     let extension = output.extension().map(|extension| extension.to_string_lossy().to_lowercase());
     if extension.is_some_and(|extension| legal.contains(&extension.as_str())) {
         return Ok(output);
@@ -78,31 +56,41 @@ fn output(files: &RenderFiles) -> Result<PathBuf, Failure> {
     Err(Failure::usage(format!(
         "-o is {}; {} is a .{} file",
         output.display(),
-        if moves { "what moves" } else { "a still" },
-        legal.join(" or an .")
+        if moves(files) { "what moves" } else { "a still" },
+        legal.join(", .")
     )))
 }
 
-fn write(files: &RenderFiles, output: &Path, cameras: &[Camera], draw: &mut Draw<'_>) -> Result<(), Failure> {
-    let mut next = |number: usize| {
+fn write(
+    files: &RenderFiles,
+    output: &Path,
+    cameras: &[Camera],
+    rendering: &mut dyn Rendering,
+) -> Result<(), Failure> {
+    let count = cameras.len() as u64;
+    let shown = Shown::new(files.running.quiet);
+    shown.output(1, 1, output);
+    let mut next = |number: u64| {
+        shown.progress(number, count, 0);
         if interrupt::asked() {
             return Err(Error::Interrupted("interrupted; every file that is there is whole".to_owned()));
         }
-        draw(number, &cameras[number])
+        rendering.draw(&cameras[number as usize], number as f64 / FRAMES_PER_SECOND).map(Cutout::from)
     };
-    if Film::is_apng(output) {
-        let frames = (cameras.len() as u64, FRAMES_PER_SECOND);
-        write_apng(output, frames, |number| next(number as usize).map(Cutout::from))?;
-        return told(files, output);
+    let note = if moves(files) {
+        Frames { count, per_second: FRAMES_PER_SECOND, text: &[] }.write(output, &mut next)
+    } else {
+        next(0).and_then(|still| weald::io::write_whole(output, &still.to_png(&[]))).map(|()| None)
+    };
+    shown.end();
+    let note = note?;
+    if let Some(note) = note {
+        shown.note(note);
     }
-    for number in 0..cameras.len() {
-        let file = if cameras.len() == 1 { output.to_owned() } else { Film::frame(output, number as u64) };
-        weald::io::write_whole(&file, &next(number)?.to_png(&[]))?;
-        told(files, &file)?;
-    }
-    Ok(())
-}
-
-fn told(files: &RenderFiles, file: &Path) -> Result<(), Failure> {
-    if files.running.quiet { Ok(()) } else { stdout::print(&format!("{}\n", file.display())) }
+    let is_whole = !moves(files) || Film::is_apng(output) || (Film::is_video(output) && note.is_none());
+    let frames = if moves(files) && !Film::is_apng(output) { count } else { 0 };
+    let names = (0..frames).map(|number| Film::frame(output, number));
+    let names = names.chain(is_whole.then(|| output.to_owned()));
+    let names: Vec<_> = names.map(|file| file.display().to_string()).collect();
+    if files.running.quiet { Ok(()) } else { stdout::print(&(names.join("\n") + "\n")) }
 }

@@ -8,6 +8,7 @@ use weald::Error;
 use weald::recipe::{Options, OutputReport, Progress, REPORT_FILE, Recipe, Report, Run};
 
 use crate::arguments::{RunArguments, Running};
+use crate::engine::drawing;
 use crate::failure::Failure;
 use crate::progress::Shown;
 use crate::{interrupt, stdout};
@@ -32,11 +33,14 @@ pub(super) fn watched<T>(
     work: impl FnOnce(&Run<'_>, &Shown) -> Result<T, Error>,
 ) -> Result<T, Failure> {
     let chosen = running.engine.open(running.gpu_memory)?;
+    let draws = recipe.outputs.iter().any(|output| output.render().is_some());
+    let render = if draws { Some(drawing(running)?) } else { None };
     let options = Options {
         engine: chosen.engine,
         threads: running.threads.map(usize::from),
         checkpoint_every: Duration::from_secs(running.checkpoint_every),
         resume: running.resume,
+        render,
         ..options
     };
     interrupt::listen()?;

@@ -6,6 +6,7 @@
 //! brings light to the numbers of a picture.
 
 mod cascades;
+mod device;
 mod film;
 mod frame;
 mod frustum;

@@ -1,7 +1,7 @@
 //! The same landscapes young and old.
 
 use super::han::{self, Ran, Run, weathered};
-use super::{Claim, Figure, FigureOutput, GalleryJob, Measured, Plate, Verdict, texts, views};
+use super::{Claim, Figure, FigureOutput, GalleryJob, Make, Measured, Plate, Verdict, texts, views};
 use crate::error::Error;
 use crate::landscape::Landscape;
 use crate::picture::Image;
@@ -12,7 +12,7 @@ pub(super) const FIGURE: Figure = Figure {
     source: "Han 2015, doi 10.7583/JKGS.2015.15.6.171, Fig. 7",
     shows: "The longer the simulation runs, the wider the rivers, and the simpler their tributaries.",
     seconds: 16,
-    make,
+    make: Make::Alone(make),
 };
 
 const SEEDS: [u64; 2] = [3, 7];

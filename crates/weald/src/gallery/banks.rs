@@ -1,7 +1,7 @@
 //! Banks that a river undercuts: they stand too steep, or slide.
 
 use super::layered::{SOURCE, cut_open, from_above, ground, material, simulated, steepest_fall};
-use super::{Claim, Figure, FigureOutput, GalleryJob, Measured, Plate, Verdict, texts};
+use super::{Claim, Figure, FigureOutput, GalleryJob, Make, Measured, Plate, Verdict, texts};
 use crate::error::Error;
 use crate::grid::{Field, Size};
 use crate::landscape::Landscape;
@@ -14,7 +14,7 @@ pub(super) const FIGURE: Figure = Figure {
     shows: "A river cuts into its banks and makes them too steep to rest. Slippage lays each material back \
             to its own talus.",
     seconds: 2,
-    make,
+    make: Make::Alone(make),
 };
 
 const CELL: f64 = 1.0;

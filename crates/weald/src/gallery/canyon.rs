@@ -1,7 +1,7 @@
 //! A canyon in level beds: hard ones stand as ledges, soft ones are cut back.
 
 use super::layered::{self, SOURCE, cut_open, from_above, ground, material, simulated};
-use super::{Claim, Figure, FigureOutput, GalleryJob, Measured, Plate, Verdict, texts};
+use super::{Claim, Figure, FigureOutput, GalleryJob, Make, Measured, Plate, Verdict, texts};
 use crate::error::Error;
 use crate::grid::{Field, Size};
 use crate::landscape::Landscape;
@@ -15,7 +15,7 @@ pub(super) const FIGURE: Figure = Figure {
     shows: "Water cuts through layers from the top down. Hard layers stand as ledges, soft ones are cut back to the \
             slope on which they rest.",
     seconds: 2,
-    make,
+    make: Make::Alone(make),
 };
 
 const CELL: f64 = 5.0;

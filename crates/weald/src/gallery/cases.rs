@@ -1,7 +1,7 @@
 //! Two cases of capacity and strength, large.
 
 use super::han::{self, MEANING, RULE, Run, header, row, share};
-use super::{Claim, Figure, FigureOutput, GalleryJob, Measured, Verdict, views};
+use super::{Claim, Figure, FigureOutput, GalleryJob, Make, Measured, Verdict, views};
 use crate::error::Error;
 
 pub(super) const FIGURE: Figure = Figure {
@@ -11,7 +11,7 @@ pub(super) const FIGURE: Figure = Figure {
     shows: "Good capacities and strengths make networks of rivers. A small strength makes many fine valleys, a larger \
             one fewer and deeper ones. The pairs are two of those in the table that make networks.",
     seconds: 4,
-    make,
+    make: Make::Alone(make),
 };
 
 fn make(job: GalleryJob) -> Result<FigureOutput, Error> {

@@ -1,6 +1,6 @@
 //! A steep cone under the thermal schemes: by axes it becomes a square pyramid, isotropically it stays round.
 
-use super::{Claim, Figure, FigureOutput, GalleryJob, Measured, Plate, Verdict, run_steps, texts};
+use super::{Claim, Figure, FigureOutput, GalleryJob, Make, Measured, Plate, Verdict, run_steps, texts};
 use crate::analyse::contour::roundness;
 use crate::domain::Domain;
 use crate::error::Error;
@@ -15,7 +15,7 @@ pub(super) const FIGURE: Figure = Figure {
     shows: "Weathering that looks along the axes turns a cone into a pyramid; weathering by the slope of the \
             surface leaves it a cone.",
     seconds: 2,
-    make,
+    make: Make::Alone(make),
 };
 
 const SCHEMES: [&str; 3] = ["axis", "isotropic", "isotropic-symmetric"];

@@ -1,7 +1,7 @@
 //! Deposits that stand higher than the water they settled from, and the ratio that shrinks them.
 
 use super::han::{self, Ran, Run};
-use super::{Claim, Figure, FigureOutput, GalleryJob, Measured, Verdict, texts, views};
+use super::{Claim, Figure, FigureOutput, GalleryJob, Make, Measured, Verdict, texts, views};
 use crate::error::Error;
 
 pub(super) const FIGURE: Figure = Figure {
@@ -11,7 +11,7 @@ pub(super) const FIGURE: Figure = Figure {
     shows: "At a large capacity water carries more sediment than its own volume; where it dries up the deposit stands \
             higher than the water did, and lakes become land. Deposits that shrink by a ratio r do not.",
     seconds: 4,
-    make,
+    make: Make::Alone(make),
 };
 
 const RATIOS: [f64; 3] = [1.0, 0.5, 0.2];

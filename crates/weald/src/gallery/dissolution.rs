@@ -1,7 +1,7 @@
 //! Dissolution alone, which fills water up to its capacity: fast and slow.
 
 use super::han::{self, MEANING, Ran, Run, header, row, share};
-use super::{Claim, Figure, FigureOutput, GalleryJob, Measured, Verdict, views};
+use super::{Claim, Figure, FigureOutput, GalleryJob, Make, Measured, Verdict, views};
 use crate::error::Error;
 use crate::landscape::Landscape;
 
@@ -12,7 +12,7 @@ pub(super) const FIGURE: Figure = Figure {
     shows: "Erosion that only fills water up to its capacity does not form rivers. This holds where dissolution \
             is fast; slow dissolution depends on discharge again and does form them.",
     seconds: 7,
-    make,
+    make: Make::Alone(make),
 };
 
 /// Share of the free capacity that is taken up in a step (K_s), fast to slow.

@@ -1,7 +1,9 @@
 //! Soil that transport by velocity makes or loses.
 
 use super::start::{SEED, start_terrain};
-use super::{Claim, Figure, FigureOutput, GalleryJob, Measured, Plate, Verdict, run_steps, texts, views};
+use super::{
+    Claim, Figure, FigureOutput, GalleryJob, Make, Measured, Plate, Verdict, run_steps, texts, views,
+};
 use crate::error::Error;
 use crate::grid::Field;
 use crate::landscape::Landscape;
@@ -13,7 +15,7 @@ pub(super) const FIGURE: Figure = Figure {
     shows: "Sediment that is looked up where the flow came from is counted twice or not at all, so soil is not \
             conserved. Sediment that goes with the fluxes of the water is.",
     seconds: 4,
-    make,
+    make: Make::Alone(make),
 };
 
 /// Name and keys of each way of transport.

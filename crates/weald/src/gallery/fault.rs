@@ -5,7 +5,7 @@
 //! first k faults, the run of k is `scale (A - B/k)` and the run of k + 1 is `scale (A - B/(k+1))`, since the
 //! last fault of a run has size 0. Both give A and B, and the stage of a run of n is `scale (A - B/n)`.
 
-use super::{Claim, Figure, FigureOutput, GalleryJob, Measured, Plate, Verdict, run_steps, texts};
+use super::{Claim, Figure, FigureOutput, GalleryJob, Make, Measured, Plate, Verdict, run_steps, texts};
 use crate::domain::Domain;
 use crate::error::Error;
 use crate::grid::{Field, Size};
@@ -19,7 +19,7 @@ pub(super) const FIGURE: Figure = Figure {
     shows: "Random lines cut the map; one side rises, the other sinks, by steps that shrink to 0. A single \
             fault is a cliff, a few make plateaus, many make hills.",
     seconds: 1,
-    make,
+    make: Make::Alone(make),
 };
 
 const SEED: u64 = 7;

@@ -1,7 +1,7 @@
 //! Water and discharge for a small and a large k.
 
 use super::han::{self, MEANING, Run, share};
-use super::{Claim, Figure, FigureOutput, GalleryJob, Measured, Verdict, texts, views};
+use super::{Claim, Figure, FigureOutput, GalleryJob, Make, Measured, Verdict, texts, views};
 use crate::error::Error;
 
 pub(super) const FIGURE: Figure = Figure {
@@ -10,7 +10,7 @@ pub(super) const FIGURE: Figure = Figure {
     source: "Han 2015, doi 10.7583/JKGS.2015.15.6.171, Fig. 4",
     shows: "With a small k water stands in hollows and creeps; with a large k it gathers in streams.",
     seconds: 10,
-    make,
+    make: Make::Alone(make),
 };
 
 const RATES: [f64; 5] = [0.02, 0.1, 0.2, 0.4, 0.45];

@@ -1,7 +1,7 @@
 //! Force-based erosion against dissolution on the same ground.
 
 use super::layered::{SOURCE, cut_open, four, from_above, ground, material, simulated};
-use super::{Claim, Figure, FigureOutput, GalleryJob, Measured, Plate, Verdict, texts};
+use super::{Claim, Figure, FigureOutput, GalleryJob, Make, Measured, Plate, Verdict, texts};
 use crate::error::Error;
 use crate::grid::{Field, Size};
 use crate::landscape::Landscape;
@@ -14,7 +14,7 @@ pub(super) const FIGURE: Figure = Figure {
     shows: "Running water cuts where it is fast and leaves its bed rough. Dissolution softens whatever \
             lies under water, fast or slow, and what softened creeps and evens the bed out.",
     seconds: 2,
-    make,
+    make: Make::Alone(make),
 };
 
 fn make(job: GalleryJob) -> Result<FigureOutput, Error> {

@@ -1,7 +1,7 @@
 //! Forms of the ground for each sediment capacity K_c and erosion strength K_v.
 
 use super::han::{self, MEANING, RULE, Ran, Run};
-use super::{Claim, Figure, FigureOutput, GalleryJob, Measured, Plate, Verdict, views};
+use super::{Claim, Figure, FigureOutput, GalleryJob, Make, Measured, Plate, Verdict, views};
 use crate::error::Error;
 use crate::picture::Image;
 
@@ -12,7 +12,7 @@ pub(super) const FIGURE: Figure = Figure {
     shows: "There are a capacity K_c and a strength K_v at which a network of rivers forms. With too small \
             a strength little happens; with too large a one the ground breaks up into short gullies.",
     seconds: 30,
-    make,
+    make: Make::Alone(make),
 };
 
 const CAPACITIES: [f64; 4] = [0.1, 1.0, 10.0, 100.0];

@@ -1,7 +1,7 @@
 //! A source fills a hollow until its water finds an outlet, which it then carves.
 
 use super::layered::{SOURCE, cut_open, from_above, ground, material, simulated};
-use super::{Claim, Figure, FigureOutput, GalleryJob, Measured, Plate, Verdict, texts};
+use super::{Claim, Figure, FigureOutput, GalleryJob, Make, Measured, Plate, Verdict, texts};
 use crate::error::Error;
 use crate::grid::{Field, Size};
 use crate::landscape::Landscape;
@@ -14,7 +14,7 @@ pub(super) const FIGURE: Figure = Figure {
     shows: "A source fills a hollow. The lake rises to the lowest place of its rim and spills over it; what spills \
             carves the outlet deeper, and the lake sinks with it.",
     seconds: 4,
-    make,
+    make: Make::Alone(make),
 };
 
 /// Height of the lowest place of the rim, in metres.

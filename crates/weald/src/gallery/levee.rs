@@ -1,7 +1,7 @@
 //! A painted levee holds a river back from low ground.
 
 use super::layered::{SOURCE, cut_open, from_above, ground, material, simulated};
-use super::{Claim, Figure, FigureOutput, GalleryJob, Measured, Plate, Verdict, texts};
+use super::{Claim, Figure, FigureOutput, GalleryJob, Make, Measured, Plate, Verdict, texts};
 use crate::edit::{Area, Brush, Canvas, Effect, Falloff};
 use crate::error::Error;
 use crate::grid::{Field, Size};
@@ -15,7 +15,7 @@ pub(super) const FIGURE: Figure = Figure {
     shows: "A stroke of the brush lays a levee of the topmost material beside a river that leaves its bed, \
             and the low ground behind it stays dry.",
     seconds: 2,
-    make,
+    make: Make::Alone(make),
 };
 
 fn make(job: GalleryJob) -> Result<FigureOutput, Error> {

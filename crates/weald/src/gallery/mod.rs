@@ -35,7 +35,7 @@ pub use steps::run_steps;
 pub use write::{Begun, Selection, selectable, write, write_figures};
 
 use crate::error::Error;
-use crate::picture::Image;
+use crate::picture::{Image, RenderDevice};
 
 /// A figure's declaration.
 #[derive(Clone, Copy, Debug)]
@@ -51,7 +51,33 @@ pub struct Figure {
     /// About how many seconds it takes at full detail on two cores, for those who wait.
     pub seconds: u32,
     /// Makes it.
-    pub make: fn(GalleryJob) -> Result<FigureOutput, Error>,
+    pub make: Make,
+}
+
+/// How a figure is made.
+#[derive(Clone, Copy, Debug)]
+pub enum Make {
+    /// On the processor.
+    Alone(fn(GalleryJob) -> Result<FigureOutput, Error>),
+    /// With a device that draws.
+    Drawn(fn(GalleryJob, &dyn RenderDevice) -> Result<FigureOutput, Error>),
+}
+
+impl Figure {
+    /// Makes it, where there may be a device that draws.
+    ///
+    /// # Errors
+    /// [`Error::Run`] where a step fails, [`Error::Device`] where a device is needed and there is none, or it fails.
+    pub fn output(&self, job: GalleryJob, device: Option<&dyn RenderDevice>) -> Result<FigureOutput, Error> {
+        match (self.make, device) {
+            (Make::Alone(make), _) => make(job),
+            (Make::Drawn(make), Some(device)) => make(job, device),
+            (Make::Drawn(_), None) => Err(Error::Device(format!(
+                "figure {} is drawn by a graphics device, and there is none",
+                self.id
+            ))),
+        }
+    }
 }
 
 /// How much work a figure may be.

@@ -1,7 +1,7 @@
 //! The parameters of Han 2015 and the values that the figures use.
 
 use super::han::{self, Run, share};
-use super::{Claim, Figure, FigureOutput, GalleryJob, Measured, Verdict, texts};
+use super::{Claim, Figure, FigureOutput, GalleryJob, Make, Measured, Verdict, texts};
 use crate::error::Error;
 
 pub(super) const FIGURE: Figure = Figure {
@@ -11,7 +11,7 @@ pub(super) const FIGURE: Figure = Figure {
     shows: "The constants of the scheme. The values are those of Weald, chosen by the figures below; with cells of \
             size 1 they are the source's symbols.",
     seconds: 4,
-    make,
+    make: Make::Alone(make),
 };
 
 /// Symbol, key of the `hydraulic` step, value and meaning.

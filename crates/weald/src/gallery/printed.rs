@@ -1,7 +1,7 @@
 //! The scheme as printed, in which a wet cell gives more water than it has.
 
 use super::han::{self, MEANING, RULE, Ran, Run, header, row};
-use super::{Claim, Figure, FigureOutput, GalleryJob, Measured, Verdict, texts, views};
+use super::{Claim, Figure, FigureOutput, GalleryJob, Make, Measured, Verdict, texts, views};
 use crate::error::Error;
 
 pub(super) const FIGURE: Figure = Figure {
@@ -11,7 +11,7 @@ pub(super) const FIGURE: Figure = Figure {
     shows: "As printed, flux starts by differences in level and is stopped only where a cell is dry, so that depths go \
             below zero. Weald scales fluxes to the water there is.",
     seconds: 8,
-    make,
+    make: Make::Alone(make),
 };
 
 /// Name and keys of each variant of the printed scheme.

@@ -1,7 +1,7 @@
 //! How far apart valleys lie, by the angle at which ground rests.
 
 use super::han::{self, Ran, Run, weathered};
-use super::{Claim, Figure, FigureOutput, GalleryJob, Measured, Plate, Verdict, texts, views};
+use super::{Claim, Figure, FigureOutput, GalleryJob, Make, Measured, Plate, Verdict, texts, views};
 use crate::error::Error;
 
 pub(super) const FIGURE: Figure = Figure {
@@ -10,7 +10,7 @@ pub(super) const FIGURE: Figure = Figure {
     source: "Han 2015, doi 10.7583/JKGS.2015.15.6.171, on Fig. 6",
     shows: "The smaller the angle of repose, the wider apart the valleys: as if one had come nearer.",
     seconds: 7,
-    make,
+    make: Make::Alone(make),
 };
 
 const TALUS: [f64; 3] = [1.6, 0.8, 0.4];

@@ -1,7 +1,7 @@
 //! How large k may be: a lake at rest with the least ripples, left to itself.
 
 use super::views::laid_out;
-use super::{Claim, Figure, FigureOutput, GalleryJob, Measured, Plate, Verdict, texts};
+use super::{Claim, Figure, FigureOutput, GalleryJob, Make, Measured, Plate, Verdict, texts};
 use crate::domain::Domain;
 use crate::engine::Job;
 use crate::erode::hydraulic::Hydraulic;
@@ -20,7 +20,7 @@ pub(super) const FIGURE: Figure = Figure {
     shows: "The scheme is explicit: beyond a certain k waves grow without bound. On a lake at rest a wave of the \
             shortest length grows when k > 1/2, so recipes cannot ask for more.",
     seconds: 1,
-    make,
+    make: Make::Alone(make),
 };
 
 /// The last two lie on either side of the bound, closely.

@@ -1,6 +1,6 @@
 //! The fractal ground that erosion starts from.
 
-use super::{Claim, Figure, FigureOutput, GalleryJob, Measured, Plate, Verdict, han, run_steps, views};
+use super::{Claim, Figure, FigureOutput, GalleryJob, Make, Measured, Plate, Verdict, han, run_steps, views};
 use crate::analyse::network::{NetworkInput, measure};
 use crate::domain::Domain;
 use crate::error::Error;
@@ -13,7 +13,7 @@ pub(super) const FIGURE: Figure = Figure {
     source: "Han 2015, doi 10.7583/JKGS.2015.15.6.171, Fig. 3; Fournier, Fussell and Carpenter 1982, doi 10.1145/358523.358553",
     shows: "A height field by the diamond-square method: rough at all scales, without valleys that connect.",
     seconds: 2,
-    make,
+    make: Make::Alone(make),
 };
 
 /// Seed of the ground in figures that show a single one.

@@ -1,7 +1,7 @@
 //! Rivers by velocity-dependent erosion, without and with thermal weathering.
 
 use super::han::{self, MEANING, RULE, Ran, Run, header, row, weathered};
-use super::{Claim, Figure, FigureOutput, GalleryJob, Measured, Plate, Verdict, views};
+use super::{Claim, Figure, FigureOutput, GalleryJob, Make, Measured, Plate, Verdict, views};
 use crate::error::Error;
 use crate::picture::{Image, Picture, Section};
 
@@ -12,7 +12,7 @@ pub(super) const FIGURE: Figure = Figure {
     shows: "Erosion that depends on the velocity of water cuts a network of channels; thermal weathering opens \
             them into V-shaped valleys with mountains between.",
     seconds: 4,
-    make,
+    make: Make::Alone(make),
 };
 
 /// Tangent of the angle at which the ground rests.

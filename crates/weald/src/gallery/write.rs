@@ -5,6 +5,7 @@ use std::path::Path;
 use super::{FIGURES, Figure, FigureOutput, GalleryJob, page};
 use crate::error::Error;
 use crate::io::write_whole;
+use crate::picture::RenderDevice;
 
 /// A figure that is about to be made.
 #[derive(Clone, Copy, Debug)]
@@ -21,9 +22,15 @@ pub struct Begun<'a> {
 /// a folder. Sections of other figures on an older page stay. `progress` hears of each figure begun.
 ///
 /// # Errors
-/// [`Error::Run`] for an unknown id, a failed step, or a folder that cannot be written.
-pub fn write(folder: &Path, only: &[String], progress: &dyn Fn(Begun<'_>)) -> Result<(), Error> {
-    write_figures(FIGURES, folder, &Selection { only, job: GalleryJob::default() }, progress)
+/// [`Error::Run`] for an unknown id, a failed step, or a folder that cannot be written; [`Error::Device`] for a figure that
+/// a device draws where there is none.
+pub fn write(
+    folder: &Path,
+    only: &[String],
+    device: Option<&dyn RenderDevice>,
+    progress: &dyn Fn(Begun<'_>),
+) -> Result<(), Error> {
+    write_figures(FIGURES, folder, &Selection { only, job: GalleryJob::default(), device }, progress)
 }
 
 /// Which figures to make, and how.
@@ -33,6 +40,8 @@ pub struct Selection<'a> {
     pub only: &'a [String],
     /// What each is given.
     pub job: GalleryJob,
+    /// What draws those figures that a device draws.
+    pub device: Option<&'a dyn RenderDevice>,
 }
 
 /// [`write()`] for any list of figures. The page is written after each, so that what is done stays if the rest
@@ -53,7 +62,7 @@ pub fn write_figures(
     let chosen: Vec<_> = figures.iter().filter(|figure| selected(figure, selection.only)).collect();
     for (place, figure) in chosen.iter().enumerate() {
         progress(Begun { figure, number: place + 1, count: chosen.len() });
-        let output = (figure.make)(selection.job)?;
+        let output = figure.output(selection.job, selection.device)?;
         write_plates(figure, &output, folder)?;
         sections.insert(figure.id.to_owned(), page::section(figure, &output));
         write_whole(&page, page::assemble(figures, &sections).as_bytes())?;

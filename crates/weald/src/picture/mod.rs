@@ -22,6 +22,7 @@ mod materials;
 mod paint;
 mod ramp;
 mod relief;
+mod render;
 mod rivers;
 mod scene;
 mod section;
@@ -44,6 +45,7 @@ pub use map::Map;
 pub use materials::Materials;
 pub use ramp::{Ramp, Scale, Tint};
 pub use relief::Relief;
+pub use render::{Flight, Frame, RayMarched, Reel, Render, RenderDevice, RenderKeys, RenderScene, Rendering};
 pub use section::{Along, Section};
 pub(crate) use strokes::{Point as StrokePoint, Strokes};
 pub(crate) use view::albedo;
@@ -84,6 +86,11 @@ pub trait Picture: Debug + Send + Sync {
 
     /// The view that this picture is, for those that have a stage which a renderer on a device can draw.
     fn as_view(&self) -> Option<&View> {
+        None
+    }
+
+    /// What of it a device draws; `None` for a picture that the processor draws.
+    fn as_render(&self) -> Option<&Render> {
         None
     }
 
@@ -172,6 +179,11 @@ pub const PICTURES: &[PictureEntry] = &[
         "view",
         "a perspective view with sun, sky, haze and water",
         "Tevs 2008 (rays), Hillaire 2020 (sky), Max 1988 (horizons), Koschmieder 1924 (haze)",
+    ),
+    PictureEntry::of::<Render>(
+        "render",
+        "the same view drawn on the graphics device, with grass blade by blade and plants",
+        "Strugar 2009 (levels of detail), Kim and Cho 2010 (grass), Hillaire 2020 (sky)",
     ),
     PictureEntry::of::<Growth>(
         "fractal",

@@ -32,5 +32,5 @@ pub use plan::{
     Motion, Output, Planned, PlannedFractal, PlannedMaterial, PlantRole, Recipe, Seedling,
 };
 pub use report::{BudgetReport, OutputReport, REPORT_FILE, Report, SolidReport, StepReport, WaterReport};
-pub use run::{Options, Progress, Run, Silent};
+pub use run::{Frames, Options, Progress, Run, Silent};
 pub use view_request::ViewRequest;

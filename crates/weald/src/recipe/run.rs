@@ -6,9 +6,11 @@ mod folder;
 mod inputs;
 #[cfg(test)]
 mod tests;
+mod video;
 mod writer;
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use super::checkpoint::{self, CHECKPOINT_FILE, State};
@@ -20,8 +22,10 @@ use crate::error::Error;
 use crate::export::Finished;
 use crate::landscape::Landscape;
 use crate::material::layer_names;
+use crate::picture::RenderDevice;
 use crate::step::{Layered, Outcome};
 use desk::{Clock, Desk};
+pub use video::Frames;
 use writer::Writer;
 
 /// How a recipe is run. None of it changes the result.
@@ -39,6 +43,8 @@ pub struct Options {
     pub resume: bool,
     /// Whether `report.json` is written beside the outputs.
     pub report: bool,
+    /// What draws the pictures of kind `render`.
+    pub render: Option<Arc<dyn RenderDevice>>,
 }
 
 impl Options {
@@ -52,6 +58,7 @@ impl Options {
             checkpoint_every,
             resume: false,
             report: true,
+            render: None,
         }
     }
 }
@@ -122,6 +129,7 @@ impl Run<'_> {
     /// [`Error::Input`] for a damaged elevation model or checkpoint, [`Error::Run`] where a step or a file
     /// fails, [`Error::Interrupted`] where `progress` says so; the last two name the checkpoint, if any.
     pub fn execute(&self, progress: &dyn Progress) -> Result<Report, Error> {
+        self.recipe.outputs.iter().try_for_each(|output| self.check_drawing(output))?;
         let threads = self.options.threads.unwrap_or(0);
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
         let pool = pool.map_err(|cause| Error::Run(format!("cannot start {threads} threads: {cause}")))?;
@@ -138,6 +146,18 @@ impl Run<'_> {
         let state = self.finish_steps(progress)?;
         folder::remove_checkpoint(&self.checkpoint())?;
         Ok(state.landscape)
+    }
+
+    /// What cannot be drawn is told before an hour of simulation.
+    fn check_drawing(&self, output: &Output) -> Result<(), Error> {
+        match (output.render(), &self.options.render) {
+            (None, _) => Ok(()),
+            (Some(render), Some(device)) => render.check(device.as_ref()),
+            (Some(_), None) => Err(Error::Run(format!(
+                "{} is a picture of kind `render`, which needs a device that draws; none was given to this run",
+                output.file.display()
+            ))),
+        }
     }
 
     fn execute_here(&self, progress: &dyn Progress) -> Result<Report, Error> {
@@ -179,8 +199,8 @@ impl Run<'_> {
             progress.note(&format!("starting anew; the checkpoint {path} is used with --resume only"));
         }
         inputs::check(self.recipe)?;
-        if self.recipe.outputs.iter().any(Output::is_video) && !film::ffmpeg_is_there() {
-            progress.note(film::NO_FFMPEG);
+        if self.recipe.outputs.iter().any(Output::is_video) && !video::ffmpeg_is_there() {
+            progress.note(video::NO_FFMPEG);
         }
         let (landscape, notes) = ground::load(self.recipe)?;
         for note in &notes {
@@ -289,7 +309,8 @@ impl Run<'_> {
             progress.progress(frame, frames, 0);
             self.stop_if_cancelled(state, progress)
         };
-        let writer = Writer { finished, recipe: self.recipe, next_frame: &next_frame };
+        let device = self.options.render.as_deref();
+        let writer = Writer { finished, recipe: self.recipe, device, next_frame: &next_frame };
         let count = self.recipe.outputs.len();
         let mut reports = Vec::with_capacity(count);
         for (index, output) in self.recipe.outputs.iter().enumerate() {

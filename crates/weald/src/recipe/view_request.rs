@@ -8,7 +8,7 @@ use super::parameter::{Complaints, Parameters, key};
 use super::plan::{Content, FilmKeys, Output, Recipe};
 use super::source::{self, Node, Table, Value};
 use crate::error::Error;
-use crate::picture::View;
+use crate::picture::{RenderKeys, View};
 
 /// What the command line says of a view. Values are TOML; what is no TOML is text.
 #[derive(Clone, Debug, Default)]
@@ -32,7 +32,7 @@ impl ViewRequest {
         let mut complaints = Complaints::default();
         self.overrides.apply(&mut table, &mut complaints);
         let mut view = first_view(&table).unwrap_or_default();
-        for name in FilmKeys::parameters().iter().map(|film| key(film.name)) {
+        for name in FilmKeys::parameters().iter().chain(&RenderKeys::parameters()).map(|own| key(own.name)) {
             view.take(name);
         }
         view.set("picture", given(Value::Text("view".to_owned())));
@@ -55,14 +55,14 @@ fn view_of(output: &Output) -> Option<&View> {
     }
 }
 
-/// The first output that is a view.
+/// The first output that is a view, drawn on a device or not.
 fn first_view(recipe: &Table) -> Option<Table> {
     let Value::List(outputs) = &recipe.get("output")?.value else { return None };
     let tables = outputs.iter().filter_map(|node| match node {
         Node { value: Value::Table(table), .. } => Some(table),
         _ => None,
     });
-    let is_view = |table: &&Table| matches!(table.get("picture"), Some(Node { value: Value::Text(name), .. }) if name == "view");
+    let is_view = |table: &&Table| matches!(table.get("picture"), Some(Node { value: Value::Text(name), .. }) if ["view", "render"].contains(&name.as_str()));
     tables.into_iter().find(is_view).cloned()
 }
 

@@ -1,7 +1,7 @@
 //! Figures 2 and 3: what soil and light do to a blade, with the control points that can be moved.
 
 use super::chart::{Chart, GREEN, RED};
-use crate::gallery::{Claim, Figure, FigureOutput, GalleryJob, Measured, Plate, Verdict, texts};
+use crate::gallery::{Claim, Figure, FigureOutput, GalleryJob, Make, Measured, Plate, Verdict, texts};
 use crate::grow::grass::curves::JOINT;
 use crate::grow::grass::{Curves, LightCurve};
 use crate::picture::Image;
@@ -16,7 +16,7 @@ pub(in crate::gallery) const FIGURE_2: Figure = Figure {
     shows: "f1 from the soil, 0 to 1, through three control values that can be moved: the better the soil, the more a \
         blade grows. The source's values are lost; ours are 0.1, 0.6, 1.",
     seconds: 1,
-    make: |job| Ok(soil(job)),
+    make: Make::Alone(|job| Ok(soil(job))),
 };
 
 pub(in crate::gallery) const FIGURE_3: Figure = Figure {
@@ -27,7 +27,7 @@ pub(in crate::gallery) const FIGURE_3: Figure = Figure {
         rises with light, height is greatest in weak light and falls in strong light. As printed, with the light itself in \
         both arcs (red), the curves jump where they should meet.",
     seconds: 1,
-    make: |job| Ok(light(job)),
+    make: Make::Alone(|job| Ok(light(job))),
 };
 
 fn sheet(job: GalleryJob) -> Chart {

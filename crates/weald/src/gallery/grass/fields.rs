@@ -5,7 +5,7 @@ use super::tufts::Brush;
 use crate::domain::Domain;
 use crate::error::Error;
 use crate::gallery::views::map;
-use crate::gallery::{Claim, Figure, FigureOutput, GalleryJob, Measured, Plate, Verdict, texts};
+use crate::gallery::{Claim, Figure, FigureOutput, GalleryJob, Make, Measured, Plate, Verdict, texts};
 use crate::grid::{Field, Size};
 use crate::grow::grass::{Bend, Growth, Instance, LEVELS, Maps, Meadow, SPECIES, Species};
 use crate::landscape::Landscape;
@@ -17,7 +17,7 @@ pub(in crate::gallery) const FIGURE_10: Figure = Figure {
     source: "Kim and Cho 2009, fig. 10",
     shows: "Left, as before: one set everywhere. Right, the same sets grown by the soil and the light of their places.",
     seconds: 15,
-    make: |job| Ok(comparison(job)),
+    make: Make::Alone(|job| Ok(comparison(job))),
 };
 
 pub(in crate::gallery) const FIGURE_11: Figure = Figure {
@@ -27,7 +27,7 @@ pub(in crate::gallery) const FIGURE_11: Figure = Figure {
     shows: "Maps of soil, light and density, brighter being better or more, and the field that grows from them. The source's \
         images are lost; these have a stream of rich soil, the shade of three trees, and a trodden path.",
     seconds: 15,
-    make: mapped,
+    make: Make::Alone(mapped),
 };
 
 /// Cells of the maps along a side, and metres of each.

@@ -3,7 +3,7 @@
 use super::raster::Vector;
 use super::tufts::portrait;
 use crate::gallery::views::laid_out;
-use crate::gallery::{Claim, Figure, FigureOutput, GalleryJob, Measured, Plate, Verdict, texts};
+use crate::gallery::{Claim, Figure, FigureOutput, GalleryJob, Make, Measured, Plate, Verdict, texts};
 use crate::grow::grass::{Bend, Growth, SPECIES, Set};
 use crate::random::{hash2, unit};
 
@@ -14,7 +14,7 @@ pub(in crate::gallery) const FIGURE_5B: Figure = Figure {
     shows: "The source asks for other plants by other curves, widths and colours. These have their own curves, stiffness and \
         seed heads: above on good soil in half light, below on poor soil in full light.",
     seconds: 6,
-    make: |job| Ok(make(job)),
+    make: Make::Alone(|job| Ok(make(job))),
 };
 
 /// Sets of a clump.

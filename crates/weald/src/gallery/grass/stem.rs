@@ -2,7 +2,7 @@
 
 use super::chart::{Chart, GREEN, GREY, RED};
 use crate::gallery::views::laid_out;
-use crate::gallery::{Claim, Figure, FigureOutput, GalleryJob, Measured, Plate, Verdict, texts};
+use crate::gallery::{Claim, Figure, FigureOutput, GalleryJob, Make, Measured, Plate, Verdict, texts};
 use crate::grow::grass::spline::clamped;
 use crate::grow::grass::{Bend, Growth, LEVELS, Spline};
 use crate::picture::Image;
@@ -14,7 +14,7 @@ pub(in crate::gallery) const FIGURE_6: Figure = Figure {
     shows: "The clamped uniform cubic B-spline through the points of each level; it begins in the root and ends in the tip. \
         Above with the bend of the whole blade, below as printed, where each level turns the whole stem again.",
     seconds: 1,
-    make: |job| Ok(make(job)),
+    make: Make::Alone(|job| Ok(make(job))),
 };
 
 /// Good soil in the light in which grass grows tallest.

@@ -1,7 +1,7 @@
 //! Sets of blades as triangles, and figure 5: how a set grows.
 
 use super::raster::{Air, Camera, Corner, Vector, cross, dot, minus, picture, plus};
-use crate::gallery::{Claim, Figure, FigureOutput, GalleryJob, Measured, Plate, Verdict, texts};
+use crate::gallery::{Claim, Figure, FigureOutput, GalleryJob, Make, Measured, Plate, Verdict, texts};
 use crate::grow::grass::{BLADES, Bend, Blade, Growth, LEVELS, SPECIES, Set, Species, Spline};
 use crate::picture::Image;
 
@@ -12,7 +12,7 @@ pub(in crate::gallery) const FIGURE_5: Figure = Figure {
     shows: "A set of six blades from a sprout to the fourth level. In the source a blade jumps from level to level; here it \
         grows through all that is between, of which these are five moments.",
     seconds: 3,
-    make: |job| Ok(make(job)),
+    make: Make::Alone(|job| Ok(make(job))),
 };
 
 /// Least width of a blade in pixels: what is thinner would be seen in pieces.

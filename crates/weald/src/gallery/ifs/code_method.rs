@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use super::AMPLITUDE;
 use super::panels::{Panel, deformation, longest, points, row, rows, shape, tear};
 use crate::error::Error;
-use crate::gallery::{Claim, Figure, FigureOutput, GalleryJob, Measured, Plate, Verdict, texts};
+use crate::gallery::{Claim, Figure, FigureOutput, GalleryJob, Make, Measured, Plate, Verdict, texts};
 use crate::grow::ifs::deform::{
     CodeChange, Field, Frame, Insertion, Interval, Permutation, Replacement, Swap,
 };
@@ -69,7 +69,7 @@ macro_rules! figure {
             source: $source,
             shows: $shows,
             seconds: 8,
-            make: |job| make(&$method, job),
+            make: Make::Alone(|job| make(&$method, job)),
         };
     };
 }

@@ -2,7 +2,7 @@
 
 use super::panels::{Panel, longest, points, row, rows, shape};
 use crate::error::Error;
-use crate::gallery::{Claim, Figure, FigureOutput, GalleryJob, Measured, Plate, Verdict, texts};
+use crate::gallery::{Claim, Figure, FigureOutput, GalleryJob, Make, Measured, Plate, Verdict, texts};
 use crate::grow::ifs::map::distance;
 use crate::grow::ifs::{Code, Game, Ifs};
 use crate::picture::Image;
@@ -15,7 +15,7 @@ pub(in crate::gallery) const FIGURE_1: Figure = Figure {
     shows: "Three maps halve the triangle; a code says in which third of a third of a third a point lies. 24 digits tell \
             points 2^-24 of the triangle apart.",
     seconds: 2,
-    make: |job| make("gasket", [1, 2, 4], job),
+    make: Make::Alone(|job| make("gasket", [1, 2, 4], job)),
 };
 
 pub(in crate::gallery) const FIGURE_2: Figure = Figure {
@@ -25,7 +25,7 @@ pub(in crate::gallery) const FIGURE_2: Figure = Figure {
     shows: "Four maps: stem, the fern without its lowest pair of fronds, the left frond, the right frond. Since the second \
             map shrinks by little (0.851), 64 digits are needed.",
     seconds: 2,
-    make: |job| make("fern", [1, 2, 4], job),
+    make: Make::Alone(|job| make("fern", [1, 2, 4], job)),
 };
 
 pub(in crate::gallery) const FIGURE_15: Figure = Figure {
@@ -35,7 +35,7 @@ pub(in crate::gallery) const FIGURE_15: Figure = Figure {
     shows: "Parts by their first digit: 0 the stem, 1 what goes on upward, 2 the lowest left frond, 3 the lowest right one. A \
             frond hangs from its joint, the point of its prefix followed by zeros.",
     seconds: 2,
-    make: joints,
+    make: Make::Alone(joints),
 };
 
 fn make(name: &str, depths: [u32; 3], job: GalleryJob) -> Result<FigureOutput, Error> {

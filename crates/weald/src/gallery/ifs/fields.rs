@@ -3,7 +3,7 @@
 use super::AMPLITUDE;
 use super::panels::{Panel, deformation, longest, points, row, shape, tear};
 use crate::error::Error;
-use crate::gallery::{Claim, Figure, FigureOutput, GalleryJob, Measured, Plate, Verdict, texts};
+use crate::gallery::{Claim, Figure, FigureOutput, GalleryJob, Make, Measured, Plate, Verdict, texts};
 use crate::grow::ifs::Deform;
 use crate::grow::ifs::deform::{Field, Frame};
 use crate::picture::fractal::Look;
@@ -17,7 +17,7 @@ pub(in crate::gallery) const FIGURE_3: Figure = Figure {
     source: "Han and Kim 2007, fig. 3, eq. 5 and 6",
     shows: SHOWS,
     seconds: 2,
-    make: |job| make("gasket", job),
+    make: Make::Alone(|job| make("gasket", job)),
 };
 
 pub(in crate::gallery) const FIGURE_4: Figure = Figure {
@@ -26,7 +26,7 @@ pub(in crate::gallery) const FIGURE_4: Figure = Figure {
     source: "Han and Kim 2007, fig. 4, eq. 5 and 6",
     shows: SHOWS,
     seconds: 2,
-    make: |job| make("fern", job),
+    make: Make::Alone(|job| make("fern", job)),
 };
 
 /// Distance of neighbours of which the stretch is measured, in units of the square.

@@ -2,7 +2,7 @@
 
 use super::panels::{Panel, deformation, points, row, shape};
 use crate::error::Error;
-use crate::gallery::{Claim, Figure, FigureOutput, GalleryJob, Measured, Plate, Verdict, texts};
+use crate::gallery::{Claim, Figure, FigureOutput, GalleryJob, Make, Measured, Plate, Verdict, texts};
 use crate::grow::ifs::deform::Part;
 use crate::grow::ifs::map::distance;
 use crate::grow::ifs::{Code, Deform, Ifs};
@@ -16,7 +16,7 @@ pub(in crate::gallery) const FIGURE_16: Figure = Figure {
             grows. The source prints [3,…] for the second right frond; by its own fig. 15 it is [1,3]. Its angles and its \
             factor are lost; here they are 35°, -30° and 1.6.",
     seconds: 4,
-    make,
+    make: Make::Alone(make),
 };
 
 /// Prefix, angle in degrees, and factor.

@@ -3,7 +3,7 @@
 use super::AMPLITUDE;
 use super::panels::{Panel, deformation, longest, points, row, rows, shape};
 use crate::error::Error;
-use crate::gallery::{Claim, Figure, FigureOutput, GalleryJob, Measured, Plate, Verdict, texts};
+use crate::gallery::{Claim, Figure, FigureOutput, GalleryJob, Make, Measured, Plate, Verdict, texts};
 use crate::grow::ifs::deform::{Displacement, Field, Frame, Interval};
 use crate::grow::ifs::{Deform, Ifs};
 use crate::picture::Image;
@@ -29,7 +29,7 @@ macro_rules! figure {
             source: $source,
             shows: $shows,
             seconds: 6,
-            make: |job| make(&$vectors, job),
+            make: Make::Alone(|job| make(&$vectors, job)),
         };
     };
 }

@@ -165,6 +165,14 @@ impl Stage {
         terrain.is_land(place).then(|| terrain.top.at(place))
     }
 
+    /// The point so many metres above the drawn ground at a place in metres eastward and southward; above the plain
+    /// outside the land.
+    pub fn above_ground(&self, place: [f64; 2], metres: f64) -> [f32; 3] {
+        let ground = self.top_at(place).unwrap_or(self.base());
+        let [east, south] = place;
+        [east as f32, -south as f32, ground + metres as f32 * self.setting.exaggeration]
+    }
+
     /// Height at which an elevation in metres is drawn, above the lowest ground.
     pub fn drawn_height(&self, elevation: f64) -> f32 {
         (elevation - f64::from(self.setting.low)) as f32 * self.setting.exaggeration

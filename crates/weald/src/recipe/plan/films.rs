@@ -12,7 +12,7 @@ crate::parameters! {
         /// Iterations of the simulations from one frame to the next.
         every: Option<u64> = None, range 1..=1_000_000_000;
         /// Frames of a whole turn around the landscape, for a picture that has a camera; of a fractal in the wind those
-        /// after which its motion begins again.
+        /// after which its motion begins again, and of a drawn picture with `through` those of the flight.
         frames: Option<u32> = None, range 2..=9999;
         /// Frames that a video shows in a second.
         frames_per_second: Option<f64> = None, range 1.0..=240.0, unit "1/s";
@@ -59,11 +59,6 @@ impl Film {
     pub fn is_apng(file: &Path) -> bool {
         has_extension(file, "apng")
     }
-
-    /// How long it lasts with so many frames, in seconds.
-    pub fn seconds(&self, frames: u64) -> f64 {
-        frames as f64 / self.frames_per_second
-    }
 }
 
 fn has_extension(file: &Path, wanted: &str) -> bool {
@@ -96,8 +91,12 @@ pub(super) fn take(table: &mut Table, complaints: &mut Complaints) -> Option<Fil
     Some(Film { motion, frames_per_second: keys.frames_per_second.unwrap_or(USUAL_RATE) })
 }
 
-/// What stands against the film of a picture.
-pub(super) fn fault(film: &Film, name: &str, picture: &dyn Picture) -> Option<String> {
-    let stands = matches!(film.motion, Motion::Turn(_)) && picture.turned(0.0, 1.0).is_none();
-    stands.then(|| format!("a {name} has no camera that `frames` could turn; `every` shows it in time"))
+/// What stands against the film of a picture, or against a still of it.
+pub(super) fn fault(film: Option<&Film>, name: &str, picture: &dyn Picture) -> Option<String> {
+    let moves = film.is_some_and(|film| matches!(film.motion, Motion::Turn(_)));
+    if moves && picture.turned(0.0, 1.0).is_none() {
+        return Some(format!("a {name} has no camera that `frames` could turn; `every` shows it in time"));
+    }
+    let flies = picture.as_render().is_some_and(|render| render.keys.through.is_some());
+    (flies && !moves).then(|| "`through` needs `frames`: how many pictures the flight has".to_owned())
 }

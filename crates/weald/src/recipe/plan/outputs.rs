@@ -6,7 +6,7 @@ use super::films::{self, Film, Motion};
 use super::{Vocabulary, hint, tables};
 use crate::export::{Export, ExportEntry};
 use crate::io::{Encode, Holds};
-use crate::picture::{Picture, PictureEntry};
+use crate::picture::{Picture, PictureEntry, Render};
 use crate::recipe::parameter::{Complaints, LayerName, read_key};
 use crate::recipe::source::{Node, Table, Value};
 use crate::recipe::{CHECKPOINT_FILE, REPORT_FILE};
@@ -68,6 +68,14 @@ impl Output {
     /// Whether it is a time-lapse of the simulations.
     pub fn lapses(&self) -> bool {
         matches!(&self.content, Content::Film { film: Film { motion: Motion::Lapse(_), .. }, .. })
+    }
+
+    /// The picture that a device draws, where it is one.
+    pub fn render(&self) -> Option<&Render> {
+        match &self.content {
+            Content::Picture { picture, .. } | Content::Film { picture, .. } => picture.as_render(),
+            _ => None,
+        }
     }
 
     /// Names of the layers that it needs.
@@ -255,11 +263,13 @@ fn picture(entry: &PictureEntry, table: &Table, file: &Path, complaints: &mut Co
         if film.is_some() { ("film", films::EXTENSIONS) } else { ("picture", entry.extensions) };
     ensure_extension(&table, file, (what, extensions), complaints);
     let picture = with_keys(entry.name, "picture", &table, complaints, entry.read);
-    let Some(film) = film else { return Content::Picture { name: entry.name, picture } };
-    if let Some(fault) = films::fault(&film, entry.name, picture.as_ref()) {
+    if let Some(fault) = films::fault(film.as_ref(), entry.name, picture.as_ref()) {
         complaints.add(table.line, fault);
     }
-    Content::Film { name: entry.name, picture, film }
+    match film {
+        Some(film) => Content::Film { name: entry.name, picture, film },
+        None => Content::Picture { name: entry.name, picture },
+    }
 }
 
 fn export(entry: &ExportEntry, table: &Table, file: &Path, complaints: &mut Complaints) -> Content {

@@ -50,7 +50,7 @@ impl<'a> Desk<'a> {
         progress: &'a dyn Progress,
         clock: &'a Clock,
     ) -> Self {
-        let lapses = Lapses::during(run.recipe, state.done, &run.options.out);
+        let lapses = Lapses::during(run.recipe, state.done, &run.options);
         Self { run, state, progress, clock, kept: Mutex::new(None), lapses }
     }
 

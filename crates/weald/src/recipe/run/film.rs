@@ -1,12 +1,12 @@
-//! Films: numbered frames, and a video where the recipe asks for one and ffmpeg is there.
+//! Time-lapses, and pictures of one moment.
 
 use std::path::Path;
-use std::process::{Command, Stdio};
 
 use crate::error::Error;
-use crate::io::{write_through, write_whole};
+use crate::io::write_whole;
 use crate::landscape::Landscape;
-use crate::picture::{Cutout, Image, Picture};
+use crate::picture::{Cutout, Frame, Image, Picture, RenderDevice, Watch};
+use crate::recipe::Options;
 use crate::recipe::plan::{Content, Film, Motion, Output, Recipe};
 
 /// A time-lapse of a recipe.
@@ -20,6 +20,7 @@ pub(super) struct Lapse<'a> {
 pub(super) struct Lapses<'a> {
     films: Vec<Lapse<'a>>,
     folder: &'a Path,
+    device: Option<&'a dyn RenderDevice>,
     /// Iterations of each step that can be watched.
     watched: Vec<u64>,
     step: usize,
@@ -27,10 +28,11 @@ pub(super) struct Lapses<'a> {
 
 impl<'a> Lapses<'a> {
     /// Those of step `step` of the recipe, counted from 0.
-    pub(super) fn during(recipe: &'a Recipe, step: usize, folder: &'a Path) -> Self {
+    pub(super) fn during(recipe: &'a Recipe, step: usize, options: &'a Options) -> Self {
+        let (folder, device) = (options.out.as_path(), options.render.as_deref());
         let films = recipe.outputs.iter().filter_map(Lapse::of).collect();
         let watched = recipe.steps.iter().map(|planned| planned.step.watched()).collect();
-        Self { films, folder, watched, step }
+        Self { films, folder, device, watched, step }
     }
 
     /// The first number of iterations, from `done` on, that is a frame of one of them.
@@ -55,9 +57,27 @@ impl<'a> Lapses<'a> {
         for lapse in due {
             let earlier: u64 = self.watched[..self.step].iter().map(|all| all / lapse.every).sum();
             let path = self.folder.join(Film::frame(lapse.file, earlier + done / lapse.every));
-            write_whole(&path, &lapse.picture.render(landscape)?.to_png(&[]))?;
+            let image = still(lapse.picture, landscape, self.device, &mut |_, _| Ok(()))?.image;
+            write_whole(&path, &image.to_png(&[]))?;
         }
         Ok(())
+    }
+}
+
+/// A picture of what is there now, by the processor or by a device.
+pub(super) fn still(
+    picture: &dyn Picture,
+    landscape: &Landscape,
+    device: Option<&dyn RenderDevice>,
+    watch: &mut Watch<'_>,
+) -> Result<Cutout, Error> {
+    match (picture.as_render(), device) {
+        (Some(render), Some(device)) => {
+            let reel = render.reel(landscape, device)?;
+            let image = reel.set_up()?.draw(&reel.camera(Frame::STILL), Frame::STILL.seconds)?;
+            Ok(image.into())
+        }
+        _ => picture.cutout(landscape, watch),
     }
 }
 
@@ -86,45 +106,4 @@ pub(super) fn drawn(path: &Path, number: u64) -> Result<Cutout, Error> {
     let mut rgb = vec![0; 3 * width * height];
     reader.next_frame(&mut rgb).map_err(|cause| unread(&cause))?;
     Ok(Image { width, height, rgb }.into())
-}
-
-/// Whether videos can be made.
-pub(super) fn ffmpeg_is_there() -> bool {
-    let version = Command::new("ffmpeg").arg("-version").stdout(Stdio::null()).stderr(Stdio::null()).status();
-    version.is_ok_and(|status| status.success())
-}
-
-/// What is told where a video cannot be made.
-pub(super) const NO_FFMPEG: &str = "ffmpeg is not there, so the frames are written and no video; install it (Debian, Ubuntu: \
-     sudo apt-get install ffmpeg) and run again";
-
-/// Makes a video of numbered frames.
-pub(super) fn video(path: &Path, film: &Film, frames: u64) -> Result<(), Error> {
-    let is_webm = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("webm"));
-    let codec: &[&str] = if is_webm {
-        &["-f", "webm", "-c:v", "libvpx-vp9", "-crf", "24", "-b:v", "0", "-row-mt", "1"]
-    } else {
-        &["-f", "mp4", "-c:v", "libx264", "-crf", "17", "-preset", "slow", "-movflags", "+faststart"]
-    };
-    write_through(path, |temporary| {
-        let mut ffmpeg = Command::new("ffmpeg");
-        ffmpeg.args(["-nostdin", "-loglevel", "error", "-y", "-framerate"]);
-        ffmpeg.arg(film.frames_per_second.to_string()).arg("-start_number").arg("0");
-        ffmpeg.arg("-i").arg(pattern(path)).arg("-frames:v").arg(frames.to_string());
-        // Both codecs halve the resolution of colour, which needs even sides.
-        ffmpeg.args(["-vf", "crop=trunc(iw/2)*2:trunc(ih/2)*2", "-pix_fmt", "yuv420p"]).args(codec);
-        let output = ffmpeg.arg(temporary).output().map_err(|cause| Error::write(path, &cause))?;
-        if output.status.success() {
-            return Ok(());
-        }
-        let said = String::from_utf8_lossy(&output.stderr);
-        let (path, said) = (path.display(), said.trim());
-        Err(Error::Run(format!("cannot write {path}: ffmpeg says: {said}; its frames are whole")))
-    })
-}
-
-/// The name of all frames, as ffmpeg wants it.
-fn pattern(path: &Path) -> std::path::PathBuf {
-    let stem = path.file_stem().unwrap_or_default().to_string_lossy().replace('%', "%%");
-    path.with_file_name(format!("{stem}-%05d.png"))
 }

@@ -187,7 +187,7 @@ fn cells_without_data_are_written_as_such() {
     landscape.insert("height", "m", Field::from_values(size, vec![5.0, f32::NAN, 7.0]));
     let finished =
         Finished { landscape: &landscape, steps: &[], recipe: &recipe.file, hash: "", seed: recipe.seed };
-    let writer = Writer { finished, recipe: &recipe, next_frame: &|_, _| Ok(()) };
+    let writer = Writer { finished, recipe: &recipe, device: None, next_frame: &|_, _| Ok(()) };
     let raster = writer.raster("height").expect("the layer is there");
     assert_eq!(raster.field.values(), [5.0, 0.0, 7.0]);
     assert_eq!(raster.land, land);

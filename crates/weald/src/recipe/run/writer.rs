@@ -3,11 +3,12 @@
 use std::path::Path;
 
 use super::film;
+use super::video::Frames;
 use crate::error::Error;
 use crate::export::{Export, Finished};
 use crate::grid::Field;
 use crate::io::{Encode, Holds, Part, PartName, Provenance, Raster, write_parts, write_whole};
-use crate::picture::{Cutout, Picture, write_apng};
+use crate::picture::{Cutout, Frame, Picture, RenderDevice};
 use crate::recipe::plan::{Content, Film, Motion, Output, Recipe};
 use crate::recipe::report::OutputReport;
 
@@ -15,34 +16,10 @@ use crate::recipe::report::OutputReport;
 pub(super) struct Writer<'a> {
     pub(super) finished: Finished<'a>,
     pub(super) recipe: &'a Recipe,
+    /// What draws pictures of kind `render`.
+    pub(super) device: Option<&'a dyn RenderDevice>,
     /// Hears how far a film is, and says whether to go on.
     pub(super) next_frame: &'a dyn Fn(u64, u64) -> Result<(), Error>,
-}
-
-/// A film of a picture that moves by itself.
-struct Turn<'a> {
-    writer: &'a Writer<'a>,
-    picture: &'a dyn Picture,
-    frames: u64,
-    seconds: f64,
-}
-
-impl Turn<'_> {
-    fn frame(&self, frame: u64) -> Result<Cutout, Error> {
-        (self.writer.next_frame)(frame, self.frames)?;
-        let turned = self.picture.turned(frame as f64 / self.frames as f64, self.seconds);
-        let turned = turned.expect("the plan takes only pictures that turn");
-        let mut go_on = |_, _| (self.writer.next_frame)(frame, self.frames);
-        turned.cutout(self.writer.finished.landscape, &mut go_on)
-    }
-
-    /// Numbered pictures.
-    fn write(&self, path: &Path) -> Result<(), Error> {
-        for frame in 0..self.frames {
-            write_whole(&Film::frame(path, frame), &self.frame(frame)?.to_png(&self.writer.text()))?;
-        }
-        Ok(())
-    }
 }
 
 /// What an output is to become.
@@ -68,11 +45,12 @@ impl Writer<'_> {
         if path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("svg")) {
             write_whole(&path, picture.svg(self.finished.landscape)?.as_bytes())?;
         } else {
-            let cutout =
-                picture.cutout(self.finished.landscape, &mut |done, all| (self.next_frame)(done, all))?;
+            let mut go_on = |done, all| (self.next_frame)(done, all);
+            let cutout = film::still(picture, self.finished.landscape, self.device, &mut go_on)?;
             write_whole(&path, &cutout.to_png(&self.text()))?;
         }
-        Ok(OutputReport { picture: Some(name.to_owned()), ..OutputReport::default() })
+        let notes = self.drawn_by(picture).into_iter().collect();
+        Ok(OutputReport { picture: Some(name.to_owned()), notes, ..OutputReport::default() })
     }
 
     /// What a picture says of its origin.
@@ -96,25 +74,51 @@ impl Writer<'_> {
             Motion::Lapse(every) => film::lapse_frames(self.recipe, every),
             Motion::Turn(frames) => u64::from(frames),
         };
-        let turn = Turn { writer: self, picture, seconds: film.seconds(frames), frames };
-        let wanted = Film::is_video(target.file);
-        let possible = wanted && film::ffmpeg_is_there();
-        match film.motion {
-            Motion::Turn(_) if Film::is_apng(target.file) => {
-                write_apng(&path, (frames, film.frames_per_second), |frame| turn.frame(frame))?;
-            }
-            Motion::Turn(_) => turn.write(&path)?,
+        let (per_second, text) = (film.frames_per_second, self.text());
+        let kept = Frames { count: frames, per_second, text: &text };
+        let note = match film.motion {
+            Motion::Turn(_) => self.turn(&path, picture, &kept)?,
             Motion::Lapse(_) if Film::is_apng(target.file) => {
-                write_apng(&path, (frames, film.frames_per_second), |frame| film::drawn(&path, frame))?;
+                kept.write(&path, &mut |frame| film::drawn(&path, frame))?
             }
-            Motion::Lapse(_) => {}
-        }
-        if possible {
-            film::video(&path, film, frames)?;
-        }
-        let notes = if wanted && !possible { vec![film::NO_FFMPEG.to_owned()] } else { Vec::new() };
+            Motion::Lapse(_) => kept.video(&path)?,
+        };
+        let notes = note.into_iter().map(str::to_owned).chain(self.drawn_by(picture)).collect();
         let picture = Some(name.to_owned());
         Ok(OutputReport { picture, frames: Some(frames), notes, ..OutputReport::default() })
+    }
+
+    /// A picture that moves by itself.
+    fn turn(
+        &self,
+        path: &Path,
+        picture: &dyn Picture,
+        kept: &Frames<'_>,
+    ) -> Result<Option<&'static str>, Error> {
+        let (landscape, count) = (self.finished.landscape, kept.count);
+        if let (Some(render), Some(device)) = (picture.as_render(), self.device) {
+            let reel = render.reel(landscape, device)?;
+            let mut rendering = reel.set_up()?;
+            return kept.write(path, &mut |number| {
+                (self.next_frame)(number, count)?;
+                let seconds = number as f64 / kept.per_second;
+                let camera = reel.camera(Frame { number, count, seconds });
+                rendering.draw(&camera, seconds).map(Cutout::from)
+            });
+        }
+        let seconds = count as f64 / kept.per_second;
+        kept.write(path, &mut |number| {
+            (self.next_frame)(number, count)?;
+            let turned = picture.turned(number as f64 / count as f64, seconds);
+            let turned = turned.expect("the plan takes only pictures that turn");
+            turned.cutout(landscape, &mut |_, _| (self.next_frame)(number, count))
+        })
+    }
+
+    /// What drew a picture that is not the same on every device.
+    fn drawn_by(&self, picture: &dyn Picture) -> Option<String> {
+        let device = picture.as_render().and(self.device)?;
+        Some(format!("drawn on {}", device.adapter()))
     }
 
     fn layer(

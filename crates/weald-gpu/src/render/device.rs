@@ -1,0 +1,32 @@
+//! A device as the library's recipes and figures draw with it.
+
+use weald::Error;
+use weald::engine::device::Device;
+use weald::picture::{Camera, Image, RenderDevice, RenderScene, Rendering};
+
+use super::{Options, Renderer};
+use crate::gpu::Gpu;
+
+impl RenderDevice for Gpu {
+    fn adapter(&self) -> String {
+        Device::adapter(self)
+    }
+
+    fn check(&self, size: [u32; 2], samples: u32) -> Result<(), Error> {
+        Options { size, samples }.check(self)
+    }
+
+    fn set_up<'a>(&self, scene: &RenderScene<'a>) -> Result<Box<dyn Rendering + 'a>, Error> {
+        let size = [scene.view.width, scene.view.height];
+        let mut renderer = Renderer::new(self, scene.stage, Options { size, samples: scene.samples })?;
+        renderer.plant(scene.stage, scene.landscape)?;
+        Ok(Box::new(renderer))
+    }
+}
+
+impl Rendering for Renderer {
+    fn draw(&mut self, camera: &Camera, seconds: f64) -> Result<Image, Error> {
+        self.set_moment(seconds as f32);
+        self.render(camera)
+    }
+}

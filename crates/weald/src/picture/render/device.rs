@@ -1,0 +1,77 @@
+//! What the library asks of a device that draws. The crate `weald-gpu` answers; here is no GPU interface.
+
+use std::fmt::Debug;
+
+use crate::error::Error;
+use crate::landscape::Landscape;
+use crate::picture::{Camera, Image, Stage, View};
+
+/// A device that draws stages.
+pub trait RenderDevice: Debug + Send + Sync {
+    /// The adapter and its driver, for the report.
+    fn adapter(&self) -> String;
+
+    /// Refuses pictures that it cannot draw, before anything is allocated.
+    ///
+    /// # Errors
+    /// [`Error::Limit`] for a size in pixels or a number of samples that it does not have.
+    fn check(&self, size: [u32; 2], samples: u32) -> Result<(), Error>;
+
+    /// Brings what is to be shown to the device.
+    ///
+    /// # Errors
+    /// As [`RenderDevice::check`]; [`Error::Device`] where its memory does not suffice or it fails.
+    fn set_up<'a>(&self, scene: &RenderScene<'a>) -> Result<Box<dyn Rendering + 'a>, Error>;
+}
+
+/// What a device is to draw.
+#[derive(Clone, Copy, Debug)]
+pub struct RenderScene<'a> {
+    /// Light, air and size of the pictures.
+    pub view: &'a View,
+    /// The view of the landscape, made ready.
+    pub stage: &'a Stage,
+    /// The landscape, with what grows on it.
+    pub landscape: &'a Landscape,
+    /// Samples a pixel at edges, 1 or 4.
+    pub samples: u32,
+}
+
+/// A scene on a device.
+pub trait Rendering: Debug {
+    /// The picture of a camera at a moment in seconds, by which water flows and grass sways.
+    ///
+    /// # Errors
+    /// [`Error::Run`] for a camera whose numbers are not finite, [`Error::Device`] where the device fails.
+    fn draw(&mut self, camera: &Camera, seconds: f64) -> Result<Image, Error>;
+}
+
+/// The ray-marched view in place of a device: neither grass nor plants nor waves, and nothing moves but the camera.
+#[derive(Clone, Copy, Debug)]
+pub struct RayMarched;
+
+impl RenderDevice for RayMarched {
+    fn adapter(&self) -> String {
+        "the processor, ray-marched".to_owned()
+    }
+
+    fn check(&self, _: [u32; 2], _: u32) -> Result<(), Error> {
+        Ok(())
+    }
+
+    fn set_up<'a>(&self, scene: &RenderScene<'a>) -> Result<Box<dyn Rendering + 'a>, Error> {
+        Ok(Box::new(Marched { view: scene.view, landscape: scene.landscape }))
+    }
+}
+
+#[derive(Debug)]
+struct Marched<'a> {
+    view: &'a View,
+    landscape: &'a Landscape,
+}
+
+impl Rendering for Marched<'_> {
+    fn draw(&mut self, camera: &Camera, _: f64) -> Result<Image, Error> {
+        self.view.seen_from(self.landscape, *camera)
+    }
+}
