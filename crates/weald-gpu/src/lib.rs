@@ -46,5 +46,5 @@ mod watch;
 pub use gpu::Gpu;
 #[doc(hidden)]
 pub use render::TestLook;
-pub use render::{Options as RenderOptions, Renderer, Timings};
+pub use render::{Chosen, GrassLook, Options as RenderOptions, Renderer, Timings};
 pub use swarm::{Cloud, Swarm, SwarmRates, grow_blades};

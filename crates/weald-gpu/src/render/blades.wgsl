@@ -1,8 +1,9 @@
 // Blades of grass, lit from both sides.
 
 @group(2) @binding(0) var<uniform> grasses: Grasses;
-@group(2) @binding(1) var<storage, read> sets: array<vec4<u32>>;
-@group(2) @binding(2) var<storage, read> kept: array<u32>;
+@group(2) @binding(2) var<storage, read> sets: array<vec4<u32>>;
+@group(2) @binding(3) var<storage, read> kept: array<u32>;
+@group(2) @binding(4) var<storage, read> starts: array<u32>;
 
 struct Leaf {
     @builtin(position) position: vec4<f32>,
@@ -12,9 +13,6 @@ struct Leaf {
     // Share of the sun that is seen, and how open the place is among other blades.
     @location(3) light: vec2<f32>,
 }
-
-// Vertices of a blade in each list, two a row.
-const BLADE_ROWS = array<u32, 3>(9u, 5u, 3u);
 
 // The push of the wind at a place: gusts that travel, by which neighbours sway nearly as one.
 fn grass_push(place: vec2<f32>, phase: f32) -> vec2<f32> {
@@ -31,16 +29,17 @@ fn sine_of(turns: f32) -> f32 {
 
 fn leaf(list: u32, vertex: u32, instance_number: u32) -> Leaf {
     let count = arrayLength(&sets);
-    let number = kept[list * count + instance_number / BLADES];
+    let number = kept[starts[place_of_count(list, 0u, count)] + instance_number / BLADES];
     let instance = unpack(sets[number]);
     let root = grass_root(instance.place);
     let distance = length(root - frame.moment.yzw);
-    let tall = grass_height_share(instance.tuft, distance);
-    let along = f32(vertex / 2u) / f32(BLADE_ROWS[list] - 1u);
+    let tall = height_share(rank_of(instance.tuft), distance);
+    let row = vertex / 2u;
+    let along = (f32(row) - f32(row % 2u) * row_slide(list, distance)) / f32(choice.rows[list] - 1u);
     let side = f32(vertex % 2u) * 2.0 - 1.0;
     var blade = blade_of(instance.species, instance.tuft, instance_number % BLADES);
     // Fewer blades are broader, so that a meadow stays as thick; none is thinner than it can be seen.
-    let broader = 1.0 / sqrt(max(grass_share(distance), 0.05));
+    let broader = select(1.0, 1.0 / sqrt(max(share(distance), 0.05)), choice.thinned == 1u);
     let seen = 0.8 * distance * frame.eye.w;
     blade.width = max(blade.width * min(broader, 2.6), min(seen, 0.03));
     let still = vertex_of(blade, along, side);

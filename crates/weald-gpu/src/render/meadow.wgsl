@@ -1,19 +1,39 @@
-// Grass where it is looked at: each blade from its instance of 16 bytes, thinned and coarser with the distance.
+// Which sets of grass are drawn where it is looked at, and how finely: the twin of choice.rs, with the same names.
 
 // Distances in metres up to which blades have their finest and middle shapes, and beyond which there is none.
 const NEAR = 9.0;
 const MIDDLE = 28.0;
 const FARTHEST = 96.0;
 
+// Lists by distance.
+const LISTS = 3u;
+
+// Sets of a workgroup that chooses.
+const GROUP = 256u;
+
 // Distance up to which every set stands, and how fast they become fewer beyond it.
 const WHOLE = 10.0;
 const THINNING = 1.15;
 
-// Share of ranks over which a set that is thinned out sinks away, so that none vanishes at once.
+// Share of ranks over which a set that is left out sinks away, so that none vanishes at once.
 const SINKING = 0.25;
+
+// Share of a list's farthest distance at which its rows begin to slide.
+const SLIDE = 0.6;
+
+// A ball around a set's root that holds its blades.
+const AROUND = 2.0;
 
 // Share of light that comes through a blade.
 const THROUGH = 0.45;
+
+struct Choice {
+    rows: vec4<u32>,
+    culled: u32,
+    thinned: u32,
+}
+
+@group(2) @binding(1) var<uniform> choice: Choice;
 
 // Where a set stands, on the ground.
 fn grass_root(place: vec2<f32>) -> vec3<f32> {
@@ -22,27 +42,53 @@ fn grass_root(place: vec2<f32>) -> vec3<f32> {
 }
 
 // How many of the sets stand at a distance.
-fn grass_share(distance: f32) -> f32 {
+fn share(distance: f32) -> f32 {
     let thinned = pow(WHOLE / max(distance, WHOLE), THINNING);
     return thinned * clamp((FARTHEST - distance) / (0.35 * FARTHEST), 0.0, 1.0);
 }
 
-// How high a set stands at a distance, as a share: 0 where it is thinned out.
-fn grass_height_share(tuft: Set, distance: f32) -> f32 {
-    let rank = lot(tuft.seed, 7u, PHASE);
-    let share = grass_share(distance);
-    return clamp((share * (1.0 + SINKING) - rank) / SINKING, 0.0, 1.0);
+// How high a set of a rank stands at a distance, as a share: 0 where it is left out.
+fn height_share(rank: f32, distance: f32) -> f32 {
+    if choice.thinned == 0u {
+        return 1.0;
+    }
+    return clamp((share(distance) * (1.0 + SINKING) - rank) / SINKING, 0.0, 1.0);
+}
+
+// How far every second row of a list's blades has slid onto the one before it.
+fn row_slide(list: u32, distance: f32) -> f32 {
+    if choice.thinned == 0u || list > 1u {
+        return 0.0;
+    }
+    let end = select(MIDDLE, NEAR, list == 0u);
+    return clamp((distance - SLIDE * end) / ((1.0 - SLIDE) * end), 0.0, 1.0);
 }
 
 // The list of a distance: 0 for the finest blades.
-fn grass_list(distance: f32) -> u32 {
+fn list(distance: f32) -> u32 {
+    if choice.thinned == 0u {
+        return 0u;
+    }
     return select(select(2u, 1u, distance < MIDDLE), 0u, distance < NEAR);
 }
 
+// The list in which a set is drawn whose root is there; as many as there are where it is not.
+fn list_of(tuft: Set, root: vec3<f32>) -> u32 {
+    let distance = length(root - frame.moment.yzw);
+    let stands = height_share(rank_of(tuft), distance) > 0.0;
+    let seen = choice.culled == 0u || is_in_sight(root - frame.eye.xyz, AROUND);
+    return select(LISTS, list(distance), stands && seen);
+}
+
 // Whether a ball of a radius around a point, seen from the eye, may be in the picture.
-fn is_grass_in_sight(away: vec3<f32>, radius: f32) -> bool {
+fn is_in_sight(away: vec3<f32>, radius: f32) -> bool {
     let depth = dot(away, frame.forward.xyz);
     let aside = vec2<f32>(dot(away, frame.right.xyz), dot(away, frame.up.xyz));
     let half = vec2<f32>(frame.right.w, frame.up.w);
     return depth > -radius && all(abs(aside) <= depth * half + radius * sqrt(1.0 + half * half));
+}
+
+// Where in `starts` what a workgroup counts of a list stands, for so many sets.
+fn place_of_count(list: u32, group: u32, count: u32) -> u32 {
+    return list * ((count + GROUP - 1u) / GROUP) + group;
 }

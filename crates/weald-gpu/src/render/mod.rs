@@ -6,12 +6,14 @@
 //! brings light to the numbers of a picture.
 
 mod cascades;
+mod chosen;
 mod device;
 mod film;
 mod frame;
 mod frustum;
 mod grass;
 mod lattice;
+mod lawn;
 mod maps;
 mod passes;
 mod picture;
@@ -27,9 +29,11 @@ use weald::picture::{Camera, Image, Stage};
 use weald::{Error, Landscape};
 
 use crate::gpu::Gpu;
+pub use chosen::Chosen;
 use film::Film;
 use frame::{Drawn, Frame};
 use grass::Grass;
+pub use grass::GrassLook;
 use maps::Maps;
 use passes::{Drawing, Layouts, Passes};
 use picture::Landing;
@@ -101,6 +105,7 @@ pub struct Renderer {
     frame: Frame,
     terrain: Terrain,
     grass: Option<Grass>,
+    grass_look: GrassLook,
     passes: Passes,
     shadows: Shadows,
     targets: Targets,
@@ -135,6 +140,7 @@ impl Renderer {
             frame,
             terrain,
             grass: None,
+            grass_look: GrassLook::default(),
             passes,
             shadows,
             targets,
@@ -153,6 +159,11 @@ impl Renderer {
         let layouts = Layouts { frame: &self.frame, maps: &self.maps, shadows: &self.shadows };
         self.grass = Grass::new(&self.gpu, (stage, landscape), layouts, self.options.samples)?;
         Ok(())
+    }
+
+    /// Sets what of the grass the next pictures show.
+    pub fn set_grass_look(&mut self, look: GrassLook) {
+        self.grass_look = look;
     }
 
     /// Sets the moment of the next pictures, in seconds: water flows by it.
@@ -189,15 +200,8 @@ impl Renderer {
         encoder: &mut wgpu::CommandEncoder,
         target: &wgpu::TextureView,
     ) -> Result<(), Error> {
-        check_camera(camera)?;
-        let drawn = self.terrain.prepare(&self.gpu, camera, self.options.size, self.look.detail_from)?;
-        let drawn = Drawn { seconds: self.seconds, ..drawn };
-        self.frame.write(&self.gpu, camera, self.options.size[0], &drawn);
+        self.aim(camera, encoder)?;
         let groups = [&self.frame.caster_group, &self.maps.group];
-        if let Some(grass) = &mut self.grass {
-            grass.prepare(&self.gpu, camera)?;
-            grass.choose(encoder, groups);
-        }
         let timer = self.timer.as_ref();
         let drawing =
             Drawing { terrain: &self.terrain, grass: self.grass.as_ref(), bare: self.look.bare, timer };
@@ -205,6 +209,22 @@ impl Renderer {
         let groups = [&self.frame.group, &self.maps.group];
         self.passes.draw(encoder, &self.targets, groups, drawing);
         self.film.develop(&self.gpu, encoder, (&self.maps, timer), target)
+    }
+
+    /// Selects what a camera sees, and encodes the choice of its grass.
+    fn aim(&mut self, camera: &Camera, encoder: &mut wgpu::CommandEncoder) -> Result<(), Error> {
+        check_camera(camera)?;
+        let drawn = self.terrain.prepare(&self.gpu, camera, self.options.size, self.look.detail_from)?;
+        let drawn = Drawn { seconds: self.seconds, ..drawn };
+        self.frame.write(&self.gpu, camera, self.options.size[0], &drawn);
+        let groups = [&self.frame.caster_group, &self.maps.group];
+        if let Some(grass) = &mut self.grass {
+            grass.prepare(&self.gpu, camera, self.grass_look)?;
+            grass.choose(encoder, groups, self.timer.as_ref());
+        } else if let Some(timer) = &self.timer {
+            timer.skip_choice(encoder);
+        }
+        Ok(())
     }
 
     /// As [`Renderer::render`] with what tests look for.

@@ -220,6 +220,9 @@ impl Passes {
             pass.set_pipeline(&self.backdrop);
             pass.draw(0..3, 0..1);
         }
+        if let Some(timer) = timer {
+            timer.note(&mut pass, Moment::BehindEnds);
+        }
         if let Some(grass) = grass {
             grass.draw(&mut pass);
         }

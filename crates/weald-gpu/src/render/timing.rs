@@ -5,8 +5,8 @@ use std::time::{Duration, Instant};
 use weald::Error;
 use weald::picture::Camera;
 use wgpu::{
-    BufferUsages, CommandEncoder, Features, QuerySet, QuerySetDescriptor, QueryType, RenderPass,
-    RenderPassTimestampWrites,
+    BufferUsages, CommandEncoder, ComputePassDescriptor, ComputePassTimestampWrites, Features, QuerySet,
+    QuerySetDescriptor, QueryType, RenderPass, RenderPassTimestampWrites,
 };
 
 use super::Renderer;
@@ -21,17 +21,20 @@ pub(crate) const FEATURES: Features =
 /// Moments of a picture, in order.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Moment {
+    ChoiceBegins,
+    ChoiceEnds,
     ShadowsBegin,
     ShadowsEnd,
     LightBegins,
     GroundEnds,
+    BehindEnds,
     LightEnds,
     FilmBegins,
     FilmEnds,
 }
 
 /// How many moments there are.
-const MOMENTS: u32 = 7;
+const MOMENTS: u32 = 10;
 
 /// Bytes of a moment.
 const BYTES: u64 = 8;
@@ -45,6 +48,10 @@ pub struct Timings {
     pub ground: Duration,
     /// Cut sides, plain and sky.
     pub behind: Duration,
+    /// What is chosen of the grass.
+    pub choice: Duration,
+    /// Blades of grass.
+    pub grass: Duration,
     /// From light to the numbers of a picture.
     pub film: Duration,
     /// All of it, from choosing what is drawn to the end of the device's work.
@@ -85,6 +92,21 @@ impl Timer {
         }
     }
 
+    /// What a pass that computes notes at its ends.
+    pub(super) fn around_compute(&self, begin: Moment, end: Moment) -> ComputePassTimestampWrites<'_> {
+        ComputePassTimestampWrites {
+            query_set: &self.moments,
+            beginning_of_pass_write_index: Some(begin as u32),
+            end_of_pass_write_index: Some(end as u32),
+        }
+    }
+
+    /// Notes both moments of a choice that there is none of: every moment is to be noted once.
+    pub(super) fn skip_choice(&self, encoder: &mut CommandEncoder) {
+        let timestamp_writes = Some(self.around_compute(Moment::ChoiceBegins, Moment::ChoiceEnds));
+        drop(encoder.begin_compute_pass(&ComputePassDescriptor { label: None, timestamp_writes }));
+    }
+
     /// Notes a moment within a pass.
     pub(super) fn note(&self, pass: &mut RenderPass<'_>, moment: Moment) {
         pass.write_timestamp(&self.moments, moment as u32);
@@ -97,16 +119,19 @@ impl Timer {
     }
 
     /// Times between the moments of the picture that was drawn last, which took so long in all.
-    fn timings(&self, gpu: &Gpu, picture: Duration) -> Result<Timings, Error> {
+    fn timings(&self, gpu: &Gpu, picture: Duration, planted: bool) -> Result<Timings, Error> {
         let ticks = landed(gpu, &self.landing.buffer, bytemuck::pod_collect_to_vec::<u8, u64>)?;
         let tick = f64::from(gpu.context.queue.get_timestamp_period()) * 1e-9;
         let between = |from: Moment, to: Moment| {
             Duration::from_secs_f64(ticks[to as usize].saturating_sub(ticks[from as usize]) as f64 * tick)
         };
+        let of_grass = |from, to| if planted { between(from, to) } else { Duration::ZERO };
         Ok(Timings {
             shadows: between(Moment::ShadowsBegin, Moment::ShadowsEnd),
             ground: between(Moment::LightBegins, Moment::GroundEnds),
-            behind: between(Moment::GroundEnds, Moment::LightEnds),
+            behind: between(Moment::GroundEnds, Moment::BehindEnds),
+            choice: of_grass(Moment::ChoiceBegins, Moment::ChoiceEnds),
+            grass: of_grass(Moment::BehindEnds, Moment::LightEnds),
             film: between(Moment::FilmBegins, Moment::FilmEnds),
             picture,
         })
@@ -119,6 +144,8 @@ impl Timings {
             shadows: self.shadows.min(other.shadows),
             ground: self.ground.min(other.ground),
             behind: self.behind.min(other.behind),
+            choice: self.choice.min(other.choice),
+            grass: self.grass.min(other.grass),
             film: self.film.min(other.film),
             picture: self.picture.min(other.picture),
         }
@@ -156,6 +183,10 @@ impl Renderer {
             context.wait(None)
         })?;
         let picture = begun.elapsed();
-        self.timer.as_ref().expect("it is set by the caller").timings(&self.gpu, picture)
+        self.timer.as_ref().expect("it is set by the caller").timings(
+            &self.gpu,
+            picture,
+            self.grass.is_some(),
+        )
     }
 }

@@ -25,6 +25,7 @@ const HEIGHT: u32 = 3;
 const LEAN: u32 = 4;
 const FACING: u32 = 5;
 const PHASE: u32 = 6;
+const RANK: u32 = 7;
 
 /// Share of its height that a blade keeps that is trodden flat.
 const TRODDEN: f32 = 0.08;
@@ -98,6 +99,12 @@ impl Set {
     #[inline]
     pub fn phase(&self) -> f32 {
         lot(self.seed, 0, PHASE)
+    }
+
+    /// Its place among its neighbours, 0 to 1: where sets are left out, those of the highest rank go first.
+    #[inline]
+    pub fn rank(&self) -> f32 {
+        lot(self.seed, 0, RANK)
     }
 
     /// The height in metres that its blades have on the average, but for chance.

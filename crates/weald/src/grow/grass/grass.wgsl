@@ -13,6 +13,7 @@ const HEIGHT: u32 = 3u;
 const LEAN: u32 = 4u;
 const FACING: u32 = 5u;
 const PHASE: u32 = 6u;
+const RANK: u32 = 7u;
 const TRODDEN: f32 = 0.08;
 const STALK_WIDTH: f32 = 0.3;
 
@@ -242,6 +243,11 @@ fn around(seed: u32, number: u32, lot_of_blade: f32) -> f32 {
 // Where in a gust a set is: neighbours do not sway as one.
 fn phase_of(tuft: Set) -> f32 {
     return lot(tuft.seed, 0u, PHASE);
+}
+
+// Its place among its neighbours: where sets are left out, those of the highest rank go first.
+fn rank_of(tuft: Set) -> f32 {
+    return lot(tuft.seed, 0u, RANK);
 }
 
 fn trodden_point(point: vec2<f32>, upright: f32, lying: f32) -> vec2<f32> {

@@ -5,6 +5,7 @@
 //! it; six blades are a [`Set`]. A [`Species`] has its own curves, sizes and colours, and may bear seed heads.
 
 pub mod blade;
+pub mod choice;
 pub mod curves;
 pub mod device;
 pub mod growth;
@@ -20,6 +21,7 @@ pub mod step;
 mod tests;
 
 pub use blade::{BLADES, Blade, Set, Vertex};
+pub use choice::{Choice, Sight};
 pub use curves::{Curves, LightCurve, SoilCurve};
 pub use device::Grasses;
 pub use growth::{Bend, Growth, LEVELS};

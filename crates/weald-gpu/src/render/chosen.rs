@@ -1,0 +1,63 @@
+//! What was chosen of the grass, read back: for tests and benches.
+
+use weald::Error;
+use weald::grow::grass::Packed;
+use weald::grow::grass::choice::LISTS;
+use weald::picture::Camera;
+use wgpu::{BufferUsages, CommandEncoderDescriptor};
+
+use super::Renderer;
+use super::lawn::Sown;
+use super::picture::landed;
+use crate::gpu::Gpu;
+use crate::memory::Store;
+
+/// The sets of one grass that a picture chose from, and what it chose.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Chosen {
+    /// The sets, in their order.
+    pub sets: Vec<Packed>,
+    /// The numbers of those in each list, from the finest blades to the coarsest.
+    pub lists: [Vec<u32>; LISTS],
+}
+
+impl Renderer {
+    /// What the picture of a camera would choose of each grass.
+    ///
+    /// # Errors
+    /// As [`Renderer::render`].
+    pub fn chosen(&mut self, camera: &Camera) -> Result<Vec<Chosen>, Error> {
+        let context = self.gpu.context.clone();
+        context.attempt("choosing grass", || {
+            let mut encoder = context.device.create_command_encoder(&CommandEncoderDescriptor::default());
+            self.aim(camera, &mut encoder)?;
+            context.queue.submit([encoder.finish()]);
+            Ok(())
+        })?;
+        let sown = self.grass.iter().flat_map(|grass| grass.sown());
+        sown.map(|sown| Chosen::of(&self.gpu, sown)).collect()
+    }
+}
+
+impl Chosen {
+    fn of(gpu: &Gpu, sown: &Sown) -> Result<Self, Error> {
+        let (kept, starts) = (words(gpu, &sown.kept)?, words(gpu, &sown.starts)?);
+        let sets = words(gpu, &sown.sets)?;
+        let begin = |list: usize| starts[list * sown.groups() as usize] as usize;
+        Ok(Self {
+            sets: sets.chunks_exact(4).map(|set| [set[0], set[1], set[2], set[3]]).collect(),
+            lists: std::array::from_fn(|list| kept[begin(list)..begin(list + 1)].to_vec()),
+        })
+    }
+}
+
+/// The words of a buffer.
+fn words(gpu: &Gpu, store: &Store) -> Result<Vec<u32>, Error> {
+    let bytes = store.buffer.size();
+    let landing =
+        Store::new(gpu, "a buffer to read back", bytes, BufferUsages::COPY_DST | BufferUsages::MAP_READ)?;
+    let mut encoder = gpu.context.device.create_command_encoder(&CommandEncoderDescriptor::default());
+    encoder.copy_buffer_to_buffer(&store.buffer, 0, &landing.buffer, 0, bytes);
+    gpu.context.queue.submit([encoder.finish()]);
+    landed(gpu, &landing.buffer, bytemuck::pod_collect_to_vec::<u8, u32>)
+}

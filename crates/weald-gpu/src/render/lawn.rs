@@ -1,0 +1,193 @@
+//! One grass of a landscape on a device: its species, and the sets that a picture chooses from.
+
+use std::sync::Arc;
+
+use weald::Error;
+use weald::engine::uniform::Uniform;
+use weald::grow::grass::choice::{Choice, FARTHEST, LISTS};
+use weald::grow::grass::{Area, Grasses, Meadow};
+use wgpu::{BindGroup, BindGroupDescriptor, BindGroupEntry, BindGroupLayout, BufferUsages};
+
+use super::grass::GrassLook;
+use crate::gpu::Gpu;
+use crate::memory::Store;
+
+/// Side of the squares in metres, at the change of which sets are made anew.
+const SQUARE: f64 = 16.0;
+
+/// Most sets at once: 128 MiB of instances.
+const MOST_SETS: f64 = (1_u32 << 23) as f64;
+
+/// Bytes of a set, and of what choosing takes beside it: its mark, and its place in a list.
+const SET: u64 = 16;
+const CHOSEN: u64 = 4;
+
+/// Bytes of what an indirect draw wants.
+pub(super) const DRAW: u64 = 16;
+
+/// Sets of a workgroup that chooses, as `meadow.wgsl` has it.
+const GROUP: u32 = 256;
+
+/// One grass of a landscape.
+#[derive(Debug)]
+pub(super) struct Lawn {
+    meadow: Arc<Meadow>,
+    grasses: Store,
+    pub(super) sown: Option<Sown>,
+    shown: Option<(GrassLook, Option<[i64; 2]>)>,
+}
+
+/// The sets that a picture chooses from.
+#[derive(Debug)]
+pub(super) struct Sown {
+    pub(super) count: u32,
+    pub(super) sets: Store,
+    pub(super) kept: Store,
+    pub(super) starts: Store,
+    pub(super) draws: Store,
+    pub(super) cull: BindGroup,
+    pub(super) draw: BindGroup,
+    _marks: Store,
+    _choice: Store,
+}
+
+impl Lawn {
+    pub(super) fn new(gpu: &Gpu, meadow: &Arc<Meadow>) -> Result<Self, Error> {
+        let grasses = uniform(gpu, "the species of grass", &Grasses::new(&meadow.species, meadow.bend))?;
+        Ok(Self { meadow: Arc::clone(meadow), grasses, sown: None, shown: None })
+    }
+
+    /// Sows what is around a place, or all, where that is not what is sown already.
+    pub(super) fn prepare(
+        &mut self,
+        gpu: &Gpu,
+        place: [f64; 2],
+        look: GrassLook,
+        layouts: &[BindGroupLayout; 2],
+    ) -> Result<(), Error> {
+        let square = look.thinned.then(|| place.map(|at| (at / SQUARE).floor() as i64));
+        if self.shown != Some((look, square)) {
+            (self.sown, self.shown) = (None, None);
+            self.sown = self.sow(gpu, square, look, layouts)?;
+            self.shown = Some((look, square));
+        }
+        Ok(())
+    }
+
+    /// The sets around a square, or all; `None` where there are none.
+    fn sow(
+        &self,
+        gpu: &Gpu,
+        square: Option<[i64; 2]>,
+        look: GrassLook,
+        layouts: &[BindGroupLayout; 2],
+    ) -> Result<Option<Sown>, Error> {
+        let area = square.map_or_else(|| self.meadow.area(), around);
+        let expected = self.meadow.expected(&area);
+        if expected > MOST_SETS {
+            return Err(Error::Limit(format!(
+                "{expected:.0} sets of grass {}: at most {MOST_SETS} are drawn; sow fewer `sets` on a square metre",
+                if square.is_some() {
+                    format!("within {FARTHEST} m of the camera")
+                } else {
+                    "in all".to_owned()
+                }
+            )));
+        }
+        let level = look.level.unwrap_or(self.meadow.level);
+        let sets = match look.level {
+            Some(level) => Meadow { level, ..(*self.meadow).clone() }.sets(&area),
+            None => self.meadow.sets(&area),
+        };
+        if sets.is_empty() {
+            return Ok(None);
+        }
+        let count = sets.len() as u32;
+        let stores = Stores::new(
+            gpu,
+            u64::from(count),
+            Choice {
+                culled: u32::from(look.culled),
+                ..if look.thinned { Choice::of_a_picture() } else { Choice::of_all(level) }
+            },
+        )?;
+        crate::transfer::write(gpu, &stores.sets.buffer, bytemuck::cast_slice(&sets))?;
+        Ok(Some(stores.bound(gpu, &self.grasses, count, layouts)?))
+    }
+}
+
+impl Sown {
+    /// Workgroups that choose.
+    pub(super) fn groups(&self) -> u32 {
+        self.count.div_ceil(GROUP)
+    }
+}
+
+/// What lies within reach of a square.
+fn around(square: [i64; 2]) -> Area {
+    let reach = f64::from(FARTHEST);
+    Area {
+        low: square.map(|at| at as f64 * SQUARE - reach),
+        high: square.map(|at| (at + 1) as f64 * SQUARE + reach),
+    }
+}
+
+/// The buffers of sets.
+struct Stores {
+    choice: Store,
+    sets: Store,
+    kept: Store,
+    starts: Store,
+    draws: Store,
+    marks: Store,
+}
+
+impl Stores {
+    fn new(gpu: &Gpu, count: u64, choice: Choice) -> Result<Self, Error> {
+        let storage = BufferUsages::STORAGE | BufferUsages::COPY_DST | BufferUsages::COPY_SRC;
+        let store = |what, bytes, usage| Store::new(gpu, what, bytes, usage);
+        let lists = LISTS as u64;
+        let starts = 4 * (lists * count.div_ceil(u64::from(GROUP)) + 1);
+        Ok(Self {
+            choice: uniform(gpu, "what is shown of grass", &choice)?,
+            sets: store("sets of grass", SET * count, storage)?,
+            kept: store("grass in sight", CHOSEN * count, storage)?,
+            starts: store("starts of the lists of grass", starts, storage)?,
+            draws: store("draws of grass", DRAW * lists, storage | BufferUsages::INDIRECT)?,
+            marks: store("marks of grass", CHOSEN * count, storage)?,
+        })
+    }
+
+    fn bound(
+        self,
+        gpu: &Gpu,
+        grasses: &Store,
+        count: u32,
+        [to_choose, to_draw]: &[BindGroupLayout; 2],
+    ) -> Result<Sown, Error> {
+        let Self { choice, sets, kept, starts, draws, marks } = self;
+        let drawn = [grasses, &choice, &sets, &kept, &starts];
+        let cull = bind(gpu, to_choose, &[&drawn[..], &[&draws, &marks]].concat())?;
+        let draw = bind(gpu, to_draw, &drawn)?;
+        Ok(Sown { count, sets, kept, starts, draws, cull, draw, _marks: marks, _choice: choice })
+    }
+}
+
+fn uniform(gpu: &Gpu, what: &str, value: &impl Uniform) -> Result<Store, Error> {
+    // A struct takes whole vectors of four.
+    let mut words = value.words();
+    words.resize(words.len().next_multiple_of(4), 0);
+    let usage = BufferUsages::UNIFORM | BufferUsages::COPY_DST;
+    let store = Store::new(gpu, what, 4 * words.len() as u64, usage)?;
+    gpu.context.queue.write_buffer(&store.buffer, 0, bytemuck::cast_slice(&words));
+    Ok(store)
+}
+
+fn bind(gpu: &Gpu, layout: &BindGroupLayout, stores: &[&Store]) -> Result<BindGroup, Error> {
+    let entries: Vec<_> = (0..)
+        .zip(stores)
+        .map(|(binding, store)| BindGroupEntry { binding, resource: store.buffer.as_entire_binding() })
+        .collect();
+    let description = BindGroupDescriptor { label: Some("grass"), layout, entries: &entries };
+    gpu.context.attempt("binding grass", || Ok(gpu.context.device.create_bind_group(&description)))
+}
