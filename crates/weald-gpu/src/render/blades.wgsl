@@ -10,7 +10,7 @@ struct Leaf {
     @location(0) point: vec3<f32>,
     @location(1) normal: vec3<f32>,
     @location(2) colour: vec3<f32>,
-    // Share of the sun that is seen, and how open the place is among other blades.
+    // Shares of the sun and of the sky that are seen.
     @location(3) light: vec2<f32>,
 }
 
@@ -39,9 +39,9 @@ fn leaf(list: u32, vertex: u32, instance_number: u32) -> Leaf {
     let side = f32(vertex % 2u) * 2.0 - 1.0;
     var blade = blade_of(instance.species, instance.tuft, instance_number % BLADES);
     // Fewer blades are broader, so that a meadow stays as thick; none is thinner than it can be seen.
-    let broader = select(1.0, 1.0 / sqrt(max(share(distance), 0.05)), choice.thinned == 1u);
+    let standing = select(1.0, share(distance), choice.thinned == 1u);
     let seen = 0.8 * distance * frame.eye.w;
-    blade.width = max(blade.width * min(broader, 2.6), min(seen, 0.03));
+    blade.width = max(blade.width * broader(standing), min(seen, 0.03));
     let still = vertex_of(blade, along, side);
     let push = grass_push(instance.place * vec2<f32>(1.0, -1.0), phase_of(instance.tuft));
     let here = swayed(blade, still, vec2<f32>(push.x, -push.y));
@@ -49,9 +49,9 @@ fn leaf(list: u32, vertex: u32, instance_number: u32) -> Leaf {
     let point = root + offset;
     let normal = vec3<f32>(here.normal.x, -here.normal.z, here.normal.y);
     let sun = sun_seen(root + vec3<f32>(0.0, 0.0, 0.3), vec3<f32>(0.0, 0.0, 1.0));
-    let open = 0.3 + 0.7 * along;
+    let above = leaves_at(place_of(root)).w * (1.0 - along);
     return Leaf(
-        projected(point), point, normal, colour_of(instance.species, here.blend, here.head), vec2<f32>(sun, open),
+        projected(point), point, normal, colour_of(instance.species, here.blend, here.head), vec2<f32>(sun * through_leaves(above, stage.sun.z), sky_through_leaves(above)),
     );
 }
 
@@ -80,10 +80,10 @@ fn blade_fragment(in: Leaf) -> @location(0) vec4<f32> {
         normal = -normal;
     }
     let facing = dot(normal, stage.sun.xyz);
-    // What a blade sends back, and what shines through it, yellower; among others less light comes to its foot.
+    // What a blade sends back, and what shines through it, yellower.
     let front = max(facing, 0.0);
     let through = THROUGH * max(-facing, 0.0) * vec3<f32>(1.15, 1.05, 0.55);
-    let sun = stage.sunlight.xyz * in.light.x * (front + through) * in.light.y;
+    let sun = stage.sunlight.xyz * in.light.x * (front + through);
     let up = normalize(normal + vec3<f32>(0.0, 0.0, 1.4));
     let seen = seen_at(skylight, share_of(place_of(in.point)));
     let sky = skylight_on(seen, up) * in.light.y;

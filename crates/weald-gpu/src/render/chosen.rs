@@ -34,7 +34,7 @@ impl Renderer {
             context.queue.submit([encoder.finish()]);
             Ok(())
         })?;
-        let sown = self.grass.iter().flat_map(|grass| grass.sown());
+        let sown = self.grass.iter().flat_map(super::grass::Grass::sown);
         sown.map(|sown| Chosen::of(&self.gpu, sown)).collect()
     }
 }

@@ -17,32 +17,36 @@ struct Stone {
     tone: f32,
 }
 
-// Cells around scattered points: Worley 1996, doi 10.1145/237170.237267.
+// A stone in most cells of a grid, each of its own size and turn, off the middle by chance; the uppermost of those that
+// reach a place counts. Scattered points by Worley 1996, doi 10.1145/237170.237267.
 fn stones(place: vec2<f32>, seed: u32) -> Stone {
     let corner = floor(place);
-    var nearest = 8.0;
-    var second = 8.0;
-    var towards = vec2<f32>(0.0);
-    var bits = 0u;
+    var top = Stone(0.0, vec2<f32>(0.0), 0.0);
     for (var look = 0; look < 9; look++) {
         let cell = corner + vec2<f32>(f32(look % 3 - 1), f32(look / 3 - 1));
         let hash = grain_bits(i32(cell.x), i32(cell.y), seed);
+        let more = grain_bits(i32(hash & 0x7fffu), 7, seed);
         let centre = cell + vec2<f32>(f32(hash & 0xffffu), f32(hash >> 16u)) / 65536.0;
+        // Small ones are many.
+        let lot = f32(more & 0xffu) / 255.0;
+        let radius = 0.16 + 0.52 * lot * lot;
+        let turn = f32((more >> 8u) & 0xffu) * 0.0123;
+        let axis = vec2<f32>(cos(turn), sin(turn));
         let away = place - centre;
-        let distance = dot(away, away);
-        if distance < nearest {
-            second = nearest;
-            nearest = distance;
-            towards = away;
-            bits = hash;
-        } else {
-            second = min(second, distance);
+        // Its length over its width.
+        let long = 1.0 + 0.7 * f32((more >> 16u) & 0xffu) / 255.0;
+        let within = vec2<f32>(dot(away, axis), long * (axis.x * away.y - axis.y * away.x)) / radius;
+        let below = 1.0 - dot(within, within);
+        if below <= 0.0 {
+            continue;
+        }
+        let height = radius * sqrt(below);
+        if height > top.height {
+            let slope = -(axis * within.x + long * vec2<f32>(-axis.y, axis.x) * within.y) / sqrt(below + 0.15);
+            top = Stone(height, slope, f32(more >> 24u) / 255.0 - 0.5);
         }
     }
-    let edge = sqrt(second) - sqrt(nearest);
-    let tone = f32(grain_bits(i32(bits & 0x7fffu), 7, seed) & 0xffffu) / 65536.0 - 0.5;
-    let rise = clamp(edge * 4.0, 0.0, 1.0);
-    return Stone(rise * rise * (3.0 - 2.0 * rise), -towards * rise, tone);
+    return top;
 }
 
 // A flat stretch of detail: tone around 0, a hue that is drier above 0, and slopes.
@@ -59,17 +63,21 @@ fn turf_detail(point: vec2<f32>, footprint: f32) -> Detail {
 }
 
 fn stone_detail(point: vec2<f32>, footprint: f32) -> Detail {
-    var detail = Detail(0.0, 0.0, vec2<f32>(0.0));
-    var size = 0.55;
+    let sand = octaves_at(Octaves(0.4, 6u, 0.7, 0x3au), point, footprint);
+    var detail = Detail(0.35 * sand.value, 0.4 * sand.value, 0.06 * sand.slope);
+    var size = 0.06;
     for (var layer = 0u; layer < 3u; layer++) {
-        let shown = grain_visible(footprint, size);
+        let shown = grain_visible(footprint, 0.6 * size);
         if shown > 0.0 {
-            let stone = stones(point / size, 0x33u + layer);
-            detail.tone += shown * (0.55 * stone.tone - 0.5 * (1.0 - stone.height));
-            detail.hue += shown * 0.5 * stone.tone;
-            detail.bump += shown * 0.55 * stone.slope;
+            let stone = stones(point / size + 17.3 * f32(layer), 0x33u + layer);
+            // What lies on sand covers it, and shades it at its edge.
+            let edge = clamp(stone.height * 6.0, 0.0, 1.0);
+            let on_top = shown * edge;
+            detail.tone = mix(detail.tone, 0.75 * stone.tone + 0.12 * sand.value - 0.35 * (1.0 - edge), on_top);
+            detail.hue = mix(detail.hue, 0.8 * stone.tone, on_top);
+            detail.bump = mix(detail.bump, 0.45 * stone.slope, on_top);
         }
-        size *= 0.38;
+        size *= 2.9;
     }
     return detail;
 }

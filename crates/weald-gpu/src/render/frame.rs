@@ -5,7 +5,8 @@ use weald::picture::Camera;
 use wgpu::{
     BindGroup, BindGroupDescriptor, BindGroupEntry, BindGroupLayout, BindGroupLayoutDescriptor,
     BindGroupLayoutEntry, BindingResource, BindingType, BufferBindingType, BufferUsages, CompareFunction,
-    FilterMode, SamplerBindingType, SamplerDescriptor, ShaderStages, TextureSampleType, TextureViewDimension,
+    FilterMode, Sampler, SamplerBindingType, SamplerDescriptor, ShaderStages, TextureSampleType,
+    TextureViewDimension,
 };
 
 use super::cascades::{CASCADES, Cascades};
@@ -54,10 +55,11 @@ pub(super) struct Frame {
     pub(super) caster_layout: BindGroupLayout,
     pub(super) caster_group: BindGroup,
     numbers: Store,
+    sampler: Sampler,
 }
 
 impl Frame {
-    pub(super) fn new(gpu: &Gpu, shadows: &Canvas) -> Result<Self, Error> {
+    pub(super) fn new(gpu: &Gpu, shadows: &Canvas, canopy: &Canvas) -> Result<Self, Error> {
         let usage = BufferUsages::UNIFORM | BufferUsages::COPY_DST;
         let numbers = Store::new(gpu, "the numbers of a picture", size_of::<Numbers>() as u64, usage)?;
         let device = &gpu.context.device;
@@ -72,17 +74,16 @@ impl Frame {
             min_filter: FilterMode::Linear,
             ..SamplerDescriptor::default()
         });
-        let entries = [
-            BindGroupEntry { binding: 0, resource: numbers.buffer.as_entire_binding() },
-            BindGroupEntry { binding: 1, resource: BindingResource::TextureView(&shadows.view) },
-            BindGroupEntry { binding: 2, resource: BindingResource::Sampler(&sampler) },
-        ];
-        let bind = |layout: &BindGroupLayout, entries: &[BindGroupEntry<'_>]| {
-            let description = BindGroupDescriptor { label: Some("frame"), layout, entries };
-            gpu.context.attempt("binding a picture", || Ok(device.create_bind_group(&description)))
-        };
-        let (group, caster_group) = (bind(&layout, &entries)?, bind(&caster_layout, &entries[..1])?);
-        Ok(Self { layout, group, caster_layout, caster_group, numbers })
+        let group = bind(gpu, &layout, (&numbers, &sampler), [shadows, canopy])?;
+        let numbers_alone = [BindGroupEntry { binding: 0, resource: numbers.buffer.as_entire_binding() }];
+        let caster_group = bound(gpu, &caster_layout, &numbers_alone)?;
+        Ok(Self { layout, group, caster_layout, caster_group, numbers, sampler })
+    }
+
+    /// Takes another canopy.
+    pub(super) fn plant(&mut self, gpu: &Gpu, shadows: &Canvas, canopy: &Canvas) -> Result<(), Error> {
+        self.group = bind(gpu, &self.layout, (&self.numbers, &self.sampler), [shadows, canopy])?;
+        Ok(())
     }
 
     /// Sets the numbers of the next picture.
@@ -106,8 +107,28 @@ impl Frame {
     }
 }
 
-/// The bindings of `frame.wgsl` and `shadows.wgsl`.
-fn entries() -> [BindGroupLayoutEntry; 3] {
+fn bind(
+    gpu: &Gpu,
+    layout: &BindGroupLayout,
+    (numbers, sampler): (&Store, &Sampler),
+    [shadows, canopy]: [&Canvas; 2],
+) -> Result<BindGroup, Error> {
+    let entries = [
+        BindGroupEntry { binding: 0, resource: numbers.buffer.as_entire_binding() },
+        BindGroupEntry { binding: 1, resource: BindingResource::TextureView(&shadows.view) },
+        BindGroupEntry { binding: 2, resource: BindingResource::Sampler(sampler) },
+        BindGroupEntry { binding: 3, resource: BindingResource::TextureView(&canopy.view) },
+    ];
+    bound(gpu, layout, &entries)
+}
+
+fn bound(gpu: &Gpu, layout: &BindGroupLayout, entries: &[BindGroupEntry<'_>]) -> Result<BindGroup, Error> {
+    let description = BindGroupDescriptor { label: Some("frame"), layout, entries };
+    gpu.context.attempt("binding a picture", || Ok(gpu.context.device.create_bind_group(&description)))
+}
+
+/// The bindings of `frame.wgsl`, `shadows.wgsl` and `canopy.wgsl`.
+fn entries() -> [BindGroupLayoutEntry; 4] {
     let numbers = BindingType::Buffer {
         ty: BufferBindingType::Uniform,
         has_dynamic_offset: false,
@@ -124,5 +145,11 @@ fn entries() -> [BindGroupLayoutEntry; 3] {
         ty,
         count: None,
     };
-    [entry(0, numbers), entry(1, depths), entry(2, BindingType::Sampler(SamplerBindingType::Comparison))]
+    let leaves = BindingType::Texture {
+        sample_type: TextureSampleType::Float { filterable: true },
+        view_dimension: TextureViewDimension::D2,
+        multisampled: false,
+    };
+    let comparison = BindingType::Sampler(SamplerBindingType::Comparison);
+    [entry(0, numbers), entry(1, depths), entry(2, comparison), entry(3, leaves)]
 }

@@ -8,7 +8,7 @@
 
 use weald::grow::grass::device::FUNCTIONS;
 use weald::grow::grass::{BLADES, choice};
-use weald::picture::{Camera, Stage};
+use weald::picture::Stage;
 use weald::{Error, Landscape};
 use wgpu::{
     BindGroup, BindGroupLayout, BindGroupLayoutDescriptor, BindGroupLayoutEntry, BindingType,
@@ -97,9 +97,9 @@ impl Grass {
         })
     }
 
-    /// Sows what is around a camera, or all.
-    pub(super) fn prepare(&mut self, gpu: &Gpu, camera: &Camera, look: GrassLook) -> Result<(), Error> {
-        let place = [f64::from(camera.eye[0]), f64::from(-camera.eye[1])];
+    /// Sows what is around a point, or all.
+    pub(super) fn prepare(&mut self, gpu: &Gpu, from: [f32; 3], look: GrassLook) -> Result<(), Error> {
+        let place = [f64::from(from[0]), f64::from(-from[1])];
         self.lawns.iter_mut().try_for_each(|lawn| lawn.prepare(gpu, place, look, &self.layouts))
     }
 
@@ -148,6 +148,8 @@ fn module(gpu: &Gpu, stage: &Stage, own: &str) -> ShaderModule {
     let parts = [
         include_str!("frame.wgsl"),
         include_str!("shadows.wgsl"),
+        include_str!("thinning.wgsl"),
+        include_str!("canopy.wgsl"),
         FUNCTIONS,
         include_str!("meadow.wgsl"),
         own,

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use weald::Error;
 use weald::engine::uniform::Uniform;
 use weald::grow::grass::choice::{Choice, FARTHEST, LISTS};
-use weald::grow::grass::{Area, Grasses, Meadow};
+use weald::grow::grass::{Area, Grasses, Instance, Meadow, Packed};
 use wgpu::{BindGroup, BindGroupDescriptor, BindGroupEntry, BindGroupLayout, BufferUsages};
 
 use super::grass::GrassLook;
@@ -82,22 +82,14 @@ impl Lawn {
         look: GrassLook,
         layouts: &[BindGroupLayout; 2],
     ) -> Result<Option<Sown>, Error> {
-        let area = square.map_or_else(|| self.meadow.area(), around);
-        let expected = self.meadow.expected(&area);
-        if expected > MOST_SETS {
-            return Err(Error::Limit(format!(
-                "{expected:.0} sets of grass {}: at most {MOST_SETS} are drawn; sow fewer `sets` on a square metre",
-                if square.is_some() {
-                    format!("within {FARTHEST} m of the camera")
-                } else {
-                    "in all".to_owned()
-                }
-            )));
-        }
         let level = look.level.unwrap_or(self.meadow.level);
-        let sets = match look.level {
-            Some(level) => Meadow { level, ..(*self.meadow).clone() }.sets(&area),
-            None => self.meadow.sets(&area),
+        let meadow = match look.level {
+            Some(level) => &Arc::new(Meadow { level, ..(*self.meadow).clone() }),
+            None => &self.meadow,
+        };
+        let sets = match square {
+            Some(square) => around(meadow, square)?,
+            None => checked(meadow, &meadow.area())?,
         };
         if sets.is_empty() {
             return Ok(None);
@@ -123,13 +115,43 @@ impl Sown {
     }
 }
 
-/// What lies within reach of a square.
-fn around(square: [i64; 2]) -> Area {
+/// The sets that may be drawn from within a square: the farther from it, the fewer.
+fn around(meadow: &Meadow, square: [i64; 2]) -> Result<Vec<Packed>, Error> {
     let reach = f64::from(FARTHEST);
-    Area {
-        low: square.map(|at| at as f64 * SQUARE - reach),
-        high: square.map(|at| (at + 1) as f64 * SQUARE + reach),
+    let [low, high] = [0, 1].map(|end| square.map(|at| (at + end) as f64 * SQUARE));
+    let strips = ((high[1] - low[1] + 2.0 * reach) / SQUARE).ceil() as u32;
+    let choice = Choice::of_a_picture();
+    let may_be_drawn = |set: &Packed| {
+        let Instance { place, tuft, .. } = Instance::unpack(*set);
+        let away = [0, 1].map(|axis| {
+            let at = f64::from(place[axis]);
+            (low[axis] - at).max(at - high[axis]).max(0.0) as f32
+        });
+        choice.height_share(tuft.rank(), away[0].hypot(away[1])) > 0.0
+    };
+    let mut sets = Vec::new();
+    for strip in 0..strips {
+        let north = low[1] - reach + f64::from(strip) * SQUARE;
+        let area = Area { low: [low[0] - reach, north], high: [high[0] + reach, north + SQUARE] };
+        sets.extend(checked(meadow, &area)?.into_iter().filter(may_be_drawn));
+        check(sets.len() as f64)?;
     }
+    Ok(sets)
+}
+
+/// All sets of an area, unless there are too many.
+fn checked(meadow: &Meadow, area: &Area) -> Result<Vec<Packed>, Error> {
+    check(meadow.expected(area))?;
+    Ok(meadow.sets(area))
+}
+
+fn check(sets: f64) -> Result<(), Error> {
+    if sets <= MOST_SETS {
+        return Ok(());
+    }
+    Err(Error::Limit(format!(
+        "{sets:.0} sets of grass around the camera: at most {MOST_SETS} are drawn; sow fewer `sets` on a square metre"
+    )))
 }
 
 /// The buffers of sets.

@@ -43,7 +43,7 @@ impl Maps {
     }
 }
 
-fn format(kind: MapKind) -> TextureFormat {
+pub(super) fn format(kind: MapKind) -> TextureFormat {
     match kind {
         MapKind::Exact => TextureFormat::R32Float,
         MapKind::Smooth => TextureFormat::Rgba16Float,
@@ -60,13 +60,29 @@ fn upload(gpu: &Gpu, map: &StageMap) -> Result<Canvas, Error> {
         ..Shape::flat(size, format(map.kind), usage)
     };
     let canvas = Canvas::new(gpu, &format!("the map `{}`", map.name), shape)?;
-    let row = map.size[0] * map.kind.channels();
-    for (layer, values) in map.values.chunks(row * map.size[1]).enumerate() {
-        for (piece, rows) in values.chunks(row * ROWS).enumerate() {
-            write(gpu, &canvas, map, [layer, piece * ROWS], rows)?;
+    let values = Texels { kind: map.kind, columns: map.size[0], values: &map.values };
+    write(gpu, &canvas, &values)?;
+    Ok(canvas)
+}
+
+/// The values of a texture, layer by layer, row by row.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Texels<'a> {
+    pub(super) kind: MapKind,
+    pub(super) columns: usize,
+    pub(super) values: &'a [f32],
+}
+
+/// Fills a texture, a few rows at a time.
+pub(super) fn write(gpu: &Gpu, canvas: &Canvas, texels: &Texels<'_>) -> Result<(), Error> {
+    let row = texels.columns * texels.kind.channels();
+    let rows_of_a_layer = canvas.texture.height() as usize;
+    for (layer, values) in texels.values.chunks(row * rows_of_a_layer).enumerate() {
+        for (piece, values) in values.chunks(row * ROWS).enumerate() {
+            write_rows(gpu, canvas, [layer, piece * ROWS], Texels { values, ..*texels })?;
         }
     }
-    Ok(canvas)
+    Ok(())
 }
 
 fn is_array(name: &str) -> bool {
@@ -74,16 +90,14 @@ fn is_array(name: &str) -> bool {
 }
 
 /// Writes some rows of a layer, and waits until they are there.
-fn write(
+fn write_rows(
     gpu: &Gpu,
     canvas: &Canvas,
-    map: &StageMap,
     [layer, row]: [usize; 2],
-    values: &[f32],
+    Texels { kind, columns, values }: Texels<'_>,
 ) -> Result<(), Error> {
-    let bytes = texels(map.kind, values);
-    let columns = map.size[0];
-    let rows = values.len() / (columns * map.kind.channels());
+    let bytes = bytes(kind, values);
+    let rows = values.len() / (columns * kind.channels());
     let _staged = gpu.memory.hold(bytes.len() as u64, "staging")?;
     let submission = gpu.context.attempt("bringing maps to the GPU", || {
         let place = TexelCopyTextureInfo {
@@ -104,7 +118,7 @@ fn write(
     gpu.context.wait(Some(submission))
 }
 
-fn texels(kind: MapKind, values: &[f32]) -> Vec<u8> {
+fn bytes(kind: MapKind, values: &[f32]) -> Vec<u8> {
     match kind {
         MapKind::Exact => bytemuck::cast_slice(values).to_vec(),
         MapKind::Smooth => values.iter().flat_map(|&value| f16::from_f32(value).to_le_bytes()).collect(),

@@ -1,19 +1,14 @@
 // Which sets of grass are drawn where it is looked at, and how finely: the twin of choice.rs, with the same names.
 
-// Distances in metres up to which blades have their finest and middle shapes, and beyond which there is none.
+// Distances in metres up to which blades have their finest and middle shapes.
 const NEAR = 9.0;
 const MIDDLE = 28.0;
-const FARTHEST = 96.0;
 
 // Lists by distance.
 const LISTS = 3u;
 
 // Sets of a workgroup that chooses.
 const GROUP = 256u;
-
-// Distance up to which every set stands, and how fast they become fewer beyond it.
-const WHOLE = 10.0;
-const THINNING = 1.15;
 
 // Share of ranks over which a set that is left out sinks away, so that none vanishes at once.
 const SINKING = 0.25;
@@ -39,12 +34,6 @@ struct Choice {
 fn grass_root(place: vec2<f32>) -> vec3<f32> {
     let point = vec3<f32>(place.x, -place.y, 0.0);
     return vec3<f32>(point.xy, spline_at(bed, place_of(point)));
-}
-
-// How many of the sets stand at a distance.
-fn share(distance: f32) -> f32 {
-    let thinned = pow(WHOLE / max(distance, WHOLE), THINNING);
-    return thinned * clamp((FARTHEST - distance) / (0.35 * FARTHEST), 0.0, 1.0);
 }
 
 // How high a set of a rank stands at a distance, as a share: 0 where it is left out.

@@ -5,6 +5,7 @@
 //! ([`lattice`]), cut sides, plain and sky, all into linear light of 16-bit floats with depth reversed; then the film
 //! brings light to the numbers of a picture.
 
+mod canopy;
 mod cascades;
 mod chosen;
 mod device;
@@ -40,6 +41,7 @@ use picture::Landing;
 use shadows::Shadows;
 use targets::Targets;
 use terrain::Terrain;
+use textures::Canvas;
 pub(crate) use timing::FEATURES;
 use timing::Timer;
 pub use timing::Timings;
@@ -108,6 +110,7 @@ pub struct Renderer {
     grass_look: GrassLook,
     passes: Passes,
     shadows: Shadows,
+    canopy: Canvas,
     targets: Targets,
     film: Film,
     look: TestLook,
@@ -128,7 +131,8 @@ impl Renderer {
         let maps = Maps::new(gpu, stage, &source)?;
         let terrain = Terrain::new(gpu, stage, &source)?;
         let shadows = Shadows::new(gpu)?;
-        let frame = Frame::new(gpu, &shadows.canvas)?;
+        let canopy = canopy::none(gpu)?;
+        let frame = Frame::new(gpu, &shadows.canvas, &canopy)?;
         let layouts = Layouts { frame: &frame, maps: &maps, shadows: &shadows };
         let passes = Passes::new(gpu, stage, layouts, options.samples)?;
         let targets = Targets::new(gpu, options)?;
@@ -143,6 +147,7 @@ impl Renderer {
             grass_look: GrassLook::default(),
             passes,
             shadows,
+            canopy,
             targets,
             film,
             look: TestLook::default(),
@@ -156,6 +161,10 @@ impl Renderer {
     /// # Errors
     /// [`Error::Device`] where the device's memory does not suffice or it fails.
     pub fn plant(&mut self, stage: &Stage, landscape: &Landscape) -> Result<(), Error> {
+        if let Some(canopy) = canopy::of(&self.gpu, landscape)? {
+            self.frame.plant(&self.gpu, &self.shadows.canvas, &canopy)?;
+            self.canopy = canopy;
+        }
         let layouts = Layouts { frame: &self.frame, maps: &self.maps, shadows: &self.shadows };
         self.grass = Grass::new(&self.gpu, (stage, landscape), layouts, self.options.samples)?;
         Ok(())
@@ -219,7 +228,7 @@ impl Renderer {
         self.frame.write(&self.gpu, camera, self.options.size[0], &drawn);
         let groups = [&self.frame.caster_group, &self.maps.group];
         if let Some(grass) = &mut self.grass {
-            grass.prepare(&self.gpu, camera, self.grass_look)?;
+            grass.prepare(&self.gpu, self.look.detail_from.unwrap_or(camera.eye), self.grass_look)?;
             grass.choose(encoder, groups, self.timer.as_ref());
         } else if let Some(timer) = &self.timer {
             timer.skip_choice(encoder);

@@ -24,11 +24,13 @@ use crate::gpu::Gpu;
 pub(super) const STAGE_GROUP: u32 = 1;
 
 /// The passes' own shaders, each after those that it calls.
-const SHADERS: [&str; 7] = [
+const SHADERS: [&str; 9] = [
     include_str!("frame.wgsl"),
     include_str!("shadows.wgsl"),
     include_str!("detail.wgsl"),
     include_str!("water.wgsl"),
+    include_str!("thinning.wgsl"),
+    include_str!("canopy.wgsl"),
     include_str!("terrain.wgsl"),
     include_str!("casters.wgsl"),
     include_str!("backdrop.wgsl"),

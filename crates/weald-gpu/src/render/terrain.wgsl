@@ -85,8 +85,17 @@ fn ground_fragment(in: Ground) -> @location(0) vec4<f32> {
     if depth <= 0.0 && river < 1.0 {
         let smooth_normal = normal_of(surface.yz);
         let skin = with_detail(ground_skin(place, surface, footprint, -depth), in.point, smooth_normal, footprint);
-        let normal = roughened(smooth_normal, skin.bump);
-        radiance = skin.albedo * lit(normal, seen_at(skylight, share_of(place)), sun) / PI;
+        let lawn = leaves_at(place);
+        // Grass is rounder than what it grows on.
+        let normal = roughened(smooth_normal, skin.bump * through_leaves(lawn.w, 0.3));
+        let seen = seen_at(skylight, share_of(place));
+        let in_sun = skin.albedo * stage.sunlight.xyz * (max(dot(normal, stage.sun.xyz), 0.0) * sun) / PI;
+        let under_sky = skin.albedo * skylight_on(seen, normal) / PI;
+        radiance = in_sun + under_sky;
+        if lawn.w > 1e-4 {
+            let look = Looked(direction, way, footprint);
+            radiance = with_canopy(in_sun, under_sky, lawn, in.point, smooth_normal, look, seen, sun);
+        }
     }
     if depth > 0.0 {
         radiance = water_radiance(place, in.point, direction, way, depth / stage.scale.y, sun);

@@ -5,7 +5,7 @@
 const CARRIED = 2.6;
 
 // Metres of height lost in a second between which water foams.
-const FOAMS = vec2<f32>(0.25, 2.4);
+const FOAMS = vec2<f32>(0.5, 4.0);
 
 // Share of light that foam sends back.
 const FOAM = 0.78;
@@ -77,7 +77,7 @@ fn foam_share(point: vec2<f32>, footprint: f32, velocity: vec2<f32>, lost: f32) 
         bubbles[turn] = clumps;
     }
     let texture = mix(bubbles.x, bubbles.y, along.share);
-    return clamp((2.4 * texture + 0.9 * fast - 0.5) * 1.5, 0.0, 1.0) * (0.3 + 0.4 * fast);
+    return clamp((2.2 * texture + 1.1 * fast - 0.55) * 1.1, 0.0, 1.0) * (0.25 + 0.5 * fast);
 }
 
 // Height of the ground, or of the water on it, linear between control points: near enough for a look.

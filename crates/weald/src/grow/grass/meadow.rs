@@ -129,6 +129,11 @@ impl Meadow {
         Corners::around(ground.size(), 1.0 / cell, place).map(|corners| corners.value(ground))
     }
 
+    /// Height of a species where so much of it is mown, as a share of its greatest.
+    pub(super) fn cut(&self, species: usize, mown: f32) -> f32 {
+        1.0 - mown * (1.0 - (self.mown_height / self.species[species].top()).min(1.0))
+    }
+
     /// Side of a square in metres.
     fn side(&self) -> f64 {
         1.0 / self.densest.sqrt()
@@ -166,12 +171,11 @@ impl<'a> Row<'a> {
         }
         let share = |map: &Option<Field>| map.as_ref().map_or(0.0, |map| corners.value(map).clamp(0.0, 1.0));
         let species = maps.species(&corners, bits);
-        let left = (meadow.mown_height / meadow.species[species].top()).min(1.0);
         let tuft = Set {
             soil: corners.value(&maps.soil),
             light: corners.value(&maps.light),
             level: meadow.level,
-            cut: 1.0 - share(&maps.mown) * (1.0 - left),
+            cut: meadow.cut(species, share(&maps.mown)),
             trodden: share(&maps.trodden),
             seed: (bits >> 48) as u32,
         };

@@ -5,6 +5,7 @@
 //! it; six blades are a [`Set`]. A [`Species`] has its own curves, sizes and colours, and may bear seed heads.
 
 pub mod blade;
+pub mod canopy;
 pub mod choice;
 pub mod curves;
 pub mod device;
@@ -21,6 +22,7 @@ pub mod step;
 mod tests;
 
 pub use blade::{BLADES, Blade, Set, Vertex};
+pub use canopy::Canopy;
 pub use choice::{Choice, Sight};
 pub use curves::{Curves, LightCurve, SoilCurve};
 pub use device::Grasses;

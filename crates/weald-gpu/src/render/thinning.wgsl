@@ -1,0 +1,21 @@
+// How many of the sets of grass stand at a distance: the twin of `share` in choice.rs.
+
+// Distance in metres beyond which there is no blade.
+const FARTHEST = 96.0;
+
+// Distance up to which every set stands, and how fast they become fewer beyond it.
+const WHOLE = 10.0;
+const THINNING = 1.15;
+
+// Most times as broad blades become where there are fewer of them.
+const BROADEST = 2.6;
+
+fn share(distance: f32) -> f32 {
+    let thinned = pow(WHOLE / max(distance, WHOLE), THINNING);
+    return thinned * clamp((FARTHEST - distance) / (0.35 * FARTHEST), 0.0, 1.0);
+}
+
+// How many times as broad blades are where so many sets stand, so that a meadow stays as thick.
+fn broader(share: f32) -> f32 {
+    return min(1.0 / sqrt(max(share, 0.05)), BROADEST);
+}
