@@ -11,6 +11,7 @@ use std::sync::Arc;
 use weald::engine::uniform::Uniform;
 use weald::grow::grass::device::FUNCTIONS;
 use weald::grow::grass::{Area, BLADES, Grasses, Meadow};
+use weald::grow::wind;
 use weald::picture::{Camera, Stage};
 use weald::{Error, Landscape};
 use wgpu::{
@@ -84,7 +85,8 @@ impl Grass {
         }
         let device = &gpu.context.device;
         let module = |own: &[&str]| {
-            let shared = [include_str!("frame.wgsl"), include_str!("shadows.wgsl"), FUNCTIONS];
+            let shared =
+                [include_str!("frame.wgsl"), include_str!("shadows.wgsl"), wind::FUNCTIONS, FUNCTIONS];
             let text = shared.iter().chain(&[include_str!("meadow.wgsl")]).chain(own);
             let text = text.fold(stage.shader_of_light(STAGE_GROUP), |text, part| text + "\n" + part);
             let source = ShaderSource::Wgsl(text.into());

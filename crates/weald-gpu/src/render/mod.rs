@@ -14,6 +14,7 @@ mod lattice;
 mod maps;
 mod passes;
 mod picture;
+mod plants;
 mod shadows;
 mod spacing;
 mod targets;
@@ -32,6 +33,7 @@ use grass::Grass;
 use maps::Maps;
 use passes::{Drawing, Layouts, Passes};
 use picture::Landing;
+use plants::Plants;
 use shadows::Shadows;
 use targets::Targets;
 use terrain::Terrain;
@@ -100,6 +102,7 @@ pub struct Renderer {
     frame: Frame,
     terrain: Terrain,
     grass: Option<Grass>,
+    plants: Option<Plants>,
     passes: Passes,
     shadows: Shadows,
     targets: Targets,
@@ -134,6 +137,7 @@ impl Renderer {
             frame,
             terrain,
             grass: None,
+            plants: None,
             passes,
             shadows,
             targets,
@@ -144,13 +148,15 @@ impl Renderer {
         })
     }
 
-    /// Plants what grows in the stage's landscape: its grass.
+    /// Plants what grows in the stage's landscape: its grass and scattered plants.
     ///
     /// # Errors
     /// [`Error::Device`] where the device's memory does not suffice or it fails.
     pub fn plant(&mut self, stage: &Stage, landscape: &Landscape) -> Result<(), Error> {
         let layouts = Layouts { frame: &self.frame, maps: &self.maps, shadows: &self.shadows };
-        self.grass = Grass::new(&self.gpu, (stage, landscape), layouts, self.options.samples)?;
+        let grown = (stage, landscape);
+        self.grass = Grass::new(&self.gpu, grown, layouts, self.options.samples)?;
+        self.plants = Plants::new(&self.gpu, grown, layouts, self.options.samples)?;
         Ok(())
     }
 
@@ -197,9 +203,17 @@ impl Renderer {
             grass.prepare(&self.gpu, camera)?;
             grass.choose(encoder, groups);
         }
+        if let Some(plants) = &self.plants {
+            plants.choose(encoder, groups);
+        }
         let timer = self.timer.as_ref();
-        let drawing =
-            Drawing { terrain: &self.terrain, grass: self.grass.as_ref(), bare: self.look.bare, timer };
+        let drawing = Drawing {
+            terrain: &self.terrain,
+            grass: self.grass.as_ref(),
+            plants: self.plants.as_ref(),
+            bare: self.look.bare,
+            timer,
+        };
         self.shadows.draw(encoder, groups, &self.passes.casters, drawing);
         let groups = [&self.frame.group, &self.maps.group];
         self.passes.draw(encoder, &self.targets, groups, drawing);
