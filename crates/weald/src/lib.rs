@@ -68,6 +68,7 @@ pub mod error;
 pub mod export;
 pub mod gallery;
 pub mod generate;
+mod grain;
 pub mod grid;
 pub mod grow;
 pub mod io;

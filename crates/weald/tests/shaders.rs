@@ -243,10 +243,11 @@ fn structs_of_plants_lie_in_memory_as_their_twins_do() {
     let rules: Rules = Game::new(&ifs, 1).rules(true);
     let plant: Plant = Sway::of(&ifs).plant();
     let grasses = Grasses::new(&SPECIES, Bend::Total);
-    let of_each: [&[Uniforms]; 3] = [
+    let of_each: [&[Uniforms]; SHADERS.len()] = [
         &[Uniforms::of(&rules), stretch.clone()],
         &[Uniforms::of(&plant), Uniforms::of(&Pose::calm()), stretch.clone()],
-        &[Uniforms::of(&grasses), stretch],
+        &[Uniforms::of(&grasses), stretch.clone()],
+        &[stretch],
     ];
     for (shader, structs) in SHADERS.iter().zip(of_each) {
         let (module, _) = checked(shader.text, shader.name);

@@ -14,18 +14,6 @@ struct Leaf {
     @location(3) light: vec2<f32>,
 }
 
-// The push of the wind at a place: gusts that travel, by which neighbours sway nearly as one.
-fn grass_push(place: vec2<f32>, phase: f32) -> vec2<f32> {
-    let seconds = frame.moment.x;
-    let gust = octaves_at(Octaves(14.0, 3u, 0.6, 0x61u), place - seconds * vec2<f32>(3.2, -1.4), 0.0);
-    let flutter = 0.05 * sine_of(1.7 * seconds + phase);
-    let strength = 0.16 + 0.28 * gust.value + flutter;
-    return strength * vec2<f32>(0.92, 0.39);
-}
-
-fn sine_of(turns: f32) -> f32 {
-    return sin(6.2831853 * fract(turns));
-}
 
 fn leaf(list: u32, vertex: u32, instance_number: u32) -> Leaf {
     let count = arrayLength(&sets);
@@ -43,7 +31,7 @@ fn leaf(list: u32, vertex: u32, instance_number: u32) -> Leaf {
     let seen = 0.8 * distance * frame.eye.w;
     blade.width = max(blade.width * broader(standing), min(seen, 0.03));
     let still = vertex_of(blade, along, side);
-    let push = grass_push(instance.place * vec2<f32>(1.0, -1.0), phase_of(instance.tuft));
+    let push = wind_push(instance.place * vec2<f32>(1.0, -1.0), frame.moment.x, phase_of(instance.tuft));
     let here = swayed(blade, still, vec2<f32>(push.x, -push.y));
     let offset = vec3<f32>(here.place.x, -here.place.z, here.place.y * tall - 0.02);
     let point = root + offset;

@@ -8,6 +8,7 @@
 
 use weald::grow::grass::device::FUNCTIONS;
 use weald::grow::grass::{BLADES, choice};
+use weald::grow::wind;
 use weald::picture::Stage;
 use weald::{Error, Landscape};
 use wgpu::{
@@ -150,6 +151,7 @@ fn module(gpu: &Gpu, stage: &Stage, own: &str) -> ShaderModule {
         include_str!("shadows.wgsl"),
         include_str!("thinning.wgsl"),
         include_str!("canopy.wgsl"),
+        wind::FUNCTIONS,
         FUNCTIONS,
         include_str!("meadow.wgsl"),
         own,

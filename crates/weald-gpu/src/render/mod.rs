@@ -18,6 +18,7 @@ mod lawn;
 mod maps;
 mod passes;
 mod picture;
+mod plants;
 mod shadows;
 mod spacing;
 mod targets;
@@ -38,6 +39,7 @@ pub use grass::GrassLook;
 use maps::Maps;
 use passes::{Drawing, Layouts, Passes};
 use picture::Landing;
+use plants::Plants;
 use shadows::Shadows;
 use targets::Targets;
 use terrain::Terrain;
@@ -108,6 +110,7 @@ pub struct Renderer {
     terrain: Terrain,
     grass: Option<Grass>,
     grass_look: GrassLook,
+    plants: Option<Plants>,
     passes: Passes,
     shadows: Shadows,
     canopy: Canvas,
@@ -145,6 +148,7 @@ impl Renderer {
             terrain,
             grass: None,
             grass_look: GrassLook::default(),
+            plants: None,
             passes,
             shadows,
             canopy,
@@ -156,7 +160,7 @@ impl Renderer {
         })
     }
 
-    /// Plants what grows in the stage's landscape: its grass.
+    /// Plants what grows in the stage's landscape: its grass and scattered plants.
     ///
     /// # Errors
     /// [`Error::Device`] where the device's memory does not suffice or it fails.
@@ -166,7 +170,9 @@ impl Renderer {
             self.canopy = canopy;
         }
         let layouts = Layouts { frame: &self.frame, maps: &self.maps, shadows: &self.shadows };
-        self.grass = Grass::new(&self.gpu, (stage, landscape), layouts, self.options.samples)?;
+        let grown = (stage, landscape);
+        self.grass = Grass::new(&self.gpu, grown, layouts, self.options.samples)?;
+        self.plants = Plants::new(&self.gpu, grown, layouts, self.options.samples)?;
         Ok(())
     }
 
@@ -212,15 +218,20 @@ impl Renderer {
         self.aim(camera, encoder)?;
         let groups = [&self.frame.caster_group, &self.maps.group];
         let timer = self.timer.as_ref();
-        let drawing =
-            Drawing { terrain: &self.terrain, grass: self.grass.as_ref(), bare: self.look.bare, timer };
+        let drawing = Drawing {
+            terrain: &self.terrain,
+            grass: self.grass.as_ref(),
+            plants: self.plants.as_ref(),
+            bare: self.look.bare,
+            timer,
+        };
         self.shadows.draw(encoder, groups, &self.passes.casters, drawing);
         let groups = [&self.frame.group, &self.maps.group];
         self.passes.draw(encoder, &self.targets, groups, drawing);
         self.film.develop(&self.gpu, encoder, (&self.maps, timer), target)
     }
 
-    /// Selects what a camera sees, and encodes the choice of its grass.
+    /// Selects what a camera sees, and encodes the choice of its grass and plants.
     fn aim(&mut self, camera: &Camera, encoder: &mut wgpu::CommandEncoder) -> Result<(), Error> {
         check_camera(camera)?;
         let drawn = self.terrain.prepare(&self.gpu, camera, self.options.size, self.look.detail_from)?;
@@ -232,6 +243,9 @@ impl Renderer {
             grass.choose(encoder, groups, self.timer.as_ref());
         } else if let Some(timer) = &self.timer {
             timer.skip_choice(encoder);
+        }
+        if let Some(plants) = &self.plants {
+            plants.choose(encoder, groups);
         }
         Ok(())
     }

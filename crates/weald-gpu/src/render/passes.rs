@@ -14,6 +14,7 @@ use wgpu::{
 use super::frame::Frame;
 use super::grass::Grass;
 use super::maps::Maps;
+use super::plants::Plants;
 use super::shadows::Shadows;
 use super::targets::{DEPTH, LIGHT, Targets};
 use super::terrain::{PATCH_BYTES, RIM_BYTES, SIDE_BYTES, Terrain};
@@ -83,6 +84,7 @@ impl Casters {
 pub(super) struct Drawing<'a> {
     pub(super) terrain: &'a Terrain,
     pub(super) grass: Option<&'a Grass>,
+    pub(super) plants: Option<&'a Plants>,
     /// Whether what lies behind the landscape is left out.
     pub(super) bare: bool,
     pub(super) timer: Option<&'a Timer>,
@@ -186,7 +188,7 @@ impl Passes {
             Some(sampled) => (&sampled.view, Some(&targets.light.view)),
             None => (&targets.light.view, None),
         };
-        let Drawing { terrain, grass, bare, timer } = drawing;
+        let Drawing { terrain, grass, plants, bare, timer } = drawing;
         let ops = Operations { load: LoadOp::Clear(MAGENTA), store: StoreOp::Store };
         let depth = Operations { load: LoadOp::Clear(0.0), store: StoreOp::Discard };
         let mut pass = encoder.begin_render_pass(&RenderPassDescriptor {
@@ -227,6 +229,9 @@ impl Passes {
         }
         if let Some(grass) = grass {
             grass.draw(&mut pass);
+        }
+        if let Some(plants) = plants {
+            plants.draw(&mut pass);
         }
     }
 }
@@ -318,7 +323,7 @@ pub(super) fn strips(
     })
 }
 
-fn depth_state(depth_write: bool, compare: CompareFunction) -> DepthStencilState {
+pub(super) fn depth_state(depth_write: bool, compare: CompareFunction) -> DepthStencilState {
     DepthStencilState {
         format: DEPTH,
         depth_write_enabled: Some(depth_write),

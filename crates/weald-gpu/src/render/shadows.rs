@@ -65,7 +65,7 @@ impl Shadows {
         encoder: &mut CommandEncoder,
         groups: [&BindGroup; 2],
         casters: &Casters,
-        Drawing { terrain, timer, .. }: Drawing<'_>,
+        Drawing { terrain, plants, timer, .. }: Drawing<'_>,
     ) {
         for (number, (view, cascade)) in self.layers.iter().enumerate() {
             let depth = Operations { load: LoadOp::Clear(1.0), store: StoreOp::Store };
@@ -83,6 +83,9 @@ impl Shadows {
                 pass.set_bind_group(at, group, &[]);
             }
             casters.draw(&mut pass, terrain, number + 1);
+            if let Some(plants) = plants {
+                plants.cast(&mut pass, number);
+            }
         }
     }
 }

@@ -3,6 +3,7 @@
 pub mod grass;
 pub mod ifs;
 pub mod scatter;
+pub mod wind;
 
 use std::borrow::Cow;
 
@@ -11,7 +12,7 @@ use self::ifs::device::Shader;
 use self::ifs::{Deformation, Ifs, shapes};
 
 /// All shaders of plants.
-pub const SHADERS: [Shader; 3] = [ifs::device::PLAY, ifs::wind::SWAY, grass::device::GROW];
+pub const SHADERS: [Shader; 4] = [ifs::device::PLAY, ifs::wind::SWAY, grass::device::GROW, ifs::limbs::BEND];
 
 /// A fractal by its name, with what deforms it: a `[[fractal]]` table of a recipe.
 #[derive(Clone, Debug, PartialEq)]

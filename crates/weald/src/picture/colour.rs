@@ -64,7 +64,7 @@ pub fn linear_of_hex(hex: u32) -> Linear {
 }
 
 /// Linear light of an sRGB colour, 0 to 1.
-pub(crate) fn linear_of_srgb(colour: [f32; 3]) -> Linear {
+pub fn linear_of_srgb(colour: [f32; 3]) -> Linear {
     colour.map(|channel| linear_of_channel(f64::from(channel)))
 }
 

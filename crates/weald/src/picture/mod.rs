@@ -35,8 +35,7 @@ mod view;
 
 pub(crate) use albedo::tinted;
 pub use apng::write_apng;
-pub(crate) use colour::linear_of_srgb;
-pub use colour::{Linear, Oklab, encode, linear_of_hex};
+pub use colour::{Linear, Oklab, encode, linear_of_hex, linear_of_srgb};
 pub use cutout::Cutout;
 pub(crate) use font::{Pen, blend};
 pub use growth::{Growth, GrowthKeys};

@@ -12,7 +12,6 @@ mod atmosphere;
 mod camera;
 mod cover;
 mod flow;
-mod grain;
 mod haze;
 mod maps;
 mod meeting;

@@ -9,7 +9,6 @@
 use png::{BitDepth, ColorType};
 use serde_json::{Map, Value, json};
 
-use super::up_in_mesh;
 use crate::error::Error;
 use crate::export::Finished;
 use crate::export::copies::{Copies, Placed, place_in_mesh};
@@ -58,7 +57,7 @@ impl Scene<'_> {
         let placed = self.plants.iter().map(|plant| {
             let [x, y, z] = plant.place;
             let place = place_in_mesh(&self.finished.landscape.domain, [x, y], z);
-            Placed { place, rotation: rotation(plant), scale: plant.size }
+            Placed { place, rotation: plant.rotation(), scale: plant.size }
         });
         let phases = self.plants.iter().map(|plant| plant.phase).collect();
         let (name, mesh) = (self.name, self.mesh(document)?);
@@ -97,18 +96,6 @@ impl Scene<'_> {
     }
 }
 
-/// The rotation as a quaternion x, y, z, w: first the turn about the stem, then the lean.
-fn rotation(plant: &Plant) -> [f32; 4] {
-    let (sine, cosine) = libm::sincos(-0.5 * f64::from(plant.turn));
-    // The shortest way from upright to the stem turns about the horizontal at right angles to both.
-    let [east, up, south] = up_in_mesh(plant).map(f64::from);
-    let [x, z, w] = [south, -east, 1.0 + up];
-    let length = (x * x + z * z + w * w).sqrt();
-    let [x, z, w] = [x / length, z / length, w / length];
-    let turned = [x * cosine - z * sine, w * sine, z * cosine + x * sine, w * cosine];
-    turned.map(|number| number as f32)
-}
-
 fn png(texture: &Texture) -> Result<Vec<u8>, Error> {
     let Texture { width, height, rgba } = texture;
     let pixels =
@@ -117,32 +104,4 @@ fn png(texture: &Texture) -> Result<Vec<u8>, Error> {
         encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
         Ok(())
     })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn turned([x, y, z, w]: [f32; 4], [a, b, c]: [f32; 3]) -> [f32; 3] {
-        let cross = |[a, b, c]: [f32; 3]| [y * c - z * b, z * a - x * c, x * b - y * a];
-        let t = cross([a, b, c]).map(|number| 2.0 * number);
-        let u = cross(t);
-        [a + w * t[0] + u[0], b + w * t[1] + u[1], c + w * t[2] + u[2]]
-    }
-
-    fn apart(a: [f32; 3], b: [f32; 3]) -> f32 {
-        a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f32::max)
-    }
-
-    #[test]
-    fn a_plant_points_along_its_stem_and_turns_clockwise_seen_from_above() {
-        let quarter = std::f32::consts::FRAC_PI_2;
-        let upright = Plant { up: [0.0, 0.0, 1.0], turn: quarter, ..Plant::default() };
-        // East, up, south: a quarter clockwise brings east to south.
-        assert!(apart(turned(rotation(&upright), [1.0, 0.0, 0.0]), [0.0, 0.0, 1.0]) < 1e-6);
-        for turn in [0.0, 1.0, 4.0] {
-            let leaning = Plant { up: [0.6, -0.48, 0.64], turn, ..Plant::default() };
-            assert!(apart(turned(rotation(&leaning), [0.0, 1.0, 0.0]), [0.6, 0.64, -0.48]) < 1e-6);
-        }
-    }
 }

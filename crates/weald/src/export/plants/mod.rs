@@ -19,7 +19,7 @@ use crate::grow::ifs::Ifs;
 use crate::grow::ifs::foliage::{self, Foliage, Habit, Texture};
 use crate::io::Part;
 use crate::landscape::Landscape;
-use crate::plants::{Plant, Plants};
+use crate::plants::Plants;
 use crate::recipe::parameter::{Colour, LayerName, Nested};
 
 crate::parameters! {
@@ -36,9 +36,9 @@ crate::parameters! {
         /// Height of the picture on the leaves. For a `.glb`.
         texture: u32 = 512, range 32..=4096, unit "px";
         /// Colour of leaves. For a `.glb`.
-        leaf: Colour = Colour([0.49, 0.66, 0.27]);
+        leaf: Colour = Colour(foliage::Colours::USUAL.leaf);
         /// Colour of stems. For a `.glb`.
-        stem: Colour = Colour([0.37, 0.33, 0.18]);
+        stem: Colour = Colour(foliage::Colours::USUAL.stem);
     }
 }
 
@@ -137,10 +137,4 @@ impl PlantSet {
 
 fn fractal<'a>(known: &'a [Fractal], kind: &str) -> Result<Cow<'a, Fractal>, Error> {
     Fractal::named(known, kind).ok_or_else(|| Error::Run(format!("there is no fractal `{kind}`")))
-}
-
-/// The unit vector along the stem in the axes of a mesh: east, up, south.
-fn up_in_mesh(plant: &Plant) -> [f32; 3] {
-    let [east, south, up] = plant.up;
-    [east, up, south]
 }

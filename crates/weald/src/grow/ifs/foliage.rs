@@ -21,9 +21,10 @@ pub use texture::{Colours, Texture};
 use super::map::Point;
 use super::system::Ifs;
 use crate::random::{hash2, unit};
-use habit::Frond;
+pub(super) use habit::Frond;
 use texture::Sheet;
-use walk::{Piece, Shape, pieces};
+pub(super) use walk::Shape;
+use walk::{Piece, pieces};
 
 /// A plant one metre high, rooted at the origin: x to its right, y up, z towards the viewer.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -151,7 +152,7 @@ impl Builder<'_> {
 }
 
 /// The unit vector across a stem: in the plane of the shape, or out of it.
-fn across(foot: Point, top: Point, view: usize) -> Point {
+pub(super) fn across(foot: Point, top: Point, view: usize) -> Point {
     let along: Point = std::array::from_fn(|axis| top[axis] - foot[axis]);
     let across = if view == 0 { [along[1], -along[0], 0.0] } else { [0.0, -along[2], along[1]] };
     let length = across.iter().map(|number| number * number).sum::<f64>().sqrt();

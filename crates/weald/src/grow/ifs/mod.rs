@@ -13,6 +13,7 @@ pub mod foliage;
 pub mod game;
 pub mod histogram;
 pub mod lanes;
+pub mod limbs;
 pub mod map;
 pub mod packing;
 pub mod shapes;

@@ -4,9 +4,9 @@
 //! The fields of the landscape say where each has its place, at the scale of cells. Noise moves the borders by less
 //! than that, so that they are ragged as in nature and not smooth as a field.
 
-use super::grain::{Grain, Octaves, grain};
 use super::site::Sites;
 use super::vector::{Vector, add, scale};
+use crate::grain::{Grain, Octaves, grain};
 use crate::picture::colour::{Linear, linear_of_hex, mix};
 
 /// A spot of ground that is to be coloured.

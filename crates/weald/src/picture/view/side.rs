@@ -1,9 +1,9 @@
 //! The cut sides of a landscape: its materials, or beds of rock, below the surface.
 
-use super::grain::{Octaves, grain};
 use super::sky::Sky;
 use super::surface::Surface;
 use super::vector::{Vector, add, dot, scale};
+use crate::grain::{Octaves, grain};
 use crate::picture::colour::{Linear, linear_of_hex, mix};
 
 /// Normals of upright sides for which the light of the sky is known.

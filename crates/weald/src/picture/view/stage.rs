@@ -173,6 +173,13 @@ impl Stage {
         [east as f32, -south as f32, ground + metres as f32 * self.setting.exaggeration]
     }
 
+    /// Height of the drawn ground under the water at such a point; `None` outside the land.
+    pub fn bed_at(&self, [east, south]: [f64; 2]) -> Option<f32> {
+        let terrain = &self.setting.terrain;
+        let place = terrain.place([east as f32, -south as f32, 0.0]);
+        terrain.is_land(place).then(|| self.setting.bed.at(place))
+    }
+
     /// Height at which an elevation in metres is drawn, above the lowest ground.
     pub fn drawn_height(&self, elevation: f64) -> f32 {
         (elevation - f64::from(self.setting.low)) as f32 * self.setting.exaggeration

@@ -8,7 +8,7 @@ use super::stage::Stage;
 /// The twins of place, light and air, each after those that it calls.
 const LIGHT: [&str; 6] = [
     include_str!("surface.wgsl"),
-    include_str!("grain.wgsl"),
+    include_str!("../../grain.wgsl"),
     include_str!("sky.wgsl"),
     include_str!("haze.wgsl"),
     include_str!("tone.wgsl"),

@@ -6,8 +6,8 @@
 //! Schlick's approximation of Fresnel's law (1994, doi 10.1111/1467-8659.1330233); what enters comes back from the bed
 //! through twice the depth, or from the water itself.
 
-use super::grain::Octaves;
 use super::vector::{Vector, add, dot, filter, scale, unit};
+use crate::grain::Octaves;
 use crate::grid::{Field, Size};
 use crate::landscape::Landscape;
 use crate::picture::colour::mix;

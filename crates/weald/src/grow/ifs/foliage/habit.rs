@@ -18,11 +18,11 @@ pub enum Habit {
 }
 
 /// One of the fronds or planes of a plant.
-pub(super) struct Frond {
+pub(in crate::grow::ifs) struct Frond {
     /// Its number.
-    pub(super) number: i64,
+    pub(in crate::grow::ifs) number: i64,
     /// Its phase in the wind, 0 to 1.
-    pub(super) phase: f64,
+    pub(in crate::grow::ifs) phase: f64,
     azimuth: f64,
     length: f64,
     /// Angle from upright at the root, and how much more at the tip, in radians.
@@ -47,7 +47,7 @@ impl Habit {
     }
 
     /// Size, as a share of the plant, below which a branch is a leaf.
-    pub(super) fn leaf(self) -> f64 {
+    pub(in crate::grow::ifs) fn leaf(self) -> f64 {
         match self {
             Self::Arching(_) | Self::Leaning(_) => 0.4,
             Self::Crossed(_) | Self::Single => 0.25,
@@ -55,7 +55,7 @@ impl Habit {
     }
 
     /// Its fronds or planes, no two alike.
-    pub(super) fn fronds(self) -> Vec<Frond> {
+    pub(in crate::grow::ifs) fn fronds(self) -> Vec<Frond> {
         let (count, turn, is_grown) = match self {
             Self::Arching(count) | Self::Leaning(count) => (count, std::f64::consts::TAU, true),
             Self::Crossed(count) => (count, std::f64::consts::PI, false),
@@ -77,7 +77,7 @@ impl Habit {
     }
 
     /// Where a point of the flat shape comes to lie, and the normal there.
-    pub(super) fn placed(self, frond: &Frond, [x, y, z]: Point) -> (Point, Point) {
+    pub(in crate::grow::ifs) fn placed(self, frond: &Frond, [x, y, z]: Point) -> (Point, Point) {
         let (sine, cosine) = libm::sincos(frond.azimuth);
         let around =
             |out: f64, up: f64, side: f64| [cosine * out - sine * side, up, sine * out + cosine * side];

@@ -26,6 +26,11 @@ pub struct Colours {
     pub stem: [f32; 3],
 }
 
+impl Colours {
+    /// Those of a plant of which nothing else is said.
+    pub const USUAL: Self = Self { leaf: [0.49, 0.66, 0.27], stem: [0.37, 0.33, 0.18] };
+}
+
 /// A picture with opacity.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Texture {

@@ -56,19 +56,19 @@ fn child(piece: &Piece, digit: usize, role: Role, map: &Map) -> Piece {
 }
 
 /// The shape in its own units and how it comes to a height of one.
-pub(super) struct Shape {
+pub(in crate::grow::ifs) struct Shape {
     root: Point,
     height: f64,
     /// Foot and top of the stem, where it has one.
-    pub(super) stem: Option<[Point; 2]>,
+    pub(in crate::grow::ifs) stem: Option<[Point; 2]>,
     /// Half the width of the stem at its foot, for a height of one.
-    pub(super) stem_half_width: f64,
+    pub(in crate::grow::ifs) stem_half_width: f64,
     /// Width at the top of a stem beside that at its foot.
-    pub(super) taper: f64,
+    pub(in crate::grow::ifs) taper: f64,
 }
 
 impl Shape {
-    pub(super) fn of(ifs: &Ifs) -> Self {
+    pub(in crate::grow::ifs) fn of(ifs: &Ifs) -> Self {
         const SLIMMEST: f64 = 0.005;
         let (root, [low, high]) = (ifs.root(), ifs.bounds());
         let (first, height) = (&ifs.maps()[0], (high[1] - root[1]).max(1e-3 * (high[1] - low[1])));
@@ -85,12 +85,17 @@ impl Shape {
     }
 
     /// A point with the root as origin and a height of one.
-    pub(super) fn flat(&self, point: Point) -> Point {
+    pub(in crate::grow::ifs) fn flat(&self, point: Point) -> Point {
         std::array::from_fn(|axis| (point[axis] - self.root[axis]) / self.height)
     }
 
+    /// The point of the shape that is there when its root is the origin and its height one.
+    pub(in crate::grow::ifs) fn point(&self, flat: Point) -> Point {
+        std::array::from_fn(|axis| self.root[axis] + self.height * flat[axis])
+    }
+
     /// 0 at the root and below it, 1 at the top.
-    pub(super) fn share_above_root(&self, point: Point) -> f64 {
+    pub(in crate::grow::ifs) fn share_above_root(&self, point: Point) -> f64 {
         self.flat(point)[1].clamp(0.0, 1.0)
     }
 }

@@ -23,6 +23,7 @@ use std::f64::consts::TAU;
 
 pub use device::{Plant, SWAY};
 pub use row::Posed;
+pub(super) use sway::{AT_JOINT, cross, dot, rotated, subtract};
 pub use sway::{Sway, WORDS};
 
 use super::system::Role;
@@ -54,17 +55,17 @@ parameters! {
 }
 
 /// How an order of parts moves.
-struct Order {
+pub(super) struct Order {
     /// Turn out of a gale that the parts stand across.
-    lean: f64,
+    pub(super) lean: f64,
     /// Greatest turn of its swing in a gale.
-    swing: f64,
+    pub(super) swing: f64,
     /// Swings a second.
-    frequency: f64,
+    pub(super) frequency: f64,
 }
 
 /// Trunk, fronds, leaflets and what is smaller.
-const MOTION: [Order; ORDERS] = [
+pub(super) const MOTION: [Order; ORDERS] = [
     Order { lean: 1.1, swing: 0.16, frequency: 0.45 },
     Order { lean: 0.45, swing: 0.22, frequency: 1.0 },
     Order { lean: 0.25, swing: 0.22, frequency: 2.1 },

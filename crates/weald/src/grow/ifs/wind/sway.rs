@@ -15,7 +15,7 @@ pub(super) const DEPTH: usize = 24;
 pub const WORDS: usize = 4;
 
 /// Share of an order's turn that a branch makes at its joint; its axis makes as much again along its length.
-pub(super) const AT_JOINT: f32 = 0.7;
+pub(in crate::grow::ifs) const AT_JOINT: f32 = 0.7;
 
 /// How much later the next joint of an axis swings, in phases.
 pub(super) const LAG: u32 = 3;
@@ -194,7 +194,7 @@ pub(super) fn carried(motion: Motion, point: [f32; 3]) -> [f32; 3] {
 }
 
 #[inline(always)]
-pub(super) fn rotated([x, y, z, w]: [f32; 4], v: [f32; 3]) -> [f32; 3] {
+pub(in crate::grow::ifs) fn rotated([x, y, z, w]: [f32; 4], v: [f32; 3]) -> [f32; 3] {
     let once = cross([x, y, z], v).map(|c| 2.0 * c);
     let again = cross([x, y, z], once);
     std::array::from_fn(|i| v[i] + w * once[i] + again[i])
@@ -226,16 +226,16 @@ pub(super) fn at(map: &Affine, [x, y, z]: [f32; 3]) -> [f32; 3] {
 }
 
 #[inline(always)]
-pub(super) fn dot(a: [f32; 3], b: [f32; 3]) -> f32 {
+pub(in crate::grow::ifs) fn dot(a: [f32; 3], b: [f32; 3]) -> f32 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
 #[inline(always)]
-pub(super) fn cross(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
+pub(in crate::grow::ifs) fn cross(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
 #[inline(always)]
-pub(super) fn subtract(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
+pub(in crate::grow::ifs) fn subtract(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
     std::array::from_fn(|i| a[i] - b[i])
 }

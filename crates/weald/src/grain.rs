@@ -3,15 +3,13 @@
 //! Gradient noise after Perlin 2002, doi 10.1145/566654.566636, with hashed directions, and its exact slope. It is a
 //! function of the place alone. Octaves finer than the footprint of a pixel fade out before they could flicker.
 
-use super::vector::Vector;
-
 /// Noise and its slope along both axes.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Grain {
+pub(crate) struct Grain {
     /// About -0.7 to 0.7.
-    pub(super) value: f32,
+    pub(crate) value: f32,
     /// Change by one wavelength.
-    pub(super) slope: [f32; 2],
+    pub(crate) slope: [f32; 2],
 }
 
 /// Bits of a lattice point: the finaliser `lowbias32` (C. Wellons 2018).
@@ -38,7 +36,7 @@ fn gradient(x: i32, y: i32, seed: u32) -> [f32; 2] {
 
 /// Noise at a place that is counted in wavelengths.
 #[inline]
-pub(super) fn grain(place: [f32; 2], seed: u32) -> Grain {
+pub(crate) fn grain(place: [f32; 2], seed: u32) -> Grain {
     let corner = place.map(f32::floor);
     let [x, y] = corner.map(|c| c as i32);
     let (u, v) = (place[0] - corner[0], place[1] - corner[1]);
@@ -73,26 +71,26 @@ pub(super) fn grain(place: [f32; 2], seed: u32) -> Grain {
 /// How much of an octave a pixel of that footprint still shows: all below a quarter of the wavelength, nothing above
 /// seven tenths.
 #[inline(always)]
-pub(super) fn visible(footprint: f32, wavelength: f32) -> f32 {
+pub(crate) fn visible(footprint: f32, wavelength: f32) -> f32 {
     let share = ((0.7 - footprint / wavelength) * (1.0 / 0.45)).clamp(0.0, 1.0);
     share * share * (3.0 - 2.0 * share)
 }
 
 /// Octaves of noise from `wavelength` downward, each half as long and `gain` times as strong.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Octaves {
+pub(crate) struct Octaves {
     /// Longest wavelength in metres.
-    pub(super) wavelength: f32,
+    pub(crate) wavelength: f32,
     /// Number of octaves.
-    pub(super) count: u32,
+    pub(crate) count: u32,
     /// Strength of each against the one before.
-    pub(super) gain: f32,
-    pub(super) seed: u32,
+    pub(crate) gain: f32,
+    pub(crate) seed: u32,
 }
 
 impl Octaves {
     /// The sum at a point, for a pixel of that footprint in metres; the slope is a metre.
-    pub(super) fn at(&self, point: Vector, footprint: f32) -> Grain {
+    pub(crate) fn at(&self, point: [f32; 3], footprint: f32) -> Grain {
         let (mut sum, mut strength, mut wavelength) = (Grain::default(), 1.0, self.wavelength);
         // Each octave is turned by the angle of the 3-4-5 triangle, so that lattices do not align.
         let mut place = [point[0], point[1]];

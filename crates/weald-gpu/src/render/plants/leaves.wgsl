@@ -1,0 +1,121 @@
+// Leaves and stems of plants: bent by the wind, lit from both sides, and as the sun sees them.
+
+struct Which {
+    view: u32,
+    list: u32,
+}
+
+struct Corner {
+    rest: vec3<f32>,
+    along: f32,
+    // The point of the leaf's axis to which it goes as the leaf becomes narrower.
+    axis: vec3<f32>,
+    limb: u32,
+    normal: vec3<f32>,
+    // Tone and openness in 8 bits each, first and last level in 3 each, whether it is of a stem.
+    look: u32,
+}
+
+@group(2) @binding(0) var<uniform> kind: Kind;
+@group(2) @binding(1) var<storage, read> plants: array<Stood>;
+@group(2) @binding(2) var<storage, read> kept: array<u32>;
+@group(2) @binding(3) var<storage, read> starts: array<u32>;
+@group(2) @binding(4) var<storage, read> limbs: array<Limb>;
+@group(2) @binding(5) var<storage, read> corners: array<Corner>;
+@group(3) @binding(0) var<uniform> which: Which;
+
+// Share of light that comes through a leaf.
+const THROUGH_LEAF = 0.4;
+
+struct Leaf {
+    @builtin(position) position: vec4<f32>,
+    @location(0) point: vec3<f32>,
+    @location(1) normal: vec3<f32>,
+    @location(2) colour: vec3<f32>,
+    // Share of the sun that is seen, and how open the place is among other leaves.
+    @location(3) light: vec2<f32>,
+}
+
+fn plant_of(instance: u32) -> Stood {
+    let first = which.view * arrayLength(&plants) + starts[which.view * LISTS + which.list];
+    return plants[kept[first + instance]];
+}
+
+// From the axes east, up, south to east, north, up.
+fn of_the_land(v: vec3<f32>) -> vec3<f32> {
+    return vec3<f32>(v.x, -v.z, v.y);
+}
+
+// Where a corner of a plant is, and its normal.
+fn corner_of(plant: Stood, corner: Corner) -> Bent {
+    let first = f32((corner.look >> 16u) & 7u);
+    let last = f32((corner.look >> 19u) & 7u);
+    let share = share_of_levels(detail_of(pixels_of(which.view, plant)), first, last);
+    let turn = normalize(vec4<f32>(unpack2x16snorm(plant.turn.x), unpack2x16snorm(plant.turn.y)));
+    let seconds = frame.moment.x;
+    let push = wind_push(plant.place.xy, seconds, plant.phase);
+    let felt = rotated(vec4<f32>(-turn.xyz, turn.w), vec3<f32>(push.x, 0.0, -push.y));
+    let breeze = wind_on(felt.xz, seconds, plant.phase);
+    let rest = corner.axis + share * (corner.rest - corner.axis);
+    let found = bent(breeze, corner.limb, corner.along, rest, corner.normal);
+    let point = plant.place + of_the_land(rotated(turn, found.point * plant.size));
+    return Bent(point, of_the_land(rotated(turn, found.normal)));
+}
+
+fn colour_of_corner(plant: Stood, look: u32) -> vec3<f32> {
+    if ((look >> 22u) & 1u) == 1u {
+        return kind.stem.xyz;
+    }
+    let tone = f32(look & 255u) / 255.0;
+    // Some plants are older and yellower than others.
+    let aged = mix(vec3<f32>(1.0), vec3<f32>(1.5, 1.1, 0.8), 0.5 * plant.chance * plant.chance);
+    return kind.leaf.xyz * mix(0.45, 0.8, tone) * aged;
+}
+
+@vertex
+fn leaf_vertex(@builtin(vertex_index) vertex: u32, @builtin(instance_index) instance: u32) -> Leaf {
+    let plant = plant_of(instance);
+    let corner = corners[vertex];
+    let found = corner_of(plant, corner);
+    let sun = sun_seen(found.point, stage.sun.xyz);
+    let open = f32((corner.look >> 8u) & 255u) / 255.0;
+    return Leaf(
+        projected(found.point),
+        found.point,
+        found.normal,
+        colour_of_corner(plant, corner.look),
+        vec2<f32>(sun, open),
+    );
+}
+
+@fragment
+fn leaf_fragment(in: Leaf) -> @location(0) vec4<f32> {
+    let relative = in.point - frame.eye.xyz;
+    let way = length(relative);
+    let direction = relative / way;
+    var normal = normalize(in.normal);
+    if dot(normal, direction) > 0.0 {
+        normal = -normal;
+    }
+    let facing = dot(normal, stage.sun.xyz);
+    // What a leaf sends back, and what shines through it, yellower.
+    let front = max(facing, 0.0);
+    let through = THROUGH_LEAF * max(-facing, 0.0) * vec3<f32>(1.15, 1.05, 0.55);
+    let sun = stage.sunlight.xyz * in.light.x * (front + through) * in.light.y;
+    let up = normalize(normal + vec3<f32>(0.0, 0.0, 1.0));
+    let seen = seen_at(skylight, share_of(place_of(in.point)));
+    let sky = skylight_on(seen, up) * in.light.y;
+    let radiance = in.colour * (sun + sky) / PI;
+    return vec4<f32>(limited(veil(radiance, frame.eye.xyz, direction, way)), 1.0);
+}
+
+// As the sun sees them. What stands higher than all ground is not cut off.
+@vertex
+fn leaf_caster(
+    @builtin(vertex_index) vertex: u32,
+    @builtin(instance_index) instance: u32,
+) -> @builtin(position) vec4<f32> {
+    let found = corner_of(plant_of(instance), corners[vertex]);
+    let at = in_cascade(found.point, i32(which.view) - 1);
+    return vec4<f32>(at.xy, max(at.z, 0.0), 1.0);
+}

@@ -1,0 +1,97 @@
+//! Scattered plants on a device: chosen there for the camera and for each cascade of the sun, and drawn leaf by leaf.
+//!
+//! A set of plants is a mesh of limbs (`weald::grow::ifs::limbs`) and 32 bytes a plant. Each picture, passes over all plants
+//! sort them, for each view, into lists by how high they are seen, in pixels (`choose.wgsl`): a list for each level of
+//! detail, one for each passage between two, in which the leaves of both are drawn, the ones becoming broader and the
+//! others narrower (`plants.wgsl`). A list is one indirect draw. Leaves bend in the wind limb by limb (`leaves.wgsl`).
+//!
+//! A plant takes 53 bytes of a device: itself, its place in the lists of five views, and its share of what counts them. A
+//! kind of plant takes 4 MB or so.
+
+mod pipelines;
+mod set;
+
+use weald::picture::Stage;
+use weald::{Error, Landscape};
+use wgpu::{BindGroup, CommandEncoder, ComputePassDescriptor, IndexFormat, RenderPass};
+
+use super::cascades::CASCADES;
+use super::passes::Layouts;
+use crate::gpu::Gpu;
+use pipelines::Pipelines;
+use set::{DRAW, Set};
+
+/// Views: the camera's, and one for each cascade.
+const VIEWS: usize = 1 + CASCADES;
+
+/// Lists of a view: a level of detail alone, or with what it passes into.
+const LISTS: usize = 2 * weald::grow::ifs::limbs::LEVELS;
+
+/// All scattered plants of a landscape.
+#[derive(Debug)]
+pub(super) struct Plants {
+    sets: Vec<Set>,
+    pipelines: Pipelines,
+}
+
+impl Plants {
+    /// Brings them to a device; `None` where a landscape has none.
+    pub(super) fn new(
+        gpu: &Gpu,
+        (stage, landscape): (&Stage, &Landscape),
+        layouts: Layouts<'_>,
+        samples: u32,
+    ) -> Result<Option<Self>, Error> {
+        let grown = landscape.all_plants().filter(|(_, plants)| !plants.plants.is_empty());
+        let mut grown = grown.peekable();
+        if grown.peek().is_none() {
+            return Ok(None);
+        }
+        let pipelines = Pipelines::new(gpu, stage, layouts, samples)?;
+        let sets = grown.map(|(_, plants)| Set::new(gpu, stage, (landscape, plants), &pipelines.groups));
+        Ok(Some(Self { sets: sets.collect::<Result<_, _>>()?, pipelines }))
+    }
+
+    /// Encodes the choice of what is drawn in all views.
+    pub(super) fn choose(&self, encoder: &mut CommandEncoder, groups: [&BindGroup; 2]) {
+        let mut pass = encoder.begin_compute_pass(&ComputePassDescriptor::default());
+        for (at, group) in (0..).zip(groups) {
+            pass.set_bind_group(at, group, &[]);
+        }
+        for set in &self.sets {
+            pass.set_bind_group(2, &set.choose, &[]);
+            let views = VIEWS as u32;
+            let [count, line_up, place] = &self.pipelines.choose;
+            for (pipeline, [across, down]) in
+                [(count, [set.groups, views]), (line_up, [views, 1]), (place, [set.groups, views])]
+            {
+                pass.set_pipeline(pipeline);
+                pass.dispatch_workgroups(across, down, 1);
+            }
+        }
+    }
+
+    /// Draws the light of all plants that the camera sees.
+    pub(super) fn draw(&self, pass: &mut RenderPass<'_>) {
+        pass.set_pipeline(&self.pipelines.light);
+        self.draw_view(pass, 0);
+    }
+
+    /// Draws what throws shadows into a cascade, 0 for the first.
+    pub(super) fn cast(&self, pass: &mut RenderPass<'_>, cascade: usize) {
+        pass.set_pipeline(&self.pipelines.caster);
+        self.draw_view(pass, 1 + cascade);
+    }
+
+    fn draw_view(&self, pass: &mut RenderPass<'_>, view: usize) {
+        for set in &self.sets {
+            pass.set_bind_group(2, &set.draw, &[]);
+            pass.set_index_buffer(set.indices.buffer.slice(..), IndexFormat::Uint32);
+            for list in 0..LISTS {
+                let number = view * LISTS + list;
+                pass.set_bind_group(3, &self.pipelines.which, &[self.pipelines.numbers.offset(number)]);
+                pass.draw_indexed_indirect(&set.draws.buffer, DRAW * number as u64);
+            }
+        }
+    }
+}

@@ -1,0 +1,68 @@
+// Plants where they are looked at: how large each is seen, and which of its leaves that takes.
+
+// The camera's view, then one for each cascade of the sun.
+const VIEWS = 5u;
+
+// Levels of detail, and lists of plants: even ones for a level alone, odd ones where it passes into the next.
+const PLANT_LEVELS = 5u;
+const LISTS = 10u;
+const NO_LIST = 255u;
+
+// Heights in pixels of a plant at which each level passes into the next; the last into nothing.
+const ENDS = array<f32, 5>(200.0, 85.0, 17.0, 5.0, 1.2);
+
+// From how much higher to how much lower than that.
+const PASSES = 1.35;
+
+// Pixels that a texel of a cascade is worth: shadows are smooth, and need less.
+const TEXEL_PIXELS = 2.0;
+
+struct Kind {
+    // Colour of leaves in linear light; reach from the root beside the height.
+    leaf: vec4<f32>,
+    // Colour of stems.
+    stem: vec4<f32>,
+}
+
+struct Stood {
+    // East, north, up.
+    place: vec3<f32>,
+    // Height in metres.
+    size: f32,
+    // The quaternion that turns it, to axes east, up, south.
+    turn: vec2<u32>,
+    // Phase in the wind, and a number of its own.
+    phase: f32,
+    chance: f32,
+}
+
+// Height of a plant in pixels, or in what texels of a cascade are worth where that is less.
+fn pixels_of(view: u32, plant: Stood) -> f32 {
+    let distance = max(length(plant.place - frame.moment.yzw), 0.05);
+    let pixels = plant.size / (distance * frame.eye.w);
+    if view == 0u {
+        return pixels;
+    }
+    return min(pixels, TEXEL_PIXELS * plant.size / texel_of(i32(view) - 1));
+}
+
+// Side in metres of a texel of a cascade.
+fn texel_of(cascade: i32) -> f32 {
+    let half = frame.cascades[cascade].zw;
+    return 2.0 * max(half.x, half.y) / f32(SHADOW_TEXELS);
+}
+
+// The level of detail of such a height: whole numbers where a level stands alone.
+fn detail_of(pixels: f32) -> f32 {
+    var detail = 0.0;
+    for (var level = 0u; level < PLANT_LEVELS; level++) {
+        let way = clamp(log2(ENDS[level] * PASSES / pixels) / (2.0 * log2(PASSES)), 0.0, 1.0);
+        detail += way * way * (3.0 - 2.0 * way);
+    }
+    return detail;
+}
+
+// How broad the leaves are that levels from the first to the last have.
+fn share_of_levels(detail: f32, first: f32, last: f32) -> f32 {
+    return clamp(min(detail - first + 1.0, last + 1.0 - detail), 0.0, 1.0);
+}

@@ -1,0 +1,153 @@
+//! From a fractal to the parts that become leaves and stems: down the digits, the coarsest first.
+
+use std::collections::VecDeque;
+
+use super::LEVELS;
+use crate::grow::ifs::foliage::Shape;
+use crate::grow::ifs::map::Map;
+use crate::grow::ifs::system::{Ifs, Role};
+use crate::random::hash2;
+
+/// Size, as a share of the plant, up to which a part is a leaf of each level but the last, which has no sizes.
+const SIZES: [f64; LEVELS - 1] = [0.028, 0.07, 0.36, 1.0];
+
+/// Share of the plant below which no stem is seen.
+const LEAST_STEM: f64 = 0.08;
+
+/// Most leaves of the finest level, over all fronds.
+const MOST: usize = 16_384;
+
+/// Factor by which leaves become larger until they are few enough.
+const COARSER: f64 = 1.2;
+
+/// A part that begins with a branch, or the whole.
+pub(super) struct Branch {
+    /// From the whole to the part.
+    pub(super) map: Map,
+    /// Number of the branch on which it hangs.
+    pub(super) parent: Option<usize>,
+    /// How far along it.
+    pub(super) along: f64,
+    /// Branchings below it.
+    pub(super) order: u32,
+    /// A number of its own.
+    pub(super) key: u64,
+}
+
+/// A leaf or a stem.
+pub(super) struct Part {
+    /// From the whole to the part.
+    pub(super) map: Map,
+    /// From the whole to where the part is in its branch.
+    pub(super) within: Map,
+    /// Number of its branch.
+    pub(super) branch: usize,
+    /// Size as a share of the whole.
+    pub(super) size: f64,
+    /// First and last level that has it.
+    pub(super) levels: [u32; 2],
+    /// Whether it is a stem.
+    pub(super) is_stem: bool,
+    /// A number of its own.
+    pub(super) key: u64,
+}
+
+/// All parts of one frond.
+pub(super) struct Walk {
+    pub(super) branches: Vec<Branch>,
+    pub(super) parts: Vec<Part>,
+}
+
+/// A part on the way down.
+struct Open {
+    map: Map,
+    within: Map,
+    branch: usize,
+    size: f64,
+    /// Size of what it is a part of.
+    before: f64,
+    key: u64,
+}
+
+impl Walk {
+    /// The parts of a fractal that stands so many times in a plant, with leaves as fine as that allows.
+    pub(super) fn of(ifs: &Ifs, shape: &Shape, copies: usize) -> Self {
+        let mut sizes = SIZES;
+        loop {
+            match Self::down_to(ifs, shape, sizes, MOST / copies) {
+                Some(walk) => return walk,
+                None => {
+                    sizes[0] *= COARSER;
+                    sizes[1] = sizes[1].max(1.5 * sizes[0]);
+                    sizes[2] = sizes[2].max(1.5 * sizes[1]);
+                    sizes[3] = sizes[3].max(sizes[2]);
+                }
+            }
+        }
+    }
+
+    /// The same with leaves of such sizes; `None` if there are more than so many.
+    fn down_to(ifs: &Ifs, shape: &Shape, sizes: [f64; LEVELS - 1], most: usize) -> Option<Self> {
+        let whole = Branch { map: Map::IDENTITY, parent: None, along: 0.0, order: 0, key: 0 };
+        let mut walk = Self { branches: vec![whole], parts: Vec::new() };
+        let mut open = VecDeque::from([Open {
+            map: Map::IDENTITY,
+            within: Map::IDENTITY,
+            branch: 0,
+            size: 1.0,
+            before: f64::INFINITY,
+            key: 0,
+        }]);
+        while let Some(part) = open.pop_front() {
+            walk.leaf(&part, sizes);
+            if part.size > sizes[0] {
+                walk.stem(&part, sizes);
+                for digit in 0..ifs.maps().len() {
+                    open.extend(walk.child(ifs, shape, &part, digit));
+                }
+            }
+            if walk.parts.len() > most {
+                return None;
+            }
+        }
+        Some(walk)
+    }
+
+    fn leaf(&mut self, part: &Open, sizes: [f64; LEVELS - 1]) {
+        let mut levels = (0..).zip(sizes).filter(|&(_, size)| part.size <= size && size < part.before);
+        if let Some((first, _)) = levels.next() {
+            let last = levels.last().map_or(first, |(last, _)| last);
+            self.part(part, [first, last], false);
+        }
+    }
+
+    fn stem(&mut self, part: &Open, sizes: [f64; LEVELS - 1]) {
+        let levels = (0..).zip(sizes).filter(|&(_, size)| size < part.size);
+        if let Some((last, _)) = levels.last().filter(|_| part.size >= LEAST_STEM) {
+            self.part(part, [0, last], true);
+        }
+    }
+
+    fn part(&mut self, part: &Open, levels: [u32; 2], is_stem: bool) {
+        let Open { map, within, branch, size, key, .. } = *part;
+        self.parts.push(Part { map, within, branch, size, levels, is_stem, key });
+    }
+
+    fn child(&mut self, ifs: &Ifs, shape: &Shape, part: &Open, digit: usize) -> Option<Open> {
+        let weighted = &ifs.maps()[digit];
+        let map = part.map.after(&weighted.map);
+        let key = hash2(part.key, digit as i64, 1);
+        let (within, branch) = match weighted.role {
+            Role::Stem => return None,
+            Role::Trunk => (part.within.after(&weighted.map), part.branch),
+            Role::Branch => {
+                let along = shape.share_above_root(part.within.at(weighted.map.at(ifs.root())));
+                let order = self.branches[part.branch].order + 1;
+                self.branches.push(Branch { map, parent: Some(part.branch), along, order, key });
+                (Map::IDENTITY, self.branches.len() - 1)
+            }
+        };
+        // Maps that contract in a row but not one by one may lengthen at first.
+        Some(Open { map, within, branch, size: map.ratio().min(part.size), before: part.size, key })
+    }
+}
