@@ -182,6 +182,9 @@ pub(crate) struct BenchArguments {
     /// Only the parts of a drawn picture, on the graphics device
     #[arg(long, conflicts_with_all = ["size", "fractals", "grass"])]
     pub(crate) render: bool,
+    /// Most sets of grass in a picture, with --render [default: all; on software 50100]
+    #[arg(long, value_name = "N", requires = "render", value_parser = value_parser!(u32).range(1..))]
+    pub(crate) sets: Option<u32>,
     /// Only sets and blades of grass, with --engine cpu
     #[arg(long, conflicts_with_all = ["size", "gpu_memory", "fractals"])]
     pub(crate) grass: bool,

@@ -46,5 +46,8 @@ mod watch;
 pub use gpu::Gpu;
 #[doc(hidden)]
 pub use render::TestLook;
-pub use render::{Chosen, GrassLook, Options as RenderOptions, Renderer, Timings};
+pub use render::{
+    Chosen, GrassLook, GrassRow, Hear, Measuring, Options as RenderOptions, Renderer, Standpoint, Timings,
+    frame_budget, grass_tables,
+};
 pub use swarm::{Cloud, Swarm, SwarmRates, grow_blades};

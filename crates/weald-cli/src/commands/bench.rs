@@ -30,7 +30,7 @@ pub(crate) fn bench(arguments: &BenchArguments) -> Result<(), Failure> {
         }
     };
     if arguments.render {
-        super::bench_render::run(arguments.gpu_memory, &mut print)?;
+        super::bench_render::run(arguments, &mut print)?;
     } else if arguments.engine == "gpu" {
         on_the_gpu(arguments, &mut print)?;
     } else {

@@ -1,4 +1,5 @@
-//! `weald bench --render`: how long the parts of a drawn picture take on the device, by its own clock.
+//! `weald bench --render`: how long the parts of a drawn picture take on the device, by its own clock; how many frames of
+//! grass it draws in a second, beside those of the source; and what its parts take as sets become more.
 
 use std::fmt::Display;
 use std::time::Duration;
@@ -7,10 +8,12 @@ use weald::engine::device::Device;
 use weald::picture::{Camera, Stage, View};
 use weald::recipe::{Overrides, Recipe};
 use weald::{Field, Landscape};
-use weald_gpu::{Gpu, RenderOptions, Renderer};
+use weald_gpu::{Gpu, GrassRow, Measuring, RenderOptions, Renderer, Timings, frame_budget, grass_tables};
 
+use crate::arguments::BenchArguments;
 use crate::engine::with_memory;
 use crate::failure::Failure;
+use crate::interrupt;
 
 /// Mountains with lakes, on a kilometre-wide scale, of which the pictures are drawn.
 const GROUND: &str = "\
@@ -30,35 +33,95 @@ file = \"height.npy\"
 /// Share of the relief up to which there is water.
 const WATER: f32 = 0.3;
 
-/// Pixels and pictures on a card, and on software that acts as one.
-const ON_A_CARD: ([u32; 2], u32) = ([1920, 1080], 40);
-const ON_SOFTWARE: ([u32; 2], u32) = ([640, 360], 3);
+/// What prints a line.
+type Print<'a> = dyn FnMut(&dyn Display) + 'a;
 
-/// Measures and prints a line for each camera.
-pub(super) fn run(memory: Option<u64>, print: &mut dyn FnMut(&dyn Display)) -> Result<(), Failure> {
-    let gpu = with_memory(Gpu::for_drawing()?, memory)?;
+/// Measures, and prints a line for each picture. An interruption may end it at once: nothing is written.
+pub(super) fn run(arguments: &BenchArguments, print: &mut Print<'_>) -> Result<(), Failure> {
+    interrupt::end_at_once()?;
+    let gpu = with_memory(Gpu::for_drawing()?, arguments.gpu_memory)?;
+    let usual = Measuring::of(&gpu);
+    let what = Measuring { most_drawn: arguments.sets.unwrap_or(usual.most_drawn), ..usual };
     print(&gpu.adapter());
-    let (size, times) = if gpu.is_software() { ON_SOFTWARE } else { ON_A_CARD };
     if gpu.is_software() {
         print(&"software that acts as a graphics card: a small picture, and times that say little");
     }
-    let view = View { width: size[0], height: size[1], field_of_view_deg: 50.0, ..View::default() };
-    let stage = Stage::new(&view, &landscape()?)?;
-    let mut renderer = Renderer::new(&gpu, &stage, RenderOptions { size, samples: 4 })?;
-    let [width, height] = size;
-    print(&format!("milliseconds of {width} × {height} pixels with 4 samples, the least of {times}"));
-    print(&"camera     shadows   ground  sides and sky     film  picture   triangles");
-    for (name, camera) in cameras(&stage) {
-        let timings = renderer.measure(&camera, times)?;
-        let triangles = renderer.triangles(&camera)?;
-        let [shadows, ground, behind, film, picture] =
-            [timings.shadows, timings.ground, timings.behind, timings.film, timings.picture]
-                .map(milliseconds);
+    let [width, height] = what.size;
+    let times = what.times;
+    print(&format!(
+        "milliseconds of {width} × {height} pixels with 4 samples, the least of {times}; water is what the"
+    ));
+    print(&"ground takes longer with it; grass has the samples of all pixels brought together in it");
+    if what.most_drawn < u32::MAX {
         print(&format!(
-            "{name:<9} {shadows:>8.2} {ground:>8.2} {behind:>14.2} {film:>8.2} {picture:>8.2} {triangles:>11}"
+            "pictures of more than {} sets of grass are left out: --sets draws more",
+            what.most_drawn
         ));
     }
+    landscapes(&gpu, what, print)?;
+    tables(&gpu, what, print)?;
+    budget(&gpu, what, print)
+}
+
+/// Mountains and lakes without grass.
+fn landscapes(gpu: &Gpu, what: Measuring, print: &mut Print<'_>) -> Result<(), Failure> {
+    let [width, height] = what.size;
+    let view = View { width, height, field_of_view_deg: 50.0, ..View::default() };
+    let stage = Stage::new(&view, &landscape()?)?;
+    let mut renderer = Renderer::new(gpu, &stage, RenderOptions { size: what.size, samples: 4 })?;
+    print(&format!("\n{:<38}{PARTS} triangles", "mountains and lakes"));
+    for (name, camera) in cameras(&stage) {
+        let timings = renderer.measure(&camera, what.times)?;
+        let triangles = renderer.triangles(&camera)?;
+        print(&format!("{name:<38}{} {triangles:>9}", parts(&timings)));
+    }
     Ok(())
+}
+
+/// Tables 1 to 3 of the source.
+fn tables(gpu: &Gpu, what: Measuring, print: &mut Print<'_>) -> Result<(), Failure> {
+    print(&"\nframes a second of grass; source: Kim and Cho 2009, Core 2 Duo E8500 and GeForce 9600 GT");
+    print(&"table  view  level    sets   drawn     ours   source   ms of the grass");
+    let mut tell = |row: &GrassRow| {
+        let GrassRow { table, standpoint, sets: [all, drawn], timings, .. } = row;
+        let level = row.look.level.unwrap_or_default();
+        let grass = milliseconds(timings.choice + timings.grass);
+        print(&format!(
+            "{table:>5}  {:<4}  {level:>5} {all:>7} {drawn:>7} {:>8.2} {:>8.2} {grass:>17.2}",
+            standpoint.name(),
+            row.frames_a_second(),
+            row.source.unwrap_or_default(),
+        ));
+        Ok(())
+    };
+    grass_tables(gpu, what, &mut tell)?;
+    Ok(())
+}
+
+/// The parts of a picture by the number of sets.
+fn budget(gpu: &Gpu, what: Measuring, print: &mut Print<'_>) -> Result<(), Failure> {
+    print(&format!("\n{:<38}{PARTS}", "   sets    drawn  culled  thinned"));
+    let mut tell = |row: &GrassRow| {
+        let [all, drawn] = row.sets;
+        let [culled, thinned] = [row.look.culled, row.look.thinned].map(|is| if is { "yes" } else { "no" });
+        let wanted = row.wanted;
+        print(&format!(
+            "{wanted:>7} {drawn:>8}  {culled:<6}  {thinned:<7} of {all:<7}{}",
+            parts(&row.timings)
+        ));
+        Ok(())
+    };
+    frame_budget(gpu, what, &mut tell)?;
+    Ok(())
+}
+
+/// Names of the columns of [`parts`].
+const PARTS: &str = " shadows   ground    water   behind   choice    grass     film  picture";
+
+fn parts(timings: &Timings) -> String {
+    let Timings { choice, shadows, ground, water, behind, grass, film, picture } = *timings;
+    let parts = [shadows, ground, water, behind, choice, grass, film, picture];
+    parts.map(|part| format!("{:>8.2}", milliseconds(part))).join(" ")
 }
 
 fn milliseconds(time: Duration) -> f64 {

@@ -89,8 +89,7 @@ impl Film {
         let mut pass = encoder.begin_render_pass(&RenderPassDescriptor {
             label: Some("film"),
             color_attachments: &[Some(attachment)],
-            timestamp_writes: timer
-                .map(|timer| timer.around(Some(Moment::FilmBegins), Some(Moment::FilmEnds))),
+            timestamp_writes: timer.map(|timer| timer.around(Moment::Film, [true; 2])),
             ..RenderPassDescriptor::default()
         });
         pass.set_pipeline(pipeline);

@@ -43,6 +43,8 @@ pub(super) struct Drawn {
     pub(super) detail_from: [f32; 3],
     /// Seconds since the beginning.
     pub(super) seconds: f32,
+    /// Whether water is left out.
+    pub(super) is_dry: bool,
     pub(super) cascades: Cascades,
 }
 
@@ -96,7 +98,7 @@ impl Frame {
             forward: with(camera.forward, NEAREST),
             right: with(camera.right, camera.half[0]),
             up: with(camera.up, camera.half[1]),
-            stand: [x, y, drawn.stand.above, 0.0],
+            stand: [x, y, drawn.stand.above, f32::from(drawn.is_dry)],
             moment: [drawn.seconds, near_x, near_y, near_z],
             slides: drawn.slides,
             sun_right: with(drawn.cascades.right, drawn.cascades.depths[0]),

@@ -7,7 +7,7 @@ struct Frame {
     forward: vec4<f32>,
     right: vec4<f32>,
     up: vec4<f32>,
-    // Place of the eye, and its height above all ground.
+    // Place of the eye, its height above all ground, and 1 where water is left out so that it can be timed.
     stand: vec4<f32>,
     // Seconds since the beginning, and the point from which detail is chosen: the eye.
     moment: vec4<f32>,

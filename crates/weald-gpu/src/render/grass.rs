@@ -20,7 +20,7 @@ use wgpu::{
 
 use super::lawn::{DRAW, Lawn, Sown};
 use super::passes::{Layouts, STAGE_GROUP, strips};
-use super::timing::{Moment, Timer};
+use super::timing::Timer;
 use crate::gpu::Gpu;
 
 /// What of a landscape's grass is drawn.
@@ -116,8 +116,7 @@ impl Grass {
         groups: [&BindGroup; 2],
         timer: Option<&Timer>,
     ) {
-        let timestamp_writes =
-            timer.map(|timer| timer.around_compute(Moment::ChoiceBegins, Moment::ChoiceEnds));
+        let timestamp_writes = timer.map(Timer::around_choice);
         let mut pass = encoder
             .begin_compute_pass(&ComputePassDescriptor { label: Some("choice of grass"), timestamp_writes });
         for (at, group) in (0..).zip(groups) {

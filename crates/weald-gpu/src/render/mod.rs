@@ -9,6 +9,7 @@ mod canopy;
 mod cascades;
 mod chosen;
 mod device;
+mod field;
 mod film;
 mod frame;
 mod frustum;
@@ -21,6 +22,7 @@ mod picture;
 mod plants;
 mod shadows;
 mod spacing;
+mod tables;
 mod targets;
 mod terrain;
 mod textures;
@@ -32,6 +34,7 @@ use weald::{Error, Landscape};
 
 use crate::gpu::Gpu;
 pub use chosen::Chosen;
+pub use field::Standpoint;
 use film::Film;
 use frame::{Drawn, Frame};
 use grass::Grass;
@@ -41,6 +44,7 @@ use passes::{Drawing, Layouts, Passes};
 use picture::Landing;
 use plants::Plants;
 use shadows::Shadows;
+pub use tables::{GrassRow, Hear, Measuring, frame_budget, grass_tables};
 use targets::Targets;
 use terrain::Terrain;
 use textures::Canvas;
@@ -118,6 +122,9 @@ pub struct Renderer {
     film: Film,
     look: TestLook,
     timer: Option<Timer>,
+    has_water: bool,
+    /// Whether water is left out, to be measured.
+    is_dry: bool,
     /// Moment of the next picture, by which water flows.
     seconds: f32,
 }
@@ -156,6 +163,8 @@ impl Renderer {
             film,
             look: TestLook::default(),
             timer: None,
+            has_water: stage.has_water(),
+            is_dry: false,
             seconds: 0.0,
         })
     }
@@ -234,8 +243,11 @@ impl Renderer {
     /// Selects what a camera sees, and encodes the choice of its grass and plants.
     fn aim(&mut self, camera: &Camera, encoder: &mut wgpu::CommandEncoder) -> Result<(), Error> {
         check_camera(camera)?;
+        if let Some(timer) = &self.timer {
+            timer.begin(encoder);
+        }
         let drawn = self.terrain.prepare(&self.gpu, camera, self.options.size, self.look.detail_from)?;
-        let drawn = Drawn { seconds: self.seconds, ..drawn };
+        let drawn = Drawn { seconds: self.seconds, is_dry: self.is_dry, ..drawn };
         self.frame.write(&self.gpu, camera, self.options.size[0], &drawn);
         let groups = [&self.frame.caster_group, &self.maps.group];
         if let Some(grass) = &mut self.grass {

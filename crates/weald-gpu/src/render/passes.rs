@@ -204,8 +204,7 @@ impl Passes {
                 depth_ops: Some(depth),
                 stencil_ops: None,
             }),
-            timestamp_writes: timer
-                .map(|timer| timer.around(Some(Moment::LightBegins), Some(Moment::LightEnds))),
+            timestamp_writes: timer.map(|timer| timer.around(Moment::Light, [true; 2])),
             ..RenderPassDescriptor::default()
         });
         for (at, group) in (0..).zip(groups) {
@@ -214,7 +213,7 @@ impl Passes {
         pass.set_pipeline(&self.ground);
         terrain.draw_ground(&mut pass, 0);
         if let Some(timer) = timer {
-            timer.note(&mut pass, Moment::GroundEnds);
+            timer.note(&mut pass, Moment::Ground);
         }
         pass.set_pipeline(&self.sides);
         terrain.draw_sides(&mut pass, 0);
@@ -225,7 +224,7 @@ impl Passes {
             pass.draw(0..3, 0..1);
         }
         if let Some(timer) = timer {
-            timer.note(&mut pass, Moment::BehindEnds);
+            timer.note(&mut pass, Moment::Behind);
         }
         if let Some(grass) = grass {
             grass.draw(&mut pass);

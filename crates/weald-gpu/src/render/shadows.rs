@@ -93,8 +93,8 @@ impl Shadows {
 /// What the pass of a cascade notes: the first when it begins, the last when it ends.
 fn ends(timer: &Timer, cascade: usize) -> Option<RenderPassTimestampWrites<'_>> {
     match cascade {
-        0 => Some(timer.around(Some(Moment::ShadowsBegin), None)),
-        _ if cascade == CASCADES - 1 => Some(timer.around(None, Some(Moment::ShadowsEnd))),
+        0 => Some(timer.around(Moment::Shadows, [true, false])),
+        _ if cascade == CASCADES - 1 => Some(timer.around(Moment::Shadows, [false, true])),
         _ => None,
     }
 }

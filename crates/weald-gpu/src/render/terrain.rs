@@ -114,7 +114,7 @@ impl Terrain {
             let sides: Vec<_> = patches.iter().flat_map(|patch| self.sides_of(*patch)).collect();
             self.seen[number].write(gpu, &patches, &sides)?;
         }
-        Ok(Drawn { stand, slides: ranges.slides(), detail_from, seconds: 0.0, cascades })
+        Ok(Drawn { stand, slides: ranges.slides(), detail_from, seconds: 0.0, is_dry: false, cascades })
     }
 
     /// The box around all of it.

@@ -75,10 +75,11 @@ fn ground_fragment(in: Ground) -> @location(0) vec4<f32> {
     let direction = relative / way;
     let footprint = way * frame.eye.w;
     let surface = spline_with_slope(bed, place);
-    let depth = lake_depth(place, surface.x);
+    let is_dry = frame.stand.w > 0.0;
+    let depth = select(lake_depth(place, surface.x), -1e9, is_dry);
     let sun = sun_seen(in.point, normal_of(surface.yz));
     var river = 0.0;
-    if stage.has.w > 0.0 && depth <= 0.0 {
+    if stage.has.w > 0.0 && depth <= 0.0 && !is_dry {
         river = textureSampleLevel(rivers, between, share_of(place), 0.0).x;
     }
     var radiance = vec3<f32>(0.0);

@@ -1,4 +1,12 @@
 //! How long the passes of a picture take, by the device's own clock.
+//!
+//! Each part ends with a moment, and lasts from the one before: parts add up to the whole. A software device
+//! (llvmpipe) bins what is drawn and notes a moment only when it draws the bins, together with what comes next; so each
+//! moment is followed by a spare one, which makes it draw. There the processor makes the vertices of a part while it still
+//! draws the one before, and the borders between parts are soft.
+//!
+//! Water is shaded with the ground. How long it takes is how much longer the ground does than in the same picture without
+//! water, which is drawn as well.
 
 use std::time::{Duration, Instant};
 
@@ -18,43 +26,52 @@ use crate::memory::Store;
 pub(crate) const FEATURES: Features =
     Features::TIMESTAMP_QUERY.union(Features::TIMESTAMP_QUERY_INSIDE_PASSES);
 
-/// Moments of a picture, in order.
+/// Moments of a picture, in order: its beginning, then the end of each part.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Moment {
-    ChoiceBegins,
-    ChoiceEnds,
-    ShadowsBegin,
-    ShadowsEnd,
-    LightBegins,
-    GroundEnds,
-    BehindEnds,
-    LightEnds,
-    FilmBegins,
-    FilmEnds,
+    Begin,
+    Choice,
+    Shadows,
+    Ground,
+    Behind,
+    Light,
+    Film,
 }
 
-/// How many moments there are.
-const MOMENTS: u32 = 10;
+/// How many moments there are, with their spare ones.
+const MOMENTS: u32 = 14;
 
 /// Bytes of a moment.
 const BYTES: u64 = 8;
 
+impl Moment {
+    fn slot(self) -> u32 {
+        2 * self as u32
+    }
+
+    fn spare(self) -> u32 {
+        self.slot() + 1
+    }
+}
+
 /// How long the parts of a picture took, the least of several.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Timings {
-    /// What throws shadows, into all cascades.
-    pub shadows: Duration,
-    /// The ground and the water on it.
-    pub ground: Duration,
-    /// Cut sides, plain and sky.
-    pub behind: Duration,
     /// What is chosen of the grass.
     pub choice: Duration,
-    /// Blades of grass.
+    /// What throws shadows, into all cascades.
+    pub shadows: Duration,
+    /// The ground, without water.
+    pub ground: Duration,
+    /// By how much longer the ground takes with the water on it.
+    pub water: Duration,
+    /// Cut sides, plain and sky.
+    pub behind: Duration,
+    /// Grass, and bringing the samples of all pixels together.
     pub grass: Duration,
     /// From light to the numbers of a picture.
     pub film: Duration,
-    /// All of it, from choosing what is drawn to the end of the device's work.
+    /// All of it, by the clock of the processor, from choosing what is drawn to the end of the device's work.
     pub picture: Duration,
 }
 
@@ -83,33 +100,48 @@ impl Timer {
         })
     }
 
-    /// What a pass notes at its ends.
-    pub(super) fn around(&self, begin: Option<Moment>, end: Option<Moment>) -> RenderPassTimestampWrites<'_> {
+    /// Notes the beginning.
+    pub(super) fn begin(&self, encoder: &mut CommandEncoder) {
+        let writes = ComputePassTimestampWrites {
+            query_set: &self.moments,
+            beginning_of_pass_write_index: Some(Moment::Begin.slot()),
+            end_of_pass_write_index: Some(Moment::Begin.spare()),
+        };
+        drop(
+            encoder
+                .begin_compute_pass(&ComputePassDescriptor { label: None, timestamp_writes: Some(writes) }),
+        );
+    }
+
+    /// What a pass notes whose end is that of a part; of a part of several passes the first has no end, the last no
+    /// beginning.
+    pub(super) fn around(&self, moment: Moment, [first, last]: [bool; 2]) -> RenderPassTimestampWrites<'_> {
         RenderPassTimestampWrites {
             query_set: &self.moments,
-            beginning_of_pass_write_index: begin.map(|moment| moment as u32),
-            end_of_pass_write_index: end.map(|moment| moment as u32),
+            beginning_of_pass_write_index: first.then(|| moment.spare()),
+            end_of_pass_write_index: last.then(|| moment.slot()),
         }
     }
 
-    /// What a pass that computes notes at its ends.
-    pub(super) fn around_compute(&self, begin: Moment, end: Moment) -> ComputePassTimestampWrites<'_> {
+    /// What the pass that chooses notes.
+    pub(super) fn around_choice(&self) -> ComputePassTimestampWrites<'_> {
         ComputePassTimestampWrites {
             query_set: &self.moments,
-            beginning_of_pass_write_index: Some(begin as u32),
-            end_of_pass_write_index: Some(end as u32),
+            beginning_of_pass_write_index: Some(Moment::Choice.spare()),
+            end_of_pass_write_index: Some(Moment::Choice.slot()),
         }
     }
 
-    /// Notes both moments of a choice that there is none of: every moment is to be noted once.
+    /// Notes the end of a choice that there is none of: every moment is to be noted once.
     pub(super) fn skip_choice(&self, encoder: &mut CommandEncoder) {
-        let timestamp_writes = Some(self.around_compute(Moment::ChoiceBegins, Moment::ChoiceEnds));
+        let timestamp_writes = Some(self.around_choice());
         drop(encoder.begin_compute_pass(&ComputePassDescriptor { label: None, timestamp_writes }));
     }
 
-    /// Notes a moment within a pass.
+    /// Notes the end of a part within a pass.
     pub(super) fn note(&self, pass: &mut RenderPass<'_>, moment: Moment) {
-        pass.write_timestamp(&self.moments, moment as u32);
+        pass.write_timestamp(&self.moments, moment.slot());
+        pass.write_timestamp(&self.moments, moment.spare());
     }
 
     fn collect(&self, encoder: &mut CommandEncoder) {
@@ -119,20 +151,21 @@ impl Timer {
     }
 
     /// Times between the moments of the picture that was drawn last, which took so long in all.
-    fn timings(&self, gpu: &Gpu, picture: Duration, planted: bool) -> Result<Timings, Error> {
+    fn timings(&self, gpu: &Gpu, picture: Duration) -> Result<Timings, Error> {
         let ticks = landed(gpu, &self.landing.buffer, bytemuck::pod_collect_to_vec::<u8, u64>)?;
         let tick = f64::from(gpu.context.queue.get_timestamp_period()) * 1e-9;
-        let between = |from: Moment, to: Moment| {
-            Duration::from_secs_f64(ticks[to as usize].saturating_sub(ticks[from as usize]) as f64 * tick)
+        let until = |moment: Moment| {
+            let [from, to] = [moment.slot() - 2, moment.slot()].map(|slot| ticks[slot as usize]);
+            Duration::from_secs_f64(to.saturating_sub(from) as f64 * tick)
         };
-        let of_grass = |from, to| if planted { between(from, to) } else { Duration::ZERO };
         Ok(Timings {
-            shadows: between(Moment::ShadowsBegin, Moment::ShadowsEnd),
-            ground: between(Moment::LightBegins, Moment::GroundEnds),
-            behind: between(Moment::GroundEnds, Moment::BehindEnds),
-            choice: of_grass(Moment::ChoiceBegins, Moment::ChoiceEnds),
-            grass: of_grass(Moment::BehindEnds, Moment::LightEnds),
-            film: between(Moment::FilmBegins, Moment::FilmEnds),
+            choice: until(Moment::Choice),
+            shadows: until(Moment::Shadows),
+            ground: until(Moment::Ground),
+            water: Duration::ZERO,
+            behind: until(Moment::Behind),
+            grass: until(Moment::Light),
+            film: until(Moment::Film),
             picture,
         })
     }
@@ -141,10 +174,11 @@ impl Timer {
 impl Timings {
     fn least(self, other: Self) -> Self {
         Self {
+            choice: self.choice.min(other.choice),
             shadows: self.shadows.min(other.shadows),
             ground: self.ground.min(other.ground),
+            water: self.water.min(other.water),
             behind: self.behind.min(other.behind),
-            choice: self.choice.min(other.choice),
             grass: self.grass.min(other.grass),
             film: self.film.min(other.film),
             picture: self.picture.min(other.picture),
@@ -153,19 +187,33 @@ impl Timings {
 }
 
 impl Renderer {
-    /// Draws the picture of a camera so many times, at least once, and says how long its parts take.
+    /// Draws the picture of a camera so many times, at least once, and says how long its parts take. Where there is
+    /// water, each time without as well.
     ///
     /// # Errors
     /// As [`Renderer::render`]; [`Error::Device`] as well for a device that has no clock.
     pub fn measure(&mut self, camera: &Camera, times: u32) -> Result<Timings, Error> {
         self.timer = Some(Timer::new(&self.gpu)?);
-        let mut least = self.measured(camera);
-        for _ in 1..times {
-            let next = self.measured(camera);
-            least = least.and_then(|least| Ok(least.least(next?)));
+        let least = self.least_of(camera, times);
+        (self.timer, self.is_dry) = (None, false);
+        let wet = least?;
+        let Some(dry) = wet.1 else { return Ok(wet.0) };
+        let water = wet.0.ground.saturating_sub(dry.ground);
+        Ok(Timings { ground: wet.0.ground - water, water, ..wet.0 })
+    }
+
+    /// The least times with water, and without where there is some.
+    fn least_of(&mut self, camera: &Camera, times: u32) -> Result<(Timings, Option<Timings>), Error> {
+        let mut least: [Option<Timings>; 2] = [None; 2];
+        for _ in 0..times.max(1) {
+            for &dry in if self.has_water { &[false, true][..] } else { &[false] } {
+                self.is_dry = dry;
+                let now = self.measured(camera)?;
+                let least = &mut least[usize::from(dry)];
+                *least = Some(least.map_or(now, |least| least.least(now)));
+            }
         }
-        self.timer = None;
-        least
+        Ok((least[0].expect("it was drawn at least once"), least[1]))
     }
 
     fn measured(&mut self, camera: &Camera) -> Result<Timings, Error> {
@@ -183,10 +231,6 @@ impl Renderer {
             context.wait(None)
         })?;
         let picture = begun.elapsed();
-        self.timer.as_ref().expect("it is set by the caller").timings(
-            &self.gpu,
-            picture,
-            self.grass.is_some(),
-        )
+        self.timer.as_ref().expect("it is set by the caller").timings(&self.gpu, picture)
     }
 }

@@ -136,6 +136,11 @@ impl Stage {
         self.setting.terrain.land.is_some()
     }
 
+    /// Whether there is water: lakes, or rivers thinner than cells.
+    pub fn has_water(&self) -> bool {
+        self.setting.level.is_some() || self.setting.rivers.is_some()
+    }
+
     /// Direction of the sun, of length 1.
     pub fn sun(&self) -> [f32; 3] {
         self.sky.sun
