@@ -2,8 +2,9 @@
 
 use weald::Error;
 use weald::engine::device::Device;
-use weald::picture::{Camera, Image, RenderDevice, RenderScene, Rendering};
+use weald::picture::{Camera, GrassRate, Image, RenderDevice, RenderScene, Rendering};
 
+use super::tables::{GrassRow, Measuring, grass_tables};
 use super::{Options, Renderer};
 use crate::gpu::Gpu;
 
@@ -21,6 +22,21 @@ impl RenderDevice for Gpu {
         let mut renderer = Renderer::new(self, scene.stage, Options { size, samples: scene.samples })?;
         renderer.plant(scene.stage, scene.landscape)?;
         Ok(Box::new(renderer))
+    }
+
+    fn grass_rates(&self, most_sets: u32) -> Result<Vec<GrassRate>, Error> {
+        let what = Measuring { most_drawn: most_sets, ..Measuring::of(self) };
+        let rate = |row: &GrassRow| GrassRate {
+            table: row.table,
+            view: row.standpoint.name(),
+            level: row.look.level.unwrap_or_default(),
+            sets: row.sets[0],
+            drawn: row.sets[1],
+            size: what.size,
+            rate: row.frames_a_second(),
+            source: row.source.unwrap_or_default(),
+        };
+        Ok(grass_tables(self, what, &mut |_| Ok(()))?.iter().map(rate).collect())
     }
 }
 

@@ -183,8 +183,11 @@ pub const FIGURES: &[Figure] = &[
     grass::FIGURE_5,
     grass::FIGURE_5B,
     grass::FIGURE_6,
+    grass::FIGURE_8,
     grass::FIGURE_10,
     grass::FIGURE_11,
+    grass::FIGURE_12,
+    grass::FIGURE_13,
 ];
 
 /// Headings or cells of a table.

@@ -44,7 +44,9 @@ pub use map::Map;
 pub use materials::Materials;
 pub use ramp::{Ramp, Scale, Tint};
 pub use relief::Relief;
-pub use render::{Flight, Frame, RayMarched, Reel, Render, RenderDevice, RenderKeys, RenderScene, Rendering};
+pub use render::{
+    Flight, Frame, GrassRate, RayMarched, Reel, Render, RenderDevice, RenderKeys, RenderScene, Rendering,
+};
 pub use section::{Along, Section};
 pub(crate) use strokes::{Point as StrokePoint, Strokes};
 pub(crate) use view::albedo;

@@ -53,7 +53,7 @@ fn band(apart: f32, width: f32) -> f32 {
 }
 
 /// The three maps.
-fn maps() -> Maps {
+pub(super) fn maps() -> Maps {
     let soil = field(|x, y| {
         let course = 0.68 + 0.14 * libm::sinf(5.5 * y) - 0.1 * y;
         0.12 + 0.25 * libm::sinf(9.0 * x + 4.0 * y).powi(2) + 0.85 * band(x - course, 0.3)

@@ -22,6 +22,33 @@ pub trait RenderDevice: Debug + Send + Sync {
     /// # Errors
     /// As [`RenderDevice::check`]; [`Error::Device`] where its memory does not suffice or it fails.
     fn set_up<'a>(&self, scene: &RenderScene<'a>) -> Result<Box<dyn Rendering + 'a>, Error>;
+
+    /// How fast it draws fields of grass as those of tables 1 to 3 of Kim and Cho 2009, of up to so many sets.
+    ///
+    /// # Errors
+    /// [`Error::Device`] where it fails, draws no blades or has no clock.
+    fn grass_rates(&self, most_sets: u32) -> Result<Vec<GrassRate>, Error>;
+}
+
+/// How fast a field of grass is drawn.
+#[derive(Clone, Debug, PartialEq)]
+pub struct GrassRate {
+    /// Number of the source's table, 1 to 3.
+    pub table: u8,
+    /// From where it is seen.
+    pub view: &'static str,
+    /// Level of growth, 1 to 4.
+    pub level: f32,
+    /// Sets that are there.
+    pub sets: u64,
+    /// Sets that are drawn.
+    pub drawn: u64,
+    /// Width and height of the picture in pixels.
+    pub size: [u32; 2],
+    /// Frames a second.
+    pub rate: f64,
+    /// The same in the source.
+    pub source: f64,
 }
 
 /// What a device is to draw.
@@ -61,6 +88,10 @@ impl RenderDevice for RayMarched {
 
     fn set_up<'a>(&self, scene: &RenderScene<'a>) -> Result<Box<dyn Rendering + 'a>, Error> {
         Ok(Box::new(Marched { view: scene.view, landscape: scene.landscape }))
+    }
+
+    fn grass_rates(&self, _: u32) -> Result<Vec<GrassRate>, Error> {
+        Err(Error::Device("the ray-marched view draws no blades of grass".to_owned()))
     }
 }
 

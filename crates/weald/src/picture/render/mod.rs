@@ -3,7 +3,7 @@
 mod device;
 mod flight;
 
-pub use device::{RayMarched, RenderDevice, RenderScene, Rendering};
+pub use device::{GrassRate, RayMarched, RenderDevice, RenderScene, Rendering};
 pub use flight::Flight;
 
 use super::{Camera, Image, Picture, Stage, View};
