@@ -5,6 +5,7 @@ use std::fmt::Display;
 use std::time::Duration;
 
 use weald::engine::device::Device;
+use weald::grow::grass::Packed;
 use weald::picture::{Camera, Stage, View};
 use weald::recipe::{Overrides, Recipe};
 use weald::{Field, Landscape};
@@ -51,7 +52,9 @@ pub(super) fn run(arguments: &BenchArguments, print: &mut Print<'_>) -> Result<(
     print(&format!(
         "milliseconds of {width} × {height} pixels with 4 samples, the least of {times}; water is what the"
     ));
-    print(&"ground takes longer with it; grass has the samples of all pixels brought together in it");
+    print(&"ground takes longer with it; plants has the samples of all pixels brought together in it");
+    let bytes = size_of::<Packed>();
+    print(&format!("a set of six blades takes {bytes} bytes, and 8 more while it is chosen"));
     if what.most_drawn < u32::MAX {
         print(&format!(
             "pictures of more than {} sets of grass are left out: --sets draws more",
@@ -116,11 +119,11 @@ fn budget(gpu: &Gpu, what: Measuring, print: &mut Print<'_>) -> Result<(), Failu
 }
 
 /// Names of the columns of [`parts`].
-const PARTS: &str = " shadows   ground    water   behind   choice    grass     film  picture";
+const PARTS: &str = " shadows   ground    water   behind   choice    grass   plants     film  picture";
 
 fn parts(timings: &Timings) -> String {
-    let Timings { choice, shadows, ground, water, behind, grass, film, picture } = *timings;
-    let parts = [shadows, ground, water, behind, choice, grass, film, picture];
+    let Timings { choice, shadows, ground, water, behind, grass, plants, film, picture } = *timings;
+    let parts = [shadows, ground, water, behind, choice, grass, plants, film, picture];
     parts.map(|part| format!("{:>8.2}", milliseconds(part))).join(" ")
 }
 

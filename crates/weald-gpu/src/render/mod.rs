@@ -250,14 +250,14 @@ impl Renderer {
         let drawn = Drawn { seconds: self.seconds, is_dry: self.is_dry, ..drawn };
         self.frame.write(&self.gpu, camera, self.options.size[0], &drawn);
         let groups = [&self.frame.caster_group, &self.maps.group];
+        if let Some(plants) = &self.plants {
+            plants.choose(encoder, groups);
+        }
         if let Some(grass) = &mut self.grass {
             grass.prepare(&self.gpu, self.look.detail_from.unwrap_or(camera.eye), self.grass_look)?;
             grass.choose(encoder, groups, self.timer.as_ref());
         } else if let Some(timer) = &self.timer {
             timer.skip_choice(encoder);
-        }
-        if let Some(plants) = &self.plants {
-            plants.choose(encoder, groups);
         }
         Ok(())
     }

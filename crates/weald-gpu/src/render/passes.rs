@@ -229,6 +229,9 @@ impl Passes {
         if let Some(grass) = grass {
             grass.draw(&mut pass);
         }
+        if let Some(timer) = timer {
+            timer.note(&mut pass, Moment::Grass);
+        }
         if let Some(plants) = plants {
             plants.draw(&mut pass);
         }

@@ -1,7 +1,7 @@
 //! Frames a second of grass as the source measured them (Kim and Cho 2009, tables 1 to 3), beside its own numbers, and
 //! the frame budget: what the parts of a picture take.
 //!
-//! The source drew on a Core 2 Duo E8500 with a GeForce 9600 GT. Tables 1 and 2 draw all sets of a field, each blade with
+//! The source drew on a Core 2 Duo E8500 with a `GeForce` 9600 GT. Tables 1 and 2 draw all sets of a field, each blade with
 //! ten vertices a level of growth, from where the whole field is seen, without culling or thinning. Table 3 looks from far,
 //! from the height of eyes and from near; its scene is not told but for "40,000 to 50,000 blocks" in the far view: here it
 //! is a field of 50,000 sets, of which those out of sight are left out.

@@ -34,12 +34,13 @@ pub(super) enum Moment {
     Shadows,
     Ground,
     Behind,
+    Grass,
     Light,
     Film,
 }
 
 /// How many moments there are, with their spare ones.
-const MOMENTS: u32 = 14;
+const MOMENTS: u32 = 16;
 
 /// Bytes of a moment.
 const BYTES: u64 = 8;
@@ -57,7 +58,7 @@ impl Moment {
 /// How long the parts of a picture took, the least of several.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Timings {
-    /// What is chosen of the grass.
+    /// What is chosen of grass and plants.
     pub choice: Duration,
     /// What throws shadows, into all cascades.
     pub shadows: Duration,
@@ -67,8 +68,10 @@ pub struct Timings {
     pub water: Duration,
     /// Cut sides, plain and sky.
     pub behind: Duration,
-    /// Grass, and bringing the samples of all pixels together.
+    /// Blades of grass.
     pub grass: Duration,
+    /// Scattered plants, and bringing the samples of all pixels together.
+    pub plants: Duration,
     /// From light to the numbers of a picture.
     pub film: Duration,
     /// All of it, by the clock of the processor, from choosing what is drawn to the end of the device's work.
@@ -164,7 +167,8 @@ impl Timer {
             ground: until(Moment::Ground),
             water: Duration::ZERO,
             behind: until(Moment::Behind),
-            grass: until(Moment::Light),
+            grass: until(Moment::Grass),
+            plants: until(Moment::Light),
             film: until(Moment::Film),
             picture,
         })
@@ -180,6 +184,7 @@ impl Timings {
             water: self.water.min(other.water),
             behind: self.behind.min(other.behind),
             grass: self.grass.min(other.grass),
+            plants: self.plants.min(other.plants),
             film: self.film.min(other.film),
             picture: self.picture.min(other.picture),
         }
@@ -199,7 +204,7 @@ impl Renderer {
         let wet = least?;
         let Some(dry) = wet.1 else { return Ok(wet.0) };
         let water = wet.0.ground.saturating_sub(dry.ground);
-        Ok(Timings { ground: wet.0.ground - water, water, ..wet.0 })
+        Ok(Timings { ground: wet.0.ground.min(dry.ground), water, ..wet.0 })
     }
 
     /// The least times with water, and without where there is some.
