@@ -69,7 +69,7 @@ impl Habit {
                 phase: unit(hash2(4, number, 7)),
                 azimuth: turn / f64::from(count) * (number as f64 + 0.3 * random(0)),
                 length: 0.92 + 0.16 * random(1),
-                lean: 0.38 + 0.2 * random(2),
+                lean: 0.42 + 0.2 * random(2),
                 arch: 1.25 + 0.35 * random(3),
             }
         };

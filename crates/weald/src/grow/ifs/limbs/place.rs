@@ -16,10 +16,10 @@ const ROWS: [(f64, usize); 3] = [(0.2, 7), (0.05, 3), (0.0, 1)];
 const BROADER: [f32; 2] = [0.25, 3.0];
 
 /// Share of a frond of a rosette that bears no leaves.
-const STIPE: f64 = 0.16;
+const STIPE: f64 = 0.08;
 
 /// How open to the light a place at the root is.
-const LEAST_OPEN: f32 = 0.3;
+const LEAST_OPEN: f32 = 0.35;
 
 /// Last level, with few leaves in all.
 const CHEAP: u32 = LEVELS as u32 - 1;
@@ -216,7 +216,11 @@ impl Builder {
         if leaf.part.branch == 0 && leaf.part.key == 0 && self.stipe > 0.0 {
             let foot = -self.stipe / (1.0 - self.stipe);
             let flats = [[0.0, foot, 0.0], flats[0]];
-            self.ribbon(plant, leaf, (flats, [foot, alongs[0]], [half / self.shape.taper, half]));
+            self.ribbon(
+                plant,
+                leaf,
+                (flats, [foot, alongs[0]], [half / (self.shape.taper * self.shape.taper), half]),
+            );
         }
     }
 
