@@ -20,7 +20,8 @@
 //!
 //! A [`Renderer`] draws a landscape, offscreen or into a window.
 //!
-//! A [`Cloud`] is the points of a fractal on a device, a [`Swarm`] a plant there that sways. [`grow_blades`] grows grass there.
+//! A [`Cloud`] is the points of a fractal on a device, a [`Swarm`] a plant there that sways. [`grow_blades`] grows grass there,
+//! [`bend_limbs`] bends plants.
 
 mod adapter;
 mod bandwidth;
@@ -50,4 +51,4 @@ pub use render::{
     Chosen, GrassLook, GrassRow, Hear, Measuring, Options as RenderOptions, Renderer, Standpoint, Timings,
     frame_budget, grass_tables,
 };
-pub use swarm::{Cloud, Swarm, SwarmRates, grow_blades};
+pub use swarm::{Cloud, Swarm, SwarmRates, bend_limbs, grow_blades};

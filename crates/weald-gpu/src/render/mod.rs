@@ -271,6 +271,12 @@ impl Renderer {
         image
     }
 
+    /// The list and number of each plant of the last picture, set by set.
+    #[doc(hidden)]
+    pub fn chosen_for_a_test(&self) -> Result<Vec<Vec<[u32; 2]>>, Error> {
+        self.plants.as_ref().map_or_else(|| Ok(Vec::new()), |plants| plants.chosen(&self.gpu))
+    }
+
     /// How many triangles the ground of a camera takes.
     ///
     /// # Errors

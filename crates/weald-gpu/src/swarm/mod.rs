@@ -1,12 +1,14 @@
 //! Fractals on a device: clouds of points, and swarms that sway in the wind.
 
 mod blades;
+mod limbs;
 mod pass;
 mod play;
 mod points;
 mod rates;
 
 pub use blades::grow_blades;
+pub use limbs::bend_limbs;
 pub use rates::SwarmRates;
 
 use weald::Error;

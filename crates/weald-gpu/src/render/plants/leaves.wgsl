@@ -25,7 +25,7 @@ struct Corner {
 @group(3) @binding(0) var<uniform> which: Which;
 
 // Share of light that comes through a leaf.
-const THROUGH_LEAF = 0.4;
+const THROUGH_LEAF = 0.5;
 
 struct Leaf {
     @builtin(position) position: vec4<f32>,
@@ -69,7 +69,32 @@ fn colour_of_corner(plant: Stood, look: u32) -> vec3<f32> {
     let tone = f32(look & 255u) / 255.0;
     // Some plants are older and yellower than others.
     let aged = mix(vec3<f32>(1.0), vec3<f32>(1.5, 1.1, 0.8), 0.5 * plant.chance * plant.chance);
-    return kind.leaf.xyz * mix(0.45, 0.8, tone) * aged;
+    return kind.leaf.xyz * mix(0.55, 0.95, tone) * aged;
+}
+
+// The share of the sun that is seen from a leaf: one look, since the corners of leaves lie closer than the edge of a shadow
+// is wide.
+fn sun_on_leaf(point: vec3<f32>) -> f32 {
+    var passed = 1.0;
+    var seen = 0.0;
+    for (var cascade = 0; cascade < CASCADES; cascade++) {
+        // Off the leaf itself.
+        let at = in_cascade(point + 1.5 * texel_of(cascade) * stage.sun.xyz, cascade);
+        let inside = 1.0 - max(abs(at.x), abs(at.y));
+        if inside <= 0.0 {
+            continue;
+        }
+        let share = select(clamp(inside / PASSING, 0.0, 1.0), 1.0, cascade == CASCADES - 1);
+        let place = at.xy * vec2<f32>(0.5, -0.5) + 0.5;
+        let depth = clamp(at.z, 0.0, 1.0);
+        let open = textureSampleCompareLevel(shadow_depths, shadow_between, place, cascade, depth);
+        seen += passed * share * open;
+        passed *= 1.0 - share;
+        if passed <= 0.0 {
+            break;
+        }
+    }
+    return seen + passed;
 }
 
 @vertex
@@ -77,7 +102,7 @@ fn leaf_vertex(@builtin(vertex_index) vertex: u32, @builtin(instance_index) inst
     let plant = plant_of(instance);
     let corner = corners[vertex];
     let found = corner_of(plant, corner);
-    let sun = sun_seen(found.point, stage.sun.xyz);
+    let sun = sun_on_leaf(found.point);
     let open = f32((corner.look >> 8u) & 255u) / 255.0;
     return Leaf(
         projected(found.point),

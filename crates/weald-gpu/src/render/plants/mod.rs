@@ -83,6 +83,11 @@ impl Plants {
         self.draw_view(pass, 1 + cascade);
     }
 
+    /// The list and number of each plant that was chosen for the camera, set by set.
+    pub(super) fn chosen(&self, gpu: &Gpu) -> Result<Vec<Vec<[u32; 2]>>, Error> {
+        self.sets.iter().map(|set| set.chosen(gpu)).collect()
+    }
+
     fn draw_view(&self, pass: &mut RenderPass<'_>, view: usize) {
         for set in &self.sets {
             pass.set_bind_group(2, &set.draw, &[]);

@@ -15,7 +15,7 @@ const ENDS = array<f32, 5>(200.0, 85.0, 17.0, 5.0, 1.2);
 const PASSES = 1.35;
 
 // Pixels that a texel of a cascade is worth: shadows are smooth, and need less.
-const TEXEL_PIXELS = 2.0;
+const TEXEL_PIXELS = 0.75;
 
 struct Kind {
     // Colour of leaves in linear light; reach from the root beside the height.

@@ -13,6 +13,8 @@ use super::pipelines::Groups;
 use super::{LISTS, VIEWS};
 use crate::gpu::Gpu;
 use crate::memory::Store;
+use crate::pace::Pace;
+use crate::transfer::{self, Transfer};
 
 /// Bytes of an indexed indirect draw.
 pub(super) const DRAW: u64 = 20;
@@ -35,7 +37,9 @@ pub(super) struct Set {
     pub(super) draws: Store,
     /// Workgroups that look at all plants.
     pub(super) groups: u32,
-    _stores: [Store; 7],
+    kept: Store,
+    starts: Store,
+    _stores: [Store; 5],
 }
 
 impl Set {
@@ -53,7 +57,9 @@ impl Set {
         let count = stood.len().max(1) as u64;
         let workgroups = count.div_ceil(u64::from(GROUP));
         let filled = |what: &str, words: &[u32], usage| filled(gpu, what, words, usage);
-        let room = |what: &str, words: u64| Store::new(gpu, what, 4 * words, BufferUsages::STORAGE);
+        let room = |what: &str, words: u64| {
+            Store::new(gpu, what, 4 * words, BufferUsages::STORAGE | BufferUsages::COPY_SRC)
+        };
         let table = BufferUsages::STORAGE;
         let kind = filled("a kind of plants", &kind(&limbs), BufferUsages::UNIFORM)?;
         let plants = filled("plants", stood.as_flattened(), table)?;
@@ -69,17 +75,36 @@ impl Set {
         let corners = filled("leaves of plants", corners.as_flattened(), table)?;
         let choose = groups.choose(gpu, &[&kind, &plants, &kept, &starts, &draws, &counts])?;
         let draw = groups.draw(gpu, &[&kind, &plants, &kept, &starts, &limbs, &corners])?;
-        let stores = [kind, plants, kept, starts, counts, limbs, corners];
-        Ok(Self { choose, draw, indices, draws, groups: workgroups as u32, _stores: stores })
+        let stores = [kind, plants, counts, limbs, corners];
+        Ok(Self { choose, draw, indices, draws, groups: workgroups as u32, kept, starts, _stores: stores })
+    }
+
+    /// The list and number of each plant that was chosen for the camera.
+    pub(super) fn chosen(&self, gpu: &Gpu) -> Result<Vec<[u32; 2]>, Error> {
+        let [draws, starts, kept] = [&self.draws, &self.starts, &self.kept].map(|store| words(gpu, store));
+        let (draws, starts, kept) = (draws?, starts?, kept?);
+        let of_list = |list: usize| {
+            let (first, count) = (starts[list] as usize, draws[DRAW as usize / 4 * list + 1] as usize);
+            kept[first..first + count].iter().map(move |&number| [list as u32, number])
+        };
+        Ok((0..LISTS).flat_map(of_list).collect())
     }
 }
 
 /// A buffer that holds these words.
 fn filled(gpu: &Gpu, what: &str, words: &[u32], usage: BufferUsages) -> Result<Store, Error> {
     let bytes: &[u8] = bytemuck::cast_slice(words);
-    let store = Store::new(gpu, what, bytes.len() as u64, usage | BufferUsages::COPY_DST)?;
-    crate::transfer::write(gpu, &store.buffer, bytes)?;
+    let store =
+        Store::new(gpu, what, bytes.len() as u64, usage | BufferUsages::COPY_DST | BufferUsages::COPY_SRC)?;
+    transfer::write(gpu, &store.buffer, bytes)?;
     Ok(store)
+}
+
+/// All words of a buffer, after all that was submitted.
+fn words(gpu: &Gpu, store: &Store) -> Result<Vec<u32>, Error> {
+    let mut pace = Pace::new(gpu.most_moved);
+    let values = Transfer::new(gpu)?.read(gpu, &mut pace, &store.buffer, store.buffer.size())?;
+    Ok(values.into_iter().map(f32::to_bits).collect())
 }
 
 /// Colours in linear light, and how far the plant reaches.
@@ -109,4 +134,49 @@ fn lists(limbs: &Limbs) -> (Vec<u32>, Vec<u32>) {
         indices.extend(corners);
     }
     (indices, draws.repeat(VIEWS))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use weald::picture::View;
+    use weald::recipe::{Overrides, Recipe};
+
+    fn ferns() -> (Stage, Landscape) {
+        let text = "[landscape]\nsize = 60\ncell = 4.0\nseed = 5\n[[step]]\ndo = \"fbm\"\nrelief = 40.0\n\
+                    [[step]]\ndo = \"scatter\"\nplant = \"fern\"\ncount = 2000\nspacing = 1.0\ninto = \"ferns\"\n\
+                    [[output]]\nlayer = \"height\"\nfile = \"a.tif\"\n";
+        let recipe = Recipe::parse("ferns.toml", text, &Overrides::default()).expect("a recipe");
+        let landscape = recipe.landscape().expect("ground");
+        (Stage::new(&View::default(), &landscape).expect("a stage"), landscape)
+    }
+
+    #[test]
+    fn plants_stand_on_the_ground_that_is_drawn_with_no_more_than_their_roots_in_it() {
+        let (stage, landscape) = ferns();
+        let plants = &landscape.plants("ferns").expect("scattered").plants;
+        assert!(plants.len() > 1500, "{}", plants.len());
+        let mut apart = 0.0_f32;
+        for (number, plant) in (0..).zip(plants) {
+            let [east, south, elevation] = plant.place;
+            let words = stood(&stage, number, plant).expect("on land");
+            let [x, north, up, size] = [0, 1, 2, 3].map(|word| f32::from_bits(words[word]));
+            let top = stage.top_at([f64::from(x), f64::from(-north)]).expect("on land");
+            assert!(top >= up && top - up <= 0.011 * size, "{number}: {up} under {top}");
+            apart = apart.max((top - stage.drawn_height(elevation)).abs());
+            assert!((f64::from(x) - east).abs() < 1e-3 && (f64::from(north) + south).abs() < 1e-3);
+        }
+        // The smooth surface that is drawn lies off the straight one that the step measured.
+        assert!(apart > 1e-3, "else this would mean little");
+    }
+
+    #[test]
+    fn a_plant_takes_thirty_two_bytes_and_a_kind_of_it_a_few_megabytes() {
+        let ifs = weald::grow::ifs::shapes::find("fern").expect("built in").ifs();
+        let limbs = Limbs::of(&ifs, Habit::of(&ifs, None));
+        let (indices, draws) = lists(&limbs);
+        let bytes = 4 * (indices.len() + 12 * limbs.corners.len() + 8 * limbs.limbs.len());
+        assert!((1 << 20..6 << 20).contains(&bytes), "{bytes}");
+        assert_eq!((4 * WORDS, draws.len()), (32, VIEWS * LISTS * DRAW as usize / 4));
+    }
 }

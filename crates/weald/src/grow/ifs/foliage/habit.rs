@@ -69,8 +69,8 @@ impl Habit {
                 phase: unit(hash2(4, number, 7)),
                 azimuth: turn / f64::from(count) * (number as f64 + 0.3 * random(0)),
                 length: 0.92 + 0.16 * random(1),
-                lean: 0.35 + 0.12 * random(2),
-                arch: 1.25 + 0.25 * random(3),
+                lean: 0.42 + 0.2 * random(2),
+                arch: 1.25 + 0.35 * random(3),
             }
         };
         (0..i64::from(count)).map(frond).collect()

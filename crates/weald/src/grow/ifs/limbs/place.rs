@@ -15,8 +15,11 @@ const ROWS: [(f64, usize); 3] = [(0.2, 7), (0.05, 3), (0.0, 1)];
 /// Least and greatest factor by which leaves of a level are broader, so that all have the same area.
 const BROADER: [f32; 2] = [0.25, 3.0];
 
+/// Share of a frond of a rosette that bears no leaves.
+const STIPE: f64 = 0.08;
+
 /// How open to the light a place at the root is.
-const LEAST_OPEN: f32 = 0.3;
+const LEAST_OPEN: f32 = 0.35;
 
 /// Last level, with few leaves in all.
 const CHEAP: u32 = LEVELS as u32 - 1;
@@ -28,6 +31,8 @@ pub(super) struct Builder {
     outline: Outline,
     walk: Walk,
     fronds: Vec<Frond>,
+    /// Share of a frond below its first leaves.
+    stipe: f64,
 }
 
 /// A leaf to be put in space.
@@ -46,8 +51,9 @@ impl Builder {
         let shape = Shape::of(ifs);
         let outline = Outline::of(ifs, &shape);
         let fronds = habit.fronds();
+        let stipe = if is_rosette(habit) { STIPE } else { 0.0 };
         let walk = Walk::of(ifs, &shape, fronds.len() * outline.views());
-        Self { habit, shape, outline, walk, fronds }
+        Self { habit, shape, outline, walk, fronds, stipe }
     }
 
     pub(super) fn plant(&self) -> Limbs {
@@ -69,7 +75,22 @@ impl Builder {
     }
 
     fn placed(&self, frond: &Frond, map: &Map, flat: Point) -> (Point, Point) {
-        self.habit.placed(frond, self.shape.flat(map.at(self.shape.point(flat))))
+        self.on_frond(frond, self.shape.flat(map.at(self.shape.point(flat))))
+    }
+
+    fn on_frond(&self, frond: &Frond, flat: Point) -> (Point, Point) {
+        self.habit.placed(frond, self.lifted(flat))
+    }
+
+    /// Where a point of the shape is on a frond, which begins above a bare stipe.
+    fn lifted(&self, [x, y, z]: Point) -> Point {
+        let rest = 1.0 - self.stipe;
+        [rest * x, self.stipe + rest * y, rest * z]
+    }
+
+    /// How far along a branch a place is, the first of which begins with the stipe.
+    fn along(&self, branch: usize, along: f64) -> f64 {
+        if branch == 0 { self.lifted([0.0, along, 0.0])[1] } else { along }
     }
 
     fn tip(&self) -> Point {
@@ -78,25 +99,22 @@ impl Builder {
     }
 
     fn limb(&self, branch: &Branch, frond: &Frond, first: u32) -> Limb {
-        let joint = self.placed(frond, &branch.map, [0.0; 3]).0;
+        let joint = match branch.parent {
+            Some(_) => self.placed(frond, &branch.map, [0.0; 3]).0,
+            None => self.habit.placed(frond, [0.0; 3]).0,
+        };
         let tip = self.placed(frond, &branch.map, self.tip()).0;
-        let stands_alone = matches!(self.habit, Habit::Arching(_) | Habit::Leaning(_));
         let phase = match branch.parent {
             Some(_) => unit_of(hash2(branch.key, frond.number, 0)),
+            None if is_rosette(self.habit) => frond.phase,
             // Planes that cross in one stem sway as one.
-            None => {
-                if stands_alone {
-                    frond.phase
-                } else {
-                    0.0
-                }
-            }
+            None => 0.0,
         };
         Limb {
             joint: joint.map(|x| x as f32),
             direction: unit(difference(tip, joint)).map(|x| x as f32),
             parent: branch.parent.map(|parent| first + parent as u32),
-            along: branch.along as f32,
+            along: branch.parent.map_or(0.0, |parent| self.along(parent, branch.along)) as f32,
             order: branch.order.min(3),
             // As ten bits hold it.
             phase: ((1024.0 * phase) as u32) as f32 / 1024.0,
@@ -179,7 +197,7 @@ impl Builder {
             rest: rest.map(|x| x as f32),
             axis: axis.map(|x| x as f32),
             normal: normal.map(|x| x as f32),
-            along: self.shape.share_above_root(within) as f32,
+            along: self.along(leaf.part.branch, self.shape.share_above_root(within)) as f32,
             limb: leaf.first_limb + leaf.part.branch as u32,
             levels: leaf.part.levels,
             is_stem: leaf.part.is_stem,
@@ -192,21 +210,44 @@ impl Builder {
     fn stem(&self, plant: &mut Limbs, leaf: &Leaf<'_>) {
         let Some(ends) = self.shape.stem else { return };
         let flats = ends.map(|end| self.shape.flat(leaf.part.map.at(end)));
-        let across = across(flats[0], flats[1], leaf.view);
+        let alongs = ends.map(|end| self.shape.flat(end)[1]);
         let half = self.shape.stem_half_width * leaf.part.size;
+        self.ribbon(plant, leaf, (flats, alongs, [half, half * self.shape.taper]));
+        if leaf.part.branch == 0 && leaf.part.key == 0 && self.stipe > 0.0 {
+            let foot = -self.stipe / (1.0 - self.stipe);
+            let flats = [[0.0, foot, 0.0], flats[0]];
+            self.ribbon(
+                plant,
+                leaf,
+                (flats, [foot, alongs[0]], [half / (self.shape.taper * self.shape.taper), half]),
+            );
+        }
+    }
+
+    fn ribbon(
+        &self,
+        plant: &mut Limbs,
+        leaf: &Leaf<'_>,
+        (flats, alongs, halves): ([Point; 2], [f64; 2], [f64; 2]),
+    ) {
+        let across = across(flats[0], flats[1], leaf.view);
         let first = plant.corners.len() as u32;
-        for (end, half) in [(0, half), (1, half * self.shape.taper)] {
-            let (axis, normal) = self.habit.placed(leaf.frond, flats[end]);
-            let along = self.shape.flat(ends[end])[1];
-            let row = Row { axis, sides: [axis; 2], normal, along };
-            for side in [-half, half] {
+        for end in 0..2 {
+            let (axis, normal) = self.on_frond(leaf.frond, flats[end]);
+            let row = Row { axis, sides: [axis; 2], normal, along: alongs[end] };
+            for side in [-halves[end], halves[end]] {
                 let flat = std::array::from_fn(|i| flats[end][i] + side * across[i]);
-                let rest = self.habit.placed(leaf.frond, flat).0;
+                let rest = self.on_frond(leaf.frond, flat).0;
                 plant.corners.push(self.corner(leaf, &row, [rest, axis, normal]));
             }
         }
         plant.triangles.extend([[first, first + 1, first + 2], [first + 2, first + 1, first + 3]]);
     }
+}
+
+/// Whether fronds grow from a root one by one.
+fn is_rosette(habit: Habit) -> bool {
+    matches!(habit, Habit::Arching(_) | Habit::Leaning(_))
 }
 
 /// The normal of a row, on the side of that of its shape.

@@ -38,3 +38,76 @@ fn every_shape_becomes_a_plant_of_one_metre_with_leaves_on_every_level() {
         }
     }
 }
+
+/// Breezes at many places and moments, from none to a gale.
+fn breezes() -> impl Iterator<Item = Breeze> {
+    (0..60_u16).map(|number| {
+        let seconds = 0.37 * f32::from(number);
+        let [east, north] = push([3.0 * seconds, 40.0], seconds, 0.0);
+        let stronger = f32::from(number % 4);
+        wind_on([stronger * east, -stronger * north], seconds, 0.3)
+    })
+}
+
+#[test]
+fn joints_never_part_in_any_breeze() {
+    let mut moved = 0.0_f32;
+    for name in ["fern", "culcita", "fern-3d", "shrub", "tree", "conifer", "crown"] {
+        let plant = plant(name);
+        for breeze in breezes() {
+            for (number, limb) in (0..).zip(&plant.limbs) {
+                let Some(parent) = limb.parent else { continue };
+                let held = plant.bent(&breeze, parent, limb.along, limb.joint);
+                for along in [0.0, 0.4, 1.0] {
+                    let hangs = plant.bent(&breeze, number, along, limb.joint);
+                    assert!(apart(held, hangs) < 4e-6, "{name} {number}: {held:?} {hangs:?}");
+                }
+                moved = moved.max(apart(held, limb.joint));
+            }
+        }
+    }
+    assert!(moved > 0.3, "{moved}: nothing swayed");
+}
+
+#[test]
+fn limbs_hang_on_their_parents_and_roots_stand_still() {
+    for name in ["fern", "fern-3d", "shrub", "conifer"] {
+        let plant = plant(name);
+        for breeze in breezes() {
+            for limb in plant.limbs.iter().filter(|limb| limb.parent.is_none()) {
+                assert!(leaf::length(limb.joint) < 1e-3, "{name}: {:?}", limb.joint);
+            }
+            for corner in plant.corners.iter().filter(|corner| leaf::length(corner.rest) < 0.02) {
+                let bent = plant.bent(&breeze, corner.limb, corner.along, corner.rest);
+                assert!(apart(bent, corner.rest) < 0.02, "{name}");
+            }
+        }
+        // A leaf's foot is at the joint of the limb that it is.
+        let feet = plant.corners.iter().filter(|corner| corner.along == 0.0 && !corner.is_stem);
+        let off = feet.map(|corner| apart(corner.axis, plant.limbs[corner.limb as usize].joint));
+        assert!(off.fold(0.0, f32::max) < 0.02, "{name}");
+    }
+}
+
+#[test]
+fn a_calm_plant_does_not_move() {
+    let plant = plant("fern");
+    let calm = wind_on([0.0; 2], 7.0, 0.2);
+    for corner in &plant.corners {
+        assert_eq!(plant.bent(&calm, corner.limb, corner.along, corner.rest), corner.rest);
+    }
+}
+
+#[test]
+fn all_levels_of_a_fern_have_its_area_of_leaves_and_lie_within_its_reach() {
+    for name in ["fern", "culcita", "fern-3d", "shrub", "conifer"] {
+        let plant = plant(name);
+        let whole = plant.area(0);
+        for level in 1..LEVELS as u32 {
+            let share = plant.area(level) / whole;
+            assert!((0.7..1.4).contains(&share), "{name}: level {level} has {share} of the area");
+        }
+        let lowest = plant.corners.iter().map(|corner| corner.rest[1]).fold(f32::INFINITY, f32::min);
+        assert!(lowest > -0.15, "{name} reaches {lowest} m into the ground");
+    }
+}
