@@ -3,13 +3,14 @@
 use std::sync::Arc;
 
 use weald::Error;
-use weald::engine::device::{Device, Loaded};
+use weald::engine::device::{Device, Loaded, ShownGround};
 use weald::engine::program::Program;
 use weald::grid::Size;
 use wgpu::DeviceType;
 
 use crate::adapter::{self, Wanted};
 use crate::context::Context;
+use crate::live::Live;
 use crate::memory::{self, Memory};
 use crate::running::Running;
 
@@ -27,6 +28,8 @@ pub struct Gpu {
     pub(crate) memory: Arc<Memory>,
     /// Bytes that one submission may move at most, where tests set a bound.
     pub(crate) most_moved: u64,
+    /// Where ground and water of running programs are shown.
+    pub(crate) live: Option<Live>,
 }
 
 impl Gpu {
@@ -82,7 +85,7 @@ impl Gpu {
             DeviceType::DiscreteGpu => MEMORY_OF_A_CARD,
             _ => MEMORY_SHARED,
         };
-        Ok(Self { context, memory: Memory::new(budget), most_moved: u64::MAX })
+        Ok(Self { context, memory: Memory::new(budget), most_moved: u64::MAX, live: None })
     }
 
     /// The same device with a budget of its own, in bytes, at least a mebibyte. The default is 4 GiB on a card
@@ -98,6 +101,12 @@ impl Gpu {
             )));
         }
         Ok(Self { memory: Memory::new(bytes), ..self })
+    }
+
+    /// The same device, whose programs show ground and water as they run.
+    #[must_use]
+    pub fn shown_in(&self, live: &Live) -> Self {
+        Self { live: Some(live.clone()), ..self.clone() }
     }
 
     /// Most bytes of a buffer that passes see.
@@ -158,5 +167,9 @@ impl Device for Gpu {
 
     fn load(&self, program: &Program, size: Size) -> Result<Box<dyn Loaded>, Error> {
         Ok(Box::new(Running::new(self.clone(), program, size)?))
+    }
+
+    fn shows(&self, ground: &ShownGround<'_>) -> Result<(), Error> {
+        self.live.as_ref().map_or(Ok(()), |live| live.begin(self, ground))
     }
 }

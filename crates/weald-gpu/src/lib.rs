@@ -32,6 +32,7 @@ mod extents;
 mod faults;
 mod gpu;
 mod kept;
+mod live;
 mod memory;
 mod pace;
 mod parts;
@@ -45,6 +46,7 @@ mod uniforms;
 mod watch;
 
 pub use gpu::Gpu;
+pub use live::Live;
 #[doc(hidden)]
 pub use render::TestLook;
 pub use render::{

@@ -9,7 +9,9 @@ use wgpu::BufferUsages;
 use crate::buffers::Buffers;
 use crate::extents::{self, Extents};
 use crate::gpu::Gpu;
+
 use crate::kept::{Extent, Kept, is_state};
+use crate::live;
 use crate::memory::Store;
 use crate::pace::{Load, Pace, Sort};
 use crate::parts::{Bound, Cursor, Part, Work};
@@ -76,6 +78,23 @@ impl Running {
             }
         }
         Ok(())
+    }
+
+    /// Shows ground and water to those who look on.
+    fn show(&self) -> Result<(), Error> {
+        let (Some(live), Some(shown)) = (&self.gpu.live, self.program.shown) else { return Ok(()) };
+        let lanes = |buffer: usize| self.program.buffers[buffer].lanes as u32;
+        let store = |buffer: usize| &self.buffers.now(buffer).buffer;
+        live.take(
+            &self.gpu,
+            self.now.size,
+            &live::Parts {
+                base: store(shown.base),
+                added: (store(shown.added), lanes(shown.added)),
+                water: shown.water.map(|water| (store(water), lanes(water))),
+                mask: self.program.mask.map(|mask| (store(mask), lanes(mask))),
+            },
+        )
     }
 
     /// What now plays the role of a buffer, and the bytes that count.
@@ -164,7 +183,7 @@ impl Loaded for Running {
         let passes = running.map(|(number, pass)| (number, cells * pass.bytes_per_cell)).collect();
         self.submit_all(&Work { passes, steps: weather.len(), units: self.now.units() }, weather)?;
         self.buffers.set_odd(self.buffers.odd() ^ (weather.len() % 2 == 1));
-        Ok(())
+        self.show()
     }
 
     fn sums(&mut self) -> Result<Vec<f64>, Error> {

@@ -61,6 +61,8 @@ pub(crate) struct Heights {
     levels: Vec<(usize, Vec<[f32; 2]>)>,
     metres: [f32; 2],
     base: f32,
+    /// Metres by which heights may have risen or sunk.
+    slack: f32,
 }
 
 /// Control points along the side of the smallest square.
@@ -79,18 +81,28 @@ impl Heights {
             let size = [*columns, bounds.len() / columns];
             levels.push(blocks(size, 2, |x, y| bounds[y * columns + x]));
         }
-        Self { levels, metres, base }
+        Self { levels, metres, base, slack: 0.0 }
     }
 
     /// Ground without heights.
     #[cfg(test)]
     pub(crate) fn flat() -> Self {
-        Self { levels: vec![(1, vec![[0.0; 2]])], metres: [1.0; 2], base: 0.0 }
+        Self { levels: vec![(1, vec![[0.0; 2]])], metres: [1.0; 2], base: 0.0, slack: 0.0 }
     }
 
     /// The greatest height of all.
     pub(crate) fn highest(&self) -> f32 {
-        self.levels.last().map_or(0.0, |(_, bounds)| bounds[0][1])
+        self.levels.last().map_or(0.0, |(_, bounds)| bounds[0][1]) + self.slack
+    }
+
+    /// The least height of all.
+    pub(crate) fn lowest(&self) -> f32 {
+        self.levels.last().map_or(0.0, |(_, bounds)| bounds[0][0]) - self.slack
+    }
+
+    /// Lets heights rise and sink by so many metres more.
+    pub(crate) fn widen(&mut self, metres: f32) {
+        self.slack += metres;
     }
 
     /// The box around a square of the ground and what is below it, from its corner as a place.
@@ -111,8 +123,8 @@ impl Heights {
         let west = (corner[0] - 0.5) * self.metres[0];
         let north = (0.5 - corner[1]) * self.metres[1];
         [
-            [west, north - side * self.metres[1], self.base.min(range[0])],
-            [west + side * self.metres[0], north, range[1]],
+            [west, north - side * self.metres[1], self.base.min(range[0] - self.slack)],
+            [west + side * self.metres[0], north, range[1] + self.slack],
         ]
     }
 }

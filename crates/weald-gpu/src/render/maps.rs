@@ -7,7 +7,7 @@ use wgpu::{
     AddressMode, BindGroup, BindGroupDescriptor, BindGroupEntry, BindGroupLayout, BindGroupLayoutDescriptor,
     BindGroupLayoutEntry, BindingResource, BindingType, BufferBindingType, BufferUsages, Extent3d,
     FilterMode, Origin3d, SamplerBindingType, SamplerDescriptor, ShaderStages, TexelCopyBufferLayout,
-    TexelCopyTextureInfo, TextureAspect, TextureFormat, TextureSampleType, TextureUsages,
+    TexelCopyTextureInfo, TextureAspect, TextureFormat, TextureSampleType, TextureUsages, TextureView,
     TextureViewDimension,
 };
 
@@ -27,7 +27,7 @@ pub(super) struct Maps {
     pub(super) layout: BindGroupLayout,
     pub(super) group: BindGroup,
     _numbers: Store,
-    _canvases: Vec<Canvas>,
+    canvases: Vec<Canvas>,
 }
 
 impl Maps {
@@ -39,7 +39,13 @@ impl Maps {
         let canvases: Vec<_> = maps.iter().map(|map| upload(gpu, map)).collect::<Result<_, _>>()?;
         let layout = layout(gpu);
         let group = bind(gpu, &layout, &numbers, &canvases)?;
-        Ok(Self { layout, group, _numbers: numbers, _canvases: canvases })
+        Ok(Self { layout, group, _numbers: numbers, canvases })
+    }
+
+    /// The view of a map.
+    pub(super) fn view(&self, name: &str) -> &TextureView {
+        let at = Stage::map_kinds().position(|(known, ..)| known == name);
+        &self.canvases[at.expect("a map of the stage")].view
     }
 }
 
@@ -54,6 +60,8 @@ pub(super) fn format(kind: MapKind) -> TextureFormat {
 fn upload(gpu: &Gpu, map: &StageMap) -> Result<Canvas, Error> {
     let size = map.size.map(|side| side as u32);
     let usage = TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_DST;
+    // Surfaces may follow a simulation.
+    let usage = if map.kind == MapKind::Exact { usage | TextureUsages::STORAGE_BINDING } else { usage };
     let shape = Shape {
         layers: map.layers as u32,
         is_array: is_array(map.name),

@@ -11,6 +11,7 @@ mod chosen;
 mod device;
 mod field;
 mod film;
+mod follow;
 mod frame;
 mod frustum;
 mod grass;
@@ -36,6 +37,7 @@ use crate::gpu::Gpu;
 pub use chosen::Chosen;
 pub use field::Standpoint;
 use film::Film;
+use follow::Follower;
 use frame::{Drawn, Frame};
 use grass::Grass;
 pub use grass::GrassLook;
@@ -122,6 +124,7 @@ pub struct Renderer {
     film: Film,
     look: TestLook,
     timer: Option<Timer>,
+    follower: Option<Follower>,
     has_water: bool,
     /// Whether water is left out, to be measured.
     is_dry: bool,
@@ -163,6 +166,7 @@ impl Renderer {
             film,
             look: TestLook::default(),
             timer: None,
+            follower: None,
             has_water: stage.has_water(),
             is_dry: false,
             seconds: 0.0,

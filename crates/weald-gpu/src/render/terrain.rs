@@ -117,6 +117,11 @@ impl Terrain {
         Ok(Drawn { stand, slides: ranges.slides(), detail_from, seconds: 0.0, is_dry: false, cascades })
     }
 
+    /// Lets heights rise and sink by a share of the relief.
+    pub(super) fn widen(&mut self, share: f32) {
+        self.heights.widen(share * (self.heights.highest() - self.heights.lowest()));
+    }
+
     /// The box around all of it.
     fn bounds(&self) -> Box3 {
         let side = self.lattice.cells[0].max(self.lattice.cells[1]);

@@ -101,6 +101,7 @@ pub(crate) fn mix() -> Program {
         counts: Vec::new(),
         mask: None,
         reach: 1,
+        shown: None,
     }
 }
 

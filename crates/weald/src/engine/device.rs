@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use super::program::Program;
 use crate::error::Error;
-use crate::grid::Size;
+use crate::grid::{Field, Size};
 
 /// A device that runs [`Program`]s.
 pub trait Device: Debug + Send + Sync {
@@ -23,6 +23,32 @@ pub trait Device: Debug + Send + Sync {
     /// # Errors
     /// [`Error::Device`] where the device refuses: out of memory, lost.
     fn load(&self, program: &Program, size: Size) -> Result<Box<dyn Loaded>, Error>;
+
+    /// Hears where the ground of the next simulation lies, for devices that show it as it runs.
+    ///
+    /// # Errors
+    /// [`Error::Device`] where the device fails.
+    fn shows(&self, ground: &ShownGround<'_>) -> Result<(), Error> {
+        let _ = ground;
+        Ok(())
+    }
+}
+
+/// How the grid of a simulation lies in its landscape.
+#[derive(Clone, Copy, Debug)]
+pub struct ShownGround<'a> {
+    /// Ground of the landscape at the start, in metres.
+    pub start: &'a Field,
+    /// Water on it in metres, where some stands.
+    pub water: Option<&'a Field>,
+    /// Columns and rows of the simulation.
+    pub size: Size,
+    /// Column and row of the landscape at which the simulation begins; -1 where it has a ring of cells around it.
+    pub first: [i32; 2],
+    /// Metres that are 1 in the simulation.
+    pub unit: f32,
+    /// Elevation in metres that is 0 in the simulation.
+    pub lowest: f32,
 }
 
 /// Part of a grid.

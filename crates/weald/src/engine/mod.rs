@@ -18,7 +18,7 @@ use std::sync::Arc;
 use crate::error::Error;
 use crate::grid::Size;
 use crate::landscape::Landscape;
-use device::Device;
+use device::{Device, ShownGround};
 
 /// Where and how simulations run. On all but devices the bits of the result do not depend on it.
 #[derive(Clone, Debug, Default)]
@@ -46,6 +46,14 @@ impl Engine {
             Self::Bands(_) => "bands",
             Self::Tiles(_) => "tiles",
             Self::Device(_) | Self::DeviceElseCpu(_) => "gpu",
+        }
+    }
+
+    /// Tells a device where the ground of the next simulation lies.
+    pub(crate) fn shows(&self, ground: &ShownGround<'_>) -> Result<(), Error> {
+        match self {
+            Self::Device(device) | Self::DeviceElseCpu(device) => device.shows(ground),
+            _ => Ok(()),
         }
     }
 

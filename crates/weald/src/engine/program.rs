@@ -52,6 +52,19 @@ pub struct Program {
     pub mask: Option<usize>,
     /// Cells of the farthest neighbour that a cell depends on in one step.
     pub reach: usize,
+    /// Where ground and water are, for those who look at it as it runs.
+    pub shown: Option<Shown>,
+}
+
+/// Buffers of a program that hold the ground and the water on it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Shown {
+    /// Ground to which all lanes of `added` are added, in metres.
+    pub base: usize,
+    /// What has come onto it or gone from it: one lane, or layers.
+    pub added: usize,
+    /// Depth of the water in metres, in the first lane.
+    pub water: Option<usize>,
 }
 
 /// Values a cell in one storage buffer, bound by its name: `array<f32>`, or vectors of two or four.

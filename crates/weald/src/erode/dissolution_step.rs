@@ -117,6 +117,7 @@ impl Step for DissolutionStep {
             std::iter::once("change".to_owned()).chain(column.names(materials)).collect();
         let simulation = Simulation::alone(&process, &plane_names, self.iterations);
         let start = working.state(planes.count(), &[working.water().to_vec()]);
+        working.show(job)?;
         let finished = simulation.run(start, job)?;
         Ok(working.store_ground(landscape, &self.layer.0, &finished, u64::from(self.iterations)))
     }
@@ -192,6 +193,7 @@ impl Process for Dissolving {
         draft.buffer("water", 1, Content::Constant(vec![water]));
         self.dissolution.add_buffers_to(&mut draft);
         Dissolution::add_to(&mut draft, include_str!("stava/standing_lake.wgsl"), "water");
+        draft.shows("column", None);
         draft.finish(self.reach())
     }
 

@@ -111,6 +111,7 @@ impl Step for SlippageStep {
         let plane_names: Vec<_> =
             std::iter::once("change".to_owned()).chain(column.names(&landscape.materials)).collect();
         let simulation = Simulation::alone(&process, &plane_names, self.iterations);
+        working.show(job)?;
         let finished = simulation.run(working.state(planes.count(), &[]), job)?;
         Ok(working.store_ground(landscape, &self.layer.0, &finished, u64::from(self.iterations)))
     }
@@ -159,6 +160,7 @@ impl Process for Slipping {
         let numbers = StavaNumbers::of(None, Some(&self.slippage));
         let mut draft = program::draft("slippage", &numbers, (self.planes, 0), &self.links);
         self.slippage.add_to(&mut draft, self.planes.materials);
+        draft.shows("column", None);
         draft.finish(self.reach())
     }
 

@@ -90,6 +90,7 @@ impl Step for Thermal {
         };
         let simulation =
             Simulation { seen: Some(&seen), ..Simulation::alone(&process, &plane_names, self.iterations) };
+        working.show(job)?;
         let finished = simulation.run(working.state(1, &[]), job)?;
         Ok(working.store_ground(landscape, &self.layer.0, &finished, self.watched()))
     }

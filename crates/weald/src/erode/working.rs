@@ -5,8 +5,8 @@ use super::links::mask_planes;
 use super::setting::plane;
 use super::simulation::{Finished, Flows};
 use super::stack::Stack;
-use crate::engine::device::Window;
-use crate::engine::{Budget, SolidBudget, WaterBudget};
+use crate::engine::device::{ShownGround, Window};
+use crate::engine::{Budget, Job, SolidBudget, WaterBudget};
 use crate::error::Error;
 use crate::grid::{Field, Mask, Size};
 use crate::landscape::Landscape;
@@ -96,6 +96,19 @@ impl Working {
         self.water = self.lengths(&standing);
         self.standing = Some(standing);
         Ok(())
+    }
+
+    /// Tells a device where the ground lies, for those who look on.
+    pub(crate) fn show(&self, job: &Job<'_>) -> Result<(), Error> {
+        let ring = self.ring as i32;
+        job.engine.shows(&ShownGround {
+            start: &self.start,
+            water: self.standing.as_ref(),
+            size: self.size,
+            first: [self.window.columns.start as i32 - ring, self.window.rows.start as i32 - ring],
+            unit: self.cell as f32,
+            lowest: self.lowest as f32,
+        })
     }
 
     /// Where a cell of the landscape stands in the working planes, if it is simulated.

@@ -50,7 +50,7 @@ pub use render::{
 pub use section::{Along, Section};
 pub(crate) use strokes::{Point as StrokePoint, Strokes};
 pub(crate) use view::albedo;
-pub use view::{Camera, GroundColour, MapKind, Rim, Stage, StageMap, View};
+pub use view::{Camera, Follow, GroundColour, MapKind, Rim, Stage, StageMap, View};
 
 use std::fmt::Debug;
 

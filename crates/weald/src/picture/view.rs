@@ -12,6 +12,7 @@ mod atmosphere;
 mod camera;
 mod cover;
 mod flow;
+mod follow;
 mod haze;
 mod maps;
 mod meeting;
@@ -36,6 +37,7 @@ mod water;
 
 pub(crate) use albedo::albedo;
 pub use camera::Camera;
+pub use follow::Follow;
 pub use maps::{MapKind, StageMap};
 pub use rim::Rim;
 pub use stage::Stage;

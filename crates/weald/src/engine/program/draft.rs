@@ -1,6 +1,6 @@
 //! Programs written down part by part, with buffers called by their names.
 
-use super::{Buffer, Content, Pass, Program, Uniforms};
+use super::{Buffer, Content, Pass, Program, Shown, Uniforms};
 
 /// A program in the making.
 #[derive(Clone, Debug)]
@@ -29,6 +29,7 @@ impl Draft {
             counts: Vec::new(),
             mask: None,
             reach: 0,
+            shown: None,
         };
         Self { program, common: common.to_vec() }
     }
@@ -88,6 +89,13 @@ impl Draft {
         };
         self.program.passes.push(pass);
         self.program.passes.last_mut().expect("it was just added")
+    }
+
+    /// Says which buffers hold the ground, `base` and what is added to it, and the water on it.
+    pub(crate) fn shows(&mut self, added: &str, water: Option<&str>) {
+        let buffer = |name: &str| self.program.buffer(name);
+        self.program.shown =
+            Some(Shown { base: buffer("base"), added: buffer(added), water: water.map(buffer) });
     }
 
     /// Makes what was written into one buffer the content of the other after each step.

@@ -39,6 +39,7 @@ impl Han {
         add_water_to(&mut draft);
         self.add_sediment_to(&mut draft);
         draft.pass("record", &[RECORD], &["fluxes"], &["means"]).recorded = true;
+        draft.shows("change", Some("depth"));
         draft.finish(self.reach())
     }
 

@@ -117,6 +117,7 @@ impl Hydraulic {
             edits: chosen.edits.as_ref(),
             seen: Some(&seen),
         };
+        working.show(job)?;
         simulation.run(chosen.start(working), job)
     }
 

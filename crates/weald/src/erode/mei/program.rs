@@ -50,6 +50,7 @@ impl Mei {
         }
         self.setting.add_slide_to(&mut draft);
         draft.pass("record", &[CAME, RECORD], &["outflows"], &["means"]).recorded = true;
+        draft.shows("change", Some("carried"));
         draft.finish(self.reach())
     }
 }

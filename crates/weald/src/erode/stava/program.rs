@@ -192,6 +192,7 @@ impl Stava {
             slippage.add_to(&mut draft, self.planes.materials);
         }
         draft.pass("record", &[CAME, RECORD], &["outflows"], &["means"]).recorded = true;
+        draft.shows("column", Some("carried"));
         draft.finish(self.reach())
     }
 

@@ -21,6 +21,7 @@ impl Sliding {
         }
         self.slide.add_to(&mut draft);
         draft.swap("settled", "change");
+        draft.shows("settled", None);
         draft.finish(self.reach())
     }
 }

@@ -18,10 +18,10 @@ use crate::picture::{lakes, rivers};
 const RINGS: usize = 5;
 
 /// Depth in cells from which a cell beside a lake belongs to it.
-const SHALLOW: f32 = 0.04;
+pub(super) const SHALLOW: f32 = 0.04;
 
 /// Depth in cells to which the level falls below dry ground.
-const DRY: f32 = 0.03;
+pub(super) const DRY: f32 = 0.03;
 
 /// Pixels a cell of the map of rivers, and its longest side.
 const RIVER_PIXELS: usize = 4;

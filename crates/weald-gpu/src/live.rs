@@ -1,0 +1,187 @@
+//! Ground and water of a simulation as it runs, kept on the device for those who draw it: nothing is read back.
+//!
+//! A program whose device was given a [`Live`] by [`Gpu::shown_in`] adds up its ground and copies its water after each
+//! batch of steps (`live.wgsl`): 8 bytes a cell written, 8 and 4 a plane read. A renderer follows it by
+//! [`Renderer::follow`](crate::Renderer::follow).
+
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
+
+use weald::Error;
+use weald::engine::device::ShownGround;
+use weald::grid::Size;
+use wgpu::{
+    BindGroup, BindGroupDescriptor, BindGroupEntry, Buffer, BufferUsages, CommandEncoderDescriptor,
+    ComputePassDescriptor, ComputePipeline, ComputePipelineDescriptor, PipelineCompilationOptions,
+    ShaderModuleDescriptor, ShaderSource,
+};
+
+use crate::gpu::Gpu;
+use crate::memory::Store;
+use crate::transfer;
+
+/// Cells along the side of a workgroup.
+const GROUP: u32 = 16;
+
+/// Ground and water of a landscape that are shown as a simulation goes on. Copies show the same.
+#[derive(Clone, Debug)]
+pub struct Live {
+    shared: Arc<Shared>,
+}
+
+#[derive(Debug)]
+struct Shared {
+    size: Size,
+    numbers: Store,
+    ground: Store,
+    depth: Store,
+    pipeline: OnceLock<ComputePipeline>,
+    place: Mutex<Option<Place>>,
+    moments: AtomicU64,
+}
+
+/// How the grid of the simulation lies in the landscape.
+#[derive(Clone, Copy, Debug)]
+struct Place {
+    size: Size,
+    first: [i32; 2],
+    unit: f32,
+    lowest: f32,
+}
+
+/// What a program holds now: buffers, and how many values or planes they have a cell.
+pub(crate) struct Parts<'a> {
+    pub(crate) base: &'a Buffer,
+    pub(crate) added: (&'a Buffer, u32),
+    pub(crate) water: Option<(&'a Buffer, u32)>,
+    pub(crate) mask: Option<(&'a Buffer, u32)>,
+}
+
+impl Live {
+    /// Room for a landscape of that size: 8 bytes a cell.
+    ///
+    /// # Errors
+    /// [`Error::Device`] where the device's memory does not suffice.
+    pub fn new(gpu: &Gpu, size: Size) -> Result<Self, Error> {
+        let bytes = 4 * size.cells() as u64;
+        let store = |what| Store::new(gpu, what, bytes, BufferUsages::STORAGE | BufferUsages::COPY_DST);
+        let usage = BufferUsages::UNIFORM | BufferUsages::COPY_DST;
+        let shared = Shared {
+            size,
+            numbers: Store::new(gpu, "how a simulation lies in its landscape", 48, usage)?,
+            ground: store("the ground that is shown")?,
+            depth: store("the water that is shown")?,
+            pipeline: OnceLock::new(),
+            place: Mutex::default(),
+            moments: AtomicU64::new(0),
+        };
+        Ok(Self { shared: Arc::new(shared) })
+    }
+
+    /// Columns and rows.
+    pub fn size(&self) -> Size {
+        self.shared.size
+    }
+
+    /// How many times it has changed: batches of steps of the programs that it shows.
+    pub fn moments(&self) -> u64 {
+        self.shared.moments.load(Ordering::Acquire)
+    }
+
+    /// Ground in metres, and the depth of water on it.
+    pub(crate) fn stores(&self) -> [&Store; 2] {
+        [&self.shared.ground, &self.shared.depth]
+    }
+
+    /// Begins with the ground of a simulation; one of a landscape of another size is not shown.
+    pub(crate) fn begin(&self, gpu: &Gpu, shown: &ShownGround<'_>) -> Result<(), Error> {
+        let shared = &*self.shared;
+        let fits = shown.start.size() == shared.size;
+        if fits {
+            transfer::write(gpu, &shared.ground.buffer, bytemuck::cast_slice(shown.start.values()))?;
+            if let Some(water) = shown.water {
+                transfer::write(gpu, &shared.depth.buffer, bytemuck::cast_slice(water.values()))?;
+            }
+        }
+        let ShownGround { size, first, unit, lowest, .. } = *shown;
+        *self.place() = fits.then_some(Place { size, first, unit, lowest });
+        Ok(())
+    }
+
+    /// A panic elsewhere leaves it whole, since it is only ever replaced.
+    fn place(&self) -> MutexGuard<'_, Option<Place>> {
+        self.shared.place.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Takes what a program of such a size holds; what is not the whole simulation, such as a tile, is not shown.
+    pub(crate) fn take(&self, gpu: &Gpu, size: Size, parts: &Parts<'_>) -> Result<(), Error> {
+        let Some(place) = self.place().filter(|place| place.size == size) else { return Ok(()) };
+        let shared = &*self.shared;
+        let whole = [shared.size.columns, shared.size.rows].map(|side| side as u32);
+        gpu.context.attempt("showing a simulation", || {
+            let pipeline = shared.pipeline.get_or_init(|| pipeline(gpu));
+            gpu.context.queue.write_buffer(&shared.numbers.buffer, 0, &place.bytes(whole, parts));
+            let group = shared.bind(gpu, pipeline, parts);
+            let mut encoder = gpu.context.device.create_command_encoder(&CommandEncoderDescriptor::default());
+            let mut pass = encoder.begin_compute_pass(&ComputePassDescriptor::default());
+            pass.set_pipeline(pipeline);
+            pass.set_bind_group(0, &group, &[]);
+            let [across, down] = whole.map(|side| side.div_ceil(GROUP));
+            pass.dispatch_workgroups(across, down, 1);
+            drop(pass);
+            gpu.context.queue.submit([encoder.finish()]);
+            Ok(())
+        })?;
+        shared.moments.fetch_add(1, Ordering::AcqRel);
+        Ok(())
+    }
+}
+
+impl Shared {
+    fn bind(&self, gpu: &Gpu, pipeline: &ComputePipeline, parts: &Parts<'_>) -> BindGroup {
+        let or_base = |part: Option<(&'_ Buffer, u32)>| part.map_or(parts.base, |(buffer, _)| buffer).clone();
+        let buffers = [
+            self.numbers.buffer.clone(),
+            parts.base.clone(),
+            parts.added.0.clone(),
+            or_base(parts.water),
+            or_base(parts.mask),
+            self.ground.buffer.clone(),
+            self.depth.buffer.clone(),
+        ];
+        let entries: Vec<_> = (0..)
+            .zip(&buffers)
+            .map(|(binding, buffer)| BindGroupEntry { binding, resource: buffer.as_entire_binding() })
+            .collect();
+        let layout = &pipeline.get_bind_group_layout(0);
+        let description = BindGroupDescriptor { label: Some("show"), layout, entries: &entries };
+        gpu.context.device.create_bind_group(&description)
+    }
+}
+
+impl Place {
+    /// The shader's struct.
+    fn bytes(&self, whole: [u32; 2], parts: &Parts<'_>) -> Vec<u8> {
+        let lanes = |part: Option<(&Buffer, u32)>| part.map_or(0, |(_, lanes)| lanes);
+        let [columns, rows] = [self.size.columns, self.size.rows].map(|side| side as u32);
+        let [first_column, first_row] = self.first.map(|first| first as u32);
+        let (added, water, mask) = (parts.added.1, lanes(parts.water), lanes(parts.mask));
+        let words = [whole[0], whole[1], columns, rows, first_column, first_row, added, water, mask];
+        let words = words.into_iter().chain([self.unit.to_bits(), self.lowest.to_bits(), 0]);
+        words.flat_map(u32::to_le_bytes).collect()
+    }
+}
+
+fn pipeline(gpu: &Gpu) -> ComputePipeline {
+    let source = ShaderSource::Wgsl(include_str!("live.wgsl").into());
+    let module =
+        gpu.context.device.create_shader_module(ShaderModuleDescriptor { label: Some("show"), source });
+    gpu.context.device.create_compute_pipeline(&ComputePipelineDescriptor {
+        label: Some("show"),
+        layout: None,
+        module: &module,
+        entry_point: Some("show"),
+        compilation_options: PipelineCompilationOptions::default(),
+        cache: None,
+    })
+}

@@ -1,0 +1,106 @@
+//! Ground and water of a running simulation become the surfaces that are drawn, without coming back from the device.
+
+use weald::Error;
+use weald::engine::uniform::Uniform;
+use weald::picture::Stage;
+use wgpu::{
+    BindGroupDescriptor, BindGroupEntry, BindingResource, BufferUsages, CommandEncoderDescriptor,
+    ComputePassDescriptor, ComputePipeline, ComputePipelineDescriptor, PipelineCompilationOptions,
+    ShaderModuleDescriptor, ShaderSource,
+};
+
+use super::Renderer;
+use crate::gpu::Gpu;
+use crate::live::Live;
+use crate::memory::Store;
+
+/// Control points along the side of a workgroup, and beyond each border, as the shader has them.
+const GROUP: u32 = 16;
+const RIM: u32 = 2;
+
+/// Share of the relief by which ground may rise or sink while it is followed, and stay in sight of all that is drawn.
+const SLACK: f32 = 0.25;
+
+/// What makes surfaces.
+#[derive(Debug)]
+pub(super) struct Follower {
+    pipeline: ComputePipeline,
+    numbers: Store,
+}
+
+impl Follower {
+    fn new(gpu: &Gpu, stage: &Stage) -> Result<Self, Error> {
+        let mut words = stage.follow().words();
+        words.resize(words.len().next_multiple_of(4), 0);
+        let usage = BufferUsages::UNIFORM | BufferUsages::COPY_DST;
+        let numbers = Store::new(gpu, "what is followed", 4 * words.len() as u64, usage)?;
+        gpu.context.queue.write_buffer(&numbers.buffer, 0, bytemuck::cast_slice(&words));
+        gpu.context.attempt("making the pipeline that follows a simulation", || {
+            let device = &gpu.context.device;
+            let source = ShaderSource::Wgsl(Stage::FOLLOW.into());
+            let module =
+                device.create_shader_module(ShaderModuleDescriptor { label: Some("follow"), source });
+            let pipeline = device.create_compute_pipeline(&ComputePipelineDescriptor {
+                label: Some("follow"),
+                layout: None,
+                module: &module,
+                entry_point: Some("follow_ground"),
+                compilation_options: PipelineCompilationOptions::default(),
+                cache: None,
+            });
+            Ok(Self { pipeline, numbers })
+        })
+    }
+}
+
+impl Renderer {
+    /// Takes ground and water of a simulation as they are now for the next pictures. `stage` is the one that the renderer
+    /// was made of, which came from [`Stage::to_follow`].
+    ///
+    /// # Errors
+    /// [`Error::Limit`] for a simulation of another size than the stage has, [`Error::Device`] where the device fails.
+    pub fn follow(&mut self, stage: &Stage, live: &Live) -> Result<(), Error> {
+        let (size, cells) = (live.size(), stage.cells());
+        if [size.columns, size.rows] != cells {
+            return Err(Error::Limit(format!(
+                "a simulation of {} × {} cells cannot be followed on a stage of {} × {}; pictures have up to 4096 a side",
+                size.columns, size.rows, cells[0], cells[1]
+            )));
+        }
+        if self.follower.is_none() {
+            self.terrain.widen(SLACK);
+            self.follower = Some(Follower::new(&self.gpu, stage)?);
+        }
+        let Some(follower) = &self.follower else { return Ok(()) };
+        let [ground, depth] = live.stores();
+        let map = |name| BindingResource::TextureView(self.maps.view(name));
+        let resources = [
+            follower.numbers.buffer.as_entire_binding(),
+            ground.buffer.as_entire_binding(),
+            depth.buffer.as_entire_binding(),
+            map("land"),
+            map("top"),
+            map("bed"),
+            map("level"),
+        ];
+        let entries: Vec<_> =
+            (0..).zip(resources).map(|(binding, resource)| BindGroupEntry { binding, resource }).collect();
+        let context = &self.gpu.context;
+        context.attempt("following a simulation", || {
+            let group = context.device.create_bind_group(&BindGroupDescriptor {
+                label: Some("follow"),
+                layout: &follower.pipeline.get_bind_group_layout(0),
+                entries: &entries,
+            });
+            let mut encoder = context.device.create_command_encoder(&CommandEncoderDescriptor::default());
+            let mut pass = encoder.begin_compute_pass(&ComputePassDescriptor::default());
+            pass.set_pipeline(&follower.pipeline);
+            pass.set_bind_group(0, &group, &[]);
+            let groups = cells.map(|cells| (cells as u32 + 2 * RIM).div_ceil(GROUP));
+            pass.dispatch_workgroups(groups[0], groups[1], 1);
+            drop(pass);
+            context.queue.submit([encoder.finish()]);
+            Ok(())
+        })
+    }
+}
