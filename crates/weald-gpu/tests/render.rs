@@ -249,3 +249,19 @@ fn sizes_and_cameras_that_cannot_be_drawn_are_refused() {
     drop(renderer);
     assert_eq!(gpu.allocated(), held, "all is given back");
 }
+
+#[test]
+fn errors_of_drawing_advise_what_helps_to_draw() {
+    if gpu().is_none() {
+        return;
+    }
+    let open = || Gpu::for_drawing().expect("there is a device");
+    let gpu = open().with_memory(1 << 20).expect("a legal budget");
+    let stage = Stage::new(&view(), &mountains()).expect("a stage");
+    let error = Renderer::new(&gpu, &stage, options(4)).expect_err("a mebibyte is too little").to_string();
+    assert!(error.contains("--gpu-memory, a smaller picture") && !error.contains("--engine"), "{error}");
+    let gpu = open();
+    gpu.lose();
+    let error = Renderer::new(&gpu, &stage, options(4)).expect_err("it is lost").to_string();
+    assert!(error.contains("was lost") && !error.contains("--engine"), "{error}");
+}
