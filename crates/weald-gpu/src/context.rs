@@ -10,6 +10,7 @@ use weald::engine::program::MOST_BUFFERS;
 use wgpu::{DeviceDescriptor, DeviceType, ErrorFilter, Limits, MemoryHints, SubmissionIndex};
 
 use crate::adapter;
+use crate::advice::Advice;
 use crate::compiled::Pipeline;
 use crate::faults::{Faults, explain};
 use crate::render::FEATURES;
@@ -31,12 +32,14 @@ pub(crate) struct Context {
     pub(crate) limits: Limits,
     /// Pipelines by the name of their pass and the text of their module.
     pub(crate) pipelines: Mutex<HashMap<(String, String), Pipeline>>,
+    /// What to say where it fails.
+    pub(crate) advice: &'static Advice,
     faults: Arc<Faults>,
 }
 
 impl Context {
     /// Opens a device with its largest buffers, and otherwise with what browsers grant too.
-    pub(crate) fn open(adapter: &wgpu::Adapter) -> Result<Self, Error> {
+    pub(crate) fn open(adapter: &wgpu::Adapter, advice: &'static Advice) -> Result<Self, Error> {
         let name = adapter::describe(adapter);
         let limits = limits(&adapter.limits());
         let description = DeviceDescriptor {
@@ -49,22 +52,23 @@ impl Context {
             ..DeviceDescriptor::default()
         };
         let opened = pollster::block_on(adapter.request_device(&description));
-        let (device, queue) = opened
-            .map_err(|cause| Error::Device(format!("{name} cannot be opened: {cause}; use --engine cpu")))?;
+        let (device, queue) = opened.map_err(|cause| {
+            Error::Device(format!("{name} cannot be opened: {cause}; {}", advice.unopened))
+        })?;
         let (faults, kind) = (Faults::of(&device), adapter.get_info().device_type);
-        Ok(Self { device, queue, adapter: name, kind, limits, pipelines: Mutex::default(), faults })
+        Ok(Self { device, queue, adapter: name, kind, limits, pipelines: Mutex::default(), advice, faults })
     }
 
     /// Does something on the device. Whatever wgpu finds wrong with it becomes an error that names `what`.
     pub(crate) fn attempt<T>(&self, what: &str, work: impl FnOnce() -> Result<T, Error>) -> Result<T, Error> {
-        self.faults.check(what)?;
+        self.faults.check(what, self.advice)?;
         let filters = [ErrorFilter::OutOfMemory, ErrorFilter::Validation, ErrorFilter::Internal];
         let scopes = filters.map(|filter| self.device.push_error_scope(filter));
         let done = work();
         let caught = scopes.into_iter().rev().filter_map(|scope| pollster::block_on(scope.pop())).last();
-        self.faults.check(what)?;
+        self.faults.check(what, self.advice)?;
         match caught {
-            Some(error) => Err(explain(what, &error)),
+            Some(error) => Err(explain(what, &error, self.advice)),
             None => done,
         }
     }
@@ -77,10 +81,10 @@ impl Context {
         if polled.is_err() {
             self.faults.lose("while work was waited for");
         }
-        self.faults.check("waiting for the GPU")?;
+        self.faults.check("waiting for the GPU", self.advice)?;
         match polled {
             Ok(Err(cause)) => {
-                Err(Error::Device(format!("the GPU does not answer: {cause}; use --engine cpu")))
+                Err(Error::Device(format!("the GPU does not answer: {cause}; {}", self.advice.silent)))
             }
             _ => Ok(()),
         }

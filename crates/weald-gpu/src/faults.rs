@@ -4,6 +4,8 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use weald::Error;
 
+use crate::advice::Advice;
+
 /// Faults of a device so far.
 #[derive(Debug, Default)]
 pub(crate) struct Faults {
@@ -34,10 +36,11 @@ impl Faults {
     }
 
     /// An error where the device is lost, or where something failed that no call has spoken of yet.
-    pub(crate) fn check(&self, what: &str) -> Result<(), Error> {
+    pub(crate) fn check(&self, what: &str, advice: &Advice) -> Result<(), Error> {
         if let Some(reason) = self.lost.get() {
             return Err(Error::Device(format!(
-                "the GPU was lost ({reason}), so {what} failed; run again, or use --engine cpu"
+                "the GPU was lost ({reason}), so {what} failed; {}",
+                advice.lost
             )));
         }
         let uncaught = self.uncaught.lock().unwrap_or_else(PoisonError::into_inner).take();
@@ -46,12 +49,11 @@ impl Faults {
 }
 
 /// An error of wgpu, in our words.
-pub(crate) fn explain(what: &str, error: &wgpu::Error) -> Error {
+pub(crate) fn explain(what: &str, error: &wgpu::Error, advice: &Advice) -> Error {
     Error::Device(match error {
-        wgpu::Error::OutOfMemory { .. } => format!(
-            "{what} failed: the GPU's memory is full; give it a smaller --gpu-memory, end other programs that use \
-             it, or use --engine cpu"
-        ),
+        wgpu::Error::OutOfMemory { .. } => {
+            format!("{what} failed: the GPU's memory is full; {}", advice.full)
+        }
         wgpu::Error::Validation { description, .. } | wgpu::Error::Internal { description, .. } => {
             format!("{what} failed on the GPU: {description}")
         }

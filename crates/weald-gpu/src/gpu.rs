@@ -9,6 +9,7 @@ use weald::grid::Size;
 use wgpu::DeviceType;
 
 use crate::adapter::{self, Wanted};
+use crate::advice::{Advice, DRAWING, SIMULATION};
 use crate::context::Context;
 use crate::live::Live;
 use crate::memory::{self, Memory};
@@ -41,7 +42,9 @@ impl Gpu {
         if !adapter::may_have_a_card() {
             return Ok(None);
         }
-        adapter::best(adapter::all(), Wanted::Hardware).map(|adapter| Self::open(&adapter)).transpose()
+        adapter::best(adapter::all(), Wanted::Hardware)
+            .map(|adapter| Self::open(&adapter, &SIMULATION))
+            .transpose()
     }
 
     /// The best graphics card, or software that acts as one where there is none.
@@ -52,14 +55,14 @@ impl Gpu {
         Self::wanted(Wanted::Any)
     }
 
-    /// As [`Gpu::any`] for drawing, whose error says what draws without a device.
+    /// As [`Gpu::any`] for drawing, whose errors say what helps to draw, and what draws without a device.
     ///
     /// # Errors
     /// As [`Gpu::any`].
     pub fn for_drawing() -> Result<Self, Error> {
         let adapters = adapter::all();
         match adapter::best(adapters, Wanted::Any) {
-            Some(adapter) => Self::open(&adapter),
+            Some(adapter) => Self::open(&adapter, &DRAWING),
             None => Err(adapter::none_that_draws()),
         }
     }
@@ -76,16 +79,16 @@ impl Gpu {
         let adapters = adapter::all();
         let found: Vec<_> = adapters.iter().map(adapter::describe).collect();
         let adapter = adapter::best(adapters, wanted).ok_or_else(|| adapter::none(&found, wanted))?;
-        Self::open(&adapter)
+        Self::open(&adapter, &SIMULATION)
     }
 
-    fn open(adapter: &wgpu::Adapter) -> Result<Self, Error> {
-        let context = Arc::new(Context::open(adapter)?);
+    fn open(adapter: &wgpu::Adapter, advice: &'static Advice) -> Result<Self, Error> {
+        let context = Arc::new(Context::open(adapter, advice)?);
         let budget = match context.kind {
             DeviceType::DiscreteGpu => MEMORY_OF_A_CARD,
             _ => MEMORY_SHARED,
         };
-        Ok(Self { context, memory: Memory::new(budget), most_moved: u64::MAX, live: None })
+        Ok(Self { context, memory: Memory::new(budget, advice), most_moved: u64::MAX, live: None })
     }
 
     /// The same device with a budget of its own, in bytes, at least a mebibyte. The default is 4 GiB on a card
@@ -100,7 +103,7 @@ impl Gpu {
                 "a GPU memory of {given} is too small; give at least {least}"
             )));
         }
-        Ok(Self { memory: Memory::new(bytes), ..self })
+        Ok(Self { memory: Memory::new(bytes, self.context.advice), ..self })
     }
 
     /// The same device, whose programs show ground and water as they run.

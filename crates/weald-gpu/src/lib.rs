@@ -24,6 +24,7 @@
 //! [`bend_limbs`] bends plants.
 
 mod adapter;
+mod advice;
 mod bandwidth;
 mod buffers;
 mod compiled;

@@ -5,6 +5,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use weald::Error;
 
+use crate::advice::Advice;
 use crate::gpu::Gpu;
 
 /// Least budget: below it, staging and uniforms leave no room for a program.
@@ -16,11 +17,13 @@ pub(crate) struct Memory {
     budget: u64,
     held: AtomicU64,
     peak: AtomicU64,
+    advice: &'static Advice,
 }
 
 impl Memory {
-    pub(crate) fn new(budget: u64) -> Arc<Self> {
-        Arc::new(Self { budget, held: AtomicU64::new(0), peak: AtomicU64::new(0) })
+    /// A budget, and what to say where it is spent.
+    pub(crate) fn new(budget: u64, advice: &'static Advice) -> Arc<Self> {
+        Arc::new(Self { budget, held: AtomicU64::new(0), peak: AtomicU64::new(0), advice })
     }
 
     pub(crate) fn budget(&self) -> u64 {
@@ -40,11 +43,11 @@ impl Memory {
         let fits = |held: u64| held.checked_add(bytes).filter(|&sum| sum <= self.budget);
         let before = self.held.fetch_update(Ordering::Relaxed, Ordering::Relaxed, fits).map_err(|held| {
             Error::Device(format!(
-                "{what} takes {} of GPU memory; {} of {} are in use; give a larger --gpu-memory, a smaller grid, \
-                 or --engine cpu",
+                "{what} takes {} of GPU memory; {} of {} are in use; {}",
                 in_words(bytes),
                 in_words(held),
-                in_words(self.budget)
+                in_words(self.budget),
+                self.advice.spent
             ))
         })?;
         self.peak.fetch_max(before + bytes, Ordering::Relaxed);
@@ -78,10 +81,11 @@ impl Store {
         let largest = gpu.context.limits.max_buffer_size;
         if bytes > largest {
             return Err(Error::Device(format!(
-                "{what} takes {} in one buffer; {} allows {}; use a smaller grid or --engine cpu",
+                "{what} takes {} in one buffer; {} allows {}; {}",
                 in_words(bytes),
                 gpu.context.adapter,
-                in_words(largest)
+                in_words(largest),
+                gpu.context.advice.large
             )));
         }
         let held = gpu.memory.hold(bytes, what)?;
@@ -104,10 +108,11 @@ pub(crate) fn in_words(bytes: u64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::advice::SIMULATION;
 
     #[test]
     fn what_is_dropped_can_be_held_again_and_the_peak_stays() {
-        let memory = Memory::new(100);
+        let memory = Memory::new(100, &SIMULATION);
         let first = memory.hold(60, "one").expect("it fits");
         assert!(memory.hold(41, "two").is_err(), "the budget would be passed");
         drop(first);
@@ -117,7 +122,7 @@ mod tests {
 
     #[test]
     fn no_number_of_bytes_overflows_the_count() {
-        let memory = Memory::new(u64::MAX);
+        let memory = Memory::new(u64::MAX, &SIMULATION);
         let _some = memory.hold(10, "some").expect("it fits");
         let error = memory.hold(u64::MAX, "all").expect_err("10 are held").to_string();
         assert!(error.contains("all takes") && error.contains("10 bytes of"), "{error}");

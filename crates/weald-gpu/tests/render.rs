@@ -56,38 +56,6 @@ fn change(a: &Image, b: &Image) -> (u8, f64) {
     (most, sum / a.rgb.len() as f64)
 }
 
-/// Greatest mean change of a picture between levels of detail that are chosen two metres apart, in bytes a channel.
-const MEAN_CHANGE: f64 = 0.05;
-
-/// Greatest share of its channels that may change by more than eight bytes.
-const SEEN_CHANGE: f64 = 5e-4;
-
-#[test]
-fn levels_of_detail_pass_into_each_other_without_leaps() {
-    let Some(gpu) = gpu() else { return };
-    let stage = Stage::new(&view(), &mountains()).expect("a stage");
-    let mut renderer = renderer(&gpu, &stage, 4);
-    let camera = above(&stage, [1600.0, 2600.0], 60.0, 12.0, 5.0);
-    let mut drawn = |step: u16| {
-        let mut eye = camera.eye;
-        eye[1] -= 2.0 * f32::from(step);
-        let look = TestLook { detail_from: Some(eye), ..TestLook::default() };
-        renderer.render_for_a_test(&camera, look).expect("drawn")
-    };
-    let first = drawn(0);
-    let mut before = first.clone();
-    for step in 1..60 {
-        let next = drawn(step);
-        let (_, mean) = change(&before, &next);
-        let seen = before.rgb.iter().zip(&next.rgb).filter(|(a, b)| a.abs_diff(**b) > 8).count();
-        assert!(mean < MEAN_CHANGE, "step {step}: {mean} bytes in the mean");
-        let share = seen as f64 / next.rgb.len() as f64;
-        assert!(share < SEEN_CHANGE, "step {step}: a share of {share} changes by more than 8 bytes");
-        before = next;
-    }
-    assert!(change(&first, &before).0 > 2, "levels of detail did change");
-}
-
 #[test]
 fn a_picture_drawn_twice_is_the_same_to_the_bit() {
     let Some(gpu) = gpu() else { return };
@@ -241,34 +209,6 @@ fn grass_stands_around_the_camera_thins_out_and_sways() {
     assert!(swayed > 0.02, "a share of {swayed} moved in the wind");
 }
 
-/// Greatest share of the channels that change by more than eight bytes where sets are chosen a centimetre apart.
-const SUNK: f64 = 0.006;
-
-#[test]
-fn sets_become_fewer_and_blades_coarser_without_leaps() {
-    let Some(gpu) = gpu() else { return };
-    let landscape = meadow();
-    let stage = Stage::new(&view(), &landscape).expect("a stage");
-    let mut renderer = renderer(&gpu, &stage, 4);
-    renderer.plant(&stage, &landscape).expect("planted");
-    let camera = above(&stage, [60.0, 90.0], 2.0, 8.0, 0.0);
-    let mut drawn = |step: u8| {
-        let [east, north, up] = camera.eye;
-        let eye = [east, north - 0.01 * f32::from(step), up];
-        let look = TestLook { detail_from: Some(eye), ..TestLook::default() };
-        renderer.render_for_a_test(&camera, look).expect("drawn")
-    };
-    let (first, mut before) = (drawn(0), drawn(0));
-    for step in 1..12 {
-        let next = drawn(step);
-        let share = share_changed(&before, &next);
-        assert!(share < SUNK, "step {step}: a share of {share} leaps");
-        before = next;
-    }
-    let far = drawn(250);
-    assert!(share_changed(&first, &far) > 2.0 * SUNK, "sets did become fewer");
-}
-
 #[test]
 fn the_parts_of_a_picture_take_time_and_no_more_than_all_of_it() {
     let Some(gpu) = gpu() else { return };
@@ -308,4 +248,20 @@ fn sizes_and_cameras_that_cannot_be_drawn_are_refused() {
     }
     drop(renderer);
     assert_eq!(gpu.allocated(), held, "all is given back");
+}
+
+#[test]
+fn errors_of_drawing_advise_what_helps_to_draw() {
+    if gpu().is_none() {
+        return;
+    }
+    let open = || Gpu::for_drawing().expect("there is a device");
+    let gpu = open().with_memory(1 << 20).expect("a legal budget");
+    let stage = Stage::new(&view(), &mountains()).expect("a stage");
+    let error = Renderer::new(&gpu, &stage, options(4)).expect_err("a mebibyte is too little").to_string();
+    assert!(error.contains("--gpu-memory, a smaller picture") && !error.contains("--engine"), "{error}");
+    let gpu = open();
+    gpu.lose();
+    let error = Renderer::new(&gpu, &stage, options(4)).expect_err("it is lost").to_string();
+    assert!(error.contains("was lost") && !error.contains("--engine"), "{error}");
 }

@@ -102,6 +102,8 @@ impl Options {
 pub struct TestLook {
     /// Whether what is behind the landscape is magenta.
     pub bare: bool,
+    /// Whether nothing throws shadows.
+    pub casts_nothing: bool,
     /// From where levels of detail are chosen, in place of the camera's point.
     pub detail_from: Option<[f32; 3]>,
 }
@@ -236,6 +238,7 @@ impl Renderer {
             grass: self.grass.as_ref(),
             plants: self.plants.as_ref(),
             bare: self.look.bare,
+            casts_nothing: self.look.casts_nothing,
             timer,
         };
         self.shadows.draw(encoder, groups, &self.passes.casters, drawing);

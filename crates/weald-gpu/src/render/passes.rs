@@ -87,6 +87,8 @@ pub(super) struct Drawing<'a> {
     pub(super) plants: Option<&'a Plants>,
     /// Whether what lies behind the landscape is left out.
     pub(super) bare: bool,
+    /// Whether nothing throws shadows.
+    pub(super) casts_nothing: bool,
     pub(super) timer: Option<&'a Timer>,
 }
 
@@ -188,7 +190,7 @@ impl Passes {
             Some(sampled) => (&sampled.view, Some(&targets.light.view)),
             None => (&targets.light.view, None),
         };
-        let Drawing { terrain, grass, plants, bare, timer } = drawing;
+        let Drawing { terrain, grass, plants, bare, timer, .. } = drawing;
         let ops = Operations { load: LoadOp::Clear(MAGENTA), store: StoreOp::Store };
         let depth = Operations { load: LoadOp::Clear(0.0), store: StoreOp::Discard };
         let mut pass = encoder.begin_render_pass(&RenderPassDescriptor {

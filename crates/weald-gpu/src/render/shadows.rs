@@ -65,7 +65,7 @@ impl Shadows {
         encoder: &mut CommandEncoder,
         groups: [&BindGroup; 2],
         casters: &Casters,
-        Drawing { terrain, plants, timer, .. }: Drawing<'_>,
+        Drawing { terrain, plants, casts_nothing, timer, .. }: Drawing<'_>,
     ) {
         for (number, (view, cascade)) in self.layers.iter().enumerate() {
             let depth = Operations { load: LoadOp::Clear(1.0), store: StoreOp::Store };
@@ -79,6 +79,9 @@ impl Shadows {
                 timestamp_writes: timer.and_then(|timer| ends(timer, number)),
                 ..RenderPassDescriptor::default()
             });
+            if casts_nothing {
+                continue;
+            }
             for (at, group) in (0..).zip([groups[0], groups[1], cascade]) {
                 pass.set_bind_group(at, group, &[]);
             }
