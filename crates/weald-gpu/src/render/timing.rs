@@ -59,7 +59,7 @@ impl Moment {
 pub struct Timings {
     /// What is chosen of the grass.
     pub choice: Duration,
-    /// What throws shadows, into all cascades.
+    /// What is chosen of scattered plants, and what throws shadows, into all cascades.
     pub shadows: Duration,
     /// The ground, without water.
     pub ground: Duration,
@@ -67,7 +67,7 @@ pub struct Timings {
     pub water: Duration,
     /// Cut sides, plain and sky.
     pub behind: Duration,
-    /// Grass, and bringing the samples of all pixels together.
+    /// Grass and scattered plants, and bringing the samples of all pixels together.
     pub grass: Duration,
     /// From light to the numbers of a picture.
     pub film: Duration,

@@ -14,6 +14,10 @@ const SIZES: [f64; LEVELS - 1] = [0.028, 0.07, 0.36, 1.0];
 /// Share of the plant below which no stem is seen.
 const LEAST_STEM: f64 = 0.08;
 
+/// How much larger than it is a part counts that goes on along an axis: a tip as one leaf would be seen among the leaves
+/// below it.
+const AXIS: f64 = 2.0;
+
 /// Most leaves of the finest level, over all fronds.
 const MOST: usize = 16_384;
 
@@ -64,7 +68,8 @@ struct Open {
     within: Map,
     branch: usize,
     size: f64,
-    /// Size of what it is a part of.
+    /// Size that it counts as, and that of what it is a part of.
+    counts: f64,
     before: f64,
     key: u64,
 }
@@ -95,12 +100,13 @@ impl Walk {
             within: Map::IDENTITY,
             branch: 0,
             size: 1.0,
+            counts: 1.0,
             before: f64::INFINITY,
             key: 0,
         }]);
         while let Some(part) = open.pop_front() {
             walk.leaf(&part, sizes);
-            if part.size > sizes[0] {
+            if part.counts > sizes[0] {
                 walk.stem(&part, sizes);
                 for digit in 0..ifs.maps().len() {
                     open.extend(walk.child(ifs, shape, &part, digit));
@@ -114,7 +120,7 @@ impl Walk {
     }
 
     fn leaf(&mut self, part: &Open, sizes: [f64; LEVELS - 1]) {
-        let mut levels = (0..).zip(sizes).filter(|&(_, size)| part.size <= size && size < part.before);
+        let mut levels = (0..).zip(sizes).filter(|&(_, size)| part.counts <= size && size < part.before);
         if let Some((first, _)) = levels.next() {
             let last = levels.last().map_or(first, |(last, _)| last);
             self.part(part, [first, last], false);
@@ -122,7 +128,7 @@ impl Walk {
     }
 
     fn stem(&mut self, part: &Open, sizes: [f64; LEVELS - 1]) {
-        let levels = (0..).zip(sizes).filter(|&(_, size)| size < part.size);
+        let levels = (0..).zip(sizes).filter(|&(_, size)| size < part.counts);
         if let Some((last, _)) = levels.last().filter(|_| part.size >= LEAST_STEM) {
             self.part(part, [0, last], true);
         }
@@ -148,6 +154,8 @@ impl Walk {
             }
         };
         // Maps that contract in a row but not one by one may lengthen at first.
-        Some(Open { map, within, branch, size: map.ratio().min(part.size), before: part.size, key })
+        let size = map.ratio().min(part.size);
+        let counts = if weighted.role == Role::Trunk { AXIS * size } else { size };
+        Some(Open { map, within, branch, size, counts: counts.min(part.counts), before: part.counts, key })
     }
 }
