@@ -6,7 +6,7 @@ use super::LEVELS;
 use crate::grow::ifs::foliage::Shape;
 use crate::grow::ifs::map::Map;
 use crate::grow::ifs::system::{Ifs, Role};
-use crate::random::hash2;
+use crate::random::{hash2, unit};
 
 /// Size, as a share of the plant, up to which a part is a leaf of each level but the last, which has no sizes.
 const SIZES: [f64; LEVELS - 1] = [0.028, 0.07, 0.36, 1.0];
@@ -62,6 +62,32 @@ pub(super) struct Walk {
     pub(super) parts: Vec<Part>,
 }
 
+/// The maps of a fractal.
+struct Maps<'a> {
+    ifs: &'a Ifs,
+    /// Whether branches of a flat shape stand off to all sides.
+    spreads: bool,
+}
+
+impl Maps<'_> {
+    /// The map of a digit, for the part with such a key: a branch that spreads is turned about the axis that bears it.
+    fn of(&self, digit: usize, key: u64) -> Map {
+        let weighted = &self.ifs.maps()[digit];
+        if !self.spreads {
+            return weighted.map;
+        }
+        // As much deep as wide.
+        let mut map = weighted.map;
+        map.linear[2][2] = map.ratio();
+        if weighted.role != Role::Branch {
+            return map;
+        }
+        let (sine, cosine) = libm::sincos(std::f64::consts::TAU * unit(hash2(key, 0, 13)));
+        let turn = Map::spatial([[cosine, 0.0, sine, 0.0], [0.0, 1.0, 0.0, 0.0], [-sine, 0.0, cosine, 0.0]]);
+        turn.conjugate(1.0, self.ifs.root()).after(&map)
+    }
+}
+
 /// A part on the way down.
 struct Open {
     map: Map,
@@ -75,11 +101,12 @@ struct Open {
 }
 
 impl Walk {
-    /// The parts of a fractal that stands so many times in a plant, with leaves as fine as that allows.
-    pub(super) fn of(ifs: &Ifs, shape: &Shape, copies: usize) -> Self {
-        let mut sizes = SIZES;
+    /// The parts of a fractal that stands so many times in a plant, with leaves as fine as that allows, and with branches to
+    /// all sides if it `spreads`.
+    pub(super) fn of(ifs: &Ifs, shape: &Shape, (copies, spreads): (usize, bool)) -> Self {
+        let (maps, mut sizes) = (Maps { ifs, spreads }, SIZES);
         loop {
-            match Self::down_to(ifs, shape, sizes, MOST / copies) {
+            match Self::down_to(&maps, shape, sizes, MOST / copies) {
                 Some(walk) => return walk,
                 None => {
                     sizes[0] *= COARSER;
@@ -92,7 +119,7 @@ impl Walk {
     }
 
     /// The same with leaves of such sizes; `None` if there are more than so many.
-    fn down_to(ifs: &Ifs, shape: &Shape, sizes: [f64; LEVELS - 1], most: usize) -> Option<Self> {
+    fn down_to(maps: &Maps<'_>, shape: &Shape, sizes: [f64; LEVELS - 1], most: usize) -> Option<Self> {
         let whole = Branch { map: Map::IDENTITY, parent: None, along: 0.0, order: 0, key: 0 };
         let mut walk = Self { branches: vec![whole], parts: Vec::new() };
         let mut open = VecDeque::from([Open {
@@ -108,8 +135,8 @@ impl Walk {
             walk.leaf(&part, sizes);
             if part.counts > sizes[0] {
                 walk.stem(&part, sizes);
-                for digit in 0..ifs.maps().len() {
-                    open.extend(walk.child(ifs, shape, &part, digit));
+                for digit in 0..maps.ifs.maps().len() {
+                    open.extend(walk.child(maps, shape, &part, digit));
                 }
             }
             if walk.parts.len() > most {
@@ -139,15 +166,16 @@ impl Walk {
         self.parts.push(Part { map, within, branch, size, levels, is_stem, key });
     }
 
-    fn child(&mut self, ifs: &Ifs, shape: &Shape, part: &Open, digit: usize) -> Option<Open> {
-        let weighted = &ifs.maps()[digit];
-        let map = part.map.after(&weighted.map);
+    fn child(&mut self, maps: &Maps<'_>, shape: &Shape, part: &Open, digit: usize) -> Option<Open> {
+        let weighted = &maps.ifs.maps()[digit];
         let key = hash2(part.key, digit as i64, 1);
+        let own = maps.of(digit, key);
+        let map = part.map.after(&own);
         let (within, branch) = match weighted.role {
             Role::Stem => return None,
-            Role::Trunk => (part.within.after(&weighted.map), part.branch),
+            Role::Trunk => (part.within.after(&own), part.branch),
             Role::Branch => {
-                let along = shape.share_above_root(part.within.at(weighted.map.at(ifs.root())));
+                let along = shape.share_above_root(part.within.at(own.at(maps.ifs.root())));
                 let order = self.branches[part.branch].order + 1;
                 self.branches.push(Branch { map, parent: Some(part.branch), along, order, key });
                 (Map::IDENTITY, self.branches.len() - 1)
