@@ -34,7 +34,7 @@ fn projected(point: vec3<f32>) -> vec4<f32> {
 }
 
 // Whether a ball of a radius around a point, seen from the eye, may be in the picture.
-fn is_ball_in_sight(away: vec3<f32>, radius: f32) -> bool {
+fn is_in_sight(away: vec3<f32>, radius: f32) -> bool {
     let depth = dot(away, frame.forward.xyz);
     let aside = vec2<f32>(dot(away, frame.right.xyz), dot(away, frame.up.xyz));
     let half = vec2<f32>(frame.right.w, frame.up.w);

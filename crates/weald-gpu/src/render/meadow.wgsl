@@ -69,14 +69,6 @@ fn list_of(tuft: Set, root: vec3<f32>) -> u32 {
     return select(LISTS, list(distance), stands && seen);
 }
 
-// Whether a ball of a radius around a point, seen from the eye, may be in the picture.
-fn is_in_sight(away: vec3<f32>, radius: f32) -> bool {
-    let depth = dot(away, frame.forward.xyz);
-    let aside = vec2<f32>(dot(away, frame.right.xyz), dot(away, frame.up.xyz));
-    let half = vec2<f32>(frame.right.w, frame.up.w);
-    return depth > -radius && all(abs(aside) <= depth * half + radius * sqrt(1.0 + half * half));
-}
-
 // Where in `starts` what a workgroup counts of a list stands, for so many sets.
 fn place_of_count(list: u32, group: u32, count: u32) -> u32 {
     return list * ((count + GROUP - 1u) / GROUP) + group;

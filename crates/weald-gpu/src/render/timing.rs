@@ -60,7 +60,7 @@ impl Moment {
 pub struct Timings {
     /// What is chosen of grass and plants.
     pub choice: Duration,
-    /// What throws shadows, into all cascades.
+    /// What is chosen of scattered plants, and what throws shadows, into all cascades.
     pub shadows: Duration,
     /// The ground, without water.
     pub ground: Duration,

@@ -32,7 +32,7 @@ fn list_of(view: u32, number: u32) -> u32 {
     let plant = plants[number];
     let radius = plant.size * kind.leaf.w;
     if view == 0u {
-        if !is_ball_in_sight(plant.place - frame.eye.xyz, radius) {
+        if !is_in_sight(plant.place - frame.eye.xyz, radius) {
             return NO_LIST;
         }
     } else {

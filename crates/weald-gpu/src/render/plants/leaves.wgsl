@@ -25,7 +25,7 @@ struct Corner {
 @group(3) @binding(0) var<uniform> which: Which;
 
 // Share of light that comes through a leaf.
-const THROUGH_LEAF = 0.5;
+const THROUGH_LEAF = 0.42;
 
 struct Leaf {
     @builtin(position) position: vec4<f32>,
@@ -69,7 +69,7 @@ fn colour_of_corner(plant: Stood, look: u32) -> vec3<f32> {
     let tone = f32(look & 255u) / 255.0;
     // Some plants are older and yellower than others.
     let aged = mix(vec3<f32>(1.0), vec3<f32>(1.5, 1.1, 0.8), 0.5 * plant.chance * plant.chance);
-    return kind.leaf.xyz * mix(0.55, 0.95, tone) * aged;
+    return kind.leaf.xyz * mix(0.4, 0.75, tone) * aged;
 }
 
 // The share of the sun that is seen from a leaf: one look, since the corners of leaves lie closer than the edge of a shadow

@@ -52,7 +52,8 @@ impl Builder {
         let outline = Outline::of(ifs, &shape);
         let fronds = habit.fronds();
         let stipe = if is_rosette(habit) { STIPE } else { 0.0 };
-        let walk = Walk::of(ifs, &shape, fronds.len() * outline.views());
+        let spreads = matches!(habit, Habit::Crossed(_));
+        let walk = Walk::of(ifs, &shape, (fronds.len() * outline.views(), spreads));
         Self { habit, shape, outline, walk, fronds, stipe }
     }
 
