@@ -23,8 +23,7 @@ fn recipe(model: &str) -> Recipe {
 
 const HAN: &str = "[[step]]\ndo = \"hydraulic\"\nmodel = \"han\"\niterations = 400\nboundary = \"closed\"\nrain = 0.06\n\
                    evaporation = 0.0\n";
-const MEI: &str =
-    "[[step]]\ndo = \"hydraulic\"\nmodel = \"mei\"\niterations = 400\nboundary = \"closed\"\nrain = 0.02\n";
+const MEI: &str = "[[step]]\ndo = \"hydraulic\"\nmodel = \"mei\"\niterations = 400\nboundary = \"closed\"\nrain = 0.06\nevaporation = 0.0\n";
 
 fn view() -> View {
     let [width, height] = SIZE;
