@@ -258,13 +258,9 @@ fn facing(sides: [Point; 2], ahead: Point, above: Point) -> Point {
     if upright.abs() < 1e-3 { above } else { normal.map(|x| x * upright.signum()) }
 }
 
-/// The triangles of a foot, so many pairs, and a tip.
+/// The triangles of a foot, so many pairs, and a tip: none has any area where the pairs lie on the axis.
 fn leaf_triangles(first: u32, rows: u32) -> Vec<[u32; 3]> {
     let (foot, tip) = (first, first + 2 * rows + 1);
-    if rows == 1 {
-        // Folded along its axis.
-        return vec![[foot, first + 1, tip], [foot, tip, first + 2]];
-    }
     let pair = |row: u32| [first + 2 * row + 1, first + 2 * row + 2];
     let [left, right] = pair(0);
     let mut triangles = vec![[foot, left, right]];

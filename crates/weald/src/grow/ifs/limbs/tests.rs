@@ -111,3 +111,14 @@ fn all_levels_of_a_fern_have_its_area_of_leaves_and_lie_within_its_reach() {
         assert!(lowest > -0.15, "{name} reaches {lowest} m into the ground");
     }
 }
+
+#[test]
+fn a_leaf_of_no_breadth_has_no_area() {
+    for name in ["fern", "conifer", "crown"] {
+        let plant = plant(name);
+        let thin = |corner: u32| plant.corners[corner as usize].axis;
+        let areas = plant.triangles.iter().map(|triangle| leaf::area(triangle.map(thin)));
+        assert_eq!(areas.fold(0.0, f32::max), 0.0, "{name}");
+        assert!(plant.area(0) > 0.1, "{name}");
+    }
+}
