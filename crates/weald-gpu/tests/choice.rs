@@ -6,7 +6,7 @@ mod scenes;
 use programs::gpu;
 use scenes::{above, meadow, options, view};
 use weald::grow::grass::choice::{Choice, LISTS, Sight};
-use weald::grow::grass::{Instance, Packed};
+use weald::grow::grass::{Instance, Meadow, Packed};
 use weald::picture::{Camera, Stage};
 use weald_gpu::{Chosen, GrassLook, Renderer};
 
@@ -32,34 +32,38 @@ fn choice(look: GrassLook) -> Choice {
 }
 
 /// The sets of each list by the CPU, and those of which it is not sure.
-fn by_the_cpu(stage: &Stage, camera: &Camera, look: GrassLook, sets: &[Packed]) -> [Vec<u32>; LISTS + 1] {
+fn by_the_cpu(stage: &Stage, camera: &Camera, look: GrassLook, sets: &[Packed]) -> [Vec<Packed>; LISTS + 1] {
     let axes = [camera.forward, camera.right, camera.up];
     let sight = Sight { eye: camera.eye, axes, half: camera.half, detail_from: camera.eye };
     let (choice, mut lists) = (choice(look), [const { Vec::new() }; LISTS + 1]);
-    for (number, &set) in (0..).zip(sets) {
+    for &set in sets {
         let Instance { place: [east, south], tuft, .. } = Instance::unpack(set);
         let up = stage.top_at([east, south].map(f64::from)).expect("on the land");
         let list = |[x, y, z]: [f32; 3]| choice.list_of(&sight, &tuft, [east + x, -south + y, up + z]);
         let found = list([0.0; 3]);
-        let nudges =
+        let mut nudges =
             (0..8).map(|bits| [0, 1, 2].map(|axis| if bits >> axis & 1 == 0 { UNSURE } else { -UNSURE }));
-        if nudges.into_iter().any(|nudge| list(nudge) != found) {
-            lists[LISTS].push(number);
+        if nudges.any(|nudge| list(nudge) != found) {
+            lists[LISTS].push(set);
         } else if let Some(found) = found {
-            lists[found].push(number);
+            lists[found].push(set);
         }
+    }
+    for list in &mut lists {
+        list.sort_unstable();
     }
     lists
 }
 
 /// Compares what a device chose with what the CPU does, and tells how many sets each list has.
-fn compare(chosen: &Chosen, cpu: &[Vec<u32>; LISTS + 1]) -> [usize; LISTS] {
+fn compare(chosen: &Chosen, cpu: &[Vec<Packed>; LISTS + 1], all: usize) -> [usize; LISTS] {
     let unsure = &cpu[LISTS];
-    assert!((unsure.len() as f64) < FEW * chosen.sets.len() as f64, "{} unsure", unsure.len());
+    assert!((unsure.len() as f64) < FEW * all as f64, "{} unsure", unsure.len());
     for (number, (list, ours)) in chosen.lists.iter().zip(cpu).enumerate() {
         assert!(list.is_sorted_by(|a, b| a < b), "in the order of the sets");
-        let sure: Vec<_> =
-            list.iter().filter(|number| unsure.binary_search(number).is_err()).copied().collect();
+        let sets = list.iter().map(|&number| chosen.sets[number as usize]);
+        let mut sure: Vec<_> = sets.filter(|set| unsure.binary_search(set).is_err()).collect();
+        sure.sort_unstable();
         let first = sure.iter().zip(ours).find(|(a, b)| a != b);
         assert!(sure == *ours, "list {number}: {} and {}, first {first:?}", sure.len(), ours.len());
     }
@@ -73,6 +77,9 @@ fn a_device_draws_the_sets_that_the_cpu_chooses_in_the_same_order() {
     let stage = Stage::new(&view(), &landscape).expect("a stage");
     let mut renderer = Renderer::new(&gpu, &stage, options(1)).expect("it can be drawn");
     renderer.plant(&stage, &landscape).expect("planted");
+    let grass = landscape.all_meadows().next().expect("a meadow").1;
+    let all = grass.sets(&grass.area()).len();
+    assert!(all > 100_000, "{all} sets");
     let places =
         [([60.0, 70.0], 1.5, 12.0, 0.0), ([20.0, 30.0], 6.0, 30.0, 135.0), ([110.0, 60.0], 1.0, 0.0, 270.0)];
     let mut most = [0; LISTS];
@@ -81,12 +88,14 @@ fn a_device_draws_the_sets_that_the_cpu_chooses_in_the_same_order() {
         for look in LOOKS {
             renderer.set_grass_look(look);
             let chosen = &renderer.chosen(&camera).expect("chosen")[0];
-            assert!(chosen.sets.len() > 100_000, "{} sets", chosen.sets.len());
-            let counts = compare(chosen, &by_the_cpu(&stage, &camera, look, &chosen.sets));
-            println!("{look:?}: {counts:?} of {} sets", chosen.sets.len());
+            // The CPU chooses among all: what is sown on the device depends on the camera as well.
+            let level = look.level.unwrap_or(grass.level);
+            let sets = Meadow { level, ..(**grass).clone() }.sets(&grass.area());
+            let counts = compare(chosen, &by_the_cpu(&stage, &camera, look, &sets), all);
+            println!("{look:?}: {counts:?} of {} sown of {all}", chosen.sets.len());
             match look {
-                GrassLook { culled: false, thinned: false, .. } => assert_eq!(counts[0], chosen.sets.len()),
-                GrassLook { thinned: false, .. } => assert!((1..chosen.sets.len()).contains(&counts[0])),
+                GrassLook { culled: false, thinned: false, .. } => assert_eq!(counts[0], all),
+                GrassLook { thinned: false, .. } => assert!((1..all).contains(&counts[0])),
                 _ => most = [0, 1, 2].map(|list| most[list].max(counts[list])),
             }
             let again = renderer.chosen(&camera).expect("chosen");

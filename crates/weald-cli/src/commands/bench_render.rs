@@ -103,13 +103,13 @@ fn tables(gpu: &Gpu, what: Measuring, print: &mut Print<'_>) -> Result<(), Failu
 
 /// The parts of a picture by the number of sets.
 fn budget(gpu: &Gpu, what: Measuring, print: &mut Print<'_>) -> Result<(), Failure> {
-    print(&format!("\n{:<38}{PARTS}", "   sets    drawn  culled  thinned"));
+    print(&format!("\n{:<38}{PARTS}", "   sets    drawn  culled  thinned   sown"));
     let mut tell = |row: &GrassRow| {
         let [all, drawn] = row.sets;
         let [culled, thinned] = [row.look.culled, row.look.thinned].map(|is| if is { "yes" } else { "no" });
         let wanted = row.wanted;
         print(&format!(
-            "{wanted:>7} {drawn:>8}  {culled:<6}  {thinned:<7} of {all:<7}{}",
+            "{wanted:>7} {drawn:>8}  {culled:<6}  {thinned:<7} {all:<7}   {}",
             parts(&row.timings)
         ));
         Ok(())

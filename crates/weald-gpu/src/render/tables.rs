@@ -23,7 +23,7 @@ pub struct GrassRow {
     pub look: GrassLook,
     /// Sets that the field was to have.
     pub wanted: u32,
-    /// Sets that are there, and that are drawn.
+    /// Sets that are sown on the device, around the camera where they are thinned, and that are drawn.
     pub sets: [u64; 2],
     /// What the parts took.
     pub timings: Timings,
