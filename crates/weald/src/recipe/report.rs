@@ -69,6 +69,9 @@ pub struct OutputReport {
     /// The kind of export, if it is one.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub export: Option<String>,
+    /// What drew a picture that a device draws, of which no two give the same bits.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub adapter: Option<String>,
     /// Pictures of a film, numbered from 0.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub frames: Option<u64>,

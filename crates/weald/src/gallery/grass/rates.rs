@@ -16,6 +16,9 @@ pub(in crate::gallery) const FIGURE_8: Figure = Figure {
     make: Make::Drawn(make),
 };
 
+/// Sets from which on more of them take longer to be drawn.
+const FEW: u64 = 4_000;
+
 /// Lowest and highest rate of the chart, as powers of ten.
 const RATES: [f32; 2] = [-2.0, 4.0];
 
@@ -72,12 +75,14 @@ fn chart(rates: &[&GrassRate], job: GalleryJob) -> Chart {
 }
 
 fn claim_of_sets(rates: &[&GrassRate]) -> Claim {
-    let falls = rates.windows(2).all(|pair| pair[1].rate < 1.1 * pair[0].rate);
+    // Few sets take no longer than the ground they stand on.
+    let many: Vec<_> = rates.iter().filter(|rate| rate.sets > FEW).collect();
+    let falls = many.windows(2).all(|pair| pair[1].rate < pair[0].rate);
     let [first, last] =
         [rates.first(), rates.last()].map(|rate| rate.map_or((0, 0.0), |rate| (rate.sets, rate.rate)));
     Claim::new(
         "More sets are drawn more slowly, 100,000 still at 12 frames a second on the source's card",
-        Verdict::of(falls && last.0 > 0),
+        Verdict::of(falls && last.1 < first.1),
         format!("{:.1} frames a second with {} sets, {:.2} with {}", first.1, first.0, last.1, last.0),
     )
 }

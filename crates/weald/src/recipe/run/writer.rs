@@ -49,8 +49,8 @@ impl Writer<'_> {
             let cutout = film::still(picture, self.finished.landscape, self.device, &mut go_on)?;
             write_whole(&path, &cutout.to_png(&self.text()))?;
         }
-        let notes = self.drawn_by(picture).into_iter().collect();
-        Ok(OutputReport { picture: Some(name.to_owned()), notes, ..OutputReport::default() })
+        let adapter = self.drawn_by(picture);
+        Ok(OutputReport { picture: Some(name.to_owned()), adapter, ..OutputReport::default() })
     }
 
     /// What a picture says of its origin.
@@ -83,9 +83,10 @@ impl Writer<'_> {
             }
             Motion::Lapse(_) => kept.video(&path)?,
         };
-        let notes = note.into_iter().map(str::to_owned).chain(self.drawn_by(picture)).collect();
+        let notes = note.into_iter().map(str::to_owned).collect();
+        let adapter = self.drawn_by(picture);
         let picture = Some(name.to_owned());
-        Ok(OutputReport { picture, frames: Some(frames), notes, ..OutputReport::default() })
+        Ok(OutputReport { picture, adapter, frames: Some(frames), notes, ..OutputReport::default() })
     }
 
     /// A picture that moves by itself.
@@ -117,8 +118,7 @@ impl Writer<'_> {
 
     /// What drew a picture that is not the same on every device.
     fn drawn_by(&self, picture: &dyn Picture) -> Option<String> {
-        let device = picture.as_render().and(self.device)?;
-        Some(format!("drawn on {}", device.adapter()))
+        Some(picture.as_render().and(self.device)?.adapter())
     }
 
     fn layer(
