@@ -2,6 +2,7 @@
 
 mod desk;
 mod film;
+mod finished;
 mod folder;
 mod inputs;
 #[cfg(test)]
@@ -16,15 +17,14 @@ use std::time::{Duration, Instant};
 use super::checkpoint::{self, CHECKPOINT_FILE, State};
 use super::ground;
 use super::plan::{Output, Planned, Recipe};
-use super::report::{OutputReport, REPORT_FILE, Report, StepReport};
+use super::report::{OutputReport, REPORT_FILE, Report};
 use crate::engine::{Engine, Job};
 use crate::error::Error;
 use crate::export::Finished;
 use crate::landscape::Landscape;
-use crate::material::layer_names;
 use crate::picture::RenderDevice;
-use crate::step::{Layered, Outcome};
 use desk::{Clock, Desk};
+use finished::{check_layers, step_report};
 pub use video::Frames;
 use writer::Writer;
 
@@ -342,52 +342,5 @@ impl Run<'_> {
             report.write(&self.options.out.join(REPORT_FILE))?;
         }
         Ok(report)
-    }
-}
-
-/// All layers that a step declares must be there and hold numbers, and all plants and grass must be there.
-fn check_layers(planned: &Planned, landscape: &Landscape) -> Result<(), Error> {
-    let land = landscape.domain.land.as_ref();
-    let mut written: Vec<_> = planned.step.writes().into_iter().map(|(name, _)| name).collect();
-    if planned.step.layered() == Layered::Changes {
-        written.extend(layer_names(&landscape.materials).map(str::to_owned));
-    }
-    for name in written {
-        let field = landscape.field(&name)?;
-        if let Some((x, y)) = field.first_not_finite(land) {
-            let value = field.at(x, y);
-            return Err(Error::Run(format!(
-                "layer `{name}` became {value} at column {x}, row {y}; gentler parameters may help"
-            )));
-        }
-    }
-    planned.step.plants().iter().try_for_each(|name| landscape.plants(name).map(drop))?;
-    planned.step.meadows().iter().try_for_each(|name| landscape.meadow(name).map(drop))
-}
-
-fn step_report(
-    planned: &Planned,
-    landscape: &Landscape,
-    outcome: Outcome,
-    seconds: f64,
-    resumed_at: Option<u64>,
-) -> StepReport {
-    let cells = landscape.domain.size.cells();
-    let here = outcome.iterations.saturating_sub(resumed_at.unwrap_or(0));
-    let mut notes = outcome.notes;
-    if let Some(iteration) = resumed_at {
-        notes.push(format!(
-            "went on from a checkpoint after {iteration} iterations; seconds count from there"
-        ));
-    }
-    StepReport {
-        step: planned.entry.name.to_owned(),
-        seconds,
-        cells,
-        iterations: outcome.iterations,
-        cell_updates_per_second: cells as f64 * here as f64 / seconds.max(1e-9),
-        budget: outcome.budget.map(Into::into),
-        measures: outcome.measures.into_iter().map(|(name, value)| (name.to_owned(), value)).collect(),
-        notes,
     }
 }

@@ -46,6 +46,25 @@ fn green(image: &Image) -> f64 {
     count as f64 / (image.width * image.height) as f64
 }
 
+/// A clear day without woods, under a sun of an azimuth and altitude.
+fn view(
+    [width, height]: [u32; 2],
+    field_of_view_deg: f64,
+    [sun_azimuth_deg, sun_altitude_deg]: [f64; 2],
+) -> View {
+    View {
+        width,
+        height,
+        field_of_view_deg,
+        sun_azimuth_deg,
+        sun_altitude_deg,
+        visibility: Some(12_000.0),
+        tree_line: Some(-100.0),
+        exposure: 0.3,
+        ..View::default()
+    }
+}
+
 /// A picture with the camera at a place, so high above the ground.
 fn seen(
     landscape: &Landscape,
@@ -89,18 +108,7 @@ fn mapped() -> Result<Landscape, Error> {
 
 fn field(job: GalleryJob, device: &dyn RenderDevice) -> Result<FigureOutput, Error> {
     let landscape = mapped()?;
-    let [width, height] = job.choose([620, 440], [96, 64]);
-    let view = View {
-        width,
-        height,
-        field_of_view_deg: 58.0,
-        sun_azimuth_deg: 250.0,
-        sun_altitude_deg: 38.0,
-        visibility: Some(20_000.0),
-        tree_line: Some(-100.0),
-        exposure: 0.3,
-        ..View::default()
-    };
+    let view = view(job.choose([620, 440], [96, 64]), 58.0, [250.0, 38.0]);
     let images = [
         seen(&landscape, device, ([20.0, 46.0], 1.6, [25.0, 24.0]), view.clone())?,
         seen(&landscape, device, ([24.0, 62.0], 24.0, [24.0, 22.0]), view)?,
@@ -217,18 +225,7 @@ fn plants(job: GalleryJob, device: &dyn RenderDevice) -> Result<FigureOutput, Er
     let size = job.choose(None, Some(48));
     let recipe = Recipe::parse("glade.toml", GLADE, &Overrides { size, ..Overrides::default() })?;
     let landscape = recipe.landscape()?;
-    let [width, height] = job.choose([1100, 620], [96, 54]);
-    let view = View {
-        width,
-        height,
-        field_of_view_deg: 62.0,
-        sun_azimuth_deg: 235.0,
-        sun_altitude_deg: 34.0,
-        visibility: Some(9_000.0),
-        tree_line: Some(-100.0),
-        exposure: 0.3,
-        ..View::default()
-    };
+    let view = view(job.choose([1100, 620], [96, 54]), 62.0, [235.0, 34.0]);
     let image = seen(&landscape, device, ([90.0, 110.0], 2.3, [60.0, 90.0]), view)?;
     let count = |name: &str| landscape.plants(name).map(|plants| plants.plants.len());
     let counts = [count("ferns")?, count("shrubs")?, count("conifers")?];
