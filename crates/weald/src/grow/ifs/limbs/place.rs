@@ -189,7 +189,11 @@ impl Builder {
 
     fn along_of(&self, leaf: &Leaf<'_>, row: usize) -> f64 {
         // A leaf of one row is broadest there.
-        if leaf.rows == 1 { [0.0, 0.36, 1.0][row] } else { row as f64 / (leaf.rows + 1) as f64 }
+        if leaf.rows == 1 {
+            [0.0, self.outline.broadest(), 1.0][row]
+        } else {
+            row as f64 / (leaf.rows + 1) as f64
+        }
     }
 
     fn corner(&self, leaf: &Leaf<'_>, row: &Row, [rest, axis, normal]: [Point; 3]) -> Corner {

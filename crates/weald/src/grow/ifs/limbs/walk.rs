@@ -24,6 +24,9 @@ const MOST: usize = 16_384;
 /// Factor by which leaves become larger until they are few enough.
 const COARSER: f64 = 1.2;
 
+/// Least factor between the sizes of leaves of neighbouring levels.
+const APART: f64 = 1.5;
+
 /// A part that begins with a branch, or the whole.
 pub(super) struct Branch {
     /// From the whole to the part.
@@ -106,14 +109,12 @@ impl Walk {
     pub(super) fn of(ifs: &Ifs, shape: &Shape, (copies, spreads): (usize, bool)) -> Self {
         let (maps, mut sizes) = (Maps { ifs, spreads }, SIZES);
         loop {
-            match Self::down_to(&maps, shape, sizes, MOST / copies) {
-                Some(walk) => return walk,
-                None => {
-                    sizes[0] *= COARSER;
-                    sizes[1] = sizes[1].max(1.5 * sizes[0]);
-                    sizes[2] = sizes[2].max(1.5 * sizes[1]);
-                    sizes[3] = sizes[3].max(sizes[2]);
-                }
+            if let Some(walk) = Self::down_to(&maps, shape, sizes, MOST / copies) {
+                return walk;
+            }
+            sizes[0] *= COARSER;
+            for level in 1..sizes.len() {
+                sizes[level] = sizes[level].max(APART * sizes[level - 1]);
             }
         }
     }
