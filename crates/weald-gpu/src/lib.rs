@@ -54,4 +54,4 @@ pub use render::{
     Chosen, GrassLook, GrassRow, Hear, Measuring, Options as RenderOptions, Renderer, Standpoint, Timings,
     frame_budget, grass_tables,
 };
-pub use swarm::{Cloud, Swarm, SwarmRates, bend_limbs, grow_blades};
+pub use swarm::{Cloud, Swarm, SwarmRates, Swayed, bend_limbs, grow_blades};

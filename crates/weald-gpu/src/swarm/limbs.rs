@@ -7,6 +7,9 @@ use super::pass::{self, Pass, Work};
 use super::points::{BYTES, Points};
 use crate::gpu::Gpu;
 
+/// Where a point goes, and the push of the wind there, east and north.
+pub type Swayed = ([f32; 3], [f32; 2]);
+
 /// Where the shader of limbs puts points, one for each of the `rests`, a point and how far along its limb it lies, by the one
 /// of the `winds` of the same number: a place east and north, a moment, and the number of its limb. Beside each point stands
 /// the push of the wind there.
@@ -21,7 +24,7 @@ pub fn bend_limbs(
     limbs: &[Limb],
     rests: &[[f32; 4]],
     winds: &[[f32; 4]],
-) -> Result<Vec<([f32; 3], [f32; 2])>, Error> {
+) -> Result<Vec<Swayed>, Error> {
     assert_eq!(rests.len(), winds.len(), "a wind for each point");
     let given = Points::new(gpu, rests.len() as u64, true, 4 * BYTES)?;
     given.write(rests, |piece| &piece.rests)?;

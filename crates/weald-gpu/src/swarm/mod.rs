@@ -8,7 +8,7 @@ mod points;
 mod rates;
 
 pub use blades::grow_blades;
-pub use limbs::bend_limbs;
+pub use limbs::{Swayed, bend_limbs};
 pub use rates::SwarmRates;
 
 use weald::Error;

@@ -46,6 +46,11 @@ impl Habit {
         }
     }
 
+    /// Whether fronds grow from a root one by one.
+    pub(in crate::grow::ifs) fn is_rosette(self) -> bool {
+        matches!(self, Self::Arching(_) | Self::Leaning(_))
+    }
+
     /// Size, as a share of the plant, below which a branch is a leaf.
     pub(in crate::grow::ifs) fn leaf(self) -> f64 {
         match self {

@@ -64,7 +64,8 @@ fn bent(breeze: Breeze, first: u32, first_along: f32, rest: vec3<f32>, normal: v
         let limb = limbs[number];
         let half = half_turn(limb, along, breeze);
         let turn = vec4<f32>(half, 1.0) / sqrt(1.0 + dot(half, half));
-        found.point = limb.joint + rotated(turn, found.point - limb.joint);
+        let arm = found.point - limb.joint;
+        found.point += rotated(turn, arm) - arm;
         found.normal = rotated(turn, found.normal);
         along = limb.along;
         number = limb.tie & NO_PARENT;

@@ -39,6 +39,16 @@ impl Outline {
         self.views.len()
     }
 
+    /// The share of the height at which a leaf is broadest, or nearly.
+    pub(super) fn broadest(&self) -> f64 {
+        let width = |row: &usize| {
+            let [left, right] = self.views[0][*row];
+            right - left
+        };
+        let broadest = (0..ROWS).max_by(|a, b| width(a).total_cmp(&width(b))).unwrap_or(0);
+        ((broadest as f64 + 0.5) / ROWS as f64).clamp(0.2, 0.8)
+    }
+
     /// The sides at a share of the height, in a view.
     pub(super) fn at(&self, view: usize, along: f64) -> [f64; 2] {
         let place = (along * ROWS as f64 - 0.5).clamp(0.0, (ROWS - 1) as f64);

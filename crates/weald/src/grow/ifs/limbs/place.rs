@@ -51,9 +51,8 @@ impl Builder {
         let shape = Shape::of(ifs);
         let outline = Outline::of(ifs, &shape);
         let fronds = habit.fronds();
-        let stipe = if is_rosette(habit) { STIPE } else { 0.0 };
-        let spreads = matches!(habit, Habit::Crossed(_));
-        let walk = Walk::of(ifs, &shape, (fronds.len() * outline.views(), spreads));
+        let stipe = if habit.is_rosette() { STIPE } else { 0.0 };
+        let walk = Walk::of(ifs, &shape, (habit, fronds.len() * outline.views()));
         Self { habit, shape, outline, walk, fronds, stipe }
     }
 
@@ -107,7 +106,7 @@ impl Builder {
         let tip = self.placed(frond, &branch.map, self.tip()).0;
         let phase = match branch.parent {
             Some(_) => unit_of(hash2(branch.key, frond.number, 0)),
-            None if is_rosette(self.habit) => frond.phase,
+            None if self.habit.is_rosette() => frond.phase,
             // Planes that cross in one stem sway as one.
             None => 0.0,
         };
@@ -189,7 +188,11 @@ impl Builder {
 
     fn along_of(&self, leaf: &Leaf<'_>, row: usize) -> f64 {
         // A leaf of one row is broadest there.
-        if leaf.rows == 1 { [0.0, 0.36, 1.0][row] } else { row as f64 / (leaf.rows + 1) as f64 }
+        if leaf.rows == 1 {
+            [0.0, self.outline.broadest(), 1.0][row]
+        } else {
+            row as f64 / (leaf.rows + 1) as f64
+        }
     }
 
     fn corner(&self, leaf: &Leaf<'_>, row: &Row, [rest, axis, normal]: [Point; 3]) -> Corner {
@@ -244,11 +247,6 @@ impl Builder {
         }
         plant.triangles.extend([[first, first + 1, first + 2], [first + 2, first + 1, first + 3]]);
     }
-}
-
-/// Whether fronds grow from a root one by one.
-fn is_rosette(habit: Habit) -> bool {
-    matches!(habit, Habit::Arching(_) | Habit::Leaning(_))
 }
 
 /// The normal of a row, on the side of that of its shape.

@@ -64,9 +64,11 @@ impl Limb {
     fn turned(&self, along: f32, breeze: &Breeze, point: [f32; 3]) -> [f32; 3] {
         let half = self.half_turn(along, breeze);
         let scale = 1.0 / (1.0 + dot(half, half)).sqrt();
-        let arm =
-            rotated([half[0] * scale, half[1] * scale, half[2] * scale, scale], subtract(point, self.joint));
-        std::array::from_fn(|i| self.joint[i] + arm[i])
+        let turn = [half[0] * scale, half[1] * scale, half[2] * scale, scale];
+        let arm = subtract(point, self.joint);
+        let there = rotated(turn, arm);
+        // What it moves by is added, so that a point keeps its bits where nothing turns.
+        std::array::from_fn(|i| point[i] + (there[i] - arm[i]))
     }
 }
 

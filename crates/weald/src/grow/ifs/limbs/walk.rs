@@ -3,13 +3,15 @@
 use std::collections::VecDeque;
 
 use super::LEVELS;
-use crate::grow::ifs::foliage::Shape;
+use crate::grow::ifs::foliage::{Habit, Shape};
 use crate::grow::ifs::map::Map;
 use crate::grow::ifs::system::{Ifs, Role};
 use crate::random::{hash2, unit};
 
-/// Size, as a share of the plant, up to which a part is a leaf of each level but the last, which has no sizes.
-const SIZES: [f64; LEVELS - 1] = [0.028, 0.07, 0.36, 1.0];
+/// Size, as a share of the plant, up to which a part is a leaf of each level but the last, which has no sizes: of fronds,
+/// whose leaves are slim, and of crowns.
+const OF_FRONDS: [f64; LEVELS - 1] = [0.028, 0.07, 0.36, 1.0];
+const OF_CROWNS: [f64; LEVELS - 1] = [0.028, 0.07, 0.2, 1.0];
 
 /// Share of the plant below which no stem is seen.
 const LEAST_STEM: f64 = 0.08;
@@ -23,6 +25,9 @@ const MOST: usize = 16_384;
 
 /// Factor by which leaves become larger until they are few enough.
 const COARSER: f64 = 1.2;
+
+/// Least factor between the sizes of leaves of neighbouring levels.
+const APART: f64 = 1.5;
 
 /// A part that begins with a branch, or the whole.
 pub(super) struct Branch {
@@ -101,19 +106,17 @@ struct Open {
 }
 
 impl Walk {
-    /// The parts of a fractal that stands so many times in a plant, with leaves as fine as that allows, and with branches to
-    /// all sides if it `spreads`.
-    pub(super) fn of(ifs: &Ifs, shape: &Shape, (copies, spreads): (usize, bool)) -> Self {
-        let (maps, mut sizes) = (Maps { ifs, spreads }, SIZES);
+    /// The parts of a fractal that stands so many times in a plant, with leaves as fine as that allows.
+    pub(super) fn of(ifs: &Ifs, shape: &Shape, (habit, copies): (Habit, usize)) -> Self {
+        let maps = Maps { ifs, spreads: matches!(habit, Habit::Crossed(_)) };
+        let mut sizes = if habit.is_rosette() { OF_FRONDS } else { OF_CROWNS };
         loop {
-            match Self::down_to(&maps, shape, sizes, MOST / copies) {
-                Some(walk) => return walk,
-                None => {
-                    sizes[0] *= COARSER;
-                    sizes[1] = sizes[1].max(1.5 * sizes[0]);
-                    sizes[2] = sizes[2].max(1.5 * sizes[1]);
-                    sizes[3] = sizes[3].max(sizes[2]);
-                }
+            if let Some(walk) = Self::down_to(&maps, shape, sizes, MOST / copies) {
+                return walk;
+            }
+            sizes[0] *= COARSER;
+            for level in 1..sizes.len() {
+                sizes[level] = sizes[level].max(APART * sizes[level - 1]);
             }
         }
     }
