@@ -75,7 +75,16 @@ impl Context {
 
     /// Waits until a submission is done, or all of them.
     pub(crate) fn wait(&self, submission: Option<SubmissionIndex>) -> Result<(), Error> {
-        let wait = wgpu::PollType::Wait { submission_index: submission, timeout: Some(PATIENCE) };
+        self.wait_at_most(PATIENCE, submission)
+    }
+
+    /// As [`Context::wait`], for what may take longer than all else.
+    pub(crate) fn wait_at_most(
+        &self,
+        patience: Duration,
+        submission: Option<SubmissionIndex>,
+    ) -> Result<(), Error> {
+        let wait = wgpu::PollType::Wait { submission_index: submission, timeout: Some(patience) };
         // Where the device is lost during the wait, wgpu 30 panics instead of returning an error.
         let polled = catch_unwind(AssertUnwindSafe(|| self.device.poll(wait)));
         if polled.is_err() {

@@ -42,6 +42,9 @@ pub(super) enum Moment {
 /// How many moments there are, with their spare ones.
 const MOMENTS: u32 = 16;
 
+/// Longest wait for a picture that is measured: software draws a million sets blade by blade in minutes.
+const PATIENCE: Duration = Duration::from_mins(20);
+
 /// Bytes of a moment.
 const BYTES: u64 = 8;
 
@@ -233,7 +236,7 @@ impl Renderer {
                 timer.collect(&mut encoder);
             }
             context.queue.submit([encoder.finish()]);
-            context.wait(None)
+            context.wait_at_most(PATIENCE, None)
         })?;
         let picture = begun.elapsed();
         self.timer.as_ref().expect("it is set by the caller").timings(&self.gpu, picture)
