@@ -60,21 +60,5 @@ fn far_blade(@builtin(vertex_index) vertex: u32, @builtin(instance_index) number
 
 @fragment
 fn blade_fragment(in: Leaf) -> @location(0) vec4<f32> {
-    let relative = in.point - frame.eye.xyz;
-    let way = length(relative);
-    let direction = relative / way;
-    var normal = normalize(in.normal);
-    if dot(normal, direction) > 0.0 {
-        normal = -normal;
-    }
-    let facing = dot(normal, stage.sun.xyz);
-    // What a blade sends back, and what shines through it, yellower.
-    let front = max(facing, 0.0);
-    let through = THROUGH * max(-facing, 0.0) * vec3<f32>(1.15, 1.05, 0.55);
-    let sun = stage.sunlight.xyz * in.light.x * (front + through);
-    let up = normalize(normal + vec3<f32>(0.0, 0.0, 1.4));
-    let seen = seen_at(skylight, share_of(place_of(in.point)));
-    let sky = skylight_on(seen, up) * in.light.y;
-    let radiance = in.colour * (sun + sky) / PI;
-    return vec4<f32>(limited(veil(radiance, frame.eye.xyz, direction, way)), 1.0);
+    return leaf_light(in.colour, in.point, in.normal, in.light, THROUGH, 1.4);
 }

@@ -150,6 +150,7 @@ fn module(gpu: &Gpu, stage: &Stage, own: &str) -> ShaderModule {
         include_str!("shadows.wgsl"),
         include_str!("thinning.wgsl"),
         include_str!("canopy.wgsl"),
+        include_str!("thin.wgsl"),
         wind::FUNCTIONS,
         FUNCTIONS,
         include_str!("meadow.wgsl"),

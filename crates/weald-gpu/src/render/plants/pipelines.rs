@@ -74,7 +74,12 @@ impl Pipelines {
         let which = which(gpu, &which_layout, &numbers)?;
         let (choose, light, caster) = gpu.context.attempt("making the pipelines of plants", || {
             let chosen = module(gpu, stage, &[include_str!("choose.wgsl")]);
-            let leaves = [wind::FUNCTIONS, limbs::FUNCTIONS, include_str!("leaves.wgsl")];
+            let leaves = [
+                wind::FUNCTIONS,
+                limbs::FUNCTIONS,
+                include_str!("../thin.wgsl"),
+                include_str!("leaves.wgsl"),
+            ];
             let leaves = module(gpu, stage, &leaves);
             let (frame, maps) = (layouts.frame, &layouts.maps.layout);
             let whole = |groups: &[Option<&BindGroupLayout>]| {
