@@ -1,7 +1,7 @@
 //! The wind over the land as all that stands on it feels it: gusts that travel, by which neighbours sway nearly as one.
 //!
 //! The push at a place is octaves of noise that move with the wind, and a flutter of each plant's own. Its length is the
-//! tangent by which an upright tip leans out of it. `wind.wgsl` is its twin, after the functions of [`grain`](crate::grain),
+//! tangent by which an upright tip leans out of it. `wind.wgsl` is its twin, after the functions of `grain`,
 //! which is what blades and leaves are given on a device ([`FUNCTIONS`]).
 
 use crate::grain::Octaves;

@@ -73,7 +73,7 @@ fn seen(
     view: View,
 ) -> Result<Image, Error> {
     let [eye, target] = [eye, target].map(|place| Some(Places(vec![place])));
-    let view = View { eye, eye_height, target, ..view };
+    let view = View { target, eye, eye_height, ..view };
     let render = Render { view, keys: RenderKeys::default() };
     let reel = render.reel(landscape, device)?;
     reel.set_up()?.draw(&reel.camera(Frame::STILL), 0.0)
