@@ -19,7 +19,8 @@ use wgpu::{
 };
 
 use super::lawn::{DRAW, Lawn, Sown};
-use super::passes::{Layouts, STAGE_GROUP, strips};
+use super::passes::{Layouts, STAGE_GROUP};
+use super::strips::strips;
 use super::timing::Timer;
 use crate::gpu::Gpu;
 

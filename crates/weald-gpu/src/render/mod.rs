@@ -18,18 +18,19 @@ mod grass;
 mod lattice;
 mod lawn;
 mod maps;
+mod options;
 mod passes;
 mod picture;
 mod plants;
 mod shadows;
 mod spacing;
+mod strips;
 mod tables;
 mod targets;
 mod terrain;
 mod textures;
 mod timing;
 
-use weald::engine::device::Device;
 use weald::picture::{Camera, Image, Stage};
 use weald::{Error, Landscape};
 
@@ -42,6 +43,8 @@ use frame::{Drawn, Frame};
 use grass::Grass;
 pub use grass::GrassLook;
 use maps::Maps;
+pub use options::Options;
+use options::check_camera;
 use passes::{Drawing, Layouts, Passes};
 use picture::Landing;
 use plants::Plants;
@@ -53,48 +56,6 @@ use textures::Canvas;
 pub(crate) use timing::FEATURES;
 use timing::Timer;
 pub use timing::Timings;
-
-/// How large and how smooth pictures are.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Options {
-    /// Width and height in pixels.
-    pub size: [u32; 2],
-    /// Samples a pixel at the edges of what is drawn: 1 or 4.
-    pub samples: u32,
-}
-
-impl Default for Options {
-    fn default() -> Self {
-        Self { size: [1920, 1080], samples: 4 }
-    }
-}
-
-/// Numbers of samples that every device has.
-const SAMPLES: [u32; 2] = [1, 4];
-
-impl Options {
-    /// Refuses what a device cannot draw, before anything is allocated.
-    ///
-    /// # Errors
-    /// [`Error::Limit`] for a size or a number of samples that it does not have.
-    pub fn check(&self, gpu: &Gpu) -> Result<(), Error> {
-        let most = gpu.context.limits.max_texture_dimension_2d;
-        let [width, height] = self.size;
-        if !(1..=most).contains(&width) || !(1..=most).contains(&height) {
-            return Err(Error::Limit(format!(
-                "a picture of {width} × {height} pixels: {} draws 1 to {most} a side; choose another --size",
-                gpu.adapter()
-            )));
-        }
-        if !SAMPLES.contains(&self.samples) {
-            return Err(Error::Limit(format!(
-                "{} samples a pixel; every device has 1 and 4: choose --samples 4",
-                self.samples
-            )));
-        }
-        Ok(())
-    }
-}
 
 /// What tests look for.
 #[doc(hidden)]
@@ -293,17 +254,4 @@ impl Renderer {
         self.terrain.prepare(&self.gpu, camera, self.options.size, None)?;
         Ok(self.terrain.triangles())
     }
-}
-
-fn check_camera(camera: &Camera) -> Result<(), Error> {
-    let Camera { eye, forward, right, up, half } = camera;
-    let numbers = [eye, forward, right, up].into_iter().flatten().chain(half);
-    if numbers.clone().all(|number| number.is_finite()) && half.iter().all(|&half| half > 0.0) {
-        return Ok(());
-    }
-    let found: Vec<_> = numbers.map(f32::to_string).collect();
-    Err(Error::Run(format!(
-        "the camera has the numbers {}: all must be finite, and its angles above 0",
-        found.join(" ")
-    )))
 }

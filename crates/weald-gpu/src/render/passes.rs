@@ -5,10 +5,10 @@ use weald::picture::Stage;
 use wgpu::{
     BindGroup, BindGroupLayout, Color, ColorTargetState, ColorWrites, CommandEncoder, CompareFunction,
     DepthBiasState, DepthStencilState, Device, FragmentState, LoadOp, MultisampleState, Operations,
-    PipelineCompilationOptions, PipelineLayout, PipelineLayoutDescriptor, PrimitiveState, PrimitiveTopology,
-    RenderPass, RenderPassColorAttachment, RenderPassDepthStencilAttachment, RenderPassDescriptor,
-    RenderPipeline, RenderPipelineDescriptor, ShaderModule, ShaderModuleDescriptor, ShaderSource,
-    StencilState, StoreOp, VertexAttribute, VertexBufferLayout, VertexFormat, VertexState, VertexStepMode,
+    PipelineCompilationOptions, PipelineLayout, PipelineLayoutDescriptor, PrimitiveState, RenderPass,
+    RenderPassColorAttachment, RenderPassDepthStencilAttachment, RenderPassDescriptor, RenderPipeline,
+    RenderPipelineDescriptor, ShaderModule, ShaderModuleDescriptor, ShaderSource, StencilState, StoreOp,
+    VertexAttribute, VertexBufferLayout, VertexFormat, VertexState, VertexStepMode,
 };
 
 use super::frame::Frame;
@@ -294,37 +294,6 @@ impl Maker<'_> {
             cache: None,
         })
     }
-}
-
-/// A pipeline of strips without buffers, from a vertex entry point to `blade_fragment`.
-pub(super) fn strips(
-    device: &Device,
-    (module, layout): (&ShaderModule, &PipelineLayout),
-    vertex: &str,
-    samples: u32,
-) -> RenderPipeline {
-    let target = ColorTargetState { format: LIGHT, blend: None, write_mask: ColorWrites::ALL };
-    device.create_render_pipeline(&RenderPipelineDescriptor {
-        label: Some(vertex),
-        layout: Some(layout),
-        vertex: VertexState {
-            module,
-            entry_point: Some(vertex),
-            compilation_options: PipelineCompilationOptions::default(),
-            buffers: &[],
-        },
-        primitive: PrimitiveState { topology: PrimitiveTopology::TriangleStrip, ..PrimitiveState::default() },
-        depth_stencil: Some(depth_state(true, CompareFunction::Greater)),
-        multisample: MultisampleState { count: samples, ..MultisampleState::default() },
-        fragment: Some(FragmentState {
-            module,
-            entry_point: Some("blade_fragment"),
-            compilation_options: PipelineCompilationOptions::default(),
-            targets: &[Some(target)],
-        }),
-        multiview_mask: None,
-        cache: None,
-    })
 }
 
 pub(super) fn depth_state(depth_write: bool, compare: CompareFunction) -> DepthStencilState {
