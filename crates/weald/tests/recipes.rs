@@ -1,7 +1,9 @@
 //! Every recipe of the project and every template is good, and runs at small size.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
+use weald::picture::RayMarched;
 use weald::recipe::template::TEMPLATES;
 use weald::recipe::{Ground, Options, Overrides, Recipe, Run, Silent};
 
@@ -33,7 +35,9 @@ fn run_small(file: &str, text: &str, set: &[(String, String)]) {
     let recipe = Recipe::parse(file, text, &given).unwrap_or_else(|error| panic!("{error}"));
     let recipe = Recipe::parse(file, text, &small(&recipe, set.to_vec())).expect("it is good when small");
     let out = tempfile::tempdir().expect("a temporary folder");
-    let run = Run { recipe: &recipe, options: Options::into_folder(out.path()) };
+    // What a device draws is ray-marched here.
+    let options = Options { render: Some(Arc::new(RayMarched)), ..Options::into_folder(out.path()) };
+    let run = Run { recipe: &recipe, options };
     let report = run.execute(&Silent).unwrap_or_else(|error| panic!("{file} runs: {error}"));
     assert_eq!(report.outputs.len(), recipe.outputs.len());
     for output in &report.outputs {
