@@ -55,6 +55,7 @@ impl Set {
         let stood: Vec<_> =
             (0..).zip(&plants.plants).filter_map(|(n, plant)| stood(stage, n, plant)).collect();
         let count = stood.len().max(1) as u64;
+        ensure_bound(gpu, count)?;
         let workgroups = count.div_ceil(u64::from(GROUP));
         let filled = |what: &str, words: &[u32], usage| filled(gpu, what, words, usage);
         let room = |what: &str, words: u64| {
@@ -89,6 +90,18 @@ impl Set {
         };
         Ok((0..LISTS).flat_map(of_list).collect())
     }
+}
+
+/// Refuses more plants than a shader can be given at once.
+fn ensure_bound(gpu: &Gpu, count: u64) -> Result<(), Error> {
+    let most = gpu.largest_binding() / (4 * WORDS as u64);
+    if count <= most {
+        return Ok(());
+    }
+    Err(Error::Limit(format!(
+        "{count} plants of one set: {} draws at most {most}; choose a smaller `count` or a wider `spacing` in `scatter`",
+        gpu.context.adapter
+    )))
 }
 
 /// A buffer that holds these words.
