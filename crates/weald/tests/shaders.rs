@@ -99,9 +99,11 @@ fn every_shader_of_the_tree_is_part_of_a_module() {
     assert!(shaders.len() > 20, "{}", shaders.len());
     let modules = modules();
     let stage = stage().shader(0);
+    let whole = [stage.as_str(), Stage::FOLLOW];
     for path in shaders {
         let text = std::fs::read_to_string(&path).expect("a readable shader");
-        let part_of_a_module = modules.keys().chain([&stage]).any(|module| module.contains(&text));
+        let part_of_a_module =
+            modules.keys().map(String::as_str).chain(whole).any(|module| module.contains(&text));
         let of_plants = SHADERS.iter().any(|shader| shader.text.contains(&text));
         assert!(part_of_a_module || of_plants, "{} is in no module", path.display());
     }
@@ -131,6 +133,8 @@ fn structs_of_the_host_lie_in_memory_as_their_twins_do() {
             }
         }
     }
+    let (follow, _) = checked(Stage::FOLLOW, "follow");
+    assert_same_layout(&follow, &Uniforms::of(&stage().follow()), "follow");
     assert!(compared > 50, "{compared} structs");
 }
 
