@@ -297,9 +297,12 @@ proptest! {
         let budget = run(&step, &mut land).budget.expect("a budget");
         prop_assert!(budget.water.error().abs() < 1e-5, "{:?}", budget.water);
         if step.transport() != Transport::SemiLagrangian {
-            let scale = budget.solid.start.max(land.domain.cell.powi(2));
-            let error = budget.solid.error() * budget.solid.start / scale;
-            prop_assert!(error.abs() < 1e-4, "{:?}", budget.solid);
+            let (solid, cell) = (budget.solid, land.domain.cell.powi(2));
+            let left = solid.start - solid.ground - solid.layers - solid.suspended - solid.outgoing;
+            // Rules without measure dig kilometres deep on ground of a few metres: of what lies in the water single
+            // precision keeps its own digits.
+            let bound = 1e-4 * solid.start.max(cell) + 1e-6 * solid.suspended.max(0.0);
+            prop_assert!(left.abs() < bound, "{solid:?}");
         }
         let names = land.materials[1..].iter().map(|material| material.name.as_str());
         for name in names.chain(["water", "sediment"]).chain(step.dissolution.is_some().then_some("regolith")) {

@@ -16,11 +16,11 @@ const LONG: u32 = 5;
 /// Files are written whole or not at all, and the page after each figure: an interruption may end it at once.
 pub(crate) fn gallery(only: &[String], out: &Path) -> Result<(), Failure> {
     interrupt::end_at_once()?;
-    // A figure that needs a device says so itself, but not why there is none.
-    let opened = Gpu::for_drawing();
-    let device = opened.as_ref().ok().map(|gpu| gpu as &dyn RenderDevice);
+    let opened = gallery::draws(only).then(Gpu::for_drawing);
+    let device = opened.as_ref().and_then(|opened| opened.as_ref().ok()).map(|gpu| gpu as &dyn RenderDevice);
     match (gallery::write(out, only, device, &|begun| eprintln!("{}", line(begun))), opened) {
-        (Err(Error::Device(figure)), Err(why)) => {
+        // A figure that needs a device says so itself, but not why there is none.
+        (Err(Error::Device(figure)), Some(Err(why))) => {
             return Err(Error::Device(format!("{figure}: {why}")).into());
         }
         (done, _) => done?,

@@ -32,7 +32,7 @@ mod write;
 
 pub use claim::{Claim, Verdict};
 pub use steps::run_steps;
-pub use write::{Begun, Selection, selectable, write, write_figures};
+pub use write::{Begun, Selection, draws, selectable, write, write_figures};
 
 use crate::error::Error;
 use crate::picture::{Image, RenderDevice};

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::{FIGURES, Figure, FigureOutput, GalleryJob, page};
+use super::{FIGURES, Figure, FigureOutput, GalleryJob, Make, page};
 use crate::error::Error;
 use crate::io::write_whole;
 use crate::picture::RenderDevice;
@@ -68,6 +68,11 @@ pub fn write_figures(
         write_whole(&page, page::assemble(figures, &sections).as_bytes())?;
     }
     Ok(())
+}
+
+/// Whether a device draws some of the figures named in `only`, or of all where it is empty.
+pub fn draws(only: &[String]) -> bool {
+    FIGURES.iter().any(|figure| selected(figure, only) && matches!(figure.make, Make::Drawn(_)))
 }
 
 fn write_plates(figure: &Figure, output: &FigureOutput, folder: &Path) -> Result<(), Error> {
