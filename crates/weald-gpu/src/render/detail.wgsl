@@ -8,7 +8,7 @@ const DETAIL_FROM = 0.30;
 const DETAIL_LENGTH = 0.9;
 
 // Share that is left, at one's feet, of the bumps that are seen from afar.
-const AFAR = 0.35;
+const AFAR = 0.14;
 
 // Stones: how high one stands at a place that is counted in stones, which way it leans, and a tone for each.
 struct Stone {
@@ -59,7 +59,7 @@ struct Detail {
 fn turf_detail(point: vec2<f32>, footprint: f32) -> Detail {
     let tufts = octaves_at(Octaves(DETAIL_LENGTH, 5u, 0.72, 0x31u), point, footprint);
     let dry = octaves_at(Octaves(3.1 * DETAIL_LENGTH, 3u, 0.6, 0x32u), point, footprint);
-    return Detail(1.1 * tufts.value, 0.9 * dry.value + 0.4 * tufts.value, 0.10 * tufts.slope);
+    return Detail(0.75 * tufts.value, 0.9 * dry.value + 0.4 * tufts.value, 0.06 * tufts.slope);
 }
 
 fn stone_detail(point: vec2<f32>, footprint: f32) -> Detail {
