@@ -3,6 +3,7 @@
 use std::sync::mpsc;
 
 use weald::Error;
+use weald::engine::uniform::Uniform;
 use wgpu::{Buffer, BufferUsages, MapMode};
 
 use crate::gpu::Gpu;
@@ -121,6 +122,17 @@ fn whole_words(bytes: u64) -> u64 {
 /// First byte and length of each piece.
 fn pieces(bytes: u64, most: u64) -> impl Iterator<Item = (u64, u64)> {
     (0..bytes).step_by(most as usize).map(move |first| (first, most.min(bytes - first)))
+}
+
+/// A struct as shaders see it.
+pub(crate) fn uniform(gpu: &Gpu, what: &str, value: &impl Uniform) -> Result<Store, Error> {
+    // A struct takes whole vectors of four.
+    let mut words = value.words();
+    words.resize(words.len().next_multiple_of(4), 0);
+    let usage = BufferUsages::UNIFORM | BufferUsages::COPY_DST;
+    let store = Store::new(gpu, what, 4 * words.len() as u64, usage)?;
+    gpu.context.queue.write_buffer(&store.buffer, 0, bytemuck::cast_slice(&words));
+    Ok(store)
 }
 
 #[cfg(test)]

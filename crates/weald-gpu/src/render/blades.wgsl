@@ -5,16 +5,6 @@
 @group(2) @binding(3) var<storage, read> kept: array<u32>;
 @group(2) @binding(4) var<storage, read> starts: array<u32>;
 
-struct Leaf {
-    @builtin(position) position: vec4<f32>,
-    @location(0) point: vec3<f32>,
-    @location(1) normal: vec3<f32>,
-    @location(2) colour: vec3<f32>,
-    // Shares of the sun and of the sky that are seen.
-    @location(3) light: vec2<f32>,
-}
-
-
 fn leaf(list: u32, vertex: u32, instance_number: u32) -> Leaf {
     let count = arrayLength(&sets);
     let number = kept[starts[place_of_count(list, 0u, count)] + instance_number / BLADES];

@@ -1,18 +1,18 @@
 //! Ground and water of a running simulation become the surfaces that are drawn, without coming back from the device.
 
 use weald::Error;
-use weald::engine::uniform::Uniform;
 use weald::picture::Stage;
 use wgpu::{
-    BindGroupDescriptor, BindGroupEntry, BindingResource, BufferUsages, CommandEncoderDescriptor,
-    ComputePassDescriptor, ComputePipeline, ComputePipelineDescriptor, PipelineCompilationOptions,
-    ShaderModuleDescriptor, ShaderSource,
+    BindGroupDescriptor, BindGroupEntry, BindingResource, CommandEncoderDescriptor, ComputePassDescriptor,
+    ComputePipeline, ComputePipelineDescriptor, PipelineCompilationOptions, ShaderModuleDescriptor,
+    ShaderSource,
 };
 
 use super::Renderer;
 use crate::gpu::Gpu;
 use crate::live::Live;
 use crate::memory::Store;
+use crate::transfer::uniform;
 
 /// Control points along the side of a workgroup, and beyond each border, as the shader has them.
 const GROUP: u32 = 16;
@@ -30,11 +30,7 @@ pub(super) struct Follower {
 
 impl Follower {
     fn new(gpu: &Gpu, stage: &Stage) -> Result<Self, Error> {
-        let mut words = stage.follow().words();
-        words.resize(words.len().next_multiple_of(4), 0);
-        let usage = BufferUsages::UNIFORM | BufferUsages::COPY_DST;
-        let numbers = Store::new(gpu, "what is followed", 4 * words.len() as u64, usage)?;
-        gpu.context.queue.write_buffer(&numbers.buffer, 0, bytemuck::cast_slice(&words));
+        let numbers = uniform(gpu, "what is followed", &stage.follow())?;
         gpu.context.attempt("making the pipeline that follows a simulation", || {
             let device = &gpu.context.device;
             let source = ShaderSource::Wgsl(Stage::FOLLOW.into());

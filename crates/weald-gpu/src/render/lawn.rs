@@ -3,7 +3,6 @@
 use std::sync::Arc;
 
 use weald::Error;
-use weald::engine::uniform::Uniform;
 use weald::grow::grass::choice::{Choice, FARTHEST, LISTS};
 use weald::grow::grass::{Area, Grasses, Instance, Meadow, Packed};
 use wgpu::{BindGroup, BindGroupDescriptor, BindGroupEntry, BindGroupLayout, BufferUsages};
@@ -11,6 +10,7 @@ use wgpu::{BindGroup, BindGroupDescriptor, BindGroupEntry, BindGroupLayout, Buff
 use super::grass::GrassLook;
 use crate::gpu::Gpu;
 use crate::memory::Store;
+use crate::transfer::uniform;
 
 /// Side of the squares in metres, at the change of which sets are made anew.
 const SQUARE: f64 = 16.0;
@@ -193,16 +193,6 @@ impl Stores {
         let draw = bind(gpu, to_draw, &drawn)?;
         Ok(Sown { count, sets, kept, starts, draws, cull, draw, _marks: marks, _choice: choice })
     }
-}
-
-fn uniform(gpu: &Gpu, what: &str, value: &impl Uniform) -> Result<Store, Error> {
-    // A struct takes whole vectors of four.
-    let mut words = value.words();
-    words.resize(words.len().next_multiple_of(4), 0);
-    let usage = BufferUsages::UNIFORM | BufferUsages::COPY_DST;
-    let store = Store::new(gpu, what, 4 * words.len() as u64, usage)?;
-    gpu.context.queue.write_buffer(&store.buffer, 0, bytemuck::cast_slice(&words));
-    Ok(store)
 }
 
 fn bind(gpu: &Gpu, layout: &BindGroupLayout, stores: &[&Store]) -> Result<BindGroup, Error> {

@@ -296,6 +296,7 @@ impl Maker<'_> {
     }
 }
 
+/// What depth is compared with and whether it is kept.
 pub(super) fn depth_state(depth_write: bool, compare: CompareFunction) -> DepthStencilState {
     DepthStencilState {
         format: DEPTH,

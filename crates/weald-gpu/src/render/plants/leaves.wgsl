@@ -27,15 +27,6 @@ struct Corner {
 // Share of light that comes through a leaf.
 const THROUGH_LEAF = 0.42;
 
-struct Leaf {
-    @builtin(position) position: vec4<f32>,
-    @location(0) point: vec3<f32>,
-    @location(1) normal: vec3<f32>,
-    @location(2) colour: vec3<f32>,
-    // Share of the sun that is seen, and how open the place is among other leaves.
-    @location(3) light: vec2<f32>,
-}
-
 fn plant_of(instance: u32) -> Stood {
     let first = which.view * arrayLength(&plants) + starts[which.view * LISTS + which.list];
     return plants[kept[first + instance]];
