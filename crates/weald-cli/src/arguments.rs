@@ -8,9 +8,9 @@ use std::path::PathBuf;
 use clap::builder::PossibleValuesParser;
 use clap::{Args, Parser, Subcommand, value_parser};
 use clap_complete::Shell;
-use weald::gallery::{self, FIGURES};
 use weald::recipe::Overrides;
 use weald::recipe::template::TEMPLATES;
+use weald_gallery::figures::{self as gallery, FIGURES};
 
 pub(crate) use self::fractal::FractalArguments;
 pub(crate) use self::render::{RenderArguments, RenderFiles};

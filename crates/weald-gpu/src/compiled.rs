@@ -43,7 +43,7 @@ impl Pipeline {
         let storage = shader.buffers.iter().map(|&(_, written)| storage(written));
         let kinds = (0..).zip(uniforms.chain(storage));
         let entries: Vec<_> = kinds.map(|(binding, kind)| entry(binding, kind, false)).collect();
-        Self::known(gpu, shader.name, (shader.name, shader.text.to_owned()), &entries)
+        Self::known(gpu, shader.name, (shader.name, shader.source()), &entries)
     }
 
     /// A module whose entry point has this name, compiled where it is new.

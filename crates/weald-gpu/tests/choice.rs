@@ -5,6 +5,7 @@ mod scenes;
 
 use programs::gpu;
 use scenes::{above, meadow, options, view};
+use weald::grow::Vegetation;
 use weald::grow::grass::choice::{Choice, LISTS, Sight};
 use weald::grow::grass::{Instance, Meadow, Packed};
 use weald::picture::{Camera, Stage};
@@ -90,7 +91,7 @@ fn a_device_draws_the_sets_that_the_cpu_chooses_in_the_same_order() {
             let chosen = &renderer.chosen(&camera).expect("chosen")[0];
             // The CPU chooses among all: what is sown on the device depends on the camera as well.
             let level = look.level.unwrap_or(grass.level);
-            let sets = Meadow { level, ..(**grass).clone() }.sets(&grass.area());
+            let sets = Meadow { level, ..(*grass).clone() }.sets(&grass.area());
             let counts = compare(chosen, &by_the_cpu(&stage, &camera, look, &sets), all);
             println!("{look:?}: {counts:?} of {} sown of {all}", chosen.sets.len());
             match look {

@@ -3,7 +3,7 @@
 mod programs;
 
 use programs::gpu;
-use weald::gallery::{Detail, FIGURES, GalleryJob, Make, Selection, write_figures};
+use weald_gallery::figures::{Detail, FIGURES, GalleryJob, Make, Selection, write_figures};
 
 #[test]
 fn every_figure_that_a_device_draws_can_be_made_as_a_draft() {

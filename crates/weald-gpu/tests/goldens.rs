@@ -14,6 +14,7 @@ use flip::flip;
 use programs::gpu;
 use scenes::{above, lakes, meadow, mountains, options, view};
 use weald::Landscape;
+use weald::grow::Vegetation;
 use weald::grow::grass::Meadow;
 use weald::picture::{Camera, Image, Stage, View};
 use weald_gpu::{Gpu, Renderer, TestLook};
@@ -135,7 +136,7 @@ fn a_meadow_from_a_persons_height_looks_as_it_did() {
 /// The landscape with the colours of its grass a tenth brighter.
 fn brighter(mut landscape: Landscape) -> Landscape {
     let (name, meadow) = landscape.all_meadows().next().expect("a meadow");
-    let (name, mut meadow): (_, Meadow) = (name.to_owned(), (**meadow).clone());
+    let (name, mut meadow): (_, Meadow) = (name.to_owned(), (*meadow).clone());
     for species in &mut meadow.species {
         for colour in [&mut species.good, &mut species.bad, &mut species.head] {
             *colour = colour.map(|light| 1.1 * light);

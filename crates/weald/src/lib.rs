@@ -50,39 +50,31 @@
 //! * [`analyse`]: slope, flow, rivers, light, soil and other layers, and measures of river networks.
 //! * [`grow`]: plants, and where they stand.
 //! * [`io`]: raster formats. [`picture`]: maps and views. [`export`]: meshes, vectors, sets for engines, pages.
-//! * [`gallery`], [`mod@bench`]: figures of the publications made again, and rates.
 //!
 //! Row 0 is north, `x` counts columns eastward and `y` rows southward. Heights and lengths are in metres unless
 //! a name says otherwise, angles in degrees carry the suffix `_deg`. [`Error`] is sorted by who must act.
 
-pub mod analyse;
-pub mod bench;
-pub mod combine;
-pub mod condition;
-mod connected;
-pub mod domain;
-pub mod edit;
-pub mod engine;
-pub mod erode;
-pub mod error;
-pub mod export;
-pub mod gallery;
-pub mod generate;
-mod grain;
-pub mod grid;
-pub mod grow;
-pub mod io;
-pub mod landscape;
-pub mod material;
-pub mod picture;
-pub mod plants;
-pub mod random;
 pub mod recipe;
-pub mod stencil;
-pub mod step;
-pub mod vectors;
 
-pub use domain::Domain;
-pub use error::Error;
-pub use grid::{Field, Size};
-pub use landscape::Landscape;
+#[doc(inline)]
+pub use weald_core::{
+    attachment, condition, domain, error, grid, landscape, material, parameter, plants, random, vectors,
+};
+#[doc(inline)]
+pub use weald_core::{choices, parameters};
+#[doc(inline)]
+pub use weald_engine as engine;
+#[doc(inline)]
+pub use weald_engine::{stencil, step};
+#[doc(inline)]
+pub use weald_export as export;
+#[doc(inline)]
+pub use weald_io as io;
+#[doc(inline)]
+pub use weald_land::{analyse, combine, edit, erode, generate};
+#[doc(inline)]
+pub use weald_picture as picture;
+#[doc(inline)]
+pub use weald_plants as grow;
+
+pub use weald_core::{Domain, Error, Field, Landscape, Size};

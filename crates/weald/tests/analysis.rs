@@ -1,7 +1,7 @@
 //! Layers of slope, light, soil and selection against closed forms.
 
-use weald::gallery::run_steps;
 use weald::grid::Mask;
+use weald::recipe::run_steps;
 use weald::recipe::{Options, Overrides, Recipe, Run, Silent};
 use weald::{Domain, Error, Field, Landscape, Size};
 

@@ -11,6 +11,7 @@ use serde_json::Value;
 use weald::condition::Condition;
 use weald::engine::Job;
 use weald::export::{Export, Finished, GrassSets};
+use weald::grow::Vegetation;
 use weald::grow::grass::step::{Grass, Kind};
 use weald::grow::grass::{Instance, Meadow};
 use weald::io::write_parts;

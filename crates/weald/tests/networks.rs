@@ -4,7 +4,7 @@ mod common;
 
 use weald::analyse::contour::roundness;
 use weald::analyse::network::{NetworkInput, NetworkMeasures, measure};
-use weald::gallery::run_steps;
+use weald::recipe::run_steps;
 use weald::{Domain, Landscape, Size};
 
 const SEEDS: [u64; 5] = [3, 5, 7, 11, 13];

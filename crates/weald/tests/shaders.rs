@@ -104,7 +104,7 @@ fn every_shader_of_the_tree_is_part_of_a_module() {
         let text = std::fs::read_to_string(&path).expect("a readable shader");
         let part_of_a_module =
             modules.keys().map(String::as_str).chain(whole).any(|module| module.contains(&text));
-        let of_plants = SHADERS.iter().any(|shader| shader.text.contains(&text));
+        let of_plants = SHADERS.iter().any(|shader| shader.source().contains(&text));
         assert!(part_of_a_module || of_plants, "{} is in no module", path.display());
     }
 }
@@ -216,7 +216,7 @@ fn bindings_follow_the_order_that_the_program_states() {
 #[test]
 fn shaders_of_plants_are_valid_and_bound_in_the_order_of_their_lists() {
     for shader in SHADERS {
-        let (module, info) = checked(shader.text, shader.name);
+        let (module, info) = checked(&shader.source(), shader.name);
         let entries: Vec<_> = module.entry_points.iter().map(|entry| entry.name.as_str()).collect();
         assert_eq!(entries, [shader.name]);
         assert_eq!(module.entry_points[0].workgroup_size, [shader.group, 1, 1], "{}", shader.name);
@@ -254,7 +254,7 @@ fn structs_of_plants_lie_in_memory_as_their_twins_do() {
         &[stretch],
     ];
     for (shader, structs) in SHADERS.iter().zip(of_each) {
-        let (module, _) = checked(shader.text, shader.name);
+        let (module, _) = checked(&shader.source(), shader.name);
         assert_eq!(structs.len(), shader.uniforms.len());
         for uniforms in structs {
             assert_same_layout(&module, uniforms, shader.name);
@@ -282,7 +282,7 @@ fn constants_of_plants_are_those_of_the_host() {
     ]
     .map(|(name, value)| ("grow", name, format!("f32 = {value}")));
     for (shader, name, value) in host.into_iter().chain(numbers) {
-        let of = |shader: &Shader| shader.text.contains(&format!("const {name}: {value};"));
+        let of = |shader: &Shader| shader.source().contains(&format!("const {name}: {value};"));
         assert!(
             SHADERS.iter().any(|found| found.name == shader && of(found)),
             "{shader}: {name} is not {value}"

@@ -36,13 +36,13 @@ pub(crate) fn bench(arguments: &BenchArguments) -> Result<(), Failure> {
     } else {
         if !arguments.fractals && !arguments.grass {
             let sides = given_or(&arguments.size, SIDES);
-            weald::bench::run(sides, &arguments.threads, &mut |rate| print(rate))?;
+            weald_gallery::bench::run(sides, &arguments.threads, &mut |rate| print(rate))?;
         }
         if !arguments.grass {
-            weald::bench::fractals(&arguments.threads, &mut print)?;
+            weald_gallery::bench::fractals(&arguments.threads, &mut print)?;
         }
         if !arguments.fractals {
-            weald::bench::grass(&arguments.threads, &mut print)?;
+            weald_gallery::bench::grass(&arguments.threads, &mut print)?;
         }
     }
     unwritten.map_or(Ok(()), Err)
@@ -60,7 +60,7 @@ fn on_the_gpu(arguments: &BenchArguments, print: &mut dyn FnMut(&dyn Display)) -
     print(&fern_rates(&gpu)?);
     let bandwidth = gpu.copy_bandwidth()?;
     let device: Arc<dyn Device> = Arc::new(gpu);
-    weald::bench::run_on(&device, bandwidth, given_or(&arguments.size, usual), print)?;
+    weald_gallery::bench::run_on(&device, bandwidth, given_or(&arguments.size, usual), print)?;
     Ok(())
 }
 

@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use weald::Error;
-use weald::gallery::{self, Begun};
 use weald::picture::RenderDevice;
+use weald_gallery::figures::{self as gallery, Begun};
 use weald_gpu::Gpu;
 
 use crate::failure::Failure;

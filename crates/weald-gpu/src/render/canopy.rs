@@ -1,5 +1,6 @@
 //! The grass of a landscape as a whole, for where its blades are not drawn: `canopy.wgsl`.
 
+use weald::grow::Vegetation;
 use weald::grow::grass::Canopy;
 use weald::picture::MapKind;
 use weald::{Error, Landscape};
@@ -18,7 +19,8 @@ pub(super) fn none(gpu: &Gpu) -> Result<Canvas, Error> {
 
 /// The grass of a landscape; `None` where there is none.
 pub(super) fn of(gpu: &Gpu, landscape: &Landscape) -> Result<Option<Canvas>, Error> {
-    let canopy = Canopy::of(landscape.all_meadows().map(|(_, meadow)| meadow.as_ref()));
+    let meadows: Vec<_> = landscape.all_meadows().map(|(_, meadow)| meadow).collect();
+    let canopy = Canopy::of(meadows.iter().map(AsRef::as_ref));
     let upload =
         |canopy: Canopy| upload(gpu, [canopy.size.columns, canopy.size.rows], canopy.cells.as_flattened());
     canopy.map(upload).transpose()

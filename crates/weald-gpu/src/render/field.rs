@@ -1,5 +1,6 @@
 //! A field of so many sets of grass with a pond in it, on which drawing is measured, and from where.
 
+use weald::grow::Vegetation;
 use weald::grow::grass::{Bend, Maps, Meadow, SPECIES};
 use weald::picture::{Camera, Stage, View};
 use weald::{Domain, Error, Field, Landscape, Size};

@@ -6,6 +6,7 @@
 //! stand, and the broader are their blades; a set sinks into the ground over a stretch of the way, so that none vanishes
 //! at once (`meadow.wgsl`, of which `weald::grow::grass::choice` is the definition).
 
+use weald::grow::Vegetation;
 use weald::grow::grass::device::FUNCTIONS;
 use weald::grow::grass::{BLADES, choice};
 use weald::grow::wind;
@@ -65,7 +66,7 @@ impl Grass {
         layouts: Layouts<'_>,
         samples: u32,
     ) -> Result<Option<Self>, Error> {
-        let lawns = landscape.all_meadows().map(|(_, meadow)| Lawn::new(gpu, meadow));
+        let lawns = landscape.all_meadows().map(|(_, meadow)| Lawn::new(gpu, &meadow));
         let lawns = lawns.collect::<Result<Vec<_>, _>>()?;
         if lawns.is_empty() {
             return Ok(None);

@@ -74,8 +74,8 @@ fn quoted(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::recipe::source::parse;
     use proptest::prelude::*;
+    use weald_core::source::parse;
 
     #[test]
     fn order_and_comments_leave_no_trace() {

@@ -1,8 +1,9 @@
 //! Every step there is. Adding one is one file and one line here.
 
 use super::load;
-use crate::step::Entry;
-use crate::{analyse, combine, erode, generate, grow};
+use weald_engine::step::Entry;
+use weald_land::{analyse, combine, erode, generate};
+use weald_plants as grow;
 
 /// All steps, in the order of `weald steps`.
 #[rustfmt::skip] // one entry a line, so that branches that add some do not meet

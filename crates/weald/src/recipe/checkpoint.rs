@@ -12,16 +12,17 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-use super::report::StepReport;
-use crate::domain::{Domain, Georeference};
-use crate::engine::SavedSimulation;
-use crate::error::Error;
-use crate::grid::{Field, Mask, Size};
-use crate::io::write_whole_with;
-use crate::landscape::Landscape;
 use grown::MeadowHeader;
 use planted::PlantsHeader;
 use stream::{HashedReader, HashedWriter};
+use weald_core::domain::{Domain, Georeference};
+use weald_core::error::Error;
+use weald_core::grid::{Field, Mask, Size};
+use weald_core::landscape::Landscape;
+use weald_engine::SavedSimulation;
+use weald_engine::report::StepReport;
+use weald_io::write_whole_with;
+use weald_plants::Vegetation;
 
 /// Name of the checkpoint in the output folder.
 pub const CHECKPOINT_FILE: &str = "checkpoint.weald";
@@ -98,7 +99,7 @@ pub(super) fn write(
             planted::write(plants, &mut out)?;
         }
         for (_, meadow) in state.landscape.all_meadows() {
-            grown::write(meadow, &mut out)?;
+            grown::write(&meadow, &mut out)?;
         }
         for (_, plane) in simulation.iter().flat_map(|simulation| &simulation.planes) {
             out.singles(plane)?;
@@ -169,7 +170,7 @@ impl Header {
             meadows: state
                 .landscape
                 .all_meadows()
-                .map(|(name, meadow)| MeadowHeader::of(name, meadow))
+                .map(|(name, meadow)| MeadowHeader::of(name, &meadow))
                 .collect(),
             simulation: simulation.map(SimulationHeader::of),
             steps: state.steps.clone(),
@@ -266,11 +267,11 @@ impl SimulationHeader {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::domain::GeoKeys;
-    use crate::grow::grass::{Bend, Maps, Meadow, SPECIES, Species};
-    use crate::plants::{Plant, Plants};
     use proptest::prelude::*;
     use std::path::PathBuf;
+    use weald_core::domain::GeoKeys;
+    use weald_core::plants::{Plant, Plants};
+    use weald_plants::grass::{Bend, Maps, Meadow, SPECIES, Species};
 
     fn state() -> State {
         let size = Size::new(3, 2).expect("small");

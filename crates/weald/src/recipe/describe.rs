@@ -5,9 +5,9 @@ use std::fmt::Write;
 use super::catalog::CATALOG;
 use super::parameter::{Kind, Parameter, Parameters};
 use super::plan::{FilmKeys, LandscapeKeys, MaterialKeys};
-use crate::export::EXPORTS;
-use crate::picture::PICTURES;
-use crate::step::{Entry, Stage};
+use weald_engine::step::{Entry, Stage};
+use weald_export::EXPORTS;
+use weald_picture::PICTURES;
 
 /// Columns that a line of text may take.
 const WIDTH: usize = 100;

@@ -5,7 +5,7 @@ use std::path::Path;
 use super::overrides::{given, value_of};
 use super::plan::Recipe;
 use super::source::{self, Node, Table, Value};
-use crate::error::{Complaint, Error, RecipeError};
+use weald_core::error::{Complaint, Error, RecipeError};
 
 /// What the command line says of a fractal. Values are TOML; what is no TOML is text.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -4,14 +4,15 @@ use std::path::Path;
 
 use super::layer_file::LayerFile;
 use super::plan::{Ground, PlannedFractal, Recipe, Seedling};
-use crate::domain::Domain;
-use crate::error::Error;
-use crate::grid::Mask;
-use crate::grow::Fractal;
-use crate::grow::ifs::{Ifs, flame};
-use crate::io;
-use crate::landscape::Landscape;
-use crate::material::Material;
+use weald_core::domain::Domain;
+use weald_core::error::Error;
+use weald_core::grid::Mask;
+use weald_core::landscape::Landscape;
+use weald_core::material::Material;
+use weald_io as io;
+use weald_plants::Fractal;
+use weald_plants::Vegetation;
+use weald_plants::ifs::{Ifs, flame};
 
 /// Makes or reads the ground and its materials; the texts tell the user what had to be done to it.
 pub(super) fn load(recipe: &Recipe) -> Result<(Landscape, Vec<String>), Error> {
@@ -20,7 +21,7 @@ pub(super) fn load(recipe: &Recipe) -> Result<(Landscape, Vec<String>), Error> {
         Ground::File { path, cell } => from_file(path, *cell)?,
     };
     landscape.materials = materials(recipe);
-    landscape.fractals = fractals(recipe)?;
+    landscape.set_fractals(fractals(recipe)?);
     for planned in &recipe.materials {
         let Some((path, scale)) = planned.file.clone() else { continue };
         let file = LayerFile { path, scale, offset: 0.0, resample: false, no_data: None };

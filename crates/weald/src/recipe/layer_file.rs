@@ -2,11 +2,11 @@
 
 use std::path::PathBuf;
 
-use crate::combine::resample::resampled;
-use crate::domain::{Domain, Georeference};
-use crate::error::Error;
-use crate::grid::{Field, Mask};
-use crate::io::{self, Raster};
+use weald_core::domain::{Domain, Georeference};
+use weald_core::error::Error;
+use weald_core::grid::{Field, Mask};
+use weald_io::{self as io, Raster};
+use weald_land::combine::resample::resampled;
 
 /// A file and what its values mean: `scale` times the value, plus `offset`.
 #[derive(Clone, Debug)]

@@ -6,11 +6,11 @@ use std::path::PathBuf;
 
 use super::layer_file::LayerFile;
 use super::parameter::{LayerName, RasterFile};
-use crate::engine::Job;
-use crate::error::Error;
-use crate::landscape::Landscape;
-use crate::parameters;
-use crate::step::{Entry, Outcome, Stage, Step};
+use weald_core::error::Error;
+use weald_core::landscape::Landscape;
+use weald_core::parameters;
+use weald_engine::Job;
+use weald_engine::step::{Entry, Outcome, Stage, Step};
 
 /// The step's declaration.
 pub const ENTRY: Entry = Entry::of::<Load>("load", Stage::Load, "loads a layer from a raster file", "Weald");

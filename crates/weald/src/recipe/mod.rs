@@ -12,12 +12,11 @@ mod ground;
 mod layer_file;
 pub mod load;
 mod overrides;
-pub mod parameter;
 mod plan;
 mod report;
 mod run;
+mod run_steps;
 pub mod schema;
-pub mod source;
 pub mod template;
 #[cfg(test)]
 #[expect(unreachable_pub, reason = "`parameters!` declares public structs")]
@@ -31,6 +30,9 @@ pub use plan::{
     BuiltIn, Content, FILM_EXTENSIONS, Film, FilmKeys, FractalKeys, Ground, LandscapeKeys, MaterialKeys,
     Motion, Output, Planned, PlannedFractal, PlannedMaterial, PlantRole, Recipe, Seedling,
 };
-pub use report::{BudgetReport, OutputReport, REPORT_FILE, Report, SolidReport, StepReport, WaterReport};
+pub use report::{OutputReport, REPORT_FILE, Report};
 pub use run::{Frames, Options, Progress, Run, Silent};
+pub use run_steps::run_steps;
 pub use view_request::ViewRequest;
+pub use weald_core::{parameter, source};
+pub use weald_engine::report::{BudgetReport, SolidReport, StepReport, WaterReport};

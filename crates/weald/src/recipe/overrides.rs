@@ -2,7 +2,7 @@
 
 use super::parameter::{Complaints, ParameterValue, Sides, nearest};
 use super::source::{self, Node, Table, Value};
-use crate::grid::Size;
+use weald_core::grid::Size;
 
 /// Line of a value that stands in no file.
 const COMMAND_LINE: usize = 0;

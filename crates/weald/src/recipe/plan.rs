@@ -29,11 +29,11 @@ use super::overrides::Overrides;
 use super::parameter::Complaints;
 use super::source::{self, Node, Table, Value};
 use super::{canonical, parameter};
-use crate::error::{Complaint, Error, RecipeError};
-use crate::export::{EXPORTS, ExportEntry, report};
-use crate::io::{self, Format};
-use crate::picture::{PICTURES, PictureEntry};
-use crate::step::Entry;
+use weald_core::error::{Complaint, Error, RecipeError};
+use weald_engine::step::Entry;
+use weald_export::{EXPORTS, ExportEntry, report};
+use weald_io::{self as io, Format};
+use weald_picture::{PICTURES, PictureEntry};
 
 /// A recipe that can run.
 #[derive(Debug)]

@@ -18,14 +18,15 @@ use super::checkpoint::{self, CHECKPOINT_FILE, State};
 use super::ground;
 use super::plan::{Output, Planned, Recipe};
 use super::report::{OutputReport, REPORT_FILE, Report};
-use crate::engine::{Engine, Job};
-use crate::error::Error;
-use crate::export::Finished;
-use crate::landscape::Landscape;
-use crate::picture::RenderDevice;
 use desk::{Clock, Desk};
 use finished::{check_layers, step_report};
 pub use video::Frames;
+use weald_core::error::Error;
+use weald_core::landscape::Landscape;
+use weald_engine::{Engine, Job};
+use weald_export::Finished;
+use weald_picture::RenderDevice;
+use weald_plants::Vegetation;
 use writer::Writer;
 
 /// How a recipe is run. None of it changes the result.
@@ -189,7 +190,7 @@ impl Run<'_> {
         if self.options.resume {
             let mut state = checkpoint::read(&path, self.recipe.effective())?;
             state.landscape.materials = ground::materials(self.recipe);
-            state.landscape.fractals = ground::fractals(self.recipe)?;
+            state.landscape.set_fractals(ground::fractals(self.recipe)?);
             let done = state.simulation.as_ref().map_or(0, |simulation| simulation.iteration);
             progress.note(&format!("going on after {} steps and {done} iterations", state.done));
             return Ok(state);

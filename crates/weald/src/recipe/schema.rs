@@ -7,10 +7,10 @@ use serde_json::{Map, Value, json};
 use super::catalog::CATALOG;
 use super::parameter::{Kind, Parameter, Parameters};
 use super::plan::{FILM_EXTENSIONS, FilmKeys, FractalKeys, LandscapeKeys, MaterialKeys};
-use crate::export::EXPORTS;
-use crate::io::FORMATS;
-use crate::material::MOST;
-use crate::picture::PICTURES;
+use weald_core::material::MOST;
+use weald_export::EXPORTS;
+use weald_io::FORMATS;
+use weald_picture::PICTURES;
 
 /// The schema, in the dialect of 2020-12.
 pub fn schema() -> Value {

@@ -5,16 +5,16 @@ use std::path::Path;
 use super::overrides::Overrides;
 use super::parameter::LayerName;
 use super::plan::{Recipe, Vocabulary};
-use crate::engine::{Job, SavedSimulation};
-use crate::error::Error;
-use crate::export::{Export, ExportEntry, Finished};
-use crate::grid::Field;
-use crate::io::{Encode, Format, Holds, Knowledge, Part, Preset, Raster};
-use crate::landscape::Landscape;
-use crate::parameters;
-use crate::picture::{Image, Picture, PictureEntry};
-use crate::random::hash2;
-use crate::step::{Entry, Outcome, Stage, Step};
+use weald_core::error::Error;
+use weald_core::grid::Field;
+use weald_core::landscape::Landscape;
+use weald_core::parameters;
+use weald_core::random::hash2;
+use weald_engine::step::{Entry, Outcome, Stage, Step};
+use weald_engine::{Job, SavedSimulation};
+use weald_export::{Export, ExportEntry, Finished};
+use weald_io::{Encode, Format, Holds, Knowledge, Part, Preset, Raster};
+use weald_picture::{Image, Picture, PictureEntry};
 
 pub(super) const VOCABULARY: Vocabulary = Vocabulary {
     steps: &[
@@ -80,7 +80,7 @@ impl Step for Rough {
 
     fn run(&self, landscape: &mut Landscape, job: &Job<'_>) -> Result<Outcome, Error> {
         let height = |x: usize, y: usize| {
-            let share = crate::random::unit(hash2(job.seed, x as i64, y as i64));
+            let share = weald_core::random::unit(hash2(job.seed, x as i64, y as i64));
             (self.relief * share) as f32
         };
         landscape.insert(&self.into.0, "m", Field::from_function(landscape.domain.size, height));

@@ -7,8 +7,8 @@ use super::overrides::{Overrides, given};
 use super::parameter::{Complaints, Parameters, key};
 use super::plan::{Content, FilmKeys, Output, Recipe};
 use super::source::{self, Node, Table, Value};
-use crate::error::Error;
-use crate::picture::{RenderKeys, View};
+use weald_core::error::Error;
+use weald_picture::{RenderKeys, View};
 
 /// What the command line says of a view. Values are TOML; what is no TOML is text.
 #[derive(Clone, Debug, Default)]

@@ -1,6 +1,7 @@
 //! The plants of one kind on a device.
 
 use weald::grow::Fractal;
+use weald::grow::Vegetation;
 use weald::grow::ifs::foliage::{Colours, Habit};
 use weald::grow::ifs::limbs::{Corner, LEVELS, Limb, Limbs};
 use weald::picture::{Stage, linear_of_srgb};
@@ -49,8 +50,7 @@ impl Set {
         (landscape, plants): (&Landscape, &Plants),
         groups: &Groups,
     ) -> Result<Self, Error> {
-        let known = Fractal::named(&landscape.fractals, &plants.kind);
-        let fractal = known.ok_or_else(|| Error::Run(format!("there is no fractal `{}`", plants.kind)))?;
+        let fractal = landscape.fractal(&plants.kind)?;
         let limbs = Limbs::of(&fractal.ifs, Habit::of(&fractal.ifs, None));
         let stood: Vec<_> =
             (0..).zip(&plants.plants).filter_map(|(n, plant)| stood(stage, n, plant)).collect();

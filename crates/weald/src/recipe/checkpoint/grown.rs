@@ -5,8 +5,8 @@ use std::io::Write;
 use serde::{Deserialize, Serialize};
 
 use super::stream::{HashedReader, HashedWriter};
-use crate::grid::{Field, Mask, Size};
-use crate::grow::grass::{Bend, Curves, LightCurve, Maps, Meadow, SoilCurve, Species};
+use weald_core::grid::{Field, Mask, Size};
+use weald_plants::grass::{Bend, Curves, LightCurve, Maps, Meadow, SoilCurve, Species};
 
 /// All but the maps.
 #[derive(Debug, Serialize, Deserialize)]

@@ -5,7 +5,7 @@ use std::io::Write;
 use serde::{Deserialize, Serialize};
 
 use super::stream::{HashedReader, HashedWriter};
-use crate::plants::{Plant, Plants};
+use weald_core::plants::{Plant, Plants};
 
 /// Three `f64` and seven `f32`.
 const BYTES: usize = 3 * 8 + 7 * 4;

@@ -3,9 +3,9 @@
 use std::path::Path;
 
 use super::Vocabulary;
-use crate::edit::Layout;
-use crate::recipe::parameter::{Complaints, Kind, Parameter};
-use crate::recipe::source::{Node, Table, Value};
+use weald_core::parameter::{Complaints, Kind, Parameter};
+use weald_core::source::{Node, Table, Value};
+use weald_land::edit::Layout;
 
 /// What is needed to understand the name of a file.
 #[derive(Clone, Copy)]

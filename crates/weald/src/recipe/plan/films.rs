@@ -2,11 +2,11 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::picture::Picture;
-use crate::recipe::parameter::{Complaints, Parameters, keys_of};
-use crate::recipe::source::Table;
+use weald_core::parameter::{Complaints, Parameters, keys_of};
+use weald_core::source::Table;
+use weald_picture::Picture;
 
-crate::parameters! {
+weald_core::parameters! {
     /// Keys that make a film of a picture.
     pub struct FilmKeys {
         /// Iterations of the simulations from one frame to the next.

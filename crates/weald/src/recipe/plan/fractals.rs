@@ -9,13 +9,13 @@ pub(in crate::recipe::plan) use self::names::check_names;
 use self::written::Written;
 use super::files::Files;
 use super::tables;
-use crate::grow::Fractal;
-use crate::grow::ifs::deform::DeformKeys;
-use crate::grow::ifs::{Ifs, Role};
-use crate::recipe::parameter::{Complaints, FlameFile, Kind, LayerName, Nested, ParameterValue, Parameters};
-use crate::recipe::source::{Node, Table, Value};
+use weald_core::parameter::{Complaints, FlameFile, Kind, LayerName, Nested, ParameterValue, Parameters};
+use weald_core::source::{Node, Table, Value};
+use weald_plants::Fractal;
+use weald_plants::ifs::deform::DeformKeys;
+use weald_plants::ifs::{Ifs, Role};
 
-crate::choices! {
+weald_core::choices! {
     /// What a map makes of a plant.
     pub enum PlantRole {
         /// The stem between two joints.
@@ -27,26 +27,7 @@ crate::choices! {
     }
 }
 
-impl ParameterValue for Vec<PlantRole> {
-    fn kind(range: (f64, f64)) -> Kind {
-        let Kind::Choice(words) = PlantRole::kind(range) else { return Kind::Text };
-        Kind::Choices(words)
-    }
-
-    fn read(node: &Node, range: (f64, f64), complaints: &mut Complaints) -> Result<Self, String> {
-        let Value::List(items) = &node.value else {
-            return Err(format!("is {}, but must be a {}", node.value.shown(), Self::kind(range).in_words()));
-        };
-        items.iter().map(|item| PlantRole::read(item, range, complaints)).collect()
-    }
-
-    fn shown(&self) -> Option<String> {
-        let words: Vec<_> = self.iter().map(|role| format!("{:?}", role.word())).collect();
-        Some(format!("[{}]", words.join(", ")))
-    }
-}
-
-crate::parameters! {
+weald_core::parameters! {
     /// The keys of `[[fractal]]`. It is made of one of `of`, `maps` and `flame`.
     pub struct FractalKeys {
         /// Name by which outputs call it.

@@ -3,12 +3,12 @@
 use std::path::PathBuf;
 
 use super::files::Files;
-use crate::error::Error;
-use crate::grid::Size;
-use crate::recipe::parameter::{Complaints, Parameters, RasterFile, Sides};
-use crate::recipe::source::{Node, Table, Value};
+use weald_core::error::Error;
+use weald_core::grid::Size;
+use weald_core::parameter::{Complaints, Parameters, RasterFile, Sides};
+use weald_core::source::{Node, Table, Value};
 
-crate::parameters! {
+weald_core::parameters! {
     /// The keys of `[landscape]`.
     pub struct LandscapeKeys {
         /// Cells a side, or [columns, rows]; at most 2^28 cells in all. Not with `from`.

@@ -3,9 +3,9 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::{Ground, Output, Planned, PlannedMaterial, hint};
-use crate::material::{BEDROCK, Material, layer_names};
-use crate::recipe::parameter::Complaints;
-use crate::step::Layered;
+use weald_core::material::{BEDROCK, Material, layer_names};
+use weald_core::parameter::Complaints;
+use weald_engine::step::Layered;
 
 /// All that makes layers.
 pub(super) struct Made<'a> {

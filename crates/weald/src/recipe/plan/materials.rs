@@ -4,11 +4,11 @@ use std::path::PathBuf;
 
 use super::files::Files;
 use super::tables;
-use crate::material::{MOST, Material, RESERVED};
-use crate::recipe::parameter::{Colour, Complaints, LayerName, Parameters, RasterFile};
-use crate::recipe::source::Table;
+use weald_core::material::{MOST, Material, RESERVED};
+use weald_core::parameter::{Colour, Complaints, LayerName, Parameters, RasterFile};
+use weald_core::source::Table;
 
-crate::choices! {
+weald_core::choices! {
     /// The built-in materials.
     pub enum BuiltIn {
         /// Hard and steep: bedrock.
@@ -24,7 +24,7 @@ crate::choices! {
     }
 }
 
-crate::parameters! {
+weald_core::parameters! {
     /// The keys of `[[material]]`. Without a table, ground is of rock, and of soil where water lays it down.
     pub struct MaterialKeys {
         /// Name, and that of the layer of its thickness; the first material is the bedrock, whose layer is

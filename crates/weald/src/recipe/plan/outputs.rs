@@ -4,12 +4,12 @@ use std::path::{Component, Path, PathBuf};
 
 use super::films::{self, Film, Motion};
 use super::{Vocabulary, hint, tables};
-use crate::export::{Export, ExportEntry};
-use crate::io::{Encode, Holds};
-use crate::picture::{Picture, PictureEntry, Render};
-use crate::recipe::parameter::{Complaints, LayerName, read_key};
-use crate::recipe::source::{Node, Table, Value};
 use crate::recipe::{CHECKPOINT_FILE, REPORT_FILE};
+use weald_core::parameter::{Complaints, LayerName, read_key};
+use weald_core::source::{Node, Table, Value};
+use weald_export::{Export, ExportEntry};
+use weald_io::{Encode, Holds};
+use weald_picture::{Picture, PictureEntry, Render};
 
 /// A file that a run writes.
 #[derive(Debug)]

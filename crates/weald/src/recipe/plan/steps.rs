@@ -2,12 +2,12 @@
 
 use super::files::Files;
 use super::{PlannedMaterial, Vocabulary, hint, tables};
-use crate::error::Error;
-use crate::grid::Size;
-use crate::random::splitmix64;
-use crate::recipe::parameter::Complaints;
-use crate::recipe::source::{Node, Table, Value};
-use crate::step::{Entry, Step};
+use weald_core::error::Error;
+use weald_core::grid::Size;
+use weald_core::parameter::Complaints;
+use weald_core::random::splitmix64;
+use weald_core::source::{Node, Table, Value};
+use weald_engine::step::{Entry, Step};
 
 /// A step with its place in the recipe.
 #[derive(Debug)]

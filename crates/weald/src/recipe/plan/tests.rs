@@ -30,7 +30,7 @@ fn with(old: &str, new: &str) -> String {
 #[test]
 fn a_good_recipe_becomes_a_plan() {
     let recipe = parse(GOOD).expect("good");
-    let size = crate::Size::new(8, 4).expect("small");
+    let size = weald_core::Size::new(8, 4).expect("small");
     assert_eq!(recipe.ground, Ground::Empty { size, cell: 2.5 });
     assert_eq!(recipe.steps.iter().map(|step| step.entry.name).collect::<Vec<_>>(), ["rough", "wear"]);
     assert_eq!(recipe.outputs[0].file, Path::new("a/height.bits"));
@@ -167,7 +167,7 @@ fn the_first_step_of_a_kind_has_the_seed_of_the_landscape_and_later_ones_their_o
     let recipe = parse(&with("[[output]]", more)).expect("good");
     let seeds: Vec<_> = recipe.steps.iter().map(|step| step.seed(3)).collect();
     assert_eq!(seeds[..2], [3, 3]);
-    assert_eq!(seeds[2], crate::random::splitmix64(3 ^ 1));
+    assert_eq!(seeds[2], weald_core::random::splitmix64(3 ^ 1));
 }
 
 #[test]

@@ -5,10 +5,10 @@ use std::time::{Duration, Instant};
 
 use super::film::Lapses;
 use super::{Progress, Run};
-use crate::engine::{SavedSimulation, Watcher};
-use crate::error::Error;
-use crate::landscape::Landscape;
 use crate::recipe::checkpoint::{self, State};
+use weald_core::error::Error;
+use weald_core::landscape::Landscape;
+use weald_engine::{SavedSimulation, Watcher};
 
 /// Says when the next checkpoint is due. It runs on from step to step: a recipe of many short steps is a long
 /// run too.

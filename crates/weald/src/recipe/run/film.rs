@@ -2,12 +2,12 @@
 
 use std::path::Path;
 
-use crate::error::Error;
-use crate::io::write_whole;
-use crate::landscape::Landscape;
-use crate::picture::{Cutout, Frame, Image, Picture, RenderDevice, Watch};
 use crate::recipe::Options;
 use crate::recipe::plan::{Content, Film, Motion, Output, Recipe};
+use weald_core::error::Error;
+use weald_core::landscape::Landscape;
+use weald_io::write_whole;
+use weald_picture::{Cutout, Frame, Image, Picture, RenderDevice, Watch};
 
 /// A time-lapse of a recipe.
 pub(super) struct Lapse<'a> {

@@ -1,11 +1,12 @@
 //! What a finished step must have done, and what is reported of it.
 
-use crate::error::Error;
-use crate::landscape::Landscape;
-use crate::material::layer_names;
 use crate::recipe::plan::Planned;
-use crate::recipe::report::StepReport;
-use crate::step::{Layered, Outcome};
+use weald_core::error::Error;
+use weald_core::landscape::Landscape;
+use weald_core::material::layer_names;
+use weald_engine::report::StepReport;
+use weald_engine::step::{Layered, Outcome};
+use weald_plants::Vegetation;
 
 /// All layers that a step declares must be there and hold numbers, and all plants and grass must be there.
 pub(super) fn check_layers(planned: &Planned, landscape: &Landscape) -> Result<(), Error> {

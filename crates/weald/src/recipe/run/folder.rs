@@ -2,9 +2,9 @@
 
 use std::path::Path;
 
-use crate::error::Error;
-use crate::io::write_whole;
 use crate::recipe::plan::Recipe;
+use weald_core::error::Error;
+use weald_io::write_whole;
 
 /// Makes the folder and those of the outputs, and tries to write into each.
 pub(super) fn prepare(recipe: &Recipe, out: &Path) -> Result<(), Error> {

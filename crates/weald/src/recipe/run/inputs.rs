@@ -3,9 +3,9 @@
 use std::fs::File;
 use std::path::Path;
 
-use crate::error::Error;
 use crate::recipe::ground;
 use crate::recipe::plan::Recipe;
+use weald_core::error::Error;
 
 /// Opens every file that the recipe names, and lets the steps look at those that steer them.
 pub(super) fn check(recipe: &Recipe) -> Result<(), Error> {

@@ -2,8 +2,8 @@ use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::*;
-use crate::grid::Field;
 use crate::recipe::testing::parse;
+use weald_core::grid::Field;
 
 const RECIPE: &str = "\
 [landscape]
@@ -181,9 +181,10 @@ fn a_file_in_place_of_the_folder_is_found_before_anything_runs() {
 #[test]
 fn cells_without_data_are_written_as_such() {
     let recipe = parse(RECIPE).expect("good");
-    let size = crate::Size::new(3, 1).expect("small");
-    let land = crate::grid::Mask::new(size, vec![true, false, true]);
-    let mut landscape = Landscape::new(crate::Domain { land: land.clone(), ..crate::Domain::new(size, 2.0) });
+    let size = weald_core::Size::new(3, 1).expect("small");
+    let land = weald_core::grid::Mask::new(size, vec![true, false, true]);
+    let mut landscape =
+        Landscape::new(weald_core::Domain { land: land.clone(), ..weald_core::Domain::new(size, 2.0) });
     landscape.insert("height", "m", Field::from_values(size, vec![5.0, f32::NAN, 7.0]));
     let finished =
         Finished { landscape: &landscape, steps: &[], recipe: &recipe.file, hash: "", seed: recipe.seed };

@@ -3,10 +3,10 @@
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-use crate::error::Error;
-use crate::io::{write_through, write_whole};
-use crate::picture::{Cutout, write_apng};
 use crate::recipe::plan::Film;
+use weald_core::error::Error;
+use weald_io::{write_through, write_whole};
+use weald_picture::{Cutout, write_apng};
 
 /// How many frames, and how they are kept.
 #[derive(Clone, Debug)]

@@ -4,13 +4,13 @@ use std::path::Path;
 
 use super::film;
 use super::video::Frames;
-use crate::error::Error;
-use crate::export::{Export, Finished};
-use crate::grid::Field;
-use crate::io::{Encode, Holds, Part, PartName, Provenance, Raster, write_parts, write_whole};
-use crate::picture::{Cutout, Frame, Picture, RenderDevice};
 use crate::recipe::plan::{Content, Film, Motion, Output, Recipe};
 use crate::recipe::report::OutputReport;
+use weald_core::error::Error;
+use weald_core::grid::Field;
+use weald_export::{Export, Finished};
+use weald_io::{Encode, Holds, Part, PartName, Provenance, Raster, write_parts, write_whole};
+use weald_picture::{Cutout, Frame, Picture, RenderDevice};
 
 /// Turns a finished landscape into files.
 pub(super) struct Writer<'a> {

@@ -2,8 +2,8 @@
 
 use super::super::{Output, Planned, hint};
 use super::PlannedFractal;
-use crate::grow::ifs::shapes;
-use crate::recipe::parameter::Complaints;
+use weald_core::parameter::Complaints;
+use weald_plants::ifs::shapes;
 
 /// Complains of steps and outputs that name a fractal that is not there.
 pub(in crate::recipe::plan) fn check_names(

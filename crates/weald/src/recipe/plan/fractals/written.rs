@@ -2,9 +2,9 @@
 
 use super::super::hint;
 use super::{FractalKeys, Seedling, line_of};
-use crate::grow::ifs::{Draft, Ifs, IfsFault, Map, Role, Weighted, even_probabilities, shapes};
-use crate::recipe::parameter::FlameFile;
-use crate::recipe::source::{Table, Value};
+use weald_core::parameter::FlameFile;
+use weald_core::source::{Table, Value};
+use weald_plants::ifs::{Draft, Ifs, IfsFault, Map, Role, Weighted, even_probabilities, shapes};
 
 /// A table with its keys.
 pub(super) struct Written<'a> {

@@ -1,0 +1,228 @@
+//! Sizes and fields: the rectangular grids that every stage shares.
+//!
+//! Row 0 is north, column 0 is west; `x` counts columns eastward, `y` rows southward.
+
+use crate::error::Error;
+
+/// Most cells that one landscape may hold: 2^28 (16384²), one GiB a layer.
+pub const MAXIMUM_CELLS: usize = 1 << 28;
+
+/// Most cells along one side.
+pub const MAXIMUM_SIDE: usize = 1 << 20;
+
+/// Columns and rows of a grid, both at least 1.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Size {
+    /// Cells from west to east.
+    pub columns: usize,
+    /// Cells from north to south.
+    pub rows: usize,
+}
+
+impl Size {
+    /// A checked size: both sides at least 1, at most [`MAXIMUM_CELLS`] in all.
+    ///
+    /// # Errors
+    /// [`Error::Limit`] with both sides in the message.
+    pub fn new(columns: usize, rows: usize) -> Result<Self, Error> {
+        let sides = 1..=MAXIMUM_SIDE;
+        let cells = columns.checked_mul(rows);
+        if !sides.contains(&columns)
+            || !sides.contains(&rows)
+            || cells.is_none_or(|cells| cells > MAXIMUM_CELLS)
+        {
+            return Err(Error::Limit(format!(
+                "a grid of {columns} × {rows} cells: each side must be 1 to {MAXIMUM_SIDE} and the whole at \
+                 most {MAXIMUM_CELLS} cells; choose a smaller size"
+            )));
+        }
+        Ok(Self { columns, rows })
+    }
+
+    /// A square of `side` × `side` cells.
+    ///
+    /// # Errors
+    /// As [`Size::new`].
+    pub fn square(side: usize) -> Result<Self, Error> {
+        Self::new(side, side)
+    }
+
+    /// Number of cells.
+    pub fn cells(self) -> usize {
+        self.columns * self.rows
+    }
+
+    /// Position of cell (`x`, `y`) in row-major order.
+    #[inline]
+    pub fn index(self, x: usize, y: usize) -> usize {
+        y * self.columns + x
+    }
+
+    /// Row-major positions of the up to eight neighbours of a cell, in rising order.
+    pub fn neighbours(self, cell: usize) -> impl Iterator<Item = usize> {
+        let (x, y) = (cell % self.columns, cell / self.columns);
+        let rows = y.saturating_sub(1)..(y + 2).min(self.rows);
+        let columns = x.saturating_sub(1)..(x + 2).min(self.columns);
+        rows.flat_map(move |y| columns.clone().map(move |x| self.index(x, y)))
+            .filter(move |&other| other != cell)
+    }
+}
+
+impl std::fmt::Display for Size {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(formatter, "{} × {}", self.columns, self.rows)
+    }
+}
+
+/// One `f32` for every cell, row-major, row 0 north.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Field {
+    size: Size,
+    values: Vec<f32>,
+}
+
+impl Field {
+    /// The same value everywhere.
+    pub fn filled(size: Size, value: f32) -> Self {
+        Self { size, values: vec![value; size.cells()] }
+    }
+
+    /// A field from row-major values.
+    ///
+    /// # Panics
+    /// If `values` does not hold one value a cell: a bug of the caller.
+    pub fn from_values(size: Size, values: Vec<f32>) -> Self {
+        assert_eq!(values.len(), size.cells(), "one value a cell");
+        Self { size, values }
+    }
+
+    /// A field from a function of column and row.
+    pub fn from_function(size: Size, mut value: impl FnMut(usize, usize) -> f32) -> Self {
+        let mut values = Vec::with_capacity(size.cells());
+        for y in 0..size.rows {
+            values.extend((0..size.columns).map(|x| value(x, y)));
+        }
+        Self { size, values }
+    }
+
+    /// Columns and rows.
+    pub fn size(&self) -> Size {
+        self.size
+    }
+
+    /// All values, row-major.
+    pub fn values(&self) -> &[f32] {
+        &self.values
+    }
+
+    /// All values, row-major.
+    pub fn values_mut(&mut self) -> &mut [f32] {
+        &mut self.values
+    }
+
+    /// The values alone.
+    pub fn into_values(self) -> Vec<f32> {
+        self.values
+    }
+
+    /// Row `y`, from west to east.
+    pub fn row(&self, y: usize) -> &[f32] {
+        &self.values[y * self.size.columns..][..self.size.columns]
+    }
+
+    /// Row `y`, from west to east.
+    pub fn row_mut(&mut self, y: usize) -> &mut [f32] {
+        &mut self.values[y * self.size.columns..][..self.size.columns]
+    }
+
+    /// The value of cell (`x`, `y`).
+    #[inline]
+    pub fn at(&self, x: usize, y: usize) -> f32 {
+        self.values[self.size.index(x, y)]
+    }
+
+    /// Sets cell (`x`, `y`).
+    #[inline]
+    pub fn set(&mut self, x: usize, y: usize, value: f32) {
+        let index = self.size.index(x, y);
+        self.values[index] = value;
+    }
+
+    /// Sum in `f64`, row after row, so that it does not depend on threads.
+    pub fn sum(&self) -> f64 {
+        self.values.chunks(self.size.columns).map(row_sum).sum()
+    }
+
+    /// Least and greatest value over the cells of `land` (all cells without one); `None` without a cell.
+    pub fn range(&self, land: Option<&Mask>) -> Option<(f32, f32)> {
+        let mut range: Option<(f32, f32)> = None;
+        for (index, &value) in self.values.iter().enumerate() {
+            if land.is_none_or(|land| land.is_land_at(index)) {
+                let (low, high) = range.unwrap_or((value, value));
+                range = Some((low.min(value), high.max(value)));
+            }
+        }
+        range
+    }
+
+    /// The first cell that holds a NaN or an infinity, over the cells of `land`.
+    pub fn first_not_finite(&self, land: Option<&Mask>) -> Option<(usize, usize)> {
+        let index = self.values.iter().enumerate().position(|(index, value)| {
+            !value.is_finite() && land.is_none_or(|land| land.is_land_at(index))
+        })?;
+        Some((index % self.size.columns, index / self.size.columns))
+    }
+}
+
+fn row_sum(row: &[f32]) -> f64 {
+    row.iter().map(|&value| f64::from(value)).sum()
+}
+
+/// Which cells hold data: `true` is land, `false` is no-data.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Mask {
+    size: Size,
+    land: Vec<bool>,
+}
+
+impl Mask {
+    /// A mask from row-major flags; `None` where every cell is land, since then none is needed.
+    ///
+    /// # Panics
+    /// If `land` does not hold one flag a cell: a bug of the caller.
+    pub fn new(size: Size, land: Vec<bool>) -> Option<Self> {
+        assert_eq!(land.len(), size.cells(), "one flag a cell");
+        land.contains(&false).then_some(Self { size, land })
+    }
+
+    /// A mask from row-major flags, also where every cell is land: for worlds in which that may change.
+    pub fn always(size: Size, land: Vec<bool>) -> Self {
+        assert_eq!(land.len(), size.cells(), "one flag a cell");
+        Self { size, land }
+    }
+
+    /// Columns and rows.
+    pub fn size(&self) -> Size {
+        self.size
+    }
+
+    /// Whether cell (`x`, `y`) holds data.
+    pub fn is_land(&self, x: usize, y: usize) -> bool {
+        self.land[self.size.index(x, y)]
+    }
+
+    /// Whether the cell at a row-major position holds data.
+    pub fn is_land_at(&self, index: usize) -> bool {
+        self.land[index]
+    }
+
+    /// All flags, row-major.
+    pub fn flags(&self) -> &[bool] {
+        &self.land
+    }
+
+    /// Number of cells with data.
+    pub fn land_cells(&self) -> usize {
+        self.land.iter().filter(|&&land| land).count()
+    }
+}

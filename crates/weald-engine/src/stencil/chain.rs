@@ -1,0 +1,239 @@
+//! Steps of a simulation as streams of rows, chained.
+//!
+//! One step takes rows from north to south and gives each row back a few rows later, changed. Chaining the
+//! streams of several steps advances the simulation by that many steps in one passage through memory
+//! (temporal blocking by skewing). A stretch of rows is computed as a small world of its own with walls at
+//! both ends; rows that lie further from an end than `reach` cells a step do not feel it, so that bands with
+//! halos give the same bits as the whole, whatever the number of bands and of steps in a passage.
+
+use std::ops::Range;
+
+use super::ring::Ring;
+use super::rows::Layout;
+use crate::program::Program;
+use crate::uniform::Uniform;
+use weald_core::grid::Size;
+
+/// Sums that a process keeps for each row, in the process's own order.
+pub const SUMS: usize = 5;
+
+/// What happened on one row, summed over its cells and over time.
+pub type RowSums = [f64; SUMS];
+
+/// A simulation step as a stream of rows.
+pub trait Process: Sync {
+    /// What differs from step to step: rain or sunshine.
+    type Weather: Uniform + Copy + Send + Sync;
+    /// Rows in flight within one step.
+    type Scratch: Send;
+
+    /// Planes that steps change.
+    fn state_planes(&self) -> usize;
+    /// Planes that stay, stored behind the state planes.
+    fn constant_planes(&self) -> usize;
+    /// Rows by which a step's output lies behind its input.
+    fn lag(&self) -> usize;
+    /// Farthest row that a row of the output depends on.
+    fn reach(&self) -> usize {
+        self.lag() + 1
+    }
+    /// Memory for one step over rows of this many cells.
+    fn scratch(&self, columns: usize) -> Self::Scratch;
+    /// The same process over a part of the domain, as if it were the whole.
+    fn sized(&self, size: Size) -> Self
+    where
+        Self: Sized;
+    /// The same step as compute passes.
+    fn program(&self) -> Program;
+    /// Takes row `flow.y` in and finishes row `flow.y - lag` of the output.
+    fn advance(&self, flow: &mut Flow<'_, Self>);
+}
+
+/// Everything one step sees when a row comes in.
+pub struct Flow<'a, P: Process + ?Sized> {
+    /// Planes that stay.
+    pub constants: &'a [Ring],
+    /// Rows as the step finds them.
+    pub input: &'a [Ring],
+    /// Rows as the step leaves them.
+    pub output: &'a mut [Ring],
+    /// Rows in flight.
+    pub scratch: &'a mut P::Scratch,
+    /// Rain or sunshine of this step.
+    pub weather: P::Weather,
+    /// The row that comes in; beyond `span.end` when the last rows flow out.
+    pub y: usize,
+    /// The rows of this small world, between its walls.
+    pub span: Range<usize>,
+    /// Sums of the rows that this band owns; the others are another band's.
+    pub sums: &'a mut SumsOfRows<'a>,
+}
+
+impl<P: Process + ?Sized> Flow<'_, P> {
+    /// The row `behind` rows behind the newest, where it exists.
+    pub fn behind(&self, behind: usize) -> Option<usize> {
+        self.y.checked_sub(behind).filter(|row| self.span.contains(row))
+    }
+
+    /// The row after `y`, or `y` itself before a wall.
+    pub fn next(&self, y: usize) -> usize {
+        if y + 1 < self.span.end { y + 1 } else { y }
+    }
+}
+
+/// Row sums of the rows that a band owns.
+pub struct SumsOfRows<'a> {
+    /// First row owned.
+    pub first: usize,
+    /// One entry a row.
+    pub rows: &'a mut [RowSums],
+    /// Columns that are counted.
+    pub columns: Range<usize>,
+}
+
+impl SumsOfRows<'_> {
+    /// Adds the sum of `cells` to sum number `which` of row `y`, if this band owns the row.
+    pub fn add(&mut self, y: usize, which: usize, cells: &[f32]) {
+        if let Some(row) = y.checked_sub(self.first).and_then(|row| self.rows.get_mut(row)) {
+            row[which] += sum_in_lanes(&cells[self.columns.clone()]);
+        }
+    }
+}
+
+/// Sum of a row in sixteen interleaved partial sums, an order that vector units of any width keep. Blocks
+/// of 1024 cells go to `f64` one by one, so that long rows lose nothing.
+fn sum_in_lanes(cells: &[f32]) -> f64 {
+    const LANES: usize = 16;
+    let block_sum = |block: &[f32]| {
+        let mut lanes = [0.0_f32; LANES];
+        let (chunks, rest) = block.as_chunks::<LANES>();
+        for chunk in chunks {
+            for (lane, cell) in lanes.iter_mut().zip(chunk) {
+                *lane += cell;
+            }
+        }
+        let lanes: f64 = lanes.iter().map(|&lane| f64::from(lane)).sum();
+        lanes + rest.iter().map(|&cell| f64::from(cell)).sum::<f64>()
+    };
+    cells.chunks(1024).map(block_sum).sum()
+}
+
+/// Rows in flight between and within the steps of one passage.
+pub struct Chain<P: Process> {
+    constants: Vec<Ring>,
+    /// `between[t]` holds what step `t` takes in; the last one what the passage gives out.
+    between: Vec<Vec<Ring>>,
+    scratch: Vec<P::Scratch>,
+}
+
+impl<P: Process> Chain<P> {
+    /// Memory for passages of up to `steps` steps.
+    pub fn new(process: &P, columns: usize, steps: usize) -> Self {
+        let rings = |count, depth| (0..count).map(|_| Ring::new(columns, depth)).collect::<Vec<_>>();
+        // A row of the output may be begun `lag` rows before the next step takes it in, or be looked back at
+        // for as many; no process does both at once. Constants serve all steps of the passage.
+        let window = process.lag() + 1;
+        Self {
+            constants: rings(process.constant_planes(), steps * process.lag() + 1),
+            between: (0..=steps).map(|_| rings(process.state_planes(), window)).collect(),
+            scratch: (0..steps).map(|_| process.scratch(columns)).collect(),
+        }
+    }
+}
+
+/// One passage over a stretch of rows.
+pub struct Passage<'a, P: Process> {
+    pub process: &'a P,
+    pub layout: Layout,
+    /// Weather of each step of the passage.
+    pub weather: &'a [P::Weather],
+    /// Rows to compute, halos included.
+    pub span: Range<usize>,
+    /// Rows of the span that this band owns: first row and their memory, changed in place.
+    pub first: usize,
+    pub own: &'a mut [f32],
+    /// Copies of the rows above and below.
+    pub above: &'a [f32],
+    pub below: &'a [f32],
+    pub sums: &'a mut [RowSums],
+    /// Columns of which the sums are counted.
+    pub columns: Range<usize>,
+}
+
+impl<P: Process> Passage<'_, P> {
+    /// Advances the owned rows by one step for each entry of `weather`.
+    pub fn run(mut self, chain: &mut Chain<P>) {
+        let lag = self.process.lag();
+        let steps = self.weather.len();
+        for tick in self.span.start..self.span.end + steps * lag {
+            if tick < self.span.end {
+                self.take_in(chain, tick);
+            }
+            for step in 0..steps {
+                let Some(y) = tick.checked_sub(step * lag) else { continue };
+                if (self.span.start..self.span.end + lag).contains(&y) {
+                    self.advance(chain, step, y);
+                }
+            }
+            if let Some(done) = tick.checked_sub(steps * lag) {
+                self.give_out(&chain.between[steps], done);
+            }
+        }
+    }
+
+    fn advance(&mut self, chain: &mut Chain<P>, step: usize, y: usize) {
+        let (before, after) = chain.between.split_at_mut(step + 1);
+        self.process.advance(&mut Flow {
+            constants: &chain.constants,
+            input: &before[step],
+            output: &mut after[0],
+            scratch: &mut chain.scratch[step],
+            weather: self.weather[step],
+            y,
+            span: self.span.clone(),
+            sums: &mut SumsOfRows { first: self.first, rows: self.sums, columns: self.columns.clone() },
+        });
+    }
+
+    fn own_end(&self) -> usize {
+        self.first + self.own.len() / self.layout.row_length()
+    }
+
+    fn take_in(&self, chain: &mut Chain<P>, y: usize) {
+        let (memory, row) = if y < self.first {
+            (self.above, y - self.span.start)
+        } else if y < self.own_end() {
+            (&*self.own, y - self.first)
+        } else {
+            (self.below, y - self.own_end())
+        };
+        let length = self.layout.row_length();
+        let row = &memory[row * length..][..length];
+        for (plane, ring) in chain.between[0].iter_mut().chain(&mut chain.constants).enumerate() {
+            ring.here_mut(y).copy_from_slice(self.layout.plane(row, plane));
+        }
+    }
+
+    fn give_out(&mut self, rings: &[Ring], y: usize) {
+        if !(self.first..self.own_end()).contains(&y) {
+            return;
+        }
+        let length = self.layout.row_length();
+        let row = &mut self.own[(y - self.first) * length..][..length];
+        for (plane, ring) in rings.iter().enumerate() {
+            self.layout.plane_mut(row, plane).copy_from_slice(ring.here(y));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lanes_sum_what_a_plain_loop_sums() {
+        let cells: Vec<f32> = (0..5000).map(|i| ((i * 37) % 101) as f32 - 50.0).collect();
+        let plain: f64 = cells.iter().map(|&cell| f64::from(cell)).sum();
+        assert_eq!(sum_in_lanes(&cells), plain);
+    }
+}

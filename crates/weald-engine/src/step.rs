@@ -1,0 +1,178 @@
+//! What a step of a recipe is: it declares the layers that it reads and writes, and runs on a landscape.
+
+use std::collections::BTreeMap;
+use std::fmt::Debug;
+use std::path::PathBuf;
+
+use crate::{Budget, Job};
+use weald_core::error::Error;
+use weald_core::landscape::Landscape;
+use weald_core::material::Material;
+use weald_core::parameter::{Complaints, Parameter, Parameters};
+use weald_core::source::Table;
+
+/// A step with its parameters, checked and ready to run.
+pub trait Step: Debug + Send + Sync {
+    /// Names of the layers it reads.
+    fn reads(&self) -> Vec<String>;
+
+    /// Names and units of the layers it writes.
+    fn writes(&self) -> Vec<(String, &'static str)>;
+
+    /// Names of the plants that it sets.
+    fn plants(&self) -> Vec<String> {
+        Vec::new()
+    }
+
+    /// Names of the fractals that these plants are.
+    fn fractals(&self) -> Vec<String> {
+        Vec::new()
+    }
+
+    /// Names of the grass that it grows.
+    fn meadows(&self) -> Vec<String> {
+        Vec::new()
+    }
+
+    /// What it does with the layers of the materials, whose names only a recipe knows.
+    fn layered(&self) -> Layered {
+        Layered::Never
+    }
+
+    /// Files that it reads.
+    fn files(&self) -> Vec<PathBuf> {
+        Vec::new()
+    }
+
+    /// Looks at the files that steer it, so that their faults are told before anything runs.
+    ///
+    /// # Errors
+    /// Those of the files.
+    fn look_ahead(&self, materials: &[Material]) -> Result<(), Error> {
+        let _ = materials;
+        Ok(())
+    }
+
+    /// Faults that concern several parameters at once, each a sentence for the user.
+    fn faults(&self) -> Vec<String> {
+        Vec::new()
+    }
+
+    /// Faults that only show beside the materials of the recipe, each a sentence for the user.
+    fn faults_among(&self, materials: &[Material]) -> Vec<String> {
+        let _ = materials;
+        Vec::new()
+    }
+
+    /// Least and greatest value that a layer of [`Step::writes`] can hold, where the method bounds it. Every
+    /// layer of an analysis has a range; an infinite end says that there is no bound on that side.
+    fn range(&self, layer: &str) -> Option<(f64, f64)> {
+        let _ = layer;
+        None
+    }
+
+    /// Iterations between which its landscape can be looked at; 0 where it cannot.
+    fn watched(&self) -> u64 {
+        0
+    }
+
+    /// Columns and rows after the step, where it changes them.
+    fn resized(&self) -> Option<(u32, u32)> {
+        None
+    }
+
+    /// Runs on a landscape that has all the layers in [`Step::reads`].
+    fn run(&self, landscape: &mut Landscape, job: &Job<'_>) -> Result<Outcome, Error>;
+}
+
+/// What a step does with the layers of the materials: `bedrock`, and the thickness of each material on it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Layered {
+    /// Nothing.
+    #[default]
+    Never,
+    /// It reads them, where they exist, by [`material::stack`](weald_core::material::stack).
+    Reads,
+    /// It reads them and writes all of them, beside the layers in [`Step::writes`].
+    Changes,
+}
+
+/// What a step has to report.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Outcome {
+    /// Simulation steps, faults, octaves: what the step counts.
+    pub iterations: u64,
+    /// Where water and solid went, for simulations.
+    pub budget: Option<Budget>,
+    /// What was measured, by name.
+    pub measures: BTreeMap<&'static str, f64>,
+    /// What the user should know.
+    pub notes: Vec<String>,
+}
+
+/// Part of the pipeline that a step belongs to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stage {
+    /// Takes a layer from a file.
+    Load,
+    /// Makes ground from nothing.
+    Generate,
+    /// Makes a layer from layers.
+    Combine,
+    /// Changes ground by water and gravity.
+    Erode,
+    /// Reads the land: makes layers and measures from layers.
+    Analyse,
+    /// Sets plants on the land.
+    Grow,
+}
+
+impl Stage {
+    /// All stages, in the order of `weald steps`.
+    pub const ALL: [Self; 6] =
+        [Self::Load, Self::Generate, Self::Combine, Self::Erode, Self::Analyse, Self::Grow];
+
+    /// The stage's heading in `weald steps`.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::Load => "load",
+            Self::Generate => "generate",
+            Self::Combine => "combine",
+            Self::Erode => "erode",
+            Self::Analyse => "analyse",
+            Self::Grow => "grow",
+        }
+    }
+}
+
+/// A step's declaration in the catalogue.
+#[derive(Clone, Copy, Debug)]
+pub struct Entry {
+    /// Word after `do =`.
+    pub name: &'static str,
+    /// Part of the pipeline.
+    pub stage: Stage,
+    /// What it does, in one sentence.
+    pub summary: &'static str,
+    /// The publication, or "Weald" for what is common practice.
+    pub source: &'static str,
+    /// Declares the parameters.
+    pub parameters: fn() -> Vec<Parameter>,
+    /// Reads them from a recipe.
+    pub read: fn(&Table, &mut Complaints) -> Box<dyn Step>,
+}
+
+impl Entry {
+    /// The declaration of step type `T`.
+    pub const fn of<T: Step + Parameters + 'static>(
+        name: &'static str,
+        stage: Stage,
+        summary: &'static str,
+        source: &'static str,
+    ) -> Self {
+        let read = |table: &Table, complaints: &mut Complaints| -> Box<dyn Step> {
+            Box::new(T::read(table, complaints))
+        };
+        Self { name, stage, summary, source, parameters: T::parameters, read }
+    }
+}

@@ -1,0 +1,111 @@
+//! Structs of 32-bit numbers that a shader sees under the same names.
+
+use weald_core::material::MOST;
+
+/// A struct that shaders read as a uniform: same name, same fields in the same order without gaps.
+pub trait Uniform {
+    /// Name of the struct.
+    const NAME: &'static str;
+
+    /// Names of the fields and their types in WGSL, in order.
+    fn fields() -> Vec<(&'static str, &'static str)>;
+
+    /// The fields' bits, in order.
+    fn words(&self) -> Vec<u32>;
+}
+
+/// Nothing to tell.
+impl Uniform for () {
+    const NAME: &'static str = "";
+
+    fn fields() -> Vec<(&'static str, &'static str)> {
+        Vec::new()
+    }
+
+    fn words(&self) -> Vec<u32> {
+        Vec::new()
+    }
+}
+
+/// Numbers of four bytes each.
+pub trait Words: Copy {
+    /// Their type in WGSL.
+    const WGSL: &'static str;
+
+    /// Their bits.
+    fn words(self) -> Vec<u32>;
+}
+
+impl Words for f32 {
+    const WGSL: &'static str = "f32";
+
+    fn words(self) -> Vec<u32> {
+        vec![self.to_bits()]
+    }
+}
+
+impl Words for u32 {
+    const WGSL: &'static str = "u32";
+
+    fn words(self) -> Vec<u32> {
+        vec![self]
+    }
+}
+
+/// Four numbers for each material. Uniforms begin with it, since its place is a multiple of sixteen bytes.
+impl Words for [[f32; 4]; MOST] {
+    const WGSL: &'static str = "array<vec4<f32>, 8>";
+
+    fn words(self) -> Vec<u32> {
+        self.as_flattened().iter().map(|number| number.to_bits()).collect()
+    }
+}
+
+/// Vectors of four. Uniforms that hold some begin with them.
+impl Words for [f32; 4] {
+    const WGSL: &'static str = "vec4<f32>";
+
+    fn words(self) -> Vec<u32> {
+        self.map(f32::to_bits).to_vec()
+    }
+}
+
+impl Words for [u32; 4] {
+    const WGSL: &'static str = "vec4<u32>";
+
+    fn words(self) -> Vec<u32> {
+        self.to_vec()
+    }
+}
+
+impl Words for [[f32; 4]; 6] {
+    const WGSL: &'static str = "array<vec4<f32>, 6>";
+
+    fn words(self) -> Vec<u32> {
+        self.as_flattened().iter().map(|number| number.to_bits()).collect()
+    }
+}
+
+/// Declares a struct that implements [`Uniform`]; its WGSL twin stands in the shader that reads it.
+#[macro_export]
+macro_rules! uniform {
+    ($(#[$meta:meta])* $vis:vis struct $Struct:ident {
+        $( $(#[$field_meta:meta])* $field_vis:vis $field:ident: $Type:ty, )*
+    }) => {
+        $(#[$meta])*
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        $vis struct $Struct { $( $(#[$field_meta])* $field_vis $field: $Type, )* }
+
+        impl $crate::uniform::Uniform for $Struct {
+            const NAME: &'static str = stringify!($Struct);
+
+            fn fields() -> Vec<(&'static str, &'static str)> {
+                vec![$( (stringify!($field), <$Type as $crate::uniform::Words>::WGSL) ),*]
+            }
+
+            fn words(&self) -> Vec<u32> {
+                [$( $crate::uniform::Words::words(self.$field) ),*].concat()
+            }
+        }
+    };
+}

@@ -1,0 +1,137 @@
+//! Plants for other programs: as instances of a mesh, as a table, as a cloud of points.
+//!
+//! The extension says which. A `.glb` has the axes and the origin of the exported ground, so that plants stand on it; a
+//! `.ply` the same with z up and y north; a `.csv` the coordinates of the CRS where there is one.
+
+mod cloud;
+mod instances;
+mod table;
+
+use std::borrow::Cow;
+use std::path::Path;
+use std::sync::Arc;
+
+use super::vector::place::Place;
+use super::{Export, Finished, Mesh};
+use weald_core::error::Error;
+use weald_core::landscape::Landscape;
+use weald_core::parameter::{Colour, LayerName, Nested};
+use weald_core::plants::Plants;
+use weald_io::Part;
+use weald_plants::Fractal;
+use weald_plants::Vegetation;
+use weald_plants::ifs::Ifs;
+use weald_plants::ifs::foliage::{self, Foliage, Habit, Texture};
+
+weald_core::parameters! {
+    /// The plants that a step `scatter` set.
+    pub struct PlantSet {
+        /// Name of the plants.
+        of: LayerName = LayerName::of("plants");
+        /// The keys of the export `mesh` on which the plants are to stand, as in `on = { error = 2 }`: the mesh is off
+        /// the ground by its error. Without it, plants stand on the ground itself.
+        on: Option<Nested<Mesh>> = None;
+        /// Fronds or planes of a plant. By default 8 fronds for a fern, 3 planes that cross for other flat shapes, and
+        /// shapes of space alone. For a `.glb`.
+        fronds: Option<u32> = None, range 1..=64;
+        /// Height of the picture on the leaves. For a `.glb`.
+        texture: u32 = 512, range 32..=4096, unit "px";
+        /// Colour of leaves. For a `.glb`.
+        leaf: Colour = Colour(foliage::Colours::USUAL.leaf);
+        /// Colour of stems. For a `.glb`.
+        stem: Colour = Colour(foliage::Colours::USUAL.stem);
+    }
+}
+
+/// Most plants of which a file of nodes is written: some 20 MB.
+pub(super) const MOST_NODES: usize = 100_000;
+
+/// What an extension stands for.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Kind {
+    Instances,
+    Table,
+    Cloud,
+}
+
+impl Export for PlantSet {
+    fn reads(&self) -> Vec<String> {
+        self.on.iter().flat_map(|Nested(mesh)| mesh.reads()).collect()
+    }
+
+    fn optional(&self) -> Vec<String> {
+        self.on.iter().flat_map(|Nested(mesh)| mesh.optional()).collect()
+    }
+
+    fn plants(&self) -> Vec<String> {
+        vec![self.of.0.clone()]
+    }
+
+    fn notes(&self, finished: &Finished<'_>) -> Vec<String> {
+        let Ok(plants) = finished.landscape.plants(&self.of.0) else { return Vec::new() };
+        let none = plants.plants.is_empty().then(|| {
+            format!(
+                "there is not one plant of `{}`; milder conditions in its `scatter` step may help",
+                self.of.0
+            )
+        });
+        let many = (plants.plants.len() > MOST_NODES).then(|| {
+            format!(
+                "more than {MOST_NODES} plants: a `.glb` has instances, and no file of nodes lies beside it"
+            )
+        });
+        none.into_iter().chain(many).collect()
+    }
+
+    fn parts(&self, finished: &Finished<'_>, file: &Path) -> Result<Vec<Part>, Error> {
+        let plants = &self.standing(finished.landscape)?;
+        match kind(file) {
+            Kind::Instances => self.meshes(finished, plants),
+            Kind::Table => Ok(vec![Part::own(table::of(plants, Place(&finished.landscape.domain)))]),
+            Kind::Cloud => Ok(vec![Part::own(cloud::of(plants, finished))]),
+        }
+    }
+}
+
+fn kind(file: &Path) -> Kind {
+    let is = |wanted: &str| file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case(wanted));
+    match (is("csv"), is("ply")) {
+        (true, _) => Kind::Table,
+        (_, true) => Kind::Cloud,
+        _ => Kind::Instances,
+    }
+}
+
+impl PlantSet {
+    /// The file with instances and, beside it, that with nodes.
+    fn meshes(&self, finished: &Finished<'_>, plants: &Arc<Plants>) -> Result<Vec<Part>, Error> {
+        let fractal = finished.landscape.fractal(&plants.kind)?;
+        let model = self.model(&fractal.ifs);
+        let scene = instances::Scene { name: &self.of.0, model: &model, plants: &plants.plants, finished };
+        let mut parts = vec![Part::own(scene.instanced()?)];
+        if plants.plants.len() <= MOST_NODES {
+            parts.push(Part::sibling(".nodes.glb", scene.nodes()?));
+        }
+        Ok(parts)
+    }
+
+    /// The plants, on the mesh that is asked for.
+    fn standing(&self, landscape: &Landscape) -> Result<Arc<Plants>, Error> {
+        let plants = landscape.plants(&self.of.0)?;
+        let Some(Nested(mesh)) = &self.on else { return Ok(plants.clone()) };
+        let places: Vec<_> = plants.plants.iter().map(|plant| [plant.place[0], plant.place[1]]).collect();
+        let mut plants = Plants::clone(plants);
+        for (plant, height) in plants.plants.iter_mut().zip(mesh.heights(landscape, &places)?) {
+            plant.place[2] = height.unwrap_or(plant.place[2]);
+        }
+        Ok(Arc::new(plants))
+    }
+
+    fn model(&self, ifs: &Ifs) -> instances::Model {
+        let colours = foliage::Colours { leaf: self.leaf.0, stem: self.stem.0 };
+        instances::Model {
+            foliage: Foliage::of(ifs, Habit::of(ifs, self.fronds)),
+            texture: Texture::of(ifs, self.texture as usize, colours),
+        }
+    }
+}

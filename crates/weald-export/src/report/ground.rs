@@ -1,0 +1,92 @@
+//! What the page knows of the ground: its heights, and where water runs on it, which it works out for itself where
+//! the recipe did not.
+
+use super::figures::{count, number};
+use weald_core::error::Error;
+use weald_core::landscape::Landscape;
+use weald_core::parameter::LayerName;
+use weald_engine::Job;
+use weald_engine::step::Step;
+use weald_land::analyse::flow::FlowStep;
+use weald_land::analyse::rivers::{Rivers, RiversStep};
+
+/// Layers that the step `flow` writes.
+const FLOW: [&str; 2] = ["flow_direction", "accumulation"];
+
+/// Layers that [`Rivers::of`] needs beside them.
+const RIVERS: [&str; 5] = ["river", "river_width", "river_depth", "river_level", "discharge"];
+const ORDER: &str = "strahler";
+const LAKE: &str = "lake";
+
+/// The ground with the water on it.
+pub(super) struct Ground {
+    /// Heights, flow and rivers.
+    pub(super) land: Landscape,
+    /// Name of the layer of heights.
+    pub(super) height: String,
+    /// Heights of all cells with data, lowest first.
+    pub(super) sorted: Vec<f32>,
+    /// All rivers.
+    pub(super) rivers: Rivers,
+    /// Whether flow and rivers are the recipe's own.
+    pub(super) from_the_recipe: bool,
+}
+
+impl Ground {
+    pub(super) fn of(landscape: &Landscape, height: &str) -> Result<Self, Error> {
+        let mut land = Landscape::new(landscape.domain.clone());
+        let field = landscape.field(height)?;
+        land.insert(height, "m", field.clone());
+        let own = FLOW.iter().chain(&RIVERS).chain([&ORDER]);
+        let from_the_recipe = own.clone().all(|name| landscape.layer(name).is_ok());
+        if from_the_recipe {
+            for name in own.chain([&LAKE]) {
+                if let Ok(layer) = landscape.layer(name) {
+                    land.insert(name, &layer.unit, layer.field.clone());
+                }
+            }
+        } else {
+            let of = LayerName::of(height);
+            FlowStep { of: of.clone(), ..FlowStep::default() }.run(&mut land, &Job::unwatched(0))?;
+            RiversStep { of, ..RiversStep::default() }.run(&mut land, &Job::unwatched(0))?;
+        }
+        let rivers = Rivers::of(&land)?;
+        let has_data = |cell: usize| land.domain.land.as_ref().is_none_or(|mask| mask.is_land_at(cell));
+        let cells = field.values().iter().enumerate().filter(|&(cell, _)| has_data(cell));
+        let mut sorted: Vec<f32> = cells.map(|(_, &height)| height).collect();
+        sorted.sort_unstable_by(f32::total_cmp);
+        Ok(Self { land, height: height.to_owned(), sorted, rivers, from_the_recipe })
+    }
+
+    /// How the water was led, for captions.
+    pub(super) fn source(&self) -> &'static str {
+        if self.from_the_recipe {
+            "Flow and rivers are those of the recipe."
+        } else {
+            "The recipe has no steps <code>flow</code> and <code>rivers</code>: the page led water over the ground with \
+             their defaults."
+        }
+    }
+}
+
+/// The land in one line.
+pub(super) fn in_words(landscape: &Landscape, height: &str) -> Result<String, Error> {
+    let domain = &landscape.domain;
+    let (columns, rows) = (domain.size.columns, domain.size.rows);
+    let kilometres = |cells: usize| number(cells as f64 * domain.cell / 1000.0);
+    let (low, high) = landscape.field(height)?.range(domain.land.as_ref()).unwrap_or((0.0, 0.0));
+    let missing = domain.size.cells() - domain.land_cells();
+    let without = if missing == 0 {
+        String::new()
+    } else {
+        format!(", {} of them without data", count(missing as u64))
+    };
+    Ok(format!(
+        "{} × {} km in {columns} × {rows} cells of {} m{without}; heights from {} to {} m.",
+        kilometres(columns),
+        kilometres(rows),
+        number(domain.cell),
+        number(f64::from(low)),
+        number(f64::from(high)),
+    ))
+}

@@ -1,0 +1,133 @@
+//! Terrain3D for Godot: heights in metres as EXR, or as R16 with their range, and what to enter in its importer.
+//!
+//! The importer cuts an image of any size into regions and pads the last ones. It stores metres as they are in an
+//! EXR; for a number `n` of an R16 file
+//!
+//! height = low + n / 65535 · (high − low), with `r16_range` = (low, high).
+//!
+//! All vertices are `vertex_spacing` apart, so cells are kept as they are, or brought to another spacing.
+//!
+//! Source: Terrain3D documentation: Importing & Exporting Data, Heightmaps (scaling); at most 32 × 32 regions.
+
+use std::path::Path;
+
+use serde_json::{Value, json};
+
+use super::terrain_tiles::{description, extension, extent, little_endian, no_data_note, source};
+use super::vertices::Vertices;
+use super::{Export, ExportEntry, Finished};
+use weald_core::error::Error;
+use weald_core::grid::Size;
+use weald_core::parameter::LayerName;
+use weald_io::{Part, Raster, exr};
+
+weald_core::parameters! {
+    /// Terrain for Terrain3D.
+    pub struct Terrain3d {
+        /// Layer of heights, in metres.
+        of: LayerName = LayerName::of("height");
+        /// Vertices a side of a region: 64, 128, 256, 512, 1024 or 2048. By default 256, or the first with which 32
+        /// regions are enough.
+        region_size: Option<u32> = None, range 64..=2048;
+        /// Distance of vertices. By default the side of a cell.
+        spacing: Option<f64> = None, range 0.01..=1.0e5, unit "m";
+    }
+}
+
+/// The entry in the registry of exports.
+pub(super) const ENTRY: ExportEntry = ExportEntry::of::<Terrain3d>(
+    "terrain3d",
+    &["exr", "r16"],
+    "terrain for Terrain3D in Godot: heights in metres or as 16 bits, and what its importer asks for",
+    "Terrain3D documentation, Importing & Exporting Data",
+);
+
+const REGION_SIZES: [u32; 6] = [64, 128, 256, 512, 1024, 2048];
+const USUAL_REGION: u32 = 256;
+/// Most regions a side.
+const REGIONS: usize = 32;
+const GREATEST: f64 = 65535.0;
+
+impl Export for Terrain3d {
+    fn reads(&self) -> Vec<String> {
+        vec![self.of.0.clone()]
+    }
+
+    fn faults(&self) -> Vec<String> {
+        let size = self.region_size.filter(|size| !REGION_SIZES.contains(size)).map(|size| {
+            format!("`region_size` is {size}, but regions have {REGION_SIZES:?} vertices a side; choose one of these")
+        });
+        size.into_iter().collect()
+    }
+
+    fn notes(&self, finished: &Finished<'_>) -> Vec<String> {
+        no_data_note(finished, "").into_iter().collect()
+    }
+
+    fn parts(&self, finished: &Finished<'_>, file: &Path) -> Result<Vec<Part>, Error> {
+        let domain = &finished.landscape.domain;
+        let (size, spacing) = self.size(finished)?;
+        let region = self.region(size)?;
+        let heights = Vertices::of(domain, finished.landscape.field(&self.of.0)?, size)?;
+        let (low, high) = heights.range();
+        let bytes = if extension(file) == "exr" {
+            exr::encode_for_godot(&Raster { land: heights.land, ..Raster::from(heights.field) })?
+        } else {
+            let per_metre = if high > low { GREATEST / (high - low) } else { 0.0 };
+            let number = |index| ((heights.value(index, low) - low) * per_metre).round() as u16;
+            little_endian(&(0..size.cells()).map(number).collect::<Vec<_>>())
+        };
+        let json = self.described(finished, &Import { size, spacing, region, range: (low, high) });
+        Ok(vec![Part::own(bytes), description(&json)])
+    }
+}
+
+/// What the importer is told.
+struct Import {
+    size: Size,
+    spacing: f64,
+    region: u32,
+    range: (f64, f64),
+}
+
+impl Terrain3d {
+    /// Vertices, and how far they are apart: the nearest to what is asked for that ends at the last cell of the
+    /// longer side.
+    fn size(&self, finished: &Finished<'_>) -> Result<(Size, f64), Error> {
+        let domain = &finished.landscape.domain;
+        let Some(wanted) = self.spacing else { return Ok((domain.size, domain.cell)) };
+        let [width, length] = extent(finished);
+        let longer = width.max(length);
+        let spacing = longer / (longer / wanted).round().max(1.0);
+        let vertices = |metres: f64| (metres / spacing).round().max(1.0) as usize + 1;
+        Ok((Size::new(vertices(width), vertices(length))?, spacing))
+    }
+
+    fn region(&self, size: Size) -> Result<u32, Error> {
+        let longer = size.columns.max(size.rows);
+        let holds = |region: &u32| *region as usize * REGIONS >= longer;
+        let fitting = REGION_SIZES.into_iter().filter(|&region| region >= USUAL_REGION).find(holds);
+        self.region_size.or(fitting).filter(holds).ok_or_else(|| {
+            Error::Limit(format!(
+                "terrain3d: {size} vertices need more than {REGIONS} regions a side; choose a larger `region_size` or \
+                 `spacing`"
+            ))
+        })
+    }
+
+    fn described(&self, finished: &Finished<'_>, import: &Import) -> Value {
+        let Import { size, spacing, region, range: (low, high) } = import;
+        json!({
+            "for": "Terrain3D for Godot",
+            "vertex_spacing": spacing,
+            "region_size": region,
+            "regions": [size.columns.div_ceil(*region as usize), size.rows.div_ceil(*region as usize)],
+            "import_scale": 1.0,
+            "height_offset": 0.0,
+            "r16_range": [low, high],
+            "r16_size": [size.columns, size.rows],
+            "rows": "north to south, +X east, +Z south",
+            "source": source(finished, &self.of),
+        })
+    }
+}

@@ -1,0 +1,136 @@
+//! Lines and areas with properties as `GeoJSON`.
+//!
+//! Butler et al., "The `GeoJSON` format", RFC 7946 (2016), doi:10.17487/RFC7946: shores run anticlockwise, islands
+//! clockwise, and rings end where they begin. RFC 7946 knows longitude and latitude in WGS 84 alone; for another CRS the
+//! file has the member `crs` of the format's first edition (2008), which GDAL and what stands on it read. `null` there
+//! says that there is no CRS.
+
+use serde_json::{Map, Value, json};
+
+use super::place::Place;
+use crate::Finished;
+
+/// Longitude and latitude in WGS 84, which needs no mention.
+const WGS_84: u32 = 4326;
+
+/// A point: east, north and height in metres.
+pub(super) type Position = [f64; 3];
+
+/// A line or areas with what is known of them.
+#[derive(Clone, Debug)]
+pub(super) struct Feature {
+    /// Its number.
+    pub(super) id: u64,
+    /// Where it is.
+    pub(super) geometry: Geometry,
+    /// What is known of it.
+    pub(super) properties: Map<String, Value>,
+}
+
+/// The shape of a feature.
+#[derive(Clone, Debug)]
+pub(super) enum Geometry {
+    /// A line of two or more points.
+    Line(Vec<Position>),
+    /// Areas, each a shore and islands.
+    Areas(Vec<Vec<Vec<Position>>>),
+}
+
+/// A file of features, one a line.
+pub(super) fn write(name: &str, place: Place<'_>, features: &[Feature], finished: &Finished<'_>) -> Vec<u8> {
+    let mut members =
+        vec!["\"type\": \"FeatureCollection\"".to_owned(), format!("\"name\": {}", json!(name))];
+    if place.epsg() != Some(WGS_84) {
+        members.push(format!("\"crs\": {}", crs(place)));
+    }
+    members.push(format!("\"weald\": {}", provenance(finished)));
+    let features: Vec<_> = features.iter().map(|feature| feature.json(place.digits()).to_string()).collect();
+    members.push(format!("\"features\": [\n{}\n]", features.join(",\n")));
+    let text = format!("{{\n{}\n}}\n", members.join(",\n"));
+    text.into_bytes()
+}
+
+fn crs(place: Place<'_>) -> Value {
+    let Some(code) = place.epsg() else { return Value::Null };
+    json!({ "type": "name", "properties": { "name": format!("urn:ogc:def:crs:EPSG::{code}") } })
+}
+
+fn provenance(finished: &Finished<'_>) -> Value {
+    json!({
+        "version": env!("CARGO_PKG_VERSION"),
+        "recipe": finished.recipe,
+        "recipe_blake3": finished.hash,
+        "seed": finished.seed,
+    })
+}
+
+impl Feature {
+    fn json(&self, digits: u32) -> Value {
+        let position = |&[x, y, z]: &Position| json!([rounded(x, digits), rounded(y, digits), rounded(z, 3)]);
+        let geometry = match &self.geometry {
+            Geometry::Line(points) => {
+                json!({ "type": "LineString", "coordinates": points.iter().map(position).collect::<Vec<_>>() })
+            }
+            Geometry::Areas(areas) => {
+                let ring = |(at, ring): (usize, &Vec<Position>)| {
+                    wound(ring, at == 0).iter().map(position).collect::<Vec<_>>()
+                };
+                let area =
+                    |rings: &Vec<Vec<Position>>| rings.iter().enumerate().map(ring).collect::<Vec<_>>();
+                json!({ "type": "MultiPolygon", "coordinates": areas.iter().map(area).collect::<Vec<_>>() })
+            }
+        };
+        json!({ "type": "Feature", "id": self.id, "properties": self.properties, "geometry": geometry })
+    }
+}
+
+/// A closed ring that runs anticlockwise, or clockwise.
+fn wound(ring: &[Position], anticlockwise: bool) -> Vec<Position> {
+    let mut ring = ring.to_vec();
+    if ring.first() != ring.last() {
+        ring.extend(ring.first().copied());
+    }
+    if (area(&ring) > 0.0) != anticlockwise {
+        ring.reverse();
+    }
+    ring
+}
+
+/// The area within a closed ring, negative where it runs clockwise.
+fn area(ring: &[Position]) -> f64 {
+    // From the first corner, because coordinates of a CRS are large.
+    let Some(&[x, y, _]) = ring.first() else { return 0.0 };
+    let cross = |pair: &[Position]| (pair[0][0] - x) * (pair[1][1] - y) - (pair[1][0] - x) * (pair[0][1] - y);
+    0.5 * ring.windows(2).map(cross).sum::<f64>()
+}
+
+/// A number to that many digits behind the point, in as few digits as tell it.
+pub(crate) fn rounded(number: f64, digits: u32) -> f64 {
+    let scale = 10_f64.powi(digits as i32);
+    // Adding 0 makes a plain 0 of -0.
+    libm::round(number * scale) / scale + 0.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_short_but_true_to_the_millimetre() {
+        assert_eq!(json!(rounded(730_900.750_499_999, 3)).to_string(), "730900.75");
+        assert_eq!(json!(rounded(-84.123_456_789_9, 8)).to_string(), "-84.12345679");
+        assert_eq!(json!(rounded(-0.000_01, 3)).to_string(), "0.0");
+    }
+
+    #[test]
+    fn shores_run_anticlockwise_and_islands_clockwise_however_they_came() {
+        let square = vec![[0.0, 0.0, 5.0], [0.0, 2.0, 5.0], [2.0, 2.0, 5.0], [2.0, 0.0, 5.0]];
+        let mut turned = square.clone();
+        turned.reverse();
+        for ring in [&square, &turned] {
+            let (shore, island) = (wound(ring, true), wound(ring, false));
+            assert_eq!((area(&shore), area(&island)), (4.0, -4.0));
+            assert_eq!((shore.len(), shore[0]), (5, shore[4]));
+        }
+    }
+}

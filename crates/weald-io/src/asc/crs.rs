@@ -1,0 +1,225 @@
+//! The CRS of a `.prj` file: ESRI's well-known text of UTM zones and of longitude and latitude.
+//!
+//! Names are those of ESRI's projection engine, by which GDAL and others find the EPSG code again.
+
+use std::fmt::Write;
+
+use super::super::Fault;
+use super::super::geotiff::keys_by_code;
+use weald_core::domain::{GeoKeys, Georeference};
+
+/// A geographic CRS and the EPSG codes of the UTM zones on it.
+struct Datum {
+    /// Name between `GCS_` or `D_` and the end.
+    name: &'static str,
+    /// Name before `_UTM_Zone_`.
+    short: &'static str,
+    /// Name, semi-major axis and inverse flattening.
+    spheroid: &'static str,
+    epsg: u32,
+    /// Codes of zones are this and the number of the zone.
+    north: (u32, std::ops::RangeInclusive<u32>),
+    south: Option<u32>,
+}
+
+const DATUMS: [Datum; 3] = [
+    Datum {
+        name: "WGS_1984",
+        short: "WGS_1984",
+        spheroid: "\"WGS_1984\",6378137.0,298.257223563",
+        epsg: 4326,
+        north: (32600, 1..=60),
+        south: Some(32700),
+    },
+    Datum {
+        name: "North_American_1983",
+        short: "NAD_1983",
+        spheroid: "\"GRS_1980\",6378137.0,298.257222101",
+        epsg: 4269,
+        north: (26900, 1..=23),
+        south: None,
+    },
+    Datum {
+        name: "ETRS_1989",
+        short: "ETRS_1989",
+        spheroid: "\"GRS_1980\",6378137.0,298.257222101",
+        epsg: 4258,
+        north: (25800, 28..=38),
+        south: None,
+    },
+];
+
+/// A CRS that can be spelled.
+struct Crs {
+    epsg: u32,
+    datum: &'static Datum,
+    /// UTM zone and whether it is a northern one; `None` for longitude and latitude.
+    zone: Option<(u32, bool)>,
+}
+
+impl Crs {
+    fn of(epsg: u32) -> Option<Self> {
+        DATUMS.iter().find_map(|datum| {
+            let (north, zones) = &datum.north;
+            let zone_from = |base: u32| epsg.checked_sub(base).filter(|zone| zones.contains(zone));
+            let northern = zone_from(*north).map(|zone| Some((zone, true)));
+            let southern = || datum.south.and_then(zone_from).map(|zone| Some((zone, false)));
+            let geographic = (epsg == datum.epsg).then_some(None);
+            let zone = geographic.or(northern).or_else(southern)?;
+            Some(Self { epsg, datum, zone })
+        })
+    }
+
+    /// ESRI's text with the code at its end, as ArcGIS Pro writes it: without it GDAL knows the projection,
+    /// but no code.
+    fn wkt(&self) -> String {
+        let text = self.text();
+        let text = text.strip_suffix(']').expect("every text ends with a bracket");
+        format!("{text},AUTHORITY[\"EPSG\",\"{}\"]]", self.epsg)
+    }
+
+    fn text(&self) -> String {
+        let Datum { name, spheroid, .. } = self.datum;
+        let geographic = format!(
+            "GEOGCS[\"GCS_{name}\",DATUM[\"D_{name}\",SPHEROID[{spheroid}]],PRIMEM[\"Greenwich\",0.0],\
+             UNIT[\"Degree\",0.0174532925199433]]"
+        );
+        let Some((zone, is_northern)) = self.zone else { return geographic };
+        let mut wkt = format!("PROJCS[\"{}\",{geographic},PROJECTION[\"Transverse_Mercator\"]", self.name());
+        for (parameter, value) in [
+            ("False_Easting", 500_000.0),
+            ("False_Northing", if is_northern { 0.0 } else { 10_000_000.0 }),
+            ("Central_Meridian", f64::from(zone) * 6.0 - 183.0),
+            ("Scale_Factor", 0.9996),
+            ("Latitude_Of_Origin", 0.0),
+        ] {
+            write!(wkt, ",PARAMETER[\"{parameter}\",{value:?}]").expect("memory takes every byte");
+        }
+        wkt + ",UNIT[\"Meter\",1.0]]"
+    }
+
+    /// ESRI's name.
+    fn name(&self) -> String {
+        match self.zone {
+            None => format!("GCS_{}", self.datum.name),
+            Some((zone, is_northern)) => {
+                format!("{}_UTM_Zone_{zone}{}", self.datum.short, if is_northern { 'N' } else { 'S' })
+            }
+        }
+    }
+}
+
+/// The EPSG codes that can be spelled.
+fn codes() -> impl Iterator<Item = u32> {
+    DATUMS.iter().flat_map(|datum| {
+        let (north, zones) = datum.north.clone();
+        let south = datum.south.into_iter().flat_map({
+            let zones = zones.clone();
+            move |south| zones.clone().map(move |zone| south + zone)
+        });
+        [datum.epsg].into_iter().chain(zones.map(move |zone| north + zone)).chain(south)
+    })
+}
+
+/// Whether the CRS of a place, if it has one, can stand in a `.prj` file.
+pub(crate) fn is_spelled(place: &Georeference) -> bool {
+    match place.epsg {
+        Some(epsg) => Crs::of(epsg).is_some(),
+        None => place.keys.is_none(),
+    }
+}
+
+/// The text of a `.prj` file.
+pub(super) fn wkt(place: &Georeference) -> Option<String> {
+    place.epsg.and_then(Crs::of).map(|crs| crs.wkt())
+}
+
+/// The CRS behind the text of a `.prj` file: its EPSG code, where it tells one, and GeoTIFF keys that say
+/// whether it counts in degrees or feet, where it does.
+pub(super) fn read(text: &str) -> Result<(Option<u32>, Option<GeoKeys>), Fault> {
+    let text = text.trim();
+    let epsg = authority(text).or_else(|| by_name(text));
+    if epsg.is_some_and(|code| Crs::of(code).is_some()) {
+        return Ok((epsg, None));
+    }
+    let kind = text.split('[').next().unwrap_or_default().trim().to_ascii_uppercase();
+    match kind.as_str() {
+        "GEOGCS" | "GEOGCRS" | "GEODCRS" => Ok((epsg, Some(keys_by_code(epsg, true, 1.0)))),
+        "PROJCS" | "PROJCRS" => Ok((epsg, Some(keys_by_code(epsg, false, metres_a_unit(text)?)))),
+        _ => Err(Fault::damaged(format!(
+            "the .prj beside it begins with {kind:?}; PROJCS or GEOGCS, a CRS as well-known text, is read: \
+             gdalsrsinfo -o wkt_esri EPSG:32633, or remove the file"
+        ))),
+    }
+}
+
+/// The code of the outermost bracket, as `AUTHORITY["EPSG","32616"]` or `ID["EPSG",32616]`.
+fn authority(text: &str) -> Option<u32> {
+    let inner = text.strip_suffix(']')?.trim_end().strip_suffix(']')?;
+    let (before, last) = inner.rsplit_once('[')?;
+    let word = before.rsplit([',', ' ', '\n', '\r', '\t']).next()?;
+    let (authority, code) = last.split_once(',')?;
+    let is_epsg = ["AUTHORITY", "ID"].contains(&word) && authority.trim() == "\"EPSG\"";
+    is_epsg.then(|| code.trim().trim_matches('"').parse().ok())?
+}
+
+/// The code of the CRS that has ESRI's name.
+fn by_name(text: &str) -> Option<u32> {
+    let name = text.split('"').nth(1)?;
+    codes().find(|&code| Crs::of(code).is_some_and(|crs| crs.name() == name))
+}
+
+/// Metres in the unit of a projected CRS: the last one in its text.
+fn metres_a_unit(text: &str) -> Result<f64, Fault> {
+    let number = text.rsplit_once("UNIT[").and_then(|(_, unit)| {
+        let number = unit.split(',').nth(1)?.split(']').next()?;
+        number.trim().parse::<f64>().ok()
+    });
+    let near = |metres: f64| number.is_some_and(|number| (number / metres - 1.0).abs() < 1e-8);
+    [1.0, 0.3048, 1200.0 / 3937.0].into_iter().find(|metres| near(*metres)).ok_or_else(|| {
+        let shown = number.map_or("none".to_owned(), |number| number.to_string());
+        Fault::damaged(format!(
+            "the .prj beside it gives {shown} as metres in a unit; 1 (metre), 0.3048 and 1200/3937 (feet) are \
+             read: gdalwarp to a CRS in metres"
+        ))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_spelled_code_is_found_by_its_name_and_by_itself() {
+        assert_eq!(codes().count(), 3 + 120 + 23 + 11);
+        for code in codes() {
+            let crs = Crs::of(code).expect("listed");
+            for text in [crs.text(), crs.wkt()] {
+                assert_eq!(read(&text), Ok((Some(code), None)), "{text}");
+            }
+        }
+        assert!(Crs::of(32661).is_none() && Crs::of(25827).is_none(), "a pole and a zone beyond Europe");
+    }
+
+    #[test]
+    fn the_outermost_authority_is_the_code() {
+        let inner = "GEOGCS[\"WGS 84\",AUTHORITY[\"EPSG\",\"4326\"]]";
+        let outer = format!("PROJCS[\"a\",{inner},UNIT[\"metre\",1],AUTHORITY[\"EPSG\",\"2056\"]]");
+        assert_eq!(read(&outer).map(|read| read.0), Ok(Some(2056)));
+        let without = format!("PROJCS[\"a\",{inner},UNIT[\"metre\",1]]");
+        assert_eq!(read(&without).map(|read| read.0), Ok(None));
+        assert_eq!(authority("PROJCRS[\"a\",LENGTHUNIT[\"metre\",1],\n    ID[\"EPSG\",32616]]"), Some(32616));
+    }
+
+    #[test]
+    fn degrees_and_feet_are_told_without_a_code() {
+        let degrees = read("GEOGCS[\"GCS_Somewhere\",UNIT[\"Degree\",0.0174532925199433]]").expect("reads");
+        let place = |keys| Georeference { epsg: None, origin: [0.0; 2], pixel: [1.0; 2], keys };
+        assert!(place(degrees.1).is_geographic());
+        let feet = |number: &str| read(&format!("PROJCS[\"x\",UNIT[\"Foot_US\",{number}]]"));
+        let (_, keys) = feet("0.3048006096012192").expect("feet");
+        assert_eq!(super::super::super::geotiff::metres_per_unit(keys.as_ref()), Ok(1200.0 / 3937.0));
+        assert!(feet("1000.0").is_err_and(|fault| fault.to_string().contains("1000 as metres")));
+        assert!(read("hello").is_err_and(|fault| fault.to_string().contains("begins with \"HELLO\"")));
+    }
+}

@@ -1,0 +1,70 @@
+//! Attributes: what is said of a variable or of a whole file.
+
+/// The value of an attribute.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Attribute {
+    /// Text.
+    Text(String),
+    /// One number of 32 bits.
+    Float(f32),
+    /// Numbers.
+    Doubles(Vec<f64>),
+    /// Whole numbers.
+    Integers(Vec<i32>),
+}
+
+impl From<&str> for Attribute {
+    fn from(text: &str) -> Self {
+        Self::Text(text.to_owned())
+    }
+}
+
+impl From<String> for Attribute {
+    fn from(text: String) -> Self {
+        Self::Text(text)
+    }
+}
+
+impl From<f64> for Attribute {
+    fn from(number: f64) -> Self {
+        Self::Doubles(vec![number])
+    }
+}
+
+/// Attributes in the order of the file.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Attributes(pub(crate) Vec<(String, Attribute)>);
+
+impl Attributes {
+    /// Adds one.
+    pub fn add(&mut self, name: &str, value: impl Into<Attribute>) {
+        self.0.push((name.to_owned(), value.into()));
+    }
+
+    pub fn get(&self, name: &str) -> Option<&Attribute> {
+        self.0.iter().find(|(known, _)| known == name).map(|(_, value)| value)
+    }
+
+    /// The text of that name, without the zeros that some writers end it with.
+    pub fn text(&self, name: &str) -> Option<&str> {
+        match self.get(name)? {
+            Attribute::Text(text) => Some(text.trim_end_matches('\0')),
+            _ => None,
+        }
+    }
+
+    /// The numbers of that name.
+    pub fn numbers(&self, name: &str) -> Option<Vec<f64>> {
+        match self.get(name)? {
+            Attribute::Text(_) => None,
+            Attribute::Float(number) => Some(vec![f64::from(*number)]),
+            Attribute::Doubles(numbers) => Some(numbers.clone()),
+            Attribute::Integers(numbers) => Some(numbers.iter().map(|&number| f64::from(number)).collect()),
+        }
+    }
+
+    /// The first number of that name.
+    pub fn number(&self, name: &str) -> Option<f64> {
+        self.numbers(name)?.first().copied()
+    }
+}

@@ -1,0 +1,207 @@
+//! The coordinate reference system: attributes of `spatial_ref` and of the axes, written and read.
+
+use super::super::Fault;
+use super::super::geotiff::{keys_by_code, metres_per_unit};
+use super::attribute::{Attribute, Attributes};
+use super::dataset::Axis;
+use super::{GEO_TRANSFORM, mapping};
+use weald_core::domain::{GeoKeys, Georeference};
+
+/// Attributes with the `GeoTIFF` keys of a raster that came from such a file.
+const KEYS: [&str; 3] = ["GeoKeyDirectory", "GeoDoubleParams", "GeoAsciiParams"];
+
+/// What the user is told of another CRS.
+pub const UNTOLD: &str =
+    "the CRS has no EPSG code with a definition, so that only Weald finds it; .tif holds it for all";
+
+/// Whether other programs find the CRS in a file of arrays: it has an EPSG code with a known definition.
+pub fn is_told_to_all(place: &Georeference) -> bool {
+    place.epsg.is_some_and(|code| mapping::wkt_of(code).is_some())
+}
+
+/// The attributes of the variable `spatial_ref`.
+pub(super) fn attributes(place: &Georeference) -> Attributes {
+    let mut attributes = Attributes::default();
+    if let Some(code) = place.epsg {
+        let wkt = mapping::wkt_of(code);
+        attributes.0.extend(wkt.and_then(mapping::cf_attributes).unwrap_or_default().0);
+        for (name, wkt) in ["crs_wkt", "spatial_ref"].into_iter().zip(wkt.into_iter().cycle()) {
+            attributes.add(name, wkt);
+        }
+        attributes.add("epsg_code", format!("EPSG:{code}"));
+    }
+    let ([west, north], [width, height]) = (place.origin, place.pixel);
+    attributes.add(GEO_TRANSFORM, format!("{west:?} {width:?} 0 {north:?} 0 {:?}", -height));
+    if let Some(keys) = &place.keys {
+        let directory = keys.directory.iter().map(|&number| i32::from(number)).collect();
+        attributes.0.push((KEYS[0].to_owned(), Attribute::Integers(directory)));
+        attributes.0.push((KEYS[1].to_owned(), Attribute::Doubles(keys.doubles.clone())));
+        attributes.add(KEYS[2], keys.ascii.as_str());
+    }
+    attributes
+}
+
+/// The attributes of a coordinate.
+pub(super) fn axis_attributes(axis: Axis, place: Option<&Georeference>) -> Attributes {
+    let is_geographic = place.is_some_and(Georeference::is_geographic);
+    let (letter, standard, long) = match (axis, is_geographic) {
+        (Axis::X, false) => ("X", "projection_x_coordinate", "easting of the centre of the cell"),
+        (Axis::Y, false) => ("Y", "projection_y_coordinate", "northing of the centre of the cell"),
+        (Axis::X, true) => ("X", "longitude", "longitude of the centre of the cell"),
+        (Axis::Y, true) => ("Y", "latitude", "latitude of the centre of the cell"),
+    };
+    let degrees = if axis == Axis::X { "degrees_east" } else { "degrees_north" };
+    let units = if is_geographic { degrees.to_owned() } else { length(place) };
+    let mut attributes = Attributes::default();
+    attributes.add("axis", letter);
+    attributes.add("standard_name", standard);
+    attributes.add("long_name", long);
+    attributes.add("units", units);
+    attributes
+}
+
+/// The unit of a projected CRS, as UDUNITS names it.
+fn length(place: Option<&Georeference>) -> String {
+    let metres = metres_per_unit(place.and_then(|place| place.keys.as_ref())).unwrap_or(1.0);
+    let named = LENGTHS.iter().find(|(_, known)| *known == metres).map(|(name, _)| (*name).to_owned());
+    named.unwrap_or_else(|| format!("{metres:?} m"))
+}
+
+/// Units of length and their metres, by names that UDUNITS knows.
+const LENGTHS: [(&str, f64); 13] = [
+    ("m", 1.0),
+    ("international_foot", 0.3048),
+    ("US_survey_foot", 1200.0 / 3937.0),
+    ("km", 1000.0),
+    ("metre", 1.0),
+    ("meter", 1.0),
+    ("metres", 1.0),
+    ("meters", 1.0),
+    ("kilometre", 1000.0),
+    ("kilometer", 1000.0),
+    ("foot", 0.3048),
+    ("feet", 0.3048),
+    ("ft", 0.3048),
+];
+
+/// What the unit of a coordinate counts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Unit {
+    /// Lengths, of so many metres.
+    Metres(f64),
+    /// Degrees.
+    Degrees,
+    /// Nothing is said.
+    Unsaid,
+}
+
+impl Unit {
+    /// # Errors
+    /// [`Fault::Damaged`] naming a unit that is neither a length nor degrees.
+    pub(super) fn of(attributes: &Attributes) -> Result<Self, Fault> {
+        let text = attributes.text("units").unwrap_or_default().trim();
+        if text.starts_with("degree") {
+            return Ok(Self::Degrees);
+        }
+        if ["", "-", "1"].contains(&text) {
+            return Ok(Self::Unsaid);
+        }
+        let named = LENGTHS.iter().find(|(name, _)| *name == text).map(|(_, metres)| *metres);
+        let counted = || text.strip_suffix(" m").and_then(|number| number.parse::<f64>().ok());
+        let metres = named.or_else(counted).filter(|metres| *metres > 0.0 && metres.is_finite());
+        metres.map(Self::Metres).ok_or_else(|| {
+            Fault::damaged(format!(
+                "coordinates in {text:?}; metres, kilometres, feet (m, km, foot, US_survey_foot) and degrees \
+                 are read"
+            ))
+        })
+    }
+}
+
+/// What a grid mapping says of the CRS.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Crs {
+    pub(super) epsg: Option<u32>,
+    pub(super) keys: Option<GeoKeys>,
+    is_geographic: Option<bool>,
+    /// West, width, north, minus height.
+    pub(super) transform: Option<[f64; 4]>,
+}
+
+impl Crs {
+    pub(super) fn of(attributes: &Attributes) -> Self {
+        let wkt = ["crs_wkt", "spatial_ref"].iter().find_map(|name| attributes.text(name));
+        let code = |text: &str| text.trim().trim_start_matches("EPSG:").parse().ok();
+        let epsg = attributes.text("epsg_code").and_then(code);
+        let by_name = attributes.text("grid_mapping_name").map(|name| name == "latitude_longitude");
+        Self {
+            epsg: epsg.or_else(|| wkt.and_then(mapping::epsg_of)),
+            keys: keys(attributes),
+            is_geographic: wkt.map(mapping::is_geographic).or(by_name),
+            transform: attributes.text(GEO_TRANSFORM).and_then(transform),
+        }
+    }
+
+    /// The keys of a place whose CRS the code alone does not tell, for coordinates in that unit.
+    pub(super) fn keys_for(&self, unit: Unit) -> Option<GeoKeys> {
+        if self.keys.is_some() {
+            return self.keys.clone();
+        }
+        let bare = Georeference { epsg: self.epsg, origin: [0.0; 2], pixel: [1.0; 2], keys: None };
+        let is_geographic = self.is_geographic.unwrap_or(unit == Unit::Degrees);
+        let metres = if let Unit::Metres(metres) = unit { metres } else { 1.0 };
+        let is_told = bare.is_geographic() == is_geographic && (is_geographic || metres == 1.0);
+        (!is_told).then(|| keys_by_code(self.epsg, is_geographic, metres))
+    }
+}
+
+fn keys(attributes: &Attributes) -> Option<GeoKeys> {
+    let numbers = attributes.numbers(KEYS[0])?;
+    Some(GeoKeys {
+        directory: numbers.into_iter().map(|number| number as u16).collect(),
+        doubles: attributes.numbers(KEYS[1]).unwrap_or_default(),
+        ascii: attributes.text(KEYS[2]).unwrap_or_default().to_owned(),
+    })
+}
+
+/// GDAL's six numbers without those of rotation, which must be 0.
+fn transform(text: &str) -> Option<[f64; 4]> {
+    let numbers: Option<Vec<f64>> = text.split_whitespace().map(|number| number.parse().ok()).collect();
+    match numbers?.as_slice() {
+        &[west, width, 0.0, north, 0.0, minus_height] => Some([west, width, north, minus_height]),
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn units_of_coordinates_are_lengths_or_degrees() {
+        let unit = |text: &str| {
+            let mut attributes = Attributes::default();
+            attributes.add("units", text);
+            Unit::of(&attributes)
+        };
+        assert_eq!(unit("km"), Ok(Unit::Metres(1000.0)));
+        assert_eq!(unit("US_survey_foot"), Ok(Unit::Metres(1200.0 / 3937.0)));
+        assert_eq!(unit("201.168 m"), Ok(Unit::Metres(201.168)));
+        assert_eq!(unit("degrees_east"), Ok(Unit::Degrees));
+        assert_eq!(unit(""), Ok(Unit::Unsaid));
+        assert!(unit("rad").is_err_and(|fault| fault.to_string().contains("\"rad\"")));
+        assert!(unit("-2 m").is_err());
+    }
+
+    #[test]
+    fn keys_are_made_only_where_the_code_does_not_tell() {
+        let crs = |epsg, is_geographic| Crs { epsg: Some(epsg), is_geographic, ..Crs::default() };
+        assert_eq!(crs(4326, Some(true)).keys_for(Unit::Degrees), None);
+        assert_eq!(crs(32616, Some(false)).keys_for(Unit::Metres(1.0)), None);
+        // World Equidistant Cylindrical: projected, with a code among the geographic ones.
+        let keys = crs(4087, Some(false)).keys_for(Unit::Metres(1.0)).expect("made");
+        assert!(!keys.is_geographic());
+        let feet = crs(2264, Some(false)).keys_for(Unit::Metres(1200.0 / 3937.0)).expect("made");
+        assert_eq!(metres_per_unit(Some(&feet)), Ok(1200.0 / 3937.0));
+    }
+}

@@ -1,0 +1,192 @@
+//! The arrays and attributes of a file, ready to be packed as `NetCDF` or Zarr.
+
+use super::super::provenance;
+use super::attribute::{Attribute, Attributes};
+use super::crs;
+use super::names::{of_layer, udunits};
+use super::sheet::{Layer, Sheet};
+use super::{CELL, GRID_MAPPING};
+use weald_core::domain::Georeference;
+use weald_core::error::Error;
+use weald_core::grid::{Field, Mask, Size};
+
+/// All of a file.
+#[derive(Debug)]
+pub struct Dataset<'a> {
+    pub size: Size,
+    pub attributes: Attributes,
+    pub variables: Vec<Variable<'a>>,
+}
+
+/// One array.
+#[derive(Debug)]
+pub struct Variable<'a> {
+    pub name: String,
+    pub attributes: Attributes,
+    pub values: Values<'a>,
+}
+
+/// The numbers of an array, and by that its dimensions.
+#[derive(Debug)]
+pub enum Values<'a> {
+    /// A number without a dimension, there for its attributes.
+    Nothing,
+    /// Centres of the cells along an axis.
+    Along(Axis, Vec<f64>),
+    /// A number a cell, over (`y`, `x`); NaN without data.
+    Cells(Cells<'a>),
+}
+
+/// The values of a layer, in the order of the file's rows.
+#[derive(Clone, Copy, Debug)]
+pub struct Cells<'a> {
+    field: &'a Field,
+    land: Option<&'a Mask>,
+    is_south_up: bool,
+}
+
+/// A dimension.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Axis {
+    /// From north to south.
+    Y,
+    /// From west to east.
+    X,
+}
+
+/// Name of a layer of which nothing is known.
+const NAMELESS: &str = "layer";
+
+impl<'a> Dataset<'a> {
+    /// # Errors
+    /// [`Error::Run`] naming a cell with data that holds a NaN or an infinity.
+    pub fn of(sheet: &Sheet<'a>) -> Result<Self, Error> {
+        sheet.ensure_finite()?;
+        let mut variables = coordinates(sheet);
+        let grid_mapping = sheet.georeference.map(|place| Variable {
+            name: GRID_MAPPING.to_owned(),
+            attributes: crs::attributes(place),
+            values: Values::Nothing,
+        });
+        variables.extend(grid_mapping);
+        let layers: Vec<_> = sheet.layers.iter().map(|layer| layer.name().unwrap_or(NAMELESS)).collect();
+        let names = sheet.names.of_variables(&layers, &["y", "x", GRID_MAPPING]);
+        let is_south_up = sheet.is_south_up();
+        let cells = sheet.layers.iter().zip(names).map(|(layer, name)| Variable {
+            name,
+            attributes: layer_attributes(layer, sheet.georeference.is_some()),
+            values: Values::Cells(Cells { field: layer.field, land: sheet.land, is_south_up }),
+        });
+        variables.extend(cells);
+        Ok(Self { size: sheet.size(), attributes: file_attributes(sheet), variables })
+    }
+}
+
+impl Values<'_> {
+    /// The dimensions, slowest first.
+    pub fn axes(&self) -> &'static [Axis] {
+        match self {
+            Self::Nothing => &[],
+            Self::Along(Axis::Y, _) => &[Axis::Y],
+            Self::Along(Axis::X, _) => &[Axis::X],
+            Self::Cells(..) => &[Axis::Y, Axis::X],
+        }
+    }
+}
+
+impl Cells<'_> {
+    pub fn size(&self) -> Size {
+        self.field.size()
+    }
+
+    /// The value in a column and a row of the file; NaN without data.
+    pub fn at(&self, x: usize, row: usize) -> f32 {
+        let y = if self.is_south_up { self.size().rows - 1 - row } else { row };
+        if self.land.is_none_or(|land| land.is_land(x, y)) { self.field.at(x, y) } else { f32::NAN }
+    }
+}
+
+impl Axis {
+    /// Name of the dimension and of its coordinate.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Y => "y",
+            Self::X => "x",
+        }
+    }
+
+    /// Cells along it.
+    pub fn length(self, size: Size) -> usize {
+        match self {
+            Self::Y => size.rows,
+            Self::X => size.columns,
+        }
+    }
+}
+
+/// The centres of the cells, where the corner and the side of a cell are known.
+fn coordinates<'a>(sheet: &Sheet<'_>) -> Vec<Variable<'a>> {
+    let size = sheet.size();
+    let local = sheet.cell.map(|cell| Georeference {
+        epsg: None,
+        origin: [0.0, cell * size.rows as f64],
+        pixel: [cell; 2],
+        keys: None,
+    });
+    let Some(place) = sheet.georeference.or(local.as_ref()) else { return Vec::new() };
+    let centre = |at: usize| place.at([at as f64 + 0.5; 2]);
+    let mut y: Vec<f64> = (0..size.rows).map(|row| centre(row)[1]).collect();
+    if sheet.is_south_up() {
+        y.reverse();
+    }
+    let x = (0..size.columns).map(|column| centre(column)[0]).collect();
+    [(Axis::Y, y), (Axis::X, x)]
+        .map(|(axis, centres)| Variable {
+            name: axis.name().to_owned(),
+            attributes: crs::axis_attributes(axis, sheet.georeference),
+            values: Values::Along(axis, centres),
+        })
+        .into()
+}
+
+/// Keys of a provenance that hold for one layer alone.
+const OF_LAYER: [&str; 4] = [provenance::LAYER, provenance::UNIT, provenance::MINIMUM, provenance::MAXIMUM];
+
+fn file_attributes(sheet: &Sheet<'_>) -> Attributes {
+    let mut attributes = Attributes::default();
+    attributes.add("Conventions", "CF-1.11");
+    if let Some(provenance) = sheet.layers.iter().find_map(|layer| layer.provenance.as_ref()) {
+        attributes.add("source", format!("Weald {}", provenance.version));
+        let items = provenance.items().into_iter().filter(|(key, _)| !OF_LAYER.contains(key));
+        items.for_each(|(key, text)| attributes.add(key, text));
+    }
+    if let Some(cell) = sheet.cell {
+        attributes.add(CELL, cell);
+    }
+    attributes
+}
+
+fn layer_attributes(layer: &Layer<'_>, is_placed: bool) -> Attributes {
+    let mut attributes = Attributes::default();
+    if let Some(provenance) = &layer.provenance {
+        let known = of_layer(&provenance.layer);
+        let long = known.map_or(provenance.layer.as_str(), |known| known.long);
+        let per_step = if provenance.unit.ends_with("/step") { ", per step" } else { "" };
+        attributes.add("long_name", format!("{long}{per_step}"));
+        let standard = known.and_then(|known| known.standard);
+        if let Some(name) = standard {
+            attributes.add("standard_name", name);
+        }
+        let landlab = known.and_then(|known| known.landlab);
+        if let Some(name) = landlab {
+            attributes.add("landlab_name", name);
+        }
+        attributes.add("units", udunits(&provenance.unit));
+        let items = provenance.items().into_iter().filter(|(key, _)| OF_LAYER.contains(key));
+        items.for_each(|(key, text)| attributes.add(key, text));
+    }
+    if is_placed {
+        attributes.add("grid_mapping", Attribute::from(GRID_MAPPING));
+    }
+    attributes
+}

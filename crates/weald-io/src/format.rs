@@ -1,0 +1,167 @@
+//! What a raster format is: how it is read and written, and what it can hold.
+
+use super::parts::{Part, Parts};
+use super::{Fault, Limits, Raster, asc, cf};
+use weald_core::error::Error;
+
+/// Turns the bytes of a file into a raster.
+pub type DecodeFile = fn(&[u8], Limits) -> Result<Raster, Fault>;
+
+/// How a raster comes out of a file.
+#[derive(Clone, Copy, Debug)]
+pub enum Decode {
+    /// From the bytes of one file.
+    File(DecodeFile),
+    /// From a file and what lies beside it, or from a folder.
+    Parts(fn(&dyn Parts, Limits) -> Result<Raster, Fault>),
+}
+
+/// How a raster becomes a file.
+#[derive(Clone, Copy, Debug)]
+pub enum Encode {
+    /// The bytes of one file.
+    File(fn(&Raster) -> Result<Vec<u8>, Error>),
+    /// A file and what lies beside it, or a folder.
+    Parts(fn(&Raster) -> Result<Vec<Part>, Error>),
+}
+
+impl Encode {
+    /// All files of the raster.
+    ///
+    /// # Errors
+    /// [`Error::Run`] for values that the format cannot hold.
+    pub fn parts(self, raster: &Raster) -> Result<Vec<Part>, Error> {
+        match self {
+            Self::File(encode) => Ok(vec![Part::own(encode(raster)?)]),
+            Self::Parts(encode) => encode(raster),
+        }
+    }
+}
+
+/// The numbers that a format stores.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Values {
+    /// 32-bit floats: every value to the bit.
+    Float32,
+    /// Whole steps of a 65,535th of the range.
+    Steps16,
+    /// 16-bit floats: 11 significant bits, to 65,504.
+    Float16,
+}
+
+/// What a raster knows beside its values.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Knowledge {
+    /// Which cells have no data.
+    NoData,
+    /// The side of a cell.
+    Cell,
+    /// The place on Earth.
+    Place,
+    /// A CRS without an EPSG code that has a definition.
+    UncodedCrs,
+    /// A CRS that has no spelling in a `.prj` file.
+    UnspelledCrs,
+    /// Where the values came from.
+    Provenance,
+}
+
+/// What of a raster a format can hold.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Holds {
+    /// The numbers.
+    pub values: Values,
+    /// What is left out.
+    pub omits: &'static [Knowledge],
+}
+
+impl Holds {
+    /// All of it.
+    pub const ALL: Self = Self { values: Values::Float32, omits: &[] };
+
+    /// What of `raster` is lost, each a sentence for the user.
+    pub fn losses(&self, raster: &Raster) -> Vec<String> {
+        let values = match self.values {
+            Values::Float32 => None,
+            Values::Steps16 => Some("values are rounded to a 65,535th of their range"),
+            Values::Float16 => Some("values are rounded to 11 significant bits"),
+        };
+        let omitted = self.omits.iter().filter(|knowledge| knowledge.is_in(raster)).map(|it| it.loss());
+        values.into_iter().chain(omitted).map(str::to_owned).collect()
+    }
+}
+
+impl Knowledge {
+    fn is_in(self, raster: &Raster) -> bool {
+        match self {
+            Self::NoData => raster.land.is_some(),
+            Self::Cell => raster.cell.is_some(),
+            Self::Place => raster.georeference.is_some(),
+            Self::UncodedCrs => raster.georeference.as_ref().is_some_and(|place| !cf::is_told_to_all(place)),
+            Self::UnspelledCrs => raster.georeference.as_ref().is_some_and(|place| !asc::is_spelled(place)),
+            Self::Provenance => raster.provenance.is_some(),
+        }
+    }
+
+    fn loss(self) -> &'static str {
+        match self {
+            Self::NoData => "cells without data are written as the lowest value",
+            Self::Cell => "the side of a cell is left out",
+            Self::Place => "the place on Earth is left out; .tif holds it",
+            Self::UncodedCrs => cf::UNTOLD,
+            Self::UnspelledCrs => {
+                "the CRS is left out, so corner and cells are numbers without a unit; .tif holds it"
+            }
+            Self::Provenance => "unit, seed and the hash of the recipe are left out; report.json has them",
+        }
+    }
+}
+
+/// A way to write a format for one reader that wants it its own way.
+#[derive(Clone, Copy, Debug)]
+pub struct Preset {
+    /// Word after `preset =`: the reader's name.
+    pub name: &'static str,
+    /// What is different, in one sentence.
+    pub summary: &'static str,
+    /// How it is written.
+    pub encode: Encode,
+    /// What it holds.
+    pub holds: Holds,
+}
+
+/// A raster format.
+#[derive(Clone, Copy, Debug)]
+pub struct Format {
+    /// Name for messages.
+    pub name: &'static str,
+    /// Extensions in lower case, without the dot.
+    pub extensions: &'static [&'static str],
+    /// Reads a file, where the format is read.
+    pub decode: Option<Decode>,
+    /// Writes one, where the format is written.
+    pub encode: Option<Encode>,
+    /// What it can hold.
+    pub holds: Holds,
+    /// Ways to write it for particular readers.
+    pub presets: &'static [Preset],
+}
+
+impl Format {
+    /// How it is written, for one reader or for all.
+    ///
+    /// # Errors
+    /// A sentence that names the presets there are, or that the format is not written.
+    pub fn writing(&self, preset: Option<&str>) -> Result<(Encode, Holds), String> {
+        let Some(name) = preset else {
+            let encode = self.encode.ok_or_else(|| format!("{} is read, not written", self.name))?;
+            return Ok((encode, self.holds));
+        };
+        let preset = self.presets.iter().find(|preset| preset.name == name).ok_or_else(|| {
+            let known: Vec<_> = self.presets.iter().map(|preset| preset.name).collect();
+            let known = if known.is_empty() { "none".to_owned() } else { known.join(", ") };
+            format!("{} has no preset {name:?}; it has: {known}", self.name)
+        })?;
+        Ok((preset.encode, preset.holds))
+    }
+}

@@ -1,0 +1,121 @@
+//! How the cells of a file are cut into chunks: strips of whole rows, or tiles.
+
+use super::super::limits::ensure_can_hold;
+use super::super::{Fault, Limits};
+use super::directory::{Directory, field};
+use super::sample::Sample;
+use super::tag;
+use weald_core::grid::Size;
+
+/// Sizes and places of the chunks of a file, checked against its length.
+#[derive(Debug)]
+pub(super) struct Layout {
+    pub(super) size: Size,
+    /// Columns and rows of a whole chunk.
+    pub(super) chunk: Size,
+    sample_bytes: usize,
+    offsets: Vec<u64>,
+    lengths: Vec<u64>,
+}
+
+/// The tags that place chunks.
+struct Tags {
+    offsets: u16,
+    lengths: u16,
+}
+
+const STRIPS: Tags = Tags { offsets: tag::STRIP_OFFSETS, lengths: tag::STRIP_BYTE_COUNTS };
+const TILES: Tags = Tags { offsets: tag::TILE_OFFSETS, lengths: tag::TILE_BYTE_COUNTS };
+
+impl Layout {
+    /// The layout of a file.
+    pub(super) fn of(directory: &Directory<'_>, sample: Sample, limits: Limits) -> Result<Self, Fault> {
+        let columns = directory.needed(tag::IMAGE_WIDTH)? as usize;
+        let rows = directory.needed(tag::IMAGE_LENGTH)? as usize;
+        let size = limits.size(columns, rows)?;
+        let tile_width = directory.number(tag::TILE_WIDTH)?;
+        let (chunk, tags) = match tile_width {
+            Some(width) => {
+                (limits.size(width as usize, directory.needed(tag::TILE_LENGTH)? as usize)?, TILES)
+            }
+            None => (strip(directory, size)?, STRIPS),
+        };
+        let offsets = directory.numbers(tags.offsets)?.unwrap_or_default();
+        let lengths = directory.numbers(tags.lengths)?.unwrap_or_default();
+        let sample_bytes = sample.bytes();
+        let layout = Self { size, chunk, sample_bytes, offsets, lengths };
+        layout.ensure_complete()?;
+        layout.ensure_chunks(directory.bytes)?;
+        Ok(layout)
+    }
+
+    fn ensure_complete(&self) -> Result<(), Fault> {
+        let needed = self.across() * self.size.rows.div_ceil(self.chunk.rows);
+        if self.offsets.len() == needed && self.lengths.len() == needed {
+            return Ok(());
+        }
+        Err(Fault::damaged(format!(
+            "{} cells in chunks of {} need {needed} chunks, but the file places {} and sizes {}",
+            self.size,
+            self.chunk,
+            self.offsets.len(),
+            self.lengths.len()
+        )))
+    }
+
+    /// Chunks from west to east.
+    pub(super) fn across(&self) -> usize {
+        self.size.columns.div_ceil(self.chunk.columns)
+    }
+
+    /// Bytes of the rows of a chunk that the grid has; the padding below them stays packed.
+    pub(super) fn expanded_bytes(&self, index: usize) -> usize {
+        let first_row = index / self.across() * self.chunk.rows;
+        self.row_bytes() * self.chunk.rows.min(self.size.rows - first_row)
+    }
+
+    /// Bytes of a row of a chunk.
+    pub(super) fn row_bytes(&self) -> usize {
+        self.chunk.columns * self.sample_bytes
+    }
+
+    /// The bytes of a chunk; `None` for one that a sparse file leaves out, all of it no-data.
+    pub(super) fn packed<'a>(&self, file: &'a [u8], index: usize) -> Result<Option<&'a [u8]>, Fault> {
+        let (offset, length) = (self.offsets[index], self.lengths[index]);
+        if offset == 0 && length == 0 {
+            return Ok(None);
+        }
+        let named = |fault: Fault| Fault::Damaged(format!("chunk {index}: {fault}"));
+        let length = usize::try_from(length).unwrap_or(usize::MAX);
+        let bytes = field(file, offset, length).map_err(named)?;
+        ensure_can_hold(bytes.len(), self.expanded_bytes(index)).map_err(named)?;
+        Ok(Some(bytes))
+    }
+
+    /// Whether every chunk lies in the file and can hold its cells, before memory for the cells is taken.
+    fn ensure_chunks(&self, file: &[u8]) -> Result<(), Fault> {
+        (0..self.offsets.len()).try_for_each(|index| self.packed(file, index).map(|_| ()))
+    }
+}
+
+/// Writers give `RowsPerStrip` as 2^32 − 1, or not at all, for one strip of all rows.
+fn strip(directory: &Directory<'_>, size: Size) -> Result<Size, Fault> {
+    let rows = directory.number(tag::ROWS_PER_STRIP)?.unwrap_or(u64::MAX).min(size.rows as u64);
+    if rows == 0 {
+        return Err(Fault::damaged("strips of 0 rows; the file is damaged"));
+    }
+    Ok(Size { rows: rows as usize, ..size })
+}
+
+/// The type of the values of a file that holds exactly one band.
+pub(super) fn sample_of(directory: &Directory<'_>) -> Result<Sample, Fault> {
+    let bands = directory.number(tag::SAMPLES_PER_PIXEL)?.unwrap_or(1);
+    if bands != 1 {
+        return Err(Fault::damaged(format!(
+            "the file has {bands} bands; choose one with `gdal_translate -b 1 in.tif out.tif`"
+        )));
+    }
+    let bits = directory.number(tag::BITS_PER_SAMPLE)?.unwrap_or(1);
+    let format = directory.number(tag::SAMPLE_FORMAT)?.unwrap_or(1);
+    Sample::of(format, bits)
+}

@@ -1,0 +1,76 @@
+//! What a reader may use, so that no file, however damaged, takes more memory than its size warrants.
+
+use super::Fault;
+use weald_core::grid::{MAXIMUM_CELLS, Size};
+
+/// Deflate expands at most 1032 times, LZW with codes of 12 bits about 1350 times.
+const MAXIMUM_EXPANSION: usize = 2048;
+
+/// What a reader may use.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Limits {
+    /// Most cells of a raster.
+    pub cells: usize,
+}
+
+impl Default for Limits {
+    fn default() -> Self {
+        Self { cells: MAXIMUM_CELLS }
+    }
+}
+
+impl Limits {
+    /// The size in a header, once it is known to be within limits.
+    ///
+    /// # Errors
+    /// [`Fault::Limit`] with both sides in the message; [`Fault::Damaged`] for a grid without a cell.
+    pub fn size(self, columns: usize, rows: usize) -> Result<Size, Fault> {
+        if columns == 0 || rows == 0 {
+            return Err(Fault::damaged(format!("{columns} × {rows} cells: there is nothing in it")));
+        }
+        let size = Size::new(columns, rows).map_err(|error| Fault::Limit(error.to_string()))?;
+        if size.cells() > self.cells {
+            return Err(Fault::Limit(format!("{size} cells are more than the {} allowed here", self.cells)));
+        }
+        Ok(size)
+    }
+
+    /// Longest file that is read: sixteen bytes a cell, which is a number in digits with its space, and 64 MiB
+    /// for all else in the file.
+    pub(super) fn file_bytes(self) -> u64 {
+        self.cells as u64 * 16 + (64 << 20)
+    }
+}
+
+/// Whether `packed` bytes can hold `expanded` bytes under any of the compressions.
+///
+/// # Errors
+/// [`Fault::Damaged`] with both numbers.
+pub(super) fn ensure_can_hold(packed: usize, expanded: usize) -> Result<(), Fault> {
+    if expanded / MAXIMUM_EXPANSION <= packed {
+        return Ok(());
+    }
+    Err(Fault::Damaged(format!(
+        "{packed} bytes cannot hold the {expanded} bytes of the cells they stand for"
+    )))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_no_compression_can_do_is_refused() {
+        assert!(ensure_can_hold(1000, 1_032_000).is_ok(), "the most that Deflate does");
+        assert!(ensure_can_hold(1000, 2_100_000).is_err());
+        assert!(ensure_can_hold(0, 2047).is_ok(), "too little to matter");
+    }
+
+    #[test]
+    fn a_size_is_refused_from_the_first_cell_too_many() {
+        let limits = Limits { cells: 12 };
+        assert_eq!(limits.size(4, 3), Ok(Size { columns: 4, rows: 3 }));
+        assert!(matches!(limits.size(13, 1), Err(Fault::Limit(_))));
+        assert!(matches!(limits.size(0, 1), Err(Fault::Damaged(_))));
+    }
+}

@@ -1,0 +1,99 @@
+//! The common ground of all raster formats.
+
+use weald_core::domain::Georeference;
+use weald_core::error::Error;
+use weald_core::grid::{Field, Mask, Size};
+
+use super::{Fault, Provenance};
+
+/// Numbers that may stand for no-data, in the order in which they are tried before NaN.
+const NO_DATA: [f32; 2] = [-9999.0, -99999.0];
+
+/// A grid of numbers with all that a file can say about it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Raster {
+    /// The values; no-data cells hold 0.
+    pub field: Field,
+    /// Cells with data; `None` where all have.
+    pub land: Option<Mask>,
+    /// Side of a cell in metres, where the file says it and cells are square.
+    pub cell: Option<f64>,
+    /// Place on Earth.
+    pub georeference: Option<Georeference>,
+    /// Where the values came from.
+    pub provenance: Option<Provenance>,
+    /// Type of the values in the file: `int16`, `float32` …
+    pub stored: &'static str,
+    /// What the user should know about the file.
+    pub notes: Vec<String>,
+}
+
+impl From<Field> for Raster {
+    /// A raster that says nothing beyond its values.
+    fn from(field: Field) -> Self {
+        Self {
+            field,
+            land: None,
+            cell: None,
+            georeference: None,
+            provenance: None,
+            stored: "float32",
+            notes: Vec::new(),
+        }
+    }
+}
+
+impl Raster {
+    /// A raster from values as read and the flags of the cells with data.
+    ///
+    /// # Errors
+    /// [`Fault::Damaged`] naming the first cell with data that holds a NaN or an infinity.
+    pub(super) fn from_file(
+        size: Size,
+        values: Vec<f32>,
+        land: Vec<bool>,
+        stored: &'static str,
+    ) -> Result<Self, Fault> {
+        let (field, land) = (Field::from_values(size, values), Mask::new(size, land));
+        if let Some((x, y)) = field.first_not_finite(land.as_ref()) {
+            return Err(Fault::Damaged(format!(
+                "column {x}, row {y} holds {}, which is no height; declare it as no-data (for a GeoTIFF: \
+                 gdal_translate -a_nodata nan) or mend the file",
+                field.at(x, y)
+            )));
+        }
+        let eight_bits = "8 bits hold 256 heights, so slopes come out as terraces; 16 bits do not";
+        let notes = if stored.ends_with("int8") { vec![eight_bits.to_owned()] } else { Vec::new() };
+        Ok(Self { land, stored, notes, ..Self::from(field) })
+    }
+
+    /// Whether the cell at a row-major position holds data.
+    pub(super) fn is_land_at(&self, index: usize) -> bool {
+        self.land.as_ref().is_none_or(|land| land.is_land_at(index))
+    }
+
+    /// Least and greatest value over the cells with data; both 0 where none has.
+    pub(super) fn range(&self) -> (f32, f32) {
+        self.field.range(self.land.as_ref()).unwrap_or_default()
+    }
+
+    /// A number that no cell with data holds, for no-data cells; NaN where the usual ones are within the range.
+    pub(super) fn number_for_no_data(&self) -> f32 {
+        let (low, high) = self.range();
+        NO_DATA.into_iter().find(|number| !(low..=high).contains(number)).unwrap_or(f32::NAN)
+    }
+
+    /// Whether the values can go into a file of finite numbers.
+    ///
+    /// # Errors
+    /// [`Error::Run`] naming the first cell that holds a NaN or an infinity.
+    pub(super) fn ensure_finite(&self) -> Result<(), Error> {
+        match self.field.first_not_finite(self.land.as_ref()) {
+            None => Ok(()),
+            Some((x, y)) => Err(Error::Run(format!(
+                "column {x}, row {y} holds {}, which no file may carry as data",
+                self.field.at(x, y)
+            ))),
+        }
+    }
+}

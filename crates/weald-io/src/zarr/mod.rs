@@ -1,0 +1,62 @@
+//! Zarr version 3 (Zarr core specification 3.0): a folder with descriptions in JSON and chunks of numbers.
+//!
+//! Written is a group with the attributes of `cf` and metadata consolidated, so that xarray opens it
+//! as a dataset; layers in chunks of 256 × 256, little-endian, gzip; chunks without any data are left out, as NaN
+//! fills them. Read is a group or a single array, in regular chunks with the codecs `bytes`, `gzip`, `zstd` and
+//! `crc32c`; other codecs are named in the error.
+//!
+//! Shapes and chunks are checked against the limits before anything is allocated, and a chunk may not unpack to
+//! more than its shape says.
+
+mod attributes;
+mod chunks;
+mod codec;
+mod metadata;
+mod read;
+mod write;
+
+pub use read::decode;
+
+use super::cf::{Dataset, Names, Sheet};
+use super::{Decode, Encode, Format, Holds, Knowledge, Part, Preset, Raster};
+use weald_core::error::Error;
+
+const HOLDS: Holds = Holds { omits: &[Knowledge::UncodedCrs], ..Holds::ALL };
+
+/// The entry in the registry of formats.
+pub(super) const FORMAT: Format = Format {
+    name: "Zarr",
+    extensions: &["zarr"],
+    decode: Some(Decode::Parts(decode)),
+    encode: Some(Encode::Parts(encode)),
+    holds: HOLDS,
+    presets: &[Preset {
+        name: "landlab",
+        summary: "arrays have landlab's names, such as topographic__elevation, and rows begin in the south",
+        encode: Encode::Parts(encode_for_landlab),
+        holds: HOLDS,
+    }],
+};
+
+/// Name of the description in a group's or an array's folder.
+const DESCRIPTION: &str = "zarr.json";
+
+/// The files of a group.
+///
+/// # Errors
+/// [`Error::Run`] naming a cell with data that holds a NaN or an infinity.
+pub fn encode(raster: &Raster) -> Result<Vec<Part>, Error> {
+    encode_sheet(&Sheet::of(raster, Names::Weald))
+}
+
+fn encode_for_landlab(raster: &Raster) -> Result<Vec<Part>, Error> {
+    encode_sheet(&Sheet::of(raster, Names::Landlab))
+}
+
+/// The files of a group of several layers.
+///
+/// # Errors
+/// As [`encode`].
+pub fn encode_sheet(sheet: &Sheet<'_>) -> Result<Vec<Part>, Error> {
+    Ok(write::parts(&Dataset::of(sheet)?))
+}

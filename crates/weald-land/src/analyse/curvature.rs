@@ -1,0 +1,89 @@
+//! How the ground bends, convex positive: ridges, shoulders and summits above 0, valleys, feet and pits below.
+//!
+//! ```text
+//! profile    = -(p² r + 2 p q s + q² t) / (g (1 + g)^1.5)        along the line of fall
+//! tangential = -(q² r - 2 p q s + p² t) / (g (1 + g)^0.5)        across it, in the normal plane
+//! plan       = -(q² r - 2 p q s + p² t) / g^1.5                  of the contour
+//! mean       = -((1 + q²) r - 2 p q s + (1 + p²) t) / (2 (1 + g)^1.5)
+//! ```
+//!
+//! with g = p² + q² and the derivatives of a quadratic fitted to the window around each cell: Evans 1972, doi
+//! 10.4324/9780429273346-2. Zevenbergen and Thorne 1987, doi 10.1002/esp.3290120107, name profile and plan
+//! curvature; the forms here are the ones that are curvatures of curves in space (Minár, Evans and Jenčo 2020,
+//! doi 10.1016/j.earscirev.2020.103414). On a sphere of radius R that bulges upward profile, tangential and mean
+//! are 1/R, and plan is 1 over the radius of the contour.
+
+use super::cells::fields_of;
+use super::quadric::{Quadric, Surface};
+use weald_core::error::Error;
+use weald_core::landscape::Landscape;
+use weald_core::parameter::LayerName;
+use weald_core::parameters;
+use weald_engine::Job;
+use weald_engine::step::{Entry, Outcome, Stage, Step};
+
+/// The step's declaration.
+pub const ENTRY: Entry = Entry::of::<Curvature>(
+    "curvature",
+    Stage::Analyse,
+    "how the ground bends along and across the slope, convex positive",
+    "Evans 1972, doi 10.4324/9780429273346-2; Zevenbergen and Thorne 1987, doi 10.1002/esp.3290120107",
+);
+
+parameters! {
+    /// Curvature. Writes `curvature_profile` along the line of fall, `curvature_plan` of the contour,
+    /// `curvature_tangential` across the line of fall, and `curvature_mean`, all in 1/m and positive where the
+    /// ground is convex.
+    pub struct Curvature {
+        /// Layer of heights in metres.
+        of: LayerName = LayerName::of("height");
+        /// Metres from a cell to the edge of the window in which the surface is fitted: forms smaller than that
+        /// do not count. The least is one cell.
+        scale: f64 = 0.0, range 0.0..=1.0e6, unit "m";
+        /// Ground that is gentler than this has no line of fall: profile, plan and tangential curvature are 0
+        /// there.
+        level_deg: f64 = 0.01, range 0.000_001..=10.0, unit "deg";
+    }
+}
+
+const LAYERS: [&str; 4] = ["curvature_profile", "curvature_plan", "curvature_tangential", "curvature_mean"];
+
+impl Step for Curvature {
+    fn reads(&self) -> Vec<String> {
+        vec![self.of.0.clone()]
+    }
+
+    fn writes(&self) -> Vec<(String, &'static str)> {
+        LAYERS.map(|name| (name.to_owned(), "1/m")).into()
+    }
+
+    fn range(&self, _: &str) -> Option<(f64, f64)> {
+        Some((f64::NEG_INFINITY, f64::INFINITY))
+    }
+
+    fn run(&self, landscape: &mut Landscape, _: &Job<'_>) -> Result<Outcome, Error> {
+        let domain = &landscape.domain;
+        let surface = Surface::new(landscape.field(&self.of.0)?, domain).reaching(self.scale)?;
+        let level = libm::tan(self.level_deg.to_radians());
+        let fields = fields_of(domain, |x, y| curvatures(surface.at(x, y), level * level));
+        for (name, field) in LAYERS.into_iter().zip(fields) {
+            landscape.insert(name, "1/m", field);
+        }
+        Ok(Outcome { iterations: 1, ..Outcome::default() })
+    }
+}
+
+/// In the order of [`LAYERS`].
+fn curvatures(surface: Quadric, level: f64) -> [f64; 4] {
+    let Quadric { p, q, r, s, t } = surface;
+    let g = surface.steepness();
+    let stretch = libm::sqrt(1.0 + g);
+    let mean =
+        -((1.0 + q * q) * r - 2.0 * p * q * s + (1.0 + p * p) * t) / (2.0 * stretch * stretch * stretch);
+    if g < level {
+        return [0.0, 0.0, 0.0, mean];
+    }
+    let along = -(p * p * r + 2.0 * p * q * s + q * q * t) / g;
+    let across = -(q * q * r - 2.0 * p * q * s + p * p * t) / g;
+    [along / (stretch * stretch * stretch), across / libm::sqrt(g), across / stretch, mean]
+}

@@ -1,0 +1,216 @@
+//! Upslope sums where each cell shares what it has among all lower neighbours.
+//!
+//! ```text
+//! share of neighbour i = S_i^p / Σ S_j^p       S = drop over distance, for all lower neighbours
+//! ```
+//!
+//! Freeman 1991, "Calculating catchment area with divergent flow based on a regular grid", doi
+//! 10.1016/0098-3004(91)90048-I: p = 1.1 spreads water over a cone evenly in all directions. p = 1 without its
+//! contour lengths is the rule of Quinn et al. 1991 (doi 10.1002/hyp.3360050106); large p comes near D8. Over
+//! level ground water follows the D8 directions.
+
+use std::sync::atomic::{AtomicU8, AtomicU64, Ordering};
+
+use rayon::prelude::*;
+
+use super::Routed;
+use super::accumulate::{CELLS_A_TASK, Own, opposite, ways};
+use crate::analyse::directions::STEPS;
+use weald_core::grid::{Field, Mask, Size};
+
+/// Flow that divides.
+#[derive(Clone, Copy, Debug)]
+pub struct MultipleFlow<'a> {
+    /// Ground without depressions, and its D8 directions.
+    pub routed: &'a Routed,
+    /// Cells with data.
+    pub land: Option<&'a Mask>,
+    /// The exponent p: 0 shares evenly among lower neighbours, large numbers favour the steepest.
+    pub exponent: f64,
+}
+
+impl MultipleFlow<'_> {
+    /// The share of each neighbour of a cell, by direction from east over south; all 0 at outlets and in the
+    /// sea.
+    pub fn shares(&self, cell: usize) -> [f64; 8] {
+        let weights = self.weights(cell);
+        let sum: f64 = weights.iter().sum();
+        if sum > 0.0 {
+            return weights.map(|weight| weight / sum);
+        }
+        weights
+    }
+
+    /// What the shares are in proportion to.
+    fn weights(&self, cell: usize) -> [f64; 8] {
+        let mut weights = [0.0; 8];
+        let Some(_) = self.routed.directions.downstream(cell) else { return weights };
+        for (way, weight) in weights.iter_mut().enumerate() {
+            if let Some(other) = self.neighbour(cell, way) {
+                *weight = self.weight(cell, other, way);
+            }
+        }
+        if weights.iter().all(|&weight| weight == 0.0) {
+            weights[usize::from(self.routed.directions.codes()[cell]) - 1] = 1.0;
+        }
+        weights
+    }
+
+    fn weight(&self, cell: usize, other: usize, way: usize) -> f64 {
+        let level = self.routed.surface.values();
+        let drop = f64::from(level[cell]) - f64::from(level[other]);
+        if drop <= 0.0 {
+            return 0.0;
+        }
+        let distance = if way % 2 == 1 { std::f64::consts::SQRT_2 } else { 1.0 };
+        power(drop / distance, self.exponent)
+    }
+
+    fn neighbour(&self, cell: usize, way: usize) -> Option<usize> {
+        let Size { columns, rows } = self.routed.surface.size();
+        let (east, south) = STEPS[way];
+        let x = (cell % columns).wrapping_add_signed(east);
+        let y = (cell / columns).wrapping_add_signed(south);
+        let other = y.wrapping_mul(columns).wrapping_add(x);
+        (x < columns && y < rows && self.land.is_none_or(|land| land.is_land_at(other))).then_some(other)
+    }
+}
+
+/// The sum of the weights of each cell and its share of all above it; see
+/// [`accumulate`](super::accumulate()).
+///
+/// # Panics
+/// If the weights or the mask are of another size than the surface: a bug of the caller.
+pub fn accumulate_multiple(flow: &MultipleFlow<'_>, weight: Option<&Field>) -> Vec<f64> {
+    let cells = flow.routed.surface.size().cells();
+    let own = Own::new(cells, flow.land, weight);
+    let links: Vec<(u8, f64)> =
+        (0..cells).into_par_iter().with_min_len(CELLS_A_TASK).map(|cell| links(flow, cell)).collect();
+    let (receivers, totals): (Vec<u8>, Vec<f64>) = links.into_par_iter().unzip();
+    let donors: Vec<u8> = (0..cells)
+        .into_par_iter()
+        .with_min_len(CELLS_A_TASK)
+        .map(|cell| donors(flow, &receivers, cell))
+        .collect();
+    let spread = Spread { flow, own, receivers, totals, donors };
+    spread.sums()
+}
+
+/// The ways by which a cell gives, and the sum of their weights.
+fn links(flow: &MultipleFlow<'_>, cell: usize) -> (u8, f64) {
+    let weights = flow.weights(cell);
+    let bit = |(way, &weight): (usize, &f64)| u8::from(weight > 0.0) << way;
+    (weights.iter().enumerate().map(bit).fold(0, |bits, bit| bits | bit), weights.iter().sum())
+}
+
+fn donors(flow: &MultipleFlow<'_>, receivers: &[u8], cell: usize) -> u8 {
+    let gives = |way: &u8| {
+        let other = flow.neighbour(cell, usize::from(*way));
+        other.is_some_and(|other| receivers[other] >> opposite(*way) & 1 == 1)
+    };
+    (0..8).filter(gives).fold(0, |bits, way| bits | 1 << way)
+}
+
+/// Water on its way.
+struct Spread<'a> {
+    flow: &'a MultipleFlow<'a>,
+    own: Own<'a>,
+    receivers: Vec<u8>,
+    totals: Vec<f64>,
+    donors: Vec<u8>,
+}
+
+impl Spread<'_> {
+    fn sums(&self) -> Vec<f64> {
+        let cells = self.donors.len();
+        let sums: Vec<AtomicU64> = (0..cells).into_par_iter().map(|_| AtomicU64::new(0)).collect();
+        let waiting: Vec<AtomicU8> =
+            self.donors.par_iter().map(|donors| AtomicU8::new(donors.count_ones() as u8)).collect();
+        let heads =
+            (0..cells).into_par_iter().with_min_len(CELLS_A_TASK).filter(|&cell| self.donors[cell] == 0);
+        heads.for_each_init(Vec::new, |open, head| {
+            open.push(head);
+            while let Some(cell) = open.pop() {
+                self.pass(cell, &sums, &waiting, open);
+            }
+        });
+        sums.into_par_iter().map(|sum| f64::from_bits(sum.into_inner())).collect()
+    }
+
+    /// Finishes a cell, and finds those for which it was the last to wait for.
+    fn pass(&self, cell: usize, sums: &[AtomicU64], waiting: &[AtomicU8], open: &mut Vec<usize>) {
+        let received: f64 = ways(self.donors[cell])
+            .map(|way| {
+                let other = self.beside(cell, way);
+                f64::from_bits(sums[other].load(Ordering::Relaxed)) * self.share(other, cell, way)
+            })
+            .sum();
+        sums[cell].store((self.own.at(cell) + received).to_bits(), Ordering::Relaxed);
+        for way in ways(self.receivers[cell]) {
+            let next = self.beside(cell, way);
+            // The counter hands the sums of those who came before over to the last.
+            if waiting[next].fetch_sub(1, Ordering::AcqRel) == 1 {
+                open.push(next);
+            }
+        }
+    }
+
+    /// The share that a cell gives to the one it lies beside, as seen from there.
+    fn share(&self, giver: usize, cell: usize, way: usize) -> f64 {
+        if self.receivers[giver].is_power_of_two() {
+            return 1.0;
+        }
+        self.flow.weight(giver, cell, way) / self.totals[giver]
+    }
+
+    fn beside(&self, cell: usize, way: usize) -> usize {
+        let (east, south) = STEPS[way];
+        cell.wrapping_add_signed(south * self.flow.routed.surface.size().columns as isize + east)
+    }
+}
+
+/// `base^exponent` for a positive base, to some nine digits, and much faster than `libm::pow`: the logarithm by
+/// the series of the inverse hyperbolic tangent, the exponential by Taylor's.
+fn power(base: f64, exponent: f64) -> f64 {
+    if exponent == 1.0 {
+        return base;
+    }
+    exponential(exponent * logarithm(base))
+}
+
+/// Logarithm to base 2 of a positive normal number.
+fn logarithm(number: f64) -> f64 {
+    const SHIFT: u64 = 0x3fe6_a09e_667f_3bcd; // bits of the root of one half, the least mantissa
+    let above = number.to_bits().wrapping_sub(SHIFT);
+    let whole = (above as i64) >> 52;
+    let mantissa = f64::from_bits(number.to_bits().wrapping_sub((whole as u64) << 52));
+    let t = (mantissa - 1.0) / (mantissa + 1.0);
+    let square = t * t;
+    let series = 1.0 + square * (1.0 / 3.0 + square * (0.2 + square * (1.0 / 7.0 + square * (1.0 / 9.0))));
+    whole as f64 + 2.0 * std::f64::consts::LOG2_E * t * series
+}
+
+/// `2^number`, within 2^±1000, so that sums of weights are finite and no lower neighbour is left out.
+fn exponential(number: f64) -> f64 {
+    let number = number.clamp(-1000.0, 1000.0);
+    let whole = (number + 0.5).floor();
+    let x = (number - whole) * std::f64::consts::LN_2;
+    let terms = [1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0];
+    let series = terms.iter().rev().fold(1.0, |sum, term| 1.0 + sum * x / term);
+    series * f64::from_bits(((whole as i64 + 1023) as u64) << 52)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn powers_are_those_of_the_library() {
+        for base in [1.0e-30, 3.7e-9, 0.02, 0.5, 0.707, 1.0, 1.41, 1.42, 2.0, 17.5, 9.9e11] {
+            for exponent in [0.0, 0.5, 1.0, 1.1, 4.0, 8.5] {
+                let (ours, exact) = (power(base, exponent), libm::pow(base, exponent));
+                assert!((ours / exact - 1.0).abs() < 1e-7, "{base}^{exponent} is {ours}, not {exact}");
+            }
+        }
+    }
+}

@@ -1,0 +1,125 @@
+//! The step `flow`.
+
+use super::{Depressions, MultipleFlow, Routed, Routing, accumulate, accumulate_multiple, route};
+use crate::analyse::{ensure_finite, scaled};
+use weald_core::error::Error;
+use weald_core::grid::Field;
+use weald_core::landscape::Landscape;
+use weald_core::parameter::LayerName;
+use weald_core::{choices, parameters};
+use weald_engine::Job;
+use weald_engine::step::{Entry, Outcome, Stage, Step};
+
+/// The step's declaration.
+pub const ENTRY: Entry = Entry::of::<FlowStep>(
+    "flow",
+    Stage::Analyse,
+    "leads water over the ground: directions of flow and upslope areas",
+    "O'Callaghan and Mark 1984; Freeman 1991; Barnes et al. 2014; Lindsay 2016",
+);
+
+/// Seconds of a year of 365.25 days, and millimetres of a metre: mm/year × m² in m³/s.
+pub(in crate::analyse) const MILLIMETRES_A_YEAR: f64 = 1.0e-3 / 31_557_600.0;
+
+choices! {
+    /// How upslope areas add up.
+    pub enum Method {
+        /// Each cell gives all to its steepest neighbour.
+        D8 = "d8",
+        /// Each cell shares among all lower neighbours.
+        Multiple = "mfd",
+    }
+}
+
+parameters! {
+    /// Flow over the ground.
+    pub struct FlowStep {
+        /// Layer of heights.
+        of: LayerName = LayerName::of("height");
+        /// How upslope areas add up: along the steepest descent, or shared among all lower neighbours. Directions
+        /// are those of steepest descent for both.
+        method: Method = Method::D8;
+        /// For `mfd`: shares are in proportion to slope to this power. 1.1 spreads water over a cone evenly, 4 and
+        /// more come near `d8`.
+        exponent: f64 = 1.1, range 0.0..=20.0;
+        /// What becomes of depressions: they fill to their lowest rims, or a channel drains them.
+        depressions: Depressions = Depressions::Fill;
+        /// Deepest cut of a breach; depressions that need a deeper one are filled. Without it, all are breached.
+        deepest_breach: Option<f64> = None, range 0.0..=1.0e6, unit "m";
+        /// Height of the sea. Ground no higher that is connected to the border by such ground is sea, in which
+        /// flow ends. Without it there is no sea.
+        sea_level: Option<f64> = None, range -1.0e6..=1.0e6, unit "m";
+        /// Layer of the runoff of each cell in mm/year. With it, `discharge` is written.
+        weight: Option<LayerName> = None;
+        /// Layer for the heights after filling or breaching. Without it they are not kept.
+        filled: Option<LayerName> = None;
+    }
+}
+
+impl Step for FlowStep {
+    fn reads(&self) -> Vec<String> {
+        [Some(&self.of), self.weight.as_ref()].into_iter().flatten().map(|name| name.0.clone()).collect()
+    }
+
+    fn writes(&self) -> Vec<(String, &'static str)> {
+        let mut writes = vec![("flow_direction".to_owned(), "1"), ("accumulation".to_owned(), "m²")];
+        writes.extend(self.weight.as_ref().map(|_| ("discharge".to_owned(), "m³/s")));
+        writes.extend(self.filled.as_ref().map(|name| (name.0.clone(), "m")));
+        writes
+    }
+
+    fn faults(&self) -> Vec<String> {
+        let unused = self.deepest_breach.is_some() && self.depressions != Depressions::Breach;
+        let fault = "`deepest_breach` bounds breaches, but `depressions` is \"fill\"; choose \"breach\"";
+        unused.then(|| fault.to_owned()).into_iter().collect()
+    }
+
+    fn range(&self, layer: &str) -> Option<(f64, f64)> {
+        match layer {
+            "flow_direction" => Some((0.0, 9.0)),
+            "accumulation" => Some((0.0, f64::INFINITY)),
+            _ => Some((f64::NEG_INFINITY, f64::INFINITY)),
+        }
+    }
+
+    fn run(&self, landscape: &mut Landscape, _: &Job<'_>) -> Result<Outcome, Error> {
+        let domain = &landscape.domain;
+        let (area, size) = (domain.cell_area(), domain.size);
+        ensure_finite(landscape, &self.of.0)?;
+        let routed = route(landscape.field(&self.of.0)?, domain.land.as_ref(), &self.routing());
+        let areas = scaled(size, &self.sums(landscape, &routed, None), area);
+        let weight = self.weight.as_ref().map(|name| landscape.field(&name.0)).transpose()?;
+        let discharge = weight.map(|runoff| {
+            scaled(size, &self.sums(landscape, &routed, Some(runoff)), area * MILLIMETRES_A_YEAR)
+        });
+        landscape.insert("flow_direction", "1", routed.directions.layer());
+        landscape.insert("accumulation", "m²", areas);
+        if let Some(discharge) = discharge {
+            landscape.insert("discharge", "m³/s", discharge);
+        }
+        if let Some(name) = &self.filled {
+            landscape.insert(&name.0, "m", routed.surface);
+        }
+        Ok(Outcome { iterations: 1, ..Outcome::default() })
+    }
+}
+
+impl FlowStep {
+    fn routing(&self) -> Routing {
+        Routing {
+            depressions: self.depressions,
+            deepest_breach: self.deepest_breach.unwrap_or(f64::INFINITY),
+            sea_level: self.sea_level,
+        }
+    }
+
+    fn sums(&self, landscape: &Landscape, routed: &Routed, weight: Option<&Field>) -> Vec<f64> {
+        let land = landscape.domain.land.as_ref();
+        match self.method {
+            Method::D8 => accumulate(&routed.directions, land, weight),
+            Method::Multiple => {
+                accumulate_multiple(&MultipleFlow { routed, land, exponent: self.exponent }, weight)
+            }
+        }
+    }
+}

@@ -1,0 +1,118 @@
+//! Heights in a ring of no-data, so that the border of the grid and of the data are one thing.
+
+use rayon::prelude::*;
+
+use crate::analyse::directions::STEPS;
+use weald_core::grid::{Field, Mask, Size};
+
+/// Level of a cell without data: nothing flows there, and who is beside it can let water out.
+pub(super) const NO_DATA: f32 = f32::INFINITY;
+
+/// Level of a cell of the sea: everything flows there.
+const SEA_LEVEL: f32 = f32::NEG_INFINITY;
+
+/// Rows that one task works on; no result depends on it.
+pub(super) const ROWS_A_TASK: usize = 16;
+
+/// A grid with one more cell on every side.
+#[derive(Debug)]
+pub(super) struct Surface {
+    /// Size of the grid within the ring.
+    pub(super) size: Size,
+    /// Cells in a row, with the ring.
+    pub(super) stride: usize,
+    /// Height of each cell, with the ring.
+    pub(super) level: Vec<f32>,
+}
+
+impl Surface {
+    pub(super) fn of(height: &Field, land: Option<&Mask>, sea_level: Option<f64>) -> Self {
+        let size = height.size();
+        let stride = size.columns + 2;
+        let mut level = vec![NO_DATA; stride * (size.rows + 2)];
+        let rows = level.par_chunks_mut(stride).with_min_len(ROWS_A_TASK).skip(1).take(size.rows);
+        rows.enumerate().for_each(|(y, row)| {
+            for (x, level) in row[1..=size.columns].iter_mut().enumerate() {
+                if land.is_none_or(|land| land.is_land(x, y)) {
+                    *level = height.at(x, y);
+                    assert!(level.is_finite(), "the height in column {x}, row {y} is {level}");
+                }
+            }
+        });
+        let mut surface = Self { size, stride, level };
+        if let Some(sea_level) = sea_level {
+            surface.flood_from_the_border(sea_level as f32);
+        }
+        surface
+    }
+
+    /// Number of cells, with the ring.
+    pub(super) fn cells(&self) -> usize {
+        self.level.len()
+    }
+
+    /// Difference of cell numbers to the eight neighbours, in the order of their codes.
+    pub(super) fn offsets(&self) -> [isize; 8] {
+        STEPS.map(|(east, south)| south * self.stride as isize + east)
+    }
+
+    pub(super) fn has_data(&self, cell: usize) -> bool {
+        self.level[cell] != NO_DATA
+    }
+
+    pub(super) fn is_sea(&self, cell: usize) -> bool {
+        self.level[cell] == SEA_LEVEL
+    }
+
+    /// The neighbour in the direction of a code.
+    #[inline]
+    pub(super) fn neighbour(&self, cell: usize, code: u8) -> usize {
+        let (east, south) = STEPS[usize::from(code) - 1];
+        cell.wrapping_add_signed(south * self.stride as isize + east)
+    }
+
+    /// The eight neighbours of a cell within the ring, in the order of their codes.
+    #[inline]
+    pub(super) fn around(&self, cell: usize) -> [usize; 8] {
+        self.offsets().map(|offset| cell.wrapping_add_signed(offset))
+    }
+
+    /// What lies within the ring, changed by a function of cell and value.
+    pub(super) fn inner<T, U>(&self, values: &[T], change: impl Fn(usize, T) -> U + Sync) -> Vec<U>
+    where
+        T: Copy + Sync,
+        U: Copy + Default + Send,
+    {
+        let mut inner = vec![U::default(); self.size.cells()];
+        let rows = inner.par_chunks_mut(self.size.columns).with_min_len(ROWS_A_TASK);
+        rows.enumerate().for_each(|(y, row)| {
+            let first = (y + 1) * self.stride + 1;
+            for (x, (to, &from)) in row.iter_mut().zip(&values[first..]).enumerate() {
+                *to = change(first + x, from);
+            }
+        });
+        inner
+    }
+
+    /// Sea is what is no higher than it and connected to the border of the grid or the data by such cells.
+    fn flood_from_the_border(&mut self, sea_level: f32) {
+        let low = |level: f32| level <= sea_level && level != SEA_LEVEL;
+        let rim: Vec<usize> = (self.stride + 1..self.cells() - self.stride - 1)
+            .filter(|&cell| {
+                low(self.level[cell]) && self.around(cell).iter().any(|&other| !self.has_data(other))
+            })
+            .collect();
+        let mut open = rim;
+        for &cell in &open {
+            self.level[cell] = SEA_LEVEL;
+        }
+        while let Some(cell) = open.pop() {
+            for other in self.around(cell) {
+                if low(self.level[other]) {
+                    self.level[other] = SEA_LEVEL;
+                    open.push(other);
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,84 @@
+//! The `network` step: measures of the river network that a simulation formed, for the report.
+//!
+//! What they are says [`network`](super::network). They depend on the grid, so only landscapes of the same size
+//! compare, at the end of a dry period.
+
+use super::network::{NetworkInput, measure};
+use weald_core::error::Error;
+use weald_core::grid::Field;
+use weald_core::landscape::Landscape;
+use weald_core::parameter::LayerName;
+use weald_core::parameters;
+use weald_engine::Job;
+use weald_engine::step::{Entry, Outcome, Stage, Step};
+
+/// The step's declaration.
+pub const ENTRY: Entry = Entry::of::<Network>(
+    "network",
+    Stage::Analyse,
+    "measures the network of rivers that a simulation formed, for the report",
+    "Weald, after the claims of Han 2015, doi 10.7583/JKGS.2015.15.6.171",
+);
+
+/// Mean rain of `hydraulic` with its defaults, in cells a step: 0.01 in one step of two.
+const USUAL_RAIN: f64 = 0.005;
+
+parameters! {
+    /// Measures of a river network, which go into report.json as `measures`. Needs the layers that `hydraulic`
+    /// writes.
+    pub struct Network {
+        /// Layer of heights in metres.
+        of: LayerName = LayerName::of("height");
+        /// Layer of the depth of water in metres.
+        water: LayerName = LayerName::of("water");
+        /// Layer of the mean flow of water to the east, in m³ a step.
+        flux_x: LayerName = LayerName::of("flux_x");
+        /// The same to the south.
+        flux_y: LayerName = LayerName::of("flux_y");
+        /// Layer of the depth that was eroded, in metres.
+        erosion: LayerName = LayerName::of("erosion");
+        /// Layer of the depth that was deposited, in metres.
+        deposition: LayerName = LayerName::of("deposition");
+        /// Mean rain of a whole cycle of rain and sun: `rain` of `hydraulic` by the share of the steps in which it
+        /// rains. Without it, 0.005 cells, which is that of `hydraulic` with its defaults.
+        rain: Option<f64> = None, range 1.0e-9..=100.0, unit "m/step";
+    }
+}
+
+impl Step for Network {
+    fn reads(&self) -> Vec<String> {
+        let layers = [&self.of, &self.water, &self.flux_x, &self.flux_y, &self.erosion, &self.deposition];
+        layers.map(|name| name.0.clone()).into()
+    }
+
+    fn writes(&self) -> Vec<(String, &'static str)> {
+        Vec::new()
+    }
+
+    fn run(&self, landscape: &mut Landscape, _: &Job<'_>) -> Result<Outcome, Error> {
+        let domain = &landscape.domain;
+        let field = |name: &LayerName| landscape.field(&name.0);
+        let before = before(field(&self.of)?, field(&self.erosion)?, field(&self.deposition)?);
+        let rain = self.rain.unwrap_or(USUAL_RAIN * domain.cell);
+        let measures = measure(&NetworkInput {
+            ground: field(&self.of)?,
+            before: Some(&before),
+            depth: field(&self.water)?,
+            mean_flux_x: field(&self.flux_x)?,
+            mean_flux_y: field(&self.flux_y)?,
+            mean_rain: rain * domain.cell_area(),
+            cell: domain.cell,
+            land: domain.land.as_ref(),
+        });
+        let measures = measures.named().into_iter().collect();
+        Ok(Outcome { iterations: 1, measures, ..Outcome::default() })
+    }
+}
+
+/// The ground before the water changed it.
+fn before(ground: &Field, erosion: &Field, deposition: &Field) -> Field {
+    let changes = erosion.values().iter().zip(deposition.values());
+    let values =
+        ground.values().iter().zip(changes).map(|(now, (eroded, deposited))| now + eroded - deposited);
+    Field::from_values(ground.size(), values.collect())
+}

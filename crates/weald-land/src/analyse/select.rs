@@ -1,0 +1,119 @@
+//! A mask from ranges of layers.
+//!
+//! Each range of a layer is a [`Condition`]. Their masks meet as fuzzy sets: "all" is their least, "any" their
+//! greatest, "not" is 1 - m (Zadeh 1965, doi 10.1016/S0019-9958(65)90241-X), which keeps the laws of De Morgan and
+//! leaves a mask met with itself as it is.
+
+use super::cells::field_of;
+use weald_core::condition::{Condition, turned};
+use weald_core::error::Error;
+use weald_core::grid::Field;
+use weald_core::landscape::Landscape;
+use weald_core::parameter::{LayerName, Nested};
+use weald_core::{choices, parameters};
+use weald_engine::Job;
+use weald_engine::step::{Entry, Outcome, Stage, Step};
+
+/// The step's declaration.
+pub const ENTRY: Entry = Entry::of::<Select>(
+    "select",
+    Stage::Analyse,
+    "a mask from ranges of any layers, with soft edges",
+    "Zadeh 1965, doi 10.1016/S0019-9958(65)90241-X",
+);
+
+choices! {
+    /// How several conditions make one mask.
+    pub enum Combine {
+        /// A cell must fulfil all of them.
+        All = "all",
+        /// One of them is enough.
+        Any = "any",
+    }
+}
+
+parameters! {
+    /// A selection: 1 inside, 0 outside.
+    pub struct Select {
+        /// Conditions, each a layer and a range: `[{ layer = "slope", above = 20, below = 45, soft = 5 }, …]`. A
+        /// mask is a layer too, so that a selection can go into another one.
+        r#where: Vec<Nested<Condition>> = Vec::new();
+        /// Whether all conditions must be fulfilled or any of them.
+        combine: Combine = Combine::All;
+        /// Whether the mask is turned over.
+        not: bool = false;
+        /// Layer that is written.
+        into: LayerName = LayerName::of("mask");
+    }
+}
+
+impl Step for Select {
+    fn reads(&self) -> Vec<String> {
+        self.r#where.iter().map(|Nested(condition)| condition.layer.0.clone()).collect()
+    }
+
+    fn writes(&self) -> Vec<(String, &'static str)> {
+        vec![(self.into.0.clone(), "1")]
+    }
+
+    fn range(&self, _: &str) -> Option<(f64, f64)> {
+        Some((0.0, 1.0))
+    }
+
+    fn faults(&self) -> Vec<String> {
+        let none = self.r#where.is_empty().then(|| {
+            "`where` is empty: it needs a condition, such as { layer = \"slope\", above = 30 }".to_owned()
+        });
+        none.into_iter()
+            .chain(self.r#where.iter().filter_map(|Nested(condition)| condition.fault()))
+            .collect()
+    }
+
+    fn run(&self, landscape: &mut Landscape, _: &Job<'_>) -> Result<Outcome, Error> {
+        let conditions: Vec<(&Condition, &Field)> = self
+            .r#where
+            .iter()
+            .map(|Nested(condition)| Ok((condition, landscape.field(&condition.layer.0)?)))
+            .collect::<Result<_, Error>>()?;
+        let mask = field_of(&landscape.domain, |x, y| {
+            let masks = conditions.iter().map(|(condition, field)| condition.mask(f64::from(field.at(x, y))));
+            turned(self.combine.of(masks), self.not)
+        });
+        landscape.insert(&self.into.0, "1", mask);
+        Ok(Outcome { iterations: 1, ..Outcome::default() })
+    }
+}
+
+impl Combine {
+    fn of(self, masks: impl Iterator<Item = f64>) -> f64 {
+        match self {
+            Self::All => masks.fold(1.0, f64::min),
+            Self::Any => masks.fold(0.0, f64::max),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn condition(above: f64, below: f64, soft: f64) -> Condition {
+        Condition { above: Some(above), below: Some(below), soft, ..Condition::default() }
+    }
+
+    #[test]
+    fn not_all_is_any_of_not() {
+        let (a, b) = (condition(0.0, 1.0, 0.8), condition(0.4, 2.0, 0.5));
+        let (not_a, not_b) = (Condition { not: true, ..a.clone() }, Condition { not: true, ..b.clone() });
+        for value in (-10..30).map(|tenth| f64::from(tenth) / 10.0) {
+            let all = Combine::All.of([a.mask(value), b.mask(value)].into_iter());
+            let any = Combine::Any.of([not_a.mask(value), not_b.mask(value)].into_iter());
+            assert!((turned(all, true) - any).abs() < 1e-12, "at {value}");
+        }
+    }
+
+    #[test]
+    fn a_selection_of_nothing_is_a_fault() {
+        assert!(Select::default().faults()[0].contains("`where` is empty"));
+    }
+}

@@ -1,0 +1,84 @@
+//! How steep the ground is.
+//!
+//! ```text
+//! slope = atan √(p² + q²)
+//! ```
+//!
+//! with the gradient (p, q) of a quadratic fitted to the window around each cell: Evans 1972, doi
+//! 10.4324/9780429273346-2.
+
+use super::cells::field_of;
+use super::quadric::Surface;
+use weald_core::error::Error;
+use weald_core::landscape::Landscape;
+use weald_core::parameter::LayerName;
+use weald_core::{choices, parameters};
+use weald_engine::Job;
+use weald_engine::step::{Entry, Outcome, Stage, Step};
+
+/// The step's declaration.
+pub const ENTRY: Entry = Entry::of::<Slope>(
+    "slope",
+    Stage::Analyse,
+    "how steep the ground is, as an angle or as a ratio",
+    "Evans 1972, doi 10.4324/9780429273346-2; Wood 1996",
+);
+
+choices! {
+    /// How steepness is told.
+    pub enum SlopeUnit {
+        /// Angle against the level, 0 to 90 degrees.
+        Degree = "degree",
+        /// Rise over run, the tangent of that angle.
+        Tangent = "tangent",
+    }
+}
+
+parameters! {
+    /// Steepness.
+    pub struct Slope {
+        /// Layer of heights in metres.
+        of: LayerName = LayerName::of("height");
+        /// Angle or ratio.
+        unit: SlopeUnit = SlopeUnit::Degree;
+        /// Metres from a cell to the edge of the window in which the surface is fitted: forms smaller than that
+        /// do not count. The least is one cell.
+        scale: f64 = 0.0, range 0.0..=1.0e6, unit "m";
+        /// Layer that is written.
+        into: LayerName = LayerName::of("slope");
+    }
+}
+
+impl Slope {
+    fn unit_and_end(&self) -> (&'static str, f64) {
+        match self.unit {
+            SlopeUnit::Degree => ("deg", 90.0),
+            SlopeUnit::Tangent => ("1", f64::INFINITY),
+        }
+    }
+}
+
+impl Step for Slope {
+    fn reads(&self) -> Vec<String> {
+        vec![self.of.0.clone()]
+    }
+
+    fn writes(&self) -> Vec<(String, &'static str)> {
+        vec![(self.into.0.clone(), self.unit_and_end().0)]
+    }
+
+    fn range(&self, _: &str) -> Option<(f64, f64)> {
+        Some((0.0, self.unit_and_end().1))
+    }
+
+    fn run(&self, landscape: &mut Landscape, _: &Job<'_>) -> Result<Outcome, Error> {
+        let domain = &landscape.domain;
+        let surface = Surface::new(landscape.field(&self.of.0)?, domain).reaching(self.scale)?;
+        let slope = field_of(domain, |x, y| {
+            let tangent = libm::sqrt(surface.at(x, y).steepness());
+            if self.unit == SlopeUnit::Tangent { tangent } else { libm::atan(tangent).to_degrees() }
+        });
+        landscape.insert(&self.into.0, self.unit_and_end().0, slope);
+        Ok(Outcome { iterations: 1, ..Outcome::default() })
+    }
+}

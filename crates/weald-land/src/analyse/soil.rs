@@ -1,0 +1,267 @@
+//! How deep the soil is, and how well it feeds plants.
+//!
+//! ```text
+//! dh/dt = P exp(-h / h₀) - ∇·q + (deposition - recent · erosion) / T          q = -K ∇z / (1 - (|∇z| / S)²)
+//! ```
+//!
+//! over the age T of the soil: rock weathers the slower the deeper it is buried (Heimsath et al. 1997, doi
+//! 10.1038/41056), soil creeps downhill the faster the nearer the ground is to its critical slope S (Roering, Kirchner
+//! and Dietrich 1999, doi 10.1029/1998WR900090), and what water laid down or took away came and went evenly. The
+//! land keeps its shape meanwhile, so that in each cell the rate g of all but weathering is constant; with u =
+//! exp(h / h₀) the equation is linear and its solution exact:
+//!
+//! ```text
+//! u(T) = u(0) eᵃ + (P T / h₀) (eᵃ - 1) / a          a = g T / h₀
+//! ```
+//!
+//! Ridges and worn ground come to the depth h₀ ln(P / -g), or to bare rock where -g exceeds P; hollows and
+//! flood plains gather soil. Ground at or beyond its critical slope bears none. Fertility is Weald's own product of
+//! what limits plants, each factor 0 to 1 and 1 where its layer is not given:
+//!
+//! ```text
+//! (1 - exp(-h / rooting)) · moisture, from `dry` over 1 to `wet` · nutrients, from `old` to 1 with fresh deposits
+//! ```
+
+use super::cells::fields_of;
+use super::quadric::{Quadric, Surface};
+use weald_core::error::Error;
+use weald_core::grid::Field;
+use weald_core::landscape::Landscape;
+use weald_core::parameter::LayerName;
+use weald_core::parameters;
+use weald_engine::Job;
+use weald_engine::step::{Entry, Outcome, Stage, Step};
+
+/// The step's declaration.
+pub const ENTRY: Entry = Entry::of::<Soil>(
+    "soil",
+    Stage::Analyse,
+    "how deep the soil is by weathering, creep, erosion and deposits, and how fertile",
+    "Heimsath et al. 1997, doi 10.1038/41056; Roering, Kirchner and Dietrich 1999, doi 10.1029/1998WR900090",
+);
+
+parameters! {
+    /// Soil. Writes `soil_depth` in metres and `fertility` from 0 to 1. What it takes into account beside the
+    /// ground is what the recipe names.
+    pub struct Soil {
+        /// Layer of heights in metres.
+        of: LayerName = LayerName::of("height");
+        /// Layer of what water took away, in metres, such as `erosion`. Without it, nothing.
+        erosion: Option<LayerName> = None;
+        /// Share of it that fell in the time in which the soil formed: a simulation soon wears what takes land a
+        /// hundred times as long.
+        recent_erosion: f64 = 0.01, range 0.0..=1.0;
+        /// Layer of what water laid down and left, in metres, such as `deposition`. Without it, nothing.
+        deposition: Option<LayerName> = None;
+        /// Layer of moisture from 0 to 1. Without it, moisture limits nothing.
+        moisture: Option<LayerName> = None;
+        /// Layer of loose ground that lay there before, in metres, such as `regolith` or a material. Without it,
+        /// the soil begins on bare rock.
+        loose: Option<LayerName> = None;
+        /// Time for which the soil has formed. The default is that since the last ice age.
+        age: f64 = 10_000.0, range 1.0..=10_000_000.0, unit "yr";
+        /// Bare rock that weathers to soil in a year (P). The default is that of Heimsath et al.
+        weathering: f64 = 0.000_077, range 0.0..=0.1, unit "m/yr";
+        /// Depth at which weathering has fallen to a third (h₀). The default is that of Heimsath et al.
+        weathering_depth: f64 = 0.42, range 0.01..=10.0, unit "m";
+        /// How readily soil creeps downhill (K). The default is that of Roering et al.
+        creep: f64 = 0.003, range 0.0..=10.0, unit "m²/yr";
+        /// Slope at which all soil slides off (S).
+        critical_slope_deg: f64 = 50.0, range 5.0..=85.0, unit "deg";
+        /// Metres from a cell to the edge of the window in which slope and curvature are measured: soil does not
+        /// follow forms smaller than that. The least is one cell.
+        scale: f64 = 0.0, range 0.0..=1.0e6, unit "m";
+        /// Greatest depth that is told; more than roots reach makes no difference.
+        deepest: f64 = 20.0, range 0.1..=1000.0, unit "m";
+        /// Depth that holds about two thirds of the roots.
+        rooting: f64 = 0.4, range 0.01..=10.0, unit "m";
+        /// Moisture at which plants grow best.
+        best_moisture: f64 = 0.6, range 0.05..=0.95;
+        /// Factor of fertility where moisture is 0.
+        dry: f64 = 0.2, range 0.0..=1.0;
+        /// Factor of fertility where moisture is 1, and roots lack air.
+        wet: f64 = 0.5, range 0.0..=1.0;
+        /// Factor of fertility where there are no fresh deposits; with half a metre of them it is most of the way
+        /// to 1. Only where `deposition` is given.
+        old: f64 = 0.6, range 0.0..=1.0;
+    }
+}
+
+/// Deposit that brings nutrients two thirds of the way to their greatest, in metres.
+const ENRICHING: f64 = 0.5;
+
+impl Step for Soil {
+    fn reads(&self) -> Vec<String> {
+        let others = [&self.erosion, &self.deposition, &self.moisture, &self.loose].into_iter().flatten();
+        std::iter::once(&self.of).chain(others).map(|name| name.0.clone()).collect()
+    }
+
+    fn writes(&self) -> Vec<(String, &'static str)> {
+        vec![("soil_depth".to_owned(), "m"), ("fertility".to_owned(), "1")]
+    }
+
+    fn range(&self, layer: &str) -> Option<(f64, f64)> {
+        Some((0.0, if layer == "fertility" { 1.0 } else { self.deepest }))
+    }
+
+    fn run(&self, landscape: &mut Landscape, _: &Job<'_>) -> Result<Outcome, Error> {
+        let domain = &landscape.domain;
+        let surface = Surface::new(landscape.field(&self.of.0)?, domain).reaching(self.scale)?;
+        let layer = |name: &Option<LayerName>| {
+            name.as_ref().map(|name| landscape.field(&name.0)).transpose().map(Given)
+        };
+        let (erosion, deposition) = (layer(&self.erosion)?, layer(&self.deposition)?);
+        let (moisture, loose) = (layer(&self.moisture)?, layer(&self.loose)?);
+        let [depth, fertility] = fields_of(domain, |x, y| {
+            let deposit = deposition.at(x, y);
+            let gain = deposit.unwrap_or(0.0) - self.recent_erosion * erosion.at(x, y).unwrap_or(0.0);
+            let depth = self.depth(surface.at(x, y), loose.at(x, y).unwrap_or(0.0), gain);
+            [depth, self.fertility(depth, moisture.at(x, y), deposit)]
+        });
+        landscape.insert("soil_depth", "m", depth);
+        landscape.insert("fertility", "1", fertility);
+        Ok(Outcome { iterations: 1, ..Outcome::default() })
+    }
+}
+
+/// A layer that a recipe may leave out.
+struct Given<'a>(Option<&'a Field>);
+
+impl Given<'_> {
+    fn at(&self, x: usize, y: usize) -> Option<f64> {
+        self.0.map(|field| f64::from(field.at(x, y)))
+    }
+}
+
+impl Soil {
+    /// Depth in metres on ground of that shape, from what lay there and what came and went, both in metres.
+    fn depth(&self, surface: Quadric, loose: f64, gain: f64) -> f64 {
+        let critical = libm::tan(self.critical_slope_deg.to_radians());
+        let steepness = surface.steepness() / (critical * critical);
+        if steepness >= 1.0 {
+            return 0.0;
+        }
+        let rate = self.creep * gathering(surface, steepness, critical) + gain / self.age;
+        self.grown(loose.max(0.0), rate).clamp(0.0, self.deepest)
+    }
+
+    /// The solution of the equation of depth after the age of the soil, from a depth at the start and a rate of all
+    /// but weathering, in m/yr.
+    fn grown(&self, start: f64, rate: f64) -> f64 {
+        let scale = self.weathering_depth;
+        let a = rate * self.age / scale;
+        let weathered = libm::log(self.weathering * self.age / scale) + log_mean_growth(a);
+        scale * log_of_sum(start / scale + a, weathered)
+    }
+
+    fn fertility(&self, depth: f64, moisture: Option<f64>, deposit: Option<f64>) -> f64 {
+        let rooted = 1.0 - libm::exp(-depth / self.rooting);
+        let watered = moisture.map_or(1.0, |moisture| self.watered(moisture.clamp(0.0, 1.0)));
+        let fed =
+            deposit.map_or(1.0, |deposit| 1.0 - (1.0 - self.old) * libm::exp(-deposit.max(0.0) / ENRICHING));
+        (rooted * watered * fed).clamp(0.0, 1.0)
+    }
+
+    fn watered(&self, moisture: f64) -> f64 {
+        let best = self.best_moisture;
+        let (end, way) = if moisture < best {
+            (self.dry, moisture / best)
+        } else {
+            (self.wet, (1.0 - moisture) / (1.0 - best))
+        };
+        end + (1.0 - end) * way * way * (3.0 - 2.0 * way)
+    }
+}
+
+/// `∇·(f ∇z)` with `f = 1 / (1 - steepness)`, in 1/m: what creep brings to a cell, for K = 1.
+fn gathering(Quadric { p, q, r, s, t }: Quadric, steepness: f64, critical: f64) -> f64 {
+    let faster = 1.0 / (1.0 - steepness);
+    let along = p * p * r + 2.0 * p * q * s + q * q * t;
+    faster * (r + t) + 2.0 * faster * faster / (critical * critical) * along
+}
+
+/// `ln((eᵃ - 1) / a)`, whatever the size of `a`.
+fn log_mean_growth(a: f64) -> f64 {
+    let size = a.abs();
+    // (1 - e^-size) / size is within 0 and 1; a growing `a` is e^a times that.
+    let mean = if size < 1e-9 { 1.0 } else { -libm::expm1(-size) / size };
+    // For a decaying `a` it is the mean itself.
+    libm::log(mean) + a.max(0.0)
+}
+
+/// `ln(eˣ + eʸ)`, whatever the size of `x` and `y`.
+fn log_of_sum(x: f64, y: f64) -> f64 {
+    let (low, high) = (x.min(y), x.max(y));
+    high + libm::log1p(libm::exp(low - high))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn bent(r: f64) -> Quadric {
+        Quadric { r, ..Quadric::default() }
+    }
+
+    /// The depth by small steps of the equation itself.
+    fn stepped(soil: &Soil, start: f64, rate: f64) -> f64 {
+        let steps = 200_000;
+        let time = soil.age / f64::from(steps);
+        (0..steps).fold(start, |depth, _| {
+            let weathered = soil.weathering * (-depth / soil.weathering_depth).exp();
+            (depth + time * (weathered + rate)).max(0.0)
+        })
+    }
+
+    #[test]
+    fn the_closed_form_solves_the_equation_of_depth() {
+        let soil = Soil::default();
+        for (start, rate) in [(0.0, 0.0), (0.0, -3e-5), (1.5, -6e-5), (0.2, 5e-5), (0.0, 1e-3), (3.0, -2e-3)]
+        {
+            let (found, expected) = (soil.grown(start, rate).max(0.0), stepped(&soil, start, rate));
+            assert!((found - expected).abs() < 2e-4, "{start} m, {rate} m/yr: {found} instead of {expected}");
+        }
+    }
+
+    #[test]
+    fn on_old_ridges_weathering_keeps_up_with_creep_at_the_depth_of_heimsath() {
+        let soil = Soil { age: 1.0e7, ..Soil::default() };
+        let curvature = -0.01;
+        let expected = soil.weathering_depth * (soil.weathering / (soil.creep * 0.01)).ln();
+        let found = soil.depth(bent(curvature), 0.0, 0.0);
+        assert!(expected > 0.3 && (found - expected).abs() < 1e-6, "{found} instead of {expected}");
+    }
+
+    #[test]
+    fn sharp_ridges_steep_walls_and_worn_ground_are_bare_and_hollows_are_deep() {
+        let soil = Soil::default();
+        assert_eq!(soil.depth(bent(-0.1), 0.0, 0.0), 0.0);
+        assert_eq!(soil.depth(Quadric { p: 2.0, ..Quadric::default() }, 5.0, 0.0), 0.0);
+        assert_eq!(soil.depth(bent(0.0), 0.0, -50.0), 0.0);
+        let [level, hollow, plain] =
+            [(0.0, 0.0), (0.01, 0.0), (0.0, 3.0)].map(|(bend, gain)| soil.depth(bent(bend), 0.0, gain));
+        assert!(level > 0.3 && hollow > level && plain > 3.0, "{level} {hollow} {plain}");
+        assert_eq!(soil.depth(bent(0.0), 0.0, 1.0e6), soil.deepest);
+    }
+
+    #[test]
+    fn creep_is_faster_the_nearer_the_ground_is_to_its_critical_slope() {
+        let soil = Soil::default();
+        let shoulder = |p: f64| soil.depth(Quadric { p, ..bent(-0.004) }, 0.0, 0.0);
+        assert!(shoulder(0.0) > shoulder(0.5) && shoulder(0.5) > shoulder(0.8), "{}", shoulder(0.5));
+    }
+
+    #[test]
+    fn fertility_is_greatest_on_deep_moist_fresh_soil() {
+        let soil = Soil::default();
+        let best = soil.fertility(10.0, Some(0.6), Some(10.0));
+        assert!((best - 1.0).abs() < 1e-6, "{best}");
+        for (depth, moisture, deposit) in
+            [(0.1, 0.6, 10.0), (10.0, 0.0, 10.0), (10.0, 1.0, 10.0), (10.0, 0.6, 0.0)]
+        {
+            assert!(soil.fertility(depth, Some(moisture), Some(deposit)) < 0.7);
+        }
+        assert_eq!(soil.fertility(0.0, None, None), 0.0);
+        assert!(soil.fertility(10.0, None, None) > 0.99);
+    }
+}

@@ -1,0 +1,163 @@
+//! The topographic wetness index: how much land drains through a cell, against how steep it is.
+//!
+//! ```text
+//! wetness = ln(a / tan β)        a = upslope area by length of contour, β = slope
+//! ```
+//!
+//! Beven and Kirkby 1979, "A physically based, variable contributing area model of basin hydrology", doi
+//! 10.1080/02626667909491834. Areas come from flow that divides, the slope is that of the ways down in
+//! proportion to their shares (Quinn et al. 1991, doi 10.1002/hyp.3360050106). Differs: the length of contour
+//! is not a constant of the direction. What leaves a cell moves on by `d`, the mean of the steps to its
+//! neighbours by their shares, and falls by `h`, the mean of the falls. So `a = A |d| / cell²` and `tan β = h / |d|`:
+//! both are those of the plane on planes along the axes and the diagonals.
+
+use rayon::prelude::*;
+
+use super::directions::STEPS;
+use super::flow::{MultipleFlow, Routed, Routing, accumulate_multiple, route};
+use super::{CELLS_A_TASK, ensure_finite};
+use weald_core::error::Error;
+use weald_core::grid::Field;
+use weald_core::landscape::Landscape;
+use weald_core::parameter::LayerName;
+use weald_core::parameters;
+use weald_engine::Job;
+use weald_engine::step::{Entry, Outcome, Stage, Step};
+
+/// The step's declaration.
+pub const ENTRY: Entry = Entry::of::<Wetness>(
+    "wetness",
+    Stage::Analyse,
+    "the topographic wetness index ln(a / tan β)",
+    "Beven and Kirkby 1979; Quinn et al. 1991",
+);
+
+parameters! {
+    /// The topographic wetness index.
+    pub struct Wetness {
+        /// Layer of heights.
+        of: LayerName = LayerName::of("height");
+        /// Shares of lower neighbours are in proportion to slope to this power.
+        exponent: f64 = 1.1, range 0.0..=20.0;
+        /// Gentler slopes count as this one, so that level ground has an index: a metre in a kilometre.
+        least_slope: f64 = 0.001, range 1.0e-6..=1.0;
+        /// Height of the sea, in which flow ends. Without it there is no sea.
+        sea_level: Option<f64> = None, range -1.0e6..=1.0e6, unit "m";
+        /// Layer that is written.
+        into: LayerName = LayerName::of("wetness");
+    }
+}
+
+impl Step for Wetness {
+    fn reads(&self) -> Vec<String> {
+        vec![self.of.0.clone()]
+    }
+
+    fn writes(&self) -> Vec<(String, &'static str)> {
+        vec![(self.into.0.clone(), "1")]
+    }
+
+    fn range(&self, _: &str) -> Option<(f64, f64)> {
+        Some((f64::NEG_INFINITY, f64::INFINITY))
+    }
+
+    fn run(&self, landscape: &mut Landscape, _: &Job<'_>) -> Result<Outcome, Error> {
+        ensure_finite(landscape, &self.of.0)?;
+        let domain = &landscape.domain;
+        let routing = Routing { sea_level: self.sea_level, ..Routing::default() };
+        let routed = route(landscape.field(&self.of.0)?, domain.land.as_ref(), &routing);
+        let flow = MultipleFlow { routed: &routed, land: domain.land.as_ref(), exponent: self.exponent };
+        let index = wetness(&flow, domain.cell, self.least_slope);
+        landscape.insert(&self.into.0, "1", index);
+        Ok(Outcome { iterations: 1, ..Outcome::default() })
+    }
+}
+
+/// The index of each cell, for cells of `cell` metres; slopes below `least_slope` count as that.
+pub fn wetness(flow: &MultipleFlow<'_>, cell: f64, least_slope: f64) -> Field {
+    let upslope = accumulate_multiple(flow, None);
+    let index = |(at, &cells): (usize, &f64)| {
+        if cells == 0.0 {
+            return 0.0;
+        }
+        let outflow = Outflow::of(flow, at);
+        let by_contour = cells * outflow.step * cell;
+        let slope = (outflow.fall / (outflow.step * cell)).max(least_slope);
+        libm::log(by_contour / slope) as f32
+    };
+    let values = upslope.par_iter().enumerate().with_min_len(CELLS_A_TASK).map(index).collect();
+    Field::from_values(flow.routed.surface.size(), values)
+}
+
+/// How water leaves a cell.
+struct Outflow {
+    /// How far it moves on, in cells.
+    step: f64,
+    /// How far it falls, in metres.
+    fall: f64,
+}
+
+impl Outflow {
+    fn of(flow: &MultipleFlow<'_>, cell: usize) -> Self {
+        let Routed { surface, directions } = flow.routed;
+        if directions.downstream(cell).is_none() {
+            // Water leaves straight over the edge.
+            return Self { step: 1.0, fall: 0.0 };
+        }
+        let columns = surface.size().columns as isize;
+        let (mut to, mut fall) = ([0.0, 0.0], 0.0);
+        for (share, (east, south)) in
+            flow.shares(cell).into_iter().zip(STEPS).filter(|(share, _)| *share > 0.0)
+        {
+            to = [to[0] + share * east as f64, to[1] + share * south as f64];
+            let other = cell.wrapping_add_signed(south * columns + east);
+            fall += share * (f64::from(surface.values()[cell]) - f64::from(surface.values()[other]));
+        }
+        Self { step: libm::hypot(to[0], to[1]).max(LEAST_STEP), fall }
+    }
+}
+
+/// Water that parts in opposite directions, as on a ridge, moves on by nothing on average; a quarter of a cell
+/// keeps the logarithm finite.
+const LEAST_STEP: f64 = 0.25;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use weald_core::grid::Size;
+
+    /// Wetness of a plane that falls by `slope` towards an angle, and distance from its top along the fall, in
+    /// the middle of the grid.
+    fn on_a_plane(angle: f64, slope: f64) -> f64 {
+        let size = Size::square(121).expect("legal");
+        let (east, south) = (libm::cos(angle), libm::sin(angle));
+        let height = Field::from_function(size, |x, y| {
+            (1000.0 - slope * 10.0 * (x as f64 * east + y as f64 * south)) as f32
+        });
+        let routed = route(&height, None, &Routing::default());
+        let flow = MultipleFlow { routed: &routed, land: None, exponent: 1.1 };
+        f64::from(wetness(&flow, 10.0, 0.001).at(60, 60))
+    }
+
+    #[test]
+    fn on_planes_it_is_the_distance_from_the_top_over_the_slope() {
+        let straight = on_a_plane(0.0, 0.2);
+        assert!((straight - libm::log(61.0 * 10.0 / 0.2)).abs() < 0.06, "{straight}");
+        // The corner is the top of the diagonal: √2 as far, but less of the land drains far.
+        let diagonal = on_a_plane(std::f64::consts::FRAC_PI_4, 0.2);
+        assert!(
+            (diagonal - libm::log(61.0 * 10.0 * std::f64::consts::SQRT_2 / 0.2)).abs() < 0.15,
+            "{diagonal}"
+        );
+        assert!((on_a_plane(0.0, 0.1) - straight - std::f64::consts::LN_2).abs() < 0.02);
+    }
+
+    #[test]
+    fn level_ground_has_the_least_slope() {
+        let level = Field::filled(Size::square(9).expect("legal"), 5.0);
+        let routed = route(&level, None, &Routing::default());
+        let flow = MultipleFlow { routed: &routed, land: None, exponent: 1.1 };
+        let corner = wetness(&flow, 10.0, 0.01).at(0, 0);
+        assert!((f64::from(corner) - libm::log(10.0 / 0.01)).abs() < 1e-6, "{corner}");
+    }
+}

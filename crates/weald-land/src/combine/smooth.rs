@@ -1,0 +1,129 @@
+//! Blurs a layer by a Gaussian, rows first, then columns.
+//!
+//! ```text
+//! v'(p) = Σ g(|p - q|) v(q) / Σ g(|p - q|)        over cells q with data, g(r) = exp(-r² / 2 radius²)
+//! ```
+//!
+//! The sum ends at three radii. Dividing by the weights of the cells that take part keeps level ground level
+//! at the edges of the grid and of the data ("normalised convolution", Knutsson and Westin 1993, doi
+//! 10.1109/CVPR.1993.341081).
+
+use rayon::prelude::*;
+
+use super::{store, written};
+use weald_core::error::Error;
+use weald_core::grid::{Field, Mask};
+use weald_core::landscape::Landscape;
+use weald_core::parameter::LayerName;
+use weald_core::parameters;
+use weald_core::vectors;
+use weald_engine::Job;
+use weald_engine::step::{Entry, Outcome, Stage, Step};
+
+/// The step's declaration.
+pub const ENTRY: Entry =
+    Entry::of::<Smooth>("smooth", Stage::Combine, "blurs a layer by a Gaussian", "Knutsson and Westin 1993");
+
+/// Radii at which the Gaussian is cut off.
+const REACH: f64 = 3.0;
+
+parameters! {
+    /// Gaussian blur.
+    pub struct Smooth {
+        /// Layer that is read.
+        layer: LayerName = LayerName::of("height");
+        /// Standard deviation of the Gaussian. Forms much shorter than six of it vanish.
+        radius: f64 = 50.0, range 0.0..=1.0e6, unit "m";
+        /// Layer that is written. Without it, `layer`.
+        into: Option<LayerName> = None;
+    }
+}
+
+impl Step for Smooth {
+    fn reads(&self) -> Vec<String> {
+        vec![self.layer.0.clone()]
+    }
+
+    fn writes(&self) -> Vec<(String, &'static str)> {
+        written(self.into.as_ref(), &self.layer)
+    }
+
+    fn run(&self, landscape: &mut Landscape, _: &Job<'_>) -> Result<Outcome, Error> {
+        let domain = &landscape.domain;
+        let field = landscape.field(&self.layer.0)?;
+        let longest = domain.size.columns.max(domain.size.rows);
+        let weights = weights(self.radius / domain.cell, longest);
+        let smooth = smoothed(field, domain.land.as_ref(), &weights);
+        store(landscape, &self.layer, self.into.as_ref(), smooth)?;
+        Ok(Outcome::default())
+    }
+}
+
+/// Weight of a cell by its distance, 0 to the reach or the end of the grid.
+fn weights(radius: f64, longest: usize) -> Vec<f32> {
+    let reach = (libm::ceil(REACH * radius) as usize).min(longest - 1);
+    let weight = |distance: usize| {
+        let share = distance as f64 / radius.max(1e-9);
+        libm::exp(-0.5 * share * share) as f32
+    };
+    (0..=reach).map(weight).collect()
+}
+
+fn smoothed(field: &Field, land: Option<&Mask>, weights: &[f32]) -> Field {
+    // Heights are blurred above the lowest, so that a high plateau loses no digits and level ground is exact.
+    let low = field.range(land).map_or(0.0, |(low, _)| low);
+    let share = |index: usize| if land.is_none_or(|land| land.is_land_at(index)) { 1.0 } else { 0.0 };
+    let cells = 0..field.values().len();
+    let size = field.size();
+    let values =
+        cells.clone().map(|index| if share(index) > 0.0 { field.values()[index] - low } else { 0.0 });
+    let heights = blurred(&Field::from_values(size, values.collect()), weights);
+    let shares = blurred(&Field::from_values(size, cells.clone().map(share).collect()), weights);
+    let value = |index: usize| {
+        let old = field.values()[index];
+        if share(index) > 0.0 { low + heights.values()[index] / shares.values()[index] } else { old }
+    };
+    Field::from_values(size, cells.map(value).collect())
+}
+
+fn blurred(field: &Field, weights: &[f32]) -> Field {
+    let along_rows = by_rows(field, |y, row| blur_along(field.row(y), weights, row));
+    by_rows(&along_rows, |y, row| blur_across(&along_rows, y, weights, row))
+}
+
+fn by_rows(like: &Field, fill: impl Fn(usize, &mut [f32]) + Sync) -> Field {
+    let mut field = Field::filled(like.size(), 0.0);
+    field.values_mut().par_chunks_mut(like.size().columns).enumerate().for_each(|(y, row)| fill(y, row));
+    field
+}
+
+fn blur_along(row: &[f32], weights: &[f32], out: &mut [f32]) {
+    add_scaled(out, row, weights[0]);
+    let columns = row.len();
+    for (apart, &weight) in weights.iter().enumerate().skip(1).take(columns - 1) {
+        add_scaled(&mut out[apart..], &row[..columns - apart], weight);
+        add_scaled(&mut out[..columns - apart], &row[apart..], weight);
+    }
+}
+
+fn blur_across(field: &Field, y: usize, weights: &[f32], out: &mut [f32]) {
+    add_scaled(out, field.row(y), weights[0]);
+    for (apart, &weight) in weights.iter().enumerate().skip(1) {
+        let above = y.checked_sub(apart);
+        let below = Some(y + apart).filter(|&y| y < field.size().rows);
+        for there in [above, below].into_iter().flatten() {
+            add_scaled(out, field.row(there), weight);
+        }
+    }
+}
+
+fn add_scaled(out: &mut [f32], row: &[f32], weight: f32) {
+    vectors::widest(
+        #[inline(always)]
+        || {
+            for (sum, value) in out.iter_mut().zip(row) {
+                *sum += weight * value;
+            }
+        },
+    );
+}

@@ -1,0 +1,223 @@
+//! The keys of an edit: what `do` can say, and what goes with it.
+
+use super::brush::{Brush, Effect, Falloff};
+use super::script::Edit;
+use weald_core::parameter::{Complaints, LayerName, Parameters, Places, nearest};
+use weald_core::source::{Node, Table, Value};
+
+/// Most places of one stroke.
+pub const MAXIMUM_PLACES: usize = 10_000;
+
+weald_core::parameters! {
+    /// The keys of an edit, beside `do`: add, remove, add-water, remove-water, smooth, flatten, source, drain,
+    /// rain, freeze or thaw.
+    pub struct EditKeys {
+        /// Simulation step before which the stroke happens; 0 is before the first.
+        step: u64 = 0, range 0..=9_007_199_254_740_991_u64;
+        /// Place `[x, y]` in metres from the north-western corner, east and south, or a list of places for a
+        /// line through them.
+        path: Places = Places::needed();
+        /// Distance from the line to the edge of the stroke.
+        radius: f64 = 50.0, range 0.001..=1_000_000.0, unit "m";
+        /// How the effect falls off towards the edge.
+        falloff: Falloff = Falloff::Smooth;
+        /// Share of the effect in the middle.
+        strength: f64 = 1.0, range 0.0..=1.0;
+        /// Material that `add` and `remove` are about, or `bedrock`.
+        material: Option<LayerName> = None;
+        /// Metres of it.
+        thickness: Option<f64> = None, range 0.0..=100_000.0, unit "m";
+        /// Metres of water for `add-water` and `remove-water`.
+        depth: Option<f64> = None, range 0.0..=100_000.0, unit "m";
+        /// How many times `smooth` is done; 1 where it says nothing.
+        times: Option<u32> = None, range 1..=64;
+        /// Height that `flatten` brings the ground to.
+        height: Option<f64> = None, range -100_000.0..=100_000.0, unit "m";
+        /// Metres of water a simulation step for `source` and `drain`.
+        rate: Option<f64> = None, range 0.0..=1000.0, unit "m/step";
+        /// Factor on the rain for `rain`.
+        factor: Option<f64> = None, range 0.0..=1000.0;
+    }
+}
+
+/// A word after `do`, the keys that it needs, and those that it may have.
+struct Deed {
+    word: &'static str,
+    needs: &'static [&'static str],
+    takes: &'static [&'static str],
+    /// `None` where a key is missing.
+    effect: fn(&EditKeys) -> Option<Effect>,
+}
+
+const DEEDS: &[Deed] = &[
+    Deed {
+        word: "add",
+        needs: &["material", "thickness"],
+        takes: &[],
+        effect: |keys| Some(Effect::Add { material: keys.material.clone()?.0, thickness: keys.thickness? }),
+    },
+    Deed {
+        word: "remove",
+        needs: &["material", "thickness"],
+        takes: &[],
+        effect: |keys| {
+            Some(Effect::Remove { material: keys.material.clone()?.0, thickness: keys.thickness? })
+        },
+    },
+    Deed {
+        word: "add-water",
+        needs: &["depth"],
+        takes: &[],
+        effect: |keys| Some(Effect::AddWater { depth: keys.depth? }),
+    },
+    Deed {
+        word: "remove-water",
+        needs: &["depth"],
+        takes: &[],
+        effect: |keys| Some(Effect::RemoveWater { depth: keys.depth? }),
+    },
+    Deed {
+        word: "smooth",
+        needs: &[],
+        takes: &["times"],
+        effect: |keys| Some(Effect::Smooth { times: keys.times.unwrap_or(1) }),
+    },
+    Deed {
+        word: "flatten",
+        needs: &["height"],
+        takes: &[],
+        effect: |keys| Some(Effect::Flatten { height: keys.height? }),
+    },
+    Deed {
+        word: "source",
+        needs: &["rate"],
+        takes: &[],
+        effect: |keys| Some(Effect::Source { rate: keys.rate? }),
+    },
+    Deed {
+        word: "drain",
+        needs: &["rate"],
+        takes: &[],
+        effect: |keys| Some(Effect::Drain { rate: keys.rate? }),
+    },
+    Deed {
+        word: "rain",
+        needs: &["factor"],
+        takes: &[],
+        effect: |keys| Some(Effect::Rain { factor: keys.factor? }),
+    },
+    Deed { word: "freeze", needs: &[], takes: &[], effect: |_| Some(Effect::Freeze) },
+    Deed { word: "thaw", needs: &[], takes: &[], effect: |_| Some(Effect::Thaw) },
+];
+
+/// Keys that go with some deeds only.
+const SPECIAL: [&str; 7] = ["material", "thickness", "depth", "times", "height", "rate", "factor"];
+
+/// Reads the table of one edit; `None` where it is not understood in full.
+pub(super) fn read(table: &Table, materials: &[&str], complaints: &mut Complaints) -> Option<Edit> {
+    let before = complaints.found.len();
+    "edit".clone_into(&mut complaints.subject);
+    let deed = deed(table, complaints)?;
+    deed.word.clone_into(&mut complaints.subject);
+    let mut rest = table.clone();
+    rest.take("do");
+    let keys = EditKeys::read(&rest, complaints);
+    deed.check(table, complaints);
+    check_material(table, &keys, materials, complaints);
+    if keys.path.0.len() > MAXIMUM_PLACES {
+        let places = keys.path.0.len();
+        complaints
+            .add(table.line, format!("`path` has {places} places; a stroke has at most {MAXIMUM_PLACES}"));
+    }
+    let effect = (deed.effect)(&keys).filter(|_| complaints.found.len() == before)?;
+    let EditKeys { step, path, radius, falloff, strength, .. } = keys;
+    Some(Edit { step, brush: Brush { path: path.0, radius, falloff, strength, effect } })
+}
+
+fn deed(table: &Table, complaints: &mut Complaints) -> Option<&'static Deed> {
+    let words: Vec<_> = DEEDS.iter().map(|deed| deed.word).collect();
+    let Some(Node { value, line }) = table.get("do") else {
+        complaints.add(table.line, format!("`do` is needed: one of {}", words.join(", ")));
+        return None;
+    };
+    let word = match value {
+        Value::Text(word) => word.as_str(),
+        _ => "",
+    };
+    let deed = DEEDS.iter().find(|deed| deed.word == word);
+    if deed.is_none() {
+        let hint = match nearest(word, &words) {
+            Some(near) => format!("did you mean `{near}`?"),
+            None => format!("it must be one of {}", words.join(", ")),
+        };
+        complaints.add(*line, format!("`do` is {}; {hint}", value.shown()));
+    }
+    deed
+}
+
+impl Deed {
+    /// Complains of keys that are missing, and of those that mean nothing here.
+    fn check(&self, table: &Table, complaints: &mut Complaints) {
+        for key in SPECIAL {
+            match table.get(key) {
+                None if self.needs.contains(&key) => {
+                    complaints.add(table.line, format!("`{key}` is needed"));
+                }
+                Some(node) if !self.needs.contains(&key) && !self.takes.contains(&key) => {
+                    complaints.add(node.line, format!("`{key}` does not go with `{}`", self.word));
+                }
+                _ => {}
+            }
+        }
+    }
+}
+
+fn check_material(table: &Table, keys: &EditKeys, materials: &[&str], complaints: &mut Complaints) {
+    let Some(LayerName(name)) = &keys.material else { return };
+    if name == weald_core::material::BEDROCK || materials.contains(&name.as_str()) {
+        return;
+    }
+    let hint = match nearest(name, materials) {
+        Some(near) => format!("did you mean `{near}`?"),
+        None => format!("the ground is of: {}", materials.join(", ")),
+    };
+    let line = table.get("material").map_or(table.line, |node| node.line);
+    complaints.add(line, format!("`material` is {name:?}, of which there is none; {hint}"));
+}
+
+/// The keys and values of an edit in JSON, which TOML reads too; those that are at their defaults are said.
+pub(super) fn written(edit: &Edit) -> Vec<(&'static str, serde_json::Value)> {
+    let Brush { path, radius, falloff, strength, effect } = &edit.brush;
+    let (word, special) = said(effect);
+    let mut keys: Vec<(&'static str, serde_json::Value)> =
+        vec![("step", edit.step.into()), ("do", word.into())];
+    keys.extend(special);
+    keys.push(("path", path.iter().map(|place| place.to_vec()).collect()));
+    keys.extend([
+        ("radius", (*radius).into()),
+        ("falloff", falloff.word().into()),
+        ("strength", (*strength).into()),
+    ]);
+    keys
+}
+
+/// The word after `do`, and the keys that go with it.
+fn said(effect: &Effect) -> (&'static str, Vec<(&'static str, serde_json::Value)>) {
+    match effect {
+        Effect::Add { material, thickness } => {
+            ("add", vec![("material", material.as_str().into()), ("thickness", (*thickness).into())])
+        }
+        Effect::Remove { material, thickness } => {
+            ("remove", vec![("material", material.as_str().into()), ("thickness", (*thickness).into())])
+        }
+        Effect::AddWater { depth } => ("add-water", vec![("depth", (*depth).into())]),
+        Effect::RemoveWater { depth } => ("remove-water", vec![("depth", (*depth).into())]),
+        Effect::Smooth { times } => ("smooth", vec![("times", (*times).into())]),
+        Effect::Flatten { height } => ("flatten", vec![("height", (*height).into())]),
+        Effect::Source { rate } => ("source", vec![("rate", (*rate).into())]),
+        Effect::Drain { rate } => ("drain", vec![("rate", (*rate).into())]),
+        Effect::Rain { factor } => ("rain", vec![("factor", (*factor).into())]),
+        Effect::Freeze => ("freeze", Vec::new()),
+        Effect::Thaw => ("thaw", Vec::new()),
+    }
+}

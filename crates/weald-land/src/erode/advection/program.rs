@@ -1,0 +1,46 @@
+//! The transport as compute passes.
+
+use super::Advection;
+use crate::erode::flux_corrected;
+use weald_engine::program::draft::Draft;
+
+const ADVECTION: &str = include_str!("../advection.wgsl");
+const SEDIMENT: &str = include_str!("sediment.wgsl");
+const ADVECT: &str = include_str!("advect.wgsl");
+const DEPART: &str = include_str!("depart.wgsl");
+const CORRECT: &str = include_str!("correct.wgsl");
+
+/// What a model tells the shaders of the transport.
+pub(crate) struct Advected<'a> {
+    /// Shaders with `settled_sediment(cell)` and `velocity(cell)`; for transport in flux form `face_east(cell)`,
+    /// `face_south(cell)` and `water_before(cell)` in place of the velocity.
+    pub(crate) from: &'a [&'static str],
+    /// Shaders with `arrive(cell, amount)`.
+    pub(crate) into: &'a [&'static str],
+    /// Buffers that `from` reads.
+    pub(crate) reads: &'a [&'a str],
+    /// Buffers that `into` reads; they are among those of `from`.
+    pub(crate) keeps: &'a [&'a str],
+    /// Buffer that `into` writes.
+    pub(crate) writes: &'a str,
+}
+
+impl Advection {
+    /// Adds the passes that move the sediment.
+    pub(crate) fn add_to(self, draft: &mut Draft, model: &Advected<'_>) {
+        let shaders = [&[ADVECTION, SEDIMENT], model.from].concat();
+        match self {
+            Self::SemiLagrangian => {
+                let shaders = [&shaders, model.into, &[ADVECT]].concat();
+                draft.pass("advect", &shaders, model.reads, &[model.writes]);
+            }
+            Self::MacCormack => {
+                draft.scratch("forward", 1);
+                draft.pass("depart", &[&*shaders, &[DEPART]].concat(), model.reads, &["forward"]);
+                let shaders = [&shaders, model.into, &[CORRECT]].concat();
+                draft.pass("correct", &shaders, &[model.reads, &["forward"]].concat(), &[model.writes]);
+            }
+            Self::FluxCorrected { .. } => flux_corrected::add_to(draft, model),
+        }
+    }
+}

@@ -1,0 +1,216 @@
+//! The `dissolution` step: ground under standing water turns into regolith, which creeps downhill.
+
+use pulp::Arch;
+
+use super::hydraulic::deposit_of;
+use super::links::Links;
+use super::simulation::Simulation;
+use super::stack::{Column, REGOLITH};
+use super::stava::digging::{DigScratch, Digging};
+use super::stava::dissolution::{Dissolution, DissolutionScratch, RegolithRows};
+use super::stava::planes::{Planes, REGOLITH_PLANES};
+use super::stava::program::{self, StavaNumbers};
+use super::sweep::Sweep;
+use super::working::Working;
+use weald_core::error::Error;
+use weald_core::grid::Size;
+use weald_core::landscape::Landscape;
+use weald_core::material::Material;
+use weald_core::parameter::LayerName;
+use weald_core::parameters;
+use weald_engine::Job;
+use weald_engine::program::{Content, Program};
+use weald_engine::stencil::chain::{Flow, Process};
+use weald_engine::stencil::ring::Ring;
+use weald_engine::step::{Entry, Layered, Outcome, Stage, Step};
+
+parameters! {
+    /// Dissolution as a step of its own, under water that stands still.
+    pub struct DissolutionStep {
+        /// Depth to which standing water soaks the ground (`r_max`).
+        depth: f64 = 0.2, range 0.0..=1000.0, unit "m";
+        /// Share of the flow of the regolith that friction takes in a step.
+        damping: f64 = 0.85, range 0.0..=1.0;
+        /// Pipe constant k of the regolith: how fast differences in level turn into flow. Unstable above 0.5.
+        flow_rate: f64 = 0.0981, range 0.0001..=0.5;
+        /// Material that settles. Default: the last of the landscape.
+        deposit: Option<LayerName> = None;
+        /// Steps to run.
+        iterations: u32 = 100, range 0..=10_000_000;
+        /// Layer with the depth of the water.
+        water: LayerName = LayerName::of("water");
+        /// Layer with the height of the ground.
+        layer: LayerName = LayerName::of("height");
+    }
+}
+
+parameters! {
+    /// Dissolution within every step of `hydraulic`.
+    pub struct DissolutionWithin {
+        /// Depth to which standing water soaks the ground (`r_max`).
+        depth: f64 = 0.2, range 0.0..=1000.0, unit "m";
+        /// Share of the flow of the regolith that friction takes in a step.
+        damping: f64 = 0.85, range 0.0..=1.0;
+    }
+}
+
+impl DissolutionWithin {
+    /// The method's constants for these materials, with the first plane of the regolith, the flow rate and the
+    /// cell size.
+    pub(crate) fn dissolution(
+        &self,
+        materials: &[Material],
+        deposit: usize,
+        plane: usize,
+        (flow_rate, cell): (f32, f64),
+    ) -> Dissolution {
+        let shares = materials.iter().map(|material| material.solubility.clamp(0.0, 1.0) as f32).collect();
+        Dissolution {
+            plane,
+            most: (self.depth / cell) as f32,
+            kept: (1.0 - self.damping) as f32,
+            flow_rate,
+            digging: Digging { shares, deposit, deposition: 1.0 },
+        }
+    }
+}
+
+/// The step's declaration.
+pub const ENTRY: Entry = Entry::of::<DissolutionStep>(
+    "dissolution",
+    Stage::Erode,
+    "turns ground under standing water into regolith that creeps downhill",
+    "Šťava et al. 2008, doi 10.2312/SCA/SCA08/201-210",
+);
+
+/// First plane of the regolith, behind the change of the bedrock.
+const REGOLITH_PLANE: usize = 1;
+
+impl Step for DissolutionStep {
+    fn reads(&self) -> Vec<String> {
+        vec![self.layer.0.clone(), self.water.0.clone()]
+    }
+
+    fn writes(&self) -> Vec<(String, &'static str)> {
+        [self.layer.0.as_str(), REGOLITH].map(|name| (name.to_owned(), "m")).into()
+    }
+
+    fn layered(&self) -> Layered {
+        Layered::Changes
+    }
+
+    fn faults_among(&self, materials: &[Material]) -> Vec<String> {
+        deposit_of(self.deposit.as_ref(), materials).err().into_iter().collect()
+    }
+
+    fn run(&self, landscape: &mut Landscape, job: &Job<'_>) -> Result<Outcome, Error> {
+        let materials = &landscape.materials;
+        let deposit = deposit_of(self.deposit.as_ref(), materials).map_err(Error::Run)?;
+        let mut working = Working::new(landscape, &self.layer.0, false)?;
+        working.set_water(landscape, &self.water.0)?;
+        let first_layer = REGOLITH_PLANE + REGOLITH_PLANES;
+        let planes = Planes { first_layer, materials: materials.len() };
+        let column = Column { planes, regolith: Some(REGOLITH_PLANE) };
+        working.set_stack(landscape, column, deposit)?;
+        let process = self.process(materials, deposit, planes, &working);
+        let plane_names: Vec<_> =
+            std::iter::once("change".to_owned()).chain(column.names(materials)).collect();
+        let simulation = Simulation::alone(&process, &plane_names, self.iterations);
+        let start = working.state(planes.count(), &[working.water().to_vec()]);
+        working.show(job)?;
+        let finished = simulation.run(start, job)?;
+        Ok(working.store_ground(landscape, &self.layer.0, &finished, u64::from(self.iterations)))
+    }
+}
+
+impl DissolutionStep {
+    fn process(
+        &self,
+        materials: &[Material],
+        deposit: usize,
+        planes: Planes,
+        working: &Working,
+    ) -> Dissolving {
+        let within = DissolutionWithin { depth: self.depth, damping: self.damping };
+        let numbers = (self.flow_rate as f32, working.cell);
+        Dissolving {
+            dissolution: within.dissolution(materials, deposit, REGOLITH_PLANE, numbers),
+            planes,
+            links: Links::new(working.size, working.mask.is_some()),
+            arch: Arch::new(),
+        }
+    }
+}
+
+/// Dissolution alone as a stream of rows. The last constant plane is the depth of the water.
+pub(super) struct Dissolving {
+    pub(super) dissolution: Dissolution,
+    pub(super) planes: Planes,
+    pub(super) links: Links,
+    pub(super) arch: Arch,
+}
+
+/// Rows in flight within one step.
+pub(super) struct DissolvingScratch {
+    solid: Vec<Ring>,
+    dig: DigScratch,
+    dissolution: DissolutionScratch,
+}
+
+impl Process for Dissolving {
+    type Weather = ();
+    type Scratch = DissolvingScratch;
+
+    fn state_planes(&self) -> usize {
+        self.planes.count()
+    }
+
+    fn constant_planes(&self) -> usize {
+        2 + self.links.planes()
+    }
+
+    fn lag(&self) -> usize {
+        Dissolution::LAG
+    }
+
+    fn scratch(&self, columns: usize) -> DissolvingScratch {
+        DissolvingScratch {
+            solid: (0..self.planes.materials).map(|_| Ring::new(columns, 1)).collect(),
+            dig: DigScratch::new(columns),
+            dissolution: DissolutionScratch::new(columns),
+        }
+    }
+
+    fn sized(&self, size: Size) -> Self {
+        Self { dissolution: self.dissolution.clone(), links: self.links.sized(size), ..*self }
+    }
+
+    fn program(&self) -> Program {
+        let numbers = StavaNumbers::of(Some(&self.dissolution), None);
+        let deposit = (self.planes, self.dissolution.digging.deposit);
+        let mut draft = program::draft("dissolution", &numbers, deposit, &self.links);
+        let water = self.planes.count() + 1 + self.links.planes();
+        draft.buffer("water", 1, Content::Constant(vec![water]));
+        self.dissolution.add_buffers_to(&mut draft);
+        Dissolution::add_to(&mut draft, include_str!("stava/standing_lake.wgsl"), "water");
+        draft.shows("column", None);
+        draft.finish(self.reach())
+    }
+
+    fn advance(&self, flow: &mut Flow<'_, Self>) {
+        let sweep = Sweep::of(flow, &self.links, self.arch, Some(flow.y));
+        let DissolvingScratch { solid, dig, dissolution: scratch } = &mut *flow.scratch;
+        let rows = RegolithRows {
+            depth: &flow.constants[1 + self.links.planes()],
+            before: &flow.input[REGOLITH_PLANE..],
+            base: &flow.constants[0],
+            sweep,
+        };
+        if flow.span.contains(&flow.y) {
+            self.planes.take(flow.input, solid, flow.y);
+            self.dissolution.dissolve(&rows, flow.y, solid, (scratch, dig));
+            self.planes.copy(solid, flow.output, flow.y);
+        }
+        self.dissolution.creep(&rows, scratch, &mut flow.output[REGOLITH_PLANE..]);
+    }
+}

@@ -1,0 +1,82 @@
+//! The sediment of a step of Han 2015: velocities, settling, and what follows it.
+
+use super::{Han, plane};
+use crate::erode::before;
+use crate::erode::settling::{CellVelocity, FaceVelocities, Settle};
+use crate::erode::sums;
+use weald_engine::stencil::chain::Flow;
+
+impl Han {
+    pub(super) fn faces(&self, flow: &mut Flow<'_, Self>, y: usize) {
+        let depth = &flow.output[plane::DEPTH];
+        FaceVelocities {
+            flux_east: flow.output[plane::EAST].here(y),
+            flux_south: flow.output[plane::SOUTH].here(y),
+            depth: depth.here(y),
+            depth_east: depth.east(y),
+            depth_south: depth.here(flow.next(y)),
+            east: flow.scratch.face_east.here_mut(y),
+            south: flow.scratch.face_south.here_mut(y),
+            velocity_epsilon: self.constants.velocity_epsilon,
+        }
+        .run(self.setting.arch);
+    }
+
+    pub(super) fn settle(&self, flow: &mut Flow<'_, Self>, y: usize) {
+        let scratch = &mut *flow.scratch;
+        let start = flow.span.start;
+        let [change_out, depth, sediment_out, ..] = flow.output else { unreachable!("five state planes") };
+        let change = if self.setting.slide.is_some() { &mut scratch.settled.change } else { change_out };
+        let sediment =
+            if self.setting.advection.is_some() { &mut scratch.settled.sediment } else { sediment_out };
+        let links = self.setting.links.row(flow.constants, y);
+        Settle {
+            found: scratch.found.here(y),
+            depth: depth.here(y),
+            change_before: flow.input[plane::CHANGE].here(y),
+            face_east: scratch.face_east.here(y),
+            face_west: scratch.face_east.west(y),
+            face_south: scratch.face_south.here(y),
+            face_north: before(&scratch.face_south, &scratch.still, y, start),
+            sine_east: scratch.sine_east.here(y),
+            sine_west: scratch.sine_east.west(y),
+            sine_south: scratch.sine_south.here(y),
+            sine_north: before(&scratch.sine_south, &scratch.still, y, start),
+            neighbour_share: links.neighbour_share,
+            yields: links.yields,
+            change: change.here_mut(y),
+            sediment: sediment.here_mut(y),
+            lost: scratch.tally[0].here_mut(0),
+            capacity: self.constants.capacity,
+            uptake_by_speed: self.constants.uptake_by_speed,
+            uptake_by_capacity: self.constants.uptake_by_capacity,
+            deposit_ratio: self.constants.deposit_ratio,
+        }
+        .run(self.setting.arch);
+        if self.constants.deposit_ratio < 1.0 {
+            flow.sums.add(y, sums::SHRUNK, scratch.tally[0].here(0));
+        }
+    }
+
+    /// Fluxes through the faces and the water before them, for transport in flux form.
+    pub(super) fn fluxes(flow: &mut Flow<'_, Self>, y: usize) {
+        let settled = &mut flow.scratch.settled;
+        settled.eastward.here_mut(y).copy_from_slice(flow.output[plane::EAST].here(y));
+        settled.southward.here_mut(y).copy_from_slice(flow.output[plane::SOUTH].here(y));
+        settled.depth.here_mut(y).copy_from_slice(flow.input[plane::DEPTH].here(y));
+    }
+
+    /// Velocities of the cells, for the advection.
+    pub(super) fn cell_velocity(&self, flow: &mut Flow<'_, Self>, y: usize) {
+        let scratch = &mut *flow.scratch;
+        CellVelocity {
+            east: scratch.face_east.here(y),
+            west: scratch.face_east.west(y),
+            south: scratch.face_south.here(y),
+            north: before(&scratch.face_south, &scratch.still, y, flow.span.start),
+            eastward: scratch.settled.eastward.here_mut(y),
+            southward: scratch.settled.southward.here_mut(y),
+        }
+        .run(self.setting.arch);
+    }
+}

@@ -1,0 +1,46 @@
+//! Processes that shape ground: water in virtual pipes, sediment, gravity. One file a method.
+//!
+//! [`hydraulic`] is rain and rivers by one of three schemes, [`thermal_step`] gravity alone; [`thermal`] has the
+//! schemes of weathering that both use. [`slippage_step`] and [`dissolution_step`] are processes of the third
+//! scheme alone, [`transport_step`] carries a layer by water that flows steadily. Within a process lengths are in
+//! cells and time is in steps; rows of cells stream through its stages, so that several steps pass through memory
+//! at once. Each process is also a program for a compute device, of shaders that stand beside its kernels.
+
+mod advection;
+pub mod dissolution_step;
+mod edits;
+mod extent;
+mod flux_corrected;
+mod four_outflows;
+mod han;
+pub mod hydraulic;
+mod links;
+mod look;
+mod mei;
+mod pace;
+mod pipes;
+mod programs;
+mod saved;
+mod setting;
+mod settling;
+mod simulation;
+pub mod slippage_step;
+pub mod springs;
+mod stack;
+mod stava;
+mod sums;
+mod sweep;
+pub mod thermal;
+pub mod thermal_step;
+pub mod transport_step;
+mod upwind;
+mod working;
+
+pub use programs::programs;
+
+use weald_engine::stencil::ring::Ring;
+
+/// The row before `y`, or the still row beyond the wall.
+fn before<'a>(ring: &'a Ring, still: &'a Ring, y: usize, start: usize) -> &'a [f32] {
+    if y > start { ring.here(y - 1) } else { still.here(0) }
+}

@@ -1,0 +1,301 @@
+//! Runs a process for many steps: progress, interruption, checkpoints, the watch for NaN, mean fluxes.
+
+use std::time::Instant;
+
+use super::edits::Edits;
+use super::look::{self, Seen};
+use super::pace::Pace;
+use super::saved::Saved;
+use super::sums;
+use weald_core::error::Error;
+use weald_engine::machine::{self, Machine, Means, Snapshot};
+use weald_engine::stencil::chain::{Process, RowSums};
+use weald_engine::stencil::rows::Rows;
+use weald_engine::uniform;
+use weald_engine::{Engine, Job, SavedSimulation};
+
+uniform! {
+    /// Rain and evaporation of one step, in cells.
+    pub(crate) struct Sky {
+        pub(crate) rain: f32,
+        pub(crate) evaporation: f32,
+    }
+}
+
+/// A process and how long it runs.
+pub(crate) struct Simulation<'a, P: Process> {
+    pub(crate) process: &'a P,
+    /// Names of the state planes, for checkpoints and errors.
+    pub(crate) plane_names: &'a [String],
+    /// Steps to run.
+    pub(crate) iterations: u64,
+    /// Weather of each step.
+    pub(crate) weather: &'a (dyn Fn(u64) -> P::Weather + Sync),
+    /// Fluxes to average, and over which steps.
+    pub(crate) record: Option<Record<'a>>,
+    /// What a person changes between the steps.
+    pub(crate) edits: Option<&'a Edits>,
+    /// What its states look like, where it can be looked at.
+    pub(crate) seen: Option<Seen<'a>>,
+}
+
+/// A wish for mean values.
+pub(crate) struct Record<'a> {
+    /// Steps over which to average.
+    pub(crate) steps: std::ops::Range<u64>,
+    /// Parts of each mean.
+    pub(crate) means: Means<'a>,
+}
+
+/// How a simulation ended.
+pub(crate) struct Finished {
+    pub(crate) state: Rows,
+    pub(crate) sums: RowSums,
+    /// One mean a wish, row-major.
+    pub(crate) means: Vec<Vec<f32>>,
+    /// What the user should know of the engine.
+    pub(crate) notes: Vec<String>,
+}
+
+impl<'a, P: Process<Weather = ()>> Simulation<'a, P> {
+    /// A process of its own, without weather, means and edits.
+    pub(crate) fn alone(process: &'a P, plane_names: &'a [String], iterations: u32) -> Self {
+        let iterations = u64::from(iterations);
+        Self { process, plane_names, iterations, weather: &|_| (), record: None, edits: None, seen: None }
+    }
+}
+
+impl<P: Process> Simulation<'_, P> {
+    /// Runs from `start`, or from where `job` resumes. Where the engine is a device that may be replaced, a
+    /// failure of it is followed by the CPU from the last state that came back.
+    pub(crate) fn run(&self, start: Rows, job: &Job<'_>) -> Result<Finished, Error> {
+        let start = Snapshot::start(start, self.means().len());
+        let first = Saved { done: 0, snapshot: start };
+        let mut first = match &job.resume {
+            Some(saved) => first.resumed(saved, self.plane_names)?,
+            None => first,
+        };
+        if let (Some(edits), 1..) = (self.edits, first.done) {
+            edits.catch_up(first.done, &mut first.snapshot)?;
+        }
+        let mut finished = self.run_from(first, job)?;
+        finished.notes.extend(self.edits.iter().flat_map(|edits| edits.notes(self.iterations)));
+        Ok(finished)
+    }
+
+    fn run_from(&self, first: Saved, job: &Job<'_>) -> Result<Finished, Error> {
+        let mut last = matches!(job.engine, Engine::DeviceElseCpu(_)).then(|| first.clone());
+        match (self.run_on(&job.engine, first, job, last.as_mut()), last) {
+            (Err(Error::Device(what)), Some(last)) => {
+                let note = format!("{what}; went on on the CPU after {} iterations", last.done);
+                let mut finished = self.run_on(&Engine::Cpu, last, job, None)?;
+                finished.notes.push(note);
+                Ok(finished)
+            }
+            (result, _) => result,
+        }
+    }
+
+    /// Runs on one engine; `last` becomes the last state that was taken from it.
+    fn run_on(
+        &self,
+        engine: &Engine,
+        from: Saved,
+        job: &Job<'_>,
+        last: Option<&mut Saved>,
+    ) -> Result<Finished, Error> {
+        let mut running = Running::new(self, engine, &from, job, last)?;
+        // The machine has taken its own copy, and states are large.
+        drop(from);
+        while running.done < self.iterations {
+            running.look()?;
+            running.edit()?;
+            running.stretch()?;
+            job.watcher.progress(running.done, self.iterations, running.cells);
+            running.heed()?;
+        }
+        running.look()?;
+        running.finish()
+    }
+
+    fn means(&self) -> Means<'_> {
+        self.record.as_ref().map_or(&[], |record| record.means)
+    }
+}
+
+struct Running<'a, P: Process> {
+    simulation: &'a Simulation<'a, P>,
+    job: &'a Job<'a>,
+    machine: Box<dyn Machine<P::Weather> + 'a>,
+    pace: Pace,
+    done: u64,
+    cells: usize,
+    /// Steps at the last look, when all was well.
+    good: u64,
+    last: Option<&'a mut Saved>,
+    /// The state before the edits that came last.
+    unedited: Option<Saved>,
+}
+
+impl<'a, P: Process> Running<'a, P> {
+    fn new(
+        simulation: &'a Simulation<'a, P>,
+        engine: &Engine,
+        from: &Saved,
+        job: &'a Job<'a>,
+        last: Option<&'a mut Saved>,
+    ) -> Result<Self, Error> {
+        let state = &from.snapshot.state;
+        if let Some([x, y, plane]) = state.first_not_finite(simulation.process.state_planes()) {
+            let name = &simulation.plane_names[plane];
+            return Err(Error::Run(format!(
+                "the simulation starts with a value of `{name}` at column {x}, row {y} that is no number"
+            )));
+        }
+        let cells = from.snapshot.size().cells();
+        let machine = machine::start(simulation.process, simulation.means(), &from.snapshot, engine)?;
+        let pace = Pace::new(engine, cells, machine.block());
+        Ok(Self {
+            simulation,
+            job,
+            machine,
+            pace,
+            done: from.done,
+            cells,
+            good: from.done,
+            last,
+            unedited: None,
+        })
+    }
+
+    /// Shows the state to whoever wants to see it here.
+    fn look(&mut self) -> Result<(), Error> {
+        let means = self.simulation.means();
+        let finished = || Ok(Finished::of_moment(self.machine.snapshot()?, means));
+        look::show(self.job.watcher, self.done, finished, self.simulation.seen)
+    }
+
+    /// The edits that happen here. Every state that is kept at their step is the one before them.
+    fn edit(&mut self) -> Result<(), Error> {
+        let Some(edits) = self.simulation.edits.filter(|edits| edits.next_from(self.done) == Some(self.done))
+        else {
+            return Ok(());
+        };
+        let mut snapshot = self.machine.snapshot()?;
+        self.unedited = Some(Saved { done: self.done, snapshot: snapshot.clone() });
+        edits.change(self.done, &mut snapshot)?;
+        self.machine.restore(&snapshot)
+    }
+
+    /// One stretch of steps, and a look at the result.
+    fn stretch(&mut self) -> Result<(), Error> {
+        let end = (self.done + self.pace.steps()).min(self.simulation.iterations);
+        let next = self.simulation.edits.and_then(|edits| edits.next_from(self.done + 1));
+        let look = self.simulation.seen.and_then(|_| self.job.watcher.next_look(self.done + 1));
+        let end = next.into_iter().chain(look).fold(end, u64::min);
+        let begun = Instant::now();
+        self.advance_to(end)?;
+        if self.machine.first_not_finite()?.is_some() {
+            return Err(self.find_the_fault(end)?);
+        }
+        self.pace.took(begun.elapsed());
+        self.good = self.done;
+        self.machine.keep()
+    }
+
+    /// Steps within the record, and those before and after it, are given to the machine apart.
+    fn advance_to(&mut self, end: u64) -> Result<(), Error> {
+        let record = self.simulation.record.as_ref().map_or(end..end, |record| record.steps.clone());
+        while self.done < end {
+            let recorded = record.contains(&self.done);
+            let border = if recorded { record.end } else { record.start };
+            let stop = if border > self.done { end.min(border) } else { end };
+            let weather: Vec<_> = (self.done..stop).map(self.simulation.weather).collect();
+            self.machine.advance(&weather, recorded)?;
+            self.done = stop;
+        }
+        Ok(())
+    }
+
+    /// Goes back to the last good state, steps one by one to the fault, and keeps the state before it.
+    fn find_the_fault(&mut self, end: u64) -> Result<Error, Error> {
+        self.machine.go_back()?;
+        self.done = self.good;
+        while self.done < end {
+            let unedited = self.unedited.as_ref().filter(|unedited| unedited.done == self.done);
+            let before = match unedited {
+                Some(unedited) => unedited.named(self.simulation.plane_names),
+                None => self.saved()?,
+            };
+            self.advance_to(self.done + 1)?;
+            let Some([x, y, plane]) = self.machine.first_not_finite()? else { continue };
+            let name = &self.simulation.plane_names[plane];
+            let kept = match self.job.watcher.checkpoint(&before) {
+                Ok(()) => "the last good state was kept".to_owned(),
+                Err(error) => format!("the last good state could not be kept: {error}"),
+            };
+            return Ok(Error::Run(format!(
+                "step {}: `{name}` at column {x}, row {y} is no longer a finite number; {kept}; a lower \
+                 `flow_rate` or `erosion`, or `limiter = true`, makes the scheme stable",
+                self.done
+            )));
+        }
+        Ok(Error::Run(format!(
+            "a value that is not finite appeared before step {end} and did not appear again"
+        )))
+    }
+
+    /// Ends when the user wants it, and keeps a checkpoint then and when one is due.
+    fn heed(&mut self) -> Result<(), Error> {
+        let watcher = self.job.watcher;
+        let stop = watcher.cancelled() && self.done < self.simulation.iterations;
+        if stop || watcher.checkpoint_due() {
+            let saved = self.saved()?;
+            watcher.checkpoint(&saved)?;
+        }
+        if stop {
+            let all = self.simulation.iterations;
+            return Err(Error::Interrupted(format!("interrupted after {} of {all} steps", self.done)));
+        }
+        Ok(())
+    }
+
+    fn saved(&mut self) -> Result<SavedSimulation, Error> {
+        let saved = Saved { done: self.done, snapshot: self.machine.snapshot()? };
+        let named = saved.named(self.simulation.plane_names);
+        if let Some(last) = &mut self.last {
+            **last = saved;
+        }
+        Ok(named)
+    }
+
+    fn finish(mut self) -> Result<Finished, Error> {
+        let steps = self.simulation.record.as_ref().map_or(1, |record| record.steps.end - record.steps.start);
+        let scale = 1.0 / steps.max(1) as f32;
+        let Snapshot { state, row_sums, mut means } = self.machine.snapshot()?;
+        means.iter_mut().flatten().for_each(|sum| *sum *= scale);
+        Ok(Finished {
+            state,
+            sums: look::total(&row_sums),
+            means,
+            notes: self.machine.note().into_iter().collect(),
+        })
+    }
+}
+
+/// The sums of a run as water in and out and solid out, in cells³.
+pub(crate) struct Flows {
+    pub(crate) rained: f64,
+    pub(crate) water_out: f64,
+    pub(crate) solid_out: f64,
+}
+
+impl From<RowSums> for Flows {
+    fn from(row: RowSums) -> Self {
+        Self {
+            rained: row[sums::RAINED],
+            water_out: row[sums::WATER_OUT] - row[sums::EVAPORATED],
+            solid_out: row[sums::SEDIMENT_OUT] + row[sums::SHRUNK],
+        }
+    }
+}

@@ -1,0 +1,112 @@
+//! Springs and drains: places where water comes or goes, `q exp(-r² / R²)` a step at distance `r` (Šťava et al.
+//! 2008). Where less than a millionth of the peak is left, nothing is.
+
+use std::ops::Range;
+
+use weald_core::domain::Domain;
+use weald_core::grid::Field;
+use weald_core::parameter::Nested;
+use weald_core::parameters;
+
+parameters! {
+    /// A place where water springs or drains.
+    pub struct Spring {
+        /// Distance from the western edge.
+        x: f64 = f64::NAN, range -10_000_000.0..=10_000_000.0, unit "m";
+        /// Distance from the northern edge.
+        y: f64 = f64::NAN, range -10_000_000.0..=10_000_000.0, unit "m";
+        /// Distance at which 1/e of the rate is left (R).
+        radius: f64 = f64::NAN, range 0.001..=10_000_000.0, unit "m";
+        /// Depth of water at the middle that comes or goes in a step (q).
+        rate: f64 = f64::NAN, range 0.0..=1000.0, unit "m/step";
+    }
+}
+
+/// Least share of the peak that counts.
+const LEAST_SHARE: f64 = 1e-6;
+
+impl Spring {
+    /// Columns and rows that it can reach.
+    fn reached(&self, domain: &Domain) -> [Range<usize>; 2] {
+        let widest = self.radius * libm::sqrt(-libm::log(LEAST_SHARE));
+        let cells = |middle: f64, side: usize| {
+            let first = ((middle - widest) / domain.cell - 0.5).ceil().clamp(0.0, side as f64);
+            let end = ((middle + widest) / domain.cell + 0.5).floor().clamp(first, side as f64);
+            first as usize..end as usize
+        };
+        [cells(self.x, domain.size.columns), cells(self.y, domain.size.rows)]
+    }
+
+    /// Adds `sign` times its water to a field on a domain, in metres a step.
+    pub(crate) fn add_to(&self, field: &mut Field, domain: &Domain, sign: f64) {
+        let [columns, rows] = self.reached(domain);
+        for y in rows {
+            for x in columns.clone() {
+                let [east, south] =
+                    [(x, self.x), (y, self.y)].map(|(at, middle)| (at as f64 + 0.5) * domain.cell - middle);
+                let share = libm::exp(-(east * east + south * south) / (self.radius * self.radius));
+                if share >= LEAST_SHARE {
+                    field.set(x, y, field.at(x, y) + (sign * self.rate * share) as f32);
+                }
+            }
+        }
+    }
+}
+
+/// What all springs give, less what all drains take, in metres a step, on top of a painted field.
+pub(crate) fn field_of(
+    domain: &Domain,
+    painted: Option<&Field>,
+    springs: &[Nested<Spring>],
+    drains: &[Nested<Spring>],
+) -> Field {
+    let mut field = painted.cloned().unwrap_or_else(|| Field::filled(domain.size, 0.0));
+    for (all, sign) in [(springs, 1.0), (drains, -1.0)] {
+        for Nested(spring) in all {
+            spring.add_to(&mut field, domain, sign);
+        }
+    }
+    field
+}
+
+/// Says which of the springs under a key of the recipe reach no cell of the landscape.
+pub(crate) fn out_of_reach(domain: &Domain, key: &str, springs: &[Nested<Spring>]) -> Vec<String> {
+    let far = |spring: &&Nested<Spring>| spring.0.reached(domain).iter().any(Range::is_empty);
+    let [width, height] = [domain.size.columns, domain.size.rows].map(|cells| cells as f64 * domain.cell);
+    let told = |Nested(Spring { x, y, .. }): &Nested<Spring>| {
+        format!(
+            "`{key}`: the one at x = {x}, y = {y} reaches no cell of the landscape, which is {width} m wide and \
+             {height} m high"
+        )
+    };
+    springs.iter().filter(far).map(told).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use weald_core::grid::Size;
+
+    #[test]
+    fn a_spring_gives_pi_r_squared_times_its_rate_in_all() {
+        let domain = Domain::new(Size::square(64).expect("small"), 10.0);
+        let spring = Spring { x: 320.0, y: 300.0, radius: 40.0, rate: 0.5 };
+        let field = field_of(&domain, None, &[Nested(spring.clone())], &[]);
+        let volume = field.sum() * 100.0;
+        let expected = std::f64::consts::PI * 40.0 * 40.0 * 0.5;
+        assert!((volume / expected - 1.0).abs() < 1e-5, "{volume} m³ a step, not {expected}");
+        let both = field_of(&domain, None, &[Nested(spring.clone())], &[Nested(spring)]);
+        assert!(both.values().iter().all(|&left| left == 0.0), "a drain takes what a spring gives");
+    }
+
+    #[test]
+    fn a_spring_beside_the_landscape_is_told_and_one_whose_rim_reaches_it_is_not() {
+        let domain = Domain::new(Size::square(64).expect("small"), 10.0);
+        let at = |x: f64| [Nested(Spring { x, y: 300.0, radius: 40.0, rate: 0.5 })];
+        for (x, told) in [(320.0, 0), (-100.0, 0), (-200.0, 1), (740.0, 0), (900.0, 1)] {
+            assert_eq!(out_of_reach(&domain, "sources", &at(x)).len(), told, "at {x}");
+            let given = field_of(&domain, None, &at(x), &[]).sum();
+            assert_eq!(given == 0.0, told == 1, "at {x} it gives {given}");
+        }
+    }
+}

@@ -1,0 +1,298 @@
+//! The ground in working units: lengths in cells, a ring of no-data cells around an open domain, and back.
+
+use super::extent::Extent;
+use super::links::mask_planes;
+use super::setting::plane;
+use super::simulation::{Finished, Flows};
+use super::stack::Stack;
+use weald_core::error::Error;
+use weald_core::grid::{Field, Mask, Size};
+use weald_core::landscape::Landscape;
+use weald_engine::device::{ShownGround, Window};
+use weald_engine::stencil::rows::{Layout, Rows};
+use weald_engine::step::Outcome;
+use weald_engine::{Budget, Job, SolidBudget, WaterBudget};
+
+/// The start of a simulation.
+pub(crate) struct Working {
+    /// Columns and rows, the ring included.
+    pub(crate) size: Size,
+    /// The part of the landscape that is simulated.
+    window: Window,
+    /// Cells with data; `None` where all have.
+    pub(crate) mask: Option<Mask>,
+    /// Width of the ring: 1 around an open domain, else 0.
+    pub(super) ring: usize,
+    pub(super) cell: f64,
+    /// Ground at the start, in metres, without the ring.
+    pub(super) start: Field,
+    /// The lowest of it.
+    pub(super) lowest: f64,
+    /// The same in cells, with the ring, above the lowest ground; that of the bedrock where there is a stack.
+    pub(super) base: Vec<f32>,
+    /// Depth of water at the start, in cells.
+    water: Vec<f32>,
+    /// The same in metres, where some stands.
+    standing: Option<Field>,
+    /// Materials on the bedrock, for processes that tell them apart.
+    pub(super) stack: Option<Stack>,
+}
+
+/// What [`Working::store`] has to know of the run.
+#[derive(Clone, Copy)]
+pub(crate) struct Kept {
+    pub(crate) iterations: u64,
+    /// Whether the transport loses no sediment.
+    pub(crate) conserving: bool,
+}
+
+impl Working {
+    /// Takes the ground from a layer. Heights count from the lowest ground, which keeps their digits.
+    pub(crate) fn new(landscape: &Landscape, layer: &str, open: bool) -> Result<Self, Error> {
+        Self::within(landscape, layer, &Extent { open, region: None, cropped: false })
+    }
+
+    /// The same over a part of the landscape.
+    pub(crate) fn within(landscape: &Landscape, layer: &str, extent: &Extent<'_>) -> Result<Self, Error> {
+        let start = landscape.field(layer)?.clone();
+        let region = extent.region.map(|name| landscape.field(name)).transpose()?;
+        let domain = &landscape.domain;
+        let ring = usize::from(extent.open);
+        let window = extent.window(landscape)?;
+        let size = Size { columns: window.columns.len() + 2 * ring, rows: window.rows.len() + 2 * ring };
+        let first = [window.columns.start, window.rows.start];
+        let lowest = start.range(domain.land.as_ref()).map_or(0.0, |(lowest, _)| f64::from(lowest));
+        let mut working = Self {
+            size,
+            window,
+            mask: ringed_mask(size, ring, |x, y| {
+                let [x, y] = [x + first[0], y + first[1]];
+                let here = region.is_none_or(|region| region.at(x, y) >= 0.5);
+                here && domain.land.as_ref().is_none_or(|land| land.is_land(x, y))
+            }),
+            ring,
+            cell: domain.cell,
+            lowest,
+            base: Vec::new(),
+            water: vec![0.0; size.cells()],
+            standing: None,
+            stack: None,
+            start,
+        };
+        working.base =
+            working.ringed(|x, y| ((f64::from(working.start.at(x, y)) - lowest) / domain.cell) as f32);
+        Ok(working)
+    }
+
+    /// Makes room for a mask that may change.
+    pub(super) fn set_changing_mask(&mut self) {
+        let size = self.size;
+        self.mask.get_or_insert_with(|| Mask::always(size, vec![true; size.cells()]));
+    }
+
+    /// Takes the depth of standing water from a layer.
+    pub(crate) fn set_water(&mut self, landscape: &Landscape, layer: &str) -> Result<(), Error> {
+        let standing = landscape.field(layer)?.clone();
+        self.water = self.lengths(&standing);
+        self.standing = Some(standing);
+        Ok(())
+    }
+
+    /// Tells a device where the ground lies, for those who look on.
+    pub(crate) fn show(&self, job: &Job<'_>) -> Result<(), Error> {
+        let ring = self.ring as i32;
+        job.engine.shows(&ShownGround {
+            start: &self.start,
+            water: self.standing.as_ref(),
+            size: self.size,
+            first: [self.window.columns.start as i32 - ring, self.window.rows.start as i32 - ring],
+            unit: self.cell as f32,
+            lowest: self.lowest as f32,
+        })
+    }
+
+    /// Where a cell of the landscape stands in the working planes, if it is simulated.
+    pub(super) fn place(&self, x: usize, y: usize) -> Option<usize> {
+        let Window { columns, rows } = &self.window;
+        let inside = columns.contains(&x) && rows.contains(&y);
+        inside.then(|| self.size.index(x - columns.start + self.ring, y - rows.start + self.ring))
+    }
+
+    /// Lengths of a field in cells, none below 0, as [`Working::ringed`].
+    pub(super) fn lengths(&self, metres: &Field) -> Vec<f32> {
+        self.ringed(|x, y| (f64::from(metres.at(x, y).max(0.0)) / self.cell) as f32)
+    }
+
+    /// Values with the ring, zero there and on cells without data.
+    pub(super) fn ringed(&self, value: impl Fn(usize, usize) -> f32) -> Vec<f32> {
+        let mut cells = vec![0.0; self.size.cells()];
+        for y in self.window.rows.clone() {
+            for x in self.window.columns.clone() {
+                if let Some(at) = self.place(x, y).filter(|&at| self.is_land(at)) {
+                    cells[at] = value(x, y);
+                }
+            }
+        }
+        cells
+    }
+
+    /// Depth of water at the start, in cells, with the ring.
+    pub(super) fn water(&self) -> &[f32] {
+        &self.water
+    }
+
+    fn is_land(&self, at: usize) -> bool {
+        self.mask.as_ref().is_none_or(|mask| mask.is_land_at(at))
+    }
+
+    /// State planes of zeros with the materials in theirs, and the constant planes behind: the ground, the
+    /// mask, and those that are given.
+    pub(crate) fn state(&self, planes: usize, more: &[Vec<f32>]) -> Rows {
+        let masks = self.mask.as_ref().map(|mask| mask_planes(mask, self.ring > 0));
+        let constants = std::iter::once(&self.base).chain(masks.iter().flatten()).chain(more);
+        let layout = Layout { columns: self.size.columns, planes: planes + constants.clone().count() };
+        let mut rows = Rows::new(layout, self.size.rows);
+        for (at, plane) in constants.enumerate() {
+            rows.scatter(planes + at, plane);
+        }
+        if let Some(stack) = &self.stack {
+            stack.scatter(&mut rows);
+        }
+        rows
+    }
+
+    /// The same with the water that stands, for states that begin with change, depth and sediment.
+    pub(crate) fn water_state(&self, planes: usize, more: &[Vec<f32>]) -> Rows {
+        let mut rows = self.state(planes, more);
+        rows.scatter(plane::DEPTH, &self.water);
+        rows
+    }
+
+    /// A working plane without the ring, converted; 0 on cells that take no part.
+    pub(super) fn field(&self, plane: &[f32], convert: impl Fn(f32) -> f32) -> Field {
+        self.field_or(|at| convert(plane[at]), |_, _| 0.0)
+    }
+
+    /// Values by the place in the working planes, and other values by column and row on cells that take no part.
+    pub(super) fn field_or(
+        &self,
+        value: impl Fn(usize) -> f32,
+        elsewhere: impl Fn(usize, usize) -> f32,
+    ) -> Field {
+        Field::from_function(self.start.size(), |x, y| match self.place(x, y) {
+            Some(at) if self.is_land(at) => value(at),
+            _ => elsewhere(x, y),
+        })
+    }
+
+    /// Depths of water in metres; where a region leaves cells out, water stands there as it did.
+    fn depths(&self, depth: &[f32], land: Option<&Mask>) -> Field {
+        let cell = self.cell as f32;
+        self.field_or(
+            |at| depth[at] * cell,
+            |x, y| match &self.standing {
+                Some(standing) if land.is_none_or(|land| land.is_land(x, y)) => standing.at(x, y).max(0.0),
+                _ => 0.0,
+            },
+        )
+    }
+
+    /// Ground after a change in cells: the start stays to the bit where nothing changed.
+    fn ground(&self, change: &Field) -> Field {
+        let cell = self.cell;
+        let raise = |start: f32, change: f32| (f64::from(start) + f64::from(change) * cell) as f32;
+        let values = self.start.values().iter().zip(change.values()).map(|(&s, &c)| raise(s, c)).collect();
+        Field::from_values(self.start.size(), values)
+    }
+
+    /// Writes the layers of a water simulation, whose planes begin with change, depth and sediment.
+    pub(crate) fn store(
+        &self,
+        landscape: &mut Landscape,
+        layer: &str,
+        finished: &Finished,
+        kept: Kept,
+    ) -> Outcome {
+        let change = self.ground_change(finished);
+        let [depth, sediment] = [plane::DEPTH, plane::SEDIMENT].map(|at| finished.state.gather(at));
+        let cell = self.cell as f32;
+        let budget = self.budget(&depth, &sediment, finished);
+        landscape.insert(layer, "m", self.ground(&self.field(&change, |change| change)));
+        self.store_stack(landscape, finished);
+        let water = self.depths(&depth, landscape.domain.land.as_ref());
+        landscape.insert("water", "m", water);
+        landscape.insert("sediment", "m", self.field(&sediment, |sediment| sediment * cell));
+        let volume = cell * cell * cell;
+        landscape.insert("flux_x", "m³/step", self.field(&finished.means[0], |flux| flux * volume));
+        landscape.insert("flux_y", "m³/step", self.field(&finished.means[1], |flux| flux * volume));
+        landscape.insert("erosion", "m", self.field(&change, |change| (-change).max(0.0) * cell));
+        landscape.insert("deposition", "m", self.field(&change, |change| change.max(0.0) * cell));
+        let mut notes = finished.notes.clone();
+        if !kept.conserving {
+            notes.push(format!(
+                "this transport does not conserve sediment: {:.3e} m³ of solid were {}; transport = \"upwind\", or \
+                 \"maccormack\" with `conserve`, conserves it",
+                (budget.solid.error() * budget.solid.start).abs(),
+                if budget.solid.error() > 0.0 { "lost" } else { "made" },
+            ));
+        }
+        Outcome { iterations: kept.iterations, budget: Some(budget), notes, ..Outcome::default() }
+    }
+
+    /// Writes the ground alone.
+    pub(crate) fn store_ground(
+        &self,
+        landscape: &mut Landscape,
+        layer: &str,
+        finished: &Finished,
+        iterations: u64,
+    ) -> Outcome {
+        let change = self.ground_change(finished);
+        landscape.insert(layer, "m", self.ground(&self.field(&change, |change| change)));
+        self.store_stack(landscape, finished);
+        let mut budget = self.budget(&[], &[], finished);
+        budget.water = WaterBudget::default();
+        Outcome { iterations, budget: Some(budget), notes: finished.notes.clone(), ..Outcome::default() }
+    }
+
+    /// Sum over all cells, row by row.
+    pub(super) fn total(&self, cells: &[f32]) -> f64 {
+        let rows = cells.chunks(self.size.columns);
+        rows.map(|row| row.iter().map(|&cell| f64::from(cell)).sum::<f64>()).sum()
+    }
+
+    fn budget(&self, depth: &[f32], sediment: &[f32], finished: &Finished) -> Budget {
+        let volume = self.cell * self.cell * self.cell;
+        let total = |cells: &[f32]| self.total(cells);
+        let flows = Flows::from(finished.sums);
+        let bedrock = total(&self.base);
+        let change = finished.state.gather(plane::CHANGE);
+        let [loose_before, loose] = self.loose(finished);
+        Budget {
+            water: WaterBudget {
+                incoming: (flows.rained + total(&self.water)) * volume,
+                outgoing: flows.water_out * volume,
+                stored: total(depth) * volume,
+            },
+            solid: SolidBudget {
+                start: (bedrock + loose_before) * volume,
+                ground: (bedrock + total(&change)) * volume,
+                layers: loose * volume,
+                suspended: total(sediment) * volume,
+                outgoing: flows.solid_out * volume,
+            },
+        }
+    }
+}
+
+/// The mask of a working grid with a ring of no-data cells around the cells that take part.
+fn ringed_mask(ringed: Size, ring: usize, takes_part: impl Fn(usize, usize) -> bool) -> Option<Mask> {
+    let inside = |at: usize, side: usize| at.checked_sub(ring).filter(|at| *at + 2 * ring < side);
+    let flags = (0..ringed.cells()).map(|at| {
+        match (inside(at % ringed.columns, ringed.columns), inside(at / ringed.columns, ringed.rows)) {
+            (Some(x), Some(y)) => takes_part(x, y),
+            _ => false,
+        }
+    });
+    Mask::new(ringed, flags.collect())
+}

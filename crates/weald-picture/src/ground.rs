@@ -1,0 +1,150 @@
+//! Fields made ready for drawing: no-data filled from the nearest land, large grids averaged down to the
+//! sheet.
+
+use rayon::prelude::*;
+
+use super::sheet::Sheet;
+use weald_core::grid::{Field, Mask, Size};
+
+/// The field with no-data cells filled, no finer than the sheet.
+pub(super) fn drawable(field: &Field, land: Option<&Mask>, sheet: &Sheet) -> Field {
+    match land {
+        Some(land) => shrink(&fill(field, land), sheet),
+        None => shrink(field, sheet),
+    }
+}
+
+/// Share of land in every cell of a drawable field; `None` where all is land.
+pub(super) fn land_share(land: Option<&Mask>, sheet: &Sheet) -> Option<Field> {
+    let land = land?;
+    let flags = land.flags().iter().map(|&land| f32::from(u8::from(land))).collect();
+    Some(shrink(&Field::from_values(land.size(), flags), sheet))
+}
+
+/// Rings of no-data cells take the mean of their known neighbours, from the shore outward, so that slopes at
+/// the shore are those of the land.
+fn fill(field: &Field, land: &Mask) -> Field {
+    let size = field.size();
+    let mut filled = field.clone();
+    let mut known = land.flags().to_vec();
+    let mut ring: Vec<usize> =
+        (0..size.cells()).filter(|&cell| !known[cell] && touches(size, &known, cell)).collect();
+    if ring.is_empty() {
+        filled.values_mut().fill(0.0);
+    }
+    while !ring.is_empty() {
+        let means: Vec<f32> = ring.iter().map(|&cell| known_mean(&filled, &known, cell)).collect();
+        for (&cell, mean) in ring.iter().zip(means) {
+            filled.values_mut()[cell] = mean;
+            known[cell] = true;
+        }
+        ring = ring.iter().flat_map(|&cell| size.neighbours(cell)).filter(|&cell| !known[cell]).collect();
+        ring.sort_unstable();
+        ring.dedup();
+    }
+    filled
+}
+
+fn touches(size: Size, known: &[bool], cell: usize) -> bool {
+    size.neighbours(cell).any(|neighbour| known[neighbour])
+}
+
+fn known_mean(field: &Field, known: &[bool], cell: usize) -> f32 {
+    let (mut sum, mut count) = (0.0, 0.0);
+    for neighbour in field.size().neighbours(cell).filter(|&neighbour| known[neighbour]) {
+        sum += field.values()[neighbour];
+        count += 1.0;
+    }
+    sum / count
+}
+
+/// Means over the area of each pixel, on a grid no finer than the sheet; a coarser field comes back as it is.
+///
+/// The mean is of the surface that is linear between cell centres, so that a plane stays a plane.
+pub(super) fn shrink(field: &Field, sheet: &Sheet) -> Field {
+    let from = field.size();
+    let to = Size { columns: from.columns.min(sheet.width), rows: from.rows.min(sheet.height) };
+    if to == from {
+        return field.clone();
+    }
+    let (across, down) = (means(from.columns, to.columns), means(from.rows, to.rows));
+    let mut values = vec![0.0; to.cells()];
+    values.par_chunks_mut(to.columns).zip(&down).for_each(|(row, rows)| {
+        for &(y, weight) in rows {
+            let source = field.row(y);
+            for (value, columns) in row.iter_mut().zip(&across) {
+                *value += weight * columns.iter().map(|&(x, share)| share * source[x]).sum::<f32>();
+            }
+        }
+    });
+    Field::from_values(to, values)
+}
+
+/// For each of `to` stretches of an axis of `from` cells, the weights of cells in its mean.
+fn means(from: usize, to: usize) -> Vec<Vec<(usize, f32)>> {
+    let edge = |stretch: usize| stretch as f64 * from as f64 / to as f64 - 0.5;
+    (0..to).map(|stretch| mean(from, edge(stretch), edge(stretch + 1))).collect()
+}
+
+/// Weights of cells in the mean from `start` to `end`, in cells from the first centre.
+fn mean(count: usize, start: f64, end: f64) -> Vec<(usize, f32)> {
+    let first = (start.floor() as isize).max(0);
+    let last = (end.ceil() as isize).min(count as isize - 1);
+    let mut weights = vec![0.0; (last - first + 1) as usize];
+    for cell in start.floor() as isize..=end.ceil() as isize {
+        let weight = (tent_below(end - cell as f64) - tent_below(start - cell as f64)) / (end - start);
+        let inside = cell.clamp(first, last);
+        // Beyond the border the surface goes on by point reflection.
+        let mirrored = (2 * inside - cell).clamp(first, last);
+        if cell == inside {
+            weights[(cell - first) as usize] += weight;
+        } else {
+            weights[(inside - first) as usize] += 2.0 * weight;
+            weights[(mirrored - first) as usize] -= weight;
+        }
+    }
+    (first as usize..).zip(weights.into_iter().map(|weight| weight as f32)).collect()
+}
+
+/// Integral of the tent `max(0, 1 - |t|)` up to `x`.
+fn tent_below(x: f64) -> f64 {
+    let x = x.clamp(-1.0, 1.0);
+    if x < 0.0 { 0.5 * (1.0 + x) * (1.0 + x) } else { 1.0 - 0.5 * (1.0 - x) * (1.0 - x) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use weald_core::domain::Domain;
+
+    #[test]
+    fn shrinking_keeps_the_mean() {
+        let size = Size::new(37, 23).expect("legal");
+        let field = Field::from_function(size, |x, y| ((x * 7 + y * 13) % 11) as f32);
+        let sheet = Sheet::new(&Domain::new(size, 1.0), Some(16)).expect("legal");
+        let small = shrink(&field, &sheet);
+        assert_eq!(small.size().columns, 16);
+        let mean = |field: &Field| field.sum() / field.size().cells() as f64;
+        assert!((mean(&small) - mean(&field)).abs() < 1e-4);
+    }
+
+    #[test]
+    fn a_shrunk_plane_is_a_plane() {
+        let size = Size::new(300, 200).expect("legal");
+        let sheet = Sheet::new(&Domain::new(size, 1.0), Some(64)).expect("legal");
+        let small = shrink(&Field::from_function(size, |x, y| x as f32 + 4.0 * y as f32), &sheet);
+        let rise = 4.0 * 200.0 / small.size().rows as f32;
+        for y in 1..small.size().rows {
+            let step = small.at(9, y) - small.at(9, y - 1);
+            assert!((step - rise).abs() < 1e-3, "row {y}: {step} instead of {rise}");
+        }
+    }
+
+    #[test]
+    fn no_data_is_filled_with_heights_of_the_shore() {
+        let size = Size::new(9, 5).expect("legal");
+        let land = Mask::new(size, (0..45).map(|cell| cell % 9 < 4).collect()).expect("some no-data");
+        let field = Field::from_function(size, |x, _| if x < 4 { 100.0 } else { 0.0 });
+        assert!(fill(&field, &land).values().iter().all(|&height| height == 100.0));
+    }
+}

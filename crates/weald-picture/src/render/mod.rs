@@ -1,0 +1,185 @@
+//! A picture as a device draws it in real time, with grass and plants: the same stage as the view's, from the same keys.
+
+mod device;
+mod flight;
+
+pub use device::{GrassRate, RayMarched, RenderDevice, RenderScene, Rendering};
+pub use flight::Flight;
+
+use super::{Camera, Image, Picture, Stage, View};
+use weald_core::error::Error;
+use weald_core::landscape::Landscape;
+use weald_core::parameter::{Complaints, Parameter, Parameters, Places, keys_of};
+use weald_core::source::Table;
+
+weald_core::parameters! {
+    /// Keys of a drawn picture that a view has not, or has otherwise.
+    pub struct RenderKeys {
+        /// Samples a pixel at the edges of what is drawn, 1 or 4; 1 shows stairs.
+        samples: u32 = 4, range 1..=4;
+        /// Further places, `[x, y]` as `eye` has them, that the camera flies through after `eye`, at the same height
+        /// above the ground; it looks ahead, or at `target`. It goes with `eye` and `frames`.
+        through: Option<Places> = None;
+    }
+}
+
+/// Least height of a camera above the ground, in metres.
+const LEAST_CLEARANCE: f64 = 0.1;
+
+/// A picture drawn on a device.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Render {
+    /// Light, air, size and camera.
+    pub view: View,
+    /// All else.
+    pub keys: RenderKeys,
+}
+
+impl Parameters for Render {
+    fn parameters() -> Vec<Parameter> {
+        let own = RenderKeys::parameters();
+        let is_own = |parameter: &Parameter| own.iter().any(|key| key.name == parameter.name);
+        let mut all: Vec<_> = View::parameters().into_iter().filter(|key| !is_own(key)).collect();
+        all.extend(own);
+        all
+    }
+
+    fn read(table: &Table, complaints: &mut Complaints) -> Self {
+        let own = keys_of::<RenderKeys>(table);
+        let mut view = table.clone();
+        for (key, _) in &own.entries {
+            view.take(key);
+        }
+        let keys = RenderKeys::read(&own, complaints);
+        if let Some(samples) = own.get("samples").filter(|_| ![1, 4].contains(&keys.samples)) {
+            let message = format!("`samples` is {}; every device has 1 and 4", keys.samples);
+            complaints.add(samples.line, message);
+        }
+        let view = View::read(&view, complaints);
+        if let Some(through) = own.get("through").filter(|_| view.eye.is_none()) {
+            complaints.add(through.line, "`through` goes on from `eye`, which is missing");
+        }
+        Self { view, keys }
+    }
+}
+
+impl Picture for Render {
+    fn reads(&self) -> Vec<String> {
+        self.view.reads()
+    }
+
+    fn optional(&self) -> Vec<String> {
+        self.view.optional()
+    }
+
+    fn turned(&self, share: f64, _: f64) -> Option<Box<dyn Picture>> {
+        Some(Box::new(Self { view: self.view.turned(share), ..self.clone() }))
+    }
+
+    fn as_view(&self) -> Option<&View> {
+        Some(&self.view)
+    }
+
+    fn as_render(&self) -> Option<&Render> {
+        Some(self)
+    }
+
+    fn render(&self, _: &Landscape) -> Result<Image, Error> {
+        Err(Error::Run(
+            "a picture of kind `render` is drawn by a device, which this caller has not".to_owned(),
+        ))
+    }
+}
+
+/// Which frame of how many, and when.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Frame {
+    /// Counted from 0.
+    pub number: u64,
+    /// How many there are; 1 for a still.
+    pub count: u64,
+    /// Moment in seconds.
+    pub seconds: f64,
+}
+
+impl Frame {
+    /// The only picture.
+    pub const STILL: Self = Self { number: 0, count: 1, seconds: 0.0 };
+}
+
+/// A drawn picture's scene on a device, for one frame after the other.
+#[derive(Debug)]
+pub struct Reel<'a> {
+    render: &'a Render,
+    stage: Stage,
+    device: &'a dyn RenderDevice,
+    landscape: &'a Landscape,
+    flight: Option<Flight>,
+}
+
+impl Render {
+    /// Checks that a device can draw it.
+    ///
+    /// # Errors
+    /// As [`RenderDevice::check`].
+    pub fn check(&self, device: &dyn RenderDevice) -> Result<(), Error> {
+        device.check([self.view.width, self.view.height], self.keys.samples)
+    }
+
+    /// Makes a landscape ready to be drawn, as a still or a film.
+    ///
+    /// # Errors
+    /// As [`Stage::new`].
+    pub fn reel<'a>(
+        &'a self,
+        landscape: &'a Landscape,
+        device: &'a dyn RenderDevice,
+    ) -> Result<Reel<'a>, Error> {
+        let stage = Stage::new(&self.view, landscape)?;
+        let flight = self.keys.through.as_ref().map(|through| self.flight(&stage, through));
+        let reel = Reel { render: self, stage, device, landscape, flight };
+        let first = reel.camera(Frame::STILL);
+        Ok(Reel { stage: reel.stage.seen_from(first), ..reel })
+    }
+
+    fn flight(&self, stage: &Stage, through: &Places) -> Flight {
+        let begin = self.view.eye.iter().flat_map(|eye| &eye.0).take(1);
+        let points = begin.chain(&through.0).map(|&place| self.standing(stage, place)).collect();
+        let target = self.view.target.as_ref().and_then(|target| target.0.first());
+        Flight { points, target: target.map(|&place| stage.above_ground(place, 0.0)) }
+    }
+
+    fn standing(&self, stage: &Stage, place: [f64; 2]) -> [f32; 3] {
+        stage.above_ground(place, self.view.eye_height.max(LEAST_CLEARANCE))
+    }
+}
+
+impl Reel<'_> {
+    /// The scene on the device.
+    ///
+    /// # Errors
+    /// As [`RenderDevice::set_up`].
+    pub fn set_up(&self) -> Result<Box<dyn Rendering + '_>, Error> {
+        let Self { render, stage, landscape, .. } = self;
+        let scene = RenderScene { view: &render.view, stage, landscape, samples: render.keys.samples };
+        self.device.set_up(&scene)
+    }
+
+    /// The camera of a frame.
+    pub fn camera(&self, frame: Frame) -> Camera {
+        let Frame { number, count, .. } = frame;
+        if let Some(flight) = &self.flight {
+            return flight.camera(number as f64 / count.saturating_sub(1).max(1) as f64, self.stage.camera());
+        }
+        let view = &self.render.view;
+        if count > 1 {
+            return self.stage.camera_of(&view.turned(number as f64 / count as f64));
+        }
+        let camera = self.stage.camera_of(view);
+        match view.eye.as_ref().and_then(|eye| eye.0.first()) {
+            // A device draws grass from a height at which a view is lifted above the ground.
+            Some(&place) if view.turn_deg.is_none() => camera.at(self.render.standing(&self.stage, place)),
+            _ => camera,
+        }
+    }
+}

@@ -1,0 +1,253 @@
+//! What grows and lies on the ground: meadow, forest, scree, bare rock, sand and snow by slope, height, soil and
+//! moisture; or the colours of the materials that a recipe names.
+//!
+//! The fields of the landscape say where each has its place, at the scale of cells. Noise moves the borders by less
+//! than that, so that they are ragged as in nature and not smooth as a field.
+
+use super::site::Sites;
+use super::vector::{Vector, add, scale};
+use crate::colour::{Linear, linear_of_hex, mix};
+use weald_core::grain::{Grain, Octaves, grain};
+
+/// A spot of ground that is to be coloured.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Spot {
+    pub(super) place: [f32; 2],
+    /// World coordinates; the height is the real one, above the lowest ground.
+    pub(super) point: Vector,
+    /// Rise over run of the ground, as it is without exaggeration.
+    pub(super) slope: f32,
+    /// The direction of the fall line, eastward and northward; 0 on level ground.
+    pub(super) fall: [f32; 2],
+    /// Size of a pixel on the ground in metres.
+    pub(super) footprint: f32,
+}
+
+/// What light falls on.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Skin {
+    /// Share of light that is sent back.
+    pub(super) albedo: Linear,
+    /// Slope of what is too small for the grid, eastward and northward.
+    pub(super) bump: [f32; 2],
+}
+
+impl Skin {
+    /// This skin, with a share of another over it.
+    fn mixed(&self, other: &Self, share: f32) -> Self {
+        let bump = [0, 1].map(|axis| self.bump[axis] * (1.0 - share) + other.bump[axis] * share);
+        Self { albedo: mix(self.albedo, other.albedo, share), bump }
+    }
+}
+
+/// Noise at a spot.
+#[derive(Clone, Copy, Debug)]
+struct Texture {
+    /// Patches of many cells.
+    broad: f32,
+    /// Detail finer than cells.
+    fine: Grain,
+    /// Marks along the fall line.
+    streak: f32,
+    cell: f32,
+}
+
+impl Texture {
+    /// Slopes of the fine detail.
+    fn rough(&self, strength: f32) -> [f32; 2] {
+        self.fine.slope.map(|slope| strength * self.cell * slope)
+    }
+}
+
+/// Slope that bumps come near but do not pass: from close by, many octaves would add up to needles.
+const STEEPEST: f32 = 0.75;
+
+fn no_steeper(bump: [f32; 2]) -> [f32; 2] {
+    let square = (bump[0] * bump[0] + bump[1] * bump[1]) / (STEEPEST * STEEPEST);
+    bump.map(|slope| slope / (1.0 + square).sqrt())
+}
+
+/// Limits of the kinds of ground.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Limits {
+    /// Slope from which rock is bare.
+    pub(super) rock: f32,
+    /// Height above the lowest ground up to which trees grow, in metres.
+    pub(super) trees: f32,
+    /// Height above the lowest ground from which snow lies, in metres.
+    pub(super) snow: f32,
+    /// Metres from the lowest to the highest ground.
+    pub(super) relief: f32,
+    /// Side of a cell in metres.
+    pub(super) cell: f32,
+}
+
+/// Colours of natural ground in linear light.
+#[derive(Debug)]
+pub(super) struct Palette {
+    pub(super) lush: Linear,
+    pub(super) meadow: Linear,
+    pub(super) dry: Linear,
+    pub(super) alpine: Linear,
+    pub(super) forest: [Linear; 2],
+    pub(super) rock: [Linear; 3],
+    pub(super) scree: Linear,
+    pub(super) gravel: Linear,
+    pub(super) snow: Linear,
+}
+
+impl Default for Palette {
+    fn default() -> Self {
+        let [lush, meadow, dry, alpine] = [0x44_622f, 0x54_6a37, 0x78_7648, 0x62_683f].map(linear_of_hex);
+        let forest = [0x26_341e, 0x44_5330].map(linear_of_hex);
+        let rock = [0x83_7c72, 0x55_4e47, 0x9a_8c7a].map(linear_of_hex);
+        let [scree, gravel, snow] = [0x95_8d80, 0xa9_9d86, 0xe4_e8ee].map(linear_of_hex);
+        Self { lush, meadow, dry, alpine, forest, rock, scree, gravel, snow }
+    }
+}
+
+/// The ground's colours.
+#[derive(Debug)]
+pub(super) struct Cover {
+    pub(super) sites: Sites,
+    pub(super) limits: Limits,
+    palette: Palette,
+}
+
+/// 0 below `low`, 1 above `high`, smooth between.
+#[inline(always)]
+fn ramp(value: f32, low: f32, high: f32) -> f32 {
+    let share = ((value - low) / (high - low)).clamp(0.0, 1.0);
+    share * share * (3.0 - 2.0 * share)
+}
+
+impl Cover {
+    pub(super) fn new(sites: Sites, limits: Limits) -> Self {
+        Self { sites, limits, palette: Palette::default() }
+    }
+
+    /// The colours of natural ground.
+    pub(super) fn palette(&self) -> &Palette {
+        &self.palette
+    }
+
+    /// Colour and roughness of a spot.
+    pub(super) fn at(&self, spot: &Spot) -> Skin {
+        let cell = self.limits.cell;
+        let broad = Octaves { wavelength: 26.0 * cell, count: 5, gain: 0.55, seed: 0x11 };
+        let fine = Octaves { wavelength: 2.4 * cell, count: 7, gain: 0.66, seed: 0x12 };
+        let texture = Texture {
+            broad: broad.at(spot.point, spot.footprint).value,
+            fine: fine.at(spot.point, spot.footprint),
+            streak: self.streak(spot),
+            cell,
+        };
+        let skin = match self.sites.material(spot.place) {
+            Some(albedo) => self.of_material(spot, albedo, &texture),
+            None => self.natural(spot, &texture),
+        };
+        Skin { albedo: skin.albedo.map(|c| c.clamp(0.01, 0.9)), bump: no_steeper(skin.bump) }
+    }
+
+    fn natural(&self, spot: &Spot, texture: &Texture) -> Skin {
+        let Texture { broad, fine, streak, .. } = *texture;
+        let patchy = 0.6 * broad + 0.4 * fine.value;
+        let moisture = self.sites.moisture(spot.place);
+        let high = spot.point[2] / self.limits.relief.max(1e-3);
+        let grass = self.grass(moisture + 0.55 * patchy, high + 0.25 * patchy);
+        let grass = scale(grass, 1.0 + 0.5 * fine.value + 0.35 * streak);
+        let trees = self.trees(spot, moisture, patchy);
+        let crown = (0.4 + 1.1 * fine.value + 0.5 * broad).clamp(0.0, 1.0);
+        let meadow = Skin { albedo: grass, bump: texture.rough(0.16) };
+        let wood = Skin {
+            albedo: mix(self.palette.forest[0], self.palette.forest[1], crown),
+            bump: texture.rough(0.55),
+        };
+        let green = meadow.mixed(&wood, trees);
+
+        let soil = self.sites.soil(spot.place);
+        let steep = spot.slope / self.limits.rock + 0.25 * patchy + 0.55 * streak + 0.4 * (0.4 - soil);
+        let pebbles = scale(self.palette.scree, 1.0 + 0.45 * fine.value + 0.4 * streak);
+        let scree = Skin { albedo: pebbles, bump: texture.rough(0.18) };
+        let stony = green.mixed(&scree, 0.8 * ramp(steep, 0.97, 1.10) * (1.0 - 0.6 * trees));
+        let rock = Skin { albedo: self.rock(spot, texture), bump: texture.rough(0.45) };
+        let ground = stony.mixed(&rock, ramp(steep, 1.08, 1.22));
+        let snow = Skin { albedo: scale(self.palette.snow, 1.0 + 0.12 * streak), bump: texture.rough(0.10) };
+        ground.mixed(&snow, self.snow(spot, patchy))
+    }
+
+    /// Noise drawn out along the fall line, as water and stones leave their marks: its mean over points above and
+    /// below; 0 on gentle ground.
+    fn streak(&self, spot: &Spot) -> f32 {
+        let steep = ramp(spot.slope / self.limits.rock, 0.35, 0.8);
+        if steep <= 0.0 {
+            return 0.0;
+        }
+        let marks = Octaves { wavelength: 1.1 * self.limits.cell, count: 3, gain: 0.75, seed: 0x13 };
+        let along = |step: i32| {
+            let way = step as f32 * 0.55 * marks.wavelength;
+            let point = [spot.point[0] + way * spot.fall[0], spot.point[1] + way * spot.fall[1], 0.0];
+            marks.at(point, spot.footprint).value
+        };
+        steep * 0.55 * (-2..=2).map(along).sum::<f32>()
+    }
+
+    fn grass(&self, moisture: f32, high: f32) -> Linear {
+        let Palette { lush, meadow, dry, alpine, .. } = self.palette;
+        let low = mix(mix(dry, meadow, ramp(moisture, 0.15, 0.5)), lush, ramp(moisture, 0.5, 0.85));
+        mix(low, mix(alpine, dry, ramp(moisture, 0.6, 0.2)), ramp(high, 0.35, 0.8))
+    }
+
+    /// Share of forest: where it is moist but not boggy, below the tree line, and not too steep.
+    fn trees(&self, spot: &Spot, moisture: f32, patchy: f32) -> f32 {
+        let line = (self.limits.trees - spot.point[2]) / (0.12 * self.limits.relief).max(1e-3);
+        let steep = ramp(spot.slope / self.limits.rock, 0.85, 1.15);
+        let wood = 1.1 * (moisture - 0.5) + 0.9 * patchy + 0.4 * line.clamp(-2.0, 0.8) - 0.5 * steep;
+        ramp(wood, 0.10, 0.24)
+    }
+
+    /// Rock with its beds: light and dark, sunk into cracks.
+    fn rock(&self, spot: &Spot, texture: &Texture) -> Linear {
+        let bed = 0.035 * self.limits.relief.max(1e-3);
+        let level = spot.point[2] / bed + 1.2 * texture.broad;
+        let beds = grain([level, 0.4], 0x21).value + 0.6 * grain([2.7 * level, 0.7], 0x22).value;
+        let [grey, dark, warm] = self.palette.rock;
+        let stone = mix(grey, warm, (0.5 + 1.0 * beds + 0.6 * texture.broad).clamp(0.0, 1.0));
+        let cracks = 0.35 - 0.9 * texture.fine.value - 0.9 * texture.streak;
+        mix(stone, dark, cracks.clamp(0.0, 1.0))
+    }
+
+    /// Snow on gentle ground above its line, and in patches somewhat below it.
+    fn snow(&self, spot: &Spot, patchy: f32) -> f32 {
+        let above = (spot.point[2] - self.limits.snow) / (0.10 * self.limits.relief).max(1e-3);
+        if !above.is_finite() {
+            return 0.0;
+        }
+        let hold = 1.25 - spot.slope / self.limits.rock;
+        let hollow = self.sites.moisture(spot.place) - 0.5;
+        ramp(above + 1.6 * hold.min(0.6) + 1.2 * hollow + 1.1 * patchy, 0.55, 0.95)
+    }
+
+    fn of_material(&self, spot: &Spot, albedo: Linear, texture: &Texture) -> Skin {
+        let steep = ramp(spot.slope, 0.5, 1.2);
+        let bed = 0.03 * self.limits.relief.max(1e-3);
+        let level = spot.point[2] / bed + 0.8 * texture.broad;
+        let beds = grain([level, 0.4], 0x21).value + 0.6 * grain([3.1 * level, 0.7], 0x22).value;
+        let fine = (0.3 + 0.3 * steep) * texture.fine.value + 0.6 * texture.streak;
+        let tone = 1.0 + 0.28 * texture.broad + fine + 0.5 * steep * beds;
+        Skin { albedo: scale(albedo, tone), bump: texture.rough(0.12 + 0.4 * steep) }
+    }
+
+    /// The bed of a lake or a river.
+    pub(super) fn gravel(&self) -> Linear {
+        self.palette.gravel
+    }
+
+    /// Ground of a mean colour, which sends light back into shadows.
+    pub(super) fn mean(&self) -> Linear {
+        self.sites.mean_material().unwrap_or_else(|| {
+            let Palette { meadow, forest, rock, .. } = self.palette;
+            scale(add(add(meadow, forest[1]), rock[0]), 1.0 / 3.0)
+        })
+    }
+}

@@ -1,0 +1,268 @@
+//! The light that reaches each pixel of a view.
+
+use std::f32::consts::FRAC_1_PI;
+use std::ops::Deref;
+
+use super::View;
+use super::camera::{self, Camera};
+use super::cover::Spot;
+use super::skylight::{self, Seen};
+use super::stage::{CUT_WATER, Stage};
+use super::terrain::{Hit, Ray};
+use super::vector::{Vector, add, dot, filter, mirrored, scale, unit};
+use super::water;
+use crate::colour::{linear_of_hex, mix};
+use weald_core::error::Error;
+use weald_core::landscape::Landscape;
+
+/// Everything that a pixel needs to know.
+pub(super) struct Scene {
+    stage: Stage,
+    pixels: [usize; 2],
+    samples: Vec<[f32; 2]>,
+    pixel_angle: f32,
+}
+
+impl Deref for Scene {
+    type Target = Stage;
+
+    fn deref(&self) -> &Stage {
+        &self.stage
+    }
+}
+
+impl Scene {
+    /// The view from its own camera, or from another.
+    pub(super) fn new(view: &View, landscape: &Landscape, from: Option<Camera>) -> Result<Self, Error> {
+        let stage = Stage::new(view, landscape)?;
+        let stage = match from {
+            Some(camera) => stage.seen_from(camera),
+            None => stage,
+        };
+        let pixels = [view.width as usize, view.height as usize];
+        let pixel_angle = stage.camera.pixel_angle(pixels[0]);
+        Ok(Self { stage, pixels, samples: camera::samples(view.samples), pixel_angle })
+    }
+
+    /// The bytes of a pixel, counted from the top left.
+    pub(super) fn pixel(&self, [x, y]: [usize; 2]) -> [u8; 3] {
+        let mut sum = [0.0; 3];
+        for offset in &self.samples {
+            let across = 2.0 * (x as f32 + 0.5 + offset[0]) / self.pixels[0] as f32 - 1.0;
+            let up = 1.0 - 2.0 * (y as f32 + 0.5 + offset[1]) / self.pixels[1] as f32;
+            // One ray into the sun must not outshine all others of its pixel.
+            let light = self.tone.limited(self.light(&self.camera.ray([across, up])));
+            sum = add(sum, light);
+        }
+        self.tone.bytes(scale(sum, 1.0 / self.samples.len() as f32), [x, y])
+    }
+
+    /// The light that comes along a ray to the eye.
+    fn light(&self, ray: &Ray) -> Vector {
+        if let Some(hit) = self.setting.terrain.trace(ray, [0.0, f32::INFINITY]).filter(|_| !self.is_empty) {
+            return self.haze.veil(self.met(ray, &hit), ray, hit.way, &self.sky);
+        }
+        if ray.direction[2] < 0.0 {
+            return self.plain(ray);
+        }
+        self.sky.radiance_with_sun(ray.direction)
+    }
+
+    /// The light that starts at what a ray met.
+    fn met(&self, ray: &Ray, hit: &Hit) -> Vector {
+        let point = ray.at(hit.way);
+        if let Some(normal) = hit.side {
+            return self.side(hit.place, point, normal);
+        }
+        let footprint = self.footprint(hit.way);
+        let ground = self.setting.bed.at(hit.place);
+        let depth =
+            self.setting.level.as_ref().map_or(f32::NEG_INFINITY, |level| level.at(hit.place) - ground);
+        if depth > 0.0 {
+            return self.lake(ray, hit, point, depth / self.setting.exaggeration);
+        }
+        let river = self.setting.rivers.as_ref().map_or(0.0, |rivers| rivers.at(self.share(hit.place)));
+        let land = if river < 1.0 { self.ground(hit.place, point, footprint, -depth) } else { [0.0; 3] };
+        if river <= 0.0 {
+            return land;
+        }
+        mix(land, self.lake(ray, hit, point, 1.2 * river), river)
+    }
+
+    fn footprint(&self, way: f32) -> f32 {
+        way * self.pixel_angle
+    }
+
+    /// Share of the sun's disc that is seen from a point: the part of a disc that a straight horizon leaves free.
+    fn sun_seen(&self, point: Vector) -> f32 {
+        let sun = self.sky.sun;
+        let run = (sun[0] * sun[0] + sun[1] * sun[1]).sqrt().max(1e-6);
+        let altitude = libm::atan2f(sun[2], run);
+        let radius = self.sky.sun_radius;
+        let steepness = |altitude: f32| libm::tanf(altitude.clamp(1e-4, 1.57));
+        let limits = [steepness(altitude - radius), steepness(altitude + radius)];
+        let horizon = libm::atanf(self.setting.terrain.horizon(point, sun, limits));
+        let free = ((altitude - horizon) / radius).clamp(-1.0, 1.0);
+        0.5 + (free * (1.0 - free * free).sqrt() + libm::asinf(free)) * FRAC_1_PI
+    }
+
+    /// Light of sun and sky on a normal.
+    fn lit(&self, point: Vector, normal: Vector, seen: &Seen) -> Vector {
+        let facing = dot(normal, self.sky.sun).max(0.0);
+        let sun = if facing > 0.0 { facing * self.sun_seen(point) } else { 0.0 };
+        add(scale(self.sky.sunlight, sun), skylight::on(seen, normal, self.bounce))
+    }
+
+    /// Dry ground, so many metres above the water beside it.
+    fn ground(&self, place: [f32; 2], point: Vector, footprint: f32, above: f32) -> Vector {
+        let [height, east, south] = self.setting.bed.with_slope(place);
+        let terrain = &self.setting.terrain;
+        let normal = terrain.normal([east, south]);
+        let stretch = self.setting.exaggeration;
+        let run = (normal[0] * normal[0] + normal[1] * normal[1]).sqrt();
+        let fall = [0, 1].map(|axis| normal[axis] / run.max(1e-6));
+        let point_of_cover = [point[0], point[1], height / stretch];
+        let slope = run / normal[2].max(1e-3) / stretch;
+        let spot = Spot { place, fall, point: point_of_cover, slope, footprint };
+        let skin = self.cover.at(&spot);
+        let rough = unit([
+            normal[0] - normal[2] * skin.bump[0] * stretch,
+            normal[1] - normal[2] * skin.bump[1] * stretch,
+            normal[2],
+        ]);
+        let albedo = water::wetted(skin.albedo, above, terrain.cell());
+        let light = self.lit(point, rough, &self.skylight.at(self.share(place)));
+        scale(filter(albedo, light), FRAC_1_PI)
+    }
+
+    /// Water of a depth.
+    fn lake(&self, ray: &Ray, hit: &Hit, point: Vector, depth: f32) -> Vector {
+        let terrain = &self.setting.terrain;
+        let back = scale(ray.direction, -1.0);
+        let footprint = self.footprint(hit.way) / back[2].max(0.05).sqrt();
+        let normal = water::ripples(point, (0.25 * terrain.cell()).min(6.0), footprint);
+        let seen = self.skylight.at(self.share(hit.place));
+        let share = water::mirrored_share(dot(back, normal));
+        let mut direction = mirrored(ray.direction, normal);
+        direction[2] = direction[2].max(0.01);
+        let reflection = self.mirrored_light(&Ray { from: point, direction: unit(direction) });
+        let sun = self.sun_seen(point);
+        let light = add(
+            scale(self.sky.sunlight, sun * self.sky.sun[2]),
+            skylight::on(&seen, [0.0, 0.0, 1.0], self.bounce),
+        );
+        let glint = if sun > 0.0 { sun * water::glint(back, normal, self.sky.sun) } else { 0.0 };
+        let below = water::body(self.cover.gravel(), depth, light);
+        let surface = add(scale(reflection, share), scale(below, 1.0 - share));
+        add(surface, scale(self.sky.sunlight, glint))
+    }
+
+    /// The light that water mirrors: land with its own colours, water on it as the sky that it mirrors.
+    fn mirrored_light(&self, ray: &Ray) -> Vector {
+        let terrain = &self.setting.terrain;
+        let start = 0.4 * terrain.cell();
+        let Some(hit) = terrain.trace(ray, [start, f32::INFINITY]).filter(|hit| hit.side.is_none()) else {
+            return self.sky.radiance(ray.direction);
+        };
+        let point = ray.at(hit.way);
+        let ground = self.ground(hit.place, point, (0.25 * terrain.cell()).max(self.footprint(hit.way)), 1e9);
+        self.haze.veil(ground, ray, hit.way, &self.sky)
+    }
+
+    /// A cut side.
+    fn side(&self, place: [f32; 2], point: Vector, normal: Vector) -> Vector {
+        let stretch = self.setting.exaggeration;
+        let surface = self.setting.bed.at(place);
+        let albedo = if point[2] > surface {
+            linear_of_hex(CUT_WATER)
+        } else {
+            self.setting.strata.albedo(place, point, [point[2] / stretch, surface / stretch])
+        };
+        let facing = dot(normal, self.sky.sun).max(0.0);
+        let outside = add(point, scale(normal, 1.5 * self.setting.terrain.cell()));
+        let sun = if facing > 0.0 { facing * self.sun_seen(outside) } else { 0.0 };
+        let light = add(scale(self.sky.sunlight, sun), self.sides.on(normal));
+        scale(filter(albedo, light), FRAC_1_PI)
+    }
+
+    /// The plain that the landscape stands on, which is lost in the haze of the horizon.
+    fn plain(&self, ray: &Ray) -> Vector {
+        let terrain = &self.setting.terrain;
+        let way = (terrain.base - ray.from[2]) / ray.direction[2];
+        let mut point = ray.at(way);
+        point[2] = terrain.base;
+        let share = self.share(terrain.place(point)).map(|share| (share + 1.0) / 3.0);
+        let inside = share.iter().all(|share| (0.0..=1.0).contains(share));
+        let seen = if inside { self.plain_light.at(share) } else { self.open };
+        let light = self.lit(point, [0.0, 0.0, 1.0], &seen);
+        let radiance = scale(filter(self.plain, light), FRAC_1_PI);
+        let near = self.haze.veil(radiance, ray, way, &self.sky);
+        let reach = self.plain_reach();
+        let lost = 1.0 - libm::expf(-(way / reach) * (way / reach) * 0.25);
+        mix(near, self.sky.radiance([ray.direction[0], ray.direction[1], 0.0]), lost)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use weald_core::domain::Domain;
+    use weald_core::grid::{Field, Size};
+
+    /// Ground of 10 m cells with the water that fills it up to a level.
+    fn scene(view: &View, columns: usize, height: impl FnMut(usize, usize) -> f32, level: f32) -> Scene {
+        let size = Size::new(columns, 80).expect("small");
+        let mut landscape = Landscape::new(Domain::new(size, 10.0));
+        let ground = Field::from_function(size, height);
+        let water = ground.values().iter().map(|ground| (level - ground).max(0.0)).collect();
+        landscape.insert("water", "m", Field::from_values(size, water));
+        landscape.insert("height", "m", ground);
+        Scene::new(view, &landscape, None).expect("it can be drawn")
+    }
+
+    fn low_sun() -> View {
+        View { sun_azimuth_deg: 270.0, sun_altitude_deg: 20.0, sun_diameter_deg: 2.0, ..View::default() }
+    }
+
+    /// Metres, along a line eastward from a cliff that is `height` metres high, over which the sun comes out.
+    fn penumbra(height: f32) -> f32 {
+        let scene = scene(&low_sun(), 300, |x, _| if x < 30 { height } else { 0.0 }, -1.0);
+        let seen = |metres: usize| scene.sun_seen([300.0 + metres as f32, -400.0, 0.0]);
+        let first = (20..2600).find(|&metres| seen(metres) > 0.1).expect("the sun comes out");
+        let last = (first..2700).find(|&metres| seen(metres) > 0.9).expect("and is whole");
+        (last - first) as f32
+    }
+
+    #[test]
+    fn the_penumbra_is_as_wide_as_the_sun_makes_it_and_widens_with_the_distance() {
+        let [near, far] = [150.0, 600.0].map(penumbra);
+        assert!((far / near - 4.0).abs() < 0.5, "{near} m and {far} m");
+        // From a tenth to nine tenths of a disc of 2° are 1.37°, on ground that the rays meet at 20°.
+        let distance = 600.0 / libm::sinf(20_f32.to_radians());
+        let expected = distance * 1.37_f32.to_radians() / libm::sinf(20_f32.to_radians());
+        assert!((far / expected - 1.0).abs() < 0.15, "{far} m instead of {expected} m");
+    }
+
+    #[test]
+    fn open_water_mirrors_the_sky_and_a_cliff_beside_it() {
+        let scene = scene(&low_sun(), 120, |x, _| if x < 40 { 400.0 } else { 0.0 }, 20.0);
+        let from = |direction: Vector| Ray { from: [700.0, -400.0, 20.0], direction: unit(direction) };
+        for direction in [[1.0, 0.0, 0.3], [0.6, 0.5, 0.4], [0.0, 0.0, 1.0]] {
+            let ray = from(direction);
+            assert_eq!(scene.mirrored_light(&ray), scene.sky.radiance(ray.direction));
+        }
+        let cliff = from([-1.0, 0.0, 0.2]);
+        let [mirrored, sky] = [scene.mirrored_light(&cliff), scene.sky.radiance(cliff.direction)];
+        assert!(mirrored[2] < 0.7 * sky[2], "{mirrored:?} before a sky of {sky:?}");
+    }
+
+    #[test]
+    fn light_on_an_open_plain_is_that_of_sun_and_sky() {
+        let scene = scene(&low_sun(), 60, |_, _| 0.0, -1.0);
+        let point = [300.0, -400.0, 0.0];
+        let light = scene.lit(point, [0.0, 0.0, 1.0], &scene.skylight.at([0.5; 2]));
+        for (light, expected) in light.into_iter().zip(scene.sky.on_level_ground()) {
+            assert!((light / expected - 1.0).abs() < 0.03, "{light} instead of {expected}");
+        }
+    }
+}

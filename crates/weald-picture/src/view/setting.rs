@@ -1,0 +1,181 @@
+//! A landscape made ready for a view: surfaces, water, limits of the kinds of ground.
+
+use super::cover::Limits;
+use super::flow::Flow;
+use super::side::Strata;
+use super::site::{Sites, names_materials};
+use super::surface::Surface;
+use super::terrain::Terrain;
+use super::vector::Vector;
+use super::water::{self, Rivers};
+use super::{GroundColour, View};
+use crate::colour::linear_of_srgb;
+use crate::ground::{drawable, land_share};
+use crate::sheet::Sheet;
+use weald_core::domain::Domain;
+use weald_core::error::Error;
+use weald_core::grid::{Field, Size};
+use weald_core::landscape::Landscape;
+use weald_core::material::stack;
+
+/// Longest side of the surfaces, in cells.
+const LONGEST: u64 = 4096;
+
+/// Depth of the base below the lowest ground, as a share of the landscape's width.
+const BASE: f32 = 0.035;
+
+/// Share of the land that is less steep than bare rock, and the bounds of that slope in degrees.
+const BELOW_ROCK: f64 = 0.90;
+const ROCK_DEG: [f64; 2] = [30.0, 42.0];
+
+/// Share of the relief up to which trees grow.
+const TREES: f32 = 0.6;
+
+/// All of a landscape that light can fall on. Heights are above the lowest ground, times the exaggeration.
+#[derive(Debug)]
+pub(super) struct Setting {
+    pub(super) terrain: Terrain,
+    /// The ground itself, under the water.
+    pub(super) bed: Surface,
+    /// Levels of lakes, below the ground where it is dry.
+    pub(super) level: Option<Surface>,
+    pub(super) rivers: Option<Rivers>,
+    /// How water runs.
+    pub(super) flow: Option<Flow>,
+    pub(super) strata: Strata,
+    pub(super) limits: Limits,
+    pub(super) exaggeration: f32,
+    /// Elevation of the lowest ground in metres.
+    pub(super) low: f32,
+}
+
+impl Setting {
+    /// The setting, and what its places are like.
+    pub(super) fn new(view: &View, landscape: &Landscape) -> Result<(Self, Sites), Error> {
+        let domain = &landscape.domain;
+        let field = landscape.field(&view.of.0)?;
+        let (low, high) = field.range(domain.land.as_ref()).unwrap_or((0.0, 0.0));
+        let frame = Frame::new(view, landscape, low)?;
+        let level = if view.water { water::levels(landscape, field) } else { None };
+        let (ground, level) = (frame.raised(field), level.map(|level| frame.raised(&level)));
+        let top = level.as_ref().map_or_else(|| ground.clone(), |level| higher(&ground, level));
+        let land = land_share(domain.land.as_ref(), &frame.sheet);
+        let spacing = frame.spacing(ground.size());
+        let base = BASE * (domain.cell * domain.size.columns.max(domain.size.rows) as f64) as f32;
+        let limits = limits(view, [low, high], &ground, spacing);
+        let wished = view.ground.map(|colour| colour == GroundColour::Materials);
+        let materials = wished.unwrap_or_else(|| names_materials(landscape));
+        let sites = Sites::new(landscape, field, &frame.sheet, materials)?;
+        let terrain = Terrain::new(spacing, &top, land.as_ref(), -base);
+        let setting = Self {
+            flow: if view.water { Flow::of(landscape, &terrain, &frame.sheet) } else { None },
+            terrain,
+            level: level.as_ref().map(Surface::new),
+            rivers: if view.water { Rivers::of(landscape, view.river_width) } else { None },
+            strata: strata(landscape, field, &frame.sheet, limits.relief + base / frame.exaggeration)?,
+            bed: Surface::new(&ground),
+            limits,
+            exaggeration: frame.exaggeration,
+            low,
+        };
+        Ok((setting, sites))
+    }
+
+    /// The diagonal of the landscape in metres.
+    pub(super) fn extent(&self) -> f32 {
+        let (size, spacing) = (self.terrain.top.size(), self.terrain.spacing);
+        let sides = [size.columns as f32 * spacing[0], size.rows as f32 * spacing[1]];
+        (sides[0] * sides[0] + sides[1] * sides[1]).sqrt()
+    }
+
+    /// The point of the lowest height in the middle of the landscape.
+    pub(super) fn centre(&self) -> Vector {
+        let size = self.terrain.top.size();
+        self.terrain.point([0.5 + 0.5 * size.columns as f32, 0.5 + 0.5 * size.rows as f32], 0.0)
+    }
+}
+
+/// How fields become surfaces of the view.
+struct Frame<'a> {
+    domain: &'a Domain,
+    sheet: Sheet,
+    /// Lowest ground in metres.
+    low: f32,
+    exaggeration: f32,
+}
+
+impl<'a> Frame<'a> {
+    fn new(view: &View, landscape: &'a Landscape, low: f32) -> Result<Self, Error> {
+        let domain = &landscape.domain;
+        let longer = domain.size.columns.max(domain.size.rows) as u64;
+        let width = (longer.min(LONGEST) * domain.size.columns as u64 / longer).max(1);
+        Ok(Self {
+            domain,
+            sheet: Sheet::new(domain, Some(width as u32))?,
+            low,
+            exaggeration: view.exaggeration as f32,
+        })
+    }
+
+    /// Heights above the lowest ground as they are drawn, no finer than the sheet.
+    fn raised(&self, field: &Field) -> Field {
+        let mut field = drawable(field, self.domain.land.as_ref(), &self.sheet);
+        field.values_mut().iter_mut().for_each(|height| *height = (*height - self.low) * self.exaggeration);
+        field
+    }
+
+    /// Sides of a cell of a drawn field in metres.
+    fn spacing(&self, drawn: Size) -> [f32; 2] {
+        let whole = self.domain.size;
+        [whole.columns as f64 / drawn.columns as f64, whole.rows as f64 / drawn.rows as f64]
+            .map(|cells| (cells * self.domain.cell) as f32)
+    }
+}
+
+fn limits(view: &View, [low, high]: [f32; 2], ground: &Field, spacing: [f32; 2]) -> Limits {
+    let relief = high - low;
+    let above = |line: f64| (line - f64::from(low)) as f32;
+    Limits {
+        rock: rock_slope(view, ground, spacing),
+        trees: view.tree_line.map_or(TREES * relief, above),
+        snow: view.snow_line.map_or(f32::INFINITY, above),
+        relief,
+        cell: spacing[0].min(spacing[1]),
+    }
+}
+
+fn higher(a: &Field, b: &Field) -> Field {
+    Field::from_values(a.size(), a.values().iter().zip(b.values()).map(|(a, b)| a.max(*b)).collect())
+}
+
+fn strata(landscape: &Landscape, ground: &Field, sheet: &Sheet, relief: f32) -> Result<Strata, Error> {
+    let mask = landscape.domain.land.as_ref();
+    let bedrock = landscape.materials.first().map_or([0.2; 3], |material| linear_of_srgb(material.colour));
+    if !names_materials(landscape) {
+        return Ok(Strata::new(Vec::new(), bedrock, relief));
+    }
+    let layers = stack(landscape, ground)?;
+    let materials = layers.iter().zip(&landscape.materials[1..]).map(|(thickness, material)| {
+        (Surface::new(&drawable(thickness, mask, sheet)), linear_of_srgb(material.colour))
+    });
+    Ok(Strata::new(materials.collect(), bedrock, relief))
+}
+
+/// Rise over run from which rock is bare.
+fn rock_slope(view: &View, ground: &Field, spacing: [f32; 2]) -> f32 {
+    if let Some(degrees) = view.rock_deg {
+        return libm::tan(degrees.to_radians()) as f32;
+    }
+    let size = ground.size();
+    let slope = |x: usize, y: usize| {
+        let east = (ground.at((x + 1).min(size.columns - 1), y) - ground.at(x, y)) / spacing[0];
+        let south = (ground.at(x, (y + 1).min(size.rows - 1)) - ground.at(x, y)) / spacing[1];
+        (east * east + south * south).sqrt() / view.exaggeration as f32
+    };
+    let mut slopes: Vec<f32> =
+        (0..size.cells()).map(|cell| slope(cell % size.columns, cell / size.columns)).collect();
+    slopes.sort_unstable_by(f32::total_cmp);
+    let steep = slopes[((slopes.len() - 1) as f64 * BELOW_ROCK) as usize];
+    let [low, high] = ROCK_DEG.map(|degrees| libm::tan(degrees.to_radians()) as f32);
+    steep.clamp(low, high)
+}

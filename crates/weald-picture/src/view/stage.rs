@@ -1,0 +1,203 @@
+//! A landscape lit and made ready to be drawn: what the ray-marched view and a renderer on a graphics card share.
+
+use std::f32::consts::FRAC_1_PI;
+
+use super::View;
+use super::camera::{self, Camera};
+use super::cover::Cover;
+use super::haze::Haze;
+use super::plain;
+use super::setting::Setting;
+use super::side::SideLight;
+use super::sky::Sky;
+use super::skylight::{self, Seen, Skylight};
+use super::terrain::Ray;
+use super::tone::Tone;
+use super::vector::{Vector, dot, filter, scale, subtract, towards};
+use crate::colour::{Linear, linear_of_hex};
+use weald_core::error::Error;
+use weald_core::landscape::Landscape;
+
+/// Most cells, along the longer side, for which the visible sky is known.
+const SKYLIGHT_CELLS: usize = 1024;
+
+/// Optical depth of the haze between the eye and the middle of the landscape.
+const USUAL_HAZE: f32 = 0.13;
+
+/// Distance, in diagonals of the landscape, over which the plain is lost in the haze.
+const PLAIN_REACH: f32 = 2.6;
+
+/// Share of the light on level ground that sunlit ground around sends into shadows.
+const BOUNCE: f32 = 0.5;
+
+/// Colour of the plain.
+const PLAIN: u32 = 0xd0_c6b4;
+
+/// Colour of water in a cut side.
+pub(super) const CUT_WATER: u32 = 0x1d_4a58;
+
+/// A landscape with its light, air and camera, as a [`View`] describes them.
+#[derive(Debug)]
+pub struct Stage {
+    pub(super) setting: Setting,
+    pub(super) cover: Cover,
+    pub(super) camera: Camera,
+    pub(super) sky: Sky,
+    pub(super) skylight: Skylight,
+    pub(super) plain_light: Skylight,
+    pub(super) open: Seen,
+    pub(super) sides: SideLight,
+    pub(super) haze: Haze,
+    pub(super) tone: Tone,
+    /// Radiance of the ground around that is seen from hidden places.
+    pub(super) bounce: Vector,
+    pub(super) plain: Linear,
+    pub(super) is_empty: bool,
+    /// How far one sees at the lowest ground, where the view says so.
+    visibility: Option<f64>,
+}
+
+impl Stage {
+    /// The stage of a view of a landscape.
+    ///
+    /// # Errors
+    /// [`Error::Limit`] where a map of it would be too large, [`Error::Run`] for a layer that is missing.
+    pub fn new(view: &View, landscape: &Landscape) -> Result<Self, Error> {
+        let (setting, sites) = Setting::new(view, landscape)?;
+        let sky = Sky::new(towards(view.sun_azimuth_deg, view.sun_altitude_deg), view.sun_diameter_deg);
+        let terrain = &setting.terrain;
+        let camera = Camera::new(view, terrain, setting.exaggeration);
+        let cover = Cover::new(sites, setting.limits);
+        let (level, plain) = (sky.on_level_ground(), linear_of_hex(PLAIN));
+        let sent_back = |albedo: Linear, share: f32| scale(filter(albedo, level), share * FRAC_1_PI);
+        Ok(Self {
+            skylight: Skylight::new(&sky, &terrain.top, terrain.spacing, SKYLIGHT_CELLS),
+            plain_light: plain::light(&sky, &setting.terrain),
+            open: skylight::open(&sky),
+            sides: SideLight::new(&sky, sent_back(plain, 1.0)),
+            bounce: sent_back(cover.mean(), BOUNCE),
+            haze: haze(view.visibility, &camera, setting.centre(), setting.exaggeration),
+            tone: Tone::new(level, view.exposure),
+            is_empty: landscape.domain.land_cells() == 0,
+            visibility: view.visibility,
+            plain,
+            sky,
+            camera,
+            cover,
+            setting,
+        })
+    }
+
+    /// The camera of the view.
+    pub fn camera(&self) -> Camera {
+        self.camera
+    }
+
+    /// The camera of another view of the same landscape.
+    pub fn camera_of(&self, view: &View) -> Camera {
+        Camera::new(view, &self.setting.terrain, self.setting.exaggeration)
+    }
+
+    /// The point in the middle of the landscape, half-way up.
+    pub fn middle(&self) -> [f32; 3] {
+        camera::middle(&self.setting.terrain)
+    }
+
+    /// Height of the highest ground.
+    pub fn highest(&self) -> f32 {
+        self.setting.terrain.highest()
+    }
+
+    /// The stage for another camera, with so much haze as suits it where the view does not say how much.
+    #[must_use]
+    pub fn seen_from(self, camera: Camera) -> Self {
+        let haze = haze(self.visibility, &camera, self.setting.centre(), self.setting.exaggeration);
+        Self { camera, haze, ..self }
+    }
+
+    /// Columns and rows of the surfaces.
+    pub fn cells(&self) -> [usize; 2] {
+        let size = self.setting.terrain.top.size();
+        [size.columns, size.rows]
+    }
+
+    /// Sides of a cell eastward and southward, in metres.
+    pub fn spacing(&self) -> [f32; 2] {
+        self.setting.terrain.spacing
+    }
+
+    /// Height of the plain that the landscape stands on, below 0.
+    pub fn base(&self) -> f32 {
+        self.setting.terrain.base
+    }
+
+    /// Whether some of it has no data.
+    pub fn has_holes(&self) -> bool {
+        self.setting.terrain.land.is_some()
+    }
+
+    /// Whether there is water: lakes, or rivers thinner than cells.
+    pub fn has_water(&self) -> bool {
+        self.setting.level.is_some() || self.setting.rivers.is_some()
+    }
+
+    /// Direction of the sun, of length 1.
+    pub fn sun(&self) -> [f32; 3] {
+        self.sky.sun
+    }
+
+    /// Whether there is no land at all.
+    pub fn is_empty(&self) -> bool {
+        self.is_empty
+    }
+
+    /// A place in shares of the landscape.
+    pub(super) fn share(&self, place: [f32; 2]) -> [f32; 2] {
+        let size = self.setting.terrain.top.size();
+        [(place[0] - 0.5) / size.columns as f32, (place[1] - 0.5) / size.rows as f32]
+    }
+
+    /// Distance in metres over which the plain is lost in the haze.
+    pub(super) fn plain_reach(&self) -> f32 {
+        PLAIN_REACH * self.setting.extent()
+    }
+
+    /// Height of the drawn ground, or of the water on it, at a point in metres eastward and southward of the
+    /// north-western corner, above the lowest ground and times the exaggeration; `None` outside the land.
+    pub fn top_at(&self, [east, south]: [f64; 2]) -> Option<f32> {
+        let terrain = &self.setting.terrain;
+        let place = terrain.place([east as f32, -south as f32, 0.0]);
+        terrain.is_land(place).then(|| terrain.top.at(place))
+    }
+
+    /// The point so many metres above the drawn ground at a place in metres eastward and southward; above the plain
+    /// outside the land.
+    pub fn above_ground(&self, place: [f64; 2], metres: f64) -> [f32; 3] {
+        let ground = self.top_at(place).unwrap_or(self.base());
+        let [east, south] = place;
+        [east as f32, -south as f32, ground + metres as f32 * self.setting.exaggeration]
+    }
+
+    /// Height of the drawn ground under the water at such a point; `None` outside the land.
+    pub fn bed_at(&self, [east, south]: [f64; 2]) -> Option<f32> {
+        let terrain = &self.setting.terrain;
+        let place = terrain.place([east as f32, -south as f32, 0.0]);
+        terrain.is_land(place).then(|| self.setting.bed.at(place))
+    }
+
+    /// Height at which an elevation in metres is drawn, above the lowest ground.
+    pub fn drawn_height(&self, elevation: f64) -> f32 {
+        (elevation - f64::from(self.setting.low)) as f32 * self.setting.exaggeration
+    }
+}
+
+/// The haze of a view whose camera looks over the landscape around `centre`.
+fn haze(visibility: Option<f64>, camera: &Camera, centre: Vector, exaggeration: f32) -> Haze {
+    if let Some(visibility) = visibility {
+        return Haze::new(visibility, exaggeration);
+    }
+    let away = subtract(centre, camera.eye);
+    let way = dot(away, away).sqrt().max(1e-3);
+    let ray = Ray { from: camera.eye, direction: scale(away, 1.0 / way) };
+    Haze::of_depth(USUAL_HAZE, &ray, way, exaggeration)
+}

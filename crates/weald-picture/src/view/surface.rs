@@ -1,0 +1,181 @@
+//! A field as a smooth surface over the ground: the uniform cubic B-spline of its cells, at any place.
+//!
+//! `B(t) = ((1-t)³, 3t³-6t²+4, -3t³+3t²+3t+1, t³) / 6`, as in the relief picture: its second derivative is
+//! continuous, so neither light nor reflections show cells. A patch lies within the range of its four by four
+//! control points, which is what the pyramid of maxima rests on. Beyond the border the control points go on by
+//! point reflection.
+//!
+//! Places are counted in cells, half a cell more than from the outer corner: the landscape is the rectangle
+//! from 0.5 to columns + 0.5, and the whole part of a place is its patch.
+
+use weald_core::grid::{Field, Size};
+
+/// Control points beyond each border.
+const RIM: usize = 2;
+
+/// A smooth surface.
+#[derive(Clone, Debug)]
+pub(super) struct Surface {
+    /// Cells without the rim.
+    size: Size,
+    stride: usize,
+    pub(super) control: Vec<f32>,
+}
+
+/// Weights of four successive control points.
+#[inline(always)]
+fn weights(t: f32) -> [f32; 4] {
+    let s = 1.0 - t;
+    let sixth = 1.0 / 6.0;
+    [
+        s * s * s * sixth,
+        ((3.0 * t - 6.0) * t * t + 4.0) * sixth,
+        (((3.0 - 3.0 * t) * t + 3.0) * t + 1.0) * sixth,
+        t * t * t * sixth,
+    ]
+}
+
+/// The same for the derivative.
+#[inline(always)]
+fn slopes(t: f32) -> [f32; 4] {
+    let s = 1.0 - t;
+    [-0.5 * s * s, (1.5 * t - 2.0) * t, (1.0 - 1.5 * t) * t + 0.5, 0.5 * t * t]
+}
+
+#[inline(always)]
+fn sum(weights: &[f32; 4], row: &[f32]) -> f32 {
+    (weights[0] * row[0] + weights[1] * row[1]) + (weights[2] * row[2] + weights[3] * row[3])
+}
+
+impl Surface {
+    /// The surface of a field.
+    pub(super) fn new(field: &Field) -> Self {
+        let size = field.size();
+        let stride = size.columns + 2 * RIM;
+        let mut control = Vec::with_capacity(stride * (size.rows + 2 * RIM));
+        for y in 0..size.rows + 2 * RIM {
+            control.extend((0..stride).map(|x| reflected(field, x, y)));
+        }
+        Self { size, stride, control }
+    }
+
+    /// Columns and rows of the field.
+    pub(super) fn size(&self) -> Size {
+        self.size
+    }
+
+    /// Columns and rows of the control points.
+    pub(super) fn controls(&self) -> [usize; 2] {
+        [self.stride, self.size.rows + 2 * RIM]
+    }
+
+    /// Columns and rows of the patches.
+    pub(super) fn patches(&self) -> [usize; 2] {
+        [self.size.columns + 1, self.size.rows + 1]
+    }
+
+    /// The rows of four control points of a patch.
+    #[inline(always)]
+    pub(super) fn patch(&self, x: usize, y: usize) -> [&[f32]; 4] {
+        [0, 1, 2, 3].map(|row| {
+            let start = (y + row) * self.stride + x;
+            &self.control[start..start + 4]
+        })
+    }
+
+    #[inline(always)]
+    fn locate(&self, place: [f32; 2]) -> ([usize; 2], [f32; 2]) {
+        let [columns, rows] = self.patches();
+        let x = (place[0].max(0.0) as usize).min(columns - 1);
+        let y = (place[1].max(0.0) as usize).min(rows - 1);
+        ([x, y], [(place[0] - x as f32).clamp(0.0, 1.0), (place[1] - y as f32).clamp(0.0, 1.0)])
+    }
+
+    /// The value at a place; beyond the landscape that of its border.
+    #[inline(always)]
+    pub(super) fn at(&self, place: [f32; 2]) -> f32 {
+        let ([x, y], [t, s]) = self.locate(place);
+        let across = weights(t);
+        sum(&weights(s), &self.patch(x, y).map(|row| sum(&across, row)))
+    }
+
+    /// The value at a place and its rise by the cell eastward and southward.
+    #[inline(always)]
+    pub(super) fn with_slope(&self, place: [f32; 2]) -> [f32; 3] {
+        let ([x, y], [t, s]) = self.locate(place);
+        let (across, down) = (weights(t), weights(s));
+        let patch = self.patch(x, y);
+        let rows = patch.map(|row| sum(&across, row));
+        let rise = patch.map(|row| sum(&slopes(t), row));
+        [sum(&down, &rows), sum(&down, &rise), sum(&slopes(s), &rows)]
+    }
+}
+
+/// The control point of a column and a row, both counted from the rim.
+fn reflected(field: &Field, x: usize, y: usize) -> f32 {
+    let size = field.size();
+    let (across, down) = (Reflection::of(x, size.columns), Reflection::of(y, size.rows));
+    down.of_values(|row| across.of_values(|column| field.at(column, row)))
+}
+
+/// What a control point beyond the border is made of: its border cell and what lies as far inside of that.
+struct Reflection {
+    edge: usize,
+    inside: usize,
+    /// How many times as far outside it is as the cell inside; 0 within the field.
+    beyond: f32,
+}
+
+impl Reflection {
+    fn of(place: usize, count: usize) -> Self {
+        let last = count as isize - 1;
+        let cell = place as isize - RIM as isize;
+        let edge = cell.clamp(0, last);
+        let inside = (2 * edge - cell).clamp(0, last);
+        let beyond = if inside == edge { 0.0 } else { (cell - edge) as f32 / (edge - inside) as f32 };
+        Self { edge: edge as usize, inside: inside as usize, beyond }
+    }
+
+    fn of_values(&self, value: impl Fn(usize) -> f32) -> f32 {
+        let edge = value(self.edge);
+        edge + self.beyond * (edge - value(self.inside))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    #[test]
+    fn a_plane_is_a_plane_up_to_the_border_whatever_the_size() {
+        for (columns, rows) in [(2, 2), (3, 7), (40, 5)] {
+            let size = Size::new(columns, rows).expect("small");
+            let surface = Surface::new(&Field::from_function(size, |x, y| 3.0 * x as f32 - 2.0 * y as f32));
+            for step in 0..=20 {
+                let place = [0.5 + columns as f32 * step as f32 / 20.0, 0.5 + rows as f32 * 0.3];
+                let [value, east, south] = surface.with_slope(place);
+                let expected = 3.0 * (place[0] - 1.0) - 2.0 * (place[1] - 1.0);
+                assert!((value - expected).abs() < 1e-3, "{columns} × {rows}: {value} for {expected}");
+                assert!((east - 3.0).abs() < 1e-3 && (south + 2.0).abs() < 1e-3);
+                assert_eq!(value, surface.at(place));
+            }
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn a_patch_stays_within_its_control_points(heights in prop::collection::vec(-9.0_f32..9.0, 30), t in 0.0_f32..1.0, s in 0.0_f32..1.0) {
+            let size = Size::new(6, 5).expect("small");
+            let surface = Surface::new(&Field::from_values(size, heights));
+            for y in 0..6 {
+                for x in 0..7 {
+                    let points = surface.patch(x, y).concat();
+                    let (low, high) = points.iter().fold((f32::MAX, f32::MIN), |(low, high), &p| (low.min(p), high.max(p)));
+                    let value = surface.at([x as f32 + t, y as f32 + s]);
+                    prop_assert!(value >= low - 1e-4 && value <= high + 1e-4, "{value} outside {low} to {high}");
+                }
+            }
+        }
+    }
+}

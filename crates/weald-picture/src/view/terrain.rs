@@ -1,0 +1,322 @@
+//! The ground with its water and edges, and what a ray meets of it.
+//!
+//! World coordinates are metres: east and north of the north-western corner, and up from the lowest ground, heights
+//! times the exaggeration. What a ray meets is found on the very surface that is shaded.
+
+use super::meeting::Meeting;
+use super::pyramid::{Line, Pyramid};
+use super::rising::Rising;
+use super::surface::Surface;
+use super::vector::{Vector, add, scale, unit};
+use crate::texture::smoothed;
+use weald_core::grid::Field;
+
+/// Gaps, in cells, of the smoothings after which an edge shows its direction.
+const OUTLINE: [usize; 4] = [1, 2, 4, 8];
+
+/// The ground.
+#[derive(Debug)]
+pub(super) struct Terrain {
+    /// Side of a cell eastward and southward, in metres.
+    pub(super) spacing: [f32; 2],
+    /// What light falls on: the ground, or the lake over it.
+    pub(super) top: Surface,
+    /// Share of land; `None` where all is land.
+    pub(super) land: Option<Surface>,
+    /// The same, smoothed: sides that follow the steps of a slanted edge are lit as one.
+    pub(super) outline: Option<Surface>,
+    /// Height of the plain that the landscape stands on, below 0.
+    pub(super) base: f32,
+    pyramid: Pyramid,
+}
+
+/// A ray of light, backwards: from the eye.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Ray {
+    pub(super) from: Vector,
+    /// Of length 1.
+    pub(super) direction: Vector,
+}
+
+impl Ray {
+    #[inline(always)]
+    pub(super) fn at(&self, way: f32) -> Vector {
+        add(self.from, scale(self.direction, way))
+    }
+}
+
+/// What a ray met.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Hit {
+    /// Metres from the start of the ray.
+    pub(super) way: f32,
+    /// Place on the surface, in cells.
+    pub(super) place: [f32; 2],
+    /// The normal of the cut where the ray met a side of the landscape.
+    pub(super) side: Option<Vector>,
+}
+
+impl Terrain {
+    pub(super) fn new(spacing: [f32; 2], top: &Field, land: Option<&Field>, base: f32) -> Self {
+        let outline = land.map(|land| {
+            Surface::new(&OUTLINE.into_iter().fold(land.clone(), |land, gap| smoothed(&land, gap)))
+        });
+        let (top, land) = (Surface::new(top), land.map(Surface::new));
+        let is_empty = |x: usize, y: usize| {
+            land.as_ref()
+                .is_some_and(|land| land.patch(x, y).into_iter().flatten().all(|&share| share <= 0.0))
+        };
+        let pyramid = Pyramid::new(&top, is_empty);
+        Self { spacing, top, land, outline, base, pyramid }
+    }
+
+    /// The highest point that anything may have.
+    pub(super) fn highest(&self) -> f32 {
+        self.pyramid.highest().max(0.0)
+    }
+
+    /// The place below or above a point.
+    #[inline(always)]
+    pub(super) fn place(&self, point: Vector) -> [f32; 2] {
+        [0.5 + point[0] / self.spacing[0], 0.5 - point[1] / self.spacing[1]]
+    }
+
+    /// The point of a place at a height.
+    pub(super) fn point(&self, place: [f32; 2], height: f32) -> Vector {
+        [(place[0] - 0.5) * self.spacing[0], (0.5 - place[1]) * self.spacing[1], height]
+    }
+
+    /// Whether a place is land of this landscape.
+    pub(super) fn is_land(&self, place: [f32; 2]) -> bool {
+        let size = self.top.size();
+        let inside = |at: f32, cells: usize| at >= 0.5 && at <= cells as f32 + 0.5;
+        inside(place[0], size.columns) && inside(place[1], size.rows) && self.has_data(place)
+    }
+
+    pub(super) fn has_data(&self, place: [f32; 2]) -> bool {
+        self.land.as_ref().is_none_or(|land| land.at(place) >= 0.5)
+    }
+
+    /// The upward normal of length 1 of a surface that rises so many metres a cell.
+    #[inline(always)]
+    pub(super) fn normal(&self, [east, south]: [f32; 2]) -> Vector {
+        unit([-east / self.spacing[0], south / self.spacing[1], 1.0])
+    }
+
+    /// The line over which a direction leads.
+    #[inline(always)]
+    pub(super) fn line(&self, from: Vector, direction: Vector) -> Line {
+        let step = [direction[0] / self.spacing[0], -direction[1] / self.spacing[1]];
+        Line { start: self.place(from), step }
+    }
+
+    /// The smaller side of a cell in metres.
+    pub(super) fn cell(&self) -> f32 {
+        self.spacing[0].min(self.spacing[1])
+    }
+
+    /// What a ray meets of the landscape between two ways.
+    pub(super) fn trace(&self, ray: &Ray, [near, far]: [f32; 2]) -> Option<Hit> {
+        let line = self.line(ray.from, ray.direction);
+        let [enter, leave] = line.crossing(&self.top)?;
+        let [start, end] = self.below_the_highest(ray, [near.max(enter), far.min(leave)])?;
+        if start == enter {
+            let place = line.at(start);
+            let height = ray.at(start)[2];
+            if height < self.top.at(place) && height >= self.base && self.has_data(place) {
+                return Some(Hit { way: start, place, side: Some(self.rim_normal(place)) });
+            }
+        }
+        let mut seeker = Meeting { terrain: self, ray, line: &line, hit: None };
+        self.pyramid.follow(&line, [start, end], &mut seeker);
+        seeker.hit.filter(|hit| ray.at(hit.way)[2] >= self.base)
+    }
+
+    /// The part of a span in which a ray is between the base and the highest ground.
+    fn below_the_highest(&self, ray: &Ray, [mut near, mut far]: [f32; 2]) -> Option<[f32; 2]> {
+        let (height, rise) = (ray.from[2], ray.direction[2]);
+        let to_top = (self.highest() - height) / rise;
+        let to_base = (self.base - height) / rise;
+        if rise > 0.0 {
+            far = far.min(to_top);
+            near = near.max(to_base);
+        } else if rise < 0.0 {
+            near = near.max(to_top);
+            far = far.min(to_base);
+        } else if height > self.highest() {
+            return None;
+        }
+        (near < far).then_some([near, far])
+    }
+
+    /// The outward normal of the outer side that a place lies on.
+    fn rim_normal(&self, place: [f32; 2]) -> Vector {
+        let size = self.top.size();
+        let sides = [
+            (place[0] - 0.5, [-1.0, 0.0, 0.0]),
+            (size.columns as f32 + 0.5 - place[0], [1.0, 0.0, 0.0]),
+            (place[1] - 0.5, [0.0, 1.0, 0.0]),
+            (size.rows as f32 + 0.5 - place[1], [0.0, -1.0, 0.0]),
+        ];
+        let nearest = sides.into_iter().min_by(|a, b| a.0.abs().total_cmp(&b.0.abs()));
+        nearest.map_or([0.0, 0.0, 1.0], |(_, normal)| normal)
+    }
+
+    /// The steepest rise from a point to the ground in a direction, as rise over run; a search that found more than
+    /// `enough` ends, and rises of less than `least` count as that.
+    pub(super) fn horizon(&self, from: Vector, direction: Vector, [least, enough]: [f32; 2]) -> f32 {
+        let run = (direction[0] * direction[0] + direction[1] * direction[1]).sqrt();
+        if run < 1e-6 {
+            return least;
+        }
+        let line = self.line(from, [direction[0] / run, direction[1] / run, 0.0]);
+        let Some([enter, leave]) = line.crossing(&self.top) else { return least };
+        let start = enter.max(0.05 * self.cell());
+        let room = (self.highest() - from[2]) / least.max(1e-6);
+        let end = leave.min(room);
+        let mut seeker = Rising { terrain: self, line: &line, height: from[2], steepest: least, enough };
+        if start < end {
+            self.pyramid.follow(&line, [start, end], &mut seeker);
+        }
+        seeker.steepest
+    }
+
+    /// Whether the patch of a place is partly no land.
+    #[inline(always)]
+    pub(super) fn is_edge(&self, place: [f32; 2]) -> bool {
+        let Some(land) = &self.land else { return false };
+        let [columns, rows] = land.patches();
+        let x = (place[0].max(0.0) as usize).min(columns - 1);
+        let y = (place[1].max(0.0) as usize).min(rows - 1);
+        land.patch(x, y).into_iter().flatten().any(|&share| share < 1.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use weald_core::grid::Size;
+    use weald_core::random::{hash2, unit as uniform};
+
+    const CELL: f32 = 10.0;
+
+    fn terrain(side: usize, height: impl FnMut(usize, usize) -> f32, land: Option<&Field>) -> Terrain {
+        let size = Size::square(side).expect("small");
+        Terrain::new([CELL; 2], &Field::from_function(size, height), land, -30.0)
+    }
+
+    fn random(seed: u64, at: i64) -> f32 {
+        uniform(hash2(seed, at, 7)) as f32
+    }
+
+    /// A ray from somewhere above a landscape of that side to somewhere on it.
+    fn ray(side: usize, at: i64) -> Ray {
+        let extent = side as f32 * CELL;
+        let place = |seed: u64| extent * (1.6 * random(seed, at) - 0.3);
+        let from = [place(1), -place(2), 40.0 + 120.0 * random(3, at)];
+        let onto = [extent * random(4, at), -extent * random(5, at), 20.0 * random(6, at)];
+        Ray { from, direction: unit([onto[0] - from[0], onto[1] - from[1], onto[2] - from[2]]) }
+    }
+
+    #[test]
+    fn rays_meet_random_ground_where_the_finest_steps_do() {
+        let ground = terrain(24, |x, y| 40.0 * random(9, (24 * y + x) as i64), None);
+        let mut met = 0;
+        for at in 0..3000 {
+            let ray = ray(24, at);
+            let line = ground.line(ray.from, ray.direction);
+            let above = |way: f32| ray.at(way)[2] - ground.top.at(line.at(way));
+            let Some([enter, leave]) = line.crossing(&ground.top) else { continue };
+            let enter = enter.max(0.0);
+            let steps = ((leave - enter) / 0.05) as usize;
+            let stepped = (0..steps).map(|step| enter + 0.05 * step as f32).find(|&way| above(way) <= 0.0);
+            let hit = ground.trace(&ray, [0.0, f32::INFINITY]);
+            match (stepped, hit) {
+                (Some(stepped), Some(hit)) => {
+                    met += 1;
+                    // Two centimetres of height are more than the error of a hit, and much way where a ray grazes.
+                    let early = hit.way <= stepped + 0.02 || above(stepped) > -0.02;
+                    assert!(early, "ray {at}: {} m instead of {stepped} m", hit.way);
+                    // Where the ray only grazes a crest the steps may have missed it.
+                    assert!(
+                        hit.side.is_some() || above(hit.way).abs() < 0.02,
+                        "ray {at}: {} m off",
+                        above(hit.way)
+                    );
+                    assert!(hit.way > stepped - 0.1 || above(hit.way + 0.02) < 0.02, "ray {at}");
+                }
+                (None, None) => {}
+                (None, Some(hit)) => {
+                    assert!(above(hit.way).abs() < 0.02 || ray.at(hit.way)[2] < 0.0, "ray {at}");
+                }
+                (Some(stepped), None) => {
+                    assert!(ray.at(stepped)[2] < ground.base, "ray {at} missed the ground at {stepped} m");
+                }
+            }
+        }
+        assert!(met > 1800, "{met} rays met the ground");
+    }
+
+    #[test]
+    fn a_ray_that_cuts_a_crest_by_a_centimetre_meets_it() {
+        for lee in [5.0_f32, 12.0, 20.0, 28.0] {
+            let ridge =
+                terrain(24, |x, _| [30.0, 40.0, lee].get(x.wrapping_sub(11)).copied().unwrap_or(0.0), None);
+            let crest =
+                (0..24_000).map(|at| ridge.top.at([at as f32 * 1e-3 + 0.5, 12.0])).fold(0.0, f32::max);
+            let ray = |below: f32| Ray { from: [-50.0, -115.0, crest - below], direction: [1.0, 0.0, 0.0] };
+            let met = |below: f32| ridge.trace(&ray(below), [0.0, f32::INFINITY]).is_some();
+            assert!(met(0.01), "behind the crest the ground falls to {lee} m");
+            assert!(!met(-0.01));
+        }
+    }
+
+    #[test]
+    fn a_ray_meets_a_tilted_plane_where_geometry_says() {
+        let plane = terrain(40, |x, y| 2.0 * x as f32 + y as f32, None);
+        for at in 0..100 {
+            let ray = Ray {
+                from: [200.0, -200.0, 300.0],
+                direction: unit([random(1, at) - 0.5, random(2, at) - 0.5, -0.8]),
+            };
+            let hit = plane.trace(&ray, [0.0, f32::INFINITY]).expect("it looks down");
+            // Height = 0.2 east + 0.1 south of the centre of the first cell.
+            let rise = |v: Vector| 0.2 * v[0] - 0.1 * v[1] - v[2];
+            let expected = -(rise(ray.from) - 1.5) / rise(ray.direction);
+            assert!((hit.way - expected).abs() < 0.03, "{} m instead of {expected} m", hit.way);
+        }
+    }
+
+    #[test]
+    fn a_cliff_throws_a_shadow_as_long_as_its_height_over_the_tangent_of_the_sun() {
+        let cliff = terrain(200, |x, _| if x < 40 { 300.0 } else { 0.0 }, None);
+        for altitude in [15.0_f64, 25.0, 40.0] {
+            let sun = crate::view::vector::towards(270.0, altitude);
+            let steep = libm::tan(altitude.to_radians()) as f32;
+            let dark = |metres: f32| {
+                let from = [400.0 + metres, -1000.0, 0.0];
+                cliff.horizon(from, sun, [0.5 * steep, 2.0 * steep]) > steep
+            };
+            let end = (0..1500).find(|&metres| metres > 30 && !dark(metres as f32)).expect("the shadow ends");
+            let expected = 300.0 / steep;
+            assert!((end as f32 - expected).abs() < 1.5 * CELL, "{end} m instead of {expected} m");
+        }
+    }
+
+    #[test]
+    fn what_has_no_data_is_never_met() {
+        let size = Size::square(24).expect("small");
+        let is_land =
+            |x: usize, y: usize| (x as f32 - 11.5).hypot(y as f32 - 11.5) < 8.0 && (x, y) != (12, 12);
+        let land = Field::from_function(size, |x, y| f32::from(u8::from(is_land(x, y))));
+        let ground = terrain(24, |x, y| 60.0 * random(9, (24 * y + x) as i64), Some(&land));
+        let (mut met, mut sides) = (0, 0);
+        for at in 0..400 {
+            let Some(hit) = ground.trace(&ray(24, at), [0.0, f32::INFINITY]) else { continue };
+            met += 1;
+            sides += usize::from(hit.side.is_some());
+            assert!(ground.is_land(hit.place), "ray {at} met {:?}", hit.place);
+        }
+        assert!(met > 60 && sides > 10, "{met} met, {sides} of them sides");
+    }
+}

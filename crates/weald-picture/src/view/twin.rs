@@ -1,0 +1,45 @@
+//! The shaders of a stage: the numbers and maps of it that they see, and the twins of its functions.
+
+use std::fmt::Write;
+
+use super::maps::MapKind;
+use super::stage::Stage;
+
+/// The twins of place, light and air, each after those that it calls.
+const LIGHT: [&str; 6] = [
+    include_str!("surface.wgsl"),
+    weald_core::grain::SHADER,
+    include_str!("sky.wgsl"),
+    include_str!("haze.wgsl"),
+    include_str!("tone.wgsl"),
+    include_str!("skylight.wgsl"),
+];
+
+/// Those of ground and water, which call them.
+const GROUND: [&str; 4] = [
+    include_str!("cover.wgsl"),
+    include_str!("water.wgsl"),
+    include_str!("side.wgsl"),
+    include_str!("scene.wgsl"),
+];
+
+impl Stage {
+    /// What a shader that draws the stage begins with: its numbers at binding 0 of a group, a sampler `between` at 1,
+    /// the maps of [`Stage::map_kinds`] from 2 on, and the functions of the view.
+    pub fn shader(&self, group: u32) -> String {
+        GROUND.iter().fold(self.shader_of_light(group), |text, twin| text + "\n" + twin)
+    }
+
+    /// The same with the functions of place, light and air alone, for what stands on the ground.
+    pub fn shader_of_light(&self, group: u32) -> String {
+        let mut text = self.declaration();
+        let _ = writeln!(text, "@group({group}) @binding(0) var<uniform> stage: Stage;");
+        let _ = writeln!(text, "@group({group}) @binding(1) var between: sampler;");
+        for (binding, (name, kind, is_array)) in (2..).zip(Self::map_kinds()) {
+            let shape = if is_array { "texture_2d_array<f32>" } else { "texture_2d<f32>" };
+            debug_assert!(!is_array || kind == MapKind::Smooth, "{name}: only smooth maps have layers");
+            let _ = writeln!(text, "@group({group}) @binding({binding}) var {name}: {shape};");
+        }
+        LIGHT.iter().fold(text, |text, twin| text + "\n" + twin)
+    }
+}

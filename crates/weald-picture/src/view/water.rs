@@ -1,0 +1,210 @@
+//! Water: where lakes and rivers lie, how deep they are, and how they look from any side.
+//!
+//! A lake's level goes on over its shore, so that the shore runs where the level cuts the smooth ground and not along
+//! cells. Rivers are the lines of the relief picture, as wide as the usual bankfull width of a river of their basin,
+//! `2.7 m · (area in km²)^0.4` (after Leopold and Maddock 1953, USGS PP 252), times a factor. A surface mirrors by
+//! Schlick's approximation of Fresnel's law (1994, doi 10.1111/1467-8659.1330233); what enters comes back from the bed
+//! through twice the depth, or from the water itself.
+
+use super::vector::{Vector, add, dot, filter, scale, unit};
+use crate::colour::mix;
+use crate::strokes::{Point, Strokes};
+use crate::{lakes, rivers};
+use weald_core::grain::Octaves;
+use weald_core::grid::{Field, Size};
+use weald_core::landscape::Landscape;
+
+/// Rings of cells over which a lake's level goes on.
+const RINGS: usize = 5;
+
+/// Depth in cells from which a cell beside a lake belongs to it.
+pub(super) const SHALLOW: f32 = 0.04;
+
+/// Depth in cells to which the level falls below dry ground.
+pub(super) const DRY: f32 = 0.03;
+
+/// Pixels a cell of the map of rivers, and its longest side.
+const RIVER_PIXELS: usize = 4;
+const RIVER_SIDE: usize = 4096;
+
+/// Bankfull width in metres of a river that drains a square kilometre, and its growth with the area.
+const BANKFULL: f32 = 2.7;
+const BANKFULL_GROWTH: f32 = 0.4;
+
+/// Share of light that water mirrors at right angles.
+const MIRRORED: f32 = 0.02;
+
+/// Light that clear and deep water sends back, and how fast a metre of it swallows the light of the bed.
+pub(super) const BODY: Vector = [0.016, 0.052, 0.058];
+pub(super) const SWALLOWED: Vector = [0.42, 0.13, 0.11];
+
+/// Mean square of the slopes of ripples too small to be seen.
+const ROUGHNESS: f32 = 0.006;
+
+/// Share of light that is mirrored at right angles, and roughness, as shaders get them.
+pub(super) const OPTICS: [f32; 2] = [MIRRORED, ROUGHNESS];
+
+/// Levels of lakes in metres: below the ground where it is dry. `None` without a lake.
+pub(super) fn levels(landscape: &Landscape, ground: &Field) -> Option<Field> {
+    let domain = &landscape.domain;
+    let water = landscape.field("water").ok()?;
+    let lakes = lakes::depths(water, domain)?;
+    let (size, cell) = (ground.size(), domain.cell as f32);
+    let is_wet = |at: usize| {
+        let land = domain.land.as_ref().is_none_or(|land| land.is_land_at(at));
+        land && water.values()[at] >= SHALLOW * cell
+    };
+    let surface = |at: usize| ground.values()[at] + water.values()[at];
+    let mut known: Vec<bool> = lakes.values().iter().map(|&depth| depth >= 1.0).collect();
+    let mut wet = known.clone();
+    let mut level: Vec<f32> = (0..size.cells()).map(surface).collect();
+    let mut front: Vec<usize> = (0..size.cells()).filter(|&at| known[at]).collect();
+    for _ in 0..RINGS {
+        let next = ring(size, &front, &known);
+        let means: Vec<f32> = next.iter().map(|&at| mean_of_known(&level, &known, size, at)).collect();
+        for (&at, mean) in next.iter().zip(means) {
+            wet[at] = is_wet(at);
+            level[at] = if wet[at] { level[at] } else { mean };
+            known[at] = true;
+        }
+        front = next;
+    }
+    let above_dry_ground = |at: usize| match (known[at], wet[at]) {
+        (_, true) => level[at],
+        (true, false) => level[at].min(ground.values()[at] - DRY * cell),
+        (false, false) => ground.values()[at] - cell,
+    };
+    Some(Field::from_values(size, (0..size.cells()).map(above_dry_ground).collect()))
+}
+
+/// Unknown neighbours of the cells of a front, in rising order.
+fn ring(size: Size, front: &[usize], known: &[bool]) -> Vec<usize> {
+    let mut ring: Vec<usize> =
+        front.iter().flat_map(|&at| size.neighbours(at)).filter(|&at| !known[at]).collect();
+    ring.sort_unstable();
+    ring.dedup();
+    ring
+}
+
+fn mean_of_known(level: &[f32], known: &[bool], size: Size, cell: usize) -> f32 {
+    let (mut sum, mut count) = (0.0, 0.0);
+    for other in size.neighbours(cell).filter(|&other| known[other]) {
+        sum += level[other];
+        count += 1.0;
+    }
+    sum / count
+}
+
+/// The share of river in each spot of a landscape.
+#[derive(Debug)]
+pub(super) struct Rivers {
+    pub(super) strokes: Strokes,
+    pub(super) width: usize,
+    pub(super) height: usize,
+}
+
+impl Rivers {
+    /// Rivers of the mean fluxes of a landscape, `broader` times as wide as is usual; `None` without them.
+    pub(super) fn of(landscape: &Landscape, broader: f64) -> Option<Self> {
+        let domain = &landscape.domain;
+        let flux = [landscape.field("flux_x").ok()?, landscape.field("flux_y").ok()?];
+        let longer = domain.size.columns.max(domain.size.rows);
+        let scale = (RIVER_SIDE as f32 / longer as f32).min(RIVER_PIXELS as f32);
+        let pixels = |cells: usize| ((cells as f32 * scale) as usize).max(1);
+        let (width, height) = (pixels(domain.size.columns), pixels(domain.size.rows));
+        let square_kilometres = domain.cell_area() as f32 * 1e-6;
+        let strokes = rivers::strokes(flux, domain, [width, height], |reach| {
+            let metres =
+                BANKFULL * libm::powf(reach.area * square_kilometres, BANKFULL_GROWTH) * broader as f32;
+            let width = metres / domain.cell as f32 * scale;
+            Point { x: reach.x * scale, y: reach.y * scale, width, opacity: 1.0 }
+        })?;
+        Some(Self { strokes, width, height })
+    }
+
+    /// Share of river at a place that is counted in shares of the landscape.
+    pub(super) fn at(&self, share: [f32; 2]) -> f32 {
+        let x = (share[0] * self.width as f32 - 0.5).clamp(0.0, (self.width - 1) as f32);
+        let y = (share[1] * self.height as f32 - 0.5).clamp(0.0, (self.height - 1) as f32);
+        let (left, above) = (x as usize, y as usize);
+        let (right, below) = ((left + 1).min(self.width - 1), (above + 1).min(self.height - 1));
+        let (across, down) = (x - left as f32, y - above as f32);
+        let row = |y: usize| {
+            let row = self.strokes.row(y);
+            row[left] * (1.0 - across) + row[right] * across
+        };
+        row(above) * (1.0 - down) + row(below) * down
+    }
+}
+
+/// The normal of rippled water at a point, for a pixel of that footprint; waves are `length` metres long.
+pub(super) fn ripples(point: Vector, length: f32, footprint: f32) -> Vector {
+    let calm = Octaves { wavelength: 30.0 * length, count: 2, gain: 0.5, seed: 0x51 }.at(point, 0.0).value;
+    let waves = Octaves { wavelength: length, count: 3, gain: 0.55, seed: 0x52 }.at(point, footprint);
+    let strength = 0.035 * length * (1.0 + 0.9 * calm);
+    unit([-strength * waves.slope[0], -strength * waves.slope[1], 1.0])
+}
+
+/// Share of light that is mirrored where a ray meets the surface at an angle of that cosine.
+#[inline]
+pub(super) fn mirrored_share(cosine: f32) -> f32 {
+    let grazing = 1.0 - cosine.clamp(0.0, 1.0);
+    let square = grazing * grazing;
+    // Seen from low down, the sides of ripples that face the eye mirror less than level water would.
+    let fresnel = MIRRORED + (1.0 - MIRRORED) * square * square * grazing;
+    fresnel / (1.0 + 9.0 * ROUGHNESS.sqrt() * square * square)
+}
+
+/// Radiance of the sun in ripples, over the sunlight: Beckmann's distribution of their slopes, as Cox and Munk 1954
+/// (doi 10.1364/JOSA.44.000838) measured it at sea.
+pub(super) fn glint(towards_eye: Vector, normal: Vector, sun: Vector) -> f32 {
+    let half = unit(add(towards_eye, sun));
+    let cosine = dot(half, normal).max(0.05);
+    let slope2 = (1.0 - cosine * cosine) / (cosine * cosine);
+    let facing = cosine * cosine * cosine * cosine;
+    let density = libm::expf(-slope2 / ROUGHNESS) / (std::f32::consts::PI * ROUGHNESS * facing);
+    density * mirrored_share(dot(half, towards_eye)) / (4.0 * dot(towards_eye, normal).max(0.08))
+}
+
+/// Light that comes out of water of a depth over a bed, for the light that falls on it.
+pub(super) fn body(bed: Vector, depth: f32, light: Vector) -> Vector {
+    let through = SWALLOWED.map(|swallowed| libm::expf(-2.0 * swallowed * depth));
+    let shallow = filter(scale(bed, 0.7), through);
+    let deep = filter(BODY, through.map(|through| 1.0 - through));
+    scale(filter(add(shallow, deep), light), std::f32::consts::FRAC_1_PI)
+}
+
+/// The colour of ground at a water's edge: wet ground is darker.
+pub(super) fn wetted(albedo: Vector, above: f32, cell: f32) -> Vector {
+    let wet = (1.0 - above / (0.06 * cell)).clamp(0.0, 1.0);
+    mix(albedo, scale(albedo, 0.55), wet)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use weald_core::domain::Domain;
+
+    #[test]
+    fn a_lake_is_level_over_its_shore_and_dry_ground_lies_above_it() {
+        let size = Size::square(40).expect("small");
+        let mut landscape = Landscape::new(Domain::new(size, 10.0));
+        let ground = Field::from_function(size, |x, y| {
+            let away = |c: usize| (c as f32 - 20.0).abs();
+            5.0 * away(x).max(away(y))
+        });
+        let water = Field::from_function(size, |x, y| (40.0 - ground.at(x, y)).max(0.0));
+        landscape.insert("water", "m", water);
+        let level = levels(&landscape, &ground).expect("there is a lake");
+        let wet: Vec<_> = (0..40).filter(|&x| level.at(x, 20) > ground.at(x, 20)).collect();
+        assert_eq!((wet[0], wet[wet.len() - 1]), (13, 27));
+        assert!(wet.iter().all(|&x| level.at(x, 20) == 40.0));
+        assert_eq!(level.at(11, 20), 40.0, "the level goes on over the shore");
+    }
+
+    #[test]
+    fn grazing_rays_are_mirrored_and_steep_ones_enter() {
+        assert!((mirrored_share(1.0) - MIRRORED).abs() < 1e-6);
+        assert!(mirrored_share(0.05) > 0.4 && mirrored_share(0.5) < 0.06);
+    }
+}

@@ -1,0 +1,191 @@
+//! Which sets of a meadow are drawn, and how finely: what a device chooses anew for each picture.
+//!
+//! ```text
+//! share of the sets that stand at distance d     (W / max(d, W))^1.15 · clamp((F - d) / 0.35 F, 0, 1)
+//! height share of a set of rank r                clamp((1.25 share - r) / 0.25, 0, 1)
+//! ```
+//!
+//! with W = 10 m, up to which all stand, and F = 96 m, beyond which none does. A set whose turn it is to be left out sinks
+//! into the ground over a fifth of the ranks, so that none vanishes at once. Those that stand are drawn in one of three
+//! lists, of blades with fewer and fewer rows of vertices; before the list changes every second row has slid onto its
+//! neighbour, so that the blade is that of the next list already. A device does the same in `meadow.wgsl`, which has the
+//! same names; it keeps each list in the order of the sets, so that a picture is the same each time.
+
+use super::blade::{Set, rows};
+use weald_engine::uniform;
+
+/// Distances in metres up to which blades have their finest and middle shapes, and beyond which there is none.
+pub const NEAR: f32 = 9.0;
+/// See [`NEAR`].
+pub const MIDDLE: f32 = 28.0;
+/// See [`NEAR`].
+pub const FARTHEST: f32 = 96.0;
+
+/// Lists by distance.
+pub const LISTS: usize = 3;
+
+/// Rows of the blades of each list.
+pub const ROWS: [u32; LISTS] = [9, 5, 3];
+
+/// Distance in metres up to which every set stands, and how fast they become fewer beyond it.
+const WHOLE: f32 = 10.0;
+const THINNING: f32 = 1.15;
+
+/// Share of ranks over which a set that is left out sinks.
+const SINKING: f32 = 0.25;
+
+/// Share of a list's farthest distance at which its rows begin to slide.
+const SLIDE: f32 = 0.6;
+
+/// A ball around a set's root in metres that holds its blades.
+pub const AROUND: f32 = 2.0;
+
+uniform! {
+    /// What a picture shows of its sets.
+    pub struct Choice {
+        /// Rows of the blades of each list; the fourth is nothing.
+        pub rows: [u32; 4],
+        /// 1 where sets out of sight are left out, 0 where all are drawn.
+        pub culled: u32,
+        /// 1 where sets become fewer and coarser with the distance, 0 where all stand in the first list.
+        pub thinned: u32,
+    }
+}
+
+/// From where and whereto one looks: directions of length 1, and the tangents of half the angles of the picture.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sight {
+    /// The eye.
+    pub eye: [f32; 3],
+    /// Ahead, rightward and upward.
+    pub axes: [[f32; 3]; 3],
+    /// Tangents of half the angles across and upward.
+    pub half: [f32; 2],
+    /// The point from which distances count: the eye, but in tests.
+    pub detail_from: [f32; 3],
+}
+
+impl Choice {
+    /// What a picture shows: sets in sight, fewer and coarser with the distance.
+    pub fn of_a_picture() -> Self {
+        Self { rows: [ROWS[0], ROWS[1], ROWS[2], 0], culled: 1, thinned: 1 }
+    }
+
+    /// All sets of a level of growth, in sight or not, with as many rows as the source draws.
+    pub fn of_all(level: f32) -> Self {
+        Self { rows: [rows(level) as u32, 0, 0, 0], culled: 0, thinned: 0 }
+    }
+
+    /// The list in which a set is drawn whose root is there; `None` where it is not.
+    pub fn list_of(&self, sight: &Sight, tuft: &Set, root: [f32; 3]) -> Option<usize> {
+        let distance = length(minus(root, sight.detail_from));
+        let stands = self.height_share(tuft.rank(), distance) > 0.0;
+        let seen = self.culled == 0 || sight.is_in_sight(minus(root, sight.eye), AROUND);
+        (stands && seen).then(|| self.list(distance))
+    }
+
+    /// How high a set of a rank stands at a distance, as a share: 0 where it is left out.
+    pub fn height_share(&self, rank: f32, distance: f32) -> f32 {
+        if self.thinned == 0 {
+            return 1.0;
+        }
+        ((share(distance) * (1.0 + SINKING) - rank) / SINKING).clamp(0.0, 1.0)
+    }
+
+    /// How far every second row of a list's blades has slid onto the one before it.
+    pub fn row_slide(&self, list: usize, distance: f32) -> f32 {
+        let Some(end) = [NEAR, MIDDLE].get(list).filter(|_| self.thinned == 1) else { return 0.0 };
+        ((distance - SLIDE * end) / ((1.0 - SLIDE) * end)).clamp(0.0, 1.0)
+    }
+
+    /// The list of a distance: 0 for the finest blades.
+    fn list(&self, distance: f32) -> usize {
+        match self.thinned {
+            0 => 0,
+            _ if distance < NEAR => 0,
+            _ if distance < MIDDLE => 1,
+            _ => 2,
+        }
+    }
+}
+
+/// How many of the sets stand at a distance.
+pub fn share(distance: f32) -> f32 {
+    let thinned = libm::powf(WHOLE / distance.max(WHOLE), THINNING);
+    thinned * ((FARTHEST - distance) / (0.35 * FARTHEST)).clamp(0.0, 1.0)
+}
+
+impl Sight {
+    /// Whether a ball of a radius around a point, seen from the eye, may be in the picture.
+    pub fn is_in_sight(&self, away: [f32; 3], radius: f32) -> bool {
+        let [depth, right, up] = self.axes.map(|axis| dot(away, axis));
+        let within =
+            |aside: f32, half: f32| aside.abs() <= depth * half + radius * (1.0 + half * half).sqrt();
+        depth > -radius && within(right, self.half[0]) && within(up, self.half[1])
+    }
+}
+
+fn minus(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+fn dot(a: [f32; 3], b: [f32; 3]) -> f32 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+fn length(v: [f32; 3]) -> f32 {
+    dot(v, v).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const AHEAD: Sight = Sight {
+        eye: [0.0; 3],
+        axes: [[0.0, 1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]],
+        half: [1.0, 0.5],
+        detail_from: [0.0; 3],
+    };
+
+    fn distances() -> impl Iterator<Item = f32> {
+        (0..1200_u16).map(|step| 0.1 * f32::from(step))
+    }
+
+    #[test]
+    fn sets_become_fewer_with_the_distance_and_none_sinks_at_once() {
+        let choice = Choice::of_a_picture();
+        assert_eq!((share(WHOLE), share(FARTHEST)), (1.0, 0.0));
+        assert!(distances().all(|at| share(at + 0.1) <= share(at)));
+        for rank in [0.0, 0.3, 0.99] {
+            let share = |at| choice.height_share(rank, at);
+            let sunk: Vec<_> = distances().map(|at| share(at) - share(at + 0.1)).collect();
+            assert!(sunk.iter().all(|sunk| (0.0..0.06).contains(sunk)), "rank {rank}");
+            assert!((sunk.iter().sum::<f32>() - 1.0).abs() < 1e-4, "rank {rank} sinks wholly");
+        }
+    }
+
+    #[test]
+    fn a_list_has_the_shape_of_the_next_where_it_ends_and_its_own_where_it_begins() {
+        let choice = Choice::of_a_picture();
+        for (list, (begin, end)) in [(0.0, NEAR), (NEAR, MIDDLE)].into_iter().enumerate() {
+            assert_eq!((choice.list(begin), choice.list(end)), (list, list + 1));
+            assert_eq!((choice.row_slide(list, begin), choice.row_slide(list, end)), (0.0, 1.0));
+            assert_eq!(ROWS[list] - 1, 2 * (ROWS[list + 1] - 1), "every second row is one of the next list");
+        }
+        assert_eq!(choice.row_slide(2, MIDDLE), 0.0);
+    }
+
+    #[test]
+    fn what_lies_behind_and_beside_is_left_out_and_all_else_is_not() {
+        let tuft = Set { soil: 1.0, light: 1.0, level: 4.0, cut: 1.0, trodden: 0.0, seed: 1 };
+        let (picture, all) = (Choice::of_a_picture(), Choice::of_all(4.0));
+        let places = [([0.0, 5.0, 0.0], true), ([4.0, 5.0, 0.0], true), ([0.0, -3.0, 0.0], false)];
+        let beside = [([9.0, 5.0, 0.0], false), ([0.0, 5.0, 6.0], false), ([0.0, -1.0, 0.0], true)];
+        for (root, seen) in places.into_iter().chain(beside) {
+            assert_eq!(picture.list_of(&AHEAD, &tuft, root).is_some(), seen, "{root:?}");
+            assert_eq!(all.list_of(&AHEAD, &tuft, root), Some(0), "{root:?}");
+        }
+        assert_eq!((all.rows[0], Choice::of_all(1.0).rows[0]), (20, 5), "two vertices a row: 40 at level 4");
+    }
+}

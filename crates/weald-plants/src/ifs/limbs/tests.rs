@@ -1,0 +1,127 @@
+//! What holds for plants of limbs.
+
+use super::*;
+use crate::ifs::shapes;
+use crate::wind::push;
+
+fn plant(name: &str) -> Limbs {
+    let ifs = shapes::find(name).expect("built in").ifs();
+    Limbs::of(&ifs, Habit::of(&ifs, None))
+}
+
+fn apart(a: [f32; 3], b: [f32; 3]) -> f32 {
+    leaf::length(std::array::from_fn(|i| a[i] - b[i]))
+}
+
+#[test]
+fn every_shape_becomes_a_plant_of_one_metre_with_leaves_on_every_level() {
+    for shape in shapes::SHAPES {
+        let plant = plant(shape.name);
+        let finest = plant.corners.iter().filter(|corner| corner.levels[0] == 0);
+        let highest = finest.map(|corner| corner.rest[1]).fold(0.0, f32::max);
+        assert!((highest - 1.0).abs() < 1e-5, "{}: {highest} m", shape.name);
+        let counts: Vec<_> =
+            (0..LEVELS as u32).map(|level| plant.triangles_of([level; 2]).len() / 3).collect();
+        println!(
+            "{}: {} limbs, {} corners, triangles {counts:?}, {} m, areas {:?}",
+            shape.name,
+            plant.limbs.len(),
+            plant.corners.len(),
+            plant.radius(),
+            (0..LEVELS as u32).map(|level| plant.area(level)).collect::<Vec<_>>()
+        );
+        assert!(plant.corners.len() < 200_000 && plant.limbs.len() < 1 << 20);
+        assert!(counts[LEVELS - 1] > 0 && counts[LEVELS - 1] <= 24, "{}: {counts:?}", shape.name);
+        for (number, limb) in plant.limbs.iter().enumerate() {
+            assert!(limb.parent.is_none_or(|parent| (parent as usize) < number), "{}", shape.name);
+            assert!((0.0..=1.0).contains(&limb.along) && limb.order < 4 && (0.0..1.0).contains(&limb.phase));
+        }
+    }
+}
+
+/// Breezes at many places and moments, from none to a gale.
+fn breezes() -> impl Iterator<Item = Breeze> {
+    (0..60_u16).map(|number| {
+        let seconds = 0.37 * f32::from(number);
+        let [east, north] = push([3.0 * seconds, 40.0], seconds, 0.0);
+        let stronger = f32::from(number % 4);
+        wind_on([stronger * east, -stronger * north], seconds, 0.3)
+    })
+}
+
+#[test]
+fn joints_never_part_in_any_breeze() {
+    let mut moved = 0.0_f32;
+    for name in ["fern", "culcita", "fern-3d", "shrub", "tree", "conifer", "crown"] {
+        let plant = plant(name);
+        for breeze in breezes() {
+            for (number, limb) in (0..).zip(&plant.limbs) {
+                let Some(parent) = limb.parent else { continue };
+                let held = plant.bent(&breeze, parent, limb.along, limb.joint);
+                for along in [0.0, 0.4, 1.0] {
+                    let hangs = plant.bent(&breeze, number, along, limb.joint);
+                    assert!(apart(held, hangs) < 4e-6, "{name} {number}: {held:?} {hangs:?}");
+                }
+                moved = moved.max(apart(held, limb.joint));
+            }
+        }
+    }
+    assert!(moved > 0.3, "{moved}: nothing swayed");
+}
+
+#[test]
+fn limbs_hang_on_their_parents_and_roots_stand_still() {
+    for name in ["fern", "fern-3d", "shrub", "conifer"] {
+        let plant = plant(name);
+        for breeze in breezes() {
+            for limb in plant.limbs.iter().filter(|limb| limb.parent.is_none()) {
+                assert!(leaf::length(limb.joint) < 1e-3, "{name}: {:?}", limb.joint);
+            }
+            let of_stem =
+                |corner: &&Corner| plant.limbs[corner.limb as usize].parent.is_none() && corner.is_stem;
+            let feet = plant.corners.iter().filter(of_stem);
+            for corner in feet.filter(|corner| leaf::length(corner.rest) < 0.02) {
+                let bent = plant.bent(&breeze, corner.limb, corner.along, corner.rest);
+                assert!(apart(bent, corner.rest) < 0.01, "{name}");
+            }
+        }
+        // A leaf's foot is at the joint of the limb that it is.
+        let feet = plant.corners.iter().filter(|corner| corner.along == 0.0 && !corner.is_stem);
+        let off = feet.map(|corner| apart(corner.axis, plant.limbs[corner.limb as usize].joint));
+        assert!(off.fold(0.0, f32::max) < 0.02, "{name}");
+    }
+}
+
+#[test]
+fn a_calm_plant_does_not_move() {
+    let plant = plant("fern");
+    let calm = wind_on([0.0; 2], 7.0, 0.2);
+    for corner in &plant.corners {
+        assert_eq!(plant.bent(&calm, corner.limb, corner.along, corner.rest), corner.rest);
+    }
+}
+
+#[test]
+fn all_levels_of_a_fern_have_its_area_of_leaves_and_lie_within_its_reach() {
+    for name in ["fern", "culcita", "fern-3d", "shrub", "conifer"] {
+        let plant = plant(name);
+        let whole = plant.area(0);
+        for level in 1..LEVELS as u32 {
+            let share = plant.area(level) / whole;
+            assert!((0.7..1.4).contains(&share), "{name}: level {level} has {share} of the area");
+        }
+        let lowest = plant.corners.iter().map(|corner| corner.rest[1]).fold(f32::INFINITY, f32::min);
+        assert!(lowest > -0.15, "{name} reaches {lowest} m into the ground");
+    }
+}
+
+#[test]
+fn a_leaf_of_no_breadth_has_no_area() {
+    for name in ["fern", "conifer", "crown"] {
+        let plant = plant(name);
+        let thin = |corner: u32| plant.corners[corner as usize].axis;
+        let areas = plant.triangles.iter().map(|triangle| leaf::area(triangle.map(thin)));
+        assert_eq!(areas.fold(0.0, f32::max), 0.0, "{name}");
+        assert!(plant.area(0) > 0.1, "{name}");
+    }
+}
