@@ -28,6 +28,10 @@ pub struct DeviceMachine {
 }
 
 impl DeviceMachine {
+    /// Loads the program and uploads the start.
+    ///
+    /// # Errors
+    /// [`Error::Device`] where the device fails or has too little memory.
     pub fn new(program: Program, start: &Snapshot, device: &dyn Device) -> Result<Self, Error> {
         let size = start.size();
         let loaded = device.load(&program, size)?;

@@ -66,6 +66,7 @@ impl Snapshot {
 /// A plane that counts into a mean.
 #[derive(Clone, Copy, Debug)]
 pub struct Part {
+    /// Number of the plane.
     pub plane: usize,
     /// Factor that it counts with.
     pub factor: f32,

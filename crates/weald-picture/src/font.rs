@@ -164,6 +164,7 @@ pub(super) fn width(text: &str) -> f32 {
 pub struct Pen {
     /// Pixels a unit: a capital is eight times as high.
     pub unit: f32,
+    /// Colour of the letters.
     pub ink: Linear,
 }
 

@@ -40,6 +40,7 @@ pub trait Process: Sync {
     /// Memory for one step over rows of this many cells.
     fn scratch(&self, columns: usize) -> Self::Scratch;
     /// The same process over a part of the domain, as if it were the whole.
+    #[must_use]
     fn sized(&self, size: Size) -> Self
     where
         Self: Sized;
@@ -143,18 +144,23 @@ impl<P: Process> Chain<P> {
 
 /// One passage over a stretch of rows.
 pub struct Passage<'a, P: Process> {
+    /// What is computed.
     pub process: &'a P,
+    /// How a row of all state planes lies in memory.
     pub layout: Layout,
     /// Weather of each step of the passage.
     pub weather: &'a [P::Weather],
     /// Rows to compute, halos included.
     pub span: Range<usize>,
-    /// Rows of the span that this band owns: first row and their memory, changed in place.
+    /// First row of the span that this band owns.
     pub first: usize,
+    /// Memory of the rows that this band owns, changed in place.
     pub own: &'a mut [f32],
-    /// Copies of the rows above and below.
+    /// Copies of the rows above those.
     pub above: &'a [f32],
+    /// Copies of the rows below those.
     pub below: &'a [f32],
+    /// Sums of each row that this band owns.
     pub sums: &'a mut [RowSums],
     /// Columns of which the sums are counted.
     pub columns: Range<usize>,

@@ -53,6 +53,7 @@ pub struct Ring {
 }
 
 impl Ring {
+    /// A ring of so many rows, all zero.
     pub fn new(columns: usize, depth: usize) -> Self {
         let cells = vec![0.0_f32; segment(columns) * depth + CACHE_LINE];
         let start = cache_line_start(&cells);

@@ -42,11 +42,14 @@ impl Layout {
 /// A stretch of rows of planes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rows {
+    /// How each row lies in memory.
     pub layout: Layout,
+    /// The rows, one after the other.
     pub memory: Vec<f32>,
 }
 
 impl Rows {
+    /// So many rows of zeros.
     pub fn new(layout: Layout, rows: usize) -> Self {
         Self { layout, memory: vec![0.0; layout.row_length() * rows] }
     }

@@ -97,7 +97,7 @@ impl GrassSets {
 
     /// The sets with the heights at which they stand.
     fn standing(&self, landscape: &Landscape, meadow: &Meadow) -> Result<Vec<Standing>, Error> {
-        let area = self.area_of(&meadow);
+        let area = self.area_of(meadow);
         let (expected, most) = (meadow.expected(&area), f64::from(self.most));
         // The count varies a little about what is expected; far beyond the limit nothing is made.
         if expected > 1.2 * most {

@@ -7,7 +7,6 @@ mod cloud;
 mod instances;
 mod table;
 
-use std::borrow::Cow;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -18,7 +17,6 @@ use weald_core::landscape::Landscape;
 use weald_core::parameter::{Colour, LayerName, Nested};
 use weald_core::plants::Plants;
 use weald_io::Part;
-use weald_plants::Fractal;
 use weald_plants::Vegetation;
 use weald_plants::ifs::Ifs;
 use weald_plants::ifs::foliage::{self, Foliage, Habit, Texture};

@@ -41,6 +41,7 @@ impl Attributes {
         self.0.push((name.to_owned(), value.into()));
     }
 
+    /// The attribute of that name.
     pub fn get(&self, name: &str) -> Option<&Attribute> {
         self.0.iter().find(|(known, _)| known == name).map(|(_, value)| value)
     }

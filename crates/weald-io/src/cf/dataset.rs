@@ -13,16 +13,22 @@ use weald_core::grid::{Field, Mask, Size};
 /// All of a file.
 #[derive(Debug)]
 pub struct Dataset<'a> {
+    /// Columns and rows of all grids in it.
     pub size: Size,
+    /// Attributes of the whole.
     pub attributes: Attributes,
+    /// Its arrays.
     pub variables: Vec<Variable<'a>>,
 }
 
 /// One array.
 #[derive(Debug)]
 pub struct Variable<'a> {
+    /// Its name.
     pub name: String,
+    /// Its attributes.
     pub attributes: Attributes,
+    /// Its numbers.
     pub values: Values<'a>,
 }
 
@@ -95,6 +101,7 @@ impl Values<'_> {
 }
 
 impl Cells<'_> {
+    /// Columns and rows.
     pub fn size(&self) -> Size {
         self.field.size()
     }

@@ -13,11 +13,13 @@ use weald_core::grid::Size;
 /// An array in a file, before any of its numbers is read.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Described {
+    /// Its name.
     pub name: String,
     /// Names of its dimensions, slowest first.
     pub dimensions: Vec<String>,
     /// Length of each.
     pub shape: Vec<usize>,
+    /// Its attributes.
     pub attributes: Attributes,
     /// Type of the numbers.
     pub stored: &'static str,

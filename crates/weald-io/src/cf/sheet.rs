@@ -9,18 +9,24 @@ use weald_core::grid::{Field, Mask, Size};
 /// Layers of one grid that become one file.
 #[derive(Clone, Debug)]
 pub struct Sheet<'a> {
+    /// Side of a cell in metres, where it is known.
     pub cell: Option<f64>,
+    /// Place on Earth.
     pub georeference: Option<&'a Georeference>,
+    /// Cells with data; `None` where all have.
     pub land: Option<&'a Mask>,
     /// At least one; all of one size.
     pub layers: Vec<Layer<'a>>,
+    /// What the arrays are called.
     pub names: Names,
 }
 
 /// A field and where it came from.
 #[derive(Clone, Debug)]
 pub struct Layer<'a> {
+    /// The field.
     pub field: &'a Field,
+    /// Where it came from.
     pub provenance: Option<Provenance>,
 }
 

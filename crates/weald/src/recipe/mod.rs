@@ -19,7 +19,6 @@ mod run_steps;
 pub mod schema;
 pub mod template;
 #[cfg(test)]
-#[expect(unreachable_pub, reason = "`parameters!` declares public structs")]
 mod testing;
 mod view_request;
 

@@ -1,6 +1,5 @@
 //! The plants of one kind on a device.
 
-use weald::grow::Fractal;
 use weald::grow::Vegetation;
 use weald::grow::ifs::foliage::{Colours, Habit};
 use weald::grow::ifs::limbs::{Corner, LEVELS, Limb, Limbs};
