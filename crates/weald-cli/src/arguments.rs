@@ -2,19 +2,20 @@
 
 mod fractal;
 mod render;
+mod running;
 
 use std::path::PathBuf;
 
 use clap::builder::PossibleValuesParser;
 use clap::{Args, Parser, Subcommand, value_parser};
 use clap_complete::Shell;
-use weald::recipe::Overrides;
 use weald::recipe::template::TEMPLATES;
 use weald_gallery::figures::{self as gallery, FIGURES};
 
 pub(crate) use self::fractal::FractalArguments;
 pub(crate) use self::render::{RenderArguments, RenderFiles};
-use crate::engine::{self, Choice};
+pub(crate) use self::running::{Changes, Running};
+use crate::values;
 
 /// Turns a recipe into a living landscape.
 #[derive(Debug, Parser)]
@@ -138,33 +139,6 @@ pub(crate) struct ReportArguments {
     pub(crate) running: Running,
 }
 
-/// How a recipe is run.
-#[derive(Debug, Args)]
-pub(crate) struct Running {
-    /// Where simulations run: auto, cpu or gpu
-    #[arg(long, default_value = "auto", value_parser = engine::choice)]
-    pub(crate) engine: Choice,
-    /// Most memory of the graphics card, as in 512MiB; larger grids go tile by tile [default: 4GiB, 2GiB where
-    /// the machine's own is used]
-    #[arg(long, value_name = "BYTES", allow_negative_numbers = true, value_parser = engine::memory)]
-    pub(crate) gpu_memory: Option<u64>,
-    /// Threads [default: all cores]
-    #[arg(long, value_name = "N", value_parser = value_parser!(u16).range(1..=1024))]
-    pub(crate) threads: Option<u16>,
-    /// Go on from the checkpoint of an interrupted run
-    #[arg(long)]
-    pub(crate) resume: bool,
-    /// Seconds between checkpoints of a running simulation
-    #[arg(long, value_name = "SECONDS", default_value_t = 60)]
-    pub(crate) checkpoint_every: u64,
-    /// Draw pictures of kind `render` on the processor where there is no graphics device: view, which is ray-marched
-    #[arg(long, value_name = "PICTURE", value_parser = ["view"])]
-    pub(crate) fallback: Option<String>,
-    /// Print errors only
-    #[arg(long)]
-    pub(crate) quiet: bool,
-}
-
 #[derive(Debug, Args)]
 pub(crate) struct BenchArguments {
     /// What is measured: cpu or gpu
@@ -189,50 +163,8 @@ pub(crate) struct BenchArguments {
     #[arg(long, conflicts_with_all = ["size", "gpu_memory", "fractals"])]
     pub(crate) grass: bool,
     /// Most memory of the graphics card, as in 512MiB; larger sizes are left out
-    #[arg(long, value_name = "BYTES", allow_negative_numbers = true, value_parser = engine::memory)]
+    #[arg(long, value_name = "BYTES", allow_negative_numbers = true, value_parser = values::memory)]
     pub(crate) gpu_memory: Option<u64>,
-}
-
-/// Greatest seed: whole numbers beyond it are not all exact where reports are read as JSON.
-const SEEDS: u64 = (1 << 53) - 1;
-
-/// Changes to a recipe.
-#[derive(Debug, Args)]
-pub(crate) struct Changes {
-    /// Cells along the longer side; shape and extent stay
-    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = value_parser!(u64).range(1..))]
-    size: Option<u64>,
-    #[command(flatten)]
-    values: Values,
-}
-
-/// Changes to a recipe's values.
-#[derive(Debug, Args)]
-pub(crate) struct Values {
-    /// Another seed
-    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = value_parser!(u64).range(0..=SEEDS))]
-    seed: Option<u64>,
-    /// Change a value: landscape.cell=10, step.2.iterations=500, or thermal.talus=0.7 for all such steps
-    #[arg(long, value_name = "KEY=VALUE", value_parser = key_and_value)]
-    set: Vec<(String, String)>,
-}
-
-impl Changes {
-    pub(crate) fn overrides(&self) -> Overrides {
-        self.values.overrides(self.size)
-    }
-}
-
-impl Values {
-    /// With so many cells along the longer side.
-    pub(crate) fn overrides(&self, size: Option<u64>) -> Overrides {
-        Overrides { size, seed: self.seed, set: self.set.clone() }
-    }
-}
-
-fn key_and_value(text: &str) -> Result<(String, String), String> {
-    let (key, value) = text.split_once('=').ok_or("it is written KEY=VALUE, as in landscape.cell=10")?;
-    Ok((key.trim().to_owned(), value.trim().to_owned()))
 }
 
 #[cfg(test)]

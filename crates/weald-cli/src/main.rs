@@ -12,6 +12,7 @@ mod interrupt;
 mod progress;
 mod shot;
 mod stdout;
+mod values;
 
 use std::process::ExitCode;
 

@@ -1,43 +1,10 @@
 //! Where the camera of `weald render` stands, as the command line says it.
 
+use crate::values::Point;
 use weald::picture::{Camera, Flight, Stage, View};
 
 use crate::arguments::RenderFiles;
 use crate::failure::Failure;
-
-/// A place in metres east and south of the north-western corner, with an elevation if one was given.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Point {
-    east: f64,
-    south: f64,
-    elevation: Option<f64>,
-}
-
-/// Reads `X,Y` or `X,Y,Z`.
-pub(crate) fn point(text: &str) -> Result<Point, String> {
-    let wrong = || "it is written X,Y,Z or X,Y in metres, as in 5200,6100,1300".to_owned();
-    let numbers: Vec<f64> =
-        text.split(',').map(|part| part.trim().parse().map_err(|_| wrong())).collect::<Result<_, _>>()?;
-    if !numbers.iter().all(|number| number.is_finite() && number.abs() <= MOST_METRES) {
-        return Err(format!("its numbers lie between -{MOST_METRES} and {MOST_METRES} m"));
-    }
-    match numbers[..] {
-        [east, south] => Ok(Point { east, south, elevation: None }),
-        [east, south, elevation] => Ok(Point { east, south, elevation: Some(elevation) }),
-        _ => Err(wrong()),
-    }
-}
-
-/// Farthest that a camera may be, in metres.
-const MOST_METRES: f64 = 1e8;
-
-/// Reads `WxH`.
-pub(crate) fn size(text: &str) -> Result<[u32; 2], String> {
-    let sides = text
-        .split_once(['x', 'X'])
-        .and_then(|(width, height)| Some([width.trim().parse().ok()?, height.trim().parse().ok()?]));
-    sides.ok_or_else(|| "it is written WIDTHxHEIGHT in pixels, as in 1920x1080".to_owned())
-}
 
 /// The cameras of all frames.
 pub(crate) fn cameras(files: &RenderFiles, view: &View, stage: &Stage) -> Result<Vec<Camera>, Failure> {
@@ -135,6 +102,7 @@ fn flight(files: &RenderFiles, stage: &Stage) -> Result<Vec<Camera>, Failure> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::values::{point, size};
 
     #[test]
     fn points_and_sizes_are_read_or_refused_with_what_would_be_right() {

@@ -30,6 +30,7 @@ pub mod parameter;
 pub mod plants;
 pub mod random;
 pub mod source;
+pub mod strata;
 pub mod vectors;
 
 pub use attachment::Attachment;

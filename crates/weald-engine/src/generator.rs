@@ -8,9 +8,10 @@ use weald_core::grid::Field;
 use weald_core::landscape::Landscape;
 use weald_core::parameter::LayerName;
 
+use crate::engine::Engine;
+use crate::job::Job;
 use crate::on_device::OnDevice;
 use crate::step::{Outcome, Step};
-use crate::{Engine, Job};
 
 /// A step that makes one layer from nothing but the size of the ground and a seed.
 pub trait Generator: Debug + Send + Sync {

@@ -1,12 +1,7 @@
 //! What a simulation asks of an engine, whatever the engine.
 
-use super::Engine;
-use super::cpu::CpuMachine;
-use super::device_machine::{self, DeviceMachine};
-use super::device_tiles::DeviceTiles;
-use super::tiles::{CpuTiles, Plan, Tiled};
-use crate::stencil::chain::{Process, RowSums};
 use crate::stencil::rows::Rows;
+use crate::sums::RowSums;
 use weald_core::error::Error;
 use weald_core::grid::Size;
 
@@ -76,31 +71,3 @@ pub struct Part {
 
 /// Parts of each mean.
 pub type Means<'a> = &'a [&'a [Part]];
-
-/// The machine of an engine with `start` as its state.
-pub fn start<'a, P: Process>(
-    process: &'a P,
-    means: Means<'a>,
-    start: &Snapshot,
-    engine: &Engine,
-) -> Result<Box<dyn Machine<P::Weather> + 'a>, Error> {
-    let size = start.size();
-    Ok(match engine {
-        Engine::Cpu => Box::new(CpuMachine::new(process, means, start, None)),
-        Engine::Bands(count) => Box::new(CpuMachine::new(process, means, start, Some(*count))),
-        Engine::Tiles(own) => {
-            Box::new(Tiled::new(CpuTiles { process, means }, start, Plan::of_own(*own, process.reach())))
-        }
-        Engine::Device(device) | Engine::DeviceElseCpu(device) => {
-            let program = process.program();
-            let most = device_machine::most_cells(&program, &**device);
-            if size.cells() as u64 <= most {
-                Box::new(DeviceMachine::new(program, start, &**device)?)
-            } else {
-                let plan = Plan::of_memory(most, program.reach, size)?;
-                let tile = plan.largest_tile(size);
-                Box::new(Tiled::new(DeviceTiles::new(program, &**device, tile)?, start, plan))
-            }
-        }
-    })
-}

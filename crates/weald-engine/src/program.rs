@@ -10,7 +10,7 @@ pub mod twin;
 use std::fmt::Write;
 
 use super::uniform::Uniform;
-use crate::stencil::chain::SUMS;
+use crate::sums::SUMS;
 
 /// Sums that programs count, for each workgroup.
 pub const COUNTED: usize = SUMS;

@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 use std::fmt::Debug;
 use std::path::PathBuf;
 
-use crate::{Budget, Job};
+use crate::budget::Budget;
+use crate::job::Job;
 use weald_core::error::Error;
 use weald_core::landscape::Landscape;
 use weald_core::material::Material;
@@ -91,7 +92,7 @@ pub enum Layered {
     /// Nothing.
     #[default]
     Never,
-    /// It reads them, where they exist, by [`material::stack`](weald_core::material::stack).
+    /// It reads them, where they exist, by [`strata::stack`](weald_core::strata::stack).
     Reads,
     /// It reads them and writes all of them, beside the layers in [`Step::writes`].
     Changes,

@@ -4,7 +4,7 @@ use std::sync::PoisonError;
 
 use weald::Error;
 use weald::engine::program::{MOST_BUFFERS, Pass, Program};
-use weald::grow::ifs::device::Shader;
+use weald::grow::ifs::shader::Shader;
 use wgpu::{
     BindGroup, BindGroupDescriptor, BindGroupEntry, BindGroupLayout, BindGroupLayoutDescriptor,
     BindGroupLayoutEntry, BindingResource, BindingType, BufferBindingType, ComputePipeline,

@@ -3,7 +3,7 @@
 use weald_core::error::Error;
 use weald_core::grid::Field;
 use weald_core::landscape::Landscape;
-use weald_core::material::stack;
+use weald_core::strata::stack;
 
 /// Ranges of ground behind the cut, near to far, each as its share of the way to the edge.
 const RANGES: [[f64; 2]; 3] = [[0.0, 0.2], [0.2, 0.5], [0.5, 1.0]];

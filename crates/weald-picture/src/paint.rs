@@ -8,7 +8,7 @@ use super::spline::{Spline, SplineRow};
 use weald_core::error::Error;
 use weald_core::grid::Field;
 use weald_core::landscape::Landscape;
-use weald_core::material::stack;
+use weald_core::strata::stack;
 
 /// Colours of the ground before light falls on it.
 #[derive(Debug)]

@@ -10,6 +10,7 @@ mod pattern;
 mod site;
 #[cfg(test)]
 mod tests;
+mod tiles;
 mod window;
 
 use pattern::{DENSITY, Pattern, Place};

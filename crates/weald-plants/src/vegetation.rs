@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use weald_core::{Attachment, Error, Landscape};
 
-use crate::Fractal;
+use crate::fractal::Fractal;
 use crate::grass::Meadow;
 
 impl Attachment for Meadow {

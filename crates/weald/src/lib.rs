@@ -58,7 +58,8 @@ pub mod recipe;
 
 #[doc(inline)]
 pub use weald_core::{
-    attachment, condition, domain, error, grid, landscape, material, parameter, plants, random, vectors,
+    attachment, condition, domain, error, grid, landscape, material, parameter, plants, random, strata,
+    vectors,
 };
 #[doc(inline)]
 pub use weald_core::{choices, parameters};

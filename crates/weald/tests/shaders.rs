@@ -8,7 +8,8 @@ use naga::{AddressSpace, ArraySize, Module, Scalar, StructMember, TypeInner, Vec
 use weald::engine::program::{GROUP, MOST_BUFFERS, Pass, Program, Uniforms};
 use weald::grow::SHADERS;
 use weald::grow::grass::{Bend, Grasses, SPECIES};
-use weald::grow::ifs::device::{Rules, Shader, Stretch};
+use weald::grow::ifs::device::{Rules, Stretch};
+use weald::grow::ifs::shader::Shader;
 use weald::grow::ifs::wind::{Plant, Pose};
 use weald::grow::ifs::{Game, Sway, shapes};
 use weald::picture::{Stage, View};

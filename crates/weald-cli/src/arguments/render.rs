@@ -6,9 +6,9 @@ use clap::{ArgMatches, Args, FromArgMatches, value_parser};
 use weald::picture::View;
 use weald::recipe::parameter::Parameters;
 
-use super::{Running, Values};
+use super::running::{Running, Values};
 use crate::declared::Declared;
-use crate::shot;
+use crate::values;
 
 #[derive(Debug)]
 pub(crate) struct RenderArguments {
@@ -27,26 +27,26 @@ pub(crate) struct RenderFiles {
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output: Option<PathBuf>,
     /// Width and height of the picture in pixels
-    #[arg(long, value_name = "WxH", default_value = "1920x1080", value_parser = shot::size)]
+    #[arg(long, value_name = "WxH", default_value = "1920x1080", value_parser = values::size)]
     pub(crate) size: [u32; 2],
     /// Samples a pixel at edges: 1 or 4
     #[arg(long, value_name = "N", default_value_t = 4)]
     pub(crate) samples: u32,
     /// Where the camera stands: metres east and south of the north-western corner, and its elevation
-    #[arg(long, value_name = "X,Y,Z", allow_negative_numbers = true, value_parser = shot::point)]
-    pub(crate) camera: Option<shot::Point>,
+    #[arg(long, value_name = "X,Y,Z", allow_negative_numbers = true, value_parser = values::point)]
+    pub(crate) camera: Option<values::Point>,
     /// Height of the eye above the ground at --camera X,Y: a person's view
     #[arg(long, value_name = "METRES")]
     pub(crate) eye: Option<f64>,
     /// What the camera looks at: X,Y,Z, or X,Y on the ground [default: the middle of the landscape]
-    #[arg(long, value_name = "X,Y,Z", allow_negative_numbers = true, value_parser = shot::point)]
-    pub(crate) target: Option<shot::Point>,
+    #[arg(long, value_name = "X,Y,Z", allow_negative_numbers = true, value_parser = values::point)]
+    pub(crate) target: Option<values::Point>,
     /// Frames of a whole turn around what the camera looks at
     #[arg(long, value_name = "FRAMES", value_parser = value_parser!(u32).range(2..=9999), conflicts_with_all = ["through", "eye"])]
     pub(crate) turntable: Option<u32>,
     /// Further points that the camera flies through after --camera; it looks ahead, or at --target
-    #[arg(long, value_name = "X,Y,Z", num_args = 1.., requires_all = ["camera", "frames"], allow_negative_numbers = true, value_parser = shot::point)]
-    pub(crate) through: Vec<shot::Point>,
+    #[arg(long, value_name = "X,Y,Z", num_args = 1.., requires_all = ["camera", "frames"], allow_negative_numbers = true, value_parser = values::point)]
+    pub(crate) through: Vec<values::Point>,
     /// Frames of a flight
     #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(2..=9999), requires = "through")]
     pub(crate) frames: Option<u32>,

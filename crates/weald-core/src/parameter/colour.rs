@@ -1,7 +1,7 @@
 //! Colours in a recipe.
 
+use super::declaration::{Complaints, Kind, ParameterValue};
 use super::values::wrong;
-use super::{Complaints, Kind, ParameterValue};
 use crate::source::{Node, Value};
 
 /// A colour as a recipe gives it, `"#rrggbb"`: red, green and blue in sRGB, 0 to 1.

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use super::{Complaints, Kind, ParameterValue};
+use super::declaration::{Complaints, Kind, ParameterValue};
 use crate::source::Node;
 
 /// A raster file that is read when the recipe runs. The plan makes its path start at the recipe's folder and

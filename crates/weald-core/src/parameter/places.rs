@@ -1,7 +1,7 @@
 //! Places in a recipe or a script.
 
+use super::declaration::{Complaints, Kind, ParameterValue};
 use super::values::wrong;
-use super::{Complaints, Kind, ParameterValue};
 use crate::source::{Node, Value};
 
 /// Places in metres from the north-western corner of a landscape, `[x, y]` or a list of them: east and south.

@@ -1,7 +1,7 @@
 //! The size of a grid in a recipe.
 
+use super::declaration::{Complaints, Kind, ParameterValue};
 use super::values::wrong;
-use super::{Complaints, Kind, ParameterValue};
 use crate::source::{Node, Value};
 
 /// Columns and rows of a grid as a recipe gives them: one number for a square, or a list of two.

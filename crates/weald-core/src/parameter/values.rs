@@ -1,6 +1,6 @@
 //! The types that parameters can have, but for the [size of a grid](super::Sides).
 
-use super::{Choice, Complaints, Kind, ParameterValue, Parameters, range_in_words};
+use super::declaration::{Choice, Complaints, Kind, ParameterValue, Parameters, range_in_words};
 use crate::source::{Node, Value};
 
 fn within<T: Into<f64> + Copy + std::fmt::Display>(number: T, range: (f64, f64)) -> Result<T, String> {

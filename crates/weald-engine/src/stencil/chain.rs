@@ -11,14 +11,9 @@ use std::ops::Range;
 use super::ring::Ring;
 use super::rows::Layout;
 use crate::program::Program;
+pub use crate::sums::{RowSums, SUMS};
 use crate::uniform::Uniform;
 use weald_core::grid::Size;
-
-/// Sums that a process keeps for each row, in the process's own order.
-pub const SUMS: usize = 5;
-
-/// What happened on one row, summed over its cells and over time.
-pub type RowSums = [f64; SUMS];
 
 /// A simulation step as a stream of rows.
 pub trait Process: Sync {

@@ -85,7 +85,7 @@ struct Banks {
 impl Banks {
     fn of(name: &'static str, landscape: &Landscape) -> Result<Self, Error> {
         let height = landscape.field("height")?;
-        let stack = weald_core::material::stack(landscape, height)?;
+        let stack = weald_core::strata::stack(landscape, height)?;
         let size = height.size();
         let inner: Vec<usize> =
             (2..size.rows - 2).flat_map(|y| (2..size.columns - 2).map(move |x| size.index(x, y))).collect();

@@ -2,7 +2,8 @@
 
 use weald::Error;
 use weald::engine::uniform::Uniform;
-use weald::grow::ifs::device::{Shader, Stretch};
+use weald::grow::ifs::device::Stretch;
+use weald::grow::ifs::shader::Shader;
 use wgpu::{BindGroup, Buffer, BufferUsages, ComputePassDescriptor};
 
 use crate::compiled::Pipeline;

@@ -6,9 +6,10 @@
 use super::map_two;
 use weald_core::error::Error;
 use weald_core::landscape::Landscape;
-use weald_core::material::{BEDROCK, stack};
+use weald_core::material::BEDROCK;
 use weald_core::parameter::LayerName;
 use weald_core::parameters;
+use weald_core::strata::stack;
 use weald_engine::Job;
 use weald_engine::step::{Entry, Layered, Outcome, Stage, Step};
 

@@ -5,9 +5,10 @@ use rayon::prelude::*;
 use weald_core::error::Error;
 use weald_core::grid::Field;
 use weald_core::landscape::Landscape;
-use weald_core::material::{stack, topmost};
+use weald_core::material::topmost;
 use weald_core::parameter::LayerName;
 use weald_core::parameters;
+use weald_core::strata::stack;
 use weald_engine::Job;
 use weald_engine::step::{Entry, Layered, Outcome, Stage, Step};
 

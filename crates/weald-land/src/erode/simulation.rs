@@ -8,7 +8,8 @@ use super::pace::Pace;
 use super::saved::Saved;
 use super::sums;
 use weald_core::error::Error;
-use weald_engine::machine::{self, Machine, Means, Snapshot};
+use weald_engine::machine::{Machine, Means, Snapshot};
+use weald_engine::machine_of_engine;
 use weald_engine::stencil::chain::{Process, RowSums};
 use weald_engine::stencil::rows::Rows;
 use weald_engine::uniform;
@@ -153,7 +154,8 @@ impl<'a, P: Process> Running<'a, P> {
             )));
         }
         let cells = from.snapshot.size().cells();
-        let machine = machine::start(simulation.process, simulation.means(), &from.snapshot, engine)?;
+        let machine =
+            machine_of_engine::start(simulation.process, simulation.means(), &from.snapshot, engine)?;
         let pace = Pace::new(engine, cells, machine.block());
         Ok(Self {
             simulation,

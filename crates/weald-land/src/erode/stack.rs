@@ -7,7 +7,7 @@ use super::working::Working;
 use weald_core::error::Error;
 use weald_core::grid::Field;
 use weald_core::landscape::Landscape;
-use weald_core::material::{self, BEDROCK, Material};
+use weald_core::material::{BEDROCK, Material};
 use weald_engine::stencil::rows::Rows;
 
 /// Layer of the regolith.
@@ -73,7 +73,7 @@ impl Working {
         deposit: usize,
     ) -> Result<(), Error> {
         let size = self.start.size();
-        let mut metres = material::stack(landscape, &self.start)?;
+        let mut metres = weald_core::strata::stack(landscape, &self.start)?;
         let not_negative = |field: &Field| Field::from_function(size, |x, y| field.at(x, y).max(0.0));
         let before = landscape.field(REGOLITH).ok().map(not_negative);
         let had_regolith = before.is_some();

@@ -16,7 +16,7 @@ use weald_core::domain::Domain;
 use weald_core::error::Error;
 use weald_core::grid::{Field, Size};
 use weald_core::landscape::Landscape;
-use weald_core::material::stack;
+use weald_core::strata::stack;
 
 /// Longest side of the surfaces, in cells.
 const LONGEST: u64 = 4096;

@@ -13,7 +13,8 @@ use crate::texture::smoothed;
 use weald_core::error::Error;
 use weald_core::grid::Field;
 use weald_core::landscape::Landscape;
-use weald_core::material::{Material, stack};
+use weald_core::material::Material;
+use weald_core::strata::stack;
 
 /// Thickness of a material, in metres, that hides half of what it lies on.
 const THINNEST: f32 = 0.05;

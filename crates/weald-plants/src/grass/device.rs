@@ -6,7 +6,7 @@
 use super::blade::Vertex;
 use super::growth::Bend;
 use super::species::{MOST_SPECIES, ROWS, Species};
-use crate::ifs::device::Shader;
+use crate::ifs::shader::Shader;
 use weald_engine::uniform::Uniform;
 
 /// From an instance, a blade, and a place along and across it, to its vertex: to be joined with a binding of [`Grasses`].

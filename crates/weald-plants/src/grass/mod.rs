@@ -17,7 +17,6 @@ pub mod meadow;
 mod meadow_tests;
 pub mod species;
 pub mod spline;
-pub mod step;
 #[cfg(test)]
 mod tests;
 

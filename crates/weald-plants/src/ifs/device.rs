@@ -7,31 +7,10 @@
 use super::code::{Code, Digits};
 use super::game::{Game, STEPS};
 use super::lanes::LANES;
+use super::shader::Shader;
 use super::system::Ifs;
 use super::wind::WORDS;
 use weald_engine::uniform;
-
-/// A compute shader: uniforms are bound first, then storage buffers, in the order of these lists.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Shader {
-    /// Its entry point.
-    pub name: &'static str,
-    /// Its text, in parts that follow each other.
-    pub text: &'static [&'static str],
-    /// Invocations of a workgroup.
-    pub group: u32,
-    /// Names of its uniforms.
-    pub uniforms: &'static [&'static str],
-    /// Names of its storage buffers, and whether it writes them.
-    pub buffers: &'static [(&'static str, bool)],
-}
-
-impl Shader {
-    /// The whole text.
-    pub fn source(&self) -> String {
-        self.text.concat()
-    }
-}
 
 /// Random iteration: fills `rests`, and `codes` where wanted, from the rows of [`Table`](super::Table), its bounds, and
 /// the keys of each chunk.

@@ -9,7 +9,7 @@
 //! same for any number of threads. A draw has 16 bits, so probabilities are rounded to 1/65536.
 
 use super::code::Code;
-use super::lanes::{self, LANES, Row};
+use super::lanes::{self, LANES, Lanes, Row};
 use super::system::{Ifs, LEAST_PROBABILITY};
 use super::table::Table;
 use weald_core::random::splitmix64;
@@ -173,23 +173,6 @@ impl Block {
     fn forget_oldest(&mut self) {
         let rows = self.points.len();
         self.taken.copy_within(rows.., 0);
-    }
-}
-
-/// Where the lanes of a chunk stand.
-#[derive(Clone, Debug)]
-pub(super) struct Lanes {
-    /// Their points.
-    pub(super) at: [Row; 3],
-    /// Two words of a key for each.
-    pub(super) keys: [[u32; LANES]; 2],
-    /// Steps done.
-    pub(super) step: u32,
-}
-
-impl Lanes {
-    pub(super) fn at_root(ifs: &Ifs, keys: &[[u32; LANES]; 2]) -> Self {
-        Self { at: ifs.root().map(|x| [x as f32; LANES]), keys: *keys, step: 0 }
     }
 }
 

@@ -4,7 +4,7 @@
 //! "Prospecting for hash functions"), and its halves are the draws of two steps. Coefficients are chosen by comparing
 //! the draw with the bounds of all maps: a chain of selections is what vectors can do, a look-up is not.
 
-use super::game::Lanes;
+use super::system::Ifs;
 use super::table::Table;
 use weald_core::vectors::widest;
 
@@ -13,6 +13,23 @@ pub const LANES: usize = 64;
 
 /// One coordinate of all lanes.
 pub type Row = [f32; LANES];
+
+/// Where the lanes of a chunk stand.
+#[derive(Clone, Debug)]
+pub(super) struct Lanes {
+    /// Their points.
+    pub(super) at: [Row; 3],
+    /// Two words of a key for each.
+    pub(super) keys: [[u32; LANES]; 2],
+    /// Steps done.
+    pub(super) step: u32,
+}
+
+impl Lanes {
+    pub(super) fn at_root(ifs: &Ifs, keys: &[[u32; LANES]; 2]) -> Self {
+        Self { at: ifs.root().map(|x| [x as f32; LANES]), keys: *keys, step: 0 }
+    }
+}
 
 /// Plays as many steps as `points` has rows.
 pub(super) fn play(table: &Table, lanes: &mut Lanes, points: &mut [[Row; 3]], taken: &mut [[u8; LANES]]) {
@@ -157,12 +174,11 @@ fn draw(key: u32, other_key: u32, step: u32) -> u32 {
 
 /// Points of both ways to choose maps, for a test.
 #[cfg(test)]
-pub(super) fn both(table: &Table, ifs: &super::Ifs, steps: usize) -> [Vec<[Row; 3]>; 2] {
+pub(super) fn both(table: &Table, start: &Lanes, steps: usize) -> [Vec<[Row; 3]>; 2] {
     let rows = || (vec![[[0.0; LANES]; 3]; steps], vec![[0; LANES]; steps]);
-    let lanes = || Lanes::at_root(ifs, &super::Game::new(ifs, 9).keys(0));
     let (mut chosen, mut taken) = rows();
-    play(table, &mut lanes(), &mut chosen, &mut taken);
+    play(table, &mut start.clone(), &mut chosen, &mut taken);
     let (mut looked_up, mut taken) = rows();
-    steps_by_table(table, &mut lanes(), &mut looked_up, &mut taken);
+    steps_by_table(table, &mut start.clone(), &mut looked_up, &mut taken);
     [chosen, looked_up]
 }

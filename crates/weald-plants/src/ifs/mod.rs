@@ -16,6 +16,7 @@ pub mod lanes;
 pub mod limbs;
 pub mod map;
 pub mod packing;
+pub mod shader;
 pub mod shapes;
 mod support;
 pub mod system;

@@ -8,7 +8,7 @@
 
 use super::code::{Code, Digits, MOST_MAPS};
 use super::map::{Map, Point};
-use super::support;
+use super::support::{self, Copies};
 
 /// What a map makes of a plant, for the wind.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -176,7 +176,7 @@ impl Ifs {
             root,
             bounds: [root; 2],
         };
-        ifs.bounds = support::bounds(&ifs);
+        ifs.bounds = support::bounds(&Copies { maps: &maps, root, ball: ifs.ball() });
         if !ifs.diameter().is_finite() {
             return Err(IfsFault::Boundless);
         }

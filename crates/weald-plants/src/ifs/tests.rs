@@ -122,7 +122,8 @@ fn threads_do_not_change_points() {
 fn any_number_of_maps_plays_the_same_game_by_look_up_and_by_selection() {
     let ifs = ifs("fern");
     let table = Table::of(&ifs);
-    let [chosen, looked_up] = lanes::both(&table, &ifs, 300);
+    let [chosen, looked_up] =
+        lanes::both(&table, &lanes::Lanes::at_root(&ifs, &Game::new(&ifs, 9).keys(0)), 300);
     assert_eq!(chosen, looked_up);
 }
 

@@ -14,19 +14,14 @@
 //! 10.1111/j.1467-8659.2012.03059.x). Candidates of earlier rounds go before later ones, those of one round in the order
 //! of their hashes, and each stays unless it overlaps one that stays before it: the maximal independent set of random
 //! priorities (Luby 1986, doi 10.1137/0215074; for discs Wei 2008, doi 10.1145/1360612.1360619). The hashes are functions
-//! of seed, round and square alone, so the set does not depend on the order of work, and each [tile](super::window) of it
+//! of seed, round and square alone, so the set does not depend on the order of work, and each [tile](super::tiles) of it
 //! can be found by itself. What differs from the sources: the set is that of all candidates of all rounds, not one that
 //! threads or phases decide; squares come in three sizes, for discs of up to two, four and eight spacings, so that a
 //! square of the first round holds one place at most.
 
 use std::f64::consts::FRAC_1_SQRT_2;
 
-use rayon::prelude::*;
-
-use super::window::Window;
-use weald_core::error::Error;
 use weald_core::random::{hash2, splitmix64, unit};
-use weald_engine::Watcher;
 
 /// Sizes of squares: each holds places whose discs are from 2^level up to twice that many spacings wide.
 pub(super) const LEVELS: usize = 3;
@@ -35,13 +30,10 @@ pub(super) const LEVELS: usize = 3;
 const WIDEST: f64 = 8.0;
 
 /// Suitability of the widest disc.
-const SPARSEST: f64 = 1.0 / (WIDEST * WIDEST);
+pub(super) const SPARSEST: f64 = 1.0 / (WIDEST * WIDEST);
 
 /// Discs of one diameter that fit on a square as wide as that, when no more have room.
 pub(super) const DENSITY: f64 = 0.695;
-
-/// Side of a tile, in squares of the last level.
-const TILE: i64 = 48;
 
 /// Ground that places look for.
 pub(super) trait Suitability: Sync {
@@ -88,7 +80,6 @@ impl Place {
 /// Uses of random bits; those of others begin at 8.
 const ACROSS: u64 = 1;
 const DOWN: u64 = 2;
-const LOT: u64 = 3;
 
 /// A square in which candidates are drawn.
 #[derive(Clone, Copy, Debug)]
@@ -112,51 +103,6 @@ impl Square {
 }
 
 impl Pattern<'_> {
-    /// All places, from north to south, or an error where the watcher ends the work.
-    ///
-    /// # Errors
-    /// [`Error::Interrupted`].
-    pub(super) fn places(&self, watcher: &dyn Watcher) -> Result<Vec<Place>, Error> {
-        self.in_tiles(TILE, watcher)
-    }
-
-    /// The same by tiles of that many squares a side.
-    pub(super) fn in_tiles(&self, tile: i64, watcher: &dyn Watcher) -> Result<Vec<Place>, Error> {
-        let side = self.side(LEVELS - 1);
-        let [across, down] = self.ground.extent().map(|length| (length / side) as i64 / tile + 1);
-        let tiles = (0..across * down).into_par_iter().map(|number| {
-            if watcher.cancelled() {
-                return Err(Error::Interrupted(String::new()));
-            }
-            let (x, y) = (tile * (number % across), tile * (number / across));
-            Ok(self.tile([[x, y], [x + tile, y + tile]]))
-        });
-        let mut places = tiles.collect::<Result<Vec<_>, Error>>()?.concat();
-        let key = |place: &Place| (place.at[1].to_bits(), place.at[0].to_bits());
-        places.par_sort_unstable_by_key(key);
-        Ok(places)
-    }
-
-    /// The places in a rectangle of squares of the last level.
-    ///
-    /// The tile is settled with a margin around it, where places near its outer edge are unknown, since what lies
-    /// beyond may go before them. Where the tile itself has an unknown place the margin is doubled.
-    pub(super) fn tile(&self, tile: [[i64; 2]; 2]) -> Vec<Place> {
-        const MARGIN: i64 = 4;
-        let side = self.side(LEVELS - 1);
-        let [_, most] = self.ground.bounds(tile.map(|corner| corner.map(|at| at as f64 * side)));
-        if most <= 0.0 {
-            return Vec::new();
-        }
-        let mut margin = MARGIN;
-        loop {
-            if let Some(places) = Window::around(self, tile, margin).settled() {
-                return places.into_iter().filter(is_drawn).collect();
-            }
-            margin *= 2;
-        }
-    }
-
     /// Side in metres of the squares of the first round: a disc of their level covers one from any place in it.
     pub(super) fn side(&self, level: usize) -> f64 {
         // A little less than 1 / √2, for rounding.
@@ -204,11 +150,6 @@ impl Pattern<'_> {
         let may_suit = (first..=last).contains(&square.level);
         may_suit.then(|| self.least(square.level).max(self.spacing / most.max(SPARSEST).sqrt()))
     }
-}
-
-/// Whether a place on the sparsest ground is among those that are kept.
-fn is_drawn(place: &Place) -> bool {
-    unit(place.bits(LOT)) * SPARSEST < place.suitability
 }
 
 /// The squares that a place of this suitability is drawn in.

@@ -49,7 +49,7 @@ pub const CATALOG: &[Entry] = &[
     analyse::wetness::ENTRY,
     analyse::moisture::ENTRY,
     grow::scatter::ENTRY,
-    grow::grass::step::ENTRY,
+    grow::grass_step::ENTRY,
 ];
 
 /// The step of that name.

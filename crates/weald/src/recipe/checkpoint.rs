@@ -14,7 +14,7 @@ use serde::{Deserialize, Serialize};
 
 use grown::MeadowHeader;
 use planted::PlantsHeader;
-use stream::{HashedReader, HashedWriter};
+use stream::{HASH_BYTES, HashedReader, HashedWriter};
 use weald_core::domain::{Domain, Georeference};
 use weald_core::error::Error;
 use weald_core::grid::{Field, Mask, Size};
@@ -28,7 +28,6 @@ use weald_plants::Vegetation;
 pub const CHECKPOINT_FILE: &str = "checkpoint.weald";
 
 const MAGIC: &[u8; 8] = b"WEALDCP1";
-const HASH_BYTES: u64 = 32;
 /// Most bytes of a header: a recipe of the greatest length and ample room for reports.
 const MAXIMUM_HEADER: u64 = 64 << 20;
 

@@ -10,7 +10,9 @@ mod outputs;
 mod steps;
 #[cfg(test)]
 mod tests;
+mod words;
 
+pub(super) use self::words::Vocabulary;
 use std::fs::File;
 use std::io::{ErrorKind, Read};
 use std::path::{Path, PathBuf};
@@ -24,16 +26,12 @@ pub use steps::Planned;
 
 use self::files::Files;
 use self::layers::Made;
-use super::catalog::CATALOG;
+use super::canonical;
 use super::overrides::Overrides;
 use super::parameter::Complaints;
-use super::source::{self, Node, Table, Value};
-use super::{canonical, parameter};
+use super::source::{self, Table};
 use weald_core::error::{Complaint, Error, RecipeError};
-use weald_engine::step::Entry;
-use weald_export::{EXPORTS, ExportEntry, report};
-use weald_io::{self as io, Format};
-use weald_picture::{PICTURES, PictureEntry};
+use weald_export::report;
 
 /// A recipe that can run.
 #[derive(Debug)]
@@ -193,20 +191,6 @@ fn read_text(path: &Path) -> std::io::Result<String> {
     Ok(text)
 }
 
-/// The words that a recipe can use.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Vocabulary {
-    pub(super) steps: &'static [Entry],
-    pub(super) pictures: &'static [PictureEntry],
-    pub(super) exports: &'static [ExportEntry],
-    pub(super) format_of: fn(&Path) -> Result<&'static Format, String>,
-}
-
-impl Vocabulary {
-    const FULL: Self =
-        Self { steps: CATALOG, pictures: PICTURES, exports: EXPORTS, format_of: io::format_of };
-}
-
 /// Reads all sections, whatever is wrong with one of them. The result counts only without complaints.
 fn check(
     vocabulary: &Vocabulary,
@@ -243,34 +227,4 @@ fn check(
     steps::check_sizes(&steps)?;
     let (file, text) = (file.to_owned(), canonical::text(recipe));
     Ok(Recipe { file, ground: start.ground?, seed: start.seed, materials, fractals, steps, outputs, text })
-}
-
-/// All tables of a `[[section]]`.
-fn tables<'a>(recipe: &'a Table, section: &str, complaints: &mut Complaints) -> Vec<&'a Table> {
-    let Some(node) = recipe.get(section) else { return Vec::new() };
-    let mut as_table = |item: &'a Node| match &item.value {
-        Value::Table(table) => Some(table),
-        other => {
-            let message = format!("`{section}` holds {}; it is written [[{section}]]", other.shown());
-            complaints.add(item.line, message);
-            None
-        }
-    };
-    match &node.value {
-        Value::List(items) => items.iter().filter_map(as_table).collect(),
-        Value::Table(_) => {
-            complaints.add(node.line, format!("[{section}] has double brackets: [[{section}]]"));
-            Vec::new()
-        }
-        _ => as_table(node).into_iter().collect(),
-    }
-}
-
-/// "; did you mean …" where a name is near, else what there is.
-fn hint(word: &str, known: &[&str]) -> String {
-    match parameter::nearest(word, known) {
-        Some(near) => format!("did you mean `{near}`?"),
-        None if known.is_empty() => "there is none yet".to_owned(),
-        None => format!("there are: {}", known.join(", ")),
-    }
 }

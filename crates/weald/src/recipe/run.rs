@@ -5,14 +5,15 @@ mod film;
 mod finished;
 mod folder;
 mod inputs;
+mod options;
 #[cfg(test)]
 mod tests;
 mod video;
 mod writer;
 
-use std::path::{Path, PathBuf};
-use std::sync::Arc;
-use std::time::{Duration, Instant};
+pub use options::{Options, Progress, Run, Silent};
+use std::path::PathBuf;
+use std::time::Instant;
 
 use super::checkpoint::{self, CHECKPOINT_FILE, State};
 use super::ground;
@@ -23,80 +24,10 @@ use finished::{check_layers, step_report};
 pub use video::Frames;
 use weald_core::error::Error;
 use weald_core::landscape::Landscape;
-use weald_engine::{Engine, Job};
+use weald_engine::Job;
 use weald_export::Finished;
-use weald_picture::RenderDevice;
 use weald_plants::Vegetation;
 use writer::Writer;
-
-/// How a recipe is run. None of it changes the result.
-#[derive(Clone, Debug)]
-pub struct Options {
-    /// Folder of the files, which is made where it is missing.
-    pub out: PathBuf,
-    /// Where simulations run.
-    pub engine: Engine,
-    /// Threads; all cores where none are given.
-    pub threads: Option<usize>,
-    /// Time between checkpoints.
-    pub checkpoint_every: Duration,
-    /// Whether to go on from the checkpoint in the folder.
-    pub resume: bool,
-    /// Whether `report.json` is written beside the outputs.
-    pub report: bool,
-    /// What draws the pictures of kind `render`.
-    pub render: Option<Arc<dyn RenderDevice>>,
-}
-
-impl Options {
-    /// On all cores into a folder, with a checkpoint every minute.
-    pub fn into_folder(out: impl Into<PathBuf>) -> Self {
-        let checkpoint_every = Duration::from_mins(1);
-        Self {
-            out: out.into(),
-            engine: Engine::Cpu,
-            threads: None,
-            checkpoint_every,
-            resume: false,
-            report: true,
-            render: None,
-        }
-    }
-}
-
-/// Hears how a run goes, and says when to stop. Every method has a default that does nothing.
-pub trait Progress: Sync {
-    /// Step `number` of `count`, counted from 1, begins.
-    fn step(&self, number: usize, count: usize, name: &str) {
-        let _ = (number, count, name);
-    }
-
-    /// The step has done `done` of `total` iterations over `cells` cells each.
-    fn progress(&self, done: u64, total: u64, cells: usize) {
-        let _ = (done, total, cells);
-    }
-
-    /// Output `number` of `count`, counted from 1, is made.
-    fn output(&self, number: usize, count: usize, file: &Path) {
-        let _ = (number, count, file);
-    }
-
-    /// Something that the user should know.
-    fn note(&self, text: &str) {
-        let _ = text;
-    }
-
-    /// Whether the user wants the run to end.
-    fn cancelled(&self) -> bool {
-        false
-    }
-}
-
-/// Progress that nobody hears of.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Silent;
-
-impl Progress for Silent {}
 
 impl Recipe {
     /// Runs the steps in memory on the current rayon pool and gives the landscape; no file is written and no
@@ -112,15 +43,6 @@ impl Recipe {
         }
         Ok(landscape)
     }
-}
-
-/// A recipe about to be run.
-#[derive(Debug)]
-pub struct Run<'a> {
-    /// What to do.
-    pub recipe: &'a Recipe,
-    /// How.
-    pub options: Options,
 }
 
 impl Run<'_> {

@@ -14,7 +14,8 @@ use crate::erode::springs;
 use crate::erode::working::{Kept, Working};
 use weald_core::error::Error;
 use weald_core::landscape::Landscape;
-use weald_engine::machine::{self, Means, Snapshot};
+use weald_engine::machine::{Means, Snapshot};
+use weald_engine::machine_of_engine;
 use weald_engine::program::Program;
 use weald_engine::stencil::chain::Process;
 use weald_engine::stencil::rows::Rows;
@@ -206,7 +207,7 @@ fn seconds_of<P: Process<Weather = Sky>>(
     engine: &Engine,
 ) -> Result<f64, Error> {
     let start = Snapshot::start(chosen.start(working), 0);
-    let mut machine = machine::start(&chosen.process, &[], &start, engine)?;
+    let mut machine = machine_of_engine::start(&chosen.process, &[], &start, engine)?;
     // The first step compiles, allocates and warms up; the look at the end waits for a device.
     machine.advance(&weather[..1], false)?;
     machine.first_not_finite()?;

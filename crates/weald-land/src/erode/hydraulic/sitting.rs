@@ -8,7 +8,8 @@ use crate::erode::simulation::Sky;
 use weald_core::error::Error;
 use weald_core::landscape::Landscape;
 use weald_engine::Engine;
-use weald_engine::machine::{self, Machine, Snapshot};
+use weald_engine::machine::{Machine, Snapshot};
+use weald_engine::machine_of_engine;
 
 /// A running simulation of layered ground, the [`Session`] of an [`edit::History`](crate::edit::History).
 pub struct Sitting<'a> {
@@ -61,7 +62,7 @@ impl Hydraulic {
         let working = self.working(landscape, true)?;
         let chosen = self.stava(landscape, &filled, &working, Some(Script::default()))?;
         let start = Snapshot::start(chosen.start(&working), 0);
-        let machine = machine::start(&chosen.process, &[], &start, engine)?;
+        let machine = machine_of_engine::start(&chosen.process, &[], &start, engine)?;
         let sky = |step| self.sky(&filled, step);
         let edits = chosen.edits.as_ref().expect("a script was given");
         hold(Sitting { machine, sky: &sky, edits, done: 0 })

@@ -1,7 +1,7 @@
 //! Limbs on a device: their functions in WGSL, and what they are given.
 
-use super::{Corner, Limb};
-use crate::ifs::device::Shader;
+use super::limb::{Corner, Limb};
+use crate::ifs::shader::Shader;
 
 /// What bends a limb: to be put behind [`wind::FUNCTIONS`](crate::wind::FUNCTIONS), and joined with a binding
 /// `var<storage, read> limbs: array<Limb>`.

@@ -1,9 +1,9 @@
 //! From parts to vertices in space, by the habit of the plant.
 
 use super::leaf::{Row, bent, difference, length, lowered, unit};
+use super::limb::{Corner, LEVELS, Limb, Limbs};
 use super::outline::Outline;
 use super::walk::{Branch, Part, Walk};
-use super::{Corner, LEVELS, Limb, Limbs};
 use crate::ifs::foliage::{Frond, Habit, Shape, across};
 use crate::ifs::map::{Map, Point, cross, dot};
 use crate::ifs::system::Ifs;
@@ -303,5 +303,12 @@ fn open_to_light(plant: &mut Limbs) {
     for corner in &mut plant.corners {
         let share = length(corner.rest) / radius;
         corner.open = LEAST_OPEN + (1.0 - LEAST_OPEN) * share * (2.0 - share);
+    }
+}
+
+impl Limbs {
+    /// The plant of a fractal, of this habit.
+    pub fn of(ifs: &Ifs, habit: Habit) -> Self {
+        Builder::new(ifs, habit).plant()
     }
 }

@@ -1,6 +1,7 @@
 //! What holds for plants of limbs.
 
 use super::*;
+use crate::ifs::foliage::Habit;
 use crate::ifs::shapes;
 use crate::wind::push;
 

@@ -2,7 +2,7 @@
 
 use std::collections::VecDeque;
 
-use super::LEVELS;
+use super::limb::LEVELS;
 use crate::ifs::foliage::{Habit, Shape};
 use crate::ifs::map::Map;
 use crate::ifs::system::{Ifs, Role};

@@ -1,7 +1,7 @@
 //! Ferns of the plane. Map 0 is the stem, 1 goes on upward, 2 and 3 are the lowest fronds left and right.
 
 use super::super::system::Role::{Branch, Stem, Trunk};
-use super::{Maps, Shape};
+use super::shape::{Maps, Shape};
 
 pub(super) const FERN: Shape = Shape {
     name: "fern",

@@ -1,7 +1,7 @@
 //! Leaves of the plane; map 0 is the stalk.
 
 use super::super::system::Role::{Branch, Stem, Trunk};
-use super::{Maps, Shape};
+use super::shape::{Maps, Shape};
 
 pub(super) const MAPLE: Shape = Shape {
     name: "maple",

@@ -1,7 +1,7 @@
 //! Sets of the plane that mathematicians drew first.
 
 use super::super::system::Role::{Branch, Trunk};
-use super::{Maps, Shape};
+use super::shape::{Maps, Shape};
 
 const THIRD: f64 = 1.0 / 3.0;
 

@@ -1,7 +1,7 @@
 //! Plants and sets of space, `y` up and rooted at the origin.
 
 use super::super::system::Role::{Branch, Stem, Trunk};
-use super::{Maps, Shape};
+use super::shape::{Maps, Shape};
 
 pub(super) const FERN: Shape = Shape {
     name: "fern-3d",

@@ -1,7 +1,7 @@
 //! Trees of the plane, rooted at the origin.
 
 use super::super::system::Role::{Branch, Stem, Trunk};
-use super::{Maps, Shape};
+use super::shape::{Maps, Shape};
 
 pub(super) const TREE: Shape = Shape {
     name: "tree",

@@ -2,7 +2,7 @@
 
 use super::sway::{DEPTH, Sway};
 use super::{ORDERS, PHASES, Pose};
-use crate::ifs::device::Shader;
+use crate::ifs::shader::Shader;
 use weald_engine::uniform;
 use weald_engine::uniform::Uniform;
 

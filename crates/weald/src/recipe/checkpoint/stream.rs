@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io::{BufReader, Read, Write};
 use std::path::Path;
 
-use super::HASH_BYTES;
+pub(super) const HASH_BYTES: u64 = 32;
 
 /// Numbers that are turned into bytes at a time.
 const CHUNK: usize = 1 << 14;

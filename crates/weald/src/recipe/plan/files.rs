@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::Vocabulary;
+use super::words::Vocabulary;
 use weald_core::parameter::{Complaints, Kind, Parameter};
 use weald_core::source::{Node, Table, Value};
 use weald_land::edit::Layout;

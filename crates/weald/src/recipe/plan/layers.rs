@@ -2,7 +2,8 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::{Ground, Output, Planned, PlannedMaterial, hint};
+use super::{Ground, Output, Planned, PlannedMaterial};
+use crate::recipe::plan::words::hint;
 use weald_core::material::{BEDROCK, Material, layer_names};
 use weald_core::parameter::Complaints;
 use weald_engine::step::Layered;

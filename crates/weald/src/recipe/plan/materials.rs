@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use super::files::Files;
-use super::tables;
+use super::words::tables;
 use weald_core::material::{MOST, Material, RESERVED};
 use weald_core::parameter::{Colour, Complaints, LayerName, Parameters, RasterFile};
 use weald_core::source::Table;

@@ -3,7 +3,7 @@
 use std::path::{Component, Path, PathBuf};
 
 use super::films::{self, Film, Motion};
-use super::{Vocabulary, hint, tables};
+use crate::recipe::plan::words::{Vocabulary, hint, tables};
 use crate::recipe::{CHECKPOINT_FILE, REPORT_FILE};
 use weald_core::parameter::{Complaints, LayerName, read_key};
 use weald_core::source::{Node, Table, Value};

@@ -1,7 +1,8 @@
 //! The `[[step]]` tables.
 
+use super::PlannedMaterial;
 use super::files::Files;
-use super::{PlannedMaterial, Vocabulary, hint, tables};
+use crate::recipe::plan::words::{Vocabulary, hint, tables};
 use weald_core::error::Error;
 use weald_core::grid::Size;
 use weald_core::parameter::Complaints;

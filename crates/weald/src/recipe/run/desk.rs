@@ -4,7 +4,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 use super::film::Lapses;
-use super::{Progress, Run};
+use super::options::{Progress, Run};
 use crate::recipe::checkpoint::{self, State};
 use weald_core::error::Error;
 use weald_core::landscape::Landscape;

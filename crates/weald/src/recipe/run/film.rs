@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::recipe::Options;
+use super::options::Options;
 use crate::recipe::plan::{Content, Film, Motion, Output, Recipe};
 use weald_core::error::Error;
 use weald_core::landscape::Landscape;

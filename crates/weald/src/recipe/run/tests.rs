@@ -3,6 +3,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::*;
 use crate::recipe::testing::parse;
+use std::time::Duration;
 use weald_core::grid::Field;
 
 const RECIPE: &str = "\

@@ -1,7 +1,8 @@
 //! Whether the fractals that steps and outputs name are there, and such that they can be planted.
 
-use super::super::{Output, Planned, hint};
+use super::super::{Output, Planned};
 use super::PlannedFractal;
+use crate::recipe::plan::words::hint;
 use weald_core::parameter::Complaints;
 use weald_plants::ifs::shapes;
 

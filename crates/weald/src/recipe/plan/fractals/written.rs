@@ -1,7 +1,7 @@
 //! From the keys of a `[[fractal]]` to what it is made of, or a fault with its line.
 
-use super::super::hint;
-use super::{FractalKeys, Seedling, line_of};
+use super::keys::{FractalKeys, Seedling, line_of};
+use crate::recipe::plan::words::hint;
 use weald_core::parameter::FlameFile;
 use weald_core::source::{Table, Value};
 use weald_plants::ifs::{Draft, Ifs, IfsFault, Map, Role, Weighted, even_probabilities, shapes};

@@ -1,10 +1,10 @@
 //! The step `grass`: sets of blades by the soil, the light and the density that the ground has.
 
-use super::curves::{LightCurve, SoilCurve};
-use super::growth::{Bend, LEVELS};
-use super::meadow::{Maps, Meadow};
-use super::species::{MOST_SPECIES, SPECIES, Species};
-use crate::Vegetation;
+use crate::grass::curves::{LightCurve, SoilCurve};
+use crate::grass::growth::{Bend, LEVELS};
+use crate::grass::meadow::{Maps, Meadow};
+use crate::grass::species::{MOST_SPECIES, SPECIES, Species};
+use crate::vegetation::Vegetation;
 use weald_core::condition::Condition;
 use weald_core::error::Error;
 use weald_core::grid::Field;
@@ -126,7 +126,7 @@ impl Step for Grass {
         let notes = notes.collect();
         self.count(landscape, &meadow, &kinds);
         let sets = meadow.expected(&meadow.area());
-        let measures = [("sets", sets), ("blades", f64::from(super::BLADES) * sets)].into();
+        let measures = [("sets", sets), ("blades", f64::from(crate::grass::BLADES) * sets)].into();
         landscape.sow(&self.into.0, meadow);
         Ok(Outcome { iterations: 1, measures, notes, ..Outcome::default() })
     }

@@ -1,0 +1,75 @@
+//! How a recipe is run, and what is changed of it.
+
+use clap::{Args, value_parser};
+use weald::recipe::Overrides;
+
+use crate::values::{self, Choice};
+
+/// How a recipe is run.
+#[derive(Debug, Args)]
+pub(crate) struct Running {
+    /// Where simulations run: auto, cpu or gpu
+    #[arg(long, default_value = "auto", value_parser = values::choice)]
+    pub(crate) engine: Choice,
+    /// Most memory of the graphics card, as in 512MiB; larger grids go tile by tile [default: 4GiB, 2GiB where
+    /// the machine's own is used]
+    #[arg(long, value_name = "BYTES", allow_negative_numbers = true, value_parser = values::memory)]
+    pub(crate) gpu_memory: Option<u64>,
+    /// Threads [default: all cores]
+    #[arg(long, value_name = "N", value_parser = value_parser!(u16).range(1..=1024))]
+    pub(crate) threads: Option<u16>,
+    /// Go on from the checkpoint of an interrupted run
+    #[arg(long)]
+    pub(crate) resume: bool,
+    /// Seconds between checkpoints of a running simulation
+    #[arg(long, value_name = "SECONDS", default_value_t = 60)]
+    pub(crate) checkpoint_every: u64,
+    /// Draw pictures of kind `render` on the processor where there is no graphics device: view, which is ray-marched
+    #[arg(long, value_name = "PICTURE", value_parser = ["view"])]
+    pub(crate) fallback: Option<String>,
+    /// Print errors only
+    #[arg(long)]
+    pub(crate) quiet: bool,
+}
+
+/// Greatest seed: whole numbers beyond it are not all exact where reports are read as JSON.
+const SEEDS: u64 = (1 << 53) - 1;
+
+/// Changes to a recipe.
+#[derive(Debug, Args)]
+pub(crate) struct Changes {
+    /// Cells along the longer side; shape and extent stay
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = value_parser!(u64).range(1..))]
+    size: Option<u64>,
+    #[command(flatten)]
+    values: Values,
+}
+
+/// Changes to a recipe's values.
+#[derive(Debug, Args)]
+pub(crate) struct Values {
+    /// Another seed
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = value_parser!(u64).range(0..=SEEDS))]
+    seed: Option<u64>,
+    /// Change a value: landscape.cell=10, step.2.iterations=500, or thermal.talus=0.7 for all such steps
+    #[arg(long, value_name = "KEY=VALUE", value_parser = key_and_value)]
+    set: Vec<(String, String)>,
+}
+
+impl Changes {
+    pub(crate) fn overrides(&self) -> Overrides {
+        self.values.overrides(self.size)
+    }
+}
+
+impl Values {
+    /// With so many cells along the longer side.
+    pub(crate) fn overrides(&self, size: Option<u64>) -> Overrides {
+        Overrides { size, seed: self.seed, set: self.set.clone() }
+    }
+}
+
+fn key_and_value(text: &str) -> Result<(String, String), String> {
+    let (key, value) = text.split_once('=').ok_or("it is written KEY=VALUE, as in landscape.cell=10")?;
+    Ok((key.trim().to_owned(), value.trim().to_owned()))
+}

@@ -1,0 +1,121 @@
+//! Values of the command line: engines, amounts of memory, places, sizes of pictures.
+
+/// An engine that a user can ask for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Choice {
+    /// A graphics card where there is one, else all cores.
+    Auto,
+    /// All cores.
+    Cpu,
+    /// The graphics card, or software that acts as one.
+    Gpu,
+    /// Bands that exchange halos; for tests.
+    Bands(usize),
+    /// Tiles of so many cells a side; for tests.
+    Tiles(usize),
+}
+
+/// Reads the name of an engine.
+pub(crate) fn choice(text: &str) -> Result<Choice, String> {
+    let count = |prefix: &str| text.strip_prefix(prefix).and_then(|count| count.parse().ok());
+    match (text, count("bands:"), count("tiles:")) {
+        ("auto", ..) => Ok(Choice::Auto),
+        ("cpu", ..) => Ok(Choice::Cpu),
+        ("gpu", ..) => Ok(Choice::Gpu),
+        (_, Some(count @ 1..=1024), _) => Ok(Choice::Bands(count)),
+        (_, _, Some(side @ 1..=65_536)) => Ok(Choice::Tiles(side)),
+        _ => Err("the engines are auto, cpu and gpu".to_owned()),
+    }
+}
+
+/// Least and most memory that can be given to the GPU engine.
+const MEMORY: std::ops::RangeInclusive<u64> = 1 << 20..=1 << 50;
+
+/// Reads an amount of memory: bytes, or a whole number of KiB, MiB or GiB.
+pub(crate) fn memory(text: &str) -> Result<u64, String> {
+    let digits = text.find(|letter: char| !letter.is_ascii_digit()).unwrap_or(text.len());
+    let unit: u64 = match text[digits..].trim() {
+        "" | "B" => 1,
+        "KiB" => 1 << 10,
+        "MiB" => 1 << 20,
+        "GiB" => 1 << 30,
+        other => return Err(format!("`{other}` is no unit; give bytes, KiB, MiB or GiB, as in 512MiB")),
+    };
+    let number = text[..digits].parse::<u64>().map_err(|_| "it is written as in 512MiB".to_owned())?;
+    let bytes = number.checked_mul(unit).filter(|bytes| MEMORY.contains(bytes));
+    bytes.ok_or_else(|| "it is at least 1MiB and at most 1048576GiB".to_owned())
+}
+
+/// A place in metres east and south of the north-western corner, with an elevation if one was given.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Point {
+    pub(crate) east: f64,
+    pub(crate) south: f64,
+    pub(crate) elevation: Option<f64>,
+}
+
+/// Reads `X,Y` or `X,Y,Z`.
+pub(crate) fn point(text: &str) -> Result<Point, String> {
+    let wrong = || "it is written X,Y,Z or X,Y in metres, as in 5200,6100,1300".to_owned();
+    let numbers: Vec<f64> =
+        text.split(',').map(|part| part.trim().parse().map_err(|_| wrong())).collect::<Result<_, _>>()?;
+    if !numbers.iter().all(|number| number.is_finite() && number.abs() <= MOST_METRES) {
+        return Err(format!("its numbers lie between -{MOST_METRES} and {MOST_METRES} m"));
+    }
+    match numbers[..] {
+        [east, south] => Ok(Point { east, south, elevation: None }),
+        [east, south, elevation] => Ok(Point { east, south, elevation: Some(elevation) }),
+        _ => Err(wrong()),
+    }
+}
+
+/// Farthest that a camera may be, in metres.
+const MOST_METRES: f64 = 1e8;
+
+/// Reads `WxH`.
+pub(crate) fn size(text: &str) -> Result<[u32; 2], String> {
+    let sides = text
+        .split_once(['x', 'X'])
+        .and_then(|(width, height)| Some([width.trim().parse().ok()?, height.trim().parse().ok()?]));
+    sides.ok_or_else(|| "it is written WIDTHxHEIGHT in pixels, as in 1920x1080".to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn memory_is_read_in_all_its_units() {
+        assert_eq!(memory("64MiB"), Ok(64 << 20));
+        assert_eq!(memory("2 GiB"), Ok(2 << 30));
+        assert_eq!(memory("2048KiB"), Ok(2 << 20));
+        assert_eq!(memory("1048576"), Ok(1 << 20));
+        assert_eq!(memory("1048577B"), Ok((1 << 20) + 1));
+    }
+
+    #[test]
+    fn memory_that_makes_no_sense_is_refused_with_what_would() {
+        for (text, part) in [
+            ("64MB", "`MB` is no unit"),
+            ("", "as in 512MiB"),
+            ("MiB", "as in 512MiB"),
+            ("-5MiB", "no unit"),
+            ("1.5GiB", "no unit"),
+            ("1000", "at least 1MiB"),
+            ("99999999999GiB", "at most"),
+            ("99999999999999999999999", "as in 512MiB"),
+        ] {
+            let error = memory(text).expect_err("it makes no sense");
+            assert!(error.contains(part), "{text}: {error}");
+        }
+    }
+
+    #[test]
+    fn engines_for_tests_have_sound_numbers() {
+        assert_eq!(choice("tiles:64"), Ok(Choice::Tiles(64)));
+        assert_eq!(choice("bands:3"), Ok(Choice::Bands(3)));
+        for text in ["tiles:0", "tiles:", "tiles:-1", "tiles:70000", "bands:0", "bands:2000", "GPU"] {
+            assert!(choice(text).is_err(), "{text}");
+        }
+    }
+}

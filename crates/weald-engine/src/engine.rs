@@ -1,0 +1,53 @@
+//! Where and how simulations run.
+
+use std::sync::Arc;
+
+use crate::device::{Device, ShownGround};
+use weald_core::error::Error;
+use weald_core::grid::Size;
+
+/// Where and how simulations run. On all but devices the bits of the result do not depend on it.
+#[derive(Clone, Debug, Default)]
+pub enum Engine {
+    /// All threads of the current rayon pool, in shared memory.
+    #[default]
+    Cpu,
+    /// The domain cut into this many bands that own their memory and exchange halos by messages: what a
+    /// cluster's ranks do, without a cluster.
+    Bands(usize),
+    /// The domain cut into tiles of up to this many columns and rows, one after the other: what a device
+    /// does whose memory is too small, without a device.
+    Tiles(Size),
+    /// A device; an error where it fails.
+    Device(Arc<dyn Device>),
+    /// A device, and the CPU from the last checkpoint on where it fails.
+    DeviceElseCpu(Arc<dyn Device>),
+}
+
+impl Engine {
+    /// Name in the report.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Cpu => "cpu",
+            Self::Bands(_) => "bands",
+            Self::Tiles(_) => "tiles",
+            Self::Device(_) | Self::DeviceElseCpu(_) => "gpu",
+        }
+    }
+
+    /// Tells a device where the ground of the next simulation lies.
+    pub fn shows(&self, ground: &ShownGround<'_>) -> Result<(), Error> {
+        match self {
+            Self::Device(device) | Self::DeviceElseCpu(device) => device.shows(ground),
+            _ => Ok(()),
+        }
+    }
+
+    /// The adapter in the report.
+    pub fn adapter(&self) -> Option<String> {
+        match self {
+            Self::Device(device) | Self::DeviceElseCpu(device) => Some(device.adapter()),
+            _ => None,
+        }
+    }
+}

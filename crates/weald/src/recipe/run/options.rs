@@ -1,0 +1,86 @@
+//! What a run is told, and what it tells.
+
+use crate::recipe::plan::Recipe;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::Duration;
+use weald_engine::Engine;
+use weald_picture::RenderDevice;
+
+/// How a recipe is run. None of it changes the result.
+#[derive(Clone, Debug)]
+pub struct Options {
+    /// Folder of the files, which is made where it is missing.
+    pub out: PathBuf,
+    /// Where simulations run.
+    pub engine: Engine,
+    /// Threads; all cores where none are given.
+    pub threads: Option<usize>,
+    /// Time between checkpoints.
+    pub checkpoint_every: Duration,
+    /// Whether to go on from the checkpoint in the folder.
+    pub resume: bool,
+    /// Whether `report.json` is written beside the outputs.
+    pub report: bool,
+    /// What draws the pictures of kind `render`.
+    pub render: Option<Arc<dyn RenderDevice>>,
+}
+
+impl Options {
+    /// On all cores into a folder, with a checkpoint every minute.
+    pub fn into_folder(out: impl Into<PathBuf>) -> Self {
+        let checkpoint_every = Duration::from_mins(1);
+        Self {
+            out: out.into(),
+            engine: Engine::Cpu,
+            threads: None,
+            checkpoint_every,
+            resume: false,
+            report: true,
+            render: None,
+        }
+    }
+}
+
+/// Hears how a run goes, and says when to stop. Every method has a default that does nothing.
+pub trait Progress: Sync {
+    /// Step `number` of `count`, counted from 1, begins.
+    fn step(&self, number: usize, count: usize, name: &str) {
+        let _ = (number, count, name);
+    }
+
+    /// The step has done `done` of `total` iterations over `cells` cells each.
+    fn progress(&self, done: u64, total: u64, cells: usize) {
+        let _ = (done, total, cells);
+    }
+
+    /// Output `number` of `count`, counted from 1, is made.
+    fn output(&self, number: usize, count: usize, file: &Path) {
+        let _ = (number, count, file);
+    }
+
+    /// Something that the user should know.
+    fn note(&self, text: &str) {
+        let _ = text;
+    }
+
+    /// Whether the user wants the run to end.
+    fn cancelled(&self) -> bool {
+        false
+    }
+}
+
+/// Progress that nobody hears of.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Silent;
+
+impl Progress for Silent {}
+
+/// A recipe about to be run.
+#[derive(Debug)]
+pub struct Run<'a> {
+    /// What to do.
+    pub recipe: &'a Recipe,
+    /// How.
+    pub options: Options,
+}
