@@ -126,8 +126,9 @@ impl<P: Process> Chain<P> {
     /// Memory for passages of up to `steps` steps.
     pub fn new(process: &P, columns: usize, steps: usize) -> Self {
         let rings = |count, depth| (0..count).map(|_| Ring::new(columns, depth)).collect::<Vec<_>>();
-        // A row of the output may be begun `lag` rows before the next step takes it in, or be looked back at
-        // for as many; no process does both at once. Constants serve all steps of the passage.
+        // A stage that writes a plane `n` rows behind the newest one begins a row `lag - n` rows before the next
+        // step takes it in, so that the next step may look back at it for `n` rows and no more. Rings of debug
+        // builds watch over that. Constants serve all steps of the passage.
         let window = process.lag() + 1;
         Self {
             constants: rings(process.constant_planes(), steps * process.lag() + 1),
@@ -164,6 +165,10 @@ pub struct Passage<'a, P: Process> {
 impl<P: Process> Passage<'_, P> {
     /// Advances the owned rows by one step for each entry of `weather`.
     pub fn run(mut self, chain: &mut Chain<P>) {
+        if cfg!(debug_assertions) {
+            // Nothing of an earlier passage is there to be read.
+            *chain = Chain::new(self.process, self.layout.columns, chain.scratch.len());
+        }
         let lag = self.process.lag();
         let steps = self.weather.len();
         for tick in self.span.start..self.span.end + steps * lag {

@@ -1,4 +1,11 @@
 //! Rows in flight: a short memory of the latest rows of one plane, and a row of zeros beyond the edge.
+//!
+//! Builds with debug assertions know which row each slot of a ring holds: a row that is not there cannot be
+//! read, and what is there before a row is written is NaN. Release builds pay nothing for it.
+
+mod watch;
+
+use watch::Watch;
 
 /// Values of one cache line.
 pub const CACHE_LINE: usize = 16;
@@ -50,6 +57,7 @@ pub struct Ring {
     start: usize,
     columns: usize,
     depth: usize,
+    watch: Watch,
 }
 
 impl Ring {
@@ -57,7 +65,14 @@ impl Ring {
     pub fn new(columns: usize, depth: usize) -> Self {
         let cells = vec![0.0_f32; segment(columns) * depth + CACHE_LINE];
         let start = cache_line_start(&cells);
-        Self { cells, start, columns, depth }
+        Self { cells, start, columns, depth, watch: Watch::new(depth) }
+    }
+
+    /// The row beyond a wall, number 0 of a ring that nothing is written to: all of its cells are 0.
+    pub fn still(columns: usize) -> Self {
+        let mut ring = Self::new(columns, 1);
+        ring.here_mut(0).fill(0.0);
+        ring
     }
 
     fn slot(&self, y: usize) -> std::ops::Range<usize> {
@@ -67,6 +82,7 @@ impl Ring {
     }
 
     fn row(&self, y: usize) -> &[f32] {
+        self.watch.read(y);
         &self.cells[self.slot(y)]
     }
 
@@ -85,9 +101,41 @@ impl Ring {
         east(self.row(y), self.columns)
     }
 
-    /// Row `y`, to write.
+    /// Row `y`, to write. It takes the place of row `y - depth`.
     pub fn here_mut(&mut self, y: usize) -> &mut [f32] {
         let slot = self.slot(y);
-        here_mut(&mut self.cells[slot], self.columns)
+        let row = here_mut(&mut self.cells[slot], self.columns);
+        self.watch.write(y, row);
+        row
+    }
+}
+
+#[cfg(all(test, debug_assertions))]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_new_row_is_no_number_until_it_is_written_and_the_margins_are_zeros() {
+        let mut ring = Ring::new(3, 2);
+        ring.here_mut(5).copy_from_slice(&[1.0, 2.0, 3.0]);
+        assert_eq!((ring.west(5), ring.east(5)), (&[0.0, 1.0, 2.0][..], &[2.0, 3.0, 0.0][..]));
+        assert!(ring.here_mut(7).iter().all(|cell| cell.is_nan()), "row 5 is gone");
+        assert_eq!(Ring::still(3).here(0), [0.0; 3]);
+    }
+
+    #[test]
+    #[should_panic(expected = "row 4 is read where row 6 lies")]
+    fn a_row_that_gave_way_to_a_later_one_cannot_be_read() {
+        let mut ring = Ring::new(3, 2);
+        for y in 4..7 {
+            ring.here_mut(y).fill(0.0);
+        }
+        ring.here(4);
+    }
+
+    #[test]
+    #[should_panic(expected = "row 4 is read before it is written")]
+    fn a_row_that_was_never_written_cannot_be_read() {
+        Ring::new(3, 2).here(4);
     }
 }

@@ -10,13 +10,27 @@ use weald::recipe::parameter::{LayerName, Nested};
 use weald::step::Step;
 use weald::{Landscape, Size};
 
-use crate::common::{hydraulic, layered, rough, spring, stava};
+use crate::common::{self, layered, rough, spring};
 
 const COLUMNS: usize = 70;
 const ROWS: usize = 90;
 
 /// No multiple of the steps of a passage.
 const STEPS: u32 = 21;
+
+/// Seasons so short that two of them pass, and that some steps count into the means, which go through the ground one
+/// at a time, and others do not, which go several at once.
+fn with_short_seasons(step: Hydraulic) -> Hydraulic {
+    Hydraulic { rain_period: 4, dry_period: Some(3), ..step }
+}
+
+fn hydraulic(iterations: u32) -> Hydraulic {
+    with_short_seasons(common::hydraulic(iterations))
+}
+
+fn stava(iterations: u32) -> Hydraulic {
+    with_short_seasons(common::stava(iterations))
+}
 
 /// Every process in every variant that has code of its own.
 pub(crate) fn processes() -> Vec<Box<dyn Step>> {

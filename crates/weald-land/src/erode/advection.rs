@@ -110,7 +110,7 @@ impl AdvectionScratch {
         Self {
             forward: Ring::new(columns, 3),
             back: Ring::new(columns, 1),
-            still: Ring::new(columns, 1),
+            still: Ring::still(columns),
             flux_corrected: FluxCorrectedScratch::new(columns),
         }
     }

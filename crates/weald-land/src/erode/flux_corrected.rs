@@ -61,7 +61,7 @@ impl FluxCorrectedScratch {
             to_south: ring(4),
             gain: ring(3),
             loss: ring(3),
-            still: Ring::new(columns, 1),
+            still: Ring::still(columns),
         }
     }
 }

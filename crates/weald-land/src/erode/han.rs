@@ -119,7 +119,7 @@ impl Process for Han {
             face_south: ring(2),
             settled: Settled::new(columns),
             tally: [Ring::new(columns, 1), Ring::new(columns, 1)],
-            still: Ring::new(columns, 1),
+            still: Ring::still(columns),
         }
     }
 

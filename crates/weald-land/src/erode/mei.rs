@@ -114,7 +114,7 @@ impl Process for Mei {
             concentration: ring(3),
             settled: Settled::new(columns),
             tally: [Ring::new(columns, 1), Ring::new(columns, 1)],
-            still: Ring::new(columns, 1),
+            still: Ring::still(columns),
         }
     }
 

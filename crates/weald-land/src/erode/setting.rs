@@ -55,7 +55,7 @@ impl Settled {
         Self {
             change: ring(3),
             sediment: ring(4),
-            depth: ring(1),
+            depth: ring(2),
             eastward: ring(3),
             southward: ring(3),
             slide: SlideScratch::new(columns),

@@ -136,7 +136,7 @@ impl Process for Stava {
             slippage: SlippageScratch::new(columns, self.planes.materials),
             tally: [ring(1), ring(1)],
             ones,
-            still: ring(1),
+            still: Ring::still(columns),
         }
     }
 

@@ -175,7 +175,7 @@ impl SlideScratch {
             shares: [ring(2), ring(2), ring(2), ring(2)],
             to_east: ring(1),
             to_south: ring(2),
-            still: Ring::new(columns, 1),
+            still: Ring::still(columns),
         }
     }
 }

@@ -58,12 +58,12 @@ impl Han {
         }
     }
 
-    /// Fluxes through the faces and the water before them, for transport in flux form.
+    /// Fluxes through the faces, for transport in flux form. The water before them comes with the flow: the row of it
+    /// is gone by now where the step before is chained to this one.
     pub(super) fn fluxes(flow: &mut Flow<'_, Self>, y: usize) {
         let settled = &mut flow.scratch.settled;
         settled.eastward.here_mut(y).copy_from_slice(flow.output[plane::EAST].here(y));
         settled.southward.here_mut(y).copy_from_slice(flow.output[plane::SOUTH].here(y));
-        settled.depth.here_mut(y).copy_from_slice(flow.input[plane::DEPTH].here(y));
     }
 
     /// Velocities of the cells, for the advection.

@@ -141,6 +141,9 @@ impl Han {
         .run(self.setting.arch);
         let which = if flow.weather.rain > 0.0 { sums::RAINED } else { sums::EVAPORATED };
         flow.sums.add(y, which, scratch.tally[0].here(0));
+        if self.setting.in_flux_form() {
+            scratch.settled.depth.here_mut(y).copy_from_slice(flow.input[plane::DEPTH].here(y));
+        }
         if self.setting.advection.is_some() {
             scratch.found.here_mut(y).copy_from_slice(flow.input[plane::SEDIMENT].here(y));
         }

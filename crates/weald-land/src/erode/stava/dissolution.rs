@@ -90,7 +90,7 @@ pub(crate) struct DissolutionScratch {
 
 impl DissolutionScratch {
     pub(crate) fn new(columns: usize) -> Self {
-        Self { regolith: Ring::new(columns, 3), surface: Ring::new(columns, 3), still: Ring::new(columns, 1) }
+        Self { regolith: Ring::new(columns, 3), surface: Ring::new(columns, 3), still: Ring::still(columns) }
     }
 }
 

@@ -47,7 +47,7 @@ impl SlippageScratch {
         let ring = |depth| Ring::new(columns, depth);
         let sliding =
             |_| Sliding { top: ring(3), talus: ring(2), to_east: ring(2), to_south: ring(3), share: ring(3) };
-        Self { materials: (0..materials).map(sliding).collect(), still: ring(1) }
+        Self { materials: (0..materials).map(sliding).collect(), still: Ring::still(columns) }
     }
 }
 

@@ -1,7 +1,10 @@
 //! The same simulation in other circumstances ends with the same bits. That all engines do is tested in
 //! `weald-gpu/tests/engines_agree.rs`.
 
+#[path = "../common/mod.rs"]
 mod common;
+mod draw;
+mod drawn;
 
 use std::sync::Mutex;
 
