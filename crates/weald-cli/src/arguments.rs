@@ -50,6 +50,15 @@ pub(crate) enum Command {
         #[arg(long, default_value = TEMPLATES[0].name, value_parser = template_names())]
         template: String,
     },
+    /// Rewrite a recipe of an earlier version in the words of today; comments and layout stay
+    Migrate {
+        /// The recipe
+        #[arg(value_name = "RECIPE.toml")]
+        recipe: PathBuf,
+        /// File to write [default: the recipe itself]
+        #[arg(long, short, value_name = "FILE")]
+        out: Option<PathBuf>,
+    },
     /// Say what is in a raster file
     Info {
         /// GeoTIFF, 16-bit PNG or NumPy array

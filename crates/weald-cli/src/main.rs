@@ -27,6 +27,7 @@ fn main() -> ExitCode {
         Command::Check(arguments) => commands::check::check(&arguments),
         Command::Steps { name } => commands::steps::steps(name.as_deref()),
         Command::New { name, template } => commands::new::new(&name, &template),
+        Command::Migrate { recipe, out } => commands::migrate::migrate(&recipe, out.as_ref()),
         Command::Info { file, json } => commands::info::info(&file, json),
         Command::Convert { input, output, preset } => {
             commands::convert::convert(&input, &output, preset.as_deref())

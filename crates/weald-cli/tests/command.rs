@@ -199,6 +199,29 @@ fn a_recipe_is_not_written_over_another() {
 }
 
 #[test]
+fn a_recipe_with_an_old_name_is_refused_and_rewritten_in_place_or_beside() {
+    let step = "[[step]] # seas\ndo = \"flow\"\n[[step]]\ndo = \"wetness\"\nleast_slope = 0.01\n[[output]]";
+    let old = RECIPE.replace("[[output]]", step);
+    let place = Place::with(&old);
+    let text = |file: &str| std::fs::read_to_string(place.path(file)).expect("a recipe");
+    let told = "r.toml:12: wetness: `least_slope` is now called `min_slope`; `weald migrate` rewrites";
+    assert_ends(&place, &["check", "r.toml"], 3, &[told]);
+    let beside = stdout(&place.weald(&["migrate", "r.toml", "-o", "new.toml"]));
+    let lines: Vec<_> = beside.lines().collect();
+    let name = "r.toml:12: `least_slope` is now called `min_slope`";
+    let format = "r.toml:1: the recipe says its format, `weald = 1`";
+    assert_eq!(lines, [format, name, "new.toml: rewritten, changes: 2"]);
+    assert_eq!(text("r.toml"), old, "the old one stays");
+    assert_eq!(text("new.toml"), format!("weald = 1\n\n{}", old.replace("least_slope", "min_slope")));
+    assert_ends(&place, &["check", "new.toml"], 0, &[]);
+    assert_ends(&place, &["migrate", "r.toml"], 0, &[]);
+    assert_eq!(text("r.toml"), text("new.toml"));
+    assert_eq!(stdout(&place.weald(&["migrate", "r.toml"])), "r.toml: nothing has another name\n");
+    assert_eq!(place.names("."), ["new.toml", "r.toml"]);
+    assert_ends(&place, &["migrate", "none.toml"], 3, &["none.toml:1: the recipe cannot be read"]);
+}
+
+#[test]
 fn the_catalogue_and_the_schema_name_every_step() {
     let place = Place::with(RECIPE);
     let schema: serde_json::Value =

@@ -63,7 +63,10 @@ fn a_fern_in_the_wind_is_a_film_that_loops() {
 #[test]
 fn vectors_and_points_are_written() {
     let place = Place::with("");
-    drawn(&place, &["gasket", "--draw", "parts", "--depth", "3", "-o", "gasket.svg"]);
+    let parts = ["fractal", "gasket", "--draw", "parts", "--depth", "3", "-o", "gasket.svg"];
+    assert_ends(&place, &parts, 0, &[]);
+    let without_effect = "`samples` has no effect with draw = \"parts\"";
+    assert_ends(&place, &[&parts[..], &["--samples", "4"]].concat(), 2, &[without_effect]);
     let svg = std::fs::read_to_string(place.path("gasket.svg")).expect("written");
     assert_eq!(svg.matches('M').count(), 27);
     drawn(&place, &["gasket", "--points", "points.csv", "--depth", "3"]);

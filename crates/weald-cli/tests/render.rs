@@ -100,7 +100,7 @@ fn drawn_pictures_of_a_recipe_that_make_no_sense_are_told_with_what_would() {
         assert_ends(&place, &["check", "r.toml"], 3, parts);
     };
     refused("samples = 3\n", &["`samples` is 3", "1 and 4"]);
-    refused("through = [1, 2]\nframes = 4\n", &["`through` goes on from `eye`"]);
+    refused("through = [1, 2]\nframes = 4\n", &["`through` has no effect without `eye`"]);
     refused("eye = [1, 1]\nthrough = [1, 2]\n", &["`through` needs `frames`"]);
     refused("sun_altitude_deg = 95\n", &["95", "90"]);
 }

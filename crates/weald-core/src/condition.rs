@@ -6,7 +6,7 @@
 //!
 //! so that a mask is ½ at a bound and turns over a width of `soft` around it.
 
-use crate::parameter::LayerName;
+use crate::parameter::{Fault, LayerName, Nested};
 use crate::parameters;
 
 parameters! {
@@ -27,15 +27,21 @@ parameters! {
 }
 
 impl Condition {
-    /// What is wrong with its bounds, as a sentence for the user.
-    pub fn fault(&self) -> Option<String> {
+    /// What is wrong with its bounds.
+    pub fn fault(&self) -> Option<Fault> {
         let name = &self.layer.0;
         match (self.above, self.below) {
-            (None, None) => Some(format!("the condition on `{name}` has neither `above` nor `below`")),
-            (Some(above), Some(below)) if above > below => Some(format!(
-                "the condition on `{name}` has `above` = {above} over `below` = {below}, which nothing fulfils; for \
-                 what lies outside a range turn it over with `not`"
-            )),
+            (None, None) => {
+                let message = format!("the condition on `{name}` has neither `above` nor `below`");
+                Some(Fault::of("layer", message))
+            }
+            (Some(above), Some(below)) if above > below => {
+                let message = format!(
+                    "the condition on `{name}` has `above` = {above} over `below` = {below}, which nothing fulfils; \
+                     for what lies outside a range turn it over with `not`"
+                );
+                Some(Fault::of("above", message))
+            }
             _ => None,
         }
     }
@@ -70,6 +76,12 @@ pub fn turned(mask: f64, not: bool) -> f64 {
     if not { 1.0 - mask } else { mask }
 }
 
+/// What is wrong with the conditions of a key `where`.
+pub fn faults(conditions: &[Nested<Condition>]) -> impl Iterator<Item = Fault> + '_ {
+    let numbered = conditions.iter().zip(1..);
+    numbered.filter_map(|(Nested(one), number)| Some(one.fault()?.within(&format!("where.{number}"))))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -95,8 +107,8 @@ mod tests {
 
     #[test]
     fn a_range_that_holds_nothing_and_one_without_bounds_are_faults() {
-        assert!(condition(5.0, 3.0, 0.0).fault().expect("a fault").contains("nothing fulfils"));
-        assert!(Condition::default().fault().expect("a fault").contains("neither"));
+        assert!(condition(5.0, 3.0, 0.0).fault().expect("a fault").message.contains("nothing fulfils"));
+        assert!(Condition::default().fault().expect("a fault").message.contains("neither"));
     }
 
     proptest! {

@@ -1,20 +1,30 @@
 //! What a step can be told: its [declaration](Parameter), and the types that [values](ParameterValue) can have, one file a
 //! type.
 
+mod check;
 mod colour;
+mod complaints;
 mod declaration;
+mod fault;
 mod file;
+mod kind;
 mod layer_names;
+mod length;
+mod needs;
 mod places;
 mod sides;
 mod values;
+mod variants;
 
+pub use check::{check_file, check_keys, without_effect};
 pub use colour::Colour;
-pub use declaration::{
-    Choice, Complaints, Kind, Parameter, ParameterValue, Parameters, key, keys_of, nearest, read_key,
-};
+pub use complaints::{Complaints, nearest};
+pub use declaration::{Choice, ParameterValue, Parameters, key, keys_of, read_key};
+pub use fault::Fault;
 pub use file::{FlameFile, RasterFile, ScriptFile};
+pub use kind::{Kind, Needs, Parameter, Variant};
 pub use layer_names::LayerNames;
+pub use length::Length;
 pub use places::Places;
 pub use sides::Sides;
 pub use values::{LayerName, Nested};

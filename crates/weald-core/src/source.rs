@@ -80,6 +80,29 @@ impl Table {
         let index = self.entries.iter().position(|(name, _)| name == key)?;
         Some(self.entries.remove(index).1)
     }
+
+    /// The line of a key, or of a key deep inside as [`Fault`](super::parameter::Fault) writes it; where it is absent, that of what
+    /// is around it.
+    pub fn line_of(&self, path: &str) -> usize {
+        let (key, rest) = path.split_once('.').map_or((path, None), |(key, rest)| (key, Some(rest)));
+        let Some(node) = self.get(key) else { return self.line };
+        rest.map_or(node.line, |rest| line_in(node, rest))
+    }
+}
+
+fn line_in(node: &Node, path: &str) -> usize {
+    match &node.value {
+        Value::Table(table) if path.split('.').next().is_some_and(|key| table.get(key).is_some()) => {
+            table.line_of(path)
+        }
+        Value::List(items) => {
+            let (place, rest) =
+                path.split_once('.').map_or((path, None), |(place, rest)| (place, Some(rest)));
+            let item = place.parse::<usize>().ok().and_then(|place| items.get(place.checked_sub(1)?));
+            item.map_or(node.line, |item| rest.map_or(item.line, |rest| line_in(item, rest)))
+        }
+        _ => node.line,
+    }
 }
 
 /// Parses TOML.
@@ -109,15 +132,17 @@ pub fn parse(file: &str, text: &str) -> Result<Table, RecipeError> {
 }
 
 /// Byte positions of line starts.
-struct Lines(Vec<usize>);
+pub struct Lines(Vec<usize>);
 
 impl Lines {
-    fn of(text: &str) -> Self {
+    /// The lines of a text.
+    pub fn of(text: &str) -> Self {
         let starts = text.bytes().enumerate().filter(|&(_, byte)| byte == b'\n').map(|(at, _)| at + 1);
         Self(std::iter::once(0).chain(starts).collect())
     }
 
-    fn line(&self, byte: usize) -> usize {
+    /// The line of a byte, counted from 1.
+    pub fn line(&self, byte: usize) -> usize {
         self.0.partition_point(|&start| start <= byte)
     }
 }

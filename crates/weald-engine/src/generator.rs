@@ -6,7 +6,7 @@ use weald_core::domain::Domain;
 use weald_core::error::Error;
 use weald_core::grid::Field;
 use weald_core::landscape::Landscape;
-use weald_core::parameter::LayerName;
+use weald_core::parameter::{Fault, LayerName};
 
 use crate::engine::Engine;
 use crate::job::Job;
@@ -45,8 +45,8 @@ pub trait Generator: Debug + Send + Sync {
         1
     }
 
-    /// Faults that concern several parameters at once, each a sentence for the user.
-    fn contradictions(&self) -> Vec<String> {
+    /// Faults that concern several parameters at once, told at the line of one of them.
+    fn contradictions(&self) -> Vec<Fault> {
         Vec::new()
     }
 }
@@ -60,7 +60,7 @@ impl<T: Generator> Step for T {
         vec![(self.target().0.clone(), "m")]
     }
 
-    fn faults(&self) -> Vec<String> {
+    fn faults(&self) -> Vec<Fault> {
         self.contradictions()
     }
 

@@ -9,7 +9,7 @@ use crate::job::Job;
 use weald_core::error::Error;
 use weald_core::landscape::Landscape;
 use weald_core::material::Material;
-use weald_core::parameter::{Complaints, Parameter, Parameters};
+use weald_core::parameter::{Complaints, Fault, Parameter, Parameters};
 use weald_core::source::Table;
 
 /// A step with its parameters, checked and ready to run.
@@ -54,13 +54,13 @@ pub trait Step: Debug + Send + Sync {
         Ok(())
     }
 
-    /// Faults that concern several parameters at once, each a sentence for the user.
-    fn faults(&self) -> Vec<String> {
+    /// Faults that concern several parameters at once.
+    fn faults(&self) -> Vec<Fault> {
         Vec::new()
     }
 
-    /// Faults that only show beside the materials of the recipe, each a sentence for the user.
-    fn faults_among(&self, materials: &[Material]) -> Vec<String> {
+    /// Faults that only show beside the materials of the recipe.
+    fn faults_among(&self, materials: &[Material]) -> Vec<Fault> {
         let _ = materials;
         Vec::new()
     }

@@ -31,7 +31,7 @@ use std::path::Path;
 
 use weald_core::error::Error;
 use weald_core::landscape::Landscape;
-use weald_core::parameter::{Complaints, Parameter, Parameters};
+use weald_core::parameter::{Complaints, Fault, Parameter, Parameters};
 use weald_core::source::Table;
 use weald_engine::report::StepReport;
 use weald_io::Part;
@@ -76,8 +76,8 @@ pub trait Export: Debug + Send + Sync {
         Vec::new()
     }
 
-    /// Faults that concern several parameters at once, each a sentence for the user.
-    fn faults(&self) -> Vec<String> {
+    /// Faults that concern several parameters at once.
+    fn faults(&self) -> Vec<Fault> {
         Vec::new()
     }
 

@@ -26,14 +26,14 @@ weald_core::parameters! {
         /// Name of a `[[fractal]]` or of a built-in one.
         fractal: LayerName = LayerName::needed();
         /// Number of points by random iteration.
-        count: u64 = 100_000, range 1..=33_554_432;
+        count: u64 = 100_000, range 1..=33_554_432, without depth;
         /// Digits of all the codes whose points are written, in place of random ones.
         depth: Option<u32> = None, range 0..=26;
         /// Whether codes stand beside the points: as text in .csv, as eight words of 32 bits in .ply, as an array of
         /// digits `…_codes.npy` beside .npy.
         codes: bool = true;
         /// Seed of the points.
-        seed: u64 = 1, range 0..=9_007_199_254_740_991_u64;
+        seed: u64 = 1, range 0..=9_007_199_254_740_991_u64, without depth;
     }
 }
 

@@ -18,7 +18,7 @@ use super::vertices::Vertices;
 use super::{Export, ExportEntry, Finished};
 use weald_core::error::Error;
 use weald_core::grid::Size;
-use weald_core::parameter::LayerName;
+use weald_core::parameter::{Fault, LayerName};
 use weald_io::{Part, Raster, exr};
 
 weald_core::parameters! {
@@ -53,11 +53,11 @@ impl Export for Terrain3d {
         vec![self.of.0.clone()]
     }
 
-    fn faults(&self) -> Vec<String> {
+    fn faults(&self) -> Vec<Fault> {
         let size = self.region_size.filter(|size| !REGION_SIZES.contains(size)).map(|size| {
             format!("`region_size` is {size}, but regions have {REGION_SIZES:?} vertices a side; choose one of these")
         });
-        size.into_iter().collect()
+        size.map(|message| Fault::of("region_size", message)).into_iter().collect()
     }
 
     fn notes(&self, finished: &Finished<'_>) -> Vec<String> {

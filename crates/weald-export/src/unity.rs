@@ -16,7 +16,7 @@ use super::terrain_tiles::{
 };
 use super::{Export, ExportEntry, Finished};
 use weald_core::error::Error;
-use weald_core::parameter::LayerName;
+use weald_core::parameter::{Fault, LayerName};
 use weald_io::Part;
 
 weald_core::parameters! {
@@ -53,11 +53,11 @@ impl Export for Unity {
         vec![self.of.0.clone()]
     }
 
-    fn faults(&self) -> Vec<String> {
+    fn faults(&self) -> Vec<Fault> {
         let size = self.size.filter(|size| !SIZES.contains(size)).map(|size| {
             format!("`size` is {size}, but terrain has {SIZES:?} vertices a side; choose one of these")
         });
-        size.into_iter().collect()
+        size.map(|message| Fault::of("size", message)).into_iter().collect()
     }
 
     fn notes(&self, finished: &Finished<'_>) -> Vec<String> {

@@ -23,7 +23,7 @@ use super::vertices::Vertices;
 use super::{Export, ExportEntry, Finished};
 use weald_core::error::Error;
 use weald_core::grid::Size;
-use weald_core::parameter::{LayerName, Nested};
+use weald_core::parameter::{Fault, LayerName, Nested};
 use weald_io::Part;
 
 weald_core::parameters! {
@@ -71,11 +71,15 @@ impl Export for Unreal {
             .collect()
     }
 
-    fn faults(&self) -> Vec<String> {
+    fn faults(&self) -> Vec<Fault> {
         let size = self.size.filter(|size| !SIZES.contains(size)).map(|size| {
             format!("`size` is {size}, but landscapes have {SIZES:?} vertices a side; choose one of these")
         });
-        size.into_iter().chain(self.masks.iter().filter_map(|mask| mask.0.fault())).collect()
+        let size = size.map(|message| Fault::of("size", message));
+        let masks = self.masks.iter().zip(1..).filter_map(|(mask, number)| {
+            Some(Fault::of("low", mask.0.fault()?).within(&format!("masks.{number}")))
+        });
+        size.into_iter().chain(masks).collect()
     }
 
     fn notes(&self, finished: &Finished<'_>) -> Vec<String> {

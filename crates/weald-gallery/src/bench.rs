@@ -22,7 +22,7 @@ use weald_core::landscape::Landscape;
 use weald_core::parameter::Nested;
 use weald_engine::Engine;
 use weald_engine::generator::Generator;
-use weald_land::erode::hydraulic::{Hydraulic, Model, Transport};
+use weald_land::erode::hydraulic::{HanKeys, Hydraulic, MeiKeys, Transport};
 use weald_land::erode::thermal_step::ThermalWithin;
 use weald_land::generate::diamond_square::DiamondSquare;
 use weald_land::generate::fault::Fault;
@@ -187,13 +187,15 @@ struct Contender {
 
 fn contenders(iterations: u32) -> [Contender; 4] {
     let han = Hydraulic { iterations, ..Hydraulic::default() };
-    let mei = Hydraulic { model: Model::Mei, ..han.clone() };
+    let mei = Hydraulic { model: MeiKeys::default().into(), ..han.clone() };
     let thermal = Some(Nested(ThermalWithin::default()));
+    let sliding = HanKeys { thermal, ..HanKeys::default() };
+    let semi_lagrangian = MeiKeys { transport: Transport::SemiLagrangian, ..MeiKeys::default() };
     [
         Contender { name: "han", step: han.clone(), bytes: 44, operations: 105, aim: 300.0 },
         Contender {
             name: "han with thermal",
-            step: Hydraulic { thermal, ..han },
+            step: Hydraulic { model: sliding.into(), ..han },
             bytes: 44,
             operations: 122,
             aim: 300.0,
@@ -201,7 +203,7 @@ fn contenders(iterations: u32) -> [Contender; 4] {
         Contender { name: "mei", step: mei.clone(), bytes: 60, operations: 90, aim: 400.0 },
         Contender {
             name: "mei, semi-lagrangian",
-            step: Hydraulic { transport: Some(Transport::SemiLagrangian), ..mei },
+            step: Hydraulic { model: semi_lagrangian.into(), ..mei },
             bytes: 60,
             operations: 110,
             aim: 400.0,

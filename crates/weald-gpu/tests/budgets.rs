@@ -6,10 +6,12 @@ mod programs;
 
 use std::sync::Arc;
 
-use common::{error_of_what_moved, field, hydraulic, landscape, layered, rough, run_on, spring, stava};
+use common::{
+    error_of_what_moved, field, hydraulic, landscape, layered, mei, rough, run_on, spring, stava, with,
+};
 use weald::Landscape;
 use weald::engine::{Budget, Engine};
-use weald::erode::hydraulic::{Boundary, Hydraulic, Model, Transport};
+use weald::erode::hydraulic::{Boundary, Hydraulic, Transport};
 use weald_gpu::Gpu;
 
 const STEPS: u32 = 3000;
@@ -39,14 +41,16 @@ fn assert_closed(name: &str, land: &Landscape, budget: &Budget, moved: f64) {
 #[test]
 fn conserving_transport_loses_nothing_in_3000_steps() {
     let Some(gpu) = programs::gpu() else { return };
-    for (model, boundary) in [(Model::Han, Boundary::Open), (Model::Mei, Boundary::Closed)] {
+    for (step, boundary) in [(hydraulic(STEPS), Boundary::Open), (mei(STEPS), Boundary::Closed)] {
+        let model = step.model.word();
         let mut land = landscape(rough(SIDE, SIDE, 25.0, 4));
-        let step = Hydraulic { model, transport: Some(Transport::MacCormack), boundary, ..hydraulic(STEPS) };
+        let step = with!(step, [Han Mei] { transport: Transport::MacCormack });
+        let step = Hydraulic { boundary, ..step };
         let budget = run(&step, &mut land, &gpu);
         let eroded: f64 = field(&land, "erosion").values().iter().map(|&e| f64::from(e)).sum();
         assert!(eroded > 1.0, "nothing moved, so a closed budget would mean nothing: {eroded} m³");
         let moved = budget.solid.error() * budget.solid.start / eroded;
-        assert_closed(&format!("{model:?} {boundary:?}"), &land, &budget, moved);
+        assert_closed(&format!("{model} {boundary:?}"), &land, &budget, moved);
     }
 }
 
@@ -57,8 +61,9 @@ fn all_processes_of_stava_lose_nothing_in_3000_steps() {
         let mut land = layered(rough(SIDE, SIDE, 50.0, 3));
         let before = land.clone();
         let (sources, drains) = (vec![spring(12.0, 16.0)], vec![spring(35.0, 30.0)]);
-        let transport = Some(Transport::MacCormack);
-        let step = Hydraulic { boundary, transport, sources, drains, ..stava(STEPS) };
+        let transport = Transport::MacCormack;
+        let step = with!(stava(STEPS), [Stava] { transport: transport, sources: sources, drains: drains });
+        let step = Hydraulic { boundary, ..step };
         let budget = run(&step, &mut land, &gpu);
         let lowered = common::worst_difference(field(&before, "height"), field(&land, "height"));
         assert!(lowered > 0.5, "nothing moved, so a closed budget would mean nothing: {lowered} m");

@@ -7,7 +7,7 @@ mod programs;
 use std::path::Path;
 use std::sync::Arc;
 
-use common::{field, layered, rough, run_on, stava, worst_difference};
+use common::{field, layered, metres, rough, run_on, stava, with, worst_difference};
 use weald::edit::{Action, Brush, Canvas, Edit, Effect, Falloff, History, Script, Session};
 use weald::engine::Engine;
 use weald::erode::hydraulic::{Hydraulic, Sitting};
@@ -24,7 +24,8 @@ fn ground() -> Landscape {
 
 /// All processes of stava under short rains.
 fn step() -> Hydraulic {
-    Hydraulic { rain: Some(0.02), rain_period: 7, dry_period: Some(5), ..stava(60) }
+    let step = with!(stava(60), [Stava] { rain: metres(0.02), dry_period: 5 });
+    Hydraulic { rain_period: 7, ..step }
 }
 
 /// Strokes of every kind that change a state, across most of the ground.
@@ -128,7 +129,7 @@ fn a_run_with_a_script_of_edits_on_a_device_comes_near_the_cpu() {
     let edits = Some(ScriptFile(file.to_str().expect("a plain name").to_owned()));
     let end = |engine: &Engine, edits: Option<ScriptFile>| {
         let mut land = ground();
-        let outcome = run_on(&Hydraulic { edits, ..step() }, &mut land, engine.clone());
+        let outcome = run_on(&with!(step(), [Stava] { edits: edits }), &mut land, engine.clone());
         (land, outcome.budget.expect("a simulation has a budget"))
     };
     let (expected, _) = end(&Engine::Cpu, edits.clone());

@@ -7,11 +7,11 @@ mod programs;
 
 use std::sync::{Arc, Mutex};
 
-use common::{field, hydraulic, landscape, layered, rough, run_on, spring, stava, worst_difference};
+use common::{field, landscape, layered, mei, metres, rough, run_on, spring, stava, with, worst_difference};
 use weald::engine::Engine;
 use weald::engine::device::{Device, Loaded};
 use weald::engine::program::Program;
-use weald::erode::hydraulic::{Hydraulic, Model, Transport};
+use weald::erode::hydraulic::{Hydraulic, Transport};
 use weald::erode::slippage_step::SlippageWithin;
 use weald::recipe::parameter::{LayerName, Nested};
 use weald::{Error, Field, Landscape, Size};
@@ -75,12 +75,13 @@ fn assert_tiles_are_the_whole(step: &Hydraulic, ground: &Landscape, budget: u64,
 
 /// Rain of three steps and two dry ones, of which the last five count into the means.
 fn short_cycle(step: Hydraulic) -> Hydraulic {
-    Hydraulic { rain: Some(0.05), rain_period: 3, dry_period: Some(2), ..step }
+    let step = with!(step, [Mei Stava] { rain: metres(0.05), dry_period: 2 });
+    Hydraulic { rain_period: 3, ..step }
 }
 
 #[test]
 fn six_million_cells_run_in_64_mebibytes_and_equal_the_whole() {
-    let step = short_cycle(Hydraulic { model: Model::Mei, ..hydraulic(6) });
+    let step = short_cycle(mei(6));
     let ground = landscape(rough(3000, 2000, 400.0, 5));
     assert_tiles_are_the_whole(&step, &ground, 64 << 20, 6);
 }
@@ -88,15 +89,14 @@ fn six_million_cells_run_in_64_mebibytes_and_equal_the_whole() {
 #[test]
 fn layers_tables_and_painted_weather_run_in_tiles_and_equal_the_whole() {
     let painted = Some(LayerName::of("painted"));
-    let step = Hydraulic {
-        transport: Some(Transport::MacCormack),
+    let step = with!(short_cycle(stava(20)), [Stava] {
+        transport: Transport::MacCormack,
         slippage: Some(Nested(SlippageWithin { strength: 0.05, softening: true })),
         rain_layer: painted.clone(),
-        region: painted,
         sources: vec![spring(40.0, 60.0)],
         drains: vec![spring(200.0, 120.0)],
-        ..short_cycle(stava(20))
-    };
+    });
+    let step = Hydraulic { region: painted, ..step };
     let mut ground = layered(rough(300, 200, 60.0, 5));
     let wall = |x: usize, y: usize| (100..110).contains(&x) && y > 50;
     let but_a_wall = Field::from_function(ground.domain.size, |x, y| if wall(x, y) { 0.0 } else { 1.0 });

@@ -6,7 +6,7 @@ use super::fractal::{Extent, Look, Motion, Setting, Subject};
 use super::{Cutout, Image, Picture, Watch};
 use weald_core::error::Error;
 use weald_core::landscape::Landscape;
-use weald_core::parameter::{Complaints, LayerName, Nested, Parameter, Parameters, keys_of};
+use weald_core::parameter::{Complaints, LayerName, Nested, Parameter, Parameters};
 use weald_core::source::Table;
 use weald_plants::Fractal;
 use weald_plants::Vegetation;
@@ -53,11 +53,9 @@ impl Parameters for Growth {
         GrowthKeys::parameters().into_iter().chain(Look::parameters()).collect()
     }
 
-    fn read(table: &Table, complaints: &mut Complaints) -> Self {
-        let known: Vec<_> = Self::parameters().iter().map(|parameter| parameter.name).collect();
-        complaints.unknown_keys(table, &known);
-        let keys = GrowthKeys::read(&keys_of::<GrowthKeys>(table), complaints);
-        let look = Look::read(&keys_of::<Look>(table), complaints);
+    fn read_values(table: &Table, complaints: &mut Complaints) -> Self {
+        let keys = GrowthKeys::read_values(table, complaints);
+        let look = Look::read_values(table, complaints);
         Self { keys, look, ..Self::default() }
     }
 }

@@ -72,18 +72,18 @@ weald_core::parameters! {
         /// Rays through each pixel; 1 shows stairs at edges.
         samples: u32 = 6, range 1..=64;
         /// Direction in which the camera stands, clockwise from north, seen from what it looks at.
-        azimuth_deg: f64 = 205.0, range 0.0..=360.0, unit "deg";
+        azimuth_deg: f64 = 205.0, range 0.0..=360.0, unit "deg", without eye;
         /// How high it stands, as an angle above the horizon.
-        altitude_deg: f64 = 27.0, range 0.0..=90.0, unit "deg";
+        altitude_deg: f64 = 27.0, range 0.0..=90.0, unit "deg", without eye;
         /// How far it is from what it looks at. By default the landscape just fills the picture.
-        distance: Option<f64> = None, range 1.0e-3..=1.0e8, unit "m";
+        distance: Option<f64> = None, range 1.0e-3..=1.0e8, unit "m", without eye;
         /// Place that the camera looks at, `[x, y]` in metres from the north-western corner. By default the
         /// middle of the landscape.
         target: Option<Places> = None;
         /// Place where the camera stands, `[x, y]` as for `target`, in place of azimuth, altitude and distance.
         eye: Option<Places> = None;
         /// Height of the camera above the ground at `eye`, or above the lowest ground outside the landscape.
-        eye_height: f64 = 100.0, range 0.0..=1.0e7, unit "m";
+        eye_height: f64 = 100.0, range 0.0..=1.0e7, unit "m", with eye;
         /// Angle that the picture takes across.
         field_of_view_deg: f64 = 30.0, range 1.0..=120.0, unit "deg";
         /// Turn of the camera about what it looks at, clockwise seen from above: the frames of a turntable
@@ -107,15 +107,15 @@ weald_core::parameters! {
         ground: Option<GroundColour> = None;
         /// Slope from which natural ground is bare rock. By default that of the steepest tenth of the land, but
         /// between 30° and 42°.
-        rock_deg: Option<f64> = None, range 1.0..=89.0, unit "deg";
+        rock_deg: Option<f64> = None, range 1.0..=89.0, unit "deg", unless ground = "materials";
         /// Elevation up to which trees grow on natural ground. By default the lower 60 % of the relief.
-        tree_line: Option<f64> = None, unit "m";
+        tree_line: Option<f64> = None, unit "m", unless ground = "materials";
         /// Elevation from which snow lies on natural ground that is not too steep. By default there is none.
-        snow_line: Option<f64> = None, unit "m";
+        snow_line: Option<f64> = None, unit "m", unless ground = "materials";
         /// Whether lakes (layer `water`) and rivers (layers `flux_x`, `flux_y`) are drawn where they exist.
         water: bool = true;
         /// How many times as wide rivers are drawn as rivers of their basins usually are.
-        river_width: f64 = 2.0, range 0.0..=100.0;
+        river_width: f64 = 2.0, range 0.0..=100.0, when water = true;
     }
 }
 

@@ -5,11 +5,11 @@ use crate::grass::growth::{Bend, LEVELS};
 use crate::grass::meadow::{Maps, Meadow};
 use crate::grass::species::{MOST_SPECIES, SPECIES, Species};
 use crate::vegetation::Vegetation;
-use weald_core::condition::Condition;
+use weald_core::condition::{self, Condition};
 use weald_core::error::Error;
 use weald_core::grid::Field;
 use weald_core::landscape::Landscape;
-use weald_core::parameter::{LayerName, Nested, nearest};
+use weald_core::parameter::{Fault, LayerName, Nested, nearest};
 use weald_core::parameters;
 use weald_engine::Job;
 use weald_engine::step::{Entry, Outcome, Stage, Step};
@@ -46,7 +46,7 @@ parameters! {
         /// Layer of where it is mown, 0 to 1.
         mown: Option<LayerName> = None;
         /// Height of what is mown.
-        mown_height: f64 = 0.05, range 0.001..=10.0, unit "m";
+        mown_height: f64 = 0.05, range 0.001..=10.0, unit "m", with mown;
         /// Layer of where it is trodden down, 0 to 1.
         trodden: Option<LayerName> = None;
         /// What the bend of a blade means: that of the whole blade, or as printed that of each level, by which tall
@@ -97,13 +97,18 @@ impl Step for Grass {
         Some((0.0, self.sets))
     }
 
-    fn faults(&self) -> Vec<String> {
+    fn faults(&self) -> Vec<Fault> {
         let kinds = self.kinds();
         let many = (kinds.len() > MOST_SPECIES)
             .then(|| format!("there are {} species; grass has at most {MOST_SPECIES}", kinds.len()));
+        let many = many.map(|message| Fault::of("species", message));
         let twice = (1..kinds.len()).filter(|&i| kinds[..i].iter().any(|kind| kind.name == kinds[i].name));
-        let twice = twice.map(|i| format!("{:?} is there twice; give it one share", kinds[i].name));
-        many.into_iter().chain(twice).chain(kinds.iter().flat_map(Kind::faults)).collect()
+        let twice = twice.map(|i| {
+            let message = format!("{:?} is there twice; give it one share", kinds[i].name);
+            Fault::of("name", message).within(&format!("species.{}", i + 1))
+        });
+        let own = kinds.iter().zip(1..).flat_map(|(kind, number)| kind.faults(number));
+        many.into_iter().chain(twice).chain(own).collect()
     }
 
     fn run(&self, landscape: &mut Landscape, job: &Job<'_>) -> Result<Outcome, Error> {
@@ -111,7 +116,11 @@ impl Step for Grass {
         let weights: Vec<_> = kinds.iter().map(|kind| kind.weight(landscape)).collect::<Result<_, _>>()?;
         let maps = self.maps(landscape, &weights)?;
         let meadow = Meadow {
-            species: kinds.iter().map(Kind::species).collect::<Result<_, _>>().map_err(Error::Run)?,
+            species: kinds
+                .iter()
+                .map(Kind::species)
+                .collect::<Result<_, _>>()
+                .map_err(|fault: Fault| Error::Run(fault.message))?,
             bend: self.bend,
             seed: job.seed,
             densest: self.sets,
@@ -189,23 +198,26 @@ impl Grass {
 }
 
 impl Kind {
-    fn faults(&self) -> Vec<String> {
-        let conditions = self.r#where.iter().filter_map(|Nested(condition)| condition.fault());
-        self.species().err().into_iter().chain(conditions).collect()
+    /// What is wrong with the species of this number, counted from 1.
+    fn faults(&self, number: usize) -> Vec<Fault> {
+        let all = self.species().err().into_iter().chain(condition::faults(&self.r#where));
+        all.map(|fault| fault.within(&format!("species.{number}"))).collect()
     }
 
     /// The species with what is changed of it.
-    fn species(&self) -> Result<Species, String> {
-        let mut species = Species::named(&self.name).ok_or_else(|| unknown(&self.name))?.clone();
+    fn species(&self) -> Result<Species, Fault> {
+        let mut species =
+            Species::named(&self.name).ok_or_else(|| Fault::of("name", unknown(&self.name)))?.clone();
         species.height = self.height.map_or(species.height, |height| height as f32);
-        if let Some(values) = values("soil_curve", &self.soil_curve)? {
-            species.curves.soil = SoilCurve::new(values)?;
+        let at = |key| move |message: String| Fault::of(key, message);
+        if let Some(values) = values("soil_curve", &self.soil_curve).map_err(at("soil_curve"))? {
+            species.curves.soil = SoilCurve::new(values).map_err(at("soil_curve"))?;
         }
-        if let Some(values) = values("width_curve", &self.width_curve)? {
-            species.curves.width = LightCurve::new(values)?;
+        if let Some(values) = values("width_curve", &self.width_curve).map_err(at("width_curve"))? {
+            species.curves.width = LightCurve::new(values).map_err(at("width_curve"))?;
         }
-        if let Some(values) = values("height_curve", &self.height_curve)? {
-            species.curves.height = LightCurve::new(values)?;
+        if let Some(values) = values("height_curve", &self.height_curve).map_err(at("height_curve"))? {
+            species.curves.height = LightCurve::new(values).map_err(at("height_curve"))?;
         }
         Ok(species)
     }
@@ -306,7 +318,7 @@ mod tests {
             ..Kind::default()
         };
         let grass = Grass { species: vec![Nested(changed)], age: 0.25, ..Grass::default() };
-        assert_eq!(grass.faults(), [""; 0]);
+        assert_eq!(grass.faults(), []);
         grass.run(&mut landscape, &Job::unwatched(4)).expect("grows");
         let meadow = landscape.meadow("grass").expect("grown");
         assert_eq!((meadow.species[0].height, meadow.level), (2.0, 1.0));
@@ -317,15 +329,20 @@ mod tests {
     #[test]
     fn what_is_wrong_with_species_is_told_with_a_remedy() {
         let of = |kinds: Vec<Kind>| {
-            Grass { species: kinds.into_iter().map(Nested).collect(), ..Grass::default() }.faults().join("; ")
+            let grass = Grass { species: kinds.into_iter().map(Nested).collect(), ..Grass::default() };
+            let told: Vec<_> = grass.faults().iter().map(|one| format!("{}: {one}", one.key)).collect();
+            told.join("; ")
         };
         let named = |name: &str| Kind { name: name.to_owned(), ..Kind::default() };
         assert!(of(vec![named("read")]).contains("did you mean \"reed\"?"));
-        assert!(of(vec![named("reed"), named("fescue"), named("reed")]).contains("is there twice"));
+        let twice = of(vec![named("reed"), named("fescue"), named("reed")]);
+        assert!(twice.starts_with("species.3.name: ") && twice.contains("is there twice"), "{twice}");
         let short = Kind { soil_curve: vec![0.1, 0.2], ..Kind::default() };
         assert!(of(vec![short]).contains("`soil_curve` has 2 numbers; it needs 3"));
         let none = Kind { r#where: vec![Nested(Condition::default())], ..Kind::default() };
-        assert!(of(vec![none]).contains("neither `above` nor `below`"));
+        let none = of(vec![none]);
+        assert!(none.starts_with("species.1.where.1.layer: "), "{none}");
+        assert!(none.contains("neither `above` nor `below`"), "{none}");
     }
 
     #[test]

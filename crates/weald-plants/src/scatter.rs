@@ -16,12 +16,12 @@ mod window;
 use pattern::{DENSITY, Pattern, Place};
 use rayon::prelude::*;
 use site::{Site, unit};
-use weald_core::condition::Condition;
+use weald_core::condition::{self, Condition};
 use weald_core::domain::Domain;
 use weald_core::error::Error;
 use weald_core::grid::Field;
 use weald_core::landscape::Landscape;
-use weald_core::parameter::{LayerName, Nested};
+use weald_core::parameter::{Fault, LayerName, Nested};
 use weald_core::parameters;
 use weald_core::plants::{Plant, Plants};
 use weald_core::random;
@@ -91,7 +91,7 @@ impl Step for Scatter {
         Some((0.0, f64::INFINITY))
     }
 
-    fn faults(&self) -> Vec<String> {
+    fn faults(&self) -> Vec<Fault> {
         let size = match self.size.as_slice() {
             [least, most] if least <= most => None,
             [least, most] => {
@@ -101,9 +101,8 @@ impl Step for Scatter {
                 Some(format!("`size` has {} numbers; it needs two, the least and the greatest", other.len()))
             }
         };
-        size.into_iter()
-            .chain(self.r#where.iter().filter_map(|Nested(condition)| condition.fault()))
-            .collect()
+        let size = size.map(|message| Fault::of("size", message));
+        size.into_iter().chain(condition::faults(&self.r#where)).collect()
     }
 
     fn run(&self, landscape: &mut Landscape, job: &Job<'_>) -> Result<Outcome, Error> {

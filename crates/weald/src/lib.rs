@@ -62,7 +62,7 @@ pub use weald_core::{
     vectors,
 };
 #[doc(inline)]
-pub use weald_core::{choices, parameters};
+pub use weald_core::{choices, parameters, variants};
 #[doc(inline)]
 pub use weald_engine as engine;
 #[doc(inline)]

@@ -8,14 +8,17 @@ use std::sync::LazyLock;
 use proptest::prelude::*;
 use weald::domain::Domain;
 use weald::engine::Job;
+use weald::export::EXPORTS;
 use weald::grid::Mask;
+use weald::grow::ifs::deform::DeformKeys;
 use weald::io;
 use weald::material::layer_names;
 use weald::picture::PICTURES;
 use weald::random::{hash2, unit};
 use weald::recipe::catalog::CATALOG;
-use weald::recipe::parameter::{Complaints, Kind, Parameter};
+use weald::recipe::parameter::{Complaints, Kind, Needs, Parameter, Parameters, Variant, check_file};
 use weald::recipe::source::{self, Node, Table, Value};
+use weald::recipe::{FilmKeys, FractalKeys, LandscapeKeys, MaterialKeys, Overrides, Recipe};
 use weald::step::{Entry, Layered, Stage, Step};
 use weald::{Field, Landscape, Size};
 
@@ -51,6 +54,12 @@ fn check_documented(owner: &str, parameters: &[Parameter]) {
                 assert!(low < high, "{name} has a range");
             }
             Kind::Table(inner) | Kind::Tables(inner) => check_documented(&name, inner),
+            Kind::Variants(variants) => {
+                for variant in variants {
+                    assert!(variant.doc.len() > 5, "{name} = {:?} is explained", variant.word);
+                    check_documented(&name, &variant.parameters);
+                }
+            }
             _ => {}
         }
     }
@@ -69,6 +78,7 @@ fn some_value(parameter: &Parameter) -> String {
         Kind::Integer(low, _) => format!("{low}"),
         Kind::Flag => "true".to_owned(),
         Kind::Choice(words) => format!("{:?}", words[0]),
+        Kind::Variants(variants) => format!("{:?}", variants[0].word),
         Kind::Choices(words) => format!("[{:?}]", words[0]),
         Kind::Rows => "[[0.5, 0.0, 0.0, 0.5, 0.0, 0.0]]".to_owned(),
         Kind::Flame => "\"one.flame\"".to_owned(),
@@ -98,8 +108,7 @@ fn some_raster() -> String {
 
 /// The step of a text of keys, and what is wrong with it.
 fn read(entry: &Entry, text: &str) -> (Box<dyn Step>, Vec<String>) {
-    let table = source::parse("r.toml", text).unwrap_or_else(|error| panic!("{text:?} is TOML: {error}"));
-    read_table(entry, &table)
+    read_table(entry, &text_table(text))
 }
 
 fn read_table(entry: &Entry, table: &Table) -> (Box<dyn Step>, Vec<String>) {
@@ -112,15 +121,37 @@ fn read_table(entry: &Entry, table: &Table) -> (Box<dyn Step>, Vec<String>) {
 #[test]
 fn every_step_takes_its_defaults_unsaid_and_said() {
     for entry in CATALOG {
-        let parameters = (entry.parameters)();
-        let least = needed(&parameters);
-        assert_eq!(read(entry, &least).1, [""; 0], "{} with what is needed", entry.name);
-        let said = parameters.iter().filter_map(|parameter| {
-            parameter.default.as_ref().map(|default| format!("{} = {default}\n", parameter.name))
-        });
-        let all = least + &said.collect::<String>();
-        assert_eq!(read(entry, &all).1, [""; 0], "{} with all defaults", entry.name);
+        for (word, parameters) in choices(&(entry.parameters)()) {
+            let least = word + &needed(&parameters);
+            assert_eq!(read(entry, &least).1, [""; 0], "{} with what is needed", entry.name);
+            let (given, known): (_, Vec<_>) = (text_table(&least), parameters.iter().collect());
+            let has_effect = |one: &&Parameter| one.needs.iter().all(|needs| needs.is_met(&given, &known));
+            let said = parameters.iter().filter(has_effect).filter_map(|parameter| {
+                let default = parameter.default.as_ref().filter(|_| given.get(parameter.name).is_none())?;
+                Some(format!("{} = {default}\n", parameter.name))
+            });
+            let all = least.clone() + &said.collect::<String>();
+            assert_eq!(read(entry, &all).1, [""; 0], "{} with all defaults", entry.name);
+        }
     }
+}
+
+/// The parameters that a table can have at once, with the line that chooses them: once for each of its variants.
+fn choices(parameters: &[Parameter]) -> Vec<(String, Vec<Parameter>)> {
+    let variants = parameters.iter().find_map(|by| match &by.kind {
+        Kind::Variants(variants) => Some((by.name, variants)),
+        _ => None,
+    });
+    let Some((by, variants)) = variants else { return vec![(String::new(), parameters.to_vec())] };
+    let of = |variant: &Variant| {
+        let all = parameters.iter().chain(&variant.parameters).cloned().collect();
+        (format!("{by} = {:?}\n", variant.word), all)
+    };
+    variants.iter().map(of).collect()
+}
+
+fn text_table(text: &str) -> Table {
+    source::parse("r.toml", text).unwrap_or_else(|error| panic!("{text:?} is TOML: {error}"))
 }
 
 /// Values just outside a parameter's range, in TOML, by a share of its bounds.
@@ -138,24 +169,30 @@ fn outside(kind: &Kind, share: f64) -> Vec<String> {
     }
 }
 
-/// A table in which one key, perhaps deep inside, has this value, on line 1.
-fn with_value(path: &[&Parameter], value: &str) -> String {
+/// A table in which one key, perhaps deep inside, has this value, on line 1; `choice` stands below.
+fn with_value(path: &[&Parameter], value: &str, choice: &str) -> String {
     let (last, outer) = path.split_last().expect("a path has a key");
     let inner = format!("{} = {value}", last.name);
-    outer.iter().rev().fold(inner, |inner, Parameter { name, kind, .. }| match kind {
+    let line = outer.iter().rev().fold(inner, |inner, Parameter { name, kind, .. }| match kind {
         Kind::Tables(_) => format!("{name} = [{{ {inner} }}]"),
         _ => format!("{name} = {{ {inner} }}"),
-    })
+    });
+    format!("{line}\n{choice}")
 }
 
-fn check_refusals<'a>(entry: &Entry, path: &mut Vec<&'a Parameter>, parameters: &'a [Parameter], share: f64) {
+fn check_refusals<'a>(
+    (entry, choice): (&Entry, &str),
+    path: &mut Vec<&'a Parameter>,
+    parameters: &'a [Parameter],
+    share: f64,
+) {
     for parameter in parameters {
         path.push(parameter);
         if let Kind::Table(inner) | Kind::Tables(inner) = &parameter.kind {
-            check_refusals(entry, path, inner, share);
+            check_refusals((entry, choice), path, inner, share);
         }
         for value in outside(&parameter.kind, share) {
-            let (_, faults) = read(entry, &with_value(path, &value));
+            let (_, faults) = read(entry, &with_value(path, &value, choice));
             let range = parameter.kind.in_words();
             let (_, bounds) = range.split_once(", ").expect("a number's kind names its bounds");
             let shown = value.strip_suffix(".0").unwrap_or(&value);
@@ -184,7 +221,9 @@ proptest! {
     #[test]
     fn a_value_outside_its_range_is_refused_with_line_key_value_and_range(exponent in -9.0_f64..6.0) {
         for entry in CATALOG {
-            check_refusals(entry, &mut Vec::new(), &(entry.parameters)(), 10_f64.powf(exponent));
+            for (choice, parameters) in choices(&(entry.parameters)()) {
+                check_refusals((entry, &choice), &mut Vec::new(), &parameters, 10_f64.powf(exponent));
+            }
         }
     }
 
@@ -209,6 +248,233 @@ proptest! {
             }
         }
     }
+}
+
+/// Tables of a recipe: what they are called, their keys, and how they are read.
+struct Kept {
+    name: &'static str,
+    parameters: Vec<Parameter>,
+    read: Box<dyn Fn(&Table, &mut Complaints)>,
+}
+
+fn kept<T: Parameters + 'static>(name: &'static str) -> Kept {
+    let read = |table: &Table, complaints: &mut Complaints| drop(T::read(table, complaints));
+    Kept { name, parameters: T::parameters(), read: Box::new(read) }
+}
+
+/// All that a recipe can hold.
+fn all_tables() -> Vec<Kept> {
+    let steps = CATALOG.iter().map(|entry| {
+        let read = |table: &Table, complaints: &mut Complaints| drop((entry.read)(table, complaints));
+        Kept { name: entry.name, parameters: (entry.parameters)(), read: Box::new(read) }
+    });
+    let pictures = PICTURES.iter().map(|entry| {
+        let read = |table: &Table, complaints: &mut Complaints| drop((entry.read)(table, complaints));
+        Kept { name: entry.name, parameters: (entry.parameters)(), read: Box::new(read) }
+    });
+    let exports = EXPORTS.iter().map(|entry| {
+        let read = |table: &Table, complaints: &mut Complaints| drop((entry.read)(table, complaints));
+        Kept { name: entry.name, parameters: (entry.parameters)(), read: Box::new(read) }
+    });
+    let others = [
+        kept::<LandscapeKeys>("landscape"),
+        kept::<MaterialKeys>("material"),
+        kept::<FractalKeys>("fractal"),
+        kept::<DeformKeys>("deform"),
+        kept::<FilmKeys>("film"),
+    ];
+    steps.chain(pictures).chain(exports).chain(others).collect()
+}
+
+impl Kept {
+    /// What is said of a key that has no effect in a text whose first line has it.
+    fn told(&self, text: &str, key: &str) -> Option<String> {
+        let mut complaints = Complaints::default();
+        (self.read)(&text_table(text), &mut complaints);
+        check_file(&text_table(text), &self.parameters, &mut complaints);
+        let named = format!("`{key}` has no effect");
+        let of_key = complaints.found.into_iter().find(|one| one.message.contains(&named))?;
+        assert_eq!(of_key.line, 1, "{}: {text}: {}", self.name, of_key.message);
+        Some(of_key.message)
+    }
+
+    /// The key of the first line has no effect, and the message names what would give it one.
+    fn refuses(&self, place: &Place<'_>, lines: &[String], remedy: &str) {
+        let (text, key) = (place.text(lines), key_of(&lines[0]));
+        let told = self.told(&text, key).unwrap_or_else(|| panic!("{}: {text} is taken", self.name));
+        assert!(told.contains(remedy), "{}: {text}: {told} names no {remedy}", self.name);
+    }
+
+    fn takes(&self, place: &Place<'_>, lines: &[String]) {
+        let text = place.text(lines);
+        assert_eq!(self.told(&text, key_of(&lines[0])), None, "{}: {text}", self.name);
+    }
+}
+
+fn key_of(line: &str) -> &str {
+    line.split(' ').next().unwrap_or_default()
+}
+
+/// Where a table lies in others, and what stands beside the outermost of them.
+#[derive(Clone, Default)]
+struct Place<'a> {
+    path: Vec<&'a Parameter>,
+    beside: String,
+}
+
+impl Place<'_> {
+    fn text(&self, lines: &[String]) -> String {
+        if self.path.is_empty() {
+            return lines.join("\n");
+        }
+        let given: Vec<_> = lines.iter().filter(|line| !line.is_empty()).map(String::as_str).collect();
+        let inner = self.path.iter().rev().fold(given.join(", "), |inner, outer| match outer.kind {
+            Kind::Tables(_) => format!("{} = [{{ {inner} }}]", outer.name),
+            _ => format!("{} = {{ {inner} }}", outer.name),
+        });
+        format!("{inner}\n{}", self.beside)
+    }
+}
+
+fn given(parameter: &Parameter) -> String {
+    format!("{} = {}", parameter.name, some_value(parameter))
+}
+
+/// Lines that take the effect of a key away, each with what the message must name.
+fn against(needs: &Needs, all: &[Parameter]) -> Vec<(String, String)> {
+    let named = |key: &str| all.iter().find(|one| one.name == key).expect("it is declared");
+    match needs {
+        Needs::Value(key, values) => {
+            vec![(format!("{key} = {}", other_than(named(key), values)), values[0].to_owned())]
+        }
+        Needs::OtherValue(key, values) => {
+            values.iter().map(|value| (format!("{key} = {value}"), (*value).to_owned())).collect()
+        }
+        Needs::Given(keys) => vec![(String::new(), keys[0].to_owned())],
+        Needs::Absent(key) => vec![(given(named(key)), (*key).to_owned())],
+        Needs::File(extensions) => vec![("file = \"a.other\"".to_owned(), format!(".{}", extensions[0]))],
+    }
+}
+
+/// A line that does what a key needs.
+fn meeting(needs: &Needs, all: &[Parameter]) -> String {
+    let named = |key: &str| all.iter().find(|one| one.name == key).expect("it is declared");
+    match needs {
+        Needs::Value(key, values) => format!("{key} = {}", values[0]),
+        Needs::OtherValue(key, values) => format!("{key} = {}", other_than(named(key), values)),
+        Needs::Given(keys) => given(named(keys[0])),
+        Needs::Absent(_) => String::new(),
+        Needs::File(extensions) => format!("file = \"a.{}\"", extensions[0]),
+    }
+}
+
+/// A value of a key, in TOML, that is none of these.
+fn other_than(parameter: &Parameter, values: &[&str]) -> String {
+    let all: Vec<String> = match &parameter.kind {
+        Kind::Choice(words) => words.iter().map(|word| format!("{word:?}")).collect(),
+        _ => vec!["true".to_owned(), "false".to_owned()],
+    };
+    all.into_iter().find(|value| !values.contains(&value.as_str())).expect("another value")
+}
+
+/// Tries every key that another key can leave without effect, with that and without; gives how many ways there are.
+fn check_needs(table: &Kept, place: &Place<'_>, parameters: &[Parameter]) -> usize {
+    let mut tried = 0;
+    for (choice, all) in choices(parameters) {
+        let choice = choice.trim().to_owned();
+        for parameter in &all {
+            for (at, needs) in parameter.needs.iter().enumerate() {
+                let others = parameter.needs.iter().enumerate().filter(|(other, _)| *other != at);
+                let others: Vec<_> = others.map(|(_, needs)| meeting(needs, &all)).collect();
+                for (line, remedy) in against(needs, &all) {
+                    let lines = [vec![given(parameter), choice.clone(), line], others.clone()].concat();
+                    table.refuses(place, &lines, &remedy);
+                    tried += 1;
+                }
+            }
+            let met = parameter.needs.iter().map(|needs| meeting(needs, &all)).collect();
+            table.takes(place, &[vec![given(parameter), choice.clone()], met].concat());
+            if let Kind::Table(inner) | Kind::Tables(inner) = &parameter.kind {
+                let mut deeper = Place { path: place.path.clone(), beside: place.beside.clone() };
+                deeper.path.push(parameter);
+                if place.path.is_empty() {
+                    deeper.beside.clone_from(&choice);
+                }
+                tried += check_needs(table, &deeper, inner);
+            }
+        }
+    }
+    tried
+}
+
+/// Tries every key of every variant beside each of the variants that have it not; gives how many.
+fn check_variants(table: &Kept) -> usize {
+    let mut tried = 0;
+    for by in &table.parameters {
+        let Kind::Variants(variants) = &by.kind else { continue };
+        for (chosen, other) in variants.iter().flat_map(|one| variants.iter().map(move |other| (one, other)))
+        {
+            let has = |key: &str| chosen.parameters.iter().any(|own| own.name == key);
+            for strange in other.parameters.iter().filter(|strange| !has(strange.name)) {
+                let choice = format!("{} = {:?}", by.name, chosen.word);
+                table.refuses(&Place::default(), &[given(strange), choice], &format!("{:?}", other.word));
+                tried += 1;
+            }
+        }
+    }
+    tried
+}
+
+#[test]
+fn a_key_that_a_choice_leaves_without_effect_is_refused_at_its_line() {
+    let [mut by_variant, mut by_need] = [0, 0];
+    for table in all_tables() {
+        by_variant += check_variants(&table);
+        by_need += check_needs(&table, &Place::default(), &table.parameters);
+    }
+    println!("{by_variant} keys of other variants and {by_need} keys without what they need were refused");
+    assert!(by_variant >= 30 && by_need >= 100, "{by_variant}, {by_need}: the catalogue has such keys");
+}
+
+#[test]
+fn a_key_of_another_model_by_default_is_refused_too() {
+    let entry = CATALOG.iter().find(|entry| entry.name == "hydraulic").expect("it is there");
+    let (_, faults) = read(entry, "iterations = 3\ndeposition = 0.5\n");
+    let told = "2: hydraulic: `deposition` has no effect with model = \"han\": it is a key of model = \"mei\" or \
+                \"stava\"; set that, or remove it";
+    assert_eq!(faults, [told]);
+}
+
+/// The complaint of a recipe that begins with ground of rock and soil.
+fn refusal(step: &str) -> String {
+    let text = format!(
+        "[landscape]\nsize = 8\n[[step]]\ndo = \"plane\"\n[[step]]\n{step}\n[[output]]\nlayer = \"height\"\n\
+         file = \"a.tif\"\n"
+    );
+    Recipe::parse("r.toml", &text, &Overrides::default()).expect_err(step).to_string()
+}
+
+#[test]
+fn a_fault_of_several_keys_is_told_at_the_line_of_one_of_them() {
+    let told = |step: &str, words: &str| {
+        let message = refusal(step);
+        assert!(message.starts_with(&format!("r.toml:{words}")), "{message}");
+    };
+    told("do = \"hydraulic\"\nregion = \"height\"\nboundary = \"open\"", "8: hydraulic: `boundary` must be");
+    told(
+        "do = \"select\"\nwhere = [\n{ layer = \"height\", above = 1 },\n\
+         { layer = \"height\", above = 3, below = 1 },\n]",
+        "9: select: the condition",
+    );
+    told("do = \"hydraulic\"\nmodel = \"stava\"\ndeposit = \"sand\"", "8: hydraulic: `deposit` is");
+    told(
+        "do = \"hydraulic\"\nmodel = \"stava\"\n\nslippage = { strength = 0.2 }",
+        "9: hydraulic: `strength` is 0.2",
+    );
+    told(
+        "do = \"hydraulic\"\niterations = 3\nlaw = \"dissolution\"\nmodel = \"mei\"",
+        "8: hydraulic: `law` has no effect",
+    );
 }
 
 /// Unit of the layers that a step is given here.

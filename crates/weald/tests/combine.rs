@@ -161,7 +161,7 @@ fn remap_gives_the_unit_that_it_is_told() {
 
 #[test]
 fn remap_says_what_is_wrong_with_its_lists() {
-    let faults = |step: Remap| step.faults().join("; ");
+    let faults = |step: Remap| step.faults().iter().map(ToString::to_string).collect::<Vec<_>>().join("; ");
     assert!(faults(Remap { from: vec![2.0, 1.0], ..Remap::default() }).contains("low below high"));
     assert!(faults(Remap { from: vec![2.0], ..Remap::default() }).contains("[2.0]"));
     assert!(faults(Remap { to: vec![], ..Remap::default() }).contains("two numbers"));

@@ -6,11 +6,11 @@ use std::sync::Arc;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use common::{hydraulic, landscape, rough, run, worst_difference};
+use common::{landscape, mei, rough, run, worst_difference};
 use weald::engine::device::{Device, Loaded, Window};
 use weald::engine::program::Program;
 use weald::engine::{Engine, Job, SavedSimulation, Unwatched, Watcher};
-use weald::erode::hydraulic::{Hydraulic, Model};
+use weald::erode::hydraulic::Hydraulic;
 use weald::step::Step;
 use weald::{Error, Landscape, Size};
 
@@ -112,7 +112,7 @@ const STEPS: u32 = 90;
 
 /// Always the same weather, so that fewer steps are the same steps.
 fn step(iterations: u32) -> Hydraulic {
-    Hydraulic { model: Model::Mei, rain_period: 1, ..hydraulic(iterations) }
+    Hydraulic { rain_period: 1, ..mei(iterations) }
 }
 
 fn failing(steps: usize) -> (Arc<Failing>, Arc<AtomicUsize>) {

@@ -39,7 +39,7 @@ fn a_displaced_plane_is_the_plane_where_the_layers_point() {
         assert!((bent.at(x, y) - expected).abs() < 1e-3, "{x}, {y}: {} for {expected}", bent.at(x, y));
     }
     assert_ne!(bent, land.field("height").expect("there"), "something bent");
-    assert!(Displace::default().faults()[0].contains("`east`"));
+    assert!(Displace::default().faults()[0].message.contains("`east`"));
 }
 
 #[test]

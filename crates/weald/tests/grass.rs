@@ -114,8 +114,8 @@ fn a_rectangle_holds_its_sets_alone_and_too_many_are_over_a_stated_limit() {
     let whole = count(GrassSets::default()).expect("few");
     let part = count(GrassSets { area: vec![0.0, 18.0, 18.0, 36.0], ..GrassSets::default() }).expect("few");
     assert!(part > 50 && part < whole / 2, "{part} of {whole}");
-    let error = count(GrassSets { most: 100, ..GrassSets::default() }).expect_err("too many");
-    assert!(matches!(&error, Error::Limit(message) if message.contains("`most` is 100")), "{error}");
+    let error = count(GrassSets { max_sets: 100, ..GrassSets::default() }).expect_err("too many");
+    assert!(matches!(&error, Error::Limit(message) if message.contains("`max_sets` is 100")), "{error}");
 }
 
 #[test]

@@ -4,11 +4,11 @@
 mod common;
 mod reference;
 
-use common::{landscape, rough, run};
+use common::{landscape, metres, rough, run, with};
 use reference::World;
 use reference::stava::Column;
 use weald::erode::dissolution_step::DissolutionWithin;
-use weald::erode::hydraulic::{Boundary, Hydraulic, Model, Transport};
+use weald::erode::hydraulic::{Boundary, Hydraulic, Model, StavaKeys, Transport};
 use weald::erode::slippage_step::SlippageWithin;
 use weald::erode::springs::Spring;
 use weald::grid::Mask;
@@ -22,20 +22,25 @@ const STEPS: u32 = 14;
 
 /// Two whole cycles of rain and sun, with no number at its default.
 fn keys() -> Hydraulic {
-    Hydraulic {
-        model: Model::Stava,
-        iterations: STEPS,
-        flow_rate: Some(0.17),
-        rain: Some(0.03),
-        evaporation: Some(0.02),
-        rain_period: 5,
-        dry_period: Some(2),
-        capacity: Some(0.31),
-        erosion: Some(3.0),
+    let keys = StavaKeys {
+        flow_rate: 0.17,
+        rain: metres(0.03),
+        evaporation: metres(0.02),
+        dry_period: 2,
+        capacity: 0.31,
+        erosion: 3.0,
         deposition: 0.37,
-        epsilon: Some(0.004),
-        velocity_epsilon: Some(0.02),
-        ..Hydraulic::default()
+        velocity_epsilon: metres(0.02),
+        ..StavaKeys::default()
+    };
+    let model = keys.into();
+    Hydraulic { model, iterations: STEPS, rain_period: 5, epsilon: metres(0.004), ..Hydraulic::default() }
+}
+
+fn own(step: &Hydraulic) -> &StavaKeys {
+    match &step.model {
+        Model::Stava(keys) => keys,
+        other => panic!("model {}", other.word()),
     }
 }
 
@@ -47,27 +52,28 @@ fn variants() -> Vec<Hydraulic> {
     let drains = vec![Nested(Spring { x: 12.0, y: 8.0, radius: 1.1, rate: 0.07 })];
     let [rain_layer, evaporation_layer, source_layer] =
         ["wetness", "sunshine", "seepage"].map(|name| Some(LayerName::of(name)));
-    let painted = Hydraulic { rain_layer, evaporation_layer, source_layer, ..keys() };
+    let painted = with!(keys(), [Stava] {
+        rain_layer: rain_layer, evaporation_layer: evaporation_layer, source_layer: source_layer,
+    });
     vec![
         keys(),
-        Hydraulic { dry_period: Some(0), rain_period: 7, ..keys() },
-        Hydraulic { viscosity: 0.8, ..keys() },
-        Hydraulic { deposit: Some(LayerName::of("rock")), ..keys() },
-        Hydraulic { transport: Some(Transport::Upwind), ..keys() },
-        Hydraulic { transport: Some(Transport::MacCormack), conserve: Some(false), ..keys() },
-        Hydraulic { dissolution: dissolution.clone(), ..keys() },
-        Hydraulic { slippage: slippage(false), ..keys() },
-        Hydraulic { slippage: slippage(true), ..keys() },
-        Hydraulic { sources: sources.clone(), drains, ..painted },
-        Hydraulic {
+        Hydraulic { rain_period: 7, ..with!(keys(), [Stava] { dry_period: 0 }) },
+        with!(keys(), [Stava] { viscosity: 0.8 }),
+        with!(keys(), [Stava] { deposit: Some(LayerName::of("rock")) }),
+        with!(keys(), [Stava] { transport: Transport::Upwind }),
+        with!(keys(), [Stava] { transport: Transport::MacCormack, conserve: false }),
+        with!(keys(), [Stava] { dissolution: dissolution.clone() }),
+        with!(keys(), [Stava] { slippage: slippage(false) }),
+        with!(keys(), [Stava] { slippage: slippage(true) }),
+        with!(painted, [Stava] { sources: sources.clone(), drains: drains }),
+        with!(keys(), [Stava] {
             viscosity: 0.8,
-            transport: Some(Transport::SemiLagrangian),
+            transport: Transport::SemiLagrangian,
             deposit: Some(LayerName::of("clay")),
-            dissolution,
+            dissolution: dissolution,
             slippage: slippage(false),
-            sources,
-            ..keys()
-        },
+            sources: sources,
+        }),
     ]
 }
 
@@ -124,9 +130,10 @@ fn layer(land: &Landscape, name: &str) -> Vec<f64> {
 }
 
 /// The same world for the reference.
-fn reference_of(land: &Landscape, keys: &Hydraulic) -> Column {
+fn reference_of(land: &Landscape, step: &Hydraulic) -> Column {
+    let keys = own(step);
     let has_data = (0..(COLUMNS + 2) * (ROWS + 2)).map(|at| inside(land, at).is_some()).collect();
-    let world = World::new(COLUMNS + 2, layer(land, "height"), has_data, keys.boundary);
+    let world = World::new(COLUMNS + 2, layer(land, "height"), has_data, step.boundary);
     let layers = ["clay", "sand"].map(|name| layer(land, name)).into();
     let mut reference = Column::new(world, land.materials.clone(), layers);
     let painted = |name: &Option<LayerName>, values: &mut Vec<f64>| {
@@ -174,7 +181,7 @@ fn compare(keys: &Hydraulic, masked: bool) {
         reference.world.sediment.iter().zip(land).map(|(s, land)| if *land { *s } else { 0.0 }).collect();
     assert_alike("water", &layer(&after, "water"), &reference.world.depth, keys);
     assert_alike("sediment", &layer(&after, "sediment"), &sediment, keys);
-    if keys.dissolution.is_some() {
+    if own(keys).dissolution.is_some() {
         assert_alike("regolith", &layer(&after, "regolith"), &reference.regolith, keys);
     }
     let difference = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a - b).collect::<Vec<_>>();

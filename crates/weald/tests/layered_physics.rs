@@ -2,9 +2,9 @@
 
 mod common;
 
-use common::{field, hydraulic, landscape, materials, run, worst_difference};
+use common::{field, hydraulic, landscape, materials, metres, run, worst_difference};
 use weald::erode::dissolution_step::DissolutionStep;
-use weald::erode::hydraulic::{Boundary, Hydraulic, Model};
+use weald::erode::hydraulic::{Boundary, Hydraulic, StavaKeys};
 use weald::erode::slippage_step::SlippageStep;
 use weald::erode::springs::Spring;
 use weald::recipe::parameter::{LayerName, Nested};
@@ -23,8 +23,8 @@ fn a_hard_layer_under_a_soft_one_protects_what_is_below() {
         land.insert("cover", "m", Field::filled(size, 0.2));
         let boundary = Boundary::Open;
         let deposit = Some(LayerName::of("cover"));
-        let deposition = 0.0;
-        run(&Hydraulic { model: Model::Stava, boundary, deposit, deposition, ..hydraulic(600) }, &mut land);
+        let model = StavaKeys { deposit, deposition: 0.0, ..StavaKeys::default() }.into();
+        run(&Hydraulic { model, boundary, ..hydraulic(600) }, &mut land);
         land
     };
     let (protected, bare) = (eroded("rock"), eroded("clay"));
@@ -60,15 +60,9 @@ fn a_source_fills_a_basin_to_its_outlet_and_then_spills() {
     let level = |land: &Landscape, x, y| field(land, "height").at(x, y) + field(land, "water").at(x, y);
     let filled = |land: &mut Landscape, iterations| {
         let sources = sources.clone();
-        let still = Hydraulic {
-            model: Model::Stava,
-            sources,
-            rain: Some(0.0),
-            evaporation: Some(0.0),
-            erosion: Some(0.0),
-            boundary: Boundary::Open,
-            ..hydraulic(iterations)
-        };
+        let [rain, evaporation] = [metres(0.0); 2];
+        let keys = StavaKeys { sources, rain, evaporation, erosion: 0.0, ..StavaKeys::default() };
+        let still = Hydraulic { model: keys.into(), boundary: Boundary::Open, ..hydraulic(iterations) };
         run(&still, land).budget.expect("a budget").water
     };
     let early = filled(&mut land, 300);

@@ -2,9 +2,9 @@
 
 mod common;
 
-use common::{hydraulic, landscape, rough, run, symmetries, worst_difference};
+use common::{hydraulic, landscape, mei, metres, rough, run, symmetries, with, worst_difference};
 use proptest::prelude::*;
-use weald::erode::hydraulic::{Boundary, Hydraulic, Model, Transport, UptakeLaw};
+use weald::erode::hydraulic::{Boundary, Hydraulic, Model, StavaKeys, Transport, UptakeLaw};
 use weald::erode::thermal::Scheme;
 use weald::erode::thermal_step::{Thermal, ThermalWithin};
 use weald::grid::Mask;
@@ -18,7 +18,8 @@ fn assert_budgets_close(step: &Hydraulic, size: usize, tolerance: f64) {
     let moved = worst_difference(&before, land.field("height").expect("height"));
     assert!(moved > 0.01, "nothing moved, so a closed budget would mean nothing: {moved} m");
     let (water, solid) = (budget.water.error(), budget.solid.error());
-    println!("{:?} {:?}: water {water:.1e}, solid {solid:.1e}, moved {moved} m", step.model, step.boundary);
+    let model = step.model.word();
+    println!("{model} {:?}: water {water:.1e}, solid {solid:.1e}, moved {moved} m", step.boundary);
     assert!(water.abs() <= tolerance, "water error {water:e}: {:?}", budget.water);
     assert!(solid.abs() <= tolerance, "solid error {solid:e}: {:?}", budget.solid);
     for name in ["water", "sediment"] {
@@ -29,11 +30,11 @@ fn assert_budgets_close(step: &Hydraulic, size: usize, tolerance: f64) {
 
 #[test]
 fn budgets_close_to_a_millionth_over_3600_steps_closed_and_open() {
-    for model in [Model::Han, Model::Mei] {
+    for model in [hydraulic(3600), mei(3600)] {
         for boundary in [Boundary::Closed, Boundary::Open] {
             let thermal = Some(Nested(ThermalWithin::default()));
-            let step = Hydraulic { model, boundary, thermal, deposit_ratio: 0.3, ..hydraulic(3600) };
-            assert_budgets_close(&step, 256, 1e-6);
+            let step = with!(model.clone(), [Han Mei] { thermal: thermal, deposit_ratio: 0.3 });
+            assert_budgets_close(&Hydraulic { boundary, ..step }, 256, 1e-6);
         }
     }
 }
@@ -49,7 +50,7 @@ fn water_leaves_over_an_open_edge_and_takes_sediment_along() {
 
 #[test]
 fn the_scheme_as_printed_keeps_its_budget_but_owes_water() {
-    let step = Hydraulic { limiter: false, flow_rate: Some(0.05), ..hydraulic(600) };
+    let step = with!(hydraulic(600), [Han] { limiter: false, flow_rate: 0.05 });
     let mut land = landscape(rough(128, 128, 25.0, 3));
     let budget = run(&step, &mut land).budget.expect("a budget");
     let (deepest_debt, _) = land.field("water").expect("written").range(None).expect("cells");
@@ -75,25 +76,22 @@ fn lake(size: usize) -> Landscape {
 
 #[test]
 fn a_lake_at_rest_stays_at_rest_for_ten_thousand_steps() {
-    for model in [Model::Han, Model::Mei] {
+    for still in [
+        with!(hydraulic(10_000), [Han] { rain: metres(0.0), evaporation: metres(0.0) }),
+        with!(mei(10_000), [Mei] { rain: metres(0.0), evaporation: 0.0 }),
+    ] {
+        let model = still.model.word();
         let mut land = lake(48);
         let (ground, water) =
             (land.field("height").expect("h").clone(), land.field("standing").expect("w").clone());
-        let step = Hydraulic {
-            model,
-            rain: Some(0.0),
-            evaporation: Some(0.0),
-            initial_water: Some(LayerName::of("standing")),
-            ..hydraulic(10_000)
-        };
-        run(&step, &mut land);
+        run(&Hydraulic { initial_water: Some(LayerName::of("standing")), ..still }, &mut land);
         let fastest = land.field("flux_x").expect("written").values().iter().zip(water.values());
         let fastest = fastest.filter(|(_, depth)| **depth > 0.01).map(|(flux, depth)| (flux / depth).abs());
         let fastest = fastest.fold(0.0, f32::max);
-        assert!(fastest < 1e-6, "{model:?}: water moves at {fastest} cells a step");
+        assert!(fastest < 1e-6, "{model}: water moves at {fastest} cells a step");
         let lowered = worst_difference(&water, land.field("water").expect("written"));
-        assert!(lowered < 1e-5, "{model:?}: the level moved by {lowered} m");
-        assert_eq!(land.field("height").expect("h"), &ground, "{model:?}: water at rest carves nothing");
+        assert!(lowered < 1e-5, "{model}: the level moved by {lowered} m");
+        assert_eq!(land.field("height").expect("h"), &ground, "{model}: water at rest carves nothing");
     }
 }
 
@@ -102,7 +100,7 @@ fn ground_stays_to_the_bit_when_nothing_erodes() {
     let before = rough(64, 48, 800.0, 9);
     let mut land = landscape(before.clone());
     land.domain.cell = 20.0;
-    run(&Hydraulic { erosion: Some(0.0), ..hydraulic(500) }, &mut land);
+    run(&with!(hydraulic(500), [Han] { erosion: Some(0.0) }), &mut land);
     let (_, deepest) = land.field("water").expect("written").range(None).expect("cells");
     assert!(deepest > 0.1, "water flowed: {deepest} m");
     assert_eq!(land.field("height").expect("h"), &before);
@@ -134,14 +132,10 @@ fn asymmetry(step: &dyn weald::step::Step) -> f32 {
 
 #[test]
 fn erosion_commutes_with_the_eight_symmetries_of_the_square() {
-    for model in [Model::Han, Model::Mei] {
-        assert_eq!(
-            asymmetry(&Hydraulic { model, ..hydraulic(200) }),
-            0.0,
-            "{model:?} without thermal weathering"
-        );
+    for step in [hydraulic(200), mei(200)] {
+        assert_eq!(asymmetry(&step), 0.0, "{} without thermal weathering", step.model.word());
     }
-    let dissolving = Hydraulic { law: UptakeLaw::Dissolution, ..hydraulic(200) };
+    let dissolving = with!(hydraulic(200), [Han] { law: UptakeLaw::Dissolution });
     assert_eq!(asymmetry(&dissolving), 0.0, "dissolution");
 }
 
@@ -177,8 +171,8 @@ fn cells_without_data_take_no_part() {
         let mut land = landscape(ground);
         land.domain.land = Some(mask.clone());
         let thermal = Some(Nested(ThermalWithin::default()));
-        let budget =
-            run(&Hydraulic { boundary, thermal, ..hydraulic(300) }, &mut land).budget.expect("a budget");
+        let step = with!(hydraulic(300), [Han] { thermal: thermal });
+        let budget = run(&Hydraulic { boundary, ..step }, &mut land).budget.expect("a budget");
         let height = land.field("height").expect("h");
         let values: Vec<f32> =
             (0..size.cells()).filter(|&at| mask.is_land_at(at)).map(|at| height.values()[at]).collect();
@@ -196,10 +190,9 @@ fn cells_without_data_take_no_part() {
 #[test]
 fn advection_reports_the_sediment_it_loses() {
     for transport in [Transport::SemiLagrangian, Transport::MacCormack] {
-        for model in [Model::Mei, Model::Stava] {
+        for model in [mei(600), Hydraulic { model: StavaKeys::default().into(), ..hydraulic(600) }] {
             let mut land = landscape(rough(64, 64, 25.0, 4));
-            let conserve = (transport == Transport::MacCormack).then_some(false);
-            let step = Hydraulic { model, transport: Some(transport), conserve, ..hydraulic(600) };
+            let step = with!(model, [Mei Stava] { transport: transport, conserve: false });
             let outcome = run(&step, &mut land);
             let error = outcome.budget.expect("a budget").solid.error();
             assert!(error.abs() > 1e-7, "{transport:?} should lose something: {error:e}");
@@ -212,28 +205,29 @@ fn advection_reports_the_sediment_it_loses() {
 
 #[test]
 fn maccormack_transport_in_its_conserving_form_loses_nothing_in_3000_steps() {
-    for model in [Model::Han, Model::Mei] {
+    for step in [hydraulic(3000), mei(3000)] {
         for boundary in [Boundary::Closed, Boundary::Open] {
+            let model = step.model.word();
             let mut land = landscape(rough(96, 96, 25.0, 4));
-            let transport = Some(Transport::MacCormack);
-            let outcome = run(&Hydraulic { model, transport, boundary, ..hydraulic(3000) }, &mut land);
+            let step = with!(step.clone(), [Han Mei] { transport: Transport::MacCormack });
+            let outcome = run(&Hydraulic { boundary, ..step }, &mut land);
             let budget = outcome.budget.expect("a budget");
             let error = budget.solid.error();
             let moved: f64 = land.field("erosion").expect("e").values().iter().map(|&e| f64::from(e)).sum();
             let volume = moved * land.domain.cell * land.domain.cell;
             println!(
-                "{model:?} {boundary:?}: solid {error:.1e}, of what moved {:.1e}",
+                "{model} {boundary:?}: solid {error:.1e}, of what moved {:.1e}",
                 error * budget.solid.start / volume
             );
             assert!(volume > 1.0, "nothing moved: {volume}");
-            assert!((error * budget.solid.start).abs() < 1e-5 * volume, "{model:?} {boundary:?}: {budget:?}");
+            assert!((error * budget.solid.start).abs() < 1e-5 * volume, "{model} {boundary:?}: {budget:?}");
             assert_eq!(outcome.notes, Vec::<String>::new());
         }
     }
 }
 
 fn any_hydraulic() -> impl Strategy<Value = Hydraulic> {
-    let models = prop_oneof![Just(Model::Han), Just(Model::Mei)];
+    let models = prop_oneof![Just(hydraulic(80)), Just(mei(80))];
     let transports =
         prop_oneof![Just(Transport::Upwind), Just(Transport::SemiLagrangian), Just(Transport::MacCormack)];
     let boundaries = prop_oneof![Just(Boundary::Closed), Just(Boundary::Open)];
@@ -247,23 +241,29 @@ fn any_hydraulic() -> impl Strategy<Value = Hydraulic> {
     let loads = (0.0..=100.0, 0.0..=1.0, 0.0..=1.0, 1e-6..=1.0);
     let periods = (1_u32..20, 0_u32..20);
     (models, transports, boundaries, schemes, rates, loads, periods, 0.0..=0.25).prop_map(
-        |(model, transport, boundary, scheme, rates, loads, periods, strength)| Hydraulic {
-            model,
-            transport: Some(transport),
-            boundary,
-            flow_rate: Some(rates.0),
-            rain: Some(rates.1),
-            evaporation: Some(rates.2),
-            deposition: rates.3,
-            capacity: Some(loads.0),
-            erosion: Some(loads.1),
-            deposit_ratio: loads.2,
-            velocity_epsilon: Some(loads.3),
-            rain_period: periods.0,
-            dry_period: Some(periods.1),
-            thermal: scheme
-                .map(|scheme| Nested(ThermalWithin { scheme, strength, ..ThermalWithin::default() })),
-            ..hydraulic(80)
+        |(model, transport, boundary, scheme, rates, loads, periods, strength)| {
+            let thermal = |scheme| Nested(ThermalWithin { scheme, strength, ..ThermalWithin::default() });
+            let mut step = with!(model, [Han Mei] {
+                transport: transport,
+                flow_rate: rates.0,
+                rain: metres(rates.1),
+                deposit_ratio: loads.2,
+                velocity_epsilon: metres(loads.3),
+                dry_period: periods.1,
+                thermal: scheme.map(thermal),
+            });
+            match &mut step.model {
+                Model::Mei(keys) => {
+                    (keys.evaporation, keys.deposition) = (rates.2, rates.3);
+                    (keys.capacity, keys.erosion) = (loads.0, loads.1);
+                }
+                Model::Han(keys) => {
+                    keys.evaporation = metres(rates.2);
+                    (keys.capacity, keys.erosion) = (Some(loads.0), Some(loads.1));
+                }
+                Model::Stava(_) => unreachable!("it is not drawn"),
+            }
+            Hydraulic { boundary, rain_period: periods.0, ..step }
         },
     )
 }

@@ -4,9 +4,10 @@
 mod common;
 mod reference;
 
-use common::{landscape, rough, run};
+use common::{landscape, metres, rough, run, with};
 use reference::World;
-use weald::erode::hydraulic::{Boundary, Hydraulic, Model, Transport, UptakeLaw};
+use reference::numbers::Numbers;
+use weald::erode::hydraulic::{Boundary, HanKeys, Hydraulic, MeiKeys, Transport, UptakeLaw};
 use weald::erode::thermal::Scheme;
 use weald::erode::thermal_step::{Thermal, ThermalWithin};
 use weald::grid::Mask;
@@ -16,43 +17,74 @@ use weald::{Field, Landscape, Size};
 const COLUMNS: usize = 17;
 const ROWS: usize = 13;
 
+/// The models of which the reference has the equations.
+#[derive(Clone, Copy, PartialEq)]
+enum Published {
+    Han,
+    Mei,
+}
+
 /// Two whole cycles of rain and sun, with no number at its default.
-fn keys(model: Model) -> Hydraulic {
-    let mei = model == Model::Mei;
+fn keys(model: Published) -> Hydraulic {
     Hydraulic {
-        model,
+        model: match model {
+            Published::Han => of_han().into(),
+            Published::Mei => of_mei().into(),
+        },
         iterations: 14,
-        flow_rate: Some(0.17),
-        rain: Some(0.03),
-        evaporation: Some(0.02),
         rain_period: 5,
-        dry_period: Some(2),
-        capacity: Some(if mei { 0.11 } else { 3.0 }),
-        erosion: Some(if mei { 0.23 } else { 0.02 }),
-        deposition: 0.37,
-        deposit_ratio: 0.6,
-        epsilon: Some(0.004),
-        velocity_epsilon: Some(if mei { 0.02 } else { 0.07 }),
+        epsilon: metres(0.004),
         ..Hydraulic::default()
     }
 }
 
+fn of_han() -> HanKeys {
+    HanKeys {
+        flow_rate: 0.17,
+        rain: metres(0.03),
+        evaporation: metres(0.02),
+        dry_period: 2,
+        capacity: Some(3.0),
+        erosion: Some(0.02),
+        deposit_ratio: 0.6,
+        velocity_epsilon: metres(0.07),
+        ..HanKeys::default()
+    }
+}
+
+fn of_mei() -> MeiKeys {
+    MeiKeys {
+        flow_rate: 0.17,
+        rain: metres(0.03),
+        evaporation: 0.02,
+        dry_period: 2,
+        capacity: 0.11,
+        erosion: 0.23,
+        deposition: 0.37,
+        deposit_ratio: 0.6,
+        velocity_epsilon: metres(0.02),
+        ..MeiKeys::default()
+    }
+}
+
 /// Every rule that has equations of its own.
-fn variants(model: Model) -> Vec<Hydraulic> {
-    // Unlimited outflows leave films so thin that velocities in them would be rounding errors.
-    let velocity_epsilon = Some(if model == Model::Mei { 0.05 } else { 0.07 });
-    let unlimited = Hydraulic { limiter: false, flow_rate: Some(0.05), velocity_epsilon, ..keys(model) };
+fn variants(model: Published) -> Vec<Hydraulic> {
+    // Unlimited outflows leave water so thin that velocities in it would be rounding errors.
+    let velocity_epsilon = metres(if model == Published::Mei { 0.05 } else { 0.07 });
+    let unlimited = with!(keys(model), [Han Mei] {
+        limiter: false, flow_rate: 0.05, velocity_epsilon: velocity_epsilon,
+    });
     let mut all = vec![keys(model), unlimited];
     for transport in [Transport::SemiLagrangian, Transport::MacCormack] {
-        all.push(Hydraulic { transport: Some(transport), ..keys(model) });
+        all.push(with!(keys(model), [Han Mei] { transport: transport }));
     }
-    all.push(Hydraulic { transport: Some(Transport::MacCormack), conserve: Some(false), ..keys(model) });
+    all.push(with!(keys(model), [Han Mei] { transport: Transport::MacCormack, conserve: false }));
     for scheme in [Scheme::Axis, Scheme::Isotropic, Scheme::IsotropicSymmetric] {
         let thermal = ThermalWithin { scheme, talus: 0.4, strength: 0.13 };
-        all.push(Hydraulic { thermal: Some(Nested(thermal)), ..keys(model) });
+        all.push(with!(keys(model), [Han Mei] { thermal: Some(Nested(thermal)) }));
     }
-    if model == Model::Han {
-        all.push(Hydraulic { law: UptakeLaw::Dissolution, erosion: Some(0.3), ..keys(model) });
+    if model == Published::Han {
+        all.push(with!(keys(model), [Han] { law: UptakeLaw::Dissolution, erosion: Some(0.3) }));
     }
     all
 }
@@ -104,7 +136,7 @@ fn assert_alike(name: &str, got: &Field, expected: &Field, keys: &dyn std::fmt::
 fn compare(keys: &Hydraulic, masked: bool) {
     let mut land = ground(masked);
     let mut world = ringed(&land, keys.boundary);
-    let cycle = keys.rain_period + keys.dry_period.expect("given");
+    let cycle = keys.rain_period + Numbers::of(keys).dry_period;
     let mut means = [(); 2].map(|()| vec![0.0; world.land.len()]);
     for number in 0..keys.iterations {
         world.step(keys, number);
@@ -135,7 +167,7 @@ fn compare(keys: &Hydraulic, masked: bool) {
 
 #[test]
 fn hydraulic_erosion_does_what_the_equations_say() {
-    for model in [Model::Han, Model::Mei] {
+    for model in [Published::Han, Published::Mei] {
         for keys in variants(model) {
             compare(&keys, false);
             compare(&keys, true);
@@ -145,13 +177,14 @@ fn hydraulic_erosion_does_what_the_equations_say() {
 
 #[test]
 fn water_falls_over_open_edges_as_the_equations_say() {
-    for model in [Model::Han, Model::Mei] {
+    for model in [Published::Han, Published::Mei] {
         // Sliding moves the ground along the edges too, where water may not.
         let sliding = ThermalWithin { scheme: Scheme::Axis, talus: 0.4, strength: 0.13 };
         for thermal in [None, Some(Nested(sliding))] {
             for masked in [false, true] {
                 let thermal = thermal.clone();
-                compare(&Hydraulic { boundary: Boundary::Open, thermal, ..keys(model) }, masked);
+                let sliding = with!(keys(model), [Han Mei] { thermal: thermal });
+                compare(&Hydraulic { boundary: Boundary::Open, ..sliding }, masked);
             }
         }
     }

@@ -4,10 +4,10 @@ mod common;
 
 use std::sync::Mutex;
 
-use common::{hydraulic, landscape, rough};
+use common::{hydraulic, landscape, mei, rough, with};
 use weald::Error;
 use weald::engine::{Engine, Job, SavedSimulation, Watcher};
-use weald::erode::hydraulic::{Hydraulic, Model};
+use weald::erode::hydraulic::Hydraulic;
 use weald::step::Step;
 
 const COLUMNS: usize = 20;
@@ -50,8 +50,8 @@ fn poisoned(step: &Hydraulic, value: f32) -> SavedSimulation {
 
 #[test]
 fn an_overflow_names_its_step_and_cell_and_keeps_the_state_before() {
-    for model in [Model::Han, Model::Mei] {
-        let step = Hydraulic { model, limiter: false, flow_rate: Some(0.5), ..hydraulic(600) };
+    for step in [hydraulic(600), mei(600)] {
+        let step = with!(step, [Han Mei] { limiter: false, flow_rate: 0.5 });
         let resume = poisoned(&step, 3.0e38);
         let start = resume.iteration;
         let keeper = Keeper::default();

@@ -55,8 +55,9 @@ fn points(arguments: &FractalArguments) -> Option<(PathBuf, Keys)> {
     let path = arguments.points.clone()?;
     let mut keys = vec![key("export", "\"points\"")];
     keys.extend(arguments.export.clone());
-    let shared = arguments.picture.iter().filter(|(key, _)| ["depth", "seed"].contains(&key.as_str()));
-    keys.extend(shared.cloned());
+    let of_picture = |name: &str| arguments.picture.iter().find(|(key, _)| key == name).cloned();
+    // An expansion draws no points at random.
+    keys.extend(of_picture("depth").or_else(|| of_picture("seed")));
     Some((path, keys))
 }
 

@@ -8,6 +8,7 @@ pub(crate) mod convert;
 pub(crate) mod fractal;
 pub(crate) mod gallery;
 pub(crate) mod info;
+pub(crate) mod migrate;
 pub(crate) mod new;
 pub(crate) mod render;
 pub(crate) mod report;

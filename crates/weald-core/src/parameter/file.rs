@@ -2,7 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use super::declaration::{Complaints, Kind, ParameterValue};
+use super::complaints::Complaints;
+use super::declaration::ParameterValue;
+use super::kind::Kind;
 use crate::source::Node;
 
 /// A raster file that is read when the recipe runs. The plan makes its path start at the recipe's folder and

@@ -1,6 +1,8 @@
 //! Places in a recipe or a script.
 
-use super::declaration::{Complaints, Kind, ParameterValue};
+use super::complaints::Complaints;
+use super::declaration::ParameterValue;
+use super::kind::Kind;
 use super::values::wrong;
 use crate::source::{Node, Value};
 

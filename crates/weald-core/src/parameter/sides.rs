@@ -1,6 +1,8 @@
 //! The size of a grid in a recipe.
 
-use super::declaration::{Complaints, Kind, ParameterValue};
+use super::complaints::Complaints;
+use super::declaration::ParameterValue;
+use super::kind::Kind;
 use super::values::wrong;
 use crate::source::{Node, Value};
 

@@ -1,7 +1,9 @@
 //! The types that parameters can have, but for the [size of a grid](super::Sides).
 
-use super::declaration::{Choice, Complaints, Kind, ParameterValue, Parameters, range_in_words};
-use crate::source::{Node, Value};
+use super::complaints::Complaints;
+use super::declaration::{Choice, ParameterValue, Parameters};
+use super::kind::{Kind, range_in_words};
+use crate::source::{Node, Table, Value};
 
 fn within<T: Into<f64> + Copy + std::fmt::Display>(number: T, range: (f64, f64)) -> Result<T, String> {
     let wide: f64 = number.into();
@@ -172,8 +174,16 @@ impl<T: ParameterValue> ParameterValue for Option<T> {
         T::read(node, range, complaints).map(Some)
     }
 
+    fn with_keys_of(self, table: &Table, complaints: &mut Complaints) -> Self {
+        self.map(|value| value.with_keys_of(table, complaints))
+    }
+
     fn shown(&self) -> Option<String> {
         self.as_ref().and_then(T::shown)
+    }
+
+    fn in_words(&self) -> Option<String> {
+        self.as_ref().and_then(T::in_words)
     }
 }
 

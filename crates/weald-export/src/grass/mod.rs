@@ -12,7 +12,7 @@ use super::{Export, Finished, Mesh};
 use instances::{Scene, Standing};
 use weald_core::error::Error;
 use weald_core::landscape::Landscape;
-use weald_core::parameter::{LayerName, Nested};
+use weald_core::parameter::{Fault, LayerName, Nested};
 use weald_io::Part;
 use weald_plants::Vegetation;
 use weald_plants::grass::{Area, Instance, Meadow};
@@ -31,7 +31,7 @@ weald_core::parameters! {
         /// whole landscape.
         area: Vec<f64> = Vec::new(), range 0.0..=1.0e9, unit "m";
         /// Most sets; where there are more the run ends with an error.
-        most: u32 = 200_000, range 1..=10_000_000;
+        max_sets: u32 = 200_000, range 1..=10_000_000;
     }
 }
 
@@ -49,7 +49,7 @@ impl Export for GrassSets {
         vec![self.of.0.clone()]
     }
 
-    fn faults(&self) -> Vec<String> {
+    fn faults(&self) -> Vec<Fault> {
         let fault = match self.area.as_slice() {
             [] => None,
             [west, north, east, south] if west < east && north < south => None,
@@ -61,7 +61,7 @@ impl Export for GrassSets {
                 other.len()
             )),
         };
-        fault.into_iter().collect()
+        fault.map(|message| Fault::of("area", message)).into_iter().collect()
     }
 
     fn notes(&self, finished: &Finished<'_>) -> Vec<String> {
@@ -98,7 +98,7 @@ impl GrassSets {
     /// The sets with the heights at which they stand.
     fn standing(&self, landscape: &Landscape, meadow: &Meadow) -> Result<Vec<Standing>, Error> {
         let area = self.area_of(meadow);
-        let (expected, most) = (meadow.expected(&area), f64::from(self.most));
+        let (expected, most) = (meadow.expected(&area), f64::from(self.max_sets));
         // The count varies a little about what is expected; far beyond the limit nothing is made.
         if expected > 1.2 * most {
             return Err(self.too_many(expected));
@@ -123,9 +123,9 @@ impl GrassSets {
 
     fn too_many(&self, sets: f64) -> Error {
         Error::Limit(format!(
-            "grass: some {sets:.0} sets of `{}` stand in the `area`, but `most` is {}; choose a smaller `area`, fewer `sets` \
-             in the step, or a larger `most`",
-            self.of.0, self.most
+            "grass: some {sets:.0} sets of `{}` stand in the `area`, but `max_sets` is {}; choose a smaller `area`, fewer `sets` \
+             in the step, or a larger `max_sets`",
+            self.of.0, self.max_sets
         ))
     }
 }

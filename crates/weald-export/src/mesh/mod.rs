@@ -81,12 +81,12 @@ weald_core::parameters! {
         /// its own, else `natural`.
         colours: Option<Colours> = None;
         /// Elevation from which snow lies on natural ground that is not too steep. By default there is none.
-        snow_line: Option<f64> = None, unit "m";
-        /// Colours of heights, for `colours = "tints"`.
-        ramp: Tint = Tint::Hypsometric;
+        snow_line: Option<f64> = None, unit "m", unless colours = "materials" | "tints" | "plain";
+        /// Colours of heights.
+        ramp: Tint = Tint::Hypsometric, when colours = "tints";
         /// Width of the colour texture. By default its longer side has one texel a cell, but 1024 at least and 4096 at
         /// most.
-        texture: Option<u32> = None, range 16..=16384, unit "px";
+        texture: Option<u32> = None, range 16..=16384, unit "px", unless colours = "plain";
         /// Whether a normal map of one texel a cell, at most 4096 a side, gives the mesh the relief that the error
         /// allowed it to leave out.
         normal_map: bool = true;
@@ -94,7 +94,7 @@ weald_core::parameters! {
         /// ground beside it is followed more closely, to a fifth of `error` at most, so that shores stay shores.
         water: bool = true;
         /// Depth from which water is drawn: rain lies on all slopes as a film.
-        shallowest: f64 = 0.5, range 0.001..=1000.0, unit "m";
+        shallowest: f64 = 0.5, range 0.001..=1000.0, unit "m", when water = true;
         /// Depth of walls below the lowest point that close the edges of the mesh; 0 leaves them open.
         skirt: f64 = 0.0, range 0.0..=100_000.0, unit "m";
     }

@@ -30,14 +30,14 @@ weald_core::parameters! {
         /// the ground by its error. Without it, plants stand on the ground itself.
         on: Option<Nested<Mesh>> = None;
         /// Fronds or planes of a plant. By default 8 fronds for a fern, 3 planes that cross for other flat shapes, and
-        /// shapes of space alone. For a `.glb`.
-        fronds: Option<u32> = None, range 1..=64;
-        /// Height of the picture on the leaves. For a `.glb`.
-        texture: u32 = 512, range 32..=4096, unit "px";
-        /// Colour of leaves. For a `.glb`.
-        leaf: Colour = Colour(foliage::Colours::USUAL.leaf);
-        /// Colour of stems. For a `.glb`.
-        stem: Colour = Colour(foliage::Colours::USUAL.stem);
+        /// shapes of space alone.
+        fronds: Option<u32> = None, range 1..=64, for "glb";
+        /// Height of the picture on the leaves.
+        texture: u32 = 512, range 32..=4096, unit "px", for "glb";
+        /// Colour of leaves.
+        leaf: Colour = Colour(foliage::Colours::USUAL.leaf), for "glb";
+        /// Colour of stems.
+        stem: Colour = Colour(foliage::Colours::USUAL.stem), for "glb";
     }
 }
 

@@ -15,7 +15,7 @@ use weald_engine::device::Device;
 use weald_engine::device_machine::most_cells;
 use weald_engine::generator::Generator;
 use weald_land::erode::dissolution_step::DissolutionWithin;
-use weald_land::erode::hydraulic::{Hydraulic, Model};
+use weald_land::erode::hydraulic::{HanKeys, Hydraulic, MeiKeys, StavaKeys};
 use weald_land::erode::slippage_step::SlippageWithin;
 use weald_land::erode::thermal_step::ThermalWithin;
 use weald_land::generate::diamond_square::DiamondSquare;
@@ -55,17 +55,18 @@ pub fn run_on(
 
 fn contenders() -> [(&'static str, Hydraulic); 4] {
     let han = Hydraulic::default();
-    let mei = Hydraulic { model: Model::Mei, ..han.clone() };
-    let stava = Hydraulic {
-        model: Model::Stava,
+    let mei = Hydraulic { model: MeiKeys::default().into(), ..han.clone() };
+    let layered = StavaKeys {
         dissolution: Some(Nested(DissolutionWithin::default())),
         slippage: Some(Nested(SlippageWithin::default())),
-        ..han.clone()
+        ..StavaKeys::default()
     };
+    let stava = Hydraulic { model: layered.into(), ..han.clone() };
     let thermal = Some(Nested(ThermalWithin::default()));
+    let sliding = HanKeys { thermal, ..HanKeys::default() };
     [
         ("han", han.clone()),
-        ("han with thermal", Hydraulic { thermal, ..han }),
+        ("han with thermal", Hydraulic { model: sliding.into(), ..han }),
         ("mei", mei),
         ("stava, four materials", stava),
     ]

@@ -6,11 +6,11 @@ use weald_core::domain::Domain;
 use weald_core::error::Error;
 use weald_core::grid::{Field, Size};
 use weald_core::landscape::Landscape;
-use weald_core::parameter::LayerName;
+use weald_core::parameter::{LayerName, Length};
 use weald_core::random::signed2;
 use weald_engine::Job;
 use weald_engine::step::Step;
-use weald_land::erode::hydraulic::Hydraulic;
+use weald_land::erode::hydraulic::{HanKeys, Hydraulic, Model};
 use weald_picture::{Image, Scale, encode};
 
 pub(super) const FIGURE: Figure = Figure {
@@ -73,13 +73,12 @@ fn left_alone(side: usize, iterations: u32, rate: f64) -> Result<Landscape, Erro
     landscape.insert("height", "m", Field::filled(size, 0.0));
     let ripple = |x: usize, y: usize| DEPTH + RIPPLES * signed2(1, x as i64, y as i64) as f32;
     landscape.insert("lake", "m", Field::from_function(size, ripple));
+    let [rain, evaporation] = [Length::Metres(0.0); 2];
+    let erosion = Some(0.0);
+    let keys = HanKeys { flow_rate: rate, rain, evaporation, erosion, limiter: false, ..HanKeys::default() };
     let hydraulic = Hydraulic {
         iterations,
-        flow_rate: Some(rate),
-        rain: Some(0.0),
-        evaporation: Some(0.0),
-        erosion: Some(0.0),
-        limiter: false,
+        model: Model::Han(keys),
         initial_water: Some(LayerName::of("lake")),
         ..Hydraulic::default()
     };

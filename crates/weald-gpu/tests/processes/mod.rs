@@ -10,7 +10,7 @@ use weald::recipe::parameter::{LayerName, Nested};
 use weald::step::Step;
 use weald::{Landscape, Size};
 
-use crate::common::{self, layered, rough, spring};
+use crate::common::{self, layered, metres, rough, spring, with};
 
 const COLUMNS: usize = 70;
 const ROWS: usize = 90;
@@ -21,11 +21,15 @@ const STEPS: u32 = 21;
 /// Seasons so short that two of them pass, and that some steps count into the means, which go through the ground one
 /// at a time, and others do not, which go several at once.
 fn with_short_seasons(step: Hydraulic) -> Hydraulic {
-    Hydraulic { rain_period: 4, dry_period: Some(3), ..step }
+    with!(Hydraulic { rain_period: 4, ..step }, [Han Mei Stava] { dry_period: 3 })
 }
 
 fn hydraulic(iterations: u32) -> Hydraulic {
     with_short_seasons(common::hydraulic(iterations))
+}
+
+fn mei(iterations: u32) -> Hydraulic {
+    with_short_seasons(common::mei(iterations))
 }
 
 fn stava(iterations: u32) -> Hydraulic {
@@ -45,34 +49,26 @@ pub(crate) fn processes() -> Vec<Box<dyn Step>> {
             ..Thermal::default()
         }));
     }
-    for model in [Model::Han, Model::Mei] {
+    for model in [hydraulic(STEPS), mei(STEPS)] {
         for transport in [Transport::Upwind, Transport::SemiLagrangian, Transport::MacCormack] {
             for boundary in [Boundary::Closed, Boundary::Open] {
-                all.push(Box::new(Hydraulic {
-                    model,
-                    transport: Some(transport),
-                    boundary,
-                    ..hydraulic(STEPS)
-                }));
+                let step = with!(model.clone(), [Han Mei] { transport: transport });
+                all.push(Box::new(Hydraulic { boundary, ..step }));
             }
         }
         for boundary in [Boundary::Closed, Boundary::Open] {
-            let transport = Some(Transport::MacCormack);
-            all.push(Box::new(Hydraulic {
-                model,
-                transport,
-                conserve: Some(false),
-                boundary,
-                ..hydraulic(STEPS)
-            }));
+            let transport = Transport::MacCormack;
+            let step = with!(model.clone(), [Han Mei] { transport: transport, conserve: false });
+            all.push(Box::new(Hydraulic { boundary, ..step }));
         }
         for scheme in schemes {
             let thermal = Some(Nested(ThermalWithin { scheme, talus: 0.3, ..ThermalWithin::default() }));
-            all.push(Box::new(Hydraulic { model, thermal, deposit_ratio: 0.3, ..hydraulic(STEPS) }));
+            let step = with!(model.clone(), [Han Mei] { thermal: thermal, deposit_ratio: 0.3 });
+            all.push(Box::new(step));
         }
-        all.push(Box::new(Hydraulic { model, limiter: false, flow_rate: Some(0.05), ..hydraulic(STEPS) }));
+        all.push(Box::new(with!(model, [Han Mei] { limiter: false, flow_rate: 0.05 })));
     }
-    all.push(Box::new(Hydraulic { law: UptakeLaw::Dissolution, ..hydraulic(STEPS) }));
+    all.push(Box::new(with!(hydraulic(STEPS), [Han] { law: UptakeLaw::Dissolution })));
     all.push(Box::new(Hydraulic { region: Some(LayerName::of("painted")), ..hydraulic(STEPS) }));
     all.extend(processes_of_stava());
     all
@@ -81,8 +77,10 @@ pub(crate) fn processes() -> Vec<Box<dyn Step>> {
 /// All of stava, each of its processes alone, and each transport.
 fn processes_of_stava() -> Vec<Box<dyn Step>> {
     // Heavy rain and few steps: these are many, and something must move.
-    let stava = Hydraulic { rain: Some(0.05), ..stava(15) };
-    let alone = Hydraulic { dissolution: None, slippage: None, viscosity: 0.0, ..stava.clone() };
+    let stava = with!(stava(15), [Stava] { rain: metres(0.05) });
+    let Model::Stava(all_of_it) = stava.model.clone() else { unreachable!("it is Stava's") };
+    let alone = with!(stava.clone(), [Stava] { dissolution: None, slippage: None, viscosity: 0.0 });
+    let slipping = with!(alone.clone(), [Stava] { slippage: all_of_it.slippage });
     let painted = Some(LayerName::of("painted"));
     let (rain_layer, region) = (painted.clone(), painted);
     let mut all = vec![
@@ -90,19 +88,18 @@ fn processes_of_stava() -> Vec<Box<dyn Step>> {
         Hydraulic { boundary: Boundary::Open, ..stava.clone() },
         Hydraulic { region, ..stava.clone() },
         alone.clone(),
-        Hydraulic { viscosity: 0.7, ..alone.clone() },
-        Hydraulic { dissolution: stava.dissolution.clone(), ..alone.clone() },
-        Hydraulic { slippage: stava.slippage.clone(), boundary: Boundary::Open, ..alone.clone() },
-        Hydraulic {
-            rain_layer,
+        with!(alone.clone(), [Stava] { viscosity: 0.7 }),
+        with!(alone.clone(), [Stava] { dissolution: all_of_it.dissolution }),
+        Hydraulic { boundary: Boundary::Open, ..slipping },
+        with!(alone, [Stava] {
+            rain_layer: rain_layer,
             sources: vec![spring(12.0, 30.0)],
             drains: vec![spring(50.0, 20.0)],
-            ..alone
-        },
+        }),
     ];
     for transport in [Transport::Upwind, Transport::SemiLagrangian] {
         for viscosity in [0.0, 0.7] {
-            all.push(Hydraulic { transport: Some(transport), viscosity, ..stava.clone() });
+            all.push(with!(stava.clone(), [Stava] { transport: transport, viscosity: viscosity }));
         }
     }
     let mut all: Vec<Box<dyn Step>> =
@@ -123,9 +120,9 @@ fn processes_of_stava() -> Vec<Box<dyn Step>> {
 /// Each model once, with thermal weathering or all of its processes.
 pub(crate) fn whole_models() -> Vec<Box<dyn Step>> {
     let thermal = Some(Nested(ThermalWithin { talus: 0.3, ..ThermalWithin::default() }));
-    let han = Hydraulic { thermal, ..hydraulic(STEPS) };
-    let mei = Hydraulic { model: Model::Mei, ..han.clone() };
-    let stava = Hydraulic { rain: Some(0.05), ..stava(STEPS) };
+    let han = with!(hydraulic(STEPS), [Han] { thermal: thermal.clone() });
+    let mei = with!(mei(STEPS), [Mei] { thermal: thermal });
+    let stava = with!(stava(STEPS), [Stava] { rain: metres(0.05) });
     vec![Box::new(han), Box::new(mei), Box::new(stava)]
 }
 

@@ -42,7 +42,7 @@ parameters! {
         scale: f64 = 0.0, range 0.0..=1.0e6, unit "m";
         /// Ground that is gentler than this has no line of fall: profile, plan and tangential curvature are 0
         /// there.
-        level_deg: f64 = 0.01, range 0.000_001..=10.0, unit "deg";
+        min_slope_deg: f64 = 0.01, range 0.000_001..=10.0, unit "deg";
     }
 }
 
@@ -64,7 +64,7 @@ impl Step for Curvature {
     fn run(&self, landscape: &mut Landscape, _: &Job<'_>) -> Result<Outcome, Error> {
         let domain = &landscape.domain;
         let surface = Surface::new(landscape.field(&self.of.0)?, domain).reaching(self.scale)?;
-        let level = libm::tan(self.level_deg.to_radians());
+        let level = libm::tan(self.min_slope_deg.to_radians());
         let fields = fields_of(domain, |x, y| curvatures(surface.at(x, y), level * level));
         for (name, field) in LAYERS.into_iter().zip(fields) {
             landscape.insert(name, "1/m", field);

@@ -16,7 +16,7 @@ use super::ensure_finite;
 use weald_core::error::Error;
 use weald_core::grid::Field;
 use weald_core::landscape::Landscape;
-use weald_core::parameter::LayerName;
+use weald_core::parameter::{Fault, LayerName};
 use weald_core::parameters;
 use weald_engine::Job;
 use weald_engine::step::{Entry, Outcome, Stage, Step};
@@ -38,8 +38,8 @@ parameters! {
         wetness: LayerName = LayerName::of("wetness");
         /// Layer of the depth of water that a simulation left.
         water: Option<LayerName> = None;
-        /// Water of a simulation that is no deeper is a film of rain.
-        film: f64 = 0.05, range 0.0..=1000.0, unit "m";
+        /// Water of a simulation that is no deeper is rain on its way.
+        shallowest: f64 = 0.05, range 0.0..=1000.0, unit "m", with water;
         /// Layer of rivers.
         rivers: Option<LayerName> = None;
         /// Layer of lakes.
@@ -64,9 +64,9 @@ impl Step for Moisture {
         vec![("moisture".to_owned(), "1"), ("height_above_water".to_owned(), "m")]
     }
 
-    fn faults(&self) -> Vec<String> {
+    fn faults(&self) -> Vec<Fault> {
         let fault = format!("`wet` is {}, but must be above `dry`, which is {}", self.wet, self.dry);
-        (self.wet <= self.dry).then_some(fault).into_iter().collect()
+        (self.wet <= self.dry).then_some(Fault::of("wet", fault)).into_iter().collect()
     }
 
     fn range(&self, layer: &str) -> Option<(f64, f64)> {
@@ -100,7 +100,7 @@ impl Moisture {
     fn water_cells(&self, landscape: &Landscape, directions: &Directions) -> Result<Vec<bool>, Error> {
         let mut water: Vec<bool> =
             (0..directions.codes().len()).map(|cell| directions.is_sea(cell)).collect();
-        let named = [(&self.water, self.film as f32), (&self.rivers, 0.0), (&self.lakes, 0.0)];
+        let named = [(&self.water, self.shallowest as f32), (&self.rivers, 0.0), (&self.lakes, 0.0)];
         for (name, least) in named.into_iter().filter_map(|(name, least)| Some((name.as_ref()?, least))) {
             for (water, &value) in water.iter_mut().zip(landscape.field(&name.0)?.values()) {
                 *water |= value > least;

@@ -5,11 +5,11 @@
 //! leaves a mask met with itself as it is.
 
 use super::cells::field_of;
-use weald_core::condition::{Condition, turned};
+use weald_core::condition::{self, Condition, turned};
 use weald_core::error::Error;
 use weald_core::grid::Field;
 use weald_core::landscape::Landscape;
-use weald_core::parameter::{LayerName, Nested};
+use weald_core::parameter::{Fault, LayerName, Nested};
 use weald_core::{choices, parameters};
 use weald_engine::Job;
 use weald_engine::step::{Entry, Outcome, Stage, Step};
@@ -60,13 +60,12 @@ impl Step for Select {
         Some((0.0, 1.0))
     }
 
-    fn faults(&self) -> Vec<String> {
+    fn faults(&self) -> Vec<Fault> {
         let none = self.r#where.is_empty().then(|| {
-            "`where` is empty: it needs a condition, such as { layer = \"slope\", above = 30 }".to_owned()
+            let message = "`where` is empty: it needs a condition, such as { layer = \"slope\", above = 30 }";
+            Fault::of("where", message)
         });
-        none.into_iter()
-            .chain(self.r#where.iter().filter_map(|Nested(condition)| condition.fault()))
-            .collect()
+        none.into_iter().chain(condition::faults(&self.r#where)).collect()
     }
 
     fn run(&self, landscape: &mut Landscape, _: &Job<'_>) -> Result<Outcome, Error> {
@@ -114,6 +113,6 @@ mod tests {
 
     #[test]
     fn a_selection_of_nothing_is_a_fault() {
-        assert!(Select::default().faults()[0].contains("`where` is empty"));
+        assert!(Select::default().faults()[0].message.contains("`where` is empty"));
     }
 }

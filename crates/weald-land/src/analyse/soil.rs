@@ -50,7 +50,7 @@ parameters! {
         erosion: Option<LayerName> = None;
         /// Share of it that fell in the time in which the soil formed: a simulation soon wears what takes land a
         /// hundred times as long.
-        recent_erosion: f64 = 0.01, range 0.0..=1.0;
+        recent_erosion: f64 = 0.01, range 0.0..=1.0, with erosion;
         /// Layer of what water laid down and left, in metres, such as `deposition`. Without it, nothing.
         deposition: Option<LayerName> = None;
         /// Layer of moisture from 0 to 1. Without it, moisture limits nothing.
@@ -76,14 +76,14 @@ parameters! {
         /// Depth that holds about two thirds of the roots.
         rooting: f64 = 0.4, range 0.01..=10.0, unit "m";
         /// Moisture at which plants grow best.
-        best_moisture: f64 = 0.6, range 0.05..=0.95;
+        best_moisture: f64 = 0.6, range 0.05..=0.95, with moisture;
         /// Factor of fertility where moisture is 0.
-        dry: f64 = 0.2, range 0.0..=1.0;
+        dry: f64 = 0.2, range 0.0..=1.0, with moisture;
         /// Factor of fertility where moisture is 1, and roots lack air.
-        wet: f64 = 0.5, range 0.0..=1.0;
+        wet: f64 = 0.5, range 0.0..=1.0, with moisture;
         /// Factor of fertility where there are no fresh deposits; with half a metre of them it is most of the way
-        /// to 1. Only where `deposition` is given.
-        old: f64 = 0.6, range 0.0..=1.0;
+        /// to 1.
+        old: f64 = 0.6, range 0.0..=1.0, with deposition;
     }
 }
 

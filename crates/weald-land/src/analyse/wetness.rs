@@ -40,7 +40,7 @@ parameters! {
         /// Shares of lower neighbours are in proportion to slope to this power.
         exponent: f64 = 1.1, range 0.0..=20.0;
         /// Gentler slopes count as this one, so that level ground has an index: a metre in a kilometre.
-        least_slope: f64 = 0.001, range 1.0e-6..=1.0;
+        min_slope: f64 = 0.001, range 1.0e-6..=1.0;
         /// Height of the sea, in which flow ends. Without it there is no sea.
         sea_level: Option<f64> = None, range -1.0e6..=1.0e6, unit "m";
         /// Layer that is written.
@@ -67,7 +67,7 @@ impl Step for Wetness {
         let routing = Routing { sea_level: self.sea_level, ..Routing::default() };
         let routed = route(landscape.field(&self.of.0)?, domain.land.as_ref(), &routing);
         let flow = MultipleFlow { routed: &routed, land: domain.land.as_ref(), exponent: self.exponent };
-        let index = wetness(&flow, domain.cell, self.least_slope);
+        let index = wetness(&flow, domain.cell, self.min_slope);
         landscape.insert(&self.into.0, "1", index);
         Ok(Outcome { iterations: 1, ..Outcome::default() })
     }

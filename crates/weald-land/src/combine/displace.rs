@@ -13,7 +13,7 @@ use super::{store, written};
 use weald_core::error::Error;
 use weald_core::grid::{Field, Mask};
 use weald_core::landscape::Landscape;
-use weald_core::parameter::LayerName;
+use weald_core::parameter::{Fault, LayerName};
 use weald_core::parameters;
 use weald_engine::Job;
 use weald_engine::step::{Entry, Outcome, Stage, Step};
@@ -52,10 +52,10 @@ impl Step for Displace {
         written(self.into.as_ref(), &self.layer)
     }
 
-    fn faults(&self) -> Vec<String> {
+    fn faults(&self) -> Vec<Fault> {
         let nowhere = self.east.is_none() && self.south.is_none();
         nowhere
-            .then(|| "give `east`, `south` or both, or nothing is displaced".to_owned())
+            .then(|| Fault::of("east", "give `east`, `south` or both, or nothing is displaced"))
             .into_iter()
             .collect()
     }

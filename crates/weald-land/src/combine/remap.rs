@@ -9,7 +9,7 @@
 use super::{map, store, target, written};
 use weald_core::error::Error;
 use weald_core::landscape::Landscape;
-use weald_core::parameter::LayerName;
+use weald_core::parameter::{Fault, LayerName};
 use weald_core::parameters;
 use weald_engine::Job;
 use weald_engine::step::{Entry, Outcome, Stage, Step};
@@ -28,7 +28,7 @@ parameters! {
         /// `[low, high]` of the values after; high first turns them over.
         to: Vec<f64> = vec![0.0, 1.0], range -1.0e9..=1.0e9;
         /// Whether values outside `from` become the ends of `to`; otherwise the line goes on beyond them.
-        clamp: bool = true;
+        clamp: bool = true, with from;
         /// Exponent of the way from low to high: above 1 lowers the middle, below 1 lifts it.
         gamma: f64 = 1.0, range 0.01..=100.0;
         /// Heights of a curve at even steps from 0 to 1, joined by lines: `[0, 0, 1]` cuts off the lower
@@ -53,7 +53,7 @@ impl Step for Remap {
         written(self.into.as_ref(), &self.layer)
     }
 
-    fn faults(&self) -> Vec<String> {
+    fn faults(&self) -> Vec<Fault> {
         let range_is_right = match self.from[..] {
             [] => true,
             [low, high] => low < high,
@@ -65,21 +65,32 @@ impl Step for Remap {
         let shaped = self.gamma != 1.0 || !self.curve.is_empty();
         let rules = [
             (
+                "from",
                 !range_is_right,
                 format!(
                     "`from` is {:?}, but must be [low, high] with low below high, or be left out",
                     self.from
                 ),
             ),
-            (self.to.len() != 2, format!("`to` is {:?}, but must be two numbers, [low, high]", self.to)),
-            (!unit_is_right, format!("`unit` must be 1 to {LONGEST_UNIT} printable characters")),
-            (self.curve.len() == 1, "`curve` has one height, but a curve has two or more".to_owned()),
             (
+                "to",
+                self.to.len() != 2,
+                format!("`to` is {:?}, but must be two numbers, [low, high]", self.to),
+            ),
+            ("unit", !unit_is_right, format!("`unit` must be 1 to {LONGEST_UNIT} printable characters")),
+            (
+                "curve",
+                self.curve.len() == 1,
+                "`curve` has one height, but a curve has two or more".to_owned(),
+            ),
+            (
+                "clamp",
                 shaped && !self.clamp,
                 "`gamma` and `curve` have no meaning outside `from`: set `clamp = true`".to_owned(),
             ),
         ];
-        rules.into_iter().filter(|(broken, _)| *broken).map(|(_, sentence)| sentence).collect()
+        let broken = rules.into_iter().filter(|(_, broken, _)| *broken);
+        broken.map(|(key, _, sentence)| Fault::of(key, sentence)).collect()
     }
 
     fn run(&self, landscape: &mut Landscape, _: &Job<'_>) -> Result<Outcome, Error> {

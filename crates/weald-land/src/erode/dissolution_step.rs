@@ -16,7 +16,7 @@ use weald_core::error::Error;
 use weald_core::grid::Size;
 use weald_core::landscape::Landscape;
 use weald_core::material::Material;
-use weald_core::parameter::LayerName;
+use weald_core::parameter::{Fault, LayerName};
 use weald_core::parameters;
 use weald_engine::Job;
 use weald_engine::program::{Content, Program};
@@ -99,8 +99,9 @@ impl Step for DissolutionStep {
         Layered::Changes
     }
 
-    fn faults_among(&self, materials: &[Material]) -> Vec<String> {
-        deposit_of(self.deposit.as_ref(), materials).err().into_iter().collect()
+    fn faults_among(&self, materials: &[Material]) -> Vec<Fault> {
+        let fault = deposit_of(self.deposit.as_ref(), materials).err();
+        fault.map(|message| Fault::of("deposit", message)).into_iter().collect()
     }
 
     fn run(&self, landscape: &mut Landscape, job: &Job<'_>) -> Result<Outcome, Error> {

@@ -15,7 +15,7 @@ use weald_core::error::Error;
 use weald_core::grid::Size;
 use weald_core::landscape::Landscape;
 use weald_core::material::Material;
-use weald_core::parameter::LayerName;
+use weald_core::parameter::{Fault, LayerName};
 use weald_core::parameters;
 use weald_engine::Job;
 use weald_engine::program::Program;
@@ -53,7 +53,7 @@ impl SlippageWithin {
     /// [`Error::Run`] for a strength that is unstable with so many.
     pub(crate) fn slippage(&self, materials: &[Material]) -> Result<Slippage, Error> {
         if let Some(fault) = self.fault_among(materials) {
-            return Err(Error::Run(fault));
+            return Err(Error::Run(fault.message));
         }
         let tangent =
             |material: &Material| libm::tan(material.talus_deg.clamp(0.0, 90.0).to_radians()).max(0.0) as f32;
@@ -62,14 +62,15 @@ impl SlippageWithin {
     }
 
     /// Materials slide at once, so the share of each is bounded by their number.
-    pub(super) fn fault_among(&self, materials: &[Material]) -> Option<String> {
+    pub(super) fn fault_among(&self, materials: &[Material]) -> Option<Fault> {
         let (strength, count) = (self.strength, materials.len());
         let most = 0.25 / count as f64;
         (strength > most).then(|| {
-            format!(
+            let message = format!(
                 "`strength` is {strength}, but must be at most 0.25 / {count} = {most:.4}: all {count} materials \
                  slide at once"
-            )
+            );
+            Fault::of("strength", message)
         })
     }
 }
@@ -95,7 +96,7 @@ impl Step for SlippageStep {
         Layered::Changes
     }
 
-    fn faults_among(&self, materials: &[Material]) -> Vec<String> {
+    fn faults_among(&self, materials: &[Material]) -> Vec<Fault> {
         self.within().fault_among(materials).into_iter().collect()
     }
 

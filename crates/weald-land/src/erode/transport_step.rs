@@ -12,7 +12,7 @@ use weald_core::domain::Domain;
 use weald_core::error::Error;
 use weald_core::grid::{Field, Size};
 use weald_core::landscape::Landscape;
-use weald_core::parameter::LayerName;
+use weald_core::parameter::{LayerName, Length};
 use weald_core::{choices, parameters};
 use weald_engine::Job;
 use weald_engine::program::Program;
@@ -40,16 +40,16 @@ parameters! {
         iterations: u32 = 100, range 0..=10_000_000;
         /// How it travels.
         scheme: Scheme = Scheme::MacCormack;
-        /// Whether scheme = "maccormack" takes the form that conserves the layer's sum. Default true.
-        conserve: Option<bool> = None;
+        /// Whether it takes the form that conserves the layer's sum.
+        conserve: bool = true, when scheme = "maccormack";
         /// Layer with the depth of water.
         water: LayerName = LayerName::of("water");
         /// Layer with the flow through the eastern edge of each cell, in m³ a step.
         flux_x: LayerName = LayerName::of("flux_x");
         /// Layer with the flow through the southern edge of each cell, in m³ a step.
         flux_y: LayerName = LayerName::of("flux_y");
-        /// Depth added where amounts and flows are divided by depth. Default 0.001 cells.
-        epsilon: Option<f64> = None, range 0.000_000_1..=100.0, unit "m";
+        /// Depth added where amounts and flows are divided by depth.
+        epsilon: Length = Length::Cells(0.001), range 0.000_000_1..=100.0, unit "m";
     }
 }
 
@@ -63,13 +63,13 @@ pub const ENTRY: Entry = Entry::of::<Carry>(
 
 impl Carry {
     fn epsilon_in_cells(&self, cell: f64) -> f32 {
-        self.epsilon.map_or(0.001, |metres| metres / cell) as f32
+        self.epsilon.in_cells(cell) as f32
     }
 
     fn advection(&self, cell: f64) -> Advection {
         match self.scheme {
             Scheme::SemiLagrangian => Advection::SemiLagrangian,
-            Scheme::MacCormack if self.conserve == Some(false) => Advection::MacCormack,
+            Scheme::MacCormack if !self.conserve => Advection::MacCormack,
             Scheme::MacCormack => Advection::FluxCorrected { epsilon: self.epsilon_in_cells(cell) },
         }
     }
@@ -132,13 +132,6 @@ impl Step for Carry {
 
     fn writes(&self) -> Vec<(String, &'static str)> {
         vec![(self.layer.0.clone(), "m")]
-    }
-
-    fn faults(&self) -> Vec<String> {
-        let impossible = self.scheme == Scheme::SemiLagrangian && self.conserve == Some(true);
-        let fault =
-            "`conserve` is true, but scheme = \"semi-lagrangian\" cannot conserve; \"maccormack\" can";
-        impossible.then(|| fault.to_owned()).into_iter().collect()
     }
 
     fn run(&self, landscape: &mut Landscape, job: &Job<'_>) -> Result<Outcome, Error> {

@@ -3,7 +3,7 @@
 use weald_core::domain::Domain;
 use weald_core::error::Error;
 use weald_core::grid::Field;
-use weald_core::parameter::LayerName;
+use weald_core::parameter::{Fault, LayerName};
 use weald_core::parameters;
 use weald_engine::generator::Generator;
 use weald_engine::step::{Entry, Stage};
@@ -41,10 +41,10 @@ impl Generator for Cone {
         &self.into
     }
 
-    fn contradictions(&self) -> Vec<String> {
+    fn contradictions(&self) -> Vec<Fault> {
         let upside_down =
             format!("`peak` is {} m, below `base`, {} m: the cone would not show", self.peak, self.base);
-        if self.peak < self.base { vec![upside_down] } else { Vec::new() }
+        if self.peak < self.base { vec![Fault::of("peak", upside_down)] } else { Vec::new() }
     }
 }
 

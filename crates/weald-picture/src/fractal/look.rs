@@ -65,33 +65,40 @@ weald_core::parameters! {
         /// Room around the shape, as a share of the shorter side.
         margin: f64 = 0.05, range 0.0..=0.45;
         /// Points for each pixel. By default 100, and 24 for each frame of a film.
-        samples: Option<f64> = None, range 0.01..=100_000.0;
+        samples: Option<f64> = None, range 0.01..=100_000.0, when draw = "density",
+            for "png" | "apng" | "mp4" | "webm";
         /// Buckets along the side of a pixel, each with its own density.
-        supersample: u32 = 2, range 1..=8;
+        supersample: u32 = 2, range 1..=8, when draw = "density",
+            for "png" | "apng" | "mp4" | "webm";
         /// Width of the Gaussian that makes pixels of buckets.
-        filter: f64 = 0.5, range 0.0..=8.0, unit "px";
+        filter: f64 = 0.5, range 0.0..=8.0, unit "px", when draw = "density",
+            for "png" | "apng" | "mp4" | "webm";
         /// What the colours tell: the code of a point, its largest part, or nothing.
-        colour_by: ColourBy = ColourBy::Code;
+        colour_by: ColourBy = ColourBy::Code, without ink;
         /// Colours from the stem, or the first map, to the last.
-        palette: Palette = Palette::Fern;
+        palette: Palette = Palette::Fern, without ink;
         /// One colour for all, in place of a palette.
         ink: Option<Colour> = None;
         /// What lies behind.
         background: Background = Background::White;
         /// Brightness: each 1 more is as if there were twice as many points.
-        exposure: f64 = 0.0, range -16.0..=16.0, unit "stops";
+        exposure: f64 = 0.0, range -16.0..=16.0, unit "stops", when draw = "density",
+            for "png" | "apng" | "mp4" | "webm";
         /// Exponent that lifts thin parts out of the background.
-        gamma: f64 = 4.0, range 0.1..=10.0;
+        gamma: f64 = 4.0, range 0.1..=10.0, when draw = "density",
+            for "png" | "apng" | "mp4" | "webm";
         /// Cover up to which gamma is a straight line, so that single points do not shine.
-        gamma_threshold: f64 = 0.01, range 0.0..=1.0;
+        gamma_threshold: f64 = 0.01, range 0.0..=1.0, when draw = "density",
+            for "png" | "apng" | "mp4" | "webm";
         /// Whether gamma keeps colours saturated (1) or acts on each channel (0).
-        vibrancy: f64 = 1.0, range 0.0..=1.0;
+        vibrancy: f64 = 1.0, range 0.0..=1.0, when draw = "density",
+            for "png" | "apng" | "mp4" | "webm";
         /// Digits to which codes are opened for dots and parts. By default they are opened down to `finest`.
         depth: Option<u32> = None, range 0..=26;
         /// Size of the smallest dots and parts.
-        finest: f64 = 2.0, range 0.1..=1000.0, unit "px";
+        finest: f64 = 2.0, range 0.1..=1000.0, unit "px", without depth;
         /// Diameter of a dot. By default `finest`, or 1.5 px with `depth`.
-        dot: Option<f64> = None, range 0.05..=1000.0, unit "px";
+        dot: Option<f64> = None, range 0.05..=1000.0, unit "px", when draw = "dots";
         /// Turn of the camera about the vertical axis. By default 0 for a fractal of the plane, 30 for one of space.
         turn_deg: Option<f64> = None, range -36000.0..=36000.0, unit "deg";
         /// How far the camera stands above the horizon. By default 0 for a fractal of the plane, 12 for one of space.

@@ -9,7 +9,7 @@ pub use flight::Flight;
 use super::{Camera, Image, Picture, Stage, View};
 use weald_core::error::Error;
 use weald_core::landscape::Landscape;
-use weald_core::parameter::{Complaints, Parameter, Parameters, Places, keys_of};
+use weald_core::parameter::{Complaints, Parameter, Parameters, Places};
 use weald_core::source::Table;
 
 weald_core::parameters! {
@@ -19,7 +19,7 @@ weald_core::parameters! {
         samples: u32 = 4, range 1..=4;
         /// Further places, `[x, y]` as `eye` has them, that the camera flies through after `eye`, at the same height
         /// above the ground; it looks ahead, or at `target`. It goes with `eye` and `frames`.
-        through: Option<Places> = None;
+        through: Option<Places> = None, with eye;
     }
 }
 
@@ -44,22 +44,16 @@ impl Parameters for Render {
         all
     }
 
-    fn read(table: &Table, complaints: &mut Complaints) -> Self {
-        let own = keys_of::<RenderKeys>(table);
-        let mut view = table.clone();
-        for (key, _) in &own.entries {
-            view.take(key);
-        }
-        let keys = RenderKeys::read(&own, complaints);
-        if let Some(samples) = own.get("samples").filter(|_| ![1, 4].contains(&keys.samples)) {
+    fn read_values(table: &Table, complaints: &mut Complaints) -> Self {
+        let keys = RenderKeys::read_values(table, complaints);
+        if let Some(samples) = table.get("samples").filter(|_| ![1, 4].contains(&keys.samples)) {
             let message = format!("`samples` is {}; every device has 1 and 4", keys.samples);
             complaints.add(samples.line, message);
         }
-        let view = View::read(&view, complaints);
-        if let Some(through) = own.get("through").filter(|_| view.eye.is_none()) {
-            complaints.add(through.line, "`through` goes on from `eye`, which is missing");
-        }
-        Self { view, keys }
+        // A view has `samples` too, with another range and default.
+        let mut of_view = table.clone();
+        of_view.take("samples");
+        Self { view: View::read_values(&of_view, complaints), keys }
     }
 }
 

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use super::catalog::CATALOG;
-use super::parameter::{Kind, Parameter, Parameters};
+use super::parameter::{Kind, Parameter, Parameters, Variant};
 use super::plan::{FilmKeys, LandscapeKeys, MaterialKeys};
 use weald_engine::step::{Entry, Stage};
 use weald_export::EXPORTS;
@@ -105,19 +105,32 @@ fn of(key: &str, summary: &str, source: Option<&str>, parameters: &[Parameter]) 
 
 fn write_parameters(text: &mut String, parameters: &[Parameter], indent: usize) {
     for parameter in parameters {
-        let default = match (&parameter.default, parameter.required) {
+        let default = match (&parameter.default_in_words, parameter.required) {
             (Some(default), _) => format!(", default {default}"),
             (None, true) => ", needed".to_owned(),
             (None, false) => String::new(),
         };
         let unit = if parameter.unit == "1" { String::new() } else { format!(", in {}", parameter.unit) };
+        let needs: String = parameter.needs.iter().map(|needs| format!("; {}", needs.in_words())).collect();
         let kind = parameter.kind.in_words();
-        let _ = writeln!(text, "\n{:indent$}{} ({kind}{unit}{default})", "", parameter.name);
+        let _ = writeln!(text, "\n{:indent$}{} ({kind}{unit}{default}{needs})", "", parameter.name);
         text.push_str(&wrapped(parameter.doc, indent + 2));
         if let Kind::Table(inner) | Kind::Tables(inner) = &parameter.kind {
             write_parameters(text, inner, indent + 4);
         }
     }
+    for parameter in parameters {
+        if let Kind::Variants(variants) = &parameter.kind {
+            variants.iter().for_each(|variant| write_variant(text, parameter.name, variant, indent));
+        }
+    }
+}
+
+/// The keys that a word brings with it.
+fn write_variant(text: &mut String, key: &str, variant: &Variant, indent: usize) {
+    let _ = writeln!(text, "\n{:indent$}with {key} = {:?}", "", variant.word);
+    text.push_str(&wrapped(variant.doc, indent + 2));
+    write_parameters(text, &variant.parameters, indent + 4);
 }
 
 /// Text in lines of at most [`WIDTH`] columns.
@@ -160,5 +173,17 @@ mod tests {
         let text = of("do = \"x\"", "Does x.", Some("Weald"), &LandscapeKeys::parameters());
         assert!(text.contains("cell (number, 0.001 to 100000, in m)"), "{text}");
         assert!(text.contains("seed (whole number, 0 to 9007199254740991, default 0)"), "{text}");
+    }
+
+    #[test]
+    fn each_model_is_shown_with_its_own_unit_range_and_default() {
+        let text = step("hydraulic").expect("it is there");
+        let (_, models) = text.split_once("\nwith model = \"han\"\n").expect("a heading");
+        let (han, others) = models.split_once("\nwith model = \"mei\"\n").expect("a heading");
+        let (mei, stava) = others.split_once("\nwith model = \"stava\"\n").expect("a heading");
+        assert!(han.contains("evaporation (number, 0 to 100, in m/step, default 0.03 cells)"), "{han}");
+        assert!(mei.contains("evaporation (number, 0 to 1, default 0.015)"), "{mei}");
+        assert!(han.contains("law (\"velocity\"") && !mei.contains("law (") && !stava.contains("law ("));
+        assert!(stava.contains("default true; only with transport = \"maccormack\")"), "{stava}");
     }
 }

@@ -7,12 +7,15 @@ mod canonical;
 pub mod catalog;
 mod checkpoint;
 pub mod describe;
+pub mod format;
 mod fractal;
 mod ground;
 mod layer_file;
 pub mod load;
+mod migrate;
 mod overrides;
 mod plan;
+pub mod renamed;
 mod report;
 mod run;
 mod run_steps;
@@ -24,6 +27,7 @@ mod view_request;
 
 pub use checkpoint::CHECKPOINT_FILE;
 pub use fractal::FractalRequest;
+pub use migrate::{Migrated, migrate};
 pub use overrides::Overrides;
 pub use plan::{
     BuiltIn, Content, FILM_EXTENSIONS, Film, FilmKeys, FractalKeys, Ground, LandscapeKeys, MaterialKeys,

@@ -27,6 +27,7 @@ pub use steps::Planned;
 use self::files::Files;
 use self::layers::Made;
 use super::canonical;
+use super::format;
 use super::overrides::Overrides;
 use super::parameter::Complaints;
 use super::source::{self, Table};
@@ -78,7 +79,10 @@ impl Recipe {
     }
 
     /// The text of a recipe in a file.
-    pub(super) fn text_of(path: &Path) -> Result<String, RecipeError> {
+    ///
+    /// # Errors
+    /// [`RecipeError`] for a file that cannot be read.
+    pub fn text_of(path: &Path) -> Result<String, RecipeError> {
         read_text(path).map_err(|cause| {
             let message = format!("the recipe cannot be read: {cause}{}", remedy(cause.kind()));
             let file = path.display().to_string();
@@ -199,7 +203,10 @@ fn check(
     complaints: &mut Complaints,
 ) -> Result<Recipe, Error> {
     complaints.subject.clear();
-    complaints.unknown_keys(recipe, &["landscape", "material", "fractal", "step", "output"]);
+    let recipe = &format::with_new_names(recipe, complaints);
+    complaints.subject.clear();
+    format::check(recipe, complaints);
+    complaints.unknown_keys(recipe, &[format::KEY, "landscape", "material", "fractal", "step", "output"]);
     let files = Files { vocabulary, folder: Path::new(file).parent().unwrap_or(Path::new("")) };
     let start = landscape::read(files, recipe, complaints);
     let before = complaints.found.len();
@@ -225,6 +232,7 @@ fn check(
         steps::check_materials(&steps, &materials, complaints);
     }
     steps::check_sizes(&steps)?;
-    let (file, text) = (file.to_owned(), canonical::text(recipe));
+    let text = format!("{} = {}\n{}", format::KEY, format::NEWEST, canonical::text(recipe));
+    let file = file.to_owned();
     Ok(Recipe { file, ground: start.ground?, seed: start.seed, materials, fractals, steps, outputs, text })
 }

@@ -5,7 +5,8 @@ use std::collections::BTreeSet;
 use serde_json::{Map, Value, json};
 
 use super::catalog::CATALOG;
-use super::parameter::{Kind, Parameter, Parameters};
+use super::format;
+use super::parameter::{Kind, Needs, Parameter, Parameters, Variant};
 use super::plan::{FILM_EXTENSIONS, FilmKeys, FractalKeys, LandscapeKeys, MaterialKeys};
 use weald_core::material::MOST;
 use weald_export::EXPORTS;
@@ -14,24 +15,20 @@ use weald_picture::PICTURES;
 
 /// The schema, in the dialect of 2020-12.
 pub fn schema() -> Value {
-    let steps = CATALOG.iter().map(|entry| {
+    let steps = CATALOG.iter().flat_map(|entry| {
         let summary = format!("{} Source: {}.", entry.summary, entry.source);
-        alternative("do", entry.name, &summary, &(entry.parameters)())
+        alternatives(("do", entry.name), &summary, &(entry.parameters)())
     });
-    let pictures = PICTURES.iter().map(|entry| {
-        let mut object = alternative("picture", entry.name, entry.summary, &(entry.parameters)());
+    let pictures = PICTURES.iter().flat_map(|entry| {
         let extensions: Vec<_> = entry.extensions.iter().chain(FILM_EXTENSIONS).copied().collect();
-        add_property(&mut object, "file", &file(&extensions));
-        for key in FilmKeys::parameters() {
-            object["properties"][key.name] = property(&key);
-        }
-        object
+        let parameters: Vec<_> = (entry.parameters)().into_iter().chain(FilmKeys::parameters()).collect();
+        let objects = alternatives(("picture", entry.name), entry.summary, &parameters);
+        with_file(objects, &extensions)
     });
-    let exports = EXPORTS.iter().map(|entry| {
+    let exports = EXPORTS.iter().flat_map(|entry| {
         let summary = format!("{} Source: {}.", entry.summary, entry.source);
-        let mut object = alternative("export", entry.name, &summary, &(entry.parameters)());
-        add_property(&mut object, "file", &file(entry.extensions));
-        object
+        let objects = alternatives(("export", entry.name), &summary, &(entry.parameters)());
+        with_file(objects, entry.extensions)
     });
     let outputs: Vec<_> = std::iter::once(layer_output()).chain(pictures).chain(exports).collect();
     json!({
@@ -40,6 +37,12 @@ pub fn schema() -> Value {
         "type": "object",
         "required": ["output"],
         "properties": {
+            format::KEY: {
+                "type": "integer",
+                "minimum": 1,
+                "maximum": format::NEWEST,
+                "description": "The format of the recipe.",
+            },
             "landscape": landscape(),
             "material": {
                 "type": "array",
@@ -101,12 +104,20 @@ fn preset() -> Value {
     json!({ "enum": names, "description": told.join(". ") })
 }
 
-/// A table that is told from others by the word under `key`.
-fn alternative(key: &str, word: &str, summary: &str, parameters: &[Parameter]) -> Value {
-    let mut object = table(parameters);
-    object["description"] = summary.into();
-    add_property(&mut object, key, &json!({ "const": word }));
-    object
+/// A table that is told from others by the word under `key`: one schema, or one for each of its variants.
+fn alternatives((key, word): (&str, &str), summary: &str, parameters: &[Parameter]) -> Vec<Value> {
+    let mut objects = branches(parameters);
+    for object in &mut objects {
+        let variant = object["description"].as_str().map_or(String::new(), |doc| format!(" {doc}"));
+        object["description"] = format!("{summary}{variant}").into();
+        add_property(object, key, &json!({ "const": word }));
+    }
+    objects
+}
+
+fn with_file(mut objects: Vec<Value>, extensions: &[&str]) -> Vec<Value> {
+    objects.iter_mut().for_each(|object| add_property(object, "file", &file(extensions)));
+    objects
 }
 
 fn add_property(object: &mut Value, key: &str, schema: &Value) {
@@ -117,25 +128,100 @@ fn add_property(object: &mut Value, key: &str, schema: &Value) {
 }
 
 fn table(parameters: &[Parameter]) -> Value {
+    let mut all = branches(parameters);
+    if all.len() == 1 { all.remove(0) } else { one_of(&all) }
+}
+
+/// The schemas of a table, which exclude each other: one for each word of a key with variants, or just one.
+fn branches(parameters: &[Parameter]) -> Vec<Value> {
+    let variants = parameters.iter().find_map(|by| match &by.kind {
+        Kind::Variants(variants) => Some(variants.iter().map(move |variant| branch(parameters, by, variant))),
+        _ => None,
+    });
+    variants.map_or_else(|| vec![plain_table(&parameters.iter().collect::<Vec<_>>())], Iterator::collect)
+}
+
+/// A table whose key `by` has the word of a variant.
+fn branch(parameters: &[Parameter], by: &Parameter, variant: &Variant) -> Value {
+    let all: Vec<_> = parameters.iter().chain(&variant.parameters).collect();
+    let mut object = plain_table(&all);
+    object["description"] = spaced(variant.doc).into();
+    object["properties"][by.name] = json!({ "const": variant.word, "description": spaced(by.doc) });
+    let is_default = by.default == Some(format!("{:?}", variant.word));
+    if let Some(required) = object["required"].as_array_mut().filter(|_| !is_default) {
+        required.push(by.name.into());
+    }
+    object
+}
+
+fn plain_table(parameters: &[&Parameter]) -> Value {
     let properties: Map<String, Value> =
         parameters.iter().map(|parameter| (parameter.name.to_owned(), property(parameter))).collect();
     let required: Vec<_> =
         parameters.iter().filter(|parameter| parameter.required).map(|parameter| parameter.name).collect();
-    json!({
+    let mut object = json!({
         "type": "object",
         "properties": properties,
         "required": required,
         "additionalProperties": false,
-    })
+    });
+    let dependent = parameters.iter().filter(|parameter| !parameter.needs.is_empty()).map(|parameter| {
+        let mut all: Vec<_> = parameter.needs.iter().map(|needs| dependence(needs, parameters)).collect();
+        let whole = if all.len() == 1 { all.remove(0) } else { json!({ "allOf": all }) };
+        (parameter.name.to_owned(), whole)
+    });
+    let dependent: Map<String, Value> = dependent.collect();
+    if !dependent.is_empty() {
+        object["dependentSchemas"] = dependent.into();
+    }
+    object
+}
+
+/// What a table must have beside a key.
+fn dependence(needs: &Needs, parameters: &[&Parameter]) -> Value {
+    let in_json = |values: &[&str]| values.iter().map(|value| as_json(value)).collect::<Vec<_>>();
+    // An absent key has its default, which may be one of the values.
+    let by_default = |key: &str, values: &[&str]| {
+        let parameter = parameters.iter().find(|parameter| parameter.name == key);
+        let default = parameter.and_then(|parameter| parameter.default.as_deref());
+        default.is_some_and(|default| values.contains(&default))
+    };
+    let required = |is_required: bool, key| if is_required { json!([key]) } else { json!([]) };
+    match needs {
+        Needs::Value(key, values) => json!({
+            "properties": { *key: { "enum": in_json(values) } },
+            "required": required(!by_default(key, values), key),
+        }),
+        Needs::OtherValue(key, values) => json!({
+            "properties": { *key: { "not": { "enum": in_json(values) } } },
+            "required": required(by_default(key, values), key),
+        }),
+        Needs::Given(keys) => {
+            json!({ "anyOf": keys.iter().map(|key| json!({ "required": [key] })).collect::<Vec<_>>() })
+        }
+        Needs::Absent(key) => json!({ "not": { "required": [key] } }),
+        Needs::File(extensions) => json!({ "properties": { "file": file(extensions) } }),
+    }
+}
+
+/// A value in TOML, of which numbers, flags, texts and lists are JSON too.
+fn as_json(toml: &str) -> Option<Value> {
+    serde_json::from_str(toml).ok()
+}
+
+fn spaced(doc: &str) -> String {
+    doc.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
 fn property(parameter: &Parameter) -> Value {
     let mut schema = of_kind(&parameter.kind);
-    let doc = parameter.doc.split_whitespace().collect::<Vec<_>>().join(" ");
     let unit = if parameter.unit == "1" { String::new() } else { format!(" Unit: {}.", parameter.unit) };
-    schema["description"] = format!("{doc}{unit}").into();
-    // Defaults are written in TOML, of which numbers, flags, texts and lists are JSON too.
-    let default = parameter.default.as_ref().and_then(|default| serde_json::from_str::<Value>(default).ok());
+    let default = parameter.default.as_deref().and_then(as_json);
+    let in_words = parameter.default_in_words.as_ref().filter(|_| default.is_none());
+    let in_words = in_words.map_or(String::new(), |default| format!(" Default: {default}."));
+    let needs: String =
+        parameter.needs.iter().map(|needs| format!(" It goes {}.", needs.in_words())).collect();
+    schema["description"] = format!("{}{unit}{in_words}{needs}", spaced(parameter.doc)).into();
     if let Some(default) = default {
         schema["default"] = default;
     }
@@ -166,6 +252,9 @@ fn of_kind(kind: &Kind) -> Value {
                 "type": "array", "items": { "type": "number" }, "minItems": 2, "maxItems": 2,
             });
             json!({ "oneOf": [place, { "type": "array", "items": place, "minItems": 1 }] })
+        }
+        Kind::Variants(variants) => {
+            json!({ "enum": variants.iter().map(|variant| variant.word).collect::<Vec<_>>() })
         }
         Kind::Table(parameters) => table(parameters),
         Kind::Tables(parameters) => json!({ "type": "array", "items": table(parameters) }),
@@ -220,7 +309,38 @@ mod tests {
         let schema = schema();
         let count =
             |section: &str| schema["properties"][section]["items"]["oneOf"].as_array().map_or(0, Vec::len);
-        assert_eq!(count("step"), CATALOG.len());
+        let of = |parameters: fn() -> Vec<Parameter>| branches(&parameters()).len();
+        assert_eq!(count("step"), CATALOG.iter().map(|entry| of(entry.parameters)).sum::<usize>());
         assert_eq!(count("output"), PICTURES.len() + EXPORTS.len() + 1);
+    }
+
+    #[test]
+    fn each_model_is_a_branch_with_its_own_keys() {
+        let schema = schema();
+        let all = schema["properties"]["step"]["items"]["oneOf"].as_array().expect("a list");
+        let is_hydraulic = |step: &&Value| step["properties"]["do"]["const"] == "hydraulic";
+        let models: Vec<_> = all.iter().filter(is_hydraulic).map(|step| &step["properties"]).collect();
+        let words: Vec<_> = models.iter().map(|model| &model["model"]["const"]).collect();
+        assert_eq!(words, ["han", "mei", "stava"]);
+        let most: Vec<_> = models.iter().map(|model| &model["evaporation"]["maximum"]).collect();
+        assert_eq!(most, [100.0, 1.0, 100.0]);
+        assert!(models[0].get("law").is_some() && models[1].get("law").is_none());
+        let needs: Vec<_> = all.iter().filter(is_hydraulic).map(|step| &step["required"]).collect();
+        assert_eq!(needs, [&json!(["do"]), &json!(["model", "do"]), &json!(["model", "do"])]);
+    }
+
+    #[test]
+    fn a_key_without_effect_is_refused_by_what_it_needs() {
+        let schema = schema();
+        let all = schema["properties"]["step"]["items"]["oneOf"].as_array().expect("a list");
+        let needs = |step: &str, key: &str| {
+            let of = |one: &&Value| one["properties"]["do"]["const"] == step;
+            all.iter().find(of).expect("it is there")["dependentSchemas"][key].clone()
+        };
+        let mfd = json!({ "properties": { "method": { "enum": ["mfd"] } }, "required": ["method"] });
+        assert_eq!(needs("flow", "exponent"), mfd);
+        assert_eq!(needs("transport", "conserve")["required"], json!([]), "its default will do");
+        assert_eq!(needs("rivers", "runoff"), json!({ "not": { "required": ["discharge"] } }));
+        assert_eq!(needs("soil", "old"), json!({ "anyOf": [{ "required": ["deposition"] }] }));
     }
 }

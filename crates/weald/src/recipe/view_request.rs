@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use super::fractal::table_of;
 use super::overrides::{Overrides, given};
-use super::parameter::{Complaints, Parameters, key};
+use super::parameter::{Complaints, Parameters, key, without_effect};
 use super::plan::{Content, FilmKeys, Output, Recipe};
 use super::source::{self, Node, Table, Value};
 use weald_core::error::Error;
@@ -37,8 +37,15 @@ impl ViewRequest {
         }
         view.set("picture", given(Value::Text("view".to_owned())));
         view.set("file", given(Value::Text("view.png".to_owned())));
-        for (name, node) in table_of(&self.keys).entries {
-            view.set(&name, node);
+        let own = table_of(&self.keys);
+        for (name, node) in &own.entries {
+            view.set(name, node.clone());
+        }
+        // What the recipe's view says has no effect beside some keys of the request: `azimuth_deg` beside `eye`.
+        for name in without_effect(&view, &View::parameters()) {
+            if own.get(name).is_none() {
+                view.take(name);
+            }
         }
         table.set("output", given(Value::List(vec![given(Value::Table(view))])));
         let mut recipe = Recipe::of_changed_table(&file, &table, complaints)?;
@@ -75,7 +82,7 @@ mod tests {
         let path = folder.path().join("land.toml");
         let text = "[landscape]\nsize = 8\ncell = 10.0\n[[step]]\ndo = \"constant\"\nvalue = 3.0\n\
                     [[output]]\nlayer = \"height\"\nfile = \"a.tif\"\n\
-                    [[output]]\npicture = \"view\"\nsun_altitude_deg = 9.0\nframes = 20\nfile = \"b.mp4\"\n";
+                    [[output]]\npicture = \"view\"\nsun_altitude_deg = 9.0\nazimuth_deg = 30\nframes = 20\nfile = \"b.mp4\"\n";
         std::fs::write(&path, text).expect("written");
         let keys = keys.iter().map(|(key, text)| ((*key).to_owned(), (*text).to_owned())).collect();
         (folder, ViewRequest { recipe: path, overrides: Overrides::default(), keys })
@@ -87,6 +94,16 @@ mod tests {
         let (recipe, view) = asked.recipe().expect("good");
         assert!(recipe.outputs.is_empty(), "nothing but the view is drawn");
         assert_eq!((view.sun_altitude_deg, view.sun_azimuth_deg), (9.0, 100.0));
+    }
+
+    #[test]
+    fn what_the_recipe_says_of_the_camera_gives_way_to_the_command_line() {
+        let (_folder, asked) = request(&[("eye", "[4, 4]"), ("eye_height", "2")]);
+        let (_, view) = asked.recipe().expect("good");
+        assert_eq!((view.eye_height, view.azimuth_deg), (2.0, View::default().azimuth_deg));
+        let (_folder, asked) = request(&[("eye", "[4, 4]"), ("distance", "9")]);
+        let message = asked.recipe().expect_err("both are asked for").to_string();
+        assert!(message.contains("`distance` has no effect beside `eye`"), "{message}");
     }
 
     #[test]

@@ -1,14 +1,20 @@
 //! Ground and runs that several tests share.
-#![allow(dead_code, unreachable_pub, reason = "each test binary uses its own part")]
+#![allow(
+    dead_code,
+    unreachable_pub,
+    unused_imports,
+    unused_macros,
+    reason = "each test binary uses its own part"
+)]
 
 use weald::engine::{Engine, Job, SolidBudget, Unwatched};
 use weald::erode::dissolution_step::DissolutionWithin;
-use weald::erode::hydraulic::{Hydraulic, Model};
+use weald::erode::hydraulic::{Hydraulic, MeiKeys, StavaKeys};
 use weald::erode::slippage_step::SlippageWithin;
 use weald::erode::springs::Spring;
 use weald::material::Material;
 use weald::random::signed2;
-use weald::recipe::parameter::Nested;
+use weald::recipe::parameter::{Length, Nested};
 use weald::step::{Outcome, Step};
 use weald::{Domain, Field, Landscape, Size};
 
@@ -67,15 +73,41 @@ pub fn hydraulic(iterations: u32) -> Hydraulic {
     Hydraulic { iterations, ..Hydraulic::default() }
 }
 
+/// `hydraulic` by Mei et al. with defaults but for its length.
+pub fn mei(iterations: u32) -> Hydraulic {
+    Hydraulic { model: MeiKeys::default().into(), ..hydraulic(iterations) }
+}
+
 /// `hydraulic` by Šťava et al. with all of its processes.
 pub fn stava(iterations: u32) -> Hydraulic {
-    Hydraulic {
-        model: Model::Stava,
+    let keys = StavaKeys {
         viscosity: 0.5,
         dissolution: Some(Nested(DissolutionWithin::default())),
         slippage: Some(Nested(SlippageWithin { strength: 0.05, softening: false })),
-        ..hydraulic(iterations)
-    }
+        ..StavaKeys::default()
+    };
+    Hydraulic { model: keys.into(), ..hydraulic(iterations) }
+}
+
+/// A step of `hydraulic` with other keys of its model: `with!(step, [Han Mei] { limiter: false })` where it is one of
+/// these models, which all have the keys.
+macro_rules! with {
+    ($step:expr, [$($Model:ident)+] $keys:tt) => {{
+        let mut step: weald::erode::hydraulic::Hydraulic = $step;
+        #[allow(unreachable_patterns, reason = "some name all models")]
+        match &mut step.model {
+            $( weald::erode::hydraulic::Model::$Model(keys) => $crate::common::with!(@set keys $keys), )+
+            other => panic!("model {} has not these keys", other.word()),
+        }
+        step
+    }};
+    (@set $keys:ident { $($key:ident: $value:expr),* $(,)? }) => {{ $( $keys.$key = $value; )* }};
+}
+pub(crate) use with;
+
+/// A length in metres.
+pub fn metres(length: f64) -> Length {
+    Length::Metres(length)
 }
 
 /// A spring of a few cells' width.

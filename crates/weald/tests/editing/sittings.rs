@@ -2,24 +2,23 @@ use proptest::prelude::*;
 use weald::edit::{Action, Brush, Effect, Falloff, History, Session};
 use weald::engine::Engine;
 use weald::erode::dissolution_step::DissolutionWithin;
-use weald::erode::hydraulic::{Boundary, Hydraulic, Model, Sitting};
+use weald::erode::hydraulic::{Boundary, HanKeys, Hydraulic, Sitting, StavaKeys};
 use weald::erode::slippage_step::SlippageWithin;
-use weald::recipe::parameter::Nested;
+use weald::recipe::parameter::{Length, Nested};
 use weald::{Error, Field, Landscape};
 
 use super::{any_brush, canvas, dab};
 
 /// All processes of stava under short rains.
 fn step() -> Hydraulic {
-    Hydraulic {
-        model: Model::Stava,
-        rain: Some(0.02),
-        rain_period: 7,
-        dry_period: Some(5),
+    let keys = StavaKeys {
+        rain: Length::Metres(0.02),
+        dry_period: 5,
         dissolution: Some(Nested(DissolutionWithin::default())),
         slippage: Some(Nested(SlippageWithin::default())),
-        ..Hydraulic::default()
-    }
+        ..StavaKeys::default()
+    };
+    Hydraulic { model: keys.into(), rain_period: 7, ..Hydraulic::default() }
 }
 
 /// The rough ground of the canvas as a landscape.
@@ -119,7 +118,7 @@ fn frozen_ground_stands_still_with_its_water_until_it_thaws() {
 
 #[test]
 fn what_cannot_be_held_in_hand_is_refused() {
-    let han = Hydraulic { model: Model::Han, ..Hydraulic::default() };
+    let han = Hydraulic { model: HanKeys::default().into(), ..Hydraulic::default() };
     let error = han.sit(&land(), &Engine::Cpu, |_| Ok(())).expect_err("no layers");
     assert!(error.to_string().contains("stava"), "{error}");
     let open = Hydraulic { boundary: Boundary::Open, ..step() };

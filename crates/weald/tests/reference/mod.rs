@@ -8,11 +8,14 @@
 
 pub mod advection;
 pub mod flux_corrected;
+pub mod numbers;
 pub mod stava;
 pub mod thermal;
 
 use weald::erode::hydraulic::{Boundary, Hydraulic, Model, Transport, UptakeLaw};
 use weald::recipe::parameter::Nested;
+
+use numbers::Numbers;
 
 /// Two neighbouring cells, the western or northern first, and whether they lie side by side in a row.
 pub struct Edge {
@@ -62,16 +65,17 @@ impl World {
         Self { columns, land, edges, start, change, piled, depth, sediment, flux }
     }
 
-    /// One step of `keys`, all of whose optional numbers must be given.
-    pub fn step(&mut self, keys: &Hydraulic, number: u32) {
-        let dry = keys.dry_period.expect("given");
+    /// One step of a simulation, all of whose numbers must be given.
+    pub fn step(&mut self, step: &Hydraulic, number: u32) {
+        let keys = &Numbers::of(step);
+        let dry = keys.dry_period;
         let raining = number % (keys.rain_period + dry) < keys.rain_period;
-        let rain = if raining { keys.rain.expect("given") } else { 0.0 };
-        let evaporation = keys.evaporation.expect("given");
-        match keys.model {
-            Model::Han => self.han(keys, rain, if raining { 0.0 } else { evaporation }),
-            Model::Mei => self.mei(keys, rain, evaporation),
-            Model::Stava => unreachable!("the layers of stava are in a module of their own"),
+        let rain = if raining { keys.rain } else { 0.0 };
+        let evaporation = keys.evaporation;
+        match step.model {
+            Model::Han(_) => self.han(keys, rain, if raining { 0.0 } else { evaporation }),
+            Model::Mei(_) => self.mei(keys, rain, evaporation),
+            Model::Stava(_) => unreachable!("the layers of stava are in a module of their own"),
         }
         if let Some(Nested(thermal)) = &keys.thermal {
             thermal::slide(self, thermal.scheme, thermal.talus, thermal.strength);
@@ -126,9 +130,9 @@ impl World {
     }
 
     /// Sediment in a unit of flux: what stands in the water, and no more than the cell has.
-    fn concentration(&self, sediment: &[f64], depth: &[f64], keys: &Hydraulic) -> Vec<f64> {
+    fn concentration(&self, sediment: &[f64], depth: &[f64], keys: &Numbers) -> Vec<f64> {
         let out = self.outflow();
-        let epsilon = keys.epsilon.expect("given");
+        let epsilon = keys.epsilon;
         let thick = |at: usize| {
             let wet = depth[at].max(0.0) + epsilon;
             if keys.limiter { wet } else { wet.max(out[at]) }
@@ -165,14 +169,14 @@ impl World {
     }
 
     /// Han 2015, stages 1 to 5.
-    fn han(&mut self, keys: &Hydraulic, rain: f64, evaporation: f64) {
-        self.accelerate(keys.flow_rate.expect("given"));
+    fn han(&mut self, keys: &Numbers, rain: f64, evaporation: f64) {
+        self.accelerate(keys.flow_rate);
         if keys.limiter {
             self.limit(&self.depth.clone());
         }
         let sines = self.sines();
         let mut found = self.sediment.clone();
-        if keys.transport() == Transport::Upwind {
+        if keys.transport == Transport::Upwind {
             let concentration = self.concentration(&self.sediment, &self.depth, keys);
             self.carry(&mut found, |giver| concentration[giver]);
         }
@@ -214,11 +218,11 @@ impl World {
     }
 
     /// Eq. 11: flux over the cross-section between two cells; a cell has the mean of its faces.
-    fn face_velocities(&self, keys: &Hydraulic) -> Vec<[f64; 2]> {
+    fn face_velocities(&self, keys: &Numbers) -> Vec<[f64; 2]> {
         let mut velocity = vec![[0.0; 2]; self.land.len()];
         for (edge, flux) in self.edges.iter().zip(&self.flux) {
             let thick = edge.cells.map(|cell| self.depth[cell].max(0.0)).iter().sum::<f64>() / 2.0;
-            let speed = flux[0] / (thick + keys.velocity_epsilon.expect("given"));
+            let speed = flux[0] / (thick + keys.velocity_epsilon);
             for cell in edge.cells {
                 velocity[cell][usize::from(!edge.across)] += speed / 2.0;
             }
@@ -227,8 +231,8 @@ impl World {
     }
 
     /// Eq. 10 and 12 to 16.
-    fn settle_han(&mut self, keys: &Hydraulic, sines: &[f64], moved: &Moved) {
-        let (capacity, erosion) = (keys.capacity.expect("given"), keys.erosion.expect("given"));
+    fn settle_han(&mut self, keys: &Numbers, sines: &[f64], moved: &Moved) {
+        let (capacity, erosion) = (keys.capacity, keys.erosion);
         for at in self.yielding() {
             let speed = moved.velocity[at][0].hypot(moved.velocity[at][1]);
             let most = capacity * speed * sines[at] * self.depth[at].max(0.0);
@@ -244,10 +248,10 @@ impl World {
     }
 
     /// Mei et al. 2007, steps 1 to 5.
-    fn mei(&mut self, keys: &Hydraulic, rain: f64, evaporation: f64) {
+    fn mei(&mut self, keys: &Numbers, rain: f64, evaporation: f64) {
         let land = self.land.iter().zip(&self.depth);
         let rained: Vec<f64> = land.map(|(&land, depth)| depth + if land { rain } else { 0.0 }).collect();
-        self.pour(keys.flow_rate.expect("given"), &rained);
+        self.pour(keys.flow_rate, &rained);
         if keys.limiter {
             self.limit(&rained);
         }
@@ -258,7 +262,7 @@ impl World {
         let sines = self.sines();
         self.exchange(keys, &sines, &velocity);
         self.drain();
-        if keys.transport() == Transport::Upwind {
+        if keys.transport == Transport::Upwind {
             let mut carried = self.sediment.clone();
             let concentration = self.concentration(&self.sediment, &rained, keys);
             self.carry(&mut carried, |giver| concentration[giver]);
@@ -285,12 +289,12 @@ impl World {
         self.flux = flux;
     }
 
-    fn velocities_mei(&self, keys: &Hydraulic, before: &[f64], after: &[f64]) -> Vec<[f64; 2]> {
+    fn velocities_mei(&self, keys: &Numbers, before: &[f64], after: &[f64]) -> Vec<[f64; 2]> {
         let mut velocity = vec![[0.0; 2]; self.land.len()];
         for (edge, flux) in self.edges.iter().zip(&self.flux) {
             for cell in edge.cells {
                 let mean_depth = f64::midpoint(before[cell], after[cell]);
-                if mean_depth > keys.velocity_epsilon.expect("given") {
+                if mean_depth > keys.velocity_epsilon {
                     velocity[cell][usize::from(!edge.across)] += (flux[0] - flux[1]) / 2.0 / mean_depth;
                 }
             }
@@ -298,8 +302,8 @@ impl World {
         velocity
     }
 
-    fn exchange(&mut self, keys: &Hydraulic, sines: &[f64], velocity: &[[f64; 2]]) {
-        let (capacity, erosion) = (keys.capacity.expect("given"), keys.erosion.expect("given"));
+    fn exchange(&mut self, keys: &Numbers, sines: &[f64], velocity: &[[f64; 2]]) {
+        let (capacity, erosion) = (keys.capacity, keys.erosion);
         for at in self.yielding() {
             let speed = velocity[at][0].hypot(velocity[at][1]);
             let room = capacity * sines[at].max(0.05) * speed - self.sediment[at];
@@ -309,12 +313,10 @@ impl World {
         }
     }
 
-    fn advect(&mut self, keys: &Hydraulic, velocity: &[[f64; 2]], depth_before: &[f64]) {
-        self.sediment = match keys.transport() {
+    fn advect(&mut self, keys: &Numbers, velocity: &[[f64; 2]], depth_before: &[f64]) {
+        self.sediment = match keys.transport {
             Transport::Upwind => return,
-            Transport::MacCormack if keys.conserve != Some(false) => {
-                flux_corrected::carry(self, depth_before, keys.epsilon.expect("given"))
-            }
+            Transport::MacCormack if keys.conserve => flux_corrected::carry(self, depth_before, keys.epsilon),
             Transport::SemiLagrangian => advection::depart(self, &self.sediment, velocity, 1.0),
             Transport::MacCormack => advection::maccormack(self, velocity),
         };

@@ -1,7 +1,8 @@
 //! Šťava et al. 2008 on a list of edges: columns of materials, regolith, painted weather.
 
 use super::World;
-use weald::erode::hydraulic::{Hydraulic, Transport};
+use super::numbers::Numbers;
+use weald::erode::hydraulic::{Hydraulic, Model, StavaKeys, Transport};
 use weald::material::Material;
 use weald::recipe::parameter::Nested;
 
@@ -52,31 +53,33 @@ impl Column {
         bedrock.enumerate().map(|(at, bedrock)| bedrock + lying(at)).collect()
     }
 
-    /// One step of `keys`, all of whose optional numbers must be given.
-    pub fn step(&mut self, keys: &Hydraulic, number: u32) {
-        let dry = keys.dry_period.expect("given");
+    /// One step of a simulation by Šťava et al., all of whose numbers must be given.
+    pub fn step(&mut self, step: &Hydraulic, number: u32) {
+        let Model::Stava(own) = &step.model else { panic!("another model") };
+        let keys = &Numbers::of(step);
+        let dry = keys.dry_period;
         let raining = number % (keys.rain_period + dry) < keys.rain_period;
-        let rain = if raining { keys.rain.expect("given") } else { 0.0 };
-        let evaporation = if raining && dry > 0 { 0.0 } else { keys.evaporation.expect("given") };
+        let rain = if raining { keys.rain } else { 0.0 };
+        let evaporation = if raining && dry > 0 { 0.0 } else { keys.evaporation };
         self.weather(rain, evaporation);
         let rained = self.world.depth.clone();
-        self.pour(keys.flow_rate.expect("given"));
+        self.pour(keys.flow_rate);
         self.world.limit(&rained);
         let mut flowed = rained.clone();
         self.world.carry(&mut flowed, |_| 1.0);
         let mut velocity = self.world.velocities_mei(keys, &rained, &flowed);
-        if keys.viscosity > 0.0 {
-            (0..2).for_each(|_| velocity = self.diffused(&velocity, keys.viscosity));
+        if own.viscosity > 0.0 {
+            (0..2).for_each(|_| velocity = self.diffused(&velocity, own.viscosity));
         }
         self.world.depth = flowed;
-        self.erode(keys, &velocity);
-        self.dissolve(keys);
+        self.erode(own, &velocity);
+        self.dissolve(own);
         self.world.drain();
         self.transport(keys, &rained, &velocity);
-        if let Some(Nested(within)) = &keys.dissolution {
-            self.creep(keys.flow_rate.expect("given"), 1.0 - within.damping);
+        if let Some(Nested(within)) = &own.dissolution {
+            self.creep(keys.flow_rate, 1.0 - within.damping);
         }
-        if let Some(Nested(within)) = &keys.slippage {
+        if let Some(Nested(within)) = &own.slippage {
             self.slip(within.strength, within.softening);
         }
         self.pile();
@@ -151,13 +154,13 @@ impl Column {
         taken
     }
 
-    fn deposit(&self, keys: &Hydraulic) -> usize {
+    fn deposit(&self, keys: &StavaKeys) -> usize {
         let named = |material: &Material| keys.deposit.as_ref().is_some_and(|name| name.0 == material.name);
         self.materials.iter().position(named).unwrap_or(self.materials.len() - 1)
     }
 
-    fn erode(&mut self, keys: &Hydraulic, velocity: &[[f64; 2]]) {
-        let (capacity, erosion) = (keys.capacity.expect("given"), keys.erosion.expect("given"));
+    fn erode(&mut self, keys: &StavaKeys, velocity: &[[f64; 2]]) {
+        let (capacity, erosion) = (keys.capacity, keys.erosion);
         let (sines, deposit) = (self.world.sines(), self.deposit(keys));
         for at in self.world.yielding() {
             let speed = velocity[at][0].hypot(velocity[at][1]);
@@ -167,7 +170,7 @@ impl Column {
         }
     }
 
-    fn dissolve(&mut self, keys: &Hydraulic) {
+    fn dissolve(&mut self, keys: &StavaKeys) {
         let Some(Nested(within)) = &keys.dissolution else { return };
         let deposit = self.deposit(keys);
         for at in self.world.yielding() {
@@ -176,8 +179,8 @@ impl Column {
         }
     }
 
-    fn transport(&mut self, keys: &Hydraulic, rained: &[f64], velocity: &[[f64; 2]]) {
-        if keys.transport() != Transport::Upwind {
+    fn transport(&mut self, keys: &Numbers, rained: &[f64], velocity: &[[f64; 2]]) {
+        if keys.transport != Transport::Upwind {
             return self.world.advect(keys, velocity, rained);
         }
         let mut carried = self.world.sediment.clone();

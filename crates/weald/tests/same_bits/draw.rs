@@ -1,7 +1,7 @@
 //! Processes, grounds and cuts drawn at random, the same at every run.
 
 use weald::erode::dissolution_step::{DissolutionStep, DissolutionWithin};
-use weald::erode::hydraulic::{Boundary, Hydraulic, Model, Transport, UptakeLaw};
+use weald::erode::hydraulic::{Boundary, Hydraulic, Transport, UptakeLaw};
 use weald::erode::slippage_step::{SlippageStep, SlippageWithin};
 use weald::erode::thermal::Scheme;
 use weald::erode::thermal_step::{Thermal, ThermalWithin};
@@ -12,7 +12,7 @@ use weald::recipe::parameter::{LayerName, Nested};
 use weald::step::Step;
 use weald::{Landscape, Size};
 
-use crate::common::{self, layered, rough, run, spring};
+use crate::common::{self, layered, metres, rough, run, spring, with};
 
 /// Every model with every transport, and each of the processes that are steps of their own.
 pub(crate) const KINDS: u64 = 16;
@@ -120,27 +120,27 @@ impl Draw {
     }
 
     fn hydraulic(&mut self, kind: u64) -> Hydraulic {
-        let model = [Model::Han, Model::Mei, Model::Stava][kind as usize % 3];
+        let model = [common::hydraulic, common::mei, common::stava][kind as usize % 3](self.steps());
         let (transport, conserve) = [
-            (Transport::Upwind, None),
-            (Transport::SemiLagrangian, None),
-            (Transport::MacCormack, Some(false)),
-            (Transport::MacCormack, Some(true)),
+            (Transport::Upwind, true),
+            (Transport::SemiLagrangian, true),
+            (Transport::MacCormack, false),
+            (Transport::MacCormack, true),
         ][kind as usize / 3];
+        let rain = metres(self.between(0.005, 0.05));
+        let dry_period = if self.once_in(5) { 0 } else { self.among(5..70) as u32 };
+        let step = with!(model, [Han Mei Stava] {
+            transport: transport, conserve: conserve, rain: rain, dry_period: dry_period,
+        });
         let step = Hydraulic {
-            model,
-            transport: Some(transport),
-            conserve,
-            rain: Some(self.between(0.005, 0.05)),
             rain_period: self.among(20..80) as u32,
-            dry_period: Some(if self.once_in(5) { 0 } else { self.among(5..70) as u32 }),
             boundary: self.one_of(&[Boundary::Closed, Boundary::Open]),
             initial_water: self.painted(6),
-            ..common::hydraulic(self.steps())
+            ..step
         };
         let region = if step.boundary == Boundary::Closed { self.painted(6) } else { None };
         let step = Hydraulic { region, ..step };
-        if model == Model::Stava { self.of_stava(step) } else { self.of_water_alone(step) }
+        if kind % 3 == 2 { self.of_stava(step) } else { self.of_water_alone(step, kind % 3 == 0, transport) }
     }
 
     fn painted(&mut self, once_in: u64) -> Option<LayerName> {
@@ -148,33 +148,29 @@ impl Draw {
     }
 
     /// What `han` and `mei` have beside their water. Flow without a limiter is stable where it is slow.
-    fn of_water_alone(&mut self, step: Hydraulic) -> Hydraulic {
-        let limiter = step.transport != Some(Transport::Upwind) || !self.once_in(3);
-        let laws = [UptakeLaw::Velocity, UptakeLaw::Dissolution];
-        Hydraulic {
-            limiter,
-            flow_rate: (!limiter).then_some(0.05),
-            law: if step.model == Model::Han { self.one_of(&laws) } else { UptakeLaw::Velocity },
-            deposit_ratio: self.one_of(&[1.0, 0.3]),
-            thermal: self.once_in(2).then(|| Nested(self.thermal_within())),
-            ..step
+    fn of_water_alone(&mut self, step: Hydraulic, is_han: bool, transport: Transport) -> Hydraulic {
+        let deposit_ratio = self.one_of(&[1.0, 0.3]);
+        let thermal = self.once_in(2).then(|| Nested(self.thermal_within()));
+        let mut step = with!(step, [Han Mei] { deposit_ratio: deposit_ratio, thermal: thermal });
+        if transport == Transport::Upwind && self.once_in(3) {
+            step = with!(step, [Han Mei] { limiter: false, flow_rate: 0.05 });
         }
+        let law = self.one_of(&[UptakeLaw::Velocity, UptakeLaw::Dissolution]);
+        if is_han { with!(step, [Han] { law: law }) } else { step }
     }
 
     fn of_stava(&mut self, step: Hydraulic) -> Hydraulic {
         let spring = |draw: &mut Self| spring(draw.between(2.0, 20.0), draw.between(2.0, 20.0));
-        Hydraulic {
+        let slippage = |softening| Nested(SlippageWithin { strength: 0.05, softening });
+        with!(step, [Stava] {
             viscosity: self.one_of(&[0.0, 0.7]),
             dissolution: self.once_in(2).then(|| Nested(DissolutionWithin::default())),
-            slippage: self
-                .once_in(2)
-                .then(|| Nested(SlippageWithin { strength: 0.05, softening: self.once_in(2) })),
+            slippage: self.once_in(2).then(|| slippage(self.once_in(2))),
             rain_layer: self.painted(3),
             evaporation_layer: self.painted(3),
             sources: if self.once_in(3) { vec![spring(self)] } else { Vec::new() },
             drains: if self.once_in(3) { vec![spring(self)] } else { Vec::new() },
-            ..step
-        }
+        })
     }
 
     fn thermal_within(&mut self) -> ThermalWithin {
@@ -189,9 +185,9 @@ impl Draw {
 
     fn carry(&mut self) -> Carry {
         let (scheme, conserve) = self.one_of(&[
-            (transport_step::Scheme::SemiLagrangian, None),
-            (transport_step::Scheme::MacCormack, Some(false)),
-            (transport_step::Scheme::MacCormack, Some(true)),
+            (transport_step::Scheme::SemiLagrangian, true),
+            (transport_step::Scheme::MacCormack, false),
+            (transport_step::Scheme::MacCormack, true),
         ]);
         let layer = LayerName::of("painted");
         Carry { layer, scheme, conserve, iterations: self.steps(), ..Carry::default() }

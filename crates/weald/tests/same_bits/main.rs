@@ -8,9 +8,9 @@ mod drawn;
 
 use std::sync::Mutex;
 
-use common::{hydraulic, landscape, layered, rough, run_on, stava, worst_difference};
+use common::{hydraulic, landscape, layered, mei, rough, run_on, stava, with, worst_difference};
 use weald::engine::{Engine, Job, SavedSimulation, Watcher};
-use weald::erode::hydraulic::{Hydraulic, Model};
+use weald::erode::hydraulic::Hydraulic;
 use weald::step::Step;
 use weald::{Error, Field, Landscape, Size};
 
@@ -42,9 +42,10 @@ impl Watcher for Stopper {
 
 #[test]
 fn a_stopped_and_resumed_run_ends_with_the_same_bits() {
-    for model in [hydraulic(600), Hydraulic { model: Model::Mei, ..hydraulic(600) }, stava(600)] {
+    for model in [hydraulic(600), mei(600), stava(600)] {
         // Longer than the 256 steps between two looks, and stopped within the steps that means are taken of.
-        let step = Hydraulic { rain_period: 400, dry_period: Some(100), ..model };
+        let step = with!(model, [Han Mei Stava] { dry_period: 100 });
+        let step = Hydraulic { rain_period: 400, ..step };
         let start = layered(rough(48, 40, 20.0, 8));
         let mut whole = start.clone();
         let outcome = run_on(&step, &mut whole, Engine::Cpu);
@@ -69,8 +70,8 @@ fn a_stopped_and_resumed_run_ends_with_the_same_bits() {
 
 #[test]
 fn a_wide_landscape_gives_the_bits_of_a_tall_one_turned() {
-    for model in [Model::Han, Model::Mei, Model::Stava] {
-        let step = if model == Model::Stava { stava(60) } else { Hydraulic { model, ..hydraulic(60) } };
+    for step in [hydraulic(60), mei(60), stava(60)] {
+        let model = step.model.word();
         let ground = rough(1300, 40, 30.0, 6);
         let turned = |field: &Field| {
             let Size { columns, rows } = field.size();
@@ -81,6 +82,6 @@ fn a_wide_landscape_gives_the_bits_of_a_tall_one_turned() {
         run_on(&step, &mut tall, Engine::Cpu);
         let height = wide.field("height").expect("h");
         assert!(worst_difference(&ground, height) > 0.01, "something moved");
-        assert_eq!(height, &turned(tall.field("height").expect("h")), "{model:?}");
+        assert_eq!(height, &turned(tall.field("height").expect("h")), "{model}");
     }
 }

@@ -39,13 +39,13 @@ parameters! {
         /// How upslope areas add up: along the steepest descent, or shared among all lower neighbours. Directions
         /// are those of steepest descent for both.
         method: Method = Method::D8;
-        /// For `mfd`: shares are in proportion to slope to this power. 1.1 spreads water over a cone evenly, 4 and
+        /// Shares are in proportion to slope to this power. 1.1 spreads water over a cone evenly, 4 and
         /// more come near `d8`.
-        exponent: f64 = 1.1, range 0.0..=20.0;
+        exponent: f64 = 1.1, range 0.0..=20.0, when method = "mfd";
         /// What becomes of depressions: they fill to their lowest rims, or a channel drains them.
         depressions: Depressions = Depressions::Fill;
         /// Deepest cut of a breach; depressions that need a deeper one are filled. Without it, all are breached.
-        deepest_breach: Option<f64> = None, range 0.0..=1.0e6, unit "m";
+        deepest_breach: Option<f64> = None, range 0.0..=1.0e6, unit "m", when depressions = "breach";
         /// Height of the sea. Ground no higher that is connected to the border by such ground is sea, in which
         /// flow ends. Without it there is no sea.
         sea_level: Option<f64> = None, range -1.0e6..=1.0e6, unit "m";
@@ -66,12 +66,6 @@ impl Step for FlowStep {
         writes.extend(self.weight.as_ref().map(|_| ("discharge".to_owned(), "m³/s")));
         writes.extend(self.filled.as_ref().map(|name| (name.0.clone(), "m")));
         writes
-    }
-
-    fn faults(&self) -> Vec<String> {
-        let unused = self.deepest_breach.is_some() && self.depressions != Depressions::Breach;
-        let fault = "`deepest_breach` bounds breaches, but `depressions` is \"fill\"; choose \"breach\"";
-        unused.then(|| fault.to_owned()).into_iter().collect()
     }
 
     fn range(&self, layer: &str) -> Option<(f64, f64)> {

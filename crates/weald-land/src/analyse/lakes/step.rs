@@ -39,10 +39,10 @@ parameters! {
         of: LayerName = LayerName::of("height");
         /// Whether depressions are full to their rims, or hold the water that a simulation left.
         from: Source = Source::Depressions;
-        /// For `from = "water"`: layer of the depth of water.
-        water: LayerName = LayerName::of("water");
-        /// For `from = "water"`: water no deeper is a film of rain and not part of a lake.
-        film: f64 = 0.1, range 0.0..=1000.0, unit "m";
+        /// Layer of the depth of water.
+        water: LayerName = LayerName::of("water"), when from = "water";
+        /// Water no deeper is rain on its way and not part of a lake.
+        shallowest: f64 = 0.1, range 0.0..=1000.0, unit "m", when from = "water";
         /// Lakes that are nowhere deeper are left out.
         depth: f64 = 1.0, range 0.0..=1.0e6, unit "m";
         /// Smaller lakes are left out. Without it, those of fewer than 12 cells.
@@ -112,7 +112,7 @@ impl LakesStep {
         let surface = |(cell, &ground): (usize, &f32)| match water {
             _ if routed.directions.is_sea(cell) || land.is_some_and(|land| !land.is_land_at(cell)) => ground,
             None => routed.surface.values()[cell],
-            Some(depth) if f64::from(depth[cell]) > self.film => ground + depth[cell],
+            Some(depth) if f64::from(depth[cell]) > self.shallowest => ground + depth[cell],
             Some(_) => ground,
         };
         Ok(ground.values().iter().enumerate().map(surface).collect())

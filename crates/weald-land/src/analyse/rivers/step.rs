@@ -30,7 +30,7 @@ parameters! {
         /// Least upslope area of a river. Without it, a five-hundredth of the land.
         area: Option<f64> = None, range 0.0..=1.0e15, unit "m²";
         /// Runoff of the land, which gives the discharge from the upslope area.
-        runoff: f64 = 500.0, range 0.0..=1.0e5, unit "mm/year";
+        runoff: f64 = 500.0, range 0.0..=1.0e5, unit "mm/year", without discharge;
         /// Layer of discharge in m³/s, such as `flow` writes with `weight`, which is taken instead of `runoff`.
         discharge: Option<LayerName> = None;
         /// Layer of lakes, such as `lakes` writes. Rivers end at their shores and begin at their outlets.

@@ -2,7 +2,7 @@
 
 use pulp::Arch;
 
-use super::{Boundary, Filled, Hydraulic, Model, UptakeLaw};
+use super::{Boundary, Filled, HanKeys, Hydraulic, MeiKeys, Model, UptakeLaw};
 use crate::erode::edits::Edits;
 use crate::erode::extent::Extent;
 use crate::erode::han::{self, Han, HanConstants};
@@ -59,9 +59,9 @@ impl Hydraulic {
         if let Some(water) = &self.initial_water {
             working.set_water(landscape, &water.0)?;
         }
-        if self.model == Model::Stava {
-            let deposit = self.deposit_of(landscape)?;
-            working.set_stack(landscape, self.column(landscape), deposit)?;
+        if let Some(keys) = self.model.stava() {
+            let deposit = keys.deposit_of(landscape)?;
+            working.set_stack(landscape, keys.column(landscape), deposit)?;
         }
         if editable {
             working.set_changing_mask();
@@ -77,17 +77,20 @@ impl Hydraulic {
         filled: &Filled,
         working: &Working,
     ) -> Result<Outcome, Error> {
-        let finished = match self.model {
-            Model::Han => self.simulate(&self.han(filled, working), job, filled, (working, landscape)),
-            Model::Mei => self.simulate(&self.mei(filled, working), job, filled, (working, landscape)),
-            Model::Stava => {
+        let numbers = (filled, working);
+        let finished = match &self.model {
+            Model::Han(keys) => self.simulate(&self.han(keys, numbers), job, filled, (working, landscape)),
+            Model::Mei(keys) => self.simulate(&self.mei(keys, numbers), job, filled, (working, landscape)),
+            Model::Stava(keys) => {
                 let script = self.script(&landscape.materials)?;
-                let chosen = self.stava(landscape, filled, working, script)?;
+                let chosen = self.stava(keys, landscape, numbers, script)?;
                 self.simulate(&chosen, job, filled, (working, landscape))
             }
         }?;
         let mut outcome = working.store(landscape, &self.layer.0, &finished, self.kept());
-        for (key, springs) in [("sources", &self.sources), ("drains", &self.drains)] {
+        let springs = self.model.stava().into_iter();
+        for (key, springs) in springs.flat_map(|keys| [("sources", &keys.sources), ("drains", &keys.drains)])
+        {
             outcome.notes.extend(springs::out_of_reach(&landscape.domain, key, springs));
         }
         Ok(outcome)
@@ -122,19 +125,19 @@ impl Hydraulic {
         simulation.run(chosen.start(working), job)
     }
 
-    fn han(&self, filled: &Filled, working: &Working) -> Chosen<Han> {
-        let uptake = |law| if self.law == law { filled.erosion } else { 0.0 };
+    fn han(&self, keys: &HanKeys, (filled, working): (&Filled, &Working)) -> Chosen<Han> {
+        let uptake = |law| if keys.law == law { filled.erosion } else { 0.0 };
         let constants = HanConstants {
             flow_rate: filled.flow_rate,
             capacity: filled.capacity,
             uptake_by_speed: uptake(UptakeLaw::Velocity),
             uptake_by_capacity: uptake(UptakeLaw::Dissolution),
-            deposit_ratio: self.deposit_ratio as f32,
+            deposit_ratio: keys.deposit_ratio as f32,
             epsilon: filled.epsilon,
             velocity_epsilon: filled.velocity_epsilon,
         };
         Chosen {
-            process: Han { constants, limiter: self.limiter, setting: self.setting(filled, working) },
+            process: Han { constants, limiter: keys.limiter, setting: self.setting(filled, working) },
             plane_names: named(&["change", "water", "sediment", "flux_east", "flux_south"]),
             means: han::MEAN_FLUXES,
             constants: Vec::new(),
@@ -142,18 +145,18 @@ impl Hydraulic {
         }
     }
 
-    fn mei(&self, filled: &Filled, working: &Working) -> Chosen<Mei> {
+    fn mei(&self, keys: &MeiKeys, (filled, working): (&Filled, &Working)) -> Chosen<Mei> {
         let constants = MeiConstants {
             flow_rate: filled.flow_rate,
             capacity: filled.capacity,
             erosion: filled.erosion,
-            deposition: self.deposition as f32,
-            deposit_ratio: self.deposit_ratio as f32,
+            deposition: keys.deposition as f32,
+            deposit_ratio: keys.deposit_ratio as f32,
             epsilon: filled.epsilon,
             velocity_epsilon: filled.velocity_epsilon,
         };
         Chosen {
-            process: Mei { constants, limiter: self.limiter, setting: self.setting(filled, working) },
+            process: Mei { constants, limiter: keys.limiter, setting: self.setting(filled, working) },
             plane_names: named(MEI_PLANES),
             means: mei::MEAN_FLUXES,
             constants: Vec::new(),
@@ -175,10 +178,11 @@ impl Hydraulic {
     pub fn program(&self, landscape: &Landscape) -> Result<Program, Error> {
         let filled = self.filled(landscape.domain.cell);
         let working = self.working(landscape, false)?;
-        Ok(match self.model {
-            Model::Han => self.han(&filled, &working).process.program(),
-            Model::Mei => self.mei(&filled, &working).process.program(),
-            Model::Stava => self.stava(landscape, &filled, &working, None)?.process.program(),
+        let numbers = (&filled, &working);
+        Ok(match &self.model {
+            Model::Han(keys) => self.han(keys, numbers).process.program(),
+            Model::Mei(keys) => self.mei(keys, numbers).process.program(),
+            Model::Stava(keys) => self.stava(keys, landscape, numbers, None)?.process.program(),
         })
     }
 
@@ -190,11 +194,12 @@ impl Hydraulic {
         let filled = self.filled(landscape.domain.cell);
         let working = self.working(landscape, false)?;
         let weather: Vec<_> = (0..u64::from(self.iterations)).map(|step| self.sky(&filled, step)).collect();
-        match self.model {
-            Model::Han => seconds_of(&self.han(&filled, &working), &working, &weather, engine),
-            Model::Mei => seconds_of(&self.mei(&filled, &working), &working, &weather, engine),
-            Model::Stava => {
-                seconds_of(&self.stava(landscape, &filled, &working, None)?, &working, &weather, engine)
+        let numbers = (&filled, &working);
+        match &self.model {
+            Model::Han(keys) => seconds_of(&self.han(keys, numbers), &working, &weather, engine),
+            Model::Mei(keys) => seconds_of(&self.mei(keys, numbers), &working, &weather, engine),
+            Model::Stava(keys) => {
+                seconds_of(&self.stava(keys, landscape, numbers, None)?, &working, &weather, engine)
             }
         }
     }

@@ -1,6 +1,6 @@
 //! A simulation that a person holds in hand: steps and strokes in any order, forth and back.
 
-use super::{Hydraulic, Model};
+use super::Hydraulic;
 use crate::edit::{Action, Area, Canvas, Script, Session};
 use crate::erode::edits::Edits;
 use crate::erode::saved::Saved;
@@ -54,13 +54,13 @@ impl Hydraulic {
         engine: &Engine,
         hold: impl FnOnce(Sitting<'_>) -> Result<R, Error>,
     ) -> Result<R, Error> {
-        if self.model != Model::Stava {
+        let Some(keys) = self.model.stava() else {
             let model = self.model.word();
             return Err(Error::Run(format!("model \"{model}\" knows no layers to edit; use \"stava\"")));
-        }
+        };
         let filled = self.filled(landscape.domain.cell);
         let working = self.working(landscape, true)?;
-        let chosen = self.stava(landscape, &filled, &working, Some(Script::default()))?;
+        let chosen = self.stava(keys, landscape, (&filled, &working), Some(Script::default()))?;
         let start = Snapshot::start(chosen.start(&working), 0);
         let machine = machine_of_engine::start(&chosen.process, &[], &start, engine)?;
         let sky = |step| self.sky(&filled, step);

@@ -1,7 +1,7 @@
 //! The model of Šťava et al. with the keys of a recipe filled in.
 
 use super::models::{Chosen, MEI_PLANES, named};
-use super::{Boundary, Filled, Hydraulic};
+use super::{Boundary, Filled, Hydraulic, StavaKeys};
 use crate::edit::Script;
 use crate::erode::edits::{self, Edits, Place};
 use crate::erode::mei;
@@ -21,6 +21,47 @@ use weald_core::material::Material;
 use weald_core::parameter::{LayerName, Nested, ScriptFile, nearest};
 
 impl Hydraulic {
+    pub(super) fn stava(
+        &self,
+        keys: &StavaKeys,
+        landscape: &Landscape,
+        (filled, working): (&Filled, &Working),
+        script: Option<Script>,
+    ) -> Result<Chosen<Stava>, Error> {
+        let column = keys.column(landscape);
+        let weather = keys.weather_planes(landscape, working, script.is_some())?;
+        let edits = script.map(|script| keys.edits(script, landscape, working));
+        let process = Stava {
+            constants: StavaConstants {
+                flow_rate: filled.flow_rate,
+                capacity: filled.capacity,
+                epsilon: filled.epsilon,
+                velocity_epsilon: filled.velocity_epsilon,
+            },
+            planes: column.planes,
+            painted: !weather.is_empty(),
+            viscosity: keys.viscosity_in(landscape.domain.cell),
+            erosion: keys.digging(landscape, filled)?,
+            dissolution: keys.dissolution_in(landscape, filled)?,
+            slippage: keys.slippage_in(landscape)?,
+            setting: self.setting(filled, working),
+        };
+        let mut plane_names = named(MEI_PLANES);
+        plane_names.extend(column.names(&landscape.materials));
+        Ok(Chosen { process, plane_names, means: mei::MEAN_FLUXES, constants: weather, edits })
+    }
+
+    /// The script of strokes, which is read here.
+    pub(super) fn script(&self, materials: &[Material]) -> Result<Option<Script>, Error> {
+        let Some(path) = self.edits().map(ScriptFile::path) else { return Ok(None) };
+        let names: Vec<_> = materials.iter().map(|material| material.name.as_str()).collect();
+        let script = Script::load(&path, &names)?;
+        edits::check(&script, self.boundary == Boundary::Open).map_err(|what| Error::input(&path, what))?;
+        Ok(Some(script))
+    }
+}
+
+impl StavaKeys {
     /// Where the materials stand in the state.
     pub(super) fn column(&self, landscape: &Landscape) -> Column {
         let regolith = self.dissolution.as_ref().map(|_| plane::COUNT);
@@ -31,36 +72,6 @@ impl Hydraulic {
     /// Number of the material that settles.
     pub(super) fn deposit_of(&self, landscape: &Landscape) -> Result<usize, Error> {
         deposit_of(self.deposit.as_ref(), &landscape.materials).map_err(Error::Run)
-    }
-
-    pub(super) fn stava(
-        &self,
-        landscape: &Landscape,
-        filled: &Filled,
-        working: &Working,
-        script: Option<Script>,
-    ) -> Result<Chosen<Stava>, Error> {
-        let column = self.column(landscape);
-        let weather = self.weather_planes(landscape, working, script.is_some())?;
-        let edits = script.map(|script| self.edits(script, landscape, working));
-        let process = Stava {
-            constants: StavaConstants {
-                flow_rate: filled.flow_rate,
-                capacity: filled.capacity,
-                epsilon: filled.epsilon,
-                velocity_epsilon: filled.velocity_epsilon,
-            },
-            planes: column.planes,
-            painted: !weather.is_empty(),
-            viscosity: self.viscosity_in(landscape.domain.cell),
-            erosion: self.digging(landscape, filled)?,
-            dissolution: self.dissolution_in(landscape, filled)?,
-            slippage: self.slippage_in(landscape)?,
-            setting: self.setting(filled, working),
-        };
-        let mut plane_names = named(MEI_PLANES);
-        plane_names.extend(column.names(&landscape.materials));
-        Ok(Chosen { process, plane_names, means: mei::MEAN_FLUXES, constants: weather, edits })
     }
 
     fn viscosity_in(&self, cell: f64) -> Option<Viscosity> {
@@ -87,15 +98,6 @@ impl Hydraulic {
     fn slippage_in(&self, landscape: &Landscape) -> Result<Option<Slippage>, Error> {
         let within = self.slippage.as_ref();
         within.map(|Nested(within)| within.slippage(&landscape.materials)).transpose()
-    }
-
-    /// The script of strokes, which is read here.
-    pub(super) fn script(&self, materials: &[Material]) -> Result<Option<Script>, Error> {
-        let Some(path) = self.edits.as_ref().map(ScriptFile::path) else { return Ok(None) };
-        let names: Vec<_> = materials.iter().map(|material| material.name.as_str()).collect();
-        let script = Script::load(&path, &names)?;
-        edits::check(&script, self.boundary == Boundary::Open).map_err(|what| Error::input(&path, what))?;
-        Ok(Some(script))
     }
 
     fn edits(&self, script: Script, landscape: &Landscape, working: &Working) -> Edits {

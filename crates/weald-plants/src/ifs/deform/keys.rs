@@ -42,36 +42,38 @@ weald_core::parameters! {
     pub struct DeformKeys {
         /// Kind of the deformation.
         by: Option<By> = None;
-        /// First place of the codes that counts, `k_b`: 1 is the coarsest. Not for fields and parts.
-        from: Option<u64> = None, range 1..=256;
-        /// Last place that counts, `k_e`. Not for fields and parts.
-        to: Option<u64> = None, range 1..=256;
+        /// First place of the codes that counts, `k_b`: 1 is the coarsest.
+        from: Option<u64> = None, range 1..=256,
+            when by = "permutation" | "swap" | "insertion" | "replacement" | "reversal" | "displacement";
+        /// Last place that counts, `k_e`.
+        to: Option<u64> = None, range 1..=256,
+            when by = "permutation" | "swap" | "insertion" | "replacement" | "reversal" | "displacement";
         /// The two digits of a swap, by default 1 and 2; the digit of an insertion, 0; the digit that goes and the one
         /// that comes of a replacement, 2 and 0.
-        digits: Vec<f64> = Vec::new(), range 0..=255;
+        digits: Vec<f64> = Vec::new(), range 0..=255, when by = "swap" | "insertion" | "replacement";
         /// Factor of displacement vectors from a digit to the next finer one.
-        delta: f64 = 0.65, range 0.0..=1.0;
+        delta: f64 = 0.65, range 0.0..=1.0, when by = "displacement";
         /// Displacement vectors: x and y, or x, y and z, for each map in turn. By default those of the source, for up
         /// to four maps.
-        vectors: Vec<f64> = Vec::new();
+        vectors: Vec<f64> = Vec::new(), when by = "displacement";
         /// Factor A of the field of the source.
-        amplitude: f64 = 0.4, range -100.0..=100.0;
+        amplitude: f64 = 0.4, range -100.0..=100.0, when by = "field";
         /// Another field along x: a polynomial as fours of a factor and the powers of x, y and z.
-        along_x: Vec<f64> = Vec::new();
+        along_x: Vec<f64> = Vec::new(), when by = "field";
         /// The same along y.
-        along_y: Vec<f64> = Vec::new();
+        along_y: Vec<f64> = Vec::new(), when by = "field";
         /// The same along z.
-        along_z: Vec<f64> = Vec::new();
+        along_z: Vec<f64> = Vec::new(), when by = "field";
         /// Units of fields and vectors.
-        units: Units = Units::Square;
+        units: Units = Units::Square, when by = "field" | "displacement";
         /// Code of the part that a part-wise map moves, as 113 or 1,1,3.
-        part: String = String::new();
+        part: String = String::new(), when by = "part";
         /// Turn of the part in the plane, counter-clockwise.
-        angle_deg: f64 = 0.0, range -360.0..=360.0, unit "deg";
+        angle_deg: f64 = 0.0, range -360.0..=360.0, unit "deg", when by = "part";
         /// Growth of the part.
-        factor: f64 = 1.0, range -100.0..=100.0;
+        factor: f64 = 1.0, range -100.0..=100.0, when by = "part";
         /// Any linear map of the part in place of turn and growth, row by row: four numbers, or nine.
-        linear: Vec<f64> = Vec::new(), range -100.0..=100.0;
+        linear: Vec<f64> = Vec::new(), range -100.0..=100.0, when by = "part";
     }
 }
 
@@ -82,54 +84,12 @@ impl DeformKeys {
     /// A sentence for the user.
     pub fn of(&self, ifs: &Ifs) -> Result<Deform, String> {
         let by = self.by.ok_or("`by` is needed: the kind of the deformation, as \"permutation\"")?;
-        self.ensure_all_belong(by)?;
         match by {
             By::Field => self.field(ifs).map(Deform::Field),
             By::Part => self.part(ifs).map(Deform::Part),
             By::Displacement => self.displacement(ifs).map(Deform::Displacement),
             _ => self.code_change(by),
         }
-    }
-
-    /// Refuses keys that a deformation of this kind would not heed.
-    fn ensure_all_belong(&self, by: By) -> Result<(), String> {
-        let legal: &[&str] = match by {
-            By::Permutation | By::Reversal => &["from", "to"],
-            By::Swap | By::Insertion | By::Replacement => &["from", "to", "digits"],
-            By::Field => &["amplitude", "along_x", "along_y", "along_z", "units"],
-            By::Displacement => &["from", "to", "delta", "vectors", "units"],
-            By::Part => &["part", "angle_deg", "factor", "linear"],
-        };
-        match self.given().find(|key| !legal.contains(key)) {
-            None => Ok(()),
-            Some(key) => Err(format!(
-                "`{key}` means nothing for this kind of deformation, whose keys are: {}",
-                legal.join(", ")
-            )),
-        }
-    }
-
-    /// The keys that are not as they are when absent.
-    fn given(&self) -> impl Iterator<Item = &'static str> {
-        let absent = Self::default();
-        [
-            ("from", self.from.is_some()),
-            ("to", self.to.is_some()),
-            ("digits", !self.digits.is_empty()),
-            ("delta", self.delta != absent.delta),
-            ("vectors", !self.vectors.is_empty()),
-            ("amplitude", self.amplitude != absent.amplitude),
-            ("along_x", !self.along_x.is_empty()),
-            ("along_y", !self.along_y.is_empty()),
-            ("along_z", !self.along_z.is_empty()),
-            ("units", self.units != absent.units),
-            ("part", !self.part.is_empty()),
-            ("angle_deg", self.angle_deg != absent.angle_deg),
-            ("factor", self.factor != absent.factor),
-            ("linear", !self.linear.is_empty()),
-        ]
-        .into_iter()
-        .filter_map(|(key, is_given)| is_given.then_some(key))
     }
 
     fn interval(&self) -> Result<Interval, String> {
@@ -266,11 +226,7 @@ mod tests {
         assert!(
             fault(DeformKeys { digits: vec![1.0], ..swap.clone() }).contains("1 digits, but must have 2")
         );
-        assert!(fault(DeformKeys { digits: vec![1.0, 0.5], ..swap.clone() }).contains("whole numbers"));
-        assert_eq!(
-            fault(DeformKeys { delta: 0.5, ..swap }),
-            "`delta` means nothing for this kind of deformation, whose keys are: from, to, digits"
-        );
+        assert!(fault(DeformKeys { digits: vec![1.0, 0.5], ..swap }).contains("whole numbers"));
         let part = DeformKeys { by: Some(By::Part), part: "03".to_owned(), ..DeformKeys::default() };
         assert!(fault(part).starts_with("`part`: 3 is no digit"));
     }

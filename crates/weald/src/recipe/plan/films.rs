@@ -15,7 +15,7 @@ weald_core::parameters! {
         /// after which its motion begins again, and of a drawn picture with `through` those of the flight.
         frames: Option<u32> = None, range 2..=9999;
         /// Frames that a video shows in a second.
-        frames_per_second: Option<f64> = None, range 1.0..=240.0, unit "1/s";
+        frames_per_second: Option<f64> = None, range 1.0..=240.0, unit "1/s", with every | frames;
     }
 }
 
@@ -77,26 +77,26 @@ pub(super) fn take(table: &mut Table, complaints: &mut Complaints) -> Option<Fil
         (None, Some(frames)) => Motion::Turn(frames),
         (Some(_), Some(_)) => {
             let message = "`every` and `frames` exclude each other: a film lapses or turns";
-            complaints.add(table.line, message);
+            complaints.add(own.line_of("frames"), message);
             return None;
         }
-        (None, None) => {
-            if keys.frames_per_second.is_some() {
-                let message = "`frames_per_second` needs `every` or `frames`: a still has no speed";
-                complaints.add(table.line, message);
-            }
-            return None;
-        }
+        (None, None) => return None,
     };
     Some(Film { motion, frames_per_second: keys.frames_per_second.unwrap_or(USUAL_RATE) })
 }
 
-/// What stands against the film of a picture, or against a still of it.
-pub(super) fn fault(film: Option<&Film>, name: &str, picture: &dyn Picture) -> Option<String> {
+/// What stands against the film of a picture, or against a still of it, with its line in the table of the output.
+pub(super) fn fault(
+    film: Option<&Film>,
+    (name, table): (&str, &Table),
+    picture: &dyn Picture,
+) -> Option<(usize, String)> {
     let moves = film.is_some_and(|film| matches!(film.motion, Motion::Turn(_)));
     if moves && picture.turned(0.0, 1.0).is_none() {
-        return Some(format!("a {name} has no camera that `frames` could turn; `every` shows it in time"));
+        let fault = format!("a {name} has no camera that `frames` could turn; `every` shows it in time");
+        return Some((table.line_of("frames"), fault));
     }
     let flies = picture.as_render().is_some_and(|render| render.keys.through.is_some());
-    (flies && !moves).then(|| "`through` needs `frames`: how many pictures the flight has".to_owned())
+    let fault = "`through` needs `frames`: how many pictures the flight has";
+    (flies && !moves).then(|| (table.line_of("through"), fault.to_owned()))
 }

@@ -140,7 +140,7 @@ mod tests {
         told("of = \"fren\"\n", &[":4: ", "did you mean `fern`?"]);
         told("of = \"fern\"\nmaps = []\n", &[":5: ", "`of` and `maps` exclude each other"]);
         told("", &[":2: fractal: `of`, `maps` or `flame` is needed"]);
-        told("of = \"fern\"\nroles = [\"stem\"]\n", &[":5: ", "goes with `maps` alone"]);
+        told("of = \"fern\"\nroles = [\"stem\"]\n", &[":5: ", "`roles` has no effect without `maps`"]);
         told(
             "of = \"fern\"\n[[fractal]]\nname = \"mine\"\nof = \"tree\"\n",
             &[":6: ", "a second time; line 2"],
@@ -157,7 +157,11 @@ mod tests {
         told("{ by = \"swap\", from = 1, to = 99 }", &[":6: fractal: swap: `to` is 99", "64 digits"]);
         told("{ by = \"swap\", to = 99 }", &[":6: fractal: swap: `from` is needed"]);
         told("{ by = \"swap\", from = 0, to = 9 }", &[":6: ", "`from` is 0, outside its range: 1 to 256"]);
-        told("{ from = 1, to = 2 }", &[":6: fractal: deform: `by` is needed"]);
+        told(
+            "{ from = 1, to = 2 }",
+            &[":6: fractal: `from` has no effect without `by`: it needs by = \"perm"],
+        );
+        told("{ }", &[":6: fractal: deform: `by` is needed"]);
         told("{ by = \"spin\" }", &[":6: ", "\"spin\"", "\"permutation\""]);
         told("{ by = \"part\", part = \"14\" }", &[":6: fractal: part: `part`: 4 is no digit"]);
         told(

@@ -50,7 +50,7 @@ weald_core::parameters! {
         /// Not for the bedrock.
         from: Option<RasterFile> = None;
         /// Metres that a 1 in that file stands for. By default 1.
-        scale: Option<f64> = None, range 1.0e-9..=1.0e9, unit "m";
+        scale: Option<f64> = None, range 1.0e-9..=1.0e9, unit "m", with from;
     }
 }
 
@@ -119,7 +119,7 @@ struct Checked<'a> {
 
 impl Checked<'_> {
     fn complain(&self, complaints: &mut Complaints) {
-        let faults = [self.name(), self.bedrock(), self.several(), self.scale(), self.bottom()];
+        let faults = [self.name(), self.bedrock(), self.several(), self.bottom()];
         for (key, fault) in faults.into_iter().flatten() {
             let line = self.table.get(key).map_or(self.table.line, |node| node.line);
             complaints.add(line, fault);
@@ -150,11 +150,6 @@ impl Checked<'_> {
         let [first, second] = [0, 1].map(|place| self.extents().nth(place));
         let (first, second) = first.zip(second)?;
         Some((second, format!("`{second}` does not go with `{first}`: either says how thick it is")))
-    }
-
-    fn scale(&self) -> Option<(&'static str, String)> {
-        let alone = self.table.get("scale").is_some() && self.table.get("from").is_none();
-        alone.then(|| ("scale", "`scale` is for a file: give `from`, or a thickness in metres".to_owned()))
     }
 
     /// Strata are named from below; one that begins under another would have no room.
@@ -230,7 +225,7 @@ mod tests {
             &second("name = \"a\"\nthickness = 1\nbottom = 2\n"),
             &[":7: material: `bottom` does not go with `thickness`"],
         );
-        told(&second("name = \"a\"\nscale = 2\n"), &[":6: material: `scale` is for a file"]);
+        told(&second("name = \"a\"\nscale = 2\n"), &[":6: material: `scale` has no effect without `from`"]);
         told(&second("name = \"a\"\nfrom = \"a.doc\"\n"), &[":6: material: `from`: ", "folder/a.doc"]);
         told(
             &recipe("[[material]]\nname = \"a\"\nbottom = 3\n"),

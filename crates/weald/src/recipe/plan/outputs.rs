@@ -5,7 +5,7 @@ use std::path::{Component, Path, PathBuf};
 use super::films::{self, Film, Motion};
 use crate::recipe::plan::words::{Vocabulary, hint, tables};
 use crate::recipe::{CHECKPOINT_FILE, REPORT_FILE};
-use weald_core::parameter::{Complaints, LayerName, read_key};
+use weald_core::parameter::{Complaints, LayerName, Parameter, check_file, read_key};
 use weald_core::source::{Node, Table, Value};
 use weald_export::{Export, ExportEntry};
 use weald_io::{Encode, Holds};
@@ -256,15 +256,15 @@ fn layer(
 }
 
 fn picture(entry: &PictureEntry, table: &Table, file: &Path, complaints: &mut Complaints) -> Content {
-    let mut table = table.clone();
+    let (whole, mut table) = (table, table.clone());
     entry.name.clone_into(&mut complaints.subject);
     let film = films::take(&mut table, complaints);
     let (what, extensions) =
         if film.is_some() { ("film", films::EXTENSIONS) } else { ("picture", entry.extensions) };
     ensure_extension(&table, file, (what, extensions), complaints);
-    let picture = with_keys(entry.name, "picture", &table, complaints, entry.read);
-    if let Some(fault) = films::fault(film.as_ref(), entry.name, picture.as_ref()) {
-        complaints.add(table.line, fault);
+    let picture = with_keys(("picture", entry.name), &table, complaints, (entry.parameters, entry.read));
+    if let Some((line, fault)) = films::fault(film.as_ref(), (entry.name, whole), picture.as_ref()) {
+        complaints.add(line, fault);
     }
     match film {
         Some(film) => Content::Film { name: entry.name, picture, film },
@@ -274,9 +274,9 @@ fn picture(entry: &PictureEntry, table: &Table, file: &Path, complaints: &mut Co
 
 fn export(entry: &ExportEntry, table: &Table, file: &Path, complaints: &mut Complaints) -> Content {
     ensure_extension(table, file, (entry.name, entry.extensions), complaints);
-    let export = with_keys(entry.name, "export", table, complaints, entry.read);
+    let export = with_keys(("export", entry.name), table, complaints, (entry.parameters, entry.read));
     for fault in export.faults() {
-        complaints.add(table.line, fault);
+        complaints.add(table.line_of(&fault.key), fault);
     }
     Content::Export { name: entry.name, export }
 }
@@ -316,16 +316,16 @@ fn ensure_extension(
 
 /// Reads the keys of a picture or an export: all but its kind and its file.
 fn with_keys<T>(
-    subject: &str,
-    key: &str,
+    (key, subject): (&str, &str),
     table: &Table,
     complaints: &mut Complaints,
-    read: fn(&Table, &mut Complaints) -> T,
+    (parameters, read): (fn() -> Vec<Parameter>, fn(&Table, &mut Complaints) -> T),
 ) -> T {
     let mut keys = table.clone();
     keys.take(key);
     keys.take("file");
     subject.clone_into(&mut complaints.subject);
+    check_file(table, &parameters(), complaints);
     let read = read(&keys, complaints);
     "output".clone_into(&mut complaints.subject);
     read

@@ -21,6 +21,8 @@ pub struct Planned {
     pub occurrence: u64,
     /// The step, ready to run.
     pub step: Box<dyn Step>,
+    /// Its keys, for the lines of faults that show later.
+    pub(super) keys: Table,
 }
 
 impl Planned {
@@ -49,7 +51,7 @@ pub(super) fn read(files: Files<'_>, recipe: &Table, complaints: &mut Complaints
         if let Some(entry) = entry_of(files.vocabulary, table, complaints) {
             let occurrence = steps.iter().filter(|earlier| earlier.entry.name == entry.name).count() as u64;
             let step = read_step(files, entry, table, complaints);
-            steps.push(Planned { entry, line: table.line, occurrence, step });
+            steps.push(Planned { entry, line: table.line, occurrence, step, keys: table.clone() });
         }
     }
     (steps, complaints.found.len() == before)
@@ -84,7 +86,7 @@ fn read_step(files: Files<'_>, entry: &Entry, table: &Table, complaints: &mut Co
     let step = (entry.read)(&keys, complaints);
     if complaints.found.len() == before {
         for fault in step.faults() {
-            complaints.add(table.line, fault);
+            complaints.add(table.line_of(&fault.key), fault);
         }
     }
     step
@@ -96,7 +98,7 @@ pub(super) fn check_materials(steps: &[Planned], materials: &[PlannedMaterial], 
     for planned in steps {
         planned.entry.name.clone_into(&mut complaints.subject);
         for fault in planned.step.faults_among(&materials) {
-            complaints.add(planned.line, fault);
+            complaints.add(planned.keys.line_of(&fault.key), fault);
         }
     }
 }

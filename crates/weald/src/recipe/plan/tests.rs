@@ -246,6 +246,10 @@ fn films_that_cannot_be_made_say_why() {
     says(rough, "every = 3\nfile = \"a.png\"", "no step simulates");
     says(wear, "every = 3\nframes = 4\nfile = \"a.png\"", "exclude each other");
     says(wear, "frames = 1\nfile = \"a.png\"", "`frames` is 1, outside its range: 2 to 9999");
-    says(wear, "frames_per_second = 30\nfile = \"a.png\"", "a still has no speed");
+    says(
+        wear,
+        "frames_per_second = 30\nfile = \"a.png\"",
+        "`frames_per_second` has no effect without `every` or `frames`",
+    );
     says(wear, "every = 3\nof = \"debris2\"\nfile = \"a.png\"", "shows layer `debris2` during step 2");
 }

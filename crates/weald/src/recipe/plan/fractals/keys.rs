@@ -29,13 +29,13 @@ weald_core::parameters! {
         /// numbers in space, three rows of a matrix, each followed by its part of the shift.
         maps: Vec<Vec<f64>> = Vec::new();
         /// Share of the points that each map gets; they sum to 1. By default by how much area or volume it keeps.
-        probabilities: Vec<f64> = Vec::new();
+        probabilities: Vec<f64> = Vec::new(), with maps;
         /// What each map makes of a plant, for colours and wind: by default all are branches.
-        roles: Vec<PlantRole> = Vec::new();
+        roles: Vec<PlantRole> = Vec::new(), with maps;
         /// File of flames, of which the affine parts are taken.
         flame: Option<FlameFile> = None;
         /// Which flame of the file.
-        flame_number: u32 = 1, range 1..=10_000;
+        flame_number: u32 = 1, range 1..=10_000, with flame;
         /// Digits of the codes of its points. By default what a ten-thousandth of its size needs.
         code_digits: Option<u64> = None, range 1..=256;
         /// Deformations.

@@ -23,7 +23,7 @@ impl Written<'_> {
         match given.as_slice() {
             ["of"] => self.built_in().map(|ifs| Seedling::Known(Box::new(ifs))),
             ["maps"] => self.of_maps().map(|ifs| Seedling::Known(Box::new(ifs))),
-            ["flame"] => self.flame(),
+            ["flame"] => Ok(self.flame()),
             [first, second, ..] => {
                 let message =
                     format!("`{first}` and `{second}` exclude each other: a fractal is made of one of them");
@@ -40,16 +40,7 @@ impl Written<'_> {
         (line_of(self.table, key), message.into())
     }
 
-    /// Keys that go with `maps` alone.
-    fn refuse_keys_of_maps(&self) -> At<()> {
-        match ["probabilities", "roles"].into_iter().find(|key| self.table.get(key).is_some()) {
-            Some(key) => Err(self.at(key, format!("`{key}` goes with `maps` alone"))),
-            None => Ok(()),
-        }
-    }
-
     fn built_in(&self) -> At<Ifs> {
-        self.refuse_keys_of_maps()?;
         let name = self.keys.of.as_deref().unwrap_or_default();
         let Some(shape) = shapes::find(name) else {
             let known: Vec<_> = shapes::SHAPES.iter().map(|shape| shape.name).collect();
@@ -63,10 +54,9 @@ impl Written<'_> {
         self.checked(Draft { name, maps, code_digits: Some(code_digits) })
     }
 
-    fn flame(&self) -> At<Seedling> {
-        self.refuse_keys_of_maps()?;
+    fn flame(&self) -> Seedling {
         let path = self.keys.flame.as_ref().map(FlameFile::path).unwrap_or_default();
-        Ok(Seedling::Flame { path, number: self.keys.flame_number as usize })
+        Seedling::Flame { path, number: self.keys.flame_number as usize }
     }
 
     fn of_maps(&self) -> At<Ifs> {

@@ -1,0 +1,154 @@
+//! The keys of each model.
+
+use super::{Model, Transport, UptakeLaw};
+use crate::erode::dissolution_step::DissolutionWithin;
+use crate::erode::slippage_step::SlippageWithin;
+use crate::erode::springs::Spring;
+use crate::erode::thermal_step::ThermalWithin;
+use weald_core::parameter::{LayerName, Length, Nested, ScriptFile};
+use weald_core::parameters;
+
+parameters! {
+    /// The keys of model "han".
+    pub struct HanKeys {
+        /// Pipe constant k = dt² g A / l: how fast differences in level turn into flow. Unstable above 0.5.
+        flow_rate: f64 = 0.4, range 0.0001..=0.5;
+        /// Rain a step while it rains.
+        rain: Length = Length::Cells(0.01), range 0.0..=100.0, unit "m/step";
+        /// Evaporation a step in dry periods.
+        evaporation: Length = Length::Cells(0.03), range 0.0..=100.0, unit "m/step";
+        /// Steps without rain that follow; 0 means that it always rains.
+        dry_period: u32 = 60, range 0..=10_000_000, unit "steps";
+        /// What sediment is taken up by.
+        law: UptakeLaw = UptakeLaw::Velocity;
+        /// Sediment that a unit of water holds at unit speed and slope (K_c). Default 10, with law = "dissolution" 1.
+        capacity: Option<f64> = None, range 0.0..=10_000.0;
+        /// Uptake a unit of speed (K_v), default 0.005; with law = "dissolution" the share of the free capacity that is
+        /// taken up in a step (K_s), default 0.01.
+        erosion: Option<f64> = None, range 0.0..=1.0;
+        /// Share of a deposit that the ground gets back (r); below 1 it keeps lakes from filling with more
+        /// than their water, and the rest is counted as out.
+        deposit_ratio: f64 = 1.0, range 0.0..=1.0;
+        /// Whether a cell gives no more water than it has. `false` is the scheme as printed, which lets depths go
+        /// negative.
+        limiter: bool = true;
+        /// How sediment travels.
+        transport: Transport = Transport::Upwind;
+        /// Whether it takes the form that conserves sediment.
+        conserve: bool = true, when transport = "maccormack";
+        /// Depth added where flux is divided by depth.
+        velocity_epsilon: Length = Length::Cells(0.1), range 0.000_000_1..=100.0, unit "m";
+        /// Thermal weathering in every step, with the keys of the `thermal` step. Default: none.
+        thermal: Option<Nested<ThermalWithin>> = None;
+    }
+}
+
+parameters! {
+    /// The keys of model "mei".
+    pub struct MeiKeys {
+        /// Pipe constant k = dt² g A / l: how fast differences in level turn into flow. Unstable above 0.5.
+        flow_rate: f64 = 0.1, range 0.0001..=0.5;
+        /// Rain a step while it rains.
+        rain: Length = Length::Cells(0.002), range 0.0..=100.0, unit "m/step";
+        /// Share of the depth of water that evaporates in every step.
+        evaporation: f64 = 0.015, range 0.0..=1.0;
+        /// Steps without rain that follow; 0 means that it always rains.
+        dry_period: u32 = 0, range 0..=10_000_000, unit "steps";
+        /// Sediment that a unit of water holds at unit speed and slope (K_c).
+        capacity: f64 = 0.05, range 0.0..=10_000.0;
+        /// Share of the free capacity that is taken up in a step (K_s).
+        erosion: f64 = 0.1, range 0.0..=1.0;
+        /// Share of the surplus sediment that settles in a step (K_d).
+        deposition: f64 = 0.1, range 0.0..=1.0;
+        /// Share of a deposit that the ground gets back (r); below 1 it keeps lakes from filling with more
+        /// than their water, and the rest is counted as out.
+        deposit_ratio: f64 = 1.0, range 0.0..=1.0;
+        /// Whether a cell gives no more water than it has. `false` is the scheme as printed.
+        limiter: bool = true;
+        /// How sediment travels. The publication has "semi-lagrangian", which loses sediment.
+        transport: Transport = Transport::Upwind;
+        /// Whether it takes the form that conserves sediment.
+        conserve: bool = true, when transport = "maccormack";
+        /// Depth below which water stands still.
+        velocity_epsilon: Length = Length::Cells(0.0001), range 0.000_000_1..=100.0, unit "m";
+        /// Thermal weathering in every step, with the keys of the `thermal` step. Default: none.
+        thermal: Option<Nested<ThermalWithin>> = None;
+    }
+}
+
+parameters! {
+    /// The keys of model "stava".
+    pub struct StavaKeys {
+        /// Pipe constant k = dt² g A / l: how fast differences in level turn into flow. Unstable above 0.5.
+        flow_rate: f64 = 0.0981, range 0.0001..=0.5;
+        /// Rain a step while it rains.
+        rain: Length = Length::Cells(0.002), range 0.0..=100.0, unit "m/step";
+        /// Evaporation a step, in dry periods or, where `dry_period` is 0, always.
+        evaporation: Length = Length::Cells(0.006), range 0.0..=100.0, unit "m/step";
+        /// Steps without rain that follow; 0 means that it always rains.
+        dry_period: u32 = 60, range 0..=10_000_000, unit "steps";
+        /// Sediment that a unit of water holds at unit speed and slope (K_c).
+        capacity: f64 = 0.5, range 0.0..=10_000.0;
+        /// Factor of the erodibility of every material.
+        erosion: f64 = 20.0, range 0.0..=10_000.0;
+        /// Share of the surplus sediment that settles in a step (K_d).
+        deposition: f64 = 0.1, range 0.0..=1.0;
+        /// How sediment travels.
+        transport: Transport = Transport::MacCormack;
+        /// Whether it takes the form that conserves sediment.
+        conserve: bool = true, when transport = "maccormack";
+        /// Depth below which water stands still. Thin water on slopes would wear all ground alike: only water that has
+        /// gathered carves.
+        velocity_epsilon: Length = Length::Cells(0.02), range 0.000_000_1..=100.0, unit "m";
+        /// Layer with a factor of the rain, cell by cell.
+        rain_layer: Option<LayerName> = None;
+        /// Layer with a factor of the evaporation, cell by cell.
+        evaporation_layer: Option<LayerName> = None;
+        /// Layer with the water that springs in a step, in metres; drains where it is negative.
+        source_layer: Option<LayerName> = None;
+        /// Places where water springs.
+        sources: Vec<Nested<Spring>> = Vec::new();
+        /// Places where water drains, as far as there is any.
+        drains: Vec<Nested<Spring>> = Vec::new();
+        /// Viscosity of the water, which evens out its velocity; 0 is none.
+        viscosity: f64 = 0.0, range 0.0..=1_000_000.0, unit "m²/step";
+        /// Material that settles. Default: the last of the landscape.
+        deposit: Option<LayerName> = None;
+        /// Standing water turns ground into regolith that creeps. Default: it does not.
+        dissolution: Option<Nested<DissolutionWithin>> = None;
+        /// Materials slide off slopes steeper than their talus. Default: they do not.
+        slippage: Option<Nested<SlippageWithin>> = None;
+        /// Script of edits, in JSON lines (.jsonl) or TOML: strokes of a brush that happen between the steps. Its
+        /// path starts at the folder of the recipe.
+        edits: Option<ScriptFile> = None;
+    }
+}
+
+impl Model {
+    /// The keys of `stava`, which alone knows layers.
+    pub(super) fn stava(&self) -> Option<&StavaKeys> {
+        match self {
+            Self::Stava(keys) => Some(keys),
+            Self::Han(_) | Self::Mei(_) => None,
+        }
+    }
+
+    /// How sediment travels, and whether "maccormack" conserves it.
+    pub(super) fn transport(&self) -> (Transport, bool) {
+        match self {
+            Self::Han(keys) => (keys.transport, keys.conserve),
+            Self::Mei(keys) => (keys.transport, keys.conserve),
+            Self::Stava(keys) => (keys.transport, keys.conserve),
+        }
+    }
+
+    /// Thermal weathering in every step; `stava` has slippage instead.
+    pub(super) fn thermal(&self) -> Option<&ThermalWithin> {
+        let thermal = match self {
+            Self::Han(keys) => &keys.thermal,
+            Self::Mei(keys) => &keys.thermal,
+            Self::Stava(_) => &None,
+        };
+        thermal.as_ref().map(|Nested(within)| within)
+    }
+}
