@@ -85,7 +85,7 @@ pub(crate) enum Command {
         #[arg(long, value_name = "ID", value_parser = figure_ids())]
         only: Vec<String>,
         /// Folder of the pictures and their page
-        #[arg(long, value_name = "DIR", default_value = "docs/gallery")]
+        #[arg(long, value_name = "DIR", default_value = "out/gallery")]
         out: PathBuf,
     },
     /// Draw a plant or set of an iterated function system, still or in the wind

@@ -30,6 +30,7 @@ mod weathering;
 mod write;
 
 pub use claim::{Claim, Verdict};
+pub use page::merged_page;
 pub use write::{Begun, Selection, draws, selectable, write, write_figures};
 
 use weald_core::error::Error;

@@ -32,6 +32,13 @@ pub(super) fn sections(page: &Path) -> BTreeMap<String, String> {
         .collect()
 }
 
+/// The page of `figures` in which the sections of the page `newer` stand for those of the page `older`.
+pub fn merged_page(figures: &[Figure], older: &Path, newer: &Path) -> String {
+    let mut merged = sections(older);
+    merged.extend(sections(newer));
+    assemble(figures, &merged)
+}
+
 /// The whole page, in the order of `figures`.
 pub(super) fn assemble(figures: &[Figure], sections: &BTreeMap<String, String>) -> String {
     let present: Vec<(&Figure, &String)> =

@@ -1,0 +1,12 @@
+//! What developers of Weald run and users never build: renewing the committed pictures, and tests of the tree itself.
+//! Its dependencies need compilers of C and C++.
+
+mod coding;
+mod flip;
+mod keep;
+mod renew;
+
+pub use coding::{Coded, code, decode};
+pub use flip::{Flip, flip};
+pub use keep::{Kept, VISIBLE, keep};
+pub use renew::{Renewed, renew};

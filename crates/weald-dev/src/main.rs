@@ -1,0 +1,64 @@
+//! `cargo run --release -p weald-dev -- gallery` renews docs/gallery; `-- picture FROM.png TO.webp`, one picture.
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+use weald::Error;
+use weald_dev::{Renewed, keep, renew};
+
+/// Renews committed pictures: those that look different, as WebP
+#[derive(Debug, Parser)]
+#[command(name = "weald-dev")]
+struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+    /// Write pictures anew that look as they did, too
+    #[arg(long, global = true)]
+    all: bool,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Renew the committed gallery from the one that `weald gallery` has made
+    Gallery {
+        /// Folder that `weald gallery` has written
+        #[arg(long, value_name = "DIR", default_value = "out/gallery")]
+        from: PathBuf,
+        /// Folder of the committed gallery
+        #[arg(long, value_name = "DIR", default_value = "docs/gallery")]
+        into: PathBuf,
+    },
+    /// Renew one committed picture
+    Picture {
+        /// What Weald has drawn, a PNG
+        #[arg(value_name = "FROM.png")]
+        from: PathBuf,
+        /// The committed picture
+        #[arg(value_name = "TO.webp")]
+        into: PathBuf,
+    },
+}
+
+fn main() -> ExitCode {
+    match run(&Arguments::parse()) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("error: {error}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn run(Arguments { command, all }: &Arguments) -> Result<(), Error> {
+    match command {
+        Command::Gallery { from, into } => renew(from, into, *all, &|renewed| match renewed {
+            Renewed::Figure(name, kept) => println!("{name} {kept}"),
+            Renewed::Deleted(name) => println!("{name} deleted: no figure shows it"),
+        }),
+        Command::Picture { from, into } => {
+            println!("{} {}", into.display(), keep(from, into, *all)?);
+            Ok(())
+        }
+    }
+}
