@@ -55,12 +55,12 @@ impl Pipeline {
     ) -> Result<Self, Error> {
         let key = (name.to_owned(), module);
         let mut known = gpu.context.pipelines.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(pipeline) = known.get(&key) {
-            return Ok(pipeline.clone());
+        if let Some((pipeline, layout)) = known.get(&key) {
+            return Ok(Self { pipeline: pipeline.clone(), layout: layout.clone() });
         }
-        let pipeline = gpu.context.attempt(what, || Ok(Self::compile(gpu, name, &key.1, entries)))?;
-        known.insert(key, pipeline.clone());
-        Ok(pipeline)
+        let compiled = gpu.context.attempt(what, || Ok(Self::compile(gpu, name, &key.1, entries)))?;
+        known.insert(key, (compiled.pipeline.clone(), compiled.layout.clone()));
+        Ok(compiled)
     }
 
     /// Compiles a module whose entry point has this name.

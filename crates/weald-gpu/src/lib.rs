@@ -23,28 +23,18 @@
 //! A [`Cloud`] is the points of a fractal on a device, a [`Swarm`] a plant there that sways. [`grow_blades`] grows grass there,
 //! [`bend_limbs`] bends plants.
 
-mod adapter;
-mod advice;
 mod bandwidth;
-mod buffers;
 mod compiled;
-mod context;
-mod extents;
-mod faults;
+mod device;
 mod gpu;
-mod kept;
 mod live;
 mod memory;
 mod pace;
-mod parts;
-mod ready;
+mod program;
 mod render;
-mod running;
 mod slots;
 mod swarm;
 mod transfer;
-mod uniforms;
-mod watch;
 
 pub use gpu::Gpu;
 pub use live::Live;

@@ -16,7 +16,7 @@ use wgpu::{
     ShaderModuleDescriptor, ShaderSource,
 };
 
-use crate::gpu::Gpu;
+use crate::gpu::{Gpu, Shown, Shows};
 use crate::memory::Store;
 use crate::transfer;
 
@@ -47,14 +47,6 @@ struct Place {
     first: [i32; 2],
     unit: f32,
     lowest: f32,
-}
-
-/// What a program holds now: buffers, and how many values or planes they have a cell.
-pub(crate) struct Parts<'a> {
-    pub(crate) base: &'a Buffer,
-    pub(crate) added: (&'a Buffer, u32),
-    pub(crate) water: Option<(&'a Buffer, u32)>,
-    pub(crate) mask: Option<(&'a Buffer, u32)>,
 }
 
 impl Live {
@@ -93,35 +85,37 @@ impl Live {
         [&self.shared.ground, &self.shared.depth]
     }
 
-    /// Begins with the ground of a simulation; one of a landscape of another size is not shown.
-    pub(crate) fn begin(&self, gpu: &Gpu, shown: &ShownGround<'_>) -> Result<(), Error> {
-        let shared = &*self.shared;
-        let fits = shown.start.size() == shared.size;
-        if fits {
-            transfer::write(gpu, &shared.ground.buffer, bytemuck::cast_slice(shown.start.values()))?;
-            if let Some(water) = shown.water {
-                transfer::write(gpu, &shared.depth.buffer, bytemuck::cast_slice(water.values()))?;
-            }
-        }
-        let ShownGround { size, first, unit, lowest, .. } = *shown;
-        *self.place() = fits.then_some(Place { size, first, unit, lowest });
-        Ok(())
-    }
-
     /// A panic elsewhere leaves it whole, since it is only ever replaced.
     fn place(&self) -> MutexGuard<'_, Option<Place>> {
         self.shared.place.lock().unwrap_or_else(PoisonError::into_inner)
     }
+}
 
-    /// Takes what a program of such a size holds; what is not the whole simulation, such as a tile, is not shown.
-    pub(crate) fn take(&self, gpu: &Gpu, size: Size, parts: &Parts<'_>) -> Result<(), Error> {
+impl Shows for Live {
+    /// One of a landscape of another size is not shown.
+    fn begin(&self, gpu: &Gpu, ground: &ShownGround<'_>) -> Result<(), Error> {
+        let shared = &*self.shared;
+        let fits = ground.start.size() == shared.size;
+        if fits {
+            transfer::write(gpu, &shared.ground.buffer, bytemuck::cast_slice(ground.start.values()))?;
+            if let Some(water) = ground.water {
+                transfer::write(gpu, &shared.depth.buffer, bytemuck::cast_slice(water.values()))?;
+            }
+        }
+        let ShownGround { size, first, unit, lowest, .. } = *ground;
+        *self.place() = fits.then_some(Place { size, first, unit, lowest });
+        Ok(())
+    }
+
+    /// What is not the whole simulation, such as a tile, is not shown.
+    fn take(&self, gpu: &Gpu, size: Size, shown: &Shown<'_>) -> Result<(), Error> {
         let Some(place) = self.place().filter(|place| place.size == size) else { return Ok(()) };
         let shared = &*self.shared;
         let whole = [shared.size.columns, shared.size.rows].map(|side| side as u32);
         gpu.context.attempt("showing a simulation", || {
             let pipeline = shared.pipeline.get_or_init(|| pipeline(gpu));
-            gpu.context.queue.write_buffer(&shared.numbers.buffer, 0, &place.bytes(whole, parts));
-            let group = shared.bind(gpu, pipeline, parts);
+            gpu.context.queue.write_buffer(&shared.numbers.buffer, 0, &place.bytes(whole, shown));
+            let group = shared.bind(gpu, pipeline, shown);
             let mut encoder = gpu.context.device.create_command_encoder(&CommandEncoderDescriptor::default());
             let mut pass = encoder.begin_compute_pass(&ComputePassDescriptor::default());
             pass.set_pipeline(pipeline);
@@ -137,15 +131,23 @@ impl Live {
     }
 }
 
+impl Gpu {
+    /// The same device, whose programs show ground and water as they run.
+    #[must_use]
+    pub fn shown_in(&self, live: &Live) -> Self {
+        Self { shows: Some(Arc::new(live.clone())), ..self.clone() }
+    }
+}
+
 impl Shared {
-    fn bind(&self, gpu: &Gpu, pipeline: &ComputePipeline, parts: &Parts<'_>) -> BindGroup {
-        let or_base = |part: Option<(&'_ Buffer, u32)>| part.map_or(parts.base, |(buffer, _)| buffer).clone();
+    fn bind(&self, gpu: &Gpu, pipeline: &ComputePipeline, shown: &Shown<'_>) -> BindGroup {
+        let or_base = |part: Option<(&'_ Buffer, u32)>| part.map_or(shown.base, |(buffer, _)| buffer).clone();
         let buffers = [
             self.numbers.buffer.clone(),
-            parts.base.clone(),
-            parts.added.0.clone(),
-            or_base(parts.water),
-            or_base(parts.mask),
+            shown.base.clone(),
+            shown.added.0.clone(),
+            or_base(shown.water),
+            or_base(shown.mask),
             self.ground.buffer.clone(),
             self.depth.buffer.clone(),
         ];
@@ -161,11 +163,11 @@ impl Shared {
 
 impl Place {
     /// The shader's struct.
-    fn bytes(&self, whole: [u32; 2], parts: &Parts<'_>) -> Vec<u8> {
+    fn bytes(&self, whole: [u32; 2], shown: &Shown<'_>) -> Vec<u8> {
         let lanes = |part: Option<(&Buffer, u32)>| part.map_or(0, |(_, lanes)| lanes);
         let [columns, rows] = [self.size.columns, self.size.rows].map(|side| side as u32);
         let [first_column, first_row] = self.first.map(|first| first as u32);
-        let (added, water, mask) = (parts.added.1, lanes(parts.water), lanes(parts.mask));
+        let (added, water, mask) = (shown.added.1, lanes(shown.water), lanes(shown.mask));
         let words = [whole[0], whole[1], columns, rows, first_column, first_row, added, water, mask];
         let words = words.into_iter().chain([self.unit.to_bits(), self.lowest.to_bits(), 0]);
         words.flat_map(u32::to_le_bytes).collect()

@@ -1,72 +1,9 @@
-//! A budget of device memory, and who holds how much of it.
-
-use std::sync::Arc;
-use std::sync::atomic::{AtomicU64, Ordering};
+//! Memory of a device: buffers that count against its budget.
 
 use weald::Error;
 
-use crate::advice::Advice;
 use crate::gpu::Gpu;
-
-/// Least budget: below it, staging and uniforms leave no room for a program.
-pub(crate) const LEAST: u64 = 1 << 20;
-
-/// Bytes that may be held together, that are held, and that were held at most.
-#[derive(Debug)]
-pub(crate) struct Memory {
-    budget: u64,
-    held: AtomicU64,
-    peak: AtomicU64,
-    advice: &'static Advice,
-}
-
-impl Memory {
-    /// A budget, and what to say where it is spent.
-    pub(crate) fn new(budget: u64, advice: &'static Advice) -> Arc<Self> {
-        Arc::new(Self { budget, held: AtomicU64::new(0), peak: AtomicU64::new(0), advice })
-    }
-
-    pub(crate) fn budget(&self) -> u64 {
-        self.budget
-    }
-
-    pub(crate) fn held(&self) -> u64 {
-        self.held.load(Ordering::Relaxed)
-    }
-
-    pub(crate) fn peak(&self) -> u64 {
-        self.peak.load(Ordering::Relaxed)
-    }
-
-    /// Takes bytes from the budget, until what is returned is dropped.
-    pub(crate) fn hold(self: &Arc<Self>, bytes: u64, what: &str) -> Result<Held, Error> {
-        let fits = |held: u64| held.checked_add(bytes).filter(|&sum| sum <= self.budget);
-        let before = self.held.fetch_update(Ordering::Relaxed, Ordering::Relaxed, fits).map_err(|held| {
-            Error::Device(format!(
-                "{what} takes {} of GPU memory; {} of {} are in use; {}",
-                in_words(bytes),
-                in_words(held),
-                in_words(self.budget),
-                self.advice.spent
-            ))
-        })?;
-        self.peak.fetch_max(before + bytes, Ordering::Relaxed);
-        Ok(Held { memory: Arc::clone(self), bytes })
-    }
-}
-
-/// Bytes of a budget.
-#[derive(Debug)]
-pub(crate) struct Held {
-    memory: Arc<Memory>,
-    bytes: u64,
-}
-
-impl Drop for Held {
-    fn drop(&mut self) {
-        self.memory.held.fetch_sub(self.bytes, Ordering::Relaxed);
-    }
-}
+use crate::gpu::budget::{Held, in_words};
 
 /// A buffer that counts against the budget.
 #[derive(Debug)]
@@ -93,38 +30,5 @@ impl Store {
             wgpu::BufferDescriptor { label: Some(what), size: bytes, usage, mapped_at_creation: false };
         let buffer = gpu.context.attempt(what, || Ok(gpu.context.device.create_buffer(&description)))?;
         Ok(Self { buffer, _held: held })
-    }
-}
-
-/// Bytes as a person reads them.
-pub(crate) fn in_words(bytes: u64) -> String {
-    match bytes {
-        0..1024 => format!("{bytes} bytes"),
-        1024..1_048_576 => format!("{:.1} KiB", bytes as f64 / 1024.0),
-        _ => format!("{:.1} MiB", bytes as f64 / 1_048_576.0),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::advice::SIMULATION;
-
-    #[test]
-    fn what_is_dropped_can_be_held_again_and_the_peak_stays() {
-        let memory = Memory::new(100, &SIMULATION);
-        let first = memory.hold(60, "one").expect("it fits");
-        assert!(memory.hold(41, "two").is_err(), "the budget would be passed");
-        drop(first);
-        let _second = memory.hold(41, "two").expect("it fits now");
-        assert_eq!((memory.held(), memory.peak()), (41, 60));
-    }
-
-    #[test]
-    fn no_number_of_bytes_overflows_the_count() {
-        let memory = Memory::new(u64::MAX, &SIMULATION);
-        let _some = memory.hold(10, "some").expect("it fits");
-        let error = memory.hold(u64::MAX, "all").expect_err("10 are held").to_string();
-        assert!(error.contains("all takes") && error.contains("10 bytes of"), "{error}");
     }
 }

@@ -10,7 +10,7 @@ use weald::Error;
 use wgpu::{CommandEncoder, CommandEncoderDescriptor, SubmissionIndex};
 
 use crate::gpu::Gpu;
-use crate::memory::Held;
+use crate::gpu::budget::Held;
 
 /// Time that a submission should take: well below the tenth of a second that it may take, as passes differ.
 const AIM: Duration = Duration::from_millis(40);

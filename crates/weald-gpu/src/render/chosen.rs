@@ -6,9 +6,10 @@ use weald::grow::grass::choice::LISTS;
 use weald::picture::Camera;
 use wgpu::{BufferUsages, CommandEncoderDescriptor};
 
-use super::Renderer;
+use super::grass::Grass;
 use super::lawn::Sown;
 use super::picture::landed;
+use super::renderer::Renderer;
 use crate::gpu::Gpu;
 use crate::memory::Store;
 
@@ -34,7 +35,7 @@ impl Renderer {
             context.queue.submit([encoder.finish()]);
             Ok(())
         })?;
-        let sown = self.grass.iter().flat_map(super::grass::Grass::sown);
+        let sown = self.grass.iter().flat_map(Grass::sown);
         sown.map(|sown| Chosen::of(&self.gpu, sown)).collect()
     }
 }

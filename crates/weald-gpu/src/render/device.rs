@@ -4,8 +4,9 @@ use weald::Error;
 use weald::engine::device::Device;
 use weald::picture::{Camera, GrassRate, Image, RenderDevice, RenderScene, Rendering};
 
+use super::options::Options;
+use super::renderer::Renderer;
 use super::tables::{GrassRow, Measuring, grass_tables};
-use super::{Options, Renderer};
 use crate::gpu::Gpu;
 
 impl RenderDevice for Gpu {

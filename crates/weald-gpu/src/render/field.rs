@@ -5,7 +5,9 @@ use weald::grow::grass::{Bend, Maps, Meadow, SPECIES};
 use weald::picture::{Camera, Stage, View};
 use weald::{Domain, Error, Field, Landscape, Size};
 
-use super::{GrassLook, Options, Renderer};
+use super::grass_look::GrassLook;
+use super::options::Options;
+use super::renderer::Renderer;
 use crate::gpu::Gpu;
 
 /// Cells a side.

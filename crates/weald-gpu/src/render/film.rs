@@ -13,8 +13,8 @@ use wgpu::{
     ShaderStages, StoreOp, TextureFormat, TextureSampleType, TextureView, TextureViewDimension, VertexState,
 };
 
+use super::layouts::STAGE_GROUP;
 use super::maps::Maps;
-use super::passes::STAGE_GROUP;
 use super::targets::Targets;
 use super::timing::{Moment, Timer};
 use crate::gpu::Gpu;

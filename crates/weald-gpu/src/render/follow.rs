@@ -4,15 +4,11 @@ use weald::Error;
 use weald::picture::Stage;
 use wgpu::{
     BindGroupDescriptor, BindGroupEntry, BindingResource, CommandEncoderDescriptor, ComputePassDescriptor,
-    ComputePipeline, ComputePipelineDescriptor, PipelineCompilationOptions, ShaderModuleDescriptor,
-    ShaderSource,
 };
 
-use super::Renderer;
-use crate::gpu::Gpu;
+use super::follower::Follower;
+use super::renderer::Renderer;
 use crate::live::Live;
-use crate::memory::Store;
-use crate::transfer::uniform;
 
 /// Control points along the side of a workgroup, and beyond each border, as the shader has them.
 const GROUP: u32 = 16;
@@ -20,34 +16,6 @@ const RIM: u32 = 2;
 
 /// Share of the relief by which ground may rise or sink while it is followed, and stay in sight of all that is drawn.
 const SLACK: f32 = 0.25;
-
-/// What makes surfaces.
-#[derive(Debug)]
-pub(super) struct Follower {
-    pipeline: ComputePipeline,
-    numbers: Store,
-}
-
-impl Follower {
-    fn new(gpu: &Gpu, stage: &Stage) -> Result<Self, Error> {
-        let numbers = uniform(gpu, "what is followed", &stage.follow())?;
-        gpu.context.attempt("making the pipeline that follows a simulation", || {
-            let device = &gpu.context.device;
-            let source = ShaderSource::Wgsl(Stage::FOLLOW.into());
-            let module =
-                device.create_shader_module(ShaderModuleDescriptor { label: Some("follow"), source });
-            let pipeline = device.create_compute_pipeline(&ComputePipelineDescriptor {
-                label: Some("follow"),
-                layout: None,
-                module: &module,
-                entry_point: Some("follow_ground"),
-                compilation_options: PipelineCompilationOptions::default(),
-                cache: None,
-            });
-            Ok(Self { pipeline, numbers })
-        })
-    }
-}
 
 impl Renderer {
     /// Takes ground and water of a simulation as they are now for the next pictures. `stage` is the one that the renderer

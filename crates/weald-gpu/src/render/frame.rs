@@ -10,7 +10,8 @@ use wgpu::{
 };
 
 use super::cascades::{CASCADES, Cascades};
-use super::lattice::{MOST_LEVELS, Standpoint};
+use super::lattice::Standpoint;
+use super::levels::MOST_LEVELS;
 use super::textures::Canvas;
 use crate::gpu::Gpu;
 use crate::memory::Store;

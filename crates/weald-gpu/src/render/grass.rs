@@ -19,29 +19,12 @@ use wgpu::{
     ShaderModuleDescriptor, ShaderSource, ShaderStages,
 };
 
+use super::grass_look::GrassLook;
 use super::lawn::{DRAW, Lawn, Sown};
-use super::passes::{Layouts, STAGE_GROUP};
+use super::layouts::{Layouts, STAGE_GROUP};
 use super::strips::strips;
 use super::timing::Timer;
 use crate::gpu::Gpu;
-
-/// What of a landscape's grass is drawn.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct GrassLook {
-    /// Whether sets out of sight are left out. The picture is the same.
-    pub culled: bool,
-    /// Whether sets become fewer, and blades coarser, with the distance, up to 96 m. Otherwise all sets of the landscape
-    /// are drawn, each blade with ten vertices a level of growth, as in the source.
-    pub thinned: bool,
-    /// Level of growth of all sets, 0 to 4, in place of their own.
-    pub level: Option<f32>,
-}
-
-impl Default for GrassLook {
-    fn default() -> Self {
-        Self { culled: true, thinned: true, level: None }
-    }
-}
 
 /// Names of the lists' entry points.
 const LISTS: [&str; choice::LISTS] = ["near_blade", "middle_blade", "far_blade"];

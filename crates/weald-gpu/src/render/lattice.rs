@@ -8,6 +8,7 @@
 //! alone, and one height of the eye for all, so that what is near is known exactly and does not hang on heights.
 
 use super::frustum::{Frustum, Heights};
+use super::levels::{MOST_LEVELS, spacing};
 use super::spacing::Ranges;
 
 /// Quads along a side of what is drawn at once: a quarter of a square.
@@ -15,12 +16,6 @@ pub(crate) const QUADS: u32 = 16;
 
 /// Quads along a side of a square.
 const SQUARE: f32 = 2.0 * QUADS as f32;
-
-/// Vertices of the finest level on the side of a cell.
-pub(crate) const FINEST: f32 = 0.125;
-
-/// Most levels: enough for the largest grid.
-pub(crate) const MOST_LEVELS: usize = 26;
 
 /// A patch of the ground that is drawn: [`QUADS`] by [`QUADS`] quads.
 #[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
@@ -75,14 +70,9 @@ impl Lattice {
         Self { cells, metres, levels }
     }
 
-    /// Cells between vertices of a level.
-    pub(crate) fn spacing(level: usize) -> f32 {
-        FINEST * (1_u32 << level) as f32
-    }
-
     /// Cells along the side of a square.
     fn side(level: usize) -> f32 {
-        SQUARE * Self::spacing(level)
+        SQUARE * spacing(level)
     }
 
     /// Patches in sight of a view, the nearest first.
@@ -132,7 +122,7 @@ impl Selection<'_> {
             if level > 0 && distance <= self.ranges.end(level - 1) {
                 self.square(quarter, level - 1);
             } else if self.is_drawn(quarter, half) {
-                let patch = Patch { corner: quarter, spacing: Lattice::spacing(level), level: level as f32 };
+                let patch = Patch { corner: quarter, spacing: spacing(level), level: level as f32 };
                 self.patches.push((distance, patch));
             }
         }

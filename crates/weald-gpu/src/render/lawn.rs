@@ -7,7 +7,7 @@ use weald::grow::grass::choice::{Choice, FARTHEST, LISTS};
 use weald::grow::grass::{Area, Grasses, Instance, Meadow, Packed};
 use wgpu::{BindGroup, BindGroupDescriptor, BindGroupEntry, BindGroupLayout, BufferUsages};
 
-use super::grass::GrassLook;
+use super::grass_look::GrassLook;
 use crate::gpu::Gpu;
 use crate::memory::Store;
 use crate::transfer::uniform;

@@ -4,25 +4,20 @@ use weald::Error;
 use weald::picture::Stage;
 use wgpu::{
     BindGroup, BindGroupLayout, Color, ColorTargetState, ColorWrites, CommandEncoder, CompareFunction,
-    DepthBiasState, DepthStencilState, Device, FragmentState, LoadOp, MultisampleState, Operations,
-    PipelineCompilationOptions, PipelineLayout, PipelineLayoutDescriptor, PrimitiveState, RenderPass,
-    RenderPassColorAttachment, RenderPassDepthStencilAttachment, RenderPassDescriptor, RenderPipeline,
-    RenderPipelineDescriptor, ShaderModule, ShaderModuleDescriptor, ShaderSource, StencilState, StoreOp,
-    VertexAttribute, VertexBufferLayout, VertexFormat, VertexState, VertexStepMode,
+    Device, FragmentState, LoadOp, MultisampleState, Operations, PipelineCompilationOptions, PipelineLayout,
+    PipelineLayoutDescriptor, PrimitiveState, RenderPass, RenderPassColorAttachment,
+    RenderPassDepthStencilAttachment, RenderPassDescriptor, RenderPipeline, RenderPipelineDescriptor,
+    ShaderModule, ShaderModuleDescriptor, ShaderSource, StoreOp, VertexAttribute, VertexBufferLayout,
+    VertexFormat, VertexState, VertexStepMode,
 };
 
-use super::frame::Frame;
 use super::grass::Grass;
-use super::maps::Maps;
+use super::layouts::{Layouts, STAGE_GROUP, depth_state};
 use super::plants::Plants;
-use super::shadows::Shadows;
-use super::targets::{DEPTH, LIGHT, Targets};
+use super::targets::{LIGHT, Targets};
 use super::terrain::{PATCH_BYTES, RIM_BYTES, SIDE_BYTES, Terrain};
 use super::timing::{Moment, Timer};
 use crate::gpu::Gpu;
-
-/// Group of the stage's maps and numbers.
-pub(super) const STAGE_GROUP: u32 = 1;
 
 /// The passes' own shaders, each after those that it calls.
 const SHADERS: [&str; 9] = [
@@ -92,14 +87,6 @@ pub(super) struct Drawing<'a> {
     pub(super) timer: Option<&'a Timer>,
 }
 
-/// The layouts of all groups.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Layouts<'a> {
-    pub(super) frame: &'a Frame,
-    pub(super) maps: &'a Maps,
-    pub(super) shadows: &'a Shadows,
-}
-
 /// What nothing drew on: no light of a landscape.
 const MAGENTA: Color = Color { r: 0.1, g: 0.0, b: 0.1, a: 1.0 };
 
@@ -126,7 +113,7 @@ impl Passes {
         gpu.context.attempt("making the pipelines of a picture", || {
             let device = &gpu.context.device;
             let source = ShaderSource::Wgsl(text.into());
-            let Layouts { frame, maps, shadows } = layouts;
+            let Layouts { frame, maps, cascade } = layouts;
             let whole = |groups: &[Option<&BindGroupLayout>]| {
                 device.create_pipeline_layout(&PipelineLayoutDescriptor {
                     label: Some("picture"),
@@ -139,7 +126,7 @@ impl Passes {
                 module: device
                     .create_shader_module(ShaderModuleDescriptor { label: Some("picture"), source }),
                 layout: whole(&[Some(&frame.layout), Some(&maps.layout)]),
-                casters: whole(&[Some(&frame.caster_layout), Some(&maps.layout), Some(&shadows.layout)]),
+                casters: whole(&[Some(&frame.caster_layout), Some(&maps.layout), Some(cascade)]),
                 samples,
                 has_holes: stage.has_holes(),
             };
@@ -293,16 +280,5 @@ impl Maker<'_> {
             multiview_mask: None,
             cache: None,
         })
-    }
-}
-
-/// What depth is compared with and whether it is kept.
-pub(super) fn depth_state(depth_write: bool, compare: CompareFunction) -> DepthStencilState {
-    DepthStencilState {
-        format: DEPTH,
-        depth_write_enabled: Some(depth_write),
-        depth_compare: Some(compare),
-        stencil: StencilState::default(),
-        bias: DepthBiasState::default(),
     }
 }

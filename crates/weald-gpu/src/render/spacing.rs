@@ -6,7 +6,7 @@
 
 use weald::picture::StageMap;
 
-use super::lattice::{Lattice, MOST_LEVELS};
+use super::levels::{MOST_LEVELS, spacing};
 
 /// Least range of a level in metres of its spacing: squares are 32 wide, their diagonal 45; the slide onto the next
 /// level takes four tenths of the way between two ranges, and must not begin within a square of the level before.
@@ -34,7 +34,7 @@ impl Ranges {
         let mut ends: Vec<f32> = Vec::with_capacity(errors.len());
         for level in 0..errors.len() {
             let seen = errors.get(level + 1).copied().unwrap_or(f32::INFINITY) * reach;
-            let wide = LEAST * Lattice::spacing(level) * cell;
+            let wide = LEAST * spacing(level) * cell;
             let doubled = ends.last().map_or(0.0, |end| 2.0 * end);
             ends.push(seen.max(wide).max(doubled));
         }
@@ -64,8 +64,8 @@ pub(crate) fn errors(top: &StageMap, levels: usize) -> Vec<f32> {
     let finest = bend(top, 1) / 4.0;
     (0..levels)
         .map(|level| {
-            let spacing = Lattice::spacing(level);
-            if spacing <= 1.0 { finest * spacing * spacing } else { bend(top, (spacing / 2.0) as usize) }
+            let apart = spacing(level);
+            if apart <= 1.0 { finest * apart * apart } else { bend(top, (apart / 2.0) as usize) }
         })
         .collect()
 }

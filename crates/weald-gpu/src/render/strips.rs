@@ -6,7 +6,7 @@ use wgpu::{
     RenderPipelineDescriptor, ShaderModule, VertexState,
 };
 
-use super::passes::depth_state;
+use super::layouts::depth_state;
 use super::targets::LIGHT;
 
 /// A pipeline of strips without buffers, from a vertex entry point to `blade_fragment`.

@@ -9,7 +9,8 @@
 use weald::Error;
 
 use super::field::{Meadowland, Standpoint};
-use super::{GrassLook, Timings};
+use super::grass_look::GrassLook;
+use super::timing::Timings;
 use crate::gpu::Gpu;
 
 /// One measured picture of a field, and what the source has.

@@ -3,7 +3,7 @@
 use weald::Error;
 use wgpu::{TextureFormat, TextureUsages};
 
-use super::Options;
+use super::options::Options;
 use super::textures::{Canvas, Shape};
 use crate::gpu::Gpu;
 

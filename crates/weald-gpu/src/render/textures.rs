@@ -7,7 +7,7 @@ use wgpu::{
 };
 
 use crate::gpu::Gpu;
-use crate::memory::Held;
+use crate::gpu::budget::Held;
 
 /// What a texture is.
 #[derive(Clone, Copy, Debug)]

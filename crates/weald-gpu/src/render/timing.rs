@@ -4,27 +4,19 @@
 //! (llvmpipe) bins what is drawn and notes a moment only when it draws the bins, together with what comes next; so each
 //! moment is followed by a spare one, which makes it draw. There the processor makes the vertices of a part while it still
 //! draws the one before, and the borders between parts are soft.
-//!
-//! Water is shaded with the ground. How long it takes is how much longer the ground does than in the same picture without
-//! water, which is drawn as well.
 
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use weald::Error;
-use weald::picture::Camera;
 use wgpu::{
-    BufferUsages, CommandEncoder, ComputePassDescriptor, ComputePassTimestampWrites, Features, QuerySet,
+    BufferUsages, CommandEncoder, ComputePassDescriptor, ComputePassTimestampWrites, QuerySet,
     QuerySetDescriptor, QueryType, RenderPass, RenderPassTimestampWrites,
 };
 
-use super::Renderer;
-use super::picture::{Landing, landed};
+use super::picture::landed;
 use crate::gpu::Gpu;
+use crate::gpu::context::CLOCK;
 use crate::memory::Store;
-
-/// What a device needs for it.
-pub(crate) const FEATURES: Features =
-    Features::TIMESTAMP_QUERY.union(Features::TIMESTAMP_QUERY_INSIDE_PASSES);
 
 /// Moments of a picture, in order: its beginning, then the end of each part.
 #[derive(Clone, Copy, Debug)]
@@ -41,9 +33,6 @@ pub(super) enum Moment {
 
 /// How many moments there are, with their spare ones.
 const MOMENTS: u32 = 16;
-
-/// Longest wait for a picture that is measured: software draws a million sets blade by blade in minutes.
-const PATIENCE: Duration = Duration::from_mins(20);
 
 /// Bytes of a moment.
 const BYTES: u64 = 8;
@@ -91,8 +80,8 @@ pub(super) struct Timer {
 
 impl Timer {
     /// The clock of a device that has one.
-    fn new(gpu: &Gpu) -> Result<Self, Error> {
-        if !gpu.context.device.features().contains(FEATURES) {
+    pub(super) fn new(gpu: &Gpu) -> Result<Self, Error> {
+        if !gpu.context.device.features().contains(CLOCK) {
             return Err(Error::Device(format!("{} has no clock that passes can read", gpu.context.adapter)));
         }
         let bytes = BYTES * u64::from(MOMENTS);
@@ -150,14 +139,15 @@ impl Timer {
         pass.write_timestamp(&self.moments, moment.spare());
     }
 
-    fn collect(&self, encoder: &mut CommandEncoder) {
+    /// Brings the moments of a picture to where they can be read.
+    pub(super) fn collect(&self, encoder: &mut CommandEncoder) {
         encoder.resolve_query_set(&self.moments, 0..MOMENTS, &self.resolved.buffer, 0);
         let bytes = BYTES * u64::from(MOMENTS);
         encoder.copy_buffer_to_buffer(&self.resolved.buffer, 0, &self.landing.buffer, 0, bytes);
     }
 
     /// Times between the moments of the picture that was drawn last, which took so long in all.
-    fn timings(&self, gpu: &Gpu, picture: Duration) -> Result<Timings, Error> {
+    pub(super) fn timings(&self, gpu: &Gpu, picture: Duration) -> Result<Timings, Error> {
         let ticks = landed(gpu, &self.landing.buffer, bytemuck::pod_collect_to_vec::<u8, u64>)?;
         let tick = f64::from(gpu.context.queue.get_timestamp_period()) * 1e-9;
         let until = |moment: Moment| {
@@ -179,7 +169,8 @@ impl Timer {
 }
 
 impl Timings {
-    fn least(self, other: Self) -> Self {
+    /// The lesser of each part.
+    pub(super) fn least(self, other: Self) -> Self {
         Self {
             choice: self.choice.min(other.choice),
             shadows: self.shadows.min(other.shadows),
@@ -191,54 +182,5 @@ impl Timings {
             film: self.film.min(other.film),
             picture: self.picture.min(other.picture),
         }
-    }
-}
-
-impl Renderer {
-    /// Draws the picture of a camera so many times, at least once, and says how long its parts take. Where there is
-    /// water, each time without as well.
-    ///
-    /// # Errors
-    /// As [`Renderer::render`]; [`Error::Device`] as well for a device that has no clock.
-    pub fn measure(&mut self, camera: &Camera, times: u32) -> Result<Timings, Error> {
-        self.timer = Some(Timer::new(&self.gpu)?);
-        let least = self.least_of(camera, times);
-        (self.timer, self.is_dry) = (None, false);
-        let wet = least?;
-        let Some(dry) = wet.1 else { return Ok(wet.0) };
-        let water = wet.0.ground.saturating_sub(dry.ground);
-        Ok(Timings { ground: wet.0.ground.min(dry.ground), water, ..wet.0 })
-    }
-
-    /// The least times with water, and without where there is some.
-    fn least_of(&mut self, camera: &Camera, times: u32) -> Result<(Timings, Option<Timings>), Error> {
-        let mut least: [Option<Timings>; 2] = [None; 2];
-        for _ in 0..times.max(1) {
-            for &dry in if self.has_water { &[false, true][..] } else { &[false] } {
-                self.is_dry = dry;
-                let now = self.measured(camera)?;
-                let least = &mut least[usize::from(dry)];
-                *least = Some(least.map_or(now, |least| least.least(now)));
-            }
-        }
-        Ok((least[0].expect("it was drawn at least once"), least[1]))
-    }
-
-    fn measured(&mut self, camera: &Camera) -> Result<Timings, Error> {
-        let landing = Landing::new(&self.gpu, self.options.size)?;
-        let context = self.gpu.context.clone();
-        let begun = Instant::now();
-        context.attempt("drawing", || {
-            let mut encoder =
-                context.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-            self.encode(camera, &mut encoder, &landing.view)?;
-            if let Some(timer) = &self.timer {
-                timer.collect(&mut encoder);
-            }
-            context.queue.submit([encoder.finish()]);
-            context.wait_at_most(PATIENCE, None)
-        })?;
-        let picture = begun.elapsed();
-        self.timer.as_ref().expect("it is set by the caller").timings(&self.gpu, picture)
     }
 }

@@ -8,6 +8,7 @@
 //! A plant takes 53 bytes of a device: itself, its place in the lists of five views, and its share of what counts them. A
 //! kind of plant takes 4 MB or so.
 
+mod lists;
 mod pipelines;
 mod set;
 
@@ -15,17 +16,11 @@ use weald::picture::Stage;
 use weald::{Error, Landscape};
 use wgpu::{BindGroup, CommandEncoder, ComputePassDescriptor, IndexFormat, RenderPass};
 
-use super::cascades::CASCADES;
-use super::passes::Layouts;
+use super::layouts::Layouts;
 use crate::gpu::Gpu;
+use lists::{LISTS, VIEWS};
 use pipelines::Pipelines;
 use set::{DRAW, Set};
-
-/// Views: the camera's, and one for each cascade.
-const VIEWS: usize = 1 + CASCADES;
-
-/// Lists of a view: a level of detail alone, or with what it passes into.
-const LISTS: usize = 2 * weald::grow::ifs::limbs::LEVELS;
 
 /// All scattered plants of a landscape.
 #[derive(Debug)]

@@ -11,11 +11,11 @@ use wgpu::{
     ShaderModule, ShaderModuleDescriptor, ShaderSource, ShaderStages, VertexState,
 };
 
-use super::{LISTS, VIEWS};
+use super::lists::{LISTS, VIEWS};
 use crate::gpu::Gpu;
 use crate::memory::Store;
 use crate::render::cascades::TEXELS;
-use crate::render::passes::{Layouts, STAGE_GROUP, depth_state};
+use crate::render::layouts::{Layouts, STAGE_GROUP, depth_state};
 use crate::render::targets::LIGHT;
 use crate::slots::Slots;
 

@@ -9,8 +9,8 @@ use weald::random::{hash2, unit};
 use weald::{Error, Landscape};
 use wgpu::{BindGroup, BufferUsages};
 
+use super::lists::{LISTS, VIEWS};
 use super::pipelines::Groups;
-use super::{LISTS, VIEWS};
 use crate::gpu::Gpu;
 use crate::memory::Store;
 use crate::pace::Pace;

@@ -1,19 +1,17 @@
-//! The device that the library knows.
+//! An open device with a budget of its memory: what all else here works with.
 
+use std::fmt::Debug;
 use std::sync::Arc;
 
 use weald::Error;
-use weald::engine::device::{Device, Loaded, ShownGround};
-use weald::engine::program::Program;
+use weald::engine::device::ShownGround;
 use weald::grid::Size;
-use wgpu::DeviceType;
+use wgpu::{Buffer, DeviceType};
 
-use crate::adapter::{self, Wanted};
-use crate::advice::{Advice, DRAWING, SIMULATION};
-use crate::context::Context;
-use crate::live::Live;
-use crate::memory::{self, Memory};
-use crate::running::Running;
+use super::adapter::{self, Wanted};
+use super::advice::{Advice, DRAWING, SIMULATION};
+use super::budget::{self, Memory};
+use super::context::Context;
 
 /// Budget of a card with memory of its own. Drivers do not tell wgpu how much there is; cards with less are
 /// rare.
@@ -21,6 +19,24 @@ const MEMORY_OF_A_CARD: u64 = 4 << 30;
 
 /// Budget where the memory is the machine's own and others need it too.
 const MEMORY_SHARED: u64 = 2 << 30;
+
+/// What a program holds now: buffers, and how many values or planes they have a cell.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Shown<'a> {
+    pub(crate) base: &'a Buffer,
+    pub(crate) added: (&'a Buffer, u32),
+    pub(crate) water: Option<(&'a Buffer, u32)>,
+    pub(crate) mask: Option<(&'a Buffer, u32)>,
+}
+
+/// Shows ground and water of programs as they run.
+pub(crate) trait Shows: Debug + Send + Sync {
+    /// Begins with the ground of a simulation.
+    fn begin(&self, gpu: &Gpu, ground: &ShownGround<'_>) -> Result<(), Error>;
+
+    /// Takes what a program of such a size holds.
+    fn take(&self, gpu: &Gpu, size: Size, shown: &Shown<'_>) -> Result<(), Error>;
+}
 
 /// A compute device and a budget of its memory. Clones share both.
 #[derive(Clone, Debug)]
@@ -30,7 +46,7 @@ pub struct Gpu {
     /// Bytes that one submission may move at most, where tests set a bound.
     pub(crate) most_moved: u64,
     /// Where ground and water of running programs are shown.
-    pub(crate) live: Option<Live>,
+    pub(crate) shows: Option<Arc<dyn Shows>>,
 }
 
 impl Gpu {
@@ -88,7 +104,7 @@ impl Gpu {
             DeviceType::DiscreteGpu => MEMORY_OF_A_CARD,
             _ => MEMORY_SHARED,
         };
-        Ok(Self { context, memory: Memory::new(budget, advice), most_moved: u64::MAX, live: None })
+        Ok(Self { context, memory: Memory::new(budget, advice), most_moved: u64::MAX, shows: None })
     }
 
     /// The same device with a budget of its own, in bytes, at least a mebibyte. The default is 4 GiB on a card
@@ -97,19 +113,13 @@ impl Gpu {
     /// # Errors
     /// [`Error::Device`] for a budget below the least.
     pub fn with_memory(self, bytes: u64) -> Result<Self, Error> {
-        if bytes < memory::LEAST {
-            let (given, least) = (memory::in_words(bytes), memory::in_words(memory::LEAST));
+        if bytes < budget::LEAST {
+            let (given, least) = (budget::in_words(bytes), budget::in_words(budget::LEAST));
             return Err(Error::Device(format!(
                 "a GPU memory of {given} is too small; give at least {least}"
             )));
         }
         Ok(Self { memory: Memory::new(bytes, self.context.advice), ..self })
-    }
-
-    /// The same device, whose programs show ground and water as they run.
-    #[must_use]
-    pub fn shown_in(&self, live: &Live) -> Self {
-        Self { live: Some(live.clone()), ..self.clone() }
     }
 
     /// Most bytes of a buffer that passes see.
@@ -152,27 +162,5 @@ impl Gpu {
         self.context.device.destroy();
         // The listener hears of it when the device is next asked for anything.
         let _ = self.context.wait(None);
-    }
-}
-
-impl Device for Gpu {
-    fn adapter(&self) -> String {
-        self.context.adapter.clone()
-    }
-
-    fn memory(&self) -> u64 {
-        self.memory.budget()
-    }
-
-    fn largest_buffer(&self) -> u64 {
-        self.largest_binding()
-    }
-
-    fn load(&self, program: &Program, size: Size) -> Result<Box<dyn Loaded>, Error> {
-        Ok(Box::new(Running::new(self.clone(), program, size)?))
-    }
-
-    fn shows(&self, ground: &ShownGround<'_>) -> Result<(), Error> {
-        self.live.as_ref().map_or(Ok(()), |live| live.begin(self, ground))
     }
 }

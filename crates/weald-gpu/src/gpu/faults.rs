@@ -4,7 +4,7 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use weald::Error;
 
-use crate::advice::Advice;
+use super::advice::Advice;
 
 /// Faults of a device so far.
 #[derive(Debug, Default)]

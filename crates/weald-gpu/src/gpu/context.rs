@@ -7,19 +7,26 @@ use std::time::Duration;
 
 use weald::Error;
 use weald::engine::program::MOST_BUFFERS;
-use wgpu::{DeviceDescriptor, DeviceType, ErrorFilter, Limits, MemoryHints, SubmissionIndex};
+use wgpu::{
+    BindGroupLayout, ComputePipeline, DeviceDescriptor, DeviceType, ErrorFilter, Features, Limits,
+    MemoryHints, SubmissionIndex,
+};
 
-use crate::adapter;
-use crate::advice::Advice;
-use crate::compiled::Pipeline;
-use crate::faults::{Faults, explain};
-use crate::render::FEATURES;
+use super::adapter;
+use super::advice::Advice;
+use super::faults::{Faults, explain};
 
 /// Longest wait for a submission, which is made to take a tenth of a second: then the device hangs.
 const PATIENCE: Duration = Duration::from_mins(2);
 
 /// Memory from which the driver cuts small buffers. Small blocks waste little of a small budget.
 const BLOCK_BYTES: u64 = 4 << 20;
+
+/// What a device needs for a clock that passes can read.
+pub(crate) const CLOCK: Features = Features::TIMESTAMP_QUERY.union(Features::TIMESTAMP_QUERY_INSIDE_PASSES);
+
+/// Pipelines and what they are bound to, by the name of their pass and the text of their module.
+pub(crate) type Pipelines = HashMap<(String, String), (ComputePipeline, BindGroupLayout)>;
 
 /// A device and its queue.
 #[derive(Debug)]
@@ -30,8 +37,8 @@ pub(crate) struct Context {
     pub(crate) adapter: String,
     pub(crate) kind: DeviceType,
     pub(crate) limits: Limits,
-    /// Pipelines by the name of their pass and the text of their module.
-    pub(crate) pipelines: Mutex<HashMap<(String, String), Pipeline>>,
+    /// All that were compiled so far.
+    pub(crate) pipelines: Mutex<Pipelines>,
     /// What to say where it fails.
     pub(crate) advice: &'static Advice,
     faults: Arc<Faults>,
@@ -44,7 +51,7 @@ impl Context {
         let limits = limits(&adapter.limits());
         let description = DeviceDescriptor {
             // Clocks of passes, where there are some, are for benches.
-            required_features: adapter.features() & FEATURES,
+            required_features: adapter.features() & CLOCK,
             required_limits: limits.clone(),
             memory_hints: MemoryHints::Manual {
                 suballocated_device_memory_block_size: BLOCK_BYTES..BLOCK_BYTES,

@@ -5,7 +5,7 @@ use weald::engine::program::Program;
 use weald::grid::Size;
 use wgpu::BufferUsages;
 
-use crate::extents::bytes;
+use super::extents::bytes;
 use crate::gpu::Gpu;
 use crate::memory::Store;
 

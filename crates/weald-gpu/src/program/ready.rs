@@ -4,13 +4,13 @@ use weald::Error;
 use weald::engine::program::{Pass, Program};
 use wgpu::{BindGroup, CommandEncoder, ComputePassDescriptor};
 
-use crate::buffers::Buffers;
+use super::buffers::Buffers;
+use super::extents::Extents;
+use super::parts::Part;
+use super::uniforms::Uniforms;
 use crate::compiled::{Bindings, Pipeline};
-use crate::extents::Extents;
 use crate::gpu::Gpu;
 use crate::memory::Store;
-use crate::parts::Part;
-use crate::uniforms::Uniforms;
 
 /// Bytes a cell that even a pass which moves nothing is taken to move: it computes.
 const LEAST_PER_CELL: u64 = 4;

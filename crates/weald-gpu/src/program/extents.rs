@@ -4,9 +4,9 @@ use weald::Error;
 use weald::engine::program::{Buffer, COUNTED, Content, GROUP, Program};
 use weald::grid::Size;
 
+use super::parts::Part;
 use crate::gpu::Gpu;
-use crate::memory::in_words;
-use crate::parts::Part;
+use crate::gpu::budget::in_words;
 
 /// Bytes of one sum of one workgroup: a total and its rounding error.
 const SUM_BYTES: usize = 8;

@@ -6,19 +6,17 @@ use weald::engine::program::{COUNTED, Content, GROUP, Program};
 use weald::grid::Size;
 use wgpu::BufferUsages;
 
-use crate::buffers::Buffers;
-use crate::extents::{self, Extents};
-use crate::gpu::Gpu;
-
-use crate::kept::{Extent, Kept, is_state};
-use crate::live;
+use super::buffers::Buffers;
+use super::extents::{self, Extents};
+use super::kept::{Extent, Kept, is_state};
+use super::parts::{Bound, Cursor, Part, Work};
+use super::ready::{Places, Ready, Round};
+use super::uniforms::Uniforms;
+use super::watch::Watch;
+use crate::gpu::{Gpu, Shown};
 use crate::memory::Store;
 use crate::pace::{Load, Pace, Sort};
-use crate::parts::{Bound, Cursor, Part, Work};
-use crate::ready::{Places, Ready, Round};
 use crate::transfer::{self, Transfer};
-use crate::uniforms::Uniforms;
-use crate::watch::Watch;
 
 /// A loaded program.
 #[derive(Debug)]
@@ -82,13 +80,13 @@ impl Running {
 
     /// Shows ground and water to those who look on.
     fn show(&self) -> Result<(), Error> {
-        let (Some(live), Some(shown)) = (&self.gpu.live, self.program.shown) else { return Ok(()) };
+        let (Some(shows), Some(shown)) = (&self.gpu.shows, self.program.shown) else { return Ok(()) };
         let lanes = |buffer: usize| self.program.buffers[buffer].lanes as u32;
         let store = |buffer: usize| &self.buffers.now(buffer).buffer;
-        live.take(
+        shows.take(
             &self.gpu,
             self.now.size,
-            &live::Parts {
+            &Shown {
                 base: store(shown.base),
                 added: (store(shown.added), lanes(shown.added)),
                 water: shown.water.map(|water| (store(water), lanes(water))),

@@ -4,7 +4,7 @@ use weald::Error;
 use weald::engine::device::Window;
 use weald::engine::program::{GROUP, Program};
 
-use crate::extents::Extents;
+use super::extents::Extents;
 use crate::gpu::Gpu;
 use crate::slots::{self, Slots};
 use crate::transfer::{self, piece_bytes};

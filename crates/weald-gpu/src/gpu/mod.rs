@@ -1,0 +1,11 @@
+//! An open device: which one, what it allows, how much of its memory is held, and what goes wrong on it.
+
+mod adapter;
+mod advice;
+pub(crate) mod budget;
+pub(crate) mod context;
+mod faults;
+mod handle;
+
+pub use handle::Gpu;
+pub(crate) use handle::{Shown, Shows};

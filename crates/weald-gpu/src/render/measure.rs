@@ -1,0 +1,65 @@
+//! Measures how long the parts of a picture take, as the least of several pictures.
+//!
+//! Water is shaded with the ground. How long it takes is how much longer the ground does than in the same picture without
+//! water, which is drawn as well.
+
+use std::time::{Duration, Instant};
+
+use weald::Error;
+use weald::picture::Camera;
+
+use super::picture::Landing;
+use super::renderer::Renderer;
+use super::timing::{Timer, Timings};
+
+/// Longest wait for a picture that is measured: software draws a million sets blade by blade in minutes.
+const PATIENCE: Duration = Duration::from_mins(20);
+
+impl Renderer {
+    /// Draws the picture of a camera so many times, at least once, and says how long its parts take. Where there is
+    /// water, each time without as well.
+    ///
+    /// # Errors
+    /// As [`Renderer::render`]; [`Error::Device`] as well for a device that has no clock.
+    pub fn measure(&mut self, camera: &Camera, times: u32) -> Result<Timings, Error> {
+        self.timer = Some(Timer::new(&self.gpu)?);
+        let least = self.least_of(camera, times);
+        (self.timer, self.is_dry) = (None, false);
+        let wet = least?;
+        let Some(dry) = wet.1 else { return Ok(wet.0) };
+        let water = wet.0.ground.saturating_sub(dry.ground);
+        Ok(Timings { ground: wet.0.ground.min(dry.ground), water, ..wet.0 })
+    }
+
+    /// The least times with water, and without where there is some.
+    fn least_of(&mut self, camera: &Camera, times: u32) -> Result<(Timings, Option<Timings>), Error> {
+        let mut least: [Option<Timings>; 2] = [None; 2];
+        for _ in 0..times.max(1) {
+            for &dry in if self.has_water { &[false, true][..] } else { &[false] } {
+                self.is_dry = dry;
+                let now = self.measured(camera)?;
+                let least = &mut least[usize::from(dry)];
+                *least = Some(least.map_or(now, |least| least.least(now)));
+            }
+        }
+        Ok((least[0].expect("it was drawn at least once"), least[1]))
+    }
+
+    fn measured(&mut self, camera: &Camera) -> Result<Timings, Error> {
+        let landing = Landing::new(&self.gpu, self.options.size)?;
+        let context = self.gpu.context.clone();
+        let begun = Instant::now();
+        context.attempt("drawing", || {
+            let mut encoder =
+                context.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+            self.encode(camera, &mut encoder, &landing.view)?;
+            if let Some(timer) = &self.timer {
+                timer.collect(&mut encoder);
+            }
+            context.queue.submit([encoder.finish()]);
+            context.wait_at_most(PATIENCE, None)
+        })?;
+        let picture = begun.elapsed();
+        self.timer.as_ref().expect("it is set by the caller").timings(&self.gpu, picture)
+    }
+}
