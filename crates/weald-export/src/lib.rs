@@ -2,11 +2,13 @@
 //! One file a kind; [`EXPORTS`] is the registry.
 
 mod copies;
+mod export;
 mod grass;
 mod layers;
 mod mesh;
 mod plants;
 mod points;
+mod registry;
 pub mod report;
 mod terrain3d;
 mod terrain_tiles;
@@ -15,134 +17,15 @@ mod unreal;
 mod vector;
 mod vertices;
 
+pub use export::{Export, ExportEntry, Finished};
 pub use grass::GrassSets;
 pub use layers::Layers;
 pub use mesh::{Colours, Mesh};
 pub use plants::PlantSet;
 pub use points::Points;
+pub use registry::{EXPORTS, find};
 pub use terrain_tiles::Weight;
 pub use terrain3d::Terrain3d;
 pub use unity::Unity;
 pub use unreal::Unreal;
 pub use vector::{LakeAreas, RiverLines};
-
-use std::fmt::Debug;
-use std::path::Path;
-
-use weald_core::error::Error;
-use weald_core::landscape::Landscape;
-use weald_core::parameter::{Complaints, Fault, Parameter, Parameters};
-use weald_core::source::Table;
-use weald_engine::report::StepReport;
-use weald_io::Part;
-
-/// A landscape at the end of a run, and what is known of the run.
-#[derive(Clone, Copy, Debug)]
-pub struct Finished<'a> {
-    /// The landscape.
-    pub landscape: &'a Landscape,
-    /// What each step did.
-    pub steps: &'a [StepReport],
-    /// Name of the recipe file.
-    pub recipe: &'a str,
-    /// BLAKE3 hash of the recipe, in hexadecimal.
-    pub hash: &'a str,
-    /// Seed of the landscape.
-    pub seed: u64,
-}
-
-/// A kind of export with its parameters, checked and ready to write.
-pub trait Export: Debug + Send + Sync {
-    /// Names of the layers it needs.
-    fn reads(&self) -> Vec<String>;
-
-    /// Names of the plants it needs.
-    fn plants(&self) -> Vec<String> {
-        Vec::new()
-    }
-
-    /// Names of the grass it needs.
-    fn meadows(&self) -> Vec<String> {
-        Vec::new()
-    }
-
-    /// Names of the layers it uses where they exist.
-    fn optional(&self) -> Vec<String> {
-        Vec::new()
-    }
-
-    /// Names of the fractals it writes.
-    fn fractals(&self) -> Vec<String> {
-        Vec::new()
-    }
-
-    /// Faults that concern several parameters at once.
-    fn faults(&self) -> Vec<Fault> {
-        Vec::new()
-    }
-
-    /// What the user should know of the files, such as what they cannot hold.
-    fn notes(&self, finished: &Finished<'_>) -> Vec<String> {
-        let _ = finished;
-        Vec::new()
-    }
-
-    /// The files. `file` is the name of the output, whose extension is one of [`ExportEntry::extensions`].
-    ///
-    /// # Errors
-    /// [`Error::Limit`] where a file would be too large, [`Error::Run`] where it cannot be made.
-    fn parts(&self, finished: &Finished<'_>, file: &Path) -> Result<Vec<Part>, Error>;
-}
-
-/// An export's declaration in the registry.
-#[derive(Clone, Copy, Debug)]
-pub struct ExportEntry {
-    /// Word after `export =`.
-    pub name: &'static str,
-    /// What it writes, in one sentence.
-    pub summary: &'static str,
-    /// The specification that the files follow.
-    pub source: &'static str,
-    /// Extensions of its files in lower case, without the dot.
-    pub extensions: &'static [&'static str],
-    /// Declares the parameters.
-    pub parameters: fn() -> Vec<Parameter>,
-    /// Reads them from an `[[output]]` table without its `export` and `file`.
-    pub read: fn(&Table, &mut Complaints) -> Box<dyn Export>,
-}
-
-impl ExportEntry {
-    /// The declaration of export type `T`.
-    pub const fn of<T: Export + Parameters + 'static>(
-        name: &'static str,
-        extensions: &'static [&'static str],
-        summary: &'static str,
-        source: &'static str,
-    ) -> Self {
-        let read = |table: &Table, complaints: &mut Complaints| -> Box<dyn Export> {
-            Box::new(T::read(table, complaints))
-        };
-        Self { name, summary, source, extensions, parameters: T::parameters, read }
-    }
-}
-
-/// All kinds of exports. Adding one is one file and one line here.
-#[rustfmt::skip] // one entry a line, so that branches that add some do not meet
-pub const EXPORTS: &[ExportEntry] = &[
-    report::ENTRY,
-    ExportEntry::of::<Mesh>("mesh", &["glb"], "the ground and its water as meshes of triangles, true to a stated error, with textures", "Garland and Heckbert 1995 (triangles), Mikkelsen 2008 (tangents), glTF 2.0"),
-    ExportEntry::of::<RiverLines>("rivers", &["geojson", "json"], "rivers as lines with width, depth, discharge and order", "Weald; RFC 7946"),
-    ExportEntry::of::<LakeAreas>("lakes", &["geojson", "json"], "lakes as areas with level, depth and volume", "Weald; RFC 7946"),
-    ExportEntry::of::<Layers>("layers", layers::EXTENSIONS, "several layers in one file: NetCDF or Zarr", "CF conventions 1.11, Zarr 3.0"),
-    ExportEntry::of::<Points>("points", points::EXTENSIONS, "the points of a fractal with their codes", "Barnsley 1988; PLY 1.0, NumPy's NEP 1"),
-    ExportEntry::of::<PlantSet>("plants", &["glb", "csv", "ply"], "plants with their places, leaning, sizes and phases: as instances of a mesh, a table, or a cloud of points", "glTF 2.0 with EXT_mesh_gpu_instancing; RFC 4180; Turk 1994, The PLY polygon file format"),
-    ExportEntry::of::<GrassSets>("grass", &["glb"], "grass as instances of a set of each species, with the soil, light and wind of each", "glTF 2.0 with EXT_mesh_gpu_instancing"),
-    unreal::ENTRY,
-    unity::ENTRY,
-    terrain3d::ENTRY,
-];
-
-/// The export of that name.
-pub fn find(name: &str) -> Option<&'static ExportEntry> {
-    EXPORTS.iter().find(|entry| entry.name == name)
-}

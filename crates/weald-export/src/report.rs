@@ -11,6 +11,7 @@ mod html;
 mod hypsometry;
 mod layers;
 mod measures;
+mod page;
 mod plot;
 mod profiles;
 mod slope_area;
@@ -21,9 +22,8 @@ use std::path::Path;
 use super::{Export, ExportEntry, Finished};
 use ground::Ground;
 use html::{escape, figure, section};
+pub use page::Page;
 use weald_core::error::Error;
-use weald_core::parameter::LayerName;
-use weald_core::parameters;
 use weald_io::Part;
 use weald_picture::{Picture, Relief};
 
@@ -34,20 +34,6 @@ pub const ENTRY: ExportEntry = ExportEntry::of::<Page>(
     "one self-contained HTML page: pictures, layers, statistics of the ground, rivers, budgets",
     "WHATWG HTML; W3C SVG 1.1",
 );
-
-parameters! {
-    /// A page about a run.
-    pub struct Page {
-        /// Layer of heights in metres.
-        of: LayerName = LayerName::of("height");
-        /// Width of the relief picture; maps of layers are drawn at a third of it.
-        width: u32 = 1080, range 240..=4096, unit "px";
-        /// Whether the page has a map of each layer.
-        maps: bool = true;
-        /// How many of the longest rivers have their profiles drawn.
-        profiles: u32 = 5, range 1..=8;
-    }
-}
 
 /// The look of the page.
 const STYLE: &str = include_str!("report/style.css");

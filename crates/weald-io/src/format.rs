@@ -1,7 +1,8 @@
 //! What a raster format is: how it is read and written, and what it can hold.
 
 use super::parts::{Part, Parts};
-use super::{Fault, Limits, Raster, asc, cf};
+use super::{Fault, Limits, Raster};
+use weald_core::domain::Georeference;
 use weald_core::error::Error;
 
 /// Turns the bytes of a file into a raster.
@@ -58,13 +59,29 @@ pub enum Knowledge {
     Cell,
     /// The place on Earth.
     Place,
-    /// A CRS without an EPSG code that has a definition.
-    UncodedCrs,
-    /// A CRS that has no spelling in a `.prj` file.
-    UnspelledCrs,
+    /// A CRS that the format cannot express.
+    Crs(CrsSupport),
     /// Where the values came from.
     Provenance,
 }
+
+/// Which CRSs a format can express.
+#[derive(Clone, Copy, Debug)]
+pub struct CrsSupport {
+    /// Whether it can express the CRS of a place, if that has one.
+    pub supports: fn(&Georeference) -> bool,
+    /// What the user is told of another CRS.
+    pub loss: &'static str,
+}
+
+/// The same where the user is told the same: addresses of functions tell nothing.
+impl PartialEq for CrsSupport {
+    fn eq(&self, other: &Self) -> bool {
+        self.loss == other.loss
+    }
+}
+
+impl Eq for CrsSupport {}
 
 /// What of a raster a format can hold.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -97,8 +114,7 @@ impl Knowledge {
             Self::NoData => raster.land.is_some(),
             Self::Cell => raster.cell.is_some(),
             Self::Place => raster.georeference.is_some(),
-            Self::UncodedCrs => raster.georeference.as_ref().is_some_and(|place| !cf::is_told_to_all(place)),
-            Self::UnspelledCrs => raster.georeference.as_ref().is_some_and(|place| !asc::is_spelled(place)),
+            Self::Crs(crs) => raster.georeference.as_ref().is_some_and(|place| !(crs.supports)(place)),
             Self::Provenance => raster.provenance.is_some(),
         }
     }
@@ -108,10 +124,7 @@ impl Knowledge {
             Self::NoData => "cells without data are written as the lowest value",
             Self::Cell => "the side of a cell is left out",
             Self::Place => "the place on Earth is left out; .tif holds it",
-            Self::UncodedCrs => cf::UNTOLD,
-            Self::UnspelledCrs => {
-                "the CRS is left out, so corner and cells are numbers without a unit; .tif holds it"
-            }
+            Self::Crs(crs) => crs.loss,
             Self::Provenance => "unit, seed and the hash of the recipe are left out; report.json has them",
         }
     }

@@ -3,7 +3,8 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
-use super::{Fault, read_at_most};
+use super::Fault;
+use super::file::read_at_most;
 
 /// One file of a raster or of an export.
 #[derive(Clone, Debug, PartialEq, Eq)]

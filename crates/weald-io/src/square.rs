@@ -16,7 +16,7 @@ use weald_core::error::Error;
 use weald_core::grid::{Field, Mask, Size};
 
 use super::Raster;
-use super::geotiff::metres_per_unit;
+use super::geokeys::metres_per_unit;
 
 /// A raster of square cells with their side in metres, and a sentence for the user where that took a change.
 ///

@@ -8,6 +8,9 @@ use std::sync::LazyLock;
 /// Red, green and blue in linear light, 0 to 1, sRGB primaries.
 pub type Linear = [f32; 3];
 
+/// Warm white: the sheet where there is no data.
+pub const PAPER: Linear = [0.923, 0.896, 0.830];
+
 /// A colour by lightness and two opponent axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Oklab {

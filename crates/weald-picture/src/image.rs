@@ -2,13 +2,8 @@
 
 use png::{BitDepth, ColorType, SrgbRenderingIntent};
 
-use super::colour::encode;
-use super::font::Pen;
-use super::{Linear, PAPER};
+use super::colour::{PAPER, encode};
 use weald_io::png::Pixels;
-
-/// Colour of writing.
-const INK: Linear = [0.06, 0.05, 0.04];
 
 /// Eight bits a channel, sRGB, row-major from the top left.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -67,15 +62,6 @@ impl Image {
         whole
     }
 
-    /// The picture below a line of writing.
-    #[must_use]
-    pub fn titled(&self, title: &str) -> Self {
-        let pen = Pen { unit: 1.25, ink: INK };
-        let mut line = Self::paper(self.width, (2.6 * pen.height()) as usize);
-        pen.write(&mut line, title, [2.0, 0.7 * pen.height()]);
-        Self::below(&[line, self.clone()], 0)
-    }
-
     fn paste(&mut self, image: &Self, left: usize, top: usize) {
         for (y, row) in image.rgb.chunks_exact(3 * image.width).enumerate() {
             let start = 3 * ((top + y) * self.width + left);
@@ -107,16 +93,6 @@ mod tests {
         assert_eq!(pixels, image.rgb);
         let text = &reader.info().utf8_text[0];
         assert_eq!((text.keyword.as_str(), text.get_text().expect("text").as_str()), ("weald", "größe 7 m"));
-    }
-
-    #[test]
-    fn a_title_stands_above_its_picture_and_leaves_it_as_it_was() {
-        let image = Image { width: 40, height: 2, rgb: (0..240).collect() };
-        let titled = image.titled("k 0.5");
-        let above = titled.height - image.height;
-        assert_eq!(titled.rgb[3 * 40 * above..], image.rgb);
-        let dark = titled.rgb[..3 * 40 * above].chunks(3).filter(|pixel| pixel[0] < 100).count();
-        assert!(dark > 15, "{dark} dark pixels");
     }
 
     #[test]

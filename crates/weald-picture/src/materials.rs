@@ -50,7 +50,7 @@ impl Picture for Materials {
         let sheet = Sheet::new(&landscape.domain, self.width)?;
         let ground = landscape.field(&self.of.0)?;
         let paint = Paint::of_materials(landscape, ground, self.thinnest as f32, &sheet)?;
-        let picture = Scene::new(&self.relief(), landscape, sheet, paint)?.draw();
+        let picture = Scene::new(&self.relief().shading(), landscape, sheet, paint)?.draw();
         if !self.legend {
             return Ok(picture);
         }

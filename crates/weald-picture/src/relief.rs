@@ -7,7 +7,7 @@
 
 use super::paint::Paint;
 use super::ramp::Tint;
-use super::scene::Scene;
+use super::scene::{Scene, Shading};
 use super::sheet::Sheet;
 use super::{Image, Picture};
 use weald_core::error::Error;
@@ -51,6 +51,20 @@ impl Picture for Relief {
     fn render(&self, landscape: &Landscape) -> Result<Image, Error> {
         let sheet = Sheet::new(&landscape.domain, self.width)?;
         let paint = Paint::Tints(self.ramp.ramp());
-        Ok(Scene::new(self, landscape, sheet, paint)?.draw())
+        Ok(Scene::new(&self.shading(), landscape, sheet, paint)?.draw())
+    }
+}
+
+impl Relief {
+    /// All but the size and the colours.
+    pub(super) fn shading(&self) -> Shading<'_> {
+        Shading {
+            of: &self.of.0,
+            sun_azimuth_deg: self.sun_azimuth_deg,
+            sun_altitude_deg: self.sun_altitude_deg,
+            exaggeration: self.exaggeration,
+            contours: self.contours,
+            water: self.water,
+        }
     }
 }

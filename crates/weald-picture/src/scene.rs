@@ -9,7 +9,6 @@ use super::ground::{drawable, land_share};
 use super::lakes::{Lakes, Rise};
 use super::light::{Lights, shoulder};
 use super::paint::Paint;
-use super::relief::Relief;
 use super::rivers;
 use super::sheet::Sheet;
 use super::spline::{Spline, SplineRow};
@@ -28,6 +27,22 @@ const SUNLIT_ROOM: f32 = 0.42;
 
 /// The same on tints so light that little is left above them.
 const LEAST_ROOM: f32 = 0.05;
+
+/// Which ground is drawn, and how it is lit.
+pub(super) struct Shading<'a> {
+    /// Layer of heights in metres.
+    pub(super) of: &'a str,
+    /// Where the light comes from, clockwise from north.
+    pub(super) sun_azimuth_deg: f64,
+    /// Height of the sun above the horizon.
+    pub(super) sun_altitude_deg: f64,
+    /// Factor on heights; `None` for one that suits the ground.
+    pub(super) exaggeration: Option<f64>,
+    /// Height between contours, 0 without any; `None` for one that suits the ground.
+    pub(super) contours: Option<f64>,
+    /// Whether lakes and rivers are drawn.
+    pub(super) water: bool,
+}
 
 /// Everything that a pixel needs to know.
 pub(super) struct Scene {
@@ -63,23 +78,23 @@ struct Rows {
 
 impl Scene {
     pub(super) fn new(
-        picture: &Relief,
+        shading: &Shading<'_>,
         landscape: &Landscape,
         sheet: Sheet,
         paint: Paint,
     ) -> Result<Self, Error> {
         let land = landscape.domain.land.as_ref();
-        let field = landscape.field(&picture.of.0)?;
+        let field = landscape.field(shading.of)?;
         let (low, high) = field.range(land).unwrap_or((0.0, 0.0));
         let mut height = drawable(field, land, &sheet);
         height.values_mut().iter_mut().for_each(|height| *height -= low);
         let spacing = spacing(landscape, &height);
-        let exaggeration = picture.exaggeration.unwrap_or_else(|| automatic::exaggeration(&height, spacing));
-        let interval = picture.contours.or_else(|| automatic_interval(f64::from(high - low)));
+        let exaggeration = shading.exaggeration.unwrap_or_else(|| automatic::exaggeration(&height, spacing));
+        let interval = shading.contours.or_else(|| automatic_interval(f64::from(high - low)));
         let line = 0.85 * sheet.line();
         let contours = interval.filter(|&interval| interval > 0.0);
         let land = land_share(land, &sheet);
-        let water = if picture.water { Water::of(landscape, &sheet) } else { Water::default() };
+        let water = if shading.water { Water::of(landscape, &sheet) } else { Water::default() };
         Ok(Self {
             spline: Spline::new(&sheet, height.size().columns, height.size().rows),
             texture: automatic::normalised(texture(&height), high - low),
@@ -89,7 +104,7 @@ impl Scene {
             low,
             steepness: spacing.map(|spacing| (exaggeration / spacing) as f32),
             paint,
-            lights: Lights::new(picture.sun_azimuth_deg, picture.sun_altitude_deg),
+            lights: Lights::new(shading.sun_azimuth_deg, shading.sun_altitude_deg),
             contours: contours.map(|interval| Contours { interval: interval as f32, lowest: low, line }),
             water,
             inks: Inks::default(),

@@ -2,14 +2,14 @@
 
 use serde_json::{Value, json};
 
-use super::{Finished, Mesh};
+use crate::Finished;
 use weald_core::domain::Domain;
 
 /// Where the mesh came from, how true it is and where it lies.
-pub(super) fn of(finished: &Finished<'_>, mesh: &Mesh, deviation: f64) -> Value {
+pub(super) fn of(finished: &Finished<'_>, layer: &str, error: f64, deviation: f64) -> Value {
     let mut extras = source(finished);
-    extras["layer"] = mesh.of.0.clone().into();
-    extras["error"] = mesh.error.into();
+    extras["layer"] = layer.into();
+    extras["error"] = error.into();
     extras["greatest_deviation"] = deviation.into();
     extras
 }

@@ -136,7 +136,7 @@ impl Export for Mesh {
         if let Some(water) = &water {
             self.add_water(&mut document, landscape, water)?;
         }
-        let extras = extras::of(finished, self, mesh.deviation(&surface));
+        let extras = extras::of(finished, &self.of.0, self.error, mesh.deviation(&surface));
         Ok(vec![Part::own(document.finish(&extras)?)])
     }
 }

@@ -1,8 +1,8 @@
 //! A map and the statistics of each layer.
 
-use super::Page;
 use super::figures::{number, rough};
 use super::html::{Cell, escape, figure, picture, table};
+use super::page::Page;
 use weald_core::domain::Domain;
 use weald_core::error::Error;
 use weald_core::grid::Field;

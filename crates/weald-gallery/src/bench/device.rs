@@ -3,7 +3,7 @@
 use std::fmt::Display;
 use std::sync::Arc;
 
-use super::{Beside, RUNS, Rate};
+use super::rate::{Beside, RUNS, Rate};
 use weald_core::domain::Domain;
 use weald_core::error::Error;
 use weald_core::grid::Size;

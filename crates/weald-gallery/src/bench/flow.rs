@@ -1,6 +1,6 @@
 //! Rates of flow over the ground: depressions filled, directions, upslope areas.
 
-use super::{Beside, Rate, best_seconds};
+use super::rate::{Beside, Rate, best_seconds};
 use weald_core::domain::Domain;
 use weald_core::error::Error;
 use weald_core::grid::{Field, Size};

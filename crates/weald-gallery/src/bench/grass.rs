@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use rayon::prelude::*;
 
-use super::RUNS;
+use super::rate::RUNS;
 use weald_core::error::Error;
 use weald_core::grid::{Field, Size};
 use weald_core::random::{hash2, unit};

@@ -1,6 +1,6 @@
 //! Soil that transport by velocity makes or loses.
 
-use super::start::{SEED, start_terrain};
+use super::ground::{SEED, start_terrain};
 use super::{Claim, Figure, FigureOutput, GalleryJob, Make, Measured, Plate, Verdict, texts, views};
 use weald::recipe::run_steps;
 use weald_core::error::Error;

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 use weald::recipe::run_steps;
 
-use super::start::start_terrain;
+use super::ground::{SEED, start_terrain};
 use super::{GalleryJob, texts};
 use weald_core::error::Error;
 use weald_core::grid::Field;
@@ -41,7 +41,7 @@ impl Run {
     /// On 256² cells for 3600 steps.
     pub(super) fn new(job: GalleryJob, name: &str, keys: &str) -> Self {
         let (side, iterations) = job.choose((256, 3600), (32, 120));
-        Self { name: name.to_owned(), keys: keys.to_owned(), seed: super::start::SEED, side, iterations }
+        Self { name: name.to_owned(), keys: keys.to_owned(), seed: SEED, side, iterations }
     }
 
     /// The same for each of several seeds.

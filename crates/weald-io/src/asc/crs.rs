@@ -4,9 +4,18 @@
 
 use std::fmt::Write;
 
-use super::super::Fault;
-use super::super::geotiff::keys_by_code;
+use super::super::geokeys::keys_by_code;
+use super::super::{CrsSupport, Fault, Knowledge};
 use weald_core::domain::{GeoKeys, Georeference};
+
+/// What follows the name of the grid in that of the file with its CRS.
+pub(super) const CRS_FILE: &str = ".prj";
+
+/// The CRSs that have no spelling in a `.prj` file.
+pub(super) const OMITTED: Knowledge = Knowledge::Crs(CrsSupport {
+    supports: is_spelled,
+    loss: "the CRS is left out, so corner and cells are numbers without a unit; .tif holds it",
+});
 
 /// A geographic CRS and the EPSG codes of the UTM zones on it.
 struct Datum {
@@ -122,7 +131,7 @@ fn codes() -> impl Iterator<Item = u32> {
 }
 
 /// Whether the CRS of a place, if it has one, can stand in a `.prj` file.
-pub(crate) fn is_spelled(place: &Georeference) -> bool {
+fn is_spelled(place: &Georeference) -> bool {
     match place.epsg {
         Some(epsg) => Crs::of(epsg).is_some(),
         None => place.keys.is_none(),
@@ -218,7 +227,7 @@ mod tests {
         assert!(place(degrees.1).is_geographic());
         let feet = |number: &str| read(&format!("PROJCS[\"x\",UNIT[\"Foot_US\",{number}]]"));
         let (_, keys) = feet("0.3048006096012192").expect("feet");
-        assert_eq!(super::super::super::geotiff::metres_per_unit(keys.as_ref()), Ok(1200.0 / 3937.0));
+        assert_eq!(super::super::super::geokeys::metres_per_unit(keys.as_ref()), Ok(1200.0 / 3937.0));
         assert!(feet("1000.0").is_err_and(|fault| fault.to_string().contains("1000 as metres")));
         assert!(read("hello").is_err_and(|fault| fault.to_string().contains("begins with \"HELLO\"")));
     }

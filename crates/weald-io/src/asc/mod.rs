@@ -13,8 +13,6 @@ mod write;
 pub use read::decode;
 pub use write::encode;
 
-pub(super) use crs::is_spelled;
-
 use super::{Decode, Encode, Format, Holds, Knowledge};
 
 /// The entry in the registry of formats.
@@ -23,9 +21,6 @@ pub(super) const FORMAT: Format = Format {
     extensions: &["asc"],
     decode: Some(Decode::Parts(decode)),
     encode: Some(Encode::Parts(encode)),
-    holds: Holds { omits: &[Knowledge::UnspelledCrs, Knowledge::Provenance], ..Holds::ALL },
+    holds: Holds { omits: &[crs::OMITTED, Knowledge::Provenance], ..Holds::ALL },
     presets: &[],
 };
-
-/// What follows the name of the grid in that of the file with its CRS.
-const CRS_FILE: &str = ".prj";

@@ -1,10 +1,10 @@
 //! Reading: the header, then as many numbers as it promises.
 
-use super::super::geotiff::metres_per_unit;
+use super::super::geokeys::metres_per_unit;
 use super::super::parts::{PartName, Parts};
 use super::super::{Fault, Limits, Raster};
+use super::crs::{self, CRS_FILE};
 use super::header::Header;
-use super::{CRS_FILE, crs};
 use weald_core::domain::{GeoKeys, Georeference};
 
 /// Longest `.prj` that is read, in bytes.

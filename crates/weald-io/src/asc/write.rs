@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use super::super::{Part, Raster};
-use super::{CRS_FILE, crs};
+use super::crs::{self, CRS_FILE};
 use weald_core::error::Error;
 
 /// The grid, and its CRS beside it where that can be spelled.

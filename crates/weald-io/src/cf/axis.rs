@@ -1,6 +1,34 @@
-//! Coordinates along an axis: centres of cells at even distances.
+//! The two dimensions, and coordinates along one: centres of cells at even distances.
 
 use super::super::Fault;
+use weald_core::grid::Size;
+
+/// A dimension.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Axis {
+    /// From north to south.
+    Y,
+    /// From west to east.
+    X,
+}
+
+impl Axis {
+    /// Name of the dimension and of its coordinate.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Y => "y",
+            Self::X => "x",
+        }
+    }
+
+    /// Cells along it.
+    pub fn length(self, size: Size) -> usize {
+        match self {
+            Self::Y => size.rows,
+            Self::X => size.columns,
+        }
+    }
+}
 
 /// Coordinates may be off by this share of a cell: what `float32` makes of degrees.
 const TOLERANCE: f64 = 0.05;

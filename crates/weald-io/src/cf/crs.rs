@@ -1,9 +1,9 @@
 //! The coordinate reference system: attributes of `spatial_ref` and of the axes, written and read.
 
-use super::super::Fault;
-use super::super::geotiff::{keys_by_code, metres_per_unit};
+use super::super::geokeys::{keys_by_code, metres_per_unit};
+use super::super::{CrsSupport, Fault, Knowledge};
 use super::attribute::{Attribute, Attributes};
-use super::dataset::Axis;
+use super::axis::Axis;
 use super::{GEO_TRANSFORM, mapping};
 use weald_core::domain::{GeoKeys, Georeference};
 
@@ -13,6 +13,10 @@ const KEYS: [&str; 3] = ["GeoKeyDirectory", "GeoDoubleParams", "GeoAsciiParams"]
 /// What the user is told of another CRS.
 pub const UNTOLD: &str =
     "the CRS has no EPSG code with a definition, so that only Weald finds it; .tif holds it for all";
+
+/// The CRSs that only Weald finds.
+pub(crate) const OMITTED_CRS: Knowledge =
+    Knowledge::Crs(CrsSupport { supports: is_told_to_all, loss: UNTOLD });
 
 /// Whether other programs find the CRS in a file of arrays: it has an EPSG code with a known definition.
 pub fn is_told_to_all(place: &Georeference) -> bool {

@@ -2,6 +2,7 @@
 
 use super::super::provenance;
 use super::attribute::{Attribute, Attributes};
+use super::axis::Axis;
 use super::crs;
 use super::names::{of_layer, udunits};
 use super::sheet::{Layer, Sheet};
@@ -49,15 +50,6 @@ pub struct Cells<'a> {
     field: &'a Field,
     land: Option<&'a Mask>,
     is_south_up: bool,
-}
-
-/// A dimension.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Axis {
-    /// From north to south.
-    Y,
-    /// From west to east.
-    X,
 }
 
 /// Name of a layer of which nothing is known.
@@ -110,24 +102,6 @@ impl Cells<'_> {
     pub fn at(&self, x: usize, row: usize) -> f32 {
         let y = if self.is_south_up { self.size().rows - 1 - row } else { row };
         if self.land.is_none_or(|land| land.is_land(x, y)) { self.field.at(x, y) } else { f32::NAN }
-    }
-}
-
-impl Axis {
-    /// Name of the dimension and of its coordinate.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Y => "y",
-            Self::X => "x",
-        }
-    }
-
-    /// Cells along it.
-    pub fn length(self, size: Size) -> usize {
-        match self {
-            Self::Y => size.rows,
-            Self::X => size.columns,
-        }
     }
 }
 

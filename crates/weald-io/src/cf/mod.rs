@@ -21,13 +21,17 @@ mod names;
 mod place;
 mod read;
 mod sheet;
+mod source;
 
 pub use attribute::{Attribute, Attributes};
+pub use axis::Axis;
+pub(super) use crs::OMITTED_CRS;
 pub use crs::{UNTOLD, is_told_to_all};
-pub use dataset::{Axis, Cells, Dataset, Values, Variable};
+pub use dataset::{Cells, Dataset, Values, Variable};
 pub use names::Names;
-pub use read::{Described, Source, read};
+pub use read::read;
 pub use sheet::{Layer, Sheet};
+pub use source::{Described, Source};
 
 /// Name of the variable that holds the CRS, as GDAL and rioxarray write it.
 const GRID_MAPPING: &str = "spatial_ref";

@@ -4,7 +4,7 @@ use super::super::Fault;
 use super::attribute::Attributes;
 use super::axis::Centres;
 use super::crs::{Crs, Unit};
-use super::read::{Described, Source};
+use super::source::{Described, Source};
 use super::{CELL, GRID_MAPPING};
 use weald_core::domain::Georeference;
 use weald_core::grid::Size;

@@ -1,9 +1,11 @@
 //! The header: named attributes, of which some give the size and the kind of the pixels.
 
 use super::super::{Fault, Limits};
-use super::MAGIC;
 use super::compression::Compression;
 use weald_core::grid::Size;
+
+/// The first bytes of a file.
+pub(super) const MAGIC: [u8; 4] = [0x76, 0x2f, 0x31, 0x01];
 
 const VERSION: u8 = 2;
 /// Bits of the version field that change what follows.

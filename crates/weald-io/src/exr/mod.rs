@@ -55,6 +55,3 @@ pub(super) const FORMAT: Format = Format {
         },
     ],
 };
-
-/// The first bytes of a file.
-const MAGIC: [u8; 4] = [0x76, 0x2f, 0x31, 0x01];

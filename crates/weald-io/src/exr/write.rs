@@ -3,8 +3,9 @@
 use rayon::prelude::*;
 
 use super::super::Raster;
+use super::attributes;
 use super::compression::{ZIP, ZIP_ROWS, zipped};
-use super::{MAGIC, attributes};
+use super::header::MAGIC;
 use weald_core::error::Error;
 use weald_core::grid::Size;
 

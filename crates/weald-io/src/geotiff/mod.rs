@@ -17,7 +17,6 @@ mod sample;
 mod tag;
 mod write;
 
-pub(super) use keys::{keys_by_code, metres_per_unit};
 pub use read::decode;
 pub use write::encode;
 

@@ -1,5 +1,7 @@
 //! Numbers of the TIFF tags and codes that are read or written.
 
+use super::super::geokeys;
+
 pub(super) const NEW_SUBFILE_TYPE: u16 = 254;
 pub(super) const IMAGE_WIDTH: u16 = 256;
 pub(super) const IMAGE_LENGTH: u16 = 257;
@@ -23,7 +25,7 @@ pub(super) const MODEL_PIXEL_SCALE: u16 = 33550;
 pub(super) const MODEL_TIE_POINT: u16 = 33922;
 pub(super) const MODEL_TRANSFORMATION: u16 = 34264;
 pub(super) const GEO_KEY_DIRECTORY: u16 = 34735;
-pub(super) const GEO_DOUBLE_PARAMETERS: u16 = 34736;
+pub(super) const GEO_DOUBLE_PARAMETERS: u16 = geokeys::DOUBLES;
 pub(super) const GEO_ASCII_PARAMETERS: u16 = 34737;
 pub(super) const GDAL_METADATA: u16 = 42112;
 pub(super) const GDAL_NO_DATA: u16 = 42113;

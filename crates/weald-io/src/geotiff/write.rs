@@ -9,7 +9,8 @@ use flate2::write::ZlibEncoder;
 use rayon::prelude::*;
 
 use super::super::Raster;
-use super::{keys, metadata, tag};
+use super::super::geokeys::keys_for;
+use super::{metadata, tag};
 use weald_core::domain::GeoKeys;
 use weald_core::error::Error;
 use weald_core::grid::Size;
@@ -138,7 +139,7 @@ fn place_tags(raster: &Raster) -> Vec<Entry> {
         Entry::doubles(tag::MODEL_PIXEL_SCALE, &[pixel[0], pixel[1], 0.0]),
         Entry::doubles(tag::MODEL_TIE_POINT, &[0.0, 0.0, 0.0, origin[0], origin[1], 0.0]),
     ];
-    tags.extend(raster.georeference.as_ref().and_then(keys::keys_for).iter().flat_map(key_tags));
+    tags.extend(raster.georeference.as_ref().and_then(keys_for).iter().flat_map(key_tags));
     tags
 }
 

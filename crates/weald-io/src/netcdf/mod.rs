@@ -12,15 +12,16 @@ mod cursor;
 mod header;
 mod kind;
 mod read;
+mod tag;
 mod write;
 
 pub use read::decode;
 
-use super::cf::{Dataset, Names, Sheet};
-use super::{Decode, Encode, Format, Holds, Knowledge, Preset, Raster};
+use super::cf::{Dataset, Names, OMITTED_CRS, Sheet};
+use super::{Decode, Encode, Format, Holds, Preset, Raster};
 use weald_core::error::Error;
 
-const HOLDS: Holds = Holds { omits: &[Knowledge::UncodedCrs], ..Holds::ALL };
+const HOLDS: Holds = Holds { omits: &[OMITTED_CRS], ..Holds::ALL };
 
 /// The entry in the registry of formats.
 pub(super) const FORMAT: Format = Format {
@@ -36,14 +37,6 @@ pub(super) const FORMAT: Format = Format {
         holds: HOLDS,
     }],
 };
-
-/// Tags of the lists in a header.
-mod tag {
-    pub(super) const ABSENT: u32 = 0;
-    pub(super) const DIMENSIONS: u32 = 10;
-    pub(super) const VARIABLES: u32 = 11;
-    pub(super) const ATTRIBUTES: u32 = 12;
-}
 
 /// The bytes of a file.
 ///

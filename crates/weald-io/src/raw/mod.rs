@@ -36,6 +36,3 @@ pub(super) const FORMAT_32: Format = Format {
     holds: Holds::ALL,
     presets: &[],
 };
-
-/// What follows the whole name of the file in that of its description.
-const SIDECAR: &str = ".json";

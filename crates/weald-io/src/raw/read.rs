@@ -2,8 +2,7 @@
 
 use super::super::parts::{PartName, Parts};
 use super::super::{Fault, Limits, Provenance, Raster};
-use super::SIDECAR;
-use super::sidecar::{ByteOrder, Kind, NoData, Sidecar};
+use super::sidecar::{ByteOrder, Kind, NoData, SIDECAR, Sidecar};
 use weald_core::grid::Size;
 
 /// Longest description that is read, in bytes.

@@ -7,6 +7,9 @@ use serde::{Deserialize, Serialize};
 use super::super::{Fault, Provenance, Raster};
 use weald_core::domain::Georeference;
 
+/// What follows the whole name of the file in that of its description.
+pub(super) const SIDECAR: &str = ".json";
+
 /// What the numbers of a file are, as JSON.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Sidecar {

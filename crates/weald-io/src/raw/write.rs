@@ -1,8 +1,7 @@
 //! Writing: numbers in little-endian order, and their description.
 
 use super::super::{Part, Raster};
-use super::SIDECAR;
-use super::sidecar::{Kind, NoData, Sidecar, Word};
+use super::sidecar::{Kind, NoData, SIDECAR, Sidecar, Word};
 use weald_core::error::Error;
 
 /// A `.raw` or `.r16` file and its description.

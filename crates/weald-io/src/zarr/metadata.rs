@@ -8,6 +8,9 @@ use super::super::number::Number;
 use super::attributes;
 use super::codec::Codecs;
 
+/// Name of the description in a group's or an array's folder.
+pub(super) const DESCRIPTION: &str = "zarr.json";
+
 /// Most dimensions of an array.
 pub(super) const MOST_DIMENSIONS: usize = 8;
 

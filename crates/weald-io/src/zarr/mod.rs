@@ -17,11 +17,11 @@ mod write;
 
 pub use read::decode;
 
-use super::cf::{Dataset, Names, Sheet};
-use super::{Decode, Encode, Format, Holds, Knowledge, Part, Preset, Raster};
+use super::cf::{Dataset, Names, OMITTED_CRS, Sheet};
+use super::{Decode, Encode, Format, Holds, Part, Preset, Raster};
 use weald_core::error::Error;
 
-const HOLDS: Holds = Holds { omits: &[Knowledge::UncodedCrs], ..Holds::ALL };
+const HOLDS: Holds = Holds { omits: &[OMITTED_CRS], ..Holds::ALL };
 
 /// The entry in the registry of formats.
 pub(super) const FORMAT: Format = Format {
@@ -37,9 +37,6 @@ pub(super) const FORMAT: Format = Format {
         holds: HOLDS,
     }],
 };
-
-/// Name of the description in a group's or an array's folder.
-const DESCRIPTION: &str = "zarr.json";
 
 /// The files of a group.
 ///

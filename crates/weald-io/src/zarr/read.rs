@@ -4,10 +4,10 @@ use serde_json::Value;
 
 use super::super::cf::{self, Attributes, Described, Source};
 use super::super::{Fault, Limits, PartName, Parts, Raster};
+use super::attributes;
 use super::chunks::{Rows, place};
 use super::codec::Codecs;
-use super::metadata::{Array, Storage};
-use super::{DESCRIPTION, attributes};
+use super::metadata::{Array, DESCRIPTION, Storage};
 
 /// Longest description that is read.
 const DESCRIPTION_BYTES: u64 = 16 << 20;

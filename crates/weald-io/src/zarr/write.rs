@@ -9,7 +9,8 @@ use serde_json::{Map, Value, json};
 
 use super::super::Part;
 use super::super::cf::{Cells, Dataset, Values, Variable};
-use super::{DESCRIPTION, attributes};
+use super::attributes;
+use super::metadata::DESCRIPTION;
 use weald_core::grid::Size;
 
 /// Cells along each side of a chunk of a layer.

@@ -6,7 +6,7 @@ mod flight;
 pub use device::{GrassRate, RayMarched, RenderDevice, RenderScene, Rendering};
 pub use flight::Flight;
 
-use super::{Camera, Image, Picture, Stage, View};
+use super::{Camera, Stage, View};
 use weald_core::error::Error;
 use weald_core::landscape::Landscape;
 use weald_core::parameter::{Complaints, Parameter, Parameters, Places};
@@ -54,34 +54,6 @@ impl Parameters for Render {
         let mut of_view = table.clone();
         of_view.take("samples");
         Self { view: View::read_values(&of_view, complaints), keys }
-    }
-}
-
-impl Picture for Render {
-    fn reads(&self) -> Vec<String> {
-        self.view.reads()
-    }
-
-    fn optional(&self) -> Vec<String> {
-        self.view.optional()
-    }
-
-    fn turned(&self, share: f64, _: f64) -> Option<Box<dyn Picture>> {
-        Some(Box::new(Self { view: self.view.turned(share), ..self.clone() }))
-    }
-
-    fn as_view(&self) -> Option<&View> {
-        Some(&self.view)
-    }
-
-    fn as_render(&self) -> Option<&Render> {
-        Some(self)
-    }
-
-    fn render(&self, _: &Landscape) -> Result<Image, Error> {
-        Err(Error::Run(
-            "a picture of kind `render` is drawn by a device, which this caller has not".to_owned(),
-        ))
     }
 }
 

@@ -2,8 +2,8 @@
 
 use rayon::prelude::*;
 
-use super::View;
 use super::cover::{Cover, Spot};
+use super::keys::View;
 use super::setting::Setting;
 use crate::Image;
 use crate::colour::{Linear, encode, linear_of_hex, mix};

@@ -1,8 +1,8 @@
 //! The camera: where it stands, how it frames the landscape, and the ray of each point of the picture.
 
+use super::keys::View;
 use super::terrain::{Ray, Terrain};
 use super::vector::{Vector, add, cross, dot, scale, subtract, towards, unit};
-use crate::View;
 use weald_core::parameter::Places;
 
 /// Share of the picture's width and height that a framed landscape takes.

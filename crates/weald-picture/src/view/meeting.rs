@@ -23,6 +23,55 @@ const PIECES: usize = 2;
 /// Looks into each patch that the edge of the land crosses.
 const EDGE_LOOKS: usize = 6;
 
+impl Terrain {
+    /// What a ray meets of the landscape between two ways.
+    pub(super) fn trace(&self, ray: &Ray, [near, far]: [f32; 2]) -> Option<Hit> {
+        let line = self.line(ray.from, ray.direction);
+        let [enter, leave] = line.crossing(&self.top)?;
+        let [start, end] = self.below_the_highest(ray, [near.max(enter), far.min(leave)])?;
+        if start == enter {
+            let place = line.at(start);
+            let height = ray.at(start)[2];
+            if height < self.top.at(place) && height >= self.base && self.has_data(place) {
+                return Some(Hit { way: start, place, side: Some(self.rim_normal(place)) });
+            }
+        }
+        let mut seeker = Meeting { terrain: self, ray, line: &line, hit: None };
+        self.pyramid.follow(&line, [start, end], &mut seeker);
+        seeker.hit.filter(|hit| ray.at(hit.way)[2] >= self.base)
+    }
+
+    /// The part of a span in which a ray is between the base and the highest ground.
+    fn below_the_highest(&self, ray: &Ray, [mut near, mut far]: [f32; 2]) -> Option<[f32; 2]> {
+        let (height, rise) = (ray.from[2], ray.direction[2]);
+        let to_top = (self.highest() - height) / rise;
+        let to_base = (self.base - height) / rise;
+        if rise > 0.0 {
+            far = far.min(to_top);
+            near = near.max(to_base);
+        } else if rise < 0.0 {
+            near = near.max(to_top);
+            far = far.min(to_base);
+        } else if height > self.highest() {
+            return None;
+        }
+        (near < far).then_some([near, far])
+    }
+
+    /// The outward normal of the outer side that a place lies on.
+    fn rim_normal(&self, place: [f32; 2]) -> Vector {
+        let size = self.top.size();
+        let sides = [
+            (place[0] - 0.5, [-1.0, 0.0, 0.0]),
+            (size.columns as f32 + 0.5 - place[0], [1.0, 0.0, 0.0]),
+            (place[1] - 0.5, [0.0, 1.0, 0.0]),
+            (size.rows as f32 + 0.5 - place[1], [0.0, -1.0, 0.0]),
+        ];
+        let nearest = sides.into_iter().min_by(|a, b| a.0.abs().total_cmp(&b.0.abs()));
+        nearest.map_or([0.0, 0.0, 1.0], |(_, normal)| normal)
+    }
+}
+
 /// Looks for the first meeting of a ray with the ground.
 pub(super) struct Meeting<'a> {
     pub(super) terrain: &'a Terrain,

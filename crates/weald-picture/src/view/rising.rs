@@ -2,6 +2,28 @@
 
 use super::pyramid::{Line, Seeker};
 use super::terrain::Terrain;
+use super::vector::Vector;
+
+impl Terrain {
+    /// The steepest rise from a point to the ground in a direction, as rise over run; a search that found more than
+    /// `enough` ends, and rises of less than `least` count as that.
+    pub(super) fn horizon(&self, from: Vector, direction: Vector, [least, enough]: [f32; 2]) -> f32 {
+        let run = (direction[0] * direction[0] + direction[1] * direction[1]).sqrt();
+        if run < 1e-6 {
+            return least;
+        }
+        let line = self.line(from, [direction[0] / run, direction[1] / run, 0.0]);
+        let Some([enter, leave]) = line.crossing(&self.top) else { return least };
+        let start = enter.max(0.05 * self.cell());
+        let room = (self.highest() - from[2]) / least.max(1e-6);
+        let end = leave.min(room);
+        let mut seeker = Rising { terrain: self, line: &line, height: from[2], steepest: least, enough };
+        if start < end {
+            self.pyramid.follow(&line, [start, end], &mut seeker);
+        }
+        seeker.steepest
+    }
+}
 
 /// Looks for the steepest rise along a line.
 pub(super) struct Rising<'a> {

@@ -3,9 +3,9 @@
 use std::f32::consts::FRAC_1_PI;
 use std::ops::Deref;
 
-use super::View;
 use super::camera::{self, Camera};
 use super::cover::Spot;
+use super::keys::View;
 use super::skylight::{self, Seen};
 use super::stage::{CUT_WATER, Stage};
 use super::terrain::{Hit, Ray};

@@ -2,13 +2,13 @@
 
 use super::cover::Limits;
 use super::flow::Flow;
+use super::keys::{GroundColour, View};
 use super::side::Strata;
 use super::site::{Sites, names_materials};
 use super::surface::Surface;
 use super::terrain::Terrain;
 use super::vector::Vector;
 use super::water::{self, Rivers};
-use super::{GroundColour, View};
 use crate::colour::linear_of_srgb;
 use crate::ground::{drawable, land_share};
 use crate::sheet::Sheet;

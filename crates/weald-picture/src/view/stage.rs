@@ -2,10 +2,10 @@
 
 use std::f32::consts::FRAC_1_PI;
 
-use super::View;
 use super::camera::{self, Camera};
 use super::cover::Cover;
 use super::haze::Haze;
+use super::keys::View;
 use super::plain;
 use super::setting::Setting;
 use super::side::SideLight;

@@ -3,9 +3,7 @@
 //! World coordinates are metres: east and north of the north-western corner, and up from the lowest ground, heights
 //! times the exaggeration. What a ray meets is found on the very surface that is shaded.
 
-use super::meeting::Meeting;
 use super::pyramid::{Line, Pyramid};
-use super::rising::Rising;
 use super::surface::Surface;
 use super::vector::{Vector, add, scale, unit};
 use crate::texture::smoothed;
@@ -27,7 +25,7 @@ pub(super) struct Terrain {
     pub(super) outline: Option<Surface>,
     /// Height of the plain that the landscape stands on, below 0.
     pub(super) base: f32,
-    pyramid: Pyramid,
+    pub(super) pyramid: Pyramid,
 }
 
 /// A ray of light, backwards: from the eye.
@@ -113,72 +111,6 @@ impl Terrain {
     /// The smaller side of a cell in metres.
     pub(super) fn cell(&self) -> f32 {
         self.spacing[0].min(self.spacing[1])
-    }
-
-    /// What a ray meets of the landscape between two ways.
-    pub(super) fn trace(&self, ray: &Ray, [near, far]: [f32; 2]) -> Option<Hit> {
-        let line = self.line(ray.from, ray.direction);
-        let [enter, leave] = line.crossing(&self.top)?;
-        let [start, end] = self.below_the_highest(ray, [near.max(enter), far.min(leave)])?;
-        if start == enter {
-            let place = line.at(start);
-            let height = ray.at(start)[2];
-            if height < self.top.at(place) && height >= self.base && self.has_data(place) {
-                return Some(Hit { way: start, place, side: Some(self.rim_normal(place)) });
-            }
-        }
-        let mut seeker = Meeting { terrain: self, ray, line: &line, hit: None };
-        self.pyramid.follow(&line, [start, end], &mut seeker);
-        seeker.hit.filter(|hit| ray.at(hit.way)[2] >= self.base)
-    }
-
-    /// The part of a span in which a ray is between the base and the highest ground.
-    fn below_the_highest(&self, ray: &Ray, [mut near, mut far]: [f32; 2]) -> Option<[f32; 2]> {
-        let (height, rise) = (ray.from[2], ray.direction[2]);
-        let to_top = (self.highest() - height) / rise;
-        let to_base = (self.base - height) / rise;
-        if rise > 0.0 {
-            far = far.min(to_top);
-            near = near.max(to_base);
-        } else if rise < 0.0 {
-            near = near.max(to_top);
-            far = far.min(to_base);
-        } else if height > self.highest() {
-            return None;
-        }
-        (near < far).then_some([near, far])
-    }
-
-    /// The outward normal of the outer side that a place lies on.
-    fn rim_normal(&self, place: [f32; 2]) -> Vector {
-        let size = self.top.size();
-        let sides = [
-            (place[0] - 0.5, [-1.0, 0.0, 0.0]),
-            (size.columns as f32 + 0.5 - place[0], [1.0, 0.0, 0.0]),
-            (place[1] - 0.5, [0.0, 1.0, 0.0]),
-            (size.rows as f32 + 0.5 - place[1], [0.0, -1.0, 0.0]),
-        ];
-        let nearest = sides.into_iter().min_by(|a, b| a.0.abs().total_cmp(&b.0.abs()));
-        nearest.map_or([0.0, 0.0, 1.0], |(_, normal)| normal)
-    }
-
-    /// The steepest rise from a point to the ground in a direction, as rise over run; a search that found more than
-    /// `enough` ends, and rises of less than `least` count as that.
-    pub(super) fn horizon(&self, from: Vector, direction: Vector, [least, enough]: [f32; 2]) -> f32 {
-        let run = (direction[0] * direction[0] + direction[1] * direction[1]).sqrt();
-        if run < 1e-6 {
-            return least;
-        }
-        let line = self.line(from, [direction[0] / run, direction[1] / run, 0.0]);
-        let Some([enter, leave]) = line.crossing(&self.top) else { return least };
-        let start = enter.max(0.05 * self.cell());
-        let room = (self.highest() - from[2]) / least.max(1e-6);
-        let end = leave.min(room);
-        let mut seeker = Rising { terrain: self, line: &line, height: from[2], steepest: least, enough };
-        if start < end {
-            self.pyramid.follow(&line, [start, end], &mut seeker);
-        }
-        seeker.steepest
     }
 
     /// Whether the patch of a place is partly no land.

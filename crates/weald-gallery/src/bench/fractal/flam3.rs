@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 use std::time::Instant;
 
-use super::super::RUNS;
+use super::super::rate::RUNS;
 use weald_core::error::Error;
 use weald_plants::ifs::Ifs;
 use weald_plants::ifs::flame::{Frame, write};

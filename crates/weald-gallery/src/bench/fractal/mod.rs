@@ -11,7 +11,7 @@ use std::time::Instant;
 use rayon::prelude::*;
 
 use self::flam3::Flam3;
-use super::RUNS;
+use super::rate::RUNS;
 use weald_core::error::Error;
 use weald_plants::ifs::flame::Frame;
 use weald_plants::ifs::game::CHUNK;

@@ -1,0 +1,64 @@
+//! All raster formats, and a file's format by its extension.
+
+use std::path::Path;
+
+use super::file::read_at_most;
+use super::parts::OnDisk;
+use super::{
+    Decode, Fault, Format, Limits, Raster, asc, exr, geotiff, netcdf, npy, png16, raw, write_parts, zarr,
+};
+use weald_core::error::Error;
+
+/// All raster formats. Adding one is one file and one line here.
+#[rustfmt::skip] // one entry a line, so that branches that add some do not meet
+pub const FORMATS: &[Format] = &[
+    geotiff::FORMAT,
+    png16::FORMAT,
+    exr::FORMAT,
+    raw::FORMAT_16,
+    raw::FORMAT_32,
+    asc::FORMAT,
+    npy::FORMAT,
+    netcdf::FORMAT,
+    zarr::FORMAT,
+];
+
+/// The format of a file name.
+///
+/// # Errors
+/// A sentence that names the extensions there are.
+pub fn format_of(path: &Path) -> Result<&'static Format, String> {
+    let extension = path.extension().and_then(|e| e.to_str()).unwrap_or_default().to_ascii_lowercase();
+    FORMATS.iter().find(|format| format.extensions.contains(&extension.as_str())).ok_or_else(|| {
+        let known: Vec<_> = FORMATS.iter().flat_map(|f| f.extensions).map(|e| format!(".{e}")).collect();
+        format!("the extension of `{}` names no raster format; there are {}", path.display(), known.join(" "))
+    })
+}
+
+/// Reads any raster file.
+///
+/// # Errors
+/// [`Error::Input`] for a file that is missing, damaged or of a kind that is not read, [`Error::Limit`] for
+/// one that is too large.
+pub fn read(path: &Path) -> Result<Raster, Error> {
+    let format = format_of(path).map_err(|what| Error::input(path, what))?;
+    let limits = Limits::default();
+    let raster = match format.decode {
+        Some(Decode::File(decode)) => {
+            read_at_most(path, limits.file_bytes()).and_then(|bytes| decode(&bytes, limits))
+        }
+        Some(Decode::Parts(decode)) => decode(&OnDisk(path.to_owned()), limits),
+        None => Err(Fault::damaged(format!("{} is written, not read", format.name))),
+    };
+    raster.map_err(|fault| fault.of(path))
+}
+
+/// Writes a raster under its whole name only when all of it is on disk.
+///
+/// # Errors
+/// [`Error::Run`] for an unknown extension, values that the format cannot hold, or a failed write.
+pub fn write(path: &Path, raster: &Raster) -> Result<(), Error> {
+    let format = format_of(path).map_err(Error::Run)?;
+    let (encode, _) = format.writing(None).map_err(Error::Run)?;
+    write_parts(path, &encode.parts(raster)?)
+}
