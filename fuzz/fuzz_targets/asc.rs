@@ -16,5 +16,5 @@ fuzz_target!(|bytes: &[u8]| {
     assert!(raster.field.size().cells() <= LIMITS.cells);
     let written = asc::encode(&raster).expect("a raster that was read is finite");
     let again = asc::decode(&InMemory::of("land.asc", written), LIMITS).expect("what was written is read");
-    assert_eq!((again.field, again.land), (raster.field, raster.land));
+    assert_eq!((again.field, again.valid), (raster.field, raster.valid));
 });

@@ -11,5 +11,5 @@ fuzz_target!(|bytes: &[u8]| {
     assert!(raster.field.size().cells() <= LIMITS.cells);
     let written = npy::encode(&raster).expect("a raster that was read is finite");
     let again = npy::decode(&written, LIMITS).expect("what was written can be read");
-    assert_eq!((again.field, again.land), (raster.field, raster.land));
+    assert_eq!((again.field, again.valid), (raster.field, raster.valid));
 });

@@ -11,5 +11,5 @@ fuzz_target!(|bytes: &[u8]| {
     assert!(raster.field.size().cells() <= LIMITS.cells);
     let written = png16::encode(&raster).expect("a raster that was read is finite");
     let again = png16::decode(&written, LIMITS).expect("what was written can be read");
-    assert_eq!((again.field.size(), again.land), (raster.field.size(), raster.land));
+    assert_eq!((again.field.size(), again.valid), (raster.field.size(), raster.valid));
 });

@@ -17,10 +17,10 @@ fuzz_target!(|bytes: &[u8]| {
         assert!(raster.field.size().cells() <= LIMITS.cells);
         let written = raw::encode_32(&raster).expect("a raster that was read is finite");
         let again = raw::decode_32(&InMemory::of("land.r32", written), LIMITS).expect("what was written is read");
-        assert_eq!((again.field, again.land), (raster.field.clone(), raster.land.clone()));
+        assert_eq!((again.field, again.valid), (raster.field.clone(), raster.valid.clone()));
         assert_eq!((again.cell, &again.georeference), (raster.cell, &raster.georeference));
         let written = raw::encode_16(&raster).expect("a raster that was read is finite");
         let again = raw::decode_16(&InMemory::of("land.r16", written), LIMITS).expect("what was written is read");
-        assert_eq!(again.land, raster.land);
+        assert_eq!(again.valid, raster.valid);
     }
 });

@@ -7,6 +7,6 @@ use weald::recipe::{Overrides, Recipe};
 
 fuzz_target!(|text: &str| {
     if let Err(Error::Recipe(error)) = Recipe::parse("fuzz.toml", text, &Overrides::default()) {
-        assert!(error.complaints.iter().all(|complaint| complaint.line >= 1));
+        assert!(error.diagnostics.iter().all(|diagnostic| diagnostic.line >= 1));
     }
 });

@@ -44,6 +44,6 @@ fuzz_target!(|bytes: &[u8]| {
         let written = zarr::encode(&raster).expect("a raster that was read is finite");
         let again = zarr::decode(&InMemory::of(PathBuf::from("a.zarr"), written), LIMITS);
         let again = again.expect("what was written can be read");
-        assert_eq!((again.field, again.land), (raster.field, raster.land));
+        assert_eq!((again.field, again.valid), (raster.field, raster.valid));
     }
 });

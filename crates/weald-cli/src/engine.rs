@@ -1,6 +1,6 @@
 //! Where simulations run, as a user says it.
 
-use crate::values::Choice;
+use crate::values::EngineChoice;
 use std::sync::Arc;
 
 use weald::engine::Engine;
@@ -12,14 +12,14 @@ use crate::arguments::Running;
 use crate::failure::Failure;
 
 /// An engine, and what the user should know of it.
-pub(crate) struct Chosen {
+pub(crate) struct SelectedEngine {
     pub(crate) engine: Engine,
     pub(crate) note: Option<String>,
 }
 
-impl Choice {
+impl EngineChoice {
     /// Opens it, with a budget of GPU memory in bytes.
-    pub(crate) fn open(self, memory: Option<u64>) -> Result<Chosen, Failure> {
+    pub(crate) fn open(self, memory: Option<u64>) -> Result<SelectedEngine, Failure> {
         if memory.is_some() && !matches!(self, Self::Auto | Self::Gpu) {
             return Err(Failure::usage("--gpu-memory goes with --engine gpu or auto"));
         }
@@ -30,12 +30,12 @@ impl Choice {
             Self::Bands(count) => Engine::Bands(count),
             Self::Tiles(side) => Engine::Tiles(Size::square(side)?),
         };
-        Ok(Chosen { engine, note: None })
+        Ok(SelectedEngine { engine, note: None })
     }
 }
 
 /// A card that is there and cannot be used is no reason not to run.
-fn automatic(memory: Option<u64>) -> Result<Chosen, Failure> {
+fn automatic(memory: Option<u64>) -> Result<SelectedEngine, Failure> {
     let (found, note) = match Gpu::hardware() {
         Ok(found) => (found, None),
         Err(error) => (None, Some(format!("{error}; running on the CPU"))),
@@ -44,7 +44,7 @@ fn automatic(memory: Option<u64>) -> Result<Chosen, Failure> {
         Some(gpu) => Engine::DeviceElseCpu(Arc::new(with_memory(gpu, memory)?)),
         None => Engine::Cpu,
     };
-    Ok(Chosen { engine, note })
+    Ok(SelectedEngine { engine, note })
 }
 
 /// The device that draws; the processor where it is to and there is no device.

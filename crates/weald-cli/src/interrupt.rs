@@ -30,8 +30,8 @@ fn ask(answer: &str) {
     eprintln!("{answer}");
 }
 
-fn handle(heard: impl FnMut() + Send + 'static) -> Result<(), Failure> {
-    ctrlc::set_handler(heard).map_err(|cause| Failure::run(format!("cannot listen for Ctrl-C: {cause}")))
+fn handle(handler: impl FnMut() + Send + 'static) -> Result<(), Failure> {
+    ctrlc::set_handler(handler).map_err(|cause| Failure::run(format!("cannot listen for Ctrl-C: {cause}")))
 }
 
 /// Whether the user has asked for an end.

@@ -10,9 +10,9 @@ mod engine;
 mod failure;
 mod interrupt;
 mod progress;
-mod shot;
 mod stdout;
 mod values;
+mod viewpoint;
 
 use std::process::ExitCode;
 

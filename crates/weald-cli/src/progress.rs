@@ -14,27 +14,27 @@ use crate::interrupt;
 const LINE_EVERY: Duration = Duration::from_secs(5);
 
 /// Shows progress unless it is to be quiet.
-pub(crate) struct Shown {
+pub(crate) struct ProgressPrinter {
     quiet: bool,
     bar: Option<ProgressBar>,
-    now: Mutex<Now>,
+    now: Mutex<CurrentStep>,
 }
 
 /// Where the running step is.
-struct Now {
+struct CurrentStep {
     title: String,
     /// When the step first said where it is, and where it was.
     first: Option<(Instant, u64)>,
     line_at: Instant,
 }
 
-impl Shown {
+impl ProgressPrinter {
     pub(crate) fn new(quiet: bool) -> Self {
         let bar = (!quiet && std::io::stderr().is_terminal()).then(bar);
         Self {
             quiet,
             bar,
-            now: Mutex::new(Now { title: String::new(), first: None, line_at: Instant::now() }),
+            now: Mutex::new(CurrentStep { title: String::new(), first: None, line_at: Instant::now() }),
         }
     }
 
@@ -55,7 +55,7 @@ impl Shown {
             }
             None => self.say(&title),
         }
-        *self.now() = Now { title, first: None, line_at: Instant::now() };
+        *self.now() = CurrentStep { title, first: None, line_at: Instant::now() };
     }
 
     fn say(&self, line: &str) {
@@ -67,7 +67,7 @@ impl Shown {
     }
 
     /// A panic elsewhere leaves the state whole, since it is only ever replaced.
-    fn now(&self) -> MutexGuard<'_, Now> {
+    fn now(&self) -> MutexGuard<'_, CurrentStep> {
         self.now.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
@@ -79,7 +79,7 @@ fn bar() -> ProgressBar {
     ProgressBar::no_length().with_style(style)
 }
 
-impl Progress for Shown {
+impl Progress for ProgressPrinter {
     fn step(&self, number: usize, count: usize, name: &str) {
         self.begin(format!("step {number}/{count} {name}"));
     }

@@ -2,7 +2,7 @@
 
 /// An engine that a user can ask for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Choice {
+pub(crate) enum EngineChoice {
     /// A graphics card where there is one, else all cores.
     Auto,
     /// All cores.
@@ -16,14 +16,14 @@ pub(crate) enum Choice {
 }
 
 /// Reads the name of an engine.
-pub(crate) fn choice(text: &str) -> Result<Choice, String> {
+pub(crate) fn choice(text: &str) -> Result<EngineChoice, String> {
     let count = |prefix: &str| text.strip_prefix(prefix).and_then(|count| count.parse().ok());
     match (text, count("bands:"), count("tiles:")) {
-        ("auto", ..) => Ok(Choice::Auto),
-        ("cpu", ..) => Ok(Choice::Cpu),
-        ("gpu", ..) => Ok(Choice::Gpu),
-        (_, Some(count @ 1..=1024), _) => Ok(Choice::Bands(count)),
-        (_, _, Some(side @ 1..=65_536)) => Ok(Choice::Tiles(side)),
+        ("auto", ..) => Ok(EngineChoice::Auto),
+        ("cpu", ..) => Ok(EngineChoice::Cpu),
+        ("gpu", ..) => Ok(EngineChoice::Gpu),
+        (_, Some(count @ 1..=1024), _) => Ok(EngineChoice::Bands(count)),
+        (_, _, Some(side @ 1..=65_536)) => Ok(EngineChoice::Tiles(side)),
         _ => Err("the engines are auto, cpu and gpu".to_owned()),
     }
 }
@@ -59,8 +59,8 @@ pub(crate) fn point(text: &str) -> Result<Point, String> {
     let wrong = || "it is written X,Y,Z or X,Y in metres, as in 5200,6100,1300".to_owned();
     let numbers: Vec<f64> =
         text.split(',').map(|part| part.trim().parse().map_err(|_| wrong())).collect::<Result<_, _>>()?;
-    if !numbers.iter().all(|number| number.is_finite() && number.abs() <= MOST_METRES) {
-        return Err(format!("its numbers lie between -{MOST_METRES} and {MOST_METRES} m"));
+    if !numbers.iter().all(|number| number.is_finite() && number.abs() <= MAX_METRES) {
+        return Err(format!("its numbers lie between -{MAX_METRES} and {MAX_METRES} m"));
     }
     match numbers[..] {
         [east, south] => Ok(Point { east, south, elevation: None }),
@@ -70,7 +70,7 @@ pub(crate) fn point(text: &str) -> Result<Point, String> {
 }
 
 /// Farthest that a camera may be, in metres.
-const MOST_METRES: f64 = 1e8;
+const MAX_METRES: f64 = 1e8;
 
 /// Reads `WxH`.
 pub(crate) fn size(text: &str) -> Result<[u32; 2], String> {
@@ -112,8 +112,8 @@ mod tests {
 
     #[test]
     fn engines_for_tests_have_sound_numbers() {
-        assert_eq!(choice("tiles:64"), Ok(Choice::Tiles(64)));
-        assert_eq!(choice("bands:3"), Ok(Choice::Bands(3)));
+        assert_eq!(choice("tiles:64"), Ok(EngineChoice::Tiles(64)));
+        assert_eq!(choice("bands:3"), Ok(EngineChoice::Bands(3)));
         for text in ["tiles:0", "tiles:", "tiles:-1", "tiles:70000", "bands:0", "bands:2000", "GPU"] {
             assert!(choice(text).is_err(), "{text}");
         }

@@ -204,8 +204,8 @@ fn a_recipe_with_an_old_name_is_refused_and_rewritten_in_place_or_beside() {
     let old = RECIPE.replace("[[output]]", step);
     let place = Place::with(&old);
     let text = |file: &str| std::fs::read_to_string(place.path(file)).expect("a recipe");
-    let told = "r.toml:12: wetness: `least_slope` is now called `min_slope`; `weald migrate` rewrites";
-    assert_ends(&place, &["check", "r.toml"], 3, &[told]);
+    let expected = "r.toml:12: wetness: `least_slope` is now called `min_slope`; `weald migrate` rewrites";
+    assert_ends(&place, &["check", "r.toml"], 3, &[expected]);
     let beside = stdout(&place.weald(&["migrate", "r.toml", "-o", "new.toml"]));
     let lines: Vec<_> = beside.lines().collect();
     let name = "r.toml:12: `least_slope` is now called `min_slope`";

@@ -137,9 +137,9 @@ fn a_recipe_of_fractals_needs_no_ground_and_the_command_draws_its_first() {
 
 #[test]
 fn faults_of_a_fractal_in_a_recipe_end_with_3_and_their_lines() {
-    let refused = |from: &str, to: &str, told: &str| {
+    let refused = |from: &str, to: &str, expected: &str| {
         assert!(RECIPE.contains(from), "{from}");
-        assert_ends(&Place::with(&RECIPE.replace(from, to)), &["run", "r.toml"], 3, &[told]);
+        assert_ends(&Place::with(&RECIPE.replace(from, to)), &["run", "r.toml"], 3, &[expected]);
     };
     refused(
         "[0.85, 0.04, -0.04, 0.85,",

@@ -106,7 +106,7 @@ fn drawn_pictures_of_a_recipe_that_make_no_sense_are_told_with_what_would() {
 }
 
 #[test]
-fn what_cannot_be_drawn_is_told_with_what_can() {
+fn what_cannot_be_drawn_is_reported_with_what_can() {
     if left_out() {
         return;
     }
@@ -152,7 +152,7 @@ fn without_a_device_the_error_says_what_is_missing_and_the_fallback_draws_only_i
     let refused = without_drivers(&["run", "d.toml"]);
     assert!(
         String::from_utf8_lossy(&refused.stderr).contains("--fallback view"),
-        "told before anything is run"
+        "reported before anything is run"
     );
     assert!(!place.path("out/d/height.npy").exists(), "nothing was run");
     let drawn = without_drivers(&["run", "d.toml", "--fallback", "view"]);

@@ -66,8 +66,8 @@ impl Condition {
         if self.soft == 0.0 {
             return f64::from(u8::from(beyond >= 0.0));
         }
-        let way = (beyond / self.soft + 0.5).clamp(0.0, 1.0);
-        way * way * (3.0 - 2.0 * way)
+        let fraction = (beyond / self.soft + 0.5).clamp(0.0, 1.0);
+        fraction * fraction * (3.0 - 2.0 * fraction)
     }
 }
 

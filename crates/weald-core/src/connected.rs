@@ -22,7 +22,10 @@ pub fn areas(size: Size, numbers: &[u32]) -> Vec<Vec<usize>> {
 }
 
 /// The sets of `open` cells that reach each other by the ways that lead `on` from each.
-fn reached<Ways: Iterator<Item = usize>>(mut open: Vec<bool>, on: impl Fn(usize) -> Ways) -> Vec<Vec<usize>> {
+fn reached<Neighbours: Iterator<Item = usize>>(
+    mut open: Vec<bool>,
+    on: impl Fn(usize) -> Neighbours,
+) -> Vec<Vec<usize>> {
     let mut found = Vec::new();
     for start in 0..open.len() {
         if !std::mem::take(&mut open[start]) {

@@ -14,18 +14,18 @@ pub struct Domain {
     /// Place on Earth, where the ground came from a georeferenced file.
     pub georeference: Option<Georeference>,
     /// Cells with data; `None` where all have.
-    pub land: Option<Mask>,
+    pub valid: Option<Mask>,
 }
 
 impl Domain {
     /// A domain without a place on Earth and without no-data cells.
     pub fn new(size: Size, cell: f64) -> Self {
-        Self { size, cell, georeference: None, land: None }
+        Self { size, cell, georeference: None, valid: None }
     }
 
     /// Number of cells with data.
-    pub fn land_cells(&self) -> usize {
-        self.land.as_ref().map_or(self.size.cells(), Mask::land_cells)
+    pub fn valid_cells(&self) -> usize {
+        self.valid.as_ref().map_or(self.size.cells(), Mask::valid_cells)
     }
 
     /// Metres from west to east and from north to south.

@@ -73,24 +73,24 @@ fn remedy(cause: ErrorKind) -> &'static str {
 
 /// All that is wrong with a recipe, so that one look mends it.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("{}", complaints.iter().map(|c| c.in_file(file)).collect::<Vec<_>>().join("\n"))]
+#[error("{}", diagnostics.iter().map(|c| c.in_file(file)).collect::<Vec<_>>().join("\n"))]
 pub struct RecipeError {
     /// Name of the recipe file, as the user gave it.
     pub file: String,
     /// One complaint a fault, in the order of the file.
-    pub complaints: Vec<Complaint>,
+    pub diagnostics: Vec<Diagnostic>,
 }
 
 /// One fault of a recipe.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Complaint {
+pub struct Diagnostic {
     /// Line in the file, counted from 1; 0 for what came from the command line.
     pub line: usize,
     /// What is wrong: the key, the value, what is legal, what was probably meant.
     pub message: String,
 }
 
-impl Complaint {
+impl Diagnostic {
     fn in_file(&self, file: &str) -> String {
         match self.line {
             0 => format!("{file}, as changed on the command line: {}", self.message),

@@ -5,10 +5,10 @@
 use crate::error::Error;
 
 /// Most cells that one landscape may hold: 2^28 (16384²), one GiB a layer.
-pub const MAXIMUM_CELLS: usize = 1 << 28;
+pub const MAX_CELLS: usize = 1 << 28;
 
 /// Most cells along one side.
-pub const MAXIMUM_SIDE: usize = 1 << 20;
+pub const MAX_SIDE: usize = 1 << 20;
 
 /// Columns and rows of a grid, both at least 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -20,20 +20,18 @@ pub struct Size {
 }
 
 impl Size {
-    /// A checked size: both sides at least 1, at most [`MAXIMUM_CELLS`] in all.
+    /// A checked size: both sides at least 1, at most [`MAX_CELLS`] in all.
     ///
     /// # Errors
     /// [`Error::Limit`] with both sides in the message.
     pub fn new(columns: usize, rows: usize) -> Result<Self, Error> {
-        let sides = 1..=MAXIMUM_SIDE;
+        let sides = 1..=MAX_SIDE;
         let cells = columns.checked_mul(rows);
-        if !sides.contains(&columns)
-            || !sides.contains(&rows)
-            || cells.is_none_or(|cells| cells > MAXIMUM_CELLS)
+        if !sides.contains(&columns) || !sides.contains(&rows) || cells.is_none_or(|cells| cells > MAX_CELLS)
         {
             return Err(Error::Limit(format!(
-                "a grid of {columns} × {rows} cells: each side must be 1 to {MAXIMUM_SIDE} and the whole at \
-                 most {MAXIMUM_CELLS} cells; choose a smaller size"
+                "a grid of {columns} × {rows} cells: each side must be 1 to {MAX_SIDE} and the whole at \
+                 most {MAX_CELLS} cells; choose a smaller size"
             )));
         }
         Ok(Self { columns, rows })
@@ -154,10 +152,10 @@ impl Field {
     }
 
     /// Least and greatest value over the cells of `land` (all cells without one); `None` without a cell.
-    pub fn range(&self, land: Option<&Mask>) -> Option<(f32, f32)> {
+    pub fn range(&self, valid: Option<&Mask>) -> Option<(f32, f32)> {
         let mut range: Option<(f32, f32)> = None;
         for (index, &value) in self.values.iter().enumerate() {
-            if land.is_none_or(|land| land.is_land_at(index)) {
+            if valid.is_none_or(|valid| valid.is_valid_at(index)) {
                 let (low, high) = range.unwrap_or((value, value));
                 range = Some((low.min(value), high.max(value)));
             }
@@ -166,9 +164,9 @@ impl Field {
     }
 
     /// The first cell that holds a NaN or an infinity, over the cells of `land`.
-    pub fn first_not_finite(&self, land: Option<&Mask>) -> Option<(usize, usize)> {
+    pub fn first_not_finite(&self, valid: Option<&Mask>) -> Option<(usize, usize)> {
         let index = self.values.iter().enumerate().position(|(index, value)| {
-            !value.is_finite() && land.is_none_or(|land| land.is_land_at(index))
+            !value.is_finite() && valid.is_none_or(|valid| valid.is_valid_at(index))
         })?;
         Some((index % self.size.columns, index / self.size.columns))
     }
@@ -178,27 +176,27 @@ fn row_sum(row: &[f32]) -> f64 {
     row.iter().map(|&value| f64::from(value)).sum()
 }
 
-/// Which cells hold data: `true` is land, `false` is no-data.
+/// Which cells hold data: `true` is valid, `false` is no-data.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Mask {
     size: Size,
-    land: Vec<bool>,
+    valid: Vec<bool>,
 }
 
 impl Mask {
-    /// A mask from row-major flags; `None` where every cell is land, since then none is needed.
+    /// A mask from row-major flags; `None` where every cell is valid, since then none is needed.
     ///
     /// # Panics
     /// If `land` does not hold one flag a cell: a bug of the caller.
-    pub fn new(size: Size, land: Vec<bool>) -> Option<Self> {
-        assert_eq!(land.len(), size.cells(), "one flag a cell");
-        land.contains(&false).then_some(Self { size, land })
+    pub fn new(size: Size, valid: Vec<bool>) -> Option<Self> {
+        assert_eq!(valid.len(), size.cells(), "one flag a cell");
+        valid.contains(&false).then_some(Self { size, valid })
     }
 
-    /// A mask from row-major flags, also where every cell is land: for worlds in which that may change.
-    pub fn always(size: Size, land: Vec<bool>) -> Self {
-        assert_eq!(land.len(), size.cells(), "one flag a cell");
-        Self { size, land }
+    /// A mask from row-major flags, also where every cell is valid: for grids in which that may change.
+    pub fn always(size: Size, valid: Vec<bool>) -> Self {
+        assert_eq!(valid.len(), size.cells(), "one flag a cell");
+        Self { size, valid }
     }
 
     /// Columns and rows.
@@ -207,22 +205,22 @@ impl Mask {
     }
 
     /// Whether cell (`x`, `y`) holds data.
-    pub fn is_land(&self, x: usize, y: usize) -> bool {
-        self.land[self.size.index(x, y)]
+    pub fn is_valid(&self, x: usize, y: usize) -> bool {
+        self.valid[self.size.index(x, y)]
     }
 
     /// Whether the cell at a row-major position holds data.
-    pub fn is_land_at(&self, index: usize) -> bool {
-        self.land[index]
+    pub fn is_valid_at(&self, index: usize) -> bool {
+        self.valid[index]
     }
 
     /// All flags, row-major.
     pub fn flags(&self) -> &[bool] {
-        &self.land
+        &self.valid
     }
 
     /// Number of cells with data.
-    pub fn land_cells(&self) -> usize {
-        self.land.iter().filter(|&&land| land).count()
+    pub fn valid_cells(&self) -> usize {
+        self.valid.iter().filter(|&&valid| valid).count()
     }
 }

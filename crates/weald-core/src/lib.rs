@@ -1,7 +1,7 @@
 //! What every part of **Weald** stands on: grids, domains, landscapes, materials, parameters, random numbers, errors.
 //!
 //! A [`Landscape`] is a [`Domain`] (columns, rows, cell size, place on Earth, valid cells) with named layers, each a
-//! [`Field`] with a unit. [`parameters!`] declares what a step can be told, with unit, range and default, once for
+//! [`Field`] with a unit. [`parameters!`] declares the parameters of a step, with unit, range and default, once for
 //! parsing, errors, documentation and user interfaces.
 //!
 //! ```

@@ -7,7 +7,7 @@
 use crate::grid::Field;
 
 /// Most materials of a landscape.
-pub const MOST: usize = 8;
+pub const MAX_MATERIALS: usize = 8;
 
 /// One material. Its thickness is a layer of the landscape that bears its name; the bedrock, the first of
 /// all, has no thickness: the layer `bedrock` is the height of its top.

@@ -1,10 +1,10 @@
-//! What a step can be told: its [declaration](Parameter), and the types that [values](ParameterValue) can have, one file a
-//! type.
+//! The parameters of a step: its [declaration](Parameter), and the types that [values](ParameterValue) can have, one
+//! file a type.
 
 mod check;
 mod colour;
-mod complaints;
 mod declaration;
+mod diagnostics;
 mod fault;
 mod file;
 mod kind;
@@ -18,8 +18,8 @@ mod variants;
 
 pub use check::{check_file, check_keys, without_effect};
 pub use colour::Colour;
-pub use complaints::{Complaints, nearest};
 pub use declaration::{Choice, ParameterValue, Parameters, key, keys_of, read_key};
+pub use diagnostics::{Diagnostics, nearest};
 pub use fault::Fault;
 pub use file::{FlameFile, RasterFile, ScriptFile};
 pub use kind::{Kind, Needs, Parameter, Variant};

@@ -2,10 +2,10 @@
 
 use toml::de::{DeTable, DeValue};
 
-use crate::error::{Complaint, RecipeError};
+use crate::error::{Diagnostic, RecipeError};
 
 /// Longest recipe that is read, in bytes. A recipe is a page of text; more is a mistake.
-pub const MAXIMUM_BYTES: usize = 1 << 20;
+pub const MAX_BYTES: usize = 1 << 20;
 
 /// A value and the line it stands on.
 #[derive(Clone, Debug, PartialEq)]
@@ -110,10 +110,12 @@ fn line_in(node: &Node, path: &str) -> usize {
 /// # Errors
 /// A [`RecipeError`] with the line of every syntax fault.
 pub fn parse(file: &str, text: &str) -> Result<Table, RecipeError> {
-    let fail =
-        |line, message| RecipeError { file: file.to_owned(), complaints: vec![Complaint { line, message }] };
-    if text.len() > MAXIMUM_BYTES {
-        return Err(fail(1, format!("a recipe of {} bytes; at most {MAXIMUM_BYTES} are read", text.len())));
+    let fail = |line, message| RecipeError {
+        file: file.to_owned(),
+        diagnostics: vec![Diagnostic { line, message }],
+    };
+    if text.len() > MAX_BYTES {
+        return Err(fail(1, format!("a recipe of {} bytes; at most {MAX_BYTES} are read", text.len())));
     }
     let lines = Lines::of(text);
     let parsed = DeTable::parse(text).map_err(|error| {
@@ -128,7 +130,7 @@ pub fn parse(file: &str, text: &str) -> Result<Table, RecipeError> {
     if unfit.is_empty() {
         return Ok(table);
     }
-    Err(RecipeError { file: file.to_owned(), complaints: unfit })
+    Err(RecipeError { file: file.to_owned(), diagnostics: unfit })
 }
 
 /// Byte positions of line starts.
@@ -147,7 +149,7 @@ impl Lines {
     }
 }
 
-fn convert_table(table: &DeTable<'_>, line: usize, lines: &Lines, unfit: &mut Vec<Complaint>) -> Table {
+fn convert_table(table: &DeTable<'_>, line: usize, lines: &Lines, unfit: &mut Vec<Diagnostic>) -> Table {
     let mut entries: Vec<(usize, String, Node)> = table
         .iter()
         .map(|(key, value)| {
@@ -160,9 +162,9 @@ fn convert_table(table: &DeTable<'_>, line: usize, lines: &Lines, unfit: &mut Ve
     Table { line, entries: entries.into_iter().map(|(_, key, node)| (key, node)).collect() }
 }
 
-fn convert(value: &DeValue<'_>, line: usize, lines: &Lines, unfit: &mut Vec<Complaint>) -> Value {
-    let mut complain = |message: String| {
-        unfit.push(Complaint { line, message });
+fn convert(value: &DeValue<'_>, line: usize, lines: &Lines, unfit: &mut Vec<Diagnostic>) -> Value {
+    let mut report_fault = |message: String| {
+        unfit.push(Diagnostic { line, message });
         Value::Flag(false)
     };
     match value {
@@ -170,13 +172,13 @@ fn convert(value: &DeValue<'_>, line: usize, lines: &Lines, unfit: &mut Vec<Comp
         DeValue::Boolean(flag) => Value::Flag(*flag),
         DeValue::Integer(number) => match i64::from_str_radix(number.as_str(), number.radix()) {
             Ok(number) => Value::Integer(number),
-            Err(_) => complain(format!("{number} does not fit in 64 bits")),
+            Err(_) => report_fault(format!("{number} does not fit in 64 bits")),
         },
         DeValue::Float(number) => match number.as_str().parse() {
             Ok(number) => Value::Number(number),
-            Err(_) => complain(format!("{number} is not a number")),
+            Err(_) => report_fault(format!("{number} is not a number")),
         },
-        DeValue::Datetime(date) => complain(format!("{date} is a date; no key takes one")),
+        DeValue::Datetime(date) => report_fault(format!("{date} is a date; no key takes one")),
         DeValue::Array(items) => Value::List(
             items
                 .iter()
@@ -207,7 +209,7 @@ mod tests {
     #[test]
     fn a_syntax_fault_names_its_line() {
         let error = parse("r.toml", "a = 1\nb = = 2\n").expect_err("bad syntax");
-        assert_eq!(error.complaints[0].line, 2);
+        assert_eq!(error.diagnostics[0].line, 2);
         assert!(error.to_string().starts_with("r.toml:2: "), "{error}");
     }
 }

@@ -15,7 +15,7 @@ pub fn stack(landscape: &Landscape, ground: &Field) -> Result<Vec<Field>, Error>
     let mut stack = Vec::new();
     for material in landscape.materials.iter().skip(1).rev() {
         let thickness = match landscape.field(&material.name) {
-            Ok(layer) => checked(&material.name, layer, landscape.domain.land.as_ref())?.clone(),
+            Ok(layer) => checked(&material.name, layer, landscape.domain.valid.as_ref())?.clone(),
             Err(_) => material.under(&roof),
         };
         for (roof, thickness) in roof.values_mut().iter_mut().zip(thickness.values()) {
@@ -27,8 +27,8 @@ pub fn stack(landscape: &Landscape, ground: &Field) -> Result<Vec<Field>, Error>
     Ok(stack)
 }
 
-fn checked<'a>(name: &str, layer: &'a Field, land: Option<&Mask>) -> Result<&'a Field, Error> {
-    let counts = |cell: usize| land.is_none_or(|land| land.is_land_at(cell));
+fn checked<'a>(name: &str, layer: &'a Field, valid: Option<&Mask>) -> Result<&'a Field, Error> {
+    let counts = |cell: usize| valid.is_none_or(|valid| valid.is_valid_at(cell));
     let is_thickness = |value: f32| value.is_finite() && value >= 0.0;
     let fault =
         layer.values().iter().enumerate().find(|&(cell, &value)| counts(cell) && !is_thickness(value));

@@ -4,8 +4,8 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 use weald::Error;
-use weald_gallery::figures::{FIGURES, Figure, merged_page};
 use weald::io::write_whole;
+use weald_gallery::figures::{FIGURES, Figure, merged_page};
 
 use crate::keep::{Kept, keep};
 
@@ -77,8 +77,10 @@ fn delete_others(folder: &Path, shown: &BTreeSet<String>, told: &dyn Fn(&Renewed
 mod tests {
     use std::cell::RefCell;
 
-    use weald_gallery::figures::{Detail, FigureOutput, GalleryJob, Make, Measured, Plate, Selection, write_figures};
     use weald::picture::Image;
+    use weald_gallery::figures::{
+        Detail, FigureOutput, GalleryJob, Make, Measured, Plate, Selection, write_figures,
+    };
 
     use super::*;
 

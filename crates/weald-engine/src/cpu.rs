@@ -1,14 +1,14 @@
 //! A simulation on the CPU: the world in bands, and the means over its recorded steps.
 
+use super::bands::BandedGrid;
 use super::machine::{Machine, Means, Snapshot};
-use super::world::World;
 use crate::stencil::chain::Process;
 use weald_core::error::Error;
 
 /// The state of a simulation on the CPU.
 pub(crate) struct CpuMachine<'a, P: Process> {
     process: &'a P,
-    world: World<'a, P>,
+    world: BandedGrid<'a, P>,
     parts: Means<'a>,
     means: Vec<Vec<f32>>,
     kept: Snapshot,
@@ -18,7 +18,7 @@ impl<'a, P: Process> CpuMachine<'a, P> {
     /// In one band a thread, or in bands that own their memory.
     pub(crate) fn new(process: &'a P, parts: Means<'a>, start: &Snapshot, bands: Option<usize>) -> Self {
         let columns = 0..start.state.layout.columns;
-        let mut world = World::new(process, start.state.clone(), bands, columns);
+        let mut world = BandedGrid::new(process, start.state.clone(), bands, columns);
         world.set_row_sums(&start.row_sums);
         Self { process, world, parts, means: start.means.clone(), kept: start.clone() }
     }

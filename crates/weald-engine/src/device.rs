@@ -24,7 +24,7 @@ pub trait Device: Debug + Send + Sync {
     /// [`Error::Device`] where the device refuses: out of memory, lost.
     fn load(&self, program: &Program, size: Size) -> Result<Box<dyn Loaded>, Error>;
 
-    /// Hears where the ground of the next simulation lies, for devices that show it as it runs.
+    /// Receives where the ground of the next simulation lies, for devices that show it as it runs.
     ///
     /// # Errors
     /// [`Error::Device`] where the device fails.

@@ -10,7 +10,7 @@ pub struct Job<'a> {
     pub seed: u64,
     /// Where simulations run.
     pub engine: Engine,
-    /// Hears of progress, keeps checkpoints, says when to stop.
+    /// Receives progress, keeps checkpoints, says when to stop.
     pub watcher: &'a dyn Watcher,
     /// State to go on from, where this step was interrupted before.
     pub resume: Option<SavedSimulation>,

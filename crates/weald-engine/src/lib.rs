@@ -2,6 +2,7 @@
 //! [programs](program) for devices, and machines for processors, bands, tiles and devices, with the same bits on each
 //! processor.
 
+pub mod bands;
 mod budget;
 mod cpu;
 pub mod device;
@@ -20,7 +21,6 @@ pub mod step;
 pub mod sums;
 mod tiles;
 pub mod uniform;
-pub mod world;
 
 pub use budget::{Budget, SolidBudget, WaterBudget};
 pub use engine::Engine;

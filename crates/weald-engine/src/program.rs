@@ -4,7 +4,7 @@
 //! the method only: what it can see (grid, constants, weather, buffers) is written in front of it from the
 //! declarations here, so that host and shader cannot come to disagree about a binding.
 
-pub mod draft;
+pub mod builder;
 pub mod twin;
 
 use std::fmt::Write;
@@ -19,7 +19,7 @@ pub const COUNTED: usize = SUMS;
 pub const GROUP: usize = 16;
 
 /// Most storage buffers of one pass: what browsers allow.
-pub const MOST_BUFFERS: usize = 8;
+pub const MAX_BUFFERS: usize = 8;
 
 /// Shaders that every pass begins with.
 const PRELUDE: &str = include_str!("stencil/prelude.wgsl");
@@ -241,7 +241,7 @@ impl Program {
         text
     }
 
-    /// Bytes a cell that all buffers take.
+    /// Bytes per cell that all buffers take.
     pub fn bytes_per_cell(&self) -> usize {
         self.buffers.iter().map(Buffer::bytes_per_cell).sum()
     }
@@ -251,18 +251,18 @@ impl Program {
         self.buffers.iter().map(|buffer| 4 * buffer.length(0) as u64).sum()
     }
 
-    /// Bytes a cell of the copy that is kept to go back to.
+    /// Bytes per cell of the copy that is kept to go back to.
     pub fn bytes_kept_per_cell(&self) -> usize {
         let kept = |content: &Content| matches!(content, Content::State(_) | Content::Mean);
         self.buffers.iter().filter(|buffer| kept(&buffer.content)).map(|buffer| 4 * buffer.lanes).sum()
     }
 
-    /// Bytes a cell of the widest buffer.
+    /// Bytes per cell of the widest buffer.
     pub fn widest_buffer(&self) -> usize {
         self.buffers.iter().map(Buffer::bytes_per_cell).max().unwrap_or(4).max(4)
     }
 
-    /// Bytes a cell that one step reads and writes, each buffer of a pass counted once: what the memory must
+    /// Bytes per cell that one step reads and writes, each buffer of a pass counted once: what the memory must
     /// carry at least.
     pub fn bytes_per_cell_step(&self) -> usize {
         let every = self.passes.iter().filter(|pass| !pass.recorded);

@@ -9,7 +9,7 @@ use crate::job::Job;
 use weald_core::error::Error;
 use weald_core::landscape::Landscape;
 use weald_core::material::Material;
-use weald_core::parameter::{Complaints, Fault, Parameter, Parameters};
+use weald_core::parameter::{Diagnostics, Fault, Parameter, Parameters};
 use weald_core::source::Table;
 
 /// A step with its parameters, checked and ready to run.
@@ -45,7 +45,7 @@ pub trait Step: Debug + Send + Sync {
         Vec::new()
     }
 
-    /// Looks at the files that steer it, so that their faults are told before anything runs.
+    /// Looks at the files that steer it, so that their faults are reported before anything runs.
     ///
     /// # Errors
     /// Those of the files.
@@ -160,7 +160,7 @@ pub struct Entry {
     /// Declares the parameters.
     pub parameters: fn() -> Vec<Parameter>,
     /// Reads them from a recipe.
-    pub read: fn(&Table, &mut Complaints) -> Box<dyn Step>,
+    pub read: fn(&Table, &mut Diagnostics) -> Box<dyn Step>,
 }
 
 impl Entry {
@@ -171,8 +171,8 @@ impl Entry {
         summary: &'static str,
         source: &'static str,
     ) -> Self {
-        let read = |table: &Table, complaints: &mut Complaints| -> Box<dyn Step> {
-            Box::new(T::read(table, complaints))
+        let read = |table: &Table, diagnostics: &mut Diagnostics| -> Box<dyn Step> {
+            Box::new(T::read(table, diagnostics))
         };
         Self { name, stage, summary, source, parameters: T::parameters, read }
     }

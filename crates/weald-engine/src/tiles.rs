@@ -213,7 +213,7 @@ impl<W, K: Worker<W>> Machine<W> for Tiled<K> {
     }
 }
 
-/// Tiles on the CPU, each a small world with walls.
+/// Tiles on the CPU, each a subdomain with walls.
 pub(crate) struct CpuTiles<'a, P> {
     pub(crate) process: &'a P,
     pub(crate) means: Means<'a>,

@@ -1,6 +1,6 @@
 //! Structs of 32-bit numbers that a shader sees under the same names.
 
-use weald_core::material::MOST;
+use weald_core::material::MAX_MATERIALS;
 
 /// A struct that shaders read as a uniform: same name, same fields in the same order without gaps.
 pub trait Uniform {
@@ -53,7 +53,7 @@ impl Words for u32 {
 }
 
 /// Four numbers for each material. Uniforms begin with it, since its place is a multiple of sixteen bytes.
-impl Words for [[f32; 4]; MOST] {
+impl Words for [[f32; 4]; MAX_MATERIALS] {
     const WGSL: &'static str = "array<vec4<f32>, 8>";
 
     fn words(self) -> Vec<u32> {

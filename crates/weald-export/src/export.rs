@@ -5,7 +5,7 @@ use std::path::Path;
 
 use weald_core::error::Error;
 use weald_core::landscape::Landscape;
-use weald_core::parameter::{Complaints, Fault, Parameter, Parameters};
+use weald_core::parameter::{Diagnostics, Fault, Parameter, Parameters};
 use weald_core::source::Table;
 use weald_engine::report::StepReport;
 use weald_io::Part;
@@ -82,7 +82,7 @@ pub struct ExportEntry {
     /// Declares the parameters.
     pub parameters: fn() -> Vec<Parameter>,
     /// Reads them from an `[[output]]` table without its `export` and `file`.
-    pub read: fn(&Table, &mut Complaints) -> Box<dyn Export>,
+    pub read: fn(&Table, &mut Diagnostics) -> Box<dyn Export>,
 }
 
 impl ExportEntry {
@@ -93,8 +93,8 @@ impl ExportEntry {
         summary: &'static str,
         source: &'static str,
     ) -> Self {
-        let read = |table: &Table, complaints: &mut Complaints| -> Box<dyn Export> {
-            Box::new(T::read(table, complaints))
+        let read = |table: &Table, diagnostics: &mut Diagnostics| -> Box<dyn Export> {
+            Box::new(T::read(table, diagnostics))
         };
         Self { name, summary, source, extensions, parameters: T::parameters, read }
     }

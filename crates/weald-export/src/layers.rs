@@ -39,8 +39,8 @@ impl Export for Layers {
 
     fn notes(&self, finished: &Finished<'_>) -> Vec<String> {
         let place = finished.landscape.domain.georeference.as_ref();
-        let is_untold = place.is_some_and(|place| !cf::is_told_to_all(place));
-        is_untold.then(|| cf::UNTOLD.to_owned()).into_iter().collect()
+        let is_omitted = place.is_some_and(|place| !cf::is_readable_by_all(place));
+        is_omitted.then(|| cf::OMITTED_CRS_NOTE.to_owned()).into_iter().collect()
     }
 
     fn parts(&self, finished: &Finished<'_>, file: &Path) -> Result<Vec<Part>, Error> {
@@ -61,7 +61,7 @@ impl Layers {
         Ok(Sheet {
             cell: Some(domain.cell),
             georeference: domain.georeference.as_ref(),
-            land: domain.land.as_ref(),
+            valid: domain.valid.as_ref(),
             layers: names.iter().map(|name| layer(finished, name)).collect::<Result<_, _>>()?,
             names: if self.preset.is_some() { Names::Landlab } else { Names::Weald },
         })
@@ -70,7 +70,7 @@ impl Layers {
 
 fn layer<'a>(finished: &Finished<'a>, name: &str) -> Result<cf::Layer<'a>, Error> {
     let layer = finished.landscape.layer(name)?;
-    let range = layer.field.range(finished.landscape.domain.land.as_ref()).unwrap_or_default();
+    let range = layer.field.range(finished.landscape.domain.valid.as_ref()).unwrap_or_default();
     let provenance = Provenance {
         version: env!("CARGO_PKG_VERSION").to_owned(),
         recipe_blake3: finished.hash.to_owned(),
@@ -92,8 +92,8 @@ mod tests {
 
     fn landscape() -> Landscape {
         let size = Size { columns: 5, rows: 4 };
-        let land = Mask::new(size, (0..20).map(|cell| cell != 7).collect());
-        let mut landscape = Landscape::new(Domain { land, ..Domain::new(size, 20.0) });
+        let valid = Mask::new(size, (0..20).map(|cell| cell != 7).collect());
+        let mut landscape = Landscape::new(Domain { valid, ..Domain::new(size, 20.0) });
         for (name, unit, start) in [("height", "m", 100.0), ("water", "m", 0.5), ("flux_x", "m³/step", -3.0)]
         {
             landscape.insert(name, unit, Field::from_function(size, |x, y| start + (x + 10 * y) as f32));
@@ -118,7 +118,7 @@ mod tests {
         let rasters =
             [zarr::decode(&zarr, Limits::default()), netcdf::decode(&nc[0].bytes, Limits::default())];
         for raster in rasters.map(|raster| raster.expect("reads")) {
-            assert_eq!(raster.land, expected.domain.land);
+            assert_eq!(raster.valid, expected.domain.valid);
             assert_eq!(raster.field.at(4, 3), expected.field("height").expect("there").at(4, 3));
             assert_eq!((raster.cell, raster.georeference), (Some(20.0), None));
             let provenance = raster.provenance.expect("written");

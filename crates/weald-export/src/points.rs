@@ -15,10 +15,10 @@ use weald_plants::ifs::{Code, Coded, Game, Ifs, expansion};
 pub(super) const EXTENSIONS: &[&str] = &["csv", "ply", "npy"];
 
 /// Most points of a file.
-const MOST_POINTS: u64 = 1 << 25;
+const MAX_POINTS: u64 = 1 << 25;
 
 /// Longest file.
-const MAXIMUM_BYTES: u64 = 4 << 30;
+const MAX_BYTES: u64 = 4 << 30;
 
 weald_core::parameters! {
     /// The points of a fractal, after its deformations.
@@ -77,14 +77,14 @@ impl Points {
             None => Some(self.count),
             Some(depth) => (ifs.maps().len() as u64).checked_pow(depth),
         };
-        if count.is_some_and(|count| count <= MOST_POINTS && count * a_point <= MAXIMUM_BYTES) {
+        if count.is_some_and(|count| count <= MAX_POINTS && count * a_point <= MAX_BYTES) {
             return Ok(());
         }
         let count = count.map_or_else(|| "more than 2^64".to_owned(), |count| count.to_string());
         Err(Error::Limit(format!(
-            "{count} points of {a_point} bytes: at most {MOST_POINTS} points and {} MiB are written; choose a smaller \
+            "{count} points of {a_point} bytes: at most {MAX_POINTS} points and {} MiB are written; choose a smaller \
              `count` or `depth`, or `codes = false`",
-            MAXIMUM_BYTES >> 20
+            MAX_BYTES >> 20
         )))
     }
 

@@ -43,10 +43,10 @@ pub(super) const ENTRY: ExportEntry = ExportEntry::of::<Terrain3d>(
 );
 
 const REGION_SIZES: [u32; 6] = [64, 128, 256, 512, 1024, 2048];
-const USUAL_REGION: u32 = 256;
+const DEFAULT_REGION: u32 = 256;
 /// Most regions a side.
 const REGIONS: usize = 32;
-const GREATEST: f64 = 65535.0;
+const MAX_VALUE: f64 = 65535.0;
 
 impl Export for Terrain3d {
     fn reads(&self) -> Vec<String> {
@@ -71,9 +71,9 @@ impl Export for Terrain3d {
         let heights = Vertices::of(domain, finished.landscape.field(&self.of.0)?, size)?;
         let (low, high) = heights.range();
         let bytes = if extension(file) == "exr" {
-            exr::encode_for_godot(&Raster { land: heights.land, ..Raster::from(heights.field) })?
+            exr::encode_for_godot(&Raster { valid: heights.valid, ..Raster::from(heights.field) })?
         } else {
-            let per_metre = if high > low { GREATEST / (high - low) } else { 0.0 };
+            let per_metre = if high > low { MAX_VALUE / (high - low) } else { 0.0 };
             let number = |index| ((heights.value(index, low) - low) * per_metre).round() as u16;
             little_endian(&(0..size.cells()).map(number).collect::<Vec<_>>())
         };
@@ -82,7 +82,7 @@ impl Export for Terrain3d {
     }
 }
 
-/// What the importer is told.
+/// What the importer is given.
 struct Import {
     size: Size,
     spacing: f64,
@@ -106,7 +106,7 @@ impl Terrain3d {
     fn region(&self, size: Size) -> Result<u32, Error> {
         let longer = size.columns.max(size.rows);
         let holds = |region: &u32| *region as usize * REGIONS >= longer;
-        let fitting = REGION_SIZES.into_iter().filter(|&region| region >= USUAL_REGION).find(holds);
+        let fitting = REGION_SIZES.into_iter().filter(|&region| region >= DEFAULT_REGION).find(holds);
         self.region_size.or(fitting).filter(holds).ok_or_else(|| {
             Error::Limit(format!(
                 "terrain3d: {size} vertices need more than {REGIONS} regions a side; choose a larger `region_size` or \

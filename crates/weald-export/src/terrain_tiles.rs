@@ -39,8 +39,8 @@ impl Weight {
 
     /// What is cut off, where values lie beyond both ends.
     pub(super) fn note(&self, finished: &Finished<'_>) -> Option<String> {
-        let land = finished.landscape.domain.land.as_ref();
-        let (low, high) = finished.landscape.field(&self.layer.0).ok()?.range(land)?;
+        let valid = finished.landscape.domain.valid.as_ref();
+        let (low, high) = finished.landscape.field(&self.layer.0).ok()?.range(valid)?;
         let ends = (self.low.min(self.high), self.low.max(self.high));
         (f64::from(low) < ends.0 || f64::from(high) > ends.1).then(|| {
             format!(
@@ -151,7 +151,7 @@ pub(super) fn at_vertices(
 
 /// What becomes of cells without data, where there are any.
 pub(super) fn no_data_note(finished: &Finished<'_>, more: &str) -> Option<String> {
-    let has_none = finished.landscape.domain.land.is_some();
+    let has_none = finished.landscape.domain.valid.is_some();
     has_none.then(|| format!("cells without data are written as the lowest height{more}"))
 }
 

@@ -46,7 +46,7 @@ const SIZES: [u32; 8] = [33, 65, 129, 257, 513, 1025, 2049, 4097];
 
 /// Unity divides by this, one more than the greatest number.
 const WHOLE: f64 = 65536.0;
-const GREATEST: f64 = 65535.0;
+const MAX_VALUE: f64 = 65535.0;
 
 impl Export for Unity {
     fn reads(&self) -> Vec<String> {
@@ -68,7 +68,7 @@ impl Export for Unity {
         let tiles = Tiles::new(finished.landscape.domain.size, self.tiles, self.size, &SIZES);
         let heights = at_vertices(finished, &self.of, tiles)?;
         let (low, high) = heights.range();
-        let per_metre = if high > low { GREATEST / (high - low) } else { 0.0 };
+        let per_metre = if high > low { MAX_VALUE / (high - low) } else { 0.0 };
         let number = |index| ((heights.value(index, low) - low) * per_metre).round() as u16;
         let numbers: Vec<u16> = (0..heights.field.size().cells()).map(number).collect();
         let mut parts = Vec::new();
@@ -94,7 +94,7 @@ impl Unity {
             "resolution": tiles.side,
             "byte_order": "Windows",
             "flip_vertically": false,
-            "terrain_size_m": { "x": width, "y": (high - low) * WHOLE / GREATEST, "z": length },
+            "terrain_size_m": { "x": width, "y": (high - low) * WHOLE / MAX_VALUE, "z": length },
             "position_m": { "x": 0.0, "y": low, "z": 0.0 },
             "vertices_in_common": 1,
             "rows": "south to north, +X east, +Z north",

@@ -58,7 +58,7 @@ pub(super) const ENTRY: ExportEntry = ExportEntry::of::<Unreal>(
 const SIZES: [u32; 7] = [127, 253, 505, 1009, 2017, 4033, 8129];
 
 const MIDDLE: f64 = 32768.0;
-const GREATEST: f64 = 65535.0;
+const MAX_VALUE: f64 = 65535.0;
 /// Numbers in a centimetre at a scale of one percent.
 const STEPS: f64 = 128.0;
 
@@ -94,17 +94,17 @@ impl Export for Unreal {
         let tiles = Tiles::new(finished.landscape.domain.size, self.tiles, self.size, &SIZES);
         let heights = at_vertices(finished, &self.of, tiles)?;
         let scale = Scale::of(self, heights.range())?;
-        let mut set = Set { tiles, extension: extension(file), parts: Vec::new() };
+        let mut set = TileSet { tiles, extension: extension(file), parts: Vec::new() };
         set.add_heights(&scale.numbers(&heights))?;
         for Nested(mask) in &self.masks {
             let layer = at_vertices(finished, &mask.layer, tiles)?;
             let value = |index| mask.number(layer.value(index, mask.low));
             set.add_mask(&mask.layer.0, &(0..layer.field.size().cells()).map(value).collect::<Vec<_>>())?;
         }
-        if let Some(land) = &heights.land {
+        if let Some(valid) = &heights.valid {
             set.add_mask(
                 "holes",
-                &land.flags().iter().map(|is_land| if *is_land { 0 } else { 255 }).collect::<Vec<_>>(),
+                &valid.flags().iter().map(|is_valid| if *is_valid { 0 } else { 255 }).collect::<Vec<_>>(),
             )?;
         }
         set.parts.push(description(&self.described(finished, tiles, &scale)));
@@ -128,7 +128,7 @@ impl Unreal {
             "components_of_a_tile": [(tiles.side - 1) / (2 * quads), (tiles.side - 1) / (2 * quads)],
             "scale": { "x": x_scale, "y": y_scale, "z": scale.percent },
             "location_cm": { "x": -50.0 * width, "y": -50.0 * length, "z": 100.0 * self.zero },
-            "height_m": { "of_0": scale.metres(0.0), "of_32768": self.zero, "of_65535": scale.metres(GREATEST) },
+            "height_m": { "of_0": scale.metres(0.0), "of_32768": self.zero, "of_65535": scale.metres(MAX_VALUE) },
             "rows": "north to south, +X east, +Y south",
             "masks": self.masks.iter().map(|Nested(mask)| {
                 json!({ "layer": mask.layer.0, "value_of_0": mask.low, "value_of_255": mask.high })
@@ -148,7 +148,7 @@ struct Scale {
 impl Scale {
     fn of(export: &Unreal, (low, high): (f64, f64)) -> Result<Self, Error> {
         let (above, below) = ((high - export.zero).max(0.0), (export.zero - low).max(0.0));
-        let least = 100.0 * STEPS * (above / (GREATEST - MIDDLE)).max(below / MIDDLE);
+        let least = 100.0 * STEPS * (above / (MAX_VALUE - MIDDLE)).max(below / MIDDLE);
         let percent = export.z_scale.unwrap_or(if least > 0.0 { least } else { 100.0 });
         if percent < least {
             return Err(Error::Run(format!(
@@ -168,20 +168,20 @@ impl Scale {
         let low = heights.range().0;
         let number = |index| {
             let steps = (heights.value(index, low) - self.zero) * 100.0 * STEPS / self.percent;
-            (MIDDLE + steps.round()).clamp(0.0, GREATEST) as u16
+            (MIDDLE + steps.round()).clamp(0.0, MAX_VALUE) as u16
         };
         (0..heights.field.size().cells()).map(number).collect()
     }
 }
 
 /// The files of a set.
-struct Set {
+struct TileSet {
     tiles: Tiles,
     extension: String,
     parts: Vec<Part>,
 }
 
-impl Set {
+impl TileSet {
     fn add_heights(&mut self, numbers: &[u16]) -> Result<(), Error> {
         let size = Size::square(self.tiles.side)?;
         for (x, y) in self.tiles.all() {

@@ -21,7 +21,7 @@ pub(super) struct Vertices {
     /// Values; 0 where there is no data.
     pub(super) field: Field,
     /// Vertices with data.
-    pub(super) land: Option<Mask>,
+    pub(super) valid: Option<Mask>,
 }
 
 impl Vertices {
@@ -33,34 +33,34 @@ impl Vertices {
         ensure_extent(domain.size)?;
         let across = Axis::new(domain.size.columns, size.columns);
         let down = Axis::new(domain.size.rows, size.rows);
-        let land = domain.land.as_ref().and_then(|land| {
+        let valid = domain.valid.as_ref().and_then(|valid| {
             let cells = down.nearest.iter().flat_map(|&y| across.nearest.iter().map(move |&x| (x, y)));
-            Mask::new(size, cells.map(|(x, y)| land.is_land(x, y)).collect())
+            Mask::new(size, cells.map(|(x, y)| valid.is_valid(x, y)).collect())
         });
-        let cells = Cells { field, land: domain.land.as_ref() };
+        let cells = Cells { field, valid: domain.valid.as_ref() };
         let mut values = vec![0.0; size.cells()];
         values.par_chunks_mut(size.columns).enumerate().for_each(|(y, row)| {
             for (x, value) in row.iter_mut().enumerate() {
-                if land.as_ref().is_none_or(|land| land.is_land(x, y)) {
+                if valid.as_ref().is_none_or(|valid| valid.is_valid(x, y)) {
                     *value = cells
                         .smooth(&across.smooth[x], &down.smooth[y])
                         .unwrap_or_else(|| cells.mean(&across.near[x], &down.near[y]));
                 }
             }
         });
-        Ok(Self { field: Field::from_values(size, values), land })
+        Ok(Self { field: Field::from_values(size, values), valid })
     }
 
     /// Least and greatest value; both 0 without data.
     pub(super) fn range(&self) -> (f64, f64) {
-        let (low, high) = self.field.range(self.land.as_ref()).unwrap_or_default();
+        let (low, high) = self.field.range(self.valid.as_ref()).unwrap_or_default();
         (f64::from(low), f64::from(high))
     }
 
     /// The value at a vertex; the lowest one where there is no data.
     pub(super) fn value(&self, index: usize, low: f64) -> f64 {
-        match &self.land {
-            Some(land) if !land.is_land_at(index) => low,
+        match &self.valid {
+            Some(valid) if !valid.is_valid_at(index) => low,
             _ => f64::from(self.field.values()[index]),
         }
     }
@@ -188,12 +188,12 @@ fn catmull_rom(place: f64) -> (i64, Vec<f64>) {
 /// The cells of a layer.
 struct Cells<'a> {
     field: &'a Field,
-    land: Option<&'a Mask>,
+    valid: Option<&'a Mask>,
 }
 
 impl Cells<'_> {
     fn at(&self, x: usize, y: usize) -> Option<f64> {
-        self.land.is_none_or(|land| land.is_land(x, y)).then(|| f64::from(self.field.at(x, y)))
+        self.valid.is_none_or(|valid| valid.is_valid(x, y)).then(|| f64::from(self.field.at(x, y)))
     }
 
     /// The weighted sum, within the range of the cells; `None` where one of them has no data.
@@ -279,14 +279,14 @@ mod tests {
     #[test]
     fn cells_without_data_never_take_part() {
         let size = Size { columns: 20, rows: 20 };
-        let land = Mask::new(size, (0..400).map(|index| index % 20 < 12).collect());
+        let valid = Mask::new(size, (0..400).map(|index| index % 20 < 12).collect());
         let field = Field::from_function(size, |x, _| if x < 12 { 5.0 } else { f32::NAN });
-        let domain = Domain { land, ..domain(20, 20) };
+        let domain = Domain { valid, ..domain(20, 20) };
         for side in [9, 33, 127] {
             let vertices = Vertices::of(&domain, &field, Size { columns: side, rows: side }).expect("extent");
             assert_eq!(vertices.range(), (5.0, 5.0), "{side}");
-            let land = vertices.land.expect("some have none");
-            assert!(land.is_land(0, 3) && !land.is_land(side - 1, 3));
+            let valid = vertices.valid.expect("some have none");
+            assert!(valid.is_valid(0, 3) && !valid.is_valid(side - 1, 3));
         }
     }
 

@@ -11,7 +11,7 @@ mod rate;
 pub use device::run_on;
 pub use fractal::{PointRate, fractals};
 pub use grass::{GrassRate, grass};
-pub use rate::{Beside, Rate, bandwidth};
+pub use rate::{Baseline, Rate, bandwidth};
 
 use std::time::Instant;
 
@@ -33,8 +33,8 @@ use weald_land::generate::fbm::Fbm;
 const CELL_STEPS: usize = 250_000_000;
 
 /// Measures erosion at each size and thread count, then the generators and
-/// flow over the ground at the greatest size; `report` hears
-/// each rate as it is known.
+/// flow over the ground at the greatest size; `report` is called with each
+/// rate as it is known.
 ///
 /// # Errors
 /// [`Error::Limit`] for sizes that no grid may have, [`Error::Run`] where threads cannot be started.
@@ -56,7 +56,7 @@ pub fn run(sides: &[usize], threads: &[usize], report: &mut (dyn FnMut(&Rate) + 
 }
 
 /// A process of the bench with its counts, taken from the kernels by hand.
-struct Contender {
+struct BenchCase {
     name: &'static str,
     step: Hydraulic,
     bytes: usize,
@@ -65,23 +65,23 @@ struct Contender {
     aim: f64,
 }
 
-fn contenders(iterations: u32) -> [Contender; 4] {
+fn contenders(iterations: u32) -> [BenchCase; 4] {
     let han = Hydraulic { iterations, ..Hydraulic::default() };
     let mei = Hydraulic { model: MeiKeys::default().into(), ..han.clone() };
     let thermal = Some(Nested(ThermalWithin::default()));
     let sliding = HanKeys { thermal, ..HanKeys::default() };
     let semi_lagrangian = MeiKeys { transport: Transport::SemiLagrangian, ..MeiKeys::default() };
     [
-        Contender { name: "han", step: han.clone(), bytes: 44, operations: 105, aim: 300.0 },
-        Contender {
+        BenchCase { name: "han", step: han.clone(), bytes: 44, operations: 105, aim: 300.0 },
+        BenchCase {
             name: "han with thermal",
             step: Hydraulic { model: sliding.into(), ..han },
             bytes: 44,
             operations: 122,
             aim: 300.0,
         },
-        Contender { name: "mei", step: mei.clone(), bytes: 60, operations: 90, aim: 400.0 },
-        Contender {
+        BenchCase { name: "mei", step: mei.clone(), bytes: 60, operations: 90, aim: 400.0 },
+        BenchCase {
             name: "mei, semi-lagrangian",
             step: Hydraulic { model: semi_lagrangian.into(), ..mei },
             bytes: 60,
@@ -105,8 +105,8 @@ fn erosion(size: Size, bandwidth: f64, report: &mut (dyn FnMut(&Rate) + Send)) -
             seconds = seconds.min(contender.step.seconds(&landscape, &Engine::Cpu)?);
         }
         let millions = size.cells() as f64 * f64::from(iterations) / seconds / 1e6;
-        let Contender { name, bytes, operations, aim, .. } = contender;
-        let beside = Beside::Memory { bytes, operations, bandwidth, aim: aim * speed_up };
+        let BenchCase { name, bytes, operations, aim, .. } = contender;
+        let beside = Baseline::Memory { bytes, operations, bandwidth, aim: aim * speed_up };
         report(&Rate { name: name.to_owned(), size, threads: Some(threads), millions, beside });
     }
     Ok(())
@@ -121,10 +121,10 @@ fn generators(size: Size, report: &mut (dyn FnMut(&Rate) + Send)) -> Result<(), 
         small.naive(size, 7);
         size.cells() as f64 / (begun.elapsed().as_secs_f64() * 20.0) / 1e6
     };
-    let contenders: [(&str, &dyn Generator, Beside); 3] = [
-        ("fault, 1000 faults", &faults, Beside::Naive(naive)),
-        ("fbm, 5 octaves", &Fbm { octaves: 5, ..Fbm::default() }, Beside::Alone),
-        ("diamond-square", &DiamondSquare::default(), Beside::Alone),
+    let contenders: [(&str, &dyn Generator, Baseline); 3] = [
+        ("fault, 1000 faults", &faults, Baseline::Naive(naive)),
+        ("fbm, 5 octaves", &Fbm { octaves: 5, ..Fbm::default() }, Baseline::Alone),
+        ("diamond-square", &DiamondSquare::default(), Baseline::Alone),
     ];
     for (name, generator, beside) in contenders {
         let mut failed = None;

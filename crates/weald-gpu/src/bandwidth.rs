@@ -9,7 +9,7 @@ use crate::gpu::Gpu;
 use crate::memory::Store;
 
 /// Most bytes of a copy: far beyond the caches of any card.
-const MOST_BYTES: u64 = 1 << 30;
+const MAX_BYTES: u64 = 1 << 30;
 
 /// Time that a measurement should take.
 const SECONDS: f64 = 0.05;
@@ -18,13 +18,13 @@ const SECONDS: f64 = 0.05;
 const RUNS: usize = 5;
 
 impl Gpu {
-    /// Bytes a second that the device reads and writes while it copies a buffer over another.
+    /// Bytes per second that the device reads and writes while it copies a buffer over another.
     ///
     /// # Errors
     /// [`Error::Device`] where there is no memory for two buffers, or the device is lost.
     pub fn copy_bandwidth(&self) -> Result<f64, Error> {
         let free = self.memory.budget() - self.allocated();
-        let bytes = MOST_BYTES.min(free / 4).min(self.largest_binding()) & !255;
+        let bytes = MAX_BYTES.min(free / 4).min(self.largest_binding()) & !255;
         let usage = BufferUsages::COPY_SRC | BufferUsages::COPY_DST;
         let store = || Store::new(self, "a buffer to measure the bandwidth", bytes, usage);
         let stores = [store()?, store()?];

@@ -3,7 +3,7 @@
 use std::sync::PoisonError;
 
 use weald::Error;
-use weald::engine::program::{MOST_BUFFERS, Pass, Program};
+use weald::engine::program::{MAX_BUFFERS, Pass, Program};
 use weald::grow::ifs::shader::Shader;
 use wgpu::{
     BindGroup, BindGroupDescriptor, BindGroupEntry, BindGroupLayout, BindGroupLayoutDescriptor,
@@ -29,10 +29,8 @@ impl Pipeline {
     pub(crate) fn of(gpu: &Gpu, program: &Program, pass: &Pass) -> Result<Self, Error> {
         let what = format!("pass `{}` of `{}`", pass.name, program.name);
         let buffers = program.bound(pass).len() + usize::from(pass.tallies);
-        if buffers > MOST_BUFFERS {
-            return Err(Error::Device(format!(
-                "{what} binds {buffers} buffers; at most {MOST_BUFFERS} work"
-            )));
+        if buffers > MAX_BUFFERS {
+            return Err(Error::Device(format!("{what} binds {buffers} buffers; at most {MAX_BUFFERS} work")));
         }
         Self::known(gpu, &what, (pass.name, program.module(pass)), &entries(program, pass))
     }

@@ -20,8 +20,8 @@
 //!
 //! A [`Renderer`] draws a landscape, offscreen or into a window.
 //!
-//! A [`Cloud`] is the points of a fractal on a device, a [`Swarm`] a plant there that sways. [`grow_blades`] grows grass there,
-//! [`bend_limbs`] bends plants.
+//! A [`Cloud`] is the points of a fractal on a device, a [`SwayingCloud`] a plant there that sways. [`grow_blades`]
+//! grows grass there, [`bend_limbs`] bends plants.
 
 mod bandwidth;
 mod compiled;
@@ -30,18 +30,18 @@ mod gpu;
 mod live;
 mod memory;
 mod pace;
+mod point_clouds;
 mod program;
 mod render;
 mod slots;
-mod swarm;
 mod transfer;
 
 pub use gpu::Gpu;
 pub use live::Live;
+pub use point_clouds::{Cloud, CloudRates, Swayed, SwayingCloud, bend_limbs, grow_blades};
 #[doc(hidden)]
 pub use render::TestLook;
 pub use render::{
-    Chosen, GrassLook, GrassRow, Hear, Measuring, Options as RenderOptions, Renderer, Standpoint, Timings,
+    Chosen, GrassLook, GrassRow, Measuring, OnRow, Options as RenderOptions, Renderer, Timings, Viewpoint,
     frame_budget, grass_tables,
 };
-pub use swarm::{Cloud, Swarm, SwarmRates, Swayed, bend_limbs, grow_blades};

@@ -1,7 +1,7 @@
 //! Ground and water of a simulation as it runs, kept on the device for those who draw it: nothing is read back.
 //!
 //! A program whose device was given a [`Live`] by [`Gpu::shown_in`] adds up its ground and copies its water after each
-//! batch of steps (`live.wgsl`): 8 bytes a cell written, 8 and 4 a plane read. A renderer follows it by
+//! batch of steps (`live.wgsl`): 8 bytes per cell written, 8 and 4 a plane read. A renderer follows it by
 //! [`Renderer::follow`](crate::Renderer::follow).
 
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -50,7 +50,7 @@ struct Place {
 }
 
 impl Live {
-    /// Room for a landscape of that size: 8 bytes a cell.
+    /// Room for a landscape of that size: 8 bytes per cell.
     ///
     /// # Errors
     /// [`Error::Device`] where the device's memory does not suffice.

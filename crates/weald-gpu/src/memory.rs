@@ -3,13 +3,13 @@
 use weald::Error;
 
 use crate::gpu::Gpu;
-use crate::gpu::budget::{Held, in_words};
+use crate::gpu::budget::{Reservation, in_words};
 
 /// A buffer that counts against the budget.
 #[derive(Debug)]
 pub(crate) struct Store {
     pub(crate) buffer: wgpu::Buffer,
-    _held: Held,
+    _held: Reservation,
 }
 
 impl Store {

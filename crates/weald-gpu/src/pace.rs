@@ -1,7 +1,7 @@
 //! Submissions of a length that leaves the device free for others.
 //!
 //! A driver resets a device that is busy for seconds, and a desktop on the same card stutters long before. So a
-//! submission is given what lately took [`AIM`], and few are on their way at once.
+//! submission is given what lately took [`TARGET_TIME`], and few are on their way at once.
 
 use std::collections::VecDeque;
 use std::time::{Duration, Instant};
@@ -10,10 +10,10 @@ use weald::Error;
 use wgpu::{CommandEncoder, CommandEncoderDescriptor, SubmissionIndex};
 
 use crate::gpu::Gpu;
-use crate::gpu::budget::Held;
+use crate::gpu::budget::Reservation;
 
 /// Time that a submission should take: well below the tenth of a second that it may take, as passes differ.
-const AIM: Duration = Duration::from_millis(40);
+const TARGET_TIME: Duration = Duration::from_millis(40);
 
 /// Submissions on their way at once: the device works on one while the next is made.
 const IN_FLIGHT: usize = 2;
@@ -22,14 +22,14 @@ const IN_FLIGHT: usize = 2;
 const FIRST_BYTES: f64 = 16e6;
 
 /// Share of a rate that is kept where the next submission was faster; a slower one counts at once.
-const KEPT: f64 = 0.7;
+const DECAY: f64 = 0.7;
 
 /// A wait shorter than this was for something already done.
-const GLANCE: Duration = Duration::from_micros(20);
+const NEGLIGIBLE_WAIT: Duration = Duration::from_micros(20);
 
 /// Work whose rates have nothing to do with each other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Sort {
+pub(crate) enum WorkKind {
     /// Passes of the program.
     Passes,
     /// Copies of buffers and zeros.
@@ -41,11 +41,11 @@ pub(crate) enum Sort {
 /// What a submission is.
 #[derive(Debug)]
 pub(crate) struct Load {
-    pub(crate) sort: Sort,
+    pub(crate) sort: WorkKind,
     /// Bytes that it moves.
     pub(crate) bytes: u64,
     /// Staging that the driver keeps until it is done.
-    pub(crate) staged: Option<Held>,
+    pub(crate) staged: Option<Reservation>,
 }
 
 /// Submits work and watches how long it takes.
@@ -54,13 +54,13 @@ pub(crate) struct Pace {
     /// Seconds a byte of each sort.
     costs: [f64; 3],
     most_moved: u64,
-    flying: VecDeque<Flying>,
+    flying: VecDeque<InFlight>,
     /// When the last submission was done, where it was waited for.
     done: Option<Instant>,
 }
 
 #[derive(Debug)]
-struct Flying {
+struct InFlight {
     submission: SubmissionIndex,
     submitted: Instant,
     load: Load,
@@ -69,13 +69,13 @@ struct Flying {
 impl Pace {
     /// A pace that knows nothing yet, with a bound on the bytes of a submission.
     pub(crate) fn new(most_moved: u64) -> Self {
-        let costs = [AIM.as_secs_f64() / FIRST_BYTES; 3];
+        let costs = [TARGET_TIME.as_secs_f64() / FIRST_BYTES; 3];
         Self { costs, most_moved, flying: VecDeque::new(), done: None }
     }
 
     /// Bytes that the next submission may move.
-    pub(crate) fn allowance(&self, sort: Sort) -> u64 {
-        ((AIM.as_secs_f64() / self.costs[sort as usize]) as u64).clamp(1, self.most_moved)
+    pub(crate) fn allowance(&self, sort: WorkKind) -> u64 {
+        ((TARGET_TIME.as_secs_f64() / self.costs[sort as usize]) as u64).clamp(1, self.most_moved)
     }
 
     /// Submits what `encode` says, and waits until no more than a few submissions are on their way.
@@ -91,7 +91,7 @@ impl Pace {
             encode(&mut encoder);
             Ok(context.queue.submit([encoder.finish()]))
         })?;
-        self.flying.push_back(Flying { submission, submitted: Instant::now(), load });
+        self.flying.push_back(InFlight { submission, submitted: Instant::now(), load });
         while self.flying.len() > IN_FLIGHT {
             self.wait_for_oldest(gpu)?;
         }
@@ -107,12 +107,12 @@ impl Pace {
     }
 
     fn wait_for_oldest(&mut self, gpu: &Gpu) -> Result<(), Error> {
-        let Some(Flying { submission, submitted, load }) = self.flying.pop_front() else { return Ok(()) };
+        let Some(InFlight { submission, submitted, load }) = self.flying.pop_front() else { return Ok(()) };
         let asked = Instant::now();
         gpu.context.wait(Some(submission))?;
         let now = Instant::now();
         let began = self.done.map_or(submitted, |done| done.max(submitted));
-        self.done = (now - asked > GLANCE).then_some(now);
+        self.done = (now - asked > NEGLIGIBLE_WAIT).then_some(now);
         self.learn(&load, now - began, self.done.is_some());
         drop(load.staged);
         Ok(())
@@ -124,7 +124,7 @@ impl Pace {
         let cost = &mut self.costs[load.sort as usize];
         let measured = time.as_secs_f64() / load.bytes.max(1) as f64;
         if waited || measured < *cost {
-            *cost = measured.max(KEPT * *cost);
+            *cost = measured.max(DECAY * *cost);
         }
     }
 }
@@ -134,7 +134,7 @@ mod tests {
     use super::*;
 
     fn learn(pace: &mut Pace, bytes: u64, seconds: f64, waited: bool) {
-        let load = Load { sort: Sort::Passes, bytes, staged: None };
+        let load = Load { sort: WorkKind::Passes, bytes, staged: None };
         pace.learn(&load, Duration::from_secs_f64(seconds), waited);
     }
 
@@ -142,14 +142,14 @@ mod tests {
     fn submissions_grow_on_a_fast_device_and_shrink_at_once_on_a_slow_one() {
         let mut pace = Pace::new(u64::MAX);
         for _ in 0..40 {
-            let bytes = pace.allowance(Sort::Passes);
+            let bytes = pace.allowance(WorkKind::Passes);
             learn(&mut pace, bytes, bytes as f64 / 1e12, false);
         }
-        let fast = pace.allowance(Sort::Passes) as f64 / 1e12;
-        assert!((0.9..1.01).contains(&(fast / AIM.as_secs_f64())), "{fast} s");
+        let fast = pace.allowance(WorkKind::Passes) as f64 / 1e12;
+        assert!((0.9..1.01).contains(&(fast / TARGET_TIME.as_secs_f64())), "{fast} s");
         learn(&mut pace, 1_000_000, 0.01, true);
         assert!(
-            pace.allowance(Sort::Passes) <= 4_000_000,
+            pace.allowance(WorkKind::Passes) <= 4_000_000,
             "what takes 10 ms for a million takes 40 for four"
         );
     }
@@ -157,18 +157,18 @@ mod tests {
     #[test]
     fn what_was_done_before_anyone_asked_says_nothing_of_a_slow_device() {
         let mut pace = Pace::new(u64::MAX);
-        let before = pace.allowance(Sort::Passes);
+        let before = pace.allowance(WorkKind::Passes);
         learn(&mut pace, before, 10.0, false);
-        assert_eq!(pace.allowance(Sort::Passes), before);
+        assert_eq!(pace.allowance(WorkKind::Passes), before);
     }
 
     #[test]
     fn fast_copies_do_not_lengthen_submissions_of_passes() {
         let mut pace = Pace::new(u64::MAX);
-        let before = pace.allowance(Sort::Passes);
-        let load = Load { sort: Sort::Copies, bytes: 1 << 20, staged: None };
+        let before = pace.allowance(WorkKind::Passes);
+        let load = Load { sort: WorkKind::Copies, bytes: 1 << 20, staged: None };
         (0..20).for_each(|_| pace.learn(&load, Duration::from_micros(1), true));
-        assert!(pace.allowance(Sort::Copies) > 100 * before);
-        assert_eq!(pace.allowance(Sort::Passes), before);
+        assert!(pace.allowance(WorkKind::Copies) > 100 * before);
+        assert_eq!(pace.allowance(WorkKind::Passes), before);
     }
 }

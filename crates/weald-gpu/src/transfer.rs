@@ -8,7 +8,7 @@ use wgpu::{Buffer, BufferUsages, MapMode};
 
 use crate::gpu::Gpu;
 use crate::memory::Store;
-use crate::pace::{Load, Pace, Sort};
+use crate::pace::{Load, Pace, WorkKind};
 
 /// Share of the budget that one piece of staging takes.
 const SHARE: u64 = 128;
@@ -90,7 +90,7 @@ pub(crate) fn write(gpu: &Gpu, into: &Buffer, bytes: &[u8]) -> Result<(), Error>
 pub(crate) fn copy(gpu: &Gpu, pace: &mut Pace, [from, into]: [&Buffer; 2], bytes: u64) -> Result<(), Error> {
     let mut first = 0;
     while first < bytes {
-        let length = (bytes - first).min(whole_words(pace.allowance(Sort::Copies) / 2));
+        let length = (bytes - first).min(whole_words(pace.allowance(WorkKind::Copies) / 2));
         pace.submit(gpu, copies(2 * length), |encoder| {
             encoder.copy_buffer_to_buffer(from, first, into, first, length);
         })?;
@@ -103,7 +103,7 @@ pub(crate) fn copy(gpu: &Gpu, pace: &mut Pace, [from, into]: [&Buffer; 2], bytes
 pub(crate) fn clear(gpu: &Gpu, pace: &mut Pace, buffer: &Buffer, bytes: u64) -> Result<(), Error> {
     let mut first = 0;
     while first < bytes {
-        let length = (bytes - first).min(whole_words(pace.allowance(Sort::Copies)));
+        let length = (bytes - first).min(whole_words(pace.allowance(WorkKind::Copies)));
         pace.submit(gpu, copies(length), |encoder| encoder.clear_buffer(buffer, first, Some(length)))?;
         first += length;
     }
@@ -111,7 +111,7 @@ pub(crate) fn clear(gpu: &Gpu, pace: &mut Pace, buffer: &Buffer, bytes: u64) -> 
 }
 
 fn copies(bytes: u64) -> Load {
-    Load { sort: Sort::Copies, bytes, staged: None }
+    Load { sort: WorkKind::Copies, bytes, staged: None }
 }
 
 /// A length that copies may have.

@@ -6,7 +6,7 @@ mod scenes;
 use programs::gpu;
 use scenes::{above, meadow, options, view};
 use weald::grow::Vegetation;
-use weald::grow::grass::choice::{Choice, LISTS, Sight};
+use weald::grow::grass::choice::{Choice, LISTS, ViewCone};
 use weald::grow::grass::{Instance, Meadow, Packed};
 use weald::picture::{Camera, Stage};
 use weald_gpu::{Chosen, GrassLook, Renderer};
@@ -35,7 +35,7 @@ fn choice(look: GrassLook) -> Choice {
 /// The sets of each list by the CPU, and those of which it is not sure.
 fn by_the_cpu(stage: &Stage, camera: &Camera, look: GrassLook, sets: &[Packed]) -> [Vec<Packed>; LISTS + 1] {
     let axes = [camera.forward, camera.right, camera.up];
-    let sight = Sight { eye: camera.eye, axes, half: camera.half, detail_from: camera.eye };
+    let sight = ViewCone { eye: camera.eye, axes, half: camera.half, detail_from: camera.eye };
     let (choice, mut lists) = (choice(look), [const { Vec::new() }; LISTS + 1]);
     for &set in sets {
         let Instance { place: [east, south], tuft, .. } = Instance::unpack(set);

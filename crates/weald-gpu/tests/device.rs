@@ -20,13 +20,13 @@ fn amounts(amount: f32, steps: usize) -> Vec<Vec<u32>> {
 #[test]
 fn cells_see_their_neighbours_and_walls_and_the_weather_of_each_step() {
     let Some(gpu) = gpu() else { return };
-    let (start, land) = (numbers(SIZE.cells()), all_land());
+    let (start, valid) = (numbers(SIZE.cells()), all_land());
     for steps in [0, 1, 2, 7, 8] {
         let mut loaded = load(&gpu, &mix(), SIZE);
         loaded.write(0, &start).expect("written");
-        let sky = weather((0..steps).map(|step| step * step + 1));
-        loaded.run(&sky, false).expect("ran");
-        let expected = mixed(SIZE, &land, &start, &sky);
+        let forcing = weather((0..steps).map(|step| step * step + 1));
+        loaded.run(&forcing, false).expect("ran");
+        let expected = mixed(SIZE, &valid, &start, &forcing);
         assert!(steps == 0 || expected != start, "something moved");
         assert!(loaded.read(0).expect("read") == expected, "after {steps} steps");
     }
@@ -39,23 +39,23 @@ fn more_steps_than_a_submission_holds_each_have_their_weather() {
     let start = numbers(SIZE.cells());
     let mut loaded = load(&small, &mix(), SIZE);
     loaded.write(0, &start).expect("written");
-    let sky = weather((0..333).map(|step| step * 7 % 101));
-    loaded.run(&sky[..100], false).expect("ran");
-    loaded.run(&sky[100..], false).expect("ran");
-    assert!(loaded.read(0).expect("read") == mixed(SIZE, &all_land(), &start, &sky));
+    let forcing = weather((0..333).map(|step| step * 7 % 101));
+    loaded.run(&forcing[..100], false).expect("ran");
+    loaded.run(&forcing[100..], false).expect("ran");
+    assert!(loaded.read(0).expect("read") == mixed(SIZE, &all_land(), &start, &forcing));
 }
 
 #[test]
 fn work_cut_into_many_submissions_gives_the_same_bits() {
     let Some(gpu) = gpu() else { return };
     let size = Size { columns: 200, rows: 150 };
-    let (start, land) = (numbers(size.cells()), vec![true; size.cells()]);
-    let sky = weather(0..9);
-    let expected = mixed(size, &land, &start, &sky);
+    let (start, valid) = (numbers(size.cells()), vec![true; size.cells()]);
+    let forcing = weather(0..9);
+    let expected = mixed(size, &valid, &start, &forcing);
     for bytes in [1, 60_000, 700_000, u64::MAX] {
         let mut loaded = load(&gpu.clone().moving_at_most(bytes), &mix(), size);
         loaded.write(0, &start).expect("written");
-        loaded.run(&sky, false).expect("ran");
+        loaded.run(&forcing, false).expect("ran");
         assert!(loaded.read(0).expect("read") == expected, "{bytes} bytes a submission");
     }
 }
@@ -63,16 +63,16 @@ fn work_cut_into_many_submissions_gives_the_same_bits() {
 #[test]
 fn no_link_leads_into_a_cell_without_data() {
     let Some(gpu) = gpu() else { return };
-    let land: Vec<bool> = (0..SIZE.cells()).map(|cell| cell % 7 != 3).collect();
-    let mask: Vec<f32> = land.iter().flat_map(|&land| [f32::from(u8::from(land)), 1.0]).collect();
+    let valid: Vec<bool> = (0..SIZE.cells()).map(|cell| cell % 7 != 3).collect();
+    let mask: Vec<f32> = valid.iter().flat_map(|&valid| [f32::from(u8::from(valid)), 1.0]).collect();
     let start = numbers(SIZE.cells());
     let mut loaded = load(&gpu, &mix_with_mask(), SIZE);
     loaded.write(0, &start).expect("written");
     loaded.write(2, &mask).expect("written");
-    let sky = weather([1, 2, 3]);
-    loaded.run(&sky, false).expect("ran");
-    let expected = mixed(SIZE, &land, &start, &sky);
-    assert!(expected != mixed(SIZE, &all_land(), &start, &sky), "the mask matters");
+    let forcing = weather([1, 2, 3]);
+    loaded.run(&forcing, false).expect("ran");
+    let expected = mixed(SIZE, &valid, &start, &forcing);
+    assert!(expected != mixed(SIZE, &all_land(), &start, &forcing), "the mask matters");
     assert!(loaded.read(0).expect("read") == expected);
 }
 
@@ -160,11 +160,11 @@ fn a_smaller_grid_runs_in_the_memory_of_a_larger_one() {
     let mut loaded = load(&gpu, &mix(), SIZE);
     let held = gpu.allocated();
     for size in [Size { columns: 20, rows: 10 }, Size { columns: 23, rows: 37 }, SIZE] {
-        let (start, land, sky) = (numbers(size.cells()), vec![true; size.cells()], weather([4, 5, 6]));
+        let (start, valid, forcing) = (numbers(size.cells()), vec![true; size.cells()], weather([4, 5, 6]));
         loaded.begin(size, &Window::whole(size)).expect("begun");
         loaded.write(0, &start).expect("written");
-        loaded.run(&sky, false).expect("ran");
-        assert!(loaded.read(0).expect("read") == mixed(size, &land, &start, &sky), "{size:?}");
+        loaded.run(&forcing, false).expect("ran");
+        assert!(loaded.read(0).expect("read") == mixed(size, &valid, &start, &forcing), "{size:?}");
     }
     assert_eq!(gpu.allocated(), held, "the memory was used again");
 }
@@ -212,17 +212,17 @@ fn going_back_brings_back_state_means_and_sums() {
 #[test]
 fn steps_go_on_from_a_kept_state_whichever_buffer_holds_it() {
     let Some(gpu) = gpu() else { return };
-    let (start, sky) = (numbers(SIZE.cells()), weather(0..12));
+    let (start, forcing) = (numbers(SIZE.cells()), weather(0..12));
     for (before, between) in [(3, 1), (3, 2), (4, 1), (4, 2)] {
         let mut loaded = load(&gpu, &mix(), SIZE);
         loaded.write(0, &start).expect("written");
-        loaded.run(&sky[..before], false).expect("ran");
+        loaded.run(&forcing[..before], false).expect("ran");
         loaded.keep().expect("kept");
-        loaded.run(&sky[..between], false).expect("ran");
+        loaded.run(&forcing[..between], false).expect("ran");
         loaded.go_back().expect("gone back");
-        loaded.run(&sky[before..], false).expect("ran");
+        loaded.run(&forcing[before..], false).expect("ran");
         assert!(
-            loaded.read(0).expect("read") == mixed(SIZE, &all_land(), &start, &sky),
+            loaded.read(0).expect("read") == mixed(SIZE, &all_land(), &start, &forcing),
             "{before} {between}"
         );
     }

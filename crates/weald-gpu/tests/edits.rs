@@ -10,7 +10,7 @@ use std::sync::Arc;
 use common::{field, layered, metres, rough, run_on, stava, with, worst_difference};
 use weald::edit::{Action, Brush, Canvas, Edit, Effect, Falloff, History, Script, Session};
 use weald::engine::Engine;
-use weald::erode::hydraulic::{Hydraulic, Sitting};
+use weald::erode::hydraulic::{Hydraulic, InteractiveSession};
 use weald::recipe::parameter::ScriptFile;
 use weald::{Error, Landscape};
 
@@ -64,25 +64,25 @@ fn device() -> Option<Engine> {
     programs::gpu().map(|gpu| Engine::Device(Arc::new(gpu)))
 }
 
-fn sit<R>(engine: &Engine, hold: impl FnOnce(Sitting<'_>) -> Result<R, Error>) -> R {
-    step().sit(&ground(), engine, hold).unwrap_or_else(|error| panic!("{error}"))
+fn run_interactive<R>(engine: &Engine, hold: impl FnOnce(InteractiveSession<'_>) -> Result<R, Error>) -> R {
+    step().run_interactive(&ground(), engine, hold).unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// The whole of the landscape as it is now.
-fn picture(sitting: &mut Sitting<'_>) -> Result<Canvas, Error> {
-    let whole = sitting.whole();
-    sitting.canvas(whole)
+fn picture(session: &mut InteractiveSession<'_>) -> Result<Canvas, Error> {
+    let whole = session.whole();
+    session.canvas(whole)
 }
 
 #[test]
-fn a_sitting_on_a_device_comes_near_the_same_on_the_cpu() {
+fn an_interactive_session_on_a_device_comes_near_the_same_on_the_cpu() {
     let Some(device) = device() else { return };
     let end = |engine: &Engine, with_strokes: bool| {
-        sit(engine, |mut sitting| {
+        run_interactive(engine, |mut session| {
             let counts = |action: &&Action| with_strokes || matches!(action, Action::Steps(_));
-            actions().iter().filter(counts).try_for_each(|action| sitting.apply(action))?;
-            assert_eq!(sitting.steps(), 60);
-            picture(&mut sitting)
+            actions().iter().filter(counts).try_for_each(|action| session.apply(action))?;
+            assert_eq!(session.steps(), 60);
+            picture(&mut session)
         })
     };
     let (expected, got, untouched) = (end(&Engine::Cpu, true), end(&device, true), end(&Engine::Cpu, false));
@@ -99,12 +99,12 @@ fn a_sitting_on_a_device_comes_near_the_same_on_the_cpu() {
 }
 
 #[test]
-fn a_sitting_on_a_device_undone_and_redone_has_the_same_bits() {
+fn an_interactive_session_on_a_device_undone_and_redone_has_the_same_bits() {
     let Some(device) = device() else { return };
-    sit(&device, |mut sitting| {
-        let mut pictures = vec![picture(&mut sitting)?];
-        let room = 3 * Sitting::bytes(&sitting.snapshot()?);
-        let mut history = History::new(sitting, room)?;
+    run_interactive(&device, |mut session| {
+        let mut pictures = vec![picture(&mut session)?];
+        let room = 3 * InteractiveSession::bytes(&session.snapshot()?);
+        let mut history = History::new(session, room)?;
         for action in actions() {
             history.act(action)?;
             pictures.push(picture(history.session_mut())?);

@@ -99,14 +99,14 @@ fn run(step: &dyn Step, ground: &Landscape, engine: &Engine, threads: usize) -> 
 
 /// A device that says it has less memory than it has.
 #[derive(Debug)]
-struct Cramped {
+struct LimitedDevice {
     gpu: Gpu,
     memory: u64,
     /// Whether it loads programs, or refuses all.
     loads: bool,
 }
 
-impl Device for Cramped {
+impl Device for LimitedDevice {
     fn adapter(&self) -> String {
         self.gpu.adapter()
     }
@@ -128,7 +128,7 @@ impl Device for Cramped {
 /// have neighbours on several sides.
 fn run_in_tiles(step: &dyn Step, ground: &Landscape, gpu: &Gpu) -> (Landscape, Outcome) {
     let run_with = |memory, loads| {
-        let engine = Engine::Device(Arc::new(Cramped { gpu: gpu.clone(), memory, loads }));
+        let engine = Engine::Device(Arc::new(LimitedDevice { gpu: gpu.clone(), memory, loads }));
         let mut land = ground.clone();
         let job = Job { seed: 7, engine, watcher: &Unwatched, resume: None };
         step.run(&mut land, &job).map(|outcome| (land, outcome))

@@ -181,7 +181,7 @@ fn the_report_names_adapter_and_driver() {
     assert!(adapter.contains('(') && adapter.len() > 8, "{adapter}");
     assert!(gpu.largest_buffer() >= 128 << 20, "what every adapter has");
     let small = gpu.with_memory(64 << 20).expect("enough");
-    assert!(small.copy_bandwidth().expect("measured") > 1e7, "bytes a second");
+    assert!(small.copy_bandwidth().expect("measured") > 1e7, "bytes per second");
     assert_eq!(small.allocated(), 0);
 }
 

@@ -223,7 +223,7 @@ impl Lone {
 }
 
 #[test]
-fn levels_of_detail_of_a_plant_pass_into_each_other_without_leaps() {
+fn levels_of_detail_of_a_plant_blend_into_each_other_without_leaps() {
     let Some(gpu) = gpu() else { return };
     let mut lone = Lone::new(&gpu);
     let first = lone.drawn(0.3).0;

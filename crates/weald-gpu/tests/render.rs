@@ -176,7 +176,7 @@ fn what_has_no_data_is_open_and_has_walls() {
         let [x, y] = [cell % size.columns, cell / size.columns].map(|at| at as f64 - 80.0);
         (15.0..70.0).contains(&x.hypot(y))
     };
-    landscape.domain.land = Mask::new(size, (0..size.cells()).map(island).collect());
+    landscape.domain.valid = Mask::new(size, (0..size.cells()).map(island).collect());
     let view = View { sun_altitude_deg: 90.0, ..view() };
     let (mean, worst) = distances(&gpu, &view, &landscape, None);
     assert!(mean < 0.012 && worst < 0.05, "mean {mean}, one in twenty {worst}");
@@ -219,12 +219,12 @@ fn the_parts_of_a_picture_take_time_and_no_more_than_all_of_it() {
         let camera = above(&stage, [60.0, 70.0], 1.5, 12.0, 0.0);
         let before = renderer.render(&camera).expect("drawn");
         let timings = renderer.measure(&camera, 1).expect("lavapipe has a clock");
-        let Timings { choice, shadows, ground, water, behind, grass, plants, film, picture } = timings;
+        let Timings { choice, shadows, ground, water, behind, grass, plants, tone_mapping, picture } = timings;
         assert!(
-            [shadows, ground, behind, grass, plants, film].iter().all(|part| !part.is_zero()),
+            [shadows, ground, behind, grass, plants, tone_mapping].iter().all(|part| !part.is_zero()),
             "{timings:?}"
         );
-        assert!(choice + shadows + ground + water + behind + grass + plants + film <= picture, "{timings:?}");
+        assert!(choice + shadows + ground + water + behind + grass + plants + tone_mapping <= picture, "{timings:?}");
         assert_eq!(renderer.render(&camera).expect("drawn"), before, "measuring changes nothing");
     }
 }

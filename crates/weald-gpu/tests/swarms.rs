@@ -8,7 +8,7 @@ use weald::grow::ifs::game::CHUNK;
 use weald::grow::ifs::map::Map;
 use weald::grow::ifs::wind::Wind;
 use weald::grow::ifs::{Code, Draft, Game, Ifs, Pose, Role, Sway, Weighted, shapes};
-use weald_gpu::{Cloud, Swarm, SwarmRates};
+use weald_gpu::{Cloud, CloudRates, SwayingCloud};
 
 /// How far points may be from the CPU's, as a share of the fractal's diameter. A segment forgets where it began to
 /// 2⁻²⁵, and a driver may fuse products with sums: each step then rounds a few units of 2⁻²⁴ otherwise, of which maps that
@@ -88,7 +88,7 @@ fn a_device_takes_the_digits_of_the_cpu_to_the_bit_and_its_points_to_rounding() 
     let built_in = shapes::SHAPES.iter().map(shapes::Shape::ifs);
     for ifs in built_in.chain([ring(5), ring(8), ring(20), ring(256)]) {
         let count = 20_011;
-        let mut swarm = Swarm::new(&gpu, &ifs, 7, count).expect("played");
+        let mut swarm = SwayingCloud::new(&gpu, &ifs, 7, count).expect("played");
         let (points, codes) = (swarm.points().expect("read"), swarm.codes().expect("read"));
         let across = points.iter().map(|&point| apart(point, points[0])).fold(0.0, f32::max);
         assert!(f64::from(across) > 0.3 * ifs.diameter(), "{}: all within {across}", ifs.name());
@@ -112,11 +112,11 @@ fn any_number_of_points_of_any_seed_is_the_beginning_of_the_same_game() {
         assert_eq!((cloud.len(), cloud.is_empty()), (count, false));
         let points = cloud.points().expect("read");
         assert_same(&ifs, seed, count, (&points, None));
-        let mut swarm = Swarm::new(&gpu, &ifs, seed, count).expect("played");
+        let mut swarm = SwayingCloud::new(&gpu, &ifs, seed, count).expect("played");
         assert!(swarm.points().expect("read") == points, "codes change no point");
         assert_same(&ifs, seed, count, (&points, Some(&swarm.codes().expect("read"))));
     }
-    let mut none = Swarm::new(&gpu, &ifs("fern"), 1, 0).expect("nothing to do");
+    let mut none = SwayingCloud::new(&gpu, &ifs("fern"), 1, 0).expect("nothing to do");
     none.sway(&Pose::calm()).expect("nothing to do");
     assert!(none.is_empty() && none.swayed().expect("nothing").is_empty());
 }
@@ -127,7 +127,7 @@ fn a_squall_puts_points_where_the_cpu_does() {
     for name in PLANTS {
         let ifs = ifs(name);
         let (sway, size) = (Sway::of(&ifs), ifs.diameter() as f32);
-        let mut swarm = Swarm::new(&gpu, &ifs, 5, 5003).expect("played");
+        let mut swarm = SwayingCloud::new(&gpu, &ifs, 5, 5003).expect("played");
         let (rests, codes) = (swarm.points().expect("read"), swarm.codes().expect("read"));
         let (mut moved, mut worst, mut before) = (0.0_f32, 0.0_f32, rests.clone());
         for pose in squall() {
@@ -154,7 +154,7 @@ fn a_squall_puts_points_where_the_cpu_does() {
 fn calm_keeps_the_bits_of_all_points() {
     let Some(gpu) = gpu() else { return };
     for name in PLANTS {
-        let mut swarm = Swarm::new(&gpu, &ifs(name), 5, 5003).expect("played");
+        let mut swarm = SwayingCloud::new(&gpu, &ifs(name), 5, 5003).expect("played");
         let rests = swarm.points().expect("read");
         assert!(swarm.swayed().expect("read") == rests, "{name}: as it was made");
         swarm.sway(&squall().last().expect("four")).expect("swayed");
@@ -187,7 +187,7 @@ fn joints_never_part_on_a_device() {
     for name in PLANTS {
         let ifs = ifs(name);
         let size = ifs.diameter() as f32;
-        let [held, hangs] = joints(&ifs).map(|side| Swarm::of(&gpu, &ifs, &side).expect("uploaded"));
+        let [held, hangs] = joints(&ifs).map(|side| SwayingCloud::of(&gpu, &ifs, &side).expect("uploaded"));
         let mut sides = [held, hangs];
         let rests = sides[0].points().expect("read");
         assert!(rests.len() > 400, "{name}: {} joints", rests.len());
@@ -211,7 +211,7 @@ fn points_in_pieces_and_in_many_submissions_are_the_same() {
     let Some(gpu) = gpu() else { return };
     let (ifs, count, pose) = (ifs("fern"), CHUNK + 5000, squall().last().expect("four"));
     let all = |gpu: &weald_gpu::Gpu| {
-        let mut swarm = Swarm::new(gpu, &ifs, 3, count).expect("played");
+        let mut swarm = SwayingCloud::new(gpu, &ifs, 3, count).expect("played");
         swarm.sway(&pose).expect("swayed");
         (swarm.points().expect("read"), swarm.codes().expect("read"), swarm.swayed().expect("read"))
     };
@@ -228,8 +228,8 @@ fn a_swarm_that_does_not_fit_is_refused_before_anything_is_made() {
     let Some(gpu) = gpu() else { return };
     let (gpu, ifs) = (gpu.with_memory(8 << 20).expect("enough"), ifs("fern"));
     for count in [200_000, u64::MAX] {
-        let message = refusal(Swarm::new(&gpu, &ifs, 1, count));
-        assert!(message.contains(&format!("a swarm of {count} points")), "{message}");
+        let message = refusal(SwayingCloud::new(&gpu, &ifs, 1, count));
+        assert!(message.contains(&format!("a swaying cloud of {count} points")), "{message}");
         assert!(message.contains("--gpu-memory"), "{message}");
     }
     assert!(gpu.peak() < 1 << 20 && gpu.allocated() == 0, "{} bytes", gpu.peak());
@@ -238,22 +238,22 @@ fn a_swarm_that_does_not_fit_is_refused_before_anything_is_made() {
 }
 
 #[test]
-fn every_call_to_a_swarm_of_a_lost_device_says_so() {
+fn every_call_to_a_swaying_cloud_of_a_lost_device_says_so() {
     if gpu().is_none() {
         return;
     }
     let gpu = weald_gpu::Gpu::any().expect("a device of its own");
     let fern = ifs("fern");
-    let mut swarm = Swarm::new(&gpu, &fern, 1, 1000).expect("played");
+    let mut swarm = SwayingCloud::new(&gpu, &fern, 1, 1000).expect("played");
     gpu.lose();
     let calls = [
         ("sway", swarm.sway(&Pose::calm())),
         ("points", swarm.points().map(drop)),
         ("codes", swarm.codes().map(drop)),
         ("swayed", swarm.swayed().map(drop)),
-        ("swarm", Swarm::new(&gpu, &fern, 1, 1000).map(drop)),
+        ("swarm", SwayingCloud::new(&gpu, &fern, 1, 1000).map(drop)),
         ("cloud", Cloud::new(&gpu, &fern, 1, 1000).map(drop)),
-        ("rates", SwarmRates::of(&gpu, &fern).map(drop)),
+        ("rates", CloudRates::of(&gpu, &fern).map(drop)),
     ];
     for (call, result) in calls {
         let message = refusal(result);

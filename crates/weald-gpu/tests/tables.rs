@@ -11,20 +11,20 @@ const SMALL: Measuring = Measuring { size: [64, 36], times: 1, most_drawn: 6000 
 #[test]
 fn tables_have_the_rows_of_the_source_that_draw_no_more_than_allowed() {
     let Some(gpu) = gpu() else { return };
-    let mut heard = Vec::new();
+    let mut rows_seen = Vec::new();
     let rows = grass_tables(&gpu, SMALL, &mut |row| {
-        heard.push(row.clone());
+        rows_seen.push(row.clone());
         Ok(())
     })
     .expect("measured");
-    assert_eq!(rows, heard);
+    assert_eq!(rows, rows_seen);
     let first: Vec<_> = rows.iter().filter(|row| row.table == 1).collect();
     assert_eq!(first.iter().map(|row| row.wanted).collect::<Vec<_>>(), [1, 100, 1000, 5000]);
     assert_eq!(first[3].source, Some(223.76));
     for GrassRow { sets: [all, drawn], wanted, .. } in first {
         assert!(all == drawn && (all.abs_diff(u64::from(*wanted)) as f64) < 1.0 + 0.01 * f64::from(*wanted));
     }
-    assert!(rows.iter().all(|row| row.sets[1] <= 6000 && row.frames_a_second() > 0.0));
+    assert!(rows.iter().all(|row| row.sets[1] <= 6000 && row.frames_per_second() > 0.0));
     assert!(rows.iter().all(|row| row.timings.water.is_zero()), "there is no pond");
 }
 

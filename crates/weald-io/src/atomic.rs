@@ -57,7 +57,7 @@ pub fn write_parts(path: &Path, parts: &[Part]) -> Result<(), Error> {
     }
     let named: Vec<_> = parts.iter().map(|part| (part.name.path(path), &part.bytes)).collect();
     let discard = |error| {
-        // What failed is told; that a leftover cannot be removed either adds nothing.
+        // What failed is reported; that a leftover cannot be removed either adds nothing.
         for (path, _) in &named {
             let _ = std::fs::remove_file(temporary_name(path));
         }

@@ -52,7 +52,7 @@ pub enum Values {
 
 /// What a raster knows beside its values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Knowledge {
+pub enum Metadata {
     /// Which cells have no data.
     NoData,
     /// The side of a cell.
@@ -70,11 +70,11 @@ pub enum Knowledge {
 pub struct CrsSupport {
     /// Whether it can express the CRS of a place, if that has one.
     pub supports: fn(&Georeference) -> bool,
-    /// What the user is told of another CRS.
+    /// What the user is informed of another CRS.
     pub loss: &'static str,
 }
 
-/// The same where the user is told the same: addresses of functions tell nothing.
+/// The same where the user is informed the same: addresses of functions tell nothing.
 impl PartialEq for CrsSupport {
     fn eq(&self, other: &Self) -> bool {
         self.loss == other.loss
@@ -85,14 +85,14 @@ impl Eq for CrsSupport {}
 
 /// What of a raster a format can hold.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Holds {
+pub struct Capabilities {
     /// The numbers.
     pub values: Values,
     /// What is left out.
-    pub omits: &'static [Knowledge],
+    pub omits: &'static [Metadata],
 }
 
-impl Holds {
+impl Capabilities {
     /// All of it.
     pub const ALL: Self = Self { values: Values::Float32, omits: &[] };
 
@@ -108,10 +108,10 @@ impl Holds {
     }
 }
 
-impl Knowledge {
+impl Metadata {
     fn is_in(self, raster: &Raster) -> bool {
         match self {
-            Self::NoData => raster.land.is_some(),
+            Self::NoData => raster.valid.is_some(),
             Self::Cell => raster.cell.is_some(),
             Self::Place => raster.georeference.is_some(),
             Self::Crs(crs) => raster.georeference.as_ref().is_some_and(|place| !(crs.supports)(place)),
@@ -140,7 +140,7 @@ pub struct Preset {
     /// How it is written.
     pub encode: Encode,
     /// What it holds.
-    pub holds: Holds,
+    pub holds: Capabilities,
 }
 
 /// A raster format.
@@ -155,7 +155,7 @@ pub struct Format {
     /// Writes one, where the format is written.
     pub encode: Option<Encode>,
     /// What it can hold.
-    pub holds: Holds,
+    pub holds: Capabilities,
     /// Ways to write it for particular readers.
     pub presets: &'static [Preset],
 }
@@ -165,7 +165,7 @@ impl Format {
     ///
     /// # Errors
     /// A sentence that names the presets there are, or that the format is not written.
-    pub fn writing(&self, preset: Option<&str>) -> Result<(Encode, Holds), String> {
+    pub fn writing(&self, preset: Option<&str>) -> Result<(Encode, Capabilities), String> {
         let Some(name) = preset else {
             let encode = self.encode.ok_or_else(|| format!("{} is read, not written", self.name))?;
             return Ok((encode, self.holds));

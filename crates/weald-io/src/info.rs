@@ -45,15 +45,15 @@ pub fn describe(path: &Path) -> Result<Info, Error> {
 impl Info {
     fn of(format: &'static str, raster: Raster) -> Self {
         let size = raster.field.size();
-        let land_cells = raster.land.as_ref().map_or(size.cells(), Mask::land_cells);
+        let valid_cells = raster.valid.as_ref().map_or(size.cells(), Mask::valid_cells);
         Self {
             format,
             size,
             value_type: raster.stored,
-            range: raster.field.range(raster.land.as_ref()),
+            range: raster.field.range(raster.valid.as_ref()),
             cell: raster.cell,
             georeference: raster.georeference,
-            no_data_share: (size.cells() - land_cells) as f64 / size.cells() as f64,
+            no_data_share: (size.cells() - valid_cells) as f64 / size.cells() as f64,
             provenance: raster.provenance,
             notes: raster.notes,
         }

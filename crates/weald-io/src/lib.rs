@@ -31,7 +31,7 @@ pub mod zarr;
 pub use atomic::{write_parts, write_through, write_whole, write_whole_with};
 pub use fault::Fault;
 pub use file::read_at_most;
-pub use format::{CrsSupport, Decode, DecodeFile, Encode, Format, Holds, Knowledge, Preset, Values};
+pub use format::{Capabilities, CrsSupport, Decode, DecodeFile, Encode, Format, Metadata, Preset, Values};
 pub use info::{Info, describe};
 pub use limits::Limits;
 pub use parts::{InMemory, Part, PartName, Parts};

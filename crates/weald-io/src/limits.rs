@@ -1,10 +1,10 @@
 //! What a reader may use, so that no file, however damaged, takes more memory than its size warrants.
 
 use super::Fault;
-use weald_core::grid::{MAXIMUM_CELLS, Size};
+use weald_core::grid::{MAX_CELLS, Size};
 
 /// Deflate expands at most 1032 times, LZW with codes of 12 bits about 1350 times.
-const MAXIMUM_EXPANSION: usize = 2048;
+const MAX_EXPANSION: usize = 2048;
 
 /// What a reader may use.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -15,7 +15,7 @@ pub struct Limits {
 
 impl Default for Limits {
     fn default() -> Self {
-        Self { cells: MAXIMUM_CELLS }
+        Self { cells: MAX_CELLS }
     }
 }
 
@@ -35,7 +35,7 @@ impl Limits {
         Ok(size)
     }
 
-    /// Longest file that is read: sixteen bytes a cell, which is a number in digits with its space, and 64 MiB
+    /// Longest file that is read: sixteen bytes per cell, which is a number in digits with its space, and 64 MiB
     /// for all else in the file.
     pub(super) fn file_bytes(self) -> u64 {
         self.cells as u64 * 16 + (64 << 20)
@@ -47,7 +47,7 @@ impl Limits {
 /// # Errors
 /// [`Fault::Damaged`] with both numbers.
 pub(super) fn ensure_can_hold(packed: usize, expanded: usize) -> Result<(), Fault> {
-    if expanded / MAXIMUM_EXPANSION <= packed {
+    if expanded / MAX_EXPANSION <= packed {
         return Ok(());
     }
     Err(Fault::Damaged(format!(

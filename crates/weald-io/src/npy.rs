@@ -4,7 +4,7 @@
 //! no-data. The format has no room for provenance, cell size or place: the report has them.
 
 use super::number::Number;
-use super::{Decode, Encode, Fault, Format, Holds, Knowledge, Limits, Raster};
+use super::{Capabilities, Decode, Encode, Fault, Format, Limits, Metadata, Raster};
 use weald_core::error::Error;
 use weald_core::grid::Size;
 
@@ -14,7 +14,10 @@ pub(super) const FORMAT: Format = Format {
     extensions: &["npy"],
     decode: Some(Decode::File(decode)),
     encode: Some(Encode::File(encode)),
-    holds: Holds { omits: &[Knowledge::Cell, Knowledge::Place, Knowledge::Provenance], ..Holds::ALL },
+    holds: Capabilities {
+        omits: &[Metadata::Cell, Metadata::Place, Metadata::Provenance],
+        ..Capabilities::ALL
+    },
     presets: &[],
 };
 
@@ -30,7 +33,7 @@ pub fn encode(raster: &Raster) -> Result<Vec<u8>, Error> {
     let mut file = header("<f4", [rows, columns]);
     file.reserve(raster.field.size().cells() * 4);
     for (index, value) in raster.field.values().iter().enumerate() {
-        let value = if raster.is_land_at(index) { *value } else { f32::NAN };
+        let value = if raster.is_valid_at(index) { *value } else { f32::NAN };
         file.extend(value.to_le_bytes());
     }
     Ok(file)
@@ -71,9 +74,9 @@ pub fn decode(bytes: &[u8], limits: Limits) -> Result<Raster, Fault> {
         kind.number.value(&data[index * kind.number.bytes..][..kind.number.bytes], kind.is_big)
     };
     let numbers = || (0..size.cells()).map(|index| number(index % size.columns, index / size.columns));
-    let land = numbers().map(|number| !number.is_nan()).collect();
+    let valid = numbers().map(|number| !number.is_nan()).collect();
     let values = numbers().map(|number| if number.is_nan() { 0.0 } else { number as f32 }).collect();
-    Raster::from_file(size, values, land, kind.number.name)
+    Raster::from_file(size, values, valid, kind.number.name)
 }
 
 /// The header's dictionary and the bytes of the values.

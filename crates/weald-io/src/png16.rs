@@ -11,7 +11,7 @@ use png::{BitDepth, ColorType, Decoder, Info, Reader};
 use super::limits::ensure_can_hold;
 use super::png::Pixels;
 use super::provenance::{MAXIMUM, MINIMUM, finite};
-use super::{Decode, Encode, Fault, Format, Holds, Knowledge, Limits, Provenance, Raster, Values};
+use super::{Capabilities, Decode, Encode, Fault, Format, Limits, Metadata, Provenance, Raster, Values};
 use weald_core::error::Error;
 use weald_core::grid::Size;
 
@@ -21,7 +21,7 @@ pub(super) const FORMAT: Format = Format {
     extensions: &["png"],
     decode: Some(Decode::File(decode)),
     encode: Some(Encode::File(encode)),
-    holds: Holds { values: Values::Steps16, omits: &[Knowledge::Place] },
+    holds: Capabilities { values: Values::Steps16, omits: &[Metadata::Place] },
     presets: &[],
 };
 
@@ -32,7 +32,7 @@ const CELL: &str = "WEALD_CELL_METRES";
 /// allocated here, after its size was checked.
 const DECODER_BYTES: usize = 16 << 20;
 
-const GREATEST: f64 = 65535.0;
+const MAX_VALUE: f64 = 65535.0;
 
 /// Reads a grey image.
 ///
@@ -80,11 +80,11 @@ fn raster(
         _ => pixels.iter().map(|&byte| u16::from(byte)).collect(),
     };
     let scale = Scale::read(info, no_data.is_some());
-    let land: Vec<bool> = greys.iter().map(|grey| Some(*grey) != no_data).collect();
-    let value = |(grey, land): (&u16, &bool)| if *land { scale.value(*grey) } else { 0.0 };
-    let values = greys.iter().zip(&land).map(value).collect();
+    let valid: Vec<bool> = greys.iter().map(|grey| Some(*grey) != no_data).collect();
+    let value = |(grey, valid): (&u16, &bool)| if *valid { scale.value(*grey) } else { 0.0 };
+    let values = greys.iter().zip(&valid).map(value).collect();
     let stored = if depth == BitDepth::Sixteen { "uint16" } else { "uint8" };
-    let mut raster = Raster::from_file(size, values, land, stored)?;
+    let mut raster = Raster::from_file(size, values, valid, stored)?;
     raster.cell = text_of(info, CELL).and_then(|text| finite(&text)).filter(|cell| *cell > 0.0);
     raster.provenance = Provenance::from_items(|key| text_of(info, key));
     if depth == BitDepth::Eight {
@@ -110,7 +110,7 @@ impl Scale {
     /// Over the greys that are left beside no-data.
     fn new(low: f64, high: f64, has_no_data: bool) -> Self {
         let first = f64::from(u8::from(has_no_data));
-        Self { low, step: (high - low) / (GREATEST - first), first }
+        Self { low, step: (high - low) / (MAX_VALUE - first), first }
     }
 
     /// As the file says, or as they are.
@@ -151,10 +151,10 @@ pub fn encode(raster: &Raster) -> Result<Vec<u8>, Error> {
     raster.ensure_finite()?;
     let size = raster.field.size();
     let (low, high) = raster.range();
-    let scale = Scale::new(f64::from(low), f64::from(high), raster.land.is_some());
+    let scale = Scale::new(f64::from(low), f64::from(high), raster.valid.is_some());
     let mut pixels = Vec::with_capacity(size.cells() * 2);
     for (index, value) in raster.field.values().iter().enumerate() {
-        let grey = if raster.is_land_at(index) { scale.grey(*value) } else { 0 };
+        let grey = if raster.is_valid_at(index) { scale.grey(*value) } else { 0 };
         pixels.extend(grey.to_be_bytes());
     }
     pack(raster, &texts(raster, low, high), &pixels)
@@ -164,7 +164,7 @@ fn pack(raster: &Raster, texts: &[(&str, String)], pixels: &[u8]) -> Result<Vec<
     let Size { columns, rows } = raster.field.size();
     let (channels, depth) = (ColorType::Grayscale, BitDepth::Sixteen);
     Pixels { sides: [columns, rows], channels, depth, bytes: pixels }.marked(|encoder| {
-        if raster.land.is_some() {
+        if raster.valid.is_some() {
             encoder.set_trns(vec![0, 0]);
         }
         for (key, text) in texts {
@@ -187,7 +187,7 @@ fn texts(raster: &Raster, low: f32, high: f32) -> Vec<(&'static str, String)> {
     if let Some(cell) = raster.cell {
         texts.push((CELL, format!("{cell:?}")));
     }
-    if raster.land.is_some() {
+    if raster.valid.is_some() {
         texts.push(("WEALD_NO_DATA", "cells of grey 0 hold no data".to_owned()));
     }
     if let Some(provenance) = &raster.provenance {

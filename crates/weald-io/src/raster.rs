@@ -15,7 +15,7 @@ pub struct Raster {
     /// The values; no-data cells hold 0.
     pub field: Field,
     /// Cells with data; `None` where all have.
-    pub land: Option<Mask>,
+    pub valid: Option<Mask>,
     /// Side of a cell in metres, where the file says it and cells are square.
     pub cell: Option<f64>,
     /// Place on Earth.
@@ -33,7 +33,7 @@ impl From<Field> for Raster {
     fn from(field: Field) -> Self {
         Self {
             field,
-            land: None,
+            valid: None,
             cell: None,
             georeference: None,
             provenance: None,
@@ -51,11 +51,11 @@ impl Raster {
     pub(super) fn from_file(
         size: Size,
         values: Vec<f32>,
-        land: Vec<bool>,
+        valid: Vec<bool>,
         stored: &'static str,
     ) -> Result<Self, Fault> {
-        let (field, land) = (Field::from_values(size, values), Mask::new(size, land));
-        if let Some((x, y)) = field.first_not_finite(land.as_ref()) {
+        let (field, valid) = (Field::from_values(size, values), Mask::new(size, valid));
+        if let Some((x, y)) = field.first_not_finite(valid.as_ref()) {
             return Err(Fault::Damaged(format!(
                 "column {x}, row {y} holds {}, which is no height; declare it as no-data (for a GeoTIFF: \
                  gdal_translate -a_nodata nan) or mend the file",
@@ -64,17 +64,17 @@ impl Raster {
         }
         let eight_bits = "8 bits hold 256 heights, so slopes come out as terraces; 16 bits do not";
         let notes = if stored.ends_with("int8") { vec![eight_bits.to_owned()] } else { Vec::new() };
-        Ok(Self { land, stored, notes, ..Self::from(field) })
+        Ok(Self { valid, stored, notes, ..Self::from(field) })
     }
 
     /// Whether the cell at a row-major position holds data.
-    pub(super) fn is_land_at(&self, index: usize) -> bool {
-        self.land.as_ref().is_none_or(|land| land.is_land_at(index))
+    pub(super) fn is_valid_at(&self, index: usize) -> bool {
+        self.valid.as_ref().is_none_or(|valid| valid.is_valid_at(index))
     }
 
     /// Least and greatest value over the cells with data; both 0 where none has.
     pub(super) fn range(&self) -> (f32, f32) {
-        self.field.range(self.land.as_ref()).unwrap_or_default()
+        self.field.range(self.valid.as_ref()).unwrap_or_default()
     }
 
     /// A number that no cell with data holds, for no-data cells; NaN where the usual ones are within the range.
@@ -88,7 +88,7 @@ impl Raster {
     /// # Errors
     /// [`Error::Run`] naming the first cell that holds a NaN or an infinity.
     pub(super) fn ensure_finite(&self) -> Result<(), Error> {
-        match self.field.first_not_finite(self.land.as_ref()) {
+        match self.field.first_not_finite(self.valid.as_ref()) {
             None => Ok(()),
             Some((x, y)) => Err(Error::Run(format!(
                 "column {x}, row {y} holds {}, which no file may carry as data",

@@ -121,15 +121,15 @@ fn resample(raster: Raster, size: Size) -> Raster {
     let across: Vec<Between> = (0..size.columns).map(|x| Between::of(x, old.columns, size.columns)).collect();
     let down: Vec<Between> = (0..size.rows).map(|y| Between::of(y, old.rows, size.rows)).collect();
     let nearest_is_land =
-        |x: usize, y: usize| raster.is_land_at(old.index(across[x].nearest(), down[y].nearest()));
-    let land = raster.land.as_ref().and_then(|_| {
+        |x: usize, y: usize| raster.is_valid_at(old.index(across[x].nearest(), down[y].nearest()));
+    let valid = raster.valid.as_ref().and_then(|_| {
         let cells = (0..size.cells()).map(|i| nearest_is_land(i % size.columns, i / size.columns));
         Mask::new(size, cells.collect())
     });
     let field = Field::from_function(size, |x, y| {
         if nearest_is_land(x, y) { between(&raster, &across[x], &down[y]) } else { 0.0 }
     });
-    Raster { field, land, ..raster }
+    Raster { field, valid, ..raster }
 }
 
 /// A place between two neighbouring cells along one direction.
@@ -159,7 +159,7 @@ fn between(raster: &Raster, across: &Between, down: &Between) -> f32 {
     for (y, weight_y) in down.cells.iter().zip(down.weights) {
         for (x, weight_x) in across.cells.iter().zip(across.weights) {
             let index = raster.field.size().index(*x, *y);
-            if raster.is_land_at(index) {
+            if raster.is_valid_at(index) {
                 sum += weight_x * weight_y * f64::from(raster.field.values()[index]);
                 whole += weight_x * weight_y;
             }
@@ -232,17 +232,17 @@ mod tests {
         let size = Size { columns: 3, rows: 20 };
         let mut raster = placed(plane(size, 0.0, 0.0), [1.0, 2.0], 32633);
         raster.field.values_mut().fill(7.0);
-        let land: Vec<bool> = (0..size.cells()).map(|index| index / 3 != 8 && index != 0).collect();
-        for (index, _) in land.iter().enumerate().filter(|(_, land)| !**land) {
+        let valid: Vec<bool> = (0..size.cells()).map(|index| index / 3 != 8 && index != 0).collect();
+        for (index, _) in valid.iter().enumerate().filter(|(_, valid)| !**valid) {
             raster.field.values_mut()[index] = 0.0;
         }
-        raster.land = Mask::new(size, land);
+        raster.valid = Mask::new(size, valid);
         let (new, _) = square(raster).expect("square");
-        let land = new.land.expect("still without some data");
+        let valid = new.valid.expect("still without some data");
         for y in 0..40 {
             for x in 0..3 {
                 let expected = y / 2 != 8 && (x, y / 2) != (0, 0);
-                assert_eq!(land.is_land(x, y), expected, "column {x}, row {y}");
+                assert_eq!(valid.is_valid(x, y), expected, "column {x}, row {y}");
                 assert_eq!(new.field.at(x, y), if expected { 7.0 } else { 0.0 }, "column {x}, row {y}");
             }
         }

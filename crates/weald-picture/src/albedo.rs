@@ -19,7 +19,7 @@ use weald_core::landscape::Landscape;
 /// [`Error::Limit`] where the sheet would be too large, [`Error::Run`] for a layer that is missing.
 pub fn tinted(landscape: &Landscape, of: &str, tint: Tint, width: Option<u32>) -> Result<Image, Error> {
     let sheet = Sheet::new(&landscape.domain, width)?;
-    let land = landscape.domain.land.as_ref();
+    let land = landscape.domain.valid.as_ref();
     let height = drawable(landscape.field(of)?, land, &sheet);
     let [low, high] = automatic::tint_range(&height, land_share(land, &sheet).as_ref(), None);
     let spline = Spline::new(&sheet, height.size().columns, height.size().rows);

@@ -31,7 +31,7 @@ pub(super) fn tint_range(height: &Field, land: Option<&Field>, lakes: Option<&La
     if high > low { [low, high] } else { [low, low + 1.0] }
 }
 
-/// The factor that draws the slope exceeded by one cell in ten as [`DRAWN_SLOPE`]; 1 on level ground.
+/// The factor that draws the slope exceeded by one cell in ten as [`DRAWN_SLOPE`]; 1 on flat ground.
 pub(super) fn exaggeration(height: &Field, spacing: [f64; 2]) -> f64 {
     let mut slopes = slopes(height, spacing);
     slopes.sort_unstable_by(f32::total_cmp);

@@ -12,7 +12,7 @@ const INDEX: f32 = 5.0;
 /// Lines closer than this many line widths fade out, and are gone at half of it.
 const CROWDED: f32 = 5.0;
 
-/// Ground flatter than this share of the interval in a pixel bears no line: it would flood level ground that
+/// Ground flatter than this share of the interval in a pixel bears no line: it would flood flat ground that
 /// lies exactly on a multiple.
 const FLAT: f32 = 1.0 / 600.0;
 
@@ -55,7 +55,7 @@ pub(super) fn ramp(value: f32, low: f32, high: f32) -> f32 {
     share * share * (3.0 - 2.0 * share)
 }
 
-/// An interval of 1, 2 or 5 times a power of ten that cuts `relief` into about ten to fifteen; `None` on level
+/// An interval of 1, 2 or 5 times a power of ten that cuts `relief` into about ten to fifteen; `None` on flat
 /// ground.
 pub(super) fn automatic_interval(relief: f64) -> Option<f64> {
     if relief <= 0.0 {

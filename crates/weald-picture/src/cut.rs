@@ -75,7 +75,7 @@ impl Cut {
             landscape.field("water").ok().filter(|_| water).map_or_else(dry, |water| line.values(water));
         let mut bare = ground.clone();
         let mut land = vec![true; roof.len()];
-        if let Some(mask) = &landscape.domain.land {
+        if let Some(mask) = &landscape.domain.valid {
             let flags = mask.flags().iter();
             bare.values_mut().iter_mut().zip(flags.clone()).for_each(|(height, &land)| {
                 *height = if land { *height } else { f32::NEG_INFINITY };
@@ -162,7 +162,7 @@ mod tests {
 
     fn cut(water: [f32; 4], land: Option<Mask>) -> Cut {
         let size = Size::new(4, 1).expect("small");
-        let mut landscape = Landscape::new(Domain { land, ..Domain::new(size, 1.0) });
+        let mut landscape = Landscape::new(Domain { valid: land, ..Domain::new(size, 1.0) });
         let ground = Field::from_values(size, vec![10.0, 4.0, 4.0, 0.0]);
         landscape.insert("water", "m", Field::from_values(size, water.to_vec()));
         landscape.insert("soil", "m", Field::filled(size, 1.0));

@@ -1,6 +1,6 @@
 //! Where the water of each cell goes, and how many cells' runoff passes it.
 //!
-//! Every cell hands on to the neighbour of greatest discharge among the three nearest its direction of flow,
+//! Every cell drains to the neighbour of greatest discharge among the three nearest its direction of flow,
 //! so that a flow many cells wide gathers in its deepest line. What passes a cell is the number of cells above
 //! it or, where more has come by other ways, such as out of a lake, its discharge over the runoff of a cell.
 
@@ -15,7 +15,7 @@ const NEAREST_THREE: f32 = 0.382_683_43;
 pub(super) struct Drainage {
     /// Mean flow through each cell, in the unit of the fluxes.
     pub(super) discharge: Vec<f32>,
-    /// The cell that each hands on to.
+    /// The cell that each drains to.
     pub(super) downstream: Vec<Option<usize>>,
     /// Cells whose runoff passes.
     pub(super) area: Vec<f32>,
@@ -47,7 +47,7 @@ pub(super) fn median(numbers: impl Iterator<Item = f32>) -> f32 {
     sorted.get(sorted.len() / 2).copied().unwrap_or(0.0)
 }
 
-/// Cells from the heads downward, each after all that hand on to it; whirls and what they feed are left out.
+/// Cells from the heads downward, each after all that drain to it; whirls and what they feed are left out.
 pub(super) fn flow_order(downstream: &[Option<usize>]) -> Vec<usize> {
     let mut waiting = vec![0_u32; downstream.len()];
     for &next in downstream.iter().flatten() {
@@ -78,7 +78,7 @@ impl Flow {
         let size = domain.size;
         let vector: Vec<_> = (0..size.cells()).map(|cell| vector(east, south, cell)).collect();
         let strength = |(cell, &[x, y]): (usize, &[f32; 2])| {
-            let land = domain.land.as_ref().is_none_or(|land| land.is_land_at(cell));
+            let land = domain.valid.as_ref().is_none_or(|valid| valid.is_valid_at(cell));
             let strength = (x * x + y * y).sqrt();
             if land && strength.is_finite() { strength } else { 0.0 }
         };

@@ -6,7 +6,7 @@ use super::fractal::{Extent, Look, Motion, Setting, Subject};
 use super::{Cutout, Image, Picture, Watch};
 use weald_core::error::Error;
 use weald_core::landscape::Landscape;
-use weald_core::parameter::{Complaints, LayerName, Nested, Parameter, Parameters};
+use weald_core::parameter::{Diagnostics, LayerName, Nested, Parameter, Parameters};
 use weald_core::source::Table;
 use weald_plants::Fractal;
 use weald_plants::Vegetation;
@@ -46,16 +46,16 @@ struct Moment {
 }
 
 /// Moments of a film whose extents make up what its frames show.
-const LOOKS: u32 = 12;
+const SAMPLES: u32 = 12;
 
 impl Parameters for Growth {
     fn parameters() -> Vec<Parameter> {
         GrowthKeys::parameters().into_iter().chain(Look::parameters()).collect()
     }
 
-    fn read_values(table: &Table, complaints: &mut Complaints) -> Self {
-        let keys = GrowthKeys::read_values(table, complaints);
-        let look = Look::read_values(table, complaints);
+    fn read_values(table: &Table, diagnostics: &mut Diagnostics) -> Self {
+        let keys = GrowthKeys::read_values(table, diagnostics);
+        let look = Look::read_values(table, diagnostics);
         Self { keys, look, ..Self::default() }
     }
 }
@@ -112,7 +112,7 @@ impl Growth {
         if let Some(setting) = *kept {
             return Ok(setting);
         }
-        let shares = (0..LOOKS).map(|look| f64::from(look) / f64::from(LOOKS));
+        let shares = (0..SAMPLES).map(|look| f64::from(look) / f64::from(SAMPLES));
         let whole = shares.map(extent).try_fold(Extent::NONE, |whole, one| one.map(|one| whole.with(one)))?;
         let setting = plant.at(fractal, 0.0, |subject| Setting::of_film(&self.look, subject, &whole))?;
         *kept = Some(setting);

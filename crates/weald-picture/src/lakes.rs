@@ -10,7 +10,7 @@ use weald_core::connected::components;
 use weald_core::domain::Domain;
 use weald_core::grid::Field;
 
-/// Water shallower than this share of a cell's side is a film of rain, not a lake.
+/// Water shallower than this share of a cell's side is a thin sheet of rain, not a lake.
 const SHALLOWEST: f64 = 0.3;
 
 /// Fewer cells than this are a puddle.
@@ -59,7 +59,7 @@ impl Lakes {
 pub(super) fn depths(water: &Field, domain: &Domain) -> Option<Field> {
     let shallowest = (SHALLOWEST * domain.cell) as f32;
     let relative = |(cell, &depth): (usize, &f32)| {
-        let land = domain.land.as_ref().is_none_or(|land| land.is_land_at(cell));
+        let land = domain.valid.as_ref().is_none_or(|valid| valid.is_valid_at(cell));
         if land && depth.is_finite() { depth.max(0.0) / shallowest } else { 0.0 }
     };
     let mut depth =

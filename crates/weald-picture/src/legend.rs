@@ -7,7 +7,7 @@ use super::ramp::Ramp;
 use super::ticks::{Ticks, step};
 
 /// Pixels of the map's longer side a unit; all lengths here are in units.
-const PIXELS_A_UNIT: f32 = 620.0;
+const PIXELS_PER_UNIT: f32 = 620.0;
 
 /// Least and greatest side of a unit in pixels: a text of less than half a pixel a unit cannot be read.
 const UNITS: [f32; 2] = [0.9, 12.0];
@@ -44,7 +44,7 @@ pub(super) struct Legend<'a> {
     /// Unit of the values; `1` is not written.
     pub(super) unit: &'a str,
     pub(super) key: Key,
-    pub(super) metres_a_pixel: f64,
+    pub(super) metres_per_pixel: f64,
 }
 
 /// The strip and the pen that writes on it.
@@ -56,7 +56,7 @@ struct Strip {
 impl Legend<'_> {
     /// The map with the legend to its right.
     pub(super) fn beside(&self, map: Image) -> Image {
-        let unit = (map.width.max(map.height) as f32 / PIXELS_A_UNIT).clamp(UNITS[0], UNITS[1]);
+        let unit = (map.width.max(map.height) as f32 / PIXELS_PER_UNIT).clamp(UNITS[0], UNITS[1]);
         let pen = Pen { unit, ink: linear_of_hex(INK) };
         let width = (unit * (self.width() + 2.0 * MARGIN)).ceil() as usize;
         let needed = (unit * self.least_height()).ceil() as usize;
@@ -66,7 +66,7 @@ impl Legend<'_> {
             Key::Bar { ramp, ticks } => strip.bar(ramp, ticks),
             Key::Names(names) => strip.names(names),
         }
-        strip.scale(self.metres_a_pixel);
+        strip.scale(self.metres_per_pixel);
         Image::beside(&[map, strip.image], 0)
     }
 
@@ -153,13 +153,13 @@ impl Strip {
     }
 
     /// A bar of a round length.
-    fn scale(&mut self, metres_a_pixel: f64) {
-        let metres_a_unit = metres_a_pixel * f64::from(self.pen.unit);
-        let longest = f64::from(SCALE_WIDTH) * metres_a_unit;
+    fn scale(&mut self, metres_per_pixel: f64) {
+        let metres_per_crs_unit = metres_per_pixel * f64::from(self.pen.unit);
+        let longest = f64::from(SCALE_WIDTH) * metres_per_crs_unit;
         // The greatest round length that is no longer.
         let rounded = [1.0, 0.5, 0.4, 0.2].map(|share| step(longest * share));
         let metres = rounded.into_iter().find(|metres| *metres <= longest).unwrap_or(longest);
-        let length = (metres / metres_a_unit) as f32;
+        let length = (metres / metres_per_crs_unit) as f32;
         let foot = self.height() - MARGIN;
         let ink = self.pen.ink;
         self.fill([MARGIN, foot - 1.2, length, 1.2], ink);
@@ -180,9 +180,9 @@ mod tests {
     use super::*;
     use crate::{PAPER, Scale};
 
-    fn legend(ticks: Ticks, metres_a_pixel: f64) -> Image {
+    fn legend(ticks: Ticks, metres_per_pixel: f64) -> Image {
         let key = Key::Bar { ramp: Scale::Grey.ramp(), ticks };
-        let legend = Legend { title: "height", unit: "m", key, metres_a_pixel };
+        let legend = Legend { title: "height", unit: "m", key, metres_per_pixel };
         legend.beside(Image { width: 620, height: 500, rgb: [9, 99, 9].repeat(620 * 500) })
     }
 
@@ -214,14 +214,14 @@ mod tests {
 
     #[test]
     fn the_scale_bar_is_as_long_as_it_says() {
-        for (metres_a_pixel, metres) in [(10.0, 500.0), (1.0, 50.0), (40.0, 2000.0), (0.3, 20.0)] {
-            let image = legend(Ticks(Vec::new()), metres_a_pixel);
+        for (metres_per_pixel, metres) in [(10.0, 500.0), (1.0, 50.0), (40.0, 2000.0), (0.3, 20.0)] {
+            let image = legend(Ticks(Vec::new()), metres_per_pixel);
             let y = 500 - MARGIN as usize - 1;
             let paper = encode(PAPER);
             let length = (620..image.width).filter(|&x| image.pixel(x, y) != paper).count();
             assert!(
-                (length as f64 - metres / metres_a_pixel).abs() <= 1.0,
-                "{length} pixels at {metres_a_pixel} m"
+                (length as f64 - metres / metres_per_pixel).abs() <= 1.0,
+                "{length} pixels at {metres_per_pixel} m"
             );
         }
     }

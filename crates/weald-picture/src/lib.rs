@@ -51,7 +51,8 @@ pub use ramp::{Ramp, Scale, Tint};
 pub use registry::{PICTURES, find};
 pub use relief::Relief;
 pub use render::{
-    Flight, Frame, GrassRate, RayMarched, Reel, Render, RenderDevice, RenderKeys, RenderScene, Rendering,
+    CameraPath, Frame, FrameSequence, GrassRate, RayMarched, Render, RenderDevice, RenderKeys, RenderScene,
+    Rendering,
 };
 pub use section::{Along, Section};
 pub use strokes::{Point as StrokePoint, Strokes};

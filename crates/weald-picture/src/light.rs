@@ -2,7 +2,7 @@
 //!
 //! Lambert's law `max(0, n·l)` for each light, in the manner of Mark 1992, "Multidirectional, oblique-weighted,
 //! shaded-relief image of the Island of Hawaii" (USGS OFR 92-422): lights beside the sun give form to slopes
-//! that run along its rays. Differs: weights are fixed, lit slopes turn warm and shaded ones bluish, and level
+//! that run along its rays. Differs: weights are fixed, lit slopes turn warm and shaded ones bluish, and flat
 //! ground comes out exactly as its tint, so that a picture keeps the colours of its ramp.
 
 use super::colour::Linear;
@@ -10,7 +10,7 @@ use super::colour::Linear;
 /// Angle between the sun and each side light.
 const SIDE_DEG: f64 = 58.0;
 
-/// Shares of the sun, of each side light and of the sky in the light on level ground.
+/// Shares of the sun, of each side light and of the sky in the light on flat ground.
 const SUN_SHARE: f32 = 0.60;
 const SIDE_SHARE: f32 = 0.13;
 const SKY_SHARE: f32 = 1.0 - SUN_SHARE - 2.0 * SIDE_SHARE;
@@ -42,7 +42,7 @@ impl Lights {
         lights
     }
 
-    /// Light on a slope that rises by `east` and `south`, relative to level ground.
+    /// Light on a slope that rises by `east` and `south`, relative to flat ground.
     #[inline]
     pub(super) fn on(&self, east: f32, south: f32) -> Linear {
         let raw = self.raw(east, south);
@@ -77,7 +77,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn level_ground_keeps_its_colour_and_slopes_towards_the_sun_are_brighter_and_warmer() {
+    fn flat_ground_keeps_its_colour_and_slopes_towards_the_sun_are_brighter_and_warmer() {
         let lights = Lights::new(315.0, 45.0);
         assert_eq!(lights.on(0.0, 0.0), [1.0; 3]);
         let (lit, shaded) = (lights.on(0.5, 0.5), lights.on(-0.5, -0.5));

@@ -45,7 +45,7 @@ impl Picture for Map {
 
     fn render(&self, landscape: &Landscape) -> Result<Image, Error> {
         let sheet = Sheet::new(&landscape.domain, self.width)?;
-        let land = landscape.domain.land.as_ref();
+        let land = landscape.domain.valid.as_ref();
         let layer = landscape.layer(&self.of.0)?;
         let range = self.range(&layer.field, land);
         let shares = drawable(&self.shares(&layer.field, range), land, &sheet);
@@ -59,7 +59,7 @@ impl Picture for Map {
             title: &self.of.0,
             unit: &layer.unit,
             key: Key::Bar { ramp: inked.ramp, ticks },
-            metres_a_pixel: sheet.metres_a_pixel,
+            metres_per_pixel: sheet.metres_per_pixel,
         };
         Ok(legend.beside(map))
     }

@@ -58,7 +58,7 @@ impl Picture for Materials {
         let entries =
             named.map(|material| (material.name.clone(), linear_of_srgb(material.colour))).collect();
         let key = Key::Names(entries);
-        Ok(Legend { title: "materials", unit: "1", key, metres_a_pixel: sheet.metres_a_pixel }
+        Ok(Legend { title: "materials", unit: "1", key, metres_per_pixel: sheet.metres_per_pixel }
             .beside(picture))
     }
 }

@@ -37,7 +37,7 @@ impl Paint {
         let cells: Vec<Linear> = (0..ground.size().cells()).map(surface).collect();
         let channel = |c: usize| {
             let field = Field::from_values(ground.size(), cells.iter().map(|colour| colour[c]).collect());
-            drawable(&field, landscape.domain.land.as_ref(), sheet)
+            drawable(&field, landscape.domain.valid.as_ref(), sheet)
         };
         Ok(Self::Cells([0, 1, 2].map(channel)))
     }

@@ -5,7 +5,7 @@ use std::fmt::Debug;
 use super::{Cutout, Image, Render, View};
 use weald_core::error::Error;
 use weald_core::landscape::Landscape;
-use weald_core::parameter::{Complaints, Parameter, Parameters};
+use weald_core::parameter::{Diagnostics, Parameter, Parameters};
 use weald_core::source::Table;
 
 /// A kind of picture with its parameters, checked and ready to draw.
@@ -47,7 +47,7 @@ pub trait Picture: Debug + Send + Sync {
     /// [`Error::Limit`] where the picture would be too large, [`Error::Run`] where a layer is missing.
     fn render(&self, landscape: &Landscape) -> Result<Image, Error>;
 
-    /// The same with a background that may show through. `watch` hears how far the drawing is and may end it.
+    /// The same with a background that may show through. `watch` is called with how far the drawing is and may end it.
     ///
     /// # Errors
     /// As [`Picture::render`], and those of `watch`.
@@ -66,7 +66,7 @@ pub trait Picture: Debug + Send + Sync {
     }
 }
 
-/// Hears how much of a drawing is done, of how much, and says whether to go on.
+/// Is called with how much of a drawing is done, of how much, and says whether to go on.
 pub type Watch<'a> = dyn FnMut(u64, u64) -> Result<(), Error> + 'a;
 
 /// A picture's declaration in the registry.
@@ -83,7 +83,7 @@ pub struct PictureEntry {
     /// Declares the parameters.
     pub parameters: fn() -> Vec<Parameter>,
     /// Reads them from an `[[output]]` table without its `picture` and `file`.
-    pub read: fn(&Table, &mut Complaints) -> Box<dyn Picture>,
+    pub read: fn(&Table, &mut Diagnostics) -> Box<dyn Picture>,
 }
 
 impl PictureEntry {
@@ -93,8 +93,8 @@ impl PictureEntry {
         summary: &'static str,
         source: &'static str,
     ) -> Self {
-        let read = |table: &Table, complaints: &mut Complaints| -> Box<dyn Picture> {
-            Box::new(T::read(table, complaints))
+        let read = |table: &Table, diagnostics: &mut Diagnostics| -> Box<dyn Picture> {
+            Box::new(T::read(table, diagnostics))
         };
         Self { name, summary, source, extensions: &["png"], parameters: T::parameters, read }
     }

@@ -80,7 +80,7 @@ const BALANCE_HIGH: [u32; 4] = [0xf6_f2ea, 0xe8_b98a, 0xb9_602f, 0x5c_1f1a];
 const PIECES: usize = 1024;
 
 /// Points on each stretch between two stops from which lengths are measured.
-const POINTS_A_STRETCH: usize = 512;
+const POINTS_PER_SEGMENT: usize = 512;
 
 /// A continuous ramp of colours.
 #[derive(Clone, Debug, PartialEq)]
@@ -91,9 +91,9 @@ pub struct Ramp {
 impl Ramp {
     /// A ramp through two or more sRGB colours, written as `0xrrggbb`.
     pub fn through(stops: &[u32]) -> Self {
-        let (stops, points) = (oklab(stops), (stops.len() - 1) * POINTS_A_STRETCH);
+        let (stops, points) = (oklab(stops), (stops.len() - 1) * POINTS_PER_SEGMENT);
         let path: Vec<Oklab> =
-            (0..=points).map(|i| curve(&stops, i as f64 / POINTS_A_STRETCH as f64)).collect();
+            (0..=points).map(|i| curve(&stops, i as f64 / POINTS_PER_SEGMENT as f64)).collect();
         Self { table: evenly(&path, PIECES) }
     }
 
@@ -101,9 +101,9 @@ impl Ramp {
     /// middle.
     fn centred(low: &[u32], high: &[u32]) -> Self {
         let half = |stops: &[u32]| {
-            let (stops, points) = (oklab(stops), (stops.len() - 1) * POINTS_A_STRETCH);
+            let (stops, points) = (oklab(stops), (stops.len() - 1) * POINTS_PER_SEGMENT);
             let path: Vec<Oklab> =
-                (0..=points).map(|i| curve(&stops, i as f64 / POINTS_A_STRETCH as f64)).collect();
+                (0..=points).map(|i| curve(&stops, i as f64 / POINTS_PER_SEGMENT as f64)).collect();
             evenly(&path, PIECES / 2)
         };
         let mut table = half(low);
@@ -115,10 +115,10 @@ impl Ramp {
     /// A ramp that comes back to its first colour, which it passes near.
     fn closed(stops: &[u32]) -> Self {
         let round = oklab(stops);
-        let points = stops.len() * POINTS_A_STRETCH;
+        let points = stops.len() * POINTS_PER_SEGMENT;
         let path: Vec<Oklab> = (0..=points)
             .map(|i| {
-                let place = i as f64 / POINTS_A_STRETCH as f64;
+                let place = i as f64 / POINTS_PER_SEGMENT as f64;
                 let start = (place as usize).min(stops.len() - 1);
                 blend(
                     &[0, 1, 2, 3].map(|k| round[(start + stops.len() + k - 1) % stops.len()]),

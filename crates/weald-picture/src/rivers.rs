@@ -11,8 +11,8 @@ use weald_core::domain::Domain;
 use weald_core::grid::{Field, Size};
 
 /// A channel drains at least this many cells, and this share of the grid: a picture bears only so many lines.
-const LEAST_AREA: f32 = 40.0;
-const LEAST_SHARE: f32 = 1.0 / 900.0;
+const MIN_AREA: f32 = 40.0;
+const MIN_SHARE: f32 = 1.0 / 900.0;
 
 /// And carries this many times the discharge of the median cell: a slope under a sheet of rain has no channel.
 const ABOVE_MEDIAN: f32 = 2.5;
@@ -73,7 +73,7 @@ struct Channels {
 impl Channels {
     fn of(drainage: Drainage, size: Size) -> Option<Self> {
         let least_discharge = ABOVE_MEDIAN * median(drainage.discharge.iter().copied());
-        let least_area = LEAST_AREA.max(LEAST_SHARE * size.cells() as f32);
+        let least_area = MIN_AREA.max(MIN_SHARE * size.cells() as f32);
         (least_discharge > 0.0).then_some(Self { size, drainage, least_area, least_discharge })
     }
 

@@ -22,11 +22,11 @@ use weald_core::landscape::Landscape;
 /// How much of the brightness texture shading may add or take.
 const TEXTURE_STRENGTH: f32 = 0.28;
 
-/// Brightness that sunlit slopes may gain over level ground.
+/// Brightness that sunlit slopes may gain over flat ground.
 const SUNLIT_ROOM: f32 = 0.42;
 
 /// The same on tints so light that little is left above them.
-const LEAST_ROOM: f32 = 0.05;
+const MIN_HEADROOM: f32 = 0.05;
 
 /// Which ground is drawn, and how it is lit.
 pub(super) struct Shading<'a> {
@@ -83,7 +83,7 @@ impl Scene {
         sheet: Sheet,
         paint: Paint,
     ) -> Result<Self, Error> {
-        let land = landscape.domain.land.as_ref();
+        let land = landscape.domain.valid.as_ref();
         let field = landscape.field(shading.of)?;
         let (low, high) = field.range(land).unwrap_or((0.0, 0.0));
         let mut height = drawable(field, land, &sheet);
@@ -144,7 +144,7 @@ impl Scene {
     /// The colour of a pixel of the evaluated row.
     fn pixel(&self, x: usize, y: usize, rows: &Rows) -> Linear {
         let land = match &self.land {
-            Some(_) => land_cover(Rise::at(&rows.land, x, self.cells_a_pixel())),
+            Some(_) => land_cover(Rise::at(&rows.land, x, self.cells_per_pixel())),
             None => 1.0,
         };
         if land <= 0.0 {
@@ -155,7 +155,7 @@ impl Scene {
             colour = mix(colour, self.inks.river, rivers.row(y)[x]);
         }
         if let Some(lakes) = &self.water.lakes {
-            let level = Rise::at(&rows.level, x, self.cells_a_pixel());
+            let level = Rise::at(&rows.level, x, self.cells_per_pixel());
             let (lake, cover) = lakes.at(level, rows.depth.value[x], self.sheet.line());
             colour = mix(colour, lake, cover);
         }
@@ -174,18 +174,18 @@ impl Scene {
         let tint =
             mix(self.paint.at(x, share, &rows.paint), self.inks.haze, 0.14 * (1.0 - ramp(share, 0.0, 0.45)));
         let lit = |c: usize| {
-            let room = (1.0 / tint[c] - 1.0).clamp(LEAST_ROOM, SUNLIT_ROOM);
+            let room = (1.0 / tint[c] - 1.0).clamp(MIN_HEADROOM, SUNLIT_ROOM);
             tint[c] * shoulder((1.0 + contrast * (light[c] - 1.0)).max(0.0) * bump, room)
         };
         let colour = std::array::from_fn(lit);
         let Some(contours) = &self.contours else { return colour };
-        let rise = self.cells_a_pixel() * (east * east + south * south).sqrt();
+        let rise = self.cells_per_pixel() * (east * east + south * south).sqrt();
         let ink = contours.ink(height + self.low, rise);
         mix(colour, std::array::from_fn(|c| colour[c] * self.inks.contour[c]), 0.62 * ink)
     }
 
     /// Cells of the drawn fields in one pixel.
-    fn cells_a_pixel(&self) -> f32 {
+    fn cells_per_pixel(&self) -> f32 {
         self.height.size().columns as f32 / self.sheet.width as f32
     }
 }

@@ -45,13 +45,13 @@ weald_core::parameters! {
 }
 
 /// Height of a picture as a share of its width, where the exaggeration is free.
-const USUAL_HEIGHT: f64 = 0.36;
+const DEFAULT_HEIGHT: f64 = 0.36;
 
 /// Room below the lowest bedrock and above the highest ground, as shares of the heights between them.
 const ROOM: [f64; 2] = [0.16, 0.12];
 
 /// Most pixels of a picture.
-const MAXIMUM_PIXELS: f64 = (1_u32 << 27) as f64;
+const MAX_PIXELS: f64 = (1_u32 << 27) as f64;
 
 impl Picture for Section {
     fn reads(&self) -> Vec<String> {
@@ -103,12 +103,12 @@ impl Frame {
         let longest = [low, high].map(|height| digits::width(&nearest(height, interval)));
         let margin = (side(width) * (longest[0].max(longest[1]) + 6)).min(width / 4);
         let run = cut.cells() as f64 * cell / (width - margin) as f64;
-        let usual = USUAL_HEIGHT * width as f64 * run / (high - low);
+        let usual = DEFAULT_HEIGHT * width as f64 * run / (high - low);
         let rise = run / section.exaggeration.unwrap_or(usual);
         let height = ((high - low) / rise).ceil().max(1.0);
-        if width as f64 * height > MAXIMUM_PIXELS {
+        if width as f64 * height > MAX_PIXELS {
             return Err(Error::Limit(format!(
-                "a section of {width} × {height} pixels: at most {MAXIMUM_PIXELS} are drawn; choose a smaller \
+                "a section of {width} × {height} pixels: at most {MAX_PIXELS} are drawn; choose a smaller \
                  `width` or `exaggeration`"
             )));
         }

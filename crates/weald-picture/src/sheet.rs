@@ -6,13 +6,13 @@ use weald_core::grid::Size;
 
 /// Least length of a picture's longer side where the recipe does not choose, in pixels: small grids are
 /// drawn on a finer sheet, so that their slopes and lines come out smooth.
-const SMALLEST_DEFAULT: usize = 1024;
+const MIN_DEFAULT_SIDE: usize = 1024;
 
 /// Greatest length of a picture's longer side where the recipe does not choose, in pixels.
-const LARGEST_DEFAULT: usize = 4096;
+const MAX_DEFAULT_SIDE: usize = 4096;
 
 /// Most pixels of a picture: 2^27, 400 MB of colour.
-const MAXIMUM_PIXELS: f64 = (1_u32 << 27) as f64;
+const MAX_PIXELS: f64 = (1_u32 << 27) as f64;
 
 /// Width and height of a picture in pixels, and its scale.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,7 +24,7 @@ pub(super) struct Sheet {
     /// Columns and rows of the grid that is drawn.
     pub(super) grid: Size,
     /// Side of a pixel in metres.
-    pub(super) metres_a_pixel: f64,
+    pub(super) metres_per_pixel: f64,
 }
 
 impl Sheet {
@@ -36,14 +36,14 @@ impl Sheet {
         let grid = domain.size;
         let width = width.map_or_else(|| default_width(grid), |width| width as usize);
         let height = (grid.rows as f64 * width as f64 / grid.columns as f64).round().max(1.0);
-        if width as f64 * height > MAXIMUM_PIXELS {
+        if width as f64 * height > MAX_PIXELS {
             return Err(Error::Limit(format!(
-                "a picture of {width} × {height} pixels for a grid of {grid} cells: at most {MAXIMUM_PIXELS} \
+                "a picture of {width} × {height} pixels for a grid of {grid} cells: at most {MAX_PIXELS} \
                  pixels are drawn; choose a smaller `width`"
             )));
         }
-        let metres_a_pixel = domain.cell * grid.columns as f64 / width as f64;
-        Ok(Self { width, height: height as usize, grid, metres_a_pixel })
+        let metres_per_pixel = domain.cell * grid.columns as f64 / width as f64;
+        Ok(Self { width, height: height as usize, grid, metres_per_pixel })
     }
 
     /// Pixels a cell along a row.
@@ -65,6 +65,6 @@ impl Sheet {
 
 fn default_width(grid: Size) -> usize {
     let longer = grid.columns.max(grid.rows);
-    let wanted = longer.clamp(SMALLEST_DEFAULT, LARGEST_DEFAULT);
+    let wanted = longer.clamp(MIN_DEFAULT_SIDE, MAX_DEFAULT_SIDE);
     (grid.columns * wanted).div_ceil(longer)
 }

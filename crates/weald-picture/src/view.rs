@@ -14,14 +14,14 @@ mod cover;
 mod flow;
 mod follow;
 mod haze;
+mod horizon;
+mod intersection;
 mod keys;
 mod maps;
-mod meeting;
 mod numbers;
 mod plain;
 mod pyramid;
 mod rim;
-mod rising;
 mod scene;
 mod setting;
 mod side;
@@ -52,8 +52,8 @@ use weald_core::error::Error;
 use weald_core::landscape::Landscape;
 
 /// Most pixels of a view, and most rays.
-const MAXIMUM_PIXELS: u64 = 1 << 27;
-const MAXIMUM_RAYS: u64 = 1 << 32;
+const MAX_PIXELS: u64 = 1 << 27;
+const MAX_RAYS: u64 = 1 << 32;
 
 impl View {
     /// The view from another camera than its own.
@@ -80,9 +80,9 @@ impl View {
     fn check(&self) -> Result<(), Error> {
         let pixels = u64::from(self.width) * u64::from(self.height);
         let rays = pixels * u64::from(self.samples);
-        if pixels > MAXIMUM_PIXELS || rays > MAXIMUM_RAYS {
+        if pixels > MAX_PIXELS || rays > MAX_RAYS {
             return Err(Error::Limit(format!(
-                "a view of {} × {} pixels with {} rays each: at most {MAXIMUM_PIXELS} pixels and {MAXIMUM_RAYS} rays \
+                "a view of {} × {} pixels with {} rays each: at most {MAX_PIXELS} pixels and {MAX_RAYS} rays \
                  are drawn; choose a smaller `width`, `height` or `samples`",
                 self.width, self.height, self.samples
             )));

@@ -3,7 +3,7 @@
 use crate::grass::curves::{LightCurve, SoilCurve};
 use crate::grass::growth::{Bend, LEVELS};
 use crate::grass::meadow::{Maps, Meadow};
-use crate::grass::species::{MOST_SPECIES, SPECIES, Species};
+use crate::grass::species::{MAX_SPECIES, SPECIES, Species};
 use crate::vegetation::Vegetation;
 use weald_core::condition::{self, Condition};
 use weald_core::error::Error;
@@ -99,8 +99,8 @@ impl Step for Grass {
 
     fn faults(&self) -> Vec<Fault> {
         let kinds = self.kinds();
-        let many = (kinds.len() > MOST_SPECIES)
-            .then(|| format!("there are {} species; grass has at most {MOST_SPECIES}", kinds.len()));
+        let many = (kinds.len() > MAX_SPECIES)
+            .then(|| format!("there are {} species; grass has at most {MAX_SPECIES}", kinds.len()));
         let many = many.map(|message| Fault::of("species", message));
         let twice = (1..kinds.len()).filter(|&i| kinds[..i].iter().any(|kind| kind.name == kinds[i].name));
         let twice = twice.map(|i| {
@@ -157,13 +157,13 @@ impl Grass {
         let masked = |name: &Option<LayerName>| name.as_ref().map(layer).transpose();
         let wanted = landscape.field(&self.density.0)?;
         let sum = |x, y| weights.iter().map(|weight| weight.at(x, y)).sum::<f32>();
-        let is_land = |x, y| domain.land.as_ref().is_none_or(|land| land.is_land(x, y));
+        let is_valid = |x, y| domain.valid.as_ref().is_none_or(|valid| valid.is_valid(x, y));
         let density = Field::from_function(domain.size, |x, y| {
-            if is_land(x, y) { wanted.at(x, y).clamp(0.0, 1.0) * sum(x, y).min(1.0) } else { 0.0 }
+            if is_valid(x, y) { wanted.at(x, y).clamp(0.0, 1.0) * sum(x, y).min(1.0) } else { 0.0 }
         });
         let shares = (1..=weights.len()).map(|count| {
             Field::from_function(domain.size, |x, y| match sum(x, y) {
-                whole if whole > 0.0 && is_land(x, y) => {
+                whole if whole > 0.0 && is_valid(x, y) => {
                     weights[..count].iter().map(|weight| weight.at(x, y)).sum::<f32>() / whole
                 }
                 _ => 0.0,
@@ -171,7 +171,7 @@ impl Grass {
         });
         Ok(Maps {
             cell: domain.cell,
-            land: domain.land.clone(),
+            valid: domain.valid.clone(),
             shares: shares.collect(),
             density,
             soil: layer(&self.soil)?,
@@ -259,7 +259,7 @@ fn values<const N: usize>(name: &str, given: &[f64]) -> Result<Option<[f32; N]>,
 
 /// What to say of a map that goes beyond 0 and 1.
 fn beyond(landscape: &Landscape, name: &str) -> Option<String> {
-    let (low, high) = landscape.field(name).ok()?.range(landscape.domain.land.as_ref())?;
+    let (low, high) = landscape.field(name).ok()?.range(landscape.domain.valid.as_ref())?;
     (low < 0.0 || high > 1.0).then(|| {
         format!("layer `{name}` goes from {low} to {high}; below 0 and above 1 makes no difference here: see `remap`")
     })
@@ -273,7 +273,7 @@ mod tests {
     use weald_core::grid::Size;
 
     /// Ground that is richer to the east, and wetter to the south.
-    fn land() -> Landscape {
+    fn valid() -> Landscape {
         let size = Size::square(32).expect("small");
         let mut landscape = Landscape::new(Domain::new(size, 1.0));
         landscape.insert("fertility", "1", Field::from_function(size, |x, _| x as f32 / 31.0));
@@ -290,7 +290,7 @@ mod tests {
 
     #[test]
     fn species_stand_where_their_conditions_hold_and_their_layers_add_up() {
-        let mut landscape = land();
+        let mut landscape = valid();
         let grass = Grass { species: vec![kind("fescue", 0.25), kind("reed", 0.75)], ..Grass::default() };
         let outcome = grass.run(&mut landscape, &Job::unwatched(4)).expect("grows");
         let meadow = landscape.meadow("grass").expect("grown").clone();
@@ -310,7 +310,7 @@ mod tests {
 
     #[test]
     fn what_a_recipe_changes_of_a_species_is_told_by_its_meadow() {
-        let mut landscape = land();
+        let mut landscape = valid();
         let changed = Kind {
             height: Some(2.0),
             soil_curve: vec![0.0, 0.5, 1.0],
@@ -347,7 +347,7 @@ mod tests {
 
     #[test]
     fn a_map_beyond_0_and_1_is_told() {
-        let mut landscape = land();
+        let mut landscape = valid();
         let size = landscape.domain.size;
         landscape.insert("soil_depth", "m", Field::filled(size, 3.0));
         let grass = Grass { soil: LayerName::of("soil_depth"), ..Grass::default() };

@@ -38,7 +38,7 @@ pub const ENTRY: Entry = Entry::of::<Scatter>(
 );
 
 /// Most plants of a step.
-pub const MOST: u32 = 10_000_000;
+pub const MAX_PLANTS: u32 = 10_000_000;
 
 parameters! {
     /// Plants on the land. Writes, beside the plants, a layer of their name: how many stand on a square metre.
@@ -50,7 +50,7 @@ parameters! {
         /// Layer of heights in metres.
         of: LayerName = LayerName::of("height");
         /// Least distance between two plants. On ground of suitability s they stand 1/√s times as far apart, so that s
-        /// is the density beside the densest; below 1/64 some are left out by lot instead.
+        /// is the density beside the densest; below 1/64 some are left out at random instead.
         spacing: f64 = 5.0, range 0.01..=1.0e5, unit "m";
         /// So many plants, as far apart as that lets them be but no closer than `spacing`. Without it, as many as find
         /// room.
@@ -132,12 +132,12 @@ impl Scatter {
 
     fn ensure_possible(&self, area: f64) -> Result<(), Error> {
         let expected = DENSITY * area / (self.spacing * self.spacing);
-        if expected <= f64::from(MOST) {
+        if expected <= f64::from(MAX_PLANTS) {
             return Ok(());
         }
-        let wide = libm::ceil((DENSITY * area / f64::from(MOST)).sqrt() * 100.0) / 100.0;
+        let wide = libm::ceil((DENSITY * area / f64::from(MAX_PLANTS)).sqrt() * 100.0) / 100.0;
         Err(Error::Limit(format!(
-            "scatter: at a `spacing` of {} m some {expected:.0} plants would stand on this ground, but at most {MOST} \
+            "scatter: at a `spacing` of {} m some {expected:.0} plants would stand on this ground, but at most {MAX_PLANTS} \
              may; choose {wide} m or more, or a `count`",
             self.spacing
         )))
@@ -196,13 +196,13 @@ fn widest(
     area: f64,
     at: impl Fn(f64) -> Result<Vec<Place>, Error>,
 ) -> Result<(f64, Vec<Place>), Error> {
-    const AIM: f64 = 1.015;
-    let mut spacing = (DENSITY * area / (AIM * count as f64)).sqrt().max(least);
+    const TARGET_SURPLUS: f64 = 1.015;
+    let mut spacing = (DENSITY * area / (TARGET_SURPLUS * count as f64)).sqrt().max(least);
     let (mut narrow, mut wide): (Option<(f64, Vec<Place>)>, f64) = (None, f64::INFINITY);
     for _ in 0..TRIES {
         let places = at(spacing)?;
         let found = places.len();
-        let next = spacing * (found.max(1) as f64 / (AIM * count as f64)).sqrt();
+        let next = spacing * (found.max(1) as f64 / (TARGET_SURPLUS * count as f64)).sqrt();
         if found >= count {
             narrow = Some((spacing, places));
             if found as f64 <= SURPLUS * count as f64 {

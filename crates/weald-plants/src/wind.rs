@@ -9,7 +9,7 @@ use weald_core::grain::Octaves;
 /// Direction in which the wind blows, and its gusts travel: east and north, of length 1.
 pub const TOWARDS: [f32; 2] = [0.92, 0.391_918_36];
 
-/// Speed of the gusts in metres a second.
+/// Speed of the gusts in metres per second.
 pub const SPEED: f32 = 3.5;
 
 /// Push without gusts, and how much these add at most.
@@ -29,8 +29,8 @@ pub const FUNCTIONS: &str = include_str!("wind.wgsl");
 
 /// The push east and north at a place in metres east and north, a moment in seconds, and a phase from 0 to 1.
 pub fn push([east, north]: [f32; 2], seconds: f32, phase: f32) -> [f32; 2] {
-    let way = seconds * SPEED;
-    let gust = OCTAVES.at([east - way * TOWARDS[0], north - way * TOWARDS[1], 0.0], 0.0).value;
+    let drift = seconds * SPEED;
+    let gust = OCTAVES.at([east - drift * TOWARDS[0], north - drift * TOWARDS[1], 0.0], 0.0).value;
     let strength = STEADY + GUSTS * gust + FLUTTER * wave(FREQUENCY * seconds + phase);
     TOWARDS.map(|part| strength.max(0.0) * part)
 }

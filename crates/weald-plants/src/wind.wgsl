@@ -5,8 +5,8 @@ const WIND_SPEED = 3.5;
 
 // The push east and north at a place in metres east and north, a moment in seconds, and a phase from 0 to 1.
 fn wind_push(place: vec2<f32>, seconds: f32, phase: f32) -> vec2<f32> {
-    let way = seconds * WIND_SPEED;
-    let gust = octaves_at(Octaves(14.0, 3u, 0.6, 0x61u), place - way * WIND_TOWARDS, 0.0).value;
+    let drift = seconds * WIND_SPEED;
+    let gust = octaves_at(Octaves(14.0, 3u, 0.6, 0x61u), place - drift * WIND_TOWARDS, 0.0).value;
     let strength = 0.16 + 0.28 * gust + 0.05 * wind_wave(1.7 * seconds + phase);
     return max(strength, 0.0) * WIND_TOWARDS;
 }

@@ -45,7 +45,7 @@
 //! * [`generate`], [`combine`], [`erode`]: the steps, one file a method, each with its equation and source.
 //! * [`Landscape`], [`Domain`], [`Field`]: layers on a grid with a cell size, a place on Earth, a no-data mask.
 //! * [`material`]: what ground is made of, in layers; [`edit`]: brushes, scripts of strokes, undo and redo.
-//! * [`erode::hydraulic::Hydraulic::sit`]: a simulation to hold in hand, for an editor of your own.
+//! * [`erode::hydraulic::Hydraulic::run_interactive`]: a simulation to run interactively, for an editor of your own.
 //! * [`step::Step`]: what a step declares and does. Run one on a landscape of your own with [`engine::Job`].
 //! * [`analyse`]: slope, flow, rivers, light, soil and other layers, and measures of river networks.
 //! * [`grow`]: plants, and where they stand.

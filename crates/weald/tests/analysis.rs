@@ -60,7 +60,7 @@ fn a_plane_has_its_slope_and_aspect_in_every_cell_also_at_the_edge() {
 }
 
 #[test]
-fn level_ground_faces_nowhere() {
+fn flat_ground_faces_nowhere() {
     let level = after(land(5, |_, _| 70.0), "aspect", "");
     assert_eq!(furthest(&level, "aspect", -1.0), 0.0);
     assert_eq!(furthest(&level, "northness", 0.0) + furthest(&level, "eastness", 0.0), 0.0);
@@ -119,7 +119,7 @@ fn cells_without_data_change_no_slope() {
         *value = if cell % 2 == 0 { f32::NAN } else { 1.0e9 };
     }
     holed.insert("height", "m", field);
-    holed.domain.land = Mask::new(size, flags.clone());
+    holed.domain.valid = Mask::new(size, flags.clone());
     let holed = after(holed, "slope", "");
     let slopes = values(&holed, "slope").iter().zip(&flags).filter(|(_, land)| **land);
     let worst = slopes.map(|(slope, _)| (f64::from(*slope) - 25.0).abs()).fold(0.0, f64::max);
@@ -161,7 +161,7 @@ fn level_open_ground_has_all_light_wherever_it_lies() {
 }
 
 #[test]
-fn ground_that_leans_to_the_equator_by_its_latitude_gets_what_level_ground_gets_there() {
+fn ground_that_leans_to_the_equator_by_its_latitude_gets_what_flat_ground_gets_there() {
     let level = after(land(9, |_, _| 5.0), "sunlight", &format!("{EQUINOX}\nlatitude_deg = 0"));
     for latitude in [20.0, 45.0, 60.0] {
         let leaning =
@@ -176,10 +176,10 @@ fn a_wall_in_the_east_hides_the_sun_until_it_stands_over_it() {
     let wall = land(81, |east, _| if east > 100.0 { 150.0 } else { 0.0 });
     let shaded = after(wall, "sunlight", &format!("{EQUINOX}\nlatitude_deg = 0\npositions = 200"));
     for x in [10, 25, 40, 48] {
-        let way = (51 - x) as f64 * CELL;
-        let expected = 0.5 * (1.0 + (150.0 / way).atan().cos());
+        let distance = (51 - x) as f64 * CELL;
+        let expected = 0.5 * (1.0 + (150.0 / distance).atan().cos());
         let found = f64::from(shaded.field("light").expect("written").at(x, 40));
-        assert!((found - expected).abs() < 0.01, "{way} m from the wall: {found} instead of {expected}");
+        assert!((found - expected).abs() < 0.01, "{distance} m from the wall: {found} instead of {expected}");
     }
 }
 

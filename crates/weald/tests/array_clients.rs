@@ -50,10 +50,10 @@ fn assert_values(raster: &Raster, bytes: &[u8]) {
     let found = bytes.chunks_exact(4).map(|four| f32::from_le_bytes([four[0], four[1], four[2], four[3]]));
     assert_eq!(found.len(), raster.field.size().cells());
     for (index, found) in found.enumerate() {
-        let is_land = raster.land.as_ref().is_none_or(|land| land.is_land_at(index));
+        let is_valid = raster.valid.as_ref().is_none_or(|valid| valid.is_valid_at(index));
         let expected = raster.field.values()[index];
         assert!(
-            if is_land { found == expected } else { found.is_nan() },
+            if is_valid { found == expected } else { found.is_nan() },
             "cell {index}: {found} for {expected}"
         );
     }
@@ -109,7 +109,7 @@ fn gdal_finds_the_crs_of_any_code_in_a_netcdf_file() {
 
 #[test]
 fn gdal_finds_the_cell_size_of_a_ground_without_a_place() {
-    let raster = Raster { georeference: None, land: None, cell: Some(20.0), ..hills() };
+    let raster = Raster { georeference: None, valid: None, cell: Some(20.0), ..hills() };
     let (_folder, path) = written(&raster, "height.nc");
     let info = gdalinfo(&path);
     assert_eq!(info["geoTransform"], json!([0.0, 20.0, 0.0, 5400.0, 0.0, -20.0]));
@@ -217,8 +217,8 @@ fn weald_reads_what_gdal_writes_as_netcdf() {
         );
         let is = io::read(&path).expect("reads");
         assert_eq!(
-            (&is.field, &is.land, is.cell),
-            (&was.field, &was.land, was.cell),
+            (&is.field, &is.valid, is.cell),
+            (&was.field, &was.valid, was.cell),
             "{format}, {bottom_up}"
         );
         let (is, was) = (is.georeference.expect("placed"), was.georeference.as_ref().expect("placed"));
@@ -245,8 +245,8 @@ data.lon.attrs['units'] = 'degrees_east'
 fn assert_data(path: &Path, stored: &str, how: &str) {
     let raster = io::read(path).unwrap_or_else(|error| panic!("{how}: {error}"));
     assert_eq!(raster.field.values(), [0.0, 1.0, 2.0, 10.0, 11.0, 12.0], "{how}");
-    let land = raster.land.expect("one cell is missing");
-    assert_eq!(land.flags(), [false, true, true, true, true, true], "{how}");
+    let valid = raster.valid.expect("one cell is missing");
+    assert_eq!(valid.flags(), [false, true, true, true, true, true], "{how}");
     let place = raster.georeference.expect("placed");
     assert!(place.is_geographic(), "{how}");
     assert_eq!((place.origin, place.pixel, raster.cell), ([8.0, 48.0], [0.5, 1.0], None), "{how}");
@@ -337,8 +337,8 @@ for name, other in {{
     );
     python(&script, &[shown(folder.path())]);
     for (name, remedy) in REFUSED {
-        let complaint = io::read(&folder.path().join(name)).expect_err(name).to_string();
-        assert!(complaint.contains(remedy), "{name}: {complaint}");
+        let diagnostic = io::read(&folder.path().join(name)).expect_err(name).to_string();
+        assert!(diagnostic.contains(remedy), "{name}: {diagnostic}");
     }
 }
 

@@ -108,9 +108,9 @@ fn bytes_of_a_group_do_not_depend_on_threads() {
 #[test]
 fn chunks_without_data_are_left_out_and_come_back_without_data() {
     let size = Size { columns: 600, rows: 300 };
-    let land = Mask::new(size, (0..size.cells()).map(|cell| cell % 600 < 256).collect());
+    let valid = Mask::new(size, (0..size.cells()).map(|cell| cell % 600 < 256).collect());
     let field = Field::from_function(size, |x, y| if x < 256 { (x + y) as f32 } else { 0.0 });
-    let raster = Raster { land, cell: Some(2.0), ..Raster::from(field) };
+    let raster = Raster { valid, cell: Some(2.0), ..Raster::from(field) };
     let folder = folder(&raster);
     let chunks: Vec<_> = folder.files.keys().filter(|path| path.starts_with("a.zarr/layer/c")).collect();
     assert_eq!(chunks, [Path::new("a.zarr/layer/c/0/0"), Path::new("a.zarr/layer/c/1/0")]);
@@ -166,7 +166,7 @@ fn a_folder_may_hold_a_single_array() {
     };
     let files: BTreeMap<_, _> = whole.files.iter().filter_map(inside).collect();
     let alone = zarr::decode(&InMemory { file: "b.zarr".into(), files }, LIMITS).expect("reads");
-    assert_eq!((alone.field, alone.land), (raster.field, raster.land));
+    assert_eq!((alone.field, alone.valid), (raster.field, raster.valid));
 }
 
 /// The group with its description changed.

@@ -16,7 +16,7 @@ use weald::material::layer_names;
 use weald::picture::PICTURES;
 use weald::random::{hash2, unit};
 use weald::recipe::catalog::CATALOG;
-use weald::recipe::parameter::{Complaints, Kind, Needs, Parameter, Parameters, Variant, check_file};
+use weald::recipe::parameter::{Diagnostics, Kind, Needs, Parameter, Parameters, Variant, check_file};
 use weald::recipe::source::{self, Node, Table, Value};
 use weald::recipe::{FilmKeys, FractalKeys, LandscapeKeys, MaterialKeys, Overrides, Recipe};
 use weald::step::{Entry, Layered, Stage, Step};
@@ -112,9 +112,9 @@ fn read(entry: &Entry, text: &str) -> (Box<dyn Step>, Vec<String>) {
 }
 
 fn read_table(entry: &Entry, table: &Table) -> (Box<dyn Step>, Vec<String>) {
-    let mut complaints = Complaints { subject: entry.name.to_owned(), ..Complaints::default() };
-    let step = (entry.read)(table, &mut complaints);
-    let shown = complaints.found.iter().map(|fault| format!("{}: {}", fault.line, fault.message)).collect();
+    let mut diagnostics = Diagnostics { subject: entry.name.to_owned(), ..Diagnostics::default() };
+    let step = (entry.read)(table, &mut diagnostics);
+    let shown = diagnostics.found.iter().map(|fault| format!("{}: {}", fault.line, fault.message)).collect();
     (step, shown)
 }
 
@@ -196,14 +196,14 @@ fn check_refusals<'a>(
             let range = parameter.kind.in_words();
             let (_, bounds) = range.split_once(", ").expect("a number's kind names its bounds");
             let shown = value.strip_suffix(".0").unwrap_or(&value);
-            let told = faults.iter().any(|fault| {
+            let expected = faults.iter().any(|fault| {
                 fault.starts_with("1: ")
                     && fault.contains(&format!("`{}`", parameter.name))
                     && fault.contains(bounds)
                     && (fault.contains(shown) || fault.contains(&as_displayed(&value)))
             });
             assert!(
-                told,
+                expected,
                 "{}.{} = {value} must be refused with {bounds}: {faults:?}",
                 entry.name, parameter.name
             );
@@ -254,26 +254,26 @@ proptest! {
 struct Kept {
     name: &'static str,
     parameters: Vec<Parameter>,
-    read: Box<dyn Fn(&Table, &mut Complaints)>,
+    read: Box<dyn Fn(&Table, &mut Diagnostics)>,
 }
 
 fn kept<T: Parameters + 'static>(name: &'static str) -> Kept {
-    let read = |table: &Table, complaints: &mut Complaints| drop(T::read(table, complaints));
+    let read = |table: &Table, diagnostics: &mut Diagnostics| drop(T::read(table, diagnostics));
     Kept { name, parameters: T::parameters(), read: Box::new(read) }
 }
 
 /// All that a recipe can hold.
 fn all_tables() -> Vec<Kept> {
     let steps = CATALOG.iter().map(|entry| {
-        let read = |table: &Table, complaints: &mut Complaints| drop((entry.read)(table, complaints));
+        let read = |table: &Table, diagnostics: &mut Diagnostics| drop((entry.read)(table, diagnostics));
         Kept { name: entry.name, parameters: (entry.parameters)(), read: Box::new(read) }
     });
     let pictures = PICTURES.iter().map(|entry| {
-        let read = |table: &Table, complaints: &mut Complaints| drop((entry.read)(table, complaints));
+        let read = |table: &Table, diagnostics: &mut Diagnostics| drop((entry.read)(table, diagnostics));
         Kept { name: entry.name, parameters: (entry.parameters)(), read: Box::new(read) }
     });
     let exports = EXPORTS.iter().map(|entry| {
-        let read = |table: &Table, complaints: &mut Complaints| drop((entry.read)(table, complaints));
+        let read = |table: &Table, diagnostics: &mut Diagnostics| drop((entry.read)(table, diagnostics));
         Kept { name: entry.name, parameters: (entry.parameters)(), read: Box::new(read) }
     });
     let others = [
@@ -288,12 +288,12 @@ fn all_tables() -> Vec<Kept> {
 
 impl Kept {
     /// What is said of a key that has no effect in a text whose first line has it.
-    fn told(&self, text: &str, key: &str) -> Option<String> {
-        let mut complaints = Complaints::default();
-        (self.read)(&text_table(text), &mut complaints);
-        check_file(&text_table(text), &self.parameters, &mut complaints);
+    fn expected(&self, text: &str, key: &str) -> Option<String> {
+        let mut diagnostics = Diagnostics::default();
+        (self.read)(&text_table(text), &mut diagnostics);
+        check_file(&text_table(text), &self.parameters, &mut diagnostics);
         let named = format!("`{key}` has no effect");
-        let of_key = complaints.found.into_iter().find(|one| one.message.contains(&named))?;
+        let of_key = diagnostics.found.into_iter().find(|one| one.message.contains(&named))?;
         assert_eq!(of_key.line, 1, "{}: {text}: {}", self.name, of_key.message);
         Some(of_key.message)
     }
@@ -301,13 +301,13 @@ impl Kept {
     /// The key of the first line has no effect, and the message names what would give it one.
     fn refuses(&self, place: &Place<'_>, lines: &[String], remedy: &str) {
         let (text, key) = (place.text(lines), key_of(&lines[0]));
-        let told = self.told(&text, key).unwrap_or_else(|| panic!("{}: {text} is taken", self.name));
-        assert!(told.contains(remedy), "{}: {text}: {told} names no {remedy}", self.name);
+        let expected = self.expected(&text, key).unwrap_or_else(|| panic!("{}: {text} is taken", self.name));
+        assert!(expected.contains(remedy), "{}: {text}: {expected} names no {remedy}", self.name);
     }
 
     fn takes(&self, place: &Place<'_>, lines: &[String]) {
         let text = place.text(lines);
-        assert_eq!(self.told(&text, key_of(&lines[0])), None, "{}: {text}", self.name);
+        assert_eq!(self.expected(&text, key_of(&lines[0])), None, "{}: {text}", self.name);
     }
 }
 
@@ -440,9 +440,9 @@ fn a_key_that_a_choice_leaves_without_effect_is_refused_at_its_line() {
 fn a_key_of_another_model_by_default_is_refused_too() {
     let entry = CATALOG.iter().find(|entry| entry.name == "hydraulic").expect("it is there");
     let (_, faults) = read(entry, "iterations = 3\ndeposition = 0.5\n");
-    let told = "2: hydraulic: `deposition` has no effect with model = \"han\": it is a key of model = \"mei\" or \
+    let expected = "2: hydraulic: `deposition` has no effect with model = \"han\": it is a key of model = \"mei\" or \
                 \"stava\"; set that, or remove it";
-    assert_eq!(faults, [told]);
+    assert_eq!(faults, [expected]);
 }
 
 /// The complaint of a recipe that begins with ground of rock and soil.
@@ -456,22 +456,25 @@ fn refusal(step: &str) -> String {
 
 #[test]
 fn a_fault_of_several_keys_is_told_at_the_line_of_one_of_them() {
-    let told = |step: &str, words: &str| {
+    let expected = |step: &str, words: &str| {
         let message = refusal(step);
         assert!(message.starts_with(&format!("r.toml:{words}")), "{message}");
     };
-    told("do = \"hydraulic\"\nregion = \"height\"\nboundary = \"open\"", "8: hydraulic: `boundary` must be");
-    told(
+    expected(
+        "do = \"hydraulic\"\nregion = \"height\"\nboundary = \"open\"",
+        "8: hydraulic: `boundary` must be",
+    );
+    expected(
         "do = \"select\"\nwhere = [\n{ layer = \"height\", above = 1 },\n\
          { layer = \"height\", above = 3, below = 1 },\n]",
         "9: select: the condition",
     );
-    told("do = \"hydraulic\"\nmodel = \"stava\"\ndeposit = \"sand\"", "8: hydraulic: `deposit` is");
-    told(
+    expected("do = \"hydraulic\"\nmodel = \"stava\"\ndeposit = \"sand\"", "8: hydraulic: `deposit` is");
+    expected(
         "do = \"hydraulic\"\nmodel = \"stava\"\n\nslippage = { strength = 0.2 }",
         "9: hydraulic: `strength` is 0.2",
     );
-    told(
+    expected(
         "do = \"hydraulic\"\niterations = 3\nlaw = \"dissolution\"\nmodel = \"mei\"",
         "8: hydraulic: `law` has no effect",
     );
@@ -483,7 +486,7 @@ const INPUT_UNIT: &str = "m";
 /// Ground for a step: the layers it reads, and one that is none of its business.
 fn ground_for(step: &dyn Step, land: Option<Mask>) -> Landscape {
     let size = Size::square(16).expect("small");
-    let mut landscape = Landscape::new(Domain { land, ..Domain::new(size, 10.0) });
+    let mut landscape = Landscape::new(Domain { valid: land, ..Domain::new(size, 10.0) });
     let names = step.reads().into_iter().chain(["bystander".to_owned()]);
     for (seed, name) in names.enumerate() {
         let random = |x, y| unit(hash2(seed as u64, x as i64, y as i64)) as f32;
@@ -509,7 +512,7 @@ fn check_writes(entry: &Entry, land: Option<Mask>) {
         let written = after.layer(layer).unwrap_or_else(|error| panic!("{name} writes {layer}: {error}"));
         let declared = if unit.starts_with("unit of ") { INPUT_UNIT } else { *unit };
         assert_eq!(written.unit, declared, "{name}: the unit of {layer}");
-        assert_eq!(written.field.first_not_finite(after.domain.land.as_ref()), None, "{name}: {layer}");
+        assert_eq!(written.field.first_not_finite(after.domain.valid.as_ref()), None, "{name}: {layer}");
         check_range(entry, step.as_ref(), layer, &after);
     }
     let declared: BTreeSet<_> = writes.into_iter().map(|(layer, _)| layer).collect();
@@ -530,7 +533,7 @@ fn check_range(entry: &Entry, step: &dyn Step, layer: &str, after: &Landscape) {
     assert!(range.is_some() || entry.stage != Stage::Analyse, "{}: {layer} has a range", entry.name);
     let Some((low, high)) = range else { return };
     assert!(low < high, "{}: {layer} from {low} to {high}", entry.name);
-    let held = after.field(layer).expect("written").range(after.domain.land.as_ref());
+    let held = after.field(layer).expect("written").range(after.domain.valid.as_ref());
     let (least, most) = held.expect("there are cells with data");
     let within = f64::from(least) >= low && f64::from(most) <= high;
     assert!(within, "{}: {layer} holds {least} to {most}, outside {low} to {high}", entry.name);

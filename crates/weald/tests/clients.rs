@@ -44,10 +44,12 @@ fn shown(path: &Path) -> &str {
 
 /// What a client must find: the value, or its number for no-data.
 fn expected(raster: &Raster, no_data: f32) -> Vec<f32> {
-    let land = raster.land.as_ref();
+    let land = raster.valid.as_ref();
     let values = raster.field.values().iter().enumerate();
     values
-        .map(|(index, value)| if land.is_none_or(|land| land.is_land_at(index)) { *value } else { no_data })
+        .map(
+            |(index, value)| if land.is_none_or(|valid| valid.is_valid_at(index)) { *value } else { no_data },
+        )
         .collect()
 }
 
@@ -73,7 +75,7 @@ fn gdal_reads_every_cell_and_the_place_of_a_geotiff() {
 
 #[test]
 fn gdal_finds_the_cell_size_of_a_ground_without_a_place() {
-    let raster = Raster { georeference: None, land: None, cell: Some(20.0), ..hills() };
+    let raster = Raster { georeference: None, valid: None, cell: Some(20.0), ..hills() };
     let (_folder, path) = written(&raster, "height.tif");
     let info = gdalinfo(&path);
     assert_eq!(info["geoTransform"], serde_json::json!([0.0, 20.0, 0.0, 5400.0, 0.0, -20.0]));
@@ -161,7 +163,7 @@ fn weald_reads_the_ascii_grids_that_gdal_writes() {
     let arguments = [["-q", "-of", "AAIGrid"].as_slice(), &digits, &files].concat();
     output("gdal_translate", "gdal-bin", &arguments);
     let again = io::read(&grid).expect("reads");
-    assert!(again.field == raster.field && again.land == raster.land, "other values");
+    assert!(again.field == raster.field && again.valid == raster.valid, "other values");
     assert_eq!(again.cell, raster.cell);
     let place = |raster: &Raster| raster.georeference.as_ref().map(|it| (it.epsg, it.origin, it.pixel));
     assert_eq!(place(&again), place(&raster));
@@ -188,7 +190,7 @@ fn the_openexr_tools_read_every_cell_of_an_exr_and_weald_reads_theirs() {
         let arguments = ["-z", compression, "-t", "64", "48", shown(&path), shown(&tiled)];
         output("exrmaketiled", "openexr", &arguments);
         let again = io::read(&tiled).expect("reads");
-        assert!(again.field == raster.field && again.land == raster.land, "{compression}: other values");
+        assert!(again.field == raster.field && again.valid == raster.valid, "{compression}: other values");
         assert_eq!(again.provenance, raster.provenance, "{compression}");
     }
 }
@@ -215,9 +217,9 @@ fn the_openexr_tools_find_the_channels_that_each_reader_wants() {
         assert_eq!(channels, expected, "{preset}");
         let tiled = folder.path().join("tiled.exr");
         output("exrmaketiled", "openexr", &["-z", "none", shown(&path), shown(&tiled)]);
-        let (low, _) = raster.field.range(raster.land.as_ref()).expect("land");
+        let (low, _) = raster.field.range(raster.valid.as_ref()).expect("land");
         let again = io::read(&tiled).expect("reads");
-        assert_eq!(again.land, None, "{preset} has no NaN");
+        assert_eq!(again.valid, None, "{preset} has no NaN");
         for (value, wanted) in again.field.values().iter().zip(self::expected(&raster, low)) {
             let within = if preset == "hterrain" { wanted.abs() / 2048.0 } else { 0.0 };
             assert!((value - wanted).abs() <= within, "{preset}: {value} for {wanted}");

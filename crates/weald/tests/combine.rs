@@ -48,7 +48,7 @@ fn landscape_with_holes() -> Landscape {
         *value = if land { *value } else { -9.0e8 };
     }
     landscape.insert("height", "m", height);
-    landscape.domain.land = Some(mask);
+    landscape.domain.valid = Some(mask);
     landscape
 }
 
@@ -131,7 +131,7 @@ fn a_result_goes_where_into_says_with_the_unit_of_its_layer() {
 #[test]
 fn remap_takes_its_range_from_cells_with_data_and_reaches_both_ends() {
     let end = run(&Remap { to: vec![-5.0, 20.0], ..Remap::default() }, landscape_with_holes());
-    assert_eq!(height(&end).range(end.domain.land.as_ref()), Some((-5.0, 20.0)));
+    assert_eq!(height(&end).range(end.domain.valid.as_ref()), Some((-5.0, 20.0)));
 }
 
 #[test]
@@ -171,7 +171,7 @@ fn remap_says_what_is_wrong_with_its_lists() {
 }
 
 #[test]
-fn smoothing_keeps_level_ground_level_to_the_bit() {
+fn smoothing_keeps_flat_ground_level_to_the_bit() {
     for start in [landscape(), landscape_with_holes()] {
         let mut start = start;
         let level = Field::filled(size(), 1234.567);
@@ -185,11 +185,11 @@ fn smoothing_keeps_level_ground_level_to_the_bit() {
 fn smoothing_leaves_no_data_alone_and_takes_nothing_from_it() {
     let start = landscape_with_holes();
     let end = run(&Smooth { radius: 25.0, ..Smooth::default() }, start.clone());
-    let land = start.domain.land.clone().expect("has no-data");
+    let land = start.domain.valid.clone().expect("has no-data");
     assert_eq!(end.domain, start.domain);
     for index in 0..size().cells() {
         let (before, after) = (height(&start).values()[index], height(&end).values()[index]);
-        if land.is_land_at(index) {
+        if land.is_valid_at(index) {
             assert!(after.abs() < 500.0, "no-data leaked: {after}");
         } else {
             assert_eq!(after, before);
@@ -271,8 +271,8 @@ fn resampling_keeps_no_data_out_and_in_its_place() {
     for (columns, rows) in [(66, 42), (11, 7), (33, 21)] {
         let start = landscape_with_holes();
         let end = run(&resample(columns, rows), start);
-        let land = end.domain.land.as_ref().expect("still has no-data");
-        let share = land.land_cells() as f64 / f64::from(columns * rows);
+        let land = end.domain.valid.as_ref().expect("still has no-data");
+        let share = land.valid_cells() as f64 / f64::from(columns * rows);
         assert!((share - 0.848).abs() < 0.02, "{columns} × {rows}: {share}");
         let (low, high) = height(&end).range(Some(land)).expect("cells");
         assert!(low > -500.0 && high < 500.0, "no-data leaked: {low} to {high}");

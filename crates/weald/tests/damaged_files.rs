@@ -34,9 +34,9 @@ fn described_numbers(parts: &[Part]) -> Vec<u8> {
 
 fn files() -> Vec<(DecodeFile, Vec<u8>)> {
     let size = Size { columns: 19, rows: 11 };
-    let land = Mask::new(size, (0..size.cells()).map(|index| index % 5 != 0).collect());
+    let valid = Mask::new(size, (0..size.cells()).map(|index| index % 5 != 0).collect());
     let field = Field::from_function(size, |x, y| (x * y) as f32);
-    let raster = Raster { land, cell: Some(3.0), ..Raster::from(field) };
+    let raster = Raster { valid, cell: Some(3.0), ..Raster::from(field) };
     let mut files: Vec<(DecodeFile, Vec<u8>)> = vec![
         (geotiff::decode, geotiff::encode(&raster).expect("finite")),
         (png16::decode, png16::encode(&raster).expect("finite")),

@@ -34,7 +34,7 @@ fn a_displaced_plane_is_the_plane_where_the_layers_point() {
     let land = run(&step, land);
     let bent = land.field("bent").expect("written");
     for (x, y) in (2..16).flat_map(|x| (2..14).map(move |y| (x, y))) {
-        let [to_east, to_south] = [&east, &south].map(|way| f64::from(way.at(x, y)) / cell);
+        let [to_east, to_south] = [&east, &south].map(|offset| f64::from(offset.at(x, y)) / cell);
         let expected = plane(x as f64 + to_east, y as f64 + to_south);
         assert!((bent.at(x, y) - expected).abs() < 1e-3, "{x}, {y}: {} for {expected}", bent.at(x, y));
     }
@@ -46,7 +46,7 @@ fn a_displaced_plane_is_the_plane_where_the_layers_point() {
 fn a_displacement_takes_nothing_from_cells_without_data() {
     let mut land = Landscape::new(Domain::new(Size::new(COLUMNS, 21).expect("small"), 10.0));
     let size = land.domain.size;
-    land.domain.land = Mask::new(size, (0..size.cells()).map(|at| at % COLUMNS != 5).collect());
+    land.domain.valid = Mask::new(size, (0..size.cells()).map(|at| at % COLUMNS != 5).collect());
     land.insert("height", "m", Field::from_function(size, |x, _| if x == 5 { 1e6 } else { 2.0 }));
     let away = 1.4 * land.domain.cell;
     land.insert("east", "m", Field::filled(size, away as f32));

@@ -27,7 +27,7 @@ fn landscape(size: Size, land: Option<Mask>) -> Landscape {
         pixel: [CELL; 2],
         keys: None,
     });
-    let mut landscape = Landscape::new(Domain { georeference, land, ..Domain::new(size, CELL) });
+    let mut landscape = Landscape::new(Domain { georeference, valid: land, ..Domain::new(size, CELL) });
     let height = |x: usize, y: usize| hill(x as f64 * CELL, y as f64 * CELL) as f32;
     landscape.insert("height", "m", Field::from_function(size, height));
     let east = (size.columns - 1) as f32;
@@ -301,7 +301,7 @@ fn cells_without_data_are_the_lowest_height_and_a_mask_of_holes() {
     let (side, holes) = png(&files[Path::new("land_holes.png")], png::BitDepth::Eight);
     let z = number(&json(&files, "land.png.json")["scale"]["z"]);
     let low =
-        landscape.field("height").expect("there").range(landscape.domain.land.as_ref()).expect("land").0;
+        landscape.field("height").expect("there").range(landscape.domain.valid.as_ref()).expect("land").0;
     assert!(z < 400.0, "-1e30 took no part: {z}");
     let mut counts = [0; 2];
     for (number, hole) in numbers.iter().zip(&holes) {

@@ -10,7 +10,7 @@ use rasters::any_raster;
 use weald::domain::{GeoKeys, Georeference};
 use weald::grid::{Field, Size};
 use weald::io::{
-    self, Decode, Encode, FORMATS, Fault, Holds, InMemory, Knowledge, Limits, Part, Provenance, Raster,
+    self, Capabilities, Decode, Encode, FORMATS, Fault, InMemory, Limits, Metadata, Part, Provenance, Raster,
     Values, asc, exr, raw,
 };
 use weald::random::hash2;
@@ -35,9 +35,9 @@ fn samples(name: &str) -> Vec<f32> {
 fn ensure_holds(file: &str, raster: &Raster, expected: &[f32]) {
     assert_eq!(raster.field.size(), EXR_SIZE, "{file}");
     for (index, expected) in expected.iter().enumerate() {
-        let is_land = raster.land.as_ref().is_none_or(|land| land.is_land_at(index));
-        assert_eq!(is_land, !expected.is_nan(), "{file}, cell {index}");
-        let expected = if is_land { expected.to_bits() } else { 0 };
+        let is_valid = raster.valid.as_ref().is_none_or(|valid| valid.is_valid_at(index));
+        assert_eq!(is_valid, !expected.is_nan(), "{file}, cell {index}");
+        let expected = if is_valid { expected.to_bits() } else { 0 };
         assert_eq!(raster.field.values()[index].to_bits(), expected, "{file}, cell {index}");
     }
 }
@@ -72,12 +72,14 @@ fn tiles_and_heights_among_other_channels_are_read() {
 
 #[test]
 fn openexr_files_of_an_unread_kind_say_what_would_be_read() {
-    let complaint = |file: &str| {
+    let diagnostic = |file: &str| {
         exr::decode(&exr_file(file), Limits::default()).expect_err("a file that is not read").to_string()
     };
-    assert!(complaint("zip_colour.exr").contains("channels B, G, R; heights are read from a single channel"));
-    assert!(complaint("zip_two.exr").contains("channels depth, normal;"));
-    assert!(complaint("pxr24_float.exr").contains("PXR24, which rounds floats to 24 bits"));
+    assert!(
+        diagnostic("zip_colour.exr").contains("channels B, G, R; heights are read from a single channel")
+    );
+    assert!(diagnostic("zip_two.exr").contains("channels depth, normal;"));
+    assert!(diagnostic("pxr24_float.exr").contains("PXR24, which rounds floats to 24 bits"));
     let mut deep = exr_file("zip_float.exr");
     deep[5] |= 0x10;
     let fault = exr::decode(&deep, Limits::default()).expect_err("several parts");
@@ -136,7 +138,7 @@ fn heights(columns: usize, rows: usize, seed: u64) -> Raster {
 }
 
 fn known(raster: Raster) -> Raster {
-    let range = raster.field.range(raster.land.as_ref()).unwrap_or_default();
+    let range = raster.field.range(raster.valid.as_ref()).unwrap_or_default();
     let provenance = Provenance {
         version: "0.1.0".to_owned(),
         recipe_blake3: "af13".repeat(16),
@@ -164,23 +166,23 @@ fn bits(raster: &Raster) -> Vec<u32> {
 }
 
 /// Everything that `holds` does not give up is there again, and everything that it does is said.
-fn ensure_kept(name: &str, raster: &Raster, again: &Raster, holds: Holds) {
+fn ensure_kept(name: &str, raster: &Raster, again: &Raster, holds: Capabilities) {
     let losses = holds.losses(raster);
-    let omitted = |knowledge: Knowledge| holds.omits.contains(&knowledge);
-    assert_eq!(again.cell.is_none(), omitted(Knowledge::Cell), "{name}: cell");
-    assert_eq!(again.georeference.is_none(), omitted(Knowledge::Place), "{name}: place");
-    assert_eq!(again.provenance.is_none(), omitted(Knowledge::Provenance), "{name}: provenance");
-    assert_eq!(again.land.is_none(), omitted(Knowledge::NoData), "{name}: no-data");
+    let omitted = |knowledge: Metadata| holds.omits.contains(&knowledge);
+    assert_eq!(again.cell.is_none(), omitted(Metadata::Cell), "{name}: cell");
+    assert_eq!(again.georeference.is_none(), omitted(Metadata::Place), "{name}: place");
+    assert_eq!(again.provenance.is_none(), omitted(Metadata::Provenance), "{name}: provenance");
+    assert_eq!(again.valid.is_none(), omitted(Metadata::NoData), "{name}: no-data");
     let place = |raster: &Raster| raster.georeference.as_ref().map(|it| (it.epsg, it.origin, it.pixel));
     assert!(again.cell.is_none_or(|cell| Some(cell) == raster.cell), "{name}");
     assert!(again.georeference.is_none() || place(again) == place(raster), "{name}");
     assert!(again.provenance.is_none() || again.provenance == raster.provenance, "{name}");
-    assert!(again.land.is_none() || again.land == raster.land, "{name}");
-    let said = [Knowledge::Cell, Knowledge::Place, Knowledge::Provenance, Knowledge::NoData];
+    assert!(again.valid.is_none() || again.valid == raster.valid, "{name}");
+    let said = [Metadata::Cell, Metadata::Place, Metadata::Provenance, Metadata::NoData];
     let omits = said.into_iter().filter(|&knowledge| omitted(knowledge)).count();
     let rounds = holds.values != Values::Float32;
     assert_eq!(losses.len(), omits + usize::from(rounds), "{name}: {losses:?}");
-    if !rounds && !omitted(Knowledge::NoData) {
+    if !rounds && !omitted(Metadata::NoData) {
         assert_eq!(bits(again), bits(raster), "{name}");
     }
 }
@@ -229,7 +231,7 @@ proptest! {
             let (Some(encode), Some(decode)) = (format.encode, format.decode) else { unreachable!("both ways") };
             let again = through(encode, decode, file, &raster);
             prop_assert_eq!(bits(&again), bits(&raster), "{}", file);
-            prop_assert_eq!(&again.land, &raster.land);
+            prop_assert_eq!(&again.valid, &raster.valid);
             prop_assert_eq!((again.cell, &again.georeference), (raster.cell, &raster.georeference));
         }
     }
@@ -238,8 +240,8 @@ proptest! {
     fn raw_numbers_come_back_within_half_a_step(columns in 1_usize..90, rows in 1_usize..90, seed: u64) {
         let raster = known(heights(columns, rows, seed));
         let again = through(Encode::Parts(raw::encode_16), Decode::Parts(raw::decode_16), "land.r16", &raster);
-        prop_assert_eq!((&again.land, again.cell), (&raster.land, raster.cell));
-        let (low, high) = raster.field.range(raster.land.as_ref()).unwrap_or_default();
+        prop_assert_eq!((&again.valid, again.cell), (&raster.valid, raster.cell));
+        let (low, high) = raster.field.range(raster.valid.as_ref()).unwrap_or_default();
         let half_a_step = 0.5 * f64::from(high - low) / 65534.0;
         for (value, was) in again.field.values().iter().zip(raster.field.values()) {
             prop_assert!(f64::from((value - was).abs()) <= half_a_step + 1e-4, "{value} was {was}");
@@ -299,12 +301,12 @@ fn the_description_of_raw_numbers_is_followed_and_checked() {
     let json = r#"{"columns": 2, "rows": 1, "type": "uint16", "byte_order": "big", "value_of_0": -10, "value_of_65535": 55.535}"#;
     let raster = read(&[0, 10, 0xff, 0xff], json).expect("described");
     assert_eq!(raster.field.values(), [-9.99, 55.535]);
-    let complaint = |bytes: &[u8], json: &str| read(bytes, json).expect_err("refused").to_string();
-    let long = complaint(&[0; 6], r#"{"columns": 2, "rows": 1, "type": "uint16"}"#);
+    let diagnostic = |bytes: &[u8], json: &str| read(bytes, json).expect_err("refused").to_string();
+    let long = diagnostic(&[0; 6], r#"{"columns": 2, "rows": 1, "type": "uint16"}"#);
     assert!(long.contains("2 × 1 numbers of uint16 need 4 bytes, but the file has 6"), "{long}");
-    let kind = complaint(&[0; 4], r#"{"columns": 2, "rows": 1, "type": "int8"}"#);
+    let kind = diagnostic(&[0; 4], r#"{"columns": 2, "rows": 1, "type": "int8"}"#);
     assert!(kind.contains("unknown variant `int8`, expected `uint16` or `float32`"), "{kind}");
-    let half = complaint(&[0; 4], r#"{"columns": 2, "rows": 1, "type": "uint16", "value_of_0": 1}"#);
+    let half = diagnostic(&[0; 4], r#"{"columns": 2, "rows": 1, "type": "uint16", "value_of_0": 1}"#);
     assert!(half.contains("stand together"), "{half}");
     let huge =
         read(&[0; 4], r#"{"columns": 1000000, "rows": 1000000, "type": "uint16"}"#).expect_err("too large");
@@ -325,14 +327,14 @@ fn ascii_grids_of_other_programs_are_read() {
     )
     .expect("reads");
     assert_eq!(raster.field.values(), [1.0, 2.0, 0.0, 4.0, 0.5, 6.0]);
-    assert_eq!(raster.land.as_ref().map(|land| land.is_land(2, 0)), Some(false));
+    assert_eq!(raster.valid.as_ref().map(|valid| valid.is_valid(2, 0)), Some(false));
     assert_eq!(raster.cell, Some(1.0));
     let place = raster.georeference.expect("placed");
     assert_eq!((place.origin, place.epsg), ([100.0, 21.5], None));
     let oblong = grid("ncols 1 nrows 2 xllcorner 0 yllcorner 0 dx 2 dy 3 NODATA_value nan 1 nan", None)
         .expect("reads");
     assert_eq!((oblong.cell, oblong.georeference), (None, None), "oblong, and no place at 0, 0");
-    assert_eq!(oblong.land.map(|land| land.land_cells()), Some(1));
+    assert_eq!(oblong.valid.map(|valid| valid.valid_cells()), Some(1));
     let wkt = "GEOGCS[\"GCS_Mine\",DATUM[\"D\",SPHEROID[\"S\",6378137.0,298.0]],UNIT[\"Degree\",0.0174532925199433]]";
     let degrees = grid("ncols 1 nrows 1 xllcorner 8 yllcorner 50 cellsize 0.1 7", Some(wkt)).expect("reads");
     assert!(degrees.georeference.is_some_and(|place| place.is_geographic()) && degrees.cell.is_none());
@@ -341,12 +343,12 @@ fn ascii_grids_of_other_programs_are_read() {
 #[test]
 fn faults_of_ascii_grids_say_where() {
     let header = "ncols 2\nnrows 2\nxllcorner 1\nyllcorner 1\ncellsize 1\n";
-    let complaint = |rest: &str| grid(&format!("{header}{rest}"), None).expect_err("refused").to_string();
-    assert!(complaint("1 2 3 x4").contains("column 1, row 1 holds \"x4\", no number"));
-    assert!(complaint("1 2 3").contains("the file ends before column 1, row 1 of 2 × 2 cells"));
-    assert!(complaint("1 2 3 4 5").contains("\"5\" follows the last of 2 × 2 numbers"));
-    assert!(complaint("1 2 inf 4").contains("column 0, row 1 holds inf"));
-    assert!(complaint("colour 7 1 2 3 4").contains("\"colour\" is no word of an ESRI ASCII grid"));
+    let diagnostic = |rest: &str| grid(&format!("{header}{rest}"), None).expect_err("refused").to_string();
+    assert!(diagnostic("1 2 3 x4").contains("column 1, row 1 holds \"x4\", no number"));
+    assert!(diagnostic("1 2 3").contains("the file ends before column 1, row 1 of 2 × 2 cells"));
+    assert!(diagnostic("1 2 3 4 5").contains("\"5\" follows the last of 2 × 2 numbers"));
+    assert!(diagnostic("1 2 inf 4").contains("column 0, row 1 holds inf"));
+    assert!(diagnostic("colour 7 1 2 3 4").contains("\"colour\" is no word of an ESRI ASCII grid"));
     let fault = grid("nrows 2 xllcorner 1 yllcorner 1 cellsize 1 1 2", None).expect_err("no columns");
     assert!(fault.to_string().contains("the header has no ncols"), "{fault}");
     let fault =

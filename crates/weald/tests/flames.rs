@@ -2,12 +2,12 @@
 //!
 //! The client comes from the Debian package `flam3-utils`, version 3.1.1. A test fails where it is missing.
 //!
-//! **Support** is the set of pixels that are hit at all: here cells of a histogram with one point or more, there pixels of
-//! a 16-bit picture of which a channel is not 0, drawn without flam3's filter and without spreading where points are few.
-//! Both sides throw the same number of points, so many that most pixels of the shape are hit often. Of random flames much
-//! is hit a thousand times less often than the rest, so that two runs of the same program agree on nine pixels in ten: there
-//! a pixel belongs to the support if [`ENOUGH`] points hit it, and as many pixels of flam3's, the brightest under a white
-//! palette. **Overlap** is how much of all pixels of either support is in both.
+//! **Support** is the set of pixels that are hit at all: here cells of a histogram with one point or more, there pixels
+//! of a 16-bit picture of which a channel is not 0, drawn without flam3's filter and without spreading where points are
+//! few. Both sides throw the same number of points, so many that most pixels of the shape are hit often. Of random
+//! flames much is hit a thousand times less often than the rest, so that two runs of the same program agree on nine
+//! pixels in ten: there a pixel belongs to the support if [`MIN_HITS`] points hit it, and as many pixels of flam3's,
+//! the brightest under a white palette. **Overlap** is how much of all pixels of either support is in both.
 
 use std::path::Path;
 use std::process::Command;
@@ -23,7 +23,7 @@ const EVEN: Frame = Frame { size: [192; 2], quality: 600.0, spread: 0.0, filter:
 const UNEVEN: Frame = Frame { size: [80; 2], quality: 8000.0, spread: 0.0, filter: 0.0 };
 
 /// Points of a pixel of a random flame's support.
-const ENOUGH: u32 = 20;
+const MIN_HITS: u32 = 20;
 
 /// Runs a program of flam3 in a folder, with settings in its environment, and gives what it printed.
 fn flam3(program: &str, folder: &Path, settings: &[(&str, &str)]) -> Vec<u8> {
@@ -165,7 +165,7 @@ fn flames_of_flam3s_own_generator_are_read_as_flam3_draws_them() {
     assert_eq!((flames.len(), each(&text).count()), (10, 10));
     for (ifs, text) in flames.iter().zip(each(&text)) {
         let (ours, theirs) = (played(ifs, &UNEVEN), drawn(&reframed(text, ifs, &UNEVEN), &UNEVEN));
-        let ours: Vec<bool> = ours.iter().map(|count| *count >= ENOUGH).collect();
+        let ours: Vec<bool> = ours.iter().map(|count| *count >= MIN_HITS).collect();
         let count = ours.iter().filter(|enough| **enough).count();
         assert!(count > 100, "{count} pixels are too few to compare");
         let theirs = greatest(&theirs, count);

@@ -15,12 +15,12 @@ use weald::grid::Mask;
 use weald::random::{hash2, unit};
 use weald::{Field, Size};
 
-fn filled(height: &Field, land: Option<&Mask>) -> Routed {
-    route(height, land, &Routing::default())
+fn filled(height: &Field, valid: Option<&Mask>) -> Routed {
+    route(height, valid, &Routing::default())
 }
 
-fn breached(height: &Field, land: Option<&Mask>, deepest_breach: f64) -> Routed {
-    route(height, land, &Routing { depressions: Depressions::Breach, deepest_breach, ..Routing::default() })
+fn breached(height: &Field, valid: Option<&Mask>, deepest_breach: f64) -> Routed {
+    route(height, valid, &Routing { depressions: Depressions::Breach, deepest_breach, ..Routing::default() })
 }
 
 /// Random cells without data.
@@ -31,30 +31,30 @@ fn holes(size: Size, seed: u64, one_in: u64) -> Option<Mask> {
     )
 }
 
-fn is_land(land: Option<&Mask>, cell: usize) -> bool {
-    land.is_none_or(|land| land.is_land_at(cell))
+fn is_valid(valid: Option<&Mask>, cell: usize) -> bool {
+    valid.is_none_or(|valid| valid.is_valid_at(cell))
 }
 
 /// Whether water can leave from a cell: it is at the border, or beside a cell without data.
-fn at_the_rim(size: Size, land: Option<&Mask>, cell: usize) -> bool {
+fn at_the_rim(size: Size, valid: Option<&Mask>, cell: usize) -> bool {
     let neighbours = size.neighbours(cell);
-    size.neighbours(cell).count() < 8 || neighbours.into_iter().any(|other| !is_land(land, other))
+    size.neighbours(cell).count() < 8 || neighbours.into_iter().any(|other| !is_valid(valid, other))
 }
 
 /// Priority-flood with one queue of cells, straight from the publication.
-fn flooded(height: &Field, land: Option<&Mask>) -> Vec<f32> {
+fn flooded(height: &Field, valid: Option<&Mask>) -> Vec<f32> {
     let size = height.size();
     let whole = |level: f32| if level < 0.0 { !level.to_bits() as i32 } else { level.to_bits() as i32 | i32::MIN } as u32;
     let mut level = height.values().to_vec();
     let mut queue = BinaryHeap::new();
     let mut reached = vec![false; size.cells()];
-    for cell in (0..size.cells()).filter(|&cell| is_land(land, cell) && at_the_rim(size, land, cell)) {
+    for cell in (0..size.cells()).filter(|&cell| is_valid(valid, cell) && at_the_rim(size, valid, cell)) {
         queue.push(Reverse((whole(level[cell]), cell)));
         reached[cell] = true;
     }
     while let Some(Reverse((_, cell))) = queue.pop() {
         for other in size.neighbours(cell) {
-            if is_land(land, other) && !std::mem::replace(&mut reached[other], true) {
+            if is_valid(valid, other) && !std::mem::replace(&mut reached[other], true) {
                 level[other] = level[other].max(level[cell]);
                 queue.push(Reverse((whole(level[other]), other)));
             }
@@ -64,17 +64,17 @@ fn flooded(height: &Field, land: Option<&Mask>) -> Vec<f32> {
 }
 
 /// Every cell's water comes to an end, and no way rises.
-fn check_ways(routed: &Routed, land: Option<&Mask>) {
+fn check_paths(routed: &Routed, valid: Option<&Mask>) {
     let (directions, level) = (&routed.directions, routed.surface.values());
     let size = directions.size();
-    Directions::of(&directions.layer(), land).expect("no circles");
-    for cell in (0..size.cells()).filter(|&cell| is_land(land, cell)) {
+    Directions::of(&directions.layer(), valid).expect("no cycles");
+    for cell in (0..size.cells()).filter(|&cell| is_valid(valid, cell)) {
         match directions.downstream(cell) {
             // A channel from a hollow below the sea may be deeper than the sea where it ends.
             Some(next) => {
-                assert!(is_land(land, next) && (level[next] <= level[cell] || directions.is_sea(next)));
+                assert!(is_valid(valid, next) && (level[next] <= level[cell] || directions.is_sea(next)));
             }
-            None => assert!(directions.is_sea(cell) || at_the_rim(size, land, cell)),
+            None => assert!(directions.is_sea(cell) || at_the_rim(size, valid, cell)),
         }
     }
 }
@@ -95,13 +95,13 @@ proptest! {
         for value in height.values_mut() {
             *value = if step > 0.0 { (*value / step).round() * step } else { *value } - 11.0;
         }
-        let land = holes(height.size(), seed, one_in);
-        let routed = filled(&height, land.as_ref());
-        let expected = flooded(&height, land.as_ref());
-        for cell in (0..expected.len()).filter(|&cell| is_land(land.as_ref(), cell)) {
+        let valid = holes(height.size(), seed, one_in);
+        let routed = filled(&height, valid.as_ref());
+        let expected = flooded(&height, valid.as_ref());
+        for cell in (0..expected.len()).filter(|&cell| is_valid(valid.as_ref(), cell)) {
             prop_assert_eq!(routed.surface.values()[cell], expected[cell], "cell {}", cell);
         }
-        check_ways(&routed, land.as_ref());
+        check_paths(&routed, valid.as_ref());
     }
 
     #[test]
@@ -113,18 +113,18 @@ proptest! {
             // Whole metres make plateaus, also at the bottom of pits.
             height.values_mut().iter_mut().for_each(|value| *value = value.round());
         }
-        let land = holes(height.size(), seed, one_in);
-        let whole = breached(&height, land.as_ref(), f64::INFINITY);
-        check_ways(&whole, land.as_ref());
+        let valid = holes(height.size(), seed, one_in);
+        let whole = breached(&height, valid.as_ref(), f64::INFINITY);
+        check_paths(&whole, valid.as_ref());
         prop_assert!(whole.surface.values().iter().zip(height.values()).all(|(after, before)| after <= before));
         let by_the_sea = Routing {
             depressions: Depressions::Breach, sea_level: Some(12.0), ..Routing::default()
         };
-        check_ways(&route(&height, land.as_ref(), &by_the_sea), land.as_ref());
-        let partly = breached(&height, land.as_ref(), deepest);
-        check_ways(&partly, land.as_ref());
-        let fill = filled(&height, land.as_ref());
-        for cell in (0..height.values().len()).filter(|&cell| is_land(land.as_ref(), cell)) {
+        check_paths(&route(&height, valid.as_ref(), &by_the_sea), valid.as_ref());
+        let partly = breached(&height, valid.as_ref(), deepest);
+        check_paths(&partly, valid.as_ref());
+        let fill = filled(&height, valid.as_ref());
+        for cell in (0..height.values().len()).filter(|&cell| is_valid(valid.as_ref(), cell)) {
             let (after, before) = (partly.surface.values()[cell], height.values()[cell]);
             prop_assert!(before - after <= deepest as f32 + 1e-5, "cut by {}", before - after);
             prop_assert!(after <= fill.surface.values()[cell], "a breach never dams");
@@ -136,17 +136,17 @@ proptest! {
         seed in 0_u64..1 << 40, columns in 2_usize..80, rows in 2_usize..80, one_in in 5_u64..400, exponent in 0.0_f64..8.0,
     ) {
         let height = rough(columns, rows, 40.0, seed);
-        let land = holes(height.size(), seed, one_in);
-        let land = land.as_ref();
+        let valid = holes(height.size(), seed, one_in);
+        let valid = valid.as_ref();
         let rain = Field::from_function(height.size(), |x, y| unit(hash2(seed, x as i64, y as i64)) as f32);
         let fallen: f64 =
-            (0..height.values().len()).filter(|&cell| is_land(land, cell)).map(|cell| f64::from(rain.values()[cell])).sum();
-        let cells = land.map_or(columns * rows, Mask::land_cells) as f64;
-        let routed = filled(&height, land);
-        let flow = MultipleFlow { routed: &routed, land, exponent };
-        prop_assert_eq!(at_the_ends(&routed.directions, &accumulate(&routed.directions, land, None)), cells);
+            (0..height.values().len()).filter(|&cell| is_valid(valid, cell)).map(|cell| f64::from(rain.values()[cell])).sum();
+        let cells = valid.map_or(columns * rows, Mask::valid_cells) as f64;
+        let routed = filled(&height, valid);
+        let flow = MultipleFlow { routed: &routed, valid, exponent };
+        prop_assert_eq!(at_the_ends(&routed.directions, &accumulate(&routed.directions, valid, None)), cells);
         for (sums, whole) in [
-            (accumulate(&routed.directions, land, Some(&rain)), fallen),
+            (accumulate(&routed.directions, valid, Some(&rain)), fallen),
             (accumulate_multiple(&flow, None), cells),
             (accumulate_multiple(&flow, Some(&rain)), fallen),
         ] {
@@ -162,8 +162,8 @@ fn sums_are_those_of_a_plain_walk_from_every_cell() {
     let routed = filled(&height, None);
     let mut expected = vec![0.0; 3000];
     for cell in 0..3000 {
-        let way = std::iter::successors(Some(cell), |&cell| routed.directions.downstream(cell));
-        way.for_each(|cell| expected[cell] += 1.0);
+        let path = std::iter::successors(Some(cell), |&cell| routed.directions.downstream(cell));
+        path.for_each(|cell| expected[cell] += 1.0);
     }
     assert_eq!(accumulate(&routed.directions, None, None), expected);
     assert!(expected.iter().any(|&cells| cells > 200.0), "a river has formed");
@@ -172,16 +172,16 @@ fn sums_are_those_of_a_plain_walk_from_every_cell() {
 #[test]
 fn any_number_of_threads_gives_the_same_bits() {
     let height = rough(300, 200, 60.0, 9);
-    let land = holes(height.size(), 4, 900);
-    let land = land.as_ref();
+    let valid = holes(height.size(), 4, 900);
+    let valid = valid.as_ref();
     let rain = rough(300, 200, 1.0, 12);
     let with = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads start");
         pool.install(|| {
-            let (fill, breach) = (filled(&height, land), breached(&height, land, 3.0));
-            let flow = MultipleFlow { routed: &fill, land, exponent: 1.1 };
+            let (fill, breach) = (filled(&height, valid), breached(&height, valid, 3.0));
+            let flow = MultipleFlow { routed: &fill, valid, exponent: 1.1 };
             let sums =
-                [accumulate(&fill.directions, land, Some(&rain)), accumulate_multiple(&flow, Some(&rain))];
+                [accumulate(&fill.directions, valid, Some(&rain)), accumulate_multiple(&flow, Some(&rain))];
             let bits = sums.map(|sums| sums.into_iter().map(f64::to_bits).collect::<Vec<_>>());
             (fill, breach, bits)
         })
@@ -206,7 +206,7 @@ fn mirrored_and_turned_ground_has_mirrored_and_turned_flow() {
     let ground = Field::from_function(size, bowl);
     let flow_of = |ground: &Field| {
         let routed = filled(ground, None);
-        let flow = MultipleFlow { routed: &routed, land: None, exponent: 1.1 };
+        let flow = MultipleFlow { routed: &routed, valid: None, exponent: 1.1 };
         (accumulate(&routed.directions, None, None), accumulate_multiple(&flow, None))
     };
     let (steepest, spread) = flow_of(&ground);
@@ -246,7 +246,7 @@ fn flow_that_divides_covers_a_cone_evenly() {
     let from_middle = |x: usize, y: usize| libm::hypot(x as f64 - 100.0, y as f64 - 100.0);
     let cone = Field::from_function(size, |x, y| (500.0 - from_middle(x, y)) as f32);
     let routed = filled(&cone, None);
-    let flow = MultipleFlow { routed: &routed, land: None, exponent: 1.1 };
+    let flow = MultipleFlow { routed: &routed, valid: None, exponent: 1.1 };
     let spread = accumulate_multiple(&flow, None);
     let steepest = accumulate(&routed.directions, None, None);
     let worst = |sums: &[f64]| {
@@ -279,7 +279,7 @@ fn sea_is_what_the_border_reaches_and_water_ends_in_it() {
 }
 
 #[test]
-fn level_ground_drains_away_from_what_is_higher_through_its_middle() {
+fn flat_ground_drains_away_from_what_is_higher_through_its_middle() {
     // The publication's example in spirit: a level valley floor between walls, open at one end.
     let size = Size::new(21, 9).expect("legal");
     let floor = Field::from_function(size, |x, y| match (x, y) {

@@ -28,7 +28,7 @@ fn correlation(pairs: &[[f64; 2]]) -> f64 {
 /// Ours and theirs.
 struct Areas {
     routed: Routed,
-    land: Mask,
+    valid: Mask,
     ours: Vec<f64>,
     theirs: Vec<f32>,
 }
@@ -36,17 +36,17 @@ struct Areas {
 impl Areas {
     fn beside(path: &str) -> Self {
         let ground = read("../../data/jacksboro_fault_utm16_80m.tif");
-        let land = ground.land.expect("its corners have no data");
+        let land = ground.valid.expect("its corners have no data");
         let theirs = read(path);
-        assert_eq!(Some(&land), theirs.land.as_ref(), "the same cells have data");
+        assert_eq!(Some(&land), theirs.valid.as_ref(), "the same cells have data");
         let routed = route(&ground.field, Some(&land), &Routing::default());
         let ours = accumulate(&routed.directions, Some(&land), None);
-        Self { routed, land, ours, theirs: theirs.field.into_values() }
+        Self { routed, valid: land, ours, theirs: theirs.field.into_values() }
     }
 
     /// Correlation of the logarithms over some of the cells, of which many must be rivers.
     fn agreement(&self, takes_part: impl Fn(usize) -> bool) -> f64 {
-        let cells = (0..self.ours.len()).filter(|&cell| self.land.is_land_at(cell) && takes_part(cell));
+        let cells = (0..self.ours.len()).filter(|&cell| self.valid.is_valid_at(cell) && takes_part(cell));
         let pairs: Vec<_> = cells.map(|cell| [self.ours[cell], f64::from(self.theirs[cell])]).collect();
         let rivers = pairs.iter().filter(|pair| pair[1] > 1000.0).count();
         assert!(pairs.len() > 140_000 && rivers > 500, "{rivers} of {} cells are rivers", pairs.len());

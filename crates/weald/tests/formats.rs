@@ -26,7 +26,7 @@ fn read(path: &Path) -> Raster {
 }
 
 /// What is wrong with a fixture, in the words for the user.
-fn complaint(name: &str) -> String {
+fn diagnostic(name: &str) -> String {
     io::read(&fixture(name)).expect_err("a file that is not read").to_string()
 }
 
@@ -36,14 +36,14 @@ fn printed(name: &str) -> Vec<f32> {
     text.split_whitespace().map(|number| number.parse().expect("a number")).collect()
 }
 
-fn is_land(raster: &Raster, index: usize) -> bool {
-    raster.land.as_ref().is_none_or(|land| land.is_land_at(index))
+fn is_valid(raster: &Raster, index: usize) -> bool {
+    raster.valid.as_ref().is_none_or(|valid| valid.is_valid_at(index))
 }
 
 fn mean(raster: &Raster) -> f64 {
     let cells = raster.field.size().cells();
-    let land: Vec<usize> = (0..cells).filter(|&index| is_land(raster, index)).collect();
-    land.iter().map(|&index| f64::from(raster.field.values()[index])).sum::<f64>() / land.len() as f64
+    let valid: Vec<usize> = (0..cells).filter(|&index| is_valid(raster, index)).collect();
+    valid.iter().map(|&index| f64::from(raster.field.values()[index])).sum::<f64>() / valid.len() as f64
 }
 
 /// `gdalinfo -stats` and `gdallocationinfo -valonly data/jacksboro_fault_utm16_80m.tif X Y`, GDAL 3.6.2.
@@ -56,18 +56,18 @@ fn the_projected_model_is_read_as_gdal_reads_it() {
     assert_eq!(place.epsg, Some(32616));
     assert_eq!(place.origin, [730_900.757_145_892_6, 4_069_271.263_471_795]);
     assert_eq!(place.pixel, [80.0, 80.0]);
-    let land = raster.land.as_ref().expect("corners without data");
-    assert_eq!(land.land_cells(), 388 * 408 - 8809);
-    assert_eq!(raster.field.range(Some(land)), Some((237.067_14, 1_073.456_3)));
+    let valid = raster.valid.as_ref().expect("corners without data");
+    assert_eq!(valid.valid_cells(), 388 * 408 - 8809);
+    assert_eq!(raster.field.range(Some(valid)), Some((237.067_14, 1_073.456_3)));
     assert!((mean(&raster) - 531.009_736_557_51).abs() < 1e-9, "mean {}", mean(&raster));
     for (x, y, height) in
         [(194, 204, 578.667_36), (37, 12, 521.479_9), (10, 10, 403.360_87), (5, 200, 601.385_86)]
     {
         assert_eq!(raster.field.at(x, y), height, "column {x}, row {y}");
-        assert!(land.is_land(x, y));
+        assert!(valid.is_valid(x, y));
     }
     for (x, y) in [(0, 0), (0, 407), (387, 0), (387, 407)] {
-        assert!(!land.is_land(x, y), "column {x}, row {y} holds -9999 in the file");
+        assert!(!valid.is_valid(x, y), "column {x}, row {y} holds -9999 in the file");
     }
 }
 
@@ -76,7 +76,7 @@ fn the_projected_model_is_read_as_gdal_reads_it() {
 fn the_geographic_model_is_read_as_gdal_reads_it() {
     let raster = read(&data("jacksboro_fault_srtm_wgs84.tif"));
     assert_eq!(raster.field.size(), Size { columns: 403, rows: 344 });
-    assert_eq!((raster.stored, raster.cell, &raster.land), ("int16", None, &None));
+    assert_eq!((raster.stored, raster.cell, &raster.valid), ("int16", None, &None));
     let place = raster.georeference.as_ref().expect("georeferenced");
     assert_eq!(place.epsg, Some(4326));
     assert!(place.is_geographic());
@@ -106,7 +106,7 @@ fn every_way_to_store_floats_gives_the_same_raster() {
         let raster = read(&fixture(name));
         assert_eq!(raster.stored, stored, "{name}");
         for (index, &number) in expected.iter().enumerate() {
-            assert_eq!(is_land(&raster, index), number != -9999.0, "{name}, cell {index}");
+            assert_eq!(is_valid(&raster, index), number != -9999.0, "{name}, cell {index}");
             let value = if number == -9999.0 { 0.0 } else { number };
             assert_eq!(raster.field.values()[index], value, "{name}, cell {index}");
         }
@@ -129,7 +129,7 @@ fn every_way_to_store_integers_gives_the_same_raster() {
     ] {
         let raster = read(&fixture(name));
         assert_eq!((raster.field.values(), raster.stored), (expected.as_slice(), stored), "{name}");
-        assert_eq!(raster.land, None, "{name}");
+        assert_eq!(raster.valid, None, "{name}");
     }
     for (name, stored, share) in
         [("uint8.tif", "uint8", 255.0 / 1020.0), ("int8.tif", "int8", 127.0 / 1020.0)]
@@ -163,19 +163,19 @@ fn survey_feet_become_metres() {
 #[test]
 fn tiles_that_a_sparse_file_leaves_out_are_no_data() {
     let raster = read(&fixture("sparse.tif"));
-    assert_eq!(raster.land.map(|land| land.land_cells()), Some(0));
+    assert_eq!(raster.valid.map(|valid| valid.valid_cells()), Some(0));
 }
 
 #[test]
 fn files_of_an_unread_kind_say_what_would_be_read() {
-    assert!(complaint("two_bands.tif").contains("2 bands; choose one with `gdal_translate -b 1"));
-    assert!(complaint("zstd.tif").contains("compression 50000"));
-    assert!(complaint("mask.tif").contains("mask of their own"));
-    assert!(complaint("rotated.tif").contains("rotated or sheared"));
-    let undeclared = complaint("nan_undeclared.tif");
+    assert!(diagnostic("two_bands.tif").contains("2 bands; choose one with `gdal_translate -b 1"));
+    assert!(diagnostic("zstd.tif").contains("compression 50000"));
+    assert!(diagnostic("mask.tif").contains("mask of their own"));
+    assert!(diagnostic("rotated.tif").contains("rotated or sheared"));
+    let undeclared = diagnostic("nan_undeclared.tif");
     assert!(undeclared.contains("column 0, row 0 holds NaN"), "{undeclared}");
     assert!(undeclared.contains("gdal_translate -a_nodata nan"), "{undeclared}");
-    assert!(complaint("README.md").contains(".tif .tiff .png .exr"));
+    assert!(diagnostic("README.md").contains(".tif .tiff .png .exr"));
 }
 
 #[test]
@@ -286,7 +286,7 @@ proptest! {
         let bytes = geotiff::encode(&raster).expect("finite");
         let again = geotiff::decode(&bytes, Limits::default()).expect("our own file");
         prop_assert_eq!(bits(&again), bits(&raster));
-        prop_assert_eq!(&again.land, &raster.land);
+        prop_assert_eq!(&again.valid, &raster.valid);
         prop_assert_eq!(&again.provenance, &raster.provenance);
         prop_assert_eq!(again.cell, raster.cell);
         let place = again.georeference.as_ref().expect("written");
@@ -300,7 +300,7 @@ proptest! {
         let bytes = npy::encode(&raster).expect("finite");
         prop_assert_eq!(bytes.len() % 64, raster.field.size().cells() * 4 % 64);
         let again = npy::decode(&bytes, Limits::default()).expect("our own file");
-        prop_assert_eq!((bits(&again), again.land), (bits(&raster), raster.land));
+        prop_assert_eq!((bits(&again), again.valid), (bits(&raster), raster.valid));
     }
 
     #[test]
@@ -313,10 +313,10 @@ proptest! {
         }
         raster.cell = Some(0.1);
         raster.provenance = Some(provenance());
-        let range = raster.field.range(raster.land.as_ref()).unwrap_or_default();
+        let range = raster.field.range(raster.valid.as_ref()).unwrap_or_default();
         raster.provenance.as_mut().expect("set").range = (f64::from(range.0), f64::from(range.1));
         let again = png16::decode(&png16::encode(&raster).expect("finite"), Limits::default()).expect("our own file");
-        prop_assert_eq!((&again.land, again.cell, &again.provenance), (&raster.land, raster.cell, &raster.provenance));
+        prop_assert_eq!((&again.valid, again.cell, &again.provenance), (&raster.valid, raster.cell, &raster.provenance));
         let half_a_step = 0.5 * f64::from(range.1 - range.0) / 65534.0;
         // What an f32 near the value cannot tell apart comes on top.
         let rounding = f64::from(range.0.abs().max(range.1.abs())) * 1.2e-7;
@@ -356,11 +356,11 @@ fn a_no_data_number_is_never_a_value_of_the_data() {
         let mut values = heights.to_vec();
         values.push(0.0);
         let size = Size { columns: 3, ..size };
-        let land = Mask::new(size, vec![true, true, false]);
-        let raster = Raster { land, ..Raster::from(Field::from_values(size, values)) };
+        let valid = Mask::new(size, vec![true, true, false]);
+        let raster = Raster { valid, ..Raster::from(Field::from_values(size, values)) };
         let bytes = geotiff::encode(&raster).expect("finite");
         let again = geotiff::decode(&bytes, Limits::default()).expect("our own file");
-        assert_eq!((again.land, again.field), (raster.land, raster.field));
+        assert_eq!((again.valid, again.field), (raster.valid, raster.field));
     }
 }
 

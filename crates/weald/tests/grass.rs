@@ -119,7 +119,7 @@ fn a_rectangle_holds_its_sets_alone_and_too_many_are_over_a_stated_limit() {
 }
 
 #[test]
-fn grass_that_no_step_grows_and_areas_that_are_none_are_told_before_anything_runs() {
+fn grass_that_no_step_grows_and_areas_that_are_none_are_reported_before_anything_runs() {
     let refused = |of: &str, area: &str| {
         let text = format!(
             "[landscape]\nsize = 16\n[[step]]\ndo = \"fbm\"\n[[step]]\ndo = \"constant\"\ninto = \"even\"\n[[step]]\n\

@@ -10,7 +10,7 @@ use weald::generate::fbm::Fbm;
 use weald::generate::ridged::Ridged;
 use weald::generate::warp::Warp;
 use weald::recipe::catalog::CATALOG;
-use weald::recipe::parameter::{Complaints, LayerName};
+use weald::recipe::parameter::{Diagnostics, LayerName};
 use weald::recipe::source;
 use weald::step::{Stage, Step};
 use weald::{Domain, Field, Landscape, Size};
@@ -110,7 +110,7 @@ fn slopes_by_direction(field: &Field) -> [f64; 8] {
     let mut sums = [0.0; 8];
     let apart = 4_i64;
     let diagonal = 3_i64;
-    let ways = [
+    let shifts = [
         (apart, 0),
         (apart, 2),
         (diagonal, diagonal),
@@ -120,7 +120,7 @@ fn slopes_by_direction(field: &Field) -> [f64; 8] {
         (-diagonal, diagonal),
         (-apart, 2),
     ];
-    for (sum, (dx, dy)) in sums.iter_mut().zip(ways) {
+    for (sum, (dx, dy)) in sums.iter_mut().zip(shifts) {
         for y in 8..size.rows - 8 {
             for x in 8..size.columns - 8 {
                 let there = field.at((x as i64 + dx) as usize, (y as i64 + dy) as usize);
@@ -178,7 +178,7 @@ fn every_generator_of_the_catalogue_fills_a_single_cell_and_a_single_row() {
     for entry in CATALOG.iter().filter(|entry| entry.stage == Stage::Generate) {
         for (columns, rows) in [(1, 1), (1, 9), (9, 1)] {
             let table = source::parse("recipe", "").expect("empty");
-            let step = (entry.read)(&table, &mut Complaints::default());
+            let step = (entry.read)(&table, &mut Diagnostics::default());
             let mut landscape = Landscape::new(domain(columns, rows, 10.0));
             step.run(&mut landscape, &Job::unwatched(1)).expect("runs");
             assert_eq!(

@@ -105,7 +105,7 @@ fn ground(masked: bool) -> Landscape {
     }
     if masked {
         let has_data = |at: usize| !(5..8).contains(&(at % COLUMNS)) || !(4..9).contains(&(at / COLUMNS));
-        land.domain.land = Mask::new(size, (0..size.cells()).map(has_data).collect());
+        land.domain.valid = Mask::new(size, (0..size.cells()).map(has_data).collect());
     }
     land
 }
@@ -114,8 +114,8 @@ fn ground(masked: bool) -> Landscape {
 fn inside(land: &Landscape, at: usize) -> Option<(usize, usize)> {
     let columns = COLUMNS + 2;
     let (x, y) = ((at % columns).checked_sub(1)?, (at / columns).checked_sub(1)?);
-    let has_data = |mask: &Mask| mask.is_land(x, y);
-    (x < COLUMNS && y < ROWS && land.domain.land.as_ref().is_none_or(has_data)).then_some((x, y))
+    let has_data = |mask: &Mask| mask.is_valid(x, y);
+    (x < COLUMNS && y < ROWS && land.domain.valid.as_ref().is_none_or(has_data)).then_some((x, y))
 }
 
 /// Values within a ring of cells without data.
@@ -176,7 +176,7 @@ fn compare(keys: &Hydraulic, masked: bool) {
     (0..STEPS).for_each(|number| reference.step(keys, number));
     let mut after = before.clone();
     run(keys, &mut after);
-    let land = &reference.world.land;
+    let land = &reference.world.valid;
     let sediment: Vec<_> =
         reference.world.sediment.iter().zip(land).map(|(s, land)| if *land { *s } else { 0.0 }).collect();
     assert_alike("water", &layer(&after, "water"), &reference.world.depth, keys);

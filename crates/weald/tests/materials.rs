@@ -172,7 +172,7 @@ fn load_scales_shifts_and_resamples() {
 fn cells_without_data_need_a_value_where_the_landscape_has_ground() {
     let place = Place::new();
     let holes = Mask::new(thickness().size(), (0..SIDE * SIDE).map(|cell| cell != 17).collect());
-    place.raster("holes.tif", Raster { land: holes, ..thickness().into() });
+    place.raster("holes.tif", Raster { valid: holes, ..thickness().into() });
     let keys = "file = \"holes.tif\"\ninto = \"sand\"\n";
     let text = |more: &str| recipe("", &load(&format!("{keys}{more}")), &output("sand", "sand.tif"));
     let message = place.landscape(&text("")).expect_err("a hole").to_string();
@@ -218,29 +218,32 @@ fn materials_survive_a_change_of_resolution() {
 }
 
 #[test]
-fn steps_that_do_not_go_with_the_materials_are_told_before_anything_runs() {
-    let told = |step: &str, part: &str| {
+fn steps_that_do_not_go_with_the_materials_are_reported_before_anything_runs() {
+    let assert_refused = |step: &str, part: &str| {
         let message = refusal(&recipe(STRATA, step, &output("clay", "clay.tif")));
         assert!(message.starts_with("r.toml:") && message.contains(part), "{message}");
     };
     let hydraulic = "[[step]]\ndo = \"hydraulic\"\nmodel = \"stava\"\n";
-    told(&format!("{hydraulic}deposit = \"caly\"\n"), "`deposit` is \"caly\"");
-    told(&format!("{hydraulic}deposit = \"caly\"\n"), "did you mean `clay`?");
-    told(&format!("{hydraulic}slippage = {{ strength = 0.07 }}\n"), "at most 0.25 / 4 = 0.0625");
-    told("[[step]]\ndo = \"slippage\"\nstrength = 0.07\n", "slippage: `strength` is 0.07");
+    assert_refused(&format!("{hydraulic}deposit = \"caly\"\n"), "`deposit` is \"caly\"");
+    assert_refused(&format!("{hydraulic}deposit = \"caly\"\n"), "did you mean `clay`?");
+    assert_refused(&format!("{hydraulic}slippage = {{ strength = 0.07 }}\n"), "at most 0.25 / 4 = 0.0625");
+    assert_refused("[[step]]\ndo = \"slippage\"\nstrength = 0.07\n", "slippage: `strength` is 0.07");
     let water = "[[step]]\ndo = \"constant\"\ninto = \"water\"\n";
-    told(&format!("{water}[[step]]\ndo = \"dissolution\"\ndeposit = \"mud\"\n"), "`deposit` is \"mud\"");
+    assert_refused(
+        &format!("{water}[[step]]\ndo = \"dissolution\"\ndeposit = \"mud\"\n"),
+        "`deposit` is \"mud\"",
+    );
     let stable =
         recipe(STRATA, &format!("{hydraulic}slippage = {{ strength = 0.0625 }}\n"), &output("clay", "c.tif"));
     Recipe::parse("r.toml", &stable, &Overrides::default()).expect("that much is stable");
 }
 
 #[test]
-fn a_file_that_is_not_there_is_told_before_the_first_step() {
+fn a_file_that_is_not_there_is_reported_before_the_first_step() {
     let place = Place::new();
     let recipe =
         place.recipe(&recipe("", &load("file = \"none.tif\"\ninto = \"sand\"\n"), &output("sand", "s.tif")));
-    let steps = Heard(AtomicUsize::new(0));
+    let steps = StepCounter(AtomicUsize::new(0));
     let options = Options::into_folder(place.path("out"));
     let error = Run { recipe: &recipe, options }.execute(&steps).expect_err("no such file");
     assert_eq!((error.exit_code(), steps.0.into_inner()), (4, 0), "{error}");
@@ -248,9 +251,9 @@ fn a_file_that_is_not_there_is_told_before_the_first_step() {
 }
 
 /// Counts the steps that begin.
-struct Heard(AtomicUsize);
+struct StepCounter(AtomicUsize);
 
-impl Progress for Heard {
+impl Progress for StepCounter {
     fn step(&self, _: usize, _: usize, _: &str) {
         self.0.fetch_add(1, Ordering::Relaxed);
     }

@@ -26,12 +26,13 @@ const CELL: f64 = 25.0;
 fn mountains(hole: bool) -> Landscape {
     let size = Size::new(COLUMNS, ROWS).expect("small");
     let height = common::rough(COLUMNS, ROWS, 400.0, 5);
-    let is_land =
+    let is_valid =
         |cell: usize| (cell % COLUMNS).abs_diff(30).pow(2) + (cell / COLUMNS).abs_diff(20).pow(2) > 90;
-    let land = if hole { Mask::new(size, (0..size.cells()).map(is_land).collect()) } else { None };
+    let land = if hole { Mask::new(size, (0..size.cells()).map(is_valid).collect()) } else { None };
     let place =
         Georeference { epsg: Some(32616), origin: [730_900.0, 4_069_271.25], pixel: [CELL; 2], keys: None };
-    let mut landscape = Landscape::new(Domain { land, georeference: Some(place), ..Domain::new(size, CELL) });
+    let mut landscape =
+        Landscape::new(Domain { valid: land, georeference: Some(place), ..Domain::new(size, CELL) });
     landscape.materials = ["rock", "sand"].iter().filter_map(|name| Material::built_in(name)).collect();
     let water = Field::from_function(size, |x, y| (150.0 - height.at(x, y)).max(0.0));
     landscape.insert(
@@ -114,7 +115,7 @@ fn blender_finds_a_mesh_in_metres_with_north_at_y_and_with_the_same_normals_and_
     let found = said(Command::new(python).arg(root().join("clients/blender_mesh.py")).arg(&path));
     let (terrain, water) = (&found["terrain"], &found["water"]);
     let (low, high) =
-        landscape.field("height").expect("there").range(landscape.domain.land.as_ref()).expect("land");
+        landscape.field("height").expect("there").range(landscape.domain.valid.as_ref()).expect("land");
     let half = [COLUMNS, ROWS].map(|count| 0.5 * (count as f64 - 1.0) * CELL);
     let number = |value: &Value| value.as_f64().expect("a number");
     for (bound, sign, height) in [("low", -1.0, low), ("high", 1.0, high)] {
@@ -190,7 +191,7 @@ fn a_file_says_how_true_it_is_and_where_it_lies() {
 #[test]
 fn ground_that_has_no_triangle_is_refused_with_a_reason() {
     let refused = |size: Size, land: Option<Mask>| {
-        let mut landscape = Landscape::new(Domain { land, ..Domain::new(size, CELL) });
+        let mut landscape = Landscape::new(Domain { valid: land, ..Domain::new(size, CELL) });
         landscape.insert("height", "m", Field::filled(size, 1.0));
         let finished =
             Finished { landscape: &landscape, steps: &[], recipe: "r.toml", hash: "af13", seed: 7 };

@@ -24,7 +24,7 @@ fn eroded(seed: u64, keys: &str) -> NetworkMeasures {
         mean_flux_y: field("flux_y"),
         mean_rain: 0.005,
         cell: 1.0,
-        land: None,
+        valid: None,
     })
 }
 

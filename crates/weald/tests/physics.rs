@@ -88,7 +88,7 @@ fn a_lake_at_rest_stays_at_rest_for_ten_thousand_steps() {
         let fastest = land.field("flux_x").expect("written").values().iter().zip(water.values());
         let fastest = fastest.filter(|(_, depth)| **depth > 0.01).map(|(flux, depth)| (flux / depth).abs());
         let fastest = fastest.fold(0.0, f32::max);
-        assert!(fastest < 1e-6, "{model}: water moves at {fastest} cells a step");
+        assert!(fastest < 1e-6, "{model}: water moves at {fastest} cells per step");
         let lowered = worst_difference(&water, land.field("water").expect("written"));
         assert!(lowered < 1e-5, "{model}: the level moved by {lowered} m");
         assert_eq!(land.field("height").expect("h"), &ground, "{model}: water at rest carves nothing");
@@ -167,15 +167,15 @@ fn cells_without_data_take_no_part() {
     let eroded = |outside: f32, boundary| {
         let inside = rough(50, 40, 15.0, 2);
         let ground =
-            Field::from_function(size, |x, y| if mask.is_land(x, y) { inside.at(x, y) } else { outside });
+            Field::from_function(size, |x, y| if mask.is_valid(x, y) { inside.at(x, y) } else { outside });
         let mut land = landscape(ground);
-        land.domain.land = Some(mask.clone());
+        land.domain.valid = Some(mask.clone());
         let thermal = Some(Nested(ThermalWithin::default()));
         let step = with!(hydraulic(300), [Han] { thermal: thermal });
         let budget = run(&Hydraulic { boundary, ..step }, &mut land).budget.expect("a budget");
         let height = land.field("height").expect("h");
         let values: Vec<f32> =
-            (0..size.cells()).filter(|&at| mask.is_land_at(at)).map(|at| height.values()[at]).collect();
+            (0..size.cells()).filter(|&at| mask.is_valid_at(at)).map(|at| height.values()[at]).collect();
         (values, budget)
     };
     for boundary in [Boundary::Closed, Boundary::Open] {

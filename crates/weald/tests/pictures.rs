@@ -113,7 +113,7 @@ fn lakes_and_rivers_are_blue_and_the_film_of_rain_is_not_drawn() {
 }
 
 #[test]
-fn the_tint_of_level_ground_is_lighter_the_higher_it_lies_in_the_alpine_ramp() {
+fn the_tint_of_flat_ground_is_lighter_the_higher_it_lies_in_the_alpine_ramp() {
     let steps = ground(64, 64, |x, _| (x / 16) as f32 * 100.0);
     let image = draw(&Relief { ramp: Tint::Alpine, exaggeration: Some(0.01), ..plain() }, &steps);
     let terraces: Vec<f64> = [8, 24, 40, 56].map(|x| lightness(&image, x, 32)).to_vec();
@@ -125,7 +125,7 @@ fn no_data_stays_paper_and_land_beside_it_is_drawn() {
     let mut landscape = hills(64);
     let size = landscape.domain.size;
     let hole = |cell: usize| cell % 64 > 40 || cell / 64 < 5;
-    landscape.domain.land = Mask::new(size, (0..size.cells()).map(|cell| !hole(cell)).collect());
+    landscape.domain.valid = Mask::new(size, (0..size.cells()).map(|cell| !hole(cell)).collect());
     let field = landscape.field("height").expect("is there").clone();
     let holed = Field::from_function(size, |x, y| if hole(64 * y + x) { f32::NAN } else { field.at(x, y) });
     landscape.insert("height", "m", holed);
@@ -139,7 +139,7 @@ fn no_data_stays_paper_and_land_beside_it_is_drawn() {
 }
 
 #[test]
-fn level_ground_with_one_pit_keeps_the_colour_of_its_tint() {
+fn flat_ground_with_one_pit_keeps_the_colour_of_its_tint() {
     let pitted = ground(64, 64, |x, y| if (x, y) == (20, 20) { -300.0 } else { 7.0 });
     let image = draw(&plain(), &pitted);
     assert!(lightness(&image, 50, 50) > 0.75, "{:?}", image.pixel(50, 50));
@@ -148,7 +148,7 @@ fn level_ground_with_one_pit_keeps_the_colour_of_its_tint() {
 #[test]
 fn a_landscape_without_land_is_a_sheet_of_paper() {
     let mut landscape = ground(8, 8, |_, _| 0.0);
-    landscape.domain.land = Mask::new(landscape.domain.size, vec![false; 64]);
+    landscape.domain.valid = Mask::new(landscape.domain.size, vec![false; 64]);
     let image = draw(&plain(), &landscape);
     assert_eq!(image, Image::paper(image.width, image.height));
 }

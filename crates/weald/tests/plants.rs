@@ -191,7 +191,7 @@ fn a_cloud_says_what_its_numbers_are_and_has_them_all() {
 }
 
 #[test]
-fn plants_that_no_step_sets_and_fractals_that_there_are_not_are_told_before_anything_runs() {
+fn plants_that_no_step_sets_and_fractals_that_there_are_not_are_reported_before_anything_runs() {
     let refused = |plant: &str, of: &str| {
         let text = format!(
             "[landscape]\nsize = 16\n[[step]]\ndo = \"fbm\"\n[[step]]\ndo = \"scatter\"\nplant = \"{plant}\"\n\

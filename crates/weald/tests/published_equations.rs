@@ -95,18 +95,18 @@ fn ground(masked: bool) -> Landscape {
     if masked {
         let size = land.domain.size;
         let has_data = |at: usize| !(5..8).contains(&(at % COLUMNS)) || !(4..9).contains(&(at / COLUMNS));
-        land.domain.land = Mask::new(size, (0..size.cells()).map(has_data).collect());
+        land.domain.valid = Mask::new(size, (0..size.cells()).map(has_data).collect());
     }
     land
 }
 
 /// The same world for the reference, within a ring of cells without data.
 fn ringed(land: &Landscape, boundary: Boundary) -> World {
-    let (height, mask) = (land.field("height").expect("h"), land.domain.land.as_ref());
+    let (height, mask) = (land.field("height").expect("h"), land.domain.valid.as_ref());
     let columns = COLUMNS + 2;
     let inside = |at: usize| {
         let (x, y) = ((at % columns).checked_sub(1)?, (at / columns).checked_sub(1)?);
-        (x < COLUMNS && y < ROWS && mask.is_none_or(|mask| mask.is_land(x, y))).then_some((x, y))
+        (x < COLUMNS && y < ROWS && mask.is_none_or(|mask| mask.is_valid(x, y))).then_some((x, y))
     };
     let cells = 0..columns * (ROWS + 2);
     let start = cells.clone().map(|at| inside(at).map_or(0.0, |(x, y)| f64::from(height.at(x, y)))).collect();
@@ -137,7 +137,7 @@ fn compare(keys: &Hydraulic, masked: bool) {
     let mut land = ground(masked);
     let mut world = ringed(&land, keys.boundary);
     let cycle = keys.rain_period + Numbers::of(keys).dry_period;
-    let mut means = [(); 2].map(|()| vec![0.0; world.land.len()]);
+    let mut means = [(); 2].map(|()| vec![0.0; world.valid.len()]);
     for number in 0..keys.iterations {
         world.step(keys, number);
         if number >= keys.iterations - cycle {
@@ -146,7 +146,7 @@ fn compare(keys: &Hydraulic, masked: bool) {
             }
         }
     }
-    for at in (0..world.land.len()).filter(|&at| !world.land[at]) {
+    for at in (0..world.valid.len()).filter(|&at| !world.valid[at]) {
         world.sediment[at] = 0.0;
         for mean in &mut means {
             mean[at] = 0.0;

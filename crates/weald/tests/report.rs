@@ -30,7 +30,7 @@ fn page_of_a_run() -> String {
 fn land() -> Landscape {
     let size = Size::new(60, 50).expect("small");
     let flags: Vec<bool> = (0..size.cells()).map(|cell| cell % 60 + cell / 60 > 12).collect();
-    let mut landscape = Landscape::new(Domain { land: Mask::new(size, flags), ..Domain::new(size, 30.0) });
+    let mut landscape = Landscape::new(Domain { valid: Mask::new(size, flags), ..Domain::new(size, 30.0) });
     let height = |x: usize, y: usize| {
         4.0 * (x as f32 - 30.0).abs() + 3.0 * y as f32 + 0.3 * ((x * 7 + y * 3) % 5) as f32
     };
@@ -109,8 +109,8 @@ fn the_bars_of_the_histogram_hold_every_cell_with_data_once() {
     let page = page(&land);
     let sum =
         judged(&page, "sum(int(r.get('data-cells')) for r in root.iter('rect') if r.get('class') == 'bar')");
-    assert!(land.domain.land_cells() < 3000, "some cells have no data");
-    assert_eq!(sum, land.domain.land_cells().to_string());
+    assert!(land.domain.valid_cells() < 3000, "some cells have no data");
+    assert_eq!(sum, land.domain.valid_cells().to_string());
 }
 
 /// Points of the first line of a class: across and down.

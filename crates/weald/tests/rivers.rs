@@ -8,7 +8,7 @@ use weald::engine::Job;
 use weald::grid::Mask;
 use weald::random::{hash2, unit};
 use weald::recipe::catalog::CATALOG;
-use weald::recipe::parameter::{Complaints, LayerName};
+use weald::recipe::parameter::{Diagnostics, LayerName};
 use weald::recipe::source::Table;
 use weald::step::{Entry, Stage, Step};
 use weald::{Domain, Field, Landscape, Size};
@@ -29,8 +29,8 @@ fn ground(entry: &Entry, seed: u64) -> Landscape {
     let size = Size::new(COLUMNS, ROWS).expect("legal");
     let holes = (0..size.cells()).map(|cell| !hash2(seed, cell as i64, 1).is_multiple_of(60)).collect();
     let land = if seed % 2 == 1 { Mask::new(size, holes) } else { None };
-    let mut landscape = Landscape::new(Domain { land, ..Domain::new(size, 20.0) });
-    let step = (entry.read)(&Table::default(), &mut Complaints::default());
+    let mut landscape = Landscape::new(Domain { valid: land, ..Domain::new(size, 20.0) });
+    let step = (entry.read)(&Table::default(), &mut Diagnostics::default());
     run(step.as_ref(), &mut landscape, seed);
     landscape
 }
@@ -40,7 +40,7 @@ fn analysed(entry: &Entry, seed: u64) -> Landscape {
     let mut land = ground(entry, seed);
     let choice = |at: i64, of: u64| hash2(seed, at, 9) % of;
     let (low, high) =
-        land.field("height").map(|h| h.range(land.domain.land.as_ref())).expect("h").expect("cells");
+        land.field("height").map(|h| h.range(land.domain.valid.as_ref())).expect("h").expect("cells");
     let sea_level = (choice(1, 3) == 0).then(|| f64::from(low) + 0.3 * f64::from(high - low));
     let breached = choice(2, 3) == 0;
     let flow = FlowStep {
@@ -69,7 +69,7 @@ fn analysed(entry: &Entry, seed: u64) -> Landscape {
 
 fn at_the_rim(land: &Landscape, cell: usize) -> bool {
     let size = land.domain.size;
-    let has_data = |cell: usize| land.domain.land.as_ref().is_none_or(|land| land.is_land_at(cell));
+    let has_data = |cell: usize| land.domain.valid.as_ref().is_none_or(|valid| valid.is_valid_at(cell));
     size.neighbours(cell).filter(|&other| has_data(other)).count() < 8
 }
 
@@ -89,7 +89,7 @@ fn check_end_of(land: &Landscape, start: usize) {
         let (east, south) = STEPS[codes[cell] as usize - 1];
         cell = cell.wrapping_add_signed(south * COLUMNS as isize + east);
     }
-    panic!("water of cell {start} flows in circles");
+    panic!("water of cell {start} flows in a cycle");
 }
 
 fn check_reach(land: &Landscape, rivers: &Rivers, at: usize) {
@@ -176,11 +176,11 @@ fn own_points(reach: &Reach) -> usize {
 
 fn check_rain(land: &Landscape) {
     let directions =
-        Directions::of(land.field("flow_direction").expect("d"), land.domain.land.as_ref()).expect("right");
-    let has_data = |cell: usize| land.domain.land.as_ref().is_none_or(|land| land.is_land_at(cell));
+        Directions::of(land.field("flow_direction").expect("d"), land.domain.valid.as_ref()).expect("right");
+    let has_data = |cell: usize| land.domain.valid.as_ref().is_none_or(|valid| valid.is_valid_at(cell));
     let ends = || (0..COLUMNS * ROWS).filter(|&cell| has_data(cell) && directions.downstream(cell).is_none());
     let sum = |name: &str| ends().map(|cell| f64::from(values(land, name)[cell])).sum::<f64>();
-    let area = land.domain.land_cells() as f64 * 400.0;
+    let area = land.domain.valid_cells() as f64 * 400.0;
     assert!((sum("accumulation") / area - 1.0).abs() < 1e-6, "{} of {area}", sum("accumulation"));
     let fallen =
         (0..COLUMNS * ROWS).filter(|&cell| has_data(cell)).map(|cell| f64::from(values(land, "rain")[cell]));
@@ -243,7 +243,7 @@ fn width_and_depth_follow_from_discharge() {
     assert!((point.depth / (0.27 * discharge.powf(0.4)) - 1.0).abs() < 1e-5);
 }
 
-/// A round bowl 40 m deep and 500 m wide within level ground, with a notch 10 m deep.
+/// A round bowl 40 m deep and 500 m wide within flat ground, with a notch 10 m deep.
 fn bowl() -> Landscape {
     let size = Size::square(121).expect("legal");
     let height = Field::from_function(size, |x, y| {
@@ -282,7 +282,7 @@ fn the_water_of_a_simulation_is_a_lake_where_it_is_deep_and_wide() {
     land.insert("water", "m", Field::from_values(size, water));
     run(&LakesStep { from: Source::Water, ..LakesStep::default() }, &mut land, 1);
     let lakes = Lakes::of(&land).expect("the layers are there").lakes;
-    assert_eq!(lakes.len(), 1, "a film of rain is no lake");
+    assert_eq!(lakes.len(), 1, "a thin sheet of rain is no lake");
     assert!((lakes[0].level - 75.0).abs() < 1e-4);
     assert!((lakes[0].deepest - 15.0).abs() < 1e-4);
     run(&LakesStep { from: Source::Water, depth: 20.0, ..LakesStep::default() }, &mut land, 1);

@@ -5,10 +5,10 @@ use std::path::{Path, PathBuf};
 
 use naga::valid::{Capabilities, GlobalUse, ModuleInfo, ValidationFlags, Validator};
 use naga::{AddressSpace, ArraySize, Module, Scalar, StructMember, TypeInner, VectorSize};
-use weald::engine::program::{GROUP, MOST_BUFFERS, Pass, Program, Uniforms};
+use weald::engine::program::{GROUP, MAX_BUFFERS, Pass, Program, Uniforms};
 use weald::grow::SHADERS;
 use weald::grow::grass::{Bend, Grasses, SPECIES};
-use weald::grow::ifs::device::{Rules, Stretch};
+use weald::grow::ifs::device::{DispatchRange, Rules};
 use weald::grow::ifs::shader::Shader;
 use weald::grow::ifs::wind::{Plant, Pose};
 use weald::grow::ifs::{Game, Sway, shapes};
@@ -70,7 +70,7 @@ fn every_pass_uses_what_it_declares_and_no_more_than_browsers_allow() {
             let writes = used.contains(GlobalUse::WRITE);
             assert_eq!(writes, written || name == "sums", "{} {}: `{name}`", program.name, pass.name);
         }
-        assert!((1..=MOST_BUFFERS).contains(&count), "{} {}: {count}", program.name, pass.name);
+        assert!((1..=MAX_BUFFERS).contains(&count), "{} {}: {count}", program.name, pass.name);
     }
 }
 
@@ -237,22 +237,22 @@ fn shaders_of_plants_are_valid_and_bound_in_the_order_of_their_lists() {
             assert!(!found.is_empty() && found.contains(GlobalUse::WRITE) == written, "{name}: {found:?}");
         }
         assert_eq!(module.global_variables.len(), uniforms + shader.buffers.len(), "{}", shader.name);
-        assert!(shader.buffers.len() <= MOST_BUFFERS, "{}", shader.name);
+        assert!(shader.buffers.len() <= MAX_BUFFERS, "{}", shader.name);
     }
 }
 
 #[test]
 fn structs_of_plants_lie_in_memory_as_their_twins_do() {
     let ifs = shapes::find("fern").expect("built in").ifs();
-    let stretch = Uniforms::of(&Stretch { first: 0, points: 0 });
+    let range = Uniforms::of(&DispatchRange { first: 0, points: 0 });
     let rules: Rules = Game::new(&ifs, 1).rules(true);
     let plant: Plant = Sway::of(&ifs).plant();
     let grasses = Grasses::new(&SPECIES, Bend::Total);
     let of_each: [&[Uniforms]; SHADERS.len()] = [
-        &[Uniforms::of(&rules), stretch.clone()],
-        &[Uniforms::of(&plant), Uniforms::of(&Pose::calm()), stretch.clone()],
-        &[Uniforms::of(&grasses), stretch.clone()],
-        &[stretch],
+        &[Uniforms::of(&rules), range.clone()],
+        &[Uniforms::of(&plant), Uniforms::of(&Pose::calm()), range.clone()],
+        &[Uniforms::of(&grasses), range.clone()],
+        &[range],
     ];
     for (shader, structs) in SHADERS.iter().zip(of_each) {
         let (module, _) = checked(&shader.source(), shader.name);
@@ -276,12 +276,9 @@ fn constants_of_plants_are_those_of_the_host() {
         ("grow", "ROWS", species::ROWS),
     ]
     .map(|(shader, name, value)| (shader, name, format!("u32 = {value}u")));
-    let numbers = [
-        ("JOINT", curves::JOINT),
-        ("MOST_BEND", growth::MOST_BEND),
-        ("BEND_OF_GAMMA", growth::BEND_OF_GAMMA),
-    ]
-    .map(|(name, value)| ("grow", name, format!("f32 = {value}")));
+    let numbers =
+        [("JOINT", curves::JOINT), ("MAX_BEND", growth::MAX_BEND), ("BEND_OF_GAMMA", growth::BEND_OF_GAMMA)]
+            .map(|(name, value)| ("grow", name, format!("f32 = {value}")));
     for (shader, name, value) in host.into_iter().chain(numbers) {
         let of = |shader: &Shader| shader.source().contains(&format!("const {name}: {value};"));
         assert!(

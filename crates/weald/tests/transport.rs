@@ -106,7 +106,7 @@ proptest! {
         let size = Size::new(23, 19).expect("small");
         let mut land = Landscape::new(Domain::new(size, 1.0));
         if holes {
-            land.domain.land = Mask::new(size, (0..size.cells()).map(|at| at % 7 != 3).collect());
+            land.domain.valid = Mask::new(size, (0..size.cells()).map(|at| at % 7 != 3).collect());
         }
         let field = |relief: f32, seed| rough(23, 19, relief, seed);
         let signed = |field: &Field| Field::from_function(size, |x, y| field.at(x, y) - speed * 0.5);
@@ -114,7 +114,7 @@ proptest! {
         land.insert("flux_x", "m³/step", signed(&field(speed, seed + 1)));
         land.insert("flux_y", "m³/step", signed(&field(speed, seed + 2)));
         let dye = field(5.0, seed + 3);
-        let on_land = |x: usize, y: usize| land.domain.land.as_ref().is_none_or(|mask| mask.is_land(x, y));
+        let on_land = |x: usize, y: usize| land.domain.valid.as_ref().is_none_or(|mask| mask.is_valid(x, y));
         let dye = Field::from_function(size, |x, y| if on_land(x, y) { dye.at(x, y) } else { 0.0 });
         land.insert("dye", "m", dye.clone());
         let step = Carry { epsilon: Length::Metres(epsilon), ..carry(Scheme::MacCormack, true, steps) };

@@ -58,10 +58,10 @@ fn what_has_no_data_is_not_drawn_whatever_its_numbers() {
     let with = |filler: f32| {
         let mut landscape = country();
         let size = landscape.domain.size;
-        let is_land = |x: usize| x < 40;
-        landscape.domain.land = Mask::new(size, (0..size.cells()).map(|cell| is_land(cell % 64)).collect());
+        let is_valid = |x: usize| x < 40;
+        landscape.domain.valid = Mask::new(size, (0..size.cells()).map(|cell| is_valid(cell % 64)).collect());
         let whole = landscape.field("height").expect("there").clone();
-        let cut = Field::from_function(size, |x, y| if is_land(x) { whole.at(x, y) } else { filler });
+        let cut = Field::from_function(size, |x, y| if is_valid(x) { whole.at(x, y) } else { filler });
         landscape.insert("height", "m", cut);
         draw(&above(), &landscape)
     };
@@ -73,7 +73,7 @@ fn what_has_no_data_is_not_drawn_whatever_its_numbers() {
 #[test]
 fn a_landscape_without_land_is_a_bare_plain() {
     let mut landscape = country();
-    landscape.domain.land = Mask::new(landscape.domain.size, vec![false; 64 * 64]);
+    landscape.domain.valid = Mask::new(landscape.domain.size, vec![false; 64 * 64]);
     let image = draw(&above(), &landscape);
     let [low, high] =
         [image.rgb.iter().min(), image.rgb.iter().max()].map(|byte| *byte.expect("there are pixels"));

@@ -1,4 +1,4 @@
-//! What `weald fractal` is told: files, and keys that the library declares.
+//! What `weald fractal` is given: files, and keys that the library declares.
 
 use std::path::PathBuf;
 

@@ -1,4 +1,4 @@
-//! What `weald render` is told: files and cameras, and keys of the view that the library declares.
+//! What `weald render` is given: files and cameras, and keys of the view that the library declares.
 
 use std::path::PathBuf;
 
@@ -29,7 +29,7 @@ pub(crate) struct RenderFiles {
     /// Width and height of the picture in pixels
     #[arg(long, value_name = "WxH", default_value = "1920x1080", value_parser = values::size)]
     pub(crate) size: [u32; 2],
-    /// Samples a pixel at edges: 1 or 4
+    /// Samples per pixel at edges: 1 or 4
     #[arg(long, value_name = "N", default_value_t = 4)]
     pub(crate) samples: u32,
     /// Where the camera stands: metres east and south of the north-western corner, and its elevation
@@ -59,7 +59,7 @@ pub(crate) struct RenderFiles {
     pub(crate) running: Running,
 }
 
-/// Keys of a view; its camera and size are told otherwise.
+/// Keys of a view; its camera and size are set otherwise.
 const VIEW: Declared = Declared {
     parameters: View::parameters,
     heading: "View",

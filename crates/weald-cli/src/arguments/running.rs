@@ -3,14 +3,14 @@
 use clap::{Args, value_parser};
 use weald::recipe::Overrides;
 
-use crate::values::{self, Choice};
+use crate::values::{self, EngineChoice};
 
 /// How a recipe is run.
 #[derive(Debug, Args)]
 pub(crate) struct Running {
     /// Where simulations run: auto, cpu or gpu
     #[arg(long, default_value = "auto", value_parser = values::choice)]
-    pub(crate) engine: Choice,
+    pub(crate) engine: EngineChoice,
     /// Most memory of the graphics card, as in 512MiB; larger grids go tile by tile [default: 4GiB, 2GiB where
     /// the machine's own is used]
     #[arg(long, value_name = "BYTES", allow_negative_numbers = true, value_parser = values::memory)]

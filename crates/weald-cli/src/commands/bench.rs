@@ -4,7 +4,7 @@ use std::fmt::Display;
 use std::sync::Arc;
 
 use weald::engine::device::Device;
-use weald_gpu::{Gpu, SwarmRates};
+use weald_gpu::{CloudRates, Gpu};
 
 use crate::arguments::BenchArguments;
 use crate::engine::with_memory;
@@ -65,9 +65,9 @@ fn on_the_gpu(arguments: &BenchArguments, print: &mut dyn FnMut(&dyn Display)) -
 }
 
 /// A fern on the device: its points made, and in the wind.
-fn fern_rates(gpu: &Gpu) -> Result<SwarmRates, Failure> {
+fn fern_rates(gpu: &Gpu) -> Result<CloudRates, Failure> {
     let fern = weald::grow::ifs::shapes::find("fern").expect("built in").ifs();
-    Ok(SwarmRates::of(gpu, &fern)?)
+    Ok(CloudRates::of(gpu, &fern)?)
 }
 
 fn given_or<'a>(given: &'a [usize], usual: &'a [usize]) -> &'a [usize] {

@@ -92,7 +92,7 @@ fn tables(gpu: &Gpu, what: Measuring, print: &mut Print<'_>) -> Result<(), Failu
         print(&format!(
             "{table:>5}  {:<4}  {level:>5} {all:>7} {drawn:>7} {:>8.2} {:>8.2} {grass:>17.2}",
             standpoint.name(),
-            row.frames_a_second(),
+            row.frames_per_second(),
             row.source.unwrap_or_default(),
         ));
         Ok(())
@@ -119,11 +119,11 @@ fn budget(gpu: &Gpu, what: Measuring, print: &mut Print<'_>) -> Result<(), Failu
 }
 
 /// Names of the columns of [`parts`].
-const PARTS: &str = " shadows   ground    water   behind   choice    grass   plants     film  picture";
+const PARTS: &str = " shadows   ground    water   behind   choice    grass   plants     tone  picture";
 
 fn parts(timings: &Timings) -> String {
-    let Timings { choice, shadows, ground, water, behind, grass, plants, film, picture } = *timings;
-    let parts = [shadows, ground, water, behind, choice, grass, plants, film, picture];
+    let Timings { choice, shadows, ground, water, behind, grass, plants, tone_mapping, picture } = *timings;
+    let parts = [shadows, ground, water, behind, choice, grass, plants, tone_mapping, picture];
     parts.map(|part| format!("{:>8.2}", milliseconds(part))).join(" ")
 }
 

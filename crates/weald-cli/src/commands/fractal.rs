@@ -9,7 +9,7 @@ use weald::recipe::{FractalRequest, Options, Recipe, Run};
 
 use crate::arguments::FractalArguments;
 use crate::failure::Failure;
-use crate::progress::Shown;
+use crate::progress::ProgressPrinter;
 use crate::{interrupt, stdout};
 
 /// The word in place of a name that lists the built-in fractals.
@@ -73,9 +73,10 @@ fn recipe(arguments: &FractalArguments, path: &Path, mut keys: Keys) -> Result<R
     let request =
         FractalRequest { of: arguments.name.clone(), deform: arguments.deform.clone(), outputs: vec![keys] };
     request.recipe().map_err(|error| match error {
-        Error::Recipe(error) if error.complaints.iter().all(|complaint| complaint.line == 0) => {
-            let told: Vec<_> = error.complaints.iter().map(|complaint| complaint.message.as_str()).collect();
-            Failure::usage(told.join("\n"))
+        Error::Recipe(error) if error.diagnostics.iter().all(|diagnostic| diagnostic.line == 0) => {
+            let messages: Vec<_> =
+                error.diagnostics.iter().map(|diagnostic| diagnostic.message.as_str()).collect();
+            Failure::usage(messages.join("\n"))
         }
         other => other.into(),
     })
@@ -86,7 +87,7 @@ fn draw(arguments: &FractalArguments, path: &Path, recipe: &Recipe) -> Result<()
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let threads = arguments.threads.map(usize::from);
     let options = Options { threads, report: false, ..Options::into_folder(folder) };
-    let shown = Shown::new(arguments.quiet);
+    let shown = ProgressPrinter::new(arguments.quiet);
     let report = Run { recipe, options }.execute(&shown);
     shown.end();
     let report = report?;

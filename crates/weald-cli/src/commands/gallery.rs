@@ -4,7 +4,7 @@ use std::path::Path;
 
 use weald::Error;
 use weald::picture::RenderDevice;
-use weald_gallery::figures::{self as gallery, Begun};
+use weald_gallery::figures::{self as gallery, StartedFigure};
 use weald_gpu::Gpu;
 
 use crate::failure::Failure;
@@ -28,7 +28,7 @@ pub(crate) fn gallery(only: &[String], out: &Path) -> Result<(), Failure> {
     stdout::print(&format!("{}\n", out.join("index.md").display()))
 }
 
-fn line(Begun { figure, number, count }: Begun<'_>) -> String {
+fn line(StartedFigure { figure, number, count }: StartedFigure<'_>) -> String {
     let time = match figure.seconds {
         LONG.. => format!(", about {} s on two cores", figure.seconds),
         _ => String::new(),

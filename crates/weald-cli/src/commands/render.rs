@@ -10,8 +10,8 @@ use super::run::{default_folder, watched};
 use crate::arguments::{RenderArguments, RenderFiles};
 use crate::engine::drawing;
 use crate::failure::Failure;
-use crate::progress::Shown;
-use crate::{interrupt, shot, stdout};
+use crate::progress::ProgressPrinter;
+use crate::{interrupt, stdout, viewpoint};
 
 /// Frames of a film that are shown in a second.
 const FRAMES_PER_SECOND: f64 = 24.0;
@@ -27,13 +27,13 @@ pub(crate) fn render(arguments: &RenderArguments) -> Result<(), Failure> {
     let (recipe, view) = request.recipe()?;
     let [width, height] = files.size;
     let view = View { width, height, ..view };
-    // What cannot be drawn is told before an hour of simulation.
+    // What cannot be drawn is reported before an hour of simulation.
     let device = drawing(&files.running)?;
     device.check(files.size, files.samples)?;
     let options = Options::into_folder(default_folder(&files.recipe));
     let landscape = watched(&recipe, options, &files.running, |run, shown| run.landscape(shown))?;
     let stage = Stage::new(&view, &landscape)?;
-    let cameras = shot::cameras(files, &view, &stage)?;
+    let cameras = viewpoint::cameras(files, &view, &stage)?;
     let stage = stage.seen_from(cameras[0]);
     let scene = RenderScene { view: &view, stage: &stage, landscape: &landscape, samples: files.samples };
     write(files, &output, &cameras, device.set_up(&scene)?.as_mut())
@@ -68,7 +68,7 @@ fn write(
     rendering: &mut dyn Rendering,
 ) -> Result<(), Failure> {
     let count = cameras.len() as u64;
-    let shown = Shown::new(files.running.quiet);
+    let shown = ProgressPrinter::new(files.running.quiet);
     shown.output(1, 1, output);
     let mut next = |number: u64| {
         shown.progress(number, count, 0);

@@ -10,7 +10,7 @@ use weald::recipe::{Options, OutputReport, Progress, REPORT_FILE, Recipe, Report
 use crate::arguments::{RunArguments, Running};
 use crate::engine::drawing;
 use crate::failure::Failure;
-use crate::progress::Shown;
+use crate::progress::ProgressPrinter;
 use crate::{interrupt, stdout};
 
 pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
@@ -30,7 +30,7 @@ pub(super) fn watched<T>(
     recipe: &Recipe,
     options: Options,
     running: &Running,
-    work: impl FnOnce(&Run<'_>, &Shown) -> Result<T, Error>,
+    work: impl FnOnce(&Run<'_>, &ProgressPrinter) -> Result<T, Error>,
 ) -> Result<T, Failure> {
     let chosen = running.engine.open(running.gpu_memory)?;
     let draws = recipe.outputs.iter().any(|output| output.render().is_some());
@@ -44,7 +44,7 @@ pub(super) fn watched<T>(
         ..options
     };
     interrupt::listen()?;
-    let shown = Shown::new(running.quiet);
+    let shown = ProgressPrinter::new(running.quiet);
     if let Some(note) = &chosen.note {
         shown.note(note);
     }

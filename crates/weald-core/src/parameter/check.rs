@@ -1,12 +1,12 @@
 //! Which keys a table may have.
 
-use super::complaints::Complaints;
+use super::diagnostics::Diagnostics;
 use super::kind::{Kind, Needs, Parameter, Variant};
 use crate::source::{Node, Table};
 
 /// Complains of every key of a table that is unknown, or that has no effect beside the others: one of a variant that is
 /// not chosen, or one whose [needs](super::Needs) are not met.
-pub fn check_keys(table: &Table, parameters: &[Parameter], complaints: &mut Complaints) {
+pub fn check_keys(table: &Table, parameters: &[Parameter], diagnostics: &mut Diagnostics) {
     let mut known: Vec<&Parameter> = parameters.iter().collect();
     let mut others = Vec::new();
     for parameter in parameters {
@@ -21,24 +21,24 @@ pub fn check_keys(table: &Table, parameters: &[Parameter], complaints: &mut Comp
     let mut strange = Table { line: table.line, entries: Vec::new() };
     for (key, node) in &table.entries {
         match known.iter().copied().find(|parameter| parameter.name == key) {
-            Some(parameter) => check_needs(table, (parameter, node), &known, complaints),
+            Some(parameter) => check_needs(table, (parameter, node), &known, diagnostics),
             None => match others.iter().find_map(|&other| of_another(table, key, other)) {
-                Some(problem) => complaints.add(node.line, format!("`{key}` {problem}")),
+                Some(problem) => diagnostics.add(node.line, format!("`{key}` {problem}")),
                 None => strange.entries.push((key.clone(), node.clone())),
             },
         }
     }
     let names: Vec<_> = known.iter().map(|parameter| parameter.name).collect();
-    complaints.unknown_keys(&strange, &names);
+    diagnostics.unknown_keys(&strange, &names);
 }
 
 /// Complains of keys of an output that have no effect in a file of its kind.
-pub fn check_file(table: &Table, parameters: &[Parameter], complaints: &mut Complaints) {
+pub fn check_file(table: &Table, parameters: &[Parameter], diagnostics: &mut Diagnostics) {
     let known: Vec<&Parameter> = parameters.iter().collect();
     for parameter in parameters {
         let unmet = |needs: &&Needs| matches!(needs, Needs::File(_)) && !needs.is_met(table, &known);
         if let (Some(node), Some(needs)) = (table.get(parameter.name), parameter.needs.iter().find(unmet)) {
-            complaints.add(node.line, format!("`{}` {}", parameter.name, needs.complaint(table, &known)));
+            diagnostics.add(node.line, format!("`{}` {}", parameter.name, needs.diagnostic(table, &known)));
         }
     }
 }
@@ -66,10 +66,10 @@ fn check_needs(
     table: &Table,
     (parameter, node): (&Parameter, &Node),
     known: &[&Parameter],
-    complaints: &mut Complaints,
+    diagnostics: &mut Diagnostics,
 ) {
     if let Some(needs) = parameter.needs.iter().find(|needs| !needs.is_met(table, known)) {
-        complaints.add(node.line, format!("`{}` {}", parameter.name, needs.complaint(table, known)));
+        diagnostics.add(node.line, format!("`{}` {}", parameter.name, needs.diagnostic(table, known)));
     }
 }
 

@@ -1,7 +1,7 @@
 //! Colours in a recipe.
 
-use super::complaints::Complaints;
 use super::declaration::ParameterValue;
+use super::diagnostics::Diagnostics;
 use super::kind::Kind;
 use super::values::wrong;
 use crate::source::{Node, Value};
@@ -15,7 +15,7 @@ impl ParameterValue for Colour {
         Kind::Colour
     }
 
-    fn read(node: &Node, _: (f64, f64), _: &mut Complaints) -> Result<Self, String> {
+    fn read(node: &Node, _: (f64, f64), _: &mut Diagnostics) -> Result<Self, String> {
         let Value::Text(text) = &node.value else { return Err(fault(node)) };
         let digits = text.strip_prefix('#').filter(|digits| digits.len() == 6);
         // `from_str_radix` takes a sign, which is no digit.
@@ -41,7 +41,7 @@ mod tests {
 
     fn read(text: &str) -> Result<Colour, String> {
         let node = Node { line: 1, value: Value::Text(text.to_owned()) };
-        Colour::read(&node, (0.0, 0.0), &mut Complaints::default())
+        Colour::read(&node, (0.0, 0.0), &mut Diagnostics::default())
     }
 
     #[test]

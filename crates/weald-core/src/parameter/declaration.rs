@@ -2,7 +2,7 @@
 //! Schema and user interfaces follow. See the [`parameters!`](crate::parameters) macro.
 
 use super::check::check_keys;
-use super::complaints::Complaints;
+use super::diagnostics::Diagnostics;
 use super::kind::{Kind, Parameter};
 use crate::source::{Node, Table};
 
@@ -12,13 +12,13 @@ pub trait Parameters: Sized + Default {
     fn parameters() -> Vec<Parameter>;
 
     /// Reads the values of the keys that are parameters, and leaves all other keys of the table alone.
-    fn read_values(table: &Table, complaints: &mut Complaints) -> Self;
+    fn read_values(table: &Table, diagnostics: &mut Diagnostics) -> Self;
 
-    /// Reads the keys of a table; faults go to `complaints`, and their keys keep their defaults. A key that is unknown,
-    /// or that has no effect beside the others, is a fault.
-    fn read(table: &Table, complaints: &mut Complaints) -> Self {
-        check_keys(table, &Self::parameters(), complaints);
-        Self::read_values(table, complaints)
+    /// Reads the keys of a table; faults go to `diagnostics`, and their keys keep their defaults. A key that is
+    /// unknown, or that has no effect beside the others, is a fault.
+    fn read(table: &Table, diagnostics: &mut Diagnostics) -> Self {
+        check_keys(table, &Self::parameters(), diagnostics);
+        Self::read_values(table, diagnostics)
     }
 }
 
@@ -35,11 +35,11 @@ pub trait ParameterValue: Sized + Clone {
     fn kind(range: (f64, f64)) -> Kind;
 
     /// Reads a value; an error says what is wrong with it and what is legal.
-    fn read(node: &Node, range: (f64, f64), complaints: &mut Complaints) -> Result<Self, String>;
+    fn read(node: &Node, range: (f64, f64), diagnostics: &mut Diagnostics) -> Result<Self, String>;
 
     /// The value with what else the table of its key says about it: the keys of a chosen variant.
-    fn with_keys_of(self, table: &Table, complaints: &mut Complaints) -> Self {
-        let _ = (table, complaints);
+    fn with_keys_of(self, table: &Table, diagnostics: &mut Diagnostics) -> Self {
+        let _ = (table, diagnostics);
         self
     }
 
@@ -74,21 +74,21 @@ pub fn read_key<T: ParameterValue>(
     name: &str,
     default: T,
     range: (f64, f64),
-    complaints: &mut Complaints,
+    diagnostics: &mut Diagnostics,
 ) -> T {
     let value = match table.get(name) {
-        Some(node) => T::read(node, range, complaints).unwrap_or_else(|problem| {
-            complaints.add(node.line, format!("`{name}` {problem}"));
+        Some(node) => T::read(node, range, diagnostics).unwrap_or_else(|problem| {
+            diagnostics.add(node.line, format!("`{name}` {problem}"));
             default
         }),
         None => {
             if default.must_be_given() {
-                complaints.add(table.line, format!("`{name}` is needed: {}", T::kind(range).in_words()));
+                diagnostics.add(table.line, format!("`{name}` is needed: {}", T::kind(range).in_words()));
             }
             default
         }
     };
-    value.with_keys_of(table, complaints)
+    value.with_keys_of(table, diagnostics)
 }
 
 /// Declares a struct of parameters: `name: Type = default, range low..=high, unit "m";` with a doc comment
@@ -139,11 +139,11 @@ macro_rules! parameters {
 
             fn read_values(
                 table: &$crate::source::Table,
-                complaints: &mut $crate::parameter::Complaints,
+                diagnostics: &mut $crate::parameter::Diagnostics,
             ) -> Self {
                 use $crate::parameter::{key, read_key};
                 Self { $( $name: read_key(
-                    table, key(stringify!($name)), $default, $crate::parameters!(@range $($low, $high)?), complaints,
+                    table, key(stringify!($name)), $default, $crate::parameters!(@range $($low, $high)?), diagnostics,
                 ), )* }
             }
         }
@@ -195,7 +195,7 @@ macro_rules! choices {
             fn read(
                 node: &$crate::source::Node,
                 range: (f64, f64),
-                _: &mut $crate::parameter::Complaints,
+                _: &mut $crate::parameter::Diagnostics,
             ) -> Result<Self, String> {
                 if let $crate::source::Value::Text(text) = &node.value {
                     $( if text == $word { return Ok(Self::$Variant); } )+

@@ -2,8 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use super::complaints::Complaints;
 use super::declaration::ParameterValue;
+use super::diagnostics::Diagnostics;
 use super::kind::Kind;
 use crate::source::Node;
 
@@ -29,8 +29,8 @@ impl ParameterValue for RasterFile {
         Kind::Raster
     }
 
-    fn read(node: &Node, range: (f64, f64), complaints: &mut Complaints) -> Result<Self, String> {
-        String::read(node, range, complaints).map(Self)
+    fn read(node: &Node, range: (f64, f64), diagnostics: &mut Diagnostics) -> Result<Self, String> {
+        String::read(node, range, diagnostics).map(Self)
     }
 
     fn shown(&self) -> Option<String> {
@@ -59,8 +59,8 @@ impl ParameterValue for ScriptFile {
         Kind::Script
     }
 
-    fn read(node: &Node, range: (f64, f64), complaints: &mut Complaints) -> Result<Self, String> {
-        String::read(node, range, complaints).map(Self)
+    fn read(node: &Node, range: (f64, f64), diagnostics: &mut Diagnostics) -> Result<Self, String> {
+        String::read(node, range, diagnostics).map(Self)
     }
 
     fn shown(&self) -> Option<String> {
@@ -84,8 +84,8 @@ impl ParameterValue for FlameFile {
         Kind::Flame
     }
 
-    fn read(node: &Node, range: (f64, f64), complaints: &mut Complaints) -> Result<Self, String> {
-        String::read(node, range, complaints).map(Self)
+    fn read(node: &Node, range: (f64, f64), diagnostics: &mut Diagnostics) -> Result<Self, String> {
+        String::read(node, range, diagnostics).map(Self)
     }
 
     fn shown(&self) -> Option<String> {

@@ -1,6 +1,6 @@
-//! What a user can be told of a parameter: its key, unit, type, range, default, and what it needs to have an effect.
+//! What a user can know of a parameter: its key, unit, type, range, default, and what it needs to have an effect.
 
-/// What a user can be told of one parameter.
+/// What a user can know of one parameter.
 #[derive(Clone, Debug)]
 pub struct Parameter {
     /// Key in the recipe.

@@ -1,7 +1,7 @@
 //! Lists of layer names.
 
 use super::values::wrong;
-use super::{Complaints, Kind, LayerName, ParameterValue};
+use super::{Diagnostics, Kind, LayerName, ParameterValue};
 use crate::source::{Node, Value};
 
 /// Names of layers, each once.
@@ -13,12 +13,12 @@ impl ParameterValue for LayerNames {
         Kind::Layers
     }
 
-    fn read(node: &Node, range: (f64, f64), complaints: &mut Complaints) -> Result<Self, String> {
+    fn read(node: &Node, range: (f64, f64), diagnostics: &mut Diagnostics) -> Result<Self, String> {
         let wanted = "a list of names of layers";
         let Value::List(items) = &node.value else { return Err(wrong(node, wanted)) };
         let mut names = Vec::new();
         for item in items {
-            let LayerName(name) = LayerName::read(item, range, complaints)?;
+            let LayerName(name) = LayerName::read(item, range, diagnostics)?;
             if names.contains(&name) {
                 return Err(format!("names layer `{name}` twice"));
             }

@@ -1,7 +1,7 @@
 //! Lengths of which the default is a share of a cell.
 
-use super::complaints::Complaints;
 use super::declaration::ParameterValue;
+use super::diagnostics::Diagnostics;
 use super::kind::Kind;
 use crate::source::Node;
 
@@ -35,8 +35,8 @@ impl ParameterValue for Length {
         f64::kind(range)
     }
 
-    fn read(node: &Node, range: (f64, f64), complaints: &mut Complaints) -> Result<Self, String> {
-        f64::read(node, range, complaints).map(Self::Metres)
+    fn read(node: &Node, range: (f64, f64), diagnostics: &mut Diagnostics) -> Result<Self, String> {
+        f64::read(node, range, diagnostics).map(Self::Metres)
     }
 
     fn shown(&self) -> Option<String> {

@@ -20,7 +20,7 @@ impl Needs {
     }
 
     /// Why a key has no effect in a table that does not fulfil it, and what to do about it.
-    pub(super) fn complaint(&self, table: &Table, parameters: &[&Parameter]) -> String {
+    pub(super) fn diagnostic(&self, table: &Table, parameters: &[&Parameter]) -> String {
         let unmet = |key: &str| match value_of(table, parameters, key) {
             Some(value) => format!("with {key} = {value}"),
             None => format!("without `{key}`"),

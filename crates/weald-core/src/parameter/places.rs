@@ -1,7 +1,7 @@
 //! Places in a recipe or a script.
 
-use super::complaints::Complaints;
 use super::declaration::ParameterValue;
+use super::diagnostics::Diagnostics;
 use super::kind::Kind;
 use super::values::wrong;
 use crate::source::{Node, Value};
@@ -22,7 +22,7 @@ impl ParameterValue for Places {
         Kind::Places
     }
 
-    fn read(node: &Node, _: (f64, f64), _: &mut Complaints) -> Result<Self, String> {
+    fn read(node: &Node, _: (f64, f64), _: &mut Diagnostics) -> Result<Self, String> {
         let fault = || wrong(node, "a place `[x, y]` of finite numbers, or a list of such places");
         let Value::List(items) = &node.value else { return Err(fault()) };
         if let Some(place) = place(items) {

@@ -1,7 +1,7 @@
 //! The size of a grid in a recipe.
 
-use super::complaints::Complaints;
 use super::declaration::ParameterValue;
+use super::diagnostics::Diagnostics;
 use super::kind::Kind;
 use super::values::wrong;
 use crate::source::{Node, Value};
@@ -27,7 +27,7 @@ impl ParameterValue for Sides {
         Kind::Sides
     }
 
-    fn read(node: &Node, _: (f64, f64), _: &mut Complaints) -> Result<Self, String> {
+    fn read(node: &Node, _: (f64, f64), _: &mut Diagnostics) -> Result<Self, String> {
         let side = |value: &Value| match value {
             Value::Integer(side) => u64::try_from(*side).ok().filter(|&side| side >= 1),
             _ => None,

@@ -1,7 +1,7 @@
 //! The types that parameters can have, but for the [size of a grid](super::Sides).
 
-use super::complaints::Complaints;
 use super::declaration::{Choice, ParameterValue, Parameters};
+use super::diagnostics::Diagnostics;
 use super::kind::{Kind, range_in_words};
 use crate::source::{Node, Table, Value};
 
@@ -22,7 +22,7 @@ impl ParameterValue for f64 {
         Kind::Number(range.0, range.1)
     }
 
-    fn read(node: &Node, range: (f64, f64), _: &mut Complaints) -> Result<Self, String> {
+    fn read(node: &Node, range: (f64, f64), _: &mut Diagnostics) -> Result<Self, String> {
         match node.value {
             Value::Number(number) => within(number, range),
             Value::Integer(number) => within(number as Self, range),
@@ -47,7 +47,7 @@ macro_rules! whole_number {
                 Kind::Integer(range.0, range.1)
             }
 
-            fn read(node: &Node, range: (f64, f64), _: &mut Complaints) -> Result<Self, String> {
+            fn read(node: &Node, range: (f64, f64), _: &mut Diagnostics) -> Result<Self, String> {
                 let wanted = || format!("a {}", Self::kind(range).in_words());
                 let Value::Integer(number) = node.value else { return Err(wrong(node, &wanted())) };
                 // The message shows the number as it was written: `f64` cannot hold all of them.
@@ -70,7 +70,7 @@ impl ParameterValue for bool {
         Kind::Flag
     }
 
-    fn read(node: &Node, _: (f64, f64), _: &mut Complaints) -> Result<Self, String> {
+    fn read(node: &Node, _: (f64, f64), _: &mut Diagnostics) -> Result<Self, String> {
         let Value::Flag(flag) = node.value else { return Err(wrong(node, "true or false")) };
         Ok(flag)
     }
@@ -85,7 +85,7 @@ impl ParameterValue for String {
         Kind::Text
     }
 
-    fn read(node: &Node, _: (f64, f64), _: &mut Complaints) -> Result<Self, String> {
+    fn read(node: &Node, _: (f64, f64), _: &mut Diagnostics) -> Result<Self, String> {
         let Value::Text(text) = &node.value else { return Err(wrong(node, "text in quotes")) };
         Ok(text.clone())
     }
@@ -100,9 +100,9 @@ impl ParameterValue for Vec<f64> {
         Kind::Numbers(range.0, range.1)
     }
 
-    fn read(node: &Node, range: (f64, f64), complaints: &mut Complaints) -> Result<Self, String> {
+    fn read(node: &Node, range: (f64, f64), diagnostics: &mut Diagnostics) -> Result<Self, String> {
         let Value::List(items) = &node.value else { return Err(wrong(node, "a list of numbers")) };
-        items.iter().map(|item| f64::read(item, range, complaints)).collect()
+        items.iter().map(|item| f64::read(item, range, diagnostics)).collect()
     }
 
     fn shown(&self) -> Option<String> {
@@ -115,9 +115,9 @@ impl ParameterValue for Vec<Vec<f64>> {
         Kind::Rows
     }
 
-    fn read(node: &Node, range: (f64, f64), complaints: &mut Complaints) -> Result<Self, String> {
+    fn read(node: &Node, range: (f64, f64), diagnostics: &mut Diagnostics) -> Result<Self, String> {
         let Value::List(items) = &node.value else { return Err(wrong(node, "a list of lists of numbers")) };
-        items.iter().map(|item| Vec::read(item, range, complaints)).collect()
+        items.iter().map(|item| Vec::read(item, range, diagnostics)).collect()
     }
 
     fn shown(&self) -> Option<String> {
@@ -146,7 +146,7 @@ impl ParameterValue for LayerName {
         Kind::Layer
     }
 
-    fn read(node: &Node, _: (f64, f64), _: &mut Complaints) -> Result<Self, String> {
+    fn read(node: &Node, _: (f64, f64), _: &mut Diagnostics) -> Result<Self, String> {
         let wanted = "the name of a layer: letters, digits, `_` and `-`";
         let Value::Text(name) = &node.value else { return Err(wrong(node, wanted)) };
         let legal = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
@@ -170,12 +170,12 @@ impl<T: ParameterValue> ParameterValue for Option<T> {
         T::kind(range)
     }
 
-    fn read(node: &Node, range: (f64, f64), complaints: &mut Complaints) -> Result<Self, String> {
-        T::read(node, range, complaints).map(Some)
+    fn read(node: &Node, range: (f64, f64), diagnostics: &mut Diagnostics) -> Result<Self, String> {
+        T::read(node, range, diagnostics).map(Some)
     }
 
-    fn with_keys_of(self, table: &Table, complaints: &mut Complaints) -> Self {
-        self.map(|value| value.with_keys_of(table, complaints))
+    fn with_keys_of(self, table: &Table, diagnostics: &mut Diagnostics) -> Self {
+        self.map(|value| value.with_keys_of(table, diagnostics))
     }
 
     fn shown(&self) -> Option<String> {
@@ -196,9 +196,9 @@ impl<T: Parameters + Clone> ParameterValue for Nested<T> {
         Kind::Table(T::parameters())
     }
 
-    fn read(node: &Node, _: (f64, f64), complaints: &mut Complaints) -> Result<Self, String> {
+    fn read(node: &Node, _: (f64, f64), diagnostics: &mut Diagnostics) -> Result<Self, String> {
         let Value::Table(table) = &node.value else { return Err(wrong(node, "a table { … }")) };
-        Ok(Self(T::read(table, complaints)))
+        Ok(Self(T::read(table, diagnostics)))
     }
 
     fn shown(&self) -> Option<String> {
@@ -207,21 +207,21 @@ impl<T: Parameters + Clone> ParameterValue for Nested<T> {
 }
 
 /// Most tables in a list.
-const MOST_TABLES: usize = 1000;
+const MAX_TABLES: usize = 1000;
 
 impl<T: Parameters + Clone> ParameterValue for Vec<Nested<T>> {
     fn kind(_: (f64, f64)) -> Kind {
         Kind::Tables(T::parameters())
     }
 
-    fn read(node: &Node, range: (f64, f64), complaints: &mut Complaints) -> Result<Self, String> {
+    fn read(node: &Node, range: (f64, f64), diagnostics: &mut Diagnostics) -> Result<Self, String> {
         let Value::List(items) = &node.value else {
             return Err(wrong(node, "a list of tables [{ … }, …]"));
         };
-        if items.len() > MOST_TABLES {
-            return Err(format!("has {} tables, but at most {MOST_TABLES} are read", items.len()));
+        if items.len() > MAX_TABLES {
+            return Err(format!("has {} tables, but at most {MAX_TABLES} are read", items.len()));
         }
-        items.iter().map(|item| Nested::read(item, range, complaints)).collect()
+        items.iter().map(|item| Nested::read(item, range, diagnostics)).collect()
     }
 
     fn shown(&self) -> Option<String> {
@@ -235,11 +235,11 @@ impl<T: Choice> ParameterValue for Vec<T> {
         Kind::Choices(words)
     }
 
-    fn read(node: &Node, range: (f64, f64), complaints: &mut Complaints) -> Result<Self, String> {
+    fn read(node: &Node, range: (f64, f64), diagnostics: &mut Diagnostics) -> Result<Self, String> {
         let Value::List(items) = &node.value else {
             return Err(format!("is {}, but must be a {}", node.value.shown(), Self::kind(range).in_words()));
         };
-        items.iter().map(|item| T::read(item, range, complaints)).collect()
+        items.iter().map(|item| T::read(item, range, diagnostics)).collect()
     }
 
     fn shown(&self) -> Option<String> {

@@ -37,7 +37,7 @@ macro_rules! variants {
             fn read(
                 node: &$crate::source::Node,
                 range: (f64, f64),
-                _: &mut $crate::parameter::Complaints,
+                _: &mut $crate::parameter::Diagnostics,
             ) -> Result<Self, String> {
                 if let $crate::source::Value::Text(text) = &node.value {
                     $( if text == $word { return Ok(Self::$Variant(Default::default())); } )+
@@ -49,11 +49,11 @@ macro_rules! variants {
             fn with_keys_of(
                 self,
                 table: &$crate::source::Table,
-                complaints: &mut $crate::parameter::Complaints,
+                diagnostics: &mut $crate::parameter::Diagnostics,
             ) -> Self {
                 match self { $(
                     Self::$Variant(_) => Self::$Variant(
-                        <$Keys as $crate::parameter::Parameters>::read_values(table, complaints),
+                        <$Keys as $crate::parameter::Parameters>::read_values(table, diagnostics),
                     ),
                 )+ }
             }

@@ -1,10 +1,10 @@
 //! Steps of a simulation as streams of rows, chained.
 //!
 //! One step takes rows from north to south and gives each row back a few rows later, changed. Chaining the
-//! streams of several steps advances the simulation by that many steps in one passage through memory
-//! (temporal blocking by skewing). A stretch of rows is computed as a small world of its own with walls at
-//! both ends; rows that lie further from an end than `reach` cells a step do not feel it, so that bands with
-//! halos give the same bits as the whole, whatever the number of bands and of steps in a passage.
+//! streams of several steps advances the simulation by that many steps in one pass over memory
+//! (temporal blocking by skewing). A stretch of rows is computed as a subdomain of its own with walls at
+//! both ends; rows that lie further from an end than `reach` cells per step do not feel it, so that bands with
+//! halos give the same bits as the whole, whatever the number of bands and of steps in a time block.
 
 use std::ops::Range;
 
@@ -59,7 +59,7 @@ pub struct Flow<'a, P: Process + ?Sized> {
     pub weather: P::Weather,
     /// The row that comes in; beyond `span.end` when the last rows flow out.
     pub y: usize,
-    /// The rows of this small world, between its walls.
+    /// The rows of this subdomain, between its walls.
     pub span: Range<usize>,
     /// Sums of the rows that this band owns; the others are another band's.
     pub sums: &'a mut SumsOfRows<'a>,
@@ -114,7 +114,7 @@ fn sum_in_lanes(cells: &[f32]) -> f64 {
     cells.chunks(1024).map(block_sum).sum()
 }
 
-/// Rows in flight between and within the steps of one passage.
+/// Rows in flight between and within the steps of one time block.
 pub struct Chain<P: Process> {
     constants: Vec<Ring>,
     /// `between[t]` holds what step `t` takes in; the last one what the passage gives out.
@@ -138,8 +138,8 @@ impl<P: Process> Chain<P> {
     }
 }
 
-/// One passage over a stretch of rows.
-pub struct Passage<'a, P: Process> {
+/// One time block over a stretch of rows.
+pub struct TimeBlock<'a, P: Process> {
     /// What is computed.
     pub process: &'a P,
     /// How a row of all state planes lies in memory.
@@ -162,7 +162,7 @@ pub struct Passage<'a, P: Process> {
     pub columns: Range<usize>,
 }
 
-impl<P: Process> Passage<'_, P> {
+impl<P: Process> TimeBlock<'_, P> {
     /// Advances the owned rows by one step for each entry of `weather`.
     pub fn run(mut self, chain: &mut Chain<P>) {
         if cfg!(debug_assertions) {

@@ -45,11 +45,11 @@ fn exact(number: f32) -> f32 {
 
 /// 1 where both cells hold data, else 0.
 fn link(here: vec2<i32>, there: vec2<i32>) -> f32 {
-    return land(here) * land(there);
+    return valid(here) * valid(there);
 }
 
 /// Reciprocal of the number of neighbours that hold data; 0 where there are none.
 fn neighbour_share(cell: vec2<i32>) -> f32 {
-    let neighbours = (land(cell + WEST) + land(cell + EAST)) + (land(cell + NORTH) + land(cell + SOUTH));
-    return select(0.0, land(cell) / neighbours, neighbours > 0.0);
+    let neighbours = (valid(cell + WEST) + valid(cell + EAST)) + (valid(cell + NORTH) + valid(cell + SOUTH));
+    return select(0.0, valid(cell) / neighbours, neighbours > 0.0);
 }

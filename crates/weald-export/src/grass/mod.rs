@@ -7,7 +7,7 @@ mod instances;
 
 use std::path::Path;
 
-use super::plants::MOST_NODES;
+use super::plants::MAX_NODES;
 use super::{Export, Finished, Mesh};
 use instances::{Scene, Standing};
 use weald_core::error::Error;
@@ -67,7 +67,7 @@ impl Export for GrassSets {
     fn notes(&self, finished: &Finished<'_>) -> Vec<String> {
         let Ok(meadow) = finished.landscape.meadow(&self.of.0) else { return Vec::new() };
         let sets = meadow.expected(&self.area_of(&meadow));
-        let many = (sets > MOST_NODES as f64).then(|| {
+        let many = (sets > MAX_NODES as f64).then(|| {
             format!(
                 "some {sets:.0} sets of grass: a `.glb` has instances, and no file of nodes lies beside it"
             )
@@ -80,7 +80,7 @@ impl Export for GrassSets {
         let sets = self.standing(finished.landscape, &meadow)?;
         let scene = Scene { name: &self.of.0, meadow: &meadow, sets: &sets, finished };
         let mut parts = vec![Part::own(scene.instanced()?)];
-        if sets.len() <= MOST_NODES {
+        if sets.len() <= MAX_NODES {
             parts.push(Part::sibling(".nodes.glb", scene.nodes()?));
         }
         Ok(parts)

@@ -75,7 +75,7 @@ impl Delaunay {
     /// The triangle in which or on whose edge a point lies, sought from another triangle on.
     pub(super) fn locate(&self, point: Point, from: u32) -> u32 {
         let mut triangle = from;
-        // Walks always towards the point, which in a Delaunay triangulation goes in no circle.
+        // Walks always towards the point, which in a Delaunay triangulation never cycles.
         while let Some(edge) = edges(triangle).find(|&edge| self.side(edge, point) < 0) {
             triangle = self.twins[edge as usize] / 3;
         }

@@ -19,7 +19,7 @@ const LINEAR: u32 = 9729;
 const LINEAR_MIPMAP_LINEAR: u32 = 9987;
 
 /// Vertices that 16-bit indices can name: the last number restarts a strip.
-const MOST_SHORT: usize = 65_535;
+const MAX_SHORT_INDEX: usize = 65_535;
 
 /// A document as it grows.
 #[derive(Debug, Default)]
@@ -131,7 +131,7 @@ impl Document {
 
     fn indices(&mut self, triangles: &[[u32; 3]], vertices: usize) -> usize {
         let numbers = triangles.as_flattened().iter();
-        let (bytes, component): (Vec<u8>, u32) = if vertices <= MOST_SHORT {
+        let (bytes, component): (Vec<u8>, u32) = if vertices <= MAX_SHORT_INDEX {
             (numbers.flat_map(|&number| (number as u16).to_le_bytes()).collect(), UNSIGNED_SHORT)
         } else {
             (numbers.flat_map(|number| number.to_le_bytes()).collect(), UNSIGNED_INT)

@@ -61,19 +61,19 @@ struct Refinement<'a> {
 impl<'a> Refinement<'a> {
     fn of(surface: &'a Surface<'a>) -> Self {
         let size = surface.size();
-        let mesh = Delaunay::new(size.columns as u32, size.rows as u32, |point| !surface.is_land(point));
+        let mesh = Delaunay::new(size.columns as u32, size.rows as u32, |point| !surface.is_valid(point));
         Self { surface, mesh, worst: Vec::new(), queue: BinaryHeap::new(), changed: Vec::new() }
     }
 
     /// Makes every land cell beside a cell without data a vertex.
     fn trace_shores(&mut self) {
-        let Some(land) = self.surface.land else { return };
-        let size = land.size();
+        let Some(valid) = self.surface.valid else { return };
+        let size = valid.size();
         let corners = self.mesh.points().to_vec();
         let mut triangle = 0;
-        for cell in (0..size.cells()).filter(|&cell| land.is_land_at(cell)) {
+        for cell in (0..size.cells()).filter(|&cell| valid.is_valid_at(cell)) {
             let point = [(cell % size.columns) as u32, (cell / size.columns) as u32];
-            let is_shore = size.neighbours(cell).any(|other| !land.is_land_at(other));
+            let is_shore = size.neighbours(cell).any(|other| !valid.is_valid_at(other));
             if is_shore && !corners.contains(&point) {
                 triangle = self.mesh.locate(point, triangle);
                 self.mesh.insert(point, triangle);
@@ -130,8 +130,8 @@ mod tests {
     use super::*;
     use weald_core::grid::{Field, Mask, Size};
 
-    fn follow_all(height: &Field, land: Option<&Mask>, error: f64) -> Tin {
-        follow(&Surface::new(height, land, error), 1 << 20).expect("few vertices")
+    fn follow_all(height: &Field, valid: Option<&Mask>, error: f64) -> Tin {
+        follow(&Surface::new(height, valid, error), 1 << 20).expect("few vertices")
     }
 
     #[test]

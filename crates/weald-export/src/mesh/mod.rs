@@ -101,7 +101,7 @@ weald_core::parameters! {
 }
 
 /// Most vertices of a mesh: 2^24, some 800 MB in a file.
-const MOST_VERTICES: usize = 1 << 24;
+const MAX_VERTICES: usize = 1 << 24;
 
 impl Export for Mesh {
     fn reads(&self) -> Vec<String> {
@@ -125,7 +125,7 @@ impl Export for Mesh {
         let ground = ground_of(landscape, &self.of.0)?;
         let water = self.water.then(|| Water::of(landscape, ground, self.shallowest as f32)).flatten();
         let surface = self.surface(landscape, ground, water.as_ref());
-        let mesh = follow(&surface, MOST_VERTICES)?;
+        let mesh = follow(&surface, MAX_VERTICES)?;
         if mesh.triangles.is_empty() {
             return Err(Error::Run(
                 "no three cells with data are neighbours: there is no ground to mesh".to_owned(),
@@ -147,7 +147,7 @@ fn ground_of<'a>(landscape: &'a Landscape, name: &str) -> Result<&'a Field, Erro
     if size.columns < 2 || size.rows < 2 {
         return Err(Error::Run(format!("a mesh needs 2 × 2 cells or more; the landscape has {size}")));
     }
-    if let Some((x, y)) = ground.first_not_finite(landscape.domain.land.as_ref()) {
+    if let Some((x, y)) = ground.first_not_finite(landscape.domain.valid.as_ref()) {
         let height = ground.at(x, y);
         return Err(Error::Run(format!(
             "the layer `{name}` holds {height} in column {x}, row {y}, which is no height; mend it, or mark the cell \
@@ -160,7 +160,7 @@ fn ground_of<'a>(landscape: &'a Landscape, name: &str) -> Result<&'a Field, Erro
 impl Mesh {
     /// What the triangles are to follow: the ground, and beside water more closely.
     fn surface<'a>(&self, landscape: &'a Landscape, ground: &'a Field, water: Option<&Water>) -> Surface<'a> {
-        let land = landscape.domain.land.as_ref();
+        let land = landscape.domain.valid.as_ref();
         match water {
             Some(water) => water.spared(ground, land, self.error),
             None => Surface::new(ground, land, self.error),
@@ -175,10 +175,10 @@ impl Mesh {
         mesh: &Tin,
     ) -> Result<(), Error> {
         let domain = &landscape.domain;
-        let slopes = Slopes::of(ground, domain.land.as_ref(), domain.cell);
+        let slopes = Slopes::of(ground, domain.valid.as_ref(), domain.cell);
         let vertices = Vertices::of(mesh, ground, &slopes, &Frame::of(domain));
         let normal_map = self.normal_map.then(|| {
-            let png = normal_png(mesh, &vertices, &slopes, domain.land.as_ref());
+            let png = normal_png(mesh, &vertices, &slopes, domain.valid.as_ref());
             document.texture("normals", &png)
         });
         let mut attributes = attributes(document, &vertices);
@@ -256,7 +256,7 @@ impl Mesh {
 
     fn add_water(&self, document: &mut Document, landscape: &Landscape, water: &Water) -> Result<(), Error> {
         let error = self.error.min(self.shallowest);
-        let mesh = follow(&Surface::new(&water.level, Some(&water.sheet), error), MOST_VERTICES)?;
+        let mesh = follow(&Surface::new(&water.level, Some(&water.sheet), error), MAX_VERTICES)?;
         if mesh.triangles.is_empty() {
             return Ok(());
         }

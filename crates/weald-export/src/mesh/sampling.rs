@@ -14,26 +14,26 @@ pub(super) struct Sampling<'a> {
     pub(super) texels: Size,
     grid: Size,
     slopes: &'a Slopes,
-    land: Option<&'a Mask>,
+    valid: Option<&'a Mask>,
     across: Vec<Vec<(usize, f64)>>,
     down: Vec<Vec<(usize, f64)>>,
 }
 
 impl<'a> Sampling<'a> {
     /// Slopes on a texture that covers the grid.
-    pub(super) fn new(slopes: &'a Slopes, land: Option<&'a Mask>, texels: Size) -> Self {
+    pub(super) fn new(slopes: &'a Slopes, valid: Option<&'a Mask>, texels: Size) -> Self {
         let grid = slopes.east.size();
         let axis = |texels: usize, cells: usize| (0..texels).map(|at| weights(at, texels, cells)).collect();
         let (across, down) = (axis(texels.columns, grid.columns), axis(texels.rows, grid.rows));
-        Self { texels, grid, slopes, land, across, down }
+        Self { texels, grid, slopes, valid, across, down }
     }
 
-    /// Rise eastward and southward at a texel, in metres a metre; level far from all data.
+    /// Rise eastward and southward at a texel, in metres per metre; level far from all data.
     pub(super) fn slopes(&self, x: usize, y: usize) -> [f64; 2] {
         let mut sums = [0.0; 3];
         for &(row, down) in &self.down[y] {
             for &(column, across) in &self.across[x] {
-                if self.land.is_none_or(|land| land.is_land(column, row)) {
+                if self.valid.is_none_or(|valid| valid.is_valid(column, row)) {
                     let weight = across * down;
                     sums[0] += weight * f64::from(self.slopes.east.at(column, row));
                     sums[1] += weight * f64::from(self.slopes.south.at(column, row));
@@ -55,9 +55,9 @@ impl<'a> Sampling<'a> {
 
 /// Cells near a texel and their weights along one axis.
 fn weights(texel: usize, texels: usize, cells: usize) -> Vec<(usize, f64)> {
-    let cells_a_texel = cells as f64 / texels as f64;
-    let radius = cells_a_texel.max(1.0);
-    let centre = ((texel as f64 + 0.5) * cells_a_texel - 0.5).clamp(0.0, cells as f64 - 1.0);
+    let cells_per_texel = cells as f64 / texels as f64;
+    let radius = cells_per_texel.max(1.0);
+    let centre = ((texel as f64 + 0.5) * cells_per_texel - 0.5).clamp(0.0, cells as f64 - 1.0);
     let first = (centre - radius).ceil().max(0.0) as usize;
     let last = ((centre + radius).floor() as usize).min(cells - 1);
     let weight = |cell: usize| 1.0 - (cell as f64 - centre).abs() / radius;

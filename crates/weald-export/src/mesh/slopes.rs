@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use super::delaunay::Point;
 use weald_core::grid::{Field, Mask};
 
-/// Rise of the ground in metres a metre.
+/// Rise of the ground in metres per metre.
 #[derive(Debug)]
 pub(super) struct Slopes {
     /// Eastward.
@@ -18,27 +18,27 @@ pub(super) struct Slopes {
 
 impl Slopes {
     /// Slopes of heights on cells of `cell` metres; 0 where there is no data.
-    pub(super) fn of(height: &Field, land: Option<&Mask>, cell: f64) -> Self {
+    pub(super) fn of(height: &Field, valid: Option<&Mask>, cell: f64) -> Self {
         let size = height.size();
-        let is_land = |x: usize, y: usize| land.is_none_or(|land| land.is_land(x, y));
+        let is_valid = |x: usize, y: usize| valid.is_none_or(|valid| valid.is_valid(x, y));
         let rise = |[ax, ay]: [usize; 2], [bx, by]: [usize; 2]| {
             let cells = (bx - ax) + (by - ay);
             let rise = f64::from(height.at(bx, by)) - f64::from(height.at(ax, ay));
             if cells == 0 { 0.0 } else { (rise / (cells as f64 * cell)) as f32 }
         };
         let east = |x: usize, y: usize| {
-            let west = if x > 0 && is_land(x - 1, y) { x - 1 } else { x };
-            let east = if x + 1 < size.columns && is_land(x + 1, y) { x + 1 } else { x };
+            let west = if x > 0 && is_valid(x - 1, y) { x - 1 } else { x };
+            let east = if x + 1 < size.columns && is_valid(x + 1, y) { x + 1 } else { x };
             rise([west, y], [east, y])
         };
         let south = |x: usize, y: usize| {
-            let north = if y > 0 && is_land(x, y - 1) { y - 1 } else { y };
-            let south = if y + 1 < size.rows && is_land(x, y + 1) { y + 1 } else { y };
+            let north = if y > 0 && is_valid(x, y - 1) { y - 1 } else { y };
+            let south = if y + 1 < size.rows && is_valid(x, y + 1) { y + 1 } else { y };
             rise([x, north], [x, south])
         };
         let field = |slope: &(dyn Fn(usize, usize) -> f32 + Sync)| {
             let rows = (0..size.rows).into_par_iter();
-            let at = |x, y| if is_land(x, y) { slope(x, y) } else { 0.0 };
+            let at = |x, y| if is_valid(x, y) { slope(x, y) } else { 0.0 };
             let values = rows.flat_map_iter(|y| (0..size.columns).map(move |x| at(x, y))).collect();
             Field::from_values(size, values)
         };

@@ -3,7 +3,7 @@
 use super::delaunay::Point;
 use super::plane::Plane;
 use super::water::Water;
-use super::{MOST_VERTICES, Mesh, follow, ground_of};
+use super::{MAX_VERTICES, Mesh, follow, ground_of};
 use weald_core::error::Error;
 use weald_core::landscape::Landscape;
 
@@ -21,7 +21,7 @@ impl Mesh {
         let (ground, size) = (ground_of(landscape, &self.of.0)?, landscape.domain.size);
         let water = self.water.then(|| Water::of(landscape, ground, self.shallowest as f32)).flatten();
         let surface = self.surface(landscape, ground, water.as_ref());
-        let mesh = follow(&surface, MOST_VERTICES)?;
+        let mesh = follow(&surface, MAX_VERTICES)?;
         let steps: Vec<_> =
             places.iter().map(|place| place.map(|along| along / landscape.domain.cell - 0.5)).collect();
         let mut in_square = vec![Vec::new(); size.cells()];

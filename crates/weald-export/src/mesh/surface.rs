@@ -9,7 +9,7 @@ pub(super) struct Surface<'a> {
     /// Heights in metres.
     pub(super) height: &'a Field,
     /// Cells with data; `None` where all have.
-    pub(super) land: Option<&'a Mask>,
+    pub(super) valid: Option<&'a Mask>,
     /// One over the deviation that a cell bears, in metres; 0 in cells without data.
     pub(super) strictness: Field,
 }
@@ -19,16 +19,16 @@ const ROUNDING: f64 = 1.0 + 1e-6;
 
 impl<'a> Surface<'a> {
     /// A surface to be followed to `error` metres everywhere.
-    pub(super) fn new(height: &'a Field, land: Option<&'a Mask>, error: f64) -> Self {
-        Self::bearing(height, land, |_| error)
+    pub(super) fn new(height: &'a Field, valid: Option<&'a Mask>, error: f64) -> Self {
+        Self::bearing(height, valid, |_| error)
     }
 
     /// A surface each cell of which bears its own deviation, in metres.
-    pub(super) fn bearing(height: &'a Field, land: Option<&'a Mask>, error: impl Fn(usize) -> f64) -> Self {
-        let is_land = |cell: usize| land.is_none_or(|land| land.is_land_at(cell));
-        let strictness = |cell: usize| if is_land(cell) { (ROUNDING / error(cell)) as f32 } else { 0.0 };
+    pub(super) fn bearing(height: &'a Field, valid: Option<&'a Mask>, error: impl Fn(usize) -> f64) -> Self {
+        let is_valid = |cell: usize| valid.is_none_or(|valid| valid.is_valid_at(cell));
+        let strictness = |cell: usize| if is_valid(cell) { (ROUNDING / error(cell)) as f32 } else { 0.0 };
         let strictness = (0..height.size().cells()).map(strictness).collect();
-        Self { height, land, strictness: Field::from_values(height.size(), strictness) }
+        Self { height, valid, strictness: Field::from_values(height.size(), strictness) }
     }
 
     /// Columns and rows.
@@ -37,8 +37,8 @@ impl<'a> Surface<'a> {
     }
 
     /// Whether a cell has data.
-    pub(super) fn is_land(&self, [x, y]: Point) -> bool {
-        self.land.is_none_or(|land| land.is_land(x as usize, y as usize))
+    pub(super) fn is_valid(&self, [x, y]: Point) -> bool {
+        self.valid.is_none_or(|valid| valid.is_valid(x as usize, y as usize))
     }
 
     /// Height of a cell.
@@ -52,7 +52,7 @@ impl<'a> Surface<'a> {
     pub(super) fn is_ground(&self, triangle: [Point; 3]) -> bool {
         // The centroid, in thirds of a cell.
         let [x, y] = [0, 1].map(|axis| triangle.iter().map(|corner| corner[axis]).sum::<u32>());
-        let void = |[dx, dy]: &[u32; 2]| !self.is_land([x / 3 + dx, y / 3 + dy]);
+        let void = |[dx, dy]: &[u32; 2]| !self.is_valid([x / 3 + dx, y / 3 + dy]);
         let mut voids = [[0, 0], [1, 0], [0, 1], [1, 1]].into_iter().filter(void);
         match (voids.next(), voids.next()) {
             (None, _) => true,

@@ -9,7 +9,7 @@
 use super::vector::{Vector, add_scaled, cross, dot, unit};
 
 /// Square of a sum of directions that cancel each other, as on two walls that face each other.
-const LEAST: f64 = 1e-12;
+const MIN_SQUARE: f64 = 1e-12;
 
 /// A tangent for each vertex, of length 1 and across its normal.
 ///
@@ -28,7 +28,7 @@ pub(super) fn tangents(positions: &[Vector], normals: &[Vector], triangles: &[[u
         }
     }
     let finished =
-        |(sum, &normal)| if dot(sum, sum) > LEAST { unit(sum) } else { laid([1.0, 0.0, 0.0], normal) };
+        |(sum, &normal)| if dot(sum, sum) > MIN_SQUARE { unit(sum) } else { laid([1.0, 0.0, 0.0], normal) };
     sums.into_iter().zip(normals).map(finished).collect()
 }
 

@@ -39,11 +39,11 @@ fn any_ground() -> impl Strategy<Value = (Field, Option<Mask>)> {
             let waves = smooth(size);
             let noise = |x: usize, y: usize| (noise * share(hash2(seed, x as i64, y as i64))) as f32;
             let height = Field::from_function(size, |x, y| waves.at(x, y) + noise(x, y));
-            let is_land = |cell: usize| {
+            let is_valid = |cell: usize| {
                 let [x, y] = [cell % columns / patch, cell / columns / patch].map(|at| at as i64);
                 share(hash2(seed ^ 1, x, y)) >= void
             };
-            (height, Mask::new(size, (0..size.cells()).map(is_land).collect()))
+            (height, Mask::new(size, (0..size.cells()).map(is_valid).collect()))
         },
     )
 }
@@ -54,7 +54,7 @@ fn twice_the_ground(surface: &Surface<'_>) -> i64 {
     let squares = (0..rows as u32 - 1).flat_map(|y| (0..columns as u32 - 1).map(move |x| [x, y]));
     let area = |[x, y]: Point| {
         let corners = [[x, y], [x + 1, y], [x, y + 1], [x + 1, y + 1]];
-        corners.into_iter().filter(|&corner| surface.is_land(corner)).count().saturating_sub(2) as i64
+        corners.into_iter().filter(|&corner| surface.is_valid(corner)).count().saturating_sub(2) as i64
     };
     squares.map(area).sum()
 }
@@ -71,7 +71,10 @@ fn is_border_or_shore(surface: &Surface<'_>, [a, b]: [Point; 2]) -> bool {
     let is_step = a[0].abs_diff(b[0]) <= 1 && a[1].abs_diff(b[1]) <= 1;
     let near_void = |[x, y]: Point| {
         let cell = surface.size().index(x as usize, y as usize);
-        surface.size().neighbours(cell).any(|other| surface.land.is_some_and(|land| !land.is_land_at(other)))
+        surface
+            .size()
+            .neighbours(cell)
+            .any(|other| surface.valid.is_some_and(|valid| !valid.is_valid_at(other)))
     };
     lies_along(0, columns - 1) || lies_along(1, rows - 1) || is_step && near_void(a) && near_void(b)
 }
@@ -115,8 +118,8 @@ proptest! {
         prop_assert_eq!(areas.iter().sum::<i64>(), twice_the_ground(&surface));
         for triangle in mesh.places() {
             for_each_row(triangle, |row, columns| {
-                let is_land = |column: usize| surface.is_land([column as u32, row as u32]);
-                assert!(columns.clone().all(is_land), "{triangle:?} covers a cell without data in row {row}");
+                let is_valid = |column: usize| surface.is_valid([column as u32, row as u32]);
+                assert!(columns.clone().all(is_valid), "{triangle:?} covers a cell without data in row {row}");
             });
         }
         let used: BTreeSet<_> = mesh.triangles.iter().flatten().copied().collect();
@@ -219,8 +222,8 @@ fn normals_are_those_of_the_ground_and_not_of_the_triangles() {
 fn under_the_normal_map_a_coarse_mesh_has_the_normals_of_every_cell() {
     let size = Size::new(70, 50).expect("small");
     let height = Field::from_values(size, smooth(size).values().iter().map(|height| 0.3 * height).collect());
-    let is_land = |cell: usize| (cell % 70).abs_diff(30).pow(2) + (cell / 70).abs_diff(20).pow(2) > 60;
-    let land = Mask::new(size, (0..size.cells()).map(is_land).collect());
+    let is_valid = |cell: usize| (cell % 70).abs_diff(30).pow(2) + (cell / 70).abs_diff(20).pow(2) > 60;
+    let land = Mask::new(size, (0..size.cells()).map(is_valid).collect());
     let (mesh, vertices) = meshed(&height, land.as_ref(), 4.5);
     assert!(mesh.triangles.len() < 400, "{} triangles are no coarse mesh", mesh.triangles.len());
     let slopes = Slopes::of(&height, land.as_ref(), CELL);
@@ -269,7 +272,7 @@ fn lake() -> Landscape {
     water.set(3, 3, 2.0);
     water.set(55, 44, 2.0);
     let land = Mask::new(size, (0..size.cells()).map(|cell| cell / 60 != 18 || cell % 60 < 20).collect());
-    let mut landscape = Landscape::new(Domain { land, ..Domain::new(size, CELL) });
+    let mut landscape = Landscape::new(Domain { valid: land, ..Domain::new(size, CELL) });
     landscape.insert("height", "m", ground);
     landscape.insert("water", "m", water);
     landscape
@@ -294,7 +297,7 @@ fn a_lake_lies_level_over_its_bed_and_under_its_banks_however_coarse_the_mesh() 
     let landscape = lake();
     let (ground, water) =
         (landscape.field("height").expect("there"), landscape.field("water").expect("there"));
-    let land = landscape.domain.land.as_ref();
+    let land = landscape.domain.valid.as_ref();
     let lake = Water::of(&landscape, ground, 0.5).expect("a lake");
     let bed = heights(&follow(&lake.spared(ground, land, 1.0), 1 << 20).expect("few"), ground);
     let sheet = follow(&Surface::new(&lake.level, Some(&lake.sheet), 0.5), 1 << 20).expect("few");
@@ -311,14 +314,14 @@ fn a_lake_lies_level_over_its_bed_and_under_its_banks_however_coarse_the_mesh() 
         }
     }
     assert!(wet > 400 && banks > 10, "{wet} wet cells, {banks} banks");
-    assert!(!lake.sheet.is_land(3, 3) && !lake.sheet.is_land(55, 44), "puddles are left out");
+    assert!(!lake.sheet.is_valid(3, 3) && !lake.sheet.is_valid(55, 44), "puddles are left out");
 }
 
 #[test]
 fn walls_hang_from_every_open_edge_and_face_outward() {
     let landscape = lake();
     let ground = landscape.field("height").expect("there");
-    let (mesh, vertices) = meshed(ground, landscape.domain.land.as_ref(), 1.0);
+    let (mesh, vertices) = meshed(ground, landscape.domain.valid.as_ref(), 1.0);
     let skirt = Skirt::of(&mesh, &vertices.positions, -10.0);
     assert_eq!(skirt.triangles.len(), 2 * mesh.outline().len());
     for triangle in &skirt.triangles {

@@ -21,9 +21,9 @@ fn texels(grid: Size) -> Size {
 }
 
 /// The normal map as a PNG file.
-pub(super) fn normal_png(mesh: &Tin, vertices: &Vertices, slopes: &Slopes, land: Option<&Mask>) -> Vec<u8> {
+pub(super) fn normal_png(mesh: &Tin, vertices: &Vertices, slopes: &Slopes, valid: Option<&Mask>) -> Vec<u8> {
     let size = texels(slopes.east.size());
-    let sampling = Sampling::new(slopes, land, size);
+    let sampling = Sampling::new(slopes, valid, size);
     let bytes = &normal_map(mesh, vertices, &sampling);
     let sides = [size.columns, size.rows];
     let texels = Pixels { sides, channels: ColorType::Rgb, depth: BitDepth::Eight, bytes };

@@ -27,8 +27,8 @@ impl Water {
     pub(super) fn of(landscape: &Landscape, ground: &Field, shallowest: f32) -> Option<Self> {
         let depth = landscape.field("water").or_else(|_| landscape.field("lake_depth")).ok()?;
         let domain = &landscape.domain;
-        let is_land = |cell: usize| domain.land.as_ref().is_none_or(|land| land.is_land_at(cell));
-        let is_wet = |(cell, &depth): (usize, &f32)| depth >= shallowest && is_land(cell);
+        let is_valid = |cell: usize| domain.valid.as_ref().is_none_or(|valid| valid.is_valid_at(cell));
+        let is_wet = |(cell, &depth): (usize, &f32)| depth >= shallowest && is_valid(cell);
         let mut wet: Vec<_> = depth.values().iter().enumerate().map(is_wet).collect();
         drop_puddles(&mut wet, domain);
         wet.contains(&true).then(|| Self::over(ground, depth, &wet, domain))
@@ -41,8 +41,8 @@ impl Water {
             *level += depth;
         }
         let mut sheet = wet.to_vec();
-        let is_land = |cell: usize| domain.land.as_ref().is_none_or(|land| land.is_land_at(cell));
-        for cell in (0..size.cells()).filter(|&cell| !wet[cell] && is_land(cell)) {
+        let is_valid = |cell: usize| domain.valid.as_ref().is_none_or(|valid| valid.is_valid_at(cell));
+        for cell in (0..size.cells()).filter(|&cell| !wet[cell] && is_valid(cell)) {
             let beside = size.neighbours(cell).filter(|&other| wet[other]);
             let levels = beside.map(|other| ground.values()[other] + depth.values()[other]);
             if let Some(lowest) = levels.min_by(f32::total_cmp) {
@@ -55,15 +55,15 @@ impl Water {
     }
 
     /// The ground, to be followed to `error` metres, and beside water closely enough to stay on its side of it.
-    pub(super) fn spared<'a>(&self, ground: &'a Field, land: Option<&'a Mask>, error: f64) -> Surface<'a> {
+    pub(super) fn spared<'a>(&self, ground: &'a Field, valid: Option<&'a Mask>, error: f64) -> Surface<'a> {
         let bears = |cell: usize| {
-            if !self.sheet.is_land_at(cell) {
+            if !self.sheet.is_valid_at(cell) {
                 return error;
             }
             let apart = f64::from(self.level.values()[cell]) - f64::from(ground.values()[cell]);
             (CLEARANCE * apart.abs()).clamp(STRICTEST * error, error)
         };
-        Surface::bearing(ground, land, bears)
+        Surface::bearing(ground, valid, bears)
     }
 }
 

@@ -42,7 +42,7 @@ weald_core::parameters! {
 }
 
 /// Most plants of which a file of nodes is written: some 20 MB.
-pub(super) const MOST_NODES: usize = 100_000;
+pub(super) const MAX_NODES: usize = 100_000;
 
 /// What an extension stands for.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -73,9 +73,9 @@ impl Export for PlantSet {
                 self.of.0
             )
         });
-        let many = (plants.plants.len() > MOST_NODES).then(|| {
+        let many = (plants.plants.len() > MAX_NODES).then(|| {
             format!(
-                "more than {MOST_NODES} plants: a `.glb` has instances, and no file of nodes lies beside it"
+                "more than {MAX_NODES} plants: a `.glb` has instances, and no file of nodes lies beside it"
             )
         });
         none.into_iter().chain(many).collect()
@@ -107,7 +107,7 @@ impl PlantSet {
         let model = self.model(&fractal.ifs);
         let scene = instances::Scene { name: &self.of.0, model: &model, plants: &plants.plants, finished };
         let mut parts = vec![Part::own(scene.instanced()?)];
-        if plants.plants.len() <= MOST_NODES {
+        if plants.plants.len() <= MAX_NODES {
             parts.push(Part::sibling(".nodes.glb", scene.nodes()?));
         }
         Ok(parts)

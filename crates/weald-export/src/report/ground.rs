@@ -51,7 +51,7 @@ impl Ground {
             RiversStep { of, ..RiversStep::default() }.run(&mut land, &Job::unwatched(0))?;
         }
         let rivers = Rivers::of(&land)?;
-        let has_data = |cell: usize| land.domain.land.as_ref().is_none_or(|mask| mask.is_land_at(cell));
+        let has_data = |cell: usize| land.domain.valid.as_ref().is_none_or(|mask| mask.is_valid_at(cell));
         let cells = field.values().iter().enumerate().filter(|&(cell, _)| has_data(cell));
         let mut sorted: Vec<f32> = cells.map(|(_, &height)| height).collect();
         sorted.sort_unstable_by(f32::total_cmp);
@@ -74,8 +74,8 @@ pub(super) fn in_words(landscape: &Landscape, height: &str) -> Result<String, Er
     let domain = &landscape.domain;
     let (columns, rows) = (domain.size.columns, domain.size.rows);
     let kilometres = |cells: usize| number(cells as f64 * domain.cell / 1000.0);
-    let (low, high) = landscape.field(height)?.range(domain.land.as_ref()).unwrap_or((0.0, 0.0));
-    let missing = domain.size.cells() - domain.land_cells();
+    let (low, high) = landscape.field(height)?.range(domain.valid.as_ref()).unwrap_or((0.0, 0.0));
+    let missing = domain.size.cells() - domain.valid_cells();
     let without = if missing == 0 {
         String::new()
     } else {

@@ -51,7 +51,7 @@ struct Values {
 
 impl Values {
     fn of(field: &Field, domain: &Domain) -> Option<Self> {
-        let has_data = |cell: usize| domain.land.as_ref().is_none_or(|land| land.is_land_at(cell));
+        let has_data = |cell: usize| domain.valid.as_ref().is_none_or(|valid| valid.is_valid_at(cell));
         let cells =
             field.values().iter().enumerate().filter(|&(cell, value)| has_data(cell) && value.is_finite());
         let mut sorted: Vec<f32> = cells.map(|(_, &value)| value).collect();

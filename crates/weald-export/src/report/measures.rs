@@ -35,10 +35,10 @@ fn network<'a>(finished: &'a Finished<'_>) -> Option<(&'a str, BTreeMap<String, 
     Some((&step.step, measures.collect()))
 }
 
-/// Rain of a simulation in metres a step, by its budget.
+/// Rain of a simulation in metres per step, by its budget.
 fn mean_rain(step: &StepReport, finished: &Finished<'_>) -> Option<f64> {
     let domain = &finished.landscape.domain;
-    let area = domain.land_cells() as f64 * domain.cell_area();
+    let area = domain.valid_cells() as f64 * domain.cell_area();
     let water = step.budget?.water;
     let rain = water.incoming / area / step.iterations as f64;
     (rain.is_finite() && rain > 0.0).then_some(rain)

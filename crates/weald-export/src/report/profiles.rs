@@ -27,7 +27,7 @@ struct Stem<'a> {
 pub(super) fn charts(ground: &Ground, most: usize, beside: &str) -> String {
     let stems = stems(ground, most.min(SERIES));
     if stems.is_empty() {
-        return format!("<p>No river is large enough to be told of.</p>\n{beside}");
+        return format!("<p>No river is large enough to be listed.</p>\n{beside}");
     }
     let (map, profiles) = (map(ground, &stems), profiles(&stems));
     format!(
@@ -60,8 +60,12 @@ fn profiles(stems: &[Stem<'_>]) -> String {
         Axis::linear("height of the water, m", low, high),
     );
     for (number, stem) in stems.iter().enumerate() {
-        let profile: Vec<_> =
-            stem.to_the_end.iter().zip(&stem.points).map(|(way, point)| (way / 1000.0, point.z)).collect();
+        let profile: Vec<_> = stem
+            .to_the_end
+            .iter()
+            .zip(&stem.points)
+            .map(|(distance, point)| (distance / 1000.0, point.z))
+            .collect();
         plot.line(&format!("curve profile series-{number}"), &profile);
         plot.label(&format!("name series-{number}"), profile[0], &(number + 1).to_string());
     }

@@ -16,10 +16,10 @@ use super::plot::Plot;
 use weald_land::analyse::directions::Directions;
 
 /// Bins a decade of area.
-const BINS_A_DECADE: f64 = 5.0;
+const BINS_PER_DECADE: f64 = 5.0;
 
 /// Fewest cells in a bin that is shown.
-const FEWEST: usize = 5;
+const MIN_BIN_CELLS: usize = 5;
 
 /// Area in cells from which a bin counts as river.
 const CHANNEL_CELLS: f64 = 100.0;
@@ -85,27 +85,27 @@ fn slopes(ground: &Ground) -> Vec<(f64, f64)> {
     else {
         return Vec::new();
     };
-    let Ok(directions) = Directions::of(codes, domain.land.as_ref()) else { return Vec::new() };
+    let Ok(directions) = Directions::of(codes, domain.valid.as_ref()) else { return Vec::new() };
     let columns = domain.size.columns;
     let slope = |cell: usize| {
         let next = directions.downstream(cell)?;
         let straight = next % columns == cell % columns || next / columns == cell / columns;
-        let way = domain.cell * if straight { 1.0 } else { std::f64::consts::SQRT_2 };
+        let distance = domain.cell * if straight { 1.0 } else { std::f64::consts::SQRT_2 };
         let fall = f64::from(height.values()[cell]) - f64::from(height.values()[next]);
-        (fall > 0.0).then(|| (f64::from(area.values()[cell]), fall / way))
+        (fall > 0.0).then(|| (f64::from(area.values()[cell]), fall / distance))
     };
     (0..domain.size.cells()).filter_map(slope).collect()
 }
 
 fn bins(mut slopes: Vec<(f64, f64)>) -> Vec<Bin> {
-    let number = |area: f64| libm::floor(libm::log10(area) * BINS_A_DECADE);
+    let number = |area: f64| libm::floor(libm::log10(area) * BINS_PER_DECADE);
     slopes.retain(|(area, _)| *area > 0.0);
     slopes.sort_unstable_by(|a, b| number(a.0).total_cmp(&number(b.0)).then(a.1.total_cmp(&b.1)));
     let groups = slopes.chunk_by(|a, b| number(a.0) == number(b.0));
     groups
-        .filter(|group| group.len() >= FEWEST)
+        .filter(|group| group.len() >= MIN_BIN_CELLS)
         .map(|group| Bin {
-            area: libm::exp10((number(group[0].0) + 0.5) / BINS_A_DECADE),
+            area: libm::exp10((number(group[0].0) + 0.5) / BINS_PER_DECADE),
             quartiles: [0.25, 0.5, 0.75].map(|share| group[((group.len() - 1) as f64 * share) as usize].1),
             cells: group.len(),
         })

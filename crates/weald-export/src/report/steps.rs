@@ -21,7 +21,7 @@ pub(super) fn table_of(finished: &Finished<'_>) -> String {
     if rows.is_empty() {
         return String::new();
     }
-    let header = ["step", "iterations", "seconds", "million cell updates a second", "notes"];
+    let header = ["step", "iterations", "seconds", "million cell updates per second", "notes"];
     table("What each step did.", &header, &rows)
 }
 

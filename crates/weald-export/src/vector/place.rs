@@ -36,7 +36,7 @@ impl Place<'_> {
             }
             None => {
                 "the landscape has no place on Earth; coordinates are metres from its south-western corner, y \
-                 northward; GDAL takes them for degrees unless it is told otherwise"
+                 northward; GDAL takes them for degrees unless it is set otherwise"
             }
         };
         Some(text.to_owned())

@@ -88,13 +88,13 @@ fn drawn(domain: &Domain, reach: &Reach) -> Reach {
 fn at_the_edge(domain: &Domain, point: &RiverPoint) -> RiverPoint {
     let half = 0.5 * domain.cell;
     let [width, height] = domain.extent();
-    let ways = [
+    let edges = [
         (point.x, [-half, 0.0]),
         (width - point.x, [half, 0.0]),
         (point.y, [0.0, -half]),
         (height - point.y, [0.0, half]),
     ];
-    let nearest = ways.into_iter().min_by(|a, b| a.0.total_cmp(&b.0));
+    let nearest = edges.into_iter().min_by(|a, b| a.0.total_cmp(&b.0));
     let (_, [east, south]) = nearest.expect("a grid has four edges");
     RiverPoint { x: point.x + east, y: point.y + south, ..*point }
 }

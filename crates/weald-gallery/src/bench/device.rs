@@ -3,7 +3,7 @@
 use std::fmt::Display;
 use std::sync::Arc;
 
-use super::rate::{Beside, RUNS, Rate};
+use super::rate::{Baseline, RUNS, Rate};
 use weald_core::domain::Domain;
 use weald_core::error::Error;
 use weald_core::grid::Size;
@@ -29,8 +29,8 @@ const STEPS: [u32; 2] = [4, 5000];
 /// Metres of each material above the bedrock.
 const THICKNESS: f64 = 2.0;
 
-/// Measures every model at each size; `report` hears each rate as it is known, and each size that the device's
-/// memory does not hold whole. `bandwidth` is what the device reads and writes while it copies, in bytes a
+/// Measures every model at each size; `report` is called with each rate as it is known, and each size that the device's
+/// memory does not hold whole. `bandwidth` is what the device reads and writes while it copies, in bytes per
 /// second.
 ///
 /// # Errors
@@ -105,6 +105,6 @@ fn rate(
         seconds = seconds.min(seconds_of(iterations)?);
     }
     let millions = size.cells() as f64 / seconds / 1e6;
-    let beside = Beside::Copies { bytes: program.bytes_per_cell_step(), bandwidth };
+    let beside = Baseline::Copies { bytes: program.bytes_per_cell_step(), bandwidth };
     Ok(Some(Rate { name: name.to_owned(), size, threads: None, millions, beside }))
 }

@@ -1,6 +1,6 @@
 //! Rates of flow over the ground: depressions filled, directions, upslope areas.
 
-use super::rate::{Beside, Rate, best_seconds};
+use super::rate::{Baseline, Rate, best_seconds};
 use weald_core::domain::Domain;
 use weald_core::error::Error;
 use weald_core::grid::{Field, Size};
@@ -8,7 +8,7 @@ use weald_engine::generator::Generator;
 use weald_land::analyse::flow::{MultipleFlow, Routing, accumulate, accumulate_multiple, naive, route};
 use weald_land::generate::diamond_square::DiamondSquare;
 
-/// Bytes a cell that the passes read and write: surface 8, descent twice 5, links 2, labels 17, passes 8, fill 12,
+/// Bytes per cell that the passes read and write: surface 8, descent twice 5, links 2, labels 17, passes 8, fill 12,
 /// flats 6, directions and surface out 18, donors 4, sums 36. Rows that stay in the cache count once.
 const BYTES: usize = 121;
 
@@ -27,14 +27,14 @@ pub(super) fn flow(size: Size, bandwidth: f64, report: &mut (dyn FnMut(&Rate) + 
         routed = route(&ground, None, &Routing::default());
         drop(accumulate(&routed.directions, None, None));
     });
-    let shares = MultipleFlow { routed: &routed, land: None, exponent: 1.1 };
+    let shares = MultipleFlow { routed: &routed, valid: None, exponent: 1.1 };
     let seconds_of_shares = best_seconds(|| drop(accumulate_multiple(&shares, None)));
     let threads = Some(rayon::current_num_threads());
     for (name, seconds, bytes) in [
         ("flow, filled, D8", seconds, BYTES),
         ("flow, shared areas alone", seconds_of_shares, BYTES_OF_SHARES),
     ] {
-        let beside = Beside::Passes { bytes, bandwidth, naive };
+        let beside = Baseline::Passes { bytes, bandwidth, naive };
         report(&Rate { name: name.to_owned(), size, threads, millions: rate(size, seconds), beside });
     }
     Ok(())

@@ -33,8 +33,8 @@ const VERTEX_FLOPS: usize = 85;
 /// Bytes of a vertex.
 const VERTEX_BYTES: usize = 36;
 
-/// Million sets a second that are aimed for.
-const AIM: f64 = 10.0;
+/// Million sets per second that are aimed for.
+const TARGET_RATE: f64 = 10.0;
 
 /// One line of the bench of grass.
 #[derive(Clone, Debug, PartialEq)]
@@ -66,7 +66,7 @@ impl Display for GrassRate {
     }
 }
 
-/// Measures sets and vertices for each thread count; `report` hears each line as it is known.
+/// Measures sets and vertices for each thread count; `report` is called with each line as it is known.
 ///
 /// # Errors
 /// [`Error::Run`] where threads cannot be started.
@@ -103,7 +103,7 @@ fn rates() -> Vec<GrassRate> {
             "sets of grass, 16 B each",
             sets,
             [SET_FLOPS, SET_BYTES],
-            &[("naive", naive), ("the aim of 10 M/s", AIM)],
+            &[("naive", naive), ("the aim of 10 M/s", TARGET_RATE)],
         ),
         line("vertices of blades at level 4", vertices, [VERTEX_FLOPS, VERTEX_BYTES], &[]),
     ]
@@ -125,7 +125,7 @@ fn meadow() -> Meadow {
         deepest: 0.0,
         maps: Maps {
             cell: 1.0,
-            land: None,
+            valid: None,
             density: Field::filled(size, 1.0),
             soil: map(1),
             light: map(2),
@@ -163,17 +163,18 @@ fn naive(meadow: &Meadow) -> Vec<Instance> {
     for y in 0..SIDE {
         for x in 0..SIDE {
             for number in 0..(f64::from(maps.density.at(x, y)) * meadow.densest) as u64 {
-                let lot = |purpose: u64| unit(hash2(meadow.seed ^ number << 8 ^ purpose, x as i64, y as i64));
-                let place = [x as f64 + lot(0), y as f64 + lot(1)];
+                let random =
+                    |purpose: u64| unit(hash2(meadow.seed ^ number << 8 ^ purpose, x as i64, y as i64));
+                let place = [x as f64 + random(0), y as f64 + random(1)];
                 let tuft = Set {
                     soil: between(&maps.soil, place),
                     light: between(&maps.light, place),
                     level: meadow.level,
                     cut: 1.0,
                     trodden: 0.0,
-                    seed: (lot(3) * 65536.0) as u32,
+                    seed: (random(3) * 65536.0) as u32,
                 };
-                let species = u32::from(lot(2) as f32 > between(&maps.shares[0], place));
+                let species = u32::from(random(2) as f32 > between(&maps.shares[0], place));
                 sets.push(Instance { place: place.map(|along| along as f32), species, tuft });
             }
         }

@@ -21,19 +21,19 @@ pub struct Rate {
     /// Million cells, or cell-steps, a second.
     pub millions: f64,
     /// What it is compared with.
-    pub beside: Beside,
+    pub beside: Baseline,
 }
 
 /// What a rate is compared with.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Beside {
+pub enum Baseline {
     /// The rate at which memory could feed one step after another, without blocking in time.
     Memory {
         /// Fewest bytes a cell-step: every state plane read and written, every constant plane read.
         bytes: usize,
         /// Additions, multiplications, divisions, roots and comparisons a cell-step.
         operations: usize,
-        /// Bandwidth of reading and writing in place, in bytes a second, with as many threads.
+        /// Bandwidth of reading and writing in place, in bytes per second, with as many threads.
         bandwidth: f64,
         /// Rate to aim for, in million cell-steps a second.
         aim: f64,
@@ -42,14 +42,14 @@ pub enum Beside {
     Copies {
         /// Bytes a cell-step, each buffer of a pass counted once.
         bytes: usize,
-        /// Bandwidth of copying within the device's memory, in bytes a second.
+        /// Bandwidth of copying within the device's memory, in bytes per second.
         bandwidth: f64,
     },
     /// The rate at which memory could carry what the passes of a method read and write, and a naive version.
     Passes {
-        /// Bytes a cell, each array of a pass counted once.
+        /// Bytes per cell, each array of a pass counted once.
         bytes: usize,
-        /// Bandwidth of reading and writing in place, in bytes a second, with as many threads.
+        /// Bandwidth of reading and writing in place, in bytes per second, with as many threads.
         bandwidth: f64,
         /// The naive version, in million cells a second.
         naive: f64,
@@ -67,7 +67,7 @@ impl std::fmt::Display for Rate {
         let threads = threads.map_or("gpu  ".to_owned(), |threads| format!("{threads} thr"));
         write!(out, "{name:<24} {size:>11}  {threads}  {millions:>7.0} M/s")?;
         match self.beside {
-            Beside::Memory { bytes, operations, bandwidth, aim } => {
+            Baseline::Memory { bytes, operations, bandwidth, aim } => {
                 let bound = bandwidth / bytes as f64 / 1e6;
                 write!(
                     out,
@@ -78,7 +78,7 @@ impl std::fmt::Display for Rate {
                     millions / aim,
                 )
             }
-            Beside::Copies { bytes, bandwidth } => {
+            Baseline::Copies { bytes, bandwidth } => {
                 let bound = bandwidth / bytes as f64 / 1e6;
                 let share = 100.0 * millions / bound;
                 write!(
@@ -87,7 +87,7 @@ impl std::fmt::Display for Rate {
                     bandwidth / 1e9,
                 )
             }
-            Beside::Passes { bytes, bandwidth, naive } => {
+            Baseline::Passes { bytes, bandwidth, naive } => {
                 let bound = bandwidth / bytes as f64 / 1e6;
                 let milliseconds = self.size.cells() as f64 / millions / 1e3;
                 write!(
@@ -99,13 +99,13 @@ impl std::fmt::Display for Rate {
                     millions / naive,
                 )
             }
-            Beside::Naive(naive) => write!(out, "  {:.0} times the naive {naive:.1} M/s", millions / naive),
-            Beside::Alone => Ok(()),
+            Baseline::Naive(naive) => write!(out, "  {:.0} times the naive {naive:.1} M/s", millions / naive),
+            Baseline::Alone => Ok(()),
         }
     }
 }
 
-/// Bytes a second that the threads of this pool read and write in place, on arrays far beyond the caches.
+/// Bytes per second that the threads of this pool read and write in place, on arrays far beyond the caches.
 pub fn bandwidth() -> f64 {
     const VALUES: usize = 32 << 20;
     let mut values = vec![1.0_f32; VALUES];

@@ -1,6 +1,6 @@
 //! The same landscapes young and old.
 
-use super::han::{self, Ran, Run, weathered};
+use super::han::{self, FinishedRun, Run, weathered};
 use super::{Claim, Figure, FigureOutput, GalleryJob, Make, Measured, Plate, Verdict, texts, views};
 use weald_core::error::Error;
 use weald_core::landscape::Landscape;
@@ -52,16 +52,16 @@ fn make(job: GalleryJob) -> Result<FigureOutput, Error> {
 }
 
 /// Spacing and width of the valleys in cells; 0 where there are none.
-fn form(ran: &Ran) -> [f64; 2] {
+fn form(ran: &FinishedRun) -> [f64; 2] {
     ran.measures.valleys.map_or([0.0; 2], |form| [form.spacing, form.width])
 }
 
 /// Width of the rivers in cells; 0 where there are none.
-fn river(ran: &Ran) -> f64 {
+fn river(ran: &FinishedRun) -> f64 {
     ran.measures.river_width.unwrap_or(0.0)
 }
 
-fn row(ran: &Ran) -> Vec<String> {
+fn row(ran: &FinishedRun) -> Vec<String> {
     let [spacing, width] = form(ran);
     vec![
         ran.run.name.clone(),
@@ -73,10 +73,10 @@ fn row(ran: &Ran) -> Vec<String> {
     ]
 }
 
-fn claims(runs: &[Ran], ages: usize) -> Vec<Claim> {
-    let seeds: Vec<&[Ran]> = runs.chunks(ages).collect();
-    let rows = |number: &dyn Fn(&Ran) -> String| {
-        let row = |runs: &&[Ran]| runs.iter().map(number).collect::<Vec<_>>().join(" → ");
+fn claims(runs: &[FinishedRun], ages: usize) -> Vec<Claim> {
+    let seeds: Vec<&[FinishedRun]> = runs.chunks(ages).collect();
+    let rows = |number: &dyn Fn(&FinishedRun) -> String| {
+        let row = |runs: &&[FinishedRun]| runs.iter().map(number).collect::<Vec<_>>().join(" → ");
         seeds.iter().map(row).collect::<Vec<_>>().join(" and ")
     };
     let young_and_old = || seeds.iter().map(|runs| [&runs[0], &runs[ages - 1]]);

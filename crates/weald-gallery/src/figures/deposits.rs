@@ -1,6 +1,6 @@
 //! Deposits that stand higher than the water they settled from, and the ratio that shrinks them.
 
-use super::han::{self, Ran, Run};
+use super::han::{self, FinishedRun, Run};
 use super::{Claim, Figure, FigureOutput, GalleryJob, Make, Measured, Verdict, texts, views};
 use weald_core::error::Error;
 
@@ -53,7 +53,7 @@ struct Fill {
 
 impl Fill {
     /// The lakes are those of `water`, which does not erode.
-    fn of(ran: &Ran, water: &Ran) -> Result<Self, Error> {
+    fn of(ran: &FinishedRun, water: &FinishedRun) -> Result<Self, Error> {
         let (bottom, depth) = (water.ground().values(), water.landscape.field("water")?.values());
         let ground = ran.ground().values();
         let lake: Vec<usize> = (0..ground.len()).filter(|&cell| depth[cell] > LAKE_DEPTH).collect();

@@ -1,6 +1,6 @@
 //! Dissolution alone, which fills water up to its capacity: fast and slow.
 
-use super::han::{self, MEANING, Ran, Run, header, row, share};
+use super::han::{self, FinishedRun, MEANING, Run, header, row, share};
 use super::{Claim, Figure, FigureOutput, GalleryJob, Make, Measured, Verdict, views};
 use weald_core::error::Error;
 use weald_core::landscape::Landscape;
@@ -47,8 +47,8 @@ fn make(job: GalleryJob) -> Result<FigureOutput, Error> {
     })
 }
 
-fn measured(runs: &[Ran]) -> Measured {
-    let row = |ran: &Ran| [row(ran), vec![format!("{:.2}", ran.measures.flux_gini)]].concat();
+fn measured(runs: &[FinishedRun]) -> Measured {
+    let row = |ran: &FinishedRun| [row(ran), vec![format!("{:.2}", ran.measures.flux_gini)]].concat();
     Measured {
         header: [header(), vec!["unevenness".to_owned()]].concat(),
         rows: runs.iter().map(row).collect(),
@@ -60,7 +60,7 @@ fn measured(runs: &[Ran]) -> Measured {
     }
 }
 
-fn no_rivers(runs: &[Ran]) -> Claim {
+fn no_rivers(runs: &[FinishedRun]) -> Claim {
     let (dissolved, water) = (&runs[..RATES.len()], &runs[RATES.len()]);
     let chans: Vec<f64> = dissolved.iter().map(|ran| ran.measures.chan).collect();
     let shares: Vec<String> = chans.iter().map(|&chan| share(chan)).collect();
@@ -82,7 +82,7 @@ fn no_rivers(runs: &[Ran]) -> Claim {
 const ALIKE: f64 = 0.6;
 
 /// Compares the map of discharge of fast dissolution with that of erosion by velocity, early and at the end.
-fn like_streams(young: &[Ran], runs: &[Ran]) -> Result<Claim, Error> {
+fn like_streams(young: &[FinishedRun], runs: &[FinishedRun]) -> Result<Claim, Error> {
     let fast = RATES.iter().position(|&rate| rate == FAST).expect("it is among them");
     let early = likeness(&young[0].landscape, &young[1].landscape)?;
     let late = likeness(&runs[fast].landscape, &runs[RATES.len() + 1].landscape)?;

@@ -18,7 +18,7 @@ pub(super) const FIGURE: Figure = Figure {
 };
 
 /// Name and keys of each way of transport.
-const WAYS: [(&str, &str); 3] = [
+const VARIANTS: [(&str, &str); 3] = [
     ("semi-Lagrangian, as published", "transport = \"semi-lagrangian\""),
     ("MacCormack", "transport = \"maccormack\"\nconserve = false"),
     ("upwind fluxes", "transport = \"upwind\""),
@@ -34,13 +34,13 @@ fn make(job: GalleryJob) -> Result<FigureOutput, Error> {
         run_steps(&mut landscape, 0, &[("hydraulic", &keys)])?;
         Ok(landscape)
     };
-    let lands = WAYS.map(run).into_iter().collect::<Result<Vec<_>, _>>()?;
+    let lands = VARIANTS.map(run).into_iter().collect::<Result<Vec<_>, _>>()?;
     let soils = lands.iter().map(|land| Soil::of(land, before)).collect::<Result<Vec<_>, _>>()?;
     let width = job.choose(480, 32);
     let titled = |(name, _): (&str, &str), land| Ok(views::relief(land, width)?.titled(name));
-    let images = WAYS.into_iter().zip(&lands).map(|(way, land)| titled(way, land));
+    let images = VARIANTS.into_iter().zip(&lands).map(|(variant, land)| titled(variant, land));
     let images = images.collect::<Result<Vec<_>, Error>>()?;
-    let names = WAYS.map(|(name, _)| name);
+    let names = VARIANTS.map(|(name, _)| name);
     let caption = format!("Ground and water after {iterations} steps: {}", names.join("; "));
     Ok(FigureOutput {
         plates: vec![Plate { name: "relief", caption, image: views::laid_out(&images, 3) }],

@@ -61,7 +61,7 @@ impl Streams {
     fn of(job: GalleryJob, rate: f64) -> Result<Self, Error> {
         let (side, iterations) = job.choose(SMALL, (32, 120));
         let runs = han::run_all(&Run { side, iterations, ..run(job, rate) }.for_seeds(&SEEDS))?;
-        let all = |of: fn(&han::Ran) -> f64| runs.iter().map(of).collect();
+        let all = |of: fn(&han::FinishedRun) -> f64| runs.iter().map(of).collect();
         Ok(Self {
             rate,
             chan: all(|ran| ran.measures.chan),

@@ -1,6 +1,6 @@
 //! Forms of the ground for each sediment capacity K_c and erosion strength K_v.
 
-use super::han::{self, MEANING, RULE, Ran, Run};
+use super::han::{self, FinishedRun, MEANING, RULE, Run};
 use super::{Claim, Figure, FigureOutput, GalleryJob, Make, Measured, Plate, Verdict, views};
 use weald_core::error::Error;
 use weald_picture::Image;
@@ -44,7 +44,7 @@ fn make(job: GalleryJob) -> Result<FigureOutput, Error> {
     })
 }
 
-fn plate(name: &'static str, what: &str, runs: &[Ran], image: Image) -> Plate {
+fn plate(name: &'static str, what: &str, runs: &[FinishedRun], image: Image) -> Plate {
     let steps = runs[0].run.iterations;
     Plate {
         name,
@@ -53,9 +53,9 @@ fn plate(name: &'static str, what: &str, runs: &[Ran], image: Image) -> Plate {
     }
 }
 
-fn measured(runs: &[Ran]) -> Measured {
+fn measured(runs: &[FinishedRun]) -> Measured {
     let strengths = STRENGTHS.iter().map(|strength| format!("K_v {strength}"));
-    let row = |(capacity, runs): (&f64, &[Ran])| {
+    let row = |(capacity, runs): (&f64, &[FinishedRun])| {
         let cells = runs.iter().map(|ran| format!("{:.3} / {:.2}", ran.measures.chan, ran.measures.reach));
         std::iter::once(format!("K_c {capacity}")).chain(cells).collect()
     };
@@ -66,9 +66,9 @@ fn measured(runs: &[Ran]) -> Measured {
     }
 }
 
-fn claims(runs: &[Ran], water: &Ran) -> Vec<Claim> {
-    let by_capacity: Vec<&[Ran]> = runs.chunks(STRENGTHS.len()).collect();
-    let networks: Vec<&Ran> = runs.iter().filter(|ran| ran.is_network(water)).collect();
+fn claims(runs: &[FinishedRun], water: &FinishedRun) -> Vec<Claim> {
+    let by_capacity: Vec<&[FinishedRun]> = runs.chunks(STRENGTHS.len()).collect();
+    let networks: Vec<&FinishedRun> = runs.iter().filter(|ran| ran.is_network(water)).collect();
     let names = networks.iter().map(|ran| format!("({})", ran.run.name)).collect::<Vec<_>>();
     let most = |column: usize| by_capacity.iter().map(|row| row[column].measures.chan).fold(0.0, f64::max);
     let weakest = most(0);

@@ -49,7 +49,7 @@ impl Run {
         seeds.iter().map(|&seed| Self { seed, ..self.clone() }).collect()
     }
 
-    fn make(&self) -> Result<Ran, Error> {
+    fn make(&self) -> Result<FinishedRun, Error> {
         let mut landscape = start_terrain(self.side, self.seed)?;
         let before = landscape.field("height")?.clone();
         let keys = format!(
@@ -59,13 +59,13 @@ impl Run {
         );
         run_steps(&mut landscape, 0, &[("hydraulic", &keys)])?;
         let measures = network(&landscape, &before)?;
-        Ok(Ran { run: self.clone(), before, landscape, measures })
+        Ok(FinishedRun { run: self.clone(), before, landscape, measures })
     }
 }
 
 /// A run with its result.
 #[derive(Clone, Debug)]
-pub(super) struct Ran {
+pub(super) struct FinishedRun {
     pub(super) run: Run,
     /// The ground before.
     pub(super) before: Field,
@@ -73,7 +73,7 @@ pub(super) struct Ran {
     pub(super) measures: NetworkMeasures,
 }
 
-impl Ran {
+impl FinishedRun {
     /// The ground after.
     pub(super) fn ground(&self) -> &Field {
         self.landscape.field("height").expect("a run leaves ground")
@@ -87,12 +87,12 @@ impl Ran {
     }
 }
 
-/// What [`Ran::is_network`] asks for, in words.
+/// What [`FinishedRun::is_network`] asks for, in words.
 pub(super) const RULE: &str = "a network has twice the `chan` of water that does not erode, `reach` above \
                                0.15 and `drains` of 0.3 or more";
 
 /// Makes all runs, at the same time as far as there are cores.
-pub(super) fn run_all(runs: &[Run]) -> Result<Vec<Ran>, Error> {
+pub(super) fn run_all(runs: &[Run]) -> Result<Vec<FinishedRun>, Error> {
     runs.par_iter().map(Run::make).collect()
 }
 
@@ -105,7 +105,7 @@ fn network(landscape: &Landscape, before: &Field) -> Result<NetworkMeasures, Err
         mean_flux_y: landscape.field("flux_y")?,
         mean_rain: RAIN / 2.0,
         cell: landscape.domain.cell,
-        land: None,
+        valid: None,
     }))
 }
 
@@ -122,7 +122,7 @@ pub(super) const MEANING: &str = "`chan`: share of cells that carry the runoff o
                                   neighbour.";
 
 /// Name and network measures of a run.
-pub(super) fn row(ran: &Ran) -> Vec<String> {
+pub(super) fn row(ran: &FinishedRun) -> Vec<String> {
     let NetworkMeasures { chan, reach, drains, pits, .. } = ran.measures;
     vec![ran.run.name.clone(), share(chan), format!("{reach:.2}"), format!("{drains:.2}"), pits.to_string()]
 }

@@ -44,7 +44,7 @@ fn make(job: GalleryJob) -> Result<FigureOutput, Error> {
         header: texts(["stage", "lake level, m", "outlet, m", "water beyond it, m³"]),
         rows: levels.iter().map(Levels::row).collect(),
         remarks: texts([
-            "Level in the middle of the lake; the outlet is the highest ground on the lowest way out of it.",
+            "Level in the middle of the lake; the outlet is the highest ground on the lowest path out of it.",
         ]),
     };
     Ok(FigureOutput { plates, measured, claims: claims(&levels) })

@@ -33,8 +33,8 @@ mod weathering;
 mod write;
 
 pub use claim::{Claim, Verdict};
-pub use page::merged_page;
 pub(crate) use figure::texts;
 pub use figure::{Detail, Figure, FigureOutput, GalleryJob, Make, Measured, Plate};
+pub use page::merged_page;
 pub use registry::FIGURES;
-pub use write::{Begun, Selection, draws, selectable, write, write_figures};
+pub use write::{Selection, StartedFigure, draws, selectable, write, write_figures};

@@ -17,8 +17,8 @@ pub(super) const FIGURE: Figure = Figure {
 /// Symbol, key of the `hydraulic` step, value and meaning.
 const TABLE: [[&str; 4]; 12] = [
     ["k", "flow_rate", "0.4", "dt² g A / l: how fast differences in level turn into flow"],
-    ["R", "rain", "0.01", "cells a step while it rains"],
-    ["E", "evaporation", "0.03", "cells a step while the sun shines"],
+    ["R", "rain", "0.01", "cells per step while it rains"],
+    ["E", "evaporation", "0.03", "cells per step while the sun shines"],
     ["T_R", "rain_period", "60", "steps"],
     ["T_E", "dry_period", "60", "steps"],
     ["ε", "epsilon", "0.001", "cells of depth, added where sediment is divided by depth"],

@@ -1,6 +1,6 @@
 //! The scheme as printed, in which a wet cell gives more water than it has.
 
-use super::han::{self, MEANING, RULE, Ran, Run, header, row};
+use super::han::{self, FinishedRun, MEANING, RULE, Run, header, row};
 use super::{Claim, Figure, FigureOutput, GalleryJob, Make, Measured, Verdict, texts, views};
 use weald_core::error::Error;
 
@@ -43,8 +43,8 @@ fn make(job: GalleryJob) -> Result<FigureOutput, Error> {
     })
 }
 
-fn measured(runs: &[Ran]) -> Result<Measured, Error> {
-    let row = |ran: &Ran| -> Result<Vec<String>, Error> {
+fn measured(runs: &[FinishedRun]) -> Result<Measured, Error> {
+    let row = |ran: &FinishedRun| -> Result<Vec<String>, Error> {
         let water = ran.landscape.field("water")?;
         let (lowest, _) = water.range(None).unwrap_or((0.0, 0.0));
         let share = |of: &dyn Fn(f32) -> bool| {
@@ -64,7 +64,7 @@ fn measured(runs: &[Ran]) -> Result<Measured, Error> {
     })
 }
 
-fn claims(runs: &[Ran]) -> Vec<Claim> {
+fn claims(runs: &[FinishedRun]) -> Vec<Claim> {
     let (water, limited, printed) = (&runs[0], &runs[1], &runs[2..]);
     let networks: Vec<&str> =
         printed.iter().filter(|ran| ran.is_network(water)).map(|ran| ran.run.name.as_str()).collect();

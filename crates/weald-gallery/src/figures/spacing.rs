@@ -1,6 +1,6 @@
 //! How far apart valleys lie, by the angle at which ground rests.
 
-use super::han::{self, Ran, Run, weathered};
+use super::han::{self, FinishedRun, Run, weathered};
 use super::{Claim, Figure, FigureOutput, GalleryJob, Make, Measured, Plate, Verdict, texts, views};
 use weald_core::error::Error;
 
@@ -49,11 +49,11 @@ fn make(job: GalleryJob) -> Result<FigureOutput, Error> {
 }
 
 /// Spacing and width of the valleys in cells; infinitely wide where there are none.
-fn form(ran: &Ran) -> [f64; 2] {
+fn form(ran: &FinishedRun) -> [f64; 2] {
     ran.measures.valleys.map_or([f64::INFINITY; 2], |form| [form.spacing, form.width])
 }
 
-fn row(ran: &Ran) -> Vec<String> {
+fn row(ran: &FinishedRun) -> Vec<String> {
     let [spacing, width] = form(ran);
     vec![
         ran.run.name.clone(),
@@ -64,16 +64,17 @@ fn row(ran: &Ran) -> Vec<String> {
     ]
 }
 
-fn claims(runs: &[Ran]) -> Vec<Claim> {
+fn claims(runs: &[FinishedRun]) -> Vec<Claim> {
     let of_seeds = || runs.chunks(TALUS.len());
-    let both = |number: &dyn Fn(&Ran) -> String| {
-        let row = |runs: &[Ran]| runs.iter().map(number).collect::<Vec<_>>().join(" → ");
+    let both = |number: &dyn Fn(&FinishedRun) -> String| {
+        let row = |runs: &[FinishedRun]| runs.iter().map(number).collect::<Vec<_>>().join(" → ");
         of_seeds().map(row).collect::<Vec<_>>().join(" and ")
     };
-    let widens = |runs: &[Ran]| runs.is_sorted_by(|a, b| form(a)[0] < form(b)[0] && form(a)[1] < form(b)[1]);
-    let heads = |ran: &Ran| ran.measures.heads;
-    let fewer = |runs: &[Ran]| heads(&runs[TALUS.len() - 1]) < heads(&runs[0]);
-    let step_by_step = |runs: &[Ran]| runs.is_sorted_by(|a, b| heads(a) > heads(b));
+    let widens =
+        |runs: &[FinishedRun]| runs.is_sorted_by(|a, b| form(a)[0] < form(b)[0] && form(a)[1] < form(b)[1]);
+    let heads = |ran: &FinishedRun| ran.measures.heads;
+    let fewer = |runs: &[FinishedRun]| heads(&runs[TALUS.len() - 1]) < heads(&runs[0]);
+    let step_by_step = |runs: &[FinishedRun]| runs.is_sorted_by(|a, b| heads(a) > heads(b));
     vec![
         Claim::new(
             "The smaller tan φ, the wider apart the valleys",

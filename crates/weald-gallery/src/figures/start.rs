@@ -43,7 +43,7 @@ fn without_valleys(job: GalleryJob, landscape: &Landscape) -> Result<Claim, Erro
         mean_flux_y: &dry,
         mean_rain: 1.0,
         cell: 1.0,
-        land: None,
+        valid: None,
     });
     let eroded = &han::run_all(&[han::Run::new(job, "erosion", "")])?[0].measures;
     Ok(Claim::new(

@@ -1,7 +1,7 @@
 //! Pictures of eroded ground on the same scales, so that they compare.
 
 use super::Plate;
-use super::han::{RAIN, Ran};
+use super::han::{FinishedRun, RAIN};
 use weald_core::domain::Domain;
 use weald_core::error::Error;
 use weald_core::grid::{Field, Size};
@@ -71,11 +71,11 @@ pub(super) fn part(landscape: &Landscape, corner: [usize; 2], side: usize) -> Re
 
 /// Draws each run below its name and lays the pictures out in rows of `columns`.
 pub(super) fn sheet(
-    runs: &[Ran],
+    runs: &[FinishedRun],
     columns: usize,
     draw: impl Fn(&Landscape) -> Result<Image, Error>,
 ) -> Result<Image, Error> {
-    let titled = |ran: &Ran| Ok(draw(&ran.landscape)?.titled(&ran.run.name));
+    let titled = |ran: &FinishedRun| Ok(draw(&ran.landscape)?.titled(&ran.run.name));
     let images = runs.iter().map(titled).collect::<Result<Vec<_>, Error>>()?;
     Ok(laid_out(&images, columns))
 }
@@ -87,7 +87,7 @@ pub(super) fn laid_out(images: &[Image], columns: usize) -> Image {
 }
 
 /// A row of pictures, with what they show and the names of the runs below it.
-pub(super) fn plate(name: &'static str, what: &str, runs: &[Ran], image: Image) -> Plate {
+pub(super) fn plate(name: &'static str, what: &str, runs: &[FinishedRun], image: Image) -> Plate {
     let names: Vec<&str> = runs.iter().map(|ran| ran.run.name.as_str()).collect();
     let steps = runs.first().map_or(0, |ran| ran.run.iterations);
     Plate { name, caption: format!("{what} after {steps} steps: {}", names.join("; ")), image }

@@ -1,6 +1,6 @@
 //! Rivers by velocity-dependent erosion, without and with thermal weathering.
 
-use super::han::{self, MEANING, RULE, Ran, Run, header, row, weathered};
+use super::han::{self, FinishedRun, MEANING, RULE, Run, header, row, weathered};
 use super::{Claim, Figure, FigureOutput, GalleryJob, Make, Measured, Plate, Verdict, views};
 use weald_core::error::Error;
 use weald_picture::{Image, Picture, Section};
@@ -40,9 +40,9 @@ fn make(job: GalleryJob) -> Result<FigureOutput, Error> {
 }
 
 /// The mountains of the middle cut open.
-fn section(job: GalleryJob, runs: &[Ran]) -> Result<Plate, Error> {
+fn section(job: GalleryJob, runs: &[FinishedRun]) -> Result<Plate, Error> {
     let (side, corner) = job.choose((112, 96), (16, 8));
-    let cut = |ran: &Ran| -> Result<Image, Error> {
+    let cut = |ran: &FinishedRun| -> Result<Image, Error> {
         let part = views::part(&ran.landscape, [corner; 2], side)?;
         let picture = Section {
             width: job.choose(1120, 64),
@@ -57,9 +57,9 @@ fn section(job: GalleryJob, runs: &[Ran]) -> Result<Plate, Error> {
     Ok(views::plate("section", &what, runs, views::laid_out(&images, 1)))
 }
 
-fn measured(runs: &[Ran]) -> Measured {
+fn measured(runs: &[FinishedRun]) -> Measured {
     let more = ["valley width", "shape", "steepest tenth, °"].map(str::to_owned);
-    let row = |ran: &Ran| {
+    let row = |ran: &FinishedRun| {
         let [width, shape] = form(ran);
         let more = [format!("{width:.1}"), format!("{shape:.2}"), format!("{:.0}", steep_deg(ran))];
         [row(ran), more.to_vec()].concat()
@@ -78,12 +78,12 @@ const MEANING_OF_FORM: &str = "Valleys as rows and columns of the grid cut them,
                                ten exceeds.";
 
 /// Width and shape of the valleys; 0 where there are none.
-fn form(ran: &Ran) -> [f64; 2] {
+fn form(ran: &FinishedRun) -> [f64; 2] {
     ran.measures.valleys.map_or([0.0; 2], |form| [form.width, form.shape])
 }
 
 /// Slope in degrees that one cell in ten exceeds.
-fn steep_deg(ran: &Ran) -> f64 {
+fn steep_deg(ran: &FinishedRun) -> f64 {
     let (ground, size) = (ran.ground(), ran.ground().size());
     let slope = |x: usize, y: usize| {
         let east = f64::from(ground.at(x + 1, y) - ground.at(x - 1, y)) / 2.0;
@@ -96,7 +96,7 @@ fn steep_deg(ran: &Ran) -> f64 {
     libm::atan(slopes[slopes.len() * 9 / 10]).to_degrees()
 }
 
-fn claims(runs: &[Ran]) -> Vec<Claim> {
+fn claims(runs: &[FinishedRun]) -> Vec<Claim> {
     let [water, eroded, weathered] = [&runs[0], &runs[1], &runs[2]];
     let [[slot, slot_shape], [valley, valley_shape]] = [form(eroded), form(weathered)];
     let [steep, rests] = [steep_deg(eroded), steep_deg(weathered)];

@@ -9,7 +9,7 @@ use weald_picture::RenderDevice;
 
 /// A figure that is about to be made.
 #[derive(Clone, Copy, Debug)]
-pub struct Begun<'a> {
+pub struct StartedFigure<'a> {
     /// The figure.
     pub figure: &'a Figure,
     /// Its place among those that are made, counted from 1.
@@ -19,7 +19,7 @@ pub struct Begun<'a> {
 }
 
 /// Makes the figures named in `only`, or all where it is empty, and writes their pictures and `index.md` into
-/// a folder. Sections of other figures on an older page stay. `progress` hears of each figure begun.
+/// a folder. Sections of other figures on an older page stay. `progress` is called for each figure begun.
 ///
 /// # Errors
 /// [`Error::Run`] for an unknown id, a failed step, or a folder that cannot be written; [`Error::Device`] for a figure that
@@ -28,7 +28,7 @@ pub fn write(
     folder: &Path,
     only: &[String],
     device: Option<&dyn RenderDevice>,
-    progress: &dyn Fn(Begun<'_>),
+    progress: &dyn Fn(StartedFigure<'_>),
 ) -> Result<(), Error> {
     write_figures(FIGURES, folder, &Selection { only, job: GalleryJob::default(), device }, progress)
 }
@@ -53,7 +53,7 @@ pub fn write_figures(
     figures: &[Figure],
     folder: &Path,
     selection: &Selection<'_>,
-    progress: &dyn Fn(Begun<'_>),
+    progress: &dyn Fn(StartedFigure<'_>),
 ) -> Result<(), Error> {
     check_ids(figures, selection.only)?;
     std::fs::create_dir_all(folder).map_err(|cause| Error::write(folder, &cause))?;
@@ -61,7 +61,7 @@ pub fn write_figures(
     let mut sections = page::sections(&page);
     let chosen: Vec<_> = figures.iter().filter(|figure| selected(figure, selection.only)).collect();
     for (place, figure) in chosen.iter().enumerate() {
-        progress(Begun { figure, number: place + 1, count: chosen.len() });
+        progress(StartedFigure { figure, number: place + 1, count: chosen.len() });
         let output = figure.output(selection.job, selection.device)?;
         write_plates(figure, &output, folder)?;
         sections.insert(figure.id.to_owned(), page::section(figure, &output));

@@ -38,7 +38,7 @@ impl Memory {
     }
 
     /// Takes bytes from the budget, until what is returned is dropped.
-    pub(crate) fn hold(self: &Arc<Self>, bytes: u64, what: &str) -> Result<Held, Error> {
+    pub(crate) fn hold(self: &Arc<Self>, bytes: u64, what: &str) -> Result<Reservation, Error> {
         let fits = |held: u64| held.checked_add(bytes).filter(|&sum| sum <= self.budget);
         let before = self.held.fetch_update(Ordering::Relaxed, Ordering::Relaxed, fits).map_err(|held| {
             Error::Device(format!(
@@ -50,18 +50,18 @@ impl Memory {
             ))
         })?;
         self.peak.fetch_max(before + bytes, Ordering::Relaxed);
-        Ok(Held { memory: Arc::clone(self), bytes })
+        Ok(Reservation { memory: Arc::clone(self), bytes })
     }
 }
 
 /// Bytes of a budget.
 #[derive(Debug)]
-pub(crate) struct Held {
+pub(crate) struct Reservation {
     memory: Arc<Memory>,
     bytes: u64,
 }
 
-impl Drop for Held {
+impl Drop for Reservation {
     fn drop(&mut self) {
         self.memory.held.fetch_sub(self.bytes, Ordering::Relaxed);
     }

@@ -6,7 +6,7 @@ use std::sync::{Arc, Mutex};
 use std::time::Duration;
 
 use weald::Error;
-use weald::engine::program::MOST_BUFFERS;
+use weald::engine::program::MAX_BUFFERS;
 use wgpu::{
     BindGroupLayout, ComputePipeline, DeviceDescriptor, DeviceType, ErrorFilter, Features, Limits,
     MemoryHints, SubmissionIndex,
@@ -17,7 +17,7 @@ use super::advice::Advice;
 use super::faults::{Faults, explain};
 
 /// Longest wait for a submission, which is made to take a tenth of a second: then the device hangs.
-const PATIENCE: Duration = Duration::from_mins(2);
+const TIMEOUT: Duration = Duration::from_mins(2);
 
 /// Memory from which the driver cuts small buffers. Small blocks waste little of a small budget.
 const BLOCK_BYTES: u64 = 4 << 20;
@@ -82,7 +82,7 @@ impl Context {
 
     /// Waits until a submission is done, or all of them.
     pub(crate) fn wait(&self, submission: Option<SubmissionIndex>) -> Result<(), Error> {
-        self.wait_at_most(PATIENCE, submission)
+        self.wait_at_most(TIMEOUT, submission)
     }
 
     /// As [`Context::wait`], for what may take longer than all else.
@@ -110,7 +110,7 @@ impl Context {
 /// What is asked of a device: the least that programs need, and the largest buffers there are.
 fn limits(offered: &Limits) -> Limits {
     Limits {
-        max_storage_buffers_per_shader_stage: MOST_BUFFERS as u32,
+        max_storage_buffers_per_shader_stage: MAX_BUFFERS as u32,
         max_buffer_size: offered.max_buffer_size,
         max_storage_buffer_binding_size: offered.max_storage_buffer_binding_size,
         ..Limits::defaults().or_worse_values_from(offered)

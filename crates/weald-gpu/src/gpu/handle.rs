@@ -160,7 +160,7 @@ impl Gpu {
     #[doc(hidden)]
     pub fn lose(&self) {
         self.context.device.destroy();
-        // The listener hears of it when the device is next asked for anything.
+        // The listener is called when the device is next asked for anything.
         let _ = self.context.wait(None);
     }
 }

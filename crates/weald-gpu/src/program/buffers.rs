@@ -10,7 +10,7 @@ use crate::gpu::Gpu;
 use crate::memory::Store;
 
 /// Least size of a buffer: one element of any kind, so that even an empty table can be bound.
-const LEAST_BYTES: u64 = 16;
+const MIN_BYTES: u64 = 16;
 
 /// Buffers that exchange roles after each step: what was written becomes what is read.
 #[derive(Debug)]
@@ -28,7 +28,7 @@ impl Buffers {
         let usage = BufferUsages::STORAGE | BufferUsages::COPY_SRC | BufferUsages::COPY_DST;
         let stores = program.buffers.iter().map(|buffer| {
             let what = format!("buffer `{}` of `{}`", buffer.name, program.name);
-            Store::new(gpu, &what, bytes(buffer, size).max(LEAST_BYTES), usage)
+            Store::new(gpu, &what, bytes(buffer, size).max(MIN_BYTES), usage)
         });
         Ok(Self { stores: stores.collect::<Result<_, _>>()?, partners, odd: false })
     }

@@ -1,11 +1,11 @@
 //! A program on a device: its buffers, its passes and its steps.
 
+mod bound_passes;
 mod buffers;
 mod extents;
-mod kept;
 mod parts;
-mod ready;
 mod running;
+mod state_copy;
 mod uniforms;
 mod watch;
 

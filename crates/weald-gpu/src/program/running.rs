@@ -6,16 +6,16 @@ use weald::engine::program::{COUNTED, Content, GROUP, Program};
 use weald::grid::Size;
 use wgpu::BufferUsages;
 
+use super::bound_passes::{BoundPass, PassResources, Submission};
 use super::buffers::Buffers;
 use super::extents::{self, Extents};
-use super::kept::{Extent, Kept, is_state};
 use super::parts::{Bound, Cursor, Part, Work};
-use super::ready::{Places, Ready, Round};
+use super::state_copy::{Extent, StateCopy, is_state};
 use super::uniforms::Uniforms;
 use super::watch::Watch;
 use crate::gpu::{Gpu, Shown};
 use crate::memory::Store;
-use crate::pace::{Load, Pace, Sort};
+use crate::pace::{Load, Pace, WorkKind};
 use crate::transfer::{self, Transfer};
 
 /// A loaded program.
@@ -29,11 +29,11 @@ pub(crate) struct Running {
     buffers: Buffers,
     sums: Store,
     uniforms: Uniforms,
-    passes: Vec<Ready>,
+    passes: Vec<BoundPass>,
     pace: Pace,
     transfer: Transfer,
     watch: Watch,
-    kept: Kept,
+    kept: StateCopy,
 }
 
 impl Running {
@@ -45,7 +45,8 @@ impl Running {
         let buffers = Buffers::new(&gpu, program, size)?;
         let usage = BufferUsages::STORAGE | BufferUsages::COPY_SRC | BufferUsages::COPY_DST;
         let sums = Store::new(&gpu, "the sums", room.sums_bytes(), usage)?;
-        let passes = Places { program, uniforms: &uniforms, buffers: &buffers, sums: &sums }.ready(&gpu)?;
+        let passes =
+            PassResources { program, uniforms: &uniforms, buffers: &buffers, sums: &sums }.ready(&gpu)?;
         let (transfer, watch, pace) = (Transfer::new(&gpu)?, Watch::new(&gpu)?, Pace::new(gpu.most_moved));
         let mut running = Self {
             program: program.clone(),
@@ -58,7 +59,7 @@ impl Running {
             pace,
             transfer,
             watch,
-            kept: Kept::default(),
+            kept: StateCopy::default(),
             gpu,
         };
         running.clear(|_| true)?;
@@ -110,7 +111,7 @@ impl Running {
         while cursor.step < work.steps {
             let first = cursor.step;
             let bound =
-                Bound { bytes: self.pace.allowance(Sort::Passes), steps: self.uniforms.weather.count() };
+                Bound { bytes: self.pace.allowance(WorkKind::Passes), steps: self.uniforms.weather.count() };
             let (parts, bytes) = work.next(&mut cursor, bound);
             let Some(last) = parts.last() else { break };
             let words = weather[first..=last.step].iter().map(Vec::as_slice);
@@ -124,8 +125,8 @@ impl Running {
         let Self { gpu, uniforms, pace, passes, buffers, now, .. } = self;
         let staged = gpu.memory.hold(weather.len() as u64, "staging")?;
         let sees_weather = !self.program.weather.name.is_empty();
-        let round = Round { passes, uniforms, extents: *now, odd: buffers.odd(), sees_weather };
-        let load = Load { sort: Sort::Passes, bytes, staged: Some(staged) };
+        let round = Submission { passes, uniforms, extents: *now, odd: buffers.odd(), sees_weather };
+        let load = Load { sort: WorkKind::Passes, bytes, staged: Some(staged) };
         pace.submit(gpu, load, |encoder| {
             gpu.context.queue.write_buffer(&uniforms.weather.store.buffer, 0, weather);
             round.encode(encoder, parts);

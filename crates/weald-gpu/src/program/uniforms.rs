@@ -13,7 +13,7 @@ use crate::transfer::{self, piece_bytes};
 const GRID_WORDS: usize = 8;
 
 /// Most steps of one submission, and most places where a dispatch may begin.
-const MOST_SLOTS: usize = 1024;
+const MAX_SLOTS: usize = 1024;
 
 /// The uniforms of a program.
 #[derive(Debug)]
@@ -27,7 +27,7 @@ pub(crate) struct Uniforms {
 
 impl Uniforms {
     pub(crate) fn new(gpu: &Gpu, program: &Program) -> Result<Self, Error> {
-        let count = |words| slots::fitting(gpu, words, piece_bytes(gpu)).min(MOST_SLOTS);
+        let count = |words| slots::fitting(gpu, words, piece_bytes(gpu)).min(MAX_SLOTS);
         let words = &program.constants.words;
         let constants = Slots::new(gpu, "the constants", words.len(), 1)?;
         let packed = constants.packed(std::iter::once(words.as_slice()))?;

@@ -56,12 +56,12 @@ fn with_canopy(
     lawn: vec4<f32>,
     point: vec3<f32>,
     normal: vec3<f32>,
-    view: Looked,
+    view: ViewRay,
     seen: Seen,
     sun: f32,
 ) -> vec3<f32> {
     let soil = soil_in_sun * through_leaves(lawn.w, stage.sun.z) + soil_under_sky * sky_through_leaves(lawn.w);
-    let undrawn = lawn.w * (1.0 - drawn_as_blades(view.way));
+    let undrawn = lawn.w * (1.0 - drawn_as_blades(view.ray_length));
     let bare = through_leaves(undrawn, abs(dot(view.direction, normal)));
     if bare > 0.999 {
         return soil;
@@ -70,8 +70,8 @@ fn with_canopy(
 }
 
 // From where a point is looked at: along a direction, from so far away, with so wide a pixel.
-struct Looked {
+struct ViewRay {
     direction: vec3<f32>,
-    way: f32,
+    ray_length: f32,
     footprint: f32,
 }

@@ -7,8 +7,8 @@ use weald::picture::Camera;
 use wgpu::{BufferUsages, CommandEncoderDescriptor};
 
 use super::grass::Grass;
-use super::lawn::Sown;
-use super::picture::landed;
+use super::grass_layer::LoadedSets;
+use super::picture::read_back;
 use super::renderer::Renderer;
 use crate::gpu::Gpu;
 use crate::memory::Store;
@@ -35,16 +35,16 @@ impl Renderer {
             context.queue.submit([encoder.finish()]);
             Ok(())
         })?;
-        let sown = self.grass.iter().flat_map(Grass::sown);
-        sown.map(|sown| Chosen::of(&self.gpu, sown)).collect()
+        let loaded = self.grass.iter().flat_map(Grass::loaded);
+        loaded.map(|loaded| Chosen::of(&self.gpu, loaded)).collect()
     }
 }
 
 impl Chosen {
-    fn of(gpu: &Gpu, sown: &Sown) -> Result<Self, Error> {
-        let (kept, starts) = (words(gpu, &sown.kept)?, words(gpu, &sown.starts)?);
-        let sets = words(gpu, &sown.sets)?;
-        let begin = |list: usize| starts[list * sown.groups() as usize] as usize;
+    fn of(gpu: &Gpu, loaded: &LoadedSets) -> Result<Self, Error> {
+        let (kept, starts) = (words(gpu, &loaded.kept)?, words(gpu, &loaded.starts)?);
+        let sets = words(gpu, &loaded.sets)?;
+        let begin = |list: usize| starts[list * loaded.groups() as usize] as usize;
         Ok(Self {
             sets: sets.chunks_exact(4).map(|set| [set[0], set[1], set[2], set[3]]).collect(),
             lists: std::array::from_fn(|list| kept[begin(list)..begin(list + 1)].to_vec()),
@@ -60,5 +60,5 @@ fn words(gpu: &Gpu, store: &Store) -> Result<Vec<u32>, Error> {
     let mut encoder = gpu.context.device.create_command_encoder(&CommandEncoderDescriptor::default());
     encoder.copy_buffer_to_buffer(&store.buffer, 0, &landing.buffer, 0, bytes);
     gpu.context.queue.submit([encoder.finish()]);
-    landed(gpu, &landing.buffer, bytemuck::pod_collect_to_vec::<u8, u32>)
+    read_back(gpu, &landing.buffer, bytemuck::pod_collect_to_vec::<u8, u32>)
 }

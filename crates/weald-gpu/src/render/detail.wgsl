@@ -28,8 +28,8 @@ fn stones(place: vec2<f32>, seed: u32) -> Stone {
         let more = grain_bits(i32(hash & 0x7fffu), 7, seed);
         let centre = cell + vec2<f32>(f32(hash & 0xffffu), f32(hash >> 16u)) / 65536.0;
         // Small ones are many.
-        let lot = f32(more & 0xffu) / 255.0;
-        let radius = 0.16 + 0.52 * lot * lot;
+        let random = f32(more & 0xffu) / 255.0;
+        let radius = 0.16 + 0.52 * random * random;
         let turn = f32((more >> 8u) & 0xffu) * 0.0123;
         let axis = vec2<f32>(cos(turn), sin(turn));
         let away = place - centre;
@@ -120,8 +120,8 @@ fn blended(a: Detail, b: Detail, share: f32) -> Detail {
     return Detail(mix(a.tone, b.tone, share), mix(a.hue, b.hue, share), mix(a.bump, b.bump, share));
 }
 
-// The skin of a spot with what is seen of it from close by.
-fn with_detail(skin: Skin, point: vec3<f32>, normal: vec3<f32>, footprint: f32) -> Skin {
+// The skin of a point with what is seen of it from close by.
+fn with_detail(skin: SurfaceSample, point: vec3<f32>, normal: vec3<f32>, footprint: f32) -> SurfaceSample {
     if footprint >= DETAIL_FROM {
         return skin;
     }

@@ -34,7 +34,7 @@ impl RenderDevice for Gpu {
             sets: row.sets[0],
             drawn: row.sets[1],
             size: what.size,
-            rate: row.frames_a_second(),
+            rate: row.frames_per_second(),
             source: row.source.unwrap_or_default(),
         };
         Ok(grass_tables(self, what, &mut |_| Ok(()))?.iter().map(rate).collect())

@@ -17,7 +17,7 @@ const CELLS: usize = 64;
 const DENSEST: f64 = 25.0;
 
 /// Least side of a field in metres.
-const LEAST: f64 = 64.0;
+const MIN_SIDE: f64 = 64.0;
 
 /// Metres between the valleys and the hills of the field, and the height up to which there is water.
 const RELIEF: f32 = 3.0;
@@ -30,7 +30,7 @@ const BIRD: f32 = 0.3;
 
 /// From where a field is seen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Standpoint {
+pub enum Viewpoint {
     /// From above its southern end, so that all of it is seen.
     Far,
     /// From a person's height at its southern end.
@@ -39,7 +39,7 @@ pub enum Standpoint {
     Near,
 }
 
-impl Standpoint {
+impl Viewpoint {
     /// Its name.
     pub fn name(self) -> &'static str {
         match self {
@@ -52,13 +52,13 @@ impl Standpoint {
 
 /// A field that is ready to be drawn.
 #[derive(Debug)]
-pub(super) struct Meadowland {
+pub(super) struct GrassField {
     pub(super) renderer: Renderer,
     stage: Stage,
     side: f32,
 }
 
-impl Meadowland {
+impl GrassField {
     /// A field with about so many sets, and with a pond in it or not.
     pub(super) fn new(gpu: &Gpu, sets: u32, has_pond: bool, size: [u32; 2]) -> Result<Self, Error> {
         let [width, height] = size;
@@ -71,7 +71,7 @@ impl Meadowland {
     }
 
     /// The camera of a standpoint.
-    pub(super) fn camera(&self, standpoint: Standpoint) -> Camera {
+    pub(super) fn camera(&self, standpoint: Viewpoint) -> Camera {
         let half = self.stage.camera().half;
         let at = |north: f32, above: f32| {
             let place = [0.5 * f64::from(self.side), f64::from((1.0 - north) * self.side)];
@@ -80,9 +80,9 @@ impl Meadowland {
         };
         let towards = |eye, target| Camera::looking(eye, [0.0, 1.0, 0.0], half).towards(target);
         match standpoint {
-            Standpoint::Far => towards(at(-0.35, BIRD * self.side), at(0.5, 0.0)),
-            Standpoint::Eye => towards(at(0.04, EYES), at(0.5, 0.5)),
-            Standpoint::Near => towards(at(0.5, LYING), at(0.6, 0.3)),
+            Viewpoint::Far => towards(at(-0.35, BIRD * self.side), at(0.5, 0.0)),
+            Viewpoint::Eye => towards(at(0.04, EYES), at(0.5, 0.5)),
+            Viewpoint::Near => towards(at(0.5, LYING), at(0.6, 0.3)),
         }
     }
 
@@ -103,7 +103,7 @@ impl Meadowland {
 
 /// Side in metres of a field of so many sets.
 fn side(sets: u32) -> f64 {
-    LEAST.max((f64::from(sets) / DENSEST).sqrt())
+    MIN_SIDE.max((f64::from(sets) / DENSEST).sqrt())
 }
 
 /// Gentle hills and hollows, with water in the deepest or without.
@@ -129,7 +129,7 @@ fn meadow(sets: u32, cell: f64, water: Option<Field>) -> Meadow {
     let size = Size { columns: CELLS, rows: CELLS };
     let filled = |value| Field::filled(size, value);
     let (density, soil, light, shares) = (filled(1.0), filled(0.8), filled(0.7), vec![filled(1.0)]);
-    let maps = Maps { cell, land: None, density, soil, light, shares, water, mown: None, trodden: None };
+    let maps = Maps { cell, valid: None, density, soil, light, shares, water, mown: None, trodden: None };
     let mut meadow = Meadow {
         species: vec![SPECIES[0].clone()],
         bend: Bend::Total,

@@ -10,8 +10,8 @@ use wgpu::{
 };
 
 use super::cascades::{CASCADES, Cascades};
-use super::lattice::Standpoint;
-use super::levels::MOST_LEVELS;
+use super::lattice::Viewpoint;
+use super::levels::MAX_LEVELS;
 use super::textures::Canvas;
 use crate::gpu::Gpu;
 use crate::memory::Store;
@@ -29,7 +29,7 @@ struct Numbers {
     up: [f32; 4],
     stand: [f32; 4],
     moment: [f32; 4],
-    slides: [[f32; 4]; MOST_LEVELS],
+    slides: [[f32; 4]; MAX_LEVELS],
     sun_right: [f32; 4],
     sun_up: [f32; 4],
     cascades: [[f32; 4]; CASCADES],
@@ -38,8 +38,8 @@ struct Numbers {
 /// What a camera's ground was selected for.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Drawn {
-    pub(super) stand: Standpoint,
-    pub(super) slides: [[f32; 4]; MOST_LEVELS],
+    pub(super) stand: Viewpoint,
+    pub(super) slides: [[f32; 4]; MAX_LEVELS],
     /// The point from which detail is chosen.
     pub(super) detail_from: [f32; 3],
     /// Seconds since the beginning.

@@ -19,8 +19,8 @@ use wgpu::{
     ShaderModuleDescriptor, ShaderSource, ShaderStages,
 };
 
+use super::grass_layer::{DRAW, GrassLayer, LoadedSets};
 use super::grass_look::GrassLook;
-use super::lawn::{DRAW, Lawn, Sown};
 use super::layouts::{Layouts, STAGE_GROUP};
 use super::strips::strips;
 use super::timing::Timer;
@@ -35,7 +35,7 @@ const CHOOSING: [(&str, bool); 3] = [("mark", false), ("sum", true), ("gather", 
 /// The grass of a landscape.
 #[derive(Debug)]
 pub(super) struct Grass {
-    lawns: Vec<Lawn>,
+    layers: Vec<GrassLayer>,
     choosing: Vec<ComputePipeline>,
     draws: Vec<RenderPipeline>,
     layouts: [BindGroupLayout; 2],
@@ -49,9 +49,9 @@ impl Grass {
         layouts: Layouts<'_>,
         samples: u32,
     ) -> Result<Option<Self>, Error> {
-        let lawns = landscape.all_meadows().map(|(_, meadow)| Lawn::new(gpu, &meadow));
-        let lawns = lawns.collect::<Result<Vec<_>, _>>()?;
-        if lawns.is_empty() {
+        let layers = landscape.all_meadows().map(|(_, meadow)| GrassLayer::new(gpu, &meadow));
+        let layers = layers.collect::<Result<Vec<_>, _>>()?;
+        if layers.is_empty() {
             return Ok(None);
         }
         let device = &gpu.context.device;
@@ -79,19 +79,24 @@ impl Grass {
             let blades = self::module(gpu, stage, include_str!("blades.wgsl"));
             let layout = whole(&layouts.frame.layout, &own[1]);
             let draws = LISTS.map(|name| strips(device, (&blades, &layout), name, samples));
-            Ok(Some(Self { lawns, choosing: choosing.to_vec(), draws: draws.to_vec(), layouts: own.clone() }))
+            Ok(Some(Self {
+                layers,
+                choosing: choosing.to_vec(),
+                draws: draws.to_vec(),
+                layouts: own.clone(),
+            }))
         })
     }
 
     /// Sows what is around a point, or all.
     pub(super) fn prepare(&mut self, gpu: &Gpu, from: [f32; 3], look: GrassLook) -> Result<(), Error> {
         let place = [f64::from(from[0]), f64::from(-from[1])];
-        self.lawns.iter_mut().try_for_each(|lawn| lawn.prepare(gpu, place, look, &self.layouts))
+        self.layers.iter_mut().try_for_each(|layer| layer.prepare(gpu, place, look, &self.layouts))
     }
 
     /// What is sown now.
-    pub(super) fn sown(&self) -> impl Iterator<Item = &Sown> {
-        self.lawns.iter().filter_map(|lawn| lawn.sown.as_ref())
+    pub(super) fn loaded(&self) -> impl Iterator<Item = &LoadedSets> {
+        self.layers.iter().filter_map(|layer| layer.loaded.as_ref())
     }
 
     /// Encodes the choice of what is drawn.
@@ -107,22 +112,22 @@ impl Grass {
         for (at, group) in (0..).zip(groups) {
             pass.set_bind_group(at, group, &[]);
         }
-        for sown in self.sown() {
-            pass.set_bind_group(2, &sown.cull, &[]);
+        for loaded in self.loaded() {
+            pass.set_bind_group(2, &loaded.cull, &[]);
             for ((_, alone), pipeline) in CHOOSING.iter().zip(&self.choosing) {
                 pass.set_pipeline(pipeline);
-                pass.dispatch_workgroups(if *alone { 1 } else { sown.groups() }, 1, 1);
+                pass.dispatch_workgroups(if *alone { 1 } else { loaded.groups() }, 1, 1);
             }
         }
     }
 
     /// Draws all blades.
     pub(super) fn draw(&self, pass: &mut RenderPass<'_>) {
-        for sown in self.sown() {
-            pass.set_bind_group(2, &sown.draw, &[]);
+        for loaded in self.loaded() {
+            pass.set_bind_group(2, &loaded.draw, &[]);
             for (list, pipeline) in (0..).zip(&self.draws) {
                 pass.set_pipeline(pipeline);
-                pass.draw_indirect(&sown.draws.buffer, DRAW * list);
+                pass.draw_indirect(&loaded.draws.buffer, DRAW * list);
             }
         }
     }

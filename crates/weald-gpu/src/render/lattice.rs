@@ -8,7 +8,7 @@
 //! alone, and one height of the eye for all, so that what is near is known exactly and does not hang on heights.
 
 use super::frustum::{Frustum, Heights};
-use super::levels::{MOST_LEVELS, spacing};
+use super::levels::{MAX_LEVELS, spacing};
 use super::spacing::Ranges;
 
 /// Quads along a side of what is drawn at once: a quarter of a square.
@@ -42,7 +42,7 @@ pub(crate) struct Lattice {
 
 /// From where the ground is looked at.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Standpoint {
+pub(crate) struct Viewpoint {
     /// Place of the eye.
     pub(crate) place: [f32; 2],
     /// Height of the eye above all ground, in metres.
@@ -53,7 +53,7 @@ pub(crate) struct Standpoint {
 struct Selection<'a> {
     lattice: &'a Lattice,
     ranges: &'a Ranges,
-    from: Standpoint,
+    from: Viewpoint,
     heights: &'a Heights,
     view: &'a Frustum,
     patches: Vec<(f32, Patch)>,
@@ -64,7 +64,7 @@ impl Lattice {
     pub(crate) fn new(cells: [f32; 2], metres: [f32; 2]) -> Self {
         let longer = cells[0].max(cells[1]);
         let mut levels = 1;
-        while Self::side(levels - 1) < longer && levels < MOST_LEVELS {
+        while Self::side(levels - 1) < longer && levels < MAX_LEVELS {
             levels += 1;
         }
         Self { cells, metres, levels }
@@ -78,7 +78,7 @@ impl Lattice {
     /// Patches in sight of a view, the nearest first.
     pub(crate) fn select(
         &self,
-        from: Standpoint,
+        from: Viewpoint,
         ranges: &Ranges,
         heights: &Heights,
         view: &Frustum,
@@ -91,7 +91,7 @@ impl Lattice {
     }
 
     /// Least distance of a square from a standpoint.
-    fn distance(&self, from: Standpoint, corner: [f32; 2], side: f32) -> f32 {
+    fn distance(&self, from: Viewpoint, corner: [f32; 2], side: f32) -> f32 {
         let away = |axis: usize| {
             let beyond = (corner[axis] - from.place[axis]).max(from.place[axis] - corner[axis] - side);
             beyond.max(0.0) * self.metres[axis]
@@ -133,9 +133,9 @@ impl Selection<'_> {
 mod tests {
     use super::*;
 
-    fn everything(cells: [f32; 2], from: Standpoint) -> (Lattice, Vec<Patch>) {
+    fn everything(cells: [f32; 2], from: Viewpoint) -> (Lattice, Vec<Patch>) {
         let lattice = Lattice::new(cells, [10.0; 2]);
-        let ranges = Ranges::new(&[3.0; MOST_LEVELS], 1.0, 10.0);
+        let ranges = Ranges::new(&[3.0; MAX_LEVELS], 1.0, 10.0);
         let patches = lattice.select(from, &ranges, &Heights::flat(), &Frustum::everything());
         (lattice, patches)
     }
@@ -143,7 +143,7 @@ mod tests {
     #[test]
     fn patches_cover_each_place_once() {
         for place in [[0.0, 0.0], [700.0, 300.0], [-900.0, 3000.0]] {
-            let (lattice, patches) = everything([1500.0, 900.0], Standpoint { place, above: 30.0 });
+            let (lattice, patches) = everything([1500.0, 900.0], Viewpoint { place, above: 30.0 });
             assert!(patches.iter().any(|patch| patch.level != patches[0].level), "several levels");
             for sample in 0..4000_u32 {
                 let x = 0.5 + lattice.cells[0] * ((sample as f32 * 0.754_877_7).fract());
@@ -160,7 +160,7 @@ mod tests {
 
     #[test]
     fn the_finest_patch_lies_below_the_eye_and_levels_grow_outward() {
-        let (_, patches) = everything([4000.0, 4000.0], Standpoint { place: [1000.0; 2], above: 0.0 });
+        let (_, patches) = everything([4000.0, 4000.0], Viewpoint { place: [1000.0; 2], above: 0.0 });
         assert_eq!(patches[0].level, 0.0);
         assert!(patches.last().expect("some").level > 2.0);
     }

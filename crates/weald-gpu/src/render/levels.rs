@@ -4,7 +4,7 @@
 const FINEST: f32 = 0.125;
 
 /// Most levels: enough for the largest grid.
-pub(crate) const MOST_LEVELS: usize = 26;
+pub(crate) const MAX_LEVELS: usize = 26;
 
 /// Cells between vertices of a level.
 pub(crate) fn spacing(level: usize) -> f32 {

@@ -8,12 +8,12 @@ use std::time::{Duration, Instant};
 use weald::Error;
 use weald::picture::Camera;
 
-use super::picture::Landing;
+use super::picture::Readback;
 use super::renderer::Renderer;
 use super::timing::{Timer, Timings};
 
 /// Longest wait for a picture that is measured: software draws a million sets blade by blade in minutes.
-const PATIENCE: Duration = Duration::from_mins(20);
+const TIMEOUT: Duration = Duration::from_mins(20);
 
 impl Renderer {
     /// Draws the picture of a camera so many times, at least once, and says how long its parts take. Where there is
@@ -46,7 +46,7 @@ impl Renderer {
     }
 
     fn measured(&mut self, camera: &Camera) -> Result<Timings, Error> {
-        let landing = Landing::new(&self.gpu, self.options.size)?;
+        let landing = Readback::new(&self.gpu, self.options.size)?;
         let context = self.gpu.context.clone();
         let begun = Instant::now();
         context.attempt("drawing", || {
@@ -57,7 +57,7 @@ impl Renderer {
                 timer.collect(&mut encoder);
             }
             context.queue.submit([encoder.finish()]);
-            context.wait_at_most(PATIENCE, None)
+            context.wait_at_most(TIMEOUT, None)
         })?;
         let picture = begun.elapsed();
         self.timer.as_ref().expect("it is set by the caller").timings(&self.gpu, picture)

@@ -3,22 +3,21 @@
 //! What is drawn is a [`Stage`](weald::picture::Stage) of the library: its surfaces, colours, light and air, which the
 //! ray-marched view draws as well, become textures and numbers once; each picture then takes a camera. The passes: ground
 //! by level of detail ([`lattice`]), cut sides, plain and sky, all into linear light of 16-bit floats with depth reversed;
-//! then the film brings light to the numbers of a picture. [`renderer`] has their order.
+//! then tone mapping brings light to the numbers of a picture. [`renderer`] has their order.
 
 mod canopy;
 mod cascades;
 mod chosen;
 mod device;
 mod field;
-mod film;
 mod follow;
 mod follower;
 mod frame;
 mod frustum;
 mod grass;
+mod grass_layer;
 mod grass_look;
 mod lattice;
-mod lawn;
 mod layouts;
 mod levels;
 mod maps;
@@ -36,11 +35,12 @@ mod targets;
 mod terrain;
 mod textures;
 mod timing;
+mod tone_mapping;
 
 pub use chosen::Chosen;
-pub use field::Standpoint;
+pub use field::Viewpoint;
 pub use grass_look::GrassLook;
 pub use options::Options;
 pub use renderer::{Renderer, TestLook};
-pub use tables::{GrassRow, Hear, Measuring, frame_budget, grass_tables};
+pub use tables::{GrassRow, Measuring, OnRow, frame_budget, grass_tables};
 pub use timing::Timings;

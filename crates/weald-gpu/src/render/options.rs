@@ -11,7 +11,7 @@ use crate::gpu::Gpu;
 pub struct Options {
     /// Width and height in pixels.
     pub size: [u32; 2],
-    /// Samples a pixel at the edges of what is drawn: 1 or 4.
+    /// Samples per pixel at the edges of what is drawn: 1 or 4.
     pub samples: u32,
 }
 
@@ -40,7 +40,7 @@ impl Options {
         }
         if !SAMPLES.contains(&self.samples) {
             return Err(Error::Limit(format!(
-                "{} samples a pixel; every device has 1 and 4: choose --samples 4",
+                "{} samples per pixel; every device has 1 and 4: choose --samples 4",
                 self.samples
             )));
         }

@@ -19,7 +19,7 @@ const PIXEL: u32 = 4;
 
 /// A canvas for a finished picture, and the memory through which it comes back.
 #[derive(Debug)]
-pub(super) struct Landing {
+pub(super) struct Readback {
     size: [u32; 2],
     canvas: Canvas,
     /// Of the canvas.
@@ -27,7 +27,7 @@ pub(super) struct Landing {
     memory: Store,
 }
 
-impl Landing {
+impl Readback {
     pub(super) fn new(gpu: &Gpu, size: [u32; 2]) -> Result<Self, Error> {
         let usage = TextureUsages::RENDER_ATTACHMENT | TextureUsages::COPY_SRC;
         let canvas = Canvas::new(gpu, "a picture", Shape::flat(size, TextureFormat::Rgba8Unorm, usage))?;
@@ -54,7 +54,7 @@ impl Landing {
     /// The picture, when all that was submitted is done.
     pub(super) fn image(self, gpu: &Gpu) -> Result<Image, Error> {
         let [width, height] = self.size.map(|side| side as usize);
-        let rgb = landed(gpu, &self.memory.buffer, |bytes| {
+        let rgb = read_back(gpu, &self.memory.buffer, |bytes| {
             let rows = bytes.chunks_exact(row_bytes(self.size[0]) as usize);
             let pixels = rows.flat_map(|row| row[..PIXEL as usize * width].chunks_exact(PIXEL as usize));
             pixels.flat_map(|pixel| [pixel[0], pixel[1], pixel[2]]).collect()
@@ -64,7 +64,7 @@ impl Landing {
 }
 
 /// What is read of a buffer, when all that was submitted is done.
-pub(super) fn landed<T>(gpu: &Gpu, buffer: &Buffer, read: impl FnOnce(&[u8]) -> T) -> Result<T, Error> {
+pub(super) fn read_back<T>(gpu: &Gpu, buffer: &Buffer, read: impl FnOnce(&[u8]) -> T) -> Result<T, Error> {
     gpu.context.attempt("reading back", || {
         let failed = |cause: &dyn std::fmt::Display| Error::Device(format!("reading back failed: {cause}"));
         let (sender, mapped) = mpsc::channel();

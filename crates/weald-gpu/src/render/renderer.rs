@@ -4,7 +4,6 @@ use weald::picture::{Camera, Image, Stage};
 use weald::{Error, Landscape};
 
 use super::canopy;
-use super::film::Film;
 use super::follower::Follower;
 use super::frame::{Drawn, Frame};
 use super::grass::Grass;
@@ -13,13 +12,14 @@ use super::layouts::Layouts;
 use super::maps::Maps;
 use super::options::{Options, check_camera};
 use super::passes::{Drawing, Passes};
-use super::picture::Landing;
+use super::picture::Readback;
 use super::plants::Plants;
 use super::shadows::Shadows;
 use super::targets::Targets;
 use super::terrain::Terrain;
 use super::textures::Canvas;
 use super::timing::Timer;
+use super::tone_mapping::ToneMapping;
 use crate::gpu::Gpu;
 
 /// What tests look for.
@@ -49,7 +49,7 @@ pub struct Renderer {
     pub(super) shadows: Shadows,
     pub(super) canopy: Canvas,
     pub(super) targets: Targets,
-    pub(super) film: Film,
+    pub(super) film: ToneMapping,
     pub(super) look: TestLook,
     pub(super) timer: Option<Timer>,
     pub(super) follower: Option<Follower>,
@@ -77,7 +77,7 @@ impl Renderer {
         let layouts = Layouts { frame: &frame, maps: &maps, cascade: &shadows.layout };
         let passes = Passes::new(gpu, stage, layouts, options.samples)?;
         let targets = Targets::new(gpu, options)?;
-        let film = Film::new(gpu, stage, &maps, &targets)?;
+        let film = ToneMapping::new(gpu, stage, &maps, &targets)?;
         Ok(Self {
             gpu: gpu.clone(),
             options,
@@ -132,7 +132,7 @@ impl Renderer {
     /// # Errors
     /// [`Error::Run`] for a camera whose numbers are not finite, [`Error::Device`] where the device fails.
     pub fn render(&mut self, camera: &Camera) -> Result<Image, Error> {
-        let landing = Landing::new(&self.gpu, self.options.size)?;
+        let landing = Readback::new(&self.gpu, self.options.size)?;
         let context = self.gpu.context.clone();
         context.attempt("drawing", || {
             let mut encoder =

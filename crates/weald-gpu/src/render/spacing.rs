@@ -6,11 +6,11 @@
 
 use weald::picture::StageMap;
 
-use super::levels::{MOST_LEVELS, spacing};
+use super::levels::{MAX_LEVELS, spacing};
 
 /// Least range of a level in metres of its spacing: squares are 32 wide, their diagonal 45; the slide onto the next
 /// level takes four tenths of the way between two ranges, and must not begin within a square of the level before.
-const LEAST: f32 = 80.0;
+const MIN_RANGE: f32 = 80.0;
 
 /// Share of the way between two ranges after which vertices begin to slide.
 const SLIDE: f32 = 0.6;
@@ -19,7 +19,7 @@ const SLIDE: f32 = 0.6;
 const COUNTS: f64 = 0.99;
 
 /// Most places at which an error is looked for.
-const LOOKS: usize = 20_000;
+const MAX_SAMPLES: usize = 20_000;
 
 /// The distances at which levels end, in metres.
 #[derive(Clone, Debug)]
@@ -34,7 +34,7 @@ impl Ranges {
         let mut ends: Vec<f32> = Vec::with_capacity(errors.len());
         for level in 0..errors.len() {
             let seen = errors.get(level + 1).copied().unwrap_or(f32::INFINITY) * reach;
-            let wide = LEAST * spacing(level) * cell;
+            let wide = MIN_RANGE * spacing(level) * cell;
             let doubled = ends.last().map_or(0.0, |end| 2.0 * end);
             ends.push(seen.max(wide).max(doubled));
         }
@@ -47,7 +47,7 @@ impl Ranges {
     }
 
     /// The distances between which the vertices of a level slide onto the next, by level.
-    pub(crate) fn slides(&self) -> [[f32; 4]; MOST_LEVELS] {
+    pub(crate) fn slides(&self) -> [[f32; 4]; MAX_LEVELS] {
         std::array::from_fn(|level| {
             let Some(&end) = self.ends.get(level).filter(|end| end.is_finite()) else {
                 return [1e30, 2e30, 0.0, 0.0];
@@ -75,7 +75,7 @@ fn bend(top: &StageMap, step: usize) -> f32 {
     let [columns, rows] = top.size;
     let mut bends = Vec::new();
     let places = columns * rows;
-    let stride = places.div_ceil(LOOKS).max(1);
+    let stride = places.div_ceil(MAX_SAMPLES).max(1);
     // A stride without common divisors with the width looks at all columns.
     let stride = if columns.is_multiple_of(stride) { stride + 1 } else { stride };
     for place in (0..places).step_by(stride) {

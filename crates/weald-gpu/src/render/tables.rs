@@ -1,14 +1,14 @@
-//! Frames a second of grass as the source measured them (Kim and Cho 2009, tables 1 to 3), beside its own numbers, and
-//! the frame budget: what the parts of a picture take.
+//! Frames per second of grass as the source measured them (Kim and Cho 2009, tables 1 to 3), beside its own numbers,
+//! and the frame budget: what the parts of a picture take.
 //!
-//! The source drew on a Core 2 Duo E8500 with a `GeForce` 9600 GT. Tables 1 and 2 draw all sets of a field, each blade with
-//! ten vertices a level of growth, from where the whole field is seen, without culling or thinning. Table 3 looks from far,
-//! from the height of eyes and from near; its scene is not told but for "40,000 to 50,000 blocks" in the far view: here it
-//! is a field of 50,000 sets, of which those out of sight are left out.
+//! The source drew on a Core 2 Duo E8500 with a `GeForce` 9600 GT. Tables 1 and 2 draw all sets of a field, each blade
+//! with ten vertices a level of growth, from where the whole field is seen, without culling or thinning. Table 3 looks
+//! from far, from the eye level and from near; its scene is not described but for "40,000 to 50,000 blocks" in the far
+//! view: here it is a field of 50,000 sets, of which those out of sight are left out.
 
 use weald::Error;
 
-use super::field::{Meadowland, Standpoint};
+use super::field::{GrassField, Viewpoint};
 use super::grass_look::GrassLook;
 use super::timing::Timings;
 use crate::gpu::Gpu;
@@ -19,7 +19,7 @@ pub struct GrassRow {
     /// Number of the source's table, 1 to 3; 0 for the frame budget.
     pub table: u8,
     /// From where the field is seen.
-    pub standpoint: Standpoint,
+    pub standpoint: Viewpoint,
     /// What is shown of its grass.
     pub look: GrassLook,
     /// Sets that the field was to have.
@@ -28,13 +28,13 @@ pub struct GrassRow {
     pub sets: [u64; 2],
     /// What the parts took.
     pub timings: Timings,
-    /// Frames a second in the source.
+    /// Frames per second in the source.
     pub source: Option<f64>,
 }
 
 impl GrassRow {
-    /// Frames a second, drawn one after the other.
-    pub fn frames_a_second(&self) -> f64 {
+    /// Frames per second, drawn one after the other.
+    pub fn frames_per_second(&self) -> f64 {
         1.0 / self.timings.picture.as_secs_f64().max(1e-9)
     }
 }
@@ -62,20 +62,20 @@ impl Measuring {
     }
 }
 
-/// Hears each row as it is measured; an error ends the measurement.
-pub type Hear<'a> = dyn FnMut(&GrassRow) -> Result<(), Error> + 'a;
+/// Is called with each row as it is measured; an error ends the measurement.
+pub type OnRow<'a> = dyn FnMut(&GrassRow) -> Result<(), Error> + 'a;
 
 /// A row to be measured.
 #[derive(Clone, Copy, Debug)]
 struct Plan {
     table: u8,
-    standpoint: Standpoint,
+    standpoint: Viewpoint,
     look: GrassLook,
     sets: u32,
     source: Option<f64>,
 }
 
-/// Sets and frames a second of table 1.
+/// Sets and frames per second of table 1.
 const TABLE_1: [(u32, f64); 8] = [
     (1, 693.05),
     (100, 548.28),
@@ -87,15 +87,15 @@ const TABLE_1: [(u32, f64); 8] = [
     (100_000, 12.46),
 ];
 
-/// Sets, and frames a second of levels 1 to 4, of table 2.
+/// Sets, and frames per second of levels 1 to 4, of table 2.
 const TABLE_2: [(u32, [f64; 4]); 2] =
     [(50_000, [73.40, 45.29, 30.88, 24.47]), (100_000, [39.16, 22.01, 15.27, 12.02])];
 
-/// Views, and frames a second of levels 1 to 4, of table 3.
-const TABLE_3: [(Standpoint, [f64; 4]); 3] = [
-    (Standpoint::Far, [110.46, 80.52, 41.22, 28.70]),
-    (Standpoint::Eye, [212.88, 109.58, 85.26, 56.25]),
-    (Standpoint::Near, [301.58, 229.46, 191.62, 150.25]),
+/// Views, and frames per second of levels 1 to 4, of table 3.
+const TABLE_3: [(Viewpoint, [f64; 4]); 3] = [
+    (Viewpoint::Far, [110.46, 80.52, 41.22, 28.70]),
+    (Viewpoint::Eye, [212.88, 109.58, 85.26, 56.25]),
+    (Viewpoint::Near, [301.58, 229.46, 191.62, 150.25]),
 ];
 
 /// Sets of the field of table 3.
@@ -110,7 +110,7 @@ fn as_in_the_source(level: usize, culled: bool) -> GrassLook {
 }
 
 fn plans_of_the_source() -> Vec<Plan> {
-    let far = Standpoint::Far;
+    let far = Viewpoint::Far;
     let all = |table, sets, level, fps| {
         let look = as_in_the_source(level, false);
         Plan { table, standpoint: far, look, sets, source: Some(fps) }
@@ -132,7 +132,7 @@ fn plans_of_the_budget() -> Vec<Plan> {
     let looks = [(true, true), (false, true), (true, false), (false, false)];
     let plan = |sets, (culled, thinned)| {
         let look = GrassLook { culled, thinned, level: None };
-        Plan { table: 0, standpoint: Standpoint::Eye, look, sets, source: None }
+        Plan { table: 0, standpoint: Viewpoint::Eye, look, sets, source: None }
     };
     BUDGETS.into_iter().flat_map(|sets| looks.map(|look| plan(sets, look))).collect()
 }
@@ -140,9 +140,9 @@ fn plans_of_the_budget() -> Vec<Plan> {
 /// The source's tables, measured on a device.
 ///
 /// # Errors
-/// [`Error::Device`] for a device without a clock or that fails; those of `hear`.
-pub fn grass_tables(gpu: &Gpu, what: Measuring, hear: &mut Hear<'_>) -> Result<Vec<GrassRow>, Error> {
-    measured(gpu, what, plans_of_the_source(), hear)
+/// [`Error::Device`] for a device without a clock or that fails; those of `on_row`.
+pub fn grass_tables(gpu: &Gpu, what: Measuring, on_row: &mut OnRow<'_>) -> Result<Vec<GrassRow>, Error> {
+    measured(gpu, what, plans_of_the_source(), on_row)
 }
 
 /// What the parts of a picture take from a person's height in fields of 10,000, 100,000 and 1,000,000 sets, with and
@@ -150,21 +150,21 @@ pub fn grass_tables(gpu: &Gpu, what: Measuring, hear: &mut Hear<'_>) -> Result<V
 ///
 /// # Errors
 /// As [`grass_tables`].
-pub fn frame_budget(gpu: &Gpu, what: Measuring, hear: &mut Hear<'_>) -> Result<Vec<GrassRow>, Error> {
-    measured(gpu, what, plans_of_the_budget(), hear)
+pub fn frame_budget(gpu: &Gpu, what: Measuring, on_row: &mut OnRow<'_>) -> Result<Vec<GrassRow>, Error> {
+    measured(gpu, what, plans_of_the_budget(), on_row)
 }
 
 fn measured(
     gpu: &Gpu,
     what: Measuring,
     plans: Vec<Plan>,
-    hear: &mut Hear<'_>,
+    on_row: &mut OnRow<'_>,
 ) -> Result<Vec<GrassRow>, Error> {
-    let (mut rows, mut field): (Vec<GrassRow>, Option<(u32, Meadowland)>) = (Vec::new(), None);
+    let (mut rows, mut field): (Vec<GrassRow>, Option<(u32, GrassField)>) = (Vec::new(), None);
     for plan in plans {
         let (_, field) = match field.take() {
             Some(known) if known.0 == plan.sets => field.insert(known),
-            _ => field.insert((plan.sets, Meadowland::new(gpu, plan.sets, plan.table == 0, what.size)?)),
+            _ => field.insert((plan.sets, GrassField::new(gpu, plan.sets, plan.table == 0, what.size)?)),
         };
         field.show(plan.look);
         let camera = field.camera(plan.standpoint);
@@ -175,7 +175,7 @@ fn measured(
         let timings = field.renderer.measure(&camera, what.times)?;
         let Plan { table, standpoint, look, sets: wanted, source } = plan;
         let row = GrassRow { table, standpoint, look, wanted, sets, timings, source };
-        hear(&row)?;
+        on_row(&row)?;
         rows.push(row);
     }
     Ok(rows)

@@ -7,7 +7,7 @@ use wgpu::{Buffer, BufferUsages, IndexFormat, RenderPass};
 use super::cascades::{CASCADES, Cascades};
 use super::frame::Drawn;
 use super::frustum::{Box3, Frustum, Heights};
-use super::lattice::{Lattice, Patch, QUADS, Standpoint};
+use super::lattice::{Lattice, Patch, QUADS, Viewpoint};
 use super::spacing::{Ranges, errors};
 use crate::gpu::Gpu;
 use crate::memory::Store;
@@ -101,7 +101,7 @@ impl Terrain {
         let [east, north, up] = detail_from;
         let [width, height] = self.lattice.metres;
         let place = [0.5 + east / width, 0.5 - north / height];
-        let stand = Standpoint { place, above: (up - self.heights.highest()).max(0.0) };
+        let stand = Viewpoint { place, above: (up - self.heights.highest()).max(0.0) };
         let cascades = Cascades::new(self.sun, camera, &self.bounds());
         let columns = (0..CASCADES).map(|cascade| cascades.column(cascade));
         let views: Vec<_> = [Frustum::of(camera)].into_iter().chain(columns).collect();

@@ -60,20 +60,20 @@ fn side_vertex(
     return Ground(projected(point), point);
 }
 
-fn is_land(place: vec2<f32>) -> bool {
+fn is_valid(place: vec2<f32>) -> bool {
     return !HOLES || spline_at(land, place) >= 0.5;
 }
 
 @fragment
 fn ground_fragment(in: Ground) -> @location(0) vec4<f32> {
     let place = place_of(in.point);
-    if !is_land(place) {
+    if !is_valid(place) {
         discard;
     }
     let relative = in.point - frame.eye.xyz;
-    let way = length(relative);
-    let direction = relative / way;
-    let footprint = way * frame.eye.w;
+    let ray_length = length(relative);
+    let direction = relative / ray_length;
+    let footprint = ray_length * frame.eye.w;
     let surface = spline_with_slope(bed, place);
     let is_dry = frame.stand.w > 0.0;
     let depth = select(lake_depth(place, surface.x), -1e9, is_dry);
@@ -94,25 +94,25 @@ fn ground_fragment(in: Ground) -> @location(0) vec4<f32> {
         let under_sky = skin.albedo * skylight_on(seen, normal) / PI;
         radiance = in_sun + under_sky;
         if lawn.w > 1e-4 {
-            let look = Looked(direction, way, footprint);
+            let look = ViewRay(direction, ray_length, footprint);
             radiance = with_canopy(in_sun, under_sky, lawn, in.point, smooth_normal, look, seen, sun);
         }
     }
     if depth > 0.0 {
-        radiance = water_radiance(place, in.point, direction, way, depth / stage.scale.y, sun);
+        radiance = water_radiance(place, in.point, direction, ray_length, depth / stage.scale.y, sun);
     } else if river > 0.0 {
-        radiance = mix(radiance, water_radiance(place, in.point, direction, way, 1.2 * river, sun), river);
+        radiance = mix(radiance, water_radiance(place, in.point, direction, ray_length, 1.2 * river, sun), river);
     }
-    return vec4<f32>(limited(veil(radiance, frame.eye.xyz, direction, way)), 1.0);
+    return vec4<f32>(limited(veil(radiance, frame.eye.xyz, direction, ray_length)), 1.0);
 }
 
 fn side_colour(point: vec3<f32>, normal: vec3<f32>) -> vec4<f32> {
     let relative = point - frame.eye.xyz;
-    let way = length(relative);
+    let ray_length = length(relative);
     let place = clamp(place_of(point), vec2<f32>(0.5), stage.grid.xy + 0.5);
     let outside = point + normal * 1.5 * stage.scale.w;
     let radiance = side_radiance(place, point, normal, sun_seen(outside, normal));
-    return vec4<f32>(limited(veil(radiance, frame.eye.xyz, relative / way, way)), 1.0);
+    return vec4<f32>(limited(veil(radiance, frame.eye.xyz, relative / ray_length, ray_length)), 1.0);
 }
 
 struct Wall {
@@ -151,7 +151,7 @@ fn rim_fragment(in: Wall) -> @location(0) vec4<f32> {
 @fragment
 fn side_fragment(in: Ground) -> @location(0) vec4<f32> {
     let place = place_of(in.point);
-    if !is_land(clamp(place, vec2<f32>(0.5), stage.grid.xy + 0.5)) {
+    if !is_valid(clamp(place, vec2<f32>(0.5), stage.grid.xy + 0.5)) {
         discard;
     }
     let from_low = place - 0.5;

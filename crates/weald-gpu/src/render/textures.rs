@@ -7,7 +7,7 @@ use wgpu::{
 };
 
 use crate::gpu::Gpu;
-use crate::gpu::budget::Held;
+use crate::gpu::budget::Reservation;
 
 /// What a texture is.
 #[derive(Clone, Copy, Debug)]
@@ -37,7 +37,7 @@ impl Shape {
 pub(super) struct Canvas {
     pub(super) texture: wgpu::Texture,
     pub(super) view: TextureView,
-    _held: Held,
+    _held: Reservation,
 }
 
 impl Canvas {

@@ -21,8 +21,8 @@ fn leaf_light(
     skyward: f32,
 ) -> vec4<f32> {
     let relative = point - frame.eye.xyz;
-    let way = length(relative);
-    let direction = relative / way;
+    let ray_length = length(relative);
+    let direction = relative / ray_length;
     var normal = normalize(side);
     if dot(normal, direction) > 0.0 {
         normal = -normal;
@@ -33,5 +33,5 @@ fn leaf_light(
     let up = normalize(normal + vec3<f32>(0.0, 0.0, skyward));
     let sky = skylight_on(seen_at(skylight, share_of(place_of(point))), up) * light.y;
     let radiance = colour * (sun + sky) / PI;
-    return vec4<f32>(limited(veil(radiance, frame.eye.xyz, direction, way)), 1.0);
+    return vec4<f32>(limited(veil(radiance, frame.eye.xyz, direction, ray_length)), 1.0);
 }

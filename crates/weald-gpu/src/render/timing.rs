@@ -13,7 +13,7 @@ use wgpu::{
     QuerySetDescriptor, QueryType, RenderPass, RenderPassTimestampWrites,
 };
 
-use super::picture::landed;
+use super::picture::read_back;
 use crate::gpu::Gpu;
 use crate::gpu::context::CLOCK;
 use crate::memory::Store;
@@ -28,7 +28,7 @@ pub(super) enum Moment {
     Behind,
     Grass,
     Light,
-    Film,
+    ToneMapping,
 }
 
 /// How many moments there are, with their spare ones.
@@ -65,7 +65,7 @@ pub struct Timings {
     /// Scattered plants, and bringing the samples of all pixels together.
     pub plants: Duration,
     /// From light to the numbers of a picture.
-    pub film: Duration,
+    pub tone_mapping: Duration,
     /// All of it, by the clock of the processor, from choosing what is drawn to the end of the device's work.
     pub picture: Duration,
 }
@@ -148,7 +148,7 @@ impl Timer {
 
     /// Times between the moments of the picture that was drawn last, which took so long in all.
     pub(super) fn timings(&self, gpu: &Gpu, picture: Duration) -> Result<Timings, Error> {
-        let ticks = landed(gpu, &self.landing.buffer, bytemuck::pod_collect_to_vec::<u8, u64>)?;
+        let ticks = read_back(gpu, &self.landing.buffer, bytemuck::pod_collect_to_vec::<u8, u64>)?;
         let tick = f64::from(gpu.context.queue.get_timestamp_period()) * 1e-9;
         let until = |moment: Moment| {
             let [from, to] = [moment.slot() - 2, moment.slot()].map(|slot| ticks[slot as usize]);
@@ -162,7 +162,7 @@ impl Timer {
             behind: until(Moment::Behind),
             grass: until(Moment::Grass),
             plants: until(Moment::Light),
-            film: until(Moment::Film),
+            tone_mapping: until(Moment::ToneMapping),
             picture,
         })
     }
@@ -179,7 +179,7 @@ impl Timings {
             behind: self.behind.min(other.behind),
             grass: self.grass.min(other.grass),
             plants: self.plants.min(other.plants),
-            film: self.film.min(other.film),
+            tone_mapping: self.tone_mapping.min(other.tone_mapping),
             picture: self.picture.min(other.picture),
         }
     }

@@ -14,12 +14,12 @@ const FOAM = 0.78;
 const FINER = 6u;
 
 // Looks along a mirrored ray, and how much further each is.
-const LOOKS = 44;
+const MARCH_STEPS = 44;
 const FURTHER = 1.17;
 
 // How far two sets of ripples are carried, and the share of the second.
 struct Carried {
-    ways: vec2<f32>,
+    phases: vec2<f32>,
     share: f32,
 }
 
@@ -27,8 +27,8 @@ fn carried(point: vec2<f32>) -> Carried {
     // Places are not in step with each other, or all ripples would be taken back at once.
     let place = octaves_at(Octaves(60.0, 2u, 0.5, 0x53u), point, 0.0).value;
     let phase = frame.moment.x / CARRIED + 2.0 * place;
-    let ways = fract(vec2<f32>(phase, phase + 0.5));
-    return Carried(CARRIED * ways, abs(2.0 * ways.x - 1.0));
+    let phases = fract(vec2<f32>(phase, phase + 0.5));
+    return Carried(CARRIED * phases, abs(2.0 * phases.x - 1.0));
 }
 
 // Slopes of ripples at a point that came from upstream: of the broad ones, and of all.
@@ -51,8 +51,8 @@ fn flowing(point: vec2<f32>, tilt: vec3<f32>, footprint: f32, velocity: vec2<f32
     let along = carried(point);
     // Level water has ripples of the wind, which drift slowly.
     let drift = velocity + vec2<f32>(0.25, 0.12);
-    let first = ripple_slopes(point - drift * along.ways.x, wave, footprint, 0u);
-    let second = ripple_slopes(point - drift * along.ways.y, wave, footprint, 16u);
+    let first = ripple_slopes(point - drift * along.phases.x, wave, footprint, 0u);
+    let second = ripple_slopes(point - drift * along.phases.y, wave, footprint, 16u);
     let strength = 0.035 * wave * (1.0 + 0.9 * calm) * (1.0 + 0.35 * length(velocity));
     let evenness = inverseSqrt(along.share * along.share + (1.0 - along.share) * (1.0 - along.share));
     let slopes = strength * evenness * mix(first, second, along.share);
@@ -71,7 +71,7 @@ fn foam_share(point: vec2<f32>, footprint: f32, velocity: vec2<f32>, lost: f32) 
     let along = carried(point);
     var bubbles = vec2<f32>(0.0);
     for (var turn = 0; turn < 2; turn++) {
-        let here = point - velocity * along.ways[turn];
+        let here = point - velocity * along.phases[turn];
         let seed = u32(turn) * 16u;
         let clumps = octaves_at(Octaves(3.0, 6u, 0.62, 0x57u + seed), here, footprint).value;
         bubbles[turn] = clumps;
@@ -96,9 +96,9 @@ fn rough_height(place: vec2<f32>) -> f32 {
 // How far along a ray the land lies; negative where it meets none.
 fn land_along(start: vec3<f32>, direction: vec3<f32>) -> f32 {
     var before = 0.5 * stage.scale.w;
-    var way = before;
-    for (var look = 0; look < LOOKS; look++) {
-        let point = start + direction * way;
+    var ray_length = before;
+    for (var look = 0; look < MARCH_STEPS; look++) {
+        let point = start + direction * ray_length;
         let place = place_of(point);
         let is_outside = any(place < vec2<f32>(0.5)) || any(place > stage.grid.xy + 0.5);
         if is_outside || point.z > stage.scale.z {
@@ -106,42 +106,42 @@ fn land_along(start: vec3<f32>, direction: vec3<f32>) -> f32 {
         }
         if point.z < rough_height(place) {
             for (var halving = 0; halving < 5; halving++) {
-                let middle = 0.5 * (before + way);
+                let middle = 0.5 * (before + ray_length);
                 let here = start + direction * middle;
                 if here.z < rough_height(place_of(here)) {
-                    way = middle;
+                    ray_length = middle;
                 } else {
                     before = middle;
                 }
             }
-            return way;
+            return ray_length;
         }
-        before = way;
-        way = way * FURTHER + 0.25 * stage.scale.w;
+        before = ray_length;
+        ray_length = ray_length * FURTHER + 0.25 * stage.scale.w;
     }
     return -1.0;
 }
 
 // The light that water mirrors: land with its own colours in a direction, or the sky in another.
-fn mirrored_light(start: vec3<f32>, direction: vec3<f32>, upward: vec3<f32>, way_before: f32) -> vec3<f32> {
-    let way = land_along(start, direction);
-    if way < 0.0 {
+fn mirrored_light(start: vec3<f32>, direction: vec3<f32>, upward: vec3<f32>, length_before: f32) -> vec3<f32> {
+    let ray_length = land_along(start, direction);
+    if ray_length < 0.0 {
         return sky_radiance(upward);
     }
-    let point = start + direction * way;
+    let point = start + direction * ray_length;
     let place = place_of(point);
     let surface = spline_with_slope(bed, place);
     let normal = normal_of(surface.yz);
-    let footprint = max(0.25 * stage.scale.w, (way + way_before) * frame.eye.w);
+    let footprint = max(0.25 * stage.scale.w, (ray_length + length_before) * frame.eye.w);
     let skin = ground_skin(place, surface, footprint, 1e9);
     let sun = sun_seen(point + normal * 0.1 * stage.scale.w, normal);
     let radiance = skin.albedo * lit(roughened(normal, skin.bump), seen_at(skylight, share_of(place)), sun) / PI;
-    return veil(radiance, start, direction, way);
+    return veil(radiance, start, direction, ray_length);
 }
 
 // The bed below shallow water, with its stones.
 fn bed_albedo(point: vec3<f32>, footprint: f32) -> vec3<f32> {
-    let gravel = Skin(stage.gravel.xyz, vec2<f32>(0.0), vec4<f32>(0.0, 1.0, 0.0, 0.0));
+    let gravel = SurfaceSample(stage.gravel.xyz, vec2<f32>(0.0), vec4<f32>(0.0, 1.0, 0.0, 0.0));
     return with_detail(gravel, vec3<f32>(point.xy, 0.0), vec3<f32>(0.0, 0.0, 1.0), footprint).albedo;
 }
 
@@ -156,19 +156,19 @@ fn water_radiance(
     place: vec2<f32>,
     point: vec3<f32>,
     direction: vec3<f32>,
-    way: f32,
+    ray_length: f32,
     depth: f32,
     sun: f32,
 ) -> vec3<f32> {
     let back = -direction;
-    let footprint = way * frame.eye.w / sqrt(max(back.z, 0.05));
+    let footprint = ray_length * frame.eye.w / sqrt(max(back.z, 0.05));
     let running = smooth_at(flow, place).xyz;
     let tilt = normal_of(spline_with_slope(top, place).yz);
     let ripples = flowing(point.xy, tilt, footprint, running.xy);
     let normal = ripples.all;
     let seen = seen_at(skylight, share_of(place));
     let share = mirrored_share(dot(back, normal));
-    let reflection = mirrored_light(point, mirrored(direction, ripples.broad, tilt), mirrored(direction, normal, tilt), way);
+    let reflection = mirrored_light(point, mirrored(direction, ripples.broad, tilt), mirrored(direction, normal, tilt), ray_length);
     let up = vec3<f32>(0.0, 0.0, 1.0);
     let light = stage.sunlight.xyz * (sun * stage.sun.z) + skylight_on(seen, up);
     let below = water_body(bed_albedo(point, footprint), depth, light);

@@ -15,7 +15,7 @@ use crate::common::{self, layered, metres, rough, spring, with};
 const COLUMNS: usize = 70;
 const ROWS: usize = 90;
 
-/// No multiple of the steps of a passage.
+/// No multiple of the steps of a time block.
 const STEPS: u32 = 21;
 
 /// Seasons so short that two of them pass, and that some steps count into the means, which go through the ground one
@@ -135,8 +135,8 @@ pub(crate) fn whole() -> Landscape {
 pub(crate) fn masked() -> Landscape {
     let mut masked = whole();
     let size = Size::new(COLUMNS, ROWS).expect("small");
-    let land = (0..size.cells()).map(|at| at % 31 != 7 && at % COLUMNS > 3).collect();
-    masked.domain.land = Mask::new(size, land);
+    let valid = (0..size.cells()).map(|at| at % 31 != 7 && at % COLUMNS > 3).collect();
+    masked.domain.valid = Mask::new(size, valid);
     masked
 }
 

@@ -37,7 +37,7 @@ pub(crate) fn load(gpu: &Gpu, program: &Program, size: Size) -> Box<dyn Loaded> 
     gpu.load(program, size).expect("the program loads")
 }
 
-/// One step for each number, which every cell hears as the weather.
+/// One step for each number, which every cell receives as the weather.
 pub(crate) fn weather(rain: impl IntoIterator<Item = u32>) -> Vec<Vec<u32>> {
     rain.into_iter().map(|rain| vec![rain]).collect()
 }
@@ -65,12 +65,12 @@ fn mix_all(@builtin(global_invocation_id) invocation: vec3<u32>) {
 ";
 
 /// The same on the CPU.
-pub(crate) fn mixed(size: Size, land: &[bool], start: &[f32], weather: &[Vec<u32>]) -> Vec<f32> {
+pub(crate) fn mixed(size: Size, valid: &[bool], start: &[f32], weather: &[Vec<u32>]) -> Vec<f32> {
     let mut here: Vec<u32> = start.iter().map(|&value| value as u32).collect();
     for step in weather {
         let at = |x: usize, y: usize| {
             let whole = x < size.columns && y < size.rows;
-            whole.then(|| y * size.columns + x).filter(|&cell| land[cell]).map_or(0, |cell| here[cell])
+            whole.then(|| y * size.columns + x).filter(|&cell| valid[cell]).map_or(0, |cell| here[cell])
         };
         let next = |cell: usize| {
             let (x, y) = (cell % size.columns, cell / size.columns);
@@ -78,7 +78,7 @@ pub(crate) fn mixed(size: Size, land: &[bool], start: &[f32], weather: &[Vec<u32
                 + 7 * at(x.wrapping_sub(1), y)
                 + 11 * at(x, y.wrapping_sub(1))
                 + 13 * at(x, y + 1);
-            (3 * here[cell] + if land[cell] { sides } else { 0 } + step[0]) % 997
+            (3 * here[cell] + if valid[cell] { sides } else { 0 } + step[0]) % 997
         };
         here = (0..size.cells()).map(next).collect();
     }

@@ -5,14 +5,14 @@
 use std::fmt::Write;
 
 use super::super::geokeys::keys_by_code;
-use super::super::{CrsSupport, Fault, Knowledge};
+use super::super::{CrsSupport, Fault, Metadata};
 use weald_core::domain::{GeoKeys, Georeference};
 
 /// What follows the name of the grid in that of the file with its CRS.
 pub(super) const CRS_FILE: &str = ".prj";
 
 /// The CRSs that have no spelling in a `.prj` file.
-pub(super) const OMITTED: Knowledge = Knowledge::Crs(CrsSupport {
+pub(super) const OMITTED: Metadata = Metadata::Crs(CrsSupport {
     supports: is_spelled,
     loss: "the CRS is left out, so corner and cells are numbers without a unit; .tif holds it",
 });
@@ -154,7 +154,7 @@ pub(super) fn read(text: &str) -> Result<(Option<u32>, Option<GeoKeys>), Fault> 
     let kind = text.split('[').next().unwrap_or_default().trim().to_ascii_uppercase();
     match kind.as_str() {
         "GEOGCS" | "GEOGCRS" | "GEODCRS" => Ok((epsg, Some(keys_by_code(epsg, true, 1.0)))),
-        "PROJCS" | "PROJCRS" => Ok((epsg, Some(keys_by_code(epsg, false, metres_a_unit(text)?)))),
+        "PROJCS" | "PROJCRS" => Ok((epsg, Some(keys_by_code(epsg, false, metres_per_crs_unit(text)?)))),
         _ => Err(Fault::damaged(format!(
             "the .prj beside it begins with {kind:?}; PROJCS or GEOGCS, a CRS as well-known text, is read: \
              gdalsrsinfo -o wkt_esri EPSG:32633, or remove the file"
@@ -179,7 +179,7 @@ fn by_name(text: &str) -> Option<u32> {
 }
 
 /// Metres in the unit of a projected CRS: the last one in its text.
-fn metres_a_unit(text: &str) -> Result<f64, Fault> {
+fn metres_per_crs_unit(text: &str) -> Result<f64, Fault> {
     let number = text.rsplit_once("UNIT[").and_then(|(_, unit)| {
         let number = unit.split(',').nth(1)?.split(']').next()?;
         number.trim().parse::<f64>().ok()

@@ -13,7 +13,7 @@ mod write;
 pub use read::decode;
 pub use write::encode;
 
-use super::{Decode, Encode, Format, Holds, Knowledge};
+use super::{Capabilities, Decode, Encode, Format, Metadata};
 
 /// The entry in the registry of formats.
 pub(super) const FORMAT: Format = Format {
@@ -21,6 +21,6 @@ pub(super) const FORMAT: Format = Format {
     extensions: &["asc"],
     decode: Some(Decode::Parts(decode)),
     encode: Some(Encode::Parts(encode)),
-    holds: Holds { omits: &[crs::OMITTED, Knowledge::Provenance], ..Holds::ALL },
+    holds: Capabilities { omits: &[crs::OMITTED, Metadata::Provenance], ..Capabilities::ALL },
     presets: &[],
 };

@@ -48,7 +48,7 @@ fn values<'a>(
             "{bytes} bytes cannot hold {size} numbers; the file is truncated"
         )));
     }
-    let (mut values, mut land) = (Vec::with_capacity(size.cells()), Vec::with_capacity(size.cells()));
+    let (mut values, mut valid) = (Vec::with_capacity(size.cells()), Vec::with_capacity(size.cells()));
     for index in 0..size.cells() {
         let place = || format!("column {}, row {}", index % size.columns, index / size.columns);
         let token = tokens
@@ -56,13 +56,13 @@ fn values<'a>(
             .ok_or_else(|| Fault::damaged(format!("the file ends before {} of {size} cells", place())))?;
         let value: f32 =
             token.parse().map_err(|_| Fault::damaged(format!("{} holds {token:?}, no number", place())))?;
-        let is_land =
+        let is_valid =
             header.no_data.is_none_or(|number| number != value && !(number.is_nan() && value.is_nan()));
-        land.push(is_land);
-        values.push(if is_land { value } else { 0.0 });
+        valid.push(is_valid);
+        values.push(if is_valid { value } else { 0.0 });
     }
     match tokens.next() {
-        None => Raster::from_file(size, values, land, "text"),
+        None => Raster::from_file(size, values, valid, "text"),
         Some(token) => Err(Fault::damaged(format!(
             "{token:?} follows the last of {size} numbers; ncols and nrows are not those of the rows"
         ))),

@@ -12,12 +12,12 @@ use weald_core::error::Error;
 /// [`Error::Run`] naming a cell with data that holds a NaN or an infinity.
 pub fn encode(raster: &Raster) -> Result<Vec<Part>, Error> {
     raster.ensure_finite()?;
-    let no_data = raster.land.as_ref().map(|_| raster.number_for_no_data());
+    let no_data = raster.valid.as_ref().map(|_| raster.number_for_no_data());
     let mut text = header(raster, no_data);
     for (y, row) in raster.field.values().chunks(raster.field.size().columns).enumerate() {
         for (x, value) in row.iter().enumerate() {
-            let is_land = raster.is_land_at(y * row.len() + x);
-            let value = if is_land { *value } else { no_data.unwrap_or_default() };
+            let is_valid = raster.is_valid_at(y * row.len() + x);
+            let value = if is_valid { *value } else { no_data.unwrap_or_default() };
             let space = if x + 1 == row.len() { '\n' } else { ' ' };
             write!(text, "{}{space}", digits(value)).expect("memory takes every byte");
         }

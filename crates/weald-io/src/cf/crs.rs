@@ -1,7 +1,7 @@
 //! The coordinate reference system: attributes of `spatial_ref` and of the axes, written and read.
 
 use super::super::geokeys::{keys_by_code, metres_per_unit};
-use super::super::{CrsSupport, Fault, Knowledge};
+use super::super::{CrsSupport, Fault, Metadata};
 use super::attribute::{Attribute, Attributes};
 use super::axis::Axis;
 use super::{GEO_TRANSFORM, mapping};
@@ -10,16 +10,16 @@ use weald_core::domain::{GeoKeys, Georeference};
 /// Attributes with the `GeoTIFF` keys of a raster that came from such a file.
 const KEYS: [&str; 3] = ["GeoKeyDirectory", "GeoDoubleParams", "GeoAsciiParams"];
 
-/// What the user is told of another CRS.
-pub const UNTOLD: &str =
+/// What the user is informed of another CRS.
+pub const OMITTED_CRS_NOTE: &str =
     "the CRS has no EPSG code with a definition, so that only Weald finds it; .tif holds it for all";
 
 /// The CRSs that only Weald finds.
-pub(crate) const OMITTED_CRS: Knowledge =
-    Knowledge::Crs(CrsSupport { supports: is_told_to_all, loss: UNTOLD });
+pub(crate) const OMITTED_CRS: Metadata =
+    Metadata::Crs(CrsSupport { supports: is_readable_by_all, loss: OMITTED_CRS_NOTE });
 
 /// Whether other programs find the CRS in a file of arrays: it has an EPSG code with a known definition.
-pub fn is_told_to_all(place: &Georeference) -> bool {
+pub fn is_readable_by_all(place: &Georeference) -> bool {
     place.epsg.is_some_and(|code| mapping::wkt_of(code).is_some())
 }
 

@@ -48,7 +48,7 @@ pub enum Values<'a> {
 #[derive(Clone, Copy, Debug)]
 pub struct Cells<'a> {
     field: &'a Field,
-    land: Option<&'a Mask>,
+    valid: Option<&'a Mask>,
     is_south_up: bool,
 }
 
@@ -73,7 +73,7 @@ impl<'a> Dataset<'a> {
         let cells = sheet.layers.iter().zip(names).map(|(layer, name)| Variable {
             name,
             attributes: layer_attributes(layer, sheet.georeference.is_some()),
-            values: Values::Cells(Cells { field: layer.field, land: sheet.land, is_south_up }),
+            values: Values::Cells(Cells { field: layer.field, valid: sheet.valid, is_south_up }),
         });
         variables.extend(cells);
         Ok(Self { size: sheet.size(), attributes: file_attributes(sheet), variables })
@@ -101,7 +101,7 @@ impl Cells<'_> {
     /// The value in a column and a row of the file; NaN without data.
     pub fn at(&self, x: usize, row: usize) -> f32 {
         let y = if self.is_south_up { self.size().rows - 1 - row } else { row };
-        if self.land.is_none_or(|land| land.is_land(x, y)) { self.field.at(x, y) } else { f32::NAN }
+        if self.valid.is_none_or(|valid| valid.is_valid(x, y)) { self.field.at(x, y) } else { f32::NAN }
     }
 }
 

@@ -26,7 +26,7 @@ mod source;
 pub use attribute::{Attribute, Attributes};
 pub use axis::Axis;
 pub(super) use crs::OMITTED_CRS;
-pub use crs::{UNTOLD, is_told_to_all};
+pub use crs::{OMITTED_CRS_NOTE, is_readable_by_all};
 pub use dataset::{Cells, Dataset, Values, Variable};
 pub use names::Names;
 pub use read::read;

@@ -70,7 +70,7 @@ impl Grid {
     /// `cell` is the side in metres as the file says it.
     fn place(&self, crs: Option<Crs>, cell: Option<f64>) -> Place {
         let metres = if let Unit::Metres(metres) = self.unit { metres } else { 1.0 };
-        let told = crs.as_ref().and_then(|crs| crs.transform).filter(|numbers| self.agrees_with(*numbers));
+        let affine = crs.as_ref().and_then(|crs| crs.transform).filter(|numbers| self.agrees_with(*numbers));
         let is_local = crs.is_none() && self.unit != Unit::Degrees;
         // A grid without a place begins at 0, so that its side follows from the attribute alone.
         let alone =
@@ -78,7 +78,7 @@ impl Grid {
         if let Some(cell) = alone {
             return Place { cell: Some(cell), ..Place::default() };
         }
-        let Some(([west, width], [north, height])) = told.map(pairs).or_else(|| self.corner_and_sides())
+        let Some(([west, width], [north, height])) = affine.map(pairs).or_else(|| self.corner_and_sides())
         else {
             let notes =
                 vec!["one row or column of cells does not tell their side; the place is left out".to_owned()];
@@ -96,7 +96,7 @@ impl Grid {
         // In degrees nothing else tells the side in metres, so it counts as long as the cells are the same.
         let is_same = |cell: &f64| match side {
             Some(side) => (cell - side).abs() <= SQUARE * side,
-            None => told.is_some() && georeference.is_geographic(),
+            None => affine.is_some() && georeference.is_geographic(),
         };
         let cell = cell.filter(is_same).or(side);
         Place { cell, georeference: Some(georeference), ..Place::default() }

@@ -20,16 +20,16 @@ pub fn read(source: &dyn Source, limits: Limits) -> Result<Raster, Fault> {
     let size = size(layer, limits)?;
     let place = Place::of(source, layer, size)?;
     let packing = Packing::of(layer);
-    let (mut values, mut land) = (vec![0.0; size.cells()], vec![true; size.cells()]);
+    let (mut values, mut valid) = (vec![0.0; size.cells()], vec![true; size.cells()]);
     source.each(layer, &mut |index, number| {
         let (x, y) = (index % size.columns, index / size.columns);
         let cell = size.index(x, if place.is_south_up { size.rows - 1 - y } else { y });
         match packing.value(number) {
             Some(value) => values[cell] = value,
-            None => land[cell] = false,
+            None => valid[cell] = false,
         }
     })?;
-    let mut raster = Raster::from_file(size, values, land, layer.stored)?;
+    let mut raster = Raster::from_file(size, values, valid, layer.stored)?;
     raster.notes.extend(place.notes);
     let text_of = |key: &str| {
         let text = layer.attributes.text(key).or_else(|| source.attributes().text(key));

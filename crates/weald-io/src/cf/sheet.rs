@@ -14,7 +14,7 @@ pub struct Sheet<'a> {
     /// Place on Earth.
     pub georeference: Option<&'a Georeference>,
     /// Cells with data; `None` where all have.
-    pub land: Option<&'a Mask>,
+    pub valid: Option<&'a Mask>,
     /// At least one; all of one size.
     pub layers: Vec<Layer<'a>>,
     /// What the arrays are called.
@@ -36,7 +36,7 @@ impl<'a> Sheet<'a> {
         Self {
             cell: raster.cell,
             georeference: raster.georeference.as_ref(),
-            land: raster.land.as_ref(),
+            valid: raster.valid.as_ref(),
             layers: vec![Layer { field: &raster.field, provenance: raster.provenance.clone() }],
             names,
         }
@@ -58,7 +58,7 @@ impl<'a> Sheet<'a> {
     /// [`Error::Run`] naming the first cell with data that holds a NaN or an infinity.
     pub(super) fn ensure_finite(&self) -> Result<(), Error> {
         for layer in &self.layers {
-            if let Some((x, y)) = layer.field.first_not_finite(self.land) {
+            if let Some((x, y)) = layer.field.first_not_finite(self.valid) {
                 let name = layer.name().map_or_else(String::new, |name| format!(" of layer `{name}`"));
                 return Err(Error::Run(format!(
                     "column {x}, row {y}{name} holds {}, which no file may carry as data",

@@ -24,7 +24,7 @@ pub use read::decode;
 pub use write::encode;
 pub use write::encode_for_godot;
 
-use super::{Decode, Encode, Format, Holds, Knowledge, Preset, Values};
+use super::{Capabilities, Decode, Encode, Format, Metadata, Preset, Values};
 
 /// The entry in the registry of formats.
 pub(super) const FORMAT: Format = Format {
@@ -32,26 +32,26 @@ pub(super) const FORMAT: Format = Format {
     extensions: &["exr"],
     decode: Some(Decode::File(decode)),
     encode: Some(Encode::File(encode)),
-    holds: Holds::ALL,
+    holds: Capabilities::ALL,
     presets: &[
         Preset {
             name: "blender",
             summary: "channels R, G and B with the same floats, since Blender shows others as black; no NaN",
             encode: Encode::File(write::encode_for_blender),
-            holds: Holds { omits: &[Knowledge::NoData], ..Holds::ALL },
+            holds: Capabilities { omits: &[Metadata::NoData], ..Capabilities::ALL },
         },
         Preset {
             name: "terrain3d",
             summary: "one channel R of floats, as Godot loads for Terrain3D; no NaN",
             encode: Encode::File(encode_for_godot),
-            holds: Holds { omits: &[Knowledge::NoData], ..Holds::ALL },
+            holds: Capabilities { omits: &[Metadata::NoData], ..Capabilities::ALL },
         },
         Preset {
             name: "hterrain",
             summary: "one channel R of half floats, as Zylann's HTerrain for Godot loads; no NaN. It crops to \
                       squares of 513, 1025, 2049 or 4097 cells",
             encode: Encode::File(write::encode_for_hterrain),
-            holds: Holds { values: Values::Float16, omits: &[Knowledge::NoData] },
+            holds: Capabilities { values: Values::Float16, omits: &[Metadata::NoData] },
         },
     ],
 };

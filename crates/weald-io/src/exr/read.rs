@@ -18,9 +18,9 @@ pub fn decode(bytes: &[u8], limits: Limits) -> Result<Raster, Fault> {
     let source = Source::of(&header)?;
     let chunks = Chunks::find(&header, bytes, &mut front)?;
     let values = Coding { header: &header, chunks, source: &source }.values()?;
-    let land = values.iter().map(|value| !value.is_nan()).collect();
+    let valid = values.iter().map(|value| !value.is_nan()).collect();
     let values = values.into_iter().map(|value| if value.is_nan() { 0.0 } else { value }).collect();
-    let raster = Raster::from_file(header.size, values, land, source.sample.name())?;
+    let raster = Raster::from_file(header.size, values, valid, source.sample.name())?;
     let mut raster = attributes::described(raster, &header.attributes)?;
     raster.notes.extend(source.note);
     Ok(raster)

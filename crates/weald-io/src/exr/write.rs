@@ -60,7 +60,7 @@ fn encode_as(raster: &Raster, style: Style) -> Result<Vec<u8>, Error> {
 
 fn ensure_fits_half(raster: &Raster) -> Result<(), Error> {
     let greatest = half::f16::MAX.to_f32();
-    let beyond = |(index, value): (usize, &f32)| raster.is_land_at(index) && value.abs() > greatest;
+    let beyond = |(index, value): (usize, &f32)| raster.is_valid_at(index) && value.abs() > greatest;
     let Some(index) = raster.field.values().iter().enumerate().position(beyond) else { return Ok(()) };
     let columns = raster.field.size().columns;
     Err(Error::Run(format!(
@@ -80,7 +80,7 @@ fn rows(raster: &Raster, style: Style, first: usize) -> Vec<u8> {
     for y in first..(first + ZIP_ROWS).min(rows) {
         let cells = raster.field.row(y).iter().enumerate();
         let value =
-            |(x, value): (usize, &f32)| if raster.is_land_at(y * columns + x) { *value } else { none };
+            |(x, value): (usize, &f32)| if raster.is_valid_at(y * columns + x) { *value } else { none };
         let samples: Vec<u8> = if style.is_half {
             cells.flat_map(|cell| half::f16::from_f32(value(cell)).to_le_bytes()).collect()
         } else {

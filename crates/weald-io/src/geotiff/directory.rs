@@ -43,8 +43,8 @@ pub(super) struct Directory<'a> {
     next: u64,
 }
 
-/// More than any pyramid of overviews has; it also ends a chain that runs in a circle.
-const MAXIMUM_DIRECTORIES: usize = 64;
+/// More than any pyramid of overviews has; it also ends a chain that runs in a cycle.
+const MAX_DIRECTORIES: usize = 64;
 
 /// Widths of the fields that differ between TIFF and `BigTIFF`.
 #[derive(Debug)]
@@ -85,7 +85,7 @@ impl<'a> Directory<'a> {
     /// The directories of the images behind the first one: overviews and masks. Damage among them ends the
     /// list, since the first image is whole without them.
     pub(super) fn others(&self) -> impl Iterator<Item = Self> {
-        std::iter::successors(self.next(), Self::next).take(MAXIMUM_DIRECTORIES)
+        std::iter::successors(self.next(), Self::next).take(MAX_DIRECTORIES)
     }
 
     fn next(&self) -> Option<Self> {

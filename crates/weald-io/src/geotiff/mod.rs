@@ -20,7 +20,7 @@ mod write;
 pub use read::decode;
 pub use write::encode;
 
-use super::{Decode, Encode, Format, Holds};
+use super::{Capabilities, Decode, Encode, Format};
 
 /// The entry in the registry of formats.
 pub(super) const FORMAT: Format = Format {
@@ -28,6 +28,6 @@ pub(super) const FORMAT: Format = Format {
     extensions: &["tif", "tiff"],
     decode: Some(Decode::File(decode)),
     encode: Some(Encode::File(encode)),
-    holds: Holds::ALL,
+    holds: Capabilities::ALL,
     presets: &[],
 };

@@ -27,8 +27,8 @@ pub fn decode(bytes: &[u8], limits: Limits) -> Result<Raster, Fault> {
         directory,
     };
     let place = keys::place(&coding.directory)?;
-    let (values, land) = coding.cells()?;
-    let raster = Raster::from_file(coding.layout.size, values, land, sample.name())?;
+    let (values, valid) = coding.cells()?;
+    let raster = Raster::from_file(coding.layout.size, values, valid, sample.name())?;
     Ok(Raster {
         cell: place.cell,
         georeference: place.georeference,
@@ -51,23 +51,23 @@ struct Coding<'a> {
 struct Band<'a> {
     index: usize,
     values: &'a mut [f32],
-    land: &'a mut [bool],
+    valid: &'a mut [bool],
 }
 
 impl Coding<'_> {
     fn cells(&self) -> Result<(Vec<f32>, Vec<bool>), Fault> {
         let size = self.layout.size;
-        let (mut values, mut land) = (vec![0.0; size.cells()], vec![true; size.cells()]);
+        let (mut values, mut valid) = (vec![0.0; size.cells()], vec![true; size.cells()]);
         let band_cells = size.columns * self.layout.chunk.rows;
         let results: Vec<Result<(), Fault>> = values
             .par_chunks_mut(band_cells)
-            .zip(land.par_chunks_mut(band_cells))
+            .zip(valid.par_chunks_mut(band_cells))
             .enumerate()
-            .map(|(index, (values, land))| self.read_band(&mut Band { index, values, land }))
+            .map(|(index, (values, valid))| self.read_band(&mut Band { index, values, valid }))
             .collect();
         // The first fault in the order of the file, whichever thread met one first.
         results.into_iter().collect::<Result<(), Fault>>()?;
-        Ok((values, land))
+        Ok((values, valid))
     }
 
     fn read_band(&self, band: &mut Band<'_>) -> Result<(), Fault> {
@@ -99,13 +99,13 @@ impl Coding<'_> {
 
     fn read_row(&self, band: &mut Band<'_>, cells: std::ops::Range<usize>, row: &mut [u8]) {
         let values = &mut band.values[cells.clone()];
-        let land = &mut band.land[cells];
+        let valid = &mut band.valid[cells];
         self.predictor.undo(row, self.sample, self.directory.order, |x, value| {
             // The padding of a tile goes on beyond the grid.
             let Some(cell) = values.get_mut(x) else { return };
             let is_no_data =
                 self.no_data.is_some_and(|number| number == value || number.is_nan() && value.is_nan());
-            land[x] = !is_no_data;
+            valid[x] = !is_no_data;
             *cell = if is_no_data { 0.0 } else { value as f32 };
         });
     }
@@ -113,7 +113,7 @@ impl Coding<'_> {
     /// A chunk that a sparse file leaves out is no-data, or 0 where the file declares none.
     fn leave_out(&self, band: &mut Band<'_>, across: usize) {
         for y in 0..band.values.len() / self.layout.size.columns {
-            band.land[self.cells_of_chunk(across, y)].fill(self.no_data.is_none());
+            band.valid[self.cells_of_chunk(across, y)].fill(self.no_data.is_none());
         }
     }
 }

@@ -43,7 +43,7 @@ fn tile_rows(raster: &Raster, west: usize, north: usize, no_data: f32) -> Vec<u8
         if y < rows {
             for (x, value) in (west..columns).zip(&mut values) {
                 let index = y * columns + x;
-                *value = if raster.is_land_at(index) { raster.field.values()[index] } else { no_data };
+                *value = if raster.is_valid_at(index) { raster.field.values()[index] } else { no_data };
             }
         }
         bytes.extend(predicted(&values));

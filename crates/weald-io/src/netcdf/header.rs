@@ -7,7 +7,7 @@ use super::kind::{CHARACTER, FLOAT, INTEGER, Kind};
 use super::tag;
 
 /// Most numbers of one attribute that are kept; longer ones are read past.
-const MOST_NUMBERS: usize = 1 << 16;
+const MAX_NUMBERS: usize = 1 << 16;
 
 /// What a header says.
 #[derive(Clone, Debug)]
@@ -111,7 +111,7 @@ fn attribute(cursor: &mut Cursor<'_>) -> Result<(String, Attribute), Fault> {
         Fault::damaged(format!("attribute `{name}` claims {count} numbers of {} bytes", kind.number.bytes))
     })?;
     let bytes = cursor.padded(length)?;
-    let numbers = || bytes.chunks_exact(kind.number.bytes).take(MOST_NUMBERS).map(|bytes| kind.value(bytes));
+    let numbers = || bytes.chunks_exact(kind.number.bytes).take(MAX_NUMBERS).map(|bytes| kind.value(bytes));
     let value = match kind.code {
         CHARACTER => Attribute::Text(String::from_utf8_lossy(bytes).into_owned()),
         FLOAT if count == 1 => Attribute::Float(kind.value(bytes) as f32),

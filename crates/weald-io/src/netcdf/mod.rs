@@ -18,10 +18,10 @@ mod write;
 pub use read::decode;
 
 use super::cf::{Dataset, Names, OMITTED_CRS, Sheet};
-use super::{Decode, Encode, Format, Holds, Preset, Raster};
+use super::{Capabilities, Decode, Encode, Format, Preset, Raster};
 use weald_core::error::Error;
 
-const HOLDS: Holds = Holds { omits: &[OMITTED_CRS], ..Holds::ALL };
+const CAPABILITIES: Capabilities = Capabilities { omits: &[OMITTED_CRS], ..Capabilities::ALL };
 
 /// The entry in the registry of formats.
 pub(super) const FORMAT: Format = Format {
@@ -29,12 +29,12 @@ pub(super) const FORMAT: Format = Format {
     extensions: &["nc"],
     decode: Some(Decode::File(decode)),
     encode: Some(Encode::File(encode)),
-    holds: HOLDS,
+    holds: CAPABILITIES,
     presets: &[Preset {
         name: "landlab",
         summary: "variables have landlab's names, such as topographic__elevation, and rows begin in the south",
         encode: Encode::File(encode_for_landlab),
-        holds: HOLDS,
+        holds: CAPABILITIES,
     }],
 };
 

@@ -15,7 +15,7 @@ mod write;
 pub use read::{decode_16, decode_32};
 pub use write::{encode_16, encode_32};
 
-use super::{Decode, Encode, Format, Holds, Values};
+use super::{Capabilities, Decode, Encode, Format, Values};
 
 /// The entry of 16-bit files in the registry of formats.
 pub(super) const FORMAT_16: Format = Format {
@@ -23,7 +23,7 @@ pub(super) const FORMAT_16: Format = Format {
     extensions: &["raw", "r16"],
     decode: Some(Decode::Parts(decode_16)),
     encode: Some(Encode::Parts(encode_16)),
-    holds: Holds { values: Values::Steps16, ..Holds::ALL },
+    holds: Capabilities { values: Values::Steps16, ..Capabilities::ALL },
     presets: &[],
 };
 
@@ -33,6 +33,6 @@ pub(super) const FORMAT_32: Format = Format {
     extensions: &["r32"],
     decode: Some(Decode::Parts(decode_32)),
     encode: Some(Encode::Parts(encode_32)),
-    holds: Holds::ALL,
+    holds: Capabilities::ALL,
     presets: &[],
 };

@@ -85,10 +85,10 @@ fn whole(bytes: &[u8], sidecar: &Sidecar, size: Size) -> Result<Raster, Fault> {
         ByteOrder::Big => u16::from_be_bytes,
     };
     let numbers = || bytes.chunks_exact(2).map(|two| f64::from(join([two[0], two[1]])));
-    let is_land = |number: f64| !matches!(sidecar.no_data, Some(NoData::Number(none)) if none == number);
-    let value = |number: f64| if is_land(number) { (low + step * number) as f32 } else { 0.0 };
+    let is_valid = |number: f64| !matches!(sidecar.no_data, Some(NoData::Number(none)) if none == number);
+    let value = |number: f64| if is_valid(number) { (low + step * number) as f32 } else { 0.0 };
     let values = numbers().map(value).collect();
-    Raster::from_file(size, values, numbers().map(is_land).collect(), sidecar.kind.name())
+    Raster::from_file(size, values, numbers().map(is_valid).collect(), sidecar.kind.name())
 }
 
 fn floats(bytes: &[u8], sidecar: &Sidecar, size: Size) -> Result<Raster, Fault> {
@@ -97,11 +97,11 @@ fn floats(bytes: &[u8], sidecar: &Sidecar, size: Size) -> Result<Raster, Fault> 
         ByteOrder::Big => f32::from_be_bytes,
     };
     let numbers = || bytes.chunks_exact(4).map(|four| join([four[0], four[1], four[2], four[3]]));
-    let is_land = |number: f32| match sidecar.no_data {
+    let is_valid = |number: f32| match sidecar.no_data {
         None => true,
         Some(NoData::Number(none)) => number != none as f32,
         Some(NoData::Word(_)) => !number.is_nan(),
     };
-    let values = numbers().map(|number| if is_land(number) { number } else { 0.0 }).collect();
-    Raster::from_file(size, values, numbers().map(is_land).collect(), sidecar.kind.name())
+    let values = numbers().map(|number| if is_valid(number) { number } else { 0.0 }).collect();
+    Raster::from_file(size, values, numbers().map(is_valid).collect(), sidecar.kind.name())
 }

@@ -1,13 +1,13 @@
 //! Where the cells of a chunk lie in their array.
 
-use super::metadata::MOST_DIMENSIONS;
+use super::metadata::MAX_DIMENSIONS;
 
 /// Positions along each dimension; those beyond the last are 0.
-pub(super) type Place = [usize; MOST_DIMENSIONS];
+pub(super) type Place = [usize; MAX_DIMENSIONS];
 
 /// The place of the element at a row-major position.
 pub(super) fn place(mut position: usize, shape: &[usize]) -> Place {
-    let mut place = [0; MOST_DIMENSIONS];
+    let mut place = [0; MAX_DIMENSIONS];
     for (axis, length) in shape.iter().enumerate().rev() {
         place[axis] = position % length;
         position /= length;
@@ -33,7 +33,7 @@ pub(super) struct Rows<'a> {
 impl<'a> Rows<'a> {
     /// Of the chunk at `place` among the chunks.
     pub(super) fn of(shape: &'a [usize], chunk: &'a [usize], place: &Place) -> Self {
-        let mut origin = [0; MOST_DIMENSIONS];
+        let mut origin = [0; MAX_DIMENSIONS];
         for (axis, length) in chunk.iter().enumerate() {
             origin[axis] = place[axis] * length;
         }

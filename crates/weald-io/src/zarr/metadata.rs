@@ -12,7 +12,7 @@ use super::codec::Codecs;
 pub(super) const DESCRIPTION: &str = "zarr.json";
 
 /// Most dimensions of an array.
-pub(super) const MOST_DIMENSIONS: usize = 8;
+pub(super) const MAX_DIMENSIONS: usize = 8;
 
 /// An array as described.
 #[derive(Clone, Debug)]
@@ -40,7 +40,7 @@ impl Array {
     /// # Errors
     /// [`Fault::Damaged`] for a description without a shape of up to eight dimensions.
     pub(super) fn of(name: &str, json: &Value) -> Result<Self, Fault> {
-        let shape = lengths(&json["shape"]).filter(|shape| shape.len() <= MOST_DIMENSIONS);
+        let shape = lengths(&json["shape"]).filter(|shape| shape.len() <= MAX_DIMENSIONS);
         let shape = shape.ok_or_else(|| damaged(name, "shape", &json["shape"]))?;
         Ok(Self { name: name.to_owned(), shape, json: json.clone() })
     }

@@ -13,7 +13,7 @@ use super::metadata::{Array, DESCRIPTION, Storage};
 const DESCRIPTION_BYTES: u64 = 16 << 20;
 
 /// Most arrays of a group.
-const MOST_ARRAYS: usize = 1000;
+const MAX_ARRAYS: usize = 1000;
 
 /// Reads the layer of a group, or a single array; see [`Zarr`](super).
 ///
@@ -69,17 +69,12 @@ fn arrays_of_group(parts: &dyn Parts, root: &Value) -> Result<Vec<Array>, Fault>
         let right_below = listed.iter().filter(|(name, _)| !name.contains('/'));
         nodes.extend(right_below.map(|(name, node)| (name.clone(), node.clone())));
     } else {
-        for folder in parts.folders()?.into_iter().take(MOST_ARRAYS) {
+        for folder in parts.folders()?.into_iter().take(MAX_ARRAYS) {
             nodes.extend(description(parts, &folder)?.map(|node| (folder, node)));
         }
     }
     let is_array = |(_, node): &&(String, Value)| node["node_type"] == "array";
-    nodes
-        .iter()
-        .filter(is_array)
-        .take(MOST_ARRAYS)
-        .map(|(name, node)| Array::of(plain(name)?, node))
-        .collect()
+    nodes.iter().filter(is_array).take(MAX_ARRAYS).map(|(name, node)| Array::of(plain(name)?, node)).collect()
 }
 
 /// The name, where it leads to a folder within that of the group.

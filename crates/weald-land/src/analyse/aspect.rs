@@ -7,7 +7,7 @@
 //!
 //! with the gradient (p east, q north) of a quadratic fitted to the window around each cell: Evans 1972, doi
 //! 10.4324/9780429273346-2. Northness and eastness, the horizontal parts of the upright unit normal, have no
-//! jump at north and fade out on level ground, so that masks and statistics should use them rather than the
+//! jump at north and fade out on flat ground, so that masks and statistics should use them rather than the
 //! angle.
 
 use super::cells::fields_of;
@@ -27,11 +27,11 @@ pub const ENTRY: Entry = Entry::of::<Aspect>(
     "Evans 1972, doi 10.4324/9780429273346-2",
 );
 
-/// Aspect of level ground, which faces nowhere.
+/// Aspect of flat ground, which faces nowhere.
 pub const LEVEL: f64 = -1.0;
 
 parameters! {
-    /// Direction of the slope. Writes `aspect` in degrees clockwise from north, 0 to 360, with -1 on level ground;
+    /// Direction of the slope. Writes `aspect` in degrees clockwise from north, 0 to 360, with -1 on flat ground;
     /// `northness` and `eastness` from -1 to 1, which are 0 there.
     pub struct Aspect {
         /// Layer of heights in metres.

@@ -20,7 +20,7 @@ pub(super) fn fields_of<const N: usize>(
     let mut cells = vec![[0.0_f32; N]; domain.size.cells()];
     cells.par_chunks_mut(columns).enumerate().for_each(|(y, row)| {
         for (x, cell) in row.iter_mut().enumerate() {
-            if domain.land.as_ref().is_none_or(|land| land.is_land(x, y)) {
+            if domain.valid.as_ref().is_none_or(|valid| valid.is_valid(x, y)) {
                 *cell = values(x, y).map(|value| value as f32);
             }
         }

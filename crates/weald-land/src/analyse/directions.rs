@@ -40,10 +40,10 @@ impl Directions {
     /// Reads a layer of codes, as the step `flow` writes it. Cells without data count as outlets.
     ///
     /// # Errors
-    /// [`Error::Run`] naming the first cell whose code is none, leads out of the data, or belongs to a circle.
-    pub fn of(layer: &Field, land: Option<&Mask>) -> Result<Self, Error> {
+    /// [`Error::Run`] naming the first cell whose code is none, leads out of the data, or belongs to a cycle.
+    pub fn of(layer: &Field, valid: Option<&Mask>) -> Result<Self, Error> {
         let size = layer.size();
-        let has_data = |cell: usize| land.is_none_or(|land| land.is_land_at(cell));
+        let has_data = |cell: usize| valid.is_none_or(|valid| valid.is_valid_at(cell));
         let mut codes = vec![OUTLET; size.cells()];
         for cell in (0..size.cells()).filter(|&cell| has_data(cell)) {
             let value = layer.values()[cell];
@@ -52,7 +52,7 @@ impl Directions {
             codes[cell] = within.ok_or_else(|| bad_code(size, cell, value))?;
         }
         let directions = Self { size, codes };
-        directions.circle().map_or(Ok(directions), |cell| Err(bad_circle(size, cell)))
+        directions.cell_of_cycle().map_or(Ok(directions), |cell| Err(cycle_error(size, cell)))
     }
 
     /// Columns and rows.
@@ -65,7 +65,7 @@ impl Directions {
         &self.codes
     }
 
-    /// The cell that a cell hands on to; `None` for outlets and the sea.
+    /// The cell that a cell drains to; `None` for outlets and the sea.
     #[inline]
     pub fn downstream(&self, cell: usize) -> Option<usize> {
         let code = self.codes[cell];
@@ -81,12 +81,12 @@ impl Directions {
         self.codes[cell] == SEA
     }
 
-    /// The cells that hand on to a cell, in the order of their numbers.
+    /// The cells that drain to a cell, in the order of their numbers.
     pub fn upstream(&self, cell: usize) -> impl Iterator<Item = usize> {
         self.size.neighbours(cell).filter(move |&other| self.downstream(other) == Some(cell))
     }
 
-    /// The cells from an outlet or the sea upward, so that each comes after the one it hands on to, as far as
+    /// The cells from an outlet or the sea upward, so that each comes after the one it drains to, as far as
     /// `member` says.
     pub(super) fn upward(&self, member: impl Fn(usize) -> bool) -> Vec<usize> {
         let ends = |&cell: &usize| {
@@ -107,7 +107,7 @@ impl Directions {
     }
 
     /// A cell from which water comes to no end.
-    fn circle(&self) -> Option<usize> {
+    fn cell_of_cycle(&self) -> Option<usize> {
         let ending = self.upward(|_| true);
         if ending.len() == self.codes.len() {
             return None;
@@ -138,10 +138,10 @@ fn bad_code(size: Size, cell: usize, value: f32) -> Error {
     ))
 }
 
-fn bad_circle(size: Size, cell: usize) -> Error {
+fn cycle_error(size: Size, cell: usize) -> Error {
     let (x, y) = (cell % size.columns, cell / size.columns);
     Error::Run(format!(
-        "water of column {x}, row {y} flows in a circle and reaches no outlet; make the layer of directions \
+        "water of column {x}, row {y} flows in a cycle and reaches no outlet; make the layer of directions \
          with the step `flow`"
     ))
 }
@@ -173,7 +173,7 @@ mod tests {
         };
         refused(&[0.0, 0.0, 0.0, 0.0, 2.5, 0.0], "column 1, row 1 is 2.5");
         refused(&[0.0, 0.0, 1.0, 0.0, 0.0, 0.0], "column 2, row 0 is 1");
-        refused(&[0.0, 1.0, 5.0, 0.0, 0.0, 0.0], "column 1, row 0 flows in a circle");
+        refused(&[0.0, 1.0, 5.0, 0.0, 0.0, 0.0], "column 1, row 0 flows in a cycle");
         refused(&[0.0, f32::NAN, 0.0], "column 1, row 0 is NaN");
     }
 

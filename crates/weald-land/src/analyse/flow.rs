@@ -1,7 +1,7 @@
 //! Flow routing: where the water of each cell goes, and how much land lies above it.
 //!
-//! Depressions are filled to their lowest rims or breached, level ground is given a slope, then each cell
-//! hands on to its steepest neighbour (D8, O'Callaghan and Mark 1984, doi 10.1016/S0734-189X(84)80011-0). The
+//! Depressions are filled to their lowest rims or breached, flat ground is given a slope, then each cell
+//! drains to its steepest neighbour (D8, O'Callaghan and Mark 1984, doi 10.1016/S0734-189X(84)80011-0). The
 //! stages, one file each:
 //!
 //! | file | what |
@@ -9,16 +9,16 @@
 //! | `surface` | heights with a ring of no-data around them |
 //! | `descent` | steepest descent of every cell, by rows |
 //! | `basins` | the cells that descend to the same pit |
-//! | `passes` | the passes between basins that matter: a minimum spanning tree |
+//! | `saddles` | the saddles between basins that matter: a minimum spanning tree |
 //! | `union` | sets of basins that were joined |
 //! | `fill` | the level at which water leaves each basin: what priority-flood gives |
 //! | `breach` | channels through the rims instead |
-//! | `flats` | directions over level ground |
+//! | `flats` | directions over flat ground |
 //! | `accumulate`, `multiple` | upslope areas, along D8 or shared among all lower neighbours |
 //!
 //! What is filled is, to the bit, what priority-flood fills (Barnes, Lehman and Mulla 2014, doi
-//! 10.1016/j.cageo.2013.04.024): the least height that a way to an outlet must pass. But there is no queue of
-//! cells: water descends to pits in parallel, and only the graph of basins is flooded, from the lowest pass up
+//! 10.1016/j.cageo.2013.04.024): the least height that a path to an outlet must pass. But there is no queue of
+//! cells: water descends to pits in parallel, and only the graph of basins is flooded, from the lowest saddle up
 //! (Cordonnier, Bovy and Braun 2019, "A versatile, linear complexity algorithm for flow routing in topographies
 //! with depressions", doi 10.5194/esurf-7-549-2019). Every result is the same for any number of threads.
 
@@ -26,25 +26,25 @@ mod accumulate;
 mod basins;
 mod breach;
 mod descent;
+mod disjoint_sets;
 mod fill;
 mod flats;
 mod multiple;
 mod naive;
-mod passes;
+mod saddles;
 mod step;
 mod surface;
-mod union;
 
 pub use accumulate::accumulate;
 pub use multiple::{MultipleFlow, accumulate_multiple};
 pub use naive::naive;
-pub(in crate::analyse) use step::MILLIMETRES_A_YEAR;
+pub(in crate::analyse) use step::MILLIMETRES_PER_YEAR;
 pub use step::{ENTRY, FlowStep, Method};
 
 use super::directions::{Directions, OUTLET, SEA};
 use basins::Basins;
 use descent::Descent;
-use passes::Passes;
+use saddles::Saddles;
 use surface::Surface;
 use weald_core::choices;
 use weald_core::grid::{Field, Mask};
@@ -76,12 +76,12 @@ impl Default for Routing {
     }
 }
 
-/// Ground without depressions, and the way of water over it.
+/// Ground without depressions, and the flow path over it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Routed {
-    /// Heights after filling or breaching: no way of water rises. Cells of the sea keep their height.
+    /// Heights after filling or breaching: no flow path rises. Cells of the sea keep their height.
     pub surface: Field,
-    /// Where each cell hands on to. Every way ends at an outlet or in the sea.
+    /// Where each cell drains to. Every path ends at an outlet or in the sea.
     pub directions: Directions,
 }
 
@@ -90,8 +90,8 @@ pub struct Routed {
 ///
 /// # Panics
 /// If a height of a cell with data is not finite: a bug of the caller.
-pub fn route(height: &Field, land: Option<&Mask>, routing: &Routing) -> Routed {
-    let mut surface = Surface::of(height, land, routing.sea_level);
+pub fn route(height: &Field, valid: Option<&Mask>, routing: &Routing) -> Routed {
+    let mut surface = Surface::of(height, valid, routing.sea_level);
     condition(&mut surface, routing);
     let mut descent = Descent::of(&surface);
     flats::resolve(&surface, &mut descent);
@@ -113,15 +113,15 @@ pub fn route(height: &Field, land: Option<&Mask>, routing: &Routing) -> Routed {
 /// Takes the depressions out of a surface.
 fn condition(surface: &mut Surface, routing: &Routing) {
     let basins = Basins::of(surface);
-    let passes = Passes::of(surface, &basins);
+    let saddles = Saddles::of(surface, &basins);
     match routing.depressions {
-        Depressions::Fill => fill::fill(surface, &basins, &passes),
+        Depressions::Fill => fill::fill(surface, &basins, &saddles),
         Depressions::Breach => {
-            breach::breach(surface, &basins, &passes, routing.deepest_breach as f32);
+            breach::breach(surface, &basins, &saddles, routing.deepest_breach as f32);
             if routing.deepest_breach.is_finite() {
                 let basins = Basins::of(surface);
-                let passes = Passes::of(surface, &basins);
-                fill::fill(surface, &basins, &passes);
+                let saddles = Saddles::of(surface, &basins);
+                fill::fill(surface, &basins, &saddles);
             }
         }
     }

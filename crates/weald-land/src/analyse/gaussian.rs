@@ -64,7 +64,7 @@ mod tests {
     }
 
     #[test]
-    fn the_border_is_mirrored_so_that_level_ground_stays_level() {
+    fn the_border_is_mirrored_so_that_flat_ground_stays_level() {
         let blurred = gaussian(&Grid { columns: 3, values: vec![7.0; 6] }, 3.0);
         assert!(blurred.values.iter().all(|value| (value - 7.0).abs() < 1e-12));
     }

@@ -60,7 +60,7 @@ impl Ground {
     pub(super) fn new(height: &Field, domain: &Domain) -> Self {
         let size = domain.size;
         let value = |(cell, &height): (usize, &f32)| {
-            let has_data = domain.land.as_ref().is_none_or(|land| land.is_land_at(cell));
+            let has_data = domain.valid.as_ref().is_none_or(|valid| valid.is_valid_at(cell));
             if has_data { height } else { f32::NAN }
         };
         let heights: Vec<f32> = height.values().par_iter().enumerate().map(value).collect();
@@ -300,13 +300,13 @@ mod tests {
             20.0 * weald_core::random::signed2(5, (x / 2.0) as i64, (y / 2.0) as i64)
         });
         let ground = Ground::new(&field, &domain);
-        let ways = [(0, -1), (1, -1), (1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0), (-1, -1)];
-        for (number, way) in ways.into_iter().enumerate() {
+        let headings = [(0, -1), (1, -1), (1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0), (-1, -1)];
+        for (number, towards) in headings.into_iter().enumerate() {
             let horizon = ground.horizon(std::f64::consts::FRAC_PI_4 * number as f64);
             for (cell, &found) in horizon.iter().enumerate() {
-                let expected = searched(&field, cell % 37, cell / 37, way, 2.0);
+                let expected = searched(&field, cell % 37, cell / 37, towards, 2.0);
                 let same = found == expected || (found - expected).abs() < 1e-5;
-                assert!(same, "cell {cell}, direction {way:?}: {found} instead of {expected}");
+                assert!(same, "cell {cell}, direction {towards:?}: {found} instead of {expected}");
             }
         }
     }
@@ -314,12 +314,12 @@ mod tests {
     #[test]
     fn ground_without_data_hides_nothing() {
         let size = Size::new(21, 21).expect("small");
-        let land: Vec<bool> = (0..size.cells()).map(|cell| cell % 21 != 10).collect();
+        let valid: Vec<bool> = (0..size.cells()).map(|cell| cell % 21 != 10).collect();
         let (mut field, domain) = ground(size, 1.0, |_, _| 3.0);
         for y in 0..21 {
             field.set(10, y, 1.0e6);
         }
-        let domain = Domain { land: Mask::new(size, land), ..domain };
+        let domain = Domain { valid: Mask::new(size, valid), ..domain };
         let ground = Ground::new(&field, &domain);
         for degree in (0..360).step_by(9) {
             let horizon = ground.horizon(f64::from(degree).to_radians());

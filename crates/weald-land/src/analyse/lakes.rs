@@ -36,7 +36,7 @@ pub struct Lake {
     pub volume: f64,
     /// Greatest depth in metres.
     pub deepest: f64,
-    /// Column and row of the cell over which it drains: the first beyond the lake on the way of its water, or
+    /// Column and row of the cell over which it drains: the first beyond the lake on its flow path, or
     /// the last of the lake where that is at the border. `None` where no water leaves.
     pub outlet: Option<[usize; 2]>,
     /// Its outline along the edges of cells.
@@ -91,16 +91,16 @@ impl Lakes {
 
 /// The number of the lake in each cell; 0 where there is none or no data.
 pub(super) fn numbers(landscape: &Landscape) -> Result<Vec<u32>, Error> {
-    let land = landscape.domain.land.as_ref();
+    let land = landscape.domain.valid.as_ref();
     let field = landscape.field("lake")?;
     let number = |(cell, &value): (usize, &f32)| match value {
-        _ if land.is_some_and(|land| !land.is_land_at(cell)) => Ok(0),
-        value if value >= 0.0 && value <= MOST_LAKES as f32 && value.fract() == 0.0 => Ok(value as u32),
+        _ if land.is_some_and(|valid| !valid.is_valid_at(cell)) => Ok(0),
+        value if value >= 0.0 && value <= MAX_LAKES as f32 && value.fract() == 0.0 => Ok(value as u32),
         value => {
             let (x, y) = (cell % field.size().columns, cell / field.size().columns);
             Err(Error::Run(format!(
                 "the layer `lake` is {value} in column {x}, row {y}, but must be the number of a lake, 0 to \
-                 {MOST_LAKES}; make it with the step `lakes`"
+                 {MAX_LAKES}; make it with the step `lakes`"
             )))
         }
     };
@@ -108,7 +108,7 @@ pub(super) fn numbers(landscape: &Landscape) -> Result<Vec<u32>, Error> {
 }
 
 /// Most lakes that a layer can number: whole numbers of `f32` are exact up to here.
-pub(super) const MOST_LAKES: u32 = 1 << 24;
+pub(super) const MAX_LAKES: u32 = 1 << 24;
 
 /// Which way water takes, and how much.
 struct Outlets {
@@ -118,7 +118,7 @@ struct Outlets {
 
 impl Outlets {
     fn of(landscape: &Landscape) -> Result<Self, Error> {
-        let land = landscape.domain.land.as_ref();
+        let land = landscape.domain.valid.as_ref();
         let directions = match landscape.field("flow_direction") {
             Ok(layer) => Directions::of(layer, land)?,
             Err(_) => route(landscape.field("height")?, land, &Routing::default()).directions,

@@ -57,8 +57,8 @@ fn of_transverse_mercator(east: f64, north: f64) -> f64 {
     let bend = 1.0 - e2 * sine * sine;
     let across = AXIS / libm::sqrt(bend);
     let along = AXIS * (1.0 - e2) / (bend * libm::sqrt(bend));
-    let way = east / (across * SCALE);
-    (foot - across * libm::tan(foot) / along * way * way / 2.0).to_degrees()
+    let offset = east / (across * SCALE);
+    (foot - across * libm::tan(foot) / along * offset * offset / 2.0).to_degrees()
 }
 
 #[cfg(test)]

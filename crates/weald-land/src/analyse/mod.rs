@@ -37,12 +37,12 @@ use weald_core::grid::{Field, Size};
 use weald_core::landscape::Landscape;
 
 /// Cells a task works on; no result depends on it.
-const CELLS_A_TASK: usize = 1 << 14;
+const CELLS_PER_TASK: usize = 1 << 14;
 
 /// Refuses a layer that holds a NaN or an infinity in a cell with data.
 fn ensure_finite(landscape: &Landscape, name: &str) -> Result<(), Error> {
     let domain = &landscape.domain;
-    let Some((x, y)) = landscape.field(name)?.first_not_finite(domain.land.as_ref()) else { return Ok(()) };
+    let Some((x, y)) = landscape.field(name)?.first_not_finite(domain.valid.as_ref()) else { return Ok(()) };
     Err(Error::Run(format!(
         "the layer `{name}` is not a finite number in column {x}, row {y}; mend it, or mark the cell as no-data"
     )))
@@ -50,6 +50,6 @@ fn ensure_finite(landscape: &Landscape, name: &str) -> Result<(), Error> {
 
 /// Sums of each cell as a layer, in another unit.
 fn scaled(size: Size, sums: &[f64], unit: f64) -> Field {
-    let values = sums.par_iter().with_min_len(CELLS_A_TASK).map(|sum| (sum * unit) as f32);
+    let values = sums.par_iter().with_min_len(CELLS_PER_TASK).map(|sum| (sum * unit) as f32);
     Field::from_values(size, values.collect())
 }

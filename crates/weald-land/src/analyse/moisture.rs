@@ -6,7 +6,7 @@
 //! gathered = (wetness - dry) / (wet - dry), within 0 and 1
 //! ```
 //!
-//! `h` is the height above the nearest drainage: above the first water on the way of flow (Rennó et al. 2008,
+//! `h` is the height above the nearest drainage: above the first water on the flow path (Rennó et al. 2008,
 //! "HAND, a new terrain descriptor using SRTM-DEM", doi 10.1016/j.rse.2008.03.018), or above the outlet where
 //! there is none. Water is what a simulation left, rivers and lakes, and the sea, as far as they are named.
 //! How the two are joined is a choice of Weald: either alone makes ground wet.
@@ -76,7 +76,7 @@ impl Step for Moisture {
     fn run(&self, landscape: &mut Landscape, _: &Job<'_>) -> Result<Outcome, Error> {
         ensure_finite(landscape, &self.of.0)?;
         ensure_finite(landscape, &self.wetness.0)?;
-        let directions = Directions::of(landscape.field("flow_direction")?, landscape.domain.land.as_ref())?;
+        let directions = Directions::of(landscape.field("flow_direction")?, landscape.domain.valid.as_ref())?;
         let water = self.water_cells(landscape, &directions)?;
         let above = height_above_water(landscape.field(&self.of.0)?, &directions, &water);
         let wetness = landscape.field(&self.wetness.0)?.values();

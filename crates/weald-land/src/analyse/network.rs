@@ -41,12 +41,12 @@ pub struct NetworkInput<'a> {
     pub mean_flux_x: &'a Field,
     /// The same through the southern face.
     pub mean_flux_y: &'a Field,
-    /// Mean rain over the same time, in cells a step.
+    /// Mean rain over the same time, in cells per step.
     pub mean_rain: f64,
     /// Side of a cell in metres.
     pub cell: f64,
     /// Cells with data; `None` where all have.
-    pub land: Option<&'a Mask>,
+    pub valid: Option<&'a Mask>,
 }
 
 /// The measures.
@@ -127,7 +127,7 @@ pub fn measure(input: &NetworkInput<'_>) -> NetworkMeasures {
     let in_cells =
         |field: &Field| field.values().iter().map(|&value| f64::from(value) / input.cell).collect();
     let (height, depth) = (in_cells(input.ground), in_cells(input.depth));
-    let ground = Ground { size, land: input.land, height, depth };
+    let ground = Ground { size, valid: input.valid, height, depth };
     let lakes = ground.lakes();
     let drainage = Drainage::new(&ground, &lakes);
     let carries = discharge::effective_areas(input);
@@ -184,7 +184,7 @@ mod tests {
             mean_flux_y: none,
             mean_rain: 0.005,
             cell: 1.0,
-            land: None,
+            valid: None,
         }
     }
 
@@ -267,10 +267,10 @@ mod tests {
         let hole = |x: usize, y: usize| (30..50).contains(&x) && (30..50).contains(&y);
         // Without the mask, a deep pit without a way out.
         let ground = Field::from_function(size(), |x, y| if hole(x, y) { -500.0 } else { x as f32 });
-        let land = (0..SIDE * SIDE).map(|cell| !hole(cell % SIDE, cell / SIDE)).collect();
-        let land = Mask::new(size(), land);
+        let valid = (0..SIDE * SIDE).map(|cell| !hole(cell % SIDE, cell / SIDE)).collect();
+        let valid = Mask::new(size(), valid);
         let none = Field::filled(size(), 0.0);
-        let masked = measure(&NetworkInput { land: land.as_ref(), ..still(&ground, &none) });
+        let masked = measure(&NetworkInput { valid: valid.as_ref(), ..still(&ground, &none) });
         assert_eq!((masked.drains, masked.pits, masked.valleys), (1.0, 0, None));
         let whole = dry(&ground, 1.0);
         assert!(whole.drains < 0.9 && whole.valleys.is_some(), "{whole:?}");

@@ -20,8 +20,8 @@ pub const ENTRY: Entry = Entry::of::<Network>(
     "Weald, after the claims of Han 2015, doi 10.7583/JKGS.2015.15.6.171",
 );
 
-/// Mean rain of `hydraulic` with its defaults, in cells a step: 0.01 in one step of two.
-const USUAL_RAIN: f64 = 0.005;
+/// Mean rain of `hydraulic` with its defaults, in cells per step: 0.01 in one step of two.
+const DEFAULT_RAIN: f64 = 0.005;
 
 parameters! {
     /// Measures of a river network, which go into report.json as `measures`. Needs the layers that `hydraulic`
@@ -59,7 +59,7 @@ impl Step for Network {
         let domain = &landscape.domain;
         let field = |name: &LayerName| landscape.field(&name.0);
         let before = before(field(&self.of)?, field(&self.erosion)?, field(&self.deposition)?);
-        let rain = self.rain.unwrap_or(USUAL_RAIN * domain.cell);
+        let rain = self.rain.unwrap_or(DEFAULT_RAIN * domain.cell);
         let measures = measure(&NetworkInput {
             ground: field(&self.of)?,
             before: Some(&before),
@@ -68,7 +68,7 @@ impl Step for Network {
             mean_flux_y: field(&self.flux_y)?,
             mean_rain: rain * domain.cell_area(),
             cell: domain.cell,
-            land: domain.land.as_ref(),
+            valid: domain.valid.as_ref(),
         });
         let measures = measures.named().into_iter().collect();
         Ok(Outcome { iterations: 1, measures, ..Outcome::default() })

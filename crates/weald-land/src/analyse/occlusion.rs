@@ -6,7 +6,7 @@
 
 use rayon::prelude::*;
 
-use super::CELLS_A_TASK;
+use super::CELLS_PER_TASK;
 use super::horizon::Ground;
 use super::sky::{Facet, Ray};
 use weald_core::domain::Domain;
@@ -76,7 +76,7 @@ fn openness(
     let mut sums = vec![[0.0_f32; 2]; facets.len()];
     Ground::new(height, domain).around(directions, job, |direction| {
         let ray = Ray::of(&direction);
-        let cells = sums.par_iter_mut().with_min_len(CELLS_A_TASK).zip(&facets).zip(direction.horizon);
+        let cells = sums.par_iter_mut().with_min_len(CELLS_PER_TASK).zip(&facets).zip(direction.horizon);
         cells.for_each(|((sums, facet), &horizon)| {
             let horizon = f64::from(horizon);
             let shares = [facet.share(ray, horizon), facet.share(ray, horizon.max(0.0))];

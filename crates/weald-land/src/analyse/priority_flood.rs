@@ -1,10 +1,10 @@
-//! Priority-flood: how high water must stand in every cell to find its way to an outlet.
+//! Priority-flood: how high water must stand in every cell to find its path to an outlet.
 //!
 //! Outlets enter a queue ordered by level; the lowest cell leaves it, and each new neighbour enters at
 //! `max(its height, the level of the cell it is reached from)`. Source: Barnes, Lehman and Mulla 2014,
 //! "Priority-flood: An optimal depression-filling and watershed-labeling algorithm for digital elevation
 //! models", doi 10.1016/j.cageo.2013.04.024, algorithm 1. Differs: outlets may lie inside the grid (lakes),
-//! and the cell from which each cell was reached is kept, so that ways to the outlets can be judged.
+//! and the cell from which each cell was reached is kept, so that paths to the outlets can be judged.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -16,7 +16,7 @@ use weald_core::grid::Size;
 pub(super) struct Flooded {
     /// Level at which water stands when it runs off.
     pub(super) level: f64,
-    /// The next cell on the way to an outlet; the cell itself for an outlet.
+    /// The next cell on the path to an outlet; the cell itself for an outlet.
     pub(super) next: usize,
 }
 

@@ -91,8 +91,8 @@ impl<'a> Surface<'a> {
         let inside = x >= radius && y >= radius && x + radius < size.columns && y + radius < size.rows;
         let rows = y.saturating_sub(radius)..=y + radius;
         let has_data = |row: usize| {
-            self.domain.land.as_ref().is_none_or(|land| {
-                land.flags()[row * size.columns..][x - radius..=x + radius].iter().all(|&land| land)
+            self.domain.valid.as_ref().is_none_or(|valid| {
+                valid.flags()[row * size.columns..][x - radius..=x + radius].iter().all(|&valid| valid)
             })
         };
         inside && rows.into_iter().all(has_data)
@@ -105,8 +105,8 @@ impl<'a> Surface<'a> {
         let rows = y.saturating_sub(radius)..(y + radius + 1).min(size.rows);
         let columns = x.saturating_sub(radius)..(x + radius + 1).min(size.columns);
         let cells = rows.flat_map(move |row| columns.clone().map(move |column| (column, row)));
-        let land = self.domain.land.as_ref();
-        cells.filter(move |&(column, row)| land.is_none_or(|land| land.is_land(column, row))).map(
+        let valid = self.domain.valid.as_ref();
+        cells.filter(move |&(column, row)| valid.is_none_or(|valid| valid.is_valid(column, row))).map(
             move |(column, row)| {
                 let height = f64::from(self.height.at(column, row)) - middle;
                 (column as f64 - x as f64, y as f64 - row as f64, height)
@@ -209,15 +209,15 @@ mod tests {
     const TRUE: Quadric = Quadric { p: 0.25, q: -0.5, r: 0.0125, s: 0.003_125, t: -0.025 };
 
     /// A quadratic surface around column 4, row 3 of 9 × 7 cells, whose heights `f32` holds exactly.
-    fn domain(land: impl Fn(usize, usize) -> bool) -> (Domain, Field) {
+    fn domain(valid: impl Fn(usize, usize) -> bool) -> (Domain, Field) {
         let size = Size::new(9, 7).expect("small");
-        let flags = (0..size.cells()).map(|cell| land(cell % 9, cell / 9)).collect();
+        let flags = (0..size.cells()).map(|cell| valid(cell % 9, cell / 9)).collect();
         let height = Field::from_function(size, |x, y| {
             let (x, y) = ((x as f64 - 4.0) * CELL, (3.0 - y as f64) * CELL);
             let Quadric { p, q, r, s, t } = TRUE;
             (0.5 * r * x * x + s * x * y + 0.5 * t * y * y + p * x + q * y + 500.0) as f32
         });
-        (Domain { land: Mask::new(size, flags), ..Domain::new(size, CELL) }, height)
+        (Domain { valid: Mask::new(size, flags), ..Domain::new(size, CELL) }, height)
     }
 
     fn assert_close(found: Quadric, expected: Quadric, place: &str) {
@@ -252,13 +252,13 @@ mod tests {
     #[test]
     fn cells_without_data_do_not_bend_the_surface_around_them() {
         let (domain, mut height) = domain(|x, y| (x * 3 + y * 5) % 7 != 0);
-        let land = domain.land.clone().expect("some cells have no data");
+        let valid = domain.valid.clone().expect("some cells have no data");
         for (cell, value) in height.values_mut().iter_mut().enumerate() {
-            if !land.is_land_at(cell) {
+            if !valid.is_valid_at(cell) {
                 *value = -1.0e6;
             }
         }
-        for cell in (0..63).filter(|&cell| land.is_land_at(cell)) {
+        for cell in (0..63).filter(|&cell| valid.is_valid_at(cell)) {
             let found = Surface::new(&height, &domain).at(cell % 9, cell / 9);
             assert_close(found, seen_from(cell % 9, cell / 9), &format!("cell {cell}"));
         }

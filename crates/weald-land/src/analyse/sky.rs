@@ -35,7 +35,7 @@ impl Facet {
     pub(super) fn all(height: &Field, domain: &Domain) -> Vec<Self> {
         let (surface, columns) = (Surface::new(height, domain), domain.size.columns);
         let facet = |cell: usize| {
-            let has_data = domain.land.as_ref().is_none_or(|land| land.is_land_at(cell));
+            let has_data = domain.valid.as_ref().is_none_or(|valid| valid.is_valid_at(cell));
             let at = |cell: usize| surface.at(cell % columns, cell / columns);
             Self::new(if has_data { at(cell) } else { Quadric::default() })
         };

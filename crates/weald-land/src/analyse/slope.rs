@@ -25,7 +25,7 @@ pub const ENTRY: Entry = Entry::of::<Slope>(
 );
 
 choices! {
-    /// How steepness is told.
+    /// How steepness is given.
     pub enum SlopeUnit {
         /// Angle against the level, 0 to 90 degrees.
         Degree = "degree",

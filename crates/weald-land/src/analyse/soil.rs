@@ -71,7 +71,7 @@ parameters! {
         /// Metres from a cell to the edge of the window in which slope and curvature are measured: soil does not
         /// follow forms smaller than that. The least is one cell.
         scale: f64 = 0.0, range 0.0..=1.0e6, unit "m";
-        /// Greatest depth that is told; more than roots reach makes no difference.
+        /// Greatest depth that is reported; more than roots reach makes no difference.
         deepest: f64 = 20.0, range 0.1..=1000.0, unit "m";
         /// Depth that holds about two thirds of the roots.
         rooting: f64 = 0.4, range 0.01..=10.0, unit "m";
@@ -164,12 +164,12 @@ impl Soil {
 
     fn watered(&self, moisture: f64) -> f64 {
         let best = self.best_moisture;
-        let (end, way) = if moisture < best {
+        let (end, fraction) = if moisture < best {
             (self.dry, moisture / best)
         } else {
             (self.wet, (1.0 - moisture) / (1.0 - best))
         };
-        end + (1.0 - end) * way * way * (3.0 - 2.0 * way)
+        end + (1.0 - end) * fraction * fraction * (3.0 - 2.0 * fraction)
     }
 }
 

@@ -160,7 +160,7 @@ mod tests {
         Course { day: Some(day), latitude: latitude_deg.to_radians(), transmissivity: 1.0, positions: 96 }
     }
 
-    /// Daily extraterrestrial radiation on level ground in kWh/m²: Iqbal 1983, eq. 4.2.17.
+    /// Daily extraterrestrial radiation on flat ground in kWh/m²: Iqbal 1983, eq. 4.2.17.
     fn extraterrestrial(latitude_deg: f64, day: u32) -> f64 {
         let (latitude, declination) = (latitude_deg.to_radians(), declination(day));
         let set = setting(latitude, declination);

@@ -14,7 +14,7 @@
 
 use rayon::prelude::*;
 
-use super::CELLS_A_TASK;
+use super::CELLS_PER_TASK;
 use super::horizon::{Direction, Ground};
 use super::latitude::latitude_deg;
 use super::sky::{Facet, Ray};
@@ -158,7 +158,7 @@ impl Sunlight {
         let weight = 2.0 / f64::from(self.directions);
         ground.around(self.directions as usize, job, |direction| {
             let (ray, suns) = (Ray::of(&direction), &day.by_direction[direction.number]);
-            lit.par_iter_mut().with_min_len(CELLS_A_TASK).enumerate().for_each(|(cell, lit)| {
+            lit.par_iter_mut().with_min_len(CELLS_PER_TASK).enumerate().for_each(|(cell, lit)| {
                 let facet = facets[cell];
                 let horizon = f64::from(direction.horizon[cell]).max(0.0);
                 lit.sky += (weight * facet.share(ray, horizon)) as f32;

@@ -61,11 +61,11 @@ impl Step for Watersheds {
 
     fn run(&self, landscape: &mut Landscape, _: &Job<'_>) -> Result<Outcome, Error> {
         let domain = &landscape.domain;
-        let directions = Directions::of(landscape.field("flow_direction")?, domain.land.as_ref())?;
+        let directions = Directions::of(landscape.field("flow_direction")?, domain.valid.as_ref())?;
         let least = self
             .area
-            .map_or(SHARE_OF_THE_LAND * domain.land_cells() as f64, |area| area / domain.cell_area());
-        let labels = watersheds(&directions, domain.land.as_ref(), self.small, least);
+            .map_or(SHARE_OF_THE_LAND * domain.valid_cells() as f64, |area| area / domain.cell_area());
+        let labels = watersheds(&directions, domain.valid.as_ref(), self.small, least);
         let count = labels.iter().copied().max().unwrap_or(0);
         let layer = labels.into_iter().map(|label| label as f32).collect();
         landscape.insert("watershed", "1", Field::from_values(domain.size, layer));
@@ -76,8 +76,8 @@ impl Step for Watersheds {
 
 /// The number of the watershed of each cell, the largest first from 1; 0 in the sea, without data, and where
 /// small ones are dropped. Those of fewer than `least_cells` are small.
-pub fn watersheds(directions: &Directions, land: Option<&Mask>, small: Small, least_cells: f64) -> Vec<u32> {
-    let mut labels = by_mouth(directions, land);
+pub fn watersheds(directions: &Directions, valid: Option<&Mask>, small: Small, least_cells: f64) -> Vec<u32> {
+    let mut labels = by_mouth(directions, valid);
     let sizes = sizes(&labels);
     let is_small = |label: u32| (sizes[label as usize] as f64) < least_cells;
     match small {
@@ -97,10 +97,10 @@ pub fn watersheds(directions: &Directions, land: Option<&Mask>, small: Small, le
 }
 
 /// A number for each mouth and all cells above it.
-fn by_mouth(directions: &Directions, land: Option<&Mask>) -> Vec<u32> {
+fn by_mouth(directions: &Directions, valid: Option<&Mask>) -> Vec<u32> {
     let mut labels = vec![0; directions.codes().len()];
     let mut mouths = 0;
-    for cell in directions.upward(|cell| land.is_none_or(|land| land.is_land_at(cell))) {
+    for cell in directions.upward(|cell| valid.is_none_or(|valid| valid.is_valid_at(cell))) {
         if directions.is_sea(cell) {
             continue;
         }
@@ -209,25 +209,25 @@ mod tests {
     fn rows() -> (Directions, Option<Mask>) {
         let size = Size::new(6, 3).expect("legal");
         let codes = vec![0, 5, 0, 0, 0, 0, 0, 5, 5, 5, 5, 5, 0, 5, 5, 5, 9, 9];
-        let land = Mask::new(size, (0..18).map(|cell| !(2..6).contains(&cell)).collect());
-        (Directions::new(size, codes), land)
+        let valid = Mask::new(size, (0..18).map(|cell| !(2..6).contains(&cell)).collect());
+        (Directions::new(size, codes), valid)
     }
 
     #[test]
     fn watersheds_are_numbered_by_area_and_the_sea_has_none() {
-        let (directions, land) = rows();
-        let labels = watersheds(&directions, land.as_ref(), Small::Merge, 0.0);
+        let (directions, valid) = rows();
+        let labels = watersheds(&directions, valid.as_ref(), Small::Merge, 0.0);
         assert_eq!(labels, [3, 3, 0, 0, 0, 0, 1, 1, 1, 1, 1, 1, 2, 2, 2, 2, 0, 0]);
     }
 
     #[test]
     fn small_ones_merge_with_the_neighbour_they_touch_most_or_are_dropped() {
-        let (directions, land) = rows();
-        let merged = watersheds(&directions, land.as_ref(), Small::Merge, 3.0);
+        let (directions, valid) = rows();
+        let merged = watersheds(&directions, valid.as_ref(), Small::Merge, 3.0);
         assert_eq!(merged, [1, 1, 0, 0, 0, 0, 1, 1, 1, 1, 1, 1, 2, 2, 2, 2, 0, 0]);
-        let dropped = watersheds(&directions, land.as_ref(), Small::Drop, 5.0);
+        let dropped = watersheds(&directions, valid.as_ref(), Small::Drop, 5.0);
         assert_eq!(dropped, [0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1, 1, 0, 0, 0, 0, 0, 0]);
-        let one = watersheds(&directions, land.as_ref(), Small::Merge, 100.0);
+        let one = watersheds(&directions, valid.as_ref(), Small::Merge, 100.0);
         assert_eq!(one.iter().filter(|&&label| label == 1).count(), 12);
     }
 }

@@ -15,7 +15,7 @@ use rayon::prelude::*;
 
 use super::directions::STEPS;
 use super::flow::{MultipleFlow, Routed, Routing, accumulate_multiple, route};
-use super::{CELLS_A_TASK, ensure_finite};
+use super::{CELLS_PER_TASK, ensure_finite};
 use weald_core::error::Error;
 use weald_core::grid::Field;
 use weald_core::landscape::Landscape;
@@ -39,7 +39,7 @@ parameters! {
         of: LayerName = LayerName::of("height");
         /// Shares of lower neighbours are in proportion to slope to this power.
         exponent: f64 = 1.1, range 0.0..=20.0;
-        /// Gentler slopes count as this one, so that level ground has an index: a metre in a kilometre.
+        /// Gentler slopes count as this one, so that flat ground has an index: a metre in a kilometre.
         min_slope: f64 = 0.001, range 1.0e-6..=1.0;
         /// Height of the sea, in which flow ends. Without it there is no sea.
         sea_level: Option<f64> = None, range -1.0e6..=1.0e6, unit "m";
@@ -65,8 +65,8 @@ impl Step for Wetness {
         ensure_finite(landscape, &self.of.0)?;
         let domain = &landscape.domain;
         let routing = Routing { sea_level: self.sea_level, ..Routing::default() };
-        let routed = route(landscape.field(&self.of.0)?, domain.land.as_ref(), &routing);
-        let flow = MultipleFlow { routed: &routed, land: domain.land.as_ref(), exponent: self.exponent };
+        let routed = route(landscape.field(&self.of.0)?, domain.valid.as_ref(), &routing);
+        let flow = MultipleFlow { routed: &routed, valid: domain.valid.as_ref(), exponent: self.exponent };
         let index = wetness(&flow, domain.cell, self.min_slope);
         landscape.insert(&self.into.0, "1", index);
         Ok(Outcome { iterations: 1, ..Outcome::default() })
@@ -85,7 +85,7 @@ pub fn wetness(flow: &MultipleFlow<'_>, cell: f64, least_slope: f64) -> Field {
         let slope = (outflow.fall / (outflow.step * cell)).max(least_slope);
         libm::log(by_contour / slope) as f32
     };
-    let values = upslope.par_iter().enumerate().with_min_len(CELLS_A_TASK).map(index).collect();
+    let values = upslope.par_iter().enumerate().with_min_len(CELLS_PER_TASK).map(index).collect();
     Field::from_values(flow.routed.surface.size(), values)
 }
 
@@ -113,13 +113,13 @@ impl Outflow {
             let other = cell.wrapping_add_signed(south * columns + east);
             fall += share * (f64::from(surface.values()[cell]) - f64::from(surface.values()[other]));
         }
-        Self { step: libm::hypot(to[0], to[1]).max(LEAST_STEP), fall }
+        Self { step: libm::hypot(to[0], to[1]).max(MIN_STEP), fall }
     }
 }
 
 /// Water that parts in opposite directions, as on a ridge, moves on by nothing on average; a quarter of a cell
 /// keeps the logarithm finite.
-const LEAST_STEP: f64 = 0.25;
+const MIN_STEP: f64 = 0.25;
 
 #[cfg(test)]
 mod tests {
@@ -135,7 +135,7 @@ mod tests {
             (1000.0 - slope * 10.0 * (x as f64 * east + y as f64 * south)) as f32
         });
         let routed = route(&height, None, &Routing::default());
-        let flow = MultipleFlow { routed: &routed, land: None, exponent: 1.1 };
+        let flow = MultipleFlow { routed: &routed, valid: None, exponent: 1.1 };
         f64::from(wetness(&flow, 10.0, 0.001).at(60, 60))
     }
 
@@ -153,10 +153,10 @@ mod tests {
     }
 
     #[test]
-    fn level_ground_has_the_least_slope() {
+    fn flat_ground_has_the_least_slope() {
         let level = Field::filled(Size::square(9).expect("legal"), 5.0);
         let routed = route(&level, None, &Routing::default());
-        let flow = MultipleFlow { routed: &routed, land: None, exponent: 1.1 };
+        let flow = MultipleFlow { routed: &routed, valid: None, exponent: 1.1 };
         let corner = wetness(&flow, 10.0, 0.01).at(0, 0);
         assert!((f64::from(corner) - libm::log(10.0 / 0.01)).abs() < 1e-6, "{corner}");
     }

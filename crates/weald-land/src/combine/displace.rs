@@ -44,8 +44,8 @@ parameters! {
 
 impl Step for Displace {
     fn reads(&self) -> Vec<String> {
-        let ways = self.east.iter().chain(&self.south);
-        std::iter::once(&self.layer).chain(ways).map(|name| name.0.clone()).collect()
+        let offsets = self.east.iter().chain(&self.south);
+        std::iter::once(&self.layer).chain(offsets).map(|name| name.0.clone()).collect()
     }
 
     fn writes(&self) -> Vec<(String, &'static str)> {
@@ -61,15 +61,16 @@ impl Step for Displace {
     }
 
     fn run(&self, landscape: &mut Landscape, _: &Job<'_>) -> Result<Outcome, Error> {
-        let way = |name: &Option<LayerName>| name.as_ref().map(|name| landscape.field(&name.0)).transpose();
+        let offset =
+            |name: &Option<LayerName>| name.as_ref().map(|name| landscape.field(&name.0)).transpose();
         let bent = Bent {
             field: landscape.field(&self.layer.0)?,
-            land: landscape.domain.land.as_ref(),
-            ways: [way(&self.east)?, way(&self.south)?],
-            cells_a_metre: self.factor / landscape.domain.cell,
+            valid: landscape.domain.valid.as_ref(),
+            offsets: [offset(&self.east)?, offset(&self.south)?],
+            cells_per_metre: self.factor / landscape.domain.cell,
         };
         let size = bent.field.size();
-        let cells = (0..size.cells()).into_par_iter().with_min_len(super::CELLS_A_TASK);
+        let cells = (0..size.cells()).into_par_iter().with_min_len(super::CELLS_PER_TASK);
         let values = cells.map(|at| bent.value(at % size.columns, at / size.columns)).collect();
         store(landscape, &self.layer, self.into.as_ref(), Field::from_values(size, values))?;
         Ok(Outcome::default())
@@ -79,17 +80,19 @@ impl Step for Displace {
 /// A field seen through a displacement.
 struct Bent<'a> {
     field: &'a Field,
-    land: Option<&'a Mask>,
-    ways: [Option<&'a Field>; 2],
-    cells_a_metre: f64,
+    valid: Option<&'a Mask>,
+    offsets: [Option<&'a Field>; 2],
+    cells_per_metre: f64,
 }
 
 impl Bent<'_> {
     fn value(&self, x: usize, y: usize) -> f32 {
-        let way = |way: Option<&Field>| way.map_or(0.0, |way| f64::from(way.at(x, y)) * self.cells_a_metre);
+        let offset = |offset: Option<&Field>| {
+            offset.map_or(0.0, |offset| f64::from(offset.at(x, y)) * self.cells_per_metre)
+        };
         let size = self.field.size();
-        let ([west, east], to_east) = between(x as f64 + way(self.ways[0]), size.columns);
-        let ([north, south], to_south) = between(y as f64 + way(self.ways[1]), size.rows);
+        let ([west, east], to_east) = between(x as f64 + offset(self.offsets[0]), size.columns);
+        let ([north, south], to_south) = between(y as f64 + offset(self.offsets[1]), size.rows);
         let corners = [
             (west, north, (1.0 - to_east) * (1.0 - to_south)),
             (east, north, to_east * (1.0 - to_south)),
@@ -98,7 +101,7 @@ impl Bent<'_> {
         ];
         let (mut sum, mut weights) = (0.0, 0.0);
         for (x, y, weight) in corners {
-            if self.land.is_none_or(|land| land.is_land(x, y)) {
+            if self.valid.is_none_or(|valid| valid.is_valid(x, y)) {
                 sum += weight * f64::from(self.field.at(x, y));
                 weights += weight;
             }

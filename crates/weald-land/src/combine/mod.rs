@@ -25,7 +25,7 @@ use weald_core::parameter::LayerName;
 pub const UNIT_OF_INPUT: &str = "unit of `layer`";
 
 /// Cells a task works on; results do not depend on it.
-const CELLS_A_TASK: usize = 1 << 14;
+const CELLS_PER_TASK: usize = 1 << 14;
 
 /// The layer that is written: `into`, or else the one that was read.
 fn target<'a>(into: Option<&'a LayerName>, layer: &'a LayerName) -> &'a str {
@@ -51,12 +51,12 @@ fn store(
 
 /// A field from one field, cell by cell.
 fn map(field: &Field, value: impl Fn(f32) -> f32 + Sync) -> Field {
-    let values = field.values().par_iter().with_min_len(CELLS_A_TASK).map(|&v| value(v)).collect();
+    let values = field.values().par_iter().with_min_len(CELLS_PER_TASK).map(|&v| value(v)).collect();
     Field::from_values(field.size(), values)
 }
 
 /// A field from two fields, cell by cell.
 fn map_two(a: &Field, b: &Field, value: impl Fn(f32, f32) -> f32 + Sync) -> Field {
-    let pairs = a.values().par_iter().zip(b.values()).with_min_len(CELLS_A_TASK);
+    let pairs = a.values().par_iter().zip(b.values()).with_min_len(CELLS_PER_TASK);
     Field::from_values(a.size(), pairs.map(|(&a, &b)| value(a, b)).collect())
 }

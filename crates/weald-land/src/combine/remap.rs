@@ -42,7 +42,7 @@ parameters! {
 }
 
 /// Longest unit, in characters.
-const LONGEST_UNIT: usize = 32;
+const MAX_UNIT_LENGTH: usize = 32;
 
 impl Step for Remap {
     fn reads(&self) -> Vec<String> {
@@ -60,7 +60,7 @@ impl Step for Remap {
             _ => false,
         };
         let unit_is_right = self.unit.as_ref().is_none_or(|unit| {
-            (1..=LONGEST_UNIT).contains(&unit.chars().count()) && !unit.chars().any(char::is_control)
+            (1..=MAX_UNIT_LENGTH).contains(&unit.chars().count()) && !unit.chars().any(char::is_control)
         });
         let shaped = self.gamma != 1.0 || !self.curve.is_empty();
         let rules = [
@@ -77,7 +77,7 @@ impl Step for Remap {
                 self.to.len() != 2,
                 format!("`to` is {:?}, but must be two numbers, [low, high]", self.to),
             ),
-            ("unit", !unit_is_right, format!("`unit` must be 1 to {LONGEST_UNIT} printable characters")),
+            ("unit", !unit_is_right, format!("`unit` must be 1 to {MAX_UNIT_LENGTH} printable characters")),
             (
                 "curve",
                 self.curve.len() == 1,
@@ -95,7 +95,7 @@ impl Step for Remap {
 
     fn run(&self, landscape: &mut Landscape, _: &Job<'_>) -> Result<Outcome, Error> {
         let field = landscape.field(&self.layer.0)?;
-        let range = self.range_before(field.range(landscape.domain.land.as_ref()));
+        let range = self.range_before(field.range(landscape.domain.valid.as_ref()));
         let remapped = map(field, |value| self.value(f64::from(value), range) as f32);
         match &self.unit {
             Some(unit) => landscape.insert(target(self.into.as_ref(), &self.layer), unit, remapped),
@@ -115,17 +115,17 @@ impl Remap {
 
     fn value(&self, value: f64, [low, high]: [f64; 2]) -> f64 {
         // A layer that is the same everywhere has no range of its own: it goes to the low end.
-        let way = if high > low { (value - low) / (high - low) } else { 0.0 };
-        let way = if self.clamp { self.shaped(way.clamp(0.0, 1.0)) } else { way };
-        self.to[0] * (1.0 - way) + self.to[1] * way
+        let fraction = if high > low { (value - low) / (high - low) } else { 0.0 };
+        let fraction = if self.clamp { self.shaped(fraction.clamp(0.0, 1.0)) } else { fraction };
+        self.to[0] * (1.0 - fraction) + self.to[1] * fraction
     }
 
-    fn shaped(&self, way: f64) -> f64 {
-        let way = if self.gamma == 1.0 { way } else { libm::pow(way, self.gamma) };
+    fn shaped(&self, fraction: f64) -> f64 {
+        let fraction = if self.gamma == 1.0 { fraction } else { libm::pow(fraction, self.gamma) };
         if self.curve.is_empty() {
-            return way;
+            return fraction;
         }
-        let place = way * (self.curve.len() - 1) as f64;
+        let place = fraction * (self.curve.len() - 1) as f64;
         let before = (place as usize).min(self.curve.len() - 2);
         let beyond = place - before as f64;
         self.curve[before] * (1.0 - beyond) + self.curve[before + 1] * beyond

@@ -53,8 +53,8 @@ impl Step for Resample {
     fn run(&self, landscape: &mut Landscape, _: &Job<'_>) -> Result<Outcome, Error> {
         let size = Size::new(self.size.columns as usize, self.size.rows as usize)?;
         let change = Change::between(&landscape.domain, size)?;
-        let land = change.land();
-        let mut resampled = Landscape::new(change.domain(land));
+        let valid = change.valid();
+        let mut resampled = Landscape::new(change.domain(valid));
         resampled.materials.clone_from(&landscape.materials);
         for (name, layer) in landscape.layers() {
             resampled.insert(name, &layer.unit, change.field(&layer.field));
@@ -74,7 +74,7 @@ impl Step for Resample {
 /// [`Error::Run`] where the cells would not be square.
 pub fn resampled(old: &Domain, field: &Field, size: Size) -> Result<(Field, Option<Mask>), Error> {
     let change = Change::between(old, size)?;
-    Ok((change.field(field), change.land()))
+    Ok((change.field(field), change.valid()))
 }
 
 /// From one grid to another over the same ground.
@@ -100,22 +100,22 @@ impl<'a> Change<'a> {
         Ok(Self { old, size, factor })
     }
 
-    fn domain(&self, land: Option<Mask>) -> Domain {
+    fn domain(&self, valid: Option<Mask>) -> Domain {
         let georeference = self
             .old
             .georeference
             .clone()
             .map(|old| Georeference { pixel: old.pixel.map(|side| side * self.factor), ..old });
-        Domain { size: self.size, cell: self.old.cell * self.factor, georeference, land }
+        Domain { size: self.size, cell: self.old.cell * self.factor, georeference, valid }
     }
 
-    fn land(&self) -> Option<Mask> {
-        let old = self.old.land.as_ref()?;
+    fn valid(&self) -> Option<Mask> {
+        let old = self.old.valid.as_ref()?;
         let flag = |x, y| {
             if self.factor <= 1.0 {
-                return old.is_land(self.under(x, old.size().columns), self.under(y, old.size().rows));
+                return old.is_valid(self.under(x, old.size().columns), self.under(y, old.size().rows));
             }
-            let area = |kept| self.parts(x, y).filter(move |part| old.is_land(part.x, part.y) == kept);
+            let area = |kept| self.parts(x, y).filter(move |part| old.is_valid(part.x, part.y) == kept);
             area(true).map(|part| part.area).sum::<f64>() >= area(false).map(|part| part.area).sum()
         };
         let cells = (0..self.size.rows).flat_map(|y| (0..self.size.columns).map(move |x| (x, y)));
@@ -134,7 +134,7 @@ impl<'a> Change<'a> {
     }
 
     fn has_data(&self, x: usize, y: usize) -> bool {
-        self.old.land.as_ref().is_none_or(|land| land.is_land(x, y))
+        self.old.valid.as_ref().is_none_or(|valid| valid.is_valid(x, y))
     }
 
     /// The old cell under the centre of a new one, along an axis of `count` old cells.
@@ -172,9 +172,9 @@ impl<'a> Change<'a> {
         let place = |new: usize| (new as f64 + 0.5) * self.factor - 0.5;
         let [place_x, place_y] = [place(x), place(y)];
         let [before_x, before_y] = [place_x, place_y].map(|place| libm::floor(place) as i64);
-        let way = [place_x - before_x as f64, place_y - before_y as f64];
-        self.cubic(field, [before_x, before_y], way)
-            .unwrap_or_else(|| self.linear(field, [before_x, before_y], way))
+        let fraction = [place_x - before_x as f64, place_y - before_y as f64];
+        self.cubic(field, [before_x, before_y], fraction)
+            .unwrap_or_else(|| self.linear(field, [before_x, before_y], fraction))
     }
 
     /// The old cell, where it exists and has data.

@@ -4,7 +4,7 @@
 //! v'(p) = Σ g(|p - q|) v(q) / Σ g(|p - q|)        over cells q with data, g(r) = exp(-r² / 2 radius²)
 //! ```
 //!
-//! The sum ends at three radii. Dividing by the weights of the cells that take part keeps level ground level
+//! The sum ends at three radii. Dividing by the weights of the cells that take part keeps flat ground level
 //! at the edges of the grid and of the data ("normalised convolution", Knutsson and Westin 1993, doi
 //! 10.1109/CVPR.1993.341081).
 
@@ -53,7 +53,7 @@ impl Step for Smooth {
         let field = landscape.field(&self.layer.0)?;
         let longest = domain.size.columns.max(domain.size.rows);
         let weights = weights(self.radius / domain.cell, longest);
-        let smooth = smoothed(field, domain.land.as_ref(), &weights);
+        let smooth = smoothed(field, domain.valid.as_ref(), &weights);
         store(landscape, &self.layer, self.into.as_ref(), smooth)?;
         Ok(Outcome::default())
     }
@@ -69,10 +69,10 @@ fn weights(radius: f64, longest: usize) -> Vec<f32> {
     (0..=reach).map(weight).collect()
 }
 
-fn smoothed(field: &Field, land: Option<&Mask>, weights: &[f32]) -> Field {
-    // Heights are blurred above the lowest, so that a high plateau loses no digits and level ground is exact.
-    let low = field.range(land).map_or(0.0, |(low, _)| low);
-    let share = |index: usize| if land.is_none_or(|land| land.is_land_at(index)) { 1.0 } else { 0.0 };
+fn smoothed(field: &Field, valid: Option<&Mask>, weights: &[f32]) -> Field {
+    // Heights are blurred above the lowest, so that a high plateau loses no digits and flat ground is exact.
+    let low = field.range(valid).map_or(0.0, |(low, _)| low);
+    let share = |index: usize| if valid.is_none_or(|valid| valid.is_valid_at(index)) { 1.0 } else { 0.0 };
     let cells = 0..field.values().len();
     let size = field.size();
     let values =

@@ -1,4 +1,4 @@
-//! Cuts slopes into steps: level ground, then a rise.
+//! Cuts slopes into steps: flat ground, then a rise.
 //!
 //! With `t = v / spacing` and `f` its fraction, the fraction becomes `smooth(1/2 + (f - 1/2) / softness)`,
 //! clamped to 0 to 1, `smooth(u) = u² (3 - 2 u)`: the rise takes the middle `softness` of each step. No point

@@ -1,6 +1,6 @@
 //! The material map: which material lies at the surface of each cell, counted from the bedrock as 0.
 
-use super::CELLS_A_TASK;
+use super::CELLS_PER_TASK;
 use rayon::prelude::*;
 use weald_core::error::Error;
 use weald_core::grid::Field;
@@ -48,7 +48,7 @@ impl Step for TopMaterial {
     fn run(&self, landscape: &mut Landscape, _: &Job<'_>) -> Result<Outcome, Error> {
         let stack = stack(landscape, landscape.field(&self.of.0)?)?;
         let size = landscape.domain.size;
-        let cells = (0..size.cells()).into_par_iter().with_min_len(CELLS_A_TASK);
+        let cells = (0..size.cells()).into_par_iter().with_min_len(CELLS_PER_TASK);
         // A thickness of 0 lies nowhere, whatever counts as thin.
         let thinnest = (self.thinnest as f32).max(f32::MIN_POSITIVE);
         let map = cells.map(|cell| topmost(&stack, cell, thinnest) as f32).collect();

@@ -22,7 +22,7 @@ pub struct Canvas {
     /// Names of the materials, bedrock first.
     pub materials: Vec<String>,
     /// Cells that a brush may change; `None` where it may change all.
-    pub land: Option<Mask>,
+    pub valid: Option<Mask>,
     /// Height of the top of the bedrock.
     pub bedrock: Field,
     /// Thickness of each material above the bedrock, lowest first.
@@ -45,7 +45,7 @@ impl Canvas {
             first: area.first,
             cell,
             materials: materials.iter().map(|material| material.name.clone()).collect(),
-            land: None,
+            valid: None,
             bedrock: zero(),
             thickness: materials.iter().skip(1).map(|_| zero()).collect(),
             water: zero(),
@@ -72,15 +72,18 @@ impl Canvas {
         let cut = |field: &Field| {
             Field::from_function(area.size, |x, y| field.at(self.x(area, x), self.y(area, y)))
         };
-        let flag = |land: &Mask| {
+        let flag = |valid: &Mask| {
             let cells = (0..area.size.rows).flat_map(|y| (0..area.size.columns).map(move |x| (x, y)));
-            Mask::new(area.size, cells.map(|(x, y)| land.is_land(self.x(area, x), self.y(area, y))).collect())
+            Mask::new(
+                area.size,
+                cells.map(|(x, y)| valid.is_valid(self.x(area, x), self.y(area, y))).collect(),
+            )
         };
         Some(Self {
             first: area.first,
             cell: self.cell,
             materials: self.materials.clone(),
-            land: self.land.as_ref().and_then(flag),
+            valid: self.valid.as_ref().and_then(flag),
             bedrock: cut(&self.bedrock),
             thickness: self.thickness.iter().map(cut).collect(),
             water: cut(&self.water),
@@ -135,7 +138,7 @@ impl Canvas {
 
     /// Whether a brush may change the cell.
     pub fn is_open(&self, cell: usize) -> bool {
-        self.land.as_ref().is_none_or(|land| land.is_land_at(cell))
+        self.valid.as_ref().is_none_or(|valid| valid.is_valid_at(cell))
     }
 
     fn x(&self, area: Area, x: usize) -> usize {

@@ -2,11 +2,11 @@
 
 use super::brush::{Brush, Effect, Falloff};
 use super::script::Edit;
-use weald_core::parameter::{Complaints, LayerName, Parameters, Places, nearest};
+use weald_core::parameter::{Diagnostics, LayerName, Parameters, Places, nearest};
 use weald_core::source::{Node, Table, Value};
 
 /// Most places of one stroke.
-pub const MAXIMUM_PLACES: usize = 10_000;
+pub const MAX_PLACES: usize = 10_000;
 
 weald_core::parameters! {
     /// The keys of an edit, beside `do`: add, remove, add-water, remove-water, smooth, flatten, source, drain,
@@ -41,7 +41,7 @@ weald_core::parameters! {
 }
 
 /// A word after `do`, the keys that it needs, and those that it may have.
-struct Deed {
+struct EditKind {
     word: &'static str,
     needs: &'static [&'static str],
     takes: &'static [&'static str],
@@ -49,14 +49,14 @@ struct Deed {
     effect: fn(&EditKeys) -> Option<Effect>,
 }
 
-const DEEDS: &[Deed] = &[
-    Deed {
+const EDIT_KINDS: &[EditKind] = &[
+    EditKind {
         word: "add",
         needs: &["material", "thickness"],
         takes: &[],
         effect: |keys| Some(Effect::Add { material: keys.material.clone()?.0, thickness: keys.thickness? }),
     },
-    Deed {
+    EditKind {
         word: "remove",
         needs: &["material", "thickness"],
         takes: &[],
@@ -64,107 +64,106 @@ const DEEDS: &[Deed] = &[
             Some(Effect::Remove { material: keys.material.clone()?.0, thickness: keys.thickness? })
         },
     },
-    Deed {
+    EditKind {
         word: "add-water",
         needs: &["depth"],
         takes: &[],
         effect: |keys| Some(Effect::AddWater { depth: keys.depth? }),
     },
-    Deed {
+    EditKind {
         word: "remove-water",
         needs: &["depth"],
         takes: &[],
         effect: |keys| Some(Effect::RemoveWater { depth: keys.depth? }),
     },
-    Deed {
+    EditKind {
         word: "smooth",
         needs: &[],
         takes: &["times"],
         effect: |keys| Some(Effect::Smooth { times: keys.times.unwrap_or(1) }),
     },
-    Deed {
+    EditKind {
         word: "flatten",
         needs: &["height"],
         takes: &[],
         effect: |keys| Some(Effect::Flatten { height: keys.height? }),
     },
-    Deed {
+    EditKind {
         word: "source",
         needs: &["rate"],
         takes: &[],
         effect: |keys| Some(Effect::Source { rate: keys.rate? }),
     },
-    Deed {
+    EditKind {
         word: "drain",
         needs: &["rate"],
         takes: &[],
         effect: |keys| Some(Effect::Drain { rate: keys.rate? }),
     },
-    Deed {
+    EditKind {
         word: "rain",
         needs: &["factor"],
         takes: &[],
         effect: |keys| Some(Effect::Rain { factor: keys.factor? }),
     },
-    Deed { word: "freeze", needs: &[], takes: &[], effect: |_| Some(Effect::Freeze) },
-    Deed { word: "thaw", needs: &[], takes: &[], effect: |_| Some(Effect::Thaw) },
+    EditKind { word: "freeze", needs: &[], takes: &[], effect: |_| Some(Effect::Freeze) },
+    EditKind { word: "thaw", needs: &[], takes: &[], effect: |_| Some(Effect::Thaw) },
 ];
 
-/// Keys that go with some deeds only.
+/// Keys that go with some kinds of edits only.
 const SPECIAL: [&str; 7] = ["material", "thickness", "depth", "times", "height", "rate", "factor"];
 
 /// Reads the table of one edit; `None` where it is not understood in full.
-pub(super) fn read(table: &Table, materials: &[&str], complaints: &mut Complaints) -> Option<Edit> {
-    let before = complaints.found.len();
-    "edit".clone_into(&mut complaints.subject);
-    let deed = deed(table, complaints)?;
-    deed.word.clone_into(&mut complaints.subject);
+pub(super) fn read(table: &Table, materials: &[&str], diagnostics: &mut Diagnostics) -> Option<Edit> {
+    let before = diagnostics.found.len();
+    "edit".clone_into(&mut diagnostics.subject);
+    let edit_kind = edit_kind(table, diagnostics)?;
+    edit_kind.word.clone_into(&mut diagnostics.subject);
     let mut rest = table.clone();
     rest.take("do");
-    let keys = EditKeys::read(&rest, complaints);
-    deed.check(table, complaints);
-    check_material(table, &keys, materials, complaints);
-    if keys.path.0.len() > MAXIMUM_PLACES {
+    let keys = EditKeys::read(&rest, diagnostics);
+    edit_kind.check(table, diagnostics);
+    check_material(table, &keys, materials, diagnostics);
+    if keys.path.0.len() > MAX_PLACES {
         let places = keys.path.0.len();
-        complaints
-            .add(table.line, format!("`path` has {places} places; a stroke has at most {MAXIMUM_PLACES}"));
+        diagnostics.add(table.line, format!("`path` has {places} places; a stroke has at most {MAX_PLACES}"));
     }
-    let effect = (deed.effect)(&keys).filter(|_| complaints.found.len() == before)?;
+    let effect = (edit_kind.effect)(&keys).filter(|_| diagnostics.found.len() == before)?;
     let EditKeys { step, path, radius, falloff, strength, .. } = keys;
     Some(Edit { step, brush: Brush { path: path.0, radius, falloff, strength, effect } })
 }
 
-fn deed(table: &Table, complaints: &mut Complaints) -> Option<&'static Deed> {
-    let words: Vec<_> = DEEDS.iter().map(|deed| deed.word).collect();
+fn edit_kind(table: &Table, diagnostics: &mut Diagnostics) -> Option<&'static EditKind> {
+    let words: Vec<_> = EDIT_KINDS.iter().map(|edit_kind| edit_kind.word).collect();
     let Some(Node { value, line }) = table.get("do") else {
-        complaints.add(table.line, format!("`do` is needed: one of {}", words.join(", ")));
+        diagnostics.add(table.line, format!("`do` is needed: one of {}", words.join(", ")));
         return None;
     };
     let word = match value {
         Value::Text(word) => word.as_str(),
         _ => "",
     };
-    let deed = DEEDS.iter().find(|deed| deed.word == word);
-    if deed.is_none() {
+    let edit_kind = EDIT_KINDS.iter().find(|edit_kind| edit_kind.word == word);
+    if edit_kind.is_none() {
         let hint = match nearest(word, &words) {
             Some(near) => format!("did you mean `{near}`?"),
             None => format!("it must be one of {}", words.join(", ")),
         };
-        complaints.add(*line, format!("`do` is {}; {hint}", value.shown()));
+        diagnostics.add(*line, format!("`do` is {}; {hint}", value.shown()));
     }
-    deed
+    edit_kind
 }
 
-impl Deed {
+impl EditKind {
     /// Complains of keys that are missing, and of those that mean nothing here.
-    fn check(&self, table: &Table, complaints: &mut Complaints) {
+    fn check(&self, table: &Table, diagnostics: &mut Diagnostics) {
         for key in SPECIAL {
             match table.get(key) {
                 None if self.needs.contains(&key) => {
-                    complaints.add(table.line, format!("`{key}` is needed"));
+                    diagnostics.add(table.line, format!("`{key}` is needed"));
                 }
                 Some(node) if !self.needs.contains(&key) && !self.takes.contains(&key) => {
-                    complaints.add(node.line, format!("`{key}` does not go with `{}`", self.word));
+                    diagnostics.add(node.line, format!("`{key}` does not go with `{}`", self.word));
                 }
                 _ => {}
             }
@@ -172,7 +171,7 @@ impl Deed {
     }
 }
 
-fn check_material(table: &Table, keys: &EditKeys, materials: &[&str], complaints: &mut Complaints) {
+fn check_material(table: &Table, keys: &EditKeys, materials: &[&str], diagnostics: &mut Diagnostics) {
     let Some(LayerName(name)) = &keys.material else { return };
     if name == weald_core::material::BEDROCK || materials.contains(&name.as_str()) {
         return;
@@ -182,13 +181,13 @@ fn check_material(table: &Table, keys: &EditKeys, materials: &[&str], complaints
         None => format!("the ground is of: {}", materials.join(", ")),
     };
     let line = table.get("material").map_or(table.line, |node| node.line);
-    complaints.add(line, format!("`material` is {name:?}, of which there is none; {hint}"));
+    diagnostics.add(line, format!("`material` is {name:?}, of which there is none; {hint}"));
 }
 
 /// The keys and values of an edit in JSON, which TOML reads too; those that are at their defaults are said.
 pub(super) fn written(edit: &Edit) -> Vec<(&'static str, serde_json::Value)> {
     let Brush { path, radius, falloff, strength, effect } = &edit.brush;
-    let (word, special) = said(effect);
+    let (word, special) = kind_and_keys(effect);
     let mut keys: Vec<(&'static str, serde_json::Value)> =
         vec![("step", edit.step.into()), ("do", word.into())];
     keys.extend(special);
@@ -202,7 +201,7 @@ pub(super) fn written(edit: &Edit) -> Vec<(&'static str, serde_json::Value)> {
 }
 
 /// The word after `do`, and the keys that go with it.
-fn said(effect: &Effect) -> (&'static str, Vec<(&'static str, serde_json::Value)>) {
+fn kind_and_keys(effect: &Effect) -> (&'static str, Vec<(&'static str, serde_json::Value)>) {
     match effect {
         Effect::Add { material, thickness } => {
             ("add", vec![("material", material.as_str().into()), ("thickness", (*thickness).into())])

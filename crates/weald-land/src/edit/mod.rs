@@ -34,6 +34,6 @@ mod script;
 pub use brush::{Brush, Effect, Falloff};
 pub use canvas::{Area, Canvas};
 pub use history::{Action, History, Session};
-pub use keys::{EditKeys, MAXIMUM_PLACES};
+pub use keys::{EditKeys, MAX_PLACES};
 pub use paint::Volumes;
-pub use script::{Edit, Layout, MAXIMUM_BYTES, MAXIMUM_STROKES, Script};
+pub use script::{Edit, Layout, MAX_BYTES, MAX_STROKES, Script};

@@ -2,7 +2,7 @@
 
 use super::brush::{Brush, Effect};
 use super::canvas::Canvas;
-use super::keys::MAXIMUM_PLACES;
+use super::keys::MAX_PLACES;
 use weald_core::error::Error;
 use weald_core::grid::Field;
 use weald_core::material::BEDROCK;
@@ -83,8 +83,8 @@ impl Brush {
     /// What makes it no stroke, if anything.
     fn fault(&self) -> Option<String> {
         let places = self.path.len();
-        if !(1..=MAXIMUM_PLACES).contains(&places) {
-            return Some(format!("it has {places} places; a stroke has 1 to {MAXIMUM_PLACES}"));
+        if !(1..=MAX_PLACES).contains(&places) {
+            return Some(format!("it has {places} places; a stroke has 1 to {MAX_PLACES}"));
         }
         if let Some([x, y]) = self.path.iter().find(|place| !place.iter().all(|axis| axis.is_finite())) {
             return Some(format!("its place {x}, {y} is nowhere"));

@@ -1,4 +1,5 @@
-//! A sitting as data: which stroke happens before which simulation step, so that it replays to the same bits.
+//! An interactive session as data: which stroke happens before which simulation step, so that it replays to the same
+//! bits.
 //!
 //! The extension of a file chooses its layout. In JSON lines (`.jsonl`, `.ndjson`) each line is an edit:
 //!
@@ -14,19 +15,19 @@ use std::path::Path;
 
 use super::brush::Brush;
 use super::keys;
-use weald_core::error::{Complaint, Error, RecipeError};
-use weald_core::parameter::Complaints;
+use weald_core::error::{Diagnostic, Error, RecipeError};
+use weald_core::parameter::Diagnostics;
 use weald_core::source::{self, Node, Table, Value};
 use weald_io::write_whole;
 
 /// Longest script that is read, in bytes; in TOML it is that of a recipe.
-pub const MAXIMUM_BYTES: usize = 16 << 20;
+pub const MAX_BYTES: usize = 16 << 20;
 
 /// Most strokes of a script.
-pub const MAXIMUM_STROKES: usize = 100_000;
+pub const MAX_STROKES: usize = 100_000;
 
 /// After so many faults no more are looked for.
-const MOST_FAULTS: usize = 50;
+const MAX_FAULTS: usize = 50;
 
 /// A stroke, and the simulation step before which it happens.
 #[derive(Clone, Debug, PartialEq)]
@@ -103,7 +104,7 @@ impl Script {
         let layout = Layout::of(path).map_err(|what| Error::input(path, what))?;
         let mut text = String::new();
         let reading =
-            File::open(path).and_then(|file| file.take(MAXIMUM_BYTES as u64 + 1).read_to_string(&mut text));
+            File::open(path).and_then(|file| file.take(MAX_BYTES as u64 + 1).read_to_string(&mut text));
         reading.map_err(|cause| Error::input(path, format!("cannot be read: {cause}")))?;
         Self::parse(&path.display().to_string(), &text, layout, materials)
     }
@@ -115,26 +116,26 @@ impl Script {
     /// too many strokes.
     pub fn parse(file: &str, text: &str, layout: Layout, materials: &[&str]) -> Result<Self, Error> {
         check_length(file, text, layout)?;
-        let mut complaints = Complaints::default();
+        let mut diagnostics = Diagnostics::default();
         let tables = match layout {
-            Layout::JsonLines => json_lines(text, &mut complaints),
-            Layout::Toml => toml_tables(file, text, &mut complaints)?,
+            Layout::JsonLines => json_lines(text, &mut diagnostics),
+            Layout::Toml => toml_tables(file, text, &mut diagnostics)?,
         };
-        if tables.len() > MAXIMUM_STROKES {
+        if tables.len() > MAX_STROKES {
             return Err(too_many(file, tables.len()));
         }
         let mut edits = Vec::with_capacity(tables.len());
         for table in &tables {
-            edits.extend(keys::read(table, materials, &mut complaints));
-            if complaints.found.len() >= MOST_FAULTS {
+            edits.extend(keys::read(table, materials, &mut diagnostics));
+            if diagnostics.found.len() >= MAX_FAULTS {
                 break;
             }
         }
-        if complaints.found.is_empty() {
+        if diagnostics.found.is_empty() {
             return Ok(Self::new(edits));
         }
-        complaints.found.sort_by_key(|complaint| complaint.line);
-        Err(RecipeError { file: file.to_owned(), complaints: complaints.found }.into())
+        diagnostics.found.sort_by_key(|diagnostic| diagnostic.line);
+        Err(RecipeError { file: file.to_owned(), diagnostics: diagnostics.found }.into())
     }
 
     /// The script as text, which reads as the same script.
@@ -169,8 +170,8 @@ fn one(edit: &Edit, layout: Layout) -> String {
 /// What can be known to be too much before any of it is kept.
 fn check_length(file: &str, text: &str, layout: Layout) -> Result<(), Error> {
     let (most, other) = match layout {
-        Layout::JsonLines => (MAXIMUM_BYTES, ""),
-        Layout::Toml => (source::MAXIMUM_BYTES, "; JSON lines (.jsonl) may be longer"),
+        Layout::JsonLines => (MAX_BYTES, ""),
+        Layout::Toml => (source::MAX_BYTES, "; JSON lines (.jsonl) may be longer"),
     };
     if text.len() > most {
         return Err(Error::Limit(format!(
@@ -182,23 +183,23 @@ fn check_length(file: &str, text: &str, layout: Layout) -> Result<(), Error> {
         Layout::JsonLines => text.lines().filter(|line| !line.trim().is_empty()).count(),
         Layout::Toml => 0,
     };
-    if strokes > MAXIMUM_STROKES { Err(too_many(file, strokes)) } else { Ok(()) }
+    if strokes > MAX_STROKES { Err(too_many(file, strokes)) } else { Ok(()) }
 }
 
 fn too_many(file: &str, strokes: usize) -> Error {
-    Error::Limit(format!("{file}: a script of {strokes} strokes; at most {MAXIMUM_STROKES} are read"))
+    Error::Limit(format!("{file}: a script of {strokes} strokes; at most {MAX_STROKES} are read"))
 }
 
-fn json_lines(text: &str, complaints: &mut Complaints) -> Vec<Table> {
+fn json_lines(text: &str, diagnostics: &mut Diagnostics) -> Vec<Table> {
     let mut tables = Vec::new();
     for (index, text) in text.lines().enumerate().filter(|(_, text)| !text.trim().is_empty()) {
         let line = index + 1;
         match serde_json::from_str(text).map(|value| node(value, line)) {
             Ok(Node { value: Value::Table(table), .. }) => tables.push(table),
-            Ok(other) => complaints.add(line, format!("is {}, but must be {{ … }}", other.value.shown())),
-            Err(error) => complaints.add(line, no_json(&error)),
+            Ok(other) => diagnostics.add(line, format!("is {}, but must be {{ … }}", other.value.shown())),
+            Err(error) => diagnostics.add(line, no_json(&error)),
         }
-        if complaints.found.len() >= MOST_FAULTS {
+        if diagnostics.found.len() >= MAX_FAULTS {
             break;
         }
     }
@@ -207,8 +208,8 @@ fn json_lines(text: &str, complaints: &mut Complaints) -> Vec<Table> {
 
 /// The parser counts lines within the one that it was given.
 fn no_json(error: &serde_json::Error) -> String {
-    let told = error.to_string();
-    let what = told.split(" at line ").next().unwrap_or(&told);
+    let full = error.to_string();
+    let what = full.split(" at line ").next().unwrap_or(&full);
     format!("is no JSON at column {}: {what}; an edit is one line, {{ … }}", error.column())
 }
 
@@ -232,19 +233,19 @@ fn node(value: serde_json::Value, line: usize) -> Node {
     Node { line, value }
 }
 
-fn toml_tables(file: &str, text: &str, complaints: &mut Complaints) -> Result<Vec<Table>, RecipeError> {
+fn toml_tables(file: &str, text: &str, diagnostics: &mut Diagnostics) -> Result<Vec<Table>, RecipeError> {
     let mut script = source::parse(file, text)?;
-    complaints.unknown_keys(&script, &["edit"]);
+    diagnostics.unknown_keys(&script, &["edit"]);
     let Some(Node { line, value }) = script.take("edit") else { return Ok(Vec::new()) };
     let Value::List(items) = value else {
         let message = "`edit` is written with double brackets: [[edit]]".to_owned();
-        return Err(RecipeError { file: file.to_owned(), complaints: vec![Complaint { line, message }] });
+        return Err(RecipeError { file: file.to_owned(), diagnostics: vec![Diagnostic { line, message }] });
     };
     let mut tables = Vec::new();
     for Node { line, value } in items {
         match value {
             Value::Table(table) => tables.push(table),
-            other => complaints.add(line, format!("`edit` holds {}; it is written [[edit]]", other.shown())),
+            other => diagnostics.add(line, format!("`edit` holds {}; it is written [[edit]]", other.shown())),
         }
     }
     Ok(tables)

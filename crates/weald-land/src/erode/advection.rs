@@ -129,7 +129,7 @@ pub(crate) struct AdvectionRows<'a> {
 
 impl AdvectionRows<'_> {
     fn depart(&self, y: usize, from: &Ring, still: &Ring, arrived: &mut [f32], direction: f32) {
-        let nine = Nine::of(from, still, y, &self.sweep.span);
+        let nine = Stencil9::of(from, still, y, &self.sweep.span);
         let link = self.sweep.links(y);
         Depart {
             north_west: nine.north[0],
@@ -155,13 +155,13 @@ impl AdvectionRows<'_> {
 }
 
 /// The rows around a row: western, own and eastern cells each.
-struct Nine<'a> {
+struct Stencil9<'a> {
     north: [&'a [f32]; 3],
     level: [&'a [f32]; 3],
     south: [&'a [f32]; 3],
 }
 
-impl<'a> Nine<'a> {
+impl<'a> Stencil9<'a> {
     fn of(ring: &'a Ring, still: &'a Ring, y: usize, span: &Range<usize>) -> Self {
         let three = |ring: &'a Ring, y| [ring.west(y), ring.here(y), ring.east(y)];
         Self {
@@ -211,7 +211,7 @@ fn maccormack(rows: &AdvectionRows<'_>, scratch: &mut AdvectionScratch, output: 
 
 fn correct(rows: &AdvectionRows<'_>, y: usize, forward: &[f32], back: &[f32], rings: (&Ring, &mut Ring)) {
     let (still, output) = rings;
-    let nine = Nine::of(rows.sediment, still, y, &rows.sweep.span);
+    let nine = Stencil9::of(rows.sediment, still, y, &rows.sweep.span);
     let link = rows.sweep.links(y);
     Correct {
         forward,

@@ -2,7 +2,7 @@
 // Transport of sediment by the velocity of its cell; the twin of advection.rs.
 
 /// The cells around a cell: north, level, south; each west, middle, east.
-struct Nine {
+struct Stencil9 {
     north: vec3<f32>,
     level: vec3<f32>,
     south: vec3<f32>,
@@ -17,9 +17,9 @@ fn links_of(cell: vec2<i32>) -> vec4<f32> {
 
 /// Weights of the western, eastern, northern and southern neighbours.
 fn weights(speed: vec2<f32>, links: vec4<f32>) -> vec4<f32> {
-    let way = clamp(speed, vec2<f32>(-1.0), vec2<f32>(1.0));
+    let displacement = clamp(speed, vec2<f32>(-1.0), vec2<f32>(1.0));
     return vec4<f32>(
-        max(way.x, 0.0) * links.x, max(-way.x, 0.0) * links.y, max(way.y, 0.0) * links.z, max(-way.y, 0.0) * links.w,
+        max(displacement.x, 0.0) * links.x, max(-displacement.x, 0.0) * links.y, max(displacement.y, 0.0) * links.z, max(-displacement.y, 0.0) * links.w,
     );
 }
 
@@ -28,7 +28,7 @@ fn across(row: vec3<f32>, west: f32, east: f32) -> f32 {
 }
 
 /// Value at the departure point of a cell.
-fn departure(nine: Nine, speed: vec2<f32>, links: vec4<f32>) -> f32 {
+fn departure(nine: Stencil9, speed: vec2<f32>, links: vec4<f32>) -> f32 {
     let weight = weights(speed, links);
     let north = across(nine.north, weight.x, weight.y);
     let level = across(nine.level, weight.x, weight.y);
@@ -42,7 +42,7 @@ fn aside(row: vec3<f32>, left: bool, right: bool) -> f32 {
 }
 
 /// MacCormack's correction of the forward step by the error that the way back shows.
-fn corrected(forward: f32, back: f32, nine: Nine, speed: vec2<f32>, links: vec4<f32>) -> f32 {
+fn corrected(forward: f32, back: f32, nine: Stencil9, speed: vec2<f32>, links: vec4<f32>) -> f32 {
     let left = speed.x * links.x > 0.0;
     let right = speed.x * links.y < 0.0;
     let up = speed.y * links.z > 0.0;

@@ -11,7 +11,7 @@ use super::stava::dissolution::{Dissolution, DissolutionScratch, RegolithRows};
 use super::stava::planes::{Planes, REGOLITH_PLANES};
 use super::stava::program::{self, StavaNumbers};
 use super::sweep::Sweep;
-use super::working::Working;
+use super::working::WorkingGrid;
 use weald_core::error::Error;
 use weald_core::grid::Size;
 use weald_core::landscape::Landscape;
@@ -107,7 +107,7 @@ impl Step for DissolutionStep {
     fn run(&self, landscape: &mut Landscape, job: &Job<'_>) -> Result<Outcome, Error> {
         let materials = &landscape.materials;
         let deposit = deposit_of(self.deposit.as_ref(), materials).map_err(Error::Run)?;
-        let mut working = Working::new(landscape, &self.layer.0, false)?;
+        let mut working = WorkingGrid::new(landscape, &self.layer.0, false)?;
         working.set_water(landscape, &self.water.0)?;
         let first_layer = REGOLITH_PLANE + REGOLITH_PLANES;
         let planes = Planes { first_layer, materials: materials.len() };
@@ -130,7 +130,7 @@ impl DissolutionStep {
         materials: &[Material],
         deposit: usize,
         planes: Planes,
-        working: &Working,
+        working: &WorkingGrid,
     ) -> Dissolving {
         let within = DissolutionWithin { depth: self.depth, damping: self.damping };
         let numbers = (self.flow_rate as f32, working.cell);

@@ -8,7 +8,7 @@ use super::links::{MASK_PLANES, mask_planes};
 use super::stack::Column;
 use super::stava::{WEATHER_PLANES, plane};
 use super::sums;
-use super::working::Working;
+use super::working::WorkingGrid;
 use crate::edit::{Area, Brush, Canvas, Edit, Effect, Script};
 use weald_core::error::Error;
 use weald_core::grid::{Field, Mask, Size};
@@ -24,17 +24,17 @@ pub(crate) struct Place {
     /// Height from which the ground counts, in metres.
     lowest: f64,
     /// Cells that take part, without the ring.
-    land: Option<Mask>,
+    valid: Option<Mask>,
     column: Column,
 }
 
 impl Place {
-    pub(crate) fn of(working: &Working, column: Column) -> Self {
+    pub(crate) fn of(working: &WorkingGrid, column: Column) -> Self {
         let size = working.start.size();
         let cells = (0..size.rows).flat_map(|y| (0..size.columns).map(move |x| working.place(x, y)));
-        let takes_part = |mask: &Mask| cells.map(|at| at.is_some_and(|at| mask.is_land_at(at))).collect();
-        let land = working.mask.as_ref().and_then(|mask| Mask::new(size, takes_part(mask)));
-        Self { size, ring: working.ring, cell: working.cell, lowest: working.lowest, land, column }
+        let takes_part = |mask: &Mask| cells.map(|at| at.is_some_and(|at| mask.is_valid_at(at))).collect();
+        let valid = working.mask.as_ref().and_then(|mask| Mask::new(size, takes_part(mask)));
+        Self { size, ring: working.ring, cell: working.cell, lowest: working.lowest, valid, column }
     }
 }
 
@@ -73,7 +73,7 @@ impl Edits {
         if !late.is_empty() {
             let late = late.len();
             notes.push(format!(
-                "strokes that did not happen, since they come after the last of {iterations} steps: {late}"
+                "strokes that did not happen, since they come after the last of {iterations} iterations: {late}"
             ));
         }
         notes
@@ -116,7 +116,7 @@ impl Edits {
 
     /// A rectangle of the state, in metres.
     pub(crate) fn canvas(&self, area: Area, state: &Rows) -> Canvas {
-        let Place { cell, lowest, ref land, column, .. } = self.place;
+        let Place { cell, lowest, ref valid, column, .. } = self.place;
         let base = column.planes.count();
         let metres =
             |plane: usize| self.cut(area, |x, y| (f64::from(state.plane(y, plane)[x]) * cell) as f32);
@@ -125,16 +125,16 @@ impl Edits {
             (lowest + (base + change) * cell) as f32
         };
         let [rain, source] = weather_of(state);
-        let open = land.as_ref().map(|land| {
+        let open = valid.as_ref().map(|valid| {
             let rows = area.first[1]..area.first[1] + area.size.rows;
             let columns = area.first[0]..area.first[0] + area.size.columns;
-            rows.flat_map(|y| columns.clone().map(move |x| land.is_land(x, y))).collect()
+            rows.flat_map(|y| columns.clone().map(move |x| valid.is_valid(x, y))).collect()
         });
         Canvas {
             first: area.first,
             cell,
             materials: self.materials.clone(),
-            land: open.and_then(|open| Mask::new(area.size, open)),
+            valid: open.and_then(|open| Mask::new(area.size, open)),
             bedrock: self.cut(area, height),
             thickness: (1..column.planes.materials)
                 .map(|material| metres(column.planes.of(material)))
@@ -148,24 +148,24 @@ impl Edits {
 
     /// Where cells that take part stand still.
     fn frozen(&self, area: Area, state: &Rows) -> Field {
-        let Place { ref land, column, ring, .. } = self.place;
+        let Place { ref valid, column, ring, .. } = self.place;
         let Some(masked) = mask_plane(column, state) else { return Field::filled(area.size, 0.0) };
         self.cut(area, |x, y| {
-            let takes_part = land.as_ref().is_none_or(|land| land.is_land(x - ring, y - ring));
+            let takes_part = valid.as_ref().is_none_or(|valid| valid.is_valid(x - ring, y - ring));
             f32::from(u8::from(takes_part && state.plane(y, masked)[x] == 0.0))
         })
     }
 
     /// Puts walls around what stands still, and takes them away from what does not.
     fn freeze(&self, after: &Canvas, state: &mut Rows) {
-        let Place { ref land, column, .. } = self.place;
-        let masked = mask_plane(column, state).expect("a world with edits has a mask");
+        let Place { ref valid, column, .. } = self.place;
+        let masked = mask_plane(column, state).expect("a grid with edits has a mask");
         let columns = state.layout.columns;
-        let mut flags: Vec<_> = state.gather(masked).into_iter().map(|land| land > 0.0).collect();
+        let mut flags: Vec<_> = state.gather(masked).into_iter().map(|valid| valid > 0.0).collect();
         for y in 0..after.frozen.size().rows {
             for (x, &frozen) in after.frozen.row(y).iter().enumerate() {
                 let [x, y] = [after.first[0] + x, after.first[1] + y];
-                let takes_part = land.as_ref().is_none_or(|land| land.is_land(x, y));
+                let takes_part = valid.as_ref().is_none_or(|valid| valid.is_valid(x, y));
                 flags[y * columns + x] = takes_part && frozen == 0.0;
             }
         }

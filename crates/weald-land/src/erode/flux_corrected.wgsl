@@ -21,7 +21,7 @@ struct Mixed {
 
 fn mixed(cell: vec2<i32>) -> Mixed {
     let outflow = outflow_by(face_east(cell), face_west(cell), face_south(cell), face_north(cell));
-    let volume = max(max(water_before(cell), 0.0) + constants.epsilon, outflow * (1.0 + KEPT));
+    let volume = max(max(water_before(cell), 0.0) + constants.epsilon, outflow * (1.0 + RETAINED_SHARE));
     return Mixed(settled_sediment(cell) / volume, volume);
 }
 

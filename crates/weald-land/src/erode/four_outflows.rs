@@ -11,7 +11,7 @@ use super::setting::{Setting, Settled};
 use weald_engine::stencil::chain::{Flow, Process};
 use weald_engine::stencil::ring::Ring;
 
-/// Row `y` of a small world, between its walls.
+/// Row `y` of a subdomain, between its walls.
 #[derive(Clone)]
 pub(crate) struct Row {
     pub(crate) y: usize,
@@ -42,7 +42,7 @@ pub(crate) fn outflows_of(planes: &[Ring]) -> [&Ring; 4] {
 }
 
 /// What outflows come from.
-pub(crate) struct Pouring<'a> {
+pub(crate) struct OutflowDrive<'a> {
     pub(crate) setting: &'a Setting,
     pub(crate) constants: &'a [Ring],
     /// The state before the step.
@@ -58,7 +58,7 @@ pub(crate) struct Pouring<'a> {
     pub(crate) most: f32,
 }
 
-impl Pouring<'_> {
+impl OutflowDrive<'_> {
     /// Outflows of a row to the four neighbours.
     pub(crate) fn pour(&self, row: &Row, output: &mut [Ring]) {
         let y = row.y;
@@ -67,7 +67,7 @@ impl Pouring<'_> {
             outflows_of(&self.input[plane::EAST..]).map(|ring| ring.here(y));
         let [_, _, _, east, west, south, north, ..] = output else { unreachable!("seven planes and more") };
         macro_rules! pour {
-            ($Outflow:ident $(, $land:ident, $base:ident)?) => {
+            ($Outflow:ident $(, $valid:ident, $base:ident)?) => {
                 $Outflow {
                     old_east,
                     old_west,
@@ -83,7 +83,7 @@ impl Pouring<'_> {
                     link_west: links.west,
                     link_south: links.south,
                     link_north: links.north,
-                    $($land: links.land, $base: self.base,)?
+                    $($valid: links.valid, $base: self.base,)?
                     east: east.here_mut(y),
                     west: west.here_mut(y),
                     south: south.here_mut(y),
@@ -94,7 +94,7 @@ impl Pouring<'_> {
                 .run(self.setting.arch)
             };
         }
-        if self.setting.open { pour!(OpenOutflow, land, base) } else { pour!(Outflow) }
+        if self.setting.open { pour!(OpenOutflow, valid, base) } else { pour!(Outflow) }
     }
 }
 
@@ -107,7 +107,7 @@ pub(crate) fn inflows<'a>(planes: &'a [Ring], still: &'a Ring, row: &Row) -> [&'
 }
 
 /// Fluxes through the faces of a row and the water before them, for transport in flux form.
-pub(crate) fn hand_on_fluxes(
+pub(crate) fn store_transport_fluxes(
     setting: &Setting,
     state: &[Ring],
     (depth, still): (&[f32], &Ring),

@@ -5,7 +5,7 @@
 fn outflow_towards(old: f32, cell: vec2<i32>, next: vec2<i32>) -> f32 {
     if (OPEN) {
         let level = select(edge_level(cell), surface(next), link(cell, next) > 0.0);
-        return max(old + constants.flow_rate * (surface(cell) - level), 0.0) * land(cell);
+        return max(old + constants.flow_rate * (surface(cell) - level), 0.0) * valid(cell);
     }
     return max(old + constants.flow_rate * (surface(cell) - surface(next)), 0.0) * link(cell, next);
 }

@@ -12,7 +12,7 @@ mod sediment;
 mod water;
 
 use super::setting::{Setting, Settled};
-use super::simulation::Sky;
+use super::simulation::Forcing;
 use weald_core::grid::Size;
 use weald_engine::machine::{Means, Part};
 use weald_engine::program::Program;
@@ -86,7 +86,7 @@ const FLOWED: usize = 2;
 const SETTLED: usize = 3;
 
 impl Process for Han {
-    type Weather = Sky;
+    type Weather = Forcing;
     type Scratch = HanScratch;
 
     fn state_planes(&self) -> usize {

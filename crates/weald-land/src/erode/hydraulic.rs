@@ -6,23 +6,23 @@
 
 mod defaults;
 mod faults;
+mod interactive;
 mod keys;
 mod models;
-mod sitting;
 mod stava;
 
+pub use interactive::{InteractiveSession, SessionState};
 pub use keys::{HanKeys, MeiKeys, StavaKeys};
-pub use sitting::{Moment, Sitting};
 pub(super) use stava::deposit_of;
 
 use std::path::PathBuf;
 
 use super::advection::Advection;
-use super::simulation::Sky;
+use super::simulation::Forcing;
 use super::stack::REGOLITH;
 use super::thermal::Slide;
 use super::thermal_step::ThermalWithin;
-use defaults::Filled;
+use defaults::ResolvedKeys;
 use weald_core::error::Error;
 use weald_core::landscape::Landscape;
 use weald_core::material::Material;
@@ -115,7 +115,7 @@ impl Hydraulic {
         self.model.transport().0
     }
 
-    fn advection(&self, filled: &Filled) -> Option<Advection> {
+    fn advection(&self, filled: &ResolvedKeys) -> Option<Advection> {
         match self.model.transport() {
             (Transport::Upwind, _) => None,
             (Transport::SemiLagrangian, _) => Some(Advection::SemiLagrangian),
@@ -139,7 +139,7 @@ impl Hydraulic {
 
     /// Rain and evaporation of a step: first it rains, then the sun shines; `mei` evaporates always, and `stava`
     /// where there is no dry period.
-    fn sky(&self, filled: &Filled, step: u64) -> Sky {
+    fn forcing(&self, filled: &ResolvedKeys, step: u64) -> Forcing {
         let cycle = u64::from(self.rain_period) + u64::from(filled.dry_period);
         let raining = step % cycle < u64::from(self.rain_period);
         let rain = if raining { filled.rain } else { 0.0 };
@@ -148,7 +148,7 @@ impl Hydraulic {
             Model::Mei(_) => true,
             Model::Stava(_) => !raining || filled.dry_period == 0,
         };
-        Sky { rain, evaporation: if evaporates { filled.evaporation } else { 0.0 } }
+        Forcing { rain, evaporation: if evaporates { filled.evaporation } else { 0.0 } }
     }
 
     /// The script of edits.
@@ -157,7 +157,7 @@ impl Hydraulic {
     }
 
     /// The steps of the last whole cycle of rain and sun, or all where none was whole.
-    fn last_cycle(&self, filled: &Filled) -> std::ops::Range<u64> {
+    fn last_cycle(&self, filled: &ResolvedKeys) -> std::ops::Range<u64> {
         let cycle = u64::from(self.rain_period) + u64::from(filled.dry_period);
         let iterations = u64::from(self.iterations);
         let end = iterations / cycle * cycle;

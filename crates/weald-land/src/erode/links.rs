@@ -6,23 +6,23 @@
 use weald_core::grid::{Mask, Size};
 use weald_engine::stencil::ring::Ring;
 
-/// Constant planes behind the start height in a world with a mask: land, eastern link, southern link,
+/// Constant planes behind the start height in a grid with a mask: land, eastern link, southern link,
 /// reciprocal of the number of neighbours, northern link, yielding ground.
 pub(crate) const MASK_PLANES: usize = 6;
 
 /// Places of the two from which all others follow, behind the last state plane.
 pub(crate) mod plane {
     /// 1 for data, else 0.
-    pub(crate) const LAND: usize = 1;
+    pub(crate) const VALID: usize = 1;
     /// 1 where water may change the ground.
-    pub(crate) const YIELDS: usize = 6;
+    pub(crate) const ERODIBLE: usize = 6;
 }
 
 /// The links of one row.
 #[derive(Clone, Copy)]
 pub(crate) struct LinkRow<'a> {
     /// 1 where the cell holds data, else 0.
-    pub(crate) land: &'a [f32],
+    pub(crate) valid: &'a [f32],
     /// 1 where the cell and its eastern neighbour hold data, else 0.
     pub(crate) east: &'a [f32],
     /// The same for its southern neighbour.
@@ -35,7 +35,7 @@ pub(crate) struct LinkRow<'a> {
     pub(crate) neighbour_share: &'a [f32],
     /// 1 where water may change the ground: on cells with data that do not lie at an open edge. Those hold
     /// the base level of their rivers, or rivers would cut ever deeper there.
-    pub(crate) yields: &'a [f32],
+    pub(crate) erodible: &'a [f32],
 }
 
 /// Links of all rows.
@@ -46,7 +46,7 @@ pub(crate) enum Links {
     Masked,
 }
 
-/// The still rows of a world without a mask.
+/// The still rows of a grid without a mask.
 pub(crate) struct WholeLinks {
     rows: usize,
     ones: Vec<f32>,
@@ -90,13 +90,13 @@ impl Links {
         match self {
             Self::Whole(whole) => whole.row(y),
             Self::Masked => LinkRow {
-                land: constants[1].here(y),
+                valid: constants[1].here(y),
                 east: constants[2].here(y),
                 south: constants[3].here(y),
                 west: constants[2].west(y),
                 north: constants[5].here(y),
                 neighbour_share: constants[4].here(y),
-                yields: constants[6].here(y),
+                erodible: constants[6].here(y),
             },
         }
     }
@@ -106,13 +106,13 @@ impl WholeLinks {
     fn row(&self, y: usize) -> LinkRow<'_> {
         let below = y + 1 < self.rows;
         LinkRow {
-            land: &self.ones,
+            valid: &self.ones,
             east: &self.east,
             south: if below { &self.ones } else { &self.zeros },
             west: &self.west,
             north: if y > 0 { &self.ones } else { &self.zeros },
             neighbour_share: &self.shares[usize::from(y > 0) + usize::from(below)],
-            yields: &self.ones,
+            erodible: &self.ones,
         }
     }
 }
@@ -124,23 +124,23 @@ fn reciprocal(neighbours: usize) -> f32 {
 /// The [`MASK_PLANES`] of a mask, row-major. `open` says that water leaves over its edges.
 pub(crate) fn mask_planes(mask: &Mask, open: bool) -> [Vec<f32>; MASK_PLANES] {
     let Size { columns, rows } = mask.size();
-    let land = |x: usize, y: usize| x < columns && y < rows && mask.is_land(x, y);
+    let valid = |x: usize, y: usize| x < columns && y < rows && mask.is_valid(x, y);
     let plane = |value: &dyn Fn(usize, usize) -> f32| -> Vec<f32> {
         (0..rows * columns).map(|at| value(at % columns, at / columns)).collect()
     };
     let flag = |yes: bool| f32::from(u8::from(yes));
     let neighbours = |x: usize, y: usize| {
-        usize::from(x > 0 && land(x - 1, y))
-            + usize::from(land(x + 1, y))
-            + usize::from(y > 0 && land(x, y - 1))
-            + usize::from(land(x, y + 1))
+        usize::from(x > 0 && valid(x - 1, y))
+            + usize::from(valid(x + 1, y))
+            + usize::from(y > 0 && valid(x, y - 1))
+            + usize::from(valid(x, y + 1))
     };
     [
-        plane(&|x, y| flag(land(x, y))),
-        plane(&|x, y| flag(land(x, y) && land(x + 1, y))),
-        plane(&|x, y| flag(land(x, y) && land(x, y + 1))),
-        plane(&|x, y| if land(x, y) { reciprocal(neighbours(x, y)) } else { 0.0 }),
-        plane(&|x, y| flag(y > 0 && land(x, y) && land(x, y - 1))),
-        plane(&|x, y| flag(land(x, y) && (!open || neighbours(x, y) == 4))),
+        plane(&|x, y| flag(valid(x, y))),
+        plane(&|x, y| flag(valid(x, y) && valid(x + 1, y))),
+        plane(&|x, y| flag(valid(x, y) && valid(x, y + 1))),
+        plane(&|x, y| if valid(x, y) { reciprocal(neighbours(x, y)) } else { 0.0 }),
+        plane(&|x, y| flag(y > 0 && valid(x, y) && valid(x, y - 1))),
+        plane(&|x, y| flag(valid(x, y) && (!open || neighbours(x, y) == 4))),
     ]
 }

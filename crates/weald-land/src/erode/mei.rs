@@ -14,7 +14,7 @@ mod sediment;
 mod water;
 
 use super::setting::{Setting, Settled};
-use super::simulation::Sky;
+use super::simulation::Forcing;
 use weald_core::grid::Size;
 use weald_engine::machine::{Means, Part};
 use weald_engine::program::Program;
@@ -88,7 +88,7 @@ const FLUX: usize = 1;
 const EXCHANGED: usize = 2;
 
 impl Process for Mei {
-    type Weather = Sky;
+    type Weather = Forcing;
     type Scratch = MeiScratch;
 
     fn state_planes(&self) -> usize {

@@ -10,7 +10,7 @@ const CELL_STEPS: usize = 100_000_000;
 /// On a device, where a look costs more than on the CPU and rates differ a thousandfold: about this long.
 const TIME: Duration = Duration::from_millis(400);
 
-/// Steps from one look to the next. They change how soon a run hears of the user, and nothing else.
+/// Steps from one look to the next. They change how soon a run notices the user, and nothing else.
 pub(crate) struct Pace {
     steps: u64,
     adapts: bool,
@@ -28,7 +28,7 @@ impl Pace {
         self.steps
     }
 
-    /// Hears how long a stretch took.
+    /// Is told how long a stretch took.
     pub(crate) fn took(&mut self, time: Duration) {
         if self.adapts {
             let factor = TIME.as_secs_f64() / time.as_secs_f64().max(1e-6);

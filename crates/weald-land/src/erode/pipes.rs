@@ -10,16 +10,16 @@ use weald_engine::kernel;
 
 /// Share of its water that a cell keeps when everything would flow out, so that rounding cannot make its
 /// depth negative: some ten times the rounding error of the four fluxes.
-pub(super) const KEPT: f32 = 1e-6;
+pub(super) const RETAINED_SHARE: f32 = 1e-6;
 
-/// Films and loads thinner than this, in cells, are nothing: numbers without full precision (denormals) would
+/// Depths and loads smaller than this, in cells, are nothing: numbers without full precision (denormals) would
 /// make depths negative by rounding and slow the arithmetic a hundredfold.
-const NOTHING: f32 = 1e-20;
+const NEGLIGIBLE: f32 = 1e-20;
 
 /// The amount, or nothing where it is less than counts.
 #[inline(always)]
-pub(super) fn worth_counting(amount: f32) -> f32 {
-    if amount.abs() < NOTHING { 0.0 } else { amount }
+pub(super) fn without_negligible(amount: f32) -> f32 {
+    if amount.abs() < NEGLIGIBLE { 0.0 } else { amount }
 }
 
 kernel! {
@@ -78,21 +78,21 @@ kernel! {
     /// the ground of the start, which stays the base level of the land behind the edge. `land` is 1 for data,
     /// else 0; other edges keep what [`Flux`] gave them.
     pub(crate) struct Overfall {
-        reads { old, depth, depth_next, change, change_next, land, land_next }
+        reads { old, depth, depth_next, change, change_next, valid, land_next }
         updates { flux }
         writes {}
         constants { flow_rate: f32 }
     }
     fn cell() {
-        let outward = land - land_next;
-        let head = (depth + change) * land - (depth_next + change_next) * land_next;
+        let outward = valid - land_next;
+        let head = (depth + change) * valid - (depth_next + change_next) * land_next;
         let gained = old + flow_rate * head;
         flux = if outward * gained > 0.0 { gained } else if outward == 0.0 { flux } else { 0.0 };
     }
 }
 
 kernel! {
-    /// What share of its outflow a cell can afford, and how much sediment a unit of its outflow carries.
+    /// What share of its outflow a cell can give, and how much sediment a unit of its outflow carries.
     pub(crate) struct Limit {
         reads { depth, sediment, east, west, south, north }
         updates {}
@@ -101,8 +101,8 @@ kernel! {
     }
     fn cell() {
         let outflow = (east.max(0.0) + (-west).max(0.0)) + (south.max(0.0) + (-north).max(0.0));
-        let afford = depth * (1.0 - KEPT);
-        share = if outflow > afford { afford / outflow } else { 1.0 };
+        let available = depth * (1.0 - RETAINED_SHARE);
+        share = if outflow > available { available / outflow } else { 1.0 };
         concentration = sediment / (depth + epsilon);
     }
 }
@@ -124,7 +124,7 @@ kernel! {
 }
 
 kernel! {
-    /// Scales the flux through each edge to what its giving cell can afford.
+    /// Scales the flux through each edge to what its giving cell can give.
     pub(crate) struct Scale {
         reads { wanted_east, wanted_south, share, share_east, share_south }
         updates {}
@@ -140,16 +140,16 @@ kernel! {
 kernel! {
     /// Empties the cells without data: what flowed into them has left over the edge.
     pub(crate) struct Drain {
-        reads { land }
+        reads { valid }
         updates { depth, sediment }
         writes { water_out, sediment_out }
         constants {}
     }
     fn cell() {
-        water_out = depth * (1.0 - land);
-        sediment_out = sediment * (1.0 - land);
-        depth *= land;
-        sediment *= land;
+        water_out = depth * (1.0 - valid);
+        sediment_out = sediment * (1.0 - valid);
+        depth *= valid;
+        sediment *= valid;
     }
 }
 
@@ -161,7 +161,7 @@ mod tests {
     #[test]
     fn the_shader_has_the_same_constants() {
         let shader = include_str!("pipes.wgsl");
-        assert_eq!(number(shader, "KEPT") as f32, KEPT);
-        assert_eq!(number(shader, "NOTHING") as f32, NOTHING);
+        assert_eq!(number(shader, "RETAINED_SHARE") as f32, RETAINED_SHARE);
+        assert_eq!(number(shader, "NEGLIGIBLE") as f32, NEGLIGIBLE);
     }
 }

@@ -1,12 +1,12 @@
 
 // Virtual pipes with one signed flux an edge; the twin of pipes.rs, which has the method and its source.
 
-const KEPT: f32 = 1e-6;
-const NOTHING: f32 = 1e-20;
+const RETAINED_SHARE: f32 = 1e-6;
+const NEGLIGIBLE: f32 = 1e-20;
 
 /// The amount, or nothing where it is less than counts.
-fn worth_counting(amount: f32) -> f32 {
-    return select(amount, 0.0, abs(amount) < NOTHING);
+fn without_negligible(amount: f32) -> f32 {
+    return select(amount, 0.0, abs(amount) < NEGLIGIBLE);
 }
 
 /// Signed flux through an edge; `here` and `next` are surface and depth on its two sides.
@@ -37,22 +37,22 @@ fn outflow_by(east: f32, west: f32, south: f32, north: f32) -> f32 {
     return (max(east, 0.0) + max(-west, 0.0)) + (max(south, 0.0) + max(-north, 0.0));
 }
 
-/// What share of its outflow a cell can afford, and how much sediment a unit of its outflow carries.
+/// What share of its outflow a cell can give, and how much sediment a unit of its outflow carries.
 struct Limited {
     share: f32,
     concentration: f32,
 }
 
 fn limit(depth: f32, sediment: f32, outflow: f32, epsilon: f32) -> Limited {
-    let afford = depth * (1.0 - KEPT);
-    return Limited(select(1.0, afford / outflow, outflow > afford), sediment / (depth + epsilon));
+    let available = depth * (1.0 - RETAINED_SHARE);
+    return Limited(select(1.0, available / outflow, outflow > available), sediment / (depth + epsilon));
 }
 
 fn unlimited(depth: f32, sediment: f32, outflow: f32, epsilon: f32) -> Limited {
     return Limited(1.0, sediment / max(max(depth, 0.0) + epsilon, outflow));
 }
 
-/// The flux through an edge, scaled to what its giving cell can afford.
+/// The flux through an edge, scaled to what its giving cell can give.
 fn scale(wanted: f32, share: f32, share_next: f32) -> f32 {
     return exact(wanted * select(share_next, share, wanted > 0.0));
 }

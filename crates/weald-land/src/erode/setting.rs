@@ -143,7 +143,7 @@ impl Setting {
         }
         let (sediment, [water_out, sediment_out]) = rows(flow.scratch);
         Drain {
-            land: self.links.row(flow.constants, y).land,
+            valid: self.links.row(flow.constants, y).valid,
             depth: flow.output[plane::DEPTH].here_mut(y),
             sediment: sediment.here_mut(y),
             water_out: water_out.here_mut(0),

@@ -5,13 +5,13 @@
 //! dissolution, a share of the free capacity), keeps what it can carry and drops the rest, of which the
 //! ground gets back the deposit ratio `r`.
 //!
-//! Ground is kept as start height plus change, because a thin film on a high mountain wears less in a step
+//! Ground is kept as start height plus change, because a thin sheet of water on a high mountain wears less in a step
 //! than the last digit of its height: the change alone has the digits.
 
 use weald_engine::kernel;
 
 kernel! {
-    /// Velocity through the eastern and southern faces of each cell, in cells a step (eq. 11).
+    /// Velocity through the eastern and southern faces of each cell, in cells per step (eq. 11).
     pub(crate) struct FaceVelocities {
         reads { flux_east, flux_south, depth, depth_east, depth_south }
         updates {}
@@ -59,7 +59,7 @@ kernel! {
     pub(crate) struct Settle {
         reads {
             found, depth, change_before, face_east, face_west, face_south, face_north,
-            sine_east, sine_west, sine_south, sine_north, neighbour_share, yields,
+            sine_east, sine_west, sine_south, sine_north, neighbour_share, erodible,
         }
         updates {}
         writes { change, sediment, lost }
@@ -72,7 +72,7 @@ kernel! {
         let sine = ((sine_west + sine_east) + (sine_north + sine_south)) * neighbour_share;
         let most = capacity * speed * sine * depth.max(0.0);
         let uptake = uptake_by_speed * speed + uptake_by_capacity * (most - found).max(0.0);
-        let taken = ((found + uptake).min(most) - found) * yields;
+        let taken = ((found + uptake).min(most) - found) * erodible;
         (change, sediment, lost) = settle(found, taken, change_before, deposit_ratio);
     }
 }

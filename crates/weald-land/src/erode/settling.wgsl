@@ -1,7 +1,7 @@
 
 // How fast water runs, and what it takes from or gives to the ground; the twin of settling.rs.
 
-/// Velocity through a face between two cells, in cells a step.
+/// Velocity through a face between two cells, in cells per step.
 fn face_velocity(flux: f32, depth: f32, depth_next: f32, velocity_epsilon: f32) -> f32 {
     return flux / ((max(depth, 0.0) + max(depth_next, 0.0)) * 0.5 + velocity_epsilon);
 }

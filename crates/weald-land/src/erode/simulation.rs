@@ -17,7 +17,7 @@ use weald_engine::{Engine, Job, SavedSimulation};
 
 uniform! {
     /// Rain and evaporation of one step, in cells.
-    pub(crate) struct Sky {
+    pub(crate) struct Forcing {
         pub(crate) rain: f32,
         pub(crate) evaporation: f32,
     }
@@ -113,7 +113,7 @@ impl<P: Process> Simulation<'_, P> {
             running.edit()?;
             running.stretch()?;
             job.watcher.progress(running.done, self.iterations, running.cells);
-            running.heed()?;
+            running.stop_or_checkpoint()?;
         }
         running.look()?;
         running.finish()
@@ -237,18 +237,18 @@ impl<'a, P: Process> Running<'a, P> {
                 Err(error) => format!("the last good state could not be kept: {error}"),
             };
             return Ok(Error::Run(format!(
-                "step {}: `{name}` at column {x}, row {y} is no longer a finite number; {kept}; a lower \
+                "iteration {}: `{name}` at column {x}, row {y} is no longer a finite number; {kept}; a lower \
                  `flow_rate` or `erosion`, or `limiter = true`, makes the scheme stable",
                 self.done
             )));
         }
         Ok(Error::Run(format!(
-            "a value that is not finite appeared before step {end} and did not appear again"
+            "a value that is not finite appeared before iteration {end} and did not appear again"
         )))
     }
 
     /// Ends when the user wants it, and keeps a checkpoint then and when one is due.
-    fn heed(&mut self) -> Result<(), Error> {
+    fn stop_or_checkpoint(&mut self) -> Result<(), Error> {
         let watcher = self.job.watcher;
         let stop = watcher.cancelled() && self.done < self.simulation.iterations;
         if stop || watcher.checkpoint_due() {

@@ -10,7 +10,7 @@ use super::stava::planes::Planes;
 use super::stava::program::{self, StavaNumbers};
 use super::stava::slippage::{Slippage, SlippageRows, SlippageScratch};
 use super::sweep::Sweep;
-use super::working::Working;
+use super::working::WorkingGrid;
 use weald_core::error::Error;
 use weald_core::grid::Size;
 use weald_core::landscape::Landscape;
@@ -102,7 +102,7 @@ impl Step for SlippageStep {
 
     fn run(&self, landscape: &mut Landscape, job: &Job<'_>) -> Result<Outcome, Error> {
         let slippage = self.within().slippage(&landscape.materials)?;
-        let mut working = Working::new(landscape, &self.layer.0, false)?;
+        let mut working = WorkingGrid::new(landscape, &self.layer.0, false)?;
         let planes = Planes { first_layer: 1, materials: landscape.materials.len() };
         let column = Column { planes, regolith: None };
         let deposit = deposit_of(None, &landscape.materials).map_err(Error::Run)?;

@@ -23,12 +23,12 @@ parameters! {
 }
 
 /// Least share of the peak that counts.
-const LEAST_SHARE: f64 = 1e-6;
+const MIN_SHARE: f64 = 1e-6;
 
 impl Spring {
     /// Columns and rows that it can reach.
     fn reached(&self, domain: &Domain) -> [Range<usize>; 2] {
-        let widest = self.radius * libm::sqrt(-libm::log(LEAST_SHARE));
+        let widest = self.radius * libm::sqrt(-libm::log(MIN_SHARE));
         let cells = |middle: f64, side: usize| {
             let first = ((middle - widest) / domain.cell - 0.5).ceil().clamp(0.0, side as f64);
             let end = ((middle + widest) / domain.cell + 0.5).floor().clamp(first, side as f64);
@@ -37,7 +37,7 @@ impl Spring {
         [cells(self.x, domain.size.columns), cells(self.y, domain.size.rows)]
     }
 
-    /// Adds `sign` times its water to a field on a domain, in metres a step.
+    /// Adds `sign` times its water to a field on a domain, in metres per step.
     pub(crate) fn add_to(&self, field: &mut Field, domain: &Domain, sign: f64) {
         let [columns, rows] = self.reached(domain);
         for y in rows {
@@ -45,7 +45,7 @@ impl Spring {
                 let [east, south] =
                     [(x, self.x), (y, self.y)].map(|(at, middle)| (at as f64 + 0.5) * domain.cell - middle);
                 let share = libm::exp(-(east * east + south * south) / (self.radius * self.radius));
-                if share >= LEAST_SHARE {
+                if share >= MIN_SHARE {
                     field.set(x, y, field.at(x, y) + (sign * self.rate * share) as f32);
                 }
             }
@@ -53,7 +53,7 @@ impl Spring {
     }
 }
 
-/// What all springs give, less what all drains take, in metres a step, on top of a painted field.
+/// What all springs give, less what all drains take, in metres per step, on top of a painted field.
 pub(crate) fn field_of(
     domain: &Domain,
     painted: Option<&Field>,
@@ -73,13 +73,13 @@ pub(crate) fn field_of(
 pub(crate) fn out_of_reach(domain: &Domain, key: &str, springs: &[Nested<Spring>]) -> Vec<String> {
     let far = |spring: &&Nested<Spring>| spring.0.reached(domain).iter().any(Range::is_empty);
     let [width, height] = [domain.size.columns, domain.size.rows].map(|cells| cells as f64 * domain.cell);
-    let told = |Nested(Spring { x, y, .. }): &Nested<Spring>| {
+    let notes = |Nested(Spring { x, y, .. }): &Nested<Spring>| {
         format!(
             "`{key}`: the one at x = {x}, y = {y} reaches no cell of the landscape, which is {width} m wide and \
              {height} m high"
         )
     };
-    springs.iter().filter(far).map(told).collect()
+    springs.iter().filter(far).map(notes).collect()
 }
 
 #[cfg(test)]
@@ -103,10 +103,10 @@ mod tests {
     fn a_spring_beside_the_landscape_is_told_and_one_whose_rim_reaches_it_is_not() {
         let domain = Domain::new(Size::square(64).expect("small"), 10.0);
         let at = |x: f64| [Nested(Spring { x, y: 300.0, radius: 40.0, rate: 0.5 })];
-        for (x, told) in [(320.0, 0), (-100.0, 0), (-200.0, 1), (740.0, 0), (900.0, 1)] {
-            assert_eq!(out_of_reach(&domain, "sources", &at(x)).len(), told, "at {x}");
+        for (x, notes) in [(320.0, 0), (-100.0, 0), (-200.0, 1), (740.0, 0), (900.0, 1)] {
+            assert_eq!(out_of_reach(&domain, "sources", &at(x)).len(), notes, "at {x}");
             let given = field_of(&domain, None, &at(x), &[]).sum();
-            assert_eq!(given == 0.0, told == 1, "at {x} it gives {given}");
+            assert_eq!(given == 0.0, notes == 1, "at {x} it gives {given}");
         }
     }
 }

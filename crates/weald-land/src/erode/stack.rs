@@ -3,7 +3,7 @@
 
 use super::simulation::Finished;
 use super::stava::planes::Planes;
-use super::working::Working;
+use super::working::WorkingGrid;
 use weald_core::error::Error;
 use weald_core::grid::Field;
 use weald_core::landscape::Landscape;
@@ -64,7 +64,7 @@ impl Stack {
     }
 }
 
-impl Working {
+impl WorkingGrid {
     /// Takes the thickness of each material above the bedrock as [`material::stack`] says. Regolith of an earlier step goes on as regolith, or settles as material `deposit`.
     pub(crate) fn set_stack(
         &mut self,

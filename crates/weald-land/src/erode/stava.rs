@@ -27,7 +27,7 @@ use slippage::{Slippage, SlippageRows, SlippageScratch};
 use viscosity::{Viscosity, ViscosityRows, ViscosityScratch};
 
 use super::setting::{Setting, Settled};
-use super::simulation::Sky;
+use super::simulation::Forcing;
 use weald_core::grid::Size;
 use weald_engine::program::Program;
 use weald_engine::stencil::chain::{Flow, Process};
@@ -37,7 +37,7 @@ use weald_engine::stencil::ring::Ring;
 pub(crate) use super::mei::plane;
 
 /// Constant planes of painted weather behind those of the links: share of the rain, share of the evaporation,
-/// and what sources give, less what drains take, in cells a step.
+/// and what sources give, less what drains take, in cells per step.
 pub(crate) const WEATHER_PLANES: usize = 3;
 
 /// Constants of the method, in cells and steps; names as in the recipe.
@@ -97,7 +97,7 @@ impl Stava {
 }
 
 impl Process for Stava {
-    type Weather = Sky;
+    type Weather = Forcing;
     type Scratch = StavaScratch;
 
     fn state_planes(&self) -> usize {

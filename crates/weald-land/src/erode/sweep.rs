@@ -8,7 +8,7 @@ use super::links::{LinkRow, Links};
 use weald_engine::stencil::chain::{Flow, Process};
 use weald_engine::stencil::ring::Ring;
 
-/// A sweep of a part of a step over the rows of a small world, between its walls.
+/// A sweep of a part of a step over the rows of a subdomain, between its walls.
 #[derive(Clone)]
 pub(crate) struct Sweep<'a> {
     pub(crate) links: &'a Links,

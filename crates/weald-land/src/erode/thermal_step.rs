@@ -8,7 +8,7 @@ use super::links::Links;
 use super::simulation::{Finished, Simulation};
 use super::sweep::Sweep;
 use super::thermal::{Scheme, Slide, SlideConstants, SlideRows, SlideScratch};
-use super::working::Working;
+use super::working::WorkingGrid;
 use weald_core::error::Error;
 use weald_core::grid::Size;
 use weald_core::landscape::Landscape;
@@ -77,7 +77,7 @@ impl Step for Thermal {
     }
 
     fn run(&self, landscape: &mut Landscape, job: &Job<'_>) -> Result<Outcome, Error> {
-        let working = Working::new(landscape, &self.layer.0, false)?;
+        let working = WorkingGrid::new(landscape, &self.layer.0, false)?;
         let within = ThermalWithin { scheme: self.scheme, talus: self.talus, strength: self.strength };
         let slide = within.slide();
         let links = Links::new(working.size, working.mask.is_some());

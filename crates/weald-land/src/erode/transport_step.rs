@@ -88,7 +88,7 @@ impl Carry {
             let epsilon = self.epsilon_in_cells(domain.cell);
             [velocity(&x, &water, epsilon, 1), velocity(&y, &water, epsilon, domain.size.columns)]
         };
-        let masks = domain.land.as_ref().map(|mask| mask_planes(mask, false));
+        let masks = domain.valid.as_ref().map(|mask| mask_planes(mask, false));
         let load = landscape.field(&self.layer.0)?.values().to_vec();
         let planes: Vec<_> =
             [load, water].into_iter().chain(masks.into_iter().flatten()).chain(flows).collect();
@@ -106,12 +106,12 @@ fn scaled(field: &Field, factor: f64) -> Vec<f32> {
 /// Flows through edges that join two cells with data; no others let anything through.
 fn inner(domain: &Domain, mut flow: Vec<f32>, towards: [usize; 2]) -> Vec<f32> {
     let Size { columns, rows } = domain.size;
-    let land = |x: usize, y: usize| {
-        x < columns && y < rows && domain.land.as_ref().is_none_or(|land| land.is_land(x, y))
+    let valid = |x: usize, y: usize| {
+        x < columns && y < rows && domain.valid.as_ref().is_none_or(|valid| valid.is_valid(x, y))
     };
     for (at, flow) in flow.iter_mut().enumerate() {
         let (x, y) = (at % columns, at / columns);
-        if !(land(x, y) && land(x + towards[0], y + towards[1])) {
+        if !(valid(x, y) && valid(x + towards[0], y + towards[1])) {
             *flow = 0.0;
         }
     }
@@ -135,7 +135,7 @@ impl Step for Carry {
     }
 
     fn run(&self, landscape: &mut Landscape, job: &Job<'_>) -> Result<Outcome, Error> {
-        let (size, masked) = (landscape.domain.size, landscape.domain.land.is_some());
+        let (size, masked) = (landscape.domain.size, landscape.domain.valid.is_some());
         let advection = self.advection(landscape.domain.cell);
         let process = Carrying { advection, links: Links::new(size, masked), arch: Arch::new() };
         let plane_names = ["load".to_owned()];

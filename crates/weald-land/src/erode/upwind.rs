@@ -4,7 +4,7 @@
 //! so that what leaves one cell enters its neighbour and none is lost (eq. 7–8; the cap that keeps it stable
 //! is in [`super::pipes`]).
 
-use super::pipes::worth_counting;
+use super::pipes::without_negligible;
 use weald_engine::kernel;
 
 kernel! {
@@ -12,7 +12,7 @@ kernel! {
     /// concentration of the cell it comes from; evaporation stops at dry ground.
     pub(crate) struct Upwind {
         reads {
-            depth_before, sediment_before, east, west, south, north, land,
+            depth_before, sediment_before, east, west, south, north, valid,
             concentration, concentration_east, concentration_west, concentration_south, concentration_north,
         }
         updates {}
@@ -21,12 +21,12 @@ kernel! {
     }
     fn cell() {
         let flowed = depth_before + ((west - east) + (north - south));
-        depth = worth_counting(flowed + rain * land - flowed.max(0.0).min(evaporation));
+        depth = without_negligible(flowed + rain * valid - flowed.max(0.0).min(evaporation));
         sky = depth - flowed;
         let to_east = east * if east >= 0.0 { concentration } else { concentration_east };
         let from_west = west * if west >= 0.0 { concentration_west } else { concentration };
         let to_south = south * if south >= 0.0 { concentration } else { concentration_south };
         let from_north = north * if north >= 0.0 { concentration_north } else { concentration };
-        sediment = worth_counting(sediment_before + ((from_west - to_east) + (from_north - to_south)));
+        sediment = without_negligible(sediment_before + ((from_west - to_east) + (from_north - to_south)));
     }
 }

@@ -8,9 +8,9 @@ struct Flowed {
 }
 
 /// `flux` holds the fluxes through the eastern, western, southern and northern edge.
-fn flow_of_water(before: f32, flux: vec4<f32>, land: f32, rain: f32, evaporation: f32) -> Flowed {
+fn flow_of_water(before: f32, flux: vec4<f32>, valid: f32, rain: f32, evaporation: f32) -> Flowed {
     let flowed = exact(before + ((flux.y - flux.x) + (flux.w - flux.z)));
-    let depth = exact(worth_counting(flowed + rain * land - min(max(flowed, 0.0), evaporation)));
+    let depth = exact(without_negligible(flowed + rain * valid - min(max(flowed, 0.0), evaporation)));
     return Flowed(depth, depth - flowed);
 }
 
@@ -25,5 +25,5 @@ fn flow_of_sediment(before: f32, flux: vec4<f32>, concentration: f32, around: ve
     let from_west = carried_by(flux.y, around.y, concentration);
     let to_south = carried_by(flux.z, concentration, around.z);
     let from_north = carried_by(flux.w, around.w, concentration);
-    return worth_counting(before + ((from_west - to_east) + (from_north - to_south)));
+    return without_negligible(before + ((from_west - to_east) + (from_north - to_south)));
 }

@@ -14,7 +14,7 @@ use weald_engine::step::Outcome;
 use weald_engine::{Budget, Job, SolidBudget, WaterBudget};
 
 /// The start of a simulation.
-pub(crate) struct Working {
+pub(crate) struct WorkingGrid {
     /// Columns and rows, the ring included.
     pub(crate) size: Size,
     /// The part of the landscape that is simulated.
@@ -38,15 +38,15 @@ pub(crate) struct Working {
     pub(super) stack: Option<Stack>,
 }
 
-/// What [`Working::store`] has to know of the run.
+/// What [`WorkingGrid::store`] has to know of the run.
 #[derive(Clone, Copy)]
-pub(crate) struct Kept {
+pub(crate) struct RunResult {
     pub(crate) iterations: u64,
     /// Whether the transport loses no sediment.
     pub(crate) conserving: bool,
 }
 
-impl Working {
+impl WorkingGrid {
     /// Takes the ground from a layer. Heights count from the lowest ground, which keeps their digits.
     pub(crate) fn new(landscape: &Landscape, layer: &str, open: bool) -> Result<Self, Error> {
         Self::within(landscape, layer, &Extent { open, region: None, cropped: false })
@@ -61,14 +61,14 @@ impl Working {
         let window = extent.window(landscape)?;
         let size = Size { columns: window.columns.len() + 2 * ring, rows: window.rows.len() + 2 * ring };
         let first = [window.columns.start, window.rows.start];
-        let lowest = start.range(domain.land.as_ref()).map_or(0.0, |(lowest, _)| f64::from(lowest));
+        let lowest = start.range(domain.valid.as_ref()).map_or(0.0, |(lowest, _)| f64::from(lowest));
         let mut working = Self {
             size,
             window,
             mask: ringed_mask(size, ring, |x, y| {
                 let [x, y] = [x + first[0], y + first[1]];
                 let here = region.is_none_or(|region| region.at(x, y) >= 0.5);
-                here && domain.land.as_ref().is_none_or(|land| land.is_land(x, y))
+                here && domain.valid.as_ref().is_none_or(|valid| valid.is_valid(x, y))
             }),
             ring,
             cell: domain.cell,
@@ -118,7 +118,7 @@ impl Working {
         inside.then(|| self.size.index(x - columns.start + self.ring, y - rows.start + self.ring))
     }
 
-    /// Lengths of a field in cells, none below 0, as [`Working::ringed`].
+    /// Lengths of a field in cells, none below 0, as [`WorkingGrid::ringed`].
     pub(super) fn lengths(&self, metres: &Field) -> Vec<f32> {
         self.ringed(|x, y| (f64::from(metres.at(x, y).max(0.0)) / self.cell) as f32)
     }
@@ -128,7 +128,7 @@ impl Working {
         let mut cells = vec![0.0; self.size.cells()];
         for y in self.window.rows.clone() {
             for x in self.window.columns.clone() {
-                if let Some(at) = self.place(x, y).filter(|&at| self.is_land(at)) {
+                if let Some(at) = self.place(x, y).filter(|&at| self.is_valid(at)) {
                     cells[at] = value(x, y);
                 }
             }
@@ -141,8 +141,8 @@ impl Working {
         &self.water
     }
 
-    fn is_land(&self, at: usize) -> bool {
-        self.mask.as_ref().is_none_or(|mask| mask.is_land_at(at))
+    fn is_valid(&self, at: usize) -> bool {
+        self.mask.as_ref().is_none_or(|mask| mask.is_valid_at(at))
     }
 
     /// State planes of zeros with the materials in theirs, and the constant planes behind: the ground, the
@@ -180,18 +180,20 @@ impl Working {
         elsewhere: impl Fn(usize, usize) -> f32,
     ) -> Field {
         Field::from_function(self.start.size(), |x, y| match self.place(x, y) {
-            Some(at) if self.is_land(at) => value(at),
+            Some(at) if self.is_valid(at) => value(at),
             _ => elsewhere(x, y),
         })
     }
 
     /// Depths of water in metres; where a region leaves cells out, water stands there as it did.
-    fn depths(&self, depth: &[f32], land: Option<&Mask>) -> Field {
+    fn depths(&self, depth: &[f32], valid: Option<&Mask>) -> Field {
         let cell = self.cell as f32;
         self.field_or(
             |at| depth[at] * cell,
             |x, y| match &self.standing {
-                Some(standing) if land.is_none_or(|land| land.is_land(x, y)) => standing.at(x, y).max(0.0),
+                Some(standing) if valid.is_none_or(|valid| valid.is_valid(x, y)) => {
+                    standing.at(x, y).max(0.0)
+                }
                 _ => 0.0,
             },
         )
@@ -211,7 +213,7 @@ impl Working {
         landscape: &mut Landscape,
         layer: &str,
         finished: &Finished,
-        kept: Kept,
+        kept: RunResult,
     ) -> Outcome {
         let change = self.ground_change(finished);
         let [depth, sediment] = [plane::DEPTH, plane::SEDIMENT].map(|at| finished.state.gather(at));
@@ -219,7 +221,7 @@ impl Working {
         let budget = self.budget(&depth, &sediment, finished);
         landscape.insert(layer, "m", self.ground(&self.field(&change, |change| change)));
         self.store_stack(landscape, finished);
-        let water = self.depths(&depth, landscape.domain.land.as_ref());
+        let water = self.depths(&depth, landscape.domain.valid.as_ref());
         landscape.insert("water", "m", water);
         landscape.insert("sediment", "m", self.field(&sediment, |sediment| sediment * cell));
         let volume = cell * cell * cell;

@@ -1,4 +1,4 @@
-//! A round bowl in level ground: `z = rim - depth (1 - (r/R)²)` inside radius `R`, a paraboloid.
+//! A round bowl in flat ground: `z = rim - depth (1 - (r/R)²)` inside radius `R`, a paraboloid.
 
 use weald_core::domain::Domain;
 use weald_core::error::Error;
@@ -9,8 +9,7 @@ use weald_engine::generator::Generator;
 use weald_engine::step::{Entry, Stage};
 
 /// The step's declaration.
-pub const ENTRY: Entry =
-    Entry::of::<Basin>("basin", Stage::Generate, "a round bowl in level ground", "Weald");
+pub const ENTRY: Entry = Entry::of::<Basin>("basin", Stage::Generate, "a round bowl in flat ground", "Weald");
 
 parameters! {
     /// A bowl.

@@ -1,4 +1,4 @@
-//! A cone on level ground: `z = max(base, peak - slope r)`, where `r` is the distance from its axis.
+//! A cone on flat ground: `z = max(base, peak - slope r)`, where `r` is the distance from its axis.
 
 use weald_core::domain::Domain;
 use weald_core::error::Error;
@@ -9,7 +9,7 @@ use weald_engine::generator::Generator;
 use weald_engine::step::{Entry, Stage};
 
 /// The step's declaration.
-pub const ENTRY: Entry = Entry::of::<Cone>("cone", Stage::Generate, "a cone on level ground", "Weald");
+pub const ENTRY: Entry = Entry::of::<Cone>("cone", Stage::Generate, "a cone on flat ground", "Weald");
 
 parameters! {
     /// A cone.

@@ -1,4 +1,4 @@
-//! Level ground: the same height everywhere.
+//! Flat ground: the same height everywhere.
 
 use weald_core::domain::Domain;
 use weald_core::error::Error;
@@ -10,10 +10,10 @@ use weald_engine::step::{Entry, Stage};
 
 /// The step's declaration.
 pub const ENTRY: Entry =
-    Entry::of::<Constant>("constant", Stage::Generate, "level ground: the same height everywhere", "Weald");
+    Entry::of::<Constant>("constant", Stage::Generate, "flat ground: the same height everywhere", "Weald");
 
 parameters! {
-    /// Level ground.
+    /// Flat ground.
     pub struct Constant {
         /// Height everywhere.
         value: f64 = 0.0, range -1.0e6..=1.0e6, unit "m";

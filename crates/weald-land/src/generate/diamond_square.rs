@@ -121,7 +121,7 @@ fn corners(window: Size, seed: u64) -> Field {
 }
 
 /// Pairs of rows that one task makes. The first of them repeats one row of centres of the task above.
-const PAIRS_A_TASK: usize = 16;
+const PAIRS_PER_TASK: usize = 16;
 
 /// One doubling of the lattice.
 struct Refinement {
@@ -134,12 +134,12 @@ struct Refinement {
 impl Refinement {
     fn refined(&self, coarse: &Field, window: Size) -> Field {
         let mut fine = Field::filled(window, 0.0);
-        let rows_a_task = 2 * PAIRS_A_TASK;
-        fine.values_mut().par_chunks_mut(rows_a_task * window.columns).enumerate().for_each(
+        let rows_per_task = 2 * PAIRS_PER_TASK;
+        fine.values_mut().par_chunks_mut(rows_per_task * window.columns).enumerate().for_each(
             |(task, band)| {
                 vectors::widest(
                     #[inline(always)]
-                    || self.refine_band(coarse, task * rows_a_task, window.columns, band),
+                    || self.refine_band(coarse, task * rows_per_task, window.columns, band),
                 );
             },
         );
@@ -242,7 +242,7 @@ mod tests {
         step.fill(&Domain::new(size, 1.0), seed).expect("any grid will do")
     }
 
-    /// The method as it is told: on the whole lattice, point by point.
+    /// The method as published: on the whole lattice, point by point.
     fn naive(roughness: f64, levels: u32, seed: u64) -> Vec<Vec<f32>> {
         let side = 1_usize << levels;
         let mut z = vec![vec![0.0_f32; side + 1]; side + 1];
@@ -287,8 +287,8 @@ mod tests {
             let (low, high) =
                 (part.iter().copied().fold(f32::MAX, lowest), part.iter().copied().fold(f32::MIN, f32::max));
             let field = filled(&steps(0.7), columns, rows, 5);
-            for (made, told) in field.values().iter().zip(&part) {
-                let expected = (told - low) / (high - low) * 1000.0;
+            for (made, reference) in field.values().iter().zip(&part) {
+                let expected = (reference - low) / (high - low) * 1000.0;
                 assert!((made - expected).abs() < 1e-3, "{columns} × {rows}: {made}, not {expected}");
             }
         }

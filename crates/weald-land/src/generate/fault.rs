@@ -65,10 +65,10 @@ impl Generator for Fault {
         let edges = Edges::of(&lines(domain.size, self.iterations, seed), columns);
         let mut field = Field::filled(domain.size, 0.0);
         let unit = self.scale / f64::from(self.iterations);
-        field.values_mut().par_chunks_mut(columns * ROWS_A_TASK).enumerate().for_each(|(task, band)| {
+        field.values_mut().par_chunks_mut(columns * ROWS_PER_TASK).enumerate().for_each(|(task, band)| {
             vectors::widest(
                 #[inline(always)]
-                || fill_band(&edges, task * ROWS_A_TASK, band, unit),
+                || fill_band(&edges, task * ROWS_PER_TASK, band, unit),
             );
         });
         Ok(self.brought_to_relief(field))
@@ -76,7 +76,7 @@ impl Generator for Fault {
 
     fn on_device(&self, domain: &Domain, seed: u64) -> Option<OnDevice> {
         let Size { columns, rows } = domain.size;
-        let fits = columns.max(rows) <= program::MOST_SIDE && domain.size.cells() > 1;
+        let fits = columns.max(rows) <= program::MAX_SIDE && domain.size.cells() > 1;
         fits.then(|| self.sum_of_steps(&lines(domain.size, self.iterations, seed), domain.size))
     }
 
@@ -100,7 +100,7 @@ impl Generator for Fault {
 }
 
 impl Fault {
-    /// The method as it is told: every fault looks at every cell. For tests and the bench; the same bits as
+    /// The method as published: every fault looks at every cell. For tests and the bench; the same bits as
     /// [`Generator::fill`].
     pub fn naive(&self, size: Size, seed: u64) -> Field {
         let lines = lines(size, self.iterations, seed);
@@ -131,7 +131,7 @@ impl Fault {
 }
 
 /// Rows that one task fills: enough to pay for its scratch memory.
-const ROWS_A_TASK: usize = 16;
+const ROWS_PER_TASK: usize = 16;
 
 /// A fault: a line through two cells and the height of its step in units of `scale / n`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

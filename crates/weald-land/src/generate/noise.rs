@@ -149,21 +149,21 @@ impl Octave {
     }
 }
 
-/// As [`stepped`] for a `way` from 0 to 2.
+/// As [`stepped`] for a `offset` from 0 to 2.
 #[inline(always)]
-fn carried(whole: i32, way: f32) -> (i32, f32) {
-    if way >= 1.0 { (whole.wrapping_add(1), way - 1.0) } else { (whole, way) }
+fn carried(whole: i32, offset: f32) -> (i32, f32) {
+    if offset >= 1.0 { (whole.wrapping_add(1), offset - 1.0) } else { (whole, offset) }
 }
 
-/// The lattice point before a place that is `way` steps beyond `whole`, and the way from there.
+/// The lattice point before a place that is `offset` steps beyond `whole`, and the way from there.
 #[inline(always)]
-fn stepped(whole: i32, way: f32) -> (i32, f32) {
+fn stepped(whole: i32, offset: f32) -> (i32, f32) {
     // Adding 1.5 × 2^23 leaves no bits for a fraction, so the sum's last bits count whole steps. A cast to
     // `i32` would saturate, which the compiler does not vectorise.
     const ROUND: f32 = 12_582_912.0;
-    let way = way.clamp(-4_000_000.0, 4_000_000.0);
-    let nearest = way + ROUND;
-    let rest = way - (nearest - ROUND);
+    let offset = offset.clamp(-4_000_000.0, 4_000_000.0);
+    let nearest = offset + ROUND;
+    let rest = offset - (nearest - ROUND);
     let beyond = rest < 0.0;
     let steps =
         (nearest.to_bits() as i32).wrapping_sub(ROUND.to_bits() as i32).wrapping_sub(i32::from(beyond));

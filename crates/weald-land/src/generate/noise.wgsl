@@ -8,22 +8,22 @@ const RISE: f32 = 16.0f / 3.0f / HALF_TURN;
 /// A lattice point before a place, and the way from there.
 struct Place {
     whole: i32,
-    way: f32,
+    offset: f32,
 }
 
-/// As `stepped` for a `way` from 0 to 2.
-fn carried_over(whole: i32, way: f32) -> Place {
-    if (way >= 1.0) {
-        return Place(whole + 1, way - 1.0);
+/// As `stepped` for a `offset` from 0 to 2.
+fn carried_over(whole: i32, offset: f32) -> Place {
+    if (offset >= 1.0) {
+        return Place(whole + 1, offset - 1.0);
     }
-    return Place(whole, way);
+    return Place(whole, offset);
 }
 
-/// The lattice point before a place that is `way` steps beyond `whole`, and the way from there.
+/// The lattice point before a place that is `offset` steps beyond `whole`, and the way from there.
 fn stepped(whole: i32, far: f32) -> Place {
-    let way = clamp(far, -4000000.0, 4000000.0);
-    let steps = floor(way);
-    return Place(whole + i32(steps), way - steps);
+    let offset = clamp(far, -4000000.0, 4000000.0);
+    let steps = floor(offset);
+    return Place(whole + i32(steps), offset - steps);
 }
 
 fn mixed(a: f32, b: f32, share: f32) -> f32 {
@@ -49,8 +49,8 @@ fn height_of(plane: vec2<u32>, point: u32, x: f32, y: f32) -> f32 {
 fn noise(plane: vec2<u32>, u: Place, v: Place) -> f32 {
     let north_west = point_of(plane, u.whole, v.whole);
     let south_west = north_west + STEP_SOUTH;
-    let x = u.way;
-    let y = v.way;
+    let x = u.offset;
+    let y = v.offset;
     let share = fade(x);
     let north = mixed(
         height_of(plane, north_west, x, y), height_of(plane, north_west + STEP_EAST, x - 1.0, y), share,

@@ -61,7 +61,7 @@ pub fn window(domain: &Domain) -> Window {
 }
 
 /// Rows that one task makes.
-const ROWS_A_TASK: usize = 16;
+const ROWS_PER_TASK: usize = 16;
 
 /// Makes a field row by row on all threads, in the widest vectors of the machine. `row` is given the number
 /// of the row and its cells, all 0.
@@ -71,12 +71,12 @@ where
 {
     let columns = domain.size.columns;
     let mut field = Field::filled(domain.size, 0.0);
-    field.values_mut().par_chunks_mut(columns * ROWS_A_TASK).enumerate().for_each(|(task, band)| {
+    field.values_mut().par_chunks_mut(columns * ROWS_PER_TASK).enumerate().for_each(|(task, band)| {
         let row = &row;
         vectors::widest(
             #[inline(always)]
             || {
-                for (y, cells) in (task * ROWS_A_TASK..).zip(band.chunks_exact_mut(columns)) {
+                for (y, cells) in (task * ROWS_PER_TASK..).zip(band.chunks_exact_mut(columns)) {
                     row(y, cells);
                 }
             },

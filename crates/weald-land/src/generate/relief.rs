@@ -5,13 +5,13 @@ use rayon::prelude::*;
 use weald_core::grid::Field;
 
 /// Cells a task works on; the result does not depend on it.
-const CELLS_A_TASK: usize = 1 << 16;
+const CELLS_PER_TASK: usize = 1 << 16;
 
 /// Maps the field's range to `0..relief`. A flat field becomes 0 everywhere.
 pub fn rescale(field: &mut Field, relief: f32) {
     let (low, high) = range(field.values());
     let span = high - low;
-    field.values_mut().par_chunks_mut(CELLS_A_TASK).for_each(|chunk| {
+    field.values_mut().par_chunks_mut(CELLS_PER_TASK).for_each(|chunk| {
         for value in chunk {
             // Dividing first gives exactly 1 at the highest point.
             *value = if span > 0.0 { (*value - low) / span * relief } else { 0.0 };
@@ -22,7 +22,7 @@ pub fn rescale(field: &mut Field, relief: f32) {
 fn range(values: &[f32]) -> (f32, f32) {
     let nothing = (f32::INFINITY, f32::NEG_INFINITY);
     let wider = |a: (f32, f32), b: (f32, f32)| (a.0.min(b.0), a.1.max(b.1));
-    values.par_chunks(CELLS_A_TASK).map(chunk_range).reduce(|| nothing, wider)
+    values.par_chunks(CELLS_PER_TASK).map(chunk_range).reduce(|| nothing, wider)
 }
 
 /// Sixteen lanes, since a lone running minimum is one long chain of dependent operations.

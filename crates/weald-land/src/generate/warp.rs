@@ -103,9 +103,9 @@ impl Generator for Warp {
             #[inline(always)]
             |y, row| {
                 let [mut dx, mut dy] = [vec![0.0; columns], vec![0.0; columns]];
-                for (bends, way) in [(&east, &mut dx), (&south, &mut dy)] {
+                for (bends, displacement) in [(&east, &mut dx), (&south, &mut dy)] {
                     for (octave, amplitude) in bends {
-                        octave.add_row(y, *amplitude, way);
+                        octave.add_row(y, *amplitude, displacement);
                     }
                 }
                 for (octave, amplitude) in &octaves {

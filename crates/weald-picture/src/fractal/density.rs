@@ -9,17 +9,17 @@ use rayon::prelude::*;
 use super::super::Watch;
 use super::colouring::Colouring;
 use super::frame::Frame;
-use super::palette::{self, Tinge};
+use super::palette::{self, PaletteIndex};
 use super::subject::Subject;
 use weald_core::error::Error;
 use weald_plants::ifs::Game;
 use weald_plants::ifs::game::CHUNK;
 
 /// Most memory of a histogram: 4 GiB.
-const MAXIMUM_BYTES: u64 = 4 << 30;
+const MAX_BYTES: u64 = 4 << 30;
 
 /// Most points of a picture.
-const MAXIMUM_POINTS: f64 = 1e12;
+const MAX_POINTS: f64 = 1e12;
 
 /// Chunks that are played before their points are counted: 33 MB.
 const BATCH: u64 = 16;
@@ -83,7 +83,7 @@ pub struct Density {
 #[derive(Clone, Copy)]
 struct Entry {
     bucket: u32,
-    tinge: Tinge,
+    palette_index: PaletteIndex,
 }
 
 /// What is played into which buckets.
@@ -98,7 +98,7 @@ struct Drawing<'a> {
 }
 
 impl Density {
-    /// Plays the game into a histogram. `watch` hears how many points are done, of how many, and may end it.
+    /// Plays the game into a histogram. `watch` is called with how many points are done, of how many, and may end it.
     ///
     /// # Errors
     /// [`Error::Limit`] where the histogram would take more than 4 GiB or the points are more than 10^12, and those
@@ -126,7 +126,7 @@ impl Density {
                 .collect();
             buckets.par_chunks_mut(band).enumerate().for_each(|(number, buckets)| {
                 for entry in entries.iter().flat_map(|bands| &bands[number]) {
-                    buckets[entry.bucket as usize].add(palette[usize::from(entry.tinge)]);
+                    buckets[entry.bucket as usize].add(palette[usize::from(entry.palette_index)]);
                 }
             });
         }
@@ -145,7 +145,7 @@ impl Density {
     /// than `PILED` times the mean of the rest.
     pub fn usual_share(&self) -> f64 {
         let mut usual = f64::INFINITY;
-        for _ in 0..ROUNDS {
+        for _ in 0..MAX_ITERATIONS {
             let most = PILED * usual;
             let counted = self.buckets.par_iter().map(|bucket| u128::from(bucket.count));
             let counted = counted.filter(|&count| count as f64 <= most);
@@ -161,7 +161,7 @@ impl Density {
 const PILED: f64 = 6.0;
 
 /// Rounds in which such buckets are found.
-const ROUNDS: usize = 4;
+const MAX_ITERATIONS: usize = 4;
 
 impl Drawing<'_> {
     /// The points of a chunk, by bands.
@@ -178,8 +178,9 @@ impl Drawing<'_> {
                 let seen = self.subject.seen(block, row, packer.as_ref());
                 for (seen, &colour) in seen.zip(&colours) {
                     let Some(bucket) = self.bucket(seen) else { continue };
-                    let tinge = palette::tinge(colour, self.frame.nearness(seen[2]));
-                    bands[bucket / self.band].push(Entry { bucket: (bucket % self.band) as u32, tinge });
+                    let palette_index = palette::palette_index(colour, self.frame.nearness(seen[2]));
+                    bands[bucket / self.band]
+                        .push(Entry { bucket: (bucket % self.band) as u32, palette_index });
                 }
             }
         });
@@ -201,16 +202,16 @@ fn checked(frame: &Frame, sampling: Sampling) -> Result<u64, Error> {
     let fine = sampling.supersample as u64;
     let bytes = frame.pixels() * fine * fine * size_of::<Bucket>() as u64;
     let points = (frame.pixels() as f64 * sampling.samples).ceil();
-    if bytes > MAXIMUM_BYTES || points > MAXIMUM_POINTS {
+    if bytes > MAX_BYTES || points > MAX_POINTS {
         return Err(Error::Limit(format!(
-            "a picture of {} × {} pixels with supersample {fine} and {} samples a pixel needs {} MiB and {points:.0} \
-             points; at most {} MiB and {MAXIMUM_POINTS:.0} points are used: choose a smaller `size`, `supersample` or \
+            "a picture of {} × {} pixels with supersample {fine} and {} samples per pixel needs {} MiB and {points:.0} \
+             points; at most {} MiB and {MAX_POINTS:.0} points are used: choose a smaller `size`, `supersample` or \
              `samples`",
             frame.width,
             frame.height,
             sampling.samples,
             bytes >> 20,
-            MAXIMUM_BYTES >> 20
+            MAX_BYTES >> 20
         )));
     }
     Ok(points as u64)

@@ -6,13 +6,13 @@ use weald_core::parameter::Sides;
 use weald_plants::ifs::Game;
 
 /// Length of a picture's longer side where nobody chooses, in pixels.
-const USUAL_SIDE: f64 = 1024.0;
+const DEFAULT_SIDE: f64 = 1024.0;
 
 /// Narrowest picture that a shape chooses for itself, as a share of its longer side.
 const NARROWEST: f64 = 0.25;
 
 /// Most pixels of a picture.
-const MAXIMUM_PIXELS: u64 = 1 << 27;
+const MAX_PIXELS: u64 = 1 << 27;
 
 /// Points from which the extent of a shape is found that moves or is seen from aside.
 const PROBES: u64 = 1 << 18;
@@ -96,7 +96,7 @@ impl Frame {
         let (width, height) = match size {
             Some(sides) => checked(sides)?,
             None => [wide, high]
-                .map(|side| (USUAL_SIDE * (side / longest).max(NARROWEST)).round() as usize)
+                .map(|side| (DEFAULT_SIDE * (side / longest).max(NARROWEST)).round() as usize)
                 .into(),
         };
         let room = |pixels: usize| pixels as f64 - 2.0 * margin * width.min(height) as f64;
@@ -134,9 +134,9 @@ impl Frame {
 
 fn checked(sides: Sides) -> Result<(usize, usize), Error> {
     let pixels = sides.columns.checked_mul(sides.rows);
-    if pixels.is_none_or(|pixels| pixels > MAXIMUM_PIXELS) {
+    if pixels.is_none_or(|pixels| pixels > MAX_PIXELS) {
         return Err(Error::Limit(format!(
-            "a picture of {} × {} pixels: at most {MAXIMUM_PIXELS} are drawn; choose a smaller `size`",
+            "a picture of {} × {} pixels: at most {MAX_PIXELS} are drawn; choose a smaller `size`",
             sides.columns, sides.rows
         )));
     }

@@ -108,11 +108,11 @@ weald_core::parameters! {
     }
 }
 
-/// Points a pixel where nobody chooses: of a picture, and of a frame of a film.
-const USUAL_SAMPLES: [f64; 2] = [100.0, 24.0];
+/// Points per pixel where nobody chooses: of a picture, and of a frame of a film.
+const DEFAULT_SAMPLES: [f64; 2] = [100.0, 24.0];
 
 /// Turn and tilt of the camera where nobody chooses, for a fractal of space.
-const USUAL_VIEW_DEG: [f64; 2] = [30.0, 12.0];
+const DEFAULT_VIEW_DEG: [f64; 2] = [30.0, 12.0];
 
 /// What all frames of a film share, so that it neither jumps nor flickers.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -121,7 +121,7 @@ pub struct Setting {
     pub frame: Frame,
     /// Share of the points beside a usual one, from the first of them; `None` takes that of each picture.
     pub usual_share: Option<f64>,
-    /// Points a pixel where the look does not say.
+    /// Points per pixel where the look does not say.
     pub usual_samples: f64,
 }
 
@@ -132,7 +132,7 @@ impl Setting {
     /// [`Error::Limit`] for a picture too large.
     pub fn of_still(look: &Look, extent: &Extent) -> Result<Self, Error> {
         let frame = Frame::around(extent, look.size, look.margin)?;
-        Ok(Self { frame, usual_share: None, usual_samples: USUAL_SAMPLES[0] })
+        Ok(Self { frame, usual_share: None, usual_samples: DEFAULT_SAMPLES[0] })
     }
 
     /// Of a film that begins with `first` and fills `extent`.
@@ -140,7 +140,7 @@ impl Setting {
     /// # Errors
     /// As [`Look::count`], and [`Error::Limit`] for a picture too large.
     pub fn of_film(look: &Look, first: &Subject<'_>, extent: &Extent) -> Result<Self, Error> {
-        let still = Self { usual_samples: USUAL_SAMPLES[1], ..Self::of_still(look, extent)? };
+        let still = Self { usual_samples: DEFAULT_SAMPLES[1], ..Self::of_still(look, extent)? };
         if look.draw != Draw::Density {
             return Ok(still);
         }
@@ -158,7 +158,7 @@ impl Look {
         seed: u64,
         share: f64,
     ) -> Subject<'a> {
-        let usual = if ifs.is_planar() { [0.0; 2] } else { USUAL_VIEW_DEG };
+        let usual = if ifs.is_planar() { [0.0; 2] } else { DEFAULT_VIEW_DEG };
         let turn = self.turn_deg.unwrap_or(usual[0]) + 360.0 * share;
         let tilt = self.tilt_deg.unwrap_or(usual[1]);
         let [low, high] = ifs.bounds();
@@ -168,7 +168,7 @@ impl Look {
         Subject { ifs, motion, camera, frontal, seed }
     }
 
-    /// The picture. `watch` hears how many points are done, of how many, and may end it.
+    /// The picture. `watch` is called with how many points are done, of how many, and may end it.
     ///
     /// # Errors
     /// [`Error::Limit`] where memory or marks are beyond their limits, and those of `watch`.

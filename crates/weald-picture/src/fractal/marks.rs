@@ -5,14 +5,14 @@
 
 use super::colouring::Colouring;
 use super::frame::Frame;
-use super::palette::{self, Tinge};
+use super::palette::{self, PaletteIndex};
 use super::subject::Subject;
 use weald_core::error::Error;
 use weald_plants::ifs::expansion::{Part, parts, parts_of_size};
 use weald_plants::ifs::{Code, Game, Point};
 
 /// Most marks of a picture.
-const MOST_MARKS: u64 = 1 << 22;
+const MAX_MARKS: u64 = 1 << 22;
 
 /// Which parts are drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,7 +37,7 @@ pub(super) enum Shape {
 pub(super) struct Mark {
     /// Corners in pixels, anticlockwise seen on the sheet.
     pub(super) corners: Vec<[f64; 2]>,
-    pub(super) tinge: Tinge,
+    pub(super) palette_index: PaletteIndex,
     nearer: f64,
 }
 
@@ -80,7 +80,7 @@ fn share(subject: &Subject<'_>, frame: &Frame, pixels: f64) -> f64 {
 fn check(subject: &Subject<'_>, frame: &Frame, opened: Opened) -> Result<(), Error> {
     let mut count = 0_u64;
     open(subject, frame, opened, |_| count += 1)?;
-    if count <= MOST_MARKS {
+    if count <= MAX_MARKS {
         return Ok(());
     }
     let remedy = match opened {
@@ -88,7 +88,7 @@ fn check(subject: &Subject<'_>, frame: &Frame, opened: Opened) -> Result<(), Err
         Opened::ToPixels(pixels) => format!("choose a larger `finest` than {pixels} pixels"),
     };
     Err(Error::Limit(format!(
-        "{}: {count} parts; at most {MOST_MARKS} are drawn: {remedy}",
+        "{}: {count} parts; at most {MAX_MARKS} are drawn: {remedy}",
         subject.ifs.name()
     )))
 }
@@ -108,8 +108,9 @@ impl Maker<'_> {
         if corners.is_empty() {
             corners.push(self.frame.place(middle));
         }
-        let tinge = palette::tinge(self.colouring.of(&part.code), self.frame.nearness(middle[2]));
-        Mark { corners: hull(corners), tinge, nearer: middle[2] }
+        let palette_index =
+            palette::palette_index(self.colouring.of(&part.code), self.frame.nearness(middle[2]));
+        Mark { corners: hull(corners), palette_index, nearer: middle[2] }
     }
 
     fn corner(&self, part: &Part, (at, code): &(Point, Code)) -> [f64; 2] {

@@ -50,11 +50,11 @@ pub(super) const STEPS: usize = 16;
 const HAZE: f32 = 0.15;
 
 /// A colour of a [`Table`]: a place on the palette, and how near.
-pub(super) type Tinge = u16;
+pub(super) type PaletteIndex = u16;
 
 /// The colour at a place, a 16-bit share, and a nearness of 0 to 1.
 #[inline]
-pub(super) fn tinge(place: u16, nearness: f64) -> Tinge {
+pub(super) fn palette_index(place: u16, nearness: f64) -> PaletteIndex {
     (place >> 8) * STEPS as u16 + (nearness * (STEPS as f64 - 1.0) + 0.5) as u16
 }
 
@@ -80,8 +80,8 @@ impl Table {
     }
 
     #[inline]
-    pub(super) fn colour(&self, tinge: Tinge) -> Linear {
-        self.0[usize::from(tinge)]
+    pub(super) fn colour(&self, palette_index: PaletteIndex) -> Linear {
+        self.0[usize::from(palette_index)]
     }
 
     /// The same in 16 bits a channel, for sums.
@@ -99,15 +99,19 @@ mod tests {
         let white = [1.0; 3];
         let table = Table::new(Palette::Fern, None, white);
         let ramp = Palette::Fern.ramp();
-        assert_eq!(table.colour(tinge(0, 1.0)), ramp.at(0.0));
-        assert_eq!(table.colour(tinge(u16::MAX, 1.0)), ramp.at(1.0));
-        let far = table.colour(tinge(0, 0.0));
+        assert_eq!(table.colour(palette_index(0, 1.0)), ramp.at(0.0));
+        assert_eq!(table.colour(palette_index(u16::MAX, 1.0)), ramp.at(1.0));
+        let far = table.colour(palette_index(0, 0.0));
         assert!(far.iter().all(|channel| (0.15..0.20).contains(channel)), "{far:?}");
     }
 
     #[test]
     fn an_ink_is_one_colour() {
         let table = Table::new(Palette::Fern, Some([0.25, 0.5, 0.75]), [0.0; 3]);
-        assert!([0, 300, 40_000].iter().all(|&place| table.colour(tinge(place, 1.0)) == [0.25, 0.5, 0.75]));
+        assert!(
+            [0, 300, 40_000]
+                .iter()
+                .all(|&place| table.colour(palette_index(place, 1.0)) == [0.25, 0.5, 0.75])
+        );
     }
 }

@@ -12,7 +12,7 @@ use weald_core::error::Error;
 const FINE: usize = 4;
 
 /// Most memory of the smaller pixels: 2 GiB.
-const MAXIMUM_BYTES: u64 = 2 << 30;
+const MAX_BYTES: u64 = 2 << 30;
 
 /// Corners of a dot.
 const DOT_CORNERS: usize = 12;
@@ -28,12 +28,12 @@ pub(super) fn plot(
     table: &Table,
 ) -> Result<Vec<Covered>, Error> {
     let bytes = frame.pixels() * (FINE * FINE * size_of::<u16>()) as u64;
-    if bytes > MAXIMUM_BYTES {
+    if bytes > MAX_BYTES {
         let [width, height] = [frame.width, frame.height];
         return Err(Error::Limit(format!(
             "marks on {width} × {height} pixels need {} MiB; at most {} MiB are used: choose a smaller `size`",
             bytes >> 20,
-            MAXIMUM_BYTES >> 20
+            MAX_BYTES >> 20
         )));
     }
     let mut canvas = Canvas::new(frame);
@@ -73,7 +73,7 @@ impl Canvas {
         for row in first..=last as usize {
             let middle = (row as f64 + 0.5).clamp(low, high);
             if let Some([left, right]) = span(&corners, middle) {
-                self.fill(row, left, right, mark.tinge + 1);
+                self.fill(row, left, right, mark.palette_index + 1);
             }
         }
     }

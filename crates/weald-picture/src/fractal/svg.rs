@@ -9,10 +9,10 @@ use super::palette::Table;
 use weald_core::error::Error;
 
 /// Longest file: what browsers and editors still open.
-const MAXIMUM_BYTES: usize = 64 << 20;
+const MAX_BYTES: usize = 64 << 20;
 
 /// Tinges that share a colour in the file, so that one path holds many marks: 32 places on the palette, all steps.
-const PLACES_A_COLOUR: u16 = 8;
+const PLACES_PER_COLOUR: u16 = 8;
 
 /// The file, with `background` behind the marks if there is one.
 ///
@@ -32,12 +32,12 @@ pub(super) fn svg(
     if let Some(colour) = background {
         let _ = writeln!(text, "<rect width=\"100%\" height=\"100%\" fill=\"{}\"/>", hex(colour));
     }
-    for run in marks.chunk_by(|a, b| shared(a.tinge) == shared(b.tinge)) {
-        write_run(&mut text, run, shape, &hex(table.colour(shared(run[0].tinge))));
-        if text.len() > MAXIMUM_BYTES {
+    for run in marks.chunk_by(|a, b| shared(a.palette_index) == shared(b.palette_index)) {
+        write_run(&mut text, run, shape, &hex(table.colour(shared(run[0].palette_index))));
+        if text.len() > MAX_BYTES {
             return Err(Error::Limit(format!(
                 "the .svg is longer than {} MiB with {} parts; choose a larger `finest`, a smaller `depth`, or a .png",
-                MAXIMUM_BYTES >> 20,
+                MAX_BYTES >> 20,
                 marks.len()
             )));
         }
@@ -47,10 +47,10 @@ pub(super) fn svg(
 }
 
 /// The tinge whose colour a group of them has.
-fn shared(tinge: u16) -> u16 {
+fn shared(palette_index: u16) -> u16 {
     let steps = super::palette::STEPS as u16;
-    let (place, step) = (tinge / steps, tinge % steps);
-    (place / PLACES_A_COLOUR * PLACES_A_COLOUR + PLACES_A_COLOUR / 2) * steps + step
+    let (place, step) = (palette_index / steps, palette_index % steps);
+    (place / PLACES_PER_COLOUR * PLACES_PER_COLOUR + PLACES_PER_COLOUR / 2) * steps + step
 }
 
 fn hex(colour: Linear) -> String {

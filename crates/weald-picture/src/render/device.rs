@@ -45,7 +45,7 @@ pub struct GrassRate {
     pub drawn: u64,
     /// Width and height of the picture in pixels.
     pub size: [u32; 2],
-    /// Frames a second.
+    /// Frames per second.
     pub rate: f64,
     /// The same in the source.
     pub source: f64,
@@ -60,7 +60,7 @@ pub struct RenderScene<'a> {
     pub stage: &'a Stage,
     /// The landscape, with what grows on it.
     pub landscape: &'a Landscape,
-    /// Samples a pixel at edges, 1 or 4.
+    /// Samples per pixel at edges, 1 or 4.
     pub samples: u32,
 }
 
@@ -87,7 +87,7 @@ impl RenderDevice for RayMarched {
     }
 
     fn set_up<'a>(&self, scene: &RenderScene<'a>) -> Result<Box<dyn Rendering + 'a>, Error> {
-        Ok(Box::new(Marched { view: scene.view, landscape: scene.landscape }))
+        Ok(Box::new(RayMarchedScene { view: scene.view, landscape: scene.landscape }))
     }
 
     fn grass_rates(&self, _: u32) -> Result<Vec<GrassRate>, Error> {
@@ -96,12 +96,12 @@ impl RenderDevice for RayMarched {
 }
 
 #[derive(Debug)]
-struct Marched<'a> {
+struct RayMarchedScene<'a> {
     view: &'a View,
     landscape: &'a Landscape,
 }
 
-impl Rendering for Marched<'_> {
+impl Rendering for RayMarchedScene<'_> {
     fn draw(&mut self, camera: &Camera, _: f64) -> Result<Image, Error> {
         self.view.seen_from(self.landscape, *camera)
     }

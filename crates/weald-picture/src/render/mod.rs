@@ -1,21 +1,21 @@
 //! A picture as a device draws it in real time, with grass and plants: the same stage as the view's, from the same keys.
 
+mod camera_path;
 mod device;
-mod flight;
 
+pub use camera_path::CameraPath;
 pub use device::{GrassRate, RayMarched, RenderDevice, RenderScene, Rendering};
-pub use flight::Flight;
 
 use super::{Camera, Stage, View};
 use weald_core::error::Error;
 use weald_core::landscape::Landscape;
-use weald_core::parameter::{Complaints, Parameter, Parameters, Places};
+use weald_core::parameter::{Diagnostics, Parameter, Parameters, Places};
 use weald_core::source::Table;
 
 weald_core::parameters! {
     /// Keys of a drawn picture that a view has not, or has otherwise.
     pub struct RenderKeys {
-        /// Samples a pixel at the edges of what is drawn, 1 or 4; 1 shows stairs.
+        /// Samples per pixel at the edges of what is drawn, 1 or 4; 1 shows stairs.
         samples: u32 = 4, range 1..=4;
         /// Further places, `[x, y]` as `eye` has them, that the camera flies through after `eye`, at the same height
         /// above the ground; it looks ahead, or at `target`. It goes with `eye` and `frames`.
@@ -24,7 +24,7 @@ weald_core::parameters! {
 }
 
 /// Least height of a camera above the ground, in metres.
-const LEAST_CLEARANCE: f64 = 0.1;
+const MIN_CLEARANCE: f64 = 0.1;
 
 /// A picture drawn on a device.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -44,16 +44,16 @@ impl Parameters for Render {
         all
     }
 
-    fn read_values(table: &Table, complaints: &mut Complaints) -> Self {
-        let keys = RenderKeys::read_values(table, complaints);
+    fn read_values(table: &Table, diagnostics: &mut Diagnostics) -> Self {
+        let keys = RenderKeys::read_values(table, diagnostics);
         if let Some(samples) = table.get("samples").filter(|_| ![1, 4].contains(&keys.samples)) {
             let message = format!("`samples` is {}; every device has 1 and 4", keys.samples);
-            complaints.add(samples.line, message);
+            diagnostics.add(samples.line, message);
         }
         // A view has `samples` too, with another range and default.
         let mut of_view = table.clone();
         of_view.take("samples");
-        Self { view: View::read_values(&of_view, complaints), keys }
+        Self { view: View::read_values(&of_view, diagnostics), keys }
     }
 }
 
@@ -75,12 +75,12 @@ impl Frame {
 
 /// A drawn picture's scene on a device, for one frame after the other.
 #[derive(Debug)]
-pub struct Reel<'a> {
+pub struct FrameSequence<'a> {
     render: &'a Render,
     stage: Stage,
     device: &'a dyn RenderDevice,
     landscape: &'a Landscape,
-    flight: Option<Flight>,
+    camera_path: Option<CameraPath>,
 }
 
 impl Render {
@@ -96,31 +96,31 @@ impl Render {
     ///
     /// # Errors
     /// As [`Stage::new`].
-    pub fn reel<'a>(
+    pub fn frame_sequence<'a>(
         &'a self,
         landscape: &'a Landscape,
         device: &'a dyn RenderDevice,
-    ) -> Result<Reel<'a>, Error> {
+    ) -> Result<FrameSequence<'a>, Error> {
         let stage = Stage::new(&self.view, landscape)?;
-        let flight = self.keys.through.as_ref().map(|through| self.flight(&stage, through));
-        let reel = Reel { render: self, stage, device, landscape, flight };
-        let first = reel.camera(Frame::STILL);
-        Ok(Reel { stage: reel.stage.seen_from(first), ..reel })
+        let camera_path = self.keys.through.as_ref().map(|through| self.camera_path(&stage, through));
+        let frame_sequence = FrameSequence { render: self, stage, device, landscape, camera_path };
+        let first = frame_sequence.camera(Frame::STILL);
+        Ok(FrameSequence { stage: frame_sequence.stage.seen_from(first), ..frame_sequence })
     }
 
-    fn flight(&self, stage: &Stage, through: &Places) -> Flight {
+    fn camera_path(&self, stage: &Stage, through: &Places) -> CameraPath {
         let begin = self.view.eye.iter().flat_map(|eye| &eye.0).take(1);
         let points = begin.chain(&through.0).map(|&place| self.standing(stage, place)).collect();
         let target = self.view.target.as_ref().and_then(|target| target.0.first());
-        Flight { points, target: target.map(|&place| stage.above_ground(place, 0.0)) }
+        CameraPath { points, target: target.map(|&place| stage.above_ground(place, 0.0)) }
     }
 
     fn standing(&self, stage: &Stage, place: [f64; 2]) -> [f32; 3] {
-        stage.above_ground(place, self.view.eye_height.max(LEAST_CLEARANCE))
+        stage.above_ground(place, self.view.eye_height.max(MIN_CLEARANCE))
     }
 }
 
-impl Reel<'_> {
+impl FrameSequence<'_> {
     /// The scene on the device.
     ///
     /// # Errors
@@ -134,8 +134,9 @@ impl Reel<'_> {
     /// The camera of a frame.
     pub fn camera(&self, frame: Frame) -> Camera {
         let Frame { number, count, .. } = frame;
-        if let Some(flight) = &self.flight {
-            return flight.camera(number as f64 / count.saturating_sub(1).max(1) as f64, self.stage.camera());
+        if let Some(camera_path) = &self.camera_path {
+            return camera_path
+                .camera(number as f64 / count.saturating_sub(1).max(1) as f64, self.stage.camera());
         }
         let view = &self.render.view;
         if count > 1 {

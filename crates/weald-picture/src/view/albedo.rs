@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::cover::{Cover, Spot};
+use super::cover::{Cover, SurfacePoint};
 use super::keys::View;
 use super::setting::Setting;
 use crate::Image;
@@ -22,7 +22,7 @@ const RIVER: u32 = 0x2c_4f57;
 pub fn albedo(view: &View, landscape: &Landscape, width: Option<u32>) -> Result<Image, Error> {
     let sheet = Sheet::new(&landscape.domain, width)?;
     let (setting, sites) = Setting::new(view, landscape)?;
-    let above = Above { cover: Cover::new(sites, setting.limits), setting, sheet };
+    let above = TopView { cover: Cover::new(sites, setting.limits), setting, sheet };
     let mut rgb = vec![0; 3 * sheet.width * sheet.height];
     rgb.par_chunks_mut(3 * sheet.width).enumerate().for_each(|(y, row)| {
         for (x, pixel) in row.chunks_exact_mut(3).enumerate() {
@@ -33,13 +33,13 @@ pub fn albedo(view: &View, landscape: &Landscape, width: Option<u32>) -> Result<
 }
 
 /// A landscape from above.
-struct Above {
+struct TopView {
     setting: Setting,
     cover: Cover,
     sheet: Sheet,
 }
 
-impl Above {
+impl TopView {
     fn colour(&self, x: usize, y: usize) -> Linear {
         let share = [(x as f32 + 0.5) / self.sheet.width as f32, (y as f32 + 0.5) / self.sheet.height as f32];
         let size = self.setting.bed.size();
@@ -53,16 +53,16 @@ impl Above {
         mix(ground, linear_of_hex(RIVER), river)
     }
 
-    fn spot(&self, place: [f32; 2], height: f32, rise: [f32; 2]) -> Spot {
+    fn spot(&self, place: [f32; 2], height: f32, rise: [f32; 2]) -> SurfacePoint {
         let terrain = &self.setting.terrain;
         let normal = terrain.normal(rise);
         let run = (normal[0] * normal[0] + normal[1] * normal[1]).sqrt();
-        Spot {
+        SurfacePoint {
             place,
             point: terrain.point(place, height),
             slope: run / normal[2].max(1e-3),
             fall: [normal[0], normal[1]].map(|part| part / run.max(1e-6)),
-            footprint: self.sheet.metres_a_pixel as f32,
+            footprint: self.sheet.metres_per_pixel as f32,
         }
     }
 }

@@ -124,12 +124,13 @@ fn reach(height: f64, up: f64) -> f64 {
 fn along(height: f64, up: f64, mut visit: impl FnMut(f64, f64, Colour)) {
     let reach = reach(height, up);
     let mut depth = [0.0; 3];
-    let way = |step: usize| {
+    let ray_length = |step: usize| {
         let share = step as f64 / STEPS as f64;
         reach * share * share
     };
     for step in 0..STEPS {
-        let (middle, length) = (0.5 * (way(step) + way(step + 1)), way(step + 1) - way(step));
+        let (middle, length) =
+            (0.5 * (ray_length(step) + ray_length(step + 1)), ray_length(step + 1) - ray_length(step));
         let radius = EARTH + height;
         let above = (radius * radius + middle * middle + 2.0 * radius * middle * up).sqrt() - EARTH;
         let here = extinction(above.max(0.0));

@@ -9,10 +9,10 @@ use weald_core::parameter::Places;
 const FILL: [f32; 2] = [0.95, 0.86];
 
 /// Looks at the landscape, along each side, from which it is framed.
-const LOOKS: usize = 33;
+const SAMPLES: usize = 33;
 
 /// Rounds in which distance and middle find each other.
-const ROUNDS: usize = 24;
+const ITERATIONS: usize = 24;
 
 /// Turns at which a landscape that is turned about is framed.
 const TURNS: usize = 16;
@@ -96,7 +96,7 @@ impl Camera {
         let mut distance = 8.0 * depth / self.half[1].min(1.0);
         let centre = self.eye;
         let mut shift = [0.0_f32; 2];
-        for round in 0..2 * ROUNDS {
+        for round in 0..2 * ITERATIONS {
             let sideways = add(scale(self.right, shift[0]), scale(self.up, shift[1]));
             self.eye = add(subtract(centre, scale(self.forward, distance)), sideways);
             let Some([low, high]) = self.bounds(points) else {
@@ -105,7 +105,7 @@ impl Camera {
             };
             // Once near, the camera only draws back: needles close to it may not let both settle.
             let is_whole = low.iter().all(|&least| least > -1.0) && high.iter().all(|&most| most < 1.0);
-            if round >= ROUNDS && is_whole {
+            if round >= ITERATIONS && is_whole {
                 break;
             }
             let mut needed = 0.0_f32;
@@ -113,7 +113,7 @@ impl Camera {
                 shift[axis] += 0.5 * (low[axis] + high[axis]) * self.half[axis] * distance;
                 needed = needed.max(0.5 * (high[axis] - low[axis]) / FILL[axis]);
             }
-            distance *= if round < ROUNDS { needed.clamp(0.2, 5.0) } else { needed.clamp(1.1, 5.0) };
+            distance *= if round < ITERATIONS { needed.clamp(0.2, 5.0) } else { needed.clamp(1.1, 5.0) };
         }
         self
     }
@@ -186,7 +186,7 @@ fn first(places: Option<&Places>) -> Option<[f64; 2]> {
 /// The height below which no eye may be.
 fn lowest_eye(terrain: &Terrain, eye: Vector) -> f32 {
     let place = terrain.place(eye);
-    let ground = if terrain.is_land(place) { terrain.top.at(place) } else { terrain.base };
+    let ground = if terrain.is_valid(place) { terrain.top.at(place) } else { terrain.base };
     ground + CLEARANCE.max(CLEARANCE_CELLS * terrain.cell())
 }
 
@@ -194,7 +194,7 @@ fn lowest_eye(terrain: &Terrain, eye: Vector) -> f32 {
 fn on_ground(terrain: &Terrain, [east, south]: [f64; 2], above: f32) -> Vector {
     let point = [east as f32, -south as f32, 0.0];
     let place = terrain.place(point);
-    let ground = if terrain.is_land(place) { terrain.top.at(place) } else { 0.0 };
+    let ground = if terrain.is_valid(place) { terrain.top.at(place) } else { 0.0 };
     [point[0], point[1], ground + above]
 }
 
@@ -208,12 +208,12 @@ pub(super) fn middle(terrain: &Terrain) -> Vector {
 /// Points of the surface, and of the base below its border.
 fn outline(terrain: &Terrain) -> Vec<Vector> {
     let size = terrain.top.size();
-    let at = |look: usize, cells: usize| 0.5 + cells as f32 * look as f32 / (LOOKS - 1) as f32;
+    let at = |look: usize, cells: usize| 0.5 + cells as f32 * look as f32 / (SAMPLES - 1) as f32;
     let mut points = Vec::new();
-    for y in 0..LOOKS {
-        for x in 0..LOOKS {
+    for y in 0..SAMPLES {
+        for x in 0..SAMPLES {
             let place = [at(x, size.columns), at(y, size.rows)];
-            if terrain.is_land(place) {
+            if terrain.is_valid(place) {
                 points.push(terrain.point(place, terrain.top.at(place)));
                 points.push(terrain.point(place, terrain.base));
             }
@@ -279,7 +279,7 @@ mod tests {
             let view = if turns { view.turned(turn) } else { view };
             let camera = Camera::new(&view, &terrain, 1.0);
             let place = terrain.place(camera.eye);
-            prop_assert!(!terrain.is_land(place) || camera.eye[2] > terrain.top.at(place));
+            prop_assert!(!terrain.is_valid(place) || camera.eye[2] > terrain.top.at(place));
             for point in outline(&terrain) {
                 let seen = camera.project(point);
                 prop_assert!(seen.is_some_and(|[x, y]| x.abs() < 1.0 && y.abs() < 1.0), "{point:?} at {seen:?}");
@@ -295,7 +295,7 @@ mod tests {
             for view in [low, standing] {
                 let camera = Camera::new(&view, &terrain, 1.0);
                 let place = terrain.place(camera.eye);
-                prop_assert!(!terrain.is_land(place) || camera.eye[2] >= terrain.top.at(place) + 1.9);
+                prop_assert!(!terrain.is_valid(place) || camera.eye[2] >= terrain.top.at(place) + 1.9);
             }
         }
     }

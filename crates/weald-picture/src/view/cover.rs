@@ -9,15 +9,15 @@ use super::vector::{Vector, add, scale};
 use crate::colour::{Linear, linear_of_hex, mix};
 use weald_core::grain::{Grain, Octaves, grain};
 
-/// A spot of ground that is to be coloured.
+/// A point of the ground that is to be coloured.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Spot {
+pub(super) struct SurfacePoint {
     pub(super) place: [f32; 2],
     /// World coordinates; the height is the real one, above the lowest ground.
     pub(super) point: Vector,
     /// Rise over run of the ground, as it is without exaggeration.
     pub(super) slope: f32,
-    /// The direction of the fall line, eastward and northward; 0 on level ground.
+    /// The direction of the fall line, eastward and northward; 0 on flat ground.
     pub(super) fall: [f32; 2],
     /// Size of a pixel on the ground in metres.
     pub(super) footprint: f32,
@@ -25,22 +25,22 @@ pub(super) struct Spot {
 
 /// What light falls on.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Skin {
+pub(super) struct SurfaceSample {
     /// Share of light that is sent back.
     pub(super) albedo: Linear,
     /// Slope of what is too small for the grid, eastward and northward.
     pub(super) bump: [f32; 2],
 }
 
-impl Skin {
-    /// This skin, with a share of another over it.
+impl SurfaceSample {
+    /// This sample, with a share of another over it.
     fn mixed(&self, other: &Self, share: f32) -> Self {
         let bump = [0, 1].map(|axis| self.bump[axis] * (1.0 - share) + other.bump[axis] * share);
         Self { albedo: mix(self.albedo, other.albedo, share), bump }
     }
 }
 
-/// Noise at a spot.
+/// Noise at a point.
 #[derive(Clone, Copy, Debug)]
 struct Texture {
     /// Patches of many cells.
@@ -131,8 +131,8 @@ impl Cover {
         &self.palette
     }
 
-    /// Colour and roughness of a spot.
-    pub(super) fn at(&self, spot: &Spot) -> Skin {
+    /// Colour and roughness of a point.
+    pub(super) fn at(&self, spot: &SurfacePoint) -> SurfaceSample {
         let cell = self.limits.cell;
         let broad = Octaves { wavelength: 26.0 * cell, count: 5, gain: 0.55, seed: 0x11 };
         let fine = Octaves { wavelength: 2.4 * cell, count: 7, gain: 0.66, seed: 0x12 };
@@ -146,10 +146,10 @@ impl Cover {
             Some(albedo) => self.of_material(spot, albedo, &texture),
             None => self.natural(spot, &texture),
         };
-        Skin { albedo: skin.albedo.map(|c| c.clamp(0.01, 0.9)), bump: no_steeper(skin.bump) }
+        SurfaceSample { albedo: skin.albedo.map(|c| c.clamp(0.01, 0.9)), bump: no_steeper(skin.bump) }
     }
 
-    fn natural(&self, spot: &Spot, texture: &Texture) -> Skin {
+    fn natural(&self, spot: &SurfacePoint, texture: &Texture) -> SurfaceSample {
         let Texture { broad, fine, streak, .. } = *texture;
         let patchy = 0.6 * broad + 0.4 * fine.value;
         let moisture = self.sites.moisture(spot.place);
@@ -158,8 +158,8 @@ impl Cover {
         let grass = scale(grass, 1.0 + 0.5 * fine.value + 0.35 * streak);
         let trees = self.trees(spot, moisture, patchy);
         let crown = (0.4 + 1.1 * fine.value + 0.5 * broad).clamp(0.0, 1.0);
-        let meadow = Skin { albedo: grass, bump: texture.rough(0.16) };
-        let wood = Skin {
+        let meadow = SurfaceSample { albedo: grass, bump: texture.rough(0.16) };
+        let wood = SurfaceSample {
             albedo: mix(self.palette.forest[0], self.palette.forest[1], crown),
             bump: texture.rough(0.55),
         };
@@ -168,25 +168,29 @@ impl Cover {
         let soil = self.sites.soil(spot.place);
         let steep = spot.slope / self.limits.rock + 0.25 * patchy + 0.55 * streak + 0.4 * (0.4 - soil);
         let pebbles = scale(self.palette.scree, 1.0 + 0.45 * fine.value + 0.4 * streak);
-        let scree = Skin { albedo: pebbles, bump: texture.rough(0.18) };
+        let scree = SurfaceSample { albedo: pebbles, bump: texture.rough(0.18) };
         let stony = green.mixed(&scree, 0.8 * ramp(steep, 0.97, 1.10) * (1.0 - 0.6 * trees));
-        let rock = Skin { albedo: self.rock(spot, texture), bump: texture.rough(0.45) };
+        let rock = SurfaceSample { albedo: self.rock(spot, texture), bump: texture.rough(0.45) };
         let ground = stony.mixed(&rock, ramp(steep, 1.08, 1.22));
-        let snow = Skin { albedo: scale(self.palette.snow, 1.0 + 0.12 * streak), bump: texture.rough(0.10) };
+        let snow = SurfaceSample {
+            albedo: scale(self.palette.snow, 1.0 + 0.12 * streak),
+            bump: texture.rough(0.10),
+        };
         ground.mixed(&snow, self.snow(spot, patchy))
     }
 
     /// Noise drawn out along the fall line, as water and stones leave their marks: its mean over points above and
     /// below; 0 on gentle ground.
-    fn streak(&self, spot: &Spot) -> f32 {
+    fn streak(&self, spot: &SurfacePoint) -> f32 {
         let steep = ramp(spot.slope / self.limits.rock, 0.35, 0.8);
         if steep <= 0.0 {
             return 0.0;
         }
         let marks = Octaves { wavelength: 1.1 * self.limits.cell, count: 3, gain: 0.75, seed: 0x13 };
         let along = |step: i32| {
-            let way = step as f32 * 0.55 * marks.wavelength;
-            let point = [spot.point[0] + way * spot.fall[0], spot.point[1] + way * spot.fall[1], 0.0];
+            let ray_length = step as f32 * 0.55 * marks.wavelength;
+            let point =
+                [spot.point[0] + ray_length * spot.fall[0], spot.point[1] + ray_length * spot.fall[1], 0.0];
             marks.at(point, spot.footprint).value
         };
         steep * 0.55 * (-2..=2).map(along).sum::<f32>()
@@ -199,7 +203,7 @@ impl Cover {
     }
 
     /// Share of forest: where it is moist but not boggy, below the tree line, and not too steep.
-    fn trees(&self, spot: &Spot, moisture: f32, patchy: f32) -> f32 {
+    fn trees(&self, spot: &SurfacePoint, moisture: f32, patchy: f32) -> f32 {
         let line = (self.limits.trees - spot.point[2]) / (0.12 * self.limits.relief).max(1e-3);
         let steep = ramp(spot.slope / self.limits.rock, 0.85, 1.15);
         let wood = 1.1 * (moisture - 0.5) + 0.9 * patchy + 0.4 * line.clamp(-2.0, 0.8) - 0.5 * steep;
@@ -207,7 +211,7 @@ impl Cover {
     }
 
     /// Rock with its beds: light and dark, sunk into cracks.
-    fn rock(&self, spot: &Spot, texture: &Texture) -> Linear {
+    fn rock(&self, spot: &SurfacePoint, texture: &Texture) -> Linear {
         let bed = 0.035 * self.limits.relief.max(1e-3);
         let level = spot.point[2] / bed + 1.2 * texture.broad;
         let beds = grain([level, 0.4], 0x21).value + 0.6 * grain([2.7 * level, 0.7], 0x22).value;
@@ -218,7 +222,7 @@ impl Cover {
     }
 
     /// Snow on gentle ground above its line, and in patches somewhat below it.
-    fn snow(&self, spot: &Spot, patchy: f32) -> f32 {
+    fn snow(&self, spot: &SurfacePoint, patchy: f32) -> f32 {
         let above = (spot.point[2] - self.limits.snow) / (0.10 * self.limits.relief).max(1e-3);
         if !above.is_finite() {
             return 0.0;
@@ -228,14 +232,14 @@ impl Cover {
         ramp(above + 1.6 * hold.min(0.6) + 1.2 * hollow + 1.1 * patchy, 0.55, 0.95)
     }
 
-    fn of_material(&self, spot: &Spot, albedo: Linear, texture: &Texture) -> Skin {
+    fn of_material(&self, spot: &SurfacePoint, albedo: Linear, texture: &Texture) -> SurfaceSample {
         let steep = ramp(spot.slope, 0.5, 1.2);
         let bed = 0.03 * self.limits.relief.max(1e-3);
         let level = spot.point[2] / bed + 0.8 * texture.broad;
         let beds = grain([level, 0.4], 0x21).value + 0.6 * grain([3.1 * level, 0.7], 0x22).value;
         let fine = (0.3 + 0.3 * steep) * texture.fine.value + 0.6 * texture.streak;
         let tone = 1.0 + 0.28 * texture.broad + fine + 0.5 * steep * beds;
-        Skin { albedo: scale(albedo, tone), bump: texture.rough(0.12 + 0.4 * steep) }
+        SurfaceSample { albedo: scale(albedo, tone), bump: texture.rough(0.12 + 0.4 * steep) }
     }
 
     /// The bed of a lake or a river.

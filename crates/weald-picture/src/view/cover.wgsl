@@ -3,7 +3,7 @@
 // Slope that bumps come near but do not pass.
 const STEEPEST = 0.75;
 
-struct Spot {
+struct SurfacePoint {
     place: vec2<f32>,
     point: vec3<f32>,
     slope: f32,
@@ -12,7 +12,7 @@ struct Spot {
 }
 
 // With the shares of wood, scree, rock and snow, which have detail of their own from close by.
-struct Skin {
+struct SurfaceSample {
     albedo: vec3<f32>,
     bump: vec2<f32>,
     kinds: vec4<f32>,
@@ -24,8 +24,8 @@ struct Texture {
     streak: f32,
 }
 
-fn mixed(skin: Skin, other: Skin, share: f32) -> Skin {
-    return Skin(
+fn mixed(skin: SurfaceSample, other: SurfaceSample, share: f32) -> SurfaceSample {
+    return SurfaceSample(
         mix(skin.albedo, other.albedo, share), mix(skin.bump, other.bump, share), mix(skin.kinds, other.kinds, share),
     );
 }
@@ -40,14 +40,14 @@ fn rough(texture: Texture, strength: f32) -> vec2<f32> {
     return strength * stage.scale.x * texture.fine.slope;
 }
 
-// Colour and roughness of a spot.
-fn cover_at(spot: Spot) -> Skin {
+// Colour and roughness of a point.
+fn cover_at(spot: SurfacePoint) -> SurfaceSample {
     let cell = stage.scale.x;
     var texture: Texture;
     texture.broad = octaves_at(Octaves(26.0 * cell, 5u, 0.55, 0x11u), spot.point.xy, spot.footprint).value;
     texture.fine = octaves_at(Octaves(2.4 * cell, 7u, 0.66, 0x12u), spot.point.xy, spot.footprint);
     texture.streak = streak(spot);
-    var skin: Skin;
+    var skin: SurfaceSample;
     if stage.has.z > 0.0 {
         skin = of_material(spot, clamp(smooth_at(materials, spot.place).xyz, vec3<f32>(0.01), vec3<f32>(0.95)), texture);
     } else {
@@ -58,7 +58,7 @@ fn cover_at(spot: Spot) -> Skin {
     return skin;
 }
 
-fn natural(spot: Spot, texture: Texture) -> Skin {
+fn natural(spot: SurfacePoint, texture: Texture) -> SurfaceSample {
     let fine = texture.fine.value;
     let patchy = 0.6 * texture.broad + 0.4 * fine;
     let here = smooth_at(site, spot.place);
@@ -67,23 +67,23 @@ fn natural(spot: Spot, texture: Texture) -> Skin {
     let turf = grass(moisture + 0.55 * patchy, high + 0.25 * patchy) * (1.0 + 0.5 * fine + 0.35 * texture.streak);
     let wooded = trees(spot, moisture, patchy);
     let crown = clamp(0.4 + 1.1 * fine + 0.5 * texture.broad, 0.0, 1.0);
-    let meadow = Skin(turf, rough(texture, 0.16), vec4<f32>(0.0));
-    let wood = Skin(mix(stage.forest_dark.xyz, stage.forest_light.xyz, crown), rough(texture, 0.55), vec4<f32>(1.0, 0.0, 0.0, 0.0));
+    let meadow = SurfaceSample(turf, rough(texture, 0.16), vec4<f32>(0.0));
+    let wood = SurfaceSample(mix(stage.forest_dark.xyz, stage.forest_light.xyz, crown), rough(texture, 0.55), vec4<f32>(1.0, 0.0, 0.0, 0.0));
     let green = mixed(meadow, wood, wooded);
 
     let soil = here.y;
     let steep = spot.slope / stage.limits.x + 0.25 * patchy + 0.55 * texture.streak + 0.4 * (0.4 - soil);
     let pebbles = stage.scree.xyz * (1.0 + 0.45 * fine + 0.4 * texture.streak);
-    let scree = Skin(pebbles, rough(texture, 0.18), vec4<f32>(0.0, 1.0, 0.0, 0.0));
+    let scree = SurfaceSample(pebbles, rough(texture, 0.18), vec4<f32>(0.0, 1.0, 0.0, 0.0));
     let stony = mixed(green, scree, 0.8 * ramp(steep, 0.97, 1.10) * (1.0 - 0.6 * wooded));
-    let bare = Skin(rock(spot, texture), rough(texture, 0.45), vec4<f32>(0.0, 0.0, 1.0, 0.0));
+    let bare = SurfaceSample(rock(spot, texture), rough(texture, 0.45), vec4<f32>(0.0, 0.0, 1.0, 0.0));
     let ground = mixed(stony, bare, ramp(steep, 1.08, 1.22));
-    let snow = Skin(stage.snow.xyz * (1.0 + 0.12 * texture.streak), rough(texture, 0.10), vec4<f32>(0.0, 0.0, 0.0, 1.0));
+    let snow = SurfaceSample(stage.snow.xyz * (1.0 + 0.12 * texture.streak), rough(texture, 0.10), vec4<f32>(0.0, 0.0, 0.0, 1.0));
     return mixed(ground, snow, snow_share(spot, moisture, patchy));
 }
 
 // Noise drawn out along the fall line.
-fn streak(spot: Spot) -> f32 {
+fn streak(spot: SurfacePoint) -> f32 {
     let steep = ramp(spot.slope / stage.limits.x, 0.35, 0.8);
     if steep <= 0.0 {
         return 0.0;
@@ -91,8 +91,8 @@ fn streak(spot: Spot) -> f32 {
     let marks = Octaves(1.1 * stage.scale.x, 3u, 0.75, 0x13u);
     var sum = 0.0;
     for (var step = -2; step <= 2; step++) {
-        let way = f32(step) * 0.55 * marks.wavelength;
-        sum += octaves_at(marks, spot.point.xy + way * spot.fall, spot.footprint).value;
+        let ray_length = f32(step) * 0.55 * marks.wavelength;
+        sum += octaves_at(marks, spot.point.xy + ray_length * spot.fall, spot.footprint).value;
     }
     return steep * 0.55 * sum;
 }
@@ -104,7 +104,7 @@ fn grass(moisture: f32, high: f32) -> vec3<f32> {
 }
 
 // Share of forest.
-fn trees(spot: Spot, moisture: f32, patchy: f32) -> f32 {
+fn trees(spot: SurfacePoint, moisture: f32, patchy: f32) -> f32 {
     let line = (stage.limits.y - spot.point.z) / max(0.12 * stage.limits.w, 1e-3);
     let steep = ramp(spot.slope / stage.limits.x, 0.85, 1.15);
     let wood = 1.1 * (moisture - 0.5) + 0.9 * patchy + 0.4 * clamp(line, -2.0, 0.8) - 0.5 * steep;
@@ -112,7 +112,7 @@ fn trees(spot: Spot, moisture: f32, patchy: f32) -> f32 {
 }
 
 // Rock with its beds: light and dark, sunk into cracks.
-fn rock(spot: Spot, texture: Texture) -> vec3<f32> {
+fn rock(spot: SurfacePoint, texture: Texture) -> vec3<f32> {
     let bed = 0.035 * max(stage.limits.w, 1e-3);
     let level = spot.point.z / bed + 1.2 * texture.broad;
     let beds = grain(vec2<f32>(level, 0.4), 0x21u).value + 0.6 * grain(vec2<f32>(2.7 * level, 0.7), 0x22u).value;
@@ -123,7 +123,7 @@ fn rock(spot: Spot, texture: Texture) -> vec3<f32> {
 }
 
 // Snow on gentle ground above its line, and in patches somewhat below it.
-fn snow_share(spot: Spot, moisture: f32, patchy: f32) -> f32 {
+fn snow_share(spot: SurfacePoint, moisture: f32, patchy: f32) -> f32 {
     if stage.limits.z >= 1e30 {
         return 0.0;
     }
@@ -133,12 +133,12 @@ fn snow_share(spot: Spot, moisture: f32, patchy: f32) -> f32 {
     return ramp(above + 1.6 * min(hold, 0.6) + 1.2 * hollow + 1.1 * patchy, 0.55, 0.95);
 }
 
-fn of_material(spot: Spot, albedo: vec3<f32>, texture: Texture) -> Skin {
+fn of_material(spot: SurfacePoint, albedo: vec3<f32>, texture: Texture) -> SurfaceSample {
     let steep = ramp(spot.slope, 0.5, 1.2);
     let bed = 0.03 * max(stage.limits.w, 1e-3);
     let level = spot.point.z / bed + 0.8 * texture.broad;
     let beds = grain(vec2<f32>(level, 0.4), 0x21u).value + 0.6 * grain(vec2<f32>(3.1 * level, 0.7), 0x22u).value;
     let fine = (0.3 + 0.3 * steep) * texture.fine.value + 0.6 * texture.streak;
     let tone = 1.0 + 0.28 * texture.broad + fine + 0.5 * steep * beds;
-    return Skin(albedo * tone, rough(texture, 0.12 + 0.4 * steep), vec4<f32>(0.0, 0.3, 0.7 * steep, 0.0));
+    return SurfaceSample(albedo * tone, rough(texture, 0.12 + 0.4 * steep), vec4<f32>(0.0, 0.3, 0.7 * steep, 0.0));
 }

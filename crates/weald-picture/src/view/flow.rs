@@ -27,8 +27,8 @@ const DEPTHS: [f32; 2] = [0.25, 2.0];
 /// Steepest fall of a stream that the equations are meant for.
 const STEEPEST: f32 = 0.4;
 
-/// Velocities of the water's surface, eastward and northward, in metres a second; and how much of its height it loses in
-/// a second, in metres, which is what makes it foam.
+/// Velocities of the water's surface, eastward and northward, in metres per second; and how much of its height it loses
+/// in a second, in metres, which is what makes it foam.
 #[derive(Debug)]
 pub(super) struct Flow {
     pub(super) velocity: [Surface; 2],
@@ -38,7 +38,7 @@ pub(super) struct Flow {
 impl Flow {
     /// Of the fluxes of a landscape over a terrain of the sheet's size; `None` without them.
     pub(super) fn of(landscape: &Landscape, terrain: &Terrain, sheet: &Sheet) -> Option<Self> {
-        let land = landscape.domain.land.as_ref();
+        let land = landscape.domain.valid.as_ref();
         let layer = |name: &str| landscape.field(name).ok().map(|field| drawable(field, land, sheet));
         // A thread of water leads from cell to cell; the stream that it stands for is broader.
         let broad = |field: Field| [1, 2].into_iter().fold(field, |field, gap| smoothed(&field, gap));

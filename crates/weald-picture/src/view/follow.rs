@@ -7,7 +7,7 @@ use weald_core::grid::Field;
 use weald_engine::uniform;
 
 uniform! {
-    /// What the shader is told.
+    /// What the shader is given.
     pub struct Follow {
         /// Cells from west to east.
         pub columns: u32,
@@ -47,7 +47,7 @@ impl Stage {
         self
     }
 
-    /// What the shader is told.
+    /// What the shader is given.
     pub fn follow(&self) -> Follow {
         let cell = self.setting.terrain.cell();
         let [columns, rows] = self.cells().map(|cells| cells as u32);

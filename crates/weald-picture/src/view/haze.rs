@@ -37,15 +37,15 @@ impl Haze {
     }
 
     /// Haze that takes so much, as an optical depth, from light on its way along a ray.
-    pub(super) fn of_depth(depth: f32, ray: &Ray, way: f32, exaggeration: f32) -> Self {
+    pub(super) fn of_depth(depth: f32, ray: &Ray, ray_length: f32, exaggeration: f32) -> Self {
         let unit = Self { extinction: 1.0, scale_height: SCALE_HEIGHT * exaggeration };
-        Self { extinction: depth / unit.column(ray, way).max(1e-3), ..unit }
+        Self { extinction: depth / unit.column(ray, ray_length).max(1e-3), ..unit }
     }
 
-    /// The light that arrives at the start of a ray, of `radiance` that starts `way` metres along it.
+    /// The light that arrives at the start of a ray, of `radiance` that starts `ray_length` metres along it.
     #[inline]
-    pub(super) fn veil(self, radiance: Vector, ray: &Ray, way: f32, sky: &Sky) -> Vector {
-        let depth = self.extinction * self.column(ray, way);
+    pub(super) fn veil(self, radiance: Vector, ray: &Ray, ray_length: f32, sky: &Sky) -> Vector {
+        let depth = self.extinction * self.column(ray, ray_length);
         let through = TINT.map(|tint| libm::expf(-tint * depth));
         let horizon = sky.radiance([ray.direction[0], ray.direction[1], 0.0]);
         let lost = through.map(|through| 1.0 - through);
@@ -53,12 +53,12 @@ impl Haze {
     }
 
     /// Length of the air at the lowest ground that would veil as much.
-    fn column(self, ray: &Ray, way: f32) -> f32 {
+    fn column(self, ray: &Ray, ray_length: f32) -> f32 {
         let start = libm::expf(-ray.from[2].max(0.0) / self.scale_height);
-        let climb = ray.direction[2] * way / self.scale_height;
+        let climb = ray.direction[2] * ray_length / self.scale_height;
         // (1 - e^-x) / x, which is 1 - x/2 for level rays.
         let mean = if climb.abs() < 1e-3 { 1.0 - 0.5 * climb } else { -libm::expm1f(-climb) / climb };
-        start * mean * way
+        start * mean * ray_length
     }
 }
 
@@ -67,9 +67,9 @@ mod tests {
     use super::super::vector::towards;
     use super::*;
 
-    fn level(way: f32, visibility: f64) -> Vector {
+    fn level(ray_length: f32, visibility: f64) -> Vector {
         let ray = Ray { from: [0.0; 3], direction: [0.0, 1.0, 0.0] };
-        Haze::new(visibility, 1.0).veil([0.0; 3], &ray, way, &Sky::new(towards(90.0, 30.0), 0.53))
+        Haze::new(visibility, 1.0).veil([0.0; 3], &ray, ray_length, &Sky::new(towards(90.0, 30.0), 0.53))
     }
 
     #[test]

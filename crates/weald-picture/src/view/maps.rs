@@ -6,7 +6,7 @@ use super::skylight::Skylight;
 use super::stage::Stage;
 use super::surface::Surface;
 use super::water::Rivers;
-use weald_core::material::MOST;
+use weald_core::material::MAX_MATERIALS;
 
 /// How the numbers of a map are kept, and looked up.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -125,7 +125,7 @@ fn of_sky(light: &Skylight) -> Values {
 fn of_strata(strata: &Strata) -> Values {
     let mut values = Vec::new();
     let mut size = [1, 1];
-    for layer in 0..MOST.div_ceil(4) {
+    for layer in 0..MAX_MATERIALS.div_ceil(4) {
         let surfaces = [0, 1, 2, 3].map(|channel| strata.materials.get(4 * layer + channel));
         let first = smooth(surfaces.map(|material| material.map(|(thickness, _)| thickness)));
         if layer == 0 {

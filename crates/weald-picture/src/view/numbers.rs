@@ -12,13 +12,13 @@ use super::tone::{self, Tone};
 use super::vector::Vector;
 use super::water;
 use crate::colour::linear_of_hex;
-use weald_core::material::MOST;
+use weald_core::material::MAX_MATERIALS;
 
 /// Bytes of a vector of four.
 const BYTES: usize = 16;
 
 /// A limit of heights that is never reached, in place of infinity, which shaders may not know.
-const NEVER: f32 = 1e30;
+const UNREACHABLE_HEIGHT: f32 = 1e30;
 
 /// Vectors of four with their names, in the order of the struct.
 type Named = Vec<(&'static str, [f32; 4])>;
@@ -32,7 +32,7 @@ impl Stage {
         let named = self.named().into_iter().map(|(_, values)| values);
         let sky = self.sky.table.iter().flat_map(|part| [part.rayleigh, part.mie, part.multiple]);
         let colours = self.setting.strata.materials.iter().map(|&(_, colour)| colour);
-        let colours = colours.chain(std::iter::repeat([0.0; 3])).take(MOST);
+        let colours = colours.chain(std::iter::repeat([0.0; 3])).take(MAX_MATERIALS);
         let tables = sky.chain(self.sides.light).chain(colours).map(|rgb| with(rgb, 0.0));
         let mut bytes = Vec::with_capacity(BYTES * (SKY_TABLE + 100));
         for vector in named.chain(tables) {
@@ -51,7 +51,7 @@ impl Stage {
         format!(
             "const SKY_PIECES = {PIECES};\nconst SIDE_NORMALS = {NORMALS};\nstruct Stage {{\n{fields}    \
              sky_table: array<vec4<f32>, {SKY_TABLE}>,\n    side_light: array<vec4<f32>, {NORMALS}>,\n    \
-             strata_colours: array<vec4<f32>, {MOST}>,\n}}\n"
+             strata_colours: array<vec4<f32>, {MAX_MATERIALS}>,\n}}\n"
         )
     }
 
@@ -79,7 +79,7 @@ impl Stage {
             ("haze_tint", with(haze::TINT, 0.0)),
             ("water", [x, y, 0.0, 0.0]),
             ("water_body", with(water::BODY, 0.0)),
-            ("water_swallowed", with(water::SWALLOWED, 0.0)),
+            ("water_swallowed", with(water::ABSORPTION, 0.0)),
             ("cut_water", with(linear_of_hex(CUT_WATER), 0.0)),
         ]
     }
@@ -90,7 +90,7 @@ impl Stage {
         let flag = f32::from;
         vec![
             ("grid", [size.columns as f32, size.rows as f32, terrain.spacing[0], terrain.spacing[1]]),
-            ("limits", [limits.rock, limits.trees, limits.snow.min(NEVER), limits.relief]),
+            ("limits", [limits.rock, limits.trees, limits.snow.min(UNREACHABLE_HEIGHT), limits.relief]),
             ("scale", [limits.cell, setting.exaggeration, terrain.highest(), terrain.cell()]),
             (
                 "has",

@@ -16,7 +16,7 @@ pub(super) fn light(sky: &Sky, terrain: &Terrain) -> Skylight {
         |cell: usize, cells: usize| 0.5 + ((cell as f32 + 0.5) / PLAIN_CELLS as f32 - 1.0) * cells as f32;
     let height = Field::from_function(size, |x, y| {
         let place = [share(x, inner.columns), share(y, inner.rows)];
-        if terrain.is_land(place) { terrain.top.at(place) } else { terrain.base }
+        if terrain.is_valid(place) { terrain.top.at(place) } else { terrain.base }
     });
     let spacing = [0, 1]
         .map(|axis| terrain.spacing[axis] * [inner.columns, inner.rows][axis] as f32 / PLAIN_CELLS as f32);

@@ -22,7 +22,7 @@ struct Level {
     highest: Vec<f32>,
 }
 
-/// A straight line over the ground, in cells a metre.
+/// A straight line over the ground, in cells per metre.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Line {
     /// Place at 0 m.
@@ -33,8 +33,8 @@ pub(super) struct Line {
 
 impl Line {
     #[inline(always)]
-    pub(super) fn at(&self, way: f32) -> [f32; 2] {
-        [self.start[0] + self.step[0] * way, self.start[1] + self.step[1] * way]
+    pub(super) fn at(&self, ray_length: f32) -> [f32; 2] {
+        [self.start[0] + self.step[0] * ray_length, self.start[1] + self.step[1] * ray_length]
     }
 
     /// The ways at which the line enters and leaves the rectangle of a landscape; `None` where it misses it.
@@ -59,7 +59,7 @@ impl Line {
 }
 
 /// What looks for something along a line.
-pub(super) trait Seeker {
+pub(super) trait LineSearch {
     /// Whether it may be found between two ways over ground that is nowhere higher than `highest`.
     fn may_find(&self, span: [f32; 2], highest: f32) -> bool;
 
@@ -91,19 +91,19 @@ impl Pyramid {
     }
 
     /// Follows a line from way to way, from square to square.
-    pub(super) fn follow(&self, line: &Line, span: [f32; 2], seeker: &mut impl Seeker) {
+    pub(super) fn follow(&self, line: &Line, span: [f32; 2], seeker: &mut impl LineSearch) {
         let mut walk = Walk::new(self, line, span);
         loop {
             let level = &self.levels[walk.level];
             let (exit, axis) = walk.exit(line, span[1]);
             let here =
                 level.highest[(walk.leaf[1] >> walk.level) * level.columns + (walk.leaf[0] >> walk.level)];
-            if seeker.may_find([walk.way, exit], here) {
+            if seeker.may_find([walk.ray_length, exit], here) {
                 if walk.level > 0 {
                     walk.level -= 1;
                     continue;
                 }
-                if seeker.look([walk.way, exit]) {
+                if seeker.look([walk.ray_length, exit]) {
                     return;
                 }
             }
@@ -129,8 +129,8 @@ impl Level {
 
 /// Where a search is.
 struct Walk {
-    way: f32,
-    /// The patch at `way`.
+    ray_length: f32,
+    /// The patch at `ray_length`.
     leaf: [usize; 2],
     level: usize,
 }
@@ -141,7 +141,7 @@ impl Walk {
         let place = line.at(span[0]);
         let patch = |place: f32, count: usize| (place.max(0.0) as usize).min(count - 1);
         let leaf = [patch(place[0], finest.columns), patch(place[1], finest.rows)];
-        Self { way: span[0], leaf, level: (pyramid.levels.len() - 1).min(3) }
+        Self { ray_length: span[0], leaf, level: (pyramid.levels.len() - 1).min(3) }
     }
 
     /// The way at which the line leaves the square, not beyond `end`, and the axis across whose side it does.
@@ -157,7 +157,7 @@ impl Walk {
             (side as f32 - line.start[axis]) / step
         };
         let (x, y) = (leave(0), leave(1));
-        (x.min(y).min(end).max(self.way), usize::from(y < x))
+        (x.min(y).min(end).max(self.ray_length), usize::from(y < x))
     }
 
     /// Goes on to the next square; says whether there is one.
@@ -176,7 +176,7 @@ impl Walk {
         let within = (beside << self.level, (((beside + 1) << self.level) - 1).min(counts[other] - 1));
         self.leaf[axis] = leaf;
         self.leaf[other] = (line.at(exit)[other].max(0.0) as usize).clamp(within.0, within.1);
-        self.way = exit;
+        self.ray_length = exit;
         if self.level + 1 < pyramid.levels.len() && next >> 1 != square >> 1 {
             self.level += 1;
         }

@@ -10,7 +10,7 @@ use super::surface::Surface;
 use super::vector::Vector;
 
 /// Looks a cell along each axis.
-const LOOKS: usize = 2;
+const SAMPLES_PER_CELL: usize = 2;
 
 /// A piece of the line.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -27,8 +27,8 @@ impl Stage {
         let terrain = &self.setting.terrain;
         let (Some(land), Some(outline)) = (&terrain.land, &terrain.outline) else { return Vec::new() };
         let size = land.size();
-        let rows = (0..LOOKS * size.rows).into_par_iter().map(|y| {
-            let pieces = (0..LOOKS * size.columns).flat_map(|x| square(land, [x, y]));
+        let rows = (0..SAMPLES_PER_CELL * size.rows).into_par_iter().map(|y| {
+            let pieces = (0..SAMPLES_PER_CELL * size.columns).flat_map(|x| square(land, [x, y]));
             pieces
                 .map(|ends| Rim { ends, normals: ends.map(|end| normal(outline, terrain.spacing, end)) })
                 .collect()
@@ -39,7 +39,8 @@ impl Stage {
 
 /// Pieces of the line within a square of four looks.
 fn square(land: &Surface, [x, y]: [usize; 2]) -> Vec<[[f32; 2]; 2]> {
-    let place = |dx: usize, dy: usize| [x + dx, y + dy].map(|look| 0.5 + look as f32 / LOOKS as f32);
+    let place =
+        |dx: usize, dy: usize| [x + dx, y + dy].map(|look| 0.5 + look as f32 / SAMPLES_PER_CELL as f32);
     let corners = [place(0, 0), place(1, 0), place(1, 1), place(0, 1)];
     let shares = corners.map(|corner| land.at(corner) - 0.5);
     let crossings: Vec<[f32; 2]> = (0..4)
@@ -84,7 +85,7 @@ mod tests {
             (x * x + y * y).sqrt()
         };
         let mut domain = Domain::new(size, 10.0);
-        domain.land = Mask::new(size, (0..1600).map(|cell| away(cell) < 12.0).collect());
+        domain.valid = Mask::new(size, (0..1600).map(|cell| away(cell) < 12.0).collect());
         let mut landscape = Landscape::new(domain);
         landscape.insert("height", "m", Field::filled(size, 5.0));
         let rims = Stage::new(&View::default(), &landscape).expect("it can be drawn").rims();

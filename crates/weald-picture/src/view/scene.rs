@@ -4,7 +4,7 @@ use std::f32::consts::FRAC_1_PI;
 use std::ops::Deref;
 
 use super::camera::{self, Camera};
-use super::cover::Spot;
+use super::cover::SurfacePoint;
 use super::keys::View;
 use super::skylight::{self, Seen};
 use super::stage::{CUT_WATER, Stage};
@@ -60,7 +60,7 @@ impl Scene {
     /// The light that comes along a ray to the eye.
     fn light(&self, ray: &Ray) -> Vector {
         if let Some(hit) = self.setting.terrain.trace(ray, [0.0, f32::INFINITY]).filter(|_| !self.is_empty) {
-            return self.haze.veil(self.met(ray, &hit), ray, hit.way, &self.sky);
+            return self.haze.veil(self.met(ray, &hit), ray, hit.ray_length, &self.sky);
         }
         if ray.direction[2] < 0.0 {
             return self.plain(ray);
@@ -70,11 +70,11 @@ impl Scene {
 
     /// The light that starts at what a ray met.
     fn met(&self, ray: &Ray, hit: &Hit) -> Vector {
-        let point = ray.at(hit.way);
+        let point = ray.at(hit.ray_length);
         if let Some(normal) = hit.side {
             return self.side(hit.place, point, normal);
         }
-        let footprint = self.footprint(hit.way);
+        let footprint = self.footprint(hit.ray_length);
         let ground = self.setting.bed.at(hit.place);
         let depth =
             self.setting.level.as_ref().map_or(f32::NEG_INFINITY, |level| level.at(hit.place) - ground);
@@ -89,8 +89,8 @@ impl Scene {
         mix(land, self.lake(ray, hit, point, 1.2 * river), river)
     }
 
-    fn footprint(&self, way: f32) -> f32 {
-        way * self.pixel_angle
+    fn footprint(&self, ray_length: f32) -> f32 {
+        ray_length * self.pixel_angle
     }
 
     /// Share of the sun's disc that is seen from a point: the part of a disc that a straight horizon leaves free.
@@ -123,7 +123,7 @@ impl Scene {
         let fall = [0, 1].map(|axis| normal[axis] / run.max(1e-6));
         let point_of_cover = [point[0], point[1], height / stretch];
         let slope = run / normal[2].max(1e-3) / stretch;
-        let spot = Spot { place, fall, point: point_of_cover, slope, footprint };
+        let spot = SurfacePoint { place, fall, point: point_of_cover, slope, footprint };
         let skin = self.cover.at(&spot);
         let rough = unit([
             normal[0] - normal[2] * skin.bump[0] * stretch,
@@ -139,7 +139,7 @@ impl Scene {
     fn lake(&self, ray: &Ray, hit: &Hit, point: Vector, depth: f32) -> Vector {
         let terrain = &self.setting.terrain;
         let back = scale(ray.direction, -1.0);
-        let footprint = self.footprint(hit.way) / back[2].max(0.05).sqrt();
+        let footprint = self.footprint(hit.ray_length) / back[2].max(0.05).sqrt();
         let normal = water::ripples(point, (0.25 * terrain.cell()).min(6.0), footprint);
         let seen = self.skylight.at(self.share(hit.place));
         let share = water::mirrored_share(dot(back, normal));
@@ -164,9 +164,10 @@ impl Scene {
         let Some(hit) = terrain.trace(ray, [start, f32::INFINITY]).filter(|hit| hit.side.is_none()) else {
             return self.sky.radiance(ray.direction);
         };
-        let point = ray.at(hit.way);
-        let ground = self.ground(hit.place, point, (0.25 * terrain.cell()).max(self.footprint(hit.way)), 1e9);
-        self.haze.veil(ground, ray, hit.way, &self.sky)
+        let point = ray.at(hit.ray_length);
+        let ground =
+            self.ground(hit.place, point, (0.25 * terrain.cell()).max(self.footprint(hit.ray_length)), 1e9);
+        self.haze.veil(ground, ray, hit.ray_length, &self.sky)
     }
 
     /// A cut side.
@@ -188,17 +189,17 @@ impl Scene {
     /// The plain that the landscape stands on, which is lost in the haze of the horizon.
     fn plain(&self, ray: &Ray) -> Vector {
         let terrain = &self.setting.terrain;
-        let way = (terrain.base - ray.from[2]) / ray.direction[2];
-        let mut point = ray.at(way);
+        let ray_length = (terrain.base - ray.from[2]) / ray.direction[2];
+        let mut point = ray.at(ray_length);
         point[2] = terrain.base;
         let share = self.share(terrain.place(point)).map(|share| (share + 1.0) / 3.0);
         let inside = share.iter().all(|share| (0.0..=1.0).contains(share));
         let seen = if inside { self.plain_light.at(share) } else { self.open };
         let light = self.lit(point, [0.0, 0.0, 1.0], &seen);
         let radiance = scale(filter(self.plain, light), FRAC_1_PI);
-        let near = self.haze.veil(radiance, ray, way, &self.sky);
+        let near = self.haze.veil(radiance, ray, ray_length, &self.sky);
         let reach = self.plain_reach();
-        let lost = 1.0 - libm::expf(-(way / reach) * (way / reach) * 0.25);
+        let lost = 1.0 - libm::expf(-(ray_length / reach) * (ray_length / reach) * 0.25);
         mix(near, self.sky.radiance([ray.direction[0], ray.direction[1], 0.0]), lost)
     }
 }
@@ -261,7 +262,7 @@ mod tests {
         let scene = scene(&low_sun(), 60, |_, _| 0.0, -1.0);
         let point = [300.0, -400.0, 0.0];
         let light = scene.lit(point, [0.0, 0.0, 1.0], &scene.skylight.at([0.5; 2]));
-        for (light, expected) in light.into_iter().zip(scene.sky.on_level_ground()) {
+        for (light, expected) in light.into_iter().zip(scene.sky.on_flat_ground()) {
             assert!((light / expected - 1.0).abs() < 0.03, "{light} instead of {expected}");
         }
     }

@@ -14,13 +14,13 @@ fn lake_depth(place: vec2<f32>, ground: f32) -> f32 {
 }
 
 // Dry ground on a surface of a height and a rise by the cell, as colour and roughness.
-fn ground_skin(place: vec2<f32>, surface: vec3<f32>, footprint: f32, above: f32) -> Skin {
+fn ground_skin(place: vec2<f32>, surface: vec3<f32>, footprint: f32, above: f32) -> SurfaceSample {
     let normal = normal_of(surface.yz);
     let stretch = stage.scale.y;
     let run = length(normal.xy);
     let point = vec3<f32>(point_of(place, 0.0).xy, surface.x / stretch);
     let slope = run / max(normal.z, 1e-3) / stretch;
-    var skin = cover_at(Spot(place, point, slope, normal.xy / max(run, 1e-6), footprint));
+    var skin = cover_at(SurfacePoint(place, point, slope, normal.xy / max(run, 1e-6), footprint));
     skin.albedo = wetted(skin.albedo, above);
     return skin;
 }
@@ -52,10 +52,10 @@ fn plain_seen(point: vec3<f32>) -> Seen {
 }
 
 // The plain that the landscape stands on, which is lost in the haze of the horizon.
-fn plain_radiance(eye: vec3<f32>, direction: vec3<f32>, way: f32, sun: f32) -> vec3<f32> {
-    let seen = plain_seen(eye + direction * way);
+fn plain_radiance(eye: vec3<f32>, direction: vec3<f32>, ray_length: f32, sun: f32) -> vec3<f32> {
+    let seen = plain_seen(eye + direction * ray_length);
     let radiance = stage.plain.xyz * lit(vec3<f32>(0.0, 0.0, 1.0), seen, sun) / PI;
-    let near = veil(radiance, eye, direction, way);
-    let far = way / stage.haze.z;
+    let near = veil(radiance, eye, direction, ray_length);
+    let far = ray_length / stage.haze.z;
     return mix(near, sky_radiance(vec3<f32>(direction.xy, 0.0)), 1.0 - exp(-0.25 * far * far));
 }

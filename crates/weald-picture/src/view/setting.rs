@@ -54,12 +54,12 @@ impl Setting {
     pub(super) fn new(view: &View, landscape: &Landscape) -> Result<(Self, Sites), Error> {
         let domain = &landscape.domain;
         let field = landscape.field(&view.of.0)?;
-        let (low, high) = field.range(domain.land.as_ref()).unwrap_or((0.0, 0.0));
+        let (low, high) = field.range(domain.valid.as_ref()).unwrap_or((0.0, 0.0));
         let frame = Frame::new(view, landscape, low)?;
         let level = if view.water { water::levels(landscape, field) } else { None };
         let (ground, level) = (frame.raised(field), level.map(|level| frame.raised(&level)));
         let top = level.as_ref().map_or_else(|| ground.clone(), |level| higher(&ground, level));
-        let land = land_share(domain.land.as_ref(), &frame.sheet);
+        let land = land_share(domain.valid.as_ref(), &frame.sheet);
         let spacing = frame.spacing(ground.size());
         let base = BASE * (domain.cell * domain.size.columns.max(domain.size.rows) as f64) as f32;
         let limits = limits(view, [low, high], &ground, spacing);
@@ -119,7 +119,7 @@ impl<'a> Frame<'a> {
 
     /// Heights above the lowest ground as they are drawn, no finer than the sheet.
     fn raised(&self, field: &Field) -> Field {
-        let mut field = drawable(field, self.domain.land.as_ref(), &self.sheet);
+        let mut field = drawable(field, self.domain.valid.as_ref(), &self.sheet);
         field.values_mut().iter_mut().for_each(|height| *height = (*height - self.low) * self.exaggeration);
         field
     }
@@ -149,7 +149,7 @@ fn higher(a: &Field, b: &Field) -> Field {
 }
 
 fn strata(landscape: &Landscape, ground: &Field, sheet: &Sheet, relief: f32) -> Result<Strata, Error> {
-    let mask = landscape.domain.land.as_ref();
+    let mask = landscape.domain.valid.as_ref();
     let bedrock = landscape.materials.first().map_or([0.2; 3], |material| linear_of_srgb(material.colour));
     if !names_materials(landscape) {
         return Ok(Strata::new(Vec::new(), bedrock, relief));

@@ -39,7 +39,7 @@ impl Sites {
         sheet: &Sheet,
         materials: bool,
     ) -> Result<Self, Error> {
-        let land = landscape.domain.land.as_ref();
+        let land = landscape.domain.valid.as_ref();
         let height = drawable(ground, land, sheet);
         let layer = |name: &str| landscape.field(name).ok().map(|field| drawable(field, land, sheet));
         let hollows = hollows(&height);

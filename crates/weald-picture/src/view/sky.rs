@@ -62,8 +62,8 @@ impl Sky {
         add(radiance, scale(self.sunlight, limb / area))
     }
 
-    /// Light on level ground under the open sky.
-    pub(super) fn on_level_ground(&self) -> Vector {
+    /// Light on flat ground under the open sky.
+    pub(super) fn on_flat_ground(&self) -> Vector {
         let mut sum = scale(self.sunlight, self.sun[2]);
         let patches = 16 * 32;
         for patch in 0..patches {

@@ -201,13 +201,16 @@ fn horizons(averages: &Averages, [x, y]: [usize; 2], spacing: [f32; 2], rise: [f
         let mut steepest = (across[0] * rise[0] + across[1] * rise[1]).max(0.0);
         let mut cells = FIRST;
         loop {
-            let way = cells * cell;
-            let place = [start[0] + across[0] * way / spacing[0], start[1] - across[1] * way / spacing[1]];
+            let ray_length = cells * cell;
+            let place = [
+                start[0] + across[0] * ray_length / spacing[0],
+                start[1] - across[1] * ray_length / spacing[1],
+            ];
             // Squares grow to a sixth of the distance.
             let level = (cells / 6.0).max(1.0).to_bits() >> 23;
             let Some(there) = averages.at(place, level as usize - 127) else { break };
-            steepest = steepest.max((there - height) / way);
-            if averages.highest - height < steepest * way {
+            steepest = steepest.max((there - height) / ray_length);
+            if averages.highest - height < steepest * ray_length {
                 break;
             }
             cells *= FURTHER;

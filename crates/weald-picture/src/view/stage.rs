@@ -22,12 +22,12 @@ use weald_core::landscape::Landscape;
 const SKYLIGHT_CELLS: usize = 1024;
 
 /// Optical depth of the haze between the eye and the middle of the landscape.
-const USUAL_HAZE: f32 = 0.13;
+const DEFAULT_HAZE: f32 = 0.13;
 
 /// Distance, in diagonals of the landscape, over which the plain is lost in the haze.
 const PLAIN_REACH: f32 = 2.6;
 
-/// Share of the light on level ground that sunlit ground around sends into shadows.
+/// Share of the light on flat ground that sunlit ground around sends into shadows.
 const BOUNCE: f32 = 0.5;
 
 /// Colour of the plain.
@@ -68,7 +68,7 @@ impl Stage {
         let terrain = &setting.terrain;
         let camera = Camera::new(view, terrain, setting.exaggeration);
         let cover = Cover::new(sites, setting.limits);
-        let (level, plain) = (sky.on_level_ground(), linear_of_hex(PLAIN));
+        let (level, plain) = (sky.on_flat_ground(), linear_of_hex(PLAIN));
         let sent_back = |albedo: Linear, share: f32| scale(filter(albedo, level), share * FRAC_1_PI);
         Ok(Self {
             skylight: Skylight::new(&sky, &terrain.top, terrain.spacing, SKYLIGHT_CELLS),
@@ -78,7 +78,7 @@ impl Stage {
             bounce: sent_back(cover.mean(), BOUNCE),
             haze: haze(view.visibility, &camera, setting.centre(), setting.exaggeration),
             tone: Tone::new(level, view.exposure),
-            is_empty: landscape.domain.land_cells() == 0,
+            is_empty: landscape.domain.valid_cells() == 0,
             visibility: view.visibility,
             plain,
             sky,
@@ -167,7 +167,7 @@ impl Stage {
     pub fn top_at(&self, [east, south]: [f64; 2]) -> Option<f32> {
         let terrain = &self.setting.terrain;
         let place = terrain.place([east as f32, -south as f32, 0.0]);
-        terrain.is_land(place).then(|| terrain.top.at(place))
+        terrain.is_valid(place).then(|| terrain.top.at(place))
     }
 
     /// The point so many metres above the drawn ground at a place in metres eastward and southward; above the plain
@@ -182,7 +182,7 @@ impl Stage {
     pub fn bed_at(&self, [east, south]: [f64; 2]) -> Option<f32> {
         let terrain = &self.setting.terrain;
         let place = terrain.place([east as f32, -south as f32, 0.0]);
-        terrain.is_land(place).then(|| self.setting.bed.at(place))
+        terrain.is_valid(place).then(|| self.setting.bed.at(place))
     }
 
     /// Height at which an elevation in metres is drawn, above the lowest ground.
@@ -197,7 +197,7 @@ fn haze(visibility: Option<f64>, camera: &Camera, centre: Vector, exaggeration: 
         return Haze::new(visibility, exaggeration);
     }
     let away = subtract(centre, camera.eye);
-    let way = dot(away, away).sqrt().max(1e-3);
-    let ray = Ray { from: camera.eye, direction: scale(away, 1.0 / way) };
-    Haze::of_depth(USUAL_HAZE, &ray, way, exaggeration)
+    let ray_length = dot(away, away).sqrt().max(1e-3);
+    let ray = Ray { from: camera.eye, direction: scale(away, 1.0 / ray_length) };
+    Haze::of_depth(DEFAULT_HAZE, &ray, ray_length, exaggeration)
 }

@@ -38,8 +38,8 @@ pub(super) struct Ray {
 
 impl Ray {
     #[inline(always)]
-    pub(super) fn at(&self, way: f32) -> Vector {
-        add(self.from, scale(self.direction, way))
+    pub(super) fn at(&self, ray_length: f32) -> Vector {
+        add(self.from, scale(self.direction, ray_length))
     }
 }
 
@@ -47,7 +47,7 @@ impl Ray {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Hit {
     /// Metres from the start of the ray.
-    pub(super) way: f32,
+    pub(super) ray_length: f32,
     /// Place on the surface, in cells.
     pub(super) place: [f32; 2],
     /// The normal of the cut where the ray met a side of the landscape.
@@ -85,7 +85,7 @@ impl Terrain {
     }
 
     /// Whether a place is land of this landscape.
-    pub(super) fn is_land(&self, place: [f32; 2]) -> bool {
+    pub(super) fn is_valid(&self, place: [f32; 2]) -> bool {
         let size = self.top.size();
         let inside = |at: f32, cells: usize| at >= 0.5 && at <= cells as f32 + 0.5;
         inside(place[0], size.columns) && inside(place[1], size.rows) && self.has_data(place)
@@ -157,29 +157,37 @@ mod tests {
         for at in 0..3000 {
             let ray = ray(24, at);
             let line = ground.line(ray.from, ray.direction);
-            let above = |way: f32| ray.at(way)[2] - ground.top.at(line.at(way));
+            let above = |ray_length: f32| ray.at(ray_length)[2] - ground.top.at(line.at(ray_length));
             let Some([enter, leave]) = line.crossing(&ground.top) else { continue };
             let enter = enter.max(0.0);
             let steps = ((leave - enter) / 0.05) as usize;
-            let stepped = (0..steps).map(|step| enter + 0.05 * step as f32).find(|&way| above(way) <= 0.0);
+            let stepped = (0..steps)
+                .map(|step| enter + 0.05 * step as f32)
+                .find(|&ray_length| above(ray_length) <= 0.0);
             let hit = ground.trace(&ray, [0.0, f32::INFINITY]);
             match (stepped, hit) {
                 (Some(stepped), Some(hit)) => {
                     met += 1;
                     // Two centimetres of height are more than the error of a hit, and much way where a ray grazes.
-                    let early = hit.way <= stepped + 0.02 || above(stepped) > -0.02;
-                    assert!(early, "ray {at}: {} m instead of {stepped} m", hit.way);
+                    let early = hit.ray_length <= stepped + 0.02 || above(stepped) > -0.02;
+                    assert!(early, "ray {at}: {} m instead of {stepped} m", hit.ray_length);
                     // Where the ray only grazes a crest the steps may have missed it.
                     assert!(
-                        hit.side.is_some() || above(hit.way).abs() < 0.02,
+                        hit.side.is_some() || above(hit.ray_length).abs() < 0.02,
                         "ray {at}: {} m off",
-                        above(hit.way)
+                        above(hit.ray_length)
                     );
-                    assert!(hit.way > stepped - 0.1 || above(hit.way + 0.02) < 0.02, "ray {at}");
+                    assert!(
+                        hit.ray_length > stepped - 0.1 || above(hit.ray_length + 0.02) < 0.02,
+                        "ray {at}"
+                    );
                 }
                 (None, None) => {}
                 (None, Some(hit)) => {
-                    assert!(above(hit.way).abs() < 0.02 || ray.at(hit.way)[2] < 0.0, "ray {at}");
+                    assert!(
+                        above(hit.ray_length).abs() < 0.02 || ray.at(hit.ray_length)[2] < 0.0,
+                        "ray {at}"
+                    );
                 }
                 (Some(stepped), None) => {
                     assert!(ray.at(stepped)[2] < ground.base, "ray {at} missed the ground at {stepped} m");
@@ -215,7 +223,7 @@ mod tests {
             // Height = 0.2 east + 0.1 south of the centre of the first cell.
             let rise = |v: Vector| 0.2 * v[0] - 0.1 * v[1] - v[2];
             let expected = -(rise(ray.from) - 1.5) / rise(ray.direction);
-            assert!((hit.way - expected).abs() < 0.03, "{} m instead of {expected} m", hit.way);
+            assert!((hit.ray_length - expected).abs() < 0.03, "{} m instead of {expected} m", hit.ray_length);
         }
     }
 
@@ -238,16 +246,16 @@ mod tests {
     #[test]
     fn what_has_no_data_is_never_met() {
         let size = Size::square(24).expect("small");
-        let is_land =
+        let is_valid =
             |x: usize, y: usize| (x as f32 - 11.5).hypot(y as f32 - 11.5) < 8.0 && (x, y) != (12, 12);
-        let land = Field::from_function(size, |x, y| f32::from(u8::from(is_land(x, y))));
+        let land = Field::from_function(size, |x, y| f32::from(u8::from(is_valid(x, y))));
         let ground = terrain(24, |x, y| 60.0 * random(9, (24 * y + x) as i64), Some(&land));
         let (mut met, mut sides) = (0, 0);
         for at in 0..400 {
             let Some(hit) = ground.trace(&ray(24, at), [0.0, f32::INFINITY]) else { continue };
             met += 1;
             sides += usize::from(hit.side.is_some());
-            assert!(ground.is_land(hit.place), "ray {at} met {:?}", hit.place);
+            assert!(ground.is_valid(hit.place), "ray {at} met {:?}", hit.place);
         }
         assert!(met > 60 && sides > 10, "{met} met, {sides} of them sides");
     }

@@ -20,7 +20,7 @@ pub(super) const CURVE: [f32; 5] = [0.024_578_6, -0.000_090_537, 0.983_729, 0.43
 /// Radiance, before the curve, of a white surface in full light.
 const WHITE: f32 = 1.5;
 
-/// How far the picture's white follows the colour of the light on level ground, 0 to 1.
+/// How far the picture's white follows the colour of the light on flat ground, 0 to 1.
 const ADAPTATION: f32 = 0.75;
 
 /// The most, in surfaces that are drawn as white, that one ray counts.
@@ -33,7 +33,7 @@ pub(super) struct Tone {
 }
 
 impl Tone {
-    /// The exposure for that light on level ground, brighter by so many stops.
+    /// The exposure for that light on flat ground, brighter by so many stops.
     pub(super) fn new(light: Vector, stops: f64) -> Self {
         let mean = luminance(light).max(1e-6);
         let exposure = WHITE * std::f32::consts::PI / mean * libm::exp2(stops) as f32;

@@ -32,17 +32,17 @@ const BANKFULL: f32 = 2.7;
 const BANKFULL_GROWTH: f32 = 0.4;
 
 /// Share of light that water mirrors at right angles.
-const MIRRORED: f32 = 0.02;
+const NORMAL_REFLECTANCE: f32 = 0.02;
 
 /// Light that clear and deep water sends back, and how fast a metre of it swallows the light of the bed.
 pub(super) const BODY: Vector = [0.016, 0.052, 0.058];
-pub(super) const SWALLOWED: Vector = [0.42, 0.13, 0.11];
+pub(super) const ABSORPTION: Vector = [0.42, 0.13, 0.11];
 
 /// Mean square of the slopes of ripples too small to be seen.
 const ROUGHNESS: f32 = 0.006;
 
 /// Share of light that is mirrored at right angles, and roughness, as shaders get them.
-pub(super) const OPTICS: [f32; 2] = [MIRRORED, ROUGHNESS];
+pub(super) const OPTICS: [f32; 2] = [NORMAL_REFLECTANCE, ROUGHNESS];
 
 /// Levels of lakes in metres: below the ground where it is dry. `None` without a lake.
 pub(super) fn levels(landscape: &Landscape, ground: &Field) -> Option<Field> {
@@ -51,7 +51,7 @@ pub(super) fn levels(landscape: &Landscape, ground: &Field) -> Option<Field> {
     let lakes = lakes::depths(water, domain)?;
     let (size, cell) = (ground.size(), domain.cell as f32);
     let is_wet = |at: usize| {
-        let land = domain.land.as_ref().is_none_or(|land| land.is_land_at(at));
+        let land = domain.valid.as_ref().is_none_or(|valid| valid.is_valid_at(at));
         land && water.values()[at] >= SHALLOW * cell
     };
     let surface = |at: usize| ground.values()[at] + water.values()[at];
@@ -151,7 +151,7 @@ pub(super) fn mirrored_share(cosine: f32) -> f32 {
     let grazing = 1.0 - cosine.clamp(0.0, 1.0);
     let square = grazing * grazing;
     // Seen from low down, the sides of ripples that face the eye mirror less than level water would.
-    let fresnel = MIRRORED + (1.0 - MIRRORED) * square * square * grazing;
+    let fresnel = NORMAL_REFLECTANCE + (1.0 - NORMAL_REFLECTANCE) * square * square * grazing;
     fresnel / (1.0 + 9.0 * ROUGHNESS.sqrt() * square * square)
 }
 
@@ -168,7 +168,7 @@ pub(super) fn glint(towards_eye: Vector, normal: Vector, sun: Vector) -> f32 {
 
 /// Light that comes out of water of a depth over a bed, for the light that falls on it.
 pub(super) fn body(bed: Vector, depth: f32, light: Vector) -> Vector {
-    let through = SWALLOWED.map(|swallowed| libm::expf(-2.0 * swallowed * depth));
+    let through = ABSORPTION.map(|swallowed| libm::expf(-2.0 * swallowed * depth));
     let shallow = filter(scale(bed, 0.7), through);
     let deep = filter(BODY, through.map(|through| 1.0 - through));
     scale(filter(add(shallow, deep), light), std::f32::consts::FRAC_1_PI)
@@ -204,7 +204,7 @@ mod tests {
 
     #[test]
     fn grazing_rays_are_mirrored_and_steep_ones_enter() {
-        assert!((mirrored_share(1.0) - MIRRORED).abs() < 1e-6);
+        assert!((mirrored_share(1.0) - NORMAL_REFLECTANCE).abs() < 1e-6);
         assert!(mirrored_share(0.05) > 0.4 && mirrored_share(0.5) < 0.06);
     }
 }

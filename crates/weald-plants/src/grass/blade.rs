@@ -6,8 +6,8 @@
 //! trodden one lies down. The shader `grass.wgsl` has the same names and the same order of operations.
 
 use super::curves::mix;
-use super::growth::{Bend, Growth, LEVELS, MOST_BEND, Point, points};
-use super::lots::{direction, lot};
+use super::growth::{Bend, Growth, LEVELS, MAX_BEND, Point, points};
+use super::random::{direction, random};
 use super::species::Species;
 use super::spline::Spline;
 
@@ -92,19 +92,19 @@ impl Set {
     /// The direction of its first blade in turns, 0 to 1, clockwise from east seen from above.
     #[inline]
     pub fn turns(&self) -> f32 {
-        lot(self.seed, 0, YAW)
+        random(self.seed, 0, YAW)
     }
 
     /// Where in a gust it is, 0 to 1: neighbours do not sway as one.
     #[inline]
     pub fn phase(&self) -> f32 {
-        lot(self.seed, 0, PHASE)
+        random(self.seed, 0, PHASE)
     }
 
     /// Its place among its neighbours, 0 to 1: where sets are left out, those of the highest rank go first.
     #[inline]
     pub fn rank(&self) -> f32 {
-        lot(self.seed, 0, RANK)
+        random(self.seed, 0, RANK)
     }
 
     /// The height in metres that its blades have on the average, but for chance.
@@ -120,26 +120,26 @@ impl Blade {
     /// A blade of a set, by its number from 0 to 5.
     #[inline]
     pub fn of(species: &Species, tuft: &Set, number: u32, bend: Bend) -> Self {
-        let lot = |purpose| lot(tuft.seed, number, purpose);
+        let random = |purpose| random(tuft.seed, number, purpose);
         let growth = Growth::at(&species.curves, tuft.soil, tuft.light);
         let stalk = number < species.heads;
-        let tall = (1.0 - species.variation * lot(HEIGHT)) * if stalk { species.stalk } else { 1.0 };
-        let lean = 1.0 + species.variation * (lot(LEAN) - 0.5);
-        let turn = (growth.bend * species.bending * lean).clamp(0.0, MOST_BEND) * bend.of_a_level();
+        let tall = (1.0 - species.variation * random(HEIGHT)) * if stalk { species.stalk } else { 1.0 };
+        let lean = 1.0 + species.variation * (random(LEAN) - 0.5);
+        let turn = (growth.bend * species.bending * lean).clamp(0.0, MAX_BEND) * bend.of_a_level();
         let stem = Spline::of(&points(growth.height, turn), tuft.level);
         let stem = trodden(stem, tuft.trodden);
         let scale = species.height * tall * (1.0 / LEVELS as f32);
         let limit = tuft.cut * species.top();
         let kept = (limit / (highest(&stem) * scale).max(1e-20)).min(1.0);
-        let place = direction(around(tuft.seed, number, lot(PLACE)));
-        let distance = species.spread * mix(0.25, 1.0, lot(DISTANCE));
+        let place = direction(around(tuft.seed, number, random(PLACE)));
+        let distance = species.spread * mix(0.25, 1.0, random(DISTANCE));
         let sprouted = tuft.level.clamp(0.0, 1.0);
         let ripe = (tuft.level - 3.0).clamp(0.0, 1.0) * growth.blend * kept;
         let width = growth.width * 4.0 * species.width * sprouted;
         Self {
             stem: Spline(stem.0.map(|[up, out]| [up * (scale * kept), out * (scale * kept)])),
             root: [place[0] * distance, place[1] * distance],
-            facing: direction(around(tuft.seed, number, lot(FACING))),
+            facing: direction(around(tuft.seed, number, random(FACING))),
             width: if stalk { width * STALK_WIDTH } else { width },
             taper: if stalk { 0.5 } else { species.taper },
             fold: species.fold,
@@ -211,8 +211,8 @@ pub fn rows(level: f32) -> usize {
 
 /// A direction of a blade in turns from 0 to 1: even around the set, but for chance.
 #[inline]
-fn around(seed: u32, number: u32, lot_of_blade: f32) -> f32 {
-    let turns = lot(seed, 0, YAW) + (number as f32 + lot_of_blade) * (1.0 / BLADES as f32);
+fn around(seed: u32, number: u32, random_of_blade: f32) -> f32 {
+    let turns = random(seed, 0, YAW) + (number as f32 + random_of_blade) * (1.0 / BLADES as f32);
     turns - turns.floor()
 }
 

@@ -12,7 +12,7 @@ use super::meadow::Meadow;
 use weald_core::grid::{Field, Size};
 
 /// Looks along a blade for its area.
-const LOOKS: usize = 6;
+const SAMPLES: usize = 6;
 
 /// The grass of a landscape as a whole.
 #[derive(Clone, Debug, PartialEq)]
@@ -53,9 +53,9 @@ impl Meadow {
     fn leaves(&self, cell: usize) -> [f32; 4] {
         let maps = &self.maps;
         let value = |map: &Option<Field>| map.as_ref().map_or(0.0, |map| map.values()[cell]);
-        let is_land = maps.land.as_ref().is_none_or(|land| land.is_land_at(cell));
+        let is_valid = maps.valid.as_ref().is_none_or(|valid| valid.is_valid_at(cell));
         let density = maps.density.values()[cell].clamp(0.0, 1.0);
-        if !is_land || density <= 0.0 || (maps.water.is_some() && value(&maps.water) > self.deepest) {
+        if !is_valid || density <= 0.0 || (maps.water.is_some() && value(&maps.water) > self.deepest) {
             return [0.0; 4];
         }
         let mut sum = [0.0; 4];
@@ -85,8 +85,8 @@ impl Meadow {
 
 /// Area of one side of a blade in square metres.
 fn area(blade: &Blade) -> f32 {
-    let step = 1.0 / LOOKS as f32;
-    (0..LOOKS)
+    let step = 1.0 / SAMPLES as f32;
+    (0..SAMPLES)
         .map(|look| {
             let along = (look as f32 + 0.5) * step;
             let (_, [rise, run]) = blade.stem.at(along);
@@ -103,7 +103,7 @@ mod tests {
     fn meadow(density: f32) -> Meadow {
         let size = Size::square(12).expect("small");
         let even = |value: f32| Field::filled(size, value);
-        let (land, water, mown, trodden) = (None, None, None, None);
+        let (valid, water, mown, trodden) = (None, None, None, None);
         let (density, soil, light) = (even(density), even(0.7), even(0.6));
         let shares = vec![even(0.4), even(1.0)];
         Meadow {
@@ -114,7 +114,7 @@ mod tests {
             level: LEVELS as f32,
             mown_height: 0.05,
             deepest: 0.0,
-            maps: Maps { cell: 2.0, land, density, soil, light, shares, water, mown, trodden },
+            maps: Maps { cell: 2.0, valid, density, soil, light, shares, water, mown, trodden },
         }
     }
 

@@ -54,7 +54,7 @@ uniform! {
 
 /// From where and whereto one looks: directions of length 1, and the tangents of half the angles of the picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sight {
+pub struct ViewCone {
     /// The eye.
     pub eye: [f32; 3],
     /// Ahead, rightward and upward.
@@ -77,7 +77,7 @@ impl Choice {
     }
 
     /// The list in which a set is drawn whose root is there; `None` where it is not.
-    pub fn list_of(&self, sight: &Sight, tuft: &Set, root: [f32; 3]) -> Option<usize> {
+    pub fn list_of(&self, sight: &ViewCone, tuft: &Set, root: [f32; 3]) -> Option<usize> {
         let distance = length(minus(root, sight.detail_from));
         let stands = self.height_share(tuft.rank(), distance) > 0.0;
         let seen = self.culled == 0 || sight.is_in_sight(minus(root, sight.eye), AROUND);
@@ -115,7 +115,7 @@ pub fn share(distance: f32) -> f32 {
     thinned * ((FARTHEST - distance) / (0.35 * FARTHEST)).clamp(0.0, 1.0)
 }
 
-impl Sight {
+impl ViewCone {
     /// Whether a ball of a radius around a point, seen from the eye, may be in the picture.
     pub fn is_in_sight(&self, away: [f32; 3], radius: f32) -> bool {
         let [depth, right, up] = self.axes.map(|axis| dot(away, axis));
@@ -141,7 +141,7 @@ fn length(v: [f32; 3]) -> f32 {
 mod tests {
     use super::*;
 
-    const AHEAD: Sight = Sight {
+    const AHEAD: ViewCone = ViewCone {
         eye: [0.0; 3],
         axes: [[0.0, 1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]],
         half: [1.0, 0.5],

@@ -5,7 +5,7 @@
 
 use super::blade::Vertex;
 use super::growth::Bend;
-use super::species::{MOST_SPECIES, ROWS, Species};
+use super::species::{MAX_SPECIES, ROWS, Species};
 use crate::ifs::shader::Shader;
 use weald_engine::uniform::Uniform;
 
@@ -19,14 +19,14 @@ pub const GROW: Shader = Shader {
     name: "grow",
     text: &[include_str!("grass.wgsl"), include_str!("grow.wgsl")],
     group: 64,
-    uniforms: &["grasses", "stretch"],
+    uniforms: &["grasses", "range"],
     buffers: &[("sets", false), ("corners", false), ("places", true), ("normals", true)],
 };
 
 /// What a device knows of all grass.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Grasses {
-    species: [[f32; 4]; MOST_SPECIES * ROWS],
+    species: [[f32; 4]; MAX_SPECIES * ROWS],
     level_turn: f32,
 }
 
@@ -34,9 +34,9 @@ impl Grasses {
     /// These species, by their numbers.
     ///
     /// # Panics
-    /// With more than [`MOST_SPECIES`]: a bug of the caller.
+    /// With more than [`MAX_SPECIES`]: a bug of the caller.
     pub fn new<'a>(species: impl IntoIterator<Item = &'a Species>, bend: Bend) -> Self {
-        let mut rows = [[0.0; 4]; MOST_SPECIES * ROWS];
+        let mut rows = [[0.0; 4]; MAX_SPECIES * ROWS];
         for (number, species) in species.into_iter().enumerate() {
             rows[number * ROWS..(number + 1) * ROWS].copy_from_slice(&species.rows());
         }
@@ -48,7 +48,7 @@ impl Uniform for Grasses {
     const NAME: &'static str = "Grasses";
 
     fn fields() -> Vec<(&'static str, &'static str)> {
-        const _: () = assert!(MOST_SPECIES * ROWS == 144, "the type of the field below");
+        const _: () = assert!(MAX_SPECIES * ROWS == 144, "the type of the field below");
         vec![("species", "array<vec4<f32>, 144>"), ("level_turn", "f32")]
     }
 

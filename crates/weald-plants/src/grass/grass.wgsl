@@ -1,8 +1,8 @@
-// A blade of grass from an instance: the twin of curves.rs, growth.rs, lots.rs, spline.rs and blade.rs, with the same names
-// and the same order of operations. It needs a binding `var<uniform> grasses: Grasses`.
+// A blade of grass from an instance: the twin of curves.rs, growth.rs, random.rs, spline.rs and blade.rs, with the same
+// names and the same order of operations. It needs a binding `var<uniform> grasses: Grasses`.
 
 const JOINT: f32 = 0.3;
-const MOST_BEND: f32 = 1.0471976;
+const MAX_BEND: f32 = 1.0471976;
 const BEND_OF_GAMMA: f32 = 0.5983986;
 const BLADES: u32 = 6u;
 const ROWS: u32 = 9u;
@@ -102,7 +102,7 @@ fn mixed(a: vec2<f32>, b: vec2<f32>, t: f32) -> vec2<f32> {
     return a * (1.0 - t) + b * t;
 }
 
-fn half_way(a: vec2<f32>, b: vec2<f32>) -> vec2<f32> {
+fn midpoint(a: vec2<f32>, b: vec2<f32>) -> vec2<f32> {
     return (a + b) * 0.5;
 }
 
@@ -112,7 +112,7 @@ fn scrambled(number: u32) -> u32 {
     return (word >> 22u) ^ word;
 }
 
-fn lot(seed: u32, blade: u32, purpose: u32) -> f32 {
+fn random(seed: u32, blade: u32, purpose: u32) -> f32 {
     let bits = scrambled(scrambled(seed) ^ (blade * 16u + purpose));
     return f32(bits >> 8u) * (1.0 / 16777216.0);
 }
@@ -167,7 +167,7 @@ fn growth_of(soil: f32, wide: f32, tall: f32) -> Growth {
     let height = (soil + tall) * 0.5;
     let gamma = height - width + tall;
     let blend = (soil + (wide + tall) * 0.5) * 0.5;
-    return Growth(width, height, clamp(gamma * BEND_OF_GAMMA, 0.0, MOST_BEND), blend);
+    return Growth(width, height, clamp(gamma * BEND_OF_GAMMA, 0.0, MAX_BEND), blend);
 }
 
 fn points(height: f32, turn: f32) -> Spline {
@@ -211,14 +211,14 @@ fn at_level(p: Spline, level: u32) -> Spline {
 }
 
 fn halved(a: vec2<f32>, b: vec2<f32>, c: vec2<f32>, d: vec2<f32>) -> Spline {
-    return Spline(a, half_way(a, b), half_way(b, c), half_way(c, d), d);
+    return Spline(a, midpoint(a, b), midpoint(b, c), midpoint(c, d), d);
 }
 
 // The point, then the derivative.
 fn stem_at(stem: Spline, t: f32) -> vec4<f32> {
-    let before = half_way(stem.b, stem.c);
-    let behind = half_way(stem.c, stem.d);
-    let middle = half_way(before, behind);
+    let before = midpoint(stem.b, stem.c);
+    let behind = midpoint(stem.c, stem.d);
+    let middle = midpoint(before, behind);
     let doubled = t + t;
     if t < 0.5 {
         return cubic(stem.a, stem.b, before, middle, doubled);
@@ -235,19 +235,19 @@ fn cubic(a: vec2<f32>, b: vec2<f32>, c: vec2<f32>, d: vec2<f32>, t: f32) -> vec4
     return vec4<f32>(mixed(abc, bcd, t), 6.0 * (bcd - abc));
 }
 
-fn around(seed: u32, number: u32, lot_of_blade: f32) -> f32 {
-    let turns = lot(seed, 0u, YAW) + (f32(number) + lot_of_blade) * (1.0 / f32(BLADES));
+fn around(seed: u32, number: u32, random_of_blade: f32) -> f32 {
+    let turns = random(seed, 0u, YAW) + (f32(number) + random_of_blade) * (1.0 / f32(BLADES));
     return turns - floor(turns);
 }
 
 // Where in a gust a set is: neighbours do not sway as one.
 fn phase_of(tuft: Set) -> f32 {
-    return lot(tuft.seed, 0u, PHASE);
+    return random(tuft.seed, 0u, PHASE);
 }
 
 // Its place among its neighbours: where sets are left out, those of the highest rank go first.
 fn rank_of(tuft: Set) -> f32 {
-    return lot(tuft.seed, 0u, RANK);
+    return random(tuft.seed, 0u, RANK);
 }
 
 fn trodden_point(point: vec2<f32>, upright: f32, lying: f32) -> vec2<f32> {
@@ -278,15 +278,15 @@ fn blade_of(species: u32, tuft: Set, number: u32) -> Blade {
     let stalk_height = row_of(species, 6u).w;
     let height = row_of(species, 0u).w;
     let stalk = number < u32(row_of(species, 7u).w);
-    let tall = (1.0 - shape.w * lot(tuft.seed, number, HEIGHT)) * select(1.0, stalk_height, stalk);
-    let lean = 1.0 + shape.w * (lot(tuft.seed, number, LEAN) - 0.5);
-    let turn = clamp(growth.bend * row_of(species, 5u).w * lean, 0.0, MOST_BEND) * grasses.level_turn;
+    let tall = (1.0 - shape.w * random(tuft.seed, number, HEIGHT)) * select(1.0, stalk_height, stalk);
+    let lean = 1.0 + shape.w * (random(tuft.seed, number, LEAN) - 0.5);
+    let turn = clamp(growth.bend * row_of(species, 5u).w * lean, 0.0, MAX_BEND) * grasses.level_turn;
     let stem = trodden(stem_of(points(growth.height, turn), tuft.level), tuft.trodden);
     let scale = height * tall * 0.25;
     let limit = tuft.cut * (height * max(stalk_height, 1.0));
     let kept = min(limit / max(highest(stem) * scale, 1e-20), 1.0);
-    let place = direction(around(tuft.seed, number, lot(tuft.seed, number, PLACE)));
-    let distance = widths.z * blended(0.25, 1.0, lot(tuft.seed, number, DISTANCE));
+    let place = direction(around(tuft.seed, number, random(tuft.seed, number, PLACE)));
+    let distance = widths.z * blended(0.25, 1.0, random(tuft.seed, number, DISTANCE));
     let sprouted = clamp(tuft.level, 0.0, 1.0);
     let ripe = clamp(tuft.level - 3.0, 0.0, 1.0) * growth.blend * kept;
     let width = growth.width * 4.0 * widths.y * sprouted;
@@ -294,7 +294,7 @@ fn blade_of(species: u32, tuft: Set, number: u32) -> Blade {
     return Blade(
         Spline(stem.a * metres, stem.b * metres, stem.c * metres, stem.d * metres, stem.e * metres),
         place * distance,
-        direction(around(tuft.seed, number, lot(tuft.seed, number, FACING))),
+        direction(around(tuft.seed, number, random(tuft.seed, number, FACING))),
         select(width, width * STALK_WIDTH, stalk),
         select(shape.y, 0.5, stalk),
         shape.z,

@@ -14,14 +14,14 @@
 //! [`Bend::Printed`] keeps the source's. Spread is given to the root alone, not once more at each level.
 
 use super::curves::Curves;
-use super::lots::{cosine, sine};
+use super::random::{cosine, sine};
 use weald_core::choices;
 
 /// Levels of growth.
 pub const LEVELS: usize = 4;
 
 /// The greatest bend, π/3.
-pub const MOST_BEND: f32 = std::f32::consts::FRAC_PI_3;
+pub const MAX_BEND: f32 = std::f32::consts::FRAC_PI_3;
 
 /// Radians of bend for each unit of γ: π / 1.75 / 3.
 pub const BEND_OF_GAMMA: f32 = 0.598_398_6;
@@ -77,7 +77,7 @@ impl Growth {
         let height = (soil + tall) * 0.5;
         let gamma = height - width + tall;
         let blend = (soil + (wide + tall) * 0.5) * 0.5;
-        Self { width, height, bend: (gamma * BEND_OF_GAMMA).clamp(0.0, MOST_BEND), blend }
+        Self { width, height, bend: (gamma * BEND_OF_GAMMA).clamp(0.0, MAX_BEND), blend }
     }
 
     /// The points of the stem: the root, and the tip of each level.

@@ -45,7 +45,7 @@ pub struct Maps {
     /// Side of a cell in metres.
     pub cell: f64,
     /// Cells with data; `None` where all have.
-    pub land: Option<Mask>,
+    pub valid: Option<Mask>,
     /// Density of sets, 0 to 1.
     pub density: Field,
     /// How good the soil is, 0 to 1.
@@ -79,7 +79,7 @@ const RANK_OF_COLUMN: u32 = 3_242_174_889;
 const RANK_OF_ROW: u32 = 2_447_445_414;
 
 /// Squares of a task.
-const SQUARES_A_TASK: usize = 1 << 14;
+const SQUARES_PER_TASK: usize = 1 << 14;
 
 impl Meadow {
     /// The whole ground.
@@ -100,7 +100,7 @@ impl Meadow {
         }
         let columns = square(low.0)..square(low.1) + 1;
         let (first, last) = (square(high.0), square(high.1));
-        let at_once = SQUARES_A_TASK.div_ceil((columns.end - columns.start) as usize);
+        let at_once = SQUARES_PER_TASK.div_ceil((columns.end - columns.start) as usize);
         let of_row = |row: usize| {
             let (row, mut sets) = (Row::of(self, first + row as i64), Vec::new());
             sets.extend(columns.clone().filter_map(|column| row.set(column)).filter(|set| area.holds(set)));
@@ -147,13 +147,13 @@ struct Row<'a> {
     /// The hash of the seed and the row: with a column it makes [`hash2`](weald_core::random::hash2).
     key: u64,
     side: f64,
-    cells_a_metre: f64,
+    cells_per_metre: f64,
 }
 
 impl<'a> Row<'a> {
     fn of(meadow: &'a Meadow, number: i64) -> Self {
         let key = splitmix64(splitmix64(meadow.seed) ^ number as u64);
-        Self { meadow, number, key, side: meadow.side(), cells_a_metre: 1.0 / meadow.maps.cell }
+        Self { meadow, number, key, side: meadow.side(), cells_per_metre: 1.0 / meadow.maps.cell }
     }
 
     /// The set of a square.
@@ -164,7 +164,7 @@ impl<'a> Row<'a> {
         let off = |shift: u32| 0.5 + JITTER * (f64::from((bits >> shift) as u16) / 65536.0 - 0.5);
         let place = [(column as f64 + off(0)) * self.side, (self.number as f64 + off(16)) * self.side];
         let place = place.map(|along| along as f32);
-        let corners = Corners::around(maps.density.size(), self.cells_a_metre, place)?;
+        let corners = Corners::around(maps.density.size(), self.cells_per_metre, place)?;
         if rank(column, self.number) >= corners.value(&maps.density) || !maps.bears(&corners, meadow.deepest)
         {
             return None;
@@ -208,8 +208,8 @@ struct Corners {
 impl Corners {
     /// The cells around a place, none beyond the outermost centres: grass stands on the mesh of the centres.
     #[inline]
-    fn around(size: Size, cells_a_metre: f64, place: [f32; 2]) -> Option<Self> {
-        let [u, v] = place.map(|along| f64::from(along) * cells_a_metre - 0.5);
+    fn around(size: Size, cells_per_metre: f64, place: [f32; 2]) -> Option<Self> {
+        let [u, v] = place.map(|along| f64::from(along) * cells_per_metre - 0.5);
         if u < 0.0 || v < 0.0 || u >= (size.columns - 1) as f64 || v >= (size.rows - 1) as f64 {
             return None;
         }
@@ -233,8 +233,8 @@ impl Maps {
     /// Whether all cells around are ground, and water is no deeper there.
     #[inline]
     fn bears(&self, corners: &Corners, deepest: f32) -> bool {
-        let is_land = |land: &Mask| corners.cells.iter().all(|&cell| land.is_land_at(cell));
-        self.land.as_ref().is_none_or(is_land)
+        let is_valid = |valid: &Mask| corners.cells.iter().all(|&cell| valid.is_valid_at(cell));
+        self.valid.as_ref().is_none_or(is_valid)
             && self.water.as_ref().is_none_or(|water| corners.value(water) <= deepest)
     }
 
@@ -246,13 +246,14 @@ impl Maps {
             return 0;
         };
         let bits = splitmix64(bits);
-        let lot = |shift: u32| f32::from((bits >> shift) as u16) * (1.0 / 65536.0);
-        let drawn = usize::from(lot(0) < corners.along[0]) + 2 * usize::from(lot(16) < corners.along[1]);
+        let random = |shift: u32| f32::from((bits >> shift) as u16) * (1.0 / 65536.0);
+        let drawn =
+            usize::from(random(0) < corners.along[0]) + 2 * usize::from(random(16) < corners.along[1]);
         // The drawn cell may have no grass where its neighbour has.
         let grows = |cell: &usize| last.values()[*cell] > 0.0;
         let cell = [0, 1, 2, 3].map(|turn| corners.cells[drawn ^ turn]).into_iter().find(grows);
         let Some(cell) = cell else { return 0 };
-        let chosen = lot(32);
+        let chosen = random(32);
         self.shares.iter().position(|share| chosen < share.values()[cell]).unwrap_or(self.shares.len() - 1)
     }
 }

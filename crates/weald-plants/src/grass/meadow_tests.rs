@@ -25,7 +25,7 @@ fn meadow(density: impl FnMut(usize, usize) -> f32) -> Meadow {
         deepest: 0.1,
         maps: Maps {
             cell: 2.0,
-            land: None,
+            valid: None,
             density: field(density),
             soil: field(|x, _| x as f32 / 19.0),
             light: field(|_, y| y as f32 / 19.0),
@@ -88,7 +88,7 @@ fn soil_light_and_species_are_those_of_the_place() {
 fn nothing_grows_in_deep_water_beyond_the_ground_or_where_there_is_no_density() {
     let mut wet = meadow(|x, _| if x < 5 { 0.0 } else { 1.0 });
     wet.maps.water = Some(field(|_, y| if y < 10 { 0.0 } else { 1.0 }));
-    wet.maps.land =
+    wet.maps.valid =
         Mask::new(Size::square(SIDE).expect("small"), (0..400).map(|cell| cell % 20 != 15).collect());
     let sets = wet.sets(&wet.area());
     assert!(sets.len() > 500, "{}", sets.len());

@@ -11,10 +11,10 @@ pub mod curves;
 pub mod device;
 pub mod growth;
 pub mod instance;
-mod lots;
 pub mod meadow;
 #[cfg(test)]
 mod meadow_tests;
+mod random;
 pub mod species;
 pub mod spline;
 #[cfg(test)]
@@ -22,7 +22,7 @@ mod tests;
 
 pub use blade::{BLADES, Blade, Set, Vertex};
 pub use canopy::Canopy;
-pub use choice::{Choice, Sight};
+pub use choice::{Choice, ViewCone};
 pub use curves::{Curves, LightCurve, SoilCurve};
 pub use device::Grasses;
 pub use growth::{Bend, Growth, LEVELS};

@@ -47,7 +47,7 @@ pub struct Species {
 pub const ROWS: usize = 9;
 
 /// Most species of a landscape: what four bits of an instance can name.
-pub const MOST_SPECIES: usize = 16;
+pub const MAX_SPECIES: usize = 16;
 
 /// The built-in species.
 pub static SPECIES: [Species; 5] = [

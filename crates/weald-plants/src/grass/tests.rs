@@ -4,7 +4,7 @@ use proptest::prelude::*;
 
 use super::blade::rows;
 use super::curves::{Curves, JOINT, LightCurve, SoilCurve};
-use super::growth::{Bend, Growth, LEVELS, MOST_BEND, points};
+use super::growth::{Bend, Growth, LEVELS, MAX_BEND, points};
 use super::spline::{Spline, clamped};
 use super::{BLADES, Blade, Instance, SPECIES, Set, Species};
 
@@ -80,7 +80,7 @@ fn the_bend_before_its_clamp_leaves_the_range_that_the_source_claims() {
     };
     assert!((bend(0.0, 1.0, 0.0) + 4.29).abs() < 0.01 && (bend(1.0, 0.0, 1.0) - 64.29).abs() < 0.01);
     assert!((bend(1.0, 1.0, 1.0) - 60.0).abs() < 0.01);
-    assert_eq!((Growth::of(0.0, 1.0, 0.0).bend, Growth::of(1.0, 0.0, 1.0).bend), (0.0, MOST_BEND));
+    assert_eq!((Growth::of(0.0, 1.0, 0.0).bend, Growth::of(1.0, 0.0, 1.0).bend), (0.0, MAX_BEND));
 }
 
 #[test]
@@ -141,7 +141,7 @@ proptest! {
         let growth = Growth::of(soil, wide, tall);
         prop_assert!((0.0..=0.25).contains(&growth.width), "{growth:?}");
         prop_assert!((0.0..=1.0).contains(&growth.height), "{growth:?}");
-        prop_assert!((0.0..=MOST_BEND).contains(&growth.bend), "{growth:?}");
+        prop_assert!((0.0..=MAX_BEND).contains(&growth.bend), "{growth:?}");
         prop_assert!((0.0..=1.0).contains(&growth.blend), "{growth:?}");
     }
 
@@ -183,7 +183,7 @@ proptest! {
 
     #[test]
     fn a_spline_is_the_defined_one_at_whole_levels(
-        height in share(), turn in 0.0..=MOST_BEND, level in 1..=LEVELS, t in share(),
+        height in share(), turn in 0.0..=MAX_BEND, level in 1..=LEVELS, t in share(),
     ) {
         let points = points(height, turn);
         let (one, other) = (Spline::of(&points, level as f32).at(t).0, clamped(&points[..=level], t));
@@ -191,7 +191,7 @@ proptest! {
     }
 
     #[test]
-    fn a_stem_begins_and_ends_in_its_end_points(height in share(), turn in 0.0..=MOST_BEND, level in 1..=LEVELS) {
+    fn a_stem_begins_and_ends_in_its_end_points(height in share(), turn in 0.0..=MAX_BEND, level in 1..=LEVELS) {
         let points = points(height, turn);
         let spline = Spline::of(&points, level as f32);
         prop_assert_eq!([spline.at(0.0).0, spline.at(1.0).0], [points[0], points[level]]);
@@ -199,10 +199,10 @@ proptest! {
 
     #[test]
     fn a_stem_lies_within_the_convex_hull_of_its_points(
-        height in share(), turn in 0.0..=MOST_BEND, level in 1..=LEVELS, t in share(), turns in 0.0..1.0_f32,
+        height in share(), turn in 0.0..=MAX_BEND, level in 1..=LEVELS, t in share(), turns in 0.0..1.0_f32,
     ) {
         let points = points(height, turn);
-        let [x, y] = super::lots::direction(turns);
+        let [x, y] = super::random::direction(turns);
         let extent = |point: &[f32; 2]| x * point[0] + y * point[1];
         let farthest = points[..=level].iter().map(extent).fold(f32::NEG_INFINITY, f32::max);
         let found = extent(&Spline::of(&points, level as f32).at(t).0);
@@ -211,7 +211,7 @@ proptest! {
 
     #[test]
     fn a_stem_grows_without_a_jump(
-        height in share(), turn in 0.0..=MOST_BEND, level in 0.0..=4.0_f32, step in 0.0..1e-3_f32, t in share(),
+        height in share(), turn in 0.0..=MAX_BEND, level in 0.0..=4.0_f32, step in 0.0..1e-3_f32, t in share(),
     ) {
         let points = points(height, turn);
         let [one, other] = [level, (level + step).min(4.0)].map(|level| Spline::of(&points, level).at(t).0);
@@ -220,7 +220,7 @@ proptest! {
     }
 
     #[test]
-    fn a_slope_is_that_of_the_stem(height in 0.2..=1.0_f32, turn in 0.0..=MOST_BEND, level in 1.0..=4.0_f32, t in 0.01..0.99_f32) {
+    fn a_slope_is_that_of_the_stem(height in 0.2..=1.0_f32, turn in 0.0..=MAX_BEND, level in 1.0..=4.0_f32, t in 0.01..0.99_f32) {
         let spline = Spline::of(&points(height, turn), level);
         let (near, slope) = (1e-3, spline.at(t).1);
         let (before, behind) = (spline.at(t - near).0, spline.at(t + near).0);
@@ -257,10 +257,10 @@ proptest! {
         let [low, high, left] = [at(along - 0.01), at(along + 0.01), blade.vertex(along, -1.0)];
         let normal = at(along).normal;
         for (from, to) in [(low, high), (left, at(along))] {
-            let way: [f32; 3] = std::array::from_fn(|i| to.place[i] - from.place[i]);
-            let length = way.iter().map(|part| part * part).sum::<f32>().sqrt();
-            let across: f32 = (0..3).map(|i| way[i] * normal[i]).sum::<f32>() / length;
-            prop_assert!(across.abs() < 0.12, "{across} of {way:?} is along {normal:?}");
+            let edge: [f32; 3] = std::array::from_fn(|i| to.place[i] - from.place[i]);
+            let length = edge.iter().map(|part| part * part).sum::<f32>().sqrt();
+            let across: f32 = (0..3).map(|i| edge[i] * normal[i]).sum::<f32>() / length;
+            prop_assert!(across.abs() < 0.12, "{across} of {edge:?} is along {normal:?}");
         }
     }
 

@@ -12,7 +12,7 @@ use super::map::{Map, Point, distance};
 use super::system::Ifs;
 
 /// Parts that are opened before a point counts as not found.
-const MOST_PARTS: usize = 1_000_000;
+const MAX_PARTS: usize = 1_000_000;
 
 /// The code of the point of the fractal nearest to `point`, and that distance, which is 0 to the precision of the
 /// code for points of the fractal. The code is as long as those of the fractal's points. `None` where `point` lies
@@ -21,10 +21,10 @@ pub fn code_of(ifs: &Ifs, point: Point, tolerance: f64) -> Option<(Code, f64)> {
     let (centre, radius) = ifs.ball();
     let near = |map: Map, code: Code| {
         let at_least = (distance(map.at(centre), point) - map.ratio() * radius).max(0.0);
-        Near { at_least, code, map }
+        QueuedPart { at_least, code, map }
     };
     let mut queue = BinaryHeap::from([near(Map::IDENTITY, Code::empty(ifs.digits()))]);
-    for _ in 0..MOST_PARTS {
+    for _ in 0..MAX_PARTS {
         let part = queue.pop()?;
         if part.at_least > tolerance {
             return None;
@@ -42,27 +42,27 @@ pub fn code_of(ifs: &Ifs, point: Point, tolerance: f64) -> Option<(Code, f64)> {
 
 /// A part, in the order in which parts are opened: the nearest, and of equally near ones the longest code.
 #[derive(Clone, Copy, Debug)]
-struct Near {
+struct QueuedPart {
     at_least: f64,
     code: Code,
     map: Map,
 }
 
-impl PartialEq for Near {
+impl PartialEq for QueuedPart {
     fn eq(&self, other: &Self) -> bool {
         self.cmp(other) == Ordering::Equal
     }
 }
 
-impl Eq for Near {}
+impl Eq for QueuedPart {}
 
-impl PartialOrd for Near {
+impl PartialOrd for QueuedPart {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         Some(self.cmp(other))
     }
 }
 
-impl Ord for Near {
+impl Ord for QueuedPart {
     fn cmp(&self, other: &Self) -> Ordering {
         let nearer = other.at_least.total_cmp(&self.at_least);
         nearer.then(self.code.len().cmp(&other.code.len())).then(other.code.cmp(&self.code))

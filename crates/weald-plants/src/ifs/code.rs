@@ -11,7 +11,7 @@ use std::fmt;
 const BITS: usize = 256;
 
 /// Most maps of a fractal: a digit then takes eight bits, and a code holds 32.
-pub const MOST_MAPS: usize = 256;
+pub const MAX_MAPS: usize = 256;
 
 /// The digits of a fractal with so many maps.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -21,13 +21,13 @@ pub struct Digits {
 }
 
 impl Digits {
-    /// Digits 0 to `maps - 1`, of 1, 2, 4 or 8 bits; `None` without maps or beyond [`MOST_MAPS`].
+    /// Digits 0 to `maps - 1`, of 1, 2, 4 or 8 bits; `None` without maps or beyond [`MAX_MAPS`].
     pub fn of(maps: usize) -> Option<Self> {
         let bits = match maps {
             1..=2 => 1,
             3..=4 => 2,
             5..=16 => 4,
-            17..=MOST_MAPS => 8,
+            17..=MAX_MAPS => 8,
             _ => return None,
         };
         Some(Self { maps: maps as u16, bits })

@@ -18,13 +18,13 @@ pub const PLAY: Shader = Shader {
     name: "play",
     text: &[include_str!("game.wgsl")],
     group: LANES as u32,
-    uniforms: &["rules", "stretch"],
+    uniforms: &["rules", "range"],
     buffers: &[("maps", false), ("bounds", false), ("keys", false), ("rests", true), ("codes", true)],
 };
 
 uniform! {
     /// What a dispatch works on.
-    pub struct Stretch {
+    pub struct DispatchRange {
         /// Workgroup with which it begins.
         pub first: u32,
         /// Points of the buffers.
@@ -58,7 +58,7 @@ uniform! {
 const FORGOTTEN: f64 = 1.0 / (1 << 25) as f64;
 
 /// Least points of a segment: enough to be worth the steps before them.
-const LEAST_SEGMENT: usize = 64;
+const MIN_SEGMENT: usize = 64;
 
 impl Game<'_> {
     /// The rules as a shader is given them; `coded` where codes are wanted.
@@ -75,7 +75,7 @@ impl Game<'_> {
             bits: bits as u32,
             history: history as u32,
             forgotten: forgotten as u32,
-            segment: forgotten.next_power_of_two().clamp(LEAST_SEGMENT, STEPS) as u32,
+            segment: forgotten.next_power_of_two().clamp(MIN_SEGMENT, STEPS) as u32,
             coded: u32::from(coded),
         }
     }

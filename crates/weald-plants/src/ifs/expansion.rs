@@ -11,7 +11,7 @@ use super::system::Ifs;
 use weald_core::error::Error;
 
 /// Most parts of one expansion: 5 GiB of points with their codes.
-pub const MOST_PARTS: u64 = 1 << 26;
+pub const MAX_PARTS: u64 = 1 << 26;
 
 /// A part: its code, and the map that makes it of the whole.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,13 +34,13 @@ pub struct Coded {
 /// Shows all parts of `depth` digits.
 ///
 /// # Errors
-/// [`Error::Limit`] beyond [`MOST_PARTS`] parts, or where codes have no room for so many digits.
+/// [`Error::Limit`] beyond [`MAX_PARTS`] parts, or where codes have no room for so many digits.
 pub fn parts(ifs: &Ifs, depth: usize, mut look: impl FnMut(&Part)) -> Result<(), Error> {
-    let count = (ifs.maps().len() as u64).checked_pow(depth as u32).filter(|&count| count <= MOST_PARTS);
+    let count = (ifs.maps().len() as u64).checked_pow(depth as u32).filter(|&count| count <= MAX_PARTS);
     if count.is_none() || depth > ifs.digits().room() {
         let maps = ifs.maps().len();
         return Err(Error::Limit(format!(
-            "{}: all codes of {depth} digits are {maps}^{depth} parts; at most {MOST_PARTS} are expanded, \
+            "{}: all codes of {depth} digits are {maps}^{depth} parts; at most {MAX_PARTS} are expanded, \
              so choose a depth of {} or less",
             ifs.name(),
             deepest(maps)
@@ -54,17 +54,17 @@ pub fn parts(ifs: &Ifs, depth: usize, mut look: impl FnMut(&Part)) -> Result<(),
 /// Shows the parts that are the first on their way down to be at most as large as `size`, a share of the whole.
 ///
 /// # Errors
-/// [`Error::Limit`] beyond [`MOST_PARTS`] parts.
+/// [`Error::Limit`] beyond [`MAX_PARTS`] parts.
 pub fn parts_of_size(ifs: &Ifs, size: f64, mut look: impl FnMut(&Part)) -> Result<(), Error> {
     let whole = Part { code: Code::empty(ifs.digits()), map: Map::IDENTITY };
     let small = |part: &Part| part.map.ratio() <= size;
     let count = Cell::new(0_u64);
     // Beyond the limit every part ends the way down, so that counting ends soon.
-    let enough = |part: &Part| count.get() > MOST_PARTS || small(part);
+    let enough = |part: &Part| count.get() > MAX_PARTS || small(part);
     descend(ifs, whole, ifs.digits().room(), &enough, &mut |_| count.set(count.get() + 1));
-    if count.get() > MOST_PARTS {
+    if count.get() > MAX_PARTS {
         return Err(Error::Limit(format!(
-            "{}: parts of {size} of its size are more than the {MOST_PARTS} that are expanded; choose a larger size",
+            "{}: parts of {size} of its size are more than the {MAX_PARTS} that are expanded; choose a larger size",
             ifs.name()
         )));
     }
@@ -83,7 +83,7 @@ fn descend(ifs: &Ifs, part: Part, left: usize, stop: &dyn Fn(&Part) -> bool, loo
 }
 
 fn deepest(maps: usize) -> u32 {
-    (1..64).find(|&depth| (maps as u64).pow(depth + 1) > MOST_PARTS).unwrap_or(1)
+    (1..64).find(|&depth| (maps as u64).pow(depth + 1) > MAX_PARTS).unwrap_or(1)
 }
 
 /// The points of all codes of `depth` digits, in the order of their codes.

@@ -10,7 +10,7 @@
 
 use super::code::Code;
 use super::lanes::{self, LANES, Lanes, Row};
-use super::system::{Ifs, LEAST_PROBABILITY};
+use super::system::{Ifs, MIN_PROBABILITY};
 use super::table::Table;
 use weald_core::random::splitmix64;
 
@@ -176,4 +176,4 @@ impl Block {
     }
 }
 
-const _: () = assert!(LEAST_PROBABILITY * 65536.0 == 1.0, "a draw has 16 bits");
+const _: () = assert!(MIN_PROBABILITY * 65536.0 == 1.0, "a draw has 16 bits");

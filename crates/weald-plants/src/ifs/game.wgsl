@@ -18,14 +18,14 @@ struct Rules {
     coded: u32,
 }
 
-struct Stretch {
+struct DispatchRange {
     // Workgroup with which the dispatch begins.
     first: u32,
     points: u32,
 }
 
 @group(0) @binding(0) var<uniform> rules: Rules;
-@group(0) @binding(1) var<uniform> stretch: Stretch;
+@group(0) @binding(1) var<uniform> range: DispatchRange;
 @group(0) @binding(2) var<storage, read> maps: array<vec4<f32>>;
 @group(0) @binding(3) var<storage, read> bounds: array<u32>;
 @group(0) @binding(4) var<storage, read> keys: array<vec2<u32>>;
@@ -34,7 +34,7 @@ struct Stretch {
 
 @compute @workgroup_size(64)
 fn play(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
-    let first_row = (stretch.first + group.x) * rules.segment;
+    let first_row = (range.first + group.x) * rules.segment;
     let key = keys[first_row / STEPS * LANES + lane];
     let begin = rules.history + first_row % STEPS;
     var at = rules.root.xyz;
@@ -44,7 +44,7 @@ fn play(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
         at = image(digit, at);
         code = pushed(code, digit);
         let point = (first_row + step - begin) * LANES + lane;
-        if step >= begin && point < stretch.points {
+        if step >= begin && point < range.points {
             rests[point] = vec4<f32>(at, 0.0);
             if rules.coded != 0u {
                 codes[point] = code & rules.kept;

@@ -10,7 +10,7 @@ const TOLERANCE: f64 = 1e-8;
 const BEAM: usize = 48;
 
 /// Most rounds. Each begins with the box of the one before, which holds the fractal and fits it better than a ball.
-const ROUNDS: usize = 8;
+const MAX_ITERATIONS: usize = 8;
 
 /// A box that holds the fractal: least and greatest coordinates.
 type Bounds = [Point; 2];
@@ -30,7 +30,7 @@ pub(super) struct Copies<'a> {
 pub(super) fn bounds(ifs: &Copies<'_>) -> Bounds {
     let (centre, radius) = ifs.ball;
     let mut bounds = [centre.map(|x| x - radius), centre.map(|x| x + radius)];
-    for _ in 0..ROUNDS {
+    for _ in 0..MAX_ITERATIONS {
         let (tighter, open) = tightened(ifs, &bounds);
         let side = distance(bounds[0], bounds[1]);
         bounds = tighter;
@@ -64,7 +64,7 @@ fn reach(ifs: &Copies<'_>, direction: Point, within: &Bounds) -> [f64; 2] {
         let seen: Point = std::array::from_fn(|j| (0..3).map(|i| map.linear[i][j] * direction[i]).sum());
         let furthest = |i: usize| (seen[i] * within[0][i]).max(seen[i] * within[1][i]);
         let at_most = dot(map.offset, direction) + furthest(0) + furthest(1) + furthest(2);
-        Reaching { at_least: dot(map.at(ifs.root), direction), at_most, map }
+        PartReach { at_least: dot(map.at(ifs.root), direction), at_most, map }
     };
     let fine = TOLERANCE * distance(within[0], within[1]);
     let mut front = vec![reaching(Map::IDENTITY)];
@@ -86,7 +86,7 @@ fn reach(ifs: &Copies<'_>, direction: Point, within: &Bounds) -> [f64; 2] {
 
 /// A part: how far one of its points reaches, and how far others may.
 #[derive(Clone, Copy, Debug)]
-struct Reaching {
+struct PartReach {
     at_least: f64,
     at_most: f64,
     map: Map,

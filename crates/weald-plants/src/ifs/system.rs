@@ -6,7 +6,7 @@
 //! by digit 0 for ever, and a plant's map 0 is its stem, so that this point is its root and the image of the root
 //! under a part's code is the **joint** by which the part hangs on the rest.
 
-use super::code::{Code, Digits, MOST_MAPS};
+use super::code::{Code, Digits, MAX_MAPS};
 use super::map::{Map, Point};
 use super::support::{self, Copies};
 
@@ -62,7 +62,7 @@ pub enum IfsFault {
     #[error("a fractal needs at least 2 maps and has {0}")]
     TooFew(usize),
     /// Too many maps.
-    #[error("a fractal of {0} maps is too large; a digit of a code names at most {MOST_MAPS}")]
+    #[error("a fractal of {0} maps is too large; a digit of a code names at most {MAX_MAPS}")]
     TooMany(usize),
     /// A number that is none.
     #[error("map {0} has a number that is not finite")]
@@ -135,7 +135,7 @@ struct Contraction {
 const SLOWEST: f64 = 0.999;
 
 /// Least share that random iteration can tell apart.
-pub const LEAST_PROBABILITY: f64 = 1.0 / 65536.0;
+pub const MIN_PROBABILITY: f64 = 1.0 / 65536.0;
 
 /// A checked fractal.
 #[derive(Clone, Debug, PartialEq)]
@@ -301,14 +301,14 @@ fn check_probabilities(maps: &[Weighted]) -> Result<(), IfsFault> {
 }
 
 /// Most words that are looked at to see whether maps contract in a row.
-const MOST_WORDS: usize = 65_536;
+const MAX_WORDS: usize = 65_536;
 
 /// The shortest words all of which contract.
 fn contraction(maps: &[Map]) -> Result<Contraction, IfsFault> {
     let greatest = |maps: &[Map]| maps.iter().map(Map::ratio).fold(0.0, f64::max);
     let single = greatest(maps);
     let mut word = 1;
-    while maps.len().checked_pow(word).is_some_and(|count| count <= MOST_WORDS) {
+    while maps.len().checked_pow(word).is_some_and(|count| count <= MAX_WORDS) {
         let ratio = greatest(&words(maps, word as usize));
         if ratio <= SLOWEST {
             return Ok(Contraction { single, word: word as usize, ratio });

@@ -6,7 +6,7 @@ use super::pattern::{LEVELS, Pattern, Place, Square, squared};
 const NONE: u32 = u32::MAX;
 
 /// Nothing is known of what else is in the square.
-const FOG: u32 = u32::MAX - 1;
+const UNRESOLVED: u32 = u32::MAX - 1;
 
 /// The bins of a level.
 pub(super) struct Bins {
@@ -49,23 +49,23 @@ impl Bins {
     }
 
     /// Says that nothing is known of the rest of the square at a place.
-    pub(super) fn cover_in_fog(&mut self, at: [f64; 2]) {
+    pub(super) fn mark_unresolved(&mut self, at: [f64; 2]) {
         let bin = self.at(at);
-        self.content[bin] = FOG;
+        self.content[bin] = UNRESOLVED;
         self.widest = self.greatest;
     }
 
     /// The place in a bin.
     pub(super) fn place(&self, bin: usize) -> Option<usize> {
-        Some(self.content[bin]).filter(|&content| content < FOG).map(|content| content as usize)
+        Some(self.content[bin]).filter(|&content| content < UNRESOLVED).map(|content| content as usize)
     }
 
-    pub(super) fn is_in_fog(&self, bin: usize) -> bool {
-        self.content[bin] == FOG
+    pub(super) fn is_unresolved(&self, bin: usize) -> bool {
+        self.content[bin] == UNRESOLVED
     }
 
     pub(super) fn is_in_fog_at(&self, at: [f64; 2]) -> bool {
-        self.is_in_fog(self.at(at))
+        self.is_unresolved(self.at(at))
     }
 
     /// Whether nothing is known to be in a bin.
@@ -81,7 +81,7 @@ impl Bins {
 
     /// The bins that come as near as that.
     pub(super) fn near(&self, at: [f64; 2], reach: f64) -> impl Iterator<Item = usize> + use<> {
-        let end = |axis: usize, way: f64| self.index(axis, at[axis] + way);
+        let end = |axis: usize, extent: f64| self.index(axis, at[axis] + extent);
         let (rows, from, to) = if self.widest == 0.0 {
             (0..0, 0, 0)
         } else {

@@ -7,7 +7,7 @@
 //! ```
 //!
 //! with the suitability `s` of the ground, so that `s` is the density beside the densest. Ground of `s` below 1/64 has
-//! discs of eight spacings, of which a share of 64 `s` is kept, by lot.
+//! discs of eight spacings, of which a share of 64 `s` is kept, at random.
 //!
 //! Candidates come in rounds. In each, a square that may still have room has one candidate at a random place; between
 //! some rounds, squares become four, and those that lie under a disc are dropped (Ebeida et al. 2012, doi

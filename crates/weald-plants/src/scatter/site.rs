@@ -73,10 +73,10 @@ impl<'a> Site<'a> {
     pub(super) fn normal(&self, place: [f64; 2]) -> [f64; 3] {
         let half = 0.5 * self.domain.cell;
         let rise = |axis: usize| {
-            let at = |way: f64| {
+            let at = |offset: f64| {
                 let mut there = place;
-                there[axis] += way;
-                self.height(there).map(|height| (way, height))
+                there[axis] += offset;
+                self.height(there).map(|height| (offset, height))
             };
             let (Some(before), Some(behind)) = (at(-half).or(at(0.0)), at(half).or(at(0.0))) else {
                 return 0.0;
@@ -96,8 +96,8 @@ impl<'a> Site<'a> {
         place / self.domain.cell - 0.5
     }
 
-    fn is_land(&self, cell: usize) -> bool {
-        self.domain.land.as_ref().is_none_or(|land| land.is_land_at(cell))
+    fn is_valid(&self, cell: usize) -> bool {
+        self.domain.valid.as_ref().is_none_or(|valid| valid.is_valid_at(cell))
     }
 
     /// Those of the four cells around a place that bear it, with their weights.
@@ -115,7 +115,7 @@ impl<'a> Site<'a> {
         let (u, v) = ((u - x as f64).clamp(0.0, 1.0), (v - y as f64).clamp(0.0, 1.0));
         let cells = self.around(x, y);
         let weights = [(1.0 - u) * (1.0 - v), u * (1.0 - v), (1.0 - u) * v, u * v];
-        let mut void = (0..4).filter(|&corner| !self.is_land(cells[corner]));
+        let mut void = (0..4).filter(|&corner| !self.is_valid(cells[corner]));
         match (void.next(), void.next()) {
             (None, _) => Some(std::array::from_fn(|corner| (cells[corner], weights[corner]))),
             (Some(missing), None) => half_square(missing, [u, v])
@@ -133,12 +133,12 @@ impl<'a> Site<'a> {
     /// Bounds on the suitability of the square between four centres, from its corners.
     fn bounds_of(&self, x: usize, y: usize) -> [f64; 2] {
         let cells = self.around(x, y);
-        let land: Vec<_> = cells.into_iter().filter(|&cell| self.is_land(cell)).collect();
-        if land.len() < 3 {
+        let valid: Vec<_> = cells.into_iter().filter(|&cell| self.is_valid(cell)).collect();
+        if valid.len() < 3 {
             return [0.0; 2];
         }
-        self.product(land.len() == 4, |field| {
-            Range::of(land.iter().map(|&cell| f64::from(field.values()[cell])))
+        self.product(valid.len() == 4, |field| {
+            Range::of(valid.iter().map(|&cell| f64::from(field.values()[cell])))
         })
     }
 

@@ -107,7 +107,7 @@ fn density_follows_suitability() {
     }
     let sparse = Land { extent: [400.0; 2], suitability: |_| 0.004, steepness: 0.0 };
     let (found, expected) = (places(&sparse, 1.0, 3).len() as f64, DENSITY * 400.0 * 400.0 * 0.004);
-    assert!((found / expected - 1.0).abs() < 0.15, "{found} places for {expected}, kept by lot");
+    assert!((found / expected - 1.0).abs() < 0.15, "{found} places for {expected}, kept at random");
 }
 
 /// Mean power of waves along the axes in the middle of the ground, away from its edges; white noise has 1.
@@ -166,9 +166,9 @@ fn another_seed_gives_other_places() {
 }
 
 /// A slope that rises by 0.5 m a metre to the east, with a hole.
-fn slope(cell: f64, land: Option<Mask>) -> Landscape {
+fn slope(cell: f64, valid: Option<Mask>) -> Landscape {
     let size = Size::new(40, 30).expect("small");
-    let mut landscape = Landscape::new(Domain { land, ..Domain::new(size, cell) });
+    let mut landscape = Landscape::new(Domain { valid, ..Domain::new(size, cell) });
     landscape.insert("height", "m", Field::from_function(size, |x, _| (0.5 * cell) as f32 * x as f32));
     landscape.insert("soil", "1", Field::from_function(size, |_, y| y as f32));
     landscape
@@ -246,7 +246,7 @@ fn conditions_water_and_no_data_keep_plants_out_to_the_metre() {
     for plant in &plants {
         let [x, y] = [plant.place[0] / 10.0, plant.place[1] / 10.0];
         assert!(
-            landscape.domain.land.as_ref().expect("a hole").is_land(x as usize, y as usize)
+            landscape.domain.valid.as_ref().expect("a hole").is_valid(x as usize, y as usize)
                 || near_edge(x, y)
         );
     }
@@ -290,7 +290,7 @@ fn rough_site(seed: u64) -> (Landscape, Vec<Condition>) {
         random::unit(random::hash2(seed ^ stream as u64, x as i64, y as i64)) as f32
     };
     let mut domain = Domain::new(size, 10.0);
-    domain.land =
+    domain.valid =
         Mask::new(size, (0..size.cells()).map(|cell| value(9, cell % 24, cell / 24) < 0.95).collect());
     let mut landscape = Landscape::new(domain);
     for (stream, (name, scale)) in

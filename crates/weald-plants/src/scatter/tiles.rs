@@ -12,7 +12,7 @@ use weald_engine::Watcher;
 const TILE: i64 = 48;
 
 /// Use of random bits, beside those of a pattern.
-const LOT: u64 = 3;
+const RETENTION: u64 = 3;
 
 impl Pattern<'_> {
     /// All places, from north to south, or an error where the watcher ends the work.
@@ -63,5 +63,5 @@ impl Pattern<'_> {
 
 /// Whether a place on the sparsest ground is among those that are kept.
 fn is_drawn(place: &Place) -> bool {
-    unit(place.bits(LOT)) * SPARSEST < place.suitability
+    unit(place.bits(RETENTION)) * SPARSEST < place.suitability
 }

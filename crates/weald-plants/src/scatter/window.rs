@@ -1,8 +1,8 @@
 //! A rectangle of a pattern with a margin, settled by itself.
 //!
 //! A candidate that a place overlaps is out. One that may be overlapped by something beyond the window is unknown, and
-//! puts its square in fog: from there on no candidate is drawn in it, and what might overlap with something in it is
-//! unknown too. All others are places, and the same that the whole has there.
+//! marks its square unresolved: from there on no candidate is drawn in it, and what might overlap with something in it
+//! is unknown too. All others are places, and the same that the whole has there.
 
 use super::bins::Bins;
 use super::pattern::{LEVELS, Pattern, Place, Square, overlap, squared};
@@ -33,7 +33,7 @@ enum Verdict {
 }
 
 /// A candidate of the tile is unknown: the margin is too narrow.
-struct Unsettled;
+struct MarginTooNarrow;
 
 impl<'a> Window<'a> {
     /// The tile, a rectangle of squares of the last level, with a margin of so many of them.
@@ -76,7 +76,7 @@ impl<'a> Window<'a> {
     }
 
     /// Judges the candidates of a round in their order.
-    fn draw(&mut self, open: &[Square], round: u8) -> Result<(), Unsettled> {
+    fn draw(&mut self, open: &[Square], round: u8) -> Result<(), MarginTooNarrow> {
         let mut candidates: Vec<_> = open
             .iter()
             .filter_map(|&square| Some((self.pattern.candidate(square, round)?, square.level)))
@@ -89,8 +89,8 @@ impl<'a> Window<'a> {
                     self.bins[level].put(self.places.len(), &candidate);
                     self.places.push(candidate);
                 }
-                Verdict::Unknown if is_in(self.tile, candidate.at) => return Err(Unsettled),
-                Verdict::Unknown => self.bins[level].cover_in_fog(candidate.at),
+                Verdict::Unknown if is_in(self.tile, candidate.at) => return Err(MarginTooNarrow),
+                Verdict::Unknown => self.bins[level].mark_unresolved(candidate.at),
             }
         }
         Ok(())
@@ -109,7 +109,7 @@ impl<'a> Window<'a> {
                     return Verdict::Out;
                 }
                 is_known &=
-                    !(bins.is_in_fog(bin) && bins.distance_squared(bin, candidate.at) < reach * reach);
+                    !(bins.is_unresolved(bin) && bins.distance_squared(bin, candidate.at) < reach * reach);
             }
         }
         if is_known { Verdict::Place } else { Verdict::Unknown }
@@ -122,7 +122,7 @@ impl<'a> Window<'a> {
             && self.pattern.least_in(square).is_some_and(|least| self.has_room(square, least))
     }
 
-    /// Whether a square is out of the fog and not so deep under a single disc that no other of that diameter has room.
+    /// Whether a square is not unresolved and not so deep under a single disc that no other of that diameter has room.
     fn has_room(&self, square: Square, diameter: f64) -> bool {
         let [low, high] = self.pattern.corners(square);
         let middle = [0, 1].map(|axis| 0.5 * (low[axis] + high[axis]));

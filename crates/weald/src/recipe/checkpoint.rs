@@ -29,7 +29,7 @@ pub const CHECKPOINT_FILE: &str = "checkpoint.weald";
 
 const MAGIC: &[u8; 8] = b"WEALDCP1";
 /// Most bytes of a header: a recipe of the greatest length and ample room for reports.
-const MAXIMUM_HEADER: u64 = 64 << 20;
+const MAX_HEADER: u64 = 64 << 20;
 
 /// How far a run has come.
 #[derive(Clone, Debug, PartialEq)]
@@ -88,8 +88,8 @@ pub(super) fn write(
         out.bytes(MAGIC)?;
         out.bytes(&(header.len() as u64).to_le_bytes())?;
         out.bytes(&header)?;
-        if let Some(land) = &state.landscape.domain.land {
-            out.flags(land.flags())?;
+        if let Some(valid) = &state.landscape.domain.valid {
+            out.flags(valid.flags())?;
         }
         for (_, layer) in state.landscape.layers() {
             out.singles(layer.field.values())?;
@@ -131,8 +131,8 @@ fn read_header(file: &mut HashedReader) -> Result<Header, String> {
         return Err("is not a checkpoint of this version of Weald".to_owned());
     }
     let length = file.bytes(8)?.try_into().map(u64::from_le_bytes).expect("eight bytes were asked for");
-    if length > MAXIMUM_HEADER {
-        return Err(format!("the header claims {length} bytes; at most {MAXIMUM_HEADER} are read"));
+    if length > MAX_HEADER {
+        return Err(format!("the header claims {length} bytes; at most {MAX_HEADER} are read"));
     }
     let header = file.bytes(length as usize)?;
     let header: Header =
@@ -146,7 +146,7 @@ fn read_header(file: &mut HashedReader) -> Result<Header, String> {
 
 impl Header {
     fn of(recipe: &str, state: &State, simulation: Option<&SavedSimulation>) -> Self {
-        let Domain { size, cell, georeference, land } = &state.landscape.domain;
+        let Domain { size, cell, georeference, valid } = &state.landscape.domain;
         Self {
             version: env!("CARGO_PKG_VERSION").to_owned(),
             recipe: recipe.to_owned(),
@@ -155,7 +155,7 @@ impl Header {
             rows: size.rows,
             cell: *cell,
             georeference: georeference.clone(),
-            masked: land.is_some(),
+            masked: valid.is_some(),
             layers: state
                 .landscape
                 .layers()
@@ -219,8 +219,8 @@ impl Header {
 
     fn read_state(self, file: &mut HashedReader) -> Result<State, String> {
         let size = self.size()?;
-        let land = if self.masked { Mask::new(size, file.flags(size.cells())?) } else { None };
-        let domain = Domain { size, cell: self.cell, georeference: self.georeference, land };
+        let valid = if self.masked { Mask::new(size, file.flags(size.cells())?) } else { None };
+        let domain = Domain { size, cell: self.cell, georeference: self.georeference, valid };
         let mut landscape = Landscape::new(domain);
         for (name, unit) in &self.layers {
             landscape.insert(name, unit, Field::from_values(size, file.singles(size.cells())?));
@@ -275,7 +275,7 @@ mod tests {
     fn state() -> State {
         let size = Size::new(3, 2).expect("small");
         let mut domain = Domain::new(size, 0.1 + 0.2);
-        domain.land = Mask::new(size, vec![true, false, true, true, true, true]);
+        domain.valid = Mask::new(size, vec![true, false, true, true, true, true]);
         domain.georeference = Some(Georeference {
             epsg: Some(32616),
             origin: [1.0 / 3.0, -2.0e-300],
@@ -306,7 +306,7 @@ mod tests {
                 deepest: 0.0,
                 maps: Maps {
                     cell: 0.3,
-                    land: landscape.domain.land.clone(),
+                    valid: landscape.domain.valid.clone(),
                     density: map(),
                     soil: map(),
                     light: map(),

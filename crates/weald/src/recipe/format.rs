@@ -1,6 +1,6 @@
 //! The format in which a recipe is written, and the keys that have other names than they had.
 
-use super::parameter::Complaints;
+use super::parameter::Diagnostics;
 use super::renamed::{RENAMED, Renamed};
 use super::source::{Node, Table, Value};
 
@@ -15,26 +15,26 @@ pub const KEY: &str = "weald";
 pub const NEWEST: i64 = 1;
 
 /// Complains of a format that is not known.
-pub(super) fn check(recipe: &Table, complaints: &mut Complaints) {
+pub(super) fn check(recipe: &Table, diagnostics: &mut Diagnostics) {
     let Some(Node { line, value }) = recipe.get(KEY) else { return };
     match value {
         Value::Integer(1..=NEWEST) => {}
-        Value::Integer(newer) if *newer > NEWEST => complaints.add(
+        Value::Integer(newer) if *newer > NEWEST => diagnostics.add(
             *line,
             format!("`{KEY}` is {newer}, a newer format than {NEWEST}, the newest that this version knows; get a newer version"),
         ),
         other => {
-            complaints.add(*line, format!("`{KEY}` is {}, but must be the format of the recipe, {NEWEST}", other.shown()));
+            diagnostics.add(*line, format!("`{KEY}` is {}, but must be the format of the recipe, {NEWEST}", other.shown()));
         }
     }
 }
 
 /// The recipe with the names of today; each old one is a complaint.
-pub(super) fn with_new_names(recipe: &Table, complaints: &mut Complaints) -> Table {
-    with_names_of(RENAMED, recipe, complaints)
+pub(super) fn with_new_names(recipe: &Table, diagnostics: &mut Diagnostics) -> Table {
+    with_names_of(RENAMED, recipe, diagnostics)
 }
 
-fn with_names_of(names: &[Renamed], recipe: &Table, complaints: &mut Complaints) -> Table {
+fn with_names_of(names: &[Renamed], recipe: &Table, diagnostics: &mut Diagnostics) -> Table {
     let mut recipe = recipe.clone();
     for renamed in names {
         let node = recipe.get_mut(renamed.section).map(|node| &mut node.value);
@@ -44,7 +44,7 @@ fn with_names_of(names: &[Renamed], recipe: &Table, complaints: &mut Complaints)
             _ => Vec::new(),
         };
         for table in tables {
-            rename(renamed, table, complaints);
+            rename(renamed, table, diagnostics);
         }
     }
     recipe
@@ -57,13 +57,13 @@ fn as_table(node: &mut Node) -> Option<&mut Table> {
     }
 }
 
-fn rename(renamed: &Renamed, table: &mut Table, complaints: &mut Complaints) {
+fn rename(renamed: &Renamed, table: &mut Table, diagnostics: &mut Diagnostics) {
     let is_kind = |(key, word): (&str, &str)| matches!(table.get(key), Some(Node { value: Value::Text(text), .. }) if text == word);
     if !renamed.kind.is_none_or(is_kind) {
         return;
     }
     let subject = renamed.kind.map_or(renamed.section, |(_, word)| word);
-    subject.clone_into(&mut complaints.subject);
+    subject.clone_into(&mut diagnostics.subject);
     let Some((name, node)) = table.entries.iter_mut().find(|(key, _)| key == renamed.key()) else { return };
     match renamed.what {
         super::renamed::What::Key { new, .. } => new.clone_into(name),
@@ -73,7 +73,7 @@ fn rename(renamed: &Renamed, table: &mut Table, complaints: &mut Complaints) {
         },
     }
     let line = node.line;
-    complaints.add(
+    diagnostics.add(
         line,
         format!("{}; `weald migrate` rewrites a recipe with the names of today", renamed.sentence()),
     );
@@ -123,9 +123,9 @@ mod tests {
         ];
         let text = "[landscape]\nsides = 4\n[[step]]\ndo = \"slide\"\nfilm = 2\n[[step]]\ndo = \"other\"\nfilm = 3\n\
                     [[step]]\ndo = \"slyde\"\n";
-        let mut complaints = Complaints::default();
-        let renamed = with_names_of(&names, &parse("r", text).expect("TOML"), &mut complaints);
-        let told: Vec<_> = complaints.found.iter().map(|one| (one.line, one.message.as_str())).collect();
+        let mut diagnostics = Diagnostics::default();
+        let renamed = with_names_of(&names, &parse("r", text).expect("TOML"), &mut diagnostics);
+        let told: Vec<_> = diagnostics.found.iter().map(|one| (one.line, one.message.as_str())).collect();
         assert_eq!(told.len(), 3, "{told:?}");
         assert_eq!(told[0].0, 5);
         assert!(

@@ -5,7 +5,7 @@ use std::path::Path;
 use super::overrides::{given, value_of};
 use super::plan::Recipe;
 use super::source::{self, Node, Table, Value};
-use weald_core::error::{Complaint, Error, RecipeError};
+use weald_core::error::{Diagnostic, Error, RecipeError};
 
 /// What the command line says of a fractal. Values are TOML; what is no TOML is text.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -79,8 +79,8 @@ impl FractalRequest {
             return Ok(table.clone());
         }
         let message = "there is no [[fractal]] table to be drawn".to_owned();
-        let complaints = vec![Complaint { line: 1, message }];
-        Err(RecipeError { file: self.of.clone(), complaints }.into())
+        let diagnostics = vec![Diagnostic { line: 1, message }];
+        Err(RecipeError { file: self.of.clone(), diagnostics }.into())
     }
 }
 

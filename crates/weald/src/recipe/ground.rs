@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::layer_file::LayerFile;
-use super::plan::{Ground, PlannedFractal, Recipe, Seedling};
+use super::plan::{FractalSource, Ground, PlannedFractal, Recipe};
 use weald_core::domain::Domain;
 use weald_core::error::Error;
 use weald_core::grid::Mask;
@@ -43,12 +43,13 @@ pub(super) fn fractals(recipe: &Recipe) -> Result<Vec<Fractal>, Error> {
 }
 
 fn fractal(planned: &PlannedFractal) -> Result<Fractal, Error> {
-    let ifs = match &planned.seedling {
-        Seedling::Known(ifs) => (**ifs).clone(),
-        Seedling::Flame { path, number } => flame(path, *number)?,
+    let ifs = match &planned.fractal_source {
+        FractalSource::Known(ifs) => (**ifs).clone(),
+        FractalSource::Flame { path, number } => flame(path, *number)?,
     };
     let fractal = Fractal { name: planned.name.clone(), ifs, deform: planned.deform.clone() };
-    if let (Seedling::Flame { path, .. }, Err(faults)) = (&planned.seedling, fractal.deformation()) {
+    if let (FractalSource::Flame { path, .. }, Err(faults)) = (&planned.fractal_source, fractal.deformation())
+    {
         let name = &planned.name;
         return Err(Error::input(
             path,
@@ -78,11 +79,11 @@ fn from_file(path: &Path, cell: Option<f64>) -> Result<(Landscape, Vec<String>),
     notes.extend(note);
     let side = raster.cell.filter(|side| side.is_finite() && *side > 0.0);
     let side = side.ok_or_else(|| Error::input(path, "has no cell size; give `cell` in [landscape]"))?;
-    if raster.land.as_ref().map_or(0, Mask::land_cells) == 0 && raster.land.is_some() {
+    if raster.valid.as_ref().map_or(0, Mask::valid_cells) == 0 && raster.valid.is_some() {
         return Err(Error::input(path, "has no cell with data, so there is no ground to work on"));
     }
     let size = raster.field.size();
-    let domain = Domain { size, cell: side, georeference: raster.georeference, land: raster.land };
+    let domain = Domain { size, cell: side, georeference: raster.georeference, valid: raster.valid };
     let mut landscape = Landscape::new(domain);
     landscape.insert("height", "m", raster.field);
     Ok((landscape, notes))

@@ -31,11 +31,11 @@ impl LayerFile {
             notes.extend(note);
         }
         notes.extend(self.elsewhere(raster.georeference.as_ref(), domain));
-        let (mut field, land) = self.fitted(raster, domain)?;
+        let (mut field, valid) = self.fitted(raster, domain)?;
         for value in field.values_mut() {
             *value = (f64::from(*value) * self.scale + self.offset) as f32;
         }
-        self.fill(&mut field, land.as_ref(), domain.land.as_ref())?;
+        self.fill(&mut field, valid.as_ref(), domain.valid.as_ref())?;
         Ok((field, notes))
     }
 
@@ -50,10 +50,10 @@ impl LayerFile {
     fn fitted(&self, raster: Raster, domain: &Domain) -> Result<(Field, Option<Mask>), Error> {
         let size = raster.field.size();
         if size == domain.size {
-            return Ok((raster.field, raster.land));
+            return Ok((raster.field, raster.valid));
         }
         if self.resample {
-            let old = Domain { land: raster.land, ..Domain::new(size, 1.0) };
+            let old = Domain { valid: raster.valid, ..Domain::new(size, 1.0) };
             return resampled(&old, &raster.field, domain.size).map_err(|error| self.of_this_file(error));
         }
         Err(Error::input(
@@ -67,15 +67,15 @@ impl LayerFile {
     }
 
     /// Gives cells without data their value, where the landscape has any.
-    fn fill(&self, field: &mut Field, data: Option<&Mask>, land: Option<&Mask>) -> Result<(), Error> {
+    fn fill(&self, field: &mut Field, data: Option<&Mask>, valid: Option<&Mask>) -> Result<(), Error> {
         let Some(data) = data else { return Ok(()) };
         let columns = field.size().columns;
         for (cell, value) in field.values_mut().iter_mut().enumerate() {
-            if data.is_land_at(cell) {
+            if data.is_valid_at(cell) {
                 continue;
             }
             *value = self.no_data.unwrap_or(0.0) as f32;
-            if self.no_data.is_none() && land.is_none_or(|land| land.is_land_at(cell)) {
+            if self.no_data.is_none() && valid.is_none_or(|valid| valid.is_valid_at(cell)) {
                 let (x, y) = (cell % columns, cell / columns);
                 return Err(Error::input(
                     &self.path,

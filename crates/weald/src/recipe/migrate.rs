@@ -6,10 +6,10 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::format::{self, KEY, NEWEST};
-use super::parameter::Complaints;
+use super::parameter::Diagnostics;
 use super::renamed::{RENAMED, Renamed, What};
 use super::source::{self, Lines};
-use weald_core::error::{Complaint, RecipeError};
+use weald_core::error::{Diagnostic, RecipeError};
 
 /// A recipe as it was rewritten.
 #[derive(Clone, Debug, PartialEq)]
@@ -17,7 +17,7 @@ pub struct Migrated {
     /// Its text.
     pub text: String,
     /// What was changed, with the lines of the text as it was.
-    pub changes: Vec<Complaint>,
+    pub changes: Vec<Diagnostic>,
 }
 
 /// A stretch of the text and what comes in its place.
@@ -37,24 +37,24 @@ pub fn migrate(file: &str, text: &str) -> Result<Migrated, RecipeError> {
 }
 
 fn migrate_by(names: &[Renamed], file: &str, text: &str) -> Result<Migrated, RecipeError> {
-    let mut complaints = Complaints::default();
-    format::check(&source::parse(file, text)?, &mut complaints);
+    let mut diagnostics = Diagnostics::default();
+    format::check(&source::parse(file, text)?, &mut diagnostics);
     let lines = Lines::of(text);
     let parsed = DeTable::parse(text).map_err(|error| RecipeError {
         file: file.to_owned(),
-        complaints: vec![Complaint { line: 1, message: error.message().to_owned() }],
+        diagnostics: vec![Diagnostic { line: 1, message: error.message().to_owned() }],
     })?;
     let mut edits = Vec::new();
     for renamed in names {
         for table in tables(parsed.get_ref(), renamed.section) {
             match edit(renamed, table) {
                 Ok(edit) => edits.extend(edit),
-                Err((at, message)) => complaints.add(lines.line(at), message),
+                Err((at, message)) => diagnostics.add(lines.line(at), message),
             }
         }
     }
-    if !complaints.found.is_empty() {
-        return Err(RecipeError { file: file.to_owned(), complaints: complaints.found });
+    if !diagnostics.found.is_empty() {
+        return Err(RecipeError { file: file.to_owned(), diagnostics: diagnostics.found });
     }
     if parsed.get_ref().get(KEY).is_none() {
         edits.push(format_of_today(text));
@@ -68,7 +68,8 @@ fn done(text: &str, edits: &[Edit], lines: &Lines) -> Migrated {
     for edit in edits.iter().rev() {
         new.replace_range(edit.range.clone(), &edit.text);
     }
-    let change = |edit: &Edit| Complaint { line: lines.line(edit.range.start), message: edit.change.clone() };
+    let change =
+        |edit: &Edit| Diagnostic { line: lines.line(edit.range.start), message: edit.change.clone() };
     Migrated { text: new, changes: edits.iter().map(change).collect() }
 }
 

@@ -1,6 +1,6 @@
 //! Recipes, from text to files: [`source`] as written, [`Recipe`] as checked, [`Run`] as done.
 //!
-//! [`parameter`] declares what a step can be told, [`catalog`] lists the steps, and [`schema`], [`describe`]
+//! [`parameter`] declares the parameters of a step, [`catalog`] lists the steps, and [`schema`], [`describe`]
 //! and [`template`] tell people and editors about them.
 
 mod canonical;
@@ -30,8 +30,8 @@ pub use fractal::FractalRequest;
 pub use migrate::{Migrated, migrate};
 pub use overrides::Overrides;
 pub use plan::{
-    BuiltIn, Content, FILM_EXTENSIONS, Film, FilmKeys, FractalKeys, Ground, LandscapeKeys, MaterialKeys,
-    Motion, Output, Planned, PlannedFractal, PlannedMaterial, PlantRole, Recipe, Seedling,
+    BuiltIn, Content, FILM_EXTENSIONS, Film, FilmKeys, FractalKeys, FractalSource, Ground, LandscapeKeys,
+    MaterialKeys, Motion, Output, Planned, PlannedFractal, PlannedMaterial, PlantRole, Recipe,
 };
 pub use report::{OutputReport, REPORT_FILE, Report};
 pub use run::{Frames, Options, Progress, Run, Silent};

@@ -1,6 +1,6 @@
 //! Changes to a recipe from the command line, made before it is checked, so that they are checked alike.
 
-use super::parameter::{Complaints, ParameterValue, Sides, nearest};
+use super::parameter::{Diagnostics, ParameterValue, Sides, nearest};
 use super::source::{self, Node, Table, Value};
 use weald_core::grid::Size;
 
@@ -22,10 +22,10 @@ pub struct Overrides {
 
 impl Overrides {
     /// Changes the recipe; paths that lead nowhere become complaints.
-    pub(super) fn apply(&self, recipe: &mut Table, complaints: &mut Complaints) {
+    pub(super) fn apply(&self, recipe: &mut Table, diagnostics: &mut Diagnostics) {
         for (path, value) in &self.set {
             if let Err(problem) = set(recipe, path, &value_of(value)) {
-                complaints.add(COMMAND_LINE, format!("--set {path}: {problem}"));
+                diagnostics.add(COMMAND_LINE, format!("--set {path}: {problem}"));
             }
         }
         if let Some(seed) = self.seed {
@@ -35,7 +35,7 @@ impl Overrides {
         if let Some(side) = self.size
             && let Err(problem) = resize(landscape_of(recipe), side)
         {
-            complaints.add(COMMAND_LINE, format!("--size {side}: {problem}"));
+            diagnostics.add(COMMAND_LINE, format!("--size {side}: {problem}"));
         }
     }
 }
@@ -164,13 +164,13 @@ fn resize(landscape: &mut Table, side: u64) -> Result<(), String> {
     }
     let side = i64::try_from(side.max(1)).unwrap_or(i64::MAX);
     let range = (f64::NEG_INFINITY, f64::INFINITY);
-    let mut ignored = Complaints::default();
+    let mut ignored = Diagnostics::default();
     let old = landscape.get("size").and_then(|node| Sides::read(node, range, &mut ignored).ok());
     let old = old.unwrap_or(Sides { columns: 1, rows: 1 });
     let longer = old.columns.max(old.rows);
     let scaled = |old: u64| (i128::from(old) * i128::from(side) / i128::from(longer)).max(1) as i64;
     let sides = [scaled(old.columns), scaled(old.rows)];
-    // Of a size over the limit the user should hear, not of the tiny cell that would follow from it.
+    // Of a size over the limit the user should read, not of the tiny cell that would follow from it.
     let fits = Size::new(sides[0] as usize, sides[1] as usize).is_ok();
     if fits
         && let Some(cell) =
@@ -190,9 +190,9 @@ mod tests {
 
     fn changed(text: &str, overrides: &Overrides) -> (String, Vec<String>) {
         let mut recipe = source::parse("r", text).expect("test recipes are TOML");
-        let mut complaints = Complaints::default();
-        overrides.apply(&mut recipe, &mut complaints);
-        let messages = complaints.found.into_iter().map(|complaint| complaint.message).collect();
+        let mut diagnostics = Diagnostics::default();
+        overrides.apply(&mut recipe, &mut diagnostics);
+        let messages = diagnostics.found.into_iter().map(|diagnostic| diagnostic.message).collect();
         (super::super::canonical::text(&recipe), messages)
     }
 
@@ -205,15 +205,15 @@ mod tests {
 
     #[test]
     fn a_path_with_a_number_reaches_one_step() {
-        let (text, complaints) = set(TWO_STEPS, "step.2.rate", "0.5");
-        assert_eq!(complaints, [""; 0]);
+        let (text, diagnostics) = set(TWO_STEPS, "step.2.rate", "0.5");
+        assert_eq!(diagnostics, [""; 0]);
         assert_eq!(text, "[[step]]\ndo = \"slide\"\nrate = 1\n[[step]]\ndo = \"slide\"\nrate = 0.5\n");
     }
 
     #[test]
     fn a_path_with_a_name_reaches_all_steps_of_that_name_and_their_inner_tables() {
-        let (text, complaints) = set(TWO_STEPS, "slide.under.talus", "steep");
-        assert_eq!(complaints, [""; 0]);
+        let (text, diagnostics) = set(TWO_STEPS, "slide.under.talus", "steep");
+        assert_eq!(diagnostics, [""; 0]);
         assert_eq!(text.matches("under = { talus = \"steep\" }").count(), 2, "{text}");
     }
 
@@ -236,7 +236,7 @@ mod tests {
         let size = Overrides { size: Some(64), ..Overrides::default() };
         let (text, _) = changed("[landscape]\nsize = [512, 256]\ncell = 10\n", &size);
         assert_eq!(text, "[landscape]\ncell = 80.0\nsize = [64, 32]\n");
-        let (_, complaints) = changed("[landscape]\nfrom = \"a.tif\"\n", &size);
-        assert!(complaints[0].contains("resample"), "{complaints:?}");
+        let (_, diagnostics) = changed("[landscape]\nfrom = \"a.tif\"\n", &size);
+        assert!(diagnostics[0].contains("resample"), "{diagnostics:?}");
     }
 }

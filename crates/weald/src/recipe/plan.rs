@@ -18,7 +18,7 @@ use std::io::{ErrorKind, Read};
 use std::path::{Path, PathBuf};
 
 pub use films::{EXTENSIONS as FILM_EXTENSIONS, Film, FilmKeys, Motion};
-pub use fractals::{FractalKeys, PlannedFractal, PlantRole, Seedling};
+pub use fractals::{FractalKeys, FractalSource, PlannedFractal, PlantRole};
 pub use landscape::{Ground, LandscapeKeys};
 pub use materials::{BuiltIn, MaterialKeys, PlannedMaterial};
 pub use outputs::{Content, Output};
@@ -29,9 +29,9 @@ use self::layers::Made;
 use super::canonical;
 use super::format;
 use super::overrides::Overrides;
-use super::parameter::Complaints;
+use super::parameter::Diagnostics;
 use super::source::{self, Table};
-use weald_core::error::{Complaint, Error, RecipeError};
+use weald_core::error::{Diagnostic, Error, RecipeError};
 use weald_export::report;
 
 /// A recipe that can run.
@@ -63,9 +63,9 @@ impl Recipe {
         };
         let materials = self.materials.iter().filter_map(|planned| Some(planned.file.as_ref()?.0.clone()));
         let steps = self.steps.iter().flat_map(|planned| planned.step.files());
-        let flames = self.fractals.iter().filter_map(|planned| match &planned.seedling {
-            Seedling::Flame { path, .. } => Some(path.clone()),
-            Seedling::Known(_) => None,
+        let flames = self.fractals.iter().filter_map(|planned| match &planned.fractal_source {
+            FractalSource::Flame { path, .. } => Some(path.clone()),
+            FractalSource::Known(_) => None,
         });
         ground.into_iter().chain(materials).chain(flames).chain(steps).collect()
     }
@@ -86,18 +86,22 @@ impl Recipe {
         read_text(path).map_err(|cause| {
             let message = format!("the recipe cannot be read: {cause}{}", remedy(cause.kind()));
             let file = path.display().to_string();
-            RecipeError { file, complaints: vec![Complaint { line: 1, message }] }
+            RecipeError { file, diagnostics: vec![Diagnostic { line: 1, message }] }
         })
     }
 
     /// A recipe that was put together as a table.
     pub(super) fn of_table(file: &str, table: &Table) -> Result<Self, Error> {
-        Self::checked(&Vocabulary::FULL, file, table, Complaints::default())
+        Self::checked(&Vocabulary::FULL, file, table, Diagnostics::default())
     }
 
     /// The same of one that was read from a file, with the complaints about its changes.
-    pub(super) fn of_changed_table(file: &str, table: &Table, complaints: Complaints) -> Result<Self, Error> {
-        Self::checked(&Vocabulary::FULL, file, table, complaints)
+    pub(super) fn of_changed_table(
+        file: &str,
+        table: &Table,
+        diagnostics: Diagnostics,
+    ) -> Result<Self, Error> {
+        Self::checked(&Vocabulary::FULL, file, table, diagnostics)
     }
 
     /// Reads and checks a recipe. `file` is its name; paths in it are relative to the folder of that name. No
@@ -116,21 +120,21 @@ impl Recipe {
         overrides: &Overrides,
     ) -> Result<Self, Error> {
         let mut table = source::parse(file, text)?;
-        let mut complaints = Complaints::default();
-        overrides.apply(&mut table, &mut complaints);
-        Self::checked(vocabulary, file, &table, complaints)
+        let mut diagnostics = Diagnostics::default();
+        overrides.apply(&mut table, &mut diagnostics);
+        Self::checked(vocabulary, file, &table, diagnostics)
     }
 
     fn checked(
         vocabulary: &Vocabulary,
         file: &str,
         table: &Table,
-        mut complaints: Complaints,
+        mut diagnostics: Diagnostics,
     ) -> Result<Self, Error> {
-        let recipe = check(vocabulary, file, table, &mut complaints);
-        if !complaints.found.is_empty() {
-            complaints.found.sort_by_key(|complaint| complaint.line);
-            return Err(RecipeError { file: file.to_owned(), complaints: complaints.found }.into());
+        let recipe = check(vocabulary, file, table, &mut diagnostics);
+        if !diagnostics.found.is_empty() {
+            diagnostics.found.sort_by_key(|diagnostic| diagnostic.line);
+            return Err(RecipeError { file: file.to_owned(), diagnostics: diagnostics.found }.into());
         }
         recipe
     }
@@ -165,8 +169,8 @@ impl Recipe {
                 "a page needs layer `{name}`, which no step writes; an [[output]] with export = \"report\" can say `of` \
                  which layer of heights it is"
             );
-            let complaints = vec![Complaint { line: 1, message }];
-            return Err(RecipeError { file: self.file.clone(), complaints }.into());
+            let diagnostics = vec![Diagnostic { line: 1, message }];
+            return Err(RecipeError { file: self.file.clone(), diagnostics }.into());
         }
         let content = Content::Export { name: report::ENTRY.name, export: Box::new(page) };
         Ok(Output { line: 0, file: PathBuf::new(), content })
@@ -191,7 +195,7 @@ fn remedy(cause: ErrorKind) -> &'static str {
 /// The text of a file, of which no more is read than shows that it is too long.
 fn read_text(path: &Path) -> std::io::Result<String> {
     let mut text = String::new();
-    File::open(path)?.take(source::MAXIMUM_BYTES as u64 + 1).read_to_string(&mut text)?;
+    File::open(path)?.take(source::MAX_BYTES as u64 + 1).read_to_string(&mut text)?;
     Ok(text)
 }
 
@@ -200,36 +204,36 @@ fn check(
     vocabulary: &Vocabulary,
     file: &str,
     recipe: &Table,
-    complaints: &mut Complaints,
+    diagnostics: &mut Diagnostics,
 ) -> Result<Recipe, Error> {
-    complaints.subject.clear();
-    let recipe = &format::with_new_names(recipe, complaints);
-    complaints.subject.clear();
-    format::check(recipe, complaints);
-    complaints.unknown_keys(recipe, &[format::KEY, "landscape", "material", "fractal", "step", "output"]);
+    diagnostics.subject.clear();
+    let recipe = &format::with_new_names(recipe, diagnostics);
+    diagnostics.subject.clear();
+    format::check(recipe, diagnostics);
+    diagnostics.unknown_keys(recipe, &[format::KEY, "landscape", "material", "fractal", "step", "output"]);
     let files = Files { vocabulary, folder: Path::new(file).parent().unwrap_or(Path::new("")) };
-    let start = landscape::read(files, recipe, complaints);
-    let before = complaints.found.len();
-    let materials = materials::read(files, recipe, complaints);
-    let materials_understood = complaints.found.len() == before;
-    let before = complaints.found.len();
-    let fractals = fractals::read(files, recipe, complaints);
-    let fractals_understood = complaints.found.len() == before;
-    let (steps, all_understood) = steps::read(files, recipe, complaints);
-    let outputs = outputs::read(vocabulary, recipe, complaints);
+    let start = landscape::read(files, recipe, diagnostics);
+    let before = diagnostics.found.len();
+    let materials = materials::read(files, recipe, diagnostics);
+    let materials_understood = diagnostics.found.len() == before;
+    let before = diagnostics.found.len();
+    let fractals = fractals::read(files, recipe, diagnostics);
+    let fractals_understood = diagnostics.found.len() == before;
+    let (steps, all_understood) = steps::read(files, recipe, diagnostics);
+    let outputs = outputs::read(vocabulary, recipe, diagnostics);
     if fractals_understood {
-        fractals::check_names(&fractals, &steps, &outputs, complaints);
+        fractals::check_names(&fractals, &steps, &outputs, diagnostics);
     }
-    complaints.subject.clear();
+    diagnostics.subject.clear();
     if recipe.get("output").is_none() {
-        complaints.add(1, "a recipe needs an [[output]] table, or its run would leave nothing behind");
+        diagnostics.add(1, "a recipe needs an [[output]] table, or its run would leave nothing behind");
     }
     if let (true, Ok(ground)) = (all_understood && materials_understood, &start.ground) {
         let made = Made { ground, materials: &materials, steps: &steps };
-        layers::check(&made, &outputs, complaints);
+        layers::check(&made, &outputs, diagnostics);
     }
     if materials_understood {
-        steps::check_materials(&steps, &materials, complaints);
+        steps::check_materials(&steps, &materials, diagnostics);
     }
     steps::check_sizes(&steps)?;
     let text = format!("{} = {}\n{}", format::KEY, format::NEWEST, canonical::text(recipe));

@@ -1,11 +1,11 @@
 //! Runs a checked recipe: ground, steps, files, report.
 
-mod desk;
 mod film;
 mod finished;
 mod folder;
 mod inputs;
 mod options;
+mod step_watcher;
 #[cfg(test)]
 mod tests;
 mod video;
@@ -19,8 +19,8 @@ use super::checkpoint::{self, CHECKPOINT_FILE, State};
 use super::ground;
 use super::plan::{Output, Planned, Recipe};
 use super::report::{OutputReport, REPORT_FILE, Report};
-use desk::{Clock, Desk};
 use finished::{check_layers, step_report};
+use step_watcher::{CheckpointTimer, StepWatcher};
 pub use video::Frames;
 use weald_core::error::Error;
 use weald_core::landscape::Landscape;
@@ -71,7 +71,7 @@ impl Run<'_> {
         Ok(state.landscape)
     }
 
-    /// What cannot be drawn is told before an hour of simulation.
+    /// What cannot be drawn is reported before an hour of simulation.
     fn check_drawing(&self, output: &Output) -> Result<(), Error> {
         match (output.render(), &self.options.render) {
             (None, _) => Ok(()),
@@ -93,7 +93,7 @@ impl Run<'_> {
 
     fn finish_steps(&self, progress: &dyn Progress) -> Result<State, Error> {
         let mut state = self.start(progress)?;
-        let clock = Clock::start(self.options.checkpoint_every);
+        let clock = CheckpointTimer::start(self.options.checkpoint_every);
         while let Some(planned) = self.recipe.steps.get(state.done) {
             self.stop_if_cancelled(&state, progress)?;
             progress.step(state.done + 1, self.recipe.steps.len(), planned.entry.name);
@@ -133,7 +133,7 @@ impl Run<'_> {
     }
 
     /// Between two steps, for those that keep no checkpoints of their own.
-    fn keep_if_due(&self, state: &State, clock: &Clock) -> Result<(), Error> {
+    fn keep_if_due(&self, state: &State, clock: &CheckpointTimer) -> Result<(), Error> {
         if clock.is_due() {
             checkpoint::write(&self.checkpoint(), self.recipe.effective(), state, None)?;
             clock.restart();
@@ -166,13 +166,13 @@ impl Run<'_> {
         planned: &Planned,
         state: &mut State,
         progress: &dyn Progress,
-        clock: &Clock,
+        clock: &CheckpointTimer,
     ) -> Result<(), Error> {
         let resume = state.simulation.take();
         let resumed_at = resume.as_ref().map(|simulation| simulation.iteration);
         let mut landscape = state.landscape.clone();
         let started = Instant::now();
-        let desk = Desk::new(self, state, progress, clock);
+        let desk = StepWatcher::new(self, state, progress, clock);
         let seed = planned.seed(self.recipe.seed);
         let job = Job { seed, engine: self.options.engine.clone(), watcher: &desk, resume };
         let result = planned.step.run(&mut landscape, &job);
@@ -193,7 +193,13 @@ impl Run<'_> {
     }
 
     /// Says in which step an error arose and where the last state is.
-    fn explain(&self, error: Error, planned: &Planned, desk: &Desk<'_>, resumed_at: Option<u64>) -> Error {
+    fn explain(
+        &self,
+        error: Error,
+        planned: &Planned,
+        desk: &StepWatcher<'_>,
+        resumed_at: Option<u64>,
+    ) -> Error {
         let step = format!("step {} (`{}`)", desk.number(), planned.entry.name);
         let kept = desk.kept().or(resumed_at);
         match error {

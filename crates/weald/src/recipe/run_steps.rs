@@ -3,7 +3,7 @@
 use crate::recipe::catalog;
 use weald_core::error::{Error, RecipeError};
 use weald_core::landscape::Landscape;
-use weald_core::parameter::Complaints;
+use weald_core::parameter::Diagnostics;
 use weald_core::source::parse;
 use weald_engine::Job;
 
@@ -20,10 +20,10 @@ pub fn run_steps(landscape: &mut Landscape, seed: u64, steps: &[(&str, &str)]) -
 
 fn run_step(landscape: &mut Landscape, seed: u64, name: &str, keys: &str) -> Result<(), Error> {
     let entry = catalog::find(name).ok_or_else(|| Error::Run(format!("there is no step `{name}`")))?;
-    let mut complaints = Complaints { subject: name.to_owned(), ..Complaints::default() };
-    let step = (entry.read)(&parse(name, keys)?, &mut complaints);
-    if !complaints.found.is_empty() {
-        return Err(RecipeError { file: name.to_string(), complaints: complaints.found }.into());
+    let mut diagnostics = Diagnostics { subject: name.to_owned(), ..Diagnostics::default() };
+    let step = (entry.read)(&parse(name, keys)?, &mut diagnostics);
+    if !diagnostics.found.is_empty() {
+        return Err(RecipeError { file: name.to_string(), diagnostics: diagnostics.found }.into());
     }
     step.run(landscape, &Job::unwatched(seed)).map(|_| ())
 }

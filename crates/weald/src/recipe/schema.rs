@@ -8,7 +8,7 @@ use super::catalog::CATALOG;
 use super::format;
 use super::parameter::{Kind, Needs, Parameter, Parameters, Variant};
 use super::plan::{FILM_EXTENSIONS, FilmKeys, FractalKeys, LandscapeKeys, MaterialKeys};
-use weald_core::material::MOST;
+use weald_core::material::MAX_MATERIALS;
 use weald_export::EXPORTS;
 use weald_io::FORMATS;
 use weald_picture::PICTURES;
@@ -46,7 +46,7 @@ pub fn schema() -> Value {
             "landscape": landscape(),
             "material": {
                 "type": "array",
-                "maxItems": MOST,
+                "maxItems": MAX_MATERIALS,
                 "items": table(&MaterialKeys::parameters()),
             },
             "fractal": { "type": "array", "items": table(&FractalKeys::parameters()) },
@@ -100,8 +100,9 @@ fn layer_output() -> Value {
 fn preset() -> Value {
     let presets: Vec<_> = FORMATS.iter().flat_map(|format| format.presets).collect();
     let names: BTreeSet<_> = presets.iter().map(|preset| preset.name).collect();
-    let told: Vec<_> = presets.iter().map(|preset| format!("{}: {}", preset.name, preset.summary)).collect();
-    json!({ "enum": names, "description": told.join(". ") })
+    let descriptions: Vec<_> =
+        presets.iter().map(|preset| format!("{}: {}", preset.name, preset.summary)).collect();
+    json!({ "enum": names, "description": descriptions.join(". ") })
 }
 
 /// A table that is told from others by the word under `key`: one schema, or one for each of its variants.

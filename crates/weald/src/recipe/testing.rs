@@ -13,7 +13,7 @@ use weald_core::random::hash2;
 use weald_engine::step::{Entry, Outcome, Stage, Step};
 use weald_engine::{Job, SavedSimulation};
 use weald_export::{Export, ExportEntry, Finished};
-use weald_io::{Encode, Format, Holds, Knowledge, Part, Preset, Raster};
+use weald_io::{Capabilities, Encode, Format, Metadata, Part, Preset, Raster};
 use weald_picture::{Image, Picture, PictureEntry};
 
 pub(super) const VOCABULARY: Vocabulary = Vocabulary {
@@ -41,12 +41,12 @@ static BITS: Format = Format {
     extensions: &["bits"],
     decode: None,
     encode: Some(Encode::File(|raster| Ok(bits(raster)))),
-    holds: Holds { omits: &[Knowledge::Cell], ..Holds::ALL },
+    holds: Capabilities { omits: &[Metadata::Cell], ..Capabilities::ALL },
     presets: &[Preset {
         name: "twice",
         summary: "every value twice",
         encode: Encode::File(|raster| Ok(bits(raster).repeat(2))),
-        holds: Holds::ALL,
+        holds: Capabilities::ALL,
     }],
 };
 

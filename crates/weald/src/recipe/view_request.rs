@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use super::fractal::table_of;
 use super::overrides::{Overrides, given};
-use super::parameter::{Complaints, Parameters, key, without_effect};
+use super::parameter::{Diagnostics, Parameters, key, without_effect};
 use super::plan::{Content, FilmKeys, Output, Recipe};
 use super::source::{self, Node, Table, Value};
 use weald_core::error::Error;
@@ -29,8 +29,8 @@ impl ViewRequest {
     pub fn recipe(&self) -> Result<(Recipe, View), Error> {
         let file = self.recipe.display().to_string();
         let mut table = source::parse(&file, &Recipe::text_of(&self.recipe)?)?;
-        let mut complaints = Complaints::default();
-        self.overrides.apply(&mut table, &mut complaints);
+        let mut diagnostics = Diagnostics::default();
+        self.overrides.apply(&mut table, &mut diagnostics);
         let mut view = first_view(&table).unwrap_or_default();
         for name in FilmKeys::parameters().iter().chain(&RenderKeys::parameters()).map(|own| key(own.name)) {
             view.take(name);
@@ -48,7 +48,7 @@ impl ViewRequest {
             }
         }
         table.set("output", given(Value::List(vec![given(Value::Table(view))])));
-        let mut recipe = Recipe::of_changed_table(&file, &table, complaints)?;
+        let mut recipe = Recipe::of_changed_table(&file, &table, diagnostics)?;
         let outputs = std::mem::take(&mut recipe.outputs);
         let view = outputs.iter().find_map(view_of).cloned();
         Ok((recipe, view.expect("the only output is a view")))

@@ -103,7 +103,7 @@ fn smoothing_lessens_the_roughness_and_keeps_a_plane() {
     };
     let (after, _) = painted(&dab(Effect::Smooth { times: 3 }), &before);
     assert!(rough(&after) < 0.5 * rough(&before), "{} is not half of {}", rough(&after), rough(&before));
-    let mut plane = Canvas { land: None, ..canvas(30, 25) };
+    let mut plane = Canvas { valid: None, ..canvas(30, 25) };
     plane.thickness.iter_mut().for_each(|layer| layer.values_mut().fill(0.0));
     plane.bedrock = Field::from_function(plane.size(), |x, y| 8.0 * x as f32 - 4.0 * y as f32);
     assert_eq!(painted(&dab(Effect::Smooth { times: 3 }), &plane).0, plane);

@@ -4,7 +4,7 @@
 mod brushes;
 mod runs;
 mod scripts;
-mod sittings;
+mod sessions;
 mod undo;
 
 use proptest::prelude::*;
@@ -29,7 +29,7 @@ fn canvas(columns: usize, rows: usize) -> Canvas {
         bedrock: random(1, 100.0, 140.0),
         thickness: vec![random(2, -2.0, 3.0), random(3, -1.0, 1.0)],
         water: random(4, -1.0, 1.0),
-        land: Mask::new(size, (0..size.cells()).map(|cell| cell % 17 != 5).collect()),
+        valid: Mask::new(size, (0..size.cells()).map(|cell| cell % 17 != 5).collect()),
         ..Canvas::level(Area { first: [0, 0], size }, CELL, &materials)
     }
 }

@@ -55,7 +55,7 @@ fn faults_of_a_script_come_with_their_lines_and_what_was_probably_meant() {
                 [3]\n\
                 {\"do\": \"flatten\", \"path\": [[1, 2], [3, 4]]}\n";
     let message = parse(text).expect_err("faulty").to_string();
-    for told in [
+    for expected in [
         "s.jsonl:1: edit: `do` is \"ad\"; did you mean `add`?",
         "s.jsonl:3: add: `material` is \"snad\", of which there is none; did you mean `sand`?",
         "s.jsonl:4: smooth: unknown key `radiu`; did you mean `radius`?",
@@ -66,7 +66,7 @@ fn faults_of_a_script_come_with_their_lines_and_what_was_probably_meant() {
         "s.jsonl:7: is a list, but must be { … }",
         "s.jsonl:8: flatten: `height` is needed",
     ] {
-        assert!(message.contains(told), "{told}\nis not in\n{message}");
+        assert!(message.contains(expected), "{expected}\nis not in\n{message}");
     }
     let toml = "[[edit]]\ndo = \"thaw\"\npath = [[1, 2], [3, \"4\"]]\n";
     let message = Script::parse("s.toml", toml, Layout::Toml, &MATERIALS).expect_err("faulty").to_string();

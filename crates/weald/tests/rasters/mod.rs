@@ -13,12 +13,12 @@ use weald::random::hash2;
 pub fn any_raster(columns: usize, rows: usize, seed: u64) -> Raster {
     let size = Size { columns, rows };
     let bits = |index: usize| hash2(seed, index as i64, 0);
-    let is_land = |index: usize| bits(index) >> 61 != 0;
+    let is_valid = |index: usize| bits(index) >> 61 != 0;
     let value = |index: usize| Some(f32::from_bits(bits(index) as u32)).filter(|value| value.is_finite());
-    let values = |index: usize| if is_land(index) { value(index).unwrap_or(-9999.0) } else { 0.0 };
-    let land = Mask::new(size, (0..size.cells()).map(is_land).collect());
+    let values = |index: usize| if is_valid(index) { value(index).unwrap_or(-9999.0) } else { 0.0 };
+    let valid = Mask::new(size, (0..size.cells()).map(is_valid).collect());
     let field = Field::from_values(size, (0..size.cells()).map(values).collect());
-    Raster { land, ..Raster::from(field) }
+    Raster { valid, ..Raster::from(field) }
 }
 
 /// Columns and rows of [`hills`].
@@ -27,11 +27,12 @@ pub const HILLS: Size = Size { columns: 300, rows: 270 };
 /// Hills between 100 and 300 m in Tennessee, with a round lake of no-data.
 pub fn hills() -> Raster {
     let height = |x: usize, y: usize| 200.0 + 100.0 * ((x * x + 7 * y) as f32 * 0.001).sin();
-    let is_land = |index: usize| (index % 300).abs_diff(150).pow(2) + (index / 300).abs_diff(90).pow(2) > 900;
-    let land = Mask::new(HILLS, (0..HILLS.cells()).map(is_land).collect());
+    let is_valid =
+        |index: usize| (index % 300).abs_diff(150).pow(2) + (index / 300).abs_diff(90).pow(2) > 900;
+    let valid = Mask::new(HILLS, (0..HILLS.cells()).map(is_valid).collect());
     let field =
-        Field::from_function(HILLS, |x, y| if is_land(HILLS.index(x, y)) { height(x, y) } else { 0.0 });
-    let (low, high) = field.range(land.as_ref()).expect("land");
+        Field::from_function(HILLS, |x, y| if is_valid(HILLS.index(x, y)) { height(x, y) } else { 0.0 });
+    let (low, high) = field.range(valid.as_ref()).expect("land");
     let provenance = Provenance {
         version: "0.1.0".to_owned(),
         recipe_blake3: "af13".repeat(16),
@@ -40,7 +41,7 @@ pub fn hills() -> Raster {
         unit: "m".to_owned(),
         range: (f64::from(low), f64::from(high)),
     };
-    Raster { land, provenance: Some(provenance), ..at(32616, [730_900.75, 4_069_271.25], [80.0; 2], field) }
+    Raster { valid, provenance: Some(provenance), ..at(32616, [730_900.75, 4_069_271.25], [80.0; 2], field) }
 }
 
 /// A field with a place on Earth.

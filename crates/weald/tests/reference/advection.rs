@@ -6,7 +6,7 @@ use super::World;
 /// cell away in each direction and stops before cells without data.
 fn departure(world: &World, at: usize, velocity: [f64; 2]) -> Vec<(usize, f64)> {
     let columns = world.columns;
-    let linked = |next: usize| world.land[at] && world.land.get(next).copied().unwrap_or(false);
+    let linked = |next: usize| world.valid[at] && world.valid.get(next).copied().unwrap_or(false);
     let along = |speed: f64, before: Option<usize>, after: Option<usize>, stride: i64| {
         let upwind = if speed > 0.0 { before } else { after };
         let share = if upwind.is_some_and(linked) { speed.abs().min(1.0) } else { 0.0 };

@@ -18,7 +18,7 @@ pub fn carry(world: &World, depth: &[f64], epsilon: f64) -> Vec<f64> {
         .iter()
         .zip(&world.flux)
         .map(|(edge, flux)| {
-            let inner = world.land[edge.cells[0]] && world.land[edge.cells[1]];
+            let inner = world.valid[edge.cells[0]] && world.valid[edge.cells[1]];
             Face { cells: edge.cells, net: flux[0] - flux[1], more: 0.0, inner }
         })
         .collect();

@@ -23,10 +23,10 @@ pub struct Edge {
     pub across: bool,
 }
 
-/// Ground, water and sediment of a small world with cells of 1 m.
+/// Ground, water and sediment of a subdomain with cells of 1 m.
 pub struct World {
     pub columns: usize,
-    pub land: Vec<bool>,
+    pub valid: Vec<bool>,
     pub edges: Vec<Edge>,
     pub start: Vec<f64>,
     pub change: Vec<f64>,
@@ -62,7 +62,7 @@ impl World {
         let zeros = vec![0.0; land.len()];
         let flux = vec![[0.0; 2]; edges.len()];
         let [change, piled, depth, sediment] = [(); 4].map(|()| zeros.clone());
-        Self { columns, land, edges, start, change, piled, depth, sediment, flux }
+        Self { columns, valid: land, edges, start, change, piled, depth, sediment, flux }
     }
 
     /// One step of a simulation, all of whose numbers must be given.
@@ -89,7 +89,7 @@ impl World {
     /// The edge's cell with data, where it has but one, and the sign of a flux out of it.
     fn rim(&self, edge: &Edge) -> Option<(usize, f64)> {
         let [a, b] = edge.cells;
-        match (self.land[a], self.land[b]) {
+        match (self.valid[a], self.valid[b]) {
             (true, false) => Some((a, 1.0)),
             (false, true) => Some((b, -1.0)),
             _ => None,
@@ -98,7 +98,7 @@ impl World {
 
     /// What flows out of each cell.
     fn outflow(&self) -> Vec<f64> {
-        let mut out = vec![0.0; self.land.len()];
+        let mut out = vec![0.0; self.valid.len()];
         for (edge, flux) in self.edges.iter().zip(&self.flux) {
             let [a, b] = edge.cells;
             out[a] += flux[0].max(0.0) + (-flux[1]).max(0.0);
@@ -107,11 +107,11 @@ impl World {
         out
     }
 
-    /// Scales every flux to what its giving cell can afford.
+    /// Scales every flux to what its giving cell can give.
     fn limit(&mut self, depth: &[f64]) {
-        let afford =
+        let available =
             |(depth, out): (&f64, f64)| if out > depth.max(0.0) { depth.max(0.0) / out } else { 1.0 };
-        let share: Vec<f64> = depth.iter().zip(self.outflow()).map(afford).collect();
+        let share: Vec<f64> = depth.iter().zip(self.outflow()).map(available).collect();
         for (edge, flux) in self.edges.iter().zip(&mut self.flux) {
             let [a, b] = edge.cells;
             flux[0] *= share[if flux[0] > 0.0 { a } else { b }];
@@ -159,11 +159,11 @@ impl World {
         let rims = |cell: usize| {
             self.edges.iter().any(|edge| edge.cells.contains(&cell) && self.rim(edge).is_some())
         };
-        (0..self.land.len()).filter(|&cell| self.land[cell] && !rims(cell)).collect()
+        (0..self.valid.len()).filter(|&cell| self.valid[cell] && !rims(cell)).collect()
     }
 
     fn drain(&mut self) {
-        for at in (0..self.land.len()).filter(|&at| !self.land[at]) {
+        for at in (0..self.valid.len()).filter(|&at| !self.valid[at]) {
             (self.depth[at], self.sediment[at]) = (0.0, 0.0);
         }
     }
@@ -183,7 +183,7 @@ impl World {
         let mut depth = self.depth.clone();
         self.carry(&mut depth, |_| 1.0);
         let before = self.depth.clone();
-        for (depth, _) in depth.iter_mut().zip(&self.land).filter(|(_, land)| **land) {
+        for (depth, _) in depth.iter_mut().zip(&self.valid).filter(|(_, land)| **land) {
             *depth += rain - depth.max(0.0).min(evaporation);
         }
         self.depth = depth;
@@ -219,7 +219,7 @@ impl World {
 
     /// Eq. 11: flux over the cross-section between two cells; a cell has the mean of its faces.
     fn face_velocities(&self, keys: &Numbers) -> Vec<[f64; 2]> {
-        let mut velocity = vec![[0.0; 2]; self.land.len()];
+        let mut velocity = vec![[0.0; 2]; self.valid.len()];
         for (edge, flux) in self.edges.iter().zip(&self.flux) {
             let thick = edge.cells.map(|cell| self.depth[cell].max(0.0)).iter().sum::<f64>() / 2.0;
             let speed = flux[0] / (thick + keys.velocity_epsilon);
@@ -249,7 +249,7 @@ impl World {
 
     /// Mei et al. 2007, steps 1 to 5.
     fn mei(&mut self, keys: &Numbers, rain: f64, evaporation: f64) {
-        let land = self.land.iter().zip(&self.depth);
+        let land = self.valid.iter().zip(&self.depth);
         let rained: Vec<f64> = land.map(|(&land, depth)| depth + if land { rain } else { 0.0 }).collect();
         self.pour(keys.flow_rate, &rained);
         if keys.limiter {
@@ -290,7 +290,7 @@ impl World {
     }
 
     fn velocities_mei(&self, keys: &Numbers, before: &[f64], after: &[f64]) -> Vec<[f64; 2]> {
-        let mut velocity = vec![[0.0; 2]; self.land.len()];
+        let mut velocity = vec![[0.0; 2]; self.valid.len()];
         for (edge, flux) in self.edges.iter().zip(&self.flux) {
             for cell in edge.cells {
                 let mean_depth = f64::midpoint(before[cell], after[cell]);

@@ -6,7 +6,7 @@ use weald::erode::hydraulic::{Hydraulic, Model, StavaKeys, Transport};
 use weald::material::Material;
 use weald::recipe::parameter::Nested;
 
-/// A small world of stacked materials.
+/// A subdomain of stacked materials.
 pub struct Column {
     /// Its bedrock, water and sediment; `piled` is all that lies on the bedrock.
     pub world: World,
@@ -29,7 +29,7 @@ impl Column {
                 *start -= thickness;
             }
         }
-        let cells = world.land.len();
+        let cells = world.valid.len();
         let creep = vec![[0.0; 2]; world.edges.len()];
         let [ones, zeros] = [1.0, 0.0].map(|value| vec![value; cells]);
         let (rain_share, evaporation_share) = (ones.clone(), ones);
@@ -86,7 +86,7 @@ impl Column {
     }
 
     fn weather(&mut self, rain: f64, evaporation: f64) {
-        for at in (0..self.world.land.len()).filter(|&at| self.world.land[at]) {
+        for at in (0..self.world.valid.len()).filter(|&at| self.world.valid[at]) {
             let wet = self.world.depth[at] + rain * self.rain_share[at] + self.source[at].max(0.0);
             let dried = evaporation * self.evaporation_share[at] - self.source[at].min(0.0);
             self.world.depth[at] = (wet - dried).max(0.0);

@@ -37,7 +37,7 @@ fn triangles(world: &World, ground: &[f64], towards: [i64; 2], rule: (f64, f64),
             continue;
         }
         let [here, aside, below] = [at, at + towards[0], at + columns * towards[1]].map(|cell| cell as usize);
-        if ![here, aside, below].iter().all(|&cell| world.land[cell]) {
+        if ![here, aside, below].iter().all(|&cell| world.valid[cell]) {
             continue;
         }
         let (dx, dy) = (ground[here] - ground[aside], ground[here] - ground[below]);

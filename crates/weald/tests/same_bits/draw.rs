@@ -94,13 +94,13 @@ impl Draw {
         self.among(300..340) as u32
     }
 
-    /// Rough layered ground. Some of it is so high that several steps go through it in one passage, whatever the
+    /// Rough layered ground. Some of it is so high that several steps go through it in one time block, whatever the
     /// reach of the process.
     fn ground(&mut self) -> Landscape {
         let columns = self.among(9..28) as usize;
         let rows = if self.once_in(3) { self.among(24..64) } else { self.among(64..128) } as usize;
         let mut ground = layered(rough(columns, rows, 25.0, self.bits() % 1000));
-        ground.domain.land = self.mask(ground.domain.size);
+        ground.domain.valid = self.mask(ground.domain.size);
         ground
     }
 

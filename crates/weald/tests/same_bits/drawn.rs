@@ -131,7 +131,7 @@ fn differences_of_looks(case: &Case, (expected, outcome): (&Landscape, &Outcome)
 fn fault(number: u64) -> Option<String> {
     let case = case(number);
     let found = differences(&case);
-    let (size, masked) = (case.ground.domain.size, case.ground.domain.land.is_some());
+    let (size, masked) = (case.ground.domain.size, case.ground.domain.valid.is_some());
     let step: &dyn Step = &*case.step;
     (!found.is_empty()).then(|| format!("case {number}, {size}, mask {masked}: {found:#?}: {step:?}"))
 }

@@ -37,7 +37,7 @@ impl Flam3 {
         format!("flam3 {}", self.version)
     }
 
-    /// Million points a second into a square picture.
+    /// Million points per second into a square picture.
     ///
     /// # Errors
     /// [`Error::Run`] where it fails, or a file cannot be written.

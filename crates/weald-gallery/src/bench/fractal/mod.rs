@@ -39,11 +39,11 @@ pub struct PointRate {
     pub name: String,
     /// Threads.
     pub threads: usize,
-    /// Million points a second.
+    /// Million points per second.
     pub millions: f64,
     /// Bytes that a point moves between registers and cache, where they are known.
     pub bytes: Option<usize>,
-    /// What it is compared with, and the rates of those in million points a second.
+    /// What it is compared with, and the rates of those in million points per second.
     pub beside: Vec<(&'static str, f64)>,
 }
 
@@ -62,8 +62,8 @@ impl Display for PointRate {
     }
 }
 
-/// Measures points of the fern for each thread count, and flam3 on the same fern; `report` hears each line as it is
-/// known.
+/// Measures points of the fern for each thread count, and flam3 on the same fern; `report` is called with each line as
+/// it is known.
 ///
 /// # Errors
 /// [`Error::Run`] where threads or flam3 cannot be started, or flam3 fails.
@@ -124,7 +124,7 @@ fn window(ifs: &Ifs) -> Window {
     Window { low: low.map(|x| x as f32), scale: [scale as f32; 2], size: [SIDE; 2] }
 }
 
-/// Million points a second of work on so many chunks: as many as take long enough, the best of several runs.
+/// Million points per second of work on so many chunks: as many as take long enough, the best of several runs.
 fn rate(work: impl Fn(usize)) -> f64 {
     let seconds = |chunks| {
         let begun = Instant::now();

@@ -64,7 +64,17 @@ pub(super) fn maps() -> Maps {
     });
     let density = field(|x, y| 1.0 - 1.05 * band(x - (0.34 + 0.2 * y + 0.05 * libm::sinf(7.0 * y)), 0.09));
     let (land, water, mown, trodden) = (None, None, None, None);
-    Maps { cell: CELL, land, density, soil, light, shares: vec![field(|_, _| 1.0)], water, mown, trodden }
+    Maps {
+        cell: CELL,
+        valid: land,
+        density,
+        soil,
+        light,
+        shares: vec![field(|_, _| 1.0)],
+        water,
+        mown,
+        trodden,
+    }
 }
 
 fn meadow(job: GalleryJob) -> Meadow {

@@ -81,8 +81,8 @@ fn make(job: GalleryJob) -> FigureOutput {
 /// Sets that grow close together, within so many metres.
 fn clump(set: &Set, reach: f32) -> Vec<(Vector, Set)> {
     let place = |number: u32| {
-        let lot = |purpose| (2.0 * unit(hash2(11, i64::from(number), purpose)) - 1.0) as f32 * reach;
-        ([lot(0), 0.0, lot(1)], Set { seed: 31 * number + 4, ..*set })
+        let random = |purpose| (2.0 * unit(hash2(11, i64::from(number), purpose)) - 1.0) as f32 * reach;
+        ([random(0), 0.0, random(1)], Set { seed: 31 * number + 4, ..*set })
     };
     (0..SETS).map(place).collect()
 }

@@ -1,8 +1,8 @@
 //! Blades and ground as triangles with light on them: a small rasteriser, for figures alone.
 //!
-//! Triangles are projected, sorted into bands of rows, and drawn with a depth buffer of three by three samples a pixel, so
-//! that edges are smooth and no order matters. Light is that of a sun, of the sky, and of leaves that let light through
-//! (a Lambert term on each side); haze takes what is far away.
+//! Triangles are projected, sorted into bands of rows, and drawn with a depth buffer of three by three samples per
+//! pixel, so that edges are smooth and no order matters. Light is that of a sun, of the sky, and of leaves that let
+//! light through (a Lambert term on each side); haze takes what is far away.
 
 use rayon::prelude::*;
 

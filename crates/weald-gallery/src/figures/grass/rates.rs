@@ -1,4 +1,4 @@
-//! Figure 8 and tables 1 to 3: frames a second against the number of sets, the level of growth and the distance.
+//! Figure 8 and tables 1 to 3: frames per second against the number of sets, the level of growth and the distance.
 
 use super::chart::{Chart, GREEN, RED};
 use crate::figures::{Claim, Figure, FigureOutput, GalleryJob, Make, Measured, Plate, Verdict, texts};
@@ -9,8 +9,8 @@ pub(in crate::figures) const FIGURE_8: Figure = Figure {
     id: "grass-8",
     title: "How fast grass is drawn",
     source: "Kim and Cho 2009, fig. 8, tables 1 to 3 (Core 2 Duo E8500, GeForce 9600 GT)",
-    shows: "Frames a second against sets of six blades (table 1, fig. 8), against levels of growth (table 2), and from \
-        afar, from the height of eyes and from near (table 3). Tables 1 and 2 draw every set with all its vertices; table \
+    shows: "Frames per second against sets of six blades (table 1, fig. 8), against levels of growth (table 2), and from \
+        afar, from the eye level and from near (table 3). Tables 1 and 2 draw every set with all its vertices; table \
         3 leaves out those that are not in sight.",
     seconds: 150,
     make: Make::Drawn(make),
@@ -34,7 +34,7 @@ fn make(job: GalleryJob, device: &dyn RenderDevice) -> Result<FigureOutput, Erro
     Ok(FigureOutput {
         plates: vec![Plate {
             name: "sets",
-            caption: "Frames a second against sets, as powers of ten: here (green) and in the source (red)"
+            caption: "Frames per second against sets, as powers of ten: here (green) and in the source (red)"
                 .to_owned(),
             image: chart(&of(1).collect::<Vec<_>>(), job).image(),
         }],
@@ -81,9 +81,9 @@ fn claim_of_sets(rates: &[&GrassRate]) -> Claim {
     let [first, last] =
         [rates.first(), rates.last()].map(|rate| rate.map_or((0, 0.0), |rate| (rate.sets, rate.rate)));
     Claim::new(
-        "More sets are drawn more slowly, 100,000 still at 12 frames a second on the source's card",
+        "More sets are drawn more slowly, 100,000 still at 12 frames per second on the source's card",
         Verdict::of(falls && last.1 < first.1),
-        format!("{:.1} frames a second with {} sets, {:.2} with {}", first.1, first.0, last.1, last.0),
+        format!("{:.1} frames per second with {} sets, {:.2} with {}", first.1, first.0, last.1, last.0),
     )
 }
 

@@ -14,7 +14,7 @@ use weald_plants::grass::{Bend, LEVELS, Maps, Meadow, SPECIES};
 
 pub(in crate::figures) const FIGURE_12: Figure = Figure {
     id: "grass-12",
-    title: "A field from maps, from the height of eyes",
+    title: "A field from maps, from the eye level",
     source: "Kim and Cho 2009, fig. 12",
     shows: "The maps of grass-11 on gentle ground 48 m wide, drawn in real time: tall where the soil is rich, high and \
         narrow in shade, none on the path. Left from a person's height, right from above.",
@@ -76,8 +76,8 @@ fn seen(
     let [eye, target] = [eye, target].map(|place| Some(Places(vec![place])));
     let view = View { target, eye, eye_height, ..view };
     let render = Render { view, keys: RenderKeys::default() };
-    let reel = render.reel(landscape, device)?;
-    reel.set_up()?.draw(&reel.camera(Frame::STILL), 0.0)
+    let frame_sequence = render.frame_sequence(landscape, device)?;
+    frame_sequence.set_up()?.draw(&frame_sequence.camera(Frame::STILL), 0.0)
 }
 
 /// The maps' field on ground with gentle waves.

@@ -62,9 +62,9 @@ impl Brush<'_> {
     }
 
     /// The two sides of a blade that goes that way, as far apart as can be seen from the camera.
-    fn widened(&self, [left, right]: [Vector; 2], way: Vector) -> [Vector; 2] {
+    fn widened(&self, [left, right]: [Vector; 2], direction: Vector) -> [Vector; 2] {
         let middle = middle(left, right);
-        let across = cross(minus(self.camera.eye, middle), way);
+        let across = cross(minus(self.camera.eye, middle), direction);
         let length = dot(across, across).sqrt();
         let wanted = THINNEST * self.camera.pixel(middle);
         if length < 1e-12 {

@@ -19,7 +19,7 @@ struct Method {
     change: fn() -> Box<dyn CodeChange>,
     says: &'static str,
     /// Whether measures bear that out.
-    holds: fn(&Nature) -> bool,
+    holds: fn(&CodeMapProperties) -> bool,
 }
 
 const fn interval(from: usize, to: usize) -> Interval {
@@ -158,7 +158,7 @@ fn make(method: &Method, job: GalleryJob) -> Result<FigureOutput, Error> {
             Claim::new(
                 method.says,
                 Verdict::of(natures.iter().all(method.holds)),
-                natures.iter().map(Nature::in_words).collect::<Vec<_>>().join("; "),
+                natures.iter().map(CodeMapProperties::in_words).collect::<Vec<_>>().join("; "),
             ),
             Claim::new(
                 "No point moves further than the part of the digits before the interval is wide",
@@ -172,7 +172,7 @@ fn make(method: &Method, job: GalleryJob) -> Result<FigureOutput, Error> {
 /// What a change does to one shape.
 struct Shown {
     image: Image,
-    nature: Nature,
+    nature: CodeMapProperties,
     to_code: f64,
     by_field: f64,
     bound: f64,
@@ -196,7 +196,7 @@ impl Shown {
         let points = points(ifs, job);
         Ok(Self {
             image,
-            nature: Nature::of(ifs, change().as_ref())?,
+            nature: CodeMapProperties::of(ifs, change().as_ref())?,
             to_code: longest(&points, to_code),
             by_field: longest(&points, by_field),
             bound: ifs.precision(change().interval().from - 1),
@@ -214,7 +214,7 @@ impl Shown {
 }
 
 /// What a change is as a map of codes: measured on all codes down to the last digit that it changes.
-struct Nature {
+struct CodeMapProperties {
     maps: usize,
     codes: usize,
     /// Codes that come out.
@@ -226,7 +226,7 @@ struct Nature {
     idempotent: bool,
 }
 
-impl Nature {
+impl CodeMapProperties {
     fn of(ifs: &Ifs, change: &dyn CodeChange) -> Result<Self, Error> {
         let depth = change.interval().to;
         let changed = |code: &Code| change.change(code, ifs.digits());

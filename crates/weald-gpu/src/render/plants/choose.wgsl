@@ -11,7 +11,7 @@ struct Draw {
 }
 
 @group(2) @binding(0) var<uniform> kind: Kind;
-@group(2) @binding(1) var<storage, read> plants: array<Stood>;
+@group(2) @binding(1) var<storage, read> plants: array<PlacedPlant>;
 @group(2) @binding(2) var<storage, read_write> kept: array<u32>;
 @group(2) @binding(3) var<storage, read_write> starts: array<u32>;
 @group(2) @binding(4) var<storage, read_write> draws: array<Draw>;

@@ -1,6 +1,6 @@
 // Leaves and stems of plants: bent by the wind, lit from both sides, and as the sun sees them.
 
-struct Which {
+struct DrawIndex {
     view: u32,
     list: u32,
 }
@@ -17,17 +17,17 @@ struct Corner {
 }
 
 @group(2) @binding(0) var<uniform> kind: Kind;
-@group(2) @binding(1) var<storage, read> plants: array<Stood>;
+@group(2) @binding(1) var<storage, read> plants: array<PlacedPlant>;
 @group(2) @binding(2) var<storage, read> kept: array<u32>;
 @group(2) @binding(3) var<storage, read> starts: array<u32>;
 @group(2) @binding(4) var<storage, read> limbs: array<Limb>;
 @group(2) @binding(5) var<storage, read> corners: array<Corner>;
-@group(3) @binding(0) var<uniform> which: Which;
+@group(3) @binding(0) var<uniform> which: DrawIndex;
 
 // Share of light that comes through a leaf.
 const THROUGH_LEAF = 0.42;
 
-fn plant_of(instance: u32) -> Stood {
+fn plant_of(instance: u32) -> PlacedPlant {
     let first = which.view * arrayLength(&plants) + starts[which.view * LISTS + which.list];
     return plants[kept[first + instance]];
 }
@@ -38,7 +38,7 @@ fn of_the_land(v: vec3<f32>) -> vec3<f32> {
 }
 
 // Where a corner of a plant is, and its normal.
-fn corner_of(plant: Stood, corner: Corner) -> Bent {
+fn corner_of(plant: PlacedPlant, corner: Corner) -> Bent {
     let first = f32((corner.look >> 16u) & 7u);
     let last = f32((corner.look >> 19u) & 7u);
     let share = share_of_levels(detail_of(pixels_of(which.view, plant)), first, last);
@@ -53,7 +53,7 @@ fn corner_of(plant: Stood, corner: Corner) -> Bent {
     return Bent(point, of_the_land(rotated(turn, found.normal)));
 }
 
-fn colour_of_corner(plant: Stood, look: u32) -> vec3<f32> {
+fn colour_of_corner(plant: PlacedPlant, look: u32) -> vec3<f32> {
     if ((look >> 22u) & 1u) == 1u {
         return kind.stem.xyz;
     }

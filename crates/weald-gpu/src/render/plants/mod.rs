@@ -1,16 +1,17 @@
 //! Scattered plants on a device: chosen there for the camera and for each cascade of the sun, and drawn leaf by leaf.
 //!
-//! A set of plants is a mesh of limbs (`weald::grow::ifs::limbs`) and 32 bytes a plant. Each picture, passes over all plants
-//! sort them, for each view, into lists by how high they are seen, in pixels (`choose.wgsl`): a list for each level of
-//! detail, one for each passage between two, in which the leaves of both are drawn, the ones becoming broader and the
-//! others narrower (`plants.wgsl`). A list is one indirect draw. Leaves bend in the wind limb by limb (`leaves.wgsl`).
+//! A set of plants is a mesh of limbs (`weald::grow::ifs::limbs`) and 32 bytes per plant. Each picture, passes over all
+//! plants sort them, for each view, into lists by how high they are seen, in pixels (`choose.wgsl`): a list for each
+//! level of detail, one for each transition between two, in which the leaves of both are drawn, the ones becoming
+//! broader and the others narrower (`plants.wgsl`). A list is one indirect draw. Leaves bend in the wind limb by limb
+//! (`leaves.wgsl`).
 //!
 //! A plant takes 53 bytes of a device: itself, its place in the lists of five views, and its share of what counts them. A
 //! kind of plant takes 4 MB or so.
 
+mod batch;
 mod lists;
 mod pipelines;
-mod set;
 
 use weald::picture::Stage;
 use weald::{Error, Landscape};
@@ -18,14 +19,14 @@ use wgpu::{BindGroup, CommandEncoder, ComputePassDescriptor, IndexFormat, Render
 
 use super::layouts::Layouts;
 use crate::gpu::Gpu;
+use batch::{Batch, DRAW};
 use lists::{LISTS, VIEWS};
 use pipelines::Pipelines;
-use set::{DRAW, Set};
 
 /// All scattered plants of a landscape.
 #[derive(Debug)]
 pub(super) struct Plants {
-    sets: Vec<Set>,
+    sets: Vec<Batch>,
     pipelines: Pipelines,
 }
 
@@ -43,7 +44,7 @@ impl Plants {
             return Ok(None);
         }
         let pipelines = Pipelines::new(gpu, stage, layouts, samples)?;
-        let sets = grown.map(|(_, plants)| Set::new(gpu, stage, (landscape, plants), &pipelines.groups));
+        let sets = grown.map(|(_, plants)| Batch::new(gpu, stage, (landscape, plants), &pipelines.groups));
         Ok(Some(Self { sets: sets.collect::<Result<_, _>>()?, pipelines }))
     }
 

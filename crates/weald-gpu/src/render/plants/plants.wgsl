@@ -24,7 +24,7 @@ struct Kind {
     stem: vec4<f32>,
 }
 
-struct Stood {
+struct PlacedPlant {
     // East, north, up.
     place: vec3<f32>,
     // Height in metres.
@@ -37,7 +37,7 @@ struct Stood {
 }
 
 // Height of a plant in pixels, or in what texels of a cascade are worth where that is less.
-fn pixels_of(view: u32, plant: Stood) -> f32 {
+fn pixels_of(view: u32, plant: PlacedPlant) -> f32 {
     let distance = max(length(plant.place - frame.moment.yzw), 0.05);
     let pixels = plant.size / (distance * frame.eye.w);
     if view == 0u {
@@ -56,8 +56,8 @@ fn texel_of(cascade: i32) -> f32 {
 fn detail_of(pixels: f32) -> f32 {
     var detail = 0.0;
     for (var level = 0u; level < PLANT_LEVELS; level++) {
-        let way = clamp(log2(ENDS[level] * PASSES / pixels) / (2.0 * log2(PASSES)), 0.0, 1.0);
-        detail += way * way * (3.0 - 2.0 * way);
+        let fraction = clamp(log2(ENDS[level] * PASSES / pixels) / (2.0 * log2(PASSES)), 0.0, 1.0);
+        detail += fraction * fraction * (3.0 - 2.0 * fraction);
     }
     return detail;
 }

@@ -1,6 +1,6 @@
 //! Upslope sums along D8 directions: what passes a cell is its own weight and all that its donors pass.
 //!
-//! Threads walk down from the heads. Where ways meet, the last to arrive goes on, and adds what came by each in
+//! Threads walk down from the heads. Where paths meet, the last to arrive goes on, and adds what came by each in
 //! the order of directions: no sum depends on who came first.
 
 use std::sync::atomic::{AtomicU8, AtomicU64, Ordering};
@@ -11,42 +11,43 @@ use crate::analyse::directions::{Directions, STEPS};
 use weald_core::grid::{Field, Mask};
 
 /// Cells that one task begins at; no result depends on it.
-pub(super) const CELLS_A_TASK: usize = 1 << 14;
+pub(super) const CELLS_PER_TASK: usize = 1 << 14;
 
 /// The sum of the weights of each cell and all above it; each cell weighs 1 without weights, and nothing where
 /// it has no data. What arrives at the outlets and in the sea is what all cells weigh.
 ///
 /// # Panics
 /// If the weights or the mask are of another size than the directions: a bug of the caller.
-pub fn accumulate(directions: &Directions, land: Option<&Mask>, weight: Option<&Field>) -> Vec<f64> {
+pub fn accumulate(directions: &Directions, valid: Option<&Mask>, weight: Option<&Field>) -> Vec<f64> {
     let cells = directions.size().cells();
-    let walk = Walk { directions, own: Own::new(cells, land, weight), donors: donors(directions) };
+    let walk = Walk { directions, own: CellWeights::new(cells, valid, weight), donors: donors(directions) };
     let sums: Vec<AtomicU64> = (0..cells).into_par_iter().map(|_| AtomicU64::new(0)).collect();
     let waiting: Vec<AtomicU8> =
         walk.donors.par_iter().map(|donors| AtomicU8::new(donors.count_ones() as u8)).collect();
-    let heads = (0..cells).into_par_iter().with_min_len(CELLS_A_TASK).filter(|&cell| walk.donors[cell] == 0);
+    let heads =
+        (0..cells).into_par_iter().with_min_len(CELLS_PER_TASK).filter(|&cell| walk.donors[cell] == 0);
     heads.for_each(|head| walk.down_from(head, &sums, &waiting));
-    sums.into_par_iter().with_min_len(CELLS_A_TASK).map(|sum| f64::from_bits(sum.into_inner())).collect()
+    sums.into_par_iter().with_min_len(CELLS_PER_TASK).map(|sum| f64::from_bits(sum.into_inner())).collect()
 }
 
 /// What each cell adds by itself.
-pub(super) struct Own<'a> {
-    land: Option<&'a Mask>,
+pub(super) struct CellWeights<'a> {
+    valid: Option<&'a Mask>,
     weight: Option<&'a Field>,
 }
 
-impl<'a> Own<'a> {
-    pub(super) fn new(cells: usize, land: Option<&'a Mask>, weight: Option<&'a Field>) -> Self {
+impl<'a> CellWeights<'a> {
+    pub(super) fn new(cells: usize, valid: Option<&'a Mask>, weight: Option<&'a Field>) -> Self {
         assert!(
-            land.is_none_or(|land| land.size().cells() == cells),
+            valid.is_none_or(|valid| valid.size().cells() == cells),
             "the mask has the size of the directions"
         );
         assert!(weight.is_none_or(|w| w.values().len() == cells), "weights have the size of the directions");
-        Self { land, weight }
+        Self { valid, weight }
     }
 
     pub(super) fn at(&self, cell: usize) -> f64 {
-        if self.land.is_some_and(|land| !land.is_land_at(cell)) {
+        if self.valid.is_some_and(|valid| !valid.is_valid_at(cell)) {
             return 0.0;
         }
         self.weight.map_or(1.0, |weight| f64::from(weight.values()[cell]))
@@ -57,7 +58,7 @@ impl<'a> Own<'a> {
 fn donors(directions: &Directions) -> Vec<u8> {
     let donors: Vec<AtomicU8> =
         (0..directions.size().cells()).into_par_iter().map(|_| AtomicU8::new(0)).collect();
-    (0..donors.len()).into_par_iter().with_min_len(CELLS_A_TASK).for_each(|cell| {
+    (0..donors.len()).into_par_iter().with_min_len(CELLS_PER_TASK).for_each(|cell| {
         if let Some(next) = directions.downstream(cell) {
             donors[next].fetch_or(1 << opposite(directions.codes()[cell] - 1), Ordering::Relaxed);
         }
@@ -66,22 +67,22 @@ fn donors(directions: &Directions) -> Vec<u8> {
 }
 
 /// The way back: of the eight ways, the fourth on.
-pub(super) fn opposite(way: u8) -> u8 {
-    (way + 4) % 8
+pub(super) fn opposite(direction: u8) -> u8 {
+    (direction + 4) % 8
 }
 
 /// The ways, 0 to 7, whose bits are set.
-pub(super) fn ways(mut bits: u8) -> impl Iterator<Item = usize> {
+pub(super) fn set_directions(mut bits: u8) -> impl Iterator<Item = usize> {
     std::iter::from_fn(move || {
-        let way = bits.trailing_zeros() as usize;
+        let direction = bits.trailing_zeros() as usize;
         bits &= bits.wrapping_sub(1);
-        (way < 8).then_some(way)
+        (direction < 8).then_some(direction)
     })
 }
 
 struct Walk<'a> {
     directions: &'a Directions,
-    own: Own<'a>,
+    own: CellWeights<'a>,
     donors: Vec<u8>,
 }
 
@@ -103,8 +104,8 @@ impl Walk<'_> {
 
     fn received(&self, cell: usize, sums: &[AtomicU64]) -> f64 {
         let columns = self.directions.size().columns as isize;
-        let from = ways(self.donors[cell]).map(|way| {
-            let (east, south) = STEPS[way];
+        let from = set_directions(self.donors[cell]).map(|direction| {
+            let (east, south) = STEPS[direction];
             f64::from_bits(sums[cell.wrapping_add_signed(south * columns + east)].load(Ordering::Relaxed))
         });
         from.sum()

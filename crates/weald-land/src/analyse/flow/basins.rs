@@ -1,7 +1,7 @@
 //! Basins: the cells that descend to the same pit.
 //!
-//! On level ground, where no neighbour is lower, a cell hands on to an equal neighbour of smaller number: cells
-//! are then in one strict order, so that no way is a circle, and a plateau has few pits. Basin 0 is the sea and
+//! On flat ground, where no neighbour is lower, a cell drains to an equal neighbour of smaller number: cells
+//! are then in one strict order, so that no path is a cycle, and a plateau has few pits. Basin 0 is the sea and
 //! what lies beyond the border.
 
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
@@ -9,7 +9,7 @@ use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 use rayon::prelude::*;
 
 use super::descent::{Descent, FLAT};
-use super::surface::{ROWS_A_TASK, Surface};
+use super::surface::{ROWS_PER_TASK, Surface};
 use crate::analyse::directions::OUTLET;
 
 /// Not yet known.
@@ -37,15 +37,15 @@ impl Basins {
         let pits: Vec<usize> = (0..surface.cells()).into_par_iter().filter(|&cell| is_pit(cell)).collect();
         let labels: Vec<AtomicU32> = links
             .par_iter()
-            .with_min_len(ROWS_A_TASK * surface.stride)
+            .with_min_len(ROWS_PER_TASK * surface.stride)
             .map(|&link| AtomicU32::new(if link == OUTLET { 0 } else { UNKNOWN }))
             .collect();
         pits.par_iter().enumerate().for_each(|(basin, &pit)| labels[pit].store(basin as u32 + 1, Relaxed));
-        let ways = Ways { links: &links, offsets: surface.offsets(), labels: &labels };
+        let paths = FlowPaths { links: &links, offsets: surface.offsets(), labels: &labels };
         (0..surface.cells())
             .into_par_iter()
-            .with_min_len(ROWS_A_TASK * surface.stride)
-            .for_each(|cell| ways.label(cell));
+            .with_min_len(ROWS_PER_TASK * surface.stride)
+            .for_each(|cell| paths.label(cell));
         let labels = labels.into_iter().map(AtomicU32::into_inner).collect();
         let pits = std::iter::once(0).chain(pits).collect();
         Self { links, labels, pits }
@@ -60,7 +60,7 @@ impl Basins {
 /// Replaces the codes of cells without a lower neighbour.
 fn level_links(surface: &Surface, links: &mut [u8]) {
     let rows = links.par_chunks_mut(surface.stride).enumerate();
-    rows.with_min_len(ROWS_A_TASK).for_each(|(y, row)| {
+    rows.with_min_len(ROWS_PER_TASK).for_each(|(y, row)| {
         for (x, link) in row.iter_mut().enumerate() {
             let cell = y * surface.stride + x;
             if *link == FLAT || (*link == OUTLET && surface.level[cell].is_finite()) {
@@ -71,14 +71,14 @@ fn level_links(surface: &Surface, links: &mut [u8]) {
     });
 }
 
-/// Ways downward. Several threads may follow the same way: they write the same numbers.
-struct Ways<'a> {
+/// Paths downward. Several threads may follow the same way: they write the same numbers.
+struct FlowPaths<'a> {
     links: &'a [u8],
     offsets: [isize; 8],
     labels: &'a [AtomicU32],
 }
 
-impl Ways<'_> {
+impl FlowPaths<'_> {
     fn label(&self, cell: usize) {
         let (mut end, mut label) = (cell, self.labels[cell].load(Relaxed));
         while label == UNKNOWN {

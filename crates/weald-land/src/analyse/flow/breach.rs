@@ -2,30 +2,30 @@
 //!
 //! From each pit a channel as deep as the pit leads on until the ground is no higher. Lindsay 2016, "Efficient
 //! hybrid breaching-filling sink removal methods for flow path enforcement in digital elevation models", doi
-//! 10.1002/hyp.10648. Differs: the channel leads back up the steepest descent from the lowest pass, over it, and
+//! 10.1002/hyp.10648. Differs: the channel leads back up the steepest descent from the lowest saddle, over it, and
 //! down the other side (the carving of Cordonnier et al. 2019, doi 10.5194/esurf-7-549-2019), not along the way
 //! by which a queue came. Depressions that need a deeper cut than allowed are left, to be filled, as in
 //! Lindsay's hybrid. The result does not depend on the order of the pits: each cell ends as low as the lowest
 //! pit whose channel passes it. A hollow below the sea is drained by a channel as deep as the hollow.
 
 use super::basins::Basins;
-use super::passes::Passes;
+use super::saddles::Saddles;
 use super::surface::Surface;
 use crate::analyse::directions::OUTLET;
 
 /// Cuts channels from pits, none of which is deeper than `deepest` metres.
-pub(super) fn breach(surface: &mut Surface, basins: &Basins, passes: &Passes, deepest: f32) {
-    let exits = exits(basins.count(), passes);
+pub(super) fn breach(surface: &mut Surface, basins: &Basins, saddles: &Saddles, deepest: f32) {
+    let exits = exits(basins.count(), saddles);
     let ground = surface.level.clone();
-    let ways = Ways { ground: &ground, basins, exits: &exits };
+    let paths = FlowPaths { ground: &ground, basins, exits: &exits };
     for basin in 1..basins.count() as u32 {
-        if ways.deepest_cut(basin) <= deepest {
-            ways.cut(basin, surface);
+        if paths.deepest_cut(basin) <= deepest {
+            paths.cut(basin, surface);
         }
     }
 }
 
-/// The way out of a basin.
+/// The exit of a basin.
 #[derive(Clone, Copy, Debug, Default)]
 struct Exit {
     level: f32,
@@ -37,11 +37,11 @@ struct Exit {
     into: u32,
 }
 
-/// Turns the passes of the tree so that they lead out, from basin 0 inward.
-fn exits(count: usize, passes: &Passes) -> Vec<Exit> {
+/// Turns the saddles of the tree so that they lead out, from basin 0 inward.
+fn exits(count: usize, saddles: &Saddles) -> Vec<Exit> {
     let mut beside: Vec<Vec<u32>> = vec![Vec::new(); count];
-    for (at, pass) in passes.tree.iter().enumerate() {
-        for basin in pass.basins {
+    for (at, saddle) in saddles.tree.iter().enumerate() {
+        for basin in saddle.basins {
             beside[basin as usize].push(at as u32);
         }
     }
@@ -49,31 +49,31 @@ fn exits(count: usize, passes: &Passes) -> Vec<Exit> {
     let mut open = vec![(0, None)];
     while let Some((basin, arrived_over)) = open.pop() {
         for &at in beside[basin as usize].iter().filter(|&&at| Some(at) != arrived_over) {
-            let pass = &passes.tree[at as usize];
-            let inner = usize::from(pass.basins[0] == basin);
-            let inland = pass.basins[inner];
-            let (from, to) = (pass.cells[inner], pass.cells[1 - inner]);
+            let saddle = &saddles.tree[at as usize];
+            let inner = usize::from(saddle.basins[0] == basin);
+            let inland = saddle.basins[inner];
+            let (from, to) = (saddle.cells[inner], saddle.cells[1 - inner]);
             // A way over the border is stored with its cell inside, whichever end that is.
-            exits[inland as usize] = Exit { level: pass.level, from, to, into: basin };
+            exits[inland as usize] = Exit { level: saddle.level, from, to, into: basin };
             open.push((inland, Some(at)));
         }
     }
     exits
 }
 
-struct Ways<'a> {
+struct FlowPaths<'a> {
     /// Heights before any cut.
     ground: &'a [f32],
     basins: &'a Basins,
     exits: &'a [Exit],
 }
 
-impl Ways<'_> {
+impl FlowPaths<'_> {
     fn pit_level(&self, basin: u32) -> f32 {
         self.ground[self.basins.pits[basin as usize]]
     }
 
-    /// How far below the highest pass on its way the channel of a pit must lie.
+    /// How far below the highest saddle on its way the channel of a pit must lie.
     fn deepest_cut(&self, basin: u32) -> f32 {
         let pit = self.pit_level(basin);
         let (mut highest, mut current) = (pit, basin);
@@ -89,8 +89,8 @@ impl Ways<'_> {
     fn cut(&self, basin: u32, surface: &mut Surface) {
         let pit = self.basins.pits[basin as usize];
         let level = self.ground[pit];
-        let (mut current, mut way) = (basin, self.across(surface, pit, basin));
-        while lower(surface, &way, level) {
+        let (mut current, mut path) = (basin, self.across(surface, pit, basin));
+        while lower(surface, &path, level) {
             let exit = self.exits[current as usize];
             current = exit.into;
             if exit.to == exit.from {
@@ -101,7 +101,7 @@ impl Ways<'_> {
                 lower(surface, &self.descent(surface, exit.to), level);
                 return;
             }
-            way = self.across(surface, exit.to, current);
+            path = self.across(surface, exit.to, current);
         }
     }
 

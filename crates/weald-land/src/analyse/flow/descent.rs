@@ -4,7 +4,7 @@
 
 use rayon::prelude::*;
 
-use super::surface::{NO_DATA, ROWS_A_TASK, Surface};
+use super::surface::{NO_DATA, ROWS_PER_TASK, Surface};
 use crate::analyse::directions::{OUTLET, STEPS};
 use weald_core::vectors;
 
@@ -23,7 +23,7 @@ impl Descent {
         let stride = surface.stride;
         let mut codes = vec![OUTLET; surface.cells()];
         let rows = codes.par_chunks_mut(stride).enumerate().skip(1).take(surface.size.rows);
-        rows.with_min_len(ROWS_A_TASK).for_each_init(
+        rows.with_min_len(ROWS_PER_TASK).for_each_init(
             || Row::new(surface.size.columns),
             |row, (y, codes)| {
                 let rows = [y - 1, y, y + 1].map(|y| &surface.level[y * stride..][..stride]);

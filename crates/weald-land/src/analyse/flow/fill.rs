@@ -1,36 +1,36 @@
-//! Fills depressions: each cell rises to the least height that its way to an outlet must pass.
+//! Fills depressions: each cell rises to the least height that its path to an outlet must pass.
 //!
-//! Basins are joined over their passes from the lowest up (Kruskal 1956). When a set of basins is joined with
-//! the outside, water in all of them stands as high as that pass, since all earlier passes were lower.
+//! Basins are joined over their saddles from the lowest up (Kruskal 1956). When a set of basins is joined with
+//! the outside, water in all of them stands as high as that saddle, since all earlier saddles were lower.
 
 use rayon::prelude::*;
 
 use super::basins::Basins;
-use super::passes::Passes;
-use super::surface::{ROWS_A_TASK, Surface};
-use super::union::Union;
+use super::disjoint_sets::DisjointSets;
+use super::saddles::Saddles;
+use super::surface::{ROWS_PER_TASK, Surface};
 
 /// Raises the cells of depressions to the height at which they overflow.
-pub(super) fn fill(surface: &mut Surface, basins: &Basins, passes: &Passes) {
-    let spills = spills(basins.count(), passes);
+pub(super) fn fill(surface: &mut Surface, basins: &Basins, saddles: &Saddles) {
+    let spills = spills(basins.count(), saddles);
     let cells = surface.level.par_iter_mut().zip(&basins.labels);
-    cells.with_min_len(ROWS_A_TASK * surface.stride).for_each(|(level, &basin)| {
+    cells.with_min_len(ROWS_PER_TASK * surface.stride).for_each(|(level, &basin)| {
         *level = level.max(spills[basin as usize]);
     });
 }
 
 /// The height at which each basin overflows; basin 0 never fills.
-fn spills(count: usize, passes: &Passes) -> Vec<f32> {
+fn spills(count: usize, saddles: &Saddles) -> Vec<f32> {
     let mut spills = vec![f32::NEG_INFINITY; count];
     let mut sets = Sets::new(count);
-    for pass in &passes.tree {
-        let [a, b] = pass.basins.map(|basin| sets.union.root(basin));
+    for saddle in &saddles.tree {
+        let [a, b] = saddle.basins.map(|basin| sets.union.root(basin));
         if a != 0 && b != 0 {
             sets.join(a, b);
             continue;
         }
         let inland = a.max(b);
-        sets.members(inland, |basin| spills[basin as usize] = pass.level);
+        sets.members(inland, |basin| spills[basin as usize] = saddle.level);
         sets.drain(inland);
     }
     spills
@@ -38,13 +38,13 @@ fn spills(count: usize, passes: &Passes) -> Vec<f32> {
 
 /// Sets of basins, each a ring of its members.
 struct Sets {
-    union: Union,
+    union: DisjointSets,
     next: Vec<u32>,
 }
 
 impl Sets {
     fn new(count: usize) -> Self {
-        Self { union: Union::new(count), next: (0..count as u32).collect() }
+        Self { union: DisjointSets::new(count), next: (0..count as u32).collect() }
     }
 
     fn join(&mut self, a: u32, b: u32) {

@@ -1,9 +1,9 @@
-//! Directions over level ground: away from what is higher and towards where it drains.
+//! Directions over flat ground: away from what is higher and towards where it drains.
 //!
 //! Barnes, Lehman and Mulla 2014, "An efficient assignment of drainage direction over flat surfaces in raster
 //! digital elevation models", doi 10.1016/j.cageo.2013.01.009. Within each flat two distances are counted in
-//! cells: `T` from the cells that drain, and `A` from the cells beside higher ground. Each cell hands on to the
-//! neighbour of least `2 T - A`, which falls along every way, so that there are no circles and water gathers in
+//! cells: `T` from the cells that drain, and `A` from the cells beside higher ground. Each cell drains to the
+//! neighbour of least `2 T - A`, which falls along every path, so that there are no cycles and water gathers in
 //! the middle. No height is changed. Differs: the greatest `A` of a flat, which the publication adds to keep
 //! numbers positive, is left out, as it changes no comparison; flats are resolved in parallel.
 
@@ -16,7 +16,7 @@ use super::surface::Surface;
 const STRAIGHT_FIRST: [u8; 8] = [1, 3, 5, 7, 2, 4, 6, 8];
 
 /// Cells of flats that one task resolves, unless a flat is larger.
-const CELLS_A_TASK: usize = 4096;
+const CELLS_PER_TASK: usize = 4096;
 
 /// Gives each cell without a lower neighbour a direction. No height is below all its neighbours: depressions
 /// were taken out before.
@@ -74,7 +74,8 @@ impl Flats {
         let mut tasks = Vec::new();
         let mut rest = self.starts.as_slice();
         while let [first, _, ..] = rest {
-            let enough = rest.partition_point(|start| *start < first + CELLS_A_TASK).clamp(1, rest.len() - 1);
+            let enough =
+                rest.partition_point(|start| *start < first + CELLS_PER_TASK).clamp(1, rest.len() - 1);
             tasks.push(&rest[..=enough]);
             rest = &rest[enough..];
         }

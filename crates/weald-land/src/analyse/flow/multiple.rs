@@ -7,14 +7,14 @@
 //! Freeman 1991, "Calculating catchment area with divergent flow based on a regular grid", doi
 //! 10.1016/0098-3004(91)90048-I: p = 1.1 spreads water over a cone evenly in all directions. p = 1 without its
 //! contour lengths is the rule of Quinn et al. 1991 (doi 10.1002/hyp.3360050106); large p comes near D8. Over
-//! level ground water follows the D8 directions.
+//! flat ground water follows the D8 directions.
 
 use std::sync::atomic::{AtomicU8, AtomicU64, Ordering};
 
 use rayon::prelude::*;
 
 use super::Routed;
-use super::accumulate::{CELLS_A_TASK, Own, opposite, ways};
+use super::accumulate::{CELLS_PER_TASK, CellWeights, opposite, set_directions};
 use crate::analyse::directions::STEPS;
 use weald_core::grid::{Field, Mask, Size};
 
@@ -24,7 +24,7 @@ pub struct MultipleFlow<'a> {
     /// Ground without depressions, and its D8 directions.
     pub routed: &'a Routed,
     /// Cells with data.
-    pub land: Option<&'a Mask>,
+    pub valid: Option<&'a Mask>,
     /// The exponent p: 0 shares evenly among lower neighbours, large numbers favour the steepest.
     pub exponent: f64,
 }
@@ -45,9 +45,9 @@ impl MultipleFlow<'_> {
     fn weights(&self, cell: usize) -> [f64; 8] {
         let mut weights = [0.0; 8];
         let Some(_) = self.routed.directions.downstream(cell) else { return weights };
-        for (way, weight) in weights.iter_mut().enumerate() {
-            if let Some(other) = self.neighbour(cell, way) {
-                *weight = self.weight(cell, other, way);
+        for (direction, weight) in weights.iter_mut().enumerate() {
+            if let Some(other) = self.neighbour(cell, direction) {
+                *weight = self.weight(cell, other, direction);
             }
         }
         if weights.iter().all(|&weight| weight == 0.0) {
@@ -56,23 +56,23 @@ impl MultipleFlow<'_> {
         weights
     }
 
-    fn weight(&self, cell: usize, other: usize, way: usize) -> f64 {
+    fn weight(&self, cell: usize, other: usize, direction: usize) -> f64 {
         let level = self.routed.surface.values();
         let drop = f64::from(level[cell]) - f64::from(level[other]);
         if drop <= 0.0 {
             return 0.0;
         }
-        let distance = if way % 2 == 1 { std::f64::consts::SQRT_2 } else { 1.0 };
+        let distance = if direction % 2 == 1 { std::f64::consts::SQRT_2 } else { 1.0 };
         power(drop / distance, self.exponent)
     }
 
-    fn neighbour(&self, cell: usize, way: usize) -> Option<usize> {
+    fn neighbour(&self, cell: usize, direction: usize) -> Option<usize> {
         let Size { columns, rows } = self.routed.surface.size();
-        let (east, south) = STEPS[way];
+        let (east, south) = STEPS[direction];
         let x = (cell % columns).wrapping_add_signed(east);
         let y = (cell / columns).wrapping_add_signed(south);
         let other = y.wrapping_mul(columns).wrapping_add(x);
-        (x < columns && y < rows && self.land.is_none_or(|land| land.is_land_at(other))).then_some(other)
+        (x < columns && y < rows && self.valid.is_none_or(|valid| valid.is_valid_at(other))).then_some(other)
     }
 }
 
@@ -83,13 +83,13 @@ impl MultipleFlow<'_> {
 /// If the weights or the mask are of another size than the surface: a bug of the caller.
 pub fn accumulate_multiple(flow: &MultipleFlow<'_>, weight: Option<&Field>) -> Vec<f64> {
     let cells = flow.routed.surface.size().cells();
-    let own = Own::new(cells, flow.land, weight);
+    let own = CellWeights::new(cells, flow.valid, weight);
     let links: Vec<(u8, f64)> =
-        (0..cells).into_par_iter().with_min_len(CELLS_A_TASK).map(|cell| links(flow, cell)).collect();
+        (0..cells).into_par_iter().with_min_len(CELLS_PER_TASK).map(|cell| links(flow, cell)).collect();
     let (receivers, totals): (Vec<u8>, Vec<f64>) = links.into_par_iter().unzip();
     let donors: Vec<u8> = (0..cells)
         .into_par_iter()
-        .with_min_len(CELLS_A_TASK)
+        .with_min_len(CELLS_PER_TASK)
         .map(|cell| donors(flow, &receivers, cell))
         .collect();
     let spread = Spread { flow, own, receivers, totals, donors };
@@ -99,22 +99,22 @@ pub fn accumulate_multiple(flow: &MultipleFlow<'_>, weight: Option<&Field>) -> V
 /// The ways by which a cell gives, and the sum of their weights.
 fn links(flow: &MultipleFlow<'_>, cell: usize) -> (u8, f64) {
     let weights = flow.weights(cell);
-    let bit = |(way, &weight): (usize, &f64)| u8::from(weight > 0.0) << way;
+    let bit = |(direction, &weight): (usize, &f64)| u8::from(weight > 0.0) << direction;
     (weights.iter().enumerate().map(bit).fold(0, |bits, bit| bits | bit), weights.iter().sum())
 }
 
 fn donors(flow: &MultipleFlow<'_>, receivers: &[u8], cell: usize) -> u8 {
-    let gives = |way: &u8| {
-        let other = flow.neighbour(cell, usize::from(*way));
-        other.is_some_and(|other| receivers[other] >> opposite(*way) & 1 == 1)
+    let gives = |direction: &u8| {
+        let other = flow.neighbour(cell, usize::from(*direction));
+        other.is_some_and(|other| receivers[other] >> opposite(*direction) & 1 == 1)
     };
-    (0..8).filter(gives).fold(0, |bits, way| bits | 1 << way)
+    (0..8).filter(gives).fold(0, |bits, direction| bits | 1 << direction)
 }
 
 /// Water on its way.
 struct Spread<'a> {
     flow: &'a MultipleFlow<'a>,
-    own: Own<'a>,
+    own: CellWeights<'a>,
     receivers: Vec<u8>,
     totals: Vec<f64>,
     donors: Vec<u8>,
@@ -127,7 +127,7 @@ impl Spread<'_> {
         let waiting: Vec<AtomicU8> =
             self.donors.par_iter().map(|donors| AtomicU8::new(donors.count_ones() as u8)).collect();
         let heads =
-            (0..cells).into_par_iter().with_min_len(CELLS_A_TASK).filter(|&cell| self.donors[cell] == 0);
+            (0..cells).into_par_iter().with_min_len(CELLS_PER_TASK).filter(|&cell| self.donors[cell] == 0);
         heads.for_each_init(Vec::new, |open, head| {
             open.push(head);
             while let Some(cell) = open.pop() {
@@ -139,15 +139,15 @@ impl Spread<'_> {
 
     /// Finishes a cell, and finds those for which it was the last to wait for.
     fn pass(&self, cell: usize, sums: &[AtomicU64], waiting: &[AtomicU8], open: &mut Vec<usize>) {
-        let received: f64 = ways(self.donors[cell])
-            .map(|way| {
-                let other = self.beside(cell, way);
-                f64::from_bits(sums[other].load(Ordering::Relaxed)) * self.share(other, cell, way)
+        let received: f64 = set_directions(self.donors[cell])
+            .map(|direction| {
+                let other = self.beside(cell, direction);
+                f64::from_bits(sums[other].load(Ordering::Relaxed)) * self.share(other, cell, direction)
             })
             .sum();
         sums[cell].store((self.own.at(cell) + received).to_bits(), Ordering::Relaxed);
-        for way in ways(self.receivers[cell]) {
-            let next = self.beside(cell, way);
+        for direction in set_directions(self.receivers[cell]) {
+            let next = self.beside(cell, direction);
             // The counter hands the sums of those who came before over to the last.
             if waiting[next].fetch_sub(1, Ordering::AcqRel) == 1 {
                 open.push(next);
@@ -156,15 +156,15 @@ impl Spread<'_> {
     }
 
     /// The share that a cell gives to the one it lies beside, as seen from there.
-    fn share(&self, giver: usize, cell: usize, way: usize) -> f64 {
+    fn share(&self, giver: usize, cell: usize, direction: usize) -> f64 {
         if self.receivers[giver].is_power_of_two() {
             return 1.0;
         }
-        self.flow.weight(giver, cell, way) / self.totals[giver]
+        self.flow.weight(giver, cell, direction) / self.totals[giver]
     }
 
-    fn beside(&self, cell: usize, way: usize) -> usize {
-        let (east, south) = STEPS[way];
+    fn beside(&self, cell: usize, direction: usize) -> usize {
+        let (east, south) = STEPS[direction];
         cell.wrapping_add_signed(south * self.flow.routed.surface.size().columns as isize + east)
     }
 }

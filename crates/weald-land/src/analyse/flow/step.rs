@@ -19,7 +19,7 @@ pub const ENTRY: Entry = Entry::of::<FlowStep>(
 );
 
 /// Seconds of a year of 365.25 days, and millimetres of a metre: mm/year × m² in m³/s.
-pub(in crate::analyse) const MILLIMETRES_A_YEAR: f64 = 1.0e-3 / 31_557_600.0;
+pub(in crate::analyse) const MILLIMETRES_PER_YEAR: f64 = 1.0e-3 / 31_557_600.0;
 
 choices! {
     /// How upslope areas add up.
@@ -80,11 +80,11 @@ impl Step for FlowStep {
         let domain = &landscape.domain;
         let (area, size) = (domain.cell_area(), domain.size);
         ensure_finite(landscape, &self.of.0)?;
-        let routed = route(landscape.field(&self.of.0)?, domain.land.as_ref(), &self.routing());
+        let routed = route(landscape.field(&self.of.0)?, domain.valid.as_ref(), &self.routing());
         let areas = scaled(size, &self.sums(landscape, &routed, None), area);
         let weight = self.weight.as_ref().map(|name| landscape.field(&name.0)).transpose()?;
         let discharge = weight.map(|runoff| {
-            scaled(size, &self.sums(landscape, &routed, Some(runoff)), area * MILLIMETRES_A_YEAR)
+            scaled(size, &self.sums(landscape, &routed, Some(runoff)), area * MILLIMETRES_PER_YEAR)
         });
         landscape.insert("flow_direction", "1", routed.directions.layer());
         landscape.insert("accumulation", "m²", areas);
@@ -108,11 +108,11 @@ impl FlowStep {
     }
 
     fn sums(&self, landscape: &Landscape, routed: &Routed, weight: Option<&Field>) -> Vec<f64> {
-        let land = landscape.domain.land.as_ref();
+        let land = landscape.domain.valid.as_ref();
         match self.method {
             Method::D8 => accumulate(&routed.directions, land, weight),
             Method::Multiple => {
-                accumulate_multiple(&MultipleFlow { routed, land, exponent: self.exponent }, weight)
+                accumulate_multiple(&MultipleFlow { routed, valid: land, exponent: self.exponent }, weight)
             }
         }
     }

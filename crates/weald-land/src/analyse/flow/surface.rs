@@ -12,7 +12,7 @@ pub(super) const NO_DATA: f32 = f32::INFINITY;
 const SEA_LEVEL: f32 = f32::NEG_INFINITY;
 
 /// Rows that one task works on; no result depends on it.
-pub(super) const ROWS_A_TASK: usize = 16;
+pub(super) const ROWS_PER_TASK: usize = 16;
 
 /// A grid with one more cell on every side.
 #[derive(Debug)]
@@ -26,14 +26,14 @@ pub(super) struct Surface {
 }
 
 impl Surface {
-    pub(super) fn of(height: &Field, land: Option<&Mask>, sea_level: Option<f64>) -> Self {
+    pub(super) fn of(height: &Field, valid: Option<&Mask>, sea_level: Option<f64>) -> Self {
         let size = height.size();
         let stride = size.columns + 2;
         let mut level = vec![NO_DATA; stride * (size.rows + 2)];
-        let rows = level.par_chunks_mut(stride).with_min_len(ROWS_A_TASK).skip(1).take(size.rows);
+        let rows = level.par_chunks_mut(stride).with_min_len(ROWS_PER_TASK).skip(1).take(size.rows);
         rows.enumerate().for_each(|(y, row)| {
             for (x, level) in row[1..=size.columns].iter_mut().enumerate() {
-                if land.is_none_or(|land| land.is_land(x, y)) {
+                if valid.is_none_or(|valid| valid.is_valid(x, y)) {
                     *level = height.at(x, y);
                     assert!(level.is_finite(), "the height in column {x}, row {y} is {level}");
                 }
@@ -84,7 +84,7 @@ impl Surface {
         U: Copy + Default + Send,
     {
         let mut inner = vec![U::default(); self.size.cells()];
-        let rows = inner.par_chunks_mut(self.size.columns).with_min_len(ROWS_A_TASK);
+        let rows = inner.par_chunks_mut(self.size.columns).with_min_len(ROWS_PER_TASK);
         rows.enumerate().for_each(|(y, row)| {
             let first = (y + 1) * self.stride + 1;
             for (x, (to, &from)) in row.iter_mut().zip(&values[first..]).enumerate() {

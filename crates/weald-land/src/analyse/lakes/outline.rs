@@ -57,11 +57,11 @@ impl Areas<'_> {
     }
 
     /// Cells on the left and on the right of the edge that leaves a corner.
-    fn sides(&self, (x, y): Corner, way: usize) -> (u32, u32) {
+    fn sides(&self, (x, y): Corner, heading: usize) -> (u32, u32) {
         let (x, y) = (x as isize, y as isize);
         let [north_west, north_east, south_west, south_east] =
             [self.number(x - 1, y - 1), self.number(x, y - 1), self.number(x - 1, y), self.number(x, y)];
-        match way {
+        match heading {
             0 => (north_east, south_east),
             1 => (north_west, north_east),
             2 => (south_west, north_west),
@@ -88,10 +88,10 @@ impl Areas<'_> {
         for cell in (0..self.numbers.len()).filter(|&cell| self.numbers[cell] > 0) {
             let (x, y) = (cell % self.size.columns, cell / self.size.columns);
             // West along the north of the cell, east along its south.
-            for (start, way, edge) in [((x + 1, y), 2, 2 * cell), ((x, y + 1), 0, 2 * cell + 1)] {
-                let (left, right) = self.sides(start, way);
+            for (start, heading, edge) in [((x + 1, y), 2, 2 * cell), ((x, y + 1), 0, 2 * cell + 1)] {
+                let (left, right) = self.sides(start, heading);
                 if left != right && !taken[edge] {
-                    rings.push((self.ring(start, way, &mut taken), cell));
+                    rings.push((self.ring(start, heading, &mut taken), cell));
                 }
             }
         }
@@ -99,25 +99,25 @@ impl Areas<'_> {
     }
 
     fn ring(&self, start: Corner, first: usize, taken: &mut [bool]) -> Vec<Corner> {
-        let (mut corner, mut way) = (start, first);
+        let (mut corner, mut heading) = (start, first);
         let number = self.sides(start, first).0;
         let mut ring = Vec::new();
         loop {
             ring.push(corner);
-            match way {
+            match heading {
                 0 => taken[2 * self.size.index(corner.0, corner.1 - 1) + 1] = true,
                 2 => taken[2 * self.size.index(corner.0 - 1, corner.1)] = true,
                 _ => {}
             }
-            let (east, south) = STEPS[way];
+            let (east, south) = STEPS[heading];
             corner = (corner.0.wrapping_add_signed(east), corner.1.wrapping_add_signed(south));
-            let turns = [way + 1, way, way + 3].map(|way| way % 4);
-            let goes_on = |&way: &usize| {
-                let (left, right) = self.sides(corner, way);
+            let turns = [heading + 1, heading, heading + 3].map(|heading| heading % 4);
+            let goes_on = |&heading: &usize| {
+                let (left, right) = self.sides(corner, heading);
                 left == number && right != number
             };
-            way = turns.into_iter().find(goes_on).expect("an edge that arrives at a corner leaves it");
-            if (corner, way) == (start, first) {
+            heading = turns.into_iter().find(goes_on).expect("an edge that arrives at a corner leaves it");
+            if (corner, heading) == (start, first) {
                 return ring;
             }
         }

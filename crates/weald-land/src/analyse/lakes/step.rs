@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::MOST_LAKES;
+use super::MAX_LAKES;
 use crate::analyse::ensure_finite;
 use crate::analyse::flow::{Routing, route};
 use weald_core::connected::components;
@@ -53,7 +53,7 @@ parameters! {
 }
 
 /// Fewer cells than this are a puddle, unless `area` says otherwise.
-const FEWEST_CELLS: f64 = 12.0;
+const MIN_LAKE_CELLS: f64 = 12.0;
 
 impl Step for LakesStep {
     fn reads(&self) -> Vec<String> {
@@ -67,7 +67,7 @@ impl Step for LakesStep {
 
     fn range(&self, layer: &str) -> Option<(f64, f64)> {
         Some(match layer {
-            "lake" => (0.0, f64::from(MOST_LAKES)),
+            "lake" => (0.0, f64::from(MAX_LAKES)),
             "lake_depth" => (0.0, f64::INFINITY),
             _ => (f64::NEG_INFINITY, f64::INFINITY),
         })
@@ -82,7 +82,7 @@ impl Step for LakesStep {
         let lakes = self.large_enough(landscape, ground, &surface);
         let mut number = Field::filled(ground.size(), 0.0);
         let (mut level, mut depth) = (ground.clone(), number.clone());
-        for (at, cells) in lakes.iter().enumerate().take(MOST_LAKES as usize) {
+        for (at, cells) in lakes.iter().enumerate().take(MAX_LAKES as usize) {
             let mean = mean_level(cells, &surface);
             for &cell in cells {
                 number.values_mut()[cell] = (at + 1) as f32;
@@ -101,7 +101,7 @@ impl Step for LakesStep {
 impl LakesStep {
     /// Height of the surface of standing water in each cell; that of the ground where there is none.
     fn surface(&self, landscape: &Landscape) -> Result<Vec<f32>, Error> {
-        let land = landscape.domain.land.as_ref();
+        let land = landscape.domain.valid.as_ref();
         let ground = landscape.field(&self.of.0)?;
         let routing = Routing { sea_level: self.sea_level, ..Routing::default() };
         let routed = route(ground, land, &routing);
@@ -110,7 +110,9 @@ impl LakesStep {
             Source::Water => Some(landscape.field(&self.water.0)?.values()),
         };
         let surface = |(cell, &ground): (usize, &f32)| match water {
-            _ if routed.directions.is_sea(cell) || land.is_some_and(|land| !land.is_land_at(cell)) => ground,
+            _ if routed.directions.is_sea(cell) || land.is_some_and(|valid| !valid.is_valid_at(cell)) => {
+                ground
+            }
             None => routed.surface.values()[cell],
             Some(depth) if f64::from(depth[cell]) > self.shallowest => ground + depth[cell],
             Some(_) => ground,
@@ -121,7 +123,7 @@ impl LakesStep {
     /// Connected water that is a lake, the largest first.
     fn large_enough(&self, landscape: &Landscape, ground: &Field, surface: &[f32]) -> Vec<Vec<usize>> {
         let domain = &landscape.domain;
-        let least_cells = self.area.map_or(FEWEST_CELLS, |area| area / domain.cell_area());
+        let least_cells = self.area.map_or(MIN_LAKE_CELLS, |area| area / domain.cell_area());
         let depth: Vec<f32> =
             surface.iter().zip(ground.values()).map(|(surface, ground)| surface - ground).collect();
         let wet: Vec<bool> = depth.iter().map(|&depth| depth > 0.0).collect();

@@ -5,7 +5,7 @@ use crate::analyse::directions::Directions;
 use crate::analyse::flow::{Routing, accumulate, route};
 use weald_core::grid::{Field, Mask, Size};
 
-/// The ways of the land outside lakes.
+/// The flow paths of the land outside lakes.
 pub(super) struct Drainage {
     size: Size,
     directions: Directions,
@@ -22,11 +22,11 @@ impl Drainage {
     pub(super) fn new(ground: &Ground<'_>, lakes: &[bool]) -> Self {
         let size = ground.size;
         let height = Field::from_values(size, ground.height.iter().map(|&height| height as f32).collect());
-        let dry = (0..size.cells()).map(|cell| ground.is_land(cell) && !lakes[cell]).collect();
+        let dry = (0..size.cells()).map(|cell| ground.is_valid(cell) && !lakes[cell]).collect();
         let dry = Mask::new(size, dry);
         let routed = route(&height, dry.as_ref(), &Routing::default());
         let area = accumulate(&routed.directions, dry.as_ref(), None);
-        let order = routed.directions.upward(|cell| dry.as_ref().is_none_or(|dry| dry.is_land_at(cell)));
+        let order = routed.directions.upward(|cell| dry.as_ref().is_none_or(|dry| dry.is_valid_at(cell)));
         Self { size, directions: routed.directions, surface: routed.surface, order, area }
     }
 
@@ -62,7 +62,7 @@ pub(super) mod tests {
         let place = |cell: usize| ((cell % columns) as f64, (cell / columns) as f64);
         let height = (0..size.cells()).map(place).map(|(x, y)| height(x, y)).collect();
         let depth = vec![0.0; size.cells()];
-        let ground = Ground { size, land: None, height, depth };
+        let ground = Ground { size, valid: None, height, depth };
         Drainage::new(&ground, &vec![false; size.cells()])
     }
 
@@ -70,7 +70,7 @@ pub(super) mod tests {
     fn what_drains_to_a_lake_has_arrived() {
         let size = Size::new(9, 20).expect("legal");
         let height = (0..180).map(|cell| -f64::from(cell / 9)).collect();
-        let ground = Ground { size, land: None, height, depth: vec![0.0; 180] };
+        let ground = Ground { size, valid: None, height, depth: vec![0.0; 180] };
         let lakes: Vec<bool> = (0..180).map(|cell| (90..108).contains(&cell)).collect();
         let drainage = Drainage::new(&ground, &lakes);
         let area = |y: usize| drainage.area[y * 9 + 4];

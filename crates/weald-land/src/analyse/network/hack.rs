@@ -1,7 +1,7 @@
 //! Hack's exponent h: the longest river of a basin against its area, `L ~ A^h`.
 //!
 //! Source: Hack 1957, "Studies of longitudinal stream profiles in Virginia and Maryland", USGS Professional Paper
-//! 294-B, doi 10.3133/pp294B; in nature about 0.57. Lengths follow D8 ways.
+//! 294-B, doi 10.3133/pp294B; in nature about 0.57. Lengths follow D8 flow paths.
 
 use super::CHANNEL_AREA;
 use super::drainage::Drainage;
@@ -14,7 +14,7 @@ pub(super) fn exponent_of_length(drainage: &Drainage) -> Option<f64> {
     exponent(drainage.order.iter().map(sample), CHANNEL_AREA)
 }
 
-/// Cells along the longest way down to each cell, itself included.
+/// Cells along the longest path down to each cell, itself included.
 fn lengths(drainage: &Drainage) -> Vec<f64> {
     let mut length = vec![1.0; drainage.area.len()];
     for &cell in drainage.order.iter().rev() {

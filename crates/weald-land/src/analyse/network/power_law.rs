@@ -4,10 +4,10 @@
 //! weight.
 
 /// Fewer cells than this say nothing of their octave.
-const LEAST_CELLS: usize = 10;
+const MIN_CELLS: usize = 10;
 
 /// Fewer octaves than this make no line.
-const LEAST_OCTAVES: usize = 3;
+const MIN_OCTAVES: usize = 3;
 
 /// Slope of the regression line of ln value on ln area through the octaves from `least` cells of area upwards;
 /// `None` where there are too few.
@@ -19,7 +19,7 @@ pub(super) fn exponent(samples: impl Iterator<Item = [f64; 2]>, least: f64) -> O
         octaves[octave].add(area, value);
     }
     let points: Vec<[f64; 2]> = octaves.iter().filter_map(Octave::point).collect();
-    (points.len() >= LEAST_OCTAVES).then(|| line(&points).slope)
+    (points.len() >= MIN_OCTAVES).then(|| line(&points).slope)
 }
 
 #[derive(Clone, Copy, Default)]
@@ -38,7 +38,7 @@ impl Octave {
 
     fn point(&self) -> Option<[f64; 2]> {
         let mean = |sum: f64| libm::log(sum / self.cells as f64);
-        (self.cells >= LEAST_CELLS).then(|| [mean(self.area), mean(self.value)])
+        (self.cells >= MIN_CELLS).then(|| [mean(self.area), mean(self.value)])
     }
 }
 

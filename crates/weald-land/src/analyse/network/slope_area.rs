@@ -1,13 +1,13 @@
 //! Concavity θ of the rivers: slope falls with the area that drains through a place, `S ~ A^-θ`.
 //!
 //! Source: Flint 1974, "Stream gradient as a function of order, magnitude, and discharge",
-//! doi 10.1029/WR010i005p00969. Slopes are those of the flooded ground along D8 ways; level places are left out.
+//! doi 10.1029/WR010i005p00969. Slopes are those of the flooded ground along D8 flow paths; level places are left out.
 
 use super::drainage::Drainage;
 use super::power_law::exponent;
 
 /// Cells below which slopes are those of hillsides.
-const LEAST_AREA: f64 = 8.0;
+const MIN_AREA: f64 = 8.0;
 
 /// θ over octaves of area from 8 cells upwards; `None` where fewer than three octaves have ten cells each.
 pub(super) fn theta(drainage: &Drainage) -> Option<f64> {
@@ -15,7 +15,7 @@ pub(super) fn theta(drainage: &Drainage) -> Option<f64> {
         let next = drainage.next(cell)?;
         Some([drainage.area[cell], drainage.fall(cell, next) / drainage.step(cell, next)])
     };
-    exponent(drainage.order.iter().filter_map(sample), LEAST_AREA).map(|exponent| -exponent)
+    exponent(drainage.order.iter().filter_map(sample), MIN_AREA).map(|exponent| -exponent)
 }
 
 #[cfg(test)]

@@ -86,9 +86,9 @@ mod tests {
         let [meeting, apart] = [140_usize, 10];
         let from_middle = |y: usize| meeting.saturating_sub(y).min(apart);
         let on_y = |cell: usize| (cell % 41).abs_diff(20) == from_middle(cell / 41);
-        let land = Mask::new(size, (0..size.cells()).map(on_y).collect());
+        let valid = Mask::new(size, (0..size.cells()).map(on_y).collect());
         let height = (0..size.cells()).map(|cell| -((cell / 41) as f64)).collect();
-        let ground = Ground { size, land: land.as_ref(), height, depth: vec![0.0; size.cells()] };
+        let ground = Ground { size, valid: valid.as_ref(), height, depth: vec![0.0; size.cells()] };
         let drainage = Drainage::new(&ground, &vec![false; size.cells()]);
         assert_eq!(channels(&drainage), Channels { heads: 2, order: 2 });
     }

@@ -6,7 +6,7 @@
 use super::ground::Ground;
 
 /// Rise or fall that makes a turn, in cells.
-const LEAST_DEPTH: f64 = 1.0;
+const MIN_DEPTH: f64 = 1.0;
 
 /// Mean form of the valleys.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -65,7 +65,7 @@ fn lines(ground: &Ground<'_>) -> Vec<Vec<f64>> {
     let rows = (0..size.rows).map(|y| (0..size.columns).map(|x| size.index(x, y)).collect());
     let columns = (0..size.columns).map(|x| (0..size.rows).map(|y| size.index(x, y)).collect());
     let all = rows.chain(columns).collect::<Vec<Vec<usize>>>();
-    let stretches = all.iter().flat_map(|line| line.split(|&cell| !ground.is_land(cell)));
+    let stretches = all.iter().flat_map(|line| line.split(|&cell| !ground.is_valid(cell)));
     stretches.map(|cells| cells.iter().map(|&cell| ground.height[cell]).collect()).collect()
 }
 
@@ -95,10 +95,10 @@ fn turns(line: &[f64]) -> Vec<usize> {
         if height > line[highest] {
             highest = place;
         }
-        if rising != Some(true) && height - line[lowest] >= LEAST_DEPTH {
+        if rising != Some(true) && height - line[lowest] >= MIN_DEPTH {
             turns.push(lowest);
             (rising, highest) = (Some(true), place);
-        } else if rising != Some(false) && line[highest] - height >= LEAST_DEPTH {
+        } else if rising != Some(false) && line[highest] - height >= MIN_DEPTH {
             turns.push(highest);
             (rising, lowest) = (Some(false), place);
         }
@@ -134,7 +134,7 @@ mod tests {
     fn form(height: impl Fn(f64) -> f64) -> Option<ValleyForm> {
         let size = Size::new(600, 4).expect("legal");
         let height = (0..size.cells()).map(|cell| height((cell % 600) as f64)).collect();
-        let ground = Ground { size, land: None, height, depth: vec![0.0; size.cells()] };
+        let ground = Ground { size, valid: None, height, depth: vec![0.0; size.cells()] };
         valley_form(&ground)
     }
 

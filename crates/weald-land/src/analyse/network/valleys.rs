@@ -60,11 +60,11 @@ fn surroundings(ground: &Ground<'_>) -> Vec<f64> {
         let values = (0..ground.size.cells()).map(value).collect();
         gaussian(&Grid { columns: ground.size.columns, values }, SURROUNDINGS).values
     };
-    let land = |cell: usize| if ground.is_land(cell) { ground.height[cell] } else { 0.0 };
-    let heights = blurred(&land);
-    if ground.land.is_none() {
+    let valid = |cell: usize| if ground.is_valid(cell) { ground.height[cell] } else { 0.0 };
+    let heights = blurred(&valid);
+    if ground.valid.is_none() {
         return heights;
     }
-    let weights = blurred(&|cell| f64::from(u8::from(ground.is_land(cell))));
+    let weights = blurred(&|cell| f64::from(u8::from(ground.is_valid(cell))));
     heights.iter().zip(weights).map(|(height, weight)| height / weight).collect()
 }

@@ -8,17 +8,17 @@ use weald_core::grid::{Field, Mask};
 pub(super) struct Network {
     /// Whether each cell is of a river, or of a lake or the sea that one flows through or into.
     pub(super) member: Vec<bool>,
-    /// The members, each after the one it hands on to.
+    /// The members, each after the one it drains to.
     pub(super) upward: Vec<usize>,
 }
 
 impl Network {
     /// All cells above which the land is at least `area`, and all below them. The latter matter where flow
     /// divides, since areas then also shrink downstream.
-    pub(super) fn of(directions: &Directions, upslope: &Field, land: Option<&Mask>, area: f64) -> Self {
+    pub(super) fn of(directions: &Directions, upslope: &Field, valid: Option<&Mask>, area: f64) -> Self {
         let mut member = vec![false; upslope.values().len()];
         for (cell, &above) in upslope.values().iter().enumerate() {
-            if f64::from(above) < area || land.is_some_and(|land| !land.is_land_at(cell)) {
+            if f64::from(above) < area || valid.is_some_and(|valid| !valid.is_valid_at(cell)) {
                 continue;
             }
             let mut next = Some(cell);
@@ -31,7 +31,7 @@ impl Network {
         Self { member, upward }
     }
 
-    /// Strahler's order of each member; 0 elsewhere. A lake hands on the orders of the rivers that flow into it; no
+    /// Strahler's order of each member; 0 elsewhere. A lake passes on the orders of the rivers that flow into it; no
     /// river has its head in one.
     pub(super) fn orders(&self, directions: &Directions, is_lake: impl Fn(usize) -> bool) -> Vec<u32> {
         let mut order = vec![0; self.member.len()];

@@ -34,9 +34,9 @@ mod tests {
     use super::*;
 
     fn turning(line: &[[f64; 2]]) -> f64 {
-        let way = |pair: &[[f64; 2]]| libm::atan2(pair[1][1] - pair[0][1], pair[1][0] - pair[0][0]);
-        let ways: Vec<f64> = line.windows(2).map(way).collect();
-        ways.windows(2).map(|pair| (pair[1] - pair[0]).abs()).sum()
+        let heading = |pair: &[[f64; 2]]| libm::atan2(pair[1][1] - pair[0][1], pair[1][0] - pair[0][0]);
+        let headings: Vec<f64> = line.windows(2).map(heading).collect();
+        headings.windows(2).map(|pair| (pair[1] - pair[0]).abs()).sum()
     }
 
     #[test]

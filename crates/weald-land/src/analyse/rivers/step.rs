@@ -2,7 +2,7 @@
 
 use super::network::Network;
 use crate::analyse::directions::Directions;
-use crate::analyse::flow::MILLIMETRES_A_YEAR;
+use crate::analyse::flow::MILLIMETRES_PER_YEAR;
 use weald_core::error::Error;
 use weald_core::grid::Field;
 use weald_core::landscape::Landscape;
@@ -77,10 +77,10 @@ impl Step for RiversStep {
 
     fn run(&self, landscape: &mut Landscape, _: &Job<'_>) -> Result<Outcome, Error> {
         let domain = &landscape.domain;
-        let directions = Directions::of(landscape.field("flow_direction")?, domain.land.as_ref())?;
+        let directions = Directions::of(landscape.field("flow_direction")?, domain.valid.as_ref())?;
         let upslope = landscape.field("accumulation")?;
-        let least = self.area.unwrap_or(SHARE_OF_THE_LAND * domain.land_cells() as f64 * domain.cell_area());
-        let network = Network::of(&directions, upslope, domain.land.as_ref(), least);
+        let least = self.area.unwrap_or(SHARE_OF_THE_LAND * domain.valid_cells() as f64 * domain.cell_area());
+        let network = Network::of(&directions, upslope, domain.valid.as_ref(), least);
         let discharge = self.discharges(landscape)?;
         let lakes = self.lakes.as_ref().map(|name| landscape.field(&name.0)).transpose()?;
         let is_lake = |cell: usize| lakes.is_some_and(|lakes| lakes.values()[cell] > 0.0);
@@ -116,7 +116,7 @@ impl RiversStep {
         }
         let mut discharge = landscape.field("accumulation")?.clone();
         for value in discharge.values_mut() {
-            *value = (f64::from(*value) * self.runoff * MILLIMETRES_A_YEAR) as f32;
+            *value = (f64::from(*value) * self.runoff * MILLIMETRES_PER_YEAR) as f32;
         }
         Ok(discharge)
     }

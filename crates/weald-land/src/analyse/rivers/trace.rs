@@ -29,7 +29,7 @@ pub(super) fn rivers(landscape: &Landscape) -> Result<Rivers, Error> {
             continue;
         };
         if !layers.is_river(cell) {
-            // A lake hands on what it drains to, for the rivers that flow into it.
+            // A lake passes on what it drains to, for the rivers that flow into it.
             reach_of[cell] = reach_of[next];
             continue;
         }
@@ -59,7 +59,7 @@ impl<'a> Layers<'a> {
         let lakes = landscape.layer("lake").is_ok().then(|| lakes::numbers(landscape)).transpose()?;
         Ok(Self {
             cell: domain.cell,
-            directions: Directions::of(landscape.field("flow_direction")?, domain.land.as_ref())?,
+            directions: Directions::of(landscape.field("flow_direction")?, domain.valid.as_ref())?,
             lakes,
             river: landscape.field("river")?,
             width: landscape.field("river_width")?,
@@ -84,7 +84,7 @@ impl<'a> Layers<'a> {
         self.is_river(cell) || self.lake(cell) > 0 || self.directions.is_sea(cell)
     }
 
-    /// How a reach ends whose last cell hands on to another.
+    /// How a reach ends whose last cell drains to another.
     fn end_in(&self, next: usize) -> End {
         match self.lake(next) {
             _ if self.is_river(next) => End::Confluence,

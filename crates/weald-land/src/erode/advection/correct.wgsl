@@ -1,8 +1,8 @@
 
 // MacCormack's step back, and the correction.
 
-fn forward_around(cell: vec2<i32>) -> Nine {
-    return Nine(forward_across(cell + NORTH), forward_across(cell), forward_across(cell + SOUTH));
+fn forward_around(cell: vec2<i32>) -> Stencil9 {
+    return Stencil9(forward_across(cell + NORTH), forward_across(cell), forward_across(cell + SOUTH));
 }
 
 fn forward_across(cell: vec2<i32>) -> vec3<f32> {

@@ -2,7 +2,7 @@
 
 use super::Advection;
 use crate::erode::flux_corrected;
-use weald_engine::program::draft::Draft;
+use weald_engine::program::builder::ProgramBuilder;
 
 const ADVECTION: &str = include_str!("../advection.wgsl");
 const SEDIMENT: &str = include_str!("sediment.wgsl");
@@ -27,7 +27,7 @@ pub(crate) struct Advected<'a> {
 
 impl Advection {
     /// Adds the passes that move the sediment.
-    pub(crate) fn add_to(self, draft: &mut Draft, model: &Advected<'_>) {
+    pub(crate) fn add_to(self, draft: &mut ProgramBuilder, model: &Advected<'_>) {
         let shaders = [&[ADVECTION, SEDIMENT], model.from].concat();
         match self {
             Self::SemiLagrangian => {

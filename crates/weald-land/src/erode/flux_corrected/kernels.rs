@@ -1,6 +1,6 @@
 //! What one cell becomes in the transport in flux form; [`super`] has the equations and their sources.
 
-use crate::erode::pipes::{KEPT, worth_counting};
+use crate::erode::pipes::{RETAINED_SHARE, without_negligible};
 use weald_engine::kernel;
 
 kernel! {
@@ -13,7 +13,7 @@ kernel! {
     }
     fn cell() {
         let outflow = (east.max(0.0) + (-west).max(0.0)) + (south.max(0.0) + (-north).max(0.0));
-        volume = (depth.max(0.0) + epsilon).max(outflow * (1.0 + KEPT));
+        volume = (depth.max(0.0) + epsilon).max(outflow * (1.0 + RETAINED_SHARE));
         concentration = sediment / volume;
     }
 }
@@ -59,7 +59,7 @@ kernel! {
 /// The share of `wanted` that fits.
 #[inline(always)]
 fn fitting(room: f32, wanted: f32) -> f32 {
-    let room = room.max(0.0) * (1.0 - KEPT);
+    let room = room.max(0.0) * (1.0 - RETAINED_SHARE);
     if wanted > room { room / wanted } else { 1.0 }
 }
 
@@ -118,7 +118,7 @@ kernel! {
         let west = limited(from_west, [gain_west, loss_west], here);
         let south = limited(to_south, here, [gain_south, loss_south]);
         let north = limited(from_north, [gain_north, loss_north], here);
-        sediment = worth_counting(low + ((west - east) + (north - south)));
+        sediment = without_negligible(low + ((west - east) + (north - south)));
     }
 }
 

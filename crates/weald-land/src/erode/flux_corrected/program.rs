@@ -1,7 +1,7 @@
 //! The transport in flux form as compute passes.
 
 use crate::erode::advection::Advected;
-use weald_engine::program::draft::Draft;
+use weald_engine::program::builder::ProgramBuilder;
 
 const FLUX_CORRECTED: &str = include_str!("../flux_corrected.wgsl");
 const PIPES: &str = include_str!("../pipes.wgsl");
@@ -12,7 +12,7 @@ const RANGE: &str = include_str!("range.wgsl");
 const RAISE_ORDER: &str = include_str!("raise_order.wgsl");
 
 /// Adds the passes that move the sediment.
-pub(crate) fn add_to(draft: &mut Draft, model: &Advected<'_>) {
+pub(crate) fn add_to(draft: &mut ProgramBuilder, model: &Advected<'_>) {
     draft.scratch("upwind_step", 4);
     draft.scratch("antidiffusive", 2);
     draft.scratch("shares", 2);

@@ -17,6 +17,6 @@ fn raise_order(@builtin(global_invocation_id) invocation: vec3<u32>) {
     let south = limited_by(flux.z, here, shares[index(cell + SOUTH)]);
     let north = limited_by(flux.w, shares[index(cell + NORTH)], here);
     if (inside(cell)) {
-        arrive(cell, worth_counting(upwind_step[index(cell)].x + ((west - east) + (north - south))));
+        arrive(cell, without_negligible(upwind_step[index(cell)].x + ((west - east) + (north - south))));
     }
 }

@@ -4,7 +4,7 @@
 
 /// The share of what is wanted that fits.
 fn fitting(found: f32, wanted: f32) -> f32 {
-    let room = max(found, 0.0) * (1.0 - KEPT);
+    let room = max(found, 0.0) * (1.0 - RETAINED_SHARE);
     return select(1.0, room / wanted, wanted > room);
 }
 

@@ -30,7 +30,7 @@ fn flow(@builtin(global_invocation_id) invocation: vec3<u32>) {
         scale(wanted_at(cell).y, here.share, south.share),
         scale(wanted_at(cell + NORTH).y, north.share, here.share),
     );
-    let water = flow_of_water(depth[at], flux, land(cell), weather.rain, weather.evaporation);
+    let water = flow_of_water(depth[at], flux, valid(cell), weather.rain, weather.evaporation);
     let around =
         vec4<f32>(east.concentration, west.concentration, south.concentration, north.concentration);
     var found = sediment[at];
@@ -40,7 +40,7 @@ fn flow(@builtin(global_invocation_id) invocation: vec3<u32>) {
     tally(select(EVAPORATED, RAINED, weather.rain > 0.0), cell, water.sky);
     var kept = 1.0;
     if (OPEN) {
-        kept = land(cell);
+        kept = valid(cell);
         tally(WATER_OUT, cell, water.depth * (1.0 - kept));
         tally(SEDIMENT_OUT, cell, found * (1.0 - kept));
     }

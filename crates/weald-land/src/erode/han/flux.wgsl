@@ -11,7 +11,7 @@ fn surface(cell: vec2<i32>) -> vec2<f32> {
 /// Depth, change and land; beyond the walls nothing.
 fn fall(cell: vec2<i32>) -> vec3<f32> {
     let at = index(cell);
-    return select(vec3<f32>(0.0), vec3<f32>(depth[at], change[at], land(cell)), inside(cell));
+    return select(vec3<f32>(0.0), vec3<f32>(depth[at], change[at], valid(cell)), inside(cell));
 }
 
 fn wanted_through(old: f32, cell: vec2<i32>, next: vec2<i32>) -> f32 {

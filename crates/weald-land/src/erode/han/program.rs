@@ -5,7 +5,7 @@
 
 use super::{Han, plane};
 use crate::erode::advection::Advected;
-use weald_engine::program::draft::Draft;
+use weald_engine::program::builder::ProgramBuilder;
 use weald_engine::program::{Content, Program, Uniforms};
 use weald_engine::stencil::chain::Process;
 
@@ -43,7 +43,7 @@ impl Han {
         draft.finish(self.reach())
     }
 
-    fn add_sediment_to(&self, draft: &mut Draft) {
+    fn add_sediment_to(&self, draft: &mut ProgramBuilder) {
         let shaders = [PIPES, SETTLING, SLOPES, FACES, SETTLE];
         let reads = ["base", "change", "depth_next", "fluxes"];
         let settle = draft.pass("settle", &shaders, &reads, &["settled", "sediment_next"]);
@@ -71,7 +71,7 @@ impl Han {
     }
 }
 
-fn add_water_to(draft: &mut Draft) {
+fn add_water_to(draft: &mut ProgramBuilder) {
     draft.pass("flux", &[PIPES, FLUX], &["base", "change", "depth", "fluxes"], &["wanted"]);
     let reads = ["depth", "sediment", "wanted"];
     let writes = ["fluxes", "depth_next", "sediment_next"];

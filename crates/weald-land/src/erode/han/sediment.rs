@@ -43,7 +43,7 @@ impl Han {
             sine_south: scratch.sine_south.here(y),
             sine_north: before(&scratch.sine_south, &scratch.still, y, start),
             neighbour_share: links.neighbour_share,
-            yields: links.yields,
+            erodible: links.erodible,
             change: change.here_mut(y),
             sediment: sediment.here_mut(y),
             lost: scratch.tally[0].here_mut(0),

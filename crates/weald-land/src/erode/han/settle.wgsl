@@ -11,7 +11,7 @@ fn settle(@builtin(global_invocation_id) invocation: vec3<u32>) {
     let speed = sqrt(velocity.x * velocity.x + velocity.y * velocity.y);
     let most = constants.capacity * speed * mean_sine(cell) * max(depth_at(cell), 0.0);
     let uptake = constants.uptake_by_speed * speed + constants.uptake_by_capacity * max(most - found, 0.0);
-    let taken = exact((min(found + uptake, most) - found) * yields(cell));
+    let taken = exact((min(found + uptake, most) - found) * erodible(cell));
     let result = settle_taken(found, taken, change[at], constants.deposit_ratio);
     tally(SHRUNK, cell, result.lost);
     if (inside(cell)) {

@@ -56,10 +56,14 @@ impl Han {
         let next = flow.next(y);
         let scratch = &mut *flow.scratch;
         let depth = &flow.input[plane::DEPTH];
-        let (change, land) = (&flow.input[plane::CHANGE], &flow.constants[1]);
+        let (change, valid) = (&flow.input[plane::CHANGE], &flow.constants[1]);
         let edges = [
-            (plane::EAST, [depth.east(y), change.east(y), land.east(y)], &mut scratch.wanted_east),
-            (plane::SOUTH, [depth.here(next), change.here(next), land.here(next)], &mut scratch.wanted_south),
+            (plane::EAST, [depth.east(y), change.east(y), valid.east(y)], &mut scratch.wanted_east),
+            (
+                plane::SOUTH,
+                [depth.here(next), change.here(next), valid.here(next)],
+                &mut scratch.wanted_south,
+            ),
         ];
         for (plane, [depth_next, change_next, land_next], flux) in edges {
             Overfall {
@@ -68,7 +72,7 @@ impl Han {
                 depth_next,
                 change: change.here(y),
                 change_next,
-                land: land.here(y),
+                valid: valid.here(y),
                 land_next,
                 flux: flux.here_mut(y),
                 flow_rate: self.constants.flow_rate,
@@ -131,7 +135,7 @@ impl Han {
             concentration_west: concentration.west(y),
             concentration_south: concentration.here(next),
             concentration_north: before(concentration, &scratch.still, y, flow.span.start),
-            land: self.setting.links.row(flow.constants, y).land,
+            valid: self.setting.links.row(flow.constants, y).valid,
             depth: depth.here_mut(y),
             sky: scratch.tally[0].here_mut(0),
             sediment: scratch.found.here_mut(y),

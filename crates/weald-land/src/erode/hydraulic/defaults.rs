@@ -3,7 +3,7 @@
 use super::{Hydraulic, Model, UptakeLaw};
 
 /// What all models have, in cells and steps.
-pub(super) struct Filled {
+pub(super) struct ResolvedKeys {
     pub(super) flow_rate: f32,
     pub(super) rain: f32,
     pub(super) evaporation: f32,
@@ -15,7 +15,7 @@ pub(super) struct Filled {
 }
 
 impl Hydraulic {
-    pub(super) fn filled(&self, cell: f64) -> Filled {
+    pub(super) fn filled(&self, cell: f64) -> ResolvedKeys {
         let epsilon = self.epsilon.in_cells(cell) as f32;
         match &self.model {
             Model::Han(keys) => {
@@ -23,7 +23,7 @@ impl Hydraulic {
                     UptakeLaw::Velocity => [10.0, 0.005],
                     UptakeLaw::Dissolution => [1.0, 0.01],
                 };
-                Filled {
+                ResolvedKeys {
                     flow_rate: keys.flow_rate as f32,
                     rain: keys.rain.in_cells(cell) as f32,
                     evaporation: keys.evaporation.in_cells(cell) as f32,
@@ -34,7 +34,7 @@ impl Hydraulic {
                     velocity_epsilon: keys.velocity_epsilon.in_cells(cell) as f32,
                 }
             }
-            Model::Mei(keys) => Filled {
+            Model::Mei(keys) => ResolvedKeys {
                 flow_rate: keys.flow_rate as f32,
                 rain: keys.rain.in_cells(cell) as f32,
                 evaporation: keys.evaporation as f32,
@@ -44,7 +44,7 @@ impl Hydraulic {
                 epsilon,
                 velocity_epsilon: keys.velocity_epsilon.in_cells(cell) as f32,
             },
-            Model::Stava(keys) => Filled {
+            Model::Stava(keys) => ResolvedKeys {
                 flow_rate: keys.flow_rate as f32,
                 rain: keys.rain.in_cells(cell) as f32,
                 evaporation: keys.evaporation.in_cells(cell) as f32,

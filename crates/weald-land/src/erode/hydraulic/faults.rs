@@ -1,4 +1,4 @@
-//! Keys that do not go together, told before anything runs.
+//! Keys that do not go together, reported before anything runs.
 
 use super::{Boundary, Hydraulic, deposit_of};
 use weald_core::material::Material;

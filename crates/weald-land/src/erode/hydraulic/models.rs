@@ -2,16 +2,16 @@
 
 use pulp::Arch;
 
-use super::{Boundary, Filled, HanKeys, Hydraulic, MeiKeys, Model, UptakeLaw};
+use super::{Boundary, HanKeys, Hydraulic, MeiKeys, Model, ResolvedKeys, UptakeLaw};
 use crate::erode::edits::Edits;
 use crate::erode::extent::Extent;
 use crate::erode::han::{self, Han, HanConstants};
 use crate::erode::links::Links;
 use crate::erode::mei::{self, Mei, MeiConstants};
 use crate::erode::setting::Setting;
-use crate::erode::simulation::{Finished, Record, Simulation, Sky};
+use crate::erode::simulation::{Finished, Forcing, Record, Simulation};
 use crate::erode::springs;
-use crate::erode::working::{Kept, Working};
+use crate::erode::working::{RunResult, WorkingGrid};
 use weald_core::error::Error;
 use weald_core::landscape::Landscape;
 use weald_engine::machine::{Means, Snapshot};
@@ -27,7 +27,7 @@ pub(super) const MEI_PLANES: &[&str] =
     &["change", "water", "sediment", "flow_east", "flow_west", "flow_south", "flow_north"];
 
 /// A model as the recipe asks for it: its process and what a simulation has to know of its state.
-pub(super) struct Chosen<P> {
+pub(super) struct SelectedModel<P> {
     pub(super) process: P,
     pub(super) plane_names: Vec<String>,
     pub(super) means: Means<'static>,
@@ -37,8 +37,8 @@ pub(super) struct Chosen<P> {
     pub(super) edits: Option<Edits>,
 }
 
-impl<P: Process> Chosen<P> {
-    pub(super) fn start(&self, working: &Working) -> Rows {
+impl<P: Process> SelectedModel<P> {
+    pub(super) fn start(&self, working: &WorkingGrid) -> Rows {
         working.water_state(self.process.state_planes(), &self.constants)
     }
 }
@@ -50,12 +50,12 @@ pub(super) fn named(names: &[&str]) -> Vec<String> {
 
 impl Hydraulic {
     /// The landscape in working units, such that strokes can change it where it is `editable`.
-    pub(super) fn working(&self, landscape: &Landscape, editable: bool) -> Result<Working, Error> {
+    pub(super) fn working(&self, landscape: &Landscape, editable: bool) -> Result<WorkingGrid, Error> {
         let open = self.boundary == Boundary::Open;
         let region = self.region.as_ref().map(|region| region.0.as_str());
         // Strokes count their places from the corner of the landscape.
         let extent = Extent { open, region, cropped: !editable };
-        let mut working = Working::within(landscape, &self.layer.0, &extent)?;
+        let mut working = WorkingGrid::within(landscape, &self.layer.0, &extent)?;
         if let Some(water) = &self.initial_water {
             working.set_water(landscape, &water.0)?;
         }
@@ -74,8 +74,8 @@ impl Hydraulic {
         &self,
         landscape: &mut Landscape,
         job: &Job<'_>,
-        filled: &Filled,
-        working: &Working,
+        filled: &ResolvedKeys,
+        working: &WorkingGrid,
     ) -> Result<Outcome, Error> {
         let numbers = (filled, working);
         let finished = match &self.model {
@@ -96,16 +96,16 @@ impl Hydraulic {
         Ok(outcome)
     }
 
-    fn kept(&self) -> Kept {
-        Kept { iterations: u64::from(self.iterations), conserving: self.conserves() }
+    fn kept(&self) -> RunResult {
+        RunResult { iterations: u64::from(self.iterations), conserving: self.conserves() }
     }
 
-    fn simulate<P: Process<Weather = Sky>>(
+    fn simulate<P: Process<Weather = Forcing>>(
         &self,
-        chosen: &Chosen<P>,
+        chosen: &SelectedModel<P>,
         job: &Job<'_>,
-        filled: &Filled,
-        (working, landscape): (&Working, &Landscape),
+        filled: &ResolvedKeys,
+        (working, landscape): (&WorkingGrid, &Landscape),
     ) -> Result<Finished, Error> {
         let seen = |finished: &Finished| {
             let mut seen = landscape.clone();
@@ -116,7 +116,7 @@ impl Hydraulic {
             process: &chosen.process,
             plane_names: &chosen.plane_names,
             iterations: u64::from(self.iterations),
-            weather: &|step| self.sky(filled, step),
+            weather: &|step| self.forcing(filled, step),
             record: Some(Record { steps: self.last_cycle(filled), means: chosen.means }),
             edits: chosen.edits.as_ref(),
             seen: Some(&seen),
@@ -125,7 +125,7 @@ impl Hydraulic {
         simulation.run(chosen.start(working), job)
     }
 
-    fn han(&self, keys: &HanKeys, (filled, working): (&Filled, &Working)) -> Chosen<Han> {
+    fn han(&self, keys: &HanKeys, (filled, working): (&ResolvedKeys, &WorkingGrid)) -> SelectedModel<Han> {
         let uptake = |law| if keys.law == law { filled.erosion } else { 0.0 };
         let constants = HanConstants {
             flow_rate: filled.flow_rate,
@@ -136,7 +136,7 @@ impl Hydraulic {
             epsilon: filled.epsilon,
             velocity_epsilon: filled.velocity_epsilon,
         };
-        Chosen {
+        SelectedModel {
             process: Han { constants, limiter: keys.limiter, setting: self.setting(filled, working) },
             plane_names: named(&["change", "water", "sediment", "flux_east", "flux_south"]),
             means: han::MEAN_FLUXES,
@@ -145,7 +145,7 @@ impl Hydraulic {
         }
     }
 
-    fn mei(&self, keys: &MeiKeys, (filled, working): (&Filled, &Working)) -> Chosen<Mei> {
+    fn mei(&self, keys: &MeiKeys, (filled, working): (&ResolvedKeys, &WorkingGrid)) -> SelectedModel<Mei> {
         let constants = MeiConstants {
             flow_rate: filled.flow_rate,
             capacity: filled.capacity,
@@ -155,7 +155,7 @@ impl Hydraulic {
             epsilon: filled.epsilon,
             velocity_epsilon: filled.velocity_epsilon,
         };
-        Chosen {
+        SelectedModel {
             process: Mei { constants, limiter: keys.limiter, setting: self.setting(filled, working) },
             plane_names: named(MEI_PLANES),
             means: mei::MEAN_FLUXES,
@@ -164,7 +164,7 @@ impl Hydraulic {
         }
     }
 
-    pub(super) fn setting(&self, filled: &Filled, working: &Working) -> Setting {
+    pub(super) fn setting(&self, filled: &ResolvedKeys, working: &WorkingGrid) -> Setting {
         Setting {
             links: Links::new(working.size, working.mask.is_some()),
             open: self.boundary == Boundary::Open,
@@ -193,7 +193,8 @@ impl Hydraulic {
     pub fn seconds(&self, landscape: &Landscape, engine: &Engine) -> Result<f64, Error> {
         let filled = self.filled(landscape.domain.cell);
         let working = self.working(landscape, false)?;
-        let weather: Vec<_> = (0..u64::from(self.iterations)).map(|step| self.sky(&filled, step)).collect();
+        let weather: Vec<_> =
+            (0..u64::from(self.iterations)).map(|step| self.forcing(&filled, step)).collect();
         let numbers = (&filled, &working);
         match &self.model {
             Model::Han(keys) => seconds_of(&self.han(keys, numbers), &working, &weather, engine),
@@ -205,10 +206,10 @@ impl Hydraulic {
     }
 }
 
-fn seconds_of<P: Process<Weather = Sky>>(
-    chosen: &Chosen<P>,
-    working: &Working,
-    weather: &[Sky],
+fn seconds_of<P: Process<Weather = Forcing>>(
+    chosen: &SelectedModel<P>,
+    working: &WorkingGrid,
+    weather: &[Forcing],
     engine: &Engine,
 ) -> Result<f64, Error> {
     let start = Snapshot::start(chosen.start(working), 0);

@@ -1,7 +1,7 @@
 //! The model of Šťava et al. with the keys of a recipe filled in.
 
-use super::models::{Chosen, MEI_PLANES, named};
-use super::{Boundary, Filled, Hydraulic, StavaKeys};
+use super::models::{MEI_PLANES, SelectedModel, named};
+use super::{Boundary, Hydraulic, ResolvedKeys, StavaKeys};
 use crate::edit::Script;
 use crate::erode::edits::{self, Edits, Place};
 use crate::erode::mei;
@@ -13,7 +13,7 @@ use crate::erode::stava::planes::{Planes, REGOLITH_PLANES};
 use crate::erode::stava::slippage::Slippage;
 use crate::erode::stava::viscosity::Viscosity;
 use crate::erode::stava::{Stava, StavaConstants, plane};
-use crate::erode::working::Working;
+use crate::erode::working::WorkingGrid;
 use weald_core::error::Error;
 use weald_core::grid::Field;
 use weald_core::landscape::Landscape;
@@ -25,9 +25,9 @@ impl Hydraulic {
         &self,
         keys: &StavaKeys,
         landscape: &Landscape,
-        (filled, working): (&Filled, &Working),
+        (filled, working): (&ResolvedKeys, &WorkingGrid),
         script: Option<Script>,
-    ) -> Result<Chosen<Stava>, Error> {
+    ) -> Result<SelectedModel<Stava>, Error> {
         let column = keys.column(landscape);
         let weather = keys.weather_planes(landscape, working, script.is_some())?;
         let edits = script.map(|script| keys.edits(script, landscape, working));
@@ -48,7 +48,7 @@ impl Hydraulic {
         };
         let mut plane_names = named(MEI_PLANES);
         plane_names.extend(column.names(&landscape.materials));
-        Ok(Chosen { process, plane_names, means: mei::MEAN_FLUXES, constants: weather, edits })
+        Ok(SelectedModel { process, plane_names, means: mei::MEAN_FLUXES, constants: weather, edits })
     }
 
     /// The script of strokes, which is read here.
@@ -79,7 +79,7 @@ impl StavaKeys {
         (viscosity > 0.0).then(|| Viscosity::new(viscosity))
     }
 
-    fn digging(&self, landscape: &Landscape, filled: &Filled) -> Result<Digging, Error> {
+    fn digging(&self, landscape: &Landscape, filled: &ResolvedKeys) -> Result<Digging, Error> {
         let share = |material: &Material| (material.erodibility as f32 * filled.erosion).clamp(0.0, 1.0);
         Ok(Digging {
             shares: landscape.materials.iter().map(share).collect(),
@@ -88,7 +88,11 @@ impl StavaKeys {
         })
     }
 
-    fn dissolution_in(&self, landscape: &Landscape, filled: &Filled) -> Result<Option<Dissolution>, Error> {
+    fn dissolution_in(
+        &self,
+        landscape: &Landscape,
+        filled: &ResolvedKeys,
+    ) -> Result<Option<Dissolution>, Error> {
         let Some(Nested(within)) = &self.dissolution else { return Ok(None) };
         let deposit = self.deposit_of(landscape)?;
         let numbers = (filled.flow_rate, landscape.domain.cell);
@@ -100,17 +104,17 @@ impl StavaKeys {
         within.map(|Nested(within)| within.slippage(&landscape.materials)).transpose()
     }
 
-    fn edits(&self, script: Script, landscape: &Landscape, working: &Working) -> Edits {
+    fn edits(&self, script: Script, landscape: &Landscape, working: &WorkingGrid) -> Edits {
         let names = landscape.materials.iter().map(|material| material.name.clone()).collect();
         Edits::new(script, names, Place::of(working, self.column(landscape)))
     }
 
-    /// Share of the rain, share of the evaporation, and sources in cells a step; none where nothing is painted
+    /// Share of the rain, share of the evaporation, and sources in cells per step; none where nothing is painted
     /// and none of it changes.
     fn weather_planes(
         &self,
         landscape: &Landscape,
-        working: &Working,
+        working: &WorkingGrid,
         changes: bool,
     ) -> Result<Vec<Vec<f32>>, Error> {
         let layer = |name: &Option<LayerName>| name.as_ref().map(|name| landscape.field(&name.0)).transpose();

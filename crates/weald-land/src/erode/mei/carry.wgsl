@@ -14,11 +14,11 @@ fn carried_by(outflow: f32, cell: vec2<i32>) -> f32 {
 fn carry(@builtin(global_invocation_id) invocation: vec3<u32>) {
     let cell = cell_of(invocation);
     let at = index(cell);
-    let went = carried_by(sum_of(outflow_of(cell)), cell);
-    let come = came_to(cell);
-    let came = (carried_by(come.y, cell + WEST) + carried_by(come.x, cell + EAST))
-        + (carried_by(come.w, cell + NORTH) + carried_by(come.z, cell + SOUTH));
+    let outgoing = carried_by(sum_of(outflow_of(cell)), cell);
+    let inflows = inflows_of(cell);
+    let inflow = (carried_by(inflows.y, cell + WEST) + carried_by(inflows.x, cell + EAST))
+        + (carried_by(inflows.w, cell + NORTH) + carried_by(inflows.z, cell + SOUTH));
     if (inside(cell)) {
-        carried[at] = vec2<f32>(carried[at].x, worth_counting(carried[at].y + (came - went)));
+        carried[at] = vec2<f32>(carried[at].x, without_negligible(carried[at].y + (inflow - outgoing)));
     }
 }

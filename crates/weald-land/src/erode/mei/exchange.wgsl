@@ -9,13 +9,13 @@ fn exchange(@builtin(global_invocation_id) invocation: vec3<u32>) {
     let before = rained(cell);
     let found = carried[at].y;
     let flowing = outflow_of(cell);
-    let came = came_to(cell);
-    let flowed = exact(before + (((came.y + came.x) + (came.w + came.z)) - sum_of(flowing)));
-    let velocity = flow_velocity(flowing, came, (before + flowed) * 0.5, constants.velocity_epsilon);
-    let depth = exact(worth_counting(flowed * (1.0 - weather.evaporation)));
+    let inflow = inflows_of(cell);
+    let flowed = exact(before + (((inflow.y + inflow.x) + (inflow.w + inflow.z)) - sum_of(flowing)));
+    let velocity = flow_velocity(flowing, inflow, (before + flowed) * 0.5, constants.velocity_epsilon);
+    let depth = exact(without_negligible(flowed * (1.0 - weather.evaporation)));
     let speed = sqrt(velocity.x * velocity.x + velocity.y * velocity.y);
-    let capacity = constants.capacity * max(mean_sine(cell), LEAST_SINE) * speed;
-    let room = (capacity - found) * yields(cell);
+    let capacity = constants.capacity * max(mean_sine(cell), MIN_SINE) * speed;
+    let room = (capacity - found) * erodible(cell);
     let result = exchange_for(room, found, change[at]);
     if (weather.evaporation > 0.0) {
         tally(EVAPORATED, cell, depth - flowed);
@@ -25,13 +25,13 @@ fn exchange(@builtin(global_invocation_id) invocation: vec3<u32>) {
     }
     var kept = 1.0;
     if (OPEN) {
-        kept = land(cell);
+        kept = valid(cell);
         tally(WATER_OUT, cell, depth * (1.0 - kept));
         tally(SEDIMENT_OUT, cell, result.sediment * (1.0 - kept));
     }
     if (inside(cell)) {
         settled[at] = result.change;
         carried[at] = vec2<f32>(depth * kept, result.sediment * kept);
-        hand_on(at, velocity, result.sediment * kept, before);
+        store_transport_input(at, velocity, result.sediment * kept, before);
     }
 }

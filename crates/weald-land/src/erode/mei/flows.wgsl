@@ -10,14 +10,14 @@ fn sum_of(outflow: vec4<f32>) -> f32 {
 /// The four outflows scaled to the water that the cell has.
 fn scaled(wanted: vec4<f32>, depth: f32) -> vec4<f32> {
     let sum = sum_of(wanted);
-    let afford = max(depth * (1.0 - KEPT), 0.0);
-    return wanted * select(1.0, afford / sum, sum > afford);
+    let available = max(depth * (1.0 - RETAINED_SHARE), 0.0);
+    return wanted * select(1.0, available / sum, sum > available);
 }
 
-/// Velocity of the water that flowed; `came` holds what came from the east, west, south and north.
-fn flow_velocity(outflow: vec4<f32>, came: vec4<f32>, mean_depth: f32, velocity_epsilon: f32) -> vec2<f32> {
+/// Velocity of the water that flowed; `inflow` holds what came from the east, west, south and north.
+fn flow_velocity(outflow: vec4<f32>, inflow: vec4<f32>, mean_depth: f32, velocity_epsilon: f32) -> vec2<f32> {
     let per_depth = select(0.0, 0.5 / mean_depth, mean_depth > velocity_epsilon);
-    let eastward = ((came.y - outflow.y) + (outflow.x - came.x)) * per_depth;
-    let southward = ((came.w - outflow.w) + (outflow.z - came.z)) * per_depth;
+    let eastward = ((inflow.y - outflow.y) + (outflow.x - inflow.x)) * per_depth;
+    let southward = ((inflow.w - outflow.w) + (outflow.z - inflow.z)) * per_depth;
     return vec2<f32>(eastward, southward);
 }

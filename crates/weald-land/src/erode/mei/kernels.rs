@@ -1,23 +1,23 @@
 //! What one cell becomes in a step of Mei et al. 2007; [`super`] has the source and the order.
 
-use crate::erode::pipes::{KEPT, sine, worth_counting};
+use crate::erode::pipes::{RETAINED_SHARE, sine, without_negligible};
 use weald_engine::kernel;
 
-/// Least sine that counts as a slope, so that water on level ground still carries something (Mei 2007,
+/// Least sine that counts as a slope, so that water on flat ground still carries something (Mei 2007,
 /// section 3.3).
-const LEAST_SINE: f32 = 0.05;
+const MIN_SINE: f32 = 0.05;
 
 kernel! {
     /// Depth after rain, ground, water surface.
     pub(crate) struct Rained {
-        reads { base, change, before, land }
+        reads { base, change, before, valid }
         updates {}
         writes { ground, surface, depth, fallen }
         constants { rain: f32 }
     }
     fn cell() {
         ground = base + change;
-        depth = before + rain * land;
+        depth = before + rain * valid;
         surface = ground + depth;
         fallen = depth - before;
     }
@@ -41,8 +41,8 @@ kernel! {
 #[inline(always)]
 pub(crate) fn scaled(wanted: [f32; 4], depth: f32, most: f32) -> [f32; 4] {
     let sum = (wanted[0] + wanted[1]) + (wanted[2] + wanted[3]);
-    let afford = (depth * (1.0 - KEPT)).max(most);
-    let share = if sum > afford { afford / sum } else { 1.0 };
+    let available = (depth * (1.0 - RETAINED_SHARE)).max(most);
+    let share = if sum > available { available / sum } else { 1.0 };
     wanted.map(|outflow| outflow * share)
 }
 
@@ -75,7 +75,7 @@ kernel! {
     pub(crate) struct OpenOutflow {
         reads {
             old_east, old_west, old_south, old_north, surface, surface_east, surface_west, surface_south,
-            surface_north, depth, link_east, link_west, link_south, link_north, land, base,
+            surface_north, depth, link_east, link_west, link_south, link_north, valid, base,
         }
         updates {}
         writes { east, west, south, north }
@@ -84,7 +84,7 @@ kernel! {
     fn cell() {
         let outflow = |old: f32, next: f32, link: f32| {
             let drop = if link > 0.0 { surface - next } else { surface - base };
-            (old + flow_rate * drop).max(0.0) * land
+            (old + flow_rate * drop).max(0.0) * valid
         };
         let wanted = [
             outflow(old_east, surface_east, link_east),
@@ -103,7 +103,7 @@ kernel! {
     pub(crate) struct Exchange {
         reads {
             rained, east, west, south, north, from_west, from_east, from_north, from_south,
-            found, change_before, sine_east, sine_west, sine_south, sine_north, neighbour_share, yields,
+            found, change_before, sine_east, sine_west, sine_south, sine_north, neighbour_share, erodible,
         }
         updates {}
         writes { depth, evaporated, eastward, southward, change, sediment, lost }
@@ -113,17 +113,17 @@ kernel! {
         }
     }
     fn cell() {
-        let came = (from_west + from_east) + (from_north + from_south);
-        let flowed = rained + (came - ((east + west) + (south + north)));
+        let inflow = (from_west + from_east) + (from_north + from_south);
+        let flowed = rained + (inflow - ((east + west) + (south + north)));
         let mean_depth = (rained + flowed) * 0.5;
         let per_depth = if mean_depth > velocity_epsilon { 0.5 / mean_depth } else { 0.0 };
         eastward = ((from_west - west) + (east - from_east)) * per_depth;
         southward = ((from_north - north) + (south - from_south)) * per_depth;
-        depth = worth_counting(flowed * (1.0 - evaporation));
+        depth = without_negligible(flowed * (1.0 - evaporation));
         evaporated = depth - flowed;
         let speed = (eastward * eastward + southward * southward).sqrt();
         let mean_sine = ((sine_west + sine_east) + (sine_north + sine_south)) * neighbour_share;
-        let room = (capacity * mean_sine.max(LEAST_SINE) * speed - found) * yields;
+        let room = (capacity * mean_sine.max(MIN_SINE) * speed - found) * erodible;
         let eroded = change_before - erosion * room.max(0.0);
         let deposit = deposition * (-room).max(0.0);
         change = if room > 0.0 { eroded } else { change_before + deposit_ratio * deposit };
@@ -172,19 +172,19 @@ kernel! {
     }
     fn cell() {
         let went = ((east + west) + (south + north)) * concentration;
-        let came = (from_west * concentration_west + from_east * concentration_east)
+        let inflow = (from_west * concentration_west + from_east * concentration_east)
             + (from_north * concentration_north + from_south * concentration_south);
-        sediment = worth_counting(before + (came - went));
+        sediment = without_negligible(before + (inflow - went));
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::LEAST_SINE;
+    use super::MIN_SINE;
     use weald_engine::program::twin::number;
 
     #[test]
     fn the_shader_has_the_same_constants() {
-        assert_eq!(number(include_str!("kernels.wgsl"), "LEAST_SINE") as f32, LEAST_SINE);
+        assert_eq!(number(include_str!("kernels.wgsl"), "MIN_SINE") as f32, MIN_SINE);
     }
 }

@@ -1,7 +1,7 @@
 
 // What one cell becomes in a step of Mei et al. 2007; the twin of kernels.rs.
 
-const LEAST_SINE: f32 = 0.05;
+const MIN_SINE: f32 = 0.05;
 
 /// Change of the ground, sediment in the water, and the part of the deposit that shrinking takes out.
 struct Exchanged {

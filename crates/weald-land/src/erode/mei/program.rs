@@ -3,7 +3,7 @@
 
 use super::{Mei, plane};
 use crate::erode::advection::{Advected, Advection};
-use weald_engine::program::draft::Draft;
+use weald_engine::program::builder::ProgramBuilder;
 use weald_engine::program::{Content, Program, Uniforms};
 use weald_engine::stencil::chain::Process;
 
@@ -15,11 +15,11 @@ const KERNELS: &str = include_str!("kernels.wgsl");
 const RAINED: &str = include_str!("rained.wgsl");
 const FOUR_OUTFLOWS: &str = include_str!("../four_outflows.wgsl");
 const OUTFLOW: &str = include_str!("outflow.wgsl");
-const CAME: &str = include_str!("came.wgsl");
+const INFLOW: &str = include_str!("inflow.wgsl");
 const EXCHANGE: &str = include_str!("exchange.wgsl");
-const HAND_ON_LOAD: &str = include_str!("hand_on_load.wgsl");
-const HAND_ON_DEPTH: &str = include_str!("hand_on_depth.wgsl");
-const HAND_ON_VELOCITY: &str = include_str!("hand_on_velocity.wgsl");
+const TRANSPORT_INPUT_LOAD: &str = include_str!("transport_input_load.wgsl");
+const TRANSPORT_INPUT_DEPTH: &str = include_str!("transport_input_depth.wgsl");
+const TRANSPORT_INPUT_VELOCITY: &str = include_str!("transport_input_velocity.wgsl");
 const CARRY: &str = include_str!("carry.wgsl");
 const SETTLED: &str = include_str!("settled.wgsl");
 const VELOCITY: &str = include_str!("velocity.wgsl");
@@ -49,28 +49,33 @@ impl Mei {
             Some(advection) => add_advection_to(&mut draft, advection),
         }
         self.setting.add_slide_to(&mut draft);
-        draft.pass("record", &[CAME, RECORD], &["outflows"], &["means"]).recorded = true;
+        draft.pass("record", &[INFLOW, RECORD], &["outflows"], &["means"]).recorded = true;
         draft.shows("change", Some("carried"));
         draft.finish(self.reach())
     }
 }
 
-fn add_upwind_to(draft: &mut Draft) {
+fn add_upwind_to(draft: &mut ProgramBuilder) {
     draft.scratch("concentration", 1);
-    add_exchange_to(draft, HAND_ON_LOAD, "concentration");
-    draft.pass("carry", &[PIPES, FLOWS, KERNELS, CAME, CARRY], &["outflows", "concentration"], &["carried"]);
+    add_exchange_to(draft, TRANSPORT_INPUT_LOAD, "concentration");
+    draft.pass(
+        "carry",
+        &[PIPES, FLOWS, KERNELS, INFLOW, CARRY],
+        &["outflows", "concentration"],
+        &["carried"],
+    );
 }
 
-fn add_advection_to(draft: &mut Draft, advection: Advection) {
+fn add_advection_to(draft: &mut ProgramBuilder, advection: Advection) {
     draft.scratch("carried_next", 2);
     if let Advection::FluxCorrected { .. } = advection {
         draft.scratch("rained_depth", 1);
-        add_exchange_to(draft, HAND_ON_DEPTH, "rained_depth");
-        let from = [SETTLED, CAME, FACES_OF_FLUX, WATER_BEFORE];
+        add_exchange_to(draft, TRANSPORT_INPUT_DEPTH, "rained_depth");
+        let from = [SETTLED, INFLOW, FACES_OF_FLUX, WATER_BEFORE];
         advection.add_to(draft, &advected(&from, &["carried", "outflows", "rained_depth"]));
     } else {
         draft.scratch("velocities", 2);
-        add_exchange_to(draft, HAND_ON_VELOCITY, "velocities");
+        add_exchange_to(draft, TRANSPORT_INPUT_VELOCITY, "velocities");
         advection.add_to(draft, &advected(&[SETTLED, VELOCITY], &["carried", "velocities"]));
     }
     draft.swap("carried", "carried_next");
@@ -80,8 +85,8 @@ fn advected<'a>(from: &'a [&'static str], reads: &'a [&'a str]) -> Advected<'a> 
     Advected { from, into: &[ARRIVE], reads, keeps: &["carried"], writes: "carried_next" }
 }
 
-fn add_exchange_to(draft: &mut Draft, hand_on: &'static str, handed_on: &str) {
-    let shaders = [PIPES, SLOPES, FLOWS, KERNELS, RAINED, CAME, EXCHANGE, hand_on];
+fn add_exchange_to(draft: &mut ProgramBuilder, store_transport_input: &'static str, transport_input: &str) {
+    let shaders = [PIPES, SLOPES, FLOWS, KERNELS, RAINED, INFLOW, EXCHANGE, store_transport_input];
     let reads = ["base", "change", "outflows"];
-    draft.pass("exchange", &shaders, &reads, &["settled", "carried", handed_on]).tallies = true;
+    draft.pass("exchange", &shaders, &reads, &["settled", "carried", transport_input]).tallies = true;
 }

@@ -2,7 +2,7 @@
 
 use super::{Mei, MeiScratch, plane};
 use crate::erode::before;
-use crate::erode::four_outflows::{Row, carry_upwind, hand_on_fluxes, inflows, outflows_of};
+use crate::erode::four_outflows::{Row, carry_upwind, inflows, outflows_of, store_transport_fluxes};
 use crate::erode::mei::kernels::{Exchange, Load, LoadUnlimited};
 use crate::erode::sums;
 use weald_engine::stencil::chain::Flow;
@@ -36,7 +36,7 @@ impl Mei {
             sine_south: scratch.sine_south.here(y),
             sine_north: before(&scratch.sine_south, &scratch.still, y, flow.span.start),
             neighbour_share: links.neighbour_share,
-            yields: links.yields,
+            erodible: links.erodible,
             depth: depth.here_mut(y),
             evaporated: evaporated.here_mut(0),
             eastward: scratch.settled.eastward.here_mut(y),
@@ -64,7 +64,7 @@ impl Mei {
     pub(super) fn fluxes(&self, flow: &mut Flow<'_, Self>, y: usize) {
         let row = Row::of(flow, y);
         let MeiScratch { rained, still, settled, .. } = &mut *flow.scratch;
-        hand_on_fluxes(&self.setting, flow.output, (rained.here(y), still), &row, settled);
+        store_transport_fluxes(&self.setting, flow.output, (rained.here(y), still), &row, settled);
     }
 
     pub(super) fn load(&self, flow: &mut Flow<'_, Self>, y: usize) {

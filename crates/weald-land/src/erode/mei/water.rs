@@ -1,7 +1,7 @@
 //! The water of a step of Mei et al. 2007: rain, outflow, and what leaves over an open edge.
 
 use super::{Mei, MeiScratch, plane};
-use crate::erode::four_outflows::{Pouring, Row, sines};
+use crate::erode::four_outflows::{OutflowDrive, Row, sines};
 use crate::erode::mei::kernels::Rained;
 use crate::erode::sums;
 use weald_engine::stencil::chain::Flow;
@@ -14,7 +14,7 @@ impl Mei {
             base: flow.constants[0].here(y),
             change: flow.input[plane::CHANGE].here(y),
             before: flow.input[plane::DEPTH].here(y),
-            land: links.land,
+            valid: links.valid,
             ground: scratch.ground.here_mut(y),
             surface: scratch.surface.here_mut(y),
             depth: scratch.rained.here_mut(y),
@@ -30,7 +30,7 @@ impl Mei {
     pub(super) fn outflow(&self, flow: &mut Flow<'_, Self>, y: usize) {
         let row = Row::of(flow, y);
         let MeiScratch { surface, rained, .. } = &*flow.scratch;
-        Pouring {
+        OutflowDrive {
             setting: &self.setting,
             constants: flow.constants,
             input: flow.input,

@@ -1,13 +1,13 @@
 //! What the programs of the two water models share.
 
 use super::{Setting, plane};
-use crate::erode::links::plane::{LAND, YIELDS};
-use crate::erode::simulation::Sky;
+use crate::erode::links::plane::{ERODIBLE, VALID};
+use crate::erode::simulation::Forcing;
 use crate::erode::thermal::SlideConstants;
-use weald_engine::program::draft::Draft;
+use weald_engine::program::builder::ProgramBuilder;
 use weald_engine::program::{Content, Uniforms};
 
-const SKY: &str = include_str!("../sky.wgsl");
+const FORCING: &str = include_str!("../forcing.wgsl");
 const SUMS: &str = include_str!("../sums.wgsl");
 
 impl Setting {
@@ -19,24 +19,24 @@ impl Setting {
         shader: &'static str,
         constants: Uniforms,
         planes: usize,
-    ) -> Draft {
+    ) -> ProgramBuilder {
         let nothing = SlideConstants { talus: 0.0, strength: 0.0 };
         let constants = constants.followed_by(&self.slide.map_or(nothing, |slide| slide.constants));
-        let weather = Uniforms::of(&Sky { rain: 0.0, evaporation: 0.0 });
-        let mut draft = Draft::new(name, &[SKY, SUMS, shader], constants, weather);
+        let weather = Uniforms::of(&Forcing { rain: 0.0, evaporation: 0.0 });
+        let mut draft = ProgramBuilder::new(name, &[FORCING, SUMS, shader], constants, weather);
         draft.flag("OPEN", self.open);
         draft.flag("UPWIND", self.advection.is_none());
         draft.buffer("base", 1, Content::Constant(vec![planes]));
         draft.buffer("change", 1, Content::State(vec![plane::CHANGE]));
         draft.scratch("settled", 1);
         if self.links.planes() > 0 {
-            draft.mask(planes + LAND, planes + YIELDS);
+            draft.mask(planes + VALID, planes + ERODIBLE);
         }
         draft
     }
 
     /// Adds the sliding, or where there is none makes what settled the change of the ground.
-    pub(crate) fn add_slide_to(&self, draft: &mut Draft) {
+    pub(crate) fn add_slide_to(&self, draft: &mut ProgramBuilder) {
         match self.slide {
             Some(slide) => slide.add_to(draft),
             None => draft.swap("change", "settled"),

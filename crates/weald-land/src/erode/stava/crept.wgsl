@@ -9,9 +9,9 @@ fn creeping_of(cell: vec2<i32>) -> vec4<f32> {
 fn crept(@builtin(global_invocation_id) invocation: vec3<u32>) {
     let cell = cell_of(invocation);
     let at = index(cell);
-    let came = (creeping_of(cell + WEST).x + creeping_of(cell + EAST).y)
+    let inflow = (creeping_of(cell + WEST).x + creeping_of(cell + EAST).y)
         + (creeping_of(cell + NORTH).z + creeping_of(cell + SOUTH).w);
     if (inside(cell)) {
-        regolith[at] = worth_counting(regolith[at] + (came - sum_of(creeping_of(cell))));
+        regolith[at] = without_negligible(regolith[at] + (inflow - sum_of(creeping_of(cell))));
     }
 }

@@ -8,7 +8,7 @@
 
 use pulp::Arch;
 
-use crate::erode::pipes::worth_counting;
+use crate::erode::pipes::without_negligible;
 use weald_engine::kernel;
 use weald_engine::stencil::ring::Ring;
 
@@ -33,7 +33,7 @@ kernel! {
     }
     fn cell() {
         let wanted = share * (room - above).max(0.0);
-        let left = worth_counting(thickness - wanted.min(thickness));
+        let left = without_negligible(thickness - wanted.min(thickness));
         taken += thickness - left;
         above += thickness;
         thickness = left;
@@ -72,7 +72,7 @@ kernel! {
         let up = thickness + deposition * (-room).max(0.0);
         let down = (up - up.abs() * LAST_DIGIT).max(thickness);
         let after = if up - thickness <= found { up } else { down };
-        carried = worth_counting(found + (taken - (after - thickness)));
+        carried = without_negligible(found + (taken - (after - thickness)));
         thickness = after;
     }
 }

@@ -10,7 +10,7 @@ fn dig(at: u32, room: f32, found: f32, which: u32, deposition: f32) -> f32 {
         let place = layer_of(material, at);
         let thickness = column[place];
         let wanted = constants.materials[material][which] * max(room - above, 0.0);
-        let left = exact(worth_counting(thickness - min(wanted, thickness)));
+        let left = exact(without_negligible(thickness - min(wanted, thickness)));
         taken += thickness - left;
         above += thickness;
         column[place] = left;
@@ -32,5 +32,5 @@ fn lay_down(place: u32, room: f32, found: f32, taken: f32, deposition: f32) -> f
     let down = max(exact(up - abs(up) * LAST_DIGIT), thickness);
     let after = select(down, up, up - thickness <= found);
     column[place] = after;
-    return worth_counting(found + (taken - (after - thickness)));
+    return without_negligible(found + (taken - (after - thickness)));
 }

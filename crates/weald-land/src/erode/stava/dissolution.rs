@@ -11,7 +11,7 @@ use super::digging::{DigScratch, Digging};
 use super::planes::{Pile, pile};
 use crate::erode::before;
 use crate::erode::mei::kernels::scaled;
-use crate::erode::pipes::worth_counting;
+use crate::erode::pipes::without_negligible;
 use crate::erode::sweep::Sweep;
 use weald_engine::kernel;
 use weald_engine::stencil::ring::Ring;
@@ -33,13 +33,13 @@ pub(crate) struct Dissolution {
 kernel! {
     /// Regolith that is missing; negative where there is too much.
     pub(crate) struct Missing {
-        reads { depth, regolith, yields }
+        reads { depth, regolith, erodible }
         updates {}
         writes { room }
         constants { most: f32 }
     }
     fn cell() {
-        room = (depth.min(most) - regolith) * yields;
+        room = (depth.min(most) - regolith) * erodible;
     }
 }
 
@@ -76,8 +76,8 @@ kernel! {
         constants {}
     }
     fn cell() {
-        let came = (from_west + from_east) + (from_north + from_south);
-        regolith = worth_counting(before + (came - ((east + west) + (south + north))));
+        let inflow = (from_west + from_east) + (from_north + from_south);
+        regolith = without_negligible(before + (inflow - ((east + west) + (south + north))));
     }
 }
 
@@ -120,7 +120,7 @@ impl Dissolution {
         Missing {
             depth: rows.depth.here(y),
             regolith: found,
-            yields: rows.sweep.links(y).yields,
+            erodible: rows.sweep.links(y).erodible,
             room: dig.room.here_mut(0),
             most: self.most,
         }

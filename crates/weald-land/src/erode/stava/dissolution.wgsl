@@ -9,7 +9,7 @@ fn dissolve(@builtin(global_invocation_id) invocation: vec3<u32>) {
         return;
     }
     let found = regolith[at];
-    let room = (min(standing(at), constants.regolith_most) - found) * yields(cell);
+    let room = (min(standing(at), constants.regolith_most) - found) * erodible(cell);
     let after = dig(at, room, found, 1u, 1.0);
     regolith[at] = after;
     solid[at] = pile(at) + after;

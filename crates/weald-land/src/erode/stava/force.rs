@@ -9,14 +9,14 @@ use crate::erode::before;
 use weald_engine::kernel;
 use weald_engine::stencil::chain::Flow;
 
-/// Least sine that counts as a slope, so that water on level ground still carries something.
-const LEAST_SLOPE: f32 = 0.1;
+/// Least sine that counts as a slope, so that water on flat ground still carries something.
+const MIN_SLOPE: f32 = 0.1;
 
 kernel! {
     /// Capacity that is free; negative where the water carries too much.
-    pub(crate) struct Room {
+    pub(crate) struct FreeCapacity {
         reads {
-            found, eastward, southward, sine_east, sine_west, sine_south, sine_north, neighbour_share, yields,
+            found, eastward, southward, sine_east, sine_west, sine_south, sine_north, neighbour_share, erodible,
         }
         updates {}
         writes { room }
@@ -25,7 +25,7 @@ kernel! {
     fn cell() {
         let speed = (eastward * eastward + southward * southward).sqrt();
         let mean_sine = ((sine_west + sine_east) + (sine_north + sine_south)) * neighbour_share;
-        room = (capacity * mean_sine.max(LEAST_SLOPE) * speed - found) * yields;
+        room = (capacity * mean_sine.max(MIN_SLOPE) * speed - found) * erodible;
     }
 }
 
@@ -35,7 +35,7 @@ impl Stava {
         self.planes.take(flow.input, solid, y);
         let links = self.setting.links.row(flow.constants, y);
         let found = flow.input[plane::SEDIMENT].here(y);
-        Room {
+        FreeCapacity {
             found,
             eastward: settled.eastward.here(y),
             southward: settled.southward.here(y),
@@ -44,7 +44,7 @@ impl Stava {
             sine_south: sine_south.here(y),
             sine_north: before(sine_south, still, y, flow.span.start),
             neighbour_share: links.neighbour_share,
-            yields: links.yields,
+            erodible: links.erodible,
             room: dig.room.here_mut(0),
             capacity: self.constants.capacity,
         }

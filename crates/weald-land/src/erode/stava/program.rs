@@ -9,21 +9,21 @@ use super::slippage::Slippage;
 use super::{Stava, WEATHER_PLANES, plane};
 use crate::erode::advection::{Advected, Advection};
 use crate::erode::links::{Links, plane as links_plane};
-use crate::erode::simulation::Sky;
-use weald_core::material::MOST;
-use weald_engine::program::draft::Draft;
+use crate::erode::simulation::Forcing;
+use weald_core::material::MAX_MATERIALS;
+use weald_engine::program::builder::ProgramBuilder;
 use weald_engine::program::{Content, Program, Uniforms};
 use weald_engine::stencil::chain::Process;
 use weald_engine::uniform;
 
-const SKY: &str = include_str!("../sky.wgsl");
+const FORCING: &str = include_str!("../forcing.wgsl");
 const SUMS: &str = include_str!("../sums.wgsl");
 const PIPES: &str = include_str!("../pipes.wgsl");
 const CONSTANTS: &str = include_str!("../stava.wgsl");
 const LAYER: &str = include_str!("layer.wgsl");
 const COLUMN: &str = include_str!("column.wgsl");
 const FLOWS: &str = include_str!("../mei/flows.wgsl");
-const CAME: &str = include_str!("../mei/came.wgsl");
+const INFLOW: &str = include_str!("../mei/inflow.wgsl");
 const CARRY: &str = include_str!("../mei/carry.wgsl");
 const SETTLED: &str = include_str!("../mei/settled.wgsl");
 const VELOCITY_OF_SEDIMENT: &str = include_str!("../mei/velocity.wgsl");
@@ -38,7 +38,7 @@ uniform! {
     pub(crate) struct StavaNumbers {
         /// For each material, bedrock first: share of the room that erosion takes, share that dissolution takes,
         /// talus.
-        pub(crate) materials: [[f32; 4]; MOST],
+        pub(crate) materials: [[f32; 4]; MAX_MATERIALS],
         pub(crate) flow_rate: f32,
         pub(crate) capacity: f32,
         pub(crate) epsilon: f32,
@@ -59,7 +59,7 @@ uniform! {
 
 impl StavaNumbers {
     const NOTHING: Self = Self {
-        materials: [[0.0; 4]; MOST],
+        materials: [[0.0; 4]; MAX_MATERIALS],
         flow_rate: 0.0,
         capacity: 0.0,
         epsilon: 0.0,
@@ -103,13 +103,14 @@ pub(crate) fn draft(
     numbers: &StavaNumbers,
     (planes, deposit): (Planes, usize),
     links: &Links,
-) -> Draft {
+) -> ProgramBuilder {
     let weather = if name == "stava" {
-        Uniforms::of(&Sky { rain: 0.0, evaporation: 0.0 })
+        Uniforms::of(&Forcing { rain: 0.0, evaporation: 0.0 })
     } else {
         Uniforms::default()
     };
-    let mut draft = Draft::new(name, &[SKY, SUMS, CONSTANTS, LAYER], Uniforms::of(numbers), weather);
+    let mut draft =
+        ProgramBuilder::new(name, &[FORCING, SUMS, CONSTANTS, LAYER], Uniforms::of(numbers), weather);
     draft.count("MATERIALS", planes.materials);
     draft.count("DEPOSIT", deposit);
     let first_constant = planes.count();
@@ -117,7 +118,7 @@ pub(crate) fn draft(
     let column = (0..planes.materials).map(|material| planes.of(material)).collect();
     draft.layered("column", planes.materials, Content::State(column));
     if links.planes() > 0 {
-        draft.mask(first_constant + links_plane::LAND, first_constant + links_plane::YIELDS);
+        draft.mask(first_constant + links_plane::VALID, first_constant + links_plane::ERODIBLE);
     }
     draft
 }
@@ -125,7 +126,7 @@ pub(crate) fn draft(
 impl Dissolution {
     /// Adds the passes of dissolution and of the flow of regolith. `standing` is the shader that knows the water, in
     /// the buffer `water`.
-    pub(crate) fn add_to(draft: &mut Draft, standing: &'static str, water: &str) {
+    pub(crate) fn add_to(draft: &mut ProgramBuilder, standing: &'static str, water: &str) {
         draft.scratch("solid", 1);
         let shaders = [PIPES, COLUMN, DIGGING, standing, include_str!("dissolution.wgsl")];
         draft.pass("dissolve", &shaders, &["base", water], &["column", "regolith", "solid"]);
@@ -139,7 +140,7 @@ impl Dissolution {
     }
 
     /// Adds the buffers of the regolith.
-    pub(crate) fn add_buffers_to(&self, draft: &mut Draft) {
+    pub(crate) fn add_buffers_to(&self, draft: &mut ProgramBuilder) {
         let first = self.plane;
         draft.buffer("regolith", 1, Content::State(vec![first]));
         draft.buffer("creeping", 4, Content::State((first + 1..first + 5).collect()));
@@ -148,7 +149,7 @@ impl Dissolution {
 
 impl Slippage {
     /// Adds the passes of slippage over so many materials.
-    pub(crate) fn add_to(&self, draft: &mut Draft, materials: usize) {
+    pub(crate) fn add_to(&self, draft: &mut ProgramBuilder, materials: usize) {
         draft.layered("tops", materials, Content::Scratch);
         draft.layered("affordable", materials, Content::Scratch);
         draft.pass("pile_up", &[include_str!("tops.wgsl")], &["base", "column"], &["tops"]);
@@ -162,8 +163,8 @@ impl Slippage {
             include_str!("talus_firm.wgsl")
         };
         let shaders = [PIPES, talus, include_str!("slippage.wgsl")];
-        let afford = [&shaders[..], &[include_str!("afford.wgsl")]].concat();
-        draft.pass("afford", &afford, &[&reads[..], &["column"]].concat(), &["affordable"]);
+        let available_share = [&shaders[..], &[include_str!("available_share.wgsl")]].concat();
+        draft.pass("available_share", &available_share, &[&reads[..], &["column"]].concat(), &["affordable"]);
         let slid = [&shaders[..], &[include_str!("slid.wgsl")]].concat();
         draft.pass("slip", &slid, &[&reads[..], &["affordable"]].concat(), &["column"]);
     }
@@ -191,7 +192,7 @@ impl Stava {
         if let Some(slippage) = &self.slippage {
             slippage.add_to(&mut draft, self.planes.materials);
         }
-        draft.pass("record", &[CAME, RECORD], &["outflows"], &["means"]).recorded = true;
+        draft.pass("record", &[INFLOW, RECORD], &["outflows"], &["means"]).recorded = true;
         draft.shows("column", Some("carried"));
         draft.finish(self.reach())
     }
@@ -210,7 +211,7 @@ impl Stava {
         numbers
     }
 
-    fn add_water_to(&self, draft: &mut Draft) {
+    fn add_water_to(&self, draft: &mut ProgramBuilder) {
         let mut reads = vec!["base", "column", "carried"];
         let mut shaders = vec![PIPES, COLUMN];
         if self.dissolution.is_some() {
@@ -241,14 +242,14 @@ impl Stava {
         );
     }
 
-    fn add_erosion_to(&self, draft: &mut Draft) {
+    fn add_erosion_to(&self, draft: &mut ProgramBuilder) {
         let by_velocity = self.setting.advection.is_some() && !self.setting.in_flux_form();
         if self.viscosity.is_some() || by_velocity {
             draft.scratch("velocities", 2);
         }
         let mut reads = vec!["levels", "outflows"];
         let mut writes = vec!["carried", "column"];
-        let mut shaders = vec![PIPES, FLOWS, CAME, MOVED, DIGGING];
+        let mut shaders = vec![PIPES, FLOWS, INFLOW, MOVED, DIGGING];
         if self.viscosity.is_some() {
             Self::add_viscosity_to(draft);
             reads.push("velocities");
@@ -260,19 +261,19 @@ impl Stava {
         if self.setting.advection.is_none() {
             draft.scratch("concentration", 1);
             writes.push("concentration");
-            shaders.push(include_str!("hand_on_concentration.wgsl"));
+            shaders.push(include_str!("transport_input_concentration.wgsl"));
         } else if by_velocity && self.viscosity.is_none() {
             writes.push("velocities");
-            shaders.push(include_str!("hand_on_velocity.wgsl"));
+            shaders.push(include_str!("transport_input_velocity.wgsl"));
         } else {
-            shaders.push(include_str!("hand_on_nothing.wgsl"));
+            shaders.push(include_str!("transport_input_none.wgsl"));
         }
         draft.pass("erode", &shaders, &reads, &writes).tallies = self.setting.open;
     }
 
-    fn add_viscosity_to(draft: &mut Draft) {
+    fn add_viscosity_to(draft: &mut ProgramBuilder) {
         draft.scratch("velocities_once", 2);
-        let shaders = [PIPES, FLOWS, CAME, MOVED, include_str!("velocity.wgsl")];
+        let shaders = [PIPES, FLOWS, INFLOW, MOVED, include_str!("velocity.wgsl")];
         draft.pass("velocity_before_diffusion", &shaders, &["levels", "outflows"], &["velocities"]);
         let sweep = include_str!("viscosity.wgsl");
         let first = [sweep, include_str!("first_sweep.wgsl")];
@@ -281,9 +282,9 @@ impl Stava {
         draft.pass("second_sweep", &second, &["velocities_once"], &["velocities"]);
     }
 
-    fn add_transport_to(&self, draft: &mut Draft) {
+    fn add_transport_to(&self, draft: &mut ProgramBuilder) {
         let Some(advection) = self.setting.advection else {
-            let shaders = [PIPES, FLOWS, CAME, CARRY];
+            let shaders = [PIPES, FLOWS, INFLOW, CARRY];
             draft.pass("carry", &shaders, &["outflows", "concentration"], &["carried"]);
             return;
         };
@@ -296,7 +297,7 @@ impl Stava {
             writes: "carried_next",
         };
         if let Advection::FluxCorrected { .. } = advection {
-            let from = [SETTLED, CAME, FACES_OF_FLUX, include_str!("water_before.wgsl")];
+            let from = [SETTLED, INFLOW, FACES_OF_FLUX, include_str!("water_before.wgsl")];
             advection.add_to(draft, &model(&from, &["carried", "outflows", "levels"]));
         } else {
             advection.add_to(draft, &model(&[SETTLED, VELOCITY_OF_SEDIMENT], &["carried", "velocities"]));

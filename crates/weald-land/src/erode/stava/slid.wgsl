@@ -14,7 +14,7 @@ fn slid_thickness(cell: vec2<i32>, material: u32) -> f32 {
     let south = exact(wanted.z * select(share(cell + SOUTH, material), here, wanted.z > 0.0));
     let north = exact(wanted.w * select(here, share(cell + NORTH, material), wanted.w > 0.0));
     let before = column[layer_of(material, index(cell))];
-    return worth_counting(before + ((west - east) + (north - south)));
+    return without_negligible(before + ((west - east) + (north - south)));
 }
 
 @compute @workgroup_size(16, 16)

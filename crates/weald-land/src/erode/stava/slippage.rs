@@ -12,7 +12,7 @@ use super::planes::{Pile, Planes};
 use crate::erode::before;
 use crate::erode::sweep::Sweep;
 use crate::erode::thermal::{Apply, Axis, Ground};
-use kernels::{Afford, Slid, SoftAxis, Softened};
+use kernels::{AvailableShare, Slid, SoftAxis, Softened};
 use weald_engine::stencil::ring::Ring;
 
 /// Constants of the method.
@@ -85,7 +85,7 @@ impl Slippage {
             if let Some(y) = rows.sweep.behind(self.lag() - 1) {
                 self.want(rows, sliding, y, self.talus[material]);
                 if material > 0 {
-                    afford(rows, sliding, still, (y, &rows.solid[material]));
+                    available_share(rows, sliding, still, (y, &rows.solid[material]));
                 }
             }
             if let Some(y) = rows.sweep.behind(self.lag()) {
@@ -172,9 +172,14 @@ fn soften(rows: &SlippageRows<'_>, sliding: &mut Sliding, y: usize, talus: f32) 
     .run(rows.sweep.arch);
 }
 
-fn afford(rows: &SlippageRows<'_>, sliding: &mut Sliding, still: &Ring, (y, thickness): (usize, &Ring)) {
+fn available_share(
+    rows: &SlippageRows<'_>,
+    sliding: &mut Sliding,
+    still: &Ring,
+    (y, thickness): (usize, &Ring),
+) {
     let Sliding { to_east, to_south, share, .. } = sliding;
-    Afford {
+    AvailableShare {
         thickness: thickness.here(y),
         east: to_east.here(y),
         west: to_east.west(y),

@@ -2,7 +2,7 @@
 //! [`crate::erode::mei`], or by velocity as the setting says.
 
 use super::{Stava, StavaScratch};
-use crate::erode::four_outflows::{Row, carry_upwind, hand_on_fluxes};
+use crate::erode::four_outflows::{Row, carry_upwind, store_transport_fluxes};
 use crate::erode::mei::kernels::Load;
 use weald_engine::stencil::chain::Flow;
 
@@ -30,7 +30,7 @@ impl Stava {
     fn fluxes(&self, flow: &mut Flow<'_, Self>, y: usize) {
         let row = Row::of(flow, y);
         let StavaScratch { rained, still, settled, .. } = &mut *flow.scratch;
-        hand_on_fluxes(&self.setting, flow.output, (rained.here(y), still), &row, settled);
+        store_transport_fluxes(&self.setting, flow.output, (rained.here(y), still), &row, settled);
     }
 
     fn load(&self, flow: &mut Flow<'_, Self>, y: usize) {

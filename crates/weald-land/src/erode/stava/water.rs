@@ -2,8 +2,8 @@
 //! [`crate::erode::mei`]), and its velocity: flux differences over the mean depth of the step.
 
 use super::{Stava, StavaScratch, plane};
-use crate::erode::four_outflows::{Pouring, Row, inflows, outflows_of, sines};
-use crate::erode::pipes::worth_counting;
+use crate::erode::four_outflows::{OutflowDrive, Row, inflows, outflows_of, sines};
+use crate::erode::pipes::without_negligible;
 use crate::erode::stava::planes::{Pile, pile};
 use weald_engine::kernel;
 use weald_engine::stencil::chain::Flow;
@@ -17,13 +17,13 @@ kernel! {
         constants { velocity_epsilon: f32 }
     }
     fn cell() {
-        let came = (from_west + from_east) + (from_north + from_south);
-        let flowed = rained + (came - ((east + west) + (south + north)));
+        let inflow = (from_west + from_east) + (from_north + from_south);
+        let flowed = rained + (inflow - ((east + west) + (south + north)));
         let mean_depth = (rained + flowed) * 0.5;
         let per_depth = if mean_depth > velocity_epsilon { 0.5 / mean_depth } else { 0.0 };
         eastward = ((from_west - west) + (east - from_east)) * per_depth;
         southward = ((from_north - north) + (south - from_south)) * per_depth;
-        depth = worth_counting(flowed);
+        depth = without_negligible(flowed);
     }
 }
 
@@ -44,7 +44,7 @@ impl Stava {
     pub(super) fn outflow(&self, flow: &mut Flow<'_, Self>, y: usize) {
         let row = Row::of(flow, y);
         let StavaScratch { ground, surface, rained, .. } = &*flow.scratch;
-        Pouring {
+        OutflowDrive {
             setting: &self.setting,
             constants: flow.constants,
             input: flow.input,

@@ -4,7 +4,7 @@
 //! `e`, and the sources `q`, which drain where they are negative.
 
 use super::{Stava, plane};
-use crate::erode::pipes::worth_counting;
+use crate::erode::pipes::without_negligible;
 use crate::erode::sums;
 use weald_engine::kernel;
 use weald_engine::stencil::chain::Flow;
@@ -12,17 +12,17 @@ use weald_engine::stencil::chain::Flow;
 kernel! {
     /// Depth after the weather, what came and what went, as they changed the depth.
     pub(crate) struct Weathered {
-        reads { before, rain_share, evaporation_share, source, land }
+        reads { before, rain_share, evaporation_share, source, valid }
         updates {}
-        writes { depth, came, went }
+        writes { depth, gained, lost }
         constants { rain: f32, evaporation: f32 }
     }
     fn cell() {
-        let wet = before + (rain * rain_share + source.max(0.0)) * land;
-        let dried = (evaporation * evaporation_share + (-source).max(0.0)) * land;
-        depth = worth_counting(wet - dried.min(wet));
-        came = wet - before;
-        went = depth - wet;
+        let wet = before + (rain * rain_share + source.max(0.0)) * valid;
+        let dried = (evaporation * evaporation_share + (-source).max(0.0)) * valid;
+        depth = without_negligible(wet - dried.min(wet));
+        gained = wet - before;
+        lost = depth - wet;
     }
 }
 
@@ -35,21 +35,21 @@ impl Stava {
             [rain, evaporation, source] => [rain, evaporation, source].map(|plane| plane.here(y)),
             _ => [ones, ones, still],
         };
-        let [came, went] = &mut scratch.tally;
+        let [gained, lost] = &mut scratch.tally;
         Weathered {
             before: flow.input[plane::DEPTH].here(y),
             rain_share,
             evaporation_share,
             source,
-            land: self.setting.links.row(flow.constants, y).land,
+            valid: self.setting.links.row(flow.constants, y).valid,
             depth: scratch.rained.here_mut(y),
-            came: came.here_mut(0),
-            went: went.here_mut(0),
+            gained: gained.here_mut(0),
+            lost: lost.here_mut(0),
             rain: flow.weather.rain,
             evaporation: flow.weather.evaporation,
         }
         .run(self.setting.arch);
-        flow.sums.add(y, sums::RAINED, came.here(0));
-        flow.sums.add(y, sums::EVAPORATED, went.here(0));
+        flow.sums.add(y, sums::RAINED, gained.here(0));
+        flow.sums.add(y, sums::EVAPORATED, lost.here(0));
     }
 }

@@ -7,9 +7,9 @@ fn weather_and_ground(@builtin(global_invocation_id) invocation: vec3<u32>) {
     let at = index(cell);
     let before = carried[at].x;
     let share = painted_of(at);
-    let wet = exact(before + (weather.rain * share.x + max(share.z, 0.0)) * land(cell));
-    let dried = (weather.evaporation * share.y + max(-share.z, 0.0)) * land(cell);
-    let depth = exact(worth_counting(wet - min(dried, wet)));
+    let wet = exact(before + (weather.rain * share.x + max(share.z, 0.0)) * valid(cell));
+    let dried = (weather.evaporation * share.y + max(-share.z, 0.0)) * valid(cell);
+    let depth = exact(without_negligible(wet - min(dried, wet)));
     tally(RAINED, cell, wet - before);
     tally(EVAPORATED, cell, depth - wet);
     if (inside(cell)) {

@@ -1,7 +1,7 @@
 //! The sliding as one compute pass.
 
 use super::{Scheme, Slide};
-use weald_engine::program::draft::Draft;
+use weald_engine::program::builder::ProgramBuilder;
 
 const SLIDE: &str = include_str!("../thermal.wgsl");
 const AXIS: &str = include_str!("axis.wgsl");
@@ -12,7 +12,7 @@ const ISOTROPIC_SYMMETRIC: &str = include_str!("isotropic_symmetric.wgsl");
 impl Slide {
     /// Adds the pass from the buffers `base` and `settled` to `change`. Its program has this method's constants
     /// among its own.
-    pub(crate) fn add_to(self, draft: &mut Draft) {
+    pub(crate) fn add_to(self, draft: &mut ProgramBuilder) {
         let shaders: &[_] = match self.scheme {
             Scheme::Axis => &[SLIDE, AXIS],
             Scheme::Isotropic => &[SLIDE, TRIANGLE, ISOTROPIC],

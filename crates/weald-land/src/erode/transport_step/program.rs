@@ -3,7 +3,7 @@
 use super::Carrying;
 use crate::erode::advection::{Advected, Advection};
 use crate::erode::links::plane;
-use weald_engine::program::draft::Draft;
+use weald_engine::program::builder::ProgramBuilder;
 use weald_engine::program::{Content, Program, Uniforms};
 use weald_engine::stencil::chain::Process;
 use weald_engine::uniform;
@@ -29,7 +29,7 @@ impl Carrying {
             _ => None,
         };
         let constants = Uniforms::of(&CarryConstants { epsilon: epsilon.unwrap_or(0.0) });
-        let mut draft = Draft::new("transport", &[CONSTANTS], constants, Uniforms::default());
+        let mut draft = ProgramBuilder::new("transport", &[CONSTANTS], constants, Uniforms::default());
         let planes = self.state_planes();
         let flows = planes + 1 + self.links.planes();
         draft.buffer("load", 1, Content::State(vec![0]));
@@ -37,7 +37,7 @@ impl Carrying {
         draft.buffer("water", 1, Content::Constant(vec![planes]));
         draft.buffer("flows", 2, Content::Constant(vec![flows, flows + 1]));
         if self.links.planes() > 0 {
-            draft.mask(planes + plane::LAND, planes + plane::YIELDS);
+            draft.mask(planes + plane::VALID, planes + plane::ERODIBLE);
         }
         let fluxes = epsilon.is_some();
         let model = Advected {

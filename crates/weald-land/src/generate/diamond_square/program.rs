@@ -4,7 +4,7 @@ use super::{DiamondSquare, levels, windows};
 use crate::generate::hash::Plane;
 use weald_core::grid::Size;
 use weald_engine::on_device::OnDevice;
-use weald_engine::program::draft::Draft;
+use weald_engine::program::builder::ProgramBuilder;
 use weald_engine::program::{Program, Uniforms};
 use weald_engine::uniform;
 use weald_engine::uniform::Uniform;
@@ -64,8 +64,12 @@ impl DiamondSquare {
 
 fn program() -> Program {
     let nothing = Level { columns: 0, rows: 0, coarse_columns: 0, side: 1, start: 0, key: 0, amplitude: 0.0 };
-    let mut draft =
-        Draft::new("diamond-square", &[HASH, DIAMOND_SQUARE], Uniforms::default(), Uniforms::of(&nothing));
+    let mut draft = ProgramBuilder::new(
+        "diamond-square",
+        &[HASH, DIAMOND_SQUARE],
+        Uniforms::default(),
+        Uniforms::of(&nothing),
+    );
     draft.scratch("coarse", 1);
     draft.scratch("fine", 1);
     draft.pass("refine", &[], &["coarse"], &["fine"]);

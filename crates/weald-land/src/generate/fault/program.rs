@@ -3,7 +3,7 @@
 use super::{Fault, Line};
 use weald_core::grid::Size;
 use weald_engine::on_device::OnDevice;
-use weald_engine::program::draft::Draft;
+use weald_engine::program::builder::ProgramBuilder;
 use weald_engine::program::{Buffer, Content, Program, Uniforms};
 use weald_engine::uniform;
 use weald_engine::uniform::Uniform;
@@ -11,11 +11,11 @@ use weald_engine::uniform::Uniform;
 const FAULT: &str = include_str!("../fault.wgsl");
 
 /// Sides of the largest grid on which the side of a line is a number of 32 bits.
-pub(super) const MOST_SIDE: usize = 1 << 15;
+pub(super) const MAX_SIDE: usize = 1 << 15;
 
 /// Faults of one step: few enough that a step is short, many enough that the sums of the step before cost
 /// nothing beside them.
-const FAULTS_A_STEP: u32 = 64;
+const FAULTS_PER_STEP: u32 = 64;
 
 uniform! {
     /// What the shader has to know.
@@ -39,8 +39,8 @@ impl Fault {
     pub(super) fn sum_of_steps(&self, lines: &[Line], size: Size) -> OnDevice {
         let count = lines.len() as u32;
         let steps = move |first_row| {
-            let firsts = (0..count.max(1)).step_by(FAULTS_A_STEP as usize);
-            let step = |first| Faults { first_row, first, end: (first + FAULTS_A_STEP).min(count) };
+            let firsts = (0..count.max(1)).step_by(FAULTS_PER_STEP as usize);
+            let step = |first| Faults { first_row, first, end: (first + FAULTS_PER_STEP).min(count) };
             firsts.map(|first| step(first).words()).collect()
         };
         OnDevice {
@@ -56,7 +56,7 @@ impl Fault {
     fn program(&self, lines: usize) -> Program {
         let constants = Uniforms::of(&FaultConstants { count: self.iterations });
         let weather = Uniforms::of(&Faults { first_row: 0, first: 0, end: 0 });
-        let mut draft = Draft::new("fault", &[FAULT], constants, weather);
+        let mut draft = ProgramBuilder::new("fault", &[FAULT], constants, weather);
         draft.add(Buffer::of_words("lines", 4, Content::Table(lines)));
         draft.add(Buffer::of_words("steps", 1, Content::Scratch));
         draft.pass("fault", &[], &["lines"], &["steps"]);

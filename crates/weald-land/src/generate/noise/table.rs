@@ -1,4 +1,4 @@
-//! What the shader of the noise is told of an octave.
+//! What the shader of the noise is given of an octave.
 
 use super::{Axis, Octave};
 

@@ -3,7 +3,7 @@
 use crate::generate::noise::Octave;
 use weald_core::domain::Domain;
 use weald_engine::on_device::OnDevice;
-use weald_engine::program::draft::Draft;
+use weald_engine::program::builder::ProgramBuilder;
 use weald_engine::program::{Buffer, Content, Uniforms};
 use weald_engine::uniform;
 use weald_engine::uniform::Uniform;
@@ -34,7 +34,7 @@ impl OctavePass<'_> {
     pub(crate) fn on_device(&self, domain: &Domain) -> OnDevice {
         let weather = Uniforms::of(&Band { first_row: 0 });
         let shaders = [&[HASH, NOISE, OCTAVES], self.shaders].concat();
-        let mut draft = Draft::new(self.name, &shaders, self.constants.clone(), weather);
+        let mut draft = ProgramBuilder::new(self.name, &shaders, self.constants.clone(), weather);
         let tables = self.tables();
         for (name, words) in &tables {
             draft.add(Buffer::of_words(name, 4, Content::Table(words.len() / 4)));

@@ -26,7 +26,7 @@ use roxmltree::{Document, Node, ParsingOptions};
 use self::element::Element;
 use self::symmetry::Share;
 use self::xform::Xform;
-use super::code::MOST_MAPS;
+use super::code::MAX_MAPS;
 use super::map::Map;
 use super::system::{Draft, Ifs, IfsFault, Role, Weighted};
 use weald_core::error::Error;
@@ -35,13 +35,13 @@ use weald_io::{Fault, read_at_most};
 pub use self::write::{Frame, write};
 
 /// Longest file that is read, in bytes.
-pub const MAXIMUM_BYTES: u64 = 16 << 20;
+pub const MAX_BYTES: u64 = 16 << 20;
 
 /// Most elements, texts and comments of a file.
-const MAXIMUM_NODES: u32 = 1 << 18;
+const MAX_NODES: u32 = 1 << 18;
 
 /// Most flames of a file.
-pub const MAXIMUM_FLAMES: usize = 4096;
+pub const MAX_FLAMES: usize = 4096;
 
 /// Reads all flames of a file, in its order. Maps have no [`Role`] but the usual one, for a file has no place for it.
 ///
@@ -49,7 +49,7 @@ pub const MAXIMUM_FLAMES: usize = 4096;
 /// [`Error::Input`] for a file that is missing, damaged, or says what affine maps cannot; [`Error::Limit`] for one
 /// that is too large.
 pub fn read(path: &Path) -> Result<Vec<Ifs>, Error> {
-    read_at_most(path, MAXIMUM_BYTES).and_then(|bytes| parse(&bytes)).map_err(|fault| fault.of(path))
+    read_at_most(path, MAX_BYTES).and_then(|bytes| parse(&bytes)).map_err(|fault| fault.of(path))
 }
 
 /// The flames of a file's bytes, in UTF-8.
@@ -57,14 +57,13 @@ pub fn read(path: &Path) -> Result<Vec<Ifs>, Error> {
 /// # Errors
 /// A [`Fault`] that names line, element and attribute, and what is legal.
 pub fn parse(bytes: &[u8]) -> Result<Vec<Ifs>, Fault> {
-    if bytes.len() as u64 > MAXIMUM_BYTES {
-        return Err(Fault::Limit(format!("the file is longer than the {MAXIMUM_BYTES} bytes that are read")));
+    if bytes.len() as u64 > MAX_BYTES {
+        return Err(Fault::Limit(format!("the file is longer than the {MAX_BYTES} bytes that are read")));
     }
     let text = std::str::from_utf8(bytes)
         .map_err(|cause| Fault::damaged(format!("is not UTF-8 text: {cause}; save it as UTF-8")))?;
     // Without a document type there are no entities that could unfold into gigabytes.
-    let options =
-        ParsingOptions { allow_dtd: false, nodes_limit: MAXIMUM_NODES, ..ParsingOptions::default() };
+    let options = ParsingOptions { allow_dtd: false, nodes_limit: MAX_NODES, ..ParsingOptions::default() };
     let document = Document::parse_with_options(text, options).map_err(|cause| unreadable(&cause))?;
     let flames = flames(&document)?;
     flames.iter().enumerate().map(|(number, &flame)| read_flame(Element::of(flame), number + 1)).collect()
@@ -72,9 +71,9 @@ pub fn parse(bytes: &[u8]) -> Result<Vec<Ifs>, Fault> {
 
 fn unreadable(cause: &roxmltree::Error) -> Fault {
     match cause {
-        roxmltree::Error::NodesLimitReached => Fault::Limit(format!(
-            "the file has more than the {MAXIMUM_NODES} elements and texts that are read"
-        )),
+        roxmltree::Error::NodesLimitReached => {
+            Fault::Limit(format!("the file has more than the {MAX_NODES} elements and texts that are read"))
+        }
         roxmltree::Error::DtdDetected => {
             Fault::damaged("has a document type (`<!DOCTYPE …>`), which no flame needs; take it out")
         }
@@ -87,11 +86,11 @@ fn flames<'a>(document: &'a Document<'_>) -> Result<Vec<Node<'a, 'a>>, Fault> {
     let is_flame = |node: &Node<'_, '_>| node.has_tag_name("flame");
     let outermost = |node: &Node<'_, '_>| !node.ancestors().skip(1).any(|above| is_flame(&above));
     let flames: Vec<_> =
-        document.descendants().filter(is_flame).filter(outermost).take(MAXIMUM_FLAMES + 1).collect();
+        document.descendants().filter(is_flame).filter(outermost).take(MAX_FLAMES + 1).collect();
     match flames.len() {
         0 => Err(Fault::damaged("has no `<flame>` element; a flame file holds at least one")),
-        1..=MAXIMUM_FLAMES => Ok(flames),
-        _ => Err(Fault::Limit(format!("the file has more than the {MAXIMUM_FLAMES} flames that are read"))),
+        1..=MAX_FLAMES => Ok(flames),
+        _ => Err(Fault::Limit(format!("the file has more than the {MAX_FLAMES} flames that are read"))),
     }
 }
 
@@ -133,9 +132,9 @@ impl<'a> Parts<'a> {
             }
             _ => {}
         }
-        if self.xforms.len() > MOST_MAPS {
+        if self.xforms.len() > MAX_MAPS {
             return Err(
-                element.fault(&format!("the flame has more than {MOST_MAPS} xforms, and no more fit a code"))
+                element.fault(&format!("the flame has more than {MAX_MAPS} xforms, and no more fit a code"))
             );
         }
         Ok(())

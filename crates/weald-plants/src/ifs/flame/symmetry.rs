@@ -8,7 +8,7 @@
 
 use std::f64::consts::TAU;
 
-use super::super::code::MOST_MAPS;
+use super::super::code::MAX_MAPS;
 use super::super::map::Map;
 use super::element::Element;
 use weald_io::Fault;
@@ -38,9 +38,9 @@ pub(super) fn is_isometry(map: &Map) -> bool {
 pub(super) fn of_kind(element: Element<'_>) -> Result<Vec<Map>, Fault> {
     let kind = element.number("kind")?.unwrap_or(0.0);
     let order = kind.abs() as usize;
-    if kind == 0.0 || kind.fract() != 0.0 || order > MOST_MAPS {
+    if kind == 0.0 || kind.fract() != 0.0 || order > MAX_MAPS {
         return Err(element.fault(&format!(
-            "`kind` is {kind}; it must be a whole number from -{MOST_MAPS} to {MOST_MAPS}, and not 0, which is random"
+            "`kind` is {kind}; it must be a whole number from -{MAX_MAPS} to {MAX_MAPS}, and not 0, which is random"
         )));
     }
     let mirror = (kind < 0.0).then_some(Map::planar([-1.0, 0.0, 0.0, 1.0, 0.0, 0.0]));
@@ -58,10 +58,10 @@ pub(super) fn expanded(shares: &[Share]) -> Result<Vec<Share>, String> {
         return Ok(maps);
     }
     let group = Group::of(&symmetries)?;
-    if group.len() * maps.len() > MOST_MAPS {
+    if group.len() * maps.len() > MAX_MAPS {
         let (order, count) = (group.len(), maps.len());
         return Err(format!(
-            "its symmetries turn {count} xforms into {}, and at most {MOST_MAPS} fit a code",
+            "its symmetries turn {count} xforms into {}, and at most {MAX_MAPS} fit a code",
             order * count
         ));
     }
@@ -100,8 +100,8 @@ impl Group {
             .map(|(angle, mirrors)| if *mirrors { angle - mirror.unwrap_or(0.0) } else { *angle })
             .collect();
         let fits = |order: &usize| turns.iter().all(|turn| off_multiple(*turn, *order) <= SAME_ANGLE);
-        let order = (1..=MOST_MAPS).find(fits).ok_or_else(|| {
-            format!("its symmetries turn by no share of a circle with a whole number up to {MOST_MAPS}")
+        let order = (1..=MAX_MAPS).find(fits).ok_or_else(|| {
+            format!("its symmetries turn by no share of a circle with a whole number up to {MAX_MAPS}")
         })?;
         Ok(Self { order, mirror })
     }

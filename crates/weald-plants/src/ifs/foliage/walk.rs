@@ -8,7 +8,7 @@ use weald_core::random::hash2;
 const TIP: f64 = 0.07;
 
 /// Most parts of a plant.
-const MOST: usize = 4096;
+const MAX_PARTS: usize = 4096;
 
 /// A part that becomes a ribbon or a card.
 pub(super) struct Piece {
@@ -32,7 +32,7 @@ pub(super) fn pieces(ifs: &Ifs, leaf: f64) -> Vec<Piece> {
         for (digit, weighted) in ifs.maps().iter().enumerate().filter(|(_, map)| map.role != Role::Stem) {
             let child = child(&piece, digit, weighted.role, &weighted.map);
             let least = if weighted.role == Role::Trunk { TIP } else { leaf };
-            if child.size <= least || open.len() + pieces.len() >= MOST {
+            if child.size <= least || open.len() + pieces.len() >= MAX_PARTS {
                 pieces.push(Piece { is_leaf: true, ..child });
             } else {
                 open.push_back(child);

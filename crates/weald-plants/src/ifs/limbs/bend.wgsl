@@ -1,11 +1,11 @@
 
-struct Stretch {
+struct DispatchRange {
     // Workgroup with which the dispatch begins.
     first: u32,
     points: u32,
 }
 
-@group(0) @binding(0) var<uniform> stretch: Stretch;
+@group(0) @binding(0) var<uniform> range: DispatchRange;
 @group(0) @binding(1) var<storage, read> limbs: array<Limb>;
 @group(0) @binding(2) var<storage, read> rests: array<vec4<f32>>;
 @group(0) @binding(3) var<storage, read> winds: array<vec4<f32>>;
@@ -14,8 +14,8 @@ struct Stretch {
 
 @compute @workgroup_size(64)
 fn bend(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) place: u32) {
-    let point = (stretch.first + group.x) * 64u + place;
-    if point >= stretch.points {
+    let point = (range.first + group.x) * 64u + place;
+    if point >= range.points {
         return;
     }
     let wind = winds[point];

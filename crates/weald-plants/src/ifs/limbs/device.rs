@@ -19,7 +19,7 @@ pub const BEND: Shader = Shader {
         include_str!("bend.wgsl"),
     ],
     group: 64,
-    uniforms: &["stretch"],
+    uniforms: &["range"],
     buffers: &[("limbs", false), ("rests", false), ("winds", false), ("swayed", true), ("pushes", true)],
 };
 

@@ -2,7 +2,7 @@
 // binding `var<storage, read> limbs: array<Limb>`.
 
 const AT_JOINT: f32 = 0.7;
-const MOST_PUSH: f32 = 0.9;
+const MAX_PUSH: f32 = 0.9;
 const LEANS = vec4<f32>(1.1, 0.45, 0.25, 0.1);
 const SWINGS = vec4<f32>(0.16, 0.22, 0.22, 0.16);
 const FREQUENCIES = vec4<f32>(0.45, 1.0, 2.1, 3.4);
@@ -16,7 +16,7 @@ struct Limb {
     tie: u32,
 }
 
-struct Breeze {
+struct LocalWind {
     push: f32,
     wind: vec3<f32>,
     across: vec3<f32>,
@@ -31,15 +31,15 @@ struct Bent {
 }
 
 // The breeze of a push along x and z of the plant, upright.
-fn wind_on(push: vec2<f32>, seconds: f32, phase: f32) -> Breeze {
+fn wind_on(push: vec2<f32>, seconds: f32, phase: f32) -> LocalWind {
     let strength = sqrt(push.x * push.x + push.y * push.y);
     let longer = 1.0 / max(strength, 1e-20);
     let wind = vec3<f32>(push.x * longer, 0.0, push.y * longer);
-    return Breeze(min(strength, MOST_PUSH), wind, vec3<f32>(-wind.z, 0.0, wind.x), seconds, phase);
+    return LocalWind(min(strength, MAX_PUSH), wind, vec3<f32>(-wind.z, 0.0, wind.x), seconds, phase);
 }
 
 // Half of the vector about which, and by which, a place along a limb turns.
-fn half_turn(limb: Limb, along: f32, breeze: Breeze) -> vec3<f32> {
+fn half_turn(limb: Limb, along: f32, breeze: LocalWind) -> vec3<f32> {
     let order = (limb.tie >> 20u) & 3u;
     let ratio = sqrt(breeze.push / (1.0 - breeze.push));
     let breezy = 2.0 * ratio / (2.0 * ratio + 1.0);
@@ -56,7 +56,7 @@ fn rotated(turn: vec4<f32>, v: vec3<f32>) -> vec3<f32> {
 }
 
 // Where a point goes that is so far along a limb and whose rest is `rest`.
-fn bent(breeze: Breeze, first: u32, first_along: f32, rest: vec3<f32>, normal: vec3<f32>) -> Bent {
+fn bent(breeze: LocalWind, first: u32, first_along: f32, rest: vec3<f32>, normal: vec3<f32>) -> Bent {
     var found = Bent(rest, normal);
     var along = first_along;
     var number = first;

@@ -1,4 +1,5 @@
-//! A plant as leaves on limbs, to be drawn in real time: in levels of detail that pass into each other, and in the wind.
+//! A plant as leaves on limbs, to be drawn in real time: in levels of detail that blend into each other, and in the
+//! wind.
 //!
 //! What [`foliage`](super::foliage) covers with pictures is here cut from the codes alone. The first digit that makes a part
 //! small enough makes it a **leaf**, an outline of the whole under the map of the part; each [level](LEVELS) has its own
@@ -18,4 +19,4 @@ mod walk;
 
 pub use device::{BEND, FUNCTIONS};
 pub use limb::{Corner, LEVELS, Limb, Limbs};
-pub use sway::{Breeze, wind_on};
+pub use sway::{LocalWind, wind_on};

@@ -19,7 +19,7 @@ const BROADER: [f32; 2] = [0.25, 3.0];
 const STIPE: f64 = 0.08;
 
 /// How open to the light a place at the root is.
-const LEAST_OPEN: f32 = 0.35;
+const MIN_OPENNESS: f32 = 0.35;
 
 /// Last level, with few leaves in all.
 const CHEAP: u32 = LEVELS as u32 - 1;
@@ -302,7 +302,7 @@ fn open_to_light(plant: &mut Limbs) {
     let radius = plant.radius();
     for corner in &mut plant.corners {
         let share = length(corner.rest) / radius;
-        corner.open = LEAST_OPEN + (1.0 - LEAST_OPEN) * share * (2.0 - share);
+        corner.open = MIN_OPENNESS + (1.0 - MIN_OPENNESS) * share * (2.0 - share);
     }
 }
 

@@ -20,11 +20,11 @@ use crate::wind::wave;
 const SOONER: f32 = 2.0;
 
 /// Push of a wind from which plants lean no further.
-const MOST_PUSH: f32 = 0.9;
+const MAX_PUSH: f32 = 0.9;
 
 /// The wind as a plant feels it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Breeze {
+pub struct LocalWind {
     /// The push in the plant's own axes, and its direction there; that has length 1.
     pub push: f32,
     /// Direction of the push.
@@ -38,16 +38,16 @@ pub struct Breeze {
 }
 
 /// The breeze of a push along x and z of the plant, upright.
-pub fn wind_on([x, z]: [f32; 2], seconds: f32, phase: f32) -> Breeze {
+pub fn wind_on([x, z]: [f32; 2], seconds: f32, phase: f32) -> LocalWind {
     let push = (x * x + z * z).sqrt();
     let longer = 1.0 / push.max(1e-20);
     let wind = [x * longer, 0.0, z * longer];
-    Breeze { push: push.min(MOST_PUSH), wind, across: [-wind[2], 0.0, wind[0]], seconds, phase }
+    LocalWind { push: push.min(MAX_PUSH), wind, across: [-wind[2], 0.0, wind[0]], seconds, phase }
 }
 
 impl Limb {
     /// Half of the vector about which, and by which, a place along the limb turns.
-    pub(super) fn half_turn(&self, along: f32, breeze: &Breeze) -> [f32; 3] {
+    pub(super) fn half_turn(&self, along: f32, breeze: &LocalWind) -> [f32; 3] {
         let order = self.order as usize;
         let ratio = (breeze.push / (1.0 - breeze.push)).sqrt();
         let breezy = SOONER * ratio / (SOONER * ratio + 1.0);
@@ -61,7 +61,7 @@ impl Limb {
     }
 
     /// Where a point goes by the turn of a place along the limb.
-    fn turned(&self, along: f32, breeze: &Breeze, point: [f32; 3]) -> [f32; 3] {
+    fn turned(&self, along: f32, breeze: &LocalWind, point: [f32; 3]) -> [f32; 3] {
         let half = self.half_turn(along, breeze);
         let scale = 1.0 / (1.0 + dot(half, half)).sqrt();
         let turn = [half[0] * scale, half[1] * scale, half[2] * scale, scale];
@@ -74,7 +74,7 @@ impl Limb {
 
 impl Limbs {
     /// Where a point goes that is so far along a limb and whose rest is `rest`.
-    pub fn bent(&self, breeze: &Breeze, limb: u32, along: f32, rest: [f32; 3]) -> [f32; 3] {
+    pub fn bent(&self, breeze: &LocalWind, limb: u32, along: f32, rest: [f32; 3]) -> [f32; 3] {
         let (mut point, mut along, mut next) = (rest, along, Some(limb));
         while let Some(number) = next {
             let limb = &self.limbs[number as usize];

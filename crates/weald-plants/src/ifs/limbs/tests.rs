@@ -41,7 +41,7 @@ fn every_shape_becomes_a_plant_of_one_metre_with_leaves_on_every_level() {
 }
 
 /// Breezes at many places and moments, from none to a gale.
-fn breezes() -> impl Iterator<Item = Breeze> {
+fn local_winds() -> impl Iterator<Item = LocalWind> {
     (0..60_u16).map(|number| {
         let seconds = 0.37 * f32::from(number);
         let [east, north] = push([3.0 * seconds, 40.0], seconds, 0.0);
@@ -55,7 +55,7 @@ fn joints_never_part_in_any_breeze() {
     let mut moved = 0.0_f32;
     for name in ["fern", "culcita", "fern-3d", "shrub", "tree", "conifer", "crown"] {
         let plant = plant(name);
-        for breeze in breezes() {
+        for breeze in local_winds() {
             for (number, limb) in (0..).zip(&plant.limbs) {
                 let Some(parent) = limb.parent else { continue };
                 let held = plant.bent(&breeze, parent, limb.along, limb.joint);
@@ -74,7 +74,7 @@ fn joints_never_part_in_any_breeze() {
 fn limbs_hang_on_their_parents_and_roots_stand_still() {
     for name in ["fern", "fern-3d", "shrub", "conifer"] {
         let plant = plant(name);
-        for breeze in breezes() {
+        for breeze in local_winds() {
             for limb in plant.limbs.iter().filter(|limb| limb.parent.is_none()) {
                 assert!(leaf::length(limb.joint) < 1e-3, "{name}: {:?}", limb.joint);
             }

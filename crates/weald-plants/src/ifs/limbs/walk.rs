@@ -14,14 +14,14 @@ const OF_FRONDS: [f64; LEVELS - 1] = [0.028, 0.07, 0.36, 1.0];
 const OF_CROWNS: [f64; LEVELS - 1] = [0.028, 0.07, 0.2, 1.0];
 
 /// Share of the plant below which no stem is seen.
-const LEAST_STEM: f64 = 0.08;
+const MIN_STEM: f64 = 0.08;
 
 /// How much larger than it is a part counts that goes on along an axis: a tip as one leaf would be seen among the leaves
 /// below it.
 const AXIS: f64 = 2.0;
 
 /// Most leaves of the finest level, over all fronds.
-const MOST: usize = 16_384;
+const MAX_LEAVES: usize = 16_384;
 
 /// Factor by which leaves become larger until they are few enough.
 const COARSER: f64 = 1.2;
@@ -111,7 +111,7 @@ impl Walk {
         let maps = Maps { ifs, spreads: matches!(habit, Habit::Crossed(_)) };
         let mut sizes = if habit.is_rosette() { OF_FRONDS } else { OF_CROWNS };
         loop {
-            if let Some(walk) = Self::down_to(&maps, shape, sizes, MOST / copies) {
+            if let Some(walk) = Self::down_to(&maps, shape, sizes, MAX_LEAVES / copies) {
                 return walk;
             }
             sizes[0] *= COARSER;
@@ -159,7 +159,7 @@ impl Walk {
 
     fn stem(&mut self, part: &Open, sizes: [f64; LEVELS - 1]) {
         let levels = (0..).zip(sizes).filter(|&(_, size)| size < part.counts);
-        if let Some((last, _)) = levels.last().filter(|_| part.size >= LEAST_STEM) {
+        if let Some((last, _)) = levels.last().filter(|_| part.size >= MIN_STEM) {
             self.part(part, [0, last], true);
         }
     }

@@ -11,7 +11,7 @@ pub const SWAY: Shader = Shader {
     name: "sway",
     text: &[include_str!("sway.wgsl")],
     group: 256,
-    uniforms: &["plant", "pose", "stretch"],
+    uniforms: &["plant", "pose", "range"],
     buffers: &[("rows", false), ("rests", false), ("codes", false), ("swayed", true)],
 };
 

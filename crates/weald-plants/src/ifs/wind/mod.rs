@@ -117,7 +117,7 @@ impl Wind {
         }
     }
 
-    /// The moments of a film that begins again after its last frame; without `seconds` it has 24 frames a second.
+    /// The moments of a film that begins again after its last frame; without `seconds` it has 24 frames per second.
     pub fn poses(&self, frames: u32) -> impl Iterator<Item = Pose> {
         let seconds = self.seconds.unwrap_or(f64::from(frames.max(1)) / 24.0);
         let looped = Self { seconds: Some(seconds), ..self.clone() };

@@ -32,7 +32,7 @@ pub struct Posed<'a> {
 }
 
 /// Where the way down the digits has come, for all lanes.
-struct Way {
+struct DigitDescent {
     part: [Row; 12],
     turn: [Row; 4],
     shift: [Row; 3],
@@ -68,15 +68,15 @@ impl<'a> Posed<'a> {
             #[inline(always)]
             || {
                 // Begun here, so that it is known that no table lies within it.
-                let mut way = Way::begun();
+                let mut descent = DigitDescent::begun();
                 for place in 0..self.sway.depth {
-                    if way.goes_on == [0; LANES] {
+                    if descent.goes_on == [0; LANES] {
                         break;
                     }
-                    self.step(&mut way, place as u32, digits(place));
+                    self.step(&mut descent, place as u32, digits(place));
                 }
                 for lane in 0..LANES {
-                    let point = carried(way.motion(lane), rests.map(|axis| axis[lane]));
+                    let point = carried(descent.motion(lane), rests.map(|axis| axis[lane]));
                     for (axis, x) in swayed.iter_mut().zip(point) {
                         axis[lane] = x;
                     }
@@ -88,7 +88,7 @@ impl<'a> Posed<'a> {
 
     /// One digit further: looks up what the digits say, then computes, since vectors do the second alone.
     #[inline(always)]
-    fn step(&self, way: &mut Way, place: u32, digits: &[u8; LANES]) {
+    fn step(&self, descent: &mut DigitDescent, place: u32, digits: &[u8; LANES]) {
         let mut found = Found::NONE;
         for (role, &digit) in found.role.iter_mut().zip(digits) {
             *role = self.roles[usize::from(digit)];
@@ -98,16 +98,17 @@ impl<'a> Posed<'a> {
                 *found = map[usize::from(digit)];
             }
         }
-        way.branch(place, digits, &found.role);
+        descent.branch(place, digits, &found.role);
         for lane in 0..LANES {
-            let (order, along) = (way.order[lane], way.along[lane]);
-            let number = order * PHASES as u32 + (way.phase[lane] + PHASES as u32 - along) % PHASES as u32;
+            let (order, along) = (descent.order[lane], descent.along[lane]);
+            let number =
+                order * PHASES as u32 + (descent.phase[lane] + PHASES as u32 - along) % PHASES as u32;
             found.swing[lane] = self.swing[number as usize % (ORDERS * PHASES)];
             found.lean[lane] = self.pose.lean[order as usize % ORDERS];
             let bend = self.bends[along.wrapping_sub(1) as usize % BENDS];
             found.share[lane] = if along == 0 { AT_JOINT } else { bend };
         }
-        way.turn(&found, self.pose, self.sway.root);
+        descent.turn(&found, self.pose, self.sway.root);
     }
 }
 
@@ -130,7 +131,7 @@ impl Found {
     };
 }
 
-impl Way {
+impl DigitDescent {
     fn begun() -> Self {
         Self {
             part: std::array::from_fn(|number| [WHOLE.as_flattened()[number]; LANES]),

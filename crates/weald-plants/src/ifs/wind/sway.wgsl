@@ -22,7 +22,7 @@ struct Pose {
     swing: array<vec4<f32>, 64>,
 }
 
-struct Stretch {
+struct DispatchRange {
     // Workgroup with which the dispatch begins.
     first: u32,
     points: u32,
@@ -35,7 +35,7 @@ struct Motion {
 
 @group(0) @binding(0) var<uniform> plant: Plant;
 @group(0) @binding(1) var<uniform> pose: Pose;
-@group(0) @binding(2) var<uniform> stretch: Stretch;
+@group(0) @binding(2) var<uniform> range: DispatchRange;
 @group(0) @binding(3) var<storage, read> rows: array<vec4<f32>>;
 @group(0) @binding(4) var<storage, read> rests: array<vec4<f32>>;
 @group(0) @binding(5) var<storage, read> codes: array<vec4<u32>>;
@@ -43,8 +43,8 @@ struct Motion {
 
 @compute @workgroup_size(256)
 fn sway(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) place: u32) {
-    let point = (stretch.first + group.x) * 256u + place;
-    if point >= stretch.points {
+    let point = (range.first + group.x) * 256u + place;
+    if point >= range.points {
         return;
     }
     let motion = descend(codes[point]);

@@ -39,7 +39,7 @@ struct SpeciesHeader {
 
 impl MeadowHeader {
     pub(super) fn of(name: &str, meadow: &Meadow) -> Self {
-        let Maps { cell, land, density, water, mown, trodden, .. } = &meadow.maps;
+        let Maps { cell, valid, density, water, mown, trodden, .. } = &meadow.maps;
         Self {
             name: name.to_owned(),
             species: meadow.species.iter().map(SpeciesHeader::of).collect(),
@@ -52,7 +52,7 @@ impl MeadowHeader {
             columns: density.size().columns,
             rows: density.size().rows,
             cell: *cell,
-            masked: land.is_some(),
+            masked: valid.is_some(),
             given: [water, mown, trodden].map(Option::is_some),
         }
     }
@@ -65,13 +65,13 @@ impl MeadowHeader {
 
     pub(super) fn read(self, file: &mut HashedReader) -> Result<(String, Meadow), String> {
         let size = Size::new(self.columns, self.rows).map_err(|error| error.to_string())?;
-        let land = if self.masked { Mask::new(size, file.flags(size.cells())?) } else { None };
+        let valid = if self.masked { Mask::new(size, file.flags(size.cells())?) } else { None };
         let mut map = || Ok::<_, String>(Field::from_values(size, file.singles(size.cells())?));
         let (density, soil, light) = (map()?, map()?, map()?);
         let shares = self.species.iter().map(|_| map()).collect::<Result<_, _>>()?;
         let mut given = |place: usize| self.given[place].then(&mut map).transpose();
         let (water, mown, trodden) = (given(0)?, given(1)?, given(2)?);
-        let maps = Maps { cell: self.cell, land, density, soil, light, shares, water, mown, trodden };
+        let maps = Maps { cell: self.cell, valid, density, soil, light, shares, water, mown, trodden };
         let meadow = Meadow {
             species: self.species.into_iter().map(SpeciesHeader::read).collect::<Result<_, _>>()?,
             bend: if self.printed { Bend::Printed } else { Bend::Total },
@@ -108,9 +108,9 @@ impl SpeciesHeader {
 }
 
 pub(super) fn write<W: Write>(meadow: &Meadow, out: &mut HashedWriter<W>) -> std::io::Result<()> {
-    let Maps { land, density, soil, light, shares, water, mown, trodden, .. } = &meadow.maps;
-    if let Some(land) = land {
-        out.flags(land.flags())?;
+    let Maps { valid, density, soil, light, shares, water, mown, trodden, .. } = &meadow.maps;
+    if let Some(valid) = valid {
+        out.flags(valid.flags())?;
     }
     let given = [water, mown, trodden].into_iter().flatten();
     let mut maps = [density, soil, light].into_iter().chain(shares).chain(given);

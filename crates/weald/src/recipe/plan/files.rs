@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::words::Vocabulary;
-use weald_core::parameter::{Complaints, Kind, Parameter};
+use weald_core::parameter::{Diagnostics, Kind, Parameter};
 use weald_core::source::{Node, Table, Value};
 use weald_land::edit::Layout;
 
@@ -17,13 +17,13 @@ pub(super) struct Files<'a> {
 
 impl Files<'_> {
     /// The table with each file where it is. No file is opened.
-    pub(super) fn placed(&self, table: &Table, keys: &[Parameter], complaints: &mut Complaints) -> Table {
+    pub(super) fn placed(&self, table: &Table, keys: &[Parameter], diagnostics: &mut Diagnostics) -> Table {
         let mut placed = table.clone();
         for key in keys.iter().filter(|key| matches!(key.kind, Kind::Raster | Kind::Script | Kind::Flame)) {
             let Some(Node { value: Value::Text(name), line }) = placed.get_mut(key.name) else { continue };
             let path = self.folder.join(&*name);
             if let Some(problem) = self.problem(&path, &key.kind) {
-                complaints.add(*line, format!("`{}`: {problem}", key.name));
+                diagnostics.add(*line, format!("`{}`: {problem}", key.name));
             }
             *name = path.to_string_lossy().into_owned();
         }

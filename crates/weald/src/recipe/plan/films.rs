@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use weald_core::parameter::{Complaints, Parameters, keys_of};
+use weald_core::parameter::{Diagnostics, Parameters, keys_of};
 use weald_core::source::Table;
 use weald_picture::Picture;
 
@@ -19,8 +19,8 @@ weald_core::parameters! {
     }
 }
 
-/// Frames a second of a video, where the recipe says nothing.
-const USUAL_RATE: f64 = 24.0;
+/// Frames per second of a video, where the recipe says nothing.
+const DEFAULT_RATE: f64 = 24.0;
 
 /// Extensions of a film: numbered pictures alone, one file of all pictures, or pictures and a video.
 pub const EXTENSIONS: &[&str] = &["png", "apng", "mp4", "webm"];
@@ -29,7 +29,7 @@ pub const EXTENSIONS: &[&str] = &["png", "apng", "mp4", "webm"];
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Motion {
     /// A frame every so many iterations of the simulations.
-    Lapse(u64),
+    TimeLapse(u64),
     /// So many frames once around.
     Turn(u32),
 }
@@ -39,7 +39,7 @@ pub enum Motion {
 pub struct Film {
     /// What changes from frame to frame.
     pub motion: Motion,
-    /// Frames a second of the video.
+    /// Frames per second of the video.
     pub frames_per_second: f64,
 }
 
@@ -66,23 +66,23 @@ fn has_extension(file: &Path, wanted: &str) -> bool {
 }
 
 /// Takes the keys of a film out of the table of a picture; `None` where it is a still.
-pub(super) fn take(table: &mut Table, complaints: &mut Complaints) -> Option<Film> {
+pub(super) fn take(table: &mut Table, diagnostics: &mut Diagnostics) -> Option<Film> {
     let own = keys_of::<FilmKeys>(table);
     for (key, _) in &own.entries {
         table.take(key);
     }
-    let keys = FilmKeys::read(&own, complaints);
+    let keys = FilmKeys::read(&own, diagnostics);
     let motion = match (keys.every, keys.frames) {
-        (Some(every), None) => Motion::Lapse(every),
+        (Some(every), None) => Motion::TimeLapse(every),
         (None, Some(frames)) => Motion::Turn(frames),
         (Some(_), Some(_)) => {
             let message = "`every` and `frames` exclude each other: a film lapses or turns";
-            complaints.add(own.line_of("frames"), message);
+            diagnostics.add(own.line_of("frames"), message);
             return None;
         }
         (None, None) => return None,
     };
-    Some(Film { motion, frames_per_second: keys.frames_per_second.unwrap_or(USUAL_RATE) })
+    Some(Film { motion, frames_per_second: keys.frames_per_second.unwrap_or(DEFAULT_RATE) })
 }
 
 /// What stands against the film of a picture, or against a still of it, with its line in the table of the output.

@@ -5,36 +5,36 @@ mod names;
 mod written;
 
 use self::keys::line_of;
-pub use self::keys::{FractalKeys, PlannedFractal, PlantRole, Seedling};
+pub use self::keys::{FractalKeys, FractalSource, PlannedFractal, PlantRole};
 
 pub(in crate::recipe::plan) use self::names::check_names;
 use self::written::Written;
 use super::files::Files;
 use super::words::tables;
-use weald_core::parameter::{Complaints, Nested, Parameters};
+use weald_core::parameter::{Diagnostics, Nested, Parameters};
 use weald_core::source::{Table, Value};
 use weald_plants::Fractal;
 use weald_plants::ifs::Ifs;
 use weald_plants::ifs::deform::DeformKeys;
 
-pub(super) fn read(files: Files<'_>, recipe: &Table, complaints: &mut Complaints) -> Vec<PlannedFractal> {
-    "fractal".clone_into(&mut complaints.subject);
+pub(super) fn read(files: Files<'_>, recipe: &Table, diagnostics: &mut Diagnostics) -> Vec<PlannedFractal> {
+    "fractal".clone_into(&mut diagnostics.subject);
     let mut fractals: Vec<PlannedFractal> = Vec::new();
-    for table in tables(recipe, "fractal", complaints) {
-        let before = complaints.found.len();
-        let placed = files.placed(table, &FractalKeys::parameters(), complaints);
-        let keys = FractalKeys::read(&placed, complaints);
+    for table in tables(recipe, "fractal", diagnostics) {
+        let before = diagnostics.found.len();
+        let placed = files.placed(table, &FractalKeys::parameters(), diagnostics);
+        let keys = FractalKeys::read(&placed, diagnostics);
         if let Some(twin) = fractals.iter().find(|earlier| earlier.name == keys.name.0) {
             let message =
                 format!("`name` is {:?} a second time; line {} has it first", keys.name.0, twin.line);
-            complaints.add(line_of(table, "name"), message);
+            diagnostics.add(line_of(table, "name"), message);
         }
-        if complaints.found.len() > before {
+        if diagnostics.found.len() > before {
             continue;
         }
-        match (Written { table, keys: &keys }).seedling() {
-            Ok(seedling) => fractals.push(planned(table, keys, seedling, complaints)),
-            Err((line, message)) => complaints.add(line, message),
+        match (Written { table, keys: &keys }).fractal_source() {
+            Ok(fractal_source) => fractals.push(planned(table, keys, fractal_source, diagnostics)),
+            Err((line, message)) => diagnostics.add(line, message),
         }
     }
     fractals
@@ -44,16 +44,16 @@ pub(super) fn read(files: Files<'_>, recipe: &Table, complaints: &mut Complaints
 fn planned(
     table: &Table,
     keys: FractalKeys,
-    seedling: Seedling,
-    complaints: &mut Complaints,
+    fractal_source: FractalSource,
+    diagnostics: &mut Diagnostics,
 ) -> PlannedFractal {
     let deform: Vec<DeformKeys> = keys.deform.into_iter().map(|Nested(keys)| keys).collect();
-    if let Seedling::Known(ifs) = &seedling {
+    if let FractalSource::Known(ifs) = &fractal_source {
         for (line, fault) in deform_faults(table, ifs, &deform) {
-            complaints.add(line, fault);
+            diagnostics.add(line, fault);
         }
     }
-    PlannedFractal { line: table.line, name: keys.name.0, seedling, deform }
+    PlannedFractal { line: table.line, name: keys.name.0, fractal_source, deform }
 }
 
 /// What stands against each deformation alone, with its line, or against all of them together.
@@ -99,9 +99,9 @@ mod tests {
 
     fn known(keys: &str) -> Ifs {
         let recipe = parse(&recipe(keys)).expect("good");
-        match &recipe.fractals[0].seedling {
-            Seedling::Known(ifs) => (**ifs).clone(),
-            Seedling::Flame { .. } => panic!("no file"),
+        match &recipe.fractals[0].fractal_source {
+            FractalSource::Known(ifs) => (**ifs).clone(),
+            FractalSource::Flame { .. } => panic!("no file"),
         }
     }
 
@@ -118,30 +118,45 @@ mod tests {
 
     #[test]
     fn every_fault_of_a_fractal_is_told_with_its_line() {
-        let told = |keys: &str, parts: &[&str]| {
+        let assert_refused = |keys: &str, parts: &[&str]| {
             let message = refusal(&recipe(keys));
             assert!(parts.iter().all(|part| message.contains(part)), "{message}");
         };
-        told("maps = []\n", &["r.toml:4: fractal: a fractal needs at least 2 maps and has 0"]);
-        told(&format!("maps = [{}]\n", "[0.5,0,0,0.5,0,0],".repeat(257)), &[":4: ", "257 maps is too large"]);
-        told(
+        assert_refused("maps = []\n", &["r.toml:4: fractal: a fractal needs at least 2 maps and has 0"]);
+        assert_refused(
+            &format!("maps = [{}]\n", "[0.5,0,0,0.5,0,0],".repeat(257)),
+            &[":4: ", "257 maps is too large"],
+        );
+        assert_refused(
             "maps = [\n[0.5, 0, 0, 0.5, 0, 0],\n[1.5, 0, 0, 0.5, 0, 0],\n]\n",
             &[":6: fractal: map 1 does not contract: it lengthens by 1.500"],
         );
-        told("maps = [\n[0.5, 0, 0],\n]\n", &[":5: fractal: map 0 has 3 numbers", "6", "12"]);
-        told(
+        assert_refused("maps = [\n[0.5, 0, 0],\n]\n", &[":5: fractal: map 0 has 3 numbers", "6", "12"]);
+        assert_refused(
             &format!("{HALVES}probabilities = [0.5, 0.4]\n"),
             &[":8: fractal: the probabilities sum to 0.9"],
         );
-        told(&format!("{HALVES}probabilities = [1.5, -0.5]\n"), &[":8: ", "probability of map 0 is 1.5"]);
-        told(&format!("{HALVES}probabilities = [1.0]\n"), &[":8: ", "1 entries for 2 maps"]);
-        told(&format!("{HALVES}roles = [\"leaf\", \"stem\"]\n"), &[":8: ", "\"leaf\"", "\"branch\""]);
-        told("of = \"fern\"\ncode_digits = 200\n", &[":5: fractal: codes of 200 digits do not fit", "128"]);
-        told("of = \"fren\"\n", &[":4: ", "did you mean `fern`?"]);
-        told("of = \"fern\"\nmaps = []\n", &[":5: ", "`of` and `maps` exclude each other"]);
-        told("", &[":2: fractal: `of`, `maps` or `flame` is needed"]);
-        told("of = \"fern\"\nroles = [\"stem\"]\n", &[":5: ", "`roles` has no effect without `maps`"]);
-        told(
+        assert_refused(
+            &format!("{HALVES}probabilities = [1.5, -0.5]\n"),
+            &[":8: ", "probability of map 0 is 1.5"],
+        );
+        assert_refused(&format!("{HALVES}probabilities = [1.0]\n"), &[":8: ", "1 entries for 2 maps"]);
+        assert_refused(
+            &format!("{HALVES}roles = [\"leaf\", \"stem\"]\n"),
+            &[":8: ", "\"leaf\"", "\"branch\""],
+        );
+        assert_refused(
+            "of = \"fern\"\ncode_digits = 200\n",
+            &[":5: fractal: codes of 200 digits do not fit", "128"],
+        );
+        assert_refused("of = \"fren\"\n", &[":4: ", "did you mean `fern`?"]);
+        assert_refused("of = \"fern\"\nmaps = []\n", &[":5: ", "`of` and `maps` exclude each other"]);
+        assert_refused("", &[":2: fractal: `of`, `maps` or `flame` is needed"]);
+        assert_refused(
+            "of = \"fern\"\nroles = [\"stem\"]\n",
+            &[":5: ", "`roles` has no effect without `maps`"],
+        );
+        assert_refused(
             "of = \"fern\"\n[[fractal]]\nname = \"mine\"\nof = \"tree\"\n",
             &[":6: ", "a second time; line 2"],
         );
@@ -149,22 +164,31 @@ mod tests {
 
     #[test]
     fn every_fault_of_a_deformation_is_told_with_its_line() {
-        let told = |deform: &str, parts: &[&str]| {
+        let assert_refused = |deform: &str, parts: &[&str]| {
             let message = refusal(&recipe(&format!("of = \"fern\"\ndeform = [\n{deform},\n]\n")));
             assert!(parts.iter().all(|part| message.contains(part)), "{message}");
         };
-        told("{ by = \"swap\", from = 7, to = 5 }", &["r.toml:6: fractal: swap: `from` is 7 and `to` is 5"]);
-        told("{ by = \"swap\", from = 1, to = 99 }", &[":6: fractal: swap: `to` is 99", "64 digits"]);
-        told("{ by = \"swap\", to = 99 }", &[":6: fractal: swap: `from` is needed"]);
-        told("{ by = \"swap\", from = 0, to = 9 }", &[":6: ", "`from` is 0, outside its range: 1 to 256"]);
-        told(
+        assert_refused(
+            "{ by = \"swap\", from = 7, to = 5 }",
+            &["r.toml:6: fractal: swap: `from` is 7 and `to` is 5"],
+        );
+        assert_refused(
+            "{ by = \"swap\", from = 1, to = 99 }",
+            &[":6: fractal: swap: `to` is 99", "64 digits"],
+        );
+        assert_refused("{ by = \"swap\", to = 99 }", &[":6: fractal: swap: `from` is needed"]);
+        assert_refused(
+            "{ by = \"swap\", from = 0, to = 9 }",
+            &[":6: ", "`from` is 0, outside its range: 1 to 256"],
+        );
+        assert_refused(
             "{ from = 1, to = 2 }",
             &[":6: fractal: `from` has no effect without `by`: it needs by = \"perm"],
         );
-        told("{ }", &[":6: fractal: deform: `by` is needed"]);
-        told("{ by = \"spin\" }", &[":6: ", "\"spin\"", "\"permutation\""]);
-        told("{ by = \"part\", part = \"14\" }", &[":6: fractal: part: `part`: 4 is no digit"]);
-        told(
+        assert_refused("{ }", &[":6: fractal: deform: `by` is needed"]);
+        assert_refused("{ by = \"spin\" }", &[":6: ", "\"spin\"", "\"permutation\""]);
+        assert_refused("{ by = \"part\", part = \"14\" }", &[":6: fractal: part: `part`: 4 is no digit"]);
+        assert_refused(
             "{ by = \"field\" },\n{ by = \"displacement\", from = 1, to = 2, vectors = [1] }",
             &[":7: fractal: displacement: `vectors` has 1 numbers; 4 maps need 8"],
         );

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use super::files::Files;
 use weald_core::error::Error;
 use weald_core::grid::Size;
-use weald_core::parameter::{Complaints, Parameters, RasterFile, Sides};
+use weald_core::parameter::{Diagnostics, Parameters, RasterFile, Sides};
 use weald_core::source::{Node, Table, Value};
 
 weald_core::parameters! {
@@ -48,13 +48,13 @@ pub(super) struct Start {
     pub(super) seed: u64,
 }
 
-pub(super) fn read(files: Files<'_>, recipe: &Table, complaints: &mut Complaints) -> Start {
-    "landscape".clone_into(&mut complaints.subject);
+pub(super) fn read(files: Files<'_>, recipe: &Table, diagnostics: &mut Diagnostics) -> Start {
+    "landscape".clone_into(&mut diagnostics.subject);
     let absent = Table { line: 1, entries: Vec::new() };
     let table = match recipe.get("landscape").map(|node| (&node.value, node.line)) {
         Some((Value::Table(table), _)) => table,
         Some((other, line)) => {
-            complaints.add(line, format!("is {}, but must be a table: [landscape]", other.shown()));
+            diagnostics.add(line, format!("is {}, but must be a table: [landscape]", other.shown()));
             let size = Size { columns: 1, rows: 1 };
             return Start { ground: Ok(Ground::Empty { size, cell: 1.0 }), seed: 0 };
         }
@@ -64,9 +64,9 @@ pub(super) fn read(files: Files<'_>, recipe: &Table, complaints: &mut Complaints
         }
         None => &absent,
     };
-    let table = files.placed(table, &LandscapeKeys::parameters(), complaints);
-    let keys = LandscapeKeys::read(&table, complaints);
-    Start { seed: keys.seed, ground: ground(&table, &keys, complaints) }
+    let table = files.placed(table, &LandscapeKeys::parameters(), diagnostics);
+    let keys = LandscapeKeys::read(&table, diagnostics);
+    Start { seed: keys.seed, ground: ground(&table, &keys, diagnostics) }
 }
 
 /// Whether a recipe of fractals alone has nothing to do with a landscape.
@@ -80,10 +80,10 @@ fn is_needless(recipe: &Table) -> bool {
     recipe.get("step").is_none() && !outputs.is_empty() && outputs.iter().all(is_of_a_fractal)
 }
 
-fn ground(table: &Table, keys: &LandscapeKeys, complaints: &mut Complaints) -> Result<Ground, Error> {
+fn ground(table: &Table, keys: &LandscapeKeys, diagnostics: &mut Diagnostics) -> Result<Ground, Error> {
     let Some(from) = &keys.from else {
         if table.get("size").is_none() && table.get("from").is_none() {
-            complaints.add(table.line, "`size` is needed (cells a side, or [columns, rows]), or `from`");
+            diagnostics.add(table.line, "`size` is needed (cells a side, or [columns, rows]), or `from`");
         }
         let sides = keys.size.unwrap_or(Sides { columns: 1, rows: 1 });
         let side = |side: u64| usize::try_from(side).unwrap_or(usize::MAX);
@@ -92,7 +92,7 @@ fn ground(table: &Table, keys: &LandscapeKeys, complaints: &mut Complaints) -> R
     };
     if keys.size.is_some() {
         let message = "`size` does not go with `from`: it comes from the file; a `resample` step changes it";
-        complaints.add(table.get("size").map_or(table.line, |node| node.line), message);
+        diagnostics.add(table.get("size").map_or(table.line, |node| node.line), message);
     }
     Ok(Ground::File { path: from.path(), cell: keys.cell })
 }

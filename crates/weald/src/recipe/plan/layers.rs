@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::{Ground, Output, Planned, PlannedMaterial};
 use crate::recipe::plan::words::hint;
 use weald_core::material::{BEDROCK, Material, layer_names};
-use weald_core::parameter::Complaints;
+use weald_core::parameter::Diagnostics;
 use weald_engine::step::Layered;
 
 /// All that makes layers.
@@ -15,42 +15,42 @@ pub(super) struct Made<'a> {
     pub(super) steps: &'a [Planned],
 }
 
-pub(super) fn check(made: &Made<'_>, outputs: &[Output], complaints: &mut Complaints) {
+pub(super) fn check(made: &Made<'_>, outputs: &[Output], diagnostics: &mut Diagnostics) {
     let wants_ground = outputs.is_empty() || !outputs.iter().all(Output::needs_no_ground);
     if wants_ground && made.steps.is_empty() && matches!(made.ground, Ground::Empty { .. }) {
-        complaints.subject.clear();
-        complaints.add(1, "a recipe needs a [[step]] table, or `from` in [landscape]: there is no ground");
+        diagnostics.subject.clear();
+        diagnostics.add(1, "a recipe needs a [[step]] table, or `from` in [landscape]: there is no ground");
     }
     let mut layers = made.at_the_start();
     let materials: Vec<_> = made.materials.iter().map(|planned| planned.material.clone()).collect();
     for (index, planned) in made.steps.iter().enumerate() {
-        planned.entry.name.clone_into(&mut complaints.subject);
-        layers.check_reads(planned, &materials, complaints);
-        layers.check_writes(index + 1, planned, &materials, complaints);
+        planned.entry.name.clone_into(&mut diagnostics.subject);
+        layers.check_reads(planned, &materials, diagnostics);
+        layers.check_writes(index + 1, planned, &materials, diagnostics);
         if planned.step.watched() > 0 {
-            "output".clone_into(&mut complaints.subject);
-            layers.check_lapses(outputs, &planned.title(index + 1), complaints);
+            "output".clone_into(&mut diagnostics.subject);
+            layers.check_lapses(outputs, &planned.title(index + 1), diagnostics);
         }
     }
-    "output".clone_into(&mut complaints.subject);
+    "output".clone_into(&mut diagnostics.subject);
     let simulates = made.steps.iter().any(|planned| planned.step.watched() > 0);
     for output in outputs.iter().filter(|output| output.lapses() && !simulates) {
-        complaints.add(output.line, "`every` counts the iterations of simulations, and no step simulates");
+        diagnostics.add(output.line, "`every` counts the iterations of simulations, and no step simulates");
     }
     for output in outputs {
         for name in output.reads() {
             if !layers.read(&name) {
                 let (file, hint) = (output.file.display(), layers.hint(&name, &materials));
                 let message = format!("{file} needs layer `{name}`, which no step writes; {hint}");
-                complaints.add(output.line, message);
+                diagnostics.add(output.line, message);
             }
         }
     }
-    check_grown(made.steps, outputs, complaints);
+    check_grown(made.steps, outputs, diagnostics);
 }
 
 /// Complains of outputs of plants that no step sets, and of grass that none grows.
-fn check_grown(steps: &[Planned], outputs: &[Output], complaints: &mut Complaints) {
+fn check_grown(steps: &[Planned], outputs: &[Output], diagnostics: &mut Diagnostics) {
     let plants: BTreeSet<_> = steps.iter().flat_map(|planned| planned.step.plants()).collect();
     let meadows: BTreeSet<_> = steps.iter().flat_map(|planned| planned.step.meadows()).collect();
     for output in outputs {
@@ -60,7 +60,7 @@ fn check_grown(steps: &[Planned], outputs: &[Output], complaints: &mut Complaint
             let known: Vec<_> = grown.iter().map(String::as_str).collect();
             for name in needed.iter().filter(|&name| !grown.contains(name)) {
                 let (file, hint, [what, does]) = (output.file.display(), hint(name, &known), what);
-                complaints
+                diagnostics
                     .add(output.line, format!("{file} needs {what} `{name}`, which no step {does}; {hint}"));
             }
         }
@@ -98,12 +98,12 @@ struct Writer {
 }
 
 impl Layers {
-    fn check_reads(&mut self, planned: &Planned, materials: &[Material], complaints: &mut Complaints) {
+    fn check_reads(&mut self, planned: &Planned, materials: &[Material], diagnostics: &mut Diagnostics) {
         for name in planned.step.reads() {
             if !self.read(&name) {
                 let hint = self.hint(&name, materials);
                 let message = format!("reads layer `{name}`, which no earlier step writes; {hint}");
-                complaints.add(planned.line, message);
+                diagnostics.add(planned.line, message);
             }
         }
         if planned.step.layered() != Layered::Never {
@@ -119,7 +119,7 @@ impl Layers {
         number: usize,
         planned: &Planned,
         materials: &[Material],
-        complaints: &mut Complaints,
+        diagnostics: &mut Diagnostics,
     ) {
         let mut written: Vec<_> = planned.step.writes().into_iter().map(|(name, _)| name).collect();
         if planned.step.layered() == Layered::Changes {
@@ -131,12 +131,12 @@ impl Layers {
                 "overwrites all that {lost} made before any step reads it; remove that one, or write to \
                  another layer"
             );
-            complaints.add(planned.line, message);
+            diagnostics.add(planned.line, message);
         }
     }
 
     /// A time-lapse sees the landscape within a step, before later steps have made their layers.
-    fn check_lapses(&mut self, outputs: &[Output], step: &str, complaints: &mut Complaints) {
+    fn check_lapses(&mut self, outputs: &[Output], step: &str, diagnostics: &mut Diagnostics) {
         let lapses = outputs.iter().filter(|output| output.lapses());
         for (output, name) in
             lapses.flat_map(|output| output.reads().into_iter().map(move |name| (output, name)))
@@ -145,7 +145,7 @@ impl Layers {
                 let file = output.file.display();
                 let message =
                     format!("{file} shows layer `{name}` during {step}, but no step writes it before");
-                complaints.add(output.line, message);
+                diagnostics.add(output.line, message);
             }
         }
     }

@@ -4,8 +4,8 @@ use std::path::PathBuf;
 
 use super::files::Files;
 use super::words::tables;
-use weald_core::material::{MOST, Material, RESERVED};
-use weald_core::parameter::{Colour, Complaints, LayerName, Parameters, RasterFile};
+use weald_core::material::{MAX_MATERIALS, Material, RESERVED};
+use weald_core::parameter::{Colour, Diagnostics, LayerName, Parameters, RasterFile};
 use weald_core::source::Table;
 
 weald_core::choices! {
@@ -65,23 +65,24 @@ pub struct PlannedMaterial {
     pub file: Option<(PathBuf, f64)>,
 }
 
-pub(super) fn read(files: Files<'_>, recipe: &Table, complaints: &mut Complaints) -> Vec<PlannedMaterial> {
-    "material".clone_into(&mut complaints.subject);
-    let tables = tables(recipe, "material", complaints);
+pub(super) fn read(files: Files<'_>, recipe: &Table, diagnostics: &mut Diagnostics) -> Vec<PlannedMaterial> {
+    "material".clone_into(&mut diagnostics.subject);
+    let tables = tables(recipe, "material", diagnostics);
     if recipe.get("material").is_none() {
         let plain = |material| PlannedMaterial { line: 0, material, file: None };
         return Material::default_stack().into_iter().map(plain).collect();
     }
-    if let Some(table) = tables.get(MOST) {
-        let message = format!("there are {} materials; the ground takes at most {MOST}", tables.len());
-        complaints.add(table.line, message);
+    if let Some(table) = tables.get(MAX_MATERIALS) {
+        let message =
+            format!("there are {} materials; the ground takes at most {MAX_MATERIALS}", tables.len());
+        diagnostics.add(table.line, message);
     }
     let mut materials: Vec<PlannedMaterial> = Vec::new();
     for table in tables {
-        let keys = files.placed(table, &MaterialKeys::parameters(), complaints);
-        let keys = MaterialKeys::read(&keys, complaints);
+        let keys = files.placed(table, &MaterialKeys::parameters(), diagnostics);
+        let keys = MaterialKeys::read(&keys, diagnostics);
         let checked = Checked { table, keys: &keys, below: &materials };
-        checked.complain(complaints);
+        checked.report_fault(diagnostics);
         let material = material(&keys, materials.is_empty());
         let file = keys.from.map(|from| (from.path(), keys.scale.unwrap_or(1.0)));
         materials.push(PlannedMaterial { line: table.line, material, file });
@@ -118,11 +119,11 @@ struct Checked<'a> {
 }
 
 impl Checked<'_> {
-    fn complain(&self, complaints: &mut Complaints) {
+    fn report_fault(&self, diagnostics: &mut Diagnostics) {
         let faults = [self.name(), self.bedrock(), self.several(), self.bottom()];
         for (key, fault) in faults.into_iter().flatten() {
             let line = self.table.get(key).map_or(self.table.line, |node| node.line);
-            complaints.add(line, fault);
+            diagnostics.add(line, fault);
         }
     }
 
@@ -206,28 +207,52 @@ mod tests {
 
     #[test]
     fn contradictions_are_told_with_their_lines() {
-        let told = |text: &str, parts: &[&str]| {
+        let assert_refused = |text: &str, parts: &[&str]| {
             let message = refusal(text);
             assert!(parts.iter().all(|part| message.contains(part)), "{message}");
         };
-        told(&second("name = \"water\"\n"), &["r.toml:5: material: `name` is \"water\"", "no material"]);
-        told(&second("name = \"granite\"\n"), &[":5: material: `name` is \"granite\" a second time; line 2"]);
-        told(&second("name = \"sand dune\"\n"), &[":5: material: `name` is \"sand dune\"", "letters"]);
-        told(&second("like = \"sand\"\n"), &[":4: material: `name` is needed"]);
-        told(&second("name = \"a\"\nlike = \"marble\"\n"), &[":6: material: `like` is", "\"gravel\""]);
-        told(
+        assert_refused(
+            &second("name = \"water\"\n"),
+            &["r.toml:5: material: `name` is \"water\"", "no material"],
+        );
+        assert_refused(
+            &second("name = \"granite\"\n"),
+            &[":5: material: `name` is \"granite\" a second time; line 2"],
+        );
+        assert_refused(
+            &second("name = \"sand dune\"\n"),
+            &[":5: material: `name` is \"sand dune\"", "letters"],
+        );
+        assert_refused(&second("like = \"sand\"\n"), &[":4: material: `name` is needed"]);
+        assert_refused(
+            &second("name = \"a\"\nlike = \"marble\"\n"),
+            &[":6: material: `like` is", "\"gravel\""],
+        );
+        assert_refused(
             &second("name = \"a\"\ntalus = 30\n"),
             &[":6: material: unknown key `talus`; did you mean `talus_deg`?"],
         );
-        told(&second("name = \"a\"\ntalus_deg = 90\n"), &[":6: ", "is 90, outside its range: 0 to 89"]);
-        told(&second("name = \"a\"\ncolour = \"red\"\n"), &[":6: material: `colour` is \"red\"", "#d9bd85"]);
-        told(
+        assert_refused(
+            &second("name = \"a\"\ntalus_deg = 90\n"),
+            &[":6: ", "is 90, outside its range: 0 to 89"],
+        );
+        assert_refused(
+            &second("name = \"a\"\ncolour = \"red\"\n"),
+            &[":6: material: `colour` is \"red\"", "#d9bd85"],
+        );
+        assert_refused(
             &second("name = \"a\"\nthickness = 1\nbottom = 2\n"),
             &[":7: material: `bottom` does not go with `thickness`"],
         );
-        told(&second("name = \"a\"\nscale = 2\n"), &[":6: material: `scale` has no effect without `from`"]);
-        told(&second("name = \"a\"\nfrom = \"a.doc\"\n"), &[":6: material: `from`: ", "folder/a.doc"]);
-        told(
+        assert_refused(
+            &second("name = \"a\"\nscale = 2\n"),
+            &[":6: material: `scale` has no effect without `from`"],
+        );
+        assert_refused(
+            &second("name = \"a\"\nfrom = \"a.doc\"\n"),
+            &[":6: material: `from`: ", "folder/a.doc"],
+        );
+        assert_refused(
             &recipe("[[material]]\nname = \"a\"\nbottom = 3\n"),
             &[":4: material: `bottom` is not for the first"],
         );

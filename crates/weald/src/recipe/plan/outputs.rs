@@ -5,10 +5,10 @@ use std::path::{Component, Path, PathBuf};
 use super::films::{self, Film, Motion};
 use crate::recipe::plan::words::{Vocabulary, hint, tables};
 use crate::recipe::{CHECKPOINT_FILE, REPORT_FILE};
-use weald_core::parameter::{Complaints, LayerName, Parameter, check_file, read_key};
+use weald_core::parameter::{Diagnostics, LayerName, Parameter, check_file, read_key};
 use weald_core::source::{Node, Table, Value};
 use weald_export::{Export, ExportEntry};
-use weald_io::{Encode, Holds};
+use weald_io::{Capabilities, Encode};
 use weald_picture::{Picture, PictureEntry, Render};
 
 /// A file that a run writes.
@@ -32,7 +32,7 @@ pub enum Content {
         /// How it is written.
         encode: Encode,
         /// What of it the file holds.
-        holds: Holds,
+        holds: Capabilities,
     },
     /// A picture.
     Picture {
@@ -67,7 +67,7 @@ impl Output {
 
     /// Whether it is a time-lapse of the simulations.
     pub fn lapses(&self) -> bool {
-        matches!(&self.content, Content::Film { film: Film { motion: Motion::Lapse(_), .. }, .. })
+        matches!(&self.content, Content::Film { film: Film { motion: Motion::TimeLapse(_), .. }, .. })
     }
 
     /// The picture that a device draws, where it is one.
@@ -120,17 +120,17 @@ impl Output {
     }
 }
 
-pub(super) fn read(vocabulary: &Vocabulary, recipe: &Table, complaints: &mut Complaints) -> Vec<Output> {
-    "output".clone_into(&mut complaints.subject);
+pub(super) fn read(vocabulary: &Vocabulary, recipe: &Table, diagnostics: &mut Diagnostics) -> Vec<Output> {
+    "output".clone_into(&mut diagnostics.subject);
     let mut outputs: Vec<Output> = Vec::new();
-    for table in tables(recipe, "output", complaints) {
-        let Some(file) = file_of(table, complaints) else { continue };
+    for table in tables(recipe, "output", diagnostics) {
+        let Some(file) = file_of(table, diagnostics) else { continue };
         if let Some(earlier) = outputs.iter().find(|earlier| same_file(&earlier.file, &file)) {
             let shown = file.display();
             let message = format!("`file` is {shown} a second time; line {} has it first", earlier.line);
-            complaints.add(line_of(table, "file"), message);
+            diagnostics.add(line_of(table, "file"), message);
         }
-        if let Some(content) = content_of(vocabulary, table, &file, complaints) {
+        if let Some(content) = content_of(vocabulary, table, &file, diagnostics) {
             outputs.push(Output { line: table.line, file, content });
         }
     }
@@ -148,15 +148,15 @@ fn line_of(table: &Table, key: &str) -> usize {
 }
 
 /// The file name, which must stay inside the output folder.
-fn file_of(table: &Table, complaints: &mut Complaints) -> Option<PathBuf> {
+fn file_of(table: &Table, diagnostics: &mut Diagnostics) -> Option<PathBuf> {
     let (text, line) = match table.get("file") {
         Some(Node { value: Value::Text(text), line }) => (text, *line),
         Some(Node { value, line }) => {
-            complaints.add(*line, format!("`file` is {}, but must be a file name", value.shown()));
+            diagnostics.add(*line, format!("`file` is {}, but must be a file name", value.shown()));
             return None;
         }
         None => {
-            complaints.add(table.line, "`file` is needed: the name of a file in the output folder");
+            diagnostics.add(table.line, "`file` is needed: the name of a file in the output folder");
             return None;
         }
     };
@@ -165,10 +165,10 @@ fn file_of(table: &Table, complaints: &mut Complaints) -> Option<PathBuf> {
         None => {
             let message =
                 format!("`file` is {text:?}; it must be a name inside the output folder, without ..");
-            complaints.add(line, message);
+            diagnostics.add(line, message);
         }
         Some(path) if [REPORT_FILE, CHECKPOINT_FILE].map(Path::new).contains(&path.as_path()) => {
-            complaints.add(line, format!("`file` is {text:?}, a name that every run uses itself"));
+            diagnostics.add(line, format!("`file` is {text:?}, a name that every run uses itself"));
         }
         Some(_) => return inside,
     }
@@ -194,29 +194,29 @@ fn content_of(
     vocabulary: &Vocabulary,
     table: &Table,
     file: &Path,
-    complaints: &mut Complaints,
+    diagnostics: &mut Diagnostics,
 ) -> Option<Content> {
     let named: Vec<_> = CONTENTS.iter().filter_map(|key| Some((*key, table.get(key)?))).collect();
     match named.as_slice() {
-        [("layer", _)] => layer(vocabulary, table, file, complaints),
+        [("layer", _)] => layer(vocabulary, table, file, diagnostics),
         [("picture", node)] => {
-            let entry = entry_of("picture", node, (vocabulary.pictures, |entry| entry.name), complaints)?;
-            Some(picture(entry, table, file, complaints))
+            let entry = entry_of("picture", node, (vocabulary.pictures, |entry| entry.name), diagnostics)?;
+            Some(picture(entry, table, file, diagnostics))
         }
         [("export", node)] => {
-            let entry = entry_of("export", node, (vocabulary.exports, |entry| entry.name), complaints)?;
-            Some(export(entry, table, file, complaints))
+            let entry = entry_of("export", node, (vocabulary.exports, |entry| entry.name), diagnostics)?;
+            Some(export(entry, table, file, diagnostics))
         }
         [(first, _), (second, node), ..] => {
             let message = format!(
                 "`{first}` and `{second}` exclude each other; pictures and exports say `of` which layer they are"
             );
-            complaints.add(node.line, message);
+            diagnostics.add(node.line, message);
             None
         }
         _ => {
-            complaints.unknown_keys(table, &["layer", "picture", "export", "file"]);
-            complaints.add(table.line, "`layer`, `picture` or `export` is needed: what the file shows");
+            diagnostics.unknown_keys(table, &["layer", "picture", "export", "file"]);
+            diagnostics.add(table.line, "`layer`, `picture` or `export` is needed: what the file shows");
             None
         }
     }
@@ -229,42 +229,42 @@ fn layer(
     vocabulary: &Vocabulary,
     table: &Table,
     file: &Path,
-    complaints: &mut Complaints,
+    diagnostics: &mut Diagnostics,
 ) -> Option<Content> {
-    let before = complaints.found.len();
-    complaints.unknown_keys(table, &["layer", "file", "preset"]);
+    let before = diagnostics.found.len();
+    diagnostics.unknown_keys(table, &["layer", "file", "preset"]);
     let range = (f64::NEG_INFINITY, f64::INFINITY);
-    let name = read_key(table, "layer", LayerName::needed(), range, complaints).0;
-    let preset: Option<String> = read_key(table, "preset", None, range, complaints);
+    let name = read_key(table, "layer", LayerName::needed(), range, diagnostics).0;
+    let preset: Option<String> = read_key(table, "preset", None, range, diagnostics);
     let format = match (vocabulary.format_of)(file) {
         Ok(format) => format,
         Err(problem) => {
-            complaints.add(line_of(table, "file"), format!("`file`: {problem}"));
+            diagnostics.add(line_of(table, "file"), format!("`file`: {problem}"));
             return None;
         }
     };
     match format.writing(preset.as_deref()) {
         Ok((encode, holds)) => {
-            (complaints.found.len() == before).then_some(Content::Layer { name, encode, holds })
+            (diagnostics.found.len() == before).then_some(Content::Layer { name, encode, holds })
         }
         Err(problem) => {
             let key = if preset.is_some() { "preset" } else { "file" };
-            complaints.add(line_of(table, key), format!("`{key}`: {problem}"));
+            diagnostics.add(line_of(table, key), format!("`{key}`: {problem}"));
             None
         }
     }
 }
 
-fn picture(entry: &PictureEntry, table: &Table, file: &Path, complaints: &mut Complaints) -> Content {
+fn picture(entry: &PictureEntry, table: &Table, file: &Path, diagnostics: &mut Diagnostics) -> Content {
     let (whole, mut table) = (table, table.clone());
-    entry.name.clone_into(&mut complaints.subject);
-    let film = films::take(&mut table, complaints);
+    entry.name.clone_into(&mut diagnostics.subject);
+    let film = films::take(&mut table, diagnostics);
     let (what, extensions) =
         if film.is_some() { ("film", films::EXTENSIONS) } else { ("picture", entry.extensions) };
-    ensure_extension(&table, file, (what, extensions), complaints);
-    let picture = with_keys(("picture", entry.name), &table, complaints, (entry.parameters, entry.read));
+    ensure_extension(&table, file, (what, extensions), diagnostics);
+    let picture = with_keys(("picture", entry.name), &table, diagnostics, (entry.parameters, entry.read));
     if let Some((line, fault)) = films::fault(film.as_ref(), (entry.name, whole), picture.as_ref()) {
-        complaints.add(line, fault);
+        diagnostics.add(line, fault);
     }
     match film {
         Some(film) => Content::Film { name: entry.name, picture, film },
@@ -272,11 +272,11 @@ fn picture(entry: &PictureEntry, table: &Table, file: &Path, complaints: &mut Co
     }
 }
 
-fn export(entry: &ExportEntry, table: &Table, file: &Path, complaints: &mut Complaints) -> Content {
-    ensure_extension(table, file, (entry.name, entry.extensions), complaints);
-    let export = with_keys(("export", entry.name), table, complaints, (entry.parameters, entry.read));
+fn export(entry: &ExportEntry, table: &Table, file: &Path, diagnostics: &mut Diagnostics) -> Content {
+    ensure_extension(table, file, (entry.name, entry.extensions), diagnostics);
+    let export = with_keys(("export", entry.name), table, diagnostics, (entry.parameters, entry.read));
     for fault in export.faults() {
-        complaints.add(table.line_of(&fault.key), fault);
+        diagnostics.add(table.line_of(&fault.key), fault);
     }
     Content::Export { name: entry.name, export }
 }
@@ -286,16 +286,16 @@ fn entry_of<T>(
     key: &str,
     node: &Node,
     (entries, name_of): (&'static [T], fn(&T) -> &'static str),
-    complaints: &mut Complaints,
+    diagnostics: &mut Diagnostics,
 ) -> Option<&'static T> {
     let Value::Text(name) = &node.value else {
-        complaints.add(node.line, format!("`{key}` is {}, but must be text", node.value.shown()));
+        diagnostics.add(node.line, format!("`{key}` is {}, but must be text", node.value.shown()));
         return None;
     };
     let entry = entries.iter().find(|entry| name_of(entry) == name);
     if entry.is_none() {
         let known: Vec<_> = entries.iter().map(name_of).collect();
-        complaints.add(node.line, format!("there is no {key} {name:?}; {}", hint(name, &known)));
+        diagnostics.add(node.line, format!("there is no {key} {name:?}; {}", hint(name, &known)));
     }
     entry
 }
@@ -304,13 +304,13 @@ fn ensure_extension(
     table: &Table,
     file: &Path,
     (what, extensions): (&str, &[&str]),
-    complaints: &mut Complaints,
+    diagnostics: &mut Diagnostics,
 ) {
     let extension = file.extension().and_then(|extension| extension.to_str()).unwrap_or_default();
     if !extensions.iter().any(|known| extension.eq_ignore_ascii_case(known)) {
         let known = extensions.join(" or .");
         let message = format!("`file` is {}; a {what} is a .{known}", file.display());
-        complaints.add(line_of(table, "file"), message);
+        diagnostics.add(line_of(table, "file"), message);
     }
 }
 
@@ -318,15 +318,15 @@ fn ensure_extension(
 fn with_keys<T>(
     (key, subject): (&str, &str),
     table: &Table,
-    complaints: &mut Complaints,
-    (parameters, read): (fn() -> Vec<Parameter>, fn(&Table, &mut Complaints) -> T),
+    diagnostics: &mut Diagnostics,
+    (parameters, read): (fn() -> Vec<Parameter>, fn(&Table, &mut Diagnostics) -> T),
 ) -> T {
     let mut keys = table.clone();
     keys.take(key);
     keys.take("file");
-    subject.clone_into(&mut complaints.subject);
-    check_file(table, &parameters(), complaints);
-    let read = read(&keys, complaints);
-    "output".clone_into(&mut complaints.subject);
+    subject.clone_into(&mut diagnostics.subject);
+    check_file(table, &parameters(), diagnostics);
+    let read = read(&keys, diagnostics);
+    "output".clone_into(&mut diagnostics.subject);
     read
 }

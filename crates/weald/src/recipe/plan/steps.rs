@@ -5,7 +5,7 @@ use super::files::Files;
 use crate::recipe::plan::words::{Vocabulary, hint, tables};
 use weald_core::error::Error;
 use weald_core::grid::Size;
-use weald_core::parameter::Complaints;
+use weald_core::parameter::Diagnostics;
 use weald_core::random::splitmix64;
 use weald_core::source::{Node, Table, Value};
 use weald_engine::step::{Entry, Step};
@@ -42,63 +42,67 @@ impl Planned {
 }
 
 /// Reads all steps, and says whether each of them was understood in full.
-pub(super) fn read(files: Files<'_>, recipe: &Table, complaints: &mut Complaints) -> (Vec<Planned>, bool) {
-    let before = complaints.found.len();
-    "step".clone_into(&mut complaints.subject);
+pub(super) fn read(files: Files<'_>, recipe: &Table, diagnostics: &mut Diagnostics) -> (Vec<Planned>, bool) {
+    let before = diagnostics.found.len();
+    "step".clone_into(&mut diagnostics.subject);
     let mut steps: Vec<Planned> = Vec::new();
-    for table in tables(recipe, "step", complaints) {
-        "step".clone_into(&mut complaints.subject);
-        if let Some(entry) = entry_of(files.vocabulary, table, complaints) {
+    for table in tables(recipe, "step", diagnostics) {
+        "step".clone_into(&mut diagnostics.subject);
+        if let Some(entry) = entry_of(files.vocabulary, table, diagnostics) {
             let occurrence = steps.iter().filter(|earlier| earlier.entry.name == entry.name).count() as u64;
-            let step = read_step(files, entry, table, complaints);
+            let step = read_step(files, entry, table, diagnostics);
             steps.push(Planned { entry, line: table.line, occurrence, step, keys: table.clone() });
         }
     }
-    (steps, complaints.found.len() == before)
+    (steps, diagnostics.found.len() == before)
 }
 
-fn entry_of(vocabulary: &Vocabulary, table: &Table, complaints: &mut Complaints) -> Option<&'static Entry> {
+fn entry_of(vocabulary: &Vocabulary, table: &Table, diagnostics: &mut Diagnostics) -> Option<&'static Entry> {
     let known: Vec<_> = vocabulary.steps.iter().map(|entry| entry.name).collect();
     match table.get("do") {
         Some(Node { value: Value::Text(name), line }) => {
             let entry = vocabulary.steps.iter().find(|entry| entry.name == name);
             if entry.is_none() {
-                complaints.add(*line, format!("there is no step {name:?}; {}", hint(name, &known)));
+                diagnostics.add(*line, format!("there is no step {name:?}; {}", hint(name, &known)));
             }
             entry
         }
         Some(Node { value, line }) => {
-            complaints.add(*line, format!("`do` is {}, but must be the name of a step", value.shown()));
+            diagnostics.add(*line, format!("`do` is {}, but must be the name of a step", value.shown()));
             None
         }
         None => {
-            complaints.add(table.line, "`do` is needed: the name of a step, as `weald steps` lists them");
+            diagnostics.add(table.line, "`do` is needed: the name of a step, as `weald steps` lists them");
             None
         }
     }
 }
 
-fn read_step(files: Files<'_>, entry: &Entry, table: &Table, complaints: &mut Complaints) -> Box<dyn Step> {
-    entry.name.clone_into(&mut complaints.subject);
-    let before = complaints.found.len();
-    let mut keys = files.placed(table, &(entry.parameters)(), complaints);
+fn read_step(files: Files<'_>, entry: &Entry, table: &Table, diagnostics: &mut Diagnostics) -> Box<dyn Step> {
+    entry.name.clone_into(&mut diagnostics.subject);
+    let before = diagnostics.found.len();
+    let mut keys = files.placed(table, &(entry.parameters)(), diagnostics);
     keys.take("do");
-    let step = (entry.read)(&keys, complaints);
-    if complaints.found.len() == before {
+    let step = (entry.read)(&keys, diagnostics);
+    if diagnostics.found.len() == before {
         for fault in step.faults() {
-            complaints.add(table.line_of(&fault.key), fault);
+            diagnostics.add(table.line_of(&fault.key), fault);
         }
     }
     step
 }
 
 /// Complains of steps that do not go with the materials of the recipe.
-pub(super) fn check_materials(steps: &[Planned], materials: &[PlannedMaterial], complaints: &mut Complaints) {
+pub(super) fn check_materials(
+    steps: &[Planned],
+    materials: &[PlannedMaterial],
+    diagnostics: &mut Diagnostics,
+) {
     let materials: Vec<_> = materials.iter().map(|planned| planned.material.clone()).collect();
     for planned in steps {
-        planned.entry.name.clone_into(&mut complaints.subject);
+        planned.entry.name.clone_into(&mut diagnostics.subject);
         for fault in planned.step.faults_among(&materials) {
-            complaints.add(planned.keys.line_of(&fault.key), fault);
+            diagnostics.add(planned.keys.line_of(&fault.key), fault);
         }
     }
 }

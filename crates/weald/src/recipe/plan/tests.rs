@@ -74,7 +74,7 @@ fn all_faults_come_in_one_go_in_the_order_of_their_lines() {
     let text = GOOD.replace("cell = 2.5", "cell = -1").replace("iterations = 5", "iterations = 5.5");
     let text = text.replace("dot.png", "../dot.png").replace("seed = 3", "sed = 3");
     let Err(Error::Recipe(error)) = parse(&text) else { panic!("four faults") };
-    assert_eq!(error.complaints.iter().map(|c| c.line).collect::<Vec<_>>(), [3, 4, 9, 15], "{error}");
+    assert_eq!(error.diagnostics.iter().map(|c| c.line).collect::<Vec<_>>(), [3, 4, 9, 15], "{error}");
 }
 
 #[test]
@@ -87,7 +87,7 @@ fn a_layer_must_be_written_before_it_is_read() {
 #[test]
 fn an_unknown_step_is_no_cause_for_complaints_of_its_layers() {
     let Err(Error::Recipe(error)) = parse(&with("do = \"rough\"", "do = \"ruogh\"")) else { panic!("bad") };
-    assert_eq!(error.complaints.len(), 1, "{error}");
+    assert_eq!(error.diagnostics.len(), 1, "{error}");
 }
 
 #[test]

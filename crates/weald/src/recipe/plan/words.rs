@@ -2,7 +2,7 @@
 
 use crate::recipe::catalog::CATALOG;
 use crate::recipe::parameter;
-use crate::recipe::parameter::Complaints;
+use crate::recipe::parameter::Diagnostics;
 use crate::recipe::source::{Node, Table, Value};
 use std::path::Path;
 use weald_engine::step::Entry;
@@ -25,20 +25,20 @@ impl Vocabulary {
 }
 
 /// All tables of a `[[section]]`.
-pub(super) fn tables<'a>(recipe: &'a Table, section: &str, complaints: &mut Complaints) -> Vec<&'a Table> {
+pub(super) fn tables<'a>(recipe: &'a Table, section: &str, diagnostics: &mut Diagnostics) -> Vec<&'a Table> {
     let Some(node) = recipe.get(section) else { return Vec::new() };
     let mut as_table = |item: &'a Node| match &item.value {
         Value::Table(table) => Some(table),
         other => {
             let message = format!("`{section}` holds {}; it is written [[{section}]]", other.shown());
-            complaints.add(item.line, message);
+            diagnostics.add(item.line, message);
             None
         }
     };
     match &node.value {
         Value::List(items) => items.iter().filter_map(as_table).collect(),
         Value::Table(_) => {
-            complaints.add(node.line, format!("[{section}] has double brackets: [[{section}]]"));
+            diagnostics.add(node.line, format!("[{section}] has double brackets: [[{section}]]"));
             Vec::new()
         }
         _ => as_table(node).into_iter().collect(),

@@ -10,15 +10,15 @@ use weald_io::write_whole;
 use weald_picture::{Cutout, Frame, Image, Picture, RenderDevice, Watch};
 
 /// A time-lapse of a recipe.
-pub(super) struct Lapse<'a> {
+pub(super) struct TimeLapse<'a> {
     file: &'a Path,
     picture: &'a dyn Picture,
     every: u64,
 }
 
 /// The time-lapses of a recipe during one of its steps.
-pub(super) struct Lapses<'a> {
-    films: Vec<Lapse<'a>>,
+pub(super) struct TimeLapses<'a> {
+    films: Vec<TimeLapse<'a>>,
     folder: &'a Path,
     device: Option<&'a dyn RenderDevice>,
     /// Iterations of each step that can be watched.
@@ -26,11 +26,11 @@ pub(super) struct Lapses<'a> {
     step: usize,
 }
 
-impl<'a> Lapses<'a> {
+impl<'a> TimeLapses<'a> {
     /// Those of step `step` of the recipe, counted from 0.
     pub(super) fn during(recipe: &'a Recipe, step: usize, options: &'a Options) -> Self {
         let (folder, device) = (options.out.as_path(), options.render.as_deref());
-        let films = recipe.outputs.iter().filter_map(Lapse::of).collect();
+        let films = recipe.outputs.iter().filter_map(TimeLapse::of).collect();
         let watched = recipe.steps.iter().map(|planned| planned.step.watched()).collect();
         Self { films, folder, device, watched, step }
     }
@@ -40,13 +40,13 @@ impl<'a> Lapses<'a> {
         self.films.iter().filter_map(|lapse| self.next_of(lapse, done)).min()
     }
 
-    fn next_of(&self, lapse: &Lapse<'_>, done: u64) -> Option<u64> {
+    fn next_of(&self, lapse: &TimeLapse<'_>, done: u64) -> Option<u64> {
         let next = done.max(self.first(lapse)).div_ceil(lapse.every) * lapse.every;
         (next <= self.watched[self.step]).then_some(next)
     }
 
     /// The first simulation shows what it starts from; later ones start from what was shown last.
-    fn first(&self, lapse: &Lapse<'_>) -> u64 {
+    fn first(&self, lapse: &TimeLapse<'_>) -> u64 {
         let is_first = self.watched[..self.step].iter().all(|&iterations| iterations == 0);
         if is_first { 0 } else { lapse.every }
     }
@@ -73,18 +73,19 @@ pub(super) fn still(
 ) -> Result<Cutout, Error> {
     match (picture.as_render(), device) {
         (Some(render), Some(device)) => {
-            let reel = render.reel(landscape, device)?;
-            let image = reel.set_up()?.draw(&reel.camera(Frame::STILL), Frame::STILL.seconds)?;
+            let frame_sequence = render.frame_sequence(landscape, device)?;
+            let image =
+                frame_sequence.set_up()?.draw(&frame_sequence.camera(Frame::STILL), Frame::STILL.seconds)?;
             Ok(image.into())
         }
         _ => picture.cutout(landscape, watch),
     }
 }
 
-impl<'a> Lapse<'a> {
+impl<'a> TimeLapse<'a> {
     fn of(output: &'a Output) -> Option<Self> {
         let Content::Film { picture, film, .. } = &output.content else { return None };
-        let Motion::Lapse(every) = film.motion else { return None };
+        let Motion::TimeLapse(every) = film.motion else { return None };
         Some(Self { file: &output.file, picture: picture.as_ref(), every })
     }
 }

@@ -10,7 +10,7 @@ use weald_plants::Vegetation;
 
 /// All layers that a step declares must be there and hold numbers, and all plants and grass must be there.
 pub(super) fn check_layers(planned: &Planned, landscape: &Landscape) -> Result<(), Error> {
-    let land = landscape.domain.land.as_ref();
+    let land = landscape.domain.valid.as_ref();
     let mut written: Vec<_> = planned.step.writes().into_iter().map(|(name, _)| name).collect();
     if planned.step.layered() == Layered::Changes {
         written.extend(layer_names(&landscape.materials).map(str::to_owned));

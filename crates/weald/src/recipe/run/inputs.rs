@@ -1,4 +1,4 @@
-//! Files that a run reads: what is wrong with them is told before an hour of simulation, not after it.
+//! Files that a run reads: what is wrong with them is reported before an hour of simulation, not after it.
 
 use std::fs::File;
 use std::path::Path;
@@ -15,7 +15,7 @@ pub(super) fn check(recipe: &Recipe) -> Result<(), Error> {
 }
 
 fn open(path: &Path) -> Result<(), Error> {
-    let told =
+    let explain =
         |cause| format!("cannot be read: {cause}; the recipe names it, and its paths start at its folder");
-    File::open(path).map(drop).map_err(|cause| Error::input(path, told(cause)))
+    File::open(path).map(drop).map_err(|cause| Error::input(path, explain(cause)))
 }

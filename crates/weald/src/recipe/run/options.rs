@@ -42,7 +42,7 @@ impl Options {
     }
 }
 
-/// Hears how a run goes, and says when to stop. Every method has a default that does nothing.
+/// Receives the progress of a run, and says when to stop. Every method has a default that does nothing.
 pub trait Progress: Sync {
     /// Step `number` of `count`, counted from 1, begins.
     fn step(&self, number: usize, count: usize, name: &str) {
@@ -70,7 +70,7 @@ pub trait Progress: Sync {
     }
 }
 
-/// Progress that nobody hears of.
+/// Progress that nobody receives.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Silent;
 

@@ -26,22 +26,22 @@ file = \"dot.png\"
 /// Asks for the end once so many iterations are done.
 struct StopsAfter {
     iterations: u64,
-    heard: AtomicU64,
+    calls: AtomicU64,
 }
 
 impl StopsAfter {
     fn new(iterations: u64) -> Self {
-        Self { iterations, heard: AtomicU64::new(0) }
+        Self { iterations, calls: AtomicU64::new(0) }
     }
 }
 
 impl Progress for StopsAfter {
     fn progress(&self, _: u64, _: u64, _: usize) {
-        self.heard.fetch_add(1, Ordering::Relaxed);
+        self.calls.fetch_add(1, Ordering::Relaxed);
     }
 
     fn cancelled(&self) -> bool {
-        self.heard.load(Ordering::Relaxed) >= self.iterations
+        self.calls.load(Ordering::Relaxed) >= self.iterations
     }
 }
 
@@ -170,12 +170,12 @@ fn a_file_in_place_of_the_folder_is_found_before_anything_runs() {
     let out = folder();
     let file = out.path().join("file");
     std::fs::write(&file, "x").expect("writes");
-    let heard = StopsAfter::new(u64::MAX);
-    let error = run(RECIPE, &file, false, &heard).expect_err("not a folder");
+    let calls = StopsAfter::new(u64::MAX);
+    let error = run(RECIPE, &file, false, &calls).expect_err("not a folder");
     assert_eq!(error.exit_code(), 1);
-    assert_eq!(heard.heard.load(Ordering::Relaxed), 0, "nothing ran");
+    assert_eq!(calls.calls.load(Ordering::Relaxed), 0, "nothing ran");
     std::fs::create_dir_all(out.path().join("dot.png")).expect("makes");
-    let error = run(RECIPE, out.path(), false, &heard).expect_err("a folder in place of a file");
+    let error = run(RECIPE, out.path(), false, &calls).expect_err("a folder in place of a file");
     assert!(error.to_string().contains("it is a folder"), "{error}");
 }
 
@@ -183,16 +183,16 @@ fn a_file_in_place_of_the_folder_is_found_before_anything_runs() {
 fn cells_without_data_are_written_as_such() {
     let recipe = parse(RECIPE).expect("good");
     let size = weald_core::Size::new(3, 1).expect("small");
-    let land = weald_core::grid::Mask::new(size, vec![true, false, true]);
+    let valid = weald_core::grid::Mask::new(size, vec![true, false, true]);
     let mut landscape =
-        Landscape::new(weald_core::Domain { land: land.clone(), ..weald_core::Domain::new(size, 2.0) });
+        Landscape::new(weald_core::Domain { valid: valid.clone(), ..weald_core::Domain::new(size, 2.0) });
     landscape.insert("height", "m", Field::from_values(size, vec![5.0, f32::NAN, 7.0]));
     let finished =
         Finished { landscape: &landscape, steps: &[], recipe: &recipe.file, hash: "", seed: recipe.seed };
     let writer = Writer { finished, recipe: &recipe, device: None, next_frame: &|_, _| Ok(()) };
     let raster = writer.raster("height").expect("the layer is there");
     assert_eq!(raster.field.values(), [5.0, 0.0, 7.0]);
-    assert_eq!(raster.land, land);
+    assert_eq!(raster.valid, valid);
     assert_eq!(raster.provenance.map(|provenance| provenance.range), Some((5.0, 7.0)));
 }
 

@@ -55,7 +55,7 @@ pub(super) fn ffmpeg_is_there() -> bool {
     version.is_ok_and(|status| status.success())
 }
 
-/// What is told where a video cannot be made.
+/// What is reported where a video cannot be made.
 pub(super) const NO_FFMPEG: &str = "ffmpeg is not there, so the frames are written and no video; install it (Debian, Ubuntu: \
      sudo apt-get install ffmpeg) and run again";
 

@@ -9,7 +9,7 @@ use crate::recipe::report::OutputReport;
 use weald_core::error::Error;
 use weald_core::grid::Field;
 use weald_export::{Export, Finished};
-use weald_io::{Encode, Holds, Part, PartName, Provenance, Raster, write_parts, write_whole};
+use weald_io::{Capabilities, Encode, Part, PartName, Provenance, Raster, write_parts, write_whole};
 use weald_picture::{Cutout, Frame, Picture, RenderDevice};
 
 /// Turns a finished landscape into files.
@@ -18,7 +18,7 @@ pub(super) struct Writer<'a> {
     pub(super) recipe: &'a Recipe,
     /// What draws pictures of kind `render`.
     pub(super) device: Option<&'a dyn RenderDevice>,
-    /// Hears how far a film is, and says whether to go on.
+    /// Is called with how far a film is, and says whether to go on.
     pub(super) next_frame: &'a dyn Fn(u64, u64) -> Result<(), Error>,
 }
 
@@ -71,17 +71,17 @@ impl Writer<'_> {
     ) -> Result<OutputReport, Error> {
         let path = target.folder.join(target.file);
         let frames = match film.motion {
-            Motion::Lapse(every) => film::lapse_frames(self.recipe, every),
+            Motion::TimeLapse(every) => film::lapse_frames(self.recipe, every),
             Motion::Turn(frames) => u64::from(frames),
         };
         let (per_second, text) = (film.frames_per_second, self.text());
         let kept = Frames { count: frames, per_second, text: &text };
         let note = match film.motion {
             Motion::Turn(_) => self.turn(&path, picture, &kept)?,
-            Motion::Lapse(_) if Film::is_apng(target.file) => {
+            Motion::TimeLapse(_) if Film::is_apng(target.file) => {
                 kept.write(&path, &mut |frame| film::drawn(&path, frame))?
             }
-            Motion::Lapse(_) => kept.video(&path)?,
+            Motion::TimeLapse(_) => kept.video(&path)?,
         };
         let notes = note.into_iter().map(str::to_owned).collect();
         let adapter = self.drawn_by(picture);
@@ -98,12 +98,12 @@ impl Writer<'_> {
     ) -> Result<Option<&'static str>, Error> {
         let (landscape, count) = (self.finished.landscape, kept.count);
         if let (Some(render), Some(device)) = (picture.as_render(), self.device) {
-            let reel = render.reel(landscape, device)?;
-            let mut rendering = reel.set_up()?;
+            let frame_sequence = render.frame_sequence(landscape, device)?;
+            let mut rendering = frame_sequence.set_up()?;
             return kept.write(path, &mut |number| {
                 (self.next_frame)(number, count)?;
                 let seconds = number as f64 / kept.per_second;
-                let camera = reel.camera(Frame { number, count, seconds });
+                let camera = frame_sequence.camera(Frame { number, count, seconds });
                 rendering.draw(&camera, seconds).map(Cutout::from)
             });
         }
@@ -125,7 +125,7 @@ impl Writer<'_> {
         &self,
         target: &Target<'_>,
         name: &str,
-        (encode, holds): (Encode, Holds),
+        (encode, holds): (Encode, Capabilities),
     ) -> Result<OutputReport, Error> {
         let raster = self.raster(name)?;
         let parts = encode.parts(&raster)?;
@@ -154,7 +154,7 @@ impl Writer<'_> {
     }
 
     fn range(&self, name: &str) -> Result<Option<(f64, f64)>, Error> {
-        let range = self.finished.landscape.field(name)?.range(self.finished.landscape.domain.land.as_ref());
+        let range = self.finished.landscape.field(name)?.range(self.finished.landscape.domain.valid.as_ref());
         Ok(range.map(|(low, high)| (low.into(), high.into())))
     }
 
@@ -171,13 +171,13 @@ impl Writer<'_> {
             range: self.range(name)?.unwrap_or((0.0, 0.0)),
         };
         let mut field: Field = layer.field.clone();
-        if let Some(land) = &domain.land {
-            for (value, &is_land) in field.values_mut().iter_mut().zip(land.flags()) {
-                *value = if is_land { *value } else { 0.0 };
+        if let Some(valid) = &domain.valid {
+            for (value, &is_valid) in field.values_mut().iter_mut().zip(valid.flags()) {
+                *value = if is_valid { *value } else { 0.0 };
             }
         }
         Ok(Raster {
-            land: domain.land.clone(),
+            valid: domain.valid.clone(),
             cell: Some(domain.cell),
             georeference: domain.georeference.clone(),
             provenance: Some(provenance),

@@ -1,6 +1,6 @@
 //! What one cell of one material becomes when it slides; [`super`] has the source and the order.
 
-use crate::erode::pipes::{KEPT, worth_counting};
+use crate::erode::pipes::{RETAINED_SHARE, without_negligible};
 use weald_engine::kernel;
 
 kernel! {
@@ -41,7 +41,7 @@ kernel! {
 
 kernel! {
     /// What share of what wants to slide off a cell there is.
-    pub(crate) struct Afford {
+    pub(crate) struct AvailableShare {
         reads { thickness, east, west, south, north }
         updates {}
         writes { share }
@@ -49,8 +49,8 @@ kernel! {
     }
     fn cell() {
         let outflow = (east.max(0.0) + (-west).max(0.0)) + (south.max(0.0) + (-north).max(0.0));
-        let afford = thickness * (1.0 - KEPT);
-        share = if outflow > afford { afford / outflow } else { 1.0 };
+        let available = thickness * (1.0 - RETAINED_SHARE);
+        share = if outflow > available { available / outflow } else { 1.0 };
     }
 }
 
@@ -70,6 +70,6 @@ kernel! {
         let west = from_west * if from_west > 0.0 { share_west } else { share };
         let south = to_south * if to_south > 0.0 { share } else { share_south };
         let north = from_north * if from_north > 0.0 { share_north } else { share };
-        thickness = worth_counting(before + ((west - east) + (north - south)));
+        thickness = without_negligible(before + ((west - east) + (north - south)));
     }
 }

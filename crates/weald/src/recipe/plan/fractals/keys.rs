@@ -51,14 +51,14 @@ pub struct PlannedFractal {
     /// Its name.
     pub name: String,
     /// What it is made of.
-    pub seedling: Seedling,
+    pub fractal_source: FractalSource,
     /// Its deformations.
     pub deform: Vec<DeformKeys>,
 }
 
 /// What a fractal is made of.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Seedling {
+pub enum FractalSource {
     /// Maps that are known; boxed because they are many numbers.
     Known(Box<Ifs>),
     /// A file that is read when the recipe runs.

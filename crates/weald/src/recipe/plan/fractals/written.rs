@@ -1,6 +1,6 @@
 //! From the keys of a `[[fractal]]` to what it is made of, or a fault with its line.
 
-use super::keys::{FractalKeys, Seedling, line_of};
+use super::keys::{FractalKeys, FractalSource, line_of};
 use crate::recipe::plan::words::hint;
 use weald_core::parameter::FlameFile;
 use weald_core::source::{Table, Value};
@@ -17,12 +17,12 @@ type At<T> = Result<T, (usize, String)>;
 
 impl Written<'_> {
     /// What the fractal is made of.
-    pub(super) fn seedling(&self) -> At<Seedling> {
+    pub(super) fn fractal_source(&self) -> At<FractalSource> {
         let given: Vec<_> =
             ["of", "maps", "flame"].into_iter().filter(|key| self.table.get(key).is_some()).collect();
         match given.as_slice() {
-            ["of"] => self.built_in().map(|ifs| Seedling::Known(Box::new(ifs))),
-            ["maps"] => self.of_maps().map(|ifs| Seedling::Known(Box::new(ifs))),
+            ["of"] => self.built_in().map(|ifs| FractalSource::Known(Box::new(ifs))),
+            ["maps"] => self.of_maps().map(|ifs| FractalSource::Known(Box::new(ifs))),
             ["flame"] => Ok(self.flame()),
             [first, second, ..] => {
                 let message =
@@ -54,9 +54,9 @@ impl Written<'_> {
         self.checked(Draft { name, maps, code_digits: Some(code_digits) })
     }
 
-    fn flame(&self) -> Seedling {
+    fn flame(&self) -> FractalSource {
         let path = self.keys.flame.as_ref().map(FlameFile::path).unwrap_or_default();
-        Seedling::Flame { path, number: self.keys.flame_number as usize }
+        FractalSource::Flame { path, number: self.keys.flame_number as usize }
     }
 
     fn of_maps(&self) -> At<Ifs> {

@@ -1,0 +1,205 @@
+//! One grass of a landscape on a device: its species, and the sets that a picture chooses from.
+
+use std::sync::Arc;
+
+use weald::Error;
+use weald::grow::grass::choice::{Choice, FARTHEST, LISTS};
+use weald::grow::grass::{Area, Grasses, Instance, Meadow, Packed};
+use wgpu::{BindGroup, BindGroupDescriptor, BindGroupEntry, BindGroupLayout, BufferUsages};
+
+use super::grass_look::GrassLook;
+use crate::gpu::Gpu;
+use crate::memory::Store;
+use crate::transfer::uniform;
+
+/// Side of the squares in metres, at the change of which sets are made anew.
+const SQUARE: f64 = 16.0;
+
+/// Most sets at once: 128 MiB of instances.
+const MAX_SETS: f64 = (1_u32 << 23) as f64;
+
+/// Bytes of a set, and of what choosing takes beside it: its mark, and its place in a list.
+const SET: u64 = 16;
+const CHOSEN: u64 = 4;
+
+/// Bytes of what an indirect draw wants.
+pub(super) const DRAW: u64 = 16;
+
+/// Sets of a workgroup that chooses, as `meadow.wgsl` has it.
+const GROUP: u32 = 256;
+
+/// One grass of a landscape.
+#[derive(Debug)]
+pub(super) struct GrassLayer {
+    meadow: Arc<Meadow>,
+    grasses: Store,
+    pub(super) loaded: Option<LoadedSets>,
+    shown: Option<(GrassLook, Option<[i64; 2]>)>,
+}
+
+/// The sets that a picture chooses from.
+#[derive(Debug)]
+pub(super) struct LoadedSets {
+    pub(super) count: u32,
+    pub(super) sets: Store,
+    pub(super) kept: Store,
+    pub(super) starts: Store,
+    pub(super) draws: Store,
+    pub(super) cull: BindGroup,
+    pub(super) draw: BindGroup,
+    _marks: Store,
+    _choice: Store,
+}
+
+impl GrassLayer {
+    pub(super) fn new(gpu: &Gpu, meadow: &Arc<Meadow>) -> Result<Self, Error> {
+        let grasses = uniform(gpu, "the species of grass", &Grasses::new(&meadow.species, meadow.bend))?;
+        Ok(Self { meadow: Arc::clone(meadow), grasses, loaded: None, shown: None })
+    }
+
+    /// Sows what is around a place, or all, where that is not what is sown already.
+    pub(super) fn prepare(
+        &mut self,
+        gpu: &Gpu,
+        place: [f64; 2],
+        look: GrassLook,
+        layouts: &[BindGroupLayout; 2],
+    ) -> Result<(), Error> {
+        let square = look.thinned.then(|| place.map(|at| (at / SQUARE).floor() as i64));
+        if self.shown != Some((look, square)) {
+            (self.loaded, self.shown) = (None, None);
+            self.loaded = self.load(gpu, square, look, layouts)?;
+            self.shown = Some((look, square));
+        }
+        Ok(())
+    }
+
+    /// The sets around a square, or all; `None` where there are none.
+    fn load(
+        &self,
+        gpu: &Gpu,
+        square: Option<[i64; 2]>,
+        look: GrassLook,
+        layouts: &[BindGroupLayout; 2],
+    ) -> Result<Option<LoadedSets>, Error> {
+        let level = look.level.unwrap_or(self.meadow.level);
+        let meadow = match look.level {
+            Some(level) => &Arc::new(Meadow { level, ..(*self.meadow).clone() }),
+            None => &self.meadow,
+        };
+        let sets = match square {
+            Some(square) => around(meadow, square)?,
+            None => checked(meadow, &meadow.area())?,
+        };
+        if sets.is_empty() {
+            return Ok(None);
+        }
+        let count = sets.len() as u32;
+        let stores = Stores::new(
+            gpu,
+            u64::from(count),
+            Choice {
+                culled: u32::from(look.culled),
+                ..if look.thinned { Choice::of_a_picture() } else { Choice::of_all(level) }
+            },
+        )?;
+        crate::transfer::write(gpu, &stores.sets.buffer, bytemuck::cast_slice(&sets))?;
+        Ok(Some(stores.bound(gpu, &self.grasses, count, layouts)?))
+    }
+}
+
+impl LoadedSets {
+    /// Workgroups that choose.
+    pub(super) fn groups(&self) -> u32 {
+        self.count.div_ceil(GROUP)
+    }
+}
+
+/// The sets that may be drawn from within a square: the farther from it, the fewer.
+fn around(meadow: &Meadow, square: [i64; 2]) -> Result<Vec<Packed>, Error> {
+    let reach = f64::from(FARTHEST);
+    let [low, high] = [0, 1].map(|end| square.map(|at| (at + end) as f64 * SQUARE));
+    let strips = ((high[1] - low[1] + 2.0 * reach) / SQUARE).ceil() as u32;
+    let choice = Choice::of_a_picture();
+    let may_be_drawn = |set: &Packed| {
+        let Instance { place, tuft, .. } = Instance::unpack(*set);
+        let away = [0, 1].map(|axis| {
+            let at = f64::from(place[axis]);
+            (low[axis] - at).max(at - high[axis]).max(0.0) as f32
+        });
+        choice.height_share(tuft.rank(), away[0].hypot(away[1])) > 0.0
+    };
+    let mut sets = Vec::new();
+    for strip in 0..strips {
+        let north = low[1] - reach + f64::from(strip) * SQUARE;
+        let area = Area { low: [low[0] - reach, north], high: [high[0] + reach, north + SQUARE] };
+        sets.extend(checked(meadow, &area)?.into_iter().filter(may_be_drawn));
+        check(sets.len() as f64)?;
+    }
+    Ok(sets)
+}
+
+/// All sets of an area, unless there are too many.
+fn checked(meadow: &Meadow, area: &Area) -> Result<Vec<Packed>, Error> {
+    check(meadow.expected(area))?;
+    Ok(meadow.sets(area))
+}
+
+fn check(sets: f64) -> Result<(), Error> {
+    if sets <= MAX_SETS {
+        return Ok(());
+    }
+    Err(Error::Limit(format!(
+        "{sets:.0} sets of grass around the camera: at most {MAX_SETS} are drawn; sow fewer `sets` on a square metre"
+    )))
+}
+
+/// The buffers of sets.
+struct Stores {
+    choice: Store,
+    sets: Store,
+    kept: Store,
+    starts: Store,
+    draws: Store,
+    marks: Store,
+}
+
+impl Stores {
+    fn new(gpu: &Gpu, count: u64, choice: Choice) -> Result<Self, Error> {
+        let storage = BufferUsages::STORAGE | BufferUsages::COPY_DST | BufferUsages::COPY_SRC;
+        let store = |what, bytes, usage| Store::new(gpu, what, bytes, usage);
+        let lists = LISTS as u64;
+        let starts = 4 * (lists * count.div_ceil(u64::from(GROUP)) + 1);
+        Ok(Self {
+            choice: uniform(gpu, "what is shown of grass", &choice)?,
+            sets: store("sets of grass", SET * count, storage)?,
+            kept: store("grass in sight", CHOSEN * count, storage)?,
+            starts: store("starts of the lists of grass", starts, storage)?,
+            draws: store("draws of grass", DRAW * lists, storage | BufferUsages::INDIRECT)?,
+            marks: store("marks of grass", CHOSEN * count, storage)?,
+        })
+    }
+
+    fn bound(
+        self,
+        gpu: &Gpu,
+        grasses: &Store,
+        count: u32,
+        [to_choose, to_draw]: &[BindGroupLayout; 2],
+    ) -> Result<LoadedSets, Error> {
+        let Self { choice, sets, kept, starts, draws, marks } = self;
+        let drawn = [grasses, &choice, &sets, &kept, &starts];
+        let cull = bind(gpu, to_choose, &[&drawn[..], &[&draws, &marks]].concat())?;
+        let draw = bind(gpu, to_draw, &drawn)?;
+        Ok(LoadedSets { count, sets, kept, starts, draws, cull, draw, _marks: marks, _choice: choice })
+    }
+}
+
+fn bind(gpu: &Gpu, layout: &BindGroupLayout, stores: &[&Store]) -> Result<BindGroup, Error> {
+    let entries: Vec<_> = (0..)
+        .zip(stores)
+        .map(|(binding, store)| BindGroupEntry { binding, resource: store.buffer.as_entire_binding() })
+        .collect();
+    let description = BindGroupDescriptor { label: Some("grass"), layout, entries: &entries };
+    gpu.context.attempt("binding grass", || Ok(gpu.context.device.create_bind_group(&description)))
+}

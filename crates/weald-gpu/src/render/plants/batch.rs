@@ -1,0 +1,194 @@
+//! The plants of one kind on a device.
+
+use weald::grow::Vegetation;
+use weald::grow::ifs::foliage::{Colours, Habit};
+use weald::grow::ifs::limbs::{Corner, LEVELS, Limb, Limbs};
+use weald::picture::{Stage, linear_of_srgb};
+use weald::plants::{Plant, Plants};
+use weald::random::{hash2, unit};
+use weald::{Error, Landscape};
+use wgpu::{BindGroup, BufferUsages};
+
+use super::lists::{LISTS, VIEWS};
+use super::pipelines::Groups;
+use crate::gpu::Gpu;
+use crate::memory::Store;
+use crate::pace::Pace;
+use crate::transfer::{self, Transfer};
+
+/// Bytes of an indexed indirect draw.
+pub(super) const DRAW: u64 = 20;
+
+/// Plants of a workgroup, as `choose.wgsl` has it.
+const GROUP: u32 = 256;
+
+/// Words of a plant, as `plants.wgsl` has them.
+const WORDS: usize = 8;
+
+/// Distance in metres by which roots reach into the ground, beside the height of the plant.
+const ROOTED: f32 = 0.01;
+
+/// Plants of one kind.
+#[derive(Debug)]
+pub(super) struct Batch {
+    pub(super) choose: BindGroup,
+    pub(super) draw: BindGroup,
+    pub(super) indices: Store,
+    pub(super) draws: Store,
+    /// Workgroups that look at all plants.
+    pub(super) groups: u32,
+    kept: Store,
+    starts: Store,
+    _stores: [Store; 5],
+}
+
+impl Batch {
+    pub(super) fn new(
+        gpu: &Gpu,
+        stage: &Stage,
+        (landscape, plants): (&Landscape, &Plants),
+        groups: &Groups,
+    ) -> Result<Self, Error> {
+        let fractal = landscape.fractal(&plants.kind)?;
+        let limbs = Limbs::of(&fractal.ifs, Habit::of(&fractal.ifs, None));
+        let stood: Vec<_> =
+            (0..).zip(&plants.plants).filter_map(|(n, plant)| stood(stage, n, plant)).collect();
+        let count = stood.len().max(1) as u64;
+        ensure_bound(gpu, count)?;
+        let workgroups = count.div_ceil(u64::from(GROUP));
+        let filled = |what: &str, words: &[u32], usage| filled(gpu, what, words, usage);
+        let room = |what: &str, words: u64| {
+            Store::new(gpu, what, 4 * words, BufferUsages::STORAGE | BufferUsages::COPY_SRC)
+        };
+        let table = BufferUsages::STORAGE;
+        let kind = filled("a kind of plants", &kind(&limbs), BufferUsages::UNIFORM)?;
+        let plants = filled("plants", stood.as_flattened(), table)?;
+        let kept = room("plants in sight", count * VIEWS as u64)?;
+        let starts = room("lists of plants", (VIEWS * LISTS) as u64)?;
+        let counts = room("counts of plants", workgroups * (VIEWS * LISTS) as u64)?;
+        let (indices, templates) = lists(&limbs);
+        let draws = filled("draws of plants", &templates, table | BufferUsages::INDIRECT)?;
+        let indices = filled("corners of leaves", &indices, BufferUsages::INDEX)?;
+        let corners: Vec<_> = limbs.corners.iter().map(Corner::packed).collect();
+        let limbs: Vec<_> = limbs.limbs.iter().map(Limb::packed).collect();
+        let limbs = filled("limbs of plants", limbs.as_flattened(), table)?;
+        let corners = filled("leaves of plants", corners.as_flattened(), table)?;
+        let choose = groups.choose(gpu, &[&kind, &plants, &kept, &starts, &draws, &counts])?;
+        let draw = groups.draw(gpu, &[&kind, &plants, &kept, &starts, &limbs, &corners])?;
+        let stores = [kind, plants, counts, limbs, corners];
+        Ok(Self { choose, draw, indices, draws, groups: workgroups as u32, kept, starts, _stores: stores })
+    }
+
+    /// The list and number of each plant that was chosen for the camera.
+    pub(super) fn chosen(&self, gpu: &Gpu) -> Result<Vec<[u32; 2]>, Error> {
+        let [draws, starts, kept] = [&self.draws, &self.starts, &self.kept].map(|store| words(gpu, store));
+        let (draws, starts, kept) = (draws?, starts?, kept?);
+        let of_list = |list: usize| {
+            let (first, count) = (starts[list] as usize, draws[DRAW as usize / 4 * list + 1] as usize);
+            kept[first..first + count].iter().map(move |&number| [list as u32, number])
+        };
+        Ok((0..LISTS).flat_map(of_list).collect())
+    }
+}
+
+/// Refuses more plants than a shader can be given at once.
+fn ensure_bound(gpu: &Gpu, count: u64) -> Result<(), Error> {
+    let most = gpu.largest_binding() / (4 * WORDS as u64);
+    if count <= most {
+        return Ok(());
+    }
+    Err(Error::Limit(format!(
+        "{count} plants of one set: {} draws at most {most}; choose a smaller `count` or a wider `spacing` in `scatter`",
+        gpu.context.adapter
+    )))
+}
+
+/// A buffer that holds these words.
+fn filled(gpu: &Gpu, what: &str, words: &[u32], usage: BufferUsages) -> Result<Store, Error> {
+    let bytes: &[u8] = bytemuck::cast_slice(words);
+    let store =
+        Store::new(gpu, what, bytes.len() as u64, usage | BufferUsages::COPY_DST | BufferUsages::COPY_SRC)?;
+    transfer::write(gpu, &store.buffer, bytes)?;
+    Ok(store)
+}
+
+/// All words of a buffer, after all that was submitted.
+fn words(gpu: &Gpu, store: &Store) -> Result<Vec<u32>, Error> {
+    let mut pace = Pace::new(gpu.most_moved);
+    let values = Transfer::new(gpu)?.read(gpu, &mut pace, &store.buffer, store.buffer.size())?;
+    Ok(values.into_iter().map(f32::to_bits).collect())
+}
+
+/// Colours in linear light, and how far the plant reaches.
+fn kind(limbs: &Limbs) -> [u32; 8] {
+    let [a, b, c] = linear_of_srgb(Colours::USUAL.leaf);
+    let [d, e, f] = linear_of_srgb(Colours::USUAL.stem);
+    [a, b, c, limbs.radius(), d, e, f, 0.0].map(f32::to_bits)
+}
+
+/// A plant on the ground that is drawn, as the device has it; none where there is no land.
+fn stood(stage: &Stage, number: i64, plant: &Plant) -> Option<[u32; WORDS]> {
+    let [east, south, _] = plant.place;
+    let up = stage.bed_at([east, south])? - ROOTED * plant.size;
+    let [x, y, z, w] = plant.rotation().map(|part| u32::from(((32767.0 * part).round() as i16) as u16));
+    let chance = unit(hash2(0x9e37, number, 3)) as f32;
+    let [east, north, up, size] = [east as f32, -south as f32, up, plant.size].map(f32::to_bits);
+    Some([east, north, up, size, x | y << 16, z | w << 16, plant.phase.to_bits(), chance.to_bits()])
+}
+
+/// The corners of all lists, and what each draws of them in each view.
+fn lists(limbs: &Limbs) -> (Vec<u32>, Vec<u32>) {
+    let last = LEVELS as u32 - 1;
+    let (mut indices, mut draws) = (Vec::new(), Vec::new());
+    for list in 0..LISTS as u32 {
+        let corners = limbs.triangles_of([list / 2, list.div_ceil(2).min(last)]);
+        draws.extend([corners.len() as u32, 0, indices.len() as u32, 0, 0]);
+        indices.extend(corners);
+    }
+    (indices, draws.repeat(VIEWS))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use weald::picture::View;
+    use weald::recipe::{Overrides, Recipe};
+
+    fn ferns() -> (Stage, Landscape) {
+        let text = "[landscape]\nsize = 60\ncell = 4.0\nseed = 5\n[[step]]\ndo = \"fbm\"\nrelief = 40.0\n\
+                    [[step]]\ndo = \"scatter\"\nplant = \"fern\"\ncount = 2000\nspacing = 1.0\ninto = \"ferns\"\n\
+                    [[output]]\nlayer = \"height\"\nfile = \"a.tif\"\n";
+        let recipe = Recipe::parse("ferns.toml", text, &Overrides::default()).expect("a recipe");
+        let landscape = recipe.landscape().expect("ground");
+        (Stage::new(&View::default(), &landscape).expect("a stage"), landscape)
+    }
+
+    #[test]
+    fn plants_stand_on_the_ground_that_is_drawn_with_no_more_than_their_roots_in_it() {
+        let (stage, landscape) = ferns();
+        let plants = &landscape.plants("ferns").expect("scattered").plants;
+        assert!(plants.len() > 1500, "{}", plants.len());
+        let mut apart = 0.0_f32;
+        for (number, plant) in (0..).zip(plants) {
+            let [east, south, elevation] = plant.place;
+            let words = stood(&stage, number, plant).expect("on land");
+            let [x, north, up, size] = [0, 1, 2, 3].map(|word| f32::from_bits(words[word]));
+            let top = stage.top_at([f64::from(x), f64::from(-north)]).expect("on land");
+            assert!(top >= up && top - up <= 0.011 * size, "{number}: {up} under {top}");
+            apart = apart.max((top - stage.drawn_height(elevation)).abs());
+            assert!((f64::from(x) - east).abs() < 1e-3 && (f64::from(north) + south).abs() < 1e-3);
+        }
+        // The smooth surface that is drawn lies off the straight one that the step measured.
+        assert!(apart > 1e-3, "else this would mean little");
+    }
+
+    #[test]
+    fn a_plant_takes_thirty_two_bytes_and_a_kind_of_it_a_few_megabytes() {
+        let ifs = weald::grow::ifs::shapes::find("fern").expect("built in").ifs();
+        let limbs = Limbs::of(&ifs, Habit::of(&ifs, None));
+        let (indices, draws) = lists(&limbs);
+        let bytes = 4 * (indices.len() + 12 * limbs.corners.len() + 8 * limbs.limbs.len());
+        assert!((1 << 20..6 << 20).contains(&bytes), "{bytes}");
+        assert_eq!((4 * WORDS, draws.len()), (32, VIEWS * LISTS * DRAW as usize / 4));
+    }
+}

@@ -1,0 +1,133 @@
+//! Brings light to the numbers of a picture: `tone_mapping.wgsl`.
+
+use std::collections::BTreeMap;
+
+use weald::Error;
+use weald::picture::Stage;
+use wgpu::{
+    BindGroup, BindGroupDescriptor, BindGroupEntry, BindGroupLayoutDescriptor, BindGroupLayoutEntry,
+    BindingResource, BindingType, Color, ColorTargetState, ColorWrites, CommandEncoder, FragmentState,
+    LoadOp, MultisampleState, Operations, PipelineCompilationOptions, PipelineLayout,
+    PipelineLayoutDescriptor, PrimitiveState, RenderPassColorAttachment, RenderPassDescriptor,
+    RenderPipeline, RenderPipelineDescriptor, ShaderModule, ShaderModuleDescriptor, ShaderSource,
+    ShaderStages, StoreOp, TextureFormat, TextureSampleType, TextureView, TextureViewDimension, VertexState,
+};
+
+use super::layouts::STAGE_GROUP;
+use super::maps::Maps;
+use super::targets::Targets;
+use super::timing::{Moment, Timer};
+use crate::gpu::Gpu;
+
+/// The film, with a pipeline for each format that it was asked for.
+#[derive(Debug)]
+pub(super) struct ToneMapping {
+    module: ShaderModule,
+    layout: PipelineLayout,
+    light: BindGroup,
+    pipelines: BTreeMap<String, RenderPipeline>,
+}
+
+impl ToneMapping {
+    pub(super) fn new(gpu: &Gpu, stage: &Stage, maps: &Maps, targets: &Targets) -> Result<Self, Error> {
+        let text = stage.shader(STAGE_GROUP) + "\n" + include_str!("tone_mapping.wgsl");
+        let device = &gpu.context.device;
+        let entry = BindGroupLayoutEntry {
+            binding: 0,
+            visibility: ShaderStages::FRAGMENT,
+            ty: BindingType::Texture {
+                sample_type: TextureSampleType::Float { filterable: false },
+                view_dimension: TextureViewDimension::D2,
+                multisampled: false,
+            },
+            count: None,
+        };
+        gpu.context.attempt("making the tone_mapping", || {
+            let label = Some("tone_mapping");
+            let group =
+                device.create_bind_group_layout(&BindGroupLayoutDescriptor { label, entries: &[entry] });
+            let resource = BindingResource::TextureView(&targets.light.view);
+            let entries = [BindGroupEntry { binding: 0, resource }];
+            let layout = PipelineLayoutDescriptor {
+                label,
+                bind_group_layouts: &[Some(&group), Some(&maps.layout)],
+                immediate_size: 0,
+            };
+            let source = ShaderSource::Wgsl(text.into());
+            Ok(Self {
+                module: device.create_shader_module(ShaderModuleDescriptor { label, source }),
+                layout: device.create_pipeline_layout(&layout),
+                light: device.create_bind_group(&BindGroupDescriptor {
+                    label,
+                    layout: &group,
+                    entries: &entries,
+                }),
+                pipelines: BTreeMap::new(),
+            })
+        })
+    }
+
+    /// Brings the light to a picture.
+    pub(super) fn develop(
+        &mut self,
+        gpu: &Gpu,
+        encoder: &mut CommandEncoder,
+        (maps, timer): (&Maps, Option<&Timer>),
+        target: &TextureView,
+    ) -> Result<(), Error> {
+        let format = target.texture().format();
+        let (module, layout) = (&self.module, &self.layout);
+        let pipeline = match self.pipelines.entry(format!("{format:?}")) {
+            std::collections::btree_map::Entry::Occupied(known) => known.into_mut(),
+            std::collections::btree_map::Entry::Vacant(new) => new.insert(
+                gpu.context
+                    .attempt("making the tone_mapping", || Ok(pipeline(gpu, module, layout, format)))?,
+            ),
+        };
+        let ops = Operations { load: LoadOp::Clear(Color::BLACK), store: StoreOp::Store };
+        let attachment =
+            RenderPassColorAttachment { view: target, depth_slice: None, resolve_target: None, ops };
+        let mut pass = encoder.begin_render_pass(&RenderPassDescriptor {
+            label: Some("tone_mapping"),
+            color_attachments: &[Some(attachment)],
+            timestamp_writes: timer.map(|timer| timer.around(Moment::ToneMapping, [true; 2])),
+            ..RenderPassDescriptor::default()
+        });
+        pass.set_pipeline(pipeline);
+        pass.set_bind_group(0, &self.light, &[]);
+        pass.set_bind_group(STAGE_GROUP, &maps.group, &[]);
+        pass.draw(0..3, 0..1);
+        Ok(())
+    }
+}
+
+fn pipeline(
+    gpu: &Gpu,
+    module: &ShaderModule,
+    layout: &PipelineLayout,
+    format: TextureFormat,
+) -> RenderPipeline {
+    let compilation_options = PipelineCompilationOptions::default();
+    let target = ColorTargetState { format, blend: None, write_mask: ColorWrites::ALL };
+    gpu.context.device.create_render_pipeline(&RenderPipelineDescriptor {
+        label: Some("tone_mapping"),
+        layout: Some(layout),
+        vertex: VertexState {
+            module,
+            entry_point: Some("tone_mapping_vertex"),
+            compilation_options: compilation_options.clone(),
+            buffers: &[],
+        },
+        primitive: PrimitiveState::default(),
+        depth_stencil: None,
+        multisample: MultisampleState::default(),
+        fragment: Some(FragmentState {
+            module,
+            entry_point: Some("tone_mapping_fragment"),
+            compilation_options,
+            targets: &[Some(target)],
+        }),
+        multiview_mask: None,
+        cache: None,
+    })
+}

@@ -1,6 +1,0 @@
-
-// What transport in flux form needs of the exchange.
-
-fn hand_on(at: u32, speed: vec2<f32>, sediment: f32, depth: f32) {
-    rained_depth[at] = depth;
-}

@@ -1,6 +1,0 @@
-
-// What upwind transport needs of the exchange.
-
-fn hand_on(at: u32, speed: vec2<f32>, sediment: f32, depth: f32) {
-    concentration[at] = load(sediment, depth, outflows[at], constants.epsilon);
-}

@@ -1,4 +1,0 @@
-
-// Transport finds all that it needs of the erosion where it is.
-
-fn hand_on(at: u32, velocity: vec2<f32>, sediment: f32) {}
