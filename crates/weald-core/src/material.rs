@@ -60,6 +60,8 @@ impl Material {
     /// A built-in material: `rock`, `soil`, `sand`, `gravel` or `clay`, hardest first in the order of erosion.
     pub fn built_in(name: &str) -> Option<Self> {
         let (erodibility, solubility, talus_deg, colour) = match name {
+            // Erodibilities within the source's bounds of 0.0001 (rock) and 0.1 (sand); taluses are angles of
+            // repose, of clay and rock those at which they stand by cohesion.
             "rock" => (0.0005, 0.002, 75.0, [0.47, 0.44, 0.41]),
             "clay" => (0.005, 0.05, 40.0, [0.62, 0.42, 0.32]),
             "soil" => (0.02, 0.2, 32.0, [0.38, 0.29, 0.19]),

@@ -44,6 +44,7 @@ fn departure(nine: [[f32; 3]; 3], velocity: [f32; 2], links: [f32; 4]) -> f32 {
 /// Weights of the western, eastern, northern and southern neighbours.
 #[inline(always)]
 fn weights(velocity: [f32; 2], links: [f32; 4]) -> [f32; 4] {
+    // One cell a step: further away the departure point would lie beyond the nine cells.
     let [u, v] = velocity.map(|speed| speed.clamp(-1.0, 1.0));
     [u.max(0.0) * links[0], (-u).max(0.0) * links[1], v.max(0.0) * links[2], (-v).max(0.0) * links[3]]
 }
@@ -93,6 +94,7 @@ kernel! {
         let beyond = if up { above } else if down { below } else { [here, level] };
         let least = here.min(level).min(beyond[0].min(beyond[1]));
         let most = here.max(level).max(beyond[0].max(beyond[1]));
+        // Going forth and back errs twice as much as going once.
         arrived = (forward + (here - back) * 0.5).max(least).min(most);
     }
 }
@@ -108,6 +110,7 @@ pub(crate) struct AdvectionScratch {
 impl AdvectionScratch {
     pub(crate) fn new(columns: usize) -> Self {
         Self {
+            // The way back looks at a row and both its neighbours.
             forward: Ring::new(columns, 3),
             back: Ring::new(columns, 1),
             still: Ring::still(columns),

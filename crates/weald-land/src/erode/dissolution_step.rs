@@ -70,6 +70,7 @@ impl DissolutionWithin {
             most: (self.depth / cell) as f32,
             kept: (1.0 - self.damping) as f32,
             flow_rate,
+            // Surplus settles at once: ground under water strives for just `r_max`.
             digging: Digging { shares, deposit, deposition: 1.0 },
         }
     }

@@ -81,6 +81,8 @@ pub(crate) struct HanScratch {
 }
 
 /// Stages behind the newest row.
+// Each needs the row south of its own from the one before: fluxes its surface, flows the share that it can
+// give, and velocities its depth.
 const LIMITED: usize = 1;
 const FLOWED: usize = 2;
 const SETTLED: usize = 3;

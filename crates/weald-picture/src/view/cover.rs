@@ -134,6 +134,9 @@ impl Cover {
     /// Colour and roughness of a point.
     pub(super) fn at(&self, spot: &SurfacePoint) -> SurfaceSample {
         let cell = self.limits.cell;
+        // Lengths are in cells, shares and limits in those of the landscape, so that a finer grid looks finer
+        // and not other. All numbers here and below are chosen by eye. Patches of many cells, and detail down
+        // to a fiftieth of a cell.
         let broad = Octaves { wavelength: 26.0 * cell, count: 5, gain: 0.55, seed: 0x11 };
         let fine = Octaves { wavelength: 2.4 * cell, count: 7, gain: 0.66, seed: 0x12 };
         let texture = Texture {
@@ -146,17 +149,20 @@ impl Cover {
             Some(albedo) => self.of_material(spot, albedo, &texture),
             None => self.natural(spot, &texture),
         };
+        // No ground in nature is darker or lighter: wet peat, fresh snow.
         SurfaceSample { albedo: skin.albedo.map(|c| c.clamp(0.01, 0.9)), bump: no_steeper(skin.bump) }
     }
 
     fn natural(&self, spot: &SurfacePoint, texture: &Texture) -> SurfaceSample {
         let Texture { broad, fine, streak, .. } = *texture;
+        // Borders wander with patches more than with detail, and by half of the range of moisture.
         let patchy = 0.6 * broad + 0.4 * fine.value;
         let moisture = self.sites.moisture(spot.place);
         let high = spot.point[2] / self.limits.relief.max(1e-3);
         let grass = self.grass(moisture + 0.55 * patchy, high + 0.25 * patchy);
         let grass = scale(grass, 1.0 + 0.5 * fine.value + 0.35 * streak);
         let trees = self.trees(spot, moisture, patchy);
+        // Darker than a meadow on average: crowns shade each other.
         let crown = (0.4 + 1.1 * fine.value + 0.5 * broad).clamp(0.0, 1.0);
         let meadow = SurfaceSample { albedo: grass, bump: texture.rough(0.16) };
         let wood = SurfaceSample {
@@ -166,11 +172,15 @@ impl Cover {
         let green = meadow.mixed(&wood, trees);
 
         let soil = self.sites.soil(spot.place);
+        // 1 where rock is bare on the average: earlier in patches, in streaks, and where there is less than
+        // usual soil.
         let steep = spot.slope / self.limits.rock + 0.25 * patchy + 0.55 * streak + 0.4 * (0.4 - soil);
         let pebbles = scale(self.palette.scree, 1.0 + 0.45 * fine.value + 0.4 * streak);
         let scree = SurfaceSample { albedo: pebbles, bump: texture.rough(0.18) };
+        // Scree lies just below bare rock, never covers all, and less under trees, which hold the soil.
         let stony = green.mixed(&scree, 0.8 * ramp(steep, 0.97, 1.10) * (1.0 - 0.6 * trees));
         let rock = SurfaceSample { albedo: self.rock(spot, texture), bump: texture.rough(0.45) };
+        // Rock begins where scree is whole.
         let ground = stony.mixed(&rock, ramp(steep, 1.08, 1.22));
         let snow = SurfaceSample {
             albedo: scale(self.palette.snow, 1.0 + 0.12 * streak),
@@ -186,6 +196,7 @@ impl Cover {
         if steep <= 0.0 {
             return 0.0;
         }
+        // Five looks over two wavelengths along the fall line draw the noise out some three times.
         let marks = Octaves { wavelength: 1.1 * self.limits.cell, count: 3, gain: 0.75, seed: 0x13 };
         let along = |step: i32| {
             let ray_length = step as f32 * 0.55 * marks.wavelength;
@@ -193,11 +204,13 @@ impl Cover {
                 [spot.point[0] + ray_length * spot.fall[0], spot.point[1] + ray_length * spot.fall[1], 0.0];
             marks.at(point, spot.footprint).value
         };
+        // About the deviation of one look: 1/√5, and more because neighbours are alike.
         steep * 0.55 * (-2..=2).map(along).sum::<f32>()
     }
 
     fn grass(&self, moisture: f32, high: f32) -> Linear {
         let Palette { lush, meadow, dry, alpine, .. } = self.palette;
+        // Moisture is ranked from 0 to 1, so the driest sixth is dry and the wettest lush.
         let low = mix(mix(dry, meadow, ramp(moisture, 0.15, 0.5)), lush, ramp(moisture, 0.5, 0.85));
         mix(low, mix(alpine, dry, ramp(moisture, 0.6, 0.2)), ramp(high, 0.35, 0.8))
     }
@@ -206,17 +219,22 @@ impl Cover {
     fn trees(&self, spot: &SurfacePoint, moisture: f32, patchy: f32) -> f32 {
         let line = (self.limits.trees - spot.point[2]) / (0.12 * self.limits.relief).max(1e-3);
         let steep = ramp(spot.slope / self.limits.rock, 0.85, 1.15);
+        // A score: moisture first, then patches; height below the tree line helps a little and cannot make up
+        // for drought.
         let wood = 1.1 * (moisture - 0.5) + 0.9 * patchy + 0.4 * line.clamp(-2.0, 0.8) - 0.5 * steep;
         ramp(wood, 0.10, 0.24)
     }
 
     /// Rock with its beds: light and dark, sunk into cracks.
     fn rock(&self, spot: &SurfacePoint, texture: &Texture) -> Linear {
+        // Some thirty beds over the relief, folded by about one of their thickness.
         let bed = 0.035 * self.limits.relief.max(1e-3);
         let level = spot.point[2] / bed + 1.2 * texture.broad;
+        // Thinner beds between, at no whole ratio, so that they never coincide.
         let beds = grain([level, 0.4], 0x21).value + 0.6 * grain([2.7 * level, 0.7], 0x22).value;
         let [grey, dark, warm] = self.palette.rock;
         let stone = mix(grey, warm, (0.5 + 1.0 * beds + 0.6 * texture.broad).clamp(0.0, 1.0));
+        // A third of a smooth face is dark.
         let cracks = 0.35 - 0.9 * texture.fine.value - 0.9 * texture.streak;
         mix(stone, dark, cracks.clamp(0.0, 1.0))
     }
@@ -227,12 +245,15 @@ impl Cover {
         if !above.is_finite() {
             return 0.0;
         }
+        // Snow slides off what is a quarter steeper than bare rock.
         let hold = 1.25 - spot.slope / self.limits.rock;
         let hollow = self.sites.moisture(spot.place) - 0.5;
+        // A score as that of trees: gentle ground and hollows keep snow below its line.
         ramp(above + 1.6 * hold.min(0.6) + 1.2 * hollow + 1.1 * patchy, 0.55, 0.95)
     }
 
     fn of_material(&self, spot: &SurfacePoint, albedo: Linear, texture: &Texture) -> SurfaceSample {
+        // From 27° on a face shows its beds, at 50° whole.
         let steep = ramp(spot.slope, 0.5, 1.2);
         let bed = 0.03 * self.limits.relief.max(1e-3);
         let level = spot.point[2] / bed + 0.8 * texture.broad;

@@ -13,6 +13,7 @@ kernel! {
     }
     fn cell() {
         let outflow = (east.max(0.0) + (-west).max(0.0)) + (south.max(0.0) + (-north).max(0.0));
+        // Never less than what flows out, so that no cell gives more sediment than it has.
         volume = (depth.max(0.0) + epsilon).max(outflow * (1.0 + RETAINED_SHARE));
         concentration = sediment / volume;
     }
@@ -59,6 +60,7 @@ kernel! {
 /// The share of `wanted` that fits.
 #[inline(always)]
 fn fitting(room: f32, wanted: f32) -> f32 {
+    // Not to the last digit, or rounding would leave the range.
     let room = room.max(0.0) * (1.0 - RETAINED_SHARE);
     if wanted > room { room / wanted } else { 1.0 }
 }

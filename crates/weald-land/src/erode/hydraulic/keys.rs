@@ -12,19 +12,25 @@ parameters! {
     /// The keys of model "han".
     pub struct HanKeys {
         /// Pipe constant k = dt² g A / l: how fast differences in level turn into flow. Unstable above 0.5.
+        // `dt² g A / L`: stable up to 1/2, and the larger, the better the streams.
         flow_rate: f64 = 0.4, range 0.0001..=0.5;
         /// Rain a step while it rains.
         rain: Length = Length::Cells(0.01), range 0.0..=100.0, unit "m/step";
         /// Evaporation a step in dry periods.
+        // Two to three times the rain, over as long a time: from five times on all water goes and with it the rivers, and at one
+        // and a half times half of the land stays under lakes.
         evaporation: Length = Length::Cells(0.03), range 0.0..=100.0, unit "m/step";
         /// Steps without rain that follow; 0 means that it always rains.
         dry_period: u32 = 60, range 0..=10_000_000, unit "steps";
         /// What sediment is taken up by.
         law: UptakeLaw = UptakeLaw::Velocity;
         /// Sediment that a unit of water holds at unit speed and slope (K_c). Default 10, with law = "dissolution" 1.
+        // Networks form between 1 and 100 where uptake follows the speed, and hardly change with it; at 0.1 they do not.
         capacity: Option<f64> = None, range 0.0..=10_000.0;
         /// Uptake a unit of speed (K_v), default 0.005; with law = "dissolution" the share of the free capacity that is
         /// taken up in a step (K_s), default 0.01.
+        // Uptake by speed: 0.003 to 0.01 make networks, less takes too long, 0.1 breaks them into gullies. By free capacity:
+        // rivers form at 0.01; from 0.1 on they do not.
         erosion: Option<f64> = None, range 0.0..=1.0;
         /// Share of a deposit that the ground gets back (r); below 1 it keeps lakes from filling with more
         /// than their water, and the rest is counted as out.
@@ -37,6 +43,7 @@ parameters! {
         /// Whether it takes the form that conserves sediment.
         conserve: bool = true, when transport = "maccormack";
         /// Depth added where flux is divided by depth.
+        // At least half of the evaporation, which bounds the speed by two cells per step.
         velocity_epsilon: Length = Length::Cells(0.1), range 0.000_000_1..=100.0, unit "m";
         /// Thermal weathering in every step, with the keys of the `thermal` step. Default: none.
         thermal: Option<Nested<ThermalWithin>> = None;
@@ -47,14 +54,17 @@ parameters! {
     /// The keys of model "mei".
     pub struct MeiKeys {
         /// Pipe constant k = dt² g A / l: how fast differences in level turn into flow. Unstable above 0.5.
+        // As published programs have it, 0.098. It rains in every step, and a fifth of what falls on `han`.
         flow_rate: f64 = 0.1, range 0.0001..=0.5;
         /// Rain a step while it rains.
         rain: Length = Length::Cells(0.002), range 0.0..=100.0, unit "m/step";
         /// Share of the depth of water that evaporates in every step.
+        // A share of the depth, not a length, as in the source; 0.015 is what published programs use.
         evaporation: f64 = 0.015, range 0.0..=1.0;
         /// Steps without rain that follow; 0 means that it always rains.
         dry_period: u32 = 0, range 0..=10_000_000, unit "steps";
         /// Sediment that a unit of water holds at unit speed and slope (K_c).
+        // Chosen for cells and steps of 1; published programs have 1 on cells of 1/256.
         capacity: f64 = 0.05, range 0.0..=10_000.0;
         /// Share of the free capacity that is taken up in a step (K_s).
         erosion: f64 = 0.1, range 0.0..=1.0;
@@ -70,6 +80,7 @@ parameters! {
         /// Whether it takes the form that conserves sediment.
         conserve: bool = true, when transport = "maccormack";
         /// Depth below which water stands still.
+        // Here a bound: water that is thinner has no velocity.
         velocity_epsilon: Length = Length::Cells(0.0001), range 0.000_000_1..=100.0, unit "m";
         /// Thermal weathering in every step, with the keys of the `thermal` step. Default: none.
         thermal: Option<Nested<ThermalWithin>> = None;
@@ -80,6 +91,7 @@ parameters! {
     /// The keys of model "stava".
     pub struct StavaKeys {
         /// Pipe constant k = dt² g A / l: how fast differences in level turn into flow. Unstable above 0.5.
+        // `dt² g A / l` for a step of 0.1 s on cells of 1 m, as the authors have it.
         flow_rate: f64 = 0.0981, range 0.0001..=0.5;
         /// Rain a step while it rains.
         rain: Length = Length::Cells(0.002), range 0.0..=100.0, unit "m/step";
@@ -90,6 +102,7 @@ parameters! {
         /// Sediment that a unit of water holds at unit speed and slope (K_c).
         capacity: f64 = 0.5, range 0.0..=10_000.0;
         /// Factor of the erodibility of every material.
+        // On erodibilities from 0.0005 (rock) to 0.05 (sand): in a step sand gives all that is asked for, rock 1 %.
         erosion: f64 = 20.0, range 0.0..=10_000.0;
         /// Share of the surplus sediment that settles in a step (K_d).
         deposition: f64 = 0.1, range 0.0..=1.0;

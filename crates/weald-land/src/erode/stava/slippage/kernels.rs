@@ -18,6 +18,8 @@ kernel! {
         let across = link_west * (ground_west - ground) + link_east * (ground_east - ground);
         let along = link_north * (ground_north - ground) + link_south * (ground_south - ground);
         let rough = ((across + along) * neighbour_share).abs();
+        // The authors' numbers: a hundredth of the talus is smooth, and each roughness beyond it takes ten
+        // times as much from the talus, so that nothing rests on ground as rough as a ninth of it.
         softened = (talus - 10.0 * (rough - 0.01 * talus).max(0.0)).max(0.0);
     }
 }
@@ -34,6 +36,7 @@ kernel! {
     }
     fn cell() {
         let along = |step: f32, talus: f32| strength * (step - step.clamp(-talus, talus));
+        // An edge has one talus, whichever of its cells is higher.
         to_east = link_east * along(ground - ground_east, (talus + talus_east) * 0.5);
         to_south = link_south * along(ground - ground_south, (talus + talus_south) * 0.5);
     }
