@@ -5,6 +5,7 @@
 //! declarations here, so that host and shader cannot come to disagree about a binding.
 
 pub mod builder;
+pub mod mentions;
 pub mod twin;
 
 use std::fmt::Write;
@@ -130,6 +131,13 @@ impl Uniforms {
         Self { name: U::NAME, fields: U::fields(), words: values.words() }
     }
 
+    /// The struct in WGSL.
+    fn declared(&self) -> String {
+        let fields: String =
+            self.fields.iter().map(|(name, kind)| format!("    {name}: {kind},\n")).collect();
+        format!("struct {} {{\n{fields}}}\n", self.name)
+    }
+
     /// The same struct with the fields of another behind its own.
     #[must_use]
     pub fn followed_by<U: Uniform>(mut self, values: &U) -> Self {
@@ -222,6 +230,9 @@ impl Program {
         {
             if !uniforms.name.is_empty() {
                 let (at, name) = (at + 1, uniforms.name);
+                if !pass.shaders.iter().any(|shader| shader.contains(&format!("struct {name} {{"))) {
+                    text.push_str(&uniforms.declared());
+                }
                 let _ = writeln!(text, "@group(0) @binding({at}) var<uniform> {variable}: {name};");
             }
         }

@@ -1,11 +1,17 @@
 //! Every shader is parsed, validated and compared with the host, without a GPU.
 
+mod common;
+
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex};
 
 use naga::valid::{Capabilities, GlobalUse, ModuleInfo, ValidationFlags, Validator};
 use naga::{AddressSpace, ArraySize, Module, Scalar, StructMember, TypeInner, VectorSize};
+use weald::engine::device::{Device, Loaded};
 use weald::engine::program::{GROUP, MAX_BUFFERS, Pass, Program, Uniforms};
+use weald::engine::{Engine, Job, Unwatched};
+use weald::grid::Mask;
 use weald::grow::SHADERS;
 use weald::grow::grass::{Bend, Grasses, SPECIES};
 use weald::grow::ifs::device::{DispatchRange, Rules};
@@ -13,13 +19,56 @@ use weald::grow::ifs::shader::Shader;
 use weald::grow::ifs::wind::{Plant, Pose};
 use weald::grow::ifs::{Game, Sway, shapes};
 use weald::picture::{Stage, View};
-use weald::{Domain, Field, Landscape, Size};
+use weald::{Domain, Error, Field, Landscape, Size};
 
 /// Every program of the library.
 fn programs() -> Vec<Program> {
     let mut programs = weald::erode::programs();
     programs.extend(weald::generate::programs());
+    programs.extend(programs_of_steps());
     programs
+}
+
+/// A device that keeps the programs it is given and runs none.
+#[derive(Clone, Debug, Default)]
+struct Keeper(Arc<Mutex<Vec<Program>>>);
+
+impl Device for Keeper {
+    fn adapter(&self) -> String {
+        "a device that runs nothing".to_owned()
+    }
+
+    fn memory(&self) -> u64 {
+        1 << 30
+    }
+
+    fn largest_buffer(&self) -> u64 {
+        1 << 28
+    }
+
+    fn load(&self, program: &Program, _: Size) -> Result<Box<dyn Loaded>, Error> {
+        self.0.lock().expect("one thread").push(program.clone());
+        Err(Error::Device("it runs nothing".to_owned()))
+    }
+}
+
+/// What the processes that run alone give a device, on ground with and without data everywhere.
+fn programs_of_steps() -> Vec<Program> {
+    let keeper = Keeper::default();
+    let whole = common::layered(common::rough(8, 8, 5.0, 1));
+    let mut masked = whole.clone();
+    masked.domain.valid = Mask::new(masked.domain.size, (0..64).map(|at| at % 7 != 3).collect());
+    for ground in [whole, masked] {
+        for step in weald::erode::processes() {
+            let engine = Engine::Device(Arc::new(keeper.clone()));
+            let job = Job { seed: 1, engine, watcher: &Unwatched, resume: None };
+            let refused = step.run(&mut ground.clone(), &job);
+            assert!(matches!(refused, Err(Error::Device(_))), "{step:?}: {refused:?}");
+        }
+    }
+    let programs = keeper.0.lock().expect("one thread");
+    assert_eq!(programs.len(), 2 * weald::erode::processes().len());
+    programs.clone()
 }
 
 /// Every different module: its text, one program that has it, and the pass.

@@ -1,5 +1,6 @@
 //! Programs written down part by part, with buffers called by their names.
 
+use super::mentions::{Mention, mention};
 use super::{Buffer, Content, Pass, Program, Shown, Uniforms};
 
 /// A program in the making.
@@ -84,6 +85,23 @@ impl ProgramBuilder {
         };
         self.program.passes.push(pass);
         self.program.passes.last_mut().expect("it was just added")
+    }
+
+    /// Adds a pass that is made of these shaders. What it reads, writes and counts is what their text says.
+    pub fn pass_of(&mut self, name: &'static str, shaders: &[&'static str]) -> &mut Pass {
+        let text = shaders.concat();
+        let mut named = [Vec::new(), Vec::new()];
+        for (number, buffer) in self.program.buffers.iter().enumerate() {
+            match mention(&text, buffer.name) {
+                Mention::Never => {}
+                Mention::Reads => named[0].push(number),
+                Mention::Writes => named[1].push(number),
+            }
+        }
+        let pass = self.pass(name, shaders, &[], &[]);
+        [pass.reads, pass.writes] = named;
+        pass.tallies = text.contains("tally(");
+        pass
     }
 
     /// Says which buffers hold the ground, `base` and what is added to it, and the water on it.

@@ -28,6 +28,14 @@ pub trait Process: Sync {
     fn constant_planes(&self) -> usize;
     /// Rows by which a step's output lies behind its input.
     fn lag(&self) -> usize;
+    /// Rows of its input and its constants, behind the newest one, that it looks back at.
+    fn look_back(&self) -> usize {
+        self.lag()
+    }
+    /// Rows by which it begins its output behind the newest one of its input.
+    fn begins(&self) -> usize {
+        self.lag()
+    }
     /// Farthest row that a row of the output depends on.
     fn reach(&self) -> usize {
         self.lag() + 1
@@ -126,12 +134,12 @@ impl<P: Process> Chain<P> {
     /// Memory for passages of up to `steps` steps.
     pub fn new(process: &P, columns: usize, steps: usize) -> Self {
         let rings = |count, depth| (0..count).map(|_| Ring::new(columns, depth)).collect::<Vec<_>>();
-        // A stage that writes a plane `n` rows behind the newest one begins a row `lag - n` rows before the next
-        // step takes it in, so that the next step may look back at it for `n` rows and no more. Rings of debug
-        // builds watch over that. Constants serve all steps of the passage.
-        let window = process.lag() + 1;
+        // A row may be begun before the next step takes it in, and is looked back at after it did. Constants serve
+        // all steps of the passage. Rings of debug builds watch over that.
+        let window = process.lag() - process.begins() + process.look_back() + 1;
+        let passage = steps.saturating_sub(1) * process.lag() + process.look_back() + 1;
         Self {
-            constants: rings(process.constant_planes(), steps * process.lag() + 1),
+            constants: rings(process.constant_planes(), passage),
             between: (0..=steps).map(|_| rings(process.state_planes(), window)).collect(),
             scratch: (0..steps).map(|_| process.scratch(columns)).collect(),
         }

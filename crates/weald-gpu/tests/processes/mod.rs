@@ -1,10 +1,8 @@
 //! Every process, and the grounds that all engines run them on.
 
-use weald::erode::dissolution_step::DissolutionStep;
 use weald::erode::hydraulic::{Boundary, Hydraulic, Model, Transport, UptakeLaw};
-use weald::erode::slippage_step::SlippageStep;
 use weald::erode::thermal::Scheme;
-use weald::erode::thermal_step::{Thermal, ThermalWithin};
+use weald::erode::thermal_step::ThermalWithin;
 use weald::grid::Mask;
 use weald::recipe::parameter::{LayerName, Nested};
 use weald::step::Step;
@@ -36,19 +34,10 @@ fn stava(iterations: u32) -> Hydraulic {
     with_short_seasons(common::stava(iterations))
 }
 
-/// Every process in every variant that has code of its own.
+/// Every process in every variant that has code of its own: those that run alone, and the models of water.
 pub(crate) fn processes() -> Vec<Box<dyn Step>> {
-    let mut all: Vec<Box<dyn Step>> = Vec::new();
+    let mut all = weald::erode::processes();
     let schemes = [Scheme::Axis, Scheme::Isotropic, Scheme::IsotropicSymmetric];
-    for scheme in schemes {
-        all.push(Box::new(Thermal {
-            scheme,
-            iterations: STEPS,
-            talus: 0.3,
-            strength: 0.2,
-            ..Thermal::default()
-        }));
-    }
     for model in [hydraulic(STEPS), mei(STEPS)] {
         for transport in [Transport::Upwind, Transport::SemiLagrangian, Transport::MacCormack] {
             for boundary in [Boundary::Closed, Boundary::Open] {
@@ -102,19 +91,7 @@ fn processes_of_stava() -> Vec<Box<dyn Step>> {
             all.push(with!(stava.clone(), [Stava] { transport: transport, viscosity: viscosity }));
         }
     }
-    let mut all: Vec<Box<dyn Step>> =
-        all.into_iter().map(|step| -> Box<dyn Step> { Box::new(step) }).collect();
-    for softening in [false, true] {
-        all.push(Box::new(SlippageStep {
-            strength: 0.06,
-            softening,
-            iterations: 15,
-            ..SlippageStep::default()
-        }));
-    }
-    let water = LayerName::of("painted");
-    all.push(Box::new(DissolutionStep { water, iterations: 15, ..DissolutionStep::default() }));
-    all
+    all.into_iter().map(|step| -> Box<dyn Step> { Box::new(step) }).collect()
 }
 
 /// Each model once, with thermal weathering or all of its processes.

@@ -190,7 +190,7 @@ impl Process for Dissolving {
     fn program(&self) -> Program {
         let numbers = StavaNumbers::of(Some(&self.dissolution), None);
         let deposit = (self.planes, self.dissolution.digging.deposit);
-        let mut draft = program::draft("dissolution", &numbers, deposit, &self.links);
+        let mut draft = program::draft("dissolution", &numbers, deposit, self.links.planes() > 0);
         let water = self.planes.count() + 1 + self.links.planes();
         draft.buffer("water", 1, Content::Constant(vec![water]));
         self.dissolution.add_buffers_to(&mut draft);
@@ -215,4 +215,10 @@ impl Process for Dissolving {
         }
         self.dissolution.creep(&rows, scratch, &mut flow.output[REGOLITH_PLANE..]);
     }
+}
+
+/// The step in every variant that has code of its own.
+pub(super) fn variants() -> Vec<Box<dyn Step>> {
+    let water = LayerName::of("painted");
+    vec![Box::new(DissolutionStep { water, iterations: 15, ..DissolutionStep::default() })]
 }

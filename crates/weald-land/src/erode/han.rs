@@ -119,7 +119,7 @@ impl Process for Han {
             found: ring(2),
             face_east: ring(1),
             face_south: ring(2),
-            settled: Settled::new(columns),
+            settled: Settled::new(columns, self.setting.slide.as_ref()),
             tally: [Ring::new(columns, 1), Ring::new(columns, 1)],
             still: Ring::still(columns),
         }

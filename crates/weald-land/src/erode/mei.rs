@@ -112,7 +112,7 @@ impl Process for Mei {
             sine_east: ring(2),
             sine_south: ring(3),
             concentration: ring(3),
-            settled: Settled::new(columns),
+            settled: Settled::new(columns, self.setting.slide.as_ref()),
             tally: [Ring::new(columns, 1), Ring::new(columns, 1)],
             still: Ring::still(columns),
         }

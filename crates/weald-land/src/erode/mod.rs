@@ -7,6 +7,9 @@
 //! at once. Each process is also a program for a compute device, of shaders that stand beside its kernels.
 
 mod advection;
+#[cfg(test)]
+#[path = "../../tests/worked_example/creep.rs"]
+pub mod creep;
 pub mod dissolution_step;
 mod edits;
 mod extent;
@@ -17,8 +20,11 @@ pub mod hydraulic;
 mod links;
 mod look;
 mod mei;
+mod on_ground;
 mod pace;
+mod pipeline;
 mod pipes;
+mod processes;
 mod programs;
 mod saved;
 mod setting;
@@ -36,6 +42,7 @@ pub mod transport_step;
 mod upwind;
 mod working;
 
+pub use processes::processes;
 pub use programs::programs;
 
 use weald_engine::stencil::ring::Ring;

@@ -10,7 +10,6 @@ use super::links::Links;
 use super::mei::{Mei, MeiConstants};
 use super::setting::Setting;
 use super::thermal::{Scheme, Slide, SlideConstants};
-use super::thermal_step::Sliding;
 use super::transport_step::Carrying;
 use weald_core::grid::Size;
 use weald_engine::program::Program;
@@ -18,12 +17,6 @@ use weald_engine::stencil::chain::Process;
 
 /// The programs of every process in every variant that has passes or switches of its own.
 pub fn programs() -> Vec<Program> {
-    let sliding = [false, true].into_iter().flat_map(|masked| {
-        slides().into_iter().flatten().map(move |slide| {
-            let process = Sliding { slide, links: links(masked), arch: Arch::new() };
-            process.program()
-        })
-    });
     let water = settings().flat_map(|setting| {
         let limited = [true, false].into_iter().map(move |limiter| (setting, limiter));
         limited.flat_map(|variant| [1.0, 0.5].map(|deposit_ratio| (variant, deposit_ratio)))
@@ -40,7 +33,7 @@ pub fn programs() -> Vec<Program> {
         advections()
             .map(move |advection| Carrying { advection, links: links(masked), arch: Arch::new() }.program())
     });
-    sliding.chain(carrying).chain(models).chain(layered::programs()).collect()
+    carrying.chain(models).chain(layered::programs()).collect()
 }
 
 const HAN: HanConstants = HanConstants {
@@ -69,12 +62,14 @@ struct Variant {
     masked: bool,
     open: bool,
     advection: Option<Advection>,
-    slide: Option<Slide>,
+    slide: Option<Scheme>,
 }
 
 impl Variant {
     fn made(self) -> Setting {
         let Self { masked, open, advection, slide } = self;
+        let constants = SlideConstants { talus: 0.8, strength: 0.05 };
+        let slide = slide.map(|scheme| Slide::new(scheme, constants));
         Setting { links: links(masked), open, advection, slide, arch: Arch::new() }
     }
 }
@@ -94,10 +89,8 @@ fn advections() -> impl Iterator<Item = Advection> + Clone {
     [Advection::SemiLagrangian, Advection::MacCormack, conserving].into_iter()
 }
 
-fn slides() -> [Option<Slide>; 4] {
-    let constants = SlideConstants { talus: 0.8, strength: 0.05 };
-    let slide = |scheme| Some(Slide { scheme, constants });
-    [None, slide(Scheme::Axis), slide(Scheme::Isotropic), slide(Scheme::IsotropicSymmetric)]
+fn slides() -> [Option<Scheme>; 4] {
+    [None, Some(Scheme::Axis), Some(Scheme::Isotropic), Some(Scheme::IsotropicSymmetric)]
 }
 
 fn links(masked: bool) -> Links {

@@ -7,10 +7,11 @@ use pulp::Arch;
 
 use super::advection::{Advection, AdvectionRows, AdvectionScratch};
 use super::links::Links;
+use super::pipeline::{PipelineRows, PipelineScratch};
 use super::pipes::Drain;
 use super::sums;
 use super::sweep::Sweep;
-use super::thermal::{Slide, SlideRows, SlideScratch};
+use super::thermal::Slide;
 use weald_core::grid::Size;
 use weald_engine::stencil::chain::{Flow, Process};
 use weald_engine::stencil::ring::Ring;
@@ -45,20 +46,20 @@ pub(crate) struct Settled {
     /// Velocities, or the fluxes themselves for transport in flux form.
     pub(crate) eastward: Ring,
     pub(crate) southward: Ring,
-    slide: SlideScratch,
+    slide: Option<PipelineScratch>,
     advection: AdvectionScratch,
 }
 
 impl Settled {
-    pub(crate) fn new(columns: usize) -> Self {
+    pub(crate) fn new(columns: usize, slide: Option<&Slide>) -> Self {
         let ring = |depth| Ring::new(columns, depth);
         Self {
-            change: ring(3),
+            change: ring(slide.map_or(0, |slide| slide.pipeline.look_back()) + 1),
             sediment: ring(4),
             depth: ring(2),
             eastward: ring(3),
             southward: ring(3),
-            slide: SlideScratch::new(columns),
+            slide: slide.map(|slide| slide.pipeline.scratch(columns)),
             advection: AdvectionScratch::new(columns),
         }
     }
@@ -67,7 +68,7 @@ impl Settled {
 impl Setting {
     /// The same over a part of the domain.
     pub(crate) fn sized(&self, size: Size) -> Self {
-        Self { links: self.links.sized(size), ..*self }
+        Self { links: self.links.sized(size), slide: self.slide.clone(), ..*self }
     }
 
     /// Planes that stay: the ground of the start and what the links need.
@@ -77,7 +78,10 @@ impl Setting {
 
     /// Rows by which the output lies behind the exchange, where upwind transport after it takes `upwind`.
     pub(crate) fn lag(&self, upwind: usize) -> usize {
-        self.slide.map_or(0, Slide::lag).max(self.advection.map_or(upwind, Advection::lag))
+        self.slide
+            .as_ref()
+            .map_or(0, |slide| slide.pipeline.lag())
+            .max(self.advection.map_or(upwind, Advection::lag))
     }
 
     /// The sweep of a part that reads rows up to `newest`.
@@ -94,14 +98,11 @@ impl Setting {
     where
         P: Process<Scratch: AsMut<Settled>>,
     {
-        let Some(slide) = self.slide else { return };
+        let Some(slide) = &self.slide else { return };
         let sweep = self.sweep(flow, settled);
-        let rows = flow.scratch.as_mut();
-        slide.advance(
-            &SlideRows { base: &flow.constants[0], change: &rows.change, sweep },
-            &mut rows.slide,
-            &mut flow.output[plane::CHANGE],
-        );
+        let Settled { change, slide: Some(scratch), .. } = flow.scratch.as_mut() else { return };
+        let rows = PipelineRows { input: std::slice::from_ref(change), sweep: &sweep };
+        slide.pipeline.advance(&rows, scratch, std::slice::from_mut(&mut flow.output[plane::CHANGE]));
     }
 
     /// Whether sediment goes with the fluxes of the water and not by its velocity.

@@ -1,25 +1,20 @@
 //! The `slippage` step: every material slides off slopes steeper than its talus.
 
-use pulp::Arch;
-
 use super::hydraulic::deposit_of;
-use super::links::Links;
+use super::pipeline::Stepped;
 use super::simulation::Simulation;
 use super::stack::Column;
 use super::stava::planes::Planes;
 use super::stava::program::{self, StavaNumbers};
-use super::stava::slippage::{Slippage, SlippageRows, SlippageScratch};
-use super::sweep::Sweep;
+use super::stava::slippage::Slippage;
 use super::working::WorkingGrid;
 use weald_core::error::Error;
-use weald_core::grid::Size;
 use weald_core::landscape::Landscape;
 use weald_core::material::Material;
 use weald_core::parameter::{Fault, LayerName};
 use weald_core::parameters;
 use weald_engine::Job;
 use weald_engine::program::Program;
-use weald_engine::stencil::chain::{Flow, Process};
 use weald_engine::step::{Entry, Layered, Outcome, Stage, Step};
 
 parameters! {
@@ -47,18 +42,18 @@ parameters! {
 }
 
 impl SlippageWithin {
-    /// The method's constants for these materials.
+    /// The method for these materials, which stand in these planes.
     ///
     /// # Errors
     /// [`Error::Run`] for a strength that is unstable with so many.
-    pub(crate) fn slippage(&self, materials: &[Material]) -> Result<Slippage, Error> {
+    pub(crate) fn slippage(&self, materials: &[Material], planes: Planes) -> Result<Slippage, Error> {
         if let Some(fault) = self.fault_among(materials) {
             return Err(Error::Run(fault.message));
         }
         let tangent =
             |material: &Material| libm::tan(material.talus_deg.clamp(0.0, 90.0).to_radians()).max(0.0) as f32;
         let talus = materials.iter().map(tangent).collect();
-        Ok(Slippage { talus, strength: self.strength as f32, softening: self.softening })
+        Ok(Slippage::new(planes, talus, self.strength as f32, self.softening))
     }
 
     /// Materials slide at once, so the share of each is bounded by their number.
@@ -101,14 +96,15 @@ impl Step for SlippageStep {
     }
 
     fn run(&self, landscape: &mut Landscape, job: &Job<'_>) -> Result<Outcome, Error> {
-        let slippage = self.within().slippage(&landscape.materials)?;
-        let mut working = WorkingGrid::new(landscape, &self.layer.0, false)?;
         let planes = Planes { first_layer: 1, materials: landscape.materials.len() };
+        let slippage = self.within().slippage(&landscape.materials, planes)?;
+        let mut working = WorkingGrid::new(landscape, &self.layer.0, false)?;
         let column = Column { planes, regolith: None };
         let deposit = deposit_of(None, &landscape.materials).map_err(Error::Run)?;
         working.set_stack(landscape, column, deposit)?;
-        let links = Links::new(working.size, working.mask.is_some());
-        let process = Slipping { slippage, planes, links, arch: Arch::new() };
+        let masked = working.mask.is_some();
+        let program = program(&slippage, planes, masked);
+        let process = Stepped::with_program(&slippage.pipeline, (working.size, masked), program);
         let plane_names: Vec<_> =
             std::iter::once("change".to_owned()).chain(column.names(&landscape.materials)).collect();
         let simulation = Simulation::alone(&process, &plane_names, self.iterations);
@@ -125,52 +121,18 @@ impl SlippageStep {
     }
 }
 
-/// Slippage alone as a stream of rows.
-pub(super) struct Slipping {
-    pub(super) slippage: Slippage,
-    pub(super) planes: Planes,
-    pub(super) links: Links,
-    pub(super) arch: Arch,
+/// Slippage alone as compute passes.
+pub(super) fn program(slippage: &Slippage, planes: Planes, masked: bool) -> Program {
+    let numbers = StavaNumbers::of(None, Some(slippage));
+    let mut draft = program::draft("slippage", &numbers, (planes, 0), masked);
+    slippage.add_to(&mut draft, planes.materials);
+    draft.shows("column", None);
+    draft.finish(slippage.pipeline.reach())
 }
 
-impl Process for Slipping {
-    type Weather = ();
-    type Scratch = SlippageScratch;
-
-    fn state_planes(&self) -> usize {
-        self.planes.count()
-    }
-
-    fn constant_planes(&self) -> usize {
-        1 + self.links.planes()
-    }
-
-    fn lag(&self) -> usize {
-        self.slippage.lag()
-    }
-
-    fn scratch(&self, columns: usize) -> SlippageScratch {
-        SlippageScratch::new(columns, self.planes.materials)
-    }
-
-    fn sized(&self, size: Size) -> Self {
-        Self { slippage: self.slippage.clone(), links: self.links.sized(size), ..*self }
-    }
-
-    fn program(&self) -> Program {
-        let numbers = StavaNumbers::of(None, Some(&self.slippage));
-        let mut draft = program::draft("slippage", &numbers, (self.planes, 0), &self.links);
-        self.slippage.add_to(&mut draft, self.planes.materials);
-        draft.shows("column", None);
-        draft.finish(self.reach())
-    }
-
-    fn advance(&self, flow: &mut Flow<'_, Self>) {
-        let sweep = Sweep::of(flow, &self.links, self.arch, Some(flow.y));
-        self.slippage.advance(
-            &SlippageRows { solid: flow.input, base: &flow.constants[0], sweep },
-            flow.scratch,
-            (self.planes, flow.output),
-        );
-    }
+/// The step in every variant that has code of its own.
+pub(super) fn variants() -> Vec<Box<dyn Step>> {
+    let slipping =
+        |softening| SlippageStep { strength: 0.06, softening, iterations: 15, ..SlippageStep::default() };
+    [false, true].map(|softening| -> Box<dyn Step> { Box::new(slipping(softening)) }).into()
 }

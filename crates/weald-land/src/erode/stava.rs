@@ -23,9 +23,10 @@ mod weather;
 use digging::{DigScratch, Digging};
 use dissolution::{Dissolution, DissolutionScratch, RegolithRows};
 use planes::Planes;
-use slippage::{Slippage, SlippageRows, SlippageScratch};
+use slippage::Slippage;
 use viscosity::{Viscosity, ViscosityRows, ViscosityScratch};
 
+use super::pipeline::{PipelineRows, PipelineScratch};
 use super::setting::{Setting, Settled};
 use super::simulation::Forcing;
 use weald_core::grid::Size;
@@ -80,7 +81,7 @@ pub(crate) struct StavaScratch {
     solid: Vec<Ring>,
     dig: DigScratch,
     dissolution: DissolutionScratch,
-    slippage: SlippageScratch,
+    slippage: Option<PipelineScratch>,
     tally: [Ring; 2],
     ones: Ring,
     still: Ring,
@@ -110,7 +111,7 @@ impl Process for Stava {
 
     fn lag(&self) -> usize {
         let dissolution = self.dissolution.as_ref().map_or(0, |_| Dissolution::LAG);
-        let slippage = self.slippage.as_ref().map_or(0, Slippage::lag);
+        let slippage = self.slippage.as_ref().map_or(0, |slippage| slippage.pipeline.lag());
         self.exchanged() + self.setting.lag(1).max(dissolution).max(slippage)
     }
 
@@ -129,11 +130,11 @@ impl Process for Stava {
             southward: ring(3),
             viscosity: ViscosityScratch::new(columns),
             concentration: ring(3),
-            settled: Settled::new(columns),
+            settled: Settled::new(columns, None),
             solid: (0..self.planes.materials).map(|_| ring(4)).collect(),
             dig: DigScratch::new(columns),
             dissolution: DissolutionScratch::new(columns),
-            slippage: SlippageScratch::new(columns, self.planes.materials),
+            slippage: self.slippage.as_ref().map(|slippage| slippage.pipeline.scratch(columns)),
             tally: [ring(1), ring(1)],
             ones,
             still: Ring::still(columns),
@@ -226,17 +227,14 @@ impl Stava {
         let newest = flow.y.checked_sub(self.exchanged());
         let sweep = self.setting.sweep(flow, newest);
         let StavaScratch { solid, slippage: scratch, .. } = &mut *flow.scratch;
-        let Some(slippage) = &self.slippage else {
+        let (Some(slippage), Some(scratch)) = (&self.slippage, scratch) else {
             if let Some(y) = newest.filter(|y| flow.span.contains(y)) {
                 self.planes.copy(solid, flow.output, y);
             }
             return;
         };
-        slippage.advance(
-            &SlippageRows { solid, base: &flow.constants[0], sweep },
-            scratch,
-            (self.planes, flow.output),
-        );
+        let rows = PipelineRows { input: solid, sweep: &sweep };
+        slippage.pipeline.advance(&rows, scratch, flow.output);
     }
 }
 

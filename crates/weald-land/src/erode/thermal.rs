@@ -12,12 +12,11 @@
 //!
 //! All conserve the ground, and are stable for `K_t` up to 1/4.
 
-mod program;
+use std::sync::Arc;
 
-use super::sweep::Sweep;
+use super::pipeline::{Equations, Pipeline};
 use weald_core::choices;
 use weald_engine::kernel;
-use weald_engine::stencil::ring::Ring;
 use weald_engine::uniform;
 
 choices! {
@@ -43,19 +42,17 @@ uniform! {
 }
 
 /// The method.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub(crate) struct Slide {
-    pub(crate) scheme: Scheme,
     pub(crate) constants: SlideConstants,
+    pub(crate) pipeline: Arc<Pipeline>,
 }
 
 kernel! {
     /// Ground of a row.
     pub(crate) struct Ground {
         reads { base, change }
-        updates {}
         writes { ground }
-        constants {}
     }
     fn cell() {
         ground = base + change;
@@ -72,7 +69,6 @@ kernel! {
     /// The axis scheme: what slides east and south.
     pub(crate) struct Axis {
         reads { ground, ground_east, ground_south, link_east, link_south }
-        updates {}
         writes { to_east, to_south }
         constants { talus: f32, strength: f32 }
     }
@@ -93,7 +89,6 @@ kernel! {
     /// The isotropic scheme: what slides east and south in the triangle of a cell.
     pub(crate) struct Triangle {
         reads { ground, ground_east, ground_south, link_east, link_south }
-        updates {}
         writes { to_east, to_south }
         constants { talus: f32, strength: f32 }
     }
@@ -113,7 +108,6 @@ kernel! {
             ground, ground_east, ground_west, ground_south, ground_north,
             link_east, link_west, link_south, link_north,
         }
-        updates {}
         writes { share_east, share_west, share_south, share_north }
         constants { talus: f32, strength: f32 }
     }
@@ -134,161 +128,40 @@ kernel! {
 kernel! {
     /// The symmetric scheme: each edge slides by the mean of the triangles at its two ends.
     pub(crate) struct MeanSlide {
-        reads { ground, ground_east, ground_south, from_west, from_east, from_north, from_south }
-        updates {}
+        reads {
+            ground, ground_east, ground_south, share_east, share_west_east, share_south, share_north_south,
+        }
         writes { to_east, to_south }
-        constants {}
     }
     fn cell() {
-        to_east = (ground - ground_east) * ((from_west + from_east) * 0.25);
-        to_south = (ground - ground_south) * ((from_north + from_south) * 0.25);
+        to_east = (ground - ground_east) * ((share_east + share_west_east) * 0.25);
+        to_south = (ground - ground_south) * ((share_south + share_north_south) * 0.25);
     }
 }
 
 kernel! {
     /// Adds what came and takes what went.
     pub(crate) struct Apply {
-        reads { before, to_east, from_west, to_south, from_north }
-        updates {}
+        reads { before, to_east, to_east_west, to_south, to_south_north }
         writes { change }
-        constants {}
     }
     fn cell() {
-        change = before + ((from_west - to_east) + (from_north - to_south));
+        change = before + ((to_east_west - to_east) + (to_south_north - to_south));
     }
-}
-
-/// Rows in flight within the sliding.
-pub(crate) struct SlideScratch {
-    ground: Ring,
-    shares: [Ring; 4],
-    to_east: Ring,
-    to_south: Ring,
-    still: Ring,
-}
-
-impl SlideScratch {
-    pub(crate) fn new(columns: usize) -> Self {
-        let ring = |depth| Ring::new(columns, depth);
-        Self {
-            ground: ring(3),
-            shares: [ring(2), ring(2), ring(2), ring(2)],
-            to_east: ring(1),
-            to_south: ring(2),
-            still: Ring::still(columns),
-        }
-    }
-}
-
-/// What the sliding reads.
-pub(crate) struct SlideRows<'a> {
-    pub(crate) base: &'a Ring,
-    pub(crate) change: &'a Ring,
-    pub(crate) sweep: Sweep<'a>,
 }
 
 impl Slide {
-    /// Rows by which the output lies behind the newest input.
-    pub(crate) fn lag(self) -> usize {
-        match self.scheme {
-            Scheme::Axis | Scheme::Isotropic => 1,
-            Scheme::IsotropicSymmetric => 2,
-        }
+    /// The method, with its equations in their order.
+    pub(crate) fn new(scheme: Scheme, constants: SlideConstants) -> Self {
+        let mut equations = Equations::new(&["base"], &[("settled", "change")], &constants);
+        equations.kernel_on::<Ground>(&[("change", "settled")]);
+        match scheme {
+            Scheme::Axis => equations.kernel::<Axis>(),
+            Scheme::Isotropic => equations.kernel::<Triangle>(),
+            Scheme::IsotropicSymmetric => equations.kernel::<FourTriangles>().kernel::<MeanSlide>(),
+        };
+        equations.kernel_on::<Apply>(&[("before", "settled")]);
+        equations.count("SCHEME", scheme as usize).pass("slide", include_str!("thermal.wgsl"));
+        Self { constants, pipeline: equations.finish() }
     }
-
-    /// Slides the next row that is ready.
-    pub(crate) fn advance(self, rows: &SlideRows<'_>, scratch: &mut SlideScratch, output: &mut Ring) {
-        if let Some(y) = rows.sweep.behind(0) {
-            let ground = scratch.ground.here_mut(y);
-            Ground { base: rows.base.here(y), change: rows.change.here(y), ground }.run(rows.sweep.arch);
-        }
-        if self.scheme == Scheme::IsotropicSymmetric
-            && let Some(y) = rows.sweep.behind(1)
-        {
-            self.four_triangles(rows, scratch, y);
-        }
-        if let Some(y) = rows.sweep.behind(self.lag()) {
-            match self.scheme {
-                Scheme::Axis | Scheme::Isotropic => self.forward(rows, scratch, y),
-                Scheme::IsotropicSymmetric => mean_slide(rows, scratch, y),
-            }
-            apply(rows, scratch, y, output);
-        }
-    }
-
-    /// What slides from row `y` by one of the kernels that look east and south alone.
-    fn forward(self, rows: &SlideRows<'_>, scratch: &mut SlideScratch, y: usize) {
-        let links = rows.sweep.links(y);
-        macro_rules! slide {
-            ($Kernel:ident) => {
-                $Kernel {
-                    ground: scratch.ground.here(y),
-                    ground_east: scratch.ground.east(y),
-                    ground_south: scratch.ground.here(rows.sweep.next(y)),
-                    link_east: links.east,
-                    link_south: links.south,
-                    to_east: scratch.to_east.here_mut(y),
-                    to_south: scratch.to_south.here_mut(y),
-                    talus: self.constants.talus,
-                    strength: self.constants.strength,
-                }
-                .run(rows.sweep.arch)
-            };
-        }
-        if self.scheme == Scheme::Axis { slide!(Axis) } else { slide!(Triangle) }
-    }
-
-    fn four_triangles(self, rows: &SlideRows<'_>, scratch: &mut SlideScratch, y: usize) {
-        let links = rows.sweep.links(y);
-        let [share_east, share_west, share_south, share_north] = &mut scratch.shares;
-        let previous = rows.sweep.previous(y);
-        FourTriangles {
-            ground: scratch.ground.here(y),
-            ground_east: scratch.ground.east(y),
-            ground_west: scratch.ground.west(y),
-            ground_south: scratch.ground.here(rows.sweep.next(y)),
-            ground_north: scratch.ground.here(previous),
-            link_east: links.east,
-            link_west: links.west,
-            link_south: links.south,
-            link_north: links.north,
-            share_east: share_east.here_mut(y),
-            share_west: share_west.here_mut(y),
-            share_south: share_south.here_mut(y),
-            share_north: share_north.here_mut(y),
-            talus: self.constants.talus,
-            strength: self.constants.strength,
-        }
-        .run(rows.sweep.arch);
-    }
-}
-
-fn mean_slide(rows: &SlideRows<'_>, scratch: &mut SlideScratch, y: usize) {
-    let [share_east, share_west, share_south, share_north] = &scratch.shares;
-    MeanSlide {
-        ground: scratch.ground.here(y),
-        ground_east: scratch.ground.east(y),
-        ground_south: scratch.ground.here(rows.sweep.next(y)),
-        from_west: share_east.here(y),
-        from_east: share_west.east(y),
-        from_north: share_south.here(y),
-        from_south: share_north.here(rows.sweep.next(y)),
-        to_east: scratch.to_east.here_mut(y),
-        to_south: scratch.to_south.here_mut(y),
-    }
-    .run(rows.sweep.arch);
-}
-
-fn apply(rows: &SlideRows<'_>, scratch: &SlideScratch, y: usize, output: &mut Ring) {
-    let SlideScratch { to_east, to_south, still, .. } = scratch;
-    let from_north = if y > rows.sweep.span.start { to_south.here(y - 1) } else { still.here(0) };
-    Apply {
-        before: rows.change.here(y),
-        to_east: to_east.here(y),
-        from_west: to_east.west(y),
-        to_south: to_south.here(y),
-        from_north,
-        change: output.here_mut(y),
-    }
-    .run(rows.sweep.arch);
 }

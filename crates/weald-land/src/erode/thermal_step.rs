@@ -1,22 +1,12 @@
 //! The `thermal` step: gravity lays steep ground to rest.
 
-mod program;
-
-use pulp::Arch;
-
-use super::links::Links;
-use super::simulation::{Finished, Simulation};
-use super::sweep::Sweep;
-use super::thermal::{Scheme, Slide, SlideConstants, SlideRows, SlideScratch};
-use super::working::WorkingGrid;
+use super::on_ground::OnGround;
+use super::thermal::{Scheme, Slide, SlideConstants};
 use weald_core::error::Error;
-use weald_core::grid::Size;
 use weald_core::landscape::Landscape;
 use weald_core::parameter::LayerName;
 use weald_core::parameters;
 use weald_engine::Job;
-use weald_engine::program::Program;
-use weald_engine::stencil::chain::{Flow, Process};
 use weald_engine::step::{Entry, Outcome, Stage, Step};
 
 parameters! {
@@ -51,7 +41,7 @@ impl ThermalWithin {
     /// The method's constants.
     pub(crate) fn slide(&self) -> Slide {
         let constants = SlideConstants { talus: self.talus as f32, strength: self.strength as f32 };
-        Slide { scheme: self.scheme, constants }
+        Slide::new(self.scheme, constants)
     }
 }
 
@@ -77,66 +67,16 @@ impl Step for Thermal {
     }
 
     fn run(&self, landscape: &mut Landscape, job: &Job<'_>) -> Result<Outcome, Error> {
-        let working = WorkingGrid::new(landscape, &self.layer.0, false)?;
         let within = ThermalWithin { scheme: self.scheme, talus: self.talus, strength: self.strength };
-        let slide = within.slide();
-        let links = Links::new(working.size, working.mask.is_some());
-        let process = Sliding { slide, links, arch: Arch::new() };
-        let plane_names = ["change".to_owned()];
-        let seen = |finished: &Finished| {
-            let mut seen = landscape.clone();
-            working.store_ground(&mut seen, &self.layer.0, finished, self.watched());
-            seen
-        };
-        let simulation =
-            Simulation { seen: Some(&seen), ..Simulation::alone(&process, &plane_names, self.iterations) };
-        working.show(job)?;
-        let finished = simulation.run(working.state(1, &[]), job)?;
-        Ok(working.store_ground(landscape, &self.layer.0, &finished, self.watched()))
+        let alone = OnGround { name: "thermal", layer: &self.layer.0, iterations: self.iterations };
+        alone.run(&within.slide().pipeline, landscape, job)
     }
 }
 
-/// Thermal weathering alone as a stream of rows.
-pub(crate) struct Sliding {
-    pub(crate) slide: Slide,
-    pub(crate) links: Links,
-    pub(crate) arch: Arch,
-}
-
-impl Process for Sliding {
-    type Weather = ();
-    type Scratch = SlideScratch;
-
-    fn state_planes(&self) -> usize {
-        1
-    }
-
-    fn constant_planes(&self) -> usize {
-        1 + self.links.planes()
-    }
-
-    fn lag(&self) -> usize {
-        self.slide.lag()
-    }
-
-    fn scratch(&self, columns: usize) -> SlideScratch {
-        SlideScratch::new(columns)
-    }
-
-    fn sized(&self, size: Size) -> Self {
-        Self { links: self.links.sized(size), ..*self }
-    }
-
-    fn program(&self) -> Program {
-        self.passes()
-    }
-
-    fn advance(&self, flow: &mut Flow<'_, Self>) {
-        let sweep = Sweep::of(flow, &self.links, self.arch, Some(flow.y));
-        self.slide.advance(
-            &SlideRows { base: &flow.constants[0], change: &flow.input[0], sweep },
-            flow.scratch,
-            &mut flow.output[0],
-        );
-    }
+/// The step in every variant that has code of its own.
+pub(super) fn variants() -> Vec<Box<dyn Step>> {
+    let schemes = [Scheme::Axis, Scheme::Isotropic, Scheme::IsotropicSymmetric];
+    let sliding =
+        |scheme| Thermal { scheme, talus: 0.3, strength: 0.2, iterations: 21, ..Thermal::default() };
+    schemes.map(|scheme| -> Box<dyn Step> { Box::new(sliding(scheme)) }).into()
 }

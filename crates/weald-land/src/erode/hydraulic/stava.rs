@@ -43,7 +43,7 @@ impl Hydraulic {
             viscosity: keys.viscosity_in(landscape.domain.cell),
             erosion: keys.digging(landscape, filled)?,
             dissolution: keys.dissolution_in(landscape, filled)?,
-            slippage: keys.slippage_in(landscape)?,
+            slippage: keys.slippage_in(landscape, column.planes)?,
             setting: self.setting(filled, working),
         };
         let mut plane_names = named(MEI_PLANES);
@@ -99,9 +99,9 @@ impl StavaKeys {
         Ok(Some(within.dissolution(&landscape.materials, deposit, plane::COUNT, numbers)))
     }
 
-    fn slippage_in(&self, landscape: &Landscape) -> Result<Option<Slippage>, Error> {
+    fn slippage_in(&self, landscape: &Landscape, planes: Planes) -> Result<Option<Slippage>, Error> {
         let within = self.slippage.as_ref();
-        within.map(|Nested(within)| within.slippage(&landscape.materials)).transpose()
+        within.map(|Nested(within)| within.slippage(&landscape.materials, planes)).transpose()
     }
 
     fn edits(&self, script: Script, landscape: &Landscape, working: &WorkingGrid) -> Edits {

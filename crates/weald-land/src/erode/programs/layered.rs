@@ -4,7 +4,7 @@ use pulp::Arch;
 
 use super::{links, settings};
 use crate::erode::dissolution_step::Dissolving;
-use crate::erode::slippage_step::Slipping;
+use crate::erode::slippage_step;
 use crate::erode::stava::digging::Digging;
 use crate::erode::stava::dissolution::Dissolution;
 use crate::erode::stava::planes::{Planes, REGOLITH_PLANES};
@@ -28,6 +28,7 @@ fn stava() -> impl Iterator<Item = Program> {
     stacks.map(|((setting, switches), materials)| {
         let on = |bit: u32| switches >> bit & 1 == 1;
         let regolith = if on(0) { REGOLITH_PLANES } else { 0 };
+        let planes = Planes { first_layer: plane::COUNT + regolith, materials };
         let process = Stava {
             constants: StavaConstants {
                 flow_rate: 0.1,
@@ -35,12 +36,12 @@ fn stava() -> impl Iterator<Item = Program> {
                 epsilon: 0.001,
                 velocity_epsilon: 0.0001,
             },
-            planes: Planes { first_layer: plane::COUNT + regolith, materials },
+            planes,
             painted: on(1),
             viscosity: on(2).then(|| Viscosity::new(0.1)),
             erosion: digging(materials),
             dissolution: on(0).then(|| dissolution(plane::COUNT, materials)),
-            slippage: on(3).then(|| slippage(materials, on(2))),
+            slippage: on(3).then(|| slippage(planes, on(2))),
             setting: setting.made(),
         };
         process.program()
@@ -56,13 +57,10 @@ fn alone() -> impl Iterator<Item = Program> {
             links: links(masked),
             arch: Arch::new(),
         };
-        let slipping = [false, true].map(|softening| Slipping {
-            slippage: slippage(materials, softening),
-            planes: Planes { first_layer: 1, materials },
-            links: links(masked),
-            arch: Arch::new(),
-        });
-        slipping.map(|process| process.program()).into_iter().chain([dissolving.program()])
+        let planes = Planes { first_layer: 1, materials };
+        let slipping = [false, true]
+            .map(|softening| slippage_step::program(&slippage(planes, softening), planes, masked));
+        slipping.into_iter().chain([dissolving.program()])
     })
 }
 
@@ -74,6 +72,6 @@ fn dissolution(plane: usize, materials: usize) -> Dissolution {
     Dissolution { plane, most: 0.1, kept: 0.15, flow_rate: 0.1, digging: digging(materials) }
 }
 
-fn slippage(materials: usize, softening: bool) -> Slippage {
-    Slippage { talus: vec![0.7; materials], strength: 0.03, softening }
+fn slippage(planes: Planes, softening: bool) -> Slippage {
+    Slippage::new(planes, vec![0.7; planes.materials], 0.03, softening)
 }

@@ -21,7 +21,7 @@ impl Setting {
         planes: usize,
     ) -> ProgramBuilder {
         let nothing = SlideConstants { talus: 0.0, strength: 0.0 };
-        let constants = constants.followed_by(&self.slide.map_or(nothing, |slide| slide.constants));
+        let constants = constants.followed_by(&self.slide.as_ref().map_or(nothing, |slide| slide.constants));
         let weather = Uniforms::of(&Forcing { rain: 0.0, evaporation: 0.0 });
         let mut draft = ProgramBuilder::new(name, &[FORCING, SUMS, shader], constants, weather);
         draft.flag("OPEN", self.open);
@@ -37,8 +37,8 @@ impl Setting {
 
     /// Adds the sliding, or where there is none makes what settled the change of the ground.
     pub(crate) fn add_slide_to(&self, draft: &mut ProgramBuilder) {
-        match self.slide {
-            Some(slide) => slide.add_to(draft),
+        match &self.slide {
+            Some(slide) => slide.pipeline.add_to(draft),
             None => draft.swap("change", "settled"),
         }
     }

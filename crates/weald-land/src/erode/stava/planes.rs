@@ -53,8 +53,6 @@ kernel! {
     pub(crate) struct Pile {
         reads { thickness }
         updates { ground }
-        writes {}
-        constants {}
     }
     fn cell() {
         ground += thickness;

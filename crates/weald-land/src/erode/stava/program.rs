@@ -8,7 +8,7 @@ use super::planes::Planes;
 use super::slippage::Slippage;
 use super::{Stava, WEATHER_PLANES, plane};
 use crate::erode::advection::{Advected, Advection};
-use crate::erode::links::{Links, plane as links_plane};
+use crate::erode::links::plane as links_plane;
 use crate::erode::simulation::Forcing;
 use weald_core::material::MAX_MATERIALS;
 use weald_engine::program::builder::ProgramBuilder;
@@ -102,7 +102,7 @@ pub(crate) fn draft(
     name: &'static str,
     numbers: &StavaNumbers,
     (planes, deposit): (Planes, usize),
-    links: &Links,
+    masked: bool,
 ) -> ProgramBuilder {
     let weather = if name == "stava" {
         Uniforms::of(&Forcing { rain: 0.0, evaporation: 0.0 })
@@ -117,7 +117,7 @@ pub(crate) fn draft(
     draft.buffer("base", 1, Content::Constant(vec![first_constant]));
     let column = (0..planes.materials).map(|material| planes.of(material)).collect();
     draft.layered("column", planes.materials, Content::State(column));
-    if links.planes() > 0 {
+    if masked {
         draft.mask(first_constant + links_plane::VALID, first_constant + links_plane::ERODIBLE);
     }
     draft
@@ -173,7 +173,7 @@ impl Slippage {
 impl Stava {
     pub(super) fn passes(&self) -> Program {
         let deposit = (self.planes, self.erosion.deposit);
-        let mut draft = draft("stava", &self.numbers(), deposit, &self.setting.links);
+        let mut draft = draft("stava", &self.numbers(), deposit, self.setting.links.planes() > 0);
         draft.flag("OPEN", self.setting.open);
         draft.buffer("carried", 2, Content::State(vec![plane::DEPTH, plane::SEDIMENT]));
         let outflows = vec![plane::EAST, plane::WEST, plane::SOUTH, plane::NORTH];

@@ -10,7 +10,6 @@ kernel! {
             ground, ground_east, ground_west, ground_south, ground_north,
             link_east, link_west, link_south, link_north, neighbour_share,
         }
-        updates {}
         writes { softened }
         constants { talus: f32 }
     }
@@ -30,7 +29,6 @@ kernel! {
         reads {
             ground, ground_east, ground_south, talus, talus_east, talus_south, link_east, link_south,
         }
-        updates {}
         writes { to_east, to_south }
         constants { strength: f32 }
     }
@@ -45,13 +43,12 @@ kernel! {
 kernel! {
     /// What share of what wants to slide off a cell there is.
     pub(crate) struct AvailableShare {
-        reads { thickness, east, west, south, north }
-        updates {}
+        reads { thickness, to_east, to_east_west, to_south, to_south_north }
         writes { share }
-        constants {}
     }
     fn cell() {
-        let outflow = (east.max(0.0) + (-west).max(0.0)) + (south.max(0.0) + (-north).max(0.0));
+        let along = to_east.max(0.0) + (-to_east_west).max(0.0);
+        let outflow = along + (to_south.max(0.0) + (-to_south_north).max(0.0));
         let available = thickness * (1.0 - RETAINED_SHARE);
         share = if outflow > available { available / outflow } else { 1.0 };
     }
@@ -61,18 +58,16 @@ kernel! {
     /// Thickness after what came and went, each by the share of the cell that gives it.
     pub(crate) struct Slid {
         reads {
-            before, to_east, from_west, to_south, from_north,
+            before, to_east, to_east_west, to_south, to_south_north,
             share, share_east, share_west, share_south, share_north,
         }
-        updates {}
         writes { thickness }
-        constants {}
     }
     fn cell() {
         let east = to_east * if to_east > 0.0 { share } else { share_east };
-        let west = from_west * if from_west > 0.0 { share_west } else { share };
+        let west = to_east_west * if to_east_west > 0.0 { share_west } else { share };
         let south = to_south * if to_south > 0.0 { share } else { share_south };
-        let north = from_north * if from_north > 0.0 { share_north } else { share };
+        let north = to_south_north * if to_south_north > 0.0 { share_north } else { share };
         thickness = without_negligible(before + ((west - east) + (north - south)));
     }
 }

@@ -1,0 +1,96 @@
+//! A pipeline as a process of its own.
+
+use std::sync::Arc;
+
+use pulp::Arch;
+
+use super::{Pipeline, PipelineScratch};
+use crate::erode::links::Links;
+use crate::erode::pipeline::running::PipelineRows;
+use crate::erode::sweep::Sweep;
+use weald_core::grid::Size;
+use weald_engine::program::Program;
+use weald_engine::stencil::chain::{Flow, Process};
+
+/// A process that is one pipeline.
+pub(crate) struct Stepped {
+    pipeline: Arc<Pipeline>,
+    program: Arc<Program>,
+    links: Links,
+    arch: Arch,
+}
+
+impl Stepped {
+    /// A pipeline over a domain of that size.
+    pub(crate) fn new(name: &'static str, pipeline: &Arc<Pipeline>, (size, masked): (Size, bool)) -> Self {
+        let program = pipeline.program(name, masked);
+        Self::with_program(pipeline, (size, masked), program)
+    }
+
+    /// The same with a program of its own making.
+    pub(crate) fn with_program(
+        pipeline: &Arc<Pipeline>,
+        (size, masked): (Size, bool),
+        program: Program,
+    ) -> Self {
+        let links = Links::new(size, masked);
+        Self { pipeline: Arc::clone(pipeline), program: Arc::new(program), links, arch: Arch::new() }
+    }
+
+    /// Names of the state planes.
+    pub(crate) fn state_names(&self) -> Vec<String> {
+        self.pipeline.state_names()
+    }
+}
+
+impl Process for Stepped {
+    type Weather = ();
+    type Scratch = PipelineScratch;
+
+    fn state_planes(&self) -> usize {
+        self.pipeline.state.len()
+    }
+
+    fn constant_planes(&self) -> usize {
+        self.pipeline.constants.len() + self.links.planes()
+    }
+
+    fn lag(&self) -> usize {
+        self.pipeline.lag()
+    }
+
+    fn look_back(&self) -> usize {
+        self.pipeline.look_back()
+    }
+
+    fn begins(&self) -> usize {
+        self.pipeline.begins()
+    }
+
+    fn reach(&self) -> usize {
+        self.pipeline.reach()
+    }
+
+    fn scratch(&self, columns: usize) -> PipelineScratch {
+        self.pipeline.scratch(columns)
+    }
+
+    fn sized(&self, size: Size) -> Self {
+        Self {
+            pipeline: Arc::clone(&self.pipeline),
+            program: Arc::clone(&self.program),
+            links: self.links.sized(size),
+            arch: self.arch,
+        }
+    }
+
+    fn program(&self) -> Program {
+        (*self.program).clone()
+    }
+
+    fn advance(&self, flow: &mut Flow<'_, Self>) {
+        let sweep = Sweep::of(flow, &self.links, self.arch, Some(flow.y));
+        let rows = PipelineRows { input: flow.input, sweep: &sweep };
+        self.pipeline.advance(&rows, flow.scratch, flow.output);
+    }
+}

@@ -1,0 +1,121 @@
+//! A pipeline on rows that stream by.
+
+use super::{MAX_CHANGES, MAX_READS, Pipeline, Plane, Stage, source};
+use crate::erode::links::LinkRow;
+use crate::erode::sweep::Sweep;
+use source::{Read, Source};
+use weald_engine::stencil::ring::Ring;
+
+/// Rows in flight within a pipeline.
+pub(crate) struct PipelineScratch {
+    /// One ring a plane; those that leave at once are not used.
+    rings: Vec<Ring>,
+    /// The row beyond a wall.
+    still: Vec<f32>,
+}
+
+/// What a pipeline reads.
+pub(crate) struct PipelineRows<'a> {
+    /// The state planes as the step finds them.
+    pub(crate) input: &'a [Ring],
+    pub(crate) sweep: &'a Sweep<'a>,
+}
+
+impl Plane {
+    /// Rows of it that are in flight.
+    pub(super) fn depth(&self) -> usize {
+        self.oldest.map_or(1, |oldest| oldest - self.behind + 1)
+    }
+}
+
+impl Pipeline {
+    /// Memory for rows of this many cells.
+    pub(crate) fn scratch(&self, columns: usize) -> PipelineScratch {
+        let ring = |plane: &Plane| match plane.output {
+            Some(_) => Ring::new(0, 1),
+            None => Ring::new(columns, plane.depth()),
+        };
+        PipelineScratch { rings: self.planes.iter().map(ring).collect(), still: vec![0.0; columns] }
+    }
+
+    /// Runs every kernel on the next row for which all is there that it reads; `output` has the rows that become
+    /// the state.
+    pub(crate) fn advance(
+        &self,
+        rows: &PipelineRows<'_>,
+        scratch: &mut PipelineScratch,
+        output: &mut [Ring],
+    ) {
+        for stage in &self.stages {
+            if let Some(y) = rows.sweep.behind(stage.behind) {
+                self.run(stage, y, rows, scratch, output);
+            }
+        }
+    }
+
+    fn run(
+        &self,
+        stage: &Stage,
+        y: usize,
+        rows: &PipelineRows<'_>,
+        scratch: &mut PipelineScratch,
+        output: &mut [Ring],
+    ) {
+        let (written, rest) = scratch.rings.split_at_mut(stage.first);
+        let links = stage.linked.then(|| rows.sweep.links(y));
+        let around = Around { rows, written, still: &scratch.still, links, y };
+        let mut reads = [&[][..]; MAX_READS];
+        for (row, read) in reads.iter_mut().zip(&stage.reads) {
+            *row = around.row(*read);
+        }
+        let mut changes: [&mut [f32]; MAX_CHANGES] = std::array::from_fn(|_| <&mut [f32]>::default());
+        let planes = &self.planes[stage.first..][..stage.changes];
+        for ((row, plane), ring) in changes.iter_mut().zip(planes).zip(rest) {
+            if plane.output.is_none() {
+                *row = ring.here_mut(y);
+            }
+        }
+        for (number, ring) in output.iter_mut().enumerate() {
+            if let Some(place) = planes.iter().position(|plane| plane.output == Some(number)) {
+                changes[place] = ring.here_mut(y);
+            }
+        }
+        for (row, read) in changes.iter_mut().zip(&stage.updates) {
+            row.copy_from_slice(around.row(*read));
+        }
+        let (reads, changes) = (&reads[..stage.reads.len()], &mut changes[..stage.changes]);
+        (stage.kernel)(rows.sweep.arch, reads, changes, &stage.constants);
+    }
+}
+
+/// The rows around row `y`.
+struct Around<'a> {
+    rows: &'a PipelineRows<'a>,
+    written: &'a [Ring],
+    still: &'a [f32],
+    links: Option<LinkRow<'a>>,
+    y: usize,
+}
+
+impl<'a> Around<'a> {
+    fn row(&self, read: Read) -> &'a [f32] {
+        let sweep = self.rows.sweep;
+        let ring = match read.source {
+            Source::Link(number) => {
+                return source::link(self.links.as_ref().expect("a stage that reads links"), number);
+            }
+            Source::Constant(0) => &sweep.constants[0],
+            Source::Constant(number) => &sweep.constants[number + sweep.links.planes()],
+            Source::Input(number) => &self.rows.input[number],
+            Source::Plane(number) => &self.written[number],
+        };
+        let Some(y) = self.y.checked_add_signed(read.south).filter(|y| sweep.span.contains(y)) else {
+            return self.still;
+        };
+        match read.east {
+            0 => ring.here(y),
+            1 => ring.east(y),
+            _ => ring.west(y),
+        }
+    }
+}
