@@ -133,9 +133,11 @@ impl Uniforms {
 
     /// The struct in WGSL.
     fn declared(&self) -> String {
-        let fields: String =
-            self.fields.iter().map(|(name, kind)| format!("    {name}: {kind},\n")).collect();
-        format!("struct {} {{\n{fields}}}\n", self.name)
+        let mut text = format!("struct {} {{\n", self.name);
+        for (name, kind) in &self.fields {
+            let _ = writeln!(text, "    {name}: {kind},");
+        }
+        text + "}\n"
     }
 
     /// The same struct with the fields of another behind its own.

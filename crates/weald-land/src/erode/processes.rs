@@ -3,9 +3,11 @@
 use super::{dissolution_step, slippage_step, thermal_step};
 use weald_engine::step::Step;
 
-/// What gives the variants of each process: a new one adds its line.
-const VARIANTS: [fn() -> Vec<Box<dyn Step>>; 3] =
-    [thermal_step::variants, slippage_step::variants, dissolution_step::variants];
+/// What gives the variants of a process.
+type Variants = fn() -> Vec<Box<dyn Step>>;
+
+/// Those of each process: a new one adds its line.
+const VARIANTS: &[Variants] = &[dissolution_step::variants, slippage_step::variants, thermal_step::variants];
 
 /// Every process that runs alone, in every variant that has code of its own, for tests. They are ready for ground of
 /// a few materials that is some metres high, with cells of a metre and a layer `painted` from 0 to 1.

@@ -48,12 +48,17 @@ impl Pipeline {
     ) {
         for stage in &self.stages {
             if let Some(y) = rows.sweep.behind(stage.behind) {
-                self.run(stage, y, rows, scratch, output);
+                // Lists of rows no longer than they must be: at short rows their making counts.
+                match (stage.reads.len(), stage.changes) {
+                    (0..=6, 0..=2) => self.run::<6, 2>(stage, y, rows, scratch, output),
+                    (0..=12, 0..=4) => self.run::<12, 4>(stage, y, rows, scratch, output),
+                    _ => self.run::<MAX_READS, MAX_CHANGES>(stage, y, rows, scratch, output),
+                }
             }
         }
     }
 
-    fn run(
+    fn run<const READS: usize, const CHANGES: usize>(
         &self,
         stage: &Stage,
         y: usize,
@@ -64,11 +69,11 @@ impl Pipeline {
         let (written, rest) = scratch.rings.split_at_mut(stage.first);
         let links = stage.linked.then(|| rows.sweep.links(y));
         let around = Around { rows, written, still: &scratch.still, links, y };
-        let mut reads = [&[][..]; MAX_READS];
+        let mut reads = [&[][..]; READS];
         for (row, read) in reads.iter_mut().zip(&stage.reads) {
             *row = around.row(*read);
         }
-        let mut changes: [&mut [f32]; MAX_CHANGES] = std::array::from_fn(|_| <&mut [f32]>::default());
+        let mut changes: [&mut [f32]; CHANGES] = std::array::from_fn(|_| <&mut [f32]>::default());
         let planes = &self.planes[stage.first..][..stage.changes];
         for ((row, plane), ring) in changes.iter_mut().zip(planes).zip(rest) {
             if plane.output.is_none() {
@@ -98,6 +103,7 @@ struct Around<'a> {
 }
 
 impl<'a> Around<'a> {
+    #[inline(always)]
     fn row(&self, read: Read) -> &'a [f32] {
         let sweep = self.rows.sweep;
         let ring = match read.source {

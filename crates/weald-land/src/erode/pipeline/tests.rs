@@ -9,7 +9,7 @@ use weald_core::domain::Domain;
 use weald_core::grid::{Field, Mask, Size};
 use weald_core::landscape::Landscape;
 use weald_core::random::signed2;
-use weald_engine::machine::{self, Snapshot};
+use weald_engine::machine::Snapshot;
 use weald_engine::stencil::rows::{Layout, Rows};
 use weald_engine::{Engine, Job};
 
@@ -110,7 +110,7 @@ fn a_pipeline_does_on_rows_what_plain_loops_do_on_fields_on_every_engine() {
     let tiles = Engine::Tiles(Size { columns: 5, rows: 7 });
     for engine in [Engine::Cpu, Engine::Bands(3), Engine::Bands(6), tiles] {
         let start = Snapshot::start(rows.clone(), 0);
-        let mut machine = machine::start(&process, &[], &start, &engine).expect("it starts");
+        let mut machine = weald_engine::machine_of_engine::start(&process, &[], &start, &engine).expect("it starts");
         machine.advance(&[(); STEPS], false).expect("it runs");
         let state = machine.snapshot().expect("it is there").state;
         for (plane, expected) in expected.iter().enumerate() {
