@@ -10,7 +10,7 @@ from .digest import tree
 
 NUMBER = re.compile(r"[-+−]?\d[\d  ,.]*(?:[eE][-+]?\d+)?")
 # What tells of a run rather than of what it made.
-TIMES = ("seconds", "million cell updates a second")
+TIMES = re.compile("seconds|million cell updates .*")
 ORIGINS = ("recipe", "BLAKE3 of the recipe", "version")
 WORDS = ("notes", "note", "hints", "advice", "help", "comment", "engine")
 PICTURE = "data:image/png;base64,"
@@ -100,7 +100,7 @@ class Page(html.parser.HTMLParser):
         if cells and cells[0][1] in ORIGINS:
             return
         for at, (_, text) in enumerate(cells):
-            if at < len(self.heads) and self.heads[at] in TIMES and text not in TIMES:
+            if at < len(self.heads) and TIMES.fullmatch(self.heads[at]) and not TIMES.fullmatch(text):
                 continue
             number = NUMBER.fullmatch(text.strip())
             self.digest.value("cell", text.strip()) if number else self.digest.word(text)
