@@ -219,12 +219,16 @@ fn the_parts_of_a_picture_take_time_and_no_more_than_all_of_it() {
         let camera = above(&stage, [60.0, 70.0], 1.5, 12.0, 0.0);
         let before = renderer.render(&camera).expect("drawn");
         let timings = renderer.measure(&camera, 1).expect("lavapipe has a clock");
-        let Timings { choice, shadows, ground, water, behind, grass, plants, tone_mapping, picture } = timings;
+        let Timings { choice, shadows, ground, water, behind, grass, plants, tone_mapping, picture } =
+            timings;
         assert!(
             [shadows, ground, behind, grass, plants, tone_mapping].iter().all(|part| !part.is_zero()),
             "{timings:?}"
         );
-        assert!(choice + shadows + ground + water + behind + grass + plants + tone_mapping <= picture, "{timings:?}");
+        assert!(
+            choice + shadows + ground + water + behind + grass + plants + tone_mapping <= picture,
+            "{timings:?}"
+        );
         assert_eq!(renderer.render(&camera).expect("drawn"), before, "measuring changes nothing");
     }
 }

@@ -8,4 +8,5 @@ pub mod analyse;
 pub mod combine;
 pub mod edit;
 pub mod erode;
+pub mod flow;
 pub mod generate;

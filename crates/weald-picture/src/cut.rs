@@ -27,7 +27,7 @@ pub(super) struct Slice {
     /// Heights of the tops of the bedrock and of each material; empty where there is no data.
     pub(super) tops: Vec<f32>,
     /// Height of the water, where there is any.
-    pub(super) level: Option<f32>,
+    pub level: Option<f32>,
     /// Skylines behind, near to far.
     pub(super) skylines: [f32; RANGES.len()],
 }

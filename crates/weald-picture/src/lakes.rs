@@ -23,7 +23,7 @@ const MIDDLE_DEPTH: f32 = 6.0;
 #[derive(Debug)]
 pub(super) struct Lakes {
     /// 1 at the shore, 2 in the water, below 1 on land.
-    pub(super) level: Field,
+    pub level: Field,
     /// Depth in shallowest depths.
     pub(super) depth: Field,
     ramp: Ramp,

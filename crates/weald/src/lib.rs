@@ -72,7 +72,7 @@ pub use weald_export as export;
 #[doc(inline)]
 pub use weald_io as io;
 #[doc(inline)]
-pub use weald_land::{analyse, combine, edit, erode, generate};
+pub use weald_land::{analyse, combine, edit, erode, flow, generate};
 #[doc(inline)]
 pub use weald_picture as picture;
 #[doc(inline)]

@@ -8,9 +8,7 @@ use std::collections::BinaryHeap;
 use common::{rough, symmetries};
 use proptest::prelude::*;
 use weald::analyse::directions::{Directions, SEA};
-use weald::analyse::flow::{
-    Depressions, MultipleFlow, Routed, Routing, accumulate, accumulate_multiple, route,
-};
+use weald::flow::{Depressions, MultipleFlow, Routed, Routing, accumulate, accumulate_multiple, route};
 use weald::grid::Mask;
 use weald::random::{hash2, unit};
 use weald::{Field, Size};

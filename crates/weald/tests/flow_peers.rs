@@ -3,7 +3,7 @@
 
 use std::path::{Path, PathBuf};
 
-use weald::analyse::flow::{Routed, Routing, accumulate, route};
+use weald::flow::{Routed, Routing, accumulate, route};
 use weald::grid::Mask;
 use weald::io::{self, Raster};
 

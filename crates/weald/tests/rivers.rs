@@ -1,10 +1,11 @@
 //! Rivers and lakes on every generator: they end where they must, and carry what falls.
 
 use weald::analyse::directions::{Directions, STEPS};
-use weald::analyse::flow::{Depressions, FlowStep, Method};
+use weald::analyse::flow_step::{FlowStep, Method};
 use weald::analyse::lakes::{Lakes, LakesStep, Source};
 use weald::analyse::rivers::{End, Reach, Rivers, RiversStep, Start};
 use weald::engine::Job;
+use weald::flow::Depressions;
 use weald::grid::Mask;
 use weald::random::{hash2, unit};
 use weald::recipe::catalog::CATALOG;

@@ -16,7 +16,7 @@ const SMALLEST: usize = 4;
 #[derive(Debug)]
 pub(super) struct Water {
     /// Height of the surface in metres; of no meaning where there is no sheet.
-    pub(super) level: Field,
+    pub level: Field,
     /// Where the sheet is.
     pub(super) sheet: Mask,
 }

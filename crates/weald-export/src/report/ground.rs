@@ -7,7 +7,7 @@ use weald_core::landscape::Landscape;
 use weald_core::parameter::LayerName;
 use weald_engine::Job;
 use weald_engine::step::Step;
-use weald_land::analyse::flow::FlowStep;
+use weald_land::analyse::flow_step::FlowStep;
 use weald_land::analyse::rivers::{Rivers, RiversStep};
 
 /// Layers that the step `flow` writes.

@@ -13,7 +13,7 @@ use super::figures::{count, number};
 use super::ground::Ground;
 use super::html::figure;
 use super::plot::Plot;
-use weald_land::analyse::directions::Directions;
+use weald_land::flow::directions::Directions;
 
 /// Bins a decade of area.
 const BINS_PER_DECADE: f64 = 5.0;

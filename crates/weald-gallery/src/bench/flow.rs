@@ -5,7 +5,7 @@ use weald_core::domain::Domain;
 use weald_core::error::Error;
 use weald_core::grid::{Field, Size};
 use weald_engine::generator::Generator;
-use weald_land::analyse::flow::{MultipleFlow, Routing, accumulate, accumulate_multiple, naive, route};
+use weald_land::flow::{MultipleFlow, Routing, accumulate, accumulate_multiple, naive, route};
 use weald_land::generate::diamond_square::DiamondSquare;
 
 /// Bytes per cell that the passes read and write: surface 8, descent twice 5, links 2, labels 17, passes 8, fill 12,

@@ -26,7 +26,7 @@ pub(crate) struct Patch {
     /// Cells between vertices.
     pub(crate) spacing: f32,
     /// Level of detail.
-    pub(crate) level: f32,
+    pub level: f32,
 }
 
 /// The ground from which patches are selected.

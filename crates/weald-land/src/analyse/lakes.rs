@@ -8,10 +8,11 @@ mod step;
 
 pub use step::{ENTRY, LakesStep, Source};
 
+pub use outline::Polygon;
 use std::collections::BTreeMap;
 
-use super::directions::Directions;
-use super::flow::{Routing, accumulate, route};
+use crate::flow::directions::Directions;
+use crate::flow::{Routing, accumulate, route};
 use outline::outlines;
 use weald_core::error::Error;
 use weald_core::landscape::Landscape;
@@ -41,16 +42,6 @@ pub struct Lake {
     pub outlet: Option<[usize; 2]>,
     /// Its outline along the edges of cells.
     pub polygons: Vec<Polygon>,
-}
-
-/// One connected piece of an outline: a shore and islands. Corners are metres eastward from the western and
-/// southward from the northern edge of the grid; the last corner of a ring is its first.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Polygon {
-    /// The shore, counter-clockwise as seen on a map with north up.
-    pub shore: Vec<[f64; 2]>,
-    /// Islands, clockwise as seen on a map with north up.
-    pub islands: Vec<Vec<[f64; 2]>>,
 }
 
 impl Lakes {

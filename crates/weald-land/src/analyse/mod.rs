@@ -8,8 +8,7 @@ pub mod aspect;
 mod cells;
 pub mod contour;
 pub mod curvature;
-pub mod directions;
-pub mod flow;
+pub mod flow_step;
 mod gaussian;
 mod horizon;
 pub mod lakes;
@@ -18,7 +17,6 @@ pub mod moisture;
 pub mod network;
 pub mod network_step;
 pub mod occlusion;
-mod priority_flood;
 mod quadric;
 pub mod rivers;
 pub mod select;
@@ -29,6 +27,8 @@ mod sun;
 pub mod sunlight;
 pub mod watersheds;
 pub mod wetness;
+
+pub use crate::flow::directions;
 
 use rayon::prelude::*;
 

@@ -11,8 +11,8 @@
 //! there is none. Water is what a simulation left, rivers and lakes, and the sea, as far as they are named.
 //! How the two are joined is a choice of Weald: either alone makes ground wet.
 
-use super::directions::Directions;
 use super::ensure_finite;
+use crate::flow::directions::Directions;
 use weald_core::error::Error;
 use weald_core::grid::Field;
 use weald_core::landscape::Landscape;
@@ -126,7 +126,7 @@ pub fn height_above_water(height: &Field, directions: &Directions, water: &[bool
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::analyse::flow::{Routing, route};
+    use crate::flow::{Routing, route};
     use weald_core::domain::Domain;
     use weald_core::grid::Size;
 

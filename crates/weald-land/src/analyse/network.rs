@@ -10,6 +10,7 @@ mod drainage;
 mod drains;
 mod ground;
 mod hack;
+mod input;
 mod power_law;
 mod river_width;
 mod slope_area;
@@ -22,32 +23,9 @@ pub use transects::ValleyForm;
 
 use drainage::Drainage;
 use ground::Ground;
-use weald_core::grid::{Field, Mask};
-
-/// Cells whose runoff makes a channel.
-const CHANNEL_AREA: f64 = 100.0;
-
-/// A landscape at the end of a dry period.
-#[derive(Clone, Copy, Debug)]
-pub struct NetworkInput<'a> {
-    /// Height of the ground in metres.
-    pub ground: &'a Field,
-    /// Height of the ground in metres before it was eroded, where it is known.
-    pub before: Option<&'a Field>,
-    /// Depth of water in metres.
-    pub depth: &'a Field,
-    /// Mean flux through the eastern face of each cell over whole rain cycles, in cell areas of cell height
-    /// a step (the volume with cells of size 1).
-    pub mean_flux_x: &'a Field,
-    /// The same through the southern face.
-    pub mean_flux_y: &'a Field,
-    /// Mean rain over the same time, in cells per step.
-    pub mean_rain: f64,
-    /// Side of a cell in metres.
-    pub cell: f64,
-    /// Cells with data; `None` where all have.
-    pub valid: Option<&'a Mask>,
-}
+use input::CHANNEL_AREA;
+pub use input::NetworkInput;
+use weald_core::grid::Field;
 
 /// The measures.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -161,6 +139,7 @@ fn share_of_channels(carries: &[f64]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use weald_core::grid::Mask;
     use weald_core::grid::Size;
 
     const SIDE: usize = 80;

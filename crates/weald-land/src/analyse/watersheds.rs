@@ -6,7 +6,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::directions::Directions;
+use crate::flow::directions::Directions;
 use weald_core::error::Error;
 use weald_core::grid::{Field, Mask, Size};
 use weald_core::landscape::Landscape;

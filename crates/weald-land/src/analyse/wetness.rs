@@ -13,9 +13,9 @@
 
 use rayon::prelude::*;
 
-use super::directions::STEPS;
-use super::flow::{MultipleFlow, Routed, Routing, accumulate_multiple, route};
 use super::{CELLS_PER_TASK, ensure_finite};
+use crate::flow::directions::STEPS;
+use crate::flow::{MultipleFlow, Routed, Routing, accumulate_multiple, route};
 use weald_core::error::Error;
 use weald_core::grid::Field;
 use weald_core::landscape::Landscape;

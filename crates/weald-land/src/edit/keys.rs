@@ -1,7 +1,7 @@
 //! The keys of an edit: what `do` can say, and what goes with it.
 
 use super::brush::{Brush, Effect, Falloff};
-use super::script::Edit;
+use super::stroke::Edit;
 use weald_core::parameter::{Diagnostics, LayerName, Parameters, Places, nearest};
 use weald_core::source::{Node, Table, Value};
 

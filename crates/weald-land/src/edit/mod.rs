@@ -30,10 +30,12 @@ mod history;
 mod keys;
 mod paint;
 mod script;
+mod stroke;
 
 pub use brush::{Brush, Effect, Falloff};
 pub use canvas::{Area, Canvas};
 pub use history::{Action, History, Session};
 pub use keys::{EditKeys, MAX_PLACES};
 pub use paint::Volumes;
-pub use script::{Edit, Layout, MAX_BYTES, MAX_STROKES, Script};
+pub use script::{Layout, MAX_BYTES, MAX_STROKES, Script};
+pub use stroke::Edit;

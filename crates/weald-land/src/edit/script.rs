@@ -9,11 +9,11 @@
 //!
 //! In TOML each edit is a table `[[edit]]` of the same keys, which [`EditKeys`](super::EditKeys) explains.
 
+use super::stroke::Edit;
 use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
-use super::brush::Brush;
 use super::keys;
 use weald_core::error::{Diagnostic, Error, RecipeError};
 use weald_core::parameter::Diagnostics;
@@ -28,15 +28,6 @@ pub const MAX_STROKES: usize = 100_000;
 
 /// After so many faults no more are looked for.
 const MAX_FAULTS: usize = 50;
-
-/// A stroke, and the simulation step before which it happens.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Edit {
-    /// Steps of the simulation that are done before it; 0 for none.
-    pub step: u64,
-    /// The stroke.
-    pub brush: Brush,
-}
 
 /// How a script is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -12,12 +12,11 @@
 
 mod program;
 
-pub(crate) use program::Advected;
+use super::advection_rows::AdvectionRows;
 
 use std::ops::Range;
 
 use super::flux_corrected::{self, FluxCorrectedScratch};
-use super::sweep::Sweep;
 use weald_engine::kernel;
 use weald_engine::stencil::ring::Ring;
 
@@ -119,44 +118,6 @@ impl AdvectionScratch {
     }
 }
 
-/// What the transport reads.
-pub(crate) struct AdvectionRows<'a> {
-    pub(crate) sediment: &'a Ring,
-    /// Water before it flowed; its newest row is read alone.
-    pub(crate) depth: &'a Ring,
-    /// Velocities, or water through the eastern and southern faces where transport is in flux form.
-    pub(crate) eastward: &'a Ring,
-    pub(crate) southward: &'a Ring,
-    pub(crate) sweep: Sweep<'a>,
-}
-
-impl AdvectionRows<'_> {
-    fn depart(&self, y: usize, from: &Ring, still: &Ring, arrived: &mut [f32], direction: f32) {
-        let nine = Stencil9::of(from, still, y, &self.sweep.span);
-        let link = self.sweep.links(y);
-        Depart {
-            north_west: nine.north[0],
-            north: nine.north[1],
-            north_east: nine.north[2],
-            west: nine.level[0],
-            here: nine.level[1],
-            east: nine.level[2],
-            south_west: nine.south[0],
-            south: nine.south[1],
-            south_east: nine.south[2],
-            eastward: self.eastward.here(y),
-            southward: self.southward.here(y),
-            link_west: link.west,
-            link_east: link.east,
-            link_north: link.north,
-            link_south: link.south,
-            arrived,
-            direction,
-        }
-        .run(self.sweep.arch);
-    }
-}
-
 /// The rows around a row: western, own and eastern cells each.
 struct Stencil9<'a> {
     north: [&'a [f32]; 3],
@@ -237,4 +198,31 @@ fn correct(rows: &AdvectionRows<'_>, y: usize, forward: &[f32], back: &[f32], ri
         arrived: output.here_mut(y),
     }
     .run(rows.sweep.arch);
+}
+
+impl AdvectionRows<'_> {
+    fn depart(&self, y: usize, from: &Ring, still: &Ring, arrived: &mut [f32], direction: f32) {
+        let nine = Stencil9::of(from, still, y, &self.sweep.span);
+        let link = self.sweep.links(y);
+        Depart {
+            north_west: nine.north[0],
+            north: nine.north[1],
+            north_east: nine.north[2],
+            west: nine.level[0],
+            here: nine.level[1],
+            east: nine.level[2],
+            south_west: nine.south[0],
+            south: nine.south[1],
+            south_east: nine.south[2],
+            eastward: self.eastward.here(y),
+            southward: self.southward.here(y),
+            link_west: link.west,
+            link_east: link.east,
+            link_north: link.north,
+            link_south: link.south,
+            arrived,
+            direction,
+        }
+        .run(self.sweep.arch);
+    }
 }

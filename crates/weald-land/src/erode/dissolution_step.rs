@@ -2,13 +2,13 @@
 
 use pulp::Arch;
 
-use super::hydraulic::deposit_of;
+use super::deposit::deposit_of;
 use super::links::Links;
+use super::material_planes::{Planes, REGOLITH_PLANES};
 use super::simulation::Simulation;
 use super::stack::{Column, REGOLITH};
 use super::stava::digging::{DigScratch, Digging};
 use super::stava::dissolution::{Dissolution, DissolutionScratch, RegolithRows};
-use super::stava::planes::{Planes, REGOLITH_PLANES};
 use super::stava::program::{self, StavaNumbers};
 use super::sweep::Sweep;
 use super::working::WorkingGrid;

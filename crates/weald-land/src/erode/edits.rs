@@ -5,8 +5,9 @@
 //! get new values.
 
 use super::links::{MASK_PLANES, mask_planes};
+use super::material_planes::WEATHER_PLANES;
+use super::outflow_planes as plane;
 use super::stack::Column;
-use super::stava::{WEATHER_PLANES, plane};
 use super::sums;
 use super::working::WorkingGrid;
 use crate::edit::{Area, Brush, Canvas, Edit, Effect, Script};

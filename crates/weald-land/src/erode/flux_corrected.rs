@@ -27,7 +27,7 @@ mod program;
 pub(crate) use kernels::NetFlux;
 pub(crate) use program::add_to;
 
-use super::advection::AdvectionRows;
+use super::advection_rows::AdvectionRows;
 use super::before;
 use kernels::{Corrected, LowOrder, Mixed, Range};
 use weald_engine::stencil::ring::Ring;

@@ -11,8 +11,8 @@ mod program;
 mod sediment;
 mod water;
 
+use super::forcing::Forcing;
 use super::setting::{Setting, Settled};
-use super::simulation::Forcing;
 use weald_core::grid::Size;
 use weald_engine::machine::{Means, Part};
 use weald_engine::program::Program;
@@ -22,7 +22,7 @@ use weald_engine::uniform;
 
 /// Planes of the state.
 pub(crate) mod plane {
-    pub(crate) use crate::erode::setting::plane::{CHANGE, DEPTH, SEDIMENT};
+    pub(crate) use crate::erode::state_planes::{CHANGE, DEPTH, SEDIMENT};
     /// Flux through the eastern edge.
     pub(crate) const EAST: usize = 3;
     /// Flux through the southern edge.

@@ -12,13 +12,12 @@ mod models;
 mod stava;
 
 pub use interactive::{InteractiveSession, SessionState};
-pub use keys::{HanKeys, MeiKeys, StavaKeys};
-pub(super) use stava::deposit_of;
 
+pub use keys::{Boundary, HanKeys, Hydraulic, MeiKeys, Model, StavaKeys, Transport, UptakeLaw};
 use std::path::PathBuf;
 
 use super::advection::Advection;
-use super::simulation::Forcing;
+use super::forcing::Forcing;
 use super::stack::REGOLITH;
 use super::thermal::Slide;
 use super::thermal_step::ThermalWithin;
@@ -26,79 +25,9 @@ use defaults::ResolvedKeys;
 use weald_core::error::Error;
 use weald_core::landscape::Landscape;
 use weald_core::material::Material;
-use weald_core::parameter::{Fault, LayerName, Length, ScriptFile};
-use weald_core::{choices, parameters, variants};
+use weald_core::parameter::{Fault, ScriptFile};
 use weald_engine::Job;
 use weald_engine::step::{Entry, Layered, Outcome, Stage, Step};
-
-variants! {
-    /// Whose scheme, with the keys that it has beside those of all.
-    pub enum Model {
-        /// Han 2015: signed fluxes, erosion by velocity.
-        Han(HanKeys) = "han",
-        /// Mei, Decaudin, Hu 2007: four outflows, erosion towards a capacity.
-        Mei(MeiKeys) = "mei",
-        /// Šťava et al. 2008: materials in layers, dissolution, slippage, springs.
-        Stava(StavaKeys) = "stava",
-    }
-}
-
-choices! {
-    /// What `han` takes up sediment by.
-    pub enum UptakeLaw {
-        /// In proportion to the speed of the water.
-        Velocity = "velocity",
-        /// As a share of the free capacity.
-        Dissolution = "dissolution",
-    }
-}
-
-choices! {
-    /// How sediment travels.
-    pub enum Transport {
-        /// With the fluxes of the water; loses nothing.
-        Upwind = "upwind",
-        /// Back along the velocity; loses sediment, and the report says how much.
-        SemiLagrangian = "semi-lagrangian",
-        /// Corrected to second order; with `conserve` it loses nothing, without it is the published scheme.
-        MacCormack = "maccormack",
-    }
-}
-
-choices! {
-    /// What happens at the edge and at no-data cells.
-    pub enum Boundary {
-        /// Walls: nothing leaves.
-        Closed = "closed",
-        /// Water and what it carries leave over the edge, and the budget counts them.
-        Open = "open",
-    }
-}
-
-parameters! {
-    /// Rain, rivers, erosion and deposition. Lengths are in metres; where a default is given in cells it is
-    /// multiplied by the cell size. One step is the unit of time.
-    pub struct Hydraulic {
-        /// Whose scheme.
-        model: Model = Model::Han(HanKeys::default());
-        /// Steps to run.
-        iterations: u32 = 1000, range 0..=10_000_000;
-        /// Steps of rain before a dry period.
-        rain_period: u32 = 60, range 1..=10_000_000, unit "steps";
-        /// Depth added where sediment is divided by depth.
-        epsilon: Length = Length::Cells(0.001), range 0.000_000_1..=100.0, unit "m",
-            unless transport = "semi-lagrangian", unless conserve = false;
-        /// What happens at the edge and at no-data cells.
-        boundary: Boundary = Boundary::Closed;
-        /// Layer to erode.
-        layer: LayerName = LayerName::of("height");
-        /// Layer with the depth of water that stands at the start. Default: none stands.
-        initial_water: Option<LayerName> = None;
-        /// Layer that says where to simulate: cells where it is below 0.5 stand still, and nothing passes
-        /// their edge. Default: everywhere.
-        region: Option<LayerName> = None;
-    }
-}
 
 /// The step's declaration.
 pub const ENTRY: Entry = Entry::of::<Hydraulic>(

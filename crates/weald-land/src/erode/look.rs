@@ -1,6 +1,6 @@
 //! Looks at the landscape of a running simulation, for films and for whoever watches.
 
-use super::simulation::Finished;
+use super::finished::Finished;
 use weald_core::error::Error;
 use weald_core::grid::Size;
 use weald_core::landscape::Landscape;

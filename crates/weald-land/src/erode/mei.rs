@@ -13,29 +13,15 @@ mod program;
 mod sediment;
 mod water;
 
+use super::forcing::Forcing;
+use super::outflow_planes as plane;
 use super::setting::{Setting, Settled};
-use super::simulation::Forcing;
 use weald_core::grid::Size;
 use weald_engine::machine::{Means, Part};
 use weald_engine::program::Program;
 use weald_engine::stencil::chain::{Flow, Process};
 use weald_engine::stencil::ring::Ring;
 use weald_engine::uniform;
-
-/// Planes of the state.
-pub(crate) mod plane {
-    pub(crate) use crate::erode::setting::plane::{CHANGE, DEPTH, SEDIMENT};
-    /// Outflow to the east.
-    pub(crate) const EAST: usize = 3;
-    /// Outflow to the west.
-    pub(crate) const WEST: usize = 4;
-    /// Outflow to the south.
-    pub(crate) const SOUTH: usize = 5;
-    /// Outflow to the north.
-    pub(crate) const NORTH: usize = 6;
-    /// Number of state planes.
-    pub(crate) const COUNT: usize = 7;
-}
 
 /// Mean fluxes through the eastern and southern edge of each cell: what it gives, less what its neighbour gives
 /// back.

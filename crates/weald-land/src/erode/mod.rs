@@ -7,20 +7,27 @@
 //! at once. Each process is also a program for a compute device, of shaders that stand beside its kernels.
 
 mod advection;
+mod advection_rows;
 #[cfg(test)]
 #[path = "../../tests/worked_example/creep.rs"]
 pub mod creep;
+mod deposit;
 pub mod dissolution_step;
 mod edits;
 mod extent;
+mod finished;
 mod flux_corrected;
+mod forcing;
 mod four_outflows;
 mod han;
 pub mod hydraulic;
 mod links;
 mod look;
+mod material_planes;
 mod mei;
 mod on_ground;
+mod outflow_kernels;
+mod outflow_planes;
 mod pace;
 mod pipeline;
 mod pipes;
@@ -33,7 +40,10 @@ mod simulation;
 pub mod slippage_step;
 pub mod springs;
 mod stack;
+mod stacked_grid;
+mod state_planes;
 mod stava;
+mod stored;
 mod sums;
 mod sweep;
 pub mod thermal;

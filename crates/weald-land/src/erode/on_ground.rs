@@ -6,8 +6,9 @@
 use std::sync::Arc;
 
 use super::pipeline::{Pipeline, Stepped};
-use super::simulation::{Finished, Simulation};
+use super::simulation::Simulation;
 use super::working::WorkingGrid;
+use crate::erode::finished::Finished;
 use weald_core::error::Error;
 use weald_core::landscape::Landscape;
 use weald_engine::Job;

@@ -6,6 +6,7 @@
 //! once the next row of `ground` is there: one row behind the kernel that writes `ground`. Beyond a wall all rows
 //! read 0, and no link leads there.
 
+mod parts;
 mod process;
 mod program;
 mod running;
@@ -19,18 +20,13 @@ pub(crate) use running::{PipelineRows, PipelineScratch};
 
 use std::sync::Arc;
 
-use pulp::Arch;
-
-use program::Twin;
+pub(crate) use parts::Pipeline;
+use parts::{Read, Source, State, Twin};
 use schedule::Rows;
-use source::{Reach, Read, Source};
-use weald_engine::program::Uniforms;
 use weald_engine::kernel;
+use weald_engine::program::Uniforms;
 use weald_engine::stencil::kernel::RowKernel;
 use weald_engine::uniform::Uniform;
-
-/// A kernel over rows that are known by number.
-type RunOn = fn(Arch, &[&[f32]], &mut [&mut [f32]], &[f32]);
 
 /// Most rows that a kernel reads.
 const MAX_READS: usize = 32;
@@ -44,58 +40,6 @@ pub(crate) struct Equations {
     pipeline: Pipeline,
     /// Numbers that kernels find by their names; of those with the same name the last.
     numbers: Vec<(&'static str, f32)>,
-}
-
-/// Kernels in their order, and when each can run.
-#[derive(Clone, Debug)]
-pub(crate) struct Pipeline {
-    uniforms: Uniforms,
-    constants: Vec<&'static str>,
-    state: Vec<State>,
-    planes: Vec<Plane>,
-    stages: Vec<Stage>,
-    /// Rows that are looked back at in the input and in the constants.
-    look_back: usize,
-    twin: Twin,
-}
-
-/// A plane that steps change.
-#[derive(Clone, Debug)]
-struct State {
-    /// Name of the rows that a step finds.
-    before: &'static str,
-    /// Name of the rows that it leaves, and of the plane in checkpoints.
-    after: &'static str,
-}
-
-/// A plane that a kernel writes.
-#[derive(Clone, Debug)]
-struct Plane {
-    name: &'static str,
-    /// Rows by which it lies behind the input.
-    behind: usize,
-    /// Rows by which the oldest row that is read lies behind the input.
-    oldest: Option<usize>,
-    reach: Reach,
-    /// The state plane that it becomes.
-    output: Option<usize>,
-}
-
-/// A kernel and its rows.
-#[derive(Clone, Debug)]
-struct Stage {
-    kernel: RunOn,
-    /// Rows by which it runs behind the input.
-    behind: usize,
-    reads: Vec<Read>,
-    /// Rows that are copied to the first of the changed ones.
-    updates: Vec<Read>,
-    /// Whether some of the rows are links.
-    linked: bool,
-    /// The first of its planes; the others stand behind it.
-    first: usize,
-    changes: usize,
-    constants: Vec<f32>,
 }
 
 kernel! {

@@ -1,17 +1,14 @@
 //! Every program that the processes can give, for tests of the shaders.
 
 mod layered;
+mod settings;
 
 use pulp::Arch;
+use settings::{advections, links, settings};
 
-use super::advection::Advection;
 use super::han::{Han, HanConstants};
-use super::links::Links;
 use super::mei::{Mei, MeiConstants};
-use super::setting::Setting;
-use super::thermal::{Scheme, Slide, SlideConstants};
 use super::transport_step::Carrying;
-use weald_core::grid::Size;
 use weald_engine::program::Program;
 use weald_engine::stencil::chain::Process;
 
@@ -55,44 +52,3 @@ const MEI: MeiConstants = MeiConstants {
     epsilon: 0.001,
     velocity_epsilon: 0.0001,
 };
-
-/// What decides about the passes of a [`Setting`].
-#[derive(Clone, Copy)]
-struct Variant {
-    masked: bool,
-    open: bool,
-    advection: Option<Advection>,
-    slide: Option<Scheme>,
-}
-
-impl Variant {
-    fn made(self) -> Setting {
-        let Self { masked, open, advection, slide } = self;
-        let constants = SlideConstants { talus: 0.8, strength: 0.05 };
-        let slide = slide.map(|scheme| Slide::new(scheme, constants));
-        Setting { links: links(masked), open, advection, slide, arch: Arch::new() }
-    }
-}
-
-fn settings() -> impl Iterator<Item = Variant> {
-    let advections = [None].into_iter().chain(advections().map(Some));
-    let borders = [(false, false), (true, false), (true, true)];
-    borders.into_iter().flat_map(move |(masked, open)| {
-        advections.clone().flat_map(move |advection| {
-            slides().into_iter().map(move |slide| Variant { masked, open, advection, slide })
-        })
-    })
-}
-
-fn advections() -> impl Iterator<Item = Advection> + Clone {
-    let conserving = Advection::FluxCorrected { epsilon: 0.001 };
-    [Advection::SemiLagrangian, Advection::MacCormack, conserving].into_iter()
-}
-
-fn slides() -> [Option<Scheme>; 4] {
-    [None, Some(Scheme::Axis), Some(Scheme::Isotropic), Some(Scheme::IsotropicSymmetric)]
-}
-
-fn links(masked: bool) -> Links {
-    Links::new(Size { columns: 2, rows: 2 }, masked)
-}

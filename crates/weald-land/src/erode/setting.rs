@@ -3,28 +3,20 @@
 
 mod program;
 
+use super::state_planes as plane;
 use pulp::Arch;
 
-use super::advection::{Advection, AdvectionRows, AdvectionScratch};
+use super::advection::{Advection, AdvectionScratch};
 use super::links::Links;
 use super::pipeline::{PipelineRows, PipelineScratch};
 use super::pipes::Drain;
 use super::sums;
 use super::sweep::Sweep;
 use super::thermal::Slide;
+use crate::erode::advection_rows::AdvectionRows;
 use weald_core::grid::Size;
 use weald_engine::stencil::chain::{Flow, Process};
 use weald_engine::stencil::ring::Ring;
-
-/// Planes with which the state of both models begins.
-pub(crate) mod plane {
-    /// Change of the ground since the start.
-    pub(crate) const CHANGE: usize = 0;
-    /// Depth of water.
-    pub(crate) const DEPTH: usize = 1;
-    /// Sediment in the water.
-    pub(crate) const SEDIMENT: usize = 2;
-}
 
 /// Where a model runs, and with what beside its own equations.
 pub(crate) struct Setting {

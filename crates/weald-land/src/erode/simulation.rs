@@ -3,25 +3,16 @@
 use std::time::Instant;
 
 use super::edits::Edits;
+use super::finished::Finished;
 use super::look::{self, Seen};
 use super::pace::Pace;
 use super::saved::Saved;
-use super::sums;
 use weald_core::error::Error;
 use weald_engine::machine::{Machine, Means, Snapshot};
 use weald_engine::machine_of_engine;
-use weald_engine::stencil::chain::{Process, RowSums};
+use weald_engine::stencil::chain::Process;
 use weald_engine::stencil::rows::Rows;
-use weald_engine::uniform;
 use weald_engine::{Engine, Job, SavedSimulation};
-
-uniform! {
-    /// Rain and evaporation of one step, in cells.
-    pub(crate) struct Forcing {
-        pub(crate) rain: f32,
-        pub(crate) evaporation: f32,
-    }
-}
 
 /// A process and how long it runs.
 pub(crate) struct Simulation<'a, P: Process> {
@@ -46,16 +37,6 @@ pub(crate) struct Record<'a> {
     pub(crate) steps: std::ops::Range<u64>,
     /// Parts of each mean.
     pub(crate) means: Means<'a>,
-}
-
-/// How a simulation ended.
-pub(crate) struct Finished {
-    pub(crate) state: Rows,
-    pub(crate) sums: RowSums,
-    /// One mean a wish, row-major.
-    pub(crate) means: Vec<Vec<f32>>,
-    /// What the user should know of the engine.
-    pub(crate) notes: Vec<String>,
 }
 
 impl<'a, P: Process<Weather = ()>> Simulation<'a, P> {
@@ -282,22 +263,5 @@ impl<'a, P: Process> Running<'a, P> {
             means,
             notes: self.machine.note().into_iter().collect(),
         })
-    }
-}
-
-/// The sums of a run as water in and out and solid out, in cells³.
-pub(crate) struct Flows {
-    pub(crate) rained: f64,
-    pub(crate) water_out: f64,
-    pub(crate) solid_out: f64,
-}
-
-impl From<RowSums> for Flows {
-    fn from(row: RowSums) -> Self {
-        Self {
-            rained: row[sums::RAINED],
-            water_out: row[sums::WATER_OUT] - row[sums::EVAPORATED],
-            solid_out: row[sums::SEDIMENT_OUT] + row[sums::SHRUNK],
-        }
     }
 }

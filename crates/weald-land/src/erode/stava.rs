@@ -12,7 +12,6 @@
 pub(crate) mod digging;
 pub(crate) mod dissolution;
 mod force;
-pub(crate) mod planes;
 pub(crate) mod program;
 pub(crate) mod slippage;
 mod transport;
@@ -20,26 +19,20 @@ pub(crate) mod viscosity;
 mod water;
 mod weather;
 
+use super::material_planes::{Planes, WEATHER_PLANES};
+use super::outflow_planes as plane;
 use digging::{DigScratch, Digging};
 use dissolution::{Dissolution, DissolutionScratch, RegolithRows};
-use planes::Planes;
 use slippage::Slippage;
 use viscosity::{Viscosity, ViscosityRows, ViscosityScratch};
 
+use super::forcing::Forcing;
 use super::pipeline::{PipelineRows, PipelineScratch};
 use super::setting::{Setting, Settled};
-use super::simulation::Forcing;
 use weald_core::grid::Size;
 use weald_engine::program::Program;
 use weald_engine::stencil::chain::{Flow, Process};
 use weald_engine::stencil::ring::Ring;
-
-/// Planes of the state before those of the regolith and of the materials: those of [`super::mei`].
-pub(crate) use super::mei::plane;
-
-/// Constant planes of painted weather behind those of the links: share of the rain, share of the evaporation,
-/// and what sources give, less what drains take, in cells per step.
-pub(crate) const WEATHER_PLANES: usize = 3;
 
 /// Constants of the method, in cells and steps; names as in the recipe.
 #[derive(Clone, Copy, Debug)]

@@ -4,10 +4,11 @@ mod program;
 
 use pulp::Arch;
 
-use super::advection::{Advection, AdvectionRows, AdvectionScratch};
+use super::advection::{Advection, AdvectionScratch};
 use super::links::{Links, mask_planes};
 use super::simulation::Simulation;
 use super::sweep::Sweep;
+use crate::erode::advection_rows::AdvectionRows;
 use weald_core::domain::Domain;
 use weald_core::error::Error;
 use weald_core::grid::{Field, Size};

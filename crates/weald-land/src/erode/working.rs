@@ -2,15 +2,15 @@
 
 use super::extent::Extent;
 use super::links::mask_planes;
-use super::setting::plane;
-use super::simulation::{Finished, Flows};
 use super::stack::Stack;
+use super::state_planes as plane;
+use crate::erode::finished::Finished;
+use crate::erode::finished::Flows;
 use weald_core::error::Error;
 use weald_core::grid::{Field, Mask, Size};
 use weald_core::landscape::Landscape;
 use weald_engine::device::{ShownGround, Window};
 use weald_engine::stencil::rows::{Layout, Rows};
-use weald_engine::step::Outcome;
 use weald_engine::{Budget, Job, SolidBudget, WaterBudget};
 
 /// The start of a simulation.
@@ -186,7 +186,7 @@ impl WorkingGrid {
     }
 
     /// Depths of water in metres; where a region leaves cells out, water stands there as it did.
-    fn depths(&self, depth: &[f32], valid: Option<&Mask>) -> Field {
+    pub(super) fn depths(&self, depth: &[f32], valid: Option<&Mask>) -> Field {
         let cell = self.cell as f32;
         self.field_or(
             |at| depth[at] * cell,
@@ -200,61 +200,11 @@ impl WorkingGrid {
     }
 
     /// Ground after a change in cells: the start stays to the bit where nothing changed.
-    fn ground(&self, change: &Field) -> Field {
+    pub(super) fn ground(&self, change: &Field) -> Field {
         let cell = self.cell;
         let raise = |start: f32, change: f32| (f64::from(start) + f64::from(change) * cell) as f32;
         let values = self.start.values().iter().zip(change.values()).map(|(&s, &c)| raise(s, c)).collect();
         Field::from_values(self.start.size(), values)
-    }
-
-    /// Writes the layers of a water simulation, whose planes begin with change, depth and sediment.
-    pub(crate) fn store(
-        &self,
-        landscape: &mut Landscape,
-        layer: &str,
-        finished: &Finished,
-        kept: RunResult,
-    ) -> Outcome {
-        let change = self.ground_change(finished);
-        let [depth, sediment] = [plane::DEPTH, plane::SEDIMENT].map(|at| finished.state.gather(at));
-        let cell = self.cell as f32;
-        let budget = self.budget(&depth, &sediment, finished);
-        landscape.insert(layer, "m", self.ground(&self.field(&change, |change| change)));
-        self.store_stack(landscape, finished);
-        let water = self.depths(&depth, landscape.domain.valid.as_ref());
-        landscape.insert("water", "m", water);
-        landscape.insert("sediment", "m", self.field(&sediment, |sediment| sediment * cell));
-        let volume = cell * cell * cell;
-        landscape.insert("flux_x", "m³/step", self.field(&finished.means[0], |flux| flux * volume));
-        landscape.insert("flux_y", "m³/step", self.field(&finished.means[1], |flux| flux * volume));
-        landscape.insert("erosion", "m", self.field(&change, |change| (-change).max(0.0) * cell));
-        landscape.insert("deposition", "m", self.field(&change, |change| change.max(0.0) * cell));
-        let mut notes = finished.notes.clone();
-        if !kept.conserving {
-            notes.push(format!(
-                "this transport does not conserve sediment: {:.3e} m³ of solid were {}; transport = \"upwind\", or \
-                 \"maccormack\" with `conserve`, conserves it",
-                (budget.solid.error() * budget.solid.start).abs(),
-                if budget.solid.error() > 0.0 { "lost" } else { "made" },
-            ));
-        }
-        Outcome { iterations: kept.iterations, budget: Some(budget), notes, ..Outcome::default() }
-    }
-
-    /// Writes the ground alone.
-    pub(crate) fn store_ground(
-        &self,
-        landscape: &mut Landscape,
-        layer: &str,
-        finished: &Finished,
-        iterations: u64,
-    ) -> Outcome {
-        let change = self.ground_change(finished);
-        landscape.insert(layer, "m", self.ground(&self.field(&change, |change| change)));
-        self.store_stack(landscape, finished);
-        let mut budget = self.budget(&[], &[], finished);
-        budget.water = WaterBudget::default();
-        Outcome { iterations, budget: Some(budget), notes: finished.notes.clone(), ..Outcome::default() }
     }
 
     /// Sum over all cells, row by row.
@@ -263,7 +213,7 @@ impl WorkingGrid {
         rows.map(|row| row.iter().map(|&cell| f64::from(cell)).sum::<f64>()).sum()
     }
 
-    fn budget(&self, depth: &[f32], sediment: &[f32], finished: &Finished) -> Budget {
+    pub(super) fn budget(&self, depth: &[f32], sediment: &[f32], finished: &Finished) -> Budget {
         let volume = self.cell * self.cell * self.cell;
         let total = |cells: &[f32]| self.total(cells);
         let flows = Flows::from(finished.sums);

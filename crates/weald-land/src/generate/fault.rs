@@ -32,6 +32,9 @@ use weald_engine::generator::Generator;
 use weald_engine::on_device::OnDevice;
 use weald_engine::step::{Entry, Stage};
 
+/// Sides of the largest grid on which the side of a line is a number of 32 bits.
+const MAX_SIDE: usize = 1 << 15;
+
 /// The step's declaration.
 pub const ENTRY: Entry = Entry::of::<Fault>(
     "fault",
@@ -76,7 +79,7 @@ impl Generator for Fault {
 
     fn on_device(&self, domain: &Domain, seed: u64) -> Option<OnDevice> {
         let Size { columns, rows } = domain.size;
-        let fits = columns.max(rows) <= program::MAX_SIDE && domain.size.cells() > 1;
+        let fits = columns.max(rows) <= MAX_SIDE && domain.size.cells() > 1;
         fits.then(|| self.sum_of_steps(&lines(domain.size, self.iterations, seed), domain.size))
     }
 

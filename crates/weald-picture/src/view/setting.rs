@@ -38,7 +38,7 @@ pub(super) struct Setting {
     /// The ground itself, under the water.
     pub(super) bed: Surface,
     /// Levels of lakes, below the ground where it is dry.
-    pub(super) level: Option<Surface>,
+    pub level: Option<Surface>,
     pub(super) rivers: Option<Rivers>,
     /// How water runs.
     pub(super) flow: Option<Flow>,

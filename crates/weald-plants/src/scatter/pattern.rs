@@ -85,7 +85,7 @@ const DOWN: u64 = 2;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Square {
     /// Which discs it is for.
-    pub(super) level: usize,
+    pub level: usize,
     /// How often it was cut into four.
     pub(super) cuts: u8,
     /// Column and row among squares of its size.

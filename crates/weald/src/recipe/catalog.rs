@@ -42,7 +42,7 @@ pub const CATALOG: &[Entry] = &[
     analyse::soil::ENTRY,
     analyse::select::ENTRY,
     analyse::network_step::ENTRY,
-    analyse::flow::ENTRY,
+    analyse::flow_step::ENTRY,
     analyse::rivers::ENTRY,
     analyse::lakes::ENTRY,
     analyse::watersheds::ENTRY,

@@ -8,12 +8,21 @@
 
 use std::collections::BTreeMap;
 
-use super::Polygon;
 use weald_core::connected::areas;
 use weald_core::grid::Size;
 
 /// Corner of cells: column and row of the cell south-east of it.
 type Corner = (usize, usize);
+
+/// One connected piece of an outline: a shore and islands. Corners are metres eastward from the western and
+/// southward from the northern edge of the grid; the last corner of a ring is its first.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Polygon {
+    /// The shore, counter-clockwise as seen on a map with north up.
+    pub shore: Vec<[f64; 2]>,
+    /// Islands, clockwise as seen on a map with north up.
+    pub islands: Vec<Vec<[f64; 2]>>,
+}
 
 /// Steps eastward and southward along an edge: east, north, west, south. A left turn is the next one.
 const STEPS: [(isize, isize); 4] = [(1, 0), (0, -1), (-1, 0), (0, 1)];

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::MAX_LAKES;
 use crate::analyse::ensure_finite;
-use crate::analyse::flow::{Routing, route};
+use crate::flow::{Routing, route};
 use weald_core::connected::components;
 use weald_core::error::Error;
 use weald_core::grid::Field;

@@ -1,6 +1,6 @@
 //! How much water passes through each cell, as the area whose rain it is, and how unevenly it is spread.
 
-use super::NetworkInput;
+use super::input::NetworkInput;
 
 /// Cells whose mean rain the mean flow of each cell carries, row-major. The flow vector of a cell is the half-sum
 /// of the fluxes through its two faces of each axis; none passes the border.

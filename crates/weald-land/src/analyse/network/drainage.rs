@@ -1,8 +1,8 @@
 //! Where the land drains to, into lakes and over its rim, by [`flow`](crate::analyse::flow): pits filled, D8.
 
 use super::ground::Ground;
-use crate::analyse::directions::Directions;
-use crate::analyse::flow::{Routing, accumulate, route};
+use crate::flow::directions::Directions;
+use crate::flow::{Routing, accumulate, route};
 use weald_core::grid::{Field, Mask, Size};
 
 /// The flow paths of the land outside lakes.

@@ -1,7 +1,7 @@
 //! How much of the land drains without a pit on the way.
 
 use super::ground::Ground;
-use crate::analyse::priority_flood::priority_flood;
+use crate::flow::priority_flood::priority_flood;
 
 /// A pit deeper than this, in cells, cuts off the land above it.
 const PIT_DEPTH: f64 = 0.5;

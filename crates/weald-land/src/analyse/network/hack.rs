@@ -3,8 +3,8 @@
 //! Source: Hack 1957, "Studies of longitudinal stream profiles in Virginia and Maryland", USGS Professional Paper
 //! 294-B, doi 10.3133/pp294B; in nature about 0.57. Lengths follow D8 flow paths.
 
-use super::CHANNEL_AREA;
 use super::drainage::Drainage;
+use super::input::CHANNEL_AREA;
 use super::power_law::exponent;
 
 /// h over octaves of area from 100 cells upwards; `None` where fewer than three octaves have ten cells each.

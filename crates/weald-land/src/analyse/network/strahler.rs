@@ -4,8 +4,8 @@
 //! order rises by one. Source: Strahler 1957, "Quantitative analysis of watershed geomorphology",
 //! doi 10.1029/TR038i006p00913.
 
-use super::CHANNEL_AREA;
 use super::drainage::Drainage;
+use super::input::CHANNEL_AREA;
 
 /// Heads and orders.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

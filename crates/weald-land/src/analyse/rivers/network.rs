@@ -1,6 +1,6 @@
 //! The cells of rivers: which they are, their orders, and how high their water stands.
 
-use crate::analyse::directions::Directions;
+use crate::flow::directions::Directions;
 use weald_core::grid::{Field, Mask};
 
 /// Cells through which rivers flow.

@@ -1,8 +1,8 @@
 //! The step `rivers`.
 
 use super::network::Network;
-use crate::analyse::directions::Directions;
-use crate::analyse::flow::MILLIMETRES_PER_YEAR;
+use crate::analyse::flow_step::MILLIMETRES_PER_YEAR;
+use crate::flow::directions::Directions;
 use weald_core::error::Error;
 use weald_core::grid::Field;
 use weald_core::landscape::Landscape;

@@ -3,10 +3,10 @@
 //! The cells of rivers are a forest along the directions of flow. It is cut at confluences and at the shores of
 //! lakes; each piece is a reach.
 
+use super::reach::{End, Reach, RiverPoint, Rivers, Start};
 use super::smooth::smooth;
-use super::{End, Reach, RiverPoint, Rivers, Start};
-use crate::analyse::directions::Directions;
 use crate::analyse::lakes;
+use crate::flow::directions::Directions;
 use weald_core::error::Error;
 use weald_core::grid::Field;
 use weald_core::landscape::Landscape;

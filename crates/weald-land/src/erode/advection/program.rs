@@ -1,6 +1,7 @@
 //! The transport as compute passes.
 
 use super::Advection;
+use crate::erode::advection_rows::Advected;
 use crate::erode::flux_corrected;
 use weald_engine::program::builder::ProgramBuilder;
 
@@ -9,21 +10,6 @@ const SEDIMENT: &str = include_str!("sediment.wgsl");
 const ADVECT: &str = include_str!("advect.wgsl");
 const DEPART: &str = include_str!("depart.wgsl");
 const CORRECT: &str = include_str!("correct.wgsl");
-
-/// What a model tells the shaders of the transport.
-pub(crate) struct Advected<'a> {
-    /// Shaders with `settled_sediment(cell)` and `velocity(cell)`; for transport in flux form `face_east(cell)`,
-    /// `face_south(cell)` and `water_before(cell)` in place of the velocity.
-    pub(crate) from: &'a [&'static str],
-    /// Shaders with `arrive(cell, amount)`.
-    pub(crate) into: &'a [&'static str],
-    /// Buffers that `from` reads.
-    pub(crate) reads: &'a [&'a str],
-    /// Buffers that `into` reads; they are among those of `from`.
-    pub(crate) keeps: &'a [&'a str],
-    /// Buffer that `into` writes.
-    pub(crate) writes: &'a str,
-}
 
 impl Advection {
     /// Adds the passes that move the sediment.

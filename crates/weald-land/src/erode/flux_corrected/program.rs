@@ -1,6 +1,6 @@
 //! The transport in flux form as compute passes.
 
-use crate::erode::advection::Advected;
+use crate::erode::advection_rows::Advected;
 use weald_engine::program::builder::ProgramBuilder;
 
 const FLUX_CORRECTED: &str = include_str!("../flux_corrected.wgsl");

@@ -4,7 +4,7 @@
 //! Depth, sediment and change of the ground are buffers of their own, so that no pass has more than eight.
 
 use super::{Han, plane};
-use crate::erode::advection::Advected;
+use crate::erode::advection_rows::Advected;
 use weald_engine::program::builder::ProgramBuilder;
 use weald_engine::program::{Content, Program, Uniforms};
 use weald_engine::stencil::chain::Process;

@@ -1,9 +1,9 @@
 //! The numbers of a model on a landscape.
 
-use super::{Hydraulic, Model, UptakeLaw};
+use super::keys::{Hydraulic, Model, UptakeLaw};
 
 /// What all models have, in cells and steps.
-pub(super) struct ResolvedKeys {
+pub(crate) struct ResolvedKeys {
     pub(super) flow_rate: f32,
     pub(super) rain: f32,
     pub(super) evaporation: f32,

@@ -1,10 +1,10 @@
 //! A simulation that a person runs interactively: steps and strokes in any order, forth and back.
 
-use super::Hydraulic;
+use super::keys::Hydraulic;
 use crate::edit::{Action, Area, Canvas, Script, Session};
 use crate::erode::edits::Edits;
+use crate::erode::forcing::Forcing;
 use crate::erode::saved::Saved;
-use crate::erode::simulation::Forcing;
 use weald_core::error::Error;
 use weald_core::landscape::Landscape;
 use weald_engine::Engine;

@@ -2,14 +2,17 @@
 
 use pulp::Arch;
 
-use super::{Boundary, HanKeys, Hydraulic, MeiKeys, Model, ResolvedKeys, UptakeLaw};
+use super::defaults::ResolvedKeys;
+use super::keys::{Boundary, HanKeys, Hydraulic, MeiKeys, Model, UptakeLaw};
 use crate::erode::edits::Edits;
 use crate::erode::extent::Extent;
+use crate::erode::finished::Finished;
+use crate::erode::forcing::Forcing;
 use crate::erode::han::{self, Han, HanConstants};
 use crate::erode::links::Links;
 use crate::erode::mei::{self, Mei, MeiConstants};
 use crate::erode::setting::Setting;
-use crate::erode::simulation::{Finished, Forcing, Record, Simulation};
+use crate::erode::simulation::{Record, Simulation};
 use crate::erode::springs;
 use crate::erode::working::{RunResult, WorkingGrid};
 use weald_core::error::Error;

@@ -1,24 +1,27 @@
 //! The model of Šťava et al. with the keys of a recipe filled in.
 
+use super::defaults::ResolvedKeys;
+use super::keys::{Boundary, Hydraulic, StavaKeys};
 use super::models::{MEI_PLANES, SelectedModel, named};
-use super::{Boundary, Hydraulic, ResolvedKeys, StavaKeys};
 use crate::edit::Script;
+use crate::erode::deposit::deposit_of;
 use crate::erode::edits::{self, Edits, Place};
+use crate::erode::material_planes::{Planes, REGOLITH_PLANES};
 use crate::erode::mei;
+use crate::erode::outflow_planes as plane;
 use crate::erode::springs;
 use crate::erode::stack::Column;
 use crate::erode::stava::digging::Digging;
 use crate::erode::stava::dissolution::Dissolution;
-use crate::erode::stava::planes::{Planes, REGOLITH_PLANES};
 use crate::erode::stava::slippage::Slippage;
 use crate::erode::stava::viscosity::Viscosity;
-use crate::erode::stava::{Stava, StavaConstants, plane};
+use crate::erode::stava::{Stava, StavaConstants};
 use crate::erode::working::WorkingGrid;
 use weald_core::error::Error;
 use weald_core::grid::Field;
 use weald_core::landscape::Landscape;
 use weald_core::material::Material;
-use weald_core::parameter::{LayerName, Nested, ScriptFile, nearest};
+use weald_core::parameter::{LayerName, Nested, ScriptFile};
 
 impl Hydraulic {
     pub(super) fn stava(
@@ -131,21 +134,4 @@ impl StavaKeys {
         let springs = working.ringed(|x, y| (f64::from(springs.at(x, y)) / domain.cell) as f32);
         Ok(vec![share(shares[0]), share(shares[1]), springs])
     }
-}
-
-/// Number of the material that settles: the one named, or the last; else a sentence for the user.
-pub(in crate::erode) fn deposit_of(
-    name: Option<&LayerName>,
-    materials: &[Material],
-) -> Result<usize, String> {
-    let Some(last) = materials.len().checked_sub(1) else {
-        return Err("the landscape has no materials; it needs a bedrock at least".to_owned());
-    };
-    let Some(LayerName(name)) = name else { return Ok(last) };
-    materials.iter().position(|material| material.name == *name).ok_or_else(|| {
-        let known: Vec<_> = materials.iter().map(|material| material.name.as_str()).collect();
-        let near = nearest(name, &known).map(|near| format!("; did you mean `{near}`?"));
-        let near = near.unwrap_or_default();
-        format!("`deposit` is {name:?}, but must be a material of the landscape: {}{near}", known.join(", "))
-    })
 }

@@ -2,7 +2,8 @@
 //! what the setting asks for. The shaders stand beside the kernels that they repeat.
 
 use super::{Mei, plane};
-use crate::erode::advection::{Advected, Advection};
+use crate::erode::advection::Advection;
+use crate::erode::advection_rows::Advected;
 use weald_engine::program::builder::ProgramBuilder;
 use weald_engine::program::{Content, Program, Uniforms};
 use weald_engine::stencil::chain::Process;

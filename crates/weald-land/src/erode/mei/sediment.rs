@@ -3,7 +3,8 @@
 use super::{Mei, MeiScratch, plane};
 use crate::erode::before;
 use crate::erode::four_outflows::{Row, carry_upwind, inflows, outflows_of, store_transport_fluxes};
-use crate::erode::mei::kernels::{Exchange, Load, LoadUnlimited};
+use crate::erode::mei::kernels::{Exchange, LoadUnlimited};
+use crate::erode::outflow_kernels::Load;
 use crate::erode::sums;
 use weald_engine::stencil::chain::Flow;
 

@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use pulp::Arch;
 
-use super::{Pipeline, PipelineScratch};
+use super::PipelineScratch;
+use super::parts::Pipeline;
 use crate::erode::links::Links;
 use crate::erode::pipeline::running::PipelineRows;
 use crate::erode::sweep::Sweep;

@@ -1,18 +1,10 @@
 //! A pipeline on a device.
 
-use super::Pipeline;
+use super::parts::Pipeline;
 use crate::erode::links::{MASK_PLANES, plane};
 use weald_engine::program::builder::ProgramBuilder;
 use weald_engine::program::mentions::{Mention, mention};
 use weald_engine::program::{Content, Program, Uniforms};
-
-/// Shaders that do what the kernels do.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Twin {
-    /// Names and shaders of the passes, in their order.
-    pub(super) passes: Vec<(&'static str, &'static str)>,
-    pub(super) counts: Vec<(&'static str, usize)>,
-}
 
 impl Pipeline {
     /// The program: a buffer for each plane that stays, two for each that changes, which change roles after the

@@ -1,9 +1,10 @@
 //! A pipeline on rows that stream by.
 
-use super::{MAX_CHANGES, MAX_READS, Pipeline, Plane, Stage, source};
+use super::parts::{Pipeline, Plane, Stage};
+use super::parts::{Read, Source};
+use super::{MAX_CHANGES, MAX_READS, source};
 use crate::erode::links::LinkRow;
 use crate::erode::sweep::Sweep;
-use source::{Read, Source};
 use weald_engine::stencil::ring::Ring;
 
 /// Rows in flight within a pipeline.

@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use super::source::{Reach, Read, Source};
-use super::{Pipeline, Plane, RunOn, Stage};
+use super::parts::{Pipeline, Plane, RunOn, Stage};
+use super::parts::{Reach, Read, Source};
 
 /// The rows of a kernel.
 pub(super) struct Rows {

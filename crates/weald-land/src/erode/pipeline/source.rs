@@ -1,20 +1,8 @@
 //! Where the rows of a kernel come from, found by their names.
 
-use super::{Pipeline, Plane};
+use super::parts::{Pipeline, Plane};
+use super::parts::{Reach, Read, Source};
 use crate::erode::links::LinkRow;
-
-/// A plane, or which cells are joined.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Source {
-    /// A plane that stays.
-    Constant(usize),
-    /// A plane as the step finds it.
-    Input(usize),
-    /// A plane that an earlier kernel writes.
-    Plane(usize),
-    /// One of [`LINKS`].
-    Link(usize),
-}
 
 /// Rows that say which cells exist and which edges join two of them, and on which cells that depends: a part of a
 /// domain has walls around it, where the whole may go on.
@@ -31,37 +19,6 @@ const LINKS: [(&str, Reach); 7] = [
 /// Directions, with their cells to the east and to the south.
 const DIRECTIONS: [(&str, isize, isize); 4] =
     [("east", 1, 0), ("west", -1, 0), ("south", 0, 1), ("north", 0, -1)];
-
-/// A row that a kernel reads.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Read {
-    pub(super) source: Source,
-    /// Columns to the east of the cell.
-    pub(super) east: isize,
-    /// Rows to the south of it.
-    pub(super) south: isize,
-}
-
-/// Cells to the farthest in the west, east, north and south that a cell depends on.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct Reach([usize; 4]);
-
-impl Reach {
-    pub(super) fn or(self, other: Self) -> Self {
-        Self(std::array::from_fn(|side| self.0[side].max(other.0[side])))
-    }
-
-    pub(super) fn farthest(self) -> usize {
-        self.0.into_iter().fold(0, usize::max)
-    }
-
-    /// The same for a reader of cells that lie elsewhere.
-    fn from(self, east: isize, south: isize) -> Self {
-        let [to_west, to_east, to_north, to_south] = self.0;
-        let moved = |cells: usize, by: isize| cells.saturating_add_signed(by);
-        Self([moved(to_west, -east), moved(to_east, east), moved(to_north, -south), moved(to_south, south)])
-    }
-}
 
 impl Read {
     /// What a cell depends on that reads this.

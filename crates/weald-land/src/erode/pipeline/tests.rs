@@ -2,6 +2,7 @@
 
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 
+use super::parts::Plane;
 use super::*;
 use crate::erode::creep;
 use crate::erode::thermal::{Scheme, Slide, SlideConstants};
@@ -110,7 +111,8 @@ fn a_pipeline_does_on_rows_what_plain_loops_do_on_fields_on_every_engine() {
     let tiles = Engine::Tiles(Size { columns: 5, rows: 7 });
     for engine in [Engine::Cpu, Engine::Bands(3), Engine::Bands(6), tiles] {
         let start = Snapshot::start(rows.clone(), 0);
-        let mut machine = weald_engine::machine_of_engine::start(&process, &[], &start, &engine).expect("it starts");
+        let mut machine =
+            weald_engine::machine_of_engine::start(&process, &[], &start, &engine).expect("it starts");
         machine.advance(&[(); STEPS], false).expect("it runs");
         let state = machine.snapshot().expect("it is there").state;
         for (plane, expected) in expected.iter().enumerate() {

@@ -2,15 +2,16 @@
 
 use pulp::Arch;
 
-use super::{links, settings};
+use super::settings::{links, settings};
 use crate::erode::dissolution_step::Dissolving;
+use crate::erode::material_planes::{Planes, REGOLITH_PLANES};
+use crate::erode::outflow_planes as plane;
 use crate::erode::slippage_step;
 use crate::erode::stava::digging::Digging;
 use crate::erode::stava::dissolution::Dissolution;
-use crate::erode::stava::planes::{Planes, REGOLITH_PLANES};
 use crate::erode::stava::slippage::Slippage;
 use crate::erode::stava::viscosity::Viscosity;
-use crate::erode::stava::{Stava, StavaConstants, plane};
+use crate::erode::stava::{Stava, StavaConstants};
 use weald_engine::program::Program;
 use weald_engine::stencil::chain::Process;
 

@@ -8,9 +8,9 @@
 //! `r_max` in a cell.
 
 use super::digging::{DigScratch, Digging};
-use super::planes::{Pile, pile};
 use crate::erode::before;
-use crate::erode::mei::kernels::scaled;
+use crate::erode::material_planes::{Pile, pile};
+use crate::erode::outflow_kernels::scaled;
 use crate::erode::pipes::without_negligible;
 use crate::erode::sweep::Sweep;
 use weald_engine::kernel;

@@ -4,8 +4,9 @@
 //! The capacity is `K_c sin a |v|`, with the mean sine of the slopes around a cell, floored at 0.1. The free
 //! capacity is dug out of the column from the top down ([`super::digging`]).
 
-use super::{Stava, StavaScratch, plane};
+use super::{Stava, StavaScratch};
 use crate::erode::before;
+use crate::erode::outflow_planes as plane;
 use weald_engine::kernel;
 use weald_engine::stencil::chain::Flow;
 

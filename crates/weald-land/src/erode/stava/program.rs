@@ -4,12 +4,14 @@
 //! solid and the depth of the water before it flows.
 
 use super::dissolution::Dissolution;
-use super::planes::Planes;
 use super::slippage::Slippage;
-use super::{Stava, WEATHER_PLANES, plane};
-use crate::erode::advection::{Advected, Advection};
+use super::{Stava, WEATHER_PLANES};
+use crate::erode::advection::Advection;
+use crate::erode::advection_rows::Advected;
+use crate::erode::forcing::Forcing;
 use crate::erode::links::plane as links_plane;
-use crate::erode::simulation::Forcing;
+use crate::erode::material_planes::Planes;
+use crate::erode::outflow_planes as plane;
 use weald_core::material::MAX_MATERIALS;
 use weald_engine::program::builder::ProgramBuilder;
 use weald_engine::program::{Content, Program, Uniforms};

@@ -10,7 +10,7 @@ mod kernels;
 
 use std::sync::Arc;
 
-use super::planes::{Pile, Planes};
+use crate::erode::material_planes::{Pile, Planes};
 use crate::erode::pipeline::{Equations, Pipeline};
 use crate::erode::thermal::{Apply, Axis, Ground};
 use kernels::{AvailableShare, Slid, SoftAxis, Softened};

@@ -3,7 +3,7 @@
 
 use super::{Stava, StavaScratch};
 use crate::erode::four_outflows::{Row, carry_upwind, store_transport_fluxes};
-use crate::erode::mei::kernels::Load;
+use crate::erode::outflow_kernels::Load;
 use weald_engine::stencil::chain::Flow;
 
 impl Stava {

@@ -1,10 +1,11 @@
 //! Water in virtual pipes with four outflows a cell (Šťava et al. 2008; the scheme is that of
 //! [`crate::erode::mei`]), and its velocity: flux differences over the mean depth of the step.
 
-use super::{Stava, StavaScratch, plane};
+use super::{Stava, StavaScratch};
 use crate::erode::four_outflows::{OutflowDrive, Row, inflows, outflows_of, sines};
+use crate::erode::material_planes::{Pile, pile};
+use crate::erode::outflow_planes as plane;
 use crate::erode::pipes::without_negligible;
-use crate::erode::stava::planes::{Pile, pile};
 use weald_engine::kernel;
 use weald_engine::stencil::chain::Flow;
 

@@ -3,7 +3,8 @@
 //! `w' = max(0, w + R r + q⁺ - q⁻ - E e)` with rain `R` and evaporation `E` a step, the painted shares `r` and
 //! `e`, and the sources `q`, which drain where they are negative.
 
-use super::{Stava, plane};
+use super::Stava;
+use crate::erode::outflow_planes as plane;
 use crate::erode::pipes::without_negligible;
 use crate::erode::sums;
 use weald_engine::kernel;

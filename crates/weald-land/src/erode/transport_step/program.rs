@@ -1,7 +1,8 @@
 //! Transport alone as a program.
 
 use super::Carrying;
-use crate::erode::advection::{Advected, Advection};
+use crate::erode::advection::Advection;
+use crate::erode::advection_rows::Advected;
 use crate::erode::links::plane;
 use weald_engine::program::builder::ProgramBuilder;
 use weald_engine::program::{Content, Program, Uniforms};

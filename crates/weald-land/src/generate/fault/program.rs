@@ -10,9 +10,6 @@ use weald_engine::uniform::Uniform;
 
 const FAULT: &str = include_str!("../fault.wgsl");
 
-/// Sides of the largest grid on which the side of a line is a number of 32 bits.
-pub(super) const MAX_SIDE: usize = 1 << 15;
-
 /// Faults of one step: few enough that a step is short, many enough that the sums of the step before cost
 /// nothing beside them.
 const FAULTS_PER_STEP: u32 = 64;

@@ -17,7 +17,7 @@ pub(super) struct Piece {
     /// Its size as a share of the whole.
     pub(super) size: f64,
     /// Branchings below it.
-    pub(super) level: u32,
+    pub level: u32,
     /// Whether it is a card.
     pub(super) is_leaf: bool,
     /// A number of its own.

@@ -26,24 +26,23 @@ mod accumulate;
 mod basins;
 mod breach;
 mod descent;
+pub mod directions;
 mod disjoint_sets;
 mod fill;
 mod flats;
 mod multiple;
 mod naive;
+pub(crate) mod priority_flood;
 mod saddles;
-mod step;
 mod surface;
 
 pub use accumulate::accumulate;
 pub use multiple::{MultipleFlow, accumulate_multiple};
 pub use naive::naive;
-pub(in crate::analyse) use step::MILLIMETRES_PER_YEAR;
-pub use step::{ENTRY, FlowStep, Method};
 
-use super::directions::{Directions, OUTLET, SEA};
 use basins::Basins;
 use descent::Descent;
+use directions::{Directions, OUTLET, SEA};
 use saddles::Saddles;
 use surface::Surface;
 use weald_core::choices;

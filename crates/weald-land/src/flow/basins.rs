@@ -10,7 +10,7 @@ use rayon::prelude::*;
 
 use super::descent::{Descent, FLAT};
 use super::surface::{ROWS_PER_TASK, Surface};
-use crate::analyse::directions::OUTLET;
+use crate::flow::directions::OUTLET;
 
 /// Not yet known.
 const UNKNOWN: u32 = u32::MAX;

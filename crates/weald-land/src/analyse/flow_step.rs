@@ -1,7 +1,7 @@
 //! The step `flow`.
 
-use super::{Depressions, MultipleFlow, Routed, Routing, accumulate, accumulate_multiple, route};
 use crate::analyse::{ensure_finite, scaled};
+use crate::flow::{Depressions, MultipleFlow, Routed, Routing, accumulate, accumulate_multiple, route};
 use weald_core::error::Error;
 use weald_core::grid::Field;
 use weald_core::landscape::Landscape;

@@ -13,15 +13,15 @@ use weald_core::grid::Size;
 
 /// Where a cell's water goes.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Flooded {
+pub(crate) struct Flooded {
     /// Level at which water stands when it runs off.
-    pub(super) level: f64,
+    pub(crate) level: f64,
     /// The next cell on the path to an outlet; the cell itself for an outlet.
-    pub(super) next: usize,
+    pub(crate) next: usize,
 }
 
 /// The cells in the order in which they were flooded, and the flood in each cell.
-pub(super) fn priority_flood(size: Size, height: &[f64], outlets: &[bool]) -> (Vec<usize>, Vec<Flooded>) {
+pub(crate) fn priority_flood(size: Size, height: &[f64], outlets: &[bool]) -> (Vec<usize>, Vec<Flooded>) {
     let mut flood: Vec<Option<Flooded>> = vec![None; size.cells()];
     let mut queue = BinaryHeap::new();
     for cell in (0..size.cells()).filter(|&cell| outlets[cell]) {

@@ -11,7 +11,7 @@
 use super::basins::Basins;
 use super::saddles::Saddles;
 use super::surface::Surface;
-use crate::analyse::directions::OUTLET;
+use crate::flow::directions::OUTLET;
 
 /// Cuts channels from pits, none of which is deeper than `deepest` metres.
 pub(super) fn breach(surface: &mut Surface, basins: &Basins, saddles: &Saddles, deepest: f32) {

@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicU8, AtomicU64, Ordering};
 
 use rayon::prelude::*;
 
-use crate::analyse::directions::{Directions, STEPS};
+use crate::flow::directions::{Directions, STEPS};
 use weald_core::grid::{Field, Mask};
 
 /// Cells that one task begins at; no result depends on it.

@@ -1,6 +1,6 @@
 //! The plain version that the bench stands beside: one queue of cells, and sums along the ways by which it came.
 
-use crate::analyse::priority_flood::priority_flood;
+use crate::flow::priority_flood::priority_flood;
 use weald_core::grid::Field;
 
 /// Cells above each cell of ground without no-data, by one priority-flood.
@@ -19,7 +19,7 @@ pub fn naive(height: &Field) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::analyse::flow::{Routing, accumulate, route};
+    use crate::flow::{Routing, accumulate, route};
     use weald_core::grid::Size;
 
     #[test]

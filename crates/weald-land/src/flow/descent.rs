@@ -5,7 +5,7 @@
 use rayon::prelude::*;
 
 use super::surface::{NO_DATA, ROWS_PER_TASK, Surface};
-use crate::analyse::directions::{OUTLET, STEPS};
+use crate::flow::directions::{OUTLET, STEPS};
 use weald_core::vectors;
 
 /// Code of a cell that has no lower neighbour and is no outlet.

@@ -15,7 +15,7 @@ use rayon::prelude::*;
 
 use super::Routed;
 use super::accumulate::{CELLS_PER_TASK, CellWeights, opposite, set_directions};
-use crate::analyse::directions::STEPS;
+use crate::flow::directions::STEPS;
 use weald_core::grid::{Field, Mask, Size};
 
 /// Flow that divides.

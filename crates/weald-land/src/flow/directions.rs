@@ -32,7 +32,7 @@ impl Directions {
     ///
     /// # Panics
     /// If `codes` does not hold one code a cell: a bug of the caller.
-    pub(super) fn new(size: Size, codes: Vec<u8>) -> Self {
+    pub fn new(size: Size, codes: Vec<u8>) -> Self {
         assert_eq!(codes.len(), size.cells(), "one code a cell");
         Self { size, codes }
     }
@@ -88,7 +88,7 @@ impl Directions {
 
     /// The cells from an outlet or the sea upward, so that each comes after the one it drains to, as far as
     /// `member` says.
-    pub(super) fn upward(&self, member: impl Fn(usize) -> bool) -> Vec<usize> {
+    pub fn upward(&self, member: impl Fn(usize) -> bool) -> Vec<usize> {
         let ends = |&cell: &usize| {
             member(cell) && self.downstream(cell).is_none_or(|downstream| !member(downstream))
         };

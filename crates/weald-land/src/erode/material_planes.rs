@@ -71,3 +71,7 @@ pub(crate) fn pile<'a>(
         Pile { thickness, ground: &mut *ground }.run(arch);
     }
 }
+
+/// Constant planes of painted weather behind those of the links: share of the rain, share of the evaporation,
+/// and what sources give, less what drains take, in cells per step.
+pub(crate) const WEATHER_PLANES: usize = 3;

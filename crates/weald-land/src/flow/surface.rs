@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use crate::analyse::directions::STEPS;
+use crate::flow::directions::STEPS;
 use weald_core::grid::{Field, Mask, Size};
 
 /// Level of a cell without data: nothing flows there, and who is beside it can let water out.

@@ -1,0 +1,12 @@
+//! A stroke of a brush before a step of a simulation.
+
+use super::brush::Brush;
+
+/// A stroke, and the simulation step before which it happens.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Edit {
+    /// Steps of the simulation that are done before it; 0 for none.
+    pub step: u64,
+    /// The stroke.
+    pub brush: Brush,
+}
