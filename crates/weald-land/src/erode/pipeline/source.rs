@@ -19,13 +19,13 @@ pub(super) enum Source {
 /// Rows that say which cells exist and which edges join two of them, and on which cells that depends: a part of a
 /// domain has walls around it, where the whole may go on.
 const LINKS: [(&str, Reach); 7] = [
-    ("land", Reach([0; 4])),
+    ("valid", Reach([0; 4])),
     ("link_east", Reach([0, 1, 0, 0])),
     ("link_south", Reach([0, 0, 0, 1])),
     ("link_west", Reach([1, 0, 0, 0])),
     ("link_north", Reach([0, 0, 1, 0])),
     ("neighbour_share", Reach([1; 4])),
-    ("yields", Reach([0; 4])),
+    ("erodible", Reach([0; 4])),
 ];
 
 /// Directions, with their cells to the east and to the south.

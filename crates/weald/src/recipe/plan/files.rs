@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::words::Vocabulary;
-use weald_core::parameter::{Diagnostics, Kind, Parameter};
+use weald_core::parameter::{Diagnostics, Kind, Parameter, Variant};
 use weald_core::source::{Node, Table, Value};
 use weald_land::edit::Layout;
 
@@ -19,7 +19,8 @@ impl Files<'_> {
     /// The table with each file where it is. No file is opened.
     pub(super) fn placed(&self, table: &Table, keys: &[Parameter], diagnostics: &mut Diagnostics) -> Table {
         let mut placed = table.clone();
-        for key in keys.iter().filter(|key| matches!(key.kind, Kind::Raster | Kind::Script | Kind::Flame)) {
+        let is_file = |key: &&Parameter| matches!(key.kind, Kind::Raster | Kind::Script | Kind::Flame);
+        for key in keys.iter().flat_map(with_variants).filter(is_file) {
             let Some(Node { value: Value::Text(name), line }) = placed.get_mut(key.name) else { continue };
             let path = self.folder.join(&*name);
             if let Some(problem) = self.problem(&path, &key.kind) {
@@ -44,4 +45,10 @@ impl Files<'_> {
             Err(problem) => Some(problem),
         }
     }
+}
+
+/// A key, and those that the words it may have bring into the same table.
+fn with_variants(key: &Parameter) -> impl Iterator<Item = &Parameter> {
+    let variants: &[Variant] = if let Kind::Variants(variants) = &key.kind { variants } else { &[] };
+    std::iter::once(key).chain(variants.iter().flat_map(|variant| &variant.parameters))
 }
