@@ -185,4 +185,14 @@ mod tests {
     fn the_declaration_of_the_command_line_is_sound() {
         Arguments::command().debug_assert();
     }
+
+    #[test]
+    fn the_documents_name_every_command() {
+        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/commands.md");
+        let text = std::fs::read_to_string(path).expect("the document of the commands");
+        for command in Arguments::command().get_subcommands() {
+            let row = format!("| `weald {}", command.get_name());
+            assert!(text.contains(&format!("{row} ")) || text.contains(&format!("{row}`")), "{row}`");
+        }
+    }
 }

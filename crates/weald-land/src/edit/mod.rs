@@ -5,9 +5,9 @@
 //! and forth over strokes and steps.
 //!
 //! ```
-//! use weald::edit::{Area, Brush, Canvas, Effect, Falloff};
-//! use weald::material::Material;
-//! use weald::Size;
+//! use weald_land::edit::{Area, Brush, Canvas, Effect, Falloff};
+//! use weald_core::material::Material;
+//! use weald_core::Size;
 //!
 //! let area = Area { first: [0, 0], size: Size::square(32)? };
 //! let mut canvas = Canvas::level(area, 10.0, &Material::default_stack());
@@ -21,7 +21,7 @@
 //! let moved = levee.paint(&mut canvas)?;
 //! assert!(moved.solid_added > 10_000.0 && moved.solid_removed == 0.0, "{moved:?}");
 //! assert!(canvas.thickness[0].at(16, 16) > 2.5, "the levee is nearly 3 m high along its middle");
-//! # Ok::<(), weald::Error>(())
+//! # Ok::<(), weald_core::Error>(())
 //! ```
 
 mod brush;
