@@ -24,7 +24,7 @@ pub struct Layer {
 pub struct Landscape {
     /// Grid, cell size, georeference, mask.
     pub domain: Domain,
-    /// What the ground is made of, bedrock first: 1 to [`MOST`](crate::material::MOST).
+    /// What the ground is made of, bedrock first: 1 to [`MAX_MATERIALS`](crate::material::MAX_MATERIALS).
     pub materials: Vec<Material>,
     layers: BTreeMap<String, Layer>,
     /// Shared, because each step works on a copy of the landscape.
