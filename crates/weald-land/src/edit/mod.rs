@@ -24,6 +24,7 @@
 //! # Ok::<(), weald::Error>(())
 //! ```
 
+mod at_rest;
 mod brush;
 mod canvas;
 mod history;

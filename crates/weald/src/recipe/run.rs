@@ -19,7 +19,8 @@ use super::checkpoint::{self, CHECKPOINT_FILE, State};
 use super::ground;
 use super::plan::{Output, Planned, Recipe};
 use super::report::{OutputReport, REPORT_FILE, Report};
-use finished::{check_layers, step_report};
+use crate::written;
+use finished::step_report;
 use step_watcher::{CheckpointTimer, StepWatcher};
 pub use video::Frames;
 use weald_core::error::Error;
@@ -39,7 +40,7 @@ impl Recipe {
         let (mut landscape, _) = ground::load(self)?;
         for planned in &self.steps {
             planned.step.run(&mut landscape, &Job::unwatched(planned.seed(self.seed)))?;
-            check_layers(planned, &landscape)?;
+            written::check(planned.step.as_ref(), &landscape)?;
         }
         Ok(landscape)
     }
@@ -178,7 +179,7 @@ impl Run<'_> {
         let result = planned.step.run(&mut landscape, &job);
         drop(job);
         let result = result.and_then(|outcome| {
-            check_layers(planned, &landscape)?;
+            written::check(planned.step.as_ref(), &landscape)?;
             Ok(outcome)
         });
         let outcome = result.map_err(|error| self.explain(error, planned, &desk, resumed_at))?;
