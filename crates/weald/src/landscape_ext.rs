@@ -114,3 +114,47 @@ impl LandscapeExt for Landscape {
         brush.paint_at_rest(self)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use weald_core::domain::Georeference;
+    use weald_core::grid::{Field, Mask};
+
+    #[test]
+    fn what_is_saved_opens_with_its_values_cell_place_and_mask() {
+        let mut saved = Landscape::empty(7, 5, 20.0).expect("small");
+        let place = Georeference {
+            epsg: Some(32616),
+            origin: [730_900.0, 4_069_280.0],
+            pixel: [20.0; 2],
+            keys: None,
+        };
+        saved.domain.georeference = Some(place);
+        saved.domain.valid = Mask::new(saved.domain.size, (0..35).map(|cell| cell != 9).collect());
+        let height = Field::from_function(saved.domain.size, |x, y| (10 * y + x) as f32);
+        saved.insert("height", "m", height);
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("height.tif");
+        saved.save("height", &path).expect("written");
+
+        let opened = Landscape::open(&path).expect("read");
+        assert_eq!((opened.domain.cell, &opened.domain.valid), (20.0, &saved.domain.valid));
+        let place = opened.domain.georeference.as_ref().expect("a place");
+        assert_eq!((place.epsg, place.origin), (Some(32616), [730_900.0, 4_069_280.0]));
+        for cell in (0..35).filter(|cell| *cell != 9) {
+            let [before, after] =
+                [&saved, &opened].map(|land| land.field("height").expect("is").values()[cell]);
+            assert_eq!(before, after);
+        }
+        assert!(Landscape::open_with(&path, Some(30.0)).is_err(), "another width");
+        assert!(Landscape::empty(7, 5, f64::NAN).is_err() && Landscape::empty(7, 5, 0.0).is_err());
+    }
+
+    #[test]
+    fn the_program_in_the_readme_is_the_example() {
+        let readme = include_str!("../../../README.md");
+        let (_, program) = include_str!("../examples/six_names.rs").split_once("\n\n").expect("a title");
+        assert!(readme.contains(&format!("```rust\n{program}```\n")), "copy the example into README.md");
+    }
+}

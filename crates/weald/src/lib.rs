@@ -71,17 +71,10 @@
 mod ground_file;
 mod landscape_ext;
 mod layer_raster;
+pub mod prelude;
 pub mod recipe;
 pub mod steps;
 mod written;
-
-/// What a program needs that makes, changes and saves a landscape of its own.
-pub mod prelude {
-    pub use crate::landscape_ext::LandscapeExt;
-    pub use crate::steps;
-    pub use weald_core::{Domain, Error, Landscape, Size};
-    pub use weald_land::edit::{Brush, Effect};
-}
 
 pub use landscape_ext::LandscapeExt;
 
