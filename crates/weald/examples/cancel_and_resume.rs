@@ -19,7 +19,8 @@ impl Progress for Impatient {
 }
 
 const RECIPE: &str = "landscape = { size = [48, 48], cell = 20.0, seed = 7 }
-    step = [{ do = 'fbm' }, { do = 'hydraulic', iterations = 600 }]";
+    step = [{ do = 'fbm' }, { do = 'hydraulic', iterations = 600 }]
+    output = [{ layer = 'height', file = 'height.npy' }]";
 
 fn main() -> Result<(), Error> {
     let recipe = Recipe::parse("valley.toml", RECIPE, &Overrides::default())?;

@@ -1,4 +1,4 @@
-//! Draws a fern in the wind, and writes its points with their colours for a viewer of point clouds.
+//! Draws a fern in the wind, and writes points with their codes for a viewer of point clouds.
 
 use weald::prelude::Error;
 use weald::recipe::{FractalRequest, Options, Run, Silent};

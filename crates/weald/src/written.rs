@@ -1,6 +1,6 @@
 //! What a step must have done when it is finished.
 
-use weald_core::error::Error;
+use weald_core::error::{Error, NotFinite};
 use weald_core::landscape::Landscape;
 use weald_core::material::layer_names;
 use weald_engine::step::{Layered, Step};
@@ -17,9 +17,10 @@ pub(crate) fn check(step: &dyn Step, landscape: &Landscape) -> Result<(), Error>
         let field = landscape.field(&name)?;
         if let Some((x, y)) = field.first_not_finite(valid) {
             let value = field.at(x, y);
-            return Err(Error::Run(format!(
-                "layer `{name}` became {value} at column {x}, row {y}; gentler parameters may help"
-            )));
+            let message =
+                format!("layer `{name}` became {value} at column {x}, row {y}; gentler parameters may help");
+            let (step, iteration) = (None, None);
+            return Err(NotFinite { step, iteration, layer: name, cell: [x, y], message }.into());
         }
     }
     step.plants().iter().try_for_each(|name| landscape.plants(name).map(drop))?;

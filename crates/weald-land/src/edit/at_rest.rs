@@ -28,7 +28,8 @@ impl Brush {
         let height = Field::from_function(old.size(), |x, y| {
             let cell = old.size().index(x, y);
             let change = canvas.surface(cell) - before.surface(cell);
-            (f64::from(old.at(x, y)) + change) as f32
+            // Adding 0 would turn -0 into 0.
+            if change == 0.0 { old.at(x, y) } else { (f64::from(old.at(x, y)) + change) as f32 }
         });
         for ((name, now), (_, then)) in canvas.fields().zip(before.fields()) {
             if now != then {
