@@ -20,9 +20,12 @@ pub enum Error {
     /// A stated limit would be passed; nothing was allocated.
     #[error("{0}")]
     Limit(String),
-    /// The run itself failed: a NaN, an unwritable folder, a full disk.
+    /// The run itself failed: an unwritable folder, a full disk, a layer that is missing.
     #[error("{0}")]
     Run(String),
+    /// A step gave a value that is infinite or no number.
+    #[error("{0}")]
+    NotFinite(#[from] NotFinite),
     /// A compute device failed: none is there, it was lost, its memory is full.
     #[error("{0}")]
     Device(String),
@@ -35,7 +38,7 @@ impl Error {
     /// 1 run failed, 3 bad recipe, 4 bad input file, 5 over a stated limit, 130 interrupted.
     pub fn exit_code(&self) -> u8 {
         match self {
-            Self::Run(_) | Self::Device(_) => 1,
+            Self::Run(_) | Self::NotFinite(_) | Self::Device(_) => 1,
             Self::Recipe(_) => 3,
             Self::Input { .. } => 4,
             Self::Limit(_) => 5,
@@ -69,6 +72,23 @@ fn remedy(cause: ErrorKind) -> &'static str {
         }
         _ => "",
     }
+}
+
+/// Where a value is infinite or no number, for a program that goes on with gentler parameters.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("{message}")]
+pub struct NotFinite {
+    /// Name of the step, where a recipe was run.
+    pub step: Option<String>,
+    /// Iteration after which it was found, within a simulation.
+    pub iteration: Option<u64>,
+    /// The layer, or the plane of a simulation.
+    pub layer: String,
+    /// Column and row: of the landscape, or within a simulation of its grid, which around an open border has one more
+    /// cell on each side.
+    pub cell: [usize; 2],
+    /// What the user should know: where, and what to do.
+    pub message: String,
 }
 
 /// All that is wrong with a recipe, so that one look mends it.

@@ -39,14 +39,28 @@
 //! # Ok::<(), weald::Error>(())
 //! ```
 //!
+//! Without a recipe, a program opens or makes a [`Landscape`], runs [`steps`] on it, paints and saves:
+//!
+//! ```
+//! use weald::prelude::{Landscape, LandscapeExt, steps};
+//!
+//! let mut landscape = Landscape::empty(48, 32, 20.0)?; // columns, rows, metres
+//! landscape.run_with(&steps::DiamondSquare { relief: 200.0, ..Default::default() }, 7)?;
+//! landscape.run(&steps::Hydraulic { iterations: 120, ..Default::default() })?;
+//! let (_, deepest) = landscape.field("erosion")?.range(None).expect("there are cells");
+//! assert!(deepest > 0.01 && deepest < 200.0, "rain has carved up to {deepest} m");
+//! # Ok::<(), weald::Error>(())
+//! ```
+//!
 //! Where to go on:
 //!
+//! * [`prelude`]: the few names of such a program; `examples/` has five programs.
 //! * [`recipe`]: what a recipe can say, how it is checked and run; [`recipe::catalog`] lists all steps.
 //! * [`generate`], [`combine`], [`erode`]: the steps, one file a method, each with its equation and source.
 //! * [`Landscape`], [`Domain`], [`Field`]: layers on a grid with a cell size, a place on Earth, a no-data mask.
 //! * [`material`]: what ground is made of, in layers; [`edit`]: brushes, scripts of strokes, undo and redo.
 //! * [`erode::hydraulic::Hydraulic::run_interactive`]: a simulation to run interactively, for an editor of your own.
-//! * [`step::Step`]: what a step declares and does. Run one on a landscape of your own with [`engine::Job`].
+//! * [`step::Step`]: what a step declares and does. [`LandscapeExt::run`] runs one, and [`engine::Job`] watches it.
 //! * [`analyse`]: slope, flow, rivers, light, soil and other layers, and measures of river networks.
 //! * [`grow`]: plants, and where they stand.
 //! * [`io`]: raster formats. [`picture`]: maps and views. [`export`]: meshes, vectors, sets for engines, pages.
@@ -54,7 +68,15 @@
 //! Row 0 is north, `x` counts columns eastward and `y` rows southward. Heights and lengths are in metres unless
 //! a name says otherwise, angles in degrees carry the suffix `_deg`. [`Error`] is sorted by who must act.
 
+mod ground_file;
+mod landscape_ext;
+mod layer_raster;
+pub mod prelude;
 pub mod recipe;
+pub mod steps;
+mod written;
+
+pub use landscape_ext::LandscapeExt;
 
 #[doc(inline)]
 pub use weald_core::{

@@ -8,6 +8,7 @@ use common::{hydraulic, landscape, mei, rough, with};
 use weald::Error;
 use weald::engine::{Engine, Job, SavedSimulation, Watcher};
 use weald::erode::hydraulic::Hydraulic;
+use weald::error::NotFinite;
 use weald::step::Step;
 
 const COLUMNS: usize = 20;
@@ -61,6 +62,12 @@ fn an_overflow_names_its_step_and_cell_and_keeps_the_state_before() {
         println!("{message}");
         assert!(message.contains("column") && message.contains("row"), "{message}");
         assert!(message.contains("the last good state was kept"), "{message}");
+        let Error::NotFinite(NotFinite { iteration, layer, cell: [x, y], .. }) = error else {
+            panic!("{message}");
+        };
+        let place =
+            format!("iteration {}: `{layer}` at column {x}, row {y} ", iteration.expect("a simulation"));
+        assert!(message.starts_with(&place), "{message}");
         let saved = keeper.saved.lock().expect("one thread").pop().expect("a state was kept");
         let named: u64 =
             message.split(&[' ', ':'][..]).nth(1).and_then(|word| word.parse().ok()).expect("step N:");
@@ -76,4 +83,6 @@ fn a_start_that_is_no_number_is_refused_before_the_first_step() {
     let resume = poisoned(&step, f32::NAN);
     let error = run(&step, &Keeper::default(), Some(resume)).expect_err("NaN");
     assert!(error.to_string().contains("`water` at column 7, row 5"), "{error}");
+    let Error::NotFinite(NotFinite { layer, cell, .. }) = error else { panic!("{error}") };
+    assert_eq!((layer.as_str(), cell), ("water", [7, 5]));
 }

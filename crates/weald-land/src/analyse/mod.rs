@@ -32,7 +32,7 @@ pub use crate::flow::directions;
 
 use rayon::prelude::*;
 
-use weald_core::error::Error;
+use weald_core::error::{Error, NotFinite};
 use weald_core::grid::{Field, Size};
 use weald_core::landscape::Landscape;
 
@@ -43,9 +43,10 @@ const CELLS_PER_TASK: usize = 1 << 14;
 fn ensure_finite(landscape: &Landscape, name: &str) -> Result<(), Error> {
     let domain = &landscape.domain;
     let Some((x, y)) = landscape.field(name)?.first_not_finite(domain.valid.as_ref()) else { return Ok(()) };
-    Err(Error::Run(format!(
+    let message = format!(
         "the layer `{name}` is not a finite number in column {x}, row {y}; mend it, or mark the cell as no-data"
-    )))
+    );
+    Err(NotFinite { step: None, iteration: None, layer: name.to_owned(), cell: [x, y], message }.into())
 }
 
 /// Sums of each cell as a layer, in another unit.

@@ -105,6 +105,17 @@ pub struct Brush {
 }
 
 impl Brush {
+    /// A round dab at a place in metres east and south of the north-western corner, of full strength in the middle and
+    /// gently falling off to `radius` metres.
+    pub fn dab(effect: Effect, place: [f64; 2], radius: f64) -> Self {
+        Self::line(effect, &[place], radius)
+    }
+
+    /// The same along a line through several places.
+    pub fn line(effect: Effect, path: &[[f64; 2]], radius: f64) -> Self {
+        Self { path: path.to_vec(), radius, falloff: Falloff::Smooth, strength: 1.0, effect }
+    }
+
     /// The cells that a canvas must hold for the stroke to come out as on the whole landscape; `None` where it
     /// touches no cell of a landscape of this size.
     pub fn area(&self, size: Size, cell: f64) -> Option<Area> {

@@ -24,6 +24,7 @@
 //! # Ok::<(), weald_core::Error>(())
 //! ```
 
+mod at_rest;
 mod brush;
 mod canvas;
 mod history;

@@ -7,7 +7,7 @@ use super::finished::Finished;
 use super::look::{self, Seen};
 use super::pace::Pace;
 use super::saved::Saved;
-use weald_core::error::Error;
+use weald_core::error::{Error, NotFinite};
 use weald_engine::machine::{Machine, Means, Snapshot};
 use weald_engine::machine_of_engine;
 use weald_engine::stencil::chain::Process;
@@ -130,9 +130,13 @@ impl<'a, P: Process> Running<'a, P> {
         let state = &from.snapshot.state;
         if let Some([x, y, plane]) = state.first_not_finite(simulation.process.state_planes()) {
             let name = &simulation.plane_names[plane];
-            return Err(Error::Run(format!(
+            let message = format!(
                 "the simulation starts with a value of `{name}` at column {x}, row {y} that is no number"
-            )));
+            );
+            let layer = name.clone();
+            return Err(
+                NotFinite { step: None, iteration: Some(from.done), layer, cell: [x, y], message }.into()
+            );
         }
         let cells = from.snapshot.size().cells();
         let machine =
@@ -217,11 +221,13 @@ impl<'a, P: Process> Running<'a, P> {
                 Ok(()) => "the last good state was kept".to_owned(),
                 Err(error) => format!("the last good state could not be kept: {error}"),
             };
-            return Ok(Error::Run(format!(
-                "iteration {}: `{name}` at column {x}, row {y} is no longer a finite number; {kept}; a lower \
-                 `flow_rate` or `erosion`, or `limiter = true`, makes the scheme stable",
-                self.done
-            )));
+            let iteration = self.done;
+            let message = format!(
+                "iteration {iteration}: `{name}` at column {x}, row {y} is no longer a finite number; {kept}; a lower \
+                 `flow_rate` or `erosion`, or `limiter = true`, makes the scheme stable"
+            );
+            let (iteration, layer) = (Some(iteration), name.clone());
+            return Ok(NotFinite { step: None, iteration, layer, cell: [x, y], message }.into());
         }
         Ok(Error::Run(format!(
             "a value that is not finite appeared before iteration {end} and did not appear again"

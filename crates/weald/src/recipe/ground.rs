@@ -4,12 +4,11 @@ use std::path::Path;
 
 use super::layer_file::LayerFile;
 use super::plan::{FractalSource, Ground, PlannedFractal, Recipe};
+use crate::ground_file;
 use weald_core::domain::Domain;
 use weald_core::error::Error;
-use weald_core::grid::Mask;
 use weald_core::landscape::Landscape;
 use weald_core::material::Material;
-use weald_io as io;
 use weald_plants::Fractal;
 use weald_plants::Vegetation;
 use weald_plants::ifs::{Ifs, flame};
@@ -18,7 +17,7 @@ use weald_plants::ifs::{Ifs, flame};
 pub(super) fn load(recipe: &Recipe) -> Result<(Landscape, Vec<String>), Error> {
     let (mut landscape, mut notes) = match &recipe.ground {
         Ground::Empty { size, cell } => (Landscape::new(Domain::new(*size, *cell)), Vec::new()),
-        Ground::File { path, cell } => from_file(path, *cell)?,
+        Ground::File { path, cell } => ground_file::read(path, *cell)?,
     };
     landscape.materials = materials(recipe);
     landscape.set_fractals(fractals(recipe)?);
@@ -57,36 +56,6 @@ fn fractal(planned: &PlannedFractal) -> Result<Fractal, Error> {
         ));
     }
     Ok(fractal)
-}
-
-fn from_file(path: &Path, cell: Option<f64>) -> Result<(Landscape, Vec<String>), Error> {
-    let mut raster = io::read(path)?;
-    let mut notes = raster.notes.clone();
-    match (raster.cell, cell) {
-        (Some(found), Some(given)) if found != given => {
-            return Err(Error::input(
-                path,
-                format!("its cells are {found} m wide, but the recipe says `cell = {given}`; remove `cell`"),
-            ));
-        }
-        (None, Some(given)) if raster.georeference.is_none() => raster.cell = Some(given),
-        _ => {}
-    }
-    let (raster, note) = io::square(raster).map_err(|error| match error {
-        Error::Run(what) => Error::input(path, what),
-        other => other,
-    })?;
-    notes.extend(note);
-    let side = raster.cell.filter(|side| side.is_finite() && *side > 0.0);
-    let side = side.ok_or_else(|| Error::input(path, "has no cell size; give `cell` in [landscape]"))?;
-    if raster.valid.as_ref().map_or(0, Mask::valid_cells) == 0 && raster.valid.is_some() {
-        return Err(Error::input(path, "has no cell with data, so there is no ground to work on"));
-    }
-    let size = raster.field.size();
-    let domain = Domain { size, cell: side, georeference: raster.georeference, valid: raster.valid };
-    let mut landscape = Landscape::new(domain);
-    landscape.insert("height", "m", raster.field);
-    Ok((landscape, notes))
 }
 
 /// One flame of a file, counted from 1.

@@ -19,10 +19,11 @@ use super::checkpoint::{self, CHECKPOINT_FILE, State};
 use super::ground;
 use super::plan::{Output, Planned, Recipe};
 use super::report::{OutputReport, REPORT_FILE, Report};
-use finished::{check_layers, step_report};
+use crate::written;
+use finished::step_report;
 use step_watcher::{CheckpointTimer, StepWatcher};
 pub use video::Frames;
-use weald_core::error::Error;
+use weald_core::error::{Error, NotFinite};
 use weald_core::landscape::Landscape;
 use weald_engine::Job;
 use weald_export::Finished;
@@ -39,7 +40,7 @@ impl Recipe {
         let (mut landscape, _) = ground::load(self)?;
         for planned in &self.steps {
             planned.step.run(&mut landscape, &Job::unwatched(planned.seed(self.seed)))?;
-            check_layers(planned, &landscape)?;
+            written::check(planned.step.as_ref(), &landscape)?;
         }
         Ok(landscape)
     }
@@ -178,7 +179,7 @@ impl Run<'_> {
         let result = planned.step.run(&mut landscape, &job);
         drop(job);
         let result = result.and_then(|outcome| {
-            check_layers(planned, &landscape)?;
+            written::check(planned.step.as_ref(), &landscape)?;
             Ok(outcome)
         });
         let outcome = result.map_err(|error| self.explain(error, planned, &desk, resumed_at))?;
@@ -210,15 +211,22 @@ impl Run<'_> {
                 }
                 (None, Ok(())) => self.interrupted(&format!("in {step}, which will start again")),
             },
-            Error::Run(what) => match kept {
-                Some(iteration) => Error::Run(format!(
-                    "{step}: {what}; the last good state, after {iteration} iterations, is in {}",
-                    self.checkpoint().display()
-                )),
-                None => Error::Run(format!("{step}: {what}")),
-            },
+            Error::Run(what) => Error::Run(self.located(&step, &what, kept)),
+            Error::NotFinite(fault) => {
+                let message = self.located(&step, &fault.message, kept);
+                NotFinite { step: Some(planned.entry.name.to_owned()), message, ..fault }.into()
+            }
             other => other,
         }
+    }
+
+    /// A fault with the step before it and, where one was kept, the last good state behind it.
+    fn located(&self, step: &str, what: &str, kept: Option<u64>) -> String {
+        let state = kept.map_or_else(String::new, |iteration| {
+            let checkpoint = self.checkpoint();
+            format!("; the last good state, after {iteration} iterations, is in {}", checkpoint.display())
+        });
+        format!("{step}: {what}{state}")
     }
 
     fn outputs(

@@ -5,7 +5,7 @@ use crate::edit::{Action, Area, Canvas, Script, Session};
 use crate::erode::edits::Edits;
 use crate::erode::forcing::Forcing;
 use crate::erode::saved::Saved;
-use weald_core::error::Error;
+use weald_core::error::{Error, NotFinite};
 use weald_core::landscape::Landscape;
 use weald_engine::Engine;
 use weald_engine::machine::{Machine, Snapshot};
@@ -16,6 +16,7 @@ pub struct InteractiveSession<'a> {
     machine: Box<dyn Machine<Forcing> + 'a>,
     forcing: &'a dyn Fn(u64) -> Forcing,
     edits: &'a Edits,
+    plane_names: &'a [String],
     /// Steps done.
     done: u64,
 }
@@ -65,7 +66,8 @@ impl Hydraulic {
         let machine = machine_of_engine::start(&chosen.process, &[], &start, engine)?;
         let forcing = |step| self.forcing(&filled, step);
         let edits = chosen.edits.as_ref().expect("a script was given");
-        hold(InteractiveSession { machine, forcing: &forcing, edits, done: 0 })
+        let plane_names = &chosen.plane_names;
+        hold(InteractiveSession { machine, forcing: &forcing, edits, plane_names, done: 0 })
     }
 }
 
@@ -98,10 +100,14 @@ impl InteractiveSession<'_> {
         }
         match self.machine.first_not_finite()? {
             None => Ok(()),
-            Some([x, y, _]) => Err(Error::Run(format!(
-                "within {steps} iterations a value at column {x}, row {y} became no number; a lower `flow_rate` makes \
-                 the scheme stable"
-            ))),
+            Some([x, y, plane]) => {
+                let message = format!(
+                    "within {steps} iterations a value at column {x}, row {y} became no number; a lower `flow_rate` \
+                     makes the scheme stable"
+                );
+                let (iteration, layer) = (Some(self.done), self.plane_names[plane].clone());
+                Err(NotFinite { step: None, iteration, layer, cell: [x, y], message }.into())
+            }
         }
     }
 }

@@ -162,6 +162,8 @@ fn a_nan_is_reported_with_step_layer_and_cell_and_the_last_good_state() {
     assert!(message.contains("step 2 (`wear`): layer `height` became NaN at column 0, row 0"), "{message}");
     assert!(message.contains("checkpoint.weald"), "{message}");
     assert_eq!(error.exit_code(), 1);
+    let Error::NotFinite(fault) = error else { panic!("{message}") };
+    assert_eq!((fault.step.as_deref(), fault.layer.as_str(), fault.cell), (Some("wear"), "height", [0, 0]));
     assert!(!out.path().join(REPORT_FILE).exists(), "a failed run has no report");
 }
 

@@ -4,10 +4,10 @@ use std::path::Path;
 
 use super::film;
 use super::video::Frames;
+use crate::layer_raster;
 use crate::recipe::plan::{Content, Film, Motion, Output, Recipe};
 use crate::recipe::report::OutputReport;
 use weald_core::error::Error;
-use weald_core::grid::Field;
 use weald_export::{Export, Finished};
 use weald_io::{Capabilities, Encode, Part, PartName, Provenance, Raster, write_parts, write_whole};
 use weald_picture::{Cutout, Frame, Picture, RenderDevice};
@@ -160,29 +160,16 @@ impl Writer<'_> {
 
     /// The layer with 0 in its no-data cells.
     pub(super) fn raster(&self, name: &str) -> Result<Raster, Error> {
-        let layer = self.finished.landscape.layer(name)?;
-        let domain = &self.finished.landscape.domain;
         let provenance = Provenance {
             version: env!("CARGO_PKG_VERSION").to_owned(),
             recipe_blake3: self.finished.hash.to_owned(),
             seed: self.finished.seed,
             layer: name.to_owned(),
-            unit: layer.unit.clone(),
+            unit: self.finished.landscape.layer(name)?.unit.clone(),
             range: self.range(name)?.unwrap_or((0.0, 0.0)),
         };
-        let mut field: Field = layer.field.clone();
-        if let Some(valid) = &domain.valid {
-            for (value, &is_valid) in field.values_mut().iter_mut().zip(valid.flags()) {
-                *value = if is_valid { *value } else { 0.0 };
-            }
-        }
-        Ok(Raster {
-            valid: domain.valid.clone(),
-            cell: Some(domain.cell),
-            georeference: domain.georeference.clone(),
-            provenance: Some(provenance),
-            ..Raster::from(field)
-        })
+        let raster = layer_raster::raster(self.finished.landscape, name)?;
+        Ok(Raster { provenance: Some(provenance), ..raster })
     }
 }
 
