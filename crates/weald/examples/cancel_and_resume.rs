@@ -25,7 +25,7 @@ const RECIPE: &str = "landscape = { size = [48, 48], cell = 20.0, seed = 7 }
 fn main() -> Result<(), Error> {
     let recipe = Recipe::parse("valley.toml", RECIPE, &Overrides::default())?;
     let folder = std::env::temp_dir().join(format!("weald_cancel_{}", std::process::id()));
-    let options = Options { resume: false, ..Options::into_folder(&folder) };
+    let options = Options::into_folder(&folder);
     let run = Run { recipe: &recipe, options: options.clone() };
     let stopped = run.landscape(&Impatient(AtomicU64::new(0))).expect_err("it was impatient");
     assert!(matches!(stopped, Error::Interrupted(_)), "{stopped}");
