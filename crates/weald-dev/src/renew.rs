@@ -85,6 +85,7 @@ mod tests {
     use super::*;
 
     /// A sheet, marked where it is a draft.
+    #[expect(clippy::unnecessary_wraps, reason = "figures are made by functions that may fail")]
     fn sheet(job: GalleryJob) -> Result<FigureOutput, Error> {
         let mut image = Image::paper(80, 80);
         image.rgb[..job.choose(0, 9_000)].fill(0);

@@ -1,6 +1,6 @@
 //! Reads an elevation model, finds its rivers as lines, and measures them.
 
-use weald::analyse::rivers::Rivers;
+use weald::analyse::rivers::{Reach, Rivers};
 use weald::prelude::{Error, Landscape, LandscapeExt, steps};
 
 fn main() -> Result<(), Error> {
@@ -10,7 +10,7 @@ fn main() -> Result<(), Error> {
     landscape.run(&steps::Rivers { area: Some(5.0e6), ..Default::default() })?;
 
     let rivers = Rivers::of(&landscape)?;
-    let length: f64 = rivers.reaches.iter().map(|reach| reach.length()).sum();
+    let length: f64 = rivers.reaches.iter().map(Reach::length).sum();
     let land = landscape.domain.valid_cells() as f64 * landscape.domain.cell_area();
     let order = rivers.reaches.iter().map(|reach| reach.order).max();
     println!("{:.0} km of rivers, {:.2} km/km²", length / 1000.0, 1000.0 * length / land);

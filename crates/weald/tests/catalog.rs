@@ -250,11 +250,14 @@ proptest! {
     }
 }
 
+/// Reads a table.
+type Reader = Box<dyn Fn(&Table, &mut Diagnostics)>;
+
 /// Tables of a recipe: what they are called, their keys, and how they are read.
 struct Kept {
     name: &'static str,
     parameters: Vec<Parameter>,
-    read: Box<dyn Fn(&Table, &mut Diagnostics)>,
+    read: Reader,
 }
 
 fn kept<T: Parameters + 'static>(name: &'static str) -> Kept {
@@ -382,7 +385,8 @@ fn check_needs(table: &Kept, place: &Place<'_>, parameters: &[Parameter]) -> usi
     let mut tried = 0;
     for (choice, all) in choices(parameters) {
         let choice = choice.trim().to_owned();
-        for parameter in &all {
+        // The word that chooses is in every text already.
+        for parameter in all.iter().filter(|one| !matches!(one.kind, Kind::Variants(_))) {
             for (at, needs) in parameter.needs.iter().enumerate() {
                 let others = parameter.needs.iter().enumerate().filter(|(other, _)| *other != at);
                 let others: Vec<_> = others.map(|(_, needs)| meeting(needs, &all)).collect();

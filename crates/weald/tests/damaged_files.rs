@@ -1,7 +1,10 @@
 //! Truncated and mutated files give an error or a raster, never a panic and never more memory than allowed.
 
+mod rasters;
+
 use std::path::Path;
 
+use rasters::exr_file;
 use weald::grid::{Field, Mask, Size};
 use weald::io::{DecodeFile, Fault, InMemory, Limits, Part, Raster, asc, exr, geotiff, npy, png16, raw};
 use weald::random::hash2;
@@ -50,7 +53,7 @@ fn files() -> Vec<(DecodeFile, Vec<u8>)> {
     for name in
         ["none_half", "rle_float", "zips_uint", "piz_float", "piz_half", "piz_float_tiles", "zip_grey_rgb"]
     {
-        files.push((exr::decode, fixture(&format!("exr/{name}.exr"))));
+        files.push((exr::decode, exr_file(&format!("{name}.exr"))));
     }
     let tiffs = [
         "bigtiff_big_endian_tiles.tif",

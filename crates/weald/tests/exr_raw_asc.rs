@@ -6,7 +6,7 @@ mod rasters;
 use std::path::Path;
 
 use proptest::prelude::*;
-use rasters::any_raster;
+use rasters::{any_raster, exr_file};
 use weald::domain::{GeoKeys, Georeference};
 use weald::grid::{Field, Size};
 use weald::io::{
@@ -16,26 +16,6 @@ use weald::io::{
 use weald::random::hash2;
 
 const EXR_SIZE: Size = Size { columns: 21, rows: 37 };
-
-/// A file of the archive of fixtures: in a tar a header of 512 bytes (name, at byte 124 the length in octal digits)
-/// goes before each, whose bytes fill whole blocks of as many.
-fn exr_file(name: &str) -> Vec<u8> {
-    let archive = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/fixtures/exr.tar");
-    let archive = std::fs::read(archive).expect("the fixtures");
-    let mut rest = archive.as_slice();
-    while let Some((header, files)) = rest.split_at_checked(512) {
-        let text = |range: std::ops::Range<usize>| {
-            let bytes = header[range].split(|&byte| byte == 0).next().expect("a first part");
-            std::str::from_utf8(bytes).expect("ASCII").trim().to_owned()
-        };
-        let length = usize::from_str_radix(&text(124..136), 8).unwrap_or(0);
-        if text(0..100) == name {
-            return files[..length].to_vec();
-        }
-        rest = files.get(length.next_multiple_of(512)..).unwrap_or_default();
-    }
-    panic!("no fixture {name}")
-}
 
 /// The samples of a fixture as floats.
 fn samples(name: &str) -> Vec<f32> {

@@ -38,6 +38,7 @@ pub trait ParameterValue: Sized + Clone {
     fn read(node: &Node, range: (f64, f64), diagnostics: &mut Diagnostics) -> Result<Self, String>;
 
     /// The value with what else the table of its key says about it: the keys of a chosen variant.
+    #[must_use]
     fn with_keys_of(self, table: &Table, diagnostics: &mut Diagnostics) -> Self {
         let _ = (table, diagnostics);
         self
@@ -76,17 +77,16 @@ pub fn read_key<T: ParameterValue>(
     range: (f64, f64),
     diagnostics: &mut Diagnostics,
 ) -> T {
-    let value = match table.get(name) {
-        Some(node) => T::read(node, range, diagnostics).unwrap_or_else(|problem| {
+    let value = if let Some(node) = table.get(name) {
+        T::read(node, range, diagnostics).unwrap_or_else(|problem| {
             diagnostics.add(node.line, format!("`{name}` {problem}"));
             default
-        }),
-        None => {
-            if default.must_be_given() {
-                diagnostics.add(table.line, format!("`{name}` is needed: {}", T::kind(range).in_words()));
-            }
-            default
+        })
+    } else {
+        if default.must_be_given() {
+            diagnostics.add(table.line, format!("`{name}` is needed: {}", T::kind(range).in_words()));
         }
+        default
     };
     value.with_keys_of(table, diagnostics)
 }

@@ -23,6 +23,7 @@ impl Fault {
     }
 
     /// The fault of a key in the table `outer`.
+    #[must_use]
     pub fn within(self, outer: &str) -> Self {
         Self { key: format!("{outer}.{}", self.key), ..self }
     }

@@ -111,7 +111,8 @@ fn write_parameters(text: &mut String, parameters: &[Parameter], indent: usize) 
             (None, false) => String::new(),
         };
         let unit = if parameter.unit == "1" { String::new() } else { format!(", in {}", parameter.unit) };
-        let needs: String = parameter.needs.iter().map(|needs| format!("; {}", needs.in_words())).collect();
+        let needs: Vec<_> = parameter.needs.iter().map(|needs| format!("; {}", needs.in_words())).collect();
+        let needs = needs.concat();
         let kind = parameter.kind.in_words();
         let _ = writeln!(text, "\n{:indent$}{} ({kind}{unit}{default}{needs})", "", parameter.name);
         text.push_str(&wrapped(parameter.doc, indent + 2));
@@ -121,7 +122,9 @@ fn write_parameters(text: &mut String, parameters: &[Parameter], indent: usize) 
     }
     for parameter in parameters {
         if let Kind::Variants(variants) = &parameter.kind {
-            variants.iter().for_each(|variant| write_variant(text, parameter.name, variant, indent));
+            for variant in variants {
+                write_variant(text, parameter.name, variant, indent);
+            }
         }
     }
 }

@@ -117,7 +117,9 @@ fn alternatives((key, word): (&str, &str), summary: &str, parameters: &[Paramete
 }
 
 fn with_file(mut objects: Vec<Value>, extensions: &[&str]) -> Vec<Value> {
-    objects.iter_mut().for_each(|object| add_property(object, "file", &file(extensions)));
+    for object in &mut objects {
+        add_property(object, "file", &file(extensions));
+    }
     objects
 }
 
@@ -220,8 +222,9 @@ fn property(parameter: &Parameter) -> Value {
     let default = parameter.default.as_deref().and_then(as_json);
     let in_words = parameter.default_in_words.as_ref().filter(|_| default.is_none());
     let in_words = in_words.map_or(String::new(), |default| format!(" Default: {default}."));
-    let needs: String =
+    let needs: Vec<_> =
         parameter.needs.iter().map(|needs| format!(" It goes {}.", needs.in_words())).collect();
+    let needs = needs.concat();
     schema["description"] = format!("{}{unit}{in_words}{needs}", spaced(parameter.doc)).into();
     if let Some(default) = default {
         schema["default"] = default;

@@ -1,7 +1,7 @@
 //! Rasters that tests of files share.
 #![allow(dead_code, unreachable_pub, reason = "each test binary uses its own part")]
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use tempfile::TempDir;
 use weald::domain::Georeference;
@@ -57,4 +57,24 @@ pub fn written(raster: &Raster, name: &str) -> (TempDir, PathBuf) {
     let path = folder.path().join(name);
     io::write(&path, raster).expect("written");
     (folder, path)
+}
+
+/// A file of the archive of fixtures: in a tar a header of 512 bytes (name, at byte 124 the length in octal digits)
+/// goes before each, whose bytes fill whole blocks of as many.
+pub fn exr_file(name: &str) -> Vec<u8> {
+    let archive = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/fixtures/exr.tar");
+    let archive = std::fs::read(archive).expect("the fixtures");
+    let mut rest = archive.as_slice();
+    while let Some((header, files)) = rest.split_at_checked(512) {
+        let text = |range: std::ops::Range<usize>| {
+            let bytes = header[range].split(|&byte| byte == 0).next().expect("a first part");
+            std::str::from_utf8(bytes).expect("ASCII").trim().to_owned()
+        };
+        let length = usize::from_str_radix(&text(124..136), 8).unwrap_or(0);
+        if text(0..100) == name {
+            return files[..length].to_vec();
+        }
+        rest = files.get(length.next_multiple_of(512)..).unwrap_or_default();
+    }
+    panic!("no fixture {name}")
 }

@@ -140,7 +140,11 @@ impl Draw {
         };
         let region = if step.boundary == Boundary::Closed { self.painted(6) } else { None };
         let step = Hydraulic { region, ..step };
-        if kind % 3 == 2 { self.of_stava(step) } else { self.of_water_alone(step, kind % 3 == 0, transport) }
+        if kind % 3 == 2 {
+            self.of_stava(step)
+        } else {
+            self.of_water_alone(step, kind.is_multiple_of(3), transport)
+        }
     }
 
     fn painted(&mut self, once_in: u64) -> Option<LayerName> {

@@ -56,7 +56,7 @@ impl Names {
     }
 
     fn add(&mut self, module: &[String], file: &str, items: &[Item]) {
-        self.scopes.entry(module.to_vec()).or_default().file = file.to_owned();
+        file.clone_into(&mut self.scopes.entry(module.to_vec()).or_default().file);
         for item in items {
             self.add_item(module, file, item);
         }

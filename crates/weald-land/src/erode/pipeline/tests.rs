@@ -160,7 +160,7 @@ fn hills(masked: bool) -> Landscape {
 }
 
 /// The ground after the worked example, made on so many threads.
-fn crept(land: &Landscape, engine: Engine, threads: usize) -> Vec<f32> {
+fn crept(land: &Landscape, engine: &Engine, threads: usize) -> Vec<f32> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
     let mut land = land.clone();
     for step in creep::variants() {
@@ -175,7 +175,7 @@ fn the_worked_example_keeps_the_ground_makes_it_smoother_and_has_the_same_bits_e
     for masked in [false, true] {
         let land = hills(masked);
         let before = land.field("height").expect("h").values();
-        let after = crept(&land, Engine::Cpu, 1);
+        let after = crept(&land, &Engine::Cpu, 1);
         let sum = |values: &[f32], power: i32| -> f64 {
             let cells = values.iter().enumerate();
             let land =
@@ -186,7 +186,7 @@ fn the_worked_example_keeps_the_ground_makes_it_smoother_and_has_the_same_bits_e
         assert!(sum(&after, 2) < 0.2 * sum(before, 2), "hills become lower, and hollows less deep");
         let tiles = Engine::Tiles(Size { columns: 6, rows: 5 });
         for (engine, threads) in [(Engine::Cpu, 2), (Engine::Cpu, 5), (Engine::Bands(3), 1), (tiles, 1)] {
-            assert_eq!(crept(&land, engine.clone(), threads), after, "{engine:?} on {threads} threads");
+            assert_eq!(crept(&land, &engine, threads), after, "{engine:?} on {threads} threads");
         }
     }
 }

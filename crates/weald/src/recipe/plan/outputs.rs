@@ -314,12 +314,15 @@ fn ensure_extension(
     }
 }
 
+/// Reads a kind of output from its keys.
+type Reader<T> = fn(&Table, &mut Diagnostics) -> T;
+
 /// Reads the keys of a picture or an export: all but its kind and its file.
 fn with_keys<T>(
     (key, subject): (&str, &str),
     table: &Table,
     diagnostics: &mut Diagnostics,
-    (parameters, read): (fn() -> Vec<Parameter>, fn(&Table, &mut Diagnostics) -> T),
+    (parameters, read): (fn() -> Vec<Parameter>, Reader<T>),
 ) -> T {
     let mut keys = table.clone();
     keys.take(key);
