@@ -168,15 +168,14 @@ fn retired() -> Table {
 #[test]
 fn no_retired_word_stands_in_code_documents_or_messages() {
     let (retired, root) = (retired(), root());
-    let mut complaints = Vec::new();
+    let mut found = Vec::new();
     for path in files() {
         let text =
             std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
         let shown = path.strip_prefix(&root).expect("within").display().to_string();
-        complaints
-            .extend(found_in(&path, &text, &retired).into_iter().map(|what| format!("{shown}: {what}")));
+        found.extend(found_in(&path, &text, &retired).into_iter().map(|what| format!("{shown}: {what}")));
     }
-    assert!(complaints.is_empty(), "{} retired words:\n{}", complaints.len(), complaints.join("\n"));
+    assert!(found.is_empty(), "{} retired words:\n{}", found.len(), found.join("\n"));
 }
 
 #[test]

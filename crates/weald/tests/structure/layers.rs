@@ -7,6 +7,7 @@ use super::workspace::Workspace;
 
 /// All crates from top to bottom, each with those that it may use. A recipe goes through them from top to bottom.
 pub(crate) const LAYERS: &[(&str, &[&str])] = &[
+    ("weald-dev", &["weald-gallery", "weald"]),
     ("weald-cli", &["weald-gallery", "weald-gpu", "weald"]),
     (
         "weald-gallery",
