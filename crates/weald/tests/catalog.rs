@@ -74,15 +74,15 @@ fn needed(parameters: &[Parameter]) -> String {
 
 fn some_value(parameter: &Parameter) -> String {
     match &parameter.kind {
-        Kind::Number(low, high) => format!("{:?}", (low + high) / 2.0),
-        Kind::Integer(low, _) => format!("{low}"),
+        Kind::Number(low, high) => format!("{:?}", between(*low, *high)),
+        Kind::Integer(low, _) => format!("{}", low.max(1.0)),
         Kind::Flag => "true".to_owned(),
         Kind::Choice(words) => format!("{:?}", words[0]),
         Kind::Variants(variants) => format!("{:?}", variants[0].word),
         Kind::Choices(words) => format!("[{:?}]", words[0]),
         Kind::Rows => "[[0.5, 0.0, 0.0, 0.5, 0.0, 0.0]]".to_owned(),
         Kind::Flame => "\"one.flame\"".to_owned(),
-        Kind::Numbers(low, high) => format!("[{:?}]", (low + high) / 2.0),
+        Kind::Numbers(low, high) => format!("[{:?}]", between(*low, *high)),
         Kind::Sides => "16".to_owned(),
         Kind::Places => "[1.0, 2.0]".to_owned(),
         Kind::Layer | Kind::Text => format!("\"{}_layer\"", parameter.name),
@@ -93,6 +93,12 @@ fn some_value(parameter: &Parameter) -> String {
         Kind::Table(inner) => format!("{{ {} }}", needed(inner).trim().replace('\n', ", ")),
         Kind::Tables(inner) => format!("[{{ {} }}]", needed(inner).trim().replace('\n', ", ")),
     }
+}
+
+/// The middle of a range, or a number within one that has no end.
+fn between(low: f64, high: f64) -> f64 {
+    let middle = (low + high) / 2.0;
+    if middle.is_finite() { middle } else { 1.0_f64.clamp(low, high) }
 }
 
 /// A raster file of as many cells as the ground that steps are given here.
