@@ -163,11 +163,12 @@ fn single_brackets_are_answered_with_double_ones() {
 
 #[test]
 fn the_first_step_of_a_kind_has_the_seed_of_the_landscape_and_later_ones_their_own() {
-    let more = "[[step]]\ndo = \"rough\"\ninto = \"other\"\n[[output]]";
-    let recipe = parse(&with("[[output]]", more)).expect("good");
+    let more = |into: &str| format!("[[step]]\ndo = \"rough\"\ninto = \"{into}\"\n");
+    let text = with("[[output]]", &format!("{}{}[[output]]", more("second"), more("third")));
+    let recipe = parse(&text).expect("good");
     let seeds: Vec<_> = recipe.steps.iter().map(|step| step.seed(3)).collect();
-    assert_eq!(seeds[..2], [3, 3]);
-    assert_eq!(seeds[2], weald_core::random::splitmix64(3 ^ 1));
+    // SplitMix64 of 3 ^ 1 and of 3 ^ 2.
+    assert_eq!(seeds, [3, 3, 0x9758_35de_1c97_56ce, 0x910a_2dec_8902_5cc1]);
 }
 
 #[test]

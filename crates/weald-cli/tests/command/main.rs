@@ -1,0 +1,8 @@
+//! The command as people call it.
+
+mod command;
+mod engine;
+mod fractal;
+mod interruption;
+mod place;
+mod render;

@@ -1,0 +1,104 @@
+//! Which sets of grass a device draws, and in which order, is what the CPU says.
+
+use crate::programs::gpu;
+use crate::scenes::{above, meadow, options, view};
+use weald::grow::Vegetation;
+use weald::grow::grass::choice::{Choice, LISTS, ViewCone};
+use weald::grow::grass::{Instance, Meadow, Packed};
+use weald::picture::{Camera, Stage};
+use weald_gpu::{Chosen, GrassLook, Renderer};
+
+/// How near to where it would be chosen otherwise a set may be for a device to differ: metres of its root, which the
+/// device finds by a spline of other rounding, and shares of its rank, which a device's `pow` is off by.
+const UNSURE: f32 = 1e-4;
+
+/// Greatest share of sets that may be so near.
+const FEW: f64 = 0.01;
+
+const LOOKS: [GrassLook; 4] = [
+    GrassLook { culled: true, thinned: true, level: None },
+    GrassLook { culled: false, thinned: true, level: None },
+    GrassLook { culled: true, thinned: false, level: None },
+    GrassLook { culled: false, thinned: false, level: Some(2.0) },
+];
+
+/// As choices of a look are made.
+fn choice(look: GrassLook) -> Choice {
+    let choice =
+        if look.thinned { Choice::of_a_picture() } else { Choice::of_all(look.level.unwrap_or(4.0)) };
+    Choice { culled: u32::from(look.culled), ..choice }
+}
+
+/// The sets of each list by the CPU, and those of which it is not sure.
+fn by_the_cpu(stage: &Stage, camera: &Camera, look: GrassLook, sets: &[Packed]) -> [Vec<Packed>; LISTS + 1] {
+    let axes = [camera.forward, camera.right, camera.up];
+    let sight = ViewCone { eye: camera.eye, axes, half: camera.half, detail_from: camera.eye };
+    let (choice, mut lists) = (choice(look), [const { Vec::new() }; LISTS + 1]);
+    for &set in sets {
+        let Instance { place: [east, south], tuft, .. } = Instance::unpack(set);
+        let up = stage.top_at([east, south].map(f64::from)).expect("on the land");
+        let list = |[x, y, z]: [f32; 3]| choice.list_of(&sight, &tuft, [east + x, -south + y, up + z]);
+        let found = list([0.0; 3]);
+        let mut nudges =
+            (0..8).map(|bits| [0, 1, 2].map(|axis| if bits >> axis & 1 == 0 { UNSURE } else { -UNSURE }));
+        if nudges.any(|nudge| list(nudge) != found) {
+            lists[LISTS].push(set);
+        } else if let Some(found) = found {
+            lists[found].push(set);
+        }
+    }
+    for list in &mut lists {
+        list.sort_unstable();
+    }
+    lists
+}
+
+/// Compares what a device chose with what the CPU does, and tells how many sets each list has.
+fn compare(chosen: &Chosen, cpu: &[Vec<Packed>; LISTS + 1], all: usize) -> [usize; LISTS] {
+    let unsure = &cpu[LISTS];
+    assert!((unsure.len() as f64) < FEW * all as f64, "{} unsure", unsure.len());
+    for (number, (list, ours)) in chosen.lists.iter().zip(cpu).enumerate() {
+        assert!(list.is_sorted_by(|a, b| a < b), "in the order of the sets");
+        let sets = list.iter().map(|&number| chosen.sets[number as usize]);
+        let mut sure: Vec<_> = sets.filter(|set| unsure.binary_search(set).is_err()).collect();
+        sure.sort_unstable();
+        let first = sure.iter().zip(ours).find(|(a, b)| a != b);
+        assert!(sure == *ours, "list {number}: {} and {}, first {first:?}", sure.len(), ours.len());
+    }
+    [0, 1, 2].map(|list| chosen.lists[list].len())
+}
+
+#[test]
+fn a_device_draws_the_sets_that_the_cpu_chooses_in_the_same_order() {
+    let Some(gpu) = gpu() else { return };
+    let landscape = meadow();
+    let stage = Stage::new(&view(), &landscape).expect("a stage");
+    let mut renderer = Renderer::new(&gpu, &stage, options(1)).expect("it can be drawn");
+    renderer.plant(&stage, &landscape).expect("planted");
+    let grass = landscape.all_meadows().next().expect("a meadow").1;
+    let all = grass.sets(&grass.area()).len();
+    assert!(all > 100_000, "{all} sets");
+    let places =
+        [([60.0, 70.0], 1.5, 12.0, 0.0), ([20.0, 30.0], 6.0, 30.0, 135.0), ([110.0, 60.0], 1.0, 0.0, 270.0)];
+    let mut most = [0; LISTS];
+    for (place, metres, down, turn) in places {
+        let camera = above(&stage, place, metres, down, turn);
+        for look in LOOKS {
+            renderer.set_grass_look(look);
+            let chosen = &renderer.chosen(&camera).expect("chosen")[0];
+            // The CPU chooses among all: what is sown on the device depends on the camera as well.
+            let level = look.level.unwrap_or(grass.level);
+            let sets = Meadow { level, ..(*grass).clone() }.sets(&grass.area());
+            let counts = compare(chosen, &by_the_cpu(&stage, &camera, look, &sets), all);
+            println!("{look:?}: {counts:?} of {} sown of {all}", chosen.sets.len());
+            match look {
+                GrassLook { culled: false, thinned: false, .. } => assert_eq!(counts[0], all),
+                GrassLook { thinned: false, .. } => assert!((1..all).contains(&counts[0])),
+                _ => most = [0, 1, 2].map(|list| most[list].max(counts[list])),
+            }
+            let again = renderer.chosen(&camera).expect("chosen");
+            assert_eq!(&again[0], chosen, "the same each time");
+        }
+    }
+    assert!(most.iter().all(|&most| most > 1000), "all lists have sets: {most:?}");
+}

@@ -1,0 +1,24 @@
+//! The device against the CPU, its limits, and the renderer, on Vulkan.
+
+mod budgets;
+mod choice;
+#[path = "../../../weald-land/tests/land/common/mod.rs"]
+mod common;
+mod device;
+mod edits;
+mod engines_agree;
+mod figures;
+mod flip;
+mod goldens;
+mod grass;
+mod larger_than_memory;
+mod limits;
+mod live;
+mod plants;
+mod processes;
+mod programs;
+mod render;
+mod scenes;
+mod swarms;
+mod tables;
+mod transitions;

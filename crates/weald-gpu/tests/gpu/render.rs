@@ -1,0 +1,268 @@
+//! What is drawn on a device: without cracks, without leaps, the same twice, and as the ray-marched view has it.
+
+use crate::programs::gpu;
+use crate::scenes::{above, lakes, meadow, mountains, options, view};
+use weald::grid::Mask;
+use weald::picture::{Camera, Image, Oklab, Stage, View, linear_of_hex};
+use weald::{Error, Landscape};
+use weald_gpu::{Gpu, RenderOptions, Renderer, TestLook, Timings};
+
+fn renderer(gpu: &Gpu, stage: &Stage, samples: u32) -> Renderer {
+    Renderer::new(gpu, stage, options(samples)).expect("it can be drawn")
+}
+
+fn is_magenta(pixel: [u8; 3]) -> bool {
+    let [r, g, b] = pixel.map(i32::from);
+    r - g > 60 && b - g > 60
+}
+
+fn magenta(image: &Image) -> usize {
+    image.rgb.chunks_exact(3).filter(|pixel| is_magenta([pixel[0], pixel[1], pixel[2]])).count()
+}
+
+#[test]
+fn closed_ground_has_no_cracks_from_any_camera() {
+    let Some(gpu) = gpu() else { return };
+    let stage = Stage::new(&view(), &mountains()).expect("a stage");
+    let mut renderer = renderer(&gpu, &stage, 1);
+    let bare = TestLook { bare: true, ..TestLook::default() };
+    let up = Camera::looking([1600.0, -1600.0, 900.0], [0.0, 0.6, 0.8], stage.camera().half);
+    let sky = renderer.render_for_a_test(&up, bare).expect("drawn");
+    assert_eq!(magenta(&sky), 320 * 180, "what nothing drew on is seen");
+    let mut levels = 0;
+    for look in 0..24_u16 {
+        let look = f32::from(look);
+        let place =
+            [1600.0 + 300.0 * f64::from((look * 2.4).sin()), 1700.0 + 300.0 * f64::from((look * 1.7).cos())];
+        let camera = above(&stage, place, 15.0 + 12.0 * look, 32.0 + look, 47.0 * look);
+        let image = renderer.render_for_a_test(&camera, bare).expect("drawn");
+        assert_eq!(magenta(&image), 0, "cracks from camera {look}");
+        levels += u32::from(renderer.triangles(&camera).expect("counted") > 20_000);
+    }
+    assert!(levels > 5, "the pictures have much ground");
+}
+
+/// Greatest change of a channel, and the mean of all.
+fn change(a: &Image, b: &Image) -> (u8, f64) {
+    let changes = a.rgb.iter().zip(&b.rgb).map(|(a, b)| a.abs_diff(*b));
+    let (mut most, mut sum) = (0, 0.0);
+    for change in changes {
+        most = most.max(change);
+        sum += f64::from(change);
+    }
+    (most, sum / a.rgb.len() as f64)
+}
+
+#[test]
+fn a_picture_drawn_twice_is_the_same_to_the_bit() {
+    let Some(gpu) = gpu() else { return };
+    let stage = Stage::new(&view(), &mountains()).expect("a stage");
+    let camera = stage.camera();
+    let mut renderer = renderer(&gpu, &stage, 4);
+    let once = renderer.render(&camera).expect("drawn");
+    let other = above(&stage, [1600.0, 1600.0], 200.0, 20.0, 30.0);
+    assert_ne!(renderer.render(&other).expect("drawn"), once, "another camera sees something else");
+    assert_eq!(renderer.render(&camera).expect("drawn"), once);
+    let mut again = self::renderer(&gpu, &stage, 4);
+    assert_eq!(again.render(&camera).expect("drawn"), once);
+}
+
+/// Means of Oklab over squares of eight pixels, so that edges and dither do not count.
+fn squares(image: &Image) -> Vec<Oklab> {
+    let side = 8;
+    let mut means = Vec::new();
+    for top in (0..image.height - side).step_by(side) {
+        for left in (0..image.width - side).step_by(side) {
+            let mut sum = [0.0_f64; 3];
+            for pixel in 0..side * side {
+                let [r, g, b] = image.pixel(left + pixel % side, top + pixel / side).map(u32::from);
+                let Oklab { lightness, a, b } = Oklab::of(linear_of_hex(r << 16 | g << 8 | b));
+                sum = [sum[0] + lightness, sum[1] + a, sum[2] + b];
+            }
+            let [lightness, a, b] = sum.map(|sum| sum / (side * side) as f64);
+            means.push(Oklab { lightness, a, b });
+        }
+    }
+    means
+}
+
+/// Distances of a device's picture from the ray-marched one: the mean, and that which one square in twenty passes.
+fn distances(gpu: &Gpu, view: &View, landscape: &Landscape, camera: Option<Camera>) -> (f64, f64) {
+    let stage = Stage::new(view, landscape).expect("a stage");
+    let camera = camera.unwrap_or_else(|| stage.camera());
+    let drawn = renderer(gpu, &stage.seen_from(camera), 4).render(&camera).expect("drawn");
+    let marched = view.seen_from(landscape, camera).expect("marched");
+    let pairs = squares(&drawn).into_iter().zip(squares(&marched));
+    let mut distances: Vec<f64> = pairs.map(|(a, b)| a.distance(b)).collect();
+    distances.sort_by(f64::total_cmp);
+    let mean = distances.iter().sum::<f64>() / distances.len() as f64;
+    (mean, distances[distances.len() * 19 / 20])
+}
+
+#[test]
+fn ground_sky_and_sides_have_the_colours_of_the_ray_marched_view() {
+    let Some(gpu) = gpu() else { return };
+    let landscape = mountains();
+    // A sun overhead throws no shadows.
+    let view = View { sun_altitude_deg: 90.0, ..view() };
+    let stage = Stage::new(&view, &landscape).expect("a stage");
+    let low = above(&stage, [1500.0, 2700.0], 90.0, 4.0, 0.0);
+    for camera in [None, Some(low)] {
+        let (mean, worst) = distances(&gpu, &view, &landscape, camera);
+        // 0.02 is about the least difference that the eye sees.
+        assert!(mean < 0.006 && worst < 0.02, "mean {mean}, one in twenty {worst}");
+    }
+}
+
+#[test]
+fn shadows_lie_where_the_ray_marched_view_has_them() {
+    let Some(gpu) = gpu() else { return };
+    let landscape = mountains();
+    for altitude in [14.0, 30.0] {
+        let view = View { sun_altitude_deg: altitude, azimuth_deg: 120.0, ..view() };
+        let stage = Stage::new(&view, &landscape).expect("a stage");
+        let low = above(&stage, [1500.0, 2700.0], 90.0, 4.0, 60.0);
+        for camera in [None, Some(low)] {
+            let (mean, worst) = distances(&gpu, &view, &landscape, camera);
+            assert!(mean < 0.004 && worst < 0.02, "sun at {altitude}°: mean {mean}, one in twenty {worst}");
+        }
+    }
+}
+
+#[test]
+fn lakes_lie_where_the_ray_marched_view_has_them_in_its_colours() {
+    let Some(gpu) = gpu() else { return };
+    let landscape = lakes();
+    let stage = Stage::new(&view(), &landscape).expect("a stage");
+    let low = above(&stage, [1500.0, 2700.0], 250.0, 20.0, 0.0);
+    for camera in [None, Some(low)] {
+        let (mean, worst) = distances(&gpu, &view(), &landscape, camera);
+        // It mirrors the land at the same places, but with finer ripples.
+        assert!(mean < 0.010 && worst < 0.05, "mean {mean}, one in twenty {worst}");
+    }
+}
+
+#[test]
+fn water_moves_with_time_and_nothing_else_does() {
+    let Some(gpu) = gpu() else { return };
+    let (wet, dry) = (lakes(), mountains());
+    // Over the deepest place that is not at the edge.
+    let water = wet.field("water").expect("there");
+    let cells = (40..120).flat_map(|y| (40..120).map(move |x| (x, y)));
+    let deepest = cells.max_by(|a, b| water.at(a.0, a.1).total_cmp(&water.at(b.0, b.1))).expect("cells");
+    let place = [20.0 * (deepest.0 as f64 + 0.5), 20.0 * (deepest.1 as f64 + 0.5)];
+    let moved = |landscape: &Landscape| {
+        let stage = Stage::new(&view(), landscape).expect("a stage");
+        let camera = above(&stage, place, 12.0, 18.0, 0.0);
+        let mut renderer = renderer(&gpu, &stage, 1);
+        let first = renderer.render(&camera).expect("drawn");
+        renderer.set_moment(0.7);
+        change(&first, &renderer.render(&camera).expect("drawn"))
+    };
+    let (most, mean) = moved(&wet);
+    assert!(most > 8 && mean > 0.2, "the water stands still: {most}, {mean}");
+    assert_eq!(moved(&dry), (0, 0.0));
+}
+
+#[test]
+fn what_has_no_data_is_open_and_has_walls() {
+    let Some(gpu) = gpu() else { return };
+    let mut landscape = mountains();
+    let size = landscape.domain.size;
+    let island = |cell: usize| {
+        let [x, y] = [cell % size.columns, cell / size.columns].map(|at| at as f64 - 80.0);
+        (15.0..70.0).contains(&x.hypot(y))
+    };
+    landscape.domain.valid = Mask::new(size, (0..size.cells()).map(island).collect());
+    let view = View { sun_altitude_deg: 90.0, ..view() };
+    let (mean, worst) = distances(&gpu, &view, &landscape, None);
+    assert!(mean < 0.012 && worst < 0.05, "mean {mean}, one in twenty {worst}");
+}
+
+/// Share of the channels in which two pictures differ by more than eight bytes.
+fn share_changed(a: &Image, b: &Image) -> f64 {
+    let changed = a.rgb.iter().zip(&b.rgb).filter(|(a, b)| a.abs_diff(**b) > 8).count();
+    changed as f64 / a.rgb.len() as f64
+}
+
+#[test]
+fn grass_stands_around_the_camera_thins_out_and_sways() {
+    let Some(gpu) = gpu() else { return };
+    let landscape = meadow();
+    let stage = Stage::new(&view(), &landscape).expect("a stage");
+    let near = above(&stage, [60.0, 70.0], 1.5, 12.0, 0.0);
+    let mut renderer = renderer(&gpu, &stage, 4);
+    let drawn = |renderer: &mut Renderer, camera| renderer.render(camera).expect("drawn");
+    let high = near.at([60.0, -70.0, 130.0]);
+    let (bare, bare_high) = (drawn(&mut renderer, &near), drawn(&mut renderer, &high));
+    renderer.plant(&stage, &landscape).expect("planted");
+    let grown = drawn(&mut renderer, &near);
+    assert!(share_changed(&bare, &grown) > 0.2, "blades stand before the ground");
+    assert_eq!(drawn(&mut renderer, &high), bare_high, "from 130 m none is seen");
+    assert_eq!(drawn(&mut renderer, &near), grown, "the same to the bit, in whatever order threads run");
+    renderer.set_moment(0.8);
+    let later = drawn(&mut renderer, &near);
+    let swayed = share_changed(&grown, &later);
+    assert!(swayed > 0.02, "a share of {swayed} moved in the wind");
+}
+
+#[test]
+fn the_parts_of_a_picture_take_time_and_no_more_than_all_of_it() {
+    let Some(gpu) = gpu() else { return };
+    for landscape in [lakes(), meadow()] {
+        let stage = Stage::new(&view(), &landscape).expect("a stage");
+        let mut renderer = renderer(&gpu, &stage, 4);
+        renderer.plant(&stage, &landscape).expect("planted");
+        let camera = above(&stage, [60.0, 70.0], 1.5, 12.0, 0.0);
+        let before = renderer.render(&camera).expect("drawn");
+        let timings = renderer.measure(&camera, 1).expect("lavapipe has a clock");
+        let Timings { choice, shadows, ground, water, behind, grass, plants, tone_mapping, picture } =
+            timings;
+        assert!(
+            [shadows, ground, behind, grass, plants, tone_mapping].iter().all(|part| !part.is_zero()),
+            "{timings:?}"
+        );
+        assert!(
+            choice + shadows + ground + water + behind + grass + plants + tone_mapping <= picture,
+            "{timings:?}"
+        );
+        assert_eq!(renderer.render(&camera).expect("drawn"), before, "measuring changes nothing");
+    }
+}
+
+#[test]
+fn sizes_and_cameras_that_cannot_be_drawn_are_refused() {
+    let Some(gpu) = gpu() else { return };
+    let stage = Stage::new(&view(), &mountains()).expect("a stage");
+    // A budget that no other test takes from.
+    let gpu = gpu.with_memory(1 << 30).expect("a legal budget");
+    let held = gpu.allocated();
+    for (size, samples) in [([0, 10], 1), ([10, 100_000], 4), ([320, 180], 3), ([320, 180], 64)] {
+        let error = Renderer::new(&gpu, &stage, RenderOptions { size, samples }).expect_err("refused");
+        assert!(matches!(error, Error::Limit(_)), "{error}");
+        assert_eq!(gpu.allocated(), held, "nothing was allocated");
+    }
+    let mut renderer = renderer(&gpu, &stage, 1);
+    for number in [f32::NAN, f32::INFINITY] {
+        let camera = stage.camera().at([number, 0.0, 10.0]);
+        assert!(renderer.render(&camera).expect_err("refused").to_string().contains("finite"));
+    }
+    drop(renderer);
+    assert_eq!(gpu.allocated(), held, "all is given back");
+}
+
+#[test]
+fn errors_of_drawing_advise_what_helps_to_draw() {
+    if gpu().is_none() {
+        return;
+    }
+    let open = || Gpu::for_drawing().expect("there is a device");
+    let gpu = open().with_memory(1 << 20).expect("a legal budget");
+    let stage = Stage::new(&view(), &mountains()).expect("a stage");
+    let error = Renderer::new(&gpu, &stage, options(4)).expect_err("a mebibyte is too little").to_string();
+    assert!(error.contains("--gpu-memory, a smaller picture") && !error.contains("--engine"), "{error}");
+    let gpu = open();
+    gpu.lose();
+    let error = Renderer::new(&gpu, &stage, options(4)).expect_err("it is lost").to_string();
+    assert!(error.contains("was lost") && !error.contains("--engine"), "{error}");
+}

@@ -1,0 +1,377 @@
+//! Raster files are read as GDAL reads them, and what Weald writes it reads back to the bit.
+
+use std::path::{Path, PathBuf};
+
+use crate::rasters::any_raster;
+use proptest::prelude::*;
+use tempfile::tempdir;
+use weald_core::Error;
+use weald_core::domain::Georeference;
+use weald_core::grid::{Field, Mask, Size};
+use weald_core::random::hash2;
+use weald_io::{Limits, Provenance, Raster, geotiff, npy, png16};
+
+fn data(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data").join(name)
+}
+
+fn fixture(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/fixtures").join(name)
+}
+
+fn read(path: &Path) -> Raster {
+    weald_io::read(path).expect("a file that GDAL wrote")
+}
+
+/// What is wrong with a fixture, in the words for the user.
+fn diagnostic(name: &str) -> String {
+    weald_io::read(&fixture(name)).expect_err("a file that is not read").to_string()
+}
+
+/// The values of a fixture as GDAL printed them.
+fn printed(name: &str) -> Vec<f32> {
+    let text = std::fs::read_to_string(fixture(name)).expect("a fixture");
+    text.split_whitespace().map(|number| number.parse().expect("a number")).collect()
+}
+
+fn is_valid(raster: &Raster, index: usize) -> bool {
+    raster.valid.as_ref().is_none_or(|valid| valid.is_valid_at(index))
+}
+
+fn mean(raster: &Raster) -> f64 {
+    let cells = raster.field.size().cells();
+    let valid: Vec<usize> = (0..cells).filter(|&index| is_valid(raster, index)).collect();
+    valid.iter().map(|&index| f64::from(raster.field.values()[index])).sum::<f64>() / valid.len() as f64
+}
+
+/// `gdalinfo -stats` and `gdallocationinfo -valonly data/jacksboro_fault_utm16_80m.tif X Y`, GDAL 3.6.2.
+#[test]
+fn the_projected_model_is_read_as_gdal_reads_it() {
+    let raster = read(&data("jacksboro_fault_utm16_80m.tif"));
+    assert_eq!(raster.field.size(), Size { columns: 388, rows: 408 });
+    assert_eq!(raster.cell, Some(80.0));
+    let place = raster.georeference.as_ref().expect("georeferenced");
+    assert_eq!(place.epsg, Some(32616));
+    assert_eq!(place.origin, [730_900.757_145_892_6, 4_069_271.263_471_795]);
+    assert_eq!(place.pixel, [80.0, 80.0]);
+    let valid = raster.valid.as_ref().expect("corners without data");
+    assert_eq!(valid.valid_cells(), 388 * 408 - 8809);
+    assert_eq!(raster.field.range(Some(valid)), Some((237.067_14, 1_073.456_3)));
+    assert!((mean(&raster) - 531.009_736_557_51).abs() < 1e-9, "mean {}", mean(&raster));
+    for (x, y, height) in
+        [(194, 204, 578.667_36), (37, 12, 521.479_9), (10, 10, 403.360_87), (5, 200, 601.385_86)]
+    {
+        assert_eq!(raster.field.at(x, y), height, "column {x}, row {y}");
+        assert!(valid.is_valid(x, y));
+    }
+    for (x, y) in [(0, 0), (0, 407), (387, 0), (387, 407)] {
+        assert!(!valid.is_valid(x, y), "column {x}, row {y} holds -9999 in the file");
+    }
+}
+
+/// `gdalinfo -stats` and `gdallocationinfo -valonly data/jacksboro_fault_srtm_wgs84.tif X Y`, GDAL 3.6.2.
+#[test]
+fn the_geographic_model_is_read_as_gdal_reads_it() {
+    let raster = read(&data("jacksboro_fault_srtm_wgs84.tif"));
+    assert_eq!(raster.field.size(), Size { columns: 403, rows: 344 });
+    assert_eq!((raster.stored, raster.cell, &raster.valid), ("int16", None, &None));
+    let place = raster.georeference.as_ref().expect("georeferenced");
+    assert_eq!(place.epsg, Some(4326));
+    assert!(place.is_geographic());
+    assert!((place.origin[0] + 84.414_166_666_666_66).abs() < 1e-12, "{:?}", place.origin);
+    assert!((place.origin[1] - 36.733_333_333_333_334).abs() < 1e-12, "{:?}", place.origin);
+    assert_eq!(raster.field.range(None), Some((236.0, 1076.0)));
+    assert!((mean(&raster) - 531.031_168_849_9).abs() < 1e-9, "mean {}", mean(&raster));
+    for (x, y, height) in [(0, 0, 483.0), (402, 343, 272.0), (200, 100, 522.0), (402, 0, 444.0)] {
+        assert_eq!(raster.field.at(x, y), height, "column {x}, row {y}");
+    }
+}
+
+#[test]
+fn every_way_to_store_floats_gives_the_same_raster() {
+    let expected = printed("float.txt");
+    for (name, stored) in [
+        ("float32_tiles_deflate_predictor3.tif", "float32"),
+        ("float32_strips_lzw_predictor2.tif", "float32"),
+        ("float32_big_endian_lzw_predictor2.tif", "float32"),
+        ("float64_big_endian_deflate.tif", "float64"),
+        ("float64_tiles_predictor3.tif", "float64"),
+        ("float64_strips_predictor2.tif", "float64"),
+        ("bigtiff_strips.tif", "float32"),
+        ("bigtiff_big_endian_tiles.tif", "float32"),
+        ("no_data_nan.tif", "float32"),
+    ] {
+        let raster = read(&fixture(name));
+        assert_eq!(raster.stored, stored, "{name}");
+        for (index, &number) in expected.iter().enumerate() {
+            assert_eq!(is_valid(&raster, index), number != -9999.0, "{name}, cell {index}");
+            let value = if number == -9999.0 { 0.0 } else { number };
+            assert_eq!(raster.field.values()[index], value, "{name}, cell {index}");
+        }
+        let place = raster.georeference.expect("georeferenced");
+        assert_eq!(place.epsg, Some(32616), "{name}");
+        // 351 cells of 80 m east of the whole model.
+        assert_eq!(place.origin, [758_980.757_145_892_6, 4_069_271.263_471_795], "{name}");
+    }
+}
+
+#[test]
+fn every_way_to_store_integers_gives_the_same_raster() {
+    let expected = printed("integer.txt");
+    for (name, stored) in [
+        ("int16_strips_deflate_predictor2.tif", "int16"),
+        ("uint16_tiles_lzw_predictor2.tif", "uint16"),
+        ("int32_big_endian_lzw_predictor2.tif", "int32"),
+        ("uint32_tiles_deflate.tif", "uint32"),
+        ("uint16.png", "uint16"),
+    ] {
+        let raster = read(&fixture(name));
+        assert_eq!((raster.field.values(), raster.stored), (expected.as_slice(), stored), "{name}");
+        assert_eq!(raster.valid, None, "{name}");
+    }
+    for (name, stored, share) in
+        [("uint8.tif", "uint8", 255.0 / 1020.0), ("int8.tif", "int8", 127.0 / 1020.0)]
+    {
+        let raster = read(&fixture(name));
+        assert_eq!(raster.stored, stored);
+        for (value, whole) in raster.field.values().iter().zip(&expected) {
+            assert!((value - whole * share).abs() <= 0.5001, "{name}: {value} for {whole}");
+        }
+    }
+}
+
+#[test]
+fn a_tie_point_in_the_middle_of_its_cell_gives_the_same_corner() {
+    let point = read(&fixture("int16_pixel_is_point.tif")).georeference.expect("georeferenced");
+    let area = read(&fixture("int16_strips_deflate_predictor2.tif")).georeference.expect("georeferenced");
+    for axis in 0..2 {
+        assert!((point.origin[axis] - area.origin[axis]).abs() < 1e-12, "{point:?} and {area:?}");
+        assert_eq!(point.pixel[axis], area.pixel[axis]);
+    }
+}
+
+#[test]
+fn survey_feet_become_metres() {
+    let raster = read(&fixture("survey_feet.tif"));
+    let cell = raster.cell.expect("square cells");
+    assert!((cell - 100.0 * 1200.0 / 3937.0).abs() < 1e-12, "{cell}");
+    assert_eq!(raster.georeference.expect("georeferenced").pixel, [100.0, 100.0]);
+}
+
+#[test]
+fn tiles_that_a_sparse_file_leaves_out_are_no_data() {
+    let raster = read(&fixture("sparse.tif"));
+    assert_eq!(raster.valid.map(|valid| valid.valid_cells()), Some(0));
+}
+
+#[test]
+fn files_of_an_unread_kind_say_what_would_be_read() {
+    assert!(diagnostic("two_bands.tif").contains("2 bands; choose one with `gdal_translate -b 1"));
+    assert!(diagnostic("zstd.tif").contains("compression 50000"));
+    assert!(diagnostic("mask.tif").contains("mask of their own"));
+    assert!(diagnostic("rotated.tif").contains("rotated or sheared"));
+    let undeclared = diagnostic("nan_undeclared.tif");
+    assert!(undeclared.contains("column 0, row 0 holds NaN"), "{undeclared}");
+    assert!(undeclared.contains("gdal_translate -a_nodata nan"), "{undeclared}");
+    assert!(diagnostic("README.md").contains(".tif .tiff .png .exr"));
+}
+
+#[test]
+fn a_size_over_the_limit_is_refused_before_anything_is_read() {
+    let bytes = std::fs::read(data("jacksboro_fault_utm16_80m.tif")).expect("there");
+    let fault = geotiff::decode(&bytes, Limits { cells: 388 * 408 - 1 }).expect_err("too large");
+    assert!(matches!(fault, weald_io::Fault::Limit(_)), "{fault}");
+    let folder = tempdir().expect("a folder");
+    let path = folder.path().join("huge.npy");
+    std::fs::write(&path, npy_header("<f4", "(16385, 16384)")).expect("written");
+    assert_eq!(weald_io::read(&path).expect_err("too large").exit_code(), 5);
+}
+
+fn npy_header(kind: &str, shape: &str) -> Vec<u8> {
+    let header = format!("{{'descr': '{kind}', 'fortran_order': False, 'shape': {shape}, }}\n");
+    [b"\x93NUMPY\x01\x00", (header.len() as u16).to_le_bytes().as_slice(), header.as_bytes()].concat()
+}
+
+#[test]
+fn npy_arrays_of_other_types_and_orders_are_read() {
+    let big = [npy_header(">i2", "(1, 2)"), vec![0xff, 0xfe, 0x01, 0x00]].concat();
+    assert_eq!(npy::decode(&big, Limits::default()).expect("reads").field.values(), [-2.0, 256.0]);
+    let columns_first = String::from_utf8_lossy(&npy_header("|u1", "(2, 3)")[10..]).replace("False", "True ");
+    let mut bytes = [b"\x93NUMPY\x01\x00", (columns_first.len() as u16).to_le_bytes().as_slice()].concat();
+    bytes.extend(columns_first.bytes().chain([1, 4, 2, 5, 3, 6]));
+    let raster = npy::decode(&bytes, Limits::default()).expect("reads");
+    assert_eq!(
+        (raster.field.row(0), raster.field.row(1)),
+        ([1.0, 2.0, 3.0].as_slice(), [4.0, 5.0, 6.0].as_slice())
+    );
+    let deep = npy::decode(&npy_header("<f4", "(1, 2, 3)"), Limits::default()).expect_err("three dimensions");
+    assert!(deep.to_string().contains("two dimensions"), "{deep}");
+}
+
+#[test]
+fn infinity_in_a_file_names_its_cell() {
+    let bytes = [npy_header("<f4", "(1, 2)"), [1.0, f32::INFINITY].map(f32::to_le_bytes).concat()].concat();
+    let fault = npy::decode(&bytes, Limits::default()).expect_err("infinite");
+    assert!(fault.to_string().contains("column 1, row 0 holds inf"), "{fault}");
+}
+
+#[test]
+fn eight_bit_png_is_read_with_a_warning_and_colour_is_refused() {
+    let mut grey = Vec::new();
+    let mut encoder = png::Encoder::new(&mut grey, 2, 1);
+    encoder.set_color(png::ColorType::Grayscale);
+    encoder.write_header().and_then(|mut writer| writer.write_image_data(&[3, 200])).expect("encodes");
+    let raster = png16::decode(&grey, Limits::default()).expect("reads");
+    assert_eq!(raster.field.values(), [3.0, 200.0]);
+    assert!(raster.notes[0].contains("terraces"));
+    let mut colour = Vec::new();
+    let mut encoder = png::Encoder::new(&mut colour, 1, 1);
+    encoder.set_color(png::ColorType::Rgb);
+    encoder.write_header().and_then(|mut writer| writer.write_image_data(&[1, 2, 3])).expect("encodes");
+    let fault = png16::decode(&colour, Limits::default()).expect_err("coloured");
+    assert!(fault.to_string().contains("Rgb with 8 bits"), "{fault}");
+}
+
+#[test]
+fn a_failed_write_leaves_nothing_and_keeps_what_was_there() {
+    let folder = tempdir().expect("a folder");
+    let raster = Raster::from(Field::filled(Size { columns: 2, rows: 2 }, 1.0));
+    let missing = folder.path().join("missing/height.tif");
+    let error = weald_io::write(&missing, &raster).expect_err("no such folder");
+    assert!(matches!(&error, Error::Run(what) if what.contains("missing/height.tif")), "{error}");
+    assert!(!missing.exists());
+    // A folder in the file's place lets the temporary file be written and the renaming fail.
+    let taken = folder.path().join("taken.tif");
+    std::fs::create_dir(&taken).expect("made");
+    weald_io::write(&taken, &raster).expect_err("a folder is in the way");
+    let names: Vec<_> =
+        std::fs::read_dir(folder.path()).expect("lists").map(|e| e.expect("entry").file_name()).collect();
+    assert_eq!(names, ["taken.tif"]);
+    let kept = folder.path().join("kept.tif");
+    weald_io::write(&kept, &raster).expect("written");
+    let before = std::fs::read(&kept).expect("there");
+    let broken = Raster::from(Field::filled(Size { columns: 1, rows: 1 }, f32::NAN));
+    let error = weald_io::write(&kept, &broken).expect_err("NaN");
+    assert!(error.to_string().contains("column 0, row 0 holds NaN"), "{error}");
+    assert_eq!(std::fs::read(&kept).expect("there"), before);
+}
+
+fn provenance() -> Provenance {
+    Provenance {
+        version: "0.1.0".to_owned(),
+        recipe_blake3: "af13".repeat(16),
+        seed: u64::MAX,
+        layer: "height".to_owned(),
+        unit: "m".to_owned(),
+        range: (-0.1, 1e30),
+    }
+}
+
+fn bits(raster: &Raster) -> Vec<u32> {
+    raster.field.values().iter().map(|value| value.to_bits()).collect()
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(48))]
+
+    #[test]
+    fn geotiff_comes_back_to_the_bit(columns in 1_usize..600, rows in 1_usize..300, seed: u64) {
+        let mut raster = any_raster(columns, rows, seed);
+        raster.provenance = Some(provenance());
+        raster.cell = Some(12.5);
+        let origin = [500_000.25, -1_234_567.875];
+        raster.georeference = Some(Georeference { epsg: Some(32733), origin, pixel: [12.5; 2], keys: None });
+        let bytes = geotiff::encode(&raster).expect("finite");
+        let again = geotiff::decode(&bytes, Limits::default()).expect("our own file");
+        prop_assert_eq!(bits(&again), bits(&raster));
+        prop_assert_eq!(&again.valid, &raster.valid);
+        prop_assert_eq!(&again.provenance, &raster.provenance);
+        prop_assert_eq!(again.cell, raster.cell);
+        let place = again.georeference.as_ref().expect("written");
+        prop_assert_eq!((place.epsg, place.origin, place.pixel), (Some(32733), origin, [12.5; 2]));
+        prop_assert_eq!(geotiff::encode(&again).expect("finite"), bytes);
+    }
+
+    #[test]
+    fn npy_comes_back_to_the_bit(columns in 1_usize..100, rows in 1_usize..100, seed: u64) {
+        let raster = any_raster(columns, rows, seed);
+        let bytes = npy::encode(&raster).expect("finite");
+        prop_assert_eq!(bytes.len() % 64, raster.field.size().cells() * 4 % 64);
+        let again = npy::decode(&bytes, Limits::default()).expect("our own file");
+        prop_assert_eq!((bits(&again), again.valid), (bits(&raster), raster.valid));
+    }
+
+    #[test]
+    fn png_comes_back_within_half_a_step(
+        columns in 1_usize..100, rows in 1_usize..100, seed: u64, low in -9000.0..9000.0_f32, relief in 0.0..9000.0_f32
+    ) {
+        let mut raster = any_raster(columns, rows, seed);
+        for (index, value) in raster.field.values_mut().iter_mut().enumerate() {
+            *value = if *value == 0.0 { 0.0 } else { low + relief * ((hash2(seed, index as i64, 1) >> 40) as f32 / (1 << 24) as f32) };
+        }
+        raster.cell = Some(0.1);
+        raster.provenance = Some(provenance());
+        let range = raster.field.range(raster.valid.as_ref()).unwrap_or_default();
+        raster.provenance.as_mut().expect("set").range = (f64::from(range.0), f64::from(range.1));
+        let again = png16::decode(&png16::encode(&raster).expect("finite"), Limits::default()).expect("our own file");
+        prop_assert_eq!((&again.valid, again.cell, &again.provenance), (&raster.valid, raster.cell, &raster.provenance));
+        let half_a_step = 0.5 * f64::from(range.1 - range.0) / 65534.0;
+        // What an f32 near the value cannot tell apart comes on top.
+        let rounding = f64::from(range.0.abs().max(range.1.abs())) * 1.2e-7;
+        for (value, was) in again.field.values().iter().zip(raster.field.values()) {
+            let error = f64::from((value - was).abs());
+            prop_assert!(error <= half_a_step + rounding, "{value} was {was}, half a step is {half_a_step}");
+        }
+    }
+}
+
+#[test]
+fn the_keys_of_a_file_survive_unchanged() {
+    for name in ["float32_tiles_deflate_predictor3.tif", "survey_feet.tif", "int16_pixel_is_point.tif"] {
+        let first = read(&fixture(name));
+        let bytes = geotiff::encode(&first).expect("finite");
+        let again = geotiff::decode(&bytes, Limits::default()).expect("our own file");
+        assert_eq!(again.georeference, first.georeference, "{name}");
+        assert_eq!(again.field, first.field, "{name}");
+    }
+}
+
+#[test]
+fn geotiff_bytes_do_not_depend_on_threads() {
+    let raster = any_raster(700, 530, 3);
+    let with = |threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
+        pool.install(|| geotiff::encode(&raster)).expect("finite")
+    };
+    let one = with(1);
+    assert!(one == with(2) && one == with(3));
+}
+
+#[test]
+fn a_no_data_number_is_never_a_value_of_the_data() {
+    let size = Size { columns: 2, rows: 1 };
+    for heights in [[-9999.0, 0.0], [-10000.0, 0.0], [-100_000.0, -50.0], [f32::MIN, f32::MAX]] {
+        let mut values = heights.to_vec();
+        values.push(0.0);
+        let size = Size { columns: 3, ..size };
+        let valid = Mask::new(size, vec![true, true, false]);
+        let raster = Raster { valid, ..Raster::from(Field::from_values(size, values)) };
+        let bytes = geotiff::encode(&raster).expect("finite");
+        let again = geotiff::decode(&bytes, Limits::default()).expect("our own file");
+        assert_eq!((again.valid, again.field), (raster.valid, raster.field));
+    }
+}
+
+#[test]
+fn a_description_holds_what_the_file_says() {
+    let info = weald_io::describe(&data("jacksboro_fault_utm16_80m.tif")).expect("reads");
+    let json = info.to_json();
+    assert_eq!(json["epsg"], 32616);
+    assert_eq!(json["type"], "float32");
+    assert_eq!(json["cell_metres"], 80.0);
+    assert!((info.no_data_share - 0.056).abs() < 5e-4, "{}", info.no_data_share);
+    let text = info.to_string();
+    for part in ["GeoTIFF", "388 × 408 cells of float32", "5.6 % of the cells", "80 m", "EPSG:32616"] {
+        assert!(text.contains(part), "{part} is not in:\n{text}");
+    }
+}

@@ -1,0 +1,18 @@
+//! Processes, flow and edits by what they promise: equations, conservation, symmetry and the same bits on all engines.
+
+mod combine;
+mod common;
+mod device_failure;
+mod displace;
+mod editing;
+mod flow;
+mod flow_peers;
+mod layered_equations;
+mod layered_physics;
+mod physics;
+mod published_equations;
+mod reference;
+mod runaway;
+mod same_bits;
+mod stava;
+mod transport;

@@ -1,0 +1,4 @@
+//! Pictures by their pixels.
+
+mod pictures;
+mod view;

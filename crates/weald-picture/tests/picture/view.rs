@@ -1,0 +1,181 @@
+//! What a perspective view shows, judged from its pixels.
+
+use weald_core::grid::Mask;
+use weald_core::{Domain, Field, Landscape, Size};
+use weald_picture::{GroundColour, Image, Picture, View};
+
+/// A mountain beside a lake, 64 cells of 20 m.
+fn country() -> Landscape {
+    let size = Size::square(64).expect("legal");
+    let mut landscape = Landscape::new(Domain::new(size, 20.0));
+    let ground = Field::from_function(size, |x, y| {
+        let away = ((x as f32 - 22.0).powi(2) + (y as f32 - 26.0).powi(2)).sqrt();
+        (400.0 - 16.0 * away).max(20.0) + ((x * 7 + y * 13) % 11) as f32
+    });
+    let lake = |x: usize, y: usize| if (40..60).contains(&x) && (30..60).contains(&y) { 25.0 } else { 0.0 };
+    landscape.insert("water", "m", Field::from_function(size, lake));
+    landscape.insert("height", "m", ground);
+    landscape
+}
+
+fn small() -> View {
+    View { width: 160, height: 90, samples: 2, ..View::default() }
+}
+
+fn above() -> View {
+    View {
+        altitude_deg: 90.0,
+        azimuth_deg: 180.0,
+        width: 120,
+        height: 120,
+        sun_altitude_deg: 60.0,
+        ..small()
+    }
+}
+
+fn draw(view: &View, landscape: &Landscape) -> Image {
+    view.render(landscape).expect("draws")
+}
+
+fn light(image: &Image, x: usize, y: usize) -> f64 {
+    image.pixel(x, y).map(f64::from).iter().sum::<f64>() / 3.0
+}
+
+#[test]
+fn views_have_the_same_bits_on_any_number_of_threads() {
+    let on = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads start");
+        pool.install(|| draw(&small(), &country()))
+    };
+    let once = on(1);
+    assert!(once.rgb.iter().any(|&byte| byte.abs_diff(once.rgb[0]) > 60), "there is something to see");
+    assert_eq!(once, on(2));
+    assert_eq!(once, on(3));
+}
+
+#[test]
+fn what_has_no_data_is_not_drawn_whatever_its_numbers() {
+    let with = |filler: f32| {
+        let mut landscape = country();
+        let size = landscape.domain.size;
+        let is_valid = |x: usize| x < 40;
+        landscape.domain.valid = Mask::new(size, (0..size.cells()).map(|cell| is_valid(cell % 64)).collect());
+        let whole = landscape.field("height").expect("there").clone();
+        let cut = Field::from_function(size, |x, y| if is_valid(x) { whole.at(x, y) } else { filler });
+        landscape.insert("height", "m", cut);
+        draw(&above(), &landscape)
+    };
+    let image = with(f32::NAN);
+    assert_eq!(image, with(7777.0));
+    assert_ne!(image, draw(&above(), &country()));
+}
+
+#[test]
+fn a_landscape_without_land_is_a_bare_plain() {
+    let mut landscape = country();
+    landscape.domain.valid = Mask::new(landscape.domain.size, vec![false; 64 * 64]);
+    let image = draw(&above(), &landscape);
+    let [low, high] =
+        [image.rgb.iter().min(), image.rgb.iter().max()].map(|byte| *byte.expect("there are pixels"));
+    assert!(high - low < 60, "{low} to {high}");
+}
+
+#[test]
+fn water_is_darker_and_bluer_than_the_land_beside_it() {
+    let image = draw(&above(), &country());
+    // The lake fills columns 40 to 60 and rows 30 to 60; the picture shows the whole landscape from above.
+    let dry = draw(&View { water: false, ..above() }, &country());
+    let changed: Vec<_> = (0..120 * 120)
+        .filter(|&at| image.pixel(at % 120, at / 120) != dry.pixel(at % 120, at / 120))
+        .collect();
+    let blue = changed.iter().filter(|&&at| {
+        let ([r, _, b], [dry_r, _, dry_b]) = (image.pixel(at % 120, at / 120), dry.pixel(at % 120, at / 120));
+        i32::from(b) - i32::from(r) > i32::from(dry_b) - i32::from(dry_r)
+    });
+    let (blue, changed) = (blue.count(), changed.len());
+    assert!(changed > 500 && blue * 10 > changed * 9, "{blue} of {changed} pixels are bluer");
+}
+
+#[test]
+fn slopes_towards_the_sun_are_brighter_and_its_shadow_falls_on_the_other_side() {
+    let sun = |sun_azimuth_deg| {
+        draw(&View { sun_azimuth_deg, sun_altitude_deg: 25.0, water: false, ..above() }, &country())
+    };
+    let (west, east) = (sun(270.0), sun(90.0));
+    let brighter = |from: std::ops::Range<usize>| {
+        from.flat_map(|x| (35..60).map(move |y| (x, y)))
+            .map(|(x, y)| light(&west, x, y) - light(&east, x, y))
+            .sum::<f64>()
+    };
+    assert!(brighter(25..45) > 2000.0, "{}", brighter(25..45));
+    assert!(brighter(55..75) < -2000.0, "{}", brighter(55..75));
+}
+
+#[test]
+fn haze_pales_the_land_and_endless_visibility_leaves_it_alone() {
+    let seen = |visibility| draw(&View { visibility: Some(visibility), ..small() }, &country());
+    let (clear, clearer, hazy) = (seen(1e11), seen(1e12), seen(4000.0));
+    let worst = clear.rgb.iter().zip(&clearer.rgb).map(|(a, b)| a.abs_diff(*b)).max();
+    assert!(worst <= Some(1), "{worst:?}");
+    let contrast = |image: &Image| {
+        let middle: Vec<f64> =
+            (30..130).flat_map(|x| (30..70).map(move |y| (x, y))).map(|(x, y)| light(image, x, y)).collect();
+        let mean = middle.iter().sum::<f64>() / middle.len() as f64;
+        middle.iter().map(|light| (light - mean).abs()).sum::<f64>() / middle.len() as f64
+    };
+    assert!(contrast(&hazy) < 0.8 * contrast(&clear), "{} and {}", contrast(&hazy), contrast(&clear));
+}
+
+#[test]
+fn materials_colour_the_ground_where_that_is_wished() {
+    let mut landscape = country();
+    landscape.materials.truncate(1);
+    landscape.materials[0].colour = [0.9, 0.1, 0.1];
+    let red = |image: &Image| {
+        (0..120 * 120)
+            .filter(|&at| matches!(image.pixel(at % 120, at / 120), [r, g, _] if r > g.saturating_add(50)))
+            .count()
+    };
+    let named = draw(&above(), &landscape);
+    let natural = draw(&View { ground: Some(GroundColour::Natural), ..above() }, &landscape);
+    assert!(red(&named) > 5000 && red(&natural) < 500, "{} and {} red pixels", red(&named), red(&natural));
+}
+
+#[test]
+fn snow_lies_above_its_line() {
+    let view = View { snow_line: Some(150.0), water: false, ..above() };
+    let (bare, snowy) =
+        (draw(&View { snow_line: None, ..view.clone() }, &country()), draw(&view, &country()));
+    let change = |x: usize, y: usize| light(&snowy, x, y) - light(&bare, x, y);
+    let most = (0..120 * 120).map(|at| change(at % 120, at / 120)).fold(0.0, f64::max);
+    assert!(most > 40.0, "{most}");
+    // The plain in the south lies at 20 to 31 m.
+    assert!((20..100).all(|x| change(x, 105).abs() < 1e-9));
+}
+
+#[test]
+fn frames_of_a_turntable_differ_and_the_last_is_the_first_again() {
+    let frame = |share: f64| draw(&View { samples: 1, ..small() }.turned(share), &country());
+    let (first, half, last) = (frame(0.0), frame(0.5), frame(1.0));
+    assert_ne!(first, half);
+    let apart = first.rgb.iter().zip(&last.rgb).filter(|(a, b)| a.abs_diff(**b) > 12).count();
+    assert!(apart * 50 < first.rgb.len(), "{apart} of {} bytes differ", first.rgb.len());
+}
+
+#[test]
+fn the_tiniest_grids_can_be_drawn() {
+    for (columns, rows) in [(1, 1), (1, 9), (2, 2), (9, 1)] {
+        let size = Size::new(columns, rows).expect("legal");
+        let mut landscape = Landscape::new(Domain::new(size, 3.0));
+        landscape.insert("height", "m", Field::from_function(size, |x, y| (x + 2 * y) as f32));
+        assert_eq!(draw(&small(), &landscape).width, 160, "{columns} × {rows}");
+    }
+}
+
+#[test]
+fn a_view_beyond_the_limits_is_refused_before_it_is_drawn() {
+    let huge = View { width: 16384, height: 16384, ..View::default() };
+    let error = huge.render(&country()).expect_err("too many pixels");
+    assert_eq!(error.exit_code(), 5);
+    assert!(error.to_string().contains("16384 × 16384"), "{error}");
+}

@@ -1,0 +1,3 @@
+//! Fractals beside those of flam3.
+
+mod flames;

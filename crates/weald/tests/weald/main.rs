@@ -1,0 +1,22 @@
+//! Recipes and the catalogue from end to end.
+
+mod analysis;
+mod catalog;
+#[path = "../../../weald-land/tests/land/common/mod.rs"]
+mod common;
+mod documents;
+mod edited_runs;
+mod engine_sets;
+mod grass;
+mod ground;
+mod json_schema;
+mod materials;
+mod networks;
+mod plants;
+#[path = "../../../weald-export/tests/export/programs/mod.rs"]
+mod programs;
+mod recipes;
+mod report;
+mod rivers;
+mod shaders;
+mod vectors;
