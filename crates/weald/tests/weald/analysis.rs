@@ -151,7 +151,7 @@ fn the_bottom_of_a_straight_valley_sees_the_cosine_of_its_walls() {
 
 const EQUINOX: &str = "day = 80\ntransmissivity = 1.0\nalbedo = 0.0";
 
-/// What a square metre of level ground gets in a day without air, in kWh/m², by the closed form of Duffie and
+/// What a square metre of flat ground gets in a day without air, in kWh/m², by the closed form of Duffie and
 /// Beckman 2013, "Solar Engineering of Thermal Processes", equations 1.4.1, 1.6.1a and 1.10.3.
 fn insolation_without_air(day: f64, latitude_deg: f64) -> f64 {
     let turn = std::f64::consts::TAU / 365.0;

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, Mutex};
+use std::sync::{Arc, LazyLock, Mutex};
 
 use naga::valid::{Capabilities, GlobalUse, ModuleInfo, ValidationFlags, Validator};
 use naga::{AddressSpace, ArraySize, Module, Scalar, StructMember, TypeInner, VectorSize};
@@ -69,14 +69,27 @@ fn programs_of_steps() -> Vec<Program> {
     programs.clone()
 }
 
-/// Every different module: its text, one program that has it, and the pass.
-fn modules() -> BTreeMap<String, (Program, Pass)> {
+/// A pass of a program, and what naga makes of its text.
+struct Checked {
+    program: Program,
+    pass: Pass,
+    module: Module,
+    info: ModuleInfo,
+}
+
+/// Every different module by its text. They are parsed once for all tests, which takes seconds.
+static MODULES: LazyLock<BTreeMap<String, Checked>> = LazyLock::new(|| {
     let passes = programs().into_iter().flat_map(|program| {
         let passes = program.passes.clone();
         passes.into_iter().map(move |pass| (program.module(&pass), (program.clone(), pass)))
     });
-    passes.collect()
-}
+    let different: BTreeMap<_, _> = passes.collect();
+    let checked = different.into_iter().map(|(text, (program, pass))| {
+        let (module, info) = checked(&text, pass.name);
+        (text, Checked { program, pass, module, info })
+    });
+    checked.collect()
+});
 
 fn checked(text: &str, name: &str) -> (Module, ModuleInfo) {
     let parsed = naga::front::wgsl::parse_str(text);
@@ -88,10 +101,8 @@ fn checked(text: &str, name: &str) -> (Module, ModuleInfo) {
 
 #[test]
 fn every_module_has_the_one_entry_point_of_its_pass() {
-    let modules = modules();
-    assert!(modules.len() > 50, "{} modules", modules.len());
-    for (text, (_, pass)) in &modules {
-        let (module, _) = checked(text, pass.name);
+    assert!(MODULES.len() > 50, "{} modules", MODULES.len());
+    for Checked { module, pass, .. } in MODULES.values() {
         let entries: Vec<_> = module.entry_points.iter().map(|entry| entry.name.as_str()).collect();
         assert_eq!(entries, [pass.name]);
         assert_eq!(module.entry_points[0].workgroup_size, [GROUP as u32, GROUP as u32, 1], "{}", pass.name);
@@ -100,8 +111,7 @@ fn every_module_has_the_one_entry_point_of_its_pass() {
 
 #[test]
 fn every_pass_uses_what_it_declares_and_no_more_than_browsers_allow() {
-    for (text, (program, pass)) in &modules() {
-        let (module, info) = checked(text, pass.name);
+    for Checked { program, pass, module, info } in MODULES.values() {
         let entry = info.get_entry_point(0);
         let storage = module
             .global_variables
@@ -149,13 +159,12 @@ fn every_shader_of_the_tree_is_part_of_a_module() {
     let shaders: Vec<_> =
         sources.filter(|source| source.is_dir()).flat_map(|source| shaders_below(&source)).collect();
     assert!(shaders.len() > 20, "{}", shaders.len());
-    let modules = modules();
     let stage = stage().shader(0);
     let whole = [stage.as_str(), Stage::FOLLOW];
     for path in shaders {
         let text = std::fs::read_to_string(&path).expect("a readable shader");
         let part_of_a_module =
-            modules.keys().map(String::as_str).chain(whole).any(|module| module.contains(&text));
+            MODULES.keys().map(String::as_str).chain(whole).any(|module| module.contains(&text));
         let of_plants = SHADERS.iter().any(|shader| shader.source().contains(&text));
         assert!(part_of_a_module || of_plants, "{} is in no module", path.display());
     }
@@ -176,11 +185,10 @@ fn shaders_below(folder: &Path) -> Vec<PathBuf> {
 #[test]
 fn structs_of_the_host_lie_in_memory_as_their_twins_do() {
     let mut compared = 0;
-    for (text, (program, pass)) in &modules() {
-        let (module, _) = checked(text, pass.name);
+    for Checked { program, module, .. } in MODULES.values() {
         for uniforms in [&program.constants, &program.weather] {
             if !uniforms.name.is_empty() {
-                assert_same_layout(&module, uniforms, program.name);
+                assert_same_layout(module, uniforms, program.name);
                 compared += 1;
             }
         }
@@ -250,8 +258,7 @@ fn number(kind: &TypeInner) -> &'static str {
 
 #[test]
 fn bindings_follow_the_order_that_the_program_states() {
-    for (text, (program, pass)) in &modules() {
-        let (module, _) = checked(text, pass.name);
+    for Checked { program, pass, module, .. } in MODULES.values() {
         let binding = |name: &str| {
             let found =
                 module.global_variables.iter().find(|(_, global)| global.name.as_deref() == Some(name));
