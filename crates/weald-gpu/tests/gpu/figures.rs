@@ -10,14 +10,17 @@ fn every_figure_that_a_device_draws_can_be_made_as_a_draft() {
         FIGURES.iter().filter(|figure| matches!(figure.make, Make::Drawn(_))).copied().collect();
     assert!(drawn.len() > 2, "{} figures", drawn.len());
     let job = GalleryJob { detail: Detail::Draft };
+    let mut rates = None;
     for figure in &drawn {
         let output = figure.output(job, Some(&gpu)).expect("it can be made");
         assert!(!output.plates.is_empty() && !output.claims.is_empty(), "{}", figure.id);
         let without = figure.output(job, None).expect_err("there is no device").to_string();
         assert!(without.contains(figure.id), "{without}");
+        if figure.id == "grass-8" {
+            rates = Some(output.measured);
+        }
     }
-    let rates = drawn.iter().find(|figure| figure.id == "grass-8").expect("the tables");
-    let measured = rates.output(job, Some(&gpu)).expect("measured").measured;
+    let measured = rates.expect("the tables");
     assert!(measured.rows.iter().any(|row| row[0] == "1"), "{:?}", measured.rows);
     assert!(measured.remarks[0].contains("llvmpipe") || !gpu.is_software(), "{:?}", measured.remarks);
 }

@@ -75,7 +75,7 @@ fn as_it_is(gpu: &Gpu, scene: &Scene) -> Image {
 }
 
 fn golden(scene: &Scene) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/goldens").join(scene.name).with_extension("png")
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/gpu/goldens").join(scene.name).with_extension("png")
 }
 
 fn read(path: &Path) -> Option<Image> {
