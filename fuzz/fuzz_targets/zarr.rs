@@ -6,6 +6,7 @@
 use std::path::PathBuf;
 
 use libfuzzer_sys::fuzz_target;
+use weald::error::{Limit, Quantity};
 use weald::io::{Fault, InMemory, Limits, PartName, Parts, zarr};
 
 const LIMITS: Limits = Limits { cells: 1 << 16 };
@@ -24,7 +25,7 @@ impl Parts for Folder<'_> {
             _ => return Ok(None),
         };
         if bytes.len() as u64 > most {
-            return Err(Fault::Limit(format!("{} bytes, not {most}", bytes.len())));
+            return Err(Limit::new(Quantity::FileBytes, bytes.len() as u64, 0..=most).into());
         }
         Ok(Some(bytes.to_vec()))
     }

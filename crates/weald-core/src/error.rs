@@ -1,10 +1,18 @@
-//! Errors, sorted by who must act.
+//! Errors, sorted by who must act. Where a program would act on one, it has fields: [`NotFinite`], [`Limit`] and
+//! [`DeviceError`]; all else is a sentence for the user.
+
+mod device;
+mod limit;
 
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
+pub use device::{DeviceError, DeviceErrorKind};
+pub use limit::{Limit, Quantity, bytes_in_words};
+
 /// Everything that can end a run early. [`Error::exit_code`] is the exit code of the command.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum Error {
     /// The recipe must be mended by its author.
     #[error("{0}")]
@@ -19,16 +27,16 @@ pub enum Error {
     },
     /// A stated limit would be passed; nothing was allocated.
     #[error("{0}")]
-    Limit(String),
+    Limit(#[from] Limit),
     /// The run itself failed: an unwritable folder, a full disk, a layer that is missing.
     #[error("{0}")]
     Run(String),
     /// A step gave a value that is infinite or no number.
     #[error("{0}")]
     NotFinite(#[from] NotFinite),
-    /// A compute device failed: none is there, it was lost, its memory is full.
+    /// A device failed: none is there, it was lost, its memory is full.
     #[error("{0}")]
-    Device(String),
+    Device(#[from] DeviceError),
     /// The user stopped the run. The message says how to go on.
     #[error("{0}")]
     Interrupted(String),

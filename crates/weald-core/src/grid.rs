@@ -2,7 +2,7 @@
 //!
 //! Row 0 is north, column 0 is west; `x` counts columns eastward, `y` rows southward.
 
-use crate::error::Error;
+use crate::error::{Error, Limit, Quantity};
 
 /// Most cells that one landscape may hold: 2^28 (16384²), one GiB a layer.
 pub const MAX_CELLS: usize = 1 << 28;
@@ -23,16 +23,30 @@ impl Size {
     /// A checked size: both sides at least 1, at most [`MAX_CELLS`] in all.
     ///
     /// # Errors
-    /// [`Error::Limit`] with both sides in the message.
+    /// [`Error::Limit`] with the side or the cells that are not allowed, and both sides in its subject.
     pub fn new(columns: usize, rows: usize) -> Result<Self, Error> {
-        let sides = 1..=MAX_SIDE;
-        let cells = columns.checked_mul(rows);
-        if !sides.contains(&columns) || !sides.contains(&rows) || cells.is_none_or(|cells| cells > MAX_CELLS)
-        {
-            return Err(Error::Limit(format!(
-                "a grid of {columns} × {rows} cells: each side must be 1 to {MAX_SIDE} and the whole at \
-                 most {MAX_CELLS} cells; choose a smaller size"
-            )));
+        Ok(Self::within_limits(columns, rows)?)
+    }
+
+    /// As [`Size::new`], for those who add to the limit what asked for so many cells.
+    ///
+    /// # Errors
+    /// The side or the cells that are not allowed.
+    pub fn within_limits(columns: usize, rows: usize) -> Result<Self, Limit> {
+        let (sides, cells) = (1..=MAX_SIDE as u64, 0..=MAX_CELLS as u64);
+        let subject = || format!("a grid of {columns} × {rows} cells");
+        let wrong = [columns, rows].map(|side| side as u64).into_iter().find(|side| !sides.contains(side));
+        if let Some(side) = wrong {
+            let remedy = match side {
+                0 => "choose at least one cell a side".to_owned(),
+                _ => format!("choose a smaller size, of at most {MAX_CELLS} cells in all"),
+            };
+            return Err(Limit::new(Quantity::CellsPerSide, side, sides).of(subject()).remedy(remedy));
+        }
+        let whole = columns as u64 * rows as u64;
+        if !cells.contains(&whole) {
+            let limit = Limit::new(Quantity::Cells, whole, cells).of(subject());
+            return Err(limit.remedy("choose a smaller size"));
         }
         Ok(Self { columns, rows })
     }

@@ -9,7 +9,7 @@ use super::device::Window;
 use super::machine::{Machine, Means, Snapshot};
 use crate::stencil::chain::Process;
 use crate::stencil::rows::{Layout, Rows};
-use weald_core::error::Error;
+use weald_core::error::{Error, Limit, Quantity};
 use weald_core::grid::Size;
 
 /// How a domain is cut.
@@ -38,11 +38,12 @@ impl Plan {
         let steps = (rows.min(columns) / (16 * reach)).clamp(1, 32);
         let halo = 2 * reach * steps;
         if rows <= halo || columns <= halo {
-            return Err(Error::Limit(format!(
-                "the device's memory holds {most} cells at a time; a tile needs more than {} for its halo \
-                 alone: give it more with --gpu-memory, or use --engine cpu",
-                (halo + 1) * (halo + 1)
-            )));
+            let side = rows.min(columns) as u64;
+            let limit = Limit::new(Quantity::CellsPerSide, halo as u64 + 1, 0..=side);
+            let subject =
+                format!("a tile with its halo, in a device's memory that holds {most} cells at a time");
+            let remedy = "give it more with --gpu-memory, or use --engine cpu";
+            return Err(limit.of(subject).remedy(remedy).into());
         }
         Ok(Self { own: Size { columns: columns - halo, rows: rows - halo }, steps, reach })
     }

@@ -4,7 +4,7 @@ use std::fmt::Write;
 use std::path::Path;
 
 use super::{Export, Finished};
-use weald_core::error::Error;
+use weald_core::error::{Error, Limit, Quantity};
 use weald_core::parameter::LayerName;
 use weald_io::{Part, npy};
 use weald_plants::Fractal;
@@ -77,15 +77,15 @@ impl Points {
             None => Some(self.count),
             Some(depth) => (ifs.maps().len() as u64).checked_pow(depth),
         };
-        if count.is_some_and(|count| count <= MAX_POINTS && count * a_point <= MAX_BYTES) {
-            return Ok(());
-        }
-        let count = count.map_or_else(|| "more than 2^64".to_owned(), |count| count.to_string());
-        Err(Error::Limit(format!(
-            "{count} points of {a_point} bytes: at most {MAX_POINTS} points and {} MiB are written; choose a smaller \
-             `count` or `depth`, or `codes = false`",
-            MAX_BYTES >> 20
-        )))
+        let limit = match count {
+            Some(count) if count <= MAX_POINTS && count * a_point <= MAX_BYTES => return Ok(()),
+            Some(count) if count <= MAX_POINTS => {
+                Limit::new(Quantity::FileBytes, count * a_point, 0..=MAX_BYTES)
+            }
+            count => Limit::new(Quantity::Points, count, 0..=MAX_POINTS),
+        };
+        let remedy = "choose a smaller `count` or `depth`, or `codes = false`";
+        Err(limit.of(format!("points of {a_point} bytes each")).remedy(remedy).into())
     }
 
     fn points(&self, fractal: &Fractal) -> Result<Vec<Coded>, Error> {

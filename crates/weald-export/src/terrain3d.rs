@@ -16,7 +16,7 @@ use serde_json::{Value, json};
 use super::terrain_tiles::{description, extension, extent, little_endian, no_data_note, source};
 use super::vertices::Vertices;
 use super::{Export, ExportEntry, Finished};
-use weald_core::error::Error;
+use weald_core::error::{Error, Limit, Quantity};
 use weald_core::grid::Size;
 use weald_core::parameter::{Fault, LayerName};
 use weald_io::{Part, Raster, exr};
@@ -42,7 +42,8 @@ pub(super) const ENTRY: ExportEntry = ExportEntry::of::<Terrain3d>(
     "Terrain3D documentation, Importing & Exporting Data",
 );
 
-const REGION_SIZES: [u32; 6] = [64, 128, 256, 512, 1024, 2048];
+const REGION_SIZES: [u32; 6] = [64, 128, 256, 512, 1024, LARGEST_REGION];
+const LARGEST_REGION: u32 = 2048;
 const DEFAULT_REGION: u32 = 256;
 /// Most regions a side.
 const REGIONS: usize = 32;
@@ -107,12 +108,14 @@ impl Terrain3d {
         let longer = size.columns.max(size.rows);
         let holds = |region: &u32| *region as usize * REGIONS >= longer;
         let fitting = REGION_SIZES.into_iter().filter(|&region| region >= DEFAULT_REGION).find(holds);
-        self.region_size.or(fitting).filter(holds).ok_or_else(|| {
-            Error::Limit(format!(
-                "terrain3d: {size} vertices need more than {REGIONS} regions a side; choose a larger `region_size` or \
-                 `spacing`"
-            ))
-        })
+        let region = self.region_size.or(fitting).unwrap_or(LARGEST_REGION);
+        if holds(&region) {
+            return Ok(region);
+        }
+        let asked = longer.div_ceil(region as usize) as u64;
+        let limit = Limit::new(Quantity::RegionsPerSide, asked, 0..=REGIONS as u64);
+        let subject = format!("terrain3d: {size} vertices in regions of {region}");
+        Err(limit.of(subject).remedy("choose a larger `region_size` or `spacing`").into())
     }
 
     fn described(&self, finished: &Finished<'_>, import: &Import) -> Value {

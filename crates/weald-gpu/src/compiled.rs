@@ -4,6 +4,7 @@ use std::sync::PoisonError;
 
 use weald::Error;
 use weald::engine::program::{MAX_BUFFERS, Pass, Program};
+use weald::error::{DeviceError, DeviceErrorKind, Quantity};
 use weald::grow::ifs::shader::Shader;
 use wgpu::{
     BindGroup, BindGroupDescriptor, BindGroupEntry, BindGroupLayout, BindGroupLayoutDescriptor,
@@ -30,7 +31,10 @@ impl Pipeline {
         let what = format!("pass `{}` of `{}`", pass.name, program.name);
         let buffers = program.bound(pass).len() + usize::from(pass.tallies);
         if buffers > MAX_BUFFERS {
-            return Err(Error::Device(format!("{what} binds {buffers} buffers; at most {MAX_BUFFERS} work")));
+            let message = format!("{what} binds {buffers} buffers; at most {MAX_BUFFERS} work");
+            let (what, asked, allowed) = (Quantity::Buffers, buffers as u64, 0..=MAX_BUFFERS as u64);
+            let kind = DeviceErrorKind::OverLimit { what, asked, allowed };
+            return Err(DeviceError::new(kind, message).into());
         }
         Self::known(gpu, &what, (pass.name, program.module(pass)), &entries(program, pass))
     }

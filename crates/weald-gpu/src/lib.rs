@@ -2,7 +2,8 @@
 //!
 //! A [`Gpu`] is a [`weald::engine::device::Device`]. The library hands it programs that are data; here they
 //! become buffers, pipelines and submissions. State stays on the device until it is asked for. Every error is
-//! [`weald::Error::Device`]: no adapter, memory full, device lost; a fault of the device never panics.
+//! [`weald::Error::Device`] with its kind ([`weald::error::DeviceErrorKind`]): no adapter, memory full, device lost; a
+//! fault of the device never panics.
 //!
 //! ```no_run
 //! # fn main() -> Result<(), weald::Error> {

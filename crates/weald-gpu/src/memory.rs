@@ -1,9 +1,10 @@
 //! Memory of a device: buffers that count against its budget.
 
 use weald::Error;
+use weald::error::{DeviceError, DeviceErrorKind, Quantity, bytes_in_words};
 
 use crate::gpu::Gpu;
-use crate::gpu::budget::{Reservation, in_words};
+use crate::gpu::budget::Reservation;
 
 /// A buffer that counts against the budget.
 #[derive(Debug)]
@@ -17,13 +18,14 @@ impl Store {
     pub(crate) fn new(gpu: &Gpu, what: &str, bytes: u64, usage: wgpu::BufferUsages) -> Result<Self, Error> {
         let largest = gpu.context.limits.max_buffer_size;
         if bytes > largest {
-            return Err(Error::Device(format!(
+            let message = format!(
                 "{what} takes {} in one buffer; {} allows {}; {}",
-                in_words(bytes),
+                bytes_in_words(bytes),
                 gpu.context.adapter,
-                in_words(largest),
+                bytes_in_words(largest),
                 gpu.context.advice.large
-            )));
+            );
+            return Err(DeviceError::new(too_many_bytes(bytes, largest), message).into());
         }
         let held = gpu.memory.hold(bytes, what)?;
         let description =
@@ -31,4 +33,9 @@ impl Store {
         let buffer = gpu.context.attempt(what, || Ok(gpu.context.device.create_buffer(&description)))?;
         Ok(Self { buffer, _held: held })
     }
+}
+
+/// One buffer is larger than the device allows.
+pub(crate) fn too_many_bytes(asked: u64, largest: u64) -> DeviceErrorKind {
+    DeviceErrorKind::OverLimit { what: Quantity::MemoryBytes, asked, allowed: 0..=largest }
 }

@@ -1,6 +1,7 @@
 //! Uniform buffers of equal slots, one of which a dispatch sees.
 
 use weald::Error;
+use weald::error::{DeviceError, DeviceErrorKind};
 use wgpu::{BindingResource, BufferBinding, BufferSize, BufferUsages};
 
 use crate::gpu::Gpu;
@@ -51,7 +52,8 @@ impl Slots {
         for words in structs {
             if words.len() != self.words {
                 let (given, wanted) = (words.len(), self.words);
-                return Err(Error::Device(format!("a uniform of {wanted} words was given {given}")));
+                let message = format!("a uniform of {wanted} words was given {given}");
+                return Err(DeviceError::new(DeviceErrorKind::Misused, message).into());
             }
             packed.extend_from_slice(bytemuck::cast_slice(words));
             packed.resize(packed.len().next_multiple_of(self.stride as usize), 0);

@@ -4,6 +4,7 @@ use std::sync::mpsc;
 
 use weald::Error;
 use weald::engine::uniform::Uniform;
+use weald::error::{DeviceError, DeviceErrorKind};
 use wgpu::{Buffer, BufferUsages, MapMode};
 
 use crate::gpu::Gpu;
@@ -60,10 +61,8 @@ impl Transfer {
             let (sender, mapped) = mpsc::channel();
             landing.map_async(MapMode::Read, 0..length, move |result| drop(sender.send(result)));
             gpu.context.wait(None)?;
-            let failed =
-                |cause: &dyn std::fmt::Display| Error::Device(format!("reading back failed: {cause}"));
-            mapped.recv().map_err(|cause| failed(&cause))?.map_err(|cause| failed(&cause))?;
-            let view = landing.get_mapped_range(0..length).map_err(|cause| failed(&cause))?;
+            mapped.recv().map_err(unreadable)?.map_err(unreadable)?;
+            let view = landing.get_mapped_range(0..length).map_err(unreadable)?;
             values.extend_from_slice(bytemuck::cast_slice(&view));
             drop(view);
             landing.unmap();
@@ -133,6 +132,11 @@ pub(crate) fn uniform(gpu: &Gpu, what: &str, value: &impl Uniform) -> Result<Sto
     let store = Store::new(gpu, what, 4 * words.len() as u64, usage)?;
     gpu.context.queue.write_buffer(&store.buffer, 0, bytemuck::cast_slice(&words));
     Ok(store)
+}
+
+/// A buffer could not be read.
+pub(crate) fn unreadable(cause: impl std::fmt::Display) -> Error {
+    DeviceError::new(DeviceErrorKind::Failed, format!("reading back failed: {cause}")).into()
 }
 
 #[cfg(test)]

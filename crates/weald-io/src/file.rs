@@ -5,6 +5,7 @@ use std::io::Read;
 use std::path::Path;
 
 use super::Fault;
+use weald_core::error::{Limit, Quantity};
 
 /// All bytes of a file, where they are at most `limit`. The length is counted while reading, because a
 /// device or a pipe has none to ask for.
@@ -13,7 +14,7 @@ pub fn read_at_most(path: &Path, limit: u64) -> Result<Vec<u8>, Fault> {
     let reading = File::open(path).and_then(|file| file.take(limit + 1).read_to_end(&mut bytes));
     reading.map_err(|cause| Fault::damaged(format!("cannot be read: {cause}")))?;
     if bytes.len() as u64 > limit {
-        return Err(Fault::Limit(format!("the file is longer than the {limit} bytes that are read")));
+        return Err(Limit::new(Quantity::FileBytes, None, 0..=limit).into());
     }
     Ok(bytes)
 }

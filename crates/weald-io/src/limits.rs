@@ -1,6 +1,7 @@
 //! What a reader may use, so that no file, however damaged, takes more memory than its size warrants.
 
 use super::Fault;
+use weald_core::error::{Limit, Quantity};
 use weald_core::grid::{MAX_CELLS, Size};
 
 /// Deflate expands at most 1032 times, LZW with codes of 12 bits about 1350 times.
@@ -23,14 +24,15 @@ impl Limits {
     /// The size in a header, once it is known to be within limits.
     ///
     /// # Errors
-    /// [`Fault::Limit`] with both sides in the message; [`Fault::Damaged`] for a grid without a cell.
+    /// [`Fault::Limit`] with both sides in its subject; [`Fault::Damaged`] for a grid without a cell.
     pub fn size(self, columns: usize, rows: usize) -> Result<Size, Fault> {
         if columns == 0 || rows == 0 {
             return Err(Fault::damaged(format!("{columns} × {rows} cells: there is nothing in it")));
         }
-        let size = Size::new(columns, rows).map_err(|error| Fault::Limit(error.to_string()))?;
+        let size = Size::within_limits(columns, rows)?;
         if size.cells() > self.cells {
-            return Err(Fault::Limit(format!("{size} cells are more than the {} allowed here", self.cells)));
+            let limit = Limit::new(Quantity::Cells, size.cells() as u64, 0..=self.cells as u64);
+            return Err(limit.of(format!("a raster of {size} cells")).into());
         }
         Ok(size)
     }
@@ -70,7 +72,10 @@ mod tests {
     fn a_size_is_refused_from_the_first_cell_too_many() {
         let limits = Limits { cells: 12 };
         assert_eq!(limits.size(4, 3), Ok(Size { columns: 4, rows: 3 }));
-        assert!(matches!(limits.size(13, 1), Err(Fault::Limit(_))));
+        let Err(Fault::Limit(Limit { what, asked, allowed, .. })) = limits.size(13, 1) else {
+            panic!("13 cells are too many")
+        };
+        assert_eq!((what, asked, allowed), (Quantity::Cells, Some(13), 0..=12));
         assert!(matches!(limits.size(0, 1), Err(Fault::Damaged(_))));
     }
 }

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use super::Fault;
 use super::file::read_at_most;
+use weald_core::error::{Limit, Quantity};
 
 /// One file of a raster or of an export.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -132,10 +133,7 @@ impl Parts for InMemory {
     fn read(&self, name: &PartName, most: u64) -> Result<Option<Vec<u8>>, Fault> {
         let Some(bytes) = self.files.get(&name.path(&self.file)) else { return Ok(None) };
         if bytes.len() as u64 > most {
-            return Err(Fault::Limit(format!(
-                "{} bytes are more than the {most} that are read",
-                bytes.len()
-            )));
+            return Err(Limit::new(Quantity::FileBytes, bytes.len() as u64, 0..=most).into());
         }
         Ok(Some(bytes.clone()))
     }

@@ -10,7 +10,7 @@ use super::colour::{Linear, encode, linear_of_hex, linear_of_srgb, mix};
 use super::contours::automatic_interval;
 use super::cut::{Cut, Line, Slice};
 use super::{Image, PAPER, Picture, digits};
-use weald_core::error::Error;
+use weald_core::error::{Error, Limit, Quantity};
 use weald_core::landscape::Landscape;
 use weald_core::parameter::LayerName;
 use weald_core::random::{hash2, unit};
@@ -107,10 +107,9 @@ impl Frame {
         let rise = run / section.exaggeration.unwrap_or(usual);
         let height = ((high - low) / rise).ceil().max(1.0);
         if width as f64 * height > MAX_PIXELS {
-            return Err(Error::Limit(format!(
-                "a section of {width} × {height} pixels: at most {MAX_PIXELS} are drawn; choose a smaller \
-                 `width` or `exaggeration`"
-            )));
+            let limit = Limit::new(Quantity::Pixels, (width as f64 * height) as u64, 0..=MAX_PIXELS as u64);
+            let limit = limit.of(format!("a section of {width} × {height} pixels"));
+            return Err(limit.remedy("choose a smaller `width` or `exaggeration`").into());
         }
         Ok(Self { width, margin, height: height as usize, cells: cut.cells(), high, rise, interval })
     }

@@ -1,7 +1,7 @@
 //! The sheet a landscape is drawn on: how many pixels, and where each lies on the grid.
 
 use weald_core::domain::Domain;
-use weald_core::error::Error;
+use weald_core::error::{Error, Limit, Quantity};
 use weald_core::grid::Size;
 
 /// Least length of a picture's longer side where the recipe does not choose, in pixels: small grids are
@@ -37,10 +37,9 @@ impl Sheet {
         let width = width.map_or_else(|| default_width(grid), |width| width as usize);
         let height = (grid.rows as f64 * width as f64 / grid.columns as f64).round().max(1.0);
         if width as f64 * height > MAX_PIXELS {
-            return Err(Error::Limit(format!(
-                "a picture of {width} × {height} pixels for a grid of {grid} cells: at most {MAX_PIXELS} \
-                 pixels are drawn; choose a smaller `width`"
-            )));
+            let limit = Limit::new(Quantity::Pixels, (width as f64 * height) as u64, 0..=MAX_PIXELS as u64);
+            let subject = format!("a picture of {width} × {height} pixels for a grid of {grid} cells");
+            return Err(limit.of(subject).remedy("choose a smaller `width`").into());
         }
         let metres_per_pixel = domain.cell * grid.columns as f64 / width as f64;
         Ok(Self { width, height: height as usize, grid, metres_per_pixel })

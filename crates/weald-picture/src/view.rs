@@ -48,7 +48,7 @@ use rayon::prelude::*;
 
 use super::Image;
 use scene::Scene;
-use weald_core::error::Error;
+use weald_core::error::{Error, Limit, Quantity};
 use weald_core::landscape::Landscape;
 
 /// Most pixels of a view, and most rays.
@@ -80,13 +80,31 @@ impl View {
     fn check(&self) -> Result<(), Error> {
         let pixels = u64::from(self.width) * u64::from(self.height);
         let rays = pixels * u64::from(self.samples);
-        if pixels > MAX_PIXELS || rays > MAX_RAYS {
-            return Err(Error::Limit(format!(
-                "a view of {} × {} pixels with {} rays each: at most {MAX_PIXELS} pixels and {MAX_RAYS} rays \
-                 are drawn; choose a smaller `width`, `height` or `samples`",
-                self.width, self.height, self.samples
-            )));
-        }
-        Ok(())
+        let limit = match (pixels, rays) {
+            (..=MAX_PIXELS, ..=MAX_RAYS) => return Ok(()),
+            (..=MAX_PIXELS, _) => Limit::new(Quantity::Rays, rays, 0..=MAX_RAYS),
+            _ => Limit::new(Quantity::Pixels, pixels, 0..=MAX_PIXELS),
+        };
+        let Self { width, height, samples, .. } = self;
+        let subject = format!("a view of {width} × {height} pixels with {samples} rays each");
+        Err(limit.of(subject).remedy("choose a smaller `width`, `height` or `samples`").into())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn pictures_over_the_limit_say_whether_pixels_or_rays_are_too_many() {
+        let limit = |view: View| match view.check() {
+            Err(Error::Limit(limit)) => (limit.what, limit.asked, *limit.allowed.end()),
+            other => panic!("{other:?}"),
+        };
+        let [width, height] = [16384, 16384];
+        let large = View { width, height, samples: 1, ..View::default() };
+        assert_eq!(limit(large), (Quantity::Pixels, Some(1 << 28), MAX_PIXELS));
+        let fine = View { width: width / 2, height, samples: 64, ..View::default() };
+        assert_eq!(limit(fine), (Quantity::Rays, Some(1 << 33), MAX_RAYS));
     }
 }

@@ -18,7 +18,7 @@ use rayon::prelude::*;
 use site::{Site, unit};
 use weald_core::condition::{self, Condition};
 use weald_core::domain::Domain;
-use weald_core::error::Error;
+use weald_core::error::{Error, Limit, Quantity};
 use weald_core::grid::Field;
 use weald_core::landscape::Landscape;
 use weald_core::parameter::{Fault, LayerName, Nested};
@@ -136,11 +136,9 @@ impl Scatter {
             return Ok(());
         }
         let wide = libm::ceil((DENSITY * area / f64::from(MAX_PLANTS)).sqrt() * 100.0) / 100.0;
-        Err(Error::Limit(format!(
-            "scatter: at a `spacing` of {} m some {expected:.0} plants would stand on this ground, but at most {MAX_PLANTS} \
-             may; choose {wide} m or more, or a `count`",
-            self.spacing
-        )))
+        let limit = Limit::new(Quantity::Plants, expected.ceil() as u64, 0..=MAX_PLANTS.into());
+        let subject = format!("scatter: expected at a `spacing` of {} m on this ground", self.spacing);
+        Err(limit.of(subject).remedy(format!("choose {wide} m or more, or a `count`")).into())
     }
 
     fn plant(&self, place: &Place, site: &Site<'_>) -> Plant {

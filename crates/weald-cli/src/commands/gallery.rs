@@ -20,8 +20,8 @@ pub(crate) fn gallery(only: &[String], out: &Path) -> Result<(), Failure> {
     let device = opened.as_ref().and_then(|opened| opened.as_ref().ok()).map(|gpu| gpu as &dyn RenderDevice);
     match (gallery::write(out, only, device, &|begun| eprintln!("{}", line(begun))), opened) {
         // A figure that needs a device says so itself, but not why there is none.
-        (Err(Error::Device(figure)), Some(Err(why))) => {
-            return Err(Error::Device(format!("{figure}: {why}")).into());
+        (Err(Error::Device(figure)), Some(Err(Error::Device(why)))) => {
+            return Err(Error::from(why.of(figure)).into());
         }
         (done, _) => done?,
     }

@@ -10,7 +10,7 @@ use std::path::Path;
 use super::plants::MAX_NODES;
 use super::{Export, Finished, Mesh};
 use instances::{Scene, Standing};
-use weald_core::error::Error;
+use weald_core::error::{Error, Limit, Quantity};
 use weald_core::landscape::Landscape;
 use weald_core::parameter::{Fault, LayerName, Nested};
 use weald_io::Part;
@@ -122,10 +122,8 @@ impl GrassSets {
     }
 
     fn too_many(&self, sets: f64) -> Error {
-        Error::Limit(format!(
-            "grass: some {sets:.0} sets of `{}` stand in the `area`, but `max_sets` is {}; choose a smaller `area`, fewer `sets` \
-             in the step, or a larger `max_sets`",
-            self.of.0, self.max_sets
-        ))
+        let limit = Limit::new(Quantity::GrassSets, sets.ceil() as u64, 0..=self.max_sets.into());
+        let remedy = "choose a smaller `area`, fewer `sets` in the step, or a larger `max_sets`";
+        limit.of(format!("grass: `{}` in the `area`", self.of.0)).remedy(remedy).into()
     }
 }

@@ -6,7 +6,7 @@
 
 use serde_json::{Map, Value, json};
 
-use weald_core::error::Error;
+use weald_core::error::{Error, Limit, Quantity};
 
 /// Codes of the specification.
 const FLOAT: u32 = 5126;
@@ -197,15 +197,15 @@ impl Document {
     }
 }
 
+/// What makes a file of meshes shorter.
+const REMEDY: &str = "choose a larger `error`, a smaller `texture`, or fewer plants";
+
 fn container(mut json: Vec<u8>, bytes: Vec<u8>) -> Result<Vec<u8>, Error> {
     json.resize(json.len().next_multiple_of(4), b' ');
     let whole = 12 + 8 + json.len() + 8 + bytes.len();
     let length = u32::try_from(whole).map_err(|_| {
-        Error::Limit(format!(
-            "a .glb of {whole} bytes; its header holds at most {}: choose a larger `error`, a smaller `texture`, or fewer \
-             plants",
-            u32::MAX
-        ))
+        let limit = Limit::new(Quantity::FileBytes, whole as u64, 0..=u64::from(u32::MAX));
+        limit.of("a .glb, whose header says how long it is").remedy(REMEDY)
     })?;
     let mut file = Vec::with_capacity(whole);
     file.extend(b"glTF");

@@ -17,7 +17,7 @@ use super::plane::Plane;
 use super::scan::for_each_row;
 use super::surface::Surface;
 use super::tin::Tin;
-use weald_core::error::Error;
+use weald_core::error::{Error, Limit, Quantity};
 
 /// The cell of a triangle that deviates most, in what cells bear.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -36,11 +36,9 @@ pub(super) fn follow(surface: &Surface<'_>, most: usize) -> Result<Tin, Error> {
     refinement.look_at_changes();
     while let Some((triangle, point)) = refinement.next() {
         if refinement.mesh.points().len() >= most {
-            return Err(Error::Limit(format!(
-                "a mesh of {} cells that is true to the error asked for has more than {most} vertices; choose a \
-                 larger `error`",
-                surface.size()
-            )));
+            let subject = format!("a mesh of {} cells that is true to the error asked for", surface.size());
+            let limit = Limit::new(Quantity::Vertices, None, 0..=most as u64);
+            return Err(limit.of(subject).remedy("choose a larger `error`").into());
         }
         refinement.mesh.insert(point, triangle);
         refinement.look_at_changes();
@@ -167,6 +165,10 @@ mod tests {
         let height = Field::from_function(size, |x, y| ((x * 31 + y * 17) % 23) as f32);
         let error = follow(&Surface::new(&height, None, 0.1), 100).expect_err("rough ground");
         assert_eq!(error.exit_code(), 5);
-        assert!(error.to_string().contains("more than 100 vertices; choose a larger `error`"), "{error}");
+        let message = error.to_string();
+        assert!(
+            message.contains("more than the 100 vertices that are allowed; choose a larger"),
+            "{message}"
+        );
     }
 }

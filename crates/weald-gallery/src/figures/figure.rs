@@ -1,7 +1,7 @@
 //! What a figure is: how it is declared, what it is given and what it makes.
 
 use super::Claim;
-use weald_core::error::Error;
+use weald_core::error::{DeviceError, DeviceErrorKind, Error};
 use weald_picture::{Image, RenderDevice};
 
 /// A figure's declaration.
@@ -39,10 +39,10 @@ impl Figure {
         match (self.make, device) {
             (Make::Alone(make), _) => make(job),
             (Make::Drawn(make), Some(device)) => make(job, device),
-            (Make::Drawn(_), None) => Err(Error::Device(format!(
-                "figure {} is drawn by a graphics device, and there is none",
-                self.id
-            ))),
+            (Make::Drawn(_), None) => {
+                let message = format!("figure {} is drawn by a graphics device, and there is none", self.id);
+                Err(DeviceError::new(DeviceErrorKind::NoAdapter { found: Vec::new() }, message).into())
+            }
         }
     }
 }

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use weald::Error;
+use weald::error::{DeviceError, DeviceErrorKind};
 use wgpu::{Adapter, Backend, Backends, DeviceType, Instance, InstanceDescriptor, InstanceFlags};
 
 /// Interfaces with compute passes. OpenGL is left out: to look for it is slow and noisy without a display.
@@ -83,26 +84,26 @@ pub(crate) fn describe(adapter: &Adapter) -> String {
 }
 
 /// No adapter is as wanted: what was found, and what to do.
-pub(crate) fn none(found: &[String], wanted: Wanted) -> Error {
+pub(crate) fn none(found: Vec<String>, wanted: Wanted) -> Error {
     let kind = match wanted {
         Wanted::Hardware => "graphics card",
         Wanted::Any => "adapter",
         Wanted::Software => "software adapter",
     };
-    let found = if found.is_empty() { "none at all".to_owned() } else { found.join(", ") };
-    Error::Device(format!(
-        "no {kind} with Vulkan, Metal or Direct3D 12; found: {found}; install the driver of the graphics card, or \
+    let listed = if found.is_empty() { "none at all".to_owned() } else { found.join(", ") };
+    let message = format!(
+        "no {kind} with Vulkan, Metal or Direct3D 12; found: {listed}; install the driver of the graphics card, or \
          a software one (Debian, Ubuntu: mesa-vulkan-drivers), or use --engine cpu"
-    ))
+    );
+    DeviceError::new(DeviceErrorKind::NoAdapter { found }, message).into()
 }
 
 /// Nothing draws: what to do.
 pub(crate) fn none_that_draws() -> Error {
-    Error::Device(
-        "there is no graphics device with Vulkan, Metal or Direct3D 12 to draw on; install the driver of the graphics \
-         card, or a software one (Debian, Ubuntu: mesa-vulkan-drivers), or draw on the processor by --fallback view"
-            .to_owned(),
-    )
+    let message = "there is no graphics device with Vulkan, Metal or Direct3D 12 to draw on; install the driver of the \
+                   graphics card, or a software one (Debian, Ubuntu: mesa-vulkan-drivers), or draw on the processor by \
+                   --fallback view";
+    DeviceError::new(DeviceErrorKind::NoAdapter { found: Vec::new() }, message).into()
 }
 
 #[cfg(test)]
@@ -121,10 +122,16 @@ mod tests {
 
     #[test]
     fn the_error_names_what_was_found_and_what_to_do() {
-        let text = none(&["llvmpipe (vulkan, llvmpipe Mesa)".to_owned()], Wanted::Hardware).to_string();
+        let adapter = "llvmpipe (vulkan, llvmpipe Mesa)".to_owned();
+        let error = none(vec![adapter.clone()], Wanted::Hardware);
+        let text = error.to_string();
         for part in ["graphics card", "llvmpipe", "mesa-vulkan-drivers", "--engine cpu"] {
             assert!(text.contains(part), "{part}: {text}");
         }
-        assert!(none(&[], Wanted::Any).to_string().contains("none at all"));
+        let Error::Device(DeviceError { kind: DeviceErrorKind::NoAdapter { found }, .. }) = error else {
+            panic!("{text}")
+        };
+        assert_eq!(found, [adapter]);
+        assert!(none(Vec::new(), Wanted::Any).to_string().contains("none at all"));
     }
 }

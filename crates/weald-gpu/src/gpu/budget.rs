@@ -4,6 +4,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use weald::Error;
+use weald::error::{DeviceError, DeviceErrorKind, bytes_in_words};
 
 use super::advice::Advice;
 
@@ -41,13 +42,15 @@ impl Memory {
     pub(crate) fn hold(self: &Arc<Self>, bytes: u64, what: &str) -> Result<Reservation, Error> {
         let fits = |held: u64| held.checked_add(bytes).filter(|&sum| sum <= self.budget);
         let before = self.held.fetch_update(Ordering::Relaxed, Ordering::Relaxed, fits).map_err(|held| {
-            Error::Device(format!(
+            let message = format!(
                 "{what} takes {} of GPU memory; {} of {} are in use; {}",
-                in_words(bytes),
-                in_words(held),
-                in_words(self.budget),
+                bytes_in_words(bytes),
+                bytes_in_words(held),
+                bytes_in_words(self.budget),
                 self.advice.spent
-            ))
+            );
+            let (asked, free) = (Some(bytes), Some(self.budget - held));
+            DeviceError::new(DeviceErrorKind::OutOfMemory { asked, free }, message)
         })?;
         self.peak.fetch_max(before + bytes, Ordering::Relaxed);
         Ok(Reservation { memory: Arc::clone(self), bytes })
@@ -64,15 +67,6 @@ pub(crate) struct Reservation {
 impl Drop for Reservation {
     fn drop(&mut self) {
         self.memory.held.fetch_sub(self.bytes, Ordering::Relaxed);
-    }
-}
-
-/// Bytes as a person reads them.
-pub(crate) fn in_words(bytes: u64) -> String {
-    match bytes {
-        0..1024 => format!("{bytes} bytes"),
-        1024..1_048_576 => format!("{:.1} KiB", bytes as f64 / 1024.0),
-        _ => format!("{:.1} MiB", bytes as f64 / 1_048_576.0),
     }
 }
 
@@ -95,7 +89,13 @@ mod tests {
     fn no_number_of_bytes_overflows_the_count() {
         let memory = Memory::new(u64::MAX, &SIMULATION);
         let _some = memory.hold(10, "some").expect("it fits");
-        let error = memory.hold(u64::MAX, "all").expect_err("10 are held").to_string();
-        assert!(error.contains("all takes") && error.contains("10 bytes of"), "{error}");
+        let error = memory.hold(u64::MAX, "all").expect_err("10 are held");
+        let message = error.to_string();
+        assert!(message.contains("all takes") && message.contains("10 bytes of"), "{message}");
+        let Error::Device(DeviceError { kind: DeviceErrorKind::OutOfMemory { asked, free }, .. }) = error
+        else {
+            panic!("{message}")
+        };
+        assert_eq!((asked, free), (Some(u64::MAX), Some(u64::MAX - 10)));
     }
 }

@@ -7,6 +7,7 @@ use std::time::Duration;
 
 use weald::Error;
 use weald::engine::program::MAX_BUFFERS;
+use weald::error::{DeviceError, DeviceErrorKind};
 use wgpu::{
     BindGroupLayout, ComputePipeline, DeviceDescriptor, DeviceType, ErrorFilter, Features, Limits,
     MemoryHints, SubmissionIndex,
@@ -60,7 +61,8 @@ impl Context {
         };
         let opened = pollster::block_on(adapter.request_device(&description));
         let (device, queue) = opened.map_err(|cause| {
-            Error::Device(format!("{name} cannot be opened: {cause}; {}", advice.unopened))
+            let message = format!("{name} cannot be opened: {cause}; {}", advice.unopened);
+            DeviceError::new(DeviceErrorKind::NotOpened, message)
         })?;
         let (faults, kind) = (Faults::of(&device), adapter.get_info().device_type);
         Ok(Self { device, queue, adapter: name, kind, limits, pipelines: Mutex::default(), advice, faults })
@@ -100,7 +102,8 @@ impl Context {
         self.faults.check("waiting for the GPU", self.advice)?;
         match polled {
             Ok(Err(cause)) => {
-                Err(Error::Device(format!("the GPU does not answer: {cause}; {}", self.advice.silent)))
+                let message = format!("the GPU does not answer: {cause}; {}", self.advice.silent);
+                Err(DeviceError::new(DeviceErrorKind::Unresponsive, message).into())
             }
             _ => Ok(()),
         }

@@ -3,6 +3,7 @@
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use weald::Error;
+use weald::error::{DeviceError, DeviceErrorKind};
 
 use super::advice::Advice;
 
@@ -38,24 +39,28 @@ impl Faults {
     /// An error where the device is lost, or where something failed that no call has spoken of yet.
     pub(crate) fn check(&self, what: &str, advice: &Advice) -> Result<(), Error> {
         if let Some(reason) = self.lost.get() {
-            return Err(Error::Device(format!(
-                "the GPU was lost ({reason}), so {what} failed; {}",
-                advice.lost
-            )));
+            let message = format!("the GPU was lost ({reason}), so {what} failed; {}", advice.lost);
+            return Err(DeviceError::new(DeviceErrorKind::Lost { reason: reason.clone() }, message).into());
         }
         let uncaught = self.uncaught.lock().unwrap_or_else(PoisonError::into_inner).take();
-        uncaught.map_or(Ok(()), |message| Err(Error::Device(format!("{what} failed on the GPU: {message}"))))
+        uncaught.map_or(Ok(()), |message| Err(failed(what, &message)))
     }
 }
 
 /// An error of wgpu, in our words.
 pub(crate) fn explain(what: &str, error: &wgpu::Error, advice: &Advice) -> Error {
-    Error::Device(match error {
+    match error {
         wgpu::Error::OutOfMemory { .. } => {
-            format!("{what} failed: the GPU's memory is full; {}", advice.full)
+            let kind = DeviceErrorKind::OutOfMemory { asked: None, free: None };
+            let message = format!("{what} failed: the GPU's memory is full; {}", advice.full);
+            DeviceError::new(kind, message).into()
         }
         wgpu::Error::Validation { description, .. } | wgpu::Error::Internal { description, .. } => {
-            format!("{what} failed on the GPU: {description}")
+            failed(what, description)
         }
-    })
+    }
+}
+
+fn failed(what: &str, why: &str) -> Error {
+    DeviceError::new(DeviceErrorKind::Failed, format!("{what} failed on the GPU: {why}")).into()
 }

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use weald::Error;
 use weald::engine::device::ShownGround;
+use weald::error::{DeviceError, DeviceErrorKind, bytes_in_words};
 use weald::grid::Size;
 use wgpu::{Buffer, DeviceType};
 
@@ -94,7 +95,7 @@ impl Gpu {
     fn wanted(wanted: Wanted) -> Result<Self, Error> {
         let adapters = adapter::all();
         let found: Vec<_> = adapters.iter().map(adapter::describe).collect();
-        let adapter = adapter::best(adapters, wanted).ok_or_else(|| adapter::none(&found, wanted))?;
+        let adapter = adapter::best(adapters, wanted).ok_or_else(|| adapter::none(found, wanted))?;
         Self::open(&adapter, &SIMULATION)
     }
 
@@ -114,10 +115,10 @@ impl Gpu {
     /// [`Error::Device`] for a budget below the least.
     pub fn with_memory(self, bytes: u64) -> Result<Self, Error> {
         if bytes < budget::LEAST {
-            let (given, least) = (budget::in_words(bytes), budget::in_words(budget::LEAST));
-            return Err(Error::Device(format!(
-                "a GPU memory of {given} is too small; give at least {least}"
-            )));
+            let (given, least) = (bytes_in_words(bytes), bytes_in_words(budget::LEAST));
+            let message = format!("a GPU memory of {given} is too small; give at least {least}");
+            let kind = DeviceErrorKind::OutOfMemory { asked: Some(budget::LEAST), free: Some(bytes) };
+            return Err(DeviceError::new(kind, message).into());
         }
         Ok(Self { memory: Memory::new(bytes, self.context.advice), ..self })
     }

@@ -2,6 +2,7 @@
 
 use weald::Error;
 use weald::engine::program::Program;
+use weald::error::{DeviceError, DeviceErrorKind};
 use weald::grid::Size;
 use wgpu::BufferUsages;
 
@@ -61,10 +62,11 @@ fn partners(program: &Program) -> Result<Vec<usize>, Error> {
             |buffer: usize| program.buffers.get(buffer).map(|buffer| (buffer.lanes, buffer.length(1)));
         let alone = [one, other].iter().all(|&buffer| partners.get(buffer) == Some(&buffer));
         if !alone || one == other || alike(one) != alike(other) {
-            return Err(Error::Device(format!(
+            let message = format!(
                 "`{}` swaps buffers {one} and {other}; each can be swapped once, with one of as many lanes",
                 program.name
-            )));
+            );
+            return Err(DeviceError::new(DeviceErrorKind::Misused, message).into());
         }
         partners.swap(one, other);
     }

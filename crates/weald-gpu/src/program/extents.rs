@@ -2,11 +2,12 @@
 
 use weald::Error;
 use weald::engine::program::{Buffer, COUNTED, Content, GROUP, Program};
+use weald::error::{DeviceError, DeviceErrorKind, Quantity, bytes_in_words};
 use weald::grid::Size;
 
 use super::parts::Part;
 use crate::gpu::Gpu;
-use crate::gpu::budget::in_words;
+use crate::memory::too_many_bytes;
 
 /// Bytes of one sum of one workgroup: a total and its rounding error.
 const SUM_BYTES: usize = 8;
@@ -59,22 +60,28 @@ impl Extents {
         let Size { columns, rows } = self.size;
         let most = gpu.context.limits.max_compute_workgroups_per_dimension as usize;
         if columns == 0 || rows == 0 || self.across > most || self.down > most {
-            let side = most * GROUP;
-            return Err(Error::Device(format!(
-                "the GPU cannot work on {columns} × {rows} cells; each side may have 1 to {side}"
-            )));
+            let most = most * GROUP;
+            let message =
+                format!("the GPU cannot work on {columns} × {rows} cells; each side may have 1 to {most}");
+            let asked = if columns.min(rows) == 0 { 0 } else { columns.max(rows) };
+            let (what, asked, allowed) = (Quantity::CellsPerSide, asked as u64, 1..=most as u64);
+            let kind = DeviceErrorKind::OverLimit { what, asked, allowed };
+            return Err(DeviceError::new(kind, message).into());
         }
         let named = program.buffers.iter().map(|buffer| (buffer.name, bytes(buffer, self.size)));
         let largest = gpu.largest_binding();
         match named.max_by_key(|&(_, bytes)| bytes) {
-            Some((name, bytes)) if bytes > largest => Err(Error::Device(format!(
-                "buffer `{name}` of `{}` takes {} for {columns} × {rows} cells; {} allows {}; use a smaller grid \
-                 or --engine cpu",
-                program.name,
-                in_words(bytes),
-                gpu.context.adapter,
-                in_words(largest)
-            ))),
+            Some((name, bytes)) if bytes > largest => {
+                let message = format!(
+                    "buffer `{name}` of `{}` takes {} for {columns} × {rows} cells; {} allows {}; use a smaller \
+                     grid or --engine cpu",
+                    program.name,
+                    bytes_in_words(bytes),
+                    gpu.context.adapter,
+                    bytes_in_words(largest)
+                );
+                Err(DeviceError::new(too_many_bytes(bytes, largest), message).into())
+            }
             _ => Ok(()),
         }
     }

@@ -3,6 +3,7 @@
 use weald::Error;
 use weald::engine::device::{Loaded, Window};
 use weald::engine::program::{COUNTED, Content, GROUP, Program};
+use weald::error::{DeviceError, DeviceErrorKind};
 use weald::grid::Size;
 use wgpu::BufferUsages;
 
@@ -100,7 +101,7 @@ impl Running {
     fn store(&self, buffer: usize) -> Result<Extent<'_>, Error> {
         let found = self.program.buffers.get(buffer).ok_or_else(|| {
             let (name, count) = (self.program.name, self.program.buffers.len());
-            Error::Device(format!("`{name}` has {count} buffers, not one with number {buffer}"))
+            misused(format!("`{name}` has {count} buffers, not one with number {buffer}"))
         })?;
         Ok((self.buffers.now(buffer), extents::bytes(found, self.now.size)))
     }
@@ -141,15 +142,19 @@ fn state<'a>(program: &Program, buffers: &'a Buffers, sums: &'a Store, now: Exte
     extents.chain([(sums, now.sums_bytes())]).collect()
 }
 
+fn misused(message: String) -> Error {
+    DeviceError::new(DeviceErrorKind::Misused, message).into()
+}
+
 impl Loaded for Running {
     fn begin(&mut self, size: Size, own: &Window) -> Result<(), Error> {
         let now = Extents::of(size, self.uniforms.grid.count());
         now.check(&self.gpu, &self.program)?;
         if !self.room.hold(now) {
             let ([columns, rows], room) = ([size.columns, size.rows], self.room.size);
-            return Err(Error::Device(format!(
-                "`{}` was loaded for {} × {} cells and cannot begin on {columns} × {rows}",
-                self.program.name, room.columns, room.rows
+            return Err(misused(format!(
+                "`{}` was loaded for {room} cells and cannot begin on {columns} × {rows}",
+                self.program.name
             )));
         }
         self.pace.drain(&self.gpu)?;
@@ -165,7 +170,7 @@ impl Loaded for Running {
         let (store, bytes) = self.store(buffer)?;
         if 4 * values.len() as u64 != bytes {
             let (name, given) = (self.program.buffers[buffer].name, values.len());
-            return Err(Error::Device(format!("buffer `{name}` takes {} numbers, not {given}", bytes / 4)));
+            return Err(misused(format!("buffer `{name}` takes {} numbers, not {given}", bytes / 4)));
         }
         transfer::write(&self.gpu, &store.buffer, bytemuck::cast_slice(values))
     }

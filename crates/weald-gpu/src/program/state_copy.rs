@@ -2,6 +2,7 @@
 
 use weald::Error;
 use weald::engine::program::Content;
+use weald::error::{DeviceError, DeviceErrorKind};
 use wgpu::BufferUsages;
 
 use crate::gpu::Gpu;
@@ -49,9 +50,8 @@ impl StateCopy {
     /// Copies back.
     pub(crate) fn go_back(&self, gpu: &Gpu, pace: &mut Pace, state: &[Extent<'_>]) -> Result<(), Error> {
         if !self.valid {
-            return Err(Error::Device(
-                "the GPU was asked to go back to a state that was never kept".to_owned(),
-            ));
+            let message = "the GPU was asked to go back to a state that was never kept";
+            return Err(DeviceError::new(DeviceErrorKind::Misused, message).into());
         }
         for ((store, bytes), copy) in state.iter().zip(&self.copies) {
             transfer::copy(gpu, pace, [&copy.buffer, &store.buffer], *bytes)?;

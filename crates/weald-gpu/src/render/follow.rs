@@ -1,7 +1,8 @@
 //! Ground and water of a running simulation become the surfaces that are drawn, without coming back from the device.
 
-use weald::Error;
+use weald::error::{Limit, Quantity};
 use weald::picture::Stage;
+use weald::{Error, Size};
 use wgpu::{
     BindGroupDescriptor, BindGroupEntry, BindingResource, CommandEncoderDescriptor, ComputePassDescriptor,
 };
@@ -26,10 +27,7 @@ impl Renderer {
     pub fn follow(&mut self, stage: &Stage, live: &Live) -> Result<(), Error> {
         let (size, cells) = (live.size(), stage.cells());
         if [size.columns, size.rows] != cells {
-            return Err(Error::Limit(format!(
-                "a simulation of {} × {} cells cannot be followed on a stage of {} × {}; pictures have up to 4096 a side",
-                size.columns, size.rows, cells[0], cells[1]
-            )));
+            return Err(other_size(size, cells).into());
         }
         if self.follower.is_none() {
             self.terrain.widen(SLACK);
@@ -67,4 +65,14 @@ impl Renderer {
             Ok(())
         })
     }
+}
+
+/// The first side that is not that of the stage.
+fn other_size(size: Size, cells: [usize; 2]) -> Limit {
+    let [columns, rows] = cells;
+    let (asked, side) = if size.columns == columns { (size.rows, rows) } else { (size.columns, columns) };
+    let limit = Limit::new(Quantity::CellsPerSide, asked as u64, side as u64..=side as u64);
+    limit
+        .of(format!("a simulation of {size} cells, followed on a stage of {columns} × {rows}"))
+        .remedy("pictures have up to 4096 a side")
 }

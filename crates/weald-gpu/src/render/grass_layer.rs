@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use weald::Error;
+use weald::error::{Limit, Quantity};
 use weald::grow::grass::choice::{Choice, FARTHEST, LISTS};
 use weald::grow::grass::{Area, Grasses, Instance, Meadow, Packed};
 use wgpu::{BindGroup, BindGroupDescriptor, BindGroupEntry, BindGroupLayout, BufferUsages};
@@ -149,9 +150,8 @@ fn check(sets: f64) -> Result<(), Error> {
     if sets <= MAX_SETS {
         return Ok(());
     }
-    Err(Error::Limit(format!(
-        "{sets:.0} sets of grass around the camera: at most {MAX_SETS} are drawn; sow fewer `sets` on a square metre"
-    )))
+    let limit = Limit::new(Quantity::GrassSets, sets.ceil() as u64, 0..=MAX_SETS as u64);
+    Err(limit.of("around the camera").remedy("sow fewer `sets` on a square metre").into())
 }
 
 /// The buffers of sets.

@@ -2,6 +2,7 @@
 
 use weald::Error;
 use weald::engine::device::Device;
+use weald::error::{Limit, Quantity};
 use weald::picture::Camera;
 
 use crate::gpu::Gpu;
@@ -32,17 +33,15 @@ impl Options {
     pub fn check(&self, gpu: &Gpu) -> Result<(), Error> {
         let most = gpu.context.limits.max_texture_dimension_2d;
         let [width, height] = self.size;
-        if !(1..=most).contains(&width) || !(1..=most).contains(&height) {
-            return Err(Error::Limit(format!(
-                "a picture of {width} × {height} pixels: {} draws 1 to {most} a side; choose another --size",
-                gpu.adapter()
-            )));
+        if let Some(&side) = self.size.iter().find(|side| !(1..=most).contains(side)) {
+            let limit = Limit::new(Quantity::PixelsPerSide, u64::from(side), 1..=most.into());
+            let subject = format!("a picture of {width} × {height} pixels, drawn by {}", gpu.adapter());
+            return Err(limit.of(subject).remedy("choose another --size").into());
         }
         if !SAMPLES.contains(&self.samples) {
-            return Err(Error::Limit(format!(
-                "{} samples per pixel; every device has 1 and 4: choose --samples 4",
-                self.samples
-            )));
+            let [least, most] = SAMPLES.map(u64::from);
+            let limit = Limit::new(Quantity::SamplesPerPixel, u64::from(self.samples), least..=most);
+            return Err(limit.remedy("every device has these: choose --samples 4").into());
         }
         Ok(())
     }

@@ -13,6 +13,7 @@ use wgpu::{
 use super::textures::{Canvas, Shape};
 use crate::gpu::Gpu;
 use crate::memory::Store;
+use crate::transfer::unreadable;
 
 /// Bytes of a pixel.
 const PIXEL: u32 = 4;
@@ -66,12 +67,11 @@ impl Readback {
 /// What is read of a buffer, when all that was submitted is done.
 pub(super) fn read_back<T>(gpu: &Gpu, buffer: &Buffer, read: impl FnOnce(&[u8]) -> T) -> Result<T, Error> {
     gpu.context.attempt("reading back", || {
-        let failed = |cause: &dyn std::fmt::Display| Error::Device(format!("reading back failed: {cause}"));
         let (sender, mapped) = mpsc::channel();
         buffer.map_async(MapMode::Read, .., move |result| drop(sender.send(result)));
         gpu.context.wait(None)?;
-        mapped.recv().map_err(|cause| failed(&cause))?.map_err(|cause| failed(&cause))?;
-        let bytes = buffer.get_mapped_range(..).map_err(|cause| failed(&cause))?;
+        mapped.recv().map_err(unreadable)?.map_err(unreadable)?;
+        let bytes = buffer.get_mapped_range(..).map_err(unreadable)?;
         let value = read(&bytes);
         drop(bytes);
         buffer.unmap();

@@ -1,6 +1,7 @@
 //! Textures that count against the budget.
 
 use weald::Error;
+use weald::error::{DeviceError, DeviceErrorKind, Quantity};
 use wgpu::{
     Extent3d, TextureDescriptor, TextureDimension, TextureFormat, TextureUsages, TextureView,
     TextureViewDescriptor, TextureViewDimension,
@@ -44,13 +45,16 @@ impl Canvas {
     /// Allocates; `what` names it in errors.
     pub(super) fn new(gpu: &Gpu, what: &str, shape: Shape) -> Result<Self, Error> {
         let most = gpu.context.limits.max_texture_dimension_2d;
-        if shape.size.iter().any(|&side| side > most) {
+        if let Some(&side) = shape.size.iter().find(|side| **side > most) {
             let [width, height] = shape.size;
-            return Err(Error::Device(format!(
+            let message = format!(
                 "{what} is a texture of {width} × {height}; {} has at most {most} a side; use a smaller grid, or \
                  --fallback view",
                 gpu.context.adapter
-            )));
+            );
+            let (what, asked, allowed) = (Quantity::PixelsPerSide, side.into(), 0..=most.into());
+            let kind = DeviceErrorKind::OverLimit { what, asked, allowed };
+            return Err(DeviceError::new(kind, message).into());
         }
         let held = gpu.memory.hold(shape.bytes(), what)?;
         let [width, height] = shape.size;

@@ -8,6 +8,7 @@
 use std::time::Duration;
 
 use weald::Error;
+use weald::error::{DeviceError, DeviceErrorKind};
 use wgpu::{
     BufferUsages, CommandEncoder, ComputePassDescriptor, ComputePassTimestampWrites, QuerySet,
     QuerySetDescriptor, QueryType, RenderPass, RenderPassTimestampWrites,
@@ -82,7 +83,9 @@ impl Timer {
     /// The clock of a device that has one.
     pub(super) fn new(gpu: &Gpu) -> Result<Self, Error> {
         if !gpu.context.device.features().contains(CLOCK) {
-            return Err(Error::Device(format!("{} has no clock that passes can read", gpu.context.adapter)));
+            let kind = DeviceErrorKind::Unsupported { feature: "clock" };
+            let message = format!("{} has no clock that passes can read", gpu.context.adapter);
+            return Err(DeviceError::new(kind, message).into());
         }
         let bytes = BYTES * u64::from(MOMENTS);
         let usage = BufferUsages::QUERY_RESOLVE | BufferUsages::COPY_SRC;

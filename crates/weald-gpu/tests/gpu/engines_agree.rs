@@ -8,6 +8,7 @@ use crate::processes::{masked, processes, whole, whole_models, wide};
 use weald::engine::device::{Device, Loaded};
 use weald::engine::program::Program;
 use weald::engine::{Engine, Job, Unwatched};
+use weald::error::{DeviceError, DeviceErrorKind};
 use weald::step::{Outcome, Step};
 use weald::{Error, Landscape, Size};
 use weald_gpu::Gpu;
@@ -115,7 +116,8 @@ impl Device for LimitedDevice {
     }
 
     fn load(&self, program: &Program, size: Size) -> Result<Box<dyn Loaded>, Error> {
-        if self.loads { self.gpu.load(program, size) } else { Err(Error::Device("not now".to_owned())) }
+        let refused = || DeviceError::new(DeviceErrorKind::Failed, "not now").into();
+        if self.loads { self.gpu.load(program, size) } else { Err(refused()) }
     }
 }
 

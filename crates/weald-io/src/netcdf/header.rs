@@ -5,6 +5,7 @@ use super::super::cf::{Attribute, Attributes};
 use super::cursor::Cursor;
 use super::kind::{CHARACTER, FLOAT, INTEGER, Kind};
 use super::tag;
+use weald_core::error::{Limit, Quantity};
 
 /// Most numbers of one attribute that are kept; longer ones are read past.
 const MAX_NUMBERS: usize = 1 << 16;
@@ -166,7 +167,8 @@ impl Variable {
 }
 
 fn too_large(name: &str) -> Fault {
-    Fault::Limit(format!("`{name}` claims more numbers than any file can hold"))
+    let limit = Limit::new(Quantity::Numbers, None, 0..=usize::MAX as u64).of(format!("`{name}`"));
+    limit.remedy("no file holds so many, so it is damaged").into()
 }
 
 /// Numbers in a record, and records.

@@ -8,6 +8,7 @@ use super::attributes;
 use super::chunks::{Rows, place};
 use super::codec::Codecs;
 use super::metadata::{Array, DESCRIPTION, Storage};
+use weald_core::error::{Limit, Quantity};
 
 /// Longest description that is read.
 const DESCRIPTION_BYTES: u64 = 16 << 20;
@@ -125,11 +126,12 @@ impl Folder<'_> {
     /// Bytes of a chunk, as far as they are within the limits.
     fn chunk_length(&self, array: &Array, storage: &Storage) -> Result<usize, Fault> {
         let most = self.limits.cells.saturating_mul(8);
-        storage.chunk_bytes().filter(|bytes| *bytes <= most).ok_or_else(|| {
-            Fault::Limit(format!(
-                "chunks of {:?} numbers in `{}` are more than the {} cells allowed here",
-                storage.chunk, array.name, self.limits.cells
-            ))
+        let bytes = storage.chunk_bytes();
+        bytes.filter(|bytes| *bytes <= most).ok_or_else(|| {
+            let asked = bytes.map(|bytes| bytes as u64);
+            let limit = Limit::new(Quantity::MemoryBytes, asked, 0..=most as u64);
+            let subject = format!("a chunk of {:?} numbers of `{}`", storage.chunk, array.name);
+            limit.of(subject).remedy("write it in smaller chunks").into()
         })
     }
 }

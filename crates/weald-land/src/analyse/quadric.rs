@@ -12,7 +12,7 @@
 //! and then terms are left out: first those of second order, then the slope across the line of the cells.
 
 use weald_core::domain::Domain;
-use weald_core::error::Error;
+use weald_core::error::{Error, Limit, Quantity};
 use weald_core::grid::Field;
 
 /// Cells to each side of the widest window.
@@ -72,11 +72,11 @@ impl<'a> Surface<'a> {
         let cells = libm::round(metres / self.domain.cell).max(1.0);
         if cells > WIDEST as f64 {
             let cell = self.domain.cell;
-            return Err(Error::Limit(format!(
-                "`scale` is {metres} m, which is {cells} cells of {cell} m; a window reaches {WIDEST} cells at \
-                 most: blur the ground with a `smooth` step first, or choose at most {} m",
-                WIDEST as f64 * cell
-            )));
+            let limit = Limit::new(Quantity::WindowCells, cells as u64, 0..=WIDEST as u64);
+            let widest = WIDEST as f64 * cell;
+            let remedy = format!("blur the ground with a `smooth` step first, or choose at most {widest} m");
+            let subject = format!("a window of `scale` = {metres} m in cells of {cell} m");
+            return Err(limit.of(subject).remedy(remedy).into());
         }
         Ok(Self { radius: cells as usize, ..self })
     }

@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 use std::ops::Bound::{Excluded, Unbounded};
 
 use super::brush::Brush;
-use weald_core::error::Error;
+use weald_core::error::{Error, Limit, Quantity};
 
 /// What can be done to a session.
 #[derive(Clone, Debug, PartialEq)]
@@ -81,9 +81,9 @@ impl<S: Session> History<S> {
         let start = session.snapshot()?;
         let used = S::bytes(&start);
         if used > budget {
-            return Err(Error::Limit(format!(
-                "to undo, the start must be kept, which takes {used} bytes; the budget is {budget}"
-            )));
+            let limit = Limit::new(Quantity::MemoryBytes, used as u64, 0..=budget as u64);
+            let limit = limit.of("the start, which is kept to undo");
+            return Err(limit.remedy("give a larger budget").into());
         }
         Ok(Self { session, actions: Vec::new(), done: 0, kept: BTreeMap::from([(0, start)]), used, budget })
     }

@@ -15,7 +15,7 @@ use std::io::Read;
 use std::path::Path;
 
 use super::keys;
-use weald_core::error::{Diagnostic, Error, RecipeError};
+use weald_core::error::{Diagnostic, Error, Limit, Quantity, RecipeError};
 use weald_core::parameter::Diagnostics;
 use weald_core::source::{self, Node, Table, Value};
 use weald_io::write_whole;
@@ -160,15 +160,15 @@ fn one(edit: &Edit, layout: Layout) -> String {
 
 /// What can be known to be too much before any of it is kept.
 fn check_length(file: &str, text: &str, layout: Layout) -> Result<(), Error> {
-    let (most, other) = match layout {
-        Layout::JsonLines => (MAX_BYTES, ""),
-        Layout::Toml => (source::MAX_BYTES, "; JSON lines (.jsonl) may be longer"),
+    let (most, remedy) = match layout {
+        Layout::JsonLines => (MAX_BYTES, "leave out strokes, or points of their paths"),
+        Layout::Toml => (source::MAX_BYTES, "JSON lines (.jsonl) may be longer"),
     };
     if text.len() > most {
-        return Err(Error::Limit(format!(
-            "{file}: a script of {} bytes or more; at most {most} are read{other}",
-            text.len()
-        )));
+        // A file is not read on beyond the longest script, so that its whole length is not known.
+        let asked = Some(text.len() as u64).filter(|_| text.len() <= MAX_BYTES);
+        let limit = Limit::new(Quantity::FileBytes, asked, 0..=most as u64);
+        return Err(limit.of(format!("{file}: a script")).remedy(remedy).into());
     }
     let strokes = match layout {
         Layout::JsonLines => text.lines().filter(|line| !line.trim().is_empty()).count(),
@@ -178,7 +178,8 @@ fn check_length(file: &str, text: &str, layout: Layout) -> Result<(), Error> {
 }
 
 fn too_many(file: &str, strokes: usize) -> Error {
-    Error::Limit(format!("{file}: a script of {strokes} strokes; at most {MAX_STROKES} are read"))
+    let limit = Limit::new(Quantity::Strokes, strokes as u64, 0..=MAX_STROKES as u64);
+    limit.of(format!("{file}: a script")).remedy("leave out strokes").into()
 }
 
 fn json_lines(text: &str, diagnostics: &mut Diagnostics) -> Vec<Table> {

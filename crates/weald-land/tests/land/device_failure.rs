@@ -5,6 +5,7 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use crate::common::{landscape, mei, rough, run, worst_difference};
+use weald_core::error::{DeviceError, DeviceErrorKind};
 use weald_core::{Error, Landscape, Size};
 use weald_engine::device::{Device, Loaded, Window};
 use weald_engine::program::Program;
@@ -61,7 +62,8 @@ impl Loaded for Standing {
 
     fn run(&mut self, weather: &[Vec<u32>], _: bool) -> Result<(), Error> {
         if weather.len() > self.left {
-            return Err(Error::Device("the device was lost: somebody pulled it out".to_owned()));
+            let kind = DeviceErrorKind::Lost { reason: "somebody pulled it out".to_owned() };
+            return Err(DeviceError::new(kind, "the device was lost: somebody pulled it out").into());
         }
         self.left -= weather.len();
         self.taken.fetch_add(weather.len(), Ordering::Relaxed);
@@ -126,8 +128,11 @@ fn ground() -> Landscape {
 fn a_device_that_was_asked_for_and_fails_is_an_error_that_says_why() {
     let job = Job { engine: Engine::Device(failing(20).0), ..Job::unwatched(7) };
     let error = step(STEPS).run(&mut ground(), &job).expect_err("the device fails");
-    assert!(matches!(error, Error::Device(_)) && error.exit_code() == 1, "{error:?}");
-    assert!(error.to_string().contains("pulled it out"), "{error}");
+    assert!(error.exit_code() == 1 && error.to_string().contains("pulled it out"), "{error:?}");
+    let Error::Device(DeviceError { kind: DeviceErrorKind::Lost { reason }, .. }) = error else {
+        panic!("{error:?}")
+    };
+    assert_eq!(reason, "somebody pulled it out");
 }
 
 #[test]

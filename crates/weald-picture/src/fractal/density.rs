@@ -11,7 +11,7 @@ use super::colouring::Colouring;
 use super::frame::Frame;
 use super::palette::{self, PaletteIndex};
 use super::subject::Subject;
-use weald_core::error::Error;
+use weald_core::error::{Error, Limit, Quantity};
 use weald_plants::ifs::Game;
 use weald_plants::ifs::game::CHUNK;
 
@@ -202,17 +202,16 @@ fn checked(frame: &Frame, sampling: Sampling) -> Result<u64, Error> {
     let fine = sampling.supersample as u64;
     let bytes = frame.pixels() * fine * fine * size_of::<Bucket>() as u64;
     let points = (frame.pixels() as f64 * sampling.samples).ceil();
-    if bytes > MAX_BYTES || points > MAX_POINTS {
-        return Err(Error::Limit(format!(
-            "a picture of {} × {} pixels with supersample {fine} and {} samples per pixel needs {} MiB and {points:.0} \
-             points; at most {} MiB and {MAX_POINTS:.0} points are used: choose a smaller `size`, `supersample` or \
-             `samples`",
-            frame.width,
-            frame.height,
-            sampling.samples,
-            bytes >> 20,
-            MAX_BYTES >> 20
-        )));
-    }
-    Ok(points as u64)
+    let (limit, remedy) = if bytes > MAX_BYTES {
+        (Limit::new(Quantity::MemoryBytes, bytes, 0..=MAX_BYTES), "choose a smaller `size` or `supersample`")
+    } else if points > MAX_POINTS {
+        let limit = Limit::new(Quantity::Points, points as u64, 0..=MAX_POINTS as u64);
+        (limit, "choose a smaller `size` or `samples`")
+    } else {
+        return Ok(points as u64);
+    };
+    let (Frame { width, height, .. }, samples) = (frame, sampling.samples);
+    let subject =
+        format!("{width} × {height} pixels with supersample {fine} and {samples} samples per pixel");
+    Err(limit.of(format!("a picture of {subject}")).remedy(remedy).into())
 }

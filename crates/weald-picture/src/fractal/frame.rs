@@ -1,7 +1,7 @@
 //! What part of the drawing plane a picture shows, and where its points fall on the pixels.
 
 use super::subject::Subject;
-use weald_core::error::Error;
+use weald_core::error::{Error, Limit, Quantity};
 use weald_core::parameter::Sides;
 use weald_plants::ifs::Game;
 
@@ -135,10 +135,9 @@ impl Frame {
 fn checked(sides: Sides) -> Result<(usize, usize), Error> {
     let pixels = sides.columns.checked_mul(sides.rows);
     if pixels.is_none_or(|pixels| pixels > MAX_PIXELS) {
-        return Err(Error::Limit(format!(
-            "a picture of {} × {} pixels: at most {MAX_PIXELS} are drawn; choose a smaller `size`",
-            sides.columns, sides.rows
-        )));
+        let limit = Limit::new(Quantity::Pixels, pixels, 0..=MAX_PIXELS);
+        let limit = limit.of(format!("a picture of {} × {} pixels", sides.columns, sides.rows));
+        return Err(limit.remedy("choose a smaller `size`").into());
     }
     Ok((sides.columns as usize, sides.rows as usize))
 }

@@ -7,7 +7,7 @@ use super::colouring::Colouring;
 use super::frame::Frame;
 use super::palette::{self, PaletteIndex};
 use super::subject::Subject;
-use weald_core::error::Error;
+use weald_core::error::{Error, Limit, Quantity};
 use weald_plants::ifs::expansion::{Part, parts, parts_of_size};
 use weald_plants::ifs::{Code, Game, Point};
 
@@ -87,10 +87,7 @@ fn check(subject: &Subject<'_>, frame: &Frame, opened: Opened) -> Result<(), Err
         Opened::ToDepth(depth) => format!("choose a smaller `depth` than {depth}"),
         Opened::ToPixels(pixels) => format!("choose a larger `finest` than {pixels} pixels"),
     };
-    Err(Error::Limit(format!(
-        "{}: {count} parts; at most {MAX_MARKS} are drawn: {remedy}",
-        subject.ifs.name()
-    )))
+    Err(Limit::new(Quantity::Parts, count, 0..=MAX_MARKS).of(subject.ifs.name()).remedy(remedy).into())
 }
 
 struct Maker<'a> {

@@ -6,7 +6,7 @@ use super::frame::Frame;
 use super::marks::{Mark, Shape};
 use super::palette::Table;
 use super::tone::{Covered, encoded};
-use weald_core::error::Error;
+use weald_core::error::{Error, Limit, Quantity};
 
 /// Smaller pixels along the side of a pixel.
 const FINE: usize = 4;
@@ -30,11 +30,9 @@ pub(super) fn plot(
     let bytes = frame.pixels() * (FINE * FINE * size_of::<u16>()) as u64;
     if bytes > MAX_BYTES {
         let [width, height] = [frame.width, frame.height];
-        return Err(Error::Limit(format!(
-            "marks on {width} × {height} pixels need {} MiB; at most {} MiB are used: choose a smaller `size`",
-            bytes >> 20,
-            MAX_BYTES >> 20
-        )));
+        let limit = Limit::new(Quantity::MemoryBytes, bytes, 0..=MAX_BYTES);
+        let limit = limit.of(format!("marks on {width} × {height} pixels"));
+        return Err(limit.remedy("choose a smaller `size`").into());
     }
     let mut canvas = Canvas::new(frame);
     for mark in marks {

@@ -6,7 +6,7 @@ use super::super::colour::{Linear, encode};
 use super::frame::Frame;
 use super::marks::{Mark, Shape};
 use super::palette::Table;
-use weald_core::error::Error;
+use weald_core::error::{Error, Limit, Quantity};
 
 /// Longest file: what browsers and editors still open.
 const MAX_BYTES: usize = 64 << 20;
@@ -35,11 +35,9 @@ pub(super) fn svg(
     for run in marks.chunk_by(|a, b| shared(a.palette_index) == shared(b.palette_index)) {
         write_run(&mut text, run, shape, &hex(table.colour(shared(run[0].palette_index))));
         if text.len() > MAX_BYTES {
-            return Err(Error::Limit(format!(
-                "the .svg is longer than {} MiB with {} parts; choose a larger `finest`, a smaller `depth`, or a .png",
-                MAX_BYTES >> 20,
-                marks.len()
-            )));
+            let limit = Limit::new(Quantity::FileBytes, None, 0..=MAX_BYTES as u64);
+            let remedy = "choose a larger `finest`, a smaller `depth`, or a .png";
+            return Err(limit.of(format!("a .svg of {} parts", marks.len())).remedy(remedy).into());
         }
     }
     text.push_str("</svg>\n");

@@ -3,7 +3,7 @@
 use std::fmt::Debug;
 
 use crate::{Camera, Image, Stage, View};
-use weald_core::error::Error;
+use weald_core::error::{DeviceError, DeviceErrorKind, Error};
 use weald_core::landscape::Landscape;
 
 /// A device that draws stages.
@@ -91,7 +91,8 @@ impl RenderDevice for RayMarched {
     }
 
     fn grass_rates(&self, _: u32) -> Result<Vec<GrassRate>, Error> {
-        Err(Error::Device("the ray-marched view draws no blades of grass".to_owned()))
+        let kind = DeviceErrorKind::Unsupported { feature: "blades of grass" };
+        Err(DeviceError::new(kind, "the ray-marched view draws no blades of grass").into())
     }
 }
 

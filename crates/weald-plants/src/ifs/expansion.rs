@@ -8,7 +8,7 @@ use std::cell::Cell;
 use super::code::Code;
 use super::map::{Map, Point};
 use super::system::Ifs;
-use weald_core::error::Error;
+use weald_core::error::{Error, Limit, Quantity};
 
 /// Most parts of one expansion: 5 GiB of points with their codes.
 pub const MAX_PARTS: u64 = 1 << 26;
@@ -36,15 +36,12 @@ pub struct Coded {
 /// # Errors
 /// [`Error::Limit`] beyond [`MAX_PARTS`] parts, or where codes have no room for so many digits.
 pub fn parts(ifs: &Ifs, depth: usize, mut look: impl FnMut(&Part)) -> Result<(), Error> {
-    let count = (ifs.maps().len() as u64).checked_pow(depth as u32).filter(|&count| count <= MAX_PARTS);
-    if count.is_none() || depth > ifs.digits().room() {
-        let maps = ifs.maps().len();
-        return Err(Error::Limit(format!(
-            "{}: all codes of {depth} digits are {maps}^{depth} parts; at most {MAX_PARTS} are expanded, \
-             so choose a depth of {} or less",
-            ifs.name(),
-            deepest(maps)
-        )));
+    let maps = ifs.maps().len();
+    let count = (maps as u64).checked_pow(depth as u32);
+    if count.is_none_or(|count| count > MAX_PARTS) || depth > ifs.digits().room() {
+        let limit = Limit::new(Quantity::Parts, count, 0..=MAX_PARTS);
+        let subject = format!("{}: all codes of {depth} digits, {maps}^{depth}", ifs.name());
+        return Err(limit.of(subject).remedy(format!("choose a depth of {} or less", deepest(maps))).into());
     }
     let whole = Part { code: Code::empty(ifs.digits()), map: Map::IDENTITY };
     descend(ifs, whole, depth, &|_| false, &mut look);
@@ -63,10 +60,9 @@ pub fn parts_of_size(ifs: &Ifs, size: f64, mut look: impl FnMut(&Part)) -> Resul
     let enough = |part: &Part| count.get() > MAX_PARTS || small(part);
     descend(ifs, whole, ifs.digits().room(), &enough, &mut |_| count.set(count.get() + 1));
     if count.get() > MAX_PARTS {
-        return Err(Error::Limit(format!(
-            "{}: parts of {size} of its size are more than the {MAX_PARTS} that are expanded; choose a larger size",
-            ifs.name()
-        )));
+        let limit = Limit::new(Quantity::Parts, None, 0..=MAX_PARTS);
+        let limit = limit.of(format!("{}: parts of {size} of its size", ifs.name()));
+        return Err(limit.remedy("choose a larger size").into());
     }
     descend(ifs, whole, ifs.digits().room(), &small, &mut look);
     Ok(())

@@ -267,6 +267,13 @@ fn too_many_plants_are_a_limit_that_says_how_far_apart_is_possible() {
     let error = step.run(&mut landscape, &Job::unwatched(4)).expect_err("too many");
     assert_eq!(error.exit_code(), 5);
     assert!(error.to_string().contains("choose 0.89 m or more"), "{error}");
+    let Error::Limit(Limit { what: Quantity::Plants, asked: Some(asked), allowed, .. }) = error else {
+        panic!("{error:?}")
+    };
+    assert_eq!(allowed, 0..=u64::from(MAX_PLANTS));
+    // As many as a spacing of that square root times as much would have room for.
+    let spacing = 0.2 * (asked as f64 / f64::from(MAX_PLANTS)).sqrt();
+    assert!((0.88..=0.89).contains(&spacing), "{asked} plants");
 }
 
 proptest! {

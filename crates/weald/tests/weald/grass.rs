@@ -7,6 +7,7 @@ use crate::programs::{client, root, said, validated};
 use serde_json::Value;
 use weald::condition::Condition;
 use weald::engine::Job;
+use weald::error::{Limit, Quantity};
 use weald::export::{Export, Finished, GrassSets};
 use weald::grow::Vegetation;
 use weald::grow::grass::{Instance, Meadow};
@@ -112,7 +113,13 @@ fn a_rectangle_holds_its_sets_alone_and_too_many_are_over_a_stated_limit() {
     let part = count(GrassSets { area: vec![0.0, 18.0, 18.0, 36.0], ..GrassSets::default() }).expect("few");
     assert!(part > 50 && part < whole / 2, "{part} of {whole}");
     let error = count(GrassSets { max_sets: 100, ..GrassSets::default() }).expect_err("too many");
-    assert!(matches!(&error, Error::Limit(message) if message.contains("`max_sets` is 100")), "{error}");
+    assert!(
+        error.to_string().contains("at most 100 are allowed") && error.to_string().contains("`max_sets`")
+    );
+    let Error::Limit(Limit { what: Quantity::GrassSets, asked: Some(101..), allowed, .. }) = error else {
+        panic!("{error:?}")
+    };
+    assert_eq!(allowed, 0..=100);
 }
 
 #[test]

@@ -9,6 +9,7 @@ use naga::{AddressSpace, ArraySize, Module, Scalar, StructMember, TypeInner, Vec
 use weald::engine::device::{Device, Loaded};
 use weald::engine::program::{GROUP, MAX_BUFFERS, Pass, Program, Uniforms};
 use weald::engine::{Engine, Job, Unwatched};
+use weald::error::{DeviceError, DeviceErrorKind};
 use weald::grid::Mask;
 use weald::grow::SHADERS;
 use weald::grow::grass::{Bend, Grasses, SPECIES};
@@ -46,7 +47,7 @@ impl Device for Keeper {
 
     fn load(&self, program: &Program, _: Size) -> Result<Box<dyn Loaded>, Error> {
         self.0.lock().expect("one thread").push(program.clone());
-        Err(Error::Device("it runs nothing".to_owned()))
+        Err(DeviceError::new(DeviceErrorKind::Failed, "it runs nothing").into())
     }
 }
 

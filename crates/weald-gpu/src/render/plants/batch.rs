@@ -1,5 +1,6 @@
 //! The plants of one kind on a device.
 
+use weald::error::{Limit, Quantity};
 use weald::grow::Vegetation;
 use weald::grow::ifs::foliage::{Colours, Habit};
 use weald::grow::ifs::limbs::{Corner, LEVELS, Limb, Limbs};
@@ -97,10 +98,9 @@ fn ensure_bound(gpu: &Gpu, count: u64) -> Result<(), Error> {
     if count <= most {
         return Ok(());
     }
-    Err(Error::Limit(format!(
-        "{count} plants of one set: {} draws at most {most}; choose a smaller `count` or a wider `spacing` in `scatter`",
-        gpu.context.adapter
-    )))
+    let limit = Limit::new(Quantity::Plants, count, 0..=most);
+    let subject = format!("one set of plants, drawn by {}", gpu.context.adapter);
+    Err(limit.of(subject).remedy("choose a smaller `count` or a wider `spacing` in `scatter`").into())
 }
 
 /// A buffer that holds these words.

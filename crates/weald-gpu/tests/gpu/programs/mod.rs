@@ -27,7 +27,7 @@ pub(crate) fn gpu() -> Option<Gpu> {
 /// What a device says that refuses something.
 pub(crate) fn refusal<T>(result: Result<T, Error>) -> String {
     match result {
-        Err(Error::Device(message)) => message,
+        Err(Error::Device(error)) => error.message,
         Err(other) => panic!("an error of another kind: {other}"),
         Ok(_) => panic!("it was not refused"),
     }

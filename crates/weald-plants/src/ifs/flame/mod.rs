@@ -29,7 +29,7 @@ use self::xform::Xform;
 use super::code::MAX_MAPS;
 use super::map::Map;
 use super::system::{Draft, Ifs, IfsFault, Role, Weighted};
-use weald_core::error::Error;
+use weald_core::error::{Error, Limit, Quantity};
 use weald_io::{Fault, read_at_most};
 
 pub use self::write::{Frame, write};
@@ -58,7 +58,7 @@ pub fn read(path: &Path) -> Result<Vec<Ifs>, Error> {
 /// A [`Fault`] that names line, element and attribute, and what is legal.
 pub fn parse(bytes: &[u8]) -> Result<Vec<Ifs>, Fault> {
     if bytes.len() as u64 > MAX_BYTES {
-        return Err(Fault::Limit(format!("the file is longer than the {MAX_BYTES} bytes that are read")));
+        return Err(Limit::new(Quantity::FileBytes, bytes.len() as u64, 0..=MAX_BYTES).into());
     }
     let text = std::str::from_utf8(bytes)
         .map_err(|cause| Fault::damaged(format!("is not UTF-8 text: {cause}; save it as UTF-8")))?;
@@ -72,7 +72,7 @@ pub fn parse(bytes: &[u8]) -> Result<Vec<Ifs>, Fault> {
 fn unreadable(cause: &roxmltree::Error) -> Fault {
     match cause {
         roxmltree::Error::NodesLimitReached => {
-            Fault::Limit(format!("the file has more than the {MAX_NODES} elements and texts that are read"))
+            Limit::new(Quantity::Elements, None, 0..=MAX_NODES.into()).into()
         }
         roxmltree::Error::DtdDetected => {
             Fault::damaged("has a document type (`<!DOCTYPE …>`), which no flame needs; take it out")
@@ -90,7 +90,7 @@ fn flames<'a>(document: &'a Document<'_>) -> Result<Vec<Node<'a, 'a>>, Fault> {
     match flames.len() {
         0 => Err(Fault::damaged("has no `<flame>` element; a flame file holds at least one")),
         1..=MAX_FLAMES => Ok(flames),
-        _ => Err(Fault::Limit(format!("the file has more than the {MAX_FLAMES} flames that are read"))),
+        _ => Err(Limit::new(Quantity::Flames, None, 0..=MAX_FLAMES as u64).into()),
     }
 }
 
@@ -172,14 +172,11 @@ impl<'a> Parts<'a> {
 
     /// The maps after the final one, if there is one: a point `F x` goes where `F` takes the image of `x`.
     fn seen(&self, shares: Vec<Share>) -> Result<Vec<Weighted>, Fault> {
-        let seen = |map: Map| match &self.last {
-            Some((element, last)) => {
-                let back = xform::inverse(&last.map);
-                let back =
-                    back.ok_or_else(|| element.fault("it presses the plane flat, and has no inverse"))?;
-                Ok(last.map.after(&map).after(&back))
-            }
-            None => Ok(map),
+        let seen = |map: Map| -> Result<Map, Fault> {
+            let Some((element, last)) = &self.last else { return Ok(map) };
+            let back = xform::inverse(&last.map);
+            let back = back.ok_or_else(|| element.fault("it presses the plane flat, and has no inverse"))?;
+            Ok(last.map.after(&map).after(&back))
         };
         let weighted = |share: Share| {
             Ok(Weighted { map: seen(share.map)?, probability: share.share, role: Role::default() })

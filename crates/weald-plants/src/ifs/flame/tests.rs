@@ -116,12 +116,12 @@ fn faulty_files_are_told_apart() {
 #[test]
 fn sizes_beyond_the_limits_are_refused() {
     let limit = |text: &str| match parse(text.as_bytes()).expect_err("too large") {
-        Fault::Limit(what) => what,
+        Fault::Limit(limit) => limit.to_string(),
         Fault::Damaged(what) => panic!("{what}"),
     };
     assert!(limit(&format!("<a>{}</a>", "<flame/>".repeat(MAX_FLAMES + 1))).contains("4096 flames"));
     assert!(limit(&format!("<a>{}</a>", "<b/>".repeat(MAX_NODES as usize))).contains("elements and texts"));
-    assert!(limit(&" ".repeat(MAX_BYTES as usize + 1)).contains("longer than"));
+    assert!(limit(&" ".repeat(MAX_BYTES as usize + 1)).contains("at most 16777216 bytes"));
     let many = fault(&flame(HALF, OTHER, &format!("<xform {HALF}/>").repeat(MAX_MAPS)));
     assert!(many.contains("more than 256 xforms"), "{many}");
     let deep = 200_000;

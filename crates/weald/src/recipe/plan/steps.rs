@@ -111,8 +111,8 @@ pub(super) fn check_materials(
 pub(super) fn check_sizes(steps: &[Planned]) -> Result<(), Error> {
     for planned in steps {
         if let Some((columns, rows)) = planned.step.resized() {
-            Size::new(columns as usize, rows as usize)
-                .map_err(|error| Error::Limit(format!("{}: {error}", planned.entry.name)))?;
+            Size::within_limits(columns as usize, rows as usize)
+                .map_err(|limit| limit.of(planned.entry.name))?;
         }
     }
     Ok(())

@@ -2,6 +2,7 @@ use proptest::prelude::*;
 
 use super::*;
 use crate::recipe::testing::{VOCABULARY, parse, refusal};
+use weald_core::error::Quantity;
 
 const GOOD: &str = "\
 [landscape]
@@ -47,6 +48,18 @@ fn the_hash_is_that_of_the_meaning_and_not_of_the_spelling() {
 fn the_effective_recipe_gives_the_same_plan() {
     let recipe = parse(GOOD).expect("good");
     assert_eq!(parse(recipe.effective()).expect("good").hash(), recipe.hash());
+}
+
+#[test]
+fn a_grid_over_the_limit_says_how_many_cells_are_asked_for_and_allowed() {
+    let limit = |text: &str| match parse(text) {
+        Err(Error::Limit(limit)) => limit,
+        other => panic!("{other:?}"),
+    };
+    let whole = limit(&with("[8, 4]", "[20000, 16000]"));
+    assert_eq!((whole.what, whole.asked, whole.allowed), (Quantity::Cells, Some(320_000_000), 0..=1 << 28));
+    let side = limit(&with("[8, 4]", "[2000000, 4]"));
+    assert_eq!((side.what, side.asked, side.allowed), (Quantity::CellsPerSide, Some(2_000_000), 1..=1 << 20));
 }
 
 #[test]
