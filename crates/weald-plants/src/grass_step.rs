@@ -25,6 +25,20 @@ pub const ENTRY: Entry = Entry::of::<Grass>(
 parameters! {
     /// Grass. Sets are not kept but follow from these maps wherever they are wanted. Writes how many of them stand on a
     /// square metre, and how many of each species: the layer `grass`, and `grass_reed` for reeds.
+    ///
+    /// ```
+    /// # use weald_core::{Domain, Error, Field, Landscape, Size};
+    /// # use weald_engine::{Job, step::Step};
+    /// # use weald_plants::grass_step::Grass;
+    /// let mut landscape = Landscape::new(Domain::new(Size::new(8, 6)?, 10.0)); // columns, rows, metres
+    /// for (layer, value) in [("fertility", 0.8), ("light", 1.0), ("moisture", 0.5)] {
+    ///     landscape.insert(layer, "1", Field::filled(landscape.domain.size, value));
+    /// }
+    /// let outcome = Grass { sets: 30.0, ..Grass::default() }.run(&mut landscape, &Job::unwatched(0))?;
+    /// assert_eq!(landscape.field("grass")?.at(4, 3), 15.0, "half of 30 sets on a square metre, as the moisture says");
+    /// assert_eq!(outcome.measures["blades"], 6.0 * 15.0 * 4800.0, "six blades a set, on 80 m by 60 m");
+    /// # Ok::<(), Error>(())
+    /// ```
     pub struct Grass {
         /// Name of the grass, and of the layer that counts its sets; those of the species begin with it.
         into: LayerName = LayerName::of("grass");

@@ -42,6 +42,21 @@ pub const MAX_PLANTS: u32 = 10_000_000;
 
 parameters! {
     /// Plants on the land. Writes, beside the plants, a layer of their name: how many stand on a square metre.
+    ///
+    /// ```
+    /// # use weald_core::{Domain, Error, Field, Landscape, Size, parameter::LayerName};
+    /// # use weald_engine::{Job, step::Step};
+    /// # use weald_core::{condition::Condition, parameter::Nested};
+    /// # use weald_plants::scatter::Scatter;
+    /// let mut landscape = Landscape::new(Domain::new(Size::new(20, 10)?, 10.0)); // columns, rows, metres
+    /// landscape.insert("height", "m", Field::from_function(landscape.domain.size, |x, _| x as f32));
+    /// let low = Condition { layer: LayerName::of("height"), below: Some(10.0), ..Condition::default() };
+    /// let scatter = Scatter { spacing: 8.0, r#where: vec![Nested(low)], ..Scatter::default() };
+    /// scatter.run(&mut landscape, &Job::unwatched(0))?;
+    /// let plants = &landscape.plants("plants")?.plants;
+    /// assert!(plants.len() > 20 && plants.iter().all(|plant| plant.place[2] <= 10.0), "on low ground alone");
+    /// # Ok::<(), Error>(())
+    /// ```
     pub struct Scatter {
         /// Name of the plants, and of the layer that counts them.
         into: LayerName = LayerName::of("plants");

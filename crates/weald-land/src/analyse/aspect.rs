@@ -33,6 +33,18 @@ pub const LEVEL: f64 = -1.0;
 parameters! {
     /// Direction of the slope. Writes `aspect` in degrees clockwise from north, 0 to 360, with -1 on flat ground;
     /// `northness` and `eastness` from -1 to 1, which are 0 there.
+    ///
+    /// ```
+    /// # use weald_core::{Domain, Error, Field, Landscape, Size};
+    /// # use weald_engine::{Job, step::Step};
+    /// # use weald_land::analyse::aspect::Aspect;
+    /// let mut landscape = Landscape::new(Domain::new(Size::new(8, 6)?, 10.0)); // columns, rows, metres
+    /// let eastward = |x, _| 100.0 - x as f32;
+    /// landscape.insert("height", "m", Field::from_function(landscape.domain.size, eastward));
+    /// Aspect::default().run(&mut landscape, &Job::unwatched(0))?;
+    /// assert_eq!(landscape.field("aspect")?.at(4, 3), 90.0, "the slope faces east");
+    /// # Ok::<(), Error>(())
+    /// ```
     pub struct Aspect {
         /// Layer of heights in metres.
         of: LayerName = LayerName::of("height");

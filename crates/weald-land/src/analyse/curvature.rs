@@ -34,6 +34,18 @@ parameters! {
     /// Curvature. Writes `curvature_profile` along the line of fall, `curvature_plan` of the contour,
     /// `curvature_tangential` across the line of fall, and `curvature_mean`, all in 1/m and positive where the
     /// ground is convex.
+    ///
+    /// ```
+    /// # use weald_core::{Domain, Error, Field, Landscape, Size};
+    /// # use weald_engine::{Job, step::Step};
+    /// # use weald_land::analyse::curvature::Curvature;
+    /// let mut landscape = Landscape::new(Domain::new(Size::new(9, 9)?, 10.0)); // columns, rows, metres
+    /// let dome = |x, y| -0.05 * ((x as f32 - 4.0).powi(2) + (y as f32 - 4.0).powi(2)); // of radius 1000 m
+    /// landscape.insert("height", "m", Field::from_function(landscape.domain.size, dome));
+    /// Curvature::default().run(&mut landscape, &Job::unwatched(0))?;
+    /// assert!((landscape.field("curvature_mean")?.at(4, 4) - 0.001).abs() < 1.0e-6, "convex, 1 over the radius");
+    /// # Ok::<(), Error>(())
+    /// ```
     pub struct Curvature {
         /// Layer of heights in metres.
         of: LayerName = LayerName::of("height");

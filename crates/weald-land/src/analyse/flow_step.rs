@@ -33,6 +33,19 @@ choices! {
 
 parameters! {
     /// Flow over the ground.
+    ///
+    /// ```
+    /// # use weald_core::{Domain, Error, Field, Landscape, Size};
+    /// # use weald_engine::{Job, step::Step};
+    /// # use weald_land::analyse::flow_step::FlowStep;
+    /// let mut landscape = Landscape::new(Domain::new(Size::new(8, 6)?, 10.0)); // columns, rows, metres
+    /// let southward = |_, y| 100.0 - y as f32;
+    /// landscape.insert("height", "m", Field::from_function(landscape.domain.size, southward));
+    /// FlowStep::default().run(&mut landscape, &Job::unwatched(0))?;
+    /// assert_eq!(landscape.field("flow_direction")?.at(4, 2), 3.0, "3 is south");
+    /// assert_eq!(landscape.field("accumulation")?.at(4, 5), 600.0, "six cells of 100 m² drain through the last");
+    /// # Ok::<(), Error>(())
+    /// ```
     pub struct FlowStep {
         /// Layer of heights.
         of: LayerName = LayerName::of("height");

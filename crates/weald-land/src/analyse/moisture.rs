@@ -31,6 +31,21 @@ pub const ENTRY: Entry = Entry::of::<Moisture>(
 
 parameters! {
     /// Moisture of the soil, from layers that `flow` and `wetness` write.
+    ///
+    /// ```
+    /// # use weald_core::{Domain, Error, Field, Landscape, Size};
+    /// # use weald_engine::{Job, step::Step};
+    /// # use weald_land::analyse::{flow_step::FlowStep, moisture::Moisture, wetness::Wetness};
+    /// let mut landscape = Landscape::new(Domain::new(Size::new(9, 20)?, 10.0)); // columns, rows, metres
+    /// let valley = |x, y| 5.0 * (x as f32 - 4.0).abs() - 0.1 * y as f32;
+    /// landscape.insert("height", "m", Field::from_function(landscape.domain.size, valley));
+    /// FlowStep::default().run(&mut landscape, &Job::unwatched(0))?;
+    /// Wetness::default().run(&mut landscape, &Job::unwatched(0))?;
+    /// Moisture::default().run(&mut landscape, &Job::unwatched(0))?;
+    /// let (floor, ridge) = (landscape.field("moisture")?.at(4, 10), landscape.field("moisture")?.at(0, 10));
+    /// assert!(floor > 0.7 && ridge < 0.3, "{floor} on the floor of the valley, {ridge} on its ridge");
+    /// # Ok::<(), Error>(())
+    /// ```
     pub struct Moisture {
         /// Layer of the height of the ground.
         of: LayerName = LayerName::of("height");

@@ -26,6 +26,18 @@ const DEFAULT_RAIN: f64 = 0.005;
 parameters! {
     /// Measures of a river network, which go into report.json as `measures`. Needs the layers that `hydraulic`
     /// writes.
+    ///
+    /// ```
+    /// # use weald_core::{Domain, Error, Field, Landscape, Size};
+    /// # use weald_engine::{Job, step::Step};
+    /// # use weald_land::{analyse::network_step::Network, erode::hydraulic::Hydraulic};
+    /// let mut landscape = Landscape::new(Domain::new(Size::new(32, 32)?, 10.0)); // columns, rows, metres
+    /// landscape.insert("height", "m", Field::from_function(landscape.domain.size, |x, y| (x + 2 * y) as f32));
+    /// Hydraulic { iterations: 120, ..Hydraulic::default() }.run(&mut landscape, &Job::unwatched(0))?;
+    /// let measures = Network::default().run(&mut landscape, &Job::unwatched(0))?.measures;
+    /// assert_eq!(measures["drains"], 1.0, "a slope without hollows drains whole");
+    /// # Ok::<(), Error>(())
+    /// ```
     pub struct Network {
         /// Layer of heights in metres.
         of: LayerName = LayerName::of("height");

@@ -30,6 +30,19 @@ parameters! {
     /// Openness from 0 to 1. Writes `occlusion`, the ambient occlusion of computer graphics: 1 where nothing stands
     /// before the hemisphere over the ground, as on every plane; and `sky_view`, the share of the light of an even
     /// sky that falls on the ground: 1 on level open ground, less on slopes, since they do not face all of it.
+    ///
+    /// ```
+    /// # use weald_core::{Domain, Error, Field, Landscape, Size};
+    /// # use weald_engine::{Job, step::Step};
+    /// # use weald_land::analyse::occlusion::Occlusion;
+    /// let mut landscape = Landscape::new(Domain::new(Size::new(9, 9)?, 10.0)); // columns, rows, metres
+    /// let valley = |x, _| 10.0 * (x as f32 - 4.0).abs(); // walls of 45° on both sides
+    /// landscape.insert("height", "m", Field::from_function(landscape.domain.size, valley));
+    /// Occlusion::default().run(&mut landscape, &Job::unwatched(0))?;
+    /// let sky = landscape.field("sky_view")?;
+    /// assert!(sky.at(4, 4) < 0.9 && sky.at(4, 4) < landscape.field("occlusion")?.at(0, 4));
+    /// # Ok::<(), Error>(())
+    /// ```
     pub struct Occlusion {
         /// Layer of heights in metres.
         of: LayerName = LayerName::of("height");

@@ -34,6 +34,20 @@ choices! {
 
 parameters! {
     /// A selection: 1 inside, 0 outside.
+    ///
+    /// ```
+    /// # use weald_core::{Domain, Error, Field, Landscape, Size, parameter::LayerName};
+    /// # use weald_engine::{Job, step::Step};
+    /// # use weald_core::{condition::Condition, parameter::Nested};
+    /// # use weald_land::analyse::select::Select;
+    /// let mut landscape = Landscape::new(Domain::new(Size::new(8, 6)?, 10.0)); // columns, rows, metres
+    /// landscape.insert("slope", "deg", Field::from_function(landscape.domain.size, |x, _| 10.0 * x as f32));
+    /// let steep = Condition { layer: LayerName::of("slope"), above: Some(45.0), ..Condition::default() };
+    /// Select { r#where: vec![Nested(steep)], ..Select::default() }.run(&mut landscape, &Job::unwatched(0))?;
+    /// let mask = landscape.field("mask")?;
+    /// assert_eq!((mask.at(4, 0), mask.at(5, 0)), (0.0, 1.0), "40° is outside, 50° inside");
+    /// # Ok::<(), Error>(())
+    /// ```
     pub struct Select {
         /// Conditions, each a layer and a range: `[{ layer = "slope", above = 20, below = 45, soft = 5 }, …]`. A
         /// mask is a layer too, so that a selection can go into another one.

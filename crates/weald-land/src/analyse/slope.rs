@@ -36,6 +36,17 @@ choices! {
 
 parameters! {
     /// Steepness.
+    ///
+    /// ```
+    /// # use weald_core::{Domain, Error, Field, Landscape, Size};
+    /// # use weald_engine::{Job, step::Step};
+    /// # use weald_land::analyse::slope::Slope;
+    /// let mut landscape = Landscape::new(Domain::new(Size::new(8, 6)?, 10.0)); // columns, rows, metres
+    /// landscape.insert("height", "m", Field::from_function(landscape.domain.size, |x, _| 10.0 * x as f32));
+    /// Slope::default().run(&mut landscape, &Job::unwatched(0))?;
+    /// assert_eq!(landscape.field("slope")?.at(4, 3), 45.0, "10 m of rise over 10 m");
+    /// # Ok::<(), Error>(())
+    /// ```
     pub struct Slope {
         /// Layer of heights in metres.
         of: LayerName = LayerName::of("height");

@@ -43,6 +43,19 @@ pub const ENTRY: Entry = Entry::of::<Soil>(
 parameters! {
     /// Soil. Writes `soil_depth` in metres and `fertility` from 0 to 1. What it takes into account beside the
     /// ground is what the recipe names.
+    ///
+    /// ```
+    /// # use weald_core::{Domain, Error, Field, Landscape, Size};
+    /// # use weald_engine::{Job, step::Step};
+    /// # use weald_land::analyse::soil::Soil;
+    /// let mut landscape = Landscape::new(Domain::new(Size::new(8, 6)?, 10.0)); // columns, rows, metres
+    /// landscape.insert("height", "m", Field::filled(landscape.domain.size, 100.0));
+    /// Soil::default().run(&mut landscape, &Job::unwatched(0))?;
+    /// let depth = f64::from(landscape.field("soil_depth")?.at(4, 3));
+    /// let weathered = 0.42 * (1.0 + 0.000_077 * 10_000.0 / 0.42_f64).ln(); // on level ground nothing else counts
+    /// assert!((depth - weathered).abs() < 1.0e-5, "{depth} m");
+    /// # Ok::<(), Error>(())
+    /// ```
     pub struct Soil {
         /// Layer of heights in metres.
         of: LayerName = LayerName::of("height");

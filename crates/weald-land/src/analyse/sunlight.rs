@@ -44,6 +44,19 @@ const SOME_LATITUDE: f64 = 45.0;
 parameters! {
     /// Insolation. Writes `sunlight`, what a square metre of the ground gets in a day, in kWh/m², and `light`, its
     /// share of what level open ground gets, from 0 to 1, as plants want to know it. North is the top of the grid.
+    ///
+    /// ```
+    /// # use weald_core::{Domain, Error, Field, Landscape, Size};
+    /// # use weald_engine::{Job, step::Step};
+    /// # use weald_land::analyse::sunlight::Sunlight;
+    /// let mut landscape = Landscape::new(Domain::new(Size::new(9, 9)?, 10.0)); // columns, rows, metres
+    /// let roof = |_, y| -5.0 * (y as f32 - 4.0).abs(); // falls to the north and to the south
+    /// landscape.insert("height", "m", Field::from_function(landscape.domain.size, roof));
+    /// Sunlight { latitude_deg: Some(45.0), ..Sunlight::default() }.run(&mut landscape, &Job::unwatched(0))?;
+    /// let (north, south) = (landscape.field("light")?.at(4, 1), landscape.field("light")?.at(4, 7));
+    /// assert!(north < 0.85 * south, "{north} of the light on the northern side, {south} on the southern");
+    /// # Ok::<(), Error>(())
+    /// ```
     pub struct Sunlight {
         /// Layer of heights in metres.
         of: LayerName = LayerName::of("height");

@@ -34,6 +34,21 @@ choices! {
 
 parameters! {
     /// Watersheds, from the directions that the step `flow` writes.
+    ///
+    /// ```
+    /// # use weald_core::{Domain, Error, Field, Landscape, Size};
+    /// # use weald_engine::{Job, step::Step};
+    /// # use weald_land::analyse::{flow_step::FlowStep, watersheds::Watersheds};
+    /// let mut landscape = Landscape::new(Domain::new(Size::new(16, 12)?, 10.0)); // columns, rows, metres
+    /// let valleys = |x, y| 5.0 * ((x % 8) as f32 - 4.0).abs() - 0.1 * y as f32; // two, side by side
+    /// landscape.insert("height", "m", Field::from_function(landscape.domain.size, valleys));
+    /// FlowStep::default().run(&mut landscape, &Job::unwatched(0))?;
+    /// Watersheds::default().run(&mut landscape, &Job::unwatched(0))?;
+    /// let watershed = landscape.field("watershed")?;
+    /// assert_eq!(watershed.at(3, 2), watershed.at(5, 9), "one valley");
+    /// assert_ne!(watershed.at(4, 6), watershed.at(12, 6), "the other");
+    /// # Ok::<(), Error>(())
+    /// ```
     pub struct Watersheds {
         /// Least area of a watershed. Without it, a hundredth of the land.
         area: Option<f64> = None, range 0.0..=1.0e15, unit "m²";

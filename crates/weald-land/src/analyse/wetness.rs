@@ -34,6 +34,18 @@ pub const ENTRY: Entry = Entry::of::<Wetness>(
 
 parameters! {
     /// The topographic wetness index.
+    ///
+    /// ```
+    /// # use weald_core::{Domain, Error, Field, Landscape, Size};
+    /// # use weald_engine::{Job, step::Step};
+    /// # use weald_land::analyse::wetness::Wetness;
+    /// let mut landscape = Landscape::new(Domain::new(Size::new(8, 6)?, 10.0)); // columns, rows, metres
+    /// landscape.insert("height", "m", Field::from_function(landscape.domain.size, |_, y| 100.0 - y as f32));
+    /// Wetness::default().run(&mut landscape, &Job::unwatched(0))?;
+    /// let expected = (10.0_f32 / 0.1).ln(); // a cell of 10 m drains through 10 m of contour, on a slope of 0.1
+    /// assert!((landscape.field("wetness")?.at(4, 0) - expected).abs() < 1.0e-4);
+    /// # Ok::<(), Error>(())
+    /// ```
     pub struct Wetness {
         /// Layer of heights.
         of: LayerName = LayerName::of("height");

@@ -14,6 +14,20 @@ pub const ENTRY: Entry =
 
 parameters! {
     /// Sum of two layers.
+    ///
+    /// ```
+    /// # use weald_core::{Domain, Error, Field, Landscape, Size, parameter::LayerName};
+    /// # use weald_engine::{Job, step::Step};
+    /// # use weald_land::combine::add::Add;
+    /// let mut landscape = Landscape::new(Domain::new(Size::new(8, 6)?, 10.0)); // columns, rows, metres
+    /// landscape.insert("height", "m", Field::filled(landscape.domain.size, 100.0));
+    /// let quarry = |x, _| if x < 4 { 30.0 } else { 0.0 };
+    /// landscape.insert("quarry", "m", Field::from_function(landscape.domain.size, quarry));
+    /// Add { with: LayerName::of("quarry"), factor: -1.0, ..Add::default() }.run(&mut landscape, &Job::unwatched(0))?;
+    /// let height = landscape.field("height")?;
+    /// assert_eq!((height.at(3, 0), height.at(4, 0)), (70.0, 100.0));
+    /// # Ok::<(), Error>(())
+    /// ```
     pub struct Add {
         /// Layer that is added to.
         layer: LayerName = LayerName::of("height");

@@ -15,6 +15,20 @@ pub const ENTRY: Entry = Entry::of::<Blend>("blend", Stage::Combine, "blends two
 
 parameters! {
     /// Blend of two layers.
+    ///
+    /// ```
+    /// # use weald_core::{Domain, Error, Field, Landscape, Size, parameter::LayerName};
+    /// # use weald_engine::{Job, step::Step};
+    /// # use weald_land::combine::blend::Blend;
+    /// let mut landscape = Landscape::new(Domain::new(Size::new(5, 1)?, 10.0)); // columns, rows, metres
+    /// landscape.insert("height", "m", Field::filled(landscape.domain.size, 100.0));
+    /// landscape.insert("hills", "m", Field::filled(landscape.domain.size, 200.0));
+    /// landscape.insert("mask", "1", Field::from_function(landscape.domain.size, |x, _| 0.25 * x as f32));
+    /// let [with, mask] = ["hills", "mask"].map(LayerName::of);
+    /// Blend { with, mask, ..Blend::default() }.run(&mut landscape, &Job::unwatched(0))?;
+    /// assert_eq!(landscape.field("height")?.values(), [100.0, 125.0, 150.0, 175.0, 200.0]);
+    /// # Ok::<(), Error>(())
+    /// ```
     pub struct Blend {
         /// Layer that shows where the mask is 0.
         layer: LayerName = LayerName::of("height");

@@ -28,6 +28,18 @@ pub const ENTRY: Entry = Entry::of::<Displace>(
 
 parameters! {
     /// Displacement.
+    ///
+    /// ```
+    /// # use weald_core::{Domain, Error, Field, Landscape, Size, parameter::LayerName};
+    /// # use weald_engine::{Job, step::Step};
+    /// # use weald_land::combine::displace::Displace;
+    /// let mut landscape = Landscape::new(Domain::new(Size::new(5, 1)?, 10.0)); // columns, rows, metres
+    /// landscape.insert("height", "m", Field::from_function(landscape.domain.size, |x, _| (x * x) as f32));
+    /// landscape.insert("shift", "m", Field::filled(landscape.domain.size, 20.0)); // two cells
+    /// Displace { east: Some(LayerName::of("shift")), ..Displace::default() }.run(&mut landscape, &Job::unwatched(0))?;
+    /// assert_eq!(landscape.field("height")?.values(), [4.0, 9.0, 16.0, 16.0, 16.0], "the edge goes on");
+    /// # Ok::<(), Error>(())
+    /// ```
     pub struct Displace {
         /// Layer that is read.
         layer: LayerName = LayerName::of("height");

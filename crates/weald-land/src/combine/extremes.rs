@@ -18,6 +18,18 @@ pub const MIN: Entry =
 
 parameters! {
     /// The higher of two layers.
+    ///
+    /// ```
+    /// # use weald_core::{Domain, Error, Field, Landscape, Size, parameter::LayerName};
+    /// # use weald_engine::{Job, step::Step};
+    /// # use weald_land::combine::extremes::Max;
+    /// let mut landscape = Landscape::new(Domain::new(Size::new(5, 1)?, 10.0)); // columns, rows, metres
+    /// landscape.insert("height", "m", Field::from_function(landscape.domain.size, |x, _| x as f32));
+    /// landscape.insert("level", "m", Field::filled(landscape.domain.size, 2.0));
+    /// Max { with: LayerName::of("level"), ..Max::default() }.run(&mut landscape, &Job::unwatched(0))?;
+    /// assert_eq!(landscape.field("height")?.values(), [2.0, 2.0, 2.0, 3.0, 4.0]);
+    /// # Ok::<(), Error>(())
+    /// ```
     pub struct Max {
         /// One layer.
         layer: LayerName = LayerName::of("height");
@@ -30,6 +42,18 @@ parameters! {
 
 parameters! {
     /// The lower of two layers.
+    ///
+    /// ```
+    /// # use weald_core::{Domain, Error, Field, Landscape, Size, parameter::LayerName};
+    /// # use weald_engine::{Job, step::Step};
+    /// # use weald_land::combine::extremes::Min;
+    /// let mut landscape = Landscape::new(Domain::new(Size::new(5, 1)?, 10.0)); // columns, rows, metres
+    /// landscape.insert("height", "m", Field::from_function(landscape.domain.size, |x, _| x as f32));
+    /// landscape.insert("level", "m", Field::filled(landscape.domain.size, 2.0));
+    /// Min { with: LayerName::of("level"), ..Min::default() }.run(&mut landscape, &Job::unwatched(0))?;
+    /// assert_eq!(landscape.field("height")?.values(), [0.0, 1.0, 2.0, 2.0, 2.0]);
+    /// # Ok::<(), Error>(())
+    /// ```
     pub struct Min {
         /// One layer.
         layer: LayerName = LayerName::of("height");

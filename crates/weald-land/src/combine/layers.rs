@@ -23,6 +23,18 @@ pub const ENTRY: Entry = Entry::of::<Layers>(
 
 parameters! {
     /// The ground in pieces.
+    ///
+    /// ```
+    /// # use weald_core::{Domain, Error, Field, Landscape, Size};
+    /// # use weald_engine::{Job, step::Step};
+    /// # use weald_land::combine::layers::Layers;
+    /// let mut landscape = Landscape::new(Domain::new(Size::new(8, 6)?, 10.0)); // columns, rows, metres
+    /// landscape.insert("height", "m", Field::filled(landscape.domain.size, 100.0));
+    /// landscape.materials[1].thickness = 3.0; // rock lies below, and soil on it
+    /// Layers::default().run(&mut landscape, &Job::unwatched(0))?;
+    /// assert_eq!((landscape.field("bedrock")?.at(0, 0), landscape.field("soil")?.at(0, 0)), (97.0, 3.0));
+    /// # Ok::<(), Error>(())
+    /// ```
     pub struct Layers {
         /// Layer of the height of the ground, under which the materials lie.
         of: LayerName = LayerName::of("height");

@@ -20,6 +20,18 @@ pub const ENTRY: Entry =
 
 parameters! {
     /// Change of range.
+    ///
+    /// ```
+    /// # use weald_core::{Domain, Error, Field, Landscape, Size, parameter::LayerName};
+    /// # use weald_engine::{Job, step::Step};
+    /// # use weald_land::combine::remap::Remap;
+    /// let mut landscape = Landscape::new(Domain::new(Size::new(5, 1)?, 10.0)); // columns, rows, metres
+    /// landscape.insert("height", "m", Field::from_function(landscape.domain.size, |x, _| 100.0 * x as f32));
+    /// let remap = Remap { from: vec![0.0, 200.0], into: Some(LayerName::of("mask")), ..Remap::default() };
+    /// remap.run(&mut landscape, &Job::unwatched(0))?;
+    /// assert_eq!(landscape.field("mask")?.values(), [0.0, 0.5, 1.0, 1.0, 1.0]);
+    /// # Ok::<(), Error>(())
+    /// ```
     pub struct Remap {
         /// Layer that is read.
         layer: LayerName = LayerName::of("height");

@@ -30,6 +30,19 @@ pub const ENTRY: Entry = Entry::of::<Resample>(
 
 parameters! {
     /// Change of resolution.
+    ///
+    /// ```
+    /// # use weald_core::{Domain, Error, Field, Landscape, Size};
+    /// # use weald_engine::{Job, step::Step};
+    /// # use weald_core::parameter::Sides;
+    /// # use weald_land::combine::resample::Resample;
+    /// let mut landscape = Landscape::new(Domain::new(Size::new(8, 6)?, 10.0)); // columns, rows, metres
+    /// landscape.insert("height", "m", Field::from_function(landscape.domain.size, |x, _| x as f32));
+    /// Resample { size: Sides { columns: 4, rows: 3 } }.run(&mut landscape, &Job::unwatched(0))?;
+    /// assert_eq!(landscape.domain.cell, 20.0, "half as many cells a side over the same ground");
+    /// assert_eq!(landscape.field("height")?.row(0), [0.5, 2.5, 4.5, 6.5], "each the mean of four");
+    /// # Ok::<(), Error>(())
+    /// ```
     pub struct Resample {
         /// Cells a side, or `[columns, rows]`, in the proportion of the landscape.
         size: Sides = Sides::NEEDED;

@@ -29,6 +29,18 @@ const REACH: f64 = 3.0;
 
 parameters! {
     /// Gaussian blur.
+    ///
+    /// ```
+    /// # use weald_core::{Domain, Error, Field, Landscape, Size};
+    /// # use weald_engine::{Job, step::Step};
+    /// # use weald_land::combine::smooth::Smooth;
+    /// let mut landscape = Landscape::new(Domain::new(Size::new(8, 6)?, 10.0)); // columns, rows, metres
+    /// let rough = |x, y| 100.0 + if (x + y) % 2 == 0 { 5.0 } else { -5.0 };
+    /// landscape.insert("height", "m", Field::from_function(landscape.domain.size, rough));
+    /// Smooth { radius: 10.0, ..Smooth::default() }.run(&mut landscape, &Job::unwatched(0))?;
+    /// assert!((landscape.field("height")?.at(4, 3) - 100.0).abs() < 0.5, "forms much shorter than 60 m are gone");
+    /// # Ok::<(), Error>(())
+    /// ```
     pub struct Smooth {
         /// Layer that is read.
         layer: LayerName = LayerName::of("height");

@@ -17,6 +17,17 @@ pub const ENTRY: Entry = Entry::of::<Terrace>("terrace", Stage::Combine, "cuts s
 
 parameters! {
     /// Terraces.
+    ///
+    /// ```
+    /// # use weald_core::{Domain, Error, Field, Landscape, Size};
+    /// # use weald_engine::{Job, step::Step};
+    /// # use weald_land::combine::terrace::Terrace;
+    /// let mut landscape = Landscape::new(Domain::new(Size::new(5, 1)?, 10.0)); // columns, rows, metres
+    /// landscape.insert("height", "m", Field::from_function(landscape.domain.size, |x, _| 15.0 * x as f32));
+    /// Terrace { spacing: 50.0, softness: 0.1, ..Terrace::default() }.run(&mut landscape, &Job::unwatched(0))?;
+    /// assert_eq!(landscape.field("height")?.values(), [0.0, 0.0, 50.0, 50.0, 50.0], "0, 15, 30, 45 and 60 m before");
+    /// # Ok::<(), Error>(())
+    /// ```
     pub struct Terrace {
         /// Layer that is read.
         layer: LayerName = LayerName::of("height");

@@ -22,6 +22,20 @@ pub const ENTRY: Entry = Entry::of::<TopMaterial>(
 
 parameters! {
     /// A map of materials.
+    ///
+    /// ```
+    /// # use weald_core::{Domain, Error, Field, Landscape, Size};
+    /// # use weald_engine::{Job, step::Step};
+    /// # use weald_land::combine::top_material::TopMaterial;
+    /// let mut landscape = Landscape::new(Domain::new(Size::new(8, 6)?, 10.0)); // columns, rows, metres
+    /// landscape.insert("height", "m", Field::filled(landscape.domain.size, 100.0));
+    /// let soil = |x, _| if x < 4 { 0.0 } else { 2.0 };
+    /// landscape.insert("soil", "m", Field::from_function(landscape.domain.size, soil));
+    /// TopMaterial::default().run(&mut landscape, &Job::unwatched(0))?;
+    /// let material = landscape.field("material")?;
+    /// assert_eq!((material.at(3, 0), material.at(4, 0)), (0.0, 1.0), "bare rock, and soil on it");
+    /// # Ok::<(), Error>(())
+    /// ```
     pub struct TopMaterial {
         /// Layer of the height of the ground, under which the materials lie.
         of: LayerName = LayerName::of("height");

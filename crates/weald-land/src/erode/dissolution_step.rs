@@ -26,6 +26,22 @@ use weald_engine::step::{Entry, Layered, Outcome, Stage, Step};
 
 parameters! {
     /// Dissolution as a step of its own, under water that stands still.
+    ///
+    /// ```
+    /// # use weald_core::{Domain, Error, Field, Landscape, Size};
+    /// # use weald_engine::{Job, step::Step};
+    /// # use weald_land::erode::dissolution_step::DissolutionStep;
+    /// let mut landscape = Landscape::new(Domain::new(Size::new(8, 6)?, 10.0)); // columns, rows, metres
+    /// landscape.insert("height", "m", Field::filled(landscape.domain.size, 100.0));
+    /// let pond = |x, _| if x < 4 { 3.0 } else { 0.0 };
+    /// landscape.insert("water", "m", Field::from_function(landscape.domain.size, pond));
+    /// DissolutionStep::default().run(&mut landscape, &Job::unwatched(0))?;
+    /// let regolith = landscape.field("regolith")?;
+    /// let soaked = 0.2 * (1.0 - (1.0 - 0.002_f32).powi(100)); // depth, solubility of rock, iterations
+    /// assert!((regolith.at(1, 3) - soaked).abs() < 1.0e-4, "under the water");
+    /// assert_eq!(regolith.at(7, 3), 0.0, "on dry ground");
+    /// # Ok::<(), Error>(())
+    /// ```
     pub struct DissolutionStep {
         /// Depth to which standing water soaks the ground (`r_max`).
         depth: f64 = 0.2, range 0.0..=1000.0, unit "m";

@@ -19,6 +19,21 @@ use weald_engine::step::{Entry, Layered, Outcome, Stage, Step};
 
 parameters! {
     /// Slippage as a step of its own.
+    ///
+    /// ```
+    /// # use weald_core::{Domain, Error, Field, Landscape, Size};
+    /// # use weald_engine::{Job, step::Step};
+    /// # use weald_land::erode::slippage_step::SlippageStep;
+    /// let mut landscape = Landscape::new(Domain::new(Size::new(8, 6)?, 10.0)); // columns, rows, metres
+    /// let soil = Field::from_function(landscape.domain.size, |x, _| if x < 4 { 40.0 } else { 0.0 });
+    /// let height = Field::from_function(landscape.domain.size, |x, y| 100.0 + soil.at(x, y)); // on level rock
+    /// landscape.insert("soil", "m", soil);
+    /// landscape.insert("height", "m", height);
+    /// SlippageStep::default().run(&mut landscape, &Job::unwatched(0))?;
+    /// assert!(landscape.field("soil")?.at(4, 3) > 5.0, "soil has slid over the edge");
+    /// assert_eq!(landscape.field("bedrock")?.at(4, 3), 100.0, "rock is under its talus");
+    /// # Ok::<(), Error>(())
+    /// ```
     pub struct SlippageStep {
         /// Share of the excess that slides in a step. Times the number of materials at most 0.25.
         strength: f64 = 0.03, range 0.0..=0.25;

@@ -11,6 +11,19 @@ use weald_engine::step::{Entry, Outcome, Stage, Step};
 
 parameters! {
     /// Thermal weathering as a step of its own.
+    ///
+    /// ```
+    /// # use weald_core::{Domain, Error, Field, Landscape, Size};
+    /// # use weald_engine::{Job, step::Step};
+    /// # use weald_land::erode::thermal_step::Thermal;
+    /// let mut landscape = Landscape::new(Domain::new(Size::new(9, 9)?, 10.0)); // columns, rows, metres
+    /// let spike = |x, y| if (x, y) == (4, 4) { 100.0 } else { 0.0 };
+    /// landscape.insert("height", "m", Field::from_function(landscape.domain.size, spike));
+    /// Thermal::default().run(&mut landscape, &Job::unwatched(0))?;
+    /// let height = landscape.field("height")?;
+    /// assert!(height.at(4, 4) < 50.0 && (height.sum() - 100.0).abs() < 0.01, "it has slid, and nothing is lost");
+    /// # Ok::<(), Error>(())
+    /// ```
     pub struct Thermal {
         /// How slopes are compared with the talus.
         scheme: Scheme = Scheme::Isotropic;

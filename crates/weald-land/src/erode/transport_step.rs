@@ -34,6 +34,23 @@ choices! {
 
 parameters! {
     /// Transport along the rivers of an earlier `hydraulic` step, whose water stays as it is.
+    ///
+    /// ```
+    /// # use weald_core::{Domain, Error, Field, Landscape, Size, parameter::LayerName};
+    /// # use weald_engine::{Job, step::Step};
+    /// # use weald_land::erode::transport_step::Carry;
+    /// let mut landscape = Landscape::new(Domain::new(Size::new(24, 3)?, 1.0)); // columns, rows, metres
+    /// for (layer, value) in [("water", 1.0), ("flux_x", 0.2), ("flux_y", 0.0)] {
+    ///     landscape.insert(layer, "m", Field::filled(landscape.domain.size, value));
+    /// }
+    /// let line = |x, _| if x == 4 { 1.0 } else { 0.0 };
+    /// landscape.insert("dye", "m", Field::from_function(landscape.domain.size, line));
+    /// let carry = Carry { layer: LayerName::of("dye"), iterations: 40, ..Carry::default() };
+    /// carry.run(&mut landscape, &Job::unwatched(0))?;
+    /// let dye = landscape.field("dye")?;
+    /// assert!(dye.at(12, 1) > dye.at(4, 1) && (dye.sum() - 3.0).abs() < 1.0e-4, "all of it, downstream");
+    /// # Ok::<(), Error>(())
+    /// ```
     pub struct Carry {
         /// Layer to carry, as an amount in each cell: what leaves a cell enters its neighbours.
         layer: LayerName = LayerName::needed();

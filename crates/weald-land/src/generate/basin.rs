@@ -13,6 +13,17 @@ pub const ENTRY: Entry = Entry::of::<Basin>("basin", Stage::Generate, "a round b
 
 parameters! {
     /// A bowl.
+    ///
+    /// ```
+    /// # use weald_core::{Domain, Error, Landscape, Size};
+    /// # use weald_engine::{Job, step::Step};
+    /// # use weald_land::generate::basin::Basin;
+    /// let mut landscape = Landscape::new(Domain::new(Size::new(9, 9)?, 10.0)); // columns, rows, metres
+    /// Basin { depth: 30.0, rim: 80.0, ..Basin::default() }.run(&mut landscape, &Job::unwatched(0))?;
+    /// let height = landscape.field("height")?;
+    /// assert_eq!((height.at(4, 4), height.at(0, 0)), (50.0, 80.0), "the middle, and the ground around");
+    /// # Ok::<(), Error>(())
+    /// ```
     pub struct Basin {
         /// Depth of the deepest point below the rim.
         depth: f64 = 50.0, range 0.0..=1.0e6, unit "m";

@@ -13,6 +13,17 @@ pub const ENTRY: Entry = Entry::of::<Cone>("cone", Stage::Generate, "a cone on f
 
 parameters! {
     /// A cone.
+    ///
+    /// ```
+    /// # use weald_core::{Domain, Error, Landscape, Size};
+    /// # use weald_engine::{Job, step::Step};
+    /// # use weald_land::generate::cone::Cone;
+    /// let mut landscape = Landscape::new(Domain::new(Size::new(9, 9)?, 10.0)); // columns, rows, metres
+    /// Cone { peak: 40.0, slope: 0.5, ..Cone::default() }.run(&mut landscape, &Job::unwatched(0))?;
+    /// let height = landscape.field("height")?;
+    /// assert_eq!((height.at(4, 4), height.at(6, 4)), (40.0, 30.0), "10 m lower at 20 m from the axis");
+    /// # Ok::<(), Error>(())
+    /// ```
     pub struct Cone {
         /// Height of the tip. A cell holds it only where its centre lies on the axis.
         peak: f64 = 100.0, range -1.0e6..=1.0e6, unit "m";

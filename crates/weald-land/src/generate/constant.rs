@@ -14,6 +14,16 @@ pub const ENTRY: Entry =
 
 parameters! {
     /// Flat ground.
+    ///
+    /// ```
+    /// # use weald_core::{Domain, Error, Landscape, Size};
+    /// # use weald_engine::{Job, step::Step};
+    /// # use weald_land::generate::constant::Constant;
+    /// let mut landscape = Landscape::new(Domain::new(Size::new(8, 6)?, 10.0)); // columns, rows, metres
+    /// Constant { value: 250.0, ..Constant::default() }.run(&mut landscape, &Job::unwatched(0))?;
+    /// assert_eq!(landscape.field("height")?.range(None), Some((250.0, 250.0)));
+    /// # Ok::<(), Error>(())
+    /// ```
     pub struct Constant {
         /// Height everywhere.
         value: f64 = 0.0, range -1.0e6..=1.0e6, unit "m";

@@ -41,6 +41,17 @@ pub const ENTRY: Entry = Entry::of::<DiamondSquare>(
 
 parameters! {
     /// Midpoint displacement.
+    ///
+    /// ```
+    /// # use weald_core::{Domain, Error, Landscape, Size};
+    /// # use weald_engine::{Job, step::Step};
+    /// # use weald_land::generate::diamond_square::DiamondSquare;
+    /// let mut landscape = Landscape::new(Domain::new(Size::new(48, 32)?, 10.0)); // columns, rows, metres
+    /// DiamondSquare { relief: 300.0, ..DiamondSquare::default() }.run(&mut landscape, &Job::unwatched(7))?;
+    /// let (lowest, highest) = landscape.field("height")?.range(None).expect("there are cells");
+    /// assert!((highest - lowest - 300.0).abs() < 0.001, "from {lowest} to {highest} m");
+    /// # Ok::<(), Error>(())
+    /// ```
     pub struct DiamondSquare {
         /// Height between the lowest and the highest point.
         relief: f64 = 1000.0, range 0.0..=1.0e6, unit "m";

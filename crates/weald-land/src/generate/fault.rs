@@ -45,6 +45,17 @@ pub const ENTRY: Entry = Entry::of::<Fault>(
 
 parameters! {
     /// Fault formation.
+    ///
+    /// ```
+    /// # use weald_core::{Domain, Error, Landscape, Size};
+    /// # use weald_engine::{Job, step::Step};
+    /// # use weald_land::generate::fault::Fault;
+    /// let mut landscape = Landscape::new(Domain::new(Size::new(48, 32)?, 10.0)); // columns, rows, metres
+    /// Fault { relief: Some(100.0), ..Fault::default() }.run(&mut landscape, &Job::unwatched(7))?; // 7 is the seed
+    /// let (lowest, highest) = landscape.field("height")?.range(None).expect("there are cells");
+    /// assert!((highest - lowest - 100.0).abs() < 0.001, "from {lowest} to {highest} m");
+    /// # Ok::<(), Error>(())
+    /// ```
     pub struct Fault {
         /// Number of faults. The last one has size 0, so 1 gives a flat map.
         // At 65,536 the largest possible sum of steps still fits in 32 bits.

@@ -35,6 +35,19 @@ pub const DEVIATIONS: f64 = 6.0;
 
 parameters! {
     /// Fractional Brownian motion.
+    ///
+    /// ```
+    /// # use weald_core::{Domain, Error, Landscape, Size};
+    /// # use weald_engine::{Job, step::Step};
+    /// # use weald_land::generate::fbm::Fbm;
+    /// let fbm = Fbm { relief: 500.0, wavelength: 400.0, ..Fbm::default() };
+    /// let mut part = Landscape::new(Domain::new(Size::new(8, 6)?, 10.0)); // columns, rows, metres
+    /// let mut whole = Landscape::new(Domain::new(Size::new(80, 60)?, 10.0));
+    /// fbm.run(&mut part, &Job::unwatched(7))?; // 7 is the seed
+    /// fbm.run(&mut whole, &Job::unwatched(7))?;
+    /// assert_eq!(part.field("height")?.at(5, 3), whole.field("height")?.at(5, 3), "the same ground at any size");
+    /// # Ok::<(), Error>(())
+    /// ```
     pub struct Fbm {
         /// Height that a landscape of some wavelengths spans: six standard deviations, around a mean of half.
         relief: f64 = 1000.0, range 0.0..=1.0e6, unit "m";

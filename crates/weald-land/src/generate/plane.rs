@@ -19,6 +19,18 @@ pub const ENTRY: Entry = Entry::of::<Plane>(
 
 parameters! {
     /// An inclined plane.
+    ///
+    /// ```
+    /// # use weald_core::{Domain, Error, Landscape, Size};
+    /// # use weald_engine::{Job, step::Step};
+    /// # use weald_land::generate::plane::Plane;
+    /// let mut landscape = Landscape::new(Domain::new(Size::new(9, 9)?, 10.0)); // columns, rows, metres
+    /// let plane = Plane { slope: 0.1, azimuth_deg: 180.0, height: 50.0, ..Plane::default() };
+    /// plane.run(&mut landscape, &Job::unwatched(0))?;
+    /// let height = landscape.field("height")?;
+    /// assert_eq!((height.at(4, 3), height.at(4, 4), height.at(4, 5)), (51.0, 50.0, 49.0), "it falls to the south");
+    /// # Ok::<(), Error>(())
+    /// ```
     pub struct Plane {
         /// Rise over run.
         slope: f64 = 0.1, range 0.0..=1000.0;

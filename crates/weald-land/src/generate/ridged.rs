@@ -32,6 +32,18 @@ pub const ENTRY: Entry = Entry::of::<Ridged>(
 
 parameters! {
     /// Ridged multifractal.
+    ///
+    /// ```
+    /// # use weald_core::{Domain, Error, Landscape, Size};
+    /// # use weald_engine::{Job, step::Step};
+    /// # use weald_land::generate::ridged::Ridged;
+    /// let mut landscape = Landscape::new(Domain::new(Size::new(64, 64)?, 10.0)); // columns, rows, metres
+    /// let ridged = Ridged { relief: 400.0, wavelength: 200.0, ..Ridged::default() };
+    /// ridged.run(&mut landscape, &Job::unwatched(7))?; // 7 is the seed
+    /// let (lowest, highest) = landscape.field("height")?.range(None).expect("there are cells");
+    /// assert!(lowest >= 0.0 && highest <= 400.0 && highest - lowest > 200.0, "from {lowest} to {highest} m");
+    /// # Ok::<(), Error>(())
+    /// ```
     pub struct Ridged {
         /// Height between the lowest and the highest point that can be; a landscape spans most of it.
         relief: f64 = 1000.0, range 0.0..=1.0e6, unit "m";

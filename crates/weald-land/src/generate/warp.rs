@@ -37,6 +37,20 @@ pub const WARP_OCTAVES: u32 = 2;
 
 parameters! {
     /// Domain-warped noise.
+    ///
+    /// ```
+    /// # use weald_core::{Domain, Error, Landscape, Size, parameter::LayerName};
+    /// # use weald_engine::{Job, step::Step};
+    /// # use weald_land::generate::{fbm::Fbm, warp::Warp};
+    /// let mut landscape = Landscape::new(Domain::new(Size::new(48, 32)?, 10.0)); // columns, rows, metres
+    /// let job = Job::unwatched(7); // the seed
+    /// Fbm { into: LayerName::of("plain"), ..Fbm::default() }.run(&mut landscape, &job)?;
+    /// Warp { strength: 0.0, into: LayerName::of("still"), ..Warp::default() }.run(&mut landscape, &job)?;
+    /// Warp::default().run(&mut landscape, &job)?;
+    /// assert_eq!(landscape.field("still")?, landscape.field("plain")?, "what is not bent is fBm");
+    /// assert_ne!(landscape.field("height")?, landscape.field("plain")?);
+    /// # Ok::<(), Error>(())
+    /// ```
     pub struct Warp {
         /// Height that a landscape of some wavelengths spans: six standard deviations, around a mean of half.
         relief: f64 = 1000.0, range 0.0..=1.0e6, unit "m";

@@ -17,6 +17,20 @@ pub const ENTRY: Entry = Entry::of::<Load>("load", Stage::Load, "loads a layer f
 
 parameters! {
     /// A layer from a file.
+    ///
+    /// ```
+    /// # use weald::prelude::*;
+    /// # use weald::recipe::parameter::{LayerName, RasterFile};
+    /// # let folder = tempfile::tempdir().expect("a folder");
+    /// # let file = folder.path().join("soil.tif");
+    /// let mut landscape = Landscape::empty(8, 6, 10.0)?; // columns, rows, metres
+    /// landscape.run(&steps::Constant { value: 3.0, ..Default::default() })?;
+    /// landscape.save("height", &file)?;
+    /// let file = RasterFile(file.display().to_string());
+    /// landscape.run(&steps::Load { file, into: LayerName::of("soil"), scale: 0.5, ..Default::default() })?;
+    /// assert_eq!(landscape.field("soil")?.at(4, 3), 1.5, "metres, half of what the file holds");
+    /// # Ok::<(), Error>(())
+    /// ```
     pub struct Load {
         /// Raster file of any format that is read, as many cells as the landscape; its path starts at the
         /// folder of the recipe.

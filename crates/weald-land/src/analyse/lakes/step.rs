@@ -34,6 +34,19 @@ choices! {
 
 parameters! {
     /// Lakes.
+    ///
+    /// ```
+    /// # use weald_core::{Domain, Error, Field, Landscape, Size};
+    /// # use weald_engine::{Job, step::Step};
+    /// # use weald_land::analyse::lakes::LakesStep;
+    /// let mut landscape = Landscape::new(Domain::new(Size::new(12, 12)?, 10.0)); // columns, rows, metres
+    /// let hollow = |x, y| if (3..9).contains(&x) && (3..9).contains(&y) { 40.0 } else { 45.0 };
+    /// landscape.insert("height", "m", Field::from_function(landscape.domain.size, hollow));
+    /// LakesStep::default().run(&mut landscape, &Job::unwatched(0))?;
+    /// let depth = landscape.field("lake_depth")?;
+    /// assert_eq!((depth.at(5, 5), depth.at(1, 1)), (5.0, 0.0), "full to the rim, and no further");
+    /// # Ok::<(), Error>(())
+    /// ```
     pub struct LakesStep {
         /// Layer of the height of the ground.
         of: LayerName = LayerName::of("height");

@@ -24,6 +24,20 @@ const SHARE_OF_THE_LAND: f64 = 1.0 / 500.0;
 
 parameters! {
     /// Rivers, from layers that the step `flow` writes.
+    ///
+    /// ```
+    /// # use weald_core::{Domain, Error, Field, Landscape, Size};
+    /// # use weald_engine::{Job, step::Step};
+    /// # use weald_land::analyse::{flow_step::FlowStep, rivers::RiversStep};
+    /// let mut landscape = Landscape::new(Domain::new(Size::new(9, 20)?, 10.0)); // columns, rows, metres
+    /// let valley = |x, y| 5.0 * (x as f32 - 4.0).abs() - 0.1 * y as f32;
+    /// landscape.insert("height", "m", Field::from_function(landscape.domain.size, valley));
+    /// FlowStep::default().run(&mut landscape, &Job::unwatched(0))?;
+    /// RiversStep { area: Some(5000.0), ..RiversStep::default() }.run(&mut landscape, &Job::unwatched(0))?;
+    /// let river = landscape.field("river")?;
+    /// assert_eq!((river.at(4, 19), river.at(4, 0), river.at(0, 10)), (1.0, 0.0, 0.0), "on the floor below its head");
+    /// # Ok::<(), Error>(())
+    /// ```
     pub struct RiversStep {
         /// Layer of the height of the ground, or after filling or breaching, on which the water lies.
         of: LayerName = LayerName::of("height");

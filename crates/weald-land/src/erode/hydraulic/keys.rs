@@ -55,6 +55,20 @@ choices! {
 parameters! {
     /// Rain, rivers, erosion and deposition. Lengths are in metres; where a default is given in cells it is
     /// multiplied by the cell size. One step is the unit of time.
+    ///
+    /// ```
+    /// # use weald_core::{Domain, Error, Field, Landscape, Size};
+    /// # use weald_engine::{Job, step::Step};
+    /// # use weald_land::erode::hydraulic::Hydraulic;
+    /// let mut landscape = Landscape::new(Domain::new(Size::new(32, 32)?, 10.0)); // columns, rows, metres
+    /// let valley = |x, y| 3.0 * (x as f32 - 16.0).abs() - y as f32;
+    /// landscape.insert("height", "m", Field::from_function(landscape.domain.size, valley));
+    /// let outcome = Hydraulic { iterations: 120, ..Hydraulic::default() }.run(&mut landscape, &Job::unwatched(0))?;
+    /// let deepest = landscape.field("erosion")?.range(None).expect("there are cells").1;
+    /// assert!(deepest > 0.1, "rain has carved up to {deepest} m");
+    /// assert!(outcome.budget.expect("is kept").solid.error().abs() < 1.0e-4, "nothing is lost");
+    /// # Ok::<(), Error>(())
+    /// ```
     pub struct Hydraulic {
         /// Whose scheme.
         model: Model = Model::Han(HanKeys::default());
