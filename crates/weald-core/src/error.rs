@@ -65,6 +65,11 @@ impl Error {
     }
 }
 
+/// What is said of something that a build leaves out, and of the feature that brings it.
+pub fn left_out(what: &str, feature: &str) -> String {
+    format!("{what} is not part of this build: build with the feature `{feature}`")
+}
+
 /// What to do where a file cannot be written, as far as the cause tells.
 fn remedy(cause: ErrorKind) -> &'static str {
     match cause {

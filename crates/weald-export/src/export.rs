@@ -55,6 +55,12 @@ pub trait Export: Debug + Send + Sync {
         Vec::new()
     }
 
+    /// Why this build cannot make the file, where that needs a feature which the build leaves out.
+    fn left_out(&self, file: &Path) -> Option<String> {
+        let _ = file;
+        None
+    }
+
     /// What the user should know of the files, such as what they cannot hold.
     fn notes(&self, finished: &Finished<'_>) -> Vec<String> {
         let _ = finished;

@@ -1,31 +1,17 @@
 //! One page that shows a run: pictures, layers, statistics of the ground, rivers, budgets, and where it came from.
 //!
-//! The page is one file of HTML that is also well-formed XML. It needs nothing beside itself: no script, no font, no
-//! network; pictures are PNG in base64, charts are SVG. It follows the reader's choice of a light or a dark page.
+//! A build without the feature `report` knows the export and says that it cannot make it.
 
-mod axis;
-mod budgets;
-mod figures;
-mod ground;
-mod html;
-mod hypsometry;
-mod layers;
-mod measures;
+#[cfg(feature = "report")]
 mod page;
-mod plot;
-mod profiles;
-mod slope_area;
-mod steps;
 
 use std::path::Path;
 
 use super::{Export, ExportEntry, Finished};
-use ground::Ground;
-use html::{escape, figure, section};
-pub use page::Page;
 use weald_core::error::Error;
+use weald_core::parameter::LayerName;
+use weald_core::parameters;
 use weald_io::Part;
-use weald_picture::{Picture, Relief};
 
 /// The export's declaration.
 pub const ENTRY: ExportEntry = ExportEntry::of::<Page>(
@@ -35,62 +21,48 @@ pub const ENTRY: ExportEntry = ExportEntry::of::<Page>(
     "WHATWG HTML; W3C SVG 1.1",
 );
 
-/// The look of the page.
-const STYLE: &str = include_str!("report/style.css");
+parameters! {
+    /// A page about a run.
+    pub struct Page {
+        /// Layer of heights in metres.
+        of: LayerName = LayerName::of("height");
+        /// Width of the relief picture; maps of layers are drawn at a third of it.
+        width: u32 = 1080, range 240..=4096, unit "px";
+        /// Whether the page has a map of each layer.
+        maps: bool = true;
+        /// How many of the longest rivers have their profiles drawn.
+        profiles: u32 = 5, range 1..=8;
+    }
+}
 
 impl Export for Page {
     fn reads(&self) -> Vec<String> {
         vec![self.of.0.clone()]
     }
 
+    #[cfg(not(feature = "report"))]
+    fn left_out(&self, _: &Path) -> Option<String> {
+        Some(weald_core::error::left_out("the HTML report", "report"))
+    }
+
+    #[cfg(feature = "report")]
     fn parts(&self, finished: &Finished<'_>, _: &Path) -> Result<Vec<Part>, Error> {
-        Ok(vec![Part::own(self.page(finished)?.into_bytes())])
+        Ok(vec![Part::own(self.html(finished)?.into_bytes())])
+    }
+
+    #[cfg(not(feature = "report"))]
+    fn parts(&self, _: &Finished<'_>, file: &Path) -> Result<Vec<Part>, Error> {
+        Err(Error::Run(self.left_out(file).unwrap_or_default()))
     }
 }
 
-impl Page {
-    fn page(&self, finished: &Finished<'_>) -> Result<String, Error> {
-        let title = escape(&title(finished));
-        let ground = Ground::of(finished.landscape, &self.of.0)?;
-        let body = [
-            self.head(finished, &title)?,
-            section("The ground", &hypsometry::charts(&ground)),
-            section("Rivers", &self.rivers(&ground)),
-            section("Layers", &layers::section(finished.landscape, self)?),
-            section("Steps", &steps::table_of(finished)),
-            section("Budgets", &budgets::tables(finished)),
-            section("Measures", &steps::measures(finished)),
-            section("Where it came from", &steps::provenance(finished)),
-        ];
-        Ok(format!(
-            "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n\
-             <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n\
-             <meta name=\"color-scheme\" content=\"light dark\"/>\n<title>{title}</title>\n<style>\n{STYLE}</style>\n\
-             </head>\n<body>\n<main>\n{}</main>\n</body>\n</html>\n",
-            body.concat()
-        ))
-    }
+#[cfg(all(test, not(feature = "report")))]
+mod tests {
+    use super::*;
 
-    fn rivers(&self, ground: &Ground) -> String {
-        profiles::charts(ground, self.profiles as usize, &slope_area::chart(ground))
+    #[test]
+    fn a_build_without_the_page_names_its_feature() {
+        let message = Page::default().left_out(Path::new("page.html")).expect("is left out");
+        assert_eq!(message, "the HTML report is not part of this build: build with the feature `report`");
     }
-
-    /// The title, what the land is in one line, and its picture.
-    fn head(&self, finished: &Finished<'_>, title: &str) -> Result<String, Error> {
-        let landscape = finished.landscape;
-        let relief = Relief { of: self.of.clone(), width: Some(self.width), ..Relief::default() };
-        let picture = html::picture(&relief.render(landscape)?, &format!("Shaded relief of {title}"));
-        let shown = "Shaded relief with contours; lakes and rivers where the run has water.";
-        Ok(format!(
-            "<header>\n<h1>{title}</h1>\n<p class=\"lead\">{}</p>\n</header>\n{}",
-            escape(&ground::in_words(landscape, &self.of.0)?),
-            figure("wide", &picture, shown)
-        ))
-    }
-}
-
-/// The name of the recipe without its folder and extension.
-fn title(finished: &Finished<'_>) -> String {
-    let stem = Path::new(finished.recipe).file_stem().and_then(|stem| stem.to_str());
-    stem.unwrap_or(finished.recipe).to_owned()
 }

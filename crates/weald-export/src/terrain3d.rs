@@ -16,10 +16,10 @@ use serde_json::{Value, json};
 use super::terrain_tiles::{description, extension, extent, little_endian, no_data_note, source};
 use super::vertices::Vertices;
 use super::{Export, ExportEntry, Finished};
-use weald_core::error::{Error, Limit, Quantity};
+use weald_core::error::{Error, Limit, Quantity, left_out};
 use weald_core::grid::Size;
 use weald_core::parameter::{Fault, LayerName};
-use weald_io::{Part, Raster, exr};
+use weald_io::Part;
 
 weald_core::parameters! {
     /// Terrain for Terrain3D.
@@ -61,6 +61,11 @@ impl Export for Terrain3d {
         size.map(|message| Fault::of("region_size", message)).into_iter().collect()
     }
 
+    fn left_out(&self, file: &Path) -> Option<String> {
+        let needs_exr = extension(file) == "exr" && cfg!(not(feature = "exr"));
+        needs_exr.then(|| format!("{}; .r16 is written without it", left_out("OpenEXR", "exr")))
+    }
+
     fn notes(&self, finished: &Finished<'_>) -> Vec<String> {
         no_data_note(finished, "").into_iter().collect()
     }
@@ -72,7 +77,7 @@ impl Export for Terrain3d {
         let heights = Vertices::of(domain, finished.landscape.field(&self.of.0)?, size)?;
         let (low, high) = heights.range();
         let bytes = if extension(file) == "exr" {
-            exr::encode_for_godot(&Raster { valid: heights.valid, ..Raster::from(heights.field) })?
+            exr(heights)?
         } else {
             let per_metre = if high > low { MAX_VALUE / (high - low) } else { 0.0 };
             let number = |index| ((heights.value(index, low) - low) * per_metre).round() as u16;
@@ -81,6 +86,18 @@ impl Export for Terrain3d {
         let json = self.described(finished, &Import { size, spacing, region, range: (low, high) });
         Ok(vec![Part::own(bytes), description(&json)])
     }
+}
+
+/// Heights in metres as OpenEXR.
+#[cfg(feature = "exr")]
+fn exr(heights: Vertices) -> Result<Vec<u8>, Error> {
+    let raster = weald_io::Raster { valid: heights.valid, ..weald_io::Raster::from(heights.field) };
+    weald_io::exr::encode_for_godot(&raster)
+}
+
+#[cfg(not(feature = "exr"))]
+fn exr(_: Vertices) -> Result<Vec<u8>, Error> {
+    Err(Error::Run(left_out("OpenEXR", "exr")))
 }
 
 /// What the importer is given.

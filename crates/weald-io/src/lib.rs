@@ -3,10 +3,14 @@
 //! Every reader works on bytes, so that it can be fuzzed without a file system, and checks the sizes in a
 //! header against its [`Limits`] before it allocates; every writer writes under a temporary name and renames
 //! the whole file.
+//!
+//! Features, all on by default: `exr` for OpenEXR, `zstd` for Zarr arrays that are packed with Zstandard, `wkt` for the
+//! definition of CRSs in `NetCDF` and Zarr as other programs read it. A build without one names it where a file asks for it.
 
 pub mod asc;
 mod atomic;
 pub mod cf;
+#[cfg(feature = "exr")]
 pub mod exr;
 mod fault;
 mod file;

@@ -2,18 +2,21 @@
 
 use std::path::Path;
 
+#[cfg(feature = "exr")]
+use super::exr;
 use super::file::read_at_most;
 use super::parts::OnDisk;
 use super::{
-    Decode, Fault, Format, Limits, Raster, asc, exr, geotiff, netcdf, npy, png16, raw, write_parts, zarr,
+    Decode, Fault, Format, Limits, Raster, asc, geotiff, netcdf, npy, png16, raw, write_parts, zarr,
 };
-use weald_core::error::Error;
+use weald_core::error::{Error, left_out};
 
 /// All raster formats. Adding one is one file and one line here.
 #[rustfmt::skip] // one entry a line, so that branches that add some do not meet
 pub const FORMATS: &[Format] = &[
     geotiff::FORMAT,
     png16::FORMAT,
+    #[cfg(feature = "exr")]
     exr::FORMAT,
     raw::FORMAT_16,
     raw::FORMAT_32,
@@ -23,13 +26,22 @@ pub const FORMATS: &[Format] = &[
     zarr::FORMAT,
 ];
 
+/// Formats that this build leaves out: their extension, name and feature.
+const LEFT_OUT: &[[&str; 3]] = &[
+    #[cfg(not(feature = "exr"))]
+    ["exr", "OpenEXR", "exr"],
+];
+
 /// The format of a file name.
 ///
 /// # Errors
-/// A sentence that names the extensions there are.
+/// A sentence that names the extensions there are, or the feature that a build needs for the format.
 pub fn format_of(path: &Path) -> Result<&'static Format, String> {
     let extension = path.extension().and_then(|e| e.to_str()).unwrap_or_default().to_ascii_lowercase();
     FORMATS.iter().find(|format| format.extensions.contains(&extension.as_str())).ok_or_else(|| {
+        if let Some([_, name, feature]) = LEFT_OUT.iter().find(|[known, ..]| *known == extension) {
+            return format!("`{}`: {}", path.display(), left_out(name, feature));
+        }
         let known: Vec<_> = FORMATS.iter().flat_map(|f| f.extensions).map(|e| format!(".{e}")).collect();
         format!("the extension of `{}` names no raster format; there are {}", path.display(), known.join(" "))
     })
@@ -61,4 +73,18 @@ pub fn write(path: &Path, raster: &Raster) -> Result<(), Error> {
     let format = format_of(path).map_err(Error::Run)?;
     let (encode, _) = format.writing(None).map_err(Error::Run)?;
     write_parts(path, &encode.parts(raster)?)
+}
+
+#[cfg(all(test, not(feature = "exr")))]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_build_without_openexr_names_its_feature() {
+        let expected = "`a/height.EXR`: OpenEXR is not part of this build: build with the feature `exr`";
+        assert_eq!(format_of(Path::new("a/height.EXR")).expect_err("left out"), expected);
+        let error = read(Path::new("height.exr")).expect_err("left out");
+        assert!(matches!(&error, Error::Input { what, .. } if what.contains("feature `exr`")), "{error}");
+        assert!(format_of(Path::new("height.tif")).is_ok());
+    }
 }

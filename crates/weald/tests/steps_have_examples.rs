@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 /// Lines of an example that a reader sees.
-const MOST_LINES: usize = 10;
+const MAX_LINES: usize = 10;
 
 /// Where a step of `weald::steps` is declared: `weald_land::analyse::slope::Slope` has the crate `weald-land`, the
 /// modules `analyse` and `slope`, and the name `Slope`.
@@ -51,11 +51,21 @@ fn documentation(source: &str, name: &str) -> Option<Vec<String>> {
     Some(documented)
 }
 
+/// The lines of the first block of code that runs: one without a language.
+fn example(documentation: &[String]) -> Option<Vec<&str>> {
+    let mut lines = documentation.iter().map(String::as_str);
+    while let Some(fence) = lines.find(|line| line.starts_with("```")) {
+        let block: Vec<_> = lines.by_ref().take_while(|line| *line != "```").collect();
+        if fence == "```" {
+            return Some(block);
+        }
+    }
+    None
+}
+
 /// What is wrong with the example in a documentation.
 fn fault_of_example(documentation: &[String], name: &str) -> Option<&'static str> {
-    let mut lines = documentation.iter().map(String::as_str).skip_while(|line| *line != "```");
-    let Some(_) = lines.next() else { return Some("has no example that runs") };
-    let example: Vec<_> = lines.take_while(|line| *line != "```").collect();
+    let Some(example) = example(documentation) else { return Some("has no example that runs") };
     let shown: Vec<_> = example.into_iter().filter(|line| !line.starts_with("# ")).collect();
     let says = |word: &str| shown.iter().any(|line| line.contains(word));
     if !says("assert") {
@@ -64,7 +74,7 @@ fn fault_of_example(documentation: &[String], name: &str) -> Option<&'static str
     if !(says(&format!("{name} {{")) || says(&format!("{name}::default()"))) {
         return Some("its example does not use it");
     }
-    (shown.len() > MOST_LINES).then_some("its example is long")
+    (shown.len() > MAX_LINES).then_some("its example is long")
 }
 
 #[test]
@@ -91,7 +101,7 @@ fn examples_that_are_missing_hidden_empty_of_others_or_long_are_found() {
             .is_some_and(|fault| fault.contains("use it"))
     );
     let long: Vec<_> =
-        ["```", "Dune::default(); assert!(true);"].into_iter().chain([""; MOST_LINES]).collect();
+        ["```", "Dune::default(); assert!(true);"].into_iter().chain([""; MAX_LINES]).collect();
     assert_eq!(fault(&long), Some("its example is long"));
     assert_eq!(fault(&["```", "Dune { height: 1.0 };", "assert!(true);", "```"]), None);
     let source = "/// Dunes.\npub struct Dune {\n";

@@ -11,8 +11,12 @@ use weald_core::domain::{GeoKeys, Georeference};
 const KEYS: [&str; 3] = ["GeoKeyDirectory", "GeoDoubleParams", "GeoAsciiParams"];
 
 /// What the user is informed of another CRS.
-pub const OMITTED_CRS_NOTE: &str =
-    "the CRS has no EPSG code with a definition, so that only Weald finds it; .tif holds it for all";
+pub const OMITTED_CRS_NOTE: &str = if cfg!(feature = "wkt") {
+    "the CRS has no EPSG code with a definition, so that only Weald finds it; .tif holds it for all"
+} else {
+    "WKT of a CRS is not part of this build, so that only Weald finds the CRS; build with the feature `wkt`, or write \
+     .tif, which holds it for all"
+};
 
 /// The CRSs that only Weald finds.
 pub(crate) const OMITTED_CRS: Metadata =
@@ -207,5 +211,15 @@ mod tests {
         assert!(!keys.is_geographic());
         let feet = crs(2264, Some(false)).keys_for(Unit::Metres(1200.0 / 3937.0)).expect("made");
         assert_eq!(metres_per_unit(Some(&feet)), Ok(1200.0 / 3937.0));
+    }
+
+    #[test]
+    #[cfg(not(feature = "wkt"))]
+    fn a_build_without_wkt_says_so_of_every_crs() {
+        let place = Georeference { epsg: Some(32616), origin: [0.0; 2], pixel: [1.0; 2], keys: None };
+        assert!(!is_readable_by_all(&place) && OMITTED_CRS_NOTE.contains("build with the feature `wkt`"));
+        let written = attributes(&place);
+        assert_eq!(written.text("epsg_code"), Some("EPSG:32616"), "the code is written all the same");
+        assert_eq!(written.text("crs_wkt"), None);
     }
 }

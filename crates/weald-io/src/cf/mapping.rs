@@ -1,15 +1,22 @@
 //! The definition of a CRS as WKT, and as the grid mapping attributes of CF 1.11, appendix F.
 //!
-//! Definitions of EPSG codes come from the crate `crs-definitions`, in WKT 1. Of the projections, those are
+//! Definitions of EPSG codes come from the crate `crs-definitions`, in WKT 1; a build without the feature `wkt` has none. Of the projections, those are
 //! spelled out for CF that most national grids use; for the others CF has no name, or not under one parameter
 //! each, and the WKT stands alone.
 
 use super::attribute::Attributes;
 
 /// The WKT of an EPSG code.
+#[cfg(feature = "wkt")]
 pub(super) fn wkt_of(epsg: u32) -> Option<&'static str> {
     let definition = crs_definitions::from_code(u16::try_from(epsg).ok()?)?;
     (!definition.wkt.is_empty()).then_some(definition.wkt)
+}
+
+/// None of any code.
+#[cfg(not(feature = "wkt"))]
+pub(super) fn wkt_of(_: u32) -> Option<&'static str> {
+    None
 }
 
 /// Names of WKT 1 and of CF: the projection's, then those of its parameters.
@@ -112,6 +119,7 @@ mod tests {
     use super::*;
 
     #[test]
+    #[cfg(feature = "wkt")]
     fn a_national_grid_is_spelled_out_for_cf() {
         let utm = cf_attributes(wkt_of(32616).expect("known")).expect("transverse Mercator");
         assert_eq!(utm.text("grid_mapping_name"), Some("transverse_mercator"));
@@ -125,10 +133,15 @@ mod tests {
     }
 
     #[test]
-    fn the_code_of_a_wkt_is_that_of_the_whole() {
+    #[cfg(feature = "wkt")]
+    fn the_code_of_a_definition_is_that_asked_for() {
         for code in [4326, 32616, 2154, 3857] {
             assert_eq!(epsg_of(wkt_of(code).expect("known")), Some(code));
         }
+    }
+
+    #[test]
+    fn the_code_of_a_wkt_is_that_of_the_whole() {
         assert_eq!(epsg_of("PROJCRS[\"x\",ID[\"EPSG\",32616]]\n"), Some(32616));
         assert_eq!(
             epsg_of("PROJCS[\"own\",UNIT[\"metre\",1,AUTHORITY[\"EPSG\",\"9001\"]],AXIS[\"E\",EAST]]"),

@@ -3,12 +3,12 @@
 use std::io::Read;
 
 use flate2::read::MultiGzDecoder;
-use ruzstd::decoding::StreamingDecoder;
 use serde_json::Value;
 
 use super::super::Fault;
 
 /// Largest window of Zstandard that is given memory for a chunk that is no larger itself.
+#[cfg(feature = "zstd")]
 const WINDOW: u64 = 8 << 20;
 
 /// Codecs of an array.
@@ -24,6 +24,7 @@ pub(super) struct Codecs {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Packing {
     Gzip,
+    #[cfg(feature = "zstd")]
     Zstd,
     Crc32c,
 }
@@ -46,7 +47,13 @@ impl Codecs {
         };
         let packing = |codec: &Value| match name(codec) {
             "gzip" => Ok(Packing::Gzip),
+            #[cfg(feature = "zstd")]
             "zstd" => Ok(Packing::Zstd),
+            #[cfg(not(feature = "zstd"))]
+            "zstd" => Err(Fault::damaged(format!(
+                "`{array}` is packed with codec `zstd`; {}",
+                weald_core::error::left_out("Zstandard", "zstd")
+            ))),
             "crc32c" => Ok(Packing::Crc32c),
             other => Err(unread(array, other)),
         };
@@ -92,9 +99,10 @@ impl Packing {
     fn undo(self, bytes: &[u8], most: u64) -> Result<Vec<u8>, Fault> {
         match self {
             Self::Gzip => at_most(MultiGzDecoder::new(bytes), most, "gzip"),
+            #[cfg(feature = "zstd")]
             Self::Zstd => {
                 let window = most.next_power_of_two().max(WINDOW);
-                let decoder = StreamingDecoder::new_with_max_window_size(bytes, window);
+                let decoder = ruzstd::decoding::StreamingDecoder::new_with_max_window_size(bytes, window);
                 let decoder = decoder.map_err(|cause| Fault::damaged(format!("zstd: {cause}")))?;
                 at_most(decoder, most, "zstd")
             }
@@ -158,5 +166,15 @@ mod tests {
         assert!(codecs.decode(packed.clone(), 8).is_err(), "too short");
         assert!(codecs.decode(packed[..7].to_vec(), 3).is_err(), "another sum");
         assert!(codecs.decode(vec![1], 0).is_err(), "no sum");
+    }
+
+    #[test]
+    #[cfg(not(feature = "zstd"))]
+    fn a_build_without_zstandard_names_its_feature() {
+        let fault =
+            Codecs::of("height", &json!([{ "name": "bytes" }, { "name": "zstd" }])).expect_err("left out");
+        let expected = "`height` is packed with codec `zstd`; Zstandard is not part of this build: build with the \
+                        feature `zstd`";
+        assert_eq!(fault.to_string(), expected);
     }
 }

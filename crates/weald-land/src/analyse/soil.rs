@@ -52,7 +52,7 @@ parameters! {
     /// landscape.insert("height", "m", Field::filled(landscape.domain.size, 100.0));
     /// Soil::default().run(&mut landscape, &Job::unwatched(0))?;
     /// let depth = f64::from(landscape.field("soil_depth")?.at(4, 3));
-    /// let weathered = 0.42 * (1.0 + 0.000_077 * 10_000.0 / 0.42_f64).ln(); // on level ground nothing else counts
+    /// let weathered = 0.42 * (1.0 + 0.000_077 * 10_000.0 / 0.42_f64).ln(); // on flat ground nothing else counts
     /// assert!((depth - weathered).abs() < 1.0e-5, "{depth} m");
     /// # Ok::<(), Error>(())
     /// ```

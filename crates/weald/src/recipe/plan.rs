@@ -32,7 +32,7 @@ use super::overrides::Overrides;
 use super::parameter::Diagnostics;
 use super::source::{self, Table};
 use weald_core::error::{Diagnostic, Error, RecipeError};
-use weald_export::report;
+use weald_export::{Export, report};
 
 /// A recipe that can run.
 #[derive(Debug)]
@@ -160,20 +160,27 @@ impl Recipe {
 
     fn usual_page(&self) -> Result<Output, Error> {
         let page = report::Page::default();
+        if let Some(message) = page.left_out(Path::new("")) {
+            return Err(self.refused(message));
+        }
         let name = &page.of.0;
         let written = self.steps.iter().flat_map(|planned| planned.step.writes());
         let is_there = matches!(self.ground, Ground::File { .. })
             || written.into_iter().any(|(layer, _)| layer == *name);
         if !is_there {
-            let message = format!(
+            return Err(self.refused(format!(
                 "a page needs layer `{name}`, which no step writes; an [[output]] with export = \"report\" can say `of` \
                  which layer of heights it is"
-            );
-            let diagnostics = vec![Diagnostic { line: 1, message }];
-            return Err(RecipeError { file: self.file.clone(), diagnostics }.into());
+            )));
         }
         let content = Content::Export { name: report::ENTRY.name, export: Box::new(page) };
         Ok(Output { line: 0, file: PathBuf::new(), content })
+    }
+
+    /// The fault of the recipe as a whole.
+    fn refused(&self, message: String) -> Error {
+        let diagnostics = vec![Diagnostic { line: 1, message }];
+        RecipeError { file: self.file.clone(), diagnostics }.into()
     }
 
     /// BLAKE3 hash of [`Recipe::effective`], in hexadecimal.

@@ -278,6 +278,9 @@ fn export(entry: &ExportEntry, table: &Table, file: &Path, diagnostics: &mut Dia
     for fault in export.faults() {
         diagnostics.add(table.line_of(&fault.key), fault);
     }
+    if let Some(problem) = export.left_out(file) {
+        diagnostics.add(line_of(table, "file"), format!("`file`: {problem}"));
+    }
     Content::Export { name: entry.name, export }
 }
 

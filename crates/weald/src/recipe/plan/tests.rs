@@ -267,3 +267,34 @@ fn films_that_cannot_be_made_say_why() {
     );
     says(wear, "every = 3\nof = \"debris2\"\nfile = \"a.png\"", "shows layer `debris2` during step 2");
 }
+
+#[test]
+#[cfg(not(any(feature = "exr", feature = "report")))]
+fn a_build_names_the_features_that_it_lacks_at_the_lines_that_ask_for_them() {
+    let whole = with("a/./height.bits", "height.tif").replace("\"rough\"", "\"fbm\"");
+    let whole = whole.replace("\"wear\"", "\"thermal\"").replace("\"dot\"", "\"relief\"");
+    let parse = |text: &str| Recipe::parse("a.toml", text, &Overrides::default());
+    let lacking = |what: &str, feature: &str| {
+        format!("{what} is not part of this build: build with the feature `{feature}`")
+    };
+    let others = "\
+[[output]]
+export = \"report\"
+file = \"page.html\"
+[[output]]
+export = \"terrain3d\"
+file = \"ground.exr\"
+";
+    let error =
+        parse(&(whole.replace("height.tif", "height.exr") + others)).expect_err("left out").to_string();
+    let expected = [
+        format!("a.toml:12: output: `file`: `height.exr`: {}", lacking("OpenEXR", "exr")),
+        format!("a.toml:18: output: `file`: {}", lacking("the HTML report", "report")),
+        format!("a.toml:21: output: `file`: {}; .r16 is written without it", lacking("OpenEXR", "exr")),
+    ];
+    assert_eq!(error.lines().collect::<Vec<_>>(), expected);
+
+    let page = parse(&whole).expect("good").for_page(Path::new("page.html"));
+    let error = page.expect_err("left out").to_string();
+    assert_eq!(error, format!("a.toml:1: {}", lacking("the HTML report", "report")));
+}

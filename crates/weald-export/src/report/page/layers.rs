@@ -2,7 +2,7 @@
 
 use super::figures::{number, rough};
 use super::html::{Cell, escape, figure, picture, table};
-use super::page::Page;
+use crate::report::Page;
 use weald_core::domain::Domain;
 use weald_core::error::Error;
 use weald_core::grid::Field;
