@@ -18,7 +18,7 @@ mod variants;
 
 pub use check::{check_file, check_keys, without_effect};
 pub use colour::Colour;
-pub use declaration::{Choice, ParameterValue, Parameters, key, keys_of, read_key};
+pub use declaration::{Choice, Legal, ParameterValue, Parameters, key, keys_of, read_key};
 pub use diagnostics::{Diagnostics, nearest};
 pub use fault::Fault;
 pub use file::{FlameFile, RasterFile, ScriptFile};

@@ -4,7 +4,7 @@
 use super::check::check_keys;
 use super::diagnostics::Diagnostics;
 use super::kind::{Kind, Parameter};
-use crate::source::{Node, Table};
+use crate::source::{Node, Table, Value};
 
 /// A struct declared by [`parameters!`](crate::parameters).
 pub trait Parameters: Sized + Default {
@@ -69,26 +69,71 @@ pub fn key(field: &'static str) -> &'static str {
     field.strip_prefix("r#").unwrap_or(field)
 }
 
+/// What numbers a key may hold.
+#[derive(Clone, Copy, Debug)]
+pub struct Legal {
+    /// Least and greatest.
+    pub range: (f64, f64),
+    /// Their unit; `1` where they have none.
+    pub unit: &'static str,
+}
+
+impl Legal {
+    /// Any number without unit, and whatever is no number.
+    pub const ANY: Self = Self { range: (f64::NEG_INFINITY, f64::INFINITY), unit: "1" };
+
+    /// The end of a message that ends with the range of a number: its unit, and how a number is written.
+    fn in_words<T: ParameterValue>(self, node: Option<&Node>) -> String {
+        let (Kind::Number(low, high) | Kind::Integer(low, high) | Kind::Numbers(low, high)) =
+            T::kind(self.range)
+        else {
+            return String::new();
+        };
+        let has_unit = self.unit != "1" && (low.is_finite() || high.is_finite());
+        let unit = if has_unit { format!(" {}", self.unit) } else { String::new() };
+        let quoted = matches!(node, Some(Node { value: Value::Text(text), .. })
+            if text.starts_with(|first: char| first.is_ascii_digit() || first == '-'));
+        let alone = if quoted { "; write the number alone, without quotes and unit" } else { "" };
+        unit + alone
+    }
+}
+
 /// Reads one key of a table, or takes its default.
 pub fn read_key<T: ParameterValue>(
     table: &Table,
     name: &str,
     default: T,
-    range: (f64, f64),
+    legal: Legal,
     diagnostics: &mut Diagnostics,
 ) -> T {
-    let value = if let Some(node) = table.get(name) {
-        T::read(node, range, diagnostics).unwrap_or_else(|problem| {
-            diagnostics.add(node.line, format!("`{name}` {problem}"));
-            default
-        })
-    } else {
+    let Some(node) = table.get(name) else {
         if default.must_be_given() {
-            diagnostics.add(table.line, format!("`{name}` is needed: {}", T::kind(range).in_words()));
+            let wanted = T::kind(legal.range).in_words() + &legal.in_words::<T>(None);
+            diagnostics.add(table.line, format!("`{name}` is needed: {wanted}"));
         }
-        default
+        return with_keys_of(default, (table, name), diagnostics);
     };
-    value.with_keys_of(table, diagnostics)
+    let value = diagnostics.within(name, node, |diagnostics| T::read(node, legal.range, diagnostics));
+    let value = value.unwrap_or_else(|problem| {
+        let problem = problem + &legal.in_words::<T>(Some(node));
+        diagnostics.add(node.line, format!("`{name}` {problem}"));
+        default
+    });
+    with_keys_of(value, (table, name), diagnostics)
+}
+
+/// A value with its own keys; faults of their values name it, for ranges differ from variant to variant.
+fn with_keys_of<T: ParameterValue>(
+    value: T,
+    (table, name): (&Table, &str),
+    diagnostics: &mut Diagnostics,
+) -> T {
+    let before = diagnostics.found.len();
+    let value = value.with_keys_of(table, diagnostics);
+    if let Some(word) = value.shown().filter(|_| diagnostics.found.len() > before) {
+        diagnostics.append_to_ranges(before, &format!(" with {name} = {word}"));
+    }
+    value
 }
 
 /// Declares a struct of parameters: `name: Type = default, range low..=high, unit "m";` with a doc comment
@@ -143,7 +188,14 @@ macro_rules! parameters {
             ) -> Self {
                 use $crate::parameter::{key, read_key};
                 Self { $( $name: read_key(
-                    table, key(stringify!($name)), $default, $crate::parameters!(@range $($low, $high)?), diagnostics,
+                    table,
+                    key(stringify!($name)),
+                    $default,
+                    $crate::parameter::Legal {
+                        range: $crate::parameters!(@range $($low, $high)?),
+                        unit: $crate::parameters!(@unit $($unit)?),
+                    },
+                    diagnostics,
                 ), )* }
             }
         }

@@ -1,7 +1,7 @@
 //! The faults of a recipe, collected while it is read.
 
 use crate::error::Diagnostic;
-use crate::source::Table;
+use crate::source::{Node, Table, Value};
 
 /// Collects the faults of a recipe while it is read.
 #[derive(Debug, Default)]
@@ -23,6 +23,28 @@ impl Diagnostics {
         self.found.push(Diagnostic { line, message });
     }
 
+    /// Does something about a value; faults within its table, or the tables in its list, are those of the key.
+    pub(super) fn within<T>(&mut self, key: &str, node: &Node, read: impl FnOnce(&mut Self) -> T) -> T {
+        if !matches!(node.value, Value::Table(_) | Value::List(_)) {
+            return read(self);
+        }
+        let outer = self.subject.clone();
+        self.subject = if outer.is_empty() { key.to_owned() } else { format!("{outer}.{key}") };
+        let value = read(self);
+        self.subject = outer;
+        value
+    }
+
+    /// Adds to the faults from `first` on that name the range of a key of this subject.
+    pub(super) fn append_to_ranges(&mut self, first: usize, text: &str) {
+        let of_key = if self.subject.is_empty() { "`".to_owned() } else { format!("{}: `", self.subject) };
+        for Diagnostic { message, .. } in &mut self.found[first..] {
+            if message.starts_with(&of_key) && message.contains(", outside its range: ") {
+                message.push_str(text);
+            }
+        }
+    }
+
     /// Complains of every key of `table` that is not among `known`, with the nearest known name.
     pub fn unknown_keys(&mut self, table: &Table, known: &[&str]) {
         for (key, node) in &table.entries {
@@ -37,8 +59,42 @@ impl Diagnostics {
     }
 }
 
-/// The known name that was probably meant.
+/// Words that the field uses for what a recipe calls by another name.
+const SYNONYMS: &[(&str, &str)] = &[
+    ("accumulate", "flow"),
+    ("accumulation", "flow"),
+    ("basins", "watersheds"),
+    ("breach", "flow"),
+    ("catchment", "watersheds"),
+    ("catchments", "watersheds"),
+    ("contributing_area", "accumulation"),
+    ("dem", "height"),
+    ("drainage", "flow"),
+    ("drainage_area", "accumulation"),
+    ("dt", "flow_rate"),
+    ("elevation", "height"),
+    ("erodibility", "erosion"),
+    ("fill", "flow"),
+    ("hand", "moisture"),
+    ("hillshade", "relief"),
+    ("infill", "flow"),
+    ("max_depth", "deepest_breach"),
+    ("pipe_constant", "flow_rate"),
+    ("runoff", "weight"),
+    ("steps", "iterations"),
+    ("threshold", "area"),
+    ("topography", "height"),
+    ("twi", "wetness"),
+    ("upslope_area", "accumulation"),
+    ("upstream_area", "accumulation"),
+];
+
+/// The known name that was probably meant: what the field calls otherwise, or what is spelled alike.
 pub fn nearest<'a>(word: &str, known: &[&'a str]) -> Option<&'a str> {
+    let meant = |name: &&&str| SYNONYMS.contains(&(word, **name));
+    if let Some(name) = known.iter().find(meant) {
+        return Some(name);
+    }
     let scored = known.iter().map(|name| (strsim::jaro_winkler(word, name), *name));
     scored.filter(|(score, _)| *score > 0.8).max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, name)| name)
 }

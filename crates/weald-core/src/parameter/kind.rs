@@ -13,7 +13,7 @@ pub struct Parameter {
     pub kind: Kind,
     /// Default in TOML notation; `None` where the key is needed or its absence means something.
     pub default: Option<String>,
-    /// Default in words, also where TOML cannot say it, such as `0.01 cells`.
+    /// Default in words, also where TOML cannot say it, such as `0.01 × cell size`.
     pub default_in_words: Option<String>,
     /// Whether a recipe must give the key.
     pub required: bool,

@@ -49,7 +49,7 @@ impl ParameterValue for Length {
     fn in_words(&self) -> Option<String> {
         match self {
             Self::Metres(metres) => metres.in_words(),
-            Self::Cells(cells) => Some(format!("{cells:?} cells")),
+            Self::Cells(cells) => Some(format!("{cells:?} × cell size")),
         }
     }
 }

@@ -221,7 +221,13 @@ impl<T: Parameters + Clone> ParameterValue for Vec<Nested<T>> {
         if items.len() > MAX_TABLES {
             return Err(format!("has {} tables, but at most {MAX_TABLES} are read", items.len()));
         }
-        items.iter().map(|item| Nested::read(item, range, diagnostics)).collect()
+        // Counted from 1, as in the paths of `--set`.
+        let numbered = (1..).map(|number: usize| number.to_string()).zip(items);
+        numbered
+            .map(|(number, item)| {
+                diagnostics.within(&number, item, |diagnostics| Nested::read(item, range, diagnostics))
+            })
+            .collect()
     }
 
     fn shown(&self) -> Option<String> {

@@ -60,7 +60,7 @@ fn faults_of_a_script_come_with_their_lines_and_what_was_probably_meant() {
         "s.jsonl:3: add: `material` is \"snad\", of which there is none; did you mean `sand`?",
         "s.jsonl:4: smooth: unknown key `radiu`; did you mean `radius`?",
         "s.jsonl:4: smooth: `height` does not go with `smooth`",
-        "s.jsonl:5: add-water: `depth` is -3, outside its range: 0 to 100000",
+        "s.jsonl:5: add-water: `depth` is -3, outside its range: 0 to 100000 m",
         "s.jsonl:5: add-water: `path` is a list, but must be a place `[x, y]`",
         "s.jsonl:6: is no JSON",
         "s.jsonl:7: is a list, but must be { … }",

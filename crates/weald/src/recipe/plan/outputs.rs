@@ -5,7 +5,7 @@ use std::path::{Component, Path, PathBuf};
 use super::films::{self, Film, Motion};
 use crate::recipe::plan::words::{Vocabulary, hint, tables};
 use crate::recipe::{CHECKPOINT_FILE, REPORT_FILE};
-use weald_core::parameter::{Diagnostics, LayerName, Parameter, check_file, read_key};
+use weald_core::parameter::{Diagnostics, LayerName, Legal, Parameter, check_file, read_key};
 use weald_core::source::{Node, Table, Value};
 use weald_export::{Export, ExportEntry};
 use weald_io::{Capabilities, Encode};
@@ -233,9 +233,8 @@ fn layer(
 ) -> Option<Content> {
     let before = diagnostics.found.len();
     diagnostics.unknown_keys(table, &["layer", "file", "preset"]);
-    let range = (f64::NEG_INFINITY, f64::INFINITY);
-    let name = read_key(table, "layer", LayerName::needed(), range, diagnostics).0;
-    let preset: Option<String> = read_key(table, "preset", None, range, diagnostics);
+    let name = read_key(table, "layer", LayerName::needed(), Legal::ANY, diagnostics).0;
+    let preset: Option<String> = read_key(table, "preset", None, Legal::ANY, diagnostics);
     let format = match (vocabulary.format_of)(file) {
         Ok(format) => format,
         Err(problem) => {
@@ -260,7 +259,7 @@ fn picture(entry: &PictureEntry, table: &Table, file: &Path, diagnostics: &mut D
     entry.name.clone_into(&mut diagnostics.subject);
     let film = films::take(&mut table, diagnostics);
     let (what, extensions) =
-        if film.is_some() { ("film", films::EXTENSIONS) } else { ("picture", entry.extensions) };
+        if film.is_some() { ("a film", films::EXTENSIONS) } else { ("a picture", entry.extensions) };
     ensure_extension(&table, file, (what, extensions), diagnostics);
     let picture = with_keys(("picture", entry.name), &table, diagnostics, (entry.parameters, entry.read));
     if let Some((line, fault)) = films::fault(film.as_ref(), (entry.name, whole), picture.as_ref()) {
@@ -273,7 +272,8 @@ fn picture(entry: &PictureEntry, table: &Table, file: &Path, diagnostics: &mut D
 }
 
 fn export(entry: &ExportEntry, table: &Table, file: &Path, diagnostics: &mut Diagnostics) -> Content {
-    ensure_extension(table, file, (entry.name, entry.extensions), diagnostics);
+    let what = format!("export = {:?}", entry.name);
+    ensure_extension(table, file, (&what, entry.extensions), diagnostics);
     let export = with_keys(("export", entry.name), table, diagnostics, (entry.parameters, entry.read));
     for fault in export.faults() {
         diagnostics.add(table.line_of(&fault.key), fault);
@@ -312,7 +312,7 @@ fn ensure_extension(
     let extension = file.extension().and_then(|extension| extension.to_str()).unwrap_or_default();
     if !extensions.iter().any(|known| extension.eq_ignore_ascii_case(known)) {
         let known = extensions.join(" or .");
-        let message = format!("`file` is {}; a {what} is a .{known}", file.display());
+        let message = format!("`file` is {}; {what} writes .{known}", file.display());
         diagnostics.add(line_of(table, "file"), message);
     }
 }

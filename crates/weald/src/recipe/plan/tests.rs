@@ -233,7 +233,7 @@ fn outputs_that_cannot_be_written_say_what_there_is() {
         assert!(message.contains(words), "{keys}: {message}");
     };
     says("export = \"taly\"\nfile = \"a.txt\"", "there is no export \"taly\"; did you mean `tally`?");
-    says("export = \"tally\"\nfile = \"a.png\"", "`file` is a.png; a tally is a .txt");
+    says("export = \"tally\"\nfile = \"a.png\"", "`file` is a.png; export = \"tally\" writes .txt");
     says("export = \"tally\"\nof = \"heigth\"\nfile = \"a.txt\"", "needs layer `heigth`");
     says(
         "layer = \"height\"\nexport = \"tally\"\nfile = \"a.txt\"",
@@ -255,8 +255,12 @@ fn films_that_cannot_be_made_say_why() {
     };
     let rough = "[[step]]\ndo = \"rough\"\n";
     let wear = "[[step]]\ndo = \"rough\"\n[[step]]\ndo = \"wear\"\n";
-    says(rough, "file = \"a.mp4\"", "`file` is a.mp4; a picture is a .png");
-    says(wear, "every = 3\nfile = \"a.gif\"", "`file` is a.gif; a film is a .png or .apng or .mp4 or .webm");
+    says(rough, "file = \"a.mp4\"", "`file` is a.mp4; a picture writes .png");
+    says(
+        wear,
+        "every = 3\nfile = \"a.gif\"",
+        "`file` is a.gif; a film writes .png or .apng or .mp4 or .webm",
+    );
     says(rough, "every = 3\nfile = \"a.png\"", "no step simulates");
     says(wear, "every = 3\nframes = 4\nfile = \"a.png\"", "exclude each other");
     says(wear, "frames = 1\nfile = \"a.png\"", "`frames` is 1, outside its range: 2 to 9999");
