@@ -1,6 +1,6 @@
 //! What every part of **Weald** stands on: grids, domains, landscapes, materials, parameters, random numbers, errors.
 //!
-//! A [`Landscape`] is a [`Domain`] (columns, rows, cell size, place on Earth, valid cells) with named layers, each a
+//! A [`Landscape`] is a [`Domain`] (columns, rows, cell size, georeference, valid cells) with named layers, each a
 //! [`Field`] with a unit. [`parameters!`] declares the parameters of a step, with unit, range and default, once for
 //! parsing, errors, documentation and user interfaces.
 //!
@@ -25,6 +25,7 @@ pub mod error;
 pub mod grain;
 pub mod grid;
 pub mod landscape;
+pub mod layer_words;
 pub mod material;
 pub mod parameter;
 pub mod plants;

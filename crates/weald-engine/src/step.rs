@@ -72,6 +72,11 @@ pub trait Step: Debug + Send + Sync {
         None
     }
 
+    /// What it measures for the report: names, each with what it is.
+    fn measures(&self) -> &'static [(&'static str, &'static str)] {
+        &[]
+    }
+
     /// Iterations between which its landscape can be looked at; 0 where it cannot.
     fn watched(&self) -> u64 {
         0
@@ -101,7 +106,7 @@ pub enum Layered {
 /// What a step has to report.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Outcome {
-    /// Simulation steps, faults, octaves: what the step counts.
+    /// Iterations, faults, octaves: what the step counts.
     pub iterations: u64,
     /// Where water and solid went, for simulations.
     pub budget: Option<Budget>,

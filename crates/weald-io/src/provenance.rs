@@ -1,5 +1,7 @@
 //! Where a file came from, as pairs of key and text that GeoTIFF and PNG carry.
 
+use weald_core::layer_words::shown_unit;
+
 /// Where a file came from, written into every format that can carry it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Provenance {
@@ -60,9 +62,14 @@ impl Provenance {
 
     /// The provenance in one sentence.
     pub(super) fn sentence(&self) -> String {
+        let Self { version, recipe_blake3, seed, layer, unit, range } = self;
+        let unit = match shown_unit(unit) {
+            none if none.is_empty() => none,
+            unit => format!(" {unit}"),
+        };
+        let (low, high) = range;
         format!(
-            "Weald {}: layer {}, {} to {} {}, seed {}, recipe BLAKE3 {}",
-            self.version, self.layer, self.range.0, self.range.1, self.unit, self.seed, self.recipe_blake3
+            "Weald {version}: layer {layer}, {low} to {high}{unit}, seed {seed}, recipe BLAKE3 {recipe_blake3}"
         )
     }
 }
@@ -82,7 +89,7 @@ pub(super) mod tests {
             recipe_blake3: "af1349b9f5f9a1a6a0404dea36dcc949".to_owned(),
             seed: u64::MAX,
             layer: "water<\"&\">".to_owned(),
-            unit: "m/step".to_owned(),
+            unit: "m³/step".to_owned(),
             range: (-0.1, 1.0e-30),
         }
     }

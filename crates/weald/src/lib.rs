@@ -18,7 +18,7 @@
 //!     relief = 200.0         # metres
 //!     [[step]]
 //!     do = "hydraulic"
-//!     iterations = 120       # one wet and one dry season
+//!     iterations = 120       # 60 wet and 60 dry ones
 //!     [[output]]
 //!     layer = "height"
 //!     file = "height.tif"
@@ -57,7 +57,7 @@
 //! * [`prelude`]: the few names of such a program; `examples/` has five programs.
 //! * [`recipe`]: what a recipe can say, how it is checked and run; [`recipe::catalog`] lists all steps.
 //! * [`generate`], [`combine`], [`erode`]: the steps, one file a method, each with its equation and source.
-//! * [`Landscape`], [`Domain`], [`Field`]: layers on a grid with a cell size, a place on Earth, a no-data mask.
+//! * [`Landscape`], [`Domain`], [`Field`]: layers on a grid with a cell size, georeferencing, a no-data mask.
 //! * [`material`]: what ground is made of, in layers; [`edit`]: brushes, scripts of strokes, undo and redo.
 //! * [`erode::hydraulic::Hydraulic::run_interactive`]: a simulation to run interactively, for an editor of your own.
 //! * [`step::Step`]: what a step declares and does. [`LandscapeExt::run`] runs one, and [`engine::Job`] watches it.
@@ -80,8 +80,8 @@ pub use landscape_ext::LandscapeExt;
 
 #[doc(inline)]
 pub use weald_core::{
-    attachment, condition, domain, error, grid, landscape, material, parameter, plants, random, strata,
-    vectors,
+    attachment, condition, domain, error, grid, landscape, layer_words, material, parameter, plants, random,
+    strata, vectors,
 };
 #[doc(inline)]
 pub use weald_core::{choices, parameters, variants};

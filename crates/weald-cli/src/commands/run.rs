@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use weald::Error;
+use weald::layer_words::shown_unit;
 use weald::recipe::{Options, OutputReport, Progress, REPORT_FILE, Recipe, Report, Run};
 
 use crate::arguments::{RunArguments, Running};
@@ -73,7 +74,12 @@ fn summary(report: &Report, out: &Path) -> String {
 
 fn content(output: &OutputReport) -> String {
     match (&output.layer, &output.unit, output.range) {
-        (Some(layer), Some(unit), Some((low, high))) => format!("{layer}, {low:.3} to {high:.3} {unit}"),
+        (Some(layer), Some(unit), Some((low, high))) => {
+            let unit = shown_unit(unit);
+            let is_code = unit.is_empty() && low.fract() == 0.0 && high.fract() == 0.0;
+            let decimals = if is_code { 0 } else { 3 };
+            format!("{layer}, {low:.decimals$} to {high:.decimals$} {unit}").trim_end().to_owned()
+        }
         (Some(layer), ..) => layer.clone(),
         _ => match (&output.picture, &output.export) {
             (Some(picture), _) => format!("picture, {picture}"),

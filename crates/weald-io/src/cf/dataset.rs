@@ -10,6 +10,7 @@ use super::{CELL, GRID_MAPPING};
 use weald_core::domain::Georeference;
 use weald_core::error::Error;
 use weald_core::grid::{Field, Mask, Size};
+use weald_core::layer_words::meaning;
 
 /// All of a file.
 #[derive(Debug)]
@@ -151,9 +152,9 @@ fn layer_attributes(layer: &Layer<'_>, is_placed: bool) -> Attributes {
     let mut attributes = Attributes::default();
     if let Some(provenance) = &layer.provenance {
         let known = of_layer(&provenance.layer);
-        let long = known.map_or(provenance.layer.as_str(), |known| known.long);
-        let per_step = if provenance.unit.ends_with("/step") { ", per step" } else { "" };
-        attributes.add("long_name", format!("{long}{per_step}"));
+        let long = meaning(&provenance.layer).unwrap_or(&provenance.layer);
+        let per_iteration = if provenance.unit.ends_with("/step") { ", per iteration" } else { "" };
+        attributes.add("long_name", format!("{long}{per_iteration}"));
         let standard = known.and_then(|known| known.standard);
         if let Some(name) = standard {
             attributes.add("standard_name", name);

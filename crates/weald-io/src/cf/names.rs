@@ -10,12 +10,10 @@ pub enum Names {
     Landlab,
 }
 
-/// What is known of a layer by its name.
+/// What others call a layer.
 #[derive(Debug)]
 pub(super) struct Known {
     layer: &'static str,
-    /// What it is, in words.
-    pub(super) long: &'static str,
     /// Name in the CF standard name table.
     pub(super) standard: Option<&'static str>,
     /// Name in landlab.
@@ -24,30 +22,17 @@ pub(super) struct Known {
 
 #[rustfmt::skip] // a table
 const KNOWN: &[Known] = &[
-    known("height", "height of the ground", Some("surface_altitude"), Some("topographic__elevation")),
-    known("bedrock", "height of the bedrock", Some("bedrock_altitude"), Some("bedrock__elevation")),
-    known("soil", "thickness of the soil", None, Some("soil__depth")),
-    known("water", "depth of the water", None, Some("surface_water__depth")),
-    known("sediment", "sediment in the water", None, None),
-    known("slope", "slope of the ground", None, Some("topographic__steepest_slope")),
-    known("aspect", "direction of the slope", None, None),
-    known("accumulation", "area that drains through the cell", None, Some("drainage_area")),
-    known("discharge", "water that flows through the cell", None, Some("surface_water__discharge")),
-    known("flux_x", "water that flows east", None, None),
-    known("flux_y", "water that flows south", None, None),
-    known("erosion", "ground that was worn away", None, None),
-    known("deposition", "ground that was laid down", None, None),
-    known("lake_depth", "depth of the lakes", None, None),
-    known("lake_level", "height of the lakes", None, None),
+    known("height", Some("surface_altitude"), Some("topographic__elevation")),
+    known("bedrock", Some("bedrock_altitude"), Some("bedrock__elevation")),
+    known("soil", None, Some("soil__depth")),
+    known("water", None, Some("surface_water__depth")),
+    known("slope", None, Some("topographic__steepest_slope")),
+    known("accumulation", None, Some("drainage_area")),
+    known("discharge", None, Some("surface_water__discharge")),
 ];
 
-const fn known(
-    layer: &'static str,
-    long: &'static str,
-    standard: Option<&'static str>,
-    landlab: Option<&'static str>,
-) -> Known {
-    Known { layer, long, standard, landlab }
+const fn known(layer: &'static str, standard: Option<&'static str>, landlab: Option<&'static str>) -> Known {
+    Known { layer, standard, landlab }
 }
 
 /// What is known of the layer of that name.
@@ -84,11 +69,11 @@ fn legal(name: &str) -> String {
     if name.starts_with(|c: char| c.is_ascii_alphabetic()) { name } else { format!("layer_{name}") }
 }
 
-/// The unit as UDUNITS spells it. A step is a count there, which has no unit.
+/// The unit as UDUNITS spells it. An iteration is a count there, which has no unit.
 pub(super) fn udunits(unit: &str) -> String {
     let spelled = unit.replace('²', "2").replace('³', "3").replace('°', "degree").replace('·', " ");
-    let per_step = spelled.strip_suffix("/step").unwrap_or(&spelled);
-    per_step.strip_prefix("1/").map_or_else(|| per_step.to_owned(), |below| format!("{below}-1"))
+    let per_iteration = spelled.strip_suffix("/step").unwrap_or(&spelled);
+    per_iteration.strip_prefix("1/").map_or_else(|| per_iteration.to_owned(), |below| format!("{below}-1"))
 }
 
 #[cfg(test)]

@@ -11,7 +11,7 @@ use weald_core::grid::{Field, Mask, Size};
 pub struct Sheet<'a> {
     /// Side of a cell in metres, where it is known.
     pub cell: Option<f64>,
-    /// Place on Earth.
+    /// Where on Earth it lies.
     pub georeference: Option<&'a Georeference>,
     /// Cells with data; `None` where all have.
     pub valid: Option<&'a Mask>,

@@ -27,6 +27,44 @@ use input::CHANNEL_AREA;
 pub use input::NetworkInput;
 use weald_core::grid::Field;
 
+/// What each measure is, under the name that it has in reports.
+pub const MEASURES: &[(&str, &str)] = &[
+    ("chan", "share of cells whose mean flow carries the rain of at least 100 cells"),
+    (
+        "reach",
+        "length of the longest connected valley over the longer side of the grid (no reach of a river)",
+    ),
+    ("valley_largest", "share of the valley cells that belong to the largest connected valley"),
+    (
+        "drains",
+        "share of the land outside lakes from which water reaches a lake or the border without crossing a pit deeper \
+         than half a cell size",
+    ),
+    ("pits", "inner cells without a lower neighbour among eight"),
+    ("heads", "channel heads: places on the filled ground from which on 100 cells drain through"),
+    ("strahler", "greatest Strahler order of these channels"),
+    (
+        "flux_gini",
+        "Gini coefficient of the mean flow of the cells: 0 the same everywhere, nearly 1 all in one cell",
+    ),
+    ("river_width", "mean width in cells of the simulated rivers outside lakes; not the layer of that name"),
+    ("theta", "concavity θ of the channels: slope falls with upslope area as A^-θ"),
+    ("hack", "Hack's exponent h: the longest river of a drainage area A is as long as A^h"),
+    ("valley_spacing", "length of all rows and columns over the number of valleys on them, in cells"),
+    ("valley_width", "mean width of the valleys at half their depth, in cells"),
+    (
+        "valley_shape",
+        "mean ratio of the widths at a quarter and three quarters of the depth: 1/3 a V, 1 a slot",
+    ),
+    ("valley_depth", "mean depth of the valleys, in cell sizes"),
+    (
+        "carve_reach",
+        "length of the longest connected cut over the longer side of the grid; cuts are the twentieth that lost most",
+    ),
+    ("carve_largest", "share of the cells of the cuts that belong to the largest connected one"),
+    ("carve_against_area", "correlation of the logarithms of lost height and of upslope area"),
+];
+
 /// The measures.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NetworkMeasures {

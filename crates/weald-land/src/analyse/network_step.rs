@@ -3,7 +3,7 @@
 //! What they are says [`network`](super::network). They depend on the grid, so only landscapes of the same size
 //! compare, at the end of a dry period.
 
-use super::network::{NetworkInput, measure};
+use super::network::{MEASURES, NetworkInput, measure};
 use weald_core::error::Error;
 use weald_core::grid::Field;
 use weald_core::landscape::Landscape;
@@ -20,7 +20,7 @@ pub const ENTRY: Entry = Entry::of::<Network>(
     "Weald, after the claims of Han 2015, doi 10.7583/JKGS.2015.15.6.171",
 );
 
-/// Mean rain of `hydraulic` with its defaults, in cells per step: 0.01 in one step of two.
+/// Mean rain of `hydraulic` with its defaults, in cells per iteration: 0.01 in one iteration of two.
 const DEFAULT_RAIN: f64 = 0.005;
 
 parameters! {
@@ -43,17 +43,18 @@ parameters! {
         of: LayerName = LayerName::of("height");
         /// Layer of the depth of water in metres.
         water: LayerName = LayerName::of("water");
-        /// Layer of the mean flow of water to the east, in m³ a step.
+        /// Layer of the mean flow of water to the east, in m³ per iteration.
         flux_x: LayerName = LayerName::of("flux_x");
         /// The same to the south.
         flux_y: LayerName = LayerName::of("flux_y");
-        /// Layer of the depth that was eroded, in metres.
+        /// Layer of what the ground lost on balance, in metres.
         erosion: LayerName = LayerName::of("erosion");
-        /// Layer of the depth that was deposited, in metres.
+        /// Layer of what the ground gained on balance, in metres.
         deposition: LayerName = LayerName::of("deposition");
-        /// Mean rain of a whole cycle of rain and sun: `rain` of `hydraulic` by the share of the steps in which it
-        /// rains. Without it, 0.005 cells, which is that of `hydraulic` with its defaults.
-        rain: Option<f64> = None, range 1.0e-9..=100.0, unit "m/step";
+        /// Mean rain per iteration over a whole cycle: `rain` of `hydraulic` times the share of the iterations with
+        /// rain. Without it 0.005 × cell size, the mean of model = "han" with its defaults; give it for every other
+        /// model.
+        rain: Option<f64> = None, range 1.0e-9..=100.0, unit "m/iteration";
     }
 }
 
@@ -65,6 +66,10 @@ impl Step for Network {
 
     fn writes(&self) -> Vec<(String, &'static str)> {
         Vec::new()
+    }
+
+    fn measures(&self) -> &'static [(&'static str, &'static str)] {
+        MEASURES
     }
 
     fn run(&self, landscape: &mut Landscape, _: &Job<'_>) -> Result<Outcome, Error> {

@@ -1,6 +1,6 @@
-//! Watersheds: the land that drains by the same mouth.
+//! Watersheds: the land that drains to the same outlet.
 //!
-//! A mouth is a cell from which water leaves the grid or the data, or flows into the sea. Along a border there
+//! An outlet is a cell from which water leaves the grid or the data, or flows into the sea. Along a border there
 //! are many; those that drain little are merged, the smallest first, with the neighbour with which they share
 //! the longest boundary, or left out.
 
@@ -18,7 +18,7 @@ use weald_engine::step::{Entry, Outcome, Stage, Step};
 pub const ENTRY: Entry = Entry::of::<Watersheds>(
     "watersheds",
     Stage::Analyse,
-    "numbers the land that drains by the same mouth",
+    "labels watersheds: the cells that drain to the same outlet",
     "common practice",
 );
 
@@ -74,6 +74,10 @@ impl Step for Watersheds {
         Some((0.0, f64::INFINITY))
     }
 
+    fn measures(&self) -> &'static [(&'static str, &'static str)] {
+        &[("watersheds", "number of watersheds")]
+    }
+
     fn run(&self, landscape: &mut Landscape, _: &Job<'_>) -> Result<Outcome, Error> {
         let domain = &landscape.domain;
         let directions = Directions::of(landscape.field("flow_direction")?, domain.valid.as_ref())?;
@@ -92,7 +96,7 @@ impl Step for Watersheds {
 /// The number of the watershed of each cell, the largest first from 1; 0 in the sea, without data, and where
 /// small ones are dropped. Those of fewer than `least_cells` are small.
 pub fn watersheds(directions: &Directions, valid: Option<&Mask>, small: Small, least_cells: f64) -> Vec<u32> {
-    let mut labels = by_mouth(directions, valid);
+    let mut labels = by_outlet(directions, valid);
     let sizes = sizes(&labels);
     let is_small = |label: u32| (sizes[label as usize] as f64) < least_cells;
     match small {
@@ -111,10 +115,10 @@ pub fn watersheds(directions: &Directions, valid: Option<&Mask>, small: Small, l
     largest_first(&labels)
 }
 
-/// A number for each mouth and all cells above it.
-fn by_mouth(directions: &Directions, valid: Option<&Mask>) -> Vec<u32> {
+/// A number for each outlet and all cells above it.
+fn by_outlet(directions: &Directions, valid: Option<&Mask>) -> Vec<u32> {
     let mut labels = vec![0; directions.codes().len()];
-    let mut mouths = 0;
+    let mut outlets = 0;
     for cell in directions.upward(|cell| valid.is_none_or(|valid| valid.is_valid_at(cell))) {
         if directions.is_sea(cell) {
             continue;
@@ -122,8 +126,8 @@ fn by_mouth(directions: &Directions, valid: Option<&Mask>) -> Vec<u32> {
         labels[cell] = match directions.downstream(cell) {
             Some(next) if !directions.is_sea(next) => labels[next],
             _ => {
-                mouths += 1;
-                mouths
+                outlets += 1;
+                outlets
             }
         };
     }

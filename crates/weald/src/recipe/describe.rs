@@ -3,8 +3,11 @@
 use std::fmt::Write;
 
 use super::catalog::CATALOG;
-use super::parameter::{Kind, Parameter, Parameters, Variant};
+use super::parameter::{Diagnostics, Kind, Parameter, Parameters, Variant};
 use super::plan::{FilmKeys, LandscapeKeys, MaterialKeys};
+use super::source::Table;
+use super::written_layers;
+use weald_core::layer_words::{meaning, shown_unit};
 use weald_engine::step::{Entry, Stage};
 use weald_export::EXPORTS;
 use weald_picture::PICTURES;
@@ -92,6 +95,7 @@ pub fn step(name: &str) -> Result<String, String> {
 
 fn of_entry(entry: &Entry) -> String {
     of(&format!("do = \"{}\"", entry.name), entry.summary, Some(entry.source), &(entry.parameters)())
+        + &results(entry)
 }
 
 fn of(key: &str, summary: &str, source: Option<&str>, parameters: &[Parameter]) -> String {
@@ -101,6 +105,45 @@ fn of(key: &str, summary: &str, source: Option<&str>, parameters: &[Parameter]) 
     }
     write_parameters(&mut text, parameters, 0);
     text
+}
+
+/// Layers that the step writes, and what it measures.
+fn results(entry: &Entry) -> String {
+    let mut text = String::new();
+    let usual = written_layers::by_default(entry);
+    let others = written_layers::by_key(entry);
+    let materials = written_layers::materials(entry);
+    if !usual.is_empty() || !others.is_empty() || materials.is_some() {
+        text.push_str("\nWrites:\n");
+    }
+    for layer in &usual {
+        text.push_str(&layer_line(layer, ""));
+    }
+    for (key, layers) in &others {
+        for layer in layers.iter().filter(|(name, _)| name != key) {
+            text.push_str(&layer_line(layer, &format!(" with `{key}`")));
+        }
+    }
+    if let Some(with) = materials {
+        text.push_str(&wrapped(&format!("`bedrock` and the thickness of each material (m){with}"), 2));
+    }
+    let measures = (entry.read)(&Table::default(), &mut Diagnostics::default()).measures();
+    if !measures.is_empty() {
+        text.push_str("\nMeasures, in report.json:\n");
+    }
+    for (name, meaning) in measures {
+        text.push_str(&wrapped(&format!("`{name}`: {meaning}"), 2));
+    }
+    text
+}
+
+fn layer_line((name, unit): &(String, &'static str), with: &str) -> String {
+    let unit = match shown_unit(unit) {
+        none if none.is_empty() => none,
+        unit => format!(" ({unit})"),
+    };
+    let meaning = meaning(name).map_or(String::new(), |meaning| format!(": {meaning}"));
+    wrapped(&format!("`{name}`{unit}{with}{meaning}"), 2)
 }
 
 fn write_parameters(text: &mut String, parameters: &[Parameter], indent: usize) {
@@ -179,12 +222,25 @@ mod tests {
     }
 
     #[test]
+    fn a_step_is_shown_with_its_layers_and_measures() {
+        let flow = step("flow").expect("it is there");
+        assert!(flow.contains("\nWrites:\n  `flow_direction`: neighbour"), "{flow}");
+        assert!(flow.contains("  `accumulation` (m²): upslope"), "{flow}");
+        assert!(flow.contains("  `discharge` (m³/s) with `weight`: mean"), "{flow}");
+        let network = step("network").expect("it is there");
+        assert!(network.contains("\nMeasures, in report.json:\n  `chan`: share"), "{network}");
+    }
+
+    #[test]
     fn each_model_is_shown_with_its_own_unit_range_and_default() {
         let text = step("hydraulic").expect("it is there");
         let (_, models) = text.split_once("\nwith model = \"han\"\n").expect("a heading");
         let (han, others) = models.split_once("\nwith model = \"mei\"\n").expect("a heading");
         let (mei, stava) = others.split_once("\nwith model = \"stava\"\n").expect("a heading");
-        assert!(han.contains("evaporation (number, 0 to 100, in m/step, default 0.03 cells)"), "{han}");
+        assert!(
+            han.contains("evaporation (number, 0 to 100, in m/iteration, default 0.03 × cell size)"),
+            "{han}"
+        );
         assert!(mei.contains("evaporation (number, 0 to 1, default 0.015)"), "{mei}");
         assert!(han.contains("law (\"velocity\"") && !mei.contains("law (") && !stava.contains("law ("));
         assert!(stava.contains("default true; only with transport = \"maccormack\")"), "{stava}");

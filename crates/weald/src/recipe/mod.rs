@@ -24,6 +24,7 @@ pub mod template;
 #[cfg(test)]
 mod testing;
 mod view_request;
+mod written_layers;
 
 pub use checkpoint::CHECKPOINT_FILE;
 pub use fractal::FractalRequest;

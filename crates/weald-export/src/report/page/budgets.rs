@@ -17,15 +17,15 @@ pub(super) fn tables(finished: &Finished<'_>) -> String {
     let mut text = String::new();
     if !wet.is_empty() {
         let rows: Vec<_> = wet.into_iter().map(|(step, budget)| water(step, budget)).collect();
-        let header = ["step", "in", "out", "stored", "error"];
+        let header = ["step", "in", "out", "stored", "relative error"];
         text +=
-            &table("Water in m³; the error is what is missing, relative to what came in.", &header, &rows);
+            &table("Water in m³; the relative error is what is missing over what came in.", &header, &rows);
     }
     if !budgets.is_empty() {
         let rows: Vec<_> = budgets.iter().map(|(step, budget)| solid(step, budget)).collect();
-        let header = ["step", "ground before", "ground after", "loose", "suspended", "out", "error"];
-        let caption =
-            "Solid in m³ above the lowest ground of the start; the error is what is missing, relative to it.";
+        let header = ["step", "ground before", "ground after", "loose", "suspended", "out", "relative error"];
+        let caption = "Solid in m³ above the lowest cell of the start; the relative error is what is missing over the \
+                       ground before.";
         text += &table(caption, &header, &rows);
     }
     text

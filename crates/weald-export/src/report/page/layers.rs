@@ -7,6 +7,7 @@ use weald_core::domain::Domain;
 use weald_core::error::Error;
 use weald_core::grid::Field;
 use weald_core::landscape::{Landscape, Layer};
+use weald_core::layer_words::shown_unit;
 use weald_core::parameter::LayerName;
 use weald_picture::{Map, Picture, Scale, encode};
 
@@ -104,8 +105,8 @@ impl Values {
 }
 
 /// The unit of a layer, where it has one.
-fn unit(layer: &Layer) -> &str {
-    if layer.unit == "1" { "–" } else { &layer.unit }
+fn unit(layer: &Layer) -> String {
+    if layer.unit == "1" { "–".to_owned() } else { shown_unit(&layer.unit) }
 }
 
 fn map(
@@ -125,7 +126,8 @@ fn map(
         // The page has a legend of its own.
         legend: false,
     };
-    let unit = if layer.unit == "1" { String::new() } else { format!(", {}", escape(&layer.unit)) };
+    let unit =
+        if layer.unit == "1" { String::new() } else { format!(", {}", escape(&shown_unit(&layer.unit))) };
     let caption = format!("<strong>{}</strong>{unit}\n{}", escape(name), legend(&map, values));
     Ok(figure("map", &picture(&map.render(landscape)?, &format!("Map of the layer {name}")), &caption))
 }

@@ -35,7 +35,7 @@ fn network<'a>(finished: &'a Finished<'_>) -> Option<(&'a str, BTreeMap<String, 
     Some((&step.step, measures.collect()))
 }
 
-/// Rain of a simulation in metres per step, by its budget.
+/// Rain of a simulation in metres per iteration, by its budget.
 fn mean_rain(step: &StepReport, finished: &Finished<'_>) -> Option<f64> {
     let domain = &finished.landscape.domain;
     let area = domain.valid_cells() as f64 * domain.cell_area();

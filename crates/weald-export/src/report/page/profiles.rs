@@ -56,7 +56,7 @@ fn profiles(stems: &[Stem<'_>]) -> String {
     let heights = || stems.iter().flat_map(|stem| stem.points.iter().map(|point| point.z));
     let (low, high) = (heights().fold(f64::INFINITY, f64::min), heights().fold(f64::NEG_INFINITY, f64::max));
     let mut plot = Plot::new(
-        Axis::linear("way to the end of the river, km", 0.0, longest / 1000.0),
+        Axis::linear("distance upstream from the end of the river, km", 0.0, longest / 1000.0),
         Axis::linear("height of the water, m", low, high),
     );
     for (number, stem) in stems.iter().enumerate() {
@@ -143,6 +143,6 @@ fn list(stems: &[Stem<'_>]) -> String {
         ]
     };
     let rows: Vec<_> = stems.iter().enumerate().map(row).collect();
-    let header = ["river", "length, km", "fall, m", "basin, km²", "discharge, m³/s", "order"];
+    let header = ["river", "length, km", "fall, m", "drainage area, km²", "discharge, m³/s", "order"];
     table("The longest rivers; orders are Strahler's.", &header, &rows)
 }

@@ -1,4 +1,4 @@
-//! How slope falls with the area that drains through: the signature of rivers.
+//! How slope falls with upslope area: the signature of rivers.
 //!
 //! ```text
 //! S = k A^-θ
@@ -40,7 +40,7 @@ pub(super) fn chart(ground: &Ground) -> String {
     let least = bins.iter().map(|bin| bin.quartiles[0]).fold(f64::INFINITY, f64::min);
     let most = bins.iter().map(|bin| bin.quartiles[2]).fold(0.0, f64::max);
     let mut plot = Plot::new(
-        Axis::logarithmic("area that drains through, m²", first.area, last.area),
+        Axis::logarithmic("upslope area, m²", first.area, last.area),
         Axis::logarithmic("slope", least, most),
     );
     for bin in &bins {
@@ -69,7 +69,8 @@ fn caption(law: Option<[f64; 2]>) -> String {
     match law {
         Some([theta, _]) => format!(
             "{what} The line is S = k A<sup>−θ</sup> where {} cells and more drain through, with θ = \
-             <data value=\"{theta:.6}\">{theta:.2}</data>; rivers in balance have 0.4 to 0.6.",
+             <data value=\"{theta:.6}\">{theta:.2}</data>, the concavity index; graded \
+             (steady-state) rivers mostly have 0.4 to 0.6.",
             number(CHANNEL_CELLS)
         ),
         None => format!("{what} The land is too small to fit a power law."),

@@ -5,6 +5,7 @@ use super::html::{Cell, table};
 use super::measures::with_network;
 use crate::Finished;
 use weald_engine::report::StepReport;
+use weald_land::analyse::network::MEASURES;
 
 /// Steps in their order.
 pub(super) fn table_of(finished: &Finished<'_>) -> String {
@@ -49,15 +50,9 @@ pub(super) fn measures(finished: &Finished<'_>) -> String {
     table(caption, &["measure", "value", "step", "what it is"], &rows)
 }
 
+/// What a measure is; nothing where its name says it.
 fn meaning(name: &str) -> &'static str {
-    match name {
-        "chan" => "share of cells whose mean flow carries the rain of a hundred cells",
-        "reach" => "length of the longest connected valley over the side of the grid",
-        "valley_largest" => "share of the valley cells that belong to the largest connected valley",
-        "drains" => "share of the land from which water leaves without crossing a deep pit",
-        "pits" => "cells without a lower neighbour",
-        _ => "",
-    }
+    MEASURES.iter().find(|(measure, _)| *measure == name).map_or("", |(_, meaning)| meaning)
 }
 
 /// Recipe, seed and version: with them the run can be made again.
@@ -74,7 +69,7 @@ pub(super) fn provenance(finished: &Finished<'_>) -> String {
         ("seed", finished.seed.to_string()),
         ("version", format!("Weald {}", env!("CARGO_PKG_VERSION"))),
         ("grid", format!("{} cells of {} m", domain.size, domain.cell)),
-        ("place", epsg.unwrap_or_else(|| "none on Earth".to_owned())),
+        ("georeferencing", epsg.unwrap_or_else(|| "none".to_owned())),
     ];
     let rows: Vec<_> = rows.into_iter().map(|(what, is)| vec![Cell::text(what), Cell::text(is)]).collect();
     table("With these the run can be made again.", &["what", "is"], &rows)

@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::{Ground, Output, Planned, PlannedMaterial};
 use crate::recipe::plan::words::hint;
+use crate::recipe::written_layers::writer_of;
 use weald_core::material::{BEDROCK, Material, layer_names};
 use weald_core::parameter::Diagnostics;
 use weald_engine::step::Layered;
@@ -38,12 +39,11 @@ pub(super) fn check(made: &Made<'_>, outputs: &[Output], diagnostics: &mut Diagn
         diagnostics.add(output.line, "`every` counts the iterations of simulations, and no step simulates");
     }
     for output in outputs {
-        for name in output.reads() {
-            if !layers.read(&name) {
-                let (file, hint) = (output.file.display(), layers.hint(&name, &materials));
-                let message = format!("{file} needs layer `{name}`, which no step writes; {hint}");
-                diagnostics.add(output.line, message);
-            }
+        let missing: Vec<_> = output.reads().into_iter().filter(|name| !layers.read(name)).collect();
+        for (names, hint) in layers.by_hint(missing, "", &materials) {
+            let (file, names) = (output.file.display(), in_words(&names));
+            let message = format!("{file} needs {names}, which no step of this recipe writes; {hint}");
+            diagnostics.add(output.line, message);
         }
     }
     check_grown(made.steps, outputs, diagnostics);
@@ -99,12 +99,11 @@ struct Writer {
 
 impl Layers {
     fn check_reads(&mut self, planned: &Planned, materials: &[Material], diagnostics: &mut Diagnostics) {
-        for name in planned.step.reads() {
-            if !self.read(&name) {
-                let hint = self.hint(&name, materials);
-                let message = format!("reads layer `{name}`, which no earlier step writes; {hint}");
-                diagnostics.add(planned.line, message);
-            }
+        let reads = planned.step.reads().into_iter();
+        let missing: Vec<_> = reads.filter(|name| !self.read(name)).collect();
+        for (names, hint) in self.by_hint(missing, planned.entry.name, materials) {
+            let message = format!("reads {}, which no earlier step writes; {hint}", in_words(&names));
+            diagnostics.add(planned.line, message);
         }
         if planned.step.layered() != Layered::Never {
             // A material without a layer is made from its declaration, so none of them need be there.
@@ -176,13 +175,45 @@ impl Layers {
         lost
     }
 
-    fn hint(&self, name: &str, materials: &[Material]) -> String {
+    fn hint(&self, name: &str, reader: &str, materials: &[Material]) -> String {
         if materials.first().is_some_and(|first| first.name == name) {
             return format!("the layer of the first material is `{BEDROCK}`");
         }
         if materials.iter().any(|material| material.name == name) {
             return "a `layers` step writes the layers of all materials".to_owned();
         }
-        hint(name, &self.writer_of.keys().map(String::as_str).collect::<Vec<_>>())
+        let known: Vec<_> = self.writer_of.keys().map(String::as_str).collect();
+        match writer_of(name, reader).filter(|_| name != "height") {
+            Some(step) => format!("add a step {step}"),
+            None => hint(name, &known),
+        }
+    }
+
+    /// Layers that are missing, those together about which the same is to be said.
+    fn by_hint(
+        &self,
+        missing: Vec<String>,
+        reader: &str,
+        materials: &[Material],
+    ) -> Vec<(Vec<String>, String)> {
+        let mut grouped: Vec<(Vec<String>, String)> = Vec::new();
+        for name in missing {
+            let hint = self.hint(&name, reader, materials);
+            match grouped.iter_mut().find(|(_, known)| *known == hint) {
+                Some((names, _)) => names.push(name),
+                None => grouped.push((vec![name], hint)),
+            }
+        }
+        grouped
+    }
+}
+
+/// Layers in a message.
+fn in_words(names: &[String]) -> String {
+    let quoted: Vec<_> = names.iter().map(|name| format!("`{name}`")).collect();
+    match quoted.split_last() {
+        Some((last, [])) => format!("layer {last}"),
+        Some((last, others)) => format!("layers {} and {last}", others.join(", ")),
+        None => String::new(),
     }
 }
