@@ -35,7 +35,7 @@ pub(crate) enum Command {
     Run(RunArguments),
     /// Run a recipe and write one HTML page about it, and nothing else
     Report(ReportArguments),
-    /// Check a recipe without running it
+    /// Check the keys, ranges and layers of a recipe without running it; input files are not opened
     Check(CheckArguments),
     /// List all steps, or show the parameters of one
     Steps {
@@ -61,7 +61,7 @@ pub(crate) enum Command {
     },
     /// Say what is in a raster file
     Info {
-        /// GeoTIFF, 16-bit PNG or NumPy array
+        /// A raster file of any format that is read: docs/formats.md lists them
         file: PathBuf,
         /// For programs
         #[arg(long)]

@@ -1,4 +1,4 @@
-//! The ground a landscape stands on: its grid, the size of its cells, its place on Earth, its no-data mask.
+//! The ground a landscape stands on: its grid, the size of its cells, its georeference, its no-data mask.
 
 use serde::{Deserialize, Serialize};
 
@@ -11,14 +11,14 @@ pub struct Domain {
     pub size: Size,
     /// Side of the square cells in metres.
     pub cell: f64,
-    /// Place on Earth, where the ground came from a georeferenced file.
+    /// CRS and origin, where the ground came from a georeferenced file.
     pub georeference: Option<Georeference>,
     /// Cells with data; `None` where all have.
     pub valid: Option<Mask>,
 }
 
 impl Domain {
-    /// A domain without a place on Earth and without no-data cells.
+    /// A domain without a georeference and without no-data cells.
     pub fn new(size: Size, cell: f64) -> Self {
         Self { size, cell, georeference: None, valid: None }
     }

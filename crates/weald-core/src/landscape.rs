@@ -13,13 +13,14 @@ use crate::plants::Plants;
 /// A named field with its unit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Layer {
-    /// Unit of the values: `m`, `m/step`, `1` …
+    /// Unit of the values: `m`, `m³/s`, `1` …
     pub unit: String,
     /// One value a cell.
     pub field: Field,
 }
 
-/// A domain, its layers, its plants and its attachments. Layers come out in the order of their names, whatever the order they went in.
+/// A domain, its layers, its plants and its attachments. Layers come out in the order of their names, whatever the
+/// order they went in.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Landscape {
     /// Grid, cell size, georeference, mask.

@@ -1,8 +1,8 @@
 //! What ground is made of: materials in layers, bedrock first.
 //!
 //! A material above the bedrock is as thick as the layer of its name says. Before there is such a layer,
-//! [`strata`](crate::strata) make it from the declaration: an even `thickness`, or a `bottom` from which the material fills the
-//! ground up to what lies on it, so that several bottoms are strata that lie level inside mountains.
+//! [`strata`](crate::strata) make it from the declaration: an even `thickness`, or a `bottom` from which the material
+//! fills the ground up to what lies on it, so that several bottoms are strata that lie level inside mountains.
 
 use crate::grid::Field;
 
@@ -15,9 +15,9 @@ pub const MAX_MATERIALS: usize = 8;
 pub struct Material {
     /// Name, and that of its layer.
     pub name: String,
-    /// Share of the free capacity of the water that is taken from this material in a step (0 to 1).
+    /// Share of the unused transport capacity of the water that an iteration takes from this material (0 to 1).
     pub erodibility: f64,
-    /// Share of the regolith still missing that standing water makes of it in a step (0 to 1).
+    /// Share of the regolith still missing that standing water makes of it in an iteration (0 to 1).
     pub solubility: f64,
     /// Steepest slope that rests, in degrees (0 to 90).
     pub talus_deg: f64,

@@ -15,7 +15,7 @@ pub struct StepReport {
     pub seconds: f64,
     /// Cells of the grid.
     pub cells: usize,
-    /// What the step counts: simulation steps, faults, octaves.
+    /// What the step counts: iterations, faults, octaves.
     pub iterations: u64,
     /// Cells times iterations, a second.
     pub cell_updates_per_second: f64,

@@ -57,7 +57,7 @@ pub enum Metadata {
     NoData,
     /// The side of a cell.
     Cell,
-    /// The place on Earth.
+    /// The georeferencing: CRS and origin.
     Place,
     /// A CRS that the format cannot express.
     Crs(CrsSupport),
@@ -123,7 +123,7 @@ impl Metadata {
         match self {
             Self::NoData => "cells without data are written as the lowest value",
             Self::Cell => "the side of a cell is left out",
-            Self::Place => "the place on Earth is left out; .tif holds it",
+            Self::Place => "the georeferencing (CRS and origin) is left out; .tif holds it",
             Self::Crs(crs) => crs.loss,
             Self::Provenance => "unit, seed and the hash of the recipe are left out; report.json has them",
         }

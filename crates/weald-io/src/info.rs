@@ -23,7 +23,7 @@ pub struct Info {
     pub range: Option<(f32, f32)>,
     /// Side of a cell in metres, where cells are square and not in degrees.
     pub cell: Option<f64>,
-    /// Place on Earth.
+    /// Where on Earth it lies.
     pub georeference: Option<Georeference>,
     /// Share of the cells without data, 0 to 1.
     pub no_data_share: f64,

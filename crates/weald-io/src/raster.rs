@@ -18,7 +18,7 @@ pub struct Raster {
     pub valid: Option<Mask>,
     /// Side of a cell in metres, where the file says it and cells are square.
     pub cell: Option<f64>,
-    /// Place on Earth.
+    /// Where on Earth it lies.
     pub georeference: Option<Georeference>,
     /// Where the values came from.
     pub provenance: Option<Provenance>,

@@ -35,7 +35,7 @@ pub trait LandscapeExt: Sized {
     /// [`Error::Limit`] for too many cells, [`Error::Run`] for a cell that has no size.
     fn empty(columns: usize, rows: usize, cell: f64) -> Result<Self, Error>;
 
-    /// A raster file of any format that Weald reads as the layer `height`, with its cell size, its place on Earth and
+    /// A raster file of any format that Weald reads as the layer `height`, with its cell size, its georeferencing and
     /// its no-data cells. A file in degrees, or of oblong cells, comes out in square cells of metres.
     ///
     /// # Errors

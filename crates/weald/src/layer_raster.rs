@@ -1,4 +1,4 @@
-//! A layer as a raster: with the cell, the place on Earth and the mask of its landscape.
+//! A layer as a raster: with the cell, the georeferencing and the mask of its landscape.
 
 use weald_core::error::Error;
 use weald_core::landscape::Landscape;

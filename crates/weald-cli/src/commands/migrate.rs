@@ -21,7 +21,7 @@ pub(crate) fn migrate(recipe: &Path, out: Option<&PathBuf>) -> Result<(), Failur
     let changes =
         migrated.changes.iter().map(|change| format!("{shown}:{}: {}\n", change.line, change.message));
     let end = match migrated.changes.len() {
-        0 => format!("{shown}: nothing has another name\n"),
+        0 => format!("{shown}: nothing to rename\n"),
         count => format!("{}: rewritten, changes: {count}\n", target.display()),
     };
     stdout::print(&(changes.collect::<String>() + &end))

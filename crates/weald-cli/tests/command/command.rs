@@ -74,7 +74,7 @@ fn a_bad_recipe_ends_with_3_and_names_file_line_key_value_and_range() {
             &[command, "r.toml"],
             3,
             &[
-                "error: r.toml:3: landscape: `cell` is -10, outside its range: 0.001 to 100000",
+                "error: r.toml:3: landscape: `cell` is -10, outside its range: 0.001 to 100000 m",
                 "error: r.toml:7: diamond-square: unknown key `releif`; did you mean `relief`?",
             ],
         );
@@ -214,7 +214,7 @@ fn a_recipe_with_an_old_name_is_refused_and_rewritten_in_place_or_beside() {
     assert_ends(&place, &["check", "new.toml"], 0, &[]);
     assert_ends(&place, &["migrate", "r.toml"], 0, &[]);
     assert_eq!(text("r.toml"), text("new.toml"));
-    assert_eq!(stdout(&place.weald(&["migrate", "r.toml"])), "r.toml: nothing has another name\n");
+    assert_eq!(stdout(&place.weald(&["migrate", "r.toml"])), "r.toml: nothing to rename\n");
     assert_eq!(place.names("."), ["new.toml", "r.toml"]);
     assert_ends(&place, &["migrate", "none.toml"], 3, &["none.toml:1: the recipe cannot be read"]);
 }
@@ -301,7 +301,7 @@ fn a_conversion_keeps_the_place_on_earth_and_the_cells_without_data() {
         &place,
         &["convert", data, "copy.npy"],
         0,
-        &["note: copy.npy: the place on Earth is left out; .tif holds it"],
+        &["note: copy.npy: the georeferencing (CRS and origin) is left out; .tif holds it"],
     );
     assert_ends(&place, &["convert", data, "none/copy.tif"], 1, &["none/copy.tif", "make the folder"]);
 }

@@ -35,7 +35,7 @@ impl Place<'_> {
                 "the CRS has no EPSG code, without which GeoJSON cannot name it; coordinates are in its units"
             }
             None => {
-                "the landscape has no place on Earth; coordinates are metres from its south-western corner, y \
+                "the landscape is not georeferenced; coordinates are metres from its south-western corner, y \
                  northward; GDAL takes them for degrees unless it is set otherwise"
             }
         };

@@ -15,7 +15,7 @@ pub(super) const FIGURE: Figure = Figure {
     make: Make::Alone(make),
 };
 
-/// Share of the free capacity that is taken up in a step (K_s), fast to slow.
+/// Share of the unused transport capacity that an iteration takes up (K_s), fast to slow.
 const RATES: [f64; 4] = [1.0, 0.1, 0.03, 0.01];
 
 /// K_s from which dissolution is fast.

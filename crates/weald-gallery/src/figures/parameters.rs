@@ -17,15 +17,15 @@ pub(super) const FIGURE: Figure = Figure {
 /// Symbol, key of the `hydraulic` step, value and meaning.
 const TABLE: [[&str; 4]; 12] = [
     ["k", "flow_rate", "0.4", "dt² g A / l: how fast differences in level turn into flow"],
-    ["R", "rain", "0.01", "cells per step while it rains"],
-    ["E", "evaporation", "0.03", "cells per step while the sun shines"],
+    ["R", "rain", "0.01", "cells per iteration while it rains"],
+    ["E", "evaporation", "0.03", "cells per iteration while the sun shines"],
     ["T_R", "rain_period", "60", "steps"],
     ["T_E", "dry_period", "60", "steps"],
     ["ε", "epsilon", "0.001", "cells of depth, added where sediment is divided by depth"],
     ["ε_v", "velocity_epsilon", "0.1", "cells of depth, added where flux is divided by depth"],
     ["K_c", "capacity", "10.0", "sediment that a unit of water holds at unit speed and slope"],
     ["K_v", "erosion", "0.005", "uptake a unit of speed"],
-    ["r", "deposit_ratio", "1.0", "share of a deposit that the ground gets back"],
+    ["r", "deposit_ratio", "1.0", "share of deposited sediment added to the ground"],
     [
         "K_t",
         "thermal.strength",

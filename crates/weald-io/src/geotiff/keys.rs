@@ -1,4 +1,4 @@
-//! Place on Earth: the GeoTIFF keys, the pixel scale and the tie point.
+//! Georeferencing: the GeoTIFF keys, the pixel scale and the tie point.
 
 use super::super::Fault;
 use super::super::geokeys::{PIXEL_IS_AREA, PIXEL_IS_POINT, RASTER_TYPE, epsg, metres_per_unit, set_short};

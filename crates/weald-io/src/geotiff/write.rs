@@ -128,7 +128,7 @@ fn tags(raster: &Raster, no_data: f32) -> Vec<Entry> {
     tags
 }
 
-/// Tags of the place on Earth, or of a plain grid in metres with its south-western corner at 0, 0.
+/// Tags of the georeferencing, or of a plain grid in metres with its south-western corner at 0, 0.
 fn place_tags(raster: &Raster) -> Vec<Entry> {
     let (origin, pixel) = match (&raster.georeference, raster.cell) {
         (Some(place), _) => (place.origin, place.pixel),

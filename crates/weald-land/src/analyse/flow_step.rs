@@ -14,7 +14,7 @@ use weald_engine::step::{Entry, Outcome, Stage, Step};
 pub const ENTRY: Entry = Entry::of::<FlowStep>(
     "flow",
     Stage::Analyse,
-    "leads water over the ground: directions of flow and upslope areas",
+    "leads water over the ground: directions of flow and upslope (drainage) areas",
     "O'Callaghan and Mark 1984; Freeman 1991; Barnes et al. 2014; Lindsay 2016",
 );
 
@@ -62,9 +62,10 @@ parameters! {
         /// Height of the sea. Ground no higher that is connected to the border by such ground is sea, in which
         /// flow ends. Without it there is no sea.
         sea_level: Option<f64> = None, range -1.0e6..=1.0e6, unit "m";
-        /// Layer of the runoff of each cell in mm/year. With it, `discharge` is written.
+        /// Layer of the runoff of each cell in mm/year, whatever unit it says. With it, the layer `discharge` is
+        /// written.
         weight: Option<LayerName> = None;
-        /// Layer for the heights after filling or breaching. Without it they are not kept.
+        /// Layer for the heights of the ground after filling or breaching. Without it they are not kept.
         filled: Option<LayerName> = None;
     }
 }
@@ -99,6 +100,11 @@ impl Step for FlowStep {
         let discharge = weight.map(|runoff| {
             scaled(size, &self.sums(landscape, &routed, Some(runoff)), area * MILLIMETRES_PER_YEAR)
         });
+        let is_valid = |cell: usize| domain.valid.as_ref().is_none_or(|valid| valid.is_valid_at(cell));
+        let is_all_sea = (0..size.cells()).all(|cell| !is_valid(cell) || routed.directions.is_sea(cell));
+        let note = self.sea_level.filter(|_| is_all_sea);
+        let note =
+            note.map(|level| format!("all ground is sea: none is above `sea_level`, which is {level} m"));
         landscape.insert("flow_direction", "1", routed.directions.layer());
         landscape.insert("accumulation", "m²", areas);
         if let Some(discharge) = discharge {
@@ -107,7 +113,7 @@ impl Step for FlowStep {
         if let Some(name) = &self.filled {
             landscape.insert(&name.0, "m", routed.surface);
         }
-        Ok(Outcome { iterations: 1, ..Outcome::default() })
+        Ok(Outcome { iterations: 1, notes: note.into_iter().collect(), ..Outcome::default() })
     }
 }
 

@@ -53,7 +53,7 @@ parameters! {
         wetness: LayerName = LayerName::of("wetness");
         /// Layer of the depth of water that a simulation left.
         water: Option<LayerName> = None;
-        /// Water of a simulation that is no deeper is rain on its way.
+        /// Shallower water of a simulation counts as overland flow and wets nothing.
         shallowest: f64 = 0.05, range 0.0..=1000.0, unit "m", with water;
         /// Layer of rivers.
         rivers: Option<LayerName> = None;
@@ -125,8 +125,8 @@ impl Moisture {
     }
 }
 
-/// Height of each cell above the first water on the way of its flow, or above the outlet where there is none;
-/// 0 in water, and where the way leads over ground that is higher. In metres.
+/// Height of each cell above the first water on its flow path, or above the outlet where there is none;
+/// 0 in water, and where the path leads over ground that is higher. In metres.
 pub fn height_above_water(height: &Field, directions: &Directions, water: &[bool]) -> Field {
     let mut base = height.values().to_vec();
     for cell in directions.upward(|_| true) {

@@ -92,8 +92,11 @@ impl Step for Select {
             let masks = conditions.iter().map(|(condition, field)| condition.mask(f64::from(field.at(x, y))));
             turned(self.combine.of(masks), self.not)
         });
+        let is_empty = mask.values().iter().all(|&share| share == 0.0);
+        let note = format!("nothing is selected: `{}` is 0 in every cell", self.into.0);
         landscape.insert(&self.into.0, "1", mask);
-        Ok(Outcome { iterations: 1, ..Outcome::default() })
+        let notes = is_empty.then_some(note).into_iter().collect();
+        Ok(Outcome { iterations: 1, notes, ..Outcome::default() })
     }
 }
 

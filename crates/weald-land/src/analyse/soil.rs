@@ -73,11 +73,12 @@ parameters! {
         loose: Option<LayerName> = None;
         /// Time for which the soil has formed. The default is that since the last ice age.
         age: f64 = 10_000.0, range 1.0..=10_000_000.0, unit "yr";
-        /// Bare rock that weathers to soil in a year (P). The default is that of Heimsath et al.
+        /// Soil production rate on bare rock (P). The default is that of Heimsath et al.
         weathering: f64 = 0.000_077, range 0.0..=0.1, unit "m/yr";
-        /// Depth at which weathering has fallen to a third (h₀). The default is that of Heimsath et al.
+        /// e-folding depth of soil production: under that depth of soil it is 1/e, or 37 %, of that on bare rock
+        /// (h₀). The default is that of Heimsath et al.
         weathering_depth: f64 = 0.42, range 0.01..=10.0, unit "m";
-        /// How readily soil creeps downhill (K). The default is that of Roering et al.
+        /// Soil transport coefficient of creep downhill (K). The default is that of Roering et al.
         creep: f64 = 0.003, range 0.0..=10.0, unit "m²/yr";
         /// Slope at which all soil slides off (S).
         critical_slope_deg: f64 = 50.0, range 5.0..=85.0, unit "deg";

@@ -104,7 +104,7 @@ impl<'a> Change<'a> {
         let rows = old.size.rows as f64 / factor;
         if (rows - size.rows as f64).abs() >= 1.0 {
             return Err(Error::Run(format!(
-                "resample: {} cells brought to {size} would not be square; for {} columns give {} rows",
+                "{} cells brought to {size} would not be square; for {} columns give {} rows",
                 old.size,
                 size.columns,
                 rows.round().max(1.0)

@@ -63,7 +63,7 @@ fn canvas_of(landscape: &Landscape) -> Result<Canvas, Error> {
 
 fn unit_of(layer: &str) -> &'static str {
     match layer {
-        "source" => "m/step",
+        "source" => "m/iteration",
         "rain" | "frozen" => "1",
         _ => "m",
     }

@@ -69,12 +69,12 @@ pub enum Effect {
     },
     /// Lets water rise.
     Source {
-        /// Metres a simulation step.
+        /// Metres per iteration.
         rate: f64,
     },
     /// Lets water run off.
     Drain {
-        /// Most metres a simulation step.
+        /// Most metres per iteration.
         rate: f64,
     },
     /// Changes the rain.

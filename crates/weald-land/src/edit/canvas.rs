@@ -29,7 +29,7 @@ pub struct Canvas {
     pub thickness: Vec<Field>,
     /// Depth of the water.
     pub water: Field,
-    /// Metres of water that rise in a simulation step; a drain is negative.
+    /// Metres of water that rise in an iteration; a drain is negative.
     pub source: Field,
     /// Factor on the rain.
     pub rain: Field,

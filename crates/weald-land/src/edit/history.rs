@@ -1,4 +1,4 @@
-//! Undo and redo over strokes and simulation steps, within a budget of memory.
+//! Undo and redo over strokes and iterations, within a budget of memory.
 //!
 //! A session is deterministic, so any of its states follows from an earlier one and the actions since. The
 //! history keeps snapshots of some states and all actions: to go back is to restore the nearest snapshot
@@ -22,7 +22,7 @@ pub enum Action {
 }
 
 impl Action {
-    /// What it costs to do it again, in simulation steps.
+    /// What it costs to do it again, in iterations.
     fn work(&self) -> u64 {
         match self {
             Self::Steps(steps) => (*steps).max(1),

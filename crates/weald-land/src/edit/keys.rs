@@ -12,7 +12,7 @@ weald_core::parameters! {
     /// The keys of an edit, beside `do`: add, remove, add-water, remove-water, smooth, flatten, source, drain,
     /// rain, freeze or thaw.
     pub struct EditKeys {
-        /// Simulation step before which the stroke happens; 0 is before the first.
+        /// Iteration before which the stroke happens; 0 is before the first.
         step: u64 = 0, range 0..=9_007_199_254_740_991_u64;
         /// Place `[x, y]` in metres from the north-western corner, east and south, or a list of places for a
         /// line through them.
@@ -33,8 +33,8 @@ weald_core::parameters! {
         times: Option<u32> = None, range 1..=64;
         /// Height that `flatten` brings the ground to.
         height: Option<f64> = None, range -100_000.0..=100_000.0, unit "m";
-        /// Metres of water a simulation step for `source` and `drain`.
-        rate: Option<f64> = None, range 0.0..=1000.0, unit "m/step";
+        /// Metres of water per iteration for `source` and `drain`.
+        rate: Option<f64> = None, range 0.0..=1000.0, unit "m/iteration";
         /// Factor on the rain for `rain`.
         factor: Option<f64> = None, range 0.0..=1000.0;
     }

@@ -1,7 +1,7 @@
 //! Changing a landscape by hand while it is simulated, as a library: no window, no mouse, the same bits again.
 //!
 //! A [`Brush`] changes a [`Canvas`], plain fields over a rectangle of cells that any engine can hand over and
-//! take back. A [`Script`] says which stroke happens before which simulation step, and a [`History`] goes back
+//! take back. A [`Script`] says which stroke happens before which iteration, and a [`History`] goes back
 //! and forth over strokes and steps.
 //!
 //! ```

@@ -1,4 +1,4 @@
-//! An interactive session as data: which stroke happens before which simulation step, so that it replays to the same
+//! An interactive session as data: which stroke happens before which iteration, so that it replays to the same
 //! bits.
 //!
 //! The extension of a file chooses its layout. In JSON lines (`.jsonl`, `.ndjson`) each line is an edit:
@@ -74,7 +74,7 @@ impl Script {
         &self.edits
     }
 
-    /// The edits that happen after so many simulation steps and before the next.
+    /// The edits that happen after so many iterations and before the next.
     pub fn before(&self, step: u64) -> &[Edit] {
         let first = self.edits.partition_point(|edit| edit.step < step);
         let end = self.edits.partition_point(|edit| edit.step <= step);

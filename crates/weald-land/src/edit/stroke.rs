@@ -1,11 +1,11 @@
-//! A stroke of a brush before a step of a simulation.
+//! A stroke of a brush before an iteration of a simulation.
 
 use super::brush::Brush;
 
-/// A stroke, and the simulation step before which it happens.
+/// A stroke, and the iteration before which it happens.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Edit {
-    /// Steps of the simulation that are done before it; 0 for none.
+    /// Iterations of the simulation that are done before it; 0 for none.
     pub step: u64,
     /// The stroke.
     pub brush: Brush,

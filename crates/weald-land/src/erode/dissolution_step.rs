@@ -45,13 +45,14 @@ parameters! {
     pub struct DissolutionStep {
         /// Depth to which standing water soaks the ground (`r_max`).
         depth: f64 = 0.2, range 0.0..=1000.0, unit "m";
-        /// Share of the flow of the regolith that friction takes in a step.
+        /// Share of the flow of the regolith that friction takes in an iteration.
         damping: f64 = 0.85, range 0.0..=1.0;
-        /// Pipe constant k of the regolith: how fast differences in level turn into flow. Unstable above 0.5.
+        /// Pipe constant k of the regolith, which is no discharge: how fast differences in level turn into flow.
+        /// Unstable above 0.5.
         flow_rate: f64 = 0.0981, range 0.0001..=0.5;
         /// Material that settles. Default: the last of the landscape.
         deposit: Option<LayerName> = None;
-        /// Steps to run.
+        /// Iterations to run.
         iterations: u32 = 100, range 0..=10_000_000;
         /// Layer with the depth of the water.
         water: LayerName = LayerName::of("water");
@@ -61,11 +62,11 @@ parameters! {
 }
 
 parameters! {
-    /// Dissolution within every step of `hydraulic`.
+    /// Dissolution within every iteration of `hydraulic`.
     pub struct DissolutionWithin {
         /// Depth to which standing water soaks the ground (`r_max`).
         depth: f64 = 0.2, range 0.0..=1000.0, unit "m";
-        /// Share of the flow of the regolith that friction takes in a step.
+        /// Share of the flow of the regolith that friction takes in an iteration.
         damping: f64 = 0.85, range 0.0..=1.0;
     }
 }
@@ -96,7 +97,7 @@ impl DissolutionWithin {
 pub const ENTRY: Entry = Entry::of::<DissolutionStep>(
     "dissolution",
     Stage::Erode,
-    "turns ground under standing water into regolith that creeps downhill",
+    "softens ground under standing water to regolith, which creeps downhill",
     "Šťava et al. 2008, doi 10.2312/SCA/SCA08/201-210",
 );
 

@@ -44,7 +44,7 @@ uniform! {
         pub(crate) capacity: f32,
         /// Uptake a unit of speed.
         pub(crate) uptake_by_speed: f32,
-        /// Share of the free capacity that is taken up.
+        /// Share of the unused transport capacity that is taken up.
         pub(crate) uptake_by_capacity: f32,
         pub(crate) deposit_ratio: f32,
         pub(crate) epsilon: f32,

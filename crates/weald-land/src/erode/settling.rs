@@ -2,7 +2,7 @@
 //!
 //! Han 2015, eq. 10–16: face velocity is flux over the mean depth of both cells; the mean sine of the slopes
 //! around a cell gives the capacity `K_c |v| sin a · d`; water takes `K_v |v|` (or, in the comparison with
-//! dissolution, a share of the free capacity), keeps what it can carry and drops the rest, of which the
+//! dissolution, a share of the unused transport capacity), keeps what it can carry and drops the rest, of which the
 //! ground gets back the deposit ratio `r`.
 //!
 //! Ground is kept as start height plus change, because a thin sheet of water on a high mountain wears less in a step

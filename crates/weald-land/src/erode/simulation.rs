@@ -19,7 +19,7 @@ pub(crate) struct Simulation<'a, P: Process> {
     pub(crate) process: &'a P,
     /// Names of the state planes, for checkpoints and errors.
     pub(crate) plane_names: &'a [String],
-    /// Steps to run.
+    /// Iterations to run.
     pub(crate) iterations: u64,
     /// Weather of each step.
     pub(crate) weather: &'a (dyn Fn(u64) -> P::Weather + Sync),

@@ -35,11 +35,11 @@ parameters! {
     /// # Ok::<(), Error>(())
     /// ```
     pub struct SlippageStep {
-        /// Share of the excess that slides in a step. Times the number of materials at most 0.25.
+        /// Share of the excess that slides in an iteration. Times the number of materials at most 0.25.
         strength: f64 = 0.03, range 0.0..=0.25;
         /// Whether rough ground loses its hold and slides off gentler slopes too.
         softening: bool = false;
-        /// Steps to run.
+        /// Iterations to run.
         iterations: u32 = 100, range 0..=10_000_000;
         /// Layer with the height of the ground.
         layer: LayerName = LayerName::of("height");
@@ -47,9 +47,9 @@ parameters! {
 }
 
 parameters! {
-    /// Slippage within every step of `hydraulic`.
+    /// Slippage within every iteration of `hydraulic`.
     pub struct SlippageWithin {
-        /// Share of the excess that slides in a step. Times the number of materials at most 0.25.
+        /// Share of the excess that slides in an iteration. Times the number of materials at most 0.25.
         strength: f64 = 0.03, range 0.0..=0.25;
         /// Whether rough ground loses its hold and slides off gentler slopes too.
         softening: bool = false;

@@ -1,4 +1,4 @@
-//! Springs and drains: places where water comes or goes, `q exp(-r² / R²)` a step at distance `r` (Šťava et al.
+//! Springs and drains: places where water comes or goes, `q exp(-r² / R²)` per iteration at distance `r` (Šťava et al.
 //! 2008). Where less than a millionth of the peak is left, nothing is.
 
 use std::ops::Range;
@@ -17,8 +17,9 @@ parameters! {
         y: f64 = f64::NAN, range -10_000_000.0..=10_000_000.0, unit "m";
         /// Distance at which 1/e of the rate is left (R).
         radius: f64 = f64::NAN, range 0.001..=10_000_000.0, unit "m";
-        /// Depth of water at the middle that comes or goes in a step (q).
-        rate: f64 = f64::NAN, range 0.0..=1000.0, unit "m/step";
+        /// Depth of water that comes or goes in an iteration at the centre (q). In all it is π R² q, in m³ per
+        /// iteration.
+        rate: f64 = f64::NAN, range 0.0..=1000.0, unit "m/iteration";
     }
 }
 
@@ -37,7 +38,7 @@ impl Spring {
         [cells(self.x, domain.size.columns), cells(self.y, domain.size.rows)]
     }
 
-    /// Adds `sign` times its water to a field on a domain, in metres per step.
+    /// Adds `sign` times its water to a field on a domain, in metres per iteration.
     pub(crate) fn add_to(&self, field: &mut Field, domain: &Domain, sign: f64) {
         let [columns, rows] = self.reached(domain);
         for y in rows {
@@ -53,7 +54,7 @@ impl Spring {
     }
 }
 
-/// What all springs give, less what all drains take, in metres per step, on top of a painted field.
+/// What all springs give, less what all drains take, in metres per iteration, on top of a painted field.
 pub(crate) fn field_of(
     domain: &Domain,
     painted: Option<&Field>,
@@ -75,8 +76,8 @@ pub(crate) fn out_of_reach(domain: &Domain, key: &str, springs: &[Nested<Spring>
     let [width, height] = [domain.size.columns, domain.size.rows].map(|cells| cells as f64 * domain.cell);
     let notes = |Nested(Spring { x, y, .. }): &Nested<Spring>| {
         format!(
-            "`{key}`: the one at x = {x}, y = {y} reaches no cell of the landscape, which is {width} m wide and \
-             {height} m high"
+            "`{key}`: the one at x = {x}, y = {y} reaches no cell of the landscape, which is {width} m \
+             from west to east and {height} m from north to south"
         )
     };
     springs.iter().filter(far).map(notes).collect()
@@ -94,7 +95,7 @@ mod tests {
         let field = field_of(&domain, None, &[Nested(spring.clone())], &[]);
         let volume = field.sum() * 100.0;
         let expected = std::f64::consts::PI * 40.0 * 40.0 * 0.5;
-        assert!((volume / expected - 1.0).abs() < 1e-5, "{volume} m³ a step, not {expected}");
+        assert!((volume / expected - 1.0).abs() < 1e-5, "{volume} m³ per iteration, not {expected}");
         let both = field_of(&domain, None, &[Nested(spring.clone())], &[Nested(spring)]);
         assert!(both.values().iter().all(|&left| left == 0.0), "a drain takes what a spring gives");
     }

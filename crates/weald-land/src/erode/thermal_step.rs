@@ -27,11 +27,11 @@ parameters! {
     pub struct Thermal {
         /// How slopes are compared with the talus.
         scheme: Scheme = Scheme::Isotropic;
-        /// Steepest slope that rests, as a tangent; 0.8 is 39°.
+        /// Steepest slope that rests, as a tangent (rise over run); 0.8 is 39°.
         talus: f64 = 0.8, range 0.0..=100.0;
-        /// Share of the excess that slides in a step. Unstable above 0.25.
+        /// Share of the excess that slides in an iteration. Unstable above 0.25.
         strength: f64 = 0.05, range 0.0..=0.25;
-        /// Steps to run.
+        /// Iterations to run.
         iterations: u32 = 100, range 0..=10_000_000;
         /// Layer to weather.
         layer: LayerName = LayerName::of("height");
@@ -39,13 +39,13 @@ parameters! {
 }
 
 parameters! {
-    /// Thermal weathering within every step of `hydraulic`.
+    /// Thermal weathering within every iteration of `hydraulic`.
     pub struct ThermalWithin {
         /// How slopes are compared with the talus.
         scheme: Scheme = Scheme::Isotropic;
-        /// Steepest slope that rests, as a tangent; 0.8 is 39°.
+        /// Steepest slope that rests, as a tangent (rise over run); 0.8 is 39°.
         talus: f64 = 0.8, range 0.0..=100.0;
-        /// Share of the excess that slides in a step. Unstable above 0.25.
+        /// Share of the excess that slides in an iteration. Unstable above 0.25.
         strength: f64 = 0.05, range 0.0..=0.25;
     }
 }
@@ -62,7 +62,7 @@ impl ThermalWithin {
 pub const ENTRY: Entry = Entry::of::<Thermal>(
     "thermal",
     Stage::Erode,
-    "lets ground steeper than its talus slide until it rests",
+    "lets ground steeper than its talus slide until it rests (dry mass wasting)",
     "Han 2015, eq. 17–21, doi 10.7583/JKGS.2015.15.6.171",
 );
 

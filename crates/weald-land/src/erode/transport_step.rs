@@ -54,7 +54,7 @@ parameters! {
     pub struct Carry {
         /// Layer to carry, as an amount in each cell: what leaves a cell enters its neighbours.
         layer: LayerName = LayerName::needed();
-        /// Steps to run.
+        /// Iterations to run.
         iterations: u32 = 100, range 0..=10_000_000;
         /// How it travels.
         scheme: Scheme = Scheme::MacCormack;
@@ -62,9 +62,9 @@ parameters! {
         conserve: bool = true, when scheme = "maccormack";
         /// Layer with the depth of water.
         water: LayerName = LayerName::of("water");
-        /// Layer with the flow through the eastern edge of each cell, in m³ a step.
+        /// Layer with the flow through the eastern edge of each cell, in m³ per iteration.
         flux_x: LayerName = LayerName::of("flux_x");
-        /// Layer with the flow through the southern edge of each cell, in m³ a step.
+        /// Layer with the flow through the southern edge of each cell, in m³ per iteration.
         flux_y: LayerName = LayerName::of("flux_y");
         /// Depth added where amounts and flows are divided by depth.
         epsilon: Length = Length::Cells(0.001), range 0.000_000_1..=100.0, unit "m";

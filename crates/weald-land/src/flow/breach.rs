@@ -29,7 +29,7 @@ pub(super) fn breach(surface: &mut Surface, basins: &Basins, saddles: &Saddles, 
 #[derive(Clone, Copy, Debug, Default)]
 struct Exit {
     level: f32,
-    /// The cell of the basin at the pass.
+    /// The cell of the basin at the saddle.
     from: usize,
     /// The cell beyond; the same one where water leaves over the border.
     to: usize,
@@ -105,7 +105,7 @@ impl FlowPaths<'_> {
         }
     }
 
-    /// The cells from one of a basin down, and up again to its pass, from where the two ways part.
+    /// The cells from one of a basin down, and up again to its saddle, from where the two paths part.
     fn across(&self, surface: &Surface, from: usize, basin: u32) -> Vec<usize> {
         let mut down = self.descent(surface, from);
         let mut up = self.descent(surface, self.exits[basin as usize].from);

@@ -1,6 +1,6 @@
 //! Flow routing: where the water of each cell goes, and how much land lies above it.
 //!
-//! Depressions are filled to their lowest rims or breached, flat ground is given a slope, then each cell
+//! Depressions are filled to their lowest rims or breached, flat ground is given directions, then each cell
 //! drains to its steepest neighbour (D8, O'Callaghan and Mark 1984, doi 10.1016/S0734-189X(84)80011-0). The
 //! stages, one file each:
 //!
@@ -10,7 +10,7 @@
 //! | `descent` | steepest descent of every cell, by rows |
 //! | `basins` | the cells that descend to the same pit |
 //! | `saddles` | the saddles between basins that matter: a minimum spanning tree |
-//! | `union` | sets of basins that were joined |
+//! | `disjoint_sets` | sets of basins that were joined |
 //! | `fill` | the level at which water leaves each basin: what priority-flood gives |
 //! | `breach` | channels through the rims instead |
 //! | `flats` | directions over flat ground |

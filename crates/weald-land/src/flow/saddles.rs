@@ -1,10 +1,10 @@
 //! The saddles between basins that matter: those of a minimum spanning tree.
 //!
-//! A pass is a pair of neighbouring cells of two basins, as high as the higher of them, or a cell from which water can
-//! leave over the border. The lowest path between two basins leads over saddles of the minimum spanning tree alone (Hu
-//! 1961). Bands of rows first sort out the saddles that are the highest of a cycle within the band, since no such
-//! saddle is in the tree (Tarjan's red rule); few are left to be sorted together. Saddles are ordered by height, then
-//! by place, so that there is one tree, whatever the bands.
+//! A saddle is a pair of neighbouring cells of two basins, as high as the higher of them, or a cell from which water
+//! can leave over the border. The lowest path between two basins leads over saddles of the minimum spanning tree
+//! alone (Hu 1961). Bands of rows first sort out the saddles that are the highest of a cycle within the band, since
+//! no such saddle is in the tree (Tarjan's red rule); few are left to be sorted together. Saddles are ordered by
+//! height, then by place, so that there is one tree, whatever the bands.
 
 use rayon::prelude::*;
 
@@ -15,7 +15,7 @@ use super::surface::Surface;
 /// Rows of a band.
 const BAND: usize = 32;
 
-/// Bits of a pass that say where it leads: east, south-east, south, south-west, or out.
+/// Bits of a saddle that say where it leads: east, south-east, south, south-west, or out.
 const DIRECTION_BITS: u32 = 3;
 const OUT: u64 = 4;
 
@@ -31,7 +31,7 @@ pub(super) struct Saddles {
 /// A saddle between two basins.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Saddle {
-    /// Height of the pass.
+    /// Height of the saddle.
     pub(super) level: f32,
     /// A cell of each basin beside the other. For a path out of the grid both are the same cell.
     pub(super) cells: [usize; 2],
@@ -81,7 +81,7 @@ impl Finder<'_> {
         kept
     }
 
-    /// The passes from a cell to its eastern and southern neighbours, and out.
+    /// The saddles from a cell to its eastern and southern neighbours, and out.
     fn beside(&self, cell: usize, found: &mut Found) {
         let (level, basin) = (self.surface.level[cell], self.basins.labels[cell]);
         if !self.surface.has_data(cell) {
@@ -122,7 +122,7 @@ impl Finder<'_> {
     }
 }
 
-/// A pass in one number: its height above its place. A cell number needs 29 bits, since a grid has at most
+/// A saddle in one number: its height above its place. A cell number needs 29 bits, since a grid has at most
 /// 2^28 cells within its ring.
 fn packed(level: f32, cell: usize, direction: u64) -> u64 {
     u64::from(key(level)) << 32 | (cell as u64) << DIRECTION_BITS | direction

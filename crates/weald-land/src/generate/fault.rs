@@ -39,7 +39,7 @@ const MAX_SIDE: usize = 1 << 15;
 pub const ENTRY: Entry = Entry::of::<Fault>(
     "fault",
     Stage::Generate,
-    "random lines lift one side and lower the other, by steps that shrink",
+    "random lines lift one side and lower the other, by heights that shrink",
     "Fault formation, common in games (OGLDEV tutorial)",
 );
 

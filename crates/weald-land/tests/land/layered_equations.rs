@@ -94,7 +94,7 @@ fn ground(masked: bool) -> Landscape {
         ("sand", "m", -0.1, 0.2),
         ("wetness", "1", 0.2, 1.7),
         ("sunshine", "1", 0.1, 2.0),
-        ("seepage", "m/step", -0.03, 0.02),
+        ("seepage", "m/iteration", -0.03, 0.02),
     ] {
         let raw = rough(COLUMNS, ROWS, most - least, 50 + name.len() as u64);
         let floor = if unit == "m" { 0.0 } else { least };

@@ -24,9 +24,9 @@ pub const ENTRY: Entry = Entry::of::<Creep>(
 parameters! {
     /// Creep of soil down every slope.
     pub struct Creep {
-        /// Share `K` of the difference in height that moves to a lower neighbour in a step. Unstable above 0.25.
+        /// Share `K` of the difference in height that moves to a lower neighbour in an iteration. Unstable above 0.25.
         rate: f64 = 0.1, range 0.0..=0.25;
-        /// Steps to run.
+        /// Iterations to run.
         iterations: u32 = 100, range 0..=10_000_000;
         /// Layer with the height of the ground.
         layer: LayerName = LayerName::of("height");

@@ -20,6 +20,17 @@ pub(super) struct LayerFile {
     pub(super) no_data: Option<f64>,
 }
 
+/// What to do where a file is in another coordinate reference system than the landscape, as the beginning of advice.
+fn other_crs(place: Option<&Georeference>, domain: &Domain) -> String {
+    let [there, here] = [place, domain.georeference.as_ref()].map(|place| place.and_then(|place| place.epsg));
+    match (there, here) {
+        (Some(there), Some(here)) if there != here => format!(
+            "it is in EPSG:{there}, the landscape in EPSG:{here}: warp it, as by gdalwarp -t_srs EPSG:{here}; or "
+        ),
+        _ => String::new(),
+    }
+}
+
 impl LayerFile {
     /// The layer, and texts that tell the user what had to be done to it.
     pub(super) fn read(&self, domain: &Domain) -> Result<(Field, Vec<String>), Error> {
@@ -52,6 +63,7 @@ impl LayerFile {
         if size == domain.size {
             return Ok((raster.field, raster.valid));
         }
+        let crs = other_crs(raster.georeference.as_ref(), domain);
         if self.resample {
             let old = Domain { valid: raster.valid, ..Domain::new(size, 1.0) };
             return resampled(&old, &raster.field, domain.size).map_err(|error| self.of_this_file(error));
@@ -59,8 +71,8 @@ impl LayerFile {
         Err(Error::input(
             &self.path,
             format!(
-                "has {size} cells, but the landscape has {}; give a file of that size, or load it in a step \
-                 with `resample = true`",
+                "has {size} cells, but the landscape has {}; {crs}give a file of that size, or `resample = true` in \
+                 its `load` step",
                 domain.size
             ),
         ))

@@ -44,7 +44,7 @@ pub fn hills() -> Raster {
     Raster { valid, provenance: Some(provenance), ..at(32616, [730_900.75, 4_069_271.25], [80.0; 2], field) }
 }
 
-/// A field with a place on Earth.
+/// A field with georeferencing.
 pub fn at(epsg: u32, origin: [f64; 2], pixel: [f64; 2], field: Field) -> Raster {
     let georeference = Some(Georeference { epsg: Some(epsg), origin, pixel, keys: None });
     let cell = (epsg != 4326).then_some(pixel[0]);

@@ -54,11 +54,11 @@ parameters! {
         from: Source = Source::Depressions;
         /// Layer of the depth of water.
         water: LayerName = LayerName::of("water"), when from = "water";
-        /// Water no deeper is rain on its way and not part of a lake.
+        /// Shallower water counts as overland flow, not as a lake.
         shallowest: f64 = 0.1, range 0.0..=1000.0, unit "m", when from = "water";
-        /// Lakes that are nowhere deeper are left out.
+        /// Least greatest depth: shallower lakes are left out.
         depth: f64 = 1.0, range 0.0..=1.0e6, unit "m";
-        /// Smaller lakes are left out. Without it, those of fewer than 12 cells.
+        /// Least area: smaller lakes are left out. Without it, those of fewer than 12 cells.
         area: Option<f64> = None, range 0.0..=1.0e15, unit "m²";
         /// Height of the sea, which is no lake. Without it there is no sea.
         sea_level: Option<f64> = None, range -1.0e6..=1.0e6, unit "m";

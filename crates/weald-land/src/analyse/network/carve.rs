@@ -13,7 +13,7 @@ pub struct Carve {
     pub reach: f64,
     /// Share of those cells that belong to the largest connected cut.
     pub largest: f64,
-    /// Correlation, -1 to 1, of the logarithms of lost height and of the area that drains through a cell, over
+    /// Correlation, -1 to 1, of the logarithms of lost height and of the upslope area of a cell, over
     /// the cells that lost height. It does not tell networks from gullies.
     pub against_area: f64,
 }

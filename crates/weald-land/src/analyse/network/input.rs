@@ -15,11 +15,11 @@ pub struct NetworkInput<'a> {
     /// Depth of water in metres.
     pub depth: &'a Field,
     /// Mean flux through the eastern face of each cell over whole rain cycles, in cell areas of cell height
-    /// a step (the volume with cells of size 1).
+    /// an iteration (the volume with cells of size 1).
     pub mean_flux_x: &'a Field,
     /// The same through the southern face.
     pub mean_flux_y: &'a Field,
-    /// Mean rain over the same time, in cells per step.
+    /// Mean rain over the same time, in cells per iteration.
     pub mean_rain: f64,
     /// Side of a cell in metres.
     pub cell: f64,

@@ -1,4 +1,4 @@
-//! Concavity θ of the rivers: slope falls with the area that drains through a place, `S ~ A^-θ`.
+//! Concavity θ of the rivers: slope falls with upslope area, `S ~ A^-θ`.
 //!
 //! Source: Flint 1974, "Stream gradient as a function of order, magnitude, and discharge",
 //! doi 10.1029/WR010i005p00969. Slopes are those of the flooded ground along D8 flow paths; level places are left out.

@@ -15,7 +15,7 @@ use weald_engine::step::{Entry, Outcome, Stage, Step};
 pub const ENTRY: Entry = Entry::of::<RiversStep>(
     "rivers",
     Stage::Analyse,
-    "finds rivers, their discharge, width, depth and order",
+    "finds rivers by their upslope area, with discharge, width, depth and order",
     "Leopold and Maddock 1953; Moody and Troutman 2002; Strahler 1957",
 );
 
@@ -39,21 +39,22 @@ parameters! {
     /// # Ok::<(), Error>(())
     /// ```
     pub struct RiversStep {
-        /// Layer of the height of the ground, or after filling or breaching, on which the water lies.
+        /// Heights from which the level of the water is taken: `height`, or the layer that `flow` writes with `filled`.
         of: LayerName = LayerName::of("height");
         /// Least upslope area of a river. Without it, a five-hundredth of the land.
         area: Option<f64> = None, range 0.0..=1.0e15, unit "m²";
-        /// Runoff of the land, which gives the discharge from the upslope area.
+        /// Runoff of the land: mean annual discharge = upslope area × runoff. Water of a simulation does not enter it.
         runoff: f64 = 500.0, range 0.0..=1.0e5, unit "mm/year", without discharge;
-        /// Layer of discharge in m³/s, such as `flow` writes with `weight`, which is taken instead of `runoff`.
+        /// Layer of mean annual discharge in m³/s, such as `flow` writes with `weight`, which is taken instead of
+        /// `runoff`.
         discharge: Option<LayerName> = None;
         /// Layer of lakes, such as `lakes` writes. Rivers end at their shores and begin at their outlets.
         lakes: Option<LayerName> = None;
-        /// Width of a river of 1 m³/s.
+        /// Width of a river of 1 m³/s, by its mean annual discharge.
         width: f64 = 7.2, range 0.0..=1.0e4, unit "m";
         /// Width grows with discharge to this power.
         width_exponent: f64 = 0.5, range 0.0..=2.0;
-        /// Depth of a river of 1 m³/s.
+        /// Depth of a river of 1 m³/s, by its mean annual discharge.
         depth: f64 = 0.27, range 0.0..=1.0e4, unit "m";
         /// Depth grows with discharge to this power.
         depth_exponent: f64 = 0.4, range 0.0..=2.0;
@@ -107,6 +108,9 @@ impl Step for RiversStep {
         let power = |cell: usize, exponent| libm::pow(f64::from(discharge.values()[cell]).max(0.0), exponent);
         let levels = network.levels(&directions, landscape.field(&self.of.0)?);
         let orders = network.orders(&directions, is_lake);
+        let none = !(0..network.member.len()).any(of_river);
+        let largest = upslope.values().iter().copied().fold(0.0, f32::max);
+        let note = format!("there is no river: `area` is {least} m², the largest upslope area {largest} m²");
         let fields = [
             on_rivers(&|_| 1.0),
             on_rivers(&|cell| self.width * power(cell, self.width_exponent)),
@@ -118,7 +122,8 @@ impl Step for RiversStep {
         for ((name, unit), field) in LAYERS.into_iter().zip(fields) {
             landscape.insert(name, unit, field);
         }
-        Ok(Outcome { iterations: 1, ..Outcome::default() })
+        let notes = none.then_some(note).into_iter().collect();
+        Ok(Outcome { iterations: 1, notes, ..Outcome::default() })
     }
 }
 

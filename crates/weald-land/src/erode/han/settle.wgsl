@@ -1,6 +1,6 @@
 
-// Takes sediment by the speed of the water and by the share of its free capacity, and settles what the water
-// cannot carry.
+// Takes sediment by the speed of the water and by the share of its unused transport capacity, and settles what the
+// water cannot carry.
 
 @compute @workgroup_size(16, 16)
 fn settle(@builtin(global_invocation_id) invocation: vec3<u32>) {

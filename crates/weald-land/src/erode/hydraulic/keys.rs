@@ -13,7 +13,7 @@ variants! {
     pub enum Model {
         /// Han 2015: signed fluxes, erosion by velocity.
         Han(HanKeys) = "han",
-        /// Mei, Decaudin, Hu 2007: four outflows, erosion towards a capacity.
+        /// Mei, Decaudin, Hu 2007: four outflows, erosion towards the transport capacity.
         Mei(MeiKeys) = "mei",
         /// Šťava et al. 2008: materials in layers, dissolution, slippage, springs.
         Stava(StavaKeys) = "stava",
@@ -25,7 +25,7 @@ choices! {
     pub enum UptakeLaw {
         /// In proportion to the speed of the water.
         Velocity = "velocity",
-        /// As a share of the free capacity.
+        /// As a share of the unused transport capacity. Nothing chemical is meant: the source calls it so.
         Dissolution = "dissolution",
     }
 }
@@ -53,8 +53,8 @@ choices! {
 }
 
 parameters! {
-    /// Rain, rivers, erosion and deposition. Lengths are in metres; where a default is given in cells it is
-    /// multiplied by the cell size. One step is the unit of time.
+    /// Rain, rivers, erosion and deposition. Lengths are in metres; a default of "0.01 × cell size" is in
+    /// proportion to the cells. An iteration is the unit of time.
     ///
     /// ```
     /// # use weald_core::{Domain, Error, Field, Landscape, Size};
@@ -72,11 +72,11 @@ parameters! {
     pub struct Hydraulic {
         /// Whose scheme.
         model: Model = Model::Han(HanKeys::default());
-        /// Steps to run.
+        /// Iterations to run. An iteration has no fixed physical duration.
         iterations: u32 = 1000, range 0..=10_000_000;
-        /// Steps of rain before a dry period.
-        rain_period: u32 = 60, range 1..=10_000_000, unit "steps";
-        /// Depth added where sediment is divided by depth.
+        /// Iterations of rain before a dry period.
+        rain_period: u32 = 60, range 1..=10_000_000, unit "iterations";
+        /// Depth added to the divisor where sediment is divided by depth.
         epsilon: Length = Length::Cells(0.001), range 0.000_000_1..=100.0, unit "m",
             unless transport = "semi-lagrangian", unless conserve = false;
         /// What happens at the edge and at no-data cells.
@@ -94,29 +94,33 @@ parameters! {
 parameters! {
     /// The keys of model "han".
     pub struct HanKeys {
-        /// Pipe constant k = dt² g A / l: how fast differences in level turn into flow. Unstable above 0.5.
+        /// Pipe constant k, which is no discharge: how fast differences in level turn into flow. It stands for
+        /// dt² g A / l with lengths in cells and has no unit. Unstable above 0.5.
         // `dt² g A / L`: stable up to 1/2, and the larger, the better the streams.
         flow_rate: f64 = 0.4, range 0.0001..=0.5;
-        /// Rain a step while it rains.
-        rain: Length = Length::Cells(0.01), range 0.0..=100.0, unit "m/step";
-        /// Evaporation a step in dry periods.
-        // Two to three times the rain, over as long a time: from five times on all water goes and with it the rivers, and at one
-        // and a half times half of the land stays under lakes.
-        evaporation: Length = Length::Cells(0.03), range 0.0..=100.0, unit "m/step";
-        /// Steps without rain that follow; 0 means that it always rains.
-        dry_period: u32 = 60, range 0..=10_000_000, unit "steps";
+        /// Rain in an iteration of a rain period. It is no rainfall intensity, for an iteration has no duration.
+        rain: Length = Length::Cells(0.01), range 0.0..=100.0, unit "m/iteration";
+        /// Evaporation in an iteration of a dry period.
+        // Two to three times the rain, over as long a time: from five times on all water goes and with it the rivers,
+        // and at one and a half times half of the land stays under lakes.
+        evaporation: Length = Length::Cells(0.03), range 0.0..=100.0, unit "m/iteration";
+        /// Iterations without rain that follow; 0 means that it always rains.
+        dry_period: u32 = 60, range 0..=10_000_000, unit "iterations";
         /// What sediment is taken up by.
         law: UptakeLaw = UptakeLaw::Velocity;
-        /// Sediment that a unit of water holds at unit speed and slope (K_c). Default 10, with law = "dissolution" 1.
-        // Networks form between 1 and 100 where uptake follows the speed, and hardly change with it; at 0.1 they do not.
+        /// Transport capacity (K_c): depth of sediment by depth of water at a speed of 1 cell/iteration on a slope with
+        /// the sine 1. Default 10, with law = "dissolution" 1.
+        // Networks form between 1 and 100 where uptake follows the speed, and hardly change with it; at 0.1 they do
+        // not.
         capacity: Option<f64> = None, range 0.0..=10_000.0;
-        /// Uptake a unit of speed (K_v), default 0.005; with law = "dissolution" the share of the free capacity that is
-        /// taken up in a step (K_s), default 0.01.
-        // Uptake by speed: 0.003 to 0.01 make networks, less takes too long, 0.1 breaks them into gullies. By free capacity:
-        // rivers form at 0.01; from 0.1 on they do not.
+        /// With law = "velocity" the depth in cells that an iteration takes up at a speed of 1 cell/iteration (K_v),
+        /// default 0.005; with law = "dissolution" the share of the unused transport capacity that an iteration
+        /// takes up (K_s), default 0.01.
+        // Uptake by speed: 0.003 to 0.01 make networks, less takes too long, 0.1 breaks them into gullies. By unused
+        // capacity: rivers form at 0.01; from 0.1 on they do not.
         erosion: Option<f64> = None, range 0.0..=1.0;
-        /// Share of a deposit that the ground gets back (r); below 1 it keeps lakes from filling with more
-        /// than their water, and the rest is counted as out.
+        /// Share of the deposited sediment that is added to the ground (r). The rest leaves the model and counts as
+        /// solid out, so that below 1 lakes do not silt up.
         deposit_ratio: f64 = 1.0, range 0.0..=1.0;
         /// Whether a cell gives no more water than it has. `false` is the scheme as printed, which lets depths go
         /// negative.
@@ -125,10 +129,11 @@ parameters! {
         transport: Transport = Transport::Upwind;
         /// Whether it takes the form that conserves sediment.
         conserve: bool = true, when transport = "maccormack";
-        /// Depth added where flux is divided by depth.
+        /// Depth added to the depth of the water where velocity = flux / depth.
         // At least half of the evaporation, which bounds the speed by two cells per step.
         velocity_epsilon: Length = Length::Cells(0.1), range 0.000_000_1..=100.0, unit "m";
-        /// Thermal weathering in every step, with the keys of the `thermal` step. Default: none.
+        /// Thermal weathering (dry sliding to the talus) in every iteration, with the keys of the `thermal` step.
+        /// Default: none.
         thermal: Option<Nested<ThermalWithin>> = None;
     }
 }
@@ -136,25 +141,27 @@ parameters! {
 parameters! {
     /// The keys of model "mei".
     pub struct MeiKeys {
-        /// Pipe constant k = dt² g A / l: how fast differences in level turn into flow. Unstable above 0.5.
+        /// Pipe constant k, which is no discharge: how fast differences in level turn into flow. It stands for
+        /// dt² g A / l with lengths in cells and has no unit. Unstable above 0.5.
         // As published programs have it, 0.098. It rains in every step, and a fifth of what falls on `han`.
         flow_rate: f64 = 0.1, range 0.0001..=0.5;
-        /// Rain a step while it rains.
-        rain: Length = Length::Cells(0.002), range 0.0..=100.0, unit "m/step";
-        /// Share of the depth of water that evaporates in every step.
+        /// Rain in an iteration of a rain period. It is no rainfall intensity, for an iteration has no duration.
+        rain: Length = Length::Cells(0.002), range 0.0..=100.0, unit "m/iteration";
+        /// Share of the depth of the water that evaporates in every iteration.
         // A share of the depth, not a length, as in the source; 0.015 is what published programs use.
         evaporation: f64 = 0.015, range 0.0..=1.0;
-        /// Steps without rain that follow; 0 means that it always rains.
-        dry_period: u32 = 0, range 0..=10_000_000, unit "steps";
-        /// Sediment that a unit of water holds at unit speed and slope (K_c).
+        /// Iterations without rain that follow; 0 means that it always rains.
+        dry_period: u32 = 0, range 0..=10_000_000, unit "iterations";
+        /// Transport capacity (K_c): depth of sediment by depth of water at a speed of 1 cell/iteration on a slope with
+        /// the sine 1.
         // Chosen for cells and steps of 1; published programs have 1 on cells of 1/256.
         capacity: f64 = 0.05, range 0.0..=10_000.0;
-        /// Share of the free capacity that is taken up in a step (K_s).
+        /// Share of the unused transport capacity that an iteration takes up (K_s).
         erosion: f64 = 0.1, range 0.0..=1.0;
-        /// Share of the surplus sediment that settles in a step (K_d).
+        /// Share of the sediment above the transport capacity that settles in an iteration (K_d).
         deposition: f64 = 0.1, range 0.0..=1.0;
-        /// Share of a deposit that the ground gets back (r); below 1 it keeps lakes from filling with more
-        /// than their water, and the rest is counted as out.
+        /// Share of the deposited sediment that is added to the ground (r). The rest leaves the model and counts as
+        /// solid out, so that below 1 lakes do not silt up.
         deposit_ratio: f64 = 1.0, range 0.0..=1.0;
         /// Whether a cell gives no more water than it has. `false` is the scheme as printed.
         limiter: bool = true;
@@ -162,10 +169,11 @@ parameters! {
         transport: Transport = Transport::Upwind;
         /// Whether it takes the form that conserves sediment.
         conserve: bool = true, when transport = "maccormack";
-        /// Depth below which water stands still.
+        /// Depth below which water has no velocity.
         // Here a bound: water that is thinner has no velocity.
         velocity_epsilon: Length = Length::Cells(0.0001), range 0.000_000_1..=100.0, unit "m";
-        /// Thermal weathering in every step, with the keys of the `thermal` step. Default: none.
+        /// Thermal weathering (dry sliding to the talus) in every iteration, with the keys of the `thermal` step.
+        /// Default: none.
         thermal: Option<Nested<ThermalWithin>> = None;
     }
 }
@@ -173,48 +181,51 @@ parameters! {
 parameters! {
     /// The keys of model "stava".
     pub struct StavaKeys {
-        /// Pipe constant k = dt² g A / l: how fast differences in level turn into flow. Unstable above 0.5.
+        /// Pipe constant k, which is no discharge: how fast differences in level turn into flow. It stands for
+        /// dt² g A / l with lengths in cells and has no unit. Unstable above 0.5.
         // `dt² g A / l` for a step of 0.1 s on cells of 1 m, as the authors have it.
         flow_rate: f64 = 0.0981, range 0.0001..=0.5;
-        /// Rain a step while it rains.
-        rain: Length = Length::Cells(0.002), range 0.0..=100.0, unit "m/step";
-        /// Evaporation a step, in dry periods or, where `dry_period` is 0, always.
-        evaporation: Length = Length::Cells(0.006), range 0.0..=100.0, unit "m/step";
-        /// Steps without rain that follow; 0 means that it always rains.
-        dry_period: u32 = 60, range 0..=10_000_000, unit "steps";
-        /// Sediment that a unit of water holds at unit speed and slope (K_c).
+        /// Rain in an iteration of a rain period. It is no rainfall intensity, for an iteration has no duration.
+        rain: Length = Length::Cells(0.002), range 0.0..=100.0, unit "m/iteration";
+        /// Evaporation in an iteration of a dry period or, where `dry_period` is 0, of any.
+        evaporation: Length = Length::Cells(0.006), range 0.0..=100.0, unit "m/iteration";
+        /// Iterations without rain that follow; 0 means that it always rains.
+        dry_period: u32 = 60, range 0..=10_000_000, unit "iterations";
+        /// Transport capacity (K_c): depth of sediment by depth of water at a speed of 1 cell/iteration on a slope with
+        /// the sine 1.
         capacity: f64 = 0.5, range 0.0..=10_000.0;
-        /// Factor of the erodibility of every material.
+        /// Factor of the `erodibility` of every material.
         // On erodibilities from 0.0005 (rock) to 0.05 (sand): in a step sand gives all that is asked for, rock 1 %.
         erosion: f64 = 20.0, range 0.0..=10_000.0;
-        /// Share of the surplus sediment that settles in a step (K_d).
+        /// Share of the sediment above the transport capacity that settles in an iteration (K_d).
         deposition: f64 = 0.1, range 0.0..=1.0;
         /// How sediment travels.
         transport: Transport = Transport::MacCormack;
         /// Whether it takes the form that conserves sediment.
         conserve: bool = true, when transport = "maccormack";
-        /// Depth below which water stands still. Thin water on slopes would wear all ground alike: only water that has
-        /// gathered carves.
+        /// Depth below which water has no velocity. Thin water on slopes would wear all ground alike: only water that
+        /// has gathered carves.
         velocity_epsilon: Length = Length::Cells(0.02), range 0.000_000_1..=100.0, unit "m";
         /// Layer with a factor of the rain, cell by cell.
         rain_layer: Option<LayerName> = None;
         /// Layer with a factor of the evaporation, cell by cell.
         evaporation_layer: Option<LayerName> = None;
-        /// Layer with the water that springs in a step, in metres; drains where it is negative.
+        /// Layer with the depth of water that springs in an iteration, in metres; drains where it is negative.
         source_layer: Option<LayerName> = None;
         /// Places where water springs.
         sources: Vec<Nested<Spring>> = Vec::new();
         /// Places where water drains, as far as there is any.
         drains: Vec<Nested<Spring>> = Vec::new();
         /// Viscosity of the water, which evens out its velocity; 0 is none.
-        viscosity: f64 = 0.0, range 0.0..=1_000_000.0, unit "m²/step";
+        viscosity: f64 = 0.0, range 0.0..=1_000_000.0, unit "m²/iteration";
         /// Material that settles. Default: the last of the landscape.
         deposit: Option<LayerName> = None;
-        /// Standing water turns ground into regolith that creeps. Default: it does not.
+        /// Dissolution: ground under standing water loses its strength (nothing chemical is meant) and creeps as
+        /// regolith. Default: it does not.
         dissolution: Option<Nested<DissolutionWithin>> = None;
-        /// Materials slide off slopes steeper than their talus. Default: they do not.
+        /// Slippage: materials slide off slopes steeper than their talus. Default: they do not.
         slippage: Option<Nested<SlippageWithin>> = None;
-        /// Script of edits, in JSON lines (.jsonl) or TOML: strokes of a brush that happen between the steps. Its
+        /// Script of edits, in JSON lines (.jsonl) or TOML: strokes of a brush that happen between iterations. Its
         /// path starts at the folder of the recipe.
         edits: Option<ScriptFile> = None;
     }

@@ -15,7 +15,7 @@ use weald_engine::stencil::ring::Ring;
 /// Shares of the materials, and what settles.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Digging {
-    /// Share of the room that each material gives in a step, bedrock first.
+    /// Share of the unused transport capacity that each material gives in a step, bedrock first.
     pub(crate) shares: Vec<f32>,
     /// Material that settles.
     pub(crate) deposit: usize,
@@ -79,7 +79,7 @@ kernel! {
 
 /// Rows of one exchange.
 pub(crate) struct DigScratch {
-    /// Free capacity; negative for a surplus.
+    /// Unused transport capacity; negative for a surplus.
     pub(crate) room: Ring,
     above: Ring,
     taken: Ring,

@@ -18,7 +18,7 @@ weald_core::parameters! {
         /// Seed of all random numbers. Steps of the same kind draw from different numbers.
         seed: u64 = 0, range 0..=9_007_199_254_740_991_u64;
         /// An elevation model to start from instead of a size, relative to the recipe's folder. It becomes the
-        /// layer `height`; its cell size, place on Earth and no-data cells are kept.
+        /// layer `height`; its cell size, georeferencing and no-data cells are kept.
         from: Option<RasterFile> = None;
     }
 }

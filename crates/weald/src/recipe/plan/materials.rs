@@ -33,9 +33,9 @@ weald_core::parameters! {
         /// Built-in material whose values stand for keys that are absent. By default the one of this name,
         /// else rock for the bedrock and soil for all others.
         like: Option<BuiltIn> = None;
-        /// Share of the free capacity of the water that is taken from this material in a step.
+        /// Share of the unused transport capacity of the water that an iteration takes from this material.
         erodibility: Option<f64> = None, range 0.0..=1.0;
-        /// Share of the regolith still missing that standing water makes of it in a step.
+        /// Share of the regolith still missing that standing water makes of it in an iteration: how readily it softens.
         solubility: Option<f64> = None, range 0.0..=1.0;
         /// Steepest slope that rests.
         talus_deg: Option<f64> = None, range 0.0..=89.0, unit "deg";
