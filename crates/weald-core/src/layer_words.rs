@@ -47,7 +47,9 @@ pub const LAYERS: &[(&str, &str)] = &[
     ("sky_view", "share of the light of an even sky that falls on the ground, 0 to 1"),
     ("material", "material at the surface, counted from the bedrock as 0"),
     ("mask", "share to which the ground is selected, 0 to 1"),
-    ("grass", "sets of grass in all; of each species under the name of both"),
+    ("plants", "number of plants for an area"),
+    ("grass", "sets of grass in all"),
+    ("grass_ryegrass", "sets of one species; each species has a layer of its own"),
 ];
 
 /// What a layer is that a step writes under this name.

@@ -183,7 +183,7 @@ mod tests {
         );
         assert_refused(
             "{ from = 1, to = 2 }",
-            &[":6: fractal: `from` has no effect without `by`: it needs by = \"perm"],
+            &[":6: fractal.deform.1: `from` has no effect without `by`: it needs by = \"perm"],
         );
         assert_refused("{ }", &[":6: fractal: deform: `by` is needed"]);
         assert_refused("{ by = \"spin\" }", &[":6: ", "\"spin\"", "\"permutation\""]);
