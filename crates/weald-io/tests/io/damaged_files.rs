@@ -1,8 +1,6 @@
 //! Truncated and mutated files give an error or a raster, never a panic and never more memory than allowed.
 
-use std::path::Path;
-
-use crate::rasters::exr_file;
+use crate::rasters::{exr_file, fixture};
 use weald_core::grid::{Field, Mask, Size};
 use weald_core::random::hash2;
 use weald_io::{DecodeFile, Fault, InMemory, Limits, Part, Raster, asc, exr, geotiff, npy, png16, raw};
@@ -11,11 +9,6 @@ const LIMITS: Limits = Limits { cells: 1 << 16 };
 
 /// Mutants of each file.
 const MUTANTS: u64 = 1000;
-
-fn fixture(name: &str) -> Vec<u8> {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/fixtures").join(name);
-    std::fs::read(path).expect("a fixture")
-}
 
 /// A grid in digits, without a CRS.
 fn decode_asc(bytes: &[u8], limits: Limits) -> Result<Raster, Fault> {

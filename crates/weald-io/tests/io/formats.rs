@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::rasters::any_raster;
+use crate::rasters::{any_raster, fixture};
 use proptest::prelude::*;
 use tempfile::tempdir;
 use weald_core::Error;
@@ -15,22 +15,26 @@ fn data(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data").join(name)
 }
 
-fn fixture(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/fixtures").join(name)
+/// A fixture as a file in a folder of its own.
+fn read_fixture(name: &str) -> Result<Raster, Error> {
+    let folder = tempdir().expect("a folder");
+    let path = folder.path().join(name);
+    std::fs::write(&path, fixture(name)).expect("written");
+    weald_io::read(&path)
 }
 
-fn read(path: &Path) -> Raster {
-    weald_io::read(path).expect("a file that GDAL wrote")
+fn read(name: &str) -> Raster {
+    read_fixture(name).expect("a file that GDAL wrote")
 }
 
 /// What is wrong with a fixture, in the words for the user.
 fn diagnostic(name: &str) -> String {
-    weald_io::read(&fixture(name)).expect_err("a file that is not read").to_string()
+    read_fixture(name).expect_err("a file that is not read").to_string()
 }
 
 /// The values of a fixture as GDAL printed them.
 fn printed(name: &str) -> Vec<f32> {
-    let text = std::fs::read_to_string(fixture(name)).expect("a fixture");
+    let text = String::from_utf8(fixture(name)).expect("digits");
     text.split_whitespace().map(|number| number.parse().expect("a number")).collect()
 }
 
@@ -47,7 +51,7 @@ fn mean(raster: &Raster) -> f64 {
 /// `gdalinfo -stats` and `gdallocationinfo -valonly data/jacksboro_fault_utm16_80m.tif X Y`, GDAL 3.6.2.
 #[test]
 fn the_projected_model_is_read_as_gdal_reads_it() {
-    let raster = read(&data("jacksboro_fault_utm16_80m.tif"));
+    let raster = weald_io::read(&data("jacksboro_fault_utm16_80m.tif")).expect("a file that GDAL wrote");
     assert_eq!(raster.field.size(), Size { columns: 388, rows: 408 });
     assert_eq!(raster.cell, Some(80.0));
     let place = raster.georeference.as_ref().expect("georeferenced");
@@ -72,7 +76,7 @@ fn the_projected_model_is_read_as_gdal_reads_it() {
 /// `gdalinfo -stats` and `gdallocationinfo -valonly data/jacksboro_fault_srtm_wgs84.tif X Y`, GDAL 3.6.2.
 #[test]
 fn the_geographic_model_is_read_as_gdal_reads_it() {
-    let raster = read(&data("jacksboro_fault_srtm_wgs84.tif"));
+    let raster = weald_io::read(&data("jacksboro_fault_srtm_wgs84.tif")).expect("a file that GDAL wrote");
     assert_eq!(raster.field.size(), Size { columns: 403, rows: 344 });
     assert_eq!((raster.stored, raster.cell, &raster.valid), ("int16", None, &None));
     let place = raster.georeference.as_ref().expect("georeferenced");
@@ -101,7 +105,7 @@ fn every_way_to_store_floats_gives_the_same_raster() {
         ("bigtiff_big_endian_tiles.tif", "float32"),
         ("no_data_nan.tif", "float32"),
     ] {
-        let raster = read(&fixture(name));
+        let raster = read(name);
         assert_eq!(raster.stored, stored, "{name}");
         for (index, &number) in expected.iter().enumerate() {
             assert_eq!(is_valid(&raster, index), number != -9999.0, "{name}, cell {index}");
@@ -125,14 +129,14 @@ fn every_way_to_store_integers_gives_the_same_raster() {
         ("uint32_tiles_deflate.tif", "uint32"),
         ("uint16.png", "uint16"),
     ] {
-        let raster = read(&fixture(name));
+        let raster = read(name);
         assert_eq!((raster.field.values(), raster.stored), (expected.as_slice(), stored), "{name}");
         assert_eq!(raster.valid, None, "{name}");
     }
     for (name, stored, share) in
         [("uint8.tif", "uint8", 255.0 / 1020.0), ("int8.tif", "int8", 127.0 / 1020.0)]
     {
-        let raster = read(&fixture(name));
+        let raster = read(name);
         assert_eq!(raster.stored, stored);
         for (value, whole) in raster.field.values().iter().zip(&expected) {
             assert!((value - whole * share).abs() <= 0.5001, "{name}: {value} for {whole}");
@@ -142,8 +146,8 @@ fn every_way_to_store_integers_gives_the_same_raster() {
 
 #[test]
 fn a_tie_point_in_the_middle_of_its_cell_gives_the_same_corner() {
-    let point = read(&fixture("int16_pixel_is_point.tif")).georeference.expect("georeferenced");
-    let area = read(&fixture("int16_strips_deflate_predictor2.tif")).georeference.expect("georeferenced");
+    let point = read("int16_pixel_is_point.tif").georeference.expect("georeferenced");
+    let area = read("int16_strips_deflate_predictor2.tif").georeference.expect("georeferenced");
     for axis in 0..2 {
         assert!((point.origin[axis] - area.origin[axis]).abs() < 1e-12, "{point:?} and {area:?}");
         assert_eq!(point.pixel[axis], area.pixel[axis]);
@@ -152,7 +156,7 @@ fn a_tie_point_in_the_middle_of_its_cell_gives_the_same_corner() {
 
 #[test]
 fn survey_feet_become_metres() {
-    let raster = read(&fixture("survey_feet.tif"));
+    let raster = read("survey_feet.tif");
     let cell = raster.cell.expect("square cells");
     assert!((cell - 100.0 * 1200.0 / 3937.0).abs() < 1e-12, "{cell}");
     assert_eq!(raster.georeference.expect("georeferenced").pixel, [100.0, 100.0]);
@@ -160,7 +164,7 @@ fn survey_feet_become_metres() {
 
 #[test]
 fn tiles_that_a_sparse_file_leaves_out_are_no_data() {
-    let raster = read(&fixture("sparse.tif"));
+    let raster = read("sparse.tif");
     assert_eq!(raster.valid.map(|valid| valid.valid_cells()), Some(0));
 }
 
@@ -328,7 +332,7 @@ proptest! {
 #[test]
 fn the_keys_of_a_file_survive_unchanged() {
     for name in ["float32_tiles_deflate_predictor3.tif", "survey_feet.tif", "int16_pixel_is_point.tif"] {
-        let first = read(&fixture(name));
+        let first = read(name);
         let bytes = geotiff::encode(&first).expect("finite");
         let again = geotiff::decode(&bytes, Limits::default()).expect("our own file");
         assert_eq!(again.georeference, first.georeference, "{name}");

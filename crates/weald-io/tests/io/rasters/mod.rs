@@ -59,10 +59,20 @@ pub fn written(raster: &Raster, name: &str) -> (TempDir, PathBuf) {
     (folder, path)
 }
 
-/// A file of the archive of fixtures: in a tar a header of 512 bytes (name, at byte 124 the length in octal digits)
-/// goes before each, whose bytes fill whole blocks of as many.
+/// A fixture of OpenEXR.
 pub fn exr_file(name: &str) -> Vec<u8> {
-    let archive = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/fixtures/exr.tar");
+    fixture_of("exr.tar", name)
+}
+
+/// A fixture of another format.
+pub fn fixture(name: &str) -> Vec<u8> {
+    fixture_of("rasters.tar", name)
+}
+
+/// A file of an archive of fixtures: in a tar a header of 512 bytes (name, at byte 124 the length in octal digits)
+/// goes before each, whose bytes fill whole blocks of as many.
+fn fixture_of(archive: &str, name: &str) -> Vec<u8> {
+    let archive = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/fixtures").join(archive);
     let archive = std::fs::read(archive).expect("the fixtures");
     let mut rest = archive.as_slice();
     while let Some((header, files)) = rest.split_at_checked(512) {

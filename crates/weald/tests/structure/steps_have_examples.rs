@@ -79,7 +79,7 @@ fn fault_of_example(documentation: &[String], name: &str) -> Option<&'static str
 
 #[test]
 fn every_step_has_an_example_that_asserts_what_comes_of_it() {
-    let declared: Vec<_> = include_str!("../src/steps.rs").lines().filter_map(Declared::of).collect();
+    let declared: Vec<_> = include_str!("../../src/steps.rs").lines().filter_map(Declared::of).collect();
     assert_eq!(declared.len(), weald::recipe::catalog::CATALOG.len(), "all steps");
     let faults: Vec<_> = declared.iter().filter_map(Declared::fault).collect();
     assert!(faults.is_empty(), "{}", faults.join("\n"));

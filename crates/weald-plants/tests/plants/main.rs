@@ -1,3 +1,0 @@
-//! Fractals beside those of flam3.
-
-mod flames;
