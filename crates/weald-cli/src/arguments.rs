@@ -75,7 +75,7 @@ pub(crate) enum Command {
         /// The file to write
         #[arg(value_name = "OUT")]
         output: PathBuf,
-        /// Write it the way one reader wants it, such as `blender`
+        /// Write it the way one reader wants it: blender, terrain3d or hterrain (.exr), landlab (.nc, .zarr)
         #[arg(long, value_name = "READER")]
         preset: Option<String>,
     },
@@ -88,10 +88,10 @@ pub(crate) enum Command {
         #[arg(long, value_name = "DIR", default_value = "out/gallery")]
         out: PathBuf,
     },
-    /// Draw a plant or set of an iterated function system, still or in the wind
+    /// Draw a fractal plant or figure, still or in the wind
     Fractal(FractalArguments),
-    /// Draw a landscape on the graphics device: a still, a turntable, a flight, a walk
-    Render(RenderArguments),
+    /// Draw a landscape on the GPU: a still, a turntable, a flight, a walk
+    Render(Box<RenderArguments>),
     /// Measure rates beside the bandwidth of memory and beside naive versions
     Bench(BenchArguments),
     /// Print the JSON Schema of recipes
@@ -162,13 +162,13 @@ pub(crate) struct BenchArguments {
     /// Only points of fractals, with --engine cpu; beside flam3 where it is installed
     #[arg(long, conflicts_with_all = ["size", "gpu_memory"])]
     pub(crate) fractals: bool,
-    /// Only the parts of a drawn picture, on the graphics device
+    /// Only the passes of a `render` picture, on the GPU
     #[arg(long, conflicts_with_all = ["size", "fractals", "grass"])]
     pub(crate) render: bool,
-    /// Most sets of grass in a picture, with --render [default: all; on software 50100]
+    /// Most sets of grass (tufts of six blades) in a picture, with --render [default: all; on software 50100]
     #[arg(long, value_name = "N", requires = "render", value_parser = value_parser!(u32).range(1..))]
     pub(crate) sets: Option<u32>,
-    /// Only sets and blades of grass, with --engine cpu
+    /// Only sets (tufts) and blades of grass, with --engine cpu
     #[arg(long, conflicts_with_all = ["size", "gpu_memory", "fractals"])]
     pub(crate) grass: bool,
     /// Most memory of the graphics card, as in 512MiB; larger sizes are left out

@@ -15,6 +15,8 @@ pub(crate) struct Declared {
     pub(crate) within: Option<&'static str>,
     /// Keys whose options have other names.
     pub(crate) renamed: &'static [(&'static str, &'static str)],
+    /// Keys whose options have a help of their own, which says their default too.
+    pub(crate) said: &'static [(&'static str, &'static str)],
     /// Keys that are no options.
     pub(crate) without: &'static [&'static str],
 }
@@ -36,7 +38,8 @@ impl Declared {
     /// Adds the options.
     pub(crate) fn add_to(&self, command: Command) -> Command {
         self.options().fold(command, |command, (option, parameter)| {
-            command.arg(argument(&option, &parameter).help_heading(self.heading))
+            let said = self.said.iter().find(|(key, _)| *key == parameter.name).map(|(_, help)| *help);
+            command.arg(argument(&option, &parameter, said).help_heading(self.heading))
         })
     }
 
@@ -52,10 +55,11 @@ impl Declared {
     }
 }
 
-fn argument(option: &str, parameter: &Parameter) -> Arg {
-    let doc = parameter.doc.split_whitespace().collect::<Vec<_>>().join(" ");
+fn argument(option: &str, parameter: &Parameter, said: Option<&'static str>) -> Arg {
+    let doc = said.unwrap_or(parameter.doc).split_whitespace().collect::<Vec<_>>().join(" ");
     let unit = if parameter.unit == "1" { String::new() } else { format!(" {}", parameter.unit) };
-    let default = parameter.default.as_deref().filter(|default| !["[]", "\"\""].contains(default));
+    let default =
+        parameter.default.as_deref().filter(|default| said.is_none() && !["[]", "\"\""].contains(default));
     let default =
         default.map_or(String::new(), |default| format!(" [default: {}{unit}]", default.trim_matches('"')));
     let legal = match &parameter.kind {
@@ -65,10 +69,16 @@ fn argument(option: &str, parameter: &Parameter) -> Arg {
     };
     Arg::new(option.to_owned())
         .long(option.to_owned())
-        .value_name(option.rsplit('-').next().unwrap_or(option).to_uppercase())
+        .value_name(value_name(option))
         .allow_negative_numbers(true)
         .action(ArgAction::Set)
         .help(format!("{}{legal}{default}", doc.trim_end_matches('.')))
+}
+
+/// What a help calls the value: the last word of the option.
+fn value_name(option: &str) -> String {
+    let word = option.rsplit('-').next().unwrap_or(option).to_uppercase();
+    if word == "SECOND" { "FPS".to_owned() } else { word }
 }
 
 /// A value as a recipe writes it.
@@ -77,6 +87,7 @@ fn in_toml(kind: &Kind, text: &str) -> String {
         Kind::Text | Kind::Choice(_) | Kind::Colour | Kind::Layer => format!("{text:?}"),
         Kind::Sides => text
             .split_once(['x', 'X'])
+            .filter(|sides| [sides.0, sides.1].iter().all(|side| side.trim().parse::<u64>().is_ok()))
             .map_or(text.to_owned(), |(width, height)| format!("[{width}, {height}]")),
         Kind::Numbers(..) if !text.starts_with('[') => format!("[{text}]"),
         _ => text.to_owned(),

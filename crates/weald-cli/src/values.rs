@@ -69,6 +69,26 @@ pub(crate) fn point(text: &str) -> Result<Point, String> {
     }
 }
 
+/// Reads the place of a camera, which was its height in earlier versions.
+pub(crate) fn eye(text: &str) -> Result<Point, String> {
+    match text.trim().parse::<f64>() {
+        Ok(height) => {
+            Err(format!("it is a place, X,Y,Z or X,Y; the height above the ground is --eye-height {height}"))
+        }
+        Err(_) => point(text),
+    }
+}
+
+/// Refuses `--camera`.
+pub(crate) fn camera_of_before(text: &str) -> Result<Point, String> {
+    Err(format!("it is now called --eye {text}, and its height above the ground --eye-height METRES"))
+}
+
+/// Refuses `--fov`.
+pub(crate) fn field_of_view_of_before(text: &str) -> Result<f64, String> {
+    Err(format!("it is now called --field-of-view-deg {text}"))
+}
+
 /// Farthest that a camera may be, in metres.
 const MAX_METRES: f64 = 1e8;
 

@@ -1,73 +1,98 @@
 //! Where the camera of `weald render` stands, as the command line says it.
 
 use crate::values::Point;
-use weald::picture::{Camera, CameraPath, Stage, View};
+use weald::picture::{Camera, CameraPath, LitScene, View};
 
 use crate::arguments::RenderFiles;
 use crate::failure::Failure;
 
-/// The cameras of all frames.
-pub(crate) fn cameras(files: &RenderFiles, view: &View, stage: &Stage) -> Result<Vec<Camera>, Failure> {
-    if !files.through.is_empty() {
-        return camera_path(files, stage);
+/// What is wrong with the cameras before the ground is known. `keys` are those of the view that were given.
+pub(crate) fn check(files: &RenderFiles, keys: &[(String, String)]) -> Result<(), Failure> {
+    let fault = |message: &str| Err(Failure::usage(message));
+    if files.frames.is_some() && files.through.is_empty() {
+        return fault(
+            "--frames is for a flight with --through; for a turn of the camera use --turntable FRAMES",
+        );
     }
-    let Some(place) = files.camera else {
-        if files.eye.is_some() {
-            return Err(Failure::usage("--eye METRES goes with --camera X,Y, the place on the ground"));
-        }
-        return Ok(turned(view, stage, files));
+    let Some(eye) = files.eye else {
+        return match files.eye_height {
+            Some(_) => fault("--eye-height METRES goes with --eye X,Y, the place on the ground"),
+            None => Ok(()),
+        };
     };
-    let eye = standing(place, files.eye, stage)?;
-    let camera = looking(stage, eye, target(files, stage))?;
+    let orbit = ["azimuth_deg", "altitude_deg", "distance"];
+    if let Some((key, _)) = keys.iter().find(|(key, _)| orbit.contains(&key.as_str())) {
+        let option = key.replace('_', "-");
+        return Err(Failure::usage(format!("--{option} has no effect beside --eye; remove either")));
+    }
+    for point in std::iter::once(&eye).chain(&files.through) {
+        match (point.elevation, files.eye_height) {
+            (None, None) => {
+                return fault("--eye X,Y needs an elevation, X,Y,Z, or --eye-height METRES above the ground");
+            }
+            (Some(_), Some(_)) => {
+                return fault("X,Y,Z and --eye-height both say how high the camera is; leave out one");
+            }
+            _ => {}
+        }
+    }
+    if files.through.is_empty() && eye.elevation.is_some() && files.target == Some(eye) {
+        return fault(SAME_POINT);
+    }
+    Ok(())
+}
+
+const SAME_POINT: &str = "--eye and --target are the same point; move one of them";
+
+/// The cameras of all frames, after [`check`].
+pub(crate) fn cameras(files: &RenderFiles, view: &View, scene: &LitScene) -> Result<Vec<Camera>, Failure> {
+    if !files.through.is_empty() {
+        return camera_path(files, scene);
+    }
+    let Some(place) = files.eye else {
+        return Ok(turned(view, scene, files));
+    };
+    let eye = standing(place, files.eye_height, scene)?;
+    let camera = looking(scene, eye, target(files, scene))?;
     let frames = files.turntable.unwrap_or(1);
-    let about = target(files, stage).unwrap_or_else(|| stage.middle());
+    let about = target(files, scene).unwrap_or_else(|| scene.middle());
     Ok((0..frames).map(|frame| camera.turned(about, 360.0 * f64::from(frame) / f64::from(frames))).collect())
 }
 
 /// The view's own camera, at each frame of a turntable.
-fn turned(view: &View, stage: &Stage, files: &RenderFiles) -> Vec<Camera> {
+fn turned(view: &View, scene: &LitScene, files: &RenderFiles) -> Vec<Camera> {
     let Some(frames) = files.turntable else {
-        return match target(files, stage) {
-            Some(target) => vec![stage.camera().towards(target)],
-            None => vec![stage.camera()],
+        return match target(files, scene) {
+            Some(target) => vec![scene.camera().towards(target)],
+            None => vec![scene.camera()],
         };
     };
-    (0..frames).map(|frame| stage.camera_of(&view.turned(f64::from(frame) / f64::from(frames)))).collect()
+    (0..frames).map(|frame| scene.camera_of(&view.turned(f64::from(frame) / f64::from(frames)))).collect()
 }
 
-fn drawn(point: Point, stage: &Stage) -> [f32; 3] {
-    let ground = || stage.top_at([point.east, point.south]).unwrap_or(0.0);
-    let height = point.elevation.map_or_else(ground, |elevation| stage.drawn_height(elevation));
+fn drawn(point: Point, scene: &LitScene) -> [f32; 3] {
+    let ground = || scene.top_at([point.east, point.south]).unwrap_or(0.0);
+    let height = point.elevation.map_or_else(ground, |elevation| scene.drawn_height(elevation));
     [point.east as f32, -point.south as f32, height]
 }
 
-fn target(files: &RenderFiles, stage: &Stage) -> Option<[f32; 3]> {
-    files.target.map(|target| drawn(target, stage))
+fn target(files: &RenderFiles, scene: &LitScene) -> Option<[f32; 3]> {
+    files.target.map(|target| drawn(target, scene))
 }
 
 /// Where an eye stands, above the ground.
-fn standing(place: Point, eye: Option<f64>, stage: &Stage) -> Result<[f32; 3], Failure> {
+fn standing(place: Point, eye_height: Option<f64>, scene: &LitScene) -> Result<[f32; 3], Failure> {
     let Point { east, south, elevation } = place;
-    let ground = stage.top_at([east, south]);
-    let height = match (elevation, eye) {
-        (None, None) => {
-            return Err(Failure::usage(
-                "--camera X,Y needs an elevation, X,Y,Z, or --eye METRES above the ground",
-            ));
-        }
-        (Some(_), Some(_)) => {
-            return Err(Failure::usage(
-                "--camera X,Y,Z and --eye both say how high the camera is; leave out one",
-            ));
-        }
-        (Some(elevation), None) => stage.drawn_height(elevation),
-        (None, Some(eye)) => stage.above_ground([east, south], eye)[2],
+    let ground = scene.top_at([east, south]);
+    let height = match elevation {
+        Some(elevation) => scene.drawn_height(elevation),
+        None => scene.above_ground([east, south], eye_height.unwrap_or_default())[2],
     };
-    let lowest = ground.unwrap_or(stage.base());
+    let lowest = ground.unwrap_or(scene.base());
     if height < lowest + MIN_CLEARANCE {
         return Err(Failure::usage(format!(
             "the camera at {east},{south} is {:.2} m above the ground; it must be {MIN_CLEARANCE} m at least: give a \
-             higher --camera X,Y,Z, or --camera X,Y --eye 1.7",
+             higher --eye X,Y,Z, or --eye X,Y --eye-height 1.7",
             height - lowest
         )));
     }
@@ -77,26 +102,26 @@ fn standing(place: Point, eye: Option<f64>, stage: &Stage) -> Result<[f32; 3], F
 /// Least height of a camera above the ground, in metres.
 const MIN_CLEARANCE: f32 = 0.1;
 
-fn looking(stage: &Stage, eye: [f32; 3], target: Option<[f32; 3]>) -> Result<Camera, Failure> {
+fn looking(scene: &LitScene, eye: [f32; 3], target: Option<[f32; 3]>) -> Result<Camera, Failure> {
     let target = target.unwrap_or_else(|| {
         // Who stands on the ground looks level.
-        let [east, north, up] = stage.middle();
-        if eye[2] > stage.highest() { [east, north, up] } else { [east, north, eye[2]] }
+        let [east, north, up] = scene.middle();
+        if eye[2] > scene.highest() { [east, north, up] } else { [east, north, eye[2]] }
     });
     if (0..3).all(|axis| (target[axis] - eye[axis]).abs() < 1e-3) {
-        return Err(Failure::usage("--camera and --target are the same point; move one of them"));
+        return Err(Failure::usage(SAME_POINT));
     }
-    Ok(stage.camera().at(eye).towards(target))
+    Ok(scene.camera().at(eye).towards(target))
 }
 
 /// Cameras along a smooth line through all points, evenly in time.
-fn camera_path(files: &RenderFiles, stage: &Stage) -> Result<Vec<Camera>, Failure> {
-    let points = files.camera.iter().chain(&files.through);
-    let points = points.map(|&point| standing(point, files.eye, stage)).collect::<Result<_, _>>()?;
-    let camera_path = CameraPath { points, target: target(files, stage) };
+fn camera_path(files: &RenderFiles, scene: &LitScene) -> Result<Vec<Camera>, Failure> {
+    let points = files.eye.iter().chain(&files.through);
+    let points = points.map(|&point| standing(point, files.eye_height, scene)).collect::<Result<_, _>>()?;
+    let camera_path = CameraPath { points, target: target(files, scene) };
     let frames = files.frames.expect("clap asks for it");
     let share = |frame| f64::from(frame) / f64::from(frames - 1);
-    Ok((0..frames).map(|frame| camera_path.camera(share(frame), stage.camera())).collect())
+    Ok((0..frames).map(|frame| camera_path.camera(share(frame), scene.camera())).collect())
 }
 
 #[cfg(test)]

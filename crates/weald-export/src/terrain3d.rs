@@ -13,7 +13,7 @@ use std::path::Path;
 
 use serde_json::{Value, json};
 
-use super::terrain_tiles::{description, extension, extent, little_endian, no_data_note, source};
+use super::terrain_tiles::{description, extension, extent, little_endian, no_data_note, size_fault, source};
 use super::vertices::Vertices;
 use super::{Export, ExportEntry, Finished};
 use weald_core::error::{Error, Limit, Quantity, left_out};
@@ -38,7 +38,7 @@ weald_core::parameters! {
 pub(super) const ENTRY: ExportEntry = ExportEntry::of::<Terrain3d>(
     "terrain3d",
     &["exr", "r16"],
-    "terrain for Terrain3D in Godot: heights in metres or as 16 bits, and what its importer asks for",
+    "terrain for Terrain3D in Godot: heights in metres or as 16 bits, and what its importer asks for; +X east, +Z south, from the north-western corner",
     "Terrain3D documentation, Importing & Exporting Data",
 );
 
@@ -55,10 +55,9 @@ impl Export for Terrain3d {
     }
 
     fn faults(&self) -> Vec<Fault> {
-        let size = self.region_size.filter(|size| !REGION_SIZES.contains(size)).map(|size| {
-            format!("`region_size` is {size}, but regions have {REGION_SIZES:?} vertices a side; choose one of these")
-        });
-        size.map(|message| Fault::of("region_size", message)).into_iter().collect()
+        size_fault("region_size", self.region_size, "regions of Terrain3D have", &REGION_SIZES)
+            .into_iter()
+            .collect()
     }
 
     fn left_out(&self, file: &Path) -> Option<String> {
@@ -83,7 +82,11 @@ impl Export for Terrain3d {
             let number = |index| ((heights.value(index, low) - low) * per_metre).round() as u16;
             little_endian(&(0..size.cells()).map(number).collect::<Vec<_>>())
         };
-        let json = self.described(finished, &Import { size, spacing, region, range: (low, high) });
+        let mut json = self.described(finished, &Import { size, spacing, region });
+        if extension(file) != "exr" {
+            json["r16_range"] = json!([low, high]);
+            json["r16_size"] = json!([size.columns, size.rows]);
+        }
         Ok(vec![Part::own(bytes), description(&json)])
     }
 }
@@ -105,7 +108,6 @@ struct Import {
     size: Size,
     spacing: f64,
     region: u32,
-    range: (f64, f64),
 }
 
 impl Terrain3d {
@@ -136,7 +138,7 @@ impl Terrain3d {
     }
 
     fn described(&self, finished: &Finished<'_>, import: &Import) -> Value {
-        let Import { size, spacing, region, range: (low, high) } = import;
+        let Import { size, spacing, region } = import;
         json!({
             "for": "Terrain3D for Godot",
             "vertex_spacing": spacing,
@@ -144,8 +146,6 @@ impl Terrain3d {
             "regions": [size.columns.div_ceil(*region as usize), size.rows.div_ceil(*region as usize)],
             "import_scale": 1.0,
             "height_offset": 0.0,
-            "r16_range": [low, high],
-            "r16_size": [size.columns, size.rows],
             "rows": "north to south, +X east, +Z south",
             "source": source(finished, &self.of),
         })

@@ -1,4 +1,4 @@
-//! What the sets for engines share: a square grid of vertices, cut into tiles with common edges, as files.
+//! What the files for engines share: a square grid of vertices, cut into tiles with common edges, as files.
 
 use std::path::Path;
 
@@ -9,7 +9,7 @@ use super::Finished;
 use super::vertices::Vertices;
 use weald_core::error::Error;
 use weald_core::grid::Size;
-use weald_core::parameter::LayerName;
+use weald_core::parameter::{Fault, LayerName};
 use weald_io::Part;
 use weald_io::png::Pixels;
 
@@ -18,9 +18,9 @@ weald_core::parameters! {
     pub struct Weight {
         /// The layer.
         layer: LayerName = LayerName::needed();
-        /// Value that becomes 0, in the layer's unit; lower ones do too.
+        /// Value that becomes 0, as all beyond it do, in the layer's unit. `low` above `high` inverts the mask.
         low: f64 = 0.0;
-        /// Value that becomes 255, in the layer's unit; higher ones do too.
+        /// Value that becomes 255, as all beyond it do, in the layer's unit.
         high: f64 = 1.0;
     }
 }
@@ -61,8 +61,8 @@ pub(super) struct Tiles {
 }
 
 impl Tiles {
-    /// Tiles of `side` vertices, or of the first of the rising `sizes` that loses no cell of the landscape; of the
-    /// last where none does.
+    /// Tiles of `side` vertices, or of the first of the rising `sizes` with which there are at least as many vertices as
+    /// the longer side has cells; of the last where none suffices.
     pub(super) fn new(landscape: Size, count: u32, side: Option<u32>, sizes: &[u32]) -> Self {
         let count = count as usize;
         let needed = (landscape.columns.max(landscape.rows) - 1).div_ceil(count) + 1;
@@ -149,6 +149,33 @@ pub(super) fn at_vertices(
     Vertices::of(&landscape.domain, landscape.field(&layer.0)?, tiles.size()?)
 }
 
+/// What is wrong with a size that an engine does not take.
+pub(super) fn size_fault(key: &str, size: Option<u32>, whose: &str, sizes: &[u32]) -> Option<Fault> {
+    let size = size.filter(|size| !sizes.contains(size))?;
+    let (last, others) = sizes.split_last()?;
+    let others = others.iter().map(u32::to_string).collect::<Vec<_>>().join(", ");
+    let smaller = sizes.iter().rev().find(|known| **known < size);
+    let larger = sizes.iter().find(|known| **known > size);
+    let near = [(smaller, "smaller"), (larger, "larger")];
+    let near = near.iter().filter_map(|(near, which)| Some(format!("{} is the next {which}", (*near)?)));
+    let near = near.collect::<Vec<_>>().join(", ");
+    let message = format!("`{key}` is {size}, but {whose} {others} or {last} vertices a side; {near}");
+    Some(Fault::of(key, message))
+}
+
+/// What the user should know where vertices are not the cells.
+pub(super) fn resampled_note(finished: &Finished<'_>, tiles: Tiles) -> Option<String> {
+    let (cells, vertices) = (finished.landscape.domain.size, tiles.size().ok()?);
+    let [x, y] = extent(finished).map(|metres| metres / (vertices.columns - 1) as f64);
+    let side = vertices.columns;
+    (cells != vertices).then(|| {
+        format!(
+            "{cells} cells were resampled to {vertices} vertices, {x:.2} m × {y:.2} m apart; a landscape of {side} × \
+             {side} cells keeps its own"
+        )
+    })
+}
+
 /// What becomes of cells without data, where there are any.
 pub(super) fn no_data_note(finished: &Finished<'_>, more: &str) -> Option<String> {
     let has_none = finished.landscape.domain.valid.is_some();
@@ -173,7 +200,7 @@ mod tests {
     }
 
     #[test]
-    fn the_size_is_the_first_that_loses_no_cell() {
+    fn the_size_is_the_first_with_a_vertex_for_each_cell() {
         let tiles =
             |side, count| Tiles::new(Size { columns: side, rows: 9 }, count, None, &[33, 65, 129]).side;
         assert_eq!([33, 34, 65, 500].map(|side| tiles(side, 1)), [33, 65, 65, 129]);

@@ -12,7 +12,8 @@ use std::path::Path;
 use serde_json::{Value, json};
 
 use super::terrain_tiles::{
-    Tiles, at_vertices, description, extension, extent, little_endian, no_data_note, source,
+    Tiles, at_vertices, description, extension, extent, little_endian, no_data_note, resampled_note,
+    size_fault, source,
 };
 use super::{Export, ExportEntry, Finished};
 use weald_core::error::Error;
@@ -24,8 +25,8 @@ weald_core::parameters! {
     pub struct Unity {
         /// Layer of heights, in metres.
         of: LayerName = LayerName::of("height");
-        /// Vertices a side of a tile: 33, 65, 129, 257, 513, 1025, 2049 or 4097. By default the first that loses no
-        /// cell of the longer side, 4097 at most.
+        /// Vertices a side of a tile: 33, 65, 129, 257, 513, 1025, 2049 or 4097. By default the first with at
+        /// least as many vertices as the longer side has cells, 4097 at most. A landscape of another size is resampled.
         size: Option<u32> = None, range 33..=4097;
         /// Tiles a side. More than one are files of their own, `_0_0` in the south-west, `_1_0` east of it, with
         /// one row of vertices in common with each neighbour.
@@ -37,7 +38,7 @@ weald_core::parameters! {
 pub(super) const ENTRY: ExportEntry = ExportEntry::of::<Unity>(
     "unity",
     &["raw", "r16"],
-    "terrain for Unity: 16-bit heights of 2^n + 1 vertices a side, in tiles, and its size for the import",
+    "terrain for Unity: 16-bit heights of 2^n + 1 vertices a side, in tiles, and its size for the import; +X east, +Z north, from the south-western corner",
     "Unity Manual, Working with Heightmaps; Terrain Tools, Import Heightmap",
 );
 
@@ -54,14 +55,12 @@ impl Export for Unity {
     }
 
     fn faults(&self) -> Vec<Fault> {
-        let size = self.size.filter(|size| !SIZES.contains(size)).map(|size| {
-            format!("`size` is {size}, but terrain has {SIZES:?} vertices a side; choose one of these")
-        });
-        size.map(|message| Fault::of("size", message)).into_iter().collect()
+        size_fault("size", self.size, "terrain of Unity has", &SIZES).into_iter().collect()
     }
 
     fn notes(&self, finished: &Finished<'_>) -> Vec<String> {
-        no_data_note(finished, "").into_iter().collect()
+        let tiles = Tiles::new(finished.landscape.domain.size, self.tiles, self.size, &SIZES);
+        no_data_note(finished, "").into_iter().chain(resampled_note(finished, tiles)).collect()
     }
 
     fn parts(&self, finished: &Finished<'_>, file: &Path) -> Result<Vec<Part>, Error> {
@@ -90,12 +89,13 @@ impl Unity {
         json!({
             "for": "Unity terrain",
             "tiles": [tiles.count, tiles.count],
-            "depth": "Bit 16",
-            "resolution": tiles.side,
-            "byte_order": "Windows",
-            "flip_vertically": false,
-            "terrain_size_m": { "x": width, "y": (high - low) * WHOLE / MAX_VALUE, "z": length },
-            "position_m": { "x": 0.0, "y": low, "z": 0.0 },
+            "Depth": "Bit 16",
+            "Resolution": tiles.side,
+            "Byte Order": "Windows",
+            "Flip Vertically": false,
+            "Terrain Size": { "x": width, "y": (high - low) * WHOLE / MAX_VALUE, "z": length },
+            "Position": { "x": 0.0, "y": low, "z": 0.0 },
+            "units": "as the import and the transform have them: metres; those of one tile",
             "vertices_in_common": 1,
             "rows": "south to north, +X east, +Z north",
             "source": source(finished, &self.of),

@@ -1,4 +1,4 @@
-//! Landscapes of Unreal Engine: 16-bit heights as PNG or R16 in a size that a landscape can have, masks for its
+//! Landscapes of Unreal Engine: 16-bit heights as PNG or R16 in a size that its guide recommends, masks for its
 //! layers, and what to enter at the import.
 //!
 //! A landscape stores whole numbers `n` from 0 to 65535. With a Z scale of `s` percent a vertex lies at
@@ -17,7 +17,7 @@ use serde_json::{Value, json};
 
 use super::terrain_tiles::{
     Tiles, Weight, at_vertices, description, extension, extent, little_endian, no_data_note, png_8, png_16,
-    source,
+    resampled_note, size_fault, source,
 };
 use super::vertices::Vertices;
 use super::{Export, ExportEntry, Finished};
@@ -31,8 +31,9 @@ weald_core::parameters! {
     pub struct Unreal {
         /// Layer of heights, in metres.
         of: LayerName = LayerName::of("height");
-        /// Vertices a side of a tile: 127, 253, 505, 1009, 2017, 4033 or 8129. By default the first that loses no
-        /// cell of the longer side, 8129 at most.
+        /// Vertices a side of a tile: 127, 253, 505, 1009, 2017, 4033 or 8129. By default the first with at least as many
+        /// vertices as the longer side has cells, 8129 at most. A landscape of another size is resampled: for none of
+        /// it, make the landscape's `size` one of these.
         size: Option<u32> = None, range 127..=8129;
         /// Tiles a side. More than one are files of their own, `_x0_y0` in the north-west, with one row of
         /// vertices in common with each neighbour.
@@ -50,7 +51,7 @@ weald_core::parameters! {
 pub(super) const ENTRY: ExportEntry = ExportEntry::of::<Unreal>(
     "unreal",
     &["png", "r16"],
-    "a landscape for Unreal Engine: 16-bit heights in a legal size, weight maps, scales for the import",
+    "a landscape for Unreal Engine: 16-bit heights in a size that it recommends, weight maps, what to enter at the import; +X east, +Y south, the middle of the landscape at the origin",
     "Epic Games, Landscape Technical Guide",
 );
 
@@ -72,10 +73,7 @@ impl Export for Unreal {
     }
 
     fn faults(&self) -> Vec<Fault> {
-        let size = self.size.filter(|size| !SIZES.contains(size)).map(|size| {
-            format!("`size` is {size}, but landscapes have {SIZES:?} vertices a side; choose one of these")
-        });
-        let size = size.map(|message| Fault::of("size", message));
+        let size = size_fault("size", self.size, "the sizes that Unreal recommends are", &SIZES);
         let masks = self.masks.iter().zip(1..).filter_map(|(mask, number)| {
             Some(Fault::of("low", mask.0.fault()?).within(&format!("masks.{number}")))
         });
@@ -83,9 +81,12 @@ impl Export for Unreal {
     }
 
     fn notes(&self, finished: &Finished<'_>) -> Vec<String> {
+        let tiles = Tiles::new(finished.landscape.domain.size, self.tiles, self.size, &SIZES);
         let cut = self.masks.iter().filter_map(|mask| mask.0.note(finished));
         no_data_note(finished, "; the file of holes is a weight map for the visibility layer")
             .into_iter()
+            .chain(resampled_note(finished, tiles))
+            .chain(self.coarse_note(finished))
             .chain(cut)
             .collect()
     }
@@ -112,7 +113,26 @@ impl Export for Unreal {
     }
 }
 
+/// Of the 65536 numbers, those that heights should take: 12 of their 16 bits.
+const MIN_NUMBERS: f64 = 4096.0;
+
 impl Unreal {
+    /// What the user should know where `zero` is so far from the heights that few numbers are left to them.
+    fn coarse_note(&self, finished: &Finished<'_>) -> Option<String> {
+        let valid = finished.landscape.domain.valid.as_ref();
+        let (low, high) = finished.landscape.field(&self.of.0).ok()?.range(valid)?;
+        let (low, high) = (f64::from(low), f64::from(high));
+        let metres = Scale::of(self, (low, high)).ok()?.percent / 100.0 / STEPS;
+        let numbers = (high - low) / metres;
+        (self.z_scale.is_none() && high > low && numbers < MIN_NUMBERS).then(|| {
+            let middle = (0.5 * (low + high)).round();
+            format!(
+                "heights take {numbers:.0} of 65536 numbers, one every {metres:.3} m; a `zero` near them, as {middle}, \
+                 leaves them more"
+            )
+        })
+    }
+
     fn described(&self, finished: &Finished<'_>, tiles: Tiles, scale: &Scale) -> Value {
         let [width, length] = extent(finished);
         let steps = (tiles.count * (tiles.side - 1)) as f64;
@@ -121,13 +141,15 @@ impl Unreal {
         json!({
             "for": "Unreal Engine landscape",
             "tiles": [tiles.count, tiles.count],
-            "vertices_a_side_of_a_tile": tiles.side,
             "vertices_in_common": 1,
-            "quads_per_section": quads,
-            "sections_per_component": [2, 2],
-            "components_of_a_tile": [(tiles.side - 1) / (2 * quads), (tiles.side - 1) / (2 * quads)],
-            "scale": { "x": x_scale, "y": y_scale, "z": scale.percent },
-            "location_cm": { "x": -50.0 * width, "y": -50.0 * length, "z": 100.0 * self.zero },
+            "Overall Resolution": [tiles.side, tiles.side],
+            "Section Size": format!("{quads}x{quads} Quads"),
+            "Sections Per Component": "2x2 Sections",
+            "Number of Components": [(tiles.side - 1) / (2 * quads), (tiles.side - 1) / (2 * quads)],
+            "Location": { "x": -50.0 * width, "y": -50.0 * length, "z": 100.0 * self.zero },
+            "Scale": { "x": x_scale, "y": y_scale, "z": scale.percent },
+            "units": "as the import dialog has them, to be entered as they are: Location in cm, Scale in cm a quad for \
+                      X and Y and in percent for Z; resolution and components are those of a tile",
             "height_m": { "of_0": scale.metres(0.0), "of_32768": self.zero, "of_65535": scale.metres(MAX_VALUE) },
             "rows": "north to south, +X east, +Y south",
             "masks": self.masks.iter().map(|Nested(mask)| {
@@ -152,9 +174,10 @@ impl Scale {
         let percent = export.z_scale.unwrap_or(if least > 0.0 { least } else { 100.0 });
         if percent < least {
             return Err(Error::Run(format!(
-                "unreal: heights from {low} to {high} m around {} m need a `z_scale` of {least} % or more, but it is \
-                 {percent} %",
-                export.zero
+                "unreal: heights from {low:.1} to {high:.1} m around {} m need a `z_scale` of {:.1} % or more, but it is \
+                 {percent} %; a larger one, or a `zero` nearer to them, will do",
+                export.zero,
+                (10.0 * least).ceil() / 10.0
             )));
         }
         Ok(Self { percent, zero: export.zero })
@@ -174,7 +197,7 @@ impl Scale {
     }
 }
 
-/// The files of a set.
+/// The files of an export.
 struct TileSet {
     tiles: Tiles,
     extension: String,

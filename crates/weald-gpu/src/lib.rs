@@ -21,8 +21,8 @@
 //!
 //! A [`Renderer`] draws a landscape, offscreen or into a window.
 //!
-//! A [`Cloud`] is the points of a fractal on a device, a [`SwayingCloud`] a plant there that sways. [`grow_blades`]
-//! grows grass there, [`bend_limbs`] bends plants.
+//! A [`PointCloud`] is the points of a fractal on a device, [`SwayingPoints`] those of a plant that sways in the wind.
+//! [`grow_blades`] grows grass there, [`bend_limbs`] bends plants.
 
 mod bandwidth;
 mod compiled;
@@ -39,10 +39,7 @@ mod transfer;
 
 pub use gpu::Gpu;
 pub use live::Live;
-pub use point_clouds::{Cloud, CloudRates, Swayed, SwayingCloud, bend_limbs, grow_blades};
+pub use point_clouds::{PointCloud, PointRates, Swayed, SwayingPoints, bend_limbs, grow_blades};
 #[doc(hidden)]
 pub use render::TestLook;
-pub use render::{
-    Chosen, GrassLook, GrassRow, Measuring, OnRow, Options as RenderOptions, Renderer, Timings, Viewpoint,
-    frame_budget, grass_tables,
-};
+pub use render::{Chosen, GrassLook, Options as RenderOptions, Renderer, Timings, bench};

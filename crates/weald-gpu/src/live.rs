@@ -37,7 +37,7 @@ struct Shared {
     depth: Store,
     pipeline: OnceLock<ComputePipeline>,
     place: Mutex<Option<Place>>,
-    moments: AtomicU64,
+    generation: AtomicU64,
 }
 
 /// How the grid of the simulation lies in the landscape.
@@ -65,7 +65,7 @@ impl Live {
             depth: store("the water that is shown")?,
             pipeline: OnceLock::new(),
             place: Mutex::default(),
-            moments: AtomicU64::new(0),
+            generation: AtomicU64::new(0),
         };
         Ok(Self { shared: Arc::new(shared) })
     }
@@ -76,8 +76,8 @@ impl Live {
     }
 
     /// How many times it has changed: batches of steps of the programs that it shows.
-    pub fn moments(&self) -> u64 {
-        self.shared.moments.load(Ordering::Acquire)
+    pub fn generation(&self) -> u64 {
+        self.shared.generation.load(Ordering::Acquire)
     }
 
     /// Ground in metres, and the depth of water on it.
@@ -126,7 +126,7 @@ impl Shows for Live {
             gpu.context.queue.submit([encoder.finish()]);
             Ok(())
         })?;
-        shared.moments.fetch_add(1, Ordering::AcqRel);
+        shared.generation.fetch_add(1, Ordering::AcqRel);
         Ok(())
     }
 }

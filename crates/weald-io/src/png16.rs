@@ -17,7 +17,7 @@ use weald_core::grid::Size;
 
 /// The entry in the registry of formats.
 pub(super) const FORMAT: Format = Format {
-    name: "16-bit PNG",
+    name: "PNG",
     extensions: &["png"],
     decode: Some(Decode::File(decode)),
     encode: Some(Encode::File(encode)),
@@ -87,11 +87,6 @@ fn raster(
     let mut raster = Raster::from_file(size, values, valid, stored)?;
     raster.cell = text_of(info, CELL).and_then(|text| finite(&text)).filter(|cell| *cell > 0.0);
     raster.provenance = Provenance::from_items(|key| text_of(info, key));
-    if depth == BitDepth::Eight {
-        raster
-            .notes
-            .push("8 bits hold 256 heights, so slopes come out as terraces; 16 bits do not".to_owned());
-    }
     Ok(raster)
 }
 

@@ -62,7 +62,8 @@ impl Raster {
                 field.at(x, y)
             )));
         }
-        let eight_bits = "8 bits hold 256 heights, so slopes come out as terraces; 16 bits do not";
+        let eight_bits =
+            "if these are heights, 8 bits hold 256 of them, so slopes come out as terraces; 16 bits do not";
         let notes = if stored.ends_with("int8") { vec![eight_bits.to_owned()] } else { Vec::new() };
         Ok(Self { valid, stored, notes, ..Self::from(field) })
     }

@@ -51,10 +51,10 @@ pub use ramp::{Ramp, Scale, Tint};
 pub use registry::{PICTURES, find};
 pub use relief::Relief;
 pub use render::{
-    CameraPath, Frame, FrameSequence, GrassRate, RayMarched, Render, RenderDevice, RenderKeys, RenderScene,
+    CameraPath, Frame, FrameSequence, GrassRate, RayMarched, Render, RenderDevice, RenderKeys, RenderRequest,
     Rendering,
 };
 pub use section::{Along, Section};
 pub use strokes::{Point as StrokePoint, Strokes};
 pub use view::albedo;
-pub use view::{Camera, Follow, GroundColour, MapKind, Rim, Stage, StageMap, View};
+pub use view::{Camera, Follow, GroundColour, LitScene, Rim, SceneTexture, TextureKind, View};

@@ -26,7 +26,7 @@ weald_core::parameters! {
         ramp: Scale = Scale::Meadow;
         /// Whether colours follow the logarithm of the absolute value, as suits discharge.
         logarithmic: bool = false;
-        /// Value of the first colour, in the layer's unit. By default the lowest; on a logarithmic map a
+        /// Value of the first colour, in the layer's unit; above `high`, colours are reversed. By default the lowest; on a logarithmic map a
         /// ten-thousandth of the highest; with the ramp `balance` as far below 0 as the last is above.
         low: Option<f64> = None;
         /// Value of the last colour, in the layer's unit. By default the highest; with the ramp `balance` the

@@ -4,6 +4,11 @@ use super::picture::Picture;
 use super::{Image, Render, View};
 use weald_core::error::Error;
 use weald_core::landscape::Landscape;
+use weald_core::parameter::Places;
+
+/// Beyond so many sides of the landscape from it, a camera or what it looks at is probably a mistake.
+const FAR_EYE: f64 = 10.0;
+const FAR_TARGET: f64 = 1.0;
 
 impl Picture for View {
     fn reads(&self) -> Vec<String> {
@@ -21,6 +26,21 @@ impl Picture for View {
 
     fn as_view(&self) -> Option<&View> {
         Some(self)
+    }
+
+    fn notes(&self, landscape: &Landscape) -> Vec<String> {
+        let [width, length] = landscape.domain.extent();
+        let beyond = |key, places: &Option<Places>, margin: f64| {
+            let [x, y] = *places.as_ref()?.0.first()?;
+            let margin = margin * width.max(length);
+            let is_within = |at: f64, side: f64| (-margin..=side + margin).contains(&at);
+            let message = format!("`{key}` [{x}, {y}] is far from the landscape of {width} m × {length} m");
+            (!is_within(x, width) || !is_within(y, length)).then_some(message)
+        };
+        beyond("eye", &self.eye, FAR_EYE)
+            .into_iter()
+            .chain(beyond("target", &self.target, FAR_TARGET))
+            .collect()
     }
 
     fn render(&self, landscape: &Landscape) -> Result<Image, Error> {
@@ -43,6 +63,10 @@ impl Picture for Render {
 
     fn as_view(&self) -> Option<&View> {
         Some(&self.view)
+    }
+
+    fn notes(&self, landscape: &Landscape) -> Vec<String> {
+        self.view.notes(landscape)
     }
 
     fn as_render(&self) -> Option<&Render> {

@@ -31,7 +31,7 @@ pub trait Picture: Debug + Send + Sync {
         None
     }
 
-    /// The view that this picture is, for those that have a stage which a renderer on a device can draw.
+    /// The view that this picture is, for those that have a scene which a renderer on a device can draw.
     fn as_view(&self) -> Option<&View> {
         None
     }
@@ -39,6 +39,12 @@ pub trait Picture: Debug + Send + Sync {
     /// What of it a device draws; `None` for a picture that the processor draws.
     fn as_render(&self) -> Option<&Render> {
         None
+    }
+
+    /// What the user should know of the picture.
+    fn notes(&self, landscape: &Landscape) -> Vec<String> {
+        let _ = landscape;
+        Vec::new()
     }
 
     /// Draws a landscape that has all the layers in [`Picture::reads`].

@@ -21,17 +21,17 @@ pub const PICTURES: &[PictureEntry] = &[
     ),
     PictureEntry::of::<View>(
         "view",
-        "a perspective view with sun, sky, haze and water",
+        "a perspective view with sun, sky, haze and water, ray-marched on the CPU",
         "Tevs 2008 (rays), Hillaire 2020 (sky), Max 1988 (horizons), Koschmieder 1924 (haze)",
     ),
     PictureEntry::of::<Render>(
         "render",
-        "the same view drawn on the graphics device, with grass blade by blade and plants",
+        "the perspective view rasterised on the GPU, with grass blade by blade and plants",
         "Strugar 2009 (levels of detail), Kim and Cho 2010 (grass), Hillaire 2020 (sky)",
     ),
     PictureEntry::of::<Growth>(
         "fractal",
-        "a plant or set of an iterated function system: the density of its points, or its parts",
+        "a fractal plant or figure (an iterated function system): the density of its points, or its parts",
         "Draves and Reckase 2003 (light), Barnsley 1988 (points), Han and Kim 2007 (deformations)",
     )
     .into_files(&["png", "svg"]),

@@ -17,6 +17,7 @@ mod haze;
 mod horizon;
 mod intersection;
 mod keys;
+mod lit_scene;
 mod maps;
 mod numbers;
 mod plain;
@@ -28,7 +29,6 @@ mod side;
 mod site;
 mod sky;
 mod skylight;
-mod stage;
 mod surface;
 mod terrain;
 mod tone;
@@ -40,14 +40,14 @@ pub use albedo::albedo;
 pub use camera::Camera;
 pub use follow::Follow;
 pub use keys::{GroundColour, View};
-pub use maps::{MapKind, StageMap};
+pub use lit_scene::LitScene;
+pub use maps::{SceneTexture, TextureKind};
 pub use rim::Rim;
-pub use stage::Stage;
 
 use rayon::prelude::*;
 
 use super::Image;
-use scene::Scene;
+use scene::RayMarcher;
 use weald_core::error::{Error, Limit, Quantity};
 use weald_core::landscape::Landscape;
 
@@ -66,12 +66,12 @@ impl View {
 
     pub(super) fn drawn(&self, landscape: &Landscape, from: Option<Camera>) -> Result<Image, Error> {
         self.check()?;
-        let scene = Scene::new(self, landscape, from)?;
+        let marcher = RayMarcher::new(self, landscape, from)?;
         let (width, height) = (self.width as usize, self.height as usize);
         let mut rgb = vec![0; 3 * width * height];
         rgb.par_chunks_mut(3 * width).enumerate().for_each(|(y, row)| {
             for (x, pixel) in row.chunks_exact_mut(3).enumerate() {
-                pixel.copy_from_slice(&scene.pixel([x, y]));
+                pixel.copy_from_slice(&marcher.pixel([x, y]));
             }
         });
         Ok(Image { width, height, rgb })

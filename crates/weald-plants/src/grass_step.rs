@@ -18,13 +18,14 @@ use weald_engine::step::{Entry, Outcome, Stage, Step};
 pub const ENTRY: Entry = Entry::of::<Grass>(
     "grass",
     Stage::Grow,
-    "grows grass by the soil and the light of the ground, six blades a set",
+    "grows grass by the soil and the light of the ground, in tufts of six blades",
     "Kim and Cho 2009, Modeling and rendering of growing grass",
 );
 
 parameters! {
-    /// Grass. Sets are not kept but follow from these maps wherever they are wanted. Writes how many of them stand on a
-    /// square metre, and how many of each species: the layer `grass`, and `grass_reed` for reeds.
+    /// Grass, in sets: tufts of six blades. Sets are not kept but follow from these maps wherever they are wanted. Writes
+    /// how many of them stand on a square metre, and how many of each species: the layer `grass`, and `grass_reed` for
+    /// reeds.
     ///
     /// ```
     /// # use weald_core::{Domain, Error, Field, Landscape, Size};
@@ -48,14 +49,14 @@ parameters! {
         light: LayerName = LayerName::of("light");
         /// Layer of how densely grass stands, 0 to 1: the wetness of `moisture`, or an image.
         density: LayerName = LayerName::of("moisture");
-        /// Sets on a square metre where the density is 1, each of six blades.
+        /// Sets (tufts of six blades) per square metre where the density is 1: 40 are 240 blades.
         sets: f64 = 40.0, range 1.0e-6..=10_000.0, unit "1/m²";
         /// What grows: `[{ name = "reed", share = 2, where = [{ layer = "moisture", above = 0.9 }] }, …]`. Without any,
         /// ryegrass.
         species: Vec<Nested<Kind>> = Vec::new();
         /// Depth of the layer `water`, where there is one, up to which grass stands in it.
         water: f64 = 0.05, range 0.0..=1.0e4, unit "m";
-        /// How far it has grown: 0 is bare ground, and each quarter is a level.
+        /// How far it has grown: 0 is bare ground, 1 full-grown; a blade has four segments, one for each quarter.
         age: f64 = 1.0, range 0.0..=1.0;
         /// Layer of where it is mown, 0 to 1.
         mown: Option<LayerName> = None;
@@ -63,8 +64,8 @@ parameters! {
         mown_height: f64 = 0.05, range 0.001..=10.0, unit "m", with mown;
         /// Layer of where it is trodden down, 0 to 1.
         trodden: Option<LayerName> = None;
-        /// What the bend of a blade means: that of the whole blade, or as printed that of each level, by which tall
-        /// blades fall below their roots.
+        /// How far a blade bends. `total`: the bend is that of the whole blade. `printed`: it is that of each of its
+        /// segments, as in the publication, so that tall blades dip into the ground.
         bend: Bend = Bend::Total;
     }
 }
@@ -74,17 +75,19 @@ parameters! {
     pub struct Kind {
         /// One of the built-in species: ryegrass, fescue, reed, feather-grass, oat-grass.
         name: String = "ryegrass".to_owned();
-        /// Its share beside those of the others where all like the ground.
+        /// Weight relative to the other species.
         share: f64 = 1.0, range 0.0..=1000.0;
-        /// Conditions of the ground, as those of `select`. Their product and the share say how much of the grass it is.
+        /// Conditions of the ground, as those of `select`. Their product multiplies the weight.
         r#where: Vec<Nested<Condition>> = Vec::new();
         /// Height of a straight blade at its best. Without it, that of the species.
         height: Option<f64> = None, range 0.001..=100.0, unit "m";
-        /// Three control values of the answer to soil, for soil 0, between, and 1. Without them, those of the species.
+        /// Three control values of the response to soil: the curve passes through the first at soil 0 and the last at 1,
+        /// and is pulled towards the second between. Without them, those of the species.
         soil_curve: Vec<f64> = Vec::new(), range 0.0..=1.0;
-        /// Five control values of the answer of width to light, for light 0, between, 0.3, between, and 1.
+        /// Five control values of the response of width to light: the curve passes through the first at light 0, the third
+        /// at 0.3 and the last at 1, and is pulled towards the others between.
         width_curve: Vec<f64> = Vec::new(), range 0.0..=1.0;
-        /// Five control values of the answer of height to light.
+        /// Five control values of the response of height to light.
         height_curve: Vec<f64> = Vec::new(), range 0.0..=1.0;
     }
 }

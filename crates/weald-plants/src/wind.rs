@@ -23,7 +23,7 @@ const OCTAVES: Octaves = Octaves { wavelength: 14.0, count: 3, gain: 0.6, seed: 
 const FLUTTER: f32 = 0.05;
 const FREQUENCY: f32 = 1.7;
 
-/// In WGSL, [`push`] and [`wave`]: to be put behind the functions of light of a picture stage, which has
+/// In WGSL, [`push`] and [`wave`]: to be put behind the functions of light of a picture's scene, which has
 /// the noise.
 pub const FUNCTIONS: &str = include_str!("wind.wgsl");
 

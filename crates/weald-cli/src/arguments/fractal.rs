@@ -29,9 +29,9 @@ pub(crate) struct FractalArguments {
 /// What of [`FractalArguments`] is not declared by the library.
 #[derive(Debug, Args)]
 struct FractalFiles {
-    /// A built-in fractal, a .flame file, or a recipe with tables `fractal`; `list` names the built-in ones
+    /// A built-in fractal, a .flame file, or a recipe whose first [[fractal]] is drawn; `list` names the built-in ones
     name: String,
-    /// .png, .svg, or with --frames .apng, .mp4, .webm or numbered .png [default: NAME.png]
+    /// .png, .svg, or with --frames numbered .png, .apng, or .png and an .mp4 or .webm [default: NAME.png]
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
     /// Write the points: .csv, .ply or .npy
@@ -45,20 +45,39 @@ struct FractalFiles {
     quiet: bool,
 }
 
-const LOOK: Declared =
-    Declared { parameters: Look::parameters, heading: "Picture", within: None, renamed: &[], without: &[] };
+const LOOK: Declared = Declared {
+    parameters: Look::parameters,
+    heading: "Picture",
+    within: None,
+    renamed: &[],
+    said: &[],
+    without: &[],
+};
 
 const GROWTH: Declared =
     Declared { parameters: GrowthKeys::parameters, without: &["fractal", "wind"], ..LOOK };
 
-const FILM: Declared =
-    Declared { parameters: FilmKeys::parameters, heading: "Film", without: &["every"], ..LOOK };
+const FILM: Declared = Declared {
+    parameters: FilmKeys::parameters,
+    heading: "Film",
+    said: &[
+        ("frames", "Number of frames: of one turn of the camera, or with --wind of one loop"),
+        ("frames_per_second", "Frame rate [default: 24]"),
+    ],
+    without: &["every"],
+    ..LOOK
+};
 
 const WIND: Declared = Declared {
     parameters: Wind::parameters,
     heading: "Wind",
     within: Some("wind"),
     renamed: &[("speed", "wind")],
+    said: &[(
+        "speed",
+        "Speed of the wind: 4 moves leaves, 10 sways the plant, 25 bends it down. Without it the air is still, or, where \
+         another option of the wind is given, moves at 4 m/s",
+    )],
     without: &[],
 };
 

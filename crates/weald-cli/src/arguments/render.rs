@@ -20,36 +20,44 @@ pub(crate) struct RenderArguments {
 /// What of [`RenderArguments`] is not declared by the library.
 #[derive(Debug, Args)]
 pub(crate) struct RenderFiles {
-    /// The recipe; its first view says of what colour ground and light are
+    /// The recipe; camera, light and colours start from its first `view` or `render` output
     #[arg(value_name = "RECIPE.toml")]
     pub(crate) recipe: PathBuf,
-    /// .png, or of several frames numbered .png, one .apng, or .png and an .mp4 or .webm [default: NAME.png]
+    /// .png; of several frames numbered .png, one .apng, or .png and an .mp4 or .webm of 24 frames per second [default:
+    /// NAME.png]
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output: Option<PathBuf>,
     /// Width and height of the picture in pixels
     #[arg(long, value_name = "WxH", default_value = "1920x1080", value_parser = values::size)]
     pub(crate) size: [u32; 2],
-    /// Samples per pixel at edges: 1 or 4
+    /// MSAA samples per pixel: 4, or 1 with aliased edges
     #[arg(long, value_name = "N", default_value_t = 4)]
     pub(crate) samples: u32,
-    /// Where the camera stands: metres east and south of the north-western corner, and its elevation
-    #[arg(long, value_name = "X,Y,Z", allow_negative_numbers = true, value_parser = values::point)]
-    pub(crate) camera: Option<values::Point>,
-    /// Height of the eye above the ground at --camera X,Y: a person's view
+    /// Where the camera stands: metres east and south of the north-western corner, and its elevation; or X,Y with
+    /// --eye-height
+    #[arg(long, value_name = "X,Y,Z", allow_negative_numbers = true, value_parser = values::eye)]
+    pub(crate) eye: Option<values::Point>,
+    /// Height of the camera above the ground at --eye X,Y, as 1.7 for a person's view
     #[arg(long, value_name = "METRES")]
-    pub(crate) eye: Option<f64>,
+    pub(crate) eye_height: Option<f64>,
     /// What the camera looks at: X,Y,Z, or X,Y on the ground [default: the middle of the landscape]
     #[arg(long, value_name = "X,Y,Z", allow_negative_numbers = true, value_parser = values::point)]
     pub(crate) target: Option<values::Point>,
     /// Frames of a whole turn around what the camera looks at
-    #[arg(long, value_name = "FRAMES", value_parser = value_parser!(u32).range(2..=9999), conflicts_with_all = ["through", "eye"])]
+    #[arg(long, value_name = "FRAMES", value_parser = value_parser!(u32).range(2..=9999), conflicts_with_all = ["through", "eye_height", "frames"])]
     pub(crate) turntable: Option<u32>,
-    /// Further points that the camera flies through after --camera; it looks ahead, or at --target
-    #[arg(long, value_name = "X,Y,Z", num_args = 1.., requires_all = ["camera", "frames"], allow_negative_numbers = true, value_parser = values::point)]
+    /// Further points that the camera flies through after --eye; it looks ahead, or at --target
+    #[arg(long, value_name = "X,Y,Z", num_args = 1.., requires_all = ["eye", "frames"], allow_negative_numbers = true, value_parser = values::point)]
     pub(crate) through: Vec<values::Point>,
-    /// Frames of a flight
-    #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(2..=9999), requires = "through")]
+    /// Frames of a flight with --through
+    #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(2..=9999))]
     pub(crate) frames: Option<u32>,
+    /// What --eye was called
+    #[arg(long, hide = true, allow_negative_numbers = true, value_parser = values::camera_of_before)]
+    pub(crate) camera: Option<values::Point>,
+    /// What --field-of-view-deg was called
+    #[arg(long, hide = true, allow_negative_numbers = true, value_parser = values::field_of_view_of_before)]
+    pub(crate) fov: Option<f64>,
     /// Cells along the longer side of the landscape; shape and extent stay
     #[arg(long, value_name = "N", value_parser = value_parser!(u64).range(1..))]
     pub(crate) cells: Option<u64>,
@@ -64,7 +72,8 @@ const VIEW: Declared = Declared {
     parameters: View::parameters,
     heading: "View",
     within: None,
-    renamed: &[("field_of_view_deg", "fov")],
+    renamed: &[],
+    said: &[],
     without: &["width", "height", "samples", "target", "eye", "eye_height", "turn_deg"],
 };
 

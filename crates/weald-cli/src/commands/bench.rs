@@ -4,7 +4,7 @@ use std::fmt::Display;
 use std::sync::Arc;
 
 use weald::engine::device::Device;
-use weald_gpu::{CloudRates, Gpu};
+use weald_gpu::{Gpu, PointRates};
 
 use crate::arguments::BenchArguments;
 use crate::engine::with_memory;
@@ -65,9 +65,9 @@ fn on_the_gpu(arguments: &BenchArguments, print: &mut dyn FnMut(&dyn Display)) -
 }
 
 /// A fern on the device: its points made, and in the wind.
-fn fern_rates(gpu: &Gpu) -> Result<CloudRates, Failure> {
+fn fern_rates(gpu: &Gpu) -> Result<PointRates, Failure> {
     let fern = weald::grow::ifs::shapes::find("fern").expect("built in").ifs();
-    Ok(CloudRates::of(gpu, &fern)?)
+    Ok(PointRates::of(gpu, &fern)?)
 }
 
 fn given_or<'a>(given: &'a [usize], usual: &'a [usize]) -> &'a [usize] {

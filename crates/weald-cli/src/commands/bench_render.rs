@@ -1,4 +1,4 @@
-//! `weald bench --render`: how long the parts of a drawn picture take on the device, by its own clock; how many frames of
+//! `weald bench --render`: how long the passes of a `render` picture take on the device, by its own clock; how many frames of
 //! grass it draws in a second, beside those of the source; and what its parts take as sets become more.
 
 use std::fmt::Display;
@@ -6,10 +6,11 @@ use std::time::Duration;
 
 use weald::engine::device::Device;
 use weald::grow::grass::Packed;
-use weald::picture::{Camera, Stage, View};
+use weald::picture::{Camera, LitScene, View};
 use weald::recipe::{Overrides, Recipe};
 use weald::{Field, Landscape};
-use weald_gpu::{Gpu, GrassRow, Measuring, RenderOptions, Renderer, Timings, frame_budget, grass_tables};
+use weald_gpu::bench::{GrassRow, Measuring, frame_budget, grass_tables};
+use weald_gpu::{Gpu, RenderOptions, Renderer, Timings};
 
 use crate::arguments::BenchArguments;
 use crate::engine::with_memory;
@@ -70,10 +71,10 @@ pub(super) fn run(arguments: &BenchArguments, print: &mut Print<'_>) -> Result<(
 fn landscapes(gpu: &Gpu, what: Measuring, print: &mut Print<'_>) -> Result<(), Failure> {
     let [width, height] = what.size;
     let view = View { width, height, field_of_view_deg: 50.0, ..View::default() };
-    let stage = Stage::new(&view, &landscape()?)?;
-    let mut renderer = Renderer::new(gpu, &stage, RenderOptions { size: what.size, samples: 4 })?;
+    let scene = LitScene::new(&view, &landscape()?)?;
+    let mut renderer = Renderer::new(gpu, &scene, RenderOptions { size: what.size, samples: 4 })?;
     print(&format!("\n{:<38}{PARTS} triangles", "mountains and lakes"));
-    for (name, camera) in cameras(&stage) {
+    for (name, camera) in cameras(&scene) {
         let timings = renderer.measure(&camera, what.times)?;
         let triangles = renderer.triangles(&camera)?;
         print(&format!("{name:<38}{} {triangles:>9}", parts(&timings)));
@@ -145,15 +146,15 @@ fn landscape() -> Result<Landscape, Failure> {
 }
 
 /// The whole from afar, a flight, and a person's view.
-fn cameras(stage: &Stage) -> Vec<(&'static str, Camera)> {
-    let middle = stage.middle();
+fn cameras(scene: &LitScene) -> Vec<(&'static str, Camera)> {
+    let middle = scene.middle();
     let at = |east: f32, south: f32, above: f32| {
-        let ground = stage.top_at([f64::from(east), f64::from(south)]).unwrap_or(0.0);
-        stage.camera().at([east, -south, ground + above])
+        let ground = scene.top_at([f64::from(east), f64::from(south)]).unwrap_or(0.0);
+        scene.camera().at([east, -south, ground + above])
     };
     let level = |camera: Camera| camera.towards([middle[0], middle[1], camera.eye[2]]);
     vec![
-        ("whole", stage.camera()),
+        ("whole", scene.camera()),
         ("flight", at(5100.0, 8200.0, 400.0).towards(middle)),
         ("person", level(at(5100.0, 7000.0, 1.7))),
     ]

@@ -94,10 +94,10 @@ fn draw(arguments: &FractalArguments, path: &Path, recipe: &Recipe) -> Result<()
     if arguments.quiet {
         return Ok(());
     }
-    let output = &report.outputs[0];
-    let mut text = format!("{}\n", path.display());
-    for companion in &output.companions {
-        let _ = writeln!(text, "{}", folder.join(companion).display());
+    let mut text = String::new();
+    for file in report.outputs[0].files() {
+        // As it was asked for: a name without a folder stays one.
+        let _ = writeln!(text, "{}", path.with_file_name(file).display());
     }
     stdout::print(&text)
 }
@@ -107,9 +107,9 @@ fn list() -> String {
     let mut text = String::new();
     for shape in SHAPES {
         let ifs = shape.ifs();
-        let space = if ifs.is_planar() { "plane" } else { "space" };
+        let dimensions = if ifs.is_planar() { "2D" } else { "3D" };
         let maps = ifs.maps().len();
-        let _ = writeln!(text, "{:<12} {maps} maps, {space}  {}", shape.name, shape.summary);
+        let _ = writeln!(text, "{:<12} {maps} maps, {dimensions}  {}", shape.name, shape.summary);
     }
     text
 }

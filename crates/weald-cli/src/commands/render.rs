@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use weald::Error;
-use weald::picture::{Camera, Cutout, RenderScene, Rendering, Stage, View};
+use weald::picture::{Camera, Cutout, LitScene, RenderRequest, Rendering, View};
 use weald::recipe::{FILM_EXTENSIONS, Film, Frames, Options, Progress, ViewRequest};
 
 use super::run::{default_folder, watched};
@@ -19,6 +19,7 @@ const FRAMES_PER_SECOND: f64 = 24.0;
 pub(crate) fn render(arguments: &RenderArguments) -> Result<(), Failure> {
     let files = &arguments.files;
     let output = output(files)?;
+    viewpoint::check(files, &arguments.view)?;
     let request = ViewRequest {
         recipe: files.recipe.clone(),
         overrides: files.values.overrides(files.cells),
@@ -32,11 +33,11 @@ pub(crate) fn render(arguments: &RenderArguments) -> Result<(), Failure> {
     device.check(files.size, files.samples)?;
     let options = Options::into_folder(default_folder(&files.recipe));
     let landscape = watched(&recipe, options, &files.running, |run, shown| run.landscape(shown))?;
-    let stage = Stage::new(&view, &landscape)?;
-    let cameras = viewpoint::cameras(files, &view, &stage)?;
-    let stage = stage.seen_from(cameras[0]);
-    let scene = RenderScene { view: &view, stage: &stage, landscape: &landscape, samples: files.samples };
-    write(files, &output, &cameras, device.set_up(&scene)?.as_mut())
+    let scene = LitScene::new(&view, &landscape)?;
+    let cameras = viewpoint::cameras(files, &view, &scene)?;
+    let scene = scene.seen_from(cameras[0]);
+    let request = RenderRequest { view: &view, scene: &scene, landscape: &landscape, samples: files.samples };
+    write(files, &output, &cameras, device.set_up(&request)?.as_mut())
 }
 
 /// Whether there are several frames.
@@ -54,10 +55,10 @@ fn output(files: &RenderFiles) -> Result<PathBuf, Failure> {
         return Ok(output);
     }
     Err(Failure::usage(format!(
-        "-o is {}; {} is a .{} file",
+        "-o is {}; {} is written as .{}",
         output.display(),
-        if moves(files) { "what moves" } else { "a still" },
-        legal.join(", .")
+        if moves(files) { "an animation" } else { "a still" },
+        legal.join(" or .")
     )))
 }
 

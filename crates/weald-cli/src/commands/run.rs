@@ -59,13 +59,13 @@ pub(super) fn default_folder(recipe: &Path) -> PathBuf {
     Path::new("out").join(recipe.file_stem().unwrap_or_default())
 }
 
-/// A line for each file.
+/// A line for each file that was written, the first of each output with what is in it.
 fn summary(report: &Report, out: &Path) -> String {
     let mut text = String::new();
     for output in &report.outputs {
-        let _ = writeln!(text, "{}  {}", out.join(&output.file).display(), content(output));
-        for companion in &output.companions {
-            let _ = writeln!(text, "{}", out.join(companion).display());
+        let mut content = Some(format!("  {}", content(output)));
+        for file in output.files() {
+            let _ = writeln!(text, "{}{}", out.join(file).display(), content.take().unwrap_or_default());
         }
     }
     let _ = writeln!(text, "{}", out.join(REPORT_FILE).display());
@@ -81,9 +81,68 @@ fn content(output: &OutputReport) -> String {
             format!("{layer}, {low:.decimals$} to {high:.decimals$} {unit}").trim_end().to_owned()
         }
         (Some(layer), ..) => layer.clone(),
-        _ => match (&output.picture, &output.export) {
-            (Some(picture), _) => format!("picture, {picture}"),
-            (_, export) => format!("export, {}", export.as_deref().unwrap_or_default()),
+        _ => match (&output.picture, output.frames, &output.export) {
+            (Some(picture), Some(frames), _) => format!("film of {frames} frames, {picture}"),
+            (Some(picture), None, _) => format!("picture, {picture}"),
+            (None, _, export) => format!("export, {}", export.as_deref().unwrap_or_default()),
         },
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn output(file: &str) -> OutputReport {
+        OutputReport { file: file.to_owned(), ..OutputReport::default() }
+    }
+
+    #[test]
+    fn a_run_lists_the_files_that_it_wrote_and_no_others() {
+        let film = OutputReport { picture: Some("relief".to_owned()), frames: Some(2), ..output("f.mp4") };
+        let still = OutputReport { picture: Some("relief".to_owned()), ..output("s.png") };
+        let tiles = ["u_0_0.r16", "u_0_1.r16"].map(str::to_owned).to_vec();
+        let tiles = OutputReport {
+            export: Some("unity".to_owned()),
+            companions: tiles,
+            name_only: true,
+            ..output("u.r16")
+        };
+        let layer = OutputReport {
+            layer: Some("height".to_owned()),
+            unit: Some("m".to_owned()),
+            range: Some((0.5, 1.25)),
+            ..output("h.tif")
+        };
+        let without_video = OutputReport { name_only: true, ..film.clone() };
+        let apng = OutputReport { file: "f.apng".to_owned(), ..film.clone() };
+        let report = Report {
+            engine: String::new(),
+            adapter: None,
+            seed: 1,
+            recipe_blake3: String::new(),
+            version: String::new(),
+            steps: Vec::new(),
+            outputs: vec![film, without_video, apng, still, tiles, layer],
+            notes: Vec::new(),
+        };
+        let text = summary(&report, Path::new("o"));
+        let lines: Vec<_> = text.lines().map(|line| line.replace('\\', "/")).collect();
+        assert_eq!(
+            lines,
+            [
+                "o/f.mp4  film of 2 frames, relief",
+                "o/f-00000.png",
+                "o/f-00001.png",
+                "o/f-00000.png  film of 2 frames, relief",
+                "o/f-00001.png",
+                "o/f.apng  film of 2 frames, relief",
+                "o/s.png  picture, relief",
+                "o/u_0_0.r16  export, unity",
+                "o/u_0_1.r16",
+                "o/h.tif  height, 0.500 to 1.250 m",
+                "o/report.json",
+            ]
+        );
     }
 }

@@ -25,7 +25,7 @@ fn the_list_names_every_built_in_fractal() {
     let place = Place::with("");
     let list = stdout(&place.weald(&["fractal", "list"]));
     assert!(list.lines().count() >= 14, "{list}");
-    assert!(list.contains("fern ") && list.contains("gasket ") && list.contains("space"), "{list}");
+    assert!(list.contains("fern ") && list.contains("gasket ") && list.contains("3D"), "{list}");
 }
 
 #[test]
@@ -56,6 +56,22 @@ fn a_fern_in_the_wind_is_a_film_that_loops() {
     assert!(place.path("fern-00002.png").exists());
     let frame = |number| std::fs::read(place.path(&format!("fern-0000{number}.png"))).expect("a frame");
     assert!(frame(0) != frame(1) && frame(1) != frame(2), "it moves");
+    let film = [
+        "fractal",
+        "fern",
+        "--wind",
+        "8",
+        "--frames",
+        "2",
+        "--size",
+        "60x90",
+        "--samples",
+        "4",
+        "-o",
+        "a.png",
+    ];
+    assert_eq!(stdout(&place.weald(&film)), "a-00000.png\na-00001.png\n", "the files that are there");
+    assert!(place.path("a-00001.png").exists() && !place.path("a.png").exists());
 }
 
 #[test]
@@ -67,6 +83,9 @@ fn vectors_and_points_are_written() {
     assert_ends(&place, &[&parts[..], &["--samples", "4"]].concat(), 2, &[without_effect]);
     let svg = std::fs::read_to_string(place.path("gasket.svg")).expect("written");
     assert_eq!(svg.matches('M').count(), 27);
+    assert_ends(&place, &["fractal", "fern", "-o", "fern.svg"], 0, &[]);
+    let length = std::fs::metadata(place.path("fern.svg")).expect("written").len();
+    assert!((1 << 20..64 << 20).contains(&length), "the finest parts that fit: {length}");
     drawn(&place, &["gasket", "--points", "points.csv", "--depth", "3"]);
     let points = std::fs::read_to_string(place.path("points.csv")).expect("written");
     assert_eq!(points.lines().count(), 28);
@@ -88,7 +107,13 @@ fn faults_of_the_command_line_end_with_2_and_limits_with_5() {
     ends(&["fern", "--gamma", "0"], 2, "outside its range");
     ends(&["fern", "-o", "fern.gif"], 2, ".png or .svg");
     ends(&["fern", "--size", "200000x200000"], 5, "smaller `size`");
-    ends(&["fern", "--depth", "13"], 5, "smaller `depth`");
+    ends(
+        &["fern", "--depth", "13"],
+        5,
+        "fern: a depth of 13 makes 4^13 parts; at most 4194304 are drawn: choose a `depth` of 11",
+    );
+    ends(&["fern", "-o", "fern.mp4"], 2, "`file` is fern.mp4, a film: add `frames`");
+    ends(&["fern", "--finest", "2", "-o", "fern.svg"], 5, "choose a larger `finest`, such as 4");
     ends(&["none.toml"], 3, "none.toml:1: the recipe cannot be read");
     assert_eq!(place.names("."), ["r.toml"], "nothing was written");
 }

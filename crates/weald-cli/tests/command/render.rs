@@ -34,12 +34,23 @@ fn stills_turntables_and_flights_are_drawn() {
     };
     draw(&["-o", "still.png"]);
     assert_eq!(sides(&place, "still.png"), (64, 48));
-    draw(&["--camera", "480,320", "--eye", "1.7", "--target", "100,100,80", "--fov", "60", "-o", "walk.png"]);
+    draw(&[
+        "--eye",
+        "480,320",
+        "--eye-height",
+        "1.7",
+        "--target",
+        "100,100,80",
+        "--field-of-view-deg",
+        "60",
+        "-o",
+        "walk.png",
+    ]);
     assert_ne!(std::fs::read(place.path("walk.png")).ok(), std::fs::read(place.path("still.png")).ok());
     draw(&["--turntable", "3", "-o", "turn.apng"]);
     assert_eq!(sides(&place, "turn.apng"), (64, 48));
     draw(&[
-        "--camera",
+        "--eye",
         "480,600,300",
         "--through",
         "480,300,250",
@@ -97,7 +108,7 @@ fn drawn_pictures_of_a_recipe_that_make_no_sense_are_told_with_what_would() {
             Place::with(&format!("{RECIPE}[[output]]\npicture = \"render\"\nfile = \"a.png\"\n{keys}"));
         assert_ends(&place, &["check", "r.toml"], 3, parts);
     };
-    refused("samples = 3\n", &["`samples` is 3", "1 and 4"]);
+    refused("samples = 3\n", &["`samples` is 3", "must be 1 or 4"]);
     refused("through = [1, 2]\nframes = 4\n", &["`through` has no effect without `eye`"]);
     refused("eye = [1, 1]\nthrough = [1, 2]\n", &["`through` needs `frames`"]);
     refused("sun_altitude_deg = 95\n", &["95", "90"]);
@@ -117,14 +128,37 @@ fn what_cannot_be_drawn_is_reported_with_what_can() {
     refused(&["--size", "64"], 2, &["1920x1080"]);
     refused(&["-o", "a.jpg"], 2, &["a.jpg", ".png"]);
     refused(&["-o", "a.apng"], 2, &["a still"]);
-    refused(&["--camera", "480,320"], 2, &["--eye METRES"]);
-    refused(&["--camera", "480,320,-500"], 2, &["above the ground", "--eye 1.7"]);
-    refused(&["--camera", "1,2,900", "--target", "1,2,900"], 2, &["the same point"]);
+    refused(&["--eye", "480,320,-500"], 2, &["above the ground", "--eye-height 1.7"]);
     refused(&["--sun-altitude-deg", "95"], 3, &["95", "90"]);
     assert!(
         place.names(".").iter().all(|name| ["r.toml", "out"].contains(&name.as_str())),
         "nothing was drawn"
     );
+}
+
+#[test]
+fn a_camera_that_makes_no_sense_is_refused_before_anything_is_simulated() {
+    let place = Place::with(RECIPE);
+    let refused = |arguments: &[&str], part: &str| {
+        assert_ends(&place, &[&["render", "r.toml"], arguments].concat(), 2, &[part]);
+        assert_eq!(place.names("."), ["r.toml"], "{arguments:?}: nothing was run or drawn");
+    };
+    refused(&["--eye", "480,320"], "--eye-height METRES");
+    refused(&["--eye-height", "2"], "goes with --eye X,Y");
+    refused(&["--eye", "1,1,5", "--eye-height", "2"], "leave out one");
+    refused(&["--eye", "1,2,900", "--target", "1,2,900"], "the same point");
+    for (option, value) in [("--azimuth-deg", "20"), ("--altitude-deg", "20"), ("--distance", "5")] {
+        let beside = format!("{option} has no effect beside --eye; remove either");
+        refused(&["--eye", "1,2,900", option, value], &beside);
+    }
+    refused(&["--frames", "4"], "use --turntable FRAMES");
+    refused(
+        &["--turntable", "4", "-o", "r.gif"],
+        "an animation is written as .png or .apng or .mp4 or .webm",
+    );
+    refused(&["--camera", "480,320,900"], "it is now called --eye 480,320,900");
+    refused(&["--fov", "60"], "it is now called --field-of-view-deg 60");
+    refused(&["--eye", "1.7"], "the height above the ground is --eye-height 1.7");
 }
 
 #[cfg(target_os = "linux")]

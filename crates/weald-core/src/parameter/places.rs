@@ -28,6 +28,13 @@ impl ParameterValue for Places {
         if let Some(place) = place(items) {
             return Ok(Self(vec![place]));
         }
+        let is_number = |item: &Node| matches!(item.value, Value::Integer(_) | Value::Number(_));
+        if items.len() != 2 && !items.is_empty() && items.iter().all(is_number) {
+            let count = items.len();
+            return Err(format!(
+                "has {count} numbers, but a place has two, `[x, y]`: metres east and south of the north-western corner"
+            ));
+        }
         let places = items.iter().map(|item| match &item.value {
             Value::List(numbers) => place(numbers),
             _ => None,

@@ -117,6 +117,10 @@ impl ParameterValue for Vec<Vec<f64>> {
 
     fn read(node: &Node, range: (f64, f64), diagnostics: &mut Diagnostics) -> Result<Self, String> {
         let Value::List(items) = &node.value else { return Err(wrong(node, "a list of lists of numbers")) };
+        if let Some(other) = items.iter().find(|item| !matches!(item.value, Value::List(_))) {
+            let shown = other.value.shown();
+            return Err(format!("has {shown} as an item, but each must be a list of numbers"));
+        }
         items.iter().map(|item| Vec::read(item, range, diagnostics)).collect()
     }
 
@@ -220,6 +224,9 @@ impl<T: Parameters + Clone> ParameterValue for Vec<Nested<T>> {
         };
         if items.len() > MAX_TABLES {
             return Err(format!("has {} tables, but at most {MAX_TABLES} are read", items.len()));
+        }
+        if let Some(other) = items.iter().find(|item| !matches!(item.value, Value::Table(_))) {
+            return Err(format!("has the item {}, but each must be a table {{ … }}", other.value.shown()));
         }
         // Counted from 1, as in the paths of `--set`.
         let numbered = (1..).map(|number: usize| number.to_string()).zip(items);

@@ -1,4 +1,4 @@
-//! Grass for other programs: a set of each species as a mesh, and where its sets stand.
+//! Grass for other programs: a set (a tuft of six blades) of each species as a mesh, and where its sets stand.
 //!
 //! Engines that grow their own grass want the density and species maps instead: they are layers, `grass` and
 //! `grass_reed`, and any raster format holds them.
@@ -30,7 +30,7 @@ weald_core::parameters! {
         /// Rectangle that is written: metres west, north, east and south, from the north-western corner. Without it, the
         /// whole landscape.
         area: Vec<f64> = Vec::new(), range 0.0..=1.0e9, unit "m";
-        /// Most sets; where there are more the run ends with an error.
+        /// Most sets (tufts of six blades); where there are more the run ends with an error.
         max_sets: u32 = 200_000, range 1..=10_000_000;
     }
 }
@@ -72,7 +72,15 @@ impl Export for GrassSets {
                 "some {sets:.0} sets of grass: a `.glb` has instances, and no file of nodes lies beside it"
             )
         });
-        many.into_iter().collect()
+        let landscape = meadow.area();
+        let area = self.area_of(&meadow);
+        let is_outside = (0..2)
+            .any(|axis| area.high[axis] <= landscape.low[axis] || area.low[axis] >= landscape.high[axis]);
+        let outside = is_outside.then(|| {
+            let [width, length] = finished.landscape.domain.extent();
+            format!("`area` lies outside the landscape of {width} m × {length} m, so the file holds no grass")
+        });
+        many.into_iter().chain(outside).collect()
     }
 
     fn parts(&self, finished: &Finished<'_>, _: &Path) -> Result<Vec<Part>, Error> {

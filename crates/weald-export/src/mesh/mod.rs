@@ -84,8 +84,8 @@ weald_core::parameters! {
         snow_line: Option<f64> = None, unit "m", unless colours = "materials" | "tints" | "plain";
         /// Colours of heights.
         ramp: Tint = Tint::Hypsometric, when colours = "tints";
-        /// Width of the colour texture. By default its longer side has one texel a cell, but 1024 at least and 4096 at
-        /// most.
+        /// Width of the colour texture; its height follows from the landscape's shape. By default its longer side has one
+        /// texel a cell, but 1024 at least and 4096 at most.
         texture: Option<u32> = None, range 16..=16384, unit "px", unless colours = "plain";
         /// Whether a normal map of one texel a cell, at most 4096 a side, gives the mesh the relief that the error
         /// allowed it to leave out.

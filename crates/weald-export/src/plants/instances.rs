@@ -1,5 +1,5 @@
-//! Plants as one mesh in many places, in binary glTF: by `EXT_mesh_gpu_instancing` (Khronos Group, 2021), which a card
-//! draws in one go, and by nodes that share the mesh, which every reader knows.
+//! Plants as one mesh in many places, in binary glTF: by `EXT_mesh_gpu_instancing` (Khronos Group, 2021), which a GPU
+//! draws in one call, and by nodes that share the mesh, which every reader knows.
 //!
 //! For the wind a vertex has three more texture coordinates: `TEXCOORD_1` is how far it bends with the whole plant and in
 //! which phase, `TEXCOORD_2` the same with its leaf, `TEXCOORD_3` the number of branchings below it and its stiffness

@@ -29,10 +29,10 @@ weald_core::parameters! {
         /// The keys of the export `mesh` on which the plants are to stand, as in `on = { error = 2 }`: the mesh is off
         /// the ground by its error. Without it, plants stand on the ground itself.
         on: Option<Nested<Mesh>> = None;
-        /// Fronds or planes of a plant. By default 8 fronds for a fern, 3 planes that cross for other flat shapes, and
-        /// shapes of space alone.
+        /// Fronds or planes of a plant. By default 8 fronds for a fern and 3 crossed planes for other 2D shapes; 3D
+        /// shapes are not repeated.
         fronds: Option<u32> = None, range 1..=64, for "glb";
-        /// Height of the picture on the leaves.
+        /// Height of the leaf texture (albedo and alpha); its width follows from the shape.
         texture: u32 = 512, range 32..=4096, unit "px", for "glb";
         /// Colour of leaves.
         leaf: Colour = Colour(foliage::Colours::USUAL.leaf), for "glb";

@@ -1,4 +1,4 @@
-//! Fractals on a device: clouds of points, and swarms that sway in the wind.
+//! Fractals on a device: clouds of points, at rest or swaying in the wind.
 
 mod blades;
 mod limbs;
@@ -9,7 +9,7 @@ mod rates;
 
 pub use blades::grow_blades;
 pub use limbs::{Swayed, bend_limbs};
-pub use rates::CloudRates;
+pub use rates::PointRates;
 
 use weald::Error;
 use weald::engine::uniform::Uniform;
@@ -27,11 +27,11 @@ use points::{BYTES, Points, fours};
 
 /// Points of a fractal on a device, made there by random iteration.
 #[derive(Debug)]
-pub struct Cloud {
+pub struct PointCloud {
     points: Points,
 }
 
-impl Cloud {
+impl PointCloud {
     /// The first `count` points of the [`Game`] with that seed: the same digits as on the CPU, and the same points to
     /// rounding. A point takes 16 bytes.
     ///
@@ -64,7 +64,7 @@ impl Cloud {
 
 /// A plant on a device: points at rest with their codes, which stay there, and where a pose of the wind puts them.
 #[derive(Debug)]
-pub struct SwayingCloud {
+pub struct SwayingPoints {
     points: Points,
     digits: Digits,
     length: usize,
@@ -76,10 +76,10 @@ pub struct SwayingCloud {
     _plant: (Slots, Store),
 }
 
-/// Bytes of a point of a swarm.
+/// Bytes of a swaying point.
 const SWAYING_POINT_BYTES: u64 = 3 * BYTES;
 
-impl SwayingCloud {
+impl SwayingPoints {
     /// The first `count` points of the [`Game`] with that seed, made on the device, with their codes: digits as on the
     /// CPU, points to rounding. A point takes 48 bytes.
     ///
@@ -94,7 +94,7 @@ impl SwayingCloud {
     /// Points of a plant with their codes, of which as many digits count as those of the fractal have and 128 bits hold.
     ///
     /// # Errors
-    /// As [`SwayingCloud::new`].
+    /// As [`SwayingPoints::new`].
     pub fn of(gpu: &Gpu, ifs: &Ifs, coded: &[([f32; 3], Code)]) -> Result<Self, Error> {
         let points = Points::new(gpu, coded.len() as u64, true, SWAYING_POINT_BYTES)?;
         let rests: Vec<_> = coded.iter().map(|&([x, y, z], _)| [x, y, z, 0.0]).collect();
@@ -119,9 +119,9 @@ impl SwayingCloud {
         });
         let swayed = swayed.collect::<Result<_, Error>>()?;
         let (digits, length) = (ifs.digits(), digits_on_a_device(ifs));
-        let mut swarm = Self { points, digits, length, pass, pose, swayed, _plant: (plant, rows) };
-        swarm.sway(&calm)?;
-        Ok(swarm)
+        let mut swaying = Self { points, digits, length, pass, pose, swayed, _plant: (plant, rows) };
+        swaying.sway(&calm)?;
+        Ok(swaying)
     }
 
     /// Number of points.

@@ -9,7 +9,7 @@ use weald::grow::ifs::{Game, Ifs};
 
 use super::play::Play;
 use super::points::{BYTES, Points};
-use super::{SWAYING_POINT_BYTES, SwayingCloud};
+use super::{SWAYING_POINT_BYTES, SwayingPoints};
 use crate::gpu::Gpu;
 
 /// Points that are made and that sway: those of a plant near the eye.
@@ -24,7 +24,7 @@ const RUNS: usize = 3;
 
 /// Millions of points per second, for a swaying cloud of a million.
 #[derive(Clone, Debug, PartialEq)]
-pub struct CloudRates {
+pub struct PointRates {
     /// Name of the fractal.
     pub name: String,
     /// Random iteration without codes.
@@ -37,7 +37,7 @@ pub struct CloudRates {
     pub bandwidth: f64,
 }
 
-impl CloudRates {
+impl PointRates {
     /// Measures them on a device; nothing is read back.
     ///
     /// # Errors
@@ -48,15 +48,15 @@ impl CloudRates {
             let mut points = Points::new(gpu, POINTS, coded, 2 * BYTES)?;
             rate(|| play.fill(&mut points))
         };
-        let mut swarm = SwayingCloud::new(gpu, ifs, 1, POINTS)?;
+        let mut swaying = SwayingPoints::new(gpu, ifs, 1, POINTS)?;
         let wind = Wind { speed: 20.0, ..Wind::default() };
         let mut frame = 0;
         let swayed = rate(|| {
             frame += 1;
-            swarm.sway(&wind.pose(f64::from(frame) / 60.0))?;
-            swarm.wait()
+            swaying.sway(&wind.pose(f64::from(frame) / 60.0))?;
+            swaying.wait()
         })?;
-        drop(swarm);
+        drop(swaying);
         let bandwidth = gpu.copy_bandwidth()?;
         Ok(Self {
             name: ifs.name().to_owned(),
@@ -89,7 +89,7 @@ fn rate(mut once: impl FnMut() -> Result<(), Error>) -> Result<f64, Error> {
     Ok(POINTS as f64 / best / 1e6)
 }
 
-impl Display for CloudRates {
+impl Display for PointRates {
     fn fmt(&self, out: &mut Formatter<'_>) -> Written {
         let Self { name, played, coded, swayed, bandwidth } = self;
         let line = |what: &str, rate: f64, bytes: u64| {

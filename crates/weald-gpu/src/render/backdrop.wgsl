@@ -18,7 +18,7 @@ fn backdrop_fragment(in: BackdropVertex) -> @location(0) vec4<f32> {
     if direction.z >= 0.0 {
         return vec4<f32>(limited(sky_radiance_with_sun(direction)), 1.0);
     }
-    let ray_length = max((stage.plain.w - frame.eye.z) / direction.z, 0.0);
+    let ray_length = max((scene.plain.w - frame.eye.z) / direction.z, 0.0);
     let point = frame.eye.xyz + direction * ray_length;
     let sun = sun_seen(point, vec3<f32>(0.0, 0.0, 1.0));
     return vec4<f32>(limited(plain_radiance(frame.eye.xyz, direction, ray_length, sun)), 1.0);

@@ -29,7 +29,7 @@ fn leaf(list: u32, vertex: u32, instance_number: u32) -> Leaf {
     let sun = sun_seen(root + vec3<f32>(0.0, 0.0, 0.3), vec3<f32>(0.0, 0.0, 1.0));
     let above = leaves_at(place_of(root)).w * (1.0 - along);
     return Leaf(
-        projected(point), point, normal, colour_of(instance.species, here.blend, here.head), vec2<f32>(sun * through_leaves(above, stage.sun.z), sky_through_leaves(above)),
+        projected(point), point, normal, colour_of(instance.species, here.blend, here.head), vec2<f32>(sun * through_leaves(above, scene.sun.z), sky_through_leaves(above)),
     );
 }
 

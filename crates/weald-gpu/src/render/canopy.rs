@@ -2,7 +2,7 @@
 
 use weald::grow::Vegetation;
 use weald::grow::grass::Canopy;
-use weald::picture::MapKind;
+use weald::picture::TextureKind;
 use weald::{Error, Landscape};
 use wgpu::TextureUsages;
 
@@ -10,7 +10,7 @@ use super::maps::{Texels, format, write};
 use super::textures::{Canvas, Shape};
 use crate::gpu::Gpu;
 
-const KIND: MapKind = MapKind::Smooth;
+const KIND: TextureKind = TextureKind::Smooth;
 
 /// Ground without grass.
 pub(super) fn none(gpu: &Gpu) -> Result<Canvas, Error> {

@@ -42,8 +42,8 @@ fn canopy_radiance(colour: vec3<f32>, point: vec3<f32>, normal: vec3<f32>, footp
     let tuft = tufts(point.xy, footprint);
     let bumpy = normalize(vec3<f32>(normal.xy - 0.20 * tuft.slope, normal.z));
     // Blades stand up: even where the ground turns away from the sun some of them catch it.
-    let facing = 0.3 + 0.7 * max(dot(bumpy, stage.sun.xyz), 0.0);
-    let light = stage.sunlight.xyz * (OF_THE_SUN * facing * sun) + OF_THE_SKY * skylight_on(seen, bumpy);
+    let facing = 0.3 + 0.7 * max(dot(bumpy, scene.sun.xyz), 0.0);
+    let light = scene.sunlight.xyz * (OF_THE_SUN * facing * sun) + OF_THE_SKY * skylight_on(seen, bumpy);
     let dry = 0.5 * octaves_at(Octaves(38.0, 4u, 0.6, 0x3cu), point.xy, footprint).value + 0.25 * tuft.value;
     let warm = vec3<f32>(1.0 + 0.5 * dry, 1.0 + 0.15 * dry, 1.0 - 0.25 * dry);
     return colour * warm * max(1.0 + 0.55 * tuft.value, 0.3) * light / PI;
@@ -60,7 +60,7 @@ fn with_canopy(
     seen: Seen,
     sun: f32,
 ) -> vec3<f32> {
-    let soil = soil_in_sun * through_leaves(lawn.w, stage.sun.z) + soil_under_sky * sky_through_leaves(lawn.w);
+    let soil = soil_in_sun * through_leaves(lawn.w, scene.sun.z) + soil_under_sky * sky_through_leaves(lawn.w);
     let undrawn = lawn.w * (1.0 - drawn_as_blades(view.ray_length));
     let bare = through_leaves(undrawn, abs(dot(view.direction, normal)));
     if bare > 0.999 {

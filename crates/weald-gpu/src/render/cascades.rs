@@ -94,22 +94,22 @@ fn square(camera: &Camera, axes: [[f32; 3]; 2], reach: f32) -> [f32; 4] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use weald::picture::{Stage, View};
+    use weald::picture::{LitScene, View};
     use weald::{Domain, Field, Landscape, Size};
 
-    fn stage() -> Stage {
+    fn scene() -> LitScene {
         let size = Size::square(20).expect("small");
         let mut landscape = Landscape::new(Domain::new(size, 10.0));
         landscape.insert("height", "m", Field::from_function(size, |x, y| (x * y) as f32));
-        Stage::new(&View::default(), &landscape).expect("a stage")
+        LitScene::new(&View::default(), &landscape).expect("a scene")
     }
 
     #[test]
     fn a_moving_and_turning_camera_moves_cascades_by_whole_texels_and_leaves_their_size() {
-        let stage = stage();
+        let scene = scene();
         let landscape = [[0.0, -200.0, -10.0], [200.0, 0.0, 400.0]];
         let camera = Camera::looking([50.0, -90.0, 30.0], [0.6, 0.8, 0.0], [0.5, 0.3]);
-        let first = Cascades::new(stage.sun(), &camera, &landscape);
+        let first = Cascades::new(scene.sun(), &camera, &landscape);
         let mut moved = 0;
         for step in 1..40_u16 {
             let step = f32::from(step);
@@ -119,7 +119,7 @@ mod tests {
                 [turn.cos(), turn.sin(), 0.0],
                 [0.5, 0.3],
             );
-            let next = Cascades::new(stage.sun(), &camera, &landscape);
+            let next = Cascades::new(scene.sun(), &camera, &landscape);
             assert_eq!(next.squares[CASCADES - 1], first.squares[CASCADES - 1], "the last holds all, always");
             for (a, b) in first.squares.iter().zip(&next.squares).take(CASCADES - 1) {
                 assert_eq!(a[2], b[2]);
@@ -133,17 +133,17 @@ mod tests {
 
     #[test]
     fn the_last_cascade_holds_every_corner_and_depths_begin_at_the_sun() {
-        let stage = stage();
+        let scene = scene();
         let landscape = [[0.0, -200.0, -10.0], [200.0, 0.0, 400.0]];
-        let cascades = Cascades::new(stage.sun(), &stage.camera(), &landscape);
+        let cascades = Cascades::new(scene.sun(), &scene.camera(), &landscape);
         let [x, y, half_x, half_y] = cascades.squares[CASCADES - 1];
         for bits in 0..8_usize {
             let corner: [f32; 3] = std::array::from_fn(|axis| landscape[bits >> axis & 1][axis]);
             assert!((dot(corner, cascades.right) - x).abs() < half_x);
             assert!((dot(corner, cascades.up) - y).abs() < half_y);
-            let depth = (cascades.depths[0] - dot(corner, stage.sun())) / cascades.depths[1];
+            let depth = (cascades.depths[0] - dot(corner, scene.sun())) / cascades.depths[1];
             assert!((-1e-5..=1.0 + 1e-5).contains(&depth), "{depth}");
         }
-        assert!(dot(cascades.right, cascades.up).abs() < 1e-6 && dot(cascades.up, stage.sun()).abs() < 1e-6);
+        assert!(dot(cascades.right, cascades.up).abs() < 1e-6 && dot(cascades.up, scene.sun()).abs() < 1e-6);
     }
 }

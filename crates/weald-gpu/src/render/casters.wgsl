@@ -37,7 +37,7 @@ fn rim_caster(
 // Where there is no land there is no shadow.
 @fragment
 fn caster_fragment(in: Caster) {
-    if !is_valid(clamp(place_of(in.point), vec2<f32>(0.5), stage.grid.xy + 0.5)) {
+    if !is_valid(clamp(place_of(in.point), vec2<f32>(0.5), scene.grid.xy + 0.5)) {
         discard;
     }
 }

@@ -1,4 +1,4 @@
-//! What was chosen of the grass, read back: for tests and benches.
+//! The grass that is left after culling, by level of detail, read back: for tests and benches.
 
 use weald::Error;
 use weald::grow::grass::Packed;
@@ -13,17 +13,17 @@ use super::renderer::Renderer;
 use crate::gpu::Gpu;
 use crate::memory::Store;
 
-/// The sets of one grass that a picture chose from, and what it chose.
+/// The sets of one grass, and those of them that a picture draws.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Chosen {
     /// The sets, in their order.
     pub sets: Vec<Packed>,
-    /// The numbers of those in each list, from the finest blades to the coarsest.
+    /// The numbers of those at each level of detail, from the finest blades to the coarsest.
     pub lists: [Vec<u32>; LISTS],
 }
 
 impl Renderer {
-    /// What the picture of a camera would choose of each grass.
+    /// What the picture of a camera draws of each grass.
     ///
     /// # Errors
     /// As [`Renderer::render`].

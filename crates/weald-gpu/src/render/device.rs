@@ -2,7 +2,7 @@
 
 use weald::Error;
 use weald::engine::device::Device;
-use weald::picture::{Camera, GrassRate, Image, RenderDevice, RenderScene, Rendering};
+use weald::picture::{Camera, GrassRate, Image, RenderDevice, RenderRequest, Rendering};
 
 use super::options::Options;
 use super::renderer::Renderer;
@@ -18,10 +18,10 @@ impl RenderDevice for Gpu {
         Options { size, samples }.check(self)
     }
 
-    fn set_up<'a>(&self, scene: &RenderScene<'a>) -> Result<Box<dyn Rendering + 'a>, Error> {
-        let size = [scene.view.width, scene.view.height];
-        let mut renderer = Renderer::new(self, scene.stage, Options { size, samples: scene.samples })?;
-        renderer.plant(scene.stage, scene.landscape)?;
+    fn set_up<'a>(&self, request: &RenderRequest<'a>) -> Result<Box<dyn Rendering + 'a>, Error> {
+        let size = [request.view.width, request.view.height];
+        let mut renderer = Renderer::new(self, request.scene, Options { size, samples: request.samples })?;
+        renderer.plant(request.scene, request.landscape)?;
         Ok(Box::new(renderer))
     }
 
@@ -43,7 +43,7 @@ impl RenderDevice for Gpu {
 
 impl Rendering for Renderer {
     fn draw(&mut self, camera: &Camera, seconds: f64) -> Result<Image, Error> {
-        self.set_moment(seconds as f32);
+        self.set_time(seconds as f32);
         self.render(camera)
     }
 }

@@ -2,7 +2,7 @@
 
 use weald::grow::Vegetation;
 use weald::grow::grass::{Bend, Maps, Meadow, SPECIES};
-use weald::picture::{Camera, Stage, View};
+use weald::picture::{Camera, LitScene, View};
 use weald::{Domain, Error, Field, Landscape, Size};
 
 use super::grass_look::GrassLook;
@@ -30,7 +30,7 @@ const BIRD: f32 = 0.3;
 
 /// From where a field is seen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Viewpoint {
+pub enum GrassStandpoint {
     /// From above its southern end, so that all of it is seen.
     Far,
     /// From a person's height at its southern end.
@@ -39,7 +39,7 @@ pub enum Viewpoint {
     Near,
 }
 
-impl Viewpoint {
+impl GrassStandpoint {
     /// Its name.
     pub fn name(self) -> &'static str {
         match self {
@@ -54,7 +54,7 @@ impl Viewpoint {
 #[derive(Debug)]
 pub(super) struct GrassField {
     pub(super) renderer: Renderer,
-    stage: Stage,
+    scene: LitScene,
     side: f32,
 }
 
@@ -64,25 +64,25 @@ impl GrassField {
         let [width, height] = size;
         let landscape = field(sets, has_pond)?;
         let view = View { width, height, field_of_view_deg: 50.0, ..View::default() };
-        let stage = Stage::new(&view, &landscape)?;
-        let mut renderer = Renderer::new(gpu, &stage, Options { size, samples: 4 })?;
-        renderer.plant(&stage, &landscape)?;
-        Ok(Self { renderer, stage, side: side(sets) as f32 })
+        let scene = LitScene::new(&view, &landscape)?;
+        let mut renderer = Renderer::new(gpu, &scene, Options { size, samples: 4 })?;
+        renderer.plant(&scene, &landscape)?;
+        Ok(Self { renderer, scene, side: side(sets) as f32 })
     }
 
     /// The camera of a standpoint.
-    pub(super) fn camera(&self, standpoint: Viewpoint) -> Camera {
-        let half = self.stage.camera().half;
+    pub(super) fn camera(&self, standpoint: GrassStandpoint) -> Camera {
+        let half = self.scene.camera().half;
         let at = |north: f32, above: f32| {
             let place = [0.5 * f64::from(self.side), f64::from((1.0 - north) * self.side)];
-            let ground = self.stage.top_at(place).unwrap_or(0.0);
+            let ground = self.scene.top_at(place).unwrap_or(0.0);
             [place[0] as f32, -place[1] as f32, ground + above]
         };
         let towards = |eye, target| Camera::looking(eye, [0.0, 1.0, 0.0], half).towards(target);
         match standpoint {
-            Viewpoint::Far => towards(at(-0.35, BIRD * self.side), at(0.5, 0.0)),
-            Viewpoint::Eye => towards(at(0.04, EYES), at(0.5, 0.5)),
-            Viewpoint::Near => towards(at(0.5, LYING), at(0.6, 0.3)),
+            GrassStandpoint::Far => towards(at(-0.35, BIRD * self.side), at(0.5, 0.0)),
+            GrassStandpoint::Eye => towards(at(0.04, EYES), at(0.5, 0.5)),
+            GrassStandpoint::Near => towards(at(0.5, LYING), at(0.6, 0.3)),
         }
     }
 

@@ -1,7 +1,7 @@
 //! Ground and water of a running simulation become the surfaces that are drawn, without coming back from the device.
 
 use weald::error::{Limit, Quantity};
-use weald::picture::Stage;
+use weald::picture::LitScene;
 use weald::{Error, Size};
 use wgpu::{
     BindGroupDescriptor, BindGroupEntry, BindingResource, CommandEncoderDescriptor, ComputePassDescriptor,
@@ -19,19 +19,19 @@ const RIM: u32 = 2;
 const SLACK: f32 = 0.25;
 
 impl Renderer {
-    /// Takes ground and water of a simulation as they are now for the next pictures. `stage` is the one that the renderer
-    /// was made of, which came from [`Stage::to_follow`].
+    /// Takes ground and water of a simulation as they are now for the next pictures. `scene` is the one that the renderer
+    /// was made of, which came from [`LitScene::to_follow`].
     ///
     /// # Errors
-    /// [`Error::Limit`] for a simulation of another size than the stage has, [`Error::Device`] where the device fails.
-    pub fn follow(&mut self, stage: &Stage, live: &Live) -> Result<(), Error> {
-        let (size, cells) = (live.size(), stage.cells());
+    /// [`Error::Limit`] for a simulation of another size than the scene has, [`Error::Device`] where the device fails.
+    pub fn follow(&mut self, scene: &LitScene, live: &Live) -> Result<(), Error> {
+        let (size, cells) = (live.size(), scene.cells());
         if [size.columns, size.rows] != cells {
             return Err(other_size(size, cells).into());
         }
         if self.follower.is_none() {
             self.terrain.widen(SLACK);
-            self.follower = Some(Follower::new(&self.gpu, stage)?);
+            self.follower = Some(Follower::new(&self.gpu, scene)?);
         }
         let Some(follower) = &self.follower else { return Ok(()) };
         let [ground, depth] = live.stores();

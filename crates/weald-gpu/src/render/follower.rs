@@ -1,7 +1,7 @@
 //! The pipeline that makes surfaces of the ground and water of a running simulation.
 
 use weald::Error;
-use weald::picture::Stage;
+use weald::picture::LitScene;
 use wgpu::{
     ComputePipeline, ComputePipelineDescriptor, PipelineCompilationOptions, ShaderModuleDescriptor,
     ShaderSource,
@@ -19,11 +19,11 @@ pub(super) struct Follower {
 }
 
 impl Follower {
-    pub(super) fn new(gpu: &Gpu, stage: &Stage) -> Result<Self, Error> {
-        let numbers = uniform(gpu, "what is followed", &stage.follow())?;
+    pub(super) fn new(gpu: &Gpu, scene: &LitScene) -> Result<Self, Error> {
+        let numbers = uniform(gpu, "what is followed", &scene.follow())?;
         gpu.context.attempt("making the pipeline that follows a simulation", || {
             let device = &gpu.context.device;
-            let source = ShaderSource::Wgsl(Stage::FOLLOW.into());
+            let source = ShaderSource::Wgsl(LitScene::FOLLOW.into());
             let module =
                 device.create_shader_module(ShaderModuleDescriptor { label: Some("follow"), source });
             let pipeline = device.create_compute_pipeline(&ComputePipelineDescriptor {

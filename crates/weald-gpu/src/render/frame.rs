@@ -49,7 +49,7 @@ pub(super) struct Drawn {
     pub(super) cascades: Cascades,
 }
 
-/// The numbers of a picture on the device, and what shadows are looked up in.
+/// The uniforms of a picture on the device, and what shadows are looked up in.
 #[derive(Debug)]
 pub(super) struct Frame {
     pub(super) layout: BindGroupLayout,

@@ -1,4 +1,4 @@
-// What one picture is drawn from, and where points of the stage lie in it.
+// What one picture is drawn from, and where points of the scene lie in it.
 
 struct Frame {
     // The eye, and the angle of a pixel.

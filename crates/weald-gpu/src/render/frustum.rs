@@ -1,6 +1,6 @@
 //! What a camera can see, as planes, and boxes around parts of the ground.
 
-use weald::picture::{Camera, StageMap};
+use weald::picture::{Camera, SceneTexture};
 
 /// Least and greatest corner of a box, in metres.
 pub(crate) type Box3 = [[f32; 3]; 2];
@@ -70,7 +70,7 @@ const SMALLEST: usize = 4;
 
 impl Heights {
     /// Of a ground's control points, for cells of so many metres and a base.
-    pub(crate) fn new(top: &StageMap, metres: [f32; 2], base: f32) -> Self {
+    pub(crate) fn new(top: &SceneTexture, metres: [f32; 2], base: f32) -> Self {
         let [columns, rows] = top.size;
         let finest = blocks([columns, rows], SMALLEST, |x, y| {
             let height = top.values[y * columns + x];
@@ -149,7 +149,7 @@ fn blocks(size: [usize; 2], side: usize, at: impl Fn(usize, usize) -> [f32; 2]) 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use weald::picture::MapKind;
+    use weald::picture::TextureKind;
 
     #[test]
     fn a_camera_sees_boxes_before_it_and_none_behind_or_beside() {
@@ -164,8 +164,13 @@ mod tests {
     #[test]
     fn a_box_holds_all_heights_of_its_square() {
         let values = (0..40 * 30).map(|cell| ((cell * 37) % 101) as f32).collect::<Vec<_>>();
-        let top =
-            StageMap { name: "top", kind: MapKind::Exact, size: [40, 30], layers: 1, values: values.clone() };
+        let top = SceneTexture {
+            name: "top",
+            kind: TextureKind::Exact,
+            size: [40, 30],
+            layers: 1,
+            values: values.clone(),
+        };
         let heights = Heights::new(&top, [2.0; 2], -5.0);
         assert_eq!(heights.highest(), 100.0);
         for (corner, side) in [([0.5, 0.5], 4.0), ([8.5, 16.5], 8.0), ([0.5, 0.5], 64.0), ([30.5, 20.5], 2.0)]

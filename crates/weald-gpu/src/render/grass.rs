@@ -10,7 +10,7 @@ use weald::grow::Vegetation;
 use weald::grow::grass::device::FUNCTIONS;
 use weald::grow::grass::{BLADES, choice};
 use weald::grow::wind;
-use weald::picture::Stage;
+use weald::picture::LitScene;
 use weald::{Error, Landscape};
 use wgpu::{
     BindGroup, BindGroupLayout, BindGroupLayoutDescriptor, BindGroupLayoutEntry, BindingType,
@@ -45,7 +45,7 @@ impl Grass {
     /// The pipelines of grass; `None` where a landscape has none.
     pub(super) fn new(
         gpu: &Gpu,
-        (stage, landscape): (&Stage, &Landscape),
+        (scene, landscape): (&LitScene, &Landscape),
         layouts: Layouts<'_>,
         samples: u32,
     ) -> Result<Option<Self>, Error> {
@@ -64,7 +64,7 @@ impl Grass {
             })
         };
         gpu.context.attempt("making the pipelines of grass", || {
-            let module = module(gpu, stage, include_str!("cull.wgsl"));
+            let module = module(gpu, scene, include_str!("cull.wgsl"));
             let layout = whole(&layouts.frame.caster_layout, &own[0]);
             let choosing = CHOOSING.map(|(name, _)| {
                 device.create_compute_pipeline(&ComputePipelineDescriptor {
@@ -76,7 +76,7 @@ impl Grass {
                     cache: None,
                 })
             });
-            let blades = self::module(gpu, stage, include_str!("blades.wgsl"));
+            let blades = self::module(gpu, scene, include_str!("blades.wgsl"));
             let layout = whole(&layouts.frame.layout, &own[1]);
             let draws = LISTS.map(|name| strips(device, (&blades, &layout), name, samples));
             Ok(Some(Self {
@@ -134,7 +134,7 @@ impl Grass {
 }
 
 /// The shader of a part of grass.
-fn module(gpu: &Gpu, stage: &Stage, own: &str) -> ShaderModule {
+fn module(gpu: &Gpu, scene: &LitScene, own: &str) -> ShaderModule {
     let parts = [
         include_str!("frame.wgsl"),
         include_str!("shadows.wgsl"),
@@ -146,12 +146,12 @@ fn module(gpu: &Gpu, stage: &Stage, own: &str) -> ShaderModule {
         include_str!("meadow.wgsl"),
         own,
     ];
-    let text = parts.iter().fold(stage.shader_of_light(STAGE_GROUP), |text, part| text + "\n" + part);
+    let text = parts.iter().fold(scene.shader_of_light(STAGE_GROUP), |text, part| text + "\n" + part);
     let source = ShaderSource::Wgsl(text.into());
     gpu.context.device.create_shader_module(ShaderModuleDescriptor { label: Some("grass"), source })
 }
 
-/// The bindings of a stage: the species, what is shown, the sets, those that are kept and where their lists start; to
+/// The bindings of a pass: the species, what is shown, the sets, those that are kept and where their lists start; to
 /// choose them the draws and the marks as well, all but the sets to be written.
 fn layout(gpu: &Gpu, visibility: ShaderStages) -> BindGroupLayout {
     let chooses = visibility == ShaderStages::COMPUTE;

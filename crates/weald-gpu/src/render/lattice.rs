@@ -21,7 +21,7 @@ const SQUARE: f32 = 2.0 * QUADS as f32;
 #[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 #[repr(C)]
 pub(crate) struct Patch {
-    /// North-western corner, in places of the stage.
+    /// North-western corner, in places of the scene.
     pub(crate) corner: [f32; 2],
     /// Cells between vertices.
     pub(crate) spacing: f32,

@@ -6,7 +6,7 @@ use super::frame::Frame;
 use super::maps::Maps;
 use super::targets::DEPTH;
 
-/// Group of the stage's maps and numbers.
+/// Group of the scene's textures and uniforms.
 pub(super) const STAGE_GROUP: u32 = 1;
 
 /// The layouts of all groups.

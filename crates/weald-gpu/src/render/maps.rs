@@ -1,8 +1,8 @@
-//! The maps and numbers of a stage on the device.
+//! The textures and uniforms of a scene on the device.
 
 use half::f16;
 use weald::Error;
-use weald::picture::{MapKind, Stage, StageMap};
+use weald::picture::{LitScene, SceneTexture, TextureKind};
 use wgpu::{
     AddressMode, BindGroup, BindGroupDescriptor, BindGroupEntry, BindGroupLayout, BindGroupLayoutDescriptor,
     BindGroupLayoutEntry, BindingResource, BindingType, BufferBindingType, BufferUsages, Extent3d,
@@ -21,7 +21,7 @@ const FIRST_MAP: u32 = 2;
 /// Rows of a map that go to the device at once, so that little is staged.
 const ROWS: usize = 256;
 
-/// All that shaders know of a stage.
+/// All that shaders know of a scene.
 #[derive(Debug)]
 pub(super) struct Maps {
     pub(super) layout: BindGroupLayout,
@@ -31,8 +31,8 @@ pub(super) struct Maps {
 }
 
 impl Maps {
-    pub(super) fn new(gpu: &Gpu, stage: &Stage, maps: &[StageMap]) -> Result<Self, Error> {
-        let bytes = stage.numbers();
+    pub(super) fn new(gpu: &Gpu, scene: &LitScene, maps: &[SceneTexture]) -> Result<Self, Error> {
+        let bytes = scene.uniforms();
         let usage = BufferUsages::UNIFORM | BufferUsages::COPY_DST;
         let numbers = Store::new(gpu, "the numbers of a landscape", bytes.len() as u64, usage)?;
         gpu.context.queue.write_buffer(&numbers.buffer, 0, &bytes);
@@ -44,24 +44,24 @@ impl Maps {
 
     /// The view of a map.
     pub(super) fn view(&self, name: &str) -> &TextureView {
-        let at = Stage::map_kinds().position(|(known, ..)| known == name);
-        &self.canvases[at.expect("a map of the stage")].view
+        let at = LitScene::texture_kinds().position(|(known, ..)| known == name);
+        &self.canvases[at.expect("a map of the scene")].view
     }
 }
 
-pub(super) fn format(kind: MapKind) -> TextureFormat {
+pub(super) fn format(kind: TextureKind) -> TextureFormat {
     match kind {
-        MapKind::Exact => TextureFormat::R32Float,
-        MapKind::Smooth => TextureFormat::Rgba16Float,
-        MapKind::Share => TextureFormat::R8Unorm,
+        TextureKind::Exact => TextureFormat::R32Float,
+        TextureKind::Smooth => TextureFormat::Rgba16Float,
+        TextureKind::Share => TextureFormat::R8Unorm,
     }
 }
 
-fn upload(gpu: &Gpu, map: &StageMap) -> Result<Canvas, Error> {
+fn upload(gpu: &Gpu, map: &SceneTexture) -> Result<Canvas, Error> {
     let size = map.size.map(|side| side as u32);
     let usage = TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_DST;
     // Surfaces may follow a simulation.
-    let usage = if map.kind == MapKind::Exact { usage | TextureUsages::STORAGE_BINDING } else { usage };
+    let usage = if map.kind == TextureKind::Exact { usage | TextureUsages::STORAGE_BINDING } else { usage };
     let shape = Shape {
         layers: map.layers as u32,
         is_array: is_array(map.name),
@@ -76,7 +76,7 @@ fn upload(gpu: &Gpu, map: &StageMap) -> Result<Canvas, Error> {
 /// The values of a texture, layer by layer, row by row.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Texels<'a> {
-    pub(super) kind: MapKind,
+    pub(super) kind: TextureKind,
     pub(super) columns: usize,
     pub(super) values: &'a [f32],
 }
@@ -94,7 +94,7 @@ pub(super) fn write(gpu: &Gpu, canvas: &Canvas, texels: &Texels<'_>) -> Result<(
 }
 
 fn is_array(name: &str) -> bool {
-    Stage::map_kinds().any(|(known, _, is_array)| known == name && is_array)
+    LitScene::texture_kinds().any(|(known, _, is_array)| known == name && is_array)
 }
 
 /// Writes some rows of a layer, and waits until they are there.
@@ -126,11 +126,13 @@ fn write_rows(
     gpu.context.wait(Some(submission))
 }
 
-fn bytes(kind: MapKind, values: &[f32]) -> Vec<u8> {
+fn bytes(kind: TextureKind, values: &[f32]) -> Vec<u8> {
     match kind {
-        MapKind::Exact => bytemuck::cast_slice(values).to_vec(),
-        MapKind::Smooth => values.iter().flat_map(|&value| f16::from_f32(value).to_le_bytes()).collect(),
-        MapKind::Share => values.iter().map(|value| (value.clamp(0.0, 1.0) * 255.0 + 0.5) as u8).collect(),
+        TextureKind::Exact => bytemuck::cast_slice(values).to_vec(),
+        TextureKind::Smooth => values.iter().flat_map(|&value| f16::from_f32(value).to_le_bytes()).collect(),
+        TextureKind::Share => {
+            values.iter().map(|value| (value.clamp(0.0, 1.0) * 255.0 + 0.5) as u8).collect()
+        }
     }
 }
 
@@ -147,13 +149,13 @@ fn layout(gpu: &Gpu) -> BindGroupLayout {
         min_binding_size: None,
     };
     let mut entries = vec![entry(0, numbers), entry(1, BindingType::Sampler(SamplerBindingType::Filtering))];
-    entries.extend((FIRST_MAP..).zip(Stage::map_kinds()).map(|(binding, (_, kind, is_array))| {
-        let filterable = kind != MapKind::Exact;
+    entries.extend((FIRST_MAP..).zip(LitScene::texture_kinds()).map(|(binding, (_, kind, is_array))| {
+        let filterable = kind != TextureKind::Exact;
         let view_dimension = if is_array { TextureViewDimension::D2Array } else { TextureViewDimension::D2 };
         let sample_type = TextureSampleType::Float { filterable };
         entry(binding, BindingType::Texture { sample_type, view_dimension, multisampled: false })
     }));
-    let description = BindGroupLayoutDescriptor { label: Some("stage"), entries: &entries };
+    let description = BindGroupLayoutDescriptor { label: Some("scene"), entries: &entries };
     gpu.context.device.create_bind_group_layout(&description)
 }
 
@@ -180,6 +182,6 @@ fn bind(
         binding,
         resource: BindingResource::TextureView(&canvas.view),
     }));
-    let description = BindGroupDescriptor { label: Some("stage"), layout, entries: &entries };
+    let description = BindGroupDescriptor { label: Some("scene"), layout, entries: &entries };
     gpu.context.attempt("binding maps", || Ok(gpu.context.device.create_bind_group(&description)))
 }

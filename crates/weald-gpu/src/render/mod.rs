@@ -1,6 +1,6 @@
 //! Draws a landscape in real time, offscreen or into a window, by the same passes.
 //!
-//! What is drawn is a [`Stage`](weald::picture::Stage) of the library: its surfaces, colours, light and air, which the
+//! What is drawn is a [`LitScene`](weald::picture::LitScene) of the library: its surfaces, colours, light and air, which the
 //! ray-marched view draws as well, become textures and numbers once; each picture then takes a camera. The passes: ground
 //! by level of detail ([`lattice`]), cut sides, plain and sky, all into linear light of 16-bit floats with depth reversed;
 //! then tone mapping brings light to the numbers of a picture. [`renderer`] has their order.
@@ -38,9 +38,13 @@ mod timing;
 mod tone_mapping;
 
 pub use chosen::Chosen;
-pub use field::Viewpoint;
 pub use grass_look::GrassLook;
 pub use options::Options;
 pub use renderer::{Renderer, TestLook};
-pub use tables::{GrassRow, Measuring, OnRow, frame_budget, grass_tables};
 pub use timing::Timings;
+
+/// What `weald bench --render` measures: fields of grass, from the standpoints of the publication's tables.
+pub mod bench {
+    pub use super::field::GrassStandpoint;
+    pub use super::tables::{GrassRow, Measuring, OnRow, frame_budget, grass_tables};
+}

@@ -1,7 +1,7 @@
 //! The pipelines that draw light, and their order.
 
 use weald::Error;
-use weald::picture::Stage;
+use weald::picture::LitScene;
 use wgpu::{
     BindGroup, BindGroupLayout, Color, ColorTargetState, ColorWrites, CommandEncoder, CompareFunction,
     Device, FragmentState, LoadOp, MultisampleState, Operations, PipelineCompilationOptions, PipelineLayout,
@@ -16,7 +16,7 @@ use super::layouts::{Layouts, STAGE_GROUP, depth_state};
 use super::plants::Plants;
 use super::targets::{LIGHT, Targets};
 use super::terrain::{PATCH_BYTES, RIM_BYTES, SIDE_BYTES, Terrain};
-use super::timing::{Moment, Timer};
+use super::timing::{Timer, Timestamp};
 use crate::gpu::Gpu;
 
 /// The passes' own shaders, each after those that it calls.
@@ -108,8 +108,13 @@ struct Pipeline<'a> {
 }
 
 impl Passes {
-    pub(super) fn new(gpu: &Gpu, stage: &Stage, layouts: Layouts<'_>, samples: u32) -> Result<Self, Error> {
-        let text = SHADERS.iter().fold(stage.shader(STAGE_GROUP), |text, shader| text + "\n" + shader);
+    pub(super) fn new(
+        gpu: &Gpu,
+        scene: &LitScene,
+        layouts: Layouts<'_>,
+        samples: u32,
+    ) -> Result<Self, Error> {
+        let text = SHADERS.iter().fold(scene.shader(STAGE_GROUP), |text, shader| text + "\n" + shader);
         gpu.context.attempt("making the pipelines of a picture", || {
             let device = &gpu.context.device;
             let source = ShaderSource::Wgsl(text.into());
@@ -128,7 +133,7 @@ impl Passes {
                 layout: whole(&[Some(&frame.layout), Some(&maps.layout)]),
                 casters: whole(&[Some(&frame.caster_layout), Some(&maps.layout), Some(cascade)]),
                 samples,
-                has_holes: stage.has_holes(),
+                has_holes: scene.has_holes(),
             };
             Ok(Self::of(&maker))
         })
@@ -193,7 +198,7 @@ impl Passes {
                 depth_ops: Some(depth),
                 stencil_ops: None,
             }),
-            timestamp_writes: timer.map(|timer| timer.around(Moment::Light, [true; 2])),
+            timestamp_writes: timer.map(|timer| timer.around(Timestamp::Light, [true; 2])),
             ..RenderPassDescriptor::default()
         });
         for (at, group) in (0..).zip(groups) {
@@ -202,7 +207,7 @@ impl Passes {
         pass.set_pipeline(&self.ground);
         terrain.draw_ground(&mut pass, 0);
         if let Some(timer) = timer {
-            timer.note(&mut pass, Moment::Ground);
+            timer.note(&mut pass, Timestamp::Ground);
         }
         pass.set_pipeline(&self.sides);
         terrain.draw_sides(&mut pass, 0);
@@ -213,13 +218,13 @@ impl Passes {
             pass.draw(0..3, 0..1);
         }
         if let Some(timer) = timer {
-            timer.note(&mut pass, Moment::Behind);
+            timer.note(&mut pass, Timestamp::Behind);
         }
         if let Some(grass) = grass {
             grass.draw(&mut pass);
         }
         if let Some(timer) = timer {
-            timer.note(&mut pass, Moment::Grass);
+            timer.note(&mut pass, Timestamp::Grass);
         }
         if let Some(plants) = plants {
             plants.draw(&mut pass);
@@ -231,7 +236,7 @@ impl Maker<'_> {
     /// The pipeline of the entry points `NAME_vertex` and `NAME_fragment`.
     fn light(&self, pipeline: &Pipeline<'_>) -> RenderPipeline {
         let target = ColorTargetState { format: LIGHT, blend: None, write_mask: ColorWrites::ALL };
-        let names = ["vertex", "fragment"].map(|stage| format!("{}_{stage}", pipeline.name));
+        let names = ["vertex", "fragment"].map(|part| format!("{}_{part}", pipeline.name));
         let holes = [("HOLES", f64::from(self.has_holes))];
         let compilation_options =
             PipelineCompilationOptions { constants: &holes, ..PipelineCompilationOptions::default() };

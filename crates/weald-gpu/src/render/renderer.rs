@@ -1,6 +1,6 @@
-//! A stage on a device: what is drawn of it, and in which order.
+//! A scene on a device: what is drawn of it, and in which order.
 
-use weald::picture::{Camera, Image, Stage};
+use weald::picture::{Camera, Image, LitScene};
 use weald::{Error, Landscape};
 
 use super::canopy;
@@ -34,7 +34,7 @@ pub struct TestLook {
     pub detail_from: Option<[f32; 3]>,
 }
 
-/// A stage on a device, ready to be drawn from any camera.
+/// A scene on a device, ready to be drawn from any camera.
 #[derive(Debug)]
 pub struct Renderer {
     pub(super) gpu: Gpu,
@@ -61,23 +61,23 @@ pub struct Renderer {
 }
 
 impl Renderer {
-    /// Brings a stage to a device.
+    /// Brings a scene to a device.
     ///
     /// # Errors
     /// [`Error::Limit`] for a size or number of samples that the device does not have, [`Error::Device`] where its
     /// memory does not suffice or it fails.
-    pub fn new(gpu: &Gpu, stage: &Stage, options: Options) -> Result<Self, Error> {
+    pub fn new(gpu: &Gpu, scene: &LitScene, options: Options) -> Result<Self, Error> {
         options.check(gpu)?;
-        let source = stage.maps();
-        let maps = Maps::new(gpu, stage, &source)?;
-        let terrain = Terrain::new(gpu, stage, &source)?;
+        let source = scene.textures();
+        let maps = Maps::new(gpu, scene, &source)?;
+        let terrain = Terrain::new(gpu, scene, &source)?;
         let shadows = Shadows::new(gpu)?;
         let canopy = canopy::none(gpu)?;
         let frame = Frame::new(gpu, &shadows.canvas, &canopy)?;
         let layouts = Layouts { frame: &frame, maps: &maps, cascade: &shadows.layout };
-        let passes = Passes::new(gpu, stage, layouts, options.samples)?;
+        let passes = Passes::new(gpu, scene, layouts, options.samples)?;
         let targets = Targets::new(gpu, options)?;
-        let film = ToneMapping::new(gpu, stage, &maps, &targets)?;
+        let film = ToneMapping::new(gpu, scene, &maps, &targets)?;
         Ok(Self {
             gpu: gpu.clone(),
             options,
@@ -95,23 +95,23 @@ impl Renderer {
             look: TestLook::default(),
             timer: None,
             follower: None,
-            has_water: stage.has_water(),
+            has_water: scene.has_water(),
             is_dry: false,
             seconds: 0.0,
         })
     }
 
-    /// Plants what grows in the stage's landscape: its grass and scattered plants.
+    /// Plants what grows in the scene's landscape: its grass and scattered plants.
     ///
     /// # Errors
     /// [`Error::Device`] where the device's memory does not suffice or it fails.
-    pub fn plant(&mut self, stage: &Stage, landscape: &Landscape) -> Result<(), Error> {
+    pub fn plant(&mut self, scene: &LitScene, landscape: &Landscape) -> Result<(), Error> {
         if let Some(canopy) = canopy::of(&self.gpu, landscape)? {
             self.frame.plant(&self.gpu, &self.shadows.canvas, &canopy)?;
             self.canopy = canopy;
         }
         let layouts = Layouts { frame: &self.frame, maps: &self.maps, cascade: &self.shadows.layout };
-        let grown = (stage, landscape);
+        let grown = (scene, landscape);
         self.grass = Grass::new(&self.gpu, grown, layouts, self.options.samples)?;
         self.plants = Plants::new(&self.gpu, grown, layouts, self.options.samples)?;
         Ok(())
@@ -123,7 +123,7 @@ impl Renderer {
     }
 
     /// Sets the moment of the next pictures, in seconds: water flows by it.
-    pub fn set_moment(&mut self, seconds: f32) {
+    pub fn set_time(&mut self, seconds: f32) {
         self.seconds = seconds;
     }
 
@@ -145,8 +145,8 @@ impl Renderer {
         landing.image(&self.gpu)
     }
 
-    /// Encodes the picture of a camera into a view of the renderer's size, of which the format is
-    /// `Rgba8Unorm` or `Bgra8Unorm` and holds numbers of sRGB: a picture's, or a window's.
+    /// Encodes the picture of a camera into a view of the renderer's size. The shader writes values in sRGB encoding: the
+    /// format of the view is `Rgba8Unorm` or `Bgra8Unorm`, not `…Srgb`, by which they would be encoded twice.
     ///
     /// # Errors
     /// As [`Renderer::render`].

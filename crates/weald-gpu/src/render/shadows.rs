@@ -13,7 +13,7 @@ use super::cascades::{CASCADES, TEXELS};
 use super::passes::{Casters, Drawing};
 use super::targets::DEPTH;
 use super::textures::{Canvas, Shape};
-use super::timing::{Moment, Timer};
+use super::timing::{Timer, Timestamp};
 use crate::gpu::Gpu;
 use crate::memory::Store;
 
@@ -96,8 +96,8 @@ impl Shadows {
 /// What the pass of a cascade notes: the first when it begins, the last when it ends.
 fn ends(timer: &Timer, cascade: usize) -> Option<RenderPassTimestampWrites<'_>> {
     match cascade {
-        0 => Some(timer.around(Moment::Shadows, [true, false])),
-        _ if cascade == CASCADES - 1 => Some(timer.around(Moment::Shadows, [false, true])),
+        0 => Some(timer.around(Timestamp::Shadows, [true, false])),
+        _ if cascade == CASCADES - 1 => Some(timer.around(Timestamp::Shadows, [false, true])),
         _ => None,
     }
 }

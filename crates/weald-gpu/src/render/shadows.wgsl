@@ -20,7 +20,7 @@ const WIDEST = 3.0;
 fn in_cascade(point: vec3<f32>, cascade: i32) -> vec3<f32> {
     let square = frame.cascades[cascade];
     let aside = vec2<f32>(dot(point, frame.sun_right.xyz), dot(point, frame.sun_up.xyz));
-    let depth = (frame.sun_right.w - dot(point, stage.sun.xyz)) / frame.sun_up.w;
+    let depth = (frame.sun_right.w - dot(point, scene.sun.xyz)) / frame.sun_up.w;
     return vec3<f32>((aside - square.xy) / square.zw, depth);
 }
 
@@ -46,7 +46,7 @@ fn seen_in_cascade(point: vec3<f32>, normal: vec3<f32>, cascade: i32) -> f32 {
     let square = frame.cascades[cascade];
     let size = f32(textureDimensions(shadow_depths).x);
     let texel = 2.0 * max(square.z, square.w) / size;
-    let facing = clamp(dot(normal, stage.sun.xyz), 0.0, 1.0);
+    let facing = clamp(dot(normal, scene.sun.xyz), 0.0, 1.0);
     // Off the surface by as much as it may rise within the looks.
     let lifted = point + normal * texel * (0.5 + 2.0 * sqrt(1.0 - facing * facing));
     let at = in_cascade(lifted, cascade);
@@ -58,7 +58,7 @@ fn seen_in_cascade(point: vec3<f32>, normal: vec3<f32>, cascade: i32) -> f32 {
         // Around a point without anything before it there may still be the start of an edge.
         return textureSampleCompareLevel(shadow_depths, shadow_between, place, cascade, depth);
     }
-    let width = (depth - blocker) * range * tan(stage.sun.w) / texel;
+    let width = (depth - blocker) * range * tan(scene.sun.w) / texel;
     let spacing = clamp(width, 0.75, WIDEST) * 0.5;
     var sum = 0.0;
     for (var look = 0; look < 16; look++) {

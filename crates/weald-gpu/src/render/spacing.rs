@@ -4,7 +4,7 @@
 //! next one takes less than so many pixels. Ranges at least double from level to level, and are several squares wide,
 //! which is what keeps neighbours within one level of each other and cracks away.
 
-use weald::picture::StageMap;
+use weald::picture::SceneTexture;
 
 use super::levels::{MAX_LEVELS, spacing};
 
@@ -59,7 +59,7 @@ impl Ranges {
 }
 
 /// The error in metres of each level of a ground with such control points.
-pub(crate) fn errors(top: &StageMap, levels: usize) -> Vec<f32> {
+pub(crate) fn errors(top: &SceneTexture, levels: usize) -> Vec<f32> {
     // Of a smooth surface half the spacing has a quarter of the error.
     let finest = bend(top, 1) / 4.0;
     (0..levels)
@@ -71,7 +71,7 @@ pub(crate) fn errors(top: &StageMap, levels: usize) -> Vec<f32> {
 }
 
 /// How far the ground lies off the middle of straight lines over two steps of so many cells.
-fn bend(top: &StageMap, step: usize) -> f32 {
+fn bend(top: &SceneTexture, step: usize) -> f32 {
     let [columns, rows] = top.size;
     let mut bends = Vec::new();
     let places = columns * rows;
@@ -96,11 +96,11 @@ fn bend(top: &StageMap, step: usize) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use weald::picture::MapKind;
+    use weald::picture::TextureKind;
 
-    fn ground(height: impl Fn(usize, usize) -> f32) -> StageMap {
+    fn ground(height: impl Fn(usize, usize) -> f32) -> SceneTexture {
         let values = (0..64 * 64).map(|cell| height(cell % 64, cell / 64)).collect();
-        StageMap { name: "top", kind: MapKind::Exact, size: [64, 64], layers: 1, values }
+        SceneTexture { name: "top", kind: TextureKind::Exact, size: [64, 64], layers: 1, values }
     }
 
     #[test]

@@ -8,7 +8,7 @@
 
 use weald::Error;
 
-use super::field::{GrassField, Viewpoint};
+use super::field::{GrassField, GrassStandpoint};
 use super::grass_look::GrassLook;
 use super::timing::Timings;
 use crate::gpu::Gpu;
@@ -19,7 +19,7 @@ pub struct GrassRow {
     /// Number of the source's table, 1 to 3; 0 for the frame budget.
     pub table: u8,
     /// From where the field is seen.
-    pub standpoint: Viewpoint,
+    pub standpoint: GrassStandpoint,
     /// What is shown of its grass.
     pub look: GrassLook,
     /// Sets that the field was to have.
@@ -69,7 +69,7 @@ pub type OnRow<'a> = dyn FnMut(&GrassRow) -> Result<(), Error> + 'a;
 #[derive(Clone, Copy, Debug)]
 struct Plan {
     table: u8,
-    standpoint: Viewpoint,
+    standpoint: GrassStandpoint,
     look: GrassLook,
     sets: u32,
     source: Option<f64>,
@@ -92,10 +92,10 @@ const TABLE_2: [(u32, [f64; 4]); 2] =
     [(50_000, [73.40, 45.29, 30.88, 24.47]), (100_000, [39.16, 22.01, 15.27, 12.02])];
 
 /// Views, and frames per second of levels 1 to 4, of table 3.
-const TABLE_3: [(Viewpoint, [f64; 4]); 3] = [
-    (Viewpoint::Far, [110.46, 80.52, 41.22, 28.70]),
-    (Viewpoint::Eye, [212.88, 109.58, 85.26, 56.25]),
-    (Viewpoint::Near, [301.58, 229.46, 191.62, 150.25]),
+const TABLE_3: [(GrassStandpoint, [f64; 4]); 3] = [
+    (GrassStandpoint::Far, [110.46, 80.52, 41.22, 28.70]),
+    (GrassStandpoint::Eye, [212.88, 109.58, 85.26, 56.25]),
+    (GrassStandpoint::Near, [301.58, 229.46, 191.62, 150.25]),
 ];
 
 /// Sets of the field of table 3.
@@ -110,7 +110,7 @@ fn as_in_the_source(level: usize, culled: bool) -> GrassLook {
 }
 
 fn plans_of_the_source() -> Vec<Plan> {
-    let far = Viewpoint::Far;
+    let far = GrassStandpoint::Far;
     let all = |table, sets, level, fps| {
         let look = as_in_the_source(level, false);
         Plan { table, standpoint: far, look, sets, source: Some(fps) }
@@ -132,7 +132,7 @@ fn plans_of_the_budget() -> Vec<Plan> {
     let looks = [(true, true), (false, true), (true, false), (false, false)];
     let plan = |sets, (culled, thinned)| {
         let look = GrassLook { culled, thinned, level: None };
-        Plan { table: 0, standpoint: Viewpoint::Eye, look, sets, source: None }
+        Plan { table: 0, standpoint: GrassStandpoint::Eye, look, sets, source: None }
     };
     BUDGETS.into_iter().flat_map(|sets| looks.map(|look| plan(sets, look))).collect()
 }

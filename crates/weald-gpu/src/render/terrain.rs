@@ -1,7 +1,7 @@
 //! The patches of ground that a camera sees, on the device.
 
 use weald::Error;
-use weald::picture::{Camera, Rim, Stage, StageMap};
+use weald::picture::{Camera, LitScene, Rim, SceneTexture};
 use wgpu::{Buffer, BufferUsages, IndexFormat, RenderPass};
 
 use super::cascades::{CASCADES, Cascades};
@@ -21,7 +21,7 @@ const WALL: u32 = 6;
 /// Patches for which there is room at first.
 const ROOM: usize = 1024;
 
-/// The ground of a stage, and the patches of its last picture.
+/// The ground of a scene, and the patches of its last picture.
 #[derive(Debug)]
 pub(super) struct Terrain {
     lattice: Lattice,
@@ -69,19 +69,19 @@ pub(super) const RIM_BYTES: u64 = size_of::<[f32; 8]>() as u64;
 pub(super) const SIDE_BYTES: u64 = size_of::<Side>() as u64;
 
 impl Terrain {
-    pub(super) fn new(gpu: &Gpu, stage: &Stage, maps: &[StageMap]) -> Result<Self, Error> {
-        let top = maps.iter().find(|map| map.name == "top").expect("every stage has a ground");
-        let (cells, metres) = (stage.cells().map(|cells| cells as f32), stage.spacing());
+    pub(super) fn new(gpu: &Gpu, scene: &LitScene, maps: &[SceneTexture]) -> Result<Self, Error> {
+        let top = maps.iter().find(|map| map.name == "top").expect("every scene has a ground");
+        let (cells, metres) = (scene.cells().map(|cells| cells as f32), scene.spacing());
         let lattice = Lattice::new(cells, metres);
         Ok(Self {
-            heights: Heights::new(top, metres, stage.base()),
+            heights: Heights::new(top, metres, scene.base()),
             errors: errors(top, lattice.levels),
-            is_empty: stage.is_empty(),
-            sun: stage.sun(),
+            is_empty: scene.is_empty(),
+            sun: scene.sun(),
             grid: Indices::new(gpu, "indices of a patch", &grid(QUADS, QUADS))?,
             wall: Indices::new(gpu, "indices of a wall", &grid(QUADS, 1))?,
             seen: (0..=CASCADES).map(|_| Seen::new(gpu)).collect::<Result<_, _>>()?,
-            rims: rims(gpu, stage)?,
+            rims: rims(gpu, scene)?,
             lattice,
         })
     }
@@ -166,13 +166,13 @@ impl Terrain {
 }
 
 /// The walls around what has no data: the ends of each, and the normals there.
-fn rims(gpu: &Gpu, stage: &Stage) -> Result<Instances<[f32; 8]>, Error> {
+fn rims(gpu: &Gpu, scene: &LitScene) -> Result<Instances<[f32; 8]>, Error> {
     let of = |rim: Rim| {
         let [[a, b], [c, d]] = rim.ends;
         let [[e, f], [g, h]] = rim.normals;
         [a, b, c, d, e, f, g, h]
     };
-    let rims: Vec<_> = stage.rims().into_iter().map(of).collect();
+    let rims: Vec<_> = scene.rims().into_iter().map(of).collect();
     let mut instances = Instances::new(gpu, "walls around what has no data")?;
     instances.write(gpu, &rims)?;
     Ok(instances)

@@ -14,12 +14,12 @@ struct Ground {
 fn vertex_place(patch_of: vec4<f32>, at: vec2<f32>) -> vec2<f32> {
     let start = patch_of.xy + at * patch_of.z;
     let slide = frame.slides[u32(patch_of.w)];
-    let away = (start - frame.stand.xy) * stage.grid.zw;
+    let away = (start - frame.stand.xy) * scene.grid.zw;
     let distance = length(vec3<f32>(away, frame.stand.z));
     let share = clamp((distance - slide.x) / (slide.y - slide.x), 0.0, 1.0);
     let odd = fract(at * 0.5) * 2.0;
     let place = start - odd * (share * patch_of.z);
-    return min(place, stage.grid.xy + 0.5);
+    return min(place, scene.grid.xy + 0.5);
 }
 
 fn ground_point(place: vec2<f32>) -> vec3<f32> {
@@ -47,7 +47,7 @@ fn side_at_vertex(index: u32, patch_of: vec4<f32>, edge: u32) -> vec3<f32> {
         vec2<f32>(along, 0.0), vec2<f32>(far, along), vec2<f32>(along, far), vec2<f32>(0.0, along),
     );
     let point = ground_point(vertex_place(patch_of, ats[edge]));
-    return select(point, vec3<f32>(point.xy, stage.plain.w), index > QUADS);
+    return select(point, vec3<f32>(point.xy, scene.plain.w), index > QUADS);
 }
 
 @vertex
@@ -79,7 +79,7 @@ fn ground_fragment(in: Ground) -> @location(0) vec4<f32> {
     let depth = select(lake_depth(place, surface.x), -1e9, is_dry);
     let sun = sun_seen(in.point, normal_of(surface.yz));
     var river = 0.0;
-    if stage.has.w > 0.0 && depth <= 0.0 && !is_dry {
+    if scene.has.w > 0.0 && depth <= 0.0 && !is_dry {
         river = textureSampleLevel(rivers, between, share_of(place), 0.0).x;
     }
     var radiance = vec3<f32>(0.0);
@@ -90,7 +90,7 @@ fn ground_fragment(in: Ground) -> @location(0) vec4<f32> {
         // Grass is rounder than what it grows on.
         let normal = roughened(smooth_normal, skin.bump * through_leaves(lawn.w, 0.3));
         let seen = seen_at(skylight, share_of(place));
-        let in_sun = skin.albedo * stage.sunlight.xyz * (max(dot(normal, stage.sun.xyz), 0.0) * sun) / PI;
+        let in_sun = skin.albedo * scene.sunlight.xyz * (max(dot(normal, scene.sun.xyz), 0.0) * sun) / PI;
         let under_sky = skin.albedo * skylight_on(seen, normal) / PI;
         radiance = in_sun + under_sky;
         if lawn.w > 1e-4 {
@@ -99,7 +99,7 @@ fn ground_fragment(in: Ground) -> @location(0) vec4<f32> {
         }
     }
     if depth > 0.0 {
-        radiance = water_radiance(place, in.point, direction, ray_length, depth / stage.scale.y, sun);
+        radiance = water_radiance(place, in.point, direction, ray_length, depth / scene.scale.y, sun);
     } else if river > 0.0 {
         radiance = mix(radiance, water_radiance(place, in.point, direction, ray_length, 1.2 * river, sun), river);
     }
@@ -109,8 +109,8 @@ fn ground_fragment(in: Ground) -> @location(0) vec4<f32> {
 fn side_colour(point: vec3<f32>, normal: vec3<f32>) -> vec4<f32> {
     let relative = point - frame.eye.xyz;
     let ray_length = length(relative);
-    let place = clamp(place_of(point), vec2<f32>(0.5), stage.grid.xy + 0.5);
-    let outside = point + normal * 1.5 * stage.scale.w;
+    let place = clamp(place_of(point), vec2<f32>(0.5), scene.grid.xy + 0.5);
+    let outside = point + normal * 1.5 * scene.scale.w;
     let radiance = side_radiance(place, point, normal, sun_seen(outside, normal));
     return vec4<f32>(limited(veil(radiance, frame.eye.xyz, relative / ray_length, ray_length)), 1.0);
 }
@@ -129,7 +129,7 @@ fn is_rim_end(index: u32) -> bool {
 fn rim_at_vertex(index: u32, ends: vec4<f32>) -> vec3<f32> {
     let point = ground_point(select(ends.xy, ends.zw, is_rim_end(index)));
     let is_below = index == 2u || index == 4u || index == 5u;
-    return select(point, vec3<f32>(point.xy, stage.plain.w), is_below);
+    return select(point, vec3<f32>(point.xy, scene.plain.w), is_below);
 }
 
 // A wall along the rim of what has no data, from one place to another.
@@ -151,11 +151,11 @@ fn rim_fragment(in: Wall) -> @location(0) vec4<f32> {
 @fragment
 fn side_fragment(in: Ground) -> @location(0) vec4<f32> {
     let place = place_of(in.point);
-    if !is_valid(clamp(place, vec2<f32>(0.5), stage.grid.xy + 0.5)) {
+    if !is_valid(clamp(place, vec2<f32>(0.5), scene.grid.xy + 0.5)) {
         discard;
     }
     let from_low = place - 0.5;
-    let from_high = stage.grid.xy + 0.5 - place;
+    let from_high = scene.grid.xy + 0.5 - place;
     let nearest = min(min(from_low.x, from_low.y), min(from_high.x, from_high.y));
     var normal = vec3<f32>(0.0, -1.0, 0.0);
     if from_low.x == nearest {

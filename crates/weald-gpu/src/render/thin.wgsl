@@ -27,9 +27,9 @@ fn leaf_light(
     if dot(normal, direction) > 0.0 {
         normal = -normal;
     }
-    let facing = dot(normal, stage.sun.xyz);
+    let facing = dot(normal, scene.sun.xyz);
     let shining = through * max(-facing, 0.0) * vec3<f32>(1.15, 1.05, 0.55);
-    let sun = stage.sunlight.xyz * light.x * (max(facing, 0.0) + shining);
+    let sun = scene.sunlight.xyz * light.x * (max(facing, 0.0) + shining);
     let up = normalize(normal + vec3<f32>(0.0, 0.0, skyward));
     let sky = skylight_on(seen_at(skylight, share_of(place_of(point))), up) * light.y;
     let radiance = colour * (sun + sky) / PI;

@@ -1,8 +1,8 @@
 //! How long the passes of a picture take, by the device's own clock.
 //!
-//! Each part ends with a moment, and lasts from the one before: parts add up to the whole. A software device
-//! (llvmpipe) bins what is drawn and notes a moment only when it draws the bins, together with what comes next; so each
-//! moment is followed by a spare one, which makes it draw. There the processor makes the vertices of a part while it still
+//! Each part ends with a timestamp, and lasts from the one before: parts add up to the whole. A software device
+//! (llvmpipe) bins what is drawn and notes a timestamp only when it draws the bins, together with what comes next; so each
+//! timestamp is followed by a spare one, which makes it draw. There the processor makes the vertices of a part while it still
 //! draws the one before, and the borders between parts are soft.
 
 use std::time::Duration;
@@ -21,7 +21,7 @@ use crate::memory::Store;
 
 /// Moments of a picture, in order: its beginning, then the end of each part.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Moment {
+pub(super) enum Timestamp {
     Begin,
     Choice,
     Shadows,
@@ -32,13 +32,13 @@ pub(super) enum Moment {
     ToneMapping,
 }
 
-/// How many moments there are, with their spare ones.
-const MOMENTS: u32 = 16;
+/// How many timestamps there are, with their spare ones.
+const TIMESTAMPS: u32 = 16;
 
-/// Bytes of a moment.
+/// Bytes of a timestamp.
 const BYTES: u64 = 8;
 
-impl Moment {
+impl Timestamp {
     fn slot(self) -> u32 {
         2 * self as u32
     }
@@ -74,7 +74,7 @@ pub struct Timings {
 /// The clock of a device.
 #[derive(Debug)]
 pub(super) struct Timer {
-    moments: QuerySet,
+    timestamps: QuerySet,
     resolved: Store,
     landing: Store,
 }
@@ -87,23 +87,23 @@ impl Timer {
             let message = format!("{} has no clock that passes can read", gpu.context.adapter);
             return Err(DeviceError::new(kind, message).into());
         }
-        let bytes = BYTES * u64::from(MOMENTS);
+        let bytes = BYTES * u64::from(TIMESTAMPS);
         let usage = BufferUsages::QUERY_RESOLVE | BufferUsages::COPY_SRC;
         let description =
-            QuerySetDescriptor { label: Some("moments"), ty: QueryType::Timestamp, count: MOMENTS };
+            QuerySetDescriptor { label: Some("timestamps"), ty: QueryType::Timestamp, count: TIMESTAMPS };
         Ok(Self {
-            moments: gpu.context.device.create_query_set(&description),
-            resolved: Store::new(gpu, "moments", bytes, usage)?,
-            landing: Store::new(gpu, "moments", bytes, BufferUsages::COPY_DST | BufferUsages::MAP_READ)?,
+            timestamps: gpu.context.device.create_query_set(&description),
+            resolved: Store::new(gpu, "timestamps", bytes, usage)?,
+            landing: Store::new(gpu, "timestamps", bytes, BufferUsages::COPY_DST | BufferUsages::MAP_READ)?,
         })
     }
 
     /// Notes the beginning.
     pub(super) fn begin(&self, encoder: &mut CommandEncoder) {
         let writes = ComputePassTimestampWrites {
-            query_set: &self.moments,
-            beginning_of_pass_write_index: Some(Moment::Begin.slot()),
-            end_of_pass_write_index: Some(Moment::Begin.spare()),
+            query_set: &self.timestamps,
+            beginning_of_pass_write_index: Some(Timestamp::Begin.slot()),
+            end_of_pass_write_index: Some(Timestamp::Begin.spare()),
         };
         drop(
             encoder
@@ -113,59 +113,63 @@ impl Timer {
 
     /// What a pass notes whose end is that of a part; of a part of several passes the first has no end, the last no
     /// beginning.
-    pub(super) fn around(&self, moment: Moment, [first, last]: [bool; 2]) -> RenderPassTimestampWrites<'_> {
+    pub(super) fn around(
+        &self,
+        timestamp: Timestamp,
+        [first, last]: [bool; 2],
+    ) -> RenderPassTimestampWrites<'_> {
         RenderPassTimestampWrites {
-            query_set: &self.moments,
-            beginning_of_pass_write_index: first.then(|| moment.spare()),
-            end_of_pass_write_index: last.then(|| moment.slot()),
+            query_set: &self.timestamps,
+            beginning_of_pass_write_index: first.then(|| timestamp.spare()),
+            end_of_pass_write_index: last.then(|| timestamp.slot()),
         }
     }
 
     /// What the pass that chooses notes.
     pub(super) fn around_choice(&self) -> ComputePassTimestampWrites<'_> {
         ComputePassTimestampWrites {
-            query_set: &self.moments,
-            beginning_of_pass_write_index: Some(Moment::Choice.spare()),
-            end_of_pass_write_index: Some(Moment::Choice.slot()),
+            query_set: &self.timestamps,
+            beginning_of_pass_write_index: Some(Timestamp::Choice.spare()),
+            end_of_pass_write_index: Some(Timestamp::Choice.slot()),
         }
     }
 
-    /// Notes the end of a choice that there is none of: every moment is to be noted once.
+    /// Notes the end of a choice that there is none of: every timestamp is to be noted once.
     pub(super) fn skip_choice(&self, encoder: &mut CommandEncoder) {
         let timestamp_writes = Some(self.around_choice());
         drop(encoder.begin_compute_pass(&ComputePassDescriptor { label: None, timestamp_writes }));
     }
 
     /// Notes the end of a part within a pass.
-    pub(super) fn note(&self, pass: &mut RenderPass<'_>, moment: Moment) {
-        pass.write_timestamp(&self.moments, moment.slot());
-        pass.write_timestamp(&self.moments, moment.spare());
+    pub(super) fn note(&self, pass: &mut RenderPass<'_>, timestamp: Timestamp) {
+        pass.write_timestamp(&self.timestamps, timestamp.slot());
+        pass.write_timestamp(&self.timestamps, timestamp.spare());
     }
 
-    /// Brings the moments of a picture to where they can be read.
+    /// Brings the timestamps of a picture to where they can be read.
     pub(super) fn collect(&self, encoder: &mut CommandEncoder) {
-        encoder.resolve_query_set(&self.moments, 0..MOMENTS, &self.resolved.buffer, 0);
-        let bytes = BYTES * u64::from(MOMENTS);
+        encoder.resolve_query_set(&self.timestamps, 0..TIMESTAMPS, &self.resolved.buffer, 0);
+        let bytes = BYTES * u64::from(TIMESTAMPS);
         encoder.copy_buffer_to_buffer(&self.resolved.buffer, 0, &self.landing.buffer, 0, bytes);
     }
 
-    /// Times between the moments of the picture that was drawn last, which took so long in all.
+    /// Times between the timestamps of the picture that was drawn last, which took so long in all.
     pub(super) fn timings(&self, gpu: &Gpu, picture: Duration) -> Result<Timings, Error> {
         let ticks = read_back(gpu, &self.landing.buffer, bytemuck::pod_collect_to_vec::<u8, u64>)?;
         let tick = f64::from(gpu.context.queue.get_timestamp_period()) * 1e-9;
-        let until = |moment: Moment| {
-            let [from, to] = [moment.slot() - 2, moment.slot()].map(|slot| ticks[slot as usize]);
+        let until = |timestamp: Timestamp| {
+            let [from, to] = [timestamp.slot() - 2, timestamp.slot()].map(|slot| ticks[slot as usize]);
             Duration::from_secs_f64(to.saturating_sub(from) as f64 * tick)
         };
         Ok(Timings {
-            choice: until(Moment::Choice),
-            shadows: until(Moment::Shadows),
-            ground: until(Moment::Ground),
+            choice: until(Timestamp::Choice),
+            shadows: until(Timestamp::Shadows),
+            ground: until(Timestamp::Ground),
             water: Duration::ZERO,
-            behind: until(Moment::Behind),
-            grass: until(Moment::Grass),
-            plants: until(Moment::Light),
-            tone_mapping: until(Moment::ToneMapping),
+            behind: until(Timestamp::Behind),
+            grass: until(Timestamp::Grass),
+            plants: until(Timestamp::Light),
+            tone_mapping: until(Timestamp::ToneMapping),
             picture,
         })
     }

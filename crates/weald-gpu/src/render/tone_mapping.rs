@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use weald::Error;
-use weald::picture::Stage;
+use weald::picture::LitScene;
 use wgpu::{
     BindGroup, BindGroupDescriptor, BindGroupEntry, BindGroupLayoutDescriptor, BindGroupLayoutEntry,
     BindingResource, BindingType, Color, ColorTargetState, ColorWrites, CommandEncoder, FragmentState,
@@ -16,7 +16,7 @@ use wgpu::{
 use super::layouts::STAGE_GROUP;
 use super::maps::Maps;
 use super::targets::Targets;
-use super::timing::{Moment, Timer};
+use super::timing::{Timer, Timestamp};
 use crate::gpu::Gpu;
 
 /// The film, with a pipeline for each format that it was asked for.
@@ -29,8 +29,8 @@ pub(super) struct ToneMapping {
 }
 
 impl ToneMapping {
-    pub(super) fn new(gpu: &Gpu, stage: &Stage, maps: &Maps, targets: &Targets) -> Result<Self, Error> {
-        let text = stage.shader(STAGE_GROUP) + "\n" + include_str!("tone_mapping.wgsl");
+    pub(super) fn new(gpu: &Gpu, scene: &LitScene, maps: &Maps, targets: &Targets) -> Result<Self, Error> {
+        let text = scene.shader(STAGE_GROUP) + "\n" + include_str!("tone_mapping.wgsl");
         let device = &gpu.context.device;
         let entry = BindGroupLayoutEntry {
             binding: 0,
@@ -90,7 +90,7 @@ impl ToneMapping {
         let mut pass = encoder.begin_render_pass(&RenderPassDescriptor {
             label: Some("tone_mapping"),
             color_attachments: &[Some(attachment)],
-            timestamp_writes: timer.map(|timer| timer.around(Moment::ToneMapping, [true; 2])),
+            timestamp_writes: timer.map(|timer| timer.around(Timestamp::ToneMapping, [true; 2])),
             ..RenderPassDescriptor::default()
         });
         pass.set_pipeline(pipeline);

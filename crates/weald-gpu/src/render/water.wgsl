@@ -46,7 +46,7 @@ struct Ripples {
 
 // The normals of water whose surface is tilted and flows with a velocity.
 fn flowing(point: vec2<f32>, tilt: vec3<f32>, footprint: f32, velocity: vec2<f32>) -> Ripples {
-    let wave = min(0.25 * stage.scale.w, 6.0);
+    let wave = min(0.25 * scene.scale.w, 6.0);
     let calm = octaves_at(Octaves(30.0 * wave, 2u, 0.5, 0x51u), point, 0.0).value;
     let along = carried(point);
     // Level water has ripples of the wind, which drift slowly.
@@ -82,7 +82,7 @@ fn foam_share(point: vec2<f32>, footprint: f32, velocity: vec2<f32>, lost: f32) 
 
 // Height of the ground, or of the water on it, linear between control points: near enough for a look.
 fn rough_height(place: vec2<f32>) -> f32 {
-    let at = clamp(place, vec2<f32>(0.5), stage.grid.xy + 0.5) + 1.0;
+    let at = clamp(place, vec2<f32>(0.5), scene.grid.xy + 0.5) + 1.0;
     let corner = floor(at);
     let t = at - corner;
     let first = vec2<i32>(corner);
@@ -95,13 +95,13 @@ fn rough_height(place: vec2<f32>) -> f32 {
 
 // How far along a ray the land lies; negative where it meets none.
 fn land_along(start: vec3<f32>, direction: vec3<f32>) -> f32 {
-    var before = 0.5 * stage.scale.w;
+    var before = 0.5 * scene.scale.w;
     var ray_length = before;
     for (var look = 0; look < MARCH_STEPS; look++) {
         let point = start + direction * ray_length;
         let place = place_of(point);
-        let is_outside = any(place < vec2<f32>(0.5)) || any(place > stage.grid.xy + 0.5);
-        if is_outside || point.z > stage.scale.z {
+        let is_outside = any(place < vec2<f32>(0.5)) || any(place > scene.grid.xy + 0.5);
+        if is_outside || point.z > scene.scale.z {
             return -1.0;
         }
         if point.z < rough_height(place) {
@@ -117,7 +117,7 @@ fn land_along(start: vec3<f32>, direction: vec3<f32>) -> f32 {
             return ray_length;
         }
         before = ray_length;
-        ray_length = ray_length * FURTHER + 0.25 * stage.scale.w;
+        ray_length = ray_length * FURTHER + 0.25 * scene.scale.w;
     }
     return -1.0;
 }
@@ -132,16 +132,16 @@ fn mirrored_light(start: vec3<f32>, direction: vec3<f32>, upward: vec3<f32>, len
     let place = place_of(point);
     let surface = spline_with_slope(bed, place);
     let normal = normal_of(surface.yz);
-    let footprint = max(0.25 * stage.scale.w, (ray_length + length_before) * frame.eye.w);
+    let footprint = max(0.25 * scene.scale.w, (ray_length + length_before) * frame.eye.w);
     let skin = ground_skin(place, surface, footprint, 1e9);
-    let sun = sun_seen(point + normal * 0.1 * stage.scale.w, normal);
+    let sun = sun_seen(point + normal * 0.1 * scene.scale.w, normal);
     let radiance = skin.albedo * lit(roughened(normal, skin.bump), seen_at(skylight, share_of(place)), sun) / PI;
     return veil(radiance, start, direction, ray_length);
 }
 
 // The bed below shallow water, with its stones.
 fn bed_albedo(point: vec3<f32>, footprint: f32) -> vec3<f32> {
-    let gravel = SurfaceSample(stage.gravel.xyz, vec2<f32>(0.0), vec4<f32>(0.0, 1.0, 0.0, 0.0));
+    let gravel = SurfaceSample(scene.gravel.xyz, vec2<f32>(0.0), vec4<f32>(0.0, 1.0, 0.0, 0.0));
     return with_detail(gravel, vec3<f32>(point.xy, 0.0), vec3<f32>(0.0, 0.0, 1.0), footprint).albedo;
 }
 
@@ -170,8 +170,8 @@ fn water_radiance(
     let share = mirrored_share(dot(back, normal));
     let reflection = mirrored_light(point, mirrored(direction, ripples.broad, tilt), mirrored(direction, normal, tilt), ray_length);
     let up = vec3<f32>(0.0, 0.0, 1.0);
-    let light = stage.sunlight.xyz * (sun * stage.sun.z) + skylight_on(seen, up);
+    let light = scene.sunlight.xyz * (sun * scene.sun.z) + skylight_on(seen, up);
     let below = water_body(bed_albedo(point, footprint), depth, light);
-    let surface = mix(below, reflection, share) + stage.sunlight.xyz * (sun * glint(back, normal, stage.sun.xyz));
+    let surface = mix(below, reflection, share) + scene.sunlight.xyz * (sun * glint(back, normal, scene.sun.xyz));
     return mix(surface, FOAM * light / PI, foam_share(point.xy, footprint, running.xy, running.z));
 }

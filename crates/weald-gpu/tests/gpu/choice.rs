@@ -5,7 +5,7 @@ use crate::scenes::{above, meadow, options, view};
 use weald::grow::Vegetation;
 use weald::grow::grass::choice::{Choice, LISTS, ViewCone};
 use weald::grow::grass::{Instance, Meadow, Packed};
-use weald::picture::{Camera, Stage};
+use weald::picture::{Camera, LitScene};
 use weald_gpu::{Chosen, GrassLook, Renderer};
 
 /// How near to where it would be chosen otherwise a set may be for a device to differ: metres of its root, which the
@@ -30,13 +30,18 @@ fn choice(look: GrassLook) -> Choice {
 }
 
 /// The sets of each list by the CPU, and those of which it is not sure.
-fn by_the_cpu(stage: &Stage, camera: &Camera, look: GrassLook, sets: &[Packed]) -> [Vec<Packed>; LISTS + 1] {
+fn by_the_cpu(
+    scene: &LitScene,
+    camera: &Camera,
+    look: GrassLook,
+    sets: &[Packed],
+) -> [Vec<Packed>; LISTS + 1] {
     let axes = [camera.forward, camera.right, camera.up];
     let sight = ViewCone { eye: camera.eye, axes, half: camera.half, detail_from: camera.eye };
     let (choice, mut lists) = (choice(look), [const { Vec::new() }; LISTS + 1]);
     for &set in sets {
         let Instance { place: [east, south], tuft, .. } = Instance::unpack(set);
-        let up = stage.top_at([east, south].map(f64::from)).expect("on the land");
+        let up = scene.top_at([east, south].map(f64::from)).expect("on the land");
         let list = |[x, y, z]: [f32; 3]| choice.list_of(&sight, &tuft, [east + x, -south + y, up + z]);
         let found = list([0.0; 3]);
         let mut nudges =
@@ -72,9 +77,9 @@ fn compare(chosen: &Chosen, cpu: &[Vec<Packed>; LISTS + 1], all: usize) -> [usiz
 fn a_device_draws_the_sets_that_the_cpu_chooses_in_the_same_order() {
     let Some(gpu) = gpu() else { return };
     let landscape = meadow();
-    let stage = Stage::new(&view(), &landscape).expect("a stage");
-    let mut renderer = Renderer::new(&gpu, &stage, options(1)).expect("it can be drawn");
-    renderer.plant(&stage, &landscape).expect("planted");
+    let scene = LitScene::new(&view(), &landscape).expect("a scene");
+    let mut renderer = Renderer::new(&gpu, &scene, options(1)).expect("it can be drawn");
+    renderer.plant(&scene, &landscape).expect("planted");
     let grass = landscape.all_meadows().next().expect("a meadow").1;
     let all = grass.sets(&grass.area()).len();
     assert!(all > 100_000, "{all} sets");
@@ -82,14 +87,14 @@ fn a_device_draws_the_sets_that_the_cpu_chooses_in_the_same_order() {
         [([60.0, 70.0], 1.5, 12.0, 0.0), ([20.0, 30.0], 6.0, 30.0, 135.0), ([110.0, 60.0], 1.0, 0.0, 270.0)];
     let mut most = [0; LISTS];
     for (place, metres, down, turn) in places {
-        let camera = above(&stage, place, metres, down, turn);
+        let camera = above(&scene, place, metres, down, turn);
         for look in LOOKS {
             renderer.set_grass_look(look);
             let chosen = &renderer.chosen(&camera).expect("chosen")[0];
             // The CPU chooses among all: what is sown on the device depends on the camera as well.
             let level = look.level.unwrap_or(grass.level);
             let sets = Meadow { level, ..(*grass).clone() }.sets(&grass.area());
-            let counts = compare(chosen, &by_the_cpu(&stage, &camera, look, &sets), all);
+            let counts = compare(chosen, &by_the_cpu(&scene, &camera, look, &sets), all);
             println!("{look:?}: {counts:?} of {} sown of {all}", chosen.sets.len());
             match look {
                 GrassLook { culled: false, thinned: false, .. } => assert_eq!(counts[0], all),

@@ -12,7 +12,7 @@ use crate::scenes::{above, lakes, meadow, mountains, options, view};
 use weald::Landscape;
 use weald::grow::Vegetation;
 use weald::grow::grass::Meadow;
-use weald::picture::{Camera, Image, Stage, View};
+use weald::picture::{Camera, Image, LitScene, View};
 use weald_gpu::{Gpu, Renderer, TestLook};
 
 /// Greatest mean ꟻLIP of a picture and its golden: software of other versions rounds otherwise.
@@ -56,17 +56,17 @@ fn software() -> Option<Gpu> {
     gpu().map(|_| SOFTWARE.get_or_init(|| Gpu::software().expect("mesa-vulkan-drivers is installed")).clone())
 }
 
-fn camera(scene: &Scene, stage: &Stage) -> Camera {
+fn camera(scene: &Scene, lit_scene: &LitScene) -> Camera {
     let (place, metres, down, turn) = scene.from;
-    above(stage, place, metres, down, turn)
+    above(lit_scene, place, metres, down, turn)
 }
 
 fn drawn(gpu: &Gpu, scene: &Scene, view: &View, landscape: &Landscape, look: TestLook) -> Image {
-    let stage = Stage::new(view, landscape).expect("a stage");
-    let camera = camera(scene, &stage);
-    let stage = stage.seen_from(camera);
-    let mut renderer = Renderer::new(gpu, &stage, options(4)).expect("it can be drawn");
-    renderer.plant(&stage, landscape).expect("planted");
+    let lit_scene = LitScene::new(view, landscape).expect("a lit_scene");
+    let camera = camera(scene, &lit_scene);
+    let lit_scene = lit_scene.seen_from(camera);
+    let mut renderer = Renderer::new(gpu, &lit_scene, options(4)).expect("it can be drawn");
+    renderer.plant(&lit_scene, landscape).expect("planted");
     renderer.render_for_a_test(&camera, look).expect("drawn")
 }
 

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::programs::gpu;
 use weald::engine::Engine;
-use weald::picture::{Camera, Image, Stage, View};
+use weald::picture::{Camera, Image, LitScene, View};
 use weald::recipe::{Options, Overrides, Recipe, Run, Silent};
 use weald::{Error, Landscape, Size};
 use weald_gpu::{Gpu, Live, RenderOptions, Renderer};
@@ -28,19 +28,19 @@ fn view() -> View {
     View { width, height, field_of_view_deg: 40.0, visibility: Some(1e6), ..View::default() }
 }
 
-fn stage(landscape: &Landscape) -> Stage {
-    Stage::new(&view(), landscape).expect("a stage").to_follow()
+fn scene(landscape: &Landscape) -> LitScene {
+    LitScene::new(&view(), landscape).expect("a scene").to_follow()
 }
 
-/// A renderer, and the picture of a camera that sees the same of every stage: heights count from its lowest ground.
-fn picture(gpu: &Gpu, stage: &Stage, camera: Camera, live: Option<&Live>) -> Image {
+/// A renderer, and the picture of a camera that sees the same of every scene: heights count from its lowest ground.
+fn picture(gpu: &Gpu, scene: &LitScene, camera: Camera, live: Option<&Live>) -> Image {
     let mut renderer =
-        Renderer::new(gpu, stage, RenderOptions { size: SIZE, samples: 1 }).expect("a renderer");
+        Renderer::new(gpu, scene, RenderOptions { size: SIZE, samples: 1 }).expect("a renderer");
     if let Some(live) = live {
-        renderer.follow(stage, live).expect("followed");
+        renderer.follow(scene, live).expect("followed");
     }
     let [east, north, up] = camera.eye;
-    renderer.render(&camera.at([east, north, up + stage.drawn_height(0.0)])).expect("drawn")
+    renderer.render(&camera.at([east, north, up + scene.drawn_height(0.0)])).expect("drawn")
 }
 
 /// Mean difference of two pictures in bytes a channel.
@@ -59,9 +59,9 @@ fn a_simulation_that_is_followed_looks_as_what_it_has_become() {
         let engine = Engine::Device(Arc::new(gpu.shown_in(&live)));
         let options = Options { engine, ..Options::into_folder(folder.path()) };
         let end = Run { recipe: &recipe, options }.landscape(&Silent).expect("it runs");
-        assert!(live.moments() > 0, "it was shown");
+        assert!(live.generation() > 0, "it was shown");
         let begin = self::recipe("").landscape().expect("ground");
-        let (before, after) = (stage(&begin), stage(&end));
+        let (before, after) = (scene(&begin), scene(&end));
         let eye = after.camera().eye;
         let camera = after.camera().at([eye[0], eye[1], eye[2] - after.drawn_height(0.0)]);
         let wanted = picture(&gpu, &after, camera, None);
@@ -79,10 +79,10 @@ fn nothing_is_followed_that_has_another_size() {
     let gpu = gpu.with_memory(1 << 30).expect("a legal budget");
     let live = Live::new(&gpu, Size::new(30, 20).expect("small")).expect("room");
     let held = gpu.allocated();
-    let stage = stage(&recipe("").landscape().expect("ground"));
+    let scene = scene(&recipe("").landscape().expect("ground"));
     let mut renderer =
-        Renderer::new(&gpu, &stage, RenderOptions { size: SIZE, samples: 1 }).expect("a renderer");
-    let error = renderer.follow(&stage, &live).expect_err("other sizes");
+        Renderer::new(&gpu, &scene, RenderOptions { size: SIZE, samples: 1 }).expect("a renderer");
+    let error = renderer.follow(&scene, &live).expect_err("other sizes");
     assert!(matches!(error, Error::Limit(_)) && error.to_string().contains("30 × 20"), "{error}");
     drop(renderer);
     assert_eq!(gpu.allocated(), held);
@@ -91,5 +91,5 @@ fn nothing_is_followed_that_has_another_size() {
     let folder = tempfile::tempdir().expect("a folder");
     let options = Options { engine, ..Options::into_folder(folder.path()) };
     Run { recipe: &recipe(HAN), options }.landscape(&Silent).expect("it runs");
-    assert_eq!(live.moments(), 0);
+    assert_eq!(live.generation(), 0);
 }

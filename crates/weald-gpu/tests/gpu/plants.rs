@@ -6,7 +6,7 @@ use weald::grow::ifs::foliage::Habit;
 use weald::grow::ifs::limbs::{Limbs, wind_on};
 use weald::grow::ifs::shapes;
 use weald::grow::wind::push;
-use weald::picture::{Camera, Image, Stage, View};
+use weald::picture::{Camera, Image, LitScene, View};
 use weald::random::{splitmix64, unit};
 use weald::recipe::{Overrides, Recipe};
 use weald_gpu::{Gpu, RenderOptions, Renderer, TestLook, bend_limbs};
@@ -74,16 +74,16 @@ fn view() -> View {
     View { width, height, field_of_view_deg: 50.0, visibility: Some(20_000.0), ..View::default() }
 }
 
-fn renderer(gpu: &Gpu, stage: &Stage) -> Renderer {
-    Renderer::new(gpu, stage, RenderOptions { size: SIZE, samples: 4 }).expect("it can be drawn")
+fn renderer(gpu: &Gpu, scene: &LitScene) -> Renderer {
+    Renderer::new(gpu, scene, RenderOptions { size: SIZE, samples: 4 }).expect("it can be drawn")
 }
 
 /// A camera so many metres above the ground of a place, looking northward and down by an angle.
-fn above(stage: &Stage, [east, south]: [f64; 2], metres: f32, down_deg: f32) -> Camera {
-    let ground = stage.top_at([east, south]).expect("on the land");
+fn above(scene: &LitScene, [east, south]: [f64; 2], metres: f32, down_deg: f32) -> Camera {
+    let ground = scene.top_at([east, south]).expect("on the land");
     let down = down_deg.to_radians();
     let eye = [east as f32, -south as f32, ground + metres];
-    Camera::looking(eye, [0.0, down.cos(), -down.sin()], stage.camera().half)
+    Camera::looking(eye, [0.0, down.cos(), -down.sin()], scene.camera().half)
 }
 
 /// Share of the channels in which two pictures differ by more than eight bytes.
@@ -96,15 +96,15 @@ fn share_changed(a: &Image, b: &Image) -> f64 {
 fn plants_stand_before_the_ground_and_sway() {
     let Some(gpu) = gpu() else { return };
     let landscape = ferns(600, [0.8, 1.2]);
-    let stage = Stage::new(&view(), &landscape).expect("a stage");
-    let camera = above(&stage, [60.0, 70.0], 1.7, 15.0);
-    let mut renderer = renderer(&gpu, &stage);
+    let scene = LitScene::new(&view(), &landscape).expect("a scene");
+    let camera = above(&scene, [60.0, 70.0], 1.7, 15.0);
+    let mut renderer = renderer(&gpu, &scene);
     let bare = renderer.render(&camera).expect("drawn");
-    renderer.plant(&stage, &landscape).expect("planted");
+    renderer.plant(&scene, &landscape).expect("planted");
     let grown = renderer.render(&camera).expect("drawn");
     assert!(share_changed(&bare, &grown) > 0.05, "{}", share_changed(&bare, &grown));
     assert_eq!(renderer.render(&camera).expect("drawn"), grown, "the same again");
-    renderer.set_moment(0.8);
+    renderer.set_time(0.8);
     let later = renderer.render(&camera).expect("drawn");
     let swayed = share_changed(&grown, &later);
     assert!(swayed > 0.01, "a share of {swayed} moved in the wind");
@@ -116,24 +116,24 @@ fn a_plant_throws_its_shadow_where_it_is_not_itself_seen() {
     let landscape = ferns(12, [3.0, 3.0]);
     // The sun in the west, low: shadows reach eastward.
     let view = View { sun_azimuth_deg: 270.0, sun_altitude_deg: 20.0, ..view() };
-    let stage = Stage::new(&view, &landscape).expect("a stage");
+    let scene = LitScene::new(&view, &landscape).expect("a scene");
     let plants = &landscape.plants("ferns").expect("scattered").plants;
     let plant = plants.iter().find(|plant| (20.0..90.0).contains(&plant.place[0])).expect("inside");
     let [east, south, _] = plant.place;
     let spot = |away: f64| {
         let place = [east + away, south];
-        let ground = stage.top_at(place).expect("on the land");
+        let ground = scene.top_at(place).expect("on the land");
         let eye = [place[0] as f32, -place[1] as f32, ground + 1.0];
         Camera::looking(eye, [0.0, 0.02, -1.0], [0.12, 0.08])
     };
-    let mut renderer = renderer(&gpu, &stage);
+    let mut renderer = renderer(&gpu, &scene);
     let mean = |image: &Image| {
         image.rgb.iter().map(|&channel| f64::from(channel)).sum::<f64>() / image.rgb.len() as f64
     };
     // Beyond the reach of its fronds; and on the sunny side.
     let (shadow, light) = (spot(4.8), spot(-6.0));
     let bare = [shadow, light].map(|camera| mean(&renderer.render(&camera).expect("drawn")));
-    renderer.plant(&stage, &landscape).expect("planted");
+    renderer.plant(&scene, &landscape).expect("planted");
     let grown = [shadow, light].map(|camera| mean(&renderer.render(&camera).expect("drawn")));
     assert!(renderer.chosen_for_a_test().expect("read").len() == 1);
     assert!(grown[0] < 0.9 * bare[0], "{bare:?} {grown:?}");
@@ -144,10 +144,10 @@ fn a_plant_throws_its_shadow_where_it_is_not_itself_seen() {
 fn plants_in_sight_are_each_drawn_once_and_none_that_is_not() {
     let Some(gpu) = gpu() else { return };
     let landscape = ferns(1200, [0.5, 1.5]);
-    let stage = Stage::new(&view(), &landscape).expect("a stage");
-    let mut renderer = renderer(&gpu, &stage);
-    renderer.plant(&stage, &landscape).expect("planted");
-    let camera = above(&stage, [60.0, 100.0], 2.0, 10.0);
+    let scene = LitScene::new(&view(), &landscape).expect("a scene");
+    let mut renderer = renderer(&gpu, &scene);
+    renderer.plant(&scene, &landscape).expect("planted");
+    let camera = above(&scene, [60.0, 100.0], 2.0, 10.0);
     renderer.render(&camera).expect("drawn");
     let chosen = renderer.chosen_for_a_test().expect("read");
     let mut times = vec![0; 1200];
@@ -161,7 +161,7 @@ fn plants_in_sight_are_each_drawn_once_and_none_that_is_not() {
     let mut must = 0;
     for (plant, times) in landscape.plants("ferns").expect("scattered").plants.iter().zip(&times) {
         let [east, south, _] = plant.place;
-        let up = stage.top_at([east, south]).expect("on the land");
+        let up = scene.top_at([east, south]).expect("on the land");
         let away = [east as f32 - camera.eye[0], -south as f32 - camera.eye[1], up - camera.eye[2]];
         let along = |axis: [f32; 3]| (0..3).map(|i| axis[i] * away[i]).sum::<f32>();
         let depth = along(camera.forward);
@@ -191,12 +191,12 @@ struct Lone {
 impl Lone {
     fn new(gpu: &Gpu) -> Self {
         let landscape = ferns(1, [1.0, 1.0]);
-        let stage = Stage::new(&view(), &landscape).expect("a stage");
+        let scene = LitScene::new(&view(), &landscape).expect("a scene");
         let [east, south, _] = landscape.plants("ferns").expect("scattered").plants[0].place;
-        let up = stage.top_at([east, south]).expect("on the land");
-        let camera = above(&stage, [east, south + 2.0], 1.2, 22.0);
-        let mut renderer = renderer(gpu, &stage);
-        renderer.plant(&stage, &landscape).expect("planted");
+        let up = scene.top_at([east, south]).expect("on the land");
+        let camera = above(&scene, [east, south + 2.0], 1.2, 22.0);
+        let mut renderer = renderer(gpu, &scene);
+        renderer.plant(&scene, &landscape).expect("planted");
         Self { renderer, camera, root: [east as f32, -south as f32, up] }
     }
 

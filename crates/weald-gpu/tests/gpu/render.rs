@@ -3,12 +3,12 @@
 use crate::programs::gpu;
 use crate::scenes::{above, lakes, meadow, mountains, options, view};
 use weald::grid::Mask;
-use weald::picture::{Camera, Image, Oklab, Stage, View, linear_of_hex};
+use weald::picture::{Camera, Image, LitScene, Oklab, View, linear_of_hex};
 use weald::{Error, Landscape};
 use weald_gpu::{Gpu, RenderOptions, Renderer, TestLook, Timings};
 
-fn renderer(gpu: &Gpu, stage: &Stage, samples: u32) -> Renderer {
-    Renderer::new(gpu, stage, options(samples)).expect("it can be drawn")
+fn renderer(gpu: &Gpu, scene: &LitScene, samples: u32) -> Renderer {
+    Renderer::new(gpu, scene, options(samples)).expect("it can be drawn")
 }
 
 fn is_magenta(pixel: [u8; 3]) -> bool {
@@ -23,10 +23,10 @@ fn magenta(image: &Image) -> usize {
 #[test]
 fn closed_ground_has_no_cracks_from_any_camera() {
     let Some(gpu) = gpu() else { return };
-    let stage = Stage::new(&view(), &mountains()).expect("a stage");
-    let mut renderer = renderer(&gpu, &stage, 1);
+    let scene = LitScene::new(&view(), &mountains()).expect("a scene");
+    let mut renderer = renderer(&gpu, &scene, 1);
     let bare = TestLook { bare: true, ..TestLook::default() };
-    let up = Camera::looking([1600.0, -1600.0, 900.0], [0.0, 0.6, 0.8], stage.camera().half);
+    let up = Camera::looking([1600.0, -1600.0, 900.0], [0.0, 0.6, 0.8], scene.camera().half);
     let sky = renderer.render_for_a_test(&up, bare).expect("drawn");
     assert_eq!(magenta(&sky), 320 * 180, "what nothing drew on is seen");
     let mut levels = 0;
@@ -34,7 +34,7 @@ fn closed_ground_has_no_cracks_from_any_camera() {
         let look = f32::from(look);
         let place =
             [1600.0 + 300.0 * f64::from((look * 2.4).sin()), 1700.0 + 300.0 * f64::from((look * 1.7).cos())];
-        let camera = above(&stage, place, 15.0 + 12.0 * look, 32.0 + look, 47.0 * look);
+        let camera = above(&scene, place, 15.0 + 12.0 * look, 32.0 + look, 47.0 * look);
         let image = renderer.render_for_a_test(&camera, bare).expect("drawn");
         assert_eq!(magenta(&image), 0, "cracks from camera {look}");
         levels += u32::from(renderer.triangles(&camera).expect("counted") > 20_000);
@@ -56,14 +56,14 @@ fn change(a: &Image, b: &Image) -> (u8, f64) {
 #[test]
 fn a_picture_drawn_twice_is_the_same_to_the_bit() {
     let Some(gpu) = gpu() else { return };
-    let stage = Stage::new(&view(), &mountains()).expect("a stage");
-    let camera = stage.camera();
-    let mut renderer = renderer(&gpu, &stage, 4);
+    let scene = LitScene::new(&view(), &mountains()).expect("a scene");
+    let camera = scene.camera();
+    let mut renderer = renderer(&gpu, &scene, 4);
     let once = renderer.render(&camera).expect("drawn");
-    let other = above(&stage, [1600.0, 1600.0], 200.0, 20.0, 30.0);
+    let other = above(&scene, [1600.0, 1600.0], 200.0, 20.0, 30.0);
     assert_ne!(renderer.render(&other).expect("drawn"), once, "another camera sees something else");
     assert_eq!(renderer.render(&camera).expect("drawn"), once);
-    let mut again = self::renderer(&gpu, &stage, 4);
+    let mut again = self::renderer(&gpu, &scene, 4);
     assert_eq!(again.render(&camera).expect("drawn"), once);
 }
 
@@ -88,9 +88,9 @@ fn squares(image: &Image) -> Vec<Oklab> {
 
 /// Distances of a device's picture from the ray-marched one: the mean, and that which one square in twenty passes.
 fn distances(gpu: &Gpu, view: &View, landscape: &Landscape, camera: Option<Camera>) -> (f64, f64) {
-    let stage = Stage::new(view, landscape).expect("a stage");
-    let camera = camera.unwrap_or_else(|| stage.camera());
-    let drawn = renderer(gpu, &stage.seen_from(camera), 4).render(&camera).expect("drawn");
+    let scene = LitScene::new(view, landscape).expect("a scene");
+    let camera = camera.unwrap_or_else(|| scene.camera());
+    let drawn = renderer(gpu, &scene.seen_from(camera), 4).render(&camera).expect("drawn");
     let marched = view.seen_from(landscape, camera).expect("marched");
     let pairs = squares(&drawn).into_iter().zip(squares(&marched));
     let mut distances: Vec<f64> = pairs.map(|(a, b)| a.distance(b)).collect();
@@ -105,8 +105,8 @@ fn ground_sky_and_sides_have_the_colours_of_the_ray_marched_view() {
     let landscape = mountains();
     // A sun overhead throws no shadows.
     let view = View { sun_altitude_deg: 90.0, ..view() };
-    let stage = Stage::new(&view, &landscape).expect("a stage");
-    let low = above(&stage, [1500.0, 2700.0], 90.0, 4.0, 0.0);
+    let scene = LitScene::new(&view, &landscape).expect("a scene");
+    let low = above(&scene, [1500.0, 2700.0], 90.0, 4.0, 0.0);
     for camera in [None, Some(low)] {
         let (mean, worst) = distances(&gpu, &view, &landscape, camera);
         // 0.02 is about the least difference that the eye sees.
@@ -120,8 +120,8 @@ fn shadows_lie_where_the_ray_marched_view_has_them() {
     let landscape = mountains();
     for altitude in [14.0, 30.0] {
         let view = View { sun_altitude_deg: altitude, azimuth_deg: 120.0, ..view() };
-        let stage = Stage::new(&view, &landscape).expect("a stage");
-        let low = above(&stage, [1500.0, 2700.0], 90.0, 4.0, 60.0);
+        let scene = LitScene::new(&view, &landscape).expect("a scene");
+        let low = above(&scene, [1500.0, 2700.0], 90.0, 4.0, 60.0);
         for camera in [None, Some(low)] {
             let (mean, worst) = distances(&gpu, &view, &landscape, camera);
             assert!(mean < 0.004 && worst < 0.02, "sun at {altitude}°: mean {mean}, one in twenty {worst}");
@@ -133,8 +133,8 @@ fn shadows_lie_where_the_ray_marched_view_has_them() {
 fn lakes_lie_where_the_ray_marched_view_has_them_in_its_colours() {
     let Some(gpu) = gpu() else { return };
     let landscape = lakes();
-    let stage = Stage::new(&view(), &landscape).expect("a stage");
-    let low = above(&stage, [1500.0, 2700.0], 250.0, 20.0, 0.0);
+    let scene = LitScene::new(&view(), &landscape).expect("a scene");
+    let low = above(&scene, [1500.0, 2700.0], 250.0, 20.0, 0.0);
     for camera in [None, Some(low)] {
         let (mean, worst) = distances(&gpu, &view(), &landscape, camera);
         // It mirrors the land at the same places, but with finer ripples.
@@ -152,11 +152,11 @@ fn water_moves_with_time_and_nothing_else_does() {
     let deepest = cells.max_by(|a, b| water.at(a.0, a.1).total_cmp(&water.at(b.0, b.1))).expect("cells");
     let place = [20.0 * (deepest.0 as f64 + 0.5), 20.0 * (deepest.1 as f64 + 0.5)];
     let moved = |landscape: &Landscape| {
-        let stage = Stage::new(&view(), landscape).expect("a stage");
-        let camera = above(&stage, place, 12.0, 18.0, 0.0);
-        let mut renderer = renderer(&gpu, &stage, 1);
+        let scene = LitScene::new(&view(), landscape).expect("a scene");
+        let camera = above(&scene, place, 12.0, 18.0, 0.0);
+        let mut renderer = renderer(&gpu, &scene, 1);
         let first = renderer.render(&camera).expect("drawn");
-        renderer.set_moment(0.7);
+        renderer.set_time(0.7);
         change(&first, &renderer.render(&camera).expect("drawn"))
     };
     let (most, mean) = moved(&wet);
@@ -189,18 +189,18 @@ fn share_changed(a: &Image, b: &Image) -> f64 {
 fn grass_stands_around_the_camera_thins_out_and_sways() {
     let Some(gpu) = gpu() else { return };
     let landscape = meadow();
-    let stage = Stage::new(&view(), &landscape).expect("a stage");
-    let near = above(&stage, [60.0, 70.0], 1.5, 12.0, 0.0);
-    let mut renderer = renderer(&gpu, &stage, 4);
+    let scene = LitScene::new(&view(), &landscape).expect("a scene");
+    let near = above(&scene, [60.0, 70.0], 1.5, 12.0, 0.0);
+    let mut renderer = renderer(&gpu, &scene, 4);
     let drawn = |renderer: &mut Renderer, camera| renderer.render(camera).expect("drawn");
     let high = near.at([60.0, -70.0, 130.0]);
     let (bare, bare_high) = (drawn(&mut renderer, &near), drawn(&mut renderer, &high));
-    renderer.plant(&stage, &landscape).expect("planted");
+    renderer.plant(&scene, &landscape).expect("planted");
     let grown = drawn(&mut renderer, &near);
     assert!(share_changed(&bare, &grown) > 0.2, "blades stand before the ground");
     assert_eq!(drawn(&mut renderer, &high), bare_high, "from 130 m none is seen");
     assert_eq!(drawn(&mut renderer, &near), grown, "the same to the bit, in whatever order threads run");
-    renderer.set_moment(0.8);
+    renderer.set_time(0.8);
     let later = drawn(&mut renderer, &near);
     let swayed = share_changed(&grown, &later);
     assert!(swayed > 0.02, "a share of {swayed} moved in the wind");
@@ -210,10 +210,10 @@ fn grass_stands_around_the_camera_thins_out_and_sways() {
 fn the_parts_of_a_picture_take_time_and_no_more_than_all_of_it() {
     let Some(gpu) = gpu() else { return };
     for landscape in [lakes(), meadow()] {
-        let stage = Stage::new(&view(), &landscape).expect("a stage");
-        let mut renderer = renderer(&gpu, &stage, 4);
-        renderer.plant(&stage, &landscape).expect("planted");
-        let camera = above(&stage, [60.0, 70.0], 1.5, 12.0, 0.0);
+        let scene = LitScene::new(&view(), &landscape).expect("a scene");
+        let mut renderer = renderer(&gpu, &scene, 4);
+        renderer.plant(&scene, &landscape).expect("planted");
+        let camera = above(&scene, [60.0, 70.0], 1.5, 12.0, 0.0);
         let before = renderer.render(&camera).expect("drawn");
         let timings = renderer.measure(&camera, 1).expect("lavapipe has a clock");
         let Timings { choice, shadows, ground, water, behind, grass, plants, tone_mapping, picture } =
@@ -233,18 +233,18 @@ fn the_parts_of_a_picture_take_time_and_no_more_than_all_of_it() {
 #[test]
 fn sizes_and_cameras_that_cannot_be_drawn_are_refused() {
     let Some(gpu) = gpu() else { return };
-    let stage = Stage::new(&view(), &mountains()).expect("a stage");
+    let scene = LitScene::new(&view(), &mountains()).expect("a scene");
     // A budget that no other test takes from.
     let gpu = gpu.with_memory(1 << 30).expect("a legal budget");
     let held = gpu.allocated();
     for (size, samples) in [([0, 10], 1), ([10, 100_000], 4), ([320, 180], 3), ([320, 180], 64)] {
-        let error = Renderer::new(&gpu, &stage, RenderOptions { size, samples }).expect_err("refused");
+        let error = Renderer::new(&gpu, &scene, RenderOptions { size, samples }).expect_err("refused");
         assert!(matches!(error, Error::Limit(_)), "{error}");
         assert_eq!(gpu.allocated(), held, "nothing was allocated");
     }
-    let mut renderer = renderer(&gpu, &stage, 1);
+    let mut renderer = renderer(&gpu, &scene, 1);
     for number in [f32::NAN, f32::INFINITY] {
-        let camera = stage.camera().at([number, 0.0, 10.0]);
+        let camera = scene.camera().at([number, 0.0, 10.0]);
         assert!(renderer.render(&camera).expect_err("refused").to_string().contains("finite"));
     }
     drop(renderer);
@@ -258,11 +258,11 @@ fn errors_of_drawing_advise_what_helps_to_draw() {
     }
     let open = || Gpu::for_drawing().expect("there is a device");
     let gpu = open().with_memory(1 << 20).expect("a legal budget");
-    let stage = Stage::new(&view(), &mountains()).expect("a stage");
-    let error = Renderer::new(&gpu, &stage, options(4)).expect_err("a mebibyte is too little").to_string();
+    let scene = LitScene::new(&view(), &mountains()).expect("a scene");
+    let error = Renderer::new(&gpu, &scene, options(4)).expect_err("a mebibyte is too little").to_string();
     assert!(error.contains("--gpu-memory, a smaller picture") && !error.contains("--engine"), "{error}");
     let gpu = open();
     gpu.lose();
-    let error = Renderer::new(&gpu, &stage, options(4)).expect_err("it is lost").to_string();
+    let error = Renderer::new(&gpu, &scene, options(4)).expect_err("it is lost").to_string();
     assert!(error.contains("was lost") && !error.contains("--engine"), "{error}");
 }

@@ -6,7 +6,7 @@ use weald::grow::ifs::game::CHUNK;
 use weald::grow::ifs::map::Map;
 use weald::grow::ifs::wind::Wind;
 use weald::grow::ifs::{Code, Draft, Game, Ifs, Pose, Role, Sway, Weighted, shapes};
-use weald_gpu::{Cloud, CloudRates, SwayingCloud};
+use weald_gpu::{PointCloud, PointRates, SwayingPoints};
 
 /// How far points may be from the CPU's, as a share of the fractal's diameter. A segment forgets where it began to
 /// 2⁻²⁵, and a driver may fuse products with sums: each step then rounds a few units of 2⁻²⁴ otherwise, of which maps that
@@ -86,8 +86,8 @@ fn a_device_takes_the_digits_of_the_cpu_to_the_bit_and_its_points_to_rounding() 
     let built_in = shapes::SHAPES.iter().map(shapes::Shape::ifs);
     for ifs in built_in.chain([ring(5), ring(8), ring(20), ring(256)]) {
         let count = 20_011;
-        let mut swarm = SwayingCloud::new(&gpu, &ifs, 7, count).expect("played");
-        let (points, codes) = (swarm.points().expect("read"), swarm.codes().expect("read"));
+        let mut swaying = SwayingPoints::new(&gpu, &ifs, 7, count).expect("played");
+        let (points, codes) = (swaying.points().expect("read"), swaying.codes().expect("read"));
         let across = points.iter().map(|&point| apart(point, points[0])).fold(0.0, f32::max);
         assert!(f64::from(across) > 0.3 * ifs.diameter(), "{}: all within {across}", ifs.name());
         let worst = assert_same(&ifs, 7, count, (&points, Some(&codes)));
@@ -106,15 +106,15 @@ fn any_number_of_points_of_any_seed_is_the_beginning_of_the_same_game() {
         [("fern", 0, 1), ("gasket", 1, 63), ("crown", 2, 4097), ("fern", u64::MAX, CHUNK + 12_345)]
     {
         let ifs = ifs(name);
-        let mut cloud = Cloud::new(&gpu, &ifs, seed, count).expect("played");
+        let mut cloud = PointCloud::new(&gpu, &ifs, seed, count).expect("played");
         assert_eq!((cloud.len(), cloud.is_empty()), (count, false));
         let points = cloud.points().expect("read");
         assert_same(&ifs, seed, count, (&points, None));
-        let mut swarm = SwayingCloud::new(&gpu, &ifs, seed, count).expect("played");
-        assert!(swarm.points().expect("read") == points, "codes change no point");
-        assert_same(&ifs, seed, count, (&points, Some(&swarm.codes().expect("read"))));
+        let mut swaying = SwayingPoints::new(&gpu, &ifs, seed, count).expect("played");
+        assert!(swaying.points().expect("read") == points, "codes change no point");
+        assert_same(&ifs, seed, count, (&points, Some(&swaying.codes().expect("read"))));
     }
-    let mut none = SwayingCloud::new(&gpu, &ifs("fern"), 1, 0).expect("nothing to do");
+    let mut none = SwayingPoints::new(&gpu, &ifs("fern"), 1, 0).expect("nothing to do");
     none.sway(&Pose::calm()).expect("nothing to do");
     assert!(none.is_empty() && none.swayed().expect("nothing").is_empty());
 }
@@ -125,12 +125,12 @@ fn a_squall_puts_points_where_the_cpu_does() {
     for name in PLANTS {
         let ifs = ifs(name);
         let (sway, size) = (Sway::of(&ifs), ifs.diameter() as f32);
-        let mut swarm = SwayingCloud::new(&gpu, &ifs, 5, 5003).expect("played");
-        let (rests, codes) = (swarm.points().expect("read"), swarm.codes().expect("read"));
+        let mut swaying = SwayingPoints::new(&gpu, &ifs, 5, 5003).expect("played");
+        let (rests, codes) = (swaying.points().expect("read"), swaying.codes().expect("read"));
         let (mut moved, mut worst, mut before) = (0.0_f32, 0.0_f32, rests.clone());
         for pose in squall() {
-            swarm.sway(&pose).expect("swayed");
-            let swayed = swarm.swayed().expect("read");
+            swaying.sway(&pose).expect("swayed");
+            let swayed = swaying.swayed().expect("read");
             let cpu: Vec<_> = rests
                 .iter()
                 .zip(&codes)
@@ -144,7 +144,7 @@ fn a_squall_puts_points_where_the_cpu_does() {
         println!("{name}: moved {:.2}, off by {:.1e} of its size", moved / size, worst / size);
         assert!(moved > 0.1 * size, "{name} moved by {moved}, so agreement would mean nothing");
         assert!(worst <= SWAYED * size, "{name}: {worst}");
-        assert!(swarm.points().expect("read") == rests, "{name}: rest stays");
+        assert!(swaying.points().expect("read") == rests, "{name}: rest stays");
     }
 }
 
@@ -152,13 +152,13 @@ fn a_squall_puts_points_where_the_cpu_does() {
 fn calm_keeps_the_bits_of_all_points() {
     let Some(gpu) = gpu() else { return };
     for name in PLANTS {
-        let mut swarm = SwayingCloud::new(&gpu, &ifs(name), 5, 5003).expect("played");
-        let rests = swarm.points().expect("read");
-        assert!(swarm.swayed().expect("read") == rests, "{name}: as it was made");
-        swarm.sway(&squall().last().expect("four")).expect("swayed");
-        assert!(swarm.swayed().expect("read") != rests, "{name}: moved");
-        swarm.sway(&Pose::calm()).expect("swayed");
-        assert!(swarm.swayed().expect("read") == rests, "{name}: calm");
+        let mut swaying = SwayingPoints::new(&gpu, &ifs(name), 5, 5003).expect("played");
+        let rests = swaying.points().expect("read");
+        assert!(swaying.swayed().expect("read") == rests, "{name}: as it was made");
+        swaying.sway(&squall().last().expect("four")).expect("swayed");
+        assert!(swaying.swayed().expect("read") != rests, "{name}: moved");
+        swaying.sway(&Pose::calm()).expect("swayed");
+        assert!(swaying.swayed().expect("read") == rests, "{name}: calm");
     }
 }
 
@@ -185,7 +185,7 @@ fn joints_never_part_on_a_device() {
     for name in PLANTS {
         let ifs = ifs(name);
         let size = ifs.diameter() as f32;
-        let [held, hangs] = joints(&ifs).map(|side| SwayingCloud::of(&gpu, &ifs, &side).expect("uploaded"));
+        let [held, hangs] = joints(&ifs).map(|side| SwayingPoints::of(&gpu, &ifs, &side).expect("uploaded"));
         let mut sides = [held, hangs];
         let rests = sides[0].points().expect("read");
         assert!(rests.len() > 400, "{name}: {} joints", rests.len());
@@ -209,9 +209,9 @@ fn points_in_pieces_and_in_many_submissions_are_the_same() {
     let Some(gpu) = gpu() else { return };
     let (ifs, count, pose) = (ifs("fern"), CHUNK + 5000, squall().last().expect("four"));
     let all = |gpu: &weald_gpu::Gpu| {
-        let mut swarm = SwayingCloud::new(gpu, &ifs, 3, count).expect("played");
-        swarm.sway(&pose).expect("swayed");
-        (swarm.points().expect("read"), swarm.codes().expect("read"), swarm.swayed().expect("read"))
+        let mut swaying = SwayingPoints::new(gpu, &ifs, 3, count).expect("played");
+        swaying.sway(&pose).expect("swayed");
+        (swaying.points().expect("read"), swaying.codes().expect("read"), swaying.swayed().expect("read"))
     };
     let whole = all(&gpu);
     let small = gpu.clone().with_memory(32 << 20).expect("enough");
@@ -226,12 +226,12 @@ fn a_swarm_that_does_not_fit_is_refused_before_anything_is_made() {
     let Some(gpu) = gpu() else { return };
     let (gpu, ifs) = (gpu.with_memory(8 << 20).expect("enough"), ifs("fern"));
     for count in [200_000, u64::MAX] {
-        let message = refusal(SwayingCloud::new(&gpu, &ifs, 1, count));
+        let message = refusal(SwayingPoints::new(&gpu, &ifs, 1, count));
         assert!(message.contains(&format!("a swaying cloud of {count} points")), "{message}");
         assert!(message.contains("--gpu-memory"), "{message}");
     }
     assert!(gpu.peak() < 1 << 20 && gpu.allocated() == 0, "{} bytes", gpu.peak());
-    let mut cloud = Cloud::new(&gpu, &ifs, 1, 200_000).expect("points alone fit");
+    let mut cloud = PointCloud::new(&gpu, &ifs, 1, 200_000).expect("points alone fit");
     assert_eq!(cloud.points().expect("read").len(), 200_000);
 }
 
@@ -242,16 +242,16 @@ fn every_call_to_a_swaying_cloud_of_a_lost_device_says_so() {
     }
     let gpu = weald_gpu::Gpu::any().expect("a device of its own");
     let fern = ifs("fern");
-    let mut swarm = SwayingCloud::new(&gpu, &fern, 1, 1000).expect("played");
+    let mut swaying = SwayingPoints::new(&gpu, &fern, 1, 1000).expect("played");
     gpu.lose();
     let calls = [
-        ("sway", swarm.sway(&Pose::calm())),
-        ("points", swarm.points().map(drop)),
-        ("codes", swarm.codes().map(drop)),
-        ("swayed", swarm.swayed().map(drop)),
-        ("swarm", SwayingCloud::new(&gpu, &fern, 1, 1000).map(drop)),
-        ("cloud", Cloud::new(&gpu, &fern, 1, 1000).map(drop)),
-        ("rates", CloudRates::of(&gpu, &fern).map(drop)),
+        ("sway", swaying.sway(&Pose::calm())),
+        ("points", swaying.points().map(drop)),
+        ("codes", swaying.codes().map(drop)),
+        ("swayed", swaying.swayed().map(drop)),
+        ("swaying", SwayingPoints::new(&gpu, &fern, 1, 1000).map(drop)),
+        ("cloud", PointCloud::new(&gpu, &fern, 1, 1000).map(drop)),
+        ("rates", PointRates::of(&gpu, &fern).map(drop)),
     ];
     for (call, result) in calls {
         let message = refusal(result);

@@ -2,7 +2,7 @@
 
 use crate::programs::gpu;
 use weald::Error;
-use weald_gpu::{GrassRow, Measuring, frame_budget, grass_tables};
+use weald_gpu::bench::{GrassRow, Measuring, frame_budget, grass_tables};
 
 const SMALL: Measuring = Measuring { size: [64, 36], times: 1, most_drawn: 6000 };
 

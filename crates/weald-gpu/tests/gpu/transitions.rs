@@ -7,7 +7,7 @@
 use crate::flip::{flip, reduced};
 use crate::programs::gpu;
 use crate::scenes::{above, meadow, mountains, view};
-use weald::picture::{Camera, Image, Stage, View};
+use weald::picture::{Camera, Image, LitScene, View};
 use weald_gpu::{Gpu, RenderOptions, Renderer, TestLook};
 
 /// Pixels of what is drawn, and along a side of those that make one of those that are compared.
@@ -43,18 +43,18 @@ fn leap(renderer: &mut Renderer, camera: &Camera, metres: f32) -> [f32; 2] {
     [whole, left]
 }
 
-fn renderer(gpu: &Gpu, stage: &Stage) -> Renderer {
-    Renderer::new(gpu, stage, RenderOptions { size: SIZE, samples: 4 }).expect("it can be drawn")
+fn renderer(gpu: &Gpu, scene: &LitScene) -> Renderer {
+    Renderer::new(gpu, scene, RenderOptions { size: SIZE, samples: 4 }).expect("it can be drawn")
 }
 
 /// A meadow through a telescope, so far away.
 fn grassy(gpu: &Gpu, distance: f32, field_of_view_deg: f64) -> (Renderer, Camera) {
     let landscape = meadow();
-    let stage = Stage::new(&View { field_of_view_deg, ..view() }, &landscape).expect("a stage");
-    let mut renderer = renderer(gpu, &stage);
-    renderer.plant(&stage, &landscape).expect("planted");
-    let eye = above(&stage, [60.0, 95.0], 1.2, 0.0, 0.0);
-    let ground = stage.top_at([60.0, 95.0 - f64::from(distance)]).expect("on the land");
+    let scene = LitScene::new(&View { field_of_view_deg, ..view() }, &landscape).expect("a scene");
+    let mut renderer = renderer(gpu, &scene);
+    renderer.plant(&scene, &landscape).expect("planted");
+    let eye = above(&scene, [60.0, 95.0], 1.2, 0.0, 0.0);
+    let ground = scene.top_at([60.0, 95.0 - f64::from(distance)]).expect("on the land");
     (renderer, eye.towards([60.0, eye.eye[1] + distance, ground + 0.1]))
 }
 
@@ -73,9 +73,9 @@ fn blades_become_coarser_and_sets_sink_without_leaps() {
 #[test]
 fn levels_of_the_ground_slide_into_each_other() {
     let Some(gpu) = gpu() else { return };
-    let stage = Stage::new(&view(), &mountains()).expect("a stage");
-    let mut renderer = renderer(&gpu, &stage);
-    let camera = above(&stage, [1600.0, 2600.0], 60.0, 12.0, 5.0);
+    let scene = LitScene::new(&view(), &mountains()).expect("a scene");
+    let mut renderer = renderer(&gpu, &scene);
+    let camera = above(&scene, [1600.0, 2600.0], 60.0, 12.0, 5.0);
     let [whole, left] = leap(&mut renderer, &camera, 120.0);
     println!("ground: {left} left of {whole}");
     assert!(whole > 1.3 * MAX_RESIDUE_OF_GROUND, "hardly anything changes: {whole}");

@@ -16,7 +16,7 @@ pub struct Camera {
 
 impl Camera {
     /// A camera that looks at `target`, from a place that is turned about the vertical axis and lifted above the
-    /// horizon. `perspective` is the size of the fractal as a share of its distance; 0 keeps parallels parallel.
+    /// horizon. `perspective` is 0 for an orthographic picture, else the size of the fractal over its distance.
     pub fn new(target: Point, turn_deg: f64, tilt_deg: f64, [perspective, diameter]: [f64; 2]) -> Self {
         let [(sine, cosine), (rise, reach)] =
             [turn_deg, tilt_deg].map(|angle| libm::sincos(angle.to_radians()));

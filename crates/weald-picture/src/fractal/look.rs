@@ -13,7 +13,7 @@ use super::plot::plot;
 use super::subject::{Motion, Subject};
 use super::svg;
 use super::tone::{Covered, Tone};
-use weald_core::error::Error;
+use weald_core::error::{Error, Limit, Quantity};
 use weald_core::parameter::{Colour, Sides};
 use weald_plants::ifs::Ifs;
 
@@ -58,7 +58,8 @@ impl Background {
 weald_core::parameters! {
     /// How a fractal is drawn.
     pub struct Look {
-        /// What is drawn: the density of the points, or dots or outlines of the parts.
+        /// What is drawn: the density of the points, or dots or outlines of the parts. In a .svg `density` is drawn as
+        /// `parts`.
         draw: Draw = Draw::Density;
         /// Pixels a side, or [width, height]. By default 1024 on the longer side, in the proportions of the shape.
         size: Option<Sides> = None;
@@ -67,10 +68,10 @@ weald_core::parameters! {
         /// Points for each pixel. By default 100, and 24 for each frame of a film.
         samples: Option<f64> = None, range 0.01..=100_000.0, when draw = "density",
             for "png" | "apng" | "mp4" | "webm";
-        /// Buckets along the side of a pixel, each with its own density.
+        /// Supersampling: histogram bins along the side of a pixel, each with its own density.
         supersample: u32 = 2, range 1..=8, when draw = "density",
             for "png" | "apng" | "mp4" | "webm";
-        /// Width of the Gaussian that makes pixels of buckets.
+        /// Radius of the Gaussian reconstruction filter, which makes pixels of the bins.
         filter: f64 = 0.5, range 0.0..=8.0, unit "px", when draw = "density",
             for "png" | "apng" | "mp4" | "webm";
         /// What the colours tell: the code of a point, its largest part, or nothing.
@@ -87,23 +88,24 @@ weald_core::parameters! {
         /// Exponent that lifts thin parts out of the background.
         gamma: f64 = 4.0, range 0.1..=10.0, when draw = "density",
             for "png" | "apng" | "mp4" | "webm";
-        /// Cover up to which gamma is a straight line, so that single points do not shine.
+        /// Alpha below which gamma is linear, so that single points do not shine.
         gamma_threshold: f64 = 0.01, range 0.0..=1.0, when draw = "density",
             for "png" | "apng" | "mp4" | "webm";
         /// Whether gamma keeps colours saturated (1) or acts on each channel (0).
         vibrancy: f64 = 1.0, range 0.0..=1.0, when draw = "density",
             for "png" | "apng" | "mp4" | "webm";
-        /// Digits to which codes are opened for dots and parts. By default they are opened down to `finest`.
+        /// Recursion depth of dots and parts: the digits of their codes. By default parts are split down to `finest`.
         depth: Option<u32> = None, range 0..=26;
-        /// Size of the smallest dots and parts.
-        finest: f64 = 2.0, range 0.1..=1000.0, unit "px", without depth;
+        /// Size of the smallest dots and parts. By default 2 px; in a .svg twice that, four times and so on until the
+        /// file fits into 64 MiB.
+        finest: Option<f64> = None, range 0.1..=1000.0, unit "px", without depth;
         /// Diameter of a dot. By default `finest`, or 1.5 px with `depth`.
         dot: Option<f64> = None, range 0.05..=1000.0, unit "px", when draw = "dots";
-        /// Turn of the camera about the vertical axis. By default 0 for a fractal of the plane, 30 for one of space.
+        /// Turn of the camera about the vertical axis (yaw). By default 0 for a 2D fractal, 30 for a 3D one.
         turn_deg: Option<f64> = None, range -36000.0..=36000.0, unit "deg";
-        /// How far the camera stands above the horizon. By default 0 for a fractal of the plane, 12 for one of space.
+        /// Elevation angle of the camera above the horizon (pitch). By default 0 for a 2D fractal, 12 for a 3D one.
         tilt_deg: Option<f64> = None, range -90.0..=90.0, unit "deg";
-        /// Size of the fractal as a share of its distance; 0 keeps parallels parallel.
+        /// 0 is orthographic; else the size of the fractal divided by the distance of the camera.
         perspective: f64 = 0.0, range 0.0..=1.0;
     }
 }
@@ -111,7 +113,11 @@ weald_core::parameters! {
 /// Points per pixel where nobody chooses: of a picture, and of a frame of a film.
 const DEFAULT_SAMPLES: [f64; 2] = [100.0, 24.0];
 
-/// Turn and tilt of the camera where nobody chooses, for a fractal of space.
+/// Size of the smallest parts in pixels where nobody chooses, and how often a .svg may double it.
+const DEFAULT_FINEST: f64 = 2.0;
+const COARSER_SVG: u32 = 6;
+
+/// Turn and tilt of the camera where nobody chooses, for a 3D fractal.
 const DEFAULT_VIEW_DEG: [f64; 2] = [30.0, 12.0];
 
 /// What all frames of a film share, so that it neither jumps nor flickers.
@@ -192,14 +198,37 @@ impl Look {
         Ok(self.laid(&pixels, &setting.frame))
     }
 
-    /// The picture as vectors, of dots or parts; parts where the look is of a density.
+    /// The picture as vectors, of dots or parts; parts where the look is of a density. Where neither `finest` nor `depth`
+    /// is given, parts are as fine as the limits allow, from 2 px in doublings.
     ///
     /// # Errors
     /// [`Error::Limit`] where marks or the file are beyond their limits.
     pub fn svg(&self, subject: &Subject<'_>, setting: &Setting) -> Result<String, Error> {
+        let first = self.vectors(subject, setting);
+        if self.finest.is_some() || self.depth.is_some() {
+            return first;
+        }
+        let mut coarser = (1..=COARSER_SVG).map(|doublings| DEFAULT_FINEST * f64::from(1_u32 << doublings));
+        let mut found = first;
+        while let (Err(Error::Limit(_)), Some(finest)) = (&found, coarser.next()) {
+            found = Self { finest: Some(finest), ..self.clone() }.vectors(subject, setting);
+        }
+        found
+    }
+
+    fn vectors(&self, subject: &Subject<'_>, setting: &Setting) -> Result<String, Error> {
         let shape = self.shape().unwrap_or(Shape::Outline);
         let marks = self.marks(subject, &setting.frame, shape)?;
-        svg::svg(&marks, shape, &setting.frame, &self.table(), self.background.colour())
+        let file = svg::svg(&marks, shape, &setting.frame, &self.table(), self.background.colour());
+        file.map_err(|excess| {
+            // The number of parts falls at least as fast as their size grows.
+            let remedy = match self.depth {
+                Some(depth) => format!("choose a smaller `depth` than {depth}"),
+                None => format!("choose a larger `finest`, such as {}", (self.finest() * excess).ceil()),
+            };
+            let limit = Limit::new(Quantity::FileBytes, None, 0..=svg::MAX_BYTES as u64);
+            limit.of(format!("a .svg of {} parts", marks.len())).remedy(format!("{remedy}, or a .png")).into()
+        })
     }
 
     /// The points of the picture, counted.
@@ -220,8 +249,12 @@ impl Look {
         Density::count(subject, colours, &setting.frame, sampling, watch)
     }
 
+    fn finest(&self) -> f64 {
+        self.finest.unwrap_or(DEFAULT_FINEST)
+    }
+
     fn shape(&self) -> Option<Shape> {
-        let usual = if self.depth.is_some() { 1.5 } else { self.finest };
+        let usual = if self.depth.is_some() { 1.5 } else { self.finest() };
         match self.draw {
             Draw::Density => None,
             Draw::Dots => Some(Shape::Dot(self.dot.unwrap_or(usual))),
@@ -232,7 +265,7 @@ impl Look {
     fn marks(&self, subject: &Subject<'_>, frame: &Frame, shape: Shape) -> Result<Vec<Mark>, Error> {
         let opened = match self.depth {
             Some(depth) => Opened::ToDepth(depth as usize),
-            None => Opened::ToPixels(self.finest),
+            None => Opened::ToPixels(self.finest()),
         };
         marks(subject, &self.colouring(subject.ifs), frame, opened, shape)
     }

@@ -78,16 +78,26 @@ fn share(subject: &Subject<'_>, frame: &Frame, pixels: f64) -> f64 {
 
 /// Counts the marks before any is made.
 fn check(subject: &Subject<'_>, frame: &Frame, opened: Opened) -> Result<(), Error> {
-    let mut count = 0_u64;
-    open(subject, frame, opened, |_| count += 1)?;
-    if count <= MAX_MARKS {
+    let (count, subject, remedy) = match opened {
+        Opened::ToDepth(depth) => {
+            let maps = subject.ifs.maps().len() as u64;
+            let count = |depth: u32| maps.checked_pow(depth);
+            let fits = |depth: &u32| count(*depth).is_some_and(|count| count <= MAX_MARKS);
+            let deepest = (0..depth as u32).rev().find(fits).unwrap_or(0);
+            let made = format!("{}: a depth of {depth} makes {maps}^{depth}", subject.ifs.name());
+            (count(depth as u32), made, format!("choose a `depth` of {deepest} or less"))
+        }
+        Opened::ToPixels(pixels) => {
+            let mut count = 0_u64;
+            open(subject, frame, opened, |_| count += 1)?;
+            let remedy = format!("choose a larger `finest` than {pixels} px");
+            (Some(count), subject.ifs.name().to_owned(), remedy)
+        }
+    };
+    if count.is_some_and(|count| count <= MAX_MARKS) {
         return Ok(());
     }
-    let remedy = match opened {
-        Opened::ToDepth(depth) => format!("choose a smaller `depth` than {depth}"),
-        Opened::ToPixels(pixels) => format!("choose a larger `finest` than {pixels} pixels"),
-    };
-    Err(Limit::new(Quantity::Parts, count, 0..=MAX_MARKS).of(subject.ifs.name()).remedy(remedy).into())
+    Err(Limit::new(Quantity::Parts, count, 0..=MAX_MARKS).of(subject).remedy(remedy).into())
 }
 
 struct Maker<'a> {
@@ -120,7 +130,7 @@ impl Maker<'_> {
     }
 }
 
-/// Directions in which a fractal of the plane is measured; one of space is measured in as many around each axis.
+/// Directions in which a 2D fractal is measured; a 3D one is measured in as many around each axis.
 const DIRECTIONS: usize = 16;
 
 /// Points from which extremes are found.

@@ -40,7 +40,7 @@ pub struct Subject<'a> {
     pub motion: Option<&'a dyn Motion>,
     /// Where it is seen from.
     pub camera: Camera,
-    /// Whether the camera stands in front of a fractal of the plane.
+    /// Whether the camera stands in front of a 2D fractal.
     pub frontal: bool,
     /// Seed of random iteration.
     pub seed: u64,

@@ -6,10 +6,9 @@ use super::super::colour::{Linear, encode};
 use super::frame::Frame;
 use super::marks::{Mark, Shape};
 use super::palette::Table;
-use weald_core::error::{Error, Limit, Quantity};
 
 /// Longest file: what browsers and editors still open.
-const MAX_BYTES: usize = 64 << 20;
+pub(super) const MAX_BYTES: usize = 64 << 20;
 
 /// Tinges that share a colour in the file, so that one path holds many marks: 32 places on the palette, all steps.
 const PLACES_PER_COLOUR: u16 = 8;
@@ -17,14 +16,14 @@ const PLACES_PER_COLOUR: u16 = 8;
 /// The file, with `background` behind the marks if there is one.
 ///
 /// # Errors
-/// [`Error::Limit`] beyond 64 MiB.
+/// How many times too long the file would be, more or less.
 pub(super) fn svg(
     marks: &[Mark],
     shape: Shape,
     frame: &Frame,
     table: &Table,
     background: Option<Linear>,
-) -> Result<String, Error> {
+) -> Result<String, f64> {
     let [width, height] = [frame.width, frame.height];
     let mut text = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {width} {height}\">\n"
@@ -32,12 +31,12 @@ pub(super) fn svg(
     if let Some(colour) = background {
         let _ = writeln!(text, "<rect width=\"100%\" height=\"100%\" fill=\"{}\"/>", hex(colour));
     }
+    let mut written = 0;
     for run in marks.chunk_by(|a, b| shared(a.palette_index) == shared(b.palette_index)) {
         write_run(&mut text, run, shape, &hex(table.colour(shared(run[0].palette_index))));
+        written += run.len();
         if text.len() > MAX_BYTES {
-            let limit = Limit::new(Quantity::FileBytes, None, 0..=MAX_BYTES as u64);
-            let remedy = "choose a larger `finest`, a smaller `depth`, or a .png";
-            return Err(limit.of(format!("a .svg of {} parts", marks.len())).remedy(remedy).into());
+            return Err(text.len() as f64 * (marks.len() as f64 / written as f64) / MAX_BYTES as f64);
         }
     }
     text.push_str("</svg>\n");

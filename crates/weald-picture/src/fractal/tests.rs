@@ -120,7 +120,7 @@ fn a_picture_without_background_looks_on_white_as_one_with_white_behind_it() {
     let fern = ifs("fern");
     let white = picture(&look(60, 100), &fern, None).image;
     let clear = picture(&Look { background: Background::Transparent, ..look(60, 100) }, &fern, None);
-    let covers = clear.cover.as_ref().expect("a background that shows through");
+    let covers = clear.alpha.as_ref().expect("a background that shows through");
     assert!(covers.contains(&0) && covers.iter().any(|&cover| cover > 200));
     let pixels = clear.image.rgb.chunks(3).zip(covers).zip(white.rgb.chunks(3));
     for ((colour, &cover), seen) in pixels {
@@ -165,9 +165,9 @@ fn pictures_beyond_memory_and_too_many_parts_are_refused_before_they_begin() {
     );
     assert!(
         refused(&Look { draw: Draw::Dots, depth: Some(12), ..look(100, 100) })
-            .contains("smaller `depth` than 12")
+            .contains("a `depth` of 11 or less")
     );
-    assert!(refused(&Look { draw: Draw::Parts, finest: 0.1, ..look(4_000, 4_000) }).contains("larger"));
+    assert!(refused(&Look { draw: Draw::Parts, finest: Some(0.1), ..look(4_000, 4_000) }).contains("larger"));
 }
 
 #[test]

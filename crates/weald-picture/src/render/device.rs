@@ -2,7 +2,7 @@
 
 use std::fmt::Debug;
 
-use crate::{Camera, Image, Stage, View};
+use crate::{Camera, Image, LitScene, View};
 use weald_core::error::{DeviceError, DeviceErrorKind, Error};
 use weald_core::landscape::Landscape;
 
@@ -21,7 +21,7 @@ pub trait RenderDevice: Debug + Send + Sync {
     ///
     /// # Errors
     /// As [`RenderDevice::check`]; [`Error::Device`] where its memory does not suffice or it fails.
-    fn set_up<'a>(&self, scene: &RenderScene<'a>) -> Result<Box<dyn Rendering + 'a>, Error>;
+    fn set_up<'a>(&self, request: &RenderRequest<'a>) -> Result<Box<dyn Rendering + 'a>, Error>;
 
     /// How fast it draws fields of grass as those of tables 1 to 3 of Kim and Cho 2009, of up to so many sets.
     ///
@@ -53,11 +53,11 @@ pub struct GrassRate {
 
 /// What a device is to draw.
 #[derive(Clone, Copy, Debug)]
-pub struct RenderScene<'a> {
+pub struct RenderRequest<'a> {
     /// Light, air and size of the pictures.
     pub view: &'a View,
     /// The view of the landscape, made ready.
-    pub stage: &'a Stage,
+    pub scene: &'a LitScene,
     /// The landscape, with what grows on it.
     pub landscape: &'a Landscape,
     /// Samples per pixel at edges, 1 or 4.
@@ -86,8 +86,8 @@ impl RenderDevice for RayMarched {
         Ok(())
     }
 
-    fn set_up<'a>(&self, scene: &RenderScene<'a>) -> Result<Box<dyn Rendering + 'a>, Error> {
-        Ok(Box::new(RayMarchedScene { view: scene.view, landscape: scene.landscape }))
+    fn set_up<'a>(&self, request: &RenderRequest<'a>) -> Result<Box<dyn Rendering + 'a>, Error> {
+        Ok(Box::new(RayMarchedScene { view: request.view, landscape: request.landscape }))
     }
 
     fn grass_rates(&self, _: u32) -> Result<Vec<GrassRate>, Error> {

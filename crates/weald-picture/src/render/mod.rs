@@ -1,21 +1,21 @@
-//! A picture as a device draws it in real time, with grass and plants: the same stage as the view's, from the same keys.
+//! The view rasterised on a graphics device, with grass and plants: the same scene from the same keys.
 
 mod camera_path;
 mod device;
 
 pub use camera_path::CameraPath;
-pub use device::{GrassRate, RayMarched, RenderDevice, RenderScene, Rendering};
+pub use device::{GrassRate, RayMarched, RenderDevice, RenderRequest, Rendering};
 
-use super::{Camera, Stage, View};
+use super::{Camera, LitScene, View};
 use weald_core::error::Error;
 use weald_core::landscape::Landscape;
 use weald_core::parameter::{Diagnostics, Parameter, Parameters, Places};
 use weald_core::source::Table;
 
 weald_core::parameters! {
-    /// Keys of a drawn picture that a view has not, or has otherwise.
+    /// Keys of `render` that a view has not, or has otherwise.
     pub struct RenderKeys {
-        /// Samples per pixel at the edges of what is drawn, 1 or 4; 1 shows stairs.
+        /// MSAA samples per pixel: 4, or 1 with aliased edges.
         samples: u32 = 4, range 1..=4;
         /// Further places, `[x, y]` as `eye` has them, that the camera flies through after `eye`, at the same height
         /// above the ground; it looks ahead, or at `target`. It goes with `eye` and `frames`.
@@ -26,7 +26,7 @@ weald_core::parameters! {
 /// Least height of a camera above the ground, in metres.
 const MIN_CLEARANCE: f64 = 0.1;
 
-/// A picture drawn on a device.
+/// A view rasterised on a device.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Render {
     /// Light, air, size and camera.
@@ -47,7 +47,7 @@ impl Parameters for Render {
     fn read_values(table: &Table, diagnostics: &mut Diagnostics) -> Self {
         let keys = RenderKeys::read_values(table, diagnostics);
         if let Some(samples) = table.get("samples").filter(|_| ![1, 4].contains(&keys.samples)) {
-            let message = format!("`samples` is {}; every device has 1 and 4", keys.samples);
+            let message = format!("`samples` is {}, but must be 1 or 4", keys.samples);
             diagnostics.add(samples.line, message);
         }
         // A view has `samples` too, with another range and default.
@@ -73,11 +73,11 @@ impl Frame {
     pub const STILL: Self = Self { number: 0, count: 1, seconds: 0.0 };
 }
 
-/// A drawn picture's scene on a device, for one frame after the other.
+/// The scene of a `render` on a device, for one frame after the other.
 #[derive(Debug)]
 pub struct FrameSequence<'a> {
     render: &'a Render,
-    stage: Stage,
+    scene: LitScene,
     device: &'a dyn RenderDevice,
     landscape: &'a Landscape,
     camera_path: Option<CameraPath>,
@@ -95,28 +95,28 @@ impl Render {
     /// Makes a landscape ready to be drawn, as a still or a film.
     ///
     /// # Errors
-    /// As [`Stage::new`].
+    /// As [`LitScene::new`].
     pub fn frame_sequence<'a>(
         &'a self,
         landscape: &'a Landscape,
         device: &'a dyn RenderDevice,
     ) -> Result<FrameSequence<'a>, Error> {
-        let stage = Stage::new(&self.view, landscape)?;
-        let camera_path = self.keys.through.as_ref().map(|through| self.camera_path(&stage, through));
-        let frame_sequence = FrameSequence { render: self, stage, device, landscape, camera_path };
+        let scene = LitScene::new(&self.view, landscape)?;
+        let camera_path = self.keys.through.as_ref().map(|through| self.camera_path(&scene, through));
+        let frame_sequence = FrameSequence { render: self, scene, device, landscape, camera_path };
         let first = frame_sequence.camera(Frame::STILL);
-        Ok(FrameSequence { stage: frame_sequence.stage.seen_from(first), ..frame_sequence })
+        Ok(FrameSequence { scene: frame_sequence.scene.seen_from(first), ..frame_sequence })
     }
 
-    fn camera_path(&self, stage: &Stage, through: &Places) -> CameraPath {
+    fn camera_path(&self, scene: &LitScene, through: &Places) -> CameraPath {
         let begin = self.view.eye.iter().flat_map(|eye| &eye.0).take(1);
-        let points = begin.chain(&through.0).map(|&place| self.standing(stage, place)).collect();
+        let points = begin.chain(&through.0).map(|&place| self.standing(scene, place)).collect();
         let target = self.view.target.as_ref().and_then(|target| target.0.first());
-        CameraPath { points, target: target.map(|&place| stage.above_ground(place, 0.0)) }
+        CameraPath { points, target: target.map(|&place| scene.above_ground(place, 0.0)) }
     }
 
-    fn standing(&self, stage: &Stage, place: [f64; 2]) -> [f32; 3] {
-        stage.above_ground(place, self.view.eye_height.max(MIN_CLEARANCE))
+    fn standing(&self, scene: &LitScene, place: [f64; 2]) -> [f32; 3] {
+        scene.above_ground(place, self.view.eye_height.max(MIN_CLEARANCE))
     }
 }
 
@@ -126,9 +126,9 @@ impl FrameSequence<'_> {
     /// # Errors
     /// As [`RenderDevice::set_up`].
     pub fn set_up(&self) -> Result<Box<dyn Rendering + '_>, Error> {
-        let Self { render, stage, landscape, .. } = self;
-        let scene = RenderScene { view: &render.view, stage, landscape, samples: render.keys.samples };
-        self.device.set_up(&scene)
+        let Self { render, scene, landscape, .. } = self;
+        let request = RenderRequest { view: &render.view, scene, landscape, samples: render.keys.samples };
+        self.device.set_up(&request)
     }
 
     /// The camera of a frame.
@@ -136,16 +136,16 @@ impl FrameSequence<'_> {
         let Frame { number, count, .. } = frame;
         if let Some(camera_path) = &self.camera_path {
             return camera_path
-                .camera(number as f64 / count.saturating_sub(1).max(1) as f64, self.stage.camera());
+                .camera(number as f64 / count.saturating_sub(1).max(1) as f64, self.scene.camera());
         }
         let view = &self.render.view;
         if count > 1 {
-            return self.stage.camera_of(&view.turned(number as f64 / count as f64));
+            return self.scene.camera_of(&view.turned(number as f64 / count as f64));
         }
-        let camera = self.stage.camera_of(view);
+        let camera = self.scene.camera_of(view);
         match view.eye.as_ref().and_then(|eye| eye.0.first()) {
             // A device draws grass from a height at which a view is lifted above the ground.
-            Some(&place) if view.turn_deg.is_none() => camera.at(self.render.standing(&self.stage, place)),
+            Some(&place) if view.turn_deg.is_none() => camera.at(self.render.standing(&self.scene, place)),
             _ => camera,
         }
     }

@@ -22,7 +22,8 @@ const CLEARANCE: f32 = 2.0;
 const CLEARANCE_CELLS: f32 = 0.15;
 
 /// A pinhole camera. Its coordinates are metres east and north of the landscape's north-western corner, and up from
-/// the lowest ground, heights times the exaggeration.
+/// the lowest ground, heights times the exaggeration. All else counts metres southward: the second coordinate here is
+/// minus that.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
     /// Where it stands.

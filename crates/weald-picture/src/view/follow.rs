@@ -1,6 +1,6 @@
-//! A stage whose ground and water change while it is drawn: `follow.wgsl` makes its surfaces anew on a device.
+//! A scene whose ground and water change while it is drawn: `follow.wgsl` makes its surfaces anew on a device.
 
-use super::stage::Stage;
+use super::lit_scene::LitScene;
 use super::surface::Surface;
 use super::water::{DRY, SHALLOW};
 use weald_core::grid::Field;
@@ -26,12 +26,12 @@ uniform! {
     }
 }
 
-impl Stage {
+impl LitScene {
     /// The shader that makes the maps `top`, `bed` and `level` of ground and water; its entry point is `follow_ground`,
     /// with 16 × 16 control points a workgroup.
     pub const FOLLOW: &str = include_str!("follow.wgsl");
 
-    /// The same stage, whose ground and water may change: all deep enough water is drawn as it stands, and the lines of
+    /// The same scene, whose ground and water may change: all deep enough water is drawn as it stands, and the lines of
     /// rivers are not, which come from means of a whole simulation.
     #[must_use]
     pub fn to_follow(mut self) -> Self {

@@ -1,4 +1,4 @@
-// The surfaces of a stage from ground and water as they are now: the twin of `Surface::new` and `water::levels`. What
+// The surfaces of a scene from ground and water as they are now: the twin of `Surface::new` and `water::levels`. What
 // differs from the latter: all water that is deep enough is drawn, not lakes alone, and levels go on over one ring of dry
 // cells.
 

@@ -21,34 +21,34 @@ weald_core::parameters! {
         width: u32 = 1600, range 16..=16384, unit "px";
         /// Height of the picture.
         height: u32 = 900, range 16..=16384, unit "px";
-        /// Rays through each pixel; 1 shows stairs at edges.
+        /// Rays per pixel; with 1, edges are aliased.
         samples: u32 = 6, range 1..=64;
-        /// Direction in which the camera stands, clockwise from north, seen from what it looks at.
+        /// Azimuth at which the camera stands (yaw), clockwise from north, seen from what it looks at.
         azimuth_deg: f64 = 205.0, range 0.0..=360.0, unit "deg", without eye;
-        /// How high it stands, as an angle above the horizon.
+        /// Elevation angle at which the camera stands (pitch), above the horizon, seen from what it looks at.
         altitude_deg: f64 = 27.0, range 0.0..=90.0, unit "deg", without eye;
         /// How far it is from what it looks at. By default the landscape just fills the picture.
         distance: Option<f64> = None, range 1.0e-3..=1.0e8, unit "m", without eye;
-        /// Place that the camera looks at, `[x, y]` in metres from the north-western corner. By default the
-        /// middle of the landscape.
+        /// Place that the camera looks at, `[x, y]` in metres east and south of the north-western corner. By
+        /// default the middle of the landscape.
         target: Option<Places> = None;
         /// Place where the camera stands, `[x, y]` as for `target`, in place of azimuth, altitude and distance.
         eye: Option<Places> = None;
         /// Height of the camera above the ground at `eye`, or above the lowest ground outside the landscape.
         eye_height: f64 = 100.0, range 0.0..=1.0e7, unit "m", with eye;
-        /// Angle that the picture takes across.
+        /// Horizontal field of view.
         field_of_view_deg: f64 = 30.0, range 1.0..=120.0, unit "deg";
         /// Turn of the camera about what it looks at, clockwise seen from above: the frames of a turntable
         /// differ in it. Where it is given, the distance by default shows the landscape whole at any turn.
         turn_deg: Option<f64> = None, range -36000.0..=36000.0, unit "deg";
-        /// Where the sun stands, clockwise from north.
+        /// Azimuth of the sun, clockwise from north.
         sun_azimuth_deg: f64 = 265.0, range 0.0..=360.0, unit "deg";
-        /// Height of the sun above the horizon.
+        /// Elevation angle of the sun above the horizon.
         sun_altitude_deg: f64 = 28.0, range 1.0..=90.0, unit "deg";
         /// Diameter of the sun in the sky: a larger one has softer shadows.
         sun_diameter_deg: f64 = 0.53, range 0.01..=20.0, unit "deg";
-        /// How far one sees through the haze at the lowest ground. By default so far that of the light from the
-        /// middle of the landscape a seventh is lost on the way to the camera.
+        /// Meteorological visibility: how far one sees through the haze at the lowest ground. By default the haze
+        /// takes a seventh of the light between the middle of the landscape and the camera.
         visibility: Option<f64> = None, range 1.0..=1.0e12, unit "m";
         /// Brightness: each 1 more is twice as bright.
         exposure: f64 = 0.0, range -8.0..=8.0, unit "stops";
@@ -66,7 +66,7 @@ weald_core::parameters! {
         snow_line: Option<f64> = None, unit "m", unless ground = "materials";
         /// Whether lakes (layer `water`) and rivers (layers `flux_x`, `flux_y`) are drawn where they exist.
         water: bool = true;
-        /// How many times as wide rivers are drawn as rivers of their basins usually are.
+        /// Factor on the drawn width of rivers; 1 is the usual width for their drainage area.
         river_width: f64 = 2.0, range 0.0..=100.0, when water = true;
     }
 }

@@ -1,16 +1,16 @@
-//! The maps of a stage, as textures that shaders see under the same names.
+//! The fields of a scene, as textures that shaders see under the same names.
 
 use super::flow::Flow;
+use super::lit_scene::LitScene;
 use super::side::Strata;
 use super::skylight::Skylight;
-use super::stage::Stage;
 use super::surface::Surface;
 use super::water::Rivers;
 use weald_core::material::MAX_MATERIALS;
 
 /// How the numbers of a map are kept, and looked up.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum MapKind {
+pub enum TextureKind {
     /// Control points of a surface, 32 bits each, loaded one by one.
     Exact,
     /// Four numbers of 16 bits, mixed between the centres of cells.
@@ -19,7 +19,7 @@ pub enum MapKind {
     Share,
 }
 
-impl MapKind {
+impl TextureKind {
     /// Numbers that a texel holds.
     pub fn channels(self) -> usize {
         match self {
@@ -31,11 +31,11 @@ impl MapKind {
 
 /// A map.
 #[derive(Clone, Debug)]
-pub struct StageMap {
+pub struct SceneTexture {
     /// Its name in shaders.
     pub name: &'static str,
     /// How it is kept.
-    pub kind: MapKind,
+    pub kind: TextureKind,
     /// Columns and rows.
     pub size: [usize; 2],
     /// Layers, one behind the other; more than one, or an array by its nature.
@@ -45,31 +45,31 @@ pub struct StageMap {
 }
 
 /// Declared once: names and kinds, and whether a map is an array of layers.
-const MAPS: [(&str, MapKind, bool); 11] = [
-    ("top", MapKind::Exact, false),
-    ("bed", MapKind::Exact, false),
-    ("level", MapKind::Exact, false),
-    ("land", MapKind::Exact, false),
-    ("site", MapKind::Smooth, false),
-    ("materials", MapKind::Smooth, false),
-    ("skylight", MapKind::Smooth, true),
-    ("plain_light", MapKind::Smooth, true),
-    ("strata", MapKind::Smooth, true),
-    ("rivers", MapKind::Share, false),
-    ("flow", MapKind::Smooth, false),
+const MAPS: [(&str, TextureKind, bool); 11] = [
+    ("top", TextureKind::Exact, false),
+    ("bed", TextureKind::Exact, false),
+    ("level", TextureKind::Exact, false),
+    ("land", TextureKind::Exact, false),
+    ("site", TextureKind::Smooth, false),
+    ("materials", TextureKind::Smooth, false),
+    ("skylight", TextureKind::Smooth, true),
+    ("plain_light", TextureKind::Smooth, true),
+    ("strata", TextureKind::Smooth, true),
+    ("rivers", TextureKind::Share, false),
+    ("flow", TextureKind::Smooth, false),
 ];
 
 /// Layers in which the light of the sky is kept: twelve numbers by four.
 const SKYLIGHT_LAYERS: usize = 3;
 
-impl Stage {
-    /// Names, kinds, and whether they are arrays, of the maps in the order of [`Stage::maps`].
-    pub fn map_kinds() -> impl Iterator<Item = (&'static str, MapKind, bool)> {
+impl LitScene {
+    /// Names, kinds, and whether they are arrays, of the maps in the order of [`LitScene::textures`].
+    pub fn texture_kinds() -> impl Iterator<Item = (&'static str, TextureKind, bool)> {
         MAPS.into_iter()
     }
 
     /// All maps. What a landscape does not have is a single zero.
-    pub fn maps(&self) -> Vec<StageMap> {
+    pub fn textures(&self) -> Vec<SceneTexture> {
         let terrain = &self.setting.terrain;
         let sites = &self.cover.sites;
         let materials = sites.materials.as_ref().map(|channels| channels.each_ref().map(Some));
@@ -89,7 +89,7 @@ impl Stage {
         ];
         let named = MAPS.into_iter().zip(values).map(|((name, kind, is_array), (size, values))| {
             let layers = if is_array { values.len() / (size[0] * size[1] * kind.channels()) } else { 1 };
-            StageMap { name, kind, size, layers, values }
+            SceneTexture { name, kind, size, layers, values }
         });
         named.collect()
     }

@@ -1,13 +1,13 @@
-//! The numbers of a stage, as shaders see them: one list gives the struct's text and its bytes, so neither can
+//! The uniforms of a scene, as shaders see them: one list gives the struct's text and its bytes, so neither can
 //! disagree with the other, and no constant of the view is written a second time.
 
 use std::fmt::Write;
 
 use super::cover::Palette;
 use super::haze::{self, Haze};
+use super::lit_scene::{CUT_WATER, LitScene};
 use super::side::NORMALS;
 use super::sky::PIECES;
-use super::stage::{CUT_WATER, Stage};
 use super::tone::{self, Tone};
 use super::vector::Vector;
 use super::water;
@@ -26,9 +26,9 @@ type Named = Vec<(&'static str, [f32; 4])>;
 /// Vectors in the tables behind the named numbers: three for each piece of the sky, one for each side's normal.
 const SKY_TABLE: usize = 3 * (PIECES + 1);
 
-impl Stage {
-    /// The numbers of the stage, laid out as `Stage::declaration` says.
-    pub fn numbers(&self) -> Vec<u8> {
+impl LitScene {
+    /// The numbers of the scene, laid out as `LitScene::declaration` says.
+    pub fn uniforms(&self) -> Vec<u8> {
         let named = self.named().into_iter().map(|(_, values)| values);
         let sky = self.sky.table.iter().flat_map(|part| [part.rayleigh, part.mie, part.multiple]);
         let colours = self.setting.strata.materials.iter().map(|&(_, colour)| colour);
@@ -41,7 +41,7 @@ impl Stage {
         bytes
     }
 
-    /// The struct of [`Stage::numbers`] in WGSL.
+    /// The struct of [`LitScene::numbers`] in WGSL.
     pub(super) fn declaration(&self) -> String {
         let named = self.named();
         let fields = named.iter().fold(String::new(), |mut fields, (name, _)| {
@@ -49,7 +49,7 @@ impl Stage {
             fields
         });
         format!(
-            "const SKY_PIECES = {PIECES};\nconst SIDE_NORMALS = {NORMALS};\nstruct Stage {{\n{fields}    \
+            "const SKY_PIECES = {PIECES};\nconst SIDE_NORMALS = {NORMALS};\nstruct LitScene {{\n{fields}    \
              sky_table: array<vec4<f32>, {SKY_TABLE}>,\n    side_light: array<vec4<f32>, {NORMALS}>,\n    \
              strata_colours: array<vec4<f32>, {MAX_MATERIALS}>,\n}}\n"
         )

@@ -5,7 +5,7 @@
 
 use rayon::prelude::*;
 
-use super::stage::Stage;
+use super::lit_scene::LitScene;
 use super::surface::Surface;
 use super::vector::Vector;
 
@@ -21,7 +21,7 @@ pub struct Rim {
     pub normals: [[f32; 2]; 2],
 }
 
-impl Stage {
+impl LitScene {
     /// All pieces, row by row; none where all is land.
     pub fn rims(&self) -> Vec<Rim> {
         let terrain = &self.setting.terrain;
@@ -88,7 +88,7 @@ mod tests {
         domain.valid = Mask::new(size, (0..1600).map(|cell| away(cell) < 12.0).collect());
         let mut landscape = Landscape::new(domain);
         landscape.insert("height", "m", Field::filled(size, 5.0));
-        let rims = Stage::new(&View::default(), &landscape).expect("it can be drawn").rims();
+        let rims = LitScene::new(&View::default(), &landscape).expect("it can be drawn").rims();
         let (mut round, mut middle) = (0.0, [0.0_f32; 2]);
         for Rim { ends: [a, b], normals } in &rims {
             round += (a[0] - b[0]).hypot(a[1] - b[1]);

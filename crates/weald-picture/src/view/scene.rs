@@ -6,8 +6,8 @@ use std::ops::Deref;
 use super::camera::{self, Camera};
 use super::cover::SurfacePoint;
 use super::keys::View;
+use super::lit_scene::{CUT_WATER, LitScene};
 use super::skylight::{self, Seen};
-use super::stage::{CUT_WATER, Stage};
 use super::terrain::{Hit, Ray};
 use super::vector::{Vector, add, dot, filter, mirrored, scale, unit};
 use super::water;
@@ -16,32 +16,32 @@ use weald_core::error::Error;
 use weald_core::landscape::Landscape;
 
 /// Everything that a pixel needs to know.
-pub(super) struct Scene {
-    stage: Stage,
+pub(super) struct RayMarcher {
+    scene: LitScene,
     pixels: [usize; 2],
     samples: Vec<[f32; 2]>,
     pixel_angle: f32,
 }
 
-impl Deref for Scene {
-    type Target = Stage;
+impl Deref for RayMarcher {
+    type Target = LitScene;
 
-    fn deref(&self) -> &Stage {
-        &self.stage
+    fn deref(&self) -> &LitScene {
+        &self.scene
     }
 }
 
-impl Scene {
+impl RayMarcher {
     /// The view from its own camera, or from another.
     pub(super) fn new(view: &View, landscape: &Landscape, from: Option<Camera>) -> Result<Self, Error> {
-        let stage = Stage::new(view, landscape)?;
-        let stage = match from {
-            Some(camera) => stage.seen_from(camera),
-            None => stage,
+        let scene = LitScene::new(view, landscape)?;
+        let scene = match from {
+            Some(camera) => scene.seen_from(camera),
+            None => scene,
         };
         let pixels = [view.width as usize, view.height as usize];
-        let pixel_angle = stage.camera.pixel_angle(pixels[0]);
-        Ok(Self { stage, pixels, samples: camera::samples(view.samples), pixel_angle })
+        let pixel_angle = scene.camera.pixel_angle(pixels[0]);
+        Ok(Self { scene, pixels, samples: camera::samples(view.samples), pixel_angle })
     }
 
     /// The bytes of a pixel, counted from the top left.
@@ -211,14 +211,19 @@ mod tests {
     use weald_core::grid::{Field, Size};
 
     /// Ground of 10 m cells with the water that fills it up to a level.
-    fn scene(view: &View, columns: usize, height: impl FnMut(usize, usize) -> f32, level: f32) -> Scene {
+    fn marcher(
+        view: &View,
+        columns: usize,
+        height: impl FnMut(usize, usize) -> f32,
+        level: f32,
+    ) -> RayMarcher {
         let size = Size::new(columns, 80).expect("small");
         let mut landscape = Landscape::new(Domain::new(size, 10.0));
         let ground = Field::from_function(size, height);
         let water = ground.values().iter().map(|ground| (level - ground).max(0.0)).collect();
         landscape.insert("water", "m", Field::from_values(size, water));
         landscape.insert("height", "m", ground);
-        Scene::new(view, &landscape, None).expect("it can be drawn")
+        RayMarcher::new(view, &landscape, None).expect("it can be drawn")
     }
 
     fn low_sun() -> View {
@@ -227,8 +232,8 @@ mod tests {
 
     /// Metres, along a line eastward from a cliff that is `height` metres high, over which the sun comes out.
     fn penumbra(height: f32) -> f32 {
-        let scene = scene(&low_sun(), 300, |x, _| if x < 30 { height } else { 0.0 }, -1.0);
-        let seen = |metres: usize| scene.sun_seen([300.0 + metres as f32, -400.0, 0.0]);
+        let marcher = marcher(&low_sun(), 300, |x, _| if x < 30 { height } else { 0.0 }, -1.0);
+        let seen = |metres: usize| marcher.sun_seen([300.0 + metres as f32, -400.0, 0.0]);
         let first = (20..2600).find(|&metres| seen(metres) > 0.1).expect("the sun comes out");
         let last = (first..2700).find(|&metres| seen(metres) > 0.9).expect("and is whole");
         (last - first) as f32
@@ -246,23 +251,23 @@ mod tests {
 
     #[test]
     fn open_water_mirrors_the_sky_and_a_cliff_beside_it() {
-        let scene = scene(&low_sun(), 120, |x, _| if x < 40 { 400.0 } else { 0.0 }, 20.0);
+        let marcher = marcher(&low_sun(), 120, |x, _| if x < 40 { 400.0 } else { 0.0 }, 20.0);
         let from = |direction: Vector| Ray { from: [700.0, -400.0, 20.0], direction: unit(direction) };
         for direction in [[1.0, 0.0, 0.3], [0.6, 0.5, 0.4], [0.0, 0.0, 1.0]] {
             let ray = from(direction);
-            assert_eq!(scene.mirrored_light(&ray), scene.sky.radiance(ray.direction));
+            assert_eq!(marcher.mirrored_light(&ray), marcher.sky.radiance(ray.direction));
         }
         let cliff = from([-1.0, 0.0, 0.2]);
-        let [mirrored, sky] = [scene.mirrored_light(&cliff), scene.sky.radiance(cliff.direction)];
+        let [mirrored, sky] = [marcher.mirrored_light(&cliff), marcher.sky.radiance(cliff.direction)];
         assert!(mirrored[2] < 0.7 * sky[2], "{mirrored:?} before a sky of {sky:?}");
     }
 
     #[test]
     fn light_on_an_open_plain_is_that_of_sun_and_sky() {
-        let scene = scene(&low_sun(), 60, |_, _| 0.0, -1.0);
+        let marcher = marcher(&low_sun(), 60, |_, _| 0.0, -1.0);
         let point = [300.0, -400.0, 0.0];
-        let light = scene.lit(point, [0.0, 0.0, 1.0], &scene.skylight.at([0.5; 2]));
-        for (light, expected) in light.into_iter().zip(scene.sky.on_flat_ground()) {
+        let light = marcher.lit(point, [0.0, 0.0, 1.0], &marcher.skylight.at([0.5; 2]));
+        for (light, expected) in light.into_iter().zip(marcher.sky.on_flat_ground()) {
             assert!((light / expected - 1.0).abs() < 0.03, "{light} instead of {expected}");
         }
     }

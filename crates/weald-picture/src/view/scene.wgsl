@@ -1,13 +1,13 @@
 // Twin of `scene.rs`: the light that starts at ground, cut sides and the plain, for the share of the sun that is seen.
 
 fn lit(normal: vec3<f32>, seen: Seen, sun: f32) -> vec3<f32> {
-    let facing = max(dot(normal, stage.sun.xyz), 0.0);
-    return stage.sunlight.xyz * (facing * sun) + skylight_on(seen, normal);
+    let facing = max(dot(normal, scene.sun.xyz), 0.0);
+    return scene.sunlight.xyz * (facing * sun) + skylight_on(seen, normal);
 }
 
 // Whether a place lies under a lake, how deep, or so far above it in negative numbers.
 fn lake_depth(place: vec2<f32>, ground: f32) -> f32 {
-    if stage.has.x == 0.0 {
+    if scene.has.x == 0.0 {
         return -1e9;
     }
     return spline_at(level, place) - ground;
@@ -16,7 +16,7 @@ fn lake_depth(place: vec2<f32>, ground: f32) -> f32 {
 // Dry ground on a surface of a height and a rise by the cell, as colour and roughness.
 fn ground_skin(place: vec2<f32>, surface: vec3<f32>, footprint: f32, above: f32) -> SurfaceSample {
     let normal = normal_of(surface.yz);
-    let stretch = stage.scale.y;
+    let stretch = scene.scale.y;
     let run = length(normal.xy);
     let point = vec3<f32>(point_of(place, 0.0).xy, surface.x / stretch);
     let slope = run / max(normal.z, 1e-3) / stretch;
@@ -27,19 +27,19 @@ fn ground_skin(place: vec2<f32>, surface: vec3<f32>, footprint: f32, above: f32)
 
 // The normal of a surface with the roughness of its skin.
 fn roughened(normal: vec3<f32>, bump: vec2<f32>) -> vec3<f32> {
-    return normalize(vec3<f32>(normal.xy - normal.z * bump * stage.scale.y, normal.z));
+    return normalize(vec3<f32>(normal.xy - normal.z * bump * scene.scale.y, normal.z));
 }
 
 // A cut side.
 fn side_radiance(place: vec2<f32>, point: vec3<f32>, normal: vec3<f32>, sun: f32) -> vec3<f32> {
-    let stretch = stage.scale.y;
+    let stretch = scene.scale.y;
     let surface = spline_at(bed, place);
-    var albedo = stage.cut_water.xyz;
+    var albedo = scene.cut_water.xyz;
     if point.z <= surface {
         albedo = strata_albedo(place, point, point.z / stretch, surface / stretch);
     }
-    let facing = max(dot(normal, stage.sun.xyz), 0.0);
-    return albedo * (stage.sunlight.xyz * (facing * sun) + side_light(normal)) / PI;
+    let facing = max(dot(normal, scene.sun.xyz), 0.0);
+    return albedo * (scene.sunlight.xyz * (facing * sun) + side_light(normal)) / PI;
 }
 
 // The light of the sky on a point of the plain.
@@ -54,8 +54,8 @@ fn plain_seen(point: vec3<f32>) -> Seen {
 // The plain that the landscape stands on, which is lost in the haze of the horizon.
 fn plain_radiance(eye: vec3<f32>, direction: vec3<f32>, ray_length: f32, sun: f32) -> vec3<f32> {
     let seen = plain_seen(eye + direction * ray_length);
-    let radiance = stage.plain.xyz * lit(vec3<f32>(0.0, 0.0, 1.0), seen, sun) / PI;
+    let radiance = scene.plain.xyz * lit(vec3<f32>(0.0, 0.0, 1.0), seen, sun) / PI;
     let near = veil(radiance, eye, direction, ray_length);
-    let far = ray_length / stage.haze.z;
+    let far = ray_length / scene.haze.z;
     return mix(near, sky_radiance(vec3<f32>(direction.xy, 0.0)), 1.0 - exp(-0.25 * far * far));
 }

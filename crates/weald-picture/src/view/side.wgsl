@@ -5,14 +5,14 @@ fn side_light(normal: vec3<f32>) -> vec3<f32> {
     let turn = atan2(normal.x, normal.y) / (2.0 * PI);
     let place = fract(turn) * f32(SIDE_NORMALS);
     let first = i32(place);
-    let low = stage.side_light[first % SIDE_NORMALS].xyz;
-    return mix(low, stage.side_light[(first + 1) % SIDE_NORMALS].xyz, place - floor(place));
+    let low = scene.side_light[first % SIDE_NORMALS].xyz;
+    return mix(low, scene.side_light[(first + 1) % SIDE_NORMALS].xyz, place - floor(place));
 }
 
 // A rock's colour with its beds, which are gently folded.
 fn bedded(colour: vec3<f32>, point: vec3<f32>, height: f32, seed: u32) -> vec3<f32> {
-    let fold = octaves_at(Octaves(60.0 * stage.strata.x, 2u, 0.4, 0x71u), point.xy, 0.0).value;
-    let level = height / stage.strata.x + 5.0 * fold;
+    let fold = octaves_at(Octaves(60.0 * scene.strata.x, 2u, 0.4, 0x71u), point.xy, 0.0).value;
+    let level = height / scene.strata.x + 5.0 * fold;
     let thick = grain(vec2<f32>(0.7 * level, 0.37), 0x72u + seed).value;
     let thin = grain(vec2<f32>(3.1 * level, 0.61), 0x73u + seed).value;
     let tone = 0.82 + 0.7 * thick + 0.35 * thin;
@@ -30,17 +30,17 @@ fn strata_thickness(place: vec2<f32>, material: i32) -> f32 {
 // Colour of the ground at a place and a height in metres, whose surface is at `surface`.
 fn strata_albedo(place: vec2<f32>, point: vec3<f32>, height: f32, surface: f32) -> vec3<f32> {
     var roof = surface;
-    let count = i32(stage.strata.z);
+    let count = i32(scene.strata.z);
     for (var material = count - 1; material >= 0; material--) {
         roof -= strata_thickness(place, material);
         if height >= roof {
-            return bedded(stage.strata_colours[material].xyz, point, height, u32(material) + 1u);
+            return bedded(scene.strata_colours[material].xyz, point, height, u32(material) + 1u);
         }
     }
-    let bare = bedded(stage.strata_bedrock.xyz, point, height, 0u);
+    let bare = bedded(scene.strata_bedrock.xyz, point, height, 0u);
     if count > 0 {
         return bare;
     }
-    let deep = (surface - height) / max(stage.strata.y, 1e-6);
-    return mix(stage.strata_soil.xyz, bare, clamp(2.0 * deep - 1.0, 0.0, 1.0));
+    let deep = (surface - height) / max(scene.strata.y, 1e-6);
+    return mix(scene.strata_soil.xyz, bare, clamp(2.0 * deep - 1.0, 0.0, 1.0));
 }

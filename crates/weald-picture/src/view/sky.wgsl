@@ -21,23 +21,23 @@ fn sky_radiance(direction: vec3<f32>) -> vec3<f32> {
     let place = sqrt(clamp(direction.z, 0.0, 1.0)) * f32(SKY_PIECES);
     let piece = min(i32(place), SKY_PIECES - 1);
     let share = place - f32(piece);
-    let cosine = dot(direction, stage.sun.xyz);
-    let rayleigh = mix(stage.sky_table[3 * piece], stage.sky_table[3 * piece + 3], share).xyz;
-    let mie = mix(stage.sky_table[3 * piece + 1], stage.sky_table[3 * piece + 4], share).xyz;
-    let multiple = mix(stage.sky_table[3 * piece + 2], stage.sky_table[3 * piece + 5], share).xyz;
+    let cosine = dot(direction, scene.sun.xyz);
+    let rayleigh = mix(scene.sky_table[3 * piece], scene.sky_table[3 * piece + 3], share).xyz;
+    let mie = mix(scene.sky_table[3 * piece + 1], scene.sky_table[3 * piece + 4], share).xyz;
+    let multiple = mix(scene.sky_table[3 * piece + 2], scene.sky_table[3 * piece + 5], share).xyz;
     return rayleigh * rayleigh_phase(cosine) + mie * mie_phase(cosine) + multiple;
 }
 
 // The same with the sun's disc, which darkens to its limb.
 fn sky_radiance_with_sun(direction: vec3<f32>) -> vec3<f32> {
     let radiance = sky_radiance(direction);
-    let radius = stage.sun.w;
+    let radius = scene.sun.w;
     // 1 - cos of the angle from the middle, without its loss of digits.
-    let aside = direction - stage.sun.xyz;
+    let aside = direction - scene.sun.xyz;
     let outside = 0.5 * dot(aside, aside) / (1.0 - cos(radius));
     if outside >= 1.0 || direction.z <= 0.0 {
         return radiance;
     }
     let limb = 0.4 + 0.6 * sqrt(1.0 - outside);
-    return radiance + stage.sunlight.xyz * (limb / (PI * radius * radius));
+    return radiance + scene.sunlight.xyz * (limb / (PI * radius * radius));
 }

@@ -16,12 +16,12 @@ fn seen_at(light: texture_2d_array<f32>, share: vec2<f32>) -> Seen {
 }
 
 fn open_sky() -> Seen {
-    return Seen(stage.open_red.xyz, stage.open_green.xyz, stage.open_blue.xyz, stage.open_even.xyz);
+    return Seen(scene.open_red.xyz, scene.open_green.xyz, scene.open_blue.xyz, scene.open_even.xyz);
 }
 
 // What falls on a normal: light of the visible sky, and what the hidden part of it sends back.
 fn skylight_on(seen: Seen, normal: vec3<f32>) -> vec3<f32> {
     let hidden = PI - clamp(dot(normal, seen.even), 0.0, PI);
     let direct = vec3<f32>(dot(normal, seen.red), dot(normal, seen.green), dot(normal, seen.blue));
-    return max(direct, vec3<f32>(0.0)) + hidden * stage.bounce.xyz;
+    return max(direct, vec3<f32>(0.0)) + hidden * scene.bounce.xyz;
 }

@@ -18,7 +18,7 @@ fn spline_slopes(t: f32) -> vec4<f32> {
 
 // The patch of a place, and where in it the place lies.
 fn spline_patch(place: vec2<f32>) -> vec2<f32> {
-    return min(floor(max(place, vec2<f32>(0.0))), stage.grid.xy);
+    return min(floor(max(place, vec2<f32>(0.0))), scene.grid.xy);
 }
 
 fn control_row(controls: texture_2d<f32>, patch_of: vec2<i32>, row: i32) -> vec4<f32> {
@@ -102,19 +102,19 @@ fn smooth_at(controls: texture_2d<f32>, place: vec2<f32>) -> vec4<f32> {
 
 // The point of a place at a height, and back.
 fn point_of(place: vec2<f32>, height: f32) -> vec3<f32> {
-    return vec3<f32>((place.x - 0.5) * stage.grid.z, (0.5 - place.y) * stage.grid.w, height);
+    return vec3<f32>((place.x - 0.5) * scene.grid.z, (0.5 - place.y) * scene.grid.w, height);
 }
 
 fn place_of(point: vec3<f32>) -> vec2<f32> {
-    return vec2<f32>(0.5 + point.x / stage.grid.z, 0.5 - point.y / stage.grid.w);
+    return vec2<f32>(0.5 + point.x / scene.grid.z, 0.5 - point.y / scene.grid.w);
 }
 
 // A place in shares of the landscape.
 fn share_of(place: vec2<f32>) -> vec2<f32> {
-    return (place - 0.5) / stage.grid.xy;
+    return (place - 0.5) / scene.grid.xy;
 }
 
 // The upward normal of a surface that rises so many metres a cell.
 fn normal_of(rise: vec2<f32>) -> vec3<f32> {
-    return normalize(vec3<f32>(-rise.x / stage.grid.z, rise.y / stage.grid.w, 1.0));
+    return normalize(vec3<f32>(-rise.x / scene.grid.z, rise.y / scene.grid.w, 1.0));
 }

@@ -2,19 +2,19 @@
 
 // A radiance, but no more than some times what is drawn as white.
 fn limited(radiance: vec3<f32>) -> vec3<f32> {
-    return min(radiance, stage.gain.w / stage.gain.xyz);
+    return min(radiance, scene.gain.w / scene.gain.xyz);
 }
 
 // Linear light on the screen, 0 to 1.
 fn tone_curve(radiance: vec3<f32>) -> vec3<f32> {
-    let exposed = max(radiance, vec3<f32>(0.0)) * stage.gain.xyz;
+    let exposed = max(radiance, vec3<f32>(0.0)) * scene.gain.xyz;
     let v = vec3<f32>(
-        dot(stage.into_red.xyz, exposed), dot(stage.into_green.xyz, exposed), dot(stage.into_blue.xyz, exposed),
+        dot(scene.into_red.xyz, exposed), dot(scene.into_green.xyz, exposed), dot(scene.into_blue.xyz, exposed),
     );
-    let film = (v * (v + stage.curve.x) + stage.curve.y)
-        / (v * (stage.curve.z * v + stage.curve.w) + stage.curve_last.x);
+    let film = (v * (v + scene.curve.x) + scene.curve.y)
+        / (v * (scene.curve.z * v + scene.curve.w) + scene.curve_last.x);
     let linear = vec3<f32>(
-        dot(stage.back_red.xyz, film), dot(stage.back_green.xyz, film), dot(stage.back_blue.xyz, film),
+        dot(scene.back_red.xyz, film), dot(scene.back_green.xyz, film), dot(scene.back_blue.xyz, film),
     );
     return clamp(linear, vec3<f32>(0.0), vec3<f32>(1.0));
 }

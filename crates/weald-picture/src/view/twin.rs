@@ -1,9 +1,9 @@
-//! The shaders of a stage: the numbers and maps of it that they see, and the twins of its functions.
+//! The shaders of a scene: the uniforms and textures of it that they see, and the twins of its functions.
 
 use std::fmt::Write;
 
-use super::maps::MapKind;
-use super::stage::Stage;
+use super::lit_scene::LitScene;
+use super::maps::TextureKind;
 
 /// The twins of place, light and air, each after those that it calls.
 const LIGHT: [&str; 6] = [
@@ -23,9 +23,9 @@ const GROUND: [&str; 4] = [
     include_str!("scene.wgsl"),
 ];
 
-impl Stage {
-    /// What a shader that draws the stage begins with: its numbers at binding 0 of a group, a sampler `between` at 1,
-    /// the maps of [`Stage::map_kinds`] from 2 on, and the functions of the view.
+impl LitScene {
+    /// What a shader that draws the scene begins with: its uniforms at binding 0 of a group, a sampler `between` at 1,
+    /// the textures of [`LitScene::texture_kinds`] from 2 on, and the functions of the view.
     pub fn shader(&self, group: u32) -> String {
         GROUND.iter().fold(self.shader_of_light(group), |text, twin| text + "\n" + twin)
     }
@@ -33,11 +33,11 @@ impl Stage {
     /// The same with the functions of place, light and air alone, for what stands on the ground.
     pub fn shader_of_light(&self, group: u32) -> String {
         let mut text = self.declaration();
-        let _ = writeln!(text, "@group({group}) @binding(0) var<uniform> stage: Stage;");
+        let _ = writeln!(text, "@group({group}) @binding(0) var<uniform> scene: LitScene;");
         let _ = writeln!(text, "@group({group}) @binding(1) var between: sampler;");
-        for (binding, (name, kind, is_array)) in (2..).zip(Self::map_kinds()) {
+        for (binding, (name, kind, is_array)) in (2..).zip(Self::texture_kinds()) {
             let shape = if is_array { "texture_2d_array<f32>" } else { "texture_2d<f32>" };
-            debug_assert!(!is_array || kind == MapKind::Smooth, "{name}: only smooth maps have layers");
+            debug_assert!(!is_array || kind == TextureKind::Smooth, "{name}: only smooth maps have layers");
             let _ = writeln!(text, "@group({group}) @binding({binding}) var {name}: {shape};");
         }
         LIGHT.iter().fold(text, |text, twin| text + "\n" + twin)

@@ -1,6 +1,7 @@
 //! What a perspective view shows, judged from its pixels.
 
 use weald_core::grid::Mask;
+use weald_core::parameter::Places;
 use weald_core::{Domain, Field, Landscape, Size};
 use weald_picture::{GroundColour, Image, Picture, View};
 
@@ -39,6 +40,16 @@ fn draw(view: &View, landscape: &Landscape) -> Image {
 
 fn light(image: &Image, x: usize, y: usize) -> f64 {
     image.pixel(x, y).map(f64::from).iter().sum::<f64>() / 3.0
+}
+
+#[test]
+fn cameras_and_targets_far_from_the_landscape_are_noted() {
+    let at = |x: f64, y: f64| Some(Places(vec![[x, y]]));
+    let notes = |view: View| Picture::notes(&view, &country());
+    assert!(notes(View { eye: at(-900.0, 600.0), target: at(600.0, 600.0), ..small() }).is_empty());
+    let notes = notes(View { eye: at(99_999.0, 1.0), target: at(1.0, 99_999.0), ..small() });
+    let far = |key| format!("`{key} is far from the landscape of 1280 m × 1280 m");
+    assert_eq!(notes, [far("eye` [99999, 1]"), far("target` [1, 99999]")]);
 }
 
 #[test]

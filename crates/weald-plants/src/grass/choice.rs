@@ -6,9 +6,9 @@
 //! ```
 //!
 //! with W = 10 m, up to which all stand, and F = 96 m, beyond which none does. A set whose turn it is to be left out sinks
-//! into the ground over a fifth of the ranks, so that none vanishes at once. Those that stand are drawn in one of three
-//! lists, of blades with fewer and fewer rows of vertices; before the list changes every second row has slid onto its
-//! neighbour, so that the blade is that of the next list already. A device does the same in `meadow.wgsl`, which has the
+//! into the ground over a fifth of the ranks, so that none vanishes at once. Those that stand are drawn at one of three
+//! levels of detail, each with its list, of blades with fewer and fewer rows of vertices; before the level changes every
+//! second row has slid onto its neighbour, so that the blade is that of the next level already. A device does the same in `meadow.wgsl`, which has the
 //! same names; it keeps each list in the order of the sets, so that a picture is the same each time.
 
 use super::blade::{Set, rows};
@@ -24,7 +24,7 @@ pub const FARTHEST: f32 = 96.0;
 /// Lists by distance.
 pub const LISTS: usize = 3;
 
-/// Rows of the blades of each list.
+/// Rows of the blades of each level of detail, of which each has its list.
 pub const ROWS: [u32; LISTS] = [9, 5, 3];
 
 /// Distance in metres up to which every set stands, and how fast they become fewer beyond it.
@@ -76,7 +76,7 @@ impl Choice {
         Self { rows: [rows(level) as u32, 0, 0, 0], culled: 0, thinned: 0 }
     }
 
-    /// The list in which a set is drawn whose root is there; `None` where it is not.
+    /// The level of detail, and with it the list, in which a set is drawn whose root is there; `None` where it is not.
     pub fn list_of(&self, sight: &ViewCone, tuft: &Set, root: [f32; 3]) -> Option<usize> {
         let distance = length(minus(root, sight.detail_from));
         let stands = self.height_share(tuft.rank(), distance) > 0.0;
@@ -98,7 +98,7 @@ impl Choice {
         ((distance - SLIDE * end) / ((1.0 - SLIDE) * end)).clamp(0.0, 1.0)
     }
 
-    /// The list of a distance: 0 for the finest blades.
+    /// The level of detail at a distance: 0 for the finest blades.
     fn list(&self, distance: f32) -> usize {
         match self.thinned {
             0 => 0,

@@ -40,7 +40,7 @@ pub fn parts(ifs: &Ifs, depth: usize, mut look: impl FnMut(&Part)) -> Result<(),
     let count = (maps as u64).checked_pow(depth as u32);
     if count.is_none_or(|count| count > MAX_PARTS) || depth > ifs.digits().room() {
         let limit = Limit::new(Quantity::Parts, count, 0..=MAX_PARTS);
-        let subject = format!("{}: all codes of {depth} digits, {maps}^{depth}", ifs.name());
+        let subject = format!("{}: a depth of {depth} makes {maps}^{depth}", ifs.name());
         return Err(limit.of(subject).remedy(format!("choose a depth of {} or less", deepest(maps))).into());
     }
     let whole = Part { code: Code::empty(ifs.digits()), map: Map::IDENTITY };
@@ -61,7 +61,7 @@ pub fn parts_of_size(ifs: &Ifs, size: f64, mut look: impl FnMut(&Part)) -> Resul
     descend(ifs, whole, ifs.digits().room(), &enough, &mut |_| count.set(count.get() + 1));
     if count.get() > MAX_PARTS {
         let limit = Limit::new(Quantity::Parts, None, 0..=MAX_PARTS);
-        let limit = limit.of(format!("{}: parts of {size} of its size", ifs.name()));
+        let limit = limit.of(format!("{}: parts larger than {size} of its size", ifs.name()));
         return Err(limit.remedy("choose a larger size").into());
     }
     descend(ifs, whole, ifs.digits().room(), &small, &mut look);

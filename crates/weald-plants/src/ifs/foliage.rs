@@ -111,7 +111,7 @@ impl Builder<'_> {
         }
     }
 
-    /// A ribbon, and one across it where the shape is of space.
+    /// A ribbon, and one across it where the shape is 3D.
     fn stem(&mut self, piece: &Piece) {
         let Some([foot, top]) = self.shape.stem else { return };
         let [foot, top] = [foot, top].map(|end| self.shape.flat(piece.map.at(end)));

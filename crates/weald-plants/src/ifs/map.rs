@@ -1,9 +1,9 @@
 //! Affine maps, `x → A x + t`: what an iterated function system is made of.
 
-/// A point of the plane (z = 0) or of space, in units of the fractal.
+/// A point in 2D (z = 0) or 3D, in units of the fractal.
 pub type Point = [f64; 3];
 
-/// An affine map. A map of the plane has zeros in its third row and column.
+/// An affine map. A 2D map has zeros in its third row and column.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Map {
     /// `A`, row by row.
@@ -92,7 +92,7 @@ impl Map {
         })
     }
 
-    /// How much it scales areas (of the plane) or volumes.
+    /// How much it scales areas (in 2D) or volumes.
     pub fn determinant(&self) -> f64 {
         let [x, y, z] = self.linear;
         if self.is_planar() { x[0] * y[1] - x[1] * y[0] } else { dot(x, cross(y, z)) }

@@ -4,13 +4,14 @@ use std::fmt::Write;
 
 use super::catalog::CATALOG;
 use super::parameter::{Diagnostics, Kind, Parameter, Parameters, Variant};
-use super::plan::{FilmKeys, LandscapeKeys, MaterialKeys};
+use super::plan::{FilmKeys, FractalKeys, LandscapeKeys, MaterialKeys, OutputKeys};
 use super::source::Table;
 use super::written_layers;
 use weald_core::layer_words::{meaning, shown_unit};
 use weald_engine::step::{Entry, Stage};
 use weald_export::EXPORTS;
 use weald_picture::PICTURES;
+use weald_plants::ifs::deform::DeformKeys;
 
 /// Columns that a line of text may take.
 const WIDTH: usize = 100;
@@ -37,12 +38,39 @@ const TABLES: &[LandscapeTable] = &[
         parameters: MaterialKeys::parameters,
     },
     LandscapeTable {
+        name: "fractal",
+        header: "[[fractal]]",
+        summary: "a fractal of your own, which pictures, points and plants name",
+        parameters: || FractalKeys::parameters().into_iter().filter(|key| key.name != "deform").collect(),
+    },
+    LandscapeTable {
+        name: "deform",
+        header: "deform = [{ by = … }, …], in a [[fractal]]",
+        summary: "the deformations of a fractal, one after the other",
+        parameters: DeformKeys::parameters,
+    },
+    LandscapeTable {
+        name: "output",
+        header: "[[output]]",
+        summary: "a file: a layer, a picture or an export, whose own keys `weald steps NAME` shows",
+        parameters: output_keys,
+    },
+    LandscapeTable {
         name: "film",
         header: "[[output]] picture = …",
         summary: "keys that make a film of a picture: numbered .png, and a video where `file` is a .mp4 or .webm",
         parameters: FilmKeys::parameters,
     },
 ];
+
+/// The keys of all outputs; those that a kind has for itself stand with the kind.
+fn output_keys() -> Vec<Parameter> {
+    let mut keys = OutputKeys::parameters();
+    for file in keys.iter_mut().filter(|key| key.name == "file") {
+        (file.required, file.default, file.default_in_words) = (true, None, None);
+    }
+    keys
+}
 
 /// All tables, steps, pictures and exports, a line each.
 pub fn overview() -> String {
@@ -82,16 +110,47 @@ pub fn step(name: &str) -> Result<String, String> {
     if !found.is_empty() {
         return Ok(found.join("\n"));
     }
-    let tables = TABLES.iter().map(|table| table.name);
-    let steps = CATALOG.iter().map(|entry| entry.name);
-    let pictures = PICTURES.iter().map(|entry| entry.name);
-    let exports = EXPORTS.iter().map(|entry| entry.name);
-    let known: Vec<_> = tables.chain(steps).chain(pictures).chain(exports).collect();
-    Err(match super::parameter::nearest(name, &known) {
-        Some(near) => format!("there is no step {name:?}; did you mean `{near}`?"),
-        None => format!("there is no step {name:?}; there are: {}", known.join(", ")),
-    })
+    let kinds = [
+        ("tables", TABLES.iter().map(|table| table.name).collect::<Vec<_>>()),
+        ("steps", CATALOG.iter().map(|entry| entry.name).collect()),
+        ("pictures", PICTURES.iter().map(|entry| entry.name).collect()),
+        ("exports", EXPORTS.iter().map(|entry| entry.name).collect()),
+    ];
+    if let Some((_, answer)) = ELSEWHERE.iter().find(|(other, _)| name.eq_ignore_ascii_case(other)) {
+        return Err(format!("there is no step {name:?}: {answer}"));
+    }
+    let known: Vec<_> = kinds.iter().flat_map(|(_, names)| names.iter().copied()).collect();
+    if let Some(near) = super::parameter::nearest(name, &known) {
+        return Err(format!("there is no step {name:?}; did you mean `{near}`?"));
+    }
+    let lines = kinds.map(|(kind, mut names)| {
+        names.sort_unstable();
+        format!("{kind}: {}", names.join(", "))
+    });
+    Err(format!("there is no step, picture, export or table {name:?}; there are\n{}", lines.join("\n")))
 }
+
+/// What other programs call, or what is asked for by the name of its reader.
+const ELSEWHERE: &[(&str, &str)] = &[
+    ("godot", "the export `terrain3d` is for Godot"),
+    ("splatmap", "the key `masks` of the export `unreal` makes weight maps; any layer is one as a .png"),
+    ("splat", "the key `masks` of the export `unreal` makes weight maps; any layer is one as a .png"),
+    ("weightmap", "the key `masks` of the export `unreal` makes weight maps; any layer is one as a .png"),
+    (
+        "blender",
+        "the export `mesh` writes a .glb that Blender imports, `preset = \"blender\"` heights as a .exr",
+    ),
+    ("obj", "the export `mesh` writes a mesh as binary glTF, .glb"),
+    ("fbx", "the export `mesh` writes a mesh as binary glTF, .glb"),
+    ("gltf", "the export `mesh` writes a mesh as binary glTF, .glb"),
+    ("glb", "the export `mesh` writes the ground as a .glb, `plants` and `grass` what grows on it"),
+    (
+        "heightmap",
+        "`layer = \"height\"` in an [[output]] is the heightmap: .tif, .png, .exr, .r16 and others",
+    ),
+    ("every", "it is a key of the table `film`"),
+    ("frames", "it is a key of the table `film`"),
+];
 
 fn of_entry(entry: &Entry) -> String {
     of(&format!("do = \"{}\"", entry.name), entry.summary, Some(entry.source), &(entry.parameters)())
@@ -212,6 +271,30 @@ mod tests {
     fn a_step_and_an_export_of_one_name_are_both_shown() {
         let text = step("rivers").expect("both are there");
         assert!(text.starts_with("do = \"rivers\"") && text.contains("\n\nexport = \"rivers\""), "{text}");
+    }
+
+    #[test]
+    fn names_of_other_programs_lead_to_what_is_meant_and_unknown_ones_to_lists() {
+        let unknown = |name| step(name).expect_err("there is none");
+        assert!(unknown("Godot").contains("`terrain3d`") && unknown("obj").contains("`mesh`"));
+        let all = unknown("xyzzy");
+        let lines: Vec<_> = all.lines().skip(1).collect();
+        let exports =
+            "exports: grass, lakes, layers, mesh, plants, points, report, rivers, terrain3d, unity, unreal";
+        assert!(lines.len() == 4 && lines[3] == exports, "{all}");
+    }
+
+    #[test]
+    fn outputs_and_fractals_are_described_with_all_presets_and_deformations() {
+        let output = step("output").expect("a table");
+        for preset in weald_io::FORMATS.iter().flat_map(|format| format.presets) {
+            assert!(output.contains(&format!("`{}`", preset.name)), "{}: {output}", preset.name);
+        }
+        assert!(output.contains("file (text, needed)"), "{output}");
+        let deform = step("deform").expect("a table");
+        assert!(
+            step("fractal").expect("a table").contains("[[fractal]]") && deform.contains("`swap` exchanges")
+        );
     }
 
     #[test]

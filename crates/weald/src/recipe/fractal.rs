@@ -18,8 +18,8 @@ pub struct FractalRequest {
     pub outputs: Vec<Vec<(String, String)>>,
 }
 
-/// Name of the fractal of a request.
-const NAME: &str = "it";
+/// Name of the fractal of a request that names none which a recipe could use.
+const NAME: &str = "fractal";
 
 impl FractalRequest {
     /// The recipe that makes the files.
@@ -30,7 +30,7 @@ impl FractalRequest {
         let mut fractal = self.fractal()?;
         let name = match fractal.get("name").map(|node| &node.value) {
             Some(Value::Text(name)) => name.clone(),
-            _ => NAME.to_owned(),
+            _ => self.name(),
         };
         fractal.set("name", given(Value::Text(name.clone())));
         if !self.deform.is_empty() {
@@ -49,6 +49,14 @@ impl FractalRequest {
         recipe.set("fractal", given(Value::List(vec![given(Value::Table(fractal))])));
         recipe.set("output", given(Value::List(outputs.collect())));
         Recipe::of_table(&self.of, &recipe)
+    }
+
+    /// What messages call the fractal: as it was asked for, without folder and extension.
+    fn name(&self) -> String {
+        let stem = Path::new(&self.of).file_stem().unwrap_or_default().to_string_lossy();
+        let is_legal = |letter: &char| letter.is_ascii_alphanumeric() || "_-".contains(*letter);
+        let name: String = stem.chars().filter(is_legal).take(64).collect();
+        if name.is_empty() { NAME.to_owned() } else { name }
     }
 
     /// The table of the fractal: the first of a recipe, or one that names what it is made of.

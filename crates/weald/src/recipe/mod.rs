@@ -32,7 +32,7 @@ pub use migrate::{Migrated, migrate};
 pub use overrides::Overrides;
 pub use plan::{
     BuiltIn, Content, FILM_EXTENSIONS, Film, FilmKeys, FractalKeys, FractalSource, Ground, LandscapeKeys,
-    MaterialKeys, Motion, Output, Planned, PlannedFractal, PlannedMaterial, PlantRole, Recipe,
+    MaterialKeys, Motion, Output, OutputKeys, Planned, PlannedFractal, PlannedMaterial, PlantRole, Recipe,
 };
 pub use report::{OutputReport, REPORT_FILE, Report};
 pub use run::{Frames, Options, Progress, Run, Silent};

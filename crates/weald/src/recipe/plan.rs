@@ -1,5 +1,6 @@
 //! The checked recipe. Nothing runs before the whole of it has been checked, and one look shows all faults.
 
+mod aliases;
 mod files;
 mod films;
 mod fractals;
@@ -21,7 +22,7 @@ pub use films::{EXTENSIONS as FILM_EXTENSIONS, Film, FilmKeys, Motion};
 pub use fractals::{FractalKeys, FractalSource, PlannedFractal, PlantRole};
 pub use landscape::{Ground, LandscapeKeys};
 pub use materials::{BuiltIn, MaterialKeys, PlannedMaterial};
-pub use outputs::{Content, Output};
+pub use outputs::{Content, Output, OutputKeys};
 pub use steps::Planned;
 
 use self::files::Files;

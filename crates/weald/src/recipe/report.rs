@@ -35,8 +35,11 @@ pub struct Report {
 /// A file that was written.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct OutputReport {
-    /// Path inside the output folder.
+    /// Path inside the output folder, as the recipe has it.
     pub file: String,
+    /// Whether no file has that name, but only its numbered frames or its tiles have theirs from it.
+    #[serde(skip_serializing_if = "std::ops::Not::not", default)]
+    pub name_only: bool,
     /// The layer in it, unless it is a picture.
     pub layer: Option<String>,
     /// The kind of picture, if it is one.

@@ -108,7 +108,7 @@ fn unreal_heights_decode_by_the_guide_within_half_a_step() {
         let info = json(&files, &format!("{file}.json"));
         let bytes = &files[Path::new(file)];
         let numbers = if file == "land.r16" { words(bytes) } else { png(bytes, png::BitDepth::Sixteen).1 };
-        let z_scale = number(&info["scale"]["z"]);
+        let z_scale = number(&info["Scale"]["z"]);
         // Landscape Technical Guide: (number - 32768) / 128 * Z scale, in centimetres.
         let heights: Vec<f64> =
             numbers.iter().map(|number| (number - 32768.0) / 128.0 * z_scale / 100.0).collect();
@@ -116,7 +116,7 @@ fn unreal_heights_decode_by_the_guide_within_half_a_step() {
         ensure_within_half_a_step(&heights, &field, z_scale / 12800.0, |index| (index % 127, index / 127));
         let most = numbers.iter().copied().fold(0.0, f64::max);
         assert_eq!(most, 65535.0, "the whole range is used");
-        assert_eq!(number(&info["scale"]["x"]), 100.0 * CELL);
+        assert_eq!(number(&info["Scale"]["x"]), 100.0 * CELL);
     }
 }
 
@@ -130,8 +130,8 @@ fn unreal_landscapes_of_another_size_cover_the_same_ground() {
     let files = files(&Unreal::default(), &landscape, "land.png");
     let info = json(&files, "land.png.json");
     let (side, numbers) = png(&files[Path::new("land.png")], png::BitDepth::Sixteen);
-    assert_eq!((side, number(&info["vertices_a_side_of_a_tile"])), (127, 127.0));
-    let [x, y, z] = ["x", "y", "z"].map(|axis| number(&info["scale"][axis]));
+    assert_eq!((side, &info["Overall Resolution"]), (127, &serde_json::json!([127, 127])));
+    let [x, y, z] = ["x", "y", "z"].map(|axis| number(&info["Scale"][axis]));
     // 126 quads of the X scale in centimetres are the 89 cells from first to last.
     assert!((126.0 * x / 100.0 - 89.0 * CELL).abs() < 1e-9 && (126.0 * y / 100.0 - 69.0 * CELL).abs() < 1e-9);
     for (index, number) in numbers.iter().enumerate() {
@@ -153,7 +153,7 @@ fn unreal_scales_hold_depths_and_a_scale_that_is_too_small_is_refused() {
     deep.insert("height", "m", Field::from_values(SIZE, sunk));
     let files_of = |export: &Unreal| files(export, &deep, "land.r16");
     let files = files_of(&Unreal::default());
-    let z = number(&json(&files, "land.r16.json")["scale"]["z"]);
+    let z = number(&json(&files, "land.r16.json")["Scale"]["z"]);
     let heights: Vec<f64> = words(&files[Path::new("land.r16")])
         .iter()
         .map(|number| 3000.0 + (number - 32768.0) / 12800.0 * z)
@@ -181,7 +181,7 @@ fn unreal_tiles_meet_to_the_bit_and_their_masks_too() {
     let tile = |x: usize, y: usize| {
         png(&files[&PathBuf::from(format!("land_x{x}_y{y}.png"))], png::BitDepth::Sixteen).1
     };
-    let z = number(&json(&files, "land.png.json")["scale"]["z"]);
+    let z = number(&json(&files, "land.png.json")["Scale"]["z"]);
     for y in 0..3 {
         for x in 0..3 {
             let numbers = tile(x, y);
@@ -211,16 +211,36 @@ fn sizes_that_an_engine_does_not_take_are_faults() {
     assert!(
         unreal.faults()[0]
             .message
-            .contains("`size` is 1024, but landscapes have [127, 253, 505, 1009, 2017, 4033, 8129]")
+            .contains("127, 253, 505, 1009, 2017, 4033 or 8129 vertices a side; 1009 is the next smaller, 2017 is the next larger")
     );
     let unity = Unity { size: Some(1024), ..Unity::default() };
-    assert!(unity.faults()[0].message.contains("[33, 65, 129, 257, 513, 1025, 2049, 4097]"));
+    assert!(
+        unity.faults()[0]
+            .message
+            .contains("33, 65, 129, 257, 513, 1025, 2049 or 4097 vertices a side; 513 is the")
+    );
     let godot = Terrain3d { region_size: Some(100), ..Terrain3d::default() };
-    assert!(godot.faults()[0].message.contains("[64, 128, 256, 512, 1024, 2048]"));
+    assert!(godot.faults()[0].message.contains("64, 128, 256, 512, 1024 or 2048 vertices"));
     let mask = Weight { layer: LayerName::of("soil"), low: 1.0, high: 1.0 };
     let level = Unreal { masks: vec![Nested(mask)], ..Unreal::default() };
     assert!(level.faults()[0].message.contains("must differ"));
     assert_eq!(level.reads(), ["height", "soil"]);
+}
+
+#[test]
+fn cells_that_are_resampled_and_numbers_that_are_wasted_are_noted() {
+    let of = |landscape: &Landscape, export: &dyn Export| {
+        let finished = Finished { landscape, steps: &[], recipe: "", hash: "", seed: 0 };
+        export.notes(&finished).join("\n")
+    };
+    let (fits, _) = square(127);
+    assert_eq!(of(&fits, &Unreal::default()), "");
+    let other = landscape(SIZE, None);
+    let note = "90 × 70 cells were resampled to 127 × 127 vertices, 14.13 m × 10.95 m apart";
+    assert!(of(&other, &Unreal::default()).starts_with(note), "{}", of(&other, &Unreal::default()));
+    assert!(of(&other, &Unity::default()).contains("resampled to 129 × 129 vertices"));
+    let far = of(&fits, &Unreal { zero: 90_000.0, ..Unreal::default() });
+    assert!(far.contains("of 65536 numbers, one every 2.750 m; a `zero` near them"), "{far}");
 }
 
 #[test]
@@ -230,10 +250,10 @@ fn unity_tiles_decode_to_metres_from_the_south_west() {
     let files = files(&export, &landscape, "land.raw");
     assert_eq!(files.len(), 4 + 1);
     let info = json(&files, "land.raw.json");
-    let [width, height, length] = ["x", "y", "z"].map(|axis| number(&info["terrain_size_m"][axis]));
-    let floor = number(&info["position_m"]["y"]);
+    let [width, height, length] = ["x", "y", "z"].map(|axis| number(&info["Terrain Size"][axis]));
+    let floor = number(&info["Position"]["y"]);
     assert!((2.0 * width - 128.0 * CELL).abs() < 1e-9 && (2.0 * length - 128.0 * CELL).abs() < 1e-9);
-    assert_eq!((&info["byte_order"], &info["flip_vertically"]), (&"Windows".into(), &false.into()));
+    assert_eq!((&info["Byte Order"], &info["Flip Vertically"]), (&"Windows".into(), &false.into()));
     let tile = |x: usize, z: usize| words(&files[&PathBuf::from(format!("land_{x}_{z}.raw"))]);
     for z in 0..2 {
         for x in 0..2 {
@@ -265,6 +285,7 @@ fn terrain3d_gets_metres_as_they_are_or_the_range_of_its_numbers() {
     assert_eq!(&raster.field, field, "cells as they are");
     let info = json(&plain, "land.exr.json");
     assert_eq!((number(&info["vertex_spacing"]), number(&info["region_size"])), (CELL, 256.0));
+    assert!(info.get("r16_range").is_none(), "metres have no range to be entered");
     let whole = files(&Terrain3d::default(), &landscape, "land.r16");
     let info = json(&whole, "land.r16.json");
     assert_eq!(info["r16_size"], serde_json::json!([90, 70]));
@@ -299,7 +320,7 @@ fn cells_without_data_are_the_lowest_height_and_a_mask_of_holes() {
     let files = files(&Unreal::default(), &landscape, "land.png");
     let (_, numbers) = png(&files[Path::new("land.png")], png::BitDepth::Sixteen);
     let (side, holes) = png(&files[Path::new("land_holes.png")], png::BitDepth::Eight);
-    let z = number(&json(&files, "land.png.json")["scale"]["z"]);
+    let z = number(&json(&files, "land.png.json")["Scale"]["z"]);
     let low =
         landscape.field("height").expect("there").range(landscape.domain.valid.as_ref()).expect("land").0;
     assert!(z < 400.0, "-1e30 took no part: {z}");

@@ -17,7 +17,7 @@ use weald::grow::ifs::device::{DispatchRange, Rules};
 use weald::grow::ifs::shader::Shader;
 use weald::grow::ifs::wind::{Plant, Pose};
 use weald::grow::ifs::{Game, Sway, shapes};
-use weald::picture::{Stage, View};
+use weald::picture::{LitScene, View};
 use weald::{Domain, Error, Field, Landscape, Size};
 
 /// Every program of the library.
@@ -133,22 +133,22 @@ fn every_pass_uses_what_it_declares_and_no_more_than_browsers_allow() {
 }
 
 /// A hill, ready to be drawn.
-fn stage() -> Stage {
+fn scene() -> LitScene {
     let size = Size::square(8).expect("small");
     let mut landscape = Landscape::new(Domain::new(size, 10.0));
     landscape.insert("height", "m", Field::from_function(size, |x, y| (x * y) as f32));
-    Stage::new(&View::default(), &landscape).expect("it can be drawn")
+    LitScene::new(&View::default(), &landscape).expect("it can be drawn")
 }
 
 #[test]
 fn the_numbers_of_a_stage_are_as_many_as_its_shaders_read() {
-    let stage = stage();
-    let (module, _) = checked(&stage.shader(0), "stage");
-    let read = module.global_variables.iter().find(|(_, variable)| variable.name.as_deref() == Some("stage"));
+    let scene = scene();
+    let (module, _) = checked(&scene.shader(0), "scene");
+    let read = module.global_variables.iter().find(|(_, variable)| variable.name.as_deref() == Some("scene"));
     let (_, variable) = read.expect("the numbers are declared");
     let TypeInner::Struct { span, .. } = module.types[variable.ty].inner else { panic!("no struct") };
     assert!(span > 1000);
-    assert_eq!(stage.numbers().len(), span as usize);
+    assert_eq!(scene.uniforms().len(), span as usize);
 }
 
 #[test]
@@ -160,8 +160,8 @@ fn every_shader_of_the_tree_is_part_of_a_module() {
     let shaders: Vec<_> =
         sources.filter(|source| source.is_dir()).flat_map(|source| shaders_below(&source)).collect();
     assert!(shaders.len() > 20, "{}", shaders.len());
-    let stage = stage().shader(0);
-    let whole = [stage.as_str(), Stage::FOLLOW];
+    let scene = scene().shader(0);
+    let whole = [scene.as_str(), LitScene::FOLLOW];
     for path in shaders {
         let text = std::fs::read_to_string(&path).expect("a readable shader");
         let part_of_a_module =
@@ -194,8 +194,8 @@ fn structs_of_the_host_lie_in_memory_as_their_twins_do() {
             }
         }
     }
-    let (follow, _) = checked(Stage::FOLLOW, "follow");
-    assert_same_layout(&follow, &Uniforms::of(&stage().follow()), "follow");
+    let (follow, _) = checked(LitScene::FOLLOW, "follow");
+    assert_same_layout(&follow, &Uniforms::of(&scene().follow()), "follow");
     assert!(compared > 50, "{compared} structs");
 }
 

@@ -3,7 +3,7 @@
 use weald_core::random::splitmix64;
 use weald_plants::ifs::{Ifs, Window};
 
-/// A walk over a fractal of the plane.
+/// A walk over a 2D fractal.
 struct Walk {
     /// A map's numbers, and the sum of probabilities up to it.
     maps: Vec<([f32; 6], f32)>,

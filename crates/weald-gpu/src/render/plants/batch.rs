@@ -4,7 +4,7 @@ use weald::error::{Limit, Quantity};
 use weald::grow::Vegetation;
 use weald::grow::ifs::foliage::{Colours, Habit};
 use weald::grow::ifs::limbs::{Corner, LEVELS, Limb, Limbs};
-use weald::picture::{Stage, linear_of_srgb};
+use weald::picture::{LitScene, linear_of_srgb};
 use weald::plants::{Plant, Plants};
 use weald::random::{hash2, unit};
 use weald::{Error, Landscape};
@@ -46,14 +46,14 @@ pub(super) struct Batch {
 impl Batch {
     pub(super) fn new(
         gpu: &Gpu,
-        stage: &Stage,
+        scene: &LitScene,
         (landscape, plants): (&Landscape, &Plants),
         groups: &Groups,
     ) -> Result<Self, Error> {
         let fractal = landscape.fractal(&plants.kind)?;
         let limbs = Limbs::of(&fractal.ifs, Habit::of(&fractal.ifs, None));
         let stood: Vec<_> =
-            (0..).zip(&plants.plants).filter_map(|(n, plant)| stood(stage, n, plant)).collect();
+            (0..).zip(&plants.plants).filter_map(|(n, plant)| stood(scene, n, plant)).collect();
         let count = stood.len().max(1) as u64;
         ensure_bound(gpu, count)?;
         let workgroups = count.div_ceil(u64::from(GROUP));
@@ -127,9 +127,9 @@ fn kind(limbs: &Limbs) -> [u32; 8] {
 }
 
 /// A plant on the ground that is drawn, as the device has it; none where there is no land.
-fn stood(stage: &Stage, number: i64, plant: &Plant) -> Option<[u32; WORDS]> {
+fn stood(scene: &LitScene, number: i64, plant: &Plant) -> Option<[u32; WORDS]> {
     let [east, south, _] = plant.place;
-    let up = stage.bed_at([east, south])? - ROOTED * plant.size;
+    let up = scene.bed_at([east, south])? - ROOTED * plant.size;
     let [x, y, z, w] = plant.rotation().map(|part| u32::from(((32767.0 * part).round() as i16) as u16));
     let chance = unit(hash2(0x9e37, number, 3)) as f32;
     let [east, north, up, size] = [east as f32, -south as f32, up, plant.size].map(f32::to_bits);
@@ -154,28 +154,28 @@ mod tests {
     use weald::picture::View;
     use weald::recipe::{Overrides, Recipe};
 
-    fn ferns() -> (Stage, Landscape) {
+    fn ferns() -> (LitScene, Landscape) {
         let text = "[landscape]\nsize = 60\ncell = 4.0\nseed = 5\n[[step]]\ndo = \"fbm\"\nrelief = 40.0\n\
                     [[step]]\ndo = \"scatter\"\nplant = \"fern\"\ncount = 2000\nspacing = 1.0\ninto = \"ferns\"\n\
                     [[output]]\nlayer = \"height\"\nfile = \"a.tif\"\n";
         let recipe = Recipe::parse("ferns.toml", text, &Overrides::default()).expect("a recipe");
         let landscape = recipe.landscape().expect("ground");
-        (Stage::new(&View::default(), &landscape).expect("a stage"), landscape)
+        (LitScene::new(&View::default(), &landscape).expect("a scene"), landscape)
     }
 
     #[test]
     fn plants_stand_on_the_ground_that_is_drawn_with_no_more_than_their_roots_in_it() {
-        let (stage, landscape) = ferns();
+        let (scene, landscape) = ferns();
         let plants = &landscape.plants("ferns").expect("scattered").plants;
         assert!(plants.len() > 1500, "{}", plants.len());
         let mut apart = 0.0_f32;
         for (number, plant) in (0..).zip(plants) {
             let [east, south, elevation] = plant.place;
-            let words = stood(&stage, number, plant).expect("on land");
+            let words = stood(&scene, number, plant).expect("on land");
             let [x, north, up, size] = [0, 1, 2, 3].map(|word| f32::from_bits(words[word]));
-            let top = stage.top_at([f64::from(x), f64::from(-north)]).expect("on land");
+            let top = scene.top_at([f64::from(x), f64::from(-north)]).expect("on land");
             assert!(top >= up && top - up <= 0.011 * size, "{number}: {up} under {top}");
-            apart = apart.max((top - stage.drawn_height(elevation)).abs());
+            apart = apart.max((top - scene.drawn_height(elevation)).abs());
             assert!((f64::from(x) - east).abs() < 1e-3 && (f64::from(north) + south).abs() < 1e-3);
         }
         // The smooth surface that is drawn lies off the straight one that the step measured.

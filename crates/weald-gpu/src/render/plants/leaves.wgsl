@@ -70,7 +70,7 @@ fn sun_on_leaf(point: vec3<f32>) -> f32 {
     var seen = 0.0;
     for (var cascade = 0; cascade < CASCADES; cascade++) {
         // Off the leaf itself.
-        let at = in_cascade(point + 1.5 * texel_of(cascade) * stage.sun.xyz, cascade);
+        let at = in_cascade(point + 1.5 * texel_of(cascade) * scene.sun.xyz, cascade);
         let inside = 1.0 - max(abs(at.x), abs(at.y));
         if inside <= 0.0 {
             continue;

@@ -1,4 +1,4 @@
-//! The lists that plants are sorted into, for each view.
+//! The lists that plants are sorted into, one for each level of detail and each transition, for each view.
 
 use crate::render::cascades::CASCADES;
 

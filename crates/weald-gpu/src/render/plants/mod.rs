@@ -13,7 +13,7 @@ mod batch;
 mod lists;
 mod pipelines;
 
-use weald::picture::Stage;
+use weald::picture::LitScene;
 use weald::{Error, Landscape};
 use wgpu::{BindGroup, CommandEncoder, ComputePassDescriptor, IndexFormat, RenderPass};
 
@@ -34,7 +34,7 @@ impl Plants {
     /// Brings them to a device; `None` where a landscape has none.
     pub(super) fn new(
         gpu: &Gpu,
-        (stage, landscape): (&Stage, &Landscape),
+        (scene, landscape): (&LitScene, &Landscape),
         layouts: Layouts<'_>,
         samples: u32,
     ) -> Result<Option<Self>, Error> {
@@ -43,8 +43,8 @@ impl Plants {
         if grown.peek().is_none() {
             return Ok(None);
         }
-        let pipelines = Pipelines::new(gpu, stage, layouts, samples)?;
-        let sets = grown.map(|(_, plants)| Batch::new(gpu, stage, (landscape, plants), &pipelines.groups));
+        let pipelines = Pipelines::new(gpu, scene, layouts, samples)?;
+        let sets = grown.map(|(_, plants)| Batch::new(gpu, scene, (landscape, plants), &pipelines.groups));
         Ok(Some(Self { sets: sets.collect::<Result<_, _>>()?, pipelines }))
     }
 

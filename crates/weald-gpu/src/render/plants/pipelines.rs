@@ -2,7 +2,7 @@
 
 use weald::Error;
 use weald::grow::{ifs::limbs, wind};
-use weald::picture::Stage;
+use weald::picture::LitScene;
 use wgpu::{
     BindGroup, BindGroupDescriptor, BindGroupEntry, BindGroupLayout, BindGroupLayoutDescriptor,
     BindGroupLayoutEntry, BindingType, BufferBindingType, ColorTargetState, ColorWrites, CompareFunction,
@@ -66,21 +66,26 @@ struct Drawn<'a> {
 }
 
 impl Pipelines {
-    pub(super) fn new(gpu: &Gpu, stage: &Stage, layouts: Layouts<'_>, samples: u32) -> Result<Self, Error> {
+    pub(super) fn new(
+        gpu: &Gpu,
+        scene: &LitScene,
+        layouts: Layouts<'_>,
+        samples: u32,
+    ) -> Result<Self, Error> {
         let device = &gpu.context.device;
         let groups = Groups::new(gpu);
         let numbers = numbers(gpu)?;
         let which_layout = which_layout(gpu);
         let which = which(gpu, &which_layout, &numbers)?;
         let (choose, light, caster) = gpu.context.attempt("making the pipelines of plants", || {
-            let chosen = module(gpu, stage, &[include_str!("choose.wgsl")]);
+            let chosen = module(gpu, scene, &[include_str!("choose.wgsl")]);
             let leaves = [
                 wind::FUNCTIONS,
                 limbs::FUNCTIONS,
                 include_str!("../thin.wgsl"),
                 include_str!("leaves.wgsl"),
             ];
-            let leaves = module(gpu, stage, &leaves);
+            let leaves = module(gpu, scene, &leaves);
             let (frame, maps) = (layouts.frame, &layouts.maps.layout);
             let whole = |groups: &[Option<&BindGroupLayout>]| {
                 device.create_pipeline_layout(&PipelineLayoutDescriptor {
@@ -106,7 +111,7 @@ impl Pipelines {
 }
 
 /// A module of what all shaders of plants share, and its own parts.
-fn module(gpu: &Gpu, stage: &Stage, own: &[&str]) -> ShaderModule {
+fn module(gpu: &Gpu, scene: &LitScene, own: &[&str]) -> ShaderModule {
     let texels = format!("const SHADOW_TEXELS = {TEXELS}u;");
     let shared = [
         texels.as_str(),
@@ -115,7 +120,7 @@ fn module(gpu: &Gpu, stage: &Stage, own: &[&str]) -> ShaderModule {
         include_str!("plants.wgsl"),
     ];
     let parts = shared.iter().chain(own);
-    let text = parts.fold(stage.shader_of_light(STAGE_GROUP), |text, part| text + "\n" + part);
+    let text = parts.fold(scene.shader_of_light(STAGE_GROUP), |text, part| text + "\n" + part);
     let source = ShaderSource::Wgsl(text.into());
     gpu.context.device.create_shader_module(ShaderModuleDescriptor { label: Some("plants"), source })
 }

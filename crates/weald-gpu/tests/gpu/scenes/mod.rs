@@ -2,7 +2,7 @@
 
 #![allow(dead_code, reason = "each test file uses a part")]
 
-use weald::picture::{Camera, Stage, View};
+use weald::picture::{Camera, LitScene, View};
 use weald::recipe::{Overrides, Recipe};
 use weald::{Field, Landscape};
 use weald_gpu::RenderOptions;
@@ -28,17 +28,17 @@ pub(crate) fn options(samples: u32) -> RenderOptions {
 
 /// A camera so many metres above the ground of a place, looking down by an angle, northward and turned.
 pub(crate) fn above(
-    stage: &Stage,
+    scene: &LitScene,
     [east, south]: [f64; 2],
     metres: f32,
     down_deg: f32,
     turn_deg: f32,
 ) -> Camera {
-    let ground = stage.top_at([east, south]).expect("on the land");
+    let ground = scene.top_at([east, south]).expect("on the land");
     let (down, turn) = (down_deg.to_radians(), turn_deg.to_radians());
     let forward = [down.cos() * turn.sin(), down.cos() * turn.cos(), -down.sin()];
     let eye = [east as f32, -south as f32, ground + metres];
-    Camera::looking(eye, forward, stage.camera().half)
+    Camera::looking(eye, forward, scene.camera().half)
 }
 
 /// The mountains with water up to a third of their height, which flows eastward.

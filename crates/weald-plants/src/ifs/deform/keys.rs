@@ -22,7 +22,7 @@ weald_core::choices! {
         Field = "field",
         /// A vector for each digit.
         Displacement = "displacement",
-        /// A turn and a growth of one part about its joint.
+        /// A turn and a scale of one part about its joint.
         Part = "part",
     }
 }
@@ -40,16 +40,19 @@ weald_core::choices! {
 weald_core::parameters! {
     /// A deformation. What is absent is as in Han and Kim 2007.
     pub struct DeformKeys {
-        /// Kind of the deformation.
+        /// Kind of the deformation: `permutation` makes every digit of the code the next one, `swap` exchanges two
+        /// digits, `insertion` puts a digit between any two, `replacement` makes one digit another, `reversal` turns
+        /// the order of the digits round; `field` moves points by a polynomial, `displacement` by a vector for each
+        /// digit, `part` turns and scales one part about its joint.
         by: Option<By> = None;
-        /// First place of the codes that counts, `k_b`: 1 is the coarsest.
+        /// First digit of the code that is changed, `k_b`: 1 is the coarsest, that of the largest part.
         from: Option<u64> = None, range 1..=256,
             when by = "permutation" | "swap" | "insertion" | "replacement" | "reversal" | "displacement";
-        /// Last place that counts, `k_e`.
+        /// Last digit that is changed, `k_e`.
         to: Option<u64> = None, range 1..=256,
             when by = "permutation" | "swap" | "insertion" | "replacement" | "reversal" | "displacement";
-        /// The two digits of a swap, by default 1 and 2; the digit of an insertion, 0; the digit that goes and the one
-        /// that comes of a replacement, 2 and 0.
+        /// Digits are numbers of maps, from 0. Of a swap the two digits, by default 1 and 2; of an insertion the new
+        /// digit, by default 0; of a replacement the old digit and the new one, by default 2 and 0.
         digits: Vec<f64> = Vec::new(), range 0..=255, when by = "swap" | "insertion" | "replacement";
         /// Factor of displacement vectors from a digit to the next finer one.
         delta: f64 = 0.65, range 0.0..=1.0, when by = "displacement";
@@ -58,21 +61,24 @@ weald_core::parameters! {
         vectors: Vec<f64> = Vec::new(), when by = "displacement";
         /// Factor A of the field of the source.
         amplitude: f64 = 0.4, range -100.0..=100.0, when by = "field";
-        /// Another field along x: a polynomial as fours of a factor and the powers of x, y and z.
+        /// In place of that field, a polynomial for the x component, as a flat list of terms c, i, j, k for
+        /// c·xⁱ·yʲ·zᵏ: [0.5, 1, 0, 0, -1, 0, 2, 0] is 0.5 x - y².
         along_x: Vec<f64> = Vec::new(), when by = "field";
-        /// The same along y.
+        /// The same for the y component.
         along_y: Vec<f64> = Vec::new(), when by = "field";
-        /// The same along z.
+        /// The same for the z component.
         along_z: Vec<f64> = Vec::new(), when by = "field";
-        /// Units of fields and vectors.
+        /// Units of fields and vectors: `square` is the fractal scaled to the width of the unit square, `own` the
+        /// fractal's own units.
         units: Units = Units::Square, when by = "field" | "displacement";
-        /// Code of the part that a part-wise map moves, as 113 or 1,1,3.
+        /// Code of the part that moves, as 113 or 1,1,3: digits are numbers of maps, from 0, the largest part first. Of
+        /// the built-in fern 0 is the stem, 1 goes on upward, 2 and 3 are the lowest fronds, and 12 is the frond above 2.
         part: String = String::new(), when by = "part";
-        /// Turn of the part in the plane, counter-clockwise.
+        /// Turn of the part in its x-y plane, counter-clockwise.
         angle_deg: f64 = 0.0, range -360.0..=360.0, unit "deg", when by = "part";
-        /// Growth of the part.
+        /// Scale of the part.
         factor: f64 = 1.0, range -100.0..=100.0, when by = "part";
-        /// Any linear map of the part in place of turn and growth, row by row: four numbers, or nine.
+        /// Any linear map of the part in place of turn and scale, row by row: four numbers in 2D, nine in 3D.
         linear: Vec<f64> = Vec::new(), range -100.0..=100.0, when by = "part";
     }
 }
@@ -188,9 +194,7 @@ impl DeformKeys {
             0 => Ok(turned),
             4 => Ok(rows(2)),
             9 => Ok(rows(3)),
-            count => {
-                Err(format!("`linear` has {count} numbers; a linear map has 4 in the plane and 9 in space"))
-            }
+            count => Err(format!("`linear` has {count} numbers; a linear map has 4 in 2D and 9 in 3D")),
         }
     }
 }

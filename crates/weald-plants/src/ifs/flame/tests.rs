@@ -244,7 +244,7 @@ fn assert_same(ifs: &Ifs, again: &Ifs) {
 fn a_fractal_of_space_is_not_written() {
     let fern = find("fern-3d").expect("built in").ifs();
     let message = write(&[fern], &Frame::default()).expect_err("of space").to_string();
-    assert!(message.starts_with("`fern-3d` is a fractal of space"), "{message}");
+    assert!(message.starts_with("`fern-3d` is a 3D fractal"), "{message}");
 }
 
 proptest! {

@@ -47,13 +47,13 @@ impl Frame {
 /// probabilities within 1e-15.
 ///
 /// # Errors
-/// [`Error::Run`] for a fractal of space: a flame lies in the plane.
+/// [`Error::Run`] for a 3D fractal: a flame is 2D.
 pub fn write(fractals: &[Ifs], frame: &Frame) -> Result<String, Error> {
     let mut text = String::from("<flames>\n");
     for (time, ifs) in fractals.iter().enumerate() {
         if !ifs.is_planar() {
             return Err(Error::Run(format!(
-                "`{}` is a fractal of space, and a .flame file holds maps of the plane; choose a flat one",
+                "`{}` is a 3D fractal, and a .flame file holds 2D maps; choose a 2D one",
                 ifs.name()
             )));
         }

@@ -102,8 +102,9 @@ fn check_drawn(element: Element<'_>) -> Result<(), Fault> {
         ));
     }
     SPATIAL.iter().try_for_each(|attribute| match element.six(attribute)? {
-        Some(numbers) if numbers != IDENTITY => Err(element
-            .fault(&format!("`{attribute}` turns it out of the plane; only maps of the plane are read"))),
+        Some(numbers) if numbers != IDENTITY => {
+            Err(element.fault(&format!("`{attribute}` turns it out of the plane; only 2D maps are read")))
+        }
         _ => Ok(()),
     })
 }

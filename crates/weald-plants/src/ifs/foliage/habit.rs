@@ -13,7 +13,7 @@ pub enum Habit {
     Leaning(u32),
     /// So many planes that cross in the stem.
     Crossed(u32),
-    /// One shape of space.
+    /// One 3D shape.
     Single,
 }
 
@@ -35,7 +35,7 @@ const FOLD: f64 = 0.22;
 
 impl Habit {
     /// The habit that a shape grows by, with another number of fronds or planes where one is given: ferns arch, other
-    /// flat shapes cross, shapes of space stand alone.
+    /// flat shapes cross, 3D shapes are not repeated.
     pub fn of(ifs: &Ifs, fronds: Option<u32>) -> Self {
         let count = |usual: u32| fronds.unwrap_or(usual);
         match ifs.name() {

@@ -1,7 +1,7 @@
 //! The picture of a plant that its leaves are covered with.
 //!
 //! Texels are hit by points of random iteration; how often one is hit sets its tone, by the logarithm, and the share of
-//! its quarters that are hit its opacity. The first rows are bark, for the stems. Shapes of space are seen from the
+//! its quarters that are hit its opacity. The first rows are bark, for the stems. 3D shapes are seen from the
 //! front and, beside it, from their right.
 
 use crate::ifs::game::Game;

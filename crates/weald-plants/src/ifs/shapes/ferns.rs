@@ -1,4 +1,4 @@
-//! Ferns of the plane. Map 0 is the stem, 1 goes on upward, 2 and 3 are the lowest fronds left and right.
+//! 2D ferns. Map 0 is the stem, 1 goes on upward, 2 and 3 are the lowest fronds left and right.
 
 use super::super::system::Role::{Branch, Stem, Trunk};
 use super::shape::{Maps, Shape};

@@ -1,4 +1,4 @@
-//! Leaves of the plane; map 0 is the stalk.
+//! 2D leaves; map 0 is the stalk.
 
 use super::super::system::Role::{Branch, Stem, Trunk};
 use super::shape::{Maps, Shape};

@@ -1,4 +1,4 @@
-//! Sets of the plane that mathematicians drew first.
+//! 2D figures that mathematicians drew first.
 
 use super::super::system::Role::{Branch, Trunk};
 use super::shape::{Maps, Shape};

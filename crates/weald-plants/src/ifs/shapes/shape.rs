@@ -3,7 +3,7 @@
 use crate::ifs::map::Map;
 use crate::ifs::system::{Draft, Ifs, Role, Weighted};
 
-/// A built-in fractal. Shapes of space have `y` up, like those of the plane.
+/// A built-in fractal. 3D shapes have `y` up, as 2D ones do.
 #[derive(Clone, Copy, Debug)]
 pub struct Shape {
     /// Its name in recipes and on the command line.

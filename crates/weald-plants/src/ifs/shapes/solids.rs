@@ -1,11 +1,11 @@
-//! Plants and sets of space, `y` up and rooted at the origin.
+//! 3D plants and figures, `y` up and rooted at the origin.
 
 use super::super::system::Role::{Branch, Stem, Trunk};
 use super::shape::{Maps, Shape};
 
 pub(super) const FERN: Shape = Shape {
     name: "fern-3d",
-    summary: "Barnsley's fern in space: its frond arches forward and its leaves stand off it",
+    summary: "Barnsley's fern in 3D: its frond arches forward and its leaves stand off it",
     source: "Barnsley 1988, Fractals everywhere, plate and section III.9, as in public tables",
     code_digits: 64,
     maps: Maps::Spatial(&[
@@ -38,7 +38,7 @@ pub(super) const CONIFER: Shape = Shape {
 /// Four boughs a quarter turn apart on two heights, and the leader that goes on upward.
 pub(super) const CROWN: Shape = Shape {
     name: "crown",
-    summary: "a broad tree of space: a leader and four boughs, each a tree again",
+    summary: "a broad 3D tree: a leader and four boughs, each a tree again",
     source: "Weald",
     code_digits: 64,
     maps: Maps::Spatial(&[
@@ -53,7 +53,7 @@ pub(super) const CROWN: Shape = Shape {
 
 pub(super) const TETRAHEDRON: Shape = Shape {
     name: "tetrahedron",
-    summary: "Sierpinski's gasket in space",
+    summary: "Sierpinski's gasket in 3D",
     source: "Sierpiński 1915, one dimension further",
     code_digits: 24,
     maps: Maps::Spatial(&[

@@ -1,4 +1,4 @@
-//! Trees of the plane, rooted at the origin.
+//! 2D trees, rooted at the origin.
 
 use super::super::system::Role::{Branch, Stem, Trunk};
 use super::shape::{Maps, Shape};

@@ -10,8 +10,8 @@
 //! `share · (lean · (u × w) + swing(t) · p)`: it leans out of the wind as far as it stands across it, and swings in the
 //! plane of the wind. [`Sway`] puts this onto points; its shader is `sway.wgsl`.
 //!
-//! A joint is carried by the part from which it hangs and is the fixed point of the turn of what hangs there: it never
-//! parts. Without wind every turn is nothing and every point keeps its bits.
+//! A joint is carried by the part from which it hangs and is the fixed point of the turn of what hangs there: branches
+//! stay attached. Without wind every turn is nothing and every point keeps its bits.
 
 mod device;
 mod row;
@@ -41,13 +41,13 @@ parameters! {
     pub struct Wind {
         /// Speed of the wind; 4 moves leaves, 10 sways the plant, 25 bends it down.
         speed: f64 = 4.0, range 0.0..=60.0, unit "m/s";
-        /// Where it blows to: 0 along x, 90 along z, which for a plant of the plane is out of it.
+        /// Where it blows to: 0 along x, 90 along z, which for a 2D plant is towards the camera or away from it.
         direction_deg: f64 = 0.0, range -360.0..=360.0, unit "deg";
         /// How much its speed varies: 0 is steady, 1 comes in squalls.
         gusts: f64 = 0.5, range 0.0..=1.0;
         /// Time after which the motion begins again; without it the motion never repeats.
         seconds: Option<f64> = None, range 0.1..=3600.0, unit "s";
-        /// How stiff the plant is; its turns are divided by it.
+        /// How stiff the plant is: divides the bending angles.
         stiffness: f64 = 1.0, range 0.05..=20.0;
         /// Another seed is another course of gusts.
         seed: u64 = 1, range 0..=9_007_199_254_740_991_u64;

@@ -11,10 +11,9 @@ weald_core::parameters! {
     pub struct FilmKeys {
         /// Iterations of the simulations from one frame to the next.
         every: Option<u64> = None, range 1..=1_000_000_000;
-        /// Frames of a whole turn around the landscape, for a picture that has a camera; of a fractal in the wind those
-        /// after which its motion begins again, and of a drawn picture with `through` those of the flight.
+        /// Number of frames: of one turn of the camera; with `wind`, of one loop; with `through`, of the flight.
         frames: Option<u32> = None, range 2..=9999;
-        /// Frames that a video shows in a second.
+        /// Frame rate. By default 24.
         frames_per_second: Option<f64> = None, range 1.0..=240.0, unit "1/s", with every | frames;
     }
 }
@@ -32,6 +31,13 @@ pub enum Motion {
     TimeLapse(u64),
     /// So many frames once around.
     Turn(u32),
+}
+
+/// Whether an output moves.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Moves {
+    Still,
+    Film(Film),
 }
 
 /// A film as a recipe asks for it.
@@ -65,8 +71,9 @@ fn has_extension(file: &Path, wanted: &str) -> bool {
     file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case(wanted))
 }
 
-/// Takes the keys of a film out of the table of a picture; `None` where it is a still.
-pub(super) fn take(table: &mut Table, diagnostics: &mut Diagnostics) -> Option<Film> {
+/// Takes the keys of a film out of the table of a picture: what it is, unless its keys are in conflict, which is reported
+/// here.
+pub(super) fn take(table: &mut Table, diagnostics: &mut Diagnostics) -> Option<Moves> {
     let own = keys_of::<FilmKeys>(table);
     for (key, _) in &own.entries {
         table.take(key);
@@ -76,13 +83,28 @@ pub(super) fn take(table: &mut Table, diagnostics: &mut Diagnostics) -> Option<F
         (Some(every), None) => Motion::TimeLapse(every),
         (None, Some(frames)) => Motion::Turn(frames),
         (Some(_), Some(_)) => {
-            let message = "`every` and `frames` exclude each other: a film lapses or turns";
+            let message = "`every` and `frames` exclude each other: a film is a time-lapse or turns";
             diagnostics.add(own.line_of("frames"), message);
             return None;
         }
-        (None, None) => return None,
+        // A key of a wrong kind or range is reported, and is no reason to ask for a still.
+        (None, None) if own.get("every").or(own.get("frames")).is_some() => return None,
+        (None, None) => return Some(Moves::Still),
     };
-    Some(Film { motion, frames_per_second: keys.frames_per_second.unwrap_or(DEFAULT_RATE) })
+    Some(Moves::Film(Film { motion, frames_per_second: keys.frames_per_second.unwrap_or(DEFAULT_RATE) }))
+}
+
+/// What the `file` of a still should be, where it is one of a film.
+pub(super) fn missing_keys(file: &Path, picture: &dyn Picture) -> Option<String> {
+    if !EXTENSIONS.iter().any(|film| has_extension(file, film)) {
+        return None;
+    }
+    // `frames` moves cameras and fractals, `every` shows what simulations do to a landscape.
+    let turns = picture.turned(0.0, 1.0).is_some().then_some("`frames` (a turn of the camera, or the wind)");
+    let lapses = picture.fractals().is_empty().then_some("`every` (a frame every so many iterations)");
+    let keys: Vec<_> = turns.into_iter().chain(lapses).collect();
+    let file = file.display();
+    Some(format!("`file` is {file}, a film: add {}, or choose a .png", keys.join(" or ")))
 }
 
 /// What stands against the film of a picture, or against a still of it, with its line in the table of the output.

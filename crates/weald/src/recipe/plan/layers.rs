@@ -39,7 +39,9 @@ pub(super) fn check(made: &Made<'_>, outputs: &[Output], diagnostics: &mut Diagn
         diagnostics.add(output.line, "`every` counts the iterations of simulations, and no step simulates");
     }
     for output in outputs {
-        let missing: Vec<_> = output.reads().into_iter().filter(|name| !layers.read(name)).collect();
+        let missing = output.reads().into_iter().filter(|name| !layers.read(name));
+        // An empty name is that of a key which is needed, and which is reported as such.
+        let missing: Vec<_> = missing.filter(|name| !name.is_empty()).collect();
         for (names, hint) in layers.by_hint(missing, "", &materials) {
             let (file, names) = (output.file.display(), in_words(&names));
             let message = format!("{file} needs {names}, which no step of this recipe writes; {hint}");
@@ -54,12 +56,17 @@ fn check_grown(steps: &[Planned], outputs: &[Output], diagnostics: &mut Diagnost
     let plants: BTreeSet<_> = steps.iter().flat_map(|planned| planned.step.plants()).collect();
     let meadows: BTreeSet<_> = steps.iter().flat_map(|planned| planned.step.meadows()).collect();
     for output in outputs {
-        for (needed, grown, what) in
-            [(output.plants(), &plants, ["plants", "sets"]), (output.meadows(), &meadows, ["grass", "grows"])]
-        {
+        for (needed, grown, what) in [
+            (output.plants(), &plants, ["plants", "sets", "scatter"]),
+            (output.meadows(), &meadows, ["grass", "grows", "grass"]),
+        ] {
             let known: Vec<_> = grown.iter().map(String::as_str).collect();
-            for name in needed.iter().filter(|&name| !grown.contains(name)) {
-                let (file, hint, [what, does]) = (output.file.display(), hint(name, &known), what);
+            for name in needed.iter().filter(|&name| !grown.contains(name) && !name.is_empty()) {
+                let (file, [what, does, step]) = (output.file.display(), what);
+                let hint = match known.as_slice() {
+                    [] => format!("the step `{step}` does: put `[[step]] do = {step:?}` into the recipe"),
+                    known => hint(name, known),
+                };
                 diagnostics
                     .add(output.line, format!("{file} needs {what} `{name}`, which no step {does}; {hint}"));
             }

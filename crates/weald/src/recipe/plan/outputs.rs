@@ -2,14 +2,34 @@
 
 use std::path::{Component, Path, PathBuf};
 
-use super::films::{self, Film, Motion};
+use super::aliases::{self, KindOfOutput};
+use super::films::{self, Film, FilmKeys, Motion, Moves};
 use crate::recipe::plan::words::{Vocabulary, hint, tables};
 use crate::recipe::{CHECKPOINT_FILE, REPORT_FILE};
-use weald_core::parameter::{Diagnostics, LayerName, Legal, Parameter, check_file, read_key};
+use weald_core::parameter::{Diagnostics, LayerName, Legal, Parameter, Parameters, check_file, read_key};
 use weald_core::source::{Node, Table, Value};
 use weald_export::{Export, ExportEntry};
 use weald_io::{Capabilities, Encode};
 use weald_picture::{Picture, PictureEntry, Render};
+
+weald_core::parameters! {
+    /// The keys of an `[[output]]`, beside those of its picture or export.
+    pub struct OutputKeys {
+        /// Name in the output folder; the extension chooses the format.
+        file: String = String::new();
+        /// The layer that is written. An output has one of `layer`, `picture` and `export`.
+        layer: Option<LayerName> = None;
+        /// The kind of picture that is drawn.
+        picture: Option<String> = None;
+        /// The kind of export that is written.
+        export: Option<String> = None;
+        /// Write a layer as one reader wants it: `blender` (.exr with channels R, G and B, since Blender shows others as
+        /// black), `terrain3d` (.exr with one channel R of floats, as Godot loads), `hterrain` (.exr with one channel R of
+        /// half floats, as Zylann's HTerrain for Godot loads), `landlab` (.nc or .zarr with landlab's names, rows from
+        /// the south).
+        preset: Option<String> = None, with layer;
+    }
+}
 
 /// A file that a run writes.
 #[derive(Debug)]
@@ -201,11 +221,11 @@ fn content_of(
         [("layer", _)] => layer(vocabulary, table, file, diagnostics),
         [("picture", node)] => {
             let entry = entry_of("picture", node, (vocabulary.pictures, |entry| entry.name), diagnostics)?;
-            Some(picture(entry, table, file, diagnostics))
+            Some(picture(vocabulary, entry, (table, file), diagnostics))
         }
         [("export", node)] => {
             let entry = entry_of("export", node, (vocabulary.exports, |entry| entry.name), diagnostics)?;
-            Some(export(entry, table, file, diagnostics))
+            Some(export(vocabulary, entry, (table, file), diagnostics))
         }
         [(first, _), (second, node), ..] => {
             let message = format!(
@@ -254,16 +274,37 @@ fn layer(
     }
 }
 
-fn picture(entry: &PictureEntry, table: &Table, file: &Path, diagnostics: &mut Diagnostics) -> Content {
-    let (whole, mut table) = (table, table.clone());
+fn picture(
+    vocabulary: &Vocabulary,
+    entry: &PictureEntry,
+    (whole, file): (&Table, &Path),
+    diagnostics: &mut Diagnostics,
+) -> Content {
+    let mut table = whole.clone();
     entry.name.clone_into(&mut diagnostics.subject);
-    let film = films::take(&mut table, diagnostics);
-    let (what, extensions) =
-        if film.is_some() { ("a film", films::EXTENSIONS) } else { ("a picture", entry.extensions) };
-    ensure_extension(&table, file, (what, extensions), diagnostics);
+    let moves = films::take(&mut table, diagnostics);
+    let mut known = (entry.parameters)();
+    known.extend(FilmKeys::parameters());
+    let others = vocabulary.pictures.iter().map(|other| (other.name, other.parameters));
+    let kind = KindOfOutput { key: "picture", known, others: others.collect() };
+    aliases::take_unknown(&kind, &mut table, diagnostics);
     let picture = with_keys(("picture", entry.name), &table, diagnostics, (entry.parameters, entry.read));
-    if let Some((line, fault)) = films::fault(film.as_ref(), (entry.name, whole), picture.as_ref()) {
-        diagnostics.add(line, fault);
+    let film = match moves {
+        Some(Moves::Film(film)) => Some(film),
+        _ => None,
+    };
+    if moves.is_some() {
+        let missing = || films::missing_keys(file, picture.as_ref());
+        let file_fault = match film {
+            Some(_) => wrong_extension(file, "a film", films::EXTENSIONS),
+            None => wrong_extension(file, &format!("picture = {:?}", entry.name), entry.extensions)
+                .map(|fault| missing().unwrap_or(fault)),
+        };
+        let file_fault = file_fault.map(|fault| (line_of(&table, "file"), fault));
+        let film_fault = films::fault(film.as_ref(), (entry.name, whole), picture.as_ref());
+        for (line, fault) in file_fault.into_iter().chain(film_fault) {
+            diagnostics.add(line, fault);
+        }
     }
     match film {
         Some(film) => Content::Film { name: entry.name, picture, film },
@@ -271,9 +312,25 @@ fn picture(entry: &PictureEntry, table: &Table, file: &Path, diagnostics: &mut D
     }
 }
 
-fn export(entry: &ExportEntry, table: &Table, file: &Path, diagnostics: &mut Diagnostics) -> Content {
+fn export(
+    vocabulary: &Vocabulary,
+    entry: &ExportEntry,
+    (whole, file): (&Table, &Path),
+    diagnostics: &mut Diagnostics,
+) -> Content {
+    let table = &mut whole.clone();
+    entry.name.clone_into(&mut diagnostics.subject);
+    let others = vocabulary.exports.iter().map(|other| (other.name, other.parameters)).collect();
+    aliases::take_unknown(
+        &KindOfOutput { key: "export", known: (entry.parameters)(), others },
+        table,
+        diagnostics,
+    );
+    "output".clone_into(&mut diagnostics.subject);
     let what = format!("export = {:?}", entry.name);
-    ensure_extension(table, file, (&what, entry.extensions), diagnostics);
+    if let Some(fault) = wrong_extension(file, &what, entry.extensions) {
+        diagnostics.add(line_of(table, "file"), fault);
+    }
     let export = with_keys(("export", entry.name), table, diagnostics, (entry.parameters, entry.read));
     for fault in export.faults() {
         diagnostics.add(table.line_of(&fault.key), fault);
@@ -303,18 +360,22 @@ fn entry_of<T>(
     entry
 }
 
-fn ensure_extension(
-    table: &Table,
-    file: &Path,
-    (what, extensions): (&str, &[&str]),
-    diagnostics: &mut Diagnostics,
-) {
+/// Other formats of meshes, which are asked for in vain.
+const OTHER_MESHES: [&str; 7] = ["gltf", "fbx", "obj", "usd", "usda", "usdc", "usdz"];
+
+/// What is wrong with the name of a file, where it has none of the extensions.
+fn wrong_extension(file: &Path, what: &str, extensions: &[&str]) -> Option<String> {
     let extension = file.extension().and_then(|extension| extension.to_str()).unwrap_or_default();
-    if !extensions.iter().any(|known| extension.eq_ignore_ascii_case(known)) {
-        let known = extensions.join(" or .");
-        let message = format!("`file` is {}; {what} writes .{known}", file.display());
-        diagnostics.add(line_of(table, "file"), message);
+    let is = |known: &&str| extension.eq_ignore_ascii_case(known);
+    if extensions.iter().any(is) {
+        return None;
     }
+    let is_other_mesh = OTHER_MESHES.iter().any(is) && extensions.contains(&"glb");
+    let hint =
+        is_other_mesh.then_some("; of meshes only binary glTF is written, which Blender and engines import");
+    let hint = hint.unwrap_or_default();
+    let known = extensions.join(" or .");
+    Some(format!("`file` is {}; {what} is written as .{known}{hint}", file.display()))
 }
 
 /// Reads a kind of output from its keys.

@@ -233,7 +233,7 @@ fn outputs_that_cannot_be_written_say_what_there_is() {
         assert!(message.contains(words), "{keys}: {message}");
     };
     says("export = \"taly\"\nfile = \"a.txt\"", "there is no export \"taly\"; did you mean `tally`?");
-    says("export = \"tally\"\nfile = \"a.png\"", "`file` is a.png; export = \"tally\" writes .txt");
+    says("export = \"tally\"\nfile = \"a.png\"", "`file` is a.png; export = \"tally\" is written as .txt");
     says("export = \"tally\"\nof = \"heigth\"\nfile = \"a.txt\"", "needs layer `heigth`");
     says(
         "layer = \"height\"\nexport = \"tally\"\nfile = \"a.txt\"",
@@ -255,11 +255,15 @@ fn films_that_cannot_be_made_say_why() {
     };
     let rough = "[[step]]\ndo = \"rough\"\n";
     let wear = "[[step]]\ndo = \"rough\"\n[[step]]\ndo = \"wear\"\n";
-    says(rough, "file = \"a.mp4\"", "`file` is a.mp4; a picture writes .png");
+    says(
+        rough,
+        "file = \"a.mp4\"",
+        "a film: add `frames` (a turn of the camera, or the wind) or `every` (a frame every so many iterations)",
+    );
     says(
         wear,
         "every = 3\nfile = \"a.gif\"",
-        "`file` is a.gif; a film writes .png or .apng or .mp4 or .webm",
+        "`file` is a.gif; a film is written as .png or .apng or .mp4 or .webm",
     );
     says(rough, "every = 3\nfile = \"a.png\"", "no step simulates");
     says(wear, "every = 3\nframes = 4\nfile = \"a.png\"", "exclude each other");
@@ -301,4 +305,21 @@ file = \"ground.exr\"
     let page = parse(&whole).expect("good").for_page(Path::new("page.html"));
     let error = page.expect_err("left out").to_string();
     assert_eq!(error, format!("a.toml:1: {}", lacking("the HTML report", "report")));
+}
+
+#[test]
+fn what_is_missing_is_answered_with_the_step_that_makes_it() {
+    let ground = "[landscape]\nsize = 9\n[[step]]\ndo = \"constant\"\n";
+    let refused = |more: &str, parts: &[&str]| {
+        let text = format!("{ground}{more}");
+        let message = Recipe::parse("r.toml", &text, &Overrides::default()).expect_err("bad").to_string();
+        assert!(parts.iter().all(|part| message.contains(part)), "{message}");
+        message
+    };
+    let grass = "[[step]]\ndo = \"grass\"\n[[output]]\nlayer = \"grass\"\nfile = \"a.tif\"\n";
+    refused(grass, &["`light`", "add a step `sunlight`", "add a step `soil`", "add a step `moisture`"]);
+    let plants = "[[output]]\nexport = \"plants\"\nfile = \"a.csv\"\n";
+    refused(plants, &["needs plants `plants`, which no step sets; the step `scatter` does"]);
+    let message = refused("[[output]]\npicture = \"map\"\nfile = \"a.png\"\n", &["`of` is needed"]);
+    assert!(!message.contains("needs layer"), "{message}");
 }

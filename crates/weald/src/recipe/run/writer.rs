@@ -1,6 +1,6 @@
 //! Layers, pictures and exports become files, each with its provenance.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use super::film;
 use super::video::Frames;
@@ -50,7 +50,8 @@ impl Writer<'_> {
             write_whole(&path, &cutout.to_png(&self.text()))?;
         }
         let adapter = self.drawn_by(picture);
-        Ok(OutputReport { picture: Some(name.to_owned()), adapter, ..OutputReport::default() })
+        let notes = picture.notes(self.finished.landscape);
+        Ok(OutputReport { picture: Some(name.to_owned()), adapter, notes, ..OutputReport::default() })
     }
 
     /// What a picture says of its origin.
@@ -83,10 +84,18 @@ impl Writer<'_> {
             }
             Motion::TimeLapse(_) => kept.video(&path)?,
         };
-        let notes = note.into_iter().map(str::to_owned).collect();
-        let adapter = self.drawn_by(picture);
-        let picture = Some(name.to_owned());
-        Ok(OutputReport { picture, adapter, frames: Some(frames), notes, ..OutputReport::default() })
+        // A note says that no video could be made.
+        let has_own = Film::is_apng(target.file) || (Film::is_video(target.file) && note.is_none());
+        let mut notes: Vec<_> = note.into_iter().map(str::to_owned).collect();
+        notes.extend(picture.notes(self.finished.landscape));
+        Ok(OutputReport {
+            name_only: !has_own,
+            picture: Some(name.to_owned()),
+            adapter: self.drawn_by(picture),
+            frames: Some(frames),
+            notes,
+            ..OutputReport::default()
+        })
     }
 
     /// A picture that moves by itself.
@@ -147,6 +156,9 @@ impl Writer<'_> {
         write_parts(&target.folder.join(target.file), &parts)?;
         Ok(OutputReport {
             export: Some(name.to_owned()),
+            name_only: parts
+                .iter()
+                .all(|part| matches!(part.name, PartName::Beside(_) | PartName::Sibling(_))),
             companions: target.companions(&parts),
             notes: export.notes(&self.finished),
             ..OutputReport::default()
@@ -178,5 +190,16 @@ impl Target<'_> {
     fn companions(&self, parts: &[Part]) -> Vec<String> {
         let beside = |part: &&Part| matches!(part.name, PartName::Beside(_) | PartName::Sibling(_));
         parts.iter().filter(beside).map(|part| part.name.path(self.file).display().to_string()).collect()
+    }
+}
+
+impl OutputReport {
+    /// The files that were written, by their paths inside the output folder.
+    pub fn files(&self) -> Vec<PathBuf> {
+        let file = Path::new(&self.file);
+        let own = (!self.name_only).then(|| file.to_owned());
+        let frames = self.frames.filter(|_| !Film::is_apng(file)).unwrap_or(0);
+        let frames = (0..frames).map(|number| Film::frame(file, number));
+        own.into_iter().chain(frames).chain(self.companions.iter().map(PathBuf::from)).collect()
     }
 }

@@ -25,8 +25,8 @@ weald_core::parameters! {
         name: LayerName = LayerName::needed();
         /// Name of a built-in fractal.
         of: Option<String> = None;
-        /// Affine maps in the order of their digits: [a, b, c, d, e, f] for (a x + b y + e, c x + d y + f), or twelve
-        /// numbers in space, three rows of a matrix, each followed by its part of the shift.
+        /// Affine maps in the order of their digits, from 0: six numbers [a, b, c, d, e, f] in 2D, for (a x + b y + e,
+        /// c x + d y + f), or twelve in 3D, three rows of a matrix, each followed by its part of the translation.
         maps: Vec<Vec<f64>> = Vec::new();
         /// Share of the points that each map gets; they sum to 1. By default by how much area or volume it keeps.
         probabilities: Vec<f64> = Vec::new(), with maps;

@@ -87,8 +87,7 @@ impl Written<'_> {
             let row = |row: usize| std::array::from_fn(|column| numbers[4 * row + column]);
             return Ok(Map::spatial([row(0), row(1), row(2)]));
         }
-        let message =
-            format!("map {place} has {} numbers; a map of the plane has 6, one of space 12", numbers.len());
+        let message = format!("map {place} has {} numbers; a 2D map has 6, a 3D map 12", numbers.len());
         Err((self.line_of_map(place), message))
     }
 

@@ -1,4 +1,4 @@
-//! A landscape lit and made ready to be drawn: what the ray-marched view and a renderer on a graphics card share.
+//! A landscape lit and made ready to be drawn: what the ray-marched view and a renderer on a GPU share.
 
 use std::f32::consts::FRAC_1_PI;
 
@@ -38,7 +38,7 @@ pub(super) const CUT_WATER: u32 = 0x1d_4a58;
 
 /// A landscape with its light, air and camera, as a [`View`] describes them.
 #[derive(Debug)]
-pub struct Stage {
+pub struct LitScene {
     pub(super) setting: Setting,
     pub(super) cover: Cover,
     pub(super) camera: Camera,
@@ -57,8 +57,8 @@ pub struct Stage {
     visibility: Option<f64>,
 }
 
-impl Stage {
-    /// The stage of a view of a landscape.
+impl LitScene {
+    /// The scene of a view of a landscape.
     ///
     /// # Errors
     /// [`Error::Limit`] where a map of it would be too large, [`Error::Run`] for a layer that is missing.
@@ -108,7 +108,7 @@ impl Stage {
         self.setting.terrain.highest()
     }
 
-    /// The stage for another camera, with so much haze as suits it where the view does not say how much.
+    /// The scene for another camera, with so much haze as suits it where the view does not say how much.
     #[must_use]
     pub fn seen_from(self, camera: Camera) -> Self {
         let haze = haze(self.visibility, &camera, self.setting.centre(), self.setting.exaggeration);
