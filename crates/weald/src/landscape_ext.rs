@@ -51,8 +51,8 @@ pub trait LandscapeExt: Sized {
     /// As [`LandscapeExt::open`], and where the file says another width.
     fn open_with(path: impl AsRef<Path>, cell: Option<f64>) -> Result<(Self, Vec<String>), Error>;
 
-    /// Writes a layer into a raster file, whose format follows from the extension, with all of cell size, place on
-    /// Earth and no-data cells that the format can hold.
+    /// Writes a layer into a raster file, whose format follows from the extension, with all of cell size,
+    /// georeferencing and no-data cells that the format can hold.
     ///
     /// # Errors
     /// [`Error::Run`] where there is no such layer or format, or the file cannot be written.

@@ -53,8 +53,8 @@ fn settle(found: f32, taken: f32, change: f32, ratio: f32) -> (f32, f32, f32) {
 }
 
 kernel! {
-    /// Takes sediment by the speed of the water (`K_v |v|`, eq. 13) and by the share `K_s` of its free
-    /// capacity (the dissolution that Han 2015, fig. 8, compares with), and settles what the water cannot
+    /// Takes sediment by the speed of the water (`K_v |v|`, eq. 13) and by the share `K_s` of its unused
+    /// transport capacity (the dissolution that Han 2015, fig. 8, compares with), and settles what the water cannot
     /// carry (eq. 10, 12, 14–16). `lost` is the part of the deposit that shrinking takes out.
     pub(crate) struct Settle {
         reads {

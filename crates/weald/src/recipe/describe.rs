@@ -293,7 +293,7 @@ mod tests {
         assert!(output.contains("file (text, needed)"), "{output}");
         let deform = step("deform").expect("a table");
         assert!(
-            step("fractal").expect("a table").contains("[[fractal]]") && deform.contains("`swap` exchanges")
+            step("fractal").expect("a table").contains("[[fractal]]") && deform.contains("`insertion` puts")
         );
     }
 

@@ -1,8 +1,8 @@
 //! Force-based erosion: running water takes from the materials what it has the force to carry, and drops what it
 //! has not (Šťava et al. 2008).
 //!
-//! The capacity is `K_c sin a |v|`, with the mean sine of the slopes around a cell, floored at 0.1. The free
-//! capacity is dug out of the column from the top down ([`super::digging`]).
+//! The capacity is `K_c sin a |v|`, with the mean sine of the slopes around a cell, floored at 0.1. The unused
+//! transport capacity is dug out of the column from the top down ([`super::digging`]).
 
 use super::{Stava, StavaScratch};
 use crate::erode::before;
@@ -14,8 +14,8 @@ use weald_engine::stencil::chain::Flow;
 const MIN_SLOPE: f32 = 0.1;
 
 kernel! {
-    /// Capacity that is free; negative where the water carries too much.
-    pub(crate) struct FreeCapacity {
+    /// Unused transport capacity; negative where the water carries too much.
+    pub(crate) struct UnusedCapacity {
         reads {
             found, eastward, southward, sine_east, sine_west, sine_south, sine_north, neighbour_share, erodible,
         }
@@ -36,7 +36,7 @@ impl Stava {
         self.planes.take(flow.input, solid, y);
         let links = self.setting.links.row(flow.constants, y);
         let found = flow.input[plane::SEDIMENT].here(y);
-        FreeCapacity {
+        UnusedCapacity {
             found,
             eastward: settled.eastward.here(y),
             southward: settled.southward.here(y),
