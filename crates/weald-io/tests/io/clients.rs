@@ -10,6 +10,7 @@ use std::process::Command;
 use crate::rasters::{HILLS, hills, written};
 use serde_json::Value;
 use weald_core::domain::Georeference;
+use weald_core::grid::Field;
 use weald_io::Raster;
 
 /// Standard output of a program that must be there and succeed.
@@ -190,6 +191,33 @@ fn the_openexr_tools_read_every_cell_of_an_exr_and_weald_reads_theirs() {
         let again = weald_io::read(&tiled).expect("reads");
         assert!(again.field == raster.field && again.valid == raster.valid, "{compression}: other values");
         assert_eq!(again.provenance, raster.provenance, "{compression}");
+    }
+}
+
+/// Blocks that would not shrink are stored as they are, so that small tiles of hills say nothing of wavelets.
+#[test]
+fn weald_reads_the_wavelets_of_the_openexr_tools_in_one_channel_and_in_three() {
+    let hills = hills();
+    // Few heights, whose numbers have less than 15 bits, and so many that they need all 16.
+    let stepped = hills.field.values().iter().map(|height| (height / 16.0).round() * 16.0).collect();
+    let stepped = Raster { field: Field::from_values(hills.field.size(), stepped), ..hills.clone() };
+    let folder = tempfile::tempdir().expect("a folder");
+    for (raster, preset) in
+        [(&hills, None), (&stepped, None), (&hills, Some("blender")), (&stepped, Some("blender"))]
+    {
+        let [path, plain, packed] =
+            ["height", "none", "piz"].map(|name| folder.path().join(format!("{name}.exr")));
+        let (encode, _) = weald_io::format_of(&path).expect("known").writing(preset).expect("a preset");
+        weald_io::write_parts(&path, &encode.parts(raster).expect("fits")).expect("written");
+        for (compression, tiled) in [("none", &plain), ("piz", &packed)] {
+            let arguments = ["-z", compression, "-t", "300", "270", shown(&path), shown(tiled)];
+            output("exrmaketiled", "openexr", &arguments);
+        }
+        let bytes = |path: &Path| std::fs::metadata(path).expect("a file").len();
+        assert!(bytes(&packed) < bytes(&plain) * 95 / 100, "{preset:?} has not shrunk");
+        let again = weald_io::read(&packed).expect("reads");
+        let expected = weald_io::read(&path).expect("reads");
+        assert!(again.field == expected.field && again.valid == expected.valid, "{preset:?}: other values");
     }
 }
 
