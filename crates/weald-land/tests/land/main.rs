@@ -14,5 +14,6 @@ mod published_equations;
 mod reference;
 mod runaway;
 mod same_bits;
+mod scaling;
 mod stava;
 mod transport;

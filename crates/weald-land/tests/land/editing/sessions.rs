@@ -127,3 +127,29 @@ fn what_cannot_be_held_in_hand_is_refused() {
         open.run_interactive(&land(), &Engine::Cpu, |mut session| session.apply(&frost)).expect_err("open");
     assert!(error.to_string().contains("boundary"), "{error}");
 }
+
+#[test]
+fn states_after_as_many_steps_differ_where_their_ground_does() {
+    run_interactive(&Engine::Cpu, |mut session| {
+        let before = session.snapshot()?;
+        session.apply(&Action::Stroke(dab(Effect::AddWater { depth: 5.0 })))?;
+        assert!(before != session.snapshot()?, "there is more water");
+        Ok(())
+    });
+}
+
+#[test]
+fn a_stroke_falls_on_the_same_cells_within_open_borders_as_within_walls() {
+    let painted = |boundary| {
+        let step = Hydraulic { boundary, ..step() };
+        let stroke = Action::Stroke(dab(Effect::AddWater { depth: 5.0 }));
+        let hold = |mut session: InteractiveSession<'_>| {
+            session.apply(&stroke)?;
+            session.canvas(session.whole())
+        };
+        step.run_interactive(&land(), &Engine::Cpu, hold).unwrap_or_else(|error| panic!("{error}")).water
+    };
+    let closed = painted(Boundary::Closed);
+    assert!(closed.at(15, 12) > 4.0, "{} m in the middle of the stroke", closed.at(15, 12));
+    assert!(painted(Boundary::Open) == closed, "the water lies elsewhere");
+}
