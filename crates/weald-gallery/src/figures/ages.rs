@@ -100,3 +100,31 @@ fn claims(runs: &[FinishedRun], ages: usize) -> Vec<Claim> {
         ),
     ]
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use weald_core::grid::{Field, Size};
+    use weald_land::analyse::network::ValleyForm;
+
+    #[test]
+    fn rivers_and_valleys_that_widen_and_heads_that_vanish_are_shown_and_others_are_not() {
+        let flat = Field::filled(Size::square(2).expect("small"), 0.0);
+        let aged = |river: f64, valley: f64, heads: usize| {
+            let mut ran = han::finished(flat.clone());
+            ran.measures.river_width = Some(river);
+            ran.measures.valleys = Some(ValleyForm { spacing: 9.0, width: valley, shape: 0.5, depth: 4.0 });
+            ran.measures.heads = heads;
+            ran
+        };
+        let verdicts =
+            |runs: [FinishedRun; 2]| claims(&runs, 2).into_iter().map(|claim| claim.verdict).collect();
+        let found: Vec<_> = verdicts([aged(1.0, 3.0, 9), aged(2.0, 5.0, 4)]);
+        assert_eq!(found, [Verdict::Shown, Verdict::Shown]);
+        let found: Vec<_> = verdicts([aged(2.0, 3.0, 9), aged(2.0, 5.0, 9)]);
+        assert_eq!(
+            found,
+            [Verdict::ShownIf("of valleys, not of the water in them".into()), Verdict::NotReproduced]
+        );
+    }
+}

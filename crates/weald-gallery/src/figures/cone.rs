@@ -155,3 +155,16 @@ fn turned_difference(height: &Field) -> f32 {
     let difference = |x: usize, y: usize| (height.at(x, y) - height.at(last - y, x)).abs();
     (0..=last).flat_map(|y| (0..=last).map(move |x| difference(x, y))).fold(0.0, f32::max)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_bump_beside_the_axis_differs_by_its_height_when_turned_and_one_on_it_does_not() {
+        let size = Size::square(3).expect("small");
+        let bump = |at: [usize; 2]| Field::from_function(size, |x, y| if [x, y] == at { 2.5 } else { 0.0 });
+        assert_eq!(turned_difference(&bump([1, 1])), 0.0);
+        assert_eq!(turned_difference(&bump([1, 0])), 2.5);
+    }
+}

@@ -116,3 +116,26 @@ fn likeness(one: &Landscape, other: &Landscape) -> Result<f64, Error> {
     }
     Ok(both / (first * second).sqrt())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use weald_core::grid::{Field, Size};
+
+    #[test]
+    fn a_rate_that_just_counts_as_fast_is_judged_with_the_faster_ones() {
+        let flat = Field::filled(Size::square(2).expect("small"), 0.0);
+        let judged = |chans: [f64; 5]| {
+            let runs = chans.map(|chan| {
+                let mut ran = han::finished(flat.clone());
+                ran.measures.chan = chan;
+                ran
+            });
+            no_rivers(&runs).verdict
+        };
+        // The last is that of water that does not erode, of which a tenth is a river.
+        assert_eq!(judged([0.0, 0.0, 0.0, 0.0, 1.0]), Verdict::Shown);
+        assert!(matches!(judged([0.0, 0.0, 0.5, 0.5, 1.0]), Verdict::ShownIf(_)));
+        assert_eq!(judged([0.0, 0.5, 0.0, 0.0, 1.0]), Verdict::NotReproduced);
+    }
+}

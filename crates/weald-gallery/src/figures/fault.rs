@@ -133,3 +133,18 @@ fn draw(height: Field) -> Result<Image, Error> {
     Relief { width: Some(512), ramp: Tint::Alpine, contours: Some(0.0), ..Relief::default() }
         .render(&landscape)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_last_fault_has_no_step_so_that_the_stage_before_it_is_the_whole_run() {
+        let [before, whole] = [4, 5].map(|stage| stage_of(16, stage, 5).expect("runs"));
+        for (before, whole) in before.values().iter().zip(whole.values()) {
+            assert!((before - whole).abs() < 1e-3, "{before} and {whole}");
+        }
+        let first = Stage::of(1, &stage_of(16, 1, 5).expect("runs"));
+        assert_eq!((first.plateaus, first.most()), (2, 2));
+    }
+}

@@ -137,3 +137,28 @@ pub(super) fn list(names: impl IntoIterator<Item = impl AsRef<str>>, values: &[S
     let pairs = names.into_iter().zip(values).map(|(name, value)| format!("{} {value}", name.as_ref()));
     pairs.collect::<Vec<_>>().join(", ")
 }
+
+/// A run that left this ground in the measures of which nothing flows, for tests.
+#[cfg(test)]
+pub(super) fn finished(ground: Field) -> FinishedRun {
+    let mut landscape = Landscape::new(weald_core::domain::Domain::new(ground.size(), 1.0));
+    landscape.insert("height", "m", ground.clone());
+    let run =
+        Run { name: String::new(), keys: String::new(), seed: 0, side: ground.size().columns, iterations: 1 };
+    let measures = NetworkMeasures {
+        chan: 0.0,
+        river_width: None,
+        reach: 0.0,
+        valley_largest: 0.0,
+        drains: 0.0,
+        pits: 0,
+        heads: 0,
+        strahler: 0,
+        theta: None,
+        hack: None,
+        flux_gini: 0.0,
+        valleys: None,
+        carve: None,
+    };
+    FinishedRun { run, before: ground, landscape, measures }
+}

@@ -110,3 +110,17 @@ fn surface(lake: &Landscape) -> Image {
     };
     Image { width: side, height: side, rgb: (0..side * side).flat_map(colour).collect() }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ripples_three_times_as_high_as_at_first_have_grown_threefold() {
+        let size = Size::square(2).expect("small");
+        let mut lake = Landscape::new(Domain::new(size, 1.0));
+        let depths = vec![DEPTH, DEPTH + RIPPLES, DEPTH - 3.0 * RIPPLES, DEPTH];
+        lake.insert("water", "m", Field::from_values(size, depths));
+        assert!((amplification(&lake) - 3.0).abs() < 0.01, "{}", amplification(&lake));
+    }
+}

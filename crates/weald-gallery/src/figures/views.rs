@@ -92,3 +92,32 @@ pub(super) fn plate(name: &'static str, what: &str, runs: &[FinishedRun], image:
     let steps = runs.first().map_or(0, |ran| ran.run.iterations);
     Plate { name, caption: format!("{what} after {steps} steps: {}", names.join("; ")), image }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn carrying(flow: [f32; 2]) -> Landscape {
+        let size = Size::new(1, 1).expect("small");
+        let mut landscape = Landscape::new(Domain::new(size, 1.0));
+        landscape.insert("height", "m", Field::filled(size, 0.0));
+        for (name, flow) in ["flux_x", "flux_y"].into_iter().zip(flow) {
+            landscape.insert(name, "m³/step", Field::filled(size, flow));
+        }
+        landscape
+    }
+
+    #[test]
+    fn discharge_is_the_length_of_the_mean_flow() {
+        assert_eq!(discharge(&carrying([3.0, -4.0])).expect("both layers").at(0, 0), 5.0);
+    }
+
+    #[test]
+    fn colours_of_discharge_go_from_the_rain_of_one_cell_to_that_of_five_thousand() {
+        let colour =
+            |cells: f64| flow(&carrying([(RAIN * cells) as f32, 0.0]), 8).expect("draws").pixel(4, 4);
+        assert_eq!(colour(0.5), colour(1.0));
+        assert_eq!(colour(5000.0), colour(9000.0));
+        assert!(colour(1.0) != colour(70.0) && colour(70.0) != colour(5000.0), "{:?}", colour(70.0));
+    }
+}

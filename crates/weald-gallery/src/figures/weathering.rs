@@ -121,3 +121,17 @@ fn claims(runs: &[FinishedRun]) -> Vec<Claim> {
         ),
     ]
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use weald_core::grid::{Field, Size};
+
+    #[test]
+    fn the_steepest_tenth_of_a_plane_is_as_steep_as_the_plane() {
+        let plane =
+            Field::from_function(Size::square(12).expect("small"), |x, y| 3.0 * x as f32 + 4.0 * y as f32);
+        let deg = steep_deg(&han::finished(plane));
+        assert!((deg - libm::atan(5.0).to_degrees()).abs() < 1e-6, "{deg}°");
+    }
+}

@@ -132,3 +132,58 @@ fn written(number: f32) -> String {
     let text = format!("{number:.2}");
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn empty() -> Chart {
+        Chart::new([264, 254], [0.0, 10.0], [0.0, 10.0])
+    }
+
+    /// The westernmost and the easternmost column with ink.
+    fn inked(image: &Image) -> [usize; 2] {
+        let columns = 0..image.width;
+        let has_ink =
+            |&x: &usize| (0..image.height).any(|y| image.pixel(x, y) != Image::paper(1, 1).pixel(0, 0));
+        [columns.clone().find(has_ink), columns.rev().find(has_ink)]
+            .map(|column| column.expect("there is ink"))
+    }
+
+    #[test]
+    fn dashes_go_all_the_way_from_one_control_point_to_the_next() {
+        let mut chart = empty();
+        chart.controls(&[[2.0, 5.0], [8.0, 5.0]], INK);
+        let (image, row) = (chart.image, 254 - 40 - 100);
+        let dark = |x: usize| image.pixel(x, row)[1] < 200;
+        // Twenty pixels to the unit, from 46 on: eight dashes of 15 pixels, each half as long.
+        let dashes: Vec<bool> = (0..8).map(|dash| dark(46 + 40 + 15 * dash + 4)).collect();
+        assert_eq!(dashes, [true; 8]);
+        assert!((1..7).all(|dash| !dark(46 + 40 + 15 * dash + 11)), "between them the paper shows");
+    }
+
+    #[test]
+    fn a_word_stands_east_of_its_point_and_west_of_it_where_the_picture_ends() {
+        let written = |x: f32| {
+            let mut chart = empty();
+            chart.word("tip", [x, 5.0], INK);
+            inked(&chart.image)
+        };
+        for east in [2.0, 6.0] {
+            assert!(written(east)[0] as f32 >= 46.0 + 20.0 * east, "{:?}", written(east));
+        }
+        let [from, to] = written(10.0);
+        assert!(to <= 246 && from > 200, "{from} to {to}");
+    }
+
+    #[test]
+    fn numbers_of_the_axis_stand_in_the_middle_below_their_lines() {
+        let chart = Chart::new([264, 254], [0.0, 10.0], [0.0, 10.0]).axes(10.0, ["", ""]);
+        let below = 254 - 40 + 6..254 - 40 + 18;
+        let columns = 180..264_usize;
+        let has_ink = |&x: &usize| below.clone().any(|y| chart.image.pixel(x, y)[1] < 200);
+        let [from, to] = [columns.clone().find(has_ink), columns.rev().find(has_ink)].map(|x| x.expect("10"));
+        let middle = (from + to) as f32 / 2.0;
+        assert!((middle - 246.0).abs() < 3.0, "10 stands at {middle}");
+    }
+}

@@ -249,4 +249,49 @@ mod tests {
         let [red, _, blue] = one.pixel(4, 4);
         assert!(red > 100 && blue < red, "{:?}", one.pixel(4, 4));
     }
+
+    #[test]
+    fn a_white_sheet_that_faces_sun_and_sky_sends_both_lights_back() {
+        let camera =
+            Camera { eye: SUN.map(|part| 4.0 * part), target: [0.0; 3], view_deg: 40.0, size: [9, 9] };
+        let lens = Lens::of(camera);
+        let clear = Air { sky: [[0.0; 3]; 2], clear: f32::INFINITY };
+        let corner = Corner { place: [0.0; 3], normal: SUN, colour: [1.0; 3], open: 1.0, through: 0.0 };
+        let sky = 0.6 + 0.4 * SUN[1];
+        for (c, light) in lens.light(&corner, &clear).into_iter().enumerate() {
+            assert!((light - SUNLIGHT[c] * dot(SUN, SUN) - sky * SKYLIGHT[c]).abs() < 1e-5, "{light}");
+        }
+        // A quarter of the sky lets an eighth of the sun through.
+        let hidden = lens.light(&Corner { open: 0.25, ..corner }, &clear);
+        assert!((hidden[0] - 0.125 * SUNLIGHT[0] * dot(SUN, SUN) - 0.25 * sky * SKYLIGHT[0]).abs() < 1e-5);
+    }
+
+    #[test]
+    fn a_triangle_fills_its_samples_with_depths_between_those_of_its_corners() {
+        let at = [[0.0, 0.0, 1.0], [8.0, 0.0, 2.0], [8.0, 8.0, 3.0]];
+        let mut samples = vec![([0.0; 3], 0.0); 64];
+        fill(&mut samples, &Drawn { at, light: [[1.0; 3]; 3] }, [8, 8], 0);
+        for (place, &(light, near)) in samples.iter().enumerate() {
+            let (x, y) = (place % 8, place / 8);
+            let expected = if y > x { 0.0 } else { 1.0 + (x + y + 1) as f32 / 8.0 };
+            assert!((near - expected).abs() < 1e-5, "{near} at {x}, {y}");
+            assert!((light[1] - if y > x { 0.0 } else { 1.0 }).abs() < 1e-5, "{light:?} at {x}, {y}");
+        }
+    }
+
+    #[test]
+    fn the_empty_sky_goes_evenly_from_the_colour_of_its_top_to_that_of_its_foot() {
+        let camera = Camera { eye: [0.0, 0.0, 4.0], target: [0.0; 3], view_deg: 40.0, size: [40, 60] };
+        let sky = picture(&[], camera, &Air::SUMMER);
+        let red = |x: usize, y: usize| sky.pixel(x, y)[0];
+        assert!((0..60).all(|y| (0..40).all(|x| red(x, y) == red(0, y))), "rows have one colour");
+        assert!((1..60).all(|y| red(0, y) >= red(0, y - 1)), "and become brighter downwards");
+        let [_, foot] = Air::SUMMER.sky.map(encode);
+        assert!(
+            red(0, 0) < foot[0] - 40 && foot[0].abs_diff(red(0, 59)) < 3,
+            "{} to {}",
+            red(0, 0),
+            red(0, 59)
+        );
+    }
 }

@@ -149,3 +149,16 @@ fn joints(job: GalleryJob) -> Result<FigureOutput, Error> {
 fn prefix(ifs: &Ifs, text: &str) -> Code {
     Code::parse(ifs.digits(), text).expect("digits of the fern")
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::figures::Detail;
+
+    #[test]
+    fn the_joints_of_the_fern_are_those_of_the_source() {
+        let output = joints(GalleryJob { detail: Detail::Draft }).expect("draws");
+        assert_eq!(output.claims[0].verdict, Verdict::Shown, "{}", output.claims[0].measure);
+        assert_eq!(output.measured.rows[2][2], "(0.0176, 1.974)");
+    }
+}
