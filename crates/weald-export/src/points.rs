@@ -220,5 +220,8 @@ mod tests {
         assert_eq!((parts[0].bytes.len() % 64, parts[1].bytes.len() % 64), (9 * 12 % 64, 18));
         let error = files(&Points { depth: Some(26), ..gasket() }, "a.csv").expect_err("3^26 points");
         assert!(error.exit_code() == 5 && error.to_string().contains("2541865828329 points"), "{error}");
+        let ifs = Fractal::built_in("gasket").expect("built in").ifs.clone();
+        let of = format!("points of {} bytes", 48 + 4 * ifs.code_digits());
+        assert!(error.to_string().contains(&of), "three numbers, and each digit with its comma: {error}");
     }
 }

@@ -190,3 +190,56 @@ fn rotation(set: &Standing) -> [f32; 4] {
     let (sine, cosine) = libm::sincos(-std::f64::consts::PI * f64::from(turns));
     [0.0, sine as f32, 0.0, cosine as f32]
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use weald_core::parameter::Nested;
+    use weald_engine::Job;
+    use weald_engine::step::Step;
+    use weald_plants::Vegetation;
+    use weald_plants::grass_step::{Grass, Kind};
+
+    #[test]
+    fn a_set_is_turned_by_as_much_as_its_blades_are_turned_beyond_those_of_the_mesh() {
+        for seed in 0..50 {
+            let tuft = Set { soil: 0.5, light: 0.5, level: 4.0, cut: 1.0, trodden: 0.0, seed };
+            let standing = Standing { instance: Instance { place: [0.0; 2], species: 0, tuft }, height: 0.0 };
+            let [x, y, z, w] = rotation(&standing).map(f64::from);
+            assert_eq!([x, z], [0.0; 2], "about the vertical");
+            let turns = f64::from(tuft.turns() - Set { seed: 0, ..tuft }.turns());
+            // A quaternion and its negative are the same turn.
+            let off = 2.0 * libm::atan2(y, w) / std::f64::consts::TAU + turns;
+            assert!((off - libm::round(off)).abs() < 1e-6, "seed {seed} is off by {off} of a turn");
+        }
+    }
+
+    #[test]
+    fn an_instance_is_as_much_smaller_than_the_mesh_as_its_blades_are() {
+        let size = weald_core::grid::Size::square(8).expect("small");
+        let mut landscape = weald_core::landscape::Landscape::new(weald_core::domain::Domain::new(size, 2.0));
+        for name in ["height", "fertility", "light", "moisture"] {
+            landscape.insert(name, "1", weald_core::grid::Field::filled(size, 0.5));
+        }
+        let fescue = Kind { name: "fescue".to_owned(), ..Kind::default() };
+        let grass = Grass { species: vec![Nested(fescue)], ..Grass::default() };
+        grass.run(&mut landscape, &Job::unwatched(3)).expect("grows");
+        let finished = Finished { landscape: &landscape, steps: &[], recipe: "r", hash: "", seed: 0 };
+        let meadow = landscape.meadow("grass").expect("grown");
+        let scene = Scene { name: "grass", meadow: &meadow, sets: &[], finished: &finished };
+        let standing = |level: f32| {
+            let tuft = Set { soil: 0.5, light: 0.5, level, cut: 1.0, trodden: 0.0, seed: 7 };
+            Standing { instance: Instance { place: [4.0; 2], species: 0, tuft }, height: 0.0 }
+        };
+        let [grown, young] = [4.0, 1.0].map(standing);
+        let kind = super::Kind {
+            name: String::new(),
+            sets: Vec::new(),
+            mesh: 0,
+            height: scene.height(0, &grown.instance.tuft),
+        };
+        assert_eq!(scene.scale(&grown, &kind), 1.0);
+        let scale = scene.scale(&young, &kind);
+        assert!((0.01..0.9).contains(&scale), "{scale} of the height at the first level");
+    }
+}

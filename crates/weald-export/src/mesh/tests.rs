@@ -18,6 +18,7 @@ use super::tin::Tin;
 use super::vector::{Vector, add_scaled, cross, dot, unit};
 use super::vertices::Vertices;
 use super::water::Water;
+use super::{LayerName, Mesh};
 use weald_core::domain::Domain;
 use weald_core::grid::{Field, Mask, Size};
 use weald_core::landscape::Landscape;
@@ -333,4 +334,20 @@ fn walls_hang_from_every_open_edge_and_face_outward() {
         skirt.positions.iter().zip(&skirt.normals).filter(|(place, _)| place[2] == -0.5 * 49.0 * CELL);
     let outward = northern.filter(|(_, normal)| normal[2] == -1.0).count();
     assert!(outward >= 4, "the northern wall looks north");
+}
+
+#[test]
+fn the_colours_are_those_of_the_layer_that_is_meshed_with_its_water_or_without() {
+    let mut landscape = lake();
+    let steeper =
+        landscape.field("height").expect("there").values().iter().map(|height| 9.0 * height).collect();
+    let size = landscape.domain.size;
+    landscape.insert("steeper", "m", Field::from_values(size, steeper));
+    let colours = |of: &str, water: bool| {
+        let mesh = Mesh { of: LayerName::of(of), water, ..Mesh::default() };
+        mesh.image(&landscape).expect("draws").expect("more than one colour")
+    };
+    let [wet, dry, steep] = [colours("height", true), colours("height", false), colours("steeper", false)];
+    assert!(wet != dry, "the bed of the lake has another colour than a meadow");
+    assert!(steep != dry, "so have slopes nine times as steep");
 }

@@ -103,4 +103,12 @@ mod tests {
         assert_eq!(plain(-0.001, 1), "0");
         assert_eq!([179.9, 0.012_345, -15_963.0].map(rough), ["180", "0.0123", "−16\u{202f}000"]);
     }
+
+    #[test]
+    fn powers_of_ten_are_their_own_and_stand_below_all_up_to_the_next() {
+        for power in -12..=15 {
+            let exactly = 10_f64.powi(power);
+            assert_eq!([exactly, -exactly, 9.9 * exactly].map(power_of_ten), [power; 3]);
+        }
+    }
 }

@@ -168,3 +168,22 @@ impl Plot {
         text
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_ticks_of_the_lower_axis_begin_at_the_frame_and_their_numbers_stand_below() {
+        let plot = Plot::new(Axis::linear("metres", 0.0, 10.0), Axis::linear("share", 0.0, 1.0));
+        let svg = plot.svg("nothing");
+        assert!(
+            svg.contains("<line class=\"mark\" x1=\"72.0\" y1=\"328\" x2=\"72.0\" y2=\"333\"/>"),
+            "{svg}"
+        );
+        assert!(
+            svg.contains("<text class=\"tick\" x=\"620.0\" y=\"348\" text-anchor=\"middle\">10</text>"),
+            "{svg}"
+        );
+    }
+}

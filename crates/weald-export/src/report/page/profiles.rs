@@ -146,3 +146,23 @@ fn list(stems: &[Stem<'_>]) -> String {
     let header = ["river", "length, km", "fall, m", "drainage area, km²", "discharge, m³/s", "order"];
     table("The longest rivers; orders are Strahler's.", &header, &rows)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_river_of_four_kilometres_goes_all_the_way_along_an_axis_of_kilometres() {
+        let point =
+            |x: f64| RiverPoint { x, y: 0.0, z: 90.0, width: 1.0, depth: 1.0, discharge: 1.0, area: 1.0 };
+        let points = [point(0.0), point(1000.0), point(4000.0)];
+        let stem = Stem { points: points.iter().collect(), to_the_end: vec![4000.0, 3000.0, 0.0], order: 1 };
+        let chart = profiles(&[stem]);
+        assert!(chart.contains("text-anchor=\"middle\">4</text>") && !chart.contains(">5</text>"), "{chart}");
+        let line = chart.split("points=\"").nth(1).expect("a line");
+        assert!(
+            line.starts_with("620.0,") && line.contains(" 72.0,"),
+            "from the right end to the left: {line}"
+        );
+    }
+}

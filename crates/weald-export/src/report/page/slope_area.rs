@@ -144,4 +144,31 @@ mod tests {
         let [theta, log_k] = power_law(&bins.iter().collect::<Vec<_>>()).expect("bins enough");
         assert!((theta - 0.45).abs() < 1e-3 && (log_k.exp() / 3.0 - 1.0).abs() < 0.02, "{theta} {log_k}");
     }
+
+    /// A plane that falls by so many metres a column and a row, of cells of 10 m.
+    fn plane([east, south]: [f64; 2]) -> Ground {
+        let size = weald_core::grid::Size::square(40).expect("small");
+        let height = |x: usize, y: usize| (east * x as f64 + south * y as f64) as f32;
+        let mut land = weald_core::landscape::Landscape::new(weald_core::domain::Domain::new(size, 10.0));
+        land.insert("height", "m", weald_core::grid::Field::from_function(size, height));
+        Ground::of(&land, "height").expect("flow and rivers")
+    }
+
+    #[test]
+    fn slopes_of_a_plane_are_its_own_straight_and_across_corners() {
+        for (falls, expected) in [([2.0, 0.0], 0.2), ([2.0, 2.0], 0.4 / std::f64::consts::SQRT_2)] {
+            let found = slopes(&plane(falls));
+            let most = found.iter().filter(|(_, slope)| (slope - expected).abs() < 1e-6).count();
+            assert!(most > 1400 && found.iter().all(|&(area, _)| area >= 100.0), "{most} of {}", found.len());
+        }
+    }
+
+    #[test]
+    fn the_chart_of_a_plane_tells_its_slope() {
+        let chart = chart(&plane([2.0, 0.0]));
+        assert!(
+            chart.contains("aria-label=\"Slope against area\"") && chart.contains("median slope 0.2000"),
+            "{chart}"
+        );
+    }
 }
