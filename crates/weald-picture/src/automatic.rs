@@ -64,3 +64,28 @@ pub(super) fn normalised(mut field: Field, relief: f32) -> Field {
     }
     field
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use weald_core::grid::Size;
+
+    #[test]
+    fn the_slope_of_the_steepest_tenth_is_drawn_as_45_degrees() {
+        // Of twenty columns of slopes three rise by 2, the others by a tenth.
+        let height = |x: usize, _| if x <= 17 { 0.1 * x as f32 } else { 1.7 + 2.0 * (x - 17) as f32 };
+        let field = Field::from_function(Size::new(21, 11).expect("small"), height);
+        let factor = exaggeration(&field, [1.0, 1.0]);
+        assert!((factor - 0.5).abs() < 1e-5, "{factor}");
+        assert!((exaggeration(&field, [4.0, 4.0]) - 2.0).abs() < 1e-5, "cells four times as wide");
+    }
+
+    #[test]
+    fn texture_has_a_mean_square_of_one_unless_it_is_fainter_than_noise() {
+        let size = Size::new(2, 1).expect("small");
+        let texture = |relief: f32| normalised(Field::from_values(size, vec![0.2, -0.2]), relief);
+        assert_eq!(texture(1.0).values(), [1.0, -1.0]);
+        let faint = texture(10_000.0).at(0, 0);
+        assert!((faint - 0.1).abs() < 1e-6, "{faint}: a fifth of a metre in ten kilometres is noise");
+    }
+}

@@ -225,4 +225,21 @@ mod tests {
             );
         }
     }
+
+    #[test]
+    fn each_name_has_its_colour_beside_it_one_below_the_other() {
+        let colours = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+        let key = Key::Names(colours.iter().map(|&colour| ("rock".to_owned(), colour)).collect());
+        let legend = Legend { title: "materials", unit: "1", key, metres_per_pixel: 1.0 };
+        let image = legend.beside(Image { width: 620, height: 500, rgb: vec![0; 3 * 620 * 500] });
+        for (at, colour) in colours.into_iter().enumerate() {
+            let middle = MARGIN + BELOW_TITLE + NAME_STEP * (at as f32 + 0.35);
+            let pixel = image.pixel(620 + (MARGIN + 0.5 * BAR_WIDTH) as usize, middle as usize);
+            assert_eq!(pixel, encode(colour), "name {at}");
+            let written = |x: &usize| image.pixel(*x, middle as usize) != encode(PAPER);
+            let beside = 620 + (MARGIN + BAR_WIDTH + TICK) as usize;
+            let first = (beside..image.width).find(written).expect("a name");
+            assert!(first < beside + 8, "name {at} begins {} pixels from its colour", first - beside);
+        }
+    }
 }

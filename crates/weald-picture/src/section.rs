@@ -267,3 +267,29 @@ fn noise(seed: u64, [x, y]: [f32; 2]) -> f32 {
     let lower = corner(0, 1) * (1.0 - right) + corner(1, 1) * right;
     upper * (1.0 - down) + lower * down
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn heights_in_the_margin_stand_at_their_ticks() {
+        let frame =
+            Frame { width: 640, margin: 60, height: 400, cells: 10, high: 350.0, rise: 1.0, interval: 100.0 };
+        let mut image = Image::paper(640, 400);
+        let paper = image.pixel(0, 0);
+        frame.label(&mut image);
+        let ticks: Vec<_> = (0..400).filter(|&y| image.pixel(59, y) != paper).collect();
+        assert_eq!(ticks, [50, 150, 250, 350], "300, 200, 100 and 0 m");
+        for y in (0..400).filter(|&y| (0..50).any(|x| image.pixel(x, y) != paper)) {
+            assert!(ticks.iter().any(|tick| tick.abs_diff(y) <= digits::HEIGHT), "there is writing at {y}");
+        }
+    }
+
+    #[test]
+    fn the_far_hills_have_no_leaps() {
+        for [before, after] in [[[0.9999, 0.5], [1.0, 0.5]], [[2.5, 3.9999], [2.5, 4.0]]] {
+            assert!((noise(3, before) - noise(3, after)).abs() < 1e-3, "at {after:?}");
+        }
+    }
+}

@@ -198,4 +198,11 @@ mod tests {
         assert!(zenith.rayleigh[2] > 3.0 * zenith.rayleigh[0]);
         assert!(zenith.multiple.iter().all(|&light| light > 0.0));
     }
+
+    #[test]
+    fn no_light_comes_through_the_earth() {
+        assert_eq!(transmittance(10.0, -0.2), [0.0; 3]);
+        let level = transmittance(10.0, 0.0);
+        assert!(level.iter().all(|&share| share > 0.0 && share < 1.0), "{level:?} from the horizon");
+    }
 }

@@ -92,3 +92,26 @@ fn mie_phase(cosine: f32) -> f32 {
     let factor = 3.0 / (8.0 * std::f32::consts::PI) * (1.0 - g2) / (2.0 + g2);
     factor * (1.0 + cosine * cosine) / (spread * spread.sqrt())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::view::vector::unit;
+
+    #[test]
+    fn the_disc_of_the_sun_sends_the_sunlight_and_nothing_beside_it() {
+        let sun = unit([0.3, 0.2, 0.6]);
+        let sky = Sky::new(sun, 2.0);
+        let disc = |direction: Vector| {
+            let [with, without] = [sky.radiance_with_sun(direction), sky.radiance(direction)];
+            (with[1] - without[1]) / sky.sunlight[1]
+        };
+        // Radiance times solid angle is light; the middle is the brightest of the disc.
+        let area = std::f32::consts::PI * sky.sun_radius * sky.sun_radius;
+        assert!((disc(sun) * area - 1.0).abs() < 0.01, "{}", disc(sun) * area);
+        let east = sky.sun_radius;
+        let limb = disc(unit([sun[0] + 0.8 * east, sun[1], sun[2]])) * area;
+        assert!((0.4..1.0).contains(&limb), "{limb}");
+        assert_eq!(disc(unit([sun[0] + 3.0 * east, sun[1], sun[2]])), 0.0);
+    }
+}

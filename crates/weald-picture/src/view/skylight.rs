@@ -253,4 +253,15 @@ mod tests {
         let pit = Skylight::new(&sky, &Surface::new(&pit), [10.0; 2], 512);
         assert!(pit.at([0.5; 2])[3][2] < 0.25 * open[3][2], "{:?}", pit.at([0.5; 2])[3]);
     }
+
+    #[test]
+    fn heights_lie_between_the_middles_of_cells_and_there_are_none_beyond_the_border() {
+        assert_eq!(neighbours(2.75, 10), (2, 3, 0.25));
+        assert_eq!((neighbours(0.1, 10), neighbours(9.9, 10)), ((0, 1, 0.0), (9, 9, 0.0)));
+        let heights = Averages::new(&Field::filled(Size::square(4).expect("small"), 7.0));
+        assert_eq!([[0.0, 0.0], [4.0, 4.0]].map(|place| heights.at(place, 0)), [Some(7.0); 2]);
+        for beyond in [[-0.1, 1.0], [1.0, -0.1], [4.1, 1.0], [1.0, 4.1]] {
+            assert_eq!(heights.at(beyond, 0), None, "{beyond:?}");
+        }
+    }
 }

@@ -259,4 +259,20 @@ mod tests {
         }
         assert!(met > 60 && sides > 10, "{met} met, {sides} of them sides");
     }
+
+    #[test]
+    fn a_ray_from_outside_meets_the_side_that_faces_it() {
+        let ground = terrain(12, |_, _| 5.0, None);
+        for (from, normal) in [
+            ([-50.0, -60.0], [-1.0, 0.0, 0.0]),
+            ([170.0, -60.0], [1.0, 0.0, 0.0]),
+            ([60.0, 50.0], [0.0, 1.0, 0.0]),
+            ([60.0, -170.0], [0.0, -1.0, 0.0]),
+        ] {
+            let [x, y] = from;
+            let ray = Ray { from: [x, y, 0.0], direction: unit([60.5 - x, -60.5 - y, -1.0]) };
+            let hit = ground.trace(&ray, [0.0, f32::INFINITY]).expect("the side is met");
+            assert_eq!(hit.side, Some(normal), "from {from:?}");
+        }
+    }
 }

@@ -207,4 +207,19 @@ mod tests {
         assert!((mirrored_share(1.0) - NORMAL_REFLECTANCE).abs() < 1e-6);
         assert!(mirrored_share(0.05) > 0.4 && mirrored_share(0.5) < 0.06);
     }
+
+    #[test]
+    fn a_river_lies_along_its_valley_and_nowhere_else() {
+        let size = Size::square(64).expect("small");
+        let mut landscape = Landscape::new(Domain::new(size, 10.0));
+        // Water that gathers from both banks in column 32 and leaves to the south.
+        let east = |x: usize, _| if x < 32 { x as f32 } else { x as f32 - 63.0 } * 0.01;
+        let south = |x: usize, y: usize| if x == 32 { y as f32 } else { 0.0 };
+        landscape.insert("flux_x", "m³/step", Field::from_function(size, east));
+        landscape.insert("flux_y", "m³/step", Field::from_function(size, south));
+        let rivers = Rivers::of(&landscape, 4.0).expect("a river");
+        let along = |y: f32| rivers.at([32.5 / 64.0, y / 64.0]);
+        assert!(along(40.0) > 0.9 && along(60.0) > 0.9, "{} and {}", along(40.0), along(60.0));
+        assert_eq!([8.0, 24.0, 40.0, 56.0].map(|x| rivers.at([x / 64.0, 40.0 / 64.0])), [0.0; 4]);
+    }
 }
