@@ -221,4 +221,24 @@ mod tests {
         });
         assert!(still > 100 && loose > 100, "{still} vertices at joints, {loose} at tips");
     }
+
+    #[test]
+    fn stems_are_no_broader_at_their_top_than_at_their_foot() {
+        let (_, fern) = plant("fern");
+        let of_stem = |&vertex: &usize| fern.textures[vertex] == Sheet::stem();
+        let stems: Vec<_> = (0..fern.positions.len()).filter(of_stem).collect();
+        assert!(stems.len() > 40 && stems.len() % 4 == 0, "{} vertices", stems.len());
+        for stem in stems.chunks(4) {
+            let breadth = |[a, b]: [usize; 2]| {
+                let [a, b] = [a, b].map(|corner| fern.positions[stem[corner]]);
+                (0..3).map(|i| (a[i] - b[i]).powi(2)).sum::<f32>().sqrt()
+            };
+            assert!(
+                breadth([2, 3]) <= 1.01 * breadth([0, 1]) + 1e-6,
+                "{} {}",
+                breadth([0, 1]),
+                breadth([2, 3])
+            );
+        }
+    }
 }

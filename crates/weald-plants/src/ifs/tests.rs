@@ -232,3 +232,16 @@ proptest! {
         }
     }
 }
+
+#[test]
+fn the_shares_of_a_game_are_those_of_the_maps_and_make_a_whole() {
+    for shape in SHAPES {
+        let ifs = shape.ifs();
+        let shares = Game::new(&ifs, 7).shares();
+        assert_eq!((shares.len(), shares.iter().sum::<u32>()), (ifs.maps().len(), 1 << 16), "{}", shape.name);
+        for (share, weighted) in shares.iter().zip(ifs.maps()) {
+            let off = f64::from(*share) / 65536.0 - weighted.probability;
+            assert!(off.abs() < 0.01, "{}: {off}", shape.name);
+        }
+    }
+}

@@ -44,3 +44,23 @@ impl Frame {
         difference.map(|x| x / self.scale)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ifs::shapes::SHAPES;
+
+    #[test]
+    fn the_box_of_a_fractal_stands_in_the_middle_of_the_floor_and_fills_the_square() {
+        for shape in SHAPES {
+            let ifs = shape.ifs();
+            let frame = Frame::of(&ifs);
+            let [low, high] = ifs.bounds().map(|corner| frame.unit(corner));
+            let inside = |x: f64| (-1e-5..=1.0 + 1e-5).contains(&x);
+            assert!(low.into_iter().chain(high).all(inside), "{}: {low:?} to {high:?}", shape.name);
+            if frame != Frame::UNIT {
+                assert!(low[1].abs() < 1e-9 && (low[0] + high[0] - 1.0).abs() < 1e-9, "{}", shape.name);
+            }
+        }
+    }
+}

@@ -40,3 +40,16 @@ impl CodeChange for Insertion {
         digit_fault(self.digit, digits)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_digit_that_no_map_has_is_refused() {
+        let inserted = |digit| Insertion { interval: Interval { from: 1, to: 3 }, digit };
+        let three = Digits::of(3).expect("three");
+        assert_eq!(inserted(2).fault(three), None);
+        assert!(inserted(3).fault(three).is_some_and(|what| what.contains('3')));
+    }
+}

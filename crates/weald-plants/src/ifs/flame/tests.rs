@@ -276,3 +276,8 @@ proptest! {
         let _ = parse(&bytes);
     }
 }
+
+#[test]
+fn a_flame_of_an_empty_name_is_called_by_its_number() {
+    assert_eq!(one(&flame(HALF, OTHER, "").replace("mine", " ")).name(), "flame-1");
+}

@@ -132,3 +132,19 @@ fn unit_vector(vector: Point) -> Point {
     let length = vector.iter().map(|number| number * number).sum::<f64>().sqrt();
     if length > 0.0 { vector.map(|number| number / length) } else { [0.0, 1.0, 0.0] }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_upper_side_of_an_arch_stands_at_right_angles_to_it() {
+        for (lean, arch) in [(0.4, 1.2), (0.6, 0.0), (0.2, 2.0)] {
+            let [before, here, after] = [0.299_999, 0.3, 0.300_001].map(|along| Along::at(along, lean, arch));
+            let ahead = [0, 1].map(|axis| (after.place[axis] - before.place[axis]) / 2e-6);
+            let [out, up] = here.normal;
+            assert!((ahead[0] * ahead[0] + ahead[1] * ahead[1] - 1.0).abs() < 1e-6, "a length is a length");
+            assert!((ahead[0] * out + ahead[1] * up).abs() < 1e-6 && up > 0.0, "{ahead:?} {:?}", here.normal);
+        }
+    }
+}

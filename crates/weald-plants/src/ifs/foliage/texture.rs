@@ -157,3 +157,26 @@ impl Counts {
         (libm::log1pf(mean) / libm::log1pf(self.most), 0.25 * hit as f32)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ifs::shapes;
+
+    #[test]
+    fn leaves_are_darker_than_their_colour_by_no_more_than_their_depth_says() {
+        let ifs = shapes::find("fern").expect("built in").ifs();
+        let texture = Texture::of(&ifs, 64, Colours { leaf: [0.8, 0.4, 0.2], stem: [0.0; 3] });
+        let leaves = texture.rgba.chunks(4).filter(|texel| texel[3] > 0 && texel[0] > 0);
+        let reds: Vec<u8> = leaves.map(|texel| texel[0]).collect();
+        let (least, most) = (reds.iter().min().expect("leaves"), reds.iter().max().expect("leaves"));
+        assert!(*least >= 112 && *most <= 204 && most - least > 30, "{least} to {most} of 204");
+    }
+
+    #[test]
+    fn the_corners_of_the_sheet_are_those_of_the_box() {
+        let sheet = Sheet { bounds: [[-1.0, -2.0, 0.0], [1.0, 3.0, 0.0]], is_planar: true };
+        assert_eq!(sheet.corner(0, [0.0, 0.0]), ([-1.0, -2.0, 0.0], [0.0, 1.0]));
+        assert_eq!(sheet.corner(0, [1.0, 1.0]), ([1.0, 3.0, 0.0], [1.0, BARK as f32]));
+    }
+}

@@ -126,3 +126,35 @@ fn a_leaf_of_no_breadth_has_no_area() {
         assert!(plant.area(0) > 0.1, "{name}");
     }
 }
+
+#[test]
+fn the_last_word_of_a_limb_holds_its_parent_its_order_and_its_phase() {
+    let limb = Limb {
+        joint: [1.0; 3],
+        direction: [0.0, 1.0, 0.0],
+        parent: Some(5),
+        along: 0.5,
+        order: 3,
+        phase: 0.25,
+    };
+    let tie = limb.packed()[7];
+    assert_eq!([tie & 0xf_ffff, tie >> 20 & 3, tie >> 22], [5, 3, 256]);
+    assert_eq!(Limb { parent: None, ..limb }.packed()[7] & 0xf_ffff, 0xf_ffff);
+}
+
+#[test]
+fn the_main_stem_is_drawn_on_every_level_whose_leaves_are_smaller_than_the_whole() {
+    for name in ["fern", "shrub", "conifer"] {
+        let plant = plant(name);
+        let whole = [0, LEVELS as u32 - 3];
+        assert!(plant.corners.iter().any(|corner| corner.is_stem && corner.levels == whole), "{name}");
+    }
+}
+
+#[test]
+fn a_rosette_stands_on_the_ground_with_its_stipes() {
+    let fern = plant("fern");
+    let stems = fern.corners.iter().filter(|corner| corner.is_stem);
+    let lowest = stems.map(|corner| corner.rest[1]).fold(f32::INFINITY, f32::min);
+    assert!(lowest.abs() < 0.02, "{lowest} m");
+}

@@ -190,3 +190,19 @@ impl Walk {
         Some(Open { map, within, branch, size, counts: counts.min(part.counts), before: part.counts, key })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ifs::shapes;
+
+    #[test]
+    fn as_many_parts_as_are_allowed_are_taken_and_not_one_more() {
+        let ifs = shapes::find("fern").expect("built in").ifs();
+        let (shape, maps) = (Shape::of(&ifs), Maps { ifs: &ifs, spreads: false });
+        let parts = |most| Walk::down_to(&maps, &shape, OF_FRONDS, most).map(|walk| walk.parts.len());
+        let all = parts(usize::MAX).expect("not endless");
+        assert_eq!(parts(all), Some(all));
+        assert!((1..20).all(|fewer| parts(all - fewer).is_none()));
+    }
+}

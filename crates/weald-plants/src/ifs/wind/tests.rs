@@ -184,3 +184,14 @@ proptest! {
         }
     }
 }
+
+#[test]
+fn what_is_half_a_gust_behind_swings_to_the_other_side() {
+    let pose = squall().pose(1.7);
+    for swing in pose.swing {
+        assert!(swing.iter().any(|swing| swing.abs() > 1e-3), "{swing:?}");
+        for phase in 0..PHASES / 2 {
+            assert!((swing[phase] + swing[phase + PHASES / 2]).abs() < 1e-5, "{swing:?}");
+        }
+    }
+}
