@@ -63,3 +63,14 @@ fn place(numbers: &[Node]) -> Option<[f64; 2]> {
         _ => None,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn places_are_shown_as_a_recipe_writes_them_and_those_that_must_be_given_are_not() {
+        assert_eq!(Places(vec![[1.0, 2.5]]).shown().as_deref(), Some("[[1.0, 2.5]]"));
+        assert_eq!(Places::needed().shown(), None);
+    }
+}

@@ -151,3 +151,14 @@ fn wave(at: usize, times: f32) -> f32 {
     let off = (2.0 * (times * at as f32 / CELLS as f32).fract() - 1.0).abs();
     off * off * (3.0 - 2.0 * off)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_wave_goes_from_one_to_nothing_and_back() {
+        assert_eq!([0, CELLS / 2, CELLS].map(|at| wave(at, 1.0)), [1.0, 0.0, 1.0]);
+        assert_eq!(wave(CELLS / 4, 1.0), 0.5);
+    }
+}

@@ -77,3 +77,15 @@ impl Canvas {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_texture_takes_the_bytes_of_all_its_samples() {
+        let flat = Shape::flat([16, 8], TextureFormat::Rgba16Float, TextureUsages::COPY_SRC);
+        assert_eq!(flat.bytes(), 16 * 8 * 8);
+        assert_eq!(Shape { layers: 3, samples: 4, ..flat }.bytes(), 12 * 16 * 8 * 8);
+    }
+}

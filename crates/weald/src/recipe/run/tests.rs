@@ -307,3 +307,13 @@ fn an_interrupted_time_lapse_goes_on_with_the_same_frames() {
         assert_eq!(frame(halves.path(), "rise", number), frame(whole.path(), "rise", number), "{number}");
     }
 }
+
+#[test]
+fn the_rate_of_a_step_is_its_cells_times_its_iterations_over_its_seconds() {
+    let folder = folder();
+    let report = run(RECIPE, folder.path(), false, &Silent).expect("runs");
+    let step = &report.steps[1];
+    assert_eq!((step.cells, step.iterations), (63, 20));
+    let updates = step.cell_updates_per_second * step.seconds.max(1e-9);
+    assert!((updates / (63.0 * 20.0) - 1.0).abs() < 1e-9, "{updates} updates of cells");
+}
