@@ -119,3 +119,22 @@ fn limits(offered: &Limits) -> Limits {
         ..Limits::defaults().or_worse_values_from(offered)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_largest_buffers_that_a_device_offers_are_asked_for_and_no_more_than_it_has() {
+        let offered = Limits {
+            max_buffer_size: 1 << 40,
+            max_storage_buffer_binding_size: 1 << 33,
+            ..Limits::default()
+        };
+        let asked = limits(&offered);
+        assert_eq!((asked.max_buffer_size, asked.max_storage_buffer_binding_size), (1 << 40, 1 << 33));
+        assert_eq!(asked.max_storage_buffers_per_shader_stage, MAX_BUFFERS as u32);
+        let small = Limits { max_texture_dimension_2d: 64, ..Limits::default() };
+        assert_eq!(limits(&small).max_texture_dimension_2d, 64);
+    }
+}

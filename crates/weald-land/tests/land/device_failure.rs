@@ -12,6 +12,7 @@ use weald_engine::program::Program;
 use weald_engine::step::Step;
 use weald_engine::{Engine, Job, SavedSimulation, Unwatched, Watcher};
 use weald_land::erode::hydraulic::Hydraulic;
+use weald_land::generate::fault::Fault;
 
 /// A device whose steps change nothing, and which is lost after a while.
 #[derive(Debug)]
@@ -174,4 +175,14 @@ fn a_device_that_does_not_fail_is_not_replaced() {
     step(STEPS).run(&mut got, &job).expect("the device does it");
     assert_eq!(taken.load(Ordering::Relaxed), STEPS as usize);
     assert_eq!(ground().field("height").expect("h"), got.field("height").expect("h"));
+}
+
+#[test]
+fn ground_that_a_lost_device_should_make_is_made_by_the_cpu_which_tells_why() {
+    let (mut expected, mut got) = (ground(), ground());
+    run(&Fault::default(), &mut expected);
+    let job = Job { engine: Engine::DeviceElseCpu(failing(0).0), ..Job::unwatched(7) };
+    let outcome = Fault::default().run(&mut got, &job).expect("the CPU takes over");
+    assert_eq!(expected, got);
+    assert!(outcome.notes[0].ends_with("the device was lost: somebody pulled it out"), "{:?}", outcome.notes);
 }
