@@ -110,7 +110,7 @@ fn faults_of_the_command_line_end_with_2_and_limits_with_5() {
     ends(
         &["fern", "--depth", "13"],
         5,
-        "fern: a depth of 13 makes 4^13 parts; at most 4194304 are drawn: choose a `depth` of 11",
+        "fern: all parts to a depth of 13: 67108864 parts, at most 4194304 are allowed; choose a `depth` of 11",
     );
     ends(&["fern", "-o", "fern.mp4"], 2, "`file` is fern.mp4, a film: add `frames`");
     ends(&["fern", "--finest", "2", "-o", "fern.svg"], 5, "choose a larger `finest`, such as 4");

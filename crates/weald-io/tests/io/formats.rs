@@ -177,7 +177,7 @@ fn files_of_an_unread_kind_say_what_would_be_read() {
     let undeclared = diagnostic("nan_undeclared.tif");
     assert!(undeclared.contains("column 0, row 0 holds NaN"), "{undeclared}");
     assert!(undeclared.contains("gdal_translate -a_nodata nan"), "{undeclared}");
-    assert!(diagnostic("README.md").contains(".tif .tiff .png .exr"));
+    assert!(diagnostic("float.txt").contains(".tif .tiff .png .exr"));
 }
 
 #[test]

@@ -84,7 +84,7 @@ fn check(subject: &Subject<'_>, frame: &Frame, opened: Opened) -> Result<(), Err
             let count = |depth: u32| maps.checked_pow(depth);
             let fits = |depth: &u32| count(*depth).is_some_and(|count| count <= MAX_MARKS);
             let deepest = (0..depth as u32).rev().find(fits).unwrap_or(0);
-            let made = format!("{}: a depth of {depth} makes {maps}^{depth}", subject.ifs.name());
+            let made = format!("{}: all parts to a depth of {depth}", subject.ifs.name());
             (count(depth as u32), made, format!("choose a `depth` of {deepest} or less"))
         }
         Opened::ToPixels(pixels) => {

@@ -40,7 +40,7 @@ pub fn parts(ifs: &Ifs, depth: usize, mut look: impl FnMut(&Part)) -> Result<(),
     let count = (maps as u64).checked_pow(depth as u32);
     if count.is_none_or(|count| count > MAX_PARTS) || depth > ifs.digits().room() {
         let limit = Limit::new(Quantity::Parts, count, 0..=MAX_PARTS);
-        let subject = format!("{}: a depth of {depth} makes {maps}^{depth}", ifs.name());
+        let subject = format!("{}: all parts to a depth of {depth}", ifs.name());
         return Err(limit.of(subject).remedy(format!("choose a depth of {} or less", deepest(maps))).into());
     }
     let whole = Part { code: Code::empty(ifs.digits()), map: Map::IDENTITY };
