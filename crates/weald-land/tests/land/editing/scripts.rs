@@ -61,7 +61,7 @@ fn faults_of_a_script_come_with_their_lines_and_what_was_probably_meant() {
         "s.jsonl:4: smooth: unknown key `radiu`; did you mean `radius`?",
         "s.jsonl:4: smooth: `height` does not go with `smooth`",
         "s.jsonl:5: add-water: `depth` is -3, outside its range: 0 to 100000 m",
-        "s.jsonl:5: add-water: `path` is a list, but must be a place `[x, y]`",
+        "s.jsonl:5: add-water: `path` has 1 numbers, but a place has two, `[x, y]`",
         "s.jsonl:6: is no JSON",
         "s.jsonl:7: is a list, but must be { … }",
         "s.jsonl:8: flatten: `height` is needed",
