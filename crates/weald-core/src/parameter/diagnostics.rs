@@ -59,12 +59,13 @@ impl Diagnostics {
     }
 }
 
-/// Words that the field uses for what a recipe calls by another name.
+/// Words of hydrology and of other programs for what a recipe calls by another name.
 const SYNONYMS: &[(&str, &str)] = &[
     ("accumulate", "flow"),
     ("accumulation", "flow"),
     ("basins", "watersheds"),
     ("breach", "flow"),
+    ("camera", "eye"),
     ("catchment", "watersheds"),
     ("catchments", "watersheds"),
     ("contributing_area", "accumulation"),
@@ -75,24 +76,38 @@ const SYNONYMS: &[(&str, &str)] = &[
     ("elevation", "height"),
     ("erodibility", "erosion"),
     ("fill", "flow"),
+    ("fov", "field_of_view_deg"),
+    ("fps", "frames_per_second"),
+    ("frame_rate", "frames_per_second"),
     ("hand", "moisture"),
+    ("height", "size"),
     ("hillshade", "relief"),
     ("infill", "flow"),
+    ("look_at", "target"),
     ("max_depth", "deepest_breach"),
     ("pipe_constant", "flow_rate"),
+    ("position", "eye"),
+    ("resolution", "size"),
+    ("resolution", "width"),
     ("runoff", "weight"),
+    ("size", "width"),
     ("steps", "iterations"),
     ("threshold", "area"),
     ("topography", "height"),
     ("twi", "wetness"),
     ("upslope_area", "accumulation"),
     ("upstream_area", "accumulation"),
+    ("width", "size"),
 ];
+
+/// The known name of what the field or another program calls `word`.
+pub fn synonym<'a>(word: &str, known: &[&'a str]) -> Option<&'a str> {
+    known.iter().find(|name| SYNONYMS.contains(&(word, **name))).copied()
+}
 
 /// The known name that was probably meant: what the field calls otherwise, or what is spelled alike.
 pub fn nearest<'a>(word: &str, known: &[&'a str]) -> Option<&'a str> {
-    let meant = |name: &&&str| SYNONYMS.contains(&(word, **name));
-    if let Some(name) = known.iter().find(meant) {
+    if let Some(name) = synonym(word, known) {
         return Some(name);
     }
     let scored = known.iter().map(|name| (strsim::jaro_winkler(word, name), *name));

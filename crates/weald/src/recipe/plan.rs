@@ -1,6 +1,5 @@
 //! The checked recipe. Nothing runs before the whole of it has been checked, and one look shows all faults.
 
-mod aliases;
 mod files;
 mod films;
 mod fractals;
@@ -11,6 +10,7 @@ mod outputs;
 mod steps;
 #[cfg(test)]
 mod tests;
+mod unknown_keys;
 mod words;
 
 pub(super) use self::words::Vocabulary;

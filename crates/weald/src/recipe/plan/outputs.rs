@@ -2,8 +2,8 @@
 
 use std::path::{Component, Path, PathBuf};
 
-use super::aliases::{self, KindOfOutput};
 use super::films::{self, Film, FilmKeys, Motion, Moves};
+use super::unknown_keys::{self, KindOfOutput};
 use crate::recipe::plan::words::{Vocabulary, hint, tables};
 use crate::recipe::{CHECKPOINT_FILE, REPORT_FILE};
 use weald_core::parameter::{Diagnostics, LayerName, Legal, Parameter, Parameters, check_file, read_key};
@@ -287,7 +287,7 @@ fn picture(
     known.extend(FilmKeys::parameters());
     let others = vocabulary.pictures.iter().map(|other| (other.name, other.parameters));
     let kind = KindOfOutput { key: "picture", known, others: others.collect() };
-    aliases::take_unknown(&kind, &mut table, diagnostics);
+    unknown_keys::take_unknown(&kind, &mut table, diagnostics);
     let picture = with_keys(("picture", entry.name), &table, diagnostics, (entry.parameters, entry.read));
     let film = match moves {
         Some(Moves::Film(film)) => Some(film),
@@ -321,7 +321,7 @@ fn export(
     let table = &mut whole.clone();
     entry.name.clone_into(&mut diagnostics.subject);
     let others = vocabulary.exports.iter().map(|other| (other.name, other.parameters)).collect();
-    aliases::take_unknown(
+    unknown_keys::take_unknown(
         &KindOfOutput { key: "export", known: (entry.parameters)(), others },
         table,
         diagnostics,

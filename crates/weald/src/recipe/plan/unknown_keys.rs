@@ -1,22 +1,7 @@
-//! Unknown keys of outputs, with what other programs call what is meant.
+//! Unknown keys of outputs, with the kind of output that has them.
 
-use weald_core::parameter::{Diagnostics, Kind, Parameter};
+use weald_core::parameter::{Diagnostics, Kind, Parameter, synonym};
 use weald_core::source::Table;
-
-/// Names that other programs use, and those of the keys here: the first that the output has is meant.
-const ALIASES: &[(&str, &str)] = &[
-    ("camera", "eye"),
-    ("position", "eye"),
-    ("look_at", "target"),
-    ("fov", "field_of_view_deg"),
-    ("fps", "frames_per_second"),
-    ("frame_rate", "frames_per_second"),
-    ("size", "width"),
-    ("resolution", "width"),
-    ("resolution", "size"),
-    ("width", "size"),
-    ("height", "size"),
-];
 
 /// A kind of output by its keys.
 pub(super) struct KindOfOutput {
@@ -59,11 +44,10 @@ fn names_of(parameter: &Parameter) -> Vec<&'static str> {
 }
 
 impl KindOfOutput {
-    /// What a key means that is none here, where that is known.
+    /// Which other kind has a key that is none here, and is not just called otherwise.
     fn meant(&self, key: &str, names: &[&str]) -> Option<String> {
-        let alias = ALIASES.iter().find(|(other, name)| *other == key && names.contains(name));
-        if let Some((_, name)) = alias {
-            return Some(format!("here it is `{name}`"));
+        if synonym(key, names).is_some() {
+            return None;
         }
         let has = |parameters: &Keys| parameters().iter().any(|own| own.name == key);
         let (other, _) = self.others.iter().find(|(_, parameters)| has(parameters))?;
@@ -84,10 +68,10 @@ mod tests {
     fn keys_of_other_programs_are_answered_with_those_that_are_meant() {
         let view = "picture = \"view\"\nfile = \"a.png\"\n";
         for (keys, answer) in [
-            ("camera = [1, 2]", "view: unknown key `camera`; here it is `eye`"),
-            ("fov = 40", "view: unknown key `fov`; here it is `field_of_view_deg`"),
-            ("fps = 30", "view: unknown key `fps`; here it is `frames_per_second`"),
-            ("size = 30", "view: unknown key `size`; here it is `width`"),
+            ("camera = [1, 2]", "view: unknown key `camera`; did you mean `eye`?"),
+            ("fov = 40", "view: unknown key `fov`; did you mean `field_of_view_deg`?"),
+            ("fps = 30", "view: unknown key `fps`; did you mean `frames_per_second`?"),
+            ("size = 30", "view: unknown key `size`; did you mean `width`?"),
             ("through = [1, 2]", "view: unknown key `through`; it is a key of picture = \"render\""),
             ("exposur = 1", "view: unknown key `exposur`; did you mean `exposure`?"),
         ] {
@@ -95,7 +79,7 @@ mod tests {
             assert!(message.contains(answer) && !message.contains('\n'), "{message}");
         }
         let message = refusal("picture = \"fractal\"\nfractal = \"fern\"\nfile = \"a.png\"\nwidth = 400\n");
-        assert!(message.contains("fractal: unknown key `width`; here it is `size`"), "{message}");
+        assert!(message.contains("fractal: unknown key `width`; did you mean `size`?"), "{message}");
     }
 
     #[test]
