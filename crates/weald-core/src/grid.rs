@@ -238,3 +238,25 @@ impl Mask {
         self.valid.iter().filter(|&&valid| valid).count()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn grids_up_to_the_limits_are_taken_and_larger_ones_are_refused() {
+        for [columns, rows] in [[1, 1], [MAX_SIDE, MAX_CELLS / MAX_SIDE], [MAX_CELLS / MAX_SIDE, MAX_SIDE]] {
+            assert_eq!(Size::within_limits(columns, rows), Ok(Size { columns, rows }));
+        }
+        let (sides, cells) = (1..=1 << 20, 0..=1 << 28);
+        // No grid within the sides has just one cell more than 2²⁸: two more are the fewest.
+        for ([columns, rows], what, asked, allowed) in [
+            ([342, 784_899], Quantity::Cells, (1 << 28) + 2, cells),
+            ([(1 << 20) + 1, 1], Quantity::CellsPerSide, (1 << 20) + 1, sides.clone()),
+            ([1, 0], Quantity::CellsPerSide, 0, sides),
+        ] {
+            let limit = Size::within_limits(columns, rows).expect_err("over a limit");
+            assert_eq!((limit.what, limit.asked, limit.allowed), (what, Some(asked), allowed));
+        }
+    }
+}
