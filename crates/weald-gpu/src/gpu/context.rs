@@ -16,6 +16,7 @@ use wgpu::{
 use super::adapter;
 use super::advice::Advice;
 use super::faults::{Faults, explain};
+use super::known::Known;
 
 /// Longest wait for a submission, which is made to take a tenth of a second: then the device hangs.
 const TIMEOUT: Duration = Duration::from_mins(2);
@@ -38,8 +39,9 @@ pub(crate) struct Context {
     pub(crate) adapter: String,
     pub(crate) kind: DeviceType,
     pub(crate) limits: Limits,
-    /// All that were compiled so far.
+    /// All of programs that were compiled so far.
     pub(crate) pipelines: Mutex<Pipelines>,
+    pub(super) known: Known,
     /// What to say where it fails.
     pub(crate) advice: &'static Advice,
     faults: Arc<Faults>,
@@ -65,7 +67,18 @@ impl Context {
             DeviceError::new(DeviceErrorKind::NotOpened, message)
         })?;
         let (faults, kind) = (Faults::of(&device), adapter.get_info().device_type);
-        Ok(Self { device, queue, adapter: name, kind, limits, pipelines: Mutex::default(), advice, faults })
+        let known = Known::default();
+        Ok(Self {
+            device,
+            queue,
+            adapter: name,
+            kind,
+            limits,
+            pipelines: Mutex::default(),
+            known,
+            advice,
+            faults,
+        })
     }
 
     /// Does something on the device. Whatever wgpu finds wrong with it becomes an error that names `what`.

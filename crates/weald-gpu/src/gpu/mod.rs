@@ -6,6 +6,7 @@ pub(crate) mod budget;
 pub(crate) mod context;
 mod faults;
 mod handle;
+mod known;
 
 pub use handle::Gpu;
 pub(crate) use handle::{Shown, Shows};

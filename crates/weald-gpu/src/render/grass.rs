@@ -16,7 +16,7 @@ use wgpu::{
     BindGroup, BindGroupLayout, BindGroupLayoutDescriptor, BindGroupLayoutEntry, BindingType,
     BufferBindingType, CommandEncoder, ComputePassDescriptor, ComputePipeline, ComputePipelineDescriptor,
     PipelineCompilationOptions, PipelineLayoutDescriptor, RenderPass, RenderPipeline, ShaderModule,
-    ShaderModuleDescriptor, ShaderSource, ShaderStages,
+    ShaderStages,
 };
 
 use super::grass_layer::{DRAW, GrassLayer, LoadedSets};
@@ -63,22 +63,24 @@ impl Grass {
                 immediate_size: 0,
             })
         };
-        gpu.context.attempt("making the pipelines of grass", || {
+        gpu.context.attempt_to_compile("making the pipelines of grass", || {
             let module = module(gpu, scene, include_str!("cull.wgsl"));
             let layout = whole(&layouts.frame.caster_layout, &own[0]);
             let choosing = CHOOSING.map(|(name, _)| {
-                device.create_compute_pipeline(&ComputePipelineDescriptor {
+                let description = ComputePipelineDescriptor {
                     label: Some(name),
                     layout: Some(&layout),
                     module: &module,
                     entry_point: Some(name),
                     compilation_options: PipelineCompilationOptions::default(),
                     cache: None,
-                })
+                };
+                let make = || device.create_compute_pipeline(&description);
+                gpu.context.computing((module.clone(), name.to_owned()), make)
             });
             let blades = self::module(gpu, scene, include_str!("blades.wgsl"));
             let layout = whole(&layouts.frame.layout, &own[1]);
-            let draws = LISTS.map(|name| strips(device, (&blades, &layout), name, samples));
+            let draws = LISTS.map(|name| strips(&gpu.context, (&blades, &layout), name, samples));
             Ok(Some(Self {
                 layers,
                 choosing: choosing.to_vec(),
@@ -147,8 +149,7 @@ fn module(gpu: &Gpu, scene: &LitScene, own: &str) -> ShaderModule {
         own,
     ];
     let text = parts.iter().fold(scene.shader_of_light(STAGE_GROUP), |text, part| text + "\n" + part);
-    let source = ShaderSource::Wgsl(text.into());
-    gpu.context.device.create_shader_module(ShaderModuleDescriptor { label: Some("grass"), source })
+    gpu.context.module("grass", text)
 }
 
 /// The bindings of a pass: the species, what is shown, the sets, those that are kept and where their lists start; to

@@ -4,11 +4,10 @@ use weald::Error;
 use weald::picture::LitScene;
 use wgpu::{
     BindGroup, BindGroupLayout, Color, ColorTargetState, ColorWrites, CommandEncoder, CompareFunction,
-    Device, FragmentState, LoadOp, MultisampleState, Operations, PipelineCompilationOptions, PipelineLayout,
+    FragmentState, LoadOp, MultisampleState, Operations, PipelineCompilationOptions, PipelineLayout,
     PipelineLayoutDescriptor, PrimitiveState, RenderPass, RenderPassColorAttachment,
     RenderPassDepthStencilAttachment, RenderPassDescriptor, RenderPipeline, RenderPipelineDescriptor,
-    ShaderModule, ShaderModuleDescriptor, ShaderSource, StoreOp, VertexAttribute, VertexBufferLayout,
-    VertexFormat, VertexState, VertexStepMode,
+    ShaderModule, StoreOp, VertexAttribute, VertexBufferLayout, VertexFormat, VertexState, VertexStepMode,
 };
 
 use super::grass::Grass;
@@ -18,6 +17,7 @@ use super::targets::{LIGHT, Targets};
 use super::terrain::{PATCH_BYTES, RIM_BYTES, SIDE_BYTES, Terrain};
 use super::timing::{Timer, Timestamp};
 use crate::gpu::Gpu;
+use crate::gpu::context::Context;
 
 /// The passes' own shaders, each after those that it calls.
 const SHADERS: [&str; 9] = [
@@ -92,7 +92,7 @@ const MAGENTA: Color = Color { r: 0.1, g: 0.0, b: 0.1, a: 1.0 };
 
 /// What pipelines have in common.
 struct Maker<'a> {
-    device: &'a Device,
+    context: &'a Context,
     module: ShaderModule,
     layout: PipelineLayout,
     casters: PipelineLayout,
@@ -115,9 +115,8 @@ impl Passes {
         samples: u32,
     ) -> Result<Self, Error> {
         let text = SHADERS.iter().fold(scene.shader(STAGE_GROUP), |text, shader| text + "\n" + shader);
-        gpu.context.attempt("making the pipelines of a picture", || {
+        gpu.context.attempt_to_compile("making the pipelines of a picture", || {
             let device = &gpu.context.device;
-            let source = ShaderSource::Wgsl(text.into());
             let Layouts { frame, maps, cascade } = layouts;
             let whole = |groups: &[Option<&BindGroupLayout>]| {
                 device.create_pipeline_layout(&PipelineLayoutDescriptor {
@@ -127,9 +126,8 @@ impl Passes {
                 })
             };
             let maker = Maker {
-                device,
-                module: device
-                    .create_shader_module(ShaderModuleDescriptor { label: Some("picture"), source }),
+                context: &gpu.context,
+                module: gpu.context.module("picture", text),
                 layout: whole(&[Some(&frame.layout), Some(&maps.layout)]),
                 casters: whole(&[Some(&frame.caster_layout), Some(&maps.layout), Some(cascade)]),
                 samples,
@@ -269,21 +267,25 @@ impl Maker<'_> {
         fragment: Option<FragmentState<'_>>,
     ) -> RenderPipeline {
         let (depth_write, compare) = pipeline.depth;
-        self.device.create_render_pipeline(&RenderPipelineDescriptor {
-            label: Some(pipeline.name),
-            layout: Some(layout),
-            vertex: VertexState {
-                module: &self.module,
-                entry_point: Some(vertex),
-                compilation_options: PipelineCompilationOptions::default(),
-                buffers: pipeline.buffers,
-            },
-            primitive: PrimitiveState::default(),
-            depth_stencil: Some(depth_state(depth_write, compare)),
-            multisample: MultisampleState { count: samples, ..MultisampleState::default() },
-            fragment,
-            multiview_mask: None,
-            cache: None,
-        })
+        let make = || {
+            self.context.device.create_render_pipeline(&RenderPipelineDescriptor {
+                label: Some(pipeline.name),
+                layout: Some(layout),
+                vertex: VertexState {
+                    module: &self.module,
+                    entry_point: Some(vertex),
+                    compilation_options: PipelineCompilationOptions::default(),
+                    buffers: pipeline.buffers,
+                },
+                primitive: PrimitiveState::default(),
+                depth_stencil: Some(depth_state(depth_write, compare)),
+                multisample: MultisampleState { count: samples, ..MultisampleState::default() },
+                fragment,
+                multiview_mask: None,
+                cache: None,
+            })
+        };
+        let key = format!("{vertex} {samples} {}", self.has_holes);
+        self.context.drawing((self.module.clone(), key), make)
     }
 }

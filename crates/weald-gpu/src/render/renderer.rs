@@ -204,6 +204,22 @@ impl Renderer {
         image
     }
 
+    /// The same without the picture: only chooses what is to be drawn.
+    #[doc(hidden)]
+    pub fn choose_for_a_test(&mut self, camera: &Camera, look: TestLook) -> Result<(), Error> {
+        let context = self.gpu.context.clone();
+        self.look = look;
+        let chosen = context.attempt("choosing", || {
+            let mut encoder =
+                context.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+            self.aim(camera, &mut encoder)?;
+            context.queue.submit([encoder.finish()]);
+            Ok(())
+        });
+        self.look = TestLook::default();
+        chosen
+    }
+
     /// The list and number of each plant of the last picture, set by set.
     #[doc(hidden)]
     pub fn chosen_for_a_test(&self) -> Result<Vec<Vec<[u32; 2]>>, Error> {

@@ -75,6 +75,13 @@ struct Plan {
     source: Option<f64>,
 }
 
+impl Plan {
+    /// Sets that are drawn from wherever one looks, but for the few that a field lacks.
+    fn draws_at_least(&self) -> u32 {
+        if self.look.culled || self.look.thinned { 0 } else { self.sets - self.sets / 50 }
+    }
+}
+
 /// Sets and frames per second of table 1.
 const TABLE_1: [(u32, f64); 8] = [
     (1, 693.05),
@@ -161,7 +168,8 @@ fn measured(
     on_row: &mut OnRow<'_>,
 ) -> Result<Vec<GrassRow>, Error> {
     let (mut rows, mut field): (Vec<GrassRow>, Option<(u32, GrassField)>) = (Vec::new(), None);
-    for plan in plans {
+    // Fields that draw all their sets, and would draw too many, need not be sown to be left out.
+    for plan in plans.into_iter().filter(|plan| plan.draws_at_least() <= what.most_drawn) {
         let (_, field) = match field.take() {
             Some(known) if known.0 == plan.sets => field.insert(known),
             _ => field.insert((plan.sets, GrassField::new(gpu, plan.sets, plan.table == 0, what.size)?)),

@@ -9,8 +9,8 @@ use wgpu::{
     BindingResource, BindingType, Color, ColorTargetState, ColorWrites, CommandEncoder, FragmentState,
     LoadOp, MultisampleState, Operations, PipelineCompilationOptions, PipelineLayout,
     PipelineLayoutDescriptor, PrimitiveState, RenderPassColorAttachment, RenderPassDescriptor,
-    RenderPipeline, RenderPipelineDescriptor, ShaderModule, ShaderModuleDescriptor, ShaderSource,
-    ShaderStages, StoreOp, TextureFormat, TextureSampleType, TextureView, TextureViewDimension, VertexState,
+    RenderPipeline, RenderPipelineDescriptor, ShaderModule, ShaderStages, StoreOp, TextureFormat,
+    TextureSampleType, TextureView, TextureViewDimension, VertexState,
 };
 
 use super::layouts::STAGE_GROUP;
@@ -42,7 +42,7 @@ impl ToneMapping {
             },
             count: None,
         };
-        gpu.context.attempt("making the tone_mapping", || {
+        gpu.context.attempt_to_compile("making the tone mapping", || {
             let label = Some("tone_mapping");
             let group =
                 device.create_bind_group_layout(&BindGroupLayoutDescriptor { label, entries: &[entry] });
@@ -53,9 +53,8 @@ impl ToneMapping {
                 bind_group_layouts: &[Some(&group), Some(&maps.layout)],
                 immediate_size: 0,
             };
-            let source = ShaderSource::Wgsl(text.into());
             Ok(Self {
-                module: device.create_shader_module(ShaderModuleDescriptor { label, source }),
+                module: gpu.context.module("tone_mapping", text),
                 layout: device.create_pipeline_layout(&layout),
                 light: device.create_bind_group(&BindGroupDescriptor {
                     label,
@@ -79,10 +78,11 @@ impl ToneMapping {
         let (module, layout) = (&self.module, &self.layout);
         let pipeline = match self.pipelines.entry(format!("{format:?}")) {
             std::collections::btree_map::Entry::Occupied(known) => known.into_mut(),
-            std::collections::btree_map::Entry::Vacant(new) => new.insert(
-                gpu.context
-                    .attempt("making the tone_mapping", || Ok(pipeline(gpu, module, layout, format)))?,
-            ),
+            std::collections::btree_map::Entry::Vacant(new) => {
+                new.insert(gpu.context.attempt_to_compile("making the tone mapping", || {
+                    Ok(pipeline(gpu, module, layout, format))
+                })?)
+            }
         };
         let ops = Operations { load: LoadOp::Clear(Color::BLACK), store: StoreOp::Store };
         let attachment =
@@ -109,25 +109,28 @@ fn pipeline(
 ) -> RenderPipeline {
     let compilation_options = PipelineCompilationOptions::default();
     let target = ColorTargetState { format, blend: None, write_mask: ColorWrites::ALL };
-    gpu.context.device.create_render_pipeline(&RenderPipelineDescriptor {
-        label: Some("tone_mapping"),
-        layout: Some(layout),
-        vertex: VertexState {
-            module,
-            entry_point: Some("tone_mapping_vertex"),
-            compilation_options: compilation_options.clone(),
-            buffers: &[],
-        },
-        primitive: PrimitiveState::default(),
-        depth_stencil: None,
-        multisample: MultisampleState::default(),
-        fragment: Some(FragmentState {
-            module,
-            entry_point: Some("tone_mapping_fragment"),
-            compilation_options,
-            targets: &[Some(target)],
-        }),
-        multiview_mask: None,
-        cache: None,
-    })
+    let make = || {
+        gpu.context.device.create_render_pipeline(&RenderPipelineDescriptor {
+            label: Some("tone_mapping"),
+            layout: Some(layout),
+            vertex: VertexState {
+                module,
+                entry_point: Some("tone_mapping_vertex"),
+                compilation_options: compilation_options.clone(),
+                buffers: &[],
+            },
+            primitive: PrimitiveState::default(),
+            depth_stencil: None,
+            multisample: MultisampleState::default(),
+            fragment: Some(FragmentState {
+                module,
+                entry_point: Some("tone_mapping_fragment"),
+                compilation_options,
+                targets: &[Some(target)],
+            }),
+            multiview_mask: None,
+            cache: None,
+        })
+    };
+    gpu.context.drawing((module.clone(), format!("{format:?}")), make)
 }

@@ -121,7 +121,7 @@ impl Device for LimitedDevice {
     }
 }
 
-/// In tiles of a memory eight times as large as the least that has room for a halo: a few tiles, most of which
+/// In tiles of a memory sixteen times as large as the least that has room for a halo: a few tiles, most of which
 /// have neighbours on several sides.
 fn run_in_tiles(step: &dyn Step, ground: &Landscape, gpu: &Gpu) -> (Landscape, Outcome) {
     let run_with = |memory, loads| {
@@ -133,7 +133,7 @@ fn run_in_tiles(step: &dyn Step, ground: &Landscape, gpu: &Gpu) -> (Landscape, O
     let too_small = |memory: &u64| matches!(run_with(*memory, false), Err(Error::Limit(_)));
     let least =
         (12..40).map(|power| 1 << power).find(|memory| !too_small(memory)).expect("some memory is enough");
-    run_with(8 * least, true).expect("more than the least is enough")
+    run_with(16 * least, true).expect("more than the least is enough")
 }
 
 fn assert_same_bits(step: &dyn Step, expected: &Landscape, got: &Landscape, engine: &str) {

@@ -148,7 +148,7 @@ fn plants_in_sight_are_each_drawn_once_and_none_that_is_not() {
     let mut renderer = renderer(&gpu, &scene);
     renderer.plant(&scene, &landscape).expect("planted");
     let camera = above(&scene, [60.0, 100.0], 2.0, 10.0);
-    renderer.render(&camera).expect("drawn");
+    renderer.choose_for_a_test(&camera, TestLook::default()).expect("chosen");
     let chosen = renderer.chosen_for_a_test().expect("read");
     let mut times = vec![0; 1200];
     let mut in_lists = [0; 10];
@@ -200,13 +200,21 @@ impl Lone {
         Self { renderer, camera, root: [east as f32, -south as f32, up] }
     }
 
-    /// The picture where detail is chosen from so many metres, and the list of the fern.
-    fn drawn(&mut self, metres: f32) -> (Image, u32) {
+    fn look(&self, metres: f32) -> TestLook {
         let [east, north, up] = self.root;
-        let look = TestLook { detail_from: Some([east, north - metres, up]), ..TestLook::default() };
-        let image = self.renderer.render_for_a_test(&self.camera, look).expect("drawn");
+        TestLook { detail_from: Some([east, north - metres, up]), ..TestLook::default() }
+    }
+
+    /// The picture where detail is chosen from so many metres.
+    fn drawn(&mut self, metres: f32) -> Image {
+        self.renderer.render_for_a_test(&self.camera, self.look(metres)).expect("drawn")
+    }
+
+    /// The list of the fern there.
+    fn list(&mut self, metres: f32) -> u32 {
+        self.renderer.choose_for_a_test(&self.camera, self.look(metres)).expect("chosen");
         let chosen = self.renderer.chosen_for_a_test().expect("read");
-        (image, chosen[0].first().map_or(u32::MAX, |&[list, _]| list))
+        chosen[0].first().map_or(u32::MAX, |&[list, _]| list)
     }
 
     /// The distances a centimetre apart between which the fern leaves all lists before one, and both pictures.
@@ -214,9 +222,9 @@ impl Lone {
         let (mut near, mut far) = (from, 400.0_f32);
         while far - near > 0.01 {
             let middle = if far > 2.0 * near { (near * far).sqrt() } else { 0.5 * (near + far) };
-            if self.drawn(middle).1 < list { near = middle } else { far = middle }
+            if self.list(middle) < list { near = middle } else { far = middle }
         }
-        (near, [near, near + 0.01].map(|metres| self.drawn(metres).0))
+        (near, [near, near + 0.01].map(|metres| self.drawn(metres)))
     }
 }
 
@@ -224,18 +232,18 @@ impl Lone {
 fn levels_of_detail_of_a_plant_blend_into_each_other_without_leaps() {
     let Some(gpu) = gpu() else { return };
     let mut lone = Lone::new(&gpu);
-    let first = lone.drawn(0.3).0;
+    let first = lone.drawn(0.3);
     let (mut worst, mut before) = (0.0_f64, 0.3_f32);
     for list in 1..=8 {
         let (distance, [one, other]) = lone.passage(list, before);
         let within = 0.5 * (before + distance);
-        let [third, fourth] = [within, within + 0.01].map(|metres| lone.drawn(metres).0);
+        let [third, fourth] = [within, within + 0.01].map(|metres| lone.drawn(metres));
         let shares = [share_changed(&one, &other), share_changed(&third, &fourth)];
         println!("list {list} from {distance} m: shares of {shares:?} change");
         worst = shares.into_iter().fold(worst, f64::max);
         before = distance;
     }
     assert!(worst < PASSED, "a share of {worst} leaps");
-    let far = lone.drawn(before).0;
+    let far = lone.drawn(before);
     assert!(share_changed(&first, &far) > 4.0 * PASSED, "detail did change");
 }

@@ -8,7 +8,7 @@ use wgpu::{
     BindGroupLayoutEntry, BindingType, BufferBindingType, ColorTargetState, ColorWrites, CompareFunction,
     ComputePipeline, ComputePipelineDescriptor, FragmentState, MultisampleState, PipelineCompilationOptions,
     PipelineLayout, PipelineLayoutDescriptor, PrimitiveState, RenderPipeline, RenderPipelineDescriptor,
-    ShaderModule, ShaderModuleDescriptor, ShaderSource, ShaderStages, VertexState,
+    ShaderModule, ShaderStages, VertexState,
 };
 
 use super::lists::{LISTS, VIEWS};
@@ -77,35 +77,36 @@ impl Pipelines {
         let numbers = numbers(gpu)?;
         let which_layout = which_layout(gpu);
         let which = which(gpu, &which_layout, &numbers)?;
-        let (choose, light, caster) = gpu.context.attempt("making the pipelines of plants", || {
-            let chosen = module(gpu, scene, &[include_str!("choose.wgsl")]);
-            let leaves = [
-                wind::FUNCTIONS,
-                limbs::FUNCTIONS,
-                include_str!("../thin.wgsl"),
-                include_str!("leaves.wgsl"),
-            ];
-            let leaves = module(gpu, scene, &leaves);
-            let (frame, maps) = (layouts.frame, &layouts.maps.layout);
-            let whole = |groups: &[Option<&BindGroupLayout>]| {
-                device.create_pipeline_layout(&PipelineLayoutDescriptor {
-                    label: Some("plants"),
-                    bind_group_layouts: groups,
-                    immediate_size: 0,
-                })
-            };
-            let choosing = whole(&[Some(&frame.caster_layout), Some(maps), Some(&groups.choose)]);
-            let drawn = |frame, samples| Drawn {
-                module: &leaves,
-                layout: whole(&[Some(frame), Some(maps), Some(&groups.draw), Some(&which_layout)]),
-                samples,
-            };
-            Ok((
-                CHOOSE.map(|name| compute(gpu, &chosen, &choosing, name)),
-                light(gpu, &drawn(&frame.layout, samples)),
-                caster(gpu, &drawn(&frame.caster_layout, 1)),
-            ))
-        })?;
+        let (choose, light, caster) =
+            gpu.context.attempt_to_compile("making the pipelines of plants", || {
+                let chosen = module(gpu, scene, &[include_str!("choose.wgsl")]);
+                let leaves = [
+                    wind::FUNCTIONS,
+                    limbs::FUNCTIONS,
+                    include_str!("../thin.wgsl"),
+                    include_str!("leaves.wgsl"),
+                ];
+                let leaves = module(gpu, scene, &leaves);
+                let (frame, maps) = (layouts.frame, &layouts.maps.layout);
+                let whole = |groups: &[Option<&BindGroupLayout>]| {
+                    device.create_pipeline_layout(&PipelineLayoutDescriptor {
+                        label: Some("plants"),
+                        bind_group_layouts: groups,
+                        immediate_size: 0,
+                    })
+                };
+                let choosing = whole(&[Some(&frame.caster_layout), Some(maps), Some(&groups.choose)]);
+                let drawn = |frame, samples| Drawn {
+                    module: &leaves,
+                    layout: whole(&[Some(frame), Some(maps), Some(&groups.draw), Some(&which_layout)]),
+                    samples,
+                };
+                Ok((
+                    CHOOSE.map(|name| compute(gpu, &chosen, &choosing, name)),
+                    light(gpu, &drawn(&frame.layout, samples)),
+                    caster(gpu, &drawn(&frame.caster_layout, 1)),
+                ))
+            })?;
         Ok(Self { choose, light, caster, groups, which, numbers })
     }
 }
@@ -121,8 +122,7 @@ fn module(gpu: &Gpu, scene: &LitScene, own: &[&str]) -> ShaderModule {
     ];
     let parts = shared.iter().chain(own);
     let text = parts.fold(scene.shader_of_light(STAGE_GROUP), |text, part| text + "\n" + part);
-    let source = ShaderSource::Wgsl(text.into());
-    gpu.context.device.create_shader_module(ShaderModuleDescriptor { label: Some("plants"), source })
+    gpu.context.module("plants", text)
 }
 
 /// The view and the list of every draw.
@@ -176,14 +176,16 @@ fn bind(gpu: &Gpu, layout: &BindGroupLayout, stores: &[&Store]) -> Result<BindGr
 }
 
 fn compute(gpu: &Gpu, module: &ShaderModule, layout: &PipelineLayout, name: &str) -> ComputePipeline {
-    gpu.context.device.create_compute_pipeline(&ComputePipelineDescriptor {
+    let description = ComputePipelineDescriptor {
         label: Some(name),
         layout: Some(layout),
         module,
         entry_point: Some(name),
         compilation_options: PipelineCompilationOptions::default(),
         cache: None,
-    })
+    };
+    let make = || gpu.context.device.create_compute_pipeline(&description);
+    gpu.context.computing((module.clone(), name.to_owned()), make)
 }
 
 fn light(gpu: &Gpu, drawn: &Drawn<'_>) -> RenderPipeline {
@@ -207,20 +209,23 @@ fn pipeline(
     (vertex, compare): (&str, CompareFunction),
     fragment: Option<FragmentState<'_>>,
 ) -> RenderPipeline {
-    gpu.context.device.create_render_pipeline(&RenderPipelineDescriptor {
-        label: Some(vertex),
-        layout: Some(&drawn.layout),
-        vertex: VertexState {
-            module: drawn.module,
-            entry_point: Some(vertex),
-            compilation_options: PipelineCompilationOptions::default(),
-            buffers: &[],
-        },
-        primitive: PrimitiveState::default(),
-        depth_stencil: Some(depth_state(true, compare)),
-        multisample: MultisampleState { count: drawn.samples, ..MultisampleState::default() },
-        fragment,
-        multiview_mask: None,
-        cache: None,
-    })
+    let make = || {
+        gpu.context.device.create_render_pipeline(&RenderPipelineDescriptor {
+            label: Some(vertex),
+            layout: Some(&drawn.layout),
+            vertex: VertexState {
+                module: drawn.module,
+                entry_point: Some(vertex),
+                compilation_options: PipelineCompilationOptions::default(),
+                buffers: &[],
+            },
+            primitive: PrimitiveState::default(),
+            depth_stencil: Some(depth_state(true, compare)),
+            multisample: MultisampleState { count: drawn.samples, ..MultisampleState::default() },
+            fragment,
+            multiview_mask: None,
+            cache: None,
+        })
+    };
+    gpu.context.drawing((drawn.module.clone(), format!("{vertex} {}", drawn.samples)), make)
 }

@@ -1,0 +1,72 @@
+//! What was compiled for pictures, kept with the device: the next renderer has the same pipelines at once.
+
+use std::collections::HashMap;
+use std::sync::{Mutex, PoisonError};
+
+use weald::Error;
+use wgpu::{ComputePipeline, RenderPipeline, ShaderModule, ShaderModuleDescriptor, ShaderSource};
+
+use super::context::Context;
+
+/// A module, and what tells its pipelines from each other: entry point, samples, format, constants.
+type Key = (ShaderModule, String);
+
+/// Modules by their text, and their pipelines.
+#[derive(Debug, Default)]
+pub(crate) struct Known {
+    modules: Mutex<HashMap<String, ShaderModule>>,
+    drawing: Mutex<HashMap<Key, RenderPipeline>>,
+    computing: Mutex<HashMap<Key, ComputePipeline>>,
+}
+
+impl Context {
+    /// As [`Context::attempt`], for work that makes modules and pipelines: where it fails none of them is kept, for it
+    /// may be one of them that is broken.
+    pub(crate) fn attempt_to_compile<T>(
+        &self,
+        what: &str,
+        work: impl FnOnce() -> Result<T, Error>,
+    ) -> Result<T, Error> {
+        self.attempt(what, work).inspect_err(|_| {
+            clear(&self.known.drawing);
+            clear(&self.known.computing);
+            clear(&self.known.modules);
+        })
+    }
+
+    /// The module of a text.
+    pub(crate) fn module(&self, label: &str, text: String) -> ShaderModule {
+        get_or_make(&self.known.modules, text, |text| {
+            let source = ShaderSource::Wgsl(text.as_str().into());
+            self.device.create_shader_module(ShaderModuleDescriptor { label: Some(label), source })
+        })
+    }
+
+    /// The pipeline that draws by a module.
+    pub(crate) fn drawing(&self, key: Key, make: impl FnOnce() -> RenderPipeline) -> RenderPipeline {
+        get_or_make(&self.known.drawing, key, |_| make())
+    }
+
+    /// The pipeline that computes by a module.
+    pub(crate) fn computing(&self, key: Key, make: impl FnOnce() -> ComputePipeline) -> ComputePipeline {
+        get_or_make(&self.known.computing, key, |_| make())
+    }
+}
+
+fn get_or_make<K, V>(known: &Mutex<HashMap<K, V>>, key: K, make: impl FnOnce(&K) -> V) -> V
+where
+    K: Eq + std::hash::Hash,
+    V: Clone,
+{
+    let mut known = known.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some(value) = known.get(&key) {
+        return value.clone();
+    }
+    let value = make(&key);
+    known.insert(key, value.clone());
+    value
+}
+
+fn clear<K, V>(known: &Mutex<HashMap<K, V>>) {
+    known.lock().unwrap_or_else(PoisonError::into_inner).clear();
+}
