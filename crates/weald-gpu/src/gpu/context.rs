@@ -41,7 +41,8 @@ pub(crate) struct Context {
     pub(crate) limits: Limits,
     /// All of programs that were compiled so far.
     pub(crate) pipelines: Mutex<Pipelines>,
-    pub(super) known: Known,
+    /// All of pictures that were compiled so far.
+    pub(crate) known: Known,
     /// What to say where it fails.
     pub(crate) advice: &'static Advice,
     faults: Arc<Faults>,
@@ -93,6 +94,16 @@ impl Context {
             Some(error) => Err(explain(what, &error, self.advice)),
             None => done,
         }
+    }
+
+    /// As [`Context::attempt`], for work that makes modules and pipelines of pictures: where it fails none of them is
+    /// kept, for it may be one of them that is broken.
+    pub(crate) fn attempt_to_compile<T>(
+        &self,
+        what: &str,
+        work: impl FnOnce() -> Result<T, Error>,
+    ) -> Result<T, Error> {
+        self.attempt(what, work).inspect_err(|_| self.known.clear())
     }
 
     /// Waits until a submission is done, or all of them.

@@ -3,10 +3,7 @@
 use std::collections::HashMap;
 use std::sync::{Mutex, PoisonError};
 
-use weald::Error;
-use wgpu::{ComputePipeline, RenderPipeline, ShaderModule, ShaderModuleDescriptor, ShaderSource};
-
-use super::context::Context;
+use wgpu::{ComputePipeline, Device, RenderPipeline, ShaderModule, ShaderModuleDescriptor, ShaderSource};
 
 /// A module, and what tells its pipelines from each other: entry point, samples, format, constants.
 type Key = (ShaderModule, String);
@@ -19,37 +16,30 @@ pub(crate) struct Known {
     computing: Mutex<HashMap<Key, ComputePipeline>>,
 }
 
-impl Context {
-    /// As [`Context::attempt`], for work that makes modules and pipelines: where it fails none of them is kept, for it
-    /// may be one of them that is broken.
-    pub(crate) fn attempt_to_compile<T>(
-        &self,
-        what: &str,
-        work: impl FnOnce() -> Result<T, Error>,
-    ) -> Result<T, Error> {
-        self.attempt(what, work).inspect_err(|_| {
-            clear(&self.known.drawing);
-            clear(&self.known.computing);
-            clear(&self.known.modules);
-        })
-    }
-
+impl Known {
     /// The module of a text.
-    pub(crate) fn module(&self, label: &str, text: String) -> ShaderModule {
-        get_or_make(&self.known.modules, text, |text| {
+    pub(crate) fn module(&self, device: &Device, label: &str, text: String) -> ShaderModule {
+        get_or_make(&self.modules, text, |text| {
             let source = ShaderSource::Wgsl(text.as_str().into());
-            self.device.create_shader_module(ShaderModuleDescriptor { label: Some(label), source })
+            device.create_shader_module(ShaderModuleDescriptor { label: Some(label), source })
         })
     }
 
     /// The pipeline that draws by a module.
     pub(crate) fn drawing(&self, key: Key, make: impl FnOnce() -> RenderPipeline) -> RenderPipeline {
-        get_or_make(&self.known.drawing, key, |_| make())
+        get_or_make(&self.drawing, key, |_| make())
     }
 
     /// The pipeline that computes by a module.
     pub(crate) fn computing(&self, key: Key, make: impl FnOnce() -> ComputePipeline) -> ComputePipeline {
-        get_or_make(&self.known.computing, key, |_| make())
+        get_or_make(&self.computing, key, |_| make())
+    }
+
+    /// Forgets all of them.
+    pub(super) fn clear(&self) {
+        clear(&self.drawing);
+        clear(&self.computing);
+        clear(&self.modules);
     }
 }
 

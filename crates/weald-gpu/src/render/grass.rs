@@ -76,7 +76,7 @@ impl Grass {
                     cache: None,
                 };
                 let make = || device.create_compute_pipeline(&description);
-                gpu.context.computing((module.clone(), name.to_owned()), make)
+                gpu.context.known.computing((module.clone(), name.to_owned()), make)
             });
             let blades = self::module(gpu, scene, include_str!("blades.wgsl"));
             let layout = whole(&layouts.frame.layout, &own[1]);
@@ -149,7 +149,7 @@ fn module(gpu: &Gpu, scene: &LitScene, own: &str) -> ShaderModule {
         own,
     ];
     let text = parts.iter().fold(scene.shader_of_light(STAGE_GROUP), |text, part| text + "\n" + part);
-    gpu.context.module("grass", text)
+    gpu.context.known.module(&gpu.context.device, "grass", text)
 }
 
 /// The bindings of a pass: the species, what is shown, the sets, those that are kept and where their lists start; to

@@ -127,7 +127,7 @@ impl Passes {
             };
             let maker = Maker {
                 context: &gpu.context,
-                module: gpu.context.module("picture", text),
+                module: gpu.context.known.module(&gpu.context.device, "picture", text),
                 layout: whole(&[Some(&frame.layout), Some(&maps.layout)]),
                 casters: whole(&[Some(&frame.caster_layout), Some(&maps.layout), Some(cascade)]),
                 samples,
@@ -286,6 +286,6 @@ impl Maker<'_> {
             })
         };
         let key = format!("{vertex} {samples} {}", self.has_holes);
-        self.context.drawing((self.module.clone(), key), make)
+        self.context.known.drawing((self.module.clone(), key), make)
     }
 }

@@ -44,5 +44,5 @@ pub(super) fn strips(
             cache: None,
         })
     };
-    context.drawing((module.clone(), format!("{vertex} {samples}")), make)
+    context.known.drawing((module.clone(), format!("{vertex} {samples}")), make)
 }

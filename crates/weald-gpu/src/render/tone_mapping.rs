@@ -54,7 +54,7 @@ impl ToneMapping {
                 immediate_size: 0,
             };
             Ok(Self {
-                module: gpu.context.module("tone_mapping", text),
+                module: gpu.context.known.module(&gpu.context.device, "tone_mapping", text),
                 layout: device.create_pipeline_layout(&layout),
                 light: device.create_bind_group(&BindGroupDescriptor {
                     label,
@@ -132,5 +132,5 @@ fn pipeline(
             cache: None,
         })
     };
-    gpu.context.drawing((module.clone(), format!("{format:?}")), make)
+    gpu.context.known.drawing((module.clone(), format!("{format:?}")), make)
 }

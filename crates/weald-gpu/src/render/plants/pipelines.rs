@@ -122,7 +122,7 @@ fn module(gpu: &Gpu, scene: &LitScene, own: &[&str]) -> ShaderModule {
     ];
     let parts = shared.iter().chain(own);
     let text = parts.fold(scene.shader_of_light(STAGE_GROUP), |text, part| text + "\n" + part);
-    gpu.context.module("plants", text)
+    gpu.context.known.module(&gpu.context.device, "plants", text)
 }
 
 /// The view and the list of every draw.
@@ -185,7 +185,7 @@ fn compute(gpu: &Gpu, module: &ShaderModule, layout: &PipelineLayout, name: &str
         cache: None,
     };
     let make = || gpu.context.device.create_compute_pipeline(&description);
-    gpu.context.computing((module.clone(), name.to_owned()), make)
+    gpu.context.known.computing((module.clone(), name.to_owned()), make)
 }
 
 fn light(gpu: &Gpu, drawn: &Drawn<'_>) -> RenderPipeline {
@@ -227,5 +227,5 @@ fn pipeline(
             cache: None,
         })
     };
-    gpu.context.drawing((drawn.module.clone(), format!("{vertex} {}", drawn.samples)), make)
+    gpu.context.known.drawing((drawn.module.clone(), format!("{vertex} {}", drawn.samples)), make)
 }
