@@ -30,6 +30,7 @@ pub use weald_land::combine::smooth::Smooth;
 pub use weald_land::combine::terrace::Terrace;
 pub use weald_land::combine::top_material::TopMaterial;
 pub use weald_land::erode::dissolution_step::DissolutionStep as Dissolution;
+pub use weald_land::erode::fluvial_step::Fluvial;
 pub use weald_land::erode::hydraulic::Hydraulic;
 pub use weald_land::erode::slippage_step::SlippageStep as Slippage;
 pub use weald_land::erode::thermal_step::Thermal;

@@ -85,6 +85,18 @@ impl Links {
         if matches!(self, Self::Masked) { MASK_PLANES } else { 0 }
     }
 
+    /// Which cells of row `y`, or of their neighbours to the east (1) or west (-1), hold data.
+    pub(crate) fn valid<'a>(&'a self, constants: &'a [Ring], y: usize, east: isize) -> &'a [f32] {
+        match (self, east) {
+            (Self::Whole(whole), 0) => &whole.ones,
+            (Self::Whole(whole), 1) => &whole.east,
+            (Self::Whole(whole), _) => &whole.west,
+            (Self::Masked, 0) => constants[plane::VALID].here(y),
+            (Self::Masked, 1) => constants[plane::VALID].east(y),
+            (Self::Masked, _) => constants[plane::VALID].west(y),
+        }
+    }
+
     /// The links of row `y`; `constants` are the rings of the constant planes, start height first.
     pub(crate) fn row<'a>(&'a self, constants: &'a [Ring], y: usize) -> LinkRow<'a> {
         match self {

@@ -16,6 +16,8 @@ pub mod dissolution_step;
 mod edits;
 mod extent;
 mod finished;
+mod fluvial;
+pub mod fluvial_step;
 mod flux_corrected;
 mod forcing;
 mod four_outflows;

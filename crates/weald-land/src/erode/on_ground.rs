@@ -31,7 +31,7 @@ impl OnGround<'_> {
     ) -> Result<Outcome, Error> {
         let working = WorkingGrid::new(landscape, self.layer, false)?;
         let iterations = u64::from(self.iterations);
-        let process = Stepped::new(self.name, pipeline, (working.size, working.mask.is_some()));
+        let process: Stepped = Stepped::new(self.name, pipeline, (working.size, working.mask.is_some()));
         let plane_names = process.state_names();
         let seen = |finished: &Finished| {
             let mut seen = landscape.clone();

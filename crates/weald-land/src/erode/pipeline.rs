@@ -16,7 +16,7 @@ mod source;
 mod tests;
 
 pub(crate) use process::Stepped;
-pub(crate) use running::{PipelineRows, PipelineScratch};
+pub(crate) use running::{PipelineOutput, PipelineRows, PipelineScratch};
 
 use std::sync::Arc;
 
@@ -33,6 +33,9 @@ const MAX_READS: usize = 32;
 
 /// Most rows that a kernel changes.
 const MAX_CHANGES: usize = 16;
+
+/// Most numbers that a kernel knows.
+const MAX_CONSTANTS: usize = 16;
 
 /// Equations in the making: planes and kernels by their names.
 #[derive(Clone, Debug)]
@@ -72,6 +75,7 @@ impl Equations {
             planes: Vec::new(),
             stages: Vec::new(),
             look_back: 0,
+            weather: Vec::new(),
             twin: Twin::default(),
         };
         Self { pipeline, numbers }
@@ -103,14 +107,35 @@ impl Equations {
         let find = |row| pipeline.find(row, K::NAME);
         let reads: Vec<_> = K::READS.iter().map(plane).map(find).collect();
         let updates: Vec<_> = K::UPDATES.iter().map(plane).map(find).collect();
+        let forced = K::CONSTANTS.iter().enumerate();
+        let forced = forced.filter_map(|(at, name)| Some((at, pipeline.forced(name)?))).collect();
         let number = |constant: &&str| {
             let found = self.numbers.iter().rev().find(|(name, _)| name == constant);
-            found.unwrap_or_else(|| panic!("no number `{constant}` for the kernel `{}`", K::NAME)).1
+            let found = found.map(|(_, number)| *number).or(pipeline.forced(constant).map(|_| 0.0));
+            found.unwrap_or_else(|| panic!("no number `{constant}` for the kernel `{}`", K::NAME))
         };
         let constants = K::CONSTANTS.iter().map(number).collect();
         let changes: Vec<_> = K::UPDATES.iter().chain(K::WRITES).map(plane).collect();
         assert!(reads.len() <= MAX_READS && changes.len() <= MAX_CHANGES, "`{}` has too many rows", K::NAME);
-        pipeline.add(K::run_on, Rows { reads, updates, changes }, constants);
+        assert!(K::CONSTANTS.len() <= MAX_CONSTANTS, "`{}` has too many numbers", K::NAME);
+        pipeline.add(K::run_on, Rows { reads, updates, changes }, (constants, forced));
+        self
+    }
+
+    /// Says which numbers differ from step to step. Kernels find them by their names, as they find constants.
+    pub(crate) fn weather<U: Uniform>(&mut self, weather: &U) -> &mut Self {
+        self.pipeline.weather = Uniforms::of(weather).fields.iter().map(|(name, _)| *name).collect();
+        self
+    }
+
+    /// Sums a row that the latest kernel changes, over all cells and steps.
+    pub(crate) fn tally(&mut self, plane: &str, sum: usize) -> &mut Self {
+        let stage = self.pipeline.stages.last_mut().expect("a kernel");
+        let changed = &self.pipeline.planes[stage.first..][..stage.changes];
+        let row = changed.iter().position(|changed| changed.name == plane);
+        stage
+            .tallies
+            .push((row.unwrap_or_else(|| panic!("the latest kernel does not change `{plane}`")), sum));
         self
     }
 
@@ -136,7 +161,7 @@ impl Equations {
             if pipeline.planes[written].oldest.is_some() {
                 let row = Read { source: Source::Plane(written), east: 0, south: 0 };
                 let rows = Rows { reads: vec![row], updates: Vec::new(), changes: vec![state.after] };
-                pipeline.add(Leave::run_on, rows, Vec::new());
+                pipeline.add(Leave::run_on, rows, Default::default());
                 pipeline.planes.last_mut().expect("it was just added").output = Some(number);
             } else {
                 pipeline.planes[written].output = Some(number);

@@ -6,6 +6,7 @@ mod settings;
 use pulp::Arch;
 use settings::{advections, links, settings};
 
+use super::fluvial_step;
 use super::han::{Han, HanConstants};
 use super::mei::{Mei, MeiConstants};
 use super::transport_step::Carrying;
@@ -30,7 +31,7 @@ pub fn programs() -> Vec<Program> {
         advections()
             .map(move |advection| Carrying { advection, links: links(masked), arch: Arch::new() }.program())
     });
-    carrying.chain(models).chain(layered::programs()).collect()
+    carrying.chain(models).chain(layered::programs()).chain(fluvial_step::programs()).collect()
 }
 
 const HAN: HanConstants = HanConstants {

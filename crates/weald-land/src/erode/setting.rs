@@ -8,7 +8,7 @@ use pulp::Arch;
 
 use super::advection::{Advection, AdvectionScratch};
 use super::links::Links;
-use super::pipeline::{PipelineRows, PipelineScratch};
+use super::pipeline::{PipelineOutput, PipelineRows, PipelineScratch};
 use super::pipes::Drain;
 use super::sums;
 use super::sweep::Sweep;
@@ -93,8 +93,9 @@ impl Setting {
         let Some(slide) = &self.slide else { return };
         let sweep = self.sweep(flow, settled);
         let Settled { change, slide: Some(scratch), .. } = flow.scratch.as_mut() else { return };
-        let rows = PipelineRows { input: std::slice::from_ref(change), sweep: &sweep };
-        slide.pipeline.advance(&rows, scratch, std::slice::from_mut(&mut flow.output[plane::CHANGE]));
+        let rows = PipelineRows { input: std::slice::from_ref(change), sweep: &sweep, weather: &[] };
+        let planes = std::slice::from_mut(&mut flow.output[plane::CHANGE]);
+        slide.pipeline.advance(&rows, scratch, &mut PipelineOutput { planes, tally: &mut |_, _, _| {} });
     }
 
     /// Whether sediment goes with the fluxes of the water and not by its velocity.

@@ -119,7 +119,7 @@ impl Step for SlippageStep {
         working.set_stack(landscape, column, deposit)?;
         let masked = working.mask.is_some();
         let program = program(&slippage, planes, masked);
-        let process = Stepped::with_program(&slippage.pipeline, (working.size, masked), program);
+        let process: Stepped = Stepped::with_program(&slippage.pipeline, (working.size, masked), program);
         let plane_names: Vec<_> =
             std::iter::once("change".to_owned()).chain(column.names(&landscape.materials)).collect();
         let simulation = Simulation::alone(&process, &plane_names, self.iterations);

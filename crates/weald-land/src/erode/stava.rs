@@ -27,7 +27,7 @@ use slippage::Slippage;
 use viscosity::{Viscosity, ViscosityRows, ViscosityScratch};
 
 use super::forcing::Forcing;
-use super::pipeline::{PipelineRows, PipelineScratch};
+use super::pipeline::{PipelineOutput, PipelineRows, PipelineScratch};
 use super::setting::{Setting, Settled};
 use weald_core::grid::Size;
 use weald_engine::program::Program;
@@ -226,8 +226,9 @@ impl Stava {
             }
             return;
         };
-        let rows = PipelineRows { input: solid, sweep: &sweep };
-        slippage.pipeline.advance(&rows, scratch, flow.output);
+        let rows = PipelineRows { input: solid, sweep: &sweep, weather: &[] };
+        let mut output = PipelineOutput { planes: flow.output, tally: &mut |_, _, _| {} };
+        slippage.pipeline.advance(&rows, scratch, &mut output);
     }
 }
 

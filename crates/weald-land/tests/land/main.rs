@@ -7,6 +7,7 @@ mod displace;
 mod editing;
 mod flow;
 mod flow_peers;
+mod fluvial;
 mod layered_equations;
 mod layered_physics;
 mod physics;

@@ -32,6 +32,7 @@ pub const CATALOG: &[Entry] = &[
     erode::hydraulic::ENTRY,
     erode::thermal_step::ENTRY,
     erode::transport_step::ENTRY,
+    erode::fluvial_step::ENTRY,
     erode::slippage_step::ENTRY,
     erode::dissolution_step::ENTRY,
     analyse::slope::ENTRY,

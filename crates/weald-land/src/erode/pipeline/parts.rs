@@ -17,6 +17,8 @@ pub(crate) struct Pipeline {
     pub(super) stages: Vec<Stage>,
     /// Rows that are looked back at in the input and in the constants.
     pub(super) look_back: usize,
+    /// Names of the numbers that differ from step to step.
+    pub(super) weather: Vec<&'static str>,
     pub(super) twin: Twin,
 }
 
@@ -57,6 +59,10 @@ pub(super) struct Stage {
     pub(super) first: usize,
     pub(super) changes: usize,
     pub(super) constants: Vec<f32>,
+    /// Which of the constants are numbers of the weather, and which numbers.
+    pub(super) forced: Vec<(usize, usize)>,
+    /// Which of the changed rows are summed, and into which sum.
+    pub(super) tallies: Vec<(usize, usize)>,
 }
 
 /// Shaders that do what the kernels do.

@@ -1,5 +1,6 @@
 //! A pipeline as a process of its own.
 
+use std::marker::PhantomData;
 use std::sync::Arc;
 
 use pulp::Arch;
@@ -7,21 +8,23 @@ use pulp::Arch;
 use super::PipelineScratch;
 use super::parts::Pipeline;
 use crate::erode::links::Links;
-use crate::erode::pipeline::running::PipelineRows;
+use crate::erode::pipeline::running::{PipelineOutput, PipelineRows};
 use crate::erode::sweep::Sweep;
 use weald_core::grid::Size;
 use weald_engine::program::Program;
 use weald_engine::stencil::chain::{Flow, Process};
+use weald_engine::uniform::Uniform;
 
-/// A process that is one pipeline.
-pub(crate) struct Stepped {
+/// A process that is one pipeline, with weather of this kind.
+pub(crate) struct Stepped<W = ()> {
     pipeline: Arc<Pipeline>,
     program: Arc<Program>,
     links: Links,
     arch: Arch,
+    weather: PhantomData<fn() -> W>,
 }
 
-impl Stepped {
+impl<W> Stepped<W> {
     /// A pipeline over a domain of that size.
     pub(crate) fn new(name: &'static str, pipeline: &Arc<Pipeline>, (size, masked): (Size, bool)) -> Self {
         let program = pipeline.program(name, masked);
@@ -35,7 +38,13 @@ impl Stepped {
         program: Program,
     ) -> Self {
         let links = Links::new(size, masked);
-        Self { pipeline: Arc::clone(pipeline), program: Arc::new(program), links, arch: Arch::new() }
+        Self {
+            pipeline: Arc::clone(pipeline),
+            program: Arc::new(program),
+            links,
+            arch: Arch::new(),
+            weather: PhantomData,
+        }
     }
 
     /// Names of the state planes.
@@ -44,8 +53,8 @@ impl Stepped {
     }
 }
 
-impl Process for Stepped {
-    type Weather = ();
+impl<W: Uniform + Copy + Send + Sync> Process for Stepped<W> {
+    type Weather = W;
     type Scratch = PipelineScratch;
 
     fn state_planes(&self) -> usize {
@@ -82,6 +91,7 @@ impl Process for Stepped {
             program: Arc::clone(&self.program),
             links: self.links.sized(size),
             arch: self.arch,
+            weather: PhantomData,
         }
     }
 
@@ -91,7 +101,10 @@ impl Process for Stepped {
 
     fn advance(&self, flow: &mut Flow<'_, Self>) {
         let sweep = Sweep::of(flow, &self.links, self.arch, Some(flow.y));
-        let rows = PipelineRows { input: flow.input, sweep: &sweep };
-        self.pipeline.advance(&rows, flow.scratch, flow.output);
+        let weather: Vec<_> = flow.weather.words().into_iter().map(f32::from_bits).collect();
+        let rows = PipelineRows { input: flow.input, sweep: &sweep, weather: &weather };
+        let sums = &mut *flow.sums;
+        let tally = &mut |y, sum, cells: &[f32]| sums.add(y, sum, cells);
+        self.pipeline.advance(&rows, flow.scratch, &mut PipelineOutput { planes: flow.output, tally });
     }
 }

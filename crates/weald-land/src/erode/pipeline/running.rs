@@ -2,7 +2,7 @@
 
 use super::parts::{Pipeline, Plane, Stage};
 use super::parts::{Read, Source};
-use super::{MAX_CHANGES, MAX_READS, source};
+use super::{MAX_CHANGES, MAX_CONSTANTS, MAX_READS, source};
 use crate::erode::links::LinkRow;
 use crate::erode::sweep::Sweep;
 use weald_engine::stencil::ring::Ring;
@@ -20,6 +20,16 @@ pub(crate) struct PipelineRows<'a> {
     /// The state planes as the step finds them.
     pub(crate) input: &'a [Ring],
     pub(crate) sweep: &'a Sweep<'a>,
+    /// Numbers of this step.
+    pub(crate) weather: &'a [f32],
+}
+
+/// What a pipeline writes.
+pub(crate) struct PipelineOutput<'a> {
+    /// The state planes as the step leaves them.
+    pub(crate) planes: &'a mut [Ring],
+    /// Adds the sum of a row, which has a number, to a sum, which has one too.
+    pub(crate) tally: &'a mut dyn FnMut(usize, usize, &[f32]),
 }
 
 impl Plane {
@@ -39,13 +49,12 @@ impl Pipeline {
         PipelineScratch { rings: self.planes.iter().map(ring).collect(), still: vec![0.0; columns] }
     }
 
-    /// Runs every kernel on the next row for which all is there that it reads; `output` has the rows that become
-    /// the state.
+    /// Runs every kernel on the next row for which all is there that it reads.
     pub(crate) fn advance(
         &self,
         rows: &PipelineRows<'_>,
         scratch: &mut PipelineScratch,
-        output: &mut [Ring],
+        output: &mut PipelineOutput<'_>,
     ) {
         for stage in &self.stages {
             if let Some(y) = rows.sweep.behind(stage.behind) {
@@ -65,7 +74,7 @@ impl Pipeline {
         y: usize,
         rows: &PipelineRows<'_>,
         scratch: &mut PipelineScratch,
-        output: &mut [Ring],
+        output: &mut PipelineOutput<'_>,
     ) {
         let (written, rest) = scratch.rings.split_at_mut(stage.first);
         let links = stage.linked.then(|| rows.sweep.links(y));
@@ -81,7 +90,7 @@ impl Pipeline {
                 *row = ring.here_mut(y);
             }
         }
-        for (number, ring) in output.iter_mut().enumerate() {
+        for (number, ring) in output.planes.iter_mut().enumerate() {
             if let Some(place) = planes.iter().position(|plane| plane.output == Some(number)) {
                 changes[place] = ring.here_mut(y);
             }
@@ -90,7 +99,12 @@ impl Pipeline {
             row.copy_from_slice(around.row(*read));
         }
         let (reads, changes) = (&reads[..stage.reads.len()], &mut changes[..stage.changes]);
-        (stage.kernel)(rows.sweep.arch, reads, changes, &stage.constants);
+        let mut constants = [0.0; MAX_CONSTANTS];
+        let constants = &mut constants[..stage.constants.len()];
+        constants.copy_from_slice(&stage.constants);
+        stage.forced.iter().for_each(|&(at, number)| constants[at] = rows.weather[number]);
+        (stage.kernel)(rows.sweep.arch, reads, changes, constants);
+        stage.tallies.iter().for_each(|&(row, sum)| (output.tally)(y, sum, changes[row]));
     }
 }
 
@@ -104,10 +118,23 @@ struct Around<'a> {
 }
 
 impl<'a> Around<'a> {
+    /// The row of a neighbour, if there is one.
+    fn neighbour(&self, read: Read) -> Option<usize> {
+        self.y.checked_add_signed(read.south).filter(|y| self.rows.sweep.span.contains(y))
+    }
+
+    /// Which cells, or which of their neighbours, hold data.
+    fn valid(&self, read: Read) -> &'a [f32] {
+        let Some(y) = self.neighbour(read) else { return self.still };
+        let sweep = self.rows.sweep;
+        sweep.links.valid(sweep.constants, y, read.east)
+    }
+
     #[inline(always)]
     fn row(&self, read: Read) -> &'a [f32] {
         let sweep = self.rows.sweep;
         let ring = match read.source {
+            Source::Link(source::VALID) => return self.valid(read),
             Source::Link(number) => {
                 return source::link(self.links.as_ref().expect("a stage that reads links"), number);
             }
@@ -116,9 +143,7 @@ impl<'a> Around<'a> {
             Source::Input(number) => &self.rows.input[number],
             Source::Plane(number) => &self.written[number],
         };
-        let Some(y) = self.y.checked_add_signed(read.south).filter(|y| sweep.span.contains(y)) else {
-            return self.still;
-        };
+        let Some(y) = self.neighbour(read) else { return self.still };
         match read.east {
             0 => ring.here(y),
             1 => ring.east(y),

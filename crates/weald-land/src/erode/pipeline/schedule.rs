@@ -13,6 +13,9 @@ pub(super) struct Rows {
     pub(super) changes: Vec<&'static str>,
 }
 
+/// The constants of a kernel, and which of them are numbers of the weather.
+pub(super) type Numbers = (Vec<f32>, Vec<(usize, usize)>);
+
 impl Rows {
     fn read(&self) -> impl Iterator<Item = &Read> {
         self.reads.iter().chain(&self.updates)
@@ -21,7 +24,7 @@ impl Rows {
 
 impl Pipeline {
     /// Adds a kernel that runs as soon as all rows are there that it reads.
-    pub(super) fn add(&mut self, kernel: RunOn, rows: Rows, constants: Vec<f32>) {
+    pub(super) fn add(&mut self, kernel: RunOn, rows: Rows, (constants, forced): Numbers) {
         let behind = rows.read().map(|read| self.behind(read.source).saturating_add_signed(read.south));
         let behind = behind.max().unwrap_or(0);
         let reach = rows.read().fold(Reach::default(), |reach, read| reach.or(read.reach(&self.planes)));
@@ -31,7 +34,24 @@ impl Pipeline {
         self.planes.extend(rows.changes.iter().map(plane));
         let linked = rows.read().any(|read| matches!(read.source, Source::Link(_)));
         let (reads, updates, changes) = (rows.reads, rows.updates, rows.changes.len());
-        self.stages.push(Stage { kernel, behind, reads, updates, linked, first, changes, constants });
+        let tallies = Vec::new();
+        self.stages.push(Stage {
+            kernel,
+            behind,
+            reads,
+            updates,
+            linked,
+            first,
+            changes,
+            constants,
+            forced,
+            tallies,
+        });
+    }
+
+    /// Place of a number among those that differ from step to step.
+    pub(super) fn forced(&self, name: &str) -> Option<usize> {
+        self.weather.iter().position(|number| *number == name)
     }
 
     /// Keeps a row for a kernel that runs that many rows behind the input.

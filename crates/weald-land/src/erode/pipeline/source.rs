@@ -20,6 +20,9 @@ const LINKS: [(&str, Reach); 7] = [
 const DIRECTIONS: [(&str, isize, isize); 4] =
     [("east", 1, 0), ("west", -1, 0), ("south", 0, 1), ("north", 0, -1)];
 
+/// The link that can be read of neighbours too, the only one that says it of cells and not of edges.
+pub(super) const VALID: usize = 0;
+
 impl Read {
     /// What a cell depends on that reads this.
     pub(super) fn reach(self, planes: &[Plane]) -> Reach {
@@ -56,7 +59,7 @@ impl Pipeline {
         while let Some((rest, (_, further_east, further_south))) = last_direction(plane) {
             (plane, east, south) = (rest, east + further_east, south + further_south);
             match self.source(plane) {
-                Some(Source::Link(_)) => break,
+                Some(Source::Link(link)) if link != VALID => break,
                 Some(source) if east.abs() <= 1 && south.abs() <= 1 => return Read { source, east, south },
                 _ => {}
             }

@@ -6,6 +6,7 @@ use weald_core::random::{hash2, unit};
 use weald_core::{Landscape, Size};
 use weald_engine::step::Step;
 use weald_land::erode::dissolution_step::{DissolutionStep, DissolutionWithin};
+use weald_land::erode::fluvial_step::Fluvial;
 use weald_land::erode::hydraulic::{Boundary, Hydraulic, Transport, UptakeLaw};
 use weald_land::erode::slippage_step::{SlippageStep, SlippageWithin};
 use weald_land::erode::thermal::Scheme;
@@ -15,7 +16,7 @@ use weald_land::erode::transport_step::{self, Carry};
 use crate::common::{self, layered, metres, rough, run, spring, with};
 
 /// Every model with every transport, and each of the processes that are steps of their own.
-pub(crate) const KINDS: u64 = 16;
+pub(crate) const KINDS: u64 = 17;
 
 /// Most steps between two looks of a simulation at itself: all runs are longer, so that all can be stopped.
 const STRETCH: u64 = 256;
@@ -41,6 +42,7 @@ pub(crate) fn case(number: u64) -> Case {
         12 => Box::new(draw.thermal()),
         13 => Box::new(draw.carry()),
         14 => Box::new(draw.slippage()),
+        15 => Box::new(draw.fluvial()),
         _ => Box::new(draw.dissolution()),
     };
     let first = draw.among(1..STRETCH);
@@ -180,6 +182,25 @@ impl Draw {
     fn thermal_within(&mut self) -> ThermalWithin {
         let scheme = self.one_of(&[Scheme::Axis, Scheme::Isotropic, Scheme::IsotropicSymmetric]);
         ThermalWithin { scheme, talus: self.between(0.1, 0.8), strength: self.between(0.02, 0.2) }
+    }
+
+    /// A flood of about as many steps as the others run.
+    fn fluvial(&mut self) -> Fluvial {
+        let deepest = 1.0;
+        let step = 0.5 / (9.81_f64 * deepest).sqrt();
+        let boundary = self.one_of(&[Boundary::Closed, Boundary::Open]);
+        Fluvial {
+            deepest,
+            boundary,
+            flow_time: f64::from(self.steps()) * step / 3600.0,
+            duration: self.between(1.0, 5.0),
+            rain: self.between(500.0, 5000.0),
+            settling: self.between(0.0, 0.1),
+            gathering: self.between(0.5, 5.0),
+            channel_width: self.between(0.2, 4.0),
+            region: if boundary == Boundary::Closed { self.painted(6) } else { None },
+            ..Fluvial::default()
+        }
     }
 
     fn thermal(&mut self) -> Thermal {

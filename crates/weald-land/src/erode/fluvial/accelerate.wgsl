@@ -1,0 +1,44 @@
+
+// Fluxes through the eastern, southern, south-eastern and south-western edge, if every cell had water enough.
+
+/// Flux through an edge after a step; `here` and `next` are surface, ground and depth on its two sides.
+fn accelerated(old: f32, here: vec4<f32>, next: vec4<f32>, conductance: f32, resistance: f32) -> f32 {
+    let depth = min(max(here.x, next.x) - max(here.y, next.y), constants.deepest);
+    let gained = old + conductance * depth * (here.x - next.x);
+    let held = 1.0 + resistance / (depth * depth);
+    return select(0.0, gained / held, depth > THINNEST);
+}
+
+fn free_fall(wanted: f32, outward: f32, here: vec4<f32>, next: vec4<f32>, face: f32) -> f32 {
+    let depth = min(select(next.z, here.z, outward > 0.0), constants.deepest);
+    let fall = face * depth * sqrt(constants.flow_rate * depth);
+    return select(outward * fall, wanted, outward == 0.0);
+}
+
+fn rained(cell: vec2<i32>) -> vec4<f32> {
+    return select(vec4<f32>(0.0), level[index(cell)], inside(cell));
+}
+
+fn wanted_through(old: f32, cell: vec2<i32>, next: vec2<i32>, weight: f32) -> f32 {
+    let here = level[index(cell)];
+    let there = level[index(next)];
+    let held = 0.5 * (resistance[index(cell)] + resistance[index(next)]);
+    let flux = accelerated(old, here, there, weight * constants.flow_rate, held) * link(cell, next);
+    if (OPEN) {
+        return free_fall(flux, valid(cell) - valid(next), rained(cell), rained(next), weight);
+    }
+    return flux;
+}
+
+@compute @workgroup_size(16, 16)
+fn accelerate(@builtin(global_invocation_id) invocation: vec3<u32>) {
+    let cell = cell_of(invocation);
+    let old = fluxes[index(cell)];
+    let east = wanted_through(old.x, cell, cell + EAST, AXIS);
+    let south = wanted_through(old.y, cell, cell + SOUTH, AXIS);
+    let south_east = wanted_through(old.z, cell, cell + SOUTH_EAST, DIAGONAL);
+    let south_west = wanted_through(old.w, cell, cell + SOUTH_WEST, DIAGONAL);
+    if (inside(cell)) {
+        wanted[index(cell)] = vec4<f32>(east, south, south_east, south_west);
+    }
+}

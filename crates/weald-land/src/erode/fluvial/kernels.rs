@@ -1,0 +1,291 @@
+//! What one cell becomes in a step of [`super`], which has the equations and their sources.
+
+use super::edges::{AXIS, DIAGONAL, Discharge, outflow, power};
+use crate::erode::pipes::without_negligible;
+use weald_engine::kernel;
+
+/// Share of its water that a cell keeps when everything would flow out, so that rounding cannot make its depth
+/// negative: some ten times the rounding error of the eight fluxes.
+pub(super) const RETAINED_SHARE: f32 = 2e-6;
+
+/// Water thinner than this, in cells, does not flow.
+pub(super) const THINNEST: f32 = 1e-8;
+
+/// Most of the drop to its receivers that a cell may lose in a step: more would turn the slope round.
+pub(super) const MAX_SHARE_OF_DROP: f32 = 0.25;
+
+/// Steepest drop that counts there: falls from a cliff do not dig deeper.
+pub(super) const MAX_DROP: f32 = 2.0;
+
+kernel! {
+    /// Depth after rain, ground, water surface.
+    pub(crate) struct Rained {
+        reads { base, change_before, depth_before, valid }
+        writes { ground, surface, rained, fallen }
+        constants { rain: f32 }
+    }
+    fn cell() {
+        ground = base + change_before;
+        rained = depth_before + rain * valid;
+        surface = ground + rained;
+        fallen = rained - depth_before;
+    }
+}
+
+kernel! {
+    /// How much the bed holds back: the friction of the flow of the step before, a unit of depth². On slopes steeper
+    /// than its friction water would run faster than its waves and break up in surges; the beds of steep streams
+    /// form steps until it does not (Grant 1997, doi 10.1029/96WR03134).
+    pub(crate) struct Resistance {
+        reads {
+            old_east, old_east_west, old_south, old_south_north, old_diagonal, old_diagonal_north_west,
+            old_antidiagonal, old_antidiagonal_north_east, surface, surface_east, surface_west, surface_south,
+            surface_north, surface_south_east, surface_north_west, surface_south_west, surface_north_east,
+        }
+        writes { resistance }
+        constants { friction: f32, gathering: f32, channel_width: f32 }
+    }
+    fn cell() {
+        let axes = [old_east, old_east_west, old_south, old_south_north];
+        let diagonals =
+            [old_diagonal, old_diagonal_north_west, old_antidiagonal, old_antidiagonal_north_east];
+        let power = power(
+            (axes, diagonals),
+            surface,
+            [surface_east, surface_west, surface_south, surface_north],
+            [surface_south_east, surface_north_west, surface_south_west, surface_north_east],
+        );
+        let discharge = Discharge::of(axes, diagonals);
+        // Friction times discharge; power is slope times discharge.
+        let held = (friction * discharge.size).max(power);
+        resistance = held / discharge.gathered * discharge.occupied(gathering, channel_width);
+    }
+}
+
+/// Flux through an edge after a step; `here` and `next` are surface, ground and resistance on its two sides.
+#[inline(always)]
+fn accelerated(old: f32, here: [f32; 3], next: [f32; 3], conductance: f32, deepest: f32) -> f32 {
+    let depth = (here[0].max(next[0]) - here[1].max(next[1])).min(deepest);
+    let gained = old + conductance * depth * (here[0] - next[0]);
+    let held = 1.0 + 0.5 * (here[2] + next[2]) / (depth * depth);
+    if depth > THINNEST { gained / held } else { 0.0 }
+}
+
+kernel! {
+    /// Fluxes through the eastern, southern, south-eastern and south-western edge, if every cell had water enough.
+    pub(crate) struct Accelerate {
+        reads {
+            old_east, old_south, old_diagonal, old_antidiagonal,
+            surface, surface_east, surface_south, surface_south_east, surface_south_west,
+            ground, ground_east, ground_south, ground_south_east, ground_south_west,
+            resistance, resistance_east, resistance_south, resistance_south_east, resistance_south_west,
+            valid, valid_east, valid_south, valid_south_east, valid_south_west,
+        }
+        writes { wanted_east, wanted_south, wanted_diagonal, wanted_antidiagonal }
+        constants { flow_rate: f32, deepest: f32 }
+    }
+    fn cell() {
+        let here = [surface, ground, resistance];
+        let (axis, diagonal) = (AXIS * flow_rate, DIAGONAL * flow_rate);
+        let east = [surface_east, ground_east, resistance_east];
+        let south = [surface_south, ground_south, resistance_south];
+        let south_east = [surface_south_east, ground_south_east, resistance_south_east];
+        let south_west = [surface_south_west, ground_south_west, resistance_south_west];
+        wanted_east = accelerated(old_east, here, east, axis, deepest) * (valid * valid_east);
+        wanted_south = accelerated(old_south, here, south, axis, deepest) * (valid * valid_south);
+        let flux = accelerated(old_diagonal, here, south_east, diagonal, deepest);
+        wanted_diagonal = flux * (valid * valid_south_east);
+        let flux = accelerated(old_antidiagonal, here, south_west, diagonal, deepest);
+        wanted_antidiagonal = flux * (valid * valid_south_west);
+    }
+}
+
+kernel! {
+    /// Flux from a cell with data into one without: a free fall, in which water has the speed of its waves.
+    pub(crate) struct FreeFall {
+        reads { rained, rained_next, valid, valid_next }
+        updates { wanted }
+        constants { flow_rate: f32, deepest: f32, face: f32 }
+    }
+    fn cell() {
+        let outward = valid - valid_next;
+        let depth = if outward > 0.0 { rained } else { rained_next };
+        let depth = depth.min(deepest);
+        let fall = face * depth * (flow_rate * depth).sqrt();
+        wanted = if outward == 0.0 { wanted } else { outward * fall };
+    }
+}
+
+kernel! {
+    /// What share of its outflow a cell can give, and how much sediment a unit of its outflow carries.
+    pub(crate) struct Shares {
+        reads {
+            rained, sediment_before, wanted_east, wanted_east_west, wanted_south, wanted_south_north,
+            wanted_diagonal, wanted_diagonal_north_west, wanted_antidiagonal, wanted_antidiagonal_north_east,
+        }
+        writes { share, concentration }
+        constants { thin: f32 }
+    }
+    fn cell() {
+        let out = outflow(
+            [wanted_east, wanted_east_west, wanted_south, wanted_south_north],
+            [
+                wanted_diagonal, wanted_diagonal_north_west, wanted_antidiagonal,
+                wanted_antidiagonal_north_east,
+            ],
+        );
+        let available = rained * (1.0 - RETAINED_SHARE);
+        share = if out > available { available / out } else { 1.0 };
+        concentration = sediment_before / (rained + thin);
+    }
+}
+
+kernel! {
+    /// Scales the flux through each edge to what its giving cell can give.
+    pub(crate) struct Through {
+        reads {
+            wanted_east, wanted_south, wanted_diagonal, wanted_antidiagonal,
+            share, share_east, share_south, share_south_east, share_south_west,
+        }
+        writes { flux_east, flux_south, flux_diagonal, flux_antidiagonal }
+    }
+    fn cell() {
+        flux_east = wanted_east * if wanted_east > 0.0 { share } else { share_east };
+        flux_south = wanted_south * if wanted_south > 0.0 { share } else { share_south };
+        flux_diagonal = wanted_diagonal * if wanted_diagonal > 0.0 { share } else { share_south_east };
+        flux_antidiagonal =
+            wanted_antidiagonal * if wanted_antidiagonal > 0.0 { share } else { share_south_west };
+    }
+}
+
+/// Sediment through an edge, with the concentration of the cell that the flux comes from.
+#[inline(always)]
+fn carried_by(flux: f32, behind: f32, ahead: f32) -> f32 {
+    flux * if flux >= 0.0 { behind } else { ahead }
+}
+
+kernel! {
+    /// Depth and sediment after the fluxes, what left over an open edge, and what the flow takes up.
+    pub(crate) struct Flow {
+        reads {
+            rained, sediment_before, valid, flux_east, flux_east_west, flux_south, flux_south_north,
+            flux_diagonal, flux_diagonal_north_west, flux_antidiagonal, flux_antidiagonal_north_east,
+            concentration, concentration_east, concentration_west, concentration_south, concentration_north,
+            concentration_south_east, concentration_north_west, concentration_south_west,
+            concentration_north_east, surface, surface_east, surface_west, surface_south, surface_north,
+            surface_south_east, surface_north_west, surface_south_west, surface_north_east,
+        }
+        writes { water, carried, entrained, water_out, sediment_out }
+        constants { gathering: f32, channel_width: f32, erodibility: f32, threshold: f32 }
+    }
+    fn cell() {
+        let axes = [flux_east, flux_east_west, flux_south, flux_south_north];
+        let diagonals = [
+            flux_diagonal, flux_diagonal_north_west, flux_antidiagonal, flux_antidiagonal_north_east,
+        ];
+        let gained = ((flux_east_west - flux_east) + (flux_south_north - flux_south))
+            + ((flux_diagonal_north_west - flux_diagonal)
+                + (flux_antidiagonal_north_east - flux_antidiagonal));
+        let flowed = without_negligible(rained + gained);
+        let to_east = carried_by(flux_east, concentration, concentration_east);
+        let from_west = carried_by(flux_east_west, concentration_west, concentration);
+        let to_south = carried_by(flux_south, concentration, concentration_south);
+        let from_north = carried_by(flux_south_north, concentration_north, concentration);
+        let to_south_east = carried_by(flux_diagonal, concentration, concentration_south_east);
+        let from_north_west = carried_by(flux_diagonal_north_west, concentration_north_west, concentration);
+        let to_south_west = carried_by(flux_antidiagonal, concentration, concentration_south_west);
+        let from_north_east =
+            carried_by(flux_antidiagonal_north_east, concentration_north_east, concentration);
+        let brought = ((from_west - to_east) + (from_north - to_south))
+            + ((from_north_west - to_south_east) + (from_north_east - to_south_west));
+        let found = without_negligible(sediment_before + brought);
+        water = flowed * valid;
+        carried = found * valid;
+        water_out = flowed * (1.0 - valid);
+        sediment_out = found * (1.0 - valid);
+        let power = power(
+            (axes, diagonals),
+            surface,
+            [surface_east, surface_west, surface_south, surface_north],
+            [surface_south_east, surface_north_west, surface_south_west, surface_north_east],
+        );
+        let discharge = Discharge::of(axes, diagonals);
+        let by_width = power / discharge.occupied(gathering, channel_width);
+        let wanted = (erodibility * (by_width - threshold)).max(0.0);
+        let drop = if discharge.size > 0.0 { (power / discharge.size).min(MAX_DROP) } else { 0.0 };
+        entrained = wanted.min(MAX_SHARE_OF_DROP * drop);
+    }
+}
+
+kernel! {
+    /// What the water takes from or gives to the ground. Ground and water change by the same rounded amount, so that
+    /// nothing is lost; where it would be more than there is, nothing settles.
+    pub(crate) struct Wear {
+        reads {
+            change_before, carried, water, entrained, erodible,
+            valid_south_east, valid_north_west, valid_south_west, valid_north_east,
+        }
+        writes { settled, sediment }
+        constants { settling: f32, thin: f32, open: f32 }
+    }
+    fn cell() {
+        let diagonals = (valid_south_east * valid_north_west) * (valid_south_west * valid_north_east);
+        // Cells at an open edge hold the base level, at its corners too.
+        let may_change = erodible * (1.0 - open * (1.0 - diagonals));
+        let left = (carried + entrained) / (1.0 + settling / (water + thin));
+        let changed = change_before - (left - carried) * may_change;
+        let taken = change_before - changed;
+        let there = carried + taken >= 0.0;
+        settled = if there { changed } else { change_before };
+        sediment = if there { carried + taken } else { carried };
+    }
+}
+
+kernel! {
+    /// Share of each step of the ground that creeps, and slides where the slope exceeds the talus.
+    pub(crate) struct Unrest {
+        reads {
+            ground, ground_east, ground_west, ground_south, ground_north,
+            ground_south_east, ground_north_west, ground_south_west, ground_north_east,
+            valid_east, valid_west, valid_south, valid_north,
+            valid_south_east, valid_north_west, valid_south_west, valid_north_east,
+        }
+        writes { unrest }
+        constants { talus: f32, slide: f32, creep: f32 }
+    }
+    fn cell() {
+        let square = |next: f32, valid: f32| (next - ground) * (next - ground) * valid;
+        let axes = (square(ground_east, valid_east) + square(ground_west, valid_west))
+            + (square(ground_south, valid_south) + square(ground_north, valid_north));
+        let diagonals = (square(ground_south_east, valid_south_east)
+            + square(ground_north_west, valid_north_west))
+            + (square(ground_south_west, valid_south_west) + square(ground_north_east, valid_north_east));
+        let slope = (0.5 * (AXIS * axes + DIAGONAL * diagonals)).sqrt();
+        unrest = creep + if slope > talus { slide * (slope - talus) / slope } else { 0.0 };
+    }
+}
+
+kernel! {
+    /// Ground after creep and slides: along each edge by the mean unrest of its two cells.
+    pub(crate) struct Slid {
+        reads {
+            settled, valid, ground, ground_east, ground_west, ground_south, ground_north,
+            ground_south_east, ground_north_west, ground_south_west, ground_north_east,
+            unrest, unrest_east, unrest_west, unrest_south, unrest_north,
+            unrest_south_east, unrest_north_west, unrest_south_west, unrest_north_east,
+            valid_east, valid_west, valid_south, valid_north,
+            valid_south_east, valid_north_west, valid_south_west, valid_north_east,
+        }
+        writes { change }
+    }
+    fn cell() {
+        let from = |next: f32, its: f32, there: f32| (0.5 * (unrest + its) * there) * (next - ground);
+        let axes = (from(ground_east, unrest_east, valid_east) + from(ground_west, unrest_west, valid_west))
+            + (from(ground_south, unrest_south, valid_south) + from(ground_north, unrest_north, valid_north));
+        let diagonals = (from(ground_south_east, unrest_south_east, valid_south_east)
+            + from(ground_north_west, unrest_north_west, valid_north_west))
+            + (from(ground_south_west, unrest_south_west, valid_south_west)
+                + from(ground_north_east, unrest_north_east, valid_north_east));
+        change = settled + (AXIS * axes + DIAGONAL * diagonals) * valid;
+    }
+}

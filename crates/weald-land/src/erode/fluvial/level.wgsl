@@ -1,0 +1,14 @@
+
+// Heights of water and ground after rain, and the depth.
+
+@compute @workgroup_size(16, 16)
+fn level_of_water(@builtin(global_invocation_id) invocation: vec3<u32>) {
+    let cell = cell_of(invocation);
+    let at = index(cell);
+    let ground = base[at] + change[at];
+    let rained = exact(depth[at] + weather.rain * valid(cell));
+    tally(RAINED, cell, rained - depth[at]);
+    if (inside(cell)) {
+        level[at] = vec4<f32>(ground + rained, ground, rained, 0.0);
+    }
+}

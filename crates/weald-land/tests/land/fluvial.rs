@@ -1,0 +1,285 @@
+//! The `fluvial` step against closed forms, symmetries and budgets, and against itself on other grids.
+
+use weald_core::grid::Field;
+use weald_core::parameter::LayerName;
+use weald_core::{Domain, Landscape, Size};
+use weald_engine::{Budget, Job, step::Step};
+use weald_land::erode::fluvial_step::Fluvial;
+use weald_land::erode::hydraulic::Boundary;
+
+use crate::common::{field, rough};
+
+const GRAVITY: f64 = 9.81;
+
+/// A landscape of cells of that many metres.
+fn land(size: Size, cell: f64, height: impl Fn(usize, usize) -> f64) -> Landscape {
+    let mut land = Landscape::new(Domain::new(size, cell));
+    land.insert("height", "m", Field::from_function(size, |x, y| height(x, y) as f32));
+    land
+}
+
+fn square(side: usize) -> Size {
+    Size::new(side, side).expect("small")
+}
+
+fn run(step: &Fluvial, land: &mut Landscape) -> Budget {
+    let outcome = step.run(land, &Job::unwatched(1)).expect("it runs");
+    assert_eq!(outcome.notes, Vec::<String>::new());
+    outcome.budget.expect("a simulation has a budget")
+}
+
+/// A flood over ground that stays as it is.
+fn water_alone() -> Fluvial {
+    Fluvial { duration: 0.0, ..Fluvial::default() }
+}
+
+/// Sine and cosine of an angle in degrees.
+fn direction(degrees: f64) -> [f64; 2] {
+    [libm::cos(degrees.to_radians()), libm::sin(degrees.to_radians())]
+}
+
+/// Distance from a place to the edge of a square, against a direction.
+fn upslope([x, y]: [f64; 2], [east, south]: [f64; 2], side: f64) -> f64 {
+    let along = |at: f64, step: f64| {
+        if step > 1e-9 {
+            at / step
+        } else if step < -1e-9 {
+            (at - side) / step
+        } else {
+            f64::INFINITY
+        }
+    };
+    along(x, east).min(along(y, south))
+}
+
+#[test]
+fn a_sheet_on_a_plane_has_the_discharge_depth_and_direction_of_the_closed_form_at_every_angle() {
+    const SIDE: usize = 60;
+    let (cell, slope) = (10.0, 0.05);
+    // Channels so wide that the sheet takes all of the width.
+    let step = Fluvial {
+        rain: 200.0,
+        flow_time: 0.7,
+        deepest: 0.5,
+        channel_width: 1000.0,
+        boundary: Boundary::Closed,
+        ..water_alone()
+    };
+    for degrees in [0.0, 10.0, 22.5, 35.0, 45.0, 67.5] {
+        let [east, south] = direction(degrees);
+        // Walls above, and below a trench that takes all water in.
+        let mut land = land(square(SIDE), cell, |x, y| {
+            let trench = if x.max(y) + 3 > SIDE { 900.0 } else { 0.0 };
+            1000.0 - slope * cell * (x as f64 * east + y as f64 * south) - trench
+        });
+        run(&step, &mut land);
+        let mut through = [0.0; 2];
+        let (mut discharges, mut depths) = (Vec::new(), Vec::new());
+        let half = SIDE as f64 / 2.0;
+        for at in 0..SIDE * SIDE {
+            let (x, y) = (at % SIDE, at / SIDE);
+            let place = [x as f64 + 0.5, y as f64 + 0.5];
+            if (place[0] - half).hypot(place[1] - half) > 0.6 * half {
+                continue;
+            }
+            let flux = ["flux_x", "flux_y"].map(|name| f64::from(field(&land, name).at(x, y)) / cell);
+            let discharge = flux[0].hypot(flux[1]);
+            let depth = (step.friction.max(slope) * discharge * discharge / (GRAVITY * slope)).cbrt();
+            through = [through[0] + flux[0], through[1] + flux[1]];
+            let rain = step.rain / 3.6e6 * cell * upslope(place, [east, south], SIDE as f64);
+            discharges.push(discharge / rain);
+            depths.push(f64::from(field(&land, "water").at(x, y)) / depth);
+        }
+        let off = libm::atan2(through[1], through[0]).to_degrees() - degrees;
+        let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
+        let (discharge, depth) = (mean(&discharges), mean(&depths));
+        println!("{degrees}°: off by {off:.2}°, discharge {discharge:.4}, depth {depth:.4}");
+        assert!(off.abs() < 0.2, "at {degrees}° water runs {off}° off the fall line");
+        assert!((discharge - 1.0).abs() < 0.03, "discharge is {discharge} of rain times area");
+        assert!((depth - 1.0).abs() < 0.02, "depth is {depth} of the closed form");
+    }
+}
+
+#[test]
+fn a_channel_of_one_cell_runs_as_easily_at_every_angle() {
+    const SIDE: usize = 81;
+    let (cell, slope) = (20.0, 0.02);
+    let step = Fluvial {
+        rain: 2000.0,
+        flow_time: 0.8,
+        deepest: 4.0,
+        boundary: Boundary::Closed,
+        region: Some(LayerName::of("channel")),
+        ..water_alone()
+    };
+    let mut ratios = Vec::new();
+    for degrees in [0.0, 5.0, 10.0, 15.0, 22.5, 26.565, 30.0, 35.0, 40.0, 45.0] {
+        let [east, south] = direction(degrees);
+        // At its end a shaft takes all water in.
+        let mut land = land(square(SIDE), cell, |x, y| {
+            let shaft = if x + 5 > SIDE { 900.0 } else { 0.0 };
+            1000.0 - slope * cell * (x as f64 * east + y as f64 * south) - shaft
+        });
+        // One cell a column: neighbours by their sides or their corners.
+        let line = |x: usize, y: usize| y == (x as f64 * south / east).round() as usize;
+        let channel = Field::from_function(square(SIDE), |x, y| f32::from(u8::from(line(x, y))));
+        land.insert("channel", "1", channel);
+        run(&step, &mut land);
+        let rain = step.rain / 3.6e6;
+        let (mut volume, mut expected) = (0.0, 0.0);
+        // All but the ends, where water is pent up or falls.
+        for x in 5..SIDE - 20 {
+            let y = (x as f64 * south / east).round() as usize;
+            volume += f64::from(field(&land, "water").at(x, y)) * cell * cell;
+            let discharge = rain * cell * cell * (x + 1) as f64;
+            let width = step.channel_width * discharge.sqrt();
+            let speed = (GRAVITY * slope * discharge / width.min(cell) / step.friction.max(slope)).cbrt();
+            expected += discharge / speed * cell / east;
+        }
+        println!("{degrees}°: holds {:.3} of the closed form", volume / expected);
+        ratios.push(volume / expected);
+    }
+    let (least, most) = ratios.iter().fold((f64::MAX, 0.0_f64), |(a, b), &r| (a.min(r), b.max(r)));
+    assert!(least > 0.93 && most < 1.07, "water stands {least} to {most} times as deep as it should");
+}
+
+/// A flood that changes rough ground of ten metres in a short time.
+fn wild() -> Fluvial {
+    Fluvial { duration: 2000.0, flow_time: 0.5, rain: 100.0, deepest: 1.0, ..Fluvial::default() }
+}
+
+#[test]
+fn nothing_is_lost_and_nothing_negative_in_thousands_of_steps() {
+    for boundary in [Boundary::Closed, Boundary::Open] {
+        let ground = rough(48, 40, 60.0, 3);
+        let mut land = land(ground.size(), 5.0, |x, y| f64::from(ground.at(x, y)));
+        let budget = run(&Fluvial { boundary, ..wild() }, &mut land);
+        let eroded: f64 = field(&land, "erosion").values().iter().map(|&e| f64::from(e) * 25.0).sum();
+        assert!(eroded > 1000.0, "nothing moved, so a closed budget would mean nothing: {eroded} m³");
+        let lost = budget.solid.error() * budget.solid.start / eroded;
+        println!("{boundary:?}: water {:.1e}, solid {lost:.1e} of {eroded:.0} m³", budget.water.error());
+        assert!(budget.water.error().abs() < 1e-5, "{:?}", budget.water);
+        assert!(lost.abs() < 1e-5, "{lost:e} of what moved is missing: {:?}", budget.solid);
+        assert_eq!(budget.water.outgoing > 0.0, boundary == Boundary::Open);
+        for layer in ["water", "sediment"] {
+            let least = field(&land, layer).range(None).expect("cells").0;
+            assert!(least >= 0.0, "{layer} is {least} m somewhere");
+        }
+    }
+}
+
+#[test]
+fn a_lake_at_rest_stays_at_rest() {
+    // Multiples of 1/64 m, so that ground and depth add up to the level without rounding.
+    let bowl = |x: usize, y: usize| ((x as i64 - 16).pow(2) + (y as i64 - 16).pow(2)) as f64 / 16.0;
+    let mut land = land(square(33), 1.0, bowl);
+    let depth = Field::from_function(square(33), |x, y| (10.0 - bowl(x, y)).max(0.0) as f32);
+    land.insert("depth", "m", depth.clone());
+    let before = field(&land, "height").clone();
+    let still = Fluvial { rain: 0.0, creep: 0.0, talus: 100.0, boundary: Boundary::Closed, ..wild() };
+    run(&Fluvial { initial_water: Some(LayerName::of("depth")), ..still }, &mut land);
+    assert_eq!(field(&land, "height").values(), before.values());
+    assert_eq!(field(&land, "water").values(), depth.values());
+}
+
+#[test]
+fn ground_that_is_turned_or_mirrored_becomes_what_it_became_turned_or_mirrored() {
+    const SIDE: usize = 40;
+    let ground = rough(SIDE, SIDE, 60.0, 5);
+    let after = |place: &dyn Fn(usize, usize) -> [usize; 2]| {
+        let mut land = land(square(SIDE), 5.0, |x, y| {
+            let [x, y] = place(x, y);
+            f64::from(ground.at(x, y))
+        });
+        // Few steps: water that divides on a ridge decides by the last digit, and ground follows it.
+        run(&Fluvial { flow_time: 0.03, duration: 60.0, ..wild() }, &mut land);
+        land
+    };
+    let plain = after(&|x, y| [x, y]);
+    let last = SIDE - 1;
+    let turns: [&dyn Fn(usize, usize) -> [usize; 2]; 3] =
+        [&|x, y| [y, last - x], &|x, y| [last - x, y], &|x, y| [y, x]];
+    for turn in turns {
+        let turned = after(turn);
+        let (mut worst, mut moved) = (0.0_f32, 0.0_f32);
+        for at in 0..SIDE * SIDE {
+            let [x, y] = turn(at % SIDE, at / SIDE);
+            let change = field(&plain, "height").at(x, y) - ground.at(x, y);
+            let change_turned = field(&turned, "height").at(at % SIDE, at / SIDE) - ground.at(x, y);
+            worst = worst.max((change - change_turned).abs());
+            moved = moved.max(change.abs());
+        }
+        assert!(moved > 0.1 && worst < 1e-3 * moved, "{worst} m apart where up to {moved} m moved");
+    }
+}
+
+#[test]
+fn no_river_digs_below_the_lowest_ground() {
+    let ground = rough(64, 64, 80.0, 9);
+    let mut land = land(ground.size(), 10.0, |x, y| f64::from(ground.at(x, y)));
+    run(&Fluvial { duration: 20_000.0, flow_time: 1.0, ..wild() }, &mut land);
+    let deepest = field(&land, "erosion").range(None).expect("cells").1;
+    let lowest = field(&land, "height").range(None).expect("cells").0;
+    assert!(deepest > 5.0, "hardly anything was carved: {deepest} m");
+    assert!(lowest >= -0.01, "the ground ends {} m below its lowest start", -lowest);
+}
+
+/// Hills that a grid of any fineness can hold, as means over its cells.
+fn hills(side: usize) -> Landscape {
+    const FINEST: usize = 128;
+    let (extent, every) = (5120.0, FINEST / side);
+    let height = |x: f64, y: f64| {
+        let wave =
+            |east: f64, south: f64, shift: f64| libm::sin((east * x + south * y) / extent * 6.3 + shift);
+        200.0 * (wave(1.0, 0.6, 0.3) + wave(-0.7, 1.2, 1.0))
+            + 70.0 * (wave(2.9, -2.1, 2.0) + wave(2.3, 3.4, 0.7))
+            + 25.0 * (wave(7.1, 3.9, 0.1) + wave(-4.3, 6.7, 5.0) + wave(9.3, -6.1, 3.1))
+    };
+    let step = extent / FINEST as f64;
+    land(square(side), extent / side as f64, |x, y| {
+        let fine = (0..every * every).map(|at| {
+            let (x, y) = (x * every + at % every, y * every + at / every);
+            height((x as f64 + 0.5) * step, (y as f64 + 0.5) * step)
+        });
+        fine.sum::<f64>() / (every * every) as f64
+    })
+}
+
+#[test]
+fn a_coarse_landscape_is_the_mean_of_a_fine_one() {
+    let carved = |side: usize| {
+        let mut land = hills(side);
+        let start = field(&land, "height").clone();
+        run(&Fluvial { flow_time: 1.5, ..Fluvial::default() }, &mut land);
+        (start, land)
+    };
+    let (start, fine) = carved(128);
+    let mean = |land: &Landscape, layer: &str| -> f64 {
+        let values = field(land, layer).values();
+        values.iter().map(|&value| f64::from(value)).sum::<f64>() / values.len() as f64
+    };
+    let (low, high) = start.range(None).expect("cells");
+    let [eroded, laid] = ["erosion", "deposition"].map(|layer| mean(&fine, layer));
+    assert!(eroded > 3.0, "hardly anything moved: {eroded} m");
+    for (side, share) in [(64, 0.1), (32, 0.2)] {
+        let (_, coarse) = carved(side);
+        let every = 128 / side;
+        let off = (0..side * side).map(|at| {
+            let (x, y) = (at % side, at / side);
+            let means = (0..every * every).map(|at| {
+                f64::from(field(&fine, "height").at(x * every + at % every, y * every + at / every))
+            });
+            let mean = means.sum::<f64>() / (every * every) as f64;
+            (mean - f64::from(field(&coarse, "height").at(x, y))).powi(2)
+        });
+        let off = (off.sum::<f64>() / (side * side) as f64).sqrt() / f64::from(high - low);
+        let [erosion, deposition] = ["erosion", "deposition"].map(|layer| mean(&coarse, layer));
+        println!(
+            "{side}: erosion {erosion:.2} of {eroded:.2} m, deposition {deposition:.2} of {laid:.2} m, heights \
+             {:.2} % of the relief apart",
+            100.0 * off
+        );
+        assert!((erosion / eroded - 1.0).abs() < share, "{side}: {erosion} m were eroded, {eroded} on 128");
+        assert!(off < 0.02, "{side}: heights are {off} of the relief apart");
+    }
+}
