@@ -215,13 +215,46 @@ fn ground_that_is_turned_or_mirrored_becomes_what_it_became_turned_or_mirrored()
 
 #[test]
 fn no_river_digs_below_the_lowest_ground() {
-    let ground = rough(64, 64, 80.0, 9);
-    let mut land = land(ground.size(), 10.0, |x, y| f64::from(ground.at(x, y)));
-    run(&Fluvial { duration: 20_000.0, flow_time: 1.0, ..wild() }, &mut land);
+    let ground = rough(64, 64, 600.0, 9);
+    let mut land = land(ground.size(), 40.0, |x, y| f64::from(ground.at(x, y)));
+    run(&Fluvial { duration: 30_000.0, flow_time: 3.0, ..Fluvial::default() }, &mut land);
     let deepest = field(&land, "erosion").range(None).expect("cells").1;
     let lowest = field(&land, "height").range(None).expect("cells").0;
     assert!(deepest > 5.0, "hardly anything was carved: {deepest} m");
     assert!(lowest >= -0.01, "the ground ends {} m below its lowest start", -lowest);
+}
+
+#[test]
+fn a_river_digs_its_bed_and_not_that_of_the_deep_lake_it_runs_through() {
+    let size = Size::new(90, 16).expect("small");
+    // A narrow valley, in which a sill at the 70th column dams a lake up to 80 m deep.
+    let along = |x: usize| {
+        let steep = 40.0 - 2.0 * (x.min(20)) as f64;
+        let bed = if (20..70).contains(&x) { -80.0 * libm::sin((x - 20) as f64 * 0.0628).abs() } else { 0.0 };
+        steep + bed - 0.5 * x.saturating_sub(70) as f64
+    };
+    let valley = |x: usize, y: usize| 100.0 + along(x) + 8.0 * (y as f64 - 7.5).abs();
+    let mut land = land(size, 20.0, valley);
+    let depth = Field::from_function(size, |x, y| (100.0 - valley(x, y)).max(0.0) as f32);
+    land.insert("lake", "m", depth);
+    let step = Fluvial {
+        duration: 500.0,
+        rain: 4000.0,
+        settling: 0.0,
+        creep: 0.0,
+        slide: 0.0,
+        initial_water: Some(LayerName::of("lake")),
+        ..Fluvial::default()
+    };
+    run(&step, &mut land);
+    let dug = |columns: std::ops::Range<usize>| {
+        let cells = columns.flat_map(|x| (6..10).map(move |y| (x, y)));
+        cells.map(|(x, y)| field(&land, "erosion").at(x, y)).fold(0.0, f32::max)
+    };
+    let (river, lake) = (dug(4..18), dug(35..55));
+    println!("the river digs {river} m, under the lake {lake} m");
+    assert!(river > 1.0, "the river does not dig: {river} m");
+    assert!(lake < 0.01 * river, "the bed of the lake is dug by {lake} m, that of the river by {river} m");
 }
 
 /// Hills that a grid of any fineness can hold, as means over its cells.

@@ -10,6 +10,12 @@ fn through(wanted: f32, here: vec4<f32>, next: vec4<f32>) -> f32 {
     return exact(wanted * select(next.x, here.x, wanted > 0.0));
 }
 
+/// Share of the power that reaches the bed.
+fn reaches_bed(depth: f32) -> f32 {
+    let shallow = constants.deepest / max(depth, constants.deepest);
+    return shallow * shallow * shallow;
+}
+
 /// Sediment through an edge, with the concentration of the cell that the flux comes from.
 fn carried_by(flux: f32, behind: vec4<f32>, ahead: vec4<f32>) -> f32 {
     return exact(flux * select(ahead.y, behind.y, flux >= 0.0));
@@ -68,7 +74,7 @@ fn flow(@builtin(global_invocation_id) invocation: vec3<u32>) {
     );
     let power = power_of(axes, diagonals, surface, along_axes, along_diagonals);
     let discharge = discharge_of(axes, diagonals);
-    let by_width = power / occupied(discharge);
+    let by_width = power / occupied(discharge) * reaches_bed(level[at].z);
     let uptake = max(constants.erodibility * (by_width - constants.threshold), 0.0);
     let drop = select(0.0, min(power / discharge.size, MAX_DROP), discharge.size > 0.0);
     let entrained = min(uptake, MAX_SHARE_OF_DROP * drop);

@@ -158,6 +158,14 @@ kernel! {
     }
 }
 
+/// Share of the power that reaches the bed. Water deeper than `deepest` is driven through pipes of that depth by a
+/// steeper surface than it needs: slope goes with the third power of depth.
+#[inline(always)]
+fn reaches_bed(depth: f32, deepest: f32) -> f32 {
+    let shallow = deepest / depth.max(deepest);
+    shallow * shallow * shallow
+}
+
 /// Sediment through an edge, with the concentration of the cell that the flux comes from.
 #[inline(always)]
 fn carried_by(flux: f32, behind: f32, ahead: f32) -> f32 {
@@ -176,7 +184,7 @@ kernel! {
             surface_south_east, surface_north_west, surface_south_west, surface_north_east,
         }
         writes { water, carried, entrained, water_out, sediment_out }
-        constants { gathering: f32, channel_width: f32, erodibility: f32, threshold: f32 }
+        constants { gathering: f32, channel_width: f32, erodibility: f32, threshold: f32, deepest: f32 }
     }
     fn cell() {
         let axes = [flux_east, flux_east_west, flux_south, flux_south_north];
@@ -210,7 +218,7 @@ kernel! {
             [surface_south_east, surface_north_west, surface_south_west, surface_north_east],
         );
         let discharge = Discharge::of(axes, diagonals);
-        let by_width = power / discharge.occupied(gathering, channel_width);
+        let by_width = power / discharge.occupied(gathering, channel_width) * reaches_bed(rained, deepest);
         let wanted = (erodibility * (by_width - threshold)).max(0.0);
         let drop = if discharge.size > 0.0 { (power / discharge.size).min(MAX_DROP) } else { 0.0 };
         entrained = wanted.min(MAX_SHARE_OF_DROP * drop);
