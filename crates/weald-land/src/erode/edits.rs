@@ -6,9 +6,9 @@
 
 use super::links::{MASK_PLANES, mask_planes};
 use super::material_planes::WEATHER_PLANES;
-use super::outflow_planes as plane;
 use super::stack::Column;
 use super::sums;
+use super::water_planes as plane;
 use super::working::WorkingGrid;
 use crate::edit::{Area, Brush, Canvas, Edit, Effect, Script};
 use weald_core::error::Error;

@@ -58,6 +58,9 @@ const STATE: [(&str, &str); 7] = [
     ("old_antidiagonal", "flux_antidiagonal"),
 ];
 
+/// Number of planes that change.
+pub(crate) const PLANES: usize = STATE.len();
+
 /// Mean fluxes through the eastern, southern, south-eastern and south-western edge.
 pub(crate) const MEAN_FLUXES: Means<'static> = &[
     &[Part { plane: 3, factor: 1.0, from: [0, 0] }],

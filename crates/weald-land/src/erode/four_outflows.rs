@@ -6,8 +6,8 @@ use std::ops::Range;
 use super::before;
 use super::flux_corrected::NetFlux;
 use super::outflow_kernels::{Carry, OpenOutflow, Outflow, Sines};
-use super::outflow_planes as plane;
 use super::setting::{Setting, Settled};
+use super::water_planes as plane;
 use weald_engine::stencil::chain::{Flow, Process};
 use weald_engine::stencil::ring::Ring;
 

@@ -22,7 +22,7 @@ use weald_engine::uniform;
 
 /// Planes of the state.
 pub(crate) mod plane {
-    pub(crate) use crate::erode::state_planes::{CHANGE, DEPTH, SEDIMENT};
+    pub(crate) use crate::erode::water_planes::{CHANGE, DEPTH, SEDIMENT};
     /// Flux through the eastern edge.
     pub(crate) const EAST: usize = 3;
     /// Flux through the southern edge.

@@ -14,8 +14,8 @@ mod sediment;
 mod water;
 
 use super::forcing::Forcing;
-use super::outflow_planes as plane;
 use super::setting::{Setting, Settled};
+use super::water_planes as plane;
 use weald_core::grid::Size;
 use weald_engine::machine::{Means, Part};
 use weald_engine::program::Program;

@@ -3,7 +3,7 @@
 
 mod program;
 
-use super::state_planes as plane;
+use super::water_planes as plane;
 use pulp::Arch;
 
 use super::advection::{Advection, AdvectionScratch};

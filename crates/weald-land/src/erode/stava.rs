@@ -20,7 +20,7 @@ mod water;
 mod weather;
 
 use super::material_planes::{Planes, WEATHER_PLANES};
-use super::outflow_planes as plane;
+use super::water_planes as plane;
 use digging::{DigScratch, Digging};
 use dissolution::{Dissolution, DissolutionScratch, RegolithRows};
 use slippage::Slippage;

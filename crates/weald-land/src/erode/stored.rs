@@ -2,7 +2,7 @@
 
 use super::working::{RunResult, WorkingGrid};
 use crate::erode::finished::Finished;
-use crate::erode::state_planes as plane;
+use crate::erode::water_planes as plane;
 use weald_core::landscape::Landscape;
 use weald_engine::step::Outcome;
 use weald_engine::{Budget, WaterBudget};

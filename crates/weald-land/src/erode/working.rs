@@ -3,7 +3,7 @@
 use super::extent::Extent;
 use super::links::mask_planes;
 use super::stack::Stack;
-use super::state_planes as plane;
+use super::water_planes as plane;
 use crate::erode::finished::Finished;
 use crate::erode::finished::Flows;
 use weald_core::error::Error;
@@ -92,10 +92,14 @@ impl WorkingGrid {
 
     /// Takes the depth of standing water from a layer.
     pub(crate) fn set_water(&mut self, landscape: &Landscape, layer: &str) -> Result<(), Error> {
-        let standing = landscape.field(layer)?.clone();
+        self.set_standing(landscape.field(layer)?.clone());
+        Ok(())
+    }
+
+    /// The same from a field.
+    pub(crate) fn set_standing(&mut self, standing: Field) {
         self.water = self.lengths(&standing);
         self.standing = Some(standing);
-        Ok(())
     }
 
     /// Tells a device where the ground lies, for those who look on.

@@ -316,3 +316,45 @@ fn a_coarse_landscape_is_the_mean_of_a_fine_one() {
         assert!(off < 0.02, "{side}: heights are {off} of the relief apart");
     }
 }
+
+#[test]
+fn coarse_levels_first_make_nearly_the_same_landscape_and_lose_nothing() {
+    let carved = |levels: u32| {
+        let mut land = hills(128);
+        let budget = run(&Fluvial { levels, ..Fluvial::default() }, &mut land);
+        (land, budget)
+    };
+    let (one, _) = carved(1);
+    let mean = |land: &Landscape, layer: &str| -> f64 {
+        let values = field(land, layer).values();
+        values.iter().map(|&value| f64::from(value)).sum::<f64>() / values.len() as f64
+    };
+    let (low, high) = field(&one, "height").range(None).expect("cells");
+    let expected = mean(&one, "erosion");
+    for (levels, share) in [(2, 0.1), (3, 0.2)] {
+        let (several, budget) = carved(levels);
+        let off = field(&one, "height").values().iter().zip(field(&several, "height").values());
+        let off = off.map(|(a, b)| f64::from(a - b).powi(2)).sum::<f64>() / (128.0 * 128.0);
+        let off = off.sqrt() / f64::from(high - low);
+        let erosion = mean(&several, "erosion");
+        println!(
+            "{levels} levels: erosion {erosion:.2} of {expected:.2} m, heights {:.2} % of the relief apart",
+            100.0 * off
+        );
+        assert!((erosion / expected - 1.0).abs() < share, "{erosion} m were eroded, {expected} on one level");
+        assert!(off < 0.02, "heights are {off} of the relief apart");
+        // Sums of each level are rounded once.
+        assert!(budget.water.error().abs() < 1e-5, "{:?}", budget.water);
+        assert!(budget.solid.error().abs() < 1e-7, "{:?}", budget.solid);
+    }
+}
+
+#[test]
+fn levels_that_do_not_divide_are_refused() {
+    let mut land = land(Size::new(36, 30).expect("small"), 5.0, |x, _| x as f64);
+    let step = Fluvial { levels: 3, ..wild() };
+    let error = step.run(&mut land, &Job::unwatched(1)).expect_err("30 is no multiple of 4").to_string();
+    assert!(error.contains("multiples of 4") && error.contains("36 × 30"), "{error}");
+    let region = Fluvial { region: Some(LayerName::of("land")), ..step };
+    assert_eq!(region.faults().len(), 1, "a recipe says so already");
+}

@@ -5,13 +5,13 @@ use pulp::Arch;
 use super::settings::{links, settings};
 use crate::erode::dissolution_step::Dissolving;
 use crate::erode::material_planes::{Planes, REGOLITH_PLANES};
-use crate::erode::outflow_planes as plane;
 use crate::erode::slippage_step;
 use crate::erode::stava::digging::Digging;
 use crate::erode::stava::dissolution::Dissolution;
 use crate::erode::stava::slippage::Slippage;
 use crate::erode::stava::viscosity::Viscosity;
 use crate::erode::stava::{Stava, StavaConstants};
+use crate::erode::water_planes as plane;
 use weald_engine::program::Program;
 use weald_engine::stencil::chain::Process;
 

@@ -6,7 +6,7 @@
 
 use super::{Stava, StavaScratch};
 use crate::erode::before;
-use crate::erode::outflow_planes as plane;
+use crate::erode::water_planes as plane;
 use weald_engine::kernel;
 use weald_engine::stencil::chain::Flow;
 

@@ -11,7 +11,7 @@ use crate::erode::advection_rows::Advected;
 use crate::erode::forcing::Forcing;
 use crate::erode::links::plane as links_plane;
 use crate::erode::material_planes::Planes;
-use crate::erode::outflow_planes as plane;
+use crate::erode::water_planes as plane;
 use weald_core::material::MAX_MATERIALS;
 use weald_engine::program::builder::ProgramBuilder;
 use weald_engine::program::{Content, Program, Uniforms};

@@ -4,8 +4,8 @@
 use super::{Stava, StavaScratch};
 use crate::erode::four_outflows::{OutflowDrive, Row, inflows, outflows_of, sines};
 use crate::erode::material_planes::{Pile, pile};
-use crate::erode::outflow_planes as plane;
 use crate::erode::pipes::without_negligible;
+use crate::erode::water_planes as plane;
 use weald_engine::kernel;
 use weald_engine::stencil::chain::Flow;
 

@@ -4,9 +4,9 @@
 //! `e`, and the sources `q`, which drain where they are negative.
 
 use super::Stava;
-use crate::erode::outflow_planes as plane;
 use crate::erode::pipes::without_negligible;
 use crate::erode::sums;
+use crate::erode::water_planes as plane;
 use weald_engine::kernel;
 use weald_engine::stencil::chain::Flow;
 
