@@ -42,7 +42,7 @@ use super::forcing::Forcing;
 use super::pipeline::{Equations, Pipeline};
 use super::sums;
 use edges::{AXIS, DIAGONAL};
-use kernels::{Accelerate, Flow, FreeFall, Rained, Resistance, Shares, Slid, Through, Unrest, Wear};
+use kernels::{Accelerate, Flow, FreeFall, Rained, Resistance, Shares, Slid, Through, Unrest, Uptake, Wear};
 use weald_engine::kernel;
 use weald_engine::machine::{Means, Part};
 use weald_engine::uniform;
@@ -121,7 +121,7 @@ pub(crate) fn pipeline(constants: &FluvialConstants) -> Arc<Pipeline> {
     }
     equations.kernel::<Shares>().kernel::<Through>().kernel::<Flow>();
     equations.tally("water_out", sums::WATER_OUT).tally("sediment_out", sums::SEDIMENT_OUT);
-    equations.kernel::<Wear>().kernel::<Ground>().kernel::<Unrest>().kernel::<Slid>();
+    equations.kernel::<Uptake>().kernel::<Wear>().kernel::<Ground>().kernel::<Unrest>().kernel::<Slid>();
     equations.finish()
 }
 

@@ -268,10 +268,6 @@ impl Step for Fluvial {
         std::iter::once((self.layer.0.clone(), "m")).chain(own).collect()
     }
 
-    fn watched(&self) -> u64 {
-        1
-    }
-
     fn faults(&self) -> Vec<Fault> {
         let fault = || {
             let message = format!("`levels` is {}, but must be 1 with a `region`", self.levels);

@@ -173,24 +173,18 @@ fn carried_by(flux: f32, behind: f32, ahead: f32) -> f32 {
 }
 
 kernel! {
-    /// Depth and sediment after the fluxes, what left over an open edge, and what the flow takes up.
+    /// Depth and sediment after the fluxes, and what left over an open edge.
     pub(crate) struct Flow {
         reads {
             rained, sediment_before, valid, flux_east, flux_east_west, flux_south, flux_south_north,
             flux_diagonal, flux_diagonal_north_west, flux_antidiagonal, flux_antidiagonal_north_east,
             concentration, concentration_east, concentration_west, concentration_south, concentration_north,
             concentration_south_east, concentration_north_west, concentration_south_west,
-            concentration_north_east, surface, surface_east, surface_west, surface_south, surface_north,
-            surface_south_east, surface_north_west, surface_south_west, surface_north_east,
+            concentration_north_east,
         }
-        writes { water, carried, entrained, water_out, sediment_out }
-        constants { gathering: f32, channel_width: f32, erodibility: f32, threshold: f32, deepest: f32 }
+        writes { water, carried, water_out, sediment_out }
     }
     fn cell() {
-        let axes = [flux_east, flux_east_west, flux_south, flux_south_north];
-        let diagonals = [
-            flux_diagonal, flux_diagonal_north_west, flux_antidiagonal, flux_antidiagonal_north_east,
-        ];
         let gained = ((flux_east_west - flux_east) + (flux_south_north - flux_south))
             + ((flux_diagonal_north_west - flux_diagonal)
                 + (flux_antidiagonal_north_east - flux_antidiagonal));
@@ -211,6 +205,26 @@ kernel! {
         carried = found * valid;
         water_out = flowed * (1.0 - valid);
         sediment_out = found * (1.0 - valid);
+    }
+}
+
+kernel! {
+    /// What the power of the flow would take up.
+    pub(crate) struct Uptake {
+        reads {
+            rained, flux_east, flux_east_west, flux_south, flux_south_north,
+            flux_diagonal, flux_diagonal_north_west, flux_antidiagonal, flux_antidiagonal_north_east,
+            surface, surface_east, surface_west, surface_south, surface_north,
+            surface_south_east, surface_north_west, surface_south_west, surface_north_east,
+        }
+        writes { entrained }
+        constants { gathering: f32, channel_width: f32, erodibility: f32, threshold: f32, deepest: f32 }
+    }
+    fn cell() {
+        let axes = [flux_east, flux_east_west, flux_south, flux_south_north];
+        let diagonals = [
+            flux_diagonal, flux_diagonal_north_west, flux_antidiagonal, flux_antidiagonal_north_east,
+        ];
         let power = power(
             (axes, diagonals),
             surface,
