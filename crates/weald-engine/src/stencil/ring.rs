@@ -57,6 +57,9 @@ pub struct Ring {
     start: usize,
     columns: usize,
     depth: usize,
+    /// The row that was written last, and its slot: others are found from there, without a division a row.
+    latest: usize,
+    latest_slot: usize,
     watch: Watch,
 }
 
@@ -65,7 +68,7 @@ impl Ring {
     pub fn new(columns: usize, depth: usize) -> Self {
         let cells = vec![0.0_f32; segment(columns) * depth + CACHE_LINE];
         let start = cache_line_start(&cells);
-        Self { cells, start, columns, depth, watch: Watch::new(depth) }
+        Self { cells, start, columns, depth, latest: 0, latest_slot: 0, watch: Watch::new(depth) }
     }
 
     /// The row beyond a wall, number 0 of a ring that nothing is written to: all of its cells are 0.
@@ -75,36 +78,55 @@ impl Ring {
         ring
     }
 
-    fn slot(&self, y: usize) -> std::ops::Range<usize> {
+    /// The slot of row `y`, which is that of `y % depth`.
+    #[inline]
+    fn slot(&self, y: usize) -> usize {
+        match self.latest.checked_sub(y) {
+            Some(back) if back <= self.latest_slot => self.latest_slot - back,
+            Some(back) if back < self.depth => self.latest_slot + self.depth - back,
+            _ => y % self.depth,
+        }
+    }
+
+    #[inline]
+    fn cells_of(&self, slot: usize) -> std::ops::Range<usize> {
         let segment = segment(self.columns);
-        let start = self.start + y % self.depth * segment;
+        let start = self.start + slot * segment;
         start..start + segment
     }
 
+    #[inline]
     fn row(&self, y: usize) -> &[f32] {
         self.watch.read(y);
-        &self.cells[self.slot(y)]
+        &self.cells[self.cells_of(self.slot(y))]
     }
 
     /// Row `y`.
+    #[inline]
     pub fn here(&self, y: usize) -> &[f32] {
         here(self.row(y), self.columns)
     }
 
     /// Western neighbours of row `y`.
+    #[inline]
     pub fn west(&self, y: usize) -> &[f32] {
         west(self.row(y), self.columns)
     }
 
     /// Eastern neighbours of row `y`.
+    #[inline]
     pub fn east(&self, y: usize) -> &[f32] {
         east(self.row(y), self.columns)
     }
 
     /// Row `y`, to write. It takes the place of row `y - depth`.
+    #[inline]
     pub fn here_mut(&mut self, y: usize) -> &mut [f32] {
-        let slot = self.slot(y);
-        let row = here_mut(&mut self.cells[slot], self.columns);
+        let follows = y == self.latest + 1 && self.latest_slot + 1 < self.depth;
+        self.latest_slot = if follows { self.latest_slot + 1 } else { self.slot(y) };
+        self.latest = y;
+        let cells = self.cells_of(self.latest_slot);
+        let row = here_mut(&mut self.cells[cells], self.columns);
         self.watch.write(y, row);
         row
     }

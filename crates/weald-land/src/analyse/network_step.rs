@@ -20,6 +20,9 @@ pub const ENTRY: Entry = Entry::of::<Network>(
     "Weald, after the claims of Han 2015, doi 10.7583/JKGS.2015.15.6.171",
 );
 
+/// Rain of `fluvial` with its defaults, in metres per second.
+const DEFAULT_FLOOD: f64 = 40.0 / 3.6e6;
+
 /// Mean rain of `hydraulic` with its defaults, in cells per iteration: 0.01 in one iteration of two.
 const DEFAULT_RAIN: f64 = 0.005;
 
@@ -53,7 +56,7 @@ parameters! {
         deposition: LayerName = LayerName::of("deposition");
         /// Mean rain per iteration over a whole cycle: `rain` of `hydraulic` times the share of the iterations with
         /// rain. Without it 0.005 × cell size, the mean of model = "han" with its defaults; give it for every other
-        /// model.
+        /// model. With fluxes in m³/s it is metres per second, 40 mm/h without it.
         rain: Option<f64> = None, range 1.0e-9..=100.0, unit "m/iteration";
     }
 }
@@ -76,13 +79,15 @@ impl Step for Network {
         let domain = &landscape.domain;
         let field = |name: &LayerName| landscape.field(&name.0);
         let before = before(field(&self.of)?, field(&self.erosion)?, field(&self.deposition)?);
-        let rain = self.rain.unwrap_or(DEFAULT_RAIN * domain.cell);
+        let fluxes = [field(&self.flux_x)?, field(&self.flux_y)?];
+        let in_seconds = landscape.layer(&self.flux_x.0)?.unit == "m³/s";
+        let rain = self.rain.unwrap_or(if in_seconds { DEFAULT_FLOOD } else { DEFAULT_RAIN * domain.cell });
         let measures = measure(&NetworkInput {
             ground: field(&self.of)?,
             before: Some(&before),
             depth: field(&self.water)?,
-            mean_flux_x: field(&self.flux_x)?,
-            mean_flux_y: field(&self.flux_y)?,
+            mean_flux_x: fluxes[0],
+            mean_flux_y: fluxes[1],
             mean_rain: rain * domain.cell_area(),
             cell: domain.cell,
             valid: domain.valid.as_ref(),

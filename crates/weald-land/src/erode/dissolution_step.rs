@@ -2,10 +2,10 @@
 
 use pulp::Arch;
 
-use super::deposit::deposit_of;
 use super::links::Links;
 use super::material_planes::{Planes, REGOLITH_PLANES};
 use super::simulation::Simulation;
+use super::stack::deposit_of;
 use super::stack::{Column, REGOLITH};
 use super::stava::digging::{DigScratch, Digging};
 use super::stava::dissolution::{Dissolution, DissolutionScratch, RegolithRows};

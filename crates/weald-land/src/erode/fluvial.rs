@@ -33,22 +33,24 @@
 pub(crate) mod edges;
 pub(crate) mod kernels;
 mod program;
+pub(crate) mod strata;
 
 pub(crate) use program::program;
 
 use std::sync::Arc;
 
-use super::forcing::Forcing;
 use super::pipeline::{Equations, Pipeline};
+use super::springs::Forcing;
 use super::sums;
 use edges::{AXIS, DIAGONAL};
-use kernels::{Accelerate, Flow, FreeFall, Rained, Resistance, Shares, Slid, Through, Unrest, Uptake, Wear};
-use weald_engine::kernel;
+use kernels::{Accelerate, Flow, Rained, Shares, Slid, Through, Unrest, Uptake, Wear};
+use strata::{BOTTOMS, Mapped, Strata};
+use weald_core::material::MAX_MATERIALS;
 use weald_engine::machine::{Means, Part};
 use weald_engine::uniform;
 
 /// Planes that change, before and after a step; the first three are those of all models of water.
-const STATE: [(&str, &str); 7] = [
+const STATE: [(&str, &str); 8] = [
     ("change_before", "change"),
     ("depth_before", "water"),
     ("sediment_before", "sediment"),
@@ -56,10 +58,14 @@ const STATE: [(&str, &str); 7] = [
     ("old_south", "flux_south"),
     ("old_diagonal", "flux_diagonal"),
     ("old_antidiagonal", "flux_antidiagonal"),
+    ("resistance_before", "resistance"),
 ];
 
-/// Number of planes that change.
+/// Number of planes that change on ground of one material.
 pub(crate) const PLANES: usize = STATE.len();
+
+/// The plane behind them, where ground is of several materials.
+const ROCK: (&str, &str) = ("rock_before", "rock");
 
 /// Mean fluxes through the eastern, southern, south-eastern and south-western edge.
 pub(crate) const MEAN_FLUXES: Means<'static> = &[
@@ -72,6 +78,9 @@ pub(crate) const MEAN_FLUXES: Means<'static> = &[
 uniform! {
     /// Constants of the method, in cells and steps.
     pub(crate) struct FluvialConstants {
+        /// For each material, bedrock first: its erodibility over that of the bedrock, its talus over `talus`, and
+        /// whether it is loose.
+        pub(crate) materials: [[f32; 4]; MAX_MATERIALS],
         /// `g dt² / l`.
         pub(crate) flow_rate: f32,
         /// Depth from which on water flows as if it were that deep.
@@ -96,47 +105,85 @@ uniform! {
         pub(crate) creep: f32,
         /// 1 where water leaves over the edges, else 0.
         pub(crate) open: f32,
+        /// Thickness of a cover that protects by half what it lies on.
+        pub(crate) half: f32,
+        /// Uniforms with vectors end on a multiple of sixteen bytes.
+        pub(crate) padding_a: f32,
+        pub(crate) padding_b: f32,
     }
 }
 
-kernel! {
-    /// Ground of a row.
-    pub(crate) struct Ground {
-        reads { base, settled }
-        writes { ground }
+/// The method with its numbers.
+#[derive(Clone, Debug)]
+pub(crate) struct Numbers {
+    pub(crate) constants: FluvialConstants,
+    /// Materials, where the ground is of several.
+    pub(crate) strata: Option<Strata>,
+    /// Whether a constant plane says what rains on each cell.
+    pub(crate) rain_map: bool,
+    /// Whether one says how soft the ground is.
+    pub(crate) erodibility_map: bool,
+}
+
+impl Numbers {
+    /// Number of planes that change.
+    pub(crate) fn planes(&self) -> usize {
+        PLANES + usize::from(self.strata.is_some())
     }
-    fn cell() {
-        ground = base + settled;
+
+    fn state(&self) -> Vec<(&'static str, &'static str)> {
+        STATE.into_iter().chain(self.strata.is_some().then_some(ROCK)).collect()
+    }
+
+    /// Names of the planes that stay: the ground at the start, what rains, and the bottoms of strata.
+    fn constant_planes(&self) -> Vec<&'static str> {
+        let strata = self.strata.as_ref().map_or(0, |strata| strata.strata.len());
+        let rain = self.rain_map.then_some("inflow");
+        let map = self.erodibility_map.then_some("erodibility_map");
+        std::iter::once("base").chain(rain).chain(map).chain(BOTTOMS.into_iter().take(strata)).collect()
+    }
+
+    /// The equations in their order.
+    pub(crate) fn pipeline(&self) -> Arc<Pipeline> {
+        let mut equations = Equations::new(&self.constant_planes(), &self.state(), &self.constants);
+        equations.weather(&Forcing { rain: 0.0, evaporation: 0.0 });
+        // Where all is even, what belongs to cells with data alone stands for 1.
+        let inflow = if self.rain_map { "inflow" } else { "valid" };
+        let [repose, loose] = if self.strata.is_some() { ["repose", "loose"] } else { ["valid"; 2] };
+        let softness = match (&self.strata, self.erodibility_map) {
+            (Some(_), _) => "softness",
+            (None, true) => "erodibility_map",
+            (None, false) => "valid",
+        };
+        if let Some(strata) = &self.strata {
+            strata.add_to(&mut equations);
+            if self.erodibility_map {
+                equations.kernel_on::<Mapped>(&[("factor", "erodibility_map")]);
+            }
+        }
+        equations.kernel_on::<Rained>(&[("inflow", inflow)]).tally("fallen", sums::RAINED);
+        equations.kernel::<Accelerate>().kernel::<Shares>().kernel::<Through>().kernel::<Flow>();
+        equations.tally("water_out", sums::WATER_OUT).tally("sediment_out", sums::SEDIMENT_OUT);
+        equations.kernel_on::<Uptake>(&[("softness", softness)]).kernel::<Wear>();
+        equations.kernel_on::<Unrest>(&[("repose", repose), ("loose", loose)]).kernel::<Slid>();
+        equations.finish()
     }
 }
 
-/// The equations in their order.
-pub(crate) fn pipeline(constants: &FluvialConstants) -> Arc<Pipeline> {
-    let mut equations = Equations::new(&["base"], &STATE, constants);
-    equations.weather(&Forcing { rain: 0.0, evaporation: 0.0 });
-    equations.kernel::<Rained>().tally("fallen", sums::RAINED);
-    equations.kernel::<Resistance>().kernel::<Accelerate>();
-    if constants.open > 0.0 {
-        add_falls(&mut equations);
-    }
-    equations.kernel::<Shares>().kernel::<Through>().kernel::<Flow>();
-    equations.tally("water_out", sums::WATER_OUT).tally("sediment_out", sums::SEDIMENT_OUT);
-    equations.kernel::<Uptake>().kernel::<Wear>().kernel::<Ground>().kernel::<Unrest>().kernel::<Slid>();
-    equations.finish()
-}
-
-/// Free falls over the four edges that a cell keeps.
-fn add_falls(equations: &mut Equations) {
-    let edges = [
-        ("wanted_east", "rained_east", "valid_east", AXIS),
-        ("wanted_south", "rained_south", "valid_south", AXIS),
-        ("wanted_diagonal", "rained_south_east", "valid_south_east", DIAGONAL),
-        ("wanted_antidiagonal", "rained_south_west", "valid_south_west", DIAGONAL),
-    ];
-    for (wanted, rained_next, valid_next, face) in edges {
-        let rows = [("wanted", wanted), ("rained_next", rained_next), ("valid_next", valid_next)];
-        equations.number("face", face).kernel_on::<FreeFall>(&rows);
-    }
+/// The fluxes through the four edges that each cell keeps of a sheet with this discharge, `w (e · q)`.
+pub(crate) fn fluxes_of(discharge: [&[f32]; 2], columns: usize) -> [Vec<f32>; 4] {
+    let rows = discharge[0].len() / columns;
+    let edge = |east: isize, south: isize, weight: f32| -> Vec<f32> {
+        let through = |cell: usize| {
+            let (x, y) = (cell % columns, cell / columns);
+            let next = x.checked_add_signed(east).zip(y.checked_add_signed(south));
+            let Some((x, y)) = next.filter(|&(x, y)| x < columns && y < rows) else { return 0.0 };
+            let mean = discharge.map(|along| 0.5 * (along[cell] + along[y * columns + x]));
+            weight * (mean[0] * east as f32 + mean[1] * south as f32)
+        };
+        (0..rows * columns).map(through).collect()
+    };
+    [edge(1, 0, AXIS), edge(0, 1, AXIS), edge(1, 1, DIAGONAL), edge(-1, 1, DIAGONAL)]
 }
 
 /// The fluxes through the eastern and southern side of each cell of a grid with that many columns, from those of the

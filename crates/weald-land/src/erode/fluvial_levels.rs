@@ -4,38 +4,43 @@
 //! A coarse cell begins as the mean of its fine ones. What it has become goes down by bilinear interpolation between
 //! the middles of cells, which gives every coarse cell's volume to fine ones whole: 9, 3, 3 and 1 sixteenths.
 
+use weald_core::Domain;
 use weald_core::error::Error;
 use weald_core::grid::{Field, Size};
 use weald_core::landscape::Landscape;
-use weald_core::{Domain, parameter::LayerName};
 use weald_engine::{Budget, Job, Watcher};
 
-/// What a level hands down, in metres.
+/// What a level hands down: metres, and the discharge to the east and south in m²/s, so that water goes on as it ran.
 #[derive(Clone, Debug)]
 pub(crate) struct HandedDown {
     pub(crate) change: Field,
     pub(crate) water: Field,
     pub(crate) sediment: Field,
+    pub(crate) discharge: [Field; 2],
+    /// How the top of the rock has changed, where the ground is of several materials.
+    pub(crate) worn: Option<Field>,
 }
 
 impl HandedDown {
     /// The same on cells half as long.
     pub(crate) fn refined(&self) -> Self {
-        let Self { change, water, sediment } = self;
-        Self { change: refined(change), water: refined(water), sediment: refined(sediment) }
+        Self {
+            change: refined(&self.change),
+            water: refined(&self.water),
+            sediment: refined(&self.sediment),
+            discharge: self.discharge.each_ref().map(refined),
+            worn: self.worn.as_ref().map(refined),
+        }
     }
 }
 
-/// Share of the time that runs on a level, counted from the finest, 0.
+/// Share of the time that runs on a level, counted from the finest, 0: an eighth on that, the rest on the others alike.
 pub(crate) fn share_of_time(level: u32, levels: u32) -> f64 {
-    const FINEST: f64 = 0.1;
+    const FINEST: f64 = 0.125;
     match (levels, level) {
         (1, _) => 1.0,
         (_, 0) => FINEST,
-        _ => {
-            let all = levels * (levels - 1) / 2;
-            (1.0 - FINEST) * f64::from(level) / f64::from(all)
-        }
+        _ => (1.0 - FINEST) / f64::from(levels - 1),
     }
 }
 
@@ -70,17 +75,17 @@ pub(crate) fn check(landscape: &Landscape, levels: u32) -> Result<(), Error> {
     Err(Error::Run(message))
 }
 
-/// The landscape with cells so many times as long, with these layers alone.
+/// The landscape with cells so many times as long, of the same materials and with these layers alone.
 pub(crate) fn coarsened(
     landscape: &Landscape,
     every: usize,
-    layers: &[&LayerName],
+    layers: &[(String, Field)],
 ) -> Result<Landscape, Error> {
     let Size { columns, rows } = landscape.domain.size;
     let size = Size::new(columns / every, rows / every)?;
     let mut coarse = Landscape::new(Domain::new(size, landscape.domain.cell * every as f64));
-    for LayerName(name) in layers {
-        let field = landscape.field(name)?;
+    coarse.materials.clone_from(&landscape.materials);
+    for (name, field) in layers {
         coarse.insert(name, "m", mean(field, size, every));
     }
     Ok(coarse)
@@ -145,12 +150,12 @@ mod tests {
     }
 
     #[test]
-    fn all_time_passes_and_a_tenth_of_it_on_the_finest_level() {
+    fn all_time_passes_and_an_eighth_of_it_on_the_finest_level() {
         for levels in 1..8 {
             let shares: Vec<_> = (0..levels).map(|level| share_of_time(level, levels)).collect();
             assert!((shares.iter().sum::<f64>() - 1.0).abs() < 1e-12, "{shares:?}");
-            assert!(levels == 1 || (shares[0] - 0.1).abs() < 1e-12);
-            assert!(shares[1..].windows(2).all(|pair| pair[0] < pair[1]), "{shares:?}");
+            assert!(levels == 1 || (shares[0] - 0.125).abs() < 1e-12);
+            assert!(shares[1..].iter().all(|share| *share > 0.0), "{shares:?}");
         }
     }
 }

@@ -1,23 +1,17 @@
 //! The `fluvial` step: floods carve ground over years, in metres and time.
 
-use super::extent::Extent;
-use super::finished::Finished;
-use super::fluvial::{self, FluvialConstants};
-use super::fluvial_levels::{self as levels, HandedDown, OfCoarse};
-use super::forcing::Forcing;
+use super::fluvial;
+use super::fluvial_levels as levels;
+use super::fluvial_materials::strata_of;
 use super::hydraulic::Boundary;
-use super::pipeline::Stepped;
-use super::simulation::{Record, Simulation};
-use super::stored::MeanFluxes;
-use super::water_planes as plane;
-use super::working::WorkingGrid;
+use super::springs::{self, Source};
 use weald_core::error::Error;
 use weald_core::landscape::Landscape;
-use weald_core::parameter::{Fault, LayerName};
+use weald_core::material::Material;
+use weald_core::parameter::{Fault, LayerName, Nested};
 use weald_core::parameters;
-use weald_engine::stencil::rows::Rows;
-use weald_engine::step::{Entry, Outcome, Stage, Step};
-use weald_engine::{Budget, Job};
+use weald_engine::Job;
+use weald_engine::step::{Entry, Layered, Outcome, Stage, Step};
 
 parameters! {
     /// Floods that carve ground over years: rivers, valleys, fans and lakes in metres and time. The grid only says how
@@ -44,12 +38,25 @@ parameters! {
         flow_time: f64 = 3.0, range 0.001..=100_000.0, unit "h";
         /// Rain that runs off in a flood, over all of the ground.
         rain: f64 = 40.0, range 0.0..=10_000.0, unit "mm/h";
+        /// Layer with the share of the rain that falls on each cell; 1 is `rain`. Default: 1 everywhere.
+        rain_map: Option<LayerName> = None;
+        /// Rivers and springs that flow in: `{ x, y, radius, discharge }`.
+        sources: Vec<Nested<Source>> = Vec::new();
         /// Ground that a unit of stream power takes up in a year (K). Hard rock has less than 1, loose soil 10 and more.
         erodibility: f64 = 3.0, range 0.0..=100_000.0, unit "m/a per m²/s";
+        /// Layer that multiplies the erodibility: 0.1 for hard, 10 for soft ground. Default: 1 everywhere.
+        erodibility_map: Option<LayerName> = None;
+        /// Whether each material wears and rests in its own way: `erodibility` is then that of the bedrock, those of
+        /// the others stand to it as theirs do, and each has its own talus. What has settled or slid counts as the
+        /// last material.
+        materials: bool = false;
+        /// Thickness of loose material that protects by half the rock it lies on, with `materials`.
+        cover: f64 = 0.5, range 0.001..=1000.0, unit "m";
         /// Unit stream power below which nothing is taken up: discharge by width, times slope.
         threshold: f64 = 0.002, range 0.0..=1000.0, unit "m²/s";
-        /// Speed at which sediment falls to the bed (v_s): the faster, the sooner it settles again.
-        settling: f64 = 0.002, range 0.0..=10.0, unit "m/s";
+        /// Speed at which sediment falls to the bed (v_s): the faster, the sooner it settles again. Fine sand and silt
+        /// leave mountains with 0.0005; gravel, with 0.005, fills their valleys.
+        settling: f64 = 0.0005, range 0.0..=10.0, unit "m/s";
         /// Width of a channel in which 1 m³/s flows; others are wider with the root of their discharge.
         channel_width: f64 = 4.0, range 0.01..=1000.0, unit "m";
         /// Distance of the channels in which water gathers that runs down a slope as a sheet.
@@ -61,14 +68,14 @@ parameters! {
         /// steps.
         deepest: f64 = 2.0, range 0.01..=1000.0, unit "m";
         /// Creep of the ground (D), which rounds what rivers do not reach.
-        creep: f64 = 0.03, range 0.0..=1000.0, unit "m²/a";
+        creep: f64 = 0.01, range 0.0..=1000.0, unit "m²/a";
         /// Steepest slope that rests, as a tangent.
         talus: f64 = 0.7, range 0.0..=100.0;
         /// How fast steeper ground slides.
         slide: f64 = 1.0, range 0.0..=10_000.0, unit "m²/a";
-        /// Grids that it runs on, each with cells twice as long as those of the next: nine tenths of the time pass on the
-        /// coarser ones, which hand ground, water and sediment down. 3 is some six times as fast as 1. The numbers of
-        /// cells must divide, and none may be without data.
+        /// Grids that it runs on, each with cells twice as long as those of the next: seven eighths of the time pass on
+        /// the coarser ones, which hand ground, water and sediment down. 3 is some five times as fast as 1. The numbers
+        /// of cells must divide, and none may be without data.
         levels: u32 = 1, range 1..=8;
         /// What happens at the edge and at no-data cells.
         boundary: Boundary = Boundary::Open;
@@ -90,169 +97,34 @@ pub const ENTRY: Entry = Entry::of::<Fluvial>(
     "Bates, Horritt, Fewtrell 2010, doi 10.1016/j.jhydrol.2010.03.027; Davy and Lague 2009, doi 10.1029/2008JF001146",
 );
 
-/// Gravity in m/s².
-const GRAVITY: f64 = 9.81;
-
-/// Part of a cell that the fastest wave passes in a step. Eight pipes are stable up to √3/2.
-const COURANT: f64 = 0.5;
-
-/// Most of the step between two cells that creeps or slides in a step of time. Stable up to 3/8.
-const MAX_UNREST: f64 = 0.15;
-
-/// Depth in metres that is added where something is divided by depth.
-const THIN: f64 = 0.001;
-
-/// Steps of the end over which fluxes are averaged: one in so many.
-const RECORDED: u64 = 10;
-
-/// How long a step is, and how many there are.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Steps {
-    seconds: f64,
-    count: u64,
-}
-
 impl Fluvial {
-    /// Years that pass in a second of flow.
-    fn years_a_second(&self) -> f64 {
-        self.duration / (self.flow_time * 3600.0)
+    /// Layers with a number a cell.
+    pub(super) fn maps(&self) -> [Option<&LayerName>; 2] {
+        [self.rain_map.as_ref(), self.erodibility_map.as_ref()]
     }
-
-    /// The longest steps that are stable, so many that they fill the time.
-    fn steps(&self, cell: f64) -> Steps {
-        let by_waves = COURANT * cell / (GRAVITY * self.deepest).sqrt();
-        let diffusivity = (self.creep + self.slide) * self.years_a_second();
-        let by_ground = MAX_UNREST * cell * cell / diffusivity.max(f64::MIN_POSITIVE);
-        let time = self.flow_time * 3600.0;
-        let count = (time / by_waves.min(by_ground)).ceil().max(1.0);
-        Steps { seconds: time / count, count: count as u64 }
-    }
-
-    /// The numbers in cells and steps.
-    fn constants(&self, cell: f64, Steps { seconds, .. }: Steps) -> FluvialConstants {
-        let years = self.years_a_second();
-        let by_area = seconds / (cell * cell);
-        FluvialConstants {
-            flow_rate: (GRAVITY * seconds * seconds / cell) as f32,
-            deepest: (self.deepest / cell) as f32,
-            friction: self.friction as f32,
-            gathering: (self.gathering / cell) as f32,
-            channel_width: (self.channel_width * (cell / seconds).sqrt()) as f32,
-            erodibility: (self.erodibility * years * cell) as f32,
-            threshold: (self.threshold * by_area) as f32,
-            settling: (self.settling * seconds / cell) as f32,
-            thin: (THIN / cell) as f32,
-            talus: self.talus as f32,
-            slide: (self.slide * years * by_area) as f32,
-            creep: (self.creep * years * by_area) as f32,
-            open: f32::from(u8::from(self.boundary == Boundary::Open)),
-        }
-    }
-
-    fn working(&self, landscape: &Landscape) -> Result<WorkingGrid, Error> {
-        let open = self.boundary == Boundary::Open;
-        let region = self.region.as_ref().map(|region| region.0.as_str());
-        let mut working =
-            WorkingGrid::within(landscape, &self.layer.0, &Extent { open, region, cropped: true })?;
-        if let Some(water) = &self.initial_water {
-            working.set_water(landscape, &water.0)?;
-        }
-        Ok(working)
-    }
-
-    fn process(&self, working: &WorkingGrid) -> Stepped<Forcing> {
-        let constants = self.constants(working.cell, self.steps(working.cell));
-        let pipeline = fluvial::pipeline(&constants);
-        let masked = working.mask.is_some();
-        let program = fluvial::program(&constants, masked, pipeline.reach());
-        Stepped::with_program(&pipeline, (working.size, masked), program)
-    }
-
-    /// The same for the time that passes on a level.
-    fn for_level(&self, level: u32) -> Self {
-        let share = levels::share_of_time(level, self.levels);
-        let (duration, flow_time) = (self.duration * share, self.flow_time * share);
-        Self { duration, flow_time, ..self.clone() }
-    }
-
-    /// A coarse level: its budget, and what it hands down.
-    fn coarse(
-        &self,
-        landscape: &Landscape,
-        (level, handed): (u32, Option<&HandedDown>),
-        job: &Job<'_>,
-    ) -> Result<(Budget, HandedDown), Error> {
-        let step = self.for_level(level);
-        let layers: Vec<_> = std::iter::once(&self.layer).chain(&self.initial_water).collect();
-        let coarse = levels::coarsened(landscape, 1 << level, &layers)?;
-        let mut working = step.working(&coarse)?;
-        let start = start(&mut working, handed);
-        let watcher = OfCoarse(job.watcher);
-        let finished = step.flood((&coarse, &working), start, &watcher.job(job))?;
-        let cell = working.cell as f32;
-        let planes = [plane::CHANGE, plane::DEPTH, plane::SEDIMENT].map(|at| finished.state.gather(at));
-        let [change, water, sediment] =
-            planes.each_ref().map(|plane| working.field(plane, |value| value * cell));
-        let budget = working.budget(&planes[1], &planes[2], &finished);
-        Ok((budget, HandedDown { change, water, sediment }))
-    }
-
-    fn fluxes(&self, working: &WorkingGrid, finished: &Finished) -> MeanFluxes {
-        let planes = fluvial::through_sides(&finished.means, working.size.columns);
-        let factor = (working.cell.powi(3) / self.steps(working.cell).seconds) as f32;
-        MeanFluxes { planes, unit: "m³/s", factor }
-    }
-
-    /// Runs all steps.
-    fn flood(
-        &self,
-        (landscape, working): (&Landscape, &WorkingGrid),
-        start: Rows,
-        job: &Job<'_>,
-    ) -> Result<Finished, Error> {
-        let Steps { seconds, count } = self.steps(working.cell);
-        let process = self.process(working);
-        let plane_names = process.state_names();
-        let rain = (self.rain / 3.6e6 * seconds / working.cell) as f32;
-        let seen = |finished: &Finished| {
-            let mut seen = landscape.clone();
-            working.store_with(&mut seen, &self.layer.0, finished, &self.fluxes(working, finished));
-            seen
-        };
-        let simulation = Simulation {
-            process: &process,
-            plane_names: &plane_names,
-            iterations: count,
-            weather: &|_| Forcing { rain, evaporation: 0.0 },
-            record: Some(Record {
-                steps: count - count.div_ceil(RECORDED)..count,
-                means: fluvial::MEAN_FLUXES,
-            }),
-            edits: None,
-            seen: Some(&seen),
-        };
-        working.show(job)?;
-        simulation.run(start, job)
-    }
-}
-
-/// The state before the first step, with what a coarser level hands down.
-fn start(working: &mut WorkingGrid, handed: Option<&HandedDown>) -> Rows {
-    let Some(HandedDown { change, water, sediment }) = handed else {
-        return working.water_state(fluvial::PLANES, &[]);
-    };
-    working.set_standing(water.clone());
-    let mut rows = working.water_state(fluvial::PLANES, &[]);
-    let cell = working.cell as f32;
-    rows.scatter(plane::CHANGE, &working.ringed(|x, y| change.at(x, y) / cell));
-    rows.scatter(plane::SEDIMENT, &working.lengths(sediment));
-    rows
 }
 
 impl Step for Fluvial {
     fn reads(&self) -> Vec<String> {
-        let others = [&self.initial_water, &self.region].into_iter().flatten();
+        let others =
+            [self.initial_water.as_ref(), self.region.as_ref()].into_iter().chain(self.maps()).flatten();
         std::iter::once(&self.layer).chain(others).map(|name| name.0.clone()).collect()
+    }
+
+    fn layered(&self) -> Layered {
+        if self.materials { Layered::Changes } else { Layered::Never }
+    }
+
+    fn faults_among(&self, materials: &[Material]) -> Vec<Fault> {
+        let hard = materials.first().is_some_and(|bedrock| bedrock.erodibility > 0.0);
+        let fault = || {
+            let message =
+                "`materials` is true, but the `erodibility` of the bedrock is 0: those of the others are \
+                           measured by it"
+                    .to_owned();
+            Fault::of("materials", message)
+        };
+        (self.materials && !hard).then(fault).into_iter().collect()
     }
 
     fn writes(&self) -> Vec<(String, &'static str)> {
@@ -278,21 +150,11 @@ impl Step for Fluvial {
 
     fn run(&self, landscape: &mut Landscape, job: &Job<'_>) -> Result<Outcome, Error> {
         levels::check(landscape, self.levels)?;
-        let (mut before, mut handed) = (Vec::new(), None);
-        for level in (1..self.levels).rev() {
-            let (budget, down) = self.coarse(landscape, (level, handed.as_ref()), job)?;
-            before.push(budget);
-            handed = Some(down.refined());
-        }
-        let step = self.for_level(0);
-        let mut working = step.working(landscape)?;
-        let start = start(&mut working, handed.as_ref());
-        let finished = step.flood((landscape, &working), start, job)?;
-        let fluxes = step.fluxes(&working, &finished);
-        let budget = working.store_with(landscape, &self.layer.0, &finished, &fluxes);
-        let budget = before.iter().fold(budget, levels::joined);
-        let iterations = step.steps(landscape.domain.cell).count;
-        Ok(Outcome { iterations, budget: Some(budget), notes: finished.notes, ..Outcome::default() })
+        let mut outcome = self.run_levels(landscape, job)?;
+        let springs: Vec<_> =
+            self.sources.iter().map(|Nested(source)| Nested(source.spring(&landscape.domain))).collect();
+        outcome.notes.extend(springs::out_of_reach(&landscape.domain, "sources", &springs));
+        Ok(outcome)
     }
 }
 
@@ -307,10 +169,15 @@ pub(super) fn variants() -> Vec<Box<dyn Step>> {
         channel_width: 0.3,
         ..Fluvial::default()
     };
-    let painted = Some(LayerName::of("painted"));
+    let painted = || Some(LayerName::of("painted"));
+    let source = Source { x: 20.0, y: 20.0, radius: 10.0, discharge: 100.0 };
+    let mapped = Fluvial { rain_map: painted(), erodibility_map: painted(), ..flood.clone() };
     vec![
         Box::new(Fluvial { boundary: Boundary::Closed, ..flood.clone() }),
-        Box::new(Fluvial { region: painted, ..flood.clone() }),
+        Box::new(Fluvial { region: painted(), sources: vec![Nested(source)], ..flood.clone() }),
+        Box::new(Fluvial { materials: true, ..flood.clone() }),
+        Box::new(Fluvial { materials: true, ..mapped.clone() }),
+        Box::new(mapped),
         Box::new(flood),
     ]
 }
@@ -318,9 +185,12 @@ pub(super) fn variants() -> Vec<Box<dyn Step>> {
 /// Its programs in every variant, for tests of the shaders.
 pub(super) fn programs() -> impl Iterator<Item = weald_engine::program::Program> {
     let borders = [(Boundary::Closed, false), (Boundary::Closed, true), (Boundary::Open, true)];
-    borders.into_iter().map(|(boundary, masked)| {
-        let step = Fluvial { boundary, ..Fluvial::default() };
-        let constants = step.constants(10.0, step.steps(10.0));
-        fluvial::program(&constants, masked, fluvial::pipeline(&constants).reach())
+    let variants = borders.into_iter().flat_map(|border| (0..=4).map(move |materials| (border, materials)));
+    variants.map(|((boundary, masked), materials)| {
+        let map = (materials % 2 == 1).then(|| LayerName::of("painted"));
+        let step = Fluvial { boundary, rain_map: map.clone(), erodibility_map: map, ..Fluvial::default() };
+        let stack = vec![Material::built_in("rock").expect("built in"); materials];
+        let numbers = step.numbers(10.0, strata_of(&stack, 0.1));
+        fluvial::program(&numbers, masked, numbers.pipeline().reach())
     })
 }

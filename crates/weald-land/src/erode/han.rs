@@ -11,8 +11,8 @@ mod program;
 mod sediment;
 mod water;
 
-use super::forcing::Forcing;
 use super::setting::{Setting, Settled};
+use super::springs::Forcing;
 use weald_core::grid::Size;
 use weald_engine::machine::{Means, Part};
 use weald_engine::program::Program;

@@ -17,7 +17,7 @@ pub use keys::{Boundary, HanKeys, Hydraulic, MeiKeys, Model, StavaKeys, Transpor
 use std::path::PathBuf;
 
 use super::advection::Advection;
-use super::forcing::Forcing;
+use super::springs::Forcing;
 use super::stack::REGOLITH;
 use super::thermal::Slide;
 use super::thermal_step::ThermalWithin;

@@ -86,6 +86,7 @@ impl Links {
     }
 
     /// Which cells of row `y`, or of their neighbours to the east (1) or west (-1), hold data.
+    #[inline]
     pub(crate) fn valid<'a>(&'a self, constants: &'a [Ring], y: usize, east: isize) -> &'a [f32] {
         match (self, east) {
             (Self::Whole(whole), 0) => &whole.ones,

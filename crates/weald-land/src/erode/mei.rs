@@ -13,8 +13,8 @@ mod program;
 mod sediment;
 mod water;
 
-use super::forcing::Forcing;
 use super::setting::{Setting, Settled};
+use super::springs::Forcing;
 use super::water_planes as plane;
 use weald_core::grid::Size;
 use weald_engine::machine::{Means, Part};

@@ -11,16 +11,17 @@ mod advection_rows;
 #[cfg(test)]
 #[path = "../../tests/worked_example/creep.rs"]
 pub mod creep;
-mod deposit;
 pub mod dissolution_step;
 mod edits;
 mod extent;
 mod finished;
 mod fluvial;
 mod fluvial_levels;
+mod fluvial_materials;
+mod fluvial_numbers;
+mod fluvial_run;
 pub mod fluvial_step;
 mod flux_corrected;
-mod forcing;
 mod four_outflows;
 mod han;
 pub mod hydraulic;
@@ -50,7 +51,6 @@ mod sweep;
 pub mod thermal;
 pub mod thermal_step;
 pub mod transport_step;
-mod upwind;
 mod water_planes;
 mod working;
 

@@ -66,7 +66,9 @@ impl Equations {
         numbers: &U,
     ) -> Self {
         let uniforms = Uniforms::of(numbers);
-        let numbers = uniforms.fields.iter().zip(&uniforms.words);
+        // Vectors stand before all numbers.
+        let numbers = uniforms.fields.iter().rev().zip(uniforms.words.iter().rev());
+        let numbers = numbers.take_while(|((_, kind), _)| !kind.contains("vec4"));
         let numbers = numbers.map(|((name, _), &word)| (*name, f32::from_bits(word))).collect();
         let pipeline = Pipeline {
             uniforms,

@@ -1,10 +1,9 @@
 //! The `slippage` step: every material slides off slopes steeper than its talus.
 
-use super::deposit::deposit_of;
 use super::material_planes::Planes;
 use super::pipeline::Stepped;
 use super::simulation::Simulation;
-use super::stack::Column;
+use super::stack::{Column, deposit_of};
 use super::stava::program::{self, StavaNumbers};
 use super::stava::slippage::Slippage;
 use super::working::WorkingGrid;

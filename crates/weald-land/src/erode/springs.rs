@@ -1,4 +1,4 @@
-//! Springs and drains: places where water comes or goes, `q exp(-r² / R²)` per iteration at distance `r` (Šťava et al.
+//! Water that comes and goes: rain and evaporation of a step; springs and drains, places where water comes or goes, `q exp(-r² / R²)` per iteration at distance `r` (Šťava et al.
 //! 2008). Where less than a millionth of the peak is left, nothing is.
 
 use std::ops::Range;
@@ -7,6 +7,43 @@ use weald_core::domain::Domain;
 use weald_core::grid::Field;
 use weald_core::parameter::Nested;
 use weald_core::parameters;
+use weald_engine::uniform;
+
+uniform! {
+    /// Rain and evaporation of one step, in cells.
+    pub(crate) struct Forcing {
+        pub(crate) rain: f32,
+        pub(crate) evaporation: f32,
+    }
+}
+
+parameters! {
+    /// A place where a river or a spring enters a flood.
+    pub struct Source {
+        /// Distance from the western edge.
+        x: f64 = f64::NAN, range -10_000_000.0..=10_000_000.0, unit "m";
+        /// Distance from the northern edge.
+        y: f64 = f64::NAN, range -10_000_000.0..=10_000_000.0, unit "m";
+        /// Distance at which 1/e of the inflow a square metre is left.
+        radius: f64 = f64::NAN, range 0.001..=10_000_000.0, unit "m";
+        /// What flows in, in all.
+        discharge: f64 = f64::NAN, range 0.0..=1_000_000.0, unit "m³/s";
+    }
+}
+
+impl Source {
+    /// As a spring that gives a depth a second, in metres, so that its cells have the discharge in all.
+    pub(crate) fn spring(&self, domain: &Domain) -> Spring {
+        let Self { x, y, radius, discharge } = *self;
+        let mut shares = Field::filled(domain.size, 0.0);
+        let spring = Spring { x, y, radius, rate: 1.0 };
+        spring.add_to(&mut shares, domain, 1.0);
+        let there = |cell: usize| domain.valid.as_ref().is_none_or(|valid| valid.is_valid_at(cell));
+        let shares = shares.values().iter().enumerate().filter(|&(cell, _)| there(cell));
+        let all = shares.map(|(_, &share)| f64::from(share)).sum::<f64>() * domain.cell * domain.cell;
+        Spring { rate: if all > 0.0 { discharge / all } else { 0.0 }, ..spring }
+    }
+}
 
 parameters! {
     /// A place where water springs or drains.

@@ -4,6 +4,7 @@
 use super::material_planes::Planes;
 use weald_core::grid::Field;
 use weald_core::material::Material;
+use weald_core::parameter::{LayerName, nearest};
 use weald_engine::stencil::rows::Rows;
 
 /// Layer of the regolith.
@@ -58,4 +59,21 @@ impl Stack {
     pub(super) fn loose_at(&self, x: usize, y: usize) -> f64 {
         self.metres.iter().map(|layer| f64::from(layer.at(x, y))).sum()
     }
+}
+
+/// Number of the material that settles: the one named, or the last; else a sentence for the user.
+pub(in crate::erode) fn deposit_of(
+    name: Option<&LayerName>,
+    materials: &[Material],
+) -> Result<usize, String> {
+    let Some(last) = materials.len().checked_sub(1) else {
+        return Err("the landscape has no materials; it needs a bedrock at least".to_owned());
+    };
+    let Some(LayerName(name)) = name else { return Ok(last) };
+    materials.iter().position(|material| material.name == *name).ok_or_else(|| {
+        let known: Vec<_> = materials.iter().map(|material| material.name.as_str()).collect();
+        let near = nearest(name, &known).map(|near| format!("; did you mean `{near}`?"));
+        let near = near.unwrap_or_default();
+        format!("`deposit` is {name:?}, but must be a material of the landscape: {}{near}", known.join(", "))
+    })
 }

@@ -26,9 +26,9 @@ use dissolution::{Dissolution, DissolutionScratch, RegolithRows};
 use slippage::Slippage;
 use viscosity::{Viscosity, ViscosityRows, ViscosityScratch};
 
-use super::forcing::Forcing;
 use super::pipeline::{PipelineOutput, PipelineRows, PipelineScratch};
 use super::setting::{Setting, Settled};
+use super::springs::Forcing;
 use weald_core::grid::Size;
 use weald_engine::program::Program;
 use weald_engine::stencil::chain::{Flow, Process};

@@ -15,7 +15,7 @@ pub struct Template {
 pub const TEMPLATES: &[Template] = &[
     Template {
         name: "highland",
-        summary: "fractal ground, carved by rain until rivers and valleys stand",
+        summary: "fractal ground, carved by floods until rivers and valleys stand",
         text: include_str!("template/highland.toml"),
     },
     Template {

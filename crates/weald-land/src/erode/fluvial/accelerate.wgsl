@@ -9,14 +9,9 @@ fn accelerated(old: f32, here: vec4<f32>, next: vec4<f32>, conductance: f32, res
     return select(0.0, gained / held, depth > THINNEST);
 }
 
-fn free_fall(wanted: f32, outward: f32, here: vec4<f32>, next: vec4<f32>, face: f32) -> f32 {
-    let depth = min(select(next.z, here.z, outward > 0.0), constants.deepest);
-    let fall = face * depth * sqrt(constants.flow_rate * depth);
-    return select(outward * fall, wanted, outward == 0.0);
-}
-
-fn rained(cell: vec2<i32>) -> vec4<f32> {
-    return select(vec4<f32>(0.0), level[index(cell)], inside(cell));
+/// What would fall from a cell over an open edge.
+fn fall(cell: vec2<i32>) -> f32 {
+    return select(0.0, level[index(cell)].w, inside(cell));
 }
 
 fn wanted_through(old: f32, cell: vec2<i32>, next: vec2<i32>, weight: f32) -> f32 {
@@ -24,10 +19,9 @@ fn wanted_through(old: f32, cell: vec2<i32>, next: vec2<i32>, weight: f32) -> f3
     let there = level[index(next)];
     let held = 0.5 * (resistance[index(cell)] + resistance[index(next)]);
     let flux = accelerated(old, here, there, weight * constants.flow_rate, held) * link(cell, next);
-    if (OPEN) {
-        return free_fall(flux, valid(cell) - valid(next), rained(cell), rained(next), weight);
-    }
-    return flux;
+    let outward = valid(cell) - valid(next);
+    let falling = outward * (weight * constants.open) * select(fall(next), fall(cell), outward > 0.0);
+    return select(falling, flux, outward == 0.0);
 }
 
 @compute @workgroup_size(16, 16)

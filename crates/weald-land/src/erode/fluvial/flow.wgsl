@@ -1,5 +1,6 @@
 
-// Scales the fluxes to the water that cells have, moves water and sediment by them, and says what they take up.
+// Scales the fluxes to the water that cells have, moves water and sediment by them, says what they take up, and how much
+// the bed will hold them back in the next step.
 
 fn wanted_at(cell: vec2<i32>) -> vec4<f32> {
     return select(vec4<f32>(0.0), wanted[index(cell)], inside(cell));
@@ -74,13 +75,15 @@ fn flow(@builtin(global_invocation_id) invocation: vec3<u32>) {
     );
     let power = power_of(axes, diagonals, surface, along_axes, along_diagonals);
     let discharge = discharge_of(axes, diagonals);
-    let by_width = power / occupied(discharge) * reaches_bed(level[at].z);
-    let uptake = max(constants.erodibility * (by_width - constants.threshold), 0.0);
+    let occupied = occupied(discharge);
+    let by_width = power / occupied * reaches_bed(level[at].z);
+    let uptake = max(constants.erodibility * here.w * (by_width - constants.threshold), 0.0);
     let drop = select(0.0, min(power / discharge.size, MAX_DROP), discharge.size > 0.0);
     let entrained = min(uptake, MAX_SHARE_OF_DROP * drop);
+    let held = max(constants.friction * discharge.size, power);
     if (inside(cell)) {
         fluxes[at] = vec4<f32>(axes.x, axes.z, diagonals.x, diagonals.z);
-        depth[at] = flowed * kept;
-        carried[at] = vec2<f32>(found * kept, entrained);
+        carried[at] = vec4<f32>(found * kept, entrained, flowed * kept, 0.0);
+        resistance[at] = held / discharge.gathered * occupied;
     }
 }

@@ -17,48 +17,27 @@ pub(super) const MAX_SHARE_OF_DROP: f32 = 0.25;
 /// Steepest drop that counts there: falls from a cliff do not dig deeper.
 pub(super) const MAX_DROP: f32 = 2.0;
 
-kernel! {
-    /// Depth after rain, ground, water surface.
-    pub(crate) struct Rained {
-        reads { base, change_before, depth_before, valid }
-        writes { ground, surface, rained, fallen }
-        constants { rain: f32 }
-    }
-    fn cell() {
-        ground = base + change_before;
-        rained = depth_before + rain * valid;
-        surface = ground + rained;
-        fallen = rained - depth_before;
-    }
+/// What falls freely over an edge from water of some depth, which then has the speed of its waves, for a conductance
+/// of 1.
+#[inline(always)]
+fn free_fall(depth: f32, deepest: f32, flow_rate: f32) -> f32 {
+    let depth = depth.min(deepest);
+    depth * (flow_rate * depth).sqrt()
 }
 
 kernel! {
-    /// How much the bed holds back: the friction of the flow of the step before, a unit of depth². On slopes steeper
-    /// than its friction water would run faster than its waves and break up in surges; the beds of steep streams
-    /// form steps until it does not (Grant 1997, doi 10.1029/96WR03134).
-    pub(crate) struct Resistance {
-        reads {
-            old_east, old_east_west, old_south, old_south_north, old_diagonal, old_diagonal_north_west,
-            old_antidiagonal, old_antidiagonal_north_east, surface, surface_east, surface_west, surface_south,
-            surface_north, surface_south_east, surface_north_west, surface_south_west, surface_north_east,
-        }
-        writes { resistance }
-        constants { friction: f32, gathering: f32, channel_width: f32 }
+    /// Depth after rain, ground, water surface, and what would fall over an open edge.
+    pub(crate) struct Rained {
+        reads { base, change_before, depth_before, inflow }
+        writes { ground, surface, rained, fallen, fall }
+        constants { rain: f32, flow_rate: f32, deepest: f32 }
     }
     fn cell() {
-        let axes = [old_east, old_east_west, old_south, old_south_north];
-        let diagonals =
-            [old_diagonal, old_diagonal_north_west, old_antidiagonal, old_antidiagonal_north_east];
-        let power = power(
-            (axes, diagonals),
-            surface,
-            [surface_east, surface_west, surface_south, surface_north],
-            [surface_south_east, surface_north_west, surface_south_west, surface_north_east],
-        );
-        let discharge = Discharge::of(axes, diagonals);
-        // Friction times discharge; power is slope times discharge.
-        let held = (friction * discharge.size).max(power);
-        resistance = held / discharge.gathered * discharge.occupied(gathering, channel_width);
+        ground = base + change_before;
+        rained = depth_before + rain * inflow;
+        surface = ground + rained;
+        fallen = rained - depth_before;
+        fall = free_fall(rained, deepest, flow_rate);
     }
 }
 
@@ -71,48 +50,48 @@ fn accelerated(old: f32, here: [f32; 3], next: [f32; 3], conductance: f32, deepe
     if depth > THINNEST { gained / held } else { 0.0 }
 }
 
+/// The flux between two cells with data, or the free fall from one of them over an open edge; `valid` and `fall` are
+/// those of the two sides.
+#[inline(always)]
+fn through_edge(flux: f32, valid: [f32; 2], fall: [f32; 2], face: f32) -> f32 {
+    let outward = valid[0] - valid[1];
+    let falling = outward * face * if outward > 0.0 { fall[0] } else { fall[1] };
+    if outward == 0.0 { flux * (valid[0] * valid[1]) } else { falling }
+}
+
 kernel! {
     /// Fluxes through the eastern, southern, south-eastern and south-western edge, if every cell had water enough.
+    /// Into cells without data water falls freely where edges are `open`.
     pub(crate) struct Accelerate {
         reads {
             old_east, old_south, old_diagonal, old_antidiagonal,
             surface, surface_east, surface_south, surface_south_east, surface_south_west,
             ground, ground_east, ground_south, ground_south_east, ground_south_west,
-            resistance, resistance_east, resistance_south, resistance_south_east, resistance_south_west,
+            resistance_before, resistance_before_east, resistance_before_south,
+            resistance_before_south_east, resistance_before_south_west,
+            fall, fall_east, fall_south, fall_south_east, fall_south_west,
             valid, valid_east, valid_south, valid_south_east, valid_south_west,
         }
         writes { wanted_east, wanted_south, wanted_diagonal, wanted_antidiagonal }
-        constants { flow_rate: f32, deepest: f32 }
+        constants { flow_rate: f32, deepest: f32, open: f32 }
     }
     fn cell() {
-        let here = [surface, ground, resistance];
+        let here = [surface, ground, resistance_before];
         let (axis, diagonal) = (AXIS * flow_rate, DIAGONAL * flow_rate);
-        let east = [surface_east, ground_east, resistance_east];
-        let south = [surface_south, ground_south, resistance_south];
-        let south_east = [surface_south_east, ground_south_east, resistance_south_east];
-        let south_west = [surface_south_west, ground_south_west, resistance_south_west];
-        wanted_east = accelerated(old_east, here, east, axis, deepest) * (valid * valid_east);
-        wanted_south = accelerated(old_south, here, south, axis, deepest) * (valid * valid_south);
+        let east = [surface_east, ground_east, resistance_before_east];
+        let south = [surface_south, ground_south, resistance_before_south];
+        let south_east = [surface_south_east, ground_south_east, resistance_before_south_east];
+        let south_west = [surface_south_west, ground_south_west, resistance_before_south_west];
+        let flux = accelerated(old_east, here, east, axis, deepest);
+        wanted_east = through_edge(flux, [valid, valid_east], [fall, fall_east], AXIS * open);
+        let flux = accelerated(old_south, here, south, axis, deepest);
+        wanted_south = through_edge(flux, [valid, valid_south], [fall, fall_south], AXIS * open);
         let flux = accelerated(old_diagonal, here, south_east, diagonal, deepest);
-        wanted_diagonal = flux * (valid * valid_south_east);
+        let (valid_next, fall_next) = (valid_south_east, fall_south_east);
+        wanted_diagonal = through_edge(flux, [valid, valid_next], [fall, fall_next], DIAGONAL * open);
         let flux = accelerated(old_antidiagonal, here, south_west, diagonal, deepest);
-        wanted_antidiagonal = flux * (valid * valid_south_west);
-    }
-}
-
-kernel! {
-    /// Flux from a cell with data into one without: a free fall, in which water has the speed of its waves.
-    pub(crate) struct FreeFall {
-        reads { rained, rained_next, valid, valid_next }
-        updates { wanted }
-        constants { flow_rate: f32, deepest: f32, face: f32 }
-    }
-    fn cell() {
-        let outward = valid - valid_next;
-        let depth = if outward > 0.0 { rained } else { rained_next };
-        let depth = depth.min(deepest);
-        let fall = face * depth * (flow_rate * depth).sqrt();
-        wanted = if outward == 0.0 { wanted } else { outward * fall };
+        let (valid_next, fall_next) = (valid_south_west, fall_south_west);
+        wanted_antidiagonal = through_edge(flux, [valid, valid_next], [fall, fall_next], DIAGONAL * open);
     }
 }
 
@@ -209,16 +188,21 @@ kernel! {
 }
 
 kernel! {
-    /// What the power of the flow would take up.
+    /// What the power of the flow would take up, and how much the bed will hold it back in the next step: friction a
+    /// unit of depth². On slopes steeper than its friction water would run faster than its waves and break up in
+    /// surges; the beds of steep streams form steps until it does not (Grant 1997, doi 10.1029/96WR03134).
+    /// `softness` is what the ground's erodibility is to `erodibility`.
     pub(crate) struct Uptake {
         reads {
-            rained, flux_east, flux_east_west, flux_south, flux_south_north,
+            softness, rained, flux_east, flux_east_west, flux_south, flux_south_north,
             flux_diagonal, flux_diagonal_north_west, flux_antidiagonal, flux_antidiagonal_north_east,
             surface, surface_east, surface_west, surface_south, surface_north,
             surface_south_east, surface_north_west, surface_south_west, surface_north_east,
         }
-        writes { entrained }
-        constants { gathering: f32, channel_width: f32, erodibility: f32, threshold: f32, deepest: f32 }
+        writes { entrained, resistance }
+        constants {
+            friction: f32, gathering: f32, channel_width: f32, erodibility: f32, threshold: f32, deepest: f32,
+        }
     }
     fn cell() {
         let axes = [flux_east, flux_east_west, flux_south, flux_south_north];
@@ -232,10 +216,13 @@ kernel! {
             [surface_south_east, surface_north_west, surface_south_west, surface_north_east],
         );
         let discharge = Discharge::of(axes, diagonals);
-        let by_width = power / discharge.occupied(gathering, channel_width) * reaches_bed(rained, deepest);
-        let wanted = (erodibility * (by_width - threshold)).max(0.0);
+        let occupied = discharge.occupied(gathering, channel_width);
+        let by_width = power / occupied * reaches_bed(rained, deepest);
+        let wanted = (erodibility * softness * (by_width - threshold)).max(0.0);
         let drop = if discharge.size > 0.0 { (power / discharge.size).min(MAX_DROP) } else { 0.0 };
         entrained = wanted.min(MAX_SHARE_OF_DROP * drop);
+        // Friction times discharge; power is slope times discharge.
+        resistance = (friction * discharge.size).max(power) / discharge.gathered * occupied;
     }
 }
 
@@ -244,10 +231,10 @@ kernel! {
     /// nothing is lost; where it would be more than there is, nothing settles.
     pub(crate) struct Wear {
         reads {
-            change_before, carried, water, entrained, erodible,
+            base, change_before, carried, water, entrained, erodible,
             valid_south_east, valid_north_west, valid_south_west, valid_north_east,
         }
-        writes { settled, sediment }
+        writes { settled, sediment, ground }
         constants { settling: f32, thin: f32, open: f32 }
     }
     fn cell() {
@@ -260,17 +247,19 @@ kernel! {
         let there = carried + taken >= 0.0;
         settled = if there { changed } else { change_before };
         sediment = if there { carried + taken } else { carried };
+        ground = base + settled;
     }
 }
 
 kernel! {
-    /// Share of each step of the ground that creeps, and slides where the slope exceeds the talus.
+    /// Share of each step of the ground that creeps, and slides where the slope exceeds the talus. `repose` is what
+    /// the talus of the ground is to `talus`, `loose` the share of it that is loose: bare rock does not creep.
     pub(crate) struct Unrest {
         reads {
             ground, ground_east, ground_west, ground_south, ground_north,
             ground_south_east, ground_north_west, ground_south_west, ground_north_east,
             valid_east, valid_west, valid_south, valid_north,
-            valid_south_east, valid_north_west, valid_south_west, valid_north_east,
+            valid_south_east, valid_north_west, valid_south_west, valid_north_east, repose, loose,
         }
         writes { unrest }
         constants { talus: f32, slide: f32, creep: f32 }
@@ -283,7 +272,8 @@ kernel! {
             + square(ground_north_west, valid_north_west))
             + (square(ground_south_west, valid_south_west) + square(ground_north_east, valid_north_east));
         let slope = (0.5 * (AXIS * axes + DIAGONAL * diagonals)).sqrt();
-        unrest = creep + if slope > talus { slide * (slope - talus) / slope } else { 0.0 };
+        let rests = talus * repose;
+        unrest = creep * loose + if slope > rests { slide * (slope - rests) / slope } else { 0.0 };
     }
 }
 

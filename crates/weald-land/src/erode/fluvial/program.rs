@@ -1,9 +1,10 @@
 //! A step as compute passes. Depth, sediment and change of the ground are buffers of their own, and passes hand on
 //! vectors, so that no pass has more than eight.
 
-use super::{FluvialConstants, STATE};
-use crate::erode::forcing::Forcing;
+use super::Numbers;
+use crate::erode::links::MASK_PLANES;
 use crate::erode::links::plane::{ERODIBLE, VALID};
+use crate::erode::springs::Forcing;
 use weald_engine::program::builder::ProgramBuilder;
 use weald_engine::program::{Content, Program, Uniforms};
 
@@ -11,49 +12,102 @@ const FORCING: &str = include_str!("../forcing.wgsl");
 const SUMS: &str = include_str!("../sums.wgsl");
 const EDGES: &str = include_str!("edges.wgsl");
 const LEVEL: &str = include_str!("level.wgsl");
-const RESIST: &str = include_str!("resist.wgsl");
 const ACCELERATE: &str = include_str!("accelerate.wgsl");
 const SHARES: &str = include_str!("shares.wgsl");
 const FLOW: &str = include_str!("flow.wgsl");
 const WEAR: &str = include_str!("wear.wgsl");
 const UNREST: &str = include_str!("unrest.wgsl");
 const SLID: &str = include_str!("slid.wgsl");
+const EXPOSE: &str = include_str!("expose.wgsl");
 const RECORD: &str = include_str!("record.wgsl");
 
+/// What the ground is where it is the same everywhere, of one material or of several, and softer by a map or not.
+const ONE_MATERIAL: &str = "
+fn stratum_of(cell: vec2<i32>) -> vec4<f32> {
+    return vec4<f32>(1.0);
+}
+";
+const MATERIALS: &str = "
+fn stratum_of(cell: vec2<i32>) -> vec4<f32> {
+    return strength[index(cell)];
+}
+";
+const UNMAPPED: &str = "
+fn softness_of(cell: vec2<i32>) -> f32 {
+    return stratum_of(cell).x;
+}
+";
+const MAPPED: &str = "
+fn softness_of(cell: vec2<i32>) -> f32 {
+    return stratum_of(cell).x * erodibility_map[index(cell)];
+}
+";
+const EVEN_RAIN: &str = "
+fn inflow_of(cell: vec2<i32>) -> f32 {
+    return valid(cell);
+}
+";
+const MAPPED_RAIN: &str = "
+fn inflow_of(cell: vec2<i32>) -> f32 {
+    return inflow[index(cell)];
+}
+";
+
 /// The passes, over cells all of which hold data or not.
-pub(crate) fn program(constants: &FluvialConstants, masked: bool, reach: usize) -> Program {
+pub(crate) fn program(numbers: &Numbers, masked: bool, reach: usize) -> Program {
     let weather = Uniforms::of(&Forcing { rain: 0.0, evaporation: 0.0 });
-    let mut draft = ProgramBuilder::new("fluvial", &[FORCING, SUMS, EDGES], Uniforms::of(constants), weather);
-    draft.flag("OPEN", constants.open > 0.0);
-    draft.buffer("base", 1, Content::Constant(vec![STATE.len()]));
+    let constants = Uniforms::of(&numbers.constants);
+    let mut draft = ProgramBuilder::new("fluvial", &[FORCING, SUMS, EDGES], constants, weather);
+    let planes = numbers.planes();
+    draft.buffer("base", 1, Content::Constant(vec![planes]));
     draft.buffer("change", 1, Content::State(vec![0]));
     draft.buffer("depth", 1, Content::State(vec![1]));
     draft.buffer("sediment", 1, Content::State(vec![2]));
     draft.buffer("fluxes", 4, Content::State(vec![3, 4, 5, 6]));
-    draft.scratch("level", 4);
-    draft.scratch("resistance", 1);
-    draft.scratch("wanted", 4);
-    draft.scratch("limits", 4);
-    draft.scratch("carried", 2);
-    draft.scratch("settled", 1);
-    draft.scratch("unrest", 1);
+    draft.buffer("resistance", 1, Content::State(vec![7]));
+    for (name, lanes) in
+        [("level", 4), ("wanted", 4), ("limits", 4), ("carried", 4), ("settled", 1), ("unrest", 1)]
+    {
+        draft.scratch(name, lanes);
+    }
     draft.buffer("means", 4, Content::Mean);
     if masked {
-        draft.mask(STATE.len() + VALID, STATE.len() + ERODIBLE);
+        draft.mask(planes + VALID, planes + ERODIBLE);
     }
-    for (name, shader) in [
-        ("level_of_water", LEVEL),
-        ("resist", RESIST),
-        ("accelerate", ACCELERATE),
-        ("share_out", SHARES),
-        ("flow", FLOW),
-        ("wear", WEAR),
-        ("find_unrest", UNREST),
-        ("slide", SLID),
-    ] {
-        draft.pass_of(name, &[shader]);
+    let mut constants = planes + 1 + if masked { MASK_PLANES } else { 0 }..;
+    let mut map = |name, there| {
+        if there {
+            draft.buffer(name, 1, Content::Constant(constants.by_ref().take(1).collect()));
+        }
+    };
+    map("inflow", numbers.rain_map);
+    map("erodibility_map", numbers.erodibility_map);
+    if let Some(strata) = &numbers.strata {
+        expose(&mut draft, (planes - 1, constants.take(strata.strata.len()).collect()));
     }
+    let ground = if numbers.strata.is_some() { MATERIALS } else { ONE_MATERIAL };
+    let softness = if numbers.erodibility_map { MAPPED } else { UNMAPPED };
+    draft.pass_of("level_of_water", &[LEVEL, if numbers.rain_map { MAPPED_RAIN } else { EVEN_RAIN }]);
+    draft.pass_of("accelerate", &[ACCELERATE]);
+    draft.pass_of("share_out", &[SHARES, ground, softness]);
+    draft.pass_of("flow", &[FLOW]);
+    draft.pass_of("wear", &[WEAR]);
+    draft.pass_of("find_unrest", &[UNREST, ground]);
+    draft.pass_of("slide", &[SLID]);
     draft.pass("record", &[RECORD], &["fluxes"], &["means"]).recorded = true;
     draft.shows("change", Some("depth"));
     draft.finish(reach)
+}
+
+/// Finds how the ground withstands; `rock` is a plane of the state, `bottoms` are the constant ones of the strata.
+fn expose(draft: &mut ProgramBuilder, (rock, mut bottoms): (usize, Vec<usize>)) {
+    draft.count("STRATA", bottoms.len());
+    draft.buffer("rock", 1, Content::State(vec![rock]));
+    if bottoms.is_empty() {
+        // A buffer holds a plane at least; without strata none is read.
+        bottoms.push(rock + 1);
+    }
+    draft.layered("bottoms", bottoms.len(), Content::Constant(bottoms));
+    draft.scratch("strength", 4);
+    draft.pass_of("expose", &[EXPOSE]);
 }

@@ -1,5 +1,6 @@
 
-// What share of its outflow a cell can give, how much sediment a unit of it carries, and the sediment itself.
+// What share of its outflow a cell can give, how much sediment a unit of it carries, the sediment itself, and how soft
+// the ground is.
 
 fn wanted_at(cell: vec2<i32>) -> vec4<f32> {
     return select(vec4<f32>(0.0), wanted[index(cell)], inside(cell));
@@ -17,6 +18,6 @@ fn share_out(@builtin(global_invocation_id) invocation: vec3<u32>) {
     let available = rained * (1.0 - RETAINED_SHARE);
     let share = select(1.0, available / out, out > available);
     if (inside(cell)) {
-        limits[at] = vec4<f32>(share, sediment[at] / (rained + constants.thin), sediment[at], 0.0);
+        limits[at] = vec4<f32>(share, sediment[at] / (rained + constants.thin), sediment[at], softness_of(cell));
     }
 }

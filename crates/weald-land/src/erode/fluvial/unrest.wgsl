@@ -20,8 +20,10 @@ fn find_unrest(@builtin(global_invocation_id) invocation: vec3<u32>) {
     let diagonals = (square(here, cell + SOUTH_EAST) + square(here, cell + NORTH_WEST))
         + (square(here, cell + SOUTH_WEST) + square(here, cell + NORTH_EAST));
     let slope = sqrt(0.5 * (AXIS * axes + DIAGONAL * diagonals));
-    let slides = select(0.0, constants.slide * (slope - constants.talus) / slope, slope > constants.talus);
+    let stratum = stratum_of(cell);
+    let rests = constants.talus * stratum.y;
+    let slides = select(0.0, constants.slide * (slope - rests) / slope, slope > rests);
     if (inside(cell)) {
-        unrest[index(cell)] = constants.creep + slides;
+        unrest[index(cell)] = constants.creep * stratum.z + slides;
     }
 }

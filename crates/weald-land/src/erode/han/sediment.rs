@@ -2,8 +2,10 @@
 
 use super::{Han, plane};
 use crate::erode::before;
+use crate::erode::pipes::without_negligible;
 use crate::erode::settling::{CellVelocity, FaceVelocities, Settle};
 use crate::erode::sums;
+use weald_engine::kernel;
 use weald_engine::stencil::chain::Flow;
 
 impl Han {
@@ -78,5 +80,30 @@ impl Han {
             southward: scratch.settled.southward.here_mut(y),
         }
         .run(self.setting.arch);
+    }
+}
+
+kernel! {
+    /// Depth and sediment after the fluxes of a step (eq. 7 to 9), and what the sky gave or took. Each flux carries the
+    /// concentration of the cell it comes from, so that none is lost; evaporation stops at dry ground. The cap that
+    /// keeps it stable is in [`crate::erode::pipes`].
+    pub(crate) struct Upwind {
+        reads {
+            depth_before, sediment_before, east, west, south, north, valid,
+            concentration, concentration_east, concentration_west, concentration_south, concentration_north,
+        }
+        updates {}
+        writes { depth, sky, sediment }
+        constants { rain: f32, evaporation: f32 }
+    }
+    fn cell() {
+        let flowed = depth_before + ((west - east) + (north - south));
+        depth = without_negligible(flowed + rain * valid - flowed.max(0.0).min(evaporation));
+        sky = depth - flowed;
+        let to_east = east * if east >= 0.0 { concentration } else { concentration_east };
+        let from_west = west * if west >= 0.0 { concentration_west } else { concentration };
+        let to_south = south * if south >= 0.0 { concentration } else { concentration_south };
+        let from_north = north * if north >= 0.0 { concentration_north } else { concentration };
+        sediment = without_negligible(sediment_before + ((from_west - to_east) + (from_north - to_south)));
     }
 }

@@ -1,10 +1,10 @@
 //! The water of a step of Han 2015: surface, fluxes, limiter, depth.
 
+use super::sediment::Upwind;
 use super::{Han, plane};
 use crate::erode::before;
 use crate::erode::pipes::{Flux, Limit, Overfall, Scale, Surface, Unlimited};
 use crate::erode::sums;
-use crate::erode::upwind::Upwind;
 use weald_engine::stencil::chain::Flow;
 
 impl Han {

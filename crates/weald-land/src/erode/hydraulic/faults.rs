@@ -1,7 +1,7 @@
 //! Keys that do not go together, reported before anything runs.
 
 use super::keys::{Boundary, Hydraulic};
-use crate::erode::deposit::deposit_of;
+use crate::erode::stack::deposit_of;
 use weald_core::material::Material;
 use weald_core::parameter::{Fault, Nested};
 

@@ -3,8 +3,8 @@
 use super::keys::Hydraulic;
 use crate::edit::{Action, Area, Canvas, Script, Session};
 use crate::erode::edits::Edits;
-use crate::erode::forcing::Forcing;
 use crate::erode::saved::Saved;
+use crate::erode::springs::Forcing;
 use weald_core::error::{Error, NotFinite};
 use weald_core::landscape::Landscape;
 use weald_engine::Engine;

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use super::parts::{Pipeline, Plane, RunOn, Stage};
 use super::parts::{Reach, Read, Source};
+use super::source::VALID;
 
 /// The rows of a kernel.
 pub(super) struct Rows {
@@ -32,7 +33,7 @@ impl Pipeline {
         let first = self.planes.len();
         let plane = |&name| Plane { name, behind, oldest: None, reach, output: None };
         self.planes.extend(rows.changes.iter().map(plane));
-        let linked = rows.read().any(|read| matches!(read.source, Source::Link(_)));
+        let linked = rows.read().any(|read| matches!(read.source, Source::Link(link) if link != VALID));
         let (reads, updates, changes) = (rows.reads, rows.updates, rows.changes.len());
         let tallies = Vec::new();
         self.stages.push(Stage {

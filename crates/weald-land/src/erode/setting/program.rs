@@ -1,8 +1,8 @@
 //! What the programs of the two water models share.
 
 use super::{Setting, plane};
-use crate::erode::forcing::Forcing;
 use crate::erode::links::plane::{ERODIBLE, VALID};
+use crate::erode::springs::Forcing;
 use crate::erode::thermal::SlideConstants;
 use weald_engine::program::builder::ProgramBuilder;
 use weald_engine::program::{Content, Uniforms};

@@ -1,0 +1,260 @@
+//! A flood with the keys of a recipe filled in: its grids, and the levels one after the other.
+
+use super::extent::Extent;
+use super::finished::Finished;
+use super::fluvial::{self, Numbers};
+use super::fluvial_levels::{self as levels, HandedDown, OfCoarse};
+use super::fluvial_materials::{StartColumn, strata_of};
+use super::fluvial_numbers::Steps;
+use super::fluvial_step::Fluvial;
+use super::hydraulic::Boundary;
+use super::pipeline::Stepped;
+use super::simulation::{Record, Simulation};
+use super::springs::Forcing;
+use super::stored::MeanFluxes;
+use super::water_planes as plane;
+use super::working::WorkingGrid;
+use weald_core::error::Error;
+use weald_core::grid::Field;
+use weald_core::landscape::Landscape;
+use weald_core::parameter::{LayerName, Nested};
+use weald_engine::stencil::rows::Rows;
+use weald_engine::step::Outcome;
+use weald_engine::{Budget, Job};
+
+/// Steps of the end over which fluxes are averaged: one in so many.
+const RECORDED: u64 = 10;
+
+/// The first of the planes of fluxes.
+const FLUXES: usize = 3;
+
+/// Plane of the rock's top, where the ground is of several materials.
+const ROCK: usize = fluvial::PLANES;
+
+impl Fluvial {
+    /// The same for the time that passes on a level.
+    fn for_level(&self, level: u32) -> Self {
+        let share = levels::share_of_time(level, self.levels);
+        let (duration, flow_time) = (self.duration * share, self.flow_time * share);
+        Self { duration, flow_time, ..self.clone() }
+    }
+
+    /// Runs on all levels, and leaves in the landscape what has become of it.
+    pub(super) fn run_levels(&self, landscape: &mut Landscape, job: &Job<'_>) -> Result<Outcome, Error> {
+        let (mut before, mut handed) = (Vec::new(), None);
+        for level in (1..self.levels).rev() {
+            let coarse = self.coarsened(landscape, level)?;
+            let mut flood = Flood::on(self.for_level(level), &coarse)?;
+            let watcher = OfCoarse(job.watcher);
+            let finished = flood.run(handed.as_ref(), &watcher.job(job))?;
+            let (budget, down) = flood.handed_down(&finished);
+            before.push(budget);
+            handed = Some(down.refined());
+        }
+        let given = landscape.clone();
+        let mut flood = Flood::on(self.for_level(0), &given)?;
+        let finished = flood.run(handed.as_ref(), job)?;
+        let budget = before.iter().fold(flood.store(landscape, &finished), levels::joined);
+        let iterations = flood.step.steps(given.domain.cell).count;
+        Ok(Outcome { iterations, budget: Some(budget), notes: finished.notes, ..Outcome::default() })
+    }
+
+    /// The landscape as a coarser level sees it.
+    fn coarsened(&self, landscape: &Landscape, level: u32) -> Result<Landscape, Error> {
+        let names = [Some(&self.layer), self.initial_water.as_ref()].into_iter().chain(self.maps()).flatten();
+        let mut fields = Vec::new();
+        for LayerName(name) in names {
+            fields.push((name.clone(), landscape.field(name)?.clone()));
+        }
+        if self.materials {
+            let column = StartColumn::of(landscape, landscape.field(&self.layer.0)?)?;
+            let names = landscape.materials.iter().skip(1).map(|material| material.name.clone());
+            fields.extend(names.zip(column.thicknesses));
+        }
+        levels::coarsened(landscape, 1 << level, &fields)
+    }
+}
+
+/// A flood over a landscape.
+struct Flood<'a> {
+    step: Fluvial,
+    landscape: &'a Landscape,
+    working: WorkingGrid,
+    column: Option<StartColumn>,
+    numbers: Numbers,
+}
+
+impl<'a> Flood<'a> {
+    fn on(step: Fluvial, landscape: &'a Landscape) -> Result<Self, Error> {
+        let open = step.boundary == Boundary::Open;
+        let region = step.region.as_ref().map(|region| region.0.as_str());
+        let extent = Extent { open, region, cropped: true };
+        let mut working = WorkingGrid::within(landscape, &step.layer.0, &extent)?;
+        if let Some(water) = &step.initial_water {
+            working.set_water(landscape, &water.0)?;
+        }
+        let column = step.materials.then(|| StartColumn::of(landscape, &working.start)).transpose()?;
+        let strata = column.as_ref().and_then(|_| {
+            let half = (step.cover / landscape.domain.cell) as f32;
+            strata_of(&landscape.materials, half)
+        });
+        let numbers = step.numbers(working.cell, strata);
+        Ok(Self { step, landscape, working, column, numbers })
+    }
+
+    fn steps(&self) -> Steps {
+        self.step.steps(self.working.cell)
+    }
+
+    /// What comes to a cell in a step, in cells.
+    fn rain(&self) -> f32 {
+        (self.step.rain / 3.6e6 * self.steps().seconds / self.working.cell) as f32
+    }
+
+    /// Constant planes behind those of every process.
+    fn constants(&self) -> Result<Vec<Vec<f32>>, Error> {
+        let mut planes = Vec::new();
+        if self.numbers.rain_map {
+            planes.push(self.inflow()?);
+        }
+        if let Some(LayerName(name)) = &self.step.erodibility_map {
+            let map = not_negative(self.landscape, name)?;
+            planes.push(self.working.ringed(|x, y| map.at(x, y)));
+        }
+        if let Some(column) = &self.column {
+            planes.extend(column.bottoms().iter().map(|bottom| self.working.lengths(bottom)));
+        }
+        Ok(planes)
+    }
+
+    /// Rain by its map, and what springs, in cells per step.
+    fn inflow(&self) -> Result<Vec<f32>, Error> {
+        let domain = &self.landscape.domain;
+        let map = self.step.rain_map.as_ref().map(|LayerName(name)| not_negative(self.landscape, name));
+        let map = map.transpose()?;
+        let mut springs = Field::filled(domain.size, 0.0);
+        for Nested(source) in &self.step.sources {
+            source.spring(domain).add_to(&mut springs, domain, self.steps().seconds / self.working.cell);
+        }
+        let rain = self.rain();
+        let share = |x, y| map.as_ref().map_or(1.0, |map| map.at(x, y));
+        Ok(self.working.ringed(|x, y| rain * share(x, y) + springs.at(x, y)))
+    }
+
+    /// The state before the first step, with what a coarser level hands down.
+    fn start(&mut self, handed: Option<&HandedDown>) -> Result<Rows, Error> {
+        if let Some(HandedDown { water, .. }) = handed {
+            self.working.set_standing(water.clone());
+        }
+        let mut rows = self.working.water_state(self.numbers.planes(), &self.constants()?);
+        let working = &self.working;
+        let cell = working.cell as f32;
+        let plane_of = |field: &Field| working.ringed(|x, y| field.at(x, y) / cell);
+        if let Some(HandedDown { change, sediment, discharge, .. }) = handed {
+            rows.scatter(plane::CHANGE, &plane_of(change));
+            rows.scatter(plane::SEDIMENT, &working.lengths(sediment));
+            let factor = (self.steps().seconds / (working.cell * working.cell)) as f32;
+            let discharge = discharge.each_ref().map(|along| working.ringed(|x, y| along.at(x, y) * factor));
+            let fluxes = fluvial::fluxes_of(discharge.each_ref().map(Vec::as_slice), working.size.columns);
+            fluxes.iter().zip(FLUXES..).for_each(|(flux, plane)| rows.scatter(plane, flux));
+        }
+        if let Some(column) = &self.column {
+            let mut rock = column.rock(&working.start);
+            if let Some(worn) = handed.and_then(|handed| handed.worn.as_ref()) {
+                rock = Field::from_function(rock.size(), |x, y| rock.at(x, y) + worn.at(x, y));
+            }
+            rows.scatter(ROCK, &plane_of(&rock));
+        }
+        Ok(rows)
+    }
+
+    /// Runs all steps.
+    fn run(&mut self, handed: Option<&HandedDown>, job: &Job<'_>) -> Result<Finished, Error> {
+        let start = self.start(handed)?;
+        let pipeline = self.numbers.pipeline();
+        let masked = self.working.mask.is_some();
+        let program = fluvial::program(&self.numbers, masked, pipeline.reach());
+        let process = Stepped::with_program(&pipeline, (self.working.size, masked), program);
+        let Steps { count, .. } = self.steps();
+        // Where a plane says what comes to each cell, it counts once.
+        let rain = if self.numbers.rain_map { 1.0 } else { self.rain() };
+        let seen = |finished: &Finished| {
+            let mut seen = self.landscape.clone();
+            self.store(&mut seen, finished);
+            seen
+        };
+        let simulation = Simulation {
+            process: &process,
+            plane_names: &process.state_names(),
+            iterations: count,
+            weather: &|_| Forcing { rain, evaporation: 0.0 },
+            record: Some(Record {
+                steps: count - count.div_ceil(RECORDED)..count,
+                means: fluvial::MEAN_FLUXES,
+            }),
+            edits: None,
+            seen: Some(&seen),
+        };
+        self.working.show(job)?;
+        simulation.run(start, job)
+    }
+
+    /// Writes what has become of the landscape.
+    fn store(&self, landscape: &mut Landscape, finished: &Finished) -> Budget {
+        let working = &self.working;
+        let planes = fluvial::through_sides(&finished.means, working.size.columns);
+        let factor = (working.cell.powi(3) / self.steps().seconds) as f32;
+        let fluxes = MeanFluxes { planes, unit: "m³/s", factor };
+        let budget = working.store_with(landscape, &self.step.layer.0, finished, &fluxes);
+        if let Some(column) = &self.column {
+            let [change, rock] = [plane::CHANGE, ROCK].map(|at| self.metres(finished, at));
+            column.store(landscape, &working.start, [&change, &rock]);
+        }
+        budget
+    }
+
+    /// Mean discharge to the east and south, in m²/s.
+    fn discharge(&self, finished: &Finished) -> [Field; 2] {
+        let columns = self.working.size.columns;
+        let [east, south] = fluvial::through_sides(&finished.means, columns);
+        let middle = |sides: Vec<f32>, back: usize| -> Vec<f32> {
+            let before = |cell: usize| cell.checked_sub(back).map_or(0.0, |before| sides[before]);
+            (0..sides.len()).map(|cell| 0.5 * (sides[cell] + before(cell))).collect()
+        };
+        let factor = (self.working.cell * self.working.cell / self.steps().seconds) as f32;
+        [middle(east, 1), middle(south, columns)]
+            .map(|plane| self.working.field(&plane, |flux| flux * factor))
+    }
+
+    fn metres(&self, finished: &Finished, plane: usize) -> Field {
+        let cell = self.working.cell as f32;
+        self.working.field(&finished.state.gather(plane), |value| value * cell)
+    }
+
+    /// What a finer level begins with, and the budget until there.
+    fn handed_down(&self, finished: &Finished) -> (Budget, HandedDown) {
+        let [change, water, sediment] =
+            [plane::CHANGE, plane::DEPTH, plane::SEDIMENT].map(|at| self.metres(finished, at));
+        let worn = self.column.as_ref().map(|column| {
+            let (start, rock) = (column.rock(&self.working.start), self.metres(finished, ROCK));
+            Field::from_function(rock.size(), |x, y| rock.at(x, y).min(change.at(x, y)) - start.at(x, y))
+        });
+        let discharge = self.discharge(finished);
+        let [depth, load] = [plane::DEPTH, plane::SEDIMENT].map(|at| finished.state.gather(at));
+        let budget = self.working.budget(&depth, &load, finished);
+        (budget, HandedDown { change, water, sediment, discharge, worn })
+    }
+}
+
+/// A layer that multiplies something.
+fn not_negative<'a>(landscape: &'a Landscape, name: &str) -> Result<&'a Field, Error> {
+    let map = landscape.field(name)?;
+    let valid = landscape.domain.valid.as_ref();
+    let counts = |cell: usize| valid.is_none_or(|valid| valid.is_valid_at(cell));
+    let wrong = |&(cell, &value): &(usize, &f32)| counts(cell) && !(value.is_finite() && value >= 0.0);
+    let Some((cell, value)) = map.values().iter().enumerate().find(wrong) else { return Ok(map) };
+    let (x, y) = (cell % map.size().columns, cell / map.size().columns);
+    Err(Error::Run(format!(
+        "layer `{name}` holds {value} at column {x}, row {y}; what multiplies rain or erodibility is 0 or more"
+    )))
+}
