@@ -16,6 +16,8 @@ pub(super) struct Cut {
     /// Height of the top of the bedrock and of each material, and where they have data.
     tops: Vec<Vec<f32>>,
     water: Vec<f32>,
+    /// Height of the ground as it was, where that is asked for.
+    before: Option<Vec<f32>>,
     land: Vec<bool>,
     /// Skylines of the ground behind, near to far; minus infinity where there is none.
     skylines: [Vec<f32>; RANGES.len()],
@@ -28,6 +30,8 @@ pub(super) struct Slice {
     pub(super) tops: Vec<f32>,
     /// Height of the water, where there is any.
     pub level: Option<f32>,
+    /// Height of the ground as it was, where that is asked for.
+    pub(super) before: Option<f32>,
     /// Skylines behind, near to far.
     pub(super) skylines: [f32; RANGES.len()],
 }
@@ -83,7 +87,13 @@ impl Cut {
             land = line.values(&bare).iter().map(|height| height.is_finite()).collect();
         }
         let skylines = RANGES.map(|range| skyline(&bare, line, range));
-        Ok(Self { tops, water, land, skylines })
+        Ok(Self { tops, water, before: None, land, skylines })
+    }
+
+    /// The cut with the line of the ground as it was.
+    pub(super) fn with_before(mut self, before: &Field, line: Line) -> Self {
+        self.before = Some(line.values(before));
+        self
     }
 
     /// Number of cells.
@@ -96,7 +106,8 @@ impl Cut {
         let cells = || (0..self.cells()).filter(|&cell| self.land[cell]);
         let low = cells().map(|cell| self.tops[0][cell]).reduce(f32::min)?;
         let surface = cells().map(|cell| self.surface(cell) + self.water[cell].max(0.0));
-        let high = surface.chain(self.skylines.iter().flatten().copied()).reduce(f32::max)?;
+        let before = self.before.iter().flat_map(|before| cells().map(|cell| before[cell]));
+        let high = surface.chain(before).chain(self.skylines.iter().flatten().copied()).reduce(f32::max)?;
         Some([low, high])
     }
 
@@ -121,7 +132,8 @@ impl Cut {
         }
         let [left, right] = [cell, next].map(|cell| if self.land[cell] { cell } else { nearer });
         let tops = self.tops.iter().map(|tops| lerp([tops[left], tops[right]], share)).collect();
-        Slice { tops, level: self.level([left, right], share), skylines }
+        let before = self.before.as_ref().map(|before| lerp([before[left], before[right]], share));
+        Slice { tops, level: self.level([left, right], share), before, skylines }
     }
 
     /// Height of the water between two cells: level up to a bank, falling to ground that lies lower.

@@ -6,6 +6,7 @@ use super::ground::shrink;
 use super::ramp::Ramp;
 use super::sheet::Sheet;
 use super::spline::SplineRow;
+use super::texture::smoothed;
 use weald_core::connected::components;
 use weald_core::domain::Domain;
 use weald_core::grid::Field;
@@ -16,8 +17,11 @@ const SHALLOWEST: f64 = 0.3;
 /// Fewer cells than this are a puddle.
 const SMALLEST: usize = 12;
 
-/// Depth, in shallowest depths, at which a lake shows the middle of its ramp.
+/// Depth, in usual shallowest depths, at which a lake shows the middle of its ramp.
 const MIDDLE_DEPTH: f32 = 6.0;
+
+/// Least distance of water from the level of the shore, in shallowest depths.
+const LEAST: f32 = 1e-3;
 
 /// Lakes, ready to be drawn.
 #[derive(Debug)]
@@ -26,20 +30,31 @@ pub(super) struct Lakes {
     pub level: Field,
     /// Depth in shallowest depths.
     pub(super) depth: Field,
+    /// Depth at which a lake shows the middle of its ramp, in the same.
+    middle_depth: f32,
     ramp: Ramp,
     shore: Linear,
 }
 
 impl Lakes {
-    /// The lakes in a layer of water depths in metres; `None` where there are none.
-    pub(super) fn of(water: &Field, domain: &Domain, sheet: &Sheet) -> Option<Self> {
-        let depth = depths(water, domain)?;
-        let level =
-            Field::from_values(depth.size(), depth.values().iter().map(|depth| depth.min(2.0)).collect());
+    /// The lakes in a layer of water depths in metres over the ground; `None` where there are none.
+    pub(super) fn of(
+        [water, ground]: [&Field; 2],
+        domain: &Domain,
+        sheet: &Sheet,
+        shallowest: Option<f64>,
+    ) -> Option<Self> {
+        let usual = SHALLOWEST * domain.cell;
+        let shallowest = shallowest.unwrap_or(usual);
+        let depth = deeper_than(shallowest, water, domain)?;
+        let level = shores(&depth, ground, shallowest as f32);
+        // A shore that follows cells has teeth; water one cell wide is left to the lines of rivers.
+        let [level, depth] = [level, depth].map(|field| smoothed(&field, 1));
         Some(Self {
             level: shrink(&level, sheet),
             depth: shrink(&depth, sheet),
-            ramp: Ramp::through(&[0xa6_d0de, 0x6f_b0cf, 0x3f_83b0, 0x25_5a8c]),
+            middle_depth: MIDDLE_DEPTH * (usual / shallowest) as f32,
+            ramp: Ramp::through(&[0x86_bfd9, 0x5d_a3ca, 0x3a_80b2, 0x25_5a8c]),
             shore: linear_of_hex(0x2f_6d98),
         })
     }
@@ -49,7 +64,7 @@ impl Lakes {
     pub(super) fn at(&self, level: Rise, depth: f32, line: f32) -> (Linear, f32) {
         let pixels_inside = (level.value - 1.0) / level.by_pixel.max(1e-6);
         let cover = (pixels_inside + 0.5).clamp(0.0, 1.0);
-        let share = depth.max(0.0) / (depth.max(0.0) + MIDDLE_DEPTH);
+        let share = depth.max(0.0) / (depth.max(0.0) + self.middle_depth);
         let shore = 1.0 - ramp(pixels_inside, 0.4 * line, 1.6 * line);
         (mix(self.ramp.at(share), self.shore, 0.8 * shore), cover)
     }
@@ -57,7 +72,11 @@ impl Lakes {
 
 /// Depths in shallowest depths: 1 and more in lakes, less outside; `None` where there are no lakes.
 pub(super) fn depths(water: &Field, domain: &Domain) -> Option<Field> {
-    let shallowest = (SHALLOWEST * domain.cell) as f32;
+    deeper_than(SHALLOWEST * domain.cell, water, domain)
+}
+
+fn deeper_than(shallowest: f64, water: &Field, domain: &Domain) -> Option<Field> {
+    let shallowest = shallowest as f32;
     let relative = |(cell, &depth): (usize, &f32)| {
         let land = domain.valid.as_ref().is_none_or(|valid| valid.is_valid_at(cell));
         if land && depth.is_finite() { depth.max(0.0) / shallowest } else { 0.0 }
@@ -65,6 +84,36 @@ pub(super) fn depths(water: &Field, domain: &Domain) -> Option<Field> {
     let mut depth =
         Field::from_values(water.size(), water.values().iter().enumerate().map(relative).collect());
     drop_puddles(&mut depth).then_some(depth)
+}
+
+/// 0 on land, 1 at the shore and 2 in lakes, so that the shore lies where the level of a lake, as it goes on over land,
+/// cuts the ground between the centres of two cells. Depths are in shallowest depths, of that many metres.
+fn shores(depth: &Field, ground: &Field, shallowest: f32) -> Field {
+    let size = depth.size();
+    let (depths, heights) = (depth.values(), ground.values());
+    let above = |cell: usize| {
+        let own = depths[cell] - 1.0;
+        if own >= 0.0 {
+            return Some(own.max(LEAST));
+        }
+        let (mut count, mut level, mut deep) = (0.0, 0.0, 0.0);
+        for other in size.neighbours(cell).filter(|&other| depths[other] >= 1.0) {
+            count += 1.0;
+            level += heights[other] + depths[other] * shallowest;
+            deep += depths[other];
+        }
+        let over_land = (level / count - heights[cell]) / shallowest - 1.0;
+        // A flood that stands above dry ground beside it ends half-way.
+        let lies = if over_land > own { own * deep / count } else { over_land };
+        (count > 0.0).then(|| lies.min(-LEAST))
+    };
+    let above: Vec<Option<f32>> = (0..size.cells()).map(above).collect();
+    let level = |cell: usize| {
+        let Some(here) = above[cell] else { return 0.0 };
+        let across = size.neighbours(cell).filter_map(|other| above[other]).filter(|it| it * here < 0.0);
+        1.0 + here / across.map(f32::abs).fold(here.abs(), f32::max)
+    };
+    Field::from_values(size, (0..size.cells()).map(level).collect())
 }
 
 /// A value and its steepest rise in one pixel.
@@ -114,5 +163,63 @@ mod tests {
         (0..16).for_each(|cell| depth.set(10 + cell % 4, 10 + cell / 4, 5.0));
         assert!(drop_puddles(&mut depth));
         assert_eq!((depth.at(3, 3), depth.at(11, 11), depth.at(0, 0)), (0.5, 5.0, 0.1));
+    }
+
+    #[test]
+    fn a_round_lake_has_a_round_shore_between_the_cells() {
+        let domain = Domain::new(Size::square(40).expect("legal"), 1.0);
+        let bowl = |radius: f32| 0.5 * radius;
+        let ground = Field::from_function(domain.size, |x, y| {
+            let [east, south] = [x, y].map(|it| it as f32 + 0.5 - 20.0);
+            bowl((east * east + south * south).sqrt())
+        });
+        let depths = ground.values().iter().map(|height| (bowl(12.3) - height).max(0.0)).collect();
+        let water = Field::from_values(domain.size, depths);
+        let sheet = Sheet::new(&domain, Some(40)).expect("legal");
+        let lakes = Lakes::of([&water, &ground], &domain, &sheet, Some(0.01)).expect("a lake");
+        for turn in 0..36 {
+            let angle = std::f32::consts::TAU * turn as f32 / 36.0;
+            let level = |radius: f32| {
+                let [x, y] = [libm::cosf(angle), libm::sinf(angle)].map(|it| 20.0 + radius * it - 0.5);
+                let (column, row) = (x as usize, y as usize);
+                let [right, down] = [x - column as f32, y - row as f32];
+                let mix = |a: f32, b: f32, share: f32| a + (b - a) * share;
+                let along = |y| mix(lakes.level.at(column, y), lakes.level.at(column + 1, y), right);
+                mix(along(row), along(row + 1), down)
+            };
+            let shore = (0..400).map(|step| 10.0 + 0.01 * step as f32).find(|&radius| level(radius) < 1.0);
+            let off = shore.expect("a shore") - 12.3;
+            assert!(off.abs() < 0.25, "the shore lies {off} cells off at {angle}");
+        }
+    }
+
+    /// A lake in the south of 20 × 20 cells, with a depth along its shore.
+    fn lake(shore: impl Fn(usize) -> f32, shallowest: Option<f64>) -> Option<Lakes> {
+        let domain = Domain::new(Size::square(20).expect("legal"), 1.0);
+        let water = Field::from_function(domain.size, |x, y| match y {
+            0..10 => 0.0,
+            10..13 => shore(x),
+            _ => 2.0,
+        });
+        let sheet = Sheet::new(&domain, Some(20)).expect("legal");
+        let ground = Field::filled(domain.size, 0.0);
+        Lakes::of([&water, &ground], &domain, &sheet, shallowest)
+    }
+
+    #[test]
+    fn a_shore_has_no_teeth_of_single_cells() {
+        let comb = lake(|x| if x % 4 == 0 { 2.0 } else { 0.0 }, None).expect("a lake");
+        assert!((2..18).all(|x| comb.level.at(x, 11) < 1.0 && comb.level.at(x, 14) > 1.0));
+        let straight = lake(|_| 2.0, None).expect("a lake");
+        assert!((0..20).all(|x| straight.level.at(x, 9) < 1.0 && straight.level.at(x, 10) > 1.0));
+    }
+
+    #[test]
+    fn a_shallow_flood_is_drawn_where_that_is_asked_for() {
+        let flood = |shallowest| {
+            let lakes = lake(|_| 0.02, shallowest).expect("a lake");
+            lakes.at(Rise { value: lakes.level.at(5, 11), by_pixel: 0.1 }, 1.0, 1.0).1
+        };
+        assert_eq!([flood(None), flood(Some(0.01))], [0.0, 1.0]);
     }
 }

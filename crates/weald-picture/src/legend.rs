@@ -1,4 +1,4 @@
-//! The strip beside a map: what its colours stand for, and a scale bar.
+//! Writing around a picture: the strip beside a map, with what its colours stand for and a scale bar, and a title.
 
 use super::Image;
 use super::colour::{Linear, encode, linear_of_hex};
@@ -11,6 +11,9 @@ const PIXELS_PER_UNIT: f32 = 620.0;
 
 /// Least and greatest side of a unit in pixels: a text of less than half a pixel a unit cannot be read.
 const UNITS: [f32; 2] = [0.9, 12.0];
+
+/// Colour of a title.
+const TITLE_INK: Linear = [0.06, 0.05, 0.04];
 
 const MARGIN: f32 = 10.0;
 const BAR_WIDTH: f32 = 14.0;
@@ -175,6 +178,17 @@ fn distance(metres: f64) -> String {
     if metres >= 1000.0 { format!("{} km", metres / 1000.0) } else { format!("{metres} m") }
 }
 
+impl Image {
+    /// The picture below a line of writing.
+    #[must_use]
+    pub fn titled(&self, title: &str) -> Self {
+        let pen = Pen { unit: 1.25, ink: TITLE_INK };
+        let mut line = Self::paper(self.width, (2.6 * pen.height()) as usize);
+        pen.write(&mut line, title, [2.0, 0.7 * pen.height()]);
+        Self::below(&[line, self.clone()], 0)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -241,5 +255,15 @@ mod tests {
             let first = (beside..image.width).find(written).expect("a name");
             assert!(first < beside + 8, "name {at} begins {} pixels from its colour", first - beside);
         }
+    }
+
+    #[test]
+    fn a_title_stands_above_its_picture_and_leaves_it_as_it_was() {
+        let image = Image { width: 40, height: 2, rgb: (0..240).collect() };
+        let titled = image.titled("k 0.5");
+        let above = titled.height - image.height;
+        assert_eq!(titled.rgb[3 * 40 * above..], image.rgb);
+        let dark = titled.rgb[..3 * 40 * above].chunks(3).filter(|pixel| pixel[0] < 100).count();
+        assert!(dark > 15, "{dark} dark pixels");
     }
 }

@@ -1,14 +1,15 @@
 //! Pictures of a landscape, one file a kind; [`PICTURES`] is the registry.
 
-mod albedo;
 mod apng;
 mod automatic;
 mod colour;
 mod contours;
+mod courses;
 mod cut;
 mod cutout;
 mod digits;
 mod drainage;
+mod flow_field;
 mod font;
 pub mod fractal;
 mod ground;
@@ -34,10 +35,8 @@ mod spline;
 mod strokes;
 mod texture;
 mod ticks;
-mod title;
 mod view;
 
-pub use albedo::tinted;
 pub use apng::write_apng;
 pub use colour::{Linear, Oklab, PAPER, encode, linear_of_hex, linear_of_srgb};
 pub use cutout::Cutout;
@@ -49,7 +48,7 @@ pub use materials::Materials;
 pub use picture::{Picture, PictureEntry, Watch};
 pub use ramp::{Ramp, Scale, Tint};
 pub use registry::{PICTURES, find};
-pub use relief::Relief;
+pub use relief::{Relief, tinted};
 pub use render::{
     CameraPath, Frame, FrameSequence, GrassRate, RayMarched, Render, RenderDevice, RenderKeys, RenderRequest,
     Rendering,

@@ -32,6 +32,11 @@ weald_core::parameters! {
         contours: f64 = 0.0, range 0.0..=100_000.0, unit "m";
         /// Whether lakes (layer `water`) and rivers (layers `flux_x`, `flux_y`) are drawn where they exist.
         water: bool = true;
+        /// Depth of water from which its surface is drawn. By default three tenths of a cell's side: what is
+        /// shallower is overland flow.
+        shallowest: Option<f64> = None, range 1.0e-6..=1.0e4, unit "m", when water = true;
+        /// Least upslope area of a river that is drawn. By default that of 40 cells, and a nine-hundredth of the grid.
+        least_area: Option<f64> = None, range 0.0..=1.0e15, unit "m²", when water = true;
         /// Whether a strip beside the picture names the materials in their colours and has a scale bar.
         legend: bool = false;
     }
@@ -74,6 +79,8 @@ impl Materials {
             exaggeration: self.exaggeration,
             contours: Some(self.contours),
             water: self.water,
+            shallowest: self.shallowest,
+            least_area: self.least_area,
             ..Relief::default()
         }
     }

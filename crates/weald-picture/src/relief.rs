@@ -5,10 +5,16 @@
 //! Aerial perspective after Eduard Imhof, "Kartographische Geländedarstellung" (1965): contrast grows with
 //! height, and valleys lie in a light haze.
 
+use rayon::prelude::*;
+
+use super::automatic;
+use super::colour::encode;
+use super::ground::{drawable, land_share};
 use super::paint::Paint;
 use super::ramp::Tint;
 use super::scene::{Scene, Shading};
 use super::sheet::Sheet;
+use super::spline::{Spline, SplineRow};
 use super::{Image, Picture};
 use weald_core::error::Error;
 use weald_core::landscape::Landscape;
@@ -36,6 +42,11 @@ weald_core::parameters! {
         contours: Option<f64> = None, range 0.0..=100_000.0, unit "m";
         /// Whether lakes (layer `water`) and rivers (layers `flux_x`, `flux_y`) are drawn where they exist.
         water: bool = true;
+        /// Depth of water from which its surface is drawn. By default three tenths of a cell's side: what is
+        /// shallower is overland flow.
+        shallowest: Option<f64> = None, range 1.0e-6..=1.0e4, unit "m", when water = true;
+        /// Least upslope area of a river that is drawn. By default that of 40 cells, and a nine-hundredth of the grid.
+        least_area: Option<f64> = None, range 0.0..=1.0e15, unit "m²", when water = true;
     }
 }
 
@@ -65,6 +76,31 @@ impl Relief {
             exaggeration: self.exaggeration,
             contours: self.contours,
             water: self.water,
+            shallowest: self.shallowest,
+            least_area: self.least_area,
         }
     }
+}
+
+/// Colours by height without light and shade, as a renderer wants them: tints of the layer `of` on a sheet over all cells to their outer edges, `width` pixels wide or as suits the grid.
+/// Cells without data have tints of the nearest land.
+///
+/// # Errors
+/// [`Error::Limit`] where the sheet would be too large, [`Error::Run`] for a layer that is missing.
+pub fn tinted(landscape: &Landscape, of: &str, tint: Tint, width: Option<u32>) -> Result<Image, Error> {
+    let sheet = Sheet::new(&landscape.domain, width)?;
+    let land = landscape.domain.valid.as_ref();
+    let height = drawable(landscape.field(of)?, land, &sheet);
+    let [low, high] = automatic::tint_range(&height, land_share(land, &sheet).as_ref(), None);
+    let spline = Spline::new(&sheet, height.size().columns, height.size().rows);
+    let ramp = tint.ramp();
+    let mut rgb = vec![0; 3 * sheet.width * sheet.height];
+    rgb.par_chunks_mut(3 * sheet.width).enumerate().for_each_init(SplineRow::default, |row, (y, out)| {
+        spline.row(&height, y, row);
+        for (x, pixel) in out.chunks_exact_mut(3).enumerate() {
+            let share = (row.value[x] - low) / (high - low);
+            pixel.copy_from_slice(&encode(ramp.at(share)));
+        }
+    });
+    Ok(Image { width: sheet.width, height: sheet.height, rgb })
 }

@@ -42,6 +42,10 @@ pub(super) struct Shading<'a> {
     pub(super) contours: Option<f64>,
     /// Whether lakes and rivers are drawn.
     pub(super) water: bool,
+    /// Depth in metres from which water is drawn as a surface; `None` for one that suits the cells.
+    pub(super) shallowest: Option<f64>,
+    /// Least upslope area of a river in m²; `None` for one that suits the grid.
+    pub(super) least_area: Option<f64>,
 }
 
 /// Everything that a pixel needs to know.
@@ -94,7 +98,7 @@ impl Scene {
         let line = 0.85 * sheet.line();
         let contours = interval.filter(|&interval| interval > 0.0);
         let land = land_share(land, &sheet);
-        let water = if shading.water { Water::of(landscape, &sheet) } else { Water::default() };
+        let water = if shading.water { Water::of(landscape, &sheet, shading) } else { Water::default() };
         Ok(Self {
             spline: Spline::new(&sheet, height.size().columns, height.size().rows),
             texture: automatic::normalised(texture(&height), high - low),
@@ -224,11 +228,13 @@ struct Water {
 }
 
 impl Water {
-    fn of(landscape: &Landscape, sheet: &Sheet) -> Self {
+    fn of(landscape: &Landscape, sheet: &Sheet, shading: &Shading<'_>) -> Self {
         let domain = &landscape.domain;
-        let lakes = landscape.field("water").ok().and_then(|water| Lakes::of(water, domain, sheet));
+        let water = landscape.field("water").ok().zip(landscape.field(shading.of).ok());
+        let lakes =
+            water.and_then(|(water, ground)| Lakes::of([water, ground], domain, sheet, shading.shallowest));
         let flux = landscape.field("flux_x").ok().zip(landscape.field("flux_y").ok());
-        let rivers = flux.and_then(|(x, y)| rivers::draw([x, y], domain, sheet));
+        let rivers = flux.and_then(|(x, y)| rivers::draw([x, y], domain, sheet, shading.least_area));
         Self { lakes, rivers }
     }
 }

@@ -41,6 +41,8 @@ weald_core::parameters! {
         exaggeration: Option<f64> = None, range 0.01..=1000.0;
         /// Whether the layer `water` is drawn where it exists.
         water: bool = true;
+        /// Layer with the heights of the ground as it was: a dashed line, and a shade where ground is gone.
+        before: Option<LayerName> = None;
     }
 }
 
@@ -50,12 +52,16 @@ const DEFAULT_HEIGHT: f64 = 0.36;
 /// Room below the lowest bedrock and above the highest ground, as shares of the heights between them.
 const ROOM: [f64; 2] = [0.16, 0.12];
 
+/// Length in lines of a dash with the gap after it, and the share of the dash.
+const DASH: f32 = 14.0;
+const DASHED: f32 = 0.6;
+
 /// Most pixels of a picture.
 const MAX_PIXELS: f64 = (1_u32 << 27) as f64;
 
 impl Picture for Section {
     fn reads(&self) -> Vec<String> {
-        vec![self.of.0.clone()]
+        [Some(&self.of), self.before.as_ref()].into_iter().flatten().map(|name| name.0.clone()).collect()
     }
 
     fn optional(&self) -> Vec<String> {
@@ -68,7 +74,11 @@ impl Picture for Section {
         let down = self.along == Along::Column;
         let lines = if down { size.columns } else { size.rows };
         let place = ((self.at * lines as f64) as usize).min(lines - 1);
-        let cut = Cut::new(landscape, ground, Line { down, place }, self.water)?;
+        let line = Line { down, place };
+        let mut cut = Cut::new(landscape, ground, line, self.water)?;
+        if let Some(before) = &self.before {
+            cut = cut.with_before(landscape.field(&before.0)?, line);
+        }
         let frame = Frame::new(self, &cut, landscape.domain.cell)?;
         let slices = frame.slices(&cut);
         let colours = landscape.materials.iter().map(|material| linear_of_srgb(material.colour)).collect();
@@ -170,13 +180,15 @@ struct Inks {
     shallow: Linear,
     deep: Linear,
     edge: Linear,
+    before: Linear,
 }
 
 impl Default for Inks {
     fn default() -> Self {
-        let [zenith, near, middle, far, shallow, deep, edge] =
-            [0xd3_dfe4, 0xa9_b3a8, 0xbf_c8c3, 0xd2_d8d6, 0x6f_b0cf, 0x25_5a8c, 0x2a_2420].map(linear_of_hex);
-        Self { zenith, hills: [near, middle, far], shallow, deep, edge }
+        let hills = [0xa9_b3a8, 0xbf_c8c3, 0xd2_d8d6].map(linear_of_hex);
+        let [zenith, shallow, deep, edge, before] =
+            [0xd3_dfe4, 0x6f_b0cf, 0x25_5a8c, 0x2a_2420, 0xa8_321c].map(linear_of_hex);
+        Self { zenith, hills, shallow, deep, edge, before }
     }
 }
 
@@ -208,6 +220,9 @@ impl Drawing<'_> {
             colour = mix(colour, hill, self.cover(skyline, y));
         }
         let Some(&surface) = slice.tops.last() else { return colour };
+        if let Some(before) = slice.before {
+            colour = mix(colour, self.inks.before, 0.22 * self.cover(before, y));
+        }
         if let Some(level) = slice.level {
             let depth = (y as f32 - self.frame.row(f64::from(level))) / (40.0 * self.frame.line());
             let water = mix(self.inks.shallow, self.inks.deep, (depth / (depth.abs() + 0.6)).clamp(0.0, 1.0));
@@ -222,7 +237,17 @@ impl Drawing<'_> {
         }
         let water_line = slice.level.is_some_and(|level| level > surface);
         let ink = if water_line { 0.5 } else { 0.9 };
-        mix(colour, self.inks.edge, ink * self.line(slice.tops.len() - 1, x, y, 1.4))
+        let colour = mix(colour, self.inks.edge, ink * self.line(slice.tops.len() - 1, x, y, 1.4));
+        mix(colour, self.inks.before, self.dash(x, y))
+    }
+
+    /// Ink of the dashed line of the ground as it was.
+    fn dash(&self, x: usize, y: usize) -> f32 {
+        let place = x as f32 / (DASH * self.frame.line());
+        if place - place.floor() > DASHED {
+            return 0.0;
+        }
+        self.ink([x, y], 1.2, |slice| slice.before)
     }
 
     /// The part of a pixel of row `y` that lies below a height.
@@ -247,10 +272,15 @@ impl Drawing<'_> {
 
     /// Ink of a line of so many pixels along the top of a material, even where it is steep.
     fn line(&self, material: usize, x: usize, y: usize, width: f32) -> f32 {
-        let top = |x: usize| self.slices[x].tops.get(material).map(|&top| self.frame.row(f64::from(top)));
-        let Some(here) = top(x) else { return 0.0 };
-        let left = x.checked_sub(1).and_then(top).unwrap_or(here);
-        let right = Some(x + 1).filter(|&x| x < self.slices.len()).and_then(top).unwrap_or(here);
+        self.ink([x, y], width, |slice| slice.tops.get(material).copied())
+    }
+
+    /// Ink of a line of so many pixels at a height of each slice.
+    fn ink(&self, [x, y]: [usize; 2], width: f32, height: impl Fn(&Slice) -> Option<f32>) -> f32 {
+        let row = |x: usize| height(&self.slices[x]).map(|height| self.frame.row(f64::from(height)));
+        let Some(here) = row(x) else { return 0.0 };
+        let left = x.checked_sub(1).and_then(row).unwrap_or(here);
+        let right = Some(x + 1).filter(|&x| x < self.slices.len()).and_then(row).unwrap_or(here);
         let slope = (here - left).abs().max((right - here).abs());
         let distance = (y as f32 + 0.5 - here).abs() / (1.0 + slope * slope).sqrt();
         (0.5 * width * self.frame.line() + 0.5 - distance).clamp(0.0, 1.0)
@@ -291,5 +321,27 @@ mod tests {
         for [before, after] in [[[0.9999, 0.5], [1.0, 0.5]], [[2.5, 3.9999], [2.5, 4.0]]] {
             assert!((noise(3, before) - noise(3, after)).abs() < 1e-3, "at {after:?}");
         }
+    }
+
+    #[test]
+    fn the_ground_as_it_was_is_a_red_line_over_what_is_gone() {
+        use weald_core::domain::Domain;
+        use weald_core::grid::{Field, Size};
+        let size = Size::new(30, 1).expect("small");
+        let mut landscape = Landscape::new(Domain::new(size, 1.0));
+        landscape.insert("height", "m", Field::from_function(size, |x, _| if x < 15 { 10.0 } else { 5.0 }));
+        landscape.insert("was", "m", Field::filled(size, 10.0));
+        let section = Section { width: 300, ..Section::default() };
+        let now = section.render(&landscape).expect("draws");
+        let with_before = Section { before: Some(LayerName::of("was")), ..section };
+        let image = with_before.render(&landscape).expect("draws");
+        assert_eq!((image.width, image.height), (now.width, now.height));
+        let redder = |x: usize, y: usize| {
+            let [now, image] = [&now, &image].map(|image| image.pixel(x, y).map(i32::from));
+            (image[0] - image[2]) - (now[0] - now[2]) > 8
+        };
+        let red = |x: usize| (0..image.height).filter(|&y| redder(x, y)).count();
+        assert!(red(240) > image.height / 4, "{} of {} rows where ground is gone", red(240), image.height);
+        assert!(red(80) < 4, "{} rows where it stays", red(80));
     }
 }

@@ -20,7 +20,6 @@ mod keys;
 mod lit_scene;
 mod maps;
 mod numbers;
-mod plain;
 mod pyramid;
 mod rim;
 mod scene;

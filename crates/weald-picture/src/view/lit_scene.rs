@@ -6,16 +6,17 @@ use super::camera::{self, Camera};
 use super::cover::Cover;
 use super::haze::Haze;
 use super::keys::View;
-use super::plain;
 use super::setting::Setting;
 use super::side::SideLight;
 use super::sky::Sky;
 use super::skylight::{self, Seen, Skylight};
-use super::terrain::Ray;
+use super::surface::Surface;
+use super::terrain::{Ray, Terrain};
 use super::tone::Tone;
 use super::vector::{Vector, dot, filter, scale, subtract, towards};
 use crate::colour::{Linear, linear_of_hex};
 use weald_core::error::Error;
+use weald_core::grid::{Field, Size};
 use weald_core::landscape::Landscape;
 
 /// Most cells, along the longer side, for which the visible sky is known.
@@ -32,6 +33,9 @@ const BOUNCE: f32 = 0.5;
 
 /// Colour of the plain.
 const PLAIN: u32 = 0xd0_c6b4;
+
+/// Cells of the plain along the landscape's side for which the visible sky is known; the plain is three such sides wide.
+const PLAIN_CELLS: usize = 40;
 
 /// Colour of water in a cut side.
 pub(super) const CUT_WATER: u32 = 0x1d_4a58;
@@ -72,7 +76,7 @@ impl LitScene {
         let sent_back = |albedo: Linear, share: f32| scale(filter(albedo, level), share * FRAC_1_PI);
         Ok(Self {
             skylight: Skylight::new(&sky, &terrain.top, terrain.spacing, SKYLIGHT_CELLS),
-            plain_light: plain::light(&sky, &setting.terrain),
+            plain_light: light_of_plain(&sky, &setting.terrain),
             open: skylight::open(&sky),
             sides: SideLight::new(&sky, sent_back(plain, 1.0)),
             bounce: sent_back(cover.mean(), BOUNCE),
@@ -200,4 +204,18 @@ fn haze(visibility: Option<f64>, camera: &Camera, centre: Vector, exaggeration: 
     let ray_length = dot(away, away).sqrt().max(1e-3);
     let ray = Ray { from: camera.eye, direction: scale(away, 1.0 / ray_length) };
     Haze::of_depth(DEFAULT_HAZE, &ray, ray_length, exaggeration)
+}
+
+/// The sky that is seen from the plain, three times as wide as the landscape.
+fn light_of_plain(sky: &Sky, terrain: &Terrain) -> Skylight {
+    let (inner, size) = (terrain.top.size(), Size { columns: 3 * PLAIN_CELLS, rows: 3 * PLAIN_CELLS });
+    let share =
+        |cell: usize, cells: usize| 0.5 + ((cell as f32 + 0.5) / PLAIN_CELLS as f32 - 1.0) * cells as f32;
+    let height = Field::from_function(size, |x, y| {
+        let place = [share(x, inner.columns), share(y, inner.rows)];
+        if terrain.is_valid(place) { terrain.top.at(place) } else { terrain.base }
+    });
+    let spacing = [0, 1]
+        .map(|axis| terrain.spacing[axis] * [inner.columns, inner.rows][axis] as f32 / PLAIN_CELLS as f32);
+    Skylight::new(sky, &Surface::new(&height), spacing, 3 * PLAIN_CELLS)
 }

@@ -112,12 +112,13 @@ impl Rivers {
         let scale = (RIVER_SIDE as f32 / longer as f32).min(RIVER_PIXELS as f32);
         let pixels = |cells: usize| ((cells as f32 * scale) as usize).max(1);
         let (width, height) = (pixels(domain.size.columns), pixels(domain.size.rows));
+        let canvas = rivers::Canvas { pixels: [width, height], least_area: None };
         let square_kilometres = domain.cell_area() as f32 * 1e-6;
-        let strokes = rivers::strokes(flux, domain, [width, height], |reach| {
+        let strokes = rivers::strokes(flux, domain, canvas, |reach| {
             let metres =
                 BANKFULL * libm::powf(reach.area * square_kilometres, BANKFULL_GROWTH) * broader as f32;
             let width = metres / domain.cell as f32 * scale;
-            Point { x: reach.x * scale, y: reach.y * scale, width, opacity: 1.0 }
+            Point { x: reach.place[0] * scale, y: reach.place[1] * scale, width, opacity: 1.0 }
         })?;
         Some(Self { strokes, width, height })
     }
