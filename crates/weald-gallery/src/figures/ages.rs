@@ -35,7 +35,11 @@ fn make(job: GalleryJob) -> Result<FigureOutput, Error> {
     Ok(FigureOutput {
         plates: vec![
             plate("relief", "Ground and water", views::relief)?,
-            plate("flow", "Mean discharge", views::flow)?,
+            plate(
+                "flow",
+                "Rivers and lakes, rivers as wide as the root of their mean discharge,",
+                views::flow,
+            )?,
         ],
         measured: Measured {
             header: texts(["run", "seed", "channel heads", "river width", "valley width", "valley spacing"]),

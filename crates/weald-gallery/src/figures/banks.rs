@@ -1,6 +1,6 @@
 //! Banks that a river undercuts: they stand too steep, or slide.
 
-use super::layered::{SOURCE, cut_open, from_above, ground, material, simulated, steepest_fall};
+use super::layered::{CUT_OPEN, Look, SOURCE, ground, material, simulated, steepest_fall};
 use super::{Claim, Figure, FigureOutput, GalleryJob, Make, Measured, Plate, Verdict, texts};
 use weald_core::error::Error;
 use weald_core::grid::{Field, Size};
@@ -34,15 +34,10 @@ fn make(job: GalleryJob) -> Result<FigureOutput, Error> {
     let cut = simulated(&start, iterations, &keys)?;
     let slid = simulated(&start, iterations, &format!("{keys}\nslippage = {{ strength = 0.06 }}"))?;
     let landscapes = [&start, &cut, &slid];
-    let caption = |view| format!("Before, and after {iterations} steps without and with slippage, {view}");
-    let plates = vec![
-        Plate { name: "relief", caption: caption("from above"), image: from_above(&landscapes)? },
-        Plate {
-            name: "section",
-            caption: caption("cut across the river"),
-            image: cut_open(&landscapes, Along::Column, 0.5)?,
-        },
-    ];
+    let stages = [("before", &start), ("after, without slippage", &cut), ("after, with slippage", &slid)];
+    let caption = format!("Before, and after {iterations} steps without and with slippage: {CUT_OPEN}");
+    let image = Look { exaggeration: 1.2, along: Along::Column, at: 0.5 }.stages(&stages)?;
+    let plates = vec![Plate { name: "stages", caption, image }];
     let banks = ["before", "without slippage", "with slippage"].into_iter().zip(landscapes);
     let banks = banks.map(|(name, landscape)| Banks::of(name, landscape)).collect::<Result<Vec<_>, _>>()?;
     let measured = Measured {

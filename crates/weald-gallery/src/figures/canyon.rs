@@ -1,6 +1,6 @@
 //! A canyon in level beds: hard ones stand as ledges, soft ones are cut back.
 
-use super::layered::{self, SOURCE, cut_open, from_above, ground, material, simulated};
+use super::layered::{self, CUT_OPEN, Look, SOURCE, ground, material, simulated};
 use super::{Claim, Figure, FigureOutput, GalleryJob, Make, Measured, Plate, Verdict, texts};
 use weald_core::error::Error;
 use weald_core::grid::{Field, Size};
@@ -37,19 +37,13 @@ fn make(job: GalleryJob) -> Result<FigureOutput, Error> {
     let (columns, rows, iterations) = job.choose((192, 128, 2400), (48, 32, 60));
     let start = plateau(Size::new(columns, rows)?);
     let after = simulated(&start, iterations, &keys(columns, rows))?;
-    let plates = [
-        ("relief", from_above(&[&start, &after])?, "from above"),
-        ("section", cut_open(&[&start, &after], Along::Column, 0.55)?, "cut across the river"),
-    ];
-    let plate = |(name, image, view)| Plate {
-        name,
-        caption: format!("Before and after {iterations} steps, {view}"),
-        image,
-    };
+    let caption = format!("Before and after {iterations} steps: {CUT_OPEN}");
+    let image = Look { exaggeration: 0.8, along: Along::Column, at: 0.55 }
+        .stages(&[("before", &start), ("after", &after)])?;
     let heights = [start.field("height")?, after.field("height")?];
     let walls: Vec<Wall> = BEDS.iter().rev().map(|bed| Wall::of(bed, heights)).collect();
     Ok(FigureOutput {
-        plates: plates.map(plate).into(),
+        plates: vec![Plate { name: "stages", caption, image }],
         measured: Measured {
             header: texts(["bed", "width before, m", "after", "slope before, °", "after"]),
             rows: walls.iter().map(Wall::row).collect(),

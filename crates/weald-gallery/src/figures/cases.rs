@@ -30,7 +30,12 @@ fn make(job: GalleryJob) -> Result<FigureOutput, Error> {
     Ok(FigureOutput {
         plates: vec![
             views::plate("relief", "Ground and water", cases, relief),
-            views::plate("flow", "Mean discharge", cases, flow),
+            views::plate(
+                "flow",
+                "Rivers and lakes, rivers as wide as the root of their mean discharge,",
+                cases,
+                flow,
+            ),
         ],
         measured: Measured {
             header: header(),

@@ -40,7 +40,12 @@ fn make(job: GalleryJob) -> Result<FigureOutput, Error> {
     Ok(FigureOutput {
         plates: vec![
             views::plate("relief", "Ground and water", dissolved, relief),
-            views::plate("flow", "Mean discharge", dissolved, flow),
+            views::plate(
+                "flow",
+                "Rivers and lakes, rivers as wide as the root of their mean discharge,",
+                dissolved,
+                flow,
+            ),
         ],
         measured: measured(&runs),
         claims: vec![no_rivers(&runs), like_streams(&young, &runs)?],

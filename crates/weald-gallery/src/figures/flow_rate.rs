@@ -31,7 +31,12 @@ fn make(job: GalleryJob) -> Result<FigureOutput, Error> {
     Ok(FigureOutput {
         plates: vec![
             views::plate("water", "Depth of water, from 0 to 1 cell,", &drawn, depth),
-            views::plate("flow", "Mean discharge", &drawn, flow),
+            views::plate(
+                "flow",
+                "Rivers and lakes, rivers as wide as the root of their mean discharge,",
+                &drawn,
+                flow,
+            ),
         ],
         measured: Measured {
             header: texts(["k", "chan", "reach", "drains"]),

@@ -1,6 +1,6 @@
 //! Force-based erosion against dissolution on the same ground.
 
-use super::layered::{SOURCE, cut_open, four, from_above, ground, material, simulated};
+use super::layered::{CUT_OPEN, Look, SOURCE, four, ground, material, simulated};
 use super::{Claim, Figure, FigureOutput, GalleryJob, Make, Measured, Plate, Verdict, texts};
 use weald_core::error::Error;
 use weald_core::grid::{Field, Size};
@@ -29,18 +29,14 @@ fn make(job: GalleryJob) -> Result<FigureOutput, Error> {
     let dissolved =
         simulated(&start, iterations, &format!("{keys}\nerosion = 0.0\ndissolution = {{ depth = 0.3 }}"))?;
     let landscapes = [&start, &forced, &dissolved];
-    let caption = |view| {
-        format!("Before, and after {iterations} steps of force-based erosion and of dissolution, {view}")
-    };
-    let plates = vec![
-        Plate { name: "relief", caption: caption("from above"), image: from_above(&landscapes)? },
-        Plate {
-            name: "section",
-            caption: caption("cut across the stream"),
-            image: cut_open(&landscapes, Along::Column, 0.6)?,
-        },
-    ];
-    let beds = ["before", "force-based", "dissolution"].into_iter().zip(landscapes);
+    let names = ["before", "force-based", "dissolution"];
+    let titles = ["before", "after force-based erosion", "after dissolution"];
+    let stages: Vec<_> = titles.into_iter().zip(landscapes).collect();
+    let caption =
+        format!("Before, and after {iterations} steps of force-based erosion and of dissolution: {CUT_OPEN}");
+    let image = Look { exaggeration: 1.2, along: Along::Column, at: 0.6 }.stages(&stages)?;
+    let plates = vec![Plate { name: "stages", caption, image }];
+    let beds = names.into_iter().zip(landscapes);
     let beds = beds.map(|(name, after)| Bed::of(name, &start, after)).collect::<Result<Vec<_>, _>>()?;
     let measured = Measured {
         header: texts(["erosion", "deepest cut, m", "moved, m³", "roughness of the bed, m"]),

@@ -35,7 +35,11 @@ fn make(job: GalleryJob) -> Result<FigureOutput, Error> {
             "Ground and water",
             views::sheet(&runs, STRENGTHS.len(), |land| views::relief(land, width))?,
         ),
-        ("flow", "Mean discharge", views::sheet(&runs, STRENGTHS.len(), |land| views::flow(land, width))?),
+        (
+            "flow",
+            "Rivers and lakes, rivers as wide as the root of their mean discharge,",
+            views::sheet(&runs, STRENGTHS.len(), |land| views::flow(land, width))?,
+        ),
     ];
     Ok(FigureOutput {
         plates: plates.map(|(name, what, image)| plate(name, what, &runs, image)).into(),

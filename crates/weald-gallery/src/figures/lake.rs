@@ -1,11 +1,11 @@
 //! A source fills a hollow until its water finds an outlet, which it then carves.
 
-use super::layered::{SOURCE, cut_open, from_above, ground, material, simulated};
+use super::layered::{CUT_OPEN, Look, SOURCE, ground, material, simulated};
 use super::{Claim, Figure, FigureOutput, GalleryJob, Make, Measured, Plate, Verdict, texts};
 use weald_core::error::Error;
 use weald_core::grid::{Field, Size};
 use weald_core::landscape::Landscape;
-use weald_picture::{Along, Image};
+use weald_picture::Along;
 
 pub(super) const FIGURE: Figure = Figure {
     id: "lake",
@@ -28,16 +28,12 @@ fn make(job: GalleryJob) -> Result<FigureOutput, Error> {
     let full = stages.full(&start)?;
     let spilling = simulated(&full, iterations[2], &stages.keys(1.0))?;
     let landscapes = [&start, &filling, &full, &spilling];
+    let titles = ["before", "filling", "full to its outlet", "after the spill has carved the outlet"];
+    let drawn: Vec<_> = titles.into_iter().zip(landscapes).collect();
     let caption =
-        |view| format!("Before, filling, full to its outlet, and after the spill has carved it, {view}");
-    let plates = vec![
-        Plate { name: "relief", caption: caption("from above"), image: paired(&landscapes, from_above)? },
-        Plate {
-            name: "section",
-            caption: caption("cut along the outlet"),
-            image: paired(&landscapes, |pair| cut_open(pair, Along::Row, 0.5))?,
-        },
-    ];
+        format!("Before, filling, full to its outlet, and after the spill has carved it: {CUT_OPEN}");
+    let image = Look { exaggeration: 1.0, along: Along::Row, at: 0.5 }.stages(&drawn)?;
+    let plates = vec![Plate { name: "stages", caption, image }];
     let names = ["before", "filling", "full", "spilled"].into_iter().zip(landscapes);
     let levels = names.map(|(name, landscape)| Levels::of(name, landscape)).collect::<Result<Vec<_>, _>>()?;
     let measured = Measured {
@@ -48,14 +44,6 @@ fn make(job: GalleryJob) -> Result<FigureOutput, Error> {
         ]),
     };
     Ok(FigureOutput { plates, measured, claims: claims(&levels) })
-}
-
-/// Four pictures in two rows.
-fn paired(
-    landscapes: &[&Landscape; 4],
-    draw: impl Fn(&[&Landscape]) -> Result<Image, Error>,
-) -> Result<Image, Error> {
-    Ok(Image::below(&[draw(&landscapes[..2])?, draw(&landscapes[2..])?], 10))
 }
 
 struct Stages {

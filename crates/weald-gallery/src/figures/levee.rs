@@ -1,12 +1,12 @@
 //! A painted levee holds a river back from low ground.
 
-use super::layered::{SOURCE, cut_open, from_above, ground, material, simulated};
+use super::layered::{CUT_OPEN, Look, SOURCE, ground, material, simulated};
 use super::{Claim, Figure, FigureOutput, GalleryJob, Make, Measured, Plate, Verdict, texts};
 use weald_core::error::Error;
 use weald_core::grid::{Field, Size};
 use weald_core::landscape::Landscape;
 use weald_land::edit::{Area, Brush, Canvas, Effect, Falloff};
-use weald_picture::{Along, Image};
+use weald_picture::Along;
 
 pub(super) const FIGURE: Figure = Figure {
     id: "levee",
@@ -29,20 +29,11 @@ fn make(job: GalleryJob) -> Result<FigureOutput, Error> {
     );
     let flooded = simulated(&start, iterations, &keys)?;
     let held = simulated(&guarded, iterations, &keys)?;
-    let upper = from_above(&[&start, &flooded])?;
-    let lower = from_above(&[&guarded, &held])?;
-    let caption = |view| {
-        format!("Before and after {iterations} steps, without the levee above and with it below, {view}")
-    };
-    let sections = |pair: &[&Landscape]| cut_open(pair, Along::Column, 0.5);
-    let plates = vec![
-        Plate { name: "relief", caption: caption("from above"), image: Image::below(&[upper, lower], 10) },
-        Plate {
-            name: "section",
-            caption: caption("cut across the river"),
-            image: Image::below(&[sections(&[&start, &flooded])?, sections(&[&guarded, &held])?], 10),
-        },
-    ];
+    let stages =
+        [("before", &start), ("after, without a levee", &flooded), ("after, behind a painted levee", &held)];
+    let caption = format!("A river that leaves its bed, before and after {iterations} steps: {CUT_OPEN}");
+    let image = Look { exaggeration: 3.0, along: Along::Column, at: 0.5 }.stages(&stages)?;
+    let plates = vec![Plate { name: "stages", caption, image }];
     let names = ["without, before", "without, after", "with, before", "with, after"];
     let lands = names.into_iter().zip([&start, &flooded, &guarded, &held]);
     let lands: Vec<Lowland> = lands.map(|(name, landscape)| Lowland::of(name, landscape)).collect();

@@ -36,7 +36,12 @@ fn make(job: GalleryJob) -> Result<FigureOutput, Error> {
     Ok(FigureOutput {
         plates: vec![
             views::plate("relief", "Ground and water", &drawn, relief),
-            views::plate("flow", "Mean discharge", &drawn, flow),
+            views::plate(
+                "flow",
+                "Rivers and lakes, rivers as wide as the root of their mean discharge,",
+                &drawn,
+                flow,
+            ),
         ],
         measured: measured(&runs)?,
         claims: claims(&runs),

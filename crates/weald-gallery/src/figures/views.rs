@@ -1,13 +1,13 @@
 //! Pictures of eroded ground on the same scales, so that they compare.
 
 use super::Plate;
-use super::han::{FinishedRun, RAIN};
+use super::han::FinishedRun;
 use weald_core::domain::Domain;
 use weald_core::error::Error;
 use weald_core::grid::{Field, Size};
 use weald_core::landscape::Landscape;
 use weald_core::parameter::LayerName;
-use weald_picture::{Image, Map, Picture, Relief, Scale};
+use weald_picture::{Image, Map, Picture, Relief, Scale, Tint};
 
 /// Pixels between two pictures.
 const GAP: usize = 10;
@@ -15,8 +15,8 @@ const GAP: usize = 10;
 /// Factor on heights in shaded relief: the same everywhere, so that shading compares.
 const EXAGGERATION: f64 = 0.7;
 
-/// Discharges that have the first and the last colour, in rain of a cell.
-const DISCHARGES: [f64; 2] = [1.0, 5000.0];
+/// Cells that the smallest brook drains in pictures of the flow.
+const BROOK: f64 = 20.0;
 
 /// Shaded relief with lakes and rivers.
 pub(super) fn relief(landscape: &Landscape, width: u32) -> Result<Image, Error> {
@@ -39,12 +39,12 @@ pub(super) fn discharge(landscape: &Landscape) -> Result<Field, Error> {
     Ok(Field::from_values(x.size(), flow))
 }
 
-/// Mean discharge on a logarithmic scale.
+/// Rivers on grey ground, down to brooks, as wide as the root of their mean discharge.
 pub(super) fn flow(landscape: &Landscape, width: u32) -> Result<Image, Error> {
-    let mut only = Landscape::new(landscape.domain.clone());
-    only.insert("flow", "m³/step", discharge(landscape)?);
-    let [low, high] = DISCHARGES.map(|cells| Some(RAIN * cells));
-    Map { width: Some(width), ramp: Scale::Water, logarithmic: true, low, high, ..map("flow") }.render(&only)
+    let least_area = Some(BROOK * landscape.domain.cell_area());
+    let (ramp, exaggeration, contours) = (Tint::Grey, Some(0.25 * EXAGGERATION), Some(0.0));
+    Relief { width: Some(width), ramp, exaggeration, contours, least_area, ..Relief::default() }
+        .render(landscape)
 }
 
 /// Depth of water from 0 to one cell.
@@ -110,14 +110,5 @@ mod tests {
     #[test]
     fn discharge_is_the_length_of_the_mean_flow() {
         assert_eq!(discharge(&carrying([3.0, -4.0])).expect("both layers").at(0, 0), 5.0);
-    }
-
-    #[test]
-    fn colours_of_discharge_go_from_the_rain_of_one_cell_to_that_of_five_thousand() {
-        let colour =
-            |cells: f64| flow(&carrying([(RAIN * cells) as f32, 0.0]), 8).expect("draws").pixel(4, 4);
-        assert_eq!(colour(0.5), colour(1.0));
-        assert_eq!(colour(5000.0), colour(9000.0));
-        assert!(colour(1.0) != colour(70.0) && colour(70.0) != colour(5000.0), "{:?}", colour(70.0));
     }
 }

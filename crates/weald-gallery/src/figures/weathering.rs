@@ -31,7 +31,12 @@ fn make(job: GalleryJob) -> Result<FigureOutput, Error> {
     Ok(FigureOutput {
         plates: vec![
             views::plate("relief", "Ground and water", &runs, relief),
-            views::plate("flow", "Mean discharge", &runs, flow),
+            views::plate(
+                "flow",
+                "Rivers and lakes, rivers as wide as the root of their mean discharge,",
+                &runs,
+                flow,
+            ),
             section(job, &runs)?,
         ],
         measured: measured(&runs),
