@@ -100,7 +100,7 @@ fn into_a_whirl(place: Place, inward: f32) -> Place {
     let [round, in_] = [[y / away, -x / away], [-x / away, -y / away]];
     let whirl = plus([round[0] * strength, round[1] * strength], in_, inward * strength);
     let feeds =
-        if x < 0.0 && away > 11.0 { 1000.0 * libm::expf(-(y + 12.0) * (y + 12.0) / 2.0) } else { 0.0 };
+        if x < 0.0 && away > 11.0 { 1000.0 * libm::expf(-(y - 12.0) * (y - 12.0) / 2.0) } else { 0.0 };
     turned(plus(plus(whirl, [feeds, 0.0], 1.0), [0.5 * SIDE as f32; 2], 1.0), -20.0)
 }
 
