@@ -84,7 +84,7 @@ fn value_name(option: &str) -> String {
 /// A value as a recipe writes it.
 fn in_toml(kind: &Kind, text: &str) -> String {
     match kind {
-        Kind::Text | Kind::Choice(_) | Kind::Colour | Kind::Layer => format!("{text:?}"),
+        Kind::Text | Kind::Choice(_) | Kind::Colour | Kind::Crs | Kind::Layer => format!("{text:?}"),
         Kind::Sides => text
             .split_once(['x', 'X'])
             .filter(|sides| [sides.0, sides.1].iter().all(|side| side.trim().parse::<u64>().is_ok()))

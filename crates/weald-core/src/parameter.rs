@@ -21,7 +21,7 @@ pub use colour::Colour;
 pub use declaration::{Choice, Legal, ParameterValue, Parameters, key, keys_of, read_key};
 pub use diagnostics::{Diagnostics, nearest, synonym};
 pub use fault::Fault;
-pub use file::{FlameFile, RasterFile, ScriptFile};
+pub use file::{CrsCode, FlameFile, RasterFile, ScriptFile};
 pub use kind::{Kind, Needs, Parameter, Variant};
 pub use layer_names::LayerNames;
 pub use length::Length;

@@ -1,11 +1,39 @@
-//! What a reader may use, so that no file, however damaged, takes more memory than its size warrants.
+//! What a reader finds wrong with the bytes of a file, before it knows the file's name; and what it may use, so that no file, however damaged, takes more memory than its size warrants.
 
-use super::Fault;
-use weald_core::error::{Limit, Quantity};
+use std::path::Path;
+
+use weald_core::error::{Error, Limit, Quantity};
 use weald_core::grid::{MAX_CELLS, Size};
 
+/// What is wrong with the bytes of a file; [`Fault::of`] adds the name.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum Fault {
+    /// The bytes are damaged or of a kind that is not read.
+    #[error("{0}")]
+    Damaged(String),
+    /// A stated limit would be passed; nothing was allocated.
+    #[error("{0}")]
+    Limit(#[from] Limit),
+}
+
+impl Fault {
+    /// Damaged bytes.
+    pub fn damaged(what: impl Into<String>) -> Self {
+        Self::Damaged(what.into())
+    }
+
+    /// The error of the file at `path`.
+    #[must_use]
+    pub fn of(self, path: &Path) -> Error {
+        match self {
+            Self::Damaged(what) => Error::input(path, what),
+            Self::Limit(limit) => limit.of(path.display()).into(),
+        }
+    }
+}
+
 /// Deflate expands at most 1032 times, LZW with codes of 12 bits about 1350 times.
-const MAX_EXPANSION: usize = 2048;
+pub(super) const MAX_EXPANSION: usize = 2048;
 
 /// What a reader may use.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -44,12 +72,12 @@ impl Limits {
     }
 }
 
-/// Whether `packed` bytes can hold `expanded` bytes under any of the compressions.
+/// Whether `packed` bytes can hold `expanded` bytes under a compression that makes at most `times` as many of them.
 ///
 /// # Errors
 /// [`Fault::Damaged`] with both numbers.
-pub(super) fn ensure_can_hold(packed: usize, expanded: usize) -> Result<(), Fault> {
-    if expanded / MAX_EXPANSION <= packed {
+pub(super) fn ensure_can_hold(packed: usize, expanded: usize, times: usize) -> Result<(), Fault> {
+    if expanded / times <= packed {
         return Ok(());
     }
     Err(Fault::Damaged(format!(
@@ -63,9 +91,9 @@ mod tests {
 
     #[test]
     fn what_no_compression_can_do_is_refused() {
-        assert!(ensure_can_hold(1000, 1_032_000).is_ok(), "the most that Deflate does");
-        assert!(ensure_can_hold(1000, 2_100_000).is_err());
-        assert!(ensure_can_hold(0, 2047).is_ok(), "too little to matter");
+        assert!(ensure_can_hold(1000, 1_032_000, MAX_EXPANSION).is_ok(), "the most that Deflate does");
+        assert!(ensure_can_hold(1000, 2_100_000, MAX_EXPANSION).is_err());
+        assert!(ensure_can_hold(0, 2047, MAX_EXPANSION).is_ok(), "too little to matter");
     }
 
     #[test]
@@ -77,5 +105,15 @@ mod tests {
         };
         assert_eq!((what, asked, allowed), (Quantity::Cells, Some(13), 0..=12));
         assert!(matches!(limits.size(0, 1), Err(Fault::Damaged(_))));
+    }
+
+    #[test]
+    fn the_limit_of_a_file_keeps_its_numbers_and_names_the_file() {
+        let limit = Limit::new(Quantity::Cells, 9, 0..=8).of("a raster of 3 × 3 cells");
+        let error = Fault::Limit(limit.clone()).of(Path::new("land.tif"));
+        let message = "land.tif: a raster of 3 × 3 cells: 9 cells, at most 8 are allowed";
+        assert_eq!(error.to_string(), message);
+        let Error::Limit(Limit { what, asked, allowed, .. }) = error else { panic!("{message}") };
+        assert_eq!((what, asked, allowed), (limit.what, limit.asked, limit.allowed));
     }
 }

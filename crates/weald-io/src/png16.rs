@@ -8,7 +8,7 @@ use std::io::Cursor;
 
 use png::{BitDepth, ColorType, Decoder, Info, Reader};
 
-use super::limits::ensure_can_hold;
+use super::limits::{MAX_EXPANSION, ensure_can_hold};
 use super::png::Pixels;
 use super::provenance::{MAXIMUM, MINIMUM, finite};
 use super::{Capabilities, Decode, Encode, Fault, Format, Limits, Metadata, Provenance, Raster, Values};
@@ -46,7 +46,7 @@ pub fn decode(bytes: &[u8], limits: Limits) -> Result<Raster, Fault> {
     let depth = grey_depth(header)?;
     let mut reader = decoder.read_info().map_err(|cause| damaged(&cause))?;
     let pixel_bytes = size.cells() * if depth == BitDepth::Sixteen { 2 } else { 1 };
-    ensure_can_hold(bytes.len(), pixel_bytes)?;
+    ensure_can_hold(bytes.len(), pixel_bytes, MAX_EXPANSION)?;
     let mut pixels = vec![0; pixel_bytes];
     reader.next_frame(&mut pixels).map_err(|cause| damaged(&cause))?;
     reader.finish().map_err(|cause| damaged(&cause))?;

@@ -4,6 +4,7 @@ use weald_core::domain::Georeference;
 use weald_core::error::Error;
 use weald_core::grid::{Field, Mask, Size};
 
+use super::unit::Measure;
 use super::{Fault, Provenance};
 
 /// Numbers that may stand for no-data, in the order in which they are tried before NaN.
@@ -22,6 +23,9 @@ pub struct Raster {
     pub georeference: Option<Georeference>,
     /// Where the values came from.
     pub provenance: Option<Provenance>,
+    /// Unit of the values of a file that Weald did not write: `m` where it has a length in any unit, or what it says;
+    /// `None` where it says none.
+    pub unit: Option<String>,
     /// Type of the values in the file: `int16`, `float32` …
     pub stored: &'static str,
     /// What the user should know about the file.
@@ -37,6 +41,7 @@ impl From<Field> for Raster {
             cell: None,
             georeference: None,
             provenance: None,
+            unit: None,
             stored: "float32",
             notes: Vec::new(),
         }
@@ -48,6 +53,7 @@ impl Raster {
     ///
     /// # Errors
     /// [`Fault::Damaged`] naming the first cell with data that holds a NaN or an infinity.
+    /// Readers take NaN as no-data, whether a file declares it or not: it is no height.
     pub(super) fn from_file(
         size: Size,
         values: Vec<f32>,
@@ -58,7 +64,7 @@ impl Raster {
         if let Some((x, y)) = field.first_not_finite(valid.as_ref()) {
             return Err(Fault::Damaged(format!(
                 "column {x}, row {y} holds {}, which is no height; declare it as no-data (for a GeoTIFF: \
-                 gdal_translate -a_nodata nan) or mend the file",
+                 gdal_translate -a_nodata inf) or mend the file",
                 field.at(x, y)
             )));
         }
@@ -66,6 +72,25 @@ impl Raster {
             "if these are heights, 8 bits hold 256 of them, so slopes come out as terraces; 16 bits do not";
         let notes = if stored.ends_with("int8") { vec![eight_bits.to_owned()] } else { Vec::new() };
         Ok(Self { valid, stored, notes, ..Self::from(field) })
+    }
+
+    /// With the unit of a measure, and what the user should know of it.
+    pub(super) fn measured(mut self, measure: &Measure) -> Self {
+        self.unit = measure.unit();
+        self.notes.extend(measure.notes());
+        self
+    }
+
+    /// With what a file says of its source, whose unit then counts.
+    pub(super) fn with_source(self, provenance: Option<Provenance>) -> Self {
+        let unit = self.unit.filter(|_| provenance.is_none());
+        Self { provenance, unit, ..self }
+    }
+
+    /// Unit of the values, where it is known.
+    pub fn unit(&self) -> Option<&str> {
+        let own = self.provenance.as_ref().map(|provenance| provenance.unit.as_str());
+        own.or(self.unit.as_deref())
     }
 
     /// Whether the cell at a row-major position holds data.

@@ -4,8 +4,7 @@ use std::path::Path;
 
 #[cfg(feature = "exr")]
 use super::exr;
-use super::file::read_at_most;
-use super::parts::OnDisk;
+use super::parts::{OnDisk, read_at_most};
 use super::{
     Decode, Fault, Format, Limits, Raster, asc, geotiff, netcdf, npy, png16, raw, write_parts, zarr,
 };

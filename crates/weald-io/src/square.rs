@@ -1,11 +1,14 @@
 //! Square cells in metres, whatever the cells of the file are.
 //!
-//! Degrees become metres by the latitude φ of the raster's middle, on the WGS 84 ellipsoid (series of the
-//! National Geospatial-Intelligence Agency, after Snyder 1987, Map Projections: A Working Manual, eq. 3-21 and
-//! 4-19):
+//! Degrees become metres by the latitude φ of the raster's middle. On the ellipsoids of WGS 84 and GRS 80, which are the
+//! same within a tenth of a millimetre, by the series of the National Geospatial-Intelligence Agency (after Snyder 1987,
+//! Map Projections: A Working Manual, eq. 3-21 and 4-19):
 //!
 //! a degree of latitude = 111132.92 − 559.82 cos 2φ + 1.175 cos 4φ − 0.0023 cos 6φ metres,
 //! a degree of longitude = 111412.84 cos φ − 93.5 cos 3φ + 0.118 cos 5φ metres.
+//!
+//! On any other ellipsoid that the file or its CRS names, with semi-major axis a and eccentricity e (the same, eq. 4-18
+//! and 4-20): a (1 − e²) / (1 − e² sin² φ)^1.5 and a cos φ / (1 − e² sin² φ)^0.5 a radian.
 //!
 //! The side of the new cells is the finer of the two; only the coarser direction is resampled, linearly. The
 //! corners stay where they are, so cells are square to within half a cell over the whole extent. Between 60°
@@ -16,15 +19,21 @@ use weald_core::error::Error;
 use weald_core::grid::{Field, Mask, Size};
 
 use super::Raster;
-use super::geokeys::metres_per_unit;
+use super::geokeys::{ellipsoid, metres_per_unit};
+use super::wkt::Ellipsoid;
+
+/// Least side of a cell in metres: below, the unit is another one.
+const LEAST_SIDE: f64 = 0.001;
 
 /// A raster of square cells with their side in metres, and a sentence for the user where that took a change.
 ///
 /// # Errors
-/// [`Error::Run`] where the raster says nothing of the size of its cells or lies beyond a pole;
+/// [`Error::Run`] where the raster says nothing of the size of its cells, these are below a millimetre, or it lies beyond
+/// a pole;
 /// [`Error::Limit`] where the resampled raster would be too large.
 pub fn square(raster: Raster) -> Result<(Raster, Option<String>), Error> {
-    if raster.cell.is_some() {
+    if let Some(cell) = raster.cell {
+        ensure_side(cell)?;
         return Ok((raster, None));
     }
     let Some(place) = raster.georeference.clone() else {
@@ -34,6 +43,7 @@ pub fn square(raster: Raster) -> Result<(Raster, Option<String>), Error> {
     };
     let old = raster.field.size();
     let sides = Sides::of(&place, old)?;
+    ensure_side(sides.finer())?;
     let size = sides.square_size(old)?;
     let pixel = [
         place.pixel[0] * (old.columns as f64 / size.columns as f64),
@@ -44,6 +54,16 @@ pub fn square(raster: Raster) -> Result<(Raster, Option<String>), Error> {
     Ok((squared, Some(sides.note(size, old))))
 }
 
+fn ensure_side(side: f64) -> Result<(), Error> {
+    if side >= LEAST_SIDE && side.is_finite() {
+        return Ok(());
+    }
+    Err(Error::Run(format!(
+        "its cells are {side:e} m wide, but must be at least {LEAST_SIDE} m: its coordinates are in another unit than it \
+         says; set their CRS with gdal_edit.py -a_srs"
+    )))
+}
+
 /// Sides of the cells as they are.
 struct Sides {
     /// West to east, in metres.
@@ -52,6 +72,7 @@ struct Sides {
     height: f64,
     /// Latitude of the middle in degrees, for a raster in degrees.
     latitude: Option<f64>,
+    ellipsoid: Option<Ellipsoid>,
 }
 
 impl Sides {
@@ -63,6 +84,7 @@ impl Sides {
                 width: place.pixel[0] * metres,
                 height: place.pixel[1] * metres,
                 latitude: None,
+                ellipsoid: None,
             });
         }
         let [_, latitude] = place.middle(size);
@@ -71,11 +93,13 @@ impl Sides {
                 "the middle of the file lies at latitude {latitude}°, but must lie between the poles"
             )));
         }
-        let (longitude_metres, latitude_metres) = metres_per_degree(latitude);
+        let ellipsoid = ellipsoid(place);
+        let (longitude_metres, latitude_metres) = metres_per_degree(latitude, ellipsoid);
         Ok(Self {
             width: place.pixel[0] * longitude_metres,
             height: place.pixel[1] * latitude_metres,
             latitude: Some(latitude),
+            ellipsoid,
         })
     }
 
@@ -90,9 +114,22 @@ impl Sides {
         Size::new(columns as usize, rows as usize)
     }
 
+    /// The ellipsoid, where it is not the usual one.
+    fn figure(&self) -> String {
+        match self.ellipsoid {
+            None => " on the ellipsoid of WGS 84, since the file names none".to_owned(),
+            Some(usual) if is_usual(usual) => String::new(),
+            Some(Ellipsoid { semi_major, inverse_flattening }) => {
+                format!(" on an ellipsoid of {semi_major} m, flattened by 1/{inverse_flattening}")
+            }
+        }
+    }
+
     fn note(&self, size: Size, old: Size) -> String {
         let start = match self.latitude {
-            Some(latitude) => format!("degrees became metres at latitude {latitude:.2}°: cells"),
+            Some(latitude) => {
+                format!("degrees became metres at latitude {latitude:.2}°{}: cells", self.figure())
+            }
             None => "cells".to_owned(),
         };
         let Self { width, height, .. } = self;
@@ -104,8 +141,22 @@ impl Sides {
     }
 }
 
-/// Metres in a degree of longitude and in a degree of latitude.
-fn metres_per_degree(latitude: f64) -> (f64, f64) {
+/// Whether an ellipsoid is that of WGS 84 or GRS 80.
+fn is_usual(ellipsoid: Ellipsoid) -> bool {
+    ellipsoid.semi_major == 6_378_137.0 && (ellipsoid.inverse_flattening - 298.257_222).abs() < 1e-5
+}
+
+/// Metres in a degree of longitude and in a degree of latitude; without an ellipsoid, on that of WGS 84.
+fn metres_per_degree(latitude: f64, ellipsoid: Option<Ellipsoid>) -> (f64, f64) {
+    if let Some(Ellipsoid { semi_major, inverse_flattening }) = ellipsoid.filter(|it| !is_usual(*it)) {
+        let flattening = if inverse_flattening == 0.0 { 0.0 } else { 1.0 / inverse_flattening };
+        let squared_eccentricity = flattening * (2.0 - flattening);
+        let (sine, cosine) = (libm::sin(latitude.to_radians()), libm::cos(latitude.to_radians()));
+        let below = 1.0 - squared_eccentricity * sine * sine;
+        let across = semi_major / below.sqrt();
+        let along = across * (1.0 - squared_eccentricity) / below;
+        return ((across * cosine).to_radians(), along.to_radians());
+    }
     let cosine = |multiple: f64| libm::cos(multiple * latitude.to_radians());
     let longitude = 111_412.84 * cosine(1.0) - 93.5 * cosine(3.0) + 0.118 * cosine(5.0);
     let latitude = 111_132.92 - 559.82 * cosine(2.0) + 1.175 * cosine(4.0) - 0.0023 * cosine(6.0);
@@ -188,9 +239,49 @@ mod tests {
         for (latitude, longitude_metres, latitude_metres) in
             [(0.0, 111_319.5, 110_574.3), (45.0, 78_846.8, 111_132.1), (60.0, 55_800.0, 111_412.2)]
         {
-            let (longitude, along) = metres_per_degree(latitude);
+            let (longitude, along) = metres_per_degree(latitude, None);
             assert!((longitude - longitude_metres).abs() < 0.5, "{latitude}°: {longitude}");
             assert!((along - latitude_metres).abs() < 0.5, "{latitude}°: {along}");
+        }
+    }
+
+    /// The series and the closed form are the same on the ellipsoid of WGS 84, to some centimetres in 111 km.
+    #[test]
+    fn the_closed_form_gives_the_lengths_of_the_series() {
+        let almost = Ellipsoid::of(6_378_137.0, 298.256).expect("an ellipsoid");
+        for latitude in [0.0, 30.0, -45.0, 60.0, 85.0] {
+            let (series, closed) =
+                (metres_per_degree(latitude, None), metres_per_degree(latitude, Some(almost)));
+            let apart = [series.0 - closed.0, series.1 - closed.1];
+            assert!(apart.iter().all(|apart| apart.abs() < 0.1), "{latitude}°: {apart:?}");
+        }
+    }
+
+    /// The Moon is a sphere of 1,737.4 km (IAU 2015), so a degree is 30.32 km; EPSG:4267 is on Clarke's ellipsoid of 1866.
+    #[test]
+    fn a_degree_is_as_long_as_the_ellipsoid_of_its_planet_makes_it() {
+        let moon = Ellipsoid::of(1_737_400.0, 0.0).expect("a sphere");
+        let degree = 1_737_400.0 * std::f64::consts::PI / 180.0;
+        let lengths = metres_per_degree(60.0, Some(moon));
+        assert!((lengths.1 - degree).abs() < 1e-6 && (lengths.0 - 0.5 * degree).abs() < 1e-6, "{lengths:?}");
+        let size = Size { columns: 4, rows: 4 };
+        let mut raster = placed(plane(size, 1.0, 1.0), [0.01, 0.01], 4326);
+        let keys =
+            super::super::geokeys::keys_on(Ellipsoid::of(3_396_190.0, 169.894_447_223_612).expect("Mars"));
+        raster.georeference =
+            raster.georeference.map(|place| Georeference { epsg: None, keys: Some(keys), ..place });
+        let (mars, note) = square(raster).expect("square");
+        assert!(mars.cell.is_some_and(|cell| (440.0..470.0).contains(&cell)), "{:?}", mars.cell);
+        assert!(note.expect("degrees").contains("on an ellipsoid of 3396190 m"));
+    }
+
+    #[test]
+    fn cells_of_less_than_a_millimetre_are_refused() {
+        let size = Size { columns: 4, rows: 4 };
+        for cell in [None, Some(1e-9)] {
+            let raster = Raster { cell, ..placed(plane(size, 1.0, 1.0), [1e-9, 1e-9], 32633) };
+            let error = square(raster).expect_err("no landscape").to_string();
+            assert!(error.contains("1e-9 m wide, but must be at least 0.001 m"), "{error}");
         }
     }
 
@@ -264,7 +355,7 @@ mod tests {
         assert!(unknown.to_string().contains("give `cell`"), "{unknown}");
         let beyond = square(placed(field(), [1.0, 300.0], 4326)).expect_err("260° south");
         assert!(beyond.to_string().contains("latitude -260°"), "{beyond}");
-        let needle = square(placed(field(), [1e-9, 1.0], 32633)).expect_err("too many rows");
+        let needle = square(placed(field(), [0.001, 1e6], 32633)).expect_err("too many rows");
         assert_eq!(needle.exit_code(), 5);
     }
 }

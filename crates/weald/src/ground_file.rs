@@ -6,23 +6,22 @@ use weald_core::domain::Domain;
 use weald_core::error::Error;
 use weald_core::grid::Mask;
 use weald_core::landscape::Landscape;
-use weald_io as io;
+use weald_io::{self as io, Raster, Said};
 
 /// The landscape whose layer `height` is a raster file, in square cells of metres, and texts that tell the user what had
-/// to be done to it. `cell` is the width of the cells in metres, for a file that does not say it.
-pub(crate) fn read(path: &Path, cell: Option<f64>) -> Result<(Landscape, Vec<String>), Error> {
-    let mut raster = io::read(path)?;
-    let mut notes = raster.notes.clone();
-    match (raster.cell, cell) {
-        (Some(found), Some(given)) if found != given => {
-            return Err(Error::input(
-                path,
-                format!("its cells are {found} m wide, but the recipe says `cell = {given}`; remove `cell`"),
-            ));
-        }
-        (None, Some(given)) if raster.georeference.is_none() => raster.cell = Some(given),
-        _ => {}
+/// to be done to it. `cell` is the width of the cells in metres and `said` is more, for a file that does not say it.
+pub(crate) fn read(path: &Path, cell: Option<f64>, said: &Said) -> Result<(Landscape, Vec<String>), Error> {
+    let wrong = |what: String| Error::input(path, what);
+    let mut raster = said.of(io::read(path)?).map_err(wrong)?;
+    if let Some(question) = raster.likely_degrees().filter(|_| cell.is_none()) {
+        return Err(wrong(question + ", in [landscape]"));
     }
+    if let Some(unit) = raster.unit().filter(|unit| !["m", "1"].contains(unit)) {
+        let remedy = "give their unit, as `unit = \"m\"` in [landscape], if the file is wrong";
+        return Err(wrong(format!("its values are in {unit}, which are no heights; {remedy}")));
+    }
+    let mut notes = std::mem::take(&mut raster.notes);
+    set_cell(&mut raster, cell).map_err(wrong)?;
     let (raster, note) = io::square(raster).map_err(|error| match error {
         Error::Run(what) => Error::input(path, what),
         other => other,
@@ -38,4 +37,94 @@ pub(crate) fn read(path: &Path, cell: Option<f64>) -> Result<(Landscape, Vec<Str
     let mut landscape = Landscape::new(domain);
     landscape.insert("height", "m", raster.field);
     Ok((landscape, notes))
+}
+
+/// Takes the width of the cells from the recipe, where the file leaves it open.
+fn set_cell(raster: &mut Raster, given: Option<f64>) -> Result<(), String> {
+    let Some(given) = given else { return Ok(()) };
+    match (raster.cell, &raster.georeference) {
+        (Some(found), _) if found == given => Ok(()),
+        (Some(found), _) => {
+            Err(format!("its cells are {found} m wide, but the recipe says `cell = {given}`; remove `cell`"))
+        }
+        (None, None) => {
+            raster.cell = Some(given);
+            Ok(())
+        }
+        (None, Some(place)) => {
+            let unit = if place.is_geographic() { "°" } else { " CRS units" };
+            let [width, height] = place.pixel;
+            Err(format!(
+                "its cells are {width} × {height}{unit} and become squares of metres by their place, so `cell = \
+                 {given}` has no effect; remove `cell`, and change the cells in a `resample` step"
+            ))
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use weald_core::domain::Georeference;
+    use weald_core::grid::{Field, Size};
+
+    /// A file of four cells at a place without a CRS, or with one; the ground that it becomes.
+    fn ground(pixel: f64, epsg: Option<u32>, cell: Option<f64>, said: &Said) -> Result<Landscape, String> {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("land.tif");
+        let field = Field::from_function(Size { columns: 2, rows: 2 }, |x, y| (100 * x + y) as f32);
+        let georeference = Some(Georeference { epsg, origin: [10.0, 40.0], pixel: [pixel; 2], keys: None });
+        io::write(&path, &Raster { georeference, ..Raster::from(field) }).expect("written");
+        read(&path, cell, said).map(|(landscape, _)| landscape).map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn small_cells_without_a_crs_are_asked_about_and_taken_as_what_the_recipe_says() {
+        let question = ground(0.005, None, None, &Said::default()).expect_err("degrees or metres");
+        assert!(
+            question.contains("say `crs = \"EPSG:4326\"`") && question.contains("`cell = 0.005`"),
+            "{question}"
+        );
+        let metres = ground(0.005, None, Some(0.005), &Said::default()).expect("metres");
+        assert_eq!(metres.domain.cell, 0.005);
+        let said = Said { crs: Some(4326), ..Said::default() };
+        let degrees = ground(0.005, None, None, &said).expect("degrees");
+        assert!((degrees.domain.cell - 427.1).abs() < 0.5, "{}", degrees.domain.cell);
+    }
+
+    #[test]
+    fn a_cell_beside_degrees_is_refused_and_not_ignored() {
+        let error = ground(0.005, Some(4326), Some(30.0), &Said::default()).expect_err("degrees");
+        assert!(error.contains("`cell = 30` has no effect; remove `cell`"), "{error}");
+    }
+
+    #[test]
+    fn heights_in_feet_become_metres_where_the_recipe_says_so() {
+        let said = Said { unit: Some("ft".to_owned()), no_data: Some(101.0), ..Said::default() };
+        let land = ground(20.0, Some(32633), None, &said).expect("feet");
+        let heights = land.field("height").expect("is").values();
+        assert_eq!(heights, [0.0, 30.48, 0.3048, 0.0]);
+        assert_eq!(land.domain.valid_cells(), 3);
+    }
+
+    #[test]
+    fn what_is_no_height_is_refused_unless_the_recipe_says_its_unit() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("heat.asc.tif");
+        let field = Field::filled(Size { columns: 2, rows: 2 }, 280.0);
+        let provenance = io::Provenance {
+            version: "0".to_owned(),
+            recipe_blake3: "0".to_owned(),
+            seed: 0,
+            layer: "heat".to_owned(),
+            unit: "m³/s".to_owned(),
+            range: (280.0, 280.0),
+        };
+        let raster = Raster { cell: Some(5.0), provenance: Some(provenance), ..Raster::from(field) };
+        io::write(&path, &raster).expect("written");
+        let error = read(&path, None, &Said::default()).expect_err("no height").to_string();
+        assert!(error.contains("in m³/s, which are no heights"), "{error}");
+        let said = Said { unit: Some("m".to_owned()), ..Said::default() };
+        assert!(read(&path, None, &said).is_ok());
+    }
 }

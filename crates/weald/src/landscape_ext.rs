@@ -90,7 +90,7 @@ impl LandscapeExt for Landscape {
     }
 
     fn open_with(path: impl AsRef<Path>, cell: Option<f64>) -> Result<(Self, Vec<String>), Error> {
-        ground_file::read(path.as_ref(), cell)
+        ground_file::read(path.as_ref(), cell, &io::Said::default())
     }
 
     fn save(&self, layer: &str, path: impl AsRef<Path>) -> Result<(), Error> {

@@ -42,6 +42,8 @@ pub enum Kind {
     Flame,
     /// A colour as `"#rrggbb"`.
     Colour,
+    /// A coordinate reference system as `"EPSG:4326"`.
+    Crs,
     /// Cells a side, or a list of columns and rows.
     Sides,
     /// The name of a layer.
@@ -78,6 +80,7 @@ impl Kind {
             Self::Script => "script of edits".to_owned(),
             Self::Flame => ".flame file".to_owned(),
             Self::Colour => "colour \"#rrggbb\"".to_owned(),
+            Self::Crs => "CRS \"EPSG:…\"".to_owned(),
             Self::Sides => "whole number from 1, or [columns, rows]".to_owned(),
             Self::Layer => "layer name".to_owned(),
             Self::Layers => "list of layer names".to_owned(),

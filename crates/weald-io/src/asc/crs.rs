@@ -4,7 +4,9 @@
 
 use std::fmt::Write;
 
-use super::super::geokeys::keys_by_code;
+use super::super::geokeys::{keys_of_definition, rounded};
+use super::super::unit::name_of;
+use super::super::wkt::{Definition, Kind};
 use super::super::{CrsSupport, Fault, Metadata};
 use weald_core::domain::{GeoKeys, Georeference};
 
@@ -143,55 +145,44 @@ pub(super) fn wkt(place: &Georeference) -> Option<String> {
     place.epsg.and_then(Crs::of).map(|crs| crs.wkt())
 }
 
-/// The CRS behind the text of a `.prj` file: its EPSG code, where it tells one, and GeoTIFF keys that say
-/// whether it counts in degrees or feet, where it does.
-pub(super) fn read(text: &str) -> Result<(Option<u32>, Option<GeoKeys>), Fault> {
-    let text = text.trim();
-    let epsg = authority(text).or_else(|| by_name(text));
-    if epsg.is_some_and(|code| Crs::of(code).is_some()) {
-        return Ok((epsg, None));
-    }
-    let kind = text.split('[').next().unwrap_or_default().trim().to_ascii_uppercase();
-    match kind.as_str() {
-        "GEOGCS" | "GEOGCRS" | "GEODCRS" => Ok((epsg, Some(keys_by_code(epsg, true, 1.0)))),
-        "PROJCS" | "PROJCRS" => Ok((epsg, Some(keys_by_code(epsg, false, metres_per_crs_unit(text)?)))),
-        _ => Err(Fault::damaged(format!(
-            "the .prj beside it begins with {kind:?}; PROJCS or GEOGCS, a CRS as well-known text, is read: \
-             gdalsrsinfo -o wkt_esri EPSG:32633, or remove the file"
-        ))),
-    }
+/// What a `.prj` file says.
+#[derive(Debug, Default, PartialEq)]
+pub(super) struct Said {
+    pub(super) epsg: Option<u32>,
+    /// Where the code does not tell all.
+    pub(super) keys: Option<GeoKeys>,
+    /// Unit of the heights.
+    pub(super) unit: Option<String>,
 }
 
-/// The code of the outermost bracket, as `AUTHORITY["EPSG","32616"]` or `ID["EPSG",32616]`.
-fn authority(text: &str) -> Option<u32> {
-    let inner = text.strip_suffix(']')?.trim_end().strip_suffix(']')?;
-    let (before, last) = inner.rsplit_once('[')?;
-    let word = before.rsplit([',', ' ', '\n', '\r', '\t']).next()?;
-    let (authority, code) = last.split_once(',')?;
-    let is_epsg = ["AUTHORITY", "ID"].contains(&word) && authority.trim() == "\"EPSG\"";
-    is_epsg.then(|| code.trim().trim_matches('"').parse().ok())?
+/// The CRS behind the text of a `.prj` file.
+pub(super) fn read(text: &str) -> Result<Said, Fault> {
+    let text = text.trim();
+    let kind = text.split('[').next().unwrap_or_default().trim().to_ascii_uppercase();
+    let definition = Definition::of(text).filter(|definition| definition.kind != Kind::Other);
+    let mut definition = definition.ok_or_else(|| {
+        Fault::damaged(format!(
+            "the .prj beside it begins with {kind:?}; PROJCS or GEOGCS, a CRS as well-known text, is read: \
+             gdalsrsinfo -o wkt_esri EPSG:32633, or remove the file"
+        ))
+    })?;
+    definition.epsg = definition.epsg.or_else(|| by_name(text));
+    let unit = definition.vertical.map(|metres| name_of(rounded(metres)));
+    if definition.epsg.is_some_and(|code| Crs::of(code).is_some()) {
+        return Ok(Said { epsg: definition.epsg, keys: None, unit });
+    }
+    if definition.kind == Kind::Projected && definition.metres.is_none() {
+        return Err(Fault::damaged(
+            "the .prj beside it gives no metres in a unit: gdalwarp to a CRS in metres, or remove the file",
+        ));
+    }
+    Ok(Said { epsg: definition.epsg, keys: Some(keys_of_definition(&definition)?), unit })
 }
 
 /// The code of the CRS that has ESRI's name.
 fn by_name(text: &str) -> Option<u32> {
     let name = text.split('"').nth(1)?;
     codes().find(|&code| Crs::of(code).is_some_and(|crs| crs.name() == name))
-}
-
-/// Metres in the unit of a projected CRS: the last one in its text.
-fn metres_per_crs_unit(text: &str) -> Result<f64, Fault> {
-    let number = text.rsplit_once("UNIT[").and_then(|(_, unit)| {
-        let number = unit.split(',').nth(1)?.split(']').next()?;
-        number.trim().parse::<f64>().ok()
-    });
-    let near = |metres: f64| number.is_some_and(|number| (number / metres - 1.0).abs() < 1e-8);
-    [1.0, 0.3048, 1200.0 / 3937.0].into_iter().find(|metres| near(*metres)).ok_or_else(|| {
-        let shown = number.map_or("none".to_owned(), |number| number.to_string());
-        Fault::damaged(format!(
-            "the .prj beside it gives {shown} as metres in a unit; 1 (metre), 0.3048 and 1200/3937 (feet) are \
-             read: gdalwarp to a CRS in metres"
-        ))
-    })
 }
 
 #[cfg(test)]
@@ -204,7 +195,8 @@ mod tests {
         for code in codes() {
             let crs = Crs::of(code).expect("listed");
             for text in [crs.text(), crs.wkt()] {
-                assert_eq!(read(&text), Ok((Some(code), None)), "{text}");
+                let said = Said { epsg: Some(code), ..Said::default() };
+                assert_eq!(read(&text), Ok(said), "{text}");
             }
         }
         assert!(Crs::of(32661).is_none() && Crs::of(25827).is_none(), "a pole and a zone beyond Europe");
@@ -214,21 +206,34 @@ mod tests {
     fn the_outermost_authority_is_the_code() {
         let inner = "GEOGCS[\"WGS 84\",AUTHORITY[\"EPSG\",\"4326\"]]";
         let outer = format!("PROJCS[\"a\",{inner},UNIT[\"metre\",1],AUTHORITY[\"EPSG\",\"2056\"]]");
-        assert_eq!(read(&outer).map(|read| read.0), Ok(Some(2056)));
+        assert_eq!(read(&outer).map(|read| read.epsg), Ok(Some(2056)));
         let without = format!("PROJCS[\"a\",{inner},UNIT[\"metre\",1]]");
-        assert_eq!(read(&without).map(|read| read.0), Ok(None));
-        assert_eq!(authority("PROJCRS[\"a\",LENGTHUNIT[\"metre\",1],\n    ID[\"EPSG\",32616]]"), Some(32616));
+        assert_eq!(read(&without).map(|read| read.epsg), Ok(None));
+        let new = "PROJCRS[\"a\",LENGTHUNIT[\"metre\",1],\n    ID[\"EPSG\",32616]]";
+        assert_eq!(read(new).map(|read| read.epsg), Ok(Some(32616)));
     }
 
     #[test]
     fn degrees_and_feet_are_told_without_a_code() {
         let degrees = read("GEOGCS[\"GCS_Somewhere\",UNIT[\"Degree\",0.0174532925199433]]").expect("reads");
         let place = |keys| Georeference { epsg: None, origin: [0.0; 2], pixel: [1.0; 2], keys };
-        assert!(place(degrees.1).is_geographic());
-        let feet = |number: &str| read(&format!("PROJCS[\"x\",UNIT[\"Foot_US\",{number}]]"));
-        let (_, keys) = feet("0.3048006096012192").expect("feet");
-        assert_eq!(super::super::super::geokeys::metres_per_unit(keys.as_ref()), Ok(1200.0 / 3937.0));
-        assert!(feet("1000.0").is_err_and(|fault| fault.to_string().contains("1000 as metres")));
+        assert!(place(degrees.keys).is_geographic());
+        let unit = |number: &str| {
+            let said = read(&format!("PROJCS[\"x\",UNIT[\"Foot_US\",{number}]]")).expect("reads");
+            super::super::super::geokeys::metres_per_unit(said.keys.as_ref())
+        };
+        assert_eq!(unit("0.3048006096012192"), Ok(1200.0 / 3937.0));
+        assert_eq!(unit("1000.0"), Ok(1000.0), "kilometres");
         assert!(read("hello").is_err_and(|fault| fault.to_string().contains("begins with \"HELLO\"")));
+    }
+
+    #[test]
+    fn grads_and_the_centre_of_the_earth_are_refused_and_feet_of_height_are_told() {
+        let grads = "GEOGCS[\"GCS_NTF_Paris\",UNIT[\"Grad\",0.01570796326794897]]";
+        assert!(read(grads).is_err_and(|fault| fault.to_string().contains("not in degrees")));
+        let centre = "GEOCCS[\"WGS 84\",UNIT[\"metre\",1]]";
+        assert!(read(centre).is_err_and(|fault| fault.to_string().contains("geocentric")));
+        let both = "COMPD_CS[\"both\",PROJCS[\"x\",UNIT[\"metre\",1]],VERT_CS[\"v\",UNIT[\"foot\",0.3048]]]";
+        assert_eq!(read(both).expect("reads").unit.as_deref(), Some("international_foot"));
     }
 }

@@ -12,8 +12,11 @@ pub(super) struct Header {
     /// Width and height of a cell, in CRS units.
     pub(super) pixel: [f64; 2],
     /// The number that stands for no-data.
-    pub(super) no_data: Option<f32>,
+    pub(super) no_data: f32,
 }
+
+/// The number that stands for no-data where the header names none (Esri, "Esri ASCII raster format").
+const USUAL_NO_DATA: f32 = -9999.0;
 
 /// The words as they stand.
 #[derive(Debug, Default)]
@@ -89,7 +92,7 @@ impl Words {
                 pixel[0], pixel[1], corner[0], corner[1]
             )));
         }
-        Ok(Header { size, corner, pixel, no_data: self.no_data })
+        Ok(Header { size, corner, pixel, no_data: self.no_data.unwrap_or(USUAL_NO_DATA) })
     }
 }
 

@@ -2,10 +2,11 @@
 
 use super::super::geokeys::metres_per_unit;
 use super::super::parts::{PartName, Parts};
+use super::super::unit::Measure;
 use super::super::{Fault, Limits, Raster};
-use super::crs::{self, CRS_FILE};
+use super::crs::{self, CRS_FILE, Said};
 use super::header::Header;
-use weald_core::domain::{GeoKeys, Georeference};
+use weald_core::domain::Georeference;
 
 /// Longest `.prj` that is read, in bytes.
 const CRS_BYTES: u64 = 1 << 16;
@@ -26,18 +27,20 @@ pub fn decode(parts: &dyn Parts, limits: Limits) -> Result<Raster, Fault> {
     })?;
     let mut tokens = text.split_ascii_whitespace().peekable();
     let header = Header::parse(&mut tokens, limits)?;
-    let mut raster = values(&header, bytes.len(), &mut tokens)?;
+    let crs = parts.read(&PartName::Sibling(CRS_FILE.to_owned()), CRS_BYTES)?;
+    let crs = crs.map(|text| crs::read(&String::from_utf8_lossy(&text))).transpose()?;
+    let measure = Measure::new(1.0, 0.0, crs.as_ref().and_then(|crs| crs.unit.as_deref()));
+    let mut raster = values(&header, &measure, bytes.len(), &mut tokens)?;
     if !bytes.ends_with(b"\n") {
         let note = "the file does not end with the end of a line: its last number may have been cut off";
         raster.notes.push(note.to_owned());
     }
-    let crs = parts.read(&PartName::Sibling(CRS_FILE.to_owned()), CRS_BYTES)?;
-    let crs = crs.map(|text| crs::read(&String::from_utf8_lossy(&text))).transpose()?;
     placed(raster, &header, crs)
 }
 
 fn values<'a>(
     header: &Header,
+    measure: &Measure,
     bytes: usize,
     tokens: &mut impl Iterator<Item = &'a str>,
 ) -> Result<Raster, Fault> {
@@ -56,13 +59,12 @@ fn values<'a>(
             .ok_or_else(|| Fault::damaged(format!("the file ends before {} of {size} cells", place())))?;
         let value: f32 =
             token.parse().map_err(|_| Fault::damaged(format!("{} holds {token:?}, no number", place())))?;
-        let is_valid =
-            header.no_data.is_none_or(|number| number != value && !(number.is_nan() && value.is_nan()));
+        let is_valid = !value.is_nan() && header.no_data != value;
         valid.push(is_valid);
-        values.push(if is_valid { value } else { 0.0 });
+        values.push(if is_valid { measure.value(f64::from(value)) } else { 0.0 });
     }
     match tokens.next() {
-        None => Raster::from_file(size, values, valid, "text"),
+        None => Ok(Raster::from_file(size, values, valid, "text")?.measured(measure)),
         Some(token) => Err(Fault::damaged(format!(
             "{token:?} follows the last of {size} numbers; ncols and nrows are not those of the rows"
         ))),
@@ -70,14 +72,11 @@ fn values<'a>(
 }
 
 /// The raster at its place. A grid at 0, 0 without a CRS has none.
-fn placed(
-    raster: Raster,
-    header: &Header,
-    crs: Option<(Option<u32>, Option<GeoKeys>)>,
-) -> Result<Raster, Fault> {
+fn placed(raster: Raster, header: &Header, crs: Option<Said>) -> Result<Raster, Fault> {
     let pixel = header.pixel;
-    let is_placed = crs.is_some() || header.corner != [0.0; 2];
-    let (epsg, keys) = crs.unwrap_or_default();
+    // Cells below a centimetre may be degrees, which their place tells.
+    let is_placed = crs.is_some() || header.corner != [0.0; 2] || pixel[0] < 0.01;
+    let Said { epsg, keys, .. } = crs.unwrap_or_default();
     let metres = metres_per_unit(keys.as_ref())?;
     let origin = [header.corner[0], header.corner[1] + header.size.rows as f64 * pixel[1]];
     let place = Georeference { epsg, origin, pixel, keys };

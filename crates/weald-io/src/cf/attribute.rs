@@ -1,4 +1,7 @@
-//! Attributes: what is said of a variable or of a whole file.
+//! Attributes: what is said of a variable or of a whole file; and a file of arrays as reading sees it, whatever its
+//! format.
+
+use super::super::Fault;
 
 /// The value of an attribute.
 #[derive(Clone, Debug, PartialEq)]
@@ -11,6 +14,17 @@ pub enum Attribute {
     Doubles(Vec<f64>),
     /// Whole numbers.
     Integers(Vec<i32>),
+}
+
+impl Attribute {
+    /// Whole numbers, as such where they fit.
+    pub(crate) fn of_whole(numbers: Vec<f64>) -> Self {
+        let fits = |number: &f64| f64::from(*number as i32) == *number;
+        if numbers.iter().all(fits) {
+            return Self::Integers(numbers.into_iter().map(|number| number as i32).collect());
+        }
+        Self::Doubles(numbers)
+    }
 }
 
 impl From<&str> for Attribute {
@@ -68,4 +82,38 @@ impl Attributes {
     pub fn number(&self, name: &str) -> Option<f64> {
         self.numbers(name)?.first().copied()
     }
+}
+
+/// An array in a file, before any of its numbers is read.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Described {
+    /// Its name.
+    pub name: String,
+    /// Names of its dimensions, slowest first.
+    pub dimensions: Vec<String>,
+    /// Length of each.
+    pub shape: Vec<usize>,
+    /// Its attributes.
+    pub attributes: Attributes,
+    /// Type of the numbers.
+    pub stored: &'static str,
+    /// Whether it holds numbers and not letters.
+    pub is_number: bool,
+    /// What stands where nothing was ever written, unless an attribute says otherwise.
+    pub default_fill: Option<f64>,
+}
+
+/// A file of arrays.
+pub trait Source {
+    /// What is said of the whole file.
+    fn attributes(&self) -> &Attributes;
+
+    /// All arrays.
+    fn variables(&self) -> &[Described];
+
+    /// Hands each number of an array to `take` with its position in row-major order.
+    ///
+    /// # Errors
+    /// [`Fault`] for numbers that are damaged or of a kind that is not read.
+    fn each(&self, variable: &Described, take: &mut dyn FnMut(usize, f64)) -> Result<(), Fault>;
 }

@@ -1,6 +1,10 @@
 //! The coordinate reference system: attributes of `spatial_ref` and of the axes, written and read.
 
-use super::super::geokeys::{keys_by_code, metres_per_unit};
+use super::super::geokeys::{
+    ensure_mapped, keys_by_code, keys_of_definition, keys_on, metres_per_unit, rounded,
+};
+use super::super::unit::{metres_in, name_of};
+use super::super::wkt::{Definition, Ellipsoid, Kind, wkt_of};
 use super::super::{CrsSupport, Fault, Metadata};
 use super::attribute::{Attribute, Attributes};
 use super::axis::Axis;
@@ -24,14 +28,14 @@ pub(crate) const OMITTED_CRS: Metadata =
 
 /// Whether other programs find the CRS in a file of arrays: it has an EPSG code with a known definition.
 pub fn is_readable_by_all(place: &Georeference) -> bool {
-    place.epsg.is_some_and(|code| mapping::wkt_of(code).is_some())
+    place.epsg.is_some_and(|code| wkt_of(code).is_some())
 }
 
 /// The attributes of the variable `spatial_ref`.
 pub(super) fn attributes(place: &Georeference) -> Attributes {
     let mut attributes = Attributes::default();
     if let Some(code) = place.epsg {
-        let wkt = mapping::wkt_of(code);
+        let wkt = wkt_of(code);
         attributes.0.extend(wkt.and_then(mapping::cf_attributes).unwrap_or_default().0);
         for (name, wkt) in ["crs_wkt", "spatial_ref"].into_iter().zip(wkt.into_iter().cycle()) {
             attributes.add(name, wkt);
@@ -70,27 +74,8 @@ pub(super) fn axis_attributes(axis: Axis, place: Option<&Georeference>) -> Attri
 
 /// The unit of a projected CRS, as UDUNITS names it.
 fn length(place: Option<&Georeference>) -> String {
-    let metres = metres_per_unit(place.and_then(|place| place.keys.as_ref())).unwrap_or(1.0);
-    let named = LENGTHS.iter().find(|(_, known)| *known == metres).map(|(name, _)| (*name).to_owned());
-    named.unwrap_or_else(|| format!("{metres:?} m"))
+    name_of(metres_per_unit(place.and_then(|place| place.keys.as_ref())).unwrap_or(1.0))
 }
-
-/// Units of length and their metres, by names that UDUNITS knows.
-const LENGTHS: [(&str, f64); 13] = [
-    ("m", 1.0),
-    ("international_foot", 0.3048),
-    ("US_survey_foot", 1200.0 / 3937.0),
-    ("km", 1000.0),
-    ("metre", 1.0),
-    ("meter", 1.0),
-    ("metres", 1.0),
-    ("meters", 1.0),
-    ("kilometre", 1000.0),
-    ("kilometer", 1000.0),
-    ("foot", 0.3048),
-    ("feet", 0.3048),
-    ("ft", 0.3048),
-];
 
 /// What the unit of a coordinate counts.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -114,9 +99,7 @@ impl Unit {
         if ["", "-", "1"].contains(&text) {
             return Ok(Self::Unsaid);
         }
-        let named = LENGTHS.iter().find(|(name, _)| *name == text).map(|(_, metres)| *metres);
-        let counted = || text.strip_suffix(" m").and_then(|number| number.parse::<f64>().ok());
-        let metres = named.or_else(counted).filter(|metres| *metres > 0.0 && metres.is_finite());
+        let metres = metres_in(text).map(rounded);
         metres.map(Self::Metres).ok_or_else(|| {
             Fault::damaged(format!(
                 "coordinates in {text:?}; metres, kilometres, feet (m, km, foot, US_survey_foot) and degrees \
@@ -132,22 +115,66 @@ pub(super) struct Crs {
     pub(super) epsg: Option<u32>,
     pub(super) keys: Option<GeoKeys>,
     is_geographic: Option<bool>,
+    /// Metres in the unit of a projected CRS.
+    metres: Option<f64>,
+    ellipsoid: Option<Ellipsoid>,
+    /// Metres in the unit of the heights.
+    pub(super) vertical: Option<f64>,
     /// West, width, north, minus height.
     pub(super) transform: Option<[f64; 4]>,
 }
 
 impl Crs {
-    pub(super) fn of(attributes: &Attributes) -> Self {
-        let wkt = ["crs_wkt", "spatial_ref"].iter().find_map(|name| attributes.text(name));
+    /// # Errors
+    /// [`Fault::Damaged`] for coordinates that are neither lengths on a map nor degrees.
+    pub(super) fn of(attributes: &Attributes) -> Result<Self, Fault> {
         let code = |text: &str| text.trim().trim_start_matches("EPSG:").parse().ok();
-        let epsg = attributes.text("epsg_code").and_then(code);
+        let by_code = attributes.text("epsg_code").and_then(code);
+        let own = ["crs_wkt", "spatial_ref"].iter().find_map(|name| attributes.text(name));
+        let definition = own.or_else(|| wkt_of(by_code?)).and_then(Definition::of);
+        let keys = keys(attributes);
+        definition.as_ref().map(keys_of_definition).transpose()?;
+        keys.as_ref().map(ensure_mapped).transpose()?;
         let by_name = attributes.text("grid_mapping_name").map(|name| name == "latitude_longitude");
-        Self {
-            epsg: epsg.or_else(|| wkt.and_then(mapping::epsg_of)),
-            keys: keys(attributes),
-            is_geographic: wkt.map(mapping::is_geographic).or(by_name),
+        let definition = definition.as_ref();
+        let by_kind = |it: &Definition| (it.kind != Kind::Other).then_some(it.kind == Kind::Geographic);
+        Ok(Self {
+            epsg: by_code.or_else(|| definition?.epsg),
+            keys,
+            is_geographic: definition.and_then(by_kind).or(by_name),
+            metres: definition.and_then(|it| it.metres).map(rounded),
+            ellipsoid: ellipsoid(attributes).or_else(|| definition?.ellipsoid),
+            vertical: definition.and_then(|it| it.vertical).map(rounded),
             transform: attributes.text(GEO_TRANSFORM).and_then(transform),
+        })
+    }
+
+    /// The unit of coordinates along which nothing is said of it.
+    pub(super) fn unit(&self) -> Unit {
+        match (self.is_geographic, self.metres) {
+            (Some(true), _) => Unit::Degrees,
+            (_, Some(metres)) => Unit::Metres(metres),
+            _ => Unit::Unsaid,
         }
+    }
+
+    /// Refuses degrees in a CRS of lengths, and lengths in one of degrees.
+    pub(super) fn ensure_in(&self, unit: Unit) -> Result<(), Fault> {
+        let (is_geographic, told) = match (self.is_geographic, unit) {
+            (Some(is_geographic), Unit::Degrees) => (is_geographic, true),
+            (Some(is_geographic), Unit::Metres(_)) => (is_geographic, false),
+            _ => return Ok(()),
+        };
+        if is_geographic == told {
+            return Ok(());
+        }
+        let words = |is: bool| if is { "degrees" } else { "a unit of length" };
+        Err(Fault::damaged(format!(
+            "coordinates are in {}, but its CRS counts in {}; mend `units` of the coordinates or `grid_mapping` of \
+             the variable",
+            words(told),
+            words(is_geographic)
+        )))
     }
 
     /// The keys of a place whose CRS the code alone does not tell, for coordinates in that unit.
@@ -158,9 +185,26 @@ impl Crs {
         let bare = Georeference { epsg: self.epsg, origin: [0.0; 2], pixel: [1.0; 2], keys: None };
         let is_geographic = self.is_geographic.unwrap_or(unit == Unit::Degrees);
         let metres = if let Unit::Metres(metres) = unit { metres } else { 1.0 };
+        if let (true, None, Some(ellipsoid)) = (is_geographic, self.epsg, self.ellipsoid) {
+            return Some(keys_on(ellipsoid));
+        }
         let is_told = bare.is_geographic() == is_geographic && (is_geographic || metres == 1.0);
         (!is_told).then(|| keys_by_code(self.epsg, is_geographic, metres))
     }
+}
+
+/// The figure of the Earth by the attributes of CF.
+fn ellipsoid(attributes: &Attributes) -> Option<Ellipsoid> {
+    let sphere = attributes.number("earth_radius").and_then(|radius| Ellipsoid::of(radius, 0.0));
+    let major = || {
+        let major = attributes.number("semi_major_axis")?;
+        let by_minor = || {
+            let minor = attributes.number("semi_minor_axis")?;
+            Some(if minor == major { 0.0 } else { major / (major - minor) })
+        };
+        Ellipsoid::of(major, attributes.number("inverse_flattening").or_else(by_minor)?)
+    };
+    major().or(sphere)
 }
 
 fn keys(attributes: &Attributes) -> Option<GeoKeys> {
@@ -199,6 +243,17 @@ mod tests {
         assert_eq!(unit(""), Ok(Unit::Unsaid));
         assert!(unit("rad").is_err_and(|fault| fault.to_string().contains("\"rad\"")));
         assert!(unit("-2 m").is_err());
+    }
+
+    #[test]
+    fn degrees_and_lengths_do_not_stand_for_each_other() {
+        let crs = |is_geographic| Crs { is_geographic: Some(is_geographic), ..Crs::default() };
+        assert!(
+            crs(true).ensure_in(Unit::Degrees).is_ok() && crs(false).ensure_in(Unit::Metres(1.0)).is_ok()
+        );
+        assert!(
+            crs(true).ensure_in(Unit::Metres(1.0)).is_err() && crs(false).ensure_in(Unit::Degrees).is_err()
+        );
     }
 
     #[test]

@@ -1,23 +1,10 @@
 //! The definition of a CRS as WKT, and as the grid mapping attributes of CF 1.11, appendix F.
 //!
-//! Definitions of EPSG codes come from the crate `crs-definitions`, in WKT 1; a build without the feature `wkt` has none. Of the projections, those are
+//! Definitions of EPSG codes are in WKT 1; a build without the feature `wkt` has none. Of the projections, those are
 //! spelled out for CF that most national grids use; for the others CF has no name, or not under one parameter
 //! each, and the WKT stands alone.
 
 use super::attribute::Attributes;
-
-/// The WKT of an EPSG code.
-#[cfg(feature = "wkt")]
-pub(super) fn wkt_of(epsg: u32) -> Option<&'static str> {
-    let definition = crs_definitions::from_code(u16::try_from(epsg).ok()?)?;
-    (!definition.wkt.is_empty()).then_some(definition.wkt)
-}
-
-/// None of any code.
-#[cfg(not(feature = "wkt"))]
-pub(super) fn wkt_of(_: u32) -> Option<&'static str> {
-    None
-}
 
 /// Names of WKT 1 and of CF: the projection's, then those of its parameters.
 struct Projection {
@@ -101,21 +88,11 @@ fn parameter(wkt: &str, name: &str) -> Option<f64> {
     wkt.split_once(&format!("PARAMETER[\"{name}\","))?.1.split(']').next()?.parse().ok()
 }
 
-/// The EPSG code that a WKT ends with: `AUTHORITY["EPSG","32616"]` or `ID["EPSG",32616]`.
-pub(super) fn epsg_of(wkt: &str) -> Option<u32> {
-    let wkt: String = wkt.split_whitespace().collect();
-    // One more bracket, and the code would belong to a part of the CRS, such as its unit.
-    let (_, code) = wkt.strip_suffix("]]")?.rsplit_once("\"EPSG\",")?;
-    code.trim_matches('"').parse().ok()
-}
-
-/// Whether a WKT describes longitude and latitude.
-pub(super) fn is_geographic(wkt: &str) -> bool {
-    ["GEOGCS", "GEOGCRS", "GEOGRAPHICCRS"].iter().any(|kind| wkt.trim_start().starts_with(kind))
-}
-
 #[cfg(test)]
 mod tests {
+    #[cfg(feature = "wkt")]
+    use super::super::super::wkt::wkt_of;
+    #[cfg(feature = "wkt")]
     use super::*;
 
     #[test]
@@ -130,23 +107,5 @@ mod tests {
         let degrees = cf_attributes(wkt_of(4326).expect("known")).expect("degrees");
         assert_eq!(degrees.text("grid_mapping_name"), Some("latitude_longitude"));
         assert_eq!(cf_attributes(wkt_of(2056).expect("known")), None, "CF has no oblique Swiss grid");
-    }
-
-    #[test]
-    #[cfg(feature = "wkt")]
-    fn the_code_of_a_definition_is_that_asked_for() {
-        for code in [4326, 32616, 2154, 3857] {
-            assert_eq!(epsg_of(wkt_of(code).expect("known")), Some(code));
-        }
-    }
-
-    #[test]
-    fn the_code_of_a_wkt_is_that_of_the_whole() {
-        assert_eq!(epsg_of("PROJCRS[\"x\",ID[\"EPSG\",32616]]\n"), Some(32616));
-        assert_eq!(
-            epsg_of("PROJCS[\"own\",UNIT[\"metre\",1,AUTHORITY[\"EPSG\",\"9001\"]],AXIS[\"E\",EAST]]"),
-            None
-        );
-        assert_eq!(epsg_of("PROJCS[\"own\",UNIT[\"metre\",1,AUTHORITY[\"EPSG\",\"9001\"]]]"), None);
     }
 }

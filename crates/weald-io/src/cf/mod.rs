@@ -21,9 +21,8 @@ mod names;
 mod place;
 mod read;
 mod sheet;
-mod source;
 
-pub use attribute::{Attribute, Attributes};
+pub use attribute::{Attribute, Attributes, Described, Source};
 pub use axis::Axis;
 pub(super) use crs::OMITTED_CRS;
 pub use crs::{OMITTED_CRS_NOTE, is_readable_by_all};
@@ -31,7 +30,6 @@ pub use dataset::{Cells, Dataset, Values, Variable};
 pub use names::Names;
 pub use read::read;
 pub use sheet::{Layer, Sheet};
-pub use source::{Described, Source};
 
 /// Name of the variable that holds the CRS, as GDAL and rioxarray write it.
 const GRID_MAPPING: &str = "spatial_ref";

@@ -1,10 +1,9 @@
 //! Where the cells of a variable lie, from its coordinates and its grid mapping.
 
 use super::super::Fault;
-use super::attribute::Attributes;
+use super::attribute::{Attributes, Described, Source};
 use super::axis::Centres;
 use super::crs::{Crs, Unit};
-use super::source::{Described, Source};
 use super::{CELL, GRID_MAPPING};
 use weald_core::domain::Georeference;
 use weald_core::grid::Size;
@@ -20,6 +19,8 @@ pub(super) struct Place {
     pub(super) georeference: Option<Georeference>,
     /// Whether the first row of the file is the southern one.
     pub(super) is_south_up: bool,
+    /// Metres in the unit of the heights, where the CRS has one for them.
+    pub(super) vertical: Option<f64>,
     pub(super) notes: Vec<String>,
 }
 
@@ -37,23 +38,76 @@ impl Place {
     /// # Errors
     /// [`Fault::Damaged`] for coordinates that are not even or run the wrong way.
     pub(super) fn of(source: &dyn Source, layer: &Described, size: Size) -> Result<Self, Fault> {
-        let crs = grid_mapping(source, layer).map(Crs::of);
+        let crs = grid_mapping(source, layer).map(Crs::of).transpose()?;
         let [rows, columns] = [2, 1].map(|behind| layer.dimensions[layer.dimensions.len() - behind].as_str());
         let (x, y) = (coordinate(source, columns, size.columns)?, coordinate(source, rows, size.rows)?);
-        let (Some((x, along_x)), Some((y, _))) = (x, y) else {
-            return Ok(without_coordinates(crs, size));
+        let vertical = crs.as_ref().and_then(|crs| crs.vertical);
+        let (Some((x, along_x)), Some((y, along_y))) = (x, y) else {
+            return Ok(Self { vertical, ..without_coordinates(crs, size) });
         };
+        if is_along(along_x, columns, &NORTH) || is_along(along_y, rows, &EAST) {
+            return Err(Fault::damaged(format!(
+                "`{}` has its rows along `{rows}` and its columns along `{columns}`; with xarray: \
+                 ds.transpose(..., '{columns}', '{rows}')",
+                layer.name
+            )));
+        }
         let is_south_up = y.step().is_some_and(|step| step > 0.0);
         if x.step().is_some_and(|step| step < 0.0) {
             return Err(Fault::damaged(format!(
                 "`{columns}` falls, but must rise from west to east; with xarray: ds.sortby('{columns}')"
             )));
         }
-        let unit = Unit::of(along_x)?;
+        let unit = unit(crs.as_ref(), [(along_x, columns), (along_y, rows)])?;
         let grid = Grid { x, y: if is_south_up { y.reversed() } else { y }, unit }.in_crs_units(crs.as_ref());
         let cell = source.attributes().number(CELL).filter(|cell| *cell > 0.0 && cell.is_finite());
-        Ok(Self { is_south_up, ..grid.place(crs, cell) })
+        Ok(Self { is_south_up, vertical, ..grid.place(crs, cell) })
     }
+}
+
+/// What tells that coordinates go east or north: names of the variable, values of `standard_name` and of `axis`.
+struct Direction {
+    names: [&'static str; 3],
+    standards: [&'static str; 2],
+    axis: &'static str,
+}
+
+const EAST: Direction = Direction {
+    names: ["lon", "longitude", "x"],
+    standards: ["longitude", "projection_x_coordinate"],
+    axis: "X",
+};
+const NORTH: Direction = Direction {
+    names: ["lat", "latitude", "y"],
+    standards: ["latitude", "projection_y_coordinate"],
+    axis: "Y",
+};
+
+fn is_along(attributes: &Attributes, name: &str, direction: &Direction) -> bool {
+    let by_standard = attributes.text("standard_name").map(|name| direction.standards.contains(&name));
+    let by_axis = attributes.text("axis").map(|axis| axis == direction.axis);
+    by_standard.or(by_axis).unwrap_or_else(|| direction.names.contains(&name))
+}
+
+/// The unit of both coordinates: as they say it, by their names, or by the CRS.
+fn unit(crs: Option<&Crs>, along: [(&Attributes, &str); 2]) -> Result<Unit, Fault> {
+    let [(along_x, x), (along_y, y)] = along;
+    let (unit, other) = (Unit::of(along_x)?, Unit::of(along_y)?);
+    if unit != other && ![unit, other].contains(&Unit::Unsaid) {
+        return Err(Fault::damaged(format!("`{x}` and `{y}` are in different units; bring both to one")));
+    }
+    let said = if unit == Unit::Unsaid { other } else { unit };
+    let is_angle = along.iter().any(|(attributes, name)| {
+        let name = attributes.text("standard_name").unwrap_or(name);
+        ["lon", "lat", "longitude", "latitude"].contains(&name)
+    });
+    let unit = match said {
+        Unit::Unsaid if is_angle => Unit::Degrees,
+        Unit::Unsaid => crs.map_or(Unit::Unsaid, Crs::unit),
+        said => said,
+    };
+    crs.map(|crs| crs.ensure_in(unit)).transpose()?;
+    Ok(unit)
 }
 
 impl Grid {
@@ -131,7 +185,8 @@ fn without_coordinates(crs: Option<Crs>, size: Size) -> Place {
             count,
         };
         let (x, y) = (centres(west, width, size.columns), centres(north, minus_height, size.rows));
-        return Grid { x, y, unit: Unit::Unsaid }.place(crs, None);
+        let unit = crs.as_ref().map_or(Unit::Unsaid, Crs::unit);
+        return Grid { x, y, unit }.place(crs, None);
     }
     let note = "the file has no coordinates; its first row is taken as the northern one";
     Place { notes: vec![note.to_owned()], ..Place::default() }

@@ -1,7 +1,7 @@
 //! Where the blocks of pixels lie in the file, all found and measured before any of them is unpacked.
 
 use super::super::Fault;
-use super::super::limits::ensure_can_hold;
+use super::super::limits::{MAX_EXPANSION, ensure_can_hold};
 use super::header::{Bytes, Header};
 
 /// The blocks of a file: bands of whole rows, or tiles.
@@ -21,7 +21,7 @@ impl<'a> Chunks<'a> {
         let size = header.size;
         let block = header.tile.unwrap_or([size.columns, header.compression.rows()]);
         let (across, down) = (size.columns.div_ceil(block[0]), size.rows.div_ceil(block[1]));
-        ensure_can_hold(file.len(), size.cells().saturating_mul(header.pixel_bytes()))?;
+        ensure_can_hold(file.len(), size.cells().saturating_mul(header.pixel_bytes()), MAX_EXPANSION)?;
         let offsets = table.take((across * down).saturating_mul(8))?;
         let mut chunks = Self { block, across, packed: Vec::with_capacity(across * down) };
         for (index, offset) in offsets.chunks_exact(8).enumerate() {
@@ -62,7 +62,7 @@ impl<'a> Chunks<'a> {
             .map_err(|_| Fault::damaged(format!("block {index} has a negative length")))?;
         let packed = bytes.take(length)?;
         let [columns, rows] = self.sides(header, index);
-        ensure_can_hold(packed.len(), (columns * rows).saturating_mul(header.pixel_bytes()))?;
+        ensure_can_hold(packed.len(), (columns * rows).saturating_mul(header.pixel_bytes()), MAX_EXPANSION)?;
         Ok(packed)
     }
 

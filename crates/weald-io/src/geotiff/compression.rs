@@ -1,4 +1,4 @@
-//! The compressions of chunks: none, LZW, Deflate.
+//! The compressions of chunks: none, LZW, Deflate, `PackBits`, Zstandard.
 
 use std::io::Read;
 
@@ -6,6 +6,7 @@ use flate2::read::ZlibDecoder;
 use weezl::BitOrder;
 
 use super::super::Fault;
+use super::super::limits::MAX_EXPANSION;
 
 /// How the chunks of a file are compressed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -13,6 +14,9 @@ pub(super) enum Compression {
     None,
     Lzw,
     Deflate,
+    PackBits,
+    #[cfg(feature = "zstd")]
+    Zstd,
 }
 
 impl Compression {
@@ -23,10 +27,28 @@ impl Compression {
             5 => Ok(Self::Lzw),
             // 32946 is the number from before Deflate was registered.
             8 | 32946 => Ok(Self::Deflate),
-            _ => Err(Fault::damaged(format!(
-                "compression {number}; 1 (none), 5 (LZW) and 8 (Deflate) are read: gdal_translate -co \
-                 COMPRESS=DEFLATE"
+            32773 => Ok(Self::PackBits),
+            #[cfg(feature = "zstd")]
+            50000 => Ok(Self::Zstd),
+            #[cfg(not(feature = "zstd"))]
+            50000 => Err(Fault::damaged(format!(
+                "compression 50000; {}",
+                weald_core::error::left_out("Zstandard", "zstd")
             ))),
+            _ => Err(Fault::damaged(format!(
+                "compression {number}; 1 (none), 5 (LZW), 8 (Deflate), 32773 (PackBits) and 50000 (Zstandard) are \
+                 read: gdal_translate -co COMPRESS=DEFLATE"
+            ))),
+        }
+    }
+
+    /// How many times the bytes of a chunk its values may take.
+    pub(super) fn expansion(self) -> usize {
+        match self {
+            // A block of 128 KiB of the same byte takes four.
+            #[cfg(feature = "zstd")]
+            Self::Zstd => 1 << 15,
+            _ => MAX_EXPANSION,
         }
     }
 
@@ -45,6 +67,14 @@ impl Compression {
                     .map_err(|cause| format!("it does not inflate to {wanted} bytes ({cause})"))
             }
             Self::Lzw => expand_lzw(chunk, expanded),
+            Self::PackBits => expand_pack_bits(chunk, expanded),
+            #[cfg(feature = "zstd")]
+            Self::Zstd => {
+                let window = (expanded.len() as u64).next_power_of_two().max(8 << 20);
+                let decoder = ruzstd::decoding::StreamingDecoder::new_with_max_window_size(chunk, window);
+                let mut decoder = decoder.map_err(|cause| format!("zstd: {cause}"))?;
+                decoder.read_exact(expanded).map_err(|cause| format!("zstd: {cause}"))
+            }
         }
     }
 }
@@ -63,6 +93,35 @@ fn expand_lzw(mut chunk: &[u8], expanded: &mut [u8]) -> Result<(), String> {
     Ok(())
 }
 
+/// Apple's `PackBits` (TIFF 6.0, section 9): a count below 128 of bytes as they are, or one above of the same byte.
+fn expand_pack_bits(chunk: &[u8], expanded: &mut [u8]) -> Result<(), String> {
+    let (mut rest, mut filled) = (chunk, 0);
+    let wanted = expanded.len();
+    while filled < wanted {
+        let ends = || ends_after(filled, wanted);
+        let (count, behind) = rest.split_first().ok_or_else(ends)?;
+        rest = behind;
+        let left = &mut expanded[filled..];
+        match *count as i8 {
+            -128 => {}
+            count @ 0.. => {
+                let length = usize::from(count.unsigned_abs()) + 1;
+                let bytes = rest.get(..length).ok_or_else(ends)?;
+                let length = length.min(left.len());
+                left[..length].copy_from_slice(&bytes[..length]);
+                (rest, filled) = (&rest[bytes.len()..], filled + length);
+            }
+            count => {
+                let (byte, behind) = rest.split_first().ok_or_else(ends)?;
+                let length = (usize::from(count.unsigned_abs()) + 1).min(left.len());
+                left[..length].fill(*byte);
+                (rest, filled) = (behind, filled + length);
+            }
+        }
+    }
+    Ok(())
+}
+
 fn ends_after(bytes: usize, wanted: usize) -> String {
     format!("it ends after {bytes} of {wanted} bytes")
 }
@@ -76,6 +135,21 @@ mod tests {
         assert_eq!(Compression::of(8), Ok(Compression::Deflate));
         assert_eq!(Compression::of(32946), Ok(Compression::Deflate));
         assert!(Compression::of(7).is_err_and(|fault| fault.to_string().contains("compression 7; 1 (none)")));
+    }
+
+    /// The example of TIFF 6.0, section 9.
+    #[test]
+    fn pack_bits_unpack_as_the_specification_shows() {
+        let packed =
+            [0xfe, 0xaa, 0x02, 0x80, 0x00, 0x2a, 0xfd, 0xaa, 0x03, 0x80, 0x00, 0x2a, 0x22, 0x80, 0xf7, 0xaa];
+        let mut expanded = [0; 24];
+        Compression::PackBits.expand(&packed, &mut expanded).expect("unpacks");
+        let whole = [
+            [0xaa, 0xaa, 0xaa, 0x80, 0x00, 0x2a, 0xaa, 0xaa, 0xaa, 0xaa, 0x80, 0x00],
+            [0x2a, 0x22, 0xaa, 0xaa, 0xaa, 0xaa, 0xaa, 0xaa, 0xaa, 0xaa, 0xaa, 0xaa],
+        ];
+        assert_eq!(expanded, *whole.as_flattened());
+        assert!(Compression::PackBits.expand(&packed[..7], &mut expanded).is_err());
     }
 
     #[test]

@@ -2,6 +2,7 @@
 
 use super::super::limits::ensure_can_hold;
 use super::super::{Fault, Limits};
+use super::compression::Compression;
 use super::directory::{Directory, field};
 use super::sample::Sample;
 use super::tag;
@@ -13,7 +14,9 @@ pub(super) struct Layout {
     pub(super) size: Size,
     /// Columns and rows of a whole chunk.
     pub(super) chunk: Size,
-    sample_bytes: usize,
+    sample_bits: usize,
+    /// How many times the bytes of a chunk its values may take.
+    expansion: usize,
     offsets: Vec<u64>,
     lengths: Vec<u64>,
 }
@@ -24,12 +27,20 @@ struct Tags {
     lengths: u16,
 }
 
+/// Tag 262 of an image whose values are places in a table of colours.
+const PALETTE: u64 = 3;
+
 const STRIPS: Tags = Tags { offsets: tag::STRIP_OFFSETS, lengths: tag::STRIP_BYTE_COUNTS };
 const TILES: Tags = Tags { offsets: tag::TILE_OFFSETS, lengths: tag::TILE_BYTE_COUNTS };
 
 impl Layout {
     /// The layout of a file.
-    pub(super) fn of(directory: &Directory<'_>, sample: Sample, limits: Limits) -> Result<Self, Fault> {
+    pub(super) fn of(
+        directory: &Directory<'_>,
+        sample: Sample,
+        compression: Compression,
+        limits: Limits,
+    ) -> Result<Self, Fault> {
         let columns = directory.needed(tag::IMAGE_WIDTH)? as usize;
         let rows = directory.needed(tag::IMAGE_LENGTH)? as usize;
         let size = limits.size(columns, rows)?;
@@ -42,8 +53,8 @@ impl Layout {
         };
         let offsets = directory.numbers(tags.offsets)?.unwrap_or_default();
         let lengths = directory.numbers(tags.lengths)?.unwrap_or_default();
-        let sample_bytes = sample.bytes();
-        let layout = Self { size, chunk, sample_bytes, offsets, lengths };
+        let (sample_bits, expansion) = (sample.bits(), compression.expansion());
+        let layout = Self { size, chunk, sample_bits, expansion, offsets, lengths };
         layout.ensure_complete()?;
         layout.ensure_chunks(directory.bytes)?;
         Ok(layout)
@@ -76,7 +87,7 @@ impl Layout {
 
     /// Bytes of a row of a chunk.
     pub(super) fn row_bytes(&self) -> usize {
-        self.chunk.columns * self.sample_bytes
+        (self.chunk.columns * self.sample_bits).div_ceil(8)
     }
 
     /// The bytes of a chunk; `None` for one that a sparse file leaves out, all of it no-data.
@@ -88,7 +99,7 @@ impl Layout {
         let named = |fault: Fault| Fault::Damaged(format!("chunk {index}: {fault}"));
         let length = usize::try_from(length).unwrap_or(usize::MAX);
         let bytes = field(file, offset, length).map_err(named)?;
-        ensure_can_hold(bytes.len(), self.expanded_bytes(index)).map_err(named)?;
+        ensure_can_hold(bytes.len(), self.expanded_bytes(index), self.expansion).map_err(named)?;
         Ok(Some(bytes))
     }
 
@@ -107,8 +118,19 @@ fn strip(directory: &Directory<'_>, size: Size) -> Result<Size, Fault> {
     Ok(Size { rows: rows as usize, ..size })
 }
 
-/// The type of the values of a file that holds exactly one band.
+/// The type of the values of a file that holds exactly one band, of numbers and not of colours.
 pub(super) fn sample_of(directory: &Directory<'_>) -> Result<Sample, Fault> {
+    if directory.number(tag::PHOTOMETRIC)? == Some(PALETTE) {
+        return Err(Fault::damaged(
+            "the values are places in a table of colours, not heights; heights are read from one band of numbers: if \
+             these are numbers, gdal_translate -colorinterp_1 gray in.tif out.tif",
+        ));
+    }
+    if directory.number(tag::FILL_ORDER)?.unwrap_or(1) != 1 {
+        return Err(Fault::damaged(
+            "the bits of each byte are in reversed order (FillOrder 2): gdal_translate in.tif out.tif",
+        ));
+    }
     let bands = directory.number(tag::SAMPLES_PER_PIXEL)?.unwrap_or(1);
     if bands != 1 {
         return Err(Fault::damaged(format!(

@@ -1,5 +1,7 @@
-//! GDAL's two private tags: 42113 names the no-data number as text, 42112 carries items of text as XML.
+//! GDAL's two private tags: 42113 names the no-data number as text, 42112 carries items of text as XML, among them
+//! scale, offset and unit of the values.
 
+use super::super::unit::Measure;
 use super::super::{Fault, Provenance};
 use super::directory::Directory;
 use super::tag;
@@ -33,6 +35,45 @@ pub(super) fn provenance(directory: &Directory<'_>) -> Result<Option<Provenance>
     let Some(xml) = directory.text(tag::GDAL_METADATA)? else { return Ok(None) };
     let xml = String::from_utf8_lossy(xml);
     Ok(Provenance::from_items(|key| item(&xml, key)))
+}
+
+/// How the numbers of the file become values; `vertical` is the unit of the heights by the CRS.
+///
+/// Where the CRS has heights, GDAL keeps scale and offset in the third dimension of the pixel scale and of the tie point.
+pub(super) fn measure(directory: &Directory<'_>, vertical: Option<String>) -> Result<Measure, Fault> {
+    let xml = String::from_utf8_lossy(directory.text(tag::GDAL_METADATA)?.unwrap_or_default());
+    let third = if vertical.is_some() { third_dimension(directory)? } else { (1.0, 0.0) };
+    let number = |role: &str, usual: f64| match band_item(&xml, role) {
+        None => Ok(usual),
+        Some(text) => text.trim().parse::<f64>().ok().filter(|it| it.is_finite()).ok_or_else(|| {
+            Fault::damaged(format!(
+                "the {role} {text:?} of tag 42112 is no number; set one with gdal_edit.py -{role} 1"
+            ))
+        }),
+    };
+    let unit = band_item(&xml, "unittype").filter(|unit| !unit.is_empty()).or(vertical);
+    Ok(Measure::new(number("scale", third.0)?, number("offset", third.1)?, unit.as_deref()))
+}
+
+/// Scale and offset of heights by the pixel scale and the tie point, where these have a third dimension.
+fn third_dimension(directory: &Directory<'_>) -> Result<(f64, f64), Fault> {
+    let scale = directory.doubles(tag::MODEL_PIXEL_SCALE)?.unwrap_or_default();
+    let tie = directory.doubles(tag::MODEL_TIE_POINT)?.unwrap_or_default();
+    match (scale.as_slice(), tie.as_slice()) {
+        ([_, _, scale, ..], [_, _, level, _, _, height, ..]) if *scale != 0.0 && scale.is_finite() => {
+            Ok((*scale, height - level * scale))
+        }
+        _ => Ok((1.0, 0.0)),
+    }
+}
+
+/// The text of the item that has a role for the first band, as `<Item name="SCALE" sample="0" role="scale">0.1</Item>`.
+fn band_item(xml: &str, role: &str) -> Option<String> {
+    let role = format!("role=\"{role}\"");
+    let mut items = xml.split("<Item ").skip(1).filter_map(|item| item.split_once('>'));
+    let is_first = |attributes: &str| !attributes.contains("sample=") || attributes.contains("sample=\"0\"");
+    let (_, text) = items.find(|(attributes, _)| attributes.contains(&role) && is_first(attributes))?;
+    Some(unescaped(text.split_once("</Item>")?.0))
 }
 
 /// The items of a provenance as GDAL writes metadata, with the unit once more where GDAL looks for it.
@@ -76,6 +117,16 @@ mod tests {
         let layer = "<Item name=\"WEALD_LAYER\">water&lt;&quot;&amp;&quot;&gt;</Item>";
         assert!(written.contains(layer), "{written}");
         assert_eq!(Provenance::from_items(|key| item(&written, key)), Some(example()));
+    }
+
+    #[test]
+    fn scale_and_offset_are_those_of_the_first_band() {
+        let xml = "<GDALMetadata>\n  <Item name=\"SCALE\" sample=\"1\" role=\"scale\">7</Item>\n\
+                   <Item name=\"SCALE\" sample=\"0\" role=\"scale\">0.1</Item>\n\
+                   <Item name=\"UNITTYPE\" sample=\"0\" role=\"unittype\">ft</Item></GDALMetadata>";
+        assert_eq!(band_item(xml, "scale").as_deref(), Some("0.1"));
+        assert_eq!(band_item(xml, "unittype").as_deref(), Some("ft"));
+        assert_eq!(band_item(xml, "offset"), None);
     }
 
     #[test]

@@ -1,8 +1,9 @@
 //! GeoTIFF (OGC 19-008r4 on TIFF 6.0 and `BigTIFF`), one band.
 //!
-//! Read: strips and tiles; no compression, LZW, Deflate; predictors 1, 2 and 3; integers of 8, 16 and 32
-//! bits and floats of 32 and 64; both byte orders. Written: `float32` in tiles of 256 × 256, Deflate,
-//! predictor 3. No-data is GDAL's tag 42113, provenance its tag 42112.
+//! Read: strips and tiles; no compression, LZW, Deflate, `PackBits`, Zstandard; predictors 1, 2 and 3; unsigned integers of
+//! 1 to 32 and of 64 bits, signed ones of 8, 16, 32 and 64, floats of 16, 32 and 64; both byte orders; rows from either
+//! side. Written: `float32` in tiles of 256 × 256, Deflate, predictor 3. No-data is GDAL's tag 42113 and NaN; scale, offset,
+//! unit and provenance are its tag 42112.
 //!
 //! The tag directory is parsed here rather than by a general TIFF library, so that every size is checked
 //! against the limits and the file before anything is allocated, and tiles decode on all cores.

@@ -2,6 +2,7 @@
 
 use rayon::prelude::*;
 
+use super::super::unit::Measure;
 use super::super::{Fault, Limits, Raster};
 use super::compression::Compression;
 use super::directory::Directory;
@@ -18,23 +19,35 @@ pub fn decode(bytes: &[u8], limits: Limits) -> Result<Raster, Fault> {
     metadata::ensure_no_mask(&directory)?;
     let sample = sample_of(&directory)?;
     let no_data = metadata::no_data(&directory)?.map(|number| sample.nearest(number));
+    let compression = Compression::of(directory.number(tag::COMPRESSION)?.unwrap_or(1))?;
+    let place = keys::place(&directory)?;
     let coding = Coding {
-        layout: Layout::of(&directory, sample, limits)?,
-        compression: Compression::of(directory.number(tag::COMPRESSION)?.unwrap_or(1))?,
+        layout: Layout::of(&directory, sample, compression, limits)?,
+        measure: metadata::measure(&directory, place.vertical)?,
+        compression,
         predictor: Predictor::of(directory.number(tag::PREDICTOR)?.unwrap_or(1), sample)?,
         sample,
         no_data,
         directory,
     };
-    let place = keys::place(&coding.directory)?;
-    let (values, valid) = coding.cells()?;
-    let raster = Raster::from_file(coding.layout.size, values, valid, sample.name())?;
-    Ok(Raster {
-        cell: place.cell,
-        georeference: place.georeference,
-        provenance: metadata::provenance(&coding.directory)?,
-        ..raster
-    })
+    let (mut values, mut valid) = coding.cells()?;
+    if place.is_south_up {
+        turn(&mut values, coding.layout.size.columns);
+        turn(&mut valid, coding.layout.size.columns);
+    }
+    let raster =
+        Raster::from_file(coding.layout.size, values, valid, sample.name())?.measured(&coding.measure);
+    let raster = raster.with_source(metadata::provenance(&coding.directory)?);
+    Ok(Raster { cell: place.cell, georeference: place.georeference, ..raster })
+}
+
+/// Puts the last row first.
+fn turn<T>(cells: &mut [T], columns: usize) {
+    let rows = cells.len() / columns;
+    for row in 0..rows / 2 {
+        let (upper, lower) = cells.split_at_mut((rows - 1 - row) * columns);
+        upper[row * columns..][..columns].swap_with_slice(&mut lower[..columns]);
+    }
 }
 
 /// All that it takes to turn the chunks of a file into values.
@@ -45,6 +58,7 @@ struct Coding<'a> {
     predictor: Predictor,
     sample: Sample,
     no_data: Option<f64>,
+    measure: Measure,
 }
 
 /// The rows of the grid that one row of chunks covers.
@@ -103,10 +117,9 @@ impl Coding<'_> {
         self.predictor.undo(row, self.sample, self.directory.order, |x, value| {
             // The padding of a tile goes on beyond the grid.
             let Some(cell) = values.get_mut(x) else { return };
-            let is_no_data =
-                self.no_data.is_some_and(|number| number == value || number.is_nan() && value.is_nan());
+            let is_no_data = value.is_nan() || self.no_data == Some(value);
             valid[x] = !is_no_data;
-            *cell = if is_no_data { 0.0 } else { value as f32 };
+            *cell = if is_no_data { 0.0 } else { self.measure.value(value) };
         });
     }
 
@@ -114,6 +127,9 @@ impl Coding<'_> {
     fn leave_out(&self, band: &mut Band<'_>, across: usize) {
         for y in 0..band.values.len() / self.layout.size.columns {
             band.valid[self.cells_of_chunk(across, y)].fill(self.no_data.is_none());
+            if self.no_data.is_none() {
+                band.values[self.cells_of_chunk(across, y)].fill(self.measure.value(0.0));
+            }
         }
     }
 }

@@ -3,8 +3,7 @@
 use super::super::Fault;
 use super::super::cf::{Attribute, Attributes};
 use super::cursor::Cursor;
-use super::kind::{CHARACTER, FLOAT, INTEGER, Kind};
-use super::tag;
+use super::kind::{CHARACTER, DOUBLE, FLOAT, Kind, tag};
 use weald_core::error::{Limit, Quantity};
 
 /// Most numbers of one attribute that are kept; longer ones are read past.
@@ -116,8 +115,8 @@ fn attribute(cursor: &mut Cursor<'_>) -> Result<(String, Attribute), Fault> {
     let value = match kind.code {
         CHARACTER => Attribute::Text(String::from_utf8_lossy(bytes).into_owned()),
         FLOAT if count == 1 => Attribute::Float(kind.value(bytes) as f32),
-        INTEGER => Attribute::Integers(numbers().map(|number| number as i32).collect()),
-        _ => Attribute::Doubles(numbers().collect()),
+        FLOAT | DOUBLE => Attribute::Doubles(numbers().collect()),
+        _ => Attribute::of_whole(numbers().collect()),
     };
     Ok((name, value))
 }

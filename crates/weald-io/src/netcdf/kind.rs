@@ -1,7 +1,15 @@
-//! Types of numbers by their codes, and what stands where none was written. All are big-endian.
+//! Tags of the lists in a header; types of numbers by their codes, and what stands where none was written. All are big-endian.
 
 use super::super::Fault;
 use super::super::number::Number;
+
+/// Tags of the lists in a header.
+pub(super) mod tag {
+    pub(in super::super) const ABSENT: u32 = 0;
+    pub(in super::super) const DIMENSIONS: u32 = 10;
+    pub(in super::super) const VARIABLES: u32 = 11;
+    pub(in super::super) const ATTRIBUTES: u32 = 12;
+}
 
 /// A type of numbers or letters in a file.
 #[derive(Clone, Copy, Debug)]

@@ -12,7 +12,6 @@ mod cursor;
 mod header;
 mod kind;
 mod read;
-mod tag;
 mod write;
 
 pub use read::decode;

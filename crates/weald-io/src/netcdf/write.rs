@@ -1,8 +1,7 @@
 //! The bytes of a file: header, then variable after variable.
 
 use super::super::cf::{Attribute, Attributes, Axis, Dataset, Values, Variable};
-use super::kind::{CHARACTER, DOUBLE, FLOAT, INTEGER};
-use super::tag;
+use super::kind::{CHARACTER, DOUBLE, FLOAT, INTEGER, tag};
 use weald_core::grid::Size;
 
 /// Axes in the order of their dimensions.

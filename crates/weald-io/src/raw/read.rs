@@ -5,6 +5,9 @@ use super::super::{Fault, Limits, Provenance, Raster};
 use super::sidecar::{ByteOrder, Kind, NoData, SIDECAR, Sidecar};
 use weald_core::grid::Size;
 
+/// What ends the name of a description that others write.
+const ENVI: &str = ".hdr";
+
 /// Longest description that is read, in bytes.
 const SIDECAR_BYTES: u64 = 1 << 20;
 
@@ -31,6 +34,11 @@ fn decode(parts: &dyn Parts, limits: Limits, kind: Kind) -> Result<Raster, Fault
         .ok_or_else(|| Fault::damaged("cannot be read: there is no such file"))?;
     if let Some(json) = described {
         return numbers(&bytes, &Sidecar::parse(&json)?, limits);
+    }
+    if parts.read(&PartName::Sibling(ENVI.to_owned()), SIDECAR_BYTES)?.is_some() {
+        return Err(Fault::damaged(format!(
+            "beside it lies a description of ENVI (.hdr), which is not read, and no {SIDECAR}: gdal_translate it to .tif"
+        )));
     }
     let side = side(bytes.len(), kind)?;
     let mut raster = numbers(&bytes, &Sidecar::plain(side, side, kind), limits)?;

@@ -32,10 +32,17 @@ fn attribute(name: &str, value: &Value) -> Option<Attribute> {
             fill(text).map(|number| Attribute::Doubles(vec![number]))
         }
         Value::String(text) => Some(Attribute::Text(text.clone())),
-        Value::Number(number) => number.as_f64().map(|number| Attribute::Doubles(vec![number])),
-        Value::Array(items) => items.iter().map(Value::as_f64).collect::<Option<_>>().map(Attribute::Doubles),
+        Value::Number(_) => numbers(std::slice::from_ref(value)),
+        Value::Array(items) => numbers(items),
         _ => None,
     }
+}
+
+/// Numbers; whole ones where all are written so.
+fn numbers(items: &[Value]) -> Option<Attribute> {
+    let numbers = items.iter().map(Value::as_f64).collect::<Option<_>>()?;
+    let are_whole = !items.iter().any(Value::is_f64);
+    Some(if are_whole { Attribute::of_whole(numbers) } else { Attribute::Doubles(numbers) })
 }
 
 /// xarray spells the fill value of floats as the Base64 of a little-endian `float64`.

@@ -17,13 +17,13 @@ use weald_plants::ifs::{Ifs, flame};
 pub(super) fn load(recipe: &Recipe) -> Result<(Landscape, Vec<String>), Error> {
     let (mut landscape, mut notes) = match &recipe.ground {
         Ground::Empty { size, cell } => (Landscape::new(Domain::new(*size, *cell)), Vec::new()),
-        Ground::File { path, cell } => ground_file::read(path, *cell)?,
+        Ground::File { path, cell, said } => ground_file::read(path, *cell, said)?,
     };
     landscape.materials = materials(recipe);
     landscape.set_fractals(fractals(recipe)?);
     for planned in &recipe.materials {
         let Some((path, scale)) = planned.file.clone() else { continue };
-        let file = LayerFile { path, scale, offset: 0.0, resample: false, no_data: None };
+        let file = LayerFile { scale, ..LayerFile::plain(path) };
         let (thickness, more) = file.read(&landscape.domain)?;
         landscape.insert(&planned.material.name, "m", thickness);
         notes.extend(more);

@@ -4,8 +4,8 @@
 
 use std::path::PathBuf;
 
-use super::layer_file::LayerFile;
-use super::parameter::{LayerName, RasterFile};
+use super::layer_file::{FileUnit, LayerFile, said};
+use super::parameter::{CrsCode, LayerName, RasterFile};
 use weald_core::error::Error;
 use weald_core::landscape::Landscape;
 use weald_core::parameters;
@@ -47,6 +47,14 @@ parameters! {
         /// Value, in metres, of cells without data. Without it, they are an error where the landscape has
         /// ground.
         no_data: Option<f64> = None, range -1.0e9..=1.0e9, unit "m";
+        /// Unit of the values of a file that names none; without it they are metres.
+        unit: Option<FileUnit> = None;
+        /// Coordinate reference system of a file that names none.
+        crs: Option<CrsCode> = None;
+        /// Number of the cells without data, as `weald info` shows it, in a file that does not say it.
+        nodata: Option<f64> = None;
+        /// Whether a file that lies elsewhere on Earth than the landscape is laid on it all the same, cell by cell.
+        elsewhere: bool = false;
     }
 }
 
@@ -70,6 +78,8 @@ impl Step for Load {
             offset: self.offset,
             resample: self.resample,
             no_data: self.no_data,
+            said: said(self.crs, self.unit, self.nodata),
+            elsewhere: self.elsewhere,
         };
         let (field, notes) = file.read(&landscape.domain)?;
         landscape.insert(&self.into.0, "m", field);

@@ -2,11 +2,13 @@
 
 use std::path::PathBuf;
 
+use super::super::layer_file::{FileUnit, said};
 use super::files::Files;
 use weald_core::error::Error;
 use weald_core::grid::Size;
-use weald_core::parameter::{Diagnostics, Parameters, RasterFile, Sides};
+use weald_core::parameter::{CrsCode, Diagnostics, Parameters, RasterFile, Sides};
 use weald_core::source::{Node, Table, Value};
+use weald_io::Said;
 
 weald_core::parameters! {
     /// The keys of `[landscape]`.
@@ -20,6 +22,12 @@ weald_core::parameters! {
         /// An elevation model to start from instead of a size, relative to the recipe's folder. It becomes the
         /// layer `height`; its cell size, georeferencing and no-data cells are kept.
         from: Option<RasterFile> = None;
+        /// Coordinate reference system of a file that names none.
+        crs: Option<CrsCode> = None, with from;
+        /// Unit of the heights of a file that names none; without it they are metres.
+        unit: Option<FileUnit> = None, with from;
+        /// Number of the cells without data, as `weald info` shows it, in a file that does not say it.
+        nodata: Option<f64> = None, with from;
     }
 }
 
@@ -39,6 +47,8 @@ pub enum Ground {
         path: PathBuf,
         /// Side of a cell in metres, for a file that does not say it.
         cell: Option<f64>,
+        /// What else it does not say.
+        said: Said,
     },
 }
 
@@ -94,5 +104,5 @@ fn ground(table: &Table, keys: &LandscapeKeys, diagnostics: &mut Diagnostics) ->
         let message = "`size` does not go with `from`: it comes from the file; a `resample` step changes it";
         diagnostics.add(table.get("size").map_or(table.line, |node| node.line), message);
     }
-    Ok(Ground::File { path: from.path(), cell: keys.cell })
+    Ok(Ground::File { path: from.path(), cell: keys.cell, said: said(keys.crs, keys.unit, keys.nodata) })
 }

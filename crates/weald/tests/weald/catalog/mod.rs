@@ -89,6 +89,7 @@ fn some_value(parameter: &Parameter) -> String {
         Kind::Layers => format!("[\"{}_layer\"]", parameter.name),
         Kind::Script => "\"edits.jsonl\"".to_owned(),
         Kind::Colour => "\"#102030\"".to_owned(),
+        Kind::Crs => "\"EPSG:32633\"".to_owned(),
         Kind::Raster => format!("{:?}", some_raster()),
         Kind::Table(inner) => format!("{{ {} }}", needed(inner).trim().replace('\n', ", ")),
         Kind::Tables(inner) => format!("[{{ {} }}]", needed(inner).trim().replace('\n', ", ")),
