@@ -5,6 +5,43 @@
 
 use super::super::Fault;
 
+/// Numbers of the TIFF tags and codes that are read or written.
+pub(super) mod tag {
+    pub(in super::super) const NEW_SUBFILE_TYPE: u16 = 254;
+    pub(in super::super) const IMAGE_WIDTH: u16 = 256;
+    pub(in super::super) const IMAGE_LENGTH: u16 = 257;
+    pub(in super::super) const BITS_PER_SAMPLE: u16 = 258;
+    pub(in super::super) const COMPRESSION: u16 = 259;
+    pub(in super::super) const PHOTOMETRIC: u16 = 262;
+    pub(in super::super) const FILL_ORDER: u16 = 266;
+    pub(in super::super) const IMAGE_DESCRIPTION: u16 = 270;
+    pub(in super::super) const STRIP_OFFSETS: u16 = 273;
+    pub(in super::super) const SAMPLES_PER_PIXEL: u16 = 277;
+    pub(in super::super) const ROWS_PER_STRIP: u16 = 278;
+    pub(in super::super) const STRIP_BYTE_COUNTS: u16 = 279;
+    pub(in super::super) const PLANAR_CONFIGURATION: u16 = 284;
+    pub(in super::super) const SOFTWARE: u16 = 305;
+    pub(in super::super) const PREDICTOR: u16 = 317;
+    pub(in super::super) const TILE_WIDTH: u16 = 322;
+    pub(in super::super) const TILE_LENGTH: u16 = 323;
+    pub(in super::super) const TILE_OFFSETS: u16 = 324;
+    pub(in super::super) const TILE_BYTE_COUNTS: u16 = 325;
+    pub(in super::super) const SAMPLE_FORMAT: u16 = 339;
+    pub(in super::super) const MODEL_PIXEL_SCALE: u16 = 33550;
+    pub(in super::super) const MODEL_TIE_POINT: u16 = 33922;
+    pub(in super::super) const MODEL_TRANSFORMATION: u16 = 34264;
+    pub(in super::super) const GEO_KEY_DIRECTORY: u16 = 34735;
+    pub(in super::super) const GEO_DOUBLE_PARAMETERS: u16 = super::super::super::geokeys::DOUBLES;
+    pub(in super::super) const GEO_ASCII_PARAMETERS: u16 = 34737;
+    pub(in super::super) const GDAL_METADATA: u16 = 42112;
+    pub(in super::super) const GDAL_NO_DATA: u16 = 42113;
+
+    /// Deflate in a zlib stream, the code that Adobe registered.
+    pub(in super::super) const DEFLATE: u16 = 8;
+    /// Predictor that splits floats into bytes, most significant first, and stores their differences.
+    pub(in super::super) const FLOATING_POINT_PREDICTOR: u16 = 3;
+}
+
 /// Byte order of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Order {

@@ -6,7 +6,7 @@ use super::super::geokeys::{
     vertical_unit,
 };
 use super::directory::Directory;
-use super::tag;
+use super::directory::tag;
 use weald_core::domain::{GeoKeys, Georeference};
 
 /// Sides of a cell may differ by this share and still be called square: what decimal digits lose.

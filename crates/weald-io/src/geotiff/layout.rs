@@ -3,9 +3,9 @@
 use super::super::limits::ensure_can_hold;
 use super::super::{Fault, Limits};
 use super::compression::Compression;
+use super::directory::tag;
 use super::directory::{Directory, field};
 use super::sample::Sample;
-use super::tag;
 use weald_core::grid::Size;
 
 /// Sizes and places of the chunks of a file, checked against its length.

@@ -4,7 +4,7 @@
 use super::super::unit::Measure;
 use super::super::{Fault, Provenance};
 use super::directory::Directory;
-use super::tag;
+use super::directory::tag;
 
 /// The number that marks no-data cells, where the file declares one.
 pub(super) fn no_data(directory: &Directory<'_>) -> Result<Option<f64>, Fault> {

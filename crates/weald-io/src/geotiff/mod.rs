@@ -15,7 +15,6 @@ mod layout;
 mod metadata;
 mod read;
 mod sample;
-mod tag;
 mod write;
 
 pub use read::decode;

@@ -6,9 +6,10 @@ use super::super::unit::Measure;
 use super::super::{Fault, Limits, Raster};
 use super::compression::Compression;
 use super::directory::Directory;
+use super::directory::tag;
 use super::layout::{Layout, sample_of};
 use super::sample::{Predictor, Sample};
-use super::{keys, metadata, tag};
+use super::{keys, metadata};
 
 /// Reads the first image of a file.
 ///

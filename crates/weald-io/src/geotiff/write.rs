@@ -10,7 +10,8 @@ use rayon::prelude::*;
 
 use super::super::Raster;
 use super::super::geokeys::keys_for;
-use super::{metadata, tag};
+use super::directory::tag;
+use super::metadata;
 use weald_core::domain::GeoKeys;
 use weald_core::error::Error;
 use weald_core::grid::Size;

@@ -5,5 +5,6 @@ mod arrays;
 mod clients;
 mod damaged_files;
 mod exr_raw_asc;
+mod foreign_clients;
 mod formats;
 mod rasters;
