@@ -9,6 +9,7 @@
 
 pub mod asc;
 mod atomic;
+mod beside;
 pub mod cf;
 #[cfg(feature = "exr")]
 pub mod exr;

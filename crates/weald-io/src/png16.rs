@@ -74,7 +74,11 @@ fn raster(
     pixels: &[u8],
 ) -> Result<Raster, Fault> {
     let info = reader.info();
-    let no_data = info.trns.as_deref().and_then(|two| Some(u16::from_be_bytes(two.try_into().ok()?)));
+    let no_data = info.trns.as_deref().and_then(|transparent| match transparent {
+        [grey] => Some(u16::from(*grey)),
+        [high, low] => Some(u16::from_be_bytes([*high, *low])),
+        _ => None,
+    });
     let greys: Vec<u16> = match depth {
         BitDepth::Sixteen => pixels.chunks_exact(2).map(|two| u16::from_be_bytes([two[0], two[1]])).collect(),
         _ => pixels.iter().map(|&byte| u16::from(byte)).collect(),

@@ -2,13 +2,17 @@
 
 use std::path::Path;
 
+use super::beside::{self, BESIDE};
 #[cfg(feature = "exr")]
 use super::exr;
-use super::parts::{OnDisk, read_at_most};
+use super::parts::{OnDisk, PartName, Parts, read_at_most};
 use super::{
     Decode, Fault, Format, Limits, Raster, asc, geotiff, netcdf, npy, png16, raw, write_parts, zarr,
 };
 use weald_core::error::{Error, left_out};
+
+/// Longest `.aux.xml` that is read, in bytes.
+const BESIDE_BYTES: u64 = 16 << 20;
 
 /// All raster formats. Adding one is one file and one line here.
 #[rustfmt::skip] // one entry a line, so that branches that add some do not meet
@@ -61,7 +65,12 @@ pub fn read(path: &Path) -> Result<Raster, Error> {
         Some(Decode::Parts(decode)) => decode(&OnDisk(path.to_owned()), limits),
         None => Err(Fault::damaged(format!("{} is written, not read", format.name))),
     };
-    raster.map_err(|fault| fault.of(path))
+    let beside = || OnDisk(path.to_owned()).read(&PartName::Beside(BESIDE.to_owned()), BESIDE_BYTES);
+    let whole = raster.and_then(|raster| match beside()? {
+        Some(xml) => beside::with(raster, &String::from_utf8_lossy(&xml)),
+        None => Ok(raster),
+    });
+    whole.map_err(|fault| fault.of(path))
 }
 
 /// Writes a raster under its whole name only when all of it is on disk.

@@ -20,16 +20,14 @@ mod mapping;
 mod names;
 mod place;
 mod read;
-mod sheet;
 
 pub use attribute::{Attribute, Attributes, Described, Source};
 pub use axis::Axis;
 pub(super) use crs::OMITTED_CRS;
 pub use crs::{OMITTED_CRS_NOTE, is_readable_by_all};
-pub use dataset::{Cells, Dataset, Values, Variable};
+pub use dataset::{Cells, Dataset, Layer, Sheet, Values, Variable};
 pub use names::Names;
 pub use read::read;
-pub use sheet::{Layer, Sheet};
 
 /// Name of the variable that holds the CRS, as GDAL and rioxarray write it.
 const GRID_MAPPING: &str = "spatial_ref";

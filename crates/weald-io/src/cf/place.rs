@@ -193,11 +193,13 @@ fn without_coordinates(crs: Option<Crs>, size: Size) -> Place {
 }
 
 /// The attributes that tell the CRS of a variable.
-fn grid_mapping<'a>(source: &'a dyn Source, layer: &Described) -> Option<&'a Attributes> {
+fn grid_mapping<'a>(source: &'a dyn Source, layer: &'a Described) -> Option<&'a Attributes> {
     let named = layer.attributes.text("grid_mapping").and_then(|text| text.split([' ', ':']).next());
     let names = [named.unwrap_or(GRID_MAPPING), "crs"];
     let found = names.into_iter().find_map(|name| source.variables().iter().find(|other| other.name == name));
-    found.map(|variable| &variable.attributes)
+    // GDAL's Zarr has the definition beside the numbers themselves.
+    let own = || Some(&layer.attributes).filter(|own| own.get("crs_wkt").is_some());
+    found.map(|variable| &variable.attributes).or_else(own)
 }
 
 /// The coordinates along a dimension, and what is said of them.

@@ -11,7 +11,6 @@
 //! Source: Technical Introduction to OpenEXR and OpenEXR File Layout, Academy Software Foundation.
 
 mod attributes;
-mod chunks;
 mod compression;
 mod header;
 mod huffman;

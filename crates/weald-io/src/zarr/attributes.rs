@@ -4,6 +4,9 @@ use serde_json::{Map, Value, json};
 
 use super::super::cf::{Attribute, Attributes};
 
+/// Where GDAL keeps the CRS of an array.
+const CRS: &str = "_CRS";
+
 /// The object that stands under `attributes`.
 pub(super) fn to_json(attributes: &Attributes) -> Value {
     let value = |attribute: &Attribute| match attribute {
@@ -22,7 +25,8 @@ pub(super) fn to_json(attributes: &Attributes) -> Value {
 pub(super) fn of_json(attributes: Option<&Value>) -> Attributes {
     let none = Map::new();
     let entries = attributes.and_then(Value::as_object).unwrap_or(&none);
-    let known = entries.iter().filter_map(|(name, value)| Some((name.clone(), attribute(name, value)?)));
+    let called = |name: &str| if name == CRS { "crs_wkt" } else { name }.to_owned();
+    let known = entries.iter().filter_map(|(name, value)| Some((called(name), attribute(name, value)?)));
     Attributes(known.collect())
 }
 
@@ -32,6 +36,10 @@ fn attribute(name: &str, value: &Value) -> Option<Attribute> {
             fill(text).map(|number| Attribute::Doubles(vec![number]))
         }
         Value::String(text) => Some(Attribute::Text(text.clone())),
+        // GDAL's definition of the CRS.
+        Value::Object(entries) if name == CRS => {
+            Some(Attribute::Text(entries.get("wkt")?.as_str()?.to_owned()))
+        }
         Value::Number(_) => numbers(std::slice::from_ref(value)),
         Value::Array(items) => numbers(items),
         _ => None,

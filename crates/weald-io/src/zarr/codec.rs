@@ -2,10 +2,11 @@
 
 use std::io::Read;
 
-use flate2::read::MultiGzDecoder;
+use flate2::read::{MultiGzDecoder, ZlibDecoder};
 use serde_json::Value;
 
 use super::super::Fault;
+use super::blosc;
 
 /// Largest window of Zstandard that is given memory for a chunk that is no larger itself.
 #[cfg(feature = "zstd")]
@@ -24,6 +25,9 @@ pub(super) struct Codecs {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Packing {
     Gzip,
+    Zlib,
+    Lz4,
+    Blosc,
     #[cfg(feature = "zstd")]
     Zstd,
     Crc32c,
@@ -47,6 +51,9 @@ impl Codecs {
         };
         let packing = |codec: &Value| match name(codec) {
             "gzip" => Ok(Packing::Gzip),
+            "zlib" => Ok(Packing::Zlib),
+            "lz4" => Ok(Packing::Lz4),
+            "blosc" => Ok(Packing::Blosc),
             #[cfg(feature = "zstd")]
             "zstd" => Ok(Packing::Zstd),
             #[cfg(not(feature = "zstd"))]
@@ -90,7 +97,7 @@ fn name(codec: &Value) -> &str {
 
 fn unread(array: &str, codec: &str) -> Fault {
     Fault::damaged(format!(
-        "`{array}` is packed with codec `{codec}`; bytes, gzip, zstd and crc32c are read: with xarray \
+        "`{array}` is packed with codec `{codec}`; bytes, gzip, zlib, zstd, lz4, blosc and crc32c are read: with xarray \
          ds.to_zarr(path, encoding={{'{array}': {{'compressors': None, 'shards': None}}}}), in C order"
     ))
 }
@@ -99,6 +106,9 @@ impl Packing {
     fn undo(self, bytes: &[u8], most: u64) -> Result<Vec<u8>, Fault> {
         match self {
             Self::Gzip => at_most(MultiGzDecoder::new(bytes), most, "gzip"),
+            Self::Zlib => at_most(ZlibDecoder::new(bytes), most, "zlib"),
+            Self::Lz4 => lz4(bytes, most),
+            Self::Blosc => blosc::decode(bytes, most),
             #[cfg(feature = "zstd")]
             Self::Zstd => {
                 let window = most.next_power_of_two().max(WINDOW);
@@ -127,6 +137,22 @@ fn at_most(decoder: impl Read, most: u64, codec: &str) -> Result<Vec<u8>, Fault>
     Ok(bytes)
 }
 
+/// A block of LZ4 behind its length, as `numcodecs` writes it.
+fn lz4(bytes: &[u8], most: u64) -> Result<Vec<u8>, Fault> {
+    let damaged = |cause: &str| Fault::damaged(format!("a chunk is damaged: lz4: {cause}"));
+    let (length, block) = bytes.split_first_chunk::<4>().ok_or_else(|| damaged("it has no length"))?;
+    let length = u32::from_le_bytes(*length);
+    if u64::from(length) > most {
+        return Err(damaged(&format!("{length} bytes, of at most {most}")));
+    }
+    let mut expanded = vec![0; length as usize];
+    match lz4_flex::block::decompress_into(block, &mut expanded) {
+        Ok(written) if written == expanded.len() => Ok(expanded),
+        Ok(_) => Err(damaged("it ends early")),
+        Err(cause) => Err(damaged(&cause.to_string())),
+    }
+}
+
 /// Castagnoli's cyclic redundancy check (RFC 3720, appendix B.4), reflected.
 fn crc32c(bytes: &[u8]) -> u32 {
     let step = |sum: u32, _| if sum & 1 == 1 { sum >> 1 ^ 0x82f6_3b78 } else { sum >> 1 };
@@ -149,7 +175,7 @@ mod tests {
     fn codecs_that_are_not_read_are_named() {
         let of = |codecs: Value| Codecs::of("height", &codecs).map_err(|fault| fault.to_string());
         assert!(of(json!([{ "name": "bytes" }, { "name": "gzip" }, "crc32c"])).is_ok());
-        for codec in ["blosc", "sharding_indexed", "transpose"] {
+        for codec in ["lzma", "sharding_indexed", "transpose"] {
             let error = of(json!([{ "name": "bytes" }, { "name": codec }])).expect_err("unread");
             assert!(error.contains(&format!("codec `{codec}`")), "{error}");
             assert!(of(json!([{ "name": codec }, { "name": "bytes" }])).is_err());

@@ -112,9 +112,7 @@ impl Storage {
 
 fn damaged(name: &str, key: &str, value: &Value) -> Fault {
     let shown: String = value.to_string().chars().take(200).collect();
-    Fault::damaged(format!(
-        "`{name}`: `{key}` is {shown}, which Zarr version 3 does not have or Weald not read"
-    ))
+    Fault::damaged(format!("`{name}`: `{key}` is {shown}, which Zarr does not have or Weald not read"))
 }
 
 fn lengths(list: &Value) -> Option<Vec<usize>> {

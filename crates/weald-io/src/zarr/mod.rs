@@ -1,18 +1,19 @@
-//! Zarr version 3 (Zarr core specification 3.0): a folder with descriptions in JSON and chunks of numbers.
+//! Zarr (core specification 3.0, storage specification 2): a folder with descriptions in JSON and chunks of numbers.
 //!
-//! Written is a group with the attributes of `cf` and metadata consolidated, so that xarray opens it
+//! Written is a group of version 3 with the attributes of `cf` and metadata consolidated, so that xarray opens it
 //! as a dataset; layers in chunks of 256 × 256, little-endian, gzip; chunks without any data are left out, as NaN
-//! fills them. Read is a group or a single array, in regular chunks with the codecs `bytes`, `gzip`, `zstd` and
-//! `crc32c`; other codecs are named in the error.
+//! fills them. Read is a group or a single array of either version, in regular chunks with the codecs `bytes`,
+//! `gzip`, `zlib`, `zstd`, `lz4`, `blosc` and `crc32c`; other codecs are named in the error.
 //!
 //! Shapes and chunks are checked against the limits before anything is allocated, and a chunk may not unpack to
 //! more than its shape says.
 
 mod attributes;
-mod chunks;
+mod blosc;
 mod codec;
 mod metadata;
 mod read;
+mod version2;
 mod write;
 
 pub use read::decode;

@@ -5,9 +5,9 @@ use serde_json::Value;
 use super::super::cf::{self, Attributes, Described, Source};
 use super::super::{Fault, Limits, PartName, Parts, Raster};
 use super::attributes;
-use super::chunks::{Rows, place};
 use super::codec::Codecs;
-use super::metadata::{Array, DESCRIPTION, Storage};
+use super::metadata::{Array, DESCRIPTION, MAX_DIMENSIONS, Storage};
+use super::version2;
 use weald_core::error::{Limit, Quantity};
 
 /// Longest description that is read.
@@ -21,11 +21,15 @@ const MAX_ARRAYS: usize = 1000;
 /// # Errors
 /// [`Fault`] for a folder that is damaged, of a kind that is not read, or over the limits.
 pub fn decode(parts: &dyn Parts, limits: Limits) -> Result<Raster, Fault> {
-    let root = description(parts, "")?.ok_or_else(|| no_description(parts))?;
+    let root = description(parts, "")?.ok_or_else(|| {
+        Fault::damaged(
+            "the folder has neither zarr.json nor .zgroup or .zarray, so it is no Zarr or not whole",
+        )
+    })?;
     let arrays = match root["node_type"].as_str() {
         Some("group") => arrays_of_group(parts, &root)?,
         Some("array") => vec![Array::of("", &root)?],
-        _ => return Err(Fault::damaged("zarr.json describes neither a group nor an array")),
+        _ => return Err(Fault::damaged("its description is neither that of a group nor of an array")),
     };
     let described = arrays.iter().map(Array::described).collect();
     cf::read(
@@ -37,29 +41,19 @@ pub fn decode(parts: &dyn Parts, limits: Limits) -> Result<Raster, Fault> {
 /// The description in the folder of that name.
 fn description(parts: &dyn Parts, folder: &str) -> Result<Option<Value>, Fault> {
     let name = PartName::Inside(within(folder, DESCRIPTION));
-    let Some(bytes) = parts.read(&name, DESCRIPTION_BYTES)? else { return Ok(None) };
+    let Some(bytes) = parts.read(&name, DESCRIPTION_BYTES)? else {
+        return version2::description(parts, folder, DESCRIPTION_BYTES);
+    };
     let json: Value = serde_json::from_slice(&bytes)
         .map_err(|cause| Fault::damaged(format!("{}: {cause}", within(folder, DESCRIPTION))))?;
     if json["zarr_format"] != 3 {
-        return Err(Fault::damaged(format!("zarr_format is {}; 3 is read", json["zarr_format"])));
+        return Err(Fault::damaged(format!("zarr_format is {}; 2 and 3 are read", json["zarr_format"])));
     }
     Ok(Some(json))
 }
 
 fn within(folder: &str, name: &str) -> String {
     if folder.is_empty() { name.to_owned() } else { format!("{folder}/{name}") }
-}
-
-fn no_description(parts: &dyn Parts) -> Fault {
-    let is_old = [".zgroup", ".zarray", ".zmetadata"].iter().any(|name| {
-        let part = PartName::Inside((*name).to_owned());
-        parts.read(&part, DESCRIPTION_BYTES).is_ok_and(|part| part.is_some())
-    });
-    Fault::damaged(if is_old {
-        "Zarr version 2; version 3 is read: with xarray ds.to_zarr(path, zarr_format=3)"
-    } else {
-        "the folder has no zarr.json, so it is not Zarr version 3 or not whole"
-    })
 }
 
 /// The arrays right below a group: as its description lists them, or else as its folders are there.
@@ -147,5 +141,82 @@ fn numbers_of(rows: &Rows<'_>, storage: &Storage, chunk: Option<&[u8]>, take: &m
             });
             take(in_array + column, number);
         }
+    }
+}
+
+/// Positions along each dimension; those beyond the last are 0.
+type Place = [usize; MAX_DIMENSIONS];
+
+/// The place of the element at a row-major position.
+fn place(mut position: usize, shape: &[usize]) -> Place {
+    let mut place = [0; MAX_DIMENSIONS];
+    for (axis, length) in shape.iter().enumerate().rev() {
+        place[axis] = position % length;
+        position /= length;
+    }
+    place
+}
+
+/// The row-major position of an element.
+fn position(place: &Place, shape: &[usize]) -> usize {
+    shape.iter().zip(place).fold(0, |position, (length, at)| position * length + at)
+}
+
+/// The part of a chunk that lies within its array, row by row along the last dimension.
+struct Rows<'a> {
+    shape: &'a [usize],
+    chunk: &'a [usize],
+    /// First element of the chunk.
+    origin: Place,
+    /// Elements of the chunk within the array along each dimension.
+    extent: Vec<usize>,
+}
+
+impl<'a> Rows<'a> {
+    /// Of the chunk at `place` among the chunks.
+    fn of(shape: &'a [usize], chunk: &'a [usize], place: &Place) -> Self {
+        let mut origin = [0; MAX_DIMENSIONS];
+        for (axis, length) in chunk.iter().enumerate() {
+            origin[axis] = place[axis] * length;
+        }
+        let extent =
+            shape.iter().zip(chunk).zip(&origin).map(|((all, chunk), first)| (*chunk).min(all - first));
+        Self { shape, chunk, origin, extent: extent.collect() }
+    }
+
+    /// Elements in a row.
+    fn length(&self) -> usize {
+        self.extent.last().copied().unwrap_or(1)
+    }
+
+    /// Where each row begins: its position in the array and in the chunk.
+    fn starts(&self) -> impl Iterator<Item = (usize, usize)> {
+        let rows = self.extent.len().saturating_sub(1);
+        let (across, count) = (&self.extent[..rows], self.extent[..rows].iter().product());
+        (0..count).map(move |row| {
+            let inside = place(row, across);
+            let mut whole = inside;
+            whole.iter_mut().zip(&self.origin).for_each(|(at, first)| *at += first);
+            (position(&whole, self.shape), position(&inside, self.chunk))
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_chunk_at_the_edge_has_only_the_rows_within_the_array() {
+        let rows = Rows::of(&[5, 7], &[3, 4], &place(3, &[2, 2]));
+        assert_eq!(rows.length(), 3);
+        // Rows 3 and 4 from column 4.
+        assert_eq!(rows.starts().collect::<Vec<_>>(), [(25, 0), (32, 4)]);
+    }
+
+    #[test]
+    fn a_single_number_is_a_row_of_one() {
+        let rows = Rows::of(&[], &[], &place(0, &[]));
+        assert_eq!((rows.length(), rows.starts().collect::<Vec<_>>()), (1, vec![(0, 0)]));
     }
 }

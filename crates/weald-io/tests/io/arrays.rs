@@ -243,13 +243,14 @@ fn an_array_may_not_lie_outside_its_group() {
 }
 
 #[test]
-fn version_2_is_told_from_a_folder_without_a_description() {
+fn a_folder_without_a_description_or_without_arrays_is_told() {
     let of = |name: &str| {
         let files = BTreeMap::from([(Path::new("a.zarr").join(name), b"{}".to_vec())]);
         zarr::decode(&InMemory { file: "a.zarr".into(), files }, LIMITS).expect_err("unread").to_string()
     };
-    assert!(of(".zgroup").contains("zarr_format=3"));
-    assert!(of("README").contains("no zarr.json"));
+    assert!(of(".zgroup").contains("no variable has rows and columns"));
+    assert!(of(".zarray").contains("`shape` is null"));
+    assert!(of("README").contains("neither zarr.json nor .zgroup"));
 }
 
 /// A classic file with its first dimension's length changed; it stands behind the name `y`.

@@ -174,6 +174,19 @@ fn others() -> Vec<Recipe> {
         };
         recipes.push(recipe("degrees", "degrees", extension, options));
     }
+    for kind in ["Byte", "Int16", "UInt16", "Float32", "Float64"] {
+        for compression in
+            ["NONE", "ZLIB", "GZIP", "ZSTD", "LZ4", "BLOSC -co BLOSC_CNAME=lz4 -co BLOSC_SHUFFLE=BYTE"]
+        {
+            let options = format!("-of Zarr -ot {kind} -co BLOCKSIZE=10,16 -co COMPRESS={compression}");
+            recipes.push(recipe("Zarr of GDAL", "plain", "zarr", &options));
+        }
+    }
+    for (options, source) in [("-a_nodata 500", "plain"), ("", "degrees"), ("", "south")] {
+        recipes.push(recipe("Zarr of GDAL", source, "zarr", &format!("-of Zarr {options}")));
+    }
+    let draft = recipe("Zarr of GDAL", "plain", "zarr", "-of Zarr -co FORMAT=ZARR_V3");
+    recipes.push(draft.refused("zarr_format is"));
     for format in ["NC4", "NC4C"] {
         let options = format!("-of netCDF -co FORMAT={format}");
         recipes.push(recipe("NetCDF of GDAL", "land", "nc", &options).refused("nccopy -k classic"));
@@ -181,6 +194,16 @@ fn others() -> Vec<Recipe> {
     for options in ["-ot Byte", "-ot UInt16", "-ot UInt16 -a_nodata 500", "-ot Byte -co ZLEVEL=9"] {
         recipes.push(recipe("PNG", "plain", "png", &format!("-of PNG {options}")));
     }
+    for (options, extension) in
+        [("-of PNG -ot UInt16", "png"), ("-of PNG -ot Byte", "png"), ("-of AAIGrid", "asc")]
+    {
+        for meaning in ["-a_scale 0.1 -a_offset 100", "-a_scale -2", "-a_nodata 255"] {
+            let options = format!("{options} {meaning} --config GDAL_PAM_ENABLED YES");
+            recipes.push(recipe("with .aux.xml", "plain", extension, &options));
+        }
+    }
+    let feet = "-of PNG -ot UInt16 -a_srs EPSG:32616+6360 --config GDAL_PAM_ENABLED YES";
+    recipes.push(recipe("with .aux.xml", "feet", "png", feet).in_metres(0.3048));
     for bits in [1, 2, 4] {
         let options = format!("-of PNG -ot Byte -scale 200 1100 0 1 -co NBITS={bits}");
         recipes.push(recipe("PNG", "plain", "png", &options).refused("bits a channel"));
@@ -274,7 +297,9 @@ fn write_sources(folder: &Path) {
 }
 
 fn run(program: &str, arguments: &[String]) -> Result<(), String> {
-    let run = Command::new(program).args(arguments).env("GDAL_PAM_ENABLED", "NO").output();
+    // What is read may have a file beside it; what is made has one only where a recipe says so.
+    let pam = if arguments.iter().any(|word| word == "-unscale") { "YES" } else { "NO" };
+    let run = Command::new(program).args(arguments).env("GDAL_PAM_ENABLED", pam).output();
     let output = run.map_err(|cause| {
         format!("{program} does not start ({cause}); install it: apt-get install gdal-bin")
     })?;

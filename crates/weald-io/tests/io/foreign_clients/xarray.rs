@@ -95,7 +95,29 @@ for name, compressors in {'none': None, 'gzip': zarr.codecs.GzipCodec(), 'zstd':
         zarray(f'{name} {dtype}', dataset(whole.astype(dtype)), {'compressors': compressors, 'chunks': (10, 16)})
     zarray(f'{name} packed', dataset(holes / 2 + 3), dict(packed, dtype='i2', compressors=compressors))
 zarray('big-endian', dataset(holes), dict(f4, serializer=zarr.codecs.BytesCodec(endian='big')))
-zarray('blosc', dataset(holes), dict(f4, compressors=zarr.codecs.BloscCodec()), refused='codec `blosc`')
+for cname in ['lz4', 'lz4hc', 'zlib', 'zstd']:
+    for dtype in ['i2', 'f4', 'f8']:
+        for size in [None, 4096]:
+            codec = zarr.codecs.BloscCodec(cname=cname, shuffle='shuffle')
+            big = numpy.tile(whole, (1, 1)) if size is None else whole
+            zarray(f'blosc {cname} {dtype}', dataset(big.astype(dtype)), {'compressors': codec, 'chunks': (23, 37)})
+            old = numcodecs.Blosc(cname=cname, shuffle=1, blocksize=0 if size is None else 512)
+            zarray(f'blosc {cname} {dtype}', dataset(big.astype(dtype)), {'compressors': old}, 2)
+zarray('blosc without shuffle', dataset(holes), dict(f4, compressors=zarr.codecs.BloscCodec(shuffle='noshuffle')))
+bits = zarr.codecs.BloscCodec(shuffle='bitshuffle')
+zarray('blosc with bits', dataset(holes), dict(f4, compressors=bits), refused='bitshuffle')
+bare = zarr.codecs.BloscCodec(cname='blosclz', shuffle='shuffle')
+zarray('blosclz', dataset(holes), dict(f4, compressors=bare), refused='BloscLZ')
+for name, codec in {'none': None, 'zlib': numcodecs.Zlib(), 'gzip': numcodecs.GZip(), 'zstd': numcodecs.Zstd(),
+                    'lz4': numcodecs.LZ4()}.items():
+    for dtype in ['i1', 'u2', '>i2', 'f4', 'f8', '>f8']:
+        zarray(f'{name} {dtype}', dataset(whole.astype(dtype)), {'compressors': codec, 'chunks': (10, 16)}, 2)
+    zarray(f'{name} packed', dataset(holes / 2 + 3), dict(packed, dtype='i2', compressors=codec), 2)
+    zarray(f'{name} holes', dataset(holes), {'dtype': 'f4', 'compressors': codec, '_FillValue': -9.0}, 2)
+zarray('degrees', dataset(cell=.001, west=8, south=46, names=('lat', 'lon')), {}, 2)
+zarray('feet', dataset(holes, units='feet'), {}, 2, metres=.3048)
+zarray('bz2', dataset(), {'compressors': numcodecs.BZ2()}, 2, refused='codec `bz2`')
+zarray('delta', dataset(whole.astype('i4')), {'filters': [numcodecs.Delta('i4')]}, 2, refused='codec `delta`')
 zarray('shards', dataset(holes), dict(f4, shards=(20, 32)), refused='sharding_indexed')
 print(json.dumps(files))
 "#;
