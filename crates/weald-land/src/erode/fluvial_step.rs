@@ -70,7 +70,7 @@ parameters! {
         /// Creep of the ground (D), which rounds what rivers do not reach.
         creep: f64 = 0.01, range 0.0..=1000.0, unit "m²/a";
         /// Steepest slope that rests, as a tangent.
-        talus: f64 = 0.7, range 0.0..=100.0;
+        talus: f64 = 0.7, range 0.0..=10.0, unit "(a tangent: 35° is 0.7)";
         /// How fast steeper ground slides.
         slide: f64 = 1.0, range 0.0..=10_000.0, unit "m²/a";
         /// Grids that it runs on, each with cells twice as long as those of the next: seven eighths of the time pass on

@@ -28,7 +28,7 @@ parameters! {
         /// How slopes are compared with the talus.
         scheme: Scheme = Scheme::Isotropic;
         /// Steepest slope that rests, as a tangent (rise over run); 0.8 is 39°.
-        talus: f64 = 0.8, range 0.0..=100.0;
+        talus: f64 = 0.8, range 0.0..=10.0, unit "(a tangent: 35° is 0.7)";
         /// Share of the excess that slides in an iteration. Unstable above 0.25.
         strength: f64 = 0.05, range 0.0..=0.25;
         /// Iterations to run.
@@ -44,7 +44,7 @@ parameters! {
         /// How slopes are compared with the talus.
         scheme: Scheme = Scheme::Isotropic;
         /// Steepest slope that rests, as a tangent (rise over run); 0.8 is 39°.
-        talus: f64 = 0.8, range 0.0..=100.0;
+        talus: f64 = 0.8, range 0.0..=10.0, unit "(a tangent: 35° is 0.7)";
         /// Share of the excess that slides in an iteration. Unstable above 0.25.
         strength: f64 = 0.05, range 0.0..=0.25;
     }
@@ -92,4 +92,24 @@ pub(super) fn variants() -> Vec<Box<dyn Step>> {
     let sliding =
         |scheme| Thermal { scheme, talus: 0.3, strength: 0.2, iterations: 21, ..Thermal::default() };
     schemes.map(|scheme| -> Box<dyn Step> { Box::new(sliding(scheme)) }).into()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_talus_in_degrees_is_refused_and_told_that_it_is_a_tangent() {
+        use weald_core::parameter::{Diagnostics, Parameters};
+        use weald_core::source::{Node, Table, Value};
+
+        let talus = Node { line: 1, value: Value::Integer(35) };
+        let table = Table { line: 1, entries: vec![("talus".to_owned(), talus)] };
+        let (mut alone, mut within) = (Diagnostics::default(), Diagnostics::default());
+        let _ = (Thermal::read(&table, &mut alone), ThermalWithin::read(&table, &mut within));
+        for diagnostics in [alone, within] {
+            let message = format!("{:?}", diagnostics.found);
+            assert!(message.contains("35, outside its range: 0 to 10 (a tangent: 35° is 0.7)"), "{message}");
+        }
+    }
 }
