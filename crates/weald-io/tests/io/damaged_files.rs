@@ -3,7 +3,9 @@
 use crate::rasters::{exr_file, fixture};
 use weald_core::grid::{Field, Mask, Size};
 use weald_core::random::hash2;
-use weald_io::{DecodeFile, Fault, InMemory, Limits, Part, Raster, asc, exr, geotiff, npy, png16, raw};
+use weald_io::{
+    DecodeFile, Fault, InMemory, Limits, Part, PartName, Raster, asc, exr, geotiff, npy, png16, raw, zarr,
+};
 
 const LIMITS: Limits = Limits { cells: 1 << 16 };
 
@@ -20,6 +22,41 @@ fn decode_raw(bytes: &[u8], limits: Limits) -> Result<Raster, Fault> {
     let nul = bytes.iter().position(|&byte| byte == 0).ok_or_else(|| Fault::damaged("no NUL"))?;
     let parts = vec![Part::beside(".json", bytes[..nul].to_vec()), Part::own(bytes[nul + 1..].to_vec())];
     raw::decode_16(&InMemory::of("land.raw", parts), limits)
+}
+
+/// A CRS beside a grid of one cell.
+fn decode_prj(bytes: &[u8], limits: Limits) -> Result<Raster, Fault> {
+    let grid = b"ncols 1\nnrows 1\nxllcorner 5\nyllcorner 6\ncellsize 7\n8\n".to_vec();
+    let parts =
+        vec![Part::own(grid), Part { name: PartName::Sibling(".prj".to_owned()), bytes: bytes.to_vec() }];
+    asc::decode(&InMemory::of("land.asc", parts), limits)
+}
+
+const WKT: &str = "COMPD_CS[\"c\",PROJCS[\"p\",GEOGCS[\"g\",DATUM[\"d\",SPHEROID[\"s\",6378137,298.25]],UNIT[\"degree\",\
+                   0.0174532925199433]],UNIT[\"foot\",0.3048]],VERT_CS[\"v\",UNIT[\"foot\",0.3048]]]";
+
+/// A description of version 2, a NUL, and the only chunk that it describes.
+fn decode_zarr(bytes: &[u8], limits: Limits) -> Result<Raster, Fault> {
+    let nul = bytes.iter().position(|&byte| byte == 0).ok_or_else(|| Fault::damaged("no NUL"))?;
+    let inside =
+        |name: &str, bytes: &[u8]| Part { name: PartName::Inside(name.to_owned()), bytes: bytes.to_vec() };
+    let parts = vec![inside(".zarray", &bytes[..nul]), inside("0.0", &bytes[nul + 1..])];
+    zarr::decode(&InMemory::of("land.zarr", parts), limits)
+}
+
+/// Numbers that Blosc stores as they are, and those that LZ4 packs into a stream, all of the same byte.
+fn blosc_chunks() -> [Vec<u8>; 2] {
+    let description = r#"{"zarr_format":2,"shape":[8,8],"chunks":[8,8],"dtype":"<i2","order":"C","fill_value":0,
+        "filters":null,"compressor":{"id":"blosc"}}"#;
+    let header = |flags: u8, sizes: [u32; 3]| {
+        [vec![2, 1, flags, 2], sizes.iter().flat_map(|size| size.to_le_bytes()).collect()].concat()
+    };
+    let stored = [header(2, [128, 128, 144]), (0..128).collect()].concat();
+    // A literal, a match of 122 bytes one back, and the five literals that end a block.
+    let stream = [0x1f, 7, 1, 0, 103, 0x50, 7, 7, 7, 7, 7];
+    let starts = [20_u32, stream.len() as u32].map(u32::to_le_bytes).concat();
+    let packed = [header(0x10 | 1 << 5 | 1, [128, 128, 35]), starts, stream.to_vec()].concat();
+    [stored, packed].map(|chunk| [description.as_bytes(), &[0], &chunk].concat())
 }
 
 fn described_numbers(parts: &[Part]) -> Vec<u8> {
@@ -46,15 +83,19 @@ fn files() -> Vec<(DecodeFile, Vec<u8>)> {
     {
         files.push((exr::decode, exr_file(&format!("{name}.exr"))));
     }
-    let tiffs = [
+    let tiffs = vec![
         "bigtiff_big_endian_tiles.tif",
         "float32_strips_lzw_predictor2.tif",
         "float64_tiles_predictor3.tif",
         "int16_strips_deflate_predictor2.tif",
         "int32_big_endian_lzw_predictor2.tif",
         "sparse.tif",
+        #[cfg(feature = "zstd")]
+        "zstd.tif",
     ];
-    files.extend(tiffs.map(|name| (geotiff::decode as DecodeFile, fixture(name))));
+    files.push((decode_prj, WKT.as_bytes().to_vec()));
+    files.extend(blosc_chunks().map(|chunk| (decode_zarr as DecodeFile, chunk)));
+    files.extend(tiffs.into_iter().map(|name| (geotiff::decode as DecodeFile, fixture(name))));
     files
 }
 
