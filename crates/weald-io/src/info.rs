@@ -43,7 +43,10 @@ pub fn describe(path: &Path) -> Result<Info, Error> {
 }
 
 impl Info {
-    fn of(format: &'static str, raster: Raster) -> Self {
+    fn of(format: &'static str, mut raster: Raster) -> Self {
+        let question =
+            raster.likely_degrees().map(|question| format!("{question}, in [landscape] or `load`"));
+        raster.notes.extend(question);
         let size = raster.field.size();
         let valid_cells = raster.valid.as_ref().map_or(size.cells(), Mask::valid_cells);
         Self {

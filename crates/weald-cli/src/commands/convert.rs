@@ -10,7 +10,11 @@ pub(crate) fn convert(input: &Path, output: &Path, preset: Option<&str>) -> Resu
     let format = io::format_of(output).map_err(Failure::usage)?;
     let (encode, holds) = format.writing(preset).map_err(Failure::usage)?;
     let raster = io::read(input)?;
-    for note in &raster.notes {
+    let degrees = raster.likely_degrees().map(|_| {
+        "its cells look like degrees, but it names no CRS: gdal_edit.py -a_srs EPSG:4326 gives it one"
+            .to_owned()
+    });
+    for note in raster.notes.iter().chain(&degrees) {
         eprintln!("note: {note}");
     }
     io::write_parts(output, &encode.parts(&raster)?)?;

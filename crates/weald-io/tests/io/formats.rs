@@ -373,6 +373,21 @@ fn a_no_data_number_is_never_a_value_of_the_data() {
 }
 
 #[test]
+fn a_description_asks_where_cells_without_a_crs_look_like_degrees() {
+    let folder = tempdir().expect("a folder");
+    let path = folder.path().join("land.tif");
+    let place = |epsg| Georeference { epsg, origin: [8.0, 47.0], pixel: [0.001; 2], keys: None };
+    let asks = |epsg| {
+        let field = Field::filled(Size { columns: 2, rows: 2 }, 5.0);
+        let raster = Raster { georeference: Some(place(epsg)), ..Raster::from(field) };
+        weald_io::write(&path, &raster).expect("written");
+        let notes = weald_io::describe(&path).expect("reads").notes;
+        notes.iter().any(|note| note.contains("look like degrees; say `crs = \"EPSG:4326\"`"))
+    };
+    assert!(asks(None) && !asks(Some(4326)));
+}
+
+#[test]
 fn a_description_holds_what_the_file_says() {
     let info = weald_io::describe(&data("jacksboro_fault_utm16_80m.tif")).expect("reads");
     let json = info.to_json();

@@ -67,12 +67,14 @@ impl Foreign {
         if ours.len() != theirs.len() {
             return Some(format!("{} cells for {}", ours.len(), theirs.len()));
         }
-        let at = ours.iter().zip(theirs).enumerate().position(|(cell, (ours, theirs))| {
-            let expected = if none.contains(&cell) { f32::NAN } else { (theirs * self.metres) as f32 };
+        let expected =
+            |cell: usize| if none.contains(&cell) { f32::NAN } else { (theirs[cell] * self.metres) as f32 };
+        let at = ours.iter().enumerate().position(|(cell, ours)| {
+            let expected = expected(cell);
             let is_near = (ours - expected).abs() <= expected.abs() * 2e-7;
             !(is_near || ours.is_nan() && expected.is_nan())
         })?;
-        Some(format!("cell {at} holds {}, but {} for them", ours[at], theirs[at]))
+        Some(format!("cell {at} holds {}, not {}, by their {}", ours[at], expected(at), theirs[at]))
     }
 }
 
