@@ -137,7 +137,7 @@ impl Numbers {
 
     /// Names of the planes that stay: the ground at the start, what rains, and the bottoms of strata.
     fn constant_planes(&self) -> Vec<&'static str> {
-        let strata = self.strata.as_ref().map_or(0, |strata| strata.strata.len());
+        let strata = self.strata.as_ref().map_or(0, |strata| strata.beds.len());
         let rain = self.rain_map.then_some("inflow");
         let map = self.erodibility_map.then_some("erodibility_map");
         std::iter::once("base").chain(rain).chain(map).chain(BOTTOMS.into_iter().take(strata)).collect()

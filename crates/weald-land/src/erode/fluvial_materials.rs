@@ -46,7 +46,7 @@ impl StartColumn {
     /// Writes what each material has become, where the ground of the start has changed by `change` and the top of the
     /// rock by `rock`, in metres.
     pub(super) fn store(&self, landscape: &mut Landscape, start: &Field, [change, rock]: [&Field; 2]) {
-        let rock = both(rock, change, |rock, change| rock.min(change));
+        let rock = both(rock, change, f32::min);
         let names: Vec<_> =
             landscape.materials.iter().skip(1).map(|material| material.name.clone()).collect();
         let strata = self.thicknesses.iter().zip(self.bottoms());
@@ -81,6 +81,6 @@ pub(super) fn strata_of(materials: &[Material], half: f32) -> Option<Strata> {
         repose: libm::tan(material.talus_deg.clamp(0.0, 90.0).to_radians()).max(0.0) as f32,
     };
     let (cover, strata) = above.split_last().map_or((bedrock, above), |(cover, strata)| (cover, strata));
-    let strata = strata.iter().map(strength).collect();
-    Some(Strata { bedrock: strength(bedrock), strata, cover: strength(cover), half })
+    let beds = strata.iter().map(strength).collect();
+    Some(Strata { bedrock: strength(bedrock), beds, cover: strength(cover), half })
 }

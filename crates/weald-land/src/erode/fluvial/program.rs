@@ -83,7 +83,7 @@ pub(crate) fn program(numbers: &Numbers, masked: bool, reach: usize) -> Program 
     map("inflow", numbers.rain_map);
     map("erodibility_map", numbers.erodibility_map);
     if let Some(strata) = &numbers.strata {
-        expose(&mut draft, (planes - 1, constants.take(strata.strata.len()).collect()));
+        expose(&mut draft, (planes - 1, constants.take(strata.beds.len()).collect()));
     }
     let ground = if numbers.strata.is_some() { MATERIALS } else { ONE_MATERIAL };
     let softness = if numbers.erodibility_map { MAPPED } else { UNMAPPED };

@@ -30,7 +30,7 @@ pub(crate) struct Strength {
 pub(crate) struct Strata {
     pub(crate) bedrock: Strength,
     /// What lies on it, lowest first.
-    pub(crate) strata: Vec<Strength>,
+    pub(crate) beds: Vec<Strength>,
     /// What settles.
     pub(crate) cover: Strength,
     /// Thickness of the cover that protects by half, in cells.
@@ -94,7 +94,7 @@ kernel! {
 impl Strata {
     /// All materials, from the bedrock up.
     pub(crate) fn all(&self) -> impl Iterator<Item = Strength> + '_ {
-        std::iter::once(self.bedrock).chain(self.strata.iter().copied()).chain([self.cover])
+        std::iter::once(self.bedrock).chain(self.beds.iter().copied()).chain([self.cover])
     }
 
     /// Adds what finds `softness`, `repose` and `loose`.
@@ -104,7 +104,7 @@ impl Strata {
         };
         strength(equations, self.bedrock);
         equations.kernel::<Bedrock>();
-        for (&stratum, bottom) in self.strata.iter().zip(BOTTOMS) {
+        for (&stratum, bottom) in self.beds.iter().zip(BOTTOMS) {
             strength(equations, stratum);
             equations.kernel_on::<Stratum>(&[("bottom", bottom)]);
         }
