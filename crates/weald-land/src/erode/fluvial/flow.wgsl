@@ -2,10 +2,6 @@
 // Scales the fluxes to the water that cells have, moves water and sediment by them, says what they take up, and how much
 // the bed will hold them back in the next step.
 
-fn wanted_at(cell: vec2<i32>) -> vec4<f32> {
-    return select(vec4<f32>(0.0), wanted[index(cell)], inside(cell));
-}
-
 /// The flux through an edge, scaled to what its giving cell can give.
 fn through(wanted: f32, here: vec4<f32>, next: vec4<f32>) -> f32 {
     return exact(wanted * select(next.x, here.x, wanted > 0.0));

@@ -21,6 +21,20 @@ const SLID: &str = include_str!("slid.wgsl");
 const EXPOSE: &str = include_str!("expose.wgsl");
 const RECORD: &str = include_str!("record.wgsl");
 
+/// The ground before it creeps and slides.
+const SETTLED_GROUND: &str = "
+fn ground(cell: vec2<i32>) -> f32 {
+    let at = index(cell);
+    return base[at] + settled[at];
+}
+";
+/// What would flow if every cell had water enough.
+const WANTED: &str = "
+fn wanted_at(cell: vec2<i32>) -> vec4<f32> {
+    return select(vec4<f32>(0.0), wanted[index(cell)], inside(cell));
+}
+";
+
 /// What the ground is where it is the same everywhere, of one material or of several, and softer by a map or not.
 const ONE_MATERIAL: &str = "
 fn stratum_of(cell: vec2<i32>) -> vec4<f32> {
@@ -89,11 +103,11 @@ pub(crate) fn program(numbers: &Numbers, masked: bool, reach: usize) -> Program 
     let softness = if numbers.erodibility_map { MAPPED } else { UNMAPPED };
     draft.pass_of("level_of_water", &[LEVEL, if numbers.rain_map { MAPPED_RAIN } else { EVEN_RAIN }]);
     draft.pass_of("accelerate", &[ACCELERATE]);
-    draft.pass_of("share_out", &[SHARES, ground, softness]);
-    draft.pass_of("flow", &[FLOW]);
+    draft.pass_of("share_out", &[WANTED, SHARES, ground, softness]);
+    draft.pass_of("flow", &[WANTED, FLOW]);
     draft.pass_of("wear", &[WEAR]);
-    draft.pass_of("find_unrest", &[UNREST, ground]);
-    draft.pass_of("slide", &[SLID]);
+    draft.pass_of("find_unrest", &[SETTLED_GROUND, UNREST, ground]);
+    draft.pass_of("slide", &[SETTLED_GROUND, SLID]);
     draft.pass("record", &[RECORD], &["fluxes"], &["means"]).recorded = true;
     draft.shows("change", Some("depth"));
     draft.finish(reach)

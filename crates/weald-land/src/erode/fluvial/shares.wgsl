@@ -2,10 +2,6 @@
 // What share of its outflow a cell can give, how much sediment a unit of it carries, the sediment itself, and how soft
 // the ground is.
 
-fn wanted_at(cell: vec2<i32>) -> vec4<f32> {
-    return select(vec4<f32>(0.0), wanted[index(cell)], inside(cell));
-}
-
 @compute @workgroup_size(16, 16)
 fn share_out(@builtin(global_invocation_id) invocation: vec3<u32>) {
     let cell = cell_of(invocation);

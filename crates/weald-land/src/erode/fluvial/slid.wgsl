@@ -1,11 +1,6 @@
 
 // Ground after creep and slides: along each edge by the mean unrest of its two cells.
 
-fn ground(cell: vec2<i32>) -> f32 {
-    let at = index(cell);
-    return base[at] + settled[at];
-}
-
 /// What comes over an edge from another cell.
 fn from_cell(cell: vec2<i32>, next: vec2<i32>) -> f32 {
     let share = 0.5 * (unrest[index(cell)] + unrest[index(next)]) * valid(next);

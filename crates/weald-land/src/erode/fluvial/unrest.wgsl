@@ -1,11 +1,6 @@
 
 // Share of each step of the ground that creeps, and slides where the slope exceeds the talus.
 
-fn ground(cell: vec2<i32>) -> f32 {
-    let at = index(cell);
-    return base[at] + settled[at];
-}
-
 fn square(here: f32, next: vec2<i32>) -> f32 {
     let step = ground(next) - here;
     return step * step * valid(next);
