@@ -15,12 +15,15 @@ pub struct Domain {
     pub georeference: Option<Georeference>,
     /// Cells with data; `None` where all have.
     pub valid: Option<Mask>,
+    /// The finest grid over the same ground on which this landscape is meant to be made. Where it is finer than `size`,
+    /// ground is generated on it and a cell has the mean.
+    pub finest: Option<Size>,
 }
 
 impl Domain {
     /// A domain without a georeference and without no-data cells.
     pub fn new(size: Size, cell: f64) -> Self {
-        Self { size, cell, georeference: None, valid: None }
+        Self { size, cell, georeference: None, valid: None, finest: None }
     }
 
     /// Number of cells with data.

@@ -9,6 +9,7 @@ use weald_core::landscape::Landscape;
 use weald_core::parameter::{Fault, LayerName};
 
 use crate::engine::Engine;
+use crate::finest;
 use crate::job::Job;
 use crate::on_device::OnDevice;
 use crate::step::{Outcome, Step};
@@ -66,7 +67,9 @@ impl<T: Generator> Step for T {
 
     fn run(&self, landscape: &mut Landscape, job: &Job<'_>) -> Result<Outcome, Error> {
         let seed = self.own_seed().unwrap_or(job.seed);
-        let (field, notes) = heights(self, &landscape.domain, seed, &job.engine)?;
+        let finest = finest::domain(&landscape.domain);
+        let (field, notes) = heights(self, finest.as_ref().unwrap_or(&landscape.domain), seed, &job.engine)?;
+        let field = if finest.is_some() { finest::means(&field, landscape.domain.size) } else { field };
         landscape.insert(&self.target().0, "m", field);
         Ok(Outcome { iterations: self.iterations(), notes, ..Outcome::default() })
     }

@@ -9,6 +9,7 @@ pub mod device;
 pub mod device_machine;
 mod device_tiles;
 mod engine;
+mod finest;
 pub mod generator;
 mod job;
 pub mod machine;

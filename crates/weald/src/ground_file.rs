@@ -33,7 +33,8 @@ pub(crate) fn read(path: &Path, cell: Option<f64>, said: &Said) -> Result<(Lands
         return Err(Error::input(path, "has no cell with data, so there is no ground to work on"));
     }
     let size = raster.field.size();
-    let domain = Domain { size, cell: side, georeference: raster.georeference, valid: raster.valid };
+    let (georeference, valid) = (raster.georeference, raster.valid);
+    let domain = Domain { georeference, valid, ..Domain::new(size, side) };
     let mut landscape = Landscape::new(domain);
     landscape.insert("height", "m", raster.field);
     Ok((landscape, notes))

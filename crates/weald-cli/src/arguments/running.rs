@@ -41,6 +41,9 @@ pub(crate) struct Changes {
     /// Cells along the longer side; shape and extent stay
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = value_parser!(u64).range(1..))]
     size: Option<u64>,
+    /// Make the same landscape in seconds, on a quarter of the cells a side, at least 128
+    #[arg(long, conflicts_with = "size")]
+    preview: bool,
     #[command(flatten)]
     values: Values,
 }
@@ -57,15 +60,20 @@ pub(crate) struct Values {
 }
 
 impl Changes {
+    /// Whether the landscape is made coarser to be looked at.
+    pub(crate) fn is_preview(&self) -> bool {
+        self.preview
+    }
+
     pub(crate) fn overrides(&self) -> Overrides {
-        self.values.overrides(self.size)
+        Overrides { preview: self.preview, ..self.values.overrides(self.size) }
     }
 }
 
 impl Values {
     /// With so many cells along the longer side.
     pub(crate) fn overrides(&self, size: Option<u64>) -> Overrides {
-        Overrides { size, seed: self.seed, set: self.set.clone() }
+        Overrides { size, seed: self.seed, set: self.set.clone(), ..Overrides::default() }
     }
 }
 

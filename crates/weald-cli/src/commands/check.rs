@@ -9,7 +9,7 @@ use crate::stdout;
 pub(crate) fn check(arguments: &CheckArguments) -> Result<(), Failure> {
     let recipe = Recipe::load(&arguments.recipe, &arguments.changes.overrides())?;
     let ground = match &recipe.ground {
-        Ground::Empty { size, cell } => format!("{size} cells of {cell} m"),
+        Ground::Empty { size, cell, .. } => format!("{size} cells of {cell} m"),
         Ground::File { path, .. } => format!("the ground of {}", path.display()),
     };
     let (steps, outputs) = (recipe.steps.len(), recipe.outputs.len());

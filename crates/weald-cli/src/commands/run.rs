@@ -16,7 +16,11 @@ use crate::{interrupt, stdout};
 
 pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     let recipe = Recipe::load(&arguments.recipe, &arguments.changes.overrides())?;
-    let out = arguments.out.clone().unwrap_or_else(|| default_folder(&arguments.recipe));
+    let out = arguments.out.clone().unwrap_or_else(|| {
+        let folder = default_folder(&arguments.recipe);
+        // What was made at full size is not lost by a look at a change.
+        if arguments.changes.is_preview() { folder.with_added_extension("preview") } else { folder }
+    });
     let report = execute(&recipe, Options::into_folder(&out), &arguments.running)?;
     if arguments.running.quiet { Ok(()) } else { stdout::print(&summary(&report, &out)) }
 }

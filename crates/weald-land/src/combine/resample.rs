@@ -119,7 +119,8 @@ impl<'a> Change<'a> {
             .georeference
             .clone()
             .map(|old| Georeference { pixel: old.pixel.map(|side| side * self.factor), ..old });
-        Domain { size: self.size, cell: self.old.cell * self.factor, georeference, valid }
+        let cell = self.old.cell * self.factor;
+        Domain { size: self.size, cell, georeference, valid, finest: self.old.finest }
     }
 
     fn valid(&self) -> Option<Mask> {

@@ -57,6 +57,7 @@ struct Header {
     cell: f64,
     georeference: Option<Georeference>,
     masked: bool,
+    finest: Option<[usize; 2]>,
     /// Names and units.
     layers: Vec<(String, String)>,
     plants: Vec<PlantsHeader>,
@@ -146,7 +147,7 @@ fn read_header(file: &mut HashedReader) -> Result<Header, String> {
 
 impl Header {
     fn of(recipe: &str, state: &State, simulation: Option<&SavedSimulation>) -> Self {
-        let Domain { size, cell, georeference, valid } = &state.landscape.domain;
+        let Domain { size, cell, georeference, valid, finest } = &state.landscape.domain;
         Self {
             version: env!("CARGO_PKG_VERSION").to_owned(),
             recipe: recipe.to_owned(),
@@ -156,6 +157,7 @@ impl Header {
             cell: *cell,
             georeference: georeference.clone(),
             masked: valid.is_some(),
+            finest: finest.map(|finest| [finest.columns, finest.rows]),
             layers: state
                 .landscape
                 .layers()
@@ -220,7 +222,9 @@ impl Header {
     fn read_state(self, file: &mut HashedReader) -> Result<State, String> {
         let size = self.size()?;
         let valid = if self.masked { Mask::new(size, file.flags(size.cells())?) } else { None };
-        let domain = Domain { size, cell: self.cell, georeference: self.georeference, valid };
+        let finest = self.finest.map(|[columns, rows]| Size::new(columns, rows).map_err(|e| e.to_string()));
+        let finest = finest.transpose()?;
+        let domain = Domain { size, cell: self.cell, georeference: self.georeference, valid, finest };
         let mut landscape = Landscape::new(domain);
         for (name, unit) in &self.layers {
             landscape.insert(name, unit, Field::from_values(size, file.singles(size.cells())?));

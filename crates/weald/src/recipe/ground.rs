@@ -16,7 +16,9 @@ use weald_plants::ifs::{Ifs, flame};
 /// Makes or reads the ground and its materials; the texts tell the user what had to be done to it.
 pub(super) fn load(recipe: &Recipe) -> Result<(Landscape, Vec<String>), Error> {
     let (mut landscape, mut notes) = match &recipe.ground {
-        Ground::Empty { size, cell } => (Landscape::new(Domain::new(*size, *cell)), Vec::new()),
+        Ground::Empty { size, cell, finest } => {
+            (Landscape::new(Domain { finest: *finest, ..Domain::new(*size, *cell) }), Vec::new())
+        }
         Ground::File { path, cell, said } => ground_file::read(path, *cell, said)?,
     };
     landscape.materials = materials(recipe);

@@ -7,12 +7,21 @@ use weald_core::grid::Size;
 /// Line of a value that stands in no file.
 const COMMAND_LINE: usize = 0;
 
+/// Fewest cells along the longer side that a preview is made coarser to.
+pub(super) const LEAST_PREVIEW: u64 = 128;
+
+/// How many times coarser a preview is.
+const PREVIEW_FACTOR: u64 = 4;
+
 /// What a user changes in a recipe without editing it.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Overrides {
     /// Cells along the longer side. The other side and the cell follow, so that the landscape keeps its shape
     /// and its extent in metres.
     pub size: Option<u64>,
+    /// Whether the landscape is made on a quarter of the cells a side, at least 128 of them: the same
+    /// landscape in a fraction of the time.
+    pub preview: bool,
     /// Seed of the landscape.
     pub seed: Option<u64>,
     /// Paths and values: `landscape.cell`, `material.2.thickness`, `step.2.iterations`, `output.1.file`, or
@@ -36,6 +45,12 @@ impl Overrides {
             && let Err(problem) = resize(landscape_of(recipe), side)
         {
             diagnostics.add(COMMAND_LINE, format!("--size {side}: {problem}"));
+        }
+        if self.preview
+            && let Some(side) = preview_side(landscape_of(recipe))
+            && let Err(problem) = resize(landscape_of(recipe), side)
+        {
+            diagnostics.add(COMMAND_LINE, format!("--preview: {problem}"));
         }
     }
 }
@@ -170,6 +185,10 @@ fn resize(landscape: &mut Table, side: u64) -> Result<(), String> {
     let longer = old.columns.max(old.rows);
     let scaled = |old: u64| (i128::from(old) * i128::from(side) / i128::from(longer)).max(1) as i64;
     let sides = [scaled(old.columns), scaled(old.rows)];
+    if side < longer as i64 && landscape.get("finest").is_none() {
+        let finest = [old.columns, old.rows].map(|side| given(Value::Integer(side as i64)));
+        landscape.set("finest", given(Value::List(finest.to_vec())));
+    }
     // Of a size over the limit the user should read, not of the tiny cell that would follow from it.
     let fits = Size::new(sides[0] as usize, sides[1] as usize).is_ok();
     if fits
@@ -182,6 +201,17 @@ fn resize(landscape: &mut Table, side: u64) -> Result<(), String> {
     let sides = sides.map(|side| given(Value::Integer(side)));
     landscape.set("size", given(Value::List(sides.to_vec())));
     Ok(())
+}
+
+/// Cells along the longer side of a preview; none where the landscape is small enough as it is.
+fn preview_side(landscape: &Table) -> Option<u64> {
+    let mut ignored = Diagnostics::default();
+    let range = (f64::NEG_INFINITY, f64::INFINITY);
+    let size = landscape.get("size").and_then(|node| Sides::read(node, range, &mut ignored).ok());
+    let Some(size) = size else { return landscape.get("from").map(|_| LEAST_PREVIEW) };
+    let longer = size.columns.max(size.rows);
+    let side = (longer / PREVIEW_FACTOR).max(LEAST_PREVIEW);
+    (side < longer).then_some(side)
 }
 
 #[cfg(test)]
@@ -235,8 +265,21 @@ mod tests {
     fn a_new_size_keeps_shape_and_extent() {
         let size = Overrides { size: Some(64), ..Overrides::default() };
         let (text, _) = changed("[landscape]\nsize = [512, 256]\ncell = 10\n", &size);
-        assert_eq!(text, "[landscape]\ncell = 80.0\nsize = [64, 32]\n");
+        assert_eq!(text, "[landscape]\ncell = 80.0\nfinest = [512, 256]\nsize = [64, 32]\n");
+        let (text, _) = changed("[landscape]\nsize = [32, 16]\n", &size);
+        assert_eq!(text, "[landscape]\ncell = 0.5\nsize = [64, 32]\n", "nothing is finer than it will be");
         let (_, diagnostics) = changed("[landscape]\nfrom = \"a.tif\"\n", &size);
+        assert!(diagnostics[0].contains("resample"), "{diagnostics:?}");
+    }
+
+    #[test]
+    fn a_preview_is_the_landscape_on_fewer_cells() {
+        let preview = Overrides { preview: true, ..Overrides::default() };
+        let (text, _) = changed("[landscape]\nsize = [1024, 512]\ncell = 10\n", &preview);
+        assert_eq!(text, "[landscape]\ncell = 40.0\nfinest = [1024, 512]\nsize = [256, 128]\n");
+        let (text, _) = changed("[landscape]\nsize = 100\ncell = 10\n", &preview);
+        assert_eq!(text, "[landscape]\ncell = 10\nsize = 100\n", "small as it is");
+        let (_, diagnostics) = changed("[landscape]\nfrom = \"a.tif\"\n", &preview);
         assert!(diagnostics[0].contains("resample"), "{diagnostics:?}");
     }
 }

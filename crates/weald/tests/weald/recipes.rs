@@ -30,7 +30,7 @@ fn small(recipe: &Recipe, mut set: Vec<(String, String)>) -> Overrides {
         }
     }
     let size = matches!(recipe.ground, Ground::Empty { .. }).then_some(32);
-    Overrides { size, seed: None, set }
+    Overrides { size, set, ..Overrides::default() }
 }
 
 /// The recipe with views of a hundredth of the pixels: rays are most of the time that a small landscape takes.

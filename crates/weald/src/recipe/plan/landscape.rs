@@ -17,6 +17,10 @@ weald_core::parameters! {
         size: Option<Sides> = None;
         /// Side of a cell; 1 m where none is given. With `from`, only for a file that does not say it.
         cell: Option<f64> = None, range 0.001..=100_000.0, unit "m";
+        /// Cells a side, or [columns, rows], of the finest grid on which this landscape will be made. Ground is generated
+        /// on it and a cell has the mean, so that a coarse landscape is the mean of a fine one. `--size` and `--preview`
+        /// set it to the recipe's own size where they make that coarser.
+        finest: Option<Sides> = None, with size;
         /// Seed of all random numbers. Steps of the same kind draw from different numbers.
         seed: u64 = 0, range 0..=9_007_199_254_740_991_u64;
         /// An elevation model to start from instead of a size, relative to the recipe's folder. It becomes the
@@ -40,6 +44,8 @@ pub enum Ground {
         size: Size,
         /// Side of a cell in metres.
         cell: f64,
+        /// The grid on which ground is generated, where that is a finer one.
+        finest: Option<Size>,
     },
     /// An elevation model, which becomes the layer `height`.
     File {
@@ -66,11 +72,11 @@ pub(super) fn read(files: Files<'_>, recipe: &Table, diagnostics: &mut Diagnosti
         Some((other, line)) => {
             diagnostics.add(line, format!("is {}, but must be a table: [landscape]", other.shown()));
             let size = Size { columns: 1, rows: 1 };
-            return Start { ground: Ok(Ground::Empty { size, cell: 1.0 }), seed: 0 };
+            return Start { ground: Ok(Ground::Empty { size, cell: 1.0, finest: None }), seed: 0 };
         }
         None if is_needless(recipe) => {
             let size = Size { columns: 1, rows: 1 };
-            return Start { ground: Ok(Ground::Empty { size, cell: 1.0 }), seed: 0 };
+            return Start { ground: Ok(Ground::Empty { size, cell: 1.0, finest: None }), seed: 0 };
         }
         None => &absent,
     };
@@ -96,13 +102,46 @@ fn ground(table: &Table, keys: &LandscapeKeys, diagnostics: &mut Diagnostics) ->
             diagnostics.add(table.line, "`size` is needed (cells a side, or [columns, rows]), or `from`");
         }
         let sides = keys.size.unwrap_or(Sides { columns: 1, rows: 1 });
-        let side = |side: u64| usize::try_from(side).unwrap_or(usize::MAX);
-        let size = Size::new(side(sides.columns), side(sides.rows))?;
-        return Ok(Ground::Empty { size, cell: keys.cell.unwrap_or(1.0) });
+        let size = size_of(sides)?;
+        let finest = keys.finest.map(|finest| finest_of(size, finest)).transpose()?;
+        if let Some(problem) = finest.and_then(|finest| unfit(size, finest)) {
+            diagnostics.add(table.get("finest").map_or(table.line, |node| node.line), problem);
+        }
+        return Ok(Ground::Empty { size, cell: keys.cell.unwrap_or(1.0), finest });
     };
     if keys.size.is_some() {
         let message = "`size` does not go with `from`: it comes from the file; a `resample` step changes it";
         diagnostics.add(table.get("size").map_or(table.line, |node| node.line), message);
     }
     Ok(Ground::File { path: from.path(), cell: keys.cell, said: said(keys.crs, keys.unit, keys.nodata) })
+}
+
+fn size_of(sides: Sides) -> Result<Size, Error> {
+    let side = |side: u64| usize::try_from(side).unwrap_or(usize::MAX);
+    Size::new(side(sides.columns), side(sides.rows))
+}
+
+/// The finest grid; one number is its longer side.
+fn finest_of(size: Size, finest: Sides) -> Result<Size, Error> {
+    let longer = size.columns.max(size.rows) as f64;
+    let finest = if finest.columns == finest.rows {
+        let scaled = |side: usize| (side as f64 * finest.columns as f64 / longer).round().max(1.0) as u64;
+        Sides { columns: scaled(size.columns), rows: scaled(size.rows) }
+    } else {
+        finest
+    };
+    size_of(finest)
+}
+
+/// What is wrong with a finest grid.
+fn unfit(size: Size, finest: Size) -> Option<String> {
+    let factor = finest.columns as f64 / size.columns as f64;
+    if factor < 1.0 {
+        return Some(format!("`finest` is {finest} cells, but must be at least `size`, {size}"));
+    }
+    let rows = size.rows as f64 * factor;
+    let oblong = (rows - finest.rows as f64).abs() >= factor.max(1.0);
+    oblong.then(|| {
+        format!("`finest` is {finest} cells, but must have the proportion of `size`, {size}: {rows:.0} rows")
+    })
 }
