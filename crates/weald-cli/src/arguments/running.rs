@@ -41,7 +41,7 @@ pub(crate) struct Changes {
     /// Cells along the longer side; shape and extent stay
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = value_parser!(u64).range(1..))]
     size: Option<u64>,
-    /// Make the same landscape in seconds, on a quarter of the cells a side, at least 128
+    /// Make the same landscape in seconds, on a quarter of the cells a side, at least 256
     #[arg(long, conflicts_with = "size")]
     preview: bool,
     #[command(flatten)]

@@ -25,6 +25,7 @@ mod page;
 mod parameters;
 mod printed;
 mod registry;
+mod sizes;
 mod spacing;
 mod stability;
 mod start;

@@ -2,7 +2,7 @@
 
 use super::{
     Figure, ages, banks, canyon, cases, cone, deposits, dissolution, drift, fault, flow_rate, force, forms,
-    grass, ifs, lake, levee, parameters, printed, spacing, stability, start, weathering,
+    grass, ifs, lake, levee, parameters, printed, sizes, spacing, stability, start, weathering,
 };
 
 /// All figures in the order of the page. Adding one is one file and one line here.
@@ -22,6 +22,7 @@ pub const FIGURES: &[Figure] = &[
     dissolution::FIGURE,
     printed::FIGURE,
     drift::FIGURE,
+    sizes::FIGURE,
     canyon::FIGURE,
     force::FIGURE,
     banks::FIGURE,

@@ -9,15 +9,15 @@
 //! f' = (f + g dt w h (H_i - H_j) / l) / (1 + dt c_f r / h²),   h = min(max H - max z, deepest)
 //! ```
 //!
-//! with `w` = 2/3 along the axes and 1/6 along the diagonals, so that `Σ w e eᵀ = 2 I`: what is driven by a slope
-//! flows down it in every direction alike. The friction is Darcy's and Weisbach's (`c_f` = their factor over 8), which
+//! with weights such that `Σ w e eᵀ = 2 I`: what is driven by a slope flows down it in every direction alike, and
+//! spreads to the sides alike (see [`edges`]). The friction is Darcy's and Weisbach's (`c_f` = their factor over 8), which
 //! grows with the square of the discharge `q = ½ Σ f e`; the source has Manning's, of which the power 7/3 is not the
 //! same to the last bit on every machine. `r = |q|³ / (½ Σ f²/w)` is `|q|` for a sheet, and takes back in a channel
 //! of one cell what the missing pipes at its sides would have carried, so that a channel runs along a diagonal as it
 //! does along an axis. `deepest` bounds the speed of waves, and with it the step `dt = C l / √(g deepest)`; deeper
 //! water flows as if it were that deep.
 //!
-//! *Channels* are `k √Q` wide (Leopold and Maddock 1953). Where that is less than their cell, water is that much
+//! *Channels* are `k √Q` wide (Leopold and Maddock 1953), and as long in a cell as their water is displaced in it. Where that is less than their cell, water is that much
 //! deeper than on the mean of the cell, and its power acts on that much less ground. A sheet gathers in channels some
 //! metres apart, whatever the cell.
 //!
@@ -42,7 +42,7 @@ use std::sync::Arc;
 use super::pipeline::{Equations, Pipeline};
 use super::springs::Forcing;
 use super::sums;
-use edges::{AXIS, DIAGONAL};
+use edges::{PIPE_AXIS, PIPE_DIAGONAL};
 use kernels::{Accelerate, Flow, Rained, Shares, Slid, Through, Unrest, Uptake, Wear};
 use strata::{BOTTOMS, Mapped, Strata};
 use weald_core::material::MAX_MATERIALS;
@@ -183,7 +183,7 @@ pub(crate) fn fluxes_of(discharge: [&[f32]; 2], columns: usize) -> [Vec<f32>; 4]
         };
         (0..rows * columns).map(through).collect()
     };
-    [edge(1, 0, AXIS), edge(0, 1, AXIS), edge(1, 1, DIAGONAL), edge(-1, 1, DIAGONAL)]
+    [edge(1, 0, PIPE_AXIS), edge(0, 1, PIPE_AXIS), edge(1, 1, PIPE_DIAGONAL), edge(-1, 1, PIPE_DIAGONAL)]
 }
 
 /// The fluxes through the eastern and southern side of each cell of a grid with that many columns, from those of the

@@ -33,8 +33,8 @@ const ROCK: usize = fluvial::PLANES;
 
 impl Fluvial {
     /// The same for the time that passes on a level.
-    fn for_level(&self, level: u32) -> Self {
-        let share = levels::share_of_time(level, self.levels);
+    fn for_level(&self, level: u32, grids: u32) -> Self {
+        let share = levels::share_of_time(level, grids);
         let (duration, flow_time) = (self.duration * share, self.flow_time * share);
         Self { duration, flow_time, ..self.clone() }
     }
@@ -42,9 +42,10 @@ impl Fluvial {
     /// Runs on all levels, and leaves in the landscape what has become of it.
     pub(super) fn run_levels(&self, landscape: &mut Landscape, job: &Job<'_>) -> Result<Outcome, Error> {
         let (mut before, mut handed) = (Vec::new(), None);
-        for level in (1..self.levels).rev() {
+        let grids = self.grids(landscape.domain.cell);
+        for level in (1..grids).rev() {
             let coarse = self.coarsened(landscape, level)?;
-            let mut flood = Flood::on(self.for_level(level), &coarse)?;
+            let mut flood = Flood::on(self.for_level(level, grids), &coarse)?;
             let watcher = OfCoarse(job.watcher);
             let finished = flood.run(handed.as_ref(), &watcher.job(job))?;
             let (budget, down) = flood.handed_down(&finished);
@@ -52,7 +53,7 @@ impl Fluvial {
             handed = Some(down.refined());
         }
         let given = landscape.clone();
-        let mut flood = Flood::on(self.for_level(0), &given)?;
+        let mut flood = Flood::on(self.for_level(0, grids), &given)?;
         let finished = flood.run(handed.as_ref(), job)?;
         let budget = before.iter().fold(flood.store(landscape, &finished), levels::joined);
         let iterations = flood.step.steps(given.domain.cell).count;
@@ -151,7 +152,9 @@ impl<'a> Flood<'a> {
         let cell = working.cell as f32;
         let plane_of = |field: &Field| working.ringed(|x, y| field.at(x, y) / cell);
         if let Some(HandedDown { change, sediment, discharge, .. }) = handed {
-            rows.scatter(plane::CHANGE, &plane_of(change));
+            let worn = levels::worn_detail(&working.start, change);
+            let change = Field::from_function(change.size(), |x, y| change.at(x, y) + worn.at(x, y));
+            rows.scatter(plane::CHANGE, &plane_of(&change));
             rows.scatter(plane::SEDIMENT, &working.lengths(sediment));
             let factor = (self.steps().seconds / (working.cell * working.cell)) as f32;
             let discharge = discharge.each_ref().map(|along| working.ringed(|x, y| along.at(x, y) * factor));

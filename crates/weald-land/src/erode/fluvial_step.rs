@@ -73,10 +73,13 @@ parameters! {
         talus: f64 = 0.7, range 0.0..=10.0, unit "(a tangent: 35° is 0.7)";
         /// How fast steeper ground slides.
         slide: f64 = 1.0, range 0.0..=10_000.0, unit "m²/a";
-        /// Grids that it runs on, each with cells twice as long as those of the next: seven eighths of the time pass on
-        /// the coarser ones, which hand ground, water and sediment down. 3 is some five times as fast as 1. The numbers
-        /// of cells must divide, and none may be without data.
+        /// Grids that it runs on at most, each with cells twice as long as those of the next, up to `coarsest`: an eighth
+        /// of the time passes on each but the coarsest, which has the rest. They hand ground, water and sediment down;
+        /// three are some five times as fast as one. The numbers of cells must divide, and none may be without data.
         levels: u32 = 1, range 1..=8;
+        /// Longest cells of these grids. On the coarsest it is decided where valleys lie: a landscape of any size that
+        /// begins on the same one has the same valleys.
+        coarsest: f64 = 40.0, range 0.001..=100_000.0, unit "m";
         /// What happens at the edge and at no-data cells.
         boundary: Boundary = Boundary::Open;
         /// Layer to erode.
@@ -98,6 +101,13 @@ pub const ENTRY: Entry = Entry::of::<Fluvial>(
 );
 
 impl Fluvial {
+    /// On how many grids it runs over cells of that many metres.
+    pub(super) fn grids(&self, cell: f64) -> u32 {
+        // A cell of a third of 40 m is not longer than it for the rounding.
+        let fits = |level: &u32| cell * f64::from(1 << level) <= self.coarsest * (1.0 + 1e-9);
+        1 + (1..self.levels).take_while(fits).count() as u32
+    }
+
     /// Layers with a number a cell.
     pub(super) fn maps(&self) -> [Option<&LayerName>; 2] {
         [self.rain_map.as_ref(), self.erodibility_map.as_ref()]
@@ -149,7 +159,7 @@ impl Step for Fluvial {
     }
 
     fn run(&self, landscape: &mut Landscape, job: &Job<'_>) -> Result<Outcome, Error> {
-        levels::check(landscape, self.levels)?;
+        levels::check(landscape, self.grids(landscape.domain.cell))?;
         let mut outcome = self.run_levels(landscape, job)?;
         let springs: Vec<_> =
             self.sources.iter().map(|Nested(source)| Nested(source.spring(&landscape.domain))).collect();

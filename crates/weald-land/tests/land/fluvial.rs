@@ -257,109 +257,14 @@ fn a_river_digs_its_bed_and_not_that_of_the_deep_lake_it_runs_through() {
     assert!(lake < 0.01 * river, "the bed of the lake is dug by {lake} m, that of the river by {river} m");
 }
 
-/// Hills that a grid of any fineness can hold, as means over its cells.
-pub(crate) fn hills(side: usize) -> Landscape {
-    const FINEST: usize = 128;
-    let (extent, every) = (5120.0, FINEST / side);
-    let height = |x: f64, y: f64| {
-        let wave =
-            |east: f64, south: f64, shift: f64| libm::sin((east * x + south * y) / extent * 6.3 + shift);
-        200.0 * (wave(1.0, 0.6, 0.3) + wave(-0.7, 1.2, 1.0))
-            + 70.0 * (wave(2.9, -2.1, 2.0) + wave(2.3, 3.4, 0.7))
-            + 25.0 * (wave(7.1, 3.9, 0.1) + wave(-4.3, 6.7, 5.0) + wave(9.3, -6.1, 3.1))
-    };
-    let step = extent / FINEST as f64;
-    land(square(side), extent / side as f64, |x, y| {
-        let fine = (0..every * every).map(|at| {
-            let (x, y) = (x * every + at % every, y * every + at / every);
-            height((x as f64 + 0.5) * step, (y as f64 + 0.5) * step)
-        });
-        fine.sum::<f64>() / (every * every) as f64
-    })
-}
-
-/// A flood with coarse sediment, over ground that creeps: changes are small beside the relief.
-fn gentle() -> Fluvial {
-    Fluvial { settling: 0.002, creep: 0.03, ..Fluvial::default() }
-}
-
-#[test]
-fn a_coarse_landscape_is_the_mean_of_a_fine_one() {
-    let carved = |side: usize| {
-        let mut land = hills(side);
-        let start = field(&land, "height").clone();
-        run(&Fluvial { flow_time: 1.5, ..gentle() }, &mut land);
-        (start, land)
-    };
-    let (start, fine) = carved(128);
-    let mean = |land: &Landscape, layer: &str| -> f64 {
-        let values = field(land, layer).values();
-        values.iter().map(|&value| f64::from(value)).sum::<f64>() / values.len() as f64
-    };
-    let (low, high) = start.range(None).expect("cells");
-    let [eroded, laid] = ["erosion", "deposition"].map(|layer| mean(&fine, layer));
-    assert!(eroded > 3.0, "hardly anything moved: {eroded} m");
-    for (side, share) in [(64, 0.1), (32, 0.2)] {
-        let (_, coarse) = carved(side);
-        let every = 128 / side;
-        let off = (0..side * side).map(|at| {
-            let (x, y) = (at % side, at / side);
-            let means = (0..every * every).map(|at| {
-                f64::from(field(&fine, "height").at(x * every + at % every, y * every + at / every))
-            });
-            let mean = means.sum::<f64>() / (every * every) as f64;
-            (mean - f64::from(field(&coarse, "height").at(x, y))).powi(2)
-        });
-        let off = (off.sum::<f64>() / (side * side) as f64).sqrt() / f64::from(high - low);
-        let [erosion, deposition] = ["erosion", "deposition"].map(|layer| mean(&coarse, layer));
-        println!(
-            "{side}: erosion {erosion:.2} of {eroded:.2} m, deposition {deposition:.2} of {laid:.2} m, heights \
-             {:.2} % of the relief apart",
-            100.0 * off
-        );
-        assert!((erosion / eroded - 1.0).abs() < share, "{side}: {erosion} m were eroded, {eroded} on 128");
-        assert!(off < 0.02, "{side}: heights are {off} of the relief apart");
-    }
-}
-
-#[test]
-fn coarse_levels_first_make_nearly_the_same_landscape_and_lose_nothing() {
-    let carved = |levels: u32| {
-        let mut land = hills(128);
-        let budget = run(&Fluvial { levels, ..gentle() }, &mut land);
-        (land, budget)
-    };
-    let (one, _) = carved(1);
-    let mean = |land: &Landscape, layer: &str| -> f64 {
-        let values = field(land, layer).values();
-        values.iter().map(|&value| f64::from(value)).sum::<f64>() / values.len() as f64
-    };
-    let (low, high) = field(&one, "height").range(None).expect("cells");
-    let expected = mean(&one, "erosion");
-    for (levels, share) in [(2, 0.1), (3, 0.2)] {
-        let (several, budget) = carved(levels);
-        let off = field(&one, "height").values().iter().zip(field(&several, "height").values());
-        let off = off.map(|(a, b)| f64::from(a - b).powi(2)).sum::<f64>() / (128.0 * 128.0);
-        let off = off.sqrt() / f64::from(high - low);
-        let erosion = mean(&several, "erosion");
-        println!(
-            "{levels} levels: erosion {erosion:.2} of {expected:.2} m, heights {:.2} % of the relief apart",
-            100.0 * off
-        );
-        assert!((erosion / expected - 1.0).abs() < share, "{erosion} m were eroded, {expected} on one level");
-        assert!(off < 0.02, "heights are {off} of the relief apart");
-        // Sums of each level are rounded once.
-        assert!(budget.water.error().abs() < 1e-5, "{:?}", budget.water);
-        assert!(budget.solid.error().abs() < 1e-7, "{:?}", budget.solid);
-    }
-}
-
 #[test]
 fn levels_that_do_not_divide_are_refused() {
     let mut land = land(Size::new(36, 30).expect("small"), 5.0, |x, _| x as f64);
-    let step = Fluvial { levels: 3, ..wild() };
+    let step = Fluvial { levels: 3, coarsest: 20.0, ..wild() };
     let error = step.run(&mut land, &Job::unwatched(1)).expect_err("30 is no multiple of 4").to_string();
     assert!(error.contains("multiples of 4") && error.contains("36 × 30"), "{error}");
+    // Cells twice as long would be too long.
+    assert!(Fluvial { coarsest: 9.9, ..step.clone() }.run(&mut land, &Job::unwatched(1)).is_ok());
     let region = Fluvial { region: Some(LayerName::of("land")), ..step };
     assert_eq!(region.faults().len(), 1, "a recipe says so already");
 }

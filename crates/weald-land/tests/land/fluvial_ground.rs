@@ -9,7 +9,8 @@ use weald_land::erode::fluvial_step::Fluvial;
 use weald_land::erode::springs::Source;
 
 use crate::common::field;
-use crate::fluvial::{hills, land, run, square, water_alone};
+use crate::fluvial::{land, run, square, water_alone};
+use crate::fluvial_grid::hills;
 
 /// Hills of materials with these erodibilities and thicknesses on the first, all of which rest alike.
 fn layered(materials: &[(&str, f64, f64)]) -> Landscape {

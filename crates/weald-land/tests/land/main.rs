@@ -8,6 +8,7 @@ mod editing;
 mod flow;
 mod flow_peers;
 mod fluvial;
+mod fluvial_grid;
 mod fluvial_ground;
 mod layered_equations;
 mod layered_physics;

@@ -8,7 +8,7 @@ use weald_core::grid::Size;
 const COMMAND_LINE: usize = 0;
 
 /// Fewest cells along the longer side that a preview is made coarser to.
-pub(super) const LEAST_PREVIEW: u64 = 128;
+pub(super) const LEAST_PREVIEW: u64 = 256;
 
 /// How many times coarser a preview is.
 const PREVIEW_FACTOR: u64 = 4;
@@ -19,7 +19,7 @@ pub struct Overrides {
     /// Cells along the longer side. The other side and the cell follow, so that the landscape keeps its shape
     /// and its extent in metres.
     pub size: Option<u64>,
-    /// Whether the landscape is made on a quarter of the cells a side, at least 128 of them: the same
+    /// Whether the landscape is made on a quarter of the cells a side, at least 256 of them: the same
     /// landscape in a fraction of the time.
     pub preview: bool,
     /// Seed of the landscape.
@@ -277,8 +277,8 @@ mod tests {
         let preview = Overrides { preview: true, ..Overrides::default() };
         let (text, _) = changed("[landscape]\nsize = [1024, 512]\ncell = 10\n", &preview);
         assert_eq!(text, "[landscape]\ncell = 40.0\nfinest = [1024, 512]\nsize = [256, 128]\n");
-        let (text, _) = changed("[landscape]\nsize = 100\ncell = 10\n", &preview);
-        assert_eq!(text, "[landscape]\ncell = 10\nsize = 100\n", "small as it is");
+        let (text, _) = changed("[landscape]\nsize = 200\ncell = 10\n", &preview);
+        assert_eq!(text, "[landscape]\ncell = 10\nsize = 200\n", "small as it is");
         let (_, diagnostics) = changed("[landscape]\nfrom = \"a.tif\"\n", &preview);
         assert!(diagnostics[0].contains("resample"), "{diagnostics:?}");
     }

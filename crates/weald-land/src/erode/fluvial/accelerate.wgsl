@@ -28,10 +28,10 @@ fn wanted_through(old: f32, cell: vec2<i32>, next: vec2<i32>, weight: f32) -> f3
 fn accelerate(@builtin(global_invocation_id) invocation: vec3<u32>) {
     let cell = cell_of(invocation);
     let old = fluxes[index(cell)];
-    let east = wanted_through(old.x, cell, cell + EAST, AXIS);
-    let south = wanted_through(old.y, cell, cell + SOUTH, AXIS);
-    let south_east = wanted_through(old.z, cell, cell + SOUTH_EAST, DIAGONAL);
-    let south_west = wanted_through(old.w, cell, cell + SOUTH_WEST, DIAGONAL);
+    let east = wanted_through(old.x, cell, cell + EAST, PIPE_AXIS);
+    let south = wanted_through(old.y, cell, cell + SOUTH, PIPE_AXIS);
+    let south_east = wanted_through(old.z, cell, cell + SOUTH_EAST, PIPE_DIAGONAL);
+    let south_west = wanted_through(old.w, cell, cell + SOUTH_WEST, PIPE_DIAGONAL);
     if (inside(cell)) {
         wanted[index(cell)] = vec4<f32>(east, south, south_east, south_west);
     }

@@ -3,8 +3,10 @@
 
 const AXIS: f32 = 0.6666666666666666;
 const DIAGONAL: f32 = 0.16666666666666666;
+const PIPE_AXIS: f32 = 0.54;
+const PIPE_DIAGONAL: f32 = 0.23;
 const STILL: f32 = 1e-30;
-const MOST_GATHERED: f32 = 3.0;
+const MOST_GATHERED: f32 = 3.7037037;
 const LEAST_OCCUPIED: f32 = 0.01;
 const RETAINED_SHARE: f32 = 2e-6;
 const THINNEST: f32 = 1e-8;
@@ -22,10 +24,15 @@ fn without_negligible(amount: f32) -> f32 {
     return select(amount, 0.0, abs(amount) < NEGLIGIBLE);
 }
 
-/// The size of a cell's discharge, and how much it has gathered.
+/// The size of a cell's discharge, how much it has gathered, and all that runs through.
 struct Discharge {
     size: f32,
     gathered: f32,
+    through: f32,
+}
+
+fn sum_of_sizes(fluxes: vec4<f32>) -> f32 {
+    return (abs(fluxes.x) + abs(fluxes.y)) + (abs(fluxes.z) + abs(fluxes.w));
 }
 
 fn sum_of_squares(fluxes: vec4<f32>) -> f32 {
@@ -39,19 +46,21 @@ fn discharge_of(axes: vec4<f32>, diagonals: vec4<f32>) -> Discharge {
     let other = diagonals.z + diagonals.w;
     let eastward = 0.5 * ((axes.x + axes.y) + (main - other));
     let southward = 0.5 * ((axes.z + axes.w) + (main + other));
-    let energy = 0.5 * (sum_of_squares(axes) / AXIS + sum_of_squares(diagonals) / DIAGONAL);
+    let energy = 0.5 * (sum_of_squares(axes) / PIPE_AXIS + sum_of_squares(diagonals) / PIPE_DIAGONAL);
     let square = eastward * eastward + southward * southward;
     let gathered = select(MOST_GATHERED, clamp(energy / square, 1.0, MOST_GATHERED), square > STILL);
-    return Discharge(sqrt(square), gathered);
+    let through = 0.5 * (sum_of_sizes(axes) + sum_of_sizes(diagonals));
+    return Discharge(sqrt(square), gathered, through);
 }
 
 /// Share of the ground that the channels of a discharge take.
 fn occupied(discharge: Discharge) -> f32 {
     let single = clamp((discharge.gathered - 1.0) * 2.0, 0.0, 1.0);
     let apart = constants.gathering + (1.0 - constants.gathering) * single;
-    let along = min(sqrt(1.5 / discharge.gathered), 1.0);
-    let width = constants.channel_width * sqrt(discharge.size * apart * along);
-    return clamp(width / (apart * along), LEAST_OCCUPIED, 1.0);
+    let carried = discharge.size + (discharge.through - discharge.size) * single;
+    let length = select(0.0, discharge.size / carried, carried > 0.0);
+    let width = constants.channel_width * sqrt(carried * apart);
+    return clamp(width * length / apart, LEAST_OCCUPIED, 1.0);
 }
 
 fn leaving(fluxes: vec4<f32>) -> f32 {

@@ -1,6 +1,6 @@
 //! What one cell becomes in a step of [`super`], which has the equations and their sources.
 
-use super::edges::{AXIS, DIAGONAL, Discharge, outflow, power};
+use super::edges::{AXIS, DIAGONAL, Discharge, PIPE_AXIS, PIPE_DIAGONAL, outflow, power};
 use crate::erode::pipes::without_negligible;
 use weald_engine::kernel;
 
@@ -77,21 +77,21 @@ kernel! {
     }
     fn cell() {
         let here = [surface, ground, resistance_before];
-        let (axis, diagonal) = (AXIS * flow_rate, DIAGONAL * flow_rate);
+        let (axis, diagonal) = (PIPE_AXIS * flow_rate, PIPE_DIAGONAL * flow_rate);
         let east = [surface_east, ground_east, resistance_before_east];
         let south = [surface_south, ground_south, resistance_before_south];
         let south_east = [surface_south_east, ground_south_east, resistance_before_south_east];
         let south_west = [surface_south_west, ground_south_west, resistance_before_south_west];
         let flux = accelerated(old_east, here, east, axis, deepest);
-        wanted_east = through_edge(flux, [valid, valid_east], [fall, fall_east], AXIS * open);
+        wanted_east = through_edge(flux, [valid, valid_east], [fall, fall_east], PIPE_AXIS * open);
         let flux = accelerated(old_south, here, south, axis, deepest);
-        wanted_south = through_edge(flux, [valid, valid_south], [fall, fall_south], AXIS * open);
+        wanted_south = through_edge(flux, [valid, valid_south], [fall, fall_south], PIPE_AXIS * open);
         let flux = accelerated(old_diagonal, here, south_east, diagonal, deepest);
         let (valid_next, fall_next) = (valid_south_east, fall_south_east);
-        wanted_diagonal = through_edge(flux, [valid, valid_next], [fall, fall_next], DIAGONAL * open);
+        wanted_diagonal = through_edge(flux, [valid, valid_next], [fall, fall_next], PIPE_DIAGONAL * open);
         let flux = accelerated(old_antidiagonal, here, south_west, diagonal, deepest);
         let (valid_next, fall_next) = (valid_south_west, fall_south_west);
-        wanted_antidiagonal = through_edge(flux, [valid, valid_next], [fall, fall_next], DIAGONAL * open);
+        wanted_antidiagonal = through_edge(flux, [valid, valid_next], [fall, fall_next], PIPE_DIAGONAL * open);
     }
 }
 
