@@ -1,15 +1,20 @@
 //! The courses of rivers as smooth lines between the centres of cells.
 //!
 //! From each head a river goes down its drainage ([`Drainage`]) for as long as it is a channel
-//! ([`FlowField::is_channel`]), the longest first; where it comes near a longer one it ends on it. Then the line is drawn
+//! ([`FlowField::is_channel`]) or has only spread, as on a fan, the longest first; where it comes near a longer one it
+//! ends on it. Then the line is drawn
 //! tight and onto the crest of the flow, again and again, as an active contour (Kass, Witkin, Terzopoulos 1988, "Snakes",
 //! doi 10.1007/BF00133570): so it has neither the staircase nor the eight directions of the cells.
 //!
 //! [`FlowField::is_channel`]: super::flow_field::FlowField::is_channel
 
+mod lines;
+
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::drainage::{Drainage, flow_order};
+use super::flow_field::SIDE;
+use lines::{RIM, centre, cut_where_they_meet, distance, near, run_out, within_reach};
 use weald_core::grid::Size;
 
 /// A river drains at least this many cells, and this share of the grid: a picture bears only so many lines.
@@ -31,18 +36,15 @@ const BESIDE: usize = 4;
 /// Longest path, in cells, through ground where the water is no channel.
 const LONGEST_GAP: usize = 8;
 
-/// Distance in cells within which a river joins another, or cuts off a loop of its own.
-const NEAR: f32 = 2.0;
+/// Cells to either side that are of a channel.
+const CHANNEL: i32 = 2;
 
-/// Cells of the border along which no river runs for more than thrice as many.
-const RIM: usize = 2;
+/// Share of what a channel carried that flows near where it went, if it has only spread: less has run dry.
+const SPREAD: f32 = 0.5;
 
 /// Passes that draw a line tight and onto its crest, and those after them that only draw it tight.
 const PASSES: usize = 30;
 const LAST_PASSES: usize = 6;
-
-/// Farthest that a point moves from the centre of its cell, in cells.
-const FARTHEST: f32 = 1.0;
 
 /// A point of a river.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -146,13 +148,20 @@ impl Courses<'_> {
     fn pieces(&self, path: &[usize]) -> Vec<Piece> {
         let mut pieces = Vec::new();
         let mut cells: Vec<usize> = Vec::new();
-        let mut gap = 0;
+        let (mut gap, mut carried) = (0, 0.0);
         for &cell in path {
             if let Some(joins) = self.owner[cell] {
                 pieces.push(Piece { cells: std::mem::take(&mut cells), joins: Some(joins) });
                 break;
             }
-            gap = if self.drainage.flow.is_channel(cell) { 0 } else { gap + 1 };
+            let flow = &self.drainage.flow;
+            if flow.is_channel(cell) {
+                (gap, carried) = (0, flow.passing(cell, CHANNEL));
+            } else {
+                let is_river = cells.len() >= SHORTEST_ALONE;
+                let has_spread = is_river && flow.passing(cell, SIDE) >= SPREAD * carried;
+                gap = if has_spread { 0 } else { gap + 1 };
+            }
             if gap == 0 || !cells.is_empty() {
                 cells.push(cell);
             }
@@ -252,66 +261,6 @@ impl Courses<'_> {
             self.owner[cell] = self.owner[cell].or(Some((self.lines.len(), at)));
         }
     }
-}
-
-/// Ends a line where it first meets another.
-fn cut_where_they_meet(line: &mut Vec<[f32; 2]>, other: &[Reach]) {
-    let meets = |at: usize| {
-        let pieces = other.windows(2).map(|pair| [pair[0].place, pair[1].place]);
-        pieces.filter_map(|piece| meeting([line[at], line[at + 1]], piece)).min_by(f32::total_cmp)
-    };
-    if let Some((at, share)) = (0..line.len() - 1).find_map(|at| Some((at, meets(at)?))) {
-        let end = [0, 1].map(|axis| line[at][axis] + share * (line[at + 1][axis] - line[at][axis]));
-        line.truncate(at + 1);
-        line.push(end);
-    }
-}
-
-/// Share of a piece, from its first end, at which another crosses it.
-fn meeting([a, b]: [[f32; 2]; 2], [c, d]: [[f32; 2]; 2]) -> Option<f32> {
-    let cross = |a: [f32; 2], b: [f32; 2]| a[0] * b[1] - a[1] * b[0];
-    let from = |a: [f32; 2], b: [f32; 2]| [b[0] - a[0], b[1] - a[1]];
-    let turn = cross(from(a, b), from(c, d));
-    let [share, on_other] = [cross(from(a, c), from(c, d)) / turn, cross(from(a, c), from(a, b)) / turn];
-    [share, on_other].iter().all(|share| (0.0..=1.0).contains(share)).then_some(share)
-}
-
-/// Where a river that ends beside the border crosses it.
-fn run_out(line: &[[f32; 2]], size: Size) -> Option<[f32; 2]> {
-    let [last, from] = [line[line.len() - 1], line[line.len().saturating_sub(4)]];
-    let along = [last[0] - from[0], last[1] - from[1]];
-    let steps = [0, 1].map(|axis| {
-        let edge = if along[axis] > 0.0 { [size.columns, size.rows][axis] as f32 } else { 0.0 };
-        if along[axis] == 0.0 { f32::INFINITY } else { (edge - last[axis]) / along[axis] }
-    });
-    let step = steps[0].min(steps[1]);
-    let end = [0, 1].map(|axis| last[axis] + step * along[axis]);
-    (step.is_finite() && distance(last, end) <= 3.0 * RIM as f32).then_some(end)
-}
-
-/// Cells whose centres lie near a place, with their distances.
-fn near(size: Size, place: [f32; 2]) -> impl Iterator<Item = (f32, usize)> {
-    let range = |place: f32, count: usize| {
-        let first = (place - NEAR).max(0.0) as usize;
-        first..((place + NEAR) as usize + 1).min(count)
-    };
-    let [columns, rows] = [range(place[0], size.columns), range(place[1], size.rows)];
-    let cells = rows.flat_map(move |y| columns.clone().map(move |x| size.index(x, y)));
-    cells.map(move |cell| (distance(centre(size, cell), place), cell)).filter(|&(away, _)| away <= NEAR)
-}
-
-fn centre(size: Size, cell: usize) -> [f32; 2] {
-    [(cell % size.columns) as f32 + 0.5, (cell / size.columns) as f32 + 0.5]
-}
-
-fn distance(a: [f32; 2], b: [f32; 2]) -> f32 {
-    let [x, y] = [b[0] - a[0], b[1] - a[1]];
-    (x * x + y * y).sqrt()
-}
-
-fn within_reach(home: [f32; 2], place: [f32; 2]) -> [f32; 2] {
-    let share = FARTHEST / distance(home, place).max(FARTHEST);
-    [0, 1].map(|axis| home[axis] + share * (place[axis] - home[axis]))
 }
 
 #[cfg(test)]

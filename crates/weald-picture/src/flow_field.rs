@@ -10,7 +10,7 @@ use weald_core::domain::Domain;
 use weald_core::grid::{Field, Size};
 
 /// Cells to either side within which the flow of a channel falls.
-const SIDE: i32 = 12;
+pub(super) const SIDE: i32 = 12;
 
 /// Share of its flow below which that beside it falls.
 const BESIDE: f32 = 0.25;
@@ -75,13 +75,7 @@ impl FlowField {
         if strength <= 0.0 {
             return false;
         }
-        let [x, y] = self.vector[cell];
-        let across = [-y / strength, x / strength];
-        let [column, row] = [cell % self.size.columns, cell / self.size.columns].map(|it| it as f32 + 0.5);
-        let profile = |offset: i32| {
-            let place = [column + offset as f32 * across[0], row + offset as f32 * across[1]];
-            self.contains(place).then(|| self.at(place))
-        };
+        let profile = |offset| self.beside(cell, offset);
         let crest = [0, -1, 1].into_iter().filter_map(|offset| Some((offset, profile(offset)?)));
         let (middle, highest) = crest.fold((0, 0.0), |best, it| if it.1 > best.1 { it } else { best });
         [-1, 1].into_iter().all(|side| {
@@ -89,6 +83,23 @@ impl FlowField {
             // Flow that rises again belongs to another channel.
             beside.take_while(|&it| it <= highest).any(|it| it < BESIDE * highest)
         })
+    }
+
+    /// Flow so many cells to the left of a cell where water flows, or to the right; none beyond the grid.
+    fn beside(&self, cell: usize, offset: i32) -> Option<f32> {
+        let (strength, [x, y]) = (self.strength[cell], self.vector[cell]);
+        let [column, row] = [cell % self.size.columns, cell / self.size.columns].map(|it| it as f32 + 0.5);
+        let away = offset as f32 / strength;
+        let place = [column - away * y, row + away * x];
+        self.contains(place).then(|| self.at(place))
+    }
+
+    /// All that flows past a cell within so many cells to both sides.
+    pub(super) fn passing(&self, cell: usize, cells: i32) -> f32 {
+        if self.strength[cell] <= 0.0 {
+            return 0.0;
+        }
+        (-cells..=cells).filter_map(|offset| self.beside(cell, offset)).sum()
     }
 
     /// How far the crest of the flow lies from a place along a unit vector, in cells; at most half a cell.

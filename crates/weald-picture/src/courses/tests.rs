@@ -235,3 +235,28 @@ fn crossings(rivers: &[Vec<Reach>]) -> usize {
     let pairs = pieces.iter().enumerate().flat_map(|(at, a)| pieces[..at].iter().map(move |b| (a, b)));
     pairs.filter(|(a, b)| cross(**a, **b)).count()
 }
+
+/// Southward flow of `discharge` at a row, spread over so many cells there.
+fn fan(discharge: impl Fn(f32) -> f32, width: impl Fn(f32) -> f32) -> Vec<Vec<Reach>> {
+    rivers_of(|[x, y]| {
+        let away = (x - 64.4) / width(y);
+        [0.01 * (64.4 - x), discharge(y) * libm::expf(-away * away) / width(y)]
+    })
+}
+
+#[test]
+fn a_river_that_spreads_on_a_fan_goes_on_to_where_it_is_a_channel_again() {
+    let width = |y: f32| 1.0 + 15.0 * (1.0 - (y - 64.0).abs() / 24.0).max(0.0);
+    let rivers = fan(|y| 100.0 * (10.0 + y), width);
+    assert_eq!(rivers.len(), 1, "{:?}", rivers.iter().map(Vec::len).collect::<Vec<_>>());
+    assert!(rivers[0].len() > 110, "{}", rivers[0].len());
+    assert!(rivers[0].windows(2).all(|pair| pair[0].area <= pair[1].area), "it carries what it carried");
+}
+
+#[test]
+fn a_river_that_runs_dry_ends() {
+    let dry = |y: f32| 100.0 * (10.0 + y) * (1.0 - (y - 40.0) / 30.0).clamp(0.001, 1.0);
+    let rivers = fan(dry, |y| 1.0 + (y - 40.0).clamp(0.0, 20.0));
+    let lowest = rivers.iter().flatten().map(|reach| reach.place[1]).fold(0.0, f32::max);
+    assert!((45.0..90.0).contains(&lowest), "it ends in row {lowest}");
+}
