@@ -67,11 +67,15 @@ impl Discharge {
         let single = ((self.gathered - 1.0) * 2.0).clamp(0.0, 1.0);
         let apart = gathering + (1.0 - gathering) * single;
         let carried = self.size + (self.through - self.size) * single;
-        let length = if carried > 0.0 { self.size / carried } else { 0.0 };
+        let length = if carried > 0.0 { (self.size / carried).max(SHORTEST) } else { SHORTEST };
         let width = channel_width * (carried * apart).sqrt();
         (width * length / apart).clamp(LEAST_OCCUPIED, 1.0)
     }
 }
+
+/// Shortest way of a channel through a cell. Water that springs in it or turns back is hardly displaced, and yet no
+/// knife.
+const SHORTEST: f32 = 0.5;
 
 /// Least share of the ground that channels take: trickles do not cut like knives.
 const LEAST_OCCUPIED: f32 = 0.01;
@@ -140,6 +144,9 @@ mod tests {
             (bent - 0.3 / longer).abs() < 1e-6,
             "two cells of a staircase are as long as a diagonal: {bent}"
         );
+        // Out to all sides.
+        let spring = Discharge::of([1.0, -1.0, 1.0, -1.0], [0.0; 4]).occupied(1.0, 0.3);
+        assert!((spring - 0.5 * 0.3 * 2.0_f32.sqrt()).abs() < 1e-6, "{spring}");
         let half_way = Discharge::of([0.0, 1.0, 0.0, 0.0], [1.0, 0.0, 0.0, 0.0]).occupied(1.0, 0.3);
         assert!((half_way - 0.3 * 1.25_f32.sqrt()).abs() < 1e-6, "{half_way}");
     }

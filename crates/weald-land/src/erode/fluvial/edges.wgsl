@@ -7,6 +7,7 @@ const PIPE_AXIS: f32 = 0.54;
 const PIPE_DIAGONAL: f32 = 0.23;
 const STILL: f32 = 1e-30;
 const MOST_GATHERED: f32 = 3.7037037;
+const SHORTEST: f32 = 0.5;
 const LEAST_OCCUPIED: f32 = 0.01;
 const RETAINED_SHARE: f32 = 2e-6;
 const THINNEST: f32 = 1e-8;
@@ -58,7 +59,7 @@ fn occupied(discharge: Discharge) -> f32 {
     let single = clamp((discharge.gathered - 1.0) * 2.0, 0.0, 1.0);
     let apart = constants.gathering + (1.0 - constants.gathering) * single;
     let carried = discharge.size + (discharge.through - discharge.size) * single;
-    let length = select(0.0, discharge.size / carried, carried > 0.0);
+    let length = select(SHORTEST, max(discharge.size / carried, SHORTEST), carried > 0.0);
     let width = constants.channel_width * sqrt(carried * apart);
     return clamp(width * length / apart, LEAST_OCCUPIED, 1.0);
 }
