@@ -103,6 +103,16 @@ pub(crate) enum Command {
     },
 }
 
+impl Command {
+    /// Whether it may look for graphics cards.
+    pub(crate) fn may_use_a_device(&self) -> bool {
+        matches!(
+            self,
+            Self::Run(_) | Self::Report(_) | Self::Gallery { .. } | Self::Fractal(_) | Self::Render(_) | Self::Bench(_)
+        )
+    }
+}
+
 fn template_names() -> PossibleValuesParser {
     PossibleValuesParser::new(TEMPLATES.iter().map(|template| template.name))
 }

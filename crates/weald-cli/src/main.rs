@@ -9,6 +9,7 @@ mod declared;
 mod engine;
 mod failure;
 mod interrupt;
+mod layers_of_drivers;
 mod progress;
 mod stdout;
 mod values;
@@ -21,7 +22,11 @@ use clap::Parser;
 use arguments::{Arguments, Command};
 
 fn main() -> ExitCode {
-    let done = match Arguments::parse().command {
+    let command = Arguments::parse().command;
+    if command.may_use_a_device() {
+        layers_of_drivers::silence();
+    }
+    let done = match command {
         Command::Run(arguments) => commands::run::run(&arguments),
         Command::Report(arguments) => commands::report::report(&arguments),
         Command::Check(arguments) => commands::check::check(&arguments),

@@ -117,16 +117,21 @@ pub struct RecipeError {
 /// One fault of a recipe.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Diagnostic {
-    /// Line in the file, counted from 1; 0 for what came from the command line.
+    /// Line in the file, counted from 1; 0 for what came from the command line, [`Diagnostic::NO_LINE`] for what is wrong
+    /// with the file as a whole.
     pub line: usize,
     /// What is wrong: the key, the value, what is legal, what was probably meant.
     pub message: String,
 }
 
 impl Diagnostic {
+    /// The line of a fault of the whole file, as that it is not there.
+    pub const NO_LINE: usize = usize::MAX;
+
     fn in_file(&self, file: &str) -> String {
         match self.line {
             0 => format!("{file}, as changed on the command line: {}", self.message),
+            Self::NO_LINE => format!("{file}: {}", self.message),
             line => format!("{file}:{line}: {}", self.message),
         }
     }

@@ -120,10 +120,14 @@ pub fn parse(file: &str, text: &str) -> Result<Table, RecipeError> {
     let lines = Lines::of(text);
     let parsed = DeTable::parse(text).map_err(|error| {
         let span = error.span().unwrap_or(0..0);
+        let line = lines.line(span.start);
+        if let Some(remedy) = text.lines().nth(line - 1).and_then(quotes_are_missing) {
+            return fail(line, remedy);
+        }
         // The message of some faults, such as a key that is there twice, does not say what it is about.
         let about = text.get(span.clone()).and_then(|about| about.lines().next()).unwrap_or_default();
         let about = if about.is_empty() { String::new() } else { format!(": `{about}`") };
-        fail(lines.line(span.start), format!("{}{about}", error.message()))
+        fail(line, format!("{}{about}", error.message()))
     })?;
     let mut unfit = Vec::new();
     let table = convert_table(parsed.get_ref(), 1, &lines, &mut unfit);
@@ -131,6 +135,16 @@ pub fn parse(file: &str, text: &str) -> Result<Table, RecipeError> {
         return Ok(table);
     }
     Err(RecipeError { file: file.to_owned(), diagnostics: unfit })
+}
+
+/// What to do about a line `key = word`. TOML takes a bare word for the beginning of `true`, `false` or a number.
+fn quotes_are_missing(line: &str) -> Option<String> {
+    let (key, value) = line.split_once('=')?;
+    let (key, value) = (key.trim(), value.split('#').next()?.trim());
+    let is_word = value.starts_with(|letter: char| letter.is_alphabetic())
+        && value.chars().all(|letter| letter.is_alphanumeric() || "-_./".contains(letter))
+        && !["true", "false", "inf", "nan"].contains(&value);
+    is_word.then(|| format!("text stands in quotes: {key} = \"{value}\""))
 }
 
 /// Byte positions of line starts.
@@ -204,6 +218,17 @@ mod tests {
         assert_eq!(b.get("c"), Some(&Node { line: 4, value: Value::Number(2.5) }));
         let Some(Node { value: Value::List(d), .. }) = table.get("d") else { panic!("d is a list") };
         assert_eq!(d.iter().map(|node| node.line).collect::<Vec<_>>(), [5, 7]);
+    }
+
+    #[test]
+    fn a_word_without_quotes_is_answered_with_them() {
+        for word in ["fbm", "thermal", "noise", "infinite", "diamond-square", "out/a.png"] {
+            let error = parse("r.toml", &format!("a = 1\ndo = {word} # rough\n")).expect_err("no quotes");
+            assert_eq!(error.diagnostics[0].line, 2, "{word}");
+            let message = &error.diagnostics[0].message;
+            assert_eq!(*message, format!("text stands in quotes: do = \"{word}\""));
+        }
+        assert!(parse("r.toml", "a = true\nb = nan\nc = inf\n").is_ok());
     }
 
     #[test]

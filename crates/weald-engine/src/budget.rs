@@ -41,16 +41,37 @@ pub struct SolidBudget {
     pub suspended: f64,
     /// Carried over an open edge, and what a deposit ratio below 1 takes out.
     pub outgoing: f64,
+    /// What lies, hangs in water or went elsewhere than at the start: all that cells gained or lost, carry or let go.
+    pub moved: f64,
 }
 
 impl SolidBudget {
-    /// `(start - ground - layers - suspended - out) / start`; 0 where there was no solid.
+    /// `start - ground - layers - suspended - out`: what is missing, in cubic metres; below 0 what was made.
+    pub fn lost(&self) -> f64 {
+        self.start - self.ground - self.layers - self.suspended - self.outgoing
+    }
+
+    /// What is missing, as a share of the solid at the start or of what moved, whichever is more: on flat ground there is
+    /// nothing above its lowest place, and rounding would count against nothing.
     pub fn error(&self) -> f64 {
-        let left = self.start - self.ground - self.layers - self.suspended - self.outgoing;
-        relative(left, self.start.abs())
+        relative(self.lost(), self.start.abs().max(self.moved))
     }
 }
 
 fn relative(difference: f64, whole: f64) -> f64 {
     if whole == 0.0 { difference } else { difference / whole }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn on_flat_ground_what_is_missing_counts_against_what_moved() {
+        let dug = SolidBudget { ground: -1.49, moved: 1.5e6, ..SolidBudget::default() };
+        assert!((dug.error() - 1.49 / 1.5e6).abs() < 1e-15, "{}", dug.error());
+        let hill = SolidBudget { start: 2e6, ground: 2e6 - 4.0, moved: 10.0, ..SolidBudget::default() };
+        assert_eq!(hill.error(), 2e-6, "of the hill, where that is more");
+        assert_eq!(SolidBudget::default().error(), 0.0);
+    }
 }

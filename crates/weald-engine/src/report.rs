@@ -67,7 +67,10 @@ pub struct SolidReport {
     /// Carried over an open edge.
     #[serde(rename = "out")]
     pub outgoing: f64,
-    /// What is missing, relative to the start.
+    /// All that cells gained or lost, carry or let go.
+    #[serde(default)]
+    pub moved: f64,
+    /// What is missing, relative to the start or to what moved, whichever is more.
     pub error: f64,
 }
 
@@ -86,7 +89,7 @@ impl From<WaterBudget> for WaterReport {
 
 impl From<SolidBudget> for SolidReport {
     fn from(solid: SolidBudget) -> Self {
-        let SolidBudget { start, ground, layers, suspended, outgoing } = solid;
-        Self { start, bedrock: ground, layers, suspended, outgoing, error: solid.error() }
+        let SolidBudget { start, ground, layers, suspended, outgoing, moved } = solid;
+        Self { start, bedrock: ground, layers, suspended, outgoing, moved, error: solid.error() }
     }
 }

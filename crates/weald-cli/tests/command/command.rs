@@ -80,7 +80,7 @@ fn a_bad_recipe_ends_with_3_and_names_file_line_key_value_and_range() {
         );
     }
     assert!(!place.path("out").exists(), "nothing ran");
-    assert_ends(&place, &["run", "none.toml"], 3, &["none.toml:1: the recipe cannot be read"]);
+    assert_ends(&place, &["run", "none.toml"], 3, &["error: none.toml: the recipe cannot be read"]);
     let place = Place::with("size = = 3");
     assert_ends(&place, &["check", "r.toml"], 3, &["r.toml:1: "]);
 }
@@ -88,8 +88,8 @@ fn a_bad_recipe_ends_with_3_and_names_file_line_key_value_and_range() {
 #[test]
 fn a_recipe_that_cannot_be_read_ends_with_3_and_says_what_to_do() {
     let place = Place::with(RECIPE);
-    assert_ends(&place, &["run", "none.toml"], 3, &["none.toml:1: ", "weald new"]);
-    assert_ends(&place, &["run", "."], 3, &[".:1: the recipe cannot be read"]);
+    assert_ends(&place, &["run", "none.toml"], 3, &["error: none.toml: ", "weald new"]);
+    assert_ends(&place, &["run", "."], 3, &["error: .: the recipe cannot be read"]);
     let utf_16: Vec<u8> = RECIPE.encode_utf16().flat_map(u16::to_le_bytes).collect();
     std::fs::write(place.path("utf16.toml"), [&[0xff, 0xfe][..], &utf_16].concat()).expect("written");
     assert_ends(&place, &["run", "utf16.toml"], 3, &["UTF-8 text"]);
@@ -125,7 +125,7 @@ fn a_change_on_the_command_line_is_checked_like_the_recipe() {
 fn a_bad_input_file_ends_with_4() {
     let from = "[landscape]\nfrom = \"in.tif\"\n[[output]]\nlayer = \"height\"\nfile = \"h.npy\"\n";
     let place = Place::with(from);
-    assert_ends(&place, &["run", "r.toml"], 4, &["in.tif"]);
+    assert_ends(&place, &["run", "r.toml"], 4, &["in.tif: cannot be read: ", "; r.toml:2 names it"]);
     std::fs::write(place.path("in.tif"), b"II*\0\x08").expect("written");
     assert_ends(&place, &["run", "r.toml"], 4, &["in.tif"]);
     assert_ends(&place, &["info", "in.tif"], 4, &["in.tif"]);
@@ -216,7 +216,7 @@ fn a_recipe_with_an_old_name_is_refused_and_rewritten_in_place_or_beside() {
     assert_eq!(text("r.toml"), text("new.toml"));
     assert_eq!(stdout(&place.weald(&["migrate", "r.toml"])), "r.toml: nothing to rename\n");
     assert_eq!(place.names("."), ["new.toml", "r.toml"]);
-    assert_ends(&place, &["migrate", "none.toml"], 3, &["none.toml:1: the recipe cannot be read"]);
+    assert_ends(&place, &["migrate", "none.toml"], 3, &["error: none.toml: the recipe cannot be read"]);
 }
 
 #[test]

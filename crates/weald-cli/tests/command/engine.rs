@@ -66,6 +66,22 @@ fn auto_never_takes_software_for_a_graphics_card_and_gpu_does() {
     assert!(report.contains("\"engine\": \"gpu\"") && report.contains("llvmpipe"), "{report}");
 }
 
+/// Mesa's layer that asks the desktop for its graphics card says so where there is none.
+#[cfg(target_os = "linux")]
+#[test]
+fn no_line_of_a_driver_looks_like_an_error() {
+    if left_out() {
+        return;
+    }
+    let place = Place::with(RECIPE);
+    let mut command = place.command(&["run", "r.toml", "--engine", "gpu", "--quiet"]);
+    let command = command.env_remove("XDG_RUNTIME_DIR").env_remove("NODEVICE_SELECT");
+    let output = command.output().expect("the command starts");
+    let stderr = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(0), "{stderr}");
+    assert!(!stderr.contains("error"), "{stderr}");
+}
+
 #[cfg(target_os = "linux")]
 #[test]
 fn without_an_adapter_the_gpu_ends_with_1_and_auto_runs_on_the_cpu() {

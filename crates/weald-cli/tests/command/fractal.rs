@@ -114,7 +114,7 @@ fn faults_of_the_command_line_end_with_2_and_limits_with_5() {
     );
     ends(&["fern", "-o", "fern.mp4"], 2, "`file` is fern.mp4, a film: add `frames`");
     ends(&["fern", "--finest", "2", "-o", "fern.svg"], 5, "choose a larger `finest`, such as 4");
-    ends(&["none.toml"], 3, "none.toml:1: the recipe cannot be read");
+    ends(&["none.toml"], 3, "error: none.toml: the recipe cannot be read");
     assert_eq!(place.names("."), ["r.toml"], "nothing was written");
 }
 

@@ -28,6 +28,7 @@ mod at_rest;
 mod brush;
 mod canvas;
 mod history;
+mod json_lines;
 mod keys;
 mod paint;
 mod script;

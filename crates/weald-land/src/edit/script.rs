@@ -14,6 +14,7 @@ use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
+use super::json_lines::{MAX_FAULTS, json_lines};
 use super::keys;
 use weald_core::error::{Diagnostic, Error, Limit, Quantity, RecipeError};
 use weald_core::parameter::Diagnostics;
@@ -25,9 +26,6 @@ pub const MAX_BYTES: usize = 16 << 20;
 
 /// Most strokes of a script.
 pub const MAX_STROKES: usize = 100_000;
-
-/// After so many faults no more are looked for.
-const MAX_FAULTS: usize = 50;
 
 /// How a script is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -180,49 +178,6 @@ fn check_length(file: &str, text: &str, layout: Layout) -> Result<(), Error> {
 fn too_many(file: &str, strokes: usize) -> Error {
     let limit = Limit::new(Quantity::Strokes, strokes as u64, 0..=MAX_STROKES as u64);
     limit.of(format!("{file}: a script")).remedy("leave out strokes").into()
-}
-
-fn json_lines(text: &str, diagnostics: &mut Diagnostics) -> Vec<Table> {
-    let mut tables = Vec::new();
-    for (index, text) in text.lines().enumerate().filter(|(_, text)| !text.trim().is_empty()) {
-        let line = index + 1;
-        match serde_json::from_str(text).map(|value| node(value, line)) {
-            Ok(Node { value: Value::Table(table), .. }) => tables.push(table),
-            Ok(other) => diagnostics.add(line, format!("is {}, but must be {{ … }}", other.value.shown())),
-            Err(error) => diagnostics.add(line, no_json(&error)),
-        }
-        if diagnostics.found.len() >= MAX_FAULTS {
-            break;
-        }
-    }
-    tables
-}
-
-/// The parser counts lines within the one that it was given.
-fn no_json(error: &serde_json::Error) -> String {
-    let full = error.to_string();
-    let what = full.split(" at line ").next().unwrap_or(&full);
-    format!("is no JSON at column {}: {what}; an edit is one line, {{ … }}", error.column())
-}
-
-fn node(value: serde_json::Value, line: usize) -> Node {
-    use serde_json::Value as Json;
-    let value = match value {
-        // JSON's nothing is no value of any key.
-        Json::Null => Value::Text("null".to_owned()),
-        Json::Bool(flag) => Value::Flag(flag),
-        Json::Number(number) => match number.as_i64() {
-            Some(number) => Value::Integer(number),
-            None => Value::Number(number.as_f64().unwrap_or(f64::NAN)),
-        },
-        Json::String(text) => Value::Text(text),
-        Json::Array(items) => Value::List(items.into_iter().map(|item| node(item, line)).collect()),
-        Json::Object(entries) => {
-            let entries = entries.into_iter().map(|(key, value)| (key, node(value, line))).collect();
-            Value::Table(Table { line, entries })
-        }
-    };
-    Node { line, value }
 }
 
 fn toml_tables(file: &str, text: &str, diagnostics: &mut Diagnostics) -> Result<Vec<Table>, RecipeError> {

@@ -110,6 +110,7 @@ pub(crate) fn joined(fine: Budget, before: &Budget) -> Budget {
     water.incoming += before.water.incoming - before.water.stored;
     water.outgoing += before.water.outgoing;
     solid.outgoing += before.solid.outgoing;
+    solid.moved += before.solid.outgoing;
     Budget { water, solid }
 }
 

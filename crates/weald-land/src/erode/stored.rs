@@ -33,8 +33,8 @@ impl WorkingGrid {
             notes.push(format!(
                 "this transport does not conserve sediment: {:.3e} m³ of solid were {}; transport = \"upwind\", or \
                  \"maccormack\" with `conserve`, conserves it",
-                (budget.solid.error() * budget.solid.start).abs(),
-                if budget.solid.error() > 0.0 { "lost" } else { "made" },
+                budget.solid.lost().abs(),
+                if budget.solid.lost() > 0.0 { "lost" } else { "made" },
             ));
         }
         Outcome { iterations: kept.iterations, budget: Some(budget), notes, ..Outcome::default() }

@@ -224,6 +224,9 @@ impl WorkingGrid {
         let bedrock = total(&self.base);
         let change = finished.state.gather(plane::CHANGE);
         let [loose_before, loose] = self.loose(finished);
+        let changed: f64 = change.iter().map(|&change| f64::from(change).abs()).sum();
+        let suspended = total(sediment);
+        let moved = changed + (loose - loose_before).abs() + suspended.abs() + flows.solid_out.abs();
         Budget {
             water: WaterBudget {
                 incoming: (flows.rained + total(&self.water)) * volume,
@@ -234,8 +237,9 @@ impl WorkingGrid {
                 start: (bedrock + loose_before) * volume,
                 ground: (bedrock + total(&change)) * volume,
                 layers: loose * volume,
-                suspended: total(sediment) * volume,
+                suspended: suspended * volume,
                 outgoing: flows.solid_out * volume,
+                moved: moved * volume,
             },
         }
     }

@@ -20,13 +20,13 @@ parameters! {
     /// # use weald_engine::{Job, step::Step};
     /// # use weald_land::generate::constant::Constant;
     /// let mut landscape = Landscape::new(Domain::new(Size::new(8, 6)?, 10.0)); // columns, rows, metres
-    /// Constant { value: 250.0, ..Constant::default() }.run(&mut landscape, &Job::unwatched(0))?;
+    /// Constant { height: 250.0, ..Constant::default() }.run(&mut landscape, &Job::unwatched(0))?;
     /// assert_eq!(landscape.field("height")?.range(None), Some((250.0, 250.0)));
     /// # Ok::<(), Error>(())
     /// ```
     pub struct Constant {
         /// Height everywhere.
-        value: f64 = 0.0, range -1.0e6..=1.0e6, unit "m";
+        height: f64 = 0.0, range -1.0e6..=1.0e6, unit "m";
         /// Layer that is written.
         into: LayerName = LayerName::of("height");
     }
@@ -34,7 +34,7 @@ parameters! {
 
 impl Generator for Constant {
     fn fill(&self, domain: &Domain, _: u64) -> Result<Field, Error> {
-        Ok(Field::filled(domain.size, self.value as f32))
+        Ok(Field::filled(domain.size, self.height as f32))
     }
 
     fn target(&self) -> &LayerName {

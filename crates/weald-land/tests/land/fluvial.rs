@@ -156,7 +156,7 @@ fn nothing_is_lost_and_nothing_negative_in_thousands_of_steps() {
         let budget = run(&Fluvial { boundary, ..wild() }, &mut land);
         let eroded: f64 = field(&land, "erosion").values().iter().map(|&e| f64::from(e) * 25.0).sum();
         assert!(eroded > 1000.0, "nothing moved, so a closed budget would mean nothing: {eroded} m³");
-        let lost = budget.solid.error() * budget.solid.start / eroded;
+        let lost = budget.solid.lost() / eroded;
         println!("{boundary:?}: water {:.1e}, solid {lost:.1e} of {eroded:.0} m³", budget.water.error());
         assert!(budget.water.error().abs() < 1e-5, "{:?}", budget.water);
         assert!(lost.abs() < 1e-5, "{lost:e} of what moved is missing: {:?}", budget.solid);

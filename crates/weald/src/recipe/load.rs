@@ -24,7 +24,7 @@ parameters! {
     /// # let folder = tempfile::tempdir().expect("a folder");
     /// # let file = folder.path().join("soil.tif");
     /// let mut landscape = Landscape::empty(8, 6, 10.0)?; // columns, rows, metres
-    /// landscape.run(&steps::Constant { value: 3.0, ..Default::default() })?;
+    /// landscape.run(&steps::Constant { height: 3.0, ..Default::default() })?;
     /// landscape.save("height", &file)?;
     /// let file = RasterFile(file.display().to_string());
     /// landscape.run(&steps::Load { file, into: LayerName::of("soil"), scale: 0.5, ..Default::default() })?;

@@ -157,18 +157,46 @@ fn steps_named<'a>(recipe: &'a mut Table, name: &str) -> Result<Vec<&'a mut Tabl
         Some(Value::Text(name)) => Some(name.clone()),
         _ => None,
     };
-    let (named, others): (Vec<_>, Vec<_>) =
-        tables_of(recipe, "step").into_iter().partition(|table| done_by(table).as_deref() == Some(name));
-    if !named.is_empty() {
-        return Ok(named);
+    let known: Vec<_> = tables_of(recipe, "step").iter().filter_map(|table| done_by(table)).collect();
+    if !known.iter().any(|step| step == name) {
+        return Err(no_such_step(recipe, name, &known));
     }
-    let mut known: Vec<_> = others.iter().filter_map(|table| done_by(table)).collect();
-    known.extend(["landscape", "material", "step", "output"].map(str::to_owned));
-    let known: Vec<_> = known.iter().map(String::as_str).collect();
-    Err(match nearest(name, &known) {
-        Some(near) => format!("this recipe has no step `{name}`; did you mean `{near}`?"),
-        None => format!("this recipe has no step `{name}`; a path begins with one of: {}", known.join(", ")),
-    })
+    let tables = tables_of(recipe, "step").into_iter();
+    Ok(tables.filter(|table| done_by(table).as_deref() == Some(name)).collect())
+}
+
+/// Sections of a recipe with which a path can begin.
+const SECTIONS: [&str; 5] = ["landscape", "material", "fractal", "step", "output"];
+
+/// What to do about the first word of a path that is no section and no step. `steps` are those of the recipe.
+fn no_such_step(recipe: &mut Table, name: &str, steps: &[String]) -> String {
+    if let Some((number, kind)) = output_called(recipe, name) {
+        return format!(
+            "`{name}` is no step, but the {kind} of output {number}: outputs are counted, so that it is output.{number}.KEY"
+        );
+    }
+    let known: Vec<_> = steps.iter().map(String::as_str).chain(SECTIONS).collect();
+    if let Some(near) = nearest(name, &known) {
+        return format!("this recipe has no step `{name}`; did you mean `{near}`?");
+    }
+    let steps = if steps.is_empty() { String::new() } else { format!(", STEP.KEY for one of: {}", steps.join(", ")) };
+    format!(
+        "this recipe has no step and no section `{name}`; a path is landscape.KEY, material.N.KEY, fractal.N.KEY, \
+         step.N.KEY, output.N.KEY for pictures, layers and exports, where N counts from 1{steps}"
+    )
+}
+
+/// The number of the first output whose picture, export, layer or file is called so, and which of them it is.
+fn output_called(recipe: &mut Table, name: &str) -> Option<(usize, &'static str)> {
+    let is = |table: &Table, key: &str| {
+        matches!(table.get(key).map(|node| &node.value), Some(Value::Text(text)) if text == name)
+    };
+    let outputs = tables_of(recipe, "output");
+    let mut found = outputs.iter().enumerate().filter_map(|(at, table)| {
+        let kind = ["picture", "export", "layer", "file"].into_iter().find(|key| is(table, key))?;
+        Some((at + 1, kind))
+    });
+    found.next()
 }
 
 /// Sets the longer side and keeps shape and extent. Where `size` or `cell` are faulty they are left for the
@@ -253,6 +281,16 @@ mod tests {
         assert!(set(TWO_STEPS, "step.3.rate", "1").1[0].contains("steps 1 to 2"));
         assert!(set(TWO_STEPS, "step.1.rate.low", "1").1[0].contains("`rate` is not a table"));
         assert!(set(TWO_STEPS, "landscape", "1").1[0].contains("ends before it names a key"));
+        let none = &set(TWO_STEPS, "eye.far", "1").1[0];
+        assert!(none.contains("output.N.KEY for pictures") && none.contains("for one of: slide, slide"), "{none}");
+    }
+
+    #[test]
+    fn a_path_with_the_name_of_a_picture_is_answered_with_its_number() {
+        let text = format!("{TWO_STEPS}[[output]]\nlayer = \"height\"\n[[output]]\npicture = \"view\"\n");
+        let message = &set(&text, "view.snow_line", "1").1[0];
+        assert!(message.ends_with("it is output.2.KEY"), "{message}");
+        assert!(message.contains("`view` is no step, but the picture of output 2"), "{message}");
     }
 
     #[test]

@@ -14,6 +14,7 @@ mod unknown_keys;
 mod words;
 
 pub(super) use self::words::Vocabulary;
+use std::cell::RefCell;
 use std::fs::File;
 use std::io::{ErrorKind, Read};
 use std::path::{Path, PathBuf};
@@ -52,6 +53,8 @@ pub struct Recipe {
     pub steps: Vec<Planned>,
     /// What is written at the end.
     pub outputs: Vec<Output>,
+    /// Files that it names, with the line of the key.
+    named: Vec<(PathBuf, usize)>,
     text: String,
 }
 
@@ -71,6 +74,14 @@ impl Recipe {
         ground.into_iter().chain(materials).chain(flames).chain(steps).collect()
     }
 
+    /// The place in the recipe that names a file, as `land.toml:7`.
+    pub fn place_of(&self, input: &Path) -> String {
+        match self.named.iter().find(|(path, _)| path == input) {
+            Some((_, line)) if *line > 0 => format!("{}:{line}", self.file),
+            _ => self.file.clone(),
+        }
+    }
+
     /// Reads and checks the recipe in a file. No other file is opened.
     ///
     /// # Errors
@@ -87,7 +98,7 @@ impl Recipe {
         read_text(path).map_err(|cause| {
             let message = format!("the recipe cannot be read: {cause}{}", remedy(cause.kind()));
             let file = path.display().to_string();
-            RecipeError { file, diagnostics: vec![Diagnostic { line: 1, message }] }
+            RecipeError { file, diagnostics: vec![Diagnostic { line: Diagnostic::NO_LINE, message }] }
         })
     }
 
@@ -219,7 +230,9 @@ fn check(
     diagnostics.subject.clear();
     format::check(recipe, diagnostics);
     diagnostics.unknown_keys(recipe, &[format::KEY, "landscape", "material", "fractal", "step", "output"]);
-    let files = Files { vocabulary, folder: Path::new(file).parent().unwrap_or(Path::new("")) };
+    let named = RefCell::new(Vec::new());
+    let folder = Path::new(file).parent().unwrap_or(Path::new(""));
+    let files = Files { vocabulary, folder, named: &named };
     let start = landscape::read(files, recipe, diagnostics);
     let before = diagnostics.found.len();
     let materials = materials::read(files, recipe, diagnostics);
@@ -245,6 +258,7 @@ fn check(
     }
     steps::check_sizes(&steps)?;
     let text = format!("{} = {}\n{}", format::KEY, format::NEWEST, canonical::text(recipe));
-    let file = file.to_owned();
-    Ok(Recipe { file, ground: start.ground?, seed: start.seed, materials, fractals, steps, outputs, text })
+    let (file, named) = (file.to_owned(), named.into_inner());
+    let (ground, seed) = (start.ground?, start.seed);
+    Ok(Recipe { file, ground, seed, materials, fractals, steps, outputs, named, text })
 }

@@ -35,6 +35,7 @@ pub enum What {
 
 /// All changes of names.
 pub const RENAMED: &[Renamed] = &[
+    key("step", ("do", "constant"), "value", "height"),
     key("step", ("do", "lakes"), "film", "shallowest"),
     key("step", ("do", "moisture"), "film", "shallowest"),
     key("step", ("do", "wetness"), "least_slope", "min_slope"),

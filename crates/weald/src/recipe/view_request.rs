@@ -80,7 +80,7 @@ mod tests {
     fn request(keys: &[(&str, &str)]) -> (tempfile::TempDir, ViewRequest) {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("land.toml");
-        let text = "[landscape]\nsize = 8\ncell = 10.0\n[[step]]\ndo = \"constant\"\nvalue = 3.0\n\
+        let text = "[landscape]\nsize = 8\ncell = 10.0\n[[step]]\ndo = \"constant\"\nheight = 3.0\n\
                     [[output]]\nlayer = \"height\"\nfile = \"a.tif\"\n\
                     [[output]]\npicture = \"view\"\nsun_altitude_deg = 9.0\nazimuth_deg = 30\nframes = 20\nfile = \"b.mp4\"\n";
         std::fs::write(&path, text).expect("written");

@@ -25,7 +25,7 @@ pub(super) fn tables(finished: &Finished<'_>) -> String {
         let rows: Vec<_> = budgets.iter().map(|(step, budget)| solid(step, budget)).collect();
         let header = ["step", "ground before", "ground after", "loose", "suspended", "out", "relative error"];
         let caption = "Solid in m³ above the lowest cell of the start; the relative error is what is missing over the \
-                       ground before.";
+                       ground before, or over what moved where that is more.";
         text += &table(caption, &header, &rows);
     }
     text

@@ -178,7 +178,7 @@ deposition = "deposition"
 moisture = "moisture"
 [[step]]
 do = "constant"
-value = 0.85
+height = 0.85
 into = "fertility"
 [[step]]
 do = "sunlight"

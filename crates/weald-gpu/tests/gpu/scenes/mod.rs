@@ -57,7 +57,7 @@ pub(crate) fn lakes() -> Landscape {
 /// A gentle meadow, 120 m wide.
 pub(crate) fn meadow() -> Landscape {
     let constant = |layer: &str, value: f64| {
-        format!("[[step]]\ndo = \"constant\"\nvalue = {value}\ninto = \"{layer}\"\n")
+        format!("[[step]]\ndo = \"constant\"\nheight = {value}\ninto = \"{layer}\"\n")
     };
     let maps: String = [("fertility", 0.8), ("light", 0.7), ("moisture", 0.6)]
         .iter()

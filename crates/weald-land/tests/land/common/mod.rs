@@ -163,5 +163,5 @@ pub fn error_of_what_moved(solid: &SolidBudget, before: &Landscape, after: &Land
         after.map(|(at, &now)| (f64::from(now) - start(name, at)).abs()).sum::<f64>()
     });
     let moved = moved.iter().sum::<f64>() * before.domain.cell.powi(2);
-    solid.error() * solid.start / moved
+    solid.lost() / moved
 }

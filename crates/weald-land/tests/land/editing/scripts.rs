@@ -53,7 +53,8 @@ fn faults_of_a_script_come_with_their_lines_and_what_was_probably_meant() {
                 {\"do\": \"add-water\", \"depth\": -3, \"path\": [1]}\n\
                 {\"do\": \"flatten\"\n\
                 [3]\n\
-                {\"do\": \"flatten\", \"path\": [[1, 2], [3, 4]]}\n";
+                {\"do\": \"flatten\", \"path\": [[1, 2], [3, 4]]}\n\
+                {\"do\": \"thaw\", \"path\": [1, 2], \"radius\": 5, \"radius\": 6}\n";
     let message = parse(text).expect_err("faulty").to_string();
     for expected in [
         "s.jsonl:1: edit: `do` is \"ad\"; did you mean `add`?",
@@ -65,6 +66,7 @@ fn faults_of_a_script_come_with_their_lines_and_what_was_probably_meant() {
         "s.jsonl:6: is no JSON",
         "s.jsonl:7: is a list, but must be { … }",
         "s.jsonl:8: flatten: `height` is needed",
+        "s.jsonl:9: column 56: duplicate key: `radius`",
     ] {
         assert!(message.contains(expected), "{expected}\nis not in\n{message}");
     }

@@ -1,6 +1,7 @@
 //! Files that a recipe names: their paths start at its folder, their formats are known before it runs.
 
-use std::path::Path;
+use std::cell::RefCell;
+use std::path::{Path, PathBuf};
 
 use super::words::Vocabulary;
 use weald_core::parameter::{Diagnostics, Kind, Parameter, Variant};
@@ -13,6 +14,8 @@ pub(super) struct Files<'a> {
     pub(super) vocabulary: &'a Vocabulary,
     /// Folder of the recipe.
     pub(super) folder: &'a Path,
+    /// The files that were named, with the line of the key.
+    pub(super) named: &'a RefCell<Vec<(PathBuf, usize)>>,
 }
 
 impl Files<'_> {
@@ -27,6 +30,7 @@ impl Files<'_> {
                 diagnostics.add(*line, format!("`{}`: {problem}", key.name));
             }
             *name = path.to_string_lossy().into_owned();
+            self.named.borrow_mut().push((path, *line));
         }
         placed
     }
