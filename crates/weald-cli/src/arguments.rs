@@ -108,7 +108,12 @@ impl Command {
     pub(crate) fn may_use_a_device(&self) -> bool {
         matches!(
             self,
-            Self::Run(_) | Self::Report(_) | Self::Gallery { .. } | Self::Fractal(_) | Self::Render(_) | Self::Bench(_)
+            Self::Run(_)
+                | Self::Report(_)
+                | Self::Gallery { .. }
+                | Self::Fractal(_)
+                | Self::Render(_)
+                | Self::Bench(_)
         )
     }
 }

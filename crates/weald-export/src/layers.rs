@@ -1,7 +1,9 @@
 //! Several layers in one file of arrays, `NetCDF` or Zarr, on one grid with one CRS.
 
+use std::borrow::Cow;
 use std::path::Path;
 
+use super::classes::classes;
 use super::{Export, Finished};
 use weald_core::choices;
 use weald_core::error::Error;
@@ -78,8 +80,10 @@ fn layer<'a>(finished: &Finished<'a>, name: &str) -> Result<cf::Layer<'a>, Error
         layer: name.to_owned(),
         unit: layer.unit.clone(),
         range: (range.0.into(), range.1.into()),
+        resampled: None,
     };
-    Ok(cf::Layer { field: &layer.field, provenance: Some(provenance) })
+    let classes = classes(finished.landscape, name)?.map(Cow::Owned);
+    Ok(cf::Layer { field: &layer.field, provenance: Some(provenance), classes })
 }
 
 #[cfg(test)]

@@ -1,6 +1,7 @@
 //! What a landscape becomes for other programs beyond one raster: meshes, vectors, sets of tiles, pages.
 //! One file a kind; [`EXPORTS`] is the registry.
 
+pub mod classes;
 mod copies;
 mod export;
 mod grass;

@@ -17,6 +17,8 @@ pub struct Provenance {
     pub unit: String,
     /// Least and greatest value over the cells with data.
     pub range: (f64, f64),
+    /// From which grid to which the values were brought and how, where they were.
+    pub resampled: Option<String>,
 }
 
 /// Key of the version of Weald.
@@ -31,13 +33,15 @@ pub(super) const LAYER: &str = "WEALD_LAYER";
 pub(super) const UNIT: &str = "WEALD_UNIT";
 /// Key of the least value.
 pub(super) const MINIMUM: &str = "WEALD_MINIMUM";
+/// Key of what was done to bring the values to another grid.
+pub(super) const RESAMPLED: &str = "WEALD_RESAMPLED";
 /// Key of the greatest value.
 pub(super) const MAXIMUM: &str = "WEALD_MAXIMUM";
 
 impl Provenance {
     /// Keys and texts; numbers are written so that they read back the same.
     pub(super) fn items(&self) -> Vec<(&'static str, String)> {
-        vec![
+        let mut items = vec![
             (VERSION, self.version.clone()),
             (RECIPE, self.recipe_blake3.clone()),
             (SEED, self.seed.to_string()),
@@ -45,7 +49,9 @@ impl Provenance {
             (UNIT, self.unit.clone()),
             (MINIMUM, format!("{:?}", self.range.0)),
             (MAXIMUM, format!("{:?}", self.range.1)),
-        ]
+        ];
+        items.extend(self.resampled.clone().map(|text| (RESAMPLED, text)));
+        items
     }
 
     /// The provenance behind `text_of`, where every key is there and legible.
@@ -57,12 +63,13 @@ impl Provenance {
             layer: text_of(LAYER)?,
             unit: text_of(UNIT)?,
             range: (finite(&text_of(MINIMUM)?)?, finite(&text_of(MAXIMUM)?)?),
+            resampled: text_of(RESAMPLED),
         })
     }
 
     /// The provenance in one sentence.
     pub(super) fn sentence(&self) -> String {
-        let Self { version, recipe_blake3, seed, layer, unit, range } = self;
+        let Self { version, recipe_blake3, seed, layer, unit, range, .. } = self;
         let unit = match shown_unit(unit) {
             none if none.is_empty() => none,
             unit => format!(" {unit}"),
@@ -91,6 +98,7 @@ pub(super) mod tests {
             layer: "water<\"&\">".to_owned(),
             unit: "m³/step".to_owned(),
             range: (-0.1, 1.0e-30),
+            resampled: None,
         }
     }
 

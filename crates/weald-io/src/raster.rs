@@ -5,10 +5,14 @@ use weald_core::error::Error;
 use weald_core::grid::{Field, Mask, Size};
 
 use super::unit::Measure;
-use super::{Fault, Provenance};
+use super::{Classes, Fault, Provenance};
 
 /// Numbers that may stand for no-data, in the order in which they are tried before NaN.
 const NO_DATA: [f32; 2] = [-9999.0, -99999.0];
+
+/// What the user should know of values of 8 bits.
+const EIGHT_BITS: &str =
+    "if these are heights, 8 bits hold 256 of them, so slopes come out as terraces; 16 bits do not";
 
 /// A grid of numbers with all that a file can say about it.
 #[derive(Clone, Debug, PartialEq)]
@@ -23,6 +27,9 @@ pub struct Raster {
     pub georeference: Option<Georeference>,
     /// Where the values came from.
     pub provenance: Option<Provenance>,
+    /// What the values stand for, where all are whole numbers that stand for things; formats that have whole numbers then
+    /// store such.
+    pub classes: Option<Classes>,
     /// Unit of the values of a file that Weald did not write: `m` where it has a length in any unit, or what it says;
     /// `None` where it says none.
     pub unit: Option<String>,
@@ -41,6 +48,7 @@ impl From<Field> for Raster {
             cell: None,
             georeference: None,
             provenance: None,
+            classes: None,
             unit: None,
             stored: "float32",
             notes: Vec::new(),
@@ -68,9 +76,7 @@ impl Raster {
                 field.at(x, y)
             )));
         }
-        let eight_bits =
-            "if these are heights, 8 bits hold 256 of them, so slopes come out as terraces; 16 bits do not";
-        let notes = if stored.ends_with("int8") { vec![eight_bits.to_owned()] } else { Vec::new() };
+        let notes = if stored.ends_with("int8") { vec![EIGHT_BITS.to_owned()] } else { Vec::new() };
         Ok(Self { valid, stored, notes, ..Self::from(field) })
     }
 
@@ -82,7 +88,11 @@ impl Raster {
     }
 
     /// With what a file says of its source, whose unit then counts.
-    pub(super) fn with_source(self, provenance: Option<Provenance>) -> Self {
+    pub(super) fn with_source(mut self, provenance: Option<Provenance>) -> Self {
+        if provenance.is_some() {
+            // Weald writes no heights in 8 bits, but classes.
+            self.notes.retain(|note| note != EIGHT_BITS);
+        }
         let unit = self.unit.filter(|_| provenance.is_none());
         Self { provenance, unit, ..self }
     }

@@ -120,6 +120,7 @@ mod tests {
             layer: "heat".to_owned(),
             unit: "m³/s".to_owned(),
             range: (280.0, 280.0),
+            resampled: None,
         };
         let raster = Raster { cell: Some(5.0), provenance: Some(provenance), ..Raster::from(field) };
         io::write(&path, &raster).expect("written");

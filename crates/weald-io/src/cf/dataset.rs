@@ -1,7 +1,9 @@
 //! What goes into a file, one grid and the layers on it; and its arrays and attributes, ready to be packed as `NetCDF` or
 //! Zarr.
 
-use super::super::{Provenance, Raster, provenance};
+use std::borrow::Cow;
+
+use super::super::{Classes, Provenance, Raster, provenance};
 use super::attribute::{Attribute, Attributes};
 use super::axis::Axis;
 use super::crs;
@@ -34,6 +36,8 @@ pub struct Layer<'a> {
     pub field: &'a Field,
     /// Where it came from.
     pub provenance: Option<Provenance>,
+    /// What its values stand for, where they are whole numbers.
+    pub classes: Option<Cow<'a, Classes>>,
 }
 
 impl<'a> Sheet<'a> {
@@ -43,7 +47,11 @@ impl<'a> Sheet<'a> {
             cell: raster.cell,
             georeference: raster.georeference.as_ref(),
             valid: raster.valid.as_ref(),
-            layers: vec![Layer { field: &raster.field, provenance: raster.provenance.clone() }],
+            layers: vec![Layer {
+                field: &raster.field,
+                provenance: raster.provenance.clone(),
+                classes: raster.classes.as_ref().map(Cow::Borrowed),
+            }],
             names,
         }
     }
@@ -52,6 +60,22 @@ impl<'a> Sheet<'a> {
     /// coordinates.
     pub(super) fn is_south_up(&self) -> bool {
         self.names == Names::Landlab
+    }
+
+    /// Whether a layer of degrees is written as rise over run, which is what landlab calls a slope.
+    fn makes_tangents(&self, layer: &Layer<'_>) -> bool {
+        let is_slope = |said: &Provenance| said.layer == "slope" && said.unit == "deg";
+        self.names == Names::Landlab && layer.provenance.as_ref().is_some_and(is_slope)
+    }
+
+    /// The layer with what is said of the values that are written.
+    fn as_written(&self, layer: &Layer<'a>) -> Layer<'a> {
+        let mut written = layer.clone();
+        if let Some(said) = written.provenance.as_mut().filter(|_| self.makes_tangents(layer)) {
+            "1".clone_into(&mut said.unit);
+            said.range = (tangent(said.range.0), tangent(said.range.1));
+        }
+        written
     }
 
     pub(super) fn size(&self) -> Size {
@@ -122,6 +146,26 @@ pub struct Cells<'a> {
     field: &'a Field,
     valid: Option<&'a Mask>,
     is_south_up: bool,
+    are_whole: bool,
+    /// Whether the values are degrees of slope that are written as rise over run.
+    are_tangents: bool,
+}
+
+/// Order of the bytes of a number.
+#[derive(Clone, Copy, Debug)]
+pub enum Order {
+    /// The most significant first.
+    Big,
+    /// The least significant first.
+    Little,
+}
+
+/// The whole number of cells without data.
+pub const NO_CLASS: i32 = -1;
+
+/// Rise over run of a slope in degrees.
+fn tangent(degrees: f64) -> f64 {
+    libm::tan(degrees.to_radians())
 }
 
 /// Name of a layer of which nothing is known.
@@ -144,8 +188,14 @@ impl<'a> Dataset<'a> {
         let is_south_up = sheet.is_south_up();
         let cells = sheet.layers.iter().zip(names).map(|(layer, name)| Variable {
             name,
-            attributes: layer_attributes(layer, sheet.georeference.is_some()),
-            values: Values::Cells(Cells { field: layer.field, valid: sheet.valid, is_south_up }),
+            attributes: layer_attributes(&sheet.as_written(layer), sheet.georeference.is_some()),
+            values: Values::Cells(Cells {
+                field: layer.field,
+                valid: sheet.valid,
+                is_south_up,
+                are_whole: layer.classes.is_some(),
+                are_tangents: sheet.makes_tangents(layer),
+            }),
         });
         variables.extend(cells);
         Ok(Self { size: sheet.size(), attributes: file_attributes(sheet), variables })
@@ -170,10 +220,32 @@ impl Cells<'_> {
         self.field.size()
     }
 
+    /// Whether they are whole numbers, 0 or more.
+    pub fn are_whole(&self) -> bool {
+        self.are_whole
+    }
+
+    /// The bytes of a value in 32 bits: a float, or a whole number that is [`NO_CLASS`] without data.
+    pub fn bytes(&self, value: f32, order: Order) -> [u8; 4] {
+        let bits = match (self.are_whole, value.is_nan()) {
+            (false, _) => value.to_bits(),
+            (true, true) => NO_CLASS.cast_unsigned(),
+            (true, false) => value as u32,
+        };
+        match order {
+            Order::Big => bits.to_be_bytes(),
+            Order::Little => bits.to_le_bytes(),
+        }
+    }
+
     /// The value in a column and a row of the file; NaN without data.
     pub fn at(&self, x: usize, row: usize) -> f32 {
         let y = if self.is_south_up { self.size().rows - 1 - row } else { row };
-        if self.valid.is_none_or(|valid| valid.is_valid(x, y)) { self.field.at(x, y) } else { f32::NAN }
+        if !self.valid.is_none_or(|valid| valid.is_valid(x, y)) {
+            return f32::NAN;
+        }
+        let value = self.field.at(x, y);
+        if self.are_tangents { tangent(value.into()) as f32 } else { value }
     }
 }
 
@@ -203,7 +275,8 @@ fn coordinates<'a>(sheet: &Sheet<'_>) -> Vec<Variable<'a>> {
 }
 
 /// Keys of a provenance that hold for one layer alone.
-const OF_LAYER: [&str; 4] = [provenance::LAYER, provenance::UNIT, provenance::MINIMUM, provenance::MAXIMUM];
+const OF_LAYER: [&str; 5] =
+    [provenance::LAYER, provenance::UNIT, provenance::MINIMUM, provenance::MAXIMUM, provenance::RESAMPLED];
 
 fn file_attributes(sheet: &Sheet<'_>) -> Attributes {
     let mut attributes = Attributes::default();
@@ -238,8 +311,26 @@ fn layer_attributes(layer: &Layer<'_>, is_placed: bool) -> Attributes {
         let items = provenance.items().into_iter().filter(|(key, _)| OF_LAYER.contains(key));
         items.for_each(|(key, text)| attributes.add(key, text));
     }
+    if let Some(classes) = layer.classes.as_ref().filter(|classes| classes.named.len() <= MAX_FLAGS) {
+        let (numbers, meanings) = flags(classes);
+        attributes.add("flag_values", Attribute::Integers(numbers));
+        attributes.add("flag_meanings", meanings);
+    }
     if is_placed {
         attributes.add("grid_mapping", Attribute::from(GRID_MAPPING));
     }
     attributes
+}
+
+/// Most classes whose meaning is said.
+const MAX_FLAGS: usize = 4096;
+
+/// Numbers and what each means, as CF 3.5 has them: words with a blank between, each of letters, digits and underscores.
+fn flags(classes: &Classes) -> (Vec<i32>, String) {
+    let word = |name: &str| {
+        let legal = |letter: char| letter.is_ascii_alphanumeric() || "_-.+@".contains(letter);
+        name.chars().map(|letter| if legal(letter) { letter } else { '_' }).collect::<String>()
+    };
+    let words: Vec<String> = classes.named.iter().map(|class| word(&class.name)).collect();
+    (classes.named.iter().map(|class| class.number as i32).collect(), words.join(" "))
 }

@@ -25,7 +25,7 @@ pub use attribute::{Attribute, Attributes, Described, Source};
 pub use axis::Axis;
 pub(super) use crs::OMITTED_CRS;
 pub use crs::{OMITTED_CRS_NOTE, is_readable_by_all};
-pub use dataset::{Cells, Dataset, Layer, Sheet, Values, Variable};
+pub use dataset::{Cells, Dataset, Layer, NO_CLASS, Order, Sheet, Values, Variable};
 pub use names::Names;
 pub use read::read;
 

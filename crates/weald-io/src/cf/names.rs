@@ -26,7 +26,7 @@ const KNOWN: &[Known] = &[
     known("bedrock", Some("bedrock_altitude"), Some("bedrock__elevation")),
     known("soil", None, Some("soil__depth")),
     known("water", None, Some("surface_water__depth")),
-    known("slope", None, Some("topographic__steepest_slope")),
+    known("slope", None, Some("topographic__slope")),
     known("accumulation", None, Some("drainage_area")),
     known("discharge", None, Some("surface_water__discharge")),
 ];

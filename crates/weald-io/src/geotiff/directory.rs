@@ -38,6 +38,8 @@ pub(super) mod tag {
 
     /// Deflate in a zlib stream, the code that Adobe registered.
     pub(in super::super) const DEFLATE: u16 = 8;
+    /// Predictor that stores differences of numbers.
+    pub(in super::super) const HORIZONTAL_PREDICTOR: u16 = 2;
     /// Predictor that splits floats into bytes, most significant first, and stores their differences.
     pub(in super::super) const FLOATING_POINT_PREDICTOR: u16 = 3;
 }

@@ -97,7 +97,7 @@ fn item(xml: &str, key: &str) -> Option<String> {
     Some(unescaped(text))
 }
 
-fn escaped(text: &str) -> String {
+pub(super) fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 

@@ -2,7 +2,8 @@
 //!
 //! Read: strips and tiles; no compression, LZW, Deflate, `PackBits`, Zstandard; predictors 1, 2 and 3; unsigned integers of
 //! 1 to 32 and of 64 bits, signed ones of 8, 16, 32 and 64, floats of 16, 32 and 64; both byte orders; rows from either
-//! side. Written: `float32` in tiles of 256 × 256, Deflate, predictor 3. No-data is GDAL's tag 42113 and NaN; scale, offset,
+//! side. Written: `float32`, or whole numbers where the values are classes, in tiles of 256 × 256, Deflate, predictor 3 or 2,
+//! with smaller images by the preset `cog`. No-data is GDAL's tag 42113 and NaN; scale, offset,
 //! unit and provenance are its tag 42112.
 //!
 //! The tag directory is parsed here rather than by a general TIFF library, so that every size is checked
@@ -12,22 +13,30 @@ mod compression;
 mod directory;
 mod keys;
 mod layout;
+mod legend;
 mod metadata;
+mod overviews;
 mod read;
 mod sample;
+mod tiles;
 mod write;
 
 pub use read::decode;
 pub use write::encode;
 
-use super::{Capabilities, Decode, Encode, Format};
+use super::{Capabilities, Decode, Encode, Format, Preset};
 
 /// The entry in the registry of formats.
 pub(super) const FORMAT: Format = Format {
     name: "GeoTIFF",
     extensions: &["tif", "tiff"],
     decode: Some(Decode::File(decode)),
-    encode: Some(Encode::File(encode)),
+    encode: Some(Encode::Parts(write::parts)),
     holds: Capabilities::ALL,
-    presets: &[],
+    presets: &[Preset {
+        name: "cog",
+        summary: "cloud-optimized, with smaller images of it, which programs show from afar",
+        encode: Encode::Parts(write::cloud_optimized),
+        holds: Capabilities::ALL,
+    }],
 };

@@ -1,23 +1,17 @@
-//! Writing: one `float32` band in tiles of 256 × 256 cells, Deflate with the floating-point predictor.
+//! Writing: one band, `float32` or whole numbers where the values are classes; with or without smaller images of it.
 //!
-//! Tiles are packed on all cores and put into the file in their order, so the bytes do not depend on threads.
+//! The smaller images make a cloud-optimized GeoTIFF: all directories stand at the start, the largest image first; the
+//! data follow, the largest image last. So a program that shows the whole reads the start of the file alone.
 
-use std::io::Write;
-
-use flate2::Compression;
-use flate2::write::ZlibEncoder;
-use rayon::prelude::*;
-
+use super::super::Part;
 use super::super::Raster;
 use super::super::geokeys::keys_for;
 use super::directory::tag;
-use super::metadata;
+use super::overviews::overviews;
+use super::tiles::{Samples, TILE, tiles};
+use super::{legend, metadata};
 use weald_core::domain::GeoKeys;
 use weald_core::error::Error;
-use weald_core::grid::Size;
-
-/// Side of a tile in cells.
-const TILE: usize = 256;
 
 /// The bytes of a GeoTIFF file.
 ///
@@ -25,52 +19,48 @@ const TILE: usize = 256;
 /// [`Error::Run`] naming a cell with data that holds a NaN or an infinity.
 pub fn encode(raster: &Raster) -> Result<Vec<u8>, Error> {
     raster.ensure_finite()?;
-    let no_data = raster.number_for_no_data();
-    let across = raster.field.size().columns.div_ceil(TILE);
-    let down = raster.field.size().rows.div_ceil(TILE);
-    let tiles: Vec<Vec<u8>> = (0..across * down)
-        .into_par_iter()
-        .map(|tile| pack(&tile_rows(raster, tile % across * TILE, tile / across * TILE, no_data)))
-        .collect();
-    Ok(assemble(tags(raster, no_data), &tiles))
+    Ok(assemble(vec![Image::of(raster, Samples::of(raster))]))
 }
 
-/// The bytes of a tile with its predictor applied; beyond the grid it holds no-data.
-fn tile_rows(raster: &Raster, west: usize, north: usize, no_data: f32) -> Vec<u8> {
-    let Size { columns, rows } = raster.field.size();
-    let mut bytes = Vec::with_capacity(TILE * TILE * 4);
-    for y in north..north + TILE {
-        let mut values = [no_data; TILE];
-        if y < rows {
-            for (x, value) in (west..columns).zip(&mut values) {
-                let index = y * columns + x;
-                *value = if raster.is_valid_at(index) { raster.field.values()[index] } else { no_data };
-            }
+/// The same, and what its classes mean beside it.
+pub(super) fn parts(raster: &Raster) -> Result<Vec<Part>, Error> {
+    Ok(std::iter::once(Part::own(encode(raster)?)).chain(legend::parts(raster)).collect())
+}
+
+/// The same with smaller images, as a cloud-optimized GeoTIFF.
+pub(super) fn cloud_optimized(raster: &Raster) -> Result<Vec<Part>, Error> {
+    raster.ensure_finite()?;
+    let samples = Samples::of(raster);
+    let smaller = overviews(raster);
+    let images = smaller.iter().map(|smaller| Image::overview(smaller, samples));
+    let file = assemble(std::iter::once(Image::of(raster, samples)).chain(images).collect());
+    Ok(std::iter::once(Part::own(file)).chain(legend::parts(raster)).collect())
+}
+
+/// An image of the file.
+struct Image {
+    /// All tags but those that place the tiles.
+    tags: Vec<Entry>,
+    tiles: Vec<Vec<u8>>,
+}
+
+impl Image {
+    fn of(raster: &Raster, samples: Samples) -> Self {
+        let mut tags = image_tags(raster, samples);
+        tags.push(Entry::text(tag::SOFTWARE, concat!("Weald ", env!("CARGO_PKG_VERSION"))));
+        if let Some(provenance) = &raster.provenance {
+            tags.push(Entry::text(tag::IMAGE_DESCRIPTION, &provenance.sentence()));
+            tags.push(Entry::text(tag::GDAL_METADATA, &metadata::xml(provenance)));
         }
-        bytes.extend(predicted(&values));
+        tags.extend(place_tags(raster));
+        Self { tags, tiles: tiles(raster, samples) }
     }
-    bytes
-}
 
-/// Adobe's floating-point predictor (Photoshop TIFF technical note 3): the row's most significant bytes, then
-/// the next, and so on, and of these the differences from byte to byte.
-fn predicted(values: &[f32; TILE]) -> [u8; TILE * 4] {
-    let mut row = [0; TILE * 4];
-    for (x, value) in values.iter().enumerate() {
-        for (plane, byte) in value.to_be_bytes().into_iter().enumerate() {
-            row[plane * TILE + x] = byte;
-        }
+    fn overview(raster: &Raster, samples: Samples) -> Self {
+        let mut tags = image_tags(raster, samples);
+        tags.push(Entry::longs(tag::NEW_SUBFILE_TYPE, &[1]));
+        Self { tags, tiles: tiles(raster, samples) }
     }
-    for at in (1..row.len()).rev() {
-        row[at] = row[at].wrapping_sub(row[at - 1]);
-    }
-    row
-}
-
-fn pack(bytes: &[u8]) -> Vec<u8> {
-    let mut encoder = ZlibEncoder::new(Vec::new(), Compression::default());
-    encoder.write_all(bytes).expect("memory takes every byte");
-    encoder.finish().expect("memory takes every byte")
 }
 
 /// A tag with its values in little-endian order.
@@ -103,30 +93,23 @@ impl Entry {
     }
 }
 
-/// All tags but those that place the tiles.
-fn tags(raster: &Raster, no_data: f32) -> Vec<Entry> {
+/// What every image says of its values.
+fn image_tags(raster: &Raster, samples: Samples) -> Vec<Entry> {
     let size = raster.field.size();
-    let mut tags = vec![
+    vec![
         Entry::longs(tag::IMAGE_WIDTH, &[size.columns as u32]),
         Entry::longs(tag::IMAGE_LENGTH, &[size.rows as u32]),
-        Entry::shorts(tag::BITS_PER_SAMPLE, &[32]),
+        Entry::shorts(tag::BITS_PER_SAMPLE, &[samples.bits()]),
         Entry::shorts(tag::COMPRESSION, &[tag::DEFLATE]),
         Entry::shorts(tag::PHOTOMETRIC, &[1]),
         Entry::shorts(tag::SAMPLES_PER_PIXEL, &[1]),
         Entry::shorts(tag::PLANAR_CONFIGURATION, &[1]),
-        Entry::text(tag::SOFTWARE, concat!("Weald ", env!("CARGO_PKG_VERSION"))),
-        Entry::shorts(tag::PREDICTOR, &[tag::FLOATING_POINT_PREDICTOR]),
+        Entry::shorts(tag::PREDICTOR, &[samples.predictor()]),
         Entry::shorts(tag::TILE_WIDTH, &[TILE as u16]),
         Entry::shorts(tag::TILE_LENGTH, &[TILE as u16]),
-        Entry::shorts(tag::SAMPLE_FORMAT, &[3]),
-        Entry::text(tag::GDAL_NO_DATA, &no_data.to_string().to_lowercase()),
-    ];
-    if let Some(provenance) = &raster.provenance {
-        tags.push(Entry::text(tag::IMAGE_DESCRIPTION, &provenance.sentence()));
-        tags.push(Entry::text(tag::GDAL_METADATA, &metadata::xml(provenance)));
-    }
-    tags.extend(place_tags(raster));
-    tags
+        Entry::shorts(tag::SAMPLE_FORMAT, &[samples.format()]),
+        Entry::text(tag::GDAL_NO_DATA, &samples.no_data().to_string().to_lowercase()),
+    ]
 }
 
 /// Tags of the georeferencing, or of a plain grid in metres with its south-western corner at 0, 0.
@@ -155,25 +138,42 @@ fn key_tags(keys: &GeoKeys) -> Vec<Entry> {
     tags
 }
 
-/// Header, directory, values of tags, tiles, in this order. The largest grid there is fits a classic TIFF with
-/// its 4 GiB four times over.
-fn assemble(mut tags: Vec<Entry>, tiles: &[Vec<u8>]) -> Vec<u8> {
-    let lengths: Vec<u32> = tiles.iter().map(|tile| tile.len() as u32).collect();
-    tags.push(Entry::longs(tag::TILE_BYTE_COUNTS, &lengths));
-    tags.push(Entry::longs(tag::TILE_OFFSETS, &vec![0; tiles.len()]));
-    tags.sort_by_key(|entry| entry.tag);
-    let values_at = 8 + 2 + 12 * tags.len() + 4;
-    let tiles_at = values_at + tags.iter().map(outside_length).sum::<usize>();
-    let offsets: Vec<u32> = lengths
-        .iter()
-        .scan(tiles_at as u32, |next, length| Some(std::mem::replace(next, *next + length)))
-        .collect();
-    for entry in tags.iter_mut().filter(|entry| entry.tag == tag::TILE_OFFSETS) {
-        *entry = Entry::longs(tag::TILE_OFFSETS, &offsets);
+/// Header, directories with the values of their tags, tiles, in this order; those of the first image last. The largest
+/// grid there is fits a classic TIFF with its 4 GiB three times over.
+fn assemble(mut images: Vec<Image>) -> Vec<u8> {
+    for Image { tags, tiles } in &mut images {
+        let lengths: Vec<u32> = tiles.iter().map(|tile| tile.len() as u32).collect();
+        tags.push(Entry::longs(tag::TILE_BYTE_COUNTS, &lengths));
+        tags.push(Entry::longs(tag::TILE_OFFSETS, &vec![0; tiles.len()]));
+        tags.sort_by_key(|entry| entry.tag);
     }
-    let mut file = directory(&tags, values_at);
-    file.extend(tiles.concat());
+    let heads: usize = images.iter().map(|image| directory_length(&image.tags)).sum();
+    let mut next = (HEADER.len() + heads) as u32;
+    for Image { tags, tiles } in images.iter_mut().rev() {
+        let mut offset = |tile: &Vec<u8>| {
+            let end = next + tile.len() as u32;
+            std::mem::replace(&mut next, end)
+        };
+        let offsets: Vec<u32> = tiles.iter().map(&mut offset).collect();
+        for entry in tags.iter_mut().filter(|entry| entry.tag == tag::TILE_OFFSETS) {
+            *entry = Entry::longs(tag::TILE_OFFSETS, &offsets);
+        }
+    }
+    let mut file = HEADER.to_vec();
+    for (number, image) in images.iter().enumerate() {
+        let is_last = number + 1 == images.len();
+        file.extend(directory(&image.tags, file.len(), is_last));
+    }
+    file.extend(images.iter().rev().flat_map(|image| image.tiles.concat()));
     file
+}
+
+/// The header: little-endian, TIFF, the first directory follows.
+const HEADER: [u8; 8] = *b"II\x2a\0\x08\0\0\0";
+
+/// Bytes of a directory and of the values behind it.
+fn directory_length(tags: &[Entry]) -> usize {
+    2 + 12 * tags.len() + 4 + tags.iter().map(outside_length).sum::<usize>()
 }
 
 /// Bytes that a tag takes behind the directory: none where its values fit in the directory itself.
@@ -181,27 +181,29 @@ fn outside_length(entry: &Entry) -> usize {
     if entry.values.len() <= 4 { 0 } else { entry.values.len().next_multiple_of(2) }
 }
 
-fn directory(tags: &[Entry], mut values_at: usize) -> Vec<u8> {
-    let mut file = b"II\x2a\0\x08\0\0\0".to_vec();
+/// A directory that stands at a place of the file, where the next one follows it unless it is the last.
+fn directory(tags: &[Entry], at: usize, is_last: bool) -> Vec<u8> {
+    let mut values_at = at + 2 + 12 * tags.len() + 4;
+    let mut bytes = (tags.len() as u16).to_le_bytes().to_vec();
     let mut outside = Vec::new();
-    file.extend((tags.len() as u16).to_le_bytes());
     for entry in tags {
-        file.extend(entry.tag.to_le_bytes());
-        file.extend(entry.kind.to_le_bytes());
-        file.extend((entry.count as u32).to_le_bytes());
+        bytes.extend(entry.tag.to_le_bytes());
+        bytes.extend(entry.kind.to_le_bytes());
+        bytes.extend((entry.count as u32).to_le_bytes());
         let length = outside_length(entry);
         if length == 0 {
             let mut inline = entry.values.clone();
             inline.resize(4, 0);
-            file.extend(inline);
+            bytes.extend(inline);
         } else {
-            file.extend((values_at as u32).to_le_bytes());
+            bytes.extend((values_at as u32).to_le_bytes());
             outside.extend(&entry.values);
             outside.resize(outside.len().next_multiple_of(2), 0);
             values_at += length;
         }
     }
-    file.extend([0; 4]);
-    file.extend(outside);
-    file
+    let next = if is_last { 0 } else { (at + directory_length(tags)) as u32 };
+    bytes.extend(next.to_le_bytes());
+    bytes.extend(outside);
+    bytes
 }

@@ -1,6 +1,6 @@
 //! The bytes of a file: header, then variable after variable.
 
-use super::super::cf::{Attribute, Attributes, Axis, Dataset, Values, Variable};
+use super::super::cf::{Attribute, Attributes, Axis, Dataset, NO_CLASS, Order, Values, Variable};
 use super::kind::{CHARACTER, DOUBLE, FLOAT, INTEGER, tag};
 use weald_core::grid::Size;
 
@@ -112,9 +112,13 @@ impl Header {
             self.word(position.expect("there are two axes") as u32);
         }
         let mut attributes = variable.attributes.clone();
-        let kind = match variable.values {
+        let kind = match &variable.values {
             Values::Nothing => INTEGER,
             Values::Along(..) => DOUBLE,
+            Values::Cells(cells) if cells.are_whole() => {
+                attributes.0.push(("_FillValue".to_owned(), Attribute::Integers(vec![NO_CLASS])));
+                INTEGER
+            }
             Values::Cells(..) => {
                 attributes.0.push(("_FillValue".to_owned(), Attribute::Float(f32::NAN)));
                 FLOAT
@@ -136,7 +140,8 @@ fn numbers(values: &Values<'_>, file: &mut Vec<u8>) {
         Values::Along(_, centres) => file.extend(big_endian(centres, f64::to_be_bytes)),
         Values::Cells(cells) => {
             for row in 0..cells.size().rows {
-                file.extend((0..cells.size().columns).flat_map(|x| cells.at(x, row).to_be_bytes()));
+                let bytes = |x: usize| cells.bytes(cells.at(x, row), Order::Big);
+                file.extend((0..cells.size().columns).flat_map(bytes));
             }
         }
     }

@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use serde_json::{Map, Value, json};
 
 use super::super::Part;
-use super::super::cf::{Cells, Dataset, Values, Variable};
+use super::super::cf::{Cells, Dataset, NO_CLASS, Order, Values, Variable};
 use super::attributes;
 use super::metadata::DESCRIPTION;
 use weald_core::grid::Size;
@@ -50,6 +50,9 @@ fn array(variable: &Variable<'_>, size: Size) -> Value {
     let (data_type, chunk, fill) = match &variable.values {
         Values::Nothing => ("int32", Vec::new(), json!(0)),
         Values::Along(..) => ("float64", shape.clone(), json!("NaN")),
+        Values::Cells(cells) if cells.are_whole() => {
+            ("int32", shape.iter().map(|side| CHUNK.min(*side)).collect(), json!(NO_CLASS))
+        }
         Values::Cells(..) => ("float32", shape.iter().map(|side| CHUNK.min(*side)).collect(), json!("NaN")),
     };
     json!({
@@ -101,7 +104,7 @@ fn chunk_of(cells: &Cells<'_>, (chunk_x, chunk_y): (usize, usize)) -> Option<Vec
         for x in chunk_x * width..(chunk_x + 1) * width {
             let value = if x < size.columns && y < size.rows { cells.at(x, y) } else { f32::NAN };
             has_data |= !value.is_nan();
-            bytes.extend(value.to_le_bytes());
+            bytes.extend(cells.bytes(value, Order::Little));
         }
     }
     has_data.then_some(bytes)

@@ -39,6 +39,7 @@ fn provenance() -> Provenance {
         layer: "water<\"&\">".to_owned(),
         unit: "m³/step".to_owned(),
         range: (-0.1, 1e-30),
+        resampled: None,
     }
 }
 

@@ -139,6 +139,7 @@ fn known(raster: Raster) -> Raster {
         layer: "height".to_owned(),
         unit: "m".to_owned(),
         range: (f64::from(range.0), f64::from(range.1)),
+        resampled: None,
     };
     let origin = [500_000.25, 4_234_567.875];
     let georeference = Georeference { epsg: Some(32633), origin, pixel: [12.5; 2], keys: None };

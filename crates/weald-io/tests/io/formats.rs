@@ -1,15 +1,13 @@
-//! Raster files are read as GDAL reads them, and what Weald writes it reads back to the bit.
+//! Raster files are read as GDAL reads them.
 
 use std::path::{Path, PathBuf};
 
-use crate::rasters::{any_raster, fixture};
-use proptest::prelude::*;
+use crate::rasters::fixture;
 use tempfile::tempdir;
 use weald_core::Error;
 use weald_core::domain::Georeference;
-use weald_core::grid::{Field, Mask, Size};
-use weald_core::random::hash2;
-use weald_io::{Limits, Provenance, Raster, geotiff, npy, png16};
+use weald_core::grid::{Field, Size};
+use weald_io::{Limits, Raster, geotiff, npy, png16};
 
 fn data(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data").join(name)
@@ -23,7 +21,7 @@ fn read_fixture(name: &str) -> Result<Raster, Error> {
     weald_io::read(&path)
 }
 
-fn read(name: &str) -> Raster {
+pub(super) fn read(name: &str) -> Raster {
     read_fixture(name).expect("a file that GDAL wrote")
 }
 
@@ -240,136 +238,6 @@ fn eight_bit_png_is_read_with_a_warning_and_colour_is_refused() {
     encoder.write_header().and_then(|mut writer| writer.write_image_data(&[1, 2, 3])).expect("encodes");
     let fault = png16::decode(&colour, Limits::default()).expect_err("coloured");
     assert!(fault.to_string().contains("Rgb with 8 bits"), "{fault}");
-}
-
-#[test]
-fn a_failed_write_leaves_nothing_and_keeps_what_was_there() {
-    let folder = tempdir().expect("a folder");
-    let raster = Raster::from(Field::filled(Size { columns: 2, rows: 2 }, 1.0));
-    let missing = folder.path().join("missing/height.tif");
-    let error = weald_io::write(&missing, &raster).expect_err("no such folder");
-    assert!(matches!(&error, Error::Run(what) if what.contains("missing/height.tif")), "{error}");
-    assert!(!missing.exists());
-    // A folder in the file's place lets the temporary file be written and the renaming fail.
-    let taken = folder.path().join("taken.tif");
-    std::fs::create_dir(&taken).expect("made");
-    weald_io::write(&taken, &raster).expect_err("a folder is in the way");
-    let names: Vec<_> =
-        std::fs::read_dir(folder.path()).expect("lists").map(|e| e.expect("entry").file_name()).collect();
-    assert_eq!(names, ["taken.tif"]);
-    let kept = folder.path().join("kept.tif");
-    weald_io::write(&kept, &raster).expect("written");
-    let before = std::fs::read(&kept).expect("there");
-    let broken = Raster::from(Field::filled(Size { columns: 1, rows: 1 }, f32::NAN));
-    let error = weald_io::write(&kept, &broken).expect_err("NaN");
-    assert!(error.to_string().contains("column 0, row 0 holds NaN"), "{error}");
-    assert_eq!(std::fs::read(&kept).expect("there"), before);
-}
-
-fn provenance() -> Provenance {
-    Provenance {
-        version: "0.1.0".to_owned(),
-        recipe_blake3: "af13".repeat(16),
-        seed: u64::MAX,
-        layer: "height".to_owned(),
-        unit: "m".to_owned(),
-        range: (-0.1, 1e30),
-    }
-}
-
-fn bits(raster: &Raster) -> Vec<u32> {
-    raster.field.values().iter().map(|value| value.to_bits()).collect()
-}
-
-proptest! {
-    #![proptest_config(ProptestConfig::with_cases(48))]
-
-    #[test]
-    fn geotiff_comes_back_to_the_bit(columns in 1_usize..600, rows in 1_usize..300, seed: u64) {
-        let mut raster = any_raster(columns, rows, seed);
-        raster.provenance = Some(provenance());
-        raster.cell = Some(12.5);
-        let origin = [500_000.25, -1_234_567.875];
-        raster.georeference = Some(Georeference { epsg: Some(32733), origin, pixel: [12.5; 2], keys: None });
-        let bytes = geotiff::encode(&raster).expect("finite");
-        let again = geotiff::decode(&bytes, Limits::default()).expect("our own file");
-        prop_assert_eq!(bits(&again), bits(&raster));
-        prop_assert_eq!(&again.valid, &raster.valid);
-        prop_assert_eq!(&again.provenance, &raster.provenance);
-        prop_assert_eq!(again.cell, raster.cell);
-        let place = again.georeference.as_ref().expect("written");
-        prop_assert_eq!((place.epsg, place.origin, place.pixel), (Some(32733), origin, [12.5; 2]));
-        prop_assert_eq!(geotiff::encode(&again).expect("finite"), bytes);
-    }
-
-    #[test]
-    fn npy_comes_back_to_the_bit(columns in 1_usize..100, rows in 1_usize..100, seed: u64) {
-        let raster = any_raster(columns, rows, seed);
-        let bytes = npy::encode(&raster).expect("finite");
-        prop_assert_eq!(bytes.len() % 64, raster.field.size().cells() * 4 % 64);
-        let again = npy::decode(&bytes, Limits::default()).expect("our own file");
-        prop_assert_eq!((bits(&again), again.valid), (bits(&raster), raster.valid));
-    }
-
-    #[test]
-    fn png_comes_back_within_half_a_step(
-        columns in 1_usize..100, rows in 1_usize..100, seed: u64, low in -9000.0..9000.0_f32, relief in 0.0..9000.0_f32
-    ) {
-        let mut raster = any_raster(columns, rows, seed);
-        for (index, value) in raster.field.values_mut().iter_mut().enumerate() {
-            *value = if *value == 0.0 { 0.0 } else { low + relief * ((hash2(seed, index as i64, 1) >> 40) as f32 / (1 << 24) as f32) };
-        }
-        raster.cell = Some(0.1);
-        raster.provenance = Some(provenance());
-        let range = raster.field.range(raster.valid.as_ref()).unwrap_or_default();
-        raster.provenance.as_mut().expect("set").range = (f64::from(range.0), f64::from(range.1));
-        let again = png16::decode(&png16::encode(&raster).expect("finite"), Limits::default()).expect("our own file");
-        prop_assert_eq!((&again.valid, again.cell, &again.provenance), (&raster.valid, raster.cell, &raster.provenance));
-        let half_a_step = 0.5 * f64::from(range.1 - range.0) / 65534.0;
-        // What an f32 near the value cannot tell apart comes on top.
-        let rounding = f64::from(range.0.abs().max(range.1.abs())) * 1.2e-7;
-        for (value, was) in again.field.values().iter().zip(raster.field.values()) {
-            let error = f64::from((value - was).abs());
-            prop_assert!(error <= half_a_step + rounding, "{value} was {was}, half a step is {half_a_step}");
-        }
-    }
-}
-
-#[test]
-fn the_keys_of_a_file_survive_unchanged() {
-    for name in ["float32_tiles_deflate_predictor3.tif", "survey_feet.tif", "int16_pixel_is_point.tif"] {
-        let first = read(name);
-        let bytes = geotiff::encode(&first).expect("finite");
-        let again = geotiff::decode(&bytes, Limits::default()).expect("our own file");
-        assert_eq!(again.georeference, first.georeference, "{name}");
-        assert_eq!(again.field, first.field, "{name}");
-    }
-}
-
-#[test]
-fn geotiff_bytes_do_not_depend_on_threads() {
-    let raster = any_raster(700, 530, 3);
-    let with = |threads| {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
-        pool.install(|| geotiff::encode(&raster)).expect("finite")
-    };
-    let one = with(1);
-    assert!(one == with(2) && one == with(3));
-}
-
-#[test]
-fn a_no_data_number_is_never_a_value_of_the_data() {
-    let size = Size { columns: 2, rows: 1 };
-    for heights in [[-9999.0, 0.0], [-10000.0, 0.0], [-100_000.0, -50.0], [f32::MIN, f32::MAX]] {
-        let mut values = heights.to_vec();
-        values.push(0.0);
-        let size = Size { columns: 3, ..size };
-        let valid = Mask::new(size, vec![true, true, false]);
-        let raster = Raster { valid, ..Raster::from(Field::from_values(size, values)) };
-        let bytes = geotiff::encode(&raster).expect("finite");
-        let again = geotiff::decode(&bytes, Limits::default()).expect("our own file");
-        assert_eq!((again.valid, again.field), (raster.valid, raster.field));
-    }
 }
 
 #[test]

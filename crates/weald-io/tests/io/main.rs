@@ -8,3 +8,4 @@ mod exr_raw_asc;
 mod foreign_clients;
 mod formats;
 mod rasters;
+mod written;

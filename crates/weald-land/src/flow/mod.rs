@@ -14,6 +14,7 @@
 //! | `fill` | the level at which water leaves each basin: what priority-flood gives |
 //! | `breach` | channels through the rims instead |
 //! | `flats` | directions over flat ground |
+//! | `codes` | directions in the numbers of other programs |
 //! | `accumulate`, `multiple` | upslope areas, along D8 or shared among all lower neighbours |
 //!
 //! What is filled is, to the bit, what priority-flood fills (Barnes, Lehman and Mulla 2014, doi
@@ -25,6 +26,7 @@
 mod accumulate;
 mod basins;
 mod breach;
+mod codes;
 mod descent;
 pub mod directions;
 mod disjoint_sets;
@@ -37,6 +39,7 @@ mod saddles;
 mod surface;
 
 pub use accumulate::accumulate;
+pub use codes::DirectionCodes;
 pub use multiple::{MultipleFlow, accumulate_multiple};
 pub use naive::naive;
 
@@ -46,6 +49,7 @@ use directions::{Directions, OUTLET, SEA};
 use saddles::Saddles;
 use surface::Surface;
 use weald_core::choices;
+use weald_core::error::Error;
 use weald_core::grid::{Field, Mask};
 
 choices! {
@@ -90,10 +94,31 @@ pub struct Routed {
 /// # Panics
 /// If a height of a cell with data is not finite: a bug of the caller.
 pub fn route(height: &Field, valid: Option<&Mask>, routing: &Routing) -> Routed {
+    route_watched(height, valid, routing, &mut || Ok(())).expect("nobody stops it")
+}
+
+/// Stages of [`route_watched`], after each of which it tells.
+pub const STAGES: u64 = 6;
+
+/// The same, which tells after each of its [`STAGES`] and stops where that gives an error.
+///
+/// # Errors
+/// That of `passed`.
+///
+/// # Panics
+/// As [`route`].
+pub fn route_watched(
+    height: &Field,
+    valid: Option<&Mask>,
+    routing: &Routing,
+    passed: &mut dyn FnMut() -> Result<(), Error>,
+) -> Result<Routed, Error> {
     let mut surface = Surface::of(height, valid, routing.sea_level);
-    condition(&mut surface, routing);
+    condition(&mut surface, routing, passed)?;
     let mut descent = Descent::of(&surface);
+    passed()?;
     flats::resolve(&surface, &mut descent);
+    passed()?;
     let codes = surface.inner(&descent.codes, |cell, code| match code {
         _ if surface.is_sea(cell) => SEA,
         code if code <= 8 => code,
@@ -106,13 +131,20 @@ pub fn route(height: &Field, valid: Option<&Mask>, routing: &Routing) -> Routed 
             *level = height;
         }
     }
-    Routed { surface: filled, directions: Directions::new(height.size(), codes) }
+    passed()?;
+    Ok(Routed { surface: filled, directions: Directions::new(height.size(), codes) })
 }
 
-/// Takes the depressions out of a surface.
-fn condition(surface: &mut Surface, routing: &Routing) {
+/// Takes the depressions out of a surface, in three stages.
+fn condition(
+    surface: &mut Surface,
+    routing: &Routing,
+    passed: &mut dyn FnMut() -> Result<(), Error>,
+) -> Result<(), Error> {
     let basins = Basins::of(surface);
+    passed()?;
     let saddles = Saddles::of(surface, &basins);
+    passed()?;
     match routing.depressions {
         Depressions::Fill => fill::fill(surface, &basins, &saddles),
         Depressions::Breach => {
@@ -124,4 +156,5 @@ fn condition(surface: &mut Surface, routing: &Routing) {
             }
         }
     }
+    passed()
 }

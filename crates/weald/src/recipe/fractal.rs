@@ -144,6 +144,6 @@ mod tests {
         let deform = keys(&[("by", "swap"), ("from", "3"), ("to", "2")]);
         let message = fault(FractalRequest { deform, ..request("fern", &[]) });
         assert!(message.contains("`from` is 3 and `to` is 2"), "{message}");
-        assert!(fault(request("none.toml", &[])).contains("none.toml:1: the recipe cannot be read"));
+        assert!(fault(request("none.toml", &[])).contains("none.toml: the recipe cannot be read"));
     }
 }

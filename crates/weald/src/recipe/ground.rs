@@ -3,12 +3,14 @@
 use std::path::Path;
 
 use super::layer_file::LayerFile;
+use super::layer_output::placeless;
 use super::plan::{FractalSource, Ground, PlannedFractal, Recipe};
 use crate::ground_file;
 use weald_core::domain::Domain;
 use weald_core::error::Error;
 use weald_core::landscape::Landscape;
 use weald_core::material::Material;
+use weald_io::Said;
 use weald_plants::Fractal;
 use weald_plants::Vegetation;
 use weald_plants::ifs::{Ifs, flame};
@@ -24,13 +26,30 @@ pub(super) fn load(recipe: &Recipe) -> Result<(Landscape, Vec<String>), Error> {
     landscape.materials = materials(recipe);
     landscape.set_fractals(fractals(recipe)?);
     for planned in &recipe.materials {
-        let Some((path, scale)) = planned.file.clone() else { continue };
-        let file = LayerFile { scale, ..LayerFile::plain(path) };
+        let Some((path, scale, said)) = planned.file.clone() else { continue };
+        let file = LayerFile { scale, said, ..LayerFile::plain(path) };
         let (thickness, more) = file.read(&landscape.domain)?;
         landscape.insert(&planned.material.name, "m", thickness);
         notes.extend(more);
     }
     Ok((landscape, notes))
+}
+
+/// The file from which the ground comes, with what the recipe says of it.
+pub(super) fn source(recipe: &Recipe) -> Option<(&Path, &Said)> {
+    match &recipe.ground {
+        Ground::File { path, said, .. } => Some((path, said)),
+        Ground::Empty { .. } => None,
+    }
+}
+
+/// Refuses outputs on the grid of a file that does not say where it lies, before the first step.
+pub(super) fn check_outputs(recipe: &Recipe, landscape: &Landscape) -> Result<(), Error> {
+    let goes_back = recipe.outputs.iter().any(|output| output.treatment().to_source.is_some());
+    match source(recipe) {
+        Some((path, _)) if goes_back && landscape.domain.georeference.is_none() => Err(placeless(path)),
+        _ => Ok(()),
+    }
 }
 
 /// What the ground is made of.
@@ -66,4 +85,50 @@ fn flame(path: &Path, number: usize) -> Result<Ifs, Error> {
     let count = flames.len();
     let found = number.checked_sub(1).and_then(|place| flames.into_iter().nth(place));
     found.ok_or_else(|| Error::input(path, format!("has {count} flames; there is no number {number}")))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::recipe::Overrides;
+
+    fn faults(landscape: &str, output: &str) -> String {
+        let text = format!(
+            "[landscape]\n{landscape}\n[[step]]\ndo = \"flow\"\n[[output]]\nfile = \"a.tif\"\n{output}\n"
+        );
+        Recipe::parse("r.toml", &text, &Overrides::default())
+            .map_or_else(|error| error.to_string(), |_| String::new())
+    }
+
+    #[test]
+    fn what_cannot_go_back_is_refused_with_the_recipe() {
+        let from = "from = \"dem.tif\"";
+        assert_eq!(faults(from, "layer = \"accumulation\"\ngrid = \"source\""), "");
+        assert_eq!(faults(from, "layer = \"accumulation\"\ngrid = \"source\"\nresampling = \"linear\""), "");
+        assert_eq!(faults(from, "layer = \"flow_direction\"\ncodes = \"esri\""), "");
+        let flat = "size = 8\n[[step]]\ndo = \"constant\"";
+        for (landscape, output, part) in [
+            (flat, "layer = \"accumulation\"\ngrid = \"source\"", "needs `from` in [landscape]"),
+            (
+                from,
+                "layer = \"accumulation\"\nresampling = \"linear\"",
+                "`resampling` has no effect without grid = \"source\"",
+            ),
+            (
+                from,
+                "layer = \"accumulation\"\ncodes = \"esri\"",
+                "`codes` goes with layer = \"flow_direction\"",
+            ),
+            (
+                from,
+                "layer = \"flow_direction\"\ngrid = \"source\"",
+                "lead to neighbours that another grid has not",
+            ),
+            (from, "picture = \"relief\"\ngrid = \"source\"", "`grid`"),
+            (from, "layer = \"height\"\ngrid = \"sorce\"", "one of \"landscape\" | \"source\""),
+        ] {
+            let message = faults(landscape, output);
+            assert!(message.contains(part), "{part}: {message}");
+        }
+    }
 }

@@ -11,6 +11,7 @@ pub mod format;
 mod fractal;
 mod ground;
 mod layer_file;
+mod layer_output;
 pub mod load;
 mod migrate;
 mod overrides;

@@ -179,7 +179,8 @@ fn no_such_step(recipe: &mut Table, name: &str, steps: &[String]) -> String {
     if let Some(near) = nearest(name, &known) {
         return format!("this recipe has no step `{name}`; did you mean `{near}`?");
     }
-    let steps = if steps.is_empty() { String::new() } else { format!(", STEP.KEY for one of: {}", steps.join(", ")) };
+    let steps =
+        if steps.is_empty() { String::new() } else { format!(", STEP.KEY for one of: {}", steps.join(", ")) };
     format!(
         "this recipe has no step and no section `{name}`; a path is landscape.KEY, material.N.KEY, fractal.N.KEY, \
          step.N.KEY, output.N.KEY for pictures, layers and exports, where N counts from 1{steps}"
@@ -188,9 +189,7 @@ fn no_such_step(recipe: &mut Table, name: &str, steps: &[String]) -> String {
 
 /// The number of the first output whose picture, export, layer or file is called so, and which of them it is.
 fn output_called(recipe: &mut Table, name: &str) -> Option<(usize, &'static str)> {
-    let is = |table: &Table, key: &str| {
-        matches!(table.get(key).map(|node| &node.value), Some(Value::Text(text)) if text == name)
-    };
+    let is = |table: &Table, key: &str| matches!(table.get(key).map(|node| &node.value), Some(Value::Text(text)) if text == name);
     let outputs = tables_of(recipe, "output");
     let mut found = outputs.iter().enumerate().filter_map(|(at, table)| {
         let kind = ["picture", "export", "layer", "file"].into_iter().find(|key| is(table, key))?;
@@ -282,7 +281,10 @@ mod tests {
         assert!(set(TWO_STEPS, "step.1.rate.low", "1").1[0].contains("`rate` is not a table"));
         assert!(set(TWO_STEPS, "landscape", "1").1[0].contains("ends before it names a key"));
         let none = &set(TWO_STEPS, "eye.far", "1").1[0];
-        assert!(none.contains("output.N.KEY for pictures") && none.contains("for one of: slide, slide"), "{none}");
+        assert!(
+            none.contains("output.N.KEY for pictures") && none.contains("for one of: slide, slide"),
+            "{none}"
+        );
     }
 
     #[test]

@@ -10,6 +10,7 @@ mod outputs;
 mod steps;
 #[cfg(test)]
 mod tests;
+mod treatments;
 mod unknown_keys;
 mod words;
 

@@ -127,6 +127,7 @@ impl Run<'_> {
             progress.note(video::NO_FFMPEG);
         }
         let (landscape, notes) = ground::load(self.recipe)?;
+        ground::check_outputs(self.recipe, &landscape)?;
         for note in &notes {
             progress.note(note);
         }

@@ -12,6 +12,7 @@ mod ground;
 mod json_schema;
 mod materials;
 mod networks;
+mod own_grid;
 mod plants;
 #[path = "../../../weald-export/tests/export/programs/mod.rs"]
 mod programs;

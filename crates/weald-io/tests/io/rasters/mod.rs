@@ -40,6 +40,7 @@ pub fn hills() -> Raster {
         layer: "height".to_owned(),
         unit: "m".to_owned(),
         range: (f64::from(low), f64::from(high)),
+        resampled: None,
     };
     Raster { valid, provenance: Some(provenance), ..at(32616, [730_900.75, 4_069_271.25], [80.0; 2], field) }
 }

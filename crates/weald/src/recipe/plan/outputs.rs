@@ -3,13 +3,16 @@
 use std::path::{Component, Path, PathBuf};
 
 use super::films::{self, Film, FilmKeys, Motion, Moves};
+use super::treatments;
 use super::unknown_keys::{self, KindOfOutput};
+use crate::recipe::layer_output::{OutputGrid, Treatment};
 use crate::recipe::plan::words::{Vocabulary, hint, tables};
 use crate::recipe::{CHECKPOINT_FILE, REPORT_FILE};
 use weald_core::parameter::{Diagnostics, LayerName, Legal, Parameter, Parameters, check_file, read_key};
 use weald_core::source::{Node, Table, Value};
 use weald_export::{Export, ExportEntry};
-use weald_io::{Capabilities, Encode};
+use weald_io::{Capabilities, Encode, Resampling};
+use weald_land::flow::DirectionCodes;
 use weald_picture::{Picture, PictureEntry, Render};
 
 weald_core::parameters! {
@@ -26,8 +29,17 @@ weald_core::parameters! {
         /// Write a layer as one reader wants it: `blender` (.exr with channels R, G and B, since Blender shows others as
         /// black), `terrain3d` (.exr with one channel R of floats, as Godot loads), `hterrain` (.exr with one channel R of
         /// half floats, as Zylann's HTerrain for Godot loads), `landlab` (.nc or .zarr with landlab's names, rows from
-        /// the south).
+        /// the south), `cog` (.tif that is cloud-optimized, with smaller images for programs that show it from afar).
         preset: Option<String> = None, with layer;
+        /// Grid on which a layer is written: that of the landscape, in square cells of metres, or that of the file from
+        /// which the ground came, with its size, origin, cells and CRS.
+        grid: OutputGrid = OutputGrid::Landscape, with layer;
+        /// How a layer comes to the grid of its source. Without it measures do linearly, rivers and upslope areas with their
+        /// greatest value, so that no river breaks, and numbers of things as the nearest cell has them. The file and the
+        /// report say which.
+        resampling: Option<Resampling> = None, when grid = "source";
+        /// Whose numbers the layer `flow_direction` has; without it Weald's own, 1 east and on clockwise to 8 north-east.
+        codes: Option<DirectionCodes> = None, with layer;
     }
 }
 
@@ -53,6 +65,8 @@ pub enum Content {
         encode: Encode,
         /// What of it the file holds.
         holds: Capabilities,
+        /// What is done to it before.
+        treatment: Treatment,
     },
     /// A picture.
     Picture {
@@ -95,6 +109,14 @@ impl Output {
         match &self.content {
             Content::Picture { picture, .. } | Content::Film { picture, .. } => picture.as_render(),
             _ => None,
+        }
+    }
+
+    /// What is done to its layer before it is written.
+    pub fn treatment(&self) -> Treatment {
+        match self.content {
+            Content::Layer { treatment, .. } => treatment,
+            _ => Treatment::default(),
         }
     }
 
@@ -151,6 +173,9 @@ pub(super) fn read(vocabulary: &Vocabulary, recipe: &Table, diagnostics: &mut Di
             diagnostics.add(line_of(table, "file"), message);
         }
         if let Some(content) = content_of(vocabulary, table, &file, diagnostics) {
+            if let Content::Layer { treatment, .. } = &content {
+                treatments::check_source(*treatment, recipe, table, diagnostics);
+            }
             outputs.push(Output { line: table.line, file, content });
         }
     }
@@ -252,9 +277,10 @@ fn layer(
     diagnostics: &mut Diagnostics,
 ) -> Option<Content> {
     let before = diagnostics.found.len();
-    diagnostics.unknown_keys(table, &["layer", "file", "preset"]);
+    diagnostics.unknown_keys(table, &["layer", "file", "preset", "grid", "resampling", "codes"]);
     let name = read_key(table, "layer", LayerName::needed(), Legal::ANY, diagnostics).0;
     let preset: Option<String> = read_key(table, "preset", None, Legal::ANY, diagnostics);
+    let treatment = treatments::read(table, &name, diagnostics);
     let format = match (vocabulary.format_of)(file) {
         Ok(format) => format,
         Err(problem) => {
@@ -264,7 +290,7 @@ fn layer(
     };
     match format.writing(preset.as_deref()) {
         Ok((encode, holds)) => {
-            (diagnostics.found.len() == before).then_some(Content::Layer { name, encode, holds })
+            (diagnostics.found.len() == before).then_some(Content::Layer { name, encode, holds, treatment })
         }
         Err(problem) => {
             let key = if preset.is_some() { "preset" } else { "file" };

@@ -15,7 +15,8 @@ pub(super) fn check(recipe: &Recipe) -> Result<(), Error> {
 }
 
 fn open(path: &Path, named_at: &str) -> Result<(), Error> {
-    let explain =
-        |cause| format!("cannot be read: {cause}; {named_at} names it, and paths start at the folder of the recipe");
+    let explain = |cause| {
+        format!("cannot be read: {cause}; {named_at} names it, and paths start at the folder of the recipe")
+    };
     File::open(path).map(drop).map_err(|cause| Error::input(path, explain(cause)))
 }

@@ -5,6 +5,8 @@ use std::path::{Path, PathBuf};
 use super::film;
 use super::video::Frames;
 use crate::layer_raster;
+use crate::recipe::ground;
+use crate::recipe::layer_output::Treatment;
 use crate::recipe::plan::{Content, Film, Motion, Output, Recipe};
 use crate::recipe::report::OutputReport;
 use weald_core::error::Error;
@@ -33,7 +35,9 @@ impl Writer<'_> {
         let target = Target { folder, file: &output.file };
         let report = match &output.content {
             Content::Picture { name, picture } => self.picture(&target, name, picture.as_ref()),
-            Content::Layer { name, encode, holds } => self.layer(&target, name, (*encode, *holds)),
+            Content::Layer { name, encode, holds, treatment } => {
+                self.layer(&target, name, (*encode, *holds, *treatment))
+            }
             Content::Film { name, picture, film } => self.film(&target, name, (picture.as_ref(), film)),
             Content::Export { name, export } => self.export(&target, name, export.as_ref()),
         }?;
@@ -134,12 +138,13 @@ impl Writer<'_> {
         &self,
         target: &Target<'_>,
         name: &str,
-        (encode, holds): (Encode, Capabilities),
+        (encode, holds, treatment): (Encode, Capabilities, Treatment),
     ) -> Result<OutputReport, Error> {
-        let raster = self.raster(name)?;
+        let (raster, resampled) = treatment.of(self.raster(name)?, name, ground::source(self.recipe))?;
         let parts = encode.parts(&raster)?;
         write_parts(&target.folder.join(target.file), &parts)?;
-        let notes = holds.losses(&raster);
+        let mut notes = holds.losses(&raster);
+        notes.extend(resampled);
         let unit = self.finished.landscape.layer(name)?.unit.clone();
         Ok(OutputReport {
             layer: Some(name.to_owned()),
@@ -179,6 +184,7 @@ impl Writer<'_> {
             layer: name.to_owned(),
             unit: self.finished.landscape.layer(name)?.unit.clone(),
             range: self.range(name)?.unwrap_or((0.0, 0.0)),
+            resampled: None,
         };
         let raster = layer_raster::raster(self.finished.landscape, name)?;
         Ok(Raster { provenance: Some(provenance), ..raster })
