@@ -1,14 +1,16 @@
 //! Lines and areas with properties as `GeoJSON`.
 //!
 //! Butler et al., "The `GeoJSON` format", RFC 7946 (2016), doi:10.17487/RFC7946: shores run anticlockwise, islands
-//! clockwise, and rings end where they begin. RFC 7946 knows longitude and latitude in WGS 84 alone; for another CRS the
-//! file has the member `crs` of the format's first edition (2008), which GDAL and what stands on it read. `null` there
-//! says that there is no CRS.
+//! clockwise, and rings end where they begin. RFC 7946 knows longitude and latitude in WGS 84 alone, and heights above its
+//! ellipsoid. Ours are heights above the zero of the model, so that files name their CRS by the member `crs` of the format's
+//! first edition (2008), which GDAL and what stands on it read: without it GDAL takes points with heights for EPSG:4979. `null`
+//! there says that there is no CRS. A file of RFC 7946 has neither that member nor heights.
 
 use serde_json::{Map, Value, json};
 
 use super::place::Place;
 use crate::Finished;
+use weald_core::error::Error;
 
 /// Longitude and latitude in WGS 84, which needs no mention.
 const WGS_84: u32 = 4326;
@@ -36,15 +38,48 @@ pub(super) enum Geometry {
     Areas(Vec<Vec<Vec<Position>>>),
 }
 
+/// Which edition of the format is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Edition {
+    /// That of 2008, with a CRS and heights.
+    WithCrs,
+    /// RFC 7946: longitude and latitude in WGS 84.
+    Rfc7946,
+}
+
+impl Edition {
+    /// # Errors
+    /// [`Error::Run`] for RFC 7946 in another CRS than WGS 84.
+    pub(super) fn of(rfc7946: bool, place: Place<'_>) -> Result<Self, Error> {
+        if !rfc7946 {
+            return Ok(Self::WithCrs);
+        }
+        if place.epsg() == Some(WGS_84) {
+            return Ok(Self::Rfc7946);
+        }
+        let crs = place.epsg().map_or_else(|| "no CRS with a code".to_owned(), |code| format!("EPSG:{code}"));
+        Err(Error::Run(format!(
+            "`rfc7946` is true, but the landscape is in {crs} and RFC 7946 is longitude and latitude in WGS 84: leave \
+             it out, and ogr2ogr -t_srs EPSG:4326 -lco RFC7946=YES makes such a file of the one that is written"
+        )))
+    }
+}
+
 /// A file of features, one a line.
-pub(super) fn write(name: &str, place: Place<'_>, features: &[Feature], finished: &Finished<'_>) -> Vec<u8> {
+pub(super) fn write(
+    name: &str,
+    (place, edition): (Place<'_>, Edition),
+    features: &[Feature],
+    finished: &Finished<'_>,
+) -> Vec<u8> {
     let mut members =
         vec!["\"type\": \"FeatureCollection\"".to_owned(), format!("\"name\": {}", json!(name))];
-    if place.epsg() != Some(WGS_84) {
+    if edition == Edition::WithCrs {
         members.push(format!("\"crs\": {}", crs(place)));
     }
     members.push(format!("\"weald\": {}", provenance(finished)));
-    let features: Vec<_> = features.iter().map(|feature| feature.json(place.digits()).to_string()).collect();
+    let features: Vec<_> =
+        features.iter().map(|feature| feature.json(place.digits(), edition).to_string()).collect();
     members.push(format!("\"features\": [\n{}\n]", features.join(",\n")));
     let text = format!("{{\n{}\n}}\n", members.join(",\n"));
     text.into_bytes()
@@ -52,7 +87,9 @@ pub(super) fn write(name: &str, place: Place<'_>, features: &[Feature], finished
 
 fn crs(place: Place<'_>) -> Value {
     let Some(code) = place.epsg() else { return Value::Null };
-    json!({ "type": "name", "properties": { "name": format!("urn:ogc:def:crs:EPSG::{code}") } })
+    // EPSG:4326 has the latitude first, and GeoJSON the longitude, as OGC's CRS84 has.
+    let name = if code == WGS_84 { "OGC:1.3:CRS84".to_owned() } else { format!("EPSG::{code}") };
+    json!({ "type": "name", "properties": { "name": format!("urn:ogc:def:crs:{name}") } })
 }
 
 fn provenance(finished: &Finished<'_>) -> Value {
@@ -65,8 +102,11 @@ fn provenance(finished: &Finished<'_>) -> Value {
 }
 
 impl Feature {
-    fn json(&self, digits: u32) -> Value {
-        let position = |&[x, y, z]: &Position| json!([rounded(x, digits), rounded(y, digits), rounded(z, 3)]);
+    fn json(&self, digits: u32, edition: Edition) -> Value {
+        let position = |&[x, y, z]: &Position| match edition {
+            Edition::WithCrs => json!([rounded(x, digits), rounded(y, digits), rounded(z, 3)]),
+            Edition::Rfc7946 => json!([rounded(x, digits), rounded(y, digits)]),
+        };
         let geometry = match &self.geometry {
             Geometry::Line(points) => {
                 json!({ "type": "LineString", "coordinates": points.iter().map(position).collect::<Vec<_>>() })

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use serde_json::{Map, Value, json};
 
-use super::geojson::{Feature, Geometry, Position, rounded, write};
+use super::geojson::{Edition, Feature, Geometry, Position, rounded, write};
 use super::place::Place;
 use crate::{Export, Finished};
 use weald_core::error::Error;
@@ -20,6 +20,9 @@ weald_core::parameters! {
     pub struct LakeAreas {
         /// Smaller lakes are left out.
         smallest: f64 = 0.0, range 0.0..=1.0e15, unit "m²";
+        /// Whether the file is of RFC 7946: longitude and latitude in WGS 84, without heights and without the member `crs`. The
+        /// landscape must be in EPSG:4326.
+        rfc7946: bool = false;
     }
 }
 
@@ -42,7 +45,8 @@ impl Export for LakeAreas {
         let lakes = Lakes::of(finished.landscape)?.lakes;
         let written = lakes.iter().filter(|lake| lake.area >= self.smallest);
         let features: Vec<_> = written.map(|lake| feature(place, domain.cell, lake)).collect();
-        Ok(vec![Part::own(write("lakes", place, &features, finished))])
+        let edition = Edition::of(self.rfc7946, place)?;
+        Ok(vec![Part::own(write("lakes", (place, edition), &features, finished))])
     }
 }
 

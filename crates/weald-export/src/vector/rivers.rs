@@ -4,7 +4,7 @@ use std::path::Path;
 
 use serde_json::{Map, Value, json};
 
-use super::geojson::{Feature, Geometry, rounded, write};
+use super::geojson::{Edition, Feature, Geometry, rounded, write};
 use super::place::Place;
 use crate::{Export, Finished};
 use weald_core::domain::Domain;
@@ -24,6 +24,9 @@ weald_core::parameters! {
     pub struct RiverLines {
         /// Least Strahler order of the reaches that are written.
         order: u32 = 1, range 1..=20;
+        /// Whether the file is of RFC 7946: longitude and latitude in WGS 84, without heights and without the member `crs`. The
+        /// landscape must be in EPSG:4326.
+        rfc7946: bool = false;
     }
 }
 
@@ -59,7 +62,8 @@ impl Export for RiverLines {
             .filter(|(_, (reach, _))| reach.order >= self.order)
             .map(|(id, (reach, stem))| feature(place, id, reach, stem))
             .collect();
-        Ok(vec![Part::own(write("rivers", place, &features, finished))])
+        let edition = Edition::of(self.rfc7946, place)?;
+        Ok(vec![Part::own(write("rivers", (place, edition), &features, finished))])
     }
 }
 

@@ -127,20 +127,42 @@ fn gdal_finds_all_rivers_and_lakes_at_their_place_in_the_crs_of_the_file() {
 fn coordinates_are_degrees_to_the_millimetre_where_the_crs_has_degrees() {
     let pixel = [0.0003, 0.00025];
     let place = |epsg| Georeference { epsg: Some(epsg), origin: [-84.2, 36.6], pixel, keys: None };
-    for (code, member) in [(4326, Value::Null), (4269, json!("urn:ogc:def:crs:EPSG::4269"))] {
+    for (code, member) in [(4326, "urn:ogc:def:crs:OGC:1.3:CRS84"), (4269, "urn:ogc:def:crs:EPSG::4269")] {
         let landscape = country(Some(place(code)));
         let file = read(&RiverLines::default(), &landscape);
-        assert_eq!(file["crs"]["properties"]["name"], member);
-        assert_eq!(file.get("crs").is_none(), code == 4326, "WGS 84 goes without saying");
+        assert_eq!(file["crs"]["properties"]["name"], json!(member));
         let said = ogrinfo(&written(&RiverLines::default(), &landscape).0);
-        // GDAL calls WGS 84 with heights by a code of its own.
-        let known = if code == 4326 { 4979 } else { code };
-        assert!(said.contains(&format!("ID[\"EPSG\",{known}]")), "{said}");
+        // Without the member GDAL takes points with heights for EPSG:4979, whose heights are above the ellipsoid.
+        assert!(said.contains(&format!("ID[\"EPSG\",{code}]")), "{said}");
         let metres = extent(&read(&RiverLines::default(), &country(None)));
         let expected =
             [-84.2 + metres[0] / CELL * pixel[0], 36.6 - (ROWS as f64 - metres[1] / CELL) * pixel[1]];
         let found = extent(&file);
         assert!((0..2).all(|axis| (found[axis] - expected[axis]).abs() < 1e-7), "{found:?}, {expected:?}");
+    }
+}
+
+#[test]
+fn rfc_7946_has_longitude_and_latitude_alone_and_is_refused_elsewhere() {
+    let place =
+        Georeference { epsg: Some(4326), origin: [-84.2, 36.6], pixel: [0.0003, 0.00025], keys: None };
+    let landscape = country(Some(place));
+    let rivers = RiverLines { rfc7946: true, ..RiverLines::default() };
+    let lakes = LakeAreas { rfc7946: true, ..LakeAreas::default() };
+    for export in [&rivers as &dyn Export, &lakes] {
+        let bytes = written(export, &landscape).0;
+        let file: Value = serde_json::from_slice(&bytes).expect("JSON");
+        assert!(file.get("crs").is_none() && !features(&file).is_empty());
+        let said = ogrinfo(&bytes);
+        assert!(
+            said.contains("ID[\"EPSG\",4326]") && !said.contains("4979") && !said.contains("3D"),
+            "{said}"
+        );
+        let elsewhere = country(Some(utm()));
+        let finished =
+            Finished { landscape: &elsewhere, steps: &[], recipe: "country.toml", hash: "af13", seed: 3 };
+        let error = export.parts(&finished, Path::new("a.geojson")).expect_err("metres").to_string();
+        assert!(error.contains("EPSG:32616") && error.contains("ogr2ogr -t_srs EPSG:4326"), "{error}");
     }
 }
 
@@ -207,7 +229,7 @@ fn the_area_within_the_shores_of_a_lake_is_its_area() {
         assert_eq!(geometry[0][0][0][2].as_f64(), level);
     }
     let largest = features(&file)[0]["properties"]["area"].as_f64().expect("a number");
-    let few = read(&LakeAreas { smallest: largest }, &country(Some(utm())));
+    let few = read(&LakeAreas { smallest: largest, ..LakeAreas::default() }, &country(Some(utm())));
     assert!(features(&few).len() < features(&file).len() && !features(&few).is_empty());
 }
 
@@ -222,6 +244,7 @@ fn ring_area(ring: &Value) -> f64 {
 #[test]
 fn small_rivers_are_left_out_by_their_order() {
     let landscape = country(None);
-    let count = |order: u32| features(&read(&RiverLines { order }, &landscape)).len();
+    let count =
+        |order: u32| features(&read(&RiverLines { order, ..RiverLines::default() }, &landscape)).len();
     assert!(count(1) > count(2) && count(2) > 0, "{} and {}", count(1), count(2));
 }
