@@ -1,7 +1,9 @@
 //! The step `flow`.
 
 use crate::analyse::{ensure_finite, scaled};
-use crate::flow::{Depressions, MultipleFlow, Routed, Routing, accumulate, accumulate_multiple, route};
+use crate::flow::{
+    Depressions, MultipleFlow, Routed, Routing, STAGES, accumulate, accumulate_multiple, route_watched,
+};
 use weald_core::error::Error;
 use weald_core::grid::Field;
 use weald_core::landscape::Landscape;
@@ -90,16 +92,28 @@ impl Step for FlowStep {
         }
     }
 
-    fn run(&self, landscape: &mut Landscape, _: &Job<'_>) -> Result<Outcome, Error> {
+    fn run(&self, landscape: &mut Landscape, job: &Job<'_>) -> Result<Outcome, Error> {
         let domain = &landscape.domain;
         let (area, size) = (domain.cell_area(), domain.size);
         ensure_finite(landscape, &self.of.0)?;
-        let routed = route(landscape.field(&self.of.0)?, domain.valid.as_ref(), &self.routing());
+        let stages = STAGES + 1 + u64::from(self.weight.is_some());
+        let mut done = 0;
+        let mut passed = || {
+            done += 1;
+            job.watcher.progress(done, stages, size.cells());
+            if job.watcher.cancelled() { Err(Error::Interrupted(String::new())) } else { Ok(()) }
+        };
+        let ground = landscape.field(&self.of.0)?;
+        let routed = route_watched(ground, domain.valid.as_ref(), &self.routing(), &mut passed)?;
         let areas = scaled(size, &self.sums(landscape, &routed, None), area);
+        passed()?;
         let weight = self.weight.as_ref().map(|name| landscape.field(&name.0)).transpose()?;
         let discharge = weight.map(|runoff| {
             scaled(size, &self.sums(landscape, &routed, Some(runoff)), area * MILLIMETRES_PER_YEAR)
         });
+        if discharge.is_some() {
+            passed()?;
+        }
         let is_valid = |cell: usize| domain.valid.as_ref().is_none_or(|valid| valid.is_valid_at(cell));
         let is_all_sea = (0..size.cells()).all(|cell| !is_valid(cell) || routed.directions.is_sea(cell));
         let note = self.sea_level.filter(|_| is_all_sea);
@@ -134,5 +148,53 @@ impl FlowStep {
                 accumulate_multiple(&MultipleFlow { routed, valid: land, exponent: self.exponent }, weight)
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Mutex;
+
+    use super::*;
+    use weald_core::domain::Domain;
+    use weald_core::grid::Size;
+    use weald_engine::Watcher;
+
+    /// Keeps what it is told, and wants the end after so many calls.
+    struct Impatient {
+        told: Mutex<Vec<(u64, u64)>>,
+        until: usize,
+    }
+
+    impl Watcher for Impatient {
+        fn progress(&self, done: u64, total: u64, _: usize) {
+            self.told.lock().expect("one thread").push((done, total));
+        }
+
+        fn cancelled(&self) -> bool {
+            self.told.lock().expect("one thread").len() >= self.until
+        }
+    }
+
+    #[test]
+    fn every_stage_is_told_and_an_interruption_stops_it_between_two() {
+        let run = |weight: Option<&str>, until: usize| {
+            let mut landscape = Landscape::new(Domain::new(Size { columns: 9, rows: 7 }, 10.0));
+            let size = landscape.domain.size;
+            landscape.insert("height", "m", Field::from_function(size, |x, y| (x * y) as f32));
+            landscape.insert("rain", "mm/year", Field::filled(size, 500.0));
+            let watcher = Impatient { told: Mutex::default(), until };
+            let job = Job { watcher: &watcher, ..Job::unwatched(0) };
+            let weight = weight.map(LayerName::of);
+            let done = FlowStep { weight, ..FlowStep::default() }.run(&mut landscape, &job).map(|_| ());
+            (done, watcher.told.into_inner().expect("one thread"))
+        };
+        let (done, told) = run(Some("rain"), usize::MAX);
+        assert!(done.is_ok());
+        assert_eq!(told, (1..=8).map(|stage| (stage, 8)).collect::<Vec<_>>());
+        assert_eq!(run(None, usize::MAX).1.last(), Some(&(7, 7)));
+        let (stopped, told) = run(None, 3);
+        assert!(matches!(stopped, Err(Error::Interrupted(_))), "{stopped:?}");
+        assert_eq!(told.len(), 3, "nothing is done after it");
     }
 }
