@@ -28,6 +28,32 @@ pub(super) fn with(raster: Raster, xml: &str) -> Result<Raster, Fault> {
     with_crs(with_place(raster, whole)?, whole)
 }
 
+/// A raster with the place that a world file beside it gives, where nothing else has said one: six lines, the width of a cell,
+/// two turns, minus its height, and the centre of the north-western cell (Esri, "World files for raster datasets").
+///
+/// # Errors
+/// [`Fault::Damaged`] for lines that are no numbers, and cells that are turned or from the south.
+pub(super) fn with_world(raster: Raster, text: &str) -> Result<Raster, Fault> {
+    if raster.georeference.is_some() {
+        return Ok(raster);
+    }
+    let wrong = |what: &str| Fault::damaged(format!("the world file beside it {what}: gdalwarp it to .tif"));
+    let numbers: Result<Vec<f64>, _> =
+        text.split_whitespace().map(|line| line.replace(',', ".").parse()).collect();
+    let numbers = numbers.map_err(|_| wrong("holds a line that is no number"))?;
+    let &[width, down_turn, right_turn, down, east, north] = numbers.as_slice() else {
+        return Err(wrong("has not six numbers"));
+    };
+    let is_straight = down_turn == 0.0 && right_turn == 0.0 && width > 0.0 && down < 0.0;
+    if !is_straight || !numbers.iter().all(|number| number.is_finite()) {
+        return Err(wrong("turns it or counts from the south"));
+    }
+    let origin = [east - 0.5 * width, north - 0.5 * down];
+    let place = Georeference { epsg: None, origin, pixel: [width, -down], keys: None };
+    let cell = raster.cell.or((width == -down).then_some(width));
+    Ok(Raster { cell, georeference: Some(place), ..raster })
+}
+
 fn with_band(raster: Raster, band: &str) -> Result<Raster, Fault> {
     let number = |name: &str| text(band, name).map(|text| number(name, &text)).transpose();
     let said = Said { no_data: number("NoDataValue")?, ..Said::default() };
@@ -126,6 +152,19 @@ mod tests {
         assert_eq!(read.unit(), Some("m"));
         assert_eq!(read.cell, Some(3.048));
         assert_eq!(read.georeference.expect("placed").origin, [5e5, 4e6]);
+    }
+
+    #[test]
+    fn a_world_file_places_what_says_no_place_itself() {
+        let read = with_world(raster(), "30\n0\n0\n-30.0\n500015\n3999985\n").expect("reads");
+        let place = read.georeference.clone().expect("placed");
+        assert_eq!((place.origin, place.pixel, read.cell), ([5e5, 4e6], [30.0; 2], Some(30.0)));
+        assert_eq!(with_world(read.clone(), "nothing"), Ok(read), "its own place counts");
+        for wrong in
+            ["30\n0\n0\n-30\n5", "a\nb", "30\n1\n0\n-30\n5\n6", "30\n0\n0\n30\n5\n6", "30 0 0 -30 nan 6"]
+        {
+            assert!(with_world(raster(), wrong).is_err(), "{wrong}");
+        }
     }
 
     #[test]

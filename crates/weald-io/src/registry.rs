@@ -70,7 +70,24 @@ pub fn read(path: &Path) -> Result<Raster, Error> {
         Some(xml) => beside::with(raster, &String::from_utf8_lossy(&xml)),
         None => Ok(raster),
     });
+    let whole = whole.and_then(|raster| with_world_file(raster, path));
     whole.map_err(|fault| fault.of(path))
+}
+
+/// What follows the name of a world file, by the extension of the raster, as GDAL looks for it.
+const WORLD_FILES: [(&str, [&str; 2]); 3] =
+    [("tif", [".tfw", ".wld"]), ("tiff", [".tfw", ".wld"]), ("png", [".pgw", ".wld"])];
+
+fn with_world_file(raster: Raster, path: &Path) -> Result<Raster, Fault> {
+    let extension = path.extension().and_then(|e| e.to_str()).unwrap_or_default().to_ascii_lowercase();
+    let known = WORLD_FILES.iter().find(|(raster, _)| *raster == extension);
+    for suffix in known.iter().flat_map(|(_, suffixes)| suffixes) {
+        let name = PartName::Sibling((*suffix).to_owned());
+        if let Some(text) = OnDisk(path.to_owned()).read(&name, BESIDE_BYTES)? {
+            return beside::with_world(raster, &String::from_utf8_lossy(&text));
+        }
+    }
+    Ok(raster)
 }
 
 /// Writes a raster under its whole name only when all of it is on disk.

@@ -20,6 +20,7 @@ use weald_core::grid::{Field, Mask, Size};
 
 use super::Raster;
 use super::geokeys::{ellipsoid, metres_per_unit};
+use super::web_mercator::true_cell;
 use super::wkt::Ellipsoid;
 
 /// Least side of a cell in metres: below, the unit is another one.
@@ -32,6 +33,10 @@ const LEAST_SIDE: f64 = 0.001;
 /// a pole;
 /// [`Error::Limit`] where the resampled raster would be too large.
 pub fn square(raster: Raster) -> Result<(Raster, Option<String>), Error> {
+    if let Some((cell, note)) = true_cell(&raster)? {
+        ensure_side(cell)?;
+        return Ok((Raster { cell: Some(cell), ..raster }, Some(note)));
+    }
     if let Some(cell) = raster.cell {
         ensure_side(cell)?;
         return Ok((raster, None));

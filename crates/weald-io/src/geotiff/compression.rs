@@ -36,8 +36,9 @@ impl Compression {
                 weald_core::error::left_out("Zstandard", "zstd")
             ))),
             _ => Err(Fault::damaged(format!(
-                "compression {number}; 1 (none), 5 (LZW), 8 (Deflate), 32773 (PackBits) and 50000 (Zstandard) are \
-                 read: gdal_translate -co COMPRESS=DEFLATE"
+                "compression {number}{}; 1 (none), 5 (LZW), 8 (Deflate), 32773 (PackBits) and 50000 (Zstandard) are \
+                 read: gdal_translate -co COMPRESS=DEFLATE in.tif out.tif makes one of them",
+                name_of(number)
             ))),
         }
     }
@@ -76,6 +77,21 @@ impl Compression {
                 decoder.read_exact(expanded).map_err(|cause| format!("zstd: {cause}"))
             }
         }
+    }
+}
+
+/// The name of a compression that is not read.
+fn name_of(number: u64) -> &'static str {
+    match number {
+        2..=4 => " (CCITT, for documents)",
+        6 | 7 => " (JPEG, which loses digits)",
+        32767 | 34677 => " (JBIG)",
+        33003 | 33005 | 34712 => " (JPEG 2000)",
+        34887 => " (LERC)",
+        34925 => " (LZMA)",
+        50001 => " (WebP)",
+        50002 | 52546 => " (JPEG XL)",
+        _ => "",
     }
 }
 

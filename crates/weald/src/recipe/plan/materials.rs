@@ -4,9 +4,11 @@ use std::path::PathBuf;
 
 use super::files::Files;
 use super::words::tables;
+use crate::recipe::layer_file::{FileUnit, said};
 use weald_core::material::{MAX_MATERIALS, Material, RESERVED};
-use weald_core::parameter::{Colour, Diagnostics, LayerName, Parameters, RasterFile};
+use weald_core::parameter::{Colour, CrsCode, Diagnostics, LayerName, Parameters, RasterFile};
 use weald_core::source::Table;
+use weald_io::Said;
 
 weald_core::choices! {
     /// The built-in materials.
@@ -51,6 +53,12 @@ weald_core::parameters! {
         from: Option<RasterFile> = None;
         /// Metres that a 1 in that file stands for. By default 1.
         scale: Option<f64> = None, range 1.0e-9..=1.0e9, unit "m", with from;
+        /// Unit of the values of that file, where it names none; without it they are metres.
+        unit: Option<FileUnit> = None, with from;
+        /// Coordinate reference system of that file, where it names none.
+        crs: Option<CrsCode> = None, with from;
+        /// Number of the cells without data in that file, where it does not say it.
+        nodata: Option<f64> = None, with from;
     }
 }
 
@@ -61,8 +69,8 @@ pub struct PlannedMaterial {
     pub line: usize,
     /// The material.
     pub material: Material,
-    /// The file, with the metres that a 1 in it stands for.
-    pub file: Option<(PathBuf, f64)>,
+    /// The file, with the metres that a 1 in it stands for and what the recipe says of it.
+    pub file: Option<(PathBuf, f64, Said)>,
 }
 
 pub(super) fn read(files: Files<'_>, recipe: &Table, diagnostics: &mut Diagnostics) -> Vec<PlannedMaterial> {
@@ -84,7 +92,8 @@ pub(super) fn read(files: Files<'_>, recipe: &Table, diagnostics: &mut Diagnosti
         let checked = Checked { table, keys: &keys, below: &materials };
         checked.report_fault(diagnostics);
         let material = material(&keys, materials.is_empty());
-        let file = keys.from.map(|from| (from.path(), keys.scale.unwrap_or(1.0)));
+        let said = said(keys.crs, keys.unit, keys.nodata);
+        let file = keys.from.map(|from| (from.path(), keys.scale.unwrap_or(1.0), said));
         materials.push(PlannedMaterial { line: table.line, material, file });
     }
     materials
