@@ -311,6 +311,9 @@ fn layer_attributes(layer: &Layer<'_>, is_placed: bool) -> Attributes {
         let items = provenance.items().into_iter().filter(|(key, _)| OF_LAYER.contains(key));
         items.for_each(|(key, text)| attributes.add(key, text));
     }
+    if layer.classes.is_some() {
+        attributes.add("_FillValue", Attribute::Integers(vec![NO_CLASS]));
+    }
     if let Some(classes) = layer.classes.as_ref().filter(|classes| classes.named.len() <= MAX_FLAGS) {
         let (numbers, meanings) = flags(classes);
         attributes.add("flag_values", Attribute::Integers(numbers));

@@ -1,6 +1,6 @@
 //! The bytes of a file: header, then variable after variable.
 
-use super::super::cf::{Attribute, Attributes, Axis, Dataset, NO_CLASS, Order, Values, Variable};
+use super::super::cf::{Attribute, Attributes, Axis, Dataset, Order, Values, Variable};
 use super::kind::{CHARACTER, DOUBLE, FLOAT, INTEGER, tag};
 use weald_core::grid::Size;
 
@@ -115,10 +115,7 @@ impl Header {
         let kind = match &variable.values {
             Values::Nothing => INTEGER,
             Values::Along(..) => DOUBLE,
-            Values::Cells(cells) if cells.are_whole() => {
-                attributes.0.push(("_FillValue".to_owned(), Attribute::Integers(vec![NO_CLASS])));
-                INTEGER
-            }
+            Values::Cells(cells) if cells.are_whole() => INTEGER,
             Values::Cells(..) => {
                 attributes.0.push(("_FillValue".to_owned(), Attribute::Float(f32::NAN)));
                 FLOAT

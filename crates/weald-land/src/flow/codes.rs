@@ -56,7 +56,7 @@ mod tests {
     use super::*;
     use crate::flow::directions::STEPS;
 
-    /// Angles anticlockwise from east, by which GRASS and TauDEM count; neighbours of RichDEM and pysheds as their sources
+    /// Angles anticlockwise from east, by which GRASS and `TauDEM` count; neighbours of `RichDEM` and pysheds as their sources
     /// list them, as columns eastward and rows southward.
     #[test]
     fn numbers_are_those_of_the_other_programs() {

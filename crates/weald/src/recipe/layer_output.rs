@@ -21,8 +21,8 @@ weald_core::choices! {
 /// What is done to a layer before it is written.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Treatment {
-    /// How it comes to the grid of the source, where it is written there; `None` there is the usual way of the layer.
-    pub(super) to_source: Option<Option<Resampling>>,
+    /// How it comes to the grid of the source, where it is written there.
+    pub(super) to_source: Option<Resampling>,
     /// Whose numbers directions of flow have.
     pub(super) codes: Option<DirectionCodes>,
 }
@@ -34,7 +34,7 @@ const LINES: [&str; 6] = ["river", "strahler", "accumulation", "discharge", "riv
 const UNMIXED: [&str; 5] = ["lake", "watershed", "material", "aspect", DIRECTIONS];
 
 /// How a layer comes to another grid where the recipe does not say it.
-fn usual(layer: &str) -> Resampling {
+pub(super) fn usual(layer: &str) -> Resampling {
     if LINES.contains(&layer) {
         Resampling::Greatest
     } else if UNMIXED.contains(&layer) {
@@ -50,7 +50,6 @@ impl Treatment {
     pub(super) fn of(
         self,
         raster: Raster,
-        layer: &str,
         source: Option<(&Path, &Said)>,
     ) -> Result<(Raster, Option<String>), Error> {
         let mut raster = raster;
@@ -60,7 +59,6 @@ impl Treatment {
         }
         let mut note = None;
         if let (Some(how), Some((path, said))) = (self.to_source, source) {
-            let how = how.unwrap_or(usual(layer));
             let (back, text) = back_on(&raster, path, &grid_of(path, said)?, how)?;
             raster = back;
             note = Some(text);

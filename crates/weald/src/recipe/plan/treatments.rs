@@ -1,6 +1,6 @@
 //! What the keys of a layer's output say of its grid and of its numbers.
 
-use crate::recipe::layer_output::{OutputGrid, Treatment};
+use crate::recipe::layer_output::{OutputGrid, Treatment, usual};
 use weald_core::parameter::{Diagnostics, Legal, read_key};
 use weald_core::source::{Table, Value};
 use weald_export::classes::DIRECTIONS;
@@ -24,7 +24,8 @@ pub(super) fn read(table: &Table, layer: &str, diagnostics: &mut Diagnostics) ->
                        out, or write `river` and `accumulation` there";
         refuse("grid", message);
     }
-    Treatment { to_source: (grid == OutputGrid::Source).then_some(resampling), codes }
+    let to_source = (grid == OutputGrid::Source).then(|| resampling.unwrap_or(usual(layer)));
+    Treatment { to_source, codes }
 }
 
 /// Refuses the grid of the source where the ground comes from no file.

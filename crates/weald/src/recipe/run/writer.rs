@@ -140,7 +140,7 @@ impl Writer<'_> {
         name: &str,
         (encode, holds, treatment): (Encode, Capabilities, Treatment),
     ) -> Result<OutputReport, Error> {
-        let (raster, resampled) = treatment.of(self.raster(name)?, name, ground::source(self.recipe))?;
+        let (raster, resampled) = treatment.of(self.raster(name)?, ground::source(self.recipe))?;
         let parts = encode.parts(&raster)?;
         write_parts(&target.folder.join(target.file), &parts)?;
         let mut notes = holds.losses(&raster);
