@@ -18,7 +18,13 @@ pub(super) fn to_json(attributes: &Attributes) -> Value {
         },
         Attribute::Integers(numbers) => json!(numbers),
     };
-    Value::Object(attributes.0.iter().map(|(name, attribute)| (name.clone(), value(attribute))).collect())
+    // xarray takes one number there and no list.
+    let value = |name: &str, attribute: &Attribute| match (name, attribute) {
+        ("_FillValue", Attribute::Integers(numbers)) if numbers.len() == 1 => json!(numbers[0]),
+        _ => value(attribute),
+    };
+    let entries = attributes.0.iter().map(|(name, attribute)| (name.clone(), value(name, attribute)));
+    Value::Object(entries.collect())
 }
 
 /// Texts, numbers and lists of numbers; what else an attribute can be tells nothing of a grid.

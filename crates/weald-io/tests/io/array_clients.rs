@@ -9,8 +9,8 @@ use std::process::Command;
 
 use crate::rasters::{at, hills, written};
 use serde_json::{Value, json};
-use weald_core::grid::{Field, Size};
-use weald_io::Raster;
+use weald_core::grid::{Field, Mask, Size};
+use weald_io::{Class, Classes, Raster};
 
 /// Standard output of a program that must be there and succeed.
 fn output(program: &Path, remedy: &str, arguments: &[&str]) -> Vec<u8> {
@@ -59,6 +59,25 @@ fn assert_values(raster: &Raster, bytes: &[u8]) {
 
 fn gdalinfo(path: &Path) -> Value {
     serde_json::from_slice(&gdal("gdalinfo", &["-json", shown(path)])).expect("gdalinfo writes JSON")
+}
+
+#[test]
+fn xarray_finds_classes_as_whole_numbers_with_their_meanings_and_no_data() {
+    let size = Size { columns: 4, rows: 3 };
+    let class = |number: u32, name: &str| Class { number, name: name.to_owned(), colour: [9, 9, 9] };
+    let classes = Some(Classes { named: vec![class(0, "no lake"), class(7, "lake 7")], greatest: 7 });
+    let valid = Mask::new(size, (0..12).map(|cell| cell != 5).collect());
+    let field = Field::from_function(size, |x, y| if (x, y) == (3, 2) { 7.0 } else { 0.0 });
+    let raster = Raster { classes, valid, cell: Some(5.0), ..Raster::from(field) };
+    for name in ["lake.nc", "lake.zarr"] {
+        let (_folder, path) = written(&raster, name);
+        let script = "lake = xarray.open_dataset(path, engine='zarr' if path.endswith('zarr') else None)['layer']\n\
+                      print(json.dumps([str(lake.encoding['dtype']), [int(v) for v in lake.attrs['flag_values']], \
+                      lake.attrs['flag_meanings'], bool(numpy.isnan(lake.values[1, 1])), float(lake.values[2, 3]), \
+                      int(numpy.isnan(lake.values).sum())]))";
+        let found = python(script, &[shown(&path)]);
+        assert_eq!(found, json!(["int32", [0, 7], "no_lake lake_7", true, 7.0, 1]), "{name}");
+    }
 }
 
 #[test]
