@@ -8,7 +8,7 @@ use weald_core::landscape::Landscape;
 use weald_core::parameter::{Diagnostics, Fault, Parameter, Parameters};
 use weald_core::source::Table;
 use weald_engine::report::StepReport;
-use weald_io::Part;
+use weald_io::{Part, PartName};
 
 /// A landscape at the end of a run, and what is known of the run.
 #[derive(Clone, Copy, Debug)]
@@ -67,7 +67,13 @@ pub trait Export: Debug + Send + Sync {
         Vec::new()
     }
 
-    /// The files. `file` is the name of the output, whose extension is one of [`ExportEntry::extensions`].
+    /// Names of all files that it may write, by its keys alone: a plan tells from them what would overwrite what.
+    fn names(&self, file: &Path) -> Vec<PartName> {
+        let _ = file;
+        vec![PartName::Own]
+    }
+
+    /// The files, all of them of [`Export::names`]. `file` is the name of the output, whose extension is one of [`ExportEntry::extensions`].
     ///
     /// # Errors
     /// [`Error::Limit`] where a file would be too large, [`Error::Run`] where it cannot be made.

@@ -10,7 +10,7 @@ use weald_core::error::Error;
 use weald_core::parameter::LayerNames;
 use weald_core::parameters;
 use weald_io::cf::{self, Names, Sheet};
-use weald_io::{Part, Provenance, netcdf, zarr};
+use weald_io::{Part, PartName, Provenance, netcdf, zarr};
 
 /// Extensions of its files.
 pub(super) const EXTENSIONS: &[&str] = &["nc", "zarr"];
@@ -45,11 +45,22 @@ impl Export for Layers {
         is_omitted.then(|| cf::OMITTED_CRS_NOTE.to_owned()).into_iter().collect()
     }
 
+    fn names(&self, file: &Path) -> Vec<PartName> {
+        vec![if is_zarr(file) { PartName::Inside("zarr.json".to_owned()) } else { PartName::Own }]
+    }
+
     fn parts(&self, finished: &Finished<'_>, file: &Path) -> Result<Vec<Part>, Error> {
         let sheet = self.sheet(finished)?;
-        let is_zarr = file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("zarr"));
-        if is_zarr { zarr::encode_sheet(&sheet) } else { Ok(vec![Part::own(netcdf::encode_sheet(&sheet)?)]) }
+        if is_zarr(file) {
+            zarr::encode_sheet(&sheet)
+        } else {
+            Ok(vec![Part::own(netcdf::encode_sheet(&sheet)?)])
+        }
     }
+}
+
+fn is_zarr(file: &Path) -> bool {
+    file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("zarr"))
 }
 
 impl Layers {
@@ -137,7 +148,7 @@ mod tests {
     fn only_the_named_layers_are_written_under_the_names_of_landlab() {
         let files = parts(&["water", "flux_x"], Some(Reader::Landlab), "some.zarr");
         let is_there = |folder: &str| {
-            files.iter().any(|part| matches!(&part.name, weald_io::PartName::Inside(path) if path == folder))
+            files.iter().any(|part| matches!(&part.name, PartName::Inside(path) if path == folder))
         };
         assert!(is_there("surface_water__depth/zarr.json") && is_there("flux_x/zarr.json"));
         assert!(!is_there("height/zarr.json") && !is_there("topographic__elevation/zarr.json"));

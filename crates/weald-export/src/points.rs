@@ -6,7 +6,7 @@ use std::path::Path;
 use super::{Export, Finished};
 use weald_core::error::{Error, Limit, Quantity};
 use weald_core::parameter::LayerName;
-use weald_io::{Part, npy};
+use weald_io::{Part, PartName, npy};
 use weald_plants::Fractal;
 use weald_plants::Vegetation;
 use weald_plants::ifs::{Code, Coded, Game, Ifs, expansion};
@@ -19,6 +19,9 @@ const MAX_POINTS: u64 = 1 << 25;
 
 /// Longest file.
 const MAX_BYTES: u64 = 4 << 30;
+
+/// What the name of the file of codes has more than that of the places, without its extension.
+const CODES: &str = "_codes.npy";
 
 weald_core::parameters! {
     /// The points of a fractal, after its deformations.
@@ -46,14 +49,16 @@ impl Export for Points {
         vec![self.fractal.0.clone()]
     }
 
+    fn names(&self, file: &Path) -> Vec<PartName> {
+        let is_table = ["csv", "ply"].contains(&extension(file).as_str());
+        let codes = (self.codes && !is_table).then(|| PartName::Sibling(CODES.to_owned()));
+        std::iter::once(PartName::Own).chain(codes).collect()
+    }
+
     fn parts(&self, finished: &Finished<'_>, file: &Path) -> Result<Vec<Part>, Error> {
         let name = &self.fractal.0;
         let fractal = finished.landscape.fractal(name)?;
-        let extension = file
-            .extension()
-            .and_then(|extension| extension.to_str())
-            .unwrap_or_default()
-            .to_ascii_lowercase();
+        let extension = extension(file);
         self.check(&fractal.ifs, &extension)?;
         let points = self.points(&fractal)?;
         Ok(match extension.as_str() {
@@ -62,6 +67,10 @@ impl Export for Points {
             _ => self.arrays(&points, &fractal.ifs),
         })
     }
+}
+
+fn extension(file: &Path) -> String {
+    file.extension().and_then(|extension| extension.to_str()).unwrap_or_default().to_ascii_lowercase()
 }
 
 impl Points {
@@ -143,7 +152,7 @@ impl Points {
             let digits = self.depth.map_or(ifs.code_digits(), |depth| depth as usize);
             let mut codes = npy::header("|u1", [points.len(), digits]);
             codes.extend(points.iter().flat_map(|point| (0..digits).map(|place| point.code.digit(place))));
-            parts.push(Part::sibling("_codes.npy", codes));
+            parts.push(Part::sibling(CODES, codes));
         }
         parts
     }

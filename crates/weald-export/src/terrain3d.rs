@@ -13,13 +13,15 @@ use std::path::Path;
 
 use serde_json::{Value, json};
 
-use super::terrain_tiles::{description, extension, extent, little_endian, no_data_note, size_fault, source};
+use super::terrain_tiles::{
+    DESCRIPTION, description, extension, extent, little_endian, no_data_note, size_fault, source,
+};
 use super::vertices::Vertices;
 use super::{Export, ExportEntry, Finished};
 use weald_core::error::{Error, Limit, Quantity, left_out};
 use weald_core::grid::Size;
 use weald_core::parameter::{Fault, LayerName};
-use weald_io::Part;
+use weald_io::{Part, PartName};
 
 weald_core::parameters! {
     /// Terrain for Terrain3D.
@@ -67,6 +69,10 @@ impl Export for Terrain3d {
 
     fn notes(&self, finished: &Finished<'_>) -> Vec<String> {
         no_data_note(finished, "").into_iter().collect()
+    }
+
+    fn names(&self, _: &Path) -> Vec<PartName> {
+        vec![PartName::Own, PartName::Beside(DESCRIPTION.to_owned())]
     }
 
     fn parts(&self, finished: &Finished<'_>, file: &Path) -> Result<Vec<Part>, Error> {

@@ -110,9 +110,12 @@ fn grey(size: Size, depth: BitDepth, bytes: &[u8]) -> Result<Vec<u8>, Error> {
     Pixels { sides: [size.columns, size.rows], channels: ColorType::Grayscale, depth, bytes }.file()
 }
 
+/// What the name of a description has more than that of the file beside which it lies.
+pub(super) const DESCRIPTION: &str = ".json";
+
 /// The description of a set, beside the file that names it.
 pub(super) fn description(json: &Value) -> Part {
-    Part::beside(".json", format!("{json:#}\n").into_bytes())
+    Part::beside(DESCRIPTION, format!("{json:#}\n").into_bytes())
 }
 
 /// The extension of the output, in lower case.

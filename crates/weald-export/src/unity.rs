@@ -12,13 +12,13 @@ use std::path::Path;
 use serde_json::{Value, json};
 
 use super::terrain_tiles::{
-    Tiles, at_vertices, description, extension, extent, little_endian, no_data_note, resampled_note,
-    size_fault, source,
+    DESCRIPTION, Tiles, at_vertices, description, extension, extent, little_endian, no_data_note,
+    resampled_note, size_fault, source,
 };
 use super::{Export, ExportEntry, Finished};
 use weald_core::error::Error;
 use weald_core::parameter::{Fault, LayerName};
-use weald_io::Part;
+use weald_io::{Part, PartName};
 
 weald_core::parameters! {
     /// Terrain for Unity.
@@ -63,6 +63,12 @@ impl Export for Unity {
         no_data_note(finished, "").into_iter().chain(resampled_note(finished, tiles)).collect()
     }
 
+    fn names(&self, file: &Path) -> Vec<PartName> {
+        let tiles = Tiles { count: self.tiles as usize, side: 0 };
+        let names = tiles.all().map(|tile| self.tile_name(tile, file));
+        names.chain([PartName::Beside(DESCRIPTION.to_owned())]).collect()
+    }
+
     fn parts(&self, finished: &Finished<'_>, file: &Path) -> Result<Vec<Part>, Error> {
         let tiles = Tiles::new(finished.landscape.domain.size, self.tiles, self.size, &SIZES);
         let heights = at_vertices(finished, &self.of, tiles)?;
@@ -75,8 +81,7 @@ impl Export for Unity {
             let rows = tiles.cut(&numbers, (x, y));
             let from_south: Vec<u16> = rows.rchunks(tiles.side).flatten().copied().collect();
             let bytes = little_endian(&from_south);
-            let name = || format!("_{x}_{}.{}", tiles.count - 1 - y, extension(file));
-            parts.push(if tiles.count == 1 { Part::own(bytes) } else { Part::sibling(name(), bytes) });
+            parts.push(Part { name: self.tile_name((x, y), file), bytes });
         }
         parts.push(description(&self.described(finished, tiles, (low, high))));
         Ok(parts)
@@ -84,6 +89,14 @@ impl Export for Unity {
 }
 
 impl Unity {
+    /// The file of a tile that is counted from the north-west.
+    fn tile_name(&self, (x, y): (usize, usize), file: &Path) -> PartName {
+        match self.tiles as usize {
+            1 => PartName::Own,
+            count => PartName::Sibling(format!("_{x}_{}.{}", count - 1 - y, extension(file))),
+        }
+    }
+
     fn described(&self, finished: &Finished<'_>, tiles: Tiles, (low, high): (f64, f64)) -> Value {
         let [width, length] = extent(finished).map(|metres| metres / tiles.count as f64);
         json!({

@@ -16,15 +16,15 @@ use std::path::Path;
 use serde_json::{Value, json};
 
 use super::terrain_tiles::{
-    Tiles, Weight, at_vertices, description, extension, extent, little_endian, no_data_note, png_8, png_16,
-    resampled_note, size_fault, source,
+    DESCRIPTION, Tiles, Weight, at_vertices, description, extension, extent, little_endian, no_data_note,
+    png_8, png_16, resampled_note, size_fault, source,
 };
 use super::vertices::Vertices;
 use super::{Export, ExportEntry, Finished};
 use weald_core::error::Error;
 use weald_core::grid::Size;
 use weald_core::parameter::{Fault, LayerName, Nested};
-use weald_io::Part;
+use weald_io::{Part, PartName};
 
 weald_core::parameters! {
     /// A landscape for Unreal Engine.
@@ -57,6 +57,9 @@ pub(super) const ENTRY: ExportEntry = ExportEntry::of::<Unreal>(
 
 /// Sizes that the guide recommends, in rising order.
 const SIZES: [u32; 7] = [127, 253, 505, 1009, 2017, 4033, 8129];
+
+/// Name of the weight map of the cells without data.
+const HOLES: &str = "holes";
 
 const MIDDLE: f64 = 32768.0;
 const MAX_VALUE: f64 = 65535.0;
@@ -91,6 +94,15 @@ impl Export for Unreal {
             .collect()
     }
 
+    fn names(&self, file: &Path) -> Vec<PartName> {
+        let tiles = Tiles { count: self.tiles as usize, side: 0 };
+        let extension = &extension(file);
+        let masks = self.masks.iter().map(|Nested(mask)| mask.layer.0.as_str()).chain([HOLES]);
+        let masks = masks.flat_map(|mask| tiles.all().map(move |tile| mask_name(tiles, mask, tile)));
+        let heights = tiles.all().map(|tile| heights_name(tiles, extension, tile));
+        heights.chain(masks).chain([PartName::Beside(DESCRIPTION.to_owned())]).collect()
+    }
+
     fn parts(&self, finished: &Finished<'_>, file: &Path) -> Result<Vec<Part>, Error> {
         let tiles = Tiles::new(finished.landscape.domain.size, self.tiles, self.size, &SIZES);
         let heights = at_vertices(finished, &self.of, tiles)?;
@@ -104,7 +116,7 @@ impl Export for Unreal {
         }
         if let Some(valid) = &heights.valid {
             set.add_mask(
-                "holes",
+                HOLES,
                 &valid.flags().iter().map(|is_valid| if *is_valid { 0 } else { 255 }).collect::<Vec<_>>(),
             )?;
         }
@@ -197,6 +209,22 @@ impl Scale {
     }
 }
 
+/// Which tile a file is of, where there are several.
+fn tile_suffix(tiles: Tiles, (x, y): (usize, usize)) -> String {
+    if tiles.count == 1 { String::new() } else { format!("_x{x}_y{y}") }
+}
+
+fn heights_name(tiles: Tiles, extension: &str, tile: (usize, usize)) -> PartName {
+    match tile_suffix(tiles, tile) {
+        none if none.is_empty() => PartName::Own,
+        suffix => PartName::Sibling(format!("{suffix}.{extension}")),
+    }
+}
+
+fn mask_name(tiles: Tiles, mask: &str, tile: (usize, usize)) -> PartName {
+    PartName::Sibling(format!("_{mask}{}.png", tile_suffix(tiles, tile)))
+}
+
 /// The files of an export.
 struct TileSet {
     tiles: Tiles,
@@ -210,11 +238,7 @@ impl TileSet {
         for (x, y) in self.tiles.all() {
             let tile = self.tiles.cut(numbers, (x, y));
             let bytes = if self.extension == "png" { png_16(size, &tile)? } else { little_endian(&tile) };
-            self.parts.push(if self.tiles.count == 1 {
-                Part::own(bytes)
-            } else {
-                Part::sibling(format!("_x{x}_y{y}.{}", self.extension), bytes)
-            });
+            self.parts.push(Part { name: heights_name(self.tiles, &self.extension, (x, y)), bytes });
         }
         Ok(())
     }
@@ -222,9 +246,8 @@ impl TileSet {
     fn add_mask(&mut self, name: &str, numbers: &[u8]) -> Result<(), Error> {
         let size = Size::square(self.tiles.side)?;
         for (x, y) in self.tiles.all() {
-            let tile = if self.tiles.count == 1 { String::new() } else { format!("_x{x}_y{y}") };
             let bytes = png_8(size, &self.tiles.cut(numbers, (x, y)))?;
-            self.parts.push(Part::sibling(format!("_{name}{tile}.png"), bytes));
+            self.parts.push(Part { name: mask_name(self.tiles, name, (x, y)), bytes });
         }
         Ok(())
     }

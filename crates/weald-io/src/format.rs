@@ -1,9 +1,12 @@
 //! What a raster format is: how it is read and written, and what it can hold.
 
-use super::parts::{Part, Parts};
+use std::collections::BTreeSet;
+
+use super::parts::{Part, PartName, Parts};
 use super::{Fault, Limits, Raster};
 use weald_core::domain::Georeference;
 use weald_core::error::Error;
+use weald_core::grid::{Field, Size};
 
 /// Turns the bytes of a file into a raster.
 pub type DecodeFile = fn(&[u8], Limits) -> Result<Raster, Fault>;
@@ -36,6 +39,20 @@ impl Encode {
             Self::File(encode) => Ok(vec![Part::own(encode(raster)?)]),
             Self::Parts(encode) => encode(raster),
         }
+    }
+
+    /// Names of all files that it may write, whatever the raster: those of two small ones, with a CRS and without, so
+    /// that no format has to say them a second time.
+    pub fn names(self) -> Vec<PartName> {
+        let small = |georeference| Raster {
+            georeference,
+            cell: Some(1.0),
+            ..Raster::from(Field::from_function(Size { columns: 2, rows: 2 }, |x, y| (x + y) as f32))
+        };
+        let place = Georeference { epsg: Some(32633), origin: [5.0e5, 4.0e6], pixel: [1.0; 2], keys: None };
+        let written = [None, Some(place)].map(|place| self.parts(&small(place)).unwrap_or_default());
+        let names: BTreeSet<_> = written.into_iter().flatten().map(|part| part.name).collect();
+        names.into_iter().collect()
     }
 }
 

@@ -18,7 +18,7 @@ pub struct Part {
 }
 
 /// The name of a part, from that of the output, such as `land.raw`.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum PartName {
     /// The output itself.
     Own,

@@ -7,13 +7,13 @@ mod instances;
 
 use std::path::Path;
 
-use super::plants::MAX_NODES;
+use super::plants::{MAX_NODES, NODES};
 use super::{Export, Finished, Mesh};
 use instances::{Scene, Standing};
 use weald_core::error::{Error, Limit, Quantity};
 use weald_core::landscape::Landscape;
 use weald_core::parameter::{Fault, LayerName, Nested};
-use weald_io::Part;
+use weald_io::{Part, PartName};
 use weald_plants::Vegetation;
 use weald_plants::grass::{Area, Instance, Meadow};
 
@@ -83,13 +83,17 @@ impl Export for GrassSets {
         many.into_iter().chain(outside).collect()
     }
 
+    fn names(&self, _: &Path) -> Vec<PartName> {
+        vec![PartName::Own, PartName::Sibling(NODES.to_owned())]
+    }
+
     fn parts(&self, finished: &Finished<'_>, _: &Path) -> Result<Vec<Part>, Error> {
         let meadow = finished.landscape.meadow(&self.of.0)?;
         let sets = self.standing(finished.landscape, &meadow)?;
         let scene = Scene { name: &self.of.0, meadow: &meadow, sets: &sets, finished };
         let mut parts = vec![Part::own(scene.instanced()?)];
         if sets.len() <= MAX_NODES {
-            parts.push(Part::sibling(".nodes.glb", scene.nodes()?));
+            parts.push(Part::sibling(NODES, scene.nodes()?));
         }
         Ok(parts)
     }

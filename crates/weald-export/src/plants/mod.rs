@@ -16,7 +16,7 @@ use weald_core::error::Error;
 use weald_core::landscape::Landscape;
 use weald_core::parameter::{Colour, LayerName, Nested};
 use weald_core::plants::Plants;
-use weald_io::Part;
+use weald_io::{Part, PartName};
 use weald_plants::Vegetation;
 use weald_plants::ifs::Ifs;
 use weald_plants::ifs::foliage::{self, Foliage, Habit, Texture};
@@ -43,6 +43,9 @@ weald_core::parameters! {
 
 /// Most plants of which a file of nodes is written: some 20 MB.
 pub(super) const MAX_NODES: usize = 100_000;
+
+/// What the name of a file of nodes has more than that of the instances, without its extension.
+pub(super) const NODES: &str = ".nodes.glb";
 
 /// What an extension stands for.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -81,6 +84,11 @@ impl Export for PlantSet {
         none.into_iter().chain(many).collect()
     }
 
+    fn names(&self, file: &Path) -> Vec<PartName> {
+        let nodes = matches!(kind(file), Kind::Instances).then(|| PartName::Sibling(NODES.to_owned()));
+        std::iter::once(PartName::Own).chain(nodes).collect()
+    }
+
     fn parts(&self, finished: &Finished<'_>, file: &Path) -> Result<Vec<Part>, Error> {
         let plants = &self.standing(finished.landscape)?;
         match kind(file) {
@@ -108,7 +116,7 @@ impl PlantSet {
         let scene = instances::Scene { name: &self.of.0, model: &model, plants: &plants.plants, finished };
         let mut parts = vec![Part::own(scene.instanced()?)];
         if plants.plants.len() <= MAX_NODES {
-            parts.push(Part::sibling(".nodes.glb", scene.nodes()?));
+            parts.push(Part::sibling(NODES, scene.nodes()?));
         }
         Ok(parts)
     }

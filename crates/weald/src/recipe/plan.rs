@@ -6,6 +6,7 @@ mod fractals;
 mod landscape;
 mod layers;
 mod materials;
+mod names;
 mod outputs;
 mod steps;
 #[cfg(test)]
@@ -24,6 +25,7 @@ pub use films::{EXTENSIONS as FILM_EXTENSIONS, Film, FilmKeys, Motion};
 pub use fractals::{FractalKeys, FractalSource, PlannedFractal, PlantRole};
 pub use landscape::{Ground, LandscapeKeys};
 pub use materials::{BuiltIn, MaterialKeys, PlannedMaterial};
+pub(super) use names::{Name, WORK_FOLDER};
 pub use outputs::{Content, Output, OutputKeys};
 pub use steps::Planned;
 
@@ -253,6 +255,9 @@ fn check(
     if let (true, Ok(ground)) = (all_understood && materials_understood, &start.ground) {
         let made = Made { ground, materials: &materials, steps: &steps };
         layers::check(&made, &outputs, diagnostics);
+    }
+    if all_understood {
+        names::check(&outputs, &steps, diagnostics);
     }
     if materials_understood {
         steps::check_materials(&steps, &materials, diagnostics);

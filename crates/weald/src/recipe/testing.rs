@@ -13,7 +13,7 @@ use weald_core::random::hash2;
 use weald_engine::step::{Entry, Outcome, Stage, Step};
 use weald_engine::{Job, SavedSimulation};
 use weald_export::{Export, ExportEntry, Finished};
-use weald_io::{Capabilities, Encode, Format, Metadata, Part, Preset, Raster};
+use weald_io::{Capabilities, Encode, Format, Metadata, Part, PartName, Preset, Raster};
 use weald_picture::{Image, Picture, PictureEntry};
 
 pub(super) const VOCABULARY: Vocabulary = Vocabulary {
@@ -197,6 +197,10 @@ impl Export for Tally {
 
     fn notes(&self, _: &Finished<'_>) -> Vec<String> {
         vec!["counted".to_owned()]
+    }
+
+    fn names(&self, _: &Path) -> Vec<PartName> {
+        vec![PartName::Own, PartName::Sibling("_steps.txt".to_owned())]
     }
 
     fn parts(&self, finished: &Finished<'_>, _: &Path) -> Result<Vec<Part>, Error> {

@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use super::steps::Planned;
 use weald_core::parameter::{Diagnostics, Parameters, keys_of};
 use weald_core::source::Table;
 use weald_picture::Picture;
@@ -31,6 +32,18 @@ pub enum Motion {
     TimeLapse(u64),
     /// So many frames once around.
     Turn(u32),
+}
+
+impl Motion {
+    /// Frames of a film of a recipe with these steps.
+    pub fn frames(self, steps: &[Planned]) -> u64 {
+        match self {
+            Self::TimeLapse(every) => {
+                1 + steps.iter().map(|planned| planned.step.watched() / every).sum::<u64>()
+            }
+            Self::Turn(frames) => u64::from(frames),
+        }
+    }
 }
 
 /// Whether an output moves.

@@ -183,9 +183,13 @@ pub(super) fn read(vocabulary: &Vocabulary, recipe: &Table, diagnostics: &mut Di
 }
 
 /// Whether two names would be one file, also where a file system does not tell `A` from `a`.
-fn same_file(a: &Path, b: &Path) -> bool {
-    let lower = |path: &Path| path.to_string_lossy().to_lowercase();
+pub(super) fn same_file(a: &Path, b: &Path) -> bool {
     lower(a) == lower(b)
+}
+
+/// A path as file systems compare it that do not tell `A` from `a`.
+pub(super) fn lower(path: &Path) -> PathBuf {
+    PathBuf::from(path.to_string_lossy().to_lowercase())
 }
 
 fn line_of(table: &Table, key: &str) -> usize {

@@ -323,3 +323,54 @@ fn what_is_missing_is_answered_with_the_step_that_makes_it() {
     let message = refused("[[output]]\npicture = \"map\"\nfile = \"a.png\"\n", &["`of` is needed"]);
     assert!(!message.contains("needs layer"), "{message}");
 }
+
+/// The good recipe with these outputs in place of its own.
+fn with_outputs(outputs: &str) -> String {
+    let (before, _) = GOOD.split_once("[[output]]").expect("it has outputs");
+    format!("{before}{outputs}")
+}
+
+#[test]
+fn two_outputs_that_would_write_one_name_are_told_apart_before_anything_runs() {
+    let film = |keys: &str, file: &str| format!("[[output]]\npicture = \"dot\"\n{keys}\nfile = {file:?}\n");
+    let dot = |file: &str| film("", file);
+    let tally = |file: &str| format!("[[output]]\nexport = \"tally\"\nfile = {file:?}\n");
+    let clashes = [
+        (
+            film("frames = 3", "a.mp4") + &film("every = 2", "A.png"),
+            "A.png would write A-00000.png, where a.mp4",
+        ),
+        (
+            film("frames = 3", "a.png") + &dot("a-00002.png"),
+            "a-00002.png would write a-00002.png, where a.png",
+        ),
+        (
+            film("every = 2", "a.apng") + &dot("a-00001.png"),
+            "would write a-00001.png, where a.apng of line 10",
+        ),
+        (tally("a.txt") + &tally("a_steps.txt"), "would write a_steps.txt, where a.txt of line 10"),
+        (dot("a.png") + &dot("a.png/b.png"), "a.png/b.png would write a.png/b.png, where a.png"),
+        (film("frames = 3", "a.png") + &dot("a-00001.png/b.png"), "would write a-00001.png, where a.png"),
+    ];
+    for (outputs, told) in clashes {
+        let message = refusal(&with_outputs(&outputs));
+        assert!(message.contains(told), "{message}");
+    }
+    let apart = film("frames = 3", "a.png") + &dot("a-00003.png") + &dot("a-1.png") + &tally("b/a.txt");
+    assert!(parse(&with_outputs(&apart)).is_ok());
+}
+
+#[test]
+fn names_that_no_file_can_have_or_that_a_run_uses_are_refused() {
+    let long = "n".repeat(210);
+    for (file, told) in [
+        (format!("{long}.png"), "is too long: a name has at most 200 bytes"),
+        ("d/".repeat(600) + "a.png", "a path 1000"),
+        (".weald/a.png".to_owned(), "a name that every run uses itself"),
+        ("report.json/a.png".to_owned(), "a name that every run uses itself"),
+    ] {
+        let output = format!("[[output]]\npicture = \"dot\"\nfile = \"{file}\"\n");
+        let message = refusal(&with_outputs(&output));
+        assert!(message.contains(told), "{message}");
+    }
+}

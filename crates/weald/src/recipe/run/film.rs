@@ -90,11 +90,6 @@ impl<'a> TimeLapse<'a> {
     }
 }
 
-/// Frames of a time-lapse of the whole recipe.
-pub(super) fn lapse_frames(recipe: &Recipe, every: u64) -> u64 {
-    1 + recipe.steps.iter().map(|planned| planned.step.watched() / every).sum::<u64>()
-}
-
 /// A frame that was written, read again.
 pub(super) fn drawn(path: &Path, number: u64) -> Result<Cutout, Error> {
     let frame = Film::frame(path, number);

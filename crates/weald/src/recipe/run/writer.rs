@@ -75,10 +75,7 @@ impl Writer<'_> {
         (picture, film): (&dyn Picture, &Film),
     ) -> Result<OutputReport, Error> {
         let path = target.folder.join(target.file);
-        let frames = match film.motion {
-            Motion::TimeLapse(every) => film::lapse_frames(self.recipe, every),
-            Motion::Turn(frames) => u64::from(frames),
-        };
+        let frames = film.motion.frames(&self.recipe.steps);
         let (per_second, text) = (film.frames_per_second, self.text());
         let kept = Frames { count: frames, per_second, text: &text };
         let note = match film.motion {
