@@ -1,11 +1,14 @@
 //! Files that are whole or not there.
 
 use std::fs::File;
-use std::io::{BufWriter, Write};
+use std::io::{BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
 use super::parts::{Part, PartName, followed};
 use weald_core::error::Error;
+
+/// How names of temporary files end, behind the number of the process that writes.
+const TEMPORARY: &str = ".tmp-weald";
 
 /// Writes `bytes` under a temporary name beside `path`, syncs, and renames. On failure the temporary file is
 /// removed and an older file under `path` stays as it was.
@@ -25,7 +28,7 @@ pub fn write_whole_with(
     write: impl FnOnce(&mut BufWriter<File>) -> std::io::Result<()>,
 ) -> Result<(), Error> {
     let temporary = temporary_name(path);
-    let written = write_and_sync(&temporary, write).and_then(|()| std::fs::rename(&temporary, path));
+    let written = write_and_sync(&temporary, write).and_then(|()| rename(&temporary, path));
     written.map_err(|cause| {
         // The write has failed already; that the leftover cannot be removed either adds nothing.
         let _ = std::fs::remove_file(&temporary);
@@ -39,7 +42,7 @@ pub fn write_whole_with(
 /// As [`write_whole`], and those of `write`.
 pub fn write_through(path: &Path, write: impl FnOnce(&Path) -> Result<(), Error>) -> Result<(), Error> {
     let temporary = temporary_name(path);
-    let renamed = || std::fs::rename(&temporary, path).map_err(|cause| Error::write(path, &cause));
+    let renamed = || rename(&temporary, path).map_err(|cause| Error::write(path, &cause));
     write(&temporary).and_then(|()| renamed()).inspect_err(|_| {
         // The write has failed already; that there may be no leftover to remove adds nothing.
         let _ = std::fs::remove_file(&temporary);
@@ -69,7 +72,7 @@ pub fn write_parts(path: &Path, parts: &[Part]) -> Result<(), Error> {
     }
     // The file itself comes last, so that whoever sees it finds what lies beside it.
     for (path, _) in named.iter().rev() {
-        std::fs::rename(temporary_name(path), path).map_err(|cause| discard(Error::write(path, &cause)))?;
+        rename(&temporary_name(path), path).map_err(|cause| discard(Error::write(path, &cause)))?;
     }
     Ok(())
 }
@@ -83,17 +86,96 @@ fn write_folder(path: &Path, parts: &[Part]) -> Result<(), Error> {
         return Err(Error::Run(message));
     }
     let (fresh, stale) = (temporary_name(path), temporary_name(&followed(path, ".old")));
-    let swapped = fill(&fresh, parts).and_then(|()| {
-        if path.exists() {
-            std::fs::rename(path, &stale)?;
-        }
-        std::fs::rename(&fresh, path)
-    });
+    let swapped = fill(&fresh, parts).and_then(|()| replace_folder(&fresh, path, &stale));
     // Both are leftovers by now; that one of them is not there is the usual case.
     let _ = std::fs::remove_dir_all(&fresh);
     swapped.map_err(|cause| Error::write(path, &cause))?;
     let _ = std::fs::remove_dir_all(&stale);
     Ok(())
+}
+
+/// Gives a folder the name of an older one, which has the name `stale` then. Where the system can exchange two names, there
+/// is a folder of that name at every moment.
+///
+/// # Errors
+/// Those of the file system.
+pub fn replace_folder(fresh: &Path, path: &Path, stale: &Path) -> std::io::Result<()> {
+    if !path.exists() {
+        return rename(fresh, path);
+    }
+    if exchange(fresh, path).is_ok() {
+        rename(fresh, stale)?;
+        return sync_folder_of(path);
+    }
+    std::fs::rename(path, stale)?;
+    rename(fresh, path)
+}
+
+#[cfg(target_os = "linux")]
+fn exchange(one: &Path, other: &Path) -> std::io::Result<()> {
+    use rustix::fs::{CWD, RenameFlags, renameat_with};
+    Ok(renameat_with(CWD, one, CWD, other, RenameFlags::EXCHANGE)?)
+}
+
+#[cfg(not(target_os = "linux"))]
+fn exchange(_: &Path, _: &Path) -> std::io::Result<()> {
+    Err(std::io::ErrorKind::Unsupported.into())
+}
+
+/// Gives a file another name, which is on disk when this returns.
+///
+/// # Errors
+/// Those of the file system.
+pub fn rename(from: &Path, to: &Path) -> std::io::Result<()> {
+    std::fs::rename(from, to)?;
+    sync_folder_of(to)
+}
+
+/// Brings the names in the folder of a file to disk: a power cut could undo a rename that is only in memory.
+#[cfg(unix)]
+fn sync_folder_of(path: &Path) -> std::io::Result<()> {
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    match File::open(folder)?.sync_all() {
+        // Some file systems of networks cannot, and keep names by themselves.
+        Err(cause) if [ErrorKind::InvalidInput, ErrorKind::Unsupported].contains(&cause.kind()) => Ok(()),
+        other => other,
+    }
+}
+
+/// Other systems have no such call.
+#[cfg(not(unix))]
+fn sync_folder_of(_: &Path) -> std::io::Result<()> {
+    Ok(())
+}
+
+/// Removes temporary files of programs that were killed while they wrote into a folder, and gives their names.
+pub fn remove_leftovers(folder: &Path) -> Vec<PathBuf> {
+    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
+    let left: Vec<_> = entries.filter(|path| is_leftover(path)).collect();
+    // What cannot be removed is in nobody's way.
+    let removed = |path: &PathBuf| {
+        if path.is_dir() { std::fs::remove_dir_all(path) } else { std::fs::remove_file(path) }.is_ok()
+    };
+    left.into_iter().filter(removed).collect()
+}
+
+/// Whether a name is that of a temporary file whose writer is no more.
+fn is_leftover(path: &Path) -> bool {
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    let writer = name.strip_suffix(TEMPORARY).and_then(|name| name.rsplit_once('.'));
+    writer.and_then(|(_, number)| number.parse::<u32>().ok()).is_some_and(|number| is_gone(path, number))
+}
+
+#[cfg(target_os = "linux")]
+fn is_gone(_: &Path, process: u32) -> bool {
+    !Path::new("/proc").join(process.to_string()).exists()
+}
+
+/// Elsewhere a file that nobody has written to for an hour has no writer.
+#[cfg(not(target_os = "linux"))]
+fn is_gone(path: &Path, _: u32) -> bool {
+    let changed = path.metadata().and_then(|about| about.modified());
+    changed.ok().and_then(|at| at.elapsed().ok()).is_some_and(|age| age.as_secs() > 3600)
 }
 
 fn fill(folder: &Path, parts: &[Part]) -> std::io::Result<()> {
@@ -119,13 +201,14 @@ fn write_and_sync(
 
 fn temporary_name(path: &Path) -> PathBuf {
     let mut name = path.file_name().unwrap_or_default().to_owned();
-    name.push(format!(".{}.tmp-weald", std::process::id()));
+    name.push(format!(".{}{TEMPORARY}", std::process::id()));
     path.with_file_name(name)
 }
 
 #[cfg(all(test, target_os = "linux"))]
 mod tests {
     use super::*;
+    use std::sync::atomic::{AtomicBool, Ordering};
 
     /// `/dev/full` refuses every byte as a full disk does; a link puts it in the temporary file's place.
     #[test]
@@ -162,6 +245,40 @@ mod tests {
         let error = write_parts(&path, &[Part::inside("zarr.json", b"{}".to_vec())]).expect_err("taken");
         assert!(error.to_string().contains("holds other things"), "{error}");
         assert_eq!(std::fs::read(path.join("letters.txt")).expect("kept"), b"dear");
+    }
+
+    #[test]
+    fn temporary_files_of_the_dead_are_removed_and_those_of_the_living_are_not() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let [dead, live] =
+            [u32::MAX, std::process::id()].map(|process| format!("h.tif.{process}{TEMPORARY}"));
+        for name in [dead.as_str(), live.as_str(), "h.tif"] {
+            std::fs::write(folder.path().join(name), "x").expect("written");
+        }
+        assert_eq!(remove_leftovers(folder.path()), [folder.path().join(&dead)]);
+        assert!(folder.path().join(&live).exists() && folder.path().join("h.tif").exists());
+    }
+
+    /// Looks at a folder all the time while it is replaced.
+    #[test]
+    fn a_folder_that_is_replaced_is_there_at_every_moment() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("height.zarr");
+        let write = |bytes: &[u8]| write_parts(&path, &[Part::inside("zarr.json", bytes.to_vec())]);
+        write(b"old").expect("written");
+        let (done, seen) = (AtomicBool::new(false), AtomicBool::new(true));
+        std::thread::scope(|scope| {
+            scope.spawn(|| {
+                while !done.load(Ordering::Relaxed) {
+                    seen.fetch_and(path.join("zarr.json").exists(), Ordering::Relaxed);
+                }
+            });
+            for _ in 0..200 {
+                write(b"new").expect("written");
+            }
+            done.store(true, Ordering::Relaxed);
+        });
+        assert!(seen.into_inner(), "it was gone at a moment");
     }
 
     #[test]

@@ -37,7 +37,9 @@ mod web_mercator;
 mod wkt;
 pub mod zarr;
 
-pub use atomic::{write_parts, write_through, write_whole, write_whole_with};
+pub use atomic::{
+    remove_leftovers, rename, replace_folder, write_parts, write_through, write_whole, write_whole_with,
+};
 pub use classes::{Class, Classes};
 pub use format::{Capabilities, CrsSupport, Decode, DecodeFile, Encode, Format, Metadata, Preset, Values};
 pub use info::{Info, describe};

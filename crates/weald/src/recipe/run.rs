@@ -9,6 +9,7 @@ mod step_watcher;
 #[cfg(test)]
 mod tests;
 mod video;
+mod work;
 mod writer;
 
 pub use options::{Options, Progress, Run, Silent};
@@ -28,6 +29,7 @@ use weald_core::landscape::Landscape;
 use weald_engine::Job;
 use weald_export::Finished;
 use weald_plants::Vegetation;
+use work::{WorkFolder, new_files};
 use writer::Writer;
 
 impl Recipe {
@@ -66,9 +68,10 @@ impl Run<'_> {
     /// # Errors
     /// As [`Run::execute`].
     pub fn landscape(&self, progress: &dyn Progress) -> Result<Landscape, Error> {
-        folder::prepare(self.recipe, &self.options.out)?;
+        let place = self.prepare(progress)?;
         let state = self.finish_steps(progress)?;
         folder::remove_checkpoint(&self.checkpoint())?;
+        drop(place);
         Ok(state.landscape)
     }
 
@@ -85,11 +88,22 @@ impl Run<'_> {
     }
 
     fn execute_here(&self, progress: &dyn Progress) -> Result<Report, Error> {
-        folder::prepare(self.recipe, &self.options.out)?;
-        let state = self.finish_steps(progress)?;
-        let report = self.write(state, progress)?;
+        let mut place = self.prepare(progress)?;
+        let done = self.finish_steps(progress).and_then(|state| self.write(state, progress));
+        // The frames of a time-lapse go with the checkpoint from which the run goes on.
+        place.keeps =
+            done.is_err() && self.recipe.outputs.iter().any(Output::lapses) && self.checkpoint().exists();
+        let report = done?;
+        let files = report.outputs.iter().flat_map(OutputReport::files).collect();
+        place.publish(files)?;
         folder::remove_checkpoint(&self.checkpoint())?;
         Ok(report)
+    }
+
+    fn prepare(&self, progress: &dyn Progress) -> Result<WorkFolder, Error> {
+        let (place, notes) = folder::prepare(self.recipe, &self.options.out, self.options.resume)?;
+        notes.iter().for_each(|note| progress.note(note));
+        Ok(place)
     }
 
     fn finish_steps(&self, progress: &dyn Progress) -> Result<State, Error> {
@@ -99,7 +113,7 @@ impl Run<'_> {
             self.stop_if_cancelled(&state, progress)?;
             progress.step(state.done + 1, self.recipe.steps.len(), planned.entry.name);
             self.advance(planned, &mut state, progress, &clock)?;
-            self.keep_if_due(&state, &clock)?;
+            self.keep_if_due(&state, &clock, progress)?;
         }
         Ok(state)
     }
@@ -135,9 +149,15 @@ impl Run<'_> {
     }
 
     /// Between two steps, for those that keep no checkpoints of their own.
-    fn keep_if_due(&self, state: &State, clock: &CheckpointTimer) -> Result<(), Error> {
+    fn keep_if_due(
+        &self,
+        state: &State,
+        clock: &CheckpointTimer,
+        progress: &dyn Progress,
+    ) -> Result<(), Error> {
         if clock.is_due() {
-            checkpoint::write(&self.checkpoint(), self.recipe.effective(), state, None)?;
+            let written = checkpoint::write(&self.checkpoint(), self.recipe.effective(), state, None);
+            step_watcher::note_failure(written, progress)?;
             clock.restart();
         }
         Ok(())
@@ -250,21 +270,23 @@ impl Run<'_> {
         let device = self.options.render.as_deref();
         let writer = Writer { finished, recipe: self.recipe, device, next_frame: &next_frame };
         let count = self.recipe.outputs.len();
+        let folder = new_files(&self.options.out);
         let mut reports = Vec::with_capacity(count);
         for (index, output) in self.recipe.outputs.iter().enumerate() {
             self.stop_if_cancelled(state, progress)?;
             progress.output(index + 1, count, &output.file);
-            let report = writer.write(output, &self.options.out)?;
+            let report = writer.write(output, &folder)?;
             report.notes.iter().for_each(|note| progress.note(&format!("{}: {note}", report.file)));
             reports.push(report);
         }
         Ok(reports)
     }
 
-    /// Writes all outputs, and the report when they are whole.
+    /// Makes all outputs, and the report when they are whole. Where that fails, the landscape is kept.
     fn write(&self, state: State, progress: &dyn Progress) -> Result<Report, Error> {
         let hash = self.recipe.hash();
-        let outputs = self.outputs(&state, &hash, progress)?;
+        let outputs = self.outputs(&state, &hash, progress);
+        let outputs = outputs.map_err(|error| self.with_landscape_kept(self.by_its_name(error), &state))?;
         let State { steps, notes, .. } = state;
         let report = Report {
             engine: self.options.engine.name().to_owned(),
@@ -277,8 +299,35 @@ impl Run<'_> {
             notes,
         };
         if self.options.report {
-            report.write(&self.options.out.join(REPORT_FILE))?;
+            report
+                .write(&new_files(&self.options.out).join(REPORT_FILE))
+                .map_err(|error| self.by_its_name(error))?;
         }
         Ok(report)
+    }
+
+    /// An error of a file by the name that the file was to have.
+    fn by_its_name(&self, error: Error) -> Error {
+        let folder = new_files(&self.options.out).display().to_string();
+        match error {
+            Error::Run(what) => Error::Run(what.replace(&folder, &self.options.out.display().to_string())),
+            other => other,
+        }
+    }
+
+    /// Keeps what the steps made when a file cannot be written, so that the run can go on when there is room again.
+    fn with_landscape_kept(&self, error: Error, state: &State) -> Error {
+        let Error::Run(what) = error else { return error };
+        if self.recipe.steps.is_empty() {
+            return Error::Run(what);
+        }
+        let path = self.checkpoint();
+        match checkpoint::write(&path, self.recipe.effective(), state, None) {
+            Ok(()) => Error::Run(format!(
+                "{what}; no file has changed, and the same command with --resume goes on from {}",
+                path.display()
+            )),
+            Err(_) => Error::Run(format!("{what}; no file has changed")),
+        }
     }
 }

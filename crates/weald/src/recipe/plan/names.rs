@@ -24,8 +24,13 @@ const MAX_PATH: usize = 1000;
 pub(in crate::recipe) enum Name {
     /// A file.
     File(PathBuf),
-    /// A folder, which is replaced as a whole.
-    Folder(PathBuf),
+    /// A folder, which is replaced as a whole, and a file that is in every folder of its kind.
+    Folder {
+        /// The folder.
+        path: PathBuf,
+        /// The file, by its path in the folder.
+        holds: String,
+    },
     /// The numbered pictures of a film of that name, so many.
     Frames(PathBuf, u64),
 }
@@ -34,7 +39,7 @@ impl Name {
     /// The name of a part of an output.
     fn of(part: &PartName, file: &Path) -> Self {
         match part {
-            PartName::Inside(_) => Self::Folder(file.to_owned()),
+            PartName::Inside(part) => Self::Folder { path: file.to_owned(), holds: part.clone() },
             other => Self::File(other.path(file)),
         }
     }
@@ -42,7 +47,7 @@ impl Name {
     /// A path that stands for it: of frames the last, which is the longest.
     pub(in crate::recipe) fn path(&self) -> PathBuf {
         match self {
-            Self::File(path) | Self::Folder(path) => path.clone(),
+            Self::File(path) | Self::Folder { path, .. } => path.clone(),
             Self::Frames(film, count) => Film::frame(film, count.saturating_sub(1)),
         }
     }
@@ -102,14 +107,11 @@ impl Output {
     }
 
     fn parts(&self, parts: &[PartName]) -> Vec<Name> {
-        let mut names: Vec<Name> = Vec::new();
-        for name in parts.iter().map(|part| Name::of(part, &self.file)) {
-            // A folder holds many parts, and is one thing that is written.
-            if !(matches!(name, Name::Folder(_)) && names.contains(&name)) {
-                names.push(name);
-            }
-        }
-        names
+        // A folder holds many parts, and is one thing that is written; what lies right in it is in every such folder.
+        let inside = parts.iter().filter(|part| matches!(part, PartName::Inside(_)));
+        let folder = inside.min_by_key(|part| part.path(&self.file).components().count());
+        let beside = parts.iter().filter(|part| !matches!(part, PartName::Inside(_)));
+        beside.chain(folder).map(|part| Name::of(part, &self.file)).collect()
     }
 }
 

@@ -1,8 +1,9 @@
 //! Time-lapses, and pictures of one moment.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use super::options::Options;
+use super::work::new_files;
 use crate::recipe::plan::{Content, Film, Motion, Output, Recipe};
 use weald_core::error::Error;
 use weald_core::landscape::Landscape;
@@ -19,7 +20,7 @@ pub(super) struct TimeLapse<'a> {
 /// The time-lapses of a recipe during one of its steps.
 pub(super) struct TimeLapses<'a> {
     films: Vec<TimeLapse<'a>>,
-    folder: &'a Path,
+    folder: PathBuf,
     device: Option<&'a dyn RenderDevice>,
     /// Iterations of each step that can be watched.
     watched: Vec<u64>,
@@ -29,7 +30,7 @@ pub(super) struct TimeLapses<'a> {
 impl<'a> TimeLapses<'a> {
     /// Those of step `step` of the recipe, counted from 0.
     pub(super) fn during(recipe: &'a Recipe, step: usize, options: &'a Options) -> Self {
-        let (folder, device) = (options.out.as_path(), options.render.as_deref());
+        let (folder, device) = (new_files(&options.out), options.render.as_deref());
         let films = recipe.outputs.iter().filter_map(TimeLapse::of).collect();
         let watched = recipe.steps.iter().map(|planned| planned.step.watched()).collect();
         Self { films, folder, device, watched, step }
@@ -58,10 +59,17 @@ impl<'a> TimeLapses<'a> {
             let earlier: u64 = self.watched[..self.step].iter().map(|all| all / lapse.every).sum();
             let path = self.folder.join(Film::frame(lapse.file, earlier + done / lapse.every));
             let image = still(lapse.picture, landscape, self.device, &mut |_, _| Ok(()))?.image;
+            make_folder_of(&path)?;
             write_whole(&path, &image.to_png(&[]))?;
         }
         Ok(())
     }
+}
+
+/// Makes the folder in which a file is to lie.
+pub(super) fn make_folder_of(path: &Path) -> Result<(), Error> {
+    let folder = path.parent().unwrap_or(Path::new("."));
+    std::fs::create_dir_all(folder).map_err(|cause| Error::write(folder, &cause))
 }
 
 /// A picture of what is there now, by the processor or by a device.

@@ -2,21 +2,29 @@
 
 use std::path::Path;
 
-use crate::recipe::plan::Recipe;
+use super::work::WorkFolder;
+use crate::recipe::plan::{Name, Recipe};
 use weald_core::error::Error;
-use weald_io::write_whole;
+use weald_io::remove_leftovers;
 
-/// Makes the folder and those of the outputs, and tries to write into each.
-pub(super) fn prepare(recipe: &Recipe, out: &Path) -> Result<(), Error> {
+/// Makes the folder and those of the outputs, takes it for this run, and tries to write into each. The texts say what
+/// an earlier run had left.
+pub(super) fn prepare(
+    recipe: &Recipe,
+    out: &Path,
+    goes_on: bool,
+) -> Result<(WorkFolder, Vec<String>), Error> {
     make(out)?;
+    let (place, mut notes) = WorkFolder::take(out, goes_on)?;
+    let mut left = remove_leftovers(out).len();
     let inputs = recipe.inputs();
-    for output in &recipe.outputs {
-        let path = out.join(&output.file);
-        make(path.parent().unwrap_or(out))?;
-        let is_store = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("zarr"));
-        if path.is_dir() && !is_store {
-            return Err(Error::Run(format!("cannot write {}: it is a folder", path.display())));
-        }
+    for name in recipe.outputs.iter().flat_map(|output| output.names(&recipe.steps)) {
+        let path = out.join(name.path());
+        let folder = path.parent().unwrap_or(out);
+        make(folder)?;
+        ensure_one_disk(out, folder)?;
+        left += remove_leftovers(folder).len();
+        ensure_free(&name, &path)?;
         if inputs.iter().any(|input| same_file(input, &path)) {
             return Err(Error::Run(format!(
                 "{} is an input of the recipe and would be overwritten; choose another --out folder",
@@ -24,14 +32,48 @@ pub(super) fn prepare(recipe: &Recipe, out: &Path) -> Result<(), Error> {
             )));
         }
     }
-    Ok(())
+    if left > 0 {
+        notes.push(format!("{left} temporary files of runs that were ended before are removed"));
+    }
+    Ok((place, notes))
 }
 
+/// A file cannot take the place of a folder, nor a folder that of other things.
+fn ensure_free(name: &Name, path: &Path) -> Result<(), Error> {
+    let shown = path.display();
+    match name {
+        Name::Folder { holds, .. } if path.exists() && !path.join(holds).exists() => {
+            Err(Error::Run(format!(
+                "cannot write {shown}: what is there is no folder of that kind and holds other things; remove or rename it"
+            )))
+        }
+        Name::Folder { .. } => Ok(()),
+        _ if path.is_dir() => Err(Error::Run(format!("cannot write {shown}: it is a folder"))),
+        _ => Ok(()),
+    }
+}
+
+/// Makes a folder and a file in it that never has a name.
 fn make(folder: &Path) -> Result<(), Error> {
-    std::fs::create_dir_all(folder).map_err(|cause| Error::write(folder, &cause))?;
-    let probe = folder.join("weald-was-here");
-    write_whole(&probe, b"?")?;
-    std::fs::remove_file(&probe).map_err(|cause| Error::write(&probe, &cause))
+    let made = std::fs::create_dir_all(folder).and_then(|()| tempfile::tempfile_in(folder));
+    made.map(drop).map_err(|cause| Error::write(folder, &cause))
+}
+
+/// Files get their names by a move, which no system makes from one disk to another.
+#[cfg(unix)]
+fn ensure_one_disk(out: &Path, folder: &Path) -> Result<(), Error> {
+    use std::os::unix::fs::MetadataExt;
+    let disk = |path: &Path| path.metadata().map(|about| about.dev()).ok();
+    if disk(out) == disk(folder) {
+        return Ok(());
+    }
+    let (out, folder) = (out.display(), folder.display());
+    Err(Error::Run(format!("{folder} is on another disk than {out}; give an --out folder on that disk")))
+}
+
+#[cfg(not(unix))]
+fn ensure_one_disk(_: &Path, _: &Path) -> Result<(), Error> {
+    Ok(())
 }
 
 fn same_file(one: &Path, other: &Path) -> bool {

@@ -73,6 +73,18 @@ impl<'a> StepWatcher<'a> {
     }
 }
 
+/// Tells that a checkpoint could not be written, with which a run goes on: the checkpoint before it is still there. Where
+/// the user wants the run to end it is an error, for it would be lost. Gives whether it was written.
+pub(super) fn note_failure(written: Result<(), Error>, progress: &dyn Progress) -> Result<bool, Error> {
+    match written {
+        Err(Error::Run(what)) if !progress.cancelled() => {
+            progress.note(&format!("no checkpoint: {what}; the run goes on"));
+            Ok(false)
+        }
+        other => other.map(|()| true),
+    }
+}
+
 /// A panic elsewhere leaves what is locked here whole, since it is only ever replaced.
 fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
@@ -101,9 +113,12 @@ impl Watcher for StepWatcher<'_> {
 
     fn checkpoint(&self, simulation: &SavedSimulation) -> Result<(), Error> {
         let path = self.run.checkpoint();
-        checkpoint::write(&path, self.run.recipe.effective(), self.state, Some(simulation))?;
+        let written = checkpoint::write(&path, self.run.recipe.effective(), self.state, Some(simulation));
+        let is_kept = note_failure(written, self.progress)?;
         self.clock.restart();
-        *locked(&self.kept) = Some(simulation.iteration);
+        if is_kept {
+            *locked(&self.kept) = Some(simulation.iteration);
+        }
         Ok(())
     }
 }

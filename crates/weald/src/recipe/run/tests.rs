@@ -301,7 +301,9 @@ fn an_interrupted_time_lapse_goes_on_with_the_same_frames() {
     let (whole, halves) = (folder(), folder());
     run(FILMS, whole.path(), false, &Silent).expect("runs");
     run(FILMS, halves.path(), false, &StopsAfter::new(13)).expect_err("stopped");
-    assert!(halves.path().join("rise-00003.png").exists() && !halves.path().join("rise-00005.png").exists());
+    assert_eq!(files_in(halves.path()), [".weald", CHECKPOINT_FILE], "frames have no names yet");
+    let drawn = |frame: &str| new_files(halves.path()).join(frame).exists();
+    assert!(drawn("rise-00003.png") && !drawn("rise-00005.png"));
     run(FILMS, halves.path(), true, &Silent).expect("goes on");
     for number in 0..6 {
         assert_eq!(frame(halves.path(), "rise", number), frame(whole.path(), "rise", number), "{number}");
@@ -316,4 +318,137 @@ fn the_rate_of_a_step_is_its_cells_times_its_iterations_over_its_seconds() {
     assert_eq!((step.cells, step.iterations), (63, 20));
     let updates = step.cell_updates_per_second * step.seconds.max(1e-9);
     assert!((updates / (63.0 * 20.0) - 1.0).abs() < 1e-9, "{updates} updates of cells");
+}
+
+#[test]
+fn a_second_run_into_a_folder_is_told_who_has_it_and_one_after_the_end_of_the_first_is_not() {
+    let out = folder();
+    let (place, _) = WorkFolder::take(out.path(), false).expect("free");
+    let error = run(RECIPE, out.path(), false, &Silent).expect_err("taken").to_string();
+    let holder = format!("another run (process {}) writes into", std::process::id());
+    assert!(error.contains(&holder) && error.contains("choose another --out folder"), "{error}");
+    drop(place);
+    // What a killed run leaves is a lock file that nobody holds.
+    std::fs::create_dir_all(out.path().join(".weald/new/old")).expect("made");
+    std::fs::write(out.path().join(".weald/lock"), "process 1").expect("written");
+    run(RECIPE, out.path(), false, &Silent).expect("runs");
+    assert_eq!(files_in(out.path()), ["deep", "dot.png", "report.json"]);
+}
+
+/// Breaks the work folder of a run when its outputs begin.
+struct Breaks<'a> {
+    out: &'a Path,
+    at: usize,
+    entry: &'a str,
+}
+
+impl Progress for Breaks<'_> {
+    fn output(&self, number: usize, _: usize, _: &Path) {
+        if number == self.at {
+            // A folder stands where a file is to be.
+            std::fs::create_dir_all(new_files(self.out).join(self.entry)).expect("made");
+        }
+    }
+}
+
+#[test]
+fn a_run_that_fails_at_its_second_output_leaves_all_files_as_they_were_and_goes_on_later() {
+    let out = folder();
+    run(RECIPE, out.path(), false, &Silent).expect("runs");
+    let all = |out: &Path| [height(out), bytes(out, "dot.png"), bytes(out, REPORT_FILE)];
+    let before = all(out.path());
+    let other = RECIPE.replace("seed = 5", "seed = 6");
+    let breaks = Breaks { out: out.path(), at: 2, entry: "dot.png" };
+    let error = run(&other, out.path(), false, &breaks).expect_err("cannot be written").to_string();
+    let named = out.path().join("dot.png").display().to_string();
+    assert!(error.contains(&named) && !error.contains(".weald/new"), "{error}");
+    assert!(error.contains("no file has changed") && error.contains("--resume"), "{error}");
+    assert!(before == all(out.path()), "no file of the run before has changed");
+    assert_eq!(files_in(out.path()), [CHECKPOINT_FILE, "deep", "dot.png", "report.json"]);
+    run(&other, out.path(), true, &Silent).expect("goes on");
+    let whole = folder();
+    run(&other, whole.path(), false, &Silent).expect("runs");
+    assert_eq!(height(out.path()), height(whole.path()));
+}
+
+fn bytes(out: &Path, file: &str) -> Vec<u8> {
+    std::fs::read(out.join(file)).expect("written")
+}
+
+#[test]
+fn the_next_run_finishes_what_was_ended_while_files_got_their_names() {
+    let (whole, cut) = (folder(), folder());
+    run(RECIPE, whole.path(), false, &Silent).expect("runs");
+    // As a kill after the first of three renames leaves it.
+    let new = new_files(cut.path());
+    std::fs::create_dir_all(&new).expect("made");
+    std::fs::create_dir_all(cut.path().join("deep")).expect("made");
+    std::fs::write(cut.path().join("deep/height.bits"), height(whole.path())).expect("written");
+    for file in ["dot.png", REPORT_FILE] {
+        std::fs::write(new.join(file), bytes(whole.path(), file)).expect("written");
+    }
+    let journal = "{\"files\":[\"deep/height.bits\",\"dot.png\",\"report.json\"]}";
+    std::fs::write(cut.path().join(".weald/journal.json"), journal).expect("written");
+    let (place, notes) = WorkFolder::take(cut.path(), false).expect("free");
+    assert!(notes.concat().contains("all its files whole"), "{notes:?}");
+    drop(place);
+    for file in ["deep/height.bits", "dot.png", REPORT_FILE] {
+        assert!(bytes(cut.path(), file) == bytes(whole.path(), file), "{file}");
+    }
+    assert_eq!(files_in(cut.path()), ["deep", "dot.png", "report.json"]);
+}
+
+/// Puts a folder where checkpoints are to be, and hears notes.
+struct NoRoom<'a> {
+    out: &'a Path,
+    notes: std::sync::Mutex<Vec<String>>,
+}
+
+impl Progress for NoRoom<'_> {
+    fn step(&self, _: usize, _: usize, _: &str) {
+        std::fs::create_dir_all(self.out.join(CHECKPOINT_FILE).join("full")).expect("made");
+    }
+
+    fn note(&self, text: &str) {
+        self.notes.lock().expect("whole").push(text.to_owned());
+    }
+}
+
+#[test]
+fn a_checkpoint_that_cannot_be_written_is_told_and_the_run_goes_on() {
+    let (out, whole) = (folder(), folder());
+    run(RECIPE, whole.path(), false, &Silent).expect("runs");
+    let recipe = parse(RECIPE).expect("good");
+    let heard = NoRoom { out: out.path(), notes: std::sync::Mutex::default() };
+    let options = Options { checkpoint_every: Duration::ZERO, ..Options::into_folder(out.path()) };
+    let ended = Run { recipe: &recipe, options }.execute(&heard);
+    // The folder in its place cannot be removed as a checkpoint is; all files are whole by then.
+    assert!(ended.expect_err("a folder").to_string().contains("the run is done"));
+    assert_eq!(height(out.path()), height(whole.path()));
+    let notes = heard.notes.into_inner().expect("whole").join("\n");
+    assert!(notes.contains("no checkpoint: cannot write") && notes.contains("the run goes on"), "{notes}");
+}
+
+#[test]
+fn temporary_files_of_killed_runs_are_removed_and_told() {
+    let out = folder();
+    std::fs::create_dir(out.path().join("deep")).expect("made");
+    let left = [format!("dot.png.{}.tmp-weald", u32::MAX), format!("deep/h.bits.{}.tmp-weald", u32::MAX)];
+    for name in &left {
+        std::fs::write(out.path().join(name), "half").expect("written");
+    }
+    let heard = Hears::default();
+    run(RECIPE, out.path(), false, &heard).expect("runs");
+    assert!(heard.0.lock().expect("whole").concat().contains("2 temporary files"));
+    assert!(left.iter().all(|name| !out.path().join(name).exists()));
+}
+
+/// Hears notes.
+#[derive(Default)]
+struct Hears(std::sync::Mutex<Vec<String>>);
+
+impl Progress for Hears {
+    fn note(&self, text: &str) {
+        self.0.lock().expect("whole").push(text.to_owned());
+    }
 }

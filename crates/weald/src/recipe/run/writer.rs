@@ -33,6 +33,7 @@ struct Target<'a> {
 impl Writer<'_> {
     pub(super) fn write(&self, output: &Output, folder: &Path) -> Result<OutputReport, Error> {
         let target = Target { folder, file: &output.file };
+        film::make_folder_of(&folder.join(&output.file))?;
         let report = match &output.content {
             Content::Picture { name, picture } => self.picture(&target, name, picture.as_ref()),
             Content::Layer { name, encode, holds, treatment } => {
