@@ -35,7 +35,7 @@ pub(crate) enum Command {
     Run(RunArguments),
     /// Run a recipe and write one HTML page about it, and nothing else
     Report(ReportArguments),
-    /// Check the keys, ranges and layers of a recipe without running it; input files are not opened
+    /// Check a recipe and the files that it reads without running it, and list what a run would write
     Check(CheckArguments),
     /// List all steps, or show the parameters of one
     Steps {

@@ -6,6 +6,7 @@ use std::path::PathBuf;
 
 use crate::budget::Budget;
 use crate::job::Job;
+use weald_core::domain::Domain;
 use weald_core::error::Error;
 use weald_core::landscape::Landscape;
 use weald_core::material::Material;
@@ -45,12 +46,13 @@ pub trait Step: Debug + Send + Sync {
         Vec::new()
     }
 
-    /// Looks at the files that steer it, so that their faults are reported before anything runs.
+    /// Looks at the files that it reads, so that their faults are reported before anything runs; with the materials and
+    /// the grid that it will find.
     ///
     /// # Errors
     /// Those of the files.
-    fn look_ahead(&self, materials: &[Material]) -> Result<(), Error> {
-        let _ = materials;
+    fn look_ahead(&self, materials: &[Material], domain: &Domain) -> Result<(), Error> {
+        let _ = (materials, domain);
         Ok(())
     }
 
@@ -84,6 +86,21 @@ pub trait Step: Debug + Send + Sync {
 
     /// Columns and rows after the step, where it changes them.
     fn resized(&self) -> Option<(u32, u32)> {
+        None
+    }
+
+    /// What stands against the step on such a grid: all that its keys and the grid tell before anything runs.
+    ///
+    /// # Errors
+    /// Those that a run on such a grid would end with, whatever its layers hold.
+    fn check_on(&self, domain: &Domain) -> Result<(), Error> {
+        let _ = domain;
+        Ok(())
+    }
+
+    /// The grid after the step, where it changes it and [`Step::check_on`] has nothing against it.
+    fn domain_after(&self, domain: &Domain) -> Option<Domain> {
+        let _ = domain;
         None
     }
 

@@ -3,6 +3,7 @@
 use std::fmt::Debug;
 use std::path::Path;
 
+use weald_core::domain::Domain;
 use weald_core::error::Error;
 use weald_core::landscape::Landscape;
 use weald_core::parameter::{Diagnostics, Fault, Parameter, Parameters};
@@ -71,6 +72,16 @@ pub trait Export: Debug + Send + Sync {
     fn names(&self, file: &Path) -> Vec<PartName> {
         let _ = file;
         vec![PartName::Own]
+    }
+
+    /// What stands against the files of a landscape on such a grid: all that its keys and the grid tell before anything
+    /// runs.
+    ///
+    /// # Errors
+    /// Those that [`Export::parts`] would end with, whatever the layers hold.
+    fn check_on(&self, domain: &Domain, file: &Path) -> Result<(), Error> {
+        let _ = (domain, file);
+        Ok(())
     }
 
     /// The files, all of them of [`Export::names`]. `file` is the name of the output, whose extension is one of [`ExportEntry::extensions`].

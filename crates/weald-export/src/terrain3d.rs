@@ -14,10 +14,11 @@ use std::path::Path;
 use serde_json::{Value, json};
 
 use super::terrain_tiles::{
-    DESCRIPTION, description, extension, extent, little_endian, no_data_note, size_fault, source,
+    DESCRIPTION, description, extension, extent_of, little_endian, no_data_note, size_fault, source,
 };
-use super::vertices::Vertices;
+use super::vertices::{Vertices, ensure_extent};
 use super::{Export, ExportEntry, Finished};
+use weald_core::domain::Domain;
 use weald_core::error::{Error, Limit, Quantity, left_out};
 use weald_core::grid::Size;
 use weald_core::parameter::{Fault, LayerName};
@@ -75,9 +76,14 @@ impl Export for Terrain3d {
         vec![PartName::Own, PartName::Beside(DESCRIPTION.to_owned())]
     }
 
+    fn check_on(&self, domain: &Domain, _: &Path) -> Result<(), Error> {
+        ensure_extent(domain.size)?;
+        self.region(self.size(domain)?.0).map(drop)
+    }
+
     fn parts(&self, finished: &Finished<'_>, file: &Path) -> Result<Vec<Part>, Error> {
         let domain = &finished.landscape.domain;
-        let (size, spacing) = self.size(finished)?;
+        let (size, spacing) = self.size(domain)?;
         let region = self.region(size)?;
         let heights = Vertices::of(domain, finished.landscape.field(&self.of.0)?, size)?;
         let (low, high) = heights.range();
@@ -119,10 +125,9 @@ struct Import {
 impl Terrain3d {
     /// Vertices, and how far they are apart: the nearest to what is asked for that ends at the last cell of the
     /// longer side.
-    fn size(&self, finished: &Finished<'_>) -> Result<(Size, f64), Error> {
-        let domain = &finished.landscape.domain;
+    fn size(&self, domain: &Domain) -> Result<(Size, f64), Error> {
         let Some(wanted) = self.spacing else { return Ok((domain.size, domain.cell)) };
-        let [width, length] = extent(finished);
+        let [width, length] = extent_of(domain);
         let longer = width.max(length);
         let spacing = longer / (longer / wanted).round().max(1.0);
         let vertices = |metres: f64| (metres / spacing).round().max(1.0) as usize + 1;

@@ -7,6 +7,7 @@ use serde_json::{Value, json};
 
 use super::Finished;
 use super::vertices::Vertices;
+use weald_core::domain::Domain;
 use weald_core::error::Error;
 use weald_core::grid::Size;
 use weald_core::parameter::{Fault, LayerName};
@@ -138,7 +139,11 @@ pub(super) fn source(finished: &Finished<'_>, layer: &LayerName) -> Value {
 
 /// Metres from the first vertex to the last, eastward and southward.
 pub(super) fn extent(finished: &Finished<'_>) -> [f64; 2] {
-    let domain = &finished.landscape.domain;
+    extent_of(&finished.landscape.domain)
+}
+
+/// The same of a grid.
+pub(super) fn extent_of(domain: &Domain) -> [f64; 2] {
     [domain.size.columns, domain.size.rows].map(|cells| (cells - 1) as f64 * domain.cell)
 }
 

@@ -15,7 +15,9 @@ use super::terrain_tiles::{
     DESCRIPTION, Tiles, at_vertices, description, extension, extent, little_endian, no_data_note,
     resampled_note, size_fault, source,
 };
+use super::vertices::ensure_extent;
 use super::{Export, ExportEntry, Finished};
+use weald_core::domain::Domain;
 use weald_core::error::Error;
 use weald_core::parameter::{Fault, LayerName};
 use weald_io::{Part, PartName};
@@ -67,6 +69,11 @@ impl Export for Unity {
         let tiles = Tiles { count: self.tiles as usize, side: 0 };
         let names = tiles.all().map(|tile| self.tile_name(tile, file));
         names.chain([PartName::Beside(DESCRIPTION.to_owned())]).collect()
+    }
+
+    fn check_on(&self, domain: &Domain, _: &Path) -> Result<(), Error> {
+        ensure_extent(domain.size)?;
+        Tiles::new(domain.size, self.tiles, self.size, &SIZES).size().map(drop)
     }
 
     fn parts(&self, finished: &Finished<'_>, file: &Path) -> Result<Vec<Part>, Error> {

@@ -19,8 +19,9 @@ use super::terrain_tiles::{
     DESCRIPTION, Tiles, Weight, at_vertices, description, extension, extent, little_endian, no_data_note,
     png_8, png_16, resampled_note, size_fault, source,
 };
-use super::vertices::Vertices;
+use super::vertices::{Vertices, ensure_extent};
 use super::{Export, ExportEntry, Finished};
+use weald_core::domain::Domain;
 use weald_core::error::Error;
 use weald_core::grid::Size;
 use weald_core::parameter::{Fault, LayerName, Nested};
@@ -101,6 +102,11 @@ impl Export for Unreal {
         let masks = masks.flat_map(|mask| tiles.all().map(move |tile| mask_name(tiles, mask, tile)));
         let heights = tiles.all().map(|tile| heights_name(tiles, extension, tile));
         heights.chain(masks).chain([PartName::Beside(DESCRIPTION.to_owned())]).collect()
+    }
+
+    fn check_on(&self, domain: &Domain, _: &Path) -> Result<(), Error> {
+        ensure_extent(domain.size)?;
+        Tiles::new(domain.size, self.tiles, self.size, &SIZES).size().map(drop)
     }
 
     fn parts(&self, finished: &Finished<'_>, file: &Path) -> Result<Vec<Part>, Error> {

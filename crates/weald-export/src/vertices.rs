@@ -66,7 +66,8 @@ impl Vertices {
     }
 }
 
-fn ensure_extent(size: Size) -> Result<(), Error> {
+/// Refuses a landscape that is one cell wide or deep.
+pub(super) fn ensure_extent(size: Size) -> Result<(), Error> {
     if size.columns >= 2 && size.rows >= 2 {
         return Ok(());
     }

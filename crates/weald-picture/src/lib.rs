@@ -54,6 +54,7 @@ pub use render::{
     Rendering,
 };
 pub use section::{Along, Section};
+pub use sheet::fits_on_sheet;
 pub use strokes::{Point as StrokePoint, Strokes};
 pub use view::albedo;
 pub use view::{Camera, Follow, GroundColour, LitScene, Rim, SceneTexture, TextureKind, View};

@@ -10,6 +10,7 @@ use super::sheet::Sheet;
 use super::spline::{Spline, SplineRow};
 use super::ticks::Ticks;
 use super::{Image, PAPER, Picture};
+use weald_core::domain::Domain;
 use weald_core::error::Error;
 use weald_core::grid::{Field, Mask};
 use weald_core::landscape::Landscape;
@@ -41,6 +42,10 @@ weald_core::parameters! {
 impl Picture for Map {
     fn reads(&self) -> Vec<String> {
         vec![self.of.0.clone()]
+    }
+
+    fn check_on(&self, domain: &Domain) -> Result<(), Error> {
+        Sheet::new(domain, self.width).map(drop)
     }
 
     fn render(&self, landscape: &Landscape) -> Result<Image, Error> {

@@ -9,6 +9,7 @@ use super::paint::Paint;
 use super::scene::Scene;
 use super::sheet::Sheet;
 use super::{Image, Picture, Relief};
+use weald_core::domain::Domain;
 use weald_core::error::Error;
 use weald_core::landscape::Landscape;
 use weald_core::parameter::LayerName;
@@ -49,6 +50,10 @@ impl Picture for Materials {
 
     fn optional(&self) -> Vec<String> {
         self.relief().optional()
+    }
+
+    fn check_on(&self, domain: &Domain) -> Result<(), Error> {
+        Sheet::new(domain, self.width).map(drop)
     }
 
     fn render(&self, landscape: &Landscape) -> Result<Image, Error> {

@@ -2,6 +2,7 @@
 
 use super::picture::Picture;
 use super::{Image, Render, View};
+use weald_core::domain::Domain;
 use weald_core::error::Error;
 use weald_core::landscape::Landscape;
 use weald_core::parameter::Places;
@@ -41,6 +42,10 @@ impl Picture for View {
             .into_iter()
             .chain(beyond("target", &self.target, FAR_TARGET))
             .collect()
+    }
+
+    fn check_on(&self, _: &Domain) -> Result<(), Error> {
+        self.check()
     }
 
     fn render(&self, landscape: &Landscape) -> Result<Image, Error> {

@@ -3,6 +3,7 @@
 use std::fmt::Debug;
 
 use super::{Cutout, Image, Render, View};
+use weald_core::domain::Domain;
 use weald_core::error::Error;
 use weald_core::landscape::Landscape;
 use weald_core::parameter::{Diagnostics, Parameter, Parameters};
@@ -45,6 +46,16 @@ pub trait Picture: Debug + Send + Sync {
     fn notes(&self, landscape: &Landscape) -> Vec<String> {
         let _ = landscape;
         Vec::new()
+    }
+
+    /// What stands against the picture of a landscape on such a grid: all that its keys and the grid tell before anything
+    /// runs.
+    ///
+    /// # Errors
+    /// Those that drawing would end with, whatever the layers hold.
+    fn check_on(&self, domain: &Domain) -> Result<(), Error> {
+        let _ = domain;
+        Ok(())
     }
 
     /// Draws a landscape that has all the layers in [`Picture::reads`].

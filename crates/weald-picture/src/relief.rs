@@ -16,6 +16,7 @@ use super::scene::{Scene, Shading};
 use super::sheet::Sheet;
 use super::spline::{Spline, SplineRow};
 use super::{Image, Picture};
+use weald_core::domain::Domain;
 use weald_core::error::Error;
 use weald_core::landscape::Landscape;
 use weald_core::parameter::LayerName;
@@ -57,6 +58,10 @@ impl Picture for Relief {
 
     fn optional(&self) -> Vec<String> {
         if self.water { ["water", "flux_x", "flux_y"].map(str::to_owned).to_vec() } else { Vec::new() }
+    }
+
+    fn check_on(&self, domain: &Domain) -> Result<(), Error> {
+        Sheet::new(domain, self.width).map(drop)
     }
 
     fn render(&self, landscape: &Landscape) -> Result<Image, Error> {

@@ -27,6 +27,14 @@ pub(super) struct Sheet {
     pub(super) metres_per_pixel: f64,
 }
 
+/// Whether a texture of that width over all cells, or of one that suits the grid, is within the limit of pictures.
+///
+/// # Errors
+/// [`Error::Limit`] where it is not.
+pub fn fits_on_sheet(domain: &Domain, width: Option<u32>) -> Result<(), Error> {
+    Sheet::new(domain, width).map(drop)
+}
+
 impl Sheet {
     /// A sheet of that width, or of one that suits the grid.
     ///

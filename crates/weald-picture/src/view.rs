@@ -76,7 +76,7 @@ impl View {
         Ok(Image { width, height, rgb })
     }
 
-    fn check(&self) -> Result<(), Error> {
+    pub(super) fn check(&self) -> Result<(), Error> {
         let pixels = u64::from(self.width) * u64::from(self.height);
         let rays = pixels * u64::from(self.samples);
         let limit = match (pixels, rays) {

@@ -120,6 +120,14 @@ impl Step for Scatter {
         size.into_iter().chain(condition::faults(&self.r#where)).collect()
     }
 
+    /// Conditions leave less ground than there is, and only the ground tells how much.
+    fn check_on(&self, domain: &Domain) -> Result<(), Error> {
+        if self.count.is_some() || !self.r#where.is_empty() {
+            return Ok(());
+        }
+        self.ensure_possible(domain.valid_cells() as f64 * domain.cell * domain.cell)
+    }
+
     fn run(&self, landscape: &mut Landscape, job: &Job<'_>) -> Result<Outcome, Error> {
         let conditions = self.r#where.iter().map(|Nested(condition)| condition);
         let site = Site::new(landscape, &self.of.0, conditions, self.water)?;

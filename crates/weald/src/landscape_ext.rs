@@ -104,7 +104,7 @@ impl LandscapeExt for Landscape {
             return Err(Error::Run(format!("a step cannot run: {}", faults.join("; "))));
         }
         step.reads().iter().try_for_each(|name| self.layer(name).map(drop))?;
-        step.look_ahead(&self.materials)?;
+        step.look_ahead(&self.materials, &self.domain)?;
         let outcome = step.run(self, &Job::unwatched(seed))?;
         written::check(step, self)?;
         Ok(outcome)

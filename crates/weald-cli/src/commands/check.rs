@@ -1,5 +1,7 @@
 //! `weald check`: what is wrong with a recipe, or what it will do.
 
+use std::fmt::Write;
+
 use weald::recipe::{Ground, Recipe};
 
 use crate::arguments::CheckArguments;
@@ -8,14 +10,18 @@ use crate::stdout;
 
 pub(crate) fn check(arguments: &CheckArguments) -> Result<(), Failure> {
     let recipe = Recipe::load(&arguments.recipe, &arguments.changes.overrides())?;
+    for note in recipe.look_ahead()? {
+        eprintln!("note: {note}");
+    }
     let ground = match &recipe.ground {
         Ground::Empty { size, cell, .. } => format!("{size} cells of {cell} m"),
         Ground::File { path, .. } => format!("the ground of {}", path.display()),
     };
     let (steps, outputs) = (recipe.steps.len(), recipe.outputs.len());
-    let file = &recipe.file;
-    stdout::print(&format!(
-        "{file}: good; {ground}, steps: {steps}, outputs: {outputs}, seed: {}\n",
-        recipe.seed
-    ))
+    let (file, seed) = (&recipe.file, recipe.seed);
+    let mut text = format!("{file}: good; {ground}, steps: {steps}, outputs: {outputs}, seed: {seed}\n");
+    for name in recipe.names() {
+        let _ = writeln!(text, "  {name}");
+    }
+    stdout::print(&text)
 }

@@ -346,3 +346,37 @@ fn a_cell_size_that_contradicts_the_file_ends_with_4() {
     let place = from_file("jacksboro_fault_utm16_80m.tif", "cell = 30");
     assert_ends(&place, &["run", "r.toml"], 4, &["80 m wide", "`cell = 30`", "remove `cell`"]);
 }
+
+#[test]
+fn a_check_tells_a_missing_input_and_what_does_not_go_with_the_ground_of_a_file() {
+    let missing = Place::with(
+        "[landscape]\nfrom = \"none.tif\"\n[[output]]\nlayer = \"height\"\nfile = \"height.tif\"\n",
+    );
+    assert_ends(&missing, &["check", "r.toml"], 4, &["none.tif", "cannot be read", "the recipe names it"]);
+    let square = from_file("jacksboro_fault_utm16_80m.tif", "[[step]]\ndo = \"resample\"\nsize = [64, 7]\n");
+    assert_ends(&square, &["check", "r.toml"], 3, &["r.toml:3: resample: ", "would not be square", "rows"]);
+    let good = from_file("jacksboro_fault_utm16_80m.tif", "");
+    let said = stdout(&good.weald(&["check", "r.toml"]));
+    assert!(said.contains(": good; ") && said.ends_with("  height.tif\n"), "{said}");
+}
+
+#[test]
+fn a_film_without_ffmpeg_is_told_by_the_check_and_never_listed_as_written() {
+    let film =
+        RECIPE.replace("layer = \"height\"\nfile = \"height.npy\"", "picture = \"view\"\nfile = \"v.mp4\"");
+    let place = Place::with(&format!("{film}width = 32\nheight = 32\nframes = 2\n"));
+    let without = |arguments: &[&str]| {
+        let output = place.command(arguments).env("PATH", "/nowhere").output().expect("it starts");
+        assert!(output.status.success(), "{output:?}");
+        (stdout(&output), String::from_utf8_lossy(&output.stderr).into_owned())
+    };
+    let told = "note: ffmpeg with libx264 and libvpx-vp9 is not there";
+    let (_, checked) = without(&["check", "r.toml"]);
+    let (listed, ran) = without(&["run", "r.toml"]);
+    assert!(checked.contains(told) && ran.contains(told), "{checked}{ran}");
+    assert!(!listed.contains("v.mp4") && listed.contains("v-00001.png"), "{listed}");
+    assert_eq!(place.names("out/r"), ["report.json", "v-00000.png", "v-00001.png"]);
+    let report = std::fs::read_to_string(place.path("out/r/report.json")).expect("written");
+    let report: serde_json::Value = serde_json::from_str(&report).expect("JSON");
+    assert_eq!(report["outputs"][0]["name_only"], true, "{report}");
+}

@@ -4,5 +4,6 @@ mod command;
 mod engine;
 mod fractal;
 mod interruption;
+mod kills;
 mod place;
 mod render;

@@ -10,6 +10,7 @@ use std::path::Path;
 use super::plants::{MAX_NODES, NODES};
 use super::{Export, Finished, Mesh};
 use instances::{Scene, Standing};
+use weald_core::domain::Domain;
 use weald_core::error::{Error, Limit, Quantity};
 use weald_core::landscape::Landscape;
 use weald_core::parameter::{Fault, LayerName, Nested};
@@ -85,6 +86,10 @@ impl Export for GrassSets {
 
     fn names(&self, _: &Path) -> Vec<PartName> {
         vec![PartName::Own, PartName::Sibling(NODES.to_owned())]
+    }
+
+    fn check_on(&self, domain: &Domain, file: &Path) -> Result<(), Error> {
+        self.on.iter().try_for_each(|Nested(mesh)| mesh.check_on(domain, file))
     }
 
     fn parts(&self, finished: &Finished<'_>, _: &Path) -> Result<Vec<Part>, Error> {

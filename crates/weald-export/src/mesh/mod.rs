@@ -47,13 +47,14 @@ use self::tin::Tin;
 use self::vertices::{Vertices, signed, single};
 use self::water::Water;
 use super::{Export, Finished};
+use weald_core::domain::Domain;
 use weald_core::error::Error;
-use weald_core::grid::Field;
+use weald_core::grid::{Field, Size};
 use weald_core::landscape::Landscape;
 use weald_core::material::Material;
 use weald_core::parameter::LayerName;
 use weald_io::Part;
-use weald_picture::{GroundColour, Image, Tint, View, albedo, linear_of_srgb, tinted};
+use weald_picture::{GroundColour, Image, Tint, View, albedo, fits_on_sheet, linear_of_srgb, tinted};
 
 weald_core::choices! {
     /// Colours of a mesh.
@@ -120,6 +121,12 @@ impl Export for Mesh {
         placed.then(|| note.to_owned()).into_iter().collect()
     }
 
+    fn check_on(&self, domain: &Domain, _: &Path) -> Result<(), Error> {
+        ensure_cells(domain.size)?;
+        let has_texture = !matches!(self.colours, Some(Colours::Plain));
+        if has_texture { fits_on_sheet(domain, self.texture) } else { Ok(()) }
+    }
+
     fn parts(&self, finished: &Finished<'_>, _: &Path) -> Result<Vec<Part>, Error> {
         let landscape = finished.landscape;
         let ground = ground_of(landscape, &self.of.0)?;
@@ -141,12 +148,17 @@ impl Export for Mesh {
     }
 }
 
+fn ensure_cells(size: Size) -> Result<(), Error> {
+    if size.columns >= 2 && size.rows >= 2 {
+        return Ok(());
+    }
+    Err(Error::Run(format!("a mesh needs 2 × 2 cells or more; the landscape has {size}")))
+}
+
 /// The heights, where they can become a mesh.
 fn ground_of<'a>(landscape: &'a Landscape, name: &str) -> Result<&'a Field, Error> {
-    let (ground, size) = (landscape.field(name)?, landscape.domain.size);
-    if size.columns < 2 || size.rows < 2 {
-        return Err(Error::Run(format!("a mesh needs 2 × 2 cells or more; the landscape has {size}")));
-    }
+    let ground = landscape.field(name)?;
+    ensure_cells(landscape.domain.size)?;
     if let Some((x, y)) = ground.first_not_finite(landscape.domain.valid.as_ref()) {
         let height = ground.at(x, y);
         return Err(Error::Run(format!(

@@ -12,6 +12,7 @@ use std::sync::Arc;
 
 use super::vector::place::Place;
 use super::{Export, Finished, Mesh};
+use weald_core::domain::Domain;
 use weald_core::error::Error;
 use weald_core::landscape::Landscape;
 use weald_core::parameter::{Colour, LayerName, Nested};
@@ -87,6 +88,10 @@ impl Export for PlantSet {
     fn names(&self, file: &Path) -> Vec<PartName> {
         let nodes = matches!(kind(file), Kind::Instances).then(|| PartName::Sibling(NODES.to_owned()));
         std::iter::once(PartName::Own).chain(nodes).collect()
+    }
+
+    fn check_on(&self, domain: &Domain, file: &Path) -> Result<(), Error> {
+        self.on.iter().try_for_each(|Nested(mesh)| mesh.check_on(domain, file))
     }
 
     fn parts(&self, finished: &Finished<'_>, file: &Path) -> Result<Vec<Part>, Error> {

@@ -11,7 +11,8 @@
 //! angle.
 
 use super::cells::fields_of;
-use super::quadric::{Quadric, Surface};
+use super::quadric::{Quadric, Surface, window};
+use weald_core::domain::Domain;
 use weald_core::error::Error;
 use weald_core::landscape::Landscape;
 use weald_core::parameter::LayerName;
@@ -67,6 +68,10 @@ impl Step for Aspect {
 
     fn range(&self, layer: &str) -> Option<(f64, f64)> {
         Some(if layer == "aspect" { (LEVEL, 360.0) } else { (-1.0, 1.0) })
+    }
+
+    fn check_on(&self, domain: &Domain) -> Result<(), Error> {
+        window(domain, self.scale).map(drop)
     }
 
     fn run(&self, landscape: &mut Landscape, _: &Job<'_>) -> Result<Outcome, Error> {

@@ -14,7 +14,8 @@
 //! are 1/R, and plan is 1 over the radius of the contour.
 
 use super::cells::fields_of;
-use super::quadric::{Quadric, Surface};
+use super::quadric::{Quadric, Surface, window};
+use weald_core::domain::Domain;
 use weald_core::error::Error;
 use weald_core::landscape::Landscape;
 use weald_core::parameter::LayerName;
@@ -71,6 +72,10 @@ impl Step for Curvature {
 
     fn range(&self, _: &str) -> Option<(f64, f64)> {
         Some((f64::NEG_INFINITY, f64::INFINITY))
+    }
+
+    fn check_on(&self, domain: &Domain) -> Result<(), Error> {
+        window(domain, self.scale).map(drop)
     }
 
     fn run(&self, landscape: &mut Landscape, _: &Job<'_>) -> Result<Outcome, Error> {

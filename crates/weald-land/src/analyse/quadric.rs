@@ -58,6 +58,23 @@ pub(super) struct Surface<'a> {
     radius: usize,
 }
 
+/// Cells to each side of a window that reaches so many metres.
+///
+/// # Errors
+/// [`Error::Limit`] where they are more than [`WIDEST`].
+pub(super) fn window(domain: &Domain, metres: f64) -> Result<usize, Error> {
+    let cell = domain.cell;
+    let cells = libm::round(metres / cell).max(1.0);
+    if cells <= WIDEST as f64 {
+        return Ok(cells as usize);
+    }
+    let limit = Limit::new(Quantity::WindowCells, cells as u64, 0..=WIDEST as u64);
+    let widest = WIDEST as f64 * cell;
+    let remedy = format!("blur the ground with a `smooth` step first, or choose at most {widest} m");
+    let subject = format!("a window of `scale` = {metres} m in cells of {cell} m");
+    Err(limit.of(subject).remedy(remedy).into())
+}
+
 impl<'a> Surface<'a> {
     /// Windows of 3 × 3 cells.
     pub(super) fn new(height: &'a Field, domain: &'a Domain) -> Self {
@@ -69,16 +86,7 @@ impl<'a> Surface<'a> {
     /// # Errors
     /// [`Error::Limit`] for windows wider than [`WIDEST`] cells to each side.
     pub(super) fn reaching(self, metres: f64) -> Result<Self, Error> {
-        let cells = libm::round(metres / self.domain.cell).max(1.0);
-        if cells > WIDEST as f64 {
-            let cell = self.domain.cell;
-            let limit = Limit::new(Quantity::WindowCells, cells as u64, 0..=WIDEST as u64);
-            let widest = WIDEST as f64 * cell;
-            let remedy = format!("blur the ground with a `smooth` step first, or choose at most {widest} m");
-            let subject = format!("a window of `scale` = {metres} m in cells of {cell} m");
-            return Err(limit.of(subject).remedy(remedy).into());
-        }
-        Ok(Self { radius: cells as usize, ..self })
+        Ok(Self { radius: window(self.domain, metres)?, ..self })
     }
 
     /// The surface around a cell with data.

@@ -8,7 +8,8 @@
 //! 10.4324/9780429273346-2.
 
 use super::cells::field_of;
-use super::quadric::Surface;
+use super::quadric::{Surface, window};
+use weald_core::domain::Domain;
 use weald_core::error::Error;
 use weald_core::landscape::Landscape;
 use weald_core::parameter::LayerName;
@@ -80,6 +81,10 @@ impl Step for Slope {
 
     fn range(&self, _: &str) -> Option<(f64, f64)> {
         Some((0.0, self.unit_and_end().1))
+    }
+
+    fn check_on(&self, domain: &Domain) -> Result<(), Error> {
+        window(domain, self.scale).map(drop)
     }
 
     fn run(&self, landscape: &mut Landscape, _: &Job<'_>) -> Result<Outcome, Error> {

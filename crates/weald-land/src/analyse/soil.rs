@@ -23,7 +23,8 @@
 //! ```
 
 use super::cells::fields_of;
-use super::quadric::{Quadric, Surface};
+use super::quadric::{Quadric, Surface, window};
+use weald_core::domain::Domain;
 use weald_core::error::Error;
 use weald_core::grid::Field;
 use weald_core::landscape::Landscape;
@@ -116,6 +117,10 @@ impl Step for Soil {
 
     fn range(&self, layer: &str) -> Option<(f64, f64)> {
         Some((0.0, if layer == "fertility" { 1.0 } else { self.deepest }))
+    }
+
+    fn check_on(&self, domain: &Domain) -> Result<(), Error> {
+        window(domain, self.scale).map(drop)
     }
 
     fn run(&self, landscape: &mut Landscape, _: &Job<'_>) -> Result<Outcome, Error> {

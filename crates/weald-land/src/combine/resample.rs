@@ -63,9 +63,17 @@ impl Step for Resample {
         Some((side(self.size.columns), side(self.size.rows)))
     }
 
+    fn check_on(&self, domain: &Domain) -> Result<(), Error> {
+        Change::between(domain, self.cells()?).map(drop)
+    }
+
+    fn domain_after(&self, domain: &Domain) -> Option<Domain> {
+        let change = Change::between(domain, self.cells().ok()?).ok()?;
+        Some(change.domain(change.valid()))
+    }
+
     fn run(&self, landscape: &mut Landscape, _: &Job<'_>) -> Result<Outcome, Error> {
-        let size = Size::new(self.size.columns as usize, self.size.rows as usize)?;
-        let change = Change::between(&landscape.domain, size)?;
+        let change = Change::between(&landscape.domain, self.cells()?)?;
         let valid = change.valid();
         let mut resampled = Landscape::new(change.domain(valid));
         resampled.materials.clone_from(&landscape.materials);
@@ -78,6 +86,12 @@ impl Step for Resample {
         resampled.attach_all_of(landscape);
         *landscape = resampled;
         Ok(Outcome::default())
+    }
+}
+
+impl Resample {
+    fn cells(&self) -> Result<Size, Error> {
+        Size::new(self.size.columns as usize, self.size.rows as usize)
     }
 }
 

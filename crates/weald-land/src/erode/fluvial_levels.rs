@@ -118,14 +118,14 @@ pub(crate) fn joined(fine: Budget, before: &Budget) -> Budget {
 ///
 /// # Errors
 /// [`Error::Limit`] where its cells do not divide or some hold no data.
-pub(crate) fn check(landscape: &Landscape, levels: u32) -> Result<(), Error> {
+pub(crate) fn check(domain: &Domain, levels: u32) -> Result<(), Error> {
     let every = 1_usize << (levels - 1);
-    let Size { columns, rows } = landscape.domain.size;
+    let Size { columns, rows } = domain.size;
     let whole = columns.is_multiple_of(every) && rows.is_multiple_of(every);
-    if levels == 1 || (whole && columns > every && rows > every && landscape.domain.valid.is_none()) {
+    if levels == 1 || (whole && columns > every && rows > every && domain.valid.is_none()) {
         return Ok(());
     }
-    let message = if whole && landscape.domain.valid.is_some() {
+    let message = if whole && domain.valid.is_some() {
         format!("`levels` is {levels}, but must be 1 where cells hold no data")
     } else {
         format!(

@@ -5,6 +5,7 @@ use super::fluvial_levels as levels;
 use super::fluvial_materials::strata_of;
 use super::hydraulic::Boundary;
 use super::springs::{self, Source};
+use weald_core::domain::Domain;
 use weald_core::error::Error;
 use weald_core::landscape::Landscape;
 use weald_core::material::Material;
@@ -158,8 +159,12 @@ impl Step for Fluvial {
         (self.levels > 1 && self.region.is_some()).then(fault).into_iter().collect()
     }
 
+    fn check_on(&self, domain: &Domain) -> Result<(), Error> {
+        levels::check(domain, self.grids(domain.cell))
+    }
+
     fn run(&self, landscape: &mut Landscape, job: &Job<'_>) -> Result<Outcome, Error> {
-        levels::check(landscape, self.grids(landscape.domain.cell))?;
+        levels::check(&landscape.domain, self.grids(landscape.domain.cell))?;
         let mut outcome = self.run_levels(landscape, job)?;
         let springs: Vec<_> =
             self.sources.iter().map(|Nested(source)| Nested(source.spring(&landscape.domain))).collect();

@@ -22,6 +22,7 @@ use super::stack::REGOLITH;
 use super::thermal::Slide;
 use super::thermal_step::ThermalWithin;
 use defaults::ResolvedKeys;
+use weald_core::domain::Domain;
 use weald_core::error::Error;
 use weald_core::landscape::Landscape;
 use weald_core::material::Material;
@@ -131,7 +132,7 @@ impl Step for Hydraulic {
         self.edits().map(ScriptFile::path).into_iter().collect()
     }
 
-    fn look_ahead(&self, materials: &[Material]) -> Result<(), Error> {
+    fn look_ahead(&self, materials: &[Material], _: &Domain) -> Result<(), Error> {
         self.script(materials).map(drop)
     }
 

@@ -6,8 +6,10 @@ use std::path::PathBuf;
 
 use super::layer_file::{FileUnit, LayerFile, said};
 use super::parameter::{CrsCode, LayerName, RasterFile};
+use weald_core::domain::Domain;
 use weald_core::error::Error;
 use weald_core::landscape::Landscape;
+use weald_core::material::Material;
 use weald_core::parameters;
 use weald_engine::Job;
 use weald_engine::step::{Entry, Outcome, Stage, Step};
@@ -71,8 +73,20 @@ impl Step for Load {
         vec![self.file.path()]
     }
 
+    fn look_ahead(&self, _: &[Material], domain: &Domain) -> Result<(), Error> {
+        self.layer_file().read(domain).map(drop)
+    }
+
     fn run(&self, landscape: &mut Landscape, _: &Job<'_>) -> Result<Outcome, Error> {
-        let file = LayerFile {
+        let (field, notes) = self.layer_file().read(&landscape.domain)?;
+        landscape.insert(&self.into.0, "m", field);
+        Ok(Outcome { iterations: 1, notes, ..Outcome::default() })
+    }
+}
+
+impl Load {
+    fn layer_file(&self) -> LayerFile {
+        LayerFile {
             path: self.file.path(),
             scale: self.scale,
             offset: self.offset,
@@ -80,9 +94,6 @@ impl Step for Load {
             no_data: self.no_data,
             said: said(self.crs, self.unit, self.nodata),
             elsewhere: self.elsewhere,
-        };
-        let (field, notes) = file.read(&landscape.domain)?;
-        landscape.insert(&self.into.0, "m", field);
-        Ok(Outcome { iterations: 1, notes, ..Outcome::default() })
+        }
     }
 }

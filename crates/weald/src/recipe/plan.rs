@@ -3,6 +3,7 @@
 mod files;
 mod films;
 mod fractals;
+mod grids;
 mod landscape;
 mod layers;
 mod materials;
@@ -36,6 +37,7 @@ use super::format;
 use super::overrides::Overrides;
 use super::parameter::Diagnostics;
 use super::source::{self, Table};
+use weald_core::domain::Domain;
 use weald_core::error::{Diagnostic, Error, RecipeError};
 use weald_export::{Export, report};
 
@@ -151,7 +153,11 @@ impl Recipe {
             diagnostics.found.sort_by_key(|diagnostic| diagnostic.line);
             return Err(RecipeError { file: file.to_owned(), diagnostics: diagnostics.found }.into());
         }
-        recipe
+        let recipe = recipe?;
+        if let Ground::Empty { size, cell } = recipe.ground {
+            recipe.check_on(&Domain::new(size, cell))?;
+        }
+        Ok(recipe)
     }
 
     /// The recipe in its canonical spelling, after overrides: a recipe that gives the same run.

@@ -67,6 +67,16 @@ pub struct OutputReport {
 }
 
 impl Report {
+    /// Reads the report of a run that is done.
+    ///
+    /// # Errors
+    /// [`Error::Input`] for a file that is missing or is no report.
+    pub fn read(path: &Path) -> Result<Self, Error> {
+        let unread = |cause: &dyn std::fmt::Display| Error::input(path, format!("cannot be read: {cause}"));
+        let text = std::fs::read(path).map_err(|cause| unread(&cause))?;
+        serde_json::from_slice(&text).map_err(|cause| unread(&cause))
+    }
+
     /// Writes the report as JSON.
     ///
     /// # Errors

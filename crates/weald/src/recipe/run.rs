@@ -21,6 +21,7 @@ use super::ground;
 use super::plan::{Output, Planned, Recipe};
 use super::report::{OutputReport, REPORT_FILE, Report};
 use crate::written;
+use film::TimeLapses;
 use finished::step_report;
 use step_watcher::{CheckpointTimer, StepWatcher};
 pub use video::Frames;
@@ -29,7 +30,7 @@ use weald_core::landscape::Landscape;
 use weald_engine::Job;
 use weald_export::Finished;
 use weald_plants::Vegetation;
-use work::{WorkFolder, new_files};
+use work::{Leaves, WorkFolder, new_files, remove_checkpoint};
 use writer::Writer;
 
 impl Recipe {
@@ -70,7 +71,7 @@ impl Run<'_> {
     pub fn landscape(&self, progress: &dyn Progress) -> Result<Landscape, Error> {
         let place = self.prepare(progress)?;
         let state = self.finish_steps(progress)?;
-        folder::remove_checkpoint(&self.checkpoint())?;
+        remove_checkpoint(&self.checkpoint())?;
         drop(place);
         Ok(state.landscape)
     }
@@ -89,19 +90,24 @@ impl Run<'_> {
 
     fn execute_here(&self, progress: &dyn Progress) -> Result<Report, Error> {
         let mut place = self.prepare(progress)?;
+        if self.options.resume && place.has_finished_this() {
+            place.leaves = Leaves::Nothing;
+            return Report::read(&self.options.out.join(REPORT_FILE));
+        }
         let done = self.finish_steps(progress).and_then(|state| self.write(state, progress));
         // The frames of a time-lapse go with the checkpoint from which the run goes on.
-        place.keeps =
-            done.is_err() && self.recipe.outputs.iter().any(Output::lapses) && self.checkpoint().exists();
+        if done.is_err() && self.recipe.outputs.iter().any(Output::lapses) && self.checkpoint().exists() {
+            place.leaves = Leaves::Frames;
+        }
         let report = done?;
         let files = report.outputs.iter().flat_map(OutputReport::files).collect();
         place.publish(files)?;
-        folder::remove_checkpoint(&self.checkpoint())?;
+        place.leaves = Leaves::Nothing;
         Ok(report)
     }
 
     fn prepare(&self, progress: &dyn Progress) -> Result<WorkFolder, Error> {
-        let (place, notes) = folder::prepare(self.recipe, &self.options.out, self.options.resume)?;
+        let (place, notes) = folder::prepare(self.recipe, &self.options.out)?;
         notes.iter().for_each(|note| progress.note(note));
         Ok(place)
     }
@@ -128,6 +134,7 @@ impl Run<'_> {
             let mut state = checkpoint::read(&path, self.recipe.effective())?;
             state.landscape.materials = ground::materials(self.recipe);
             state.landscape.set_fractals(ground::fractals(self.recipe)?);
+            TimeLapses::during(self.recipe, state.done, &self.options).ensure_drawn(&state, &path)?;
             let done = state.simulation.as_ref().map_or(0, |simulation| simulation.iteration);
             progress.note(&format!("going on after {} steps and {done} iterations", state.done));
             return Ok(state);
@@ -136,12 +143,7 @@ impl Run<'_> {
             let path = path.display();
             progress.note(&format!("starting anew; the checkpoint {path} is used with --resume only"));
         }
-        inputs::check(self.recipe)?;
-        if self.recipe.outputs.iter().any(Output::is_video) && !video::ffmpeg_is_there() {
-            progress.note(video::NO_FFMPEG);
-        }
-        let (landscape, notes) = ground::load(self.recipe)?;
-        ground::check_outputs(self.recipe, &landscape)?;
+        let (landscape, notes) = inputs::start(self.recipe)?;
         for note in &notes {
             progress.note(note);
         }
@@ -270,7 +272,7 @@ impl Run<'_> {
         let device = self.options.render.as_deref();
         let writer = Writer { finished, recipe: self.recipe, device, next_frame: &next_frame };
         let count = self.recipe.outputs.len();
-        let folder = new_files(&self.options.out);
+        let folder = new_files(&self.options.out, self.recipe);
         let mut reports = Vec::with_capacity(count);
         for (index, output) in self.recipe.outputs.iter().enumerate() {
             self.stop_if_cancelled(state, progress)?;
@@ -300,7 +302,7 @@ impl Run<'_> {
         };
         if self.options.report {
             report
-                .write(&new_files(&self.options.out).join(REPORT_FILE))
+                .write(&new_files(&self.options.out, self.recipe).join(REPORT_FILE))
                 .map_err(|error| self.by_its_name(error))?;
         }
         Ok(report)
@@ -308,7 +310,7 @@ impl Run<'_> {
 
     /// An error of a file by the name that the file was to have.
     fn by_its_name(&self, error: Error) -> Error {
-        let folder = new_files(&self.options.out).display().to_string();
+        let folder = new_files(&self.options.out, self.recipe).display().to_string();
         match error {
             Error::Run(what) => Error::Run(what.replace(&folder, &self.options.out.display().to_string())),
             other => other,

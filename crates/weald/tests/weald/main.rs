@@ -16,6 +16,7 @@ mod own_grid;
 mod plants;
 #[path = "../../../weald-export/tests/export/programs/mod.rs"]
 mod programs;
+mod random_recipes;
 mod recipes;
 mod report;
 mod rivers;

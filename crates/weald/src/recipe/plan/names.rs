@@ -1,7 +1,9 @@
 //! Names of all files that a run writes, by the recipe alone: what would overwrite what is told before anything runs.
 
+use std::fmt::{Display, Formatter};
 use std::path::{Path, PathBuf};
 
+use super::Recipe;
 use super::films::{Film, Motion};
 use super::outputs::{Content, Output, lower, same_file};
 use super::steps::Planned;
@@ -112,6 +114,25 @@ impl Output {
         let folder = inside.min_by_key(|part| part.path(&self.file).components().count());
         let beside = parts.iter().filter(|part| !matches!(part, PartName::Inside(_)));
         beside.chain(folder).map(|part| Name::of(part, &self.file)).collect()
+    }
+}
+
+impl Recipe {
+    /// Names of all files that a run may write, beside its report: a line for each, and one for all frames of a film.
+    pub fn names(&self) -> Vec<String> {
+        let names = self.outputs.iter().flat_map(|output| output.names(&self.steps));
+        names.map(|name| name.to_string()).collect()
+    }
+}
+
+impl Display for Name {
+    fn fmt(&self, formatter: &mut Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Frames(..) => {
+                write!(formatter, "{} to {}", self.first().display(), self.path().display())
+            }
+            _ => write!(formatter, "{}", self.path().display()),
+        }
     }
 }
 

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::options::Options;
 use super::work::new_files;
+use crate::recipe::checkpoint::State;
 use crate::recipe::plan::{Content, Film, Motion, Output, Recipe};
 use weald_core::error::Error;
 use weald_core::landscape::Landscape;
@@ -30,7 +31,7 @@ pub(super) struct TimeLapses<'a> {
 impl<'a> TimeLapses<'a> {
     /// Those of step `step` of the recipe, counted from 0.
     pub(super) fn during(recipe: &'a Recipe, step: usize, options: &'a Options) -> Self {
-        let (folder, device) = (new_files(&options.out), options.render.as_deref());
+        let (folder, device) = (new_files(&options.out, recipe), options.render.as_deref());
         let films = recipe.outputs.iter().filter_map(TimeLapse::of).collect();
         let watched = recipe.steps.iter().map(|planned| planned.step.watched()).collect();
         Self { films, folder, device, watched, step }
@@ -50,6 +51,24 @@ impl<'a> TimeLapses<'a> {
     fn first(&self, lapse: &TimeLapse<'_>) -> u64 {
         let is_first = self.watched[..self.step].iter().all(|&iterations| iterations == 0);
         if is_first { 0 } else { lapse.every }
+    }
+
+    /// Refuses to go on from a checkpoint whose frames are gone.
+    pub(super) fn ensure_drawn(&self, state: &State, checkpoint: &Path) -> Result<(), Error> {
+        let iteration = state.simulation.as_ref().map_or(0, |simulation| simulation.iteration);
+        let has_begun = iteration > 0 || self.watched[..self.step].iter().any(|&iterations| iterations > 0);
+        for lapse in self.films.iter().filter(|_| has_begun) {
+            let earlier: u64 = self.watched[..self.step].iter().map(|all| all / lapse.every).sum();
+            // The frame of the iteration itself is drawn again.
+            let drawn = earlier + iteration.div_ceil(lapse.every);
+            let frame = |number| self.folder.join(Film::frame(lapse.file, number));
+            if let Some(missing) = (0..drawn).map(frame).find(|frame| !frame.exists()) {
+                let missing = missing.display();
+                let what = format!("its frame {missing} is gone; run without --resume, which draws it again");
+                return Err(Error::input(checkpoint, what));
+            }
+        }
+        Ok(())
     }
 
     /// Draws the frames that are due after `done` iterations.

@@ -9,13 +9,10 @@ use weald_io::remove_leftovers;
 
 /// Makes the folder and those of the outputs, takes it for this run, and tries to write into each. The texts say what
 /// an earlier run had left.
-pub(super) fn prepare(
-    recipe: &Recipe,
-    out: &Path,
-    goes_on: bool,
-) -> Result<(WorkFolder, Vec<String>), Error> {
+pub(super) fn prepare(recipe: &Recipe, out: &Path) -> Result<(WorkFolder, Vec<String>), Error> {
     make(out)?;
-    let (place, mut notes) = WorkFolder::take(out, goes_on)?;
+    let place = WorkFolder::take(out, recipe)?;
+    let mut notes: Vec<_> = place.note().into_iter().collect();
     let mut left = remove_leftovers(out).len();
     let inputs = recipe.inputs();
     for name in recipe.outputs.iter().flat_map(|output| output.names(&recipe.steps)) {
@@ -78,15 +75,4 @@ fn ensure_one_disk(_: &Path, _: &Path) -> Result<(), Error> {
 
 fn same_file(one: &Path, other: &Path) -> bool {
     matches!((one.canonicalize(), other.canonicalize()), (Ok(one), Ok(other)) if one == other)
-}
-
-/// Removes the checkpoint of a run that is done.
-pub(super) fn remove_checkpoint(path: &Path) -> Result<(), Error> {
-    match std::fs::remove_file(path) {
-        Err(cause) if cause.kind() != std::io::ErrorKind::NotFound => Err(Error::Run(format!(
-            "the run is done, but its checkpoint {} cannot be removed: {cause}",
-            path.display()
-        ))),
-        _ => Ok(()),
-    }
 }

@@ -3,15 +3,40 @@
 use std::fs::File;
 use std::path::Path;
 
+use super::video;
 use crate::recipe::ground;
-use crate::recipe::plan::Recipe;
+use crate::recipe::plan::{Ground, Output, Recipe};
 use weald_core::error::Error;
+use weald_core::landscape::Landscape;
 
-/// Opens every file that the recipe names, and lets the steps look at those that steer them.
-pub(super) fn check(recipe: &Recipe) -> Result<(), Error> {
+impl Recipe {
+    /// What only files tell before a run: whether all that the recipe names are there and of use, and whether the steps and
+    /// outputs can work on the grid that the elevation model has. The texts are what a run would tell.
+    ///
+    /// # Errors
+    /// [`Error::Input`] for a file, and as [`Recipe::parse`] for what does not go with the grid.
+    pub fn look_ahead(&self) -> Result<Vec<String>, Error> {
+        start(self).map(|(_, notes)| notes)
+    }
+}
+
+/// The landscape before the first step, once all that can be told before it is right; the texts tell the user what had
+/// to be done to the files.
+pub(super) fn start(recipe: &Recipe) -> Result<(Landscape, Vec<String>), Error> {
     recipe.inputs().iter().try_for_each(|path| open(path, &recipe.place_of(path)))?;
-    let materials = ground::materials(recipe);
-    recipe.steps.iter().try_for_each(|planned| planned.step.look_ahead(&materials))
+    let (landscape, mut notes) = ground::load(recipe)?;
+    ground::check_outputs(recipe, &landscape)?;
+    if matches!(recipe.ground, Ground::File { .. }) {
+        recipe.check_on(&landscape.domain)?;
+    }
+    let (steps, _) = recipe.grids(&landscape.domain);
+    steps.iter().try_for_each(|(planned, grid)| planned.step.look_ahead(&landscape.materials, grid))?;
+    notes.extend(recipe.outputs.iter().filter(|output| output.is_video()).find_map(video_note));
+    Ok((landscape, notes))
+}
+
+fn video_note(output: &Output) -> Option<String> {
+    (!video::can_make(&output.file)).then(|| video::NO_FFMPEG.to_owned())
 }
 
 fn open(path: &Path, named_at: &str) -> Result<(), Error> {

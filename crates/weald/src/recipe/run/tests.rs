@@ -302,7 +302,8 @@ fn an_interrupted_time_lapse_goes_on_with_the_same_frames() {
     run(FILMS, whole.path(), false, &Silent).expect("runs");
     run(FILMS, halves.path(), false, &StopsAfter::new(13)).expect_err("stopped");
     assert_eq!(files_in(halves.path()), [".weald", CHECKPOINT_FILE], "frames have no names yet");
-    let drawn = |frame: &str| new_files(halves.path()).join(frame).exists();
+    let made = new_files(halves.path(), &parse(FILMS).expect("good"));
+    let drawn = |frame: &str| made.join(frame).exists();
     assert!(drawn("rise-00003.png") && !drawn("rise-00005.png"));
     run(FILMS, halves.path(), true, &Silent).expect("goes on");
     for number in 0..6 {
@@ -323,7 +324,7 @@ fn the_rate_of_a_step_is_its_cells_times_its_iterations_over_its_seconds() {
 #[test]
 fn a_second_run_into_a_folder_is_told_who_has_it_and_one_after_the_end_of_the_first_is_not() {
     let out = folder();
-    let (place, _) = WorkFolder::take(out.path(), false).expect("free");
+    let place = WorkFolder::take(out.path(), &parse(RECIPE).expect("good")).expect("free");
     let error = run(RECIPE, out.path(), false, &Silent).expect_err("taken").to_string();
     let holder = format!("another run (process {}) writes into", std::process::id());
     assert!(error.contains(&holder) && error.contains("choose another --out folder"), "{error}");
@@ -338,15 +339,16 @@ fn a_second_run_into_a_folder_is_told_who_has_it_and_one_after_the_end_of_the_fi
 /// Breaks the work folder of a run when its outputs begin.
 struct Breaks<'a> {
     out: &'a Path,
-    at: usize,
+    recipe: &'a str,
     entry: &'a str,
 }
 
 impl Progress for Breaks<'_> {
     fn output(&self, number: usize, _: usize, _: &Path) {
-        if number == self.at {
+        if number == 2 {
             // A folder stands where a file is to be.
-            std::fs::create_dir_all(new_files(self.out).join(self.entry)).expect("made");
+            let made = new_files(self.out, &parse(self.recipe).expect("good"));
+            std::fs::create_dir_all(made.join(self.entry)).expect("made");
         }
     }
 }
@@ -358,7 +360,7 @@ fn a_run_that_fails_at_its_second_output_leaves_all_files_as_they_were_and_goes_
     let all = |out: &Path| [height(out), bytes(out, "dot.png"), bytes(out, REPORT_FILE)];
     let before = all(out.path());
     let other = RECIPE.replace("seed = 5", "seed = 6");
-    let breaks = Breaks { out: out.path(), at: 2, entry: "dot.png" };
+    let breaks = Breaks { out: out.path(), recipe: &other, entry: "dot.png" };
     let error = run(&other, out.path(), false, &breaks).expect_err("cannot be written").to_string();
     let named = out.path().join("dot.png").display().to_string();
     assert!(error.contains(&named) && !error.contains(".weald/new"), "{error}");
@@ -380,19 +382,22 @@ fn the_next_run_finishes_what_was_ended_while_files_got_their_names() {
     let (whole, cut) = (folder(), folder());
     run(RECIPE, whole.path(), false, &Silent).expect("runs");
     // As a kill after the first of three renames leaves it.
-    let new = new_files(cut.path());
+    let recipe = parse(RECIPE).expect("good");
+    let new = new_files(cut.path(), &recipe);
     std::fs::create_dir_all(&new).expect("made");
     std::fs::create_dir_all(cut.path().join("deep")).expect("made");
     std::fs::write(cut.path().join("deep/height.bits"), height(whole.path())).expect("written");
     for file in ["dot.png", REPORT_FILE] {
         std::fs::write(new.join(file), bytes(whole.path(), file)).expect("written");
     }
-    let journal = "{\"files\":[\"deep/height.bits\",\"dot.png\",\"report.json\"]}";
+    let files = ["deep/height.bits", "dot.png", REPORT_FILE];
+    let made_in = new.file_name().expect("a name").to_string_lossy();
+    let journal = serde_json::json!({ "made_in": made_in, "files": files }).to_string();
     std::fs::write(cut.path().join(".weald/journal.json"), journal).expect("written");
-    let (place, notes) = WorkFolder::take(cut.path(), false).expect("free");
-    assert!(notes.concat().contains("all its files whole"), "{notes:?}");
-    drop(place);
-    for file in ["deep/height.bits", "dot.png", REPORT_FILE] {
+    std::fs::write(cut.path().join(CHECKPOINT_FILE), "of the run that was ended").expect("written");
+    let report = run(RECIPE, cut.path(), true, &Silent).expect("it is done");
+    assert_eq!(report.outputs.len(), 2, "the report is that of the run that was ended");
+    for file in files {
         assert!(bytes(cut.path(), file) == bytes(whole.path(), file), "{file}");
     }
     assert_eq!(files_in(cut.path()), ["deep", "dot.png", "report.json"]);
@@ -451,4 +456,20 @@ impl Progress for Hears {
     fn note(&self, text: &str) {
         self.0.lock().expect("whole").push(text.to_owned());
     }
+}
+
+#[test]
+fn a_checkpoint_whose_frames_are_gone_is_refused_and_those_of_another_recipe_stay() {
+    let out = folder();
+    run(FILMS, out.path(), false, &StopsAfter::new(13)).expect_err("stopped");
+    // A run of another recipe that ends before its first checkpoint leaves the frames of this one.
+    let other = FILMS.replace("seed = 5", "seed = 6");
+    drop(WorkFolder::take(out.path(), &parse(&other).expect("good")).expect("free"));
+    let made = new_files(out.path(), &parse(FILMS).expect("good"));
+    assert!(made.join("rise-00003.png").exists());
+    std::fs::remove_file(made.join("rise-00001.png")).expect("there");
+    let error = run(FILMS, out.path(), true, &Silent).expect_err("no frame").to_string();
+    assert!(error.contains("rise-00001.png is gone; run without --resume"), "{error}");
+    run(FILMS, out.path(), false, &Silent).expect("starts anew");
+    assert!(!out.path().join(".weald").exists());
 }

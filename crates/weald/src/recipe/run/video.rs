@@ -41,7 +41,7 @@ impl Frames<'_> {
 
     /// Makes the video of frames that are there, if the file is one.
     pub(super) fn video(&self, path: &Path) -> Result<Option<&'static str>, Error> {
-        match (Film::is_video(path), ffmpeg_is_there()) {
+        match (Film::is_video(path), can_make(path)) {
             (false, _) => Ok(None),
             (true, false) => Ok(Some(NO_FFMPEG)),
             (true, true) => encode(path, self.per_second, self.count).map(|()| None),
@@ -49,20 +49,24 @@ impl Frames<'_> {
     }
 }
 
-/// Whether videos can be made.
-pub(super) fn ffmpeg_is_there() -> bool {
-    let version = Command::new("ffmpeg").arg("-version").stdout(Stdio::null()).stderr(Stdio::null()).status();
-    version.is_ok_and(|status| status.success())
+/// Whether this video can be made: ffmpeg is there, and was built with the encoder.
+pub(super) fn can_make(path: &Path) -> bool {
+    let asked = Command::new("ffmpeg").args(["-hide_banner", "-encoders"]).stderr(Stdio::null()).output();
+    let encoder = if is_webm(path) { "libvpx-vp9" } else { "libx264" };
+    asked.is_ok_and(|output| String::from_utf8_lossy(&output.stdout).contains(encoder))
+}
+
+fn is_webm(path: &Path) -> bool {
+    path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("webm"))
 }
 
 /// What is reported where a video cannot be made.
-pub(super) const NO_FFMPEG: &str = "ffmpeg is not there, so the frames are written and no video; install it (Debian, Ubuntu: \
+pub(super) const NO_FFMPEG: &str = "ffmpeg with libx264 and libvpx-vp9 is not there, so the frames are written and no video; install it (Debian, Ubuntu: \
      sudo apt-get install ffmpeg) and run again";
 
 /// Makes a video of numbered frames that are there.
 fn encode(path: &Path, frames_per_second: f64, frames: u64) -> Result<(), Error> {
-    let is_webm = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("webm"));
-    let codec: &[&str] = if is_webm {
+    let codec: &[&str] = if is_webm(path) {
         &["-f", "webm", "-c:v", "libvpx-vp9", "-crf", "24", "-b:v", "0", "-row-mt", "1"]
     } else {
         &["-f", "mp4", "-c:v", "libx264", "-crf", "17", "-preset", "slow", "-movflags", "+faststart"]

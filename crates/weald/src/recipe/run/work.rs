@@ -1,7 +1,7 @@
 //! The folder `.weald` inside the output folder, in which a run makes its files before it gives all of them their names.
 //!
 //! It holds `lock`, which the system holds for the one run that may write into the output folder and lets go when that
-//! ends, however it ends; `new`, the files under the names that they will have; and `journal.json`, which is there from
+//! ends, however it ends; a folder of each recipe with its files under the names that they will have; and `journal.json`, which is there from
 //! the moment when all files are whole until all have their names. A run that is killed before leaves the files of the
 //! run before it as they were; one that is killed after is finished by the next.
 
@@ -11,24 +11,25 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
-use crate::recipe::REPORT_FILE;
-use crate::recipe::plan::WORK_FOLDER;
+use crate::recipe::plan::{Recipe, WORK_FOLDER};
+use crate::recipe::{CHECKPOINT_FILE, REPORT_FILE};
 use weald_core::error::Error;
 use weald_io::{rename, replace_folder, write_whole};
 
 const LOCK: &str = "lock";
-const NEW: &str = "new";
 const OLD: &str = "old";
 const JOURNAL: &str = "journal.json";
 
-/// Where a run into a folder makes its files.
-pub(super) fn new_files(out: &Path) -> PathBuf {
-    out.join(WORK_FOLDER).join(NEW)
+/// Where a run of this recipe makes its files.
+pub(super) fn new_files(out: &Path, recipe: &Recipe) -> PathBuf {
+    out.join(WORK_FOLDER).join(&recipe.hash()[..16])
 }
 
 /// Paths inside the output folder that are about to have their names; the report is the last of them.
 #[derive(Debug, Serialize, Deserialize)]
 struct Journal {
+    /// Folder in the work folder in which they are.
+    made_in: String,
     files: Vec<PathBuf>,
 }
 
@@ -36,40 +37,71 @@ struct Journal {
 #[derive(Debug)]
 pub(super) struct WorkFolder {
     out: PathBuf,
+    new: PathBuf,
     /// Held until this is dropped.
     #[expect(dead_code, reason = "the system lets the lock go when the file is closed")]
     lock: File,
-    /// Whether what was made so far stays when this is dropped, for a run that goes on from a checkpoint.
-    pub(super) keeps: bool,
+    /// What of it is left behind.
+    pub(super) leaves: Leaves,
+    /// The folder of the run whose files had no names yet, and have them now.
+    finished: Option<PathBuf>,
+}
+
+/// What a run leaves in the work folder.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Leaves {
+    /// Nothing.
+    Nothing,
+    /// What belongs to a checkpoint of another recipe.
+    Others,
+    /// That, and the frames with which a run goes on from its checkpoint.
+    Frames,
 }
 
 impl WorkFolder {
-    /// Takes the folder, and finishes what a killed run began; the texts say what was done.
+    /// Takes the folder, and finishes what a killed run began.
     ///
     /// # Errors
     /// [`Error::Run`] where another run has it, or where it cannot be written to.
-    pub(super) fn take(out: &Path, goes_on: bool) -> Result<(Self, Vec<String>), Error> {
+    pub(super) fn take(out: &Path, recipe: &Recipe) -> Result<Self, Error> {
         let lock = locked(out)?;
-        let mut this = Self { out: out.to_owned(), lock, keeps: true };
-        let notes = this.finish_journal()?;
-        if !goes_on {
-            this.remove(NEW)?;
-        }
+        let new = new_files(out, recipe);
+        let mut this = Self { out: out.to_owned(), new, lock, leaves: Leaves::Frames, finished: None };
+        this.finished = this.finish_journal()?;
         this.remove(OLD)?;
-        this.keeps = false;
-        Ok((this, notes))
+        // Frames go with a checkpoint; what a fresh run draws of the same recipe are the same frames.
+        if !out.join(CHECKPOINT_FILE).exists() {
+            this.remove_all_made()?;
+        }
+        this.leaves = Leaves::Others;
+        Ok(this)
     }
 
     fn inside(&self, name: &str) -> PathBuf {
         self.out.join(WORK_FOLDER).join(name)
     }
 
+    /// Removes what runs made that did not come to their ends.
+    fn remove_all_made(&self) -> Result<(), Error> {
+        let folder = self.out.join(WORK_FOLDER);
+        let entries = fs::read_dir(&folder).map_err(|cause| Error::write(&folder, &cause))?;
+        let folders = entries.flatten().filter(|entry| entry.path().is_dir());
+        folders.into_iter().try_for_each(|entry| self.remove(&entry.file_name().to_string_lossy()))
+    }
+
     fn remove(&self, name: &str) -> Result<(), Error> {
         let path = self.inside(name);
-        match fs::remove_dir_all(&path) {
-            Err(cause) if cause.kind() != std::io::ErrorKind::NotFound => Err(Error::write(&path, &cause)),
-            _ => Ok(()),
+        let mut left = Ok(());
+        // A program that a killed run had started may put a last file there meanwhile.
+        for _ in 0..5 {
+            left = match fs::remove_dir_all(&path) {
+                Err(cause) if cause.kind() != std::io::ErrorKind::NotFound => {
+                    Err(Error::write(&path, &cause))
+                }
+                _ => return Ok(()),
+            };
         }
+        left
     }
 
     /// Gives all files of the run their names, the report last. An older report goes first: who finds a report finds the
@@ -78,36 +110,50 @@ impl WorkFolder {
     /// # Errors
     /// [`Error::Run`] where a file cannot get its name; the next run goes on with the journal.
     pub(super) fn publish(&self, mut files: Vec<PathBuf>) -> Result<(), Error> {
-        if self.inside(NEW).join(REPORT_FILE).exists() {
+        if self.new.join(REPORT_FILE).exists() {
             files.push(PathBuf::from(REPORT_FILE));
         }
-        let journal = serde_json::to_vec(&Journal { files }).expect("paths are text");
+        let made_in = self.new.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        let journal = serde_json::to_vec(&Journal { made_in, files }).expect("paths are text");
         write_whole(&self.inside(JOURNAL), &journal)?;
         self.finish_journal().map(drop)
     }
 
-    fn finish_journal(&self) -> Result<Vec<String>, Error> {
+    /// Whether the run that was finished is of the same recipe.
+    pub(super) fn has_finished_this(&self) -> bool {
+        self.finished.as_ref() == Some(&self.new)
+    }
+
+    /// What there is to say of an earlier run.
+    pub(super) fn note(&self) -> Option<String> {
+        let note = "a run that was ended before had all its files whole; they have their names now";
+        self.finished.as_ref().map(|_| note.to_owned())
+    }
+
+    /// Gives files their names, and takes away the checkpoint with which their run could have gone on.
+    fn finish_journal(&self) -> Result<Option<PathBuf>, Error> {
         let path = self.inside(JOURNAL);
-        let Ok(text) = fs::read(&path) else { return Ok(Vec::new()) };
+        let Ok(text) = fs::read(&path) else { return Ok(None) };
         let journal: Journal = serde_json::from_slice(&text).map_err(|cause| {
             let folder = self.out.join(WORK_FOLDER);
             Error::input(&path, format!("is damaged: {cause}; remove {} and run again", folder.display()))
         })?;
-        let report = self.out.join(REPORT_FILE);
-        if self.inside(NEW).join(REPORT_FILE).exists() && report.exists() {
+        let (made, report) = (self.inside(&journal.made_in), self.out.join(REPORT_FILE));
+        if made.join(REPORT_FILE).exists() && report.exists() {
             fs::remove_file(&report).map_err(|cause| Error::write(&report, &cause))?;
         }
         for file in &journal.files {
             let target = self.out.join(file);
-            self.name(file, &target).map_err(|cause| Error::write(&target, &cause))?;
+            self.name(&made, file, &target).map_err(|cause| Error::write(&target, &cause))?;
         }
+        remove_checkpoint(&self.out.join(CHECKPOINT_FILE))?;
         fs::remove_file(&path).map_err(|cause| Error::write(&path, &cause))?;
-        Ok(vec!["a run that was ended before had all its files whole; they have their names now".to_owned()])
+        Ok(Some(made))
     }
 
     /// Gives one file its name, unless it has it already.
-    fn name(&self, file: &Path, target: &Path) -> std::io::Result<()> {
-        let made = self.inside(NEW).join(file);
+    fn name(&self, folder: &Path, file: &Path, target: &Path) -> std::io::Result<()> {
+        let made = folder.join(file);
         if !made.exists() {
             return Ok(());
         }
@@ -127,17 +173,27 @@ impl WorkFolder {
 }
 
 impl Drop for WorkFolder {
+    /// What cannot be removed now is removed by the next run.
     fn drop(&mut self) {
         let is_finished = !self.inside(JOURNAL).exists();
-        // What cannot be removed now is removed by the next run.
-        if is_finished && !self.keeps {
-            let _ = fs::remove_dir_all(self.inside(NEW));
-        }
-        if is_finished {
-            let _ = fs::remove_dir_all(self.inside(OLD));
-        }
+        let _ = match self.leaves {
+            Leaves::Nothing if is_finished => self.remove_all_made(),
+            Leaves::Others if is_finished => fs::remove_dir_all(&self.new).or(Ok(())),
+            _ => Ok(()),
+        };
         let _ = fs::remove_file(self.inside(LOCK));
         let _ = fs::remove_dir(self.out.join(WORK_FOLDER));
+    }
+}
+
+/// Removes the checkpoint of a run that is done.
+pub(super) fn remove_checkpoint(path: &Path) -> Result<(), Error> {
+    match fs::remove_file(path) {
+        Err(cause) if cause.kind() != std::io::ErrorKind::NotFound => Err(Error::Run(format!(
+            "the run is done, but its checkpoint {} cannot be removed: {cause}",
+            path.display()
+        ))),
+        _ => Ok(()),
     }
 }
 

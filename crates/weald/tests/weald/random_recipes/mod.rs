@@ -1,0 +1,141 @@
+//! Random recipes: what passes the check runs to its end, with the same files for any number of threads.
+//!
+//! `WEALD_RANDOM_RECIPES=1000 cargo test -p weald --test weald random_recipes -- --nocapture` is the long version, whose
+//! figures stand in CORRECTNESS.md; `WEALD_FIRST_RECIPE` is the first, `WEALD_KEEP_RECIPES` a folder for their texts.
+
+mod made;
+
+use std::collections::BTreeMap;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::Path;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use weald::Error;
+use weald::picture::RayMarched;
+use weald::recipe::{Options, Overrides, Progress, Recipe, Report, Run};
+
+/// Recipes of the short version.
+const FEW: u64 = 40;
+/// Seconds after which a run is ended; it then proves nothing.
+const PATIENCE: u64 = 5;
+
+/// Ends a run that takes too long.
+struct Patience(Instant);
+
+impl Progress for Patience {
+    fn cancelled(&self) -> bool {
+        self.0.elapsed() > Duration::from_secs(PATIENCE)
+    }
+}
+
+/// What only the ground shows that a run makes, so that no check can tell it: values of layers that a recipe chose.
+const OF_THE_GROUND: &[&str] = &[
+    "need a `z_scale` of",
+    // How much ground meets the conditions of the step; without conditions the check tells it.
+    "scatter: expected at a `spacing` of",
+    // How high the ground is that a section exaggerates.
+    "choose a smaller `width` or `exaggeration`",
+    "so that the region holds no cell to simulate",
+    "what multiplies rain or erodibility is 0 or more",
+    "the direction of flow in column",
+    "flows in a cycle and reaches no outlet",
+    "but must be the number of a lake",
+];
+
+fn is_of_the_ground(error: &Error) -> bool {
+    let message = error.to_string();
+    matches!(error, Error::NotFinite(_)) || OF_THE_GROUND.iter().any(|part| message.contains(part))
+}
+
+/// How a recipe ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum End {
+    Refused,
+    Done,
+    /// Refused by a step or an output for what is in a layer.
+    OfTheGround,
+    TooLong,
+}
+
+fn run(recipe: &Recipe, threads: usize, out: &Path) -> Result<Report, Error> {
+    let options =
+        Options { threads: Some(threads), render: Some(Arc::new(RayMarched)), ..Options::into_folder(out) };
+    let progress = Patience(Instant::now());
+    catch_unwind(AssertUnwindSafe(|| Run { recipe, options }.execute(&progress)))
+        .unwrap_or_else(|_| Err(Error::Run("it panicked".to_owned())))
+}
+
+/// All files below a folder with what is in them. What tells of seconds differs from run to run.
+fn files(folder: &Path, below: &Path, found: &mut BTreeMap<String, Vec<u8>>) {
+    for entry in std::fs::read_dir(folder.join(below)).expect("it can be listed") {
+        let entry = entry.expect("it can be listed");
+        let name = below.join(entry.file_name());
+        if entry.path().is_dir() {
+            files(folder, &name, found);
+        } else if !name.extension().is_some_and(|end| end == "html") && name != Path::new("report.json") {
+            found.insert(name.display().to_string(), std::fs::read(entry.path()).expect("it can be read"));
+        }
+    }
+}
+
+fn written(folder: &Path) -> BTreeMap<String, Vec<u8>> {
+    let mut found = BTreeMap::new();
+    files(folder, Path::new(""), &mut found);
+    found
+}
+
+/// Checks and runs one recipe; an error says what is wrong with the outcome.
+fn outcome(text: &str) -> Result<End, String> {
+    let checked = Recipe::parse("r.toml", text, &Overrides::default());
+    let recipe = match checked {
+        Err(error) if [3, 5].contains(&error.exit_code()) => return Ok(End::Refused),
+        Err(error) => return Err(format!("the check ends with {}: {error}", error.exit_code())),
+        Ok(recipe) => recipe,
+    };
+    let outs = [1, 3].map(|threads| (threads, tempfile::tempdir().expect("a folder")));
+    for (threads, out) in &outs {
+        match run(&recipe, *threads, out.path()) {
+            Ok(_) => {}
+            Err(Error::Interrupted(_)) => return Ok(End::TooLong),
+            Err(error) if is_of_the_ground(&error) => return Ok(End::OfTheGround),
+            Err(error) => {
+                return Err(format!("good, but the run ends with {}: {error}", error.exit_code()));
+            }
+        }
+    }
+    let [one, three] = outs.map(|(_, out)| written(out.path()));
+    let names: Vec<_> = one.keys().chain(three.keys()).collect();
+    match names.into_iter().find(|name| one.get(*name) != three.get(*name)) {
+        Some(name) => Err(format!("{name} differs between 1 and 3 threads")),
+        None => Ok(End::Done),
+    }
+}
+
+#[test]
+fn what_passes_the_check_runs_to_its_end_with_the_same_files_for_any_number_of_threads() {
+    let wanted = |name: &str| std::env::var(name).ok().and_then(|text| text.parse::<u64>().ok());
+    let first = wanted("WEALD_FIRST_RECIPE").unwrap_or(0);
+    let count = wanted("WEALD_RANDOM_RECIPES").unwrap_or(FEW);
+    let mut ends: BTreeMap<End, u64> = BTreeMap::new();
+    let mut faults = Vec::new();
+    for seed in first..first + count {
+        let text = made::recipe(seed);
+        if let Some(folder) = std::env::var_os("WEALD_KEEP_RECIPES") {
+            std::fs::write(Path::new(&folder).join(format!("r{seed}.toml")), &text).expect("written");
+        }
+        match outcome(&text) {
+            Ok(end) => *ends.entry(end).or_default() += 1,
+            Err(fault) => {
+                if count > FEW {
+                    println!("recipe {seed}: {fault}");
+                }
+                faults.push(format!("recipe {seed}: {fault}\n{text}"));
+            }
+        }
+    }
+    println!("{count} random recipes: {ends:?}, faults: {}", faults.len());
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+    let done = ends.get(&End::Done).copied().unwrap_or_default();
+    assert!(5 * done > count, "only {done} of {count} recipes ran");
+}
