@@ -104,6 +104,12 @@ pub trait Step: Debug + Send + Sync {
         None
     }
 
+    /// Bytes of memory for a cell that it takes at its peak, beside the layers that it finds and those that it writes: as
+    /// measured, for the estimate that a run starts with.
+    fn bytes_per_cell(&self) -> u64 {
+        12
+    }
+
     /// Runs on a landscape that has all the layers in [`Step::reads`].
     fn run(&self, landscape: &mut Landscape, job: &Job<'_>) -> Result<Outcome, Error>;
 }

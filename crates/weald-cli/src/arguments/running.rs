@@ -15,6 +15,9 @@ pub(crate) struct Running {
     /// the machine's own is used]
     #[arg(long, value_name = "BYTES", allow_negative_numbers = true, value_parser = values::memory)]
     pub(crate) gpu_memory: Option<u64>,
+    /// Most memory that a run may take, as in 8GiB; one that would take more does not start [default: what is free]
+    #[arg(long, value_name = "BYTES", allow_negative_numbers = true, value_parser = values::memory)]
+    pub(crate) memory: Option<u64>,
     /// Threads [default: all cores]
     #[arg(long, value_name = "N", value_parser = value_parser!(u16).range(1..=1024))]
     pub(crate) threads: Option<u16>,

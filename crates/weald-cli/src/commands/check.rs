@@ -10,7 +10,8 @@ use crate::stdout;
 
 pub(crate) fn check(arguments: &CheckArguments) -> Result<(), Failure> {
     let recipe = Recipe::load(&arguments.recipe, &arguments.changes.overrides())?;
-    for note in recipe.look_ahead()? {
+    let (notes, memory) = recipe.look_ahead()?;
+    for note in notes {
         eprintln!("note: {note}");
     }
     let ground = match &recipe.ground {
@@ -20,6 +21,7 @@ pub(crate) fn check(arguments: &CheckArguments) -> Result<(), Failure> {
     let (steps, outputs) = (recipe.steps.len(), recipe.outputs.len());
     let (file, seed) = (&recipe.file, recipe.seed);
     let mut text = format!("{file}: good; {ground}, steps: {steps}, outputs: {outputs}, seed: {seed}\n");
+    let _ = writeln!(text, "  memory: {memory}");
     for name in recipe.names() {
         let _ = writeln!(text, "  {name}");
     }

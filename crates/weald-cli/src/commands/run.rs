@@ -45,6 +45,7 @@ pub(super) fn watched<T>(
         threads: running.threads.map(usize::from),
         checkpoint_every: Duration::from_secs(running.checkpoint_every),
         resume: running.resume,
+        memory: running.memory,
         render,
         ..options
     };

@@ -148,6 +148,9 @@ fn runs_that_are_killed_at_random_moments_go_on_to_the_same_files_and_leave_noth
     let long = started.elapsed().as_secs_f64();
     let (mut cut, mut resumed, mut journals) = (0, 0, 0);
     for number in 0..kills {
+        if number % 100 == 0 {
+            println!("{number} of {kills}");
+        }
         let seed = SEEDS[(number / 3 % 2) as usize];
         let goes_on = has_checkpoint(&place, seed) && number % 3 != 0;
         let share = weald::random::unit(weald::random::splitmix64(number));

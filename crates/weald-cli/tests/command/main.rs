@@ -5,5 +5,6 @@ mod engine;
 mod fractal;
 mod interruption;
 mod kills;
+mod memory;
 mod place;
 mod render;

@@ -92,6 +92,10 @@ impl Step for FlowStep {
         }
     }
 
+    fn bytes_per_cell(&self) -> u64 {
+        24
+    }
+
     fn run(&self, landscape: &mut Landscape, job: &Job<'_>) -> Result<Outcome, Error> {
         let domain = &landscape.domain;
         let (area, size) = (domain.cell_area(), domain.size);

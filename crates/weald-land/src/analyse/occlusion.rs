@@ -66,6 +66,10 @@ impl Step for Occlusion {
         Some((0.0, 1.0))
     }
 
+    fn bytes_per_cell(&self) -> u64 {
+        48
+    }
+
     fn run(&self, landscape: &mut Landscape, job: &Job<'_>) -> Result<Outcome, Error> {
         let height = landscape.field(&self.of.0)?;
         let openness = openness(height, &landscape.domain, self.directions as usize, job)?;

@@ -89,6 +89,10 @@ impl Step for Sunlight {
         Some((0.0, if layer == "light" { 1.0 } else { f64::INFINITY }))
     }
 
+    fn bytes_per_cell(&self) -> u64 {
+        52
+    }
+
     fn run(&self, landscape: &mut Landscape, job: &Job<'_>) -> Result<Outcome, Error> {
         let (height, domain) = (landscape.field(&self.of.0)?, &landscape.domain);
         let (latitude, notes) = self.latitude(domain);

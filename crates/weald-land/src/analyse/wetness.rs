@@ -73,6 +73,10 @@ impl Step for Wetness {
         Some((f64::NEG_INFINITY, f64::INFINITY))
     }
 
+    fn bytes_per_cell(&self) -> u64 {
+        32
+    }
+
     fn run(&self, landscape: &mut Landscape, _: &Job<'_>) -> Result<Outcome, Error> {
         ensure_finite(landscape, &self.of.0)?;
         let domain = &landscape.domain;

@@ -122,6 +122,10 @@ impl Step for DissolutionStep {
         fault.map(|message| Fault::of("deposit", message)).into_iter().collect()
     }
 
+    fn bytes_per_cell(&self) -> u64 {
+        60
+    }
+
     fn run(&self, landscape: &mut Landscape, job: &Job<'_>) -> Result<Outcome, Error> {
         let materials = &landscape.materials;
         let deposit = deposit_of(self.deposit.as_ref(), materials).map_err(Error::Run)?;

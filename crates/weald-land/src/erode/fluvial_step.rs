@@ -163,6 +163,10 @@ impl Step for Fluvial {
         levels::check(domain, self.grids(domain.cell))
     }
 
+    fn bytes_per_cell(&self) -> u64 {
+        176
+    }
+
     fn run(&self, landscape: &mut Landscape, job: &Job<'_>) -> Result<Outcome, Error> {
         levels::check(&landscape.domain, self.grids(landscape.domain.cell))?;
         let mut outcome = self.run_levels(landscape, job)?;

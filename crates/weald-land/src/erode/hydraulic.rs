@@ -144,6 +144,14 @@ impl Step for Hydraulic {
         self.all_faults_among(materials)
     }
 
+    fn bytes_per_cell(&self) -> u64 {
+        match self.model {
+            Model::Han(_) => 92,
+            Model::Mei(_) => 118,
+            Model::Stava(_) => 142,
+        }
+    }
+
     fn run(&self, landscape: &mut Landscape, job: &Job<'_>) -> Result<Outcome, Error> {
         let filled = self.filled(landscape.domain.cell);
         let working = self.working(landscape, self.edits().is_some())?;

@@ -109,6 +109,10 @@ impl Step for SlippageStep {
         self.within().fault_among(materials).into_iter().collect()
     }
 
+    fn bytes_per_cell(&self) -> u64 {
+        44
+    }
+
     fn run(&self, landscape: &mut Landscape, job: &Job<'_>) -> Result<Outcome, Error> {
         let planes = Planes { first_layer: 1, materials: landscape.materials.len() };
         let slippage = self.within().slippage(&landscape.materials, planes)?;

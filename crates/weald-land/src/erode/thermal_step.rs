@@ -79,6 +79,10 @@ impl Step for Thermal {
         u64::from(self.iterations)
     }
 
+    fn bytes_per_cell(&self) -> u64 {
+        32
+    }
+
     fn run(&self, landscape: &mut Landscape, job: &Job<'_>) -> Result<Outcome, Error> {
         let within = ThermalWithin { scheme: self.scheme, talus: self.talus, strength: self.strength };
         let alone = OnGround { name: "thermal", layer: &self.layer.0, iterations: self.iterations };

@@ -13,6 +13,7 @@ mod ground;
 mod layer_file;
 mod layer_output;
 pub mod load;
+mod memory;
 mod migrate;
 mod overrides;
 mod plan;
@@ -29,6 +30,7 @@ mod written_layers;
 
 pub use checkpoint::CHECKPOINT_FILE;
 pub use fractal::FractalRequest;
+pub use memory::Memory;
 pub use migrate::{Migrated, migrate};
 pub use overrides::Overrides;
 pub use plan::{

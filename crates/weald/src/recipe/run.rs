@@ -108,7 +108,9 @@ impl Run<'_> {
 
     fn prepare(&self, progress: &dyn Progress) -> Result<WorkFolder, Error> {
         let (place, notes) = folder::prepare(self.recipe, &self.options.out)?;
-        notes.iter().for_each(|note| progress.note(note));
+        for note in &notes {
+            progress.note(note);
+        }
         Ok(place)
     }
 
@@ -143,7 +145,7 @@ impl Run<'_> {
             let path = path.display();
             progress.note(&format!("starting anew; the checkpoint {path} is used with --resume only"));
         }
-        let (landscape, notes) = inputs::start(self.recipe)?;
+        let (landscape, notes) = inputs::start(self.recipe, self.options.memory)?;
         for note in &notes {
             progress.note(note);
         }

@@ -90,6 +90,10 @@ impl Step for RiversStep {
         })
     }
 
+    fn bytes_per_cell(&self) -> u64 {
+        36
+    }
+
     fn run(&self, landscape: &mut Landscape, _: &Job<'_>) -> Result<Outcome, Error> {
         let domain = &landscape.domain;
         let directions = Directions::of(landscape.field("flow_direction")?, domain.valid.as_ref())?;

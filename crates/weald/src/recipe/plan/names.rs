@@ -1,5 +1,6 @@
 //! Names of all files that a run writes, by the recipe alone: what would overwrite what is told before anything runs.
 
+use std::ffi::OsStr;
 use std::fmt::{Display, Formatter};
 use std::path::{Path, PathBuf};
 
@@ -174,7 +175,7 @@ fn fault(name: &Name) -> Option<String> {
     if top.is_some_and(|top| own.iter().any(|own| top == Path::new(own))) {
         return Some(format!("would write {shown}, a name that every run uses itself"));
     }
-    let longest = path.iter().map(|part| part.len()).max().unwrap_or_default();
+    let longest = path.iter().map(OsStr::len).max().unwrap_or_default();
     if longest > MAX_NAME || path.as_os_str().len() > MAX_PATH {
         return Some(format!(
             "would write {shown}, which is too long: a name has at most {MAX_NAME} bytes, a path {MAX_PATH}"

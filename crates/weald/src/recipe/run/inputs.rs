@@ -5,30 +5,34 @@ use std::path::Path;
 
 use super::video;
 use crate::recipe::ground;
+use crate::recipe::memory::Memory;
 use crate::recipe::plan::{Ground, Output, Recipe};
 use weald_core::error::Error;
 use weald_core::landscape::Landscape;
 
 impl Recipe {
     /// What only files tell before a run: whether all that the recipe names are there and of use, and whether the steps and
-    /// outputs can work on the grid that the elevation model has. The texts are what a run would tell.
+    /// outputs can work on the grid that the elevation model has. Gives what a run would tell, and the memory that it would
+    /// take.
     ///
     /// # Errors
     /// [`Error::Input`] for a file, and as [`Recipe::parse`] for what does not go with the grid.
-    pub fn look_ahead(&self) -> Result<Vec<String>, Error> {
-        start(self).map(|(_, notes)| notes)
+    pub fn look_ahead(&self) -> Result<(Vec<String>, Memory), Error> {
+        let (landscape, notes) = start(self, Some(u64::MAX))?;
+        Ok((notes, self.memory(&landscape.domain)))
     }
 }
 
 /// The landscape before the first step, once all that can be told before it is right; the texts tell the user what had
 /// to be done to the files.
-pub(super) fn start(recipe: &Recipe) -> Result<(Landscape, Vec<String>), Error> {
+pub(super) fn start(recipe: &Recipe, memory: Option<u64>) -> Result<(Landscape, Vec<String>), Error> {
     recipe.inputs().iter().try_for_each(|path| open(path, &recipe.place_of(path)))?;
     let (landscape, mut notes) = ground::load(recipe)?;
     ground::check_outputs(recipe, &landscape)?;
     if matches!(recipe.ground, Ground::File { .. }) {
         recipe.check_on(&landscape.domain)?;
     }
+    recipe.ensure_memory(&landscape.domain, memory)?;
     let (steps, _) = recipe.grids(&landscape.domain);
     steps.iter().try_for_each(|(planned, grid)| planned.step.look_ahead(&landscape.materials, grid))?;
     notes.extend(recipe.outputs.iter().filter(|output| output.is_video()).find_map(video_note));

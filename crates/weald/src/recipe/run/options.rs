@@ -22,6 +22,8 @@ pub struct Options {
     pub resume: bool,
     /// Whether `report.json` is written beside the outputs.
     pub report: bool,
+    /// Most memory that a run may take, in bytes; all that is free where none is given.
+    pub memory: Option<u64>,
     /// What draws the pictures of kind `render`.
     pub render: Option<Arc<dyn RenderDevice>>,
 }
@@ -37,6 +39,7 @@ impl Options {
             checkpoint_every,
             resume: false,
             report: true,
+            memory: None,
             render: None,
         }
     }

@@ -332,6 +332,7 @@ fn a_second_run_into_a_folder_is_told_who_has_it_and_one_after_the_end_of_the_fi
     // What a killed run leaves is a lock file that nobody holds.
     std::fs::create_dir_all(out.path().join(".weald/new/old")).expect("made");
     std::fs::write(out.path().join(".weald/lock"), "process 1").expect("written");
+    std::fs::write(out.path().join(".weald/journal.json.1.tmp-weald"), "{").expect("written");
     run(RECIPE, out.path(), false, &Silent).expect("runs");
     assert_eq!(files_in(out.path()), ["deep", "dot.png", "report.json"]);
 }
@@ -472,4 +473,23 @@ fn a_checkpoint_whose_frames_are_gone_is_refused_and_those_of_another_recipe_sta
     assert!(error.contains("rise-00001.png is gone; run without --resume"), "{error}");
     run(FILMS, out.path(), false, &Silent).expect("starts anew");
     assert!(!out.path().join(".weald").exists());
+}
+
+#[test]
+fn a_run_that_would_take_more_memory_than_is_allowed_does_not_start() {
+    let out = folder();
+    let recipe = parse(RECIPE).expect("good");
+    let options = Options { memory: Some(1 << 20), ..Options::into_folder(out.path()) };
+    let error = Run { recipe: &recipe, options }.execute(&Silent).expect_err("a mebibyte is too little");
+    assert_eq!(error.exit_code(), 5);
+    let message = error.to_string();
+    assert!(
+        message.contains("of memory, at most 1.0 MiB are allowed") && message.contains("--memory"),
+        "{message}"
+    );
+    assert_eq!(files_in(out.path()), ["deep"], "nothing was made");
+    // No machine has the memory of the greatest grid with so many layers in a limited address space.
+    let whole = parse(&RECIPE.replace("[9, 7]", "16384")).expect("good");
+    let domain = weald_core::Domain::new(weald_core::Size::square(16384).expect("the greatest"), 1.0);
+    assert!(whole.memory(&domain).bytes > 3 << 30);
 }

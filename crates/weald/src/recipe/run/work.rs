@@ -69,6 +69,7 @@ impl WorkFolder {
         let mut this = Self { out: out.to_owned(), new, lock, leaves: Leaves::Frames, finished: None };
         this.finished = this.finish_journal()?;
         this.remove(OLD)?;
+        this.remove_half_written()?;
         // Frames go with a checkpoint; what a fresh run draws of the same recipe are the same frames.
         if !out.join(CHECKPOINT_FILE).exists() {
             this.remove_all_made()?;
@@ -79,6 +80,16 @@ impl WorkFolder {
 
     fn inside(&self, name: &str) -> PathBuf {
         self.out.join(WORK_FOLDER).join(name)
+    }
+
+    /// Removes what a run was writing here when it was killed: a journal that was not whole.
+    fn remove_half_written(&self) -> Result<(), Error> {
+        let folder = self.out.join(WORK_FOLDER);
+        let entries = fs::read_dir(&folder).map_err(|cause| Error::write(&folder, &cause))?;
+        let files = entries.flatten().filter(|entry| entry.path().is_file() && entry.file_name() != LOCK);
+        files.into_iter().try_for_each(|entry| {
+            fs::remove_file(entry.path()).map_err(|cause| Error::write(&entry.path(), &cause))
+        })
     }
 
     /// Removes what runs made that did not come to their ends.

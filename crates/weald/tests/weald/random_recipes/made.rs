@@ -98,7 +98,7 @@ impl Made {
         );
         if self.dice.one_in(4) {
             for name in ["bedrock", "soil", "sand"].iter().take(1 + self.dice.below(3)) {
-                let _ = write!(self.text, "[[material]]\nname = {name:?}\n");
+                let _ = writeln!(self.text, "[[material]]\nname = {name:?}");
                 if *name != "bedrock" {
                     let _ = writeln!(self.text, "thickness = {}", self.dice.below(5));
                 }
@@ -145,11 +145,11 @@ impl Made {
                     let formats = ["tif", "png", "exr", "raw", "r16", "r32", "asc", "npy", "nc", "zarr"];
                     let format = self.dice.pick(&formats);
                     let layer = self.layer();
-                    let _ = write!(text, "layer = {layer:?}\nfile = \"o{number}.{format}\"\n");
+                    let _ = writeln!(text, "layer = {layer:?}\nfile = \"o{number}.{format}\"");
                 }
                 1 => {
                     let entry = &PICTURES[self.dice.below(PICTURES.len())];
-                    let _ = write!(text, "picture = {:?}\n", entry.name);
+                    let _ = writeln!(text, "picture = {:?}", entry.name);
                     let mut extension = entry.extensions[self.dice.below(entry.extensions.len())];
                     if self.dice.one_in(5) {
                         let films = ["png", "apng"];
@@ -167,7 +167,7 @@ impl Made {
                 _ => {
                     let entry = &EXPORTS[self.dice.below(EXPORTS.len())];
                     let extension = entry.extensions[self.dice.below(entry.extensions.len())];
-                    let _ = write!(text, "export = {:?}\nfile = \"o{number}.{extension}\"\n", entry.name);
+                    let _ = writeln!(text, "export = {:?}\nfile = \"o{number}.{extension}\"", entry.name);
                     self.keys(&mut text, &(entry.parameters)(), attempt);
                 }
             }

@@ -73,7 +73,7 @@ fn files(folder: &Path, below: &Path, found: &mut BTreeMap<String, Vec<u8>>) {
         let name = below.join(entry.file_name());
         if entry.path().is_dir() {
             files(folder, &name, found);
-        } else if !name.extension().is_some_and(|end| end == "html") && name != Path::new("report.json") {
+        } else if name.extension().is_none_or(|end| end != "html") && name != Path::new("report.json") {
             found.insert(name.display().to_string(), std::fs::read(entry.path()).expect("it can be read"));
         }
     }

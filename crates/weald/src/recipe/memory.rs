@@ -1,0 +1,132 @@
+//! How much memory a run takes at its peak, by the recipe and the grid: so much is there before it starts, or it does not
+//! start.
+//!
+//! While a step runs there are the layers that it found twice, since it works on a copy of the landscape, those that it
+//! writes, and what it needs beside them; while an output is made, the layers of the end and what that needs.
+
+use std::collections::BTreeSet;
+use std::fmt::{Display, Formatter};
+
+use super::plan::{Content, Ground, Output, Planned, Recipe};
+use weald_core::domain::Domain;
+use weald_core::error::{Error, Limit, Quantity, bytes_in_words};
+use weald_core::material::layer_names;
+use weald_engine::step::Layered;
+
+/// Bytes of a value of a layer.
+const VALUE: u64 = 4;
+/// What a run takes on the smallest grid: the program, its threads and their stacks.
+const PROGRAM: u64 = 16 << 20;
+
+/// The peak of a run.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Memory {
+    /// Bytes.
+    pub bytes: u64,
+    /// The step or the output at which it is.
+    pub at: String,
+}
+
+impl Display for Memory {
+    fn fmt(&self, formatter: &mut Formatter<'_>) -> std::fmt::Result {
+        write!(formatter, "about {} at {}", bytes_in_words(self.bytes), self.at)
+    }
+}
+
+impl Recipe {
+    /// An estimate of the most memory that a run on this grid takes.
+    pub fn memory(&self, first: &Domain) -> Memory {
+        let mut layers: BTreeSet<String> = BTreeSet::new();
+        layers.extend(matches!(self.ground, Ground::File { .. }).then(|| "height".to_owned()));
+        let files = self.materials.iter().filter(|planned| planned.file.is_some());
+        layers.extend(files.map(|planned| planned.material.name.clone()));
+        let (steps, last) = self.grids(first);
+        let mut peaks = Vec::new();
+        for (number, (planned, grid)) in steps.iter().enumerate() {
+            let found = layers.len() as u64;
+            let written = self.written_by(planned);
+            let next = steps.get(number + 1).map_or(&last, |(_, grid)| grid);
+            let a_cell = VALUE * (found + written.len() as u64) + planned.step.bytes_per_cell();
+            layers.extend(written);
+            let after = VALUE * found * next.size.cells() as u64;
+            let at = format!("step {} (`{}`)", number + 1, planned.entry.name);
+            peaks.push(Memory { bytes: a_cell * grid.size.cells() as u64 + after, at });
+        }
+        let kept = VALUE * layers.len() as u64;
+        for output in &self.outputs {
+            let bytes = (kept + output.bytes_per_cell()) * last.size.cells() as u64 + output.bytes();
+            peaks.push(Memory { bytes, at: output.file.display().to_string() });
+        }
+        let start = Memory { bytes: 0, at: "the start".to_owned() };
+        let peak = peaks.into_iter().max_by_key(|peak| peak.bytes).unwrap_or(start);
+        Memory { bytes: peak.bytes + PROGRAM, ..peak }
+    }
+
+    fn written_by(&self, planned: &Planned) -> BTreeSet<String> {
+        let mut written: BTreeSet<_> = planned.step.writes().into_iter().map(|(name, _)| name).collect();
+        if planned.step.layered() == Layered::Changes {
+            let materials: Vec<_> = self.materials.iter().map(|planned| planned.material.clone()).collect();
+            written.extend(layer_names(&materials).map(str::to_owned));
+        }
+        written
+    }
+
+    /// Refuses a run that would take more memory than there is.
+    ///
+    /// # Errors
+    /// [`Error::Limit`] with what it would take and what is allowed.
+    pub(super) fn ensure_memory(&self, first: &Domain, allowed: Option<u64>) -> Result<(), Error> {
+        let peak = self.memory(first);
+        let there = allowed.or_else(available).unwrap_or(u64::MAX);
+        // An address space that is limited holds less than the memory there is; this takes none of it.
+        let mut probe: Vec<u8> = Vec::new();
+        let has_room = usize::try_from(peak.bytes).is_ok_and(|bytes| probe.try_reserve_exact(bytes).is_ok());
+        if peak.bytes <= there && has_room {
+            return Ok(());
+        }
+        let there = if has_room { there } else { there.min(peak.bytes - 1) };
+        let limit = Limit::new(Quantity::MemoryBytes, peak.bytes, 0..=there);
+        let remedy = "choose a smaller `size`, or, if there is more memory, say so with --memory";
+        Err(limit.of(format!("{}: {}", self.file, peak.at)).remedy(remedy).into())
+    }
+}
+
+impl Output {
+    /// Bytes for a cell of the landscape, beside its layers.
+    fn bytes_per_cell(&self) -> u64 {
+        match &self.content {
+            Content::Layer { .. } => 16,
+            Content::Picture { .. } | Content::Film { .. } => 24,
+            Content::Export { .. } => 48,
+        }
+    }
+
+    /// Bytes whatever the landscape: those of the pixels.
+    fn bytes(&self) -> u64 {
+        let pixels = match &self.content {
+            Content::Picture { picture, .. } | Content::Film { picture, .. } => {
+                picture.as_view().map_or(1 << 20, |view| u64::from(view.width) * u64::from(view.height))
+            }
+            _ => 0,
+        };
+        16 * pixels
+    }
+}
+
+/// Memory that is free or can be freed, in bytes, where the system tells it.
+#[cfg(target_os = "linux")]
+fn available() -> Option<u64> {
+    let number = |path: &str| std::fs::read_to_string(path).ok()?.trim().parse::<u64>().ok();
+    let text = std::fs::read_to_string("/proc/meminfo").ok()?;
+    let line = text.lines().find_map(|line| line.strip_prefix("MemAvailable:"))?;
+    let free = line.trim().trim_end_matches(" kB").parse::<u64>().ok()? << 10;
+    // A container has less than the machine.
+    let most = number("/sys/fs/cgroup/memory.max").zip(number("/sys/fs/cgroup/memory.current"));
+    let left = most.map(|(most, used)| most.saturating_sub(used));
+    Some(left.map_or(free, |left| left.min(free)))
+}
+
+#[cfg(not(target_os = "linux"))]
+fn available() -> Option<u64> {
+    None
+}
