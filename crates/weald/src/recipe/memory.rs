@@ -15,6 +15,10 @@ use weald_engine::step::Layered;
 
 /// Bytes of a value of a layer.
 const VALUE: u64 = 4;
+/// Bytes for a cell of each material above the bedrock in a simulation, as measured with four of them.
+const A_MATERIAL: u64 = 80;
+/// Fewest bytes for a cell of a step that is a simulation with planes of its own.
+const SIMULATION: u64 = 40;
 /// What a run takes on the smallest grid: the program, its threads and their stacks.
 const PROGRAM: u64 = 16 << 20;
 
@@ -46,7 +50,7 @@ impl Recipe {
             let found = layers.len() as u64;
             let written = self.written_by(planned);
             let next = steps.get(number + 1).map_or(&last, |(_, grid)| grid);
-            let a_cell = VALUE * (found + written.len() as u64) + planned.step.bytes_per_cell();
+            let a_cell = VALUE * (found + written.len() as u64) + self.working_bytes(planned);
             layers.extend(written);
             let after = VALUE * found * next.size.cells() as u64;
             let at = format!("step {} (`{}`)", number + 1, planned.entry.name);
@@ -60,6 +64,14 @@ impl Recipe {
         let start = Memory { bytes: 0, at: "the start".to_owned() };
         let peak = peaks.into_iter().max_by_key(|peak| peak.bytes).unwrap_or(start);
         Memory { bytes: peak.bytes + PROGRAM, ..peak }
+    }
+
+    /// Bytes for a cell that a step needs beside layers: a simulation of several materials has planes of each.
+    fn working_bytes(&self, planned: &Planned) -> u64 {
+        let own = planned.step.bytes_per_cell();
+        let simulates = own >= SIMULATION && planned.step.layered() == Layered::Changes;
+        let materials = if simulates { self.materials.len().saturating_sub(1) as u64 } else { 0 };
+        own + A_MATERIAL * materials
     }
 
     fn written_by(&self, planned: &Planned) -> BTreeSet<String> {

@@ -160,6 +160,12 @@ impl Recipe {
         Ok(recipe)
     }
 
+    /// Names of all files that a run may write, beside its report: a line for each, and one for all frames of a film.
+    pub fn names(&self) -> Vec<String> {
+        let names = self.outputs.iter().flat_map(|output| output.names(&self.steps));
+        names.map(|name| name.to_string()).collect()
+    }
+
     /// The recipe in its canonical spelling, after overrides: a recipe that gives the same run.
     pub fn effective(&self) -> &str {
         &self.text

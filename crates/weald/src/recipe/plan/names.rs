@@ -1,10 +1,9 @@
-//! Names of all files that a run writes, by the recipe alone: what would overwrite what is told before anything runs.
+//! Names of all files that a run writes, by the recipe alone: what would overwrite what is known before anything runs.
 
 use std::ffi::OsStr;
 use std::fmt::{Display, Formatter};
 use std::path::{Path, PathBuf};
 
-use super::Recipe;
 use super::films::{Film, Motion};
 use super::outputs::{Content, Output, lower, same_file};
 use super::steps::Planned;
@@ -80,13 +79,13 @@ impl Name {
     }
 }
 
-/// The frame of a film that is a path or that lies on the way to it.
+/// The frame of a film that is a path or that is a folder above it.
 fn frame_at(film: &Path, count: u64, path: &Path) -> Option<PathBuf> {
-    path.ancestors().filter(|way| !way.as_os_str().is_empty()).find_map(|way| {
-        let stem = lower(way).file_stem()?.to_str()?.to_owned();
+    path.ancestors().filter(|part| !part.as_os_str().is_empty()).find_map(|part| {
+        let stem = lower(part).file_stem()?.to_str()?.to_owned();
         let number = stem.rsplit_once('-')?.1.parse().ok().filter(|number| *number < count)?;
         let frame = Film::frame(film, number);
-        same_file(&frame, way).then_some(frame)
+        same_file(&frame, part).then_some(frame)
     })
 }
 
@@ -115,14 +114,6 @@ impl Output {
         let folder = inside.min_by_key(|part| part.path(&self.file).components().count());
         let beside = parts.iter().filter(|part| !matches!(part, PartName::Inside(_)));
         beside.chain(folder).map(|part| Name::of(part, &self.file)).collect()
-    }
-}
-
-impl Recipe {
-    /// Names of all files that a run may write, beside its report: a line for each, and one for all frames of a film.
-    pub fn names(&self) -> Vec<String> {
-        let names = self.outputs.iter().flat_map(|output| output.names(&self.steps));
-        names.map(|name| name.to_string()).collect()
     }
 }
 

@@ -425,13 +425,13 @@ fn a_checkpoint_that_cannot_be_written_is_told_and_the_run_goes_on() {
     let (out, whole) = (folder(), folder());
     run(RECIPE, whole.path(), false, &Silent).expect("runs");
     let recipe = parse(RECIPE).expect("good");
-    let heard = NoRoom { out: out.path(), notes: std::sync::Mutex::default() };
+    let calls = NoRoom { out: out.path(), notes: std::sync::Mutex::default() };
     let options = Options { checkpoint_every: Duration::ZERO, ..Options::into_folder(out.path()) };
-    let ended = Run { recipe: &recipe, options }.execute(&heard);
+    let ended = Run { recipe: &recipe, options }.execute(&calls);
     // The folder in its place cannot be removed as a checkpoint is; all files are whole by then.
     assert!(ended.expect_err("a folder").to_string().contains("the run is done"));
     assert_eq!(height(out.path()), height(whole.path()));
-    let notes = heard.notes.into_inner().expect("whole").join("\n");
+    let notes = calls.notes.into_inner().expect("whole").join("\n");
     assert!(notes.contains("no checkpoint: cannot write") && notes.contains("the run goes on"), "{notes}");
 }
 
@@ -443,9 +443,9 @@ fn temporary_files_of_killed_runs_are_removed_and_told() {
     for name in &left {
         std::fs::write(out.path().join(name), "half").expect("written");
     }
-    let heard = Hears::default();
-    run(RECIPE, out.path(), false, &heard).expect("runs");
-    assert!(heard.0.lock().expect("whole").concat().contains("2 temporary files"));
+    let calls = Hears::default();
+    run(RECIPE, out.path(), false, &calls).expect("runs");
+    assert!(calls.0.lock().expect("whole").concat().contains("2 temporary files"));
     assert!(left.iter().all(|name| !out.path().join(name).exists()));
 }
 

@@ -18,14 +18,14 @@ use weald::recipe::{Options, Overrides, Progress, Recipe, Report, Run};
 /// Recipes of the short version.
 const FEW: u64 = 40;
 /// Seconds after which a run is ended; it then proves nothing.
-const PATIENCE: u64 = 5;
+const TIMEOUT: u64 = 5;
 
 /// Ends a run that takes too long.
 struct Patience(Instant);
 
 impl Progress for Patience {
     fn cancelled(&self) -> bool {
-        self.0.elapsed() > Duration::from_secs(PATIENCE)
+        self.0.elapsed() > Duration::from_secs(TIMEOUT)
     }
 }
 
