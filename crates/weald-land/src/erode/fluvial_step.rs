@@ -164,7 +164,7 @@ impl Step for Fluvial {
     }
 
     fn bytes_per_cell(&self) -> u64 {
-        176
+        300
     }
 
     fn run(&self, landscape: &mut Landscape, job: &Job<'_>) -> Result<Outcome, Error> {

@@ -16,7 +16,7 @@ use weald_engine::step::Layered;
 /// Bytes of a value of a layer.
 const VALUE: u64 = 4;
 /// Bytes for a cell of each material above the bedrock in a simulation, as measured with four of them.
-const A_MATERIAL: u64 = 80;
+const A_MATERIAL: u64 = 40;
 /// Fewest bytes for a cell of a step that is a simulation with planes of its own.
 const SIMULATION: u64 = 40;
 /// What a run takes on the smallest grid: the program, its threads and their stacks.
