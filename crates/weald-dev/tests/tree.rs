@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-const MAX_FILES: usize = 1_200;
+const MAX_FILES: usize = 1_600;
 const MAX_BYTES: u64 = 20_000_000;
 
 /// Folders that git ignores, for where there is no git to ask.

@@ -40,6 +40,11 @@ pub fn classes(landscape: &Landscape, layer: &str) -> Result<Option<Classes>, Er
     Ok(Some(Classes { named, greatest }))
 }
 
+/// Whether the values of a layer of this name may stand for things.
+pub fn is_of_classes(layer: &str) -> bool {
+    [DIRECTIONS, "river", "strahler", "lake", "watershed", "material"].contains(&layer)
+}
+
 /// The numbers of the directions of flow.
 pub fn directions(codes: DirectionCodes) -> Classes {
     const NAMES: [&str; 8] =
@@ -106,6 +111,17 @@ mod tests {
     use super::*;
     use weald_core::domain::Domain;
     use weald_core::grid::{Mask, Size};
+
+    #[test]
+    fn a_layer_has_classes_only_under_a_name_that_may() {
+        let names = [DIRECTIONS, "river", "strahler", "lake", "watershed", "material", "height", "rivers"];
+        for name in names {
+            let mut land = Landscape::new(Domain::new(Size::square(2).expect("small"), 1.0));
+            land.insert(name, "1", Field::filled(land.domain.size, 1.0));
+            let has = classes(&land, name).expect("is there").is_some();
+            assert_eq!(has, is_of_classes(name), "{name}");
+        }
+    }
 
     #[test]
     fn layers_of_numbers_have_names_and_measures_have_none() {

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use super::parts::{Part, PartName, Parts};
-use super::{Fault, Limits, Raster};
+use super::{Classes, Fault, Limits, Raster};
 use weald_core::domain::Georeference;
 use weald_core::error::Error;
 use weald_core::grid::{Field, Size};
@@ -41,12 +41,13 @@ impl Encode {
         }
     }
 
-    /// Names of all files that it may write, whatever the raster: those of two small ones, with a CRS and without, so
-    /// that no format has to say them a second time.
-    pub fn names(self) -> Vec<PartName> {
+    /// Names of all files that it may write of a raster of numbers, or of `classes`: those of two small ones, with a CRS
+    /// and without, so that no format has to say them a second time.
+    pub fn names(self, classes: bool) -> Vec<PartName> {
         let small = |georeference| Raster {
             georeference,
             cell: Some(1.0),
+            classes: classes.then(|| Classes { named: Vec::new(), greatest: 2 }),
             ..Raster::from(Field::from_function(Size { columns: 2, rows: 2 }, |x, y| (x + y) as f32))
         };
         let place = Georeference { epsg: Some(32633), origin: [5.0e5, 4.0e6], pixel: [1.0; 2], keys: None };

@@ -11,7 +11,7 @@ use super::plan::{Content, Ground, Output, Planned, Recipe};
 use weald_core::domain::Domain;
 use weald_core::error::{Error, Limit, Quantity, bytes_in_words};
 use weald_core::material::layer_names;
-use weald_engine::step::Layered;
+use weald_engine::step::{Layered, Stage};
 
 /// Bytes of a value of a layer.
 const VALUE: u64 = 4;
@@ -45,7 +45,7 @@ impl Recipe {
         let files = self.materials.iter().filter(|planned| planned.file.is_some());
         layers.extend(files.map(|planned| planned.material.name.clone()));
         let (steps, last) = self.grids(first);
-        let mut peaks = Vec::new();
+        let mut peaks: Vec<Memory> = self.finest_ground(first).into_iter().collect();
         for (number, (planned, grid)) in steps.iter().enumerate() {
             let found = layers.len() as u64;
             let written = self.written_by(planned);
@@ -64,6 +64,17 @@ impl Recipe {
         let start = Memory { bytes: 0, at: "the start".to_owned() };
         let peak = peaks.into_iter().max_by_key(|peak| peak.bytes).unwrap_or(start);
         Memory { bytes: peak.bytes + PROGRAM, ..peak }
+    }
+
+    /// What ground takes that is generated on a finer grid than the landscape's: its heights, and half as many twice.
+    fn finest_ground(&self, first: &Domain) -> Option<Memory> {
+        let generates = |planned: &Planned| planned.entry.stage == Stage::Generate;
+        let generator = self.steps.iter().find(|planned| generates(planned))?;
+        let cells = first.finest?.cells() as u64;
+        Some(Memory {
+            bytes: 2 * VALUE * cells,
+            at: format!("`{}` on the finest grid", generator.entry.name),
+        })
     }
 
     /// Bytes for a cell that a step needs beside layers: a simulation of several materials has planes of each.

@@ -154,7 +154,7 @@ impl Recipe {
             return Err(RecipeError { file: file.to_owned(), diagnostics: diagnostics.found }.into());
         }
         let recipe = recipe?;
-        if let Ground::Empty { size, cell } = recipe.ground {
+        if let Ground::Empty { size, cell, .. } = recipe.ground {
             recipe.check_on(&Domain::new(size, cell))?;
         }
         Ok(recipe)

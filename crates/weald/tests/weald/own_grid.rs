@@ -154,3 +154,21 @@ fn gdal_finds_the_grid_the_classes_and_the_smaller_images() {
     let style = std::fs::read_to_string(folder.path().join("river.qml")).expect("a style beside it");
     assert!(style.contains("type=\"paletted\"") && style.contains("label=\"river\""), "{style}");
 }
+
+#[test]
+fn what_lies_beside_classes_is_told_and_kept_apart() {
+    let names = |outputs: &str| {
+        let text = format!(
+            "[landscape]\nsize = 16\ncell = 10\n[[step]]\ndo = \"fbm\"\n[[step]]\ndo = \"flow\"\n{outputs}"
+        );
+        Recipe::parse("r.toml", &text, &Overrides::default()).map(|recipe| recipe.names())
+    };
+    let output = |layer: &str, file: &str| format!("[[output]]\nlayer = \"{layer}\"\nfile = \"{file}\"\n");
+    let classes = names(&output("flow_direction", "d.tif")).expect("good");
+    assert!(classes.iter().any(|name| name == "d.qml"), "{classes:?}");
+    assert_eq!(names(&output("height", "h.tif")).expect("good"), ["h.tif"]);
+    let both = output("flow_direction", "d.tif")
+        + &output("flow_direction", "d.nc.tif").replace("d.nc.tif", "d.tiff");
+    let message = names(&both).expect_err("both have d.qml").to_string();
+    assert!(message.contains("would write d.qml"), "{message}");
+}

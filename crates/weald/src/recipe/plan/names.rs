@@ -9,6 +9,7 @@ use super::outputs::{Content, Output, lower, same_file};
 use super::steps::Planned;
 use crate::recipe::{CHECKPOINT_FILE, REPORT_FILE};
 use weald_core::parameter::Diagnostics;
+use weald_export::classes::is_of_classes;
 use weald_io::PartName;
 
 /// Folder inside the output folder in which a run makes its files before it gives them their names.
@@ -94,7 +95,7 @@ impl Output {
     pub(in crate::recipe) fn names(&self, steps: &[Planned]) -> Vec<Name> {
         let own = || Name::File(self.file.clone());
         match &self.content {
-            Content::Layer { encode, .. } => self.parts(&encode.names()),
+            Content::Layer { name, encode, .. } => self.parts(&encode.names(is_of_classes(name))),
             Content::Export { export, .. } => self.parts(&export.names(&self.file)),
             Content::Picture { .. } => vec![own()],
             Content::Film { film, .. } => {
