@@ -185,7 +185,8 @@ impl Courses<'_> {
         line.extend(end);
         self.tighten(&mut line, end.is_some());
         if let Some((other, _)) = piece.joins {
-            cut_where_they_meet(&mut line, &self.lines[other]);
+            let other: Vec<_> = self.lines[other].iter().map(|reach| reach.place).collect();
+            cut_where_they_meet(&mut line, &other);
         }
         let arrives = end.or_else(|| run_out(&line, flow.size)).is_some();
         if !arrives && line.len() < SHORTEST_ALONE {

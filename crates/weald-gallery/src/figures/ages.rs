@@ -11,11 +11,13 @@ pub(super) const FIGURE: Figure = Figure {
     title: "A longer run",
     source: "Han 2015, doi 10.7583/JKGS.2015.15.6.171, Fig. 7",
     shows: "The longer the simulation runs, the wider the rivers, and the simpler their tributaries.",
-    seconds: 16,
+    seconds: 32,
     make: Make::Alone(make),
 };
 
-const SEEDS: [u64; 2] = [3, 7];
+/// Those of the first two are drawn; what all four show decides.
+const SEEDS: [u64; 4] = [3, 7, 11, 19];
+const DRAWN: usize = 2;
 
 fn make(job: GalleryJob) -> Result<FigureOutput, Error> {
     let ages = job.choose([2400, 4800, 9600], [120, 240, 480]);
@@ -29,7 +31,8 @@ fn make(job: GalleryJob) -> Result<FigureOutput, Error> {
         |name, what: &str, draw: fn(&Landscape, u32) -> Result<Image, Error>| -> Result<Plate, Error> {
             let [young, middle, old] = ages;
             let caption = format!("{what} after {young}, {middle} and {old} steps; seed 3 above, 7 below");
-            let image = views::sheet(&runs, ages.len(), |landscape| draw(landscape, width))?;
+            let drawn = &runs[..DRAWN * ages.len()];
+            let image = views::sheet(drawn, ages.len(), |landscape| draw(landscape, width))?;
             Ok(Plate { name, caption, image })
         };
     Ok(FigureOutput {
@@ -86,21 +89,22 @@ fn claims(runs: &[FinishedRun], ages: usize) -> Vec<Claim> {
     let young_and_old = || seeds.iter().map(|runs| [&runs[0], &runs[ages - 1]]);
     let valleys = young_and_old().all(|[young, old]| form(young)[1] < form(old)[1]);
     let rivers = young_and_old().all(|[young, old]| river(young) < river(old));
-    let fewer = young_and_old().all(|[young, old]| young.measures.heads > old.measures.heads);
+    let mut fewer = young_and_old().map(|[young, old]| young.measures.heads > old.measures.heads);
+    let (always, sometimes) = (fewer.clone().all(|it| it), fewer.any(|it| it));
     vec![
         Claim::new(
             "The longer the run, the wider the rivers",
             Verdict::under("of valleys, not of the water in them", valleys, valleys && rivers),
             format!(
-                "on the two seeds rivers are {} and valleys {} cells wide",
+                "on the four seeds rivers are {} and valleys {} cells wide",
                 rows(&|ran| format!("{:.2}", river(ran))),
                 rows(&|ran| format!("{:.1}", form(ran)[1]))
             ),
         ),
         Claim::new(
             "The longer the run, the simpler the tributaries",
-            Verdict::of(fewer),
-            format!("channel heads {} on the two seeds", rows(&|ran| ran.measures.heads.to_string())),
+            Verdict::under("on some seeds, not on all", sometimes, always),
+            format!("channel heads {} on the four seeds", rows(&|ran| ran.measures.heads.to_string())),
         ),
     ]
 }

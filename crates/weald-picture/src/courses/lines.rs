@@ -1,6 +1,5 @@
 //! Points and lines on a grid: where they meet, leave it, and lie near.
 
-use super::Reach;
 use weald_core::grid::Size;
 
 /// Distance in cells within which a river joins another, or cuts off a loop of its own.
@@ -13,9 +12,9 @@ pub(super) const RIM: usize = 2;
 const FARTHEST: f32 = 1.0;
 
 /// Ends a line where it first meets another.
-pub(super) fn cut_where_they_meet(line: &mut Vec<[f32; 2]>, other: &[Reach]) {
+pub(super) fn cut_where_they_meet(line: &mut Vec<[f32; 2]>, other: &[[f32; 2]]) {
     let meets = |at: usize| {
-        let pieces = other.windows(2).map(|pair| [pair[0].place, pair[1].place]);
+        let pieces = other.windows(2).map(|pair| [pair[0], pair[1]]);
         pieces.filter_map(|piece| meeting([line[at], line[at + 1]], piece)).min_by(f32::total_cmp)
     };
     if let Some((at, share)) = (0..line.len() - 1).find_map(|at| Some((at, meets(at)?))) {

@@ -147,8 +147,8 @@ mod tests {
         // Out to all sides.
         let spring = Discharge::of([1.0, -1.0, 1.0, -1.0], [0.0; 4]).occupied(1.0, 0.3);
         assert!((spring - 0.5 * 0.3 * 2.0_f32.sqrt()).abs() < 1e-6, "{spring}");
-        let half_way = Discharge::of([0.0, 1.0, 0.0, 0.0], [1.0, 0.0, 0.0, 0.0]).occupied(1.0, 0.3);
-        assert!((half_way - 0.3 * 1.25_f32.sqrt()).abs() < 1e-6, "{half_way}");
+        let between = Discharge::of([0.0, 1.0, 0.0, 0.0], [1.0, 0.0, 0.0, 0.0]).occupied(1.0, 0.3);
+        assert!((between - 0.3 * 1.25_f32.sqrt()).abs() < 1e-6, "{between}");
     }
 
     #[test]
