@@ -191,6 +191,32 @@ fn every_generator_of_the_catalogue_fills_a_single_cell_and_a_single_row() {
     }
 }
 
+#[test]
+fn every_generator_of_the_catalogue_makes_a_coarse_ground_of_the_means_of_the_finest() {
+    let finest = Size::new(96, 64).expect("small");
+    for entry in CATALOG.iter().filter(|entry| entry.stage == Stage::Generate) {
+        let table = source::parse("recipe", "").expect("empty");
+        let step = (entry.read)(&table, &mut Diagnostics::default());
+        let made = |every: usize| {
+            let cell = 40.0 * every as f64;
+            let domain = Domain { finest: Some(finest), ..domain(96 / every, 64 / every, cell) };
+            let mut landscape = Landscape::new(domain);
+            step.run(&mut landscape, &Job::unwatched(3)).expect("runs");
+            landscape.field("height").expect("written").clone()
+        };
+        let [fine, coarse] = [1, 4].map(made);
+        let (low, high) = fine.range(None).expect("cells");
+        let mean = |x: usize, y: usize| {
+            let cells = (0..16).map(|at| f64::from(fine.at(4 * x + at % 4, 4 * y + at / 4)));
+            cells.sum::<f64>() / 16.0
+        };
+        for (x, y) in (0..24).flat_map(|x| (0..16).map(move |y| (x, y))) {
+            let off = (mean(x, y) - f64::from(coarse.at(x, y))).abs();
+            assert!(off <= 1e-5 * f64::from(high - low), "{}: {off} m at {x}, {y}", entry.name);
+        }
+    }
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(48))]
 
