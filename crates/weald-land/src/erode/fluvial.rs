@@ -17,9 +17,9 @@
 //! does along an axis. `deepest` bounds the speed of waves, and with it the step `dt = C l / √(g deepest)`; deeper
 //! water flows as if it were that deep.
 //!
-//! *Channels* are `k √Q` wide (Leopold and Maddock 1953), and as long in a cell as their water is displaced in it. Where that is less than their cell, water is that much
-//! deeper than on the mean of the cell, and its power acts on that much less ground. A sheet gathers in channels some
-//! metres apart, whatever the cell.
+//! *Channels* are `k √Q` wide (Leopold and Maddock 1953), and as long in a cell as their water is displaced in it. Where
+//! that is less than their cell, water is that much deeper than on the mean of the cell, and its power acts on that much
+//! less ground. A sheet gathers in channels some metres apart, whatever the cell.
 //!
 //! *Ground.* Unit stream power `ω = Σ f ΔH / width` (of the outflows, with the surface of the water: still water takes
 //! nothing up, and no pit digs itself) takes up `K (ω - ω_c)`; sediment settles with `v_s C` (Davy and Lague 2009, doi
