@@ -27,8 +27,8 @@ pub struct Landscape {
     pub domain: Domain,
     /// What the ground is made of, bedrock first: 1 to [`MAX_MATERIALS`](crate::material::MAX_MATERIALS).
     pub materials: Vec<Material>,
-    layers: BTreeMap<String, Layer>,
-    /// Shared, because each step works on a copy of the landscape.
+    /// Layers and plants are shared: each step works on a copy of the landscape, and most of them stay as they are.
+    layers: BTreeMap<String, Arc<Layer>>,
     plants: BTreeMap<String, Arc<Plants>>,
     attachments: Attachments,
 }
@@ -47,7 +47,7 @@ impl Landscape {
     /// If the field's size is not the domain's: a bug of the caller.
     pub fn insert(&mut self, name: &str, unit: &str, field: Field) {
         assert_eq!(field.size(), self.domain.size, "a layer has the size of its domain");
-        self.layers.insert(name.to_owned(), Layer { unit: unit.to_owned(), field });
+        self.layers.insert(name.to_owned(), Arc::new(Layer { unit: unit.to_owned(), field }));
     }
 
     /// The layer of that name.
@@ -55,7 +55,7 @@ impl Landscape {
     /// # Errors
     /// [`Error::Run`] naming the layers that exist.
     pub fn layer(&self, name: &str) -> Result<&Layer, Error> {
-        self.layers.get(name).ok_or_else(|| {
+        self.layers.get(name).map(Arc::as_ref).ok_or_else(|| {
             let known: Vec<_> = self.layers.keys().map(String::as_str).collect();
             Error::Run(format!("there is no layer `{name}`; the landscape has: {}", known.join(", ")))
         })
@@ -71,12 +71,12 @@ impl Landscape {
 
     /// Takes a layer out.
     pub fn remove(&mut self, name: &str) -> Option<Layer> {
-        self.layers.remove(name)
+        self.layers.remove(name).map(Arc::unwrap_or_clone)
     }
 
     /// All layers in the order of their names.
     pub fn layers(&self) -> impl Iterator<Item = (&str, &Layer)> {
-        self.layers.iter().map(|(name, layer)| (name.as_str(), layer))
+        self.layers.iter().map(|(name, layer)| (name.as_str(), layer.as_ref()))
     }
 
     /// Adds or replaces plants.

@@ -18,7 +18,7 @@ mod variants;
 
 pub use check::{check_file, check_keys, without_effect};
 pub use colour::Colour;
-pub use declaration::{Choice, Legal, ParameterValue, Parameters, key, keys_of, read_key};
+pub use declaration::{Choice, Legal, ParameterValue, Parameters, change_key, key, keys_of, read_key};
 pub use diagnostics::{Diagnostics, nearest, synonym};
 pub use fault::Fault;
 pub use file::{CrsCode, FlameFile, RasterFile, ScriptFile};

@@ -5,6 +5,7 @@
 //! cluster do. Both call the same time block, and give the same bits.
 
 use std::ops::Range;
+use std::sync::Arc;
 
 use rayon::prelude::*;
 
@@ -12,8 +13,8 @@ use crate::stencil::chain::{Chain, Process, RowSums, SUMS, TimeBlock};
 use crate::stencil::rows::{Layout, Rows, first_not_finite};
 
 /// A simulation's rows, bands and sums.
-pub struct BandedGrid<'a, P: Process> {
-    process: &'a P,
+pub struct BandedGrid<P: Process> {
+    process: Arc<P>,
     layout: Layout,
     rows: usize,
     bands: Vec<Band<P>>,
@@ -37,25 +38,26 @@ struct Band<P: Process> {
     sums: Vec<RowSums>,
 }
 
-impl<'a, P: Process> BandedGrid<'a, P> {
+impl<P: Process> BandedGrid<P> {
     /// A world over `state`, whose layout holds state planes and then constant planes: in that many bands that
     /// own their memory, or one a thread that share it. Sums count the cells of `columns` alone.
-    pub fn new(process: &'a P, state: Rows, bands: Option<usize>, columns: Range<usize>) -> Self {
+    pub fn new(process: &Arc<P>, state: Rows, bands: Option<usize>, columns: Range<usize>) -> Self {
         let rows = state.count();
         let owned = bands.is_some();
         let wanted = bands.unwrap_or_else(rayon::current_num_threads);
         let count = wanted.clamp(1, (rows / process.reach()).max(1));
-        let block = steps_per_time_block(process, rows / count);
+        let block = steps_per_time_block(&**process, rows / count);
         let bands = (0..count)
             .map(|band| Band {
                 own: rows * band / count..rows * (band + 1) / count,
                 memory: Vec::new(),
                 above: Vec::new(),
                 below: Vec::new(),
-                chain: Chain::new(process, state.layout.columns, block),
+                chain: Chain::new(&**process, state.layout.columns, block),
                 sums: vec![[0.0; SUMS]; rows * (band + 1) / count - rows * band / count],
             })
             .collect();
+        let process = Arc::clone(process);
         let mut world =
             Self { process, layout: state.layout, rows, bands, block, owned, columns, shared: state };
         world.deal_out();
@@ -70,6 +72,42 @@ impl<'a, P: Process> BandedGrid<'a, P> {
     /// Counts the sums of these columns alone from now on.
     pub fn count_columns(&mut self, columns: Range<usize>) {
         self.columns = columns;
+    }
+
+    /// The memory that holds row `y` with all its planes.
+    pub fn row(&self, y: usize) -> &[f32] {
+        let length = self.layout.row_length();
+        let (memory, y) = match self.bands.iter().find(|band| self.owned && band.own.contains(&y)) {
+            Some(band) => (&band.memory, y - band.own.start),
+            None => (&self.shared.memory, y),
+        };
+        &memory[y * length..][..length]
+    }
+
+    /// The same, to be changed.
+    pub fn row_mut(&mut self, y: usize) -> &mut [f32] {
+        let length = self.layout.row_length();
+        let owned = self.owned;
+        let (memory, y) = match self.bands.iter_mut().find(|band| owned && band.own.contains(&y)) {
+            Some(band) => (&mut band.memory, y - band.own.start),
+            None => (&mut self.shared.memory, y),
+        };
+        &mut memory[y * length..][..length]
+    }
+
+    /// How a row lies in memory.
+    pub fn layout(&self) -> Layout {
+        self.layout
+    }
+
+    /// Columns of which sums are counted.
+    pub fn columns(&self) -> Range<usize> {
+        self.columns.clone()
+    }
+
+    /// How many bands own their memory; `None` where they share it.
+    pub fn owners(&self) -> Option<usize> {
+        self.owned.then_some(self.bands.len())
     }
 
     /// Replaces the state; sums stay.
@@ -186,7 +224,7 @@ impl<'a, P: Process> BandedGrid<'a, P> {
     }
 
     fn pass(&mut self, weather: &[P::Weather]) {
-        let (process, layout) = (self.process, self.layout);
+        let (process, layout) = (&*self.process, self.layout);
         let length = layout.row_length();
         let mut rest = self.shared.memory.as_mut_slice();
         let mut work = Vec::with_capacity(self.bands.len());

@@ -1,26 +1,39 @@
 //! A simulation on the CPU: the world in bands, and the means over its recorded steps.
 
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
 use super::bands::BandedGrid;
+use super::device::Window;
 use super::machine::{Machine, Means, Snapshot};
+use super::patch::{Patch, Patched};
 use crate::stencil::chain::Process;
 use weald_core::error::Error;
 
 /// The state of a simulation on the CPU.
-pub(crate) struct CpuMachine<'a, P: Process> {
-    process: &'a P,
-    world: BandedGrid<'a, P>,
-    parts: Means<'a>,
+pub(crate) struct CpuMachine<P: Process> {
+    process: Arc<P>,
+    world: BandedGrid<P>,
+    parts: Means<'static>,
     means: Vec<Vec<f32>>,
     kept: Snapshot,
+    /// Copies by their numbers.
+    copies: BTreeMap<u64, Snapshot>,
 }
 
-impl<'a, P: Process> CpuMachine<'a, P> {
+impl<P: Process> CpuMachine<P> {
     /// In one band a thread, or in bands that own their memory.
-    pub(crate) fn new(process: &'a P, parts: Means<'a>, start: &Snapshot, bands: Option<usize>) -> Self {
+    pub(crate) fn new(
+        process: &Arc<P>,
+        parts: Means<'static>,
+        start: &Snapshot,
+        bands: Option<usize>,
+    ) -> Self {
         let columns = 0..start.state.layout.columns;
         let mut world = BandedGrid::new(process, start.state.clone(), bands, columns);
         world.set_row_sums(&start.row_sums);
-        Self { process, world, parts, means: start.means.clone(), kept: start.clone() }
+        let (process, copies) = (Arc::clone(process), BTreeMap::new());
+        Self { process, world, parts, means: start.means.clone(), kept: start.clone(), copies }
     }
 
     /// Rows of sums, and means, for an engine that puts them together.
@@ -43,7 +56,25 @@ impl<'a, P: Process> CpuMachine<'a, P> {
     }
 }
 
-impl<P: Process> Machine<P::Weather> for CpuMachine<'_, P> {
+impl<P: Process> Patched for CpuMachine<P> {
+    fn patch(&mut self, window: &Window) -> Result<Patch, Error> {
+        let sums = self.world.row_sums()[0];
+        Ok(Patch::cut(self.world.layout(), window, sums, |y| self.world.row(y)))
+    }
+
+    fn lay(&mut self, patch: &Patch) -> Result<(), Error> {
+        let layout = self.world.layout();
+        for (y, row) in patch.window.rows.clone().enumerate() {
+            patch.put(y, layout, self.world.row_mut(row));
+        }
+        let mut sums = self.world.row_sums();
+        sums[0] = patch.sums;
+        self.world.set_row_sums(&sums);
+        Ok(())
+    }
+}
+
+impl<P: Process> Machine<P> for CpuMachine<P> {
     fn block(&self) -> usize {
         self.world.block()
     }
@@ -87,5 +118,41 @@ impl<P: Process> Machine<P::Weather> for CpuMachine<'_, P> {
         self.world.set_row_sums(&snapshot.row_sums);
         self.means.clone_from(&snapshot.means);
         self.keep()
+    }
+
+    fn follow(&mut self, process: &Arc<P>) -> Result<(), Error> {
+        let sums = self.world.row_sums();
+        let (owners, columns) = (self.world.owners(), self.world.columns());
+        self.world = BandedGrid::new(process, self.world.state(), owners, columns);
+        self.world.set_row_sums(&sums);
+        self.process = Arc::clone(process);
+        Ok(())
+    }
+
+    fn keep_as(&mut self, number: u64) -> Result<(), Error> {
+        let copy = self.snapshot()?;
+        self.copies.insert(number, copy);
+        Ok(())
+    }
+
+    fn return_to(&mut self, number: u64) -> Result<(), Error> {
+        let copy = self.copies.get(&number).ok_or_else(|| super::machine::never_kept(number))?;
+        self.world.set_state(&copy.state);
+        self.world.set_row_sums(&copy.row_sums);
+        self.means.clone_from(&copy.means);
+        Ok(())
+    }
+
+    fn release(&mut self, number: u64) {
+        self.copies.remove(&number);
+    }
+
+    fn bytes_of_copy(&self) -> u64 {
+        self.kept.bytes() as u64
+    }
+
+    fn clear_means(&mut self) -> Result<(), Error> {
+        self.means.iter_mut().for_each(|mean| mean.fill(0.0));
+        Ok(())
     }
 }

@@ -102,4 +102,28 @@ pub trait Loaded: Send {
 
     /// Goes back to the copy.
     fn go_back(&mut self) -> Result<(), Error>;
+
+    /// Overwrites a rectangle of a buffer of cells, in the order of [`Loaded::write`] over the rectangle alone.
+    fn write_part(&mut self, buffer: usize, window: &Window, values: &[f32]) -> Result<(), Error>;
+
+    /// A copy of a rectangle of a buffer of cells, after all steps given so far.
+    fn read_part(&mut self, buffer: usize, window: &Window) -> Result<Vec<f32>, Error>;
+
+    /// Keeps a copy of state, constant planes, means and sums on the device under a number.
+    fn keep_as(&mut self, number: u64) -> Result<(), Error>;
+
+    /// Goes back to the copy of that number.
+    fn return_to(&mut self, number: u64) -> Result<(), Error>;
+
+    /// Forgets the copy of that number.
+    fn release(&mut self, number: u64);
+
+    /// Sets all means to zero.
+    fn clear_means(&mut self) -> Result<(), Error>;
+
+    /// Replaces the constants of the method by other numbers of the same struct.
+    fn set_constants(&mut self, words: &[u32]) -> Result<(), Error>;
+
+    /// Shows ground and water as they are now to those who look on.
+    fn show(&mut self) -> Result<(), Error>;
 }

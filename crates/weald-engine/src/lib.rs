@@ -15,6 +15,7 @@ mod job;
 pub mod machine;
 pub mod machine_of_engine;
 pub mod on_device;
+pub mod patch;
 pub mod program;
 pub mod report;
 pub mod stencil;

@@ -206,6 +206,22 @@ impl Program {
         reads.chain(pass.writes.iter().map(|&buffer| (buffer, true))).collect()
     }
 
+    /// Whether another program has the same buffers and passes, and differs in the numbers of its constants at most.
+    pub fn differs_in_numbers_alone(&self, other: &Self) -> bool {
+        let shape = |program: &Self| {
+            let Uniforms { name, fields, .. } = program.constants.clone();
+            (name, fields, program.weather.clone(), program.swaps.clone(), program.mask, program.reach)
+        };
+        let modules = |program: &Self| -> Vec<_> {
+            program
+                .passes
+                .iter()
+                .map(|pass| (program.module(pass), pass.recorded, program.bound(pass)))
+                .collect()
+        };
+        self.buffers == other.buffers && shape(self) == shape(other) && modules(self) == modules(other)
+    }
+
     /// The whole WGSL module of a pass.
     pub fn module(&self, pass: &Pass) -> String {
         let mut text = self.bindings(pass);

@@ -4,9 +4,13 @@
 //! can feel in the steps of one visit, so that what happens at the halo's rim does not reach them: they
 //! become what they become in the whole, to the bit. Then the tiles' own cells are put together again.
 
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
 use super::cpu::CpuMachine;
 use super::device::Window;
-use super::machine::{Machine, Means, Snapshot};
+use super::machine::{Machine, Means, Snapshot, never_kept};
+use super::patch::{Patch, Patched};
 use crate::stencil::chain::Process;
 use crate::stencil::rows::{Layout, Rows};
 use weald_core::error::{Error, Limit, Quantity};
@@ -78,10 +82,14 @@ impl Plan {
 }
 
 /// Advances one tile.
-pub(crate) trait Worker<W> {
+pub(crate) trait Worker<P: Process>: Send {
     /// One step for each entry of `weather`. `tile` has all planes, and the means where steps are recorded;
     /// its sums begin at zero and count the cells of `own`, a part of it, alone.
-    fn run(&mut self, tile: Snapshot, own: &Window, steps: &Visit<'_, W>) -> Result<Snapshot, Error>;
+    fn run(&mut self, tile: Snapshot, own: &Window, steps: &Visit<'_, P::Weather>)
+    -> Result<Snapshot, Error>;
+
+    /// Goes on by another process whose planes are the same.
+    fn follow(&mut self, process: &Arc<P>) -> Result<(), Error>;
 }
 
 /// What is done in one visit.
@@ -98,16 +106,19 @@ pub(crate) struct Tiled<K> {
     /// Where the next state is put together; its constant planes are those of `now`.
     next: Rows,
     kept: Snapshot,
+    /// Copies by their numbers.
+    copies: BTreeMap<u64, Snapshot>,
 }
 
 impl<K> Tiled<K> {
     pub(crate) fn new(worker: K, start: &Snapshot, plan: Plan) -> Self {
-        Self { worker, plan, now: start.clone(), next: start.state.clone(), kept: start.clone() }
+        let (now, next, kept) = (start.clone(), start.state.clone(), start.clone());
+        Self { worker, plan, now, next, kept, copies: BTreeMap::new() }
     }
 
-    fn visit<W>(&mut self, steps: &Visit<'_, W>) -> Result<(), Error>
+    fn visit<P: Process>(&mut self, steps: &Visit<'_, P::Weather>) -> Result<(), Error>
     where
-        K: Worker<W>,
+        K: Worker<P>,
     {
         let size = self.now.size();
         for own in self.plan.tiles(size) {
@@ -171,14 +182,24 @@ fn inner(window: &Window, outer: &Window) -> Window {
     }
 }
 
-impl<W, K: Worker<W>> Machine<W> for Tiled<K> {
+impl<K> Patched for Tiled<K> {
+    fn patch(&mut self, window: &Window) -> Result<Patch, Error> {
+        self.now.patch(window)
+    }
+
+    fn lay(&mut self, patch: &Patch) -> Result<(), Error> {
+        self.now.lay(patch)
+    }
+}
+
+impl<P: Process, K: Worker<P>> Machine<P> for Tiled<K> {
     fn block(&self) -> usize {
         self.plan.steps
     }
 
-    fn advance(&mut self, weather: &[W], recorded: bool) -> Result<(), Error> {
+    fn advance(&mut self, weather: &[P::Weather], recorded: bool) -> Result<(), Error> {
         for weather in weather.chunks(self.plan.steps) {
-            self.visit(&Visit { weather, recorded })?;
+            self.visit::<P>(&Visit { weather, recorded })?;
         }
         Ok(())
     }
@@ -210,27 +231,60 @@ impl<W, K: Worker<W>> Machine<W> for Tiled<K> {
     fn restore(&mut self, snapshot: &Snapshot) -> Result<(), Error> {
         self.now.clone_from(snapshot);
         self.next.clone_from(&snapshot.state);
-        self.keep()
+        self.kept.clone_from(&self.now);
+        Ok(())
+    }
+
+    fn follow(&mut self, process: &Arc<P>) -> Result<(), Error> {
+        self.worker.follow(process)
+    }
+
+    fn keep_as(&mut self, number: u64) -> Result<(), Error> {
+        self.copies.insert(number, self.now.clone());
+        Ok(())
+    }
+
+    fn return_to(&mut self, number: u64) -> Result<(), Error> {
+        self.now.clone_from(self.copies.get(&number).ok_or_else(|| never_kept(number))?);
+        Ok(())
+    }
+
+    fn release(&mut self, number: u64) {
+        self.copies.remove(&number);
+    }
+
+    fn bytes_of_copy(&self) -> u64 {
+        self.now.bytes() as u64
+    }
+
+    fn clear_means(&mut self) -> Result<(), Error> {
+        self.now.means.iter_mut().for_each(|mean| mean.fill(0.0));
+        Ok(())
     }
 }
 
 /// Tiles on the CPU, each a subdomain with walls.
-pub(crate) struct CpuTiles<'a, P> {
-    pub(crate) process: &'a P,
-    pub(crate) means: Means<'a>,
+pub(crate) struct CpuTiles<P> {
+    pub(crate) process: Arc<P>,
+    pub(crate) means: Means<'static>,
 }
 
-impl<P: Process> Worker<P::Weather> for CpuTiles<'_, P> {
+impl<P: Process> Worker<P> for CpuTiles<P> {
     fn run(
         &mut self,
         tile: Snapshot,
         own: &Window,
         steps: &Visit<'_, P::Weather>,
     ) -> Result<Snapshot, Error> {
-        let process = self.process.sized(tile.size());
+        let process = Arc::new(self.process.sized(tile.size()));
         let mut machine =
             CpuMachine::new(&process, self.means, &tile, None).count_columns(own.columns.clone());
         machine.advance(steps.weather, steps.recorded)?;
         Ok(machine.into_parts())
+    }
+
+    fn follow(&mut self, process: &Arc<P>) -> Result<(), Error> {
+        self.process = Arc::clone(process);
+        Ok(())
     }
 }

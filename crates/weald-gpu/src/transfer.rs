@@ -1,5 +1,7 @@
 //! Numbers to the device and back, piece by piece through little memory.
 
+use std::collections::VecDeque;
+use std::ops::Range;
 use std::sync::mpsc;
 
 use weald::Error;
@@ -54,6 +56,39 @@ impl Transfer {
         Ok(values)
     }
 
+    /// Stretches of bytes of a buffer one after the other, after all that was submitted.
+    pub(crate) fn read_runs(
+        &self,
+        gpu: &Gpu,
+        pace: &mut Pace,
+        from: &Buffer,
+        runs: &[Range<u64>],
+    ) -> Result<Vec<f32>, Error> {
+        let mut values = Vec::new();
+        let room = self.landing.buffer.size();
+        let mut rest: VecDeque<_> = runs.iter().cloned().collect();
+        while !rest.is_empty() {
+            let batch = batch(&mut rest, room);
+            let length = batch.iter().map(|run| run.end - run.start).sum();
+            pace.submit(gpu, copies(length), |encoder| {
+                let mut at = 0;
+                for run in &batch {
+                    encoder.copy_buffer_to_buffer(
+                        from,
+                        run.start,
+                        &self.landing.buffer,
+                        at,
+                        run.end - run.start,
+                    );
+                    at += run.end - run.start;
+                }
+            })?;
+            pace.drain(gpu)?;
+            self.take(gpu, length, &mut values)?;
+        }
+        Ok(values)
+    }
+
     /// Appends what has landed.
     fn take(&self, gpu: &Gpu, length: u64, values: &mut Vec<f32>) -> Result<(), Error> {
         let landing = &self.landing.buffer;
@@ -78,6 +113,43 @@ pub(crate) fn write(gpu: &Gpu, into: &Buffer, bytes: &[u8]) -> Result<(), Error>
         let _staged = gpu.memory.hold(length, "staging")?;
         let submission = gpu.context.attempt("writing to the GPU", || {
             gpu.context.queue.write_buffer(into, first, piece);
+            Ok(gpu.context.queue.submit([]))
+        })?;
+        gpu.context.wait(Some(submission))?;
+    }
+    Ok(())
+}
+
+/// Takes stretches that fill so many bytes at most; the last may be cut.
+fn batch(rest: &mut VecDeque<Range<u64>>, room: u64) -> Vec<Range<u64>> {
+    let (mut taken, mut left) = (Vec::new(), room);
+    while left > 0
+        && let Some(run) = rest.pop_front()
+    {
+        let end = run.end.min(run.start + left);
+        left -= end - run.start;
+        taken.push(run.start..end);
+        if end < run.end {
+            rest.push_front(end..run.end);
+        }
+    }
+    taken
+}
+
+/// Overwrites stretches of bytes of a buffer, after all that was submitted.
+pub(crate) fn write_runs(gpu: &Gpu, into: &Buffer, runs: &[Range<u64>], bytes: &[u8]) -> Result<(), Error> {
+    let mut rest: VecDeque<_> = runs.iter().cloned().collect();
+    let mut at = 0;
+    while !rest.is_empty() {
+        let batch = batch(&mut rest, piece_bytes(gpu));
+        let length = batch.iter().map(|run| run.end - run.start).sum();
+        let _staged = gpu.memory.hold(length, "staging")?;
+        let submission = gpu.context.attempt("writing to the GPU", || {
+            for run in batch {
+                let length = (run.end - run.start) as usize;
+                gpu.context.queue.write_buffer(into, run.start, &bytes[at..][..length]);
+                at += length;
+            }
             Ok(gpu.context.queue.submit([]))
         })?;
         gpu.context.wait(Some(submission))?;

@@ -58,6 +58,11 @@ impl Parameters for Growth {
         let look = Look::read_values(table, diagnostics);
         Self { keys, look, ..Self::default() }
     }
+
+    fn changed(&self, table: &Table, diagnostics: &mut Diagnostics) -> Self {
+        let keys = self.keys.changed(table, diagnostics);
+        Self { keys, look: self.look.changed(table, diagnostics), ..self.clone() }
+    }
 }
 
 impl Picture for Growth {

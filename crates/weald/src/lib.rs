@@ -59,7 +59,8 @@
 //! * [`generate`], [`combine`], [`erode`]: the steps, one file a method, each with its equation and source.
 //! * [`Landscape`], [`Domain`], [`Field`]: layers on a grid with a cell size, georeferencing, a no-data mask.
 //! * [`material`]: what ground is made of, in layers; [`edit`]: brushes, scripts of strokes, undo and redo.
-//! * [`erode::hydraulic::Hydraulic::run_interactive`]: a simulation to run interactively, for an editor of your own.
+//! * [`recipe::Session`]: a step of a recipe that a person holds, painted on, undone and saved as a recipe;
+//!   [`erode::interactive`]: the same without a recipe, for an editor of your own.
 //! * [`step::Step`]: what a step declares and does. [`LandscapeExt::run`] runs one, and [`engine::Job`] watches it.
 //! * [`analyse`]: slope, flow, rivers, light, soil and other layers, and measures of river networks.
 //! * [`grow`]: plants, and where they stand.

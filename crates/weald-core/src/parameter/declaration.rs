@@ -20,6 +20,10 @@ pub trait Parameters: Sized + Default {
         check_keys(table, &Self::parameters(), diagnostics);
         Self::read_values(table, diagnostics)
     }
+
+    /// The same with those of its keys that the table has; all others stay as they are.
+    #[must_use]
+    fn changed(&self, table: &Table, diagnostics: &mut Diagnostics) -> Self;
 }
 
 /// The keys of a table that are parameters of `T`, for a table that holds those of several.
@@ -36,6 +40,21 @@ pub trait ParameterValue: Sized + Clone {
 
     /// Reads a value; an error says what is wrong with it and what is legal.
     fn read(node: &Node, range: (f64, f64), diagnostics: &mut Diagnostics) -> Result<Self, String>;
+
+    /// The value after a change: that of the node, or in a table what stands in it with all else as it was.
+    ///
+    /// # Errors
+    /// As [`ParameterValue::read`].
+    fn change(&self, node: &Node, range: (f64, f64), diagnostics: &mut Diagnostics) -> Result<Self, String> {
+        Self::read(node, range, diagnostics)
+    }
+
+    /// The value after a change of the keys of a chosen variant.
+    #[must_use]
+    fn with_changed_keys(self, table: &Table, diagnostics: &mut Diagnostics) -> Self {
+        let _ = (table, diagnostics);
+        self
+    }
 
     /// The value with what else the table of its key says about it: the keys of a chosen variant.
     #[must_use]
@@ -122,6 +141,23 @@ pub fn read_key<T: ParameterValue>(
     with_keys_of(value, (table, name), diagnostics)
 }
 
+/// Reads one key of a table into a value that stays as it is where the table does not have it.
+pub fn change_key<T: ParameterValue>(
+    table: &Table,
+    name: &str,
+    now: &T,
+    legal: Legal,
+    diagnostics: &mut Diagnostics,
+) -> T {
+    let Some(node) = table.get(name) else { return now.clone().with_changed_keys(table, diagnostics) };
+    let value = diagnostics.within(name, node, |diagnostics| now.change(node, legal.range, diagnostics));
+    value.unwrap_or_else(|problem| {
+        let problem = problem + &legal.in_words::<T>(Some(node));
+        diagnostics.add(node.line, format!("`{name}` {problem}"));
+        now.clone()
+    })
+}
+
 /// A value with its own keys; faults of their values name it, for ranges differ from variant to variant.
 fn with_keys_of<T: ParameterValue>(
     value: T,
@@ -191,6 +227,24 @@ macro_rules! parameters {
                     table,
                     key(stringify!($name)),
                     $default,
+                    $crate::parameter::Legal {
+                        range: $crate::parameters!(@range $($low, $high)?),
+                        unit: $crate::parameters!(@unit $($unit)?),
+                    },
+                    diagnostics,
+                ), )* }
+            }
+
+            fn changed(
+                &self,
+                table: &$crate::source::Table,
+                diagnostics: &mut $crate::parameter::Diagnostics,
+            ) -> Self {
+                use $crate::parameter::{change_key, key};
+                Self { $( $name: change_key(
+                    table,
+                    key(stringify!($name)),
+                    &self.$name,
                     $crate::parameter::Legal {
                         range: $crate::parameters!(@range $($low, $high)?),
                         unit: $crate::parameters!(@unit $($unit)?),

@@ -178,6 +178,17 @@ impl<T: ParameterValue> ParameterValue for Option<T> {
         T::read(node, range, diagnostics).map(Some)
     }
 
+    fn change(&self, node: &Node, range: (f64, f64), diagnostics: &mut Diagnostics) -> Result<Self, String> {
+        match self {
+            Some(now) => now.change(node, range, diagnostics).map(Some),
+            None => Self::read(node, range, diagnostics),
+        }
+    }
+
+    fn with_changed_keys(self, table: &Table, diagnostics: &mut Diagnostics) -> Self {
+        self.map(|value| value.with_changed_keys(table, diagnostics))
+    }
+
     fn with_keys_of(self, table: &Table, diagnostics: &mut Diagnostics) -> Self {
         self.map(|value| value.with_keys_of(table, diagnostics))
     }
@@ -203,6 +214,11 @@ impl<T: Parameters + Clone> ParameterValue for Nested<T> {
     fn read(node: &Node, _: (f64, f64), diagnostics: &mut Diagnostics) -> Result<Self, String> {
         let Value::Table(table) = &node.value else { return Err(wrong(node, "a table { … }")) };
         Ok(Self(T::read(table, diagnostics)))
+    }
+
+    fn change(&self, node: &Node, _: (f64, f64), diagnostics: &mut Diagnostics) -> Result<Self, String> {
+        let Value::Table(table) = &node.value else { return Err(wrong(node, "a table { … }")) };
+        Ok(Self(self.0.changed(table, diagnostics)))
     }
 
     fn shown(&self) -> Option<String> {

@@ -58,6 +58,18 @@ macro_rules! variants {
                 )+ }
             }
 
+            fn with_changed_keys(
+                self,
+                table: &$crate::source::Table,
+                diagnostics: &mut $crate::parameter::Diagnostics,
+            ) -> Self {
+                match self { $(
+                    Self::$Variant(keys) => Self::$Variant(
+                        $crate::parameter::Parameters::changed(&keys, table, diagnostics),
+                    ),
+                )+ }
+            }
+
             fn shown(&self) -> Option<String> {
                 Some(format!("{:?}", self.word()))
             }

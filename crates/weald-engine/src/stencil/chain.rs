@@ -16,9 +16,9 @@ use crate::uniform::Uniform;
 use weald_core::grid::Size;
 
 /// A simulation step as a stream of rows.
-pub trait Process: Sync {
+pub trait Process: Send + Sync + 'static {
     /// What differs from step to step: rain or sunshine.
-    type Weather: Uniform + Copy + Send + Sync;
+    type Weather: Uniform + Copy + Send + Sync + 'static;
     /// Rows in flight within one step.
     type Scratch: Send;
 

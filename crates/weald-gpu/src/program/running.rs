@@ -1,5 +1,7 @@
 //! A program on the device, with its state.
 
+use std::ops::Range;
+
 use weald::Error;
 use weald::engine::device::{Loaded, Window};
 use weald::engine::program::{COUNTED, Content, GROUP, Program};
@@ -11,7 +13,7 @@ use super::bound_passes::{BoundPass, PassResources, Submission};
 use super::buffers::Buffers;
 use super::extents::{self, Extents};
 use super::parts::{Bound, Cursor, Part, Work};
-use super::state_copy::{Extent, StateCopy, is_state};
+use super::state_copy::{Extent, NumberedCopies, StateCopy, is_state};
 use super::uniforms::Uniforms;
 use super::watch::Watch;
 use crate::gpu::{Gpu, Shown};
@@ -35,6 +37,7 @@ pub(crate) struct Running {
     transfer: Transfer,
     watch: Watch,
     kept: StateCopy,
+    copies: NumberedCopies,
 }
 
 impl Running {
@@ -61,6 +64,7 @@ impl Running {
             transfer,
             watch,
             kept: StateCopy::default(),
+            copies: NumberedCopies::new(),
             gpu,
         };
         running.clear(|_| true)?;
@@ -106,6 +110,27 @@ impl Running {
         Ok((self.buffers.now(buffer), extents::bytes(found, self.now.size)))
     }
 
+    /// The stretches of bytes of a rectangle in a buffer of cells.
+    fn runs(&self, buffer: usize, window: &Window) -> Result<Vec<Range<u64>>, Error> {
+        self.store(buffer)?;
+        let ([columns, rows], found) =
+            ([self.now.size.columns, self.now.size.rows], &self.program.buffers[buffer]);
+        if window.columns.end > columns
+            || window.rows.end > rows
+            || matches!(found.content, Content::Table(_))
+        {
+            let message = format!("`{}` has no cells {window:?} on {columns} × {rows}", found.name);
+            return Err(misused(message));
+        }
+        let (planes, lanes) = if found.layered { (found.lanes, 1) } else { (1, found.lanes) };
+        let run = |plane: usize, row: usize| {
+            let first = plane * columns * rows + row * columns;
+            let byte = |column: usize| (4 * lanes * (first + column)) as u64;
+            byte(window.columns.start)..byte(window.columns.end)
+        };
+        Ok((0..planes).flat_map(|plane| window.rows.clone().map(move |row| run(plane, row))).collect())
+    }
+
     /// All steps in as many submissions as their length takes.
     fn submit_all(&mut self, work: &Work, weather: &[Vec<u32>]) -> Result<(), Error> {
         let mut cursor = Cursor::default();
@@ -137,7 +162,23 @@ impl Running {
 
 /// All that [`Loaded::keep`] copies, as buffers now play their roles.
 fn state<'a>(program: &Program, buffers: &'a Buffers, sums: &'a Store, now: Extents) -> Vec<Extent<'a>> {
-    let numbered = program.buffers.iter().enumerate().filter(|(_, buffer)| is_state(&buffer.content));
+    contents(is_state, program, buffers, sums, now)
+}
+
+/// All that [`Loaded::keep_as`] copies: strokes may change constant planes too.
+fn everything<'a>(program: &Program, buffers: &'a Buffers, sums: &'a Store, now: Extents) -> Vec<Extent<'a>> {
+    let counts = |content: &Content| is_state(content) || matches!(content, Content::Constant(_));
+    contents(counts, program, buffers, sums, now)
+}
+
+fn contents<'a>(
+    counts: impl Fn(&Content) -> bool,
+    program: &Program,
+    buffers: &'a Buffers,
+    sums: &'a Store,
+    now: Extents,
+) -> Vec<Extent<'a>> {
+    let numbered = program.buffers.iter().enumerate().filter(|(_, buffer)| counts(&buffer.content));
     let extents = numbered.map(|(at, buffer)| (buffers.now(at), extents::bytes(buffer, now.size)));
     extents.chain([(sums, now.sums_bytes())]).collect()
 }
@@ -220,6 +261,63 @@ impl Loaded for Running {
     fn go_back(&mut self) -> Result<(), Error> {
         let state = state(&self.program, &self.buffers, &self.sums, self.now);
         self.kept.go_back(&self.gpu, &mut self.pace, &state)
+    }
+
+    fn write_part(&mut self, buffer: usize, window: &Window, values: &[f32]) -> Result<(), Error> {
+        let runs = self.runs(buffer, window)?;
+        let wanted: u64 = runs.iter().map(|run| run.end - run.start).sum();
+        if 4 * values.len() as u64 != wanted {
+            let (name, given) = (self.program.buffers[buffer].name, values.len());
+            return Err(misused(format!("a part of `{name}` takes {} numbers, not {given}", wanted / 4)));
+        }
+        let store = self.buffers.now(buffer);
+        transfer::write_runs(&self.gpu, &store.buffer, &runs, bytemuck::cast_slice(values))
+    }
+
+    fn read_part(&mut self, buffer: usize, window: &Window) -> Result<Vec<f32>, Error> {
+        let runs = self.runs(buffer, window)?;
+        let store = self.buffers.now(buffer);
+        self.transfer.read_runs(&self.gpu, &mut self.pace, &store.buffer, &runs)
+    }
+
+    fn keep_as(&mut self, number: u64) -> Result<(), Error> {
+        self.copies.remove(&number);
+        let mut copy = StateCopy::default();
+        let state = everything(&self.program, &self.buffers, &self.sums, self.now);
+        copy.keep(&self.gpu, &mut self.pace, &state)?;
+        self.copies.insert(number, copy);
+        Ok(())
+    }
+
+    fn return_to(&mut self, number: u64) -> Result<(), Error> {
+        let state = everything(&self.program, &self.buffers, &self.sums, self.now);
+        match self.copies.get(&number) {
+            Some(copy) => copy.go_back(&self.gpu, &mut self.pace, &state),
+            None => {
+                Err(misused(format!("the GPU was asked to go back to copy {number}, which was never kept")))
+            }
+        }
+    }
+
+    fn release(&mut self, number: u64) {
+        // Its memory counts as held until the device no longer copies from it.
+        if self.copies.contains_key(&number) {
+            let _ = self.pace.drain(&self.gpu);
+            self.copies.remove(&number);
+        }
+    }
+
+    fn clear_means(&mut self) -> Result<(), Error> {
+        self.clear(|content| *content == Content::Mean)
+    }
+
+    fn set_constants(&mut self, words: &[u32]) -> Result<(), Error> {
+        self.pace.drain(&self.gpu)?;
+        self.uniforms.set_constants(&self.gpu, words)
+    }
+
+    fn show(&mut self) -> Result<(), Error> {
+        Self::show(self)
     }
 }
 

@@ -18,6 +18,9 @@ pub(crate) struct StateCopy {
     valid: bool,
 }
 
+/// Copies that are kept under numbers.
+pub(crate) type NumberedCopies = std::collections::BTreeMap<u64, StateCopy>;
+
 /// A buffer and how many of its bytes count.
 pub(crate) type Extent<'a> = (&'a Store, u64);
 

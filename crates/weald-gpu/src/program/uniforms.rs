@@ -40,6 +40,12 @@ impl Uniforms {
         })
     }
 
+    /// Replaces the constants by as many other words.
+    pub(crate) fn set_constants(&self, gpu: &Gpu, words: &[u32]) -> Result<(), Error> {
+        let packed = self.constants.packed(std::iter::once(words))?;
+        transfer::write(gpu, &self.constants.store.buffer, &packed)
+    }
+
     /// Says on which grid the passes work, and whose sums count.
     pub(crate) fn set_grid(&self, gpu: &Gpu, extents: Extents, own: &Window) -> Result<(), Error> {
         let size = extents.size;

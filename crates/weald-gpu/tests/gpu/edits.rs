@@ -1,14 +1,20 @@
-//! Strokes of a brush on a simulation that a device holds.
+//! Simulations that a person holds on a device: strokes, settings, undo and replays.
 
 use std::path::Path;
 use std::sync::Arc;
 
 use crate::common::{field, layered, metres, rough, run_on, stava, with, worst_difference};
-use weald::edit::{Action, Brush, Canvas, Edit, Effect, Falloff, History, Script, Session};
+use crate::counting::Counting;
+use weald::edit::{Action, Brush, Canvas, Change, Edit, Effect, Falloff, History, Script, Setting, Undoable};
 use weald::engine::Engine;
-use weald::erode::hydraulic::{Hydraulic, InteractiveSession};
-use weald::recipe::parameter::ScriptFile;
-use weald::{Error, Landscape};
+use weald::erode::hydraulic::{HanKeys, Hydraulic, MeiKeys};
+use weald::erode::interactive::{Interactive, InteractiveSimulation};
+use weald::random::{hash2, unit};
+use weald::recipe::parameter::{Nested, ScriptFile};
+use weald::recipe::source::Value;
+use weald::steps;
+use weald::{Domain, Field, Landscape, Size};
+use weald_gpu::Live;
 
 /// Metres that a device may differ by from the CPU in its worst cell. Sixty steps carry a last place, 2e-6 m, further
 /// than the few of the test of all engines; 3e-4 m were seen.
@@ -48,38 +54,43 @@ fn strokes() -> Vec<Brush> {
     (0_u32..).zip(effects).map(brush).collect()
 }
 
-/// Some steps before each stroke and after the last.
+/// Some steps before each stroke and after the last, and a setting among them.
 fn actions() -> Vec<Action> {
     let mut actions: Vec<_> =
-        strokes().into_iter().flat_map(|brush| [Action::Steps(5), Action::Stroke(brush)]).collect();
+        strokes().into_iter().flat_map(|brush| [Action::Steps(5), brush.into()]).collect();
+    actions.insert(9, set("erosion", 5.0).into());
     actions.push(Action::Steps(15));
     actions
+}
+
+fn set(key: &str, value: f64) -> Setting {
+    Setting { key: key.to_owned(), value: Value::Number(value) }
 }
 
 fn device() -> Option<Engine> {
     crate::programs::gpu().map(|gpu| Engine::Device(Arc::new(gpu)))
 }
 
-fn run_interactive<R>(engine: &Engine, hold: impl FnOnce(InteractiveSession<'_>) -> Result<R, Error>) -> R {
-    step().run_interactive(&ground(), engine, hold).unwrap_or_else(|error| panic!("{error}"))
+fn hold(step: &dyn Interactive, engine: &Engine) -> InteractiveSimulation {
+    step.hold(&ground(), engine).unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// The whole of the landscape as it is now.
-fn picture(session: &mut InteractiveSession<'_>) -> Result<Canvas, Error> {
-    let whole = session.whole();
-    session.canvas(whole)
+fn picture(simulation: &mut InteractiveSimulation) -> Canvas {
+    simulation.canvas(simulation.whole()).expect("can be read")
 }
 
 #[test]
-fn an_interactive_session_on_a_device_comes_near_the_same_on_the_cpu() {
+fn a_simulation_held_on_a_device_comes_near_the_same_on_the_cpu() {
     let Some(device) = device() else { return };
-    let end = |engine: &Engine, with_strokes: bool| {
-        run_interactive(engine, |mut session| {
-            let counts = |action: &&Action| with_strokes || matches!(action, Action::Steps(_));
-            actions().iter().filter(counts).try_for_each(|action| session.apply(action))?;
-            assert_eq!(session.steps(), 60);
-            picture(&mut session)
-        })
+    let end = |engine: &Engine, with_changes: bool| {
+        let mut simulation = hold(&step(), engine);
+        let counts = |action: &&Action| with_changes || matches!(action, Action::Steps(_));
+        for action in actions().iter().filter(counts) {
+            simulation.apply(action).expect("can be done");
+        }
+        assert_eq!(simulation.steps(), 60);
+        picture(&mut simulation)
     };
     let (expected, got, untouched) = (end(&Engine::Cpu, true), end(&device, true), end(&Engine::Cpu, false));
     for ((name, expected), ((_, got), (_, untouched))) in
@@ -87,7 +98,7 @@ fn an_interactive_session_on_a_device_comes_near_the_same_on_the_cpu() {
     {
         if name != "frozen" && name != "soil" {
             let changed = worst_difference(expected, untouched);
-            assert!(changed > 5.0 * WORST, "strokes change `{name}` by {changed} alone");
+            assert!(changed > 5.0 * WORST, "changes change `{name}` by {changed} alone");
         }
         let worst = worst_difference(expected, got);
         assert!(worst < WORST, "`{name}` differs by up to {worst} m");
@@ -95,37 +106,166 @@ fn an_interactive_session_on_a_device_comes_near_the_same_on_the_cpu() {
 }
 
 #[test]
-fn an_interactive_session_on_a_device_undone_and_redone_has_the_same_bits() {
+fn what_is_undone_and_redone_on_a_device_has_the_same_bits() {
     let Some(device) = device() else { return };
-    run_interactive(&device, |mut session| {
-        let mut pictures = vec![picture(&mut session)?];
-        let room = 3 * InteractiveSession::bytes(&session.snapshot()?);
-        let mut history = History::new(session, room)?;
-        for action in actions() {
-            history.act(action)?;
-            pictures.push(picture(history.session_mut())?);
+    let mut simulation = hold(&step(), &device);
+    let mut pictures = vec![picture(&mut simulation)];
+    let room = 3 * simulation.bytes_of_copy();
+    let mut history = History::new(simulation, room).expect("fits");
+    for action in actions() {
+        history.act(action).expect("can be done");
+        pictures.push(picture(history.simulation_mut()));
+    }
+    let last = pictures.len() - 1;
+    for moment in [last - 1, last, 4, 0, 9, 10, last] {
+        history.go_to(moment).expect("is there");
+        assert!(history.used() <= room, "copies of {} bytes in {room}", history.used());
+        assert!(picture(history.simulation_mut()) == pictures[moment], "after {moment} of {last} actions");
+    }
+}
+
+/// Steps that can be held, with a key of each that can change.
+fn held() -> Vec<(&'static str, Box<dyn Interactive>, Setting)> {
+    let han = HanKeys { rain: metres(0.02), dry_period: 5, ..HanKeys::default() };
+    let mei = MeiKeys { rain: metres(0.02), thermal: Some(Nested(Default::default())), ..MeiKeys::default() };
+    let hydraulic = |model| Hydraulic { model, rain_period: 7, ..Hydraulic::default() };
+    vec![
+        ("han", Box::new(hydraulic(han.into())), set("rain", 0.05)),
+        ("mei", Box::new(hydraulic(mei.into())), set("thermal.talus", 0.2)),
+        ("stava", Box::new(step()), set("slippage.strength", 0.01)),
+        ("thermal", Box::new(steps::Thermal { talus: 0.3, ..Default::default() }), set("talus", 0.1)),
+        ("slippage", Box::new(steps::Slippage::default()), set("strength", 0.05)),
+    ]
+}
+
+/// Any actions, most of which a step can follow.
+fn random_actions(seed: u64, setting: &Setting) -> Vec<Action> {
+    let random = |at: i64, which: i64| unit(hash2(seed, at, which));
+    let all = strokes();
+    let action = |at: i64| match random(at, 0) {
+        share if share < 0.4 => Action::Steps(1 + (random(at, 1) * 6.0) as u64),
+        share if share < 0.5 => setting.clone().into(),
+        _ => {
+            let stroke = all[(random(at, 2) * all.len() as f64) as usize].clone();
+            let place = [50.0 * random(at, 3), 40.0 * random(at, 4)];
+            Brush { path: vec![place], radius: 2.0 + 6.0 * random(at, 5), ..stroke }.into()
         }
-        assert!(pictures.windows(2).all(|pair| pair[0] != pair[1]), "every action does something");
-        let last = pictures.len() - 1;
-        for done in [last - 1, last, 4, 0, 9, last] {
-            history.go_to(done)?;
-            assert!(history.used() <= room, "snapshots of {} bytes in {room}", history.used());
-            assert!(picture(history.session_mut())? == pictures[done], "after {done} of {last} actions");
+    };
+    (0..6).map(action).collect()
+}
+
+#[test]
+fn a_hundred_branches_of_any_actions_are_undone_and_redone_to_the_bit() {
+    let Some(device) = device() else { return };
+    for (name, step, setting) in held() {
+        let simulation = hold(&*step, &device);
+        let room = 3 * simulation.bytes_of_copy();
+        let mut history = History::new(simulation, room).expect("fits");
+        let start = picture(history.simulation_mut());
+        for seed in 0..100 {
+            for action in random_actions(seed, &setting) {
+                let refused = history.act(action.clone()).is_err();
+                assert!(
+                    !refused || matches!(action, Action::Change(Change::Stroke(_))),
+                    "{name}: {action:?}"
+                );
+            }
+            let end = picture(history.simulation_mut());
+            while history.undo().expect("takes back") {}
+            assert!(picture(history.simulation_mut()) == start, "{name}, branch {seed}: undone");
+            while history.redo().expect("does again") {}
+            assert!(picture(history.simulation_mut()) == end, "{name}, branch {seed}: redone");
+            while history.undo().expect("takes back") {}
         }
-        Ok(())
-    });
+        assert!(history.ends().len() > 90, "{name}: {} branches", history.ends().len());
+    }
+}
+
+#[test]
+fn what_was_held_replays_from_its_script_to_the_same_bits_on_the_same_device() {
+    let Some(device) = device() else { return };
+    let mut history = History::new(hold(&step(), &device), 1 << 30).expect("fits");
+    for action in actions() {
+        history.act(action).expect("can be done");
+    }
+    let (end, _) = history.simulation_mut().landscape().expect("can be read");
+    let (steps, script) = history.script();
+    let file = Path::new(env!("CARGO_TARGET_TMPDIR")).join("held.jsonl");
+    script.save(&file).expect("written");
+    let again = Hydraulic {
+        iterations: u32::try_from(steps).expect("few"),
+        mean_over: Some(1),
+        edits: Some(ScriptFile(file.to_str().expect("a plain name").to_owned())),
+        ..step()
+    };
+    let mut land = ground();
+    run_on(&again, &mut land, device);
+    for (name, layer) in end.layers() {
+        assert!(field(&land, name) == &layer.field, "`{name}` differs");
+    }
+}
+
+#[test]
+fn a_stroke_moves_no_more_than_it_touches() {
+    let Some(gpu) = crate::programs::gpu() else { return };
+    let counting = Counting::new(gpu);
+    let moved = counting.moved();
+    let size = Size::square(2048).expect("is legal");
+    let mut land = Landscape::new(Domain::new(size, 10.0));
+    land.insert("height", "m", Field::filled(size, 100.0));
+    let mut history = {
+        let simulation = step().hold(&land, &Engine::Device(Arc::new(counting))).expect("begins");
+        let room = 2 * simulation.bytes_of_copy();
+        History::new(simulation, room).expect("fits")
+    };
+    // Fifty cells across.
+    for effect in [Effect::AddWater { depth: 3.0 }, Effect::Freeze, Effect::Smooth { times: 3 }] {
+        moved.reset();
+        history.act(Brush::dab(effect.clone(), [9_000.0, 11_000.0], 250.0)).expect("paints");
+        let bytes = moved.bytes();
+        assert!((10_000..2_000_000).contains(&bytes), "{effect:?} moves {bytes} bytes");
+        moved.reset();
+        assert!(history.undo().expect("takes back"));
+        assert!(moved.bytes() < 2_000_000, "taking {effect:?} back moves {} bytes", moved.bytes());
+        println!("{effect:?}: {bytes} bytes to paint, {} to take back", moved.bytes());
+    }
+    moved.reset();
+    history.act(set("erosion", 5.0)).expect("is set");
+    assert!(moved.bytes() < 10_000, "a setting moves {} bytes", moved.bytes());
+}
+
+#[test]
+fn strokes_and_what_takes_them_back_are_shown_at_once() {
+    let Some(gpu) = crate::programs::gpu() else { return };
+    let live = Live::new(&gpu, ground().domain.size).expect("fits");
+    let device = Engine::Device(Arc::new(gpu.shown_in(&live)));
+    let mut history = History::new(hold(&step(), &device), 1 << 28).expect("fits");
+    let mut shown = live.generation();
+    let mut changed = |what: &str| {
+        let now = live.generation();
+        assert!(now > shown, "{what} is not shown");
+        shown = now;
+    };
+    history.act(strokes().remove(3)).expect("paints");
+    changed("a stroke");
+    assert!(history.undo().expect("takes back"));
+    changed("what takes it back");
+    history.act(Action::Steps(20)).expect("runs");
+    changed("a step");
+    history.go_to(0).expect("is there");
+    changed("a state that was kept");
 }
 
 #[test]
 fn a_run_with_a_script_of_edits_on_a_device_comes_near_the_cpu() {
     let Some(device) = device() else { return };
-    let edits = (1_u64..).zip(strokes()).map(|(at, brush)| Edit { step: 5 * at, brush });
+    let edits = (1_u64..).zip(strokes()).map(|(at, brush)| Edit::stroke(5 * at, brush));
     let file = Path::new(env!("CARGO_TARGET_TMPDIR")).join("edits.jsonl");
     Script::new(edits.collect()).save(&file).expect("written");
     let edits = Some(ScriptFile(file.to_str().expect("a plain name").to_owned()));
     let end = |engine: &Engine, edits: Option<ScriptFile>| {
         let mut land = ground();
-        let outcome = run_on(&with!(step(), [Stava] { edits: edits }), &mut land, engine.clone());
+        let outcome = run_on(&Hydraulic { edits, ..step() }, &mut land, engine.clone());
         (land, outcome.budget.expect("a simulation has a budget"))
     };
     let (expected, _) = end(&Engine::Cpu, edits.clone());

@@ -4,6 +4,7 @@ mod budgets;
 mod choice;
 #[path = "../../../weald-land/tests/land/common/mod.rs"]
 mod common;
+mod counting;
 mod device;
 mod edits;
 mod engines_agree;

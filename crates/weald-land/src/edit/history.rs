@@ -1,24 +1,34 @@
-//! Undo and redo over strokes and iterations, within a budget of memory.
+//! Undo and redo over strokes, settings and iterations, and branches, within a budget of memory.
 //!
-//! A session is deterministic, so any of its states follows from an earlier one and the actions since. The
-//! history keeps snapshots of some states and all actions: to go back is to restore the nearest snapshot
-//! before, and to do again what lies between. When the budget is full, the snapshot goes whose loss costs the
-//! least work for the states near the present: so they lie close together there and far apart in the past. The
-//! first one always stays.
+//! A simulation is deterministic, so any of its states follows from an earlier one and the actions since. The history
+//! is a tree of moments: whoever goes back and does something else begins a branch, and what was there stays. It keeps
+//! what takes a stroke back, which is a rectangle, and copies of some states: to go somewhere is to take strokes back,
+//! or to return to the nearest copy before, and to do again what lies between. When the budget is full, the copy goes
+//! whose loss costs the least work for the states near the present: so they lie close together there and far apart in
+//! the past. The first one always stays.
+
+mod tree;
 
 use std::collections::BTreeMap;
-use std::ops::Bound::{Excluded, Unbounded};
 
-use super::brush::Brush;
+use super::change::{Change, Edit};
+use super::script::Script;
+use tree::Tree;
 use weald_core::error::{Error, Limit, Quantity};
 
-/// What can be done to a session.
+/// What can be done to a simulation.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Action {
     /// Simulates so many steps.
     Steps(u64),
-    /// Paints a stroke.
-    Stroke(Brush),
+    /// Paints a stroke, or changes a key.
+    Change(Change),
+}
+
+impl<C: Into<Change>> From<C> for Action {
+    fn from(change: C) -> Self {
+        Self::Change(change.into())
+    }
 }
 
 impl Action {
@@ -26,225 +36,286 @@ impl Action {
     fn work(&self) -> u64 {
         match self {
             Self::Steps(steps) => (*steps).max(1),
-            Self::Stroke(_) => 1,
+            Self::Change(_) => 1,
         }
     }
 }
 
-/// A simulation that a person changes while it runs. The same actions on the same state must give the same
-/// bits.
-pub trait Session {
-    /// All of the state.
-    type Snapshot;
+/// A simulation that a person changes while it runs. The same actions on the same state must give the same bits.
+pub trait Undoable {
+    /// What takes a change back, where that is less than a copy of everything.
+    type Patch;
 
-    /// A copy of the state.
+    /// Does one thing; gives what takes it back, where there is such.
     ///
     /// # Errors
-    /// [`Error::Device`] where the state cannot be read from the device that holds it.
-    fn snapshot(&mut self) -> Result<Self::Snapshot, Error>;
+    /// [`Error::Run`] where it cannot be done. After a change that fails the state is as it was; after steps that fail
+    /// it is of no further use until it returns to a copy.
+    fn apply(&mut self, action: &Action) -> Result<Option<Self::Patch>, Error>;
 
-    /// Goes back to a state.
+    /// Takes the last change back.
     ///
     /// # Errors
-    /// As [`Session::snapshot`].
-    fn restore(&mut self, snapshot: &Self::Snapshot) -> Result<(), Error>;
+    /// [`Error::Device`] where the device fails that holds the state.
+    fn take_back(&mut self, patch: &Self::Patch) -> Result<(), Error>;
 
-    /// Does one thing.
+    /// Keeps a copy of everything under a number.
     ///
     /// # Errors
-    /// [`Error::Run`] where it cannot be done; the state is then of no further use until it is restored.
-    fn apply(&mut self, action: &Action) -> Result<(), Error>;
+    /// [`Error::Device`] where the device fails that holds the state, or its memory is full.
+    fn keep_as(&mut self, number: u64) -> Result<(), Error>;
 
-    /// Memory that a snapshot takes.
-    fn bytes(snapshot: &Self::Snapshot) -> usize;
+    /// Goes back to a copy.
+    ///
+    /// # Errors
+    /// [`Error::Device`] where the device fails that holds the state.
+    fn return_to(&mut self, number: u64) -> Result<(), Error>;
+
+    /// Forgets a copy.
+    fn release(&mut self, number: u64);
+
+    /// Memory that a copy takes.
+    fn bytes_of_copy(&self) -> u64;
+
+    /// Memory that it takes to take a change back.
+    fn bytes_of(patch: &Self::Patch) -> u64;
 }
 
-/// A session that can go back and forth.
+/// Iterations after which a copy is worth its memory.
+const WORTH_A_COPY: u64 = 16;
+
+/// A simulation that can go back and forth.
 #[derive(Debug)]
-pub struct History<S: Session> {
-    session: S,
-    actions: Vec<Action>,
-    /// Actions that are done; those after it are undone.
-    done: usize,
-    /// Snapshots by the number of actions done before them.
-    kept: BTreeMap<usize, S::Snapshot>,
-    used: usize,
-    budget: usize,
+pub struct History<S: Undoable> {
+    simulation: S,
+    tree: Tree<S::Patch>,
+    names: BTreeMap<String, usize>,
+    used: u64,
+    budget: u64,
 }
 
-impl<S: Session> History<S> {
-    /// A history that begins here and keeps at most `budget` bytes of snapshots.
+impl<S: Undoable> History<S> {
+    /// A history that begins here and keeps at most `budget` bytes to go back with.
     ///
     /// # Errors
-    /// [`Error::Limit`] where not even the start fits; those of the session.
-    pub fn new(mut session: S, budget: usize) -> Result<Self, Error> {
-        let start = session.snapshot()?;
-        let used = S::bytes(&start);
+    /// [`Error::Limit`] where not even the start fits; those of the simulation.
+    pub fn new(mut simulation: S, budget: u64) -> Result<Self, Error> {
+        let used = simulation.bytes_of_copy();
         if used > budget {
-            let limit = Limit::new(Quantity::MemoryBytes, used as u64, 0..=budget as u64);
+            let limit = Limit::new(Quantity::MemoryBytes, used, 0..=budget);
             let limit = limit.of("the start, which is kept to undo");
             return Err(limit.remedy("give a larger budget").into());
         }
-        Ok(Self { session, actions: Vec::new(), done: 0, kept: BTreeMap::from([(0, start)]), used, budget })
+        simulation.keep_as(0)?;
+        Ok(Self { simulation, tree: Tree::new(used), names: BTreeMap::new(), used, budget })
     }
 
-    /// The session as it is now.
-    pub fn session(&self) -> &S {
-        &self.session
+    /// The simulation as it is now.
+    pub fn simulation(&self) -> &S {
+        &self.simulation
     }
 
-    /// The session as it is now, to read from a device; what it is given to do escapes the history.
-    pub fn session_mut(&mut self) -> &mut S {
-        &mut self.session
+    /// The simulation as it is now, to read from a device; what it is given to do escapes the history.
+    pub fn simulation_mut(&mut self) -> &mut S {
+        &mut self.simulation
     }
 
-    /// All actions, those that are undone too.
-    pub fn actions(&self) -> &[Action] {
-        &self.actions
+    /// Number of this moment; that of the start is 0, and each action adds one.
+    pub fn here(&self) -> usize {
+        self.tree.here
     }
 
-    /// Actions that are done.
-    pub fn done(&self) -> usize {
-        self.done
+    /// Moments in all branches.
+    pub fn moments(&self) -> usize {
+        self.tree.moments.len()
     }
 
-    /// Bytes that the snapshots take.
-    pub fn used(&self) -> usize {
+    /// The action that led to a moment, and the moment before it; `None` for the start and where there is no such.
+    pub fn led_to(&self, moment: usize) -> Option<(usize, &Action)> {
+        let found = self.tree.moments.get(moment)?;
+        Some((found.before, found.action.as_ref()?))
+    }
+
+    /// What was done from the start to here, in order.
+    pub fn actions(&self) -> Vec<&Action> {
+        self.tree
+            .path(self.tree.here)
+            .into_iter()
+            .filter_map(|at| self.tree.moments[at].action.as_ref())
+            .collect()
+    }
+
+    /// What was done from the start to here as steps and a script, by which a run comes to the same state.
+    pub fn script(&self) -> (u64, Script) {
+        let (mut step, mut edits) = (0, Vec::new());
+        for action in self.actions() {
+            match action {
+                Action::Steps(steps) => step += steps,
+                Action::Change(change) => edits.push(Edit { step, change: change.clone() }),
+            }
+        }
+        (step, Script::new(edits))
+    }
+
+    /// Moments from which nothing was done: where branches end.
+    pub fn ends(&self) -> Vec<usize> {
+        (0..self.moments()).filter(|&at| self.tree.moments[at].next.is_none()).collect()
+    }
+
+    /// Gives this moment a name, in place of what had it.
+    pub fn name(&mut self, name: &str) {
+        self.names.insert(name.to_owned(), self.tree.here);
+    }
+
+    /// The moments that have names.
+    pub fn names(&self) -> &BTreeMap<String, usize> {
+        &self.names
+    }
+
+    /// Bytes that all takes that is kept to go back with.
+    pub fn used(&self) -> u64 {
         self.used
     }
 
-    /// Does something new; what was undone can then not be done again.
+    /// Does something new, from here on: after going back it begins a branch. Gives the moment that it leads to.
     ///
     /// # Errors
-    /// Those of the session, which is then as it was before.
-    pub fn act(&mut self, action: Action) -> Result<(), Error> {
-        if let Err(error) = self.session.apply(&action) {
-            self.arrive(self.done)?;
-            return Err(error);
+    /// Those of the simulation, which is then as it was before.
+    pub fn act(&mut self, action: impl Into<Action>) -> Result<usize, Error> {
+        let action = action.into();
+        match self.simulation.apply(&action) {
+            Ok(patch) => {
+                let moment = self.tree.grow(action.work(), action);
+                self.remember(moment, patch);
+                self.keep();
+                Ok(moment)
+            }
+            Err(error) => {
+                if matches!(action, Action::Steps(_)) {
+                    self.arrive_by_a_copy(self.tree.here)?;
+                }
+                Err(error)
+            }
         }
-        self.forget_after(self.done);
-        self.actions.truncate(self.done);
-        self.actions.push(action);
-        self.done += 1;
-        self.keep()
     }
 
     /// Takes the last action back; `false` where there is none.
     ///
     /// # Errors
-    /// Those of the session while it does again what came before.
+    /// Those of the simulation while it does again what came before.
     pub fn undo(&mut self) -> Result<bool, Error> {
-        let Some(before) = self.done.checked_sub(1) else { return Ok(false) };
-        self.go_to(before)?;
-        Ok(true)
-    }
-
-    /// Does the last undone action again; `false` where there is none.
-    ///
-    /// # Errors
-    /// Those of the session.
-    pub fn redo(&mut self) -> Result<bool, Error> {
-        if self.done == self.actions.len() {
+        let here = self.tree.here;
+        if here == 0 {
             return Ok(false);
         }
-        self.go_to(self.done + 1)?;
+        self.go_to(self.tree.moments[here].before)?;
         Ok(true)
     }
 
-    /// Goes to where so many actions are done, at most all of them.
+    /// Does the undone action again that was there last; `false` where there is none.
     ///
     /// # Errors
-    /// Those of the session.
-    pub fn go_to(&mut self, done: usize) -> Result<(), Error> {
-        let done = done.min(self.actions.len());
-        let nearest = self.nearest(done);
-        if done < self.done || nearest > self.done {
-            return self.arrive(done);
-        }
-        self.replay(done)
+    /// Those of the simulation.
+    pub fn redo(&mut self) -> Result<bool, Error> {
+        let Some(next) = self.tree.moments[self.tree.here].next else { return Ok(false) };
+        self.go_to(next)?;
+        Ok(true)
     }
 
-    /// The last snapshot at or before a place.
-    fn nearest(&self, done: usize) -> usize {
-        *self.kept.range(..=done).next_back().expect("the start is always kept").0
+    /// Goes to a moment of any branch.
+    ///
+    /// # Errors
+    /// [`Error::Run`] where there is no such moment; those of the simulation.
+    pub fn go_to(&mut self, moment: usize) -> Result<(), Error> {
+        if moment >= self.moments() {
+            let last = self.moments() - 1;
+            return Err(Error::Run(format!("there is no moment {moment}; there are 0 to {last}")));
+        }
+        let fork = self.tree.fork(moment);
+        let kept = self.tree.nearest_copy(moment);
+        let again = |from: usize| self.tree.moments[moment].work - self.tree.moments[from].work;
+        if self.tree.can_be_taken_back_to(fork) && again(fork) <= again(kept).saturating_add(1) {
+            while self.tree.here != fork {
+                self.step_back()?;
+            }
+            return self.replay(moment);
+        }
+        self.arrive_by_a_copy(moment)
     }
 
-    /// Restores the nearest snapshot and goes on from there.
-    fn arrive(&mut self, done: usize) -> Result<(), Error> {
-        let from = self.nearest(done);
-        self.session.restore(&self.kept[&from])?;
-        self.done = from;
-        self.replay(done)
-    }
-
-    fn replay(&mut self, done: usize) -> Result<(), Error> {
-        while self.done < done {
-            self.session.apply(&self.actions[self.done])?;
-            self.done += 1;
+    /// Takes back the change that led here.
+    fn step_back(&mut self) -> Result<(), Error> {
+        let moment = &self.tree.moments[self.tree.here];
+        if let Some(patch) = &moment.patch {
+            self.simulation.take_back(patch)?;
         }
-        self.keep()
-    }
-
-    /// Keeps the state here, if there is room for it once others have gone.
-    fn keep(&mut self) -> Result<(), Error> {
-        if self.kept.contains_key(&self.done) {
-            return Ok(());
-        }
-        // A state is about as large as the first one, and room is made before it is copied.
-        let wanted = S::bytes(&self.kept[&0]);
-        if !self.make_room(wanted) {
-            return Ok(());
-        }
-        let snapshot = self.session.snapshot()?;
-        let bytes = S::bytes(&snapshot);
-        if bytes <= wanted || self.make_room(bytes) {
-            self.used += bytes;
-            self.kept.insert(self.done, snapshot);
-        }
+        self.tree.here = moment.before;
         Ok(())
     }
 
-    /// Drops snapshots until so many bytes are free; `false` where they cannot be.
-    fn make_room(&mut self, bytes: usize) -> bool {
+    /// Returns to the nearest copy and goes on from there.
+    fn arrive_by_a_copy(&mut self, moment: usize) -> Result<(), Error> {
+        let from = self.tree.nearest_copy(moment);
+        self.simulation.return_to(from as u64)?;
+        self.tree.here = from;
+        self.replay(moment)
+    }
+
+    fn replay(&mut self, moment: usize) -> Result<(), Error> {
+        for next in self.tree.path(moment) {
+            if !self.tree.comes_after_here(next) {
+                continue;
+            }
+            let Some(action) = &self.tree.moments[next].action else { continue };
+            let patch = self.simulation.apply(action)?;
+            self.tree.here = next;
+            if self.tree.moments[next].patch.is_none() {
+                self.remember(next, patch);
+            }
+            self.keep();
+        }
+        self.tree.remember_way(moment);
+        Ok(())
+    }
+
+    /// Keeps what takes an action back, where there is room for it.
+    fn remember(&mut self, moment: usize, patch: Option<S::Patch>) {
+        let Some(patch) = patch else { return };
+        let bytes = S::bytes_of(&patch);
+        if self.make_room(bytes) {
+            self.used += bytes;
+            self.tree.moments[moment].patch = Some(patch);
+        }
+    }
+
+    /// Keeps the state here, if that is worth it and there is room for it once others have gone. Where a device has no
+    /// memory for it, more has to be done again some day, and nothing else is lost.
+    fn keep(&mut self) {
+        let here = self.tree.here;
+        let since = self.tree.moments[here].work - self.tree.moments[self.tree.nearest_copy(here)].work;
+        if since < WORTH_A_COPY {
+            return;
+        }
+        let bytes = self.simulation.bytes_of_copy();
+        if self.make_room(bytes) && self.simulation.keep_as(here as u64).is_ok() {
+            self.used += bytes;
+            self.tree.moments[here].copy = Some(bytes);
+        }
+    }
+
+    /// Drops copies, and then what takes the oldest changes back, until so many bytes are free; `false` where they
+    /// cannot be.
+    fn make_room(&mut self, bytes: u64) -> bool {
         while self.used.saturating_add(bytes) > self.budget {
-            let Some(place) = self.cheapest() else { return false };
-            self.drop_at(place);
+            if let Some(moment) = self.tree.cheapest_copy() {
+                self.simulation.release(moment as u64);
+                self.used -= self.tree.moments[moment].copy.take().unwrap_or_default();
+            } else if let Some(patch) = self.tree.moments.iter_mut().find_map(|moment| moment.patch.take()) {
+                self.used -= S::bytes_of(&patch);
+            } else {
+                return false;
+            }
         }
         true
-    }
-
-    fn drop_at(&mut self, place: usize) {
-        if let Some(snapshot) = self.kept.remove(&place) {
-            self.used -= S::bytes(&snapshot);
-        }
-    }
-
-    fn forget_after(&mut self, done: usize) {
-        while let Some((&place, _)) = self.kept.range((Excluded(done), Unbounded)).next_back() {
-            self.drop_at(place);
-        }
-    }
-
-    /// The snapshot whose loss costs the least, but never the first: the work from the one before it to the
-    /// one after it, over the work from there to the present.
-    fn cheapest(&self) -> Option<usize> {
-        let work = self.work();
-        let places: Vec<usize> = self.kept.keys().copied().collect();
-        let cost = |place: usize| {
-            let before = places[place - 1];
-            let after = places.get(place + 1).copied().unwrap_or(self.actions.len());
-            let away = work[places[place]].abs_diff(work[self.done]) + 1;
-            (work[after] - work[before]) as f64 / away as f64
-        };
-        (1..places.len()).min_by(|&a, &b| cost(a).total_cmp(&cost(b))).map(|place| places[place])
-    }
-
-    /// Work from the start to each place.
-    fn work(&self) -> Vec<u64> {
-        let sums = self.actions.iter().scan(0_u64, |sum, action| {
-            *sum = sum.saturating_add(action.work());
-            Some(*sum)
-        });
-        std::iter::once(0).chain(sums).collect()
     }
 }

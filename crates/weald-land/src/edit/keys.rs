@@ -1,7 +1,7 @@
 //! The keys of an edit: what `do` can say, and what goes with it.
 
 use super::brush::{Brush, Effect, Falloff};
-use super::stroke::Edit;
+use super::change::{Change, Edit, Setting};
 use weald_core::parameter::{Diagnostics, LayerName, Parameters, Places, nearest};
 use weald_core::source::{Node, Table, Value};
 
@@ -9,8 +9,8 @@ use weald_core::source::{Node, Table, Value};
 pub const MAX_PLACES: usize = 10_000;
 
 weald_core::parameters! {
-    /// The keys of an edit, beside `do`: add, remove, add-water, remove-water, smooth, flatten, source, drain,
-    /// rain, freeze or thaw.
+    /// The keys of a stroke, beside `do`: add, remove, add-water, remove-water, smooth, flatten, source, drain,
+    /// rain, freeze or thaw. `do = "set"` has others, [`SettingKeys`].
     pub struct EditKeys {
         /// Iteration before which the stroke happens; 0 is before the first.
         step: u64 = 0, range 0..=9_007_199_254_740_991_u64;
@@ -39,6 +39,20 @@ weald_core::parameters! {
         factor: Option<f64> = None, range 0.0..=1000.0;
     }
 }
+
+weald_core::parameters! {
+    /// The keys of an edit that gives a key of the step another value, beside `do = "set"`; its `value` is a number, a
+    /// flag or a word.
+    pub struct SettingKeys {
+        /// Iteration before which the value changes; 0 is before the first.
+        step: u64 = 0, range 0..=9_007_199_254_740_991_u64;
+        /// Key of the step; one within a table has its name behind a point: `thermal.talus`.
+        key: Option<String> = None;
+    }
+}
+
+/// The word after `do` of an edit that changes a key.
+const SET: &str = "set";
 
 /// A word after `do`, the keys that it needs, and those that it may have.
 struct EditKind {
@@ -117,6 +131,9 @@ const SPECIAL: [&str; 7] = ["material", "thickness", "depth", "times", "height",
 pub(super) fn read(table: &Table, materials: &[&str], diagnostics: &mut Diagnostics) -> Option<Edit> {
     let before = diagnostics.found.len();
     "edit".clone_into(&mut diagnostics.subject);
+    if matches!(table.get("do"), Some(Node { value: Value::Text(word), .. }) if word == SET) {
+        return read_setting(table, diagnostics).filter(|_| diagnostics.found.len() == before);
+    }
     let edit_kind = edit_kind(table, diagnostics)?;
     edit_kind.word.clone_into(&mut diagnostics.subject);
     let mut rest = table.clone();
@@ -130,11 +147,32 @@ pub(super) fn read(table: &Table, materials: &[&str], diagnostics: &mut Diagnost
     }
     let effect = (edit_kind.effect)(&keys).filter(|_| diagnostics.found.len() == before)?;
     let EditKeys { step, path, radius, falloff, strength, .. } = keys;
-    Some(Edit { step, brush: Brush { path: path.0, radius, falloff, strength, effect } })
+    Some(Edit::stroke(step, Brush { path: path.0, radius, falloff, strength, effect }))
+}
+
+fn read_setting(table: &Table, diagnostics: &mut Diagnostics) -> Option<Edit> {
+    SET.clone_into(&mut diagnostics.subject);
+    let mut rest = table.clone();
+    rest.take("do");
+    let value = rest.take("value");
+    let keys = SettingKeys::read(&rest, diagnostics);
+    if keys.key.is_none() {
+        diagnostics.add(table.line, "`key` is needed: the key of the step that changes".to_owned());
+    }
+    match &value {
+        None => diagnostics.add(table.line, "`value` is needed: a number, a flag or a word".to_owned()),
+        Some(Node { line, value: value @ (Value::List(_) | Value::Table(_)) }) => {
+            let message = format!("`value` is {}, but must be a number, a flag or a word", value.shown());
+            diagnostics.add(*line, message);
+        }
+        Some(_) => {}
+    }
+    let setting = Setting { key: keys.key?, value: value?.value };
+    Some(Edit { step: keys.step, change: Change::Set(setting) })
 }
 
 fn edit_kind(table: &Table, diagnostics: &mut Diagnostics) -> Option<&'static EditKind> {
-    let words: Vec<_> = EDIT_KINDS.iter().map(|edit_kind| edit_kind.word).collect();
+    let words: Vec<_> = EDIT_KINDS.iter().map(|edit_kind| edit_kind.word).chain([SET]).collect();
     let Some(Node { value, line }) = table.get("do") else {
         diagnostics.add(table.line, format!("`do` is needed: one of {}", words.join(", ")));
         return None;
@@ -186,7 +224,13 @@ fn check_material(table: &Table, keys: &EditKeys, materials: &[&str], diagnostic
 
 /// The keys and values of an edit in JSON, which TOML reads too; those that are at their defaults are said.
 pub(super) fn written(edit: &Edit) -> Vec<(&'static str, serde_json::Value)> {
-    let Brush { path, radius, falloff, strength, effect } = &edit.brush;
+    let Brush { path, radius, falloff, strength, effect } = match &edit.change {
+        Change::Stroke(brush) => brush,
+        Change::Set(Setting { key, value }) => {
+            let (key, value) = (key.as_str().into(), plain(value));
+            return vec![("step", edit.step.into()), ("do", SET.into()), ("key", key), ("value", value)];
+        }
+    };
     let (word, special) = kind_and_keys(effect);
     let mut keys: Vec<(&'static str, serde_json::Value)> =
         vec![("step", edit.step.into()), ("do", word.into())];
@@ -198,6 +242,17 @@ pub(super) fn written(edit: &Edit) -> Vec<(&'static str, serde_json::Value)> {
         ("strength", (*strength).into()),
     ]);
     keys
+}
+
+/// A value that is no list and no table.
+fn plain(value: &Value) -> serde_json::Value {
+    match value {
+        Value::Flag(flag) => (*flag).into(),
+        Value::Integer(number) => (*number).into(),
+        Value::Number(number) => (*number).into(),
+        Value::Text(text) => text.as_str().into(),
+        Value::List(_) | Value::Table(_) => serde_json::Value::Null,
+    }
 }
 
 /// The word after `do`, and the keys that go with it.

@@ -2,7 +2,7 @@
 //!
 //! A [`Brush`] changes a [`Canvas`], plain fields over a rectangle of cells that any engine can hand over and
 //! take back. A [`Script`] says which stroke happens before which iteration, and a [`History`] goes back
-//! and forth over strokes and steps.
+//! and forth over strokes, settings and steps, and along branches.
 //!
 //! ```
 //! use weald_land::edit::{Area, Brush, Canvas, Effect, Falloff};
@@ -27,17 +27,17 @@
 mod at_rest;
 mod brush;
 mod canvas;
+mod change;
 mod history;
 mod json_lines;
 mod keys;
 mod paint;
 mod script;
-mod stroke;
 
 pub use brush::{Brush, Effect, Falloff};
 pub use canvas::{Area, Canvas};
-pub use history::{Action, History, Session};
-pub use keys::{EditKeys, MAX_PLACES};
+pub use change::{Change, Edit, Setting};
+pub use history::{Action, History, Undoable};
+pub use keys::{EditKeys, MAX_PLACES, SettingKeys};
 pub use paint::Volumes;
 pub use script::{Layout, MAX_BYTES, MAX_STROKES, Script};
-pub use stroke::Edit;

@@ -9,7 +9,7 @@
 //!
 //! In TOML each edit is a table `[[edit]]` of the same keys, which [`EditKeys`](super::EditKeys) explains.
 
-use super::stroke::Edit;
+use super::change::Edit;
 use std::fs::File;
 use std::io::Read;
 use std::path::Path;

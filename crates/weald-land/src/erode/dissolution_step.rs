@@ -1,10 +1,17 @@
 //! The `dissolution` step: ground under standing water turns into regolith, which creeps downhill.
 
+use std::path::PathBuf;
+use std::sync::Arc;
+
 use pulp::Arch;
 
+use super::begun::Begun;
+use super::edits::{PaintedPlanes, Place};
 use super::links::Links;
+use super::loose::{self, Loose};
 use super::material_planes::{Planes, REGOLITH_PLANES};
-use super::simulation::Simulation;
+use super::on_ground::store_ground;
+use super::scripted::Numbers;
 use super::stack::deposit_of;
 use super::stack::{Column, REGOLITH};
 use super::stava::digging::{DigScratch, Digging};
@@ -12,11 +19,13 @@ use super::stava::dissolution::{Dissolution, DissolutionScratch, RegolithRows};
 use super::stava::program::{self, StavaNumbers};
 use super::sweep::Sweep;
 use super::working::WorkingGrid;
+use crate::edit::Setting;
+use weald_core::domain::Domain;
 use weald_core::error::Error;
 use weald_core::grid::Size;
 use weald_core::landscape::Landscape;
 use weald_core::material::Material;
-use weald_core::parameter::{Fault, LayerName};
+use weald_core::parameter::{Fault, LayerName, ScriptFile};
 use weald_core::parameters;
 use weald_engine::Job;
 use weald_engine::program::{Content, Program};
@@ -58,6 +67,9 @@ parameters! {
         water: LayerName = LayerName::of("water");
         /// Layer with the height of the ground.
         layer: LayerName = LayerName::of("height");
+        /// Script of edits, in JSON lines (.jsonl) or TOML: strokes of a brush, and keys that change, between iterations.
+        /// Its path starts at the folder of the recipe.
+        edits: Option<ScriptFile> = None;
     }
 }
 
@@ -127,22 +139,62 @@ impl Step for DissolutionStep {
     }
 
     fn run(&self, landscape: &mut Landscape, job: &Job<'_>) -> Result<Outcome, Error> {
-        let materials = &landscape.materials;
-        let deposit = deposit_of(self.deposit.as_ref(), materials).map_err(Error::Run)?;
+        loose::run(self, landscape, job)
+    }
+
+    fn files(&self) -> Vec<PathBuf> {
+        loose::files(self)
+    }
+
+    fn look_ahead(&self, materials: &[Material], _: &Domain) -> Result<(), Error> {
+        loose::script(self, materials).map(drop)
+    }
+}
+
+impl Loose for DissolutionStep {
+    type Process = Dissolving;
+
+    const FIXED: &'static [&'static str] = &["layer", "water", "deposit"];
+
+    fn begin(&self, landscape: &Landscape, editable: bool) -> Result<Begun<Dissolving>, Error> {
+        let deposit = deposit_of(self.deposit.as_ref(), &landscape.materials).map_err(Error::Run)?;
         let mut working = WorkingGrid::new(landscape, &self.layer.0, false)?;
         working.set_water(landscape, &self.water.0)?;
         let first_layer = REGOLITH_PLANE + REGOLITH_PLANES;
-        let planes = Planes { first_layer, materials: materials.len() };
+        let planes = Planes { first_layer, materials: landscape.materials.len() };
         let column = Column { planes, regolith: Some(REGOLITH_PLANE) };
         working.set_stack(landscape, column, deposit)?;
-        let process = self.process(materials, deposit, planes, &working);
-        let plane_names: Vec<_> =
-            std::iter::once("change".to_owned()).chain(column.names(materials)).collect();
-        let simulation = Simulation::alone(&process, &plane_names, self.iterations);
-        let start = working.state(planes.count(), &[working.water().to_vec()]);
-        working.show(job)?;
-        let finished = simulation.run(start, job)?;
-        Ok(working.store_ground(landscape, &self.layer.0, &finished, u64::from(self.iterations)))
+        if editable {
+            working.set_changing_mask();
+        }
+        let working = Arc::new(working);
+        let (step, materials, grid) = (self.clone(), landscape.materials.clone(), Arc::clone(&working));
+        let process = move |settings: &[Setting]| -> Result<Dissolving, Error> {
+            Ok(loose::after(&step, settings)?.process(&materials, deposit, planes, &grid))
+        };
+        let first = process(&[])?;
+        let water = Some(first.state_planes() + first.constant_planes() - 1);
+        let painted = PaintedPlanes { water, ..PaintedPlanes::of(&first, column, &working) };
+        let names = landscape.materials.iter().map(|material| material.name.clone()).collect();
+        let change = std::iter::once("change".to_owned());
+        Ok(Begun {
+            plane_names: change.chain(column.names(&landscape.materials)).collect(),
+            start: working.state(planes.count(), &[working.water().to_vec()]),
+            numbers: Numbers::new(first, |_| ()),
+            remake: Arc::new(move |settings| Ok(Numbers::new(process(settings)?, |_| ()))),
+            means: &[],
+            place: Some(Arc::new(Place::of("dissolution", &working, names, painted))),
+            store: store_ground(&working, &self.layer.0),
+            working: Some(working),
+        })
+    }
+
+    fn iterations(&self) -> u32 {
+        self.iterations
+    }
+
+    fn edits(&self) -> Option<&ScriptFile> {
+        self.edits.as_ref()
     }
 }
 

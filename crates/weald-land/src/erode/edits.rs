@@ -1,23 +1,27 @@
-//! Strokes of a script in a running simulation: its state becomes a canvas, is painted on, and goes back.
+//! Strokes on a running simulation: a rectangle of its state becomes a canvas, is painted on, and goes back.
 //!
 //! What a stroke adds or takes counts into the sums of the run, water as rain and evaporation, ground as solid
 //! that went out (below 0 where some came), so that the budget closes over it. Only cells that a stroke changed
 //! get new values.
 
-use super::links::{MASK_PLANES, mask_planes};
+use super::links::mask_planes;
 use super::material_planes::WEATHER_PLANES;
 use super::stack::Column;
 use super::sums;
 use super::water_planes as plane;
 use super::working::WorkingGrid;
-use crate::edit::{Area, Brush, Canvas, Edit, Effect, Script};
+use crate::edit::{Area, Brush, Canvas, Effect};
 use weald_core::error::Error;
 use weald_core::grid::{Field, Mask, Size};
-use weald_engine::machine::Snapshot;
+use weald_engine::device::Window;
+use weald_engine::patch::{Patch, Patched};
+use weald_engine::stencil::chain::Process;
 use weald_engine::stencil::rows::Rows;
 
 /// Where a state lies on the landscape, and what its planes are.
 pub(crate) struct Place {
+    /// Name of the process, for errors.
+    name: &'static str,
     /// Columns and rows of the landscape, without the ring.
     size: Size,
     ring: usize,
@@ -26,200 +30,246 @@ pub(crate) struct Place {
     lowest: f64,
     /// Cells that take part, without the ring.
     valid: Option<Mask>,
-    column: Column,
+    /// Names of the materials that it tells apart, bedrock first.
+    materials: Vec<String>,
+    planes: PaintedPlanes,
+}
+
+/// What can be painted, by its planes.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PaintedPlanes {
+    pub(crate) column: Column,
+    /// Depth of the water.
+    pub(crate) water: Option<usize>,
+    /// The first of the planes of the mask.
+    pub(crate) mask: Option<usize>,
+    /// The first of the [`WEATHER_PLANES`].
+    pub(crate) weather: Option<usize>,
+}
+
+impl PaintedPlanes {
+    /// Those of a process whose constant planes begin with the ground, and the mask where there is one.
+    pub(crate) fn of<P: Process>(process: &P, column: Column, working: &WorkingGrid) -> Self {
+        let mask = working.mask.as_ref().map(|_| process.state_planes() + 1);
+        Self { column, water: None, mask, weather: None }
+    }
+
+    /// The planes of the rain and of the sources, which are the first and the last of the weather.
+    fn rain_and_source(self) -> Option<[usize; 2]> {
+        self.weather.map(|first| [first, first + WEATHER_PLANES - 1])
+    }
 }
 
 impl Place {
-    pub(crate) fn of(working: &WorkingGrid, column: Column) -> Self {
+    pub(crate) fn of(
+        name: &'static str,
+        working: &WorkingGrid,
+        materials: Vec<String>,
+        planes: PaintedPlanes,
+    ) -> Self {
         let size = working.start.size();
         let cells = (0..size.rows).flat_map(|y| (0..size.columns).map(move |x| working.place(x, y)));
         let takes_part = |mask: &Mask| cells.map(|at| at.is_some_and(|at| mask.is_valid_at(at))).collect();
         let valid = working.mask.as_ref().and_then(|mask| Mask::new(size, takes_part(mask)));
-        Self { size, ring: working.ring, cell: working.cell, lowest: working.lowest, valid, column }
-    }
-}
-
-/// A script that happens to a simulation.
-pub(crate) struct Edits {
-    script: Script,
-    materials: Vec<String>,
-    place: Place,
-}
-
-impl Edits {
-    /// Strokes that pass [`check`].
-    pub(crate) fn new(script: Script, materials: Vec<String>, place: Place) -> Self {
-        Self { script, materials, place }
+        let (ring, cell, lowest) = (working.ring, working.cell, working.lowest);
+        Self { name, size, ring, cell, lowest, valid, materials, planes }
     }
 
-    /// The first step, from `step` on, before which something happens.
-    pub(crate) fn next_from(&self, step: u64) -> Option<u64> {
-        self.script.next_from(step)
+    /// Whether a stroke touches a cell of the landscape.
+    pub(crate) fn is_touched_by(&self, brush: &Brush) -> bool {
+        brush.area(self.size, self.cell).is_some()
     }
 
-    /// What the user should know after a run of so many steps.
-    pub(crate) fn notes(&self, iterations: u64) -> Vec<String> {
-        let edits = self.script.edits();
-        let (happened, late) = edits.split_at(edits.partition_point(|edit| edit.step < iterations));
-        let Place { size, cell, .. } = self.place;
-        let beside = happened.iter().filter(|edit| edit.brush.area(size, cell).is_none()).count();
-        let mut notes = vec![format!(
-            "strokes of the script that happened: {}; in the budget the ground that they gave or took counts as \
-             solid that went out (below 0: came), the water as rain and evaporation",
-            happened.len()
-        )];
-        if beside > 0 {
-            notes.push(format!("strokes that touched no cell of the landscape: {beside}"));
-        }
-        if !late.is_empty() {
-            let late = late.len();
-            notes.push(format!(
-                "strokes that did not happen, since they come after the last of {iterations} iterations: {late}"
-            ));
-        }
-        notes
-    }
-
-    /// All strokes that happen before a step.
-    pub(crate) fn change(&self, step: u64, snapshot: &mut Snapshot) -> Result<(), Error> {
-        self.script.before(step).iter().try_for_each(|edit| self.stroke(&edit.brush, snapshot))
-    }
-
-    /// Paints the weather, and what stands still, again as they were after `done` steps: a checkpoint does not
-    /// hold them.
-    pub(crate) fn catch_up(&self, done: u64, snapshot: &mut Snapshot) -> Result<(), Error> {
-        let weather = |effect: &Effect| {
-            matches!(effect, Effect::Source { .. } | Effect::Drain { .. } | Effect::Rain { .. })
-        };
-        let stays = |edit: &&Edit| weather(&edit.brush.effect) || stills(&edit.brush.effect);
-        let earlier = self.script.edits().iter().filter(|edit| edit.step < done);
-        earlier.filter(stays).try_for_each(|edit| self.stroke(&edit.brush, snapshot))
-    }
-
-    /// One stroke.
-    pub(crate) fn stroke(&self, brush: &Brush, snapshot: &mut Snapshot) -> Result<(), Error> {
-        check_stroke(brush, self.place.ring > 0).map_err(Error::Run)?;
-        let Some(area) = brush.area(self.place.size, self.place.cell) else { return Ok(()) };
-        let before = self.canvas(area, &snapshot.state);
+    /// Paints a stroke on a state; gives what was there before, where it touched anything.
+    pub(crate) fn stroke(&self, brush: &Brush, state: &mut dyn Patched) -> Result<Option<Patch>, Error> {
+        self.check(brush).map_err(Error::Run)?;
+        let Some(area) = brush.area(self.size, self.cell) else { return Ok(None) };
+        let before = state.patch(&self.window(area, brush))?;
+        let canvas = self.canvas_of(area, &before);
+        let mut painted = canvas.clone();
+        brush.paint(&mut painted)?;
         let mut after = before.clone();
-        brush.paint(&mut after)?;
-        self.take_back(&before, &after, snapshot);
-        if before.frozen != after.frozen {
-            self.freeze(&after, &mut snapshot.state);
+        self.take_over([&canvas, &painted], &mut after);
+        if canvas.frozen != painted.frozen {
+            self.freeze(&painted, &mut after);
         }
-        Ok(())
-    }
-
-    /// The whole of the landscape.
-    pub(crate) fn whole(&self) -> Area {
-        Area { first: [0, 0], size: self.place.size }
+        let changed = before.differs(&after);
+        state.lay(&after.only(&changed))?;
+        Ok(Some(before.only(&changed)))
     }
 
     /// A rectangle of the state, in metres.
-    pub(crate) fn canvas(&self, area: Area, state: &Rows) -> Canvas {
-        let Place { cell, lowest, ref valid, column, .. } = self.place;
-        let base = column.planes.count();
-        let metres =
-            |plane: usize| self.cut(area, |x, y| (f64::from(state.plane(y, plane)[x]) * cell) as f32);
-        let height = |x: usize, y: usize| {
-            let [base, change] = [base, plane::CHANGE].map(|plane| f64::from(state.plane(y, plane)[x]));
-            (lowest + (base + change) * cell) as f32
+    pub(crate) fn canvas(&self, area: Area, state: &mut dyn Patched) -> Result<Canvas, Error> {
+        let last = [area.first[0] + area.size.columns, area.first[1] + area.size.rows];
+        if last[0] > self.size.columns || last[1] > self.size.rows {
+            let [x, y] = area.first;
+            let Size { columns, rows } = self.size;
+            let size = area.size;
+            let message =
+                format!("{size} cells from column {x}, row {y} on are not within {columns} × {rows}");
+            return Err(Error::Run(message));
+        }
+        Ok(self.canvas_of(area, &state.patch(&self.cells(area, 0))?))
+    }
+
+    /// Cells of the state that a stroke reads: those of walls depend on their neighbours.
+    fn window(&self, area: Area, brush: &Brush) -> Window {
+        self.cells(area, if stills(&brush.effect) { 2 } else { 0 })
+    }
+
+    fn cells(&self, area: Area, margin: usize) -> Window {
+        let side = |first: usize, length: usize, whole: usize| {
+            let (first, end) = (first + self.ring, first + length + self.ring);
+            first.saturating_sub(margin)..(end + margin).min(whole + 2 * self.ring)
         };
-        let [rain, source] = weather_of(state);
-        let open = valid.as_ref().map(|valid| {
-            let rows = area.first[1]..area.first[1] + area.size.rows;
-            let columns = area.first[0]..area.first[0] + area.size.columns;
-            rows.flat_map(|y| columns.clone().map(move |x| valid.is_valid(x, y))).collect()
-        });
+        Window {
+            columns: side(area.first[0], area.size.columns, self.size.columns),
+            rows: side(area.first[1], area.size.rows, self.size.rows),
+        }
+    }
+
+    /// Column and row of a patch at which an area begins.
+    fn corner(&self, area: Area, patch: &Patch) -> [usize; 2] {
+        let [left, top] = area.first.map(|first| first + self.ring);
+        [left - patch.window.columns.start, top - patch.window.rows.start]
+    }
+
+    fn canvas_of(&self, area: Area, patch: &Patch) -> Canvas {
+        let PaintedPlanes { column, water, .. } = self.planes;
+        let (rows, cell) = (&patch.rows, self.cell);
+        let [left, top] = self.corner(area, patch);
+        let cut = |value: &dyn Fn(usize, usize) -> f32| {
+            Field::from_function(area.size, |x, y| value(left + x, top + y))
+        };
+        let plane =
+            |plane: usize, factor: f64| cut(&|x, y| (f64::from(rows.plane(y, plane)[x]) * factor) as f32);
+        let or = |given: Option<usize>, factor: f64, otherwise: f32| {
+            given.map_or_else(|| Field::filled(area.size, otherwise), |at| plane(at, factor))
+        };
+        let base = column.planes.count();
+        let height = |x: usize, y: usize| {
+            let [base, change] = [base, plane::CHANGE].map(|plane| f64::from(rows.plane(y, plane)[x]));
+            (self.lowest + (base + change) * cell) as f32
+        };
+        let weather = self.planes.rain_and_source();
         Canvas {
             first: area.first,
             cell,
             materials: self.materials.clone(),
-            valid: open.and_then(|open| Mask::new(area.size, open)),
-            bedrock: self.cut(area, height),
-            thickness: (1..column.planes.materials)
-                .map(|material| metres(column.planes.of(material)))
-                .collect(),
-            water: metres(plane::DEPTH),
-            source: metres(source),
-            rain: self.cut(area, |x, y| state.plane(y, rain)[x]),
-            frozen: self.frozen(area, state),
+            valid: self.open(area),
+            bedrock: cut(&height),
+            thickness: (1..column.planes.materials).map(|at| plane(column.planes.of(at), cell)).collect(),
+            water: or(water, cell, 0.0),
+            source: or(weather.map(|[_, source]| source), cell, 0.0),
+            rain: or(weather.map(|[rain, _]| rain), 1.0, 1.0),
+            frozen: self.frozen(area, patch),
         }
     }
 
+    /// Cells of an area that a brush may change.
+    fn open(&self, area: Area) -> Option<Mask> {
+        let valid = self.valid.as_ref()?;
+        let rows = area.first[1]..area.first[1] + area.size.rows;
+        let columns = area.first[0]..area.first[0] + area.size.columns;
+        Mask::new(area.size, rows.flat_map(|y| columns.clone().map(move |x| valid.is_valid(x, y))).collect())
+    }
+
+    /// Whether a cell of the landscape is simulated.
+    fn takes_part(&self, x: usize, y: usize) -> bool {
+        self.valid.as_ref().is_none_or(|valid| valid.is_valid(x, y))
+    }
+
     /// Where cells that take part stand still.
-    fn frozen(&self, area: Area, state: &Rows) -> Field {
-        let Place { ref valid, column, ring, .. } = self.place;
-        let Some(masked) = mask_plane(column, state) else { return Field::filled(area.size, 0.0) };
-        self.cut(area, |x, y| {
-            let takes_part = valid.as_ref().is_none_or(|valid| valid.is_valid(x - ring, y - ring));
-            f32::from(u8::from(takes_part && state.plane(y, masked)[x] == 0.0))
+    fn frozen(&self, area: Area, patch: &Patch) -> Field {
+        let [left, top] = self.corner(area, patch);
+        Field::from_function(area.size, |x, y| {
+            let masked =
+                self.planes.mask.is_some_and(|mask| patch.rows.plane(top + y, mask)[left + x] == 0.0);
+            let frozen = masked && self.takes_part(area.first[0] + x, area.first[1] + y);
+            f32::from(u8::from(frozen))
         })
     }
 
     /// Puts walls around what stands still, and takes them away from what does not.
-    fn freeze(&self, after: &Canvas, state: &mut Rows) {
-        let Place { ref valid, column, .. } = self.place;
-        let masked = mask_plane(column, state).expect("a grid with edits has a mask");
-        let columns = state.layout.columns;
-        let mut flags: Vec<_> = state.gather(masked).into_iter().map(|valid| valid > 0.0).collect();
+    fn freeze(&self, after: &Canvas, patch: &mut Patch) {
+        let Some(masked) = self.planes.mask else { return };
+        let size = patch.window.size();
+        let mut flags: Vec<_> = patch.rows.gather(masked).into_iter().map(|valid| valid > 0.0).collect();
+        let [left, top] = self.corner(after.area(), patch);
         for y in 0..after.frozen.size().rows {
             for (x, &frozen) in after.frozen.row(y).iter().enumerate() {
-                let [x, y] = [after.first[0] + x, after.first[1] + y];
-                let takes_part = valid.as_ref().is_none_or(|valid| valid.is_valid(x, y));
-                flags[y * columns + x] = takes_part && frozen == 0.0;
+                let takes_part = self.takes_part(after.first[0] + x, after.first[1] + y);
+                flags[size.index(left + x, top + y)] = takes_part && frozen == 0.0;
             }
         }
-        let mask = Mask::always(Size { columns, rows: state.count() }, flags);
+        let inner = self.known_walls(&patch.window);
+        let mask = Mask::always(size, flags);
         for (at, plane) in mask_planes(&mask, false).iter().enumerate() {
-            state.scatter(masked + at, plane);
+            for y in inner.rows.clone() {
+                let cells = &plane[y * size.columns..][inner.columns.clone()];
+                patch.rows.plane_mut(y, masked + at)[inner.columns.clone()].copy_from_slice(cells);
+            }
         }
     }
 
-    /// A field over a rectangle, from values by column and row of the state.
-    fn cut(&self, area: Area, value: impl Fn(usize, usize) -> f32) -> Field {
-        let [left, top] = area.first.map(|first| first + self.place.ring);
-        Field::from_function(area.size, |x, y| value(left + x, top + y))
+    /// Cells of a patch all of whose neighbours it holds, or that lie at the edge of the whole.
+    fn known_walls(&self, window: &Window) -> Window {
+        let inner = |range: &std::ops::Range<usize>, whole: usize| {
+            let first = usize::from(range.start > 0);
+            first..range.len() - usize::from(range.end < whole + 2 * self.ring)
+        };
+        Window {
+            columns: inner(&window.columns, self.size.columns),
+            rows: inner(&window.rows, self.size.rows),
+        }
     }
 
-    /// Gives the state what a stroke changed.
-    fn take_back(&self, before: &Canvas, after: &Canvas, snapshot: &mut Snapshot) {
-        let Place { cell, column, .. } = self.place;
-        let [rain, source] = weather_of(&snapshot.state);
+    /// Gives a patch what a stroke changed.
+    fn take_over(&self, [before, after]: [&Canvas; 2], patch: &mut Patch) {
+        let PaintedPlanes { column, water, .. } = self.planes;
+        let cell = self.cell;
         let whole = |_: f32, _: f32, new: f32| (f64::from(new) / cell) as f32;
+        let share = |_: f32, _: f32, new: f32| new;
         // Of a high mountain the change alone has the digits of what was added.
         let change =
             |now: f32, old: f32, new: f32| (f64::from(now) + (f64::from(new) - f64::from(old)) / cell) as f32;
-        let fields = |canvas| Canvas::fields(canvas).map(|(_, field)| field);
-        let names: Vec<_> = (0..column.planes.materials).map(|material| column.planes.of(material)).collect();
-        let planes = names.iter().copied().chain([plane::DEPTH, source, rain]);
-        for ((plane, old), new) in planes.zip(fields(before)).zip(fields(after)) {
-            let value: &dyn Fn(f32, f32, f32) -> f32 = match plane {
-                plane::CHANGE => &change,
-                _ if plane == rain => &|_, _, new| new,
-                _ => &whole,
-            };
-            let patch = Patch { first: before.first, ring: self.place.ring, plane, old, new };
-            let moved = patch.lay(&mut snapshot.state, value);
-            if plane == plane::DEPTH {
-                snapshot.row_sums[0][sums::RAINED] += moved[0];
-                snapshot.row_sums[0][sums::EVAPORATED] += moved[1];
-            } else if names.contains(&plane) {
-                snapshot.row_sums[0][sums::SEDIMENT_OUT] -= moved[0] + moved[1];
-            }
+        let corner = self.corner(before.area(), patch);
+        let solid = (0..column.planes.materials).map(|material| column.planes.of(material));
+        for ((plane, (_, old)), (_, new)) in solid.zip(before.fields()).zip(after.fields()) {
+            let value: &dyn Fn(f32, f32, f32) -> f32 = if plane == plane::CHANGE { &change } else { &whole };
+            let moved = Painted { corner, plane, old, new }.lay(&mut patch.rows, value);
+            patch.sums[sums::SEDIMENT_OUT] -= moved[0] + moved[1];
         }
+        if let Some(plane) = water {
+            let moved =
+                Painted { corner, plane, old: &before.water, new: &after.water }.lay(&mut patch.rows, &whole);
+            patch.sums[sums::RAINED] += moved[0];
+            patch.sums[sums::EVAPORATED] += moved[1];
+        }
+        if let Some([rain, source]) = self.planes.rain_and_source() {
+            Painted { corner, plane: source, old: &before.source, new: &after.source }
+                .lay(&mut patch.rows, &whole);
+            Painted { corner, plane: rain, old: &before.rain, new: &after.rain }.lay(&mut patch.rows, &share);
+        }
+    }
+
+    /// Complains of a stroke that the simulation cannot follow.
+    pub(crate) fn check(&self, brush: &Brush) -> Result<(), String> {
+        check_stroke(brush, self.ring > 0)?;
+        let (name, planes) = (self.name, &self.planes);
+        let missing = match brush.effect {
+            Effect::AddWater { .. } | Effect::RemoveWater { .. } if planes.water.is_none() => "water",
+            Effect::Source { .. } | Effect::Drain { .. } if planes.weather.is_none() => "painted springs",
+            Effect::Rain { .. } if planes.weather.is_none() => "painted rain",
+            Effect::Freeze | Effect::Thaw if planes.mask.is_none() => "ground that stands still",
+            _ => return Ok(()),
+        };
+        Err(format!("`{name}` knows no {missing}, so that this stroke has nothing to paint on"))
     }
 }
 
-/// Complains of the first edit that a simulation cannot follow.
-pub(super) fn check(script: &Script, open: bool) -> Result<(), String> {
-    script.edits().iter().try_for_each(|Edit { step, brush }| {
-        check_stroke(brush, open).map_err(|what| format!("before step {step} {what}"))
-    })
-}
-
 /// What stands still has walls, and where the border is open water would fall through them.
-fn check_stroke(brush: &Brush, open: bool) -> Result<(), String> {
+pub(super) fn check_stroke(brush: &Brush, open: bool) -> Result<(), String> {
     if open && stills(&brush.effect) {
         return Err(
             "a stroke freezes or thaws ground, which needs boundary = \"closed\" in the step; it is \
@@ -231,34 +281,23 @@ fn check_stroke(brush: &Brush, open: bool) -> Result<(), String> {
 }
 
 /// Whether a stroke makes ground stand still, or ends it.
-fn stills(effect: &Effect) -> bool {
+pub(super) fn stills(effect: &Effect) -> bool {
     matches!(effect, Effect::Freeze | Effect::Thaw)
 }
 
-/// The first of the planes of the mask, where the world has them: behind the ground of the start.
-fn mask_plane(column: Column, state: &Rows) -> Option<usize> {
-    let first = column.planes.count() + 1;
-    (state.layout.planes >= first + MASK_PLANES + WEATHER_PLANES).then_some(first)
-}
-
-/// The planes of the rain and of the sources, which are the first and the last of the weather.
-fn weather_of(state: &Rows) -> [usize; 2] {
-    [state.layout.planes - WEATHER_PLANES, state.layout.planes - 1]
-}
-
 /// A field before and after a stroke, and the plane that it came from.
-struct Patch<'a> {
-    first: [usize; 2],
-    ring: usize,
+struct Painted<'a> {
+    /// Column and row of the patch at which the fields begin.
+    corner: [usize; 2],
     plane: usize,
     old: &'a Field,
     new: &'a Field,
 }
 
-impl Patch<'_> {
+impl Painted<'_> {
     /// Sets the cells that differ; gives what they gained and, below 0, what they lost.
     fn lay(&self, state: &mut Rows, value: &dyn Fn(f32, f32, f32) -> f32) -> [f64; 2] {
-        let [left, top] = self.first.map(|first| first + self.ring);
+        let [left, top] = self.corner;
         let Size { columns, rows } = self.old.size();
         let mut moved = [0.0; 2];
         for y in 0..rows {

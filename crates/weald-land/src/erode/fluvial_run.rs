@@ -9,6 +9,7 @@ use super::fluvial_numbers::Steps;
 use super::fluvial_step::Fluvial;
 use super::hydraulic::Boundary;
 use super::pipeline::Stepped;
+use super::scripted::Numbers as Running;
 use super::simulation::{Record, Simulation};
 use super::springs::Forcing;
 use super::stored::MeanFluxes;
@@ -177,20 +178,22 @@ impl<'a> Flood<'a> {
         let pipeline = self.numbers.pipeline();
         let masked = self.working.mask.is_some();
         let program = fluvial::program(&self.numbers, masked, pipeline.reach());
-        let process = Stepped::with_program(&pipeline, (self.working.size, masked), program);
+        let process: Stepped<Forcing> =
+            Stepped::with_program(&pipeline, (self.working.size, masked), program);
+        let plane_names = process.state_names();
         let Steps { count, .. } = self.steps();
         // Where a plane says what comes to each cell, it counts once.
         let rain = if self.numbers.rain_map { 1.0 } else { self.rain() };
+        let numbers = Running::new(process, move |_| Forcing { rain, evaporation: 0.0 });
         let seen = |finished: &Finished| {
             let mut seen = self.landscape.clone();
             self.store(&mut seen, finished);
-            seen
+            Ok(seen)
         };
         let simulation = Simulation {
-            process: &process,
-            plane_names: &process.state_names(),
+            numbers: &numbers,
+            plane_names: &plane_names,
             iterations: count,
-            weather: &|_| Forcing { rain, evaporation: 0.0 },
             record: Some(Record {
                 steps: count - count.div_ceil(RECORDED)..count,
                 means: fluvial::MEAN_FLUXES,
@@ -198,7 +201,7 @@ impl<'a> Flood<'a> {
             edits: None,
             seen: Some(&seen),
         };
-        self.working.show(job)?;
+        self.working.show(&job.engine)?;
         simulation.run(start, job)
     }
 

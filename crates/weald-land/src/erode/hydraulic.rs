@@ -6,29 +6,29 @@
 
 mod defaults;
 mod faults;
-mod interactive;
 mod keys;
 mod models;
 mod stava;
-
-pub use interactive::{InteractiveSession, SessionState};
 
 pub use keys::{Boundary, HanKeys, Hydraulic, MeiKeys, Model, StavaKeys, Transport, UptakeLaw};
 use std::path::PathBuf;
 
 use super::advection::Advection;
+use super::interactive::{Interactive, InteractiveSimulation, whole};
 use super::springs::Forcing;
 use super::stack::REGOLITH;
 use super::thermal::Slide;
 use super::thermal_step::ThermalWithin;
+use crate::edit::Script;
 use defaults::ResolvedKeys;
 use weald_core::domain::Domain;
 use weald_core::error::Error;
 use weald_core::landscape::Landscape;
 use weald_core::material::Material;
 use weald_core::parameter::{Fault, ScriptFile};
-use weald_engine::Job;
+use weald_core::source::Value;
 use weald_engine::step::{Entry, Layered, Outcome, Stage, Step};
+use weald_engine::{Engine, Job};
 
 /// The step's declaration.
 pub const ENTRY: Entry = Entry::of::<Hydraulic>(
@@ -81,15 +81,13 @@ impl Hydraulic {
         Forcing { rain, evaporation: if evaporates { filled.evaporation } else { 0.0 } }
     }
 
-    /// The script of edits.
-    fn edits(&self) -> Option<&ScriptFile> {
-        self.model.stava()?.edits.as_ref()
-    }
-
-    /// The steps of the last whole cycle of rain and sun, or all where none was whole.
-    fn last_cycle(&self, filled: &ResolvedKeys) -> std::ops::Range<u64> {
-        let cycle = u64::from(self.rain_period) + u64::from(filled.dry_period);
+    /// The steps whose fluxes are averaged: those of the last whole cycle of rain and sun, or all where none was whole.
+    fn recorded(&self, cell: f64) -> std::ops::Range<u64> {
         let iterations = u64::from(self.iterations);
+        if let Some(steps) = self.mean_over {
+            return iterations.saturating_sub(u64::from(steps))..iterations;
+        }
+        let cycle = u64::from(self.rain_period) + u64::from(self.filled(cell).dry_period);
         let end = iterations / cycle * cycle;
         if end == 0 { 0..iterations } else { end - cycle..end }
     }
@@ -129,7 +127,7 @@ impl Step for Hydraulic {
     }
 
     fn files(&self) -> Vec<PathBuf> {
-        self.edits().map(ScriptFile::path).into_iter().collect()
+        self.edits.as_ref().map(ScriptFile::path).into_iter().collect()
     }
 
     fn look_ahead(&self, materials: &[Material], _: &Domain) -> Result<(), Error> {
@@ -153,8 +151,20 @@ impl Step for Hydraulic {
     }
 
     fn run(&self, landscape: &mut Landscape, job: &Job<'_>) -> Result<Outcome, Error> {
-        let filled = self.filled(landscape.domain.cell);
-        let working = self.working(landscape, self.edits().is_some())?;
-        self.run_model(landscape, job, &filled, &working)
+        self.run_model(landscape, job)
+    }
+}
+
+impl Interactive for Hydraulic {
+    fn hold(&self, landscape: &Landscape, engine: &Engine) -> Result<InteractiveSimulation, Error> {
+        self.held(landscape, engine)
+    }
+
+    fn replayed(&self, steps: u64) -> Vec<(&'static str, Value)> {
+        vec![("iterations", whole(steps)), ("mean_over", Value::Integer(1))]
+    }
+
+    fn recorded(&self, materials: &[Material]) -> Result<Option<(u64, Script)>, Error> {
+        Ok(self.script(materials)?.map(|script| (u64::from(self.iterations), script)))
     }
 }

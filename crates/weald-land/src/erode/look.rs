@@ -10,7 +10,7 @@ use weald_engine::stencil::chain::RowSums;
 use weald_engine::stencil::rows::Rows;
 
 /// What a state looks like as a landscape.
-pub(crate) type Seen<'a> = &'a dyn Fn(&Finished) -> Landscape;
+pub(crate) type Seen<'a> = &'a dyn Fn(&Finished) -> Result<Landscape, Error>;
 
 impl Finished {
     /// A state as if the simulation ended with it; its means are those of the moment.
@@ -29,7 +29,7 @@ pub(super) fn show(
     seen: Option<Seen<'_>>,
 ) -> Result<(), Error> {
     match seen {
-        Some(seen) if watcher.next_look(done) == Some(done) => watcher.look(done, &seen(&finished()?)),
+        Some(seen) if watcher.next_look(done) == Some(done) => watcher.look(done, &seen(&finished()?)?),
         _ => Ok(()),
     }
 }

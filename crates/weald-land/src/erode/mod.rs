@@ -8,6 +8,7 @@
 
 mod advection;
 mod advection_rows;
+mod begun;
 #[cfg(test)]
 #[path = "../../tests/worked_example/creep.rs"]
 pub mod creep;
@@ -25,8 +26,10 @@ mod flux_corrected;
 mod four_outflows;
 mod han;
 pub mod hydraulic;
+pub mod interactive;
 mod links;
 mod look;
+mod loose;
 mod material_planes;
 mod mei;
 mod on_ground;
@@ -37,7 +40,9 @@ mod pipes;
 mod processes;
 mod programs;
 mod saved;
+mod scripted;
 mod setting;
+mod settings;
 mod settling;
 mod simulation;
 pub mod slippage_step;
@@ -54,7 +59,7 @@ pub mod transport_step;
 mod water_planes;
 mod working;
 
-pub use processes::processes;
+pub use processes::{interactive as interactive_step, interactive_names, processes};
 pub use programs::programs;
 
 use weald_engine::stencil::ring::Ring;

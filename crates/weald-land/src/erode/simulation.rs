@@ -2,49 +2,41 @@
 
 use std::time::Instant;
 
-use super::edits::Edits;
 use super::finished::Finished;
 use super::look::{self, Seen};
 use super::pace::Pace;
 use super::saved::Saved;
+use super::scripted::{Edits, Numbers};
+use crate::edit::{Change, Setting};
 use weald_core::error::{Error, NotFinite};
 use weald_engine::machine::{Machine, Means, Snapshot};
 use weald_engine::machine_of_engine;
+use weald_engine::patch::{Patch, Patched};
 use weald_engine::stencil::chain::Process;
 use weald_engine::stencil::rows::Rows;
 use weald_engine::{Engine, Job, SavedSimulation};
 
 /// A process and how long it runs.
 pub(crate) struct Simulation<'a, P: Process> {
-    pub(crate) process: &'a P,
+    pub(crate) numbers: &'a Numbers<P>,
     /// Names of the state planes, for checkpoints and errors.
     pub(crate) plane_names: &'a [String],
     /// Iterations to run.
     pub(crate) iterations: u64,
-    /// Weather of each step.
-    pub(crate) weather: &'a (dyn Fn(u64) -> P::Weather + Sync),
     /// Fluxes to average, and over which steps.
-    pub(crate) record: Option<Record<'a>>,
+    pub(crate) record: Option<Record>,
     /// What a person changes between the steps.
-    pub(crate) edits: Option<&'a Edits>,
+    pub(crate) edits: Option<&'a Edits<P>>,
     /// What its states look like, where it can be looked at.
     pub(crate) seen: Option<Seen<'a>>,
 }
 
 /// A wish for mean values.
-pub(crate) struct Record<'a> {
+pub(crate) struct Record {
     /// Steps over which to average.
     pub(crate) steps: std::ops::Range<u64>,
     /// Parts of each mean.
-    pub(crate) means: Means<'a>,
-}
-
-impl<'a, P: Process<Weather = ()>> Simulation<'a, P> {
-    /// A process of its own, without weather, means and edits.
-    pub(crate) fn alone(process: &'a P, plane_names: &'a [String], iterations: u32) -> Self {
-        let iterations = u64::from(iterations);
-        Self { process, plane_names, iterations, weather: &|_| (), record: None, edits: None, seen: None }
-    }
+    pub(crate) means: Means<'static>,
 }
 
 impl<P: Process> Simulation<'_, P> {
@@ -96,11 +88,13 @@ impl<P: Process> Simulation<'_, P> {
             job.watcher.progress(running.done, self.iterations, running.cells);
             running.stop_or_checkpoint()?;
         }
+        // What happens after the last step happens as well, before anybody looks.
+        running.edit()?;
         running.look()?;
         running.finish()
     }
 
-    fn means(&self) -> Means<'_> {
+    fn means(&self) -> Means<'static> {
         self.record.as_ref().map_or(&[], |record| record.means)
     }
 }
@@ -108,15 +102,18 @@ impl<P: Process> Simulation<'_, P> {
 struct Running<'a, P: Process> {
     simulation: &'a Simulation<'a, P>,
     job: &'a Job<'a>,
-    machine: Box<dyn Machine<P::Weather> + 'a>,
+    machine: Box<dyn Machine<P>>,
+    /// What the keys say now.
+    numbers: Numbers<P>,
+    settings: Vec<Setting>,
     pace: Pace,
     done: u64,
     cells: usize,
     /// Steps at the last look, when all was well.
     good: u64,
     last: Option<&'a mut Saved>,
-    /// The state before the edits that came last.
-    unedited: Option<Saved>,
+    /// Steps after which the edits came that were the last, and what they painted over.
+    unedited: Option<(u64, Vec<Patch>)>,
 }
 
 impl<'a, P: Process> Running<'a, P> {
@@ -128,7 +125,7 @@ impl<'a, P: Process> Running<'a, P> {
         last: Option<&'a mut Saved>,
     ) -> Result<Self, Error> {
         let state = &from.snapshot.state;
-        if let Some([x, y, plane]) = state.first_not_finite(simulation.process.state_planes()) {
+        if let Some([x, y, plane]) = state.first_not_finite(simulation.numbers.process.state_planes()) {
             let name = &simulation.plane_names[plane];
             let message = format!(
                 "the simulation starts with a value of `{name}` at column {x}, row {y} that is no number"
@@ -139,13 +136,19 @@ impl<'a, P: Process> Running<'a, P> {
             );
         }
         let cells = from.snapshot.size().cells();
-        let machine =
-            machine_of_engine::start(simulation.process, simulation.means(), &from.snapshot, engine)?;
+        let settings = simulation.edits.map(|edits| edits.settings_before(from.done)).unwrap_or_default();
+        let numbers = match simulation.edits {
+            Some(edits) => edits.numbers(&settings, simulation.numbers)?,
+            None => simulation.numbers.clone(),
+        };
+        let machine = machine_of_engine::start(&numbers.process, simulation.means(), &from.snapshot, engine)?;
         let pace = Pace::new(engine, cells, machine.block());
         Ok(Self {
             simulation,
             job,
             machine,
+            numbers,
+            settings,
             pace,
             done: from.done,
             cells,
@@ -168,10 +171,19 @@ impl<'a, P: Process> Running<'a, P> {
         else {
             return Ok(());
         };
-        let mut snapshot = self.machine.snapshot()?;
-        self.unedited = Some(Saved { done: self.done, snapshot: snapshot.clone() });
-        edits.change(self.done, &mut snapshot)?;
-        self.machine.restore(&snapshot)
+        let mut before = Vec::new();
+        for edit in edits.script.before(self.done) {
+            match &edit.change {
+                Change::Stroke(brush) => before.extend(edits.place()?.stroke(brush, &mut *self.machine)?),
+                Change::Set(setting) => {
+                    self.settings.push(setting.clone());
+                    self.numbers = (edits.remake)(&self.settings)?;
+                    self.machine.follow(&self.numbers.process)?;
+                }
+            }
+        }
+        self.unedited = Some((self.done, before));
+        self.machine.keep()
     }
 
     /// One stretch of steps, and a look at the result.
@@ -197,7 +209,7 @@ impl<'a, P: Process> Running<'a, P> {
             let recorded = record.contains(&self.done);
             let border = if recorded { record.end } else { record.start };
             let stop = if border > self.done { end.min(border) } else { end };
-            let weather: Vec<_> = (self.done..stop).map(self.simulation.weather).collect();
+            let weather: Vec<_> = (self.done..stop).map(|step| (self.numbers.weather)(step)).collect();
             self.machine.advance(&weather, recorded)?;
             self.done = stop;
         }
@@ -209,11 +221,7 @@ impl<'a, P: Process> Running<'a, P> {
         self.machine.go_back()?;
         self.done = self.good;
         while self.done < end {
-            let unedited = self.unedited.as_ref().filter(|unedited| unedited.done == self.done);
-            let before = match unedited {
-                Some(unedited) => unedited.named(self.simulation.plane_names),
-                None => self.saved()?,
-            };
+            let before = self.unedited()?;
             self.advance_to(self.done + 1)?;
             let Some([x, y, plane]) = self.machine.first_not_finite()? else { continue };
             let name = &self.simulation.plane_names[plane];
@@ -232,6 +240,16 @@ impl<'a, P: Process> Running<'a, P> {
         Ok(Error::Run(format!(
             "a value that is not finite appeared before iteration {end} and did not appear again"
         )))
+    }
+
+    /// The state as it was before the edits that happen at its step.
+    fn unedited(&mut self) -> Result<SavedSimulation, Error> {
+        let Some((_, patches)) = self.unedited.as_ref().filter(|(done, _)| *done == self.done) else {
+            return self.saved();
+        };
+        let mut snapshot = self.machine.snapshot()?;
+        patches.iter().rev().try_for_each(|patch| snapshot.lay(patch))?;
+        Ok(Saved { done: self.done, snapshot }.named(self.simulation.plane_names))
     }
 
     /// Ends when the user wants it, and keeps a checkpoint then and when one is due.

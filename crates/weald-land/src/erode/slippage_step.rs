@@ -1,16 +1,25 @@
 //! The `slippage` step: every material slides off slopes steeper than its talus.
 
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use super::begun::Begun;
+use super::edits::{PaintedPlanes, Place};
+use super::loose::{self, Loose};
 use super::material_planes::Planes;
+use super::on_ground::store_ground;
 use super::pipeline::Stepped;
-use super::simulation::Simulation;
+use super::scripted::Numbers;
 use super::stack::{Column, deposit_of};
 use super::stava::program::{self, StavaNumbers};
 use super::stava::slippage::Slippage;
 use super::working::WorkingGrid;
+use crate::edit::Setting;
+use weald_core::domain::Domain;
 use weald_core::error::Error;
 use weald_core::landscape::Landscape;
 use weald_core::material::Material;
-use weald_core::parameter::{Fault, LayerName};
+use weald_core::parameter::{Fault, LayerName, ScriptFile};
 use weald_core::parameters;
 use weald_engine::Job;
 use weald_engine::program::Program;
@@ -42,6 +51,9 @@ parameters! {
         iterations: u32 = 100, range 0..=10_000_000;
         /// Layer with the height of the ground.
         layer: LayerName = LayerName::of("height");
+        /// Script of edits, in JSON lines (.jsonl) or TOML: strokes of a brush, and keys that change, between iterations.
+        /// Its path starts at the folder of the recipe.
+        edits: Option<ScriptFile> = None;
     }
 }
 
@@ -114,21 +126,62 @@ impl Step for SlippageStep {
     }
 
     fn run(&self, landscape: &mut Landscape, job: &Job<'_>) -> Result<Outcome, Error> {
+        loose::run(self, landscape, job)
+    }
+
+    fn files(&self) -> Vec<PathBuf> {
+        loose::files(self)
+    }
+
+    fn look_ahead(&self, materials: &[Material], _: &Domain) -> Result<(), Error> {
+        loose::script(self, materials).map(drop)
+    }
+}
+
+impl Loose for SlippageStep {
+    type Process = Stepped;
+
+    const FIXED: &'static [&'static str] = &["layer"];
+
+    fn begin(&self, landscape: &Landscape, editable: bool) -> Result<Begun<Stepped>, Error> {
         let planes = Planes { first_layer: 1, materials: landscape.materials.len() };
-        let slippage = self.within().slippage(&landscape.materials, planes)?;
-        let mut working = WorkingGrid::new(landscape, &self.layer.0, false)?;
         let column = Column { planes, regolith: None };
+        let mut working = WorkingGrid::new(landscape, &self.layer.0, false)?;
         let deposit = deposit_of(None, &landscape.materials).map_err(Error::Run)?;
         working.set_stack(landscape, column, deposit)?;
-        let masked = working.mask.is_some();
-        let program = program(&slippage, planes, masked);
-        let process: Stepped = Stepped::with_program(&slippage.pipeline, (working.size, masked), program);
-        let plane_names: Vec<_> =
-            std::iter::once("change".to_owned()).chain(column.names(&landscape.materials)).collect();
-        let simulation = Simulation::alone(&process, &plane_names, self.iterations);
-        working.show(job)?;
-        let finished = simulation.run(working.state(planes.count(), &[]), job)?;
-        Ok(working.store_ground(landscape, &self.layer.0, &finished, u64::from(self.iterations)))
+        if editable {
+            working.set_changing_mask();
+        }
+        let (step, materials) = (self.clone(), landscape.materials.clone());
+        let grid = (working.size, working.mask.is_some());
+        let process = move |settings: &[Setting]| -> Result<Stepped, Error> {
+            let slippage = loose::after(&step, settings)?.within().slippage(&materials, planes)?;
+            let program = program(&slippage, planes, grid.1);
+            Ok(Stepped::with_program(&slippage.pipeline, grid, program))
+        };
+        let working = Arc::new(working);
+        let first = process(&[])?;
+        let names = landscape.materials.iter().map(|material| material.name.clone()).collect();
+        let place = Place::of("slippage", &working, names, PaintedPlanes::of(&first, column, &working));
+        let change = std::iter::once("change".to_owned());
+        Ok(Begun {
+            plane_names: change.chain(column.names(&landscape.materials)).collect(),
+            start: working.state(planes.count(), &[]),
+            numbers: Numbers::new(first, |_| ()),
+            remake: Arc::new(move |settings| Ok(Numbers::new(process(settings)?, |_| ()))),
+            means: &[],
+            place: Some(Arc::new(place)),
+            store: store_ground(&working, &self.layer.0),
+            working: Some(working),
+        })
+    }
+
+    fn iterations(&self) -> u32 {
+        self.iterations
+    }
+
+    fn edits(&self) -> Option<&ScriptFile> {
+        self.edits.as_ref()
     }
 }
 

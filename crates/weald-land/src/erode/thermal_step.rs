@@ -1,10 +1,18 @@
 //! The `thermal` step: gravity lays steep ground to rest.
 
+use std::path::PathBuf;
+
+use super::begun::Begun;
+use super::loose::{self, Loose};
 use super::on_ground::OnGround;
+use super::pipeline::Stepped;
 use super::thermal::{Scheme, Slide, SlideConstants};
+use crate::edit::Setting;
+use weald_core::domain::Domain;
 use weald_core::error::Error;
 use weald_core::landscape::Landscape;
-use weald_core::parameter::LayerName;
+use weald_core::material::Material;
+use weald_core::parameter::{LayerName, ScriptFile};
 use weald_core::parameters;
 use weald_engine::Job;
 use weald_engine::step::{Entry, Outcome, Stage, Step};
@@ -35,6 +43,9 @@ parameters! {
         iterations: u32 = 100, range 0..=10_000_000;
         /// Layer to weather.
         layer: LayerName = LayerName::of("height");
+        /// Script of edits, in JSON lines (.jsonl) or TOML: strokes of a brush, and keys that change, between iterations.
+        /// Its path starts at the folder of the recipe.
+        edits: Option<ScriptFile> = None;
     }
 }
 
@@ -84,9 +95,42 @@ impl Step for Thermal {
     }
 
     fn run(&self, landscape: &mut Landscape, job: &Job<'_>) -> Result<Outcome, Error> {
-        let within = ThermalWithin { scheme: self.scheme, talus: self.talus, strength: self.strength };
+        loose::run(self, landscape, job)
+    }
+
+    fn files(&self) -> Vec<PathBuf> {
+        loose::files(self)
+    }
+
+    fn look_ahead(&self, materials: &[Material], _: &Domain) -> Result<(), Error> {
+        loose::script(self, materials).map(drop)
+    }
+}
+
+impl Loose for Thermal {
+    type Process = Stepped;
+
+    const FIXED: &'static [&'static str] = &["layer"];
+
+    fn begin(&self, landscape: &Landscape, editable: bool) -> Result<Begun<Stepped>, Error> {
+        let step = self.clone();
+        let piped = Box::new(move |settings: &[Setting]| Ok(loose::after(&step, settings)?.slide().pipeline));
         let alone = OnGround { name: "thermal", layer: &self.layer.0, iterations: self.iterations };
-        alone.run(&within.slide().pipeline, landscape, job)
+        alone.begin(piped, landscape, editable)
+    }
+
+    fn iterations(&self) -> u32 {
+        self.iterations
+    }
+
+    fn edits(&self) -> Option<&ScriptFile> {
+        self.edits.as_ref()
+    }
+}
+
+impl Thermal {
+    fn slide(&self) -> Slide {
+        ThermalWithin { scheme: self.scheme, talus: self.talus, strength: self.strength }.slide()
     }
 }
 

@@ -2,18 +2,26 @@
 
 mod program;
 
+use std::path::PathBuf;
+use std::sync::Arc;
+
 use pulp::Arch;
 
 use super::advection::{Advection, AdvectionScratch};
+use super::begun::{Begun, Store};
+use super::finished::Finished;
 use super::links::{Links, mask_planes};
-use super::simulation::Simulation;
+use super::loose::{self, Loose};
+use super::scripted::Numbers;
 use super::sweep::Sweep;
+use crate::edit::Setting;
 use crate::erode::advection_rows::AdvectionRows;
 use weald_core::domain::Domain;
 use weald_core::error::Error;
 use weald_core::grid::{Field, Size};
 use weald_core::landscape::Landscape;
-use weald_core::parameter::{LayerName, Length};
+use weald_core::material::Material;
+use weald_core::parameter::{LayerName, Length, ScriptFile};
 use weald_core::{choices, parameters};
 use weald_engine::Job;
 use weald_engine::program::Program;
@@ -68,6 +76,9 @@ parameters! {
         flux_y: LayerName = LayerName::of("flux_y");
         /// Depth added where amounts and flows are divided by depth.
         epsilon: Length = Length::Cells(0.001), range 0.000_000_1..=100.0, unit "m";
+        /// Script of edits, in JSON lines (.jsonl) or TOML: keys that change between iterations. Its path starts at the
+        /// folder of the recipe.
+        edits: Option<ScriptFile> = None;
     }
 }
 
@@ -153,15 +164,72 @@ impl Step for Carry {
     }
 
     fn run(&self, landscape: &mut Landscape, job: &Job<'_>) -> Result<Outcome, Error> {
-        let (size, masked) = (landscape.domain.size, landscape.domain.valid.is_some());
-        let advection = self.advection(landscape.domain.cell);
-        let process = Carrying { advection, links: Links::new(size, masked), arch: Arch::new() };
-        let plane_names = ["load".to_owned()];
-        let simulation = Simulation::alone(&process, &plane_names, self.iterations);
-        let finished = simulation.run(self.state(landscape, advection)?, job)?;
-        let unit = landscape.layer(&self.layer.0)?.unit.clone();
-        landscape.insert(&self.layer.0, &unit, Field::from_values(size, finished.state.gather(0)));
-        Ok(Outcome { iterations: u64::from(self.iterations), notes: finished.notes, ..Outcome::default() })
+        loose::run(self, landscape, job)
+    }
+
+    fn files(&self) -> Vec<PathBuf> {
+        loose::files(self)
+    }
+
+    fn look_ahead(&self, materials: &[Material], _: &Domain) -> Result<(), Error> {
+        loose::script(self, materials).map(drop)
+    }
+}
+
+impl Loose for Carry {
+    type Process = Carrying;
+
+    const FIXED: &'static [&'static str] = &["layer", "water", "flux_x", "flux_y"];
+
+    fn begin(&self, landscape: &Landscape, _: bool) -> Result<Begun<Carrying>, Error> {
+        let (size, masked, cell) =
+            (landscape.domain.size, landscape.domain.valid.is_some(), landscape.domain.cell);
+        let carrying = move |step: &Self| Carrying {
+            advection: step.advection(cell),
+            links: Links::new(size, masked),
+            arch: Arch::new(),
+        };
+        let step = self.clone();
+        let remade = move |settings: &[Setting]| {
+            let changed = loose::after(&step, settings)?;
+            // The planes hold flows or velocities, whichever the scheme takes.
+            let in_flux_form = |step: &Self| matches!(step.advection(cell), Advection::FluxCorrected { .. });
+            if in_flux_form(&changed) != in_flux_form(&step) || changed.epsilon != step.epsilon {
+                return Err(Error::Run("the form of the transport cannot change while it runs".to_owned()));
+            }
+            Ok(Numbers::new(carrying(&changed), |_| ()))
+        };
+        Ok(Begun {
+            plane_names: vec!["load".to_owned()],
+            start: self.state(landscape, self.advection(cell))?,
+            numbers: Numbers::new(carrying(self), |_| ()),
+            remake: Arc::new(remade),
+            means: &[],
+            place: None,
+            store: self.store(),
+            working: None,
+        })
+    }
+
+    fn iterations(&self) -> u32 {
+        self.iterations
+    }
+
+    fn edits(&self) -> Option<&ScriptFile> {
+        self.edits.as_ref()
+    }
+}
+
+impl Carry {
+    /// Writes the layer that was carried.
+    fn store(&self) -> Store {
+        let LayerName(layer) = self.layer.clone();
+        Arc::new(move |landscape: &mut Landscape, finished: &Finished, iterations| {
+            let unit = landscape.layer(&layer)?.unit.clone();
+            let carried = Field::from_values(landscape.domain.size, finished.state.gather(0));
+            landscape.insert(&layer, &unit, carried);
+            Ok(Outcome { iterations, notes: finished.notes.clone(), ..Outcome::default() })
+        })
     }
 }
 

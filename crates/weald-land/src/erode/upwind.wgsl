@@ -10,7 +10,7 @@ struct Flowed {
 /// `flux` holds the fluxes through the eastern, western, southern and northern edge.
 fn flow_of_water(before: f32, flux: vec4<f32>, valid: f32, rain: f32, evaporation: f32) -> Flowed {
     let flowed = exact(before + ((flux.y - flux.x) + (flux.w - flux.z)));
-    let depth = exact(without_negligible(flowed + rain * valid - min(max(flowed, 0.0), evaporation)));
+    let depth = exact(without_negligible(flowed + rain * valid - min(max(flowed, 0.0), evaporation * valid)));
     return Flowed(depth, depth - flowed);
 }
 

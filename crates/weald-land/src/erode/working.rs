@@ -11,7 +11,7 @@ use weald_core::grid::{Field, Mask, Size};
 use weald_core::landscape::Landscape;
 use weald_engine::device::{ShownGround, Window};
 use weald_engine::stencil::rows::{Layout, Rows};
-use weald_engine::{Budget, Job, SolidBudget, WaterBudget};
+use weald_engine::{Budget, Engine, SolidBudget, WaterBudget};
 
 /// The start of a simulation.
 pub(crate) struct WorkingGrid {
@@ -103,9 +103,9 @@ impl WorkingGrid {
     }
 
     /// Tells a device where the ground lies, for those who look on.
-    pub(crate) fn show(&self, job: &Job<'_>) -> Result<(), Error> {
+    pub(crate) fn show(&self, engine: &Engine) -> Result<(), Error> {
         let ring = self.ring as i32;
-        job.engine.shows(&ShownGround {
+        engine.shows(&ShownGround {
             start: &self.start,
             water: self.standing.as_ref(),
             size: self.size,

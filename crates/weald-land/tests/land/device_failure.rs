@@ -90,6 +90,36 @@ impl Loaded for Standing {
     fn go_back(&mut self) -> Result<(), Error> {
         Ok(())
     }
+
+    fn write_part(&mut self, _: usize, _: &Window, _: &[f32]) -> Result<(), Error> {
+        unimplemented!("nothing paints on it")
+    }
+
+    fn read_part(&mut self, _: usize, _: &Window) -> Result<Vec<f32>, Error> {
+        unimplemented!("nothing paints on it")
+    }
+
+    fn keep_as(&mut self, _: u64) -> Result<(), Error> {
+        unimplemented!("nobody goes back")
+    }
+
+    fn return_to(&mut self, _: u64) -> Result<(), Error> {
+        unimplemented!("nobody goes back")
+    }
+
+    fn release(&mut self, _: u64) {}
+
+    fn clear_means(&mut self) -> Result<(), Error> {
+        Ok(())
+    }
+
+    fn set_constants(&mut self, _: &[u32]) -> Result<(), Error> {
+        unimplemented!("no key changes")
+    }
+
+    fn show(&mut self) -> Result<(), Error> {
+        Ok(())
+    }
 }
 
 /// Keeps the checkpoints that it asks for at every look.

@@ -55,6 +55,12 @@ impl Parameters for Render {
         of_view.take("samples");
         Self { view: View::read_values(&of_view, diagnostics), keys }
     }
+
+    fn changed(&self, table: &Table, diagnostics: &mut Diagnostics) -> Self {
+        let mut of_view = table.clone();
+        of_view.take("samples");
+        Self { view: self.view.changed(&of_view, diagnostics), keys: self.keys.changed(table, diagnostics) }
+    }
 }
 
 /// Which frame of how many, and when.

@@ -21,7 +21,9 @@ pub mod renamed;
 mod report;
 mod run;
 mod run_steps;
+mod run_to;
 pub mod schema;
+mod session;
 pub mod template;
 #[cfg(test)]
 mod testing;
@@ -40,6 +42,7 @@ pub use plan::{
 pub use report::{OutputReport, REPORT_FILE, Report};
 pub use run::{Frames, Options, Progress, Run, Silent};
 pub use run_steps::run_steps;
+pub use session::{Session, SessionOptions};
 pub use view_request::ViewRequest;
 pub use weald_core::{parameter, source};
 pub use weald_engine::report::{BudgetReport, SolidReport, StepReport, WaterReport};

@@ -3,7 +3,7 @@
 mod film;
 mod finished;
 mod folder;
-mod inputs;
+pub(super) mod inputs;
 mod options;
 mod step_watcher;
 #[cfg(test)]

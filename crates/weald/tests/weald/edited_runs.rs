@@ -56,7 +56,7 @@ fn fifty() -> Script {
         };
         let end = |seed: u64| [160.0 * random(seed, stroke), 128.0 * random(seed + 1, stroke)];
         let brush = Brush { path: vec![end(2), end(4)], radius: 12.0, strength: 0.7, ..dab(effect) };
-        Edit { step: stroke * stroke / 5, brush }
+        Edit::stroke(stroke * stroke / 5, brush)
     };
     Script::new((0..50).map(edit).collect())
 }
@@ -109,7 +109,7 @@ fn fifty_strokes_over_500_steps_replay_to_the_same_bits_on_every_cpu_engine_and_
 #[test]
 fn a_script_with_a_fault_or_a_frost_at_an_open_border_ends_the_run_with_its_reason() {
     let folder = tempfile::tempdir().expect("a folder");
-    let frost = Script::new(vec![Edit { step: 7, brush: dab(Effect::Freeze) }]);
+    let frost = Script::new(vec![Edit::stroke(7, dab(Effect::Freeze))]);
     let message = edited_within(&frost, folder.path(), "open").landscape().expect_err("no frost").to_string();
     assert!(message.contains("freezes") && message.contains("closed"), "{message}");
     let recipe = edited(&Script::default(), folder.path());
@@ -123,9 +123,9 @@ fn a_script_with_a_fault_or_a_frost_at_an_open_border_ends_the_run_with_its_reas
 fn poured_sand_lies_where_it_was_poured_and_not_elsewhere() {
     let folder = tempfile::tempdir().expect("a folder");
     let heap = Effect::Add { material: "sand".to_owned(), thickness: 5.0 };
-    let script = Script::new(vec![Edit { step: 500, brush: dab(heap.clone()) }]);
+    let script = Script::new(vec![Edit::stroke(501, dab(heap.clone()))]);
     let never = edited(&script, folder.path()).landscape().expect("runs");
-    let script = Script::new(vec![Edit { step: 499, brush: dab(heap) }]);
+    let script = Script::new(vec![Edit::stroke(499, dab(heap))]);
     let late = edited(&script, folder.path()).landscape().expect("runs");
     let gain = |x: usize, y: usize| {
         let [now, before] =

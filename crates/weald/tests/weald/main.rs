@@ -20,5 +20,6 @@ mod random_recipes;
 mod recipes;
 mod report;
 mod rivers;
+mod sessions;
 mod shaders;
 mod vectors;

@@ -98,7 +98,7 @@ kernel! {
     }
     fn cell() {
         let flowed = depth_before + ((west - east) + (north - south));
-        depth = without_negligible(flowed + rain * valid - flowed.max(0.0).min(evaporation));
+        depth = without_negligible(flowed + rain * valid - flowed.max(0.0).min(evaporation * valid));
         sky = depth - flowed;
         let to_east = east * if east >= 0.0 { concentration } else { concentration_east };
         let from_west = west * if west >= 0.0 { concentration_west } else { concentration };

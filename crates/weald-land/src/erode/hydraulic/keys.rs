@@ -88,6 +88,12 @@ parameters! {
         /// Layer that says where to simulate: cells where it is below 0.5 stand still, and nothing passes
         /// their edge. Default: everywhere.
         region: Option<LayerName> = None;
+        /// Iterations at the end over which `flux_x` and `flux_y` are averaged. Default: the last whole cycle of rain and
+        /// sun.
+        mean_over: Option<u32> = None, range 1..=10_000_000, unit "iterations";
+        /// Script of edits, in JSON lines (.jsonl) or TOML: strokes of a brush, and keys that change, between iterations.
+        /// Its path starts at the folder of the recipe.
+        edits: Option<ScriptFile> = None;
     }
 }
 
@@ -225,9 +231,6 @@ parameters! {
         dissolution: Option<Nested<DissolutionWithin>> = None;
         /// Slippage: materials slide off slopes steeper than their talus. Default: they do not.
         slippage: Option<Nested<SlippageWithin>> = None;
-        /// Script of edits, in JSON lines (.jsonl) or TOML: strokes of a brush that happen between iterations. Its
-        /// path starts at the folder of the recipe.
-        edits: Option<ScriptFile> = None;
     }
 }
 

@@ -1,19 +1,29 @@
-//! The three models with the keys of a recipe filled in, run or timed.
+//! The models with the keys of a recipe filled in: begun on a landscape, or timed.
+
+use std::sync::Arc;
 
 use pulp::Arch;
 
 use super::defaults::ResolvedKeys;
 use super::keys::{Boundary, HanKeys, Hydraulic, MeiKeys, Model, UptakeLaw};
-use crate::erode::edits::Edits;
+use crate::edit::Setting;
+use crate::erode::begun::{Begun, Course, unscripted};
+use crate::erode::edits::{PaintedPlanes, Place};
 use crate::erode::extent::Extent;
 use crate::erode::finished::Finished;
 use crate::erode::han::{self, Han, HanConstants};
+use crate::erode::interactive::InteractiveSimulation;
 use crate::erode::links::Links;
+use crate::erode::material_planes::{Planes, WEATHER_PLANES};
 use crate::erode::mei::{self, Mei, MeiConstants};
-use crate::erode::setting::Setting;
-use crate::erode::simulation::{Record, Simulation};
+use crate::erode::scripted::{Numbers, Remake};
+use crate::erode::setting::Setting as Around;
+use crate::erode::settings;
 use crate::erode::springs;
 use crate::erode::springs::Forcing;
+use crate::erode::stack::Column;
+use crate::erode::stava::Stava;
+use crate::erode::water_planes as plane;
 use crate::erode::working::{RunResult, WorkingGrid};
 use weald_core::error::Error;
 use weald_core::landscape::Landscape;
@@ -21,7 +31,6 @@ use weald_engine::machine::{Means, Snapshot};
 use weald_engine::machine_of_engine;
 use weald_engine::program::Program;
 use weald_engine::stencil::chain::Process;
-use weald_engine::stencil::rows::Rows;
 use weald_engine::step::Outcome;
 use weald_engine::{Engine, Job};
 
@@ -29,20 +38,58 @@ use weald_engine::{Engine, Job};
 pub(super) const MEI_PLANES: &[&str] =
     &["change", "water", "sediment", "flow_east", "flow_west", "flow_south", "flow_north"];
 
-/// A model as the recipe asks for it: its process and what a simulation has to know of its state.
-pub(super) struct SelectedModel<P> {
-    pub(super) process: P,
-    pub(super) plane_names: Vec<String>,
-    pub(super) means: Means<'static>,
-    /// Constant planes behind those of every model.
-    pub(super) constants: Vec<Vec<f32>>,
-    /// What a person changes between the steps.
-    pub(super) edits: Option<Edits>,
+/// Keys of what a simulation begins with.
+const FIXED: &[&str] = &[
+    "model",
+    "iterations",
+    "mean_over",
+    "boundary",
+    "layer",
+    "initial_water",
+    "region",
+    "edits",
+    "rain_layer",
+    "evaporation_layer",
+    "source_layer",
+    "sources",
+    "drains",
+    "deposit",
+];
+
+/// What a model is made from.
+pub(super) struct OnLand<'a> {
+    pub(super) landscape: &'a Landscape,
+    pub(super) filled: &'a ResolvedKeys,
+    pub(super) working: &'a WorkingGrid,
+    /// Whether there are planes of painted weather.
+    pub(super) painted: bool,
 }
 
-impl<P: Process> SelectedModel<P> {
-    pub(super) fn start(&self, working: &WorkingGrid) -> Rows {
-        working.water_state(self.process.state_planes(), &self.constants)
+/// A model by the keys of the step.
+pub(super) trait Scheme: Process<Weather = Forcing> {
+    /// Means of the water's fluxes.
+    const MEANS: Means<'static>;
+
+    /// The process.
+    fn of(step: &Hydraulic, on: &OnLand<'_>) -> Result<Self, Error>
+    where
+        Self: Sized;
+
+    /// Names of its state planes.
+    fn plane_names(&self, landscape: &Landscape) -> Vec<String>;
+
+    /// Where the materials stand that it tells apart.
+    fn column(&self) -> Column;
+
+    /// Constant planes of painted weather, where there are any or may be.
+    fn weather(
+        step: &Hydraulic,
+        landscape: &Landscape,
+        working: &WorkingGrid,
+        changes: bool,
+    ) -> Result<Vec<Vec<f32>>, Error> {
+        let _ = (step, landscape, working, changes);
+        Ok(Vec::new())
     }
 }
 
@@ -51,9 +98,14 @@ pub(super) fn named(names: &[&str]) -> Vec<String> {
     names.iter().map(|name| (*name).to_owned()).collect()
 }
 
+/// Bedrock alone behind so many planes.
+fn one_material(planes: usize) -> Column {
+    Column { planes: Planes { first_layer: planes, materials: 1 }, regolith: None }
+}
+
 impl Hydraulic {
     /// The landscape in working units, such that strokes can change it where it is `editable`.
-    pub(super) fn working(&self, landscape: &Landscape, editable: bool) -> Result<WorkingGrid, Error> {
+    fn working(&self, landscape: &Landscape, editable: bool) -> Result<WorkingGrid, Error> {
         let open = self.boundary == Boundary::Open;
         let region = self.region.as_ref().map(|region| region.0.as_str());
         // Strokes count their places from the corner of the landscape.
@@ -72,103 +124,125 @@ impl Hydraulic {
         Ok(working)
     }
 
-    /// Runs the model on a landscape in working units.
-    pub(super) fn run_model(
-        &self,
-        landscape: &mut Landscape,
-        job: &Job<'_>,
-        filled: &ResolvedKeys,
-        working: &WorkingGrid,
-    ) -> Result<Outcome, Error> {
-        let numbers = (filled, working);
-        let finished = match &self.model {
-            Model::Han(keys) => self.simulate(&self.han(keys, numbers), job, filled, (working, landscape)),
-            Model::Mei(keys) => self.simulate(&self.mei(keys, numbers), job, filled, (working, landscape)),
-            Model::Stava(keys) => {
-                let script = self.script(&landscape.materials)?;
-                let chosen = self.stava(keys, landscape, numbers, script)?;
-                self.simulate(&chosen, job, filled, (working, landscape))
-            }
-        }?;
-        let mut outcome = working.store(landscape, &self.layer.0, &finished, self.kept());
-        let springs = self.model.stava().into_iter();
-        for (key, springs) in springs.flat_map(|keys| [("sources", &keys.sources), ("drains", &keys.drains)])
-        {
-            outcome.notes.extend(springs::out_of_reach(&landscape.domain, key, springs));
-        }
-        Ok(outcome)
-    }
-
-    fn kept(&self) -> RunResult {
-        RunResult { iterations: u64::from(self.iterations), conserving: self.conserves() }
-    }
-
-    fn simulate<P: Process<Weather = Forcing>>(
-        &self,
-        chosen: &SelectedModel<P>,
-        job: &Job<'_>,
-        filled: &ResolvedKeys,
-        (working, landscape): (&WorkingGrid, &Landscape),
-    ) -> Result<Finished, Error> {
-        let seen = |finished: &Finished| {
-            let mut seen = landscape.clone();
-            working.store(&mut seen, &self.layer.0, finished, self.kept());
-            seen
-        };
-        let simulation = Simulation {
-            process: &chosen.process,
-            plane_names: &chosen.plane_names,
+    /// Runs the model on a landscape.
+    pub(super) fn run_model(&self, landscape: &mut Landscape, job: &Job<'_>) -> Result<Outcome, Error> {
+        let editable = self.edits.is_some();
+        let course = Course {
             iterations: u64::from(self.iterations),
-            weather: &|step| self.forcing(filled, step),
-            record: Some(Record { steps: self.last_cycle(filled), means: chosen.means }),
-            edits: chosen.edits.as_ref(),
-            seen: Some(&seen),
+            record: self.recorded(landscape.domain.cell),
+            script: self.script(&landscape.materials)?,
+            seen: true,
         };
-        working.show(job)?;
-        simulation.run(chosen.start(working), job)
-    }
-
-    fn han(&self, keys: &HanKeys, (filled, working): (&ResolvedKeys, &WorkingGrid)) -> SelectedModel<Han> {
-        let uptake = |law| if keys.law == law { filled.erosion } else { 0.0 };
-        let constants = HanConstants {
-            flow_rate: filled.flow_rate,
-            capacity: filled.capacity,
-            uptake_by_speed: uptake(UptakeLaw::Velocity),
-            uptake_by_capacity: uptake(UptakeLaw::Dissolution),
-            deposit_ratio: keys.deposit_ratio as f32,
-            epsilon: filled.epsilon,
-            velocity_epsilon: filled.velocity_epsilon,
-        };
-        SelectedModel {
-            process: Han { constants, limiter: keys.limiter, setting: self.setting(filled, working) },
-            plane_names: named(&["change", "water", "sediment", "flux_east", "flux_south"]),
-            means: han::MEAN_FLUXES,
-            constants: Vec::new(),
-            edits: None,
+        match &self.model {
+            Model::Han(_) => self.begin::<Han>(landscape, editable)?.run(course, landscape, job),
+            Model::Mei(_) => self.begin::<Mei>(landscape, editable)?.run(course, landscape, job),
+            Model::Stava(_) => self.begin::<Stava>(landscape, editable)?.run(course, landscape, job),
         }
     }
 
-    fn mei(&self, keys: &MeiKeys, (filled, working): (&ResolvedKeys, &WorkingGrid)) -> SelectedModel<Mei> {
-        let constants = MeiConstants {
-            flow_rate: filled.flow_rate,
-            capacity: filled.capacity,
-            erosion: filled.erosion,
-            deposition: keys.deposition as f32,
-            deposit_ratio: keys.deposit_ratio as f32,
-            epsilon: filled.epsilon,
-            velocity_epsilon: filled.velocity_epsilon,
-        };
-        SelectedModel {
-            process: Mei { constants, limiter: keys.limiter, setting: self.setting(filled, working) },
-            plane_names: named(MEI_PLANES),
-            means: mei::MEAN_FLUXES,
-            constants: Vec::new(),
-            edits: None,
+    /// The model as a simulation that a person holds.
+    pub(super) fn held(
+        &self,
+        landscape: &Landscape,
+        engine: &Engine,
+    ) -> Result<InteractiveSimulation, Error> {
+        match &self.model {
+            Model::Han(_) => {
+                InteractiveSimulation::new(self.begin::<Han>(landscape, true)?, landscape, engine)
+            }
+            Model::Mei(_) => {
+                InteractiveSimulation::new(self.begin::<Mei>(landscape, true)?, landscape, engine)
+            }
+            Model::Stava(_) => {
+                InteractiveSimulation::new(self.begin::<Stava>(landscape, true)?, landscape, engine)
+            }
         }
     }
 
-    pub(super) fn setting(&self, filled: &ResolvedKeys, working: &WorkingGrid) -> Setting {
-        Setting {
+    /// What a simulation begins with.
+    fn begin<M: Scheme>(&self, landscape: &Landscape, editable: bool) -> Result<Begun<M>, Error> {
+        let filled = self.filled(landscape.domain.cell);
+        let working = Arc::new(self.working(landscape, editable)?);
+        let weather = M::weather(self, landscape, &working, editable)?;
+        let painted = !weather.is_empty();
+        let process = M::of(self, &OnLand { landscape, filled: &filled, working: &working, painted })?;
+        let place = editable.then(|| Arc::new(self.place(&process, landscape, &working, painted)));
+        let remake = if editable { self.remake(landscape, &working, painted) } else { unscripted() };
+        Ok(Begun {
+            plane_names: process.plane_names(landscape),
+            start: working.water_state(process.state_planes(), &weather),
+            numbers: self.numbers(process, filled),
+            remake,
+            means: M::MEANS,
+            place,
+            store: self.store(&working),
+            working: Some(working),
+        })
+    }
+
+    fn numbers<M: Scheme>(&self, process: M, filled: ResolvedKeys) -> Numbers<M> {
+        let step = self.clone();
+        Numbers::new(process, move |at| step.forcing(&filled, at))
+    }
+
+    /// The step after keys were set while it ran.
+    pub(super) fn after(&self, settings: &[Setting]) -> Result<Self, Error> {
+        settings::after(self, (&[self.model.word()], FIXED), settings)
+    }
+
+    fn remake<M: Scheme>(
+        &self,
+        landscape: &Landscape,
+        working: &Arc<WorkingGrid>,
+        painted: bool,
+    ) -> Remake<M> {
+        let (step, landscape, working) = (self.clone(), landscape.clone(), Arc::clone(working));
+        Arc::new(move |settings| {
+            let step = step.after(settings)?;
+            settings::no_faults(&step, &landscape.materials)?;
+            let filled = step.filled(landscape.domain.cell);
+            let on = OnLand { landscape: &landscape, filled: &filled, working: &working, painted };
+            let process = M::of(&step, &on)?;
+            Ok(step.numbers(process, filled))
+        })
+    }
+
+    fn place<M: Scheme>(
+        &self,
+        process: &M,
+        landscape: &Landscape,
+        working: &WorkingGrid,
+        painted: bool,
+    ) -> Place {
+        let column = process.column();
+        let planes = PaintedPlanes {
+            water: Some(plane::DEPTH),
+            weather: painted.then(|| process.state_planes() + process.constant_planes() - WEATHER_PLANES),
+            ..PaintedPlanes::of(process, column, working)
+        };
+        let materials = landscape.materials.iter().take(column.planes.materials);
+        let materials = materials.map(|material| material.name.clone()).collect();
+        Place::of(self.model.word(), working, materials, planes)
+    }
+
+    /// Writes what the simulation leaves.
+    fn store(&self, working: &Arc<WorkingGrid>) -> crate::erode::begun::Store {
+        let (step, working) = (self.clone(), Arc::clone(working));
+        Arc::new(move |landscape: &mut Landscape, finished: &Finished, iterations| {
+            let kept = RunResult { iterations, conserving: step.conserves() };
+            let mut outcome = working.store(landscape, &step.layer.0, finished, kept);
+            let stava = step.model.stava().into_iter();
+            for (key, springs) in
+                stava.flat_map(|keys| [("sources", &keys.sources), ("drains", &keys.drains)])
+            {
+                outcome.notes.extend(springs::out_of_reach(&landscape.domain, key, springs));
+            }
+            Ok(outcome)
+        })
+    }
+
+    pub(super) fn setting(&self, filled: &ResolvedKeys, working: &WorkingGrid) -> Around {
+        Around {
             links: Links::new(working.size, working.mask.is_some()),
             open: self.boundary == Boundary::Open,
             advection: self.advection(filled),
@@ -179,13 +253,10 @@ impl Hydraulic {
 
     /// The model on a landscape as compute passes.
     pub fn program(&self, landscape: &Landscape) -> Result<Program, Error> {
-        let filled = self.filled(landscape.domain.cell);
-        let working = self.working(landscape, false)?;
-        let numbers = (&filled, &working);
         Ok(match &self.model {
-            Model::Han(keys) => self.han(keys, numbers).process.program(),
-            Model::Mei(keys) => self.mei(keys, numbers).process.program(),
-            Model::Stava(keys) => self.stava(keys, landscape, numbers, None)?.process.program(),
+            Model::Han(_) => self.begin::<Han>(landscape, false)?.numbers.process.program(),
+            Model::Mei(_) => self.begin::<Mei>(landscape, false)?.numbers.process.program(),
+            Model::Stava(_) => self.begin::<Stava>(landscape, false)?.numbers.process.program(),
         })
     }
 
@@ -194,34 +265,90 @@ impl Hydraulic {
     /// # Errors
     /// [`Error::Run`] where the landscape lacks the layer.
     pub fn seconds(&self, landscape: &Landscape, engine: &Engine) -> Result<f64, Error> {
-        let filled = self.filled(landscape.domain.cell);
-        let working = self.working(landscape, false)?;
-        let weather: Vec<_> =
-            (0..u64::from(self.iterations)).map(|step| self.forcing(&filled, step)).collect();
-        let numbers = (&filled, &working);
+        let iterations = u64::from(self.iterations);
         match &self.model {
-            Model::Han(keys) => seconds_of(&self.han(keys, numbers), &working, &weather, engine),
-            Model::Mei(keys) => seconds_of(&self.mei(keys, numbers), &working, &weather, engine),
-            Model::Stava(keys) => {
-                seconds_of(&self.stava(keys, landscape, numbers, None)?, &working, &weather, engine)
-            }
+            Model::Han(_) => seconds_of(self.begin::<Han>(landscape, false)?, iterations, engine),
+            Model::Mei(_) => seconds_of(self.begin::<Mei>(landscape, false)?, iterations, engine),
+            Model::Stava(_) => seconds_of(self.begin::<Stava>(landscape, false)?, iterations, engine),
         }
     }
 }
 
-fn seconds_of<P: Process<Weather = Forcing>>(
-    chosen: &SelectedModel<P>,
-    working: &WorkingGrid,
-    weather: &[Forcing],
-    engine: &Engine,
-) -> Result<f64, Error> {
-    let start = Snapshot::start(chosen.start(working), 0);
-    let mut machine = machine_of_engine::start(&chosen.process, &[], &start, engine)?;
+fn seconds_of<M: Scheme>(begun: Begun<M>, iterations: u64, engine: &Engine) -> Result<f64, Error> {
+    let weather: Vec<_> = (0..iterations).map(|step| (begun.numbers.weather)(step)).collect();
+    let start = Snapshot::start(begun.start, 0);
+    let mut machine = machine_of_engine::start(&begun.numbers.process, &[], &start, engine)?;
     // The first step compiles, allocates and warms up; the look at the end waits for a device.
     machine.advance(&weather[..1], false)?;
     machine.first_not_finite()?;
     let begun = std::time::Instant::now();
-    machine.advance(weather, false)?;
+    machine.advance(&weather, false)?;
     machine.first_not_finite()?;
     Ok(begun.elapsed().as_secs_f64())
+}
+
+impl Scheme for Han {
+    const MEANS: Means<'static> = han::MEAN_FLUXES;
+
+    fn of(step: &Hydraulic, on: &OnLand<'_>) -> Result<Self, Error> {
+        let Model::Han(keys) = &step.model else { return Err(another_model(step)) };
+        let (constants, setting) = (han_constants(keys, on.filled), step.setting(on.filled, on.working));
+        Ok(Self { constants, limiter: keys.limiter, setting })
+    }
+
+    fn plane_names(&self, _: &Landscape) -> Vec<String> {
+        named(&["change", "water", "sediment", "flux_east", "flux_south"])
+    }
+
+    fn column(&self) -> Column {
+        one_material(self.state_planes())
+    }
+}
+
+impl Scheme for Mei {
+    const MEANS: Means<'static> = mei::MEAN_FLUXES;
+
+    fn of(step: &Hydraulic, on: &OnLand<'_>) -> Result<Self, Error> {
+        let Model::Mei(keys) = &step.model else { return Err(another_model(step)) };
+        let (constants, setting) = (mei_constants(keys, on.filled), step.setting(on.filled, on.working));
+        Ok(Self { constants, limiter: keys.limiter, setting })
+    }
+
+    fn plane_names(&self, _: &Landscape) -> Vec<String> {
+        named(MEI_PLANES)
+    }
+
+    fn column(&self) -> Column {
+        one_material(self.state_planes())
+    }
+}
+
+/// The model cannot change while it runs, and a step knows its own: a bug.
+pub(super) fn another_model(step: &Hydraulic) -> Error {
+    Error::Run(format!("a simulation of another model was asked to be `{}`", step.model.word()))
+}
+
+fn han_constants(keys: &HanKeys, filled: &ResolvedKeys) -> HanConstants {
+    let uptake = |law| if keys.law == law { filled.erosion } else { 0.0 };
+    HanConstants {
+        flow_rate: filled.flow_rate,
+        capacity: filled.capacity,
+        uptake_by_speed: uptake(UptakeLaw::Velocity),
+        uptake_by_capacity: uptake(UptakeLaw::Dissolution),
+        deposit_ratio: keys.deposit_ratio as f32,
+        epsilon: filled.epsilon,
+        velocity_epsilon: filled.velocity_epsilon,
+    }
+}
+
+fn mei_constants(keys: &MeiKeys, filled: &ResolvedKeys) -> MeiConstants {
+    MeiConstants {
+        flow_rate: filled.flow_rate,
+        capacity: filled.capacity,
+        erosion: filled.erosion,
+        deposition: keys.deposition as f32,
+        deposit_ratio: keys.deposit_ratio as f32,
+        epsilon: filled.epsilon,
+        velocity_epsilon: filled.velocity_epsilon,
+    }
 }

@@ -1,12 +1,13 @@
 //! The model of Šťava et al. with the keys of a recipe filled in.
 
 use super::defaults::ResolvedKeys;
-use super::keys::{Boundary, Hydraulic, StavaKeys};
-use super::models::{MEI_PLANES, SelectedModel, named};
-use crate::edit::Script;
-use crate::erode::edits::{self, Edits, Place};
+use super::keys::{Boundary, Hydraulic, Model, StavaKeys};
+use super::models::{MEI_PLANES, OnLand, Scheme, another_model, named};
+use crate::edit::{Script, Setting};
 use crate::erode::material_planes::{Planes, REGOLITH_PLANES};
 use crate::erode::mei;
+use crate::erode::scripted;
+use crate::erode::settings;
 use crate::erode::springs;
 use crate::erode::stack::{Column, deposit_of};
 use crate::erode::stava::digging::Digging;
@@ -20,20 +21,17 @@ use weald_core::error::Error;
 use weald_core::grid::Field;
 use weald_core::landscape::Landscape;
 use weald_core::material::Material;
-use weald_core::parameter::{LayerName, Nested, ScriptFile};
+use weald_core::parameter::{LayerName, Nested};
+use weald_engine::machine::Means;
 
-impl Hydraulic {
-    pub(super) fn stava(
-        &self,
-        keys: &StavaKeys,
-        landscape: &Landscape,
-        (filled, working): (&ResolvedKeys, &WorkingGrid),
-        script: Option<Script>,
-    ) -> Result<SelectedModel<Stava>, Error> {
+impl Scheme for Stava {
+    const MEANS: Means<'static> = mei::MEAN_FLUXES;
+
+    fn of(step: &Hydraulic, on: &OnLand<'_>) -> Result<Self, Error> {
+        let Model::Stava(keys) = &step.model else { return Err(another_model(step)) };
+        let OnLand { landscape, filled, working, painted } = *on;
         let column = keys.column(landscape);
-        let weather = keys.weather_planes(landscape, working, script.is_some())?;
-        let edits = script.map(|script| keys.edits(script, landscape, working));
-        let process = Stava {
+        Ok(Self {
             constants: StavaConstants {
                 flow_rate: filled.flow_rate,
                 capacity: filled.capacity,
@@ -41,25 +39,44 @@ impl Hydraulic {
                 velocity_epsilon: filled.velocity_epsilon,
             },
             planes: column.planes,
-            painted: !weather.is_empty(),
+            painted,
             viscosity: keys.viscosity_in(landscape.domain.cell),
             erosion: keys.digging(landscape, filled)?,
             dissolution: keys.dissolution_in(landscape, filled)?,
             slippage: keys.slippage_in(landscape, column.planes)?,
-            setting: self.setting(filled, working),
-        };
-        let mut plane_names = named(MEI_PLANES);
-        plane_names.extend(column.names(&landscape.materials));
-        Ok(SelectedModel { process, plane_names, means: mei::MEAN_FLUXES, constants: weather, edits })
+            setting: step.setting(filled, working),
+        })
     }
 
-    /// The script of strokes, which is read here.
+    fn plane_names(&self, landscape: &Landscape) -> Vec<String> {
+        let mut names = named(MEI_PLANES);
+        names.extend(self.column().names(&landscape.materials));
+        names
+    }
+
+    fn column(&self) -> Column {
+        Column {
+            planes: self.planes,
+            regolith: self.dissolution.as_ref().map(|dissolution| dissolution.plane),
+        }
+    }
+
+    fn weather(
+        step: &Hydraulic,
+        landscape: &Landscape,
+        working: &WorkingGrid,
+        changes: bool,
+    ) -> Result<Vec<Vec<f32>>, Error> {
+        let Some(keys) = step.model.stava() else { return Ok(Vec::new()) };
+        keys.weather_planes(landscape, working, changes)
+    }
+}
+
+impl Hydraulic {
+    /// The script of edits, which is read here.
     pub(super) fn script(&self, materials: &[Material]) -> Result<Option<Script>, Error> {
-        let Some(path) = self.edits().map(ScriptFile::path) else { return Ok(None) };
-        let names: Vec<_> = materials.iter().map(|material| material.name.as_str()).collect();
-        let script = Script::load(&path, &names)?;
-        edits::check(&script, self.boundary == Boundary::Open).map_err(|what| Error::input(&path, what))?;
-        Ok(Some(script))
+        let try_keys = |settings: &[Setting]| settings::no_faults(&self.after(settings)?, materials);
+        scripted::load(self.edits.as_ref(), self.boundary == Boundary::Open, materials, try_keys)
     }
 }
 
@@ -104,11 +121,6 @@ impl StavaKeys {
     fn slippage_in(&self, landscape: &Landscape, planes: Planes) -> Result<Option<Slippage>, Error> {
         let within = self.slippage.as_ref();
         within.map(|Nested(within)| within.slippage(&landscape.materials, planes)).transpose()
-    }
-
-    fn edits(&self, script: Script, landscape: &Landscape, working: &WorkingGrid) -> Edits {
-        let names = landscape.materials.iter().map(|material| material.name.clone()).collect();
-        Edits::new(script, names, Place::of(working, self.column(landscape)))
     }
 
     /// Share of the rain, share of the evaporation, and sources in cells per step; none where nothing is painted

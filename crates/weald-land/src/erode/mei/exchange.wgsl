@@ -12,7 +12,7 @@ fn exchange(@builtin(global_invocation_id) invocation: vec3<u32>) {
     let inflow = inflows_of(cell);
     let flowed = exact(before + (((inflow.y + inflow.x) + (inflow.w + inflow.z)) - sum_of(flowing)));
     let velocity = flow_velocity(flowing, inflow, (before + flowed) * 0.5, constants.velocity_epsilon);
-    let depth = exact(without_negligible(flowed * (1.0 - weather.evaporation)));
+    let depth = exact(without_negligible(flowed * (1.0 - weather.evaporation * valid(cell))));
     let speed = sqrt(velocity.x * velocity.x + velocity.y * velocity.y);
     let capacity = constants.capacity * max(mean_sine(cell), MIN_SINE) * speed;
     let room = (capacity - found) * erodible(cell);

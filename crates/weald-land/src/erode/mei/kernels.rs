@@ -31,6 +31,7 @@ kernel! {
         reads {
             rained, east, west, south, north, from_west, from_east, from_north, from_south,
             found, change_before, sine_east, sine_west, sine_south, sine_north, neighbour_share, erodible,
+            valid,
         }
         updates {}
         writes { depth, evaporated, eastward, southward, change, sediment, lost }
@@ -46,7 +47,7 @@ kernel! {
         let per_depth = if mean_depth > velocity_epsilon { 0.5 / mean_depth } else { 0.0 };
         eastward = ((from_west - west) + (east - from_east)) * per_depth;
         southward = ((from_north - north) + (south - from_south)) * per_depth;
-        depth = without_negligible(flowed * (1.0 - evaporation));
+        depth = without_negligible(flowed * (1.0 - evaporation * valid));
         evaporated = depth - flowed;
         let speed = (eastward * eastward + southward * southward).sqrt();
         let mean_sine = ((sine_west + sine_east) + (sine_north + sine_south)) * neighbour_share;

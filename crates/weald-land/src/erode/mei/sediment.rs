@@ -38,6 +38,7 @@ impl Mei {
             sine_north: before(&scratch.sine_south, &scratch.still, y, flow.span.start),
             neighbour_share: links.neighbour_share,
             erodible: links.erodible,
+            valid: links.valid,
             depth: depth.here_mut(y),
             evaporated: evaporated.here_mut(0),
             eastward: scratch.settled.eastward.here_mut(y),

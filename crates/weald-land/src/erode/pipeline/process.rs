@@ -53,7 +53,7 @@ impl<W> Stepped<W> {
     }
 }
 
-impl<W: Uniform + Copy + Send + Sync> Process for Stepped<W> {
+impl<W: Uniform + Copy + Send + Sync + 'static> Process for Stepped<W> {
     type Weather = W;
     type Scratch = PipelineScratch;
 

@@ -109,6 +109,7 @@ fn a_pipeline_does_on_rows_what_plain_loops_do_on_fields_on_every_engine() {
     start.iter().enumerate().for_each(|(plane, field)| rows.scatter(plane, field.values()));
     let process: Stepped =
         Stepped::with_program(&equations(), (SIZE, false), equations().program("test", false));
+    let process = Arc::new(process);
     let tiles = Engine::Tiles(Size { columns: 5, rows: 7 });
     for engine in [Engine::Cpu, Engine::Bands(3), Engine::Bands(6), tiles] {
         let start = Snapshot::start(rows.clone(), 0);

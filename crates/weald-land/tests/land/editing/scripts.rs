@@ -5,7 +5,7 @@ use weald_land::edit::{Edit, Effect, Layout, Script};
 use super::{MATERIALS, any_brush, dab};
 
 fn any_script() -> impl Strategy<Value = Script> {
-    let edit = (0_u64..600, any_brush()).prop_map(|(step, brush)| Edit { step, brush });
+    let edit = (0_u64..600, any_brush()).prop_map(|(step, brush)| Edit::stroke(step, brush));
     prop::collection::vec(edit, 0..12).prop_map(Script::new)
 }
 
@@ -40,7 +40,8 @@ fn edits_happen_in_the_order_of_their_steps_and_of_the_file() {
     };
     let script = parse(&[line(7, 1), line(0, 2), line(7, 3), line(2, 4)].concat()).expect("good");
     assert_eq!(script.edits().iter().map(|edit| edit.step).collect::<Vec<_>>(), [0, 2, 7, 7]);
-    let depths: Vec<_> = script.before(7).iter().map(|edit| edit.brush.effect.clone()).collect();
+    let depths: Vec<_> =
+        script.before(7).iter().map(|edit| edit.brush().expect("a stroke").effect.clone()).collect();
     assert_eq!(depths, [1.0, 3.0].map(|depth| Effect::AddWater { depth }));
     assert_eq!([0, 1, 3, 8].map(|step| script.next_from(step)), [Some(0), Some(2), Some(7), None]);
 }
@@ -95,7 +96,7 @@ fn a_script_over_its_limits_is_refused_before_it_is_kept() {
 #[test]
 fn a_script_goes_through_a_file_of_either_kind() {
     let folder = tempfile::tempdir().expect("a folder");
-    let script = Script::new(vec![Edit { step: 3, brush: dab(Effect::Source { rate: 0.1 }) }]);
+    let script = Script::new(vec![Edit::stroke(3, dab(Effect::Source { rate: 0.1 }))]);
     for name in ["s.jsonl", "s.toml"] {
         let path = folder.path().join(name);
         script.save(&path).expect("written");

@@ -21,8 +21,8 @@ pub struct Planned {
     pub occurrence: u64,
     /// The step, ready to run.
     pub step: Box<dyn Step>,
-    /// Its keys, for the lines of faults that show later.
-    pub(super) keys: Table,
+    /// Its keys as written, with the paths of files where they are.
+    pub(in crate::recipe) keys: Table,
 }
 
 impl Planned {
@@ -50,8 +50,8 @@ pub(super) fn read(files: Files<'_>, recipe: &Table, diagnostics: &mut Diagnosti
         "step".clone_into(&mut diagnostics.subject);
         if let Some(entry) = entry_of(files.vocabulary, table, diagnostics) {
             let occurrence = steps.iter().filter(|earlier| earlier.entry.name == entry.name).count() as u64;
-            let step = read_step(files, entry, table, diagnostics);
-            steps.push(Planned { entry, line: table.line, occurrence, step, keys: table.clone() });
+            let (step, keys) = read_step(files, entry, table, diagnostics);
+            steps.push(Planned { entry, line: table.line, occurrence, step, keys });
         }
     }
     (steps, diagnostics.found.len() == before)
@@ -78,7 +78,12 @@ fn entry_of(vocabulary: &Vocabulary, table: &Table, diagnostics: &mut Diagnostic
     }
 }
 
-fn read_step(files: Files<'_>, entry: &Entry, table: &Table, diagnostics: &mut Diagnostics) -> Box<dyn Step> {
+fn read_step(
+    files: Files<'_>,
+    entry: &Entry,
+    table: &Table,
+    diagnostics: &mut Diagnostics,
+) -> (Box<dyn Step>, Table) {
     entry.name.clone_into(&mut diagnostics.subject);
     let before = diagnostics.found.len();
     let mut keys = files.placed(table, &(entry.parameters)(), diagnostics);
@@ -89,7 +94,7 @@ fn read_step(files: Files<'_>, entry: &Entry, table: &Table, diagnostics: &mut D
             diagnostics.add(table.line_of(&fault.key), fault);
         }
     }
-    step
+    (step, keys)
 }
 
 /// Complains of steps that do not go with the materials of the recipe.

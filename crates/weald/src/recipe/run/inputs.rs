@@ -25,7 +25,10 @@ impl Recipe {
 
 /// The landscape before the first step, once all that can be told before it is right; the texts tell the user what had
 /// to be done to the files.
-pub(super) fn start(recipe: &Recipe, memory: Option<u64>) -> Result<(Landscape, Vec<String>), Error> {
+pub(in crate::recipe) fn start(
+    recipe: &Recipe,
+    memory: Option<u64>,
+) -> Result<(Landscape, Vec<String>), Error> {
     recipe.inputs().iter().try_for_each(|path| open(path, &recipe.place_of(path)))?;
     let (landscape, mut notes) = ground::load(recipe)?;
     ground::check_outputs(recipe, &landscape)?;

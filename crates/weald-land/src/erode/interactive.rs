@@ -1,0 +1,327 @@
+//! A simulation that a person holds: run a few steps at a time, painted on, changed while it runs, shown, and taken back.
+//!
+//! It owns all that it needs, and works on every engine. A stroke reads and writes the rectangle that it touches and no
+//! more, on a device too; copies to go back to stay where the state is. What is done to it can be written down: the
+//! step with [`Interactive::replayed`] and a [`Script`](crate::edit::Script) of the changes gives the same bits.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use super::begun::{Begun, Store};
+use super::edits::Place;
+use super::finished::Finished;
+use super::look;
+use super::scripted::{Numbers, Remake, nothing_to_paint_on};
+use super::working::WorkingGrid;
+use crate::edit::{Action, Area, Brush, Canvas, Change, Script, Setting, Undoable};
+use weald_core::error::{Error, NotFinite};
+use weald_core::landscape::Landscape;
+use weald_core::material::Material;
+use weald_core::source::Value;
+use weald_engine::Engine;
+use weald_engine::machine::{Machine, Snapshot};
+use weald_engine::machine_of_engine;
+use weald_engine::patch::Patch;
+use weald_engine::stencil::chain::Process;
+use weald_engine::step::{Outcome, Step};
+
+/// Steps between two looks for values that are no numbers.
+const STRETCH: u64 = 256;
+
+/// A step that is a simulation, which a person can hold.
+pub trait Interactive: Step {
+    /// The simulation on a landscape before its first iteration; iterations and edits of the step do not count.
+    ///
+    /// # Errors
+    /// As [`Step::run`].
+    fn hold(&self, landscape: &Landscape, engine: &Engine) -> Result<InteractiveSimulation, Error>;
+
+    /// Keys with which the step runs so many steps, and `edits` beside them, to the same bits as when it was held.
+    fn replayed(&self, steps: u64) -> Vec<(&'static str, Value)>;
+
+    /// Steps that it runs as written, and its script, which is read here; `None` where it has no script.
+    ///
+    /// # Errors
+    /// [`Error::Input`] for a script that cannot be read or followed.
+    fn recorded(&self, materials: &[Material]) -> Result<Option<(u64, Script)>, Error>;
+}
+
+/// A running simulation.
+pub struct InteractiveSimulation {
+    live: Box<dyn Live>,
+    /// The landscape on which it began.
+    start: Landscape,
+    done: u64,
+    settings: Vec<Setting>,
+    /// Steps and settings of the copies that are kept.
+    kept: BTreeMap<u64, (u64, Vec<Setting>)>,
+}
+
+impl std::fmt::Debug for InteractiveSimulation {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        formatter.debug_struct("InteractiveSimulation").field("done", &self.done).finish_non_exhaustive()
+    }
+}
+
+/// What takes a change of a simulation back.
+#[derive(Clone, Debug)]
+pub struct Undo(What);
+
+#[derive(Clone, Debug)]
+enum What {
+    /// What was there before a stroke, where it touched anything.
+    Painted(Option<Patch>),
+    /// A setting is the last one.
+    Set,
+}
+
+impl InteractiveSimulation {
+    pub(crate) fn new<P: Process>(
+        begun: Begun<P>,
+        landscape: &Landscape,
+        engine: &Engine,
+    ) -> Result<Self, Error> {
+        let live = Box::new(Running::new(begun, engine)?);
+        Ok(Self { live, start: landscape.clone(), done: 0, settings: Vec::new(), kept: BTreeMap::new() })
+    }
+
+    /// Steps done.
+    pub fn steps(&self) -> u64 {
+        self.done
+    }
+
+    /// The whole of the landscape, for [`InteractiveSimulation::canvas`].
+    pub fn whole(&self) -> Area {
+        Area { first: [0, 0], size: self.start.domain.size }
+    }
+
+    /// The state over a rectangle of cells, in metres; no more is read from a device.
+    ///
+    /// # Errors
+    /// [`Error::Run`] where the rectangle is not within the landscape or there is no ground to see, [`Error::Device`]
+    /// where it cannot be read from the device that holds it.
+    pub fn canvas(&mut self, area: Area) -> Result<Canvas, Error> {
+        self.live.canvas(area)
+    }
+
+    /// The landscape as if the step had ended here, and what the step would report.
+    ///
+    /// # Errors
+    /// [`Error::Device`] where the state cannot be read from the device that holds it.
+    pub fn landscape(&mut self) -> Result<(Landscape, Outcome), Error> {
+        let mut landscape = self.start.clone();
+        let outcome = self.live.store(&mut landscape, self.done)?;
+        Ok((landscape, outcome))
+    }
+
+    /// Simulates so many steps.
+    ///
+    /// # Errors
+    /// [`Error::NotFinite`] where values become no numbers; the state is then of no further use until it returns to a copy.
+    pub fn advance(&mut self, steps: u64) -> Result<(), Error> {
+        self.live.advance(self.done..self.done + steps)?;
+        self.done += steps;
+        Ok(())
+    }
+
+    /// Paints a stroke.
+    ///
+    /// # Errors
+    /// [`Error::Run`] for a stroke that the step cannot follow; nothing has changed then.
+    pub fn stroke(&mut self, brush: &Brush) -> Result<Undo, Error> {
+        self.live.stroke(brush).map(|patch| Undo(What::Painted(patch)))
+    }
+
+    /// Gives a key of the step another value from here on.
+    ///
+    /// # Errors
+    /// [`Error::Run`] for a key or a value that there is not, or that cannot change while it runs; nothing has changed
+    /// then.
+    pub fn set(&mut self, setting: &Setting) -> Result<Undo, Error> {
+        let settings = self.settings.iter().chain([setting]).cloned().collect();
+        self.follow(settings)?;
+        Ok(Undo(What::Set))
+    }
+
+    fn follow(&mut self, settings: Vec<Setting>) -> Result<(), Error> {
+        self.live.follow(&settings)?;
+        self.settings = settings;
+        Ok(())
+    }
+}
+
+impl Undoable for InteractiveSimulation {
+    type Patch = Undo;
+
+    fn apply(&mut self, action: &Action) -> Result<Option<Undo>, Error> {
+        match action {
+            Action::Steps(steps) => self.advance(*steps).map(|()| None),
+            Action::Change(Change::Stroke(brush)) => self.stroke(brush).map(Some),
+            Action::Change(Change::Set(setting)) => self.set(setting).map(Some),
+        }
+    }
+
+    fn take_back(&mut self, Undo(what): &Undo) -> Result<(), Error> {
+        match what {
+            What::Painted(None) => Ok(()),
+            What::Painted(Some(patch)) => self.live.lay(patch),
+            What::Set => {
+                let before = self.settings.split_last().map_or(&[][..], |(_, before)| before).to_vec();
+                self.follow(before)
+            }
+        }
+    }
+
+    fn keep_as(&mut self, number: u64) -> Result<(), Error> {
+        self.live.keep_as(number)?;
+        self.kept.insert(number, (self.done, self.settings.clone()));
+        Ok(())
+    }
+
+    fn return_to(&mut self, number: u64) -> Result<(), Error> {
+        let Some((done, settings)) = self.kept.get(&number).cloned() else {
+            return Err(Error::Run(format!("copy {number} of the simulation was never kept")));
+        };
+        if settings != self.settings {
+            self.follow(settings)?;
+        }
+        self.live.return_to(number)?;
+        self.done = done;
+        Ok(())
+    }
+
+    fn release(&mut self, number: u64) {
+        self.kept.remove(&number);
+        self.live.release(number);
+    }
+
+    fn bytes_of_copy(&self) -> u64 {
+        self.live.bytes_of_copy()
+    }
+
+    fn bytes_of(Undo(what): &Undo) -> u64 {
+        match what {
+            What::Painted(Some(patch)) => patch.bytes() as u64,
+            What::Painted(None) | What::Set => size_of::<Setting>() as u64,
+        }
+    }
+}
+
+/// A simulation whatever its process.
+trait Live: Send {
+    fn advance(&mut self, steps: std::ops::Range<u64>) -> Result<(), Error>;
+    fn stroke(&mut self, brush: &Brush) -> Result<Option<Patch>, Error>;
+    fn follow(&mut self, settings: &[Setting]) -> Result<(), Error>;
+    fn lay(&mut self, patch: &Patch) -> Result<(), Error>;
+    fn canvas(&mut self, area: Area) -> Result<Canvas, Error>;
+    fn store(&mut self, landscape: &mut Landscape, steps: u64) -> Result<Outcome, Error>;
+    fn keep_as(&mut self, number: u64) -> Result<(), Error>;
+    fn return_to(&mut self, number: u64) -> Result<(), Error>;
+    fn release(&mut self, number: u64);
+    fn bytes_of_copy(&self) -> u64;
+}
+
+/// A process on a machine.
+struct Running<P: Process> {
+    machine: Box<dyn Machine<P>>,
+    first: Numbers<P>,
+    numbers: Numbers<P>,
+    remake: Remake<P>,
+    plane_names: Vec<String>,
+    place: Option<Arc<Place>>,
+    store: Store,
+}
+
+impl<P: Process> Running<P> {
+    fn new(begun: Begun<P>, engine: &Engine) -> Result<Self, Error> {
+        let Begun { numbers, remake, plane_names, means, start, place, working, store } = begun;
+        if let Some(working) = working.as_deref() {
+            WorkingGrid::show(working, engine)?;
+        }
+        let start = Snapshot::start(start, means.len());
+        let machine = machine_of_engine::start(&numbers.process, means, &start, engine)?;
+        Ok(Self { machine, first: numbers.clone(), numbers, remake, plane_names, place, store })
+    }
+
+    fn place(&self) -> Result<Arc<Place>, Error> {
+        self.place.clone().ok_or_else(nothing_to_paint_on)
+    }
+
+    fn run(&mut self, steps: std::ops::Range<u64>, recorded: bool) -> Result<(), Error> {
+        let weather: Vec<_> = steps.map(|step| (self.numbers.weather)(step)).collect();
+        if weather.is_empty() { Ok(()) } else { self.machine.advance(&weather, recorded) }
+    }
+
+    fn look(&mut self, done: u64) -> Result<(), Error> {
+        let Some([x, y, plane]) = self.machine.first_not_finite()? else { return Ok(()) };
+        let layer = self.plane_names[plane].clone();
+        let message = format!(
+            "before iteration {done} `{layer}` at column {x}, row {y} became no number; a lower `flow_rate` or \
+             `erosion` makes the scheme stable"
+        );
+        Err(NotFinite { step: None, iteration: Some(done), layer, cell: [x, y], message }.into())
+    }
+}
+
+impl<P: Process> Live for Running<P> {
+    /// The means are those of the last step, which a run with `mean_over = 1` has as well.
+    fn advance(&mut self, steps: std::ops::Range<u64>) -> Result<(), Error> {
+        let Some(last) = steps.end.checked_sub(1).filter(|last| *last >= steps.start) else { return Ok(()) };
+        let mut done = steps.start;
+        while done < last {
+            let end = (done + STRETCH).min(last);
+            self.run(done..end, false)?;
+            self.look(end)?;
+            done = end;
+        }
+        self.machine.clear_means()?;
+        self.run(last..steps.end, true)?;
+        self.look(steps.end)
+    }
+
+    fn stroke(&mut self, brush: &Brush) -> Result<Option<Patch>, Error> {
+        self.place()?.stroke(brush, &mut *self.machine)
+    }
+
+    fn follow(&mut self, settings: &[Setting]) -> Result<(), Error> {
+        let numbers = if settings.is_empty() { self.first.clone() } else { (self.remake)(settings)? };
+        self.machine.follow(&numbers.process)?;
+        self.numbers = numbers;
+        Ok(())
+    }
+
+    fn lay(&mut self, patch: &Patch) -> Result<(), Error> {
+        self.machine.lay(patch)
+    }
+
+    fn canvas(&mut self, area: Area) -> Result<Canvas, Error> {
+        self.place()?.canvas(area, &mut *self.machine)
+    }
+
+    fn store(&mut self, landscape: &mut Landscape, steps: u64) -> Result<Outcome, Error> {
+        let Snapshot { state, row_sums, means } = self.machine.snapshot()?;
+        let notes = self.machine.note().into_iter().collect();
+        (self.store)(landscape, &Finished { state, sums: look::total(&row_sums), means, notes }, steps)
+    }
+
+    fn keep_as(&mut self, number: u64) -> Result<(), Error> {
+        self.machine.keep_as(number)
+    }
+
+    fn return_to(&mut self, number: u64) -> Result<(), Error> {
+        self.machine.return_to(number)
+    }
+
+    fn release(&mut self, number: u64) {
+        self.machine.release(number);
+    }
+
+    fn bytes_of_copy(&self) -> u64 {
+        self.machine.bytes_of_copy()
+    }
+}
+
+/// A whole number of steps as a recipe has it.
+pub(super) fn whole(steps: u64) -> Value {
+    Value::Integer(i64::try_from(steps).unwrap_or(i64::MAX))
+}

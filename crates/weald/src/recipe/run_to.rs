@@ -1,0 +1,44 @@
+//! Steps of a recipe one after the other, for whoever does not write files.
+
+use super::plan::{Planned, Recipe};
+use super::run::{Progress, inputs};
+use crate::written;
+use weald_core::error::Error;
+use weald_core::landscape::Landscape;
+use weald_engine::step::Outcome;
+use weald_engine::{Engine, Job, Watcher};
+
+/// The landscape before the first step, once all that can be told before it is right.
+pub(super) fn start(recipe: &Recipe, progress: &dyn Progress) -> Result<Landscape, Error> {
+    let (landscape, notes) = inputs::start(recipe, None)?;
+    notes.iter().for_each(|note| progress.note(note));
+    Ok(landscape)
+}
+
+/// Runs a step of a recipe.
+pub(super) fn run_step(
+    (recipe, planned): (&Recipe, &Planned),
+    landscape: &mut Landscape,
+    engine: &Engine,
+    progress: &dyn Progress,
+) -> Result<Outcome, Error> {
+    let (seed, watcher) = (planned.seed(recipe.seed), Told(progress));
+    let job = Job { seed, engine: engine.clone(), watcher: &watcher, resume: None };
+    let outcome = planned.step.run(landscape, &job)?;
+    written::check(planned.step.as_ref(), landscape)?;
+    outcome.notes.iter().for_each(|note| progress.note(note));
+    Ok(outcome)
+}
+
+/// Tells how far a simulation is, and stops it where the user wants it.
+struct Told<'a>(&'a dyn Progress);
+
+impl Watcher for Told<'_> {
+    fn progress(&self, done: u64, total: u64, cells: usize) {
+        self.0.progress(done, total, cells);
+    }
+
+    fn cancelled(&self) -> bool {
+        self.0.cancelled()
+    }
+}

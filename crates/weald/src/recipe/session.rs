@@ -1,0 +1,181 @@
+//! A session: a step of a recipe that a person holds, with what came before it and what comes after.
+//!
+//! [`Session::open`] runs the steps before the one that is held. What is then done, steps, strokes and settings, can be
+//! undone and redone along branches, and [`Session::save`] writes it as a recipe with a script of edits, which `weald run`
+//! replays to the same bits on the same engine, and which opens again as a session.
+
+mod saved;
+
+use std::path::Path;
+
+use super::parameter::Diagnostics;
+use super::plan::{Planned, Recipe};
+use super::run::Progress;
+use super::run_to::{run_step, start};
+use weald_core::error::{Error, RecipeError};
+use weald_core::landscape::Landscape;
+use weald_engine::Engine;
+use weald_engine::step::Outcome;
+use weald_land::edit::{Action, Area, Brush, Canvas, Change, History, Setting};
+use weald_land::erode::interactive::{Interactive, InteractiveSimulation};
+use weald_land::erode::{interactive_names, interactive_step};
+
+/// How a session is opened.
+#[derive(Clone, Debug)]
+pub struct SessionOptions {
+    /// Where simulations run.
+    pub engine: Engine,
+    /// Number of the step to hold, counted from 1; the last one that can be held where none is given.
+    pub step: Option<usize>,
+    /// Most bytes that are kept to go back with, on a device there.
+    pub memory: u64,
+}
+
+impl Default for SessionOptions {
+    /// The CPU, the last step that can be held, and a gigabyte.
+    fn default() -> Self {
+        Self { engine: Engine::Cpu, step: None, memory: 1 << 30 }
+    }
+}
+
+/// A step of a recipe that runs under a person's hands.
+#[derive(Debug)]
+pub struct Session {
+    recipe: Recipe,
+    /// Place of the step that is held, counted from 0.
+    held: usize,
+    step: Box<dyn Interactive>,
+    history: History<InteractiveSimulation>,
+    engine: Engine,
+}
+
+impl Session {
+    /// Runs the steps before the one that is held. A step that has a script of edits is brought to its end, as it was
+    /// saved; any other is at its beginning.
+    ///
+    /// # Errors
+    /// [`Error::Run`] where the recipe has no step that can be held, [`Error::Limit`] where the memory does not hold the
+    /// start, and those of a run.
+    pub fn open(recipe: Recipe, options: SessionOptions, progress: &dyn Progress) -> Result<Self, Error> {
+        let SessionOptions { engine, step, memory } = options;
+        let (held, step) = held(&recipe, step)?;
+        let mut landscape = start(&recipe, progress)?;
+        for (number, planned) in recipe.steps[..held].iter().enumerate() {
+            progress.step(number + 1, recipe.steps.len(), planned.entry.name);
+            run_step((&recipe, planned), &mut landscape, &engine, progress)?;
+        }
+        step.look_ahead(&landscape.materials, &landscape.domain)?;
+        let history = History::new(step.hold(&landscape, &engine)?, memory)?;
+        let recorded = step.recorded(&landscape.materials)?;
+        let mut session = Self { recipe, held, step, history, engine };
+        if let Some((steps, script)) = recorded {
+            session.replay(steps, script.edits())?;
+        }
+        Ok(session)
+    }
+
+    fn replay(&mut self, steps: u64, edits: &[weald_land::edit::Edit]) -> Result<(), Error> {
+        for edit in edits.iter().filter(|edit| edit.step <= steps) {
+            self.advance(edit.step - self.steps())?;
+            self.history.act(edit.change.clone())?;
+        }
+        self.advance(steps - self.steps())
+    }
+
+    /// Steps done.
+    pub fn steps(&self) -> u64 {
+        self.history.simulation().steps()
+    }
+
+    /// Simulates so many steps.
+    ///
+    /// # Errors
+    /// [`Error::NotFinite`] where values become no numbers; the session is then as it was.
+    pub fn advance(&mut self, steps: u64) -> Result<(), Error> {
+        if steps > 0 {
+            self.history.act(Action::Steps(steps))?;
+        }
+        Ok(())
+    }
+
+    /// Paints a stroke.
+    ///
+    /// # Errors
+    /// [`Error::Run`] for a stroke that the step cannot follow; nothing has changed then.
+    pub fn paint(&mut self, brush: Brush) -> Result<(), Error> {
+        self.history.act(Change::Stroke(brush)).map(drop)
+    }
+
+    /// Gives a key of the step another value from here on.
+    ///
+    /// # Errors
+    /// [`Error::Run`] for a key or a value that there is not; nothing has changed then.
+    pub fn set(&mut self, setting: Setting) -> Result<(), Error> {
+        self.history.act(Change::Set(setting)).map(drop)
+    }
+
+    /// All that was done, to go back and forth in it.
+    pub fn history(&mut self) -> &mut History<InteractiveSimulation> {
+        &mut self.history
+    }
+
+    /// The state over a rectangle of cells, in metres; no more is read from a device.
+    ///
+    /// # Errors
+    /// [`Error::Run`] where the rectangle is not within the landscape, [`Error::Device`] where the device fails.
+    pub fn patch(&mut self, area: Area) -> Result<Canvas, Error> {
+        self.history.simulation_mut().canvas(area)
+    }
+
+    /// The landscape as it is now, as if the step had ended here, with what the step would report.
+    ///
+    /// # Errors
+    /// [`Error::Device`] where the device fails.
+    pub fn landscape(&mut self) -> Result<(Landscape, Outcome), Error> {
+        self.history.simulation_mut().landscape()
+    }
+
+    /// The landscape after the steps that come after this one.
+    ///
+    /// # Errors
+    /// Those of the steps.
+    pub fn finish(&mut self, progress: &dyn Progress) -> Result<Landscape, Error> {
+        let (mut landscape, _) = self.landscape()?;
+        for (number, planned) in self.recipe.steps.iter().enumerate().skip(self.held + 1) {
+            progress.step(number + 1, self.recipe.steps.len(), planned.entry.name);
+            run_step((&self.recipe, planned), &mut landscape, &self.engine, progress)?;
+        }
+        Ok(landscape)
+    }
+
+    /// Writes the session as a recipe, and the script of what was done beside it: `name.toml` and `name.edits.jsonl`. The
+    /// script is written first, so that there is no recipe without one.
+    ///
+    /// # Errors
+    /// [`Error::Run`] where a file cannot be written, or more steps were done than a recipe can ask for.
+    pub fn save(&self, file: &Path) -> Result<(), Error> {
+        let (steps, script) = self.history.script();
+        saved::write(&self.recipe, (self.held, &*self.step), (steps, &script), file)
+    }
+}
+
+/// The step that is held, with its place.
+fn held(recipe: &Recipe, wanted: Option<usize>) -> Result<(usize, Box<dyn Interactive>), Error> {
+    let names = interactive_names();
+    let can = |planned: &Planned| names.contains(&planned.entry.name);
+    let place = match wanted {
+        Some(number) => number.checked_sub(1).filter(|at| recipe.steps.get(*at).is_some_and(can)),
+        None => recipe.steps.iter().rposition(can),
+    };
+    let Some(place) = place else {
+        let which = wanted.map_or("no step".to_owned(), |number| format!("no step {number}"));
+        let message = format!("{} has {which} that can be held; such are: {}", recipe.file, names.join(", "));
+        return Err(Error::Run(message));
+    };
+    let (planned, mut diagnostics) = (&recipe.steps[place], Diagnostics::default());
+    let step = interactive_step(planned.entry.name, &planned.keys, &mut diagnostics);
+    match step.filter(|_| diagnostics.found.is_empty()) {
+        Some(step) => Ok((place, step)),
+        None => Err(RecipeError { file: recipe.file.clone(), diagnostics: diagnostics.found }.into()),
+    }
+}
