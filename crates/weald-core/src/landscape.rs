@@ -69,6 +69,27 @@ impl Landscape {
         Ok(&self.layer(name)?.field)
     }
 
+    /// Whether a layer is the same one as in another landscape, or in neither: a copy shares its layers until they are
+    /// replaced.
+    pub fn shares_layer(&self, other: &Self, name: &str) -> bool {
+        match (self.layers.get(name), other.layers.get(name)) {
+            (Some(mine), Some(others)) => Arc::ptr_eq(mine, others),
+            (None, None) => true,
+            _ => false,
+        }
+    }
+
+    /// Takes a layer of another landscape on the same grid in place of its own, shared.
+    ///
+    /// # Panics
+    /// If the grids differ: a bug of the caller.
+    pub fn share_layer(&mut self, other: &Self, name: &str) {
+        assert_eq!(self.domain.size, other.domain.size, "layers are shared on one grid");
+        if let Some(layer) = other.layers.get(name) {
+            self.layers.insert(name.to_owned(), Arc::clone(layer));
+        }
+    }
+
     /// Takes a layer out.
     pub fn remove(&mut self, name: &str) -> Option<Layer> {
         self.layers.remove(name).map(Arc::unwrap_or_clone)

@@ -6,6 +6,9 @@ use crate::device::{Device, ShownGround};
 use weald_core::error::Error;
 use weald_core::grid::Size;
 
+/// What a note says of a simulation that a device could not finish: its bits are partly those of the CPU.
+pub const WENT_ON_ON_CPU: &str = "went on on the CPU";
+
 /// Where and how simulations run. On all but devices the bits of the result do not depend on it.
 #[derive(Clone, Debug, Default)]
 pub enum Engine {

@@ -25,5 +25,5 @@ mod tiles;
 pub mod uniform;
 
 pub use budget::{Budget, SolidBudget, WaterBudget};
-pub use engine::Engine;
+pub use engine::{Engine, WENT_ON_ON_CPU};
 pub use job::{Job, SavedSimulation, Unwatched, Watcher};

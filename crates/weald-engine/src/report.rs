@@ -13,6 +13,9 @@ pub struct StepReport {
     pub step: String,
     /// Time it took.
     pub seconds: f64,
+    /// Whether its result was kept from an earlier run: `seconds` are then those of fetching it.
+    #[serde(skip_serializing_if = "std::ops::Not::not", default)]
+    pub cached: bool,
     /// Cells of the grid.
     pub cells: usize,
     /// What the step counts: iterations, faults, octaves.

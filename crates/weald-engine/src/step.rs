@@ -18,6 +18,12 @@ pub trait Step: Debug + Send + Sync {
     /// Names of the layers it reads.
     fn reads(&self) -> Vec<String>;
 
+    /// Names of layers that it reads beside these where there are such. A kept result is taken for that of another run by
+    /// the layers of both lists.
+    fn reads_where_there(&self) -> Vec<String> {
+        Vec::new()
+    }
+
     /// Names and units of the layers it writes.
     fn writes(&self) -> Vec<(String, &'static str)>;
 

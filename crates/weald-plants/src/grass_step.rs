@@ -101,6 +101,10 @@ impl Step for Grass {
         maps.into_iter().chain(masks).map(|name| name.0.clone()).chain(conditions).collect()
     }
 
+    fn reads_where_there(&self) -> Vec<String> {
+        vec!["water".to_owned()]
+    }
+
     fn writes(&self) -> Vec<(String, &'static str)> {
         let species = self.kinds().into_iter().map(|kind| self.layer_of(&kind.name));
         std::iter::once(self.into.0.clone()).chain(species).map(|name| (name, "1/m²")).collect()

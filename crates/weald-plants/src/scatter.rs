@@ -90,6 +90,10 @@ impl Step for Scatter {
         std::iter::once(self.of.0.clone()).chain(conditions).collect()
     }
 
+    fn reads_where_there(&self) -> Vec<String> {
+        vec!["water".to_owned()]
+    }
+
     fn writes(&self) -> Vec<(String, &'static str)> {
         vec![(self.into.0.clone(), "1/m²")]
     }

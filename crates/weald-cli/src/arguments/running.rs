@@ -1,7 +1,10 @@
 //! How a recipe is run, and what is changed of it.
 
+use std::path::PathBuf;
+use std::sync::Arc;
+
 use clap::{Args, value_parser};
-use weald::recipe::Overrides;
+use weald::recipe::{Cache, CacheLimits, Overrides};
 
 use crate::values::{self, EngineChoice};
 
@@ -18,6 +21,13 @@ pub(crate) struct Running {
     /// Most memory that a run may take, as in 8GiB; one that would take more does not start [default: what is free]
     #[arg(long, value_name = "BYTES", allow_negative_numbers = true, value_parser = values::memory)]
     pub(crate) memory: Option<u64>,
+    /// Folder of results of steps, of which a run takes what fits and into which it puts its own, 4 GiB at most
+    /// [default: that of the system, or WEALD_CACHE]
+    #[arg(long, value_name = "DIR", conflicts_with = "no_cache")]
+    pub(crate) cache: Option<PathBuf>,
+    /// Run every step, and keep no results for later runs; WEALD_CACHE=off does the same
+    #[arg(long)]
+    pub(crate) no_cache: bool,
     /// Threads [default: all cores]
     #[arg(long, value_name = "N", value_parser = value_parser!(u16).range(1..=1024))]
     pub(crate) threads: Option<u16>,
@@ -33,6 +43,24 @@ pub(crate) struct Running {
     /// Print errors only
     #[arg(long)]
     pub(crate) quiet: bool,
+}
+
+/// Variable with the folder of results of steps, or `off`.
+const CACHE_VARIABLE: &str = "WEALD_CACHE";
+
+impl Running {
+    /// Results of steps that earlier runs have left.
+    pub(crate) fn cache(&self) -> Option<Arc<Cache>> {
+        let said = std::env::var_os(CACHE_VARIABLE).filter(|folder| !folder.is_empty());
+        if self.no_cache || self.cache.is_none() && said.as_ref().is_some_and(|folder| folder == "off") {
+            return None;
+        }
+        let of_the_system = || dirs::cache_dir().map(|folder| folder.join("weald"));
+        let folder = self.cache.clone().or_else(|| said.map(PathBuf::from)).or_else(of_the_system)?;
+        // A run visits each step once, so that nothing needs to stay in memory.
+        let limits = CacheLimits { memory: 0, ..CacheLimits::default() };
+        Some(Arc::new(Cache::in_folder(folder, limits)))
+    }
 }
 
 /// Greatest seed: whole numbers beyond it are not all exact where reports are read as JSON.

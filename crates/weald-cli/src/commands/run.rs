@@ -46,6 +46,7 @@ pub(super) fn watched<T>(
         checkpoint_every: Duration::from_secs(running.checkpoint_every),
         resume: running.resume,
         memory: running.memory,
+        cache: running.cache(),
         render,
         ..options
     };

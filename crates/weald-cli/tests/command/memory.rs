@@ -70,7 +70,12 @@ fn a_limited_address_space_is_told_with_5_and_no_signal() {
     let script =
         format!("ulimit -v 2000000; exec {weald} run r.toml --engine cpu --threads 1 --memory 64GiB");
     let mut shell = std::process::Command::new("sh");
-    let output = shell.args(["-c", &script]).current_dir(place.path("")).output().expect("a shell");
+    let output = shell
+        .env("WEALD_CACHE", "off")
+        .args(["-c", &script])
+        .current_dir(place.path(""))
+        .output()
+        .expect("a shell");
     let said = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(5), "{said}");
     assert!(said.contains("of memory, at most"), "{said}");

@@ -90,6 +90,11 @@ impl InteractiveSimulation {
         self.done
     }
 
+    /// The landscape on which it began.
+    pub fn start(&self) -> &Landscape {
+        &self.start
+    }
+
     /// The whole of the landscape, for [`InteractiveSimulation::canvas`].
     pub fn whole(&self) -> Area {
         Area { first: [0, 0], size: self.start.domain.size }

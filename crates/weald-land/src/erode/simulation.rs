@@ -14,7 +14,7 @@ use weald_engine::machine_of_engine;
 use weald_engine::patch::{Patch, Patched};
 use weald_engine::stencil::chain::Process;
 use weald_engine::stencil::rows::Rows;
-use weald_engine::{Engine, Job, SavedSimulation};
+use weald_engine::{Engine, Job, SavedSimulation, WENT_ON_ON_CPU};
 
 /// A process and how long it runs.
 pub(crate) struct Simulation<'a, P: Process> {
@@ -61,7 +61,7 @@ impl<P: Process> Simulation<'_, P> {
         let mut last = matches!(job.engine, Engine::DeviceElseCpu(_)).then(|| first.clone());
         match (self.run_on(&job.engine, first, job, last.as_mut()), last) {
             (Err(Error::Device(what)), Some(last)) => {
-                let note = format!("{what}; went on on the CPU after {} iterations", last.done);
+                let note = format!("{what}; {WENT_ON_ON_CPU} after {} iterations", last.done);
                 let mut finished = self.run_on(&Engine::Cpu, last, job, None)?;
                 finished.notes.push(note);
                 Ok(finished)

@@ -24,6 +24,13 @@ pub(super) fn text(recipe: &Table) -> String {
     text
 }
 
+/// The keys of one table, each on a line.
+pub(super) fn keys(table: &Table) -> String {
+    let mut text = String::new();
+    write_section(&mut text, "", table);
+    text
+}
+
 fn as_table(node: &Node) -> Option<&Table> {
     match &node.value {
         Value::Table(table) => Some(table),

@@ -327,6 +327,7 @@ mod tests {
             sums: vec![("rained".to_owned(), vec![0.1, f64::MAX])],
         };
         let report = StepReport {
+            cached: false,
             step: "slide".to_owned(),
             seconds: 0.1,
             cells: 6,

@@ -1,8 +1,8 @@
 //! How much memory a run takes at its peak, by the recipe and the grid: so much is there before it starts, or it does not
 //! start.
 //!
-//! While a step runs there are the layers that it found twice, since it works on a copy of the landscape, those that it
-//! writes, and what it needs beside them; while an output is made, the layers of the end and what that needs.
+//! While a step runs there are the layers that it found, which its copy of the landscape shares, those that it writes, and
+//! what it needs beside them; while an output is made, the layers of the end and what that needs.
 
 use std::collections::BTreeSet;
 use std::fmt::{Display, Formatter};
@@ -52,7 +52,8 @@ impl Recipe {
             let next = steps.get(number + 1).map_or(&last, |(_, grid)| grid);
             let a_cell = VALUE * (found + written.len() as u64) + self.working_bytes(planned);
             layers.extend(written);
-            let after = VALUE * found * next.size.cells() as u64;
+            // A step that changes the grid makes all layers anew.
+            let after = if next.size == grid.size { 0 } else { VALUE * found * next.size.cells() as u64 };
             let at = format!("step {} (`{}`)", number + 1, planned.entry.name);
             peaks.push(Memory { bytes: a_cell * grid.size.cells() as u64 + after, at });
         }

@@ -3,6 +3,7 @@
 //! [`parameter`] declares the parameters of a step, [`catalog`] lists the steps, and [`schema`], [`describe`]
 //! and [`template`] tell people and editors about them.
 
+mod cache;
 mod canonical;
 pub mod catalog;
 mod checkpoint;
@@ -30,6 +31,7 @@ mod testing;
 mod view_request;
 mod written_layers;
 
+pub use cache::{Cache, CacheLimits};
 pub use checkpoint::CHECKPOINT_FILE;
 pub use fractal::FractalRequest;
 pub use memory::Memory;

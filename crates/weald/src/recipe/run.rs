@@ -1,7 +1,7 @@
 //! Runs a checked recipe: ground, steps, files, report.
 
 mod film;
-mod finished;
+pub(super) mod finished;
 mod folder;
 pub(super) mod inputs;
 mod options;
@@ -16,6 +16,7 @@ pub use options::{Options, Progress, Run, Silent};
 use std::path::PathBuf;
 use std::time::Instant;
 
+use super::cache::KeptSteps;
 use super::checkpoint::{self, CHECKPOINT_FILE, State};
 use super::ground;
 use super::plan::{Output, Planned, Recipe};
@@ -116,11 +117,14 @@ impl Run<'_> {
 
     fn finish_steps(&self, progress: &dyn Progress) -> Result<State, Error> {
         let mut state = self.start(progress)?;
+        let mut kept = self.kept_steps(&state)?;
         let clock = CheckpointTimer::start(self.options.checkpoint_every);
         while let Some(planned) = self.recipe.steps.get(state.done) {
             self.stop_if_cancelled(&state, progress)?;
             progress.step(state.done + 1, self.recipe.steps.len(), planned.entry.name);
-            self.advance(planned, &mut state, progress, &clock)?;
+            if !self.fetch(planned, &mut state, kept.as_mut(), progress) {
+                self.advance(planned, &mut state, (progress, &clock), kept.as_mut())?;
+            }
             self.keep_if_due(&state, &clock, progress)?;
         }
         Ok(state)
@@ -191,8 +195,8 @@ impl Run<'_> {
         &self,
         planned: &Planned,
         state: &mut State,
-        progress: &dyn Progress,
-        clock: &CheckpointTimer,
+        (progress, clock): (&dyn Progress, &CheckpointTimer),
+        kept: Option<&mut KeptSteps>,
     ) -> Result<(), Error> {
         let resume = state.simulation.take();
         let resumed_at = resume.as_ref().map(|simulation| simulation.iteration);
@@ -212,10 +216,48 @@ impl Run<'_> {
             progress.note(note);
         }
         let seconds = started.elapsed().as_secs_f64();
-        state.steps.push(step_report(planned, &landscape, outcome, seconds, resumed_at));
+        let report = step_report(planned, &landscape, outcome, seconds, resumed_at);
+        if let Some(kept) = kept {
+            kept.keep((self.recipe, planned), (&state.landscape, &landscape), &report, &|note| {
+                progress.note(note)
+            });
+        }
+        state.steps.push(report);
         state.landscape = landscape;
         state.done += 1;
         Ok(())
+    }
+
+    /// What earlier runs have left of the steps to come. One that goes on from a checkpoint does not know what its layers
+    /// follow from.
+    fn kept_steps(&self, state: &State) -> Result<Option<KeptSteps>, Error> {
+        match &self.options.cache {
+            Some(cache) if !self.options.resume => {
+                KeptSteps::new(cache, self.recipe, (&state.landscape, &self.options.engine)).map(Some)
+            }
+            _ => Ok(None),
+        }
+    }
+
+    /// Takes the result of the next step from an earlier run, where there is one. A film needs to see the step run.
+    fn fetch(
+        &self,
+        planned: &Planned,
+        state: &mut State,
+        kept: Option<&mut KeptSteps>,
+        progress: &dyn Progress,
+    ) -> bool {
+        let is_filmed = planned.step.watched() > 0 && self.recipe.outputs.iter().any(Output::lapses);
+        let Some(kept) = kept.filter(|_| !is_filmed) else { return false };
+        let Some(report) = kept.fetch((self.recipe, planned), &mut state.landscape) else { return false };
+        progress.note(&format!(
+            "step {} (`{}`): kept from an earlier run",
+            state.done + 1,
+            planned.entry.name
+        ));
+        state.steps.push(report);
+        state.done += 1;
+        true
     }
 
     /// Says in which step an error arose and where the last state is.

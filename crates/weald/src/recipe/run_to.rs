@@ -1,6 +1,10 @@
 //! Steps of a recipe one after the other, for whoever does not write files.
 
+use std::time::Instant;
+
+use super::cache::KeptSteps;
 use super::plan::{Planned, Recipe};
+use super::run::finished::step_report;
 use super::run::{Progress, inputs};
 use crate::written;
 use weald_core::error::Error;
@@ -15,8 +19,26 @@ pub(super) fn start(recipe: &Recipe, progress: &dyn Progress) -> Result<Landscap
     Ok(landscape)
 }
 
+/// Runs a step of a recipe, or takes its result from an earlier run.
+pub(super) fn step(
+    of: (&Recipe, &Planned),
+    landscape: &mut Landscape,
+    (engine, kept): (&Engine, Option<&mut KeptSteps>),
+    progress: &dyn Progress,
+) -> Result<(), Error> {
+    let Some(kept) = kept else { return run_step(of, landscape, engine, progress).map(drop) };
+    if kept.fetch(of, landscape).is_some() {
+        return Ok(());
+    }
+    let (before, started) = (landscape.clone(), Instant::now());
+    let outcome = run_step(of, landscape, engine, progress)?;
+    let report = step_report(of.1, landscape, outcome, started.elapsed().as_secs_f64(), None);
+    kept.keep(of, (&before, landscape), &report, &|note| progress.note(note));
+    Ok(())
+}
+
 /// Runs a step of a recipe.
-pub(super) fn run_step(
+fn run_step(
     (recipe, planned): (&Recipe, &Planned),
     landscape: &mut Landscape,
     engine: &Engine,

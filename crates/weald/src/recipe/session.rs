@@ -7,16 +7,18 @@
 mod saved;
 
 use std::path::Path;
+use std::sync::Arc;
 
+use super::cache::{Cache, KeptSteps};
 use super::parameter::Diagnostics;
 use super::plan::{Planned, Recipe};
 use super::run::Progress;
-use super::run_to::{run_step, start};
+use super::run_to::{self, start};
 use weald_core::error::{Error, RecipeError};
 use weald_core::landscape::Landscape;
 use weald_engine::Engine;
 use weald_engine::step::Outcome;
-use weald_land::edit::{Action, Area, Brush, Canvas, Change, History, Setting};
+use weald_land::edit::{Action, Area, Brush, Canvas, Change, Edit, History, Layout, Setting};
 use weald_land::erode::interactive::{Interactive, InteractiveSimulation};
 use weald_land::erode::{interactive_names, interactive_step};
 
@@ -29,12 +31,14 @@ pub struct SessionOptions {
     pub step: Option<usize>,
     /// Most bytes that are kept to go back with, on a device there.
     pub memory: u64,
+    /// Results of steps that earlier sessions and runs have left, and that this one leaves.
+    pub cache: Option<Arc<Cache>>,
 }
 
 impl Default for SessionOptions {
     /// The CPU, the last step that can be held, and a gigabyte.
     fn default() -> Self {
-        Self { engine: Engine::Cpu, step: None, memory: 1 << 30 }
+        Self { engine: Engine::Cpu, step: None, memory: 1 << 30, cache: None }
     }
 }
 
@@ -47,6 +51,8 @@ pub struct Session {
     step: Box<dyn Interactive>,
     history: History<InteractiveSimulation>,
     engine: Engine,
+    /// What the layers on which the step began follow from.
+    before: Option<KeptSteps>,
 }
 
 impl Session {
@@ -57,24 +63,26 @@ impl Session {
     /// [`Error::Run`] where the recipe has no step that can be held, [`Error::Limit`] where the memory does not hold the
     /// start, and those of a run.
     pub fn open(recipe: Recipe, options: SessionOptions, progress: &dyn Progress) -> Result<Self, Error> {
-        let SessionOptions { engine, step, memory } = options;
+        let SessionOptions { engine, step, memory, cache } = options;
         let (held, step) = held(&recipe, step)?;
         let mut landscape = start(&recipe, progress)?;
+        let kept = cache.as_ref().map(|cache| KeptSteps::new(cache, &recipe, (&landscape, &engine)));
+        let mut before = kept.transpose()?;
         for (number, planned) in recipe.steps[..held].iter().enumerate() {
             progress.step(number + 1, recipe.steps.len(), planned.entry.name);
-            run_step((&recipe, planned), &mut landscape, &engine, progress)?;
+            run_to::step((&recipe, planned), &mut landscape, (&engine, before.as_mut()), progress)?;
         }
         step.look_ahead(&landscape.materials, &landscape.domain)?;
         let history = History::new(step.hold(&landscape, &engine)?, memory)?;
         let recorded = step.recorded(&landscape.materials)?;
-        let mut session = Self { recipe, held, step, history, engine };
+        let mut session = Self { recipe, held, step, history, engine, before };
         if let Some((steps, script)) = recorded {
             session.replay(steps, script.edits())?;
         }
         Ok(session)
     }
 
-    fn replay(&mut self, steps: u64, edits: &[weald_land::edit::Edit]) -> Result<(), Error> {
+    fn replay(&mut self, steps: u64, edits: &[Edit]) -> Result<(), Error> {
         for edit in edits.iter().filter(|edit| edit.step <= steps) {
             self.advance(edit.step - self.steps())?;
             self.history.act(edit.change.clone())?;
@@ -141,9 +149,19 @@ impl Session {
     /// Those of the steps.
     pub fn finish(&mut self, progress: &dyn Progress) -> Result<Landscape, Error> {
         let (mut landscape, _) = self.landscape()?;
+        let mut kept = self.before.clone();
+        if let Some(kept) = &mut kept {
+            let (steps, script) = self.history.script();
+            let start = self.history.simulation().start();
+            kept.held(
+                &self.recipe.steps[self.held],
+                (start, &landscape),
+                &format!("{steps}\n{}", script.text(Layout::JsonLines)),
+            );
+        }
         for (number, planned) in self.recipe.steps.iter().enumerate().skip(self.held + 1) {
             progress.step(number + 1, self.recipe.steps.len(), planned.entry.name);
-            run_step((&self.recipe, planned), &mut landscape, &self.engine, progress)?;
+            run_to::step((&self.recipe, planned), &mut landscape, (&self.engine, kept.as_mut()), progress)?;
         }
         Ok(landscape)
     }

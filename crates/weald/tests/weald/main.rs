@@ -1,6 +1,7 @@
 //! Recipes and the catalogue from end to end.
 
 mod analysis;
+mod cached_runs;
 mod catalog;
 #[path = "../../../weald-land/tests/land/common/mod.rs"]
 mod common;

@@ -78,6 +78,10 @@ impl Step for RiversStep {
         needed.into_iter().chain(chosen).collect()
     }
 
+    fn reads_where_there(&self) -> Vec<String> {
+        vec!["lake".to_owned()]
+    }
+
     fn writes(&self) -> Vec<(String, &'static str)> {
         LAYERS.map(|(name, unit)| (name.to_owned(), unit)).to_vec()
     }

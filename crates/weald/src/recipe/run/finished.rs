@@ -5,7 +5,7 @@ use weald_core::landscape::Landscape;
 use weald_engine::report::StepReport;
 use weald_engine::step::Outcome;
 
-pub(super) fn step_report(
+pub(in crate::recipe) fn step_report(
     planned: &Planned,
     landscape: &Landscape,
     outcome: Outcome,
@@ -23,6 +23,7 @@ pub(super) fn step_report(
     StepReport {
         step: planned.entry.name.to_owned(),
         seconds,
+        cached: false,
         cells,
         iterations: outcome.iterations,
         cell_updates_per_second: cells as f64 * here as f64 / seconds.max(1e-9),

@@ -1,5 +1,6 @@
 //! What a run is told, and what it tells.
 
+use crate::recipe::cache::Cache;
 use crate::recipe::plan::Recipe;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -24,6 +25,8 @@ pub struct Options {
     pub report: bool,
     /// Most memory that a run may take, in bytes; all that is free where none is given.
     pub memory: Option<u64>,
+    /// Results of steps that earlier runs have left, and that this one leaves.
+    pub cache: Option<Arc<Cache>>,
     /// What draws the pictures of kind `render`.
     pub render: Option<Arc<dyn RenderDevice>>,
 }
@@ -40,6 +43,7 @@ impl Options {
             resume: false,
             report: true,
             memory: None,
+            cache: None,
             render: None,
         }
     }
