@@ -15,7 +15,7 @@ use weald_land::analyse::rivers::{End, Reach, RiverPoint, Rivers, Start};
 weald_core::parameters! {
     /// Rivers as lines, a feature for each reach between confluences.
     ///
-    /// A point is where the river runs and the height of its water. A feature has its `id`, the Strahler `order`, and
+    /// A point is where the river runs in its valley, between the centres of cells, and the height of its water. A feature has its `id`, the Strahler `order`, and
     /// at its lower end `width` and `depth` in metres, `discharge` in m³/s and `upstream_area` in m²; its `length` in
     /// metres; where it begins (`start`: "head", "confluence" or "lake") and ends (`end`: "outlet", "lake", "sea" or
     /// "confluence"), with the numbers of the lakes `from_lake` and `to_lake`; `downstream`, the `id` of the reach that
@@ -46,7 +46,7 @@ impl Export for RiverLines {
     }
 
     fn optional(&self) -> Vec<String> {
-        vec!["lake".to_owned()]
+        vec!["lake".to_owned(), "height".to_owned()]
     }
 
     fn notes(&self, finished: &Finished<'_>) -> Vec<String> {

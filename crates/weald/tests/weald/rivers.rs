@@ -3,7 +3,7 @@
 use weald::analyse::directions::{Directions, STEPS};
 use weald::analyse::flow_step::{FlowStep, Method};
 use weald::analyse::lakes::{Lakes, LakesStep, Source};
-use weald::analyse::rivers::{End, Reach, Rivers, RiversStep, Start};
+use weald::analyse::rivers::{End, Reach, RiverPoint, Rivers, RiversStep, Start};
 use weald::engine::Job;
 use weald::flow::Depressions;
 use weald::grid::Mask;
@@ -100,12 +100,18 @@ fn check_reach(land: &Landscape, rivers: &Rivers, at: usize) {
         land.domain.size.index((point.x / 20.0) as usize, (point.y / 20.0) as usize)
     };
     let last = cell_of(reach.points.len() - 1);
-    let (codes, lake, river) = (values(land, "flow_direction"), values(land, "lake"), values(land, "river"));
+    let (codes, lake) = (values(land, "flow_direction"), values(land, "lake"));
     match reach.end {
         End::Outlet => assert!(codes[last] == 0.0 && at_the_rim(land, last)),
         End::Sea => assert_eq!(codes[last], 9.0),
         End::Lake(number) => assert_eq!(lake[last], number as f32),
-        End::Confluence => assert!(river[last] == 1.0 && reach.downstream.is_some()),
+        End::Confluence => {
+            let [x, y] = [|point: &RiverPoint| point.x, |point: &RiverPoint| point.y];
+            let (own, other) =
+                (reach.points.last(), reach.downstream.map(|next| &rivers.reaches[next].points[0]));
+            let (own, other) = own.zip(other).expect("a reach has points, and a confluence a reach below");
+            assert_eq!([x(own), y(own)], [x(other), y(other)], "reaches meet in one point");
+        }
     }
     if reach.start == Start::Head || matches!(reach.start, Start::Lake(_)) {
         let into = rivers

@@ -3,8 +3,10 @@
 //! The cells of rivers are a forest along the directions of flow. It is cut at confluences and at the shores of
 //! lakes; each piece is a reach.
 
+use std::collections::BTreeMap;
+
 use super::reach::{End, Reach, RiverPoint, Rivers, Start};
-use super::smooth::smooth;
+use super::smooth::{Node, smooth};
 use crate::analyse::lakes;
 use crate::flow::directions::Directions;
 use weald_core::error::Error;
@@ -20,6 +22,7 @@ pub(super) fn rivers(landscape: &Landscape) -> Result<Rivers, Error> {
     let upward = layers.directions.upward(|cell| layers.carries(cell));
     let mut reach_of = vec![NONE; layers.river.values().len()];
     let mut reaches = Vec::new();
+    let layers = Layers { places: layers.smooth_places(&upward, landscape.field("height").ok()), ..layers };
     // From the mouths up, so that what a reach flows into is known before it.
     for cell in upward {
         let Some(next) = layers.directions.downstream(cell) else {
@@ -51,6 +54,8 @@ struct Layers<'a> {
     discharge: &'a Field,
     order: &'a Field,
     upslope: &'a Field,
+    /// Where rivers run that pass a cell, in cells; where none is named, in its middle.
+    places: BTreeMap<usize, [f64; 2]>,
 }
 
 impl<'a> Layers<'a> {
@@ -68,6 +73,7 @@ impl<'a> Layers<'a> {
             discharge: landscape.field("discharge")?,
             order: landscape.field("strahler")?,
             upslope: landscape.field("accumulation")?,
+            places: BTreeMap::new(),
         })
     }
 
@@ -126,9 +132,9 @@ impl<'a> Layers<'a> {
     }
 
     fn points(&self, cells: &[usize], end: End) -> Vec<RiverPoint> {
-        let places = smooth(&cells.iter().map(|&cell| self.place(cell)).collect::<Vec<_>>());
+        let places = cells.iter().map(|cell| self.places.get(cell).copied().unwrap_or(self.middle(*cell)));
         let last_own = if end == End::Outlet { cells.len() - 1 } else { cells.len().saturating_sub(2) };
-        let point = |(at, &[x, y]): (usize, &[f64; 2])| {
+        let point = |(at, [x, y]): (usize, [f64; 2])| {
             // In a lake, the sea or another river a river is what it was where it entered; its water stands as
             // high as the other's.
             let own = cells[at.min(last_own)];
@@ -143,11 +149,27 @@ impl<'a> Layers<'a> {
                 area: of(self.upslope, own),
             }
         };
-        places.iter().enumerate().map(point).collect()
+        places.enumerate().map(point).collect()
+    }
+
+    /// Where the rivers run, of which these are the cells, in the valleys of a ground.
+    fn smooth_places(&self, cells: &[usize], ground: Option<&Field>) -> BTreeMap<usize, [f64; 2]> {
+        let number: BTreeMap<usize, usize> = cells.iter().enumerate().map(|(at, &cell)| (cell, at)).collect();
+        let area = |cell: &usize| self.upslope.values()[*cell];
+        let node = |&cell: &usize| {
+            let rivers = self.directions.upstream(cell).filter(|&other| self.is_river(other));
+            let above = rivers.max_by(|a, b| area(a).total_cmp(&area(b)));
+            let below = self.directions.downstream(cell);
+            let beside = above.zip(below).filter(|_| self.is_river(cell));
+            let beside = beside.and_then(|(above, below)| Some([*number.get(&above)?, *number.get(&below)?]));
+            Node { home: self.middle(cell), beside }
+        };
+        let nodes: Vec<_> = cells.iter().map(node).collect();
+        cells.iter().copied().zip(smooth(&nodes, ground)).collect()
     }
 
     /// The middle of a cell, in cells.
-    fn place(&self, cell: usize) -> [f64; 2] {
+    fn middle(&self, cell: usize) -> [f64; 2] {
         let columns = self.river.size().columns;
         [(cell % columns) as f64 + 0.5, (cell / columns) as f64 + 0.5]
     }
