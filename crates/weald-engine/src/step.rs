@@ -85,9 +85,15 @@ pub trait Step: Debug + Send + Sync {
         &[]
     }
 
-    /// Iterations between which its landscape can be looked at; 0 where it cannot.
+    /// Iterations between which its landscape can be looked at, or the years of a step that tells them; 0 where it
+    /// cannot.
     fn watched(&self) -> u64 {
         0
+    }
+
+    /// How much of [`Step::watched`] has passed after so many iterations, where the step alone tells.
+    fn watched_after(&self, iterations: u64) -> Option<u64> {
+        Some(iterations)
     }
 
     /// Columns and rows after the step, where it changes them.

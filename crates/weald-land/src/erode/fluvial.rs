@@ -43,7 +43,7 @@ use super::pipeline::{Equations, Pipeline};
 use super::springs::Forcing;
 use super::sums;
 use edges::{PIPE_AXIS, PIPE_DIAGONAL};
-use kernels::{Accelerate, Flow, Rained, Shares, Slid, Through, Unrest, Uptake, Wear};
+use kernels::{Accelerate, Dried, Flow, Rained, Shares, Slid, Through, Unrest, Uptake, Wear};
 use strata::{BOTTOMS, Mapped, Strata};
 use weald_core::material::MAX_MATERIALS;
 use weald_engine::machine::{Means, Part};
@@ -123,6 +123,8 @@ pub(crate) struct Numbers {
     pub(crate) rain_map: bool,
     /// Whether one says how soft the ground is.
     pub(crate) erodibility_map: bool,
+    /// Whether water evaporates.
+    pub(crate) evaporates: bool,
 }
 
 impl Numbers {
@@ -161,7 +163,12 @@ impl Numbers {
                 equations.kernel_on::<Mapped>(&[("factor", "erodibility_map")]);
             }
         }
-        equations.kernel_on::<Rained>(&[("inflow", inflow)]).tally("fallen", sums::RAINED);
+        if self.evaporates {
+            equations.kernel_on::<Dried>(&[("inflow", inflow)]).tally("evaporated", sums::EVAPORATED);
+        } else {
+            equations.kernel_on::<Rained>(&[("inflow", inflow)]);
+        }
+        equations.tally("fallen", sums::RAINED);
         equations.kernel::<Accelerate>().kernel::<Shares>().kernel::<Through>().kernel::<Flow>();
         equations.tally("water_out", sums::WATER_OUT).tally("sediment_out", sums::SEDIMENT_OUT);
         equations.kernel_on::<Uptake>(&[("softness", softness)]).kernel::<Wear>();

@@ -14,7 +14,7 @@ use weald_core::Domain;
 use weald_core::error::Error;
 use weald_core::grid::{Field, Size};
 use weald_core::landscape::Landscape;
-use weald_engine::{Budget, Job, Watcher};
+use weald_engine::Budget;
 
 /// What a level hands down: metres, and the discharge to the east and south in m²/s, so that water goes on as it ran.
 #[derive(Clone, Debug)]
@@ -161,7 +161,7 @@ fn mean(fine: &Field, size: Size, every: usize) -> Field {
 }
 
 /// Bilinear between the middles of cells; beyond the edge lies the cell itself.
-fn refined(coarse: &Field) -> Field {
+pub(super) fn refined(coarse: &Field) -> Field {
     let Size { columns, rows } = coarse.size();
     let size = Size { columns: 2 * columns, rows: 2 * rows };
     let beside = |at: usize, cells: usize| {
@@ -174,22 +174,6 @@ fn refined(coarse: &Field) -> Field {
         let along = |y: usize| 0.75 * f64::from(coarse.at(x, y)) + 0.25 * f64::from(coarse.at(next_x, y));
         (0.75 * along(y) + 0.25 * along(next_y)) as f32
     })
-}
-
-/// Hears of a coarse level whether to stop, and nothing else: its states are none of the landscape's.
-pub(crate) struct OfCoarse<'a>(pub(crate) &'a dyn Watcher);
-
-impl Watcher for OfCoarse<'_> {
-    fn cancelled(&self) -> bool {
-        self.0.cancelled()
-    }
-}
-
-impl OfCoarse<'_> {
-    /// The job of a coarse level.
-    pub(crate) fn job<'a>(&'a self, job: &Job<'_>) -> Job<'a> {
-        Job { seed: job.seed, engine: job.engine.clone(), watcher: self, resume: None }
-    }
 }
 
 #[cfg(test)]

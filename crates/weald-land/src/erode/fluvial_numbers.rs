@@ -80,6 +80,7 @@ impl Fluvial {
             strata,
             rain_map: self.rain_map.is_some() || !self.sources.is_empty(),
             erodibility_map: self.erodibility_map.is_some(),
+            evaporates: self.evaporation > 0.0,
         }
     }
 }

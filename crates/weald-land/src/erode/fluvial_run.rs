@@ -3,10 +3,11 @@
 use super::extent::Extent;
 use super::finished::Finished;
 use super::fluvial::{self, Numbers};
-use super::fluvial_levels::{self as levels, HandedDown, OfCoarse};
+use super::fluvial_levels::{self as levels, HandedDown};
 use super::fluvial_materials::{StartColumn, strata_of};
 use super::fluvial_numbers::Steps;
 use super::fluvial_step::Fluvial;
+use super::fluvial_years::{InYears, Years, as_seen};
 use super::hydraulic::Boundary;
 use super::pipeline::Stepped;
 use super::scripted::Numbers as Running;
@@ -44,18 +45,22 @@ impl Fluvial {
     pub(super) fn run_levels(&self, landscape: &mut Landscape, job: &Job<'_>) -> Result<Outcome, Error> {
         let (mut before, mut handed) = (Vec::new(), None);
         let grids = self.grids(landscape.domain.cell);
+        let given = landscape.clone();
+        let mut years = 0.0;
         for level in (1..grids).rev() {
             let coarse = self.coarsened(landscape, level)?;
             let mut flood = Flood::on(self.for_level(level, grids), &coarse)?;
-            let watcher = OfCoarse(job.watcher);
+            let finer = |coarse: &Landscape| as_seen(&given, coarse, (&self.layer.0, level));
+            let watcher = InYears { watcher: job.watcher, years: flood.years(years), coarse: Some(&finer) };
             let finished = flood.run(handed.as_ref(), &watcher.job(job))?;
+            years += flood.step.duration;
             let (budget, down) = flood.handed_down(&finished);
             before.push(budget);
             handed = Some(down.refined());
         }
-        let given = landscape.clone();
         let mut flood = Flood::on(self.for_level(0, grids), &given)?;
-        let finished = flood.run(handed.as_ref(), job)?;
+        let watcher = InYears { watcher: job.watcher, years: flood.years(years), coarse: None };
+        let finished = flood.run(handed.as_ref(), &watcher.job(job))?;
         let budget = before.iter().fold(flood.store(landscape, &finished), levels::joined);
         let iterations = flood.step.steps(given.domain.cell).count;
         Ok(Outcome { iterations, budget: Some(budget), notes: finished.notes, ..Outcome::default() })
@@ -108,9 +113,14 @@ impl<'a> Flood<'a> {
         self.step.steps(self.working.cell)
     }
 
-    /// What comes to a cell in a step, in cells.
-    fn rain(&self) -> f32 {
-        (self.step.rain / 3.6e6 * self.steps().seconds / self.working.cell) as f32
+    /// The years that pass, after those of coarser levels.
+    fn years(&self, before: f64) -> Years {
+        Years { before, a_step: self.step.duration / self.steps().count as f64 }
+    }
+
+    /// What a rate in mm/h gives in a step, in cells.
+    fn in_a_step(&self, rate: f64) -> f32 {
+        (rate / 3.6e6 * self.steps().seconds / self.working.cell) as f32
     }
 
     /// Constant planes behind those of every process.
@@ -138,7 +148,7 @@ impl<'a> Flood<'a> {
         for Nested(source) in &self.step.sources {
             source.spring(domain).add_to(&mut springs, domain, self.steps().seconds / self.working.cell);
         }
-        let rain = self.rain();
+        let rain = self.in_a_step(self.step.rain);
         let share = |x, y| map.as_ref().map_or(1.0, |map| map.at(x, y));
         Ok(self.working.ringed(|x, y| rain * share(x, y) + springs.at(x, y)))
     }
@@ -183,8 +193,9 @@ impl<'a> Flood<'a> {
         let plane_names = process.state_names();
         let Steps { count, .. } = self.steps();
         // Where a plane says what comes to each cell, it counts once.
-        let rain = if self.numbers.rain_map { 1.0 } else { self.rain() };
-        let numbers = Running::new(process, move |_| Forcing { rain, evaporation: 0.0 });
+        let rain = if self.numbers.rain_map { 1.0 } else { self.in_a_step(self.step.rain) };
+        let evaporation = self.in_a_step(self.step.evaporation);
+        let numbers = Running::new(process, move |_| Forcing { rain, evaporation });
         let seen = |finished: &Finished| {
             let mut seen = self.landscape.clone();
             self.store(&mut seen, finished);

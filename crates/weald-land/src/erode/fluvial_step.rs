@@ -41,6 +41,8 @@ parameters! {
         rain: f64 = 40.0, range 0.0..=10_000.0, unit "mm/h";
         /// Layer with the share of the rain that falls on each cell; 1 is `rain`. Default: 1 everywhere.
         rain_map: Option<LayerName> = None;
+        /// Water that evaporates in a flood, from wherever it stands or runs, while there is any.
+        evaporation: f64 = 0.0, range 0.0..=10_000.0, unit "mm/h";
         /// Rivers and springs that flow in: `{ x, y, radius, discharge }`.
         sources: Vec<Nested<Source>> = Vec::new();
         /// Ground that a unit of stream power takes up in a year (K). Hard rock has less than 1, loose soil 10 and more.
@@ -151,6 +153,15 @@ impl Step for Fluvial {
         std::iter::once((self.layer.0.clone(), "m")).chain(own).collect()
     }
 
+    /// Years.
+    fn watched(&self) -> u64 {
+        self.duration as u64
+    }
+
+    fn watched_after(&self, _: u64) -> Option<u64> {
+        None
+    }
+
     fn faults(&self) -> Vec<Fault> {
         let fault = || {
             let message = format!("`levels` is {}, but must be 1 with a `region`", self.levels);
@@ -195,7 +206,7 @@ pub(super) fn variants() -> Vec<Box<dyn Step>> {
     let several =
         |flood: &Fluvial| Fluvial { materials: true, erodibility: 0.1, cover: 5.0, ..flood.clone() };
     vec![
-        Box::new(Fluvial { boundary: Boundary::Closed, ..flood.clone() }),
+        Box::new(Fluvial { boundary: Boundary::Closed, evaporation: 5000.0, ..flood.clone() }),
         Box::new(Fluvial { region: painted(), sources: vec![Nested(source)], ..flood.clone() }),
         Box::new(several(&flood)),
         Box::new(several(&mapped)),
@@ -210,7 +221,9 @@ pub(super) fn programs() -> impl Iterator<Item = weald_engine::program::Program>
     let variants = borders.into_iter().flat_map(|border| (0..=4).map(move |materials| (border, materials)));
     variants.map(|((boundary, masked), materials)| {
         let map = (materials % 2 == 1).then(|| LayerName::of("painted"));
-        let step = Fluvial { boundary, rain_map: map.clone(), erodibility_map: map, ..Fluvial::default() };
+        let rain_map = map.clone();
+        let evaporation = f64::from(u8::from(masked));
+        let step = Fluvial { boundary, rain_map, erodibility_map: map, evaporation, ..Fluvial::default() };
         let stack = vec![Material::built_in("rock").expect("built in"); materials];
         let numbers = step.numbers(10.0, strata_of(&stack, 0.1));
         fluvial::program(&numbers, masked, numbers.pipeline().reach())

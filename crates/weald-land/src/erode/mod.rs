@@ -22,6 +22,7 @@ mod fluvial_materials;
 mod fluvial_numbers;
 mod fluvial_run;
 pub mod fluvial_step;
+mod fluvial_years;
 mod flux_corrected;
 mod four_outflows;
 mod han;

@@ -183,6 +183,25 @@ fn a_lake_at_rest_stays_at_rest() {
 }
 
 #[test]
+fn evaporation_lowers_a_lake_by_its_rate_and_stands_in_the_budget() {
+    let bowl = |x: usize, y: usize| ((x as i64 - 16).pow(2) + (y as i64 - 16).pow(2)) as f64 / 16.0;
+    let mut land = land(square(33), 1.0, bowl);
+    let depth = Field::from_function(square(33), |x, y| (10.0 - bowl(x, y)).max(0.0) as f32);
+    land.insert("depth", "m", depth.clone());
+    // Half a metre in all.
+    let dry = Fluvial { rain: 0.0, evaporation: 10_000.0, flow_time: 0.05, ..water_alone() };
+    let step = Fluvial { initial_water: Some(LayerName::of("depth")), boundary: Boundary::Closed, ..dry };
+    let budget = run(&step, &mut land);
+    let left = field(&land, "water");
+    let sunk = f64::from(depth.at(16, 16) - left.at(16, 16));
+    println!("the lake sinks by {sunk} m; {:?}", budget.water);
+    assert!((sunk / 0.5 - 1.0).abs() < 0.01, "the lake sinks by {sunk} m");
+    assert!(left.range(None).expect("cells").0 >= 0.0, "no depth is negative");
+    assert!((budget.water.outgoing / (depth.sum() - left.sum()) - 1.0).abs() < 1e-4, "{:?}", budget.water);
+    assert!(budget.water.error().abs() < 1e-6, "{:?}", budget.water);
+}
+
+#[test]
 fn ground_that_is_turned_or_mirrored_becomes_what_it_became_turned_or_mirrored() {
     const SIDE: usize = 40;
     let ground = rough(SIDE, SIDE, 60.0, 5);

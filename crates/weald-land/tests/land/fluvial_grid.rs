@@ -1,8 +1,11 @@
 //! What the grid shows of what `fluvial` makes: on fewer cells, on coarser grids first, and in its directions.
 
+use std::sync::Mutex;
+
+use weald_core::error::Error;
 use weald_core::grid::Field;
 use weald_core::{Domain, Landscape};
-use weald_engine::{Budget, Job, step::Step};
+use weald_engine::{Budget, Job, Watcher, step::Step};
 use weald_land::erode::fluvial_step::Fluvial;
 use weald_land::generate::fbm::Fbm;
 
@@ -182,4 +185,40 @@ fn relief_has_as_much_power_along_the_axes_as_along_the_diagonals() {
     println!("power along the axes over that along the diagonals: {before:.2} before, {after:.2} after");
     assert!((0.8..1.25).contains(&before), "the ground itself has directions: {before}");
     assert!((0.77..1.3).contains(&after), "the relief has {after} times the power along the axes");
+}
+
+/// Looks every so many years, and keeps the year, the mean erosion and the heights.
+struct EveryYears(u64, Mutex<Vec<(u64, f64, Field)>>);
+
+impl Watcher for EveryYears {
+    fn next_look(&self, done: u64) -> Option<u64> {
+        Some(done.next_multiple_of(self.0))
+    }
+
+    fn look(&self, done: u64, land: &Landscape) -> Result<(), Error> {
+        let eroded = land.field("erosion")?.sum();
+        self.1.lock().expect("no look fails").push((done, eroded, land.field("height")?.clone()));
+        Ok(())
+    }
+}
+
+#[test]
+fn a_flood_is_seen_year_by_year_on_all_its_grids() {
+    let mut land = hills(64);
+    let start = field(&land, "height").clone();
+    let step = Fluvial { levels: 3, coarsest: 320.0, flow_time: 0.5, ..gentle() };
+    let watcher = EveryYears(500, Mutex::new(Vec::new()));
+    let job = Job { watcher: &watcher, ..Job::unwatched(1) };
+    step.run(&mut land, &job).expect("it runs");
+    let seen = watcher.1.into_inner().expect("no look fails");
+    let years: Vec<_> = seen.iter().map(|(year, ..)| *year).collect();
+    assert_eq!(years, (0..=20).map(|frame| 500 * frame).collect::<Vec<_>>());
+    assert_eq!(seen[0].2.values(), start.values(), "the first is the ground of the start");
+    assert_eq!(seen[20].2.values(), field(&land, "height").values(), "the last is what is left");
+    let eroded: Vec<_> = seen.iter().map(|(_, eroded, _)| eroded / (64.0 * 64.0)).collect();
+    println!("eroded: {eroded:.2?} m");
+    assert!(eroded.windows(2).all(|pair| pair[1] != pair[0]), "nothing moves from a frame to the next");
+    assert!((5..=20).all(|at| eroded[at] > eroded[at - 5]), "the country does not wear");
+    assert!(eroded[20] > 3.0, "hardly anything was carved");
+    assert_eq!(step.watched(), 10_000);
 }

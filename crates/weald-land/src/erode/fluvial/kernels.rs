@@ -41,6 +41,24 @@ kernel! {
     }
 }
 
+kernel! {
+    /// The same where water evaporates too, as much as there is at most.
+    pub(crate) struct Dried {
+        reads { base, change_before, depth_before, inflow }
+        writes { ground, surface, rained, fallen, evaporated, fall }
+        constants { rain: f32, evaporation: f32, flow_rate: f32, deepest: f32 }
+    }
+    fn cell() {
+        ground = base + change_before;
+        let wet = depth_before + rain * inflow;
+        rained = wet - wet.min(evaporation);
+        surface = ground + rained;
+        fallen = wet - depth_before;
+        evaporated = rained - wet;
+        fall = free_fall(rained, deepest, flow_rate);
+    }
+}
+
 /// Flux through an edge after a step; `here` and `next` are surface, ground and resistance on its two sides.
 #[inline(always)]
 fn accelerated(old: f32, here: [f32; 3], next: [f32; 3], conductance: f32, deepest: f32) -> f32 {

@@ -67,6 +67,19 @@ fn inflow_of(cell: vec2<i32>) -> f32 {
 }
 ";
 
+const STAYS: &str = "
+fn dried(wet: f32, cell: vec2<i32>) -> f32 {
+    return wet;
+}
+";
+const EVAPORATES: &str = "
+fn dried(wet: f32, cell: vec2<i32>) -> f32 {
+    let left = exact(wet - min(wet, weather.evaporation));
+    tally(EVAPORATED, cell, left - wet);
+    return left;
+}
+";
+
 /// The passes, over cells all of which hold data or not.
 pub(crate) fn program(numbers: &Numbers, masked: bool, reach: usize) -> Program {
     let weather = Uniforms::of(&Forcing { rain: 0.0, evaporation: 0.0 });
@@ -101,7 +114,9 @@ pub(crate) fn program(numbers: &Numbers, masked: bool, reach: usize) -> Program 
     }
     let ground = if numbers.strata.is_some() { MATERIALS } else { ONE_MATERIAL };
     let softness = if numbers.erodibility_map { MAPPED } else { UNMAPPED };
-    draft.pass_of("level_of_water", &[LEVEL, if numbers.rain_map { MAPPED_RAIN } else { EVEN_RAIN }]);
+    let inflow = if numbers.rain_map { MAPPED_RAIN } else { EVEN_RAIN };
+    let evaporation = if numbers.evaporates { EVAPORATES } else { STAYS };
+    draft.pass_of("level_of_water", &[LEVEL, inflow, evaporation]);
     draft.pass_of("accelerate", &[ACCELERATE]);
     draft.pass_of("share_out", &[WANTED, SHARES, ground, softness]);
     draft.pass_of("flow", &[WANTED, FLOW]);

@@ -10,7 +10,7 @@ use weald_picture::Picture;
 weald_core::parameters! {
     /// Keys that make a film of a picture.
     pub struct FilmKeys {
-        /// Iterations of the simulations from one frame to the next.
+        /// Iterations of the simulations from one frame to the next; of `fluvial`, years.
         every: Option<u64> = None, range 1..=1_000_000_000;
         /// Number of frames: of one turn of the camera; with `wind`, of one loop; with `through`, of the flight.
         frames: Option<u32> = None, range 2..=9999;
@@ -28,7 +28,7 @@ pub const EXTENSIONS: &[&str] = &["png", "apng", "mp4", "webm"];
 /// How a picture moves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Motion {
-    /// A frame every so many iterations of the simulations.
+    /// A frame every so many iterations of the simulations, or years of those that tell them.
     TimeLapse(u64),
     /// So many frames once around.
     Turn(u32),

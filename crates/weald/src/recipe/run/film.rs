@@ -8,6 +8,7 @@ use crate::recipe::checkpoint::State;
 use crate::recipe::plan::{Content, Film, Motion, Output, Recipe};
 use weald_core::error::Error;
 use weald_core::landscape::Landscape;
+use weald_engine::step::Step;
 use weald_io::write_whole;
 use weald_picture::{Cutout, Frame, Image, Picture, RenderDevice, Watch};
 
@@ -26,6 +27,8 @@ pub(super) struct TimeLapses<'a> {
     /// Iterations of each step that can be watched.
     watched: Vec<u64>,
     step: usize,
+    /// The step, unless all are done.
+    running: Option<&'a dyn Step>,
 }
 
 impl<'a> TimeLapses<'a> {
@@ -34,7 +37,8 @@ impl<'a> TimeLapses<'a> {
         let (folder, device) = (new_files(&options.out, recipe), options.render.as_deref());
         let films = recipe.outputs.iter().filter_map(TimeLapse::of).collect();
         let watched = recipe.steps.iter().map(|planned| planned.step.watched()).collect();
-        Self { films, folder, device, watched, step }
+        let running = recipe.steps.get(step).map(|planned| &*planned.step);
+        Self { films, folder, device, watched, step, running }
     }
 
     /// The first number of iterations, from `done` on, that is a frame of one of them.
@@ -56,11 +60,13 @@ impl<'a> TimeLapses<'a> {
     /// Refuses to go on from a checkpoint whose frames are gone.
     pub(super) fn ensure_drawn(&self, state: &State, checkpoint: &Path) -> Result<(), Error> {
         let iteration = state.simulation.as_ref().map_or(0, |simulation| simulation.iteration);
+        // A step that does not tell what has passed finds its frames where they were.
+        let own = self.running.map_or(Some(iteration), |step| step.watched_after(iteration)).unwrap_or(0);
         let has_begun = iteration > 0 || self.watched[..self.step].iter().any(|&iterations| iterations > 0);
         for lapse in self.films.iter().filter(|_| has_begun) {
             let earlier: u64 = self.watched[..self.step].iter().map(|all| all / lapse.every).sum();
             // The frame of the iteration itself is drawn again.
-            let drawn = earlier + iteration.div_ceil(lapse.every);
+            let drawn = earlier + own.div_ceil(lapse.every);
             let frame = |number| self.folder.join(Film::frame(lapse.file, number));
             if let Some(missing) = (0..drawn).map(frame).find(|frame| !frame.exists()) {
                 let missing = missing.display();
