@@ -387,3 +387,25 @@ fn a_film_without_ffmpeg_is_told_by_the_check_and_never_listed_as_written() {
     let report: serde_json::Value = serde_json::from_str(&report).expect("JSON");
     assert_eq!(report["outputs"][0]["name_only"], true, "{report}");
 }
+
+#[test]
+fn a_second_run_takes_what_the_first_has_left_unless_it_is_told_not_to() {
+    // Long enough to be worth keeping.
+    let place = Place::with(&format!("{RECIPE}[[step]]\ndo = \"thermal\"\niterations = 2000\n"));
+    let cached = |out: &str, arguments: &[&str]| {
+        let run = ["run", "r.toml", "--engine", "cpu", "--out", out];
+        let mut command = place.command(&[&run[..], arguments].concat());
+        let output = command.env("WEALD_CACHE", place.path("kept")).output().expect("the command starts");
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        let report = std::fs::read_to_string(place.path(out).join("report.json")).expect("there is a report");
+        report.contains("\"cached\": true")
+    };
+    assert!(!cached("one", &[]), "there is nothing yet");
+    assert!(cached("two", &[]), "the first run has left something");
+    assert!(!cached("three", &["--no-cache"]));
+    assert!(!cached("four", &["--cache", "elsewhere"]) && cached("five", &["--cache", "elsewhere"]));
+    assert!(!cached("six", &["--set", "landscape.cell=7"]));
+    let file = |out: &str| std::fs::read(place.path(out).join("height.npy")).expect("written");
+    assert!(["two", "three", "four", "five"].iter().all(|out| file(out) == file("one")));
+    assert_ends(&place, &["run", "r.toml", "--cache", "k", "--no-cache"], 2, &["cannot be used with"]);
+}

@@ -128,11 +128,22 @@ fn what_is_undone_and_redone_on_a_device_has_the_same_bits() {
 fn held() -> Vec<(&'static str, Box<dyn Interactive>, Setting)> {
     let han = HanKeys { rain: metres(0.02), dry_period: 5, ..HanKeys::default() };
     let mei = MeiKeys { rain: metres(0.02), thermal: Some(Nested(Default::default())), ..MeiKeys::default() };
+    let fluvial = steps::Fluvial {
+        flow_time: 0.02,
+        rain: 5_000.0,
+        duration: 3.0,
+        erodibility: 0.1,
+        deepest: 0.5,
+        gathering: 1.0,
+        channel_width: 0.3,
+        ..Default::default()
+    };
     let hydraulic = |model| Hydraulic { model, rain_period: 7, ..Hydraulic::default() };
     vec![
         ("han", Box::new(hydraulic(han.into())), set("rain", 0.05)),
         ("mei", Box::new(hydraulic(mei.into())), set("thermal.talus", 0.2)),
         ("stava", Box::new(step()), set("slippage.strength", 0.01)),
+        ("fluvial", Box::new(fluvial), set("erodibility", 0.5)),
         ("thermal", Box::new(steps::Thermal { talus: 0.3, ..Default::default() }), set("talus", 0.1)),
         ("slippage", Box::new(steps::Slippage::default()), set("strength", 0.05)),
     ]

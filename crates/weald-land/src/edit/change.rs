@@ -64,3 +64,28 @@ impl From<Setting> for Change {
         Self::Set(setting)
     }
 }
+
+/// What can be done to a simulation.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Action {
+    /// Simulates so many steps.
+    Steps(u64),
+    /// Paints a stroke, or changes a key.
+    Change(Change),
+}
+
+impl<C: Into<Change>> From<C> for Action {
+    fn from(change: C) -> Self {
+        Self::Change(change.into())
+    }
+}
+
+impl Action {
+    /// What it costs to do it again, in iterations.
+    pub(super) fn work(&self) -> u64 {
+        match self {
+            Self::Steps(steps) => (*steps).max(1),
+            Self::Change(_) => 1,
+        }
+    }
+}

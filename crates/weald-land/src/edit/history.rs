@@ -11,35 +11,10 @@ mod tree;
 
 use std::collections::BTreeMap;
 
-use super::change::{Change, Edit};
+use super::change::{Action, Edit};
 use super::script::Script;
 use tree::Tree;
 use weald_core::error::{Error, Limit, Quantity};
-
-/// What can be done to a simulation.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Action {
-    /// Simulates so many steps.
-    Steps(u64),
-    /// Paints a stroke, or changes a key.
-    Change(Change),
-}
-
-impl<C: Into<Change>> From<C> for Action {
-    fn from(change: C) -> Self {
-        Self::Change(change.into())
-    }
-}
-
-impl Action {
-    /// What it costs to do it again, in iterations.
-    fn work(&self) -> u64 {
-        match self {
-            Self::Steps(steps) => (*steps).max(1),
-            Self::Change(_) => 1,
-        }
-    }
-}
 
 /// A simulation that a person changes while it runs. The same actions on the same state must give the same bits.
 pub trait Undoable {

@@ -36,8 +36,8 @@ mod script;
 
 pub use brush::{Brush, Effect, Falloff};
 pub use canvas::{Area, Canvas};
-pub use change::{Change, Edit, Setting};
-pub use history::{Action, History, Undoable};
+pub use change::{Action, Change, Edit, Setting};
+pub use history::{History, Undoable};
 pub use keys::{EditKeys, MAX_PLACES, SettingKeys};
 pub use paint::Volumes;
 pub use script::{Layout, MAX_BYTES, MAX_STROKES, Script};

@@ -5,7 +5,6 @@ use std::sync::Arc;
 
 use pulp::Arch;
 
-use super::begun::Begun;
 use super::edits::{PaintedPlanes, Place};
 use super::links::Links;
 use super::loose::{self, Loose};
@@ -14,6 +13,7 @@ use super::on_ground::store_ground;
 use super::scripted::Numbers;
 use super::stack::deposit_of;
 use super::stack::{Column, REGOLITH};
+use super::started::StartedSimulation;
 use super::stava::digging::{DigScratch, Digging};
 use super::stava::dissolution::{Dissolution, DissolutionScratch, RegolithRows};
 use super::stava::program::{self, StavaNumbers};
@@ -156,7 +156,7 @@ impl Loose for DissolutionStep {
 
     const FIXED: &'static [&'static str] = &["layer", "water", "deposit"];
 
-    fn begin(&self, landscape: &Landscape, editable: bool) -> Result<Begun<Dissolving>, Error> {
+    fn begin(&self, landscape: &Landscape, editable: bool) -> Result<StartedSimulation<Dissolving>, Error> {
         let deposit = deposit_of(self.deposit.as_ref(), &landscape.materials).map_err(Error::Run)?;
         let mut working = WorkingGrid::new(landscape, &self.layer.0, false)?;
         working.set_water(landscape, &self.water.0)?;
@@ -177,7 +177,7 @@ impl Loose for DissolutionStep {
         let painted = PaintedPlanes { water, ..PaintedPlanes::of(&first, column, &working) };
         let names = landscape.materials.iter().map(|material| material.name.clone()).collect();
         let change = std::iter::once("change".to_owned());
-        Ok(Begun {
+        Ok(StartedSimulation {
             plane_names: change.chain(column.names(&landscape.materials)).collect(),
             start: working.state(planes.count(), &[working.water().to_vec()]),
             numbers: Numbers::new(first, |_| ()),

@@ -10,7 +10,7 @@ use super::fluvial_step::Fluvial;
 use super::fluvial_years::{InYears, Years, as_seen};
 use super::hydraulic::Boundary;
 use super::pipeline::Stepped;
-use super::scripted::Numbers as Running;
+use super::scripted::{Edits, Numbers as Running};
 use super::simulation::{Record, Simulation};
 use super::springs::Forcing;
 use super::stored::MeanFluxes;
@@ -38,7 +38,9 @@ impl Fluvial {
     fn for_level(&self, level: u32, grids: u32) -> Self {
         let share = levels::share_of_time(level, grids);
         let (duration, flow_time) = (self.duration * share, self.flow_time * share);
-        Self { duration, flow_time, ..self.clone() }
+        // Those that are said are of the finest grid.
+        let steps = self.steps.filter(|_| level == 0);
+        Self { duration, flow_time, steps, ..self.clone() }
     }
 
     /// Runs on all levels, and leaves in the landscape what has become of it.
@@ -49,20 +51,22 @@ impl Fluvial {
         let mut years = 0.0;
         for level in (1..grids).rev() {
             let coarse = self.coarsened(landscape, level)?;
-            let mut flood = Flood::on(self.for_level(level, grids), &coarse)?;
+            let mut flood = Flood::on(self.for_level(level, grids), &coarse, false)?;
             let finer = |coarse: &Landscape| as_seen(&given, coarse, (&self.layer.0, level));
             let watcher = InYears { watcher: job.watcher, years: flood.years(years), coarse: Some(&finer) };
-            let finished = flood.run(handed.as_ref(), &watcher.job(job))?;
+            let finished = flood.run(handed.as_ref(), &watcher.job(job), None)?;
             years += flood.step.duration;
             let (budget, down) = flood.handed_down(&finished);
             before.push(budget);
             handed = Some(down.refined());
         }
-        let mut flood = Flood::on(self.for_level(0, grids), &given)?;
+        let mut flood = Flood::on(self.for_level(0, grids), &given, self.edits.is_some())?;
         let watcher = InYears { watcher: job.watcher, years: flood.years(years), coarse: None };
-        let finished = flood.run(handed.as_ref(), &watcher.job(job))?;
+        let script = self.script(&given.materials)?;
+        let edits = script.map(|script| self.edits_of(script, &flood));
+        let finished = flood.run(handed.as_ref(), &watcher.job(job), edits.as_ref())?;
         let budget = before.iter().fold(flood.store(landscape, &finished), levels::joined);
-        let iterations = flood.step.steps(given.domain.cell).count;
+        let iterations = flood.step.count(given.domain.cell);
         Ok(Outcome { iterations, budget: Some(budget), notes: finished.notes, ..Outcome::default() })
     }
 
@@ -83,19 +87,20 @@ impl Fluvial {
 }
 
 /// A flood over a landscape.
-struct Flood<'a> {
-    step: Fluvial,
-    landscape: &'a Landscape,
-    working: WorkingGrid,
-    column: Option<StartColumn>,
-    numbers: Numbers,
+pub(super) struct Flood {
+    pub(super) step: Fluvial,
+    pub(super) landscape: Landscape,
+    pub(super) working: WorkingGrid,
+    pub(super) column: Option<StartColumn>,
+    pub(super) numbers: Numbers,
 }
 
-impl<'a> Flood<'a> {
-    fn on(step: Fluvial, landscape: &'a Landscape) -> Result<Self, Error> {
+impl Flood {
+    /// A flood over a landscape, such that strokes can change it where it is `editable`.
+    pub(super) fn on(step: Fluvial, landscape: &Landscape, editable: bool) -> Result<Self, Error> {
         let open = step.boundary == Boundary::Open;
         let region = step.region.as_ref().map(|region| region.0.as_str());
-        let extent = Extent { open, region, cropped: true };
+        let extent = Extent { open, region, cropped: !editable };
         let mut working = WorkingGrid::within(landscape, &step.layer.0, &extent)?;
         if let Some(water) = &step.initial_water {
             working.set_water(landscape, &water.0)?;
@@ -105,11 +110,14 @@ impl<'a> Flood<'a> {
             let half = (step.cover / landscape.domain.cell) as f32;
             strata_of(&landscape.materials, half)
         });
+        if editable {
+            working.set_changing_mask();
+        }
         let numbers = step.numbers(working.cell, strata);
-        Ok(Self { step, landscape, working, column, numbers })
+        Ok(Self { step, landscape: landscape.clone(), working, column, numbers })
     }
 
-    fn steps(&self) -> Steps {
+    pub(super) fn steps(&self) -> Steps {
         self.step.steps(self.working.cell)
     }
 
@@ -130,7 +138,7 @@ impl<'a> Flood<'a> {
             planes.push(self.inflow()?);
         }
         if let Some(LayerName(name)) = &self.step.erodibility_map {
-            let map = not_negative(self.landscape, name)?;
+            let map = not_negative(&self.landscape, name)?;
             planes.push(self.working.ringed(|x, y| map.at(x, y)));
         }
         if let Some(column) = &self.column {
@@ -142,7 +150,7 @@ impl<'a> Flood<'a> {
     /// Rain by its map, and what springs, in cells per step.
     fn inflow(&self) -> Result<Vec<f32>, Error> {
         let domain = &self.landscape.domain;
-        let map = self.step.rain_map.as_ref().map(|LayerName(name)| not_negative(self.landscape, name));
+        let map = self.step.rain_map.as_ref().map(|LayerName(name)| not_negative(&self.landscape, name));
         let map = map.transpose()?;
         let mut springs = Field::filled(domain.size, 0.0);
         for Nested(source) in &self.step.sources {
@@ -154,7 +162,7 @@ impl<'a> Flood<'a> {
     }
 
     /// The state before the first step, with what a coarser level hands down.
-    fn start(&mut self, handed: Option<&HandedDown>) -> Result<Rows, Error> {
+    pub(super) fn start(&mut self, handed: Option<&HandedDown>) -> Result<Rows, Error> {
         if let Some(HandedDown { water, .. }) = handed {
             self.working.set_standing(water.clone());
         }
@@ -182,20 +190,29 @@ impl<'a> Flood<'a> {
         Ok(rows)
     }
 
-    /// Runs all steps.
-    fn run(&mut self, handed: Option<&HandedDown>, job: &Job<'_>) -> Result<Finished, Error> {
-        let start = self.start(handed)?;
+    /// The process, and what comes and goes in each step.
+    pub(super) fn running(&self) -> Running<Stepped<Forcing>> {
         let pipeline = self.numbers.pipeline();
         let masked = self.working.mask.is_some();
         let program = fluvial::program(&self.numbers, masked, pipeline.reach());
-        let process: Stepped<Forcing> =
-            Stepped::with_program(&pipeline, (self.working.size, masked), program);
-        let plane_names = process.state_names();
-        let Steps { count, .. } = self.steps();
+        let process = Stepped::with_program(&pipeline, (self.working.size, masked), program);
         // Where a plane says what comes to each cell, it counts once.
         let rain = if self.numbers.rain_map { 1.0 } else { self.in_a_step(self.step.rain) };
         let evaporation = self.in_a_step(self.step.evaporation);
-        let numbers = Running::new(process, move |_| Forcing { rain, evaporation });
+        Running::new(process, move |_| Forcing { rain, evaporation })
+    }
+
+    /// Runs all steps.
+    fn run(
+        &mut self,
+        handed: Option<&HandedDown>,
+        job: &Job<'_>,
+        edits: Option<&Edits<Stepped<Forcing>>>,
+    ) -> Result<Finished, Error> {
+        let start = self.start(handed)?;
+        let numbers = self.running();
+        let count = self.step.count(self.working.cell);
+        let recorded = self.step.mean_over.map_or_else(|| count.div_ceil(RECORDED), u64::from).min(count);
         let seen = |finished: &Finished| {
             let mut seen = self.landscape.clone();
             self.store(&mut seen, finished);
@@ -203,13 +220,10 @@ impl<'a> Flood<'a> {
         };
         let simulation = Simulation {
             numbers: &numbers,
-            plane_names: &plane_names,
+            plane_names: &numbers.process.state_names(),
             iterations: count,
-            record: Some(Record {
-                steps: count - count.div_ceil(RECORDED)..count,
-                means: fluvial::MEAN_FLUXES,
-            }),
-            edits: None,
+            record: Some(Record { steps: count - recorded..count, means: fluvial::MEAN_FLUXES }),
+            edits,
             seen: Some(&seen),
         };
         self.working.show(&job.engine)?;
@@ -217,7 +231,7 @@ impl<'a> Flood<'a> {
     }
 
     /// Writes what has become of the landscape.
-    fn store(&self, landscape: &mut Landscape, finished: &Finished) -> Budget {
+    pub(super) fn store(&self, landscape: &mut Landscape, finished: &Finished) -> Budget {
         let working = &self.working;
         let planes = fluvial::through_sides(&finished.means, working.size.columns);
         let factor = (working.cell.powi(3) / self.steps().seconds) as f32;

@@ -1,5 +1,7 @@
 //! The `fluvial` step: floods carve ground over years, in metres and time.
 
+use std::path::PathBuf;
+
 use super::fluvial;
 use super::fluvial_levels as levels;
 use super::fluvial_materials::strata_of;
@@ -9,7 +11,7 @@ use weald_core::domain::Domain;
 use weald_core::error::Error;
 use weald_core::landscape::Landscape;
 use weald_core::material::Material;
-use weald_core::parameter::{Fault, LayerName, Nested};
+use weald_core::parameter::{Fault, LayerName, Nested, ScriptFile};
 use weald_core::parameters;
 use weald_engine::Job;
 use weald_engine::step::{Entry, Layered, Outcome, Stage, Step};
@@ -83,6 +85,10 @@ parameters! {
         /// Longest cells of these grids. On the coarsest it is decided where valleys lie: a landscape of any size that
         /// begins on the same one has the same valleys.
         coarsest: f64 = 40.0, range 0.001..=100_000.0, unit "m";
+        /// Number of steps, of the length that follows from the cells, in place of all that fill the time. Default: all.
+        steps: Option<u32> = None, range 0..=100_000_000;
+        /// Steps at the end over which `flux_x` and `flux_y` are averaged. Default: a tenth of all.
+        mean_over: Option<u32> = None, range 1..=100_000_000, unit "steps";
         /// What happens at the edge and at no-data cells.
         boundary: Boundary = Boundary::Open;
         /// Layer to erode.
@@ -92,6 +98,9 @@ parameters! {
         /// Layer that says where to simulate: cells where it is below 0.5 stand still, and nothing passes
         /// their edge. Default: everywhere.
         region: Option<LayerName> = None;
+        /// Script of edits, in JSON lines (.jsonl) or TOML: strokes of a brush, and keys that change, between the steps on
+        /// the finest grid. Its path starts at the folder of the recipe.
+        edits: Option<ScriptFile> = None;
     }
 }
 
@@ -168,6 +177,14 @@ impl Step for Fluvial {
             Fault::of("levels", message)
         };
         (self.levels > 1 && self.region.is_some()).then(fault).into_iter().collect()
+    }
+
+    fn files(&self) -> Vec<PathBuf> {
+        self.edits.as_ref().map(ScriptFile::path).into_iter().collect()
+    }
+
+    fn look_ahead(&self, materials: &[Material], _: &Domain) -> Result<(), Error> {
+        self.script(materials).map(drop)
     }
 
     fn check_on(&self, domain: &Domain) -> Result<(), Error> {

@@ -7,11 +7,11 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use super::begun::{Begun, Store};
 use super::edits::Place;
 use super::finished::Finished;
 use super::look;
 use super::scripted::{Numbers, Remake, nothing_to_paint_on};
+use super::started::{StartedSimulation, Store};
 use super::working::WorkingGrid;
 use crate::edit::{Action, Area, Brush, Canvas, Change, Script, Setting, Undoable};
 use weald_core::error::{Error, NotFinite};
@@ -77,7 +77,7 @@ enum What {
 
 impl InteractiveSimulation {
     pub(crate) fn new<P: Process>(
-        begun: Begun<P>,
+        begun: StartedSimulation<P>,
         landscape: &Landscape,
         engine: &Engine,
     ) -> Result<Self, Error> {
@@ -238,8 +238,8 @@ struct Running<P: Process> {
 }
 
 impl<P: Process> Running<P> {
-    fn new(begun: Begun<P>, engine: &Engine) -> Result<Self, Error> {
-        let Begun { numbers, remake, plane_names, means, start, place, working, store } = begun;
+    fn new(begun: StartedSimulation<P>, engine: &Engine) -> Result<Self, Error> {
+        let StartedSimulation { numbers, remake, plane_names, means, start, place, working, store } = begun;
         if let Some(working) = working.as_deref() {
             WorkingGrid::show(working, engine)?;
         }

@@ -2,8 +2,8 @@
 
 use std::path::PathBuf;
 
-use super::begun::{Begun, Course};
 use super::interactive::{Interactive, InteractiveSimulation, whole};
+use super::started::{Course, StartedSimulation};
 use super::{scripted, settings};
 use crate::edit::{Script, Setting};
 use weald_core::error::Error;
@@ -23,7 +23,8 @@ pub(super) trait Loose: Step + Parameters + Clone {
     const FIXED: &'static [&'static str];
 
     /// The simulation before its first iteration, such that strokes can change it where it is `editable`.
-    fn begin(&self, landscape: &Landscape, editable: bool) -> Result<Begun<Self::Process>, Error>;
+    fn begin(&self, landscape: &Landscape, editable: bool)
+    -> Result<StartedSimulation<Self::Process>, Error>;
 
     /// Iterations to run.
     fn iterations(&self) -> u32;

@@ -8,7 +8,6 @@
 
 mod advection;
 mod advection_rows;
-mod begun;
 #[cfg(test)]
 #[path = "../../tests/worked_example/creep.rs"]
 pub mod creep;
@@ -17,6 +16,7 @@ mod edits;
 mod extent;
 mod finished;
 mod fluvial;
+mod fluvial_held;
 mod fluvial_levels;
 mod fluvial_materials;
 mod fluvial_numbers;
@@ -50,6 +50,7 @@ pub mod slippage_step;
 pub mod springs;
 mod stack;
 mod stacked_grid;
+mod started;
 mod stava;
 mod stored;
 mod sums;

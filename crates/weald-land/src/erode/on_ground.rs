@@ -5,13 +5,13 @@
 
 use std::sync::Arc;
 
-use super::begun::{Begun, Course, Store};
 use super::edits::{PaintedPlanes, Place};
 use super::finished::Finished;
 use super::material_planes::Planes;
 use super::pipeline::{Pipeline, Stepped};
 use super::scripted::{Numbers, Remake};
 use super::stack::Column;
+use super::started::{Course, StartedSimulation, Store};
 use super::working::WorkingGrid;
 use weald_core::error::Error;
 use weald_core::grid::Size;
@@ -52,7 +52,7 @@ impl OnGround<'_> {
         piped: Piped,
         landscape: &Landscape,
         editable: bool,
-    ) -> Result<Begun<Stepped>, Error> {
+    ) -> Result<StartedSimulation<Stepped>, Error> {
         let mut working = WorkingGrid::new(landscape, self.layer, false)?;
         if editable {
             working.set_changing_mask();
@@ -61,7 +61,7 @@ impl OnGround<'_> {
         let grid = (working.size, working.mask.is_some());
         let process: Stepped = Stepped::new(name, &piped(&[])?, grid);
         let (place, remake) = (self.place(&process, landscape, &working), remake(name, piped, grid));
-        Ok(Begun {
+        Ok(StartedSimulation {
             plane_names: process.state_names(),
             start: working.state(process.state_names().len(), &[]),
             numbers: Numbers::new(process, |_| ()),

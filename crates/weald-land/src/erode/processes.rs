@@ -21,6 +21,7 @@ type Read = fn(&Table, &mut Diagnostics) -> Box<dyn Interactive>;
 /// The steps that a person can hold: a new one adds its line.
 const INTERACTIVE: &[(&str, Read)] = &[
     (dissolution_step::ENTRY.name, read::<dissolution_step::DissolutionStep>),
+    (fluvial_step::ENTRY.name, read::<fluvial_step::Fluvial>),
     (hydraulic::ENTRY.name, read::<Hydraulic>),
     (slippage_step::ENTRY.name, read::<slippage_step::SlippageStep>),
     (thermal_step::ENTRY.name, read::<thermal_step::Thermal>),

@@ -3,7 +3,6 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use super::begun::Begun;
 use super::edits::{PaintedPlanes, Place};
 use super::loose::{self, Loose};
 use super::material_planes::Planes;
@@ -11,6 +10,7 @@ use super::on_ground::store_ground;
 use super::pipeline::Stepped;
 use super::scripted::Numbers;
 use super::stack::{Column, deposit_of};
+use super::started::StartedSimulation;
 use super::stava::program::{self, StavaNumbers};
 use super::stava::slippage::Slippage;
 use super::working::WorkingGrid;
@@ -143,7 +143,7 @@ impl Loose for SlippageStep {
 
     const FIXED: &'static [&'static str] = &["layer"];
 
-    fn begin(&self, landscape: &Landscape, editable: bool) -> Result<Begun<Stepped>, Error> {
+    fn begin(&self, landscape: &Landscape, editable: bool) -> Result<StartedSimulation<Stepped>, Error> {
         let planes = Planes { first_layer: 1, materials: landscape.materials.len() };
         let column = Column { planes, regolith: None };
         let mut working = WorkingGrid::new(landscape, &self.layer.0, false)?;
@@ -164,7 +164,7 @@ impl Loose for SlippageStep {
         let names = landscape.materials.iter().map(|material| material.name.clone()).collect();
         let place = Place::of("slippage", &working, names, PaintedPlanes::of(&first, column, &working));
         let change = std::iter::once("change".to_owned());
-        Ok(Begun {
+        Ok(StartedSimulation {
             plane_names: change.chain(column.names(&landscape.materials)).collect(),
             start: working.state(planes.count(), &[]),
             numbers: Numbers::new(first, |_| ()),

@@ -2,10 +2,10 @@
 
 use std::path::PathBuf;
 
-use super::begun::Begun;
 use super::loose::{self, Loose};
 use super::on_ground::OnGround;
 use super::pipeline::Stepped;
+use super::started::StartedSimulation;
 use super::thermal::{Scheme, Slide, SlideConstants};
 use crate::edit::Setting;
 use weald_core::domain::Domain;
@@ -112,7 +112,7 @@ impl Loose for Thermal {
 
     const FIXED: &'static [&'static str] = &["layer"];
 
-    fn begin(&self, landscape: &Landscape, editable: bool) -> Result<Begun<Stepped>, Error> {
+    fn begin(&self, landscape: &Landscape, editable: bool) -> Result<StartedSimulation<Stepped>, Error> {
         let step = self.clone();
         let piped = Box::new(move |settings: &[Setting]| Ok(loose::after(&step, settings)?.slide().pipeline));
         let alone = OnGround { name: "thermal", layer: &self.layer.0, iterations: self.iterations };

@@ -8,11 +8,11 @@ use std::sync::Arc;
 use pulp::Arch;
 
 use super::advection::{Advection, AdvectionScratch};
-use super::begun::{Begun, Store};
 use super::finished::Finished;
 use super::links::{Links, mask_planes};
 use super::loose::{self, Loose};
 use super::scripted::Numbers;
+use super::started::{StartedSimulation, Store};
 use super::sweep::Sweep;
 use crate::edit::Setting;
 use crate::erode::advection_rows::AdvectionRows;
@@ -181,7 +181,7 @@ impl Loose for Carry {
 
     const FIXED: &'static [&'static str] = &["layer", "water", "flux_x", "flux_y"];
 
-    fn begin(&self, landscape: &Landscape, _: bool) -> Result<Begun<Carrying>, Error> {
+    fn begin(&self, landscape: &Landscape, _: bool) -> Result<StartedSimulation<Carrying>, Error> {
         let (size, masked, cell) =
             (landscape.domain.size, landscape.domain.valid.is_some(), landscape.domain.cell);
         let carrying = move |step: &Self| Carrying {
@@ -199,7 +199,7 @@ impl Loose for Carry {
             }
             Ok(Numbers::new(carrying(&changed), |_| ()))
         };
-        Ok(Begun {
+        Ok(StartedSimulation {
             plane_names: vec!["load".to_owned()],
             start: self.state(landscape, self.advection(cell))?,
             numbers: Numbers::new(carrying(self), |_| ()),

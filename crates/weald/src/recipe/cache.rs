@@ -8,6 +8,7 @@
 
 mod disk;
 mod follows;
+mod kept;
 mod kept_steps;
 
 use std::collections::BTreeMap;
@@ -15,9 +16,8 @@ use std::path::PathBuf;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use weald_core::error::Error;
-use weald_core::landscape::Landscape;
-use weald_engine::report::StepReport;
 
+use kept::Kept;
 pub(super) use kept_steps::KeptSteps;
 
 /// Bytes that are read from a disk in a second, or thereabouts.
@@ -47,16 +47,6 @@ pub struct Cache {
     memory: Mutex<Memory>,
     /// Bytes that are read again in the time in which a step must not have run to be worth keeping.
     bytes_a_second: f64,
-}
-
-/// What a step made of a landscape.
-#[derive(Clone, Debug)]
-pub(super) struct Kept {
-    /// The layers, plants and meadows that it changed; all of them where it changed the grid.
-    pub(super) changed: Landscape,
-    /// Whether all that it did not change is gone.
-    pub(super) whole: bool,
-    pub(super) report: StepReport,
 }
 
 #[derive(Debug, Default)]
@@ -125,16 +115,6 @@ impl Cache {
             }
             _ => Ok(()),
         }
-    }
-}
-
-impl Kept {
-    /// Memory that it takes, or nearly so: plants are small beside layers.
-    fn bytes(&self) -> u64 {
-        let layers = self.changed.layers().map(|(_, layer)| size_of_val(layer.field.values()) as u64);
-        let plants =
-            self.changed.all_plants().map(|(_, plants)| size_of_val(plants.plants.as_slice()) as u64);
-        layers.sum::<u64>() + plants.sum::<u64>() + 4096
     }
 }
 

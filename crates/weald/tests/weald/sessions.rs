@@ -36,6 +36,10 @@ const HELD: &[(&str, &[(&str, f64)])] = &[
         "do = \"hydraulic\"\nmodel = \"stava\"\nrain_period = 7\ndry_period = 5\nslippage = {}",
         &[("slippage.strength", 0.02), ("erosion", 4.0)],
     ),
+    (
+        "do = \"fluvial\"\nflow_time = 0.02\nrain = 5000\nduration = 3\nerodibility = 0.1\ndeepest = 0.5\nlevels = 2",
+        &[("erodibility", 0.4), ("evaporation", 500.0)],
+    ),
     ("do = \"thermal\"\ntalus = 0.3", &[("strength", 0.1)]),
     ("do = \"slippage\"", &[("strength", 0.05)]),
     ("do = \"constant\"\nheight = 1.0\ninto = \"water\"\n[[step]]\ndo = \"dissolution\"", &[("depth", 0.5)]),
@@ -138,13 +142,13 @@ fn a_recipe_without_a_step_that_can_be_held_says_which_can() {
     let folder = tempfile::tempdir().expect("a folder");
     let of = |number| {
         let options = SessionOptions { step: Some(number), ..SessionOptions::default() };
-        Session::open(recipe(folder.path(), HELD[3].0), options, &Silent).map(drop)
+        Session::open(recipe(folder.path(), HELD[4].0), options, &Silent).map(drop)
     };
     let error = of(1).expect_err("a generator").to_string();
     assert!(error.contains("no step 1 that can be held; such are: dissolution, "), "{error}");
     assert!(of(0).is_err() && of(9).is_err());
     of(2).expect("can be held");
     let little = SessionOptions { memory: 1000, ..SessionOptions::default() };
-    let error = Session::open(recipe(folder.path(), HELD[3].0), little, &Silent).expect_err("too little");
+    let error = Session::open(recipe(folder.path(), HELD[4].0), little, &Silent).expect_err("too little");
     assert_eq!(error.exit_code(), 5, "{error}");
 }

@@ -1,6 +1,6 @@
 //! The moments of a history: each comes after one other, and several may come after the same.
 
-use super::Action;
+use super::super::change::Action;
 
 /// A moment, and what leads to it.
 #[derive(Debug)]

@@ -7,7 +7,6 @@ use pulp::Arch;
 use super::defaults::ResolvedKeys;
 use super::keys::{Boundary, HanKeys, Hydraulic, MeiKeys, Model, UptakeLaw};
 use crate::edit::Setting;
-use crate::erode::begun::{Begun, Course, unscripted};
 use crate::erode::edits::{PaintedPlanes, Place};
 use crate::erode::extent::Extent;
 use crate::erode::finished::Finished;
@@ -22,6 +21,7 @@ use crate::erode::settings;
 use crate::erode::springs;
 use crate::erode::springs::Forcing;
 use crate::erode::stack::Column;
+use crate::erode::started::{Course, StartedSimulation, unscripted};
 use crate::erode::stava::Stava;
 use crate::erode::water_planes as plane;
 use crate::erode::working::{RunResult, WorkingGrid};
@@ -160,7 +160,7 @@ impl Hydraulic {
     }
 
     /// What a simulation begins with.
-    fn begin<M: Scheme>(&self, landscape: &Landscape, editable: bool) -> Result<Begun<M>, Error> {
+    fn begin<M: Scheme>(&self, landscape: &Landscape, editable: bool) -> Result<StartedSimulation<M>, Error> {
         let filled = self.filled(landscape.domain.cell);
         let working = Arc::new(self.working(landscape, editable)?);
         let weather = M::weather(self, landscape, &working, editable)?;
@@ -168,7 +168,7 @@ impl Hydraulic {
         let process = M::of(self, &OnLand { landscape, filled: &filled, working: &working, painted })?;
         let place = editable.then(|| Arc::new(self.place(&process, landscape, &working, painted)));
         let remake = if editable { self.remake(landscape, &working, painted) } else { unscripted() };
-        Ok(Begun {
+        Ok(StartedSimulation {
             plane_names: process.plane_names(landscape),
             start: working.water_state(process.state_planes(), &weather),
             numbers: self.numbers(process, filled),
@@ -226,7 +226,7 @@ impl Hydraulic {
     }
 
     /// Writes what the simulation leaves.
-    fn store(&self, working: &Arc<WorkingGrid>) -> crate::erode::begun::Store {
+    fn store(&self, working: &Arc<WorkingGrid>) -> crate::erode::started::Store {
         let (step, working) = (self.clone(), Arc::clone(working));
         Arc::new(move |landscape: &mut Landscape, finished: &Finished, iterations| {
             let kept = RunResult { iterations, conserving: step.conserves() };
@@ -274,7 +274,11 @@ impl Hydraulic {
     }
 }
 
-fn seconds_of<M: Scheme>(begun: Begun<M>, iterations: u64, engine: &Engine) -> Result<f64, Error> {
+fn seconds_of<M: Scheme>(
+    begun: StartedSimulation<M>,
+    iterations: u64,
+    engine: &Engine,
+) -> Result<f64, Error> {
     let weather: Vec<_> = (0..iterations).map(|step| (begun.numbers.weather)(step)).collect();
     let start = Snapshot::start(begun.start, 0);
     let mut machine = machine_of_engine::start(&begun.numbers.process, &[], &start, engine)?;

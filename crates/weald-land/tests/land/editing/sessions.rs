@@ -9,6 +9,7 @@ use weald_core::{Error, Field, Landscape, Size};
 use weald_engine::{Engine, Job};
 use weald_land::edit::{Action, Area, Brush, Canvas, Change, Effect, Falloff, History, Setting, Undoable};
 use weald_land::erode::dissolution_step::{DissolutionStep, DissolutionWithin};
+use weald_land::erode::fluvial_step::Fluvial;
 use weald_land::erode::hydraulic::{Boundary, HanKeys, Hydraulic, MeiKeys, StavaKeys};
 use weald_land::erode::interactive::{Interactive, InteractiveSimulation};
 use weald_land::erode::slippage_step::{SlippageStep, SlippageWithin};
@@ -32,6 +33,21 @@ fn stava() -> Hydraulic {
 fn han(boundary: Boundary) -> Hydraulic {
     let keys = HanKeys { rain: Length::Metres(0.02), dry_period: 5, ..HanKeys::default() };
     Hydraulic { model: keys.into(), rain_period: 7, boundary, ..Hydraulic::default() }
+}
+
+fn fluvial(boundary: Boundary) -> Fluvial {
+    Fluvial {
+        flow_time: 0.02,
+        rain: 5_000.0,
+        duration: 3.0,
+        erodibility: 0.1,
+        deepest: 0.5,
+        gathering: 1.0,
+        channel_width: 0.3,
+        cover: 5.0,
+        boundary,
+        ..Fluvial::default()
+    }
 }
 
 fn mei() -> Hydraulic {
@@ -62,7 +78,7 @@ fn land() -> Landscape {
 }
 
 /// A step, its name, which of any brushes and settings it can follow.
-struct Held {
+struct Holdable {
     name: &'static str,
     step: Box<dyn Interactive>,
     /// Runs the step to its end with other values of these keys.
@@ -74,7 +90,7 @@ fn held<S: Interactive + Parameters + Clone + 'static>(
     name: &'static str,
     step: S,
     settings: &'static [(&'static str, f64)],
-) -> Held {
+) -> Holdable {
     let again = step.clone();
     let run = move |keys: &Table| {
         let mut diagnostics = Diagnostics::default();
@@ -84,11 +100,11 @@ fn held<S: Interactive + Parameters + Clone + 'static>(
         step.run(&mut land, &Job::unwatched(0)).unwrap_or_else(|error| panic!("{name}: {error}"));
         land
     };
-    Held { name, step: Box::new(step), run: Box::new(run), settings }
+    Holdable { name, step: Box::new(step), run: Box::new(run), settings }
 }
 
 /// Every step that is a simulation.
-fn all() -> Vec<Held> {
+fn all() -> Vec<Holdable> {
     let dye = Carry { layer: LayerName::of("dye"), ..Carry::default() };
     vec![
         held("han", han(Boundary::Closed), &[("rain", 0.05), ("erosion", 0.02), ("thermal.talus", 0.3)]),
@@ -99,6 +115,12 @@ fn all() -> Vec<Held> {
             stava(),
             &[("rain", 0.03), ("erosion", 5.0), ("slippage.strength", 0.01), ("viscosity", 0.5)],
         ),
+        held(
+            "fluvial",
+            fluvial(Boundary::Closed),
+            &[("erodibility", 0.5), ("evaporation", 900.0), ("channel_width", 0.5)],
+        ),
+        held("fluvial, open", Fluvial { materials: true, ..fluvial(Boundary::Open) }, &[("rain", 9_000.0)]),
         held("thermal", Thermal { talus: 0.3, ..Thermal::default() }, &[("talus", 0.1), ("strength", 0.2)]),
         held("slippage", SlippageStep::default(), &[("strength", 0.05)]),
         held("dissolution", DissolutionStep::default(), &[("depth", 0.6), ("damping", 0.5)]),
@@ -123,7 +145,7 @@ fn any_wish() -> impl Strategy<Value = Wish> {
 }
 
 impl Wish {
-    fn action(&self, held: &Held) -> Option<Action> {
+    fn action(&self, held: &Holdable) -> Option<Action> {
         match self {
             Self::Steps(steps) => Some(Action::Steps(*steps)),
             Self::Stroke(brush) => Some(brush.clone().into()),
@@ -137,7 +159,7 @@ impl Wish {
     }
 }
 
-fn begin(held: &Held, engine: &Engine) -> InteractiveSimulation {
+fn begin(held: &Holdable, engine: &Engine) -> InteractiveSimulation {
     held.step.hold(&land(), engine).unwrap_or_else(|error| panic!("{}: {error}", held.name))
 }
 
@@ -146,7 +168,7 @@ fn now(simulation: &mut InteractiveSimulation) -> Landscape {
 }
 
 /// Does what it can of the wishes; gives the actions that were done.
-fn act(history: &mut History<InteractiveSimulation>, held: &Held, wishes: &[Wish]) -> Vec<Action> {
+fn act(history: &mut History<InteractiveSimulation>, held: &Holdable, wishes: &[Wish]) -> Vec<Action> {
     let steps = std::iter::once(Action::Steps(3)).chain(wishes.iter().filter_map(|wish| wish.action(held)));
     let possible = |action: &Action| match history.act(action.clone()) {
         Ok(_) => true,
@@ -160,7 +182,7 @@ fn act(history: &mut History<InteractiveSimulation>, held: &Held, wishes: &[Wish
 }
 
 /// The keys of a replay.
-fn keys(held: &Held, steps: u64, script: &std::path::Path) -> Table {
+fn keys(held: &Holdable, steps: u64, script: &std::path::Path) -> Table {
     let mut table = Table::default();
     let mut set = |key: &str, value| table.set(key, Node { line: 0, value });
     held.step.replayed(steps).into_iter().for_each(|(key, value)| set(key, value));
@@ -271,6 +293,8 @@ fn what_a_step_cannot_follow_is_refused_with_its_reason_and_changes_nothing() {
         (&stava(), set("slippage.strength", 0.2), "must be at most 0.25 / 3"),
         (&stava(), set("sources", 1.0), "part of what it begins with"),
         (&mei(), set("thermal.tallus", 0.1), "did you mean `talus`?"),
+        (&fluvial(Boundary::Open), set("duration", 4.0), "part of what it begins with"),
+        (&fluvial(Boundary::Open), set("deepest", 50.0), "would make steps"),
     ] {
         let message = refused(step, change);
         assert!(message.contains(words), "{words}: {message}");

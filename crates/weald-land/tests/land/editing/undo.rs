@@ -29,19 +29,19 @@ impl Toy {
 }
 
 /// A toy, the states that it keeps, and how often it returned to one.
-struct Held {
+struct HeldToy {
     now: Toy,
     kept: BTreeMap<u64, Canvas>,
     returned: usize,
 }
 
-impl Held {
+impl HeldToy {
     fn new() -> Self {
         Self { now: Toy::new(), kept: BTreeMap::new(), returned: 0 }
     }
 }
 
-impl Undoable for Held {
+impl Undoable for HeldToy {
     type Patch = Canvas;
 
     fn apply(&mut self, action: &Action) -> Result<Option<Canvas>, Error> {
@@ -92,7 +92,7 @@ fn any_action() -> impl Strategy<Value = Action> {
 
 /// The state after each number of actions, from the start.
 fn states(actions: &[Action]) -> Vec<Canvas> {
-    let mut held = Held::new();
+    let mut held = HeldToy::new();
     let after = actions.iter().map(|action| {
         held.apply(action).expect("the action is good");
         held.now.0.clone()
@@ -100,7 +100,7 @@ fn states(actions: &[Action]) -> Vec<Canvas> {
     std::iter::once(Toy::new().0).chain(after).collect()
 }
 
-fn now(history: &History<Held>) -> &Canvas {
+fn now(history: &History<HeldToy>) -> &Canvas {
     &history.simulation().now.0
 }
 
@@ -114,8 +114,8 @@ proptest! {
     ) {
         let expected = states(&actions);
         prop_assume!(expected.first() != expected.last());
-        let budget = room * Held::bytes_of(&expected[0]);
-        let mut history = History::new(Held::new(), budget).expect("the start fits");
+        let budget = room * HeldToy::bytes_of(&expected[0]);
+        let mut history = History::new(HeldToy::new(), budget).expect("the start fits");
         for action in &actions {
             history.act(action.clone()).expect("the action is good");
             prop_assert!(history.used() <= budget);
@@ -143,8 +143,8 @@ proptest! {
         jumps in prop::collection::vec(any::<prop::sample::Index>(), 1..20),
         room in 1_u64..6,
     ) {
-        let budget = room * Held::bytes_of(&Toy::new().0);
-        let mut history = History::new(Held::new(), budget).expect("the start fits");
+        let budget = room * HeldToy::bytes_of(&Toy::new().0);
+        let mut history = History::new(HeldToy::new(), budget).expect("the start fits");
         let mut lines: Vec<Vec<Action>> = vec![Vec::new()];
         for (from, action) in grown {
             let from = from.index(lines.len());
@@ -167,7 +167,7 @@ proptest! {
 
 #[test]
 fn what_is_done_after_an_undo_begins_a_branch_and_the_other_stays() {
-    let mut history = History::new(Held::new(), 1 << 20).expect("fits");
+    let mut history = History::new(HeldToy::new(), 1 << 20).expect("fits");
     let water = Action::from(dab(Effect::AddWater { depth: 2.0 }));
     let steps = [Action::Steps(3), water, Action::Steps(5)];
     for action in &steps {
@@ -192,7 +192,7 @@ fn what_is_done_after_an_undo_begins_a_branch_and_the_other_stays() {
 
 #[test]
 fn strokes_are_taken_back_without_a_copy_of_everything() {
-    let mut history = History::new(Held::new(), 1 << 20).expect("fits");
+    let mut history = History::new(HeldToy::new(), 1 << 20).expect("fits");
     for _ in 0..20 {
         history.act(Action::Steps(7)).expect("good");
     }
@@ -209,11 +209,11 @@ fn strokes_are_taken_back_without_a_copy_of_everything() {
 
 #[test]
 fn a_stroke_that_fails_leaves_the_session_as_it_was() {
-    let mut history = History::new(Held::new(), 1 << 14).expect("fits");
+    let mut history = History::new(HeldToy::new(), 1 << 14).expect("fits");
     history.act(Action::Steps(4)).expect("good");
     let before = now(&history).clone();
     let none = Effect::Add { material: "none".to_owned(), thickness: 1.0 };
     history.act(dab(none)).expect_err("no such material");
     assert_eq!((now(&history), history.here()), (&before, 1));
-    assert_eq!(History::new(Held::new(), 100).map(|_| ()).expect_err("too little").exit_code(), 5);
+    assert_eq!(History::new(HeldToy::new(), 100).map(|_| ()).expect_err("too little").exit_code(), 5);
 }

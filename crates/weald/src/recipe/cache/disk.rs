@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};
 
-use super::Kept;
+use super::kept::Kept;
 use crate::recipe::checkpoint::{self, State};
 use weald_core::error::Error;
 

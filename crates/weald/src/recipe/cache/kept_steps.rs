@@ -3,8 +3,9 @@
 use std::sync::Arc;
 use std::time::Instant;
 
+use super::Cache;
 use super::follows::Follows;
-use super::{Cache, Kept};
+use super::kept::Kept;
 use crate::recipe::plan::{Planned, Recipe};
 use weald_core::error::Error;
 use weald_core::landscape::Landscape;

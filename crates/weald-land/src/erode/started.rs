@@ -21,7 +21,7 @@ use weald_engine::step::Outcome;
 pub(crate) type Store = Arc<dyn Fn(&mut Landscape, &Finished, u64) -> Result<Outcome, Error> + Send + Sync>;
 
 /// What a simulation begins with.
-pub(crate) struct Begun<P: Process> {
+pub(crate) struct StartedSimulation<P: Process> {
     pub(crate) numbers: Numbers<P>,
     /// Reads the keys anew after some were set.
     pub(crate) remake: Remake<P>,
@@ -59,7 +59,7 @@ pub(crate) fn unscripted<P: Process>() -> Remake<P> {
     Arc::new(|_| Err(Error::Run("this simulation was not begun to be changed".to_owned())))
 }
 
-impl<P: Process> Begun<P> {
+impl<P: Process> StartedSimulation<P> {
     /// Runs it to its end.
     pub(crate) fn run(
         self,
