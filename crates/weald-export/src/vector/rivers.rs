@@ -15,9 +15,9 @@ use weald_land::analyse::rivers::{End, Reach, RiverPoint, Rivers, Start};
 weald_core::parameters! {
     /// Rivers as lines, a feature for each reach between confluences.
     ///
-    /// A point is where the river runs in its valley, between the centres of cells, and the height of its water. A feature has its `id`, the Strahler `order`, and
-    /// at its lower end `width` and `depth` in metres, `discharge` in m³/s and `upstream_area` in m²; its `length` in
-    /// metres; where it begins (`start`: "head", "confluence" or "lake") and ends (`end`: "outlet", "lake", "sea" or
+    /// A point is where the river runs in its valley, between the centres of cells, and the height of its water. A feature has
+    /// its `id`, the Strahler `order`, and at its lower end `width` and `depth` in metres, `discharge` in m³/s and
+    /// `upstream_area` in m²; its `length` in metres; where it begins (`start`: "head", "confluence" or "lake") and ends (`end`: "outlet", "lake", "sea" or
     /// "confluence"), with the numbers of the lakes `from_lake` and `to_lake`; `downstream`, the `id` of the reach that
     /// carries its water on; and `river`, the same number for all reaches of one river from its head to its mouth, 0
     /// for the longest.
