@@ -8,6 +8,7 @@ mod defaults;
 mod faults;
 mod keys;
 mod models;
+mod pipe_models;
 mod stava;
 
 pub use keys::{Boundary, HanKeys, Hydraulic, MeiKeys, Model, StavaKeys, Transport, UptakeLaw};

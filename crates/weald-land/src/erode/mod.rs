@@ -29,6 +29,7 @@ mod han;
 pub mod hydraulic;
 pub mod interactive;
 mod links;
+mod live;
 mod look;
 mod loose;
 mod material_planes;

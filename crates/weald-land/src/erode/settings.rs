@@ -20,9 +20,7 @@ pub(super) fn after<T: Parameters + Clone>(
     let mut step = step.clone();
     for Setting { key, value } in settings {
         let path: Vec<_> = key.split('.').collect();
-        check(&path, (words, fixed))
-            .and_then(|()| known(&T::parameters(), words, &path))
-            .map_err(Error::Run)?;
+        changes(&path, fixed).and_then(|()| known(&T::parameters(), words, &path)).map_err(Error::Run)?;
         let mut diagnostics = Diagnostics::default();
         step = step.changed(&table_of(&path, value.clone()), &mut diagnostics);
         let faults: Vec<_> = diagnostics.found.into_iter().map(|found| found.message).collect();
@@ -33,7 +31,8 @@ pub(super) fn after<T: Parameters + Clone>(
     Ok(step)
 }
 
-fn check(path: &[&str], (_, fixed): (&[&str], &[&str])) -> Result<(), String> {
+/// Complains of a key that stays as it is.
+fn changes(path: &[&str], fixed: &[&str]) -> Result<(), String> {
     match path.first() {
         Some(key) if fixed.contains(key) => {
             Err(format!("`{key}` cannot change while the simulation runs: it is part of what it begins with"))

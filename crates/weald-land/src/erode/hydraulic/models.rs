@@ -5,16 +5,16 @@ use std::sync::Arc;
 use pulp::Arch;
 
 use super::defaults::ResolvedKeys;
-use super::keys::{Boundary, HanKeys, Hydraulic, MeiKeys, Model, UptakeLaw};
+use super::keys::{Boundary, Hydraulic, Model};
 use crate::edit::Setting;
 use crate::erode::edits::{PaintedPlanes, Place};
 use crate::erode::extent::Extent;
 use crate::erode::finished::Finished;
-use crate::erode::han::{self, Han, HanConstants};
+use crate::erode::han::Han;
 use crate::erode::interactive::InteractiveSimulation;
 use crate::erode::links::Links;
-use crate::erode::material_planes::{Planes, WEATHER_PLANES};
-use crate::erode::mei::{self, Mei, MeiConstants};
+use crate::erode::material_planes::WEATHER_PLANES;
+use crate::erode::mei::Mei;
 use crate::erode::scripted::{Numbers, Remake};
 use crate::erode::setting::Setting as Around;
 use crate::erode::settings;
@@ -33,10 +33,6 @@ use weald_engine::program::Program;
 use weald_engine::stencil::chain::Process;
 use weald_engine::step::Outcome;
 use weald_engine::{Engine, Job};
-
-/// Planes with which the states of mei and of stava begin.
-pub(super) const MEI_PLANES: &[&str] =
-    &["change", "water", "sediment", "flow_east", "flow_west", "flow_south", "flow_north"];
 
 /// Keys of what a simulation begins with.
 const FIXED: &[&str] = &[
@@ -96,11 +92,6 @@ pub(super) trait Scheme: Process<Weather = Forcing> {
 /// Names of planes as a simulation wants them.
 pub(super) fn named(names: &[&str]) -> Vec<String> {
     names.iter().map(|name| (*name).to_owned()).collect()
-}
-
-/// Bedrock alone behind so many planes.
-fn one_material(planes: usize) -> Column {
-    Column { planes: Planes { first_layer: planes, materials: 1 }, regolith: None }
 }
 
 impl Hydraulic {
@@ -291,68 +282,7 @@ fn seconds_of<M: Scheme>(
     Ok(begun.elapsed().as_secs_f64())
 }
 
-impl Scheme for Han {
-    const MEANS: Means<'static> = han::MEAN_FLUXES;
-
-    fn of(step: &Hydraulic, on: &OnLand<'_>) -> Result<Self, Error> {
-        let Model::Han(keys) = &step.model else { return Err(another_model(step)) };
-        let (constants, setting) = (han_constants(keys, on.filled), step.setting(on.filled, on.working));
-        Ok(Self { constants, limiter: keys.limiter, setting })
-    }
-
-    fn plane_names(&self, _: &Landscape) -> Vec<String> {
-        named(&["change", "water", "sediment", "flux_east", "flux_south"])
-    }
-
-    fn column(&self) -> Column {
-        one_material(self.state_planes())
-    }
-}
-
-impl Scheme for Mei {
-    const MEANS: Means<'static> = mei::MEAN_FLUXES;
-
-    fn of(step: &Hydraulic, on: &OnLand<'_>) -> Result<Self, Error> {
-        let Model::Mei(keys) = &step.model else { return Err(another_model(step)) };
-        let (constants, setting) = (mei_constants(keys, on.filled), step.setting(on.filled, on.working));
-        Ok(Self { constants, limiter: keys.limiter, setting })
-    }
-
-    fn plane_names(&self, _: &Landscape) -> Vec<String> {
-        named(MEI_PLANES)
-    }
-
-    fn column(&self) -> Column {
-        one_material(self.state_planes())
-    }
-}
-
 /// The model cannot change while it runs, and a step knows its own: a bug.
 pub(super) fn another_model(step: &Hydraulic) -> Error {
     Error::Run(format!("a simulation of another model was asked to be `{}`", step.model.word()))
-}
-
-fn han_constants(keys: &HanKeys, filled: &ResolvedKeys) -> HanConstants {
-    let uptake = |law| if keys.law == law { filled.erosion } else { 0.0 };
-    HanConstants {
-        flow_rate: filled.flow_rate,
-        capacity: filled.capacity,
-        uptake_by_speed: uptake(UptakeLaw::Velocity),
-        uptake_by_capacity: uptake(UptakeLaw::Dissolution),
-        deposit_ratio: keys.deposit_ratio as f32,
-        epsilon: filled.epsilon,
-        velocity_epsilon: filled.velocity_epsilon,
-    }
-}
-
-fn mei_constants(keys: &MeiKeys, filled: &ResolvedKeys) -> MeiConstants {
-    MeiConstants {
-        flow_rate: filled.flow_rate,
-        capacity: filled.capacity,
-        erosion: filled.erosion,
-        deposition: keys.deposition as f32,
-        deposit_ratio: keys.deposit_ratio as f32,
-        epsilon: filled.epsilon,
-        velocity_epsilon: filled.velocity_epsilon,
-    }
 }

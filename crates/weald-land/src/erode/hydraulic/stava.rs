@@ -2,7 +2,8 @@
 
 use super::defaults::ResolvedKeys;
 use super::keys::{Boundary, Hydraulic, Model, StavaKeys};
-use super::models::{MEI_PLANES, OnLand, Scheme, another_model, named};
+use super::models::{OnLand, Scheme, another_model, named};
+use super::pipe_models::MEI_PLANES;
 use crate::edit::{Script, Setting};
 use crate::erode::material_planes::{Planes, REGOLITH_PLANES};
 use crate::erode::mei;
