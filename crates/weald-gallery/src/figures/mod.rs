@@ -18,6 +18,7 @@ mod grass;
 mod ground;
 mod han;
 mod ifs;
+mod interactive;
 mod lake;
 mod layered;
 mod levee;

@@ -2,7 +2,7 @@
 
 use super::{
     Figure, ages, banks, canyon, cases, cone, deposits, dissolution, drift, fault, flow_rate, force, forms,
-    grass, ifs, lake, levee, parameters, printed, sizes, spacing, stability, start, weathering,
+    grass, ifs, interactive, lake, levee, parameters, printed, sizes, spacing, stability, start, weathering,
 };
 
 /// All figures in the order of the page. Adding one is one file and one line here.
@@ -28,6 +28,7 @@ pub const FIGURES: &[Figure] = &[
     banks::FIGURE,
     lake::FIGURE,
     levee::FIGURE,
+    interactive::FIGURE,
     ifs::FIGURE_1,
     ifs::FIGURE_2,
     ifs::FIGURE_3,

@@ -26,7 +26,7 @@ fn make(job: GalleryJob, device: &dyn RenderDevice) -> Result<FigureOutput, Erro
     let rates = device.grass_rates(job.choose(u32::MAX, 100))?;
     let of = |table: u8| rates.iter().filter(move |rate| rate.table == table);
     let levels: Vec<_> = of(2).filter(|rate| rate.sets > 75_000).collect();
-    let mut claims = vec![claim_of_sets(&of(1).collect::<Vec<_>>())];
+    let mut claims = claims_of_sets(&of(1).collect::<Vec<_>>());
     if let [first, .., last] = levels[..] {
         claims.push(claim_of_levels(first, last));
     }
@@ -74,17 +74,27 @@ fn chart(rates: &[&GrassRate], job: GalleryJob) -> Chart {
     chart
 }
 
-fn claim_of_sets(rates: &[&GrassRate]) -> Claim {
+/// Frames per second at which the source draws the most sets.
+const SOURCE_RATE: f64 = 12.0;
+
+fn claims_of_sets(rates: &[&GrassRate]) -> Vec<Claim> {
     // Few sets take no longer than the ground they stand on.
     let many: Vec<_> = rates.iter().filter(|rate| rate.sets > FEW).collect();
     let falls = many.windows(2).all(|pair| pair[1].rate < pair[0].rate);
     let [first, last] =
         [rates.first(), rates.last()].map(|rate| rate.map_or((0, 0.0), |rate| (rate.sets, rate.rate)));
-    Claim::new(
-        "More sets are drawn more slowly, 100,000 still at 12 frames per second on the source's card",
-        Verdict::of(falls && last.1 < first.1),
-        format!("{:.1} frames per second with {} sets, {:.2} with {}", first.1, first.0, last.1, last.0),
-    )
+    vec![
+        Claim::new(
+            "More sets are drawn more slowly",
+            Verdict::of(falls && last.1 < first.1),
+            format!("{:.1} frames per second with {} sets, {:.2} with {}", first.1, first.0, last.1, last.0),
+        ),
+        Claim::new(
+            "100,000 sets are drawn at 12 frames per second",
+            Verdict::of(last.1 >= SOURCE_RATE),
+            format!("{:.2} with {}", last.1, last.0),
+        ),
+    ]
 }
 
 fn claim_of_levels(first: &GrassRate, last: &GrassRate) -> Claim {
