@@ -30,16 +30,21 @@ impl Years {
         let least = if self.before > 0.0 { self.before.floor() as u64 + 1 } else { 0 };
         let passed = self.before + (done as f64 - 1.0) * self.a_step;
         let about = passed.max(0.0) as u64;
-        (about..).find(|&year| self.step_of(year) >= done).unwrap_or(about).max(least)
+        // The next one at most, or for rounding the one after it.
+        let first = (about..about + 2).find(|&year| self.step_of(year) >= done);
+        first.unwrap_or(about + 2).max(least)
     }
 }
+
+/// Makes the landscape of what a coarser level sees.
+pub(super) type Finer<'a> = &'a (dyn Fn(&Landscape) -> Result<Landscape, Error> + Sync);
 
 /// Passes on what a level does, in years, to whoever wants to see the landscape.
 pub(super) struct InYears<'a> {
     pub(super) watcher: &'a dyn Watcher,
     pub(super) years: Years,
-    /// Makes the landscape of what a coarser level sees.
-    pub(super) coarse: Option<&'a (dyn Fn(&Landscape) -> Result<Landscape, Error> + Sync)>,
+    /// On a coarser level.
+    pub(super) coarse: Option<Finer<'a>>,
 }
 
 impl InYears<'_> {
