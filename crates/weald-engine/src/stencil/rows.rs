@@ -1,6 +1,8 @@
 //! The state of a simulation in memory: rows one after another, each holding one segment of every plane, so
 //! that a sweep over rows reads and writes one stretch of memory.
 
+use rayon::prelude::*;
+
 use super::ring::{here, here_mut, segment};
 
 /// How the planes of one row lie in memory.
@@ -102,9 +104,11 @@ pub fn first_not_finite<'a>(
 ) -> Option<[usize; 3]> {
     // A fold over all cells, rather than a search, is what the compiler turns into vector code.
     let finite = |row: &[f32]| row.iter().fold(true, |all, value| all & value.is_finite());
-    rows.enumerate().find_map(|(y, row)| {
-        let plane = (0..planes).find(|&plane| !finite(layout.plane(row, plane)))?;
-        let x = layout.plane(row, plane).iter().position(|value| !value.is_finite())?;
-        Some([x, y, plane])
-    })
+    let wrong = |row: &[f32]| (0..planes).find(|&plane| !finite(layout.plane(row, plane)));
+    // A session looks after every few steps, so that one thread alone would be waited for.
+    let rows: Vec<_> = rows.collect();
+    let y = rows.par_iter().position_first(|row| wrong(row).is_some())?;
+    let plane = wrong(rows[y])?;
+    let x = layout.plane(rows[y], plane).iter().position(|value| !value.is_finite())?;
+    Some([x, y, plane])
 }

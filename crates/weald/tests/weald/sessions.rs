@@ -98,11 +98,12 @@ fn layers(landscape: &Landscape) -> Vec<(String, Vec<u32>)> {
 #[test]
 fn a_saved_session_is_a_recipe_that_a_run_replays_to_the_same_bits_and_that_opens_again() {
     for (number, (step, settings)) in (0_u64..).zip(HELD) {
+        let mut all = 0;
         for seed in 0..4 {
             let folder = tempfile::tempdir().expect("a folder");
             let mut session = open(recipe(folder.path(), step));
             let done = act(&mut session, &changes(100 * number + seed, settings));
-            assert!(done > 2, "{step}: {done} changes");
+            all += done;
             // Elsewhere, so that files must be found from there.
             std::fs::create_dir(folder.path().join("kept")).expect("made");
             let file = folder.path().join("kept/mine.toml");
@@ -120,6 +121,7 @@ fn a_saved_session_is_a_recipe_that_a_run_replays_to_the_same_bits_and_that_open
             let landscape = run.landscape(&Silent).unwrap_or_else(|error| panic!("{step}: {error}"));
             assert!(layers(&landscape) == layers(&end), "{step}, {seed}: run");
         }
+        assert!(all > 10, "{step}: {all} changes");
     }
 }
 
