@@ -4,12 +4,14 @@
 @group(2) @binding(2) var<storage, read> sets: array<vec4<u32>>;
 @group(2) @binding(3) var<storage, read> kept: array<u32>;
 @group(2) @binding(4) var<storage, read> starts: array<u32>;
+@group(2) @binding(5) var<storage, read> lit_sets: array<LitSet>;
 
 fn leaf(list: u32, vertex: u32, instance_number: u32) -> Leaf {
     let count = arrayLength(&sets);
-    let number = kept[starts[place_of_count(list, 0u, count)] + instance_number / BLADES];
-    let instance = unpack(sets[number]);
-    let root = grass_root(instance.place);
+    let place = starts[place_of_count(list, 0u, count)] + instance_number / BLADES;
+    let instance = unpack(sets[kept[place]]);
+    let known = lit_sets[place];
+    let root = known.root;
     let distance = length(root - frame.moment.yzw);
     let tall = height_share(rank_of(instance.tuft), distance);
     let row = vertex / 2u;
@@ -21,15 +23,13 @@ fn leaf(list: u32, vertex: u32, instance_number: u32) -> Leaf {
     let seen = 0.8 * distance * frame.eye.w;
     blade.width = max(blade.width * broader(standing), min(seen, 0.03));
     let still = vertex_of(blade, along, side);
-    let push = wind_push(instance.place * vec2<f32>(1.0, -1.0), frame.moment.x, phase_of(instance.tuft));
-    let here = swayed(blade, still, vec2<f32>(push.x, -push.y));
+    let here = swayed(blade, still, vec2<f32>(known.push.x, -known.push.y));
     let offset = vec3<f32>(here.place.x, -here.place.z, here.place.y * tall - 0.02);
     let point = root + offset;
     let normal = vec3<f32>(here.normal.x, -here.normal.z, here.normal.y);
-    let sun = sun_seen(root + vec3<f32>(0.0, 0.0, 0.3), vec3<f32>(0.0, 0.0, 1.0));
-    let above = leaves_at(place_of(root)).w * (1.0 - along);
+    let above = known.leaves * (1.0 - along);
     return Leaf(
-        projected(point), point, normal, colour_of(instance.species, here.blend, here.head), vec2<f32>(sun * through_leaves(above, scene.sun.z), sky_through_leaves(above)),
+        projected(point), point, normal, colour_of(instance.species, here.blend, here.head), vec2<f32>(known.sun * through_leaves(above, scene.sun.z), sky_through_leaves(above)),
     );
 }
 

@@ -70,6 +70,12 @@ impl Cascades {
         Self { right, up, depths: [high, (high - low).max(1e-3)], squares }
     }
 
+    /// Metres of a texel of the last, which holds all.
+    pub(super) fn last_texel(&self) -> f32 {
+        let [_, _, half_x, half_y] = self.squares[CASCADES - 1];
+        2.0 * half_x.max(half_y) / TEXELS as f32
+    }
+
     /// What lies in the column of a cascade.
     pub(super) fn column(&self, cascade: usize) -> Frustum {
         let [x, y, half_x, half_y] = self.squares[cascade];

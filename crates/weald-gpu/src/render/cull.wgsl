@@ -17,7 +17,8 @@ struct Draw {
 @group(2) @binding(3) var<storage, read_write> kept: array<u32>;
 // What each group counted of each list; then where that begins; one more with the end of all.
 @group(2) @binding(4) var<storage, read_write> starts: array<u32>;
-@group(2) @binding(5) var<storage, read_write> draws: array<Draw, LISTS>;
+// The draws of all lists, and the dispatch of what lights the sets in them.
+@group(2) @binding(5) var<storage, read_write> draws: array<Draw, LISTS + 1u>;
 // For each set its list, times the sets of a workgroup, and its place among those of its workgroup and list.
 @group(2) @binding(6) var<storage, read_write> marks: array<u32>;
 
@@ -81,6 +82,7 @@ fn sum(@builtin(local_invocation_index) thread: u32) {
     }
     if thread == GROUP - 1u {
         starts[all] = upto;
+        draws[LISTS] = Draw((upto + GROUP - 1u) / GROUP, 1u, 1u, 0u);
     }
     storageBarrier();
     if thread < LISTS {

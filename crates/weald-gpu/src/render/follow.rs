@@ -33,6 +33,7 @@ impl Renderer {
             self.terrain.widen(SLACK);
             self.follower = Some(Follower::new(&self.gpu, scene)?);
         }
+        self.shadows.whole_is_drawn = false;
         let Some(follower) = &self.follower else { return Ok(()) };
         let [ground, depth] = live.stores();
         let map = |name| BindingResource::TextureView(self.maps.view(name));

@@ -13,6 +13,7 @@ use super::cascades::{CASCADES, Cascades};
 use super::lattice::Viewpoint;
 use super::levels::MAX_LEVELS;
 use super::textures::Canvas;
+use super::upload::Upload;
 use crate::gpu::Gpu;
 use crate::memory::Store;
 
@@ -57,14 +58,18 @@ pub(super) struct Frame {
     /// The numbers alone, for what throws shadows.
     pub(super) caster_layout: BindGroupLayout,
     pub(super) caster_group: BindGroup,
+    /// Those of the sun's last cascade, which no camera changes.
+    pub(super) still_group: BindGroup,
     numbers: Store,
+    still: Store,
     sampler: Sampler,
 }
 
 impl Frame {
     pub(super) fn new(gpu: &Gpu, shadows: &Canvas, canopy: &Canvas) -> Result<Self, Error> {
         let usage = BufferUsages::UNIFORM | BufferUsages::COPY_DST;
-        let numbers = Store::new(gpu, "the numbers of a picture", size_of::<Numbers>() as u64, usage)?;
+        let store = || Store::new(gpu, "the numbers of a picture", size_of::<Numbers>() as u64, usage);
+        let (numbers, still) = (store()?, store()?);
         let device = &gpu.context.device;
         let layout = |entries: &[BindGroupLayoutEntry]| {
             device.create_bind_group_layout(&BindGroupLayoutDescriptor { label: Some("frame"), entries })
@@ -78,9 +83,12 @@ impl Frame {
             ..SamplerDescriptor::default()
         });
         let group = bind(gpu, &layout, (&numbers, &sampler), [shadows, canopy])?;
-        let numbers_alone = [BindGroupEntry { binding: 0, resource: numbers.buffer.as_entire_binding() }];
-        let caster_group = bound(gpu, &caster_layout, &numbers_alone)?;
-        Ok(Self { layout, group, caster_layout, caster_group, numbers, sampler })
+        let alone = |numbers: &Store| {
+            let entry = BindGroupEntry { binding: 0, resource: numbers.buffer.as_entire_binding() };
+            bound(gpu, &caster_layout, &[entry])
+        };
+        let (caster_group, still_group) = (alone(&numbers)?, alone(&still)?);
+        Ok(Self { layout, group, caster_layout, caster_group, still_group, numbers, still, sampler })
     }
 
     /// Takes another canopy.
@@ -90,24 +98,34 @@ impl Frame {
     }
 
     /// Sets the numbers of the next picture.
-    pub(super) fn write(&self, gpu: &Gpu, camera: &Camera, width: u32, drawn: &Drawn) {
-        let with = |[x, y, z]: [f32; 3], w: f32| [x, y, z, w];
-        let [x, y] = drawn.stand.place;
-        let [near_x, near_y, near_z] = drawn.detail_from;
-        let numbers = Numbers {
-            eye: with(camera.eye, camera.pixel_angle(width as usize)),
-            forward: with(camera.forward, NEAREST),
-            right: with(camera.right, camera.half[0]),
-            up: with(camera.up, camera.half[1]),
-            stand: [x, y, drawn.stand.above, f32::from(drawn.is_dry)],
-            moment: [drawn.seconds, near_x, near_y, near_z],
-            slides: drawn.slides,
-            sun_right: with(drawn.cascades.right, drawn.cascades.depths[0]),
-            sun_up: with(drawn.cascades.up, drawn.cascades.depths[1]),
-            cascades: drawn.cascades.squares,
-        };
-        gpu.context.queue.write_buffer(&self.numbers.buffer, 0, bytemuck::bytes_of(&numbers));
+    pub(super) fn write(&self, into: &mut Upload<'_>, camera: &Camera, width: u32, drawn: &Drawn) {
+        write(into, &self.numbers, camera, width, drawn);
     }
+
+    /// Sets those of the sun's last cascade: nothing slides, and no wind blows.
+    pub(super) fn write_still(&self, into: &mut Upload<'_>, camera: &Camera, width: u32, drawn: &Drawn) {
+        let slides = [[1e30, 2e30, 0.0, 0.0]; MAX_LEVELS];
+        write(into, &self.still, camera, width, &Drawn { slides, seconds: 0.0, ..*drawn });
+    }
+}
+
+fn write(into: &mut Upload<'_>, store: &Store, camera: &Camera, width: u32, drawn: &Drawn) {
+    let with = |[x, y, z]: [f32; 3], w: f32| [x, y, z, w];
+    let [x, y] = drawn.stand.place;
+    let [near_x, near_y, near_z] = drawn.detail_from;
+    let numbers = Numbers {
+        eye: with(camera.eye, camera.pixel_angle(width as usize)),
+        forward: with(camera.forward, NEAREST),
+        right: with(camera.right, camera.half[0]),
+        up: with(camera.up, camera.half[1]),
+        stand: [x, y, drawn.stand.above, f32::from(drawn.is_dry)],
+        moment: [drawn.seconds, near_x, near_y, near_z],
+        slides: drawn.slides,
+        sun_right: with(drawn.cascades.right, drawn.cascades.depths[0]),
+        sun_up: with(drawn.cascades.up, drawn.cascades.depths[1]),
+        cascades: drawn.cascades.squares,
+    };
+    into.write(store, bytemuck::bytes_of(&numbers));
 }
 
 fn bind(

@@ -15,8 +15,8 @@ use weald::{Error, Landscape};
 use wgpu::{
     BindGroup, BindGroupLayout, BindGroupLayoutDescriptor, BindGroupLayoutEntry, BindingType,
     BufferBindingType, CommandEncoder, ComputePassDescriptor, ComputePipeline, ComputePipelineDescriptor,
-    PipelineCompilationOptions, PipelineLayoutDescriptor, RenderPass, RenderPipeline, ShaderModule,
-    ShaderStages,
+    PipelineCompilationOptions, PipelineLayout, PipelineLayoutDescriptor, RenderPass, RenderPipeline,
+    ShaderModule, ShaderStages,
 };
 
 use super::grass_layer::{DRAW, GrassLayer, LoadedSets};
@@ -37,8 +37,9 @@ const CHOOSING: [(&str, bool); 3] = [("mark", false), ("sum", true), ("gather", 
 pub(super) struct Grass {
     layers: Vec<GrassLayer>,
     choosing: Vec<ComputePipeline>,
+    lighting: ComputePipeline,
     draws: Vec<RenderPipeline>,
-    layouts: [BindGroupLayout; 2],
+    layouts: [BindGroupLayout; 3],
 }
 
 impl Grass {
@@ -55,7 +56,7 @@ impl Grass {
             return Ok(None);
         }
         let device = &gpu.context.device;
-        let own = [layout(gpu, ShaderStages::COMPUTE), layout(gpu, ShaderStages::VERTEX)];
+        let own = [CHOOSES, LIGHTS, DRAWS].map(|own| layout(gpu, own));
         let whole = |frame: &BindGroupLayout, own: &BindGroupLayout| {
             device.create_pipeline_layout(&PipelineLayoutDescriptor {
                 label: Some("grass"),
@@ -78,12 +79,14 @@ impl Grass {
                 let make = || device.create_compute_pipeline(&description);
                 gpu.context.known.computing((module.clone(), name.to_owned()), make)
             });
+            let lighting = lighting(gpu, scene, &whole(&layouts.frame.layout, &own[1]));
             let blades = self::module(gpu, scene, include_str!("blades.wgsl"));
-            let layout = whole(&layouts.frame.layout, &own[1]);
+            let layout = whole(&layouts.frame.layout, &own[2]);
             let draws = LISTS.map(|name| strips(&gpu.context, (&blades, &layout), name, samples));
             Ok(Some(Self {
                 layers,
                 choosing: choosing.to_vec(),
+                lighting,
                 draws: draws.to_vec(),
                 layouts: own.clone(),
             }))
@@ -123,6 +126,20 @@ impl Grass {
         }
     }
 
+    /// Encodes what all blades of a chosen set have in common, when shadows are drawn.
+    pub(super) fn light(&self, encoder: &mut CommandEncoder, groups: [&BindGroup; 2]) {
+        let description = ComputePassDescriptor { label: Some("light of grass"), timestamp_writes: None };
+        let mut pass = encoder.begin_compute_pass(&description);
+        pass.set_pipeline(&self.lighting);
+        for (at, group) in (0..).zip(groups) {
+            pass.set_bind_group(at, group, &[]);
+        }
+        for loaded in self.loaded() {
+            pass.set_bind_group(2, &loaded.light, &[]);
+            pass.dispatch_workgroups_indirect(&loaded.draws.buffer, DRAW * LISTS.len() as u64);
+        }
+    }
+
     /// Draws all blades.
     pub(super) fn draw(&self, pass: &mut RenderPass<'_>) {
         for loaded in self.loaded() {
@@ -152,15 +169,34 @@ fn module(gpu: &Gpu, scene: &LitScene, own: &str) -> ShaderModule {
     gpu.context.known.module(&gpu.context.device, "grass", text)
 }
 
-/// The bindings of a pass: the species, what is shown, the sets, those that are kept and where their lists start; to
-/// choose them the draws and the marks as well, all but the sets to be written.
-fn layout(gpu: &Gpu, visibility: ShaderStages) -> BindGroupLayout {
-    let chooses = visibility == ShaderStages::COMPUTE;
+/// What lights the sets that were chosen.
+fn lighting(gpu: &Gpu, scene: &LitScene, layout: &PipelineLayout) -> ComputePipeline {
+    let module = module(gpu, scene, include_str!("light_sets.wgsl"));
+    let description = ComputePipelineDescriptor {
+        label: Some("light_sets"),
+        layout: Some(layout),
+        module: &module,
+        entry_point: Some("light_sets"),
+        compilation_options: PipelineCompilationOptions::default(),
+        cache: None,
+    };
+    let make = || gpu.context.device.create_compute_pipeline(&description);
+    gpu.context.known.computing((module.clone(), "light_sets".to_owned()), make)
+}
+
+/// The stage of a pass, and which of its buffers are only read, after the species, what is shown, and the sets: those that
+/// are kept, where their lists start; then the draws and marks, or the lit sets.
+type Own = (ShaderStages, &'static [bool]);
+const CHOOSES: Own = (ShaderStages::COMPUTE, &[false; 4]);
+const LIGHTS: Own = (ShaderStages::COMPUTE, &[true, true, false]);
+const DRAWS: Own = (ShaderStages::VERTEX, &[true; 3]);
+
+/// The bindings of a pass.
+fn layout(gpu: &Gpu, (visibility, read_only): Own) -> BindGroupLayout {
     let storage = |read_only| BufferBindingType::Storage { read_only };
     let kinds = [BufferBindingType::Uniform, BufferBindingType::Uniform, storage(true)];
-    let of_choice = if chooses { vec![storage(false); 4] } else { vec![storage(true); 2] };
     let entries: Vec<_> = (0..)
-        .zip(kinds.into_iter().chain(of_choice))
+        .zip(kinds.into_iter().chain(read_only.iter().copied().map(storage)))
         .map(|(binding, ty)| BindGroupLayoutEntry {
             binding,
             visibility,

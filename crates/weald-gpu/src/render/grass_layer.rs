@@ -23,6 +23,9 @@ const MAX_SETS: f64 = (1_u32 << 23) as f64;
 const SET: u64 = 16;
 const CHOSEN: u64 = 4;
 
+/// Bytes of what all blades of a chosen set have in common.
+const LIT: u64 = 32;
+
 /// Bytes of what an indirect draw wants.
 pub(super) const DRAW: u64 = 16;
 
@@ -47,7 +50,9 @@ pub(super) struct LoadedSets {
     pub(super) starts: Store,
     pub(super) draws: Store,
     pub(super) cull: BindGroup,
+    pub(super) light: BindGroup,
     pub(super) draw: BindGroup,
+    _lit: Store,
     _marks: Store,
     _choice: Store,
 }
@@ -64,7 +69,7 @@ impl GrassLayer {
         gpu: &Gpu,
         place: [f64; 2],
         look: GrassLook,
-        layouts: &[BindGroupLayout; 2],
+        layouts: &[BindGroupLayout; 3],
     ) -> Result<(), Error> {
         let square = look.thinned.then(|| place.map(|at| (at / SQUARE).floor() as i64));
         if self.shown != Some((look, square)) {
@@ -81,7 +86,7 @@ impl GrassLayer {
         gpu: &Gpu,
         square: Option<[i64; 2]>,
         look: GrassLook,
-        layouts: &[BindGroupLayout; 2],
+        layouts: &[BindGroupLayout; 3],
     ) -> Result<Option<LoadedSets>, Error> {
         let level = look.level.unwrap_or(self.meadow.level);
         let meadow = match look.level {
@@ -162,6 +167,7 @@ struct Stores {
     starts: Store,
     draws: Store,
     marks: Store,
+    lit: Store,
 }
 
 impl Stores {
@@ -175,8 +181,9 @@ impl Stores {
             sets: store("sets of grass", SET * count, storage)?,
             kept: store("grass in sight", CHOSEN * count, storage)?,
             starts: store("starts of the lists of grass", starts, storage)?,
-            draws: store("draws of grass", DRAW * lists, storage | BufferUsages::INDIRECT)?,
+            draws: store("draws of grass", DRAW * (lists + 1), storage | BufferUsages::INDIRECT)?,
             marks: store("marks of grass", CHOSEN * count, storage)?,
+            lit: store("lit grass", LIT * count, storage)?,
         })
     }
 
@@ -185,13 +192,16 @@ impl Stores {
         gpu: &Gpu,
         grasses: &Store,
         count: u32,
-        [to_choose, to_draw]: &[BindGroupLayout; 2],
+        [to_choose, to_light, to_draw]: &[BindGroupLayout; 3],
     ) -> Result<LoadedSets, Error> {
-        let Self { choice, sets, kept, starts, draws, marks } = self;
+        let Self { choice, sets, kept, starts, draws, marks, lit } = self;
         let drawn = [grasses, &choice, &sets, &kept, &starts];
         let cull = bind(gpu, to_choose, &[&drawn[..], &[&draws, &marks]].concat())?;
-        let draw = bind(gpu, to_draw, &drawn)?;
-        Ok(LoadedSets { count, sets, kept, starts, draws, cull, draw, _marks: marks, _choice: choice })
+        let with_lit = [&drawn[..], &[&lit]].concat();
+        let light = bind(gpu, to_light, &with_lit)?;
+        let draw = bind(gpu, to_draw, &with_lit)?;
+        let (_lit, _marks, _choice) = (lit, marks, choice);
+        Ok(LoadedSets { count, sets, kept, starts, draws, cull, light, draw, _lit, _marks, _choice })
     }
 }
 

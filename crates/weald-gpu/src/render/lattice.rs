@@ -90,6 +90,15 @@ impl Lattice {
         patches.into_iter().map(|(_, patch)| patch).collect()
     }
 
+    /// All patches of one level.
+    pub(crate) fn whole(&self, level: usize) -> Vec<Patch> {
+        let side = 0.5 * Self::side(level);
+        let [columns, rows] = self.cells.map(|cells| (cells / side).ceil() as u32);
+        let at = |number: u32| 0.5 + side * number as f32;
+        let patch = |corner| Patch { corner, spacing: spacing(level), level: level as f32 };
+        (0..rows).flat_map(|y| (0..columns).map(move |x| patch([at(x), at(y)]))).collect()
+    }
+
     /// Least distance of a square from a standpoint.
     fn distance(&self, from: Viewpoint, corner: [f32; 2], side: f32) -> f32 {
         let away = |axis: usize| {
@@ -154,6 +163,24 @@ mod tests {
                     (left..left + side).contains(&x) && (top..top + side).contains(&y)
                 };
                 assert_eq!(patches.iter().filter(covers).count(), 1, "({x}, {y})");
+            }
+        }
+    }
+
+    #[test]
+    fn the_patches_of_one_level_cover_each_place_once() {
+        let lattice = Lattice::new([150.0, 90.0], [10.0; 2]);
+        for level in 0..lattice.levels {
+            let patches = lattice.whole(level);
+            let side = QUADS as f32 * spacing(level);
+            for sample in 0..400_u32 {
+                let x = 0.5 + lattice.cells[0] * (sample as f32 * 0.754_877_7).fract();
+                let y = 0.5 + lattice.cells[1] * (sample as f32 * 0.569_840_3).fract();
+                let covers = |patch: &&Patch| {
+                    let [left, top] = patch.corner;
+                    (left..left + side).contains(&x) && (top..top + side).contains(&y)
+                };
+                assert_eq!(patches.iter().filter(covers).count(), 1, "level {level}, ({x}, {y})");
             }
         }
     }

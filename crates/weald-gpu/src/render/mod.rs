@@ -17,6 +17,7 @@ mod frustum;
 mod grass;
 mod grass_layer;
 mod grass_look;
+mod ground;
 mod lattice;
 mod layouts;
 mod levels;
@@ -36,6 +37,7 @@ mod terrain;
 mod textures;
 mod timing;
 mod tone_mapping;
+mod upload;
 
 pub use chosen::Chosen;
 pub use grass_look::GrassLook;

@@ -3,14 +3,14 @@
 use weald::Error;
 use weald::picture::LitScene;
 use wgpu::{
-    BindGroup, BindGroupLayout, Color, ColorTargetState, ColorWrites, CommandEncoder, CompareFunction,
-    FragmentState, LoadOp, MultisampleState, Operations, PipelineCompilationOptions, PipelineLayout,
-    PipelineLayoutDescriptor, PrimitiveState, RenderPass, RenderPassColorAttachment,
-    RenderPassDepthStencilAttachment, RenderPassDescriptor, RenderPipeline, RenderPipelineDescriptor,
-    ShaderModule, StoreOp, VertexAttribute, VertexBufferLayout, VertexFormat, VertexState, VertexStepMode,
+    BindGroup, BindGroupLayout, ColorTargetState, ColorWrites, CommandEncoder, CompareFunction,
+    FragmentState, MultisampleState, PipelineCompilationOptions, PipelineLayout, PipelineLayoutDescriptor,
+    PrimitiveState, RenderPass, RenderPipeline, RenderPipelineDescriptor, ShaderModule, VertexAttribute,
+    VertexBufferLayout, VertexFormat, VertexState, VertexStepMode,
 };
 
 use super::grass::Grass;
+use super::ground::{self, Ground};
 use super::layouts::{Layouts, STAGE_GROUP, depth_state};
 use super::plants::Plants;
 use super::targets::{LIGHT, Targets};
@@ -20,7 +20,7 @@ use crate::gpu::Gpu;
 use crate::gpu::context::Context;
 
 /// The passes' own shaders, each after those that it calls.
-const SHADERS: [&str; 9] = [
+const SHADERS: [&str; 10] = [
     include_str!("frame.wgsl"),
     include_str!("shadows.wgsl"),
     include_str!("detail.wgsl"),
@@ -28,6 +28,7 @@ const SHADERS: [&str; 9] = [
     include_str!("thinning.wgsl"),
     include_str!("canopy.wgsl"),
     include_str!("terrain.wgsl"),
+    include_str!("ground.wgsl"),
     include_str!("casters.wgsl"),
     include_str!("backdrop.wgsl"),
 ];
@@ -47,10 +48,11 @@ const RIM_ATTRIBUTES: [VertexAttribute; 2] = [
 /// The pipelines of a picture's light.
 #[derive(Debug)]
 pub(super) struct Passes {
-    ground: RenderPipeline,
+    ground: Ground,
     sides: RenderPipeline,
     rims: RenderPipeline,
-    backdrop: RenderPipeline,
+    /// Of the depths of the ground.
+    pub(super) depths: BindGroupLayout,
     pub(super) casters: Casters,
 }
 
@@ -87,17 +89,16 @@ pub(super) struct Drawing<'a> {
     pub(super) timer: Option<&'a Timer>,
 }
 
-/// What nothing drew on: no light of a landscape.
-const MAGENTA: Color = Color { r: 0.1, g: 0.0, b: 0.1, a: 1.0 };
-
 /// What pipelines have in common.
 struct Maker<'a> {
     context: &'a Context,
     module: ShaderModule,
     layout: PipelineLayout,
+    with_depths: PipelineLayout,
     casters: PipelineLayout,
     samples: u32,
     has_holes: bool,
+    has_lawn: bool,
 }
 
 /// What one pipeline is.
@@ -112,9 +113,10 @@ impl Passes {
         gpu: &Gpu,
         scene: &LitScene,
         layouts: Layouts<'_>,
-        samples: u32,
+        (samples, has_lawn): (u32, bool),
     ) -> Result<Self, Error> {
-        let text = SHADERS.iter().fold(scene.shader(STAGE_GROUP), |text, shader| text + "\n" + shader);
+        let text = scene.shader(STAGE_GROUP) + "\n" + &ground::declaration(samples);
+        let text = SHADERS.iter().fold(text, |text, shader| text + "\n" + shader);
         gpu.context.attempt_to_compile("making the pipelines of a picture", || {
             let device = &gpu.context.device;
             let Layouts { frame, maps, cascade } = layouts;
@@ -125,19 +127,22 @@ impl Passes {
                     immediate_size: 0,
                 })
             };
+            let depths = ground::depths_layout(gpu, samples);
             let maker = Maker {
                 context: &gpu.context,
                 module: gpu.context.known.module(&gpu.context.device, "picture", text),
                 layout: whole(&[Some(&frame.layout), Some(&maps.layout)]),
+                with_depths: whole(&[Some(&frame.layout), Some(&maps.layout), Some(&depths)]),
                 casters: whole(&[Some(&frame.caster_layout), Some(&maps.layout), Some(cascade)]),
                 samples,
                 has_holes: scene.has_holes(),
+                has_lawn,
             };
-            Ok(Self::of(&maker))
+            Ok(Self::of(&maker, depths))
         })
     }
 
-    fn of(maker: &Maker<'_>) -> Self {
+    fn of(maker: &Maker<'_>, depths: BindGroupLayout) -> Self {
         let instances = |bytes, attributes| VertexBufferLayout {
             array_stride: bytes,
             step_mode: VertexStepMode::Instance,
@@ -154,12 +159,19 @@ impl Passes {
             let depth = (true, CompareFunction::Less);
             maker.caster(&Pipeline { name, buffers, depth })
         };
-        let depth = (false, CompareFunction::GreaterEqual);
         Self {
-            ground: solid("ground", &patches),
+            ground: Ground::new(ground::Parts {
+                context: maker.context,
+                module: &maker.module,
+                layouts: [&maker.with_depths, &maker.layout],
+                patches: &patches,
+                samples: maker.samples,
+                has_holes: maker.has_holes,
+                has_lawn: maker.has_lawn,
+            }),
+            depths,
             sides: solid("side", &sides),
             rims: solid("rim", &rims),
-            backdrop: maker.light(&Pipeline { name: "backdrop", buffers: &[], depth }),
             casters: Casters {
                 ground: caster("ground", &patches),
                 sides: caster("side", &sides),
@@ -172,61 +184,60 @@ impl Passes {
     pub(super) fn draw(
         &self,
         encoder: &mut CommandEncoder,
-        targets: &Targets,
+        (targets, depths): (&Targets, &BindGroup),
         groups: [&BindGroup; 2],
         drawing: Drawing<'_>,
     ) {
-        let (view, resolve_target) = match &targets.sampled {
-            Some(sampled) => (&sampled.view, Some(&targets.light.view)),
-            None => (&targets.light.view, None),
-        };
-        let Drawing { terrain, grass, plants, bare, timer, .. } = drawing;
-        let ops = Operations { load: LoadOp::Clear(MAGENTA), store: StoreOp::Store };
-        let depth = Operations { load: LoadOp::Clear(0.0), store: StoreOp::Discard };
-        let mut pass = encoder.begin_render_pass(&RenderPassDescriptor {
-            label: Some("light"),
-            color_attachments: &[Some(RenderPassColorAttachment {
-                view,
-                depth_slice: None,
-                resolve_target,
-                ops,
-            })],
-            depth_stencil_attachment: Some(RenderPassDepthStencilAttachment {
-                view: &targets.depth.view,
-                depth_ops: Some(depth),
-                stencil_ops: None,
-            }),
-            timestamp_writes: timer.map(|timer| timer.around(Timestamp::Light, [true; 2])),
-            ..RenderPassDescriptor::default()
-        });
-        for (at, group) in (0..).zip(groups) {
-            pass.set_bind_group(at, group, &[]);
-        }
-        pass.set_pipeline(&self.ground);
-        terrain.draw_ground(&mut pass, 0);
+        let timer = drawing.timer;
+        let mut pass = targets.depth_pass(encoder);
+        bind(&mut pass, groups);
+        self.ground.draw_depths(&mut pass, drawing.terrain);
+        drop(pass);
+        let mut pass = targets.kind_pass(encoder);
+        bind(&mut pass, groups);
+        self.ground.draw_kinds(&mut pass, depths);
+        drop(pass);
+        let mut pass = targets.ground_pass(encoder);
+        bind(&mut pass, groups);
+        self.ground.draw_light(&mut pass, depths);
         if let Some(timer) = timer {
             timer.note(&mut pass, Timestamp::Ground);
         }
+        if !drawing.bare {
+            self.ground.draw_backdrop(&mut pass, depths);
+        }
+        drop(pass);
+        let mut pass = targets.light_pass(encoder, timer);
+        bind(&mut pass, groups);
+        self.draw_what_stands(&mut pass, drawing);
+    }
+
+    /// Draws all but the ground.
+    fn draw_what_stands(&self, pass: &mut RenderPass<'_>, drawing: Drawing<'_>) {
+        let Drawing { terrain, grass, plants, timer, .. } = drawing;
+        let note = |pass: &mut RenderPass<'_>, timestamp| {
+            if let Some(timer) = timer {
+                timer.note(pass, timestamp);
+            }
+        };
         pass.set_pipeline(&self.sides);
-        terrain.draw_sides(&mut pass, 0);
+        terrain.draw_sides(pass, 0);
         pass.set_pipeline(&self.rims);
-        terrain.draw_rims(&mut pass);
-        if !bare {
-            pass.set_pipeline(&self.backdrop);
-            pass.draw(0..3, 0..1);
-        }
-        if let Some(timer) = timer {
-            timer.note(&mut pass, Timestamp::Behind);
-        }
+        terrain.draw_rims(pass);
+        note(pass, Timestamp::Behind);
         if let Some(grass) = grass {
-            grass.draw(&mut pass);
+            grass.draw(pass);
         }
-        if let Some(timer) = timer {
-            timer.note(&mut pass, Timestamp::Grass);
-        }
+        note(pass, Timestamp::Grass);
         if let Some(plants) = plants {
-            plants.draw(&mut pass);
+            plants.draw(pass);
         }
+    }
+}
+
+fn bind(pass: &mut RenderPass<'_>, groups: [&BindGroup; 2]) {
+    for (at, group) in (0..).zip(groups) {
+        pass.set_bind_group(at, group, &[]);
     }
 }
 

@@ -1,13 +1,16 @@
 //! A scene on a device: what is drawn of it, and in which order.
 
+use weald::grow::Vegetation;
 use weald::picture::{Camera, Image, LitScene};
 use weald::{Error, Landscape};
+use wgpu::BindGroup;
 
 use super::canopy;
 use super::follower::Follower;
 use super::frame::{Drawn, Frame};
 use super::grass::Grass;
 use super::grass_look::GrassLook;
+use super::ground::depths_group;
 use super::layouts::Layouts;
 use super::maps::Maps;
 use super::options::{Options, check_camera};
@@ -20,6 +23,7 @@ use super::terrain::Terrain;
 use super::textures::Canvas;
 use super::timing::Timer;
 use super::tone_mapping::ToneMapping;
+use super::upload::Upload;
 use crate::gpu::Gpu;
 
 /// What tests look for.
@@ -49,6 +53,8 @@ pub struct Renderer {
     pub(super) shadows: Shadows,
     pub(super) canopy: Canvas,
     pub(super) targets: Targets,
+    /// The depths of the ground, as its light is drawn from them.
+    pub(super) depths: BindGroup,
     pub(super) film: ToneMapping,
     pub(super) look: TestLook,
     pub(super) timer: Option<Timer>,
@@ -75,8 +81,9 @@ impl Renderer {
         let canopy = canopy::none(gpu)?;
         let frame = Frame::new(gpu, &shadows.canvas, &canopy)?;
         let layouts = Layouts { frame: &frame, maps: &maps, cascade: &shadows.layout };
-        let passes = Passes::new(gpu, scene, layouts, options.samples)?;
+        let passes = Passes::new(gpu, scene, layouts, (options.samples, false))?;
         let targets = Targets::new(gpu, options)?;
+        let depths = depths_group(gpu, &passes.depths, &targets);
         let film = ToneMapping::new(gpu, scene, &maps, &targets)?;
         Ok(Self {
             gpu: gpu.clone(),
@@ -91,6 +98,7 @@ impl Renderer {
             shadows,
             canopy,
             targets,
+            depths,
             film,
             look: TestLook::default(),
             timer: None,
@@ -111,9 +119,12 @@ impl Renderer {
             self.canopy = canopy;
         }
         let layouts = Layouts { frame: &self.frame, maps: &self.maps, cascade: &self.shadows.layout };
+        let has_lawn = landscape.all_meadows().next().is_some();
+        self.passes = Passes::new(&self.gpu, scene, layouts, (self.options.samples, has_lawn))?;
         let grown = (scene, landscape);
         self.grass = Grass::new(&self.gpu, grown, layouts, self.options.samples)?;
         self.plants = Plants::new(&self.gpu, grown, layouts, self.options.samples)?;
+        self.shadows.whole_is_drawn = false;
         Ok(())
     }
 
@@ -157,7 +168,8 @@ impl Renderer {
         target: &wgpu::TextureView,
     ) -> Result<(), Error> {
         self.aim(camera, encoder)?;
-        let groups = [&self.frame.caster_group, &self.maps.group];
+        let groups =
+            [&self.frame.caster_group, &self.frame.still_group].map(|numbers| [numbers, &self.maps.group]);
         let timer = self.timer.as_ref();
         let drawing = Drawing {
             terrain: &self.terrain,
@@ -169,7 +181,13 @@ impl Renderer {
         };
         self.shadows.draw(encoder, groups, &self.passes.casters, drawing);
         let groups = [&self.frame.group, &self.maps.group];
-        self.passes.draw(encoder, &self.targets, groups, drawing);
+        if let Some(grass) = &self.grass {
+            grass.light(encoder, groups);
+        }
+        if let Some(timer) = timer {
+            timer.end_shadows(encoder);
+        }
+        self.passes.draw(encoder, (&self.targets, &self.depths), groups, drawing);
         self.film.develop(&self.gpu, encoder, (&self.maps, timer), target)
     }
 
@@ -179,9 +197,14 @@ impl Renderer {
         if let Some(timer) = &self.timer {
             timer.begin(encoder);
         }
-        let drawn = self.terrain.prepare(&self.gpu, camera, self.options.size, self.look.detail_from)?;
+        let into = &mut Upload { gpu: &self.gpu, encoder };
+        let drawn = self.terrain.prepare(into, camera, self.options.size, self.look.detail_from)?;
         let drawn = Drawn { seconds: self.seconds, is_dry: self.is_dry, ..drawn };
-        self.frame.write(&self.gpu, camera, self.options.size[0], &drawn);
+        self.frame.write(into, camera, self.options.size[0], &drawn);
+        if !self.shadows.whole_is_drawn {
+            self.terrain.prepare_whole(into, drawn.cascades.last_texel())?;
+            self.frame.write_still(into, camera, self.options.size[0], &drawn);
+        }
         let groups = [&self.frame.caster_group, &self.maps.group];
         if let Some(plants) = &self.plants {
             plants.choose(encoder, groups);
@@ -202,6 +225,26 @@ impl Renderer {
         let image = self.render(camera);
         self.look = TestLook::default();
         image
+    }
+
+    /// Two pictures that are encoded one after the other before either is drawn.
+    #[doc(hidden)]
+    pub fn two_for_a_test(&mut self, cameras: [&Camera; 2]) -> Result<[Image; 2], Error> {
+        let landing = || Readback::new(&self.gpu, self.options.size);
+        let landings = [landing()?, landing()?];
+        let context = self.gpu.context.clone();
+        context.attempt("drawing", || {
+            let mut encoder =
+                context.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+            for (camera, landing) in cameras.into_iter().zip(&landings) {
+                self.encode(camera, &mut encoder, &landing.view)?;
+                landing.collect(&mut encoder);
+            }
+            context.queue.submit([encoder.finish()]);
+            Ok(())
+        })?;
+        let [one, other] = landings;
+        Ok([one.image(&self.gpu)?, other.image(&self.gpu)?])
     }
 
     /// The same without the picture: only chooses what is to be drawn.
@@ -232,7 +275,10 @@ impl Renderer {
     /// As [`Renderer::render`].
     pub fn triangles(&mut self, camera: &Camera) -> Result<u64, Error> {
         check_camera(camera)?;
-        self.terrain.prepare(&self.gpu, camera, self.options.size, None)?;
+        let device = &self.gpu.context.device;
+        let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        let mut into = Upload { gpu: &self.gpu, encoder: &mut encoder };
+        self.terrain.prepare(&mut into, camera, self.options.size, None)?;
         Ok(self.terrain.triangles())
     }
 }

@@ -4,16 +4,15 @@ use weald::Error;
 use wgpu::{
     BindGroup, BindGroupDescriptor, BindGroupEntry, BindGroupLayout, BindGroupLayoutDescriptor,
     BindGroupLayoutEntry, BindingResource, BindingType, BufferBinding, BufferBindingType, BufferUsages,
-    CommandEncoder, LoadOp, Operations, RenderPassDepthStencilAttachment, RenderPassDescriptor,
-    RenderPassTimestampWrites, ShaderStages, StoreOp, TextureUsages, TextureView, TextureViewDescriptor,
-    TextureViewDimension,
+    CommandEncoder, LoadOp, Operations, RenderPassDepthStencilAttachment, RenderPassDescriptor, ShaderStages,
+    StoreOp, TextureUsages, TextureView, TextureViewDescriptor, TextureViewDimension,
 };
 
 use super::cascades::{CASCADES, TEXELS};
 use super::passes::{Casters, Drawing};
 use super::targets::DEPTH;
 use super::textures::{Canvas, Shape};
-use super::timing::{Timer, Timestamp};
+use super::timing::Timestamp;
 use crate::gpu::Gpu;
 use crate::memory::Store;
 
@@ -26,6 +25,8 @@ pub(super) struct Shadows {
     pub(super) canvas: Canvas,
     pub(super) layout: BindGroupLayout,
     layers: Vec<(TextureView, BindGroup)>,
+    /// Whether the last cascade, which no camera changes, is drawn.
+    pub(super) whole_is_drawn: bool,
     _numbers: Store,
 }
 
@@ -56,49 +57,57 @@ impl Shadows {
             .device
             .create_bind_group_layout(&BindGroupLayoutDescriptor { label, entries: &[entry] });
         let layers = (0..CASCADES).map(|cascade| layer(gpu, &canvas, (&layout, &numbers), cascade)).collect();
-        Ok(Self { canvas, layout, layers, _numbers: numbers })
+        Ok(Self { canvas, layout, layers, whole_is_drawn: false, _numbers: numbers })
     }
 
-    /// Draws what throws shadows into all cascades.
+    /// Draws what throws shadows into all cascades; into the last, of which the groups are the second ones, once.
     pub(super) fn draw(
+        &mut self,
+        encoder: &mut CommandEncoder,
+        groups: [[&BindGroup; 2]; 2],
+        casters: &Casters,
+        drawing: Drawing<'_>,
+    ) {
+        if !self.whole_is_drawn {
+            self.draw_cascade(encoder, groups[1], (casters, CASCADES - 1), drawing);
+        }
+        self.whole_is_drawn = !drawing.casts_nothing;
+        (0..CASCADES - 1).for_each(|cascade| {
+            self.draw_cascade(encoder, groups[0], (casters, cascade), drawing);
+        });
+    }
+
+    fn draw_cascade(
         &self,
         encoder: &mut CommandEncoder,
         groups: [&BindGroup; 2],
-        casters: &Casters,
+        (casters, number): (&Casters, usize),
         Drawing { terrain, plants, casts_nothing, timer, .. }: Drawing<'_>,
     ) {
-        for (number, (view, cascade)) in self.layers.iter().enumerate() {
-            let depth = Operations { load: LoadOp::Clear(1.0), store: StoreOp::Store };
-            let mut pass = encoder.begin_render_pass(&RenderPassDescriptor {
-                label: Some("shadows"),
-                depth_stencil_attachment: Some(RenderPassDepthStencilAttachment {
-                    view,
-                    depth_ops: Some(depth),
-                    stencil_ops: None,
-                }),
-                timestamp_writes: timer.and_then(|timer| ends(timer, number)),
-                ..RenderPassDescriptor::default()
-            });
-            if casts_nothing {
-                continue;
-            }
-            for (at, group) in (0..).zip([groups[0], groups[1], cascade]) {
-                pass.set_bind_group(at, group, &[]);
-            }
-            casters.draw(&mut pass, terrain, number + 1);
-            if let Some(plants) = plants {
-                plants.cast(&mut pass, number);
-            }
+        let (view, cascade) = &self.layers[number];
+        let depth = Operations { load: LoadOp::Clear(1.0), store: StoreOp::Store };
+        let mut pass = encoder.begin_render_pass(&RenderPassDescriptor {
+            label: Some("shadows"),
+            depth_stencil_attachment: Some(RenderPassDepthStencilAttachment {
+                view,
+                depth_ops: Some(depth),
+                stencil_ops: None,
+            }),
+            timestamp_writes: timer
+                .filter(|_| number == 0)
+                .map(|timer| timer.around(Timestamp::Shadows, [true, false])),
+            ..RenderPassDescriptor::default()
+        });
+        if casts_nothing {
+            return;
         }
-    }
-}
-
-/// What the pass of a cascade notes: the first when it begins, the last when it ends.
-fn ends(timer: &Timer, cascade: usize) -> Option<RenderPassTimestampWrites<'_>> {
-    match cascade {
-        0 => Some(timer.around(Timestamp::Shadows, [true, false])),
-        _ if cascade == CASCADES - 1 => Some(timer.around(Timestamp::Shadows, [false, true])),
-        _ => None,
+        for (at, group) in (0..).zip([groups[0], groups[1], cascade]) {
+            pass.set_bind_group(at, group, &[]);
+        }
+        casters.draw(&mut pass, terrain, number + 1);
+        if let Some(plants) = plants {
+            plants.cast(&mut pass, number);
+        }
     }
 }
 

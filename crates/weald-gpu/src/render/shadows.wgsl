@@ -68,10 +68,27 @@ fn seen_in_cascade(point: vec3<f32>, normal: vec3<f32>, cascade: i32) -> f32 {
     return sum / 16.0;
 }
 
+// The first cascade that holds a point; as many as there are where none does.
+fn first_cascade(point: vec3<f32>) -> i32 {
+    var first = CASCADES;
+    for (var cascade = CASCADES - 1; cascade >= 0; cascade--) {
+        let at = abs(in_cascade(point, cascade).xy);
+        first = select(first, cascade, max(at.x, at.y) < 1.0);
+    }
+    return first;
+}
+
+// Software looks into a cascade for as long as one of several pixels wants it: each begins with its own first one.
 fn sun_seen(point: vec3<f32>, normal: vec3<f32>) -> f32 {
+    return sun_seen_on(point, point, normal);
+}
+
+// The same of a point of the triangles that a camera sees, which the cascades of that camera hold, and the point of the
+// smooth ground there, which the last holds.
+fn sun_seen_on(point: vec3<f32>, smooth_point: vec3<f32>, normal: vec3<f32>) -> f32 {
     var passed = 1.0;
     var seen = 0.0;
-    for (var cascade = 0; cascade < CASCADES; cascade++) {
+    for (var cascade = first_cascade(point); cascade < CASCADES; cascade++) {
         let at = abs(in_cascade(point, cascade).xy);
         let inside = 1.0 - max(at.x, at.y);
         if inside <= 0.0 {
@@ -79,7 +96,8 @@ fn sun_seen(point: vec3<f32>, normal: vec3<f32>) -> f32 {
         }
         // The last one ends where the landscape does.
         let share = select(clamp(inside / PASSING, 0.0, 1.0), 1.0, cascade == CASCADES - 1);
-        seen += passed * share * seen_in_cascade(point, normal, cascade);
+        let here = select(point, smooth_point, cascade == CASCADES - 1);
+        seen += passed * share * seen_in_cascade(here, normal, cascade);
         passed *= 1.0 - share;
         if passed <= 0.0 {
             break;

@@ -1,10 +1,15 @@
 //! What pictures are drawn onto: light in 16-bit floats and depth, with samples, and light without.
 
 use weald::Error;
-use wgpu::{TextureFormat, TextureUsages};
+use wgpu::{
+    Color, CommandEncoder, LoadOp, Operations, RenderPass, RenderPassColorAttachment,
+    RenderPassDepthStencilAttachment, RenderPassDescriptor, RenderPassTimestampWrites, StoreOp,
+    TextureFormat, TextureUsages,
+};
 
 use super::options::Options;
 use super::textures::{Canvas, Shape};
+use super::timing::{Timer, Timestamp};
 use crate::gpu::Gpu;
 
 /// Format of light.
@@ -13,10 +18,15 @@ pub(super) const LIGHT: TextureFormat = TextureFormat::Rgba16Float;
 /// Format of depth.
 pub(super) const DEPTH: TextureFormat = TextureFormat::Depth32Float;
 
+/// What nothing drew on: no light of a landscape.
+const MAGENTA: Color = Color { r: 0.1, g: 0.0, b: 0.1, a: 1.0 };
+
 /// The canvases of a picture.
 #[derive(Debug)]
 pub(super) struct Targets {
     pub(super) depth: Canvas,
+    /// Of which kind the ground of each sample is.
+    kinds: Canvas,
     /// With samples; `None` where a pixel has one.
     pub(super) sampled: Option<Canvas>,
     /// Without.
@@ -27,13 +37,85 @@ impl Targets {
     pub(super) fn new(gpu: &Gpu, options: Options) -> Result<Self, Error> {
         let Options { size, samples } = options;
         let attachment = TextureUsages::RENDER_ATTACHMENT;
-        let depth = Shape { samples, ..Shape::flat(size, DEPTH, attachment) };
+        let depth =
+            Shape { samples, ..Shape::flat(size, DEPTH, attachment | TextureUsages::TEXTURE_BINDING) };
+        let kinds = Shape { samples, ..Shape::flat(size, DEPTH, attachment) };
         let sampled = Shape { samples, ..Shape::flat(size, LIGHT, attachment) };
         let light = Shape::flat(size, LIGHT, attachment | TextureUsages::TEXTURE_BINDING);
         Ok(Self {
             depth: Canvas::new(gpu, "depth", depth)?,
+            kinds: Canvas::new(gpu, "kinds of ground", kinds)?,
             sampled: if samples > 1 { Some(Canvas::new(gpu, "light with samples", sampled)?) } else { None },
             light: Canvas::new(gpu, "light", light)?,
         })
+    }
+
+    /// The pass that draws the depths of the ground.
+    pub(super) fn depth_pass<'a>(&self, encoder: &'a mut CommandEncoder) -> RenderPass<'a> {
+        encoder.begin_render_pass(&RenderPassDescriptor {
+            label: Some("depths"),
+            depth_stencil_attachment: Some(depths(&self.depth, LoadOp::Clear(0.0), StoreOp::Store)),
+            ..RenderPassDescriptor::default()
+        })
+    }
+
+    /// The pass that draws of which kind the ground is.
+    pub(super) fn kind_pass<'a>(&self, encoder: &'a mut CommandEncoder) -> RenderPass<'a> {
+        encoder.begin_render_pass(&RenderPassDescriptor {
+            label: Some("kinds"),
+            depth_stencil_attachment: Some(depths(&self.kinds, LoadOp::Clear(0.0), StoreOp::Store)),
+            ..RenderPassDescriptor::default()
+        })
+    }
+
+    /// The pass that draws the light of the ground and of what lies behind it.
+    pub(super) fn ground_pass<'a>(&self, encoder: &'a mut CommandEncoder) -> RenderPass<'a> {
+        let ops = Operations { load: LoadOp::Clear(MAGENTA), store: StoreOp::Store };
+        let attachment = self.light(ops, false);
+        encoder.begin_render_pass(&RenderPassDescriptor {
+            depth_stencil_attachment: Some(depths(&self.kinds, LoadOp::Load, StoreOp::Discard)),
+            ..described("ground", &[Some(attachment)], None)
+        })
+    }
+
+    /// The pass that draws the light of all else, in front of the ground or behind it.
+    pub(super) fn light_pass<'a>(
+        &self,
+        encoder: &'a mut CommandEncoder,
+        timer: Option<&Timer>,
+    ) -> RenderPass<'a> {
+        let attachment = self.light(Operations { load: LoadOp::Load, store: StoreOp::Store }, true);
+        let writes = timer.map(|timer| timer.around(Timestamp::Light, [true; 2]));
+        encoder.begin_render_pass(&RenderPassDescriptor {
+            depth_stencil_attachment: Some(depths(&self.depth, LoadOp::Load, StoreOp::Discard)),
+            ..described("light", &[Some(attachment)], writes)
+        })
+    }
+
+    /// Where light is drawn, and the samples of a pixel are brought together or not yet.
+    fn light(&self, ops: Operations<Color>, is_last: bool) -> RenderPassColorAttachment<'_> {
+        let (view, resolve_target) = match &self.sampled {
+            Some(sampled) => (&sampled.view, is_last.then_some(&self.light.view)),
+            None => (&self.light.view, None),
+        };
+        RenderPassColorAttachment { view, depth_slice: None, resolve_target, ops }
+    }
+}
+
+fn depths(canvas: &Canvas, load: LoadOp<f32>, store: StoreOp) -> RenderPassDepthStencilAttachment<'_> {
+    let depth_ops = Some(Operations { load, store });
+    RenderPassDepthStencilAttachment { view: &canvas.view, depth_ops, stencil_ops: None }
+}
+
+fn described<'a>(
+    label: &'a str,
+    color_attachments: &'a [Option<RenderPassColorAttachment<'a>>],
+    timestamp_writes: Option<RenderPassTimestampWrites<'a>>,
+) -> RenderPassDescriptor<'a> {
+    RenderPassDescriptor {
+        label: Some(label),
+        color_attachments,
+        timestamp_writes,
+        ..RenderPassDescriptor::default()
     }
 }

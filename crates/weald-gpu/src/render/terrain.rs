@@ -2,13 +2,14 @@
 
 use weald::Error;
 use weald::picture::{Camera, LitScene, Rim, SceneTexture};
-use wgpu::{Buffer, BufferUsages, IndexFormat, RenderPass};
+use wgpu::{Buffer, BufferUsages, CommandEncoderDescriptor, IndexFormat, RenderPass};
 
 use super::cascades::{CASCADES, Cascades};
 use super::frame::Drawn;
 use super::frustum::{Box3, Frustum, Heights};
 use super::lattice::{Lattice, Patch, QUADS, Viewpoint};
 use super::spacing::{Ranges, errors};
+use super::upload::Upload;
 use crate::gpu::Gpu;
 use crate::memory::Store;
 
@@ -57,9 +58,9 @@ impl Seen {
         Ok(Self { patches: Instances::new(gpu, "patches")?, sides: Instances::new(gpu, "sides")? })
     }
 
-    fn write(&mut self, gpu: &Gpu, patches: &[Patch], sides: &[Side]) -> Result<(), Error> {
-        self.patches.write(gpu, patches)?;
-        self.sides.write(gpu, sides)
+    fn write(&mut self, into: &mut Upload<'_>, patches: &[Patch], sides: &[Side]) -> Result<(), Error> {
+        self.patches.write(into, patches)?;
+        self.sides.write(into, sides)
     }
 }
 
@@ -89,7 +90,7 @@ impl Terrain {
     /// Selects what a camera sees for a picture of such a size.
     pub(super) fn prepare(
         &mut self,
-        gpu: &Gpu,
+        into: &mut Upload<'_>,
         camera: &Camera,
         size: [u32; 2],
         detail_from: Option<[f32; 3]>,
@@ -103,7 +104,7 @@ impl Terrain {
         let place = [0.5 + east / width, 0.5 - north / height];
         let stand = Viewpoint { place, above: (up - self.heights.highest()).max(0.0) };
         let cascades = Cascades::new(self.sun, camera, &self.bounds());
-        let columns = (0..CASCADES).map(|cascade| cascades.column(cascade));
+        let columns = (0..CASCADES - 1).map(|cascade| cascades.column(cascade));
         let views: Vec<_> = [Frustum::of(camera)].into_iter().chain(columns).collect();
         for (number, view) in views.iter().enumerate() {
             let patches = if self.is_empty {
@@ -112,9 +113,19 @@ impl Terrain {
                 self.lattice.select(stand, &ranges, &self.heights, view)
             };
             let sides: Vec<_> = patches.iter().flat_map(|patch| self.sides_of(*patch)).collect();
-            self.seen[number].write(gpu, &patches, &sides)?;
+            self.seen[number].write(into, &patches, &sides)?;
         }
         Ok(Drawn { stand, slides: ranges.slides(), detail_from, seconds: 0.0, is_dry: false, cascades })
+    }
+
+    /// Selects all ground for the sun's last cascade, whatever a camera sees: so finely that texels of so many metres do
+    /// not show how finely.
+    pub(super) fn prepare_whole(&mut self, into: &mut Upload<'_>, texel: f32) -> Result<(), Error> {
+        let is_fine = |&level: &usize| self.errors[level] <= 0.5 * texel;
+        let level = (0..self.lattice.levels).rev().find(is_fine).unwrap_or(0);
+        let patches = if self.is_empty { Vec::new() } else { self.lattice.whole(level) };
+        let sides: Vec<_> = patches.iter().flat_map(|patch| self.sides_of(*patch)).collect();
+        self.seen[CASCADES].write(into, &patches, &sides)
     }
 
     /// Lets heights rise and sink by a share of the relief.
@@ -174,7 +185,9 @@ fn rims(gpu: &Gpu, scene: &LitScene) -> Result<Instances<[f32; 8]>, Error> {
     };
     let rims: Vec<_> = scene.rims().into_iter().map(of).collect();
     let mut instances = Instances::new(gpu, "walls around what has no data")?;
-    instances.write(gpu, &rims)?;
+    let mut encoder = gpu.context.device.create_command_encoder(&CommandEncoderDescriptor::default());
+    instances.write(&mut Upload { gpu, encoder: &mut encoder }, &rims)?;
+    gpu.context.queue.submit([encoder.finish()]);
     Ok(instances)
 }
 
@@ -239,12 +252,12 @@ impl<T: bytemuck::Pod> Instances<T> {
         &self.store.buffer
     }
 
-    fn write(&mut self, gpu: &Gpu, instances: &[T]) -> Result<(), Error> {
+    fn write(&mut self, into: &mut Upload<'_>, instances: &[T]) -> Result<(), Error> {
         let bytes: &[u8] = bytemuck::cast_slice(instances);
         if bytes.len() as u64 > self.store.buffer.size() {
-            self.store = Self::room(gpu, self.what, instances.len().next_power_of_two())?;
+            self.store = Self::room(into.gpu, self.what, instances.len().next_power_of_two())?;
         }
-        gpu.context.queue.write_buffer(&self.store.buffer, 0, bytes);
+        into.write(&self.store, bytes);
         self.count = instances.len() as u32;
         Ok(())
     }

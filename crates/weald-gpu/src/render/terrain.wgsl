@@ -64,46 +64,12 @@ fn is_valid(place: vec2<f32>) -> bool {
     return !HOLES || spline_at(land, place) >= 0.5;
 }
 
+// Where there is no land nothing is seen.
 @fragment
-fn ground_fragment(in: Ground) -> @location(0) vec4<f32> {
-    let place = place_of(in.point);
-    if !is_valid(place) {
+fn hole_fragment(in: Ground) {
+    if !is_valid(place_of(in.point)) {
         discard;
     }
-    let relative = in.point - frame.eye.xyz;
-    let ray_length = length(relative);
-    let direction = relative / ray_length;
-    let footprint = ray_length * frame.eye.w;
-    let surface = spline_with_slope(bed, place);
-    let is_dry = frame.stand.w > 0.0;
-    let depth = select(lake_depth(place, surface.x), -1e9, is_dry);
-    let sun = sun_seen(in.point, normal_of(surface.yz));
-    var river = 0.0;
-    if scene.has.w > 0.0 && depth <= 0.0 && !is_dry {
-        river = textureSampleLevel(rivers, between, share_of(place), 0.0).x;
-    }
-    var radiance = vec3<f32>(0.0);
-    if depth <= 0.0 && river < 1.0 {
-        let smooth_normal = normal_of(surface.yz);
-        let skin = with_detail(ground_skin(place, surface, footprint, -depth), in.point, smooth_normal, footprint);
-        let lawn = leaves_at(place);
-        // Grass is rounder than what it grows on.
-        let normal = roughened(smooth_normal, skin.bump * through_leaves(lawn.w, 0.3));
-        let seen = seen_at(skylight, share_of(place));
-        let in_sun = skin.albedo * scene.sunlight.xyz * (max(dot(normal, scene.sun.xyz), 0.0) * sun) / PI;
-        let under_sky = skin.albedo * skylight_on(seen, normal) / PI;
-        radiance = in_sun + under_sky;
-        if lawn.w > 1e-4 {
-            let look = ViewRay(direction, ray_length, footprint);
-            radiance = with_canopy(in_sun, under_sky, lawn, in.point, smooth_normal, look, seen, sun);
-        }
-    }
-    if depth > 0.0 {
-        radiance = water_radiance(place, in.point, direction, ray_length, depth / scene.scale.y, sun);
-    } else if river > 0.0 {
-        radiance = mix(radiance, water_radiance(place, in.point, direction, ray_length, 1.2 * river, sun), river);
-    }
-    return vec4<f32>(limited(veil(radiance, frame.eye.xyz, direction, ray_length)), 1.0);
 }
 
 fn side_colour(point: vec3<f32>, normal: vec3<f32>) -> vec4<f32> {

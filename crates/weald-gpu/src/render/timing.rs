@@ -53,7 +53,8 @@ impl Timestamp {
 pub struct Timings {
     /// What is chosen of grass and plants.
     pub choice: Duration,
-    /// What is chosen of scattered plants, and what throws shadows, into all cascades.
+    /// What is chosen of scattered plants, what throws shadows, into all cascades, and what all blades of a set have in
+    /// common.
     pub shadows: Duration,
     /// The ground, without water.
     pub ground: Duration,
@@ -138,6 +139,19 @@ impl Timer {
     pub(super) fn skip_choice(&self, encoder: &mut CommandEncoder) {
         let timestamp_writes = Some(self.around_choice());
         drop(encoder.begin_compute_pass(&ComputePassDescriptor { label: None, timestamp_writes }));
+    }
+
+    /// Notes the end of the shadows.
+    pub(super) fn end_shadows(&self, encoder: &mut CommandEncoder) {
+        let writes = ComputePassTimestampWrites {
+            query_set: &self.timestamps,
+            beginning_of_pass_write_index: None,
+            end_of_pass_write_index: Some(Timestamp::Shadows.slot()),
+        };
+        drop(
+            encoder
+                .begin_compute_pass(&ComputePassDescriptor { label: None, timestamp_writes: Some(writes) }),
+        );
     }
 
     /// Notes the end of a part within a pass.

@@ -67,6 +67,20 @@ fn a_picture_drawn_twice_is_the_same_to_the_bit() {
     assert_eq!(again.render(&camera).expect("drawn"), once);
 }
 
+#[test]
+fn two_views_that_are_encoded_before_either_is_drawn_are_those_that_are_drawn_alone() {
+    let Some(gpu) = gpu() else { return };
+    let landscape = meadow();
+    let scene = LitScene::new(&view(), &landscape).expect("a scene");
+    let mut renderer = renderer(&gpu, &scene, 1);
+    renderer.plant(&scene, &landscape).expect("planted");
+    let [one, other] =
+        [above(&scene, [60.0, 80.0], 1.6, 8.0, 0.0), above(&scene, [30.0, 40.0], 30.0, 40.0, 90.0)];
+    let alone = [&one, &other].map(|camera| renderer.render(camera).expect("drawn"));
+    assert_ne!(alone[0], alone[1]);
+    assert_eq!(renderer.two_for_a_test([&one, &other]).expect("drawn"), alone);
+}
+
 /// Means of Oklab over squares of eight pixels, so that edges and dither do not count.
 fn squares(image: &Image) -> Vec<Oklab> {
     let side = 8;

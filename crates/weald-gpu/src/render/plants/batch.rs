@@ -10,7 +10,7 @@ use weald::random::{hash2, unit};
 use weald::{Error, Landscape};
 use wgpu::{BindGroup, BufferUsages};
 
-use super::lists::{LISTS, VIEWS};
+use super::lists::{LISTS, SEATS, SHARED_SEATS, VIEWS};
 use super::pipelines::Groups;
 use crate::gpu::Gpu;
 use crate::memory::Store;
@@ -26,6 +26,9 @@ const GROUP: u32 = 256;
 /// Words of a plant, as `plants.wgsl` has them.
 const WORDS: usize = 8;
 
+/// Words of how a limb is carried, as `carried.wgsl` has it.
+const CARRIED: u64 = 8;
+
 /// Distance in metres by which roots reach into the ground, beside the height of the plant.
 const ROOTED: f32 = 0.01;
 
@@ -33,6 +36,7 @@ const ROOTED: f32 = 0.01;
 #[derive(Debug)]
 pub(super) struct Batch {
     pub(super) choose: BindGroup,
+    pub(super) carry: BindGroup,
     pub(super) draw: BindGroup,
     pub(super) indices: Store,
     pub(super) draws: Store,
@@ -40,7 +44,7 @@ pub(super) struct Batch {
     pub(super) groups: u32,
     kept: Store,
     starts: Store,
-    _stores: [Store; 5],
+    _stores: [Store; 7],
 }
 
 impl Batch {
@@ -71,13 +75,27 @@ impl Batch {
         let draws = filled("draws of plants", &templates, table | BufferUsages::INDIRECT)?;
         let indices = filled("corners of leaves", &indices, BufferUsages::INDEX)?;
         let corners: Vec<_> = limbs.corners.iter().map(Corner::packed).collect();
+        let layers = filled("layers of limbs", &layers(&limbs.limbs), table)?;
+        let carried = u64::from(SEATS.iter().sum::<u32>() + SHARED_SEATS) * limbs.limbs.len().max(1) as u64;
+        let carried = room("limbs as they are carried", CARRIED * carried)?;
         let limbs: Vec<_> = limbs.limbs.iter().map(Limb::packed).collect();
         let limbs = filled("limbs of plants", limbs.as_flattened(), table)?;
         let corners = filled("leaves of plants", corners.as_flattened(), table)?;
         let choose = groups.choose(gpu, &[&kind, &plants, &kept, &starts, &draws, &counts])?;
-        let draw = groups.draw(gpu, &[&kind, &plants, &kept, &starts, &limbs, &corners])?;
-        let stores = [kind, plants, counts, limbs, corners];
-        Ok(Self { choose, draw, indices, draws, groups: workgroups as u32, kept, starts, _stores: stores })
+        let carry = groups.carry(gpu, &[&kind, &plants, &kept, &starts, &limbs, &layers, &carried])?;
+        let draw = groups.draw(gpu, &[&kind, &plants, &kept, &starts, &limbs, &corners, &carried])?;
+        let stores = [kind, plants, counts, limbs, corners, layers, carried];
+        Ok(Self {
+            choose,
+            carry,
+            draw,
+            indices,
+            draws,
+            groups: workgroups as u32,
+            kept,
+            starts,
+            _stores: stores,
+        })
     }
 
     /// The list and number of each plant that was chosen for the camera.
@@ -136,6 +154,20 @@ fn stood(scene: &LitScene, number: i64, plant: &Plant) -> Option<[u32; WORDS]> {
     Some([east, north, up, size, x | y << 16, z | w << 16, plant.phase.to_bits(), chance.to_bits()])
 }
 
+/// The limbs in layers, those on the ground first, each layer on the one before: how many layers there are, where each
+/// starts, where the last ends, and the limbs in that order.
+fn layers(limbs: &[Limb]) -> Vec<u32> {
+    let mut depths: Vec<usize> = Vec::with_capacity(limbs.len());
+    for limb in limbs {
+        depths.push(limb.parent.map_or(0, |parent| depths[parent as usize] + 1));
+    }
+    let mut order: Vec<u32> = (0..limbs.len() as u32).collect();
+    order.sort_by_key(|&limb| depths[limb as usize]);
+    let count = depths.iter().max().map_or(0, |deepest| deepest + 1);
+    let start = |layer| order.partition_point(|&limb| depths[limb as usize] < layer) as u32;
+    [count as u32].into_iter().chain((0..=count).map(start)).chain(order.iter().copied()).collect()
+}
+
 /// The corners of all lists, and what each draws of them in each view.
 fn lists(limbs: &Limbs) -> (Vec<u32>, Vec<u32>) {
     let last = LEVELS as u32 - 1;
@@ -180,6 +212,24 @@ mod tests {
         }
         // The smooth surface that is drawn lies off the straight one that the step measured.
         assert!(apart > 1e-3, "else this would mean little");
+    }
+
+    #[test]
+    fn layers_hold_every_limb_once_and_each_on_the_layer_before() {
+        let ifs = weald::grow::ifs::shapes::find("fern").expect("built in").ifs();
+        let limbs = Limbs::of(&ifs, Habit::of(&ifs, None)).limbs;
+        let words = layers(&limbs);
+        let count = words[0] as usize;
+        let (ends, order) = words[1..].split_at(count + 1);
+        let mut layer_of = vec![usize::MAX; limbs.len()];
+        for layer in 0..count {
+            for &limb in &order[ends[layer] as usize..ends[layer + 1] as usize] {
+                let before = limbs[limb as usize].parent.map(|parent| layer_of[parent as usize]);
+                assert_eq!(before, layer.checked_sub(1), "limb {limb}");
+                layer_of[limb as usize] = layer;
+            }
+        }
+        assert!(count > 2 && order.len() == limbs.len() && !layer_of.contains(&usize::MAX));
     }
 
     #[test]

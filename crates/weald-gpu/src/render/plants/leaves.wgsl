@@ -22,14 +22,19 @@ struct Corner {
 @group(2) @binding(3) var<storage, read> starts: array<u32>;
 @group(2) @binding(4) var<storage, read> limbs: array<Limb>;
 @group(2) @binding(5) var<storage, read> corners: array<Corner>;
+@group(2) @binding(6) var<storage, read> carried: array<Carried>;
 @group(3) @binding(0) var<uniform> which: DrawIndex;
 
 // Share of light that comes through a leaf.
 const THROUGH_LEAF = 0.42;
 
-fn plant_of(instance: u32) -> PlacedPlant {
-    let first = which.view * arrayLength(&plants) + starts[which.view * LISTS + which.list];
-    return plants[kept[first + instance]];
+// Where in the lists of its view a plant is.
+fn place_of_plant(instance: u32) -> u32 {
+    return starts[which.view * LISTS + which.list] + instance;
+}
+
+fn plant_of(place: u32) -> PlacedPlant {
+    return plants[kept[which.view * arrayLength(&plants) + place]];
 }
 
 // From the axes east, up, south to east, north, up.
@@ -37,18 +42,30 @@ fn of_the_land(v: vec3<f32>) -> vec3<f32> {
     return vec3<f32>(v.x, -v.z, v.y);
 }
 
+// Where a corner of a plant goes in the wind, with a seat of its own or between two that are shared.
+fn swayed(place: u32, corner: Corner, rest: vec3<f32>, breeze: LocalWind) -> Bent {
+    if corner.limb == NO_PARENT {
+        return Bent(rest, corner.normal);
+    }
+    let has_seat = place < seats_of(which.view, starts[which.view * LISTS + SEATED_LISTS]);
+    let seats = select(shared_seat(breeze), vec2<f32>(f32(FIRST_SEATS[which.view] + place), 0.0), has_seat);
+    let own = turned_limb(limbs[corner.limb], corner.along, breeze);
+    let count = arrayLength(&limbs);
+    let seat = u32(seats.x);
+    let first = carried_by(own, carried[seat * count + corner.limb]);
+    let second = carried_by(own, carried[select(seat + 1u, seat, has_seat) * count + corner.limb]);
+    let point = mix(rotated(first.turn, rest) + first.shift, rotated(second.turn, rest) + second.shift, seats.y);
+    return Bent(point, rotated(first.turn, corner.normal));
+}
+
 // Where a corner of a plant is, and its normal.
-fn corner_of(plant: PlacedPlant, corner: Corner) -> Bent {
+fn corner_of(plant: PlacedPlant, place: u32, corner: Corner) -> Bent {
     let first = f32((corner.look >> 16u) & 7u);
     let last = f32((corner.look >> 19u) & 7u);
     let share = share_of_levels(detail_of(pixels_of(which.view, plant)), first, last);
-    let turn = normalize(vec4<f32>(unpack2x16snorm(plant.turn.x), unpack2x16snorm(plant.turn.y)));
-    let seconds = frame.moment.x;
-    let push = wind_push(plant.place.xy, seconds, plant.phase);
-    let felt = rotated(vec4<f32>(-turn.xyz, turn.w), vec3<f32>(push.x, 0.0, -push.y));
-    let breeze = wind_on(felt.xz, seconds, plant.phase);
+    let turn = turn_of(plant);
     let rest = corner.axis + share * (corner.rest - corner.axis);
-    let found = bent(breeze, corner.limb, corner.along, rest, corner.normal);
+    let found = swayed(place, corner, rest, breeze_of(plant));
     let point = plant.place + of_the_land(rotated(turn, found.point * plant.size));
     return Bent(point, of_the_land(rotated(turn, found.normal)));
 }
@@ -68,7 +85,7 @@ fn colour_of_corner(plant: PlacedPlant, look: u32) -> vec3<f32> {
 fn sun_on_leaf(point: vec3<f32>) -> f32 {
     var passed = 1.0;
     var seen = 0.0;
-    for (var cascade = 0; cascade < CASCADES; cascade++) {
+    for (var cascade = first_cascade(point); cascade < CASCADES; cascade++) {
         // Off the leaf itself.
         let at = in_cascade(point + 1.5 * texel_of(cascade) * scene.sun.xyz, cascade);
         let inside = 1.0 - max(abs(at.x), abs(at.y));
@@ -90,9 +107,10 @@ fn sun_on_leaf(point: vec3<f32>) -> f32 {
 
 @vertex
 fn leaf_vertex(@builtin(vertex_index) vertex: u32, @builtin(instance_index) instance: u32) -> Leaf {
-    let plant = plant_of(instance);
+    let place = place_of_plant(instance);
+    let plant = plant_of(place);
     let corner = corners[vertex];
-    let found = corner_of(plant, corner);
+    let found = corner_of(plant, place, corner);
     let sun = sun_on_leaf(found.point);
     let open = f32((corner.look >> 8u) & 255u) / 255.0;
     return Leaf(
@@ -116,7 +134,8 @@ fn leaf_caster(
     @builtin(vertex_index) vertex: u32,
     @builtin(instance_index) instance: u32,
 ) -> @builtin(position) vec4<f32> {
-    let found = corner_of(plant_of(instance), corners[vertex]);
+    let place = place_of_plant(instance);
+    let found = corner_of(plant_of(place), place, corners[vertex]);
     let at = in_cascade(found.point, i32(which.view) - 1);
     return vec4<f32>(at.xy, max(at.z, 0.0), 1.0);
 }

@@ -7,3 +7,9 @@ pub(super) const VIEWS: usize = 1 + CASCADES;
 
 /// Lists of a view: a level of detail alone, or with what it passes into.
 pub(super) const LISTS: usize = 2 * weald::grow::ifs::limbs::LEVELS;
+
+/// Plants of each view whose limbs are carried once for all of their leaves, as the shader has it.
+pub(super) const SEATS: [u32; VIEWS] = [96, 48, 48, 0, 0];
+
+/// Seats that all other plants share: winds from eight sides of four strengths.
+pub(super) const SHARED_SEATS: u32 = 32;

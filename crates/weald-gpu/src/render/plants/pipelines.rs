@@ -26,6 +26,7 @@ const CHOOSE: [&str; 3] = ["count_plants", "line_up", "place_plants"];
 #[derive(Debug)]
 pub(super) struct Groups {
     choose: BindGroupLayout,
+    carry: BindGroupLayout,
     draw: BindGroupLayout,
 }
 
@@ -33,12 +34,17 @@ impl Groups {
     fn new(gpu: &Gpu) -> Self {
         Self {
             choose: layout(gpu, ShaderStages::COMPUTE, &[true, false, false, false, false]),
-            draw: layout(gpu, ShaderStages::VERTEX_FRAGMENT, &[true; 5]),
+            carry: layout(gpu, ShaderStages::COMPUTE, &[true, true, true, true, true, false]),
+            draw: layout(gpu, ShaderStages::VERTEX_FRAGMENT, &[true; 6]),
         }
     }
 
     pub(super) fn choose(&self, gpu: &Gpu, stores: &[&Store]) -> Result<BindGroup, Error> {
         bind(gpu, &self.choose, stores)
+    }
+
+    pub(super) fn carry(&self, gpu: &Gpu, stores: &[&Store]) -> Result<BindGroup, Error> {
+        bind(gpu, &self.carry, stores)
     }
 
     pub(super) fn draw(&self, gpu: &Gpu, stores: &[&Store]) -> Result<BindGroup, Error> {
@@ -50,6 +56,7 @@ impl Groups {
 #[derive(Debug)]
 pub(super) struct Pipelines {
     pub(super) choose: [ComputePipeline; 3],
+    pub(super) carry: ComputePipeline,
     pub(super) light: RenderPipeline,
     pub(super) caster: RenderPipeline,
     pub(super) groups: Groups,
@@ -77,16 +84,14 @@ impl Pipelines {
         let numbers = numbers(gpu)?;
         let which_layout = which_layout(gpu);
         let which = which(gpu, &which_layout, &numbers)?;
-        let (choose, light, caster) =
+        let (choose, carry, light, caster) =
             gpu.context.attempt_to_compile("making the pipelines of plants", || {
                 let chosen = module(gpu, scene, &[include_str!("choose.wgsl")]);
-                let leaves = [
-                    wind::FUNCTIONS,
-                    limbs::FUNCTIONS,
-                    include_str!("../thin.wgsl"),
-                    include_str!("leaves.wgsl"),
-                ];
-                let leaves = module(gpu, scene, &leaves);
+                let swaying = [wind::FUNCTIONS, limbs::FUNCTIONS, include_str!("carried.wgsl")];
+                let carried = [&swaying[..], &[include_str!("carry.wgsl")]].concat();
+                let carried = module(gpu, scene, &carried);
+                let leaves = [include_str!("../thin.wgsl"), include_str!("leaves.wgsl")];
+                let leaves = module(gpu, scene, &[&swaying[..], &leaves].concat());
                 let (frame, maps) = (layouts.frame, &layouts.maps.layout);
                 let whole = |groups: &[Option<&BindGroupLayout>]| {
                     device.create_pipeline_layout(&PipelineLayoutDescriptor {
@@ -96,6 +101,7 @@ impl Pipelines {
                     })
                 };
                 let choosing = whole(&[Some(&frame.caster_layout), Some(maps), Some(&groups.choose)]);
+                let carrying = whole(&[Some(&frame.caster_layout), Some(maps), Some(&groups.carry)]);
                 let drawn = |frame, samples| Drawn {
                     module: &leaves,
                     layout: whole(&[Some(frame), Some(maps), Some(&groups.draw), Some(&which_layout)]),
@@ -103,11 +109,12 @@ impl Pipelines {
                 };
                 Ok((
                     CHOOSE.map(|name| compute(gpu, &chosen, &choosing, name)),
+                    compute(gpu, &carried, &carrying, "carry_limbs"),
                     light(gpu, &drawn(&frame.layout, samples)),
                     caster(gpu, &drawn(&frame.caster_layout, 1)),
                 ))
             })?;
-        Ok(Self { choose, light, caster, groups, which, numbers })
+        Ok(Self { choose, carry, light, caster, groups, which, numbers })
     }
 }
 

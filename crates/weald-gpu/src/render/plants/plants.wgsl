@@ -14,8 +14,11 @@ const ENDS = array<f32, 5>(200.0, 85.0, 17.0, 5.0, 1.2);
 // From how much higher to how much lower than that.
 const PASSES = 1.35;
 
-// Pixels that a texel of a cascade is worth: shadows are smooth, and need less.
+// Pixels that a texel of a cascade is worth, and share of a large plant's pixels that count for its shadow, of a small one's
+// all: shadows are smooth, and need less.
 const TEXEL_PIXELS = 0.75;
+const SHADOW_PIXELS = 0.35;
+const SMALL_PIXELS = 15.0;
 
 struct Kind {
     // Colour of leaves in linear light; reach from the root beside the height.
@@ -36,14 +39,17 @@ struct PlacedPlant {
     chance: f32,
 }
 
-// Height of a plant in pixels, or in what texels of a cascade are worth where that is less.
+// Height of a plant in pixels, or in what texels of a cascade are worth where that is less; the last cascade does not know
+// the camera.
 fn pixels_of(view: u32, plant: PlacedPlant) -> f32 {
     let distance = max(length(plant.place - frame.moment.yzw), 0.05);
     let pixels = plant.size / (distance * frame.eye.w);
     if view == 0u {
         return pixels;
     }
-    return min(pixels, TEXEL_PIXELS * plant.size / texel_of(i32(view) - 1));
+    let texels = TEXEL_PIXELS * plant.size / texel_of(i32(view) - 1);
+    let shaded = max(SHADOW_PIXELS * pixels, min(pixels, SMALL_PIXELS));
+    return select(min(shaded, texels), texels, view == VIEWS - 1u);
 }
 
 // Side in metres of a texel of a cascade.

@@ -1,0 +1,246 @@
+//! The ground: first the depths of its triangles, then of which kind each pixel is, then the light of each kind, pixel by
+//! pixel (`ground.wgsl`).
+
+use std::ops::Range;
+
+use wgpu::{
+    BindGroup, BindGroupDescriptor, BindGroupEntry, BindGroupLayout, BindGroupLayoutDescriptor,
+    BindGroupLayoutEntry, BindingResource, BindingType, BlendComponent, BlendFactor, BlendOperation,
+    BlendState, ColorTargetState, ColorWrites, CompareFunction, FragmentState, MultisampleState,
+    PipelineCompilationOptions, PipelineLayout, PrimitiveState, RenderPass, RenderPipeline,
+    RenderPipelineDescriptor, ShaderModule, ShaderStages, TextureSampleType, TextureViewDimension,
+    VertexBufferLayout, VertexState,
+};
+
+use super::layouts::depth_state;
+use super::targets::{LIGHT, Targets};
+use super::terrain::Terrain;
+use crate::gpu::Gpu;
+use crate::gpu::context::Context;
+
+/// Group and binding of the depths.
+pub(super) const DEPTHS_GROUP: u32 = 2;
+const DEPTHS_BINDING: u32 = 1;
+
+/// How the depths are declared in a shader, for pictures of so many samples.
+pub(super) fn declaration(samples: u32) -> String {
+    let kind = if samples > 1 { "texture_depth_multisampled_2d" } else { "texture_depth_2d" };
+    format!("@group({DEPTHS_GROUP}) @binding({DEPTHS_BINDING}) var ground_depths: {kind};")
+}
+
+/// The layout of what holds the depths.
+pub(super) fn depths_layout(gpu: &Gpu, samples: u32) -> BindGroupLayout {
+    let ty = BindingType::Texture {
+        sample_type: TextureSampleType::Depth,
+        view_dimension: TextureViewDimension::D2,
+        multisampled: samples > 1,
+    };
+    let entry =
+        BindGroupLayoutEntry { binding: DEPTHS_BINDING, visibility: ShaderStages::FRAGMENT, ty, count: None };
+    let description = BindGroupLayoutDescriptor { label: Some("depths"), entries: &[entry] };
+    gpu.context.device.create_bind_group_layout(&description)
+}
+
+/// The depths of a picture.
+pub(super) fn depths_group(gpu: &Gpu, layout: &BindGroupLayout, targets: &Targets) -> BindGroup {
+    let resource = BindingResource::TextureView(&targets.depth.view);
+    let entries = [BindGroupEntry { binding: DEPTHS_BINDING, resource }];
+    let description = BindGroupDescriptor { label: Some("depths"), layout, entries: &entries };
+    gpu.context.device.create_bind_group(&description)
+}
+
+/// What the pipelines of the ground are made of.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Parts<'a> {
+    pub(super) context: &'a Context,
+    pub(super) module: &'a ShaderModule,
+    /// With the depths, and without.
+    pub(super) layouts: [&'a PipelineLayout; 2],
+    pub(super) patches: &'a [Option<VertexBufferLayout<'a>>],
+    pub(super) samples: u32,
+    pub(super) has_holes: bool,
+    pub(super) has_lawn: bool,
+}
+
+/// A kind of light, the kinds of ground that have it, and whether it is laid over what is there.
+struct Light {
+    fragment: &'static str,
+    kinds: Range<u32>,
+    is_laid_over: bool,
+}
+
+/// In the order in which they are drawn, with the kinds as `ground.wgsl` numbers them.
+const LIGHTS: [Light; 3] = [
+    Light { fragment: "far_fragment", kinds: 1..3, is_laid_over: false },
+    Light { fragment: "near_fragment", kinds: 3..5, is_laid_over: false },
+    Light { fragment: "water_fragment", kinds: 2..4, is_laid_over: true },
+];
+
+/// What lies behind the landscape.
+const BACKDROP: [Light; 2] = [
+    Light { fragment: "sky_fragment", kinds: 9..10, is_laid_over: false },
+    Light { fragment: "plain_fragment", kinds: 10..11, is_laid_over: false },
+];
+
+/// How much further the kinds behind edges are numbered, as the shader has it.
+const BEHIND_EDGE: u32 = 4;
+
+/// The pipelines of the ground.
+#[derive(Debug)]
+pub(super) struct Ground {
+    depth: RenderPipeline,
+    kind: RenderPipeline,
+    /// With the kinds that each draws.
+    lights: Vec<(RenderPipeline, Range<u32>)>,
+    backdrop: Vec<(RenderPipeline, Range<u32>)>,
+}
+
+impl Ground {
+    pub(super) fn new(parts: Parts<'_>) -> Self {
+        let behind: &[bool] = if parts.samples > 1 { &[false, true] } else { &[false] };
+        let lights = LIGHTS.iter().flat_map(|light| {
+            behind.iter().map(|&is_behind| {
+                let further = if is_behind { BEHIND_EDGE } else { 0 };
+                let kinds = light.kinds.start + further..light.kinds.end + further;
+                (parts.light(light, is_behind), kinds)
+            })
+        });
+        let backdrop = BACKDROP.iter().map(|light| (parts.light(light, false), light.kinds.clone()));
+        Self {
+            depth: parts.depth(),
+            kind: parts.kind(),
+            lights: lights.collect(),
+            backdrop: backdrop.collect(),
+        }
+    }
+
+    /// Draws the depths of all triangles.
+    pub(super) fn draw_depths(&self, pass: &mut RenderPass<'_>, terrain: &Terrain) {
+        pass.set_pipeline(&self.depth);
+        terrain.draw_ground(pass, 0);
+    }
+
+    /// Draws the kind of each pixel.
+    pub(super) fn draw_kinds(&self, pass: &mut RenderPass<'_>, depths: &BindGroup) {
+        pass.set_bind_group(DEPTHS_GROUP, depths, &[]);
+        pass.set_pipeline(&self.kind);
+        pass.draw(0..3, 0..1);
+    }
+
+    /// Draws the light of every pixel that has a depth.
+    pub(super) fn draw_light(&self, pass: &mut RenderPass<'_>, depths: &BindGroup) {
+        draw(&self.lights, pass, depths);
+    }
+
+    /// Draws the light of every pixel that has none.
+    pub(super) fn draw_backdrop(&self, pass: &mut RenderPass<'_>, depths: &BindGroup) {
+        draw(&self.backdrop, pass, depths);
+    }
+}
+
+fn draw(lights: &[(RenderPipeline, Range<u32>)], pass: &mut RenderPass<'_>, depths: &BindGroup) {
+    pass.set_bind_group(DEPTHS_GROUP, depths, &[]);
+    for (pipeline, kinds) in lights {
+        pass.set_pipeline(pipeline);
+        pass.draw(0..3, kinds.clone());
+    }
+}
+
+/// What tells the pipelines of the ground from each other.
+struct Drawn<'a> {
+    key: String,
+    layout: &'a PipelineLayout,
+    vertex: (&'a str, &'a [Option<VertexBufferLayout<'a>>]),
+    fragment: Option<&'a str>,
+    constants: &'a [(&'a str, f64)],
+    target: Option<ColorTargetState>,
+    depth: (bool, CompareFunction),
+}
+
+/// What is laid over what is there, by its own share.
+const LAID_OVER: BlendState = BlendState {
+    color: BlendComponent {
+        src_factor: BlendFactor::SrcAlpha,
+        dst_factor: BlendFactor::OneMinusSrcAlpha,
+        operation: BlendOperation::Add,
+    },
+    alpha: BlendComponent::OVER,
+};
+
+impl Parts<'_> {
+    fn depth(&self) -> RenderPipeline {
+        self.pipeline(&Drawn {
+            key: format!("depths of the ground {}", self.has_holes),
+            layout: self.layouts[1],
+            vertex: ("ground_vertex", self.patches),
+            fragment: self.has_holes.then_some("hole_fragment"),
+            constants: &[],
+            target: None,
+            depth: (true, CompareFunction::Greater),
+        })
+    }
+
+    fn kind(&self) -> RenderPipeline {
+        let fragment = if self.samples > 1 { "kind_sampled_fragment" } else { "kind_fragment" };
+        self.pipeline(&Drawn {
+            key: fragment.to_owned(),
+            layout: self.layouts[0],
+            vertex: ("whole_vertex", &[]),
+            fragment: Some(fragment),
+            constants: &[("SAMPLED", f64::from(self.samples > 1))],
+            target: None,
+            depth: (true, CompareFunction::Always),
+        })
+    }
+
+    fn light(&self, light: &Light, is_behind: bool) -> RenderPipeline {
+        let blend = light.is_laid_over.then_some(LAID_OVER);
+        self.pipeline(&Drawn {
+            key: format!("{} {is_behind} {}", light.fragment, self.has_lawn),
+            layout: self.layouts[0],
+            vertex: ("whole_vertex", &[]),
+            fragment: Some(light.fragment),
+            constants: &[
+                ("SAMPLED", f64::from(self.samples > 1)),
+                ("IS_BEHIND", f64::from(is_behind)),
+                ("LAWN", f64::from(self.has_lawn)),
+            ],
+            target: Some(ColorTargetState { format: LIGHT, blend, write_mask: ColorWrites::ALL }),
+            depth: (false, CompareFunction::Equal),
+        })
+    }
+
+    fn pipeline(&self, drawn: &Drawn<'_>) -> RenderPipeline {
+        let targets = drawn.target.clone().map(|target| [Some(target)]);
+        let (depth_write, compare) = drawn.depth;
+        let fragment = drawn.fragment.map(|name| FragmentState {
+            module: self.module,
+            entry_point: Some(name),
+            compilation_options: PipelineCompilationOptions {
+                constants: drawn.constants,
+                ..PipelineCompilationOptions::default()
+            },
+            targets: targets.as_ref().map_or(&[], |targets| targets.as_slice()),
+        });
+        let make = || {
+            self.context.device.create_render_pipeline(&RenderPipelineDescriptor {
+                label: Some(&drawn.key),
+                layout: Some(drawn.layout),
+                vertex: VertexState {
+                    module: self.module,
+                    entry_point: Some(drawn.vertex.0),
+                    compilation_options: PipelineCompilationOptions::default(),
+                    buffers: drawn.vertex.1,
+                },
+                primitive: PrimitiveState::default(),
+                depth_stencil: Some(depth_state(depth_write, compare)),
+                multisample: MultisampleState { count: self.samples, ..MultisampleState::default() },
+                fragment,
+                multiview_mask: None,
+                cache: None,
+            })
+        };
+        let key = format!("{} {}", drawn.key, self.samples);
+        self.context.known.drawing((self.module.clone(), key), make)
+    }
+}

@@ -1,0 +1,205 @@
+// The light of the ground, pixel by pixel, when all of its triangles are drawn: those are smaller than pixels, and each
+// would be shaded in blocks of pixels. The depth of a pixel says where its point lies.
+//
+// What a pixel shows is one of a few kinds, which are written as depths of a canvas of their own; each kind of light is then
+// drawn where the depth is its own. A shader that branched would on software run all of its branches for all pixels.
+
+// Kinds of ground, and of what is behind it, in the order in which ranges of them are drawn: each times `KIND` is a depth.
+const FAR_DRY = 1u;
+const FAR_WET = 2u;
+const NEAR_WET = 3u;
+const NEAR_DRY = 4u;
+const SKY = 9u;
+const PLAIN = 10u;
+const KIND = 0.0625;
+
+// How much further the kinds are of samples that are not of the first surface of their pixel: those behind an edge.
+const BEHIND_EDGE = 4u;
+
+// Whether a pixel has several samples; the depths of the ground are bound as `ground_depths`.
+override SAMPLED: bool = false;
+
+// Whether what is drawn lies behind edges.
+override IS_BEHIND: bool = false;
+
+// Whether grass grows somewhere.
+override LAWN: bool = true;
+
+// Samples of a pixel that lie so near to each other, as a share of their distance, are one surface.
+const SAME_SURFACE = 0.02;
+
+// All of the picture, where its kind is that of the instance.
+@vertex
+fn whole_vertex(
+    @builtin(vertex_index) index: u32,
+    @builtin(instance_index) kind: u32,
+) -> @builtin(position) vec4<f32> {
+    return vec4<f32>(vec2<f32>(f32(index & 1u), f32(index >> 1u)) * 4.0 - 1.0, f32(kind) * KIND, 1.0);
+}
+
+// The direction in which a place of the picture looks, as long as makes it 1 forward.
+fn along_at(position: vec2<f32>) -> vec3<f32> {
+    let at = vec2<f32>(2.0, -2.0) * position / vec2<f32>(textureDimensions(ground_depths)) + vec2<f32>(-1.0, 1.0);
+    return frame.forward.xyz + at.x * frame.right.w * frame.right.xyz + at.y * frame.up.w * frame.up.xyz;
+}
+
+// The point of the picture at such a depth.
+fn point_at(position: vec2<f32>, depth: f32) -> vec3<f32> {
+    return frame.eye.xyz + along_at(position) * (frame.forward.w / depth);
+}
+
+// The kind of what is behind the ground at a place of the picture.
+fn backdrop_at(position: vec2<f32>) -> u32 {
+    return select(PLAIN, SKY, along_at(position).z >= 0.0);
+}
+
+// What is seen through a pixel: the samples of its first surface or of those behind it, and the point in their middle.
+struct SeenSurface {
+    samples: u32,
+    point: vec3<f32>,
+}
+
+fn surface_of(position: vec2<f32>, is_behind: bool) -> SeenSurface {
+    let pixel = vec2<i32>(position);
+    let count = select(1, 4, SAMPLED);
+    var first = 0.0;
+    var samples = 0u;
+    var sum = 0.0;
+    for (var sample = 0; sample < count; sample++) {
+        let depth = textureLoad(ground_depths, pixel, sample);
+        first = select(first, depth, first == 0.0);
+        let is_first = abs(depth - first) <= SAME_SURFACE * first;
+        if depth > 0.0 && is_first != is_behind {
+            samples |= 1u << u32(sample);
+            sum += depth;
+        }
+    }
+    let mean = sum / max(f32(countOneBits(samples)), 1.0);
+    return SeenSurface(samples, point_at(position, max(mean, 1e-20)));
+}
+
+// The kind of ground of a surface.
+fn kind_of(surface: SeenSurface) -> u32 {
+    let place = place_of(surface.point);
+    let is_far = length(surface.point - frame.eye.xyz) * frame.eye.w >= DETAIL_FROM;
+    let is_wet = wet_share(place, spline_at(bed, place)) > 0.0;
+    return select(select(NEAR_DRY, FAR_DRY, is_far), select(NEAR_WET, FAR_WET, is_far), is_wet);
+}
+
+@fragment
+fn kind_fragment(@builtin(position) position: vec4<f32>) -> @builtin(frag_depth) f32 {
+    let surface = surface_of(position.xy, false);
+    return f32(select(backdrop_at(position.xy), kind_of(surface), surface.samples != 0u)) * KIND;
+}
+
+@fragment
+fn kind_sampled_fragment(
+    @builtin(position) position: vec4<f32>,
+    @builtin(sample_index) sample: u32,
+) -> @builtin(frag_depth) f32 {
+    let middle = floor(position.xy) + 0.5;
+    let first = surface_of(middle, false);
+    let behind = surface_of(middle, true);
+    let bit = 1u << sample;
+    let is_behind = (behind.samples & bit) != 0u;
+    var surface = first;
+    if is_behind {
+        surface = behind;
+    }
+    let kind = kind_of(surface) + select(0u, BEHIND_EDGE, is_behind);
+    return f32(select(backdrop_at(middle), kind, (surface.samples & bit) != 0u)) * KIND;
+}
+
+// The share of water at a place whose ground is so high: all in lakes, less in rivers that are thinner than cells.
+fn wet_share(place: vec2<f32>, height: f32) -> f32 {
+    if frame.stand.w > 0.0 {
+        return 0.0;
+    }
+    let river = select(0.0, textureSampleLevel(rivers, between, share_of(place), 0.0).x, scene.has.w > 0.0);
+    return select(river, 1.0, lake_depth(place, height) > 0.0);
+}
+
+// A point of the ground, and how it is looked at.
+struct Look {
+    place: vec2<f32>,
+    direction: vec3<f32>,
+    ray_length: f32,
+    footprint: f32,
+    surface: vec3<f32>,
+    // Height above the water, and below it in negative numbers.
+    above: f32,
+    normal: vec3<f32>,
+    sun: f32,
+}
+
+fn look_at_ground(point: vec3<f32>) -> Look {
+    let relative = point - frame.eye.xyz;
+    var look: Look;
+    look.place = place_of(point);
+    look.ray_length = length(relative);
+    look.direction = relative / look.ray_length;
+    look.footprint = look.ray_length * frame.eye.w;
+    look.surface = spline_with_slope(bed, look.place);
+    look.above = select(-lake_depth(look.place, look.surface.x), 1e9, frame.stand.w > 0.0);
+    look.normal = normal_of(look.surface.yz);
+    let smooth_point = vec3<f32>(point.xy, look.surface.x - min(look.above, 0.0));
+    look.sun = sun_seen_on(point, smooth_point, look.normal);
+    return look;
+}
+
+fn seen_through_air(radiance: vec3<f32>, look: Look) -> vec3<f32> {
+    return limited(veil(radiance, frame.eye.xyz, look.direction, look.ray_length));
+}
+
+// The light of dry ground of such a skin.
+fn skin_light(point: vec3<f32>, look: Look, skin: SurfaceSample) -> vec4<f32> {
+    let lawn = leaves_at(look.place);
+    // Grass is rounder than what it grows on.
+    let normal = roughened(look.normal, skin.bump * through_leaves(lawn.w, 0.3));
+    let seen = seen_at(skylight, share_of(look.place));
+    let in_sun = skin.albedo * scene.sunlight.xyz * (max(dot(normal, scene.sun.xyz), 0.0) * look.sun) / PI;
+    let under_sky = skin.albedo * skylight_on(seen, normal) / PI;
+    var radiance = in_sun + under_sky;
+    if LAWN && lawn.w > 1e-4 {
+        let ray = ViewRay(look.direction, look.ray_length, look.footprint);
+        radiance = with_canopy(in_sun, under_sky, lawn, point, look.normal, ray, seen, look.sun);
+    }
+    return vec4<f32>(seen_through_air(radiance, look), 1.0);
+}
+
+// Dry ground from afar.
+fn far_light(point: vec3<f32>) -> vec4<f32> {
+    let look = look_at_ground(point);
+    return skin_light(point, look, ground_skin(look.place, look.surface, look.footprint, look.above));
+}
+
+// Dry ground from close by.
+fn near_light(point: vec3<f32>) -> vec4<f32> {
+    let look = look_at_ground(point);
+    let skin = ground_skin(look.place, look.surface, look.footprint, look.above);
+    return skin_light(point, look, with_detail(skin, point, look.normal, look.footprint));
+}
+
+// Water, and its share.
+fn water_light(point: vec3<f32>) -> vec4<f32> {
+    let look = look_at_ground(point);
+    let share = wet_share(look.place, look.surface.x);
+    let depth = select(1.2 * share, -look.above / scene.scale.y, look.above < 0.0);
+    let radiance = water_radiance(look.place, point, look.direction, look.ray_length, depth, look.sun);
+    return vec4<f32>(seen_through_air(radiance, look), share);
+}
+
+@fragment
+fn far_fragment(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
+    return far_light(surface_of(floor(position.xy) + 0.5, IS_BEHIND).point);
+}
+
+@fragment
+fn near_fragment(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
+    return near_light(surface_of(floor(position.xy) + 0.5, IS_BEHIND).point);
+}
+
+@fragment
+fn water_fragment(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
+    return water_light(surface_of(floor(position.xy) + 0.5, IS_BEHIND).point);
+}
