@@ -183,6 +183,12 @@ pub(crate) struct BenchArguments {
     /// Most sets of grass (tufts of six blades) in a picture, with --render [default: all; on software 50100]
     #[arg(long, value_name = "N", requires = "render", value_parser = value_parser!(u32).range(1..))]
     pub(crate) sets: Option<u32>,
+    /// Recipes whose first view is measured in place of all else, with --render: 640 × 360 pixels with one sample
+    #[arg(long, value_name = "RECIPE.toml", num_args = 1.., requires = "render", conflicts_with = "sets")]
+    pub(crate) recipe: Vec<PathBuf>,
+    /// Where a person stands who looks at their middles from 1.7 m above the ground, with --recipe
+    #[arg(long, value_name = "X,Y", requires = "recipe", value_parser = values::eye)]
+    pub(crate) standing: Option<values::Point>,
     /// Only sets (tufts) and blades of grass, with --engine cpu
     #[arg(long, conflicts_with_all = ["size", "gpu_memory", "fractals"])]
     pub(crate) grass: bool,

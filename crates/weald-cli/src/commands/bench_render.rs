@@ -2,12 +2,12 @@
 //! grass it draws in a second, beside those of the source; and what its parts take as sets become more.
 
 use std::fmt::Display;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use weald::engine::device::Device;
 use weald::grow::grass::Packed;
 use weald::picture::{Camera, LitScene, View};
-use weald::recipe::{Overrides, Recipe};
+use weald::recipe::{Overrides, Recipe, ViewRequest};
 use weald::{Field, Landscape};
 use weald_gpu::bench::{GrassRow, Measuring, frame_budget, grass_tables};
 use weald_gpu::{Gpu, RenderOptions, Renderer, Timings};
@@ -16,6 +16,7 @@ use crate::arguments::BenchArguments;
 use crate::engine::with_memory;
 use crate::failure::Failure;
 use crate::interrupt;
+use crate::values::Point;
 
 /// Mountains with lakes, on a kilometre-wide scale, of which the pictures are drawn.
 const GROUND: &str = "\
@@ -48,6 +49,9 @@ pub(super) fn run(arguments: &BenchArguments, print: &mut Print<'_>) -> Result<(
     if gpu.is_software() {
         print(&"software that acts as a graphics card: a small picture, and times that say little");
     }
+    if !arguments.recipe.is_empty() {
+        return recipes(&gpu, arguments, print);
+    }
     let [width, height] = what.size;
     let times = what.times;
     print(&format!(
@@ -55,7 +59,7 @@ pub(super) fn run(arguments: &BenchArguments, print: &mut Print<'_>) -> Result<(
     ));
     print(&"ground takes longer with it; plants has the samples of all pixels brought together in it");
     let bytes = size_of::<Packed>();
-    print(&format!("a set of six blades takes {bytes} bytes, and 8 more while it is chosen"));
+    print(&format!("a set of six blades takes {bytes} bytes, and 40 more while it is chosen"));
     if what.most_drawn < u32::MAX {
         print(&format!(
             "pictures of more than {} sets of grass are left out: --sets draws more",
@@ -65,6 +69,53 @@ pub(super) fn run(arguments: &BenchArguments, print: &mut Print<'_>) -> Result<(
     landscapes(&gpu, what, print)?;
     tables(&gpu, what, print)?;
     budget(&gpu, what, print)
+}
+
+/// The first view of each recipe, or a person's, warm; beside it how long the same picture takes that is marched on the
+/// processor, by which machines can be told apart.
+fn recipes(gpu: &Gpu, arguments: &BenchArguments, print: &mut Print<'_>) -> Result<(), Failure> {
+    let [width, height] = SIZE_OF_RECIPES;
+    print(&format!(
+        "milliseconds of {width} × {height} pixels with one sample, the least of {TIMES_OF_RECIPES}\n\n{:<38}{PARTS}  \
+         marched  marched/picture",
+        "recipe"
+    ));
+    let keys = arguments.standing.map_or_else(Vec::new, standing);
+    for recipe in &arguments.recipe {
+        let request =
+            ViewRequest { recipe: recipe.clone(), overrides: Overrides::default(), keys: keys.clone() };
+        let (parsed, view) = request.recipe()?;
+        let view = View { width, height, ..view };
+        let landscape = parsed.landscape()?;
+        let scene = LitScene::new(&view, &landscape)?;
+        let options = RenderOptions { size: SIZE_OF_RECIPES, samples: 1 };
+        let mut renderer = Renderer::new(gpu, &scene, options)?;
+        renderer.plant(&scene, &landscape)?;
+        let camera = scene.camera();
+        renderer.render(&camera)?;
+        let timings = renderer.measure(&camera, TIMES_OF_RECIPES)?;
+        let begun = Instant::now();
+        view.seen_from(&landscape, camera)?;
+        let marched = begun.elapsed();
+        let ratio = marched.as_secs_f64() / timings.picture.as_secs_f64().max(1e-9);
+        print(&format!(
+            "{:<38}{} {:>8.0} {ratio:>16.1}",
+            recipe.display().to_string(),
+            parts(&timings),
+            milliseconds(marched)
+        ));
+    }
+    Ok(())
+}
+
+/// Size of the pictures of recipes, and how many of each are drawn.
+const SIZE_OF_RECIPES: [u32; 2] = [640, 360];
+const TIMES_OF_RECIPES: u32 = 5;
+
+/// The keys of a person's view from there.
+fn standing(Point { east, south, .. }: Point) -> Vec<(String, String)> {
+    let keys = [("eye", format!("[{east}, {south}]")), ("eye_height", "1.7".to_owned())];
+    keys.map(|(key, value)| (key.to_owned(), value)).into()
 }
 
 /// Mountains and lakes without grass.

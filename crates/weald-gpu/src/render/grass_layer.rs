@@ -52,9 +52,7 @@ pub(super) struct LoadedSets {
     pub(super) cull: BindGroup,
     pub(super) light: BindGroup,
     pub(super) draw: BindGroup,
-    _lit: Store,
-    _marks: Store,
-    _choice: Store,
+    _others: [Store; 3],
 }
 
 impl GrassLayer {
@@ -200,8 +198,7 @@ impl Stores {
         let with_lit = [&drawn[..], &[&lit]].concat();
         let light = bind(gpu, to_light, &with_lit)?;
         let draw = bind(gpu, to_draw, &with_lit)?;
-        let (_lit, _marks, _choice) = (lit, marks, choice);
-        Ok(LoadedSets { count, sets, kept, starts, draws, cull, light, draw, _lit, _marks, _choice })
+        Ok(LoadedSets { count, sets, kept, starts, draws, cull, light, draw, _others: [lit, marks, choice] })
     }
 }
 
