@@ -9,7 +9,7 @@ const FAR_DRY = 1u;
 const FAR_WET = 2u;
 const NEAR_WET = 3u;
 const NEAR_DRY = 4u;
-const SKY = 9u;
+const OPEN_SKY = 9u;
 const PLAIN = 10u;
 const KIND = 0.0625;
 
@@ -50,7 +50,7 @@ fn point_at(position: vec2<f32>, depth: f32) -> vec3<f32> {
 
 // The kind of what is behind the ground at a place of the picture.
 fn backdrop_at(position: vec2<f32>) -> u32 {
-    return select(PLAIN, SKY, along_at(position).z >= 0.0);
+    return select(PLAIN, OPEN_SKY, along_at(position).z >= 0.0);
 }
 
 // What is seen through a pixel: the samples of its first surface or of those behind it, and the point in their middle.
