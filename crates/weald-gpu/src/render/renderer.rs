@@ -109,6 +109,25 @@ impl Renderer {
         })
     }
 
+    /// Draws pictures of another size from now on, as in a window that was pulled larger. What was made of the scene stays;
+    /// only what is drawn onto is made anew.
+    ///
+    /// # Errors
+    /// [`Error::Limit`] for a size that the device does not have, [`Error::Device`] where its memory does not suffice; the
+    /// size is then as it was.
+    pub fn resize(&mut self, size: [u32; 2]) -> Result<(), Error> {
+        if size == self.options.size {
+            return Ok(());
+        }
+        let options = Options { size, ..self.options };
+        options.check(&self.gpu)?;
+        self.targets = Targets::new(&self.gpu, options)?;
+        self.depths = depths_group(&self.gpu, &self.passes.depths, &self.targets);
+        self.film.aim_at(&self.gpu, &self.targets);
+        self.options = options;
+        Ok(())
+    }
+
     /// Plants what grows in the scene's landscape: its grass and scattered plants.
     ///
     /// # Errors

@@ -5,9 +5,9 @@ use std::collections::BTreeMap;
 use weald::Error;
 use weald::picture::LitScene;
 use wgpu::{
-    BindGroup, BindGroupDescriptor, BindGroupEntry, BindGroupLayoutDescriptor, BindGroupLayoutEntry,
-    BindingResource, BindingType, Color, ColorTargetState, ColorWrites, CommandEncoder, FragmentState,
-    LoadOp, MultisampleState, Operations, PipelineCompilationOptions, PipelineLayout,
+    BindGroup, BindGroupDescriptor, BindGroupEntry, BindGroupLayout, BindGroupLayoutDescriptor,
+    BindGroupLayoutEntry, BindingResource, BindingType, Color, ColorTargetState, ColorWrites, CommandEncoder,
+    FragmentState, LoadOp, MultisampleState, Operations, PipelineCompilationOptions, PipelineLayout,
     PipelineLayoutDescriptor, PrimitiveState, RenderPassColorAttachment, RenderPassDescriptor,
     RenderPipeline, RenderPipelineDescriptor, ShaderModule, ShaderStages, StoreOp, TextureFormat,
     TextureSampleType, TextureView, TextureViewDimension, VertexState,
@@ -24,6 +24,7 @@ use crate::gpu::Gpu;
 pub(super) struct ToneMapping {
     module: ShaderModule,
     layout: PipelineLayout,
+    group: BindGroupLayout,
     light: BindGroup,
     pipelines: BTreeMap<String, RenderPipeline>,
 }
@@ -46,8 +47,6 @@ impl ToneMapping {
             let label = Some("tone_mapping");
             let group =
                 device.create_bind_group_layout(&BindGroupLayoutDescriptor { label, entries: &[entry] });
-            let resource = BindingResource::TextureView(&targets.light.view);
-            let entries = [BindGroupEntry { binding: 0, resource }];
             let layout = PipelineLayoutDescriptor {
                 label,
                 bind_group_layouts: &[Some(&group), Some(&maps.layout)],
@@ -56,14 +55,16 @@ impl ToneMapping {
             Ok(Self {
                 module: gpu.context.known.module(&gpu.context.device, "tone_mapping", text),
                 layout: device.create_pipeline_layout(&layout),
-                light: device.create_bind_group(&BindGroupDescriptor {
-                    label,
-                    layout: &group,
-                    entries: &entries,
-                }),
+                light: light_of(gpu, &group, targets),
+                group,
                 pipelines: BTreeMap::new(),
             })
         })
+    }
+
+    /// Brings the light of other targets to pictures from now on.
+    pub(super) fn aim_at(&mut self, gpu: &Gpu, targets: &Targets) {
+        self.light = light_of(gpu, &self.group, targets);
     }
 
     /// Brings the light to a picture.
@@ -99,6 +100,13 @@ impl ToneMapping {
         pass.draw(0..3, 0..1);
         Ok(())
     }
+}
+
+fn light_of(gpu: &Gpu, layout: &BindGroupLayout, targets: &Targets) -> BindGroup {
+    let resource = BindingResource::TextureView(&targets.light.view);
+    let entries = [BindGroupEntry { binding: 0, resource }];
+    let description = BindGroupDescriptor { label: Some("tone_mapping"), layout, entries: &entries };
+    gpu.context.device.create_bind_group(&description)
 }
 
 fn pipeline(

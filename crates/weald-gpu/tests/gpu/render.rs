@@ -82,6 +82,35 @@ fn two_views_that_are_encoded_before_either_is_drawn_are_those_that_are_drawn_al
 }
 
 /// Means of Oklab over squares of eight pixels, so that edges and dither do not count.
+#[test]
+fn a_renderer_that_was_resized_500_times_draws_as_a_new_one_and_holds_no_more() {
+    let Some(gpu) = gpu() else { return };
+    // An account of its own: other tests draw at the same time.
+    let gpu = gpu.with_memory(1 << 30).expect("is there");
+    let scene = LitScene::new(&view(), &mountains()).expect("a scene");
+    let camera = scene.camera();
+    for samples in [1, 4] {
+        let mut renderer = renderer(&gpu, &scene, samples);
+        let at_first = renderer.render(&camera).expect("drawn");
+        let held = gpu.allocated();
+        for number in 0..500 {
+            let size = [40 + number * 37 % 200, 30 + number * 53 % 150];
+            renderer.resize(size).expect("fits");
+            if number % 100 == 99 {
+                let image = renderer.render(&camera).expect("drawn");
+                let options = RenderOptions { size, samples };
+                let mut fresh = Renderer::new(&gpu, &scene, options).expect("it can be drawn");
+                assert!(image == fresh.render(&camera).expect("drawn"), "after {number} sizes");
+            }
+        }
+        renderer.resize([320, 180]).expect("fits");
+        assert!(renderer.render(&camera).expect("drawn") == at_first, "{samples} samples");
+        assert_eq!(gpu.allocated(), held, "something is still held");
+        assert!(renderer.resize([0, 180]).is_err() && renderer.resize([1 << 20, 180]).is_err());
+        assert!(renderer.render(&camera).expect("drawn") == at_first, "what was refused changes nothing");
+    }
+}
+
 fn squares(image: &Image) -> Vec<Oklab> {
     let side = 8;
     let mut means = Vec::new();

@@ -219,7 +219,7 @@ impl Run<'_> {
         let report = step_report(planned, &landscape, outcome, seconds, resumed_at);
         if let Some(kept) = kept {
             kept.keep((self.recipe, planned), (&state.landscape, &landscape), &report, &|note| {
-                progress.note(note)
+                progress.note(note);
             });
         }
         state.steps.push(report);

@@ -15,7 +15,9 @@ use weald_engine::{Engine, Job, Watcher};
 /// The landscape before the first step, once all that can be told before it is right.
 pub(super) fn start(recipe: &Recipe, progress: &dyn Progress) -> Result<Landscape, Error> {
     let (landscape, notes) = inputs::start(recipe, None)?;
-    notes.iter().for_each(|note| progress.note(note));
+    for note in &notes {
+        progress.note(note);
+    }
     Ok(landscape)
 }
 
@@ -48,7 +50,9 @@ fn run_step(
     let job = Job { seed, engine: engine.clone(), watcher: &watcher, resume: None };
     let outcome = planned.step.run(landscape, &job)?;
     written::check(planned.step.as_ref(), landscape)?;
-    outcome.notes.iter().for_each(|note| progress.note(note));
+    for note in &outcome.notes {
+        progress.note(note);
+    }
     Ok(outcome)
 }
 

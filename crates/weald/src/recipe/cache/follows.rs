@@ -80,14 +80,15 @@ impl Follows {
                 file.map(|file| contents(&file.0).map(|read| format!("{file:?}\n{read}"))).transpose()?;
             layers.insert(name.to_owned(), hash(&format!("{name}\n{ground}\n{}", from.unwrap_or_default())));
         }
-        let mut declared = format!("{:?}\n", landscape.materials);
+        let mut declared = vec![format!("{:?}", landscape.materials)];
         for fractal in &recipe.fractals {
-            declared += &format!("{} {:?}\n", fractal.name, fractal.deform);
-            declared += &match &fractal.fractal_source {
-                FractalSource::Known(ifs) => format!("{ifs:?}\n"),
-                FractalSource::Flame { path, number } => format!("{} {number}\n", contents(path)?),
+            let maps = match &fractal.fractal_source {
+                FractalSource::Known(ifs) => format!("{ifs:?}"),
+                FractalSource::Flame { path, number } => format!("{} {number}", contents(path)?),
             };
+            declared.push(format!("{} {:?} {maps}", fractal.name, fractal.deform));
         }
+        let declared = declared.join("\n");
         let program = format!("{}\n{}", build(), machine(engine));
         Ok(Self { program, grid: hash(&ground), declared: hash(&declared), layers, grown: String::new() })
     }
@@ -100,21 +101,23 @@ impl Follows {
         landscape: &Landscape,
     ) -> Result<String, Error> {
         let Self { program, grid, declared, grown, .. } = self;
-        let mut text =
-            format!("{program}\nstep = {}\nseed = {}\n", planned.entry.name, planned.seed(recipe.seed));
-        text += &canonical::keys(&planned.keys);
+        let (name, seed) = (planned.entry.name, planned.seed(recipe.seed));
+        let mut lines = vec![
+            program.clone(),
+            format!("step = {name}\nseed = {seed}\n{}", canonical::keys(&planned.keys)),
+            format!("grid = {grid}\ndeclared = {declared}"),
+        ];
         for file in planned.step.files() {
-            text += &format!("file = {}\n", contents(&file)?);
+            lines.push(format!("file = {}", contents(&file)?));
         }
-        text += &format!("grid = {grid}\ndeclared = {declared}\n");
         if planned.entry.stage == Stage::Grow {
-            text += &format!("grown = {grown}\n");
+            lines.push(format!("grown = {grown}"));
         }
         for name in self.read_by(planned, landscape) {
             let from = self.layers.get(&name).map_or("none", String::as_str);
-            text += &format!("layer = {name:?} {from}\n");
+            lines.push(format!("layer = {name:?} {from}"));
         }
-        Ok(text)
+        Ok(lines.join("\n"))
     }
 
     /// Layers that a step may read. A simulation may look at any; all else says what it reads.

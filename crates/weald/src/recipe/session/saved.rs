@@ -92,7 +92,9 @@ fn place_files(table: &mut Table, keys: &[Parameter], folder: &Path) {
             *name = folder.join(&*name).to_string_lossy().into_owned();
         }
         if let Kind::Variants(variants) = &key.kind {
-            variants.iter().for_each(|variant| place_files(table, &variant.parameters, folder));
+            for variant in variants {
+                place_files(table, &variant.parameters, folder);
+            }
         }
     }
 }
