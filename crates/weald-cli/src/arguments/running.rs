@@ -22,10 +22,10 @@ pub(crate) struct Running {
     #[arg(long, value_name = "BYTES", allow_negative_numbers = true, value_parser = values::memory)]
     pub(crate) memory: Option<u64>,
     /// Folder of results of steps, of which a run takes what fits and into which it puts its own, 4 GiB at most
-    /// [default: that of the system, or WEALD_CACHE]
+    /// [default: that of the system, or `WEALD_CACHE`]
     #[arg(long, value_name = "DIR", conflicts_with = "no_cache")]
     pub(crate) cache: Option<PathBuf>,
-    /// Run every step, and keep no results for later runs; WEALD_CACHE=off does the same
+    /// Run every step, and keep no results for later runs; `WEALD_CACHE=off` does the same
     #[arg(long)]
     pub(crate) no_cache: bool,
     /// Threads [default: all cores]

@@ -9,6 +9,7 @@ use weald::edit::{Action, Brush, Canvas, Change, Edit, Effect, Falloff, History,
 use weald::engine::Engine;
 use weald::erode::hydraulic::{HanKeys, Hydraulic, MeiKeys};
 use weald::erode::interactive::{Interactive, InteractiveSimulation};
+use weald::erode::thermal_step::ThermalWithin;
 use weald::random::{hash2, unit};
 use weald::recipe::parameter::{Nested, ScriptFile};
 use weald::recipe::source::Value;
@@ -127,7 +128,8 @@ fn what_is_undone_and_redone_on_a_device_has_the_same_bits() {
 /// Steps that can be held, with a key of each that can change.
 fn held() -> Vec<(&'static str, Box<dyn Interactive>, Setting)> {
     let han = HanKeys { rain: metres(0.02), dry_period: 5, ..HanKeys::default() };
-    let mei = MeiKeys { rain: metres(0.02), thermal: Some(Nested(Default::default())), ..MeiKeys::default() };
+    let mei =
+        MeiKeys { rain: metres(0.02), thermal: Some(Nested(ThermalWithin::default())), ..MeiKeys::default() };
     let fluvial = steps::Fluvial {
         flow_time: 0.02,
         rain: 5_000.0,

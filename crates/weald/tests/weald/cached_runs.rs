@@ -174,7 +174,9 @@ fn edited(seed: u64) -> String {
 fn cached_and_fresh_results_are_equal_to_the_bit_over_random_edits() {
     let folder = tempfile::tempdir().expect("a folder");
     let (cached_in, fresh_in) = (folder.path().join("cached"), folder.path().join("fresh"));
-    [&cached_in, &fresh_in].into_iter().for_each(|folder| fs::create_dir(folder).expect("made"));
+    for folder in [&cached_in, &fresh_in] {
+        fs::create_dir(folder).expect("made");
+    }
     let cache = cache(folder.path());
     let mut taken = 0;
     for seed in 0..60 {
@@ -247,7 +249,9 @@ fn no_step_but_a_simulation_looks_at_a_layer_that_it_does_not_say_it_reads() {
         let mut restricted = whole.clone();
         let hidden: Vec<_> =
             whole.layers().map(|(name, _)| name.to_owned()).filter(|name| !seen.contains(name)).collect();
-        hidden.iter().for_each(|name| drop(restricted.remove(name)));
+        for name in &hidden {
+            drop(restricted.remove(name));
+        }
         let (mut full, job) = (whole.clone(), || Job::unwatched(3));
         let Ok(outcome) = step.run(&mut full, &job()) else { continue };
         let other = step.run(&mut restricted, &job());
