@@ -19,6 +19,8 @@ use weald_plants::grass::Meadow;
 pub(in crate::recipe) struct KeptSteps {
     cache: Arc<Cache>,
     follows: Follows,
+    /// Whether it was told that results cannot be kept.
+    is_told: bool,
 }
 
 impl KeptSteps {
@@ -32,7 +34,7 @@ impl KeptSteps {
         (landscape, engine): (&Landscape, &Engine),
     ) -> Result<Self, Error> {
         let follows = Follows::start(recipe, landscape, engine)?;
-        Ok(Self { cache: Arc::clone(cache), follows })
+        Ok(Self { cache: Arc::clone(cache), follows, is_told: false })
     }
 
     /// Gives a landscape what a step would make of it, where that was kept. A file that cannot be read is told by the step.
@@ -84,8 +86,10 @@ impl KeptSteps {
         if partly_cpu || !self.cache.is_worth(&kept) {
             return;
         }
-        if let Err(error) = self.cache.put(&text, &kept) {
-            note(&format!("the result of `{}` is not kept for later runs: {error}", planned.entry.name));
+        if let Err(error) = self.cache.put(&text, &kept)
+            && !std::mem::replace(&mut self.is_told, true)
+        {
+            note(&format!("results of steps are not kept for later runs: {error}"));
         }
     }
 
