@@ -2,7 +2,7 @@
 //!
 //! It owns all that it needs, and works on every engine. A stroke reads and writes the rectangle that it touches and no
 //! more, on a device too; copies to go back to stay where the state is. What is done to it can be written down: the
-//! step with [`Interactive::replayed`] and a [`Script`](crate::edit::Script) of the changes gives the same bits.
+//! step with [`Interactive::replayed`] and a [`Script`] of the changes gives the same bits.
 
 use std::collections::BTreeMap;
 
