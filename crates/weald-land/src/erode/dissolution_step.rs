@@ -11,8 +11,7 @@ use super::loose::{self, Loose};
 use super::material_planes::{Planes, REGOLITH_PLANES};
 use super::on_ground::store_ground;
 use super::scripted::Numbers;
-use super::stack::deposit_of;
-use super::stack::{Column, REGOLITH};
+use super::stack::{self, Column, REGOLITH, deposit_of};
 use super::started::StartedSimulation;
 use super::stava::digging::{DigScratch, Digging};
 use super::stava::dissolution::{Dissolution, DissolutionScratch, RegolithRows};
@@ -175,10 +174,9 @@ impl Loose for DissolutionStep {
         let first = process(&[])?;
         let water = Some(first.state_planes() + first.constant_planes() - 1);
         let painted = PaintedPlanes { water, ..PaintedPlanes::of(&first, column, &working) };
-        let names = landscape.materials.iter().map(|material| material.name.clone()).collect();
-        let change = std::iter::once("change".to_owned());
+        let names = stack::names(&landscape.materials);
         Ok(StartedSimulation {
-            plane_names: change.chain(column.names(&landscape.materials)).collect(),
+            plane_names: stack::plane_names(column, &landscape.materials),
             start: working.state(planes.count(), &[working.water().to_vec()]),
             numbers: Numbers::new(first, |_| ()),
             remake: Arc::new(move |settings| Ok(Numbers::new(process(settings)?, |_| ()))),

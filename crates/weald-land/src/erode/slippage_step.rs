@@ -9,7 +9,7 @@ use super::material_planes::Planes;
 use super::on_ground::store_ground;
 use super::pipeline::Stepped;
 use super::scripted::Numbers;
-use super::stack::{Column, deposit_of};
+use super::stack::{self, Column, deposit_of};
 use super::started::StartedSimulation;
 use super::stava::program::{self, StavaNumbers};
 use super::stava::slippage::Slippage;
@@ -161,11 +161,10 @@ impl Loose for SlippageStep {
         };
         let working = Arc::new(working);
         let first = process(&[])?;
-        let names = landscape.materials.iter().map(|material| material.name.clone()).collect();
+        let names = stack::names(&landscape.materials);
         let place = Place::of("slippage", &working, names, PaintedPlanes::of(&first, column, &working));
-        let change = std::iter::once("change".to_owned());
         Ok(StartedSimulation {
-            plane_names: change.chain(column.names(&landscape.materials)).collect(),
+            plane_names: stack::plane_names(column, &landscape.materials),
             start: working.state(planes.count(), &[]),
             numbers: Numbers::new(first, |_| ()),
             remake: Arc::new(move |settings| Ok(Numbers::new(process(settings)?, |_| ()))),

@@ -41,6 +41,16 @@ impl Column {
     }
 }
 
+/// Names of the state planes of a process that begins with the change of the bedrock and has a column behind it.
+pub(in crate::erode) fn plane_names(column: Column, materials: &[Material]) -> Vec<String> {
+    std::iter::once("change".to_owned()).chain(column.names(materials)).collect()
+}
+
+/// Names of materials, bedrock first.
+pub(in crate::erode) fn names(materials: &[Material]) -> Vec<String> {
+    materials.iter().map(|material| material.name.clone()).collect()
+}
+
 impl Stack {
     /// The planes of the state that [`Stack::start`] fills.
     pub(super) fn planes(&self) -> impl Iterator<Item = usize> + '_ {
