@@ -46,7 +46,7 @@ impl Gpu {
             for _ in 0..copies {
                 encoder.copy_buffer_to_buffer(&from.buffer, 0, &into.buffer, 0, from.buffer.size());
             }
-            Ok(self.context.queue.submit([encoder.finish()]))
+            Ok(self.context.submit([encoder.finish()]))
         })?;
         self.context.wait(Some(submission))?;
         Ok(begun.elapsed().as_secs_f64())

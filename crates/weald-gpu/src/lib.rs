@@ -42,4 +42,6 @@ pub use live::Live;
 pub use point_clouds::{PointCloud, PointRates, Swayed, SwayingPoints, bend_limbs, grow_blades};
 #[doc(hidden)]
 pub use render::TestLook;
-pub use render::{Chosen, GrassLook, Options as RenderOptions, Renderer, Timings, bench};
+pub use render::{
+    Chosen, GrassLook, Options as RenderOptions, Pick, PickedGround, Renderer, Screen, Timings, bench,
+};

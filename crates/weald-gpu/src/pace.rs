@@ -7,10 +7,11 @@ use std::collections::VecDeque;
 use std::time::{Duration, Instant};
 
 use weald::Error;
-use wgpu::{CommandEncoder, CommandEncoderDescriptor, SubmissionIndex};
+use wgpu::{CommandEncoder, CommandEncoderDescriptor};
 
 use crate::gpu::Gpu;
 use crate::gpu::budget::Reservation;
+use crate::gpu::context::Submitted;
 
 /// Time that a submission should take: well below the tenth of a second that it may take, as passes differ.
 const TARGET_TIME: Duration = Duration::from_millis(40);
@@ -61,7 +62,7 @@ pub(crate) struct Pace {
 
 #[derive(Debug)]
 struct InFlight {
-    submission: SubmissionIndex,
+    submission: Submitted,
     submitted: Instant,
     load: Load,
 }
@@ -89,7 +90,7 @@ impl Pace {
         let submission = context.attempt("a submission", || {
             let mut encoder = context.device.create_command_encoder(&CommandEncoderDescriptor::default());
             encode(&mut encoder);
-            Ok(context.queue.submit([encoder.finish()]))
+            Ok(context.submit([encoder.finish()]))
         })?;
         self.flying.push_back(InFlight { submission, submitted: Instant::now(), load });
         while self.flying.len() > IN_FLIGHT {

@@ -113,7 +113,7 @@ pub(crate) fn write(gpu: &Gpu, into: &Buffer, bytes: &[u8]) -> Result<(), Error>
         let _staged = gpu.memory.hold(length, "staging")?;
         let submission = gpu.context.attempt("writing to the GPU", || {
             gpu.context.queue.write_buffer(into, first, piece);
-            Ok(gpu.context.queue.submit([]))
+            Ok(gpu.context.submit([]))
         })?;
         gpu.context.wait(Some(submission))?;
     }
@@ -150,7 +150,7 @@ pub(crate) fn write_runs(gpu: &Gpu, into: &Buffer, runs: &[Range<u64>], bytes: &
                 gpu.context.queue.write_buffer(into, run.start, &bytes[at..][..length]);
                 at += length;
             }
-            Ok(gpu.context.queue.submit([]))
+            Ok(gpu.context.submit([]))
         })?;
         gpu.context.wait(Some(submission))?;
     }

@@ -42,6 +42,7 @@ pub use keys::{GroundColour, View};
 pub use lit_scene::LitScene;
 pub use maps::{SceneTexture, TextureKind};
 pub use rim::Rim;
+pub use terrain::Ray;
 
 use rayon::prelude::*;
 

@@ -36,3 +36,13 @@ pub(crate) const DRAWING: Advice = Advice {
     spent: "give a larger --gpu-memory, a smaller picture, or 1 sample a pixel",
     large: "draw a smaller picture, or a landscape of fewer cells",
 };
+
+/// To those who hold a landscape in a window.
+pub(crate) const WINDOW: Advice = Advice {
+    unopened: "open the window's device as `Gpu::device_descriptor` says",
+    silent: "make the window smaller, or use a smaller grid",
+    lost: "open the landscape again",
+    full: "make the window smaller, use a smaller grid, or end other programs that use it",
+    spent: "make the window smaller, or use a smaller grid",
+    large: "use a smaller grid",
+};

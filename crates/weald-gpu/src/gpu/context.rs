@@ -2,15 +2,16 @@
 
 use std::collections::HashMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::sync::{Arc, Mutex};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use weald::Error;
 use weald::engine::program::MAX_BUFFERS;
 use weald::error::{DeviceError, DeviceErrorKind};
 use wgpu::{
-    BindGroupLayout, ComputePipeline, DeviceDescriptor, DeviceType, ErrorFilter, Features, Limits,
-    MemoryHints, SubmissionIndex,
+    BindGroupLayout, CommandBuffer, ComputePipeline, DeviceDescriptor, DeviceType, ErrorFilter, Features,
+    Limits, MemoryHints, SubmissionIndex,
 };
 
 use super::adapter;
@@ -21,6 +22,9 @@ use super::known::Known;
 /// Longest wait for a submission, which is made to take a tenth of a second: then the device hangs.
 const TIMEOUT: Duration = Duration::from_mins(2);
 
+/// Time after which it is asked again whether a shared device is done.
+const LOOK_AGAIN: Duration = Duration::from_micros(100);
+
 /// Memory from which the driver cuts small buffers. Small blocks waste little of a small budget.
 const BLOCK_BYTES: u64 = 4 << 20;
 
@@ -29,6 +33,14 @@ pub(crate) const CLOCK: Features = Features::TIMESTAMP_QUERY.union(Features::TIM
 
 /// Pipelines and what they are bound to, by the name of their pass and the text of their module.
 pub(crate) type Pipelines = HashMap<(String, String), (ComputePipeline, BindGroupLayout)>;
+
+/// Commands that were submitted.
+#[derive(Debug)]
+pub(crate) struct Submitted {
+    index: SubmissionIndex,
+    /// Where a shared device says that they are done.
+    done: Option<Receiver<()>>,
+}
 
 /// A device and its queue.
 #[derive(Debug)]
@@ -46,40 +58,82 @@ pub(crate) struct Context {
     /// What to say where it fails.
     pub(crate) advice: &'static Advice,
     faults: Arc<Faults>,
+    /// Whether a window uses it too, whose thread must not wait for others.
+    is_shared: bool,
 }
 
 impl Context {
     /// Opens a device with its largest buffers, and otherwise with what browsers grant too.
     pub(crate) fn open(adapter: &wgpu::Adapter, advice: &'static Advice) -> Result<Self, Error> {
         let name = adapter::describe(adapter);
-        let limits = limits(&adapter.limits());
-        let description = DeviceDescriptor {
-            // Clocks of passes, where there are some, are for benches.
-            required_features: adapter.features() & CLOCK,
-            required_limits: limits.clone(),
-            memory_hints: MemoryHints::Manual {
-                suballocated_device_memory_block_size: BLOCK_BYTES..BLOCK_BYTES,
-            },
-            ..DeviceDescriptor::default()
-        };
-        let opened = pollster::block_on(adapter.request_device(&description));
+        let opened = pollster::block_on(adapter.request_device(&description(adapter)));
         let (device, queue) = opened.map_err(|cause| {
             let message = format!("{name} cannot be opened: {cause}; {}", advice.unopened);
             DeviceError::new(DeviceErrorKind::NotOpened, message)
         })?;
-        let (faults, kind) = (Faults::of(&device), adapter.get_info().device_type);
-        let known = Known::default();
-        Ok(Self {
+        Ok(Self::of(adapter, device, queue, advice))
+    }
+
+    /// A device that another opened, unless it has less than is needed.
+    pub(crate) fn shared(
+        adapter: &wgpu::Adapter,
+        (device, queue): (&wgpu::Device, &wgpu::Queue),
+        advice: &'static Advice,
+    ) -> Result<Self, Error> {
+        let mut lacks = Vec::new();
+        let note = |what, needed, has| lacks.push(format!("{what} is {has}, of which {needed} are needed"));
+        least(&adapter.limits()).check_limits_with_fail_fn(&device.limits(), false, note);
+        if lacks.is_empty() {
+            let context = Self::of(adapter, device.clone(), queue.clone(), advice);
+            return Ok(Self { is_shared: true, ..context });
+        }
+        let message = format!(
+            "{} was opened with too little: {}; {}",
+            adapter::describe(adapter),
+            lacks.join(", "),
+            advice.unopened
+        );
+        Err(DeviceError::new(DeviceErrorKind::NotOpened, message).into())
+    }
+
+    fn of(
+        adapter: &wgpu::Adapter,
+        device: wgpu::Device,
+        queue: wgpu::Queue,
+        advice: &'static Advice,
+    ) -> Self {
+        Self {
+            adapter: adapter::describe(adapter),
+            kind: adapter.get_info().device_type,
+            limits: device.limits(),
+            pipelines: Mutex::default(),
+            known: Known::default(),
+            faults: Faults::of(&device),
+            advice,
+            is_shared: false,
             device,
             queue,
-            adapter: name,
-            kind,
-            limits,
-            pipelines: Mutex::default(),
-            known,
-            advice,
-            faults,
-        })
+        }
+    }
+
+    /// What went wrong since it was last asked; waits for nothing.
+    pub(crate) fn check(&self, what: &str) -> Result<(), Error> {
+        self.faults.check(what, self.advice)
+    }
+
+    /// Lets the device call back for what is done by now; waits for nothing.
+    pub(crate) fn tend(&self, what: &str) -> Result<(), Error> {
+        self.poll(wgpu::PollType::Poll);
+        self.check(what)
+    }
+
+    /// Where the device is lost meanwhile, wgpu 30 panics instead of returning an error; `None` then.
+    fn poll(&self, how: wgpu::PollType) -> Option<Result<wgpu::PollStatus, wgpu::PollError>> {
+        let polled = catch_unwind(AssertUnwindSafe(|| self.device.poll(how))).ok();
+        if polled.is_none() {
+            self.faults.lose("while work was waited for");
+        }
+        polled
     }
 
     /// Does something on the device. Whatever wgpu finds wrong with it becomes an error that names `what`.
@@ -106,8 +160,21 @@ impl Context {
         self.attempt(what, work).inspect_err(|_| self.known.clear())
     }
 
+    /// Submits commands, for which can be waited.
+    pub(crate) fn submit(&self, commands: impl IntoIterator<Item = CommandBuffer>) -> Submitted {
+        let index = self.queue.submit(commands);
+        let done = self.is_shared.then(|| {
+            let (sender, done) = channel();
+            self.queue.on_submitted_work_done(move || {
+                let _ = sender.send(());
+            });
+            done
+        });
+        Submitted { index, done }
+    }
+
     /// Waits until a submission is done, or all of them.
-    pub(crate) fn wait(&self, submission: Option<SubmissionIndex>) -> Result<(), Error> {
+    pub(crate) fn wait(&self, submission: Option<Submitted>) -> Result<(), Error> {
         self.wait_at_most(TIMEOUT, submission)
     }
 
@@ -115,32 +182,67 @@ impl Context {
     pub(crate) fn wait_at_most(
         &self,
         patience: Duration,
-        submission: Option<SubmissionIndex>,
+        submission: Option<Submitted>,
     ) -> Result<(), Error> {
-        let wait = wgpu::PollType::Wait { submission_index: submission, timeout: Some(patience) };
-        // Where the device is lost during the wait, wgpu 30 panics instead of returning an error.
-        let polled = catch_unwind(AssertUnwindSafe(|| self.device.poll(wait)));
-        if polled.is_err() {
-            self.faults.lose("while work was waited for");
+        if self.is_shared {
+            return self.look_until_done(patience, submission.unwrap_or_else(|| self.submit([])));
         }
-        self.faults.check("waiting for the GPU", self.advice)?;
+        let submission_index = submission.map(|submission| submission.index);
+        let polled = self.poll(wgpu::PollType::Wait { submission_index, timeout: Some(patience) });
+        self.check("waiting for the GPU")?;
         match polled {
-            Ok(Err(cause)) => {
-                let message = format!("the GPU does not answer: {cause}; {}", self.advice.silent);
-                Err(DeviceError::new(DeviceErrorKind::Unresponsive, message).into())
-            }
+            Some(Err(cause)) => Err(self.silent(&cause.to_string())),
             _ => Ok(()),
         }
     }
+
+    /// Waits by looking again and again: as long as one thread waits in wgpu 30, no other can present what it drew.
+    fn look_until_done(&self, patience: Duration, submission: Submitted) -> Result<(), Error> {
+        let Some(done) = submission.done else { return Ok(()) };
+        let begun = Instant::now();
+        while begun.elapsed() < patience {
+            self.tend("waiting for the GPU")?;
+            match done.recv_timeout(LOOK_AGAIN) {
+                Err(RecvTimeoutError::Timeout) => {}
+                // What was refused is never done.
+                _ => return self.check("waiting for the GPU"),
+            }
+        }
+        Err(self.silent("it did not finish in time"))
+    }
+
+    fn silent(&self, cause: &str) -> Error {
+        let message = format!("the GPU does not answer: {cause}; {}", self.advice.silent);
+        DeviceError::new(DeviceErrorKind::Unresponsive, message).into()
+    }
 }
 
-/// What is asked of a device: the least that programs need, and the largest buffers there are.
-fn limits(offered: &Limits) -> Limits {
+/// What is asked of a device.
+pub(crate) fn description(adapter: &wgpu::Adapter) -> DeviceDescriptor<'static> {
+    DeviceDescriptor {
+        label: Some("weald"),
+        // Clocks of passes, where there are some, are for benches.
+        required_features: adapter.features() & CLOCK,
+        required_limits: limits(&adapter.limits()),
+        memory_hints: MemoryHints::Manual { suballocated_device_memory_block_size: BLOCK_BYTES..BLOCK_BYTES },
+        ..DeviceDescriptor::default()
+    }
+}
+
+/// The least that programs and pictures need, where a device of such limits has it.
+fn least(offered: &Limits) -> Limits {
     Limits {
         max_storage_buffers_per_shader_stage: MAX_BUFFERS as u32,
+        ..Limits::defaults().or_worse_values_from(offered)
+    }
+}
+
+/// That, with the largest buffers there are.
+fn limits(offered: &Limits) -> Limits {
+    Limits {
         max_buffer_size: offered.max_buffer_size,
         max_storage_buffer_binding_size: offered.max_storage_buffer_binding_size,
-        ..Limits::defaults().or_worse_values_from(offered)
+        ..least(offered)
     }
 }
 

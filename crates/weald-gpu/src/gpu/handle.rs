@@ -10,9 +10,9 @@ use weald::grid::Size;
 use wgpu::{Buffer, DeviceType};
 
 use super::adapter::{self, Wanted};
-use super::advice::{Advice, DRAWING, SIMULATION};
+use super::advice::{Advice, DRAWING, SIMULATION, WINDOW};
 use super::budget::{self, Memory};
-use super::context::Context;
+use super::context::{self, Context};
 
 /// Budget of a card with memory of its own. Drivers do not tell wgpu how much there is; cards with less are
 /// rare.
@@ -99,13 +99,37 @@ impl Gpu {
         Self::open(&adapter, &SIMULATION)
     }
 
+    /// What a window asks of an adapter, so that simulations and pictures can use its device: limits, features, and how
+    /// memory is cut. A window may ask for more.
+    pub fn device_descriptor(adapter: &wgpu::Adapter) -> wgpu::DeviceDescriptor<'static> {
+        context::description(adapter)
+    }
+
+    /// The device of a window, opened as [`Gpu::device_descriptor`] says, for its simulations and pictures too: all that it
+    /// says goes wrong, whoever did it, becomes an error of the next call here. Make one, and clone it: the last that was
+    /// made of a device is the one that listens to it.
+    ///
+    /// # Errors
+    /// [`Error::Device`] for a device that was opened with less.
+    pub fn shared(
+        adapter: &wgpu::Adapter,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+    ) -> Result<Self, Error> {
+        Ok(Self::of(Context::shared(adapter, (device, queue), &WINDOW)?, &WINDOW))
+    }
+
     fn open(adapter: &wgpu::Adapter, advice: &'static Advice) -> Result<Self, Error> {
-        let context = Arc::new(Context::open(adapter, advice)?);
+        Ok(Self::of(Context::open(adapter, advice)?, advice))
+    }
+
+    fn of(context: Context, advice: &'static Advice) -> Self {
+        let context = Arc::new(context);
         let budget = match context.kind {
             DeviceType::DiscreteGpu => MEMORY_OF_A_CARD,
             _ => MEMORY_SHARED,
         };
-        Ok(Self { context, memory: Memory::new(budget, advice), most_moved: u64::MAX, shows: None })
+        Self { context, memory: Memory::new(budget, advice), most_moved: u64::MAX, shows: None }
     }
 
     /// The same device with a budget of its own, in bytes, at least a mebibyte. The default is 4 GiB on a card

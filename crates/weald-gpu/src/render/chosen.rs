@@ -1,5 +1,7 @@
 //! The grass that is left after culling, by level of detail, read back: for tests and benches.
 
+use std::sync::Arc;
+
 use weald::Error;
 use weald::grow::grass::Packed;
 use weald::grow::grass::choice::LISTS;
@@ -31,7 +33,7 @@ impl Renderer {
         let context = self.gpu.context.clone();
         context.attempt("choosing grass", || {
             let mut encoder = context.device.create_command_encoder(&CommandEncoderDescriptor::default());
-            self.aim(camera, &mut encoder)?;
+            self.aim((&Arc::clone(&self.own), true), camera, &mut encoder)?;
             context.queue.submit([encoder.finish()]);
             Ok(())
         })?;

@@ -19,8 +19,7 @@ use wgpu::{
     ShaderModule, ShaderStages,
 };
 
-use super::grass_layer::{DRAW, GrassLayer, LoadedSets};
-use super::grass_look::GrassLook;
+use super::grass_layer::{Around, DRAW, GrassLayer, LoadedSets};
 use super::layouts::{Layouts, STAGE_GROUP};
 use super::strips::strips;
 use super::timing::Timer;
@@ -94,14 +93,13 @@ impl Grass {
     }
 
     /// Sows what is around a point, or all.
-    pub(super) fn prepare(&mut self, gpu: &Gpu, from: [f32; 3], look: GrassLook) -> Result<(), Error> {
-        let place = [f64::from(from[0]), f64::from(-from[1])];
-        self.layers.iter_mut().try_for_each(|layer| layer.prepare(gpu, place, look, &self.layouts))
+    pub(super) fn prepare(&mut self, gpu: &Gpu, around: &Around<'_>) -> Result<(), Error> {
+        self.layers.iter_mut().try_for_each(|layer| layer.prepare(gpu, around, &self.layouts))
     }
 
     /// What is sown now.
     pub(super) fn loaded(&self) -> impl Iterator<Item = &LoadedSets> {
-        self.layers.iter().filter_map(|layer| layer.loaded.as_ref())
+        self.layers.iter().filter_map(GrassLayer::loaded)
     }
 
     /// Encodes the choice of what is drawn.

@@ -1,9 +1,10 @@
 //! One grass of a landscape on a device: its species, and the sets that a picture chooses from.
 
-use std::sync::Arc;
+use std::sync::mpsc::{Receiver, TryRecvError, channel};
+use std::sync::{Arc, Weak};
 
 use weald::Error;
-use weald::error::{Limit, Quantity};
+use weald::error::{DeviceError, DeviceErrorKind, Limit, Quantity};
 use weald::grow::grass::choice::{Choice, FARTHEST, LISTS};
 use weald::grow::grass::{Area, Grasses, Instance, Meadow, Packed};
 use wgpu::{BindGroup, BindGroupDescriptor, BindGroupEntry, BindGroupLayout, BufferUsages};
@@ -35,10 +36,43 @@ const GROUP: u32 = 256;
 /// One grass of a landscape.
 #[derive(Debug)]
 pub(super) struct GrassLayer {
+    seeds: Seeds,
+    /// What each view has, of which the current one is drawn.
+    views: Vec<ViewerSets>,
+    current: usize,
+}
+
+/// What sets are made of.
+#[derive(Clone, Debug)]
+struct Seeds {
     meadow: Arc<Meadow>,
-    grasses: Store,
-    pub(super) loaded: Option<LoadedSets>,
-    shown: Option<(GrassLook, Option<[i64; 2]>)>,
+    grasses: Arc<Store>,
+}
+
+/// From where grass is looked at.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Around<'a> {
+    pub(super) from: [f32; 3],
+    pub(super) look: GrassLook,
+    /// The view for which it is kept.
+    pub(super) viewer: &'a Arc<()>,
+    /// Whether it is waited for.
+    pub(super) waits: bool,
+}
+
+/// What is shown, and around which square; all where there is none.
+type Shown = (GrassLook, Option<[i64; 2]>);
+
+/// What another thread sows.
+type Coming = (Shown, Receiver<Result<Option<LoadedSets>, Error>>);
+
+/// What a view has.
+#[derive(Debug, Default)]
+struct ViewerSets {
+    viewer: Weak<()>,
+    shown: Option<Shown>,
+    loaded: Option<LoadedSets>,
+    coming: Option<Coming>,
 }
 
 /// The sets that a picture chooses from.
@@ -58,32 +92,97 @@ pub(super) struct LoadedSets {
 impl GrassLayer {
     pub(super) fn new(gpu: &Gpu, meadow: &Arc<Meadow>) -> Result<Self, Error> {
         let grasses = uniform(gpu, "the species of grass", &Grasses::new(&meadow.species, meadow.bend))?;
-        Ok(Self { meadow: Arc::clone(meadow), grasses, loaded: None, shown: None })
+        let seeds = Seeds { meadow: Arc::clone(meadow), grasses: Arc::new(grasses) };
+        Ok(Self { seeds, views: Vec::new(), current: 0 })
     }
 
-    /// Sows what is around a place, or all, where that is not what is sown already.
+    /// What the view has that was prepared last.
+    pub(super) fn loaded(&self) -> Option<&LoadedSets> {
+        self.views.get(self.current)?.loaded.as_ref()
+    }
+
+    /// Sows what is around a place, or all, where that is not there already. What views had that are gone is
+    /// forgotten.
     pub(super) fn prepare(
         &mut self,
         gpu: &Gpu,
-        place: [f64; 2],
-        look: GrassLook,
+        around: &Around<'_>,
         layouts: &[BindGroupLayout; 3],
     ) -> Result<(), Error> {
-        let square = look.thinned.then(|| place.map(|at| (at / SQUARE).floor() as i64));
-        if self.shown != Some((look, square)) {
-            (self.loaded, self.shown) = (None, None);
-            self.loaded = self.load(gpu, square, look, layouts)?;
-            self.shown = Some((look, square));
+        self.views.retain(|view| view.viewer.strong_count() > 0);
+        let viewer = Arc::downgrade(around.viewer);
+        let known = self.views.iter().position(|view| view.viewer.ptr_eq(&viewer));
+        self.current = known.unwrap_or(self.views.len());
+        if known.is_none() {
+            self.views.push(ViewerSets { viewer, ..ViewerSets::default() });
+        }
+        let [east, north, _] = around.from;
+        let square =
+            around.look.thinned.then(|| [east, -north].map(|at| (f64::from(at) / SQUARE).floor() as i64));
+        let wanted = (around.look, square);
+        let view = &mut self.views[self.current];
+        if around.waits {
+            view.load(wanted, || self.seeds.load(gpu, wanted, layouts))
+        } else {
+            view.load_meanwhile(wanted, || {
+                let (seeds, gpu, layouts) = (self.seeds.clone(), gpu.clone(), layouts.clone());
+                move || seeds.load(&gpu, wanted, &layouts)
+            })
+        }
+    }
+}
+
+impl ViewerSets {
+    /// Sows what is wanted, unless that is there.
+    fn load(
+        &mut self,
+        wanted: Shown,
+        load: impl FnOnce() -> Result<Option<LoadedSets>, Error>,
+    ) -> Result<(), Error> {
+        if self.shown != Some(wanted) {
+            (self.loaded, self.shown, self.coming) = (None, None, None);
+            self.loaded = load()?;
+            self.shown = Some(wanted);
         }
         Ok(())
     }
 
+    /// Has another thread sow it, and shows what was there before as long as that takes.
+    fn load_meanwhile<L>(&mut self, wanted: Shown, work: impl FnOnce() -> L) -> Result<(), Error>
+    where
+        L: FnOnce() -> Result<Option<LoadedSets>, Error> + Send + 'static,
+    {
+        if let Some((coming, receiver)) = &self.coming {
+            match receiver.try_recv() {
+                Err(TryRecvError::Empty) => return Ok(()),
+                done => {
+                    let (shown, done) = (*coming, done.map_err(unsown));
+                    self.coming = None;
+                    (self.loaded, self.shown) = (done??, Some(shown));
+                }
+            }
+        }
+        if self.shown != Some(wanted) {
+            let (sender, receiver) = channel();
+            let load = work();
+            std::thread::spawn(move || drop(sender.send(load())));
+            self.coming = Some((wanted, receiver));
+        }
+        Ok(())
+    }
+}
+
+/// The thread that sowed is gone.
+fn unsown(_: TryRecvError) -> Error {
+    DeviceError::new(DeviceErrorKind::Failed, "grass around the camera could not grow".to_owned()).into()
+}
+
+impl Seeds {
     /// The sets around a square, or all; `None` where there are none.
     fn load(
         &self,
         gpu: &Gpu,
-        square: Option<[i64; 2]>,
-        look: GrassLook,
+        (look, square): Shown,
         layouts: &[BindGroupLayout; 3],
     ) -> Result<Option<LoadedSets>, Error> {
         let level = look.level.unwrap_or(self.meadow.level);

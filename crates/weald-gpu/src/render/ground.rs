@@ -28,15 +28,19 @@ pub(super) fn declaration(samples: u32) -> String {
     format!("@group({DEPTHS_GROUP}) @binding({DEPTHS_BINDING}) var ground_depths: {kind};")
 }
 
-/// The layout of what holds the depths.
-pub(super) fn depths_layout(gpu: &Gpu, samples: u32) -> BindGroupLayout {
+/// The binding of depths of so many samples.
+pub(super) fn depths_entry(samples: u32, visibility: ShaderStages) -> BindGroupLayoutEntry {
     let ty = BindingType::Texture {
         sample_type: TextureSampleType::Depth,
         view_dimension: TextureViewDimension::D2,
         multisampled: samples > 1,
     };
-    let entry =
-        BindGroupLayoutEntry { binding: DEPTHS_BINDING, visibility: ShaderStages::FRAGMENT, ty, count: None };
+    BindGroupLayoutEntry { binding: DEPTHS_BINDING, visibility, ty, count: None }
+}
+
+/// The layout of what holds the depths.
+pub(super) fn depths_layout(gpu: &Gpu, samples: u32) -> BindGroupLayout {
+    let entry = depths_entry(samples, ShaderStages::FRAGMENT);
     let description = BindGroupLayoutDescriptor { label: Some("depths"), entries: &[entry] };
     gpu.context.device.create_bind_group_layout(&description)
 }

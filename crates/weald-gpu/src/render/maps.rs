@@ -121,7 +121,7 @@ fn write_rows(
         };
         let size = Extent3d { width: columns as u32, height: rows as u32, depth_or_array_layers: 1 };
         gpu.context.queue.write_texture(place, &bytes, layout, size);
-        Ok(gpu.context.queue.submit([]))
+        Ok(gpu.context.submit([]))
     })?;
     gpu.context.wait(Some(submission))
 }

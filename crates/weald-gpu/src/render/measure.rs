@@ -46,7 +46,7 @@ impl Renderer {
     }
 
     fn measured(&mut self, camera: &Camera) -> Result<Timings, Error> {
-        let landing = Readback::new(&self.gpu, self.options.size)?;
+        let landing = Readback::new(&self.gpu, self.own.options.size)?;
         let context = self.gpu.context.clone();
         let begun = Instant::now();
         context.attempt("drawing", || {

@@ -23,11 +23,14 @@ mod layouts;
 mod levels;
 mod maps;
 mod measure;
+mod onto;
 mod options;
 mod passes;
+mod picking;
 mod picture;
 mod plants;
 mod renderer;
+mod screen;
 mod shadows;
 mod spacing;
 mod strips;
@@ -37,12 +40,15 @@ mod terrain;
 mod textures;
 mod timing;
 mod tone_mapping;
+mod tried;
 mod upload;
 
 pub use chosen::Chosen;
 pub use grass_look::GrassLook;
 pub use options::Options;
+pub use picking::{Pick, PickedGround};
 pub use renderer::{Renderer, TestLook};
+pub use screen::Screen;
 pub use timing::Timings;
 
 /// What `weald bench --render` measures: fields of grass, from the standpoints of the publication's tables.

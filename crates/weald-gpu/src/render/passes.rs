@@ -4,14 +4,16 @@ use weald::Error;
 use weald::picture::LitScene;
 use wgpu::{
     BindGroup, BindGroupLayout, ColorTargetState, ColorWrites, CommandEncoder, CompareFunction,
-    FragmentState, MultisampleState, PipelineCompilationOptions, PipelineLayout, PipelineLayoutDescriptor,
-    PrimitiveState, RenderPass, RenderPipeline, RenderPipelineDescriptor, ShaderModule, VertexAttribute,
-    VertexBufferLayout, VertexFormat, VertexState, VertexStepMode,
+    ComputePipeline, ComputePipelineDescriptor, FragmentState, MultisampleState, PipelineCompilationOptions,
+    PipelineLayout, PipelineLayoutDescriptor, PrimitiveState, RenderPass, RenderPipeline,
+    RenderPipelineDescriptor, ShaderModule, VertexAttribute, VertexBufferLayout, VertexFormat, VertexState,
+    VertexStepMode,
 };
 
 use super::grass::Grass;
 use super::ground::{self, Ground};
 use super::layouts::{Layouts, STAGE_GROUP, depth_state};
+use super::picking;
 use super::plants::Plants;
 use super::targets::{LIGHT, Targets};
 use super::terrain::{PATCH_BYTES, RIM_BYTES, SIDE_BYTES, Terrain};
@@ -20,7 +22,7 @@ use crate::gpu::Gpu;
 use crate::gpu::context::Context;
 
 /// The passes' own shaders, each after those that it calls.
-const SHADERS: [&str; 10] = [
+const SHADERS: [&str; 11] = [
     include_str!("frame.wgsl"),
     include_str!("shadows.wgsl"),
     include_str!("detail.wgsl"),
@@ -31,6 +33,7 @@ const SHADERS: [&str; 10] = [
     include_str!("ground.wgsl"),
     include_str!("casters.wgsl"),
     include_str!("backdrop.wgsl"),
+    include_str!("pick.wgsl"),
 ];
 
 /// A patch, and for sides its edge.
@@ -54,6 +57,9 @@ pub(super) struct Passes {
     /// Of the depths of the ground.
     pub(super) depths: BindGroupLayout,
     pub(super) casters: Casters,
+    module: ShaderModule,
+    picks: (PipelineLayout, BindGroupLayout),
+    samples: u32,
 }
 
 /// The pipelines of what throws shadows.
@@ -96,6 +102,7 @@ struct Maker<'a> {
     layout: PipelineLayout,
     with_depths: PipelineLayout,
     casters: PipelineLayout,
+    picks: (PipelineLayout, BindGroupLayout),
     samples: u32,
     has_holes: bool,
     has_lawn: bool,
@@ -128,12 +135,14 @@ impl Passes {
                 })
             };
             let depths = ground::depths_layout(gpu, samples);
+            let picks = picking::layout(gpu, samples);
             let maker = Maker {
                 context: &gpu.context,
                 module: gpu.context.known.module(&gpu.context.device, "picture", text),
                 layout: whole(&[Some(&frame.layout), Some(&maps.layout)]),
                 with_depths: whole(&[Some(&frame.layout), Some(&maps.layout), Some(&depths)]),
                 casters: whole(&[Some(&frame.caster_layout), Some(&maps.layout), Some(cascade)]),
+                picks: (whole(&[Some(&frame.layout), Some(&maps.layout), Some(&picks)]), picks),
                 samples,
                 has_holes: scene.has_holes(),
                 has_lawn,
@@ -177,16 +186,44 @@ impl Passes {
                 sides: caster("side", &sides),
                 rims: caster("rim", &rims),
             },
+            module: maker.module.clone(),
+            picks: maker.picks.clone(),
+            samples: maker.samples,
         }
     }
 
-    /// Draws all light of a picture; all passes but those of shadows and film.
+    /// The pipeline that says what is seen at places of a picture, and what it is bound to.
+    pub(super) fn picks(&self, gpu: &Gpu) -> Result<(ComputePipeline, BindGroupLayout), Error> {
+        let (layout, bound) = &self.picks;
+        let constants = [("SAMPLED", f64::from(self.samples > 1))];
+        let make = || {
+            gpu.context.device.create_compute_pipeline(&ComputePipelineDescriptor {
+                label: Some("pick"),
+                layout: Some(layout),
+                module: &self.module,
+                entry_point: Some("pick"),
+                compilation_options: PipelineCompilationOptions {
+                    constants: &constants,
+                    ..PipelineCompilationOptions::default()
+                },
+                cache: None,
+            })
+        };
+        let key = (self.module.clone(), format!("pick {}", self.samples));
+        gpu.context.attempt_to_compile("making the pipeline of picks", || {
+            Ok((gpu.context.known.computing(key, make), bound.clone()))
+        })
+    }
+
+    /// Draws all light of a picture; all passes but those of shadows and film. What is asked of it is encoded by `pick`
+    /// when the ground and its sides are drawn.
     pub(super) fn draw(
         &self,
         encoder: &mut CommandEncoder,
         (targets, depths): (&Targets, &BindGroup),
         groups: [&BindGroup; 2],
         drawing: Drawing<'_>,
+        pick: Option<impl FnOnce(&mut CommandEncoder)>,
     ) {
         let timer = drawing.timer;
         let mut pass = targets.depth_pass(encoder);
@@ -207,31 +244,44 @@ impl Passes {
             self.ground.draw_backdrop(&mut pass, depths);
         }
         drop(pass);
+        let is_asked = pick.is_some();
+        if let Some(pick) = pick {
+            let mut pass = targets.walls_pass(encoder);
+            bind(&mut pass, groups);
+            self.draw_walls(&mut pass, drawing.terrain);
+            drop(pass);
+            pick(encoder);
+        }
         let mut pass = targets.light_pass(encoder, timer);
         bind(&mut pass, groups);
-        self.draw_what_stands(&mut pass, drawing);
+        if !is_asked {
+            self.draw_walls(&mut pass, drawing.terrain);
+        }
+        if let Some(timer) = timer {
+            timer.note(&mut pass, Timestamp::Behind);
+        }
+        draw_what_grows(&mut pass, drawing);
     }
 
-    /// Draws all but the ground.
-    fn draw_what_stands(&self, pass: &mut RenderPass<'_>, drawing: Drawing<'_>) {
-        let Drawing { terrain, grass, plants, timer, .. } = drawing;
-        let note = |pass: &mut RenderPass<'_>, timestamp| {
-            if let Some(timer) = timer {
-                timer.note(pass, timestamp);
-            }
-        };
+    /// Draws the cut sides.
+    fn draw_walls(&self, pass: &mut RenderPass<'_>, terrain: &Terrain) {
         pass.set_pipeline(&self.sides);
         terrain.draw_sides(pass, 0);
         pass.set_pipeline(&self.rims);
         terrain.draw_rims(pass);
-        note(pass, Timestamp::Behind);
-        if let Some(grass) = grass {
-            grass.draw(pass);
-        }
-        note(pass, Timestamp::Grass);
-        if let Some(plants) = plants {
-            plants.draw(pass);
-        }
+    }
+}
+
+/// Draws grass and plants.
+fn draw_what_grows(pass: &mut RenderPass<'_>, drawing: Drawing<'_>) {
+    if let Some(grass) = drawing.grass {
+        grass.draw(pass);
+    }
+    if let Some(timer) = drawing.timer {
+        timer.note(pass, Timestamp::Grass);
+    }
+    if let Some(plants) = drawing.plants {
+        plants.draw(pass);
     }
 }
 

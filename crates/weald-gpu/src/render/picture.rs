@@ -6,7 +6,7 @@ use weald::Error;
 use weald::picture::Image;
 use wgpu::{
     Buffer, BufferUsages, COPY_BYTES_PER_ROW_ALIGNMENT, CommandEncoder, Extent3d, MapMode, Origin3d,
-    TexelCopyBufferInfo, TexelCopyBufferLayout, TexelCopyTextureInfo, TextureAspect, TextureFormat,
+    TexelCopyBufferInfo, TexelCopyBufferLayout, TexelCopyTextureInfo, Texture, TextureAspect, TextureFormat,
     TextureUsages, TextureView,
 };
 
@@ -22,8 +22,10 @@ const PIXEL: u32 = 4;
 #[derive(Debug)]
 pub(super) struct Readback {
     size: [u32; 2],
-    canvas: Canvas,
-    /// Of the canvas.
+    /// Kept as long as it is drawn onto; `None` where another keeps it.
+    _canvas: Option<Canvas>,
+    texture: Texture,
+    /// Of the texture.
     pub(super) view: TextureView,
     memory: Store,
 }
@@ -32,16 +34,24 @@ impl Readback {
     pub(super) fn new(gpu: &Gpu, size: [u32; 2]) -> Result<Self, Error> {
         let usage = TextureUsages::RENDER_ATTACHMENT | TextureUsages::COPY_SRC;
         let canvas = Canvas::new(gpu, "a picture", Shape::flat(size, TextureFormat::Rgba8Unorm, usage))?;
+        let landing = Self::of(gpu, &canvas)?;
+        Ok(Self { _canvas: Some(canvas), ..landing })
+    }
+
+    /// Of a canvas that another keeps.
+    pub(super) fn of(gpu: &Gpu, canvas: &Canvas) -> Result<Self, Error> {
+        let (texture, view) = (canvas.texture.clone(), canvas.view.clone());
+        let size = [texture.width(), texture.height()];
         let bytes = u64::from(row_bytes(size[0])) * u64::from(size[1]);
         let memory = Store::new(gpu, "a picture", bytes, BufferUsages::COPY_DST | BufferUsages::MAP_READ)?;
-        Ok(Self { size, view: canvas.view.clone(), canvas, memory })
+        Ok(Self { size, _canvas: None, texture, view, memory })
     }
 
     /// Encodes the copy into memory.
     pub(super) fn collect(&self, encoder: &mut CommandEncoder) {
         let [width, height] = self.size;
         let from = TexelCopyTextureInfo {
-            texture: &self.canvas.texture,
+            texture: &self.texture,
             mip_level: 0,
             origin: Origin3d::ZERO,
             aspect: TextureAspect::All,

@@ -1,24 +1,27 @@
 //! A scene on a device: what is drawn of it, and in which order.
 
+use std::sync::Arc;
+
 use weald::grow::Vegetation;
 use weald::picture::{Camera, Image, LitScene};
 use weald::{Error, Landscape};
-use wgpu::BindGroup;
+use wgpu::{CommandEncoder, TextureView};
 
 use super::canopy;
 use super::follower::Follower;
 use super::frame::{Drawn, Frame};
 use super::grass::Grass;
+use super::grass_layer::Around;
 use super::grass_look::GrassLook;
-use super::ground::depths_group;
 use super::layouts::Layouts;
 use super::maps::Maps;
+use super::onto::Onto;
 use super::options::{Options, check_camera};
 use super::passes::{Drawing, Passes};
+use super::picking::{LandScale, Picking};
 use super::picture::Readback;
 use super::plants::Plants;
 use super::shadows::Shadows;
-use super::targets::Targets;
 use super::terrain::Terrain;
 use super::textures::Canvas;
 use super::timing::Timer;
@@ -38,11 +41,21 @@ pub struct TestLook {
     pub detail_from: Option<[f32; 3]>,
 }
 
-/// A scene on a device, ready to be drawn from any camera.
+/// One picture that is to be drawn.
+#[derive(Debug)]
+pub(super) struct Shot<'a> {
+    pub(super) onto: &'a Onto,
+    pub(super) camera: &'a Camera,
+    pub(super) target: &'a TextureView,
+    /// Whether it waits for what it is drawn of.
+    pub(super) waits: bool,
+}
+
+/// A scene on a device, ready to be drawn from any camera: a picture that comes back by [`Renderer::render`], or the views of
+/// a window by [`Renderer::screen`], for which nothing waits.
 #[derive(Debug)]
 pub struct Renderer {
     pub(super) gpu: Gpu,
-    pub(super) options: Options,
     pub(super) maps: Maps,
     pub(super) frame: Frame,
     pub(super) terrain: Terrain,
@@ -52,10 +65,10 @@ pub struct Renderer {
     pub(super) passes: Passes,
     pub(super) shadows: Shadows,
     pub(super) canopy: Canvas,
-    pub(super) targets: Targets,
-    /// The depths of the ground, as its light is drawn from them.
-    pub(super) depths: BindGroup,
+    /// What its own pictures are drawn onto, which it gives back.
+    pub(super) own: Arc<Onto>,
     pub(super) film: ToneMapping,
+    pub(super) scale: LandScale,
     pub(super) look: TestLook,
     pub(super) timer: Option<Timer>,
     pub(super) follower: Option<Follower>,
@@ -82,12 +95,10 @@ impl Renderer {
         let frame = Frame::new(gpu, &shadows.canvas, &canopy)?;
         let layouts = Layouts { frame: &frame, maps: &maps, cascade: &shadows.layout };
         let passes = Passes::new(gpu, scene, layouts, (options.samples, false))?;
-        let targets = Targets::new(gpu, options)?;
-        let depths = depths_group(gpu, &passes.depths, &targets);
-        let film = ToneMapping::new(gpu, scene, &maps, &targets)?;
+        let film = ToneMapping::new(gpu, scene, &maps)?;
+        let own = Arc::new(Onto::new(gpu, (&passes, &film), options, Arc::default())?);
         Ok(Self {
             gpu: gpu.clone(),
-            options,
             maps,
             frame,
             terrain,
@@ -97,9 +108,9 @@ impl Renderer {
             passes,
             shadows,
             canopy,
-            targets,
-            depths,
+            own,
             film,
+            scale: LandScale::of(scene),
             look: TestLook::default(),
             timer: None,
             follower: None,
@@ -116,16 +127,16 @@ impl Renderer {
     /// [`Error::Limit`] for a size that the device does not have, [`Error::Device`] where its memory does not suffice; the
     /// size is then as it was.
     pub fn resize(&mut self, size: [u32; 2]) -> Result<(), Error> {
-        if size == self.options.size {
-            return Ok(());
+        if size != self.own.options.size {
+            self.own = Arc::new(self.onto(size, Arc::clone(&self.own.viewer))?);
         }
-        let options = Options { size, ..self.options };
-        options.check(&self.gpu)?;
-        self.targets = Targets::new(&self.gpu, options)?;
-        self.depths = depths_group(&self.gpu, &self.passes.depths, &self.targets);
-        self.film.aim_at(&self.gpu, &self.targets);
-        self.options = options;
         Ok(())
+    }
+
+    /// Canvases of another size.
+    pub(super) fn onto(&self, size: [u32; 2], viewer: Arc<()>) -> Result<Onto, Error> {
+        let options = Options { size, ..self.own.options };
+        Onto::new(&self.gpu, (&self.passes, &self.film), options, viewer)
     }
 
     /// Plants what grows in the scene's landscape: its grass and scattered plants.
@@ -139,10 +150,11 @@ impl Renderer {
         }
         let layouts = Layouts { frame: &self.frame, maps: &self.maps, cascade: &self.shadows.layout };
         let has_lawn = landscape.all_meadows().next().is_some();
-        self.passes = Passes::new(&self.gpu, scene, layouts, (self.options.samples, has_lawn))?;
+        let samples = self.own.options.samples;
+        self.passes = Passes::new(&self.gpu, scene, layouts, (samples, has_lawn))?;
         let grown = (scene, landscape);
-        self.grass = Grass::new(&self.gpu, grown, layouts, self.options.samples)?;
-        self.plants = Plants::new(&self.gpu, grown, layouts, self.options.samples)?;
+        self.grass = Grass::new(&self.gpu, grown, layouts, samples)?;
+        self.plants = Plants::new(&self.gpu, grown, layouts, samples)?;
         self.shadows.whole_is_drawn = false;
         Ok(())
     }
@@ -162,7 +174,7 @@ impl Renderer {
     /// # Errors
     /// [`Error::Run`] for a camera whose numbers are not finite, [`Error::Device`] where the device fails.
     pub fn render(&mut self, camera: &Camera) -> Result<Image, Error> {
-        let landing = Readback::new(&self.gpu, self.options.size)?;
+        let landing = Readback::new(&self.gpu, self.own.options.size)?;
         let context = self.gpu.context.clone();
         context.attempt("drawing", || {
             let mut encoder =
@@ -183,10 +195,22 @@ impl Renderer {
     pub fn encode(
         &mut self,
         camera: &Camera,
-        encoder: &mut wgpu::CommandEncoder,
-        target: &wgpu::TextureView,
+        encoder: &mut CommandEncoder,
+        target: &TextureView,
     ) -> Result<(), Error> {
-        self.aim(camera, encoder)?;
+        let onto = &*Arc::clone(&self.own);
+        self.draw_shot(encoder, &Shot { onto, camera, target, waits: true }, None)
+    }
+
+    /// Encodes a picture, and what is asked of it.
+    pub(super) fn draw_shot(
+        &mut self,
+        encoder: &mut CommandEncoder,
+        shot: &Shot<'_>,
+        picking: Option<&mut Picking>,
+    ) -> Result<(), Error> {
+        let Shot { onto, target, .. } = *shot;
+        self.aim((onto, shot.waits), shot.camera, encoder)?;
         let groups =
             [&self.frame.caster_group, &self.frame.still_group].map(|numbers| [numbers, &self.maps.group]);
         let timer = self.timer.as_ref();
@@ -206,86 +230,45 @@ impl Renderer {
         if let Some(timer) = timer {
             timer.end_shadows(encoder);
         }
-        self.passes.draw(encoder, (&self.targets, &self.depths), groups, drawing);
-        self.film.develop(&self.gpu, encoder, (&self.maps, timer), target)
+        let pick =
+            picking.map(|picking| |encoder: &mut CommandEncoder| picking.encode(&self.gpu, encoder, groups));
+        self.passes.draw(encoder, (&onto.targets, &onto.depths), groups, drawing, pick);
+        self.film.develop(&self.gpu, encoder, (&onto.light, &self.maps, timer), target)
     }
 
     /// Selects what a camera sees, and encodes the choice of its grass and plants.
-    pub(super) fn aim(&mut self, camera: &Camera, encoder: &mut wgpu::CommandEncoder) -> Result<(), Error> {
+    pub(super) fn aim(
+        &mut self,
+        (onto, waits): (&Onto, bool),
+        camera: &Camera,
+        encoder: &mut CommandEncoder,
+    ) -> Result<(), Error> {
+        let size = onto.options.size;
         check_camera(camera)?;
         if let Some(timer) = &self.timer {
             timer.begin(encoder);
         }
         let into = &mut Upload { gpu: &self.gpu, encoder };
-        let drawn = self.terrain.prepare(into, camera, self.options.size, self.look.detail_from)?;
+        let drawn = self.terrain.prepare(into, camera, size, self.look.detail_from)?;
         let drawn = Drawn { seconds: self.seconds, is_dry: self.is_dry, ..drawn };
-        self.frame.write(into, camera, self.options.size[0], &drawn);
+        self.frame.write(into, camera, size[0], &drawn);
         if !self.shadows.whole_is_drawn {
             self.terrain.prepare_whole(into, drawn.cascades.last_texel())?;
-            self.frame.write_still(into, camera, self.options.size[0], &drawn);
+            self.frame.write_still(into, camera, size[0], &drawn);
         }
         let groups = [&self.frame.caster_group, &self.maps.group];
         if let Some(plants) = &self.plants {
             plants.choose(encoder, groups);
         }
         if let Some(grass) = &mut self.grass {
-            grass.prepare(&self.gpu, self.look.detail_from.unwrap_or(camera.eye), self.grass_look)?;
+            let from = self.look.detail_from.unwrap_or(camera.eye);
+            let around = Around { from, look: self.grass_look, viewer: &onto.viewer, waits };
+            grass.prepare(&self.gpu, &around)?;
             grass.choose(encoder, groups, self.timer.as_ref());
         } else if let Some(timer) = &self.timer {
             timer.skip_choice(encoder);
         }
         Ok(())
-    }
-
-    /// As [`Renderer::render`] with what tests look for.
-    #[doc(hidden)]
-    pub fn render_for_a_test(&mut self, camera: &Camera, look: TestLook) -> Result<Image, Error> {
-        self.look = look;
-        let image = self.render(camera);
-        self.look = TestLook::default();
-        image
-    }
-
-    /// Two pictures that are encoded one after the other before either is drawn.
-    #[doc(hidden)]
-    pub fn two_for_a_test(&mut self, cameras: [&Camera; 2]) -> Result<[Image; 2], Error> {
-        let landing = || Readback::new(&self.gpu, self.options.size);
-        let landings = [landing()?, landing()?];
-        let context = self.gpu.context.clone();
-        context.attempt("drawing", || {
-            let mut encoder =
-                context.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-            for (camera, landing) in cameras.into_iter().zip(&landings) {
-                self.encode(camera, &mut encoder, &landing.view)?;
-                landing.collect(&mut encoder);
-            }
-            context.queue.submit([encoder.finish()]);
-            Ok(())
-        })?;
-        let [one, other] = landings;
-        Ok([one.image(&self.gpu)?, other.image(&self.gpu)?])
-    }
-
-    /// The same without the picture: only chooses what is to be drawn.
-    #[doc(hidden)]
-    pub fn choose_for_a_test(&mut self, camera: &Camera, look: TestLook) -> Result<(), Error> {
-        let context = self.gpu.context.clone();
-        self.look = look;
-        let chosen = context.attempt("choosing", || {
-            let mut encoder =
-                context.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-            self.aim(camera, &mut encoder)?;
-            context.queue.submit([encoder.finish()]);
-            Ok(())
-        });
-        self.look = TestLook::default();
-        chosen
-    }
-
-    /// The list and number of each plant of the last picture, set by set.
-    #[doc(hidden)]
-    pub fn chosen_for_a_test(&self) -> Result<Vec<Vec<[u32; 2]>>, Error> {
-        self.plants.as_ref().map_or_else(|| Ok(Vec::new()), |plants| plants.chosen(&self.gpu))
     }
 
     /// How many triangles the ground of a camera takes.
@@ -297,7 +280,7 @@ impl Renderer {
         let device = &self.gpu.context.device;
         let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         let mut into = Upload { gpu: &self.gpu, encoder: &mut encoder };
-        self.terrain.prepare(&mut into, camera, self.options.size, None)?;
+        self.terrain.prepare(&mut into, camera, self.own.options.size, None)?;
         Ok(self.terrain.triangles())
     }
 }

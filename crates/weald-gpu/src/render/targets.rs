@@ -78,6 +78,15 @@ impl Targets {
         })
     }
 
+    /// The pass that draws the light of what hides the ground for good, and keeps its depths.
+    pub(super) fn walls_pass<'a>(&self, encoder: &'a mut CommandEncoder) -> RenderPass<'a> {
+        let attachment = self.light(Operations { load: LoadOp::Load, store: StoreOp::Store }, false);
+        encoder.begin_render_pass(&RenderPassDescriptor {
+            depth_stencil_attachment: Some(depths(&self.depth, LoadOp::Load, StoreOp::Store)),
+            ..described("walls", &[Some(attachment)], None)
+        })
+    }
+
     /// The pass that draws the light of all else, in front of the ground or behind it.
     pub(super) fn light_pass<'a>(
         &self,

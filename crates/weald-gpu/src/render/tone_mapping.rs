@@ -25,12 +25,11 @@ pub(super) struct ToneMapping {
     module: ShaderModule,
     layout: PipelineLayout,
     group: BindGroupLayout,
-    light: BindGroup,
     pipelines: BTreeMap<String, RenderPipeline>,
 }
 
 impl ToneMapping {
-    pub(super) fn new(gpu: &Gpu, scene: &LitScene, maps: &Maps, targets: &Targets) -> Result<Self, Error> {
+    pub(super) fn new(gpu: &Gpu, scene: &LitScene, maps: &Maps) -> Result<Self, Error> {
         let text = scene.shader(STAGE_GROUP) + "\n" + include_str!("tone_mapping.wgsl");
         let device = &gpu.context.device;
         let entry = BindGroupLayoutEntry {
@@ -55,16 +54,32 @@ impl ToneMapping {
             Ok(Self {
                 module: gpu.context.known.module(&gpu.context.device, "tone_mapping", text),
                 layout: device.create_pipeline_layout(&layout),
-                light: light_of(gpu, &group, targets),
                 group,
                 pipelines: BTreeMap::new(),
             })
         })
     }
 
-    /// Brings the light of other targets to pictures from now on.
-    pub(super) fn aim_at(&mut self, gpu: &Gpu, targets: &Targets) {
-        self.light = light_of(gpu, &self.group, targets);
+    /// The light of a view, to be brought to its pictures.
+    pub(super) fn light_of(&self, gpu: &Gpu, targets: &Targets) -> BindGroup {
+        let resource = BindingResource::TextureView(&targets.light.view);
+        let entries = [BindGroupEntry { binding: 0, resource }];
+        let label = Some("tone_mapping");
+        let description = BindGroupDescriptor { label, layout: &self.group, entries: &entries };
+        gpu.context.device.create_bind_group(&description)
+    }
+
+    /// The pipeline for pictures of a format.
+    pub(super) fn compile(&mut self, gpu: &Gpu, format: TextureFormat) -> Result<&RenderPipeline, Error> {
+        let (module, layout) = (&self.module, &self.layout);
+        Ok(match self.pipelines.entry(format!("{format:?}")) {
+            std::collections::btree_map::Entry::Occupied(known) => known.into_mut(),
+            std::collections::btree_map::Entry::Vacant(new) => {
+                new.insert(gpu.context.attempt_to_compile("making the tone mapping", || {
+                    Ok(pipeline(gpu, module, layout, format))
+                })?)
+            }
+        })
     }
 
     /// Brings the light to a picture.
@@ -72,19 +87,10 @@ impl ToneMapping {
         &mut self,
         gpu: &Gpu,
         encoder: &mut CommandEncoder,
-        (maps, timer): (&Maps, Option<&Timer>),
+        (light, maps, timer): (&BindGroup, &Maps, Option<&Timer>),
         target: &TextureView,
     ) -> Result<(), Error> {
-        let format = target.texture().format();
-        let (module, layout) = (&self.module, &self.layout);
-        let pipeline = match self.pipelines.entry(format!("{format:?}")) {
-            std::collections::btree_map::Entry::Occupied(known) => known.into_mut(),
-            std::collections::btree_map::Entry::Vacant(new) => {
-                new.insert(gpu.context.attempt_to_compile("making the tone mapping", || {
-                    Ok(pipeline(gpu, module, layout, format))
-                })?)
-            }
-        };
+        let pipeline = self.compile(gpu, target.texture().format())?;
         let ops = Operations { load: LoadOp::Clear(Color::BLACK), store: StoreOp::Store };
         let attachment =
             RenderPassColorAttachment { view: target, depth_slice: None, resolve_target: None, ops };
@@ -95,18 +101,11 @@ impl ToneMapping {
             ..RenderPassDescriptor::default()
         });
         pass.set_pipeline(pipeline);
-        pass.set_bind_group(0, &self.light, &[]);
+        pass.set_bind_group(0, light, &[]);
         pass.set_bind_group(STAGE_GROUP, &maps.group, &[]);
         pass.draw(0..3, 0..1);
         Ok(())
     }
-}
-
-fn light_of(gpu: &Gpu, layout: &BindGroupLayout, targets: &Targets) -> BindGroup {
-    let resource = BindingResource::TextureView(&targets.light.view);
-    let entries = [BindGroupEntry { binding: 0, resource }];
-    let description = BindGroupDescriptor { label: Some("tone_mapping"), layout, entries: &entries };
-    gpu.context.device.create_bind_group(&description)
 }
 
 fn pipeline(

@@ -26,7 +26,10 @@ impl Upload<'_> {
             usage: BufferUsages::COPY_SRC,
             mapped_at_creation: true,
         });
-        staged.get_mapped_range_mut(..).expect("mapped at its creation").copy_from_slice(bytes);
+        // It is mapped at its creation, unless the device is lost, of which the next call speaks.
+        let Ok(mut mapped) = staged.get_mapped_range_mut(..) else { return };
+        mapped.copy_from_slice(bytes);
+        drop(mapped);
         staged.unmap();
         self.encoder.copy_buffer_to_buffer(&staged, 0, &store.buffer, 0, size);
     }

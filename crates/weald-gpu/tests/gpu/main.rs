@@ -23,3 +23,4 @@ mod scenes;
 mod swarms;
 mod tables;
 mod transitions;
+mod window;

@@ -133,7 +133,7 @@ impl Camera {
     }
 
     /// Where a point appears, from -1 to 1 rightward and upward; `None` behind the camera.
-    pub(super) fn project(&self, point: Vector) -> Option<[f32; 2]> {
+    pub fn project(&self, point: Vector) -> Option<[f32; 2]> {
         let from = subtract(point, self.eye);
         let depth = dot(from, self.forward);
         let [right, up] = [self.right, self.up].map(|axis| dot(from, axis) / depth);
@@ -142,7 +142,7 @@ impl Camera {
 
     /// The ray of a point of the picture, from -1 to 1 rightward and upward.
     #[inline(always)]
-    pub(super) fn ray(&self, [x, y]: [f32; 2]) -> Ray {
+    pub fn ray(&self, [x, y]: [f32; 2]) -> Ray {
         let aside = add(scale(self.right, x * self.half[0]), scale(self.up, y * self.half[1]));
         Ray { from: self.eye, direction: unit(add(self.forward, aside)) }
     }

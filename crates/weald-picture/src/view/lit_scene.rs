@@ -189,6 +189,13 @@ impl LitScene {
         terrain.is_valid(place).then(|| self.setting.bed.at(place))
     }
 
+    /// Metres along a ray at which it meets the ground or the water on it, as far as that is not changed while it is drawn;
+    /// `None` where it meets a cut side, or nothing of the land.
+    pub fn met_by(&self, ray: &Ray) -> Option<f32> {
+        let hit = self.setting.terrain.trace(ray, [0.0, f32::INFINITY]).filter(|_| !self.is_empty)?;
+        hit.side.is_none().then_some(hit.ray_length)
+    }
+
     /// Height at which an elevation in metres is drawn, above the lowest ground.
     pub fn drawn_height(&self, elevation: f64) -> f32 {
         (elevation - f64::from(self.setting.low)) as f32 * self.setting.exaggeration

@@ -30,15 +30,17 @@ pub(super) struct Terrain {
 
 /// A ray of light, backwards: from the eye.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Ray {
-    pub(super) from: Vector,
-    /// Of length 1.
-    pub(super) direction: Vector,
+pub struct Ray {
+    /// Where it starts.
+    pub from: [f32; 3],
+    /// Where it leads, of length 1.
+    pub direction: [f32; 3],
 }
 
 impl Ray {
+    /// The point so many metres from the start.
     #[inline(always)]
-    pub(super) fn at(&self, ray_length: f32) -> Vector {
+    pub fn at(&self, ray_length: f32) -> [f32; 3] {
         add(self.from, scale(self.direction, ray_length))
     }
 }

@@ -1,0 +1,41 @@
+//! What one view is drawn onto, and how shaders see it.
+
+use std::sync::Arc;
+
+use weald::Error;
+use wgpu::BindGroup;
+
+use super::ground::depths_group;
+use super::options::Options;
+use super::passes::Passes;
+use super::targets::Targets;
+use super::tone_mapping::ToneMapping;
+use crate::gpu::Gpu;
+
+/// The canvases of a view.
+#[derive(Debug)]
+pub(super) struct Onto {
+    pub(super) options: Options,
+    pub(super) targets: Targets,
+    /// The depths of the ground, as its light is drawn from them.
+    pub(super) depths: BindGroup,
+    /// The light, as a picture is made from it.
+    pub(super) light: BindGroup,
+    /// What grass around a camera is kept for: it lives as long as the view does, whatever its size.
+    pub(super) viewer: Arc<()>,
+}
+
+impl Onto {
+    pub(super) fn new(
+        gpu: &Gpu,
+        (passes, film): (&Passes, &ToneMapping),
+        options: Options,
+        viewer: Arc<()>,
+    ) -> Result<Self, Error> {
+        options.check(gpu)?;
+        let targets = Targets::new(gpu, options)?;
+        let depths = depths_group(gpu, &passes.depths, &targets);
+        let light = film.light_of(gpu, &targets);
+        Ok(Self { options, targets, depths, light, viewer })
+    }
+}
