@@ -25,12 +25,12 @@ impl Row {
     }
 
     /// The row after, or the same before a wall, where no link leads on.
-    fn next(&self) -> usize {
+    pub(crate) fn next(&self) -> usize {
         if self.y + 1 < self.span.end { self.y + 1 } else { self.y }
     }
 
     /// The row before, or the same behind a wall.
-    fn previous(&self) -> usize {
+    pub(crate) fn previous(&self) -> usize {
         if self.y > self.span.start { self.y - 1 } else { self.y }
     }
 }

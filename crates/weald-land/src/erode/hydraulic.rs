@@ -11,6 +11,7 @@ mod models;
 mod pipe_models;
 mod stava;
 
+pub use super::mei::Slope;
 pub use keys::{Boundary, HanKeys, Hydraulic, MeiKeys, Model, StavaKeys, Transport, UptakeLaw};
 use std::path::PathBuf;
 

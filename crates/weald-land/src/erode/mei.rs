@@ -6,7 +6,8 @@
 //! cells and time in steps, so that `k = dt² g A / l` is the flow rate. What differs from the source:
 //! transport is upwind by default, with the fluxes and the depth before them, so that no sediment is lost
 //! (`semi-lagrangian` gives the source's); exchange constants are per step; ground is kept as start plus
-//! change (see [`super::settling`]).
+//! change (see [`super::settling`]); the slope is the mean sine to the four neighbours, which a ridge and a channel
+//! have too, unless `slope` asks for the tilt by central differences.
 
 pub(crate) mod kernels;
 mod program;
@@ -16,6 +17,7 @@ mod water;
 use super::setting::{Setting, Settled};
 use super::springs::Forcing;
 use super::water_planes as plane;
+use weald_core::choices;
 use weald_core::grid::Size;
 use weald_engine::machine::{Means, Part};
 use weald_engine::program::Program;
@@ -36,6 +38,16 @@ pub(crate) const MEAN_FLUXES: Means<'static> = &[
     ],
 ];
 
+choices! {
+    /// The slope that counts for the transport capacity.
+    pub enum Slope {
+        /// Mean sine of the slopes to the neighbours. Ridges and beds of channels are steep by it.
+        MeanSine = "mean-sine",
+        /// Sine of the tilt by central differences: of a plane exactly its own, in every direction.
+        Central = "central",
+    }
+}
+
 uniform! {
     /// Constants of the method, in cells and steps; names as in the recipe.
     pub(crate) struct MeiConstants {
@@ -54,6 +66,7 @@ pub(crate) struct Mei {
     pub(crate) constants: MeiConstants,
     /// Whether outflows are scaled to what their cell has.
     pub(crate) limiter: bool,
+    pub(crate) slope: Slope,
     pub(crate) setting: Setting,
 }
 
@@ -64,6 +77,7 @@ pub(crate) struct MeiScratch {
     surface: Ring,
     sine_east: Ring,
     sine_south: Ring,
+    tilt: Ring,
     concentration: Ring,
     settled: Settled,
     tally: [Ring; 2],
@@ -93,10 +107,11 @@ impl Process for Mei {
         let ring = |depth| Ring::new(columns, depth);
         MeiScratch {
             rained: ring(3),
-            ground: ring(2),
+            ground: ring(4),
             surface: ring(3),
             sine_east: ring(2),
             sine_south: ring(3),
+            tilt: ring(1),
             concentration: ring(3),
             settled: Settled::new(columns, self.setting.slide.as_ref()),
             tally: [Ring::new(columns, 1), Ring::new(columns, 1)],
@@ -118,9 +133,12 @@ impl Process for Mei {
         }
         if let Some(y) = flow.behind(FLUX) {
             self.outflow(flow, y);
-            self.sines(flow, y);
+            if self.slope == Slope::MeanSine {
+                self.sines(flow, y);
+            }
         }
         if let Some(y) = flow.behind(EXCHANGED) {
+            self.tilt(flow, y);
             self.exchange(flow, y);
             // Their sediment came with the transport of the step before.
             self.setting.drain(flow, y, |scratch| (&mut scratch.settled.sediment, &mut scratch.tally));

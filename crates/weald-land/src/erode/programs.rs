@@ -8,7 +8,7 @@ use settings::{advections, links, settings};
 
 use super::fluvial_step;
 use super::han::{Han, HanConstants};
-use super::mei::{Mei, MeiConstants};
+use super::mei::{Mei, MeiConstants, Slope};
 use super::transport_step::Carrying;
 use weald_engine::program::Program;
 use weald_engine::stencil::chain::Process;
@@ -20,11 +20,15 @@ pub fn programs() -> Vec<Program> {
         limited.flat_map(|variant| [1.0, 0.5].map(|deposit_ratio| (variant, deposit_ratio)))
     });
     let models = water.flat_map(|((setting, limiter), deposit_ratio)| {
+        let mei = |slope| {
+            let constants = MeiConstants { deposit_ratio, ..MEI };
+            Mei { constants, limiter, slope, setting: setting.made() }.program()
+        };
         [
             Han { constants: HanConstants { deposit_ratio, ..HAN }, limiter, setting: setting.made() }
                 .program(),
-            Mei { constants: MeiConstants { deposit_ratio, ..MEI }, limiter, setting: setting.made() }
-                .program(),
+            mei(Slope::MeanSine),
+            mei(Slope::Central),
         ]
     });
     let carrying = [false, true].into_iter().flat_map(|masked| {

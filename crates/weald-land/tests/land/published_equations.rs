@@ -7,7 +7,7 @@ use crate::reference::numbers::Numbers;
 use weald_core::grid::Mask;
 use weald_core::parameter::Nested;
 use weald_core::{Field, Landscape, Size};
-use weald_land::erode::hydraulic::{Boundary, HanKeys, Hydraulic, MeiKeys, Transport, UptakeLaw};
+use weald_land::erode::hydraulic::{Boundary, HanKeys, Hydraulic, MeiKeys, Slope, Transport, UptakeLaw};
 use weald_land::erode::thermal::Scheme;
 use weald_land::erode::thermal_step::{Thermal, ThermalWithin};
 
@@ -79,6 +79,9 @@ fn variants(model: Published) -> Vec<Hydraulic> {
     for scheme in [Scheme::Axis, Scheme::Isotropic, Scheme::IsotropicSymmetric] {
         let thermal = ThermalWithin { scheme, talus: 0.4, strength: 0.13 };
         all.push(with!(keys(model), [Han Mei] { thermal: Some(Nested(thermal)) }));
+    }
+    if model == Published::Mei {
+        all.push(with!(keys(model), [Mei] { slope: Slope::Central }));
     }
     if model == Published::Han {
         all.push(with!(keys(model), [Han] { law: UptakeLaw::Dissolution, erosion: Some(0.3) }));

@@ -1,6 +1,6 @@
 //! Every process, and the grounds that all engines run them on.
 
-use weald::erode::hydraulic::{Boundary, Hydraulic, Model, Transport, UptakeLaw};
+use weald::erode::hydraulic::{Boundary, Hydraulic, Model, Slope, Transport, UptakeLaw};
 use weald::erode::thermal::Scheme;
 use weald::erode::thermal_step::ThermalWithin;
 use weald::grid::Mask;
@@ -58,6 +58,10 @@ pub(crate) fn processes() -> Vec<Box<dyn Step>> {
         all.push(Box::new(with!(model, [Han Mei] { limiter: false, flow_rate: 0.05 })));
     }
     all.push(Box::new(with!(hydraulic(STEPS), [Han] { law: UptakeLaw::Dissolution })));
+    for boundary in [Boundary::Closed, Boundary::Open] {
+        let step = with!(mei(STEPS), [Mei] { slope: Slope::Central });
+        all.push(Box::new(Hydraulic { boundary, ..step }));
+    }
     all.push(Box::new(Hydraulic { region: Some(LayerName::of("painted")), ..hydraulic(STEPS) }));
     all.extend(processes_of_stava());
     all

@@ -1,6 +1,7 @@
 //! The keys of each model.
 
 use crate::erode::dissolution_step::DissolutionWithin;
+use crate::erode::mei::Slope;
 use crate::erode::slippage_step::SlippageWithin;
 use crate::erode::springs::Spring;
 use crate::erode::thermal_step::ThermalWithin;
@@ -169,6 +170,9 @@ parameters! {
         /// Share of the deposited sediment that is added to the ground (r). The rest leaves the model and counts as
         /// solid out, so that below 1 lakes do not silt up.
         deposit_ratio: f64 = 1.0, range 0.0..=1.0;
+        /// The slope that counts for the transport capacity. The publication has the tilt of the ground and does not say
+        /// how it is found.
+        slope: Slope = Slope::MeanSine;
         /// Whether a cell gives no more water than it has. `false` is the scheme as printed.
         limiter: bool = true;
         /// How sediment travels. The publication has "semi-lagrangian", which loses sediment.

@@ -45,7 +45,7 @@ impl Scheme for Mei {
     fn of(step: &Hydraulic, on: &OnLand<'_>) -> Result<Self, Error> {
         let Model::Mei(keys) = &step.model else { return Err(another_model(step)) };
         let (constants, setting) = (mei_constants(keys, on.filled), step.setting(on.filled, on.working));
-        Ok(Self { constants, limiter: keys.limiter, setting })
+        Ok(Self { constants, limiter: keys.limiter, slope: keys.slope, setting })
     }
 
     fn plane_names(&self, _: &Landscape) -> Vec<String> {

@@ -1,7 +1,7 @@
 //! A step of Mei et al. 2007 as compute passes: rain and outflow; water, velocity and exchange; transport; then
 //! what the setting asks for. The shaders stand beside the kernels that they repeat.
 
-use super::{Mei, plane};
+use super::{Mei, Slope, plane};
 use crate::erode::advection::Advection;
 use crate::erode::advection_rows::Advected;
 use weald_engine::program::builder::ProgramBuilder;
@@ -37,6 +37,7 @@ impl Mei {
         let constants = Uniforms::of(&self.constants);
         let mut draft = self.setting.draft("mei", CONSTANTS, constants, plane::COUNT);
         draft.flag("LIMITER", self.limiter);
+        draft.flag("CENTRAL", self.slope == Slope::Central);
         draft.flag("SHRINKS", self.constants.deposit_ratio < 1.0);
         draft.buffer("carried", 2, Content::State(vec![plane::DEPTH, plane::SEDIMENT]));
         draft.buffer("outflows", 4, Content::State(OUTFLOWS.to_vec()));

@@ -1,14 +1,45 @@
 //! The sediment of a step of Mei et al. 2007: exchange with the ground, sliding, transport.
 
-use super::{Mei, MeiScratch, plane};
+use super::{Mei, MeiScratch, Slope, plane};
 use crate::erode::before;
 use crate::erode::four_outflows::{Row, carry_upwind, inflows, outflows_of, store_transport_fluxes};
-use crate::erode::mei::kernels::{Exchange, LoadUnlimited};
+use crate::erode::mei::kernels::{CentralTilt, Exchange, LoadUnlimited, MeanSine};
 use crate::erode::outflow_kernels::Load;
 use crate::erode::sums;
 use weald_engine::stencil::chain::Flow;
 
 impl Mei {
+    /// The slope of a row, for its capacity.
+    pub(super) fn tilt(&self, flow: &mut Flow<'_, Self>, y: usize) {
+        let row = Row::of(flow, y);
+        let MeiScratch { ground, sine_east, sine_south, tilt, still, .. } = &mut *flow.scratch;
+        let links = self.setting.links.row(flow.constants, y);
+        match self.slope {
+            Slope::MeanSine => MeanSine {
+                sine_east: sine_east.here(y),
+                sine_west: sine_east.west(y),
+                sine_south: sine_south.here(y),
+                sine_north: before(sine_south, still, y, flow.span.start),
+                neighbour_share: links.neighbour_share,
+                tilt: tilt.here_mut(0),
+            }
+            .run(self.setting.arch),
+            Slope::Central => CentralTilt {
+                ground: ground.here(y),
+                ground_east: ground.east(y),
+                ground_west: ground.west(y),
+                ground_south: ground.here(row.next()),
+                ground_north: ground.here(row.previous()),
+                link_east: links.east,
+                link_west: links.west,
+                link_south: links.south,
+                link_north: links.north,
+                tilt: tilt.here_mut(0),
+            }
+            .run(self.setting.arch),
+        }
+    }
+
     pub(super) fn exchange(&self, flow: &mut Flow<'_, Self>, y: usize) {
         let row = Row::of(flow, y);
         let scratch = &mut *flow.scratch;
@@ -32,11 +63,7 @@ impl Mei {
             from_south,
             found: flow.input[plane::SEDIMENT].here(y),
             change_before: flow.input[plane::CHANGE].here(y),
-            sine_east: scratch.sine_east.here(y),
-            sine_west: scratch.sine_east.west(y),
-            sine_south: scratch.sine_south.here(y),
-            sine_north: before(&scratch.sine_south, &scratch.still, y, flow.span.start),
-            neighbour_share: links.neighbour_share,
+            tilt: scratch.tilt.here(0),
             erodible: links.erodible,
             valid: links.valid,
             depth: depth.here_mut(y),

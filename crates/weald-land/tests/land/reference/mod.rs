@@ -13,7 +13,7 @@ pub mod stava;
 pub mod thermal;
 
 use weald_core::parameter::Nested;
-use weald_land::erode::hydraulic::{Boundary, Hydraulic, Model, Transport, UptakeLaw};
+use weald_land::erode::hydraulic::{Boundary, Hydraulic, Model, Slope, Transport, UptakeLaw};
 
 use numbers::Numbers;
 
@@ -154,6 +154,22 @@ impl World {
         sum.iter().zip(count).map(|(sum, count): (_, f64)| sum / count.max(1.0)).collect()
     }
 
+    /// Sine of the tilt: means of the rises along both axes, to the neighbours with data.
+    fn tilts(&self) -> Vec<f64> {
+        let ground = self.ground();
+        let (mut sum, mut count) = (vec![[0.0; 2]; ground.len()], vec![[0.0_f64; 2]; ground.len()]);
+        for edge in self.edges.iter().filter(|edge| self.rim(edge).is_none()) {
+            for cell in edge.cells {
+                sum[cell][usize::from(!edge.across)] += ground[edge.cells[1]] - ground[edge.cells[0]];
+                count[cell][usize::from(!edge.across)] += 1.0;
+            }
+        }
+        let tilt = |(sum, count): ([f64; 2], [f64; 2])| {
+            (sum[0] / count[0].max(1.0)).hypot(sum[1] / count[1].max(1.0)).atan().sin()
+        };
+        sum.into_iter().zip(count).map(tilt).collect()
+    }
+
     /// Cells whose ground water may change: those with data that do not lie along open edges.
     fn yielding(&self) -> Vec<usize> {
         let rims = |cell: usize| {
@@ -259,7 +275,10 @@ impl World {
         self.carry(&mut flowed, |_| 1.0);
         let velocity = self.velocities_mei(keys, &rained, &flowed);
         self.depth = flowed.iter().map(|depth| depth * (1.0 - evaporation)).collect();
-        let sines = self.sines();
+        let sines = match keys.slope {
+            Slope::MeanSine => self.sines(),
+            Slope::Central => self.tilts(),
+        };
         self.exchange(keys, &sines, &velocity);
         self.drain();
         if keys.transport == Transport::Upwind {

@@ -1,7 +1,9 @@
 //! The keys of any model in metres and steps, those that it has not at rest.
 
 use weald_core::parameter::{Length, Nested};
-use weald_land::erode::hydraulic::{HanKeys, Hydraulic, MeiKeys, Model, StavaKeys, Transport, UptakeLaw};
+use weald_land::erode::hydraulic::{
+    HanKeys, Hydraulic, MeiKeys, Model, Slope, StavaKeys, Transport, UptakeLaw,
+};
 use weald_land::erode::thermal_step::ThermalWithin;
 
 /// Numbers of a simulation.
@@ -18,6 +20,7 @@ pub struct Numbers {
     pub epsilon: f64,
     pub velocity_epsilon: f64,
     pub limiter: bool,
+    pub slope: Slope,
     pub law: UptakeLaw,
     pub transport: Transport,
     pub conserve: bool,
@@ -62,6 +65,7 @@ impl Numbers {
             deposit_ratio: keys.deposit_ratio,
             velocity_epsilon: metres(keys.velocity_epsilon),
             limiter: keys.limiter,
+            slope: keys.slope,
             thermal: keys.thermal.clone(),
             ..Self::moving(keys.dry_period, keys.transport, keys.conserve)
         }
@@ -94,6 +98,7 @@ impl Numbers {
             epsilon: 0.0,
             velocity_epsilon: 0.0,
             limiter: true,
+            slope: Slope::MeanSine,
             law: UptakeLaw::Velocity,
             transport,
             conserve,

@@ -7,7 +7,7 @@ use weald_core::{Landscape, Size};
 use weald_engine::step::Step;
 use weald_land::erode::dissolution_step::{DissolutionStep, DissolutionWithin};
 use weald_land::erode::fluvial_step::Fluvial;
-use weald_land::erode::hydraulic::{Boundary, Hydraulic, Transport, UptakeLaw};
+use weald_land::erode::hydraulic::{Boundary, Hydraulic, Slope, Transport, UptakeLaw};
 use weald_land::erode::slippage_step::{SlippageStep, SlippageWithin};
 use weald_land::erode::thermal::Scheme;
 use weald_land::erode::thermal_step::{Thermal, ThermalWithin};
@@ -162,7 +162,10 @@ impl Draw {
             step = with!(step, [Han Mei] { limiter: false, flow_rate: 0.05 });
         }
         let law = self.one_of(&[UptakeLaw::Velocity, UptakeLaw::Dissolution]);
-        if is_han { with!(step, [Han] { law: law }) } else { step }
+        if is_han {
+            return with!(step, [Han] { law: law });
+        }
+        with!(step, [Mei] { slope: self.one_of(&[Slope::MeanSine, Slope::Central]) })
     }
 
     fn of_stava(&mut self, step: Hydraulic) -> Hydraulic {
