@@ -39,7 +39,7 @@ pub struct SolidBudget {
     pub layers: f64,
     /// Carried by water at the end.
     pub suspended: f64,
-    /// Carried over an open edge, and what a deposit ratio below 1 takes out.
+    /// Carried over an open edge or by drains, and what a deposit ratio below 1 takes out.
     pub outgoing: f64,
     /// What lies, hangs in water or went elsewhere than at the start: all that cells gained or lost, carry or let go.
     pub moved: f64,

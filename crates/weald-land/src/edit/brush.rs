@@ -72,7 +72,7 @@ pub enum Effect {
         /// Metres per iteration.
         rate: f64,
     },
-    /// Lets water run off.
+    /// Lets water run off, with the sediment that it carries.
     Drain {
         /// Most metres per iteration.
         rate: f64,

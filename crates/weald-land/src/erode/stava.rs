@@ -7,7 +7,8 @@
 //! `k = dt² g A / l` is the flow rate. What differs from the source: walls do not clone their neighbours, so that
 //! nothing is lost there; MacCormack transport has a conserving form, for the same reason; the bedrock is kept as
 //! start plus change, which has the digits of a small change on a high mountain; what settles is the material that
-//! the recipe names, whatever was taken before. Each process has its own file and can be left out.
+//! the recipe names, whatever was taken before; drains take what is suspended in their water. Each process has its own
+//! file and can be left out.
 
 pub(crate) mod digging;
 pub(crate) mod dissolution;
@@ -60,6 +61,8 @@ pub(crate) struct Stava {
 /// Rows in flight within one step.
 pub(crate) struct StavaScratch {
     rained: Ring,
+    /// Sediment that drains left, where there may be any.
+    found: Ring,
     ground: Ring,
     surface: Ring,
     sine_east: Ring,
@@ -115,6 +118,7 @@ impl Process for Stava {
         ones.here_mut(0).fill(1.0);
         StavaScratch {
             rained: ring(looked_back),
+            found: ring(if self.painted { looked_back } else { 1 }),
             ground: ring(2),
             surface: ring(3),
             sine_east: ring(looked_back),
@@ -151,6 +155,7 @@ impl Process for Stava {
     fn advance(&self, flow: &mut Flow<'_, Self>) {
         if let Some(y) = flow.behind(0) {
             self.weather(flow, y);
+            self.drain(flow, y);
             self.surface(flow, y);
         }
         if let Some(y) = flow.behind(FLUX) {

@@ -13,6 +13,7 @@ use weald_engine::step::Step;
 use weald_land::erode::dissolution_step::{DissolutionStep, DissolutionWithin};
 use weald_land::erode::hydraulic::{Boundary, Hydraulic, Model, StavaKeys, Transport};
 use weald_land::erode::slippage_step::{SlippageStep, SlippageWithin};
+use weald_land::erode::springs::Spring;
 
 /// Every layer that may not be negative.
 const AMOUNTS: [&str; 6] = ["water", "sediment", "regolith", "clay", "soil", "sand"];
@@ -44,6 +45,23 @@ fn budgets_of_water_and_solid_close_over_3000_steps_closed_and_open() {
         assert!(moved.abs() < 1e-5, "{moved:e} of what moved is missing: {:?}", budget.solid);
         assert_nothing_is_negative(&land);
     }
+}
+
+#[test]
+fn a_drain_takes_the_sediment_of_its_water_and_the_budget_counts_it() {
+    let out = |drains: Vec<Nested<Spring>>| {
+        let mut land = layered(rough(64, 64, 30.0, 3));
+        let before = land.clone();
+        let step = with!(stava(600), [Stava] { sources: vec![spring(20.0, 40.0)], drains: drains });
+        let solid = run(&step, &mut land).budget.expect("a budget").solid;
+        let moved = error_of_what_moved(&solid, &before, &land);
+        assert!(moved.abs() < 1e-5, "{moved:e} of what moved is missing: {solid:?}");
+        (solid.outgoing, field(&land, "sediment").sum())
+    };
+    let (some, none) = (out(vec![spring(45.0, 20.0)]), out(Vec::new()));
+    println!("m³ out and left: {some:?} with a drain, {none:?} without");
+    assert!(some.0 > 100.0 && some.1 < none.1, "a drain takes {} m³ of solid", some.0);
+    assert!(none.0.abs() < 1e-9, "without one {} m³ leave", none.0);
 }
 
 #[test]

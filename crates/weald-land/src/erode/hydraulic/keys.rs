@@ -220,11 +220,12 @@ parameters! {
         rain_layer: Option<LayerName> = None;
         /// Layer with a factor of the evaporation, cell by cell.
         evaporation_layer: Option<LayerName> = None;
-        /// Layer with the depth of water that springs in an iteration, in metres; drains where it is negative.
+        /// Layer with the depth of water that springs in an iteration, in metres; drains where it is negative, with the
+        /// sediment that the water carries.
         source_layer: Option<LayerName> = None;
         /// Places where water springs.
         sources: Vec<Nested<Spring>> = Vec::new();
-        /// Places where water drains, as far as there is any.
+        /// Places where water drains, as far as there is any, with the sediment that it carries.
         drains: Vec<Nested<Spring>> = Vec::new();
         /// Viscosity of the water, which evens out its velocity; 0 is none.
         viscosity: f64 = 0.0, range 0.0..=1_000_000.0, unit "m²/iteration";

@@ -32,10 +32,11 @@ kernel! {
 
 impl Stava {
     pub(super) fn erode(&self, flow: &mut Flow<'_, Self>, y: usize) {
-        let StavaScratch { solid, dig, settled, sine_east, sine_south, still, .. } = &mut *flow.scratch;
+        let StavaScratch { solid, dig, settled, sine_east, sine_south, still, found, .. } =
+            &mut *flow.scratch;
         self.planes.take(flow.input, solid, y);
         let links = self.setting.links.row(flow.constants, y);
-        let found = flow.input[plane::SEDIMENT].here(y);
+        let found = if self.painted { &*found } else { &flow.input[plane::SEDIMENT] }.here(y);
         UnusedCapacity {
             found,
             eastward: settled.eastward.here(y),

@@ -214,7 +214,8 @@ impl Stava {
     }
 
     fn add_water_to(&self, draft: &mut ProgramBuilder) {
-        let mut reads = vec!["base", "column", "carried"];
+        let mut reads = vec!["base", "column"];
+        let mut writes = vec!["levels"];
         let mut shaders = vec![PIPES, COLUMN];
         if self.dissolution.is_some() {
             reads.push("regolith");
@@ -230,12 +231,14 @@ impl Stava {
                 Content::Constant((first..first + WEATHER_PLANES).collect()),
             );
             reads.push("painted");
+            writes.push("carried");
             shaders.push(include_str!("painted_some.wgsl"));
         } else {
+            reads.push("carried");
             shaders.push(include_str!("painted_none.wgsl"));
         }
         shaders.push(include_str!("weather.wgsl"));
-        draft.pass("weather_and_ground", &shaders, &reads, &["levels"]).tallies = true;
+        draft.pass("weather_and_ground", &shaders, &reads, &writes).tallies = true;
         draft.pass(
             "outflow",
             &[PIPES, FLOWS, include_str!("../four_outflows.wgsl"), include_str!("outflow.wgsl")],

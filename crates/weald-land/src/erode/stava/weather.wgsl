@@ -12,6 +12,7 @@ fn weather_and_ground(@builtin(global_invocation_id) invocation: vec3<u32>) {
     let depth = exact(without_negligible(wet - min(dried, wet)));
     tally(RAINED, cell, wet - before);
     tally(EVAPORATED, cell, depth - wet);
+    drain_sediment(cell, wet, share.z);
     if (inside(cell)) {
         levels[at] = vec2<f32>(pile(at) + regolith_of(at), depth);
     }

@@ -61,7 +61,7 @@ impl Column {
         let raining = number % (keys.rain_period + dry) < keys.rain_period;
         let rain = if raining { keys.rain } else { 0.0 };
         let evaporation = if raining && dry > 0 { 0.0 } else { keys.evaporation };
-        self.weather(rain, evaporation);
+        self.weather(rain, evaporation, keys.epsilon);
         let rained = self.world.depth.clone();
         self.pour(keys.flow_rate);
         self.world.limit(&rained);
@@ -85,10 +85,12 @@ impl Column {
         self.pile();
     }
 
-    fn weather(&mut self, rain: f64, evaporation: f64) {
+    fn weather(&mut self, rain: f64, evaporation: f64, epsilon: f64) {
         for at in (0..self.world.valid.len()).filter(|&at| self.world.valid[at]) {
             let wet = self.world.depth[at] + rain * self.rain_share[at] + self.source[at].max(0.0);
             let dried = evaporation * self.evaporation_share[at] - self.source[at].min(0.0);
+            let drained = (-self.source[at]).max(0.0).min(wet);
+            self.world.sediment[at] *= 1.0 - drained / (wet + epsilon);
             self.world.depth[at] = (wet - dried).max(0.0);
         }
     }
