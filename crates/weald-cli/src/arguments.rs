@@ -88,6 +88,13 @@ pub(crate) enum Command {
         #[arg(long, value_name = "DIR", default_value = "out/gallery")]
         out: PathBuf,
     },
+    /// Open a window: run, paint and undo by hand
+    #[cfg(feature = "studio")]
+    Studio {
+        /// A recipe, an elevation model, or the folder of a project [default: a template]
+        #[arg(value_name = "RECIPE|DEM|PROJECT")]
+        what: Option<PathBuf>,
+    },
     /// Draw a fractal plant or figure, still or in the wind
     Fractal(FractalArguments),
     /// Draw a landscape on the GPU: a still, a turntable, a flight, a walk

@@ -41,6 +41,8 @@ fn main() -> ExitCode {
         Command::Fractal(arguments) => commands::fractal::fractal(&arguments),
         Command::Bench(arguments) => commands::bench::bench(&arguments),
         Command::Render(arguments) => commands::render::render(&arguments),
+        #[cfg(feature = "studio")]
+        Command::Studio { what } => commands::studio::studio(what),
         Command::Schema => commands::schema::schema(),
         Command::Completions { shell } => commands::completions::completions(shell),
     };

@@ -9,7 +9,8 @@ use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 
 use weald::Error;
 use weald::engine::device::ShownGround;
-use weald::grid::Size;
+use weald::error::{Limit, Quantity};
+use weald::grid::{Field, Size};
 use wgpu::{
     BindGroup, BindGroupDescriptor, BindGroupEntry, Buffer, BufferUsages, CommandEncoderDescriptor,
     ComputePassDescriptor, ComputePipeline, ComputePipelineDescriptor, PipelineCompilationOptions,
@@ -78,6 +79,28 @@ impl Live {
     /// How many times it has changed: batches of steps of the programs that it shows.
     pub fn generation(&self) -> u64 {
         self.shared.generation.load(Ordering::Acquire)
+    }
+
+    /// Shows ground and water of a simulation that runs on the processor: elevations and depths in metres. Waits for
+    /// nothing.
+    ///
+    /// # Errors
+    /// [`Error::Limit`] for fields of another size, [`Error::Device`] where the device fails.
+    pub fn show(&self, gpu: &Gpu, ground: &Field, water: &Field) -> Result<(), Error> {
+        let shared = &*self.shared;
+        for (field, store) in [(ground, &shared.ground), (water, &shared.depth)] {
+            if field.size() != shared.size {
+                let (asked, most) = (field.size().cells() as u64, shared.size.cells() as u64);
+                let limit = Limit::new(Quantity::Cells, asked, most..=most);
+                return Err(limit
+                    .of("a field that is shown")
+                    .remedy("show one of the landscape's own size")
+                    .into());
+            }
+            gpu.context.queue.write_buffer(&store.buffer, 0, bytemuck::cast_slice(field.values()));
+        }
+        shared.generation.fetch_add(1, Ordering::AcqRel);
+        Ok(())
     }
 
     /// Ground in metres, and the depth of water on it.

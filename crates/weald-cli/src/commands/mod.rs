@@ -15,3 +15,5 @@ pub(crate) mod report;
 pub(crate) mod run;
 pub(crate) mod schema;
 pub(crate) mod steps;
+#[cfg(feature = "studio")]
+pub(crate) mod studio;

@@ -131,6 +131,10 @@ impl Interactive for Fluvial {
         vec![("levels", Value::Integer(1)), ("steps", whole(steps)), ("mean_over", Value::Integer(1))]
     }
 
+    fn written_steps(&self, landscape: &Landscape) -> u64 {
+        self.count(landscape.domain.cell)
+    }
+
     fn recorded(&self, materials: &[Material]) -> Result<Option<(u64, Script)>, Error> {
         let steps = self.steps.map(u64::from);
         Ok(self

@@ -166,6 +166,10 @@ impl Interactive for Hydraulic {
         vec![("iterations", whole(steps)), ("mean_over", Value::Integer(1))]
     }
 
+    fn written_steps(&self, _: &Landscape) -> u64 {
+        u64::from(self.iterations)
+    }
+
     fn recorded(&self, materials: &[Material]) -> Result<Option<(u64, Script)>, Error> {
         Ok(self.script(materials)?.map(|script| (u64::from(self.iterations), script)))
     }

@@ -26,6 +26,9 @@ pub trait Interactive: Step {
     /// As [`Step::run`].
     fn hold(&self, landscape: &Landscape, engine: &Engine) -> Result<InteractiveSimulation, Error>;
 
+    /// Steps that it runs as written, on such a landscape.
+    fn written_steps(&self, landscape: &Landscape) -> u64;
+
     /// Keys with which the step runs so many steps, and `edits` beside them, to the same bits as when it was held.
     fn replayed(&self, steps: u64) -> Vec<(&'static str, Value)>;
 

@@ -65,6 +65,10 @@ impl<L: Loose> Interactive for L {
         vec![("iterations", whole(steps))]
     }
 
+    fn written_steps(&self, _: &Landscape) -> u64 {
+        u64::from(self.iterations())
+    }
+
     fn recorded(&self, materials: &[Material]) -> Result<Option<(u64, Script)>, Error> {
         Ok(script(self, materials)?.map(|script| (u64::from(self.iterations()), script)))
     }

@@ -1,8 +1,9 @@
 //! Steps of a recipe one after the other, for whoever does not write files.
 
+use std::sync::Arc;
 use std::time::Instant;
 
-use super::cache::KeptSteps;
+use super::cache::{Cache, KeptSteps};
 use super::plan::{Planned, Recipe};
 use super::run::finished::step_report;
 use super::run::{Progress, inputs};
@@ -19,6 +20,31 @@ pub(super) fn start(recipe: &Recipe, progress: &dyn Progress) -> Result<Landscap
         progress.note(note);
     }
     Ok(landscape)
+}
+
+impl Recipe {
+    /// The landscape after the first so many steps, of which those are taken from `cache` that it has.
+    ///
+    /// # Errors
+    /// Those of the steps, and [`Error::Interrupted`] where `progress` says so.
+    pub fn landscape_after(
+        &self,
+        steps: usize,
+        engine: &Engine,
+        cache: Option<&Arc<Cache>>,
+        progress: &dyn Progress,
+    ) -> Result<Landscape, Error> {
+        let mut landscape = start(self, progress)?;
+        let mut kept = cache.map(|cache| KeptSteps::new(cache, self, (&landscape, engine))).transpose()?;
+        for (number, planned) in self.steps.iter().take(steps).enumerate() {
+            if progress.cancelled() {
+                return Err(Error::Interrupted("stopped between two steps".to_owned()));
+            }
+            progress.step(number + 1, self.steps.len(), planned.entry.name);
+            step((self, planned), &mut landscape, (engine, kept.as_mut()), progress)?;
+        }
+        Ok(landscape)
+    }
 }
 
 /// Runs a step of a recipe, or takes its result from an earlier run.

@@ -14,6 +14,7 @@ use super::parameter::Diagnostics;
 use super::plan::{Planned, Recipe};
 use super::run::Progress;
 use super::run_to::{self, start};
+use super::source::Value;
 use weald_core::error::{Error, RecipeError};
 use weald_core::landscape::Landscape;
 use weald_engine::Engine;
@@ -93,6 +94,17 @@ impl Session {
     /// Steps done.
     pub fn steps(&self) -> u64 {
         self.history.simulation().steps()
+    }
+
+    /// Steps that the one that is held runs as the recipe has it.
+    pub fn written_steps(&self) -> u64 {
+        self.step.written_steps(self.history.simulation().start())
+    }
+
+    /// The place of the step that is held, counted from 0, and the keys with which it runs to here; a script of what was
+    /// done goes with them under the key `edits`.
+    pub fn replayed(&self) -> (usize, Vec<(&'static str, Value)>) {
+        (self.held, self.step.replayed(self.steps()))
     }
 
     /// Simulates so many steps.

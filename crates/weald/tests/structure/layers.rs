@@ -1,6 +1,6 @@
 //! The table of layers: which crate may use which, and what must never be imported.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::arrows::Arrow;
 use super::workspace::Workspace;
@@ -8,7 +8,8 @@ use super::workspace::Workspace;
 /// All crates from top to bottom, each with those that it may use. A recipe goes through them from top to bottom.
 pub(crate) const LAYERS: &[(&str, &[&str])] = &[
     ("weald-dev", &["weald-gallery", "weald"]),
-    ("weald-cli", &["weald-gallery", "weald-gpu", "weald"]),
+    ("weald-cli", &["weald-studio", "weald-gallery", "weald-gpu", "weald"]),
+    ("weald-studio", &["weald-gpu", "weald"]),
     (
         "weald-gallery",
         &[
@@ -111,6 +112,17 @@ pub(crate) fn strays(workspace: &Workspace) -> Vec<String> {
         }
     }
     found
+}
+
+/// The one file of the studio that may know the graphics interface, which it has by way of its window's library.
+const WINDOW: &str = "crates/weald-studio/src/viewport.rs";
+
+/// Sources of the studio beside that one that name the graphics interface.
+pub(crate) fn graphics_in_the_studio(files: &BTreeMap<String, String>) -> Vec<String> {
+    let names_it = |(file, text): &(&String, &String)| {
+        file.starts_with("crates/weald-studio/src/") && *file != WINDOW && text.contains("wgpu")
+    };
+    files.iter().filter(names_it).map(|(file, _)| format!("{file} names wgpu; only {WINDOW} may")).collect()
 }
 
 /// Arrows from a stage to another, and from a foundation of the stages to a stage.

@@ -30,11 +30,13 @@ struct Read {
 }
 
 static READ: LazyLock<Read> = LazyLock::new(|| {
-    let workspace = Workspace::read(&root());
+    let texts = Workspace::texts(&root());
+    let workspace = Workspace::of(&texts);
     let arrows = arrows::arrows(&workspace);
     let files = workspace.files();
     let mut rules = layers::diagnostics(&workspace, LAYERS);
     rules.extend(layers::strays(&workspace));
+    rules.extend(layers::graphics_in_the_studio(&texts));
     rules.extend(layers::vanished(&files).into_iter().map(|module| format!("there is no {module}")));
     rules.extend(layers::forbidden(&arrows));
     Read {

@@ -27,11 +27,11 @@ pub(crate) struct Workspace {
 }
 
 impl Workspace {
-    /// Reads all crates below the folder `crates` of a workspace.
-    pub(crate) fn read(root: &Path) -> Self {
+    /// The texts of all files of crates below the folder `crates` of a workspace.
+    pub(crate) fn texts(root: &Path) -> BTreeMap<String, String> {
         let mut files = BTreeMap::new();
         collect(&root.join("crates"), "crates", &mut files);
-        Self::of(&files)
+        files
     }
 
     /// Crates from texts of files by their paths.

@@ -1,0 +1,224 @@
+//! One frame of the window: what has happened, what is to be drawn, and where everything is.
+
+use std::time::Duration;
+
+use eframe::egui::{
+    self, CentralPanel, Color32, Context, Panel, Pos2, Rect, Sense, Stroke as Line, Ui, Vec2, ViewportCommand,
+};
+
+use crate::brushes::Tool;
+use crate::commands::COMMANDS;
+use crate::navigation;
+use crate::panels;
+use crate::pick::Place;
+use crate::studio::{Asked, Left, Studio};
+use crate::work::Task;
+
+/// Seconds between two looks at whether something is to be kept.
+const AUTOSAVE_SECONDS: u64 = 1;
+
+/// Points of the ring that shows the brush on the ground.
+const RING: usize = 48;
+
+impl eframe::App for Studio {
+    fn logic(&mut self, context: &Context, _: &mut eframe::Frame) {
+        self.status = self.work.status();
+        self.keep();
+        self.ask_before_closing(context);
+        let (now, hand_is_down) = context.input(|input| (input.time, input.pointer.any_down()));
+        if context.input(|input| !input.events.is_empty()) {
+            self.changed_at = now;
+        }
+        self.run_changes(now, hand_is_down);
+        if self.document.revision() != self.opened {
+            context.request_repaint_after(Duration::from_millis(100));
+        }
+        let title = format!("{}{} – Weald", self.project.title(), if self.is_unsaved() { " •" } else { "" });
+        context.send_viewport_cmd(ViewportCommand::Title(title));
+        context.request_repaint_after(Duration::from_secs(AUTOSAVE_SECONDS));
+    }
+
+    fn ui(&mut self, ui: &mut Ui, _: &mut eframe::Frame) {
+        self.take_keys(ui);
+        self.take_dropped(ui);
+        Panel::top("toolbar").show(ui, |ui| panels::toolbar::show(self, ui));
+        Panel::bottom("status").show(ui, |ui| panels::status::show(self, ui));
+        Panel::left("recipe").default_size(340.0).show(ui, |ui| match self.left {
+            Left::Cards => panels::steps::show(self, ui),
+            Left::Text => panels::text::show(self, ui),
+        });
+        Panel::right("simulation").default_size(280.0).show(ui, |ui| {
+            egui::ScrollArea::vertical().show(ui, |ui| {
+                panels::simulation::show(self, ui);
+                panels::brush::show(self, ui);
+                panels::looks::show(self, ui);
+                panels::history::show(self, ui);
+            });
+        });
+        CentralPanel::no_frame().show(ui, |ui| self.show_viewport(ui));
+        panels::start::show(self, ui);
+        panels::files::show(self, ui);
+        panels::palette::show(self, ui);
+        panels::start::tour(self, ui);
+    }
+}
+
+impl Studio {
+    /// Notes what was saved, and keeps what is not.
+    fn keep(&mut self) {
+        if let Some((file, changes)) = &self.status.saved
+            && self.project.recipe_file().as_ref() == Some(file)
+            && self.noted_saved != Some(*changes)
+        {
+            self.noted_saved = Some(*changes);
+            let (text, changes) = (self.document.text().to_owned(), *changes);
+            self.project.saved(&text, changes);
+            self.message = Some(("saved".to_owned(), std::time::Instant::now()));
+        }
+        if self.status.phase == crate::work::Phase::Idle || self.status.plays {
+            let (text, changes) = (self.document.text(), self.status.changes);
+            if let Some(file) = self.project.autosave(text, changes) {
+                self.work.ask(Task::Save(file));
+            }
+        }
+        if let Some((folder, names)) = &self.status.exported
+            && self.noted_export.as_ref() != Some(folder)
+        {
+            self.noted_export = Some(folder.clone());
+            let said = format!("{} files are in {}", names.len(), folder.display());
+            self.message = Some((said, std::time::Instant::now()));
+        }
+    }
+
+    fn ask_before_closing(&mut self, context: &Context) {
+        let wants = context.input(|input| input.viewport().close_requested());
+        if wants && self.is_unsaved() && !self.is_closing {
+            context.send_viewport_cmd(ViewportCommand::CancelClose);
+            self.asked = Some(Asked::Leave);
+        }
+    }
+
+    fn take_keys(&mut self, ui: &Ui) {
+        let context = ui.ctx().clone();
+        let types = context.egui_wants_keyboard_input();
+        for entry in COMMANDS {
+            let Some(keys) = entry.keys.shortcut() else { continue };
+            // A letter alone is typed where text is typed.
+            if types && !keys.modifiers.command {
+                continue;
+            }
+            if context.input_mut(|input| input.consume_shortcut(&keys)) {
+                self.obey(entry.command, &context);
+            }
+        }
+    }
+
+    fn take_dropped(&mut self, ui: &Ui) {
+        let dropped = ui.input(|input| input.raw.dropped_files.first().map(|file| file.path().to_owned()));
+        if let Some(path) = dropped {
+            self.open(&path);
+        }
+    }
+
+    fn show_viewport(&mut self, ui: &mut Ui) {
+        let rect = ui.available_rect_before_wrap();
+        let response = ui.allocate_rect(rect, Sense::click_and_drag());
+        response.ctx.accesskit_node_builder(response.id, |node| node.set_label("Viewport"));
+        self.bring_up_to_date();
+        self.handle(ui, &response, rect);
+        self.draw(ui, rect);
+        self.draw_over(ui, rect);
+    }
+
+    /// Gives the viewport the landscape and the surface that there are now.
+    fn bring_up_to_date(&mut self) {
+        let Some(viewport) = &mut self.viewport else { return };
+        if let Some(shown) = &self.status.shown {
+            viewport.order(shown, (&self.looks.view(), self.looks_number), self.status.held.is_some());
+        }
+        viewport.take_built();
+        if self.camera.is_none() {
+            self.camera = viewport.whole();
+        }
+        if let Some(surface) = &self.status.surface
+            && let Err(error) = viewport.follow(surface)
+        {
+            viewport.error = Some(error.to_string());
+        }
+    }
+
+    fn draw(&mut self, ui: &Ui, rect: Rect) {
+        let (Some(viewport), Some(camera)) = (&mut self.viewport, self.camera) else { return };
+        let pixels = rect.size() * ui.ctx().pixels_per_point();
+        let full = [pixels.x, pixels.y].map(|side| (side as u32).max(16));
+        let Some(whole) = viewport.whole() else { return };
+        let camera = navigation::framed(camera, whole.half, full);
+        self.camera = Some(camera);
+        match viewport.draw(&camera, full) {
+            Ok(Some(again)) => ui.ctx().request_repaint_after(again),
+            Ok(None) => {}
+            Err(error) => viewport.error = Some(error.to_string()),
+        }
+        if let Some(texture) = viewport.texture() {
+            let whole = Rect::from_min_max(Pos2::ZERO, Pos2::new(1.0, 1.0));
+            ui.painter().image(texture, rect, whole, Color32::WHITE);
+        }
+    }
+
+    /// What lies over the picture: the ring of the brush, and what went wrong.
+    fn draw_over(&self, ui: &Ui, rect: Rect) {
+        let painter = ui.painter().with_clip_rect(rect);
+        let error = self.viewport.as_ref().and_then(|viewport| viewport.error.clone());
+        let text = match (&self.status.shown, error) {
+            (_, Some(error)) => error,
+            (None, None) => "The landscape is being made …".to_owned(),
+            _ => String::new(),
+        };
+        let font = egui::FontId::proportional(15.0);
+        painter.text(rect.center(), egui::Align2::CENTER_CENTER, text, font, ui.visuals().text_color());
+        if let (Some(place), true) =
+            (self.pointed, self.brush.tool != Tool::None && self.status.held.is_some())
+        {
+            self.draw_ring(&painter, rect, place);
+        }
+    }
+
+    /// The edge of the brush as it lies on the ground, and where it has half its strength.
+    fn draw_ring(&self, painter: &egui::Painter, rect: Rect, place: Place) {
+        for (share, width) in [(1.0, 2.0), (0.5, 1.0)] {
+            let points = (0..=RING).filter_map(|step| {
+                let (sine, cosine) = (std::f64::consts::TAU * step as f64 / RING as f64).sin_cos();
+                let radius = share * self.brush.radius;
+                let at = [place.at[0] + radius * cosine, place.at[1] + radius * sine];
+                self.on_screen(rect, self.ground_at(at)?)
+            });
+            let points: Vec<_> = points.collect();
+            painter.line(points.clone(), Line::new(width + 1.5, Color32::from_black_alpha(140)));
+            painter.line(points, Line::new(width, Color32::WHITE));
+        }
+    }
+
+    fn ground_at(&self, at: [f64; 2]) -> Option<Place> {
+        let shown = self.status.shown.as_ref()?;
+        let surface = self.status.surface.as_ref().filter(|surface| surface.shown == shown.number);
+        let height = shown.landscape.field("height").ok()?;
+        let ground = surface.map_or(height, |surface| &*surface.ground);
+        let water = surface.map(|surface| &*surface.water);
+        let cell = shown.landscape.domain.cell;
+        let place = crate::pick::Target { ground, water, cell, lowest: 0.0, exaggeration: 1.0 }.at(at)?;
+        Some(Place { ground: place.ground + place.water, ..place })
+    }
+
+    fn on_screen(&self, rect: Rect, place: Place) -> Option<Pos2> {
+        let (camera, point) = (self.camera?, self.point(place)?);
+        let from: [f32; 3] = std::array::from_fn(|axis| point[axis] - camera.eye[axis]);
+        let dot = |axis: [f32; 3]| from[0] * axis[0] + from[1] * axis[1] + from[2] * axis[2];
+        let depth = dot(camera.forward);
+        if depth <= 0.0 {
+            return None;
+        }
+        let across = dot(camera.right) / depth / camera.half[0];
+        let up = dot(camera.up) / depth / camera.half[1];
+        Some(rect.center() + 0.5 * Vec2::new(across * rect.width(), -up * rect.height()))
+    }
+}

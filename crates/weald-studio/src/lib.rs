@@ -1,0 +1,26 @@
+//! Weald's window: a recipe as cards and as text, the landscape that follows, and brushes that paint on it while water runs.
+//!
+//! [`open`] shows it. Everything that can be done is a [`Command`](commands::Command); the recipe is a
+//! [`Document`](document::Document), of which text is what counts; a thread of its own holds the simulation
+//! ([`Work`](work::Work)), and another makes scenes. The window, the simulation and the pictures share one device.
+
+mod brushes;
+pub mod commands;
+pub mod document;
+mod frame;
+mod looks;
+mod navigation;
+mod panels;
+mod pick;
+mod project;
+mod studio;
+mod viewport;
+mod window;
+pub mod work;
+
+pub use brushes::Tool;
+pub use navigation::Mode;
+pub use studio::Studio;
+#[doc(hidden)]
+pub use viewport::device_setup;
+pub use window::open;

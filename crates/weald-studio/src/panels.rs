@@ -1,0 +1,14 @@
+//! The parts of the window, one file each.
+
+pub(crate) mod brush;
+pub(crate) mod controls;
+pub(crate) mod files;
+pub(crate) mod history;
+pub(crate) mod looks;
+pub(crate) mod palette;
+pub(crate) mod simulation;
+pub(crate) mod start;
+pub(crate) mod status;
+pub(crate) mod steps;
+pub(crate) mod text;
+pub(crate) mod toolbar;

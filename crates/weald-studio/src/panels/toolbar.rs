@@ -1,0 +1,39 @@
+//! The commands that one needs most, along the top.
+
+use eframe::egui::Ui;
+
+use crate::commands::{COMMANDS, Command};
+use crate::studio::Studio;
+
+/// The buttons, group by group.
+const GROUPS: [&[Command]; 4] = [
+    &[Command::New, Command::Open, Command::Save, Command::Export],
+    &[Command::Undo, Command::Redo],
+    &[Command::Frame, Command::TopView, Command::Picture],
+    &[Command::Text, Command::Palette, Command::Theme, Command::Tour],
+];
+
+pub(crate) fn show(studio: &mut Studio, ui: &mut Ui) {
+    let mut chosen = None;
+    ui.horizontal_wrapped(|ui| {
+        for (place, group) in GROUPS.iter().enumerate() {
+            if place > 0 {
+                ui.separator();
+            }
+            for command in *group {
+                chosen = button(ui, *command).or(chosen);
+            }
+        }
+    });
+    if let Some(command) = chosen {
+        let context = ui.ctx().clone();
+        studio.obey(command, &context);
+    }
+}
+
+/// A button with the command's name, whose key and meaning show on hover.
+pub(crate) fn button(ui: &mut Ui, command: Command) -> Option<Command> {
+    let entry = COMMANDS.iter().find(|entry| entry.command == command)?;
+    let response = ui.button(entry.name).on_hover_text(format!("{}\n{}", entry.what, entry.keys.in_words()));
+    response.clicked().then_some(command)
+}

@@ -1,0 +1,284 @@
+//! What the parts of the window share: the recipe, the work on it, and how it is looked at.
+
+mod camera;
+mod obey;
+
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use eframe::egui::Context;
+use weald::Error;
+use weald::engine::Engine;
+use weald::picture::Camera;
+use weald::recipe::source::Value;
+use weald::recipe::template::TEMPLATES;
+
+use crate::brushes::{Settings, Stroke};
+use crate::document::Document;
+use crate::looks::Looks;
+use crate::navigation::Mode;
+use crate::pick::Place;
+use crate::project::{Project, Start};
+use crate::viewport::{Viewport, WindowDevice, device_of};
+use crate::work::{Opening, Status, Task, Work};
+
+/// How long nothing is typed or dragged before a changed recipe runs.
+const REST_SECONDS: f64 = 0.25;
+
+/// What the left side shows.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) enum Left {
+    /// The recipe as cards.
+    #[default]
+    Cards,
+    /// The recipe as text.
+    Text,
+}
+
+/// What is asked for in a window of its own.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Asked {
+    /// A template, or something to open.
+    Start,
+    /// A file to open.
+    Open(String),
+    /// A folder to save in.
+    SaveAs(String),
+    /// A folder to export to.
+    Export(String),
+    /// Whether to leave what is not saved.
+    Leave,
+}
+
+/// What is typed to find a command, and which of those found is chosen.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Palette {
+    pub(crate) wanted: String,
+    pub(crate) chosen: usize,
+}
+
+/// The studio.
+pub struct Studio {
+    pub(crate) document: Document,
+    pub(crate) project: Project,
+    pub(crate) work: Work,
+    pub(crate) status: Status,
+    pub(crate) viewport: Option<Viewport>,
+    pub(crate) camera: Option<Camera>,
+    pub(crate) mode: Mode,
+    pub(crate) looks: Looks,
+    /// Grows with every change of the looks.
+    pub(crate) looks_number: u64,
+    pub(crate) brush: Settings,
+    pub(crate) stroke: Option<Stroke>,
+    pub(crate) strokes: u64,
+    pub(crate) pointed: Option<Place>,
+    pub(crate) selected: Option<usize>,
+    pub(crate) left: Left,
+    pub(crate) asked: Option<Asked>,
+    pub(crate) palette: Option<Palette>,
+    pub(crate) search: String,
+    /// What is typed to name a moment.
+    pub(crate) name: String,
+    /// Keys of the step that is held that were changed while it ran.
+    pub(crate) set: Vec<(String, Value)>,
+    pub(crate) recent: Vec<PathBuf>,
+    pub(crate) tour: Option<usize>,
+    /// Something said to the user, and when.
+    pub(crate) message: Option<(String, Instant)>,
+    /// Revision of the document that was opened last, and when it changed.
+    pub(crate) opened: u64,
+    pub(crate) changed_at: f64,
+    keeps_edits: bool,
+    /// What was done, recipe and simulation, in the order of undoing; `true` for a change of the recipe.
+    done: Vec<bool>,
+    undone: Vec<bool>,
+    engine: Engine,
+    pub(crate) is_closing: bool,
+    /// What was saved and exported last, as far as the user was told.
+    pub(crate) noted_saved: Option<u64>,
+    pub(crate) noted_export: Option<PathBuf>,
+}
+
+impl Studio {
+    /// A studio in the window of a program, with a recipe, an elevation model or a project, or with a template.
+    ///
+    /// # Errors
+    /// [`Error::Device`] where the window's device cannot draw landscapes, those of opening `what`.
+    pub fn of(context: &eframe::CreationContext<'_>, what: Option<&Path>) -> Result<Self, Error> {
+        Self::new(&context.egui_ctx, device_of(context), what)
+    }
+
+    /// What the thread that works has shown last.
+    pub fn status(&self) -> &Status {
+        &self.status
+    }
+
+    /// Whether the landscape that there is now is drawn, as finely as it will be.
+    #[doc(hidden)]
+    pub fn is_drawn(&self) -> bool {
+        let shown = self.status.shown.as_ref().map(|shown| (shown.number, self.looks_number));
+        self.viewport.as_ref().is_some_and(|viewport| shown.is_some() && viewport.is_drawn(shown))
+    }
+
+    /// What stands against drawing it.
+    #[doc(hidden)]
+    pub fn drawing_error(&self) -> Option<String> {
+        self.viewport.as_ref()?.error.clone()
+    }
+
+    /// A studio in a window that is drawn with `window`, or in none for a test of its panels.
+    ///
+    /// # Errors
+    /// [`Error::Device`] where the window's device cannot draw landscapes, those of opening `what`.
+    fn new(context: &Context, window: Option<&WindowDevice>, what: Option<&Path>) -> Result<Self, Error> {
+        let told = context.clone();
+        let work = Work::new(move || told.request_repaint())?;
+        let viewport = window.map(|window| Viewport::new(window, context)).transpose()?;
+        let start = what.map(Project::open).transpose()?;
+        let asked = start.is_none().then_some(Asked::Start);
+        let start = start.unwrap_or_else(|| Start::of_template(&TEMPLATES[0]));
+        let engine = viewport.as_ref().map_or(Engine::Cpu, Viewport::engine);
+        let mut studio = Self {
+            document: Document::new(start.project.recipe_name(), start.text),
+            project: start.project,
+            work,
+            status: Status::default(),
+            viewport,
+            camera: None,
+            mode: Mode::default(),
+            looks: Looks::default(),
+            looks_number: 1,
+            brush: Settings::default(),
+            stroke: None,
+            strokes: 0,
+            pointed: None,
+            selected: None,
+            left: Left::default(),
+            asked,
+            palette: None,
+            search: String::new(),
+            name: String::new(),
+            set: Vec::new(),
+            recent: crate::project::recent(),
+            tour: None,
+            message: None,
+            opened: 0,
+            changed_at: 0.0,
+            keeps_edits: false,
+            done: Vec::new(),
+            undone: Vec::new(),
+            engine,
+            is_closing: false,
+            noted_saved: None,
+            noted_export: None,
+        };
+        if let Some(note) = start.note {
+            studio.say(note);
+        }
+        Ok(studio)
+    }
+
+    /// Says something to the user, at the foot of the window.
+    pub(crate) fn say(&mut self, message: impl Into<String>) {
+        self.message = Some((message.into(), Instant::now()));
+    }
+
+    /// Takes another recipe or project in place of this one.
+    pub(crate) fn begin(&mut self, start: Start) {
+        self.document = Document::new(start.project.recipe_name(), start.text);
+        self.project = start.project;
+        (self.opened, self.keeps_edits) = (0, false);
+        (self.camera, self.selected, self.asked) = (None, None, None);
+        (self.done, self.undone, self.set) = (Vec::new(), Vec::new(), Vec::new());
+        if let Some(note) = start.note {
+            self.say(note);
+        }
+    }
+
+    /// Opens a recipe, an elevation model or a project.
+    pub(crate) fn open(&mut self, path: &Path) {
+        match Project::open(path) {
+            Ok(start) => {
+                crate::project::remember(path);
+                self.recent = crate::project::recent();
+                self.begin(start);
+            }
+            Err(error) => self.say(error.to_string()),
+        }
+    }
+
+    /// Notes a change of the recipe, to be undone like any other.
+    pub(crate) fn edited(&mut self, result: Result<(), String>) {
+        match result {
+            Ok(()) => {
+                self.done.push(true);
+                self.undone.clear();
+            }
+            Err(message) => self.say(message),
+        }
+    }
+
+    /// Asks for something to be done to the simulation, to be undone like any other.
+    pub(crate) fn act(&mut self, task: Task) {
+        let goes_on = matches!(&task, Task::Stroke { stroke, .. } if *stroke != self.strokes);
+        if !goes_on {
+            self.done.push(false);
+            self.undone.clear();
+        }
+        self.work.ask(task);
+    }
+
+    fn undo(&mut self) {
+        let Some(is_recipe) = self.done.pop() else { return self.say("nothing to undo") };
+        self.undone.push(is_recipe);
+        if is_recipe {
+            self.document.undo();
+        } else {
+            self.work.ask(Task::Undo);
+        }
+    }
+
+    fn redo(&mut self) {
+        let Some(is_recipe) = self.undone.pop() else { return self.say("nothing to redo") };
+        self.done.push(is_recipe);
+        if is_recipe {
+            self.document.redo();
+        } else {
+            self.work.ask(Task::Redo);
+        }
+    }
+
+    /// Lets a changed recipe run once nothing changes any more for a moment; what cannot run is not run.
+    pub(crate) fn run_changes(&mut self, now: f64, hand_is_down: bool) {
+        let revision = self.document.revision();
+        if revision == self.opened || !self.document.diagnostics().is_empty() {
+            return;
+        }
+        if self.opened != 0 && (hand_is_down || now - self.changed_at < REST_SECONDS) {
+            return;
+        }
+        self.opened = revision;
+        let opening = Opening {
+            file: self.document.file().to_owned(),
+            text: self.document.text().to_owned(),
+            revision,
+            engine: self.engine.clone(),
+            steps: self.selected.map(|step| step + 1),
+            keeps_edits: self.keeps_edits,
+        };
+        self.keeps_edits = true;
+        self.work.ask(Task::Open(Box::new(opening)));
+    }
+
+    /// Runs the recipe anew, as far as the step that is chosen to be shown.
+    pub(crate) fn run_again(&mut self) {
+        self.opened = u64::MAX;
+        self.changed_at = 0.0;
+    }
+
+    /// Whether there is something that is not saved.
+    pub(crate) fn is_unsaved(&self) -> bool {
+        self.project.is_unsaved(self.document.text(), self.status.changes)
+    }
+}

@@ -1,0 +1,318 @@
+//! The landscape in the window, drawn on the device that the window itself is drawn with: the one file of the studio that
+//! knows the graphics interface.
+//!
+//! Scenes are made on a thread of their own, so that the window never waits for one. Pictures are submitted and not waited
+//! for; while something moves they are so small that they take a slice of time, and become finer when it rests.
+
+use std::sync::Arc;
+use std::sync::mpsc::{Receiver, Sender, channel};
+use std::time::{Duration, Instant};
+
+use eframe::NativeOptions;
+use eframe::egui::{Context, TextureId};
+use eframe::egui_wgpu::{RenderState, WgpuConfiguration, WgpuSetup, WgpuSetupCreateNew};
+use eframe::wgpu::{Backends, FilterMode};
+use weald::engine::Engine;
+use weald::picture::{Camera, Image, LitScene, View};
+use weald::{Error, Landscape};
+use weald_gpu::{Gpu, Live, RenderOptions, Renderer, Screen};
+
+use crate::work::{Shown, Surface};
+
+/// What a picture may take while something moves.
+const SLICE: f64 = 0.025;
+
+/// What a picture took at most, when all rests, for a finer one to follow it.
+const AT_REST: f64 = 2.0;
+
+/// Parts of the full width and height that pictures are drawn at, coarse to fine.
+const SCALES: [f32; 5] = [0.125, 0.25, 0.5, 0.75, 1.0];
+
+/// How long nothing moves before a finer picture is drawn.
+const REST: Duration = Duration::from_millis(200);
+
+/// The device of a window, and what draws its controls.
+pub(crate) type WindowDevice = RenderState;
+
+/// The device of a window that is being made.
+pub(crate) fn device_of<'a>(context: &'a eframe::CreationContext<'_>) -> Option<&'a WindowDevice> {
+    context.wgpu_render_state.as_ref()
+}
+
+/// Options of a window whose device has what simulations and pictures need.
+pub(crate) fn options() -> NativeOptions {
+    let wgpu_options = WgpuConfiguration { wgpu_setup: device_setup(), ..WgpuConfiguration::default() };
+    NativeOptions { wgpu_options, ..NativeOptions::default() }
+}
+
+/// How a device is opened for a studio, where another program opens it.
+#[doc(hidden)]
+pub fn device_setup() -> WgpuSetup {
+    let mut setup = WgpuSetupCreateNew::without_display_handle();
+    setup.instance_descriptor.backends = Backends::PRIMARY;
+    setup.device_descriptor = Arc::new(Gpu::device_descriptor);
+    WgpuSetup::CreateNew(setup)
+}
+
+/// The landscape in the window.
+pub(crate) struct Viewport {
+    gpu: Gpu,
+    window: WindowDevice,
+    orders: Sender<Order>,
+    built: Receiver<(Order, Result<Box<Stage>, Error>)>,
+    stage: Option<Box<Stage>>,
+    texture: Option<TextureId>,
+    /// The order that is being built, or was last.
+    ordered: Option<(u64, u64)>,
+    surface: u64,
+    /// What of the next picture is not yet as the last one was.
+    stale: Option<Instant>,
+    drawn: Option<(Camera, usize)>,
+    /// Whether nothing finer is to come.
+    rests: bool,
+    submitted: Option<Instant>,
+    /// Which of the scales fits a picture while something moves.
+    moving: usize,
+    /// Seconds that the last picture took.
+    pub(crate) seconds: f64,
+    pub(crate) error: Option<String>,
+}
+
+/// A scene that is to be made.
+#[derive(Clone)]
+struct Order {
+    landscape: Arc<Landscape>,
+    view: View,
+    /// Number of the landscape, and of the looks.
+    number: (u64, u64),
+    is_live: bool,
+}
+
+/// A scene on the device.
+struct Stage {
+    scene: LitScene,
+    renderer: Renderer,
+    live: Option<Live>,
+    screen: Screen,
+    number: (u64, u64),
+}
+
+impl Viewport {
+    /// On the device of a window.
+    ///
+    /// # Errors
+    /// [`Error::Device`] where that was opened with too little, [`Error::Run`] where the system has no thread left.
+    pub(crate) fn new(window: &WindowDevice, context: &Context) -> Result<Self, Error> {
+        let gpu = Gpu::shared(&window.adapter, &window.device, &window.queue)?;
+        let (orders, received) = channel::<Order>();
+        let (sender, built) = channel();
+        let (builder, context) = (gpu.clone(), context.clone());
+        let build = move || {
+            while let Ok(mut order) = received.recv() {
+                // Only the last order counts.
+                while let Ok(later) = received.try_recv() {
+                    order = later;
+                }
+                let stage = Stage::new(&builder, &order).map(Box::new);
+                if sender.send((order, stage)).is_err() {
+                    break;
+                }
+                context.request_repaint();
+            }
+        };
+        let thread = std::thread::Builder::new().name("weald-scenes".to_owned()).spawn(build);
+        thread.map_err(|cause| Error::Run(format!("no thread for pictures: {cause}")))?;
+        Ok(Self {
+            gpu,
+            window: window.clone(),
+            orders,
+            built,
+            stage: None,
+            texture: None,
+            ordered: None,
+            surface: 0,
+            stale: None,
+            drawn: None,
+            rests: false,
+            submitted: None,
+            moving: 0,
+            seconds: 0.0,
+            error: None,
+        })
+    }
+
+    /// Where simulations run: on a graphics card, or on the processor where software acts as one.
+    pub(crate) fn engine(&self) -> Engine {
+        if self.gpu.is_software() { Engine::Cpu } else { Engine::DeviceElseCpu(Arc::new(self.gpu.clone())) }
+    }
+
+    /// Whether software draws, which is slow.
+    pub(crate) fn is_software(&self) -> bool {
+        self.gpu.is_software()
+    }
+
+    /// Name of the device and its driver.
+    pub(crate) fn device(&self) -> String {
+        let info = self.window.adapter.get_info();
+        format!("{} ({})", info.name, info.backend)
+    }
+
+    /// Orders the scene of a landscape with looks of this number, unless it is the one that was ordered last.
+    pub(crate) fn order(&mut self, shown: &Shown, looks: (&View, u64), is_live: bool) {
+        let number = (shown.number, looks.1);
+        if self.ordered == Some(number) {
+            return;
+        }
+        self.ordered = Some(number);
+        let order = Order { landscape: Arc::clone(&shown.landscape), view: looks.0.clone(), number, is_live };
+        if self.orders.send(order).is_err() {
+            self.error = Some("pictures have ended by a fault of Weald".to_owned());
+        }
+    }
+
+    /// Takes a scene that was made meanwhile; `true` where it is the first one.
+    pub(crate) fn take_built(&mut self) -> bool {
+        let mut is_first = false;
+        while let Ok((order, stage)) = self.built.try_recv() {
+            match stage {
+                Ok(stage) => {
+                    is_first |= self.stage.is_none();
+                    self.stage = Some(stage);
+                    (self.drawn, self.surface, self.error) = (None, 0, None);
+                    self.show_texture();
+                }
+                Err(error) => {
+                    self.error = Some(error.to_string());
+                    self.ordered = Some(order.number);
+                }
+            }
+        }
+        is_first
+    }
+
+    /// The camera that shows the landscape whole.
+    pub(crate) fn whole(&self) -> Option<Camera> {
+        self.stage.as_ref().map(|stage| stage.scene.camera())
+    }
+
+    /// The point in the middle of the landscape.
+    pub(crate) fn middle(&self) -> Option<[f32; 3]> {
+        self.stage.as_ref().map(|stage| stage.scene.middle())
+    }
+
+    /// Height at which an elevation is drawn.
+    pub(crate) fn drawn_height(&self, elevation: f64) -> Option<f32> {
+        self.stage.as_ref().map(|stage| stage.scene.drawn_height(elevation))
+    }
+
+    /// Shows ground and water as a simulation has left them.
+    pub(crate) fn follow(&mut self, surface: &Surface) -> Result<(), Error> {
+        let Some(stage) = &mut self.stage else { return Ok(()) };
+        if stage.number.0 != surface.shown || self.surface == surface.number {
+            return Ok(());
+        }
+        let Some(live) = &stage.live else { return Ok(()) };
+        live.show(&self.gpu, &surface.ground, &surface.water)?;
+        stage.renderer.follow(&stage.scene, live)?;
+        self.surface = surface.number;
+        self.drawn = None;
+        Ok(())
+    }
+
+    /// Draws what the camera sees, for a place of so many pixels, where that is not yet drawn. Gives how long until it
+    /// should be asked again.
+    pub(crate) fn draw(&mut self, camera: &Camera, full: [u32; 2]) -> Result<Option<Duration>, Error> {
+        let Some(stage) = &mut self.stage else { return Ok(None) };
+        if let Some(submitted) = self.submitted {
+            if stage.screen.in_flight() > 0 {
+                // Asking for answers lets the device tell what is done.
+                stage.screen.answers()?;
+                if stage.screen.in_flight() > 0 && submitted.elapsed() < Duration::from_secs(5) {
+                    return Ok(Some(Duration::from_millis(5)));
+                }
+            }
+            self.seconds = submitted.elapsed().as_secs_f64();
+            self.submitted = None;
+            self.moving = adapted(self.moving, self.drawn.map_or(0, |(_, drawn)| drawn), self.seconds);
+        }
+        let moves = self.drawn.is_none_or(|(drawn, _)| drawn != *camera);
+        if moves {
+            self.stale = Some(Instant::now());
+        }
+        let rests = self.stale.is_none_or(|since| since.elapsed() > REST);
+        // What rests becomes finer step by step.
+        let next = self.drawn.map_or(self.moving, |(_, drawn)| {
+            if self.seconds <= AT_REST { (drawn + 1).min(SCALES.len() - 1) } else { drawn }
+        });
+        let scale = if rests { next } else { self.moving };
+        let is_finer = rests && self.drawn.is_some_and(|(_, drawn)| scale > drawn);
+        self.rests = !moves && !is_finer && rests;
+        if !moves && !is_finer {
+            return Ok((!rests).then_some(REST));
+        }
+        let size = full.map(|side| ((side as f32 * SCALES[scale]) as u32).max(16));
+        stage.renderer.resize_screen(&mut stage.screen, size)?;
+        stage.renderer.draw_on(&mut stage.screen, camera)?;
+        (self.drawn, self.submitted) = (Some((*camera, scale)), Some(Instant::now()));
+        self.show_texture();
+        Ok(Some(Duration::from_millis(5)))
+    }
+
+    /// Whether the scene of this number is drawn, as finely as it will be.
+    pub(crate) fn is_drawn(&self, number: Option<(u64, u64)>) -> bool {
+        let is_there = self.stage.as_ref().map(|stage| stage.number) == number;
+        is_there && self.drawn.is_some() && self.submitted.is_none() && self.rests
+    }
+
+    /// The last picture; `None` before the first.
+    pub(crate) fn texture(&self) -> Option<TextureId> {
+        self.drawn.and(self.texture)
+    }
+
+    fn show_texture(&mut self) {
+        let Some(stage) = &self.stage else { return };
+        let (device, view) = (&self.window.device, stage.screen.view());
+        let mut renderer = self.window.renderer.write();
+        match self.texture {
+            Some(id) => renderer.update_egui_texture_from_wgpu_texture(device, view, FilterMode::Linear, id),
+            None => self.texture = Some(renderer.register_native_texture(device, view, FilterMode::Linear)),
+        }
+    }
+
+    /// A picture of its own size, for a file.
+    pub(crate) fn picture(&mut self, camera: &Camera, size: [u32; 2]) -> Result<Option<Image>, Error> {
+        let Some(stage) = &mut self.stage else { return Ok(None) };
+        stage.renderer.resize(size)?;
+        stage.renderer.render(camera).map(Some)
+    }
+}
+
+/// How many times more pixels one scale has than another.
+fn growth(from: usize, to: usize) -> f64 {
+    f64::from(SCALES[to] / SCALES[from]).powi(2)
+}
+
+/// The scale for pictures that follow a movement, after one of scale `drawn` took so many seconds.
+fn adapted(moving: usize, drawn: usize, seconds: f64) -> usize {
+    let finer = (moving + 1).min(SCALES.len() - 1);
+    if drawn <= moving && seconds > 1.5 * SLICE {
+        drawn.min(moving).saturating_sub(1)
+    } else if drawn >= moving && seconds * growth(drawn, finer.max(drawn)) < SLICE {
+        finer
+    } else {
+        moving
+    }
+}
+
+impl Stage {
+    fn new(gpu: &Gpu, order: &Order) -> Result<Self, Error> {
+        let Order { landscape, view, number, is_live } = order;
+        let scene = LitScene::new(view, landscape)?;
+        let scene = if *is_live { scene.to_follow() } else { scene };
+        let mut renderer = Renderer::new(gpu, &scene, RenderOptions { size: [64, 64], samples: 1 })?;
+        renderer.plant(&scene, landscape)?;
+        let live = is_live.then(|| Live::new(gpu, landscape.domain.size)).transpose()?;
+        let screen = renderer.screen([64, 64])?;
+        Ok(Self { scene, renderer, live, screen, number: *number })
+    }
+}

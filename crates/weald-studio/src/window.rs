@@ -1,0 +1,34 @@
+//! The window of the system.
+
+use std::path::PathBuf;
+
+use eframe::NativeOptions;
+use eframe::egui::ViewportBuilder;
+use weald::Error;
+
+use crate::studio::Studio;
+use crate::viewport;
+
+/// Opens the studio with a recipe, an elevation model or a project, and returns when it is closed.
+///
+/// # Errors
+/// [`Error::Run`] where the system has no window or no driver that draws, with what to install; those of opening `what`.
+pub fn open(what: Option<PathBuf>) -> Result<(), Error> {
+    let options = NativeOptions {
+        viewport: ViewportBuilder::default()
+            .with_title("Weald")
+            .with_app_id("weald")
+            .with_inner_size([1280.0, 800.0])
+            .with_min_inner_size([640.0, 420.0])
+            .with_drag_and_drop(true),
+        ..viewport::options()
+    };
+    let made = move |context: &eframe::CreationContext<'_>| {
+        Ok(Box::new(Studio::of(context, what.as_deref())?) as Box<dyn eframe::App>)
+    };
+    eframe::run_native("weald", options, Box::new(made)).map_err(|cause| {
+        let remedy = "the studio needs a desktop (X11 or Wayland) and a Vulkan, Metal or Direct3D 12 driver; on Debian or \
+                      Ubuntu `sudo apt-get install mesa-vulkan-drivers libvulkan1` brings one that runs anywhere";
+        Error::Run(format!("the window cannot be opened: {cause}; {remedy}"))
+    })
+}

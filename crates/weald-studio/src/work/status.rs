@@ -1,0 +1,109 @@
+//! What the thread that works shows to the window.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use weald::{Field, Landscape};
+
+/// What the thread is at.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub enum Phase {
+    /// Nothing.
+    #[default]
+    Idle,
+    /// A step of a recipe.
+    Running {
+        /// Number of the step, counted from 1.
+        step: usize,
+        /// Steps of the recipe.
+        count: usize,
+        /// What it does.
+        name: String,
+        /// Share of it that is done, where it tells.
+        share: Option<f32>,
+    },
+    /// The simulation that is held.
+    Simulating,
+    /// Files.
+    Writing(String),
+}
+
+/// A stretch of what was done: one stroke, one setting, or steps one after the other.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Moment {
+    /// Number in the history.
+    pub number: usize,
+    /// Steps done by then.
+    pub steps: u64,
+    /// What led to it.
+    pub label: String,
+    /// Whether steps did.
+    pub is_steps: bool,
+    /// Whether it lies before now, on the way that led here.
+    pub is_past: bool,
+}
+
+/// A landscape to be drawn.
+#[derive(Clone, Debug)]
+pub struct Shown {
+    /// All its layers.
+    pub landscape: Arc<Landscape>,
+    /// Changes with every other landscape.
+    pub number: u64,
+    /// Revision of the document that it was made of.
+    pub revision: u64,
+    /// Steps of the recipe that it comes after.
+    pub steps: usize,
+}
+
+/// Ground and water of a simulation as it runs.
+#[derive(Clone, Debug)]
+pub struct Surface {
+    /// Elevation of the ground, in metres.
+    pub ground: Arc<Field>,
+    /// Depth of the water on it, in metres.
+    pub water: Arc<Field>,
+    /// Grows with every change.
+    pub number: u64,
+    /// The landscape on which it lies: [`Shown::number`].
+    pub shown: u64,
+}
+
+/// All that the window can know of the work.
+#[derive(Clone, Debug, Default)]
+pub struct Status {
+    /// What it is at.
+    pub phase: Phase,
+    /// Revision of the document that was opened last, whole or not.
+    pub revision: u64,
+    /// What went wrong last, until something else is asked.
+    pub error: Option<String>,
+    /// What the user should know.
+    pub notes: Vec<String>,
+    /// The landscape.
+    pub shown: Option<Shown>,
+    /// What has changed on it since.
+    pub surface: Option<Surface>,
+    /// Place of the step that is held, counted from 0.
+    pub held: Option<usize>,
+    /// Whether the simulation runs.
+    pub plays: bool,
+    /// Steps done.
+    pub steps: u64,
+    /// Steps that the recipe asks for.
+    pub written_steps: u64,
+    /// Steps a second, as of late.
+    pub pace: f64,
+    /// What was done, oldest first, and what was taken back.
+    pub moments: Vec<Moment>,
+    /// Names of moments.
+    pub names: Vec<(String, usize)>,
+    /// Bytes that are kept to go back with.
+    pub kept: u64,
+    /// How often something was done by hand, so that the window knows what is not yet saved.
+    pub changes: u64,
+    /// What was written last, and at which of the changes.
+    pub saved: Option<(PathBuf, u64)>,
+    /// What was exported last.
+    pub exported: Option<(PathBuf, Vec<String>)>,
+}

@@ -1,0 +1,112 @@
+//! A studio without a window of the system, drawn on software that acts as a graphics card.
+
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+use eframe::egui;
+use egui_kittest::kittest::Queryable;
+use egui_kittest::{Harness, HarnessBuilder};
+use weald_studio::Studio;
+use weald_studio::work::{Phase, Status};
+
+/// How long anything may take before a test says that it does not happen.
+const TIMEOUT: Duration = Duration::from_mins(2);
+
+pub(crate) struct Window {
+    pub(crate) harness: Harness<'static, Studio>,
+}
+
+impl Window {
+    /// Opens a recipe or a project, or begins as without a file.
+    pub(crate) fn open(what: Option<&Path>) -> Self {
+        let what = what.map(Path::to_owned);
+        let builder: HarnessBuilder<Studio> =
+            Harness::builder().with_size([1200.0, 760.0]).wgpu_setup(weald_studio::device_setup());
+        let harness = builder.build_eframe(move |context| {
+            Studio::of(context, what.as_deref()).unwrap_or_else(|error| panic!("{error}"))
+        });
+        Self { harness }
+    }
+
+    pub(crate) fn status(&mut self) -> Status {
+        self.harness.step();
+        self.harness.state().status().clone()
+    }
+
+    /// Steps until something holds.
+    pub(crate) fn until(&mut self, what: &str, mut holds: impl FnMut(&Status) -> bool) -> Status {
+        let begun = Instant::now();
+        loop {
+            let status = self.status();
+            if holds(&status) {
+                return status;
+            }
+            assert!(begun.elapsed() < TIMEOUT, "{what} does not come: {:?} {:?}", status.phase, status.error);
+            std::thread::sleep(Duration::from_millis(5));
+        }
+    }
+
+    /// Steps until there is a landscape and nothing more to do.
+    pub(crate) fn settle(&mut self) -> Status {
+        self.until("rest", |status| status.shown.is_some() && status.phase == Phase::Idle)
+    }
+
+    /// Steps until the landscape is drawn as finely as it will be.
+    pub(crate) fn drawn(&mut self) {
+        let begun = Instant::now();
+        while !self.harness.state().is_drawn() {
+            self.harness.step();
+            assert!(begun.elapsed() < TIMEOUT, "no picture: {:?}", self.harness.state().drawing_error());
+            std::thread::sleep(Duration::from_millis(5));
+        }
+    }
+
+    /// Keeps what the window shows, to be looked at.
+    pub(crate) fn picture(&mut self, name: &str) {
+        let image = self.harness.render().expect("a picture");
+        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("studio");
+        std::fs::create_dir_all(&folder).expect("a folder");
+        image.save(folder.join(name).with_extension("png")).expect("written");
+    }
+
+    /// Draws a stroke with the pointer, from and to shares of the viewport.
+    pub(crate) fn stroke(&mut self, from: [f32; 2], to: [f32; 2]) {
+        let rect = self.harness.get_by_label("Viewport").rect();
+        let at = |share: [f32; 2]| rect.min + egui::vec2(share[0] * rect.width(), share[1] * rect.height());
+        self.harness.hover_at(at(from));
+        self.harness.step();
+        self.harness.drag_at(at(from));
+        self.harness.step();
+        for step in 1..=10 {
+            let part = step as f32 / 10.0;
+            self.harness.hover_at(at([0, 1].map(|axis| from[axis] + part * (to[axis] - from[axis]))));
+            self.harness.step();
+        }
+        self.harness.drop_at(at(to));
+        self.harness.step();
+    }
+
+    pub(crate) fn type_over(&mut self, label: &str, text: &str) {
+        let field = self.harness.get_by_role_and_label(egui::accesskit::Role::TextInput, label);
+        field.focus();
+        self.harness.step();
+        self.harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::A);
+        self.harness.step();
+        self.harness.get_by_role_and_label(egui::accesskit::Role::TextInput, label).type_text(text);
+        self.harness.step();
+        self.harness.step();
+    }
+
+    /// Clicks the last control of this label: that of a question lies over the others.
+    pub(crate) fn click_last(&mut self, label: &str) {
+        self.harness.get_all_by_label(label).last().expect("there").click();
+        self.harness.step();
+        self.harness.step();
+    }
+
+    pub(crate) fn click(&mut self, label: &str) {
+        self.harness.get_by_label(label).click();
+        self.harness.step();
+        self.harness.step();
+    }
+}
