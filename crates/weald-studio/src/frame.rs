@@ -1,6 +1,6 @@
 //! One frame of the window: what has happened, what is to be drawn, and where everything is.
 
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use eframe::egui::{
     self, CentralPanel, Color32, Context, Panel, Pos2, Rect, Sense, Stroke as Line, Ui, Vec2, ViewportCommand,
@@ -14,8 +14,8 @@ use crate::pick::Place;
 use crate::studio::{Asked, Left, Studio};
 use crate::work::Task;
 
-/// Seconds between two looks at whether something is to be kept.
-const AUTOSAVE_SECONDS: u64 = 1;
+/// Time between two looks at whether something is to be kept in case that the program is killed.
+const KEPT_EVERY: Duration = Duration::from_millis(500);
 
 /// Points of the ring that shows the brush on the ground.
 const RING: usize = 48;
@@ -35,7 +35,11 @@ impl eframe::App for Studio {
         }
         let title = format!("{}{} – Weald", self.project.title(), if self.is_unsaved() { " •" } else { "" });
         context.send_viewport_cmd(ViewportCommand::Title(title));
-        context.request_repaint_after(Duration::from_secs(AUTOSAVE_SECONDS));
+        context.request_repaint_after(KEPT_EVERY);
+    }
+
+    fn on_exit(&mut self) {
+        self.project.forget_unsaved();
     }
 
     fn ui(&mut self, ui: &mut Ui, _: &mut eframe::Frame) {
@@ -66,27 +70,39 @@ impl eframe::App for Studio {
 impl Studio {
     /// Notes what was saved, and keeps what is not.
     fn keep(&mut self) {
-        if let Some((file, changes)) = &self.status.saved
+        if let Some((file, state)) = &self.status.saved
             && self.project.recipe_file().as_ref() == Some(file)
-            && self.noted_saved != Some(*changes)
+            && self.noted_saved != Some(*state)
         {
-            self.noted_saved = Some(*changes);
-            let (text, changes) = (self.document.text().to_owned(), *changes);
-            self.project.saved(&text, changes);
-            self.message = Some(("saved".to_owned(), std::time::Instant::now()));
+            self.noted_saved = Some(*state);
+            self.project.saved(*state);
+            self.message = Some(("saved".to_owned(), Instant::now()));
         }
-        if self.status.phase == crate::work::Phase::Idle || self.status.plays {
-            let (text, changes) = (self.document.text(), self.status.changes);
-            if let Some(file) = self.project.autosave(text, changes) {
-                self.work.ask(Task::Save(file));
-            }
+        if self.kept_at.elapsed() >= KEPT_EVERY {
+            self.kept_at = Instant::now();
+            self.keep_unsaved();
         }
         if let Some((folder, names)) = &self.status.exported
             && self.noted_export.as_ref() != Some(folder)
         {
             self.noted_export = Some(folder.clone());
             let said = format!("{} files are in {}", names.len(), folder.display());
-            self.message = Some((said, std::time::Instant::now()));
+            self.message = Some((said, Instant::now()));
+        }
+    }
+
+    /// Writes what is not saved, in case that the program is killed: by the thread that works, or the text alone where that
+    /// cannot run.
+    fn keep_unsaved(&mut self) {
+        let state = self.state();
+        if self.document.diagnostics().is_empty() {
+            if self.opened == state.revision
+                && let Some(file) = self.project.keep(&self.own, state)
+            {
+                self.work.ask(Task::Save(file));
+            }
+        } else if let Err(error) = self.project.keep_text(&self.own, state, self.document.text()) {
+            self.say(error.to_string());
         }
     }
 

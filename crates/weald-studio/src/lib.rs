@@ -10,9 +10,11 @@ pub mod document;
 mod frame;
 mod looks;
 mod navigation;
+mod own_files;
 mod panels;
 mod pick;
 mod project;
+pub mod state;
 mod studio;
 mod viewport;
 mod window;
@@ -20,7 +22,17 @@ pub mod work;
 
 pub use brushes::Tool;
 pub use navigation::Mode;
-pub use studio::Studio;
+pub use studio::{Options, Studio};
 #[doc(hidden)]
 pub use viewport::device_setup;
 pub use window::open;
+
+/// Controls of a table by themselves: the key that was turned, and its new value.
+#[doc(hidden)]
+pub fn controls_for_a_test(
+    ui: &mut eframe::egui::Ui,
+    table: &weald::recipe::source::Table,
+    parameters: &[weald::recipe::parameter::Parameter],
+) -> Option<(String, Option<String>)> {
+    panels::controls::controls(ui, table, parameters, "test").map(|turned| (turned.key, turned.value))
+}

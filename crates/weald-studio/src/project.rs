@@ -7,17 +7,23 @@ use weald::Error;
 use weald::recipe::Recipe;
 use weald::recipe::template::{self, Template};
 
+use crate::own_files::OwnFiles;
+use crate::state::State;
+
 /// The recipe of a project.
 const RECIPE: &str = "landscape.toml";
 
 /// What is written every second while something is not saved, and taken away when it is.
 const AUTOSAVE: &str = "autosave.toml";
+const SCRIPT: &str = "autosave.edits.jsonl";
+
+/// A text that was typed and cannot run yet.
+const TYPED: &str = "typed.toml";
+
+const TAKEN_UP: &str = "what was not saved has been taken up again; save to keep it";
 
 /// By which a second studio knows that a project is open.
 const LOCK: &str = "open.lock";
-
-/// Most names in the list of what was open of late.
-const MOST_RECENT: usize = 12;
 
 /// Endings of elevation models.
 const MODELS: [&str; 9] = ["asc", "exr", "hgt", "nc", "npy", "png", "tif", "tiff", "zarr"];
@@ -29,11 +35,13 @@ pub(crate) struct Project {
     folder: Option<PathBuf>,
     /// The recipe that it was opened from, where that is not in a project.
     recipe: Option<PathBuf>,
-    /// Held as long as the project is open.
+    /// Locked as long as the project is open.
     lock: Option<File>,
-    saved_text: String,
-    saved_changes: u64,
-    autosaved_changes: u64,
+    /// What was saved last, and what was kept last in case that the program is killed.
+    saved: State,
+    kept: State,
+    /// Where it is kept as long as it has no folder, which is locked too.
+    unsaved: Option<(PathBuf, File)>,
 }
 
 /// A landscape to begin with.
@@ -48,8 +56,8 @@ pub(crate) struct Start {
 impl Start {
     /// A template, which is kept nowhere yet.
     pub(crate) fn of_template(template: &Template) -> Self {
-        let text = template.text.to_owned();
-        Self { project: Project { saved_text: text.clone(), ..Project::default() }, text, note: None }
+        let project = Project { saved: State::AS_READ, kept: State::AS_READ, ..Project::default() };
+        Self { project, text: template.text.to_owned(), note: None }
     }
 }
 
@@ -69,7 +77,7 @@ impl Project {
         if ending == "toml" {
             let text = Recipe::text_of(path)?;
             let recipe = Some(absolute(path)?);
-            let project = Self { recipe, saved_text: text.clone(), ..Self::default() };
+            let project = Self { recipe, saved: State::AS_READ, kept: State::AS_READ, ..Self::default() };
             return Ok(Start { project, text, note: None });
         }
         if MODELS.contains(&ending.as_str()) {
@@ -87,16 +95,14 @@ impl Project {
         let folder = absolute(folder)?;
         let lock = lock(&folder)?;
         let text = Recipe::text_of(&folder.join(RECIPE))?;
-        let kept = folder.join(AUTOSAVE);
-        let (text, note) = match Recipe::text_of(&kept) {
-            Ok(later) if is_later(&kept, &folder.join(RECIPE)) => {
-                (later, Some("what was not saved has been taken up again; save to keep it".to_owned()))
-            }
-            _ => (text, None),
+        let (text, note) = match kept_in(&folder, Some(&folder.join(RECIPE))) {
+            Some(later) => (later, Some(TAKEN_UP.to_owned())),
+            None => (text, None),
         };
         // What was taken up again is not what is saved.
-        let saved_text = if note.is_some() { String::new() } else { text.clone() };
-        let project = Self { folder: Some(folder), lock: Some(lock), saved_text, ..Self::default() };
+        let saved = if note.is_some() { State::default() } else { State::AS_READ };
+        let project =
+            Self { folder: Some(folder), lock: Some(lock), saved, kept: State::AS_READ, ..Self::default() };
         Ok(Start { project, text, note })
     }
 
@@ -113,7 +119,8 @@ impl Project {
 
     /// Name of the recipe's file in messages, from whose folder its paths start.
     pub(crate) fn recipe_name(&self) -> String {
-        let file = self.recipe_file().or_else(|| self.recipe.clone());
+        let kept = self.unsaved.as_ref().map(|(folder, _)| folder.join(AUTOSAVE));
+        let file = self.recipe_file().or_else(|| self.recipe.clone()).or(kept);
         file.map_or_else(|| "untitled.toml".to_owned(), |file| file.display().to_string())
     }
 
@@ -163,41 +170,98 @@ impl Project {
         Ok(file)
     }
 
-    /// Notes that all was saved, at so many changes by hand.
-    pub(crate) fn saved(&mut self, text: &str, changes: u64) {
-        text.clone_into(&mut self.saved_text);
-        (self.saved_changes, self.autosaved_changes) = (changes, changes);
-        if let Some(folder) = &self.folder {
-            // What is not there need not go.
-            for name in [AUTOSAVE, "autosave.edits.jsonl"] {
-                let _ = fs::remove_file(folder.join(name));
+    /// What a studio that was killed has left in a folder of its own, where no other has taken it up.
+    pub(crate) fn left_in(folder: PathBuf) -> Option<Start> {
+        let lock = lock(&folder).ok()?;
+        let text = kept_in(&folder, None)?;
+        let project = Self { unsaved: Some((folder, lock)), kept: State::AS_READ, ..Self::default() };
+        Some(Start { project, text, note: Some(TAKEN_UP.to_owned()) })
+    }
+
+    /// Counts what is done by hand from this number on.
+    pub(crate) fn count_from(&mut self, changes: u64) {
+        for state in [&mut self.saved, &mut self.kept] {
+            if *state == State::AS_READ {
+                state.changes = changes;
             }
         }
     }
 
-    /// Whether there is something that is not saved.
-    pub(crate) fn is_unsaved(&self, text: &str, changes: u64) -> bool {
-        text != self.saved_text || changes != self.saved_changes
+    /// Notes what was saved: what was kept in case that the program is killed can go.
+    pub(crate) fn saved(&mut self, state: State) {
+        (self.saved, self.kept) = (state, state);
+        if let Some(folder) = &self.folder {
+            forget(folder);
+        }
+        self.forget_unsaved();
     }
 
-    /// The file for what is not saved, where that has changed since it was last written.
-    pub(crate) fn autosave(&mut self, text: &str, changes: u64) -> Option<PathBuf> {
-        let folder = self.folder.as_ref()?;
-        if !self.is_unsaved(text, changes) || changes == self.autosaved_changes {
+    /// Takes away what was kept of a project that has no folder: it is saved, or not wanted.
+    pub(crate) fn forget_unsaved(&mut self) {
+        if let Some((folder, lock)) = self.unsaved.take() {
+            drop(lock);
+            // What cannot be taken away is offered once more, which does no harm.
+            let _ = fs::remove_dir_all(folder);
+        }
+    }
+
+    /// Whether there is something that is not saved.
+    pub(crate) fn is_unsaved(&self, state: State) -> bool {
+        state != self.saved
+    }
+
+    /// The file for what is not saved, where that has changed since it was last kept.
+    pub(crate) fn keep(&mut self, own: &OwnFiles, state: State) -> Option<PathBuf> {
+        if !self.is_unsaved(state) || state == self.kept {
             return None;
         }
-        self.autosaved_changes = changes;
-        Some(folder.join(AUTOSAVE))
+        self.kept = state;
+        Some(self.kept_folder(own)?.join(AUTOSAVE))
     }
+
+    /// Keeps a text that cannot run yet.
+    pub(crate) fn keep_text(&mut self, own: &OwnFiles, state: State, text: &str) -> Result<(), Error> {
+        if !self.is_unsaved(state) || state == self.kept {
+            return Ok(());
+        }
+        self.kept = state;
+        let Some(folder) = self.kept_folder(own) else { return Ok(()) };
+        weald::io::write_whole(&folder.join(TYPED), text.as_bytes())
+    }
+
+    /// Its folder, or one among those of projects that have none.
+    fn kept_folder(&mut self, own: &OwnFiles) -> Option<PathBuf> {
+        if let Some(folder) =
+            self.folder.clone().or_else(|| self.unsaved.as_ref().map(|(folder, _)| folder.clone()))
+        {
+            return Some(folder);
+        }
+        self.unsaved = own.new_folder().and_then(|folder| lock(&folder).ok().map(|lock| (folder, lock)));
+        self.unsaved.as_ref().map(|(folder, _)| folder.clone())
+    }
+}
+
+/// What was kept in a folder, where it is later than the recipe there.
+fn kept_in(folder: &Path, recipe: Option<&Path>) -> Option<String> {
+    let files = [AUTOSAVE, TYPED].map(|name| folder.join(name)).into_iter().filter(|file| file.is_file());
+    let last = files.max_by_key(|file| written(file))?;
+    let is_later = recipe.is_none_or(|recipe| written(&last) > written(recipe));
+    is_later.then(|| Recipe::text_of(&last).ok()).flatten()
+}
+
+/// Takes away what was kept in a folder: what is not there need not go.
+fn forget(folder: &Path) {
+    for name in [AUTOSAVE, SCRIPT, TYPED] {
+        let _ = fs::remove_file(folder.join(name));
+    }
+}
+
+fn written(path: &Path) -> Option<std::time::SystemTime> {
+    fs::metadata(path).and_then(|data| data.modified()).ok()
 }
 
 fn absolute(path: &Path) -> Result<PathBuf, Error> {
     std::path::absolute(path).map_err(|cause| Error::Run(format!("{}: {cause}", path.display())))
-}
-
-fn is_later(one: &Path, other: &Path) -> bool {
-    let written = |path: &Path| fs::metadata(path).and_then(|data| data.modified()).ok();
-    written(one) > written(other)
 }
 
 fn lock(folder: &Path) -> Result<File, Error> {
@@ -220,26 +284,6 @@ fn home() -> PathBuf {
     std::env::current_dir().unwrap_or_default()
 }
 
-fn recent_file() -> Option<PathBuf> {
-    Some(dirs::state_dir().or_else(dirs::data_local_dir)?.join("weald").join("recent.txt"))
-}
-
-/// What was open of late and is still there, the last first.
-pub(crate) fn recent() -> Vec<PathBuf> {
-    let text = recent_file().and_then(|file| fs::read_to_string(file).ok()).unwrap_or_default();
-    text.lines().map(PathBuf::from).filter(|path| path.exists()).take(MOST_RECENT).collect()
-}
-
-/// Remembers that this was open; a list that cannot be written is none.
-pub(crate) fn remember(path: &Path) {
-    let (Some(file), Ok(path)) = (recent_file(), absolute(path)) else { return };
-    let others = recent().into_iter().filter(|other| *other != path);
-    let all: Vec<_> = std::iter::once(path.clone()).chain(others).take(MOST_RECENT).collect();
-    let text = all.iter().map(|path| path.display().to_string()).collect::<Vec<_>>().join("\n");
-    let written = file.parent().map_or(Ok(()), fs::create_dir_all).and_then(|()| fs::write(&file, text));
-    drop(written);
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -258,19 +302,23 @@ mod tests {
     #[test]
     fn what_was_not_saved_is_taken_up_again_and_goes_when_it_is_saved() {
         let folder = tempfile::tempdir().expect("a folder");
-        let mut project = Project::default();
+        let (own, mut project) = (OwnFiles::default(), Project::default());
         let file = project.settle(folder.path()).expect("made");
         fs::write(&file, "# saved").expect("written");
-        let kept = project.autosave("# later", 3).expect("something is not saved");
-        assert_eq!(project.autosave("# later", 3), None, "it is written already");
+        let state = State { revision: 2, changes: 3 };
+        let kept = project.keep(&own, state).expect("something is not saved");
+        assert_eq!(project.keep(&own, state), None, "it is kept already");
         std::thread::sleep(std::time::Duration::from_millis(20));
         fs::write(kept, "# later").expect("written");
+        let typed = State { revision: 3, changes: 3 };
+        std::thread::sleep(std::time::Duration::from_millis(20));
+        project.keep_text(&own, typed, "# no recipe yet [").expect("written");
         drop(project);
         let mut start = Project::open(folder.path()).expect("open");
-        assert_eq!(start.text, "# later");
-        assert!(start.note.is_some() && start.project.is_unsaved("# later", 0));
-        start.project.saved("# later", 3);
-        assert!(!start.project.is_unsaved("# later", 3));
+        assert_eq!(start.text, "# no recipe yet [");
+        assert!(start.note.is_some() && start.project.is_unsaved(State::AS_READ));
+        start.project.saved(state);
+        assert!(!start.project.is_unsaved(state));
         drop(start);
         assert_eq!(Project::open(folder.path()).expect("open").text, "# saved");
     }

@@ -17,8 +17,10 @@ use crate::brushes::{Settings, Stroke};
 use crate::document::Document;
 use crate::looks::Looks;
 use crate::navigation::Mode;
+use crate::own_files::OwnFiles;
 use crate::pick::Place;
 use crate::project::{Project, Start};
+use crate::state::State;
 use crate::viewport::{Viewport, WindowDevice, device_of};
 use crate::work::{Opening, Status, Task, Work};
 
@@ -48,6 +50,16 @@ pub(crate) enum Asked {
     Export(String),
     /// Whether to leave what is not saved.
     Leave,
+}
+
+/// How a studio begins.
+#[derive(Clone, Debug, Default)]
+pub struct Options {
+    /// A recipe, an elevation model or the folder of a project; where there is none, what was not saved when a studio was
+    /// killed, or else a template.
+    pub what: Option<PathBuf>,
+    /// Where names of what was open of late are kept, and what is not saved, in place of where the system keeps such.
+    pub own_files: Option<PathBuf>,
 }
 
 /// What is typed to find a command, and which of those found is chosen.
@@ -83,6 +95,7 @@ pub struct Studio {
     /// Keys of the step that is held that were changed while it ran.
     pub(crate) set: Vec<(String, Value)>,
     pub(crate) recent: Vec<PathBuf>,
+    pub(crate) own: OwnFiles,
     pub(crate) tour: Option<usize>,
     /// Something said to the user, and when.
     pub(crate) message: Option<(String, Instant)>,
@@ -96,17 +109,18 @@ pub struct Studio {
     engine: Engine,
     pub(crate) is_closing: bool,
     /// What was saved and exported last, as far as the user was told.
-    pub(crate) noted_saved: Option<u64>,
+    pub(crate) noted_saved: Option<State>,
+    pub(crate) kept_at: Instant,
     pub(crate) noted_export: Option<PathBuf>,
 }
 
 impl Studio {
-    /// A studio in the window of a program, with a recipe, an elevation model or a project, or with a template.
+    /// A studio in the window of a program, with what its options say.
     ///
     /// # Errors
-    /// [`Error::Device`] where the window's device cannot draw landscapes, those of opening `what`.
-    pub fn of(context: &eframe::CreationContext<'_>, what: Option<&Path>) -> Result<Self, Error> {
-        Self::new(&context.egui_ctx, device_of(context), what)
+    /// [`Error::Device`] where the window's device cannot draw landscapes, those of opening what it begins with.
+    pub fn of(context: &eframe::CreationContext<'_>, options: Options) -> Result<Self, Error> {
+        Self::new(&context.egui_ctx, device_of(context), options)
     }
 
     /// What the thread that works has shown last.
@@ -127,15 +141,14 @@ impl Studio {
         self.viewport.as_ref()?.error.clone()
     }
 
-    /// A studio in a window that is drawn with `window`, or in none for a test of its panels.
-    ///
-    /// # Errors
-    /// [`Error::Device`] where the window's device cannot draw landscapes, those of opening `what`.
-    fn new(context: &Context, window: Option<&WindowDevice>, what: Option<&Path>) -> Result<Self, Error> {
+    fn new(context: &Context, window: Option<&WindowDevice>, options: Options) -> Result<Self, Error> {
         let told = context.clone();
+        let own = OwnFiles::new(options.own_files);
+        let what = options.what.as_deref();
         let work = Work::new(move || told.request_repaint())?;
         let viewport = window.map(|window| Viewport::new(window, context)).transpose()?;
         let start = what.map(Project::open).transpose()?;
+        let start = start.or_else(|| own.left_behind().into_iter().find_map(Project::left_in));
         let asked = start.is_none().then_some(Asked::Start);
         let start = start.unwrap_or_else(|| Start::of_template(&TEMPLATES[0]));
         let engine = viewport.as_ref().map_or(Engine::Cpu, Viewport::engine);
@@ -160,7 +173,8 @@ impl Studio {
             search: String::new(),
             name: String::new(),
             set: Vec::new(),
-            recent: crate::project::recent(),
+            recent: own.recent(),
+            own,
             tour: None,
             message: None,
             opened: 0,
@@ -171,6 +185,7 @@ impl Studio {
             engine,
             is_closing: false,
             noted_saved: None,
+            kept_at: Instant::now(),
             noted_export: None,
         };
         if let Some(note) = start.note {
@@ -187,7 +202,9 @@ impl Studio {
     /// Takes another recipe or project in place of this one.
     pub(crate) fn begin(&mut self, start: Start) {
         self.document = Document::new(start.project.recipe_name(), start.text);
+        self.project.forget_unsaved();
         self.project = start.project;
+        self.project.count_from(self.status.changes);
         (self.opened, self.keeps_edits) = (0, false);
         (self.camera, self.selected, self.asked) = (None, None, None);
         (self.done, self.undone, self.set) = (Vec::new(), Vec::new(), Vec::new());
@@ -200,8 +217,8 @@ impl Studio {
     pub(crate) fn open(&mut self, path: &Path) {
         match Project::open(path) {
             Ok(start) => {
-                crate::project::remember(path);
-                self.recent = crate::project::recent();
+                self.own.remember(path);
+                self.recent = self.own.recent();
                 self.begin(start);
             }
             Err(error) => self.say(error.to_string()),
@@ -279,6 +296,11 @@ impl Studio {
 
     /// Whether there is something that is not saved.
     pub(crate) fn is_unsaved(&self) -> bool {
-        self.project.is_unsaved(self.document.text(), self.status.changes)
+        self.project.is_unsaved(self.state())
+    }
+
+    /// Which text, and how much done by hand, there is now.
+    pub(crate) fn state(&self) -> State {
+        State { revision: self.document.revision(), changes: self.status.changes }
     }
 }

@@ -1,19 +1,17 @@
 //! The window of the system.
 
-use std::path::PathBuf;
-
 use eframe::NativeOptions;
 use eframe::egui::ViewportBuilder;
 use weald::Error;
 
-use crate::studio::Studio;
+use crate::studio::{Options as StudioOptions, Studio};
 use crate::viewport;
 
-/// Opens the studio with a recipe, an elevation model or a project, and returns when it is closed.
+/// Opens the studio, and returns when it is closed.
 ///
 /// # Errors
-/// [`Error::Run`] where the system has no window or no driver that draws, with what to install; those of opening `what`.
-pub fn open(what: Option<PathBuf>) -> Result<(), Error> {
+/// [`Error::Run`] where the system has no window or no driver that draws, with what to install; those of opening what it begins with.
+pub fn open(what: StudioOptions) -> Result<(), Error> {
     let options = NativeOptions {
         viewport: ViewportBuilder::default()
             .with_title("Weald")
@@ -24,7 +22,7 @@ pub fn open(what: Option<PathBuf>) -> Result<(), Error> {
         ..viewport::options()
     };
     let made = move |context: &eframe::CreationContext<'_>| {
-        Ok(Box::new(Studio::of(context, what.as_deref())?) as Box<dyn eframe::App>)
+        Ok(Box::new(Studio::of(context, what.clone())?) as Box<dyn eframe::App>)
     };
     eframe::run_native("weald", options, Box::new(made)).map_err(|cause| {
         let remedy = "the studio needs a desktop (X11 or Wayland) and a Vulkan, Metal or Direct3D 12 driver; on Debian or \

@@ -5,6 +5,8 @@ use std::sync::Arc;
 
 use weald::{Field, Landscape};
 
+use crate::state::State;
+
 /// What the thread is at.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub enum Phase {
@@ -102,8 +104,8 @@ pub struct Status {
     pub kept: u64,
     /// How often something was done by hand, so that the window knows what is not yet saved.
     pub changes: u64,
-    /// What was written last, and at which of the changes.
-    pub saved: Option<(PathBuf, u64)>,
+    /// What was written last, of which text of the document and at which of the changes.
+    pub saved: Option<(PathBuf, State)>,
     /// What was exported last.
     pub exported: Option<(PathBuf, Vec<String>)>,
 }

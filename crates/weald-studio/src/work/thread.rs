@@ -16,6 +16,7 @@ use weald::{Error, Landscape};
 use super::held::HeldSession;
 use super::status::{Phase, Shown, Status, Surface};
 use super::task::{Opening, Task};
+use crate::state::State;
 
 /// How long the simulation runs between two looks at what is asked.
 const SLICE: Duration = Duration::from_millis(20);
@@ -384,7 +385,10 @@ impl Worker {
             (None, Some(opening)) => weald::io::write_whole(file, opening.text.as_bytes())?,
             (None, None) => return Ok(()),
         }
-        self.shared.change(|status| status.saved = Some((file.to_owned(), status.changes)));
+        let revision = self.opening.as_ref().map_or(0, |opening| opening.revision);
+        self.shared.change(|status| {
+            status.saved = Some((file.to_owned(), State { revision, changes: status.changes }));
+        });
         Ok(())
     }
 

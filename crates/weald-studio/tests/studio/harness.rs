@@ -6,26 +6,35 @@ use std::time::{Duration, Instant};
 use eframe::egui;
 use egui_kittest::kittest::Queryable;
 use egui_kittest::{Harness, HarnessBuilder};
-use weald_studio::Studio;
 use weald_studio::work::{Phase, Status};
+use weald_studio::{Options, Studio};
 
 /// How long anything may take before a test says that it does not happen.
-const TIMEOUT: Duration = Duration::from_mins(2);
+const TIMEOUT: Duration = Duration::from_secs(40);
 
 pub(crate) struct Window {
     pub(crate) harness: Harness<'static, Studio>,
+    /// Goes with the window.
+    _own: Option<tempfile::TempDir>,
 }
 
 impl Window {
-    /// Opens a recipe or a project, or begins as without a file.
+    /// Opens a recipe or a project, or begins as without a file, on a machine that was never used.
     pub(crate) fn open(what: Option<&Path>) -> Self {
-        let what = what.map(Path::to_owned);
+        let own = tempfile::tempdir().expect("a folder");
+        let window = Self::on_machine(what, own.path());
+        Self { _own: Some(own), ..window }
+    }
+
+    /// The same where this folder has what was kept on the machine.
+    pub(crate) fn on_machine(what: Option<&Path>, own: &Path) -> Self {
+        let options = Options { what: what.map(Path::to_owned), own_files: Some(own.to_owned()) };
         let builder: HarnessBuilder<Studio> =
             Harness::builder().with_size([1200.0, 760.0]).wgpu_setup(weald_studio::device_setup());
         let harness = builder.build_eframe(move |context| {
-            Studio::of(context, what.as_deref()).unwrap_or_else(|error| panic!("{error}"))
+            Studio::of(context, options).unwrap_or_else(|error| panic!("{error}"))
         });
-        Self { harness }
+        Self { harness, _own: None }
     }
 
     pub(crate) fn status(&mut self) -> Status {
@@ -41,7 +50,11 @@ impl Window {
             if holds(&status) {
                 return status;
             }
-            assert!(begun.elapsed() < TIMEOUT, "{what} does not come: {:?} {:?}", status.phase, status.error);
+            let Status { phase, error, steps, plays, moments, .. } = &status;
+            assert!(
+                begun.elapsed() < TIMEOUT,
+                "{what} does not come: {phase:?} {error:?} {steps} {plays} {moments:?}"
+            );
             std::thread::sleep(Duration::from_millis(5));
         }
     }
@@ -105,6 +118,9 @@ impl Window {
     }
 
     pub(crate) fn click(&mut self, label: &str) {
+        // What has just come or gone moves what stands beside it, one frame later.
+        self.harness.step();
+        self.harness.step();
         self.harness.get_by_label(label).click();
         self.harness.step();
         self.harness.step();

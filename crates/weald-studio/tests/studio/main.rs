@@ -1,4 +1,6 @@
 //! The window as a person uses it: found by the labels that a screen reader reads.
 
+mod controls;
 mod harness;
+mod kills;
 mod panels;

@@ -10,7 +10,7 @@ const RECIPE: &str = "[landscape]\nsize = 64\ncell = 20.0\nseed = 3\n\n[[step]]\
     [[step]]\ndo = \"hydraulic\"\nmodel = \"stava\"\niterations = 40\n\n[[step]]\ndo = \"slope\"\n\n\
     [[output]]\nlayer = \"height\"\nfile = \"height.tif\"\n";
 
-fn recipe() -> (tempfile::TempDir, std::path::PathBuf) {
+pub(crate) fn recipe() -> (tempfile::TempDir, std::path::PathBuf) {
     let folder = tempfile::tempdir().expect("a folder");
     let file = folder.path().join("valley.toml");
     fs::write(&file, RECIPE).expect("written");
@@ -83,11 +83,11 @@ fn what_is_painted_is_undone_saved_run_and_opened_again_to_the_bit() {
     window.click("Save");
     window.type_over("Path", &project.display().to_string());
     window.click_last("Save");
-    let saved = window.until("the file", |status| status.saved.is_some());
+    let file = project.join("landscape.toml");
+    window.until("the file", |status| status.saved.as_ref().is_some_and(|(saved, _)| *saved == file));
     let shown = window.until("the steps after", |status| {
         status.shown.as_ref().is_some_and(|shown| shown.landscape.field("slope").is_ok())
     });
-    drop(saved);
     let here = shown.shown.expect("shown").landscape;
     let run =
         weald::recipe::Recipe::load(&project.join("landscape.toml"), &weald::recipe::Overrides::default());

@@ -1,0 +1,15 @@
+//! Which text of the document, and how much done by hand: what is saved is known by it.
+
+/// Numbers that grow with every change.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct State {
+    /// Revision of the document.
+    pub revision: u64,
+    /// How often something was done by hand.
+    pub changes: u64,
+}
+
+impl State {
+    /// Of a document that was just read.
+    pub const AS_READ: Self = Self { revision: 1, changes: 0 };
+}
