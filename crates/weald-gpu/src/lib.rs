@@ -43,5 +43,6 @@ pub use point_clouds::{PointCloud, PointRates, Swayed, SwayingPoints, bend_limbs
 #[doc(hidden)]
 pub use render::TestLook;
 pub use render::{
-    Chosen, GrassLook, Options as RenderOptions, Pick, PickedGround, Renderer, Screen, Timings, bench,
+    Chosen, GrassLook, Options as RenderOptions, Pick, PickedGround, Renderer, SceneUpdate, Screen, Timings,
+    bench,
 };

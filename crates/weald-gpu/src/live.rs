@@ -8,9 +8,9 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 
 use weald::Error;
+use weald::edit::Canvas;
 use weald::engine::device::ShownGround;
-use weald::error::{Limit, Quantity};
-use weald::grid::{Field, Size};
+use weald::grid::Size;
 use wgpu::{
     BindGroup, BindGroupDescriptor, BindGroupEntry, Buffer, BufferUsages, CommandEncoderDescriptor,
     ComputePassDescriptor, ComputePipeline, ComputePipelineDescriptor, PipelineCompilationOptions,
@@ -81,25 +81,29 @@ impl Live {
         self.shared.generation.load(Ordering::Acquire)
     }
 
-    /// Shows ground and water of a simulation that runs on the processor: elevations and depths in metres. Waits for
-    /// nothing.
+    /// Brings the ground and water of some cells to the device, of a simulation that runs elsewhere or of a stroke: no more
+    /// than those, and without waiting.
     ///
     /// # Errors
-    /// [`Error::Limit`] for fields of another size, [`Error::Device`] where the device fails.
-    pub fn show(&self, gpu: &Gpu, ground: &Field, water: &Field) -> Result<(), Error> {
-        let shared = &*self.shared;
-        for (field, store) in [(ground, &shared.ground), (water, &shared.depth)] {
-            if field.size() != shared.size {
-                let (asked, most) = (field.size().cells() as u64, shared.size.cells() as u64);
-                let limit = Limit::new(Quantity::Cells, asked, most..=most);
-                return Err(limit
-                    .of("a field that is shown")
-                    .remedy("show one of the landscape's own size")
-                    .into());
-            }
-            gpu.context.queue.write_buffer(&store.buffer, 0, bytemuck::cast_slice(field.values()));
+    /// [`Error::Run`] for cells that the landscape does not have, [`Error::Device`] where the device has failed.
+    pub fn paint(&self, gpu: &Gpu, canvas: &Canvas) -> Result<(), Error> {
+        gpu.context.check("painting")?;
+        let ([left, upper], size, whole) = (canvas.first, canvas.size(), self.shared.size);
+        if left + size.columns > whole.columns || upper + size.rows > whole.rows {
+            let message =
+                format!("{size} cells from column {left} and row {upper} on are not within {whole}");
+            return Err(Error::Run(message));
         }
-        shared.generation.fetch_add(1, Ordering::AcqRel);
+        for row in 0..size.rows {
+            let cells = row * size.columns..(row + 1) * size.columns;
+            let ground: Vec<f32> = cells.clone().map(|cell| canvas.surface(cell) as f32).collect();
+            let at = 4 * ((upper + row) * whole.columns + left) as u64;
+            let rows = [&ground[..], &canvas.water.values()[cells]];
+            for (store, row) in self.stores().into_iter().zip(rows) {
+                gpu.context.queue.write_buffer(&store.buffer, at, bytemuck::cast_slice(row));
+            }
+        }
+        self.shared.generation.fetch_add(1, Ordering::AcqRel);
         Ok(())
     }
 

@@ -42,6 +42,24 @@ impl Renderer {
     }
 }
 
+impl Renderer {
+    /// Where the roots of the grass are that the picture of a camera draws, and those of all plants.
+    #[doc(hidden)]
+    pub fn roots_for_a_test(&mut self, camera: &Camera) -> Result<[Vec<[f32; 3]>; 2], Error> {
+        self.render(camera)?;
+        let mut grass = Vec::new();
+        for loaded in self.grass.iter().flat_map(Grass::loaded) {
+            let (lit, draws) = (words(&self.gpu, &loaded.lit)?, words(&self.gpu, &loaded.draws)?);
+            // Six blades of each set are drawn.
+            let count: u32 = draws.chunks_exact(4).take(LISTS).map(|draw| draw[1] / 6).sum();
+            let root = |set: &[u32]| [0, 1, 2].map(|at| f32::from_bits(set[at]));
+            grass.extend(lit.chunks_exact(8).take(count as usize).map(root));
+        }
+        let plants = self.plants.as_ref().map_or_else(|| Ok(Vec::new()), |plants| plants.roots(&self.gpu))?;
+        Ok([grass, plants])
+    }
+}
+
 impl Chosen {
     fn of(gpu: &Gpu, loaded: &LoadedSets) -> Result<Self, Error> {
         let (kept, starts) = (words(gpu, &loaded.kept)?, words(gpu, &loaded.starts)?);

@@ -3,24 +3,22 @@
 use weald::error::{Limit, Quantity};
 use weald::picture::LitScene;
 use weald::{Error, Size};
-use wgpu::{
-    BindGroupDescriptor, BindGroupEntry, BindingResource, CommandEncoderDescriptor, ComputePassDescriptor,
-};
+use wgpu::CommandEncoderDescriptor;
 
 use super::follower::Follower;
 use super::renderer::Renderer;
 use crate::live::Live;
 
-/// Control points along the side of a workgroup, and beyond each border, as the shader has them.
-const GROUP: u32 = 16;
-const RIM: u32 = 2;
-
-/// Share of the relief by which ground may rise or sink while it is followed, and stay in sight of all that is drawn.
+/// Share of the relief by which ground may rise or sink until its bounds are known, and from then on until they are known
+/// anew, and stay in sight of all that is drawn.
 const SLACK: f32 = 0.25;
+const LATER_SLACK: f32 = 0.05;
 
 impl Renderer {
-    /// Takes ground and water of a simulation as they are now for the next pictures. `scene` is the one that the renderer
-    /// was made of, which came from [`LitScene::to_follow`].
+    /// Takes ground and water as they are now for the next pictures: of a simulation on the same device, or what
+    /// [`Live::paint`] brought there. Shadows, grass, plants and what is culled follow; the light of the sky and the colours
+    /// of the ground stay. `scene` is the one that the renderer was made of, which came from [`LitScene::to_follow`]. Waits
+    /// for nothing, but that the first time pipelines are made.
     ///
     /// # Errors
     /// [`Error::Limit`] for a simulation of another size than the scene has, [`Error::Device`] where the device fails.
@@ -29,42 +27,32 @@ impl Renderer {
         if [size.columns, size.rows] != cells {
             return Err(other_size(size, cells).into());
         }
+        self.gpu.context.tend("following a simulation")?;
         if self.follower.is_none() {
             self.terrain.widen(SLACK);
-            self.follower = Some(Follower::new(&self.gpu, scene)?);
+            self.follower = Some(Follower::new(&self.gpu, scene, &self.maps, self.terrain.squares())?);
         }
+        self.renew_bounds()?;
         self.shadows.whole_is_drawn = false;
-        let Some(follower) = &self.follower else { return Ok(()) };
-        let [ground, depth] = live.stores();
-        let map = |name| BindingResource::TextureView(self.maps.view(name));
-        let resources = [
-            follower.numbers.buffer.as_entire_binding(),
-            ground.buffer.as_entire_binding(),
-            depth.buffer.as_entire_binding(),
-            map("land"),
-            map("top"),
-            map("bed"),
-            map("level"),
-        ];
-        let entries: Vec<_> =
-            (0..).zip(resources).map(|(binding, resource)| BindGroupEntry { binding, resource }).collect();
+        let Some(follower) = &mut self.follower else { return Ok(()) };
         let context = &self.gpu.context;
-        context.attempt("following a simulation", || {
-            let group = context.device.create_bind_group(&BindGroupDescriptor {
-                label: Some("follow"),
-                layout: &follower.pipeline.get_bind_group_layout(0),
-                entries: &entries,
-            });
-            let mut encoder = context.device.create_command_encoder(&CommandEncoderDescriptor::default());
-            let mut pass = encoder.begin_compute_pass(&ComputePassDescriptor::default());
-            pass.set_pipeline(&follower.pipeline);
-            pass.set_bind_group(0, &group, &[]);
-            let groups = cells.map(|cells| (cells as u32 + 2 * RIM).div_ceil(GROUP));
-            pass.dispatch_workgroups(groups[0], groups[1], 1);
-            drop(pass);
-            context.queue.submit([encoder.finish()]);
-            Ok(())
-        })
+        let mut encoder = context.device.create_command_encoder(&CommandEncoderDescriptor::default());
+        follower.encode(&self.gpu, &mut encoder, &self.maps, live);
+        if let Some(plants) = &self.plants {
+            plants.stand(&mut encoder, [&self.frame.caster_group, &self.maps.group]);
+        }
+        context.queue.submit([encoder.finish()]);
+        follower.submitted();
+        Ok(())
+    }
+
+    /// Takes the bounds of the ground that have come.
+    fn renew_bounds(&mut self) -> Result<(), Error> {
+        let Some(follower) = &mut self.follower else { return Ok(()) };
+        if let Some(bounds) = follower.bounds()? {
+            self.terrain.renew(bounds, LATER_SLACK);
+        }
+        Ok(())
     }
 }
 

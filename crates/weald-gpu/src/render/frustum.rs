@@ -76,12 +76,22 @@ impl Heights {
             let height = top.values[y * columns + x];
             [height, height]
         });
-        let mut levels = vec![finest];
-        while let Some((columns, bounds)) = levels.last().filter(|(_, bounds)| bounds.len() > 1) {
-            let size = [*columns, bounds.len() / columns];
-            levels.push(blocks(size, 2, |x, y| bounds[y * columns + x]));
+        Self { levels: coarser(finest), metres, base, slack: 0.0 }
+    }
+
+    /// Takes the bounds of all squares of the ground anew, with room for heights to rise and sink by a share of the relief.
+    pub(crate) fn renew(&mut self, bounds: Vec<[f32; 2]>, share: f32) {
+        let columns = self.levels[0].0;
+        if bounds.len() == self.levels[0].1.len() {
+            self.levels = coarser((columns, bounds));
+            self.slack = 0.0;
+            self.slack = share * (self.highest() - self.lowest());
         }
-        Self { levels, metres, base, slack: 0.0 }
+    }
+
+    /// How many of the smallest squares there are.
+    pub(crate) fn squares(&self) -> usize {
+        self.levels[0].1.len()
     }
 
     /// Ground without heights.
@@ -127,6 +137,16 @@ impl Heights {
             [west + side * self.metres[0], north, range[1] + self.slack],
         ]
     }
+}
+
+/// Bounds of squares that double in size, from the finest to that of all.
+fn coarser(finest: (usize, Vec<[f32; 2]>)) -> Vec<(usize, Vec<[f32; 2]>)> {
+    let mut levels = vec![finest];
+    while let Some((columns, bounds)) = levels.last().filter(|(_, bounds)| bounds.len() > 1) {
+        let size = [*columns, bounds.len() / columns];
+        levels.push(blocks(size, 2, |x, y| bounds[y * columns + x]));
+    }
+    levels
 }
 
 fn union(a: [f32; 2], b: [f32; 2]) -> [f32; 2] {

@@ -64,7 +64,7 @@ pub(super) struct Around<'a> {
 type Shown = (GrassLook, Option<[i64; 2]>);
 
 /// What another thread sows.
-type Coming = (Shown, Receiver<Result<Option<LoadedSets>, Error>>);
+type Sowing = (Shown, Receiver<Result<Option<LoadedSets>, Error>>);
 
 /// What a view has.
 #[derive(Debug, Default)]
@@ -72,7 +72,7 @@ struct ViewerSets {
     viewer: Weak<()>,
     shown: Option<Shown>,
     loaded: Option<LoadedSets>,
-    coming: Option<Coming>,
+    coming: Option<Sowing>,
 }
 
 /// The sets that a picture chooses from.
@@ -86,7 +86,8 @@ pub(super) struct LoadedSets {
     pub(super) cull: BindGroup,
     pub(super) light: BindGroup,
     pub(super) draw: BindGroup,
-    _others: [Store; 3],
+    pub(super) lit: Store,
+    _others: [Store; 2],
 }
 
 impl GrassLayer {
@@ -297,7 +298,7 @@ impl Stores {
         let with_lit = [&drawn[..], &[&lit]].concat();
         let light = bind(gpu, to_light, &with_lit)?;
         let draw = bind(gpu, to_draw, &with_lit)?;
-        Ok(LoadedSets { count, sets, kept, starts, draws, cull, light, draw, _others: [lit, marks, choice] })
+        Ok(LoadedSets { count, sets, kept, starts, draws, cull, light, draw, lit, _others: [marks, choice] })
     }
 }
 

@@ -26,7 +26,7 @@ const ROWS: usize = 256;
 pub(super) struct Maps {
     pub(super) layout: BindGroupLayout,
     pub(super) group: BindGroup,
-    _numbers: Store,
+    numbers: Store,
     canvases: Vec<Canvas>,
 }
 
@@ -39,13 +39,42 @@ impl Maps {
         let canvases: Vec<_> = maps.iter().map(|map| upload(gpu, map)).collect::<Result<_, _>>()?;
         let layout = layout(gpu);
         let group = bind(gpu, &layout, &numbers, &canvases)?;
-        Ok(Self { layout, group, _numbers: numbers, canvases })
+        Ok(Self { layout, group, numbers, canvases })
     }
 
     /// The view of a map.
     pub(super) fn view(&self, name: &str) -> &TextureView {
+        &self.canvas(name).view
+    }
+
+    /// Columns and rows of a map.
+    pub(super) fn size(&self, name: &str) -> [usize; 2] {
+        let texture = &self.canvas(name).texture;
+        [texture.width() as usize, texture.height() as usize]
+    }
+
+    /// Makes room for a map, where the one that is there has another size.
+    pub(super) fn make_room(&mut self, gpu: &Gpu, map: &SceneTexture) -> Result<(), Error> {
+        let place = LitScene::texture_kinds().position(|(known, ..)| known == map.name);
+        let (Some(place), false) = (place, self.size(map.name) == map.size) else { return Ok(()) };
+        self.canvases[place] = room(gpu, map)?;
+        self.group = bind(gpu, &self.layout, &self.numbers, &self.canvases)?;
+        Ok(())
+    }
+
+    /// Sends some rows of a layer of a map, without waiting.
+    pub(super) fn send(&self, gpu: &Gpu, name: &str, [layer, row]: [usize; 2], texels: Texels<'_>) {
+        put_rows(gpu, self.canvas(name), [layer, row], (texels, &bytes(texels.kind, texels.values)));
+    }
+
+    /// Sends the numbers of a scene, without waiting.
+    pub(super) fn send_numbers(&self, gpu: &Gpu, numbers: &[u8]) {
+        gpu.context.queue.write_buffer(&self.numbers.buffer, 0, numbers);
+    }
+
+    fn canvas(&self, name: &str) -> &Canvas {
         let at = LitScene::texture_kinds().position(|(known, ..)| known == name);
-        &self.canvases[at.expect("a map of the scene")].view
+        &self.canvases[at.expect("a map of the scene")]
     }
 }
 
@@ -58,6 +87,14 @@ pub(super) fn format(kind: TextureKind) -> TextureFormat {
 }
 
 fn upload(gpu: &Gpu, map: &SceneTexture) -> Result<Canvas, Error> {
+    let canvas = room(gpu, map)?;
+    let values = Texels { kind: map.kind, columns: map.size[0], values: &map.values };
+    write(gpu, &canvas, &values)?;
+    Ok(canvas)
+}
+
+/// A texture for a map.
+fn room(gpu: &Gpu, map: &SceneTexture) -> Result<Canvas, Error> {
     let size = map.size.map(|side| side as u32);
     let usage = TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_DST;
     // Surfaces may follow a simulation.
@@ -67,10 +104,7 @@ fn upload(gpu: &Gpu, map: &SceneTexture) -> Result<Canvas, Error> {
         is_array: is_array(map.name),
         ..Shape::flat(size, format(map.kind), usage)
     };
-    let canvas = Canvas::new(gpu, &format!("the map `{}`", map.name), shape)?;
-    let values = Texels { kind: map.kind, columns: map.size[0], values: &map.values };
-    write(gpu, &canvas, &values)?;
-    Ok(canvas)
+    Canvas::new(gpu, &format!("the map `{}`", map.name), shape)
 }
 
 /// The values of a texture, layer by layer, row by row.
@@ -98,32 +132,37 @@ fn is_array(name: &str) -> bool {
 }
 
 /// Writes some rows of a layer, and waits until they are there.
-fn write_rows(
-    gpu: &Gpu,
-    canvas: &Canvas,
-    [layer, row]: [usize; 2],
-    Texels { kind, columns, values }: Texels<'_>,
-) -> Result<(), Error> {
-    let bytes = bytes(kind, values);
-    let rows = values.len() / (columns * kind.channels());
+fn write_rows(gpu: &Gpu, canvas: &Canvas, place: [usize; 2], texels: Texels<'_>) -> Result<(), Error> {
+    let bytes = bytes(texels.kind, texels.values);
     let _staged = gpu.memory.hold(bytes.len() as u64, "staging")?;
     let submission = gpu.context.attempt("bringing maps to the GPU", || {
-        let place = TexelCopyTextureInfo {
-            texture: &canvas.texture,
-            mip_level: 0,
-            origin: Origin3d { x: 0, y: row as u32, z: layer as u32 },
-            aspect: TextureAspect::All,
-        };
-        let layout = TexelCopyBufferLayout {
-            offset: 0,
-            bytes_per_row: Some((bytes.len() / rows) as u32),
-            rows_per_image: None,
-        };
-        let size = Extent3d { width: columns as u32, height: rows as u32, depth_or_array_layers: 1 };
-        gpu.context.queue.write_texture(place, &bytes, layout, size);
+        put_rows(gpu, canvas, place, (texels, &bytes));
         Ok(gpu.context.submit([]))
     })?;
     gpu.context.wait(Some(submission))
+}
+
+/// Writes some rows of a layer, whose texels are these bytes.
+fn put_rows(
+    gpu: &Gpu,
+    canvas: &Canvas,
+    [layer, row]: [usize; 2],
+    (Texels { kind, columns, values }, bytes): (Texels<'_>, &[u8]),
+) {
+    let rows = values.len() / (columns * kind.channels());
+    let place = TexelCopyTextureInfo {
+        texture: &canvas.texture,
+        mip_level: 0,
+        origin: Origin3d { x: 0, y: row as u32, z: layer as u32 },
+        aspect: TextureAspect::All,
+    };
+    let layout = TexelCopyBufferLayout {
+        offset: 0,
+        bytes_per_row: Some((bytes.len() / rows) as u32),
+        rows_per_image: None,
+    };
+    let size = Extent3d { width: columns as u32, height: rows as u32, depth_or_array_layers: 1 };
+    gpu.context.queue.write_texture(place, bytes, layout, size);
 }
 
 fn bytes(kind: TextureKind, values: &[f32]) -> Vec<u8> {

@@ -8,6 +8,7 @@
 mod canopy;
 mod cascades;
 mod chosen;
+mod coming;
 mod device;
 mod field;
 mod follow;
@@ -30,6 +31,7 @@ mod picking;
 mod picture;
 mod plants;
 mod renderer;
+mod returning;
 mod screen;
 mod shadows;
 mod spacing;
@@ -44,6 +46,7 @@ mod tried;
 mod upload;
 
 pub use chosen::Chosen;
+pub use coming::SceneUpdate;
 pub use grass_look::GrassLook;
 pub use options::Options;
 pub use picking::{Pick, PickedGround};

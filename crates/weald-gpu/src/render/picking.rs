@@ -1,21 +1,19 @@
 //! What is seen at places of a picture, asked of the device with one picture and answered some pictures later: `pick.wgsl`.
 
-use std::sync::mpsc::{Receiver, TryRecvError, channel};
-
 use weald::Error;
 use weald::picture::LitScene;
 use wgpu::{
     BindGroup, BindGroupDescriptor, BindGroupEntry, BindGroupLayout, BindGroupLayoutDescriptor,
-    BindGroupLayoutEntry, BindingResource, BindingType, BufferAsyncError, BufferBindingType, BufferUsages,
-    CommandEncoder, ComputePassDescriptor, ComputePipeline, MapMode, ShaderStages,
+    BindGroupLayoutEntry, BindingResource, BindingType, BufferBindingType, BufferUsages, CommandEncoder,
+    ComputePassDescriptor, ComputePipeline, ShaderStages,
 };
 
 use super::ground::depths_entry;
+use super::returning::Returning;
 use super::targets::Targets;
 use super::upload::Upload;
 use crate::gpu::Gpu;
 use crate::memory::Store;
-use crate::transfer::unreadable;
 
 /// Most places that are asked with one picture; more wait for the next.
 const MAX_PICKS: usize = 1024;
@@ -112,19 +110,11 @@ pub(super) struct Picking {
     waiting: Vec<[f32; 2]>,
 }
 
-/// Memory through which answers come back.
+/// Places that were asked with one picture, and their answers.
 #[derive(Debug)]
 struct Answer {
-    store: Store,
     asked: Vec<[f32; 2]>,
-    state: AnswerState,
-}
-
-#[derive(Debug)]
-enum AnswerState {
-    Free,
-    Encoded,
-    Mapping(Receiver<Result<(), BufferAsyncError>>),
+    points: Returning,
 }
 
 impl Picking {
@@ -137,9 +127,8 @@ impl Picking {
         let asked = room("picked places", ASKED, BufferUsages::STORAGE | BufferUsages::COPY_DST)?;
         let answered = room("picked points", ANSWERED, BufferUsages::STORAGE | BufferUsages::COPY_SRC)?;
         let answer = |_| {
-            let usage = BufferUsages::COPY_DST | BufferUsages::MAP_READ;
-            let store = room("picked points", ANSWERED, usage)?;
-            Ok(Answer { store, asked: Vec::new(), state: AnswerState::Free })
+            let points = Returning::new(gpu, "picked points", ANSWERED * MAX_PICKS as u64)?;
+            Ok(Answer { asked: Vec::new(), points })
         };
         let coming = (0..IN_FLIGHT).map(answer).collect::<Result<_, Error>>()?;
         let group = bind(gpu, &layout, targets, [&asked, &answered]);
@@ -162,7 +151,7 @@ impl Picking {
     }
 
     fn free(&self) -> Option<usize> {
-        self.coming.iter().position(|answer| matches!(answer.state, AnswerState::Free))
+        self.coming.iter().position(|answer| answer.points.is_free())
     }
 
     /// Encodes what is asked, when the ground and its sides are drawn.
@@ -182,38 +171,20 @@ impl Picking {
         pass.dispatch_workgroups((count as u32).div_ceil(GROUP), 1, 1);
         drop(pass);
         let answer = &mut self.coming[answer];
-        let bytes = ANSWERED * count as u64;
-        encoder.copy_buffer_to_buffer(&self.answered.buffer, 0, &answer.store.buffer, 0, bytes);
-        (answer.asked, answer.state) = (places, AnswerState::Encoded);
+        answer.points.copy(encoder, &self.answered, ANSWERED * count as u64);
+        answer.asked = places;
     }
 
     /// What was encoded was submitted: its answers may come.
     pub(super) fn submitted(&mut self) {
-        for answer in &mut self.coming {
-            if matches!(answer.state, AnswerState::Encoded) {
-                let (sender, mapped) = channel();
-                let bytes = ANSWERED * answer.asked.len() as u64;
-                answer.store.buffer.map_async(MapMode::Read, ..bytes, move |done| drop(sender.send(done)));
-                answer.state = AnswerState::Mapping(mapped);
-            }
-        }
+        self.coming.iter_mut().for_each(|answer| answer.points.submitted());
     }
 
     /// What has come by now, picture by picture, in the order of the places.
     pub(super) fn answers(&mut self, scale: &LandScale) -> Result<Vec<Pick>, Error> {
         let mut picks = Vec::new();
         for answer in &mut self.coming {
-            let AnswerState::Mapping(mapped) = &answer.state else { continue };
-            match mapped.try_recv() {
-                Err(TryRecvError::Empty) => continue,
-                done => done.map_err(unreadable)?.map_err(unreadable)?,
-            }
-            let bytes = ANSWERED * answer.asked.len() as u64;
-            let mapped = answer.store.buffer.get_mapped_range(..bytes).map_err(unreadable)?;
-            let points: Vec<[f32; 4]> = bytemuck::pod_collect_to_vec(&mapped);
-            drop(mapped);
-            answer.store.buffer.unmap();
-            answer.state = AnswerState::Free;
+            let Some(points) = answer.points.take::<[f32; 4]>()? else { continue };
             let of_ground = |[x, y, z, kind]: [f32; 4]| (kind == 1.0).then(|| scale.ground([x, y, z]));
             let pick = |(&at, point)| Pick { at, ground: of_ground(point) };
             picks.extend(answer.asked.iter().zip(points).map(pick));

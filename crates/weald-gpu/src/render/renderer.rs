@@ -8,6 +8,7 @@ use weald::{Error, Landscape};
 use wgpu::{CommandEncoder, TextureView};
 
 use super::canopy;
+use super::coming::{Coming, SceneUpdate};
 use super::follower::Follower;
 use super::frame::{Drawn, Frame};
 use super::grass::Grass;
@@ -72,6 +73,8 @@ pub struct Renderer {
     pub(super) look: TestLook,
     pub(super) timer: Option<Timer>,
     pub(super) follower: Option<Follower>,
+    /// What has become of the scene and is not on the device yet.
+    pub(super) coming: Option<Coming>,
     pub(super) has_water: bool,
     /// Whether water is left out, to be measured.
     pub(super) is_dry: bool,
@@ -114,6 +117,7 @@ impl Renderer {
             look: TestLook::default(),
             timer: None,
             follower: None,
+            coming: None,
             has_water: scene.has_water(),
             is_dry: false,
             seconds: 0.0,
@@ -157,6 +161,32 @@ impl Renderer {
         self.plants = Plants::new(&self.gpu, grown, layouts, samples)?;
         self.shadows.whole_is_drawn = false;
         Ok(())
+    }
+
+    /// Takes what a scene has become, for the next pictures of a window a few megabytes at a time, for one that comes back
+    /// all of it: colours, light of the sky, water and, where no simulation is followed, the ground with what stands on it.
+    /// What was on its way before is forgotten.
+    ///
+    /// # Errors
+    /// [`Error::Device`] for a scene of another size, or where the device's memory does not suffice.
+    pub fn update(&mut self, update: SceneUpdate) -> Result<(), Error> {
+        let maps = (&self.gpu, &mut self.maps);
+        self.coming = Some(Coming::new(update, maps, self.follower.is_some())?);
+        Ok(())
+    }
+
+    /// Sends what is on its way; when all is there, what stands on the ground stands on it anew.
+    fn send_coming(&mut self, waits: bool, encoder: &mut CommandEncoder) {
+        let is_there = self.coming.as_mut().is_some_and(|coming| coming.send(&self.gpu, &self.maps, waits));
+        let Some(coming) = self.coming.take_if(|_| is_there) else { return };
+        self.shadows.whole_is_drawn = false;
+        if self.follower.is_none() {
+            let (heights, errors) = coming.shape();
+            self.terrain.take(heights, errors);
+            if let Some(plants) = &self.plants {
+                plants.stand(encoder, [&self.frame.caster_group, &self.maps.group]);
+            }
+        }
     }
 
     /// Sets what of the grass the next pictures show.
@@ -210,6 +240,7 @@ impl Renderer {
         picking: Option<&mut Picking>,
     ) -> Result<(), Error> {
         let Shot { onto, target, .. } = *shot;
+        self.send_coming(shot.waits, encoder);
         self.aim((onto, shot.waits), shot.camera, encoder)?;
         let groups =
             [&self.frame.caster_group, &self.frame.still_group].map(|numbers| [numbers, &self.maps.group]);

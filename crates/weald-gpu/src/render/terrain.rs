@@ -133,6 +133,21 @@ impl Terrain {
         self.heights.widen(share * (self.heights.highest() - self.heights.lowest()));
     }
 
+    /// How many squares have bounds of their heights.
+    pub(super) fn squares(&self) -> usize {
+        self.heights.squares()
+    }
+
+    /// Takes the bounds of heights as they were lately.
+    pub(super) fn renew(&mut self, bounds: Vec<[f32; 2]>, share: f32) {
+        self.heights.renew(bounds, share);
+    }
+
+    /// Takes another ground of the same size: its heights, and the errors of its levels.
+    pub(super) fn take(&mut self, heights: Heights, errors: Vec<f32>) {
+        (self.heights, self.errors) = (heights, errors);
+    }
+
     /// The box around all of it.
     fn bounds(&self) -> Box3 {
         let side = self.lattice.cells[0].max(self.lattice.cells[1]);

@@ -21,7 +21,7 @@ const RIVER: u32 = 0x2c_4f57;
 /// [`Error::Limit`] where the sheet would be too large, [`Error::Run`] for a layer that is missing.
 pub fn albedo(view: &View, landscape: &Landscape, width: Option<u32>) -> Result<Image, Error> {
     let sheet = Sheet::new(&landscape.domain, width)?;
-    let (setting, sites) = Setting::new(view, landscape)?;
+    let (setting, sites) = Setting::new(view, landscape, None)?;
     let above = TopView { cover: Cover::new(sites, setting.limits), setting, sheet };
     let mut rgb = vec![0; 3 * sheet.width * sheet.height];
     rgb.par_chunks_mut(3 * sheet.width).enumerate().for_each(|(y, row)| {

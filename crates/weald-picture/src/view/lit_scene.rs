@@ -67,7 +67,21 @@ impl LitScene {
     /// # Errors
     /// [`Error::Limit`] where a map of it would be too large, [`Error::Run`] for a layer that is missing.
     pub fn new(view: &View, landscape: &Landscape) -> Result<Self, Error> {
-        let (setting, sites) = Setting::new(view, landscape)?;
+        Self::counting_from(None, view, landscape)
+    }
+
+    /// The scene of the same view when its landscape has changed: heights count from where they did, so that cameras stay
+    /// what they are, and haze and exposure are as they were.
+    ///
+    /// # Errors
+    /// As [`LitScene::new`].
+    pub fn changed(&self, view: &View, landscape: &Landscape) -> Result<Self, Error> {
+        let scene = Self::counting_from(Some(self.setting.low), view, landscape)?;
+        Ok(Self { haze: self.haze, tone: self.tone, camera: self.camera, ..scene })
+    }
+
+    fn counting_from(low: Option<f32>, view: &View, landscape: &Landscape) -> Result<Self, Error> {
+        let (setting, sites) = Setting::new(view, landscape, low)?;
         let sky = Sky::new(towards(view.sun_azimuth_deg, view.sun_altitude_deg), view.sun_diameter_deg);
         let terrain = &setting.terrain;
         let camera = Camera::new(view, terrain, setting.exaggeration);

@@ -50,11 +50,12 @@ pub(super) struct Setting {
 }
 
 impl Setting {
-    /// The setting, and what its places are like.
-    pub(super) fn new(view: &View, landscape: &Landscape) -> Result<(Self, Sites), Error> {
+    /// The setting, and what its places are like. Heights count from the lowest ground where not from another elevation.
+    pub(super) fn new(view: &View, landscape: &Landscape, from: Option<f32>) -> Result<(Self, Sites), Error> {
         let domain = &landscape.domain;
         let field = landscape.field(&view.of.0)?;
         let (low, high) = field.range(domain.valid.as_ref()).unwrap_or((0.0, 0.0));
+        let low = from.unwrap_or(low);
         let frame = Frame::new(view, landscape, low)?;
         let level = if view.water { water::levels(landscape, field) } else { None };
         let (ground, level) = (frame.raised(field), level.map(|level| frame.raised(&level)));

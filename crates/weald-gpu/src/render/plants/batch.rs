@@ -29,7 +29,7 @@ const WORDS: usize = 8;
 /// Words of how a limb is carried, as `carried.wgsl` has it.
 const CARRIED: u64 = 8;
 
-/// Distance in metres by which roots reach into the ground, beside the height of the plant.
+/// Distance in metres by which roots reach into the ground, beside the height of the plant, as `stand.wgsl` has it.
 const ROOTED: f32 = 0.01;
 
 /// Plants of one kind.
@@ -38,13 +38,15 @@ pub(super) struct Batch {
     pub(super) choose: BindGroup,
     pub(super) carry: BindGroup,
     pub(super) draw: BindGroup,
+    pub(super) stand: BindGroup,
     pub(super) indices: Store,
     pub(super) draws: Store,
     /// Workgroups that look at all plants.
     pub(super) groups: u32,
     kept: Store,
     starts: Store,
-    _stores: [Store; 7],
+    plants: Store,
+    _stores: [Store; 6],
 }
 
 impl Batch {
@@ -84,16 +86,19 @@ impl Batch {
         let choose = groups.choose(gpu, &[&kind, &plants, &kept, &starts, &draws, &counts])?;
         let carry = groups.carry(gpu, &[&kind, &plants, &kept, &starts, &limbs, &layers, &carried])?;
         let draw = groups.draw(gpu, &[&kind, &plants, &kept, &starts, &limbs, &corners, &carried])?;
-        let stores = [kind, plants, counts, limbs, corners, layers, carried];
+        let stand = groups.stand(gpu, &[&kind, &plants])?;
+        let stores = [kind, counts, limbs, corners, layers, carried];
         Ok(Self {
             choose,
             carry,
             draw,
+            stand,
             indices,
             draws,
             groups: workgroups as u32,
             kept,
             starts,
+            plants,
             _stores: stores,
         })
     }
@@ -107,6 +112,15 @@ impl Batch {
             kept[first..first + count].iter().map(move |&number| [list as u32, number])
         };
         Ok((0..LISTS).flat_map(of_list).collect())
+    }
+}
+
+impl Batch {
+    /// Where the roots of all plants are, at the ground.
+    pub(super) fn roots(&self, gpu: &Gpu) -> Result<Vec<[f32; 3]>, Error> {
+        let words = words(gpu, &self.plants)?;
+        let plants = words.chunks_exact(WORDS).map(|plant| [0, 1, 2, 3].map(|at| f32::from_bits(plant[at])));
+        Ok(plants.map(|[east, north, up, size]| [east, north, up + ROOTED * size]).collect())
     }
 }
 

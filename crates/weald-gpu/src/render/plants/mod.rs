@@ -71,6 +71,19 @@ impl Plants {
         }
     }
 
+    /// Encodes that all stand on the ground as it is now.
+    pub(super) fn stand(&self, encoder: &mut CommandEncoder, groups: [&BindGroup; 2]) {
+        let mut pass = encoder.begin_compute_pass(&ComputePassDescriptor::default());
+        pass.set_pipeline(&self.pipelines.stand);
+        for (at, group) in (0..).zip(groups) {
+            pass.set_bind_group(at, group, &[]);
+        }
+        for set in &self.sets {
+            pass.set_bind_group(2, &set.stand, &[]);
+            pass.dispatch_workgroups(set.groups, 1, 1);
+        }
+    }
+
     /// Draws the light of all plants that the camera sees.
     pub(super) fn draw(&self, pass: &mut RenderPass<'_>) {
         pass.set_pipeline(&self.pipelines.light);
@@ -86,6 +99,11 @@ impl Plants {
     /// The list and number of each plant that was chosen for the camera, set by set.
     pub(super) fn chosen(&self, gpu: &Gpu) -> Result<Vec<Vec<[u32; 2]>>, Error> {
         self.sets.iter().map(|set| set.chosen(gpu)).collect()
+    }
+
+    /// Where the roots of all plants are.
+    pub(super) fn roots(&self, gpu: &Gpu) -> Result<Vec<[f32; 3]>, Error> {
+        Ok(self.sets.iter().map(|set| set.roots(gpu)).collect::<Result<Vec<_>, _>>()?.concat())
     }
 
     fn draw_view(&self, pass: &mut RenderPass<'_>, view: usize) {

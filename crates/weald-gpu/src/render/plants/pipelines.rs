@@ -28,6 +28,7 @@ pub(super) struct Groups {
     choose: BindGroupLayout,
     carry: BindGroupLayout,
     draw: BindGroupLayout,
+    stand: BindGroupLayout,
 }
 
 impl Groups {
@@ -36,6 +37,7 @@ impl Groups {
             choose: layout(gpu, ShaderStages::COMPUTE, &[true, false, false, false, false]),
             carry: layout(gpu, ShaderStages::COMPUTE, &[true, true, true, true, true, false]),
             draw: layout(gpu, ShaderStages::VERTEX_FRAGMENT, &[true; 6]),
+            stand: layout(gpu, ShaderStages::COMPUTE, &[false]),
         }
     }
 
@@ -50,6 +52,10 @@ impl Groups {
     pub(super) fn draw(&self, gpu: &Gpu, stores: &[&Store]) -> Result<BindGroup, Error> {
         bind(gpu, &self.draw, stores)
     }
+
+    pub(super) fn stand(&self, gpu: &Gpu, stores: &[&Store]) -> Result<BindGroup, Error> {
+        bind(gpu, &self.stand, stores)
+    }
 }
 
 /// All pipelines of plants.
@@ -57,6 +63,7 @@ impl Groups {
 pub(super) struct Pipelines {
     pub(super) choose: [ComputePipeline; 3],
     pub(super) carry: ComputePipeline,
+    pub(super) stand: ComputePipeline,
     pub(super) light: RenderPipeline,
     pub(super) caster: RenderPipeline,
     pub(super) groups: Groups,
@@ -84,9 +91,10 @@ impl Pipelines {
         let numbers = numbers(gpu)?;
         let which_layout = which_layout(gpu);
         let which = which(gpu, &which_layout, &numbers)?;
-        let (choose, carry, light, caster) =
+        let (choose, carry, stand, light, caster) =
             gpu.context.attempt_to_compile("making the pipelines of plants", || {
                 let chosen = module(gpu, scene, &[include_str!("choose.wgsl")]);
+                let standing = module(gpu, scene, &[include_str!("stand.wgsl")]);
                 let swaying = [wind::FUNCTIONS, limbs::FUNCTIONS, include_str!("carried.wgsl")];
                 let carried = [&swaying[..], &[include_str!("carry.wgsl")]].concat();
                 let carried = module(gpu, scene, &carried);
@@ -102,6 +110,7 @@ impl Pipelines {
                 };
                 let choosing = whole(&[Some(&frame.caster_layout), Some(maps), Some(&groups.choose)]);
                 let carrying = whole(&[Some(&frame.caster_layout), Some(maps), Some(&groups.carry)]);
+                let put = whole(&[Some(&frame.caster_layout), Some(maps), Some(&groups.stand)]);
                 let drawn = |frame, samples| Drawn {
                     module: &leaves,
                     layout: whole(&[Some(frame), Some(maps), Some(&groups.draw), Some(&which_layout)]),
@@ -110,11 +119,12 @@ impl Pipelines {
                 Ok((
                     CHOOSE.map(|name| compute(gpu, &chosen, &choosing, name)),
                     compute(gpu, &carried, &carrying, "carry_limbs"),
+                    compute(gpu, &standing, &put, "stand"),
                     light(gpu, &drawn(&frame.layout, samples)),
                     caster(gpu, &drawn(&frame.caster_layout, 1)),
                 ))
             })?;
-        Ok(Self { choose, carry, light, caster, groups, which, numbers })
+        Ok(Self { choose, carry, stand, light, caster, groups, which, numbers })
     }
 }
 
