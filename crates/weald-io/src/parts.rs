@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs::File;
-use std::io::Read;
+use std::io::{ErrorKind, Read};
 use std::path::{Path, PathBuf};
 
 use super::Fault;
@@ -153,9 +153,22 @@ impl Parts for InMemory {
 /// All bytes of a file, where they are at most `limit`. The length is counted while reading, because a
 /// device or a pipe has none to ask for.
 pub fn read_at_most(path: &Path, limit: u64) -> Result<Vec<u8>, Fault> {
+    let unread = |cause: std::io::Error| Fault::damaged(format!("cannot be read: {cause}"));
+    let file = File::open(path).map_err(unread)?;
+    let length = file.metadata().map_or(0, |there| if there.is_file() { there.len() } else { 0 });
+    if length > limit {
+        return Err(Limit::new(Quantity::FileBytes, length, 0..=limit).into());
+    }
     let mut bytes = Vec::new();
-    let reading = File::open(path).and_then(|file| file.take(limit + 1).read_to_end(&mut bytes));
-    reading.map_err(|cause| Fault::damaged(format!("cannot be read: {cause}")))?;
+    let no_room = |length: u64| {
+        let limit = Limit::new(Quantity::MemoryBytes, length, 0..=length.saturating_sub(1));
+        Fault::from(limit.remedy("the process may not have so much; free or allow it more"))
+    };
+    bytes.try_reserve_exact(length as usize).map_err(|_| no_room(length))?;
+    file.take(limit + 1).read_to_end(&mut bytes).map_err(|cause| match cause.kind() {
+        ErrorKind::OutOfMemory => no_room(bytes.len() as u64),
+        _ => unread(cause),
+    })?;
     if bytes.len() as u64 > limit {
         return Err(Limit::new(Quantity::FileBytes, None, 0..=limit).into());
     }

@@ -59,24 +59,75 @@ fn a_run_over_the_memory_that_is_allowed_ends_with_5_before_anything_is_made() {
     assert_ends(&place, &["run", "r.toml", "--memory", "1GiB"], 0, &[]);
 }
 
-/// A shell limits the address space, where all that is not checked ends by a signal.
+#[test]
+fn a_run_that_goes_on_from_a_checkpoint_is_held_to_the_same_memory() {
+    let place = place("[[step]]\ndo = \"hydraulic\"\niterations = 10_000_000\n");
+    let mut command = place.command(&["run", "r.toml", "--checkpoint-every", "0", "--quiet"]);
+    let mut child = command.spawn().expect("it starts");
+    while !place.path("out/r/checkpoint.weald").exists() {
+        assert!(child.try_wait().expect("it is ours").is_none(), "it ended before its first checkpoint");
+        std::thread::sleep(std::time::Duration::from_millis(5));
+    }
+    child.kill().and_then(|()| child.wait()).expect("it is ours");
+    let resume = ["run", "r.toml", "--resume", "--memory", "20MiB"];
+    assert_ends(&place, &resume, 5, &["r.toml: ", "of memory", "--memory"]);
+}
+
+#[test]
+fn a_long_file_is_refused_before_it_is_read() {
+    let place = Place::with(
+        "[landscape]\nfrom = \"long.npy\"\n[[output]]\nlayer = \"height\"\nfile = \"height.tif\"\n",
+    );
+    let long = |bytes| std::fs::File::create(place.path("long.npy")).and_then(|file| file.set_len(bytes));
+    long(60_000_000_000).expect("sparse");
+    assert_ends(&place, &["run", "r.toml", "--memory", "100GiB"], 5, &["long.npy: ", "at most"]);
+    assert_ends(&place, &["check", "r.toml"], 5, &["long.npy: ", "at most"]);
+    long(100_000_000).expect("sparse");
+    assert_ends(&place, &["run", "r.toml", "--memory", "50MiB"], 5, &["long.npy: ", "of memory", "--memory"]);
+}
+
+/// How a run ends in so many kibibytes of addresses, and what it says. A shell limits them.
+#[cfg(target_os = "linux")]
+fn limited(place: &Place, kibibytes: u64) -> (Option<i32>, String) {
+    let weald = env!("CARGO_BIN_EXE_weald");
+    let script = format!(
+        "ulimit -v {kibibytes}; exec {weald} run r.toml --engine cpu --threads 2 --memory 64GiB --quiet"
+    );
+    let mut shell = std::process::Command::new("sh");
+    let shell = shell.env("WEALD_CACHE", "off").args(["-c", &script]).current_dir(place.path(""));
+    let output = shell.output().expect("a shell");
+    (output.status.code(), String::from_utf8_lossy(&output.stderr).into_owned())
+}
+
 #[cfg(target_os = "linux")]
 #[test]
 fn a_limited_address_space_is_told_with_5_and_no_signal() {
-    let place = Place::with(
-        "[landscape]\nsize = 16384\n[[step]]\ndo = \"fbm\"\n[[output]]\nlayer = \"height\"\nfile = \"height.npy\"\n",
-    );
-    let weald = env!("CARGO_BIN_EXE_weald");
-    let script =
-        format!("ulimit -v 2000000; exec {weald} run r.toml --engine cpu --threads 1 --memory 64GiB");
-    let mut shell = std::process::Command::new("sh");
-    let output = shell
-        .env("WEALD_CACHE", "off")
-        .args(["-c", &script])
-        .current_dir(place.path(""))
-        .output()
-        .expect("a shell");
-    let said = String::from_utf8_lossy(&output.stderr);
-    assert_eq!(output.status.code(), Some(5), "{said}");
-    assert!(said.contains("of memory, at most"), "{said}");
+    for size in [16384, 4096] {
+        let place = Place::with(&format!(
+            "[landscape]\nsize = {size}\n[[step]]\ndo = \"fbm\"\n[[output]]\nlayer = \"height\"\nfile = \
+             \"height.npy\"\n"
+        ));
+        let (code, said) = limited(&place, 700_000);
+        assert_eq!(code, Some(5), "{said}");
+        assert!(said.contains("of memory, at most"), "{said}");
+    }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn whatever_addresses_there_are_a_run_ends_with_0_or_5() {
+    let outputs = "[[output]]\npicture = \"relief\"\nfile = \"relief.png\"\n[[output]]\nexport = \"mesh\"\nfile = \
+                   \"mesh.glb\"\n[[output]]\nlayer = \"height\"\nfile = \"height.tif\"\n";
+    for size in [256, 1024] {
+        let place = Place::with(&format!(
+            "[landscape]\nsize = {size}\ncell = 20.0\n[[step]]\ndo = \"fbm\"\nrelief = 300.0\n[[step]]\ndo = \
+             \"hydraulic\"\niterations = 3\n[[step]]\ndo = \"flow\"\n{outputs}"
+        ));
+        let ends: Vec<_> =
+            [2, 3, 4, 5, 10].into_iter().map(|share| limited(&place, share * 150_000)).collect();
+        println!("{size}: {:?}", ends.iter().map(|(code, _)| code).collect::<Vec<_>>());
+        let wrong = ends.iter().find(|(code, _)| ![Some(0), Some(5)].contains(code));
+        assert!(wrong.is_none(), "{wrong:?}");
+        assert_eq!(ends.last().map(|(code, _)| *code), Some(Some(0)), "there is room in the end");
+    }
 }

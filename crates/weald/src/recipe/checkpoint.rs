@@ -8,6 +8,7 @@ mod grown;
 mod planted;
 mod stream;
 
+use std::collections::BTreeSet;
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
@@ -111,8 +112,28 @@ pub(super) fn write(
     })
 }
 
+/// What the head of a checkpoint says of the run.
+#[derive(Debug)]
+pub(super) struct Head {
+    /// Steps done.
+    pub(super) done: usize,
+    /// The grid, without the cells that hold no data.
+    pub(super) domain: Domain,
+    /// Names of the layers.
+    pub(super) layers: BTreeSet<String>,
+}
+
 /// Reads the state of a run of exactly this recipe.
 pub(super) fn read(path: &Path, recipe: &str) -> Result<State, Error> {
+    read_if(path, recipe, |_| Ok(()))
+}
+
+/// The same, where its head is accepted before anything else is read.
+pub(super) fn read_if(
+    path: &Path,
+    recipe: &str,
+    accept: impl FnOnce(&Head) -> Result<(), Error>,
+) -> Result<State, Error> {
     let wrong = |what: String| Error::input(path, what);
     let mut file = HashedReader::open(path).map_err(|cause| {
         wrong(match cause.kind() {
@@ -122,6 +143,7 @@ pub(super) fn read(path: &Path, recipe: &str) -> Result<State, Error> {
     })?;
     let header = read_header(&mut file).map_err(wrong)?;
     header.fits(recipe).map_err(wrong)?;
+    accept(&header.head().map_err(wrong)?)?;
     let state = header.read_state(&mut file).map_err(wrong)?;
     file.finish().map_err(wrong)?;
     Ok(state)
@@ -181,6 +203,12 @@ impl Header {
 
     fn size(&self) -> Result<Size, String> {
         Size::new(self.columns, self.rows).map_err(|error| error.to_string())
+    }
+
+    fn head(&self) -> Result<Head, String> {
+        let domain = Domain::new(self.size()?, self.cell);
+        let layers = self.layers.iter().map(|(name, _)| name.clone()).collect();
+        Ok(Head { done: self.done, domain, layers })
     }
 
     /// Bytes after the header, by what it says.

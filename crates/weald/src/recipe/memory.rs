@@ -6,7 +6,9 @@
 
 use std::collections::BTreeSet;
 use std::fmt::{Display, Formatter};
+use std::path::Path;
 
+use super::checkpoint::Head;
 use super::plan::{Content, Ground, Output, Planned, Recipe};
 use weald_core::domain::Domain;
 use weald_core::error::{Error, Limit, Quantity, bytes_in_words};
@@ -21,6 +23,9 @@ const A_MATERIAL: u64 = 40;
 const SIMULATION: u64 = 40;
 /// What a run takes on the smallest grid: the program, its threads and their stacks.
 const PROGRAM: u64 = 16 << 20;
+
+/// Addresses that allocators and threads may set aside without memory, beside twice the estimate.
+const BESIDE: u64 = 256 << 20;
 
 /// The peak of a run.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -44,17 +49,23 @@ impl Recipe {
         layers.extend(matches!(self.ground, Ground::File { .. }).then(|| "height".to_owned()));
         let files = self.materials.iter().filter(|planned| planned.file.is_some());
         layers.extend(files.map(|planned| planned.material.name.clone()));
-        let (steps, last) = self.grids(first);
-        let mut peaks: Vec<Memory> = self.finest_ground(first).into_iter().collect();
-        for (number, (planned, grid)) in steps.iter().enumerate() {
+        self.memory_from(first, 0, layers)
+    }
+
+    /// The same for what is left of a run after so many steps, which made these layers.
+    fn memory_from(&self, here: &Domain, done: usize, mut layers: BTreeSet<String>) -> Memory {
+        let (steps, last) = self.grids_from(here, done);
+        let finest = if done == 0 { self.finest_ground(here) } else { None };
+        let mut peaks: Vec<Memory> = finest.into_iter().collect();
+        for (index, (planned, grid)) in steps.iter().enumerate() {
             let found = layers.len() as u64;
             let written = self.written_by(planned);
-            let next = steps.get(number + 1).map_or(&last, |(_, grid)| grid);
+            let next = steps.get(index + 1).map_or(&last, |(_, grid)| grid);
             let a_cell = VALUE * (found + written.len() as u64) + self.working_bytes(planned);
             layers.extend(written);
             // A step that changes the grid makes all layers anew.
             let after = if next.size == grid.size { 0 } else { VALUE * found * next.size.cells() as u64 };
-            let at = format!("step {} (`{}`)", number + 1, planned.entry.name);
+            let at = format!("step {} (`{}`)", done + index + 1, planned.entry.name);
             peaks.push(Memory { bytes: a_cell * grid.size.cells() as u64 + after, at });
         }
         let kept = VALUE * layers.len() as u64;
@@ -100,11 +111,20 @@ impl Recipe {
     /// # Errors
     /// [`Error::Limit`] with what it would take and what is allowed.
     pub(super) fn ensure_memory(&self, first: &Domain, allowed: Option<u64>) -> Result<(), Error> {
-        let peak = self.memory(first);
+        self.ensure_peak(self.memory(first), allowed)
+    }
+
+    /// The same for a run that goes on from a checkpoint, by its head.
+    ///
+    /// # Errors
+    /// As [`Recipe::ensure_memory`].
+    pub(super) fn ensure_memory_after(&self, head: &Head, allowed: Option<u64>) -> Result<(), Error> {
+        self.ensure_peak(self.memory_from(&head.domain, head.done, head.layers.clone()), allowed)
+    }
+
+    fn ensure_peak(&self, peak: Memory, allowed: Option<u64>) -> Result<(), Error> {
         let there = allowed.or_else(available).unwrap_or(u64::MAX);
-        // An address space that is limited holds less than the memory there is; this takes none of it.
-        let mut probe: Vec<u8> = Vec::new();
-        let has_room = usize::try_from(peak.bytes).is_ok_and(|bytes| probe.try_reserve_exact(bytes).is_ok());
+        let has_room = has_addresses(peak.bytes);
         if peak.bytes <= there && has_room {
             return Ok(());
         }
@@ -113,6 +133,16 @@ impl Recipe {
         let remedy = "choose a smaller `size`, or, if there is more memory, say so with --memory";
         Err(limit.of(format!("{}: {}", self.file, peak.at)).remedy(remedy).into())
     }
+}
+
+/// Whether the address space, which may be limited below the memory there is, holds so much and what allocators and threads
+/// take beside it. Rust ends a process that asks for more than there is, so this must be found out before; it takes no
+/// memory.
+fn has_addresses(bytes: u64) -> bool {
+    let mut probes: [Vec<u8>; 3] = Default::default();
+    let sizes = [bytes, bytes, BESIDE];
+    let mut wanted = probes.iter_mut().zip(sizes);
+    wanted.all(|(probe, size)| usize::try_from(size).is_ok_and(|size| probe.try_reserve_exact(size).is_ok()))
 }
 
 impl Output {
@@ -135,6 +165,23 @@ impl Output {
         };
         16 * pixels
     }
+}
+
+/// Refuses a file that is longer than the memory that there is, before any of it is read.
+///
+/// # Errors
+/// [`Error::Limit`] with the length and what is allowed.
+pub(super) fn ensure_file(path: &Path, bytes: u64, allowed: Option<u64>) -> Result<(), Error> {
+    let there = allowed.or_else(available).unwrap_or(u64::MAX);
+    if bytes <= there {
+        return Ok(());
+    }
+    let limit = Limit::new(Quantity::MemoryBytes, bytes, 0..=there).of(path.display());
+    Err(limit
+        .remedy(
+            "the file is read whole: cut or convert it, or, if there is more memory, say so with --memory",
+        )
+        .into())
 }
 
 /// Memory that is free or can be freed, in bytes, where the system tells it.

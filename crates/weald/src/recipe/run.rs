@@ -137,7 +137,9 @@ impl Run<'_> {
     fn start(&self, progress: &dyn Progress) -> Result<State, Error> {
         let path = self.checkpoint();
         if self.options.resume {
-            let mut state = checkpoint::read(&path, self.recipe.effective())?;
+            let allowed = self.options.memory;
+            let accept = |head: &checkpoint::Head| self.recipe.ensure_memory_after(head, allowed);
+            let mut state = checkpoint::read_if(&path, self.recipe.effective(), accept)?;
             state.landscape.materials = ground::materials(self.recipe);
             state.landscape.set_fractals(ground::fractals(self.recipe)?);
             TimeLapses::during(self.recipe, state.done, &self.options).ensure_drawn(&state, &path)?;

@@ -13,9 +13,18 @@ type OnGrid<'a> = (&'a Planned, Cow<'a, Domain>);
 impl Recipe {
     /// All steps with the grids that they find from this one on, and the grid after the last.
     pub(in crate::recipe) fn grids<'a>(&'a self, first: &'a Domain) -> (Vec<OnGrid<'a>>, Cow<'a, Domain>) {
+        self.grids_from(first, 0)
+    }
+
+    /// The same for the steps after so many.
+    pub(in crate::recipe) fn grids_from<'a>(
+        &'a self,
+        first: &'a Domain,
+        done: usize,
+    ) -> (Vec<OnGrid<'a>>, Cow<'a, Domain>) {
         let mut here = Cow::Borrowed(first);
         let mut steps = Vec::with_capacity(self.steps.len());
-        for planned in &self.steps {
+        for planned in self.steps.iter().skip(done) {
             let after = planned.step.domain_after(&here).map(Cow::Owned);
             let before = match after {
                 Some(after) => std::mem::replace(&mut here, after),

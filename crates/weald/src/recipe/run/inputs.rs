@@ -5,7 +5,7 @@ use std::path::Path;
 
 use super::video;
 use crate::recipe::ground;
-use crate::recipe::memory::Memory;
+use crate::recipe::memory::{Memory, ensure_file};
 use crate::recipe::plan::{Ground, Output, Recipe};
 use weald_core::error::Error;
 use weald_core::landscape::Landscape;
@@ -29,7 +29,8 @@ pub(in crate::recipe) fn start(
     recipe: &Recipe,
     memory: Option<u64>,
 ) -> Result<(Landscape, Vec<String>), Error> {
-    recipe.inputs().iter().try_for_each(|path| open(path, &recipe.place_of(path)))?;
+    let inputs = recipe.inputs();
+    inputs.iter().try_for_each(|path| open(path, &recipe.place_of(path), memory))?;
     let (landscape, mut notes) = ground::load(recipe)?;
     ground::check_outputs(recipe, &landscape)?;
     if matches!(recipe.ground, Ground::File { .. }) {
@@ -46,9 +47,12 @@ fn video_note(output: &Output) -> Option<String> {
     (!video::can_make(&output.file)).then(|| video::NO_FFMPEG.to_owned())
 }
 
-fn open(path: &Path, named_at: &str) -> Result<(), Error> {
+/// Whether a file can be opened and is no longer than the memory.
+fn open(path: &Path, named_at: &str, memory: Option<u64>) -> Result<(), Error> {
     let explain = |cause| {
         format!("cannot be read: {cause}; {named_at} names it, and paths start at the folder of the recipe")
     };
-    File::open(path).map(drop).map_err(|cause| Error::input(path, explain(cause)))
+    let there = File::open(path).and_then(|file| file.metadata());
+    let there = there.map_err(|cause| Error::input(path, explain(cause)))?;
+    if there.is_file() { ensure_file(path, there.len(), memory) } else { Ok(()) }
 }
