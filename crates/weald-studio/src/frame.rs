@@ -219,7 +219,7 @@ impl Studio {
         let surface = self.status.surface.as_ref().filter(|surface| surface.shown == shown.number);
         let height = shown.landscape.field("height").ok()?;
         let ground = surface.map_or(height, |surface| &*surface.ground);
-        let water = surface.map(|surface| &*surface.water);
+        let water = surface.map(|surface| &surface.canvas.water);
         let cell = shown.landscape.domain.cell;
         let place = crate::pick::Target { ground, water, cell, lowest: 0.0, exaggeration: 1.0 }.at(at)?;
         Some(Place { ground: place.ground + place.water, ..place })

@@ -212,7 +212,7 @@ impl Viewport {
             return Ok(());
         }
         let Some(live) = &stage.live else { return Ok(()) };
-        live.show(&self.gpu, &surface.ground, &surface.water)?;
+        live.paint(&self.gpu, &surface.canvas)?;
         stage.renderer.follow(&stage.scene, live)?;
         self.surface = surface.number;
         self.drawn = None;

@@ -45,7 +45,9 @@ impl Studio {
         let start = shown.landscape.field("height").ok()?.range(shown.landscape.domain.valid.as_ref())?.0;
         let target = Target {
             ground: surface.map_or(height, |surface| &surface.ground),
-            water: surface.map(|surface| &*surface.water).or_else(|| shown.landscape.field("water").ok()),
+            water: surface
+                .map(|surface| &surface.canvas.water)
+                .or_else(|| shown.landscape.field("water").ok()),
             cell: shown.landscape.domain.cell,
             lowest: f64::from(start),
             exaggeration: self.looks.exaggeration,

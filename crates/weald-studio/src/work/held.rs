@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use weald::edit::{Action, Brush, Change, Effect, History, Layout, Setting};
+use weald::edit::{Action, Brush, Canvas, Change, Effect, History, Layout, Setting};
 use weald::erode::interactive::InteractiveSimulation;
 use weald::recipe::{Recipe, Session};
 use weald::{Error, Field, Landscape};
@@ -141,17 +141,17 @@ impl HeldSession {
         self.session.replayed().0
     }
 
-    /// Ground and water as they are.
-    pub(super) fn surface(&mut self) -> Result<[Field; 2], Error> {
+    /// Ground and water as they are, and the elevation of the ground.
+    pub(super) fn surface(&mut self) -> Result<(Canvas, Field), Error> {
         let whole = self.session.history().simulation().whole();
         let canvas = self.session.patch(whole)?;
-        let mut ground = canvas.bedrock;
+        let mut ground = canvas.bedrock.clone();
         for layer in &canvas.thickness {
             for (metres, more) in ground.values_mut().iter_mut().zip(layer.values()) {
                 *metres += more;
             }
         }
-        Ok([ground, canvas.water])
+        Ok((canvas, ground))
     }
 
     pub(super) fn landscape(&mut self) -> Result<Arc<Landscape>, Error> {

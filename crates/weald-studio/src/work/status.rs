@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use weald::edit::Canvas;
 use weald::{Field, Landscape};
 
 use crate::state::State;
@@ -63,8 +64,8 @@ pub struct Shown {
 pub struct Surface {
     /// Elevation of the ground, in metres.
     pub ground: Arc<Field>,
-    /// Depth of the water on it, in metres.
-    pub water: Arc<Field>,
+    /// All that a brush can change, the water among it.
+    pub canvas: Arc<Canvas>,
     /// Grows with every change.
     pub number: u64,
     /// The landscape on which it lies: [`Shown::number`].

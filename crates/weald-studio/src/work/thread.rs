@@ -349,12 +349,13 @@ impl Worker {
     /// Shows ground and water as they are.
     fn surface(&mut self) -> Result<(), Error> {
         let Some(held) = &mut self.held else { return Ok(()) };
-        let [ground, water] = held.surface()?.map(Arc::new);
+        let (canvas, ground) = held.surface()?;
+        let (canvas, ground) = (Arc::new(canvas), Arc::new(ground));
         self.surfaced = Instant::now();
         self.shared.change(|status| {
             let shown = status.shown.as_ref().map_or(0, |shown| shown.number);
             let number = status.surface.as_ref().map_or(1, |surface| surface.number + 1);
-            status.surface = Some(Surface { ground, water, number, shown });
+            status.surface = Some(Surface { ground, canvas, number, shown });
         });
         Ok(())
     }
