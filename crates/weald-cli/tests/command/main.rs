@@ -8,3 +8,5 @@ mod kills;
 mod memory;
 mod place;
 mod render;
+#[cfg(all(feature = "studio", target_os = "linux"))]
+mod window;

@@ -37,6 +37,9 @@ pub(crate) fn show(studio: &mut Studio, ui: &Ui) {
         if let Some(text) = text {
             let label = ui.label("Path");
             let response = ui.text_edit_singleline(text).labelled_by(label.id);
+            if !response.has_focus() && !response.lost_focus() {
+                response.request_focus();
+            }
             let enters = response.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
             path = Some(PathBuf::from(text.trim()));
             if enters {

@@ -99,6 +99,13 @@ impl Window {
         self.harness.step();
     }
 
+    /// Holds the pointer still over the viewport.
+    pub(crate) fn hover(&mut self, share: [f32; 2]) {
+        let rect = self.harness.get_by_label("Viewport").rect();
+        self.harness.hover_at(rect.min + egui::vec2(share[0] * rect.width(), share[1] * rect.height()));
+        self.harness.step();
+    }
+
     pub(crate) fn type_over(&mut self, label: &str, text: &str) {
         let field = self.harness.get_by_role_and_label(egui::accesskit::Role::TextInput, label);
         field.focus();

@@ -1,0 +1,186 @@
+//! The built program in a window of a real display server, driven by keys and a mouse: a landscape is opened, looked at,
+//! simulated, painted, undone, saved, exported, closed and opened again, and `weald run` gives the same files.
+
+use std::fs;
+use std::io::{BufRead, BufReader};
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Stdio};
+use std::time::{Duration, Instant};
+
+/// How long anything may take before the test says that it does not happen.
+const TIMEOUT: Duration = Duration::from_mins(2);
+
+const RECIPE: &str = "[landscape]\nsize = 64\ncell = 20.0\nseed = 3\n\n[[step]]\ndo = \"diamond-square\"\nrelief = 300.0\n\n\
+    [[step]]\ndo = \"hydraulic\"\nmodel = \"stava\"\niterations = 40\n\n[[step]]\ndo = \"slope\"\n\n\
+    [[output]]\nlayer = \"height\"\nfile = \"height.tif\"\n\n[[output]]\nlayer = \"slope\"\nfile = \"slope.tif\"\n";
+
+/// A display server without a screen, and what works on it.
+struct Display {
+    server: Child,
+    name: String,
+}
+
+impl Drop for Display {
+    fn drop(&mut self) {
+        // It has nothing to lose.
+        let _ = self.server.kill();
+        let _ = self.server.wait();
+    }
+}
+
+impl Display {
+    fn new() -> Self {
+        let mut command = Command::new("Xvfb");
+        command.args(["-displayfd", "1", "-screen", "0", "1280x800x24", "-nolisten", "tcp"]);
+        let mut server =
+            command.stdout(Stdio::piped()).stderr(Stdio::null()).spawn().expect("Xvfb is installed");
+        let mut line = String::new();
+        BufReader::new(server.stdout.take().expect("piped")).read_line(&mut line).expect("a number");
+        Self { server, name: format!(":{}", line.trim()) }
+    }
+
+    fn command(&self, program: &str) -> Command {
+        let mut command = Command::new(program);
+        command.env("DISPLAY", &self.name).env_remove("WAYLAND_DISPLAY");
+        command
+    }
+
+    /// Keys and mouse, by xdotool.
+    fn act(&self, words: &str) {
+        let done = self.command("xdotool").args(words.split(' ')).status().expect("xdotool is installed");
+        assert!(done.success(), "xdotool {words}");
+    }
+
+    fn title(&self) -> String {
+        let found = self.command("xdotool").args(["search", "--name", "Weald", "getwindowname"]).output();
+        String::from_utf8_lossy(&found.expect("xdotool is installed").stdout).into_owned()
+    }
+
+    /// Does something again and again until it has had its effect.
+    fn until(&self, what: &str, mut act: impl FnMut(&Self), holds: impl Fn(&Self) -> bool) {
+        let begun = Instant::now();
+        while !holds(self) {
+            assert!(begun.elapsed() < TIMEOUT, "{what} does not come; the title is {:?}", self.title());
+            act(self);
+            for _ in 0..20 {
+                std::thread::sleep(Duration::from_millis(100));
+                if holds(self) {
+                    break;
+                }
+            }
+        }
+    }
+
+    /// A picture of the display, to be looked at.
+    fn picture(&self, name: &str) {
+        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("window");
+        fs::create_dir_all(&folder).expect("a folder");
+        let file = folder.join(name).with_extension("png");
+        // Where ImageMagick is not there, nothing is looked at.
+        let _ = self.command("import").args(["-window", "root"]).arg(file).status();
+    }
+}
+
+struct Studio<'a> {
+    display: &'a Display,
+    program: Child,
+}
+
+impl<'a> Studio<'a> {
+    fn open(display: &'a Display, what: &Path, own: &Path) -> Self {
+        let mut command = display.command(env!("CARGO_BIN_EXE_weald"));
+        command.arg("studio").arg(what).env("WEALD_STATE", own).env("XDG_RUNTIME_DIR", own);
+        let program = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().expect("a studio");
+        let studio = Self { display, program };
+        studio.display.until("the window", |_| {}, |display| display.title().contains("Weald"));
+        studio
+    }
+
+    fn close(mut self) {
+        let display = self.display;
+        let begun = Instant::now();
+        while self.program.try_wait().expect("a program").is_none() {
+            assert!(begun.elapsed() < TIMEOUT, "it does not close");
+            display.act("key ctrl+q");
+            std::thread::sleep(Duration::from_millis(500));
+        }
+        assert!(self.program.wait().expect("gone").success());
+    }
+}
+
+fn text(file: &Path) -> String {
+    fs::read_to_string(file).unwrap_or_default()
+}
+
+fn strokes(project: &Path) -> usize {
+    text(&project.join("landscape.edits.jsonl")).matches("\"do\":\"add\"").count()
+}
+
+/// Saves, and waits until what was written says so.
+fn save(display: &Display, what: &str, holds: impl Fn() -> bool) {
+    display.until(what, |display| display.act("key ctrl+s"), |_| holds());
+}
+
+#[test]
+fn a_landscape_is_painted_undone_saved_exported_and_run_to_the_same_files() {
+    let (display, folder) = (Display::new(), tempfile::tempdir().expect("a folder"));
+    let (own, project) = (folder.path().join("own"), folder.path().join("project"));
+    fs::create_dir_all(&project).and_then(|()| fs::create_dir_all(&own)).expect("folders");
+    fs::write(project.join("landscape.toml"), RECIPE).expect("written");
+    let studio = Studio::open(&display, &project, &own);
+    let unsaved = |display: &Display| display.title().contains('•');
+    display.until("the simulation", |display| display.act("mousemove 620 400 key ctrl+period"), unsaved);
+    save(&display, "all steps", || text(&project.join("landscape.toml")).contains("iterations = 40"));
+    display.picture("carved");
+    // Round the landscape, and back to all of it.
+    display.act("mousemove 560 420 mousedown 1 mousemove 660 430 mousemove 700 440 mouseup 1 key f");
+    display.until(
+        "a stroke",
+        |display| {
+            display.act(
+                "mousemove 620 420 key b sleep 0.5 mousedown 1 mousemove 640 425 sleep 0.3 mousemove 680 430",
+            );
+            display.act("sleep 0.3 mouseup 1 key Escape sleep 0.3 key ctrl+s");
+        },
+        |_| strokes(&project) > 0,
+    );
+    display.picture("painted");
+    let painted = strokes(&project);
+    for _ in 0..painted {
+        display.act("key ctrl+z sleep 0.3");
+    }
+    save(&display, "the strokes undone", || strokes(&project) == 0);
+    for _ in 0..painted {
+        display.act("key ctrl+shift+z sleep 0.3");
+    }
+    save(&display, "the strokes again", || strokes(&project) == painted);
+    let out = project.join("out");
+    display.until(
+        "the export",
+        |display| display.act("key ctrl+e sleep 1 key Return"),
+        |_| out.join("report.json").is_file(),
+    );
+    display.picture("exported");
+    studio.close();
+    assert_same_files(&project, &out, folder.path());
+    let again = Studio::open(&display, &project, &own);
+    std::thread::sleep(Duration::from_secs(3));
+    display.picture("again");
+    assert!(!display.title().contains('•'), "nothing was changed by opening: {}", display.title());
+    again.close();
+    let left: Vec<PathBuf> =
+        fs::read_dir(&project).expect("a folder").flatten().map(|entry| entry.path()).collect();
+    assert!(!left.iter().any(|path| path.ends_with("autosave.toml")), "{left:?}");
+}
+
+fn assert_same_files(project: &Path, out: &Path, folder: &Path) {
+    let mut run = Command::new(env!("CARGO_BIN_EXE_weald"));
+    run.arg("run").arg(project.join("landscape.toml")).arg("--out").arg(folder.join("run")).arg("--no-cache");
+    let done = run.args(["--engine", "cpu"]).output().expect("weald runs");
+    assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
+    for name in ["height.tif", "slope.tif"] {
+        let [here, there] =
+            [out, &folder.join("run")].map(|folder| fs::read(folder.join(name)).expect("a file"));
+        assert!(here == there, "{name} of the window is not that of a run");
+    }
+}
