@@ -91,6 +91,7 @@ impl Export for Unreal {
             .into_iter()
             .chain(resampled_note(finished, tiles))
             .chain(self.coarse_note(finished))
+            .chain(self.raised_note(finished))
             .chain(cut)
             .collect()
     }
@@ -112,7 +113,7 @@ impl Export for Unreal {
     fn parts(&self, finished: &Finished<'_>, file: &Path) -> Result<Vec<Part>, Error> {
         let tiles = Tiles::new(finished.landscape.domain.size, self.tiles, self.size, &SIZES);
         let heights = at_vertices(finished, &self.of, tiles)?;
-        let scale = Scale::of(self, heights.range())?;
+        let scale = Scale::of(self, heights.range());
         let mut set = TileSet { tiles, extension: extension(file), parts: Vec::new() };
         set.add_heights(&scale.numbers(&heights))?;
         for Nested(mask) in &self.masks {
@@ -137,10 +138,8 @@ const MIN_NUMBERS: f64 = 4096.0;
 impl Unreal {
     /// What the user should know where `zero` is so far from the heights that few numbers are left to them.
     fn coarse_note(&self, finished: &Finished<'_>) -> Option<String> {
-        let valid = finished.landscape.domain.valid.as_ref();
-        let (low, high) = finished.landscape.field(&self.of.0).ok()?.range(valid)?;
-        let (low, high) = (f64::from(low), f64::from(high));
-        let metres = Scale::of(self, (low, high)).ok()?.percent / 100.0 / STEPS;
+        let (low, high) = self.heights(finished)?;
+        let metres = Scale::of(self, (low, high)).percent / 100.0 / STEPS;
         let numbers = (high - low) / metres;
         (self.z_scale.is_none() && high > low && numbers < MIN_NUMBERS).then(|| {
             let middle = (0.5 * (low + high)).round();
@@ -149,6 +148,25 @@ impl Unreal {
                  leaves them more"
             )
         })
+    }
+
+    /// What the user should know where heights do not go into the scale that was asked for.
+    fn raised_note(&self, finished: &Finished<'_>) -> Option<String> {
+        let (low, high) = self.heights(finished)?;
+        let (asked, zero) = (self.z_scale?, self.zero);
+        let needed = Scale::of(self, (low, high)).percent;
+        (needed > asked).then(|| {
+            format!(
+                "heights from {low:.1} to {high:.1} m around {zero} m do not go into a `z_scale` of {asked} %: the numbers \
+                 and the description have {needed} %; a `zero` nearer to them needs less"
+            )
+        })
+    }
+
+    fn heights(&self, finished: &Finished<'_>) -> Option<(f64, f64)> {
+        let valid = finished.landscape.domain.valid.as_ref();
+        let (low, high) = finished.landscape.field(&self.of.0).ok()?.range(valid)?;
+        Some((low.into(), high.into()))
     }
 
     fn described(&self, finished: &Finished<'_>, tiles: Tiles, scale: &Scale) -> Value {
@@ -186,19 +204,12 @@ struct Scale {
 }
 
 impl Scale {
-    fn of(export: &Unreal, (low, high): (f64, f64)) -> Result<Self, Error> {
+    /// That which was asked for, or the least that heights go into.
+    fn of(export: &Unreal, (low, high): (f64, f64)) -> Self {
         let (above, below) = ((high - export.zero).max(0.0), (export.zero - low).max(0.0));
         let least = 100.0 * STEPS * (above / (MAX_VALUE - MIDDLE)).max(below / MIDDLE);
-        let percent = export.z_scale.unwrap_or(if least > 0.0 { least } else { 100.0 });
-        if percent < least {
-            return Err(Error::Run(format!(
-                "unreal: heights from {low:.1} to {high:.1} m around {} m need a `z_scale` of {:.1} % or more, but it is \
-                 {percent} %; a larger one, or a `zero` nearer to them, will do",
-                export.zero,
-                (10.0 * least).ceil() / 10.0
-            )));
-        }
-        Ok(Self { percent, zero: export.zero })
+        let percent = export.z_scale.unwrap_or(if least > 0.0 { least } else { 100.0 }).max(least);
+        Self { percent, zero: export.zero }
     }
 
     fn metres(&self, number: f64) -> f64 {

@@ -10,7 +10,7 @@ use super::colour::{Linear, encode, linear_of_hex, linear_of_srgb, mix};
 use super::contours::automatic_interval;
 use super::cut::{Cut, Line, Slice};
 use super::{Image, PAPER, Picture, digits};
-use weald_core::error::{Error, Limit, Quantity};
+use weald_core::error::Error;
 use weald_core::landscape::Landscape;
 use weald_core::parameter::LayerName;
 use weald_core::random::{hash2, unit};
@@ -38,6 +38,7 @@ weald_core::parameters! {
         width: u32 = 1600, range 64..=16384, unit "px";
         /// How many times higher heights are drawn than lengths. By default the picture is about a third as
         /// high as it is wide.
+        /// Where the picture would then be higher than 16,384 pixels, it is less.
         exaggeration: Option<f64> = None, range 0.01..=1000.0;
         /// Whether the layer `water` is drawn where it exists.
         water: bool = true;
@@ -56,8 +57,25 @@ const ROOM: [f64; 2] = [0.16, 0.12];
 const DASH: f32 = 14.0;
 const DASHED: f32 = 0.6;
 
-/// Most pixels of a picture.
+/// Most pixels of a picture, and of its height.
 const MAX_PIXELS: f64 = (1_u32 << 27) as f64;
+const MAX_HEIGHT: f64 = 16384.0;
+
+impl Section {
+    fn cut(&self, landscape: &Landscape) -> Result<Cut, Error> {
+        let ground = landscape.field(&self.of.0)?;
+        let size = ground.size();
+        let down = self.along == Along::Column;
+        let lines = if down { size.columns } else { size.rows };
+        let place = ((self.at * lines as f64) as usize).min(lines - 1);
+        let line = Line { down, place };
+        let cut = Cut::new(landscape, ground, line, self.water)?;
+        match &self.before {
+            Some(before) => Ok(cut.with_before(landscape.field(&before.0)?, line)),
+            None => Ok(cut),
+        }
+    }
+}
 
 impl Picture for Section {
     fn reads(&self) -> Vec<String> {
@@ -68,18 +86,21 @@ impl Picture for Section {
         if self.water { vec!["water".to_owned()] } else { Vec::new() }
     }
 
+    fn notes(&self, landscape: &Landscape) -> Vec<String> {
+        let Ok(cut) = self.cut(landscape) else { return Vec::new() };
+        let lowered = Frame::new(self, &cut, landscape.domain.cell).lowered;
+        let asked = self.exaggeration.unwrap_or_default();
+        let note = |drawn: f64| {
+            format!(
+                "heights are drawn {drawn:.3} times as high as lengths, not {asked}: the picture would be too high"
+            )
+        };
+        lowered.map(note).into_iter().collect()
+    }
+
     fn render(&self, landscape: &Landscape) -> Result<Image, Error> {
-        let ground = landscape.field(&self.of.0)?;
-        let size = ground.size();
-        let down = self.along == Along::Column;
-        let lines = if down { size.columns } else { size.rows };
-        let place = ((self.at * lines as f64) as usize).min(lines - 1);
-        let line = Line { down, place };
-        let mut cut = Cut::new(landscape, ground, line, self.water)?;
-        if let Some(before) = &self.before {
-            cut = cut.with_before(landscape.field(&before.0)?, line);
-        }
-        let frame = Frame::new(self, &cut, landscape.domain.cell)?;
+        let cut = self.cut(landscape)?;
+        let frame = Frame::new(self, &cut, landscape.domain.cell);
         let slices = frame.slices(&cut);
         let colours = landscape.materials.iter().map(|material| linear_of_srgb(material.colour)).collect();
         let mut image = Drawing { frame: &frame, slices, inks: Inks::default(), colours }.paint();
@@ -101,10 +122,12 @@ struct Frame {
     rise: f64,
     /// Metres between the heights that are written at the edge.
     interval: f64,
+    /// The exaggeration, where the picture would be too high with the one that was asked for.
+    lowered: Option<f64>,
 }
 
 impl Frame {
-    fn new(section: &Section, cut: &Cut, cell: f64) -> Result<Self, Error> {
+    fn new(section: &Section, cut: &Cut, cell: f64) -> Self {
         let [low, high] = cut.range().unwrap_or([0.0, 1.0]).map(f64::from);
         let relief = if high > low { high - low } else { cell };
         let (low, high) = (low - ROOM[0] * relief, high + ROOM[1] * relief);
@@ -114,14 +137,12 @@ impl Frame {
         let margin = (side(width) * (longest[0].max(longest[1]) + 6)).min(width / 4);
         let run = cut.cells() as f64 * cell / (width - margin) as f64;
         let usual = DEFAULT_HEIGHT * width as f64 * run / (high - low);
-        let rise = run / section.exaggeration.unwrap_or(usual);
-        let height = ((high - low) / rise).ceil().max(1.0);
-        if width as f64 * height > MAX_PIXELS {
-            let limit = Limit::new(Quantity::Pixels, (width as f64 * height) as u64, 0..=MAX_PIXELS as u64);
-            let limit = limit.of(format!("a section of {width} × {height} pixels"));
-            return Err(limit.remedy("choose a smaller `width` or `exaggeration`").into());
-        }
-        Ok(Self { width, margin, height: height as usize, cells: cut.cells(), high, rise, interval })
+        let asked = section.exaggeration.unwrap_or(usual);
+        let most = MAX_HEIGHT.min((MAX_PIXELS / width as f64).floor());
+        let rise = (run / asked).max((high - low) / most);
+        let lowered = (rise > run / asked).then(|| run / rise);
+        let height = ((high - low) / rise).ceil().clamp(1.0, most) as usize;
+        Self { width, margin, height, cells: cut.cells(), high, rise, interval, lowered }
     }
 
     fn slices(&self, cut: &Cut) -> Vec<Slice> {
@@ -304,8 +325,16 @@ mod tests {
 
     #[test]
     fn heights_in_the_margin_stand_at_their_ticks() {
-        let frame =
-            Frame { width: 640, margin: 60, height: 400, cells: 10, high: 350.0, rise: 1.0, interval: 100.0 };
+        let frame = Frame {
+            width: 640,
+            margin: 60,
+            height: 400,
+            cells: 10,
+            high: 350.0,
+            rise: 1.0,
+            interval: 100.0,
+            lowered: None,
+        };
         let mut image = Image::paper(640, 400);
         let paper = image.pixel(0, 0);
         frame.label(&mut image);

@@ -124,7 +124,7 @@ impl Step for Scatter {
         size.into_iter().chain(condition::faults(&self.r#where)).collect()
     }
 
-    /// Conditions leave less ground than there is, and only the ground tells how much.
+    /// Conditions leave less ground than there is, and only the ground tells how much: a run widens the spacing then.
     fn check_on(&self, domain: &Domain) -> Result<(), Error> {
         if self.count.is_some() || !self.r#where.is_empty() {
             return Ok(());
@@ -151,18 +151,25 @@ impl Scatter {
         let area = site.suitable_area();
         let at = |spacing: f64| Pattern { ground: site, spacing, seed: job.seed }.places(job.watcher);
         let Some(count) = self.count else {
-            self.ensure_possible(area)?;
-            return Ok((self.spacing, at(self.spacing)?));
+            if self.r#where.is_empty() {
+                self.ensure_possible(area)?;
+            }
+            let spacing = self.spacing.max(self.narrowest(area).unwrap_or_default());
+            return Ok((spacing, at(spacing)?));
         };
         widest(count as usize, self.spacing, area, at)
     }
 
-    fn ensure_possible(&self, area: f64) -> Result<(), Error> {
+    /// The least spacing on so much ground, where the one that is asked for would set more plants than there may be.
+    fn narrowest(&self, area: f64) -> Option<f64> {
         let expected = DENSITY * area / (self.spacing * self.spacing);
-        if expected <= f64::from(MAX_PLANTS) {
-            return Ok(());
-        }
-        let wide = libm::ceil((DENSITY * area / f64::from(MAX_PLANTS)).sqrt() * 100.0) / 100.0;
+        let narrowest = libm::ceil((DENSITY * area / f64::from(MAX_PLANTS)).sqrt() * 100.0) / 100.0;
+        (expected > f64::from(MAX_PLANTS)).then_some(narrowest)
+    }
+
+    fn ensure_possible(&self, area: f64) -> Result<(), Error> {
+        let Some(wide) = self.narrowest(area) else { return Ok(()) };
+        let expected = DENSITY * area / (self.spacing * self.spacing);
         let limit = Limit::new(Quantity::Plants, expected.ceil() as u64, 0..=MAX_PLANTS.into());
         let subject = format!("scatter: expected at a `spacing` of {} m on this ground", self.spacing);
         Err(limit.of(subject).remedy(format!("choose {wide} m or more, or a `count`")).into())
@@ -195,7 +202,14 @@ impl Scatter {
             )
         });
         let measures = [("plants", plants as f64), ("spacing", spacing)].into();
-        let notes = fewer.into_iter().collect();
+        let wider = (self.count.is_none() && spacing > self.spacing).then(|| {
+            format!(
+                "plants stand {spacing} m apart, not {} m: so much ground meets the conditions that there would be more than \
+                 {MAX_PLANTS}; harder conditions, or a `count`, leave the spacing",
+                self.spacing
+            )
+        });
+        let notes = fewer.into_iter().chain(wider).collect();
         Outcome { iterations: plants as u64, measures, notes, ..Outcome::default() }
     }
 }

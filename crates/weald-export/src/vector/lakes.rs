@@ -7,6 +7,7 @@ use serde_json::{Map, Value, json};
 use super::geojson::{Edition, Feature, Geometry, Position, rounded, write};
 use super::place::Place;
 use crate::{Export, Finished};
+use weald_core::domain::Domain;
 use weald_core::error::Error;
 use weald_io::Part;
 use weald_land::analyse::lakes::{Lake, Lakes, Polygon};
@@ -37,6 +38,10 @@ impl Export for LakeAreas {
 
     fn notes(&self, finished: &Finished<'_>) -> Vec<String> {
         Place(&finished.landscape.domain).note().into_iter().collect()
+    }
+
+    fn check_on(&self, domain: &Domain, _: &Path) -> Result<(), Error> {
+        Edition::of(self.rfc7946, Place(domain)).map(drop)
     }
 
     fn parts(&self, finished: &Finished<'_>, _: &Path) -> Result<Vec<Part>, Error> {

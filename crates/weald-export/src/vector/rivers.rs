@@ -53,6 +53,10 @@ impl Export for RiverLines {
         Place(&finished.landscape.domain).note().into_iter().collect()
     }
 
+    fn check_on(&self, domain: &Domain, _: &Path) -> Result<(), Error> {
+        Edition::of(self.rfc7946, Place(domain)).map(drop)
+    }
+
     fn parts(&self, finished: &Finished<'_>, _: &Path) -> Result<Vec<Part>, Error> {
         let rivers = Rivers::of(finished.landscape)?;
         let place = Place(&finished.landscape.domain);

@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use weald_core::error::Error;
 use weald_core::landscape::Landscape;
+use weald_core::parameter::LayerName;
 use weald_engine::device::Window;
 
 /// How much of a landscape is simulated.
@@ -27,12 +28,19 @@ impl Extent<'_> {
         let columns = whole.columns.clone().filter(|&x| whole.rows.clone().any(|y| is_in(x, y)));
         match (around(columns), around(rows)) {
             (Some(columns), Some(rows)) if self.cropped => Ok(Window { columns, rows }),
-            (Some(_), Some(_)) => Ok(whole),
-            _ => Err(Error::Run(format!(
-                "layer `{name}` is below 0.5 everywhere, so that the region holds no cell to simulate"
-            ))),
+            // Where the region holds no cell there are walls around nothing, and the ground stays.
+            _ => Ok(whole),
         }
     }
+}
+
+/// Tells that a region holds no cell.
+pub(crate) fn empty_note(landscape: &Landscape, region: Option<&LayerName>) -> Option<String> {
+    let LayerName(name) = region?;
+    let is_empty = landscape.field(name).ok()?.values().iter().all(|&here| here < 0.5);
+    is_empty.then(|| {
+        format!("layer `{name}` is below 0.5 everywhere: the region holds no cell, and nothing is simulated")
+    })
 }
 
 /// From the first to the last of them.

@@ -138,8 +138,8 @@ impl Flood {
             planes.push(self.inflow()?);
         }
         if let Some(LayerName(name)) = &self.step.erodibility_map {
-            let map = not_negative(&self.landscape, name)?;
-            planes.push(self.working.ringed(|x, y| map.at(x, y)));
+            let map = self.landscape.field(name)?;
+            planes.push(self.working.ringed(|x, y| map.at(x, y).max(0.0)));
         }
         if let Some(column) = &self.column {
             planes.extend(column.bottoms().iter().map(|bottom| self.working.lengths(bottom)));
@@ -150,14 +150,14 @@ impl Flood {
     /// Rain by its map, and what springs, in cells per step.
     fn inflow(&self) -> Result<Vec<f32>, Error> {
         let domain = &self.landscape.domain;
-        let map = self.step.rain_map.as_ref().map(|LayerName(name)| not_negative(&self.landscape, name));
-        let map = map.transpose()?;
+        let map =
+            self.step.rain_map.as_ref().map(|LayerName(name)| self.landscape.field(name)).transpose()?;
         let mut springs = Field::filled(domain.size, 0.0);
         for Nested(source) in &self.step.sources {
             source.spring(domain).add_to(&mut springs, domain, self.steps().seconds / self.working.cell);
         }
         let rain = self.in_a_step(self.step.rain);
-        let share = |x, y| map.as_ref().map_or(1.0, |map| map.at(x, y));
+        let share = |x, y| map.map_or(1.0, |map| map.at(x, y).max(0.0));
         Ok(self.working.ringed(|x, y| rain * share(x, y) + springs.at(x, y)))
     }
 
@@ -275,17 +275,4 @@ impl Flood {
         let budget = self.working.budget(&depth, &load, finished);
         (budget, HandedDown { change, water, sediment, discharge, worn })
     }
-}
-
-/// A layer that multiplies something.
-fn not_negative<'a>(landscape: &'a Landscape, name: &str) -> Result<&'a Field, Error> {
-    let map = landscape.field(name)?;
-    let valid = landscape.domain.valid.as_ref();
-    let counts = |cell: usize| valid.is_none_or(|valid| valid.is_valid_at(cell));
-    let wrong = |&(cell, &value): &(usize, &f32)| counts(cell) && !(value.is_finite() && value >= 0.0);
-    let Some((cell, value)) = map.values().iter().enumerate().find(wrong) else { return Ok(map) };
-    let (x, y) = (cell % map.size().columns, cell / map.size().columns);
-    Err(Error::Run(format!(
-        "layer `{name}` holds {value} at column {x}, row {y}; what multiplies rain or erodibility is 0 or more"
-    )))
 }

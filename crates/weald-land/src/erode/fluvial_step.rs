@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use super::extent::empty_note;
 use super::fluvial;
 use super::fluvial_levels as levels;
 use super::fluvial_materials::strata_of;
@@ -197,12 +198,25 @@ impl Step for Fluvial {
 
     fn run(&self, landscape: &mut Landscape, job: &Job<'_>) -> Result<Outcome, Error> {
         levels::check(&landscape.domain, self.grids(landscape.domain.cell))?;
+        let maps = self.maps().into_iter().flatten();
+        let mut told: Vec<_> = maps.filter_map(|map| negative_note(landscape, map)).collect();
+        told.extend(empty_note(landscape, self.region.as_ref()));
         let mut outcome = self.run_levels(landscape, job)?;
+        outcome.notes.extend(told);
         let springs: Vec<_> =
             self.sources.iter().map(|Nested(source)| Nested(source.spring(&landscape.domain))).collect();
         outcome.notes.extend(springs::out_of_reach(&landscape.domain, "sources", &springs));
         Ok(outcome)
     }
+}
+
+/// Tells where what multiplies rain or erodibility is below 0, and counts as 0.
+fn negative_note(landscape: &Landscape, LayerName(name): &LayerName) -> Option<String> {
+    let map = landscape.field(name).ok()?;
+    let (least, _) = map.range(landscape.domain.valid.as_ref())?;
+    (least < 0.0).then(|| {
+        format!("layer `{name}` goes down to {least}; what multiplies rain or erodibility counts as 0 where it is below")
+    })
 }
 
 /// The step in every variant that has code of its own.

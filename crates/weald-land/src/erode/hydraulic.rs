@@ -16,6 +16,7 @@ pub use keys::{Boundary, HanKeys, Hydraulic, MeiKeys, Model, StavaKeys, Transpor
 use std::path::PathBuf;
 
 use super::advection::Advection;
+use super::extent::empty_note;
 use super::interactive::{Interactive, InteractiveSimulation, whole};
 use super::springs::Forcing;
 use super::stack::REGOLITH;
@@ -153,7 +154,10 @@ impl Step for Hydraulic {
     }
 
     fn run(&self, landscape: &mut Landscape, job: &Job<'_>) -> Result<Outcome, Error> {
-        self.run_model(landscape, job)
+        let told = empty_note(landscape, self.region.as_ref());
+        let mut outcome = self.run_model(landscape, job)?;
+        outcome.notes.extend(told);
+        Ok(outcome)
     }
 }
 

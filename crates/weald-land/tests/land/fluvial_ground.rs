@@ -98,14 +98,16 @@ fn maps_multiply_rain_and_erodibility() {
     let mut doubled = hills(64);
     run(&Fluvial { rain: 80.0, erodibility: 6.0, ..step }, &mut doubled);
     assert_same(&mapped, &doubled);
-    mapped.insert(
-        "two",
-        "1",
-        Field::from_function(square(64), |x, y| if (x, y) == (3, 5) { -1.0 } else { 1.0 }),
-    );
-    let step = Fluvial { rain_map: two(), flow_time: 0.1, ..Fluvial::default() };
-    let error = step.run(&mut mapped, &Job::unwatched(1)).expect_err("negative rain").to_string();
-    assert!(error.contains("`two` holds -1 at column 3, row 5"), "{error}");
+    let step = Fluvial { rain_map: two(), erodibility_map: two(), flow_time: 0.1, ..Fluvial::default() };
+    let [below, none] = [-1.0, 0.0].map(|least| {
+        let mut land = hills(64);
+        let map = Field::from_function(square(64), |x, y| if (x, y) == (3, 5) { least } else { 1.0 });
+        land.insert("two", "1", map);
+        let notes = step.run(&mut land, &Job::unwatched(1)).expect("it runs").notes.join("\n");
+        assert_eq!(notes.contains("layer `two` goes down to -1"), least < 0.0, "{notes}");
+        land
+    });
+    assert_same(&below, &none);
 }
 
 #[test]

@@ -233,12 +233,16 @@ fn a_region_alone_becomes_what_it_becomes_beside_another_far_away() {
 }
 
 #[test]
-fn a_region_that_holds_no_cell_is_refused() {
+fn a_region_that_holds_no_cell_leaves_all_as_it_is_and_is_told() {
     let mut land = layered(rough(16, 16, 5.0, 1));
     land.insert("here", "1", Field::filled(land.domain.size, 0.4));
-    let step = Hydraulic { region: Some(LayerName::of("here")), ..stava(5) };
-    let error = step.run(&mut land, &Job::unwatched(1)).expect_err("nowhere").to_string();
-    assert!(error.contains("`here` is below 0.5 everywhere"), "{error}");
+    let before = land.clone();
+    for step in [hydraulic(5), mei(5), stava(5)] {
+        let step = Hydraulic { region: Some(LayerName::of("here")), ..step };
+        let notes = run(&step, &mut land).notes.join("\n");
+        assert!(notes.contains("`here` is below 0.5 everywhere"), "{notes}");
+        assert_eq!(field(&before, "height"), field(&land, "height"));
+    }
 }
 
 #[test]

@@ -276,6 +276,18 @@ fn too_many_plants_are_a_limit_that_says_how_far_apart_is_possible() {
     assert!((0.88..=0.89).contains(&spacing), "{asked} plants");
 }
 
+#[test]
+fn a_spacing_for_too_many_plants_is_widened_where_conditions_decide_and_told() {
+    let step = Scatter { spacing: 0.2, ..Scatter::default() };
+    let area = 1.0e7;
+    let spacing = step.narrowest(area).expect("too narrow");
+    let enough = Scatter { spacing, ..Scatter::default() };
+    assert!(enough.narrowest(area).is_none() && enough.narrowest(1.05 * area).is_some(), "{spacing} m");
+    let notes = step.outcome(spacing, 9_000_000).notes.join("\n");
+    assert!(notes.contains(&format!("stand {spacing} m apart, not 0.2 m")), "{notes}");
+    assert_eq!(step.outcome(0.2, 9).notes, Vec::<String>::new());
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(16))]
     #[test]

@@ -111,7 +111,7 @@ impl Recipe {
     /// # Errors
     /// [`Error::Limit`] with what it would take and what is allowed.
     pub(super) fn ensure_memory(&self, first: &Domain, allowed: Option<u64>) -> Result<(), Error> {
-        self.ensure_peak(self.memory(first), allowed)
+        self.ensure_peak(&self.memory(first), allowed)
     }
 
     /// The same for a run that goes on from a checkpoint, by its head.
@@ -119,10 +119,10 @@ impl Recipe {
     /// # Errors
     /// As [`Recipe::ensure_memory`].
     pub(super) fn ensure_memory_after(&self, head: &Head, allowed: Option<u64>) -> Result<(), Error> {
-        self.ensure_peak(self.memory_from(&head.domain, head.done, head.layers.clone()), allowed)
+        self.ensure_peak(&self.memory_from(&head.domain, head.done, head.layers.clone()), allowed)
     }
 
-    fn ensure_peak(&self, peak: Memory, allowed: Option<u64>) -> Result<(), Error> {
+    fn ensure_peak(&self, peak: &Memory, allowed: Option<u64>) -> Result<(), Error> {
         let there = allowed.or_else(available).unwrap_or(u64::MAX);
         let has_room = has_addresses(peak.bytes);
         if peak.bytes <= there && has_room {

@@ -8,6 +8,7 @@ mod landscape;
 mod layers;
 mod materials;
 mod names;
+mod numbers;
 mod outputs;
 mod steps;
 #[cfg(test)]
@@ -267,6 +268,7 @@ fn check(
     if let (true, Ok(ground)) = (all_understood && materials_understood, &start.ground) {
         let made = Made { ground, materials: &materials, steps: &steps };
         layers::check(&made, &outputs, diagnostics);
+        numbers::check(made.steps, &outputs, diagnostics);
     }
     if all_understood {
         names::check(&outputs, &steps, diagnostics);

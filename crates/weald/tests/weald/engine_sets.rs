@@ -167,8 +167,9 @@ fn unreal_scales_hold_depths_and_a_scale_that_is_too_small_is_refused() {
     assert!((height - (hill(0.0, 0.0) - 3000.0)).abs() <= 2.0 / 128.0 + 1e-4, "{height}");
     let finished = Finished { landscape: &deep, steps: &[], recipe: "", hash: "", seed: 0 };
     let narrow = Unreal { z_scale: Some(100.0), ..Unreal::default() };
-    let error = narrow.parts(&finished, Path::new("land.png")).expect_err("too narrow").to_string();
-    assert!(error.contains("need a `z_scale` of") && error.contains("but it is 100 %"), "{error}");
+    let notes = narrow.notes(&finished).join("\n");
+    assert!(notes.contains("do not go into a `z_scale` of 100 %"), "{notes}");
+    assert_eq!(files_of(&narrow), files_of(&Unreal::default()), "it takes the least that heights go into");
 }
 
 #[test]

@@ -176,3 +176,25 @@ fn a_recipe_with_every_old_name_is_told_so_and_runs_when_rewritten() {
     assert_eq!(check(&without_format).expect("today's").hash(), today.hash());
     assert!(without_format.starts_with("# Of last year.\n\n[landscape]\nsize = 12 # cells\n"));
 }
+
+#[test]
+fn layers_of_numbers_that_another_step_has_changed_are_refused_where_they_are_read() {
+    let recipe = |before: &str, between: &str, after: &str| {
+        let text = format!(
+            "[landscape]\nsize = 16\n[[step]]\ndo = \"fbm\"\n{before}[[step]]\ndo = \"flow\"\n{between}[[step]]\ndo = \
+             \"{after}\"\n[[output]]\nlayer = \"height\"\nfile = \"h.npy\"\n"
+        );
+        Recipe::parse("r.toml", &text, &Overrides::default())
+    };
+    let averaged = "[[step]]\ndo = \"resample\"\nsize = 8\n";
+    let painted = "[[step]]\ndo = \"constant\"\nheight = 3.0\ninto = \"flow_direction\"\n";
+    for between in [averaged, painted] {
+        for after in ["watersheds", "rivers"] {
+            let refused = recipe("", between, after).expect_err("refused").to_string();
+            assert!(refused.contains("reads `flow_direction`, whose numbers step 3"), "{refused}");
+            assert!(refused.contains("put a step `flow` between them"), "{refused}");
+        }
+    }
+    recipe(averaged, "", "watersheds").expect("made behind it");
+    recipe("", "", "watersheds").expect("as it was made");
+}
