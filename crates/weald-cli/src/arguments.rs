@@ -196,6 +196,10 @@ pub(crate) struct BenchArguments {
     /// Where a person stands who looks at their middles from 1.7 m above the ground, with --recipe
     #[arg(long, value_name = "X,Y", requires = "recipe", value_parser = values::eye)]
     pub(crate) standing: Option<values::Point>,
+    /// Only how soon the studio's window answers, in a window that drives itself, with a template
+    #[cfg(feature = "studio")]
+    #[arg(long, conflicts_with_all = ["size", "fractals", "grass", "render"])]
+    pub(crate) studio: bool,
     /// Only sets (tufts) and blades of grass, with --engine cpu
     #[arg(long, conflicts_with_all = ["size", "gpu_memory", "fractals"])]
     pub(crate) grass: bool,

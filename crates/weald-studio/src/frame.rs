@@ -7,7 +7,7 @@ use eframe::egui::{
 };
 
 use crate::brushes::Tool;
-use crate::commands::COMMANDS;
+use crate::commands::{COMMANDS, Entry, Keys};
 use crate::navigation;
 use crate::panels;
 use crate::pick::Place;
@@ -117,7 +117,10 @@ impl Studio {
     fn take_keys(&mut self, ui: &Ui) {
         let context = ui.ctx().clone();
         let types = context.egui_wants_keyboard_input();
-        for entry in COMMANDS {
+        // A key with Shift is one without it too, to those who ask for that first.
+        let has_shift = |entry: &&Entry| matches!(entry.keys, Keys::Shift(_));
+        let rest = COMMANDS.iter().filter(|entry| !has_shift(entry));
+        for entry in COMMANDS.iter().filter(has_shift).chain(rest) {
             let Some(keys) = entry.keys.shortcut() else { continue };
             // A letter alone is typed where text is typed.
             if types && !keys.modifiers.command {

@@ -14,6 +14,7 @@ mod own_files;
 mod panels;
 mod pick;
 mod project;
+mod response;
 pub mod state;
 mod studio;
 mod viewport;
@@ -22,6 +23,7 @@ pub mod work;
 
 pub use brushes::Tool;
 pub use navigation::Mode;
+pub use response::{Response, response};
 pub use studio::{Options, Studio};
 #[doc(hidden)]
 pub use viewport::device_setup;

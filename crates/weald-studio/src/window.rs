@@ -1,7 +1,7 @@
 //! The window of the system.
 
-use eframe::NativeOptions;
 use eframe::egui::ViewportBuilder;
+use eframe::{CreationContext, NativeOptions};
 use weald::Error;
 
 use crate::studio::{Options as StudioOptions, Studio};
@@ -10,8 +10,16 @@ use crate::viewport;
 /// Opens the studio, and returns when it is closed.
 ///
 /// # Errors
-/// [`Error::Run`] where the system has no window or no driver that draws, with what to install; those of opening what it begins with.
+/// [`Error::Run`] where the system has no window or no driver that draws, with what to install; those of opening what it
+/// begins with.
 pub fn open(what: StudioOptions) -> Result<(), Error> {
+    show(move |context| Studio::of(context, what.clone()))
+}
+
+/// Shows what is made in a window of the system, and returns when it is closed.
+pub(crate) fn show<A: eframe::App + 'static>(
+    made: impl FnOnce(&CreationContext<'_>) -> Result<A, Error>,
+) -> Result<(), Error> {
     let options = NativeOptions {
         viewport: ViewportBuilder::default()
             .with_title("Weald")
@@ -21,9 +29,7 @@ pub fn open(what: StudioOptions) -> Result<(), Error> {
             .with_drag_and_drop(true),
         ..viewport::options()
     };
-    let made = move |context: &eframe::CreationContext<'_>| {
-        Ok(Box::new(Studio::of(context, what.clone())?) as Box<dyn eframe::App>)
-    };
+    let made = |context: &CreationContext<'_>| Ok(Box::new(made(context)?) as Box<dyn eframe::App>);
     eframe::run_native("weald", options, Box::new(made)).map_err(|cause| {
         let remedy = "the studio needs a desktop (X11 or Wayland) and a Vulkan, Metal or Direct3D 12 driver; on Debian or \
                       Ubuntu `sudo apt-get install mesa-vulkan-drivers libvulkan1` brings one that runs anywhere";

@@ -29,6 +29,11 @@ pub(crate) fn bench(arguments: &BenchArguments) -> Result<(), Failure> {
             unwritten = Some(failure);
         }
     };
+    #[cfg(feature = "studio")]
+    if arguments.studio {
+        print(&weald_studio::response(None)?);
+        return unwritten.map_or(Ok(()), Err);
+    }
     if arguments.render {
         super::bench_render::run(arguments, &mut print)?;
     } else if arguments.engine == "gpu" {

@@ -93,6 +93,13 @@ impl<'a> Studio<'a> {
         let program = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().expect("a studio");
         let studio = Self { display, program };
         studio.display.until("the window", |_| {}, |display| display.title().contains("Weald"));
+        // No window manager gives it the keyboard; what is not yet shown cannot have it.
+        let focus = |display: &Display| {
+            let asked =
+                display.command("xdotool").args(["search", "--name", "Weald", "windowfocus"]).output();
+            asked.is_ok_and(|asked| asked.status.success())
+        };
+        studio.display.until("the keyboard", |_| {}, focus);
         studio
     }
 
@@ -113,7 +120,7 @@ fn text(file: &Path) -> String {
 }
 
 fn strokes(project: &Path) -> usize {
-    text(&project.join("landscape.edits.jsonl")).matches("\"do\":\"add\"").count()
+    text(&project.join("landscape.edits.jsonl")).matches("\"do\": \"add\"").count()
 }
 
 /// Saves, and waits until what was written says so.

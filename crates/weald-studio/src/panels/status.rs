@@ -21,15 +21,16 @@ pub(crate) fn show(studio: &mut Studio, ui: &mut Ui) {
     if studio.message.as_ref().is_some_and(|(_, since)| since.elapsed() > MESSAGE) {
         studio.message = None;
     }
-    if let Some((message, _)) = &studio.message {
-        ui.label(RichText::new(message).strong());
-    }
     ui.horizontal(|ui| {
         work(studio, ui);
         ui.separator();
         pointed(studio, ui);
         ui.separator();
         pace(studio, ui);
+        if let Some((message, _)) = &studio.message {
+            ui.separator();
+            ui.label(RichText::new(message).strong());
+        }
     });
 }
 

@@ -101,3 +101,17 @@ fn what_is_painted_is_undone_saved_run_and_opened_again_to_the_bit() {
     assert_eq!(status.steps, 42);
     assert_eq!(status.moments.len(), 5, "{:?}", status.moments);
 }
+
+#[test]
+fn ctrl_z_undoes_and_ctrl_shift_z_does_it_again() {
+    let (_folder, file) = recipe();
+    let mut window = Window::open(Some(&file));
+    window.settle();
+    window.click("One step");
+    window.until("a step", |status| status.steps == 1);
+    let command = eframe::egui::Modifiers::COMMAND;
+    window.harness.key_press_modifiers(command, eframe::egui::Key::Z);
+    window.until("the start", |status| status.steps == 0);
+    window.harness.key_press_modifiers(command | eframe::egui::Modifiers::SHIFT, eframe::egui::Key::Z);
+    window.until("the step again", |status| status.steps == 1);
+}
