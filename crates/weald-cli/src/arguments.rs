@@ -170,6 +170,8 @@ pub(crate) struct ReportArguments {
     pub(crate) running: Running,
 }
 
+// Each flag is an option of the command by itself.
+#[allow(clippy::struct_excessive_bools)]
 #[derive(Debug, Args)]
 pub(crate) struct BenchArguments {
     /// What is measured: cpu or gpu

@@ -42,14 +42,13 @@ impl Studio {
         let shown = self.status.shown.as_ref()?;
         let surface = self.status.surface.as_ref().filter(|surface| surface.shown == shown.number);
         let height = shown.landscape.field("height").ok()?;
-        let start = shown.landscape.field("height").ok()?.range(shown.landscape.domain.valid.as_ref())?.0;
         let target = Target {
             ground: surface.map_or(height, |surface| &surface.ground),
             water: surface
                 .map(|surface| &surface.canvas.water)
                 .or_else(|| shown.landscape.field("water").ok()),
             cell: shown.landscape.domain.cell,
-            lowest: f64::from(start),
+            lowest: f64::from(shown.lowest),
             exaggeration: self.looks.exaggeration,
         };
         let across = 2.0 * (at.x - rect.center().x) / rect.width();

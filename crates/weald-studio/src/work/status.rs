@@ -51,6 +51,8 @@ pub struct Moment {
 pub struct Shown {
     /// All its layers.
     pub landscape: Arc<Landscape>,
+    /// Elevation of its lowest ground, from which the heights of pictures count.
+    pub lowest: f32,
     /// Changes with every other landscape.
     pub number: u64,
     /// Revision of the document that it was made of.

@@ -315,9 +315,15 @@ impl Worker {
     }
 
     fn publish(&self, opening: &Opening, landscape: Arc<Landscape>, steps: usize) {
+        let valid = landscape.domain.valid.as_ref();
+        let lowest = landscape
+            .field("height")
+            .ok()
+            .and_then(|height| height.range(valid))
+            .map_or(0.0, |range| range.0);
         self.shared.change(|status| {
             let number = status.shown.as_ref().map_or(1, |shown| shown.number + 1);
-            status.shown = Some(Shown { landscape, number, revision: opening.revision, steps });
+            status.shown = Some(Shown { landscape, lowest, number, revision: opening.revision, steps });
             status.surface = None;
         });
     }

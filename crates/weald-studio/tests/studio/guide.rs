@@ -22,7 +22,8 @@ fn the_guide_has_the_keys_of_the_program() {
 }
 
 const VALLEY: &str = "[landscape]\nsize = 256\ncell = 10.0\nseed = 12\n\n[[step]]\ndo = \"diamond-square\"\nrelief = 420.0\n\n\
-    [[step]]\ndo = \"hydraulic\"\nmodel = \"stava\"\niterations = 400\n\n[[step]]\ndo = \"slope\"\n";
+    [[step]]\ndo = \"hydraulic\"\nmodel = \"stava\"\niterations = 400\n\n[[step]]\ndo = \"slope\"\n\n\
+    [[output]]\nlayer = \"height\"\nfile = \"height.tif\"\n";
 
 /// Draws the picture of the guide into the folder of test files: `weald-dev picture` makes docs/studio.webp of it.
 #[test]
