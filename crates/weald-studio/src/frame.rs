@@ -26,15 +26,18 @@ impl eframe::App for Studio {
         self.keep();
         self.ask_before_closing(context);
         let (now, hand_is_down) = context.input(|input| (input.time, input.pointer.any_down()));
-        if context.input(|input| !input.events.is_empty()) {
-            self.changed_at = now;
+        if self.document.revision() != self.seen {
+            (self.seen, self.changed_at) = (self.document.revision(), now);
         }
         self.run_changes(now, hand_is_down);
         if self.document.revision() != self.opened {
             context.request_repaint_after(Duration::from_millis(100));
         }
         let title = format!("{}{} – Weald", self.project.title(), if self.is_unsaved() { " •" } else { "" });
-        context.send_viewport_cmd(ViewportCommand::Title(title));
+        if title != self.title {
+            self.title.clone_from(&title);
+            context.send_viewport_cmd(ViewportCommand::Title(title));
+        }
         context.request_repaint_after(KEPT_EVERY);
     }
 

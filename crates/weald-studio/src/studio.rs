@@ -97,10 +97,14 @@ pub struct Studio {
     pub(crate) recent: Vec<PathBuf>,
     pub(crate) own: OwnFiles,
     pub(crate) tour: Option<usize>,
+    /// What the window is called.
+    pub(crate) title: String,
     /// Something said to the user, and when.
     pub(crate) message: Option<(String, Instant)>,
-    /// Revision of the document that was opened last, and when it changed.
+    /// Revision of the document that was opened last.
     pub(crate) opened: u64,
+    /// Revision that was there in the last frame, and when it became another.
+    pub(crate) seen: u64,
     pub(crate) changed_at: f64,
     keeps_edits: bool,
     /// What was done, recipe and simulation, in the order of undoing; `true` for a change of the recipe.
@@ -178,6 +182,8 @@ impl Studio {
             tour: None,
             message: None,
             opened: 0,
+            seen: 0,
+            title: String::new(),
             changed_at: 0.0,
             keeps_edits: false,
             done: Vec::new(),

@@ -59,6 +59,8 @@ pub struct Shown {
     pub revision: u64,
     /// Steps of the recipe that it comes after.
     pub steps: usize,
+    /// How much was done by hand when it was made: [`Status::changes`].
+    pub changes: u64,
 }
 
 /// Ground and water of a simulation as it runs.

@@ -212,6 +212,10 @@ impl Worker {
             Task::Export(folder) => return self.export(number, &folder),
             _ => {}
         }
+        if matches!(task, Task::Undo | Task::Redo | Task::GoTo(_)) {
+            // Who goes to a moment wants to see it.
+            self.until = None;
+        }
         let Some(held) = &mut self.held else { return Ok(()) };
         match task {
             Task::Play(plays) => self.until = plays.then_some(u64::MAX),
@@ -322,8 +326,10 @@ impl Worker {
             .and_then(|height| height.range(valid))
             .map_or(0.0, |range| range.0);
         self.shared.change(|status| {
-            let number = status.shown.as_ref().map_or(1, |shown| shown.number + 1);
-            status.shown = Some(Shown { landscape, lowest, number, revision: opening.revision, steps });
+            let (number, changes) =
+                (status.shown.as_ref().map_or(1, |shown| shown.number + 1), status.changes);
+            status.shown =
+                Some(Shown { landscape, lowest, number, revision: opening.revision, steps, changes });
             status.surface = None;
         });
     }

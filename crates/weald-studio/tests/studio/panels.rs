@@ -4,6 +4,8 @@ use std::fs;
 
 use egui_kittest::kittest::Queryable;
 
+use weald_studio::work::Shown;
+
 use super::harness::Window;
 
 const RECIPE: &str = "[landscape]\nsize = 64\ncell = 20.0\nseed = 3\n\n[[step]]\ndo = \"diamond-square\"\nrelief = 300.0\n\n\
@@ -86,7 +88,8 @@ fn what_is_painted_is_undone_saved_run_and_opened_again_to_the_bit() {
     let file = project.join("landscape.toml");
     window.until("the file", |status| status.saved.as_ref().is_some_and(|(saved, _)| *saved == file));
     let shown = window.until("the steps after", |status| {
-        status.shown.as_ref().is_some_and(|shown| shown.landscape.field("slope").is_ok())
+        let is_of_now = |shown: &&Shown| shown.changes == status.changes && shown.steps == usize::MAX;
+        status.shown.as_ref().filter(is_of_now).is_some_and(|shown| shown.landscape.field("slope").is_ok())
     });
     let here = shown.shown.expect("shown").landscape;
     let run =
@@ -114,4 +117,18 @@ fn ctrl_z_undoes_and_ctrl_shift_z_does_it_again() {
     window.until("the start", |status| status.steps == 0);
     window.harness.key_press_modifiers(command | eframe::egui::Modifiers::SHIFT, eframe::egui::Key::Z);
     window.until("the step again", |status| status.steps == 1);
+}
+
+#[test]
+fn who_goes_back_while_it_runs_stays_there() {
+    let (_folder, file) = recipe();
+    let mut window = Window::open(Some(&file));
+    window.settle();
+    window.click("Play or pause");
+    window.until("some steps", |status| status.steps > 0);
+    window.harness.key_press_modifiers(eframe::egui::Modifiers::COMMAND, eframe::egui::Key::Z);
+    window.until("the start", |status| status.steps == 0 && !status.plays);
+    for _ in 0..20 {
+        assert_eq!(window.status().steps, 0, "it stays");
+    }
 }
