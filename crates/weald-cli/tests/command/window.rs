@@ -90,7 +90,7 @@ impl<'a> Studio<'a> {
     fn open(display: &'a Display, what: &Path, own: &Path) -> Self {
         let mut command = display.command(env!("CARGO_BIN_EXE_weald"));
         command.arg("studio").arg(what).env("WEALD_STATE", own).env("XDG_RUNTIME_DIR", own);
-        let program = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().expect("a studio");
+        let program = command.stdout(Stdio::null()).spawn().expect("a studio");
         let studio = Self { display, program };
         studio.display.until("the window", |_| {}, |display| display.title().contains("Weald"));
         // No window manager gives it the keyboard; what is not yet shown cannot have it.
@@ -128,7 +128,9 @@ fn save(display: &Display, what: &str, holds: impl Fn() -> bool) {
     display.until(what, |display| display.act("key ctrl+s"), |_| holds());
 }
 
+/// `./check` runs it by itself: a window that shares its processors with all other tests may be too slow to be driven.
 #[test]
+#[ignore = "a window needs the machine for itself: cargo test -p weald-cli --test command -- --ignored window"]
 fn a_landscape_is_painted_undone_saved_exported_and_run_to_the_same_files() {
     let (display, folder) = (Display::new(), tempfile::tempdir().expect("a folder"));
     let (own, project) = (folder.path().join("own"), folder.path().join("project"));
