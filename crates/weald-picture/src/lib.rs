@@ -3,6 +3,7 @@
 mod apng;
 mod automatic;
 mod colour;
+mod colour_scale;
 mod contours;
 mod courses;
 mod cut;
@@ -39,6 +40,7 @@ mod view;
 
 pub use apng::write_apng;
 pub use colour::{Linear, Oklab, PAPER, encode, linear_of_hex, linear_of_srgb};
+pub use colour_scale::{ColourScale, Drape};
 pub use cutout::Cutout;
 pub use font::{Pen, blend};
 pub use growth::{Growth, GrowthKeys};

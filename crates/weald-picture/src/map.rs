@@ -3,16 +3,16 @@
 use rayon::prelude::*;
 
 use super::colour::{encode, mix};
+use super::colour_scale::Drape;
 use super::ground::{drawable, land_share};
 use super::legend::{Key, Legend};
 use super::ramp::{Ramp, Scale};
 use super::sheet::Sheet;
 use super::spline::{Spline, SplineRow};
-use super::ticks::Ticks;
 use super::{Image, PAPER, Picture};
 use weald_core::domain::Domain;
 use weald_core::error::Error;
-use weald_core::grid::{Field, Mask};
+use weald_core::grid::Field;
 use weald_core::landscape::Landscape;
 use weald_core::parameter::LayerName;
 
@@ -52,14 +52,14 @@ impl Picture for Map {
         let sheet = Sheet::new(&landscape.domain, self.width)?;
         let land = landscape.domain.valid.as_ref();
         let layer = landscape.layer(&self.of.0)?;
-        let range = self.range(&layer.field, land);
-        let shares = drawable(&self.shares(&layer.field, range), land, &sheet);
-        let inked = Inked { shares, land: land_share(land, &sheet), ramp: self.ramp.ramp() };
+        let scale = self.drape().scale_of(&layer.field, land);
+        let shares = drawable(&scale.shares(&layer.field), land, &sheet);
+        let ticks = scale.marks();
+        let inked = Inked { shares, land: land_share(land, &sheet), ramp: scale.ramp };
         let map = inked.paint(&sheet);
         if !self.legend {
             return Ok(map);
         }
-        let ticks = if self.logarithmic { Ticks::logarithmic(range) } else { Ticks::linear(range) };
         let legend = Legend {
             title: &self.of.0,
             unit: &layer.unit,
@@ -70,39 +70,10 @@ impl Picture for Map {
     }
 }
 
-/// Decades below the highest value that a logarithmic map shows.
-const LOGARITHMIC_SHARE: f64 = 1e-4;
-
 impl Map {
-    /// Places on the ramp, 0 to 1.
-    fn shares(&self, field: &Field, [low, high]: [f64; 2]) -> Field {
-        let logarithm = |value: f64| libm::log(value.abs().max(f64::MIN_POSITIVE));
-        let share = |&value: &f32| {
-            let value = f64::from(value);
-            let share = if self.logarithmic {
-                (logarithm(value) - logarithm(low)) / (logarithm(high) - logarithm(low))
-            } else {
-                (value - low) / (high - low)
-            };
-            if share.is_finite() { share.clamp(0.0, 1.0) as f32 } else { 0.0 }
-        };
-        Field::from_values(field.size(), field.values().par_iter().map(share).collect())
-    }
-
-    /// Values of the first and the last colour.
-    fn range(&self, field: &Field, land: Option<&Mask>) -> [f64; 2] {
-        let (low, high) =
-            field.range(land).map_or((0.0, 0.0), |(low, high)| (f64::from(low), f64::from(high)));
-        let farthest = low.abs().max(high.abs());
-        if self.logarithmic {
-            let high = self.high.unwrap_or(farthest);
-            return [self.low.unwrap_or(high * LOGARITHMIC_SHARE), high];
-        }
-        if self.ramp.is_centred() {
-            let high = self.high.or(self.low.map(|low| -low)).unwrap_or(farthest);
-            return [self.low.unwrap_or(-high), high];
-        }
-        [self.low.unwrap_or(low), self.high.unwrap_or(high)]
+    fn drape(&self) -> Drape {
+        let Self { of, ramp, logarithmic, low, high, .. } = self.clone();
+        Drape { of, ramp, logarithmic, low, high }
     }
 }
 

@@ -5,7 +5,7 @@ use super::{Image, Render, View};
 use weald_core::domain::Domain;
 use weald_core::error::Error;
 use weald_core::landscape::Landscape;
-use weald_core::parameter::Places;
+use weald_core::parameter::{Nested, Places};
 
 /// Beyond so many sides of the landscape from it, a camera or what it looks at is probably a mistake.
 const FAR_EYE: f64 = 10.0;
@@ -13,7 +13,8 @@ const FAR_TARGET: f64 = 1.0;
 
 impl Picture for View {
     fn reads(&self) -> Vec<String> {
-        vec![self.of.0.clone()]
+        let drape = self.drape.iter().map(|Nested(drape)| drape.of.0.clone());
+        std::iter::once(self.of.0.clone()).chain(drape).collect()
     }
 
     fn optional(&self) -> Vec<String> {

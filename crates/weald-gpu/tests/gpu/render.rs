@@ -3,7 +3,8 @@
 use crate::programs::gpu;
 use crate::scenes::{above, lakes, meadow, mountains, options, view};
 use weald::grid::Mask;
-use weald::picture::{Camera, Image, LitScene, Oklab, View, linear_of_hex};
+use weald::parameter::Nested;
+use weald::picture::{Camera, Drape, Image, LitScene, Oklab, Scale, View, linear_of_hex};
 use weald::{Error, Landscape};
 use weald_gpu::{Gpu, RenderOptions, Renderer, TestLook, Timings};
 
@@ -155,6 +156,17 @@ fn ground_sky_and_sides_have_the_colours_of_the_ray_marched_view() {
         // 0.02 is about the least difference that the eye sees.
         assert!(mean < 0.006 && worst < 0.02, "mean {mean}, one in twenty {worst}");
     }
+}
+
+#[test]
+fn a_draped_layer_has_the_colours_of_the_ray_marched_view() {
+    let Some(gpu) = gpu() else { return };
+    let drape = Some(Nested(Drape { ramp: Scale::Balance, ..Drape::of("height") }));
+    let view = View { sun_altitude_deg: 90.0, drape, ..view() };
+    let (mean, worst) = distances(&gpu, &view, &mountains(), None);
+    assert!(mean < 0.006 && worst < 0.02, "mean {mean}, one in twenty {worst}");
+    let (other, _) = distances(&gpu, &View { drape: None, ..view }, &mountains(), None);
+    assert!(other < 0.006, "{other}");
 }
 
 #[test]

@@ -133,6 +133,9 @@ impl Cover {
 
     /// Colour and roughness of a point.
     pub(super) fn at(&self, spot: &SurfacePoint) -> SurfaceSample {
+        if let Some(albedo) = self.sites.material(spot.place).filter(|_| self.sites.is_draped()) {
+            return SurfaceSample { albedo: albedo.map(|c| c.clamp(0.01, 0.9)), bump: [0.0; 2] };
+        }
         let cell = self.limits.cell;
         // Lengths are in cells, shares and limits in those of the landscape, so that a finer grid looks finer
         // and not other. All numbers here and below are chosen by eye. Patches of many cells, and detail down

@@ -42,6 +42,11 @@ fn rough(texture: Texture, strength: f32) -> vec2<f32> {
 
 // Colour and roughness of a point.
 fn cover_at(spot: SurfacePoint) -> SurfaceSample {
+    let coloured = clamp(smooth_at(materials, spot.place).xyz, vec3<f32>(0.01), vec3<f32>(0.95));
+    if scene.has.z > 1.0 {
+        // The values of a layer, which nothing of the ground's own may hide.
+        return SurfaceSample(min(coloured, vec3<f32>(0.9)), vec2<f32>(0.0), vec4<f32>(0.0));
+    }
     let cell = scene.scale.x;
     var texture: Texture;
     texture.broad = octaves_at(Octaves(26.0 * cell, 5u, 0.55, 0x11u), spot.point.xy, spot.footprint).value;
@@ -49,7 +54,7 @@ fn cover_at(spot: SurfacePoint) -> SurfaceSample {
     texture.streak = streak(spot);
     var skin: SurfaceSample;
     if scene.has.z > 0.0 {
-        skin = of_material(spot, clamp(smooth_at(materials, spot.place).xyz, vec3<f32>(0.01), vec3<f32>(0.95)), texture);
+        skin = of_material(spot, coloured, texture);
     } else {
         skin = natural(spot, texture);
     }

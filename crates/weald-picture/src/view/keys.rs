@@ -1,6 +1,7 @@
 //! The parameters of a perspective view.
 
-use weald_core::parameter::{LayerName, Places};
+use crate::colour_scale::Drape;
+use weald_core::parameter::{LayerName, Nested, Places};
 
 weald_core::choices! {
     /// What the ground of a view is coloured by.
@@ -56,7 +57,9 @@ weald_core::parameters! {
         exaggeration: f64 = 1.0, range 0.01..=100.0;
         /// What colours the ground. By default `materials` where the recipe names materials of its own, else
         /// `natural`.
-        ground: Option<GroundColour> = None;
+        ground: Option<GroundColour> = None, without drape;
+        /// A layer that colours the ground in place of `ground`, as in a map of it.
+        drape: Option<Nested<Drape>> = None;
         /// Slope from which natural ground is bare rock. By default that of the steepest tenth of the land, but
         /// between 30° and 42°.
         rock_deg: Option<f64> = None, range 1.0..=89.0, unit "deg", unless ground = "materials";

@@ -97,7 +97,7 @@ impl LitScene {
                 [
                     flag(setting.level.is_some()),
                     flag(terrain.land.is_some()),
-                    flag(self.cover.sites.shows_materials()),
+                    flag(self.cover.sites.shows_materials()) + flag(self.cover.sites.is_draped()),
                     flag(setting.rivers.is_some()),
                 ],
             ),

@@ -4,7 +4,7 @@ use super::cover::Limits;
 use super::flow::Flow;
 use super::keys::{GroundColour, View};
 use super::side::Strata;
-use super::site::{Sites, names_materials};
+use super::site::{ColouredBy, Sites, names_materials};
 use super::surface::Surface;
 use super::terrain::Terrain;
 use super::vector::Vector;
@@ -16,6 +16,7 @@ use weald_core::domain::Domain;
 use weald_core::error::Error;
 use weald_core::grid::{Field, Size};
 use weald_core::landscape::Landscape;
+use weald_core::parameter::Nested;
 use weald_core::strata::stack;
 
 /// Longest side of the surfaces, in cells.
@@ -65,8 +66,12 @@ impl Setting {
         let base = BASE * (domain.cell * domain.size.columns.max(domain.size.rows) as f64) as f32;
         let limits = limits(view, [low, high], &ground, spacing);
         let wished = view.ground.map(|colour| colour == GroundColour::Materials);
-        let materials = wished.unwrap_or_else(|| names_materials(landscape));
-        let sites = Sites::new(landscape, field, &frame.sheet, materials)?;
+        let coloured_by = match &view.drape {
+            Some(Nested(drape)) => ColouredBy::Drape(drape),
+            None if wished.unwrap_or_else(|| names_materials(landscape)) => ColouredBy::Materials,
+            None => ColouredBy::Natural,
+        };
+        let sites = Sites::new(landscape, field, &frame.sheet, coloured_by)?;
         let terrain = Terrain::new(spacing, &top, land.as_ref(), -base);
         let setting = Self {
             flow: if view.water { Flow::of(landscape, &terrain, &frame.sheet) } else { None },

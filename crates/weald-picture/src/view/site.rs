@@ -7,6 +7,7 @@
 
 use super::surface::Surface;
 use crate::colour::{Linear, linear_of_srgb, mix};
+use crate::colour_scale::Drape;
 use crate::ground::drawable;
 use crate::sheet::Sheet;
 use crate::texture::smoothed;
@@ -22,22 +23,35 @@ const THINNEST: f32 = 0.05;
 /// Thickness of soil, in metres, of which half of the full effect comes.
 const HALF_SOIL: f32 = 0.5;
 
+/// What colours the ground.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum ColouredBy<'a> {
+    /// What grows and lies on it.
+    Natural,
+    /// The materials at the surface.
+    Materials,
+    /// The values of a layer.
+    Drape(&'a Drape),
+}
+
 /// What places are like.
 #[derive(Debug)]
 pub(super) struct Sites {
     pub(super) moisture: Surface,
     pub(super) soil: Surface,
+    /// Colours of the materials, or of a layer that is draped.
     pub(super) materials: Option<[Surface; 3]>,
     mean: Option<Linear>,
+    is_draped: bool,
 }
 
 impl Sites {
-    /// From the layers of a landscape, no finer than the sheet; with the colours of its materials if so wished.
+    /// From the layers of a landscape, no finer than the sheet, with the colours that it is to have.
     pub(super) fn new(
         landscape: &Landscape,
         ground: &Field,
         sheet: &Sheet,
-        materials: bool,
+        coloured_by: ColouredBy<'_>,
     ) -> Result<Self, Error> {
         let land = landscape.domain.valid.as_ref();
         let height = drawable(ground, land, sheet);
@@ -50,7 +64,11 @@ impl Sites {
         let deposits = || layer("deposition").map(|deposits| covered(&deposits, [0.35, 0.85]));
         let soil = layer("soil_depth").map(|soil| covered(&even(&soil), [0.0, 1.0])).or_else(deposits);
         let soil = soil.unwrap_or_else(|| Field::filled(height.size(), 0.5));
-        let colours = if materials { Some(colours(landscape, ground)?) } else { None };
+        let colours = match coloured_by {
+            ColouredBy::Natural => None,
+            ColouredBy::Materials => Some(colours(landscape, ground)?),
+            ColouredBy::Drape(drape) => Some(draped(drape, landscape)?),
+        };
         let channel = |cells: &[Linear], c: usize| {
             let field = Field::from_values(ground.size(), cells.iter().map(|colour| colour[c]).collect());
             Surface::new(&drawable(&field, land, sheet))
@@ -60,12 +78,18 @@ impl Sites {
             soil: Surface::new(&soil),
             mean: colours.as_deref().map(mean),
             materials: colours.map(|cells| [0, 1, 2].map(|c| channel(&cells, c))),
+            is_draped: matches!(coloured_by, ColouredBy::Drape(_)),
         })
     }
 
     /// Whether the materials at the surface are shown.
     pub(super) fn shows_materials(&self) -> bool {
         self.materials.is_some()
+    }
+
+    /// Whether the values of a layer are shown, which nothing of the ground's own may hide.
+    pub(super) fn is_draped(&self) -> bool {
+        self.is_draped
     }
 
     /// From 0 dry to 1 wet.
@@ -110,6 +134,11 @@ fn colours(landscape: &Landscape, ground: &Field) -> Result<Vec<Linear>, Error> 
         })
     };
     Ok((0..ground.size().cells()).map(surface).collect())
+}
+
+fn draped(drape: &Drape, landscape: &Landscape) -> Result<Vec<Linear>, Error> {
+    let scale = drape.scale(landscape)?;
+    Ok(landscape.field(&drape.of.0)?.values().iter().map(|value| scale.colour(*value)).collect())
 }
 
 fn mean(colours: &[Linear]) -> Linear {

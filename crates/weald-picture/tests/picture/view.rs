@@ -1,9 +1,9 @@
 //! What a perspective view shows, judged from its pixels.
 
 use weald_core::grid::Mask;
-use weald_core::parameter::Places;
+use weald_core::parameter::{Nested, Places};
 use weald_core::{Domain, Field, Landscape, Size};
-use weald_picture::{GroundColour, Image, Picture, View};
+use weald_picture::{Drape, GroundColour, Image, Picture, Scale, View};
 
 /// A mountain beside a lake, 64 cells of 20 m.
 fn country() -> Landscape {
@@ -150,6 +150,40 @@ fn materials_colour_the_ground_where_that_is_wished() {
     let named = draw(&above(), &landscape);
     let natural = draw(&View { ground: Some(GroundColour::Natural), ..above() }, &landscape);
     assert!(red(&named) > 5000 && red(&natural) < 500, "{} and {} red pixels", red(&named), red(&natural));
+}
+
+#[test]
+fn a_draped_layer_colours_the_ground_as_its_scale_says_and_nothing_else_does() {
+    let mut landscape = country();
+    let size = landscape.domain.size;
+    landscape.insert("age", "yr", Field::from_function(size, |x, _| if x < 32 { 3.0 } else { 1003.0 }));
+    let drape = Drape { ramp: Scale::Ember, ..Drape::of("age") };
+    let scale = drape.scale(&landscape).expect("there");
+    assert_eq!((scale.range, scale.share(503.0)), ([3.0, 1003.0], 0.5));
+    assert_eq!(scale.ticks().last().map(|(_, text)| text.as_str()), Some("1000"));
+    let view = View { drape: Some(Nested(drape)), water: false, ..above() };
+    assert_eq!(view.reads(), ["height", "age"]);
+    let image = draw(&view, &landscape);
+    // Flat ground in the south, on both sides of the border.
+    let row = |x: usize| light(&image, x, 108);
+    let mean = |from: usize| (from..from + 25).map(row).sum::<f64>() / 25.0;
+    assert!(mean(22) < 0.4 * mean(72), "nearly black and pale: {} and {}", mean(22), mean(72));
+    // On flat ground only the grain of the ground itself could tell pixels apart.
+    landscape.insert("height", "m", Field::filled(size, 20.0));
+    let spread = |image: &Image| {
+        let lights = || (72..97).map(|x| light(image, x, 60));
+        lights().fold(0.0, f64::max) - lights().fold(255.0, f64::min)
+    };
+    let natural = spread(&draw(&View { drape: None, ..view.clone() }, &landscape));
+    let draped = spread(&draw(&view, &landscape));
+    assert!(draped < 3.0 && natural > 6.0, "no grain hides values: {draped}, but {natural} without");
+    landscape.remove("age");
+    assert!(view_error(&landscape).contains("age"));
+}
+
+fn view_error(landscape: &Landscape) -> String {
+    let view = View { drape: Some(Nested(Drape::of("age"))), ..above() };
+    view.render(landscape).expect_err("there is no such layer").to_string()
 }
 
 #[test]
