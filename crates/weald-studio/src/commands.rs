@@ -39,6 +39,14 @@ pub enum Command {
     TopView,
     /// How the camera moves.
     Camera(Mode),
+    /// Lets the camera go round the landscape by itself.
+    Turntable,
+    /// Keeps where the camera is.
+    KeepCamera,
+    /// Lets the pointer draw a line to be measured.
+    Measure,
+    /// Keeps what is shown, to compare what comes with it.
+    Pin,
     /// Chooses a brush; without one, the pointer moves the camera.
     Brush(Tool),
     /// A wider brush.
@@ -139,6 +147,10 @@ pub const COMMANDS: &[Entry] = &[
     entry(Command::Camera(Mode::Orbit), "Orbit", "moves the camera round the landscape", Keys::Alone(Key::Num1)),
     entry(Command::Camera(Mode::Fly), "Fly", "moves the camera freely: W A S D, Q down, E up", Keys::Alone(Key::Num2)),
     entry(Command::Camera(Mode::Walk), "Walk", "stands on the ground at a person's height: W A S D", Keys::Alone(Key::Num3)),
+    entry(Command::Turntable, "Turntable", "lets the camera go round the landscape by itself, or stops it", Keys::Alone(Key::O)),
+    entry(Command::KeepCamera, "Keep camera", "keeps where the camera is, to come back to it", Keys::Command(Key::B)),
+    entry(Command::Measure, "Section", "draws a line over the landscape: its profile, distance, rise and slope", Keys::Alone(Key::C)),
+    entry(Command::Pin, "Compare", "pins what is shown beside what comes, with a bar between them; again, lets it go", Keys::Alone(Key::N)),
     entry(Command::Brush(Tool::None), "No brush", "the pointer moves the camera again", Keys::Alone(Key::Escape)),
     entry(Command::Brush(Tool::Add), "Brush: add", "adds a material", Keys::Alone(Key::B)),
     entry(Command::Brush(Tool::Remove), "Brush: remove", "takes a material away", Keys::Alone(Key::X)),

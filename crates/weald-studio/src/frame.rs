@@ -3,22 +3,17 @@
 use std::time::{Duration, Instant};
 
 use eframe::egui::{
-    self, CentralPanel, Color32, Context, Panel, Pos2, Rect, Sense, Stroke as Line, Ui, Vec2, ViewportCommand,
+    self, CentralPanel, Color32, Context, Panel, Pos2, Rect, Sense, Ui, Vec2, ViewportCommand,
 };
 
-use crate::brushes::Tool;
 use crate::commands::{COMMANDS, Entry, Keys};
 use crate::navigation;
-use crate::panels;
-use crate::pick::Place;
+use crate::panels::{self, overlay};
 use crate::studio::{Asked, Left, Studio};
 use crate::work::Task;
 
 /// Time between two looks at whether something is to be kept in case that the program is killed.
 const KEPT_EVERY: Duration = Duration::from_millis(500);
-
-/// Points of the ring that shows the brush on the ground.
-const RING: usize = 48;
 
 impl eframe::App for Studio {
     fn logic(&mut self, context: &Context, _: &mut eframe::Frame) {
@@ -148,15 +143,18 @@ impl Studio {
         response.ctx.accesskit_node_builder(response.id, |node| node.set_label("Viewport"));
         self.bring_up_to_date();
         self.handle(ui, &response, rect);
+        self.turn(ui.ctx());
         self.draw(ui, rect);
-        self.draw_over(ui, rect);
+        overlay::show(self, ui, rect);
+        panels::section::show(self, ui, rect);
     }
 
     /// Gives the viewport the landscape and the surface that there are now.
     fn bring_up_to_date(&mut self) {
         let Some(viewport) = &mut self.viewport else { return };
         if let Some(shown) = &self.status.shown {
-            viewport.order(shown, (&self.looks.view(), self.looks_number), self.status.held.is_some());
+            let view = self.looks.view(&shown.landscape);
+            viewport.order(shown, (&view, self.looks_number), self.status.held.is_some());
         }
         viewport.take_built();
         if self.camera.is_none() {
@@ -181,66 +179,16 @@ impl Studio {
             Ok(None) => {}
             Err(error) => viewport.error = Some(error.to_string()),
         }
+        let whole = Rect::from_min_max(Pos2::ZERO, Pos2::new(1.0, 1.0));
         if let Some(texture) = viewport.texture() {
-            let whole = Rect::from_min_max(Pos2::ZERO, Pos2::new(1.0, 1.0));
             ui.painter().image(texture, rect, whole, Color32::WHITE);
         }
-    }
-
-    /// What lies over the picture: the ring of the brush, and what went wrong.
-    fn draw_over(&self, ui: &Ui, rect: Rect) {
-        let painter = ui.painter().with_clip_rect(rect);
-        let error = self.viewport.as_ref().and_then(|viewport| viewport.error.clone());
-        let text = match (&self.status.shown, error) {
-            (_, Some(error)) => error,
-            (None, None) => "The landscape is being made …".to_owned(),
-            _ => String::new(),
-        };
-        let font = egui::FontId::proportional(15.0);
-        painter.text(rect.center(), egui::Align2::CENTER_CENTER, text, font, ui.visuals().text_color());
-        if let (Some(place), true) =
-            (self.pointed, self.brush.tool != Tool::None && self.status.held.is_some())
-        {
-            self.draw_ring(&painter, rect, place);
+        if let Some(texture) = viewport.pinned_texture() {
+            // The same place of the picture on both sides of the bar.
+            let part = |rect: Rect| {
+                Rect::from_min_size(rect.min, Vec2::new(self.wipe * rect.width(), rect.height()))
+            };
+            ui.painter().image(texture, part(rect), part(whole), Color32::WHITE);
         }
-    }
-
-    /// The edge of the brush as it lies on the ground, and where it has half its strength.
-    fn draw_ring(&self, painter: &egui::Painter, rect: Rect, place: Place) {
-        for (share, width) in [(1.0, 2.0), (0.5, 1.0)] {
-            let points = (0..=RING).filter_map(|step| {
-                let (sine, cosine) = (std::f64::consts::TAU * step as f64 / RING as f64).sin_cos();
-                let radius = share * self.brush.radius;
-                let at = [place.at[0] + radius * cosine, place.at[1] + radius * sine];
-                self.on_screen(rect, self.ground_at(at)?)
-            });
-            let points: Vec<_> = points.collect();
-            painter.line(points.clone(), Line::new(width + 1.5, Color32::from_black_alpha(140)));
-            painter.line(points, Line::new(width, Color32::WHITE));
-        }
-    }
-
-    fn ground_at(&self, at: [f64; 2]) -> Option<Place> {
-        let shown = self.status.shown.as_ref()?;
-        let surface = self.status.surface.as_ref().filter(|surface| surface.shown == shown.number);
-        let height = shown.landscape.field("height").ok()?;
-        let ground = surface.map_or(height, |surface| &*surface.ground);
-        let water = surface.map(|surface| &surface.canvas.water);
-        let cell = shown.landscape.domain.cell;
-        let place = crate::pick::Target { ground, water, cell, lowest: 0.0, exaggeration: 1.0 }.at(at)?;
-        Some(Place { ground: place.ground + place.water, ..place })
-    }
-
-    fn on_screen(&self, rect: Rect, place: Place) -> Option<Pos2> {
-        let (camera, point) = (self.camera?, self.point(place)?);
-        let from: [f32; 3] = std::array::from_fn(|axis| point[axis] - camera.eye[axis]);
-        let dot = |axis: [f32; 3]| from[0] * axis[0] + from[1] * axis[1] + from[2] * axis[2];
-        let depth = dot(camera.forward);
-        if depth <= 0.0 {
-            return None;
-        }
-        let across = dot(camera.right) / depth / camera.half[0];
-        let up = dot(camera.up) / depth / camera.half[1];
-        Some(rect.center() + 0.5 * Vec2::new(across * rect.width(), -up * rect.height()))
     }
 }

@@ -5,6 +5,7 @@
 //! ([`Work`](work::Work)), and another makes scenes. The window, the simulation and the pictures share one device.
 
 mod brushes;
+mod cameras;
 pub mod commands;
 pub mod document;
 mod frame;
@@ -15,6 +16,8 @@ mod panels;
 mod pick;
 mod project;
 mod response;
+mod scenes;
+mod section;
 pub mod state;
 mod studio;
 mod viewport;

@@ -1,6 +1,12 @@
 //! What the viewport shows of a landscape, and in which light.
 
-use weald::picture::{GroundColour, View};
+use weald::Landscape;
+use weald::parameter::Nested;
+use weald::picture::{Drape, GroundColour, Scale, View};
+
+/// All colours that a layer can have.
+pub(crate) const RAMPS: [Scale; 6] =
+    [Scale::Meadow, Scale::Water, Scale::Ember, Scale::Balance, Scale::Compass, Scale::Grey];
 
 /// Light, colours and heights of the viewport.
 #[derive(Clone, Debug, PartialEq)]
@@ -15,13 +21,29 @@ pub(crate) struct Looks {
     pub(crate) water: bool,
     /// Brightness: each 1 more is twice as bright.
     pub(crate) exposure: f64,
-    /// A layer that is shown as a map in place of the view.
+    /// A layer whose value is told under the pointer, and by which the ground is coloured where it is draped.
     pub(crate) layer: Option<String>,
+    /// Whether the layer colours the ground.
+    pub(crate) drapes: bool,
+    /// Its colours.
+    pub(crate) ramp: Scale,
+    /// Whether they follow the logarithm of its values.
+    pub(crate) logarithmic: bool,
 }
 
 impl Default for Looks {
     fn default() -> Self {
-        Self { hour: 17.0, ground: None, exaggeration: 1.0, water: true, exposure: 0.0, layer: None }
+        Self {
+            hour: 17.0,
+            ground: None,
+            exaggeration: 1.0,
+            water: true,
+            exposure: 0.0,
+            layer: None,
+            drapes: true,
+            ramp: Scale::Meadow,
+            logarithmic: false,
+        }
     }
 }
 
@@ -40,13 +62,20 @@ impl Looks {
         [90.0 + 180.0 * share, altitude.max(LOWEST_DEG)]
     }
 
-    /// The view that has these looks.
-    pub(crate) fn view(&self) -> View {
+    /// The layer that is draped over a landscape; `None` where none is chosen, or the landscape has it no more.
+    pub(crate) fn drape(&self, landscape: &Landscape) -> Option<Drape> {
+        let layer = self.layer.as_ref().filter(|layer| self.drapes && landscape.field(layer).is_ok())?;
+        Some(Drape { ramp: self.ramp, logarithmic: self.logarithmic, ..Drape::of(layer) })
+    }
+
+    /// The view of a landscape that has these looks.
+    pub(crate) fn view(&self, landscape: &Landscape) -> View {
         let [sun_azimuth_deg, sun_altitude_deg] = self.sun_deg();
         View {
             sun_azimuth_deg,
             sun_altitude_deg,
             ground: self.ground,
+            drape: self.drape(landscape).map(Nested),
             exaggeration: self.exaggeration,
             water: self.water,
             exposure: self.exposure,
@@ -59,6 +88,14 @@ impl Looks {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use weald::parameter::{Kind, Parameters};
+
+    #[test]
+    fn all_colours_of_the_recipe_are_offered() {
+        let parameters = Drape::parameters();
+        let ramp = parameters.iter().find(|parameter| parameter.name == "ramp").expect("there");
+        assert!(matches!(&ramp.kind, Kind::Choice(words) if *words == RAMPS.map(Scale::word)));
+    }
 
     #[test]
     fn the_sun_goes_from_east_by_south_to_west_and_never_below_what_is_drawn() {

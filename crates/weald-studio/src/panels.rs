@@ -1,11 +1,16 @@
 //! The parts of the window, one file each.
 
 pub(crate) mod brush;
+pub(crate) mod cameras;
 pub(crate) mod controls;
 pub(crate) mod files;
+pub(crate) mod histogram;
 pub(crate) mod history;
+pub(crate) mod legend;
 pub(crate) mod looks;
+pub(crate) mod overlay;
 pub(crate) mod palette;
+pub(crate) mod section;
 pub(crate) mod simulation;
 pub(crate) mod start;
 pub(crate) mod status;

@@ -106,7 +106,7 @@ impl Target<'_> {
     }
 
     /// Between the middles of the four cells around.
-    fn height_at(&self, field: &Field, [east, south]: [f64; 2]) -> f64 {
+    pub(crate) fn height_at(&self, field: &Field, [east, south]: [f64; 2]) -> f64 {
         let size = field.size();
         let part = |metres: f64, count: usize| {
             let place = (metres / self.cell - 0.5).clamp(0.0, (count - 1) as f64);

@@ -22,6 +22,9 @@ const TYPED: &str = "typed.toml";
 
 const TAKEN_UP: &str = "what was not saved has been taken up again; save to keep it";
 
+/// Cameras that were kept.
+const CAMERAS: &str = "cameras.toml";
+
 /// By which a second studio knows that a project is open.
 const LOCK: &str = "open.lock";
 
@@ -134,6 +137,11 @@ impl Project {
     /// The recipe of the project, once it has a folder.
     pub(crate) fn recipe_file(&self) -> Option<PathBuf> {
         self.folder.as_ref().map(|folder| folder.join(RECIPE))
+    }
+
+    /// Where cameras are kept, once it has a folder.
+    pub(crate) fn cameras_file(&self) -> Option<PathBuf> {
+        self.folder.as_ref().map(|folder| folder.join(CAMERAS))
     }
 
     /// A folder that a project without one could have.

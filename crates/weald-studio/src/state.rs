@@ -13,3 +13,12 @@ impl State {
     /// Of a document that was just read.
     pub const AS_READ: Self = Self { revision: 1, changes: 0 };
 }
+
+/// What was changed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Did {
+    /// The recipe.
+    Recipe,
+    /// The simulation: a stroke, a setting, steps.
+    Simulation,
+}

@@ -1,7 +1,9 @@
 //! What the parts of the window share: the recipe, the work on it, and how it is looked at.
 
 mod camera;
+mod changes;
 mod obey;
+mod views;
 
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -20,12 +22,10 @@ use crate::navigation::Mode;
 use crate::own_files::OwnFiles;
 use crate::pick::Place;
 use crate::project::{Project, Start};
-use crate::state::State;
+use crate::section::Measuring;
+use crate::state::{Did, State};
 use crate::viewport::{Viewport, WindowDevice, device_of};
-use crate::work::{Opening, Status, Task, Work};
-
-/// How long nothing is typed or dragged before a changed recipe runs.
-const REST_SECONDS: f64 = 0.25;
+use crate::work::{Status, Work};
 
 /// What the left side shows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -87,6 +87,14 @@ pub struct Studio {
     pub(crate) pointed: Option<Place>,
     pub(crate) selected: Option<usize>,
     pub(crate) left: Left,
+    pub(crate) measuring: Measuring,
+    /// Share of the viewport's width that what is pinned takes.
+    pub(crate) wipe: f32,
+    /// Whether the camera goes round by itself.
+    pub(crate) turns: bool,
+    /// Cameras that were kept, and the name that is typed for the next.
+    pub(crate) cameras: Vec<(String, Camera)>,
+    pub(crate) camera_name: String,
     pub(crate) asked: Option<Asked>,
     pub(crate) palette: Option<Palette>,
     pub(crate) search: String,
@@ -107,9 +115,9 @@ pub struct Studio {
     pub(crate) seen: u64,
     pub(crate) changed_at: f64,
     keeps_edits: bool,
-    /// What was done, recipe and simulation, in the order of undoing; `true` for a change of the recipe.
-    done: Vec<bool>,
-    undone: Vec<bool>,
+    /// What was done, in the order of undoing.
+    done: Vec<Did>,
+    undone: Vec<Did>,
     engine: Engine,
     pub(crate) is_closing: bool,
     /// What was saved and exported last, as far as the user was told.
@@ -137,6 +145,12 @@ impl Studio {
     pub fn is_drawn(&self) -> bool {
         let shown = self.status.shown.as_ref().map(|shown| (shown.number, self.looks_number));
         self.viewport.as_ref().is_some_and(|viewport| shown.is_some() && viewport.is_drawn(shown))
+    }
+
+    /// Whether something is pinned and drawn.
+    #[doc(hidden)]
+    pub fn is_compared(&self) -> bool {
+        self.viewport.as_ref().is_some_and(|viewport| viewport.pinned_texture().is_some())
     }
 
     /// What stands against drawing it.
@@ -172,6 +186,11 @@ impl Studio {
             pointed: None,
             selected: None,
             left: Left::default(),
+            measuring: Measuring::default(),
+            wipe: 0.5,
+            turns: false,
+            cameras: Vec::new(),
+            camera_name: String::new(),
             asked,
             palette: None,
             search: String::new(),
@@ -194,6 +213,7 @@ impl Studio {
             kept_at: Instant::now(),
             noted_export: None,
         };
+        studio.read_cameras();
         if let Some(note) = start.note {
             studio.say(note);
         }
@@ -214,6 +234,8 @@ impl Studio {
         (self.opened, self.keeps_edits) = (0, false);
         (self.camera, self.selected, self.asked) = (None, None, None);
         (self.done, self.undone, self.set) = (Vec::new(), Vec::new(), Vec::new());
+        (self.measuring, self.turns) = (Measuring::default(), false);
+        self.read_cameras();
         if let Some(note) = start.note {
             self.say(note);
         }
@@ -229,84 +251,5 @@ impl Studio {
             }
             Err(error) => self.say(error.to_string()),
         }
-    }
-
-    /// Notes a change of the recipe, to be undone like any other.
-    pub(crate) fn edited(&mut self, result: Result<(), String>) {
-        match result {
-            Ok(()) => {
-                self.done.push(true);
-                self.undone.clear();
-            }
-            Err(message) => self.say(message),
-        }
-    }
-
-    /// Asks for something to be done to the simulation, to be undone like any other.
-    pub(crate) fn act(&mut self, task: Task) {
-        let goes_on = matches!(&task, Task::Stroke { stroke, .. } if *stroke != self.strokes);
-        if !goes_on {
-            self.done.push(false);
-            self.undone.clear();
-        }
-        self.work.ask(task);
-    }
-
-    fn undo(&mut self) {
-        let Some(is_recipe) = self.done.pop() else { return self.say("nothing to undo") };
-        self.undone.push(is_recipe);
-        if is_recipe {
-            self.document.undo();
-        } else {
-            self.work.ask(Task::Undo);
-        }
-    }
-
-    fn redo(&mut self) {
-        let Some(is_recipe) = self.undone.pop() else { return self.say("nothing to redo") };
-        self.done.push(is_recipe);
-        if is_recipe {
-            self.document.redo();
-        } else {
-            self.work.ask(Task::Redo);
-        }
-    }
-
-    /// Lets a changed recipe run once nothing changes any more for a moment; what cannot run is not run.
-    pub(crate) fn run_changes(&mut self, now: f64, hand_is_down: bool) {
-        let revision = self.document.revision();
-        if revision == self.opened || !self.document.diagnostics().is_empty() {
-            return;
-        }
-        if self.opened != 0 && (hand_is_down || now - self.changed_at < REST_SECONDS) {
-            return;
-        }
-        self.opened = revision;
-        let opening = Opening {
-            file: self.document.file().to_owned(),
-            text: self.document.text().to_owned(),
-            revision,
-            engine: self.engine.clone(),
-            steps: self.selected.map(|step| step + 1),
-            keeps_edits: self.keeps_edits,
-        };
-        self.keeps_edits = true;
-        self.work.ask(Task::Open(Box::new(opening)));
-    }
-
-    /// Runs the recipe anew, as far as the step that is chosen to be shown.
-    pub(crate) fn run_again(&mut self) {
-        self.opened = u64::MAX;
-        self.changed_at = 0.0;
-    }
-
-    /// Whether there is something that is not saved.
-    pub(crate) fn is_unsaved(&self) -> bool {
-        self.project.is_unsaved(self.state())
-    }
-
-    /// Which text, and how much done by hand, there is now.
-    pub(crate) fn state(&self) -> State {
-        State { revision: self.document.revision(), changes: self.status.changes }
     }
 }

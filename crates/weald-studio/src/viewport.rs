@@ -5,18 +5,18 @@
 //! for; while something moves they are so small that they take a slice of time, and become finer when it rests.
 
 use std::sync::Arc;
-use std::sync::mpsc::{Receiver, Sender, channel};
 use std::time::{Duration, Instant};
 
 use eframe::NativeOptions;
 use eframe::egui::{Context, TextureId};
 use eframe::egui_wgpu::{RenderState, WgpuConfiguration, WgpuSetup, WgpuSetupCreateNew};
 use eframe::wgpu::{Backends, FilterMode};
+use weald::Error;
 use weald::engine::Engine;
-use weald::picture::{Camera, Image, LitScene, View};
-use weald::{Error, Landscape};
-use weald_gpu::{Gpu, Live, RenderOptions, Renderer, Screen};
+use weald::picture::{Camera, Image, View};
+use weald_gpu::Gpu;
 
+use crate::scenes::{Order, Scenes, Stage};
 use crate::work::{Shown, Surface};
 
 /// What a picture may take while something moves.
@@ -58,10 +58,12 @@ pub fn device_setup() -> WgpuSetup {
 pub(crate) struct Viewport {
     gpu: Gpu,
     window: WindowDevice,
-    orders: Sender<Order>,
-    built: Receiver<(Order, Result<Box<Stage>, Error>)>,
+    scenes: Scenes,
     stage: Option<Box<Stage>>,
     texture: Option<TextureId>,
+    /// What was pinned to compare with, and the picture of it.
+    pinned: Option<Box<Stage>>,
+    pinned_texture: Option<TextureId>,
     /// The order that is being built, or was last.
     ordered: Option<(u64, u64)>,
     surface: u64,
@@ -78,25 +80,6 @@ pub(crate) struct Viewport {
     pub(crate) error: Option<String>,
 }
 
-/// A scene that is to be made.
-#[derive(Clone)]
-struct Order {
-    landscape: Arc<Landscape>,
-    view: View,
-    /// Number of the landscape, and of the looks.
-    number: (u64, u64),
-    is_live: bool,
-}
-
-/// A scene on the device.
-struct Stage {
-    scene: LitScene,
-    renderer: Renderer,
-    live: Option<Live>,
-    screen: Screen,
-    number: (u64, u64),
-}
-
 impl Viewport {
     /// On the device of a window.
     ///
@@ -104,31 +87,16 @@ impl Viewport {
     /// [`Error::Device`] where that was opened with too little, [`Error::Run`] where the system has no thread left.
     pub(crate) fn new(window: &WindowDevice, context: &Context) -> Result<Self, Error> {
         let gpu = Gpu::shared(&window.adapter, &window.device, &window.queue)?;
-        let (orders, received) = channel::<Order>();
-        let (sender, built) = channel();
-        let (builder, context) = (gpu.clone(), context.clone());
-        let build = move || {
-            while let Ok(mut order) = received.recv() {
-                // Only the last order counts.
-                while let Ok(later) = received.try_recv() {
-                    order = later;
-                }
-                let stage = Stage::new(&builder, &order).map(Box::new);
-                if sender.send((order, stage)).is_err() {
-                    break;
-                }
-                context.request_repaint();
-            }
-        };
-        let thread = std::thread::Builder::new().name("weald-scenes".to_owned()).spawn(build);
-        thread.map_err(|cause| Error::Run(format!("no thread for pictures: {cause}")))?;
+        let told = context.clone();
+        let scenes = Scenes::new(gpu.clone(), move || told.request_repaint())?;
         Ok(Self {
             gpu,
             window: window.clone(),
-            orders,
-            built,
+            scenes,
             stage: None,
             texture: None,
+            pinned: None,
+            pinned_texture: None,
             ordered: None,
             surface: 0,
             stale: None,
@@ -164,8 +132,26 @@ impl Viewport {
             return;
         }
         self.ordered = Some(number);
-        let order = Order { landscape: Arc::clone(&shown.landscape), view: looks.0.clone(), number, is_live };
-        if self.orders.send(order).is_err() {
+        self.ask(Order {
+            landscape: Arc::clone(&shown.landscape),
+            view: looks.0.clone(),
+            number,
+            is_live,
+            is_pinned: false,
+        });
+    }
+
+    /// Keeps a landscape in these looks, to compare what is shown with; `None` lets it go.
+    pub(crate) fn pin(&mut self, kept: Option<(&Shown, View)>) {
+        self.pinned = None;
+        if let Some((shown, view)) = kept {
+            let landscape = Arc::clone(&shown.landscape);
+            self.ask(Order { landscape, view, number: (shown.number, 0), is_live: false, is_pinned: true });
+        }
+    }
+
+    fn ask(&mut self, order: Order) {
+        if !self.scenes.ask(order) {
             self.error = Some("pictures have ended by a fault of Weald".to_owned());
         }
     }
@@ -173,8 +159,11 @@ impl Viewport {
     /// Takes a scene that was made meanwhile; `true` where it is the first one.
     pub(crate) fn take_built(&mut self) -> bool {
         let mut is_first = false;
-        while let Ok((order, stage)) = self.built.try_recv() {
+        while let Some((order, stage)) = self.scenes.built() {
             match stage {
+                Ok(stage) if order.is_pinned => {
+                    (self.pinned, self.drawn) = (Some(stage), None);
+                }
                 Ok(stage) => {
                     is_first |= self.stage.is_none();
                     self.stage = Some(stage);
@@ -253,6 +242,13 @@ impl Viewport {
         let size = full.map(|side| ((side as f32 * SCALES[scale]) as u32).max(16));
         stage.renderer.resize_screen(&mut stage.screen, size)?;
         stage.renderer.draw_on(&mut stage.screen, camera)?;
+        if let Some(pinned) = &mut self.pinned {
+            pinned.renderer.resize_screen(&mut pinned.screen, size)?;
+            // Heights of a scene count from its own lowest ground.
+            let higher = pinned.scene.drawn_height(0.0) - stage.scene.drawn_height(0.0);
+            let [east, north, up] = camera.eye;
+            pinned.renderer.draw_on(&mut pinned.screen, &camera.at([east, north, up + higher]))?;
+        }
         (self.drawn, self.submitted) = (Some((*camera, scale)), Some(Instant::now()));
         self.show_texture();
         Ok(Some(Duration::from_millis(5)))
@@ -269,13 +265,22 @@ impl Viewport {
         self.drawn.and(self.texture)
     }
 
+    /// The last picture of what was pinned, where something is.
+    pub(crate) fn pinned_texture(&self) -> Option<TextureId> {
+        self.pinned.as_ref().and(self.drawn).and(self.pinned_texture)
+    }
+
+    /// Whether something is kept to compare with.
+    pub(crate) fn has_pinned(&self) -> bool {
+        self.pinned.is_some()
+    }
+
     fn show_texture(&mut self) {
-        let Some(stage) = &self.stage else { return };
-        let (device, view) = (&self.window.device, stage.screen.view());
-        let mut renderer = self.window.renderer.write();
-        match self.texture {
-            Some(id) => renderer.update_egui_texture_from_wgpu_texture(device, view, FilterMode::Linear, id),
-            None => self.texture = Some(renderer.register_native_texture(device, view, FilterMode::Linear)),
+        if let Some(stage) = &self.stage {
+            self.texture = Some(shown_as(&self.window, stage, self.texture));
+        }
+        if let Some(stage) = &self.pinned {
+            self.pinned_texture = Some(shown_as(&self.window, stage, self.pinned_texture));
         }
     }
 
@@ -284,6 +289,19 @@ impl Viewport {
         let Some(stage) = &mut self.stage else { return Ok(None) };
         stage.renderer.resize(size)?;
         stage.renderer.render(camera).map(Some)
+    }
+}
+
+/// The picture of a stage as a texture of the window, in place of an older one.
+fn shown_as(window: &WindowDevice, stage: &Stage, texture: Option<TextureId>) -> TextureId {
+    let (device, view) = (&window.device, stage.screen.view());
+    let mut renderer = window.renderer.write();
+    match texture {
+        Some(id) => {
+            renderer.update_egui_texture_from_wgpu_texture(device, view, FilterMode::Linear, id);
+            id
+        }
+        None => renderer.register_native_texture(device, view, FilterMode::Linear),
     }
 }
 
@@ -301,18 +319,5 @@ fn adapted(moving: usize, drawn: usize, seconds: f64) -> usize {
         finer
     } else {
         moving
-    }
-}
-
-impl Stage {
-    fn new(gpu: &Gpu, order: &Order) -> Result<Self, Error> {
-        let Order { landscape, view, number, is_live } = order;
-        let scene = LitScene::new(view, landscape)?;
-        let scene = if *is_live { scene.to_follow() } else { scene };
-        let mut renderer = Renderer::new(gpu, &scene, RenderOptions { size: [64, 64], samples: 1 })?;
-        renderer.plant(&scene, landscape)?;
-        let live = is_live.then(|| Live::new(gpu, landscape.domain.size)).transpose()?;
-        let screen = renderer.screen([64, 64])?;
-        Ok(Self { scene, renderer, live, screen, number: *number })
     }
 }

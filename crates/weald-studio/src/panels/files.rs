@@ -71,7 +71,10 @@ fn take(studio: &mut Studio, asked: &Asked, path: &Path) {
     match asked {
         Asked::Open(_) => studio.open(path),
         Asked::SaveAs(_) => match studio.project.settle(path) {
-            Ok(file) => studio.work.ask(Task::Save(file)),
+            Ok(file) => {
+                studio.work.ask(Task::Save(file));
+                studio.save_cameras();
+            }
             Err(error) => studio.say(error.to_string()),
         },
         Asked::Export(_) => studio.work.ask(Task::Export(path.to_owned())),

@@ -1,7 +1,8 @@
 //! What was done by hand, stroke by stroke: one click goes there, and what comes after it can be redone.
 
-use eframe::egui::{RichText, Ui};
+use eframe::egui::{RichText, TextEdit, Ui};
 
+use super::cameras::NAME;
 use crate::studio::Studio;
 use crate::work::Task;
 
@@ -39,7 +40,7 @@ fn names(studio: &mut Studio, ui: &mut Ui, wanted: &mut Option<usize>) {
     }
     ui.horizontal(|ui| {
         let label = ui.label("Name");
-        ui.text_edit_singleline(&mut studio.name).labelled_by(label.id);
+        ui.add(TextEdit::singleline(&mut studio.name).desired_width(NAME)).labelled_by(label.id);
         if ui
             .button("Keep")
             .on_hover_text("Give this moment a name, to come back to it from any branch")

@@ -1,8 +1,10 @@
-//! Light, colours and heights of the viewport, and layers as maps.
+//! Light, colours and heights of the viewport, and layers draped over the ground.
 
 use eframe::egui::{Checkbox, ComboBox, Slider, Ui};
 use weald::picture::GroundColour;
 
+use super::{cameras, histogram};
+use crate::looks::RAMPS;
 use crate::navigation::Mode;
 use crate::studio::Studio;
 
@@ -41,20 +43,35 @@ pub(crate) fn show(studio: &mut Studio, ui: &mut Ui) {
     });
     ui.add(Checkbox::new(&mut looks.water, "Draw water"));
     layers(studio, ui);
-    if studio.looks.view() != before.view() {
+    if studio.looks != before {
         studio.looks_number += 1;
     }
+    cameras::show(studio, ui);
 }
 
-/// The layer whose value is told under the pointer.
+/// The layer that is told under the pointer and colours the ground.
 fn layers(studio: &mut Studio, ui: &mut Ui) {
-    let Some(shown) = &studio.status.shown else { return };
+    let Some(shown) = studio.status.shown.clone() else { return };
     let names: Vec<String> = shown.landscape.layers().map(|(name, _)| name.to_owned()).collect();
-    let chosen = studio.looks.layer.clone().unwrap_or_else(|| "none".to_owned());
-    ComboBox::from_label("Value under the pointer").selected_text(chosen).show_ui(ui, |ui| {
-        ui.selectable_value(&mut studio.looks.layer, None, "none");
+    let looks = &mut studio.looks;
+    let chosen = looks.layer.clone().unwrap_or_else(|| "none".to_owned());
+    ComboBox::from_label("Layer").selected_text(chosen).show_ui(ui, |ui| {
+        ui.selectable_value(&mut looks.layer, None, "none");
         for name in names {
-            ui.selectable_value(&mut studio.looks.layer, Some(name.clone()), name);
+            ui.selectable_value(&mut looks.layer, Some(name.clone()), name);
         }
     });
+    if looks.layer.is_none() {
+        return;
+    }
+    ui.add(Checkbox::new(&mut looks.drapes, "Colour the ground by it"));
+    if looks.drapes {
+        ComboBox::from_label("Colours").selected_text(looks.ramp.word()).show_ui(ui, |ui| {
+            for ramp in RAMPS {
+                ui.selectable_value(&mut looks.ramp, ramp, ramp.word());
+            }
+        });
+        ui.add(Checkbox::new(&mut looks.logarithmic, "By the logarithm"));
+    }
+    histogram::show(studio, ui);
 }

@@ -6,10 +6,11 @@ use crate::commands::{COMMANDS, Command};
 use crate::studio::Studio;
 
 /// The buttons, group by group.
-const GROUPS: [&[Command]; 4] = [
+const GROUPS: [&[Command]; 5] = [
     &[Command::New, Command::Open, Command::Save, Command::Export],
     &[Command::Undo, Command::Redo],
-    &[Command::Frame, Command::TopView, Command::Picture],
+    &[Command::Frame, Command::TopView, Command::Turntable, Command::Picture],
+    &[Command::Measure, Command::Pin],
     &[Command::Text, Command::Palette, Command::Theme, Command::Tour],
 ];
 

@@ -7,7 +7,7 @@ use super::Studio;
 use crate::brushes::{Stroke, Tool};
 use crate::commands::Command;
 use crate::navigation::{self, EYE_HEIGHT, Mode};
-use crate::pick::{Place, Target};
+use crate::pick::Place;
 use crate::work::Task;
 
 /// Share of the way through the landscape that flying goes in a second, and metres that walking does.
@@ -39,21 +39,9 @@ impl Studio {
 
     /// What is under a point of the viewport now.
     fn under(&self, camera: &Camera, rect: Rect, at: egui::Pos2) -> Option<Place> {
-        let shown = self.status.shown.as_ref()?;
-        let surface = self.status.surface.as_ref().filter(|surface| surface.shown == shown.number);
-        let height = shown.landscape.field("height").ok()?;
-        let target = Target {
-            ground: surface.map_or(height, |surface| &surface.ground),
-            water: surface
-                .map(|surface| &surface.canvas.water)
-                .or_else(|| shown.landscape.field("water").ok()),
-            cell: shown.landscape.domain.cell,
-            lowest: f64::from(shown.lowest),
-            exaggeration: self.looks.exaggeration,
-        };
         let across = 2.0 * (at.x - rect.center().x) / rect.width();
         let up = -2.0 * (at.y - rect.center().y) / rect.height();
-        target.pick(camera, [across, up])
+        self.target()?.pick(camera, [across, up])
     }
 
     /// Takes what the hand does over the viewport. Gives whether it moved anything.
@@ -64,18 +52,25 @@ impl Studio {
         if paints {
             self.paint(ui, response);
         }
-        self.drag(response, rect, camera, paints);
+        let measures = self.measuring.is_on;
+        if measures && response.dragged_by(PointerButton::Primary) {
+            // A drag is known for one only after some points.
+            let from = response.drag_started().then(|| ui.input(|input| input.pointer.press_origin()));
+            let from = from.flatten().and_then(|at| self.under(&camera, rect, at));
+            self.measure(from);
+        }
+        self.drag(response, rect, camera, paints || measures);
         self.wheel(ui, response, paints);
         self.fly(ui);
     }
 
-    fn drag(&mut self, response: &Response, rect: Rect, camera: Camera, paints: bool) {
+    fn drag(&mut self, response: &Response, rect: Rect, camera: Camera, is_busy: bool) {
         let delta = response.drag_delta();
         let share = [delta.x / rect.width(), delta.y / rect.height()];
         let Some(middle) = self.viewport.as_ref().and_then(crate::viewport::Viewport::middle) else { return };
         let pans = response.dragged_by(PointerButton::Middle)
             || (response.dragged_by(PointerButton::Secondary) && self.mode == Mode::Orbit);
-        let turns = (response.dragged_by(PointerButton::Primary) && !paints)
+        let turns = (response.dragged_by(PointerButton::Primary) && !is_busy)
             || (response.dragged_by(PointerButton::Secondary) && self.mode != Mode::Orbit);
         if pans {
             let distance = navigation::distance(&camera, middle);
@@ -153,16 +148,7 @@ impl Studio {
 
     /// Puts the camera on the ground below it.
     fn stand(&mut self) {
-        let (Some(camera), Some(shown)) = (self.camera, &self.status.shown) else { return };
-        let Ok(height) = shown.landscape.field("height") else { return };
-        let surface = self.status.surface.as_ref().filter(|surface| surface.shown == shown.number);
-        let target = Target {
-            ground: surface.map_or(height, |surface| &surface.ground),
-            water: None,
-            cell: shown.landscape.domain.cell,
-            lowest: 0.0,
-            exaggeration: 1.0,
-        };
+        let (Some(camera), Some(target)) = (self.camera, self.target()) else { return };
         let [east, north, _] = camera.eye;
         let Some(place) = target.at([f64::from(east), f64::from(-north)]) else { return };
         let Some(ground) = self.viewport.as_ref().and_then(|viewport| viewport.drawn_height(place.ground))

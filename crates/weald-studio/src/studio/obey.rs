@@ -27,6 +27,13 @@ impl Studio {
             Command::PlayToEnd => self.act_on_held(Task::PlayToEnd),
             Command::ToStart => self.act_on_held(Task::GoTo(0)),
             Command::Frame | Command::TopView | Command::Camera(_) => self.place_camera(command),
+            Command::Turntable => self.turns = !self.turns,
+            Command::KeepCamera => self.keep_camera(),
+            Command::Measure => {
+                self.choose(Tool::None);
+                self.measuring.is_on = true;
+            }
+            Command::Pin => self.pin(),
             Command::Brush(tool) => self.choose(tool),
             Command::Wider => self.widen(1.25),
             Command::Narrower => self.widen(0.8),
@@ -63,6 +70,7 @@ impl Studio {
             );
         }
         (self.brush.tool, self.stroke) = (tool, None);
+        self.measuring.is_on = false;
     }
 
     fn widen(&mut self, factor: f64) {
@@ -94,7 +102,10 @@ impl Studio {
     /// Saves the project where it is, or asks where.
     pub(crate) fn save(&mut self) {
         match self.project.recipe_file() {
-            Some(file) => self.work.ask(Task::Save(file)),
+            Some(file) => {
+                self.work.ask(Task::Save(file));
+                self.save_cameras();
+            }
             None => self.asked = Some(Asked::SaveAs(self.project.suggested())),
         }
     }

@@ -82,6 +82,27 @@ impl Window {
         image.save(folder.join(name).with_extension("png")).expect("written");
     }
 
+    /// The pixels of a part of the window.
+    pub(crate) fn pixels(&mut self, part: egui::Rect) -> Pixels {
+        let image = self.harness.render().expect("a picture");
+        let [left, top] = [part.left(), part.top()].map(|side| side.ceil() as u32);
+        let [right, bottom] = [(part.right(), image.width()), (part.bottom(), image.height())]
+            .map(|(side, most)| (side as u32).min(most));
+        let colours = (top..bottom).flat_map(|y| (left..right).map(move |x| (x, y)));
+        let colours = colours.map(|(x, y)| image.get_pixel(x, y).0).collect();
+        Pixels { width: (right - left) as usize, colours }
+    }
+
+    /// Steps until what was pinned is drawn.
+    pub(crate) fn until_pinned(&mut self) {
+        let begun = Instant::now();
+        while !self.harness.state().is_compared() {
+            self.harness.step();
+            assert!(begun.elapsed() < TIMEOUT, "nothing is pinned");
+            std::thread::sleep(Duration::from_millis(5));
+        }
+    }
+
     /// Draws a stroke with the pointer, from and to shares of the viewport.
     pub(crate) fn stroke(&mut self, from: [f32; 2], to: [f32; 2]) {
         let rect = self.harness.get_by_label("Viewport").rect();
@@ -107,12 +128,16 @@ impl Window {
     }
 
     pub(crate) fn type_over(&mut self, label: &str, text: &str) {
-        let field = self.harness.get_by_role_and_label(egui::accesskit::Role::TextInput, label);
-        field.focus();
+        self.type_in((egui::accesskit::Role::TextInput, label), text);
+    }
+
+    /// Types over all that stands in a field.
+    pub(crate) fn type_in(&mut self, (role, label): (egui::accesskit::Role, &str), text: &str) {
+        self.harness.get_by_role_and_label(role, label).focus();
         self.harness.step();
         self.harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::A);
         self.harness.step();
-        self.harness.get_by_role_and_label(egui::accesskit::Role::TextInput, label).type_text(text);
+        self.harness.get_by_role_and_label(role, label).type_text(text);
         self.harness.step();
         self.harness.step();
     }
@@ -131,5 +156,26 @@ impl Window {
         self.harness.get_by_label(label).click();
         self.harness.step();
         self.harness.step();
+    }
+}
+
+/// A picture, row by row.
+pub(crate) struct Pixels {
+    pub(crate) width: usize,
+    colours: Vec<[u8; 4]>,
+}
+
+impl Pixels {
+    /// How many of the pixels have another colour than in a picture of the same size.
+    pub(crate) fn share_that_differs(&self, other: &Self) -> f64 {
+        assert_eq!(self.colours.len(), other.colours.len());
+        let differ = self.colours.iter().zip(&other.colours).filter(|(one, other)| one != other).count();
+        differ as f64 / self.colours.len() as f64
+    }
+
+    /// The part between two columns.
+    pub(crate) fn columns(&self, part: std::ops::Range<usize>) -> Self {
+        let rows = self.colours.chunks(self.width).flat_map(|row| row[part.clone()].to_vec());
+        Self { width: part.len(), colours: rows.collect() }
     }
 }

@@ -4,4 +4,5 @@ mod controls;
 mod guide;
 mod harness;
 mod kills;
+mod looking;
 mod panels;
