@@ -92,21 +92,6 @@ impl Document {
         }
     }
 
-    /// Names of the materials above the bedrock and of the bedrock, lowest first, as a brush takes them.
-    pub fn materials(&self) -> Vec<String> {
-        let Some(Node { value: Value::List(items), .. }) = self.table.get("material") else {
-            return vec!["bedrock".to_owned(), "soil".to_owned()];
-        };
-        let name = |item: &Node| match &item.value {
-            Value::Table(table) => match table.get("name") {
-                Some(Node { value: Value::Text(name), .. }) => Some(name.clone()),
-                _ => None,
-            },
-            _ => None,
-        };
-        std::iter::once("bedrock".to_owned()).chain(items.iter().skip(1).filter_map(name)).collect()
-    }
-
     /// Takes another text, as typed. The text before it is kept; what is typed on at once with the last is one change.
     pub fn type_text(&mut self, text: &str) {
         const TYPED: &str = "typed";

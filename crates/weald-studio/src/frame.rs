@@ -157,8 +157,10 @@ impl Studio {
             viewport.order(shown, (&view, self.looks_number), self.status.held.is_some());
         }
         viewport.take_built();
-        if self.camera.is_none() {
-            self.camera = viewport.whole();
+        // A landscape of another extent would lie far away, or all around.
+        let middle = viewport.middle().map(|[east, north, _]| [east, north]);
+        if self.camera.is_none() || middle != self.framed {
+            (self.camera, self.framed) = (viewport.whole(), middle);
         }
         if let Some(surface) = &self.status.surface
             && let Err(error) = viewport.follow(surface)

@@ -77,6 +77,8 @@ pub struct Studio {
     pub(crate) status: Status,
     pub(crate) viewport: Option<Viewport>,
     pub(crate) camera: Option<Camera>,
+    /// The middle of the landscape that the camera was placed for.
+    pub(crate) framed: Option<[f32; 2]>,
     pub(crate) mode: Mode,
     pub(crate) looks: Looks,
     /// Grows with every change of the looks.
@@ -177,6 +179,7 @@ impl Studio {
             status: Status::default(),
             viewport,
             camera: None,
+            framed: None,
             mode: Mode::default(),
             looks: Looks::default(),
             looks_number: 1,

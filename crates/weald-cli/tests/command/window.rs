@@ -1,5 +1,6 @@
-//! The built program in a window of a real display server, driven by keys and a mouse: a landscape is opened, looked at,
-//! simulated, painted, undone, saved, exported, closed and opened again, and `weald run` gives the same files.
+//! The built program in a window of a real display server, driven by keys and a mouse: a template is opened, a key of it
+//! changed, the land looked at, simulated, painted with soil and water, all of it undone and redone, saved, exported, closed
+//! and opened again, and `weald run` gives the same files.
 
 use std::fs;
 use std::io::{BufRead, BufReader};
@@ -10,9 +11,10 @@ use std::time::{Duration, Instant};
 /// How long anything may take before the test says that it does not happen.
 const TIMEOUT: Duration = Duration::from_mins(2);
 
-const RECIPE: &str = "[landscape]\nsize = 64\ncell = 20.0\nseed = 3\n\n[[step]]\ndo = \"diamond-square\"\nrelief = 300.0\n\n\
-    [[step]]\ndo = \"hydraulic\"\nmodel = \"stava\"\niterations = 40\n\n[[step]]\ndo = \"slope\"\n\n\
-    [[output]]\nlayer = \"height\"\nfile = \"height.tif\"\n\n[[output]]\nlayer = \"slope\"\nfile = \"slope.tif\"\n";
+/// Where the template that is chosen stands in the window, and the controls of size and seed.
+const TEMPLATE: &str = "mousemove 442 301 click 1";
+const SIZE: &str = "mousemove 126 84 click 1";
+const SEED: &str = "mousemove 81 153 click 1";
 
 /// A display server without a screen, and what works on it.
 struct Display {
@@ -51,6 +53,12 @@ impl Display {
         assert!(done.success(), "xdotool {words}");
     }
 
+    /// Types over what a control holds.
+    fn type_into(&self, control: &str, text: &str) {
+        self.act(&format!("{control} sleep 0.5 key ctrl+a sleep 0.2 type {text}"));
+        self.act("key Return sleep 1");
+    }
+
     fn title(&self) -> String {
         let found = self.command("xdotool").args(["search", "--name", "Weald", "getwindowname"]).output();
         String::from_utf8_lossy(&found.expect("xdotool is installed").stdout).into_owned()
@@ -87,9 +95,9 @@ struct Studio<'a> {
 }
 
 impl<'a> Studio<'a> {
-    fn open(display: &'a Display, what: &Path, own: &Path) -> Self {
+    fn open(display: &'a Display, what: Option<&Path>, own: &Path) -> Self {
         let mut command = display.command(env!("CARGO_BIN_EXE_weald"));
-        command.arg("studio").arg(what).env("WEALD_STATE", own).env("XDG_RUNTIME_DIR", own);
+        command.arg("studio").args(what).env("WEALD_STATE", own).env("XDG_RUNTIME_DIR", own);
         let program = command.stdout(Stdio::null()).spawn().expect("a studio");
         let studio = Self { display, program };
         studio.display.until("the window", |_| {}, |display| display.title().contains("Weald"));
@@ -119,8 +127,15 @@ fn text(file: &Path) -> String {
     fs::read_to_string(file).unwrap_or_default()
 }
 
-fn strokes(project: &Path) -> usize {
-    text(&project.join("landscape.edits.jsonl")).matches("\"do\": \"add\"").count()
+/// Kinds of brushes in the script of a project, one a stroke.
+fn strokes(project: &Path, brush: &str) -> usize {
+    text(&project.join("landscape.edits.jsonl")).matches(&format!("\"do\": \"{brush}\"")).count()
+}
+
+/// What is not saved, which the studio keeps in a folder of its own.
+fn unsaved(own: &Path) -> String {
+    let folders = fs::read_dir(own.join("unsaved")).into_iter().flatten().flatten();
+    folders.map(|folder| text(&folder.path().join("autosave.toml"))).collect()
 }
 
 /// Saves, and waits until what was written says so.
@@ -131,38 +146,14 @@ fn save(display: &Display, what: &str, holds: impl Fn() -> bool) {
 /// `./check` runs it by itself: a window that shares its processors with all other tests may be too slow to be driven.
 #[test]
 #[ignore = "a window needs the machine for itself: cargo test -p weald-cli --test command -- --ignored window"]
-fn a_landscape_is_painted_undone_saved_exported_and_run_to_the_same_files() {
+fn a_template_is_changed_painted_undone_saved_exported_and_run_to_the_same_files() {
     let (display, folder) = (Display::new(), tempfile::tempdir().expect("a folder"));
     let (own, project) = (folder.path().join("own"), folder.path().join("project"));
-    fs::create_dir_all(&project).and_then(|()| fs::create_dir_all(&own)).expect("folders");
-    fs::write(project.join("landscape.toml"), RECIPE).expect("written");
-    let studio = Studio::open(&display, &project, &own);
-    let unsaved = |display: &Display| display.title().contains('•');
-    display.until("the simulation", |display| display.act("mousemove 620 400 key ctrl+period"), unsaved);
-    save(&display, "all steps", || text(&project.join("landscape.toml")).contains("iterations = 40"));
-    display.picture("carved");
-    // Round the landscape, and back to all of it.
-    display.act("mousemove 560 420 mousedown 1 mousemove 660 430 mousemove 700 440 mouseup 1 key f");
-    display.until(
-        "a stroke",
-        |display| {
-            display.act(
-                "mousemove 620 420 key b sleep 0.5 mousedown 1 mousemove 640 425 sleep 0.3 mousemove 680 430",
-            );
-            display.act("sleep 0.3 mouseup 1 key Escape sleep 0.3 key ctrl+s");
-        },
-        |_| strokes(&project) > 0,
-    );
-    display.picture("painted");
-    let painted = strokes(&project);
-    for _ in 0..painted {
-        display.act("key ctrl+z sleep 0.3");
-    }
-    save(&display, "the strokes undone", || strokes(&project) == 0);
-    for _ in 0..painted {
-        display.act("key ctrl+shift+z sleep 0.3");
-    }
-    save(&display, "the strokes again", || strokes(&project) == painted);
+    fs::create_dir_all(&own).expect("a folder");
+    let studio = Studio::open(&display, None, &own);
+    begin(&display, &own, &project);
+    paint(&display, &project);
+    undo_and_redo(&display, &project);
     let out = project.join("out");
     display.until(
         "the export",
@@ -172,7 +163,7 @@ fn a_landscape_is_painted_undone_saved_exported_and_run_to_the_same_files() {
     display.picture("exported");
     studio.close();
     assert_same_files(&project, &out, folder.path());
-    let again = Studio::open(&display, &project, &own);
+    let again = Studio::open(&display, Some(&project), &own);
     std::thread::sleep(Duration::from_secs(3));
     display.picture("again");
     assert!(!display.title().contains('•'), "nothing was changed by opening: {}", display.title());
@@ -182,12 +173,69 @@ fn a_landscape_is_painted_undone_saved_exported_and_run_to_the_same_files() {
     assert!(!left.iter().any(|path| path.ends_with("autosave.toml")), "{left:?}");
 }
 
+/// Takes a template, makes it smaller, gives it another seed, and saves it as a project.
+fn begin(display: &Display, own: &Path, project: &Path) {
+    std::thread::sleep(Duration::from_secs(3));
+    display.picture("start");
+    let smaller = |display: &Display| {
+        display.act(&format!("{TEMPLATE} sleep 1"));
+        display.type_into(SIZE, "64");
+    };
+    display.until("the template, smaller", smaller, |_| unsaved(own).contains("size = 64"));
+    let reseed = |display: &Display| display.type_into(SEED, "7");
+    display.until("another seed", reseed, |_| unsaved(own).contains("seed = 7"));
+    let save = |display: &Display| {
+        display.act("key ctrl+s sleep 1 key ctrl+a");
+        display.type_into("sleep 0.1", &project.display().to_string());
+    };
+    display.until("the project", save, |_| project.join("landscape.toml").is_file());
+    display.until("the mark of what is not saved", |_| {}, |display| !display.title().contains('•'));
+    display.picture("smaller");
+}
+
+/// Carves, goes round the landscape, and paints soil and water.
+fn paint(display: &Display, project: &Path) {
+    let carve = |display: &Display| display.act("mousemove 620 400 key space sleep 2 key space sleep 1");
+    display.until("the simulation", carve, |display| display.title().contains('•'));
+    display.picture("carved");
+    // Round the landscape, and back to all of it.
+    display.act("mousemove 560 420 mousedown 1 mousemove 660 430 mousemove 700 440 mouseup 1 key f");
+    for (key, brush) in [("b", "add"), ("v", "add-water")] {
+        let stroke = |display: &Display| {
+            let begin =
+                format!("mousemove 620 390 key {key} sleep 0.5 mousedown 1 sleep 0.3 mousemove 660 395");
+            display.act(&format!("{begin} sleep 0.5 mousemove 720 400 sleep 0.5 mouseup 1 key Escape"));
+            display.act("sleep 0.3 key ctrl+s");
+        };
+        display.until(brush, stroke, |_| strokes(project, brush) > 0);
+    }
+    display.picture("painted");
+}
+
+/// Takes all back that was done to the simulation, and does it again.
+fn undo_and_redo(display: &Display, project: &Path) {
+    let script = || text(&project.join("landscape.edits.jsonl"));
+    let done = script();
+    assert!(done.lines().count() >= 2, "{done}");
+    // One for the steps, and one a stroke.
+    let count = 1 + strokes(project, "add") + strokes(project, "add-water");
+    for _ in 0..count {
+        display.act("key ctrl+z sleep 0.4");
+    }
+    save(display, "all undone", || strokes(project, "add") + strokes(project, "add-water") == 0);
+    display.picture("undone");
+    for _ in 0..count {
+        display.act("key ctrl+shift+z sleep 0.4");
+    }
+    save(display, "all again", || script() == done);
+}
+
 fn assert_same_files(project: &Path, out: &Path, folder: &Path) {
     let mut run = Command::new(env!("CARGO_BIN_EXE_weald"));
     run.arg("run").arg(project.join("landscape.toml")).arg("--out").arg(folder.join("run")).arg("--no-cache");
     let done = run.args(["--engine", "cpu"]).output().expect("weald runs");
     assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
-    for name in ["height.tif", "slope.tif"] {
+    for name in ["height.tif", "height.png", "relief.png"] {
         let [here, there] =
             [out, &folder.join("run")].map(|folder| fs::read(folder.join(name)).expect("a file"));
         assert!(here == there, "{name} of the window is not that of a run");

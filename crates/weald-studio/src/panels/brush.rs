@@ -23,12 +23,17 @@ pub(crate) fn show(studio: &mut Studio, ui: &mut Ui) {
         let context = ui.ctx().clone();
         studio.obey(Command::Brush(tool), &context);
     }
-    let materials = studio.document.materials();
-    let brush = &mut studio.brush;
+    let (brush, materials) = (&mut studio.brush, &studio.status.materials);
+    if !materials.contains(&brush.material)
+        && let Some(last) = materials.last()
+    {
+        // What settles is the last material.
+        brush.material.clone_from(last);
+    }
     slider(ui, "Radius", Slider::new(&mut brush.radius, 0.1..=100_000.0).logarithmic(true).suffix(" m"));
     slider(ui, "Strength", Slider::new(&mut brush.strength, 0.01..=1.0));
     falloff(ui, brush);
-    amount(ui, brush, &materials);
+    amount(ui, brush, materials);
 }
 
 fn slider(ui: &mut Ui, name: &str, slider: Slider<'_>) {

@@ -93,6 +93,8 @@ pub struct Status {
     pub surface: Option<Surface>,
     /// Place of the step that is held, counted from 0.
     pub held: Option<usize>,
+    /// Names of the materials that brushes add to the ground that is held, bedrock first.
+    pub materials: Vec<String>,
     /// Whether the simulation runs.
     pub plays: bool,
     /// Steps done.

@@ -280,7 +280,8 @@ impl Worker {
                 format!("what was done by hand could not all be done again on the new ground: {error}");
             self.shared.change(|status| status.notes.push(note));
         }
-        let landscape = held.landscape()?;
+        let (landscape, materials) = (held.landscape()?, held.surface()?.0.materials);
+        self.shared.change(|status| status.materials = materials);
         self.held = Some(held);
         self.publish(&opening, landscape, place + 1);
         self.opening = Some(opening);
