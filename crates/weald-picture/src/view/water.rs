@@ -115,8 +115,9 @@ impl Rivers {
         let canvas = rivers::Canvas { pixels: [width, height], least_area: None };
         let square_kilometres = domain.cell_area() as f32 * 1e-6;
         let strokes = rivers::strokes(flux, domain, canvas, |reach| {
-            let metres =
-                BANKFULL * libm::powf(reach.area * square_kilometres, BANKFULL_GROWTH) * broader as f32;
+            // Where springs feed it, a river may carry more than all of the land would: it is drawn as draining that.
+            let area = reach.area.min(domain.size.cells() as f32) * square_kilometres;
+            let metres = BANKFULL * libm::powf(area, BANKFULL_GROWTH) * broader as f32;
             let width = metres / domain.cell as f32 * scale;
             Point { x: reach.place[0] * scale, y: reach.place[1] * scale, width, opacity: 1.0 }
         })?;

@@ -187,6 +187,26 @@ fn view_error(landscape: &Landscape) -> String {
 }
 
 #[test]
+fn a_river_from_a_spring_is_no_wider_than_one_that_drains_all_the_land() {
+    let mut landscape = country();
+    let size = landscape.domain.size;
+    landscape.remove("water");
+    // All but nothing seeps over the land; the river in the middle carries what a spring gives.
+    let river = |_: usize, y: usize| if y == 31 { 9.0 } else { 1e-7 };
+    landscape.insert("height", "m", Field::from_function(size, |x, _| 200.0 - x as f32));
+    landscape.insert("flux_x", "m³/s", Field::from_function(size, river));
+    landscape.insert("flux_y", "m³/s", Field::filled(size, 0.0));
+    let with = draw(&above(), &landscape);
+    let without = draw(&View { water: false, ..above() }, &landscape);
+    let pixels = |rows: std::ops::Range<usize>| {
+        let at = rows.flat_map(|y| (30..90).map(move |x| (x, y)));
+        at.filter(|&(x, y)| light(&with, x, y) != light(&without, x, y)).count()
+    };
+    assert!(pixels(50..70) > 40, "there is a river: {}", pixels(50..70));
+    assert_eq!(pixels(20..45) + pixels(75..100), 0, "and dry land beside it");
+}
+
+#[test]
 fn snow_lies_above_its_line() {
     let view = View { snow_line: Some(150.0), water: false, ..above() };
     let (bare, snowy) =
