@@ -8,6 +8,7 @@ use weald::io::write_whole;
 use weald::picture::Image;
 
 use crate::coding::{code, decode};
+use crate::film::{self, Frames};
 use crate::flip::{Flip, flip};
 
 /// A picture looks different where the committed one is so much further from it than its own coding, in mean ꟻLIP over
@@ -44,6 +45,9 @@ pub fn keep(from: &Path, to: &Path, anew: bool) -> Result<Kept, Error> {
     if to.extension().is_none_or(|end| end != "webp") {
         return Err(Error::Run(format!("{} must end in .webp", to.display())));
     }
+    if let Some(film) = Frames::of_file(from)? {
+        return keep_film(&film, to, anew);
+    }
     let image = decode(from)?;
     let coded = code(&image)?;
     if to.exists() && !anew {
@@ -54,6 +58,19 @@ pub fn keep(from: &Path, to: &Path, anew: bool) -> Result<Kept, Error> {
     }
     write_whole(to, &coded.bytes)?;
     Ok(Kept::Written(coded.bytes.len(), coded.quality, coded.loss.worst_square()))
+}
+
+fn keep_film(film: &Frames, to: &Path, anew: bool) -> Result<Kept, Error> {
+    if to.exists() && !anew {
+        let unreadable = |cause| Error::Run(format!("cannot read the film {}: {cause}", to.display()));
+        let (looks_alike, worst) = film.looks_like(&std::fs::read(to).map_err(unreadable)?);
+        if looks_alike {
+            return Ok(Kept::AsItWas(worst));
+        }
+    }
+    let coded = film.code()?;
+    write_whole(to, &coded)?;
+    Ok(Kept::Written(coded.len(), Some(film::QUALITY), film.looks_like(&coded).1))
 }
 
 /// How much further a committed picture is from a new one than the new one's coding, in the square where that is most;

@@ -2,6 +2,7 @@
 //! Its dependencies need compilers of C and C++.
 
 mod coding;
+mod film;
 mod flip;
 mod keep;
 mod renew;

@@ -91,7 +91,12 @@ mod tests {
         image.rgb[..job.choose(0, 9_000)].fill(0);
         let plates = vec![Plate { name: "view", caption: "A sheet".to_owned(), image }];
         let remarks = vec![job.choose("White.", "Marked.").to_owned()];
-        Ok(FigureOutput { plates, measured: Measured { remarks, ..Measured::default() }, claims: Vec::new() })
+        Ok(FigureOutput {
+            plates,
+            measured: Measured { remarks, ..Measured::default() },
+            claims: Vec::new(),
+            ..FigureOutput::default()
+        })
     }
 
     fn figure(id: &'static str) -> Figure {

@@ -13,7 +13,7 @@ fn plate(job: GalleryJob) -> FigureOutput {
     let header = vec!["kind".to_owned(), "side".to_owned()];
     let measured = Measured { header, rows, remarks: vec!["Blank.".to_owned()] };
     let claims = vec![Claim::new("Paper is blank", Verdict::of(side > 2), format!("{side} cells"))];
-    FigureOutput { plates, measured, claims }
+    FigureOutput { plates, measured, claims, ..FigureOutput::default() }
 }
 
 fn figure(id: &'static str) -> Figure {

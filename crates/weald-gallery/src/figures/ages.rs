@@ -55,6 +55,7 @@ fn make(job: GalleryJob) -> Result<FigureOutput, Error> {
             ]),
         },
         claims: claims(&runs, ages.len()),
+        ..FigureOutput::default()
     })
 }
 

@@ -48,7 +48,7 @@ fn make(job: GalleryJob) -> Result<FigureOutput, Error> {
              steepest fall of the ground; the edge is left out.",
         ]),
     };
-    Ok(FigureOutput { plates, measured, claims: claims(&banks) })
+    Ok(FigureOutput { plates, measured, claims: claims(&banks), ..FigureOutput::default() })
 }
 
 /// A plain that falls to the east, level beds of soil and gravel on rock, with a winding channel.

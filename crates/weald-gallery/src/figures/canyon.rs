@@ -53,6 +53,7 @@ fn make(job: GalleryJob) -> Result<FigureOutput, Error> {
             ]),
         },
         claims: claims(&walls),
+        ..FigureOutput::default()
     })
 }
 

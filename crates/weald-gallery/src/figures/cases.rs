@@ -50,5 +50,6 @@ fn make(job: GalleryJob) -> Result<FigureOutput, Error> {
                 han::list(runs.iter().map(|ran| format!("{}:", ran.run.name)), &chans)
             ),
         )],
+        ..FigureOutput::default()
     })
 }

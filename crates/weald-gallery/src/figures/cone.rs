@@ -54,6 +54,7 @@ fn make(job: GalleryJob) -> Result<FigureOutput, Error> {
             ]),
         },
         claims: claims(&shapes),
+        ..FigureOutput::default()
     })
 }
 

@@ -39,6 +39,7 @@ fn make(job: GalleryJob) -> Result<FigureOutput, Error> {
             ]),
         },
         claims: claims(&fills[1..]),
+        ..FigureOutput::default()
     })
 }
 

@@ -49,6 +49,7 @@ fn make(job: GalleryJob) -> Result<FigureOutput, Error> {
         ],
         measured: measured(&runs),
         claims: vec![no_rivers(&runs), like_streams(&young, &runs)?],
+        ..FigureOutput::default()
     })
 }
 

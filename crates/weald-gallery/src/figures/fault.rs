@@ -49,6 +49,7 @@ fn make(job: GalleryJob) -> Result<FigureOutput, Error> {
             ]),
         },
         claims: claims(&stages),
+        ..FigureOutput::default()
     })
 }
 

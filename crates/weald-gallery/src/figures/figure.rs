@@ -79,6 +79,8 @@ impl GalleryJob {
 pub struct FigureOutput {
     /// Pictures in the order of the page.
     pub plates: Vec<Plate>,
+    /// Films, after them.
+    pub films: Vec<Film>,
     /// What was measured.
     pub measured: Measured,
     /// What the source claims, judged by the measures.
@@ -94,6 +96,19 @@ pub struct Plate {
     pub caption: String,
     /// The picture.
     pub image: Image,
+}
+
+/// Pictures that move.
+#[derive(Clone, Debug)]
+pub struct Film {
+    /// Ends the file's name: `ID-NAME.png`, an animated PNG.
+    pub name: &'static str,
+    /// What it shows.
+    pub caption: String,
+    /// All of one size.
+    pub frames: Vec<Image>,
+    /// Frames shown a second.
+    pub per_second: f64,
 }
 
 /// A table of measures, and what follows from it.

@@ -44,6 +44,7 @@ fn make(job: GalleryJob) -> Result<FigureOutput, Error> {
             remarks: vec![remark, MEANING.to_owned()],
         },
         claims: claims(&streams),
+        ..FigureOutput::default()
     })
 }
 

@@ -47,7 +47,7 @@ fn make(job: GalleryJob) -> Result<FigureOutput, Error> {
              neighbours.",
         ]),
     };
-    Ok(FigureOutput { plates, measured, claims: claims(&beds) })
+    Ok(FigureOutput { plates, measured, claims: claims(&beds), ..FigureOutput::default() })
 }
 
 /// A valley with a stream bed, rough from humps a few cells wide, in deep soil.

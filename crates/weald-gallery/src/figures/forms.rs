@@ -45,6 +45,7 @@ fn make(job: GalleryJob) -> Result<FigureOutput, Error> {
         plates: plates.map(|(name, what, image)| plate(name, what, &runs, image)).into(),
         measured: measured(&runs),
         claims: claims(&runs, &water),
+        ..FigureOutput::default()
     })
 }
 

@@ -66,6 +66,7 @@ fn make(job: GalleryJob) -> Result<FigureOutput, Error> {
             Verdict::of(rate >= SOURCE_RATE),
             format!("{rate:.2} steps a second on the CPU with {threads} threads"),
         )],
+        ..FigureOutput::default()
     })
 }
 

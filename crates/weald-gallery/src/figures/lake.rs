@@ -43,7 +43,7 @@ fn make(job: GalleryJob) -> Result<FigureOutput, Error> {
             "Level in the middle of the lake; the outlet is the highest ground on the lowest path out of it.",
         ]),
     };
-    Ok(FigureOutput { plates, measured, claims: claims(&levels) })
+    Ok(FigureOutput { plates, measured, claims: claims(&levels), ..FigureOutput::default() })
 }
 
 struct Stages {

@@ -45,7 +45,7 @@ fn make(job: GalleryJob) -> Result<FigureOutput, Error> {
              greatest depth of the river half way.",
         ]),
     };
-    Ok(FigureOutput { plates, measured, claims: claims(&lands) })
+    Ok(FigureOutput { plates, measured, claims: claims(&lands), ..FigureOutput::default() })
 }
 
 /// Middle of the river's bed, as a share of the way from north to south.

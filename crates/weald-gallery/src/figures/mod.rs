@@ -26,6 +26,7 @@ mod page;
 mod parameters;
 mod printed;
 mod registry;
+mod session;
 mod sizes;
 mod spacing;
 mod stability;
@@ -36,7 +37,7 @@ mod write;
 
 pub use claim::{Claim, Verdict};
 pub(crate) use figure::texts;
-pub use figure::{Detail, Figure, FigureOutput, GalleryJob, Make, Measured, Plate};
+pub use figure::{Detail, Figure, FigureOutput, Film, GalleryJob, Make, Measured, Plate};
 pub use page::merged_page;
 pub use registry::FIGURES;
 pub use write::{Selection, StartedFigure, draws, selectable, write, write_figures};

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::path::Path;
 
-use super::{Claim, Figure, FigureOutput, Measured, Plate};
+use super::{Claim, Figure, FigureOutput, Measured};
 
 const HEAD: &str = "# Gallery\n\nFigures of the publications that Weald implements, made again by `weald gallery`. \
     Each verdict follows from numbers of the run that made the figure: **shown**, **shown under a condition**, or \
@@ -17,9 +17,9 @@ const MARK: &str = "<!-- figure ";
 /// Starts the claims of a section: a table of claim, verdict and measure that ends with an empty line.
 const CLAIMS: &str = "\n| claim | verdict | measured |\n| --- | --- | --- |\n";
 
-/// Name of a plate's file.
-pub(super) fn file_name(figure: &Figure, plate: &Plate) -> String {
-    format!("{}-{}.png", figure.id, plate.name)
+/// File of a plate or a film of this name.
+pub(super) fn file_name(figure: &Figure, name: &str) -> String {
+    format!("{}-{name}.png", figure.id)
 }
 
 /// The sections of an older page, by figure; none where there is no page.
@@ -69,9 +69,9 @@ fn summary(present: &[(&Figure, &String)]) -> String {
 pub(super) fn section(figure: &Figure, output: &FigureOutput) -> String {
     let Figure { id, title, source, shows, .. } = figure;
     let mut text = format!("<a id=\"{id}\"></a>\n\n## {title}\n\nSource: {source}.\n\n{shows}\n");
-    for plate in &output.plates {
-        let caption = &plate.caption;
-        let _ = write!(text, "\n![{caption}]({})\n\n*{caption}*\n", file_name(figure, plate));
+    let plates = output.plates.iter().map(|plate| (plate.name, &plate.caption));
+    for (name, caption) in plates.chain(output.films.iter().map(|film| (film.name, &film.caption))) {
+        let _ = write!(text, "\n![{caption}]({})\n\n*{caption}*\n", file_name(figure, name));
     }
     text + &table(&output.measured) + &claims(&output.claims)
 }

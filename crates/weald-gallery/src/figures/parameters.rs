@@ -59,6 +59,7 @@ fn make(job: GalleryJob) -> Result<FigureOutput, Error> {
             Verdict::of(least > 0.0 && most < 1.15 * least),
             format!("`chan` {}", han::list(EPSILONS.map(|epsilon| format!("at ε {epsilon:?}:")), &shares)),
         )],
+        ..FigureOutput::default()
     })
 }
 

@@ -2,7 +2,8 @@
 
 use super::{
     Figure, ages, banks, canyon, cases, cone, deposits, dissolution, drift, fault, flow_rate, force, forms,
-    grass, ifs, interactive, lake, levee, parameters, printed, sizes, spacing, stability, start, weathering,
+    grass, ifs, interactive, lake, levee, parameters, printed, session, sizes, spacing, stability, start,
+    weathering,
 };
 
 /// All figures in the order of the page. Adding one is one file and one line here.
@@ -29,6 +30,7 @@ pub const FIGURES: &[Figure] = &[
     lake::FIGURE,
     levee::FIGURE,
     interactive::FIGURE,
+    session::FIGURE,
     ifs::FIGURE_1,
     ifs::FIGURE_2,
     ifs::FIGURE_3,

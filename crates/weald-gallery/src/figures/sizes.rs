@@ -65,6 +65,7 @@ fn make(job: GalleryJob) -> Result<FigureOutput, Error> {
             ]),
         },
         claims: claims(&measures),
+        ..FigureOutput::default()
     })
 }
 

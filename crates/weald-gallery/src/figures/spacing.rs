@@ -45,6 +45,7 @@ fn make(job: GalleryJob) -> Result<FigureOutput, Error> {
             ]),
         },
         claims: claims(&runs),
+        ..FigureOutput::default()
     })
 }
 

@@ -59,6 +59,7 @@ fn make(job: GalleryJob) -> Result<FigureOutput, Error> {
             Verdict::of(growth[..3].iter().all(|&growth| growth < 10.0) && growth[3] > 1000.0),
             format!("ripples grow {}-fold at 0.5 and {}-fold at 0.501", number(growth[2]), number(growth[3])),
         )],
+        ..FigureOutput::default()
     })
 }
 

@@ -29,6 +29,7 @@ fn make(job: GalleryJob) -> Result<FigureOutput, Error> {
             ..Measured::default()
         },
         claims: vec![without_valleys(job, &landscape)?],
+        ..FigureOutput::default()
     })
 }
 

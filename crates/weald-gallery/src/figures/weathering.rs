@@ -41,6 +41,7 @@ fn make(job: GalleryJob) -> Result<FigureOutput, Error> {
         ],
         measured: measured(&runs),
         claims: claims(&runs),
+        ..FigureOutput::default()
     })
 }
 

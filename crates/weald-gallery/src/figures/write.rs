@@ -5,7 +5,7 @@ use std::path::Path;
 use super::{FIGURES, Figure, FigureOutput, GalleryJob, Make, page};
 use weald_core::error::Error;
 use weald_io::write_whole;
-use weald_picture::RenderDevice;
+use weald_picture::{Cutout, RenderDevice, write_apng};
 
 /// A figure that is about to be made.
 #[derive(Clone, Copy, Debug)]
@@ -79,7 +79,12 @@ fn write_plates(figure: &Figure, output: &FigureOutput, folder: &Path) -> Result
     let text =
         [("Title".to_owned(), figure.title.to_owned()), ("Source".to_owned(), figure.source.to_owned())];
     for plate in &output.plates {
-        write_whole(&folder.join(page::file_name(figure, plate)), &plate.image.to_png(&text))?;
+        write_whole(&folder.join(page::file_name(figure, plate.name)), &plate.image.to_png(&text))?;
+    }
+    for film in &output.films {
+        let frame = |number: u64| Ok(Cutout::from(film.frames[number as usize].clone()));
+        let path = folder.join(page::file_name(figure, film.name));
+        write_apng(&path, (film.frames.len() as u64, film.per_second), frame)?;
     }
     Ok(())
 }

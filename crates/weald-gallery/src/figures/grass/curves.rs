@@ -55,6 +55,7 @@ fn soil(job: GalleryJob) -> FigureOutput {
             Verdict::of(rises),
             format!("f1 rises from {:.2} to {:.2}", at(0), at(1000)),
         )],
+        ..FigureOutput::default()
     }
 }
 
@@ -108,6 +109,7 @@ fn light(job: GalleryJob) -> FigureOutput {
                 ),
             ),
         ],
+        ..FigureOutput::default()
     }
 }
 

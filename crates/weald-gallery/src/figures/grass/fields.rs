@@ -192,6 +192,7 @@ fn comparison(job: GalleryJob) -> FigureOutput {
             Verdict::of(after[0] > 0.15 && after[1] > 0.15 && before[0] < 0.01),
             format!("heights differ by {:.0} %, colours by {:.0} %", 100.0 * after[0], 100.0 * after[1]),
         )],
+        ..FigureOutput::default()
     }
 }
 
@@ -258,6 +259,7 @@ fn mapped(job: GalleryJob) -> Result<FigureOutput, Error> {
                 format!("on the path stand {:.0} % of the sets of as much ground elsewhere", 100.0 * path),
             ),
         ],
+        ..FigureOutput::default()
     })
 }
 

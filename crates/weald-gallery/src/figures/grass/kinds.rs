@@ -74,8 +74,7 @@ fn make(job: GalleryJob) -> FigureOutput {
             "Other curves and sizes make other grasses",
             Verdict::of(spread > 5.0),
             format!("{} species, the tallest {spread:.0} times as high as the shortest", SPECIES.len()),
-        )],
-    }
+        )], ..FigureOutput::default() }
 }
 
 /// Sets that grow close together, within so many metres.

@@ -47,6 +47,7 @@ fn make(job: GalleryJob, device: &dyn RenderDevice) -> Result<FigureOutput, Erro
             )],
         },
         claims,
+        ..FigureOutput::default()
     })
 }
 

@@ -133,6 +133,7 @@ fn field(job: GalleryJob, device: &dyn RenderDevice) -> Result<FigureOutput, Err
             Verdict::of(sets > 10_000 && share > 0.2),
             format!("{sets} sets; {:.0} % of the picture from above is green", 100.0 * share),
         )],
+        ..FigureOutput::default()
     })
 }
 
@@ -246,5 +247,6 @@ fn plants(job: GalleryJob, device: &dyn RenderDevice) -> Result<FigureOutput, Er
             Verdict::of(counts.iter().all(|&count| count > 5) && sets > 100.0),
             format!("{} plants stand among {sets} sets", counts.iter().sum::<usize>()),
         )],
+        ..FigureOutput::default()
     })
 }

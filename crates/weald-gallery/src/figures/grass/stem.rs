@@ -62,8 +62,7 @@ fn make(job: GalleryJob) -> FigureOutput {
                     printed[LEVELS][0], total[LEVELS][0]
                 ),
             ),
-        ],
-    }
+        ], ..FigureOutput::default() }
 }
 
 fn drawn(growth: &Growth, bend: Bend, level: usize, job: GalleryJob) -> Image {

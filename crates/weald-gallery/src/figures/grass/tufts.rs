@@ -142,6 +142,5 @@ fn make(job: GalleryJob) -> FigureOutput {
                 Verdict::of(jump < 0.01),
                 format!("in a thousandth of a level the tip moves by at most {jump:.4}"),
             ),
-        ],
-    }
+        ], ..FigureOutput::default() }
 }

@@ -166,6 +166,7 @@ fn make(method: &Method, job: GalleryJob) -> Result<FigureOutput, Error> {
                 format!("greatest move beside its bound: see the table; the gasket is torn by {torn}"),
             ),
         ],
+        ..FigureOutput::default()
     })
 }
 

@@ -80,6 +80,7 @@ fn make(name: &str, depths: [u32; 3], job: GalleryJob) -> Result<FigureOutput, E
                 "100,000 points lie within {off:.1e} of the points of their codes; the ratios allow {precision:.1e}, single precision 1e-5"
             ),
         )],
+        ..FigureOutput::default()
     })
 }
 
@@ -143,6 +144,7 @@ fn joints(job: GalleryJob) -> Result<FigureOutput, Error> {
             Verdict::of(off < 1e-3),
             format!("the four joints lie within {off:.1e} of the source's"),
         )],
+        ..FigureOutput::default()
     })
 }
 

@@ -61,5 +61,6 @@ fn make(name: &str, job: GalleryJob) -> Result<FigureOutput, Error> {
             Verdict::of(torn < 1e-6 && stretch.is_finite() && moved > 0.05),
             format!("the two codes of (0.5, 0) stay {torn:.1e} apart; points move up to {moved:.3}"),
         )],
+        ..FigureOutput::default()
     })
 }

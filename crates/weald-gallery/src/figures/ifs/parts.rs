@@ -82,6 +82,7 @@ fn make(job: GalleryJob) -> Result<FigureOutput, Error> {
                 format!("{same} of {} to the bit", outside.len()),
             ),
         ],
+        ..FigureOutput::default()
     })
 }
 

@@ -128,6 +128,7 @@ fn make(vectors: &Vectors, job: GalleryJob) -> Result<FigureOutput, Error> {
                 format!("bounds for digits 3 to 5: {other:.3} with 0.5, {larger:.3} with 0.65"),
             ),
         ],
+        ..FigureOutput::default()
     })
 }
 
