@@ -92,6 +92,16 @@ impl Document {
         }
     }
 
+    /// Whether a step is left out.
+    pub fn is_off(step: &Table) -> bool {
+        matches!(step.get("off"), Some(Node { value: Value::Flag(true), .. }))
+    }
+
+    /// How many steps run up to this one.
+    pub fn running_until(&self, last: usize) -> usize {
+        self.steps().iter().take(last + 1).filter(|step| !Self::is_off(step)).count()
+    }
+
     /// Takes another text, as typed. The text before it is kept; what is typed on at once with the last is one change.
     pub fn type_text(&mut self, text: &str) {
         const TYPED: &str = "typed";

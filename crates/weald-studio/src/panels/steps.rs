@@ -17,6 +17,7 @@ enum Move {
     Down,
     Duplicate,
     Remove,
+    Switch,
     Show,
 }
 
@@ -58,7 +59,11 @@ fn card(studio: &mut Studio, ui: &mut Ui, (at, count): (usize, usize), step: &Ta
     let is_shown = studio.selected == Some(at);
     Frame::group(ui.style()).show(ui, |ui| {
         ui.push_id(at, |ui| {
+            let is_off = Document::is_off(step);
             let mut title = RichText::new(format!("{}. {word}", at + 1)).strong();
+            if is_off {
+                title = title.weak().strikethrough();
+            }
             if is_held {
                 title = title.color(ui.visuals().hyperlink_color);
             }
@@ -66,7 +71,7 @@ fn card(studio: &mut Studio, ui: &mut Ui, (at, count): (usize, usize), step: &Ta
             let entry = catalog::find(&word);
             let shown = header.show(ui, |ui| {
                 let mut moved = None;
-                ui.horizontal_wrapped(|ui| moved = buttons(ui, (at, count), is_shown));
+                ui.horizontal_wrapped(|ui| moved = buttons(ui, (at, count), (is_shown, is_off)));
                 let turned = entry.and_then(|entry| {
                     controls::controls(ui, step, &(entry.parameters)(), &format!("step {}", at + 1))
                 });
@@ -83,7 +88,7 @@ fn card(studio: &mut Studio, ui: &mut Ui, (at, count): (usize, usize), step: &Ta
     });
 }
 
-fn buttons(ui: &mut Ui, (at, count): (usize, usize), is_shown: bool) -> Option<Move> {
+fn buttons(ui: &mut Ui, (at, count): (usize, usize), (is_shown, is_off): (bool, bool)) -> Option<Move> {
     let mut moved = None;
     let mut button = |ui: &mut Ui, text: &str, hover: &str, is_on: bool, what: Move| {
         if ui.add_enabled(is_on, egui::Button::new(text).small()).on_hover_text(hover).clicked() {
@@ -95,6 +100,14 @@ fn buttons(ui: &mut Ui, (at, count): (usize, usize), is_shown: bool) -> Option<M
     button(ui, "Down", &format!("Move step {number} down"), at + 1 < count, Move::Down);
     button(ui, "Duplicate", &format!("Put a copy of step {number} after it"), true, Move::Duplicate);
     button(ui, "Remove", &format!("Take step {number} out"), true, Move::Remove);
+    let switch = if is_off { "Switch on" } else { "Switch off" };
+    button(
+        ui,
+        switch,
+        &format!("Leave step {number} out without losing it, or run it again"),
+        true,
+        Move::Switch,
+    );
     let show = if is_shown { "Show all" } else { "Show here" };
     button(ui, show, "Show the landscape as it is after this step", true, Move::Show);
     moved
@@ -112,6 +125,10 @@ fn change(
         Some(Move::Down) => studio.document.move_step(at, at + 1),
         Some(Move::Duplicate) => studio.document.duplicate_step(at),
         Some(Move::Remove) => studio.document.remove_step(at),
+        Some(Move::Switch) => {
+            let is_off = studio.document.steps().get(at).is_some_and(|step| Document::is_off(step));
+            studio.document.set_step_key(at, "off", (!is_off).then_some("true"))
+        }
         Some(Move::Show) => {
             studio.selected = (studio.selected != Some(at)).then_some(at);
             studio.run_again();

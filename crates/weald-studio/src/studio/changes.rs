@@ -62,7 +62,7 @@ impl Studio {
             text: self.document.text().to_owned(),
             revision,
             engine: self.engine.clone(),
-            steps: self.selected.map(|step| step + 1),
+            steps: self.selected.map(|last| self.document.running_until(last)),
             keeps_edits: self.keeps_edits,
         };
         self.keeps_edits = true;

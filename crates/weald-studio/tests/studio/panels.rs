@@ -132,3 +132,23 @@ fn who_goes_back_while_it_runs_stays_there() {
         assert_eq!(window.status().steps, 0, "it stays");
     }
 }
+
+#[test]
+fn a_step_that_is_switched_off_is_left_out_until_it_is_switched_on() {
+    let (_folder, file) = recipe();
+    let mut window = Window::open(Some(&file));
+    window.settle();
+    let has_slope = |status: &weald_studio::work::Status| {
+        status.shown.as_ref().is_some_and(|shown| shown.landscape.field("slope").is_ok())
+    };
+    window.until("the slope", has_slope);
+    window.click("3. slope");
+    window.click_last("Switch off");
+    window.until("a run without it", |status| {
+        status.revision == 2 && status.shown.as_ref().is_some_and(|shown| shown.revision == 2)
+    });
+    window.settle();
+    assert!(!has_slope(&window.status()));
+    window.click_last("Switch on");
+    window.until("the slope again", has_slope);
+}

@@ -29,6 +29,7 @@ pub use landscape::{Ground, LandscapeKeys};
 pub use materials::{BuiltIn, MaterialKeys, PlannedMaterial};
 pub(super) use names::{Name, WORK_FOLDER};
 pub use outputs::{Content, Output, OutputKeys};
+pub(in crate::recipe) use steps::OFF;
 pub use steps::Planned;
 
 use self::files::Files;

@@ -7,7 +7,7 @@ use serde_json::{Map, Value, json};
 use super::catalog::CATALOG;
 use super::format;
 use super::parameter::{Kind, Needs, Parameter, Parameters, Variant};
-use super::plan::{FILM_EXTENSIONS, FilmKeys, FractalKeys, LandscapeKeys, MaterialKeys};
+use super::plan::{FILM_EXTENSIONS, FilmKeys, FractalKeys, LandscapeKeys, MaterialKeys, OFF};
 use weald_core::material::MAX_MATERIALS;
 use weald_export::EXPORTS;
 use weald_io::FORMATS;
@@ -17,7 +17,7 @@ use weald_picture::PICTURES;
 pub fn schema() -> Value {
     let steps = CATALOG.iter().flat_map(|entry| {
         let summary = format!("{} Source: {}.", entry.summary, entry.source);
-        alternatives(("do", entry.name), &summary, &(entry.parameters)())
+        alternatives(("do", entry.name), &summary, &(entry.parameters)()).into_iter().map(with_off)
     });
     let pictures = PICTURES.iter().flat_map(|entry| {
         let extensions: Vec<_> = entry.extensions.iter().chain(FILM_EXTENSIONS).copied().collect();
@@ -59,6 +59,16 @@ pub fn schema() -> Value {
         },
         "additionalProperties": false,
     })
+}
+
+/// A step that can be off.
+fn with_off(mut step: Value) -> Value {
+    step["properties"][OFF] = json!({
+        "type": "boolean",
+        "default": false,
+        "description": "Whether the step is left out, as if it did not stand there.",
+    });
+    step
 }
 
 /// A size and an elevation model exclude each other.

@@ -101,10 +101,15 @@ impl Session {
         self.step.written_steps(self.history.simulation().start())
     }
 
-    /// The place of the step that is held, counted from 0, and the keys with which it runs to here; a script of what was
+    /// Place of the table of the step that is held.
+    fn place(&self) -> usize {
+        self.recipe.steps[self.held].place
+    }
+
+    /// The place of the step that is held among all `[[step]]` tables, counted from 0, and the keys with which it runs to here; a script of what was
     /// done goes with them under the key `edits`.
     pub fn replayed(&self) -> (usize, Vec<(&'static str, Value)>) {
-        (self.held, self.step.replayed(self.steps()))
+        (self.place(), self.step.replayed(self.steps()))
     }
 
     /// Simulates so many steps.
@@ -185,7 +190,7 @@ impl Session {
     /// [`Error::Run`] where a file cannot be written, or more steps were done than a recipe can ask for.
     pub fn save(&self, file: &Path) -> Result<(), Error> {
         let (steps, script) = self.history.script();
-        saved::write(&self.recipe, (self.held, &*self.step), (steps, &script), file)
+        saved::write(&self.recipe, (self.place(), &*self.step), (steps, &script), file)
     }
 }
 

@@ -154,3 +154,20 @@ fn a_recipe_without_a_step_that_can_be_held_says_which_can() {
     let error = Session::open(recipe(folder.path(), HELD[4].0), little, &Silent).expect_err("too little");
     assert_eq!(error.exit_code(), 5, "{error}");
 }
+
+#[test]
+fn a_session_behind_a_step_that_is_off_is_saved_into_its_own_table() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let step = "do = \"fbm\"\nrelief = 900\noff = true\n[[step]]\ndo = \"hydraulic\"\nmodel = \"mei\"";
+    let options = SessionOptions::default();
+    let mut session = Session::open(recipe(folder.path(), step), options.clone(), &Silent).expect("it opens");
+    assert_eq!(session.replayed().0, 2);
+    session.advance(5).expect("it runs");
+    let file = folder.path().join("saved.toml");
+    session.save(&file).expect("saved");
+    let here = session.finish(&Silent).expect("it ends");
+    let saved = Recipe::load(&file, &Overrides::default()).expect("a recipe");
+    assert_eq!(saved.steps.len(), 3, "the step is off still");
+    let there = Session::open(saved, options, &Silent).expect("it opens").finish(&Silent).expect("it ends");
+    assert_eq!(here.field("slope").expect("there"), there.field("slope").expect("there"));
+}

@@ -5,10 +5,13 @@ use super::files::Files;
 use crate::recipe::plan::words::{Vocabulary, hint, tables};
 use weald_core::error::Error;
 use weald_core::grid::Size;
-use weald_core::parameter::Diagnostics;
+use weald_core::parameter::{Diagnostics, Legal, read_key};
 use weald_core::random::splitmix64;
 use weald_core::source::{Node, Table, Value};
 use weald_engine::step::{Entry, Step};
+
+/// Key of every step: a step that is off is read past as if it did not stand there.
+pub(in crate::recipe) const OFF: &str = "off";
 
 /// A step with its place in the recipe.
 #[derive(Debug)]
@@ -17,6 +20,8 @@ pub struct Planned {
     pub entry: &'static Entry,
     /// Line of its table.
     pub line: usize,
+    /// Place of its table among all `[[step]]` tables, those that are off included, counted from 0.
+    pub place: usize,
     /// How many steps of the same name come before it.
     pub occurrence: u64,
     /// The step, ready to run.
@@ -46,13 +51,18 @@ pub(super) fn read(files: Files<'_>, recipe: &Table, diagnostics: &mut Diagnosti
     let before = diagnostics.found.len();
     "step".clone_into(&mut diagnostics.subject);
     let mut steps: Vec<Planned> = Vec::new();
-    for table in tables(recipe, "step", diagnostics) {
+    // Those that are off count too, so that the others keep their seeds.
+    let mut names: Vec<&str> = Vec::new();
+    for (place, table) in tables(recipe, "step", diagnostics).into_iter().enumerate() {
         "step".clone_into(&mut diagnostics.subject);
-        if let Some(entry) = entry_of(files.vocabulary, table, diagnostics) {
-            let occurrence = steps.iter().filter(|earlier| earlier.entry.name == entry.name).count() as u64;
-            let (step, keys) = read_step(files, entry, table, diagnostics);
-            steps.push(Planned { entry, line: table.line, occurrence, step, keys });
+        let Some(entry) = entry_of(files.vocabulary, table, diagnostics) else { continue };
+        let occurrence = names.iter().filter(|earlier| **earlier == entry.name).count() as u64;
+        names.push(entry.name);
+        if read_key(table, OFF, false, Legal::ANY, diagnostics) {
+            continue;
         }
+        let (step, keys) = read_step(files, entry, table, diagnostics);
+        steps.push(Planned { entry, line: table.line, place, occurrence, step, keys });
     }
     (steps, diagnostics.found.len() == before)
 }
@@ -88,6 +98,7 @@ fn read_step(
     let before = diagnostics.found.len();
     let mut keys = files.placed(table, &(entry.parameters)(), diagnostics);
     keys.take("do");
+    keys.take(OFF);
     let step = (entry.read)(&keys, diagnostics);
     if diagnostics.found.len() == before {
         for fault in step.faults() {

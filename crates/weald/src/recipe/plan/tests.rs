@@ -185,6 +185,30 @@ fn the_first_step_of_a_kind_has_the_seed_of_the_landscape_and_later_ones_their_o
 }
 
 #[test]
+fn a_step_that_is_off_is_left_out_and_the_others_keep_their_seeds() {
+    let more = |into: &str, off: &str| format!("[[step]]\ndo = \"rough\"\ninto = \"{into}\"\n{off}");
+    let text =
+        with("[[output]]", &format!("{}{}[[output]]", more("second", "off = true\n"), more("third", "")));
+    let recipe = parse(&text).expect("good");
+    assert_eq!(recipe.steps.iter().map(|step| step.place).collect::<Vec<_>>(), [0, 1, 3]);
+    assert_eq!(recipe.steps[2].seed(3), 0x910a_2dec_8902_5cc1, "as where the second runs");
+    assert!(recipe.effective().contains("off = true"), "it stays in what is saved: {}", recipe.effective());
+    let on = parse(&text.replace("off = true", "off = false")).expect("good");
+    assert_eq!(on.steps.len(), 4);
+    let wrong = parse(&text.replace("off = true", "off = 1")).expect_err("no flag").to_string();
+    assert!(wrong.contains("`off` is 1"), "{wrong}");
+    let reads = with(
+        "[[output]]",
+        &format!(
+            "{}[[output]]\nlayer = \"second\"\nfile = \"s.bits\"\n[[output]]",
+            more("second", "off = true\n")
+        ),
+    );
+    let missing = parse(&reads).expect_err("nobody writes it").to_string();
+    assert!(missing.contains("second"), "{missing}");
+}
+
+#[test]
 fn overrides_are_checked_like_the_recipe() {
     let changed = |set: &str, value: &str| {
         let set = vec![(set.to_owned(), value.to_owned())];
