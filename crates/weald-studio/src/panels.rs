@@ -10,6 +10,7 @@ pub(crate) mod legend;
 pub(crate) mod looks;
 pub(crate) mod overlay;
 pub(crate) mod palette;
+mod pictures;
 pub(crate) mod section;
 pub(crate) mod simulation;
 pub(crate) mod start;

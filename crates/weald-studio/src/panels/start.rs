@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use eframe::egui::{Id, Modal, RichText, Ui, Window};
 use weald::recipe::template::TEMPLATES;
 
+use super::pictures;
 use crate::studio::{Asked, Studio};
 
 pub(crate) fn show(studio: &mut Studio, ui: &Ui) {
@@ -17,10 +18,15 @@ pub(crate) fn show(studio: &mut Studio, ui: &Ui) {
         ui.set_width(460.0);
         ui.heading("Begin with");
         for one in TEMPLATES {
-            if ui.button(one.name).clicked() {
-                template = Some(one.name);
-            }
-            ui.label(RichText::new(one.summary).weak());
+            ui.horizontal(|ui| {
+                let is_chosen = pictures::show(ui, one.name);
+                ui.vertical(|ui| {
+                    if ui.button(one.name).clicked() || is_chosen {
+                        template = Some(one.name);
+                    }
+                    ui.label(RichText::new(one.summary).weak());
+                });
+            });
         }
         ui.separator();
         ui.label("Or drop a recipe, a GeoTIFF or a PNG onto the window.");
