@@ -12,6 +12,7 @@ mod atomic;
 mod beside;
 pub mod cf;
 mod classes;
+mod deflate;
 #[cfg(feature = "exr")]
 pub mod exr;
 mod format;
