@@ -179,12 +179,19 @@ impl Field {
 
     /// The first cell that holds a NaN or an infinity, over the cells of `land`.
     pub fn first_not_finite(&self, valid: Option<&Mask>) -> Option<(usize, usize)> {
-        let index = self.values.iter().enumerate().position(|(index, value)| {
+        // Whole runs are looked at without a branch in vectors.
+        let finite = |run: &[f32]| run.iter().fold(true, |all, value| all & value.is_finite());
+        let runs = self.values.chunks(RUN).enumerate().filter(|(_, run)| !finite(run));
+        let mut cells = runs.flat_map(|(run, values)| (run * RUN..).zip(values));
+        let (index, _) = cells.find(|&(index, value)| {
             !value.is_finite() && valid.is_none_or(|valid| valid.is_valid_at(index))
         })?;
         Some((index % self.size.columns, index / self.size.columns))
     }
 }
+
+/// Values that are looked at together.
+const RUN: usize = 1024;
 
 fn row_sum(row: &[f32]) -> f64 {
     row.iter().map(|&value| f64::from(value)).sum()

@@ -10,7 +10,7 @@
 //! jump at north and fade out on flat ground, so that masks and statistics should use them rather than the
 //! angle.
 
-use super::cells::fields_of;
+use super::angle;
 use super::quadric::{Quadric, Surface, window};
 use weald_core::domain::Domain;
 use weald_core::error::Error;
@@ -77,7 +77,10 @@ impl Step for Aspect {
     fn run(&self, landscape: &mut Landscape, _: &Job<'_>) -> Result<Outcome, Error> {
         let domain = &landscape.domain;
         let surface = Surface::new(landscape.field(&self.of.0)?, domain).reaching(self.scale)?;
-        let fields = fields_of(domain, |x, y| facing(surface.at(x, y)));
+        let fields = surface.fields(
+            #[inline(always)]
+            |_, surface| facing(surface),
+        );
         for ((name, unit), field) in LAYERS.into_iter().zip(fields) {
             landscape.insert(name, unit, field);
         }
@@ -86,15 +89,15 @@ impl Step for Aspect {
 }
 
 /// Aspect, northness and eastness.
+#[inline(always)]
 fn facing(surface: Quadric) -> [f64; 3] {
-    let normal = libm::sqrt(1.0 + surface.steepness());
+    let normal = (1.0 + surface.steepness()).sqrt();
     [aspect_deg(surface), -surface.q / normal, -surface.p / normal]
 }
 
+#[inline(always)]
 fn aspect_deg(surface: Quadric) -> f64 {
-    if surface.steepness() == 0.0 {
-        return LEVEL;
-    }
-    let angle = libm::atan2(-surface.p, -surface.q).to_degrees();
-    if angle < 0.0 { angle + 360.0 } else { angle }
+    let angle = angle::of_direction(-surface.p, -surface.q).to_degrees();
+    let angle = if angle < 0.0 { angle + 360.0 } else { angle };
+    if surface.steepness() == 0.0 { LEVEL } else { angle }
 }

@@ -13,7 +13,6 @@
 //! doi 10.1016/j.earscirev.2020.103414). On a sphere of radius R that bulges upward profile, tangential and mean
 //! are 1/R, and plan is 1 over the radius of the contour.
 
-use super::cells::fields_of;
 use super::quadric::{Quadric, Surface, window};
 use weald_core::domain::Domain;
 use weald_core::error::Error;
@@ -82,7 +81,10 @@ impl Step for Curvature {
         let domain = &landscape.domain;
         let surface = Surface::new(landscape.field(&self.of.0)?, domain).reaching(self.scale)?;
         let level = libm::tan(self.min_slope_deg.to_radians());
-        let fields = fields_of(domain, |x, y| curvatures(surface.at(x, y), level * level));
+        let fields = surface.fields(
+            #[inline(always)]
+            |_, surface| curvatures(surface, level * level),
+        );
         for (name, field) in LAYERS.into_iter().zip(fields) {
             landscape.insert(name, "1/m", field);
         }
@@ -91,16 +93,20 @@ impl Step for Curvature {
 }
 
 /// In the order of [`LAYERS`].
+#[inline(always)]
 fn curvatures(surface: Quadric, level: f64) -> [f64; 4] {
     let Quadric { p, q, r, s, t } = surface;
     let g = surface.steepness();
-    let stretch = libm::sqrt(1.0 + g);
+    let stretch = (1.0 + g).sqrt();
     let mean =
         -((1.0 + q * q) * r - 2.0 * p * q * s + (1.0 + p * p) * t) / (2.0 * stretch * stretch * stretch);
-    if g < level {
-        return [0.0, 0.0, 0.0, mean];
-    }
     let along = -(p * p * r + 2.0 * p * q * s + q * q * t) / g;
     let across = -(q * q * r - 2.0 * p * q * s + p * p * t) / g;
-    [along / (stretch * stretch * stretch), across / libm::sqrt(g), across / stretch, mean]
+    let on_slopes = |curvature: f64| if g < level { 0.0 } else { curvature };
+    [
+        on_slopes(along / (stretch * stretch * stretch)),
+        on_slopes(across / g.sqrt()),
+        on_slopes(across / stretch),
+        mean,
+    ]
 }

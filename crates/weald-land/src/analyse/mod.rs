@@ -4,6 +4,7 @@
 //! [`Stage::Analyse`](weald_engine::step::Stage::Analyse) stands in a file of its name and says unit and range of what it
 //! writes.
 
+mod angle;
 pub mod aspect;
 mod cells;
 pub mod contour;
@@ -27,6 +28,7 @@ mod sun;
 pub mod sunlight;
 pub mod watersheds;
 pub mod wetness;
+mod window_rows;
 
 pub use crate::flow::directions;
 

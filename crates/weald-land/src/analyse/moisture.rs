@@ -11,7 +11,9 @@
 //! there is none. Water is what a simulation left, rivers and lakes, and the sea, as far as they are named.
 //! How the two are joined is a choice of Weald: either alone makes ground wet.
 
-use super::ensure_finite;
+use rayon::prelude::*;
+
+use super::{CELLS_PER_TASK, ensure_finite};
 use crate::flow::directions::Directions;
 use weald_core::error::Error;
 use weald_core::grid::Field;
@@ -103,7 +105,8 @@ impl Step for Moisture {
             let gathered = ((f64::from(wetness[cell]) - self.dry) / (self.wet - self.dry)).clamp(0.0, 1.0);
             (1.0 - (1.0 - near) * (1.0 - gathered)) as f32
         };
-        let moisture = above.values().iter().enumerate().map(moisture).collect();
+        let cells = above.values().par_iter().enumerate().with_min_len(CELLS_PER_TASK);
+        let moisture = cells.map(moisture).collect();
         landscape.insert("moisture", "1", Field::from_values(above.size(), moisture));
         landscape.insert("height_above_water", "m", above);
         Ok(Outcome { iterations: 1, ..Outcome::default() })
@@ -128,14 +131,12 @@ impl Moisture {
 /// Height of each cell above the first water on its flow path, or above the outlet where there is none;
 /// 0 in water, and where the path leads over ground that is higher. In metres.
 pub fn height_above_water(height: &Field, directions: &Directions, water: &[bool]) -> Field {
-    let mut base = height.values().to_vec();
-    for cell in directions.upward(|_| true) {
-        if let Some(next) = directions.downstream(cell).filter(|_| !water[cell]) {
-            base[cell] = base[next];
-        }
-    }
-    let above = height.values().iter().zip(&base).map(|(height, base)| (height - base).max(0.0));
-    Field::from_values(height.size(), above.collect())
+    let ends = |cell: usize| water[cell] || directions.downstream(cell).is_none();
+    let end = directions.first_on_path(|cell| ends(cell).then_some(cell as u32));
+    let height_at = |cell: usize| height.values()[cell];
+    let above = |cell| end(cell).map_or(0.0, |end| (height_at(cell) - height_at(end as usize)).max(0.0));
+    let cells = (0..water.len()).into_par_iter().with_min_len(CELLS_PER_TASK);
+    Field::from_values(height.size(), cells.map(above).collect())
 }
 
 #[cfg(test)]

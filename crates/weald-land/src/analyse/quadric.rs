@@ -45,6 +45,7 @@ pub(super) struct Quadric {
 
 impl Quadric {
     /// Square of the steepest rise.
+    #[inline(always)]
     pub(super) fn steepness(&self) -> f64 {
         self.p * self.p + self.q * self.q
     }
@@ -52,10 +53,10 @@ impl Quadric {
 
 /// Ground to which windows are fitted.
 pub(super) struct Surface<'a> {
-    height: &'a Field,
-    domain: &'a Domain,
+    pub(super) height: &'a Field,
+    pub(super) domain: &'a Domain,
     /// Cells from the middle of a window to its edge.
-    radius: usize,
+    pub(super) radius: usize,
 }
 
 /// Cells to each side of a window that reaches so many metres.
@@ -94,7 +95,8 @@ impl<'a> Surface<'a> {
         if self.is_whole(x, y) { self.whole(x, y) } else { self.partial(x, y) }
     }
 
-    fn is_whole(&self, x: usize, y: usize) -> bool {
+    /// Whether the window around a cell has all of its cells.
+    pub(super) fn is_whole(&self, x: usize, y: usize) -> bool {
         let (size, radius) = (self.domain.size, self.radius);
         let inside = x >= radius && y >= radius && x + radius < size.columns && y + radius < size.rows;
         let rows = y.saturating_sub(radius)..=y + radius;
@@ -139,6 +141,25 @@ impl<'a> Surface<'a> {
         let [p, q, a, s, b] = sums;
         let (slope, square) = (side * second, side * (fourth - second * middle));
         self.in_metres([p / slope, q / slope, a / square, s / (second * second), b / square])
+    }
+
+    /// The same of the heights of 3 × 3 cells: rows from the north, columns from the west.
+    #[inline(always)]
+    pub(super) fn of_heights(&self, heights: [[f64; 3]; 3]) -> Quadric {
+        let [[nw, n, ne], [w, here, e], [sw, s, se]] = heights;
+        let west_to_east = (ne - nw) + (e - w) + (se - sw);
+        let south_to_north = (nw - sw) + (n - s) + (ne - se);
+        let corners = (nw - here) + (ne - here) + (sw - here) + (se - here);
+        let [across, down] = [(w - here) + (e - here), (n - here) + (s - here)];
+        let cell = self.domain.cell;
+        let (slope, second) = (1.0 / (6.0 * cell), 1.0 / (3.0 * cell * cell));
+        Quadric {
+            p: west_to_east * slope,
+            q: south_to_north * slope,
+            r: (corners + across - 2.0 * down) * second,
+            s: ((ne - nw) - (se - sw)) * (0.75 * second),
+            t: (corners + down - 2.0 * across) * second,
+        }
     }
 
     fn partial(&self, x: usize, y: usize) -> Quadric {

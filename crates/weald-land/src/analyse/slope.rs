@@ -7,8 +7,8 @@
 //! with the gradient (p, q) of a quadratic fitted to the window around each cell: Evans 1972, doi
 //! 10.4324/9780429273346-2.
 
-use super::cells::field_of;
-use super::quadric::{Surface, window};
+use super::angle;
+use super::quadric::{Quadric, Surface, window};
 use weald_core::domain::Domain;
 use weald_core::error::Error;
 use weald_core::landscape::Landscape;
@@ -90,11 +90,27 @@ impl Step for Slope {
     fn run(&self, landscape: &mut Landscape, _: &Job<'_>) -> Result<Outcome, Error> {
         let domain = &landscape.domain;
         let surface = Surface::new(landscape.field(&self.of.0)?, domain).reaching(self.scale)?;
-        let slope = field_of(domain, |x, y| {
-            let tangent = libm::sqrt(surface.at(x, y).steepness());
-            if self.unit == SlopeUnit::Tangent { tangent } else { libm::atan(tangent).to_degrees() }
-        });
+        let [slope] = match self.unit {
+            SlopeUnit::Tangent => surface.fields(
+                #[inline(always)]
+                |_, surface| tangent(surface),
+            ),
+            SlopeUnit::Degree => surface.fields(
+                #[inline(always)]
+                |_, surface| degrees(surface),
+            ),
+        };
         landscape.insert(&self.into.0, self.unit_and_end().0, slope);
         Ok(Outcome { iterations: 1, ..Outcome::default() })
     }
+}
+
+#[inline(always)]
+fn tangent(surface: Quadric) -> [f64; 1] {
+    [surface.steepness().sqrt()]
+}
+
+#[inline(always)]
+fn degrees(surface: Quadric) -> [f64; 1] {
+    tangent(surface).map(|tangent| angle::of_tangent(tangent).to_degrees())
 }

@@ -22,7 +22,6 @@
 //! (1 - exp(-h / rooting)) · moisture, from `dry` over 1 to `wet` · nutrients, from `old` to 1 with fresh deposits
 //! ```
 
-use super::cells::fields_of;
 use super::quadric::{Quadric, Surface, window};
 use weald_core::domain::Domain;
 use weald_core::error::Error;
@@ -131,10 +130,11 @@ impl Step for Soil {
         };
         let (erosion, deposition) = (layer(&self.erosion)?, layer(&self.deposition)?);
         let (moisture, loose) = (layer(&self.moisture)?, layer(&self.loose)?);
-        let [depth, fertility] = fields_of(domain, |x, y| {
+        let ground = Ground::of(self);
+        let [depth, fertility] = surface.fields(|[x, y], shape| {
             let deposit = deposition.at(x, y);
             let gain = deposit.unwrap_or(0.0) - self.recent_erosion * erosion.at(x, y).unwrap_or(0.0);
-            let depth = self.depth(surface.at(x, y), loose.at(x, y).unwrap_or(0.0), gain);
+            let depth = ground.depth(shape, loose.at(x, y).unwrap_or(0.0), gain);
             [depth, self.fertility(depth, moisture.at(x, y), deposit)]
         });
         landscape.insert("soil_depth", "m", depth);
@@ -152,27 +152,43 @@ impl Given<'_> {
     }
 }
 
-impl Soil {
+/// What of a soil is the same everywhere.
+struct Ground<'a> {
+    soil: &'a Soil,
+    /// Tangent of the critical slope.
+    critical: f64,
+    /// Logarithm of the depths of weathering that weather from bare rock in the age of the soil.
+    weathered: f64,
+}
+
+impl<'a> Ground<'a> {
+    fn of(soil: &'a Soil) -> Self {
+        let critical = libm::tan(soil.critical_slope_deg.to_radians());
+        let weathered = libm::log(soil.weathering * soil.age / soil.weathering_depth);
+        Self { soil, critical, weathered }
+    }
+
     /// Depth in metres on ground of that shape, from what lay there and what came and went, both in metres.
     fn depth(&self, surface: Quadric, loose: f64, gain: f64) -> f64 {
-        let critical = libm::tan(self.critical_slope_deg.to_radians());
+        let Self { soil, critical, .. } = *self;
         let steepness = surface.steepness() / (critical * critical);
         if steepness >= 1.0 {
             return 0.0;
         }
-        let rate = self.creep * gathering(surface, steepness, critical) + gain / self.age;
-        self.grown(loose.max(0.0), rate).clamp(0.0, self.deepest)
+        let rate = soil.creep * gathering(surface, steepness, critical) + gain / soil.age;
+        self.grown(loose.max(0.0), rate).clamp(0.0, soil.deepest)
     }
 
     /// The solution of the equation of depth after the age of the soil, from a depth at the start and a rate of all
     /// but weathering, in m/yr.
     fn grown(&self, start: f64, rate: f64) -> f64 {
-        let scale = self.weathering_depth;
-        let a = rate * self.age / scale;
-        let weathered = libm::log(self.weathering * self.age / scale) + log_mean_growth(a);
-        scale * log_of_sum(start / scale + a, weathered)
+        let scale = self.soil.weathering_depth;
+        let a = rate * self.soil.age / scale;
+        scale * log_of_sum(start / scale + a, self.weathered + log_mean_growth(a))
     }
+}
 
+impl Soil {
     fn fertility(&self, depth: f64, moisture: Option<f64>, deposit: Option<f64>) -> f64 {
         let rooted = 1.0 - libm::exp(-depth / self.rooting);
         let watered = moisture.map_or(1.0, |moisture| self.watered(moisture.clamp(0.0, 1.0)));
@@ -237,7 +253,8 @@ mod tests {
         let soil = Soil::default();
         for (start, rate) in [(0.0, 0.0), (0.0, -3e-5), (1.5, -6e-5), (0.2, 5e-5), (0.0, 1e-3), (3.0, -2e-3)]
         {
-            let (found, expected) = (soil.grown(start, rate).max(0.0), stepped(&soil, start, rate));
+            let (found, expected) =
+                (Ground::of(&soil).grown(start, rate).max(0.0), stepped(&soil, start, rate));
             assert!((found - expected).abs() < 2e-4, "{start} m, {rate} m/yr: {found} instead of {expected}");
         }
     }
@@ -247,26 +264,26 @@ mod tests {
         let soil = Soil { age: 1.0e7, ..Soil::default() };
         let curvature = -0.01;
         let expected = soil.weathering_depth * (soil.weathering / (soil.creep * 0.01)).ln();
-        let found = soil.depth(bent(curvature), 0.0, 0.0);
+        let found = Ground::of(&soil).depth(bent(curvature), 0.0, 0.0);
         assert!(expected > 0.3 && (found - expected).abs() < 1e-6, "{found} instead of {expected}");
     }
 
     #[test]
     fn sharp_ridges_steep_walls_and_worn_ground_are_bare_and_hollows_are_deep() {
         let soil = Soil::default();
-        assert_eq!(soil.depth(bent(-0.1), 0.0, 0.0), 0.0);
-        assert_eq!(soil.depth(Quadric { p: 2.0, ..Quadric::default() }, 5.0, 0.0), 0.0);
-        assert_eq!(soil.depth(bent(0.0), 0.0, -50.0), 0.0);
-        let [level, hollow, plain] =
-            [(0.0, 0.0), (0.01, 0.0), (0.0, 3.0)].map(|(bend, gain)| soil.depth(bent(bend), 0.0, gain));
+        assert_eq!(Ground::of(&soil).depth(bent(-0.1), 0.0, 0.0), 0.0);
+        assert_eq!(Ground::of(&soil).depth(Quadric { p: 2.0, ..Quadric::default() }, 5.0, 0.0), 0.0);
+        assert_eq!(Ground::of(&soil).depth(bent(0.0), 0.0, -50.0), 0.0);
+        let [level, hollow, plain] = [(0.0, 0.0), (0.01, 0.0), (0.0, 3.0)]
+            .map(|(bend, gain)| Ground::of(&soil).depth(bent(bend), 0.0, gain));
         assert!(level > 0.3 && hollow > level && plain > 3.0, "{level} {hollow} {plain}");
-        assert_eq!(soil.depth(bent(0.0), 0.0, 1.0e6), soil.deepest);
+        assert_eq!(Ground::of(&soil).depth(bent(0.0), 0.0, 1.0e6), soil.deepest);
     }
 
     #[test]
     fn creep_is_faster_the_nearer_the_ground_is_to_its_critical_slope() {
         let soil = Soil::default();
-        let shoulder = |p: f64| soil.depth(Quadric { p, ..bent(-0.004) }, 0.0, 0.0);
+        let shoulder = |p: f64| Ground::of(&soil).depth(Quadric { p, ..bent(-0.004) }, 0.0, 0.0);
         assert!(shoulder(0.0) > shoulder(0.5) && shoulder(0.5) > shoulder(0.8), "{}", shoulder(0.5));
     }
 

@@ -6,7 +6,10 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::flow::directions::Directions;
+use rayon::prelude::*;
+
+use super::CELLS_PER_TASK;
+use crate::flow::directions::{Directions, OUTLET};
 use weald_core::error::Error;
 use weald_core::grid::{Field, Mask, Size};
 use weald_core::landscape::Landscape;
@@ -117,21 +120,17 @@ pub fn watersheds(directions: &Directions, valid: Option<&Mask>, small: Small, l
 
 /// A number for each outlet and all cells above it.
 fn by_outlet(directions: &Directions, valid: Option<&Mask>) -> Vec<u32> {
-    let mut labels = vec![0; directions.codes().len()];
-    let mut outlets = 0;
-    for cell in directions.upward(|cell| valid.is_none_or(|valid| valid.is_valid_at(cell))) {
-        if directions.is_sea(cell) {
-            continue;
-        }
-        labels[cell] = match directions.downstream(cell) {
-            Some(next) if !directions.is_sea(next) => labels[next],
-            _ => {
-                outlets += 1;
-                outlets
-            }
-        };
+    let cells = 0..directions.codes().len();
+    let has_data = |cell: usize| valid.is_none_or(|valid| valid.is_valid_at(cell));
+    let at_the_border = cells.clone().filter(|&cell| directions.codes()[cell] == OUTLET && has_data(cell));
+    let sea = cells.clone().filter(|&cell| directions.is_sea(cell));
+    let at_the_sea = sea.flat_map(|cell| directions.upstream(cell));
+    let mut numbers = vec![0; cells.len()];
+    for (outlet, number) in at_the_border.chain(at_the_sea).zip(1..) {
+        numbers[outlet] = number;
     }
-    labels
+    let label = directions.first_on_path(|cell| Some(numbers[cell]).filter(|&number| number > 0));
+    cells.into_par_iter().with_min_len(CELLS_PER_TASK).map(|cell| label(cell).unwrap_or(0)).collect()
 }
 
 fn sizes(labels: &[u32]) -> Vec<usize> {

@@ -21,6 +21,7 @@ use weald_core::grid::Field;
 use weald_core::landscape::Landscape;
 use weald_core::parameter::LayerName;
 use weald_core::parameters;
+use weald_core::vectors;
 use weald_engine::Job;
 use weald_engine::step::{Entry, Outcome, Stage, Step};
 
@@ -92,16 +93,24 @@ impl Step for Wetness {
 /// The index of each cell, for cells of `cell` metres; slopes below `least_slope` count as that.
 pub fn wetness(flow: &MultipleFlow<'_>, cell: f64, least_slope: f64) -> Field {
     let upslope = accumulate_multiple(flow, None);
-    let index = |(at, &cells): (usize, &f64)| {
-        if cells == 0.0 {
-            return 0.0;
-        }
-        let outflow = Outflow::of(flow, at);
-        let by_contour = cells * outflow.step * cell;
-        let slope = (outflow.fall / (outflow.step * cell)).max(least_slope);
-        libm::log(by_contour / slope) as f32
-    };
-    let values = upslope.par_iter().enumerate().with_min_len(CELLS_PER_TASK).map(index).collect();
+    let mut values = vec![0.0; upslope.len()];
+    let tasks = values.par_chunks_mut(CELLS_PER_TASK).zip(upslope.par_chunks(CELLS_PER_TASK));
+    tasks.enumerate().for_each(|(task, (values, upslope))| {
+        vectors::widest(
+            #[inline(always)]
+            || {
+                let cells = (task * CELLS_PER_TASK..).zip(upslope);
+                for (value, (at, &cells)) in
+                    values.iter_mut().zip(cells).filter(|(_, (_, cells))| **cells != 0.0)
+                {
+                    let outflow = Outflow::of(flow, at);
+                    let by_contour = cells * outflow.step * cell;
+                    let slope = (outflow.fall / (outflow.step * cell)).max(least_slope);
+                    *value = libm::log(by_contour / slope) as f32;
+                }
+            },
+        );
+    });
     Field::from_values(flow.routed.surface.size(), values)
 }
 
@@ -114,6 +123,7 @@ struct Outflow {
 }
 
 impl Outflow {
+    #[inline(always)]
     fn of(flow: &MultipleFlow<'_>, cell: usize) -> Self {
         let Routed { surface, directions } = flow.routed;
         if directions.downstream(cell).is_none() {
@@ -129,7 +139,7 @@ impl Outflow {
             let other = cell.wrapping_add_signed(south * columns + east);
             fall += share * (f64::from(surface.values()[cell]) - f64::from(surface.values()[other]));
         }
-        Self { step: libm::hypot(to[0], to[1]).max(MIN_STEP), fall }
+        Self { step: (to[0] * to[0] + to[1] * to[1]).sqrt().max(MIN_STEP), fall }
     }
 }
 

@@ -7,11 +7,8 @@ use std::sync::atomic::{AtomicU8, AtomicU64, Ordering};
 
 use rayon::prelude::*;
 
-use crate::flow::directions::{Directions, STEPS};
+use crate::flow::directions::{CELLS_PER_TASK, Directions, STEPS};
 use weald_core::grid::{Field, Mask};
-
-/// Cells that one task begins at; no result depends on it.
-pub(super) const CELLS_PER_TASK: usize = 1 << 14;
 
 /// The sum of the weights of each cell and all above it; each cell weighs 1 without weights, and nothing where
 /// it has no data. What arrives at the outlets and in the sea is what all cells weigh.
@@ -20,7 +17,7 @@ pub(super) const CELLS_PER_TASK: usize = 1 << 14;
 /// If the weights or the mask are of another size than the directions: a bug of the caller.
 pub fn accumulate(directions: &Directions, valid: Option<&Mask>, weight: Option<&Field>) -> Vec<f64> {
     let cells = directions.size().cells();
-    let walk = Walk { directions, own: CellWeights::new(cells, valid, weight), donors: donors(directions) };
+    let walk = Walk { directions, own: CellWeights::new(cells, valid, weight), donors: directions.donors() };
     let sums: Vec<AtomicU64> = (0..cells).into_par_iter().map(|_| AtomicU64::new(0)).collect();
     let waiting: Vec<AtomicU8> =
         walk.donors.par_iter().map(|donors| AtomicU8::new(donors.count_ones() as u8)).collect();
@@ -52,23 +49,6 @@ impl<'a> CellWeights<'a> {
         }
         self.weight.map_or(1.0, |weight| f64::from(weight.values()[cell]))
     }
-}
-
-/// The neighbours from which each cell receives: bit `code - 1` for the neighbour in the direction of `code`.
-fn donors(directions: &Directions) -> Vec<u8> {
-    let donors: Vec<AtomicU8> =
-        (0..directions.size().cells()).into_par_iter().map(|_| AtomicU8::new(0)).collect();
-    (0..donors.len()).into_par_iter().with_min_len(CELLS_PER_TASK).for_each(|cell| {
-        if let Some(next) = directions.downstream(cell) {
-            donors[next].fetch_or(1 << opposite(directions.codes()[cell] - 1), Ordering::Relaxed);
-        }
-    });
-    donors.into_iter().map(AtomicU8::into_inner).collect()
-}
-
-/// The way back: of the eight ways, the fourth on.
-pub(super) fn opposite(direction: u8) -> u8 {
-    (direction + 4) % 8
 }
 
 /// The ways, 0 to 7, whose bits are set.

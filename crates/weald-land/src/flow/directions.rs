@@ -8,6 +8,11 @@
 //! 4 3 2
 //! ```
 
+use std::sync::atomic::Ordering::Relaxed;
+use std::sync::atomic::{AtomicU8, AtomicU32};
+
+use rayon::prelude::*;
+
 use weald_core::error::Error;
 use weald_core::grid::{Field, Mask, Size};
 
@@ -19,6 +24,24 @@ pub const SEA: u8 = 9;
 
 /// Columns eastward and rows southward to the neighbour of code `index + 1`: from east over south.
 pub const STEPS: [(isize, isize); 8] = [(1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0), (-1, -1), (0, -1), (1, -1)];
+
+/// The ways, 0 to 7, in the order of the numbers of the cells that they lead to.
+const BY_NUMBER: [u8; 8] = [5, 6, 7, 4, 0, 3, 2, 1];
+
+/// Cells that one task begins at; no result depends on it.
+pub(super) const CELLS_PER_TASK: usize = 1 << 14;
+
+/// No code.
+const NONE: u8 = u8::MAX;
+
+/// Of a path: not yet known what is on it, and known that nothing is.
+const UNKNOWN: u32 = u32::MAX;
+const NOTHING: u32 = u32::MAX - 1;
+
+/// The way back: of the eight ways, the fourth on.
+pub(super) fn opposite(direction: u8) -> u8 {
+    (direction + 4) % 8
+}
 
 /// The direction of flow of each cell, checked: no code leads out of the grid, or onto a cell without data.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -44,12 +67,17 @@ impl Directions {
     pub fn of(layer: &Field, valid: Option<&Mask>) -> Result<Self, Error> {
         let size = layer.size();
         let has_data = |cell: usize| valid.is_none_or(|valid| valid.is_valid_at(cell));
-        let mut codes = vec![OUTLET; size.cells()];
-        for cell in (0..size.cells()).filter(|&cell| has_data(cell)) {
-            let value = layer.values()[cell];
-            let code = (0..=SEA).find(|&code| f32::from(code) == value);
-            let within = code.filter(|&code| leads_within(size, cell, code, has_data));
-            codes[cell] = within.ok_or_else(|| bad_code(size, cell, value))?;
+        let code = |(cell, &value): (usize, &f32)| {
+            // What is no number becomes 0, which it does not equal.
+            let code = value as u8;
+            let is_one = f32::from(code) == value && code <= SEA && leads_within(size, cell, code, has_data);
+            if has_data(cell) && !is_one { Err(cell) } else { Ok(if has_data(cell) { code } else { OUTLET }) }
+        };
+        let cells = layer.values().par_iter().enumerate().with_min_len(CELLS_PER_TASK);
+        let codes: Vec<u8> = cells.clone().map(|cell| code(cell).unwrap_or(NONE)).collect();
+        if codes.par_iter().with_min_len(CELLS_PER_TASK).any(|&code| code == NONE) {
+            let wrong = codes.iter().position(|&code| code == NONE).unwrap_or_default();
+            return Err(bad_code(size, wrong, layer.values()[wrong]));
         }
         let directions = Self { size, codes };
         directions.cell_of_cycle().map_or(Ok(directions), |cell| Err(cycle_error(size, cell)))
@@ -92,13 +120,76 @@ impl Directions {
         let ends = |&cell: &usize| {
             member(cell) && self.downstream(cell).is_none_or(|downstream| !member(downstream))
         };
+        let donors = self.donors();
         let mut order: Vec<usize> = (0..self.size.cells()).filter(ends).collect();
         let mut done = 0;
         while let Some(&cell) = order.get(done) {
-            order.extend(self.upstream(cell).filter(|&other| member(other)));
+            let donors = BY_NUMBER.into_iter().filter(|direction| donors[cell] >> direction & 1 == 1);
+            order.extend(donors.map(|direction| self.beside(cell, direction)).filter(|&other| member(other)));
             done += 1;
         }
         order
+    }
+
+    /// The neighbours from which each cell receives: bit `code - 1` for the neighbour in the direction of `code`.
+    pub(super) fn donors(&self) -> Vec<u8> {
+        let cells = || (0..self.codes.len()).into_par_iter().with_min_len(CELLS_PER_TASK);
+        let donors: Vec<AtomicU8> = cells().map(|_| AtomicU8::new(0)).collect();
+        cells().for_each(|cell| {
+            if let Some(next) = self.downstream(cell) {
+                donors[next].fetch_or(1 << opposite(self.codes[cell] - 1), Relaxed);
+            }
+        });
+        donors.into_par_iter().with_min_len(CELLS_PER_TASK).map(AtomicU8::into_inner).collect()
+    }
+
+    /// What `own` says, for each cell, of the first cell on its flow path of which it says something, the cell itself
+    /// included; `None` where it says nothing of any. It says less than 2³² - 2.
+    pub fn first_on_path(&self, own: impl Fn(usize) -> Option<u32> + Sync) -> impl Fn(usize) -> Option<u32> {
+        let found = self.walked(own).expect("these directions were checked, or made by `flow`");
+        move |cell| Some(found[cell]).filter(|&found| found != NOTHING)
+    }
+
+    /// The same as numbers; `None` where water of some cell comes to no end. Threads that follow the same path write the
+    /// same numbers.
+    fn walked(&self, own: impl Fn(usize) -> Option<u32> + Sync) -> Option<Vec<u32>> {
+        let cells = || (0..self.codes.len()).into_par_iter().with_min_len(CELLS_PER_TASK);
+        let at = |cell: usize| own(cell).unwrap_or(if self.ends(cell) { NOTHING } else { UNKNOWN });
+        let found: Vec<AtomicU32> = cells().map(|cell| AtomicU32::new(at(cell))).collect();
+        let all_end = cells().map(|cell| self.walk(cell, &found)).try_reduce(|| (), |(), ()| Some(()));
+        all_end.map(|()| {
+            let found = found.into_par_iter().with_min_len(CELLS_PER_TASK);
+            found.map(AtomicU32::into_inner).collect()
+        })
+    }
+
+    /// Follows a path to what is known, and makes it known all the way.
+    fn walk(&self, start: usize, found: &[AtomicU32]) -> Option<()> {
+        let (mut cell, mut steps) = (start, 0);
+        let mut known = found[cell].load(Relaxed);
+        while known == UNKNOWN {
+            cell = self.downstream(cell)?;
+            known = found[cell].load(Relaxed);
+            steps += 1;
+            if steps > self.codes.len() {
+                return None;
+            }
+        }
+        cell = start;
+        while found[cell].load(Relaxed) == UNKNOWN {
+            found[cell].store(known, Relaxed);
+            cell = self.downstream(cell)?;
+        }
+        Some(())
+    }
+
+    fn ends(&self, cell: usize) -> bool {
+        self.codes[cell] == OUTLET || self.codes[cell] == SEA
+    }
+
+    fn beside(&self, cell: usize, direction: u8) -> usize {
+        let (east, south) = STEPS[usize::from(direction)];
+        cell.wrapping_add_signed(south * self.size.columns as isize + east)
     }
 
     /// The codes as a layer.
@@ -108,10 +199,10 @@ impl Directions {
 
     /// A cell from which water comes to no end.
     fn cell_of_cycle(&self) -> Option<usize> {
-        let ending = self.upward(|_| true);
-        if ending.len() == self.codes.len() {
+        if self.walked(|_| None).is_some() {
             return None;
         }
+        let ending = self.upward(|_| true);
         let mut ends = vec![false; self.codes.len()];
         for cell in ending {
             ends[cell] = true;

@@ -14,9 +14,10 @@ use std::sync::atomic::{AtomicU8, AtomicU64, Ordering};
 use rayon::prelude::*;
 
 use super::Routed;
-use super::accumulate::{CELLS_PER_TASK, CellWeights, opposite, set_directions};
-use crate::flow::directions::STEPS;
+use super::accumulate::{CellWeights, set_directions};
+use crate::flow::directions::{CELLS_PER_TASK, STEPS, opposite};
 use weald_core::grid::{Field, Mask, Size};
+use weald_core::vectors;
 
 /// Flow that divides.
 #[derive(Clone, Copy, Debug)]
@@ -32,6 +33,7 @@ pub struct MultipleFlow<'a> {
 impl MultipleFlow<'_> {
     /// The share of each neighbour of a cell, by direction from east over south; all 0 at outlets and in the
     /// sea.
+    #[inline(always)]
     pub fn shares(&self, cell: usize) -> [f64; 8] {
         let weights = self.weights(cell);
         let sum: f64 = weights.iter().sum();
@@ -42,28 +44,42 @@ impl MultipleFlow<'_> {
     }
 
     /// What the shares are in proportion to.
+    #[inline(always)]
     fn weights(&self, cell: usize) -> [f64; 8] {
-        let mut weights = [0.0; 8];
-        let Some(_) = self.routed.directions.downstream(cell) else { return weights };
-        for (direction, weight) in weights.iter_mut().enumerate() {
-            if let Some(other) = self.neighbour(cell, direction) {
-                *weight = self.weight(cell, other, direction);
-            }
+        if self.routed.directions.downstream(cell).is_none() {
+            return [0.0; 8];
         }
+        let mut weights = self.descents(cell).map(|descent| weight(descent, self.exponent));
         if weights.iter().all(|&weight| weight == 0.0) {
             weights[usize::from(self.routed.directions.codes()[cell]) - 1] = 1.0;
         }
         weights
     }
 
-    fn weight(&self, cell: usize, other: usize, direction: usize) -> f64 {
+    /// Drop over distance to each neighbour, by direction; 0 where there is none.
+    #[inline(always)]
+    fn descents(&self, cell: usize) -> [f64; 8] {
+        let Size { columns, rows } = self.routed.surface.size();
+        let [x, y] = [cell % columns, cell / columns];
+        let is_inside = x > 0 && y > 0 && x + 1 < columns && y + 1 < rows && self.valid.is_none();
+        std::array::from_fn(|direction| {
+            if is_inside {
+                let (east, south) = STEPS[direction];
+                return self.descent(
+                    cell,
+                    cell.wrapping_add_signed(south * columns as isize + east),
+                    direction,
+                );
+            }
+            self.neighbour(cell, direction).map_or(0.0, |other| self.descent(cell, other, direction))
+        })
+    }
+
+    #[inline(always)]
+    fn descent(&self, cell: usize, other: usize, direction: usize) -> f64 {
         let level = self.routed.surface.values();
-        let drop = f64::from(level[cell]) - f64::from(level[other]);
-        if drop <= 0.0 {
-            return 0.0;
-        }
-        let distance = if direction % 2 == 1 { std::f64::consts::SQRT_2 } else { 1.0 };
-        power(drop / distance, self.exponent)
+        let nearness = if direction % 2 == 1 { std::f64::consts::FRAC_1_SQRT_2 } else { 1.0 };
+        (f64::from(level[cell]) - f64::from(level[other])) * nearness
     }
 
     fn neighbour(&self, cell: usize, direction: usize) -> Option<usize> {
@@ -84,9 +100,22 @@ impl MultipleFlow<'_> {
 pub fn accumulate_multiple(flow: &MultipleFlow<'_>, weight: Option<&Field>) -> Vec<f64> {
     let cells = flow.routed.surface.size().cells();
     let own = CellWeights::new(cells, flow.valid, weight);
-    let links: Vec<(u8, f64)> =
-        (0..cells).into_par_iter().with_min_len(CELLS_PER_TASK).map(|cell| links(flow, cell)).collect();
-    let (receivers, totals): (Vec<u8>, Vec<f64>) = links.into_par_iter().unzip();
+    let (mut receivers, mut totals) = (vec![0; cells], vec![0.0; cells]);
+    let tasks = receivers.par_chunks_mut(CELLS_PER_TASK).zip(totals.par_chunks_mut(CELLS_PER_TASK));
+    tasks.enumerate().for_each(|(task, (receivers, totals))| {
+        vectors::widest(
+            #[inline(always)]
+            || {
+                let links_of = (task * CELLS_PER_TASK..).map(
+                    #[inline(always)]
+                    |cell| links(flow, cell),
+                );
+                for ((receivers, total), found) in receivers.iter_mut().zip(totals.iter_mut()).zip(links_of) {
+                    (*receivers, *total) = found;
+                }
+            },
+        );
+    });
     let donors: Vec<u8> = (0..cells)
         .into_par_iter()
         .with_min_len(CELLS_PER_TASK)
@@ -97,6 +126,7 @@ pub fn accumulate_multiple(flow: &MultipleFlow<'_>, weight: Option<&Field>) -> V
 }
 
 /// The ways by which a cell gives, and the sum of their weights.
+#[inline(always)]
 fn links(flow: &MultipleFlow<'_>, cell: usize) -> (u8, f64) {
     let weights = flow.weights(cell);
     let bit = |(direction, &weight): (usize, &f64)| u8::from(weight > 0.0) << direction;
@@ -160,7 +190,7 @@ impl Spread<'_> {
         if self.receivers[giver].is_power_of_two() {
             return 1.0;
         }
-        self.flow.weight(giver, cell, direction) / self.totals[giver]
+        weight(self.flow.descent(giver, cell, direction), self.flow.exponent) / self.totals[giver]
     }
 
     fn beside(&self, cell: usize, direction: usize) -> usize {
@@ -169,8 +199,17 @@ impl Spread<'_> {
     }
 }
 
+/// What the share of a neighbour is in proportion to, by the drop to it over the distance.
+#[inline(always)]
+fn weight(descent: f64, exponent: f64) -> f64 {
+    let weight = power(descent, exponent);
+    if descent > 0.0 { weight } else { 0.0 }
+}
+
 /// `base^exponent` for a positive base, to some nine digits, and much faster than `libm::pow`: the logarithm by
-/// the series of the inverse hyperbolic tangent, the exponential by Taylor's.
+/// the series of the inverse hyperbolic tangent, the exponential by Taylor's. For other bases it is a number without
+/// meaning. Nothing in it branches or divides by what is known, so that the eight neighbours are computed in vectors.
+#[inline(always)]
 fn power(base: f64, exponent: f64) -> f64 {
     if exponent == 1.0 {
         return base;
@@ -179,26 +218,34 @@ fn power(base: f64, exponent: f64) -> f64 {
 }
 
 /// Logarithm to base 2 of a positive normal number.
+#[inline(always)]
 fn logarithm(number: f64) -> f64 {
     const SHIFT: u64 = 0x3fe6_a09e_667f_3bcd; // bits of the root of one half, the least mantissa
     let above = number.to_bits().wrapping_sub(SHIFT);
-    let whole = (above as i64) >> 52;
-    let mantissa = f64::from_bits(number.to_bits().wrapping_sub((whole as u64) << 52));
+    let whole = ((above as i64) >> 52) as i32;
+    let mantissa = f64::from_bits(number.to_bits().wrapping_sub((i64::from(whole) as u64) << 52));
     let t = (mantissa - 1.0) / (mantissa + 1.0);
     let square = t * t;
     let series = 1.0 + square * (1.0 / 3.0 + square * (0.2 + square * (1.0 / 7.0 + square * (1.0 / 9.0))));
-    whole as f64 + 2.0 * std::f64::consts::LOG2_E * t * series
+    f64::from(whole) + 2.0 * std::f64::consts::LOG2_E * t * series
 }
 
 /// `2^number`, within 2^±1000, so that sums of weights are finite and no lower neighbour is left out.
+#[inline(always)]
 fn exponential(number: f64) -> f64 {
+    // A number this large has its units in its last bits: adding it rounds to a whole number and leaves that there.
+    const ROUNDING: f64 = 1.5 * (1_u64 << 52) as f64;
     let number = number.clamp(-1000.0, 1000.0);
-    let whole = (number + 0.5).floor();
-    let x = (number - whole) * std::f64::consts::LN_2;
-    let terms = [1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0];
-    let series = terms.iter().rev().fold(1.0, |sum, term| 1.0 + sum * x / term);
-    series * f64::from_bits(((whole as i64 + 1023) as u64) << 52)
+    let rounded = number + ROUNDING;
+    let x = (number - (rounded - ROUNDING)) * std::f64::consts::LN_2;
+    let [a, b, c, d, e, f, g] = INVERSE_FACTORIALS;
+    let series = 1.0 + x * (1.0 + x * (a + x * (b + x * (c + x * (d + x * (e + x * (f + x * g)))))));
+    series * f64::from_bits(rounded.to_bits().wrapping_add(1023) << 52)
 }
+
+/// One over 2!, 3! … 8!.
+const INVERSE_FACTORIALS: [f64; 7] =
+    [0.5, 1.0 / 6.0, 1.0 / 24.0, 1.0 / 120.0, 1.0 / 720.0, 1.0 / 5040.0, 1.0 / 40320.0];
 
 #[cfg(test)]
 mod tests {

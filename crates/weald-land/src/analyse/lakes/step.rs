@@ -2,8 +2,10 @@
 
 use std::collections::BTreeMap;
 
+use rayon::prelude::*;
+
 use super::MAX_LAKES;
-use crate::analyse::ensure_finite;
+use crate::analyse::{CELLS_PER_TASK, ensure_finite};
 use crate::flow::{Routing, route};
 use weald_core::connected::components;
 use weald_core::error::Error;
@@ -130,16 +132,18 @@ impl LakesStep {
             Some(depth) if f64::from(depth[cell]) > self.shallowest => ground + depth[cell],
             Some(_) => ground,
         };
-        Ok(ground.values().iter().enumerate().map(surface).collect())
+        let cells = ground.values().par_iter().enumerate().with_min_len(CELLS_PER_TASK);
+        Ok(cells.map(surface).collect())
     }
 
     /// Connected water that is a lake, the largest first.
     fn large_enough(&self, landscape: &Landscape, ground: &Field, surface: &[f32]) -> Vec<Vec<usize>> {
         let domain = &landscape.domain;
         let least_cells = self.area.map_or(MIN_LAKE_CELLS, |area| area / domain.cell_area());
-        let depth: Vec<f32> =
-            surface.iter().zip(ground.values()).map(|(surface, ground)| surface - ground).collect();
-        let wet: Vec<bool> = depth.iter().map(|&depth| depth > 0.0).collect();
+        let cells = surface.par_iter().zip(ground.values()).with_min_len(CELLS_PER_TASK);
+        let depth: Vec<f32> = cells.map(|(surface, ground)| surface - ground).collect();
+        let wet: Vec<bool> =
+            depth.par_iter().with_min_len(CELLS_PER_TASK).map(|depth| *depth > 0.0).collect();
         let mut lakes = components(domain.size, &wet);
         lakes.retain(|cells| {
             let deepest = cells.iter().map(|&cell| depth[cell]).fold(0.0, f32::max);

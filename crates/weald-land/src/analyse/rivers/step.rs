@@ -1,6 +1,9 @@
 //! The step `rivers`.
 
+use rayon::prelude::*;
+
 use super::network::Network;
+use crate::analyse::CELLS_PER_TASK;
 use crate::analyse::flow_step::MILLIMETRES_PER_YEAR;
 use crate::flow::directions::Directions;
 use weald_core::error::Error;
@@ -108,15 +111,15 @@ impl Step for RiversStep {
         let lakes = self.lakes.as_ref().map(|name| landscape.field(&name.0)).transpose()?;
         let is_lake = |cell: usize| lakes.is_some_and(|lakes| lakes.values()[cell] > 0.0);
         let of_river = |cell: usize| network.member[cell] && !directions.is_sea(cell) && !is_lake(cell);
-        let on_rivers = |value: &dyn Fn(usize) -> f64| {
-            let values =
-                (0..network.member.len()).map(|cell| if of_river(cell) { value(cell) as f32 } else { 0.0 });
+        let cells = || (0..network.member.len()).into_par_iter().with_min_len(CELLS_PER_TASK);
+        let on_rivers = |value: &(dyn Fn(usize) -> f64 + Sync)| {
+            let values = cells().map(|cell| if of_river(cell) { value(cell) as f32 } else { 0.0 });
             Field::from_values(domain.size, values.collect())
         };
         let power = |cell: usize, exponent| libm::pow(f64::from(discharge.values()[cell]).max(0.0), exponent);
         let levels = network.levels(&directions, landscape.field(&self.of.0)?);
         let orders = network.orders(&directions, is_lake);
-        let none = !(0..network.member.len()).any(of_river);
+        let none = !cells().any(of_river);
         let largest = upslope.values().iter().copied().fold(0.0, f32::max);
         let note = format!("there is no river: `area` is {least} m², the largest upslope area {largest} m²");
         let fields = [
@@ -142,9 +145,9 @@ impl RiversStep {
             return Ok(landscape.field(&name.0)?.clone());
         }
         let mut discharge = landscape.field("accumulation")?.clone();
-        for value in discharge.values_mut() {
+        discharge.values_mut().par_iter_mut().with_min_len(CELLS_PER_TASK).for_each(|value| {
             *value = (f64::from(*value) * self.runoff * MILLIMETRES_PER_YEAR) as f32;
-        }
+        });
         Ok(discharge)
     }
 }
