@@ -47,6 +47,7 @@ impl Condition {
     }
 
     /// How far a value fulfils it, from 0 to 1.
+    #[inline]
     pub fn mask(&self, value: f64) -> f64 {
         let above = self.above.map_or(1.0, |above| self.edge(value - above));
         let below = self.below.map_or(1.0, |below| self.edge(below - value));
@@ -54,6 +55,7 @@ impl Condition {
     }
 
     /// Bounds, from 0 to 1, on the mask of all values between two.
+    #[inline]
     pub fn between(&self, [least, most]: [f64; 2]) -> [f64; 2] {
         let above = |value: f64| self.above.map_or(1.0, |above| self.edge(value - above));
         let below = |value: f64| self.below.map_or(1.0, |below| self.edge(below - value));
@@ -62,6 +64,7 @@ impl Condition {
     }
 
     /// From 0 to 1 by the way past a bound.
+    #[inline]
     fn edge(&self, beyond: f64) -> f64 {
         if self.soft == 0.0 {
             return f64::from(u8::from(beyond >= 0.0));
@@ -72,6 +75,7 @@ impl Condition {
 }
 
 /// The mask, or what it leaves of 1.
+#[inline]
 pub fn turned(mask: f64, not: bool) -> f64 {
     if not { 1.0 - mask } else { mask }
 }

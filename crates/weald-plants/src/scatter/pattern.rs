@@ -20,6 +20,7 @@
 //! square of the first round holds one place at most.
 
 use std::f64::consts::FRAC_1_SQRT_2;
+use std::ops::RangeInclusive;
 
 use weald_core::random::{hash2, splitmix64, unit};
 
@@ -45,6 +46,11 @@ pub(super) trait Suitability: Sync {
 
     /// Least and greatest suitability that places between two corners can have.
     fn bounds(&self, corners: [[f64; 2]; 2]) -> [f64; 2];
+
+    /// The same, as wide or wider, where less work gives them.
+    fn rough_bounds(&self, corners: [[f64; 2]; 2]) -> [f64; 2] {
+        self.bounds(corners)
+    }
 }
 
 /// A pattern of places: what it depends on.
@@ -143,9 +149,41 @@ impl Pattern<'_> {
         Some(Place { suitability, diameter, ..place })
     }
 
+    /// Squares of all levels in those of the last which may hold places of their level: what bounds a square bounds those
+    /// in it.
+    pub(super) fn squares_in(&self, last: impl Iterator<Item = Square>) -> Vec<Square> {
+        let (mut found, mut within): (Vec<_>, Vec<_>) = (Vec::new(), last.collect());
+        while let Some(square) = within.pop() {
+            let Some(levels) = self.levels_in(square) else { continue };
+            found.extend(levels.contains(&square.level).then_some(square));
+            if *levels.start() < square.level {
+                within.extend(square.quarters().map(|Square { at, .. }| Square {
+                    level: square.level - 1,
+                    cuts: 0,
+                    at,
+                }));
+            }
+        }
+        found
+    }
+
+    /// Levels of places that a square may hold; `None` where nothing suits.
+    fn levels_in(&self, square: Square) -> Option<RangeInclusive<usize>> {
+        let [least, most] = self.ground.rough_bounds(self.corners(square));
+        Some(level_of(most)?..=level_of(least).unwrap_or(LEVELS - 1))
+    }
+
     /// Least diameter that discs of a square may have; `None` where it cannot hold places of its level.
     pub(super) fn least_in(&self, square: Square) -> Option<f64> {
-        let [least, most] = self.ground.bounds(self.corners(square));
+        self.least_by(square, self.ground.bounds(self.corners(square)))
+    }
+
+    /// The same or less, or one that is none in truth: soon known.
+    pub(super) fn least_roughly_in(&self, square: Square) -> Option<f64> {
+        self.least_by(square, self.ground.rough_bounds(self.corners(square)))
+    }
+
+    fn least_by(&self, square: Square, [least, most]: [f64; 2]) -> Option<f64> {
         let (first, last) = (level_of(most)?, level_of(least).unwrap_or(LEVELS - 1));
         let may_suit = (first..=last).contains(&square.level);
         may_suit.then(|| self.least(square.level).max(self.spacing / most.max(SPARSEST).sqrt()))

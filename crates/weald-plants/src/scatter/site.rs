@@ -4,12 +4,17 @@
 //! half of the square of three. That is the ground of an exported mesh, so nothing stands beside it. Values there are
 //! bilinear between the four, or linear between the three.
 
+use rayon::prelude::*;
+
 use super::pattern::Suitability;
 use weald_core::condition::Condition;
 use weald_core::domain::Domain;
 use weald_core::error::Error;
 use weald_core::grid::Field;
 use weald_core::landscape::Landscape;
+
+/// Squares that a task looks at; no result depends on it.
+const SQUARES_PER_TASK: usize = 1 << 12;
 
 /// The cells around a place, with their weights.
 type Corners = [(usize, f64); 4];
@@ -42,8 +47,8 @@ impl<'a> Site<'a> {
         let water = landscape.field("water").ok().map(|depth| (depth, deepest));
         let mut site = Self { domain, height, conditions, water, bounds: Vec::new() };
         let [across, down] = site.squares();
-        site.bounds =
-            (0..across * down).map(|square| site.bounds_of(square % across, square / across)).collect();
+        let squares = (0..across * down).into_par_iter().with_min_len(SQUARES_PER_TASK);
+        site.bounds = squares.map(|square| site.bounds_of(square % across, square / across)).collect();
         Ok(site)
     }
 
@@ -61,7 +66,9 @@ impl<'a> Site<'a> {
             };
             (0..PARTS * across).map(value).sum()
         };
-        (0..PARTS * down).map(row).sum::<f64>() * (part * cell) * (part * cell)
+        // Rows are summed in their order, whichever thread they come from.
+        let rows: Vec<f64> = (0..PARTS * down).into_par_iter().map(row).collect();
+        rows.into_iter().sum::<f64>() * (part * cell) * (part * cell)
     }
 
     /// Height of the ground in metres.
@@ -102,12 +109,41 @@ impl<'a> Site<'a> {
 
     /// Those of the four cells around a place that bear it, with their weights.
     fn corners(&self, place: [f64; 2]) -> Option<Corners> {
+        let steps = place.map(|along| self.steps(along));
+        self.corners_in(self.square_of(steps)?, steps)
+    }
+
+    /// The square between centres in which a place lies, given in steps.
+    #[inline]
+    fn square_of(&self, [u, v]: [f64; 2]) -> Option<[usize; 2]> {
         let [across, down] = self.squares();
-        let [u, v] = place.map(|along| self.steps(along));
         if across * down == 0 || u < 0.0 || v < 0.0 || u > across as f64 || v > down as f64 {
             return None;
         }
-        self.corners_in([(u as usize).min(across - 1), (v as usize).min(down - 1)], [u, v])
+        Some([(u as usize).min(across - 1), (v as usize).min(down - 1)])
+    }
+
+    /// Whether all four cells around a square have data.
+    #[inline]
+    fn is_all_ground(&self, [x, y]: [usize; 2]) -> bool {
+        self.domain.valid.is_none() || self.around(x, y).into_iter().all(|cell| self.is_valid(cell))
+    }
+
+    /// The suitability of a place, in steps, in a square of ground.
+    fn suitability_in(&self, [x, y]: [usize; 2], [u, v]: [f64; 2]) -> f64 {
+        let (cells, share) = (self.around(x, y), [u - x as f64, v - y as f64]);
+        let at = |field| bilinear(&values(field, cells), share);
+        if self.water.is_some_and(|(depth, deepest)| at(depth) > deepest) {
+            return 0.0;
+        }
+        let mut suitability = 1.0;
+        for (condition, field) in &self.conditions {
+            suitability *= condition.mask(at(field));
+            if suitability == 0.0 {
+                break;
+            }
+        }
+        suitability
     }
 
     /// The same of a place in a given square or on its edge, in steps.
@@ -133,12 +169,14 @@ impl<'a> Site<'a> {
     /// Bounds on the suitability of the square between four centres, from its corners.
     fn bounds_of(&self, x: usize, y: usize) -> [f64; 2] {
         let cells = self.around(x, y);
-        let valid: Vec<_> = cells.into_iter().filter(|&cell| self.is_valid(cell)).collect();
-        if valid.len() < 3 {
+        let valid = cells.map(|cell| self.is_valid(cell));
+        let count = valid.into_iter().filter(|&valid| valid).count();
+        if count < 3 {
             return [0.0; 2];
         }
-        self.product(valid.len() == 4, |field| {
-            Range::of(valid.iter().map(|&cell| f64::from(field.values()[cell])))
+        self.product(count == 4, |field| {
+            let cells = cells.into_iter().zip(valid).filter(|(_, valid)| *valid);
+            Range::of(cells.map(|(cell, _)| f64::from(field.values()[cell])))
         })
     }
 
@@ -149,6 +187,11 @@ impl<'a> Site<'a> {
         if whole[0] == whole[1] {
             return whole;
         }
+        if self.is_all_ground([x, y]) {
+            let share = |[u, v]: [f64; 2]| [u - x as f64, v - y as f64].map(|share| share.clamp(0.0, 1.0));
+            let (cells, low, high) = (self.around(x, y), share(low), share(high));
+            return self.bounds_on_ground(cells, [low, high]);
+        }
         let corners = [low, [high[0], low[1]], [low[0], high[1]], high];
         match corners.map(|place| self.corners_in([x, y], place)) {
             [Some(a), Some(b), Some(c), Some(d)] => self.product(true, |field| {
@@ -158,6 +201,25 @@ impl<'a> Site<'a> {
             // The ground ends between the corners.
             _ => [0.0, whole[1]],
         }
+    }
+
+    /// The same where all four cells have data, in shares of the way between them.
+    #[inline]
+    fn bounds_on_ground(&self, cells: [usize; 4], corners: [[f64; 2]; 2]) -> [f64; 2] {
+        let range = |field| bilinear_range(&values(field, cells), corners);
+        let mut bounds = match self.water.map(|(depth, deepest)| (range(depth), deepest)) {
+            Some(([least, _], deepest)) if least > deepest => return [0.0; 2],
+            Some(([_, most], deepest)) if most > deepest => [0.0, 1.0],
+            _ => [1.0; 2],
+        };
+        for (condition, field) in &self.conditions {
+            let [low, high] = condition.between(range(field));
+            bounds = [bounds[0] * low, bounds[1] * high];
+            if bounds[1] == 0.0 {
+                return [0.0; 2];
+            }
+        }
+        bounds
     }
 
     /// The product of the bounds of all conditions.
@@ -195,14 +257,30 @@ impl Suitability for Site<'_> {
     }
 
     fn suitability(&self, place: [f64; 2]) -> f64 {
-        let Some(corners) = self.corners(place) else { return 0.0 };
+        let steps = place.map(|along| self.steps(along));
+        let Some(square) = self.square_of(steps) else { return 0.0 };
+        if self.is_all_ground(square) {
+            return self.suitability_in(square, steps);
+        }
+        let Some(corners) = self.corners_in(square, steps) else { return 0.0 };
         if self.water.is_some_and(|(depth, deepest)| between(depth, &corners) > deepest) {
             return 0.0;
         }
         self.conditions.iter().map(|(condition, field)| condition.mask(between(field, &corners))).product()
     }
 
-    fn bounds(&self, [low, high]: [[f64; 2]; 2]) -> [f64; 2] {
+    fn bounds(&self, corners: [[f64; 2]; 2]) -> [f64; 2] {
+        self.bounds_of_rectangle(corners, true)
+    }
+
+    fn rough_bounds(&self, corners: [[f64; 2]; 2]) -> [f64; 2] {
+        self.bounds_of_rectangle(corners, false)
+    }
+}
+
+impl Site<'_> {
+    /// Bounds on the suitability between two corners, close or from whole squares alone.
+    fn bounds_of_rectangle(&self, [low, high]: [[f64; 2]; 2], is_close: bool) -> [f64; 2] {
         let [across, down] = self.squares();
         // Beside the outermost centres there is no ground.
         let is_beside =
@@ -216,7 +294,7 @@ impl Suitability for Site<'_> {
             [at(0, across), at(1, down)]
         };
         let (first, last) = (square(steps[0]), square(steps[1]));
-        let is_small = last[0] - first[0] < 2 && last[1] - first[1] < 2;
+        let is_small = is_close && last[0] - first[0] < 2 && last[1] - first[1] < 2;
         let mut bounds = [f64::INFINITY, 0.0_f64];
         for y in first[1]..=last[1] {
             for x in first[0]..=last[0] {
@@ -228,6 +306,29 @@ impl Suitability for Site<'_> {
         let outside = |axis: usize, count: usize| steps[0][axis] < 0.0 || steps[1][axis] > count as f64;
         if outside(0, across) || outside(1, down) { [0.0, bounds[1]] } else { bounds }
     }
+}
+
+/// The values of four cells.
+#[inline]
+fn values(field: &Field, cells: [usize; 4]) -> [f64; 4] {
+    cells.map(|cell| f64::from(field.values()[cell]))
+}
+
+/// The value at a share of the way across and down between four corners, never beyond them by rounding.
+#[inline]
+fn bilinear([nw, ne, sw, se]: &[f64; 4], [u, v]: [f64; 2]) -> f64 {
+    let north = (nw + u * (ne - nw)).max(nw.min(*ne)).min(nw.max(*ne));
+    let south = (sw + u * (se - sw)).max(sw.min(*se)).min(sw.max(*se));
+    (north + v * (south - north)).max(north.min(south)).min(north.max(south))
+}
+
+/// Least and greatest of what is bilinear in a rectangle: they are at its corners.
+#[inline]
+fn bilinear_range(values: &[f64; 4], [low, high]: [[f64; 2]; 2]) -> [f64; 2] {
+    let at = |u, v| bilinear(values, [u, v]);
+    let [nw, ne, sw, se] =
+        [at(low[0], low[1]), at(high[0], low[1]), at(low[0], high[1]), at(high[0], high[1])];
+    [nw.min(ne).min(sw.min(se)), nw.max(ne).max(sw.max(se))]
 }
 
 /// Weights of three corners of a square, where the place lies between them.

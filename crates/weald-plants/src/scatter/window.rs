@@ -59,8 +59,7 @@ impl<'a> Window<'a> {
 
     /// The places of the tile; `None` where the margin is too narrow to know them.
     pub(super) fn settled(mut self) -> Option<Vec<Place>> {
-        let mut open: Vec<_> = self.bins.iter().flat_map(Bins::squares).collect();
-        open.retain(|square| self.pattern.least_in(*square).is_some());
+        let mut open = self.pattern.squares_in(self.bins[LEVELS - 1].squares());
         for round in 0..ROUNDS {
             self.draw(&open, round).ok()?;
             open.retain(|square| self.bins[square.level].is_free(*square));
@@ -117,8 +116,9 @@ impl<'a> Window<'a> {
 
     /// Whether a square may hold places, and has room for one.
     fn may_hold_more(&self, square: Square) -> bool {
-        // Most squares are under a disc of their level already, which is soon known.
+        // Most squares are under a disc of their level already, or soon known to hold none, by rough bounds.
         self.has_room(square, self.pattern.least(square.level))
+            && self.pattern.least_roughly_in(square).is_some_and(|least| self.has_room(square, least))
             && self.pattern.least_in(square).is_some_and(|least| self.has_room(square, least))
     }
 
