@@ -9,7 +9,7 @@ import numpy
 VOLATILE = {
     "version", "weald", "WEALD_VERSION", "generator", "software", "Software", "history", "date", "created",
     "recipe", "recipe_blake3", "recipe_hash", "WEALD_RECIPE_BLAKE3", "weald_version", "weald_recipe_blake3",
-    "seconds", "cell_updates_per_second", "adapter",
+    "seconds", "peak_memory", "cell_updates_per_second", "adapter",
 }
 HASH = re.compile(r"\b[0-9a-f]{64}\b")
 VERSION = re.compile(r"\b(Weald|weald) \d+\.\d+\.\d+\S*")

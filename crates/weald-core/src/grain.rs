@@ -37,11 +37,18 @@ fn gradient(x: i32, y: i32, seed: u32) -> [f32; 2] {
     [wave(quarter), wave(turn)]
 }
 
+/// The whole number at or below one of less than 2³¹: `f32::floor` is a call where the machine is not known.
+#[inline(always)]
+fn floor(number: f32) -> i32 {
+    let whole = number as i32;
+    whole - i32::from(whole as f32 > number)
+}
+
 /// Noise at a place that is counted in wavelengths.
-#[inline]
+#[inline(always)]
 pub fn grain(place: [f32; 2], seed: u32) -> Grain {
-    let corner = place.map(f32::floor);
-    let [x, y] = corner.map(|c| c as i32);
+    let [x, y] = place.map(floor);
+    let corner = [x, y].map(|c| c as f32);
     let (u, v) = (place[0] - corner[0], place[1] - corner[1]);
     let ease = |t: f32| t * t * t * (t * (t * 6.0 - 15.0) + 10.0);
     let ease_slope = |t: f32| 30.0 * t * t * (t * (t - 2.0) + 1.0);

@@ -13,6 +13,9 @@ pub struct StepReport {
     pub step: String,
     /// Time it took.
     pub seconds: f64,
+    /// Most memory in bytes that the process had taken by its end, where the system tells it.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub peak_memory: Option<u64>,
     /// Whether its result was kept from an earlier run: `seconds` are then those of fetching it.
     #[serde(skip_serializing_if = "std::ops::Not::not", default)]
     pub cached: bool,

@@ -22,7 +22,8 @@ const RIVER: u32 = 0x2c_4f57;
 pub fn albedo(view: &View, landscape: &Landscape, width: Option<u32>) -> Result<Image, Error> {
     let sheet = Sheet::new(&landscape.domain, width)?;
     let (setting, sites) = Setting::new(view, landscape, None)?;
-    let above = TopView { cover: Cover::new(sites, setting.limits), setting, sheet };
+    let river = linear_of_hex(RIVER);
+    let above = TopView { cover: Cover::new(sites, setting.limits), setting, sheet, river };
     let mut rgb = vec![0; 3 * sheet.width * sheet.height];
     rgb.par_chunks_mut(3 * sheet.width).enumerate().for_each(|(y, row)| {
         for (x, pixel) in row.chunks_exact_mut(3).enumerate() {
@@ -37,6 +38,8 @@ struct TopView {
     setting: Setting,
     cover: Cover,
     sheet: Sheet,
+    /// Colour of rivers.
+    river: Linear,
 }
 
 impl TopView {
@@ -50,7 +53,7 @@ impl TopView {
         }
         let ground = self.cover.at(&self.spot(place, height, [east, south])).albedo;
         let river = self.setting.rivers.as_ref().map_or(0.0, |rivers| rivers.at(share));
-        mix(ground, linear_of_hex(RIVER), river)
+        mix(ground, self.river, river)
     }
 
     fn spot(&self, place: [f32; 2], height: f32, rise: [f32; 2]) -> SurfacePoint {

@@ -358,6 +358,7 @@ mod tests {
             cached: false,
             step: "slide".to_owned(),
             seconds: 0.1,
+            peak_memory: Some(5 << 20),
             cells: 6,
             iterations: 1,
             cell_updates_per_second: 1.0 / 3.0,

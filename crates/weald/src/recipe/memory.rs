@@ -2,16 +2,19 @@
 //! start.
 //!
 //! While a step runs there are the layers that it found, which its copy of the landscape shares, those that it writes, and
-//! what it needs beside them; while an output is made, the layers of the end and what that needs.
+//! what it needs beside them; while outputs are made, the layers of the end and what those need that are made side by
+//! side.
 
 use std::collections::BTreeSet;
 use std::fmt::{Display, Formatter};
+use std::ops::Range;
 use std::path::Path;
 
 use super::checkpoint::Head;
 use super::plan::{Content, Ground, Output, Planned, Recipe};
 use weald_core::domain::Domain;
 use weald_core::error::{Error, Limit, Quantity, bytes_in_words};
+use weald_core::landscape::Landscape;
 use weald_core::material::layer_names;
 use weald_engine::step::{Layered, Stage};
 
@@ -21,6 +24,8 @@ const VALUE: u64 = 4;
 const A_MATERIAL: u64 = 40;
 /// Fewest bytes for a cell of a step that is a simulation with planes of its own.
 const SIMULATION: u64 = 40;
+/// Most outputs that are made side by side: a thread that waits for a part of one begins another, on the same stack.
+const SIDE_BY_SIDE: usize = 8;
 /// What a run takes on the smallest grid: the program, its threads and their stacks.
 const PROGRAM: u64 = 16 << 20;
 
@@ -68,14 +73,42 @@ impl Recipe {
             let at = format!("step {} (`{}`)", done + index + 1, planned.entry.name);
             peaks.push(Memory { bytes: a_cell * grid.size.cells() as u64 + after, at });
         }
-        let kept = VALUE * layers.len() as u64;
-        for output in &self.outputs {
-            let bytes = (kept + output.bytes_per_cell()) * last.size.cells() as u64 + output.bytes();
-            peaks.push(Memory { bytes, at: output.file.display().to_string() });
+        let cells = last.size.cells() as u64;
+        let kept = VALUE * layers.len() as u64 * cells;
+        for group in self.groups(kept, cells) {
+            let outputs = &self.outputs[group];
+            let bytes = kept + outputs.iter().map(|output| output.bytes(cells)).sum::<u64>();
+            let largest = outputs.iter().max_by_key(|output| output.bytes(cells));
+            let at = largest.map_or_else(String::new, |output| output.file.display().to_string());
+            peaks.push(Memory { bytes, at });
         }
         let start = Memory { bytes: 0, at: "the start".to_owned() };
         let peak = peaks.into_iter().max_by_key(|peak| peak.bytes).unwrap_or(start);
         Memory { bytes: peak.bytes + PROGRAM, ..peak }
+    }
+
+    /// The outputs in their order, in groups that are made side by side.
+    pub(super) fn output_groups(&self, landscape: &Landscape) -> Vec<Range<usize>> {
+        let cells = landscape.domain.size.cells() as u64;
+        self.groups(VALUE * landscape.layers().count() as u64 * cells, cells)
+    }
+
+    /// The same for layers of so many bytes: together a group takes no more than those, or than the largest output. A
+    /// device draws one picture at a time.
+    fn groups(&self, kept: u64, cells: u64) -> Vec<Range<usize>> {
+        let room = self.outputs.iter().map(|output| output.bytes(cells)).fold(kept, u64::max);
+        let (mut groups, mut first, mut taken) = (Vec::new(), 0, 0);
+        let is_drawn = |number: usize| self.outputs[number].render().is_some();
+        for (number, output) in self.outputs.iter().enumerate() {
+            let is_full = number - first == SIDE_BY_SIDE || taken + output.bytes(cells) > room;
+            if number > first && (is_full || is_drawn(number) || is_drawn(number - 1)) {
+                groups.push(first..number);
+                (first, taken) = (number, 0);
+            }
+            taken += output.bytes(cells);
+        }
+        groups.extend((first < self.outputs.len()).then_some(first..self.outputs.len()));
+        groups
     }
 
     /// What ground takes that is generated on a finer grid than the landscape's: its heights, and half as many twice.
@@ -155,8 +188,13 @@ impl Output {
         }
     }
 
+    /// Bytes on so many cells, beside the layers.
+    fn bytes(&self, cells: u64) -> u64 {
+        self.bytes_per_cell() * cells + self.bytes_of_pixels()
+    }
+
     /// Bytes whatever the landscape: those of the pixels.
-    fn bytes(&self) -> u64 {
+    fn bytes_of_pixels(&self) -> u64 {
         let pixels = match &self.content {
             Content::Picture { picture, .. } | Content::Film { picture, .. } => {
                 picture.as_view().map_or(1 << 20, |view| u64::from(view.width) * u64::from(view.height))
@@ -182,6 +220,19 @@ pub(super) fn ensure_file(path: &Path, bytes: u64, allowed: Option<u64>) -> Resu
             "the file is read whole: cut or convert it, or, if there is more memory, say so with --memory",
         )
         .into())
+}
+
+/// Most memory that this process has taken until now, in bytes, where the system tells it.
+#[cfg(target_os = "linux")]
+pub(super) fn taken() -> Option<u64> {
+    let text = std::fs::read_to_string("/proc/self/status").ok()?;
+    let line = text.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
+    line.trim().trim_end_matches(" kB").parse::<u64>().ok().map(|kilobytes| kilobytes << 10)
+}
+
+#[cfg(not(target_os = "linux"))]
+pub(super) fn taken() -> Option<u64> {
+    None
 }
 
 /// Memory that is free or can be freed, in bytes, where the system tells it.

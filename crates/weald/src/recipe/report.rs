@@ -37,6 +37,12 @@ pub struct Report {
 pub struct OutputReport {
     /// Path inside the output folder, as the recipe has it.
     pub file: String,
+    /// Time it took. Outputs are made side by side, so that all of them take less than the sum.
+    #[serde(default)]
+    pub seconds: f64,
+    /// Most memory in bytes that the process had taken by its end, where the system tells it.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub peak_memory: Option<u64>,
     /// Whether no file has that name, but only its numbered frames or its tiles have theirs from it.
     #[serde(skip_serializing_if = "std::ops::Not::not", default)]
     pub name_only: bool,

@@ -5,6 +5,7 @@ pub(super) mod finished;
 mod folder;
 pub(super) mod inputs;
 mod options;
+mod outputs;
 mod step_watcher;
 #[cfg(test)]
 mod tests;
@@ -29,10 +30,8 @@ pub use video::Frames;
 use weald_core::error::{Error, NotFinite};
 use weald_core::landscape::Landscape;
 use weald_engine::Job;
-use weald_export::Finished;
 use weald_plants::Vegetation;
 use work::{Leaves, WorkFolder, new_files, remove_checkpoint};
-use writer::Writer;
 
 impl Recipe {
     /// Runs the steps in memory on the current rayon pool and gives the landscape; no file is written and no
@@ -174,14 +173,19 @@ impl Run<'_> {
     }
 
     fn stop_if_cancelled(&self, state: &State, progress: &dyn Progress) -> Result<(), Error> {
-        if !progress.cancelled() {
-            return Ok(());
-        }
+        if progress.cancelled() { Err(self.stopped(state)) } else { Ok(()) }
+    }
+
+    /// Keeps what there is, and says how to go on.
+    fn stopped(&self, state: &State) -> Error {
         if self.recipe.steps.is_empty() {
-            return Err(Error::Interrupted("interrupted; every file that is there is whole".to_owned()));
+            return Error::Interrupted("interrupted; every file that is there is whole".to_owned());
         }
-        checkpoint::write(&self.checkpoint(), self.recipe.effective(), state, state.simulation.as_ref())?;
-        Err(self.interrupted(&format!("after {} of {} steps", state.done, self.recipe.steps.len())))
+        let (path, recipe) = (self.checkpoint(), self.recipe.effective());
+        match checkpoint::write(&path, recipe, state, state.simulation.as_ref()) {
+            Err(error) => error,
+            Ok(()) => self.interrupted(&format!("after {} of {} steps", state.done, self.recipe.steps.len())),
+        }
     }
 
     fn interrupted(&self, place: &str) -> Error {
@@ -296,38 +300,6 @@ impl Run<'_> {
             format!("; the last good state, after {iteration} iterations, is in {}", checkpoint.display())
         });
         format!("{step}: {what}{state}")
-    }
-
-    fn outputs(
-        &self,
-        state: &State,
-        hash: &str,
-        progress: &dyn Progress,
-    ) -> Result<Vec<OutputReport>, Error> {
-        let finished = Finished {
-            landscape: &state.landscape,
-            steps: &state.steps,
-            recipe: &self.recipe.file,
-            hash,
-            seed: self.recipe.seed,
-        };
-        let next_frame = |frame, frames| {
-            progress.progress(frame, frames, 0);
-            self.stop_if_cancelled(state, progress)
-        };
-        let device = self.options.render.as_deref();
-        let writer = Writer { finished, recipe: self.recipe, device, next_frame: &next_frame };
-        let count = self.recipe.outputs.len();
-        let folder = new_files(&self.options.out, self.recipe);
-        let mut reports = Vec::with_capacity(count);
-        for (index, output) in self.recipe.outputs.iter().enumerate() {
-            self.stop_if_cancelled(state, progress)?;
-            progress.output(index + 1, count, &output.file);
-            let report = writer.write(output, &folder)?;
-            report.notes.iter().for_each(|note| progress.note(&format!("{}: {note}", report.file)));
-            reports.push(report);
-        }
-        Ok(reports)
     }
 
     /// Makes all outputs, and the report when they are whole. Where that fails, the landscape is kept.

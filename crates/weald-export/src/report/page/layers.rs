@@ -1,5 +1,7 @@
 //! A map and the statistics of each layer.
 
+use rayon::prelude::*;
+
 use super::figures::{number, rough};
 use super::html::{Cell, escape, figure, picture, table};
 use crate::report::Page;
@@ -25,14 +27,17 @@ const DECADES: f64 = 1.0e-4;
 const STOPS: usize = 9;
 
 pub(super) fn section(landscape: &Landscape, page: &Page) -> Result<String, Error> {
-    let mut rows = Vec::new();
-    let mut maps = String::new();
-    for (name, layer) in landscape.layers() {
-        let Some(values) = Values::of(&layer.field, &landscape.domain) else { continue };
-        rows.push(values.row(name, layer));
-        if page.maps && name != page.of.0 {
-            maps.push_str(&map(landscape, (name, layer), &values, page.width / 3)?);
-        }
+    let all: Vec<_> = landscape.layers().collect();
+    let drawn = |&(name, layer): &(&str, &Layer)| {
+        let values = Values::of(&layer.field, &landscape.domain)?;
+        let has_map = page.maps && name != page.of.0;
+        let map = has_map.then(|| map(landscape, (name, layer), &values, page.width / 3));
+        Some((values.row(name, layer), map.unwrap_or_else(|| Ok(String::new()))))
+    };
+    let (mut rows, mut maps) = (Vec::new(), String::new());
+    for (row, map) in all.par_iter().filter_map(drawn).collect::<Vec<_>>() {
+        rows.push(row);
+        maps.push_str(&map?);
     }
     let header = ["layer", "unit", "least", "median", "mean", "greatest"];
     let statistics = table("All layers, over the cells with data.", &header, &rows);

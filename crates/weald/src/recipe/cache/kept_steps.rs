@@ -6,6 +6,7 @@ use std::time::Instant;
 use super::Cache;
 use super::follows::Follows;
 use super::kept::Kept;
+use crate::recipe::memory;
 use crate::recipe::plan::{Planned, Recipe};
 use weald_core::error::Error;
 use weald_core::landscape::Landscape;
@@ -64,7 +65,8 @@ impl KeptSteps {
             landscape.sow(name, meadow);
         }
         self.follows.follow(&text, [&before, landscape]);
-        Some(StepReport { cached: true, seconds: started.elapsed().as_secs_f64(), ..report })
+        let seconds = started.elapsed().as_secs_f64();
+        Some(StepReport { cached: true, seconds, peak_memory: memory::taken(), ..report })
     }
 
     /// Keeps what a step has made of a landscape, if it is worth it. What cannot be kept is told, and the run goes on.

@@ -1,5 +1,6 @@
 //! What is reported of a finished step.
 
+use crate::recipe::memory;
 use crate::recipe::plan::Planned;
 use weald_core::landscape::Landscape;
 use weald_engine::report::StepReport;
@@ -23,6 +24,7 @@ pub(in crate::recipe) fn step_report(
     StepReport {
         step: planned.entry.name.to_owned(),
         seconds,
+        peak_memory: memory::taken(),
         cached: false,
         cells,
         iterations: outcome.iterations,

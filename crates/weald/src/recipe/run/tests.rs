@@ -1,10 +1,12 @@
 use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};
 
+use super::writer::Writer;
 use super::*;
 use crate::recipe::testing::parse;
 use std::time::Duration;
 use weald_core::grid::Field;
+use weald_export::Finished;
 
 const RECIPE: &str = "\
 [landscape]
@@ -120,6 +122,13 @@ fn a_run_leaves_its_files_and_a_report_and_nothing_else() {
     }
     assert_eq!(read["steps"][1]["iterations"], 20);
     assert_eq!(read["outputs"][0]["layer"], "height");
+    for list in ["steps", "outputs"] {
+        for each in read[list].as_array().expect("a list") {
+            assert!(each["seconds"].as_f64().is_some_and(|seconds| seconds > 0.0), "{each}");
+            let peak = each["peak_memory"].as_u64();
+            assert!(!cfg!(target_os = "linux") || peak.is_some_and(|bytes| bytes > 1 << 20), "{each}");
+        }
+    }
     assert_eq!(report.recipe_blake3, parse(RECIPE).expect("good").hash());
 }
 
@@ -341,15 +350,17 @@ fn a_second_run_into_a_folder_is_told_who_has_it_and_one_after_the_end_of_the_fi
 struct Breaks<'a> {
     out: &'a Path,
     recipe: &'a str,
-    entry: &'a str,
+    entries: &'a [&'a str],
 }
 
 impl Progress for Breaks<'_> {
     fn output(&self, number: usize, _: usize, _: &Path) {
         if number == 2 {
-            // A folder stands where a file is to be.
+            // A folder stands where each file is to be.
             let made = new_files(self.out, &parse(self.recipe).expect("good"));
-            std::fs::create_dir_all(made.join(self.entry)).expect("made");
+            for entry in self.entries {
+                std::fs::create_dir_all(made.join(entry)).expect("made");
+            }
         }
     }
 }
@@ -361,7 +372,7 @@ fn a_run_that_fails_at_its_second_output_leaves_all_files_as_they_were_and_goes_
     let all = |out: &Path| [height(out), bytes(out, "dot.png"), bytes(out, REPORT_FILE)];
     let before = all(out.path());
     let other = RECIPE.replace("seed = 5", "seed = 6");
-    let breaks = Breaks { out: out.path(), recipe: &other, entry: "dot.png" };
+    let breaks = Breaks { out: out.path(), recipe: &other, entries: &["dot.png"] };
     let error = run(&other, out.path(), false, &breaks).expect_err("cannot be written").to_string();
     let named = out.path().join("dot.png").display().to_string();
     assert!(error.contains(&named) && !error.contains(".weald/new"), "{error}");
@@ -372,6 +383,49 @@ fn a_run_that_fails_at_its_second_output_leaves_all_files_as_they_were_and_goes_
     let whole = folder();
     run(&other, whole.path(), false, &Silent).expect("runs");
     assert_eq!(height(out.path()), height(whole.path()));
+}
+
+/// The recipe with a dozen outputs more.
+fn with_many_outputs() -> String {
+    let more = (0..12).map(|number| format!("[[output]]\nlayer = \"height\"\nfile = \"h{number}.bits\"\n"));
+    format!("{RECIPE}{}", more.collect::<String>())
+}
+
+fn run_on(threads: usize, text: &str, out: &Path, progress: &dyn Progress) -> Result<Report, Error> {
+    let recipe = parse(text).expect("the recipe is good");
+    let options = Options { threads: Some(threads), ..Options::into_folder(out) };
+    Run { recipe: &recipe, options }.execute(progress)
+}
+
+#[test]
+fn outputs_made_side_by_side_are_those_made_one_after_the_other_and_in_their_order() {
+    let text = with_many_outputs();
+    let made = |threads| {
+        let out = folder();
+        let report = run_on(threads, &text, out.path(), &Silent).expect("runs");
+        let files: Vec<_> = report.outputs.iter().map(|output| output.file.clone()).collect();
+        let all: Vec<_> = files.iter().map(|file| bytes(out.path(), file)).collect();
+        (files, all)
+    };
+    let one = made(1);
+    assert!(one.0.len() == 14 && one.0[13] == "h11.bits", "{:?}", one.0);
+    assert!((2..5).all(|threads| made(threads) == one));
+    let recipe = parse(&text).expect("good");
+    let groups = recipe.output_groups(&recipe.landscape().expect("runs"));
+    assert!(groups.len() > 1 && groups.iter().all(|group| (1..=8).contains(&group.len())), "{groups:?}");
+    assert_eq!(groups.into_iter().flatten().collect::<Vec<_>>(), (0..14).collect::<Vec<_>>());
+}
+
+#[test]
+fn of_outputs_that_fail_side_by_side_the_first_is_told() {
+    let text = with_many_outputs();
+    for threads in 1..5 {
+        let out = folder();
+        let breaks = Breaks { out: out.path(), recipe: &text, entries: &["h7.bits", "h4.bits"] };
+        let error = run_on(threads, &text, out.path(), &breaks).expect_err("cannot be written").to_string();
+        assert!(error.contains("h4.bits") && error.contains("no file has changed"), "{error}");
+        assert!(files_in(out.path()).iter().all(|file| !file.contains("bits")), "on {threads} threads");
+    }
 }
 
 fn bytes(out: &Path, file: &str) -> Vec<u8> {

@@ -1,12 +1,14 @@
 //! Layers, pictures and exports become files, each with its provenance.
 
 use std::path::{Path, PathBuf};
+use std::time::Instant;
 
 use super::film;
 use super::video::Frames;
 use crate::layer_raster;
 use crate::recipe::ground;
 use crate::recipe::layer_output::Treatment;
+use crate::recipe::memory;
 use crate::recipe::plan::{Content, Film, Motion, Output, Recipe};
 use crate::recipe::report::OutputReport;
 use weald_core::error::Error;
@@ -21,7 +23,7 @@ pub(super) struct Writer<'a> {
     /// What draws pictures of kind `render`.
     pub(super) device: Option<&'a dyn RenderDevice>,
     /// Is called with how far a film is, and says whether to go on.
-    pub(super) next_frame: &'a dyn Fn(u64, u64) -> Result<(), Error>,
+    pub(super) next_frame: &'a (dyn Fn(u64, u64) -> Result<(), Error> + Sync),
 }
 
 /// What an output is to become.
@@ -32,7 +34,7 @@ struct Target<'a> {
 
 impl Writer<'_> {
     pub(super) fn write(&self, output: &Output, folder: &Path) -> Result<OutputReport, Error> {
-        let target = Target { folder, file: &output.file };
+        let (target, started) = (Target { folder, file: &output.file }, Instant::now());
         film::make_folder_of(&folder.join(&output.file))?;
         let report = match &output.content {
             Content::Picture { name, picture } => self.picture(&target, name, picture.as_ref()),
@@ -42,7 +44,12 @@ impl Writer<'_> {
             Content::Film { name, picture, film } => self.film(&target, name, (picture.as_ref(), film)),
             Content::Export { name, export } => self.export(&target, name, export.as_ref()),
         }?;
-        Ok(OutputReport { file: output.file.display().to_string(), ..report })
+        Ok(OutputReport {
+            file: output.file.display().to_string(),
+            seconds: started.elapsed().as_secs_f64(),
+            peak_memory: memory::taken(),
+            ..report
+        })
     }
 
     fn picture(&self, target: &Target<'_>, name: &str, picture: &dyn Picture) -> Result<OutputReport, Error> {
