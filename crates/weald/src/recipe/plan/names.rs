@@ -1,5 +1,6 @@
 //! Names of all files that a run writes, by the recipe alone: what would overwrite what is known before anything runs.
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::ffi::OsStr;
 use std::fmt::{Display, Formatter};
 use std::path::{Path, PathBuf};
@@ -133,14 +134,58 @@ impl Display for Name {
 pub(super) fn check(outputs: &[Output], steps: &[Planned], diagnostics: &mut Diagnostics) {
     "output".clone_into(&mut diagnostics.subject);
     let named: Vec<_> = outputs.iter().map(|output| (output, output.names(steps))).collect();
+    let mut taken = Taken::default();
     for (at, (output, names)) in named.iter().enumerate() {
         let faults = names.iter().filter_map(fault).take(1);
         let twice = names.iter().enumerate().find_map(|(first, name)| clash_within(name, &names[..first]));
-        let earlier = named[..at].iter().filter(|(earlier, _)| !same_file(&earlier.file, &output.file));
+        let earlier = taken.near(names, at).into_iter().map(|at| &named[at]);
+        let earlier = earlier.filter(|(earlier, _)| !same_file(&earlier.file, &output.file));
         let others = earlier.filter_map(|(earlier, theirs)| clash(output, (earlier, theirs), names));
         for message in faults.chain(twice).chain(others) {
             diagnostics.add(output.line, message);
         }
+        taken.add(names, at);
+    }
+}
+
+/// Which outputs have names in which folders, so that not every output is compared with every other.
+#[derive(Default)]
+struct Taken {
+    /// Outputs by each of their paths and each folder above one.
+    by_path: BTreeMap<PathBuf, BTreeSet<usize>>,
+    /// The same, by the paths themselves alone.
+    by_own_path: BTreeMap<PathBuf, BTreeSet<usize>>,
+    /// Outputs with frames, which are more than one would list.
+    with_frames: BTreeSet<usize>,
+}
+
+impl Taken {
+    fn add(&mut self, names: &[Name], output: usize) {
+        for name in names {
+            if matches!(name, Name::Frames(..)) {
+                self.with_frames.insert(output);
+                continue;
+            }
+            let path = lower(&name.path());
+            for part in path.ancestors() {
+                self.by_path.entry(part.to_owned()).or_default().insert(output);
+            }
+            self.by_own_path.entry(path).or_default().insert(output);
+        }
+    }
+
+    /// Outputs before `output` that may clash with names: those that have one of the paths, a folder above one or something
+    /// below one, and those with frames.
+    fn near(&self, names: &[Name], output: usize) -> BTreeSet<usize> {
+        if names.iter().any(|name| matches!(name, Name::Frames(..))) {
+            return (0..output).collect();
+        }
+        let mut near = self.with_frames.clone();
+        for path in names.iter().map(|name| lower(&name.path())) {
+            near.extend(self.by_path.get(&path).into_iter().flatten());
+            near.extend(path.ancestors().filter_map(|part| self.by_own_path.get(part)).flatten());
+        }
+        near
     }
 }
 

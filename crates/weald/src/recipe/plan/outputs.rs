@@ -1,5 +1,6 @@
 //! The `[[output]]` tables.
 
+use std::collections::BTreeMap;
 use std::path::{Component, Path, PathBuf};
 
 use super::films::{self, Film, FilmKeys, Motion, Moves};
@@ -164,18 +165,19 @@ impl Output {
 
 pub(super) fn read(vocabulary: &Vocabulary, recipe: &Table, diagnostics: &mut Diagnostics) -> Vec<Output> {
     "output".clone_into(&mut diagnostics.subject);
-    let mut outputs: Vec<Output> = Vec::new();
+    let (mut outputs, mut lines) = (Vec::new(), BTreeMap::new());
     for table in tables(recipe, "output", diagnostics) {
         let Some(file) = file_of(table, diagnostics) else { continue };
-        if let Some(earlier) = outputs.iter().find(|earlier| same_file(&earlier.file, &file)) {
+        if let Some(first) = lines.get(&lower(&file)) {
             let shown = file.display();
-            let message = format!("`file` is {shown} a second time; line {} has it first", earlier.line);
+            let message = format!("`file` is {shown} a second time; line {first} has it first");
             diagnostics.add(line_of(table, "file"), message);
         }
         if let Some(content) = content_of(vocabulary, table, &file, diagnostics) {
             if let Content::Layer { treatment, .. } = &content {
                 treatments::check_source(*treatment, recipe, table, diagnostics);
             }
+            lines.entry(lower(&file)).or_insert(table.line);
             outputs.push(Output { line: table.line, file, content });
         }
     }
