@@ -183,6 +183,16 @@ pub(crate) struct BenchArguments {
     /// Threads, with --engine cpu
     #[arg(long, value_name = "N", num_args = 1.., default_values_t = [1, 2])]
     pub(crate) threads: Vec<usize>,
+    /// Runs of each recipe of which the best counts, with --recipe
+    #[arg(long, value_name = "N", default_value_t = 1, requires = "recipe", value_parser = value_parser!(u32).range(1..))]
+    pub(crate) runs: u32,
+    /// File for the results, with --engine cpu
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["render", "fractals", "grass"])]
+    pub(crate) save: Option<PathBuf>,
+    /// File of earlier results: what became slower since is told, beside the bandwidth of memory in both runs, and the
+    /// exit code is 1
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["render", "fractals", "grass"])]
+    pub(crate) against: Option<PathBuf>,
     /// Only points of fractals, with --engine cpu; beside flam3 where it is installed
     #[arg(long, conflicts_with_all = ["size", "gpu_memory"])]
     pub(crate) fractals: bool,
@@ -192,8 +202,9 @@ pub(crate) struct BenchArguments {
     /// Most sets of grass (tufts of six blades) in a picture, with --render [default: all; on software 50100]
     #[arg(long, value_name = "N", requires = "render", value_parser = value_parser!(u32).range(1..))]
     pub(crate) sets: Option<u32>,
-    /// Recipes whose first view is measured in place of all else, with --render: 640 × 360 pixels with one sample
-    #[arg(long, value_name = "RECIPE.toml", num_args = 1.., requires = "render", conflicts_with = "sets")]
+    /// Recipes that are measured in place of all else: each step and each output; with --render their first view, of 640 ×
+    /// 360 pixels with one sample
+    #[arg(long, value_name = "RECIPE.toml", num_args = 1.., conflicts_with_all = ["sets", "fractals", "grass"])]
     pub(crate) recipe: Vec<PathBuf>,
     /// Where a person stands who looks at their middles from 1.7 m above the ground, with --recipe
     #[arg(long, value_name = "X,Y", requires = "recipe", value_parser = values::eye)]

@@ -7,11 +7,15 @@ mod flow;
 mod fractal;
 mod grass;
 mod rate;
+mod recipes;
+mod record;
 
 pub use device::run_on;
 pub use fractal::{PointRate, fractals};
 pub use grass::{GrassRate, grass};
 pub use rate::{Baseline, Rate, bandwidth};
+pub use recipes::{Measured, recipe};
+pub use record::{Record, Records};
 
 use std::time::Instant;
 
@@ -34,16 +38,21 @@ const CELL_STEPS: usize = 250_000_000;
 
 /// Measures erosion at each size and thread count, then the generators and
 /// flow over the ground at the greatest size; `report` is called with each
-/// rate as it is known.
+/// rate and the bandwidth of memory in bytes per second, as they are known.
 ///
 /// # Errors
 /// [`Error::Limit`] for sizes that no grid may have, [`Error::Run`] where threads cannot be started.
-pub fn run(sides: &[usize], threads: &[usize], report: &mut (dyn FnMut(&Rate) + Send)) -> Result<(), Error> {
+pub fn run(
+    sides: &[usize],
+    threads: &[usize],
+    report: &mut (dyn FnMut(&Rate, f64) + Send),
+) -> Result<(), Error> {
     for &count in threads {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(count).build();
         let pool = pool.map_err(|cause| Error::Run(format!("cannot start {count} threads: {cause}")))?;
         pool.install(|| {
             let bandwidth = bandwidth();
+            let report = &mut |rate: &Rate| report(rate, bandwidth);
             for &side in sides {
                 erosion(Size::square(side)?, bandwidth, report)?;
             }

@@ -4,12 +4,13 @@ use std::fmt::Display;
 use std::sync::Arc;
 
 use weald::engine::device::Device;
+use weald_gallery::bench::{Measured, Record, Records};
 use weald_gpu::{Gpu, PointRates};
 
 use crate::arguments::BenchArguments;
 use crate::engine::with_memory;
 use crate::failure::Failure;
-use crate::stdout;
+use crate::{interrupt, stdout};
 
 /// Cells a side where none are given: on the CPU, a graphics card, and software that acts as one.
 const SIDES: &[usize] = &[512, 1024, 2048];
@@ -34,14 +35,21 @@ pub(crate) fn bench(arguments: &BenchArguments) -> Result<(), Failure> {
         print(&weald_studio::response(None)?);
         return unwritten.map_or(Ok(()), Err);
     }
-    if arguments.render {
+    let then = arguments.against.as_deref().map(Records::read).transpose()?;
+    let mut results = Records { version: env!("CARGO_PKG_VERSION").to_owned(), results: Vec::new() };
+    if !arguments.recipe.is_empty() && !arguments.render {
+        recipes(arguments, &mut print, &mut results)?;
+    } else if arguments.render {
         super::bench_render::run(arguments, &mut print)?;
     } else if arguments.engine == "gpu" {
         on_the_gpu(arguments, &mut print)?;
     } else {
         if !arguments.fractals && !arguments.grass {
             let sides = given_or(&arguments.size, SIDES);
-            weald_gallery::bench::run(sides, &arguments.threads, &mut |rate| print(rate))?;
+            weald_gallery::bench::run(sides, &arguments.threads, &mut |rate, bandwidth| {
+                print(rate);
+                results.results.extend(Record::of_rate(rate, bandwidth));
+            })?;
         }
         if !arguments.grass {
             weald_gallery::bench::fractals(&arguments.threads, &mut print)?;
@@ -50,7 +58,43 @@ pub(crate) fn bench(arguments: &BenchArguments) -> Result<(), Failure> {
             weald_gallery::bench::grass(&arguments.threads, &mut print)?;
         }
     }
+    if let Some(path) = &arguments.save {
+        results.write(path)?;
+    }
+    let slower = then.map_or_else(Vec::new, |then| {
+        print(&format!("{} results beside those of {}", results.in_common(&then), then.version));
+        results.slower_than(&then)
+    });
+    if !slower.is_empty() {
+        return Err(Failure::run(slower.join("\n")));
+    }
     unwritten.map_or(Ok(()), Err)
+}
+
+/// Measures each step and each output of recipes, whose files go into a folder that is removed.
+fn recipes(
+    arguments: &BenchArguments,
+    print: &mut (dyn FnMut(&dyn Display) + Send),
+    results: &mut Records,
+) -> Result<(), Failure> {
+    interrupt::end_at_once()?;
+    let out = std::env::temp_dir().join(format!("weald-bench-{}", std::process::id()));
+    for recipe in &arguments.recipe {
+        let measured = Measured {
+            recipe,
+            size: arguments.size.first().map(|&side| side as u64),
+            runs: arguments.runs as usize,
+            out: out.clone(),
+        };
+        let done = weald_gallery::bench::recipe(&measured, &arguments.threads, &mut |record| {
+            print(&record);
+            results.results.push(record);
+        });
+        // The folder is of temporary files; that it cannot be removed is no fault of what was measured.
+        let _ = std::fs::remove_dir_all(&out);
+        done?;
+    }
+    Ok(())
 }
 
 fn on_the_gpu(arguments: &BenchArguments, print: &mut dyn FnMut(&dyn Display)) -> Result<(), Failure> {
