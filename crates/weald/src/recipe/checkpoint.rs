@@ -112,6 +112,27 @@ pub(super) fn write(
     })
 }
 
+/// Keeps a landscape in a file: its grid, layers, plants and grass, to the bit. Its materials and fractals, which a recipe
+/// has, are not in it.
+///
+/// # Errors
+/// [`Error::Run`] where the file cannot be written.
+pub fn keep_landscape(path: &Path, landscape: &Landscape) -> Result<(), Error> {
+    let (landscape, steps, notes) = (landscape.clone(), Vec::new(), Vec::new());
+    write(path, NO_RECIPE, &State { landscape, done: 0, simulation: None, steps, notes }, None)
+}
+
+/// The landscape that [`keep_landscape`] has kept, of the default materials.
+///
+/// # Errors
+/// [`Error::Input`] for a file that is missing or damaged, or of another version of Weald.
+pub fn kept_landscape(path: &Path) -> Result<Landscape, Error> {
+    read(path, NO_RECIPE).map(|state| state.landscape)
+}
+
+/// What stands for the recipe of a landscape that is kept alone.
+const NO_RECIPE: &str = "";
+
 /// What the head of a checkpoint says of the run.
 #[derive(Debug)]
 pub(super) struct Head {
@@ -381,6 +402,16 @@ mod tests {
     fn a_state_comes_back_to_the_bit() {
         let (_folder, path) = written();
         assert_eq!(read(&path, "a = 1\nb = 2\n").expect("reads"), state());
+    }
+
+    #[test]
+    fn a_landscape_is_kept_alone_to_the_bit() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("kept.weald");
+        keep_landscape(&path, &state().landscape).expect("writes");
+        assert_eq!(kept_landscape(&path).expect("reads"), state().landscape);
+        let (_folder, of_run) = written();
+        assert!(kept_landscape(&of_run).is_err(), "that of a run belongs to its recipe");
     }
 
     #[test]

@@ -57,6 +57,16 @@ pub(super) fn materials(recipe: &Recipe) -> Vec<Material> {
     recipe.materials.iter().map(|planned| planned.material.clone()).collect()
 }
 
+impl Recipe {
+    /// The fractals of its `[[fractal]]` tables, as a landscape carries them.
+    ///
+    /// # Errors
+    /// [`Error::Input`] for a file of flames.
+    pub fn make_fractals(&self) -> Result<Vec<Fractal>, Error> {
+        fractals(self)
+    }
+}
+
 /// The fractals of the recipe, those of files with them.
 pub(super) fn fractals(recipe: &Recipe) -> Result<Vec<Fractal>, Error> {
     recipe.fractals.iter().map(fractal).collect()

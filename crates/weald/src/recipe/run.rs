@@ -126,6 +126,7 @@ impl Run<'_> {
             }
             self.keep_if_due(&state, &clock, progress)?;
         }
+        progress.made(&state.landscape, &state.steps);
         Ok(state)
     }
 

@@ -5,7 +5,9 @@ use crate::recipe::plan::Recipe;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
+use weald_core::landscape::Landscape;
 use weald_engine::Engine;
+use weald_engine::report::StepReport;
 use weald_picture::RenderDevice;
 
 /// How a recipe is run. None of it changes the result.
@@ -59,6 +61,11 @@ pub trait Progress: Sync {
     /// The step has done `done` of `total` iterations over `cells` cells each.
     fn progress(&self, done: u64, total: u64, cells: usize) {
         let _ = (done, total, cells);
+    }
+
+    /// All steps are done: what they made, and what each of them reports.
+    fn made(&self, landscape: &Landscape, steps: &[StepReport]) {
+        let _ = (landscape, steps);
     }
 
     /// Output `number` of `count`, counted from 1, is made.
