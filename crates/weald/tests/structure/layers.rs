@@ -8,6 +8,7 @@ use super::workspace::Workspace;
 /// All crates from top to bottom, each with those that it may use. A recipe goes through them from top to bottom.
 pub(crate) const LAYERS: &[(&str, &[&str])] = &[
     ("weald-dev", &["weald-gallery", "weald"]),
+    ("weald-py", &["weald-gpu", "weald"]),
     ("weald-cli", &["weald-studio", "weald-gallery", "weald-gpu", "weald"]),
     ("weald-studio", &["weald-gpu", "weald"]),
     (
