@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import _thread
 import os
 import signal
 import threading
 import time
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -18,6 +18,14 @@ LONG = {
     "step": [{"do": "fbm"}, {"do": "hydraulic", "iterations": 1_000_000}],
     "output": [{"layer": "height", "file": "height.tif"}],
 }
+
+
+@pytest.fixture(autouse=True)
+def ctrl_c() -> Iterator[None]:
+    """Who starts the tests in the background has Ctrl-C ignored."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
 
 
 def interrupt_after(seconds: float) -> list[float]:

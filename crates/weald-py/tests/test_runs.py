@@ -166,3 +166,39 @@ def test_a_file_comes_in_with_its_crs_and_goes_out(root: Path, tmp_path: Path) -
     again = weald.Landscape.open(tmp_path / "out.tif")
     assert again.crs == land.crs and tuple(again.transform) == tuple(land.transform)
     assert np.array_equal(again["height"], land["height"])
+
+
+def test_a_landscape_remembers_the_fractals_of_its_recipe() -> None:
+    recipe = {
+        "landscape": {"size": 32, "cell": 5.0},
+        "fractal": [{"name": "bent", "of": "fern", "deform": [{"by": "permutation", "from": 5, "to": 7}]}],
+        "step": [{"do": "fbm", "relief": 5.0}, {"do": "scatter", "plant": "fern", "into": "ferns", "spacing": 6.0}],
+    }
+    land = weald.run(recipe).landscape
+    again = pickle.loads(pickle.dumps(land))
+    assert land is not None and again == land and len(again.plants("ferns", frame=False)["x"]) > 10
+    small = {"kind": "fractal", "fractal": "bent", "size": 48, "supersample": 1, "samples": 20}
+    assert again.picture(**small).data == land.picture(**small).data
+
+
+def test_a_bar_of_tqdm_shows_the_steps(capfd: pytest.CaptureFixture[str]) -> None:
+    tqdm = pytest.importorskip("tqdm")
+    assert tqdm
+    from weald._progress import Bar, shown
+
+    bar = Bar()
+    bar(weald.Progress("step", number=1, count=2, name="hydraulic"))
+    for done in (1, 2, 3):
+        bar(weald.Progress("progress", done=done, total=3, cells=9))
+    assert bar._bar.n == 3 and bar._bar.desc.startswith("hydraulic (1/2)")
+    bar.close()
+    with shown(None, True, "slope") as hears:
+        assert hears is not None
+        hears(weald.Progress("progress", done=1, total=2))
+    assert weald.run(RECIPE, progress=True).landscape is not None
+
+
+def test_notes_are_warnings_where_nobody_hears_them(tmp_path: Path) -> None:
+    with pytest.warns(weald.Note, match="are left out") as caught:
+        weald.run(RECIPE, tmp_path)
+    assert caught[0].filename == __file__

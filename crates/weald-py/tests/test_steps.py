@@ -129,3 +129,15 @@ def test_two_threads_do_not_change_one_landscape(hills: weald.Landscape) -> None
 
     hills.hydraulic(iterations=300, callback=again)
     assert problems and "copy()" in str(problems[0])
+
+
+def test_a_device_gives_what_the_processor_gives(hills: weald.Landscape) -> None:
+    here, there = hills.copy(), hills.copy()
+    try:
+        there.hydraulic(iterations=60, engine="gpu")
+    except weald.DeviceError as error:
+        assert error.kind == "no adapter", error
+        pytest.skip(str(error))
+    here.hydraulic(iterations=60, engine="cpu")
+    moved = np.abs(here["height"] - hills["height"]).max()
+    assert moved > 0.1 and np.abs(here["height"] - there["height"]).max() < 1e-3 * moved
