@@ -84,7 +84,13 @@ def test_methods_have_the_bits_of_a_recipe() -> None:
     land.diamond_square(relief=500.0, seed=9)
     land.hydraulic(iterations=80, seed=9)
     land.flow(seed=9)
-    assert land == weald.run(RECIPE).landscape
+    land.scatter(into="ferns", plant="fern", spacing=15.0, seed=9)
+    scatter = '[[step]]\ndo = "scatter"\ninto = "ferns"\nplant = "fern"\nspacing = 15.0\n[[output]]'
+    other = weald.run(RECIPE.replace("[[output]]", scatter, 1)).landscape
+    assert land == other and len(land.plants(frame=False)["x"]) > 100
+    again = land.copy()
+    again.scatter(into="ferns", plant="fern", spacing=15.0, seed=8)
+    assert again != land, "another seed, other places"
 
 
 def test_the_report_says_what_was_done(tmp_path: Path) -> None:
@@ -149,6 +155,7 @@ def test_recipes_and_results_pickle(tmp_path: Path) -> None:
 
 
 def test_landscapes_pickle_to_the_bit(holed: weald.Landscape) -> None:
+    holed.materials = [{"name": "rock", "talus_deg": 61.0}, {"name": "sand", "thickness": 2.0}]
     holed.hydraulic(iterations=10, model="stava")
     holed.scatter(into="ferns", plant="fern", spacing=8.0)
     for name in ("light", "fertility", "moisture"):
