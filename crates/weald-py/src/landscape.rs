@@ -194,6 +194,13 @@ impl Landscape {
         self.held().domain.georeference.as_ref().map(|place| (place.epsg, place.origin, place.pixel))
     }
 
+    /// Whether its file named a CRS that has no EPSG code.
+    #[getter]
+    fn has_crs_without_code(&self) -> bool {
+        let held = self.held();
+        held.domain.georeference.as_ref().is_some_and(|place| place.epsg.is_none() && place.keys.is_some())
+    }
+
     /// What the ground is made of, bedrock first.
     #[getter]
     fn materials<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyDict>>> {

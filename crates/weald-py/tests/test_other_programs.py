@@ -75,6 +75,24 @@ def test_rasterio_reads_and_writes_with_crs(holed: weald.Landscape, tmp_path: Pa
     assert opened.crs == holed.crs and tuple(opened.transform) == tuple(holed.transform)
 
 
+def test_a_crs_without_a_code_is_kept_in_files_and_told_where_it_is_lost(tmp_path: Path) -> None:
+    rasterio = pytest.importorskip("rasterio")
+    albers = "+proj=aea +lat_1=29.5 +lat_2=45.5 +lat_0=23 +lon_0=-90 +datum=WGS84 +units=m"
+    profile = dict(driver="GTiff", dtype="float32", count=1, width=5, height=4, crs=albers)
+    transform = rasterio.Affine(30.0, 0.0, 1000.0, 0.0, -30.0, 2000.0)
+    with rasterio.open(tmp_path / "albers.tif", "w", transform=transform, **profile) as file:
+        file.write(np.arange(20, dtype=np.float32).reshape(4, 5), 1)
+        with pytest.raises(weald.UsageError, match="no EPSG code"):
+            weald.Landscape(np.ones((4, 5)), crs=file.crs, transform=transform)
+    land = weald.Landscape.open(tmp_path / "albers.tif")
+    assert land.crs is None
+    with pytest.warns(weald.Note, match="no EPSG code"):
+        land.to_xarray()
+    land.save(tmp_path / "again.tif")
+    with rasterio.open(tmp_path / "again.tif") as again, rasterio.open(tmp_path / "albers.tif") as first:
+        assert again.crs == first.crs
+
+
 def test_rioxarray_knows_where_it_lies(holed: weald.Landscape, tmp_path: Path) -> None:
     rioxarray = pytest.importorskip("rioxarray")
     made = holed.to_xarray()

@@ -159,6 +159,12 @@ class Landscape(Steps, _weald.Landscape):
         """The CRS as "EPSG:32633"; `None` where it has none, or one without a code."""
         return None if self.place is None or self.place[0] is None else f"EPSG:{self.place[0]}"
 
+    def crs_for_others(self) -> str | None:
+        """The CRS as other programs are told of it; warns of one that they are not told of."""
+        if self.has_crs_without_code:
+            warn("the CRS of the file has no EPSG code, so that it is left out here; what `save` writes keeps it")
+        return self.crs
+
     @property
     def transform(self) -> Any:
         """The affine transform from columns and rows to the CRS, or to metres east and south of the corner: an `Affine`
@@ -241,7 +247,7 @@ class Landscape(Steps, _weald.Landscape):
         nodata = float("nan") if self.masked else None
         return {
             "driver": "GTiff", "dtype": "float32", "count": 1, "width": columns, "height": rows,
-            "crs": self.crs, "transform": self.transform, "nodata": nodata,
+            "crs": self.crs_for_others(), "transform": self.transform, "nodata": nodata,
         }  # fmt: skip
 
     def river_lines(self, frame: bool | None = None, **keys: Any) -> Any:
@@ -261,9 +267,10 @@ class Landscape(Steps, _weald.Landscape):
         geopandas = _module("geopandas", frame)
         if geopandas is None:
             return collection
+        crs = self.crs_for_others()
         if not collection["features"]:
-            return geopandas.GeoDataFrame(geometry=[], crs=self.crs)
-        return geopandas.GeoDataFrame.from_features(collection["features"], crs=self.crs)
+            return geopandas.GeoDataFrame(geometry=[], crs=crs)
+        return geopandas.GeoDataFrame.from_features(collection["features"], crs=crs)
 
     def plants(self, name: str | None = None, frame: bool | None = None) -> Any:
         """The plants of that name, or of the only one, as a table: a DataFrame where pandas is there, else a dictionary of

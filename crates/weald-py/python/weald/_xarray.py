@@ -74,7 +74,7 @@ def dataset(land: Landscape, layers: list[str]) -> xarray.Dataset:
         coords=coordinates,
         attrs={"cell": land.cell, "Conventions": "CF-1.11"},
     )
-    return _with_crs(made, land.crs, (a, 0.0, c, 0.0, e, f))
+    return _with_crs(made, land.crs_for_others(), (a, 0.0, c, 0.0, e, f))
 
 
 def _with_crs(made: xarray.Dataset, crs: str | None, transform: tuple[float, ...]) -> xarray.Dataset:
