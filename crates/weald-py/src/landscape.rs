@@ -248,7 +248,8 @@ impl Landscape {
             let mut landscape = self.held().clone();
             let materials: Vec<_> = landscape.materials.iter().map(|one| one.name.clone()).collect();
             let brush = export::brush(keys, &materials)?;
-            let volumes = py.detach(|| landscape.paint(&brush)).map_err(|error| exception(py, error))?;
+            let work = move |_: &Line| landscape.paint(&brush).map(|volumes| (landscape, volumes));
+            let (landscape, volumes) = watched(py, &Caller { callback: None, threads: None }, work)?;
             *self.held() = landscape;
             Ok((volumes.solid_added, volumes.solid_removed, volumes.water_added, volumes.water_removed))
         })

@@ -123,7 +123,7 @@ impl Session {
         let py = keys.py();
         let materials = self.with(py, |held| Ok(held.materials()))?;
         let change = export::change(keys, &materials)?;
-        self.with(py, |held| {
+        self.work(py, None, move |held, _| {
             held.act(|session| match change {
                 Change::Stroke(brush) => session.paint(brush),
                 Change::Set(setting) => session.set(setting),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import multiprocessing
 import os
 import signal
 import threading
@@ -83,6 +84,25 @@ def test_ctrl_c_is_no_exception_that_a_careless_loop_swallows() -> None:
         except Exception:
             pytest.fail("`except Exception` caught it")
     print(f"a run ends {delay(sent):.3f} s after Ctrl-C")
+
+
+def forked(land: weald.Landscape) -> weald.Landscape:
+    land = land.copy()
+    land.hydraulic(iterations=20)
+    land.paint("add", [300.0, 200.0], material="soil", thickness=3.0, radius=100.0)
+    land.picture(width=100)
+    session = weald.Session({**LONG, "landscape": {"size": 32, "cell": 20.0}})
+    session.advance(5)
+    session.paint("add-water", [200.0, 200.0], depth=3.0, radius=50.0)
+    return land
+
+
+@pytest.mark.skipif("fork" not in multiprocessing.get_all_start_methods(), reason="this system has no fork")
+def test_processes_that_were_forked_have_threads_of_their_own(hills: weald.Landscape) -> None:
+    here = forked(hills)
+    with multiprocessing.get_context("fork").Pool(2) as pool:
+        there = pool.map_async(forked, [hills, hills]).get(timeout=120)
+    assert there == [here, here] and here != hills
 
 
 def test_python_runs_while_a_step_does(hills: weald.Landscape) -> None:
