@@ -10,18 +10,18 @@ use webp::{AnimDecoder, AnimEncoder, AnimFrame, WebPConfig};
 use crate::flip::flip;
 
 /// Quality of the frames: a film is looked at as it moves, and may be softer than a picture.
-pub const QUALITY: f32 = 72.0;
+pub(crate) const QUALITY: f32 = 72.0;
 
 /// Mean ꟻLIP of the square that differs most, up to which a frame looks as it did, coding included.
 const ALIKE: f32 = 0.2;
 
 /// Frames, and how long each is shown, in milliseconds.
 #[derive(Clone, Debug)]
-pub struct Frames {
+pub(crate) struct Frames {
     /// All of one size.
-    pub images: Vec<Image>,
+    pub(crate) images: Vec<Image>,
     /// Milliseconds from frame to frame.
-    pub delay: u32,
+    pub(crate) delay: u32,
 }
 
 impl Frames {
@@ -29,7 +29,7 @@ impl Frames {
     ///
     /// # Errors
     /// [`Error::Run`] for a file that cannot be read.
-    pub fn of_file(path: &Path) -> Result<Option<Self>, Error> {
+    pub(crate) fn of_file(path: &Path) -> Result<Option<Self>, Error> {
         let unreadable = |cause: &dyn std::fmt::Display| {
             Error::Run(format!("cannot read the picture {}: {cause}", path.display()))
         };
@@ -44,7 +44,7 @@ impl Frames {
     ///
     /// # Errors
     /// What is wrong with the file.
-    pub fn of_png(bytes: &[u8]) -> Result<Option<Self>, String> {
+    pub(crate) fn of_png(bytes: &[u8]) -> Result<Option<Self>, String> {
         let read = |cause: png::DecodingError| cause.to_string();
         let mut reader = png::Decoder::new(Cursor::new(bytes)).read_info().map_err(read)?;
         let Some(animation) = reader.info().animation_control() else { return Ok(None) };
@@ -69,7 +69,7 @@ impl Frames {
     ///
     /// # Errors
     /// [`Error::Run`] where libwebp refuses it.
-    pub fn code(&self) -> Result<Vec<u8>, Error> {
+    pub(crate) fn code(&self) -> Result<Vec<u8>, Error> {
         let refused = |cause: &str| Error::Run(format!("libwebp cannot encode the film: {cause}"));
         let first = self.images.first().ok_or_else(|| refused("it has no frames"))?;
         let mut config = WebPConfig::new().map_err(|()| refused("no configuration"))?;
@@ -89,7 +89,7 @@ impl Frames {
     }
 
     /// Whether a coded film shows the same to the eye, and how far its worst frame is.
-    pub fn looks_like(&self, coded: &[u8]) -> (bool, f32) {
+    pub(crate) fn looks_like(&self, coded: &[u8]) -> (bool, f32) {
         let Ok(decoded) = AnimDecoder::new(coded).decode() else { return (false, 1.0) };
         if decoded.len() != self.images.len() {
             return (false, 1.0);

@@ -92,7 +92,7 @@ fn make(job: GalleryJob, device: &dyn RenderDevice) -> Result<FigureOutput, Erro
         header: texts(["after", "water above the levee, m³", "below, m³"]),
         rows: stages.iter().map(Stage::row).collect(),
         remarks: vec![format!(
-            "{rate:.2} frames a second on {adapter}, each with {STEPS} steps on 192 × 112 cells and a picture of a scene that \
+            "{rate:.2} frames per second on {adapter}, each with {STEPS} steps on 192 × 112 cells and a picture of a scene that \
              is made anew; a window follows the simulation without that (`weald bench --studio`)."
         )],
     };
@@ -206,9 +206,9 @@ fn claims(stages: &[Stage], rate: f64, adapter: &str) -> Vec<Claim> {
             ),
         ),
         Claim::new(
-            "The user works at 20 frames a second",
+            "The user works at 20 frames per second",
             Verdict::of(rate >= SOURCE_RATE),
-            format!("{rate:.2} frames a second on {adapter}"),
+            format!("{rate:.2} frames per second on {adapter}"),
         ),
     ]
 }

@@ -169,9 +169,9 @@ fn any_command_is_found_in_the_palette_and_the_tour_has_an_end() {
 
 #[test]
 fn what_is_wrong_in_the_text_is_told_with_its_line_and_a_missing_file_by_its_name() {
-    let (_folder, mut window) = opened();
+    let (folder, mut window) = opened();
     window.click("Cards or text");
-    let text = fs::read_to_string(_folder.path().join("valley.toml")).expect("a recipe");
+    let text = fs::read_to_string(folder.path().join("valley.toml")).expect("a recipe");
     let wrong = text.replace("relief = 300.0", "releif = 300.0");
     window.type_in((Role::MultilineTextInput, "Recipe as text"), &wrong);
     assert!(window.has("line 8:") || window.has("line 9:"), "{}", window.label_with("line"));
