@@ -53,7 +53,7 @@ const OUTLET: [[f64; 2]; 3] = [[400.0, 240.0], [485.0, 255.0], [600.0, 245.0]];
 const FRAMES: [usize; 3] = [14, 22, 20];
 const STEPS: u64 = 60;
 
-/// Frames a second as the film is shown, and as the source draws.
+/// Frames per second of the film as it is shown, and of the source.
 const SHOWN: f64 = 8.0;
 const SOURCE_RATE: f64 = 20.0;
 

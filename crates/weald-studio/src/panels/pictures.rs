@@ -4,7 +4,8 @@
 //!
 //! ```text
 //! weald render highland.toml --width 640 --height 360 highland.png
-//! ffmpeg -i highland.png -vf "scale=160:90:flags=lanczos,split[a][b];[a]palettegen[p];[b][p]paletteuse" small.png
+//! ffmpeg -i highland.png small.png -vf \
+//!     "scale=160:90:flags=lanczos,split[a][b];[a]palettegen=reserve_transparent=0[p];[b][p]paletteuse"
 //! ```
 
 use std::io::Cursor;
