@@ -13,22 +13,10 @@ use weald::step::{Entry, Layered};
 #[pyfunction]
 pub(crate) fn catalogue() -> String {
     let pictures = PICTURES.iter().map(|entry| {
-        json!({
-            "name": entry.name,
-            "summary": entry.summary,
-            "source": entry.source,
-            "extensions": entry.extensions,
-            "parameters": parameters(&(entry.parameters)()),
-        })
+        file_kind([entry.name, entry.summary, entry.source], entry.extensions, &(entry.parameters)())
     });
     let exports = EXPORTS.iter().map(|entry| {
-        json!({
-            "name": entry.name,
-            "summary": entry.summary,
-            "source": entry.source,
-            "extensions": entry.extensions,
-            "parameters": parameters(&(entry.parameters)()),
-        })
+        file_kind([entry.name, entry.summary, entry.source], entry.extensions, &(entry.parameters)())
     });
     json!({
         "steps": CATALOG.iter().map(step).collect::<Vec<_>>(),
@@ -36,6 +24,17 @@ pub(crate) fn catalogue() -> String {
         "exports": exports.collect::<Vec<_>>(),
     })
     .to_string()
+}
+
+/// A kind of picture or export, which writes a file.
+fn file_kind([name, summary, source]: [&str; 3], extensions: &[&str], keys: &[Parameter]) -> Value {
+    json!({
+        "name": name,
+        "summary": summary,
+        "source": source,
+        "extensions": extensions,
+        "parameters": parameters(keys),
+    })
 }
 
 fn step(entry: &Entry) -> Value {
