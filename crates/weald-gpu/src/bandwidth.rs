@@ -1,6 +1,6 @@
 //! How fast a device copies its own memory: the bound of every pass that computes little.
 
-use std::time::Instant;
+use web_time::Instant;
 
 use weald::Error;
 use wgpu::{BufferUsages, CommandEncoderDescriptor};

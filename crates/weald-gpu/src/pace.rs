@@ -4,7 +4,8 @@
 //! submission is given what lately took [`TARGET_TIME`], and few are on their way at once.
 
 use std::collections::VecDeque;
-use std::time::{Duration, Instant};
+use std::time::Duration;
+use web_time::Instant;
 
 use weald::Error;
 use wgpu::{CommandEncoder, CommandEncoderDescriptor};

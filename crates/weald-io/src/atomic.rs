@@ -1,11 +1,11 @@
 //! Files that are whole or not there.
 
-use std::fs::File;
-use std::io::{BufWriter, ErrorKind, Write};
+use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 use super::parts::{Part, PartName, followed};
 use weald_core::error::Error;
+use weald_core::files::{self, File};
 
 /// How names of temporary files end, behind the number of the process that writes.
 const TEMPORARY: &str = ".tmp-weald";
@@ -31,7 +31,7 @@ pub fn write_whole_with(
     let written = write_and_sync(&temporary, write).and_then(|()| rename(&temporary, path));
     written.map_err(|cause| {
         // The write has failed already; that the leftover cannot be removed either adds nothing.
-        let _ = std::fs::remove_file(&temporary);
+        let _ = files::remove_file(&temporary);
         Error::write(path, &cause)
     })
 }
@@ -45,7 +45,7 @@ pub fn write_through(path: &Path, write: impl FnOnce(&Path) -> Result<(), Error>
     let renamed = || rename(&temporary, path).map_err(|cause| Error::write(path, &cause));
     write(&temporary).and_then(|()| renamed()).inspect_err(|_| {
         // The write has failed already; that there may be no leftover to remove adds nothing.
-        let _ = std::fs::remove_file(&temporary);
+        let _ = files::remove_file(&temporary);
     })
 }
 
@@ -62,7 +62,7 @@ pub fn write_parts(path: &Path, parts: &[Part]) -> Result<(), Error> {
     let discard = |error| {
         // What failed is reported; that a leftover cannot be removed either adds nothing.
         for (path, _) in &named {
-            let _ = std::fs::remove_file(temporary_name(path));
+            let _ = files::remove_file(temporary_name(path));
         }
         error
     };
@@ -79,7 +79,7 @@ pub fn write_parts(path: &Path, parts: &[Part]) -> Result<(), Error> {
 
 /// Writes a folder under a temporary name and puts it in the place of the older one.
 fn write_folder(path: &Path, parts: &[Part]) -> Result<(), Error> {
-    if path.is_dir() && !parts.iter().any(|part| part.name.path(path).exists()) {
+    if files::is_dir(path) && !parts.iter().any(|part| files::exists(&part.name.path(path))) {
         let path = path.display();
         let message =
             format!("cannot write {path}: the folder there holds other things; remove or rename it");
@@ -88,9 +88,9 @@ fn write_folder(path: &Path, parts: &[Part]) -> Result<(), Error> {
     let (fresh, stale) = (temporary_name(path), temporary_name(&followed(path, ".old")));
     let swapped = fill(&fresh, parts).and_then(|()| replace_folder(&fresh, path, &stale));
     // Both are leftovers by now; that one of them is not there is the usual case.
-    let _ = std::fs::remove_dir_all(&fresh);
+    let _ = files::remove_dir_all(&fresh);
     swapped.map_err(|cause| Error::write(path, &cause))?;
-    let _ = std::fs::remove_dir_all(&stale);
+    let _ = files::remove_dir_all(&stale);
     Ok(())
 }
 
@@ -100,14 +100,14 @@ fn write_folder(path: &Path, parts: &[Part]) -> Result<(), Error> {
 /// # Errors
 /// Those of the file system.
 pub fn replace_folder(fresh: &Path, path: &Path, stale: &Path) -> std::io::Result<()> {
-    if !path.exists() {
+    if !files::exists(path) {
         return rename(fresh, path);
     }
     if exchange(fresh, path).is_ok() {
         rename(fresh, stale)?;
         return sync_folder_of(path);
     }
-    std::fs::rename(path, stale)?;
+    files::rename(path, stale)?;
     rename(fresh, path)
 }
 
@@ -127,17 +127,18 @@ fn exchange(_: &Path, _: &Path) -> std::io::Result<()> {
 /// # Errors
 /// Those of the file system.
 pub fn rename(from: &Path, to: &Path) -> std::io::Result<()> {
-    std::fs::rename(from, to)?;
+    files::rename(from, to)?;
     sync_folder_of(to)
 }
 
 /// Brings the names in the folder of a file to disk: a power cut could undo a rename that is only in memory.
 #[cfg(unix)]
 fn sync_folder_of(path: &Path) -> std::io::Result<()> {
+    use std::io::ErrorKind::{InvalidInput, Unsupported};
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     match File::open(folder)?.sync_all() {
         // Some file systems of networks cannot, and keep names by themselves.
-        Err(cause) if [ErrorKind::InvalidInput, ErrorKind::Unsupported].contains(&cause.kind()) => Ok(()),
+        Err(cause) if [InvalidInput, Unsupported].contains(&cause.kind()) => Ok(()),
         other => other,
     }
 }
@@ -150,11 +151,11 @@ fn sync_folder_of(_: &Path) -> std::io::Result<()> {
 
 /// Removes temporary files of programs that were killed while they wrote into a folder, and gives their names.
 pub fn remove_leftovers(folder: &Path) -> Vec<PathBuf> {
-    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
+    let entries = files::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
     let left: Vec<_> = entries.filter(|path| is_leftover(path)).collect();
     // What cannot be removed is in nobody's way.
     let removed = |path: &PathBuf| {
-        if path.is_dir() { std::fs::remove_dir_all(path) } else { std::fs::remove_file(path) }.is_ok()
+        if files::is_dir(path) { files::remove_dir_all(path) } else { files::remove_file(path) }.is_ok()
     };
     left.into_iter().filter(removed).collect()
 }
@@ -174,16 +175,16 @@ fn is_gone(_: &Path, process: u32) -> bool {
 /// Elsewhere a file that nobody has written to for an hour has no writer.
 #[cfg(not(target_os = "linux"))]
 fn is_gone(path: &Path, _: u32) -> bool {
-    let changed = path.metadata().and_then(|about| about.modified());
+    let changed = files::metadata(path).and_then(|about| about.modified());
     changed.ok().and_then(|at| at.elapsed().ok()).is_some_and(|age| age.as_secs() > 3600)
 }
 
 fn fill(folder: &Path, parts: &[Part]) -> std::io::Result<()> {
-    std::fs::create_dir_all(folder)?;
+    files::create_dir_all(folder)?;
     for part in parts {
         let path = part.name.path(folder);
         if let Some(parent) = path.parent() {
-            std::fs::create_dir_all(parent)?;
+            files::create_dir_all(parent)?;
         }
         write_and_sync(&path, |file| file.write_all(&part.bytes))?;
     }
@@ -201,7 +202,7 @@ fn write_and_sync(
 
 fn temporary_name(path: &Path) -> PathBuf {
     let mut name = path.file_name().unwrap_or_default().to_owned();
-    name.push(format!(".{}{TEMPORARY}", std::process::id()));
+    name.push(format!(".{}{TEMPORARY}", files::process_id()));
     path.with_file_name(name)
 }
 

@@ -1,12 +1,12 @@
 //! Rasters and exports of several files: a description beside the values, a set of tiles, a folder of chunks.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::fs::File;
 use std::io::{ErrorKind, Read};
 use std::path::{Path, PathBuf};
 
 use super::Fault;
 use weald_core::error::{Limit, Quantity};
+use weald_core::files::{self, File};
 
 /// One file of a raster or of an export.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -93,7 +93,7 @@ pub(super) struct OnDisk(pub(super) PathBuf);
 impl Parts for OnDisk {
     fn read(&self, name: &PartName, most: u64) -> Result<Option<Vec<u8>>, Fault> {
         let path = name.path(&self.0);
-        if !path.exists() {
+        if !files::exists(&path) {
             return Ok(None);
         }
         read_at_most(&path, most).map(Some)
@@ -102,9 +102,9 @@ impl Parts for OnDisk {
     fn folders(&self) -> Result<Vec<String>, Fault> {
         let unlisted = |cause| Fault::damaged(format!("cannot be listed: {cause}"));
         let mut folders = Vec::new();
-        for entry in std::fs::read_dir(&self.0).map_err(unlisted)? {
+        for entry in files::read_dir(&self.0).map_err(unlisted)? {
             let entry = entry.map_err(unlisted)?;
-            let name = entry.file_name().into_string().ok().filter(|_| entry.path().is_dir());
+            let name = entry.file_name().into_string().ok().filter(|_| files::is_dir(&entry.path()));
             folders.extend(name);
         }
         folders.sort();

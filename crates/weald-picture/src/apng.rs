@@ -1,6 +1,5 @@
 //! Moving pictures in one file: animated PNG, which browsers play and everything else shows as its first frame.
 
-use std::fs::File;
 use std::io::{BufWriter, Write};
 use std::path::Path;
 
@@ -8,6 +7,7 @@ use png::{BitDepth, Encoder, EncodingError, SrgbRenderingIntent, Writer};
 
 use super::Cutout;
 use weald_core::error::Error;
+use weald_core::files::File;
 use weald_io::write_through;
 
 /// Thousandths of a frame a second, by which delays are exact to the rates that people write.

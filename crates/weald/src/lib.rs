@@ -81,8 +81,8 @@ pub use landscape_ext::LandscapeExt;
 
 #[doc(inline)]
 pub use weald_core::{
-    attachment, condition, domain, error, grid, landscape, layer_words, material, parameter, plants, random,
-    strata, vectors,
+    attachment, condition, domain, error, files, grid, landscape, layer_words, material, parameter, plants,
+    random, strata, vectors,
 };
 #[doc(inline)]
 pub use weald_core::{choices, parameters, variants};

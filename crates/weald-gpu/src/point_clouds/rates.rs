@@ -1,7 +1,7 @@
 //! Rates of random iteration and of swaying on a device.
 
 use std::fmt::{Display, Formatter, Result as Written};
-use std::time::Instant;
+use web_time::Instant;
 
 use weald::Error;
 use weald::grow::ifs::wind::Wind;

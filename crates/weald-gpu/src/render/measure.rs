@@ -3,10 +3,11 @@
 //! Water is shaded with the ground. How long it takes is how much longer the ground does than in the same picture without
 //! water, which is drawn as well.
 
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use weald::Error;
 use weald::picture::Camera;
+use web_time::Instant;
 
 use super::picture::Readback;
 use super::renderer::Renderer;

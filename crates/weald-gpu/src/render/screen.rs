@@ -2,10 +2,11 @@
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use weald::Error;
 use weald::picture::{Camera, Image};
+use web_time::Instant;
 use wgpu::{CommandEncoderDescriptor, TextureFormat, TextureUsages, TextureView};
 
 use super::onto::Onto;

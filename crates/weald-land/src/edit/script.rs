@@ -10,13 +10,13 @@
 //! In TOML each edit is a table `[[edit]]` of the same keys, which [`EditKeys`](super::EditKeys) explains.
 
 use super::change::Edit;
-use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
 use super::json_lines::{MAX_FAULTS, json_lines};
 use super::keys;
 use weald_core::error::{Diagnostic, Error, Limit, Quantity, RecipeError};
+use weald_core::files::File;
 use weald_core::parameter::Diagnostics;
 use weald_core::source::{self, Node, Table, Value};
 use weald_io::write_whole;

@@ -1,6 +1,6 @@
 //! Runs a process for many steps: progress, interruption, checkpoints, the watch for NaN, mean fluxes.
 
-use std::time::Instant;
+use web_time::Instant;
 
 use super::finished::Finished;
 use super::look::{self, Seen};

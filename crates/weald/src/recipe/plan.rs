@@ -19,7 +19,6 @@ mod words;
 
 pub(super) use self::words::Vocabulary;
 use std::cell::RefCell;
-use std::fs::File;
 use std::io::{ErrorKind, Read};
 use std::path::{Path, PathBuf};
 
@@ -41,6 +40,7 @@ use super::parameter::Diagnostics;
 use super::source::{self, Table};
 use weald_core::domain::Domain;
 use weald_core::error::{Diagnostic, Error, RecipeError};
+use weald_core::files::File;
 use weald_export::{Export, report};
 
 /// A recipe that can run.

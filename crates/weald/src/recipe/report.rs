@@ -5,6 +5,7 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 
 use weald_core::error::Error;
+use weald_core::files;
 use weald_engine::report::StepReport;
 use weald_io::write_whole;
 
@@ -79,7 +80,7 @@ impl Report {
     /// [`Error::Input`] for a file that is missing or is no report.
     pub fn read(path: &Path) -> Result<Self, Error> {
         let unread = |cause: &dyn std::fmt::Display| Error::input(path, format!("cannot be read: {cause}"));
-        let text = std::fs::read(path).map_err(|cause| unread(&cause))?;
+        let text = files::read(path).map_err(|cause| unread(&cause))?;
         serde_json::from_slice(&text).map_err(|cause| unread(&cause))
     }
 

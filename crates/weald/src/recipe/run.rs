@@ -15,7 +15,8 @@ mod writer;
 
 pub use options::{Options, Progress, Run, Silent};
 use std::path::PathBuf;
-use std::time::Instant;
+
+use web_time::Instant;
 
 use super::cache::KeptSteps;
 use super::checkpoint::{self, CHECKPOINT_FILE, State};
@@ -28,6 +29,7 @@ use finished::step_report;
 use step_watcher::{CheckpointTimer, StepWatcher};
 pub use video::Frames;
 use weald_core::error::{Error, NotFinite};
+use weald_core::files;
 use weald_core::landscape::Landscape;
 use weald_engine::Job;
 use weald_plants::Vegetation;
@@ -96,7 +98,10 @@ impl Run<'_> {
         }
         let done = self.finish_steps(progress).and_then(|state| self.write(state, progress));
         // The frames of a time-lapse go with the checkpoint from which the run goes on.
-        if done.is_err() && self.recipe.outputs.iter().any(Output::lapses) && self.checkpoint().exists() {
+        if done.is_err()
+            && self.recipe.outputs.iter().any(Output::lapses)
+            && files::exists(&self.checkpoint())
+        {
             place.leaves = Leaves::Frames;
         }
         let report = done?;
@@ -147,7 +152,7 @@ impl Run<'_> {
             progress.note(&format!("going on after {} steps and {done} iterations", state.done));
             return Ok(state);
         }
-        if path.exists() {
+        if files::exists(&path) {
             let path = path.display();
             progress.note(&format!("starting anew; the checkpoint {path} is used with --resume only"));
         }

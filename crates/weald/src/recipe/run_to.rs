@@ -1,7 +1,8 @@
 //! Steps of a recipe one after the other, for whoever does not write files.
 
 use std::sync::Arc;
-use std::time::Instant;
+
+use web_time::Instant;
 
 use super::cache::{Cache, KeptSteps};
 use super::plan::{Planned, Recipe};

@@ -276,7 +276,7 @@ fn seconds_of<M: Scheme>(
     // The first step compiles, allocates and warms up; the look at the end waits for a device.
     machine.advance(&weather[..1], false)?;
     machine.first_not_finite()?;
-    let begun = std::time::Instant::now();
+    let begun = web_time::Instant::now();
     machine.advance(&weather, false)?;
     machine.first_not_finite()?;
     Ok(begun.elapsed().as_secs_f64())

@@ -1,12 +1,14 @@
 //! Results as files of a folder, named by the hash of their text.
 
-use std::fs;
 use std::path::{Path, PathBuf};
-use std::time::{Duration, SystemTime};
+use std::time::Duration;
+
+use web_time::SystemTime;
 
 use super::kept::Kept;
 use crate::recipe::checkpoint::{self, State};
 use weald_core::error::Error;
+use weald_core::files;
 
 /// Extension of a result.
 const EXTENSION: &str = "weald";
@@ -21,15 +23,15 @@ fn file(folder: &Path, text: &str) -> PathBuf {
 /// The result of a text. A file that does not hold it whole is removed, and counts as none.
 pub(super) fn read(folder: &Path, text: &str) -> Option<Kept> {
     let path = file(folder, text);
-    if !path.exists() {
+    if !files::exists(&path) {
         return None;
     }
     let Ok(State { landscape: changed, done, mut steps, .. }) = checkpoint::read(&path, text) else {
         // Where it cannot be removed it will be overwritten, or fail again.
-        let _ = fs::remove_file(&path);
+        let _ = files::remove_file(&path);
         return None;
     };
-    let used = fs::File::options().append(true).open(&path);
+    let used = files::File::options().append(true).open(&path);
     // What cannot be marked as used only goes sooner.
     let _ = used.and_then(|file| file.set_modified(SystemTime::now()));
     Some(Kept { changed, whole: done == 1, report: steps.pop()? })
@@ -37,7 +39,7 @@ pub(super) fn read(folder: &Path, text: &str) -> Option<Kept> {
 
 /// Writes the result of a text, and removes what was used longest ago until all results take `limit` bytes at most.
 pub(super) fn write(folder: &Path, text: &str, kept: &Kept, limit: u64) -> Result<(), Error> {
-    fs::create_dir_all(folder).map_err(|cause| Error::Run(format!("{}: {cause}", folder.display())))?;
+    files::create_dir_all(folder).map_err(|cause| Error::Run(format!("{}: {cause}", folder.display())))?;
     let state = State {
         landscape: kept.changed.clone(),
         done: usize::from(kept.whole),
@@ -53,14 +55,14 @@ pub(super) fn write(folder: &Path, text: &str, kept: &Kept, limit: u64) -> Resul
 /// What another program removes at the same time is gone all the same.
 fn make_room(folder: &Path, limit: u64) {
     let mut results = Vec::new();
-    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
+    for entry in files::read_dir(folder).into_iter().flatten().flatten() {
         let Ok(about) = entry.metadata() else { continue };
         let used = about.modified().unwrap_or(SystemTime::UNIX_EPOCH);
         let path = entry.path();
         if path.extension().is_some_and(|extension| extension == EXTENSION) {
             results.push((used, about.len(), path));
         } else if about.is_file() && used.elapsed().is_ok_and(|age| age > ABANDONED) {
-            let _ = fs::remove_file(path);
+            let _ = files::remove_file(path);
         }
     }
     results.sort();
@@ -69,7 +71,7 @@ fn make_room(folder: &Path, limit: u64) {
         if all <= limit {
             break;
         }
-        if fs::remove_file(path).is_ok() {
+        if files::remove_file(path).is_ok() {
             all -= bytes;
         }
     }

@@ -1,13 +1,13 @@
 //! What each part of a landscape follows from, as a hash.
 
 use std::collections::BTreeMap;
-use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
 use crate::recipe::canonical;
 use crate::recipe::plan::{FractalSource, Ground, Planned, Recipe};
 use weald_core::error::Error;
+use weald_core::files::File;
 use weald_core::landscape::Landscape;
 use weald_core::material::{BEDROCK, layer_names};
 use weald_engine::Engine;

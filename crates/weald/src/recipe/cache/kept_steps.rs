@@ -1,7 +1,8 @@
 //! The steps of one run, with what earlier runs have left of them.
 
 use std::sync::Arc;
-use std::time::Instant;
+
+use web_time::Instant;
 
 use super::Cache;
 use super::follows::Follows;

@@ -7,6 +7,7 @@ use super::work::new_files;
 use crate::recipe::checkpoint::State;
 use crate::recipe::plan::{Content, Film, Motion, Output, Recipe};
 use weald_core::error::Error;
+use weald_core::files;
 use weald_core::landscape::Landscape;
 use weald_engine::step::Step;
 use weald_io::write_whole;
@@ -68,7 +69,7 @@ impl<'a> TimeLapses<'a> {
             // The frame of the iteration itself is drawn again.
             let drawn = earlier + own.div_ceil(lapse.every);
             let frame = |number| self.folder.join(Film::frame(lapse.file, number));
-            if let Some(missing) = (0..drawn).map(frame).find(|frame| !frame.exists()) {
+            if let Some(missing) = (0..drawn).map(frame).find(|frame| !files::exists(frame)) {
                 let missing = missing.display();
                 let what = format!("its frame {missing} is gone; run without --resume, which draws it again");
                 return Err(Error::input(checkpoint, what));
@@ -94,7 +95,7 @@ impl<'a> TimeLapses<'a> {
 /// Makes the folder in which a file is to lie.
 pub(super) fn make_folder_of(path: &Path) -> Result<(), Error> {
     let folder = path.parent().unwrap_or(Path::new("."));
-    std::fs::create_dir_all(folder).map_err(|cause| Error::write(folder, &cause))
+    files::create_dir_all(folder).map_err(|cause| Error::write(folder, &cause))
 }
 
 /// A picture of what is there now, by the processor or by a device.
@@ -128,7 +129,7 @@ pub(super) fn drawn(path: &Path, number: u64) -> Result<Cutout, Error> {
     let frame = Film::frame(path, number);
     let unread =
         |cause: &dyn std::fmt::Display| Error::input(&frame, format!("cannot be read again: {cause}"));
-    let file = std::fs::File::open(&frame).map_err(|cause| unread(&cause))?;
+    let file = files::File::open(&frame).map_err(|cause| unread(&cause))?;
     let mut reader =
         png::Decoder::new(std::io::BufReader::new(file)).read_info().map_err(|cause| unread(&cause))?;
     let [width, height] = [reader.info().width, reader.info().height].map(|side| side as usize);

@@ -5,6 +5,7 @@ use std::path::Path;
 use super::work::WorkFolder;
 use crate::recipe::plan::{Name, Recipe};
 use weald_core::error::Error;
+use weald_core::files;
 use weald_io::remove_leftovers;
 
 /// Makes the folder and those of the outputs, takes it for this run, and tries to write into each. The texts say what
@@ -39,21 +40,34 @@ pub(super) fn prepare(recipe: &Recipe, out: &Path) -> Result<(WorkFolder, Vec<St
 fn ensure_free(name: &Name, path: &Path) -> Result<(), Error> {
     let shown = path.display();
     match name {
-        Name::Folder { holds, .. } if path.exists() && !path.join(holds).exists() => {
+        Name::Folder { holds, .. } if files::exists(path) && !files::exists(&path.join(holds)) => {
             Err(Error::Run(format!(
                 "cannot write {shown}: what is there is no folder of that kind and holds other things; remove or rename it"
             )))
         }
         Name::Folder { .. } => Ok(()),
-        _ if path.is_dir() => Err(Error::Run(format!("cannot write {shown}: it is a folder"))),
+        _ if files::is_dir(path) => Err(Error::Run(format!("cannot write {shown}: it is a folder"))),
         _ => Ok(()),
     }
 }
 
-/// Makes a folder and a file in it that never has a name.
+/// Makes a folder that can be written to.
 fn make(folder: &Path) -> Result<(), Error> {
-    let made = std::fs::create_dir_all(folder).and_then(|()| tempfile::tempfile_in(folder));
-    made.map(drop).map_err(|cause| Error::write(folder, &cause))
+    files::create_dir_all(folder)
+        .and_then(|()| try_to_write(folder))
+        .map_err(|cause| Error::write(folder, &cause))
+}
+
+/// Makes a file that never has a name.
+#[cfg(not(target_arch = "wasm32"))]
+fn try_to_write(folder: &Path) -> std::io::Result<()> {
+    tempfile::tempfile_in(folder).map(drop)
+}
+
+/// Memory can be written to.
+#[cfg(target_arch = "wasm32")]
+fn try_to_write(_: &Path) -> std::io::Result<()> {
+    Ok(())
 }
 
 /// Files get their names by a move, which no system makes from one disk to another.
@@ -74,5 +88,5 @@ fn ensure_one_disk(_: &Path, _: &Path) -> Result<(), Error> {
 }
 
 fn same_file(one: &Path, other: &Path) -> bool {
-    matches!((one.canonicalize(), other.canonicalize()), (Ok(one), Ok(other)) if one == other)
+    matches!((files::canonicalize(one), files::canonicalize(other)), (Ok(one), Ok(other)) if one == other)
 }

@@ -1,6 +1,5 @@
 //! Files that a run reads: what is wrong with them is reported before an hour of simulation, not after it.
 
-use std::fs::File;
 use std::path::Path;
 
 use super::video;
@@ -8,6 +7,7 @@ use crate::recipe::ground;
 use crate::recipe::memory::{Memory, ensure_file};
 use crate::recipe::plan::{Ground, Output, Recipe};
 use weald_core::error::Error;
+use weald_core::files::File;
 use weald_core::landscape::Landscape;
 
 impl Recipe {

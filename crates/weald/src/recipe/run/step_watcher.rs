@@ -1,7 +1,9 @@
 //! What a running step sees of the run: progress goes out, checkpoints go to disk.
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
-use std::time::{Duration, Instant};
+use std::time::Duration;
+
+use web_time::Instant;
 
 use super::film::TimeLapses;
 use super::options::{Progress, Run};

@@ -5,7 +5,7 @@
 //! the moment when all files are whole until all have their names. A run that is killed before leaves the files of the
 //! run before it as they were; one that is killed after is finished by the next.
 
-use std::fs::{self, File, TryLockError};
+use std::fs::TryLockError;
 use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
 
@@ -14,6 +14,7 @@ use serde::{Deserialize, Serialize};
 use crate::recipe::plan::{Recipe, WORK_FOLDER};
 use crate::recipe::{CHECKPOINT_FILE, REPORT_FILE};
 use weald_core::error::Error;
+use weald_core::files::{self, File};
 use weald_io::{rename, replace_folder, write_whole};
 
 const LOCK: &str = "lock";
@@ -71,7 +72,7 @@ impl WorkFolder {
         this.remove(OLD)?;
         this.remove_half_written()?;
         // Frames go with a checkpoint; what a fresh run draws of the same recipe are the same frames.
-        if !out.join(CHECKPOINT_FILE).exists() {
+        if !files::exists(&out.join(CHECKPOINT_FILE)) {
             this.remove_all_made()?;
         }
         this.leaves = Leaves::Others;
@@ -85,18 +86,19 @@ impl WorkFolder {
     /// Removes what a run was writing here when it was killed: a journal that was not whole.
     fn remove_half_written(&self) -> Result<(), Error> {
         let folder = self.out.join(WORK_FOLDER);
-        let entries = fs::read_dir(&folder).map_err(|cause| Error::write(&folder, &cause))?;
-        let files = entries.flatten().filter(|entry| entry.path().is_file() && entry.file_name() != LOCK);
+        let entries = files::read_dir(&folder).map_err(|cause| Error::write(&folder, &cause))?;
+        let files =
+            entries.flatten().filter(|entry| files::is_file(&entry.path()) && entry.file_name() != LOCK);
         files.into_iter().try_for_each(|entry| {
-            fs::remove_file(entry.path()).map_err(|cause| Error::write(&entry.path(), &cause))
+            files::remove_file(entry.path()).map_err(|cause| Error::write(&entry.path(), &cause))
         })
     }
 
     /// Removes what runs made that did not come to their ends.
     fn remove_all_made(&self) -> Result<(), Error> {
         let folder = self.out.join(WORK_FOLDER);
-        let entries = fs::read_dir(&folder).map_err(|cause| Error::write(&folder, &cause))?;
-        let folders = entries.flatten().filter(|entry| entry.path().is_dir());
+        let entries = files::read_dir(&folder).map_err(|cause| Error::write(&folder, &cause))?;
+        let folders = entries.flatten().filter(|entry| files::is_dir(&entry.path()));
         folders.into_iter().try_for_each(|entry| self.remove(&entry.file_name().to_string_lossy()))
     }
 
@@ -105,7 +107,7 @@ impl WorkFolder {
         let mut left = Ok(());
         // A program that a killed run had started may put a last file there meanwhile.
         for _ in 0..5 {
-            left = match fs::remove_dir_all(&path) {
+            left = match files::remove_dir_all(&path) {
                 Err(cause) if cause.kind() != std::io::ErrorKind::NotFound => {
                     Err(Error::write(&path, &cause))
                 }
@@ -121,7 +123,7 @@ impl WorkFolder {
     /// # Errors
     /// [`Error::Run`] where a file cannot get its name; the next run goes on with the journal.
     pub(super) fn publish(&self, mut files: Vec<PathBuf>) -> Result<(), Error> {
-        if self.new.join(REPORT_FILE).exists() {
+        if files::exists(&self.new.join(REPORT_FILE)) {
             files.push(PathBuf::from(REPORT_FILE));
         }
         let made_in = self.new.file_name().unwrap_or_default().to_string_lossy().into_owned();
@@ -144,41 +146,41 @@ impl WorkFolder {
     /// Gives files their names, and takes away the checkpoint with which their run could have gone on.
     fn finish_journal(&self) -> Result<Option<PathBuf>, Error> {
         let path = self.inside(JOURNAL);
-        let Ok(text) = fs::read(&path) else { return Ok(None) };
+        let Ok(text) = files::read(&path) else { return Ok(None) };
         let journal: Journal = serde_json::from_slice(&text).map_err(|cause| {
             let folder = self.out.join(WORK_FOLDER);
             Error::input(&path, format!("is damaged: {cause}; remove {} and run again", folder.display()))
         })?;
         let (made, report) = (self.inside(&journal.made_in), self.out.join(REPORT_FILE));
-        if made.join(REPORT_FILE).exists() && report.exists() {
-            fs::remove_file(&report).map_err(|cause| Error::write(&report, &cause))?;
+        if files::exists(&made.join(REPORT_FILE)) && files::exists(&report) {
+            files::remove_file(&report).map_err(|cause| Error::write(&report, &cause))?;
         }
         for file in &journal.files {
             let target = self.out.join(file);
             self.name(&made, file, &target).map_err(|cause| Error::write(&target, &cause))?;
         }
         remove_checkpoint(&self.out.join(CHECKPOINT_FILE))?;
-        fs::remove_file(&path).map_err(|cause| Error::write(&path, &cause))?;
+        files::remove_file(&path).map_err(|cause| Error::write(&path, &cause))?;
         Ok(Some(made))
     }
 
     /// Gives one file its name, unless it has it already.
     fn name(&self, folder: &Path, file: &Path, target: &Path) -> std::io::Result<()> {
         let made = folder.join(file);
-        if !made.exists() {
+        if !files::exists(&made) {
             return Ok(());
         }
         if let Some(folder) = target.parent() {
-            fs::create_dir_all(folder)?;
+            files::create_dir_all(folder)?;
         }
-        if !made.is_dir() {
+        if !files::is_dir(&made) {
             return rename(&made, target);
         }
         let stale = self.inside(OLD).join(file);
-        if stale.exists() {
-            fs::remove_dir_all(&stale)?;
+        if files::exists(&stale) {
+            files::remove_dir_all(&stale)?;
         }
-        fs::create_dir_all(stale.parent().unwrap_or(&self.out))?;
+        files::create_dir_all(stale.parent().unwrap_or(&self.out))?;
         replace_folder(&made, target, &stale)
     }
 }
@@ -186,20 +188,20 @@ impl WorkFolder {
 impl Drop for WorkFolder {
     /// What cannot be removed now is removed by the next run.
     fn drop(&mut self) {
-        let is_finished = !self.inside(JOURNAL).exists();
+        let is_finished = !files::exists(&self.inside(JOURNAL));
         let _ = match self.leaves {
             Leaves::Nothing if is_finished => self.remove_all_made(),
-            Leaves::Others if is_finished => fs::remove_dir_all(&self.new).or(Ok(())),
+            Leaves::Others if is_finished => files::remove_dir_all(&self.new).or(Ok(())),
             _ => Ok(()),
         };
-        let _ = fs::remove_file(self.inside(LOCK));
-        let _ = fs::remove_dir(self.out.join(WORK_FOLDER));
+        let _ = files::remove_file(self.inside(LOCK));
+        let _ = files::remove_dir(self.out.join(WORK_FOLDER));
     }
 }
 
 /// Removes the checkpoint of a run that is done.
 pub(super) fn remove_checkpoint(path: &Path) -> Result<(), Error> {
-    match fs::remove_file(path) {
+    match files::remove_file(path) {
         Err(cause) if cause.kind() != std::io::ErrorKind::NotFound => Err(Error::Run(format!(
             "the run is done, but its checkpoint {} cannot be removed: {cause}",
             path.display()
@@ -213,7 +215,7 @@ fn locked(out: &Path) -> Result<File, Error> {
     let folder = out.join(WORK_FOLDER);
     let path = folder.join(LOCK);
     loop {
-        fs::create_dir_all(&folder).map_err(|cause| Error::write(out, &cause))?;
+        files::create_dir_all(&folder).map_err(|cause| Error::write(out, &cause))?;
         let opened = File::options().read(true).write(true).create(true).truncate(false).open(&path);
         let mut file = match opened {
             // Another run has just ended and taken its folder away.
@@ -226,7 +228,7 @@ fn locked(out: &Path) -> Result<File, Error> {
             Err(TryLockError::Error(cause)) => return Err(Error::write(&path, &cause)),
         }
         if is_still_there(&file, &path) {
-            let holder = format!("process {}", std::process::id());
+            let holder = format!("process {}", files::process_id());
             let written = file.set_len(0).and_then(|()| file.write_all(holder.as_bytes()));
             written.map_err(|cause| Error::write(&path, &cause))?;
             return Ok(file);
@@ -247,11 +249,11 @@ fn held(out: &Path, file: &mut File) -> Error {
 #[cfg(unix)]
 fn is_still_there(file: &File, path: &Path) -> bool {
     use std::os::unix::fs::MetadataExt;
-    let place = |about: &fs::Metadata| (about.dev(), about.ino());
-    matches!((file.metadata(), fs::metadata(path)), (Ok(one), Ok(other)) if place(&one) == place(&other))
+    let place = |about: &files::Metadata| (about.dev(), about.ino());
+    matches!((file.metadata(), files::metadata(path)), (Ok(one), Ok(other)) if place(&one) == place(&other))
 }
 
 #[cfg(not(unix))]
 fn is_still_there(_: &File, path: &Path) -> bool {
-    path.exists()
+    files::exists(path)
 }

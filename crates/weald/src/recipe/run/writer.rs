@@ -1,7 +1,8 @@
 //! Layers, pictures and exports become files, each with its provenance.
 
 use std::path::{Path, PathBuf};
-use std::time::Instant;
+
+use web_time::Instant;
 
 use super::film;
 use super::video::Frames;
