@@ -4,19 +4,17 @@ use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 use serde_json::json;
 use weald::Landscape;
-use weald::error::Error;
 use weald::grow::Vegetation;
 use weald::material::Material;
-use weald::recipe::{BudgetReport, Overrides, Recipe, keep_landscape, kept_landscape};
+use weald::recipe::{BudgetReport, Overrides, Recipe, pack_landscape, unpack_landscape};
 use weald::step::Outcome;
 
 use crate::errors::{exception, usage};
-use crate::export::in_file;
 
 /// Name and text of the recipe whose fractals a landscape carries.
 pub(crate) type Origin = (String, String);
 
-/// The file of the landscape, its materials, and its recipe.
+/// The landscape as bytes, its materials, and its recipe.
 pub(crate) type State<'py> = (Bound<'py, PyBytes>, Materials, Option<Origin>);
 
 /// All that is needed to make a landscape again.
@@ -25,7 +23,7 @@ pub(crate) fn state<'py>(
     landscape: &Landscape,
     origin: Option<Origin>,
 ) -> PyResult<State<'py>> {
-    let bytes = py.detach(|| bytes_of(landscape)).map_err(|error| exception(py, error))?;
+    let bytes = py.detach(|| pack_landscape(landscape));
     let materials = landscape.materials.iter().map(MaterialFields::of).collect();
     Ok((PyBytes::new(py, &bytes), Materials(materials), origin))
 }
@@ -38,7 +36,7 @@ pub(crate) fn landscape(
     let materials = materials.read().map_err(|message| usage(py, message))?;
     let bytes = bytes.as_bytes();
     let made = py.detach(|| {
-        let mut landscape = of_bytes(bytes)?;
+        let mut landscape = unpack_landscape(bytes)?;
         landscape.materials = materials;
         if let Some((file, text)) = &origin {
             landscape.set_fractals(Recipe::parse(file, text, &Overrides::default())?.make_fractals()?);
@@ -46,21 +44,6 @@ pub(crate) fn landscape(
         Ok((landscape, origin))
     });
     made.map_err(|error| exception(py, error))
-}
-
-/// The library keeps a landscape in a file.
-fn bytes_of(landscape: &Landscape) -> Result<Vec<u8>, Error> {
-    in_file("landscape.weald", |file| {
-        keep_landscape(file, landscape)?;
-        std::fs::read(file).map_err(|cause| Error::input(file, cause.to_string()))
-    })
-}
-
-fn of_bytes(bytes: &[u8]) -> Result<Landscape, Error> {
-    in_file("landscape.weald", |file| {
-        std::fs::write(file, bytes).map_err(|cause| Error::write(file, &cause))?;
-        kept_landscape(file)
-    })
 }
 
 /// Materials as Python has them: dictionaries, bedrock first.

@@ -9,6 +9,7 @@ mod planted;
 mod stream;
 
 use std::collections::BTreeSet;
+use std::io::Write;
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
@@ -83,51 +84,59 @@ pub(super) fn write(
     state: &State,
     simulation: Option<&SavedSimulation>,
 ) -> Result<(), Error> {
+    write_whole_with(path, |file| write_to(file, recipe, state, simulation))
+}
+
+fn write_to(
+    out: impl Write,
+    recipe: &str,
+    state: &State,
+    simulation: Option<&SavedSimulation>,
+) -> std::io::Result<()> {
     let header = Header::of(recipe, state, simulation);
     let header = serde_json::to_vec(&header).expect("numbers, texts and lists are JSON");
-    write_whole_with(path, |file| {
-        let mut out = HashedWriter::new(file);
-        out.bytes(MAGIC)?;
-        out.bytes(&(header.len() as u64).to_le_bytes())?;
-        out.bytes(&header)?;
-        if let Some(valid) = &state.landscape.domain.valid {
-            out.flags(valid.flags())?;
-        }
-        for (_, layer) in state.landscape.layers() {
-            out.singles(layer.field.values())?;
-        }
-        for (_, plants) in state.landscape.all_plants() {
-            planted::write(plants, &mut out)?;
-        }
-        for (_, meadow) in state.landscape.all_meadows() {
-            grown::write(&meadow, &mut out)?;
-        }
-        for (_, plane) in simulation.iter().flat_map(|simulation| &simulation.planes) {
-            out.singles(plane)?;
-        }
-        for (_, sums) in simulation.iter().flat_map(|simulation| &simulation.sums) {
-            out.doubles(sums)?;
-        }
-        out.finish()
-    })
+    let mut out = HashedWriter::new(out);
+    out.bytes(MAGIC)?;
+    out.bytes(&(header.len() as u64).to_le_bytes())?;
+    out.bytes(&header)?;
+    if let Some(valid) = &state.landscape.domain.valid {
+        out.flags(valid.flags())?;
+    }
+    for (_, layer) in state.landscape.layers() {
+        out.singles(layer.field.values())?;
+    }
+    for (_, plants) in state.landscape.all_plants() {
+        planted::write(plants, &mut out)?;
+    }
+    for (_, meadow) in state.landscape.all_meadows() {
+        grown::write(&meadow, &mut out)?;
+    }
+    for (_, plane) in simulation.iter().flat_map(|simulation| &simulation.planes) {
+        out.singles(plane)?;
+    }
+    for (_, sums) in simulation.iter().flat_map(|simulation| &simulation.sums) {
+        out.doubles(sums)?;
+    }
+    out.finish()
 }
 
-/// Keeps a landscape in a file: its grid, layers, plants and grass, to the bit. Its materials and fractals, which a recipe
-/// has, are not in it.
-///
-/// # Errors
-/// [`Error::Run`] where the file cannot be written.
-pub fn keep_landscape(path: &Path, landscape: &Landscape) -> Result<(), Error> {
+/// A landscape as bytes: its grid, layers, plants and grass, to the bit. Its materials and fractals, which a recipe has, are
+/// not in them.
+pub fn pack_landscape(landscape: &Landscape) -> Vec<u8> {
     let (landscape, steps, notes) = (landscape.clone(), Vec::new(), Vec::new());
-    write(path, NO_RECIPE, &State { landscape, done: 0, simulation: None, steps, notes }, None)
+    let state = State { landscape, done: 0, simulation: None, steps, notes };
+    let mut bytes = Vec::new();
+    write_to(&mut bytes, NO_RECIPE, &state, None).expect("memory takes what is written");
+    bytes
 }
 
-/// The landscape that [`keep_landscape`] has kept, of the default materials.
+/// The landscape of bytes that [`pack_landscape`] has made, of the default materials.
 ///
 /// # Errors
-/// [`Error::Input`] for a file that is missing or damaged, or of another version of Weald.
-pub fn kept_landscape(path: &Path) -> Result<Landscape, Error> {
-    read(path, NO_RECIPE).map(|state| state.landscape)
+/// [`Error::Input`] for bytes that are damaged, or of another version of Weald.
+pub fn unpack_landscape(bytes: &[u8]) -> Result<Landscape, Error> {
+    let wrong = |what: String| Error::input(Path::new("a packed landscape"), what);
+    read_from(HashedReader::of_bytes(bytes), NO_RECIPE, |_| Ok(()), &wrong).map(|state| state.landscape)
 }
 
 /// What stands for the recipe of a landscape that is kept alone.
@@ -156,12 +165,21 @@ pub(super) fn read_if(
     accept: impl FnOnce(&Head) -> Result<(), Error>,
 ) -> Result<State, Error> {
     let wrong = |what: String| Error::input(path, what);
-    let mut file = HashedReader::open(path).map_err(|cause| {
+    let file = HashedReader::open(path).map_err(|cause| {
         wrong(match cause.kind() {
             std::io::ErrorKind::NotFound => "there is no checkpoint; run without --resume".to_owned(),
             _ => format!("the checkpoint cannot be read: {cause}"),
         })
     })?;
+    read_from(file, recipe, accept, &wrong)
+}
+
+fn read_from(
+    mut file: HashedReader<'_>,
+    recipe: &str,
+    accept: impl FnOnce(&Head) -> Result<(), Error>,
+    wrong: &impl Fn(String) -> Error,
+) -> Result<State, Error> {
     let header = read_header(&mut file).map_err(wrong)?;
     header.fits(recipe).map_err(wrong)?;
     accept(&header.head().map_err(wrong)?)?;
@@ -170,7 +188,7 @@ pub(super) fn read_if(
     Ok(state)
 }
 
-fn read_header(file: &mut HashedReader) -> Result<Header, String> {
+fn read_header(file: &mut HashedReader<'_>) -> Result<Header, String> {
     if file.bytes(MAGIC.len())? != MAGIC {
         return Err("is not a checkpoint of this version of Weald".to_owned());
     }
@@ -268,7 +286,7 @@ impl Header {
         }
     }
 
-    fn read_state(self, file: &mut HashedReader) -> Result<State, String> {
+    fn read_state(self, file: &mut HashedReader<'_>) -> Result<State, String> {
         let size = self.size()?;
         let valid = if self.masked { Mask::new(size, file.flags(size.cells())?) } else { None };
         let finest = self.finest.map(|[columns, rows]| Size::new(columns, rows).map_err(|e| e.to_string()));
@@ -304,7 +322,7 @@ impl SimulationHeader {
         4 * total(&self.planes) + 8 * total(&self.sums)
     }
 
-    fn read(self, file: &mut HashedReader) -> Result<SavedSimulation, String> {
+    fn read(self, file: &mut HashedReader<'_>) -> Result<SavedSimulation, String> {
         let mut simulation = SavedSimulation { iteration: self.iteration, ..SavedSimulation::default() };
         for (name, length) in self.planes {
             simulation.planes.push((name, file.singles(length as usize)?));
@@ -405,13 +423,13 @@ mod tests {
     }
 
     #[test]
-    fn a_landscape_is_kept_alone_to_the_bit() {
-        let folder = tempfile::tempdir().expect("a folder");
-        let path = folder.path().join("kept.weald");
-        keep_landscape(&path, &state().landscape).expect("writes");
-        assert_eq!(kept_landscape(&path).expect("reads"), state().landscape);
+    fn a_landscape_is_packed_alone_to_the_bit() {
+        let bytes = pack_landscape(&state().landscape);
+        assert_eq!(unpack_landscape(&bytes).expect("reads"), state().landscape);
+        assert!(unpack_landscape(&bytes[..bytes.len() - 1]).is_err(), "a byte is missing");
         let (_folder, of_run) = written();
-        assert!(kept_landscape(&of_run).is_err(), "that of a run belongs to its recipe");
+        let of_run = std::fs::read(of_run).expect("reads");
+        assert!(unpack_landscape(&of_run).is_err(), "that of a run belongs to its recipe");
     }
 
     #[test]

@@ -58,6 +58,11 @@ pub(super) fn materials(recipe: &Recipe) -> Vec<Material> {
 }
 
 impl Recipe {
+    /// The materials of its tables, bedrock first.
+    pub fn make_materials(&self) -> Vec<Material> {
+        materials(self)
+    }
+
     /// The fractals of its `[[fractal]]` tables, as a landscape carries them.
     ///
     /// # Errors

@@ -32,7 +32,7 @@ mod view_request;
 mod written_layers;
 
 pub use cache::{Cache, CacheLimits};
-pub use checkpoint::{CHECKPOINT_FILE, keep_landscape, kept_landscape};
+pub use checkpoint::{CHECKPOINT_FILE, pack_landscape, unpack_landscape};
 pub use fractal::FractalRequest;
 pub use memory::Memory;
 pub use migrate::{Migrated, migrate};

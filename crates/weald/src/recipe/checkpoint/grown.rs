@@ -63,7 +63,7 @@ impl MeadowHeader {
         self.columns as u128 * self.rows as u128 * (4 * maps as u128 + u128::from(self.masked))
     }
 
-    pub(super) fn read(self, file: &mut HashedReader) -> Result<(String, Meadow), String> {
+    pub(super) fn read(self, file: &mut HashedReader<'_>) -> Result<(String, Meadow), String> {
         let size = Size::new(self.columns, self.rows).map_err(|error| error.to_string())?;
         let valid = if self.masked { Mask::new(size, file.flags(size.cells())?) } else { None };
         let mut map = || Ok::<_, String>(Field::from_values(size, file.singles(size.cells())?));

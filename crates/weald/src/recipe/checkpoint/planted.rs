@@ -29,7 +29,7 @@ impl PlantsHeader {
         self.count as u128 * BYTES as u128
     }
 
-    pub(super) fn read(self, file: &mut HashedReader) -> Result<(String, Plants), String> {
+    pub(super) fn read(self, file: &mut HashedReader<'_>) -> Result<(String, Plants), String> {
         let plants = file.in_chunks(self.count, read_plant)?;
         Ok((self.name, Plants { kind: self.kind, spacing: self.spacing, plants }))
     }

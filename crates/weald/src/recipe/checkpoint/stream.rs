@@ -1,8 +1,9 @@
 //! Numbers to and from a file, little-endian, hashed on their way.
 
-use std::fs::File;
 use std::io::{BufReader, Read, Write};
 use std::path::Path;
+
+use weald_core::files::File;
 
 pub(super) const HASH_BYTES: u64 = 32;
 
@@ -56,17 +57,21 @@ impl<W: Write> HashedWriter<W> {
 }
 
 /// Reads and hashes, and never asks for memory beyond what the file holds.
-pub(super) struct HashedReader {
-    inner: BufReader<File>,
+pub(super) struct HashedReader<'a> {
+    inner: Box<dyn Read + 'a>,
     hasher: blake3::Hasher,
     left: u64,
 }
 
-impl HashedReader {
+impl<'a> HashedReader<'a> {
     pub(super) fn open(path: &Path) -> std::io::Result<Self> {
         let file = File::open(path)?;
         let left = file.metadata()?.len();
-        Ok(Self { inner: BufReader::new(file), hasher: blake3::Hasher::new(), left })
+        Ok(Self { inner: Box::new(BufReader::new(file)), hasher: blake3::Hasher::new(), left })
+    }
+
+    pub(super) fn of_bytes(bytes: &'a [u8]) -> Self {
+        Self { inner: Box::new(bytes), hasher: blake3::Hasher::new(), left: bytes.len() as u64 }
     }
 
     /// Bytes that were not read yet.
