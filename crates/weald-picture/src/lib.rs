@@ -59,4 +59,6 @@ pub use section::{Along, Section};
 pub use sheet::fits_on_sheet;
 pub use strokes::{Point as StrokePoint, Strokes};
 pub use view::albedo;
-pub use view::{Camera, Follow, GroundColour, LitScene, Ray, Rim, SceneTexture, TextureKind, View};
+pub use view::{
+    Camera, Follow, GroundColour, LitScene, Ray, RayMarcher, Rim, SceneTexture, TextureKind, View,
+};

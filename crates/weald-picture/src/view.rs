@@ -42,12 +42,12 @@ pub use keys::{GroundColour, View};
 pub use lit_scene::LitScene;
 pub use maps::{SceneTexture, TextureKind};
 pub use rim::Rim;
+pub use scene::RayMarcher;
 pub use terrain::Ray;
 
 use rayon::prelude::*;
 
 use super::Image;
-use scene::RayMarcher;
 use weald_core::error::{Error, Limit, Quantity};
 use weald_core::landscape::Landscape;
 

@@ -1,6 +1,7 @@
 //! One frame of the window: what has happened, what is to be drawn, and where everything is.
 
-use std::time::{Duration, Instant};
+use std::time::Duration;
+use web_time::Instant;
 
 use eframe::egui::{
     self, CentralPanel, Color32, Context, Panel, Pos2, Rect, Sense, Ui, Vec2, ViewportCommand,
@@ -16,8 +17,14 @@ use crate::work::Task;
 const KEPT_EVERY: Duration = Duration::from_millis(500);
 
 impl eframe::App for Studio {
+    #[cfg(target_arch = "wasm32")]
+    fn as_any_mut(&mut self) -> Option<&mut dyn std::any::Any> {
+        Some(self)
+    }
+
     fn logic(&mut self, context: &Context, _: &mut eframe::Frame) {
         self.status = self.work.status();
+        self.tend_host();
         self.keep();
         self.ask_before_closing(context);
         let (now, hand_is_down) = context.input(|input| (input.time, input.pointer.any_down()));
@@ -36,6 +43,8 @@ impl eframe::App for Studio {
         context.request_repaint_after(KEPT_EVERY);
     }
 
+    /// A page that is left keeps what is not saved.
+    #[cfg(not(target_arch = "wasm32"))]
     fn on_exit(&mut self) {
         self.project.forget_unsaved();
     }
@@ -84,8 +93,13 @@ impl Studio {
             && self.noted_export.as_ref() != Some(folder)
         {
             self.noted_export = Some(folder.clone());
-            let said = format!("{} files are in {}", names.len(), folder.display());
-            self.message = Some((said, Instant::now()));
+            let (folder, count) = (folder.clone(), names.len());
+            let said = match self.hand_out(&folder) {
+                Ok(()) if self.is_hosted() => format!("{count} files are handed out in one"),
+                Ok(()) => format!("{count} files are in {}", folder.display()),
+                Err(error) => error.to_string(),
+            };
+            self.say(said);
         }
     }
 
@@ -131,6 +145,10 @@ impl Studio {
     }
 
     fn take_dropped(&mut self, ui: &Ui) {
+        if self.is_hosted() {
+            // The page itself takes what is dropped on it.
+            return;
+        }
         let dropped = ui.input(|input| input.raw.dropped_files.first().map(|file| file.path().to_owned()));
         if let Some(path) = dropped {
             self.open(&path);
@@ -165,7 +183,7 @@ impl Studio {
         if let Some(surface) = &self.status.surface
             && let Err(error) = viewport.follow(surface)
         {
-            viewport.error = Some(error.to_string());
+            viewport.fail(&error);
         }
     }
 
@@ -179,7 +197,7 @@ impl Studio {
         match viewport.draw(&camera, full) {
             Ok(Some(again)) => ui.ctx().request_repaint_after(again),
             Ok(None) => {}
-            Err(error) => viewport.error = Some(error.to_string()),
+            Err(error) => viewport.fail(&error),
         }
         let whole = Rect::from_min_max(Pos2::ZERO, Pos2::new(1.0, 1.0));
         if let Some(texture) = viewport.texture() {

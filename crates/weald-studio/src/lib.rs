@@ -8,28 +8,37 @@ mod brushes;
 mod cameras;
 pub mod commands;
 pub mod document;
+mod drawing;
 mod frame;
+pub mod host;
 mod looks;
 mod navigation;
 mod own_files;
 mod panels;
 mod pick;
 mod project;
+mod rays;
+#[cfg(not(target_arch = "wasm32"))]
 mod response;
 mod scenes;
 mod section;
 pub mod state;
 mod studio;
 mod viewport;
+#[cfg(not(target_arch = "wasm32"))]
 mod window;
 pub mod work;
 
 pub use brushes::Tool;
 pub use navigation::Mode;
+#[cfg(not(target_arch = "wasm32"))]
 pub use response::{Response, response};
 pub use studio::{Options, Studio};
 #[doc(hidden)]
 pub use viewport::device_setup;
+#[cfg(target_arch = "wasm32")]
+pub use viewport::page_options;
+#[cfg(not(target_arch = "wasm32"))]
 pub use window::open;
 
 /// Controls of a table by themselves: the key that was turned, and its new value.

@@ -1,9 +1,10 @@
 //! Projects: a folder with the recipe and the script of all that was done by hand, as text, for `weald run` too.
 
-use std::fs::{self, File, TryLockError};
+use std::fs::TryLockError;
 use std::path::{Path, PathBuf};
 
 use weald::Error;
+use weald::files::{self, File};
 use weald::recipe::Recipe;
 use weald::recipe::template::{self, Template};
 
@@ -69,7 +70,7 @@ impl Project {
     pub(crate) fn open(path: &Path) -> Result<Start, Error> {
         let ending =
             path.extension().map(|ending| ending.to_string_lossy().to_lowercase()).unwrap_or_default();
-        if path.is_dir() && path.join(RECIPE).is_file() {
+        if files::is_dir(path) && files::is_file(&path.join(RECIPE)) {
             return Self::open_folder(path);
         }
         if path.file_name().is_some_and(|name| name == RECIPE)
@@ -111,7 +112,7 @@ impl Project {
 
     fn of_model(path: &Path) -> Result<Start, Error> {
         let path = absolute(path)?;
-        fs::metadata(&path).map_err(|cause| Error::Run(format!("{}: {cause}", path.display())))?;
+        files::metadata(&path).map_err(|cause| Error::Run(format!("{}: {cause}", path.display())))?;
         let template = template::find("dem").map_err(Error::Run)?;
         let mut document = crate::document::Document::new("untitled.toml", template.text);
         let file = format!("{:?}", path.display().to_string());
@@ -162,12 +163,12 @@ impl Project {
     pub(crate) fn picture_file(&self) -> PathBuf {
         let folder = self.folder.clone().unwrap_or_else(home);
         let names = (1..).map(|number| folder.join(format!("picture-{number:03}.png")));
-        names.into_iter().find(|name| !name.exists()).unwrap_or_else(|| folder.join("picture.png"))
+        names.into_iter().find(|name| !files::exists(name)).unwrap_or_else(|| folder.join("picture.png"))
     }
 
     /// Takes a folder for the project, which no other studio has open.
     pub(crate) fn settle(&mut self, folder: &Path) -> Result<PathBuf, Error> {
-        fs::create_dir_all(folder)
+        files::create_dir_all(folder)
             .map_err(|cause| Error::Run(format!("{} cannot be made: {cause}", folder.display())))?;
         let folder = absolute(folder)?;
         if self.folder.as_ref() != Some(&folder) {
@@ -209,7 +210,7 @@ impl Project {
         if let Some((folder, lock)) = self.unsaved.take() {
             drop(lock);
             // What cannot be taken away is offered once more, which does no harm.
-            let _ = fs::remove_dir_all(folder);
+            let _ = files::remove_dir_all(folder);
         }
     }
 
@@ -251,7 +252,8 @@ impl Project {
 
 /// What was kept in a folder, where it is later than the recipe there.
 fn kept_in(folder: &Path, recipe: Option<&Path>) -> Option<String> {
-    let files = [AUTOSAVE, TYPED].map(|name| folder.join(name)).into_iter().filter(|file| file.is_file());
+    let files =
+        [AUTOSAVE, TYPED].map(|name| folder.join(name)).into_iter().filter(|file| files::is_file(file));
     let last = files.max_by_key(|file| written(file))?;
     let is_later = recipe.is_none_or(|recipe| written(&last) > written(recipe));
     is_later.then(|| Recipe::text_of(&last).ok()).flatten()
@@ -260,16 +262,16 @@ fn kept_in(folder: &Path, recipe: Option<&Path>) -> Option<String> {
 /// Takes away what was kept in a folder: what is not there need not go.
 fn forget(folder: &Path) {
     for name in [AUTOSAVE, SCRIPT, TYPED] {
-        let _ = fs::remove_file(folder.join(name));
+        let _ = files::remove_file(folder.join(name));
     }
 }
 
-fn written(path: &Path) -> Option<std::time::SystemTime> {
-    fs::metadata(path).and_then(|data| data.modified()).ok()
+fn written(path: &Path) -> Option<web_time::SystemTime> {
+    files::metadata(path).and_then(|data| data.modified()).ok()
 }
 
 fn absolute(path: &Path) -> Result<PathBuf, Error> {
-    std::path::absolute(path).map_err(|cause| Error::Run(format!("{}: {cause}", path.display())))
+    files::absolute(path).map_err(|cause| Error::Run(format!("{}: {cause}", path.display())))
 }
 
 fn lock(folder: &Path) -> Result<File, Error> {
@@ -289,12 +291,13 @@ fn lock(folder: &Path) -> Result<File, Error> {
 }
 
 fn home() -> PathBuf {
-    std::env::current_dir().unwrap_or_default()
+    files::current_dir()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::fs;
 
     #[test]
     fn a_project_is_open_once_and_free_again_when_it_is_closed() {

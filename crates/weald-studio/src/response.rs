@@ -76,7 +76,7 @@ pub fn response(what: Option<PathBuf>) -> Result<Response, Error> {
     let told = Arc::clone(&measured);
     // What a bench leaves behind is not offered at the next start.
     let own_files = Some(std::env::temp_dir().join(format!("weald-bench-{}", std::process::id())));
-    let options = Options { what, own_files: own_files.clone() };
+    let options = Options { what, own_files: own_files.clone(), ..Options::default() };
     let done = show(move |context| {
         let studio = Studio::of(context, options.clone())?;
         Ok(Driven { studio, frame: 0, input: None, began: None, measured: Arc::clone(&told) })
@@ -155,7 +155,7 @@ impl Driven {
             let mut measured = self.measured.lock().unwrap_or_else(PoisonError::into_inner);
             measured.steps[part - 1] = (steps.saturating_sub(before), (now - began).as_secs_f64());
             measured.device =
-                self.studio.viewport.as_ref().map_or_else(String::new, crate::viewport::Viewport::device);
+                self.studio.viewport.as_ref().map_or_else(String::new, |viewport| viewport.device());
         }
         match part {
             2 => self.studio.work.ask(Task::Play(true)),

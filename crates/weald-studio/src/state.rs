@@ -1,7 +1,9 @@
 //! Which text of the document, and how much done by hand: what is saved is known by it.
 
+use serde::{Deserialize, Serialize};
+
 /// Numbers that grow with every change.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct State {
     /// Revision of the document.
     pub revision: u64,

@@ -2,30 +2,37 @@
 
 mod camera;
 mod changes;
+mod hosted;
 mod obey;
 mod views;
 
 use std::path::{Path, PathBuf};
-use std::time::Instant;
+use std::rc::Rc;
+use web_time::Instant;
 
 use eframe::egui::Context;
-use weald::Error;
 use weald::engine::Engine;
 use weald::picture::Camera;
 use weald::recipe::source::Value;
 use weald::recipe::template::TEMPLATES;
+use weald::{Error, Field};
 
 use crate::brushes::{Settings, Stroke};
 use crate::document::Document;
+use crate::drawing::Drawing;
+use crate::host::Host;
 use crate::looks::Looks;
 use crate::navigation::Mode;
 use crate::own_files::OwnFiles;
 use crate::pick::Place;
 use crate::project::{Project, Start};
+use crate::rays::Rays;
 use crate::section::Measuring;
 use crate::state::{Did, State};
 use crate::viewport::{Viewport, WindowDevice, device_of};
-use crate::work::{Status, Work};
+#[cfg(not(target_arch = "wasm32"))]
+use crate::work::Thread;
+use crate::work::{Remote, Status, Work};
 
 /// What the left side shows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -53,13 +60,19 @@ pub(crate) enum Asked {
 }
 
 /// How a studio begins.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Default)]
 pub struct Options {
     /// A recipe, an elevation model or the folder of a project; where there is none, what was not saved when a studio was
     /// killed, or else a template.
     pub what: Option<PathBuf>,
     /// Where names of what was open of late are kept, and what is not saved, in place of where the system keeps such.
     pub own_files: Option<PathBuf>,
+    /// The worker of a page; where there is none, a thread works.
+    pub remote: Option<Rc<Remote>>,
+    /// The page around it.
+    pub host: Option<Rc<dyn Host>>,
+    /// Whether it begins with a simulation that runs, and no question.
+    pub plays: bool,
 }
 
 /// What is typed to find a command, and which of those found is chosen.
@@ -75,7 +88,7 @@ pub struct Studio {
     pub(crate) project: Project,
     pub(crate) work: Work,
     pub(crate) status: Status,
-    pub(crate) viewport: Option<Viewport>,
+    pub(crate) viewport: Option<Box<dyn Drawing>>,
     pub(crate) camera: Option<Camera>,
     /// The middle of the landscape that the camera was placed for.
     pub(crate) framed: Option<[f32; 2]>,
@@ -116,6 +129,11 @@ pub struct Studio {
     /// Revision that was there in the last frame, and when it became another.
     pub(crate) seen: u64,
     pub(crate) changed_at: f64,
+    pub(crate) host: Option<Rc<dyn Host>>,
+    /// Whether a link was asked for.
+    shares: bool,
+    /// Whether the first landscape runs as soon as it is there.
+    plays_first: bool,
     keeps_edits: bool,
     /// What was done, in the order of undoing.
     done: Vec<Did>,
@@ -142,6 +160,26 @@ impl Studio {
         &self.status
     }
 
+    /// What was said to the user last.
+    #[doc(hidden)]
+    pub fn message(&self) -> Option<&str> {
+        self.message.as_ref().map(|(message, _)| message.as_str())
+    }
+
+    /// The text of the recipe.
+    #[doc(hidden)]
+    pub fn text(&self) -> &str {
+        self.document.text()
+    }
+
+    /// Elevations as they are now.
+    #[doc(hidden)]
+    pub fn heights(&self) -> Option<&Field> {
+        let shown = self.status.shown.as_ref()?;
+        let surface = self.surface().map(|surface| &*surface.ground);
+        surface.or_else(|| shown.landscape.field("height").ok())
+    }
+
     /// Whether the landscape that there is now is drawn, as finely as it will be.
     #[doc(hidden)]
     pub fn is_drawn(&self) -> bool {
@@ -158,26 +196,38 @@ impl Studio {
     /// What stands against drawing it.
     #[doc(hidden)]
     pub fn drawing_error(&self) -> Option<String> {
-        self.viewport.as_ref()?.error.clone()
+        self.viewport.as_ref()?.error()
     }
 
     fn new(context: &Context, window: Option<&WindowDevice>, options: Options) -> Result<Self, Error> {
-        let told = context.clone();
         let own = OwnFiles::new(options.own_files);
         let what = options.what.as_deref();
-        let work = Work::new(move || told.request_repaint())?;
-        let viewport = window.map(|window| Viewport::new(window, context)).transpose()?;
+        let work = match options.remote {
+            Some(remote) => Work::Remote(remote),
+            #[cfg(not(target_arch = "wasm32"))]
+            None => {
+                let told = context.clone();
+                Work::Thread(Thread::new(move || told.request_repaint())?)
+            }
+            #[cfg(target_arch = "wasm32")]
+            None => return Err(Error::Run("a page has a worker".to_owned())),
+        };
+        let on_device = window.map(|window| Viewport::new(window, context)).transpose()?;
+        let viewport: Box<dyn Drawing> = match on_device {
+            Some(viewport) => Box::new(viewport),
+            None => Box::new(Rays::new(context)),
+        };
         let start = what.map(Project::open).transpose()?;
         let start = start.or_else(|| own.left_behind().into_iter().find_map(Project::left_in));
-        let asked = start.is_none().then_some(Asked::Start);
+        let asked = (start.is_none() && !options.plays).then_some(Asked::Start);
         let start = start.unwrap_or_else(|| Start::of_template(&TEMPLATES[0]));
-        let engine = viewport.as_ref().map_or(Engine::Cpu, Viewport::engine);
+        let engine = viewport.engine();
         let mut studio = Self {
             document: Document::new(start.project.recipe_name(), start.text),
             project: start.project,
             work,
             status: Status::default(),
-            viewport,
+            viewport: Some(viewport),
             camera: None,
             framed: None,
             mode: Mode::default(),
@@ -207,6 +257,9 @@ impl Studio {
             seen: 0,
             title: String::new(),
             changed_at: 0.0,
+            host: options.host,
+            shares: false,
+            plays_first: options.plays,
             keeps_edits: false,
             done: Vec::new(),
             undone: Vec::new(),

@@ -5,8 +5,10 @@
 //! for; while something moves they are so small that they take a slice of time, and become finer when it rests.
 
 use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::time::Duration;
+use web_time::Instant;
 
+#[cfg(not(target_arch = "wasm32"))]
 use eframe::NativeOptions;
 use eframe::egui::{Context, TextureId};
 use eframe::egui_wgpu::{RenderState, WgpuConfiguration, WgpuSetup, WgpuSetupCreateNew};
@@ -16,6 +18,7 @@ use weald::engine::Engine;
 use weald::picture::{Camera, Image, View};
 use weald_gpu::Gpu;
 
+use crate::drawing::Drawing;
 use crate::scenes::{Order, Scenes, Stage};
 use crate::work::{Shown, Surface};
 
@@ -40,9 +43,21 @@ pub(crate) fn device_of<'a>(context: &'a eframe::CreationContext<'_>) -> Option<
 }
 
 /// Options of a window whose device has what simulations and pictures need.
+#[cfg(not(target_arch = "wasm32"))]
 pub(crate) fn options() -> NativeOptions {
-    let wgpu_options = WgpuConfiguration { wgpu_setup: device_setup(), ..WgpuConfiguration::default() };
-    NativeOptions { wgpu_options, ..NativeOptions::default() }
+    NativeOptions { wgpu_options: device_options(), ..NativeOptions::default() }
+}
+
+/// Options of a page's canvas: on a device, or by WebGL.
+#[cfg(target_arch = "wasm32")]
+pub fn page_options(with_device: bool) -> eframe::WebOptions {
+    let renderer = if with_device { eframe::Renderer::Wgpu } else { eframe::Renderer::Glow };
+    eframe::WebOptions { renderer, wgpu_options: device_options(), ..eframe::WebOptions::default() }
+}
+
+/// How the device of a window is opened.
+fn device_options() -> WgpuConfiguration {
+    WgpuConfiguration { wgpu_setup: device_setup(), ..WgpuConfiguration::default() }
 }
 
 /// How a device is opened for a studio, where another program opens it.
@@ -76,8 +91,8 @@ pub(crate) struct Viewport {
     /// Which of the scales fits a picture while something moves.
     moving: usize,
     /// Seconds that the last picture took.
-    pub(crate) seconds: f64,
-    pub(crate) error: Option<String>,
+    seconds: f64,
+    error: Option<String>,
 }
 
 impl Viewport {
@@ -109,24 +124,49 @@ impl Viewport {
         })
     }
 
-    /// Where simulations run: on a graphics card, or on the processor where software acts as one.
-    pub(crate) fn engine(&self) -> Engine {
+    fn ask(&mut self, order: Order) {
+        if !self.scenes.ask(order) {
+            self.error = Some("pictures have ended by a fault of Weald".to_owned());
+        }
+    }
+
+    fn show_texture(&mut self) {
+        if let Some(stage) = &self.stage {
+            self.texture = Some(shown_as(&self.window, stage, self.texture));
+        }
+        if let Some(stage) = &self.pinned {
+            self.pinned_texture = Some(shown_as(&self.window, stage, self.pinned_texture));
+        }
+    }
+}
+
+impl Drawing for Viewport {
+    fn engine(&self) -> Engine {
         if self.gpu.is_software() { Engine::Cpu } else { Engine::DeviceElseCpu(Arc::new(self.gpu.clone())) }
     }
 
-    /// Whether software draws, which is slow.
-    pub(crate) fn is_software(&self) -> bool {
+    fn is_software(&self) -> bool {
         self.gpu.is_software()
     }
 
-    /// Name of the device and its driver.
-    pub(crate) fn device(&self) -> String {
+    fn device(&self) -> String {
         let info = self.window.adapter.get_info();
         format!("{} ({})", info.name, info.backend)
     }
 
-    /// Orders the scene of a landscape with looks of this number, unless it is the one that was ordered last.
-    pub(crate) fn order(&mut self, shown: &Shown, looks: (&View, u64), is_live: bool) {
+    fn seconds(&self) -> f64 {
+        self.seconds
+    }
+
+    fn error(&self) -> Option<String> {
+        self.error.clone()
+    }
+
+    fn fail(&mut self, error: &Error) {
+        self.error = Some(error.to_string());
+    }
+
+    fn order(&mut self, shown: &Shown, looks: (&View, u64), is_live: bool) {
         let number = (shown.number, looks.1);
         if self.ordered == Some(number) {
             return;
@@ -141,8 +181,7 @@ impl Viewport {
         });
     }
 
-    /// Keeps a landscape in these looks, to compare what is shown with; `None` lets it go.
-    pub(crate) fn pin(&mut self, kept: Option<(&Shown, View)>) {
+    fn pin(&mut self, kept: Option<(&Shown, View)>) {
         self.pinned = None;
         if let Some((shown, view)) = kept {
             let landscape = Arc::clone(&shown.landscape);
@@ -150,22 +189,13 @@ impl Viewport {
         }
     }
 
-    fn ask(&mut self, order: Order) {
-        if !self.scenes.ask(order) {
-            self.error = Some("pictures have ended by a fault of Weald".to_owned());
-        }
-    }
-
-    /// Takes a scene that was made meanwhile; `true` where it is the first one.
-    pub(crate) fn take_built(&mut self) -> bool {
-        let mut is_first = false;
+    fn take_built(&mut self) {
         while let Some((order, stage)) = self.scenes.built() {
             match stage {
                 Ok(stage) if order.is_pinned => {
                     (self.pinned, self.drawn) = (Some(stage), None);
                 }
                 Ok(stage) => {
-                    is_first |= self.stage.is_none();
                     self.stage = Some(stage);
                     (self.drawn, self.surface, self.error) = (None, 0, None);
                     self.show_texture();
@@ -176,26 +206,21 @@ impl Viewport {
                 }
             }
         }
-        is_first
     }
 
-    /// The camera that shows the landscape whole.
-    pub(crate) fn whole(&self) -> Option<Camera> {
+    fn whole(&self) -> Option<Camera> {
         self.stage.as_ref().map(|stage| stage.scene.camera())
     }
 
-    /// The point in the middle of the landscape.
-    pub(crate) fn middle(&self) -> Option<[f32; 3]> {
+    fn middle(&self) -> Option<[f32; 3]> {
         self.stage.as_ref().map(|stage| stage.scene.middle())
     }
 
-    /// Height at which an elevation is drawn.
-    pub(crate) fn drawn_height(&self, elevation: f64) -> Option<f32> {
+    fn drawn_height(&self, elevation: f64) -> Option<f32> {
         self.stage.as_ref().map(|stage| stage.scene.drawn_height(elevation))
     }
 
-    /// Shows ground and water as a simulation has left them.
-    pub(crate) fn follow(&mut self, surface: &Surface) -> Result<(), Error> {
+    fn follow(&mut self, surface: &Surface) -> Result<(), Error> {
         let Some(stage) = &mut self.stage else { return Ok(()) };
         if stage.number.0 != surface.shown || self.surface == surface.number {
             return Ok(());
@@ -208,9 +233,7 @@ impl Viewport {
         Ok(())
     }
 
-    /// Draws what the camera sees, for a place of so many pixels, where that is not yet drawn. Gives how long until it
-    /// should be asked again.
-    pub(crate) fn draw(&mut self, camera: &Camera, full: [u32; 2]) -> Result<Option<Duration>, Error> {
+    fn draw(&mut self, camera: &Camera, full: [u32; 2]) -> Result<Option<Duration>, Error> {
         let Some(stage) = &mut self.stage else { return Ok(None) };
         if let Some(submitted) = self.submitted {
             if stage.screen.in_flight() > 0 {
@@ -254,38 +277,24 @@ impl Viewport {
         Ok(Some(Duration::from_millis(5)))
     }
 
-    /// Whether the scene of this number is drawn, as finely as it will be.
-    pub(crate) fn is_drawn(&self, number: Option<(u64, u64)>) -> bool {
+    fn is_drawn(&self, number: Option<(u64, u64)>) -> bool {
         let is_there = self.stage.as_ref().map(|stage| stage.number) == number;
         is_there && self.drawn.is_some() && self.submitted.is_none() && self.rests
     }
 
-    /// The last picture; `None` before the first.
-    pub(crate) fn texture(&self) -> Option<TextureId> {
+    fn texture(&self) -> Option<TextureId> {
         self.drawn.and(self.texture)
     }
 
-    /// The last picture of what was pinned, where something is.
-    pub(crate) fn pinned_texture(&self) -> Option<TextureId> {
+    fn pinned_texture(&self) -> Option<TextureId> {
         self.pinned.as_ref().and(self.drawn).and(self.pinned_texture)
     }
 
-    /// Whether something is kept to compare with.
-    pub(crate) fn has_pinned(&self) -> bool {
+    fn has_pinned(&self) -> bool {
         self.pinned.is_some()
     }
 
-    fn show_texture(&mut self) {
-        if let Some(stage) = &self.stage {
-            self.texture = Some(shown_as(&self.window, stage, self.texture));
-        }
-        if let Some(stage) = &self.pinned {
-            self.pinned_texture = Some(shown_as(&self.window, stage, self.pinned_texture));
-        }
-    }
-
-    /// A picture of its own size, for a file.
-    pub(crate) fn picture(&mut self, camera: &Camera, size: [u32; 2]) -> Result<Option<Image>, Error> {
+    fn picture(&mut self, camera: &Camera, size: [u32; 2]) -> Result<Option<Image>, Error> {
         let Some(stage) = &mut self.stage else { return Ok(None) };
         stage.renderer.resize(size)?;
         stage.renderer.render(camera).map(Some)

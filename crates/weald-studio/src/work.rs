@@ -1,11 +1,54 @@
-//! The thread that works: it runs recipes, holds the simulation that a person changes, and saves. The window sends it tasks
-//! and looks at what it shows; neither ever waits for the other.
+//! The work behind the window: recipes are run, the simulation that a person changes is held, files are saved. The window
+//! sends tasks and looks at what is shown; neither ever waits for the other.
 
 mod held;
+mod message;
+mod mirror;
+mod remote;
+mod served;
+mod shared;
 mod status;
 mod task;
+#[cfg(not(target_arch = "wasm32"))]
 mod thread;
+mod worker;
 
+use std::rc::Rc;
+
+pub use message::{Array, ChangedFile, Parcel};
+pub use remote::{Keep, Remote};
+pub use served::Served;
 pub use status::{Moment, Phase, Shown, Status, Surface};
 pub use task::{Opening, Task};
-pub use thread::Work;
+#[cfg(not(target_arch = "wasm32"))]
+pub use thread::Thread;
+
+/// Who works.
+#[derive(Debug)]
+pub enum Work {
+    /// A thread of this program.
+    #[cfg(not(target_arch = "wasm32"))]
+    Thread(Thread),
+    /// The worker of a page.
+    Remote(Rc<Remote>),
+}
+
+impl Work {
+    /// Asks for something to be done; answers at once.
+    pub fn ask(&self, task: Task) {
+        match self {
+            #[cfg(not(target_arch = "wasm32"))]
+            Self::Thread(thread) => thread.ask(task),
+            Self::Remote(remote) => remote.ask(task),
+        }
+    }
+
+    /// What it shows now.
+    pub fn status(&self) -> Status {
+        match self {
+            #[cfg(not(target_arch = "wasm32"))]
+            Self::Thread(thread) => thread.status(),
+            Self::Remote(remote) => remote.status(),
+        }
+    }
+}

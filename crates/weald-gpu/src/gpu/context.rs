@@ -4,14 +4,15 @@ use std::collections::HashMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::sync::{Arc, Mutex};
-use std::time::{Duration, Instant};
+use std::time::Duration;
+use web_time::Instant;
 
 use weald::Error;
 use weald::engine::program::MAX_BUFFERS;
 use weald::error::{DeviceError, DeviceErrorKind};
 use wgpu::{
-    BindGroupLayout, CommandBuffer, ComputePipeline, DeviceDescriptor, DeviceType, ErrorFilter, Features,
-    Limits, MemoryHints, SubmissionIndex,
+    BindGroupLayout, CommandBuffer, ComputePipeline, DeviceDescriptor, DeviceType, Features, Limits,
+    MemoryHints, SubmissionIndex,
 };
 
 use super::adapter;
@@ -139,15 +140,28 @@ impl Context {
     /// Does something on the device. Whatever wgpu finds wrong with it becomes an error that names `what`.
     pub(crate) fn attempt<T>(&self, what: &str, work: impl FnOnce() -> Result<T, Error>) -> Result<T, Error> {
         self.faults.check(what, self.advice)?;
-        let filters = [ErrorFilter::OutOfMemory, ErrorFilter::Validation, ErrorFilter::Internal];
-        let scopes = filters.map(|filter| self.device.push_error_scope(filter));
-        let done = work();
-        let caught = scopes.into_iter().rev().filter_map(|scope| pollster::block_on(scope.pop())).last();
+        let (done, caught) = self.caught(work);
         self.faults.check(what, self.advice)?;
         match caught {
             Some(error) => Err(explain(what, &error, self.advice)),
             None => done,
         }
+    }
+
+    /// What is done, and the last error of wgpu with it.
+    #[cfg(not(target_arch = "wasm32"))]
+    fn caught<T>(&self, work: impl FnOnce() -> T) -> (T, Option<wgpu::Error>) {
+        use wgpu::ErrorFilter;
+        let filters = [ErrorFilter::OutOfMemory, ErrorFilter::Validation, ErrorFilter::Internal];
+        let scopes = filters.map(|filter| self.device.push_error_scope(filter));
+        let done = work();
+        (done, scopes.into_iter().rev().filter_map(|scope| pollster::block_on(scope.pop())).last())
+    }
+
+    /// A browser tells of errors only after the program has returned to it: the next call hears of them.
+    #[cfg(target_arch = "wasm32")]
+    fn caught<T>(&self, work: impl FnOnce() -> T) -> (T, Option<wgpu::Error>) {
+        (work(), None)
     }
 
     /// As [`Context::attempt`], for work that makes modules and pipelines of pictures: where it fails none of them is
@@ -184,6 +198,10 @@ impl Context {
         patience: Duration,
         submission: Option<Submitted>,
     ) -> Result<(), Error> {
+        if cfg!(target_arch = "wasm32") {
+            // Nobody can wait in a browser. What is submitted is done in its order all the same.
+            return self.check("waiting for the GPU");
+        }
         if self.is_shared {
             return self.look_until_done(patience, submission.unwrap_or_else(|| self.submit([])));
         }

@@ -166,10 +166,19 @@ impl ViewerSets {
         if self.shown != Some(wanted) {
             let (sender, receiver) = channel();
             let load = work();
-            std::thread::spawn(move || drop(sender.send(load())));
+            aside(move || drop(sender.send(load())));
             self.coming = Some((wanted, receiver));
         }
         Ok(())
+    }
+}
+
+/// Does something on another thread, or at once where there is only one.
+fn aside(work: impl FnOnce() + Send + 'static) {
+    if cfg!(target_arch = "wasm32") {
+        work();
+    } else {
+        std::thread::spawn(work);
     }
 }
 

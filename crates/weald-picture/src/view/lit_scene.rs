@@ -128,9 +128,14 @@ impl LitScene {
 
     /// The scene for another camera, with so much haze as suits it where the view does not say how much.
     #[must_use]
-    pub fn seen_from(self, camera: Camera) -> Self {
-        let haze = haze(self.visibility, &camera, self.setting.centre(), self.setting.exaggeration);
-        Self { camera, haze, ..self }
+    pub fn seen_from(mut self, camera: Camera) -> Self {
+        self.look_from(camera);
+        self
+    }
+
+    pub(super) fn look_from(&mut self, camera: Camera) {
+        self.haze = haze(self.visibility, &camera, self.setting.centre(), self.setting.exaggeration);
+        self.camera = camera;
     }
 
     /// Columns and rows of the surfaces.

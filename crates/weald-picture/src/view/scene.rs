@@ -15,8 +15,9 @@ use crate::colour::{linear_of_hex, mix};
 use weald_core::error::Error;
 use weald_core::landscape::Landscape;
 
-/// Everything that a pixel needs to know.
-pub(super) struct RayMarcher {
+/// Marches the rays of pixels through a scene, on the CPU.
+#[derive(Debug)]
+pub struct RayMarcher {
     scene: LitScene,
     pixels: [usize; 2],
     samples: Vec<[f32; 2]>,
@@ -42,6 +43,28 @@ impl RayMarcher {
         let pixels = [view.width as usize, view.height as usize];
         let pixel_angle = scene.camera.pixel_angle(pixels[0]);
         Ok(Self { scene, pixels, samples: camera::samples(view.samples), pixel_angle })
+    }
+
+    /// For pictures of a scene that are made row by row, of one ray a pixel; the camera is that of the scene.
+    pub fn of(scene: LitScene, pixels: [usize; 2]) -> Self {
+        let pixel_angle = scene.camera.pixel_angle(pixels[0]);
+        Self { scene, pixels, samples: camera::samples(1), pixel_angle }
+    }
+
+    /// The scene.
+    pub fn scene(&self) -> &LitScene {
+        &self.scene
+    }
+
+    /// Looks from another camera, at so many columns and rows of pixels.
+    pub fn look_from(&mut self, camera: Camera, pixels: [usize; 2]) {
+        self.scene.look_from(camera);
+        (self.pixels, self.pixel_angle) = (pixels, camera.pixel_angle(pixels[0]));
+    }
+
+    /// The bytes of a row of pixels from left to right, red, green and blue of each; row 0 is the uppermost.
+    pub fn row(&self, y: usize) -> Vec<u8> {
+        (0..self.pixels[0]).flat_map(|x| self.pixel([x, y])).collect()
     }
 
     /// The bytes of a pixel, counted from the top left.

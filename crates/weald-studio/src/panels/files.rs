@@ -13,12 +13,15 @@ enum Answer {
     Path(PathBuf),
     /// Leave without saving.
     Leave,
+    /// Let the page ask for a file.
+    Choose,
     /// Nothing of it.
     No,
 }
 
 pub(crate) fn show(studio: &mut Studio, ui: &Ui) {
     let Some(mut asked) = studio.asked.take() else { return };
+    let chooses = studio.is_hosted() && matches!(asked, Asked::Open(_));
     let (title, button, text) = match &mut asked {
         Asked::Start => {
             studio.asked = Some(asked);
@@ -50,6 +53,9 @@ pub(crate) fn show(studio: &mut Studio, ui: &Ui) {
             if ui.button(button).clicked() {
                 answer = Some(path.map_or(Answer::Leave, Answer::Path));
             }
+            if chooses && ui.button("Choose a file …").clicked() {
+                answer = Some(Answer::Choose);
+            }
             if ui.button("Cancel").clicked() {
                 answer = Some(Answer::No);
             }
@@ -61,6 +67,7 @@ pub(crate) fn show(studio: &mut Studio, ui: &Ui) {
             let context = ui.ctx().clone();
             studio.leave(&context);
         }
+        Some(Answer::Choose) => studio.choose_file(),
         Some(Answer::No) => {}
         _ if modal.should_close() => {}
         _ => studio.asked = Some(asked),

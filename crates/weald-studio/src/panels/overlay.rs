@@ -26,7 +26,7 @@ pub(crate) fn show(studio: &mut Studio, ui: &mut Ui, rect: Rect) {
     if let Some(place) = studio.pointed.filter(|_| paints) {
         ring(studio, &painter, rect, place);
     }
-    let error = studio.viewport.as_ref().and_then(|viewport| viewport.error.clone());
+    let error = studio.viewport.as_ref().and_then(|viewport| viewport.error());
     let text = match (&studio.status.shown, error) {
         (_, Some(error)) => error,
         (None, None) => "The landscape is being made …".to_owned(),
@@ -38,7 +38,7 @@ pub(crate) fn show(studio: &mut Studio, ui: &mut Ui, rect: Rect) {
 
 /// The bar between what is pinned, on its left, and what is shown.
 fn bar(studio: &mut Studio, ui: &mut Ui, rect: Rect) {
-    if studio.viewport.as_ref().and_then(crate::viewport::Viewport::pinned_texture).is_none() {
+    if studio.viewport.as_ref().and_then(|viewport| viewport.pinned_texture()).is_none() {
         return;
     }
     let at = rect.left() + studio.wipe * rect.width();

@@ -79,7 +79,7 @@ fn pace(studio: &Studio, ui: &mut Ui) {
     }
     if let Some(viewport) = &studio.viewport {
         let device = viewport.device();
-        let text = format!("{:.0} ms a picture", 1000.0 * viewport.seconds);
+        let text = format!("{:.0} ms a picture", 1000.0 * viewport.seconds());
         let text =
             if viewport.is_software() { format!("{text} (no graphics card: software draws)") } else { text };
         ui.label(text).on_hover_text(device);

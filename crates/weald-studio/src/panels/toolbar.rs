@@ -15,7 +15,7 @@ const GROUPS: [&[Command]; 5] = [
 ];
 
 pub(crate) fn show(studio: &mut Studio, ui: &mut Ui) {
-    let mut chosen = None;
+    let (mut chosen, mut shares) = (None, false);
     ui.horizontal_wrapped(|ui| {
         for (place, group) in GROUPS.iter().enumerate() {
             if place > 0 {
@@ -25,7 +25,17 @@ pub(crate) fn show(studio: &mut Studio, ui: &mut Ui) {
                 chosen = button(ui, *command).or(chosen);
             }
         }
+        if studio.is_hosted() {
+            ui.separator();
+            shares = ui
+                .button("Share")
+                .on_hover_text("makes a link of the recipe and of all that was done")
+                .clicked();
+        }
     });
+    if shares {
+        studio.share();
+    }
     if let Some(command) = chosen {
         let context = ui.ctx().clone();
         studio.obey(command, &context);

@@ -67,7 +67,7 @@ impl Studio {
     fn drag(&mut self, response: &Response, rect: Rect, camera: Camera, is_busy: bool) {
         let delta = response.drag_delta();
         let share = [delta.x / rect.width(), delta.y / rect.height()];
-        let Some(middle) = self.viewport.as_ref().and_then(crate::viewport::Viewport::middle) else { return };
+        let Some(middle) = self.viewport.as_ref().and_then(|viewport| viewport.middle()) else { return };
         let pans = response.dragged_by(PointerButton::Middle)
             || (response.dragged_by(PointerButton::Secondary) && self.mode == Mode::Orbit);
         let turns = (response.dragged_by(PointerButton::Primary) && !is_busy)
@@ -105,7 +105,7 @@ impl Studio {
         }
         let Some(camera) = self.camera else { return };
         let towards = self.pointed.map_or_else(
-            || self.viewport.as_ref().and_then(crate::viewport::Viewport::middle),
+            || self.viewport.as_ref().and_then(|viewport| viewport.middle()),
             |place| self.point(place),
         );
         if let Some(towards) = towards {

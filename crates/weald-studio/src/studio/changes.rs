@@ -67,6 +67,9 @@ impl Studio {
         };
         self.keeps_edits = true;
         self.work.ask(Task::Open(Box::new(opening)));
+        if std::mem::take(&mut self.plays_first) {
+            self.work.ask(Task::Play(true));
+        }
     }
 
     /// Runs the recipe anew, as far as the step that is chosen to be shown.

@@ -45,7 +45,7 @@ impl Studio {
     /// Moves the camera on where the turntable runs.
     pub(crate) fn turn(&mut self, context: &Context) {
         let Some(camera) = self.camera.filter(|_| self.turns) else { return };
-        let Some(middle) = self.viewport.as_ref().and_then(crate::viewport::Viewport::middle) else { return };
+        let Some(middle) = self.viewport.as_ref().and_then(|viewport| viewport.middle()) else { return };
         let seconds = f64::from(context.input(|input| input.stable_dt.min(0.25)));
         self.camera = Some(camera.turned(middle, TURN_DEG * seconds));
         context.request_repaint();
@@ -97,8 +97,10 @@ impl Studio {
 
     pub(super) fn read_cameras(&mut self) {
         self.cameras = Vec::new();
-        let Some(file) = self.project.cameras_file().filter(|file| file.is_file()) else { return };
-        let read = std::fs::read_to_string(&file).map_err(|cause| cause.to_string());
+        let Some(file) = self.project.cameras_file().filter(|file| weald::files::is_file(file)) else {
+            return;
+        };
+        let read = weald::files::read_to_string(&file).map_err(|cause| cause.to_string());
         match read.and_then(|text| cameras::of_text(&text)) {
             Ok(cameras) => self.cameras = cameras,
             Err(cause) => self.say(format!("{}: {cause}", file.display())),

@@ -3,13 +3,14 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use serde::{Deserialize, Serialize};
 use weald::edit::Canvas;
 use weald::{Field, Landscape};
 
 use crate::state::State;
 
 /// What the thread is at.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub enum Phase {
     /// Nothing.
     #[default]
@@ -32,7 +33,7 @@ pub enum Phase {
 }
 
 /// A stretch of what was done: one stroke, one setting, or steps one after the other.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Moment {
     /// Number in the history.
     pub number: usize,
@@ -61,6 +62,8 @@ pub struct Shown {
     pub steps: usize,
     /// How much was done by hand when it was made: [`Status::changes`].
     pub changes: u64,
+    /// Name and text of the recipe that made it.
+    pub recipe: Arc<(String, String)>,
 }
 
 /// Ground and water of a simulation as it runs.
@@ -77,7 +80,7 @@ pub struct Surface {
 }
 
 /// All that the window can know of the work.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct Status {
     /// What it is at.
     pub phase: Phase,
@@ -88,8 +91,10 @@ pub struct Status {
     /// What the user should know.
     pub notes: Vec<String>,
     /// The landscape.
+    #[serde(skip)]
     pub shown: Option<Shown>,
     /// What has changed on it since.
+    #[serde(skip)]
     pub surface: Option<Surface>,
     /// Place of the step that is held, counted from 0.
     pub held: Option<usize>,

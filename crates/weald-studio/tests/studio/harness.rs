@@ -28,7 +28,8 @@ impl Window {
 
     /// The same where this folder has what was kept on the machine.
     pub(crate) fn on_machine(what: Option<&Path>, own: &Path) -> Self {
-        let options = Options { what: what.map(Path::to_owned), own_files: Some(own.to_owned()) };
+        let options =
+            Options { what: what.map(Path::to_owned), own_files: Some(own.to_owned()), ..Options::default() };
         let builder: HarnessBuilder<Studio> =
             Harness::builder().with_size([1200.0, 760.0]).wgpu_setup(weald_studio::device_setup());
         let harness = builder.build_eframe(move |context| {

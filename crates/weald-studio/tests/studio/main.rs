@@ -6,3 +6,4 @@ mod harness;
 mod kills;
 mod looking;
 mod panels;
+mod remote;

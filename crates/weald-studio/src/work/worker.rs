@@ -1,0 +1,265 @@
+//! The one who works: does what is asked, one task after the other, and lets the simulation run in short slices between them.
+
+mod opening;
+
+use std::collections::VecDeque;
+use std::path::Path;
+use std::sync::Arc;
+use std::sync::atomic::Ordering;
+use std::time::Duration;
+
+use weald::Error;
+use weald::files;
+use weald::recipe::{Cache, Options, Overrides, Progress, Recipe, Run};
+use web_time::Instant;
+
+use super::held::HeldSession;
+use super::shared::{Shared, Told};
+use super::status::{Phase, Surface};
+use super::task::{Opening, Task};
+use crate::state::State;
+
+/// How long the simulation runs between two looks at what is asked.
+const SLICE: Duration = Duration::from_millis(20);
+
+/// Least time between two surfaces while it runs: what a window can draw.
+const SURFACE_EVERY: Duration = Duration::from_millis(60);
+
+/// Least time between two lists of what was done, while it runs.
+const MOMENTS_EVERY: Duration = Duration::from_millis(250);
+
+/// How long nothing is asked before the steps after the one that is held run.
+const REST: Duration = Duration::from_millis(400);
+
+/// Bytes of results that are kept in memory, so that a change runs again from the changed step only.
+const CACHE_BYTES: u64 = 1 << 30;
+
+/// How long there is nothing to do, as long as nothing is asked.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Rest {
+    /// There is something to do.
+    None,
+    /// So long.
+    For(Duration),
+    /// Until something is asked.
+    UntilAsked,
+}
+
+pub(super) struct Worker {
+    waiting: VecDeque<(u64, Task)>,
+    shared: Arc<Shared>,
+    cache: Arc<Cache>,
+    opening: Option<Opening>,
+    held: Option<HeldSession>,
+    /// Steps at which a simulation that runs stands still.
+    until: Option<u64>,
+    /// Steps that fill a slice.
+    slice: u64,
+    surfaced: Instant,
+    moments_told: Instant,
+    /// Whether the steps after the one that is held have run since it changed.
+    is_finished: bool,
+}
+
+impl Worker {
+    pub(super) fn new(shared: Arc<Shared>) -> Self {
+        Self {
+            waiting: VecDeque::new(),
+            shared,
+            cache: Arc::new(Cache::in_memory(CACHE_BYTES)),
+            opening: None,
+            held: None,
+            until: None,
+            slice: 1,
+            surfaced: Instant::now(),
+            moments_told: Instant::now(),
+            is_finished: true,
+        }
+    }
+
+    /// Takes a task, to be done after those that it has.
+    pub(super) fn ask(&mut self, number: u64, task: Task) {
+        self.waiting.push_back((number, task));
+    }
+
+    /// How long it has nothing to do.
+    pub(super) fn rest(&self) -> Rest {
+        if !self.waiting.is_empty() || self.until.is_some() {
+            Rest::None
+        } else if self.is_finished {
+            Rest::UntilAsked
+        } else {
+            Rest::For(REST)
+        }
+    }
+
+    /// Does the next task, or a slice of what is to be done without being asked.
+    pub(super) fn work(&mut self) {
+        let done = match self.waiting.pop_front() {
+            Some((number, task)) => self.take(number, task),
+            None if self.until.is_some() => self.simulate(),
+            None => self.finish(),
+        };
+        match done {
+            Ok(()) | Err(Error::Interrupted(_)) => {}
+            Err(error) => {
+                self.until = None;
+                self.shared.change(|status| status.error = Some(error.to_string()));
+            }
+        }
+        self.show();
+    }
+
+    fn take(&mut self, number: u64, task: Task) -> Result<(), Error> {
+        self.shared.change(|status| status.error = None);
+        match task {
+            Task::Open(opening) => return self.open(number, *opening),
+            Task::Save(file) => return self.save(&file),
+            Task::Export(folder) => return self.export(number, &folder),
+            _ => {}
+        }
+        if matches!(task, Task::Undo | Task::Redo | Task::GoTo(_)) {
+            // Who goes to a moment wants to see it.
+            self.until = None;
+        }
+        let Some(held) = &mut self.held else { return Ok(()) };
+        match task {
+            Task::Play(plays) => self.until = plays.then_some(u64::MAX),
+            Task::PlayToEnd => self.until = Some(held.written_steps()),
+            Task::Advance(steps) => held.advance(steps)?,
+            Task::Set(setting) => held.set(setting)?,
+            Task::Stroke { brush, stroke, replaces } => held.paint(brush, stroke, replaces)?,
+            Task::Undo => drop(held.undo()?),
+            Task::Redo => drop(held.redo()?),
+            Task::GoTo(moment) => held.go_to(moment)?,
+            Task::Name(name) => held.session().history().name(&name),
+            Task::Open(_) | Task::Save(_) | Task::Export(_) | Task::End => {}
+        }
+        self.changed()
+    }
+
+    /// Tells of a change at once.
+    fn changed(&mut self) -> Result<(), Error> {
+        self.is_finished = false;
+        self.shared.status().changes += 1;
+        self.surface()
+    }
+
+    /// Runs the simulation for a slice of time.
+    fn simulate(&mut self) -> Result<(), Error> {
+        let (Some(held), Some(until)) = (&mut self.held, self.until) else {
+            self.until = None;
+            return Ok(());
+        };
+        let steps = self.slice.min(until.saturating_sub(held.steps()));
+        if steps == 0 {
+            self.until = None;
+            return self.surface();
+        }
+        let began = Instant::now();
+        held.advance(steps)?;
+        self.is_finished = false;
+        let took = began.elapsed();
+        let pace = steps as f64 / took.as_secs_f64().max(1e-6);
+        self.slice = ((pace * SLICE.as_secs_f64()) as u64).clamp(1, 4 * steps);
+        let mut status = self.shared.status();
+        status.pace = if status.pace > 0.0 { 0.9 * status.pace + 0.1 * pace } else { pace };
+        status.changes += 1;
+        drop(status);
+        if self.surfaced.elapsed() >= SURFACE_EVERY { self.surface() } else { Ok(()) }
+    }
+
+    /// Shows ground and water as they are.
+    fn surface(&mut self) -> Result<(), Error> {
+        let Some(held) = &mut self.held else { return Ok(()) };
+        let (canvas, ground) = held.surface()?;
+        let (canvas, ground) = (Arc::new(canvas), Arc::new(ground));
+        self.surfaced = Instant::now();
+        self.shared.change(|status| {
+            let shown = status.shown.as_ref().map_or(0, |shown| shown.number);
+            let number = status.surface.as_ref().map_or(1, |surface| surface.number + 1);
+            status.surface = Some(Surface { ground, canvas, number, shown });
+        });
+        Ok(())
+    }
+
+    /// Runs the steps after the one that is held, unless something else is asked meanwhile.
+    fn finish(&mut self) -> Result<(), Error> {
+        if std::mem::replace(&mut self.is_finished, true) {
+            return Ok(());
+        }
+        let (Some(held), Some(opening)) = (&mut self.held, &self.opening) else { return Ok(()) };
+        let number = self.shared.asked.load(Ordering::Acquire);
+        let progress = Told { shared: &self.shared, number, watched: &self.shared.asked };
+        let (landscape, steps) = match opening.steps {
+            Some(steps) => (held.landscape()?, steps),
+            None => (Arc::new(held.session().finish(&progress)?), usize::MAX),
+        };
+        if progress.cancelled() {
+            self.is_finished = false;
+            return Ok(());
+        }
+        self.publish(opening, landscape, steps);
+        Ok(())
+    }
+
+    fn save(&mut self, file: &Path) -> Result<(), Error> {
+        match (&mut self.held, &self.opening) {
+            (Some(held), _) => held.save(file)?,
+            (None, Some(opening)) => weald::io::write_whole(file, opening.text.as_bytes())?,
+            (None, None) => return Ok(()),
+        }
+        let revision = self.opening.as_ref().map_or(0, |opening| opening.revision);
+        self.shared.change(|status| {
+            status.saved = Some((file.to_owned(), State { revision, changes: status.changes }));
+        });
+        Ok(())
+    }
+
+    /// Runs the recipe with all that was done, as `weald run` does.
+    fn export(&mut self, number: u64, folder: &Path) -> Result<(), Error> {
+        let Some(opening) = &self.opening else { return Ok(()) };
+        files::create_dir_all(folder)
+            .map_err(|cause| Error::Run(format!("{} cannot be made: {cause}", folder.display())))?;
+        let recipe = if let Some(held) = &mut self.held {
+            let file = folder.join("landscape.toml");
+            held.save(&file)?;
+            Recipe::load(&file, &Overrides::default())?
+        } else {
+            Recipe::parse(&opening.file, &opening.text, &Overrides::default())?
+        };
+        let progress = Told { shared: &self.shared, number, watched: &self.shared.superseded };
+        let options = Options { engine: opening.engine.clone(), ..Options::into_folder(folder) };
+        Run { recipe: &recipe, options }.execute(&progress)?;
+        let names = recipe.names();
+        self.shared.change(|status| status.exported = Some((folder.to_owned(), names)));
+        Ok(())
+    }
+
+    /// Brings what the window sees of the history up to date.
+    fn show(&mut self) {
+        let until = self.until;
+        // The way here grows with every slice; it need not be told more often than the surface.
+        let is_due = until.is_none() || self.moments_told.elapsed() >= MOMENTS_EVERY;
+        let moments = is_due.then(|| self.held.as_mut().map_or_else(Vec::new, HeldSession::moments));
+        if is_due {
+            self.moments_told = Instant::now();
+        }
+        let held = self.held.as_mut().map(|held| {
+            let names = held.session().history().names().clone();
+            (held.place(), held.steps(), held.written_steps(), names, held.session().history().used())
+        });
+        self.shared.change(|status| {
+            status.plays = until.is_some();
+            status.phase = if until.is_some() { Phase::Simulating } else { Phase::Idle };
+            if let Some(moments) = moments {
+                status.moments = moments;
+            }
+            status.held = held.as_ref().map(|held| held.0);
+            if let Some((_, steps, written, names, kept)) = held {
+                (status.steps, status.written_steps, status.kept) = (steps, written, kept);
+                status.names = names.into_iter().collect();
+            }
+        });
+    }
+}
