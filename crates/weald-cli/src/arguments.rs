@@ -89,6 +89,18 @@ pub(crate) enum Command {
         out: PathBuf,
     },
     /// Open a window: run, paint and undo by hand
+    /// Serve the studio's page for browsers on this machine, to try it
+    ///
+    /// The page is a folder that any web server can serve: `web` in the archive of a release; `cargo run --release -p
+    /// weald-dev -- web` makes it.
+    Web {
+        /// Folder of the page; by default `web` beside the program, or `target/page`
+        #[arg(value_name = "DIR")]
+        folder: Option<PathBuf>,
+        /// Serve it on this port of this machine alone; 0 takes a free one
+        #[arg(long, value_name = "PORT", num_args = 0..=1, default_missing_value = "8080")]
+        serve: Option<u16>,
+    },
     #[cfg(feature = "studio")]
     Studio {
         /// A recipe, an elevation model, or the folder of a project [default: a template]

@@ -43,6 +43,7 @@ fn main() -> ExitCode {
         Command::Render(arguments) => commands::render::render(&arguments),
         #[cfg(feature = "studio")]
         Command::Studio { what } => commands::studio::studio(what),
+        Command::Web { folder, serve } => commands::web::web(folder, serve),
         Command::Schema => commands::schema::schema(),
         Command::Completions { shell } => commands::completions::completions(shell),
     };

@@ -5,9 +5,11 @@ mod coding;
 mod film;
 mod flip;
 mod keep;
+mod page;
 mod renew;
 
 pub use coding::{Coded, code, decode};
 pub use flip::{Flip, flip};
 pub use keep::{Kept, VISIBLE, keep};
+pub use page::{PageFile, page};
 pub use renew::{Renewed, renew};

@@ -1,11 +1,12 @@
-//! `cargo run --release -p weald-dev -- gallery` renews docs/gallery; `-- picture FROM.png TO.webp`, one picture.
+//! `cargo run --release -p weald-dev -- gallery` renews docs/gallery; `-- picture FROM.png TO.webp`, one picture; `-- web`
+//! builds the page for browsers.
 
 use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 use weald::Error;
-use weald_dev::{Renewed, keep, renew};
+use weald_dev::{PageFile, Renewed, keep, page, renew};
 
 /// Renews committed pictures: those that look different, as WebP
 #[derive(Debug, Parser)]
@@ -38,6 +39,12 @@ enum Command {
         #[arg(value_name = "TO.webp")]
         into: PathBuf,
     },
+    /// Build Weald's page for browsers: a folder that any web server serves
+    Web {
+        /// Folder of the page
+        #[arg(value_name = "DIR", default_value = "target/page")]
+        into: PathBuf,
+    },
 }
 
 fn main() -> ExitCode {
@@ -58,6 +65,19 @@ fn run(Arguments { command, all }: &Arguments) -> Result<(), Error> {
         }),
         Command::Picture { from, into } => {
             println!("{} {}", into.display(), keep(from, into, *all)?);
+            Ok(())
+        }
+        Command::Web { into } => {
+            let files = page(into)?;
+            for file in &files {
+                println!("{:>10} {:>10} {}", file.bytes, file.packed, file.name);
+            }
+            let sum = |of: fn(&PageFile) -> usize| files.iter().map(of).sum::<usize>();
+            println!(
+                "{:>10} {:>10} bytes as they are, and by Brotli",
+                sum(|file| file.bytes),
+                sum(|file| file.packed)
+            );
             Ok(())
         }
     }

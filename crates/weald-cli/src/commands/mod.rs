@@ -17,3 +17,4 @@ pub(crate) mod schema;
 pub(crate) mod steps;
 #[cfg(feature = "studio")]
 pub(crate) mod studio;
+pub(crate) mod web;

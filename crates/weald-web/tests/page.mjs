@@ -1,0 +1,307 @@
+// Drives the page in real browsers as a person does: `node page.mjs FOLDER WEALD PICTURES [chromium|firefox]`.
+//
+// FOLDER is the page, WEALD the program that serves it and with which heights are compared, PICTURES a folder for what was
+// seen. Everything is found by its label, clicked and typed; the test ends with 0 when all of it was as it should be.
+import { execFileSync, spawn } from "node:child_process";
+import { mkdirSync, mkdtempSync, readFileSync, readdirSync, rmSync, statSync, writeFileSync } from "node:fs";
+import { createRequire } from "node:module";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import process from "node:process";
+
+const [folder, weald, pictures, only] = process.argv.slice(2);
+const puppeteer = createRequire(join(process.env.WEALD_CLIENTS ?? "target/clients", "browser/"))("puppeteer-core");
+mkdirSync(pictures, { recursive: true });
+
+const RECIPE = `weald = 1
+[landscape]
+size = 96
+cell = 20.0
+seed = 5
+[[step]]
+do = "diamond-square"
+relief = 400.0
+[[step]]
+do = "hydraulic"
+model = "mei"
+iterations = 120
+boundary = "open"
+[[output]]
+layer = "height"
+file = "height.npy"
+`;
+
+const failures = [];
+function expect(holds, what) {
+  console.log(`${holds ? "  ok  " : "FAILED"} ${what}`);
+  if (!holds) failures.push(what);
+}
+
+async function until(what, test, seconds = 120) {
+  const end = Date.now() + 1000 * seconds;
+  for (;;) {
+    const found = await test();
+    if (found) return found;
+    if (Date.now() > end) throw new Error(`${what} did not come within ${seconds} s`);
+    await new Promise((resolve) => setTimeout(resolve, 50));
+  }
+}
+
+// A page with what a person does on it.
+class Visitor {
+  constructor(page, name) {
+    this.page = page;
+    this.name = name;
+    this.count = 0;
+    page.on("pageerror", (error) => expect(false, `${name}: no error of the page: ${error.message}`));
+    page.on("console", (message) => {
+      if (message.type() === "error") console.log(`       ${name} console: ${message.text().slice(0, 300)}`);
+    });
+  }
+
+  async state() {
+    return JSON.parse((await this.page.evaluate(() => window.weald?.page?.state() ?? "null")) ?? "null");
+  }
+
+  is(what, test, seconds) {
+    return until(`${this.name}: ${what}`, async () => {
+      const state = await this.state();
+      return state && test(state) ? state : null;
+    }, seconds);
+  }
+
+  places(label) {
+    return this.page.evaluate((label) => window.weald.page.find(label), label);
+  }
+
+  async click(label) {
+    const [place] = await until(`${this.name}: "${label}"`, async () => {
+      const places = await this.places(label);
+      return places.length ? places : null;
+    }, 30);
+    await this.page.mouse.move((place[0] + place[2]) / 2, (place[1] + place[3]) / 2);
+    await new Promise((resolve) => setTimeout(resolve, 120));
+    await this.page.mouse.down();
+    await new Promise((resolve) => setTimeout(resolve, 60));
+    await this.page.mouse.up();
+    await new Promise((resolve) => setTimeout(resolve, 120));
+  }
+
+  async drag(label, from, to) {
+    const [place] = await this.places(label);
+    const at = ([x, y]) => [place[0] + x * (place[2] - place[0]), place[1] + y * (place[3] - place[1])];
+    await this.page.mouse.move(...at(from));
+    await this.page.mouse.down();
+    for (let step = 1; step <= 8; step++) {
+      await this.page.mouse.move(...at([0, 1].map((axis) => from[axis] + ((to[axis] - from[axis]) * step) / 8)));
+      await new Promise((resolve) => setTimeout(resolve, 40));
+    }
+    await this.page.mouse.up();
+  }
+
+  drop(name, text, size) {
+    return this.page.evaluate(
+      (name, text, size) => {
+        const file = new File([text], name);
+        if (size) Object.defineProperty(file, "size", { value: size });
+        return window.weald.arrive(file);
+      },
+      name,
+      text,
+      size ?? 0,
+    );
+  }
+
+  // Bytes of the heights, as they lie in memory.
+  async heights() {
+    const letters = await this.page.evaluate(() => {
+      const bytes = new Uint8Array(window.weald.page.heights().buffer);
+      let letters = "";
+      for (const byte of bytes) letters += String.fromCharCode(byte);
+      return btoa(letters);
+    });
+    return Buffer.from(letters, "base64");
+  }
+
+  async picture(name) {
+    this.count += 1;
+    await this.page.screenshot({ path: join(pictures, `${this.name}-${this.count}-${name}.png`) });
+  }
+}
+
+function served() {
+  const server = spawn(weald, ["web", folder, "--serve", "0"], { stdio: ["ignore", "pipe", "inherit"] });
+  return new Promise((resolve, reject) => {
+    server.on("exit", (code) => reject(new Error(`the server ended with ${code}`)));
+    server.stdout.once("data", (line) => resolve({ server, address: String(line).trim() }));
+  });
+}
+
+// What the program makes of the recipe.
+function native() {
+  const out = mkdtempSync(join(tmpdir(), "weald-page-"));
+  const recipe = join(out, "valley.toml");
+  writeFileSync(recipe, RECIPE);
+  execFileSync(weald, ["run", recipe, "--out", join(out, "out"), "--quiet"], { stdio: "inherit" });
+  const file = readFileSync(join(out, "out", "height.npy"));
+  rmSync(out, { recursive: true });
+  return { file, heights: file.subarray(file.length - 4 * 96 * 96) };
+}
+
+const QUIET = ["--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync"];
+const DEVICE = ["--enable-unsafe-webgpu", "--enable-features=Vulkan", "--use-vulkan=swiftshader", "--use-angle=swiftshader", "--use-webgpu-adapter=swiftshader"];
+
+function launched(kind) {
+  if (kind === "firefox") {
+    return puppeteer.launch({ browser: "firefox", executablePath: process.env.FIREFOX ?? "/usr/bin/firefox-esr", headless: true });
+  }
+  const drawing = kind === "device" ? DEVICE : ["--enable-unsafe-swiftshader"];
+  return puppeteer.launch({
+    executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
+    headless: true,
+    ignoreDefaultArgs: ["--disable-gpu"],
+    args: ["--no-sandbox", ...QUIET, ...drawing],
+  });
+}
+
+async function visit(context, address, name, before) {
+  const page = await context.newPage();
+  await page.setViewport({ width: 1280, height: 800 });
+  if (before) await page.evaluateOnNewDocument(before);
+  const visitor = new Visitor(page, name);
+  await page.goto(address);
+  return visitor;
+}
+
+async function tour(kind, address, wanted) {
+  console.log(`\n${kind}`);
+  const browser = await launched(kind);
+  const downloads = mkdtempSync(join(tmpdir(), "weald-downloads-"));
+  try {
+    const began = Date.now();
+    const visitor = await visit(browser, address, kind);
+    await until("a first picture of the page", () => visitor.page.$("#try"), 30);
+    const first = Date.now() - began;
+    await visitor.is("a landscape that is drawn", (state) => state.shown && state.steps > 0, 240);
+    const land = Date.now() - began;
+    const device = await visitor.page.evaluate(() => window.weald.device);
+    expect(device === (kind === "device"), `draws ${device ? "on a device" : "by rays"}`);
+    await visitor.picture("landing");
+    const running = await visitor.is("steps of the simulation", (state) => state.plays && state.steps > 20, 120);
+    const cells = running.columns ** 2;
+    console.log(`       page after ${first} ms, a landscape that is carved after ${land} ms, ${((running.pace * cells) / 1e6).toFixed(1)} million cell-steps a second`);
+    await visitor.page.click("#try");
+    await new Promise((resolve) => setTimeout(resolve, 900));
+    await visitor.click("Play");
+    await visitor.is("a simulation that stands still", (state) => !state.plays && state.idle);
+    await visitor.picture("valley");
+
+    await visitor.drop("valley.toml", RECIPE);
+    await visitor.is("the recipe that was dropped", (state) => state.columns === 96 && state.steps === 0 && state.idle);
+    await visitor.click("To the end");
+    await visitor.is("the end of the simulation", (state) => state.steps === 120 && state.idle);
+    expect((await visitor.heights()).equals(wanted.heights), "heights equal those of the program to the bit");
+    await visitor.picture("carved");
+
+    if (kind !== "firefox") {
+      const session = await visitor.page.createCDPSession();
+      await session.send("Browser.setDownloadBehavior", { behavior: "allow", downloadPath: downloads });
+      await visitor.click("Export");
+      // The button of the question has the name of that of the toolbar: it is the last.
+      const places = await until("the question", async () => {
+        const places = await visitor.places("Export");
+        return places.length > 1 ? places : null;
+      });
+      const lowest = places.reduce((one, other) => (other[1] > one[1] ? other : one));
+      await visitor.page.mouse.click((lowest[0] + lowest[2]) / 2, (lowest[1] + lowest[3]) / 2, { delay: 80 });
+      const archive = await until("the export", () => {
+        const names = readdirSync(downloads).filter((name) => name.endsWith(".zip"));
+        return names.length && statSync(join(downloads, names[0])).size ? join(downloads, names[0]) : null;
+      });
+      expect(readFileSync(archive).includes(wanted.file), "the export holds the file that the program writes");
+    }
+
+    const before = await visitor.state();
+    await visitor.page.keyboard.press("v");
+    await visitor.drag("Viewport", [0.45, 0.5], [0.6, 0.55]);
+    const painted = await visitor.is("a stroke", (state) => state.moments > before.moments && state.idle);
+    await visitor.picture("painted");
+    await visitor.page.keyboard.down("Control");
+    await visitor.page.keyboard.press("z");
+    await visitor.page.keyboard.up("Control");
+    await visitor.is("no stroke", (state) => state.moments < painted.moments && state.idle);
+    expect((await visitor.heights()).equals(wanted.heights), "heights after undo are as before the stroke");
+    await visitor.page.keyboard.press("b");
+    await visitor.drag("Viewport", [0.4, 0.5], [0.5, 0.6]);
+    await visitor.is("another stroke", (state) => state.moments > before.moments && state.idle);
+    const mine = await visitor.heights();
+    expect(!mine.equals(wanted.heights), "the brush has raised the ground");
+    // What is not saved is kept every half second.
+    await new Promise((resolve) => setTimeout(resolve, 2500));
+
+    await visitor.page.reload();
+    await visitor.is("what was not saved", (state) => state.columns === 96 && state.steps === 120 && state.idle, 240);
+    expect((await visitor.heights()).equals(mine), "after a reload everything is as it was");
+    await visitor.picture("reloaded");
+
+    await visitor.click("Share");
+    await until("the link", () => visitor.page.url().includes("#land="));
+    const link = visitor.page.url();
+    const other = await visit(await browser.createBrowserContext(), link, `${kind}-shared`);
+    await other.is("what was shared", (state) => state.columns === 96 && state.steps === 120 && state.idle, 240);
+    expect((await other.heights()).equals(mine), `a link of ${link.length} letters shows the same in a fresh profile`);
+    await other.picture("shared");
+    await other.page.close();
+
+    await faults(kind, browser, address, visitor);
+  } finally {
+    await browser.close();
+    rmSync(downloads, { recursive: true });
+  }
+}
+
+async function faults(kind, browser, address, visitor) {
+  const told = async (what, words) => {
+    const { message } = await visitor.is(what, (state) => words.every((word) => state.message?.includes(word)), 30);
+    expect(true, `${what}: "${message}"`);
+  };
+  await visitor.drop("letter.txt", "Dear Weald,");
+  await told("a letter that was dropped", ["no recipe", ".tif"]);
+  await visitor.drop("earth.tif", "II*", 1e9);
+  await told("a file of 1 GB", ["1000 MB", "open it in the program"]);
+  await visitor.drop("broken.tif", "II*\0 no picture");
+  const { error } = await visitor.is("a broken GeoTIFF", (state) => state.error, 60);
+  expect(/broken\.tif/.test(error), `a broken GeoTIFF: "${error}"`);
+
+  const noStore = () => Object.defineProperty(window, "indexedDB", { value: undefined });
+  const forgetful = await visit(await browser.createBrowserContext(), address, `${kind}-no-store`, noStore);
+  const notice = await until("a notice", () => forgetful.page.$eval("#notices p", (line) => line.textContent).catch(() => null), 60);
+  await forgetful.is("a landscape without a store", (state) => state.shown, 240);
+  expect(notice.includes("keeps nothing"), `without storage: "${notice}"`);
+  await forgetful.page.close();
+
+  const cut = await visit(await browser.createBrowserContext(), `${address}#land=abc`, `${kind}-cut-link`);
+  const sentence = await until("a notice", () => cut.page.$eval("#notices p", (line) => line.textContent).catch(() => null), 60);
+  await cut.is("a landscape in its place", (state) => state.shown, 240);
+  expect(sentence.includes("cut or damaged"), `a link that is cut: "${sentence}"`);
+  await cut.page.close();
+
+  if (kind === "device") {
+    await visitor.page.evaluate(() => window.weald.loseDevice());
+    const lost = await until("a notice", () => visitor.page.$eval("#notices p", (line) => line.textContent).catch(() => null), 60);
+    expect(/load the page again/.test(lost), `a device that is lost: "${lost}"`);
+  }
+}
+
+const { server, address } = await served();
+const wanted = native();
+try {
+  for (const kind of only ? [only] : ["device", "rays"]) await tour(kind, address, wanted);
+} catch (cause) {
+  expect(false, cause.message);
+} finally {
+  server.removeAllListeners("exit");
+  server.kill();
+}
+console.log(failures.length ? `\n${failures.length} failed` : "\nthe page is as it should be");
+process.exit(failures.length ? 1 : 0);
