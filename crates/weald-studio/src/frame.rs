@@ -50,6 +50,10 @@ impl eframe::App for Studio {
     }
 
     fn ui(&mut self, ui: &mut Ui, _: &mut eframe::Frame) {
+        if self.is_bare {
+            CentralPanel::no_frame().show(ui, |ui| self.show_viewport(ui));
+            return;
+        }
         self.take_keys(ui);
         self.take_dropped(ui);
         Panel::top("toolbar").show(ui, |ui| panels::toolbar::show(self, ui));

@@ -23,8 +23,9 @@ const PARTS: [f32; 5] = [1.0 / 16.0, 0.125, 0.25, 0.5, 1.0];
 const MOVING: f64 = 0.12;
 const AT_REST: f64 = 20.0;
 
-/// How much longer a scene is looked at than it took to make, while a simulation runs.
+/// How much longer a scene is looked at than it took to make, while a simulation runs, and how long at least.
 const LOOKED_AT: f64 = 3.0;
+const LEAST_SECONDS: f64 = 0.6;
 
 /// A landscape that is to be drawn.
 struct Wanted {
@@ -91,6 +92,8 @@ pub(crate) struct Rays {
     /// Which of the parts fits a picture while something moves, and which was drawn last.
     moving: usize,
     drawn: Option<usize>,
+    /// Whether no picture was made since something changed.
+    is_behind: bool,
     textures: [Option<TextureHandle>; 2],
     seconds: f64,
     error: Option<String>,
@@ -109,6 +112,7 @@ impl Rays {
             picture: None,
             moving: 0,
             drawn: None,
+            is_behind: false,
             textures: [None, None],
             seconds: 0.0,
             error: None,
@@ -117,9 +121,13 @@ impl Rays {
 
     /// Begins again, as coarse as it must be to follow.
     fn restart(&mut self) {
-        let full = self.looked.map(|(_, full)| full);
-        self.picture = full.map(|full| Picture::begin(self.moving, full));
+        self.begin(self.moving);
         self.drawn = None;
+    }
+
+    fn begin(&mut self, part: usize) {
+        self.picture = self.looked.map(|(_, full)| Picture::begin(part, full));
+        self.is_behind = true;
     }
 
     /// Marches rows until the slice of time is over or the picture is done.
@@ -148,7 +156,7 @@ impl Rays {
                 self.show(place, ColorImage::from_rgb(picture.size, rgb));
             }
         }
-        (self.seconds, self.drawn) = (picture.seconds, Some(picture.part));
+        (self.seconds, self.drawn, self.is_behind) = (picture.seconds, Some(picture.part), false);
         let finer = |part: usize| f64::from(PARTS[part] / PARTS[picture.part]).powi(2) * picture.seconds;
         self.moving = (0..PARTS.len()).rev().find(|&part| finer(part) < MOVING).unwrap_or(0);
         let next = picture.part + 1;
@@ -246,8 +254,8 @@ impl Drawing for Rays {
             return Ok(());
         }
         let (made, took) = scene.made;
-        let is_seen = self.drawn.is_some() && made.elapsed().as_secs_f64() > LOOKED_AT * took.as_secs_f64();
-        if !is_seen {
+        let least = (LOOKED_AT * took.as_secs_f64()).max(LEAST_SECONDS);
+        if self.is_behind || made.elapsed().as_secs_f64() < least {
             self.context.request_repaint_after(took);
             return Ok(());
         }
@@ -259,7 +267,10 @@ impl Drawing for Rays {
         scene.marcher = RayMarcher::of(lit, [16, 16]);
         scene.made = (Instant::now(), began.elapsed());
         scene.surface = surface.number;
-        self.restart();
+        // As fine as the last picture, which stands until this one is done, unless that would take long.
+        let fine = |part: usize| f64::from(PARTS[part] / PARTS[self.moving]).powi(2) * MOVING < LEAST_SECONDS;
+        let part = (0..=self.drawn.unwrap_or(0)).rev().find(|&part| fine(part)).unwrap_or(self.moving);
+        self.begin(part);
         Ok(())
     }
 

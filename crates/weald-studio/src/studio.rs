@@ -71,7 +71,7 @@ pub struct Options {
     pub remote: Option<Rc<Remote>>,
     /// The page around it.
     pub host: Option<Rc<dyn Host>>,
-    /// Whether it begins with a simulation that runs, and no question.
+    /// Whether it begins with a simulation that runs, and no question and no control before [`Studio::show_controls`].
     pub plays: bool,
 }
 
@@ -134,6 +134,8 @@ pub struct Studio {
     shares: bool,
     /// Whether the first landscape runs as soon as it is there.
     plays_first: bool,
+    /// Whether there is only the landscape.
+    pub(crate) is_bare: bool,
     keeps_edits: bool,
     /// What was done, in the order of undoing.
     done: Vec<Did>,
@@ -160,6 +162,11 @@ impl Studio {
         &self.status
     }
 
+    /// Shows the controls around the landscape.
+    pub fn show_controls(&mut self) {
+        self.is_bare = false;
+    }
+
     /// What was said to the user last.
     #[doc(hidden)]
     pub fn message(&self) -> Option<&str> {
@@ -172,12 +179,11 @@ impl Studio {
         self.document.text()
     }
 
-    /// Elevations as they are now.
+    /// Elevations of the last whole landscape, and whether nothing was done since.
     #[doc(hidden)]
-    pub fn heights(&self) -> Option<&Field> {
+    pub fn heights(&self) -> Option<(&Field, bool)> {
         let shown = self.status.shown.as_ref()?;
-        let surface = self.surface().map(|surface| &*surface.ground);
-        surface.or_else(|| shown.landscape.field("height").ok())
+        Some((shown.landscape.field("height").ok()?, shown.changes == self.status.changes))
     }
 
     /// Whether the landscape that there is now is drawn, as finely as it will be.
@@ -260,6 +266,7 @@ impl Studio {
             host: options.host,
             shares: false,
             plays_first: options.plays,
+            is_bare: options.plays,
             keeps_edits: false,
             done: Vec::new(),
             undone: Vec::new(),

@@ -62,11 +62,13 @@ async function share(recipe, script) {
   page.refuse(copied ? "the link is copied, and in the address bar" : "the link is in the address bar");
 }
 
-// A device that can be asked for: without one, rays are marched on the processor.
+// A device that can be asked for: without one, rays are marched on the processor, which is also sooner done than to have
+// software act as a device. `?rays` and `?device` in the address choose.
 async function device() {
   if (asked.has("rays") || !navigator.gpu) return null;
   try {
-    return await navigator.gpu.requestAdapter();
+    const adapter = await navigator.gpu.requestAdapter();
+    return adapter?.info?.isFallbackAdapter && !asked.has("device") ? null : adapter;
   } catch {
     return null;
   }
@@ -143,7 +145,10 @@ for (const kind of ["dragover", "drop"]) {
     true,
   );
 }
-document.getElementById("try").onclick = unveil;
+document.getElementById("try").onclick = () => {
+  unveil();
+  page?.begin();
+};
 open().catch((cause) => {
   unveil();
   notice(`This browser cannot show Weald (${cause?.message ?? cause}). It needs WebAssembly with SIMD and WebGPU or WebGL 2: a Chrome, Edge, Firefox or Safari of 2023 or later has them.`);

@@ -130,6 +130,14 @@ impl Page {
         self.say(Err(sentence));
     }
 
+    /// Shows the controls, after a landscape alone was shown.
+    pub fn begin(&self) {
+        if let Some(mut studio) = self.runner.app_mut::<Studio>() {
+            studio.show_controls();
+        }
+        self.repaint();
+    }
+
     /// Notes that the worker has ended.
     pub fn fail(&self, sentence: String) {
         self.remote.fail(sentence);
@@ -149,6 +157,7 @@ impl Page {
             "moments": status.moments.iter().filter(|moment| moment.is_past).count(),
             "shown": status.shown.as_ref().map(|shown| shown.number),
             "columns": status.shown.as_ref().map(|shown| shown.landscape.domain.size.columns),
+            "whole": studio.heights().is_some_and(|(_, is_of_now)| is_of_now),
             "drawn": studio.is_drawn(),
             "error": status.error.clone().or_else(|| studio.drawing_error()),
             "message": studio.message(),
@@ -157,11 +166,14 @@ impl Page {
         state.to_string()
     }
 
-    /// Elevations of the landscape as it is now, from north-west to south-east by rows; empty where there is none.
+    /// Elevations of the last whole landscape, from north-west to south-east by rows; empty where there is none.
     pub fn heights(&self) -> Float32Array {
         let studio = self.runner.app_mut::<Studio>();
         let heights = studio.as_ref().and_then(|studio| studio.heights());
-        heights.map_or_else(|| Float32Array::new_with_length(0), |field| Float32Array::from(field.values()))
+        heights.map_or_else(
+            || Float32Array::new_with_length(0),
+            |(heights, _)| Float32Array::from(heights.values()),
+        )
     }
 
     /// West, north, east and south of everything of that label, in points of the canvas.

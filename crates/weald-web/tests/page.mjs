@@ -137,6 +137,17 @@ function served() {
   });
 }
 
+// Whether heights are the same; where they are not, how they differ.
+function same(heights, wanted, what) {
+  const [one, other] = [heights, wanted].map((bytes) => new Float32Array(new Uint8Array(bytes).buffer));
+  let [differing, most] = [Math.abs(one.length - other.length), 0];
+  one.forEach((metres, cell) => {
+    if (metres !== other[cell]) differing += 1;
+    most = Math.max(most, Math.abs(metres - other[cell]));
+  });
+  expect(differing === 0, what + (differing ? ` (${differing} of ${other.length} differ, by ${most} m at most)` : ""));
+}
+
 // What the program makes of the recipe.
 function native() {
   const out = mkdtempSync(join(tmpdir(), "weald-page-"));
@@ -166,10 +177,11 @@ function launched(kind) {
 
 async function visit(context, address, name, before) {
   const page = await context.newPage();
+  const asked = name.startsWith("device") ? address.replace(/\/(#|$)/, "/?device$1") : address;
   await page.setViewport({ width: 1280, height: 800 });
   if (before) await page.evaluateOnNewDocument(before);
   const visitor = new Visitor(page, name);
-  await page.goto(address);
+  await page.goto(asked);
   return visitor;
 }
 
@@ -192,15 +204,15 @@ async function tour(kind, address, wanted) {
     console.log(`       page after ${first} ms, a landscape that is carved after ${land} ms, ${((running.pace * cells) / 1e6).toFixed(1)} million cell-steps a second`);
     await visitor.page.click("#try");
     await new Promise((resolve) => setTimeout(resolve, 900));
-    await visitor.click("Play");
+    await visitor.click("Play or pause");
     await visitor.is("a simulation that stands still", (state) => !state.plays && state.idle);
     await visitor.picture("valley");
 
     await visitor.drop("valley.toml", RECIPE);
     await visitor.is("the recipe that was dropped", (state) => state.columns === 96 && state.steps === 0 && state.idle);
-    await visitor.click("To the end");
-    await visitor.is("the end of the simulation", (state) => state.steps === 120 && state.idle);
-    expect((await visitor.heights()).equals(wanted.heights), "heights equal those of the program to the bit");
+    await visitor.click("Play to the end");
+    await visitor.is("the end of the simulation", (state) => state.steps === 120 && state.idle && state.whole);
+    same(await visitor.heights(), wanted.heights, "heights equal those of the program to the bit");
     await visitor.picture("carved");
 
     if (kind !== "firefox") {
@@ -212,9 +224,12 @@ async function tour(kind, address, wanted) {
         const places = await visitor.places("Export");
         return places.length > 1 ? places : null;
       });
+      await visitor.picture("question");
       const lowest = places.reduce((one, other) => (other[1] > one[1] ? other : one));
       await visitor.page.mouse.click((lowest[0] + lowest[2]) / 2, (lowest[1] + lowest[3]) / 2, { delay: 80 });
-      const archive = await until("the export", () => {
+      const archive = await until("the export", async () => {
+        const { error } = await visitor.state();
+        if (error) throw new Error(error);
         const names = readdirSync(downloads).filter((name) => name.endsWith(".zip"));
         return names.length && statSync(join(downloads, names[0])).size ? join(downloads, names[0]) : null;
       });
@@ -224,40 +239,50 @@ async function tour(kind, address, wanted) {
     const before = await visitor.state();
     await visitor.page.keyboard.press("v");
     await visitor.drag("Viewport", [0.45, 0.5], [0.6, 0.55]);
-    const painted = await visitor.is("a stroke", (state) => state.moments > before.moments && state.idle);
+    const painted = await visitor.is("a stroke", (state) => state.moments > before.moments && state.idle && state.whole);
     await visitor.picture("painted");
     await visitor.page.keyboard.down("Control");
     await visitor.page.keyboard.press("z");
     await visitor.page.keyboard.up("Control");
-    await visitor.is("no stroke", (state) => state.moments < painted.moments && state.idle);
-    expect((await visitor.heights()).equals(wanted.heights), "heights after undo are as before the stroke");
+    await visitor.is("no stroke", (state) => state.moments < painted.moments && state.idle && state.whole);
+    same(await visitor.heights(), wanted.heights, "heights after undo are as before the stroke");
     await visitor.page.keyboard.press("b");
     await visitor.drag("Viewport", [0.4, 0.5], [0.5, 0.6]);
-    await visitor.is("another stroke", (state) => state.moments > before.moments && state.idle);
+    await visitor.is("another stroke", (state) => state.moments > before.moments && state.idle && state.whole);
     const mine = await visitor.heights();
     expect(!mine.equals(wanted.heights), "the brush has raised the ground");
     // What is not saved is kept every half second.
     await new Promise((resolve) => setTimeout(resolve, 2500));
 
     await visitor.page.reload();
-    await visitor.is("what was not saved", (state) => state.columns === 96 && state.steps === 120 && state.idle, 240);
-    expect((await visitor.heights()).equals(mine), "after a reload everything is as it was");
+    await visitor.is("what was not saved", (state) => state.columns === 96 && state.steps === 120 && state.idle && state.whole, 240);
+    same(await visitor.heights(), mine, "after a reload everything is as it was");
     await visitor.picture("reloaded");
 
     await visitor.click("Share");
     await until("the link", () => visitor.page.url().includes("#land="));
     const link = visitor.page.url();
     const other = await visit(await browser.createBrowserContext(), link, `${kind}-shared`);
-    await other.is("what was shared", (state) => state.columns === 96 && state.steps === 120 && state.idle, 240);
-    expect((await other.heights()).equals(mine), `a link of ${link.length} letters shows the same in a fresh profile`);
+    await other.is("what was shared", (state) => state.columns === 96 && state.steps === 120 && state.idle && state.whole, 240);
+    same(await other.heights(), mine, `a link of ${link.length} letters shows the same in a fresh profile`);
     await other.picture("shared");
     await other.page.close();
 
+    await documented(visitor);
     await faults(kind, browser, address, visitor);
   } finally {
     await browser.close();
     rmSync(downloads, { recursive: true });
   }
+}
+
+// Scripts of the documentation do what they say; files that arrive come one after the other.
+async function documented(visitor) {
+  const text = readFileSync(new URL("../../../docs/browser.md", import.meta.url), "utf8");
+  const scripts = [...text.matchAll(/```js\n([\s\S]*?)```/g)].map((found) => found[1]);
+  expect(scripts.length === 2, "the documentation has two scripts");
+  for (const script of scripts) await visitor.page.evaluate(`(async () => { ${script} })()`);
+  await visitor.is("the recipe of the documentation", (state) => state.columns === 64 && state.idle && state.whole);
 }
 
 async function faults(kind, browser, address, visitor) {

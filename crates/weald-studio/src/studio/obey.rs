@@ -111,6 +111,9 @@ impl Studio {
     }
 
     fn take_picture(&mut self) {
+        if self.is_hosted() {
+            return self.say("a page cannot wait for a picture: add a `view` to the outputs and export");
+        }
         let (Some(viewport), Some(camera)) = (&mut self.viewport, self.camera) else { return };
         let size = [2560, 1440];
         let Some(whole) = viewport.whole() else { return };

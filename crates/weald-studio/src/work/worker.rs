@@ -204,6 +204,8 @@ impl Worker {
     }
 
     fn save(&mut self, file: &Path) -> Result<(), Error> {
+        let folder = file.parent().unwrap_or(Path::new("/"));
+        files::create_dir_all(folder).map_err(|cause| Error::write(folder, &cause))?;
         match (&mut self.held, &self.opening) {
             (Some(held), _) => held.save(file)?,
             (None, Some(opening)) => weald::io::write_whole(file, opening.text.as_bytes())?,

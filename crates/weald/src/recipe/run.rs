@@ -59,7 +59,10 @@ impl Run<'_> {
     /// fails, [`Error::Interrupted`] where `progress` says so; the last two name the checkpoint, if any.
     pub fn execute(&self, progress: &dyn Progress) -> Result<Report, Error> {
         self.recipe.outputs.iter().try_for_each(|output| self.check_drawing(output))?;
-        let threads = self.options.threads.unwrap_or(0);
+        // Where no number is asked for, the threads that there are do it: a browser has one, and can start no others.
+        let Some(threads) = self.options.threads.filter(|&threads| threads > 0) else {
+            return self.execute_here(progress);
+        };
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
         let pool = pool.map_err(|cause| Error::Run(format!("cannot start {threads} threads: {cause}")))?;
         pool.install(|| self.execute_here(progress))
