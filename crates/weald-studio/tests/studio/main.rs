@@ -6,4 +6,5 @@ mod harness;
 mod kills;
 mod looking;
 mod panels;
+mod rays;
 mod remote;
