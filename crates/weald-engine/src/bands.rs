@@ -1,8 +1,7 @@
 //! The state of a simulation, cut into bands of rows that advance side by side.
 //!
-//! On the CPU engine the bands share one memory and copy the rows around their edges before each time block.
-//! On the bands engine each band owns its memory and receives those rows as messages: what the ranks of a
-//! cluster do. Both call the same time block, and give the same bits.
+//! Each band owns its memory and receives the rows around its edges as messages before each time block: what the ranks
+//! of a cluster do. Any number of bands gives the same bits.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -11,6 +10,7 @@ use rayon::prelude::*;
 
 use crate::stencil::chain::{Chain, Process, RowSums, SUMS, TimeBlock};
 use crate::stencil::rows::{Layout, Rows, first_not_finite};
+use crate::stencil::segment::{PlaneRow, Segment};
 
 /// A simulation's rows, bands and sums.
 pub struct BandedGrid<P: Process> {
@@ -20,47 +20,45 @@ pub struct BandedGrid<P: Process> {
     bands: Vec<Band<P>>,
     /// Most steps of one time block.
     block: usize,
-    /// Whether bands own their memory.
-    owned: bool,
+    /// How many bands there are to be; `None` for one a thread.
+    wanted: Option<usize>,
     /// Columns of which sums are counted.
     columns: Range<usize>,
-    shared: Rows,
 }
 
 /// A stretch of rows and what it needs to advance alone.
 struct Band<P: Process> {
     own: Range<usize>,
-    /// The band's rows, where bands own their memory; else empty.
-    memory: Vec<f32>,
-    above: Vec<f32>,
-    below: Vec<f32>,
+    rows: Vec<PlaneRow>,
+    /// Copies of the rows above and below it.
+    above: Vec<PlaneRow>,
+    below: Vec<PlaneRow>,
     chain: Chain<P>,
     sums: Vec<RowSums>,
 }
 
 impl<P: Process> BandedGrid<P> {
-    /// A world over `state`, whose layout holds state planes and then constant planes: in that many bands that
-    /// own their memory, or one a thread that share it. Sums count the cells of `columns` alone.
-    pub fn new(process: &Arc<P>, state: Rows, bands: Option<usize>, columns: Range<usize>) -> Self {
-        let rows = state.count();
-        let owned = bands.is_some();
-        let wanted = bands.unwrap_or_else(rayon::current_num_threads);
-        let count = wanted.clamp(1, (rows / process.reach()).max(1));
+    /// A world over `state`, whose layout holds state planes and then constant planes: in that many bands, or one a
+    /// thread. Sums count the cells of `columns` alone.
+    pub fn new(process: &Arc<P>, state: &Rows, wanted: Option<usize>, columns: Range<usize>) -> Self {
+        let (rows, layout) = (state.count(), state.layout);
+        let most = wanted.unwrap_or_else(rayon::current_num_threads);
+        let count = most.clamp(1, (rows / process.reach()).max(1));
         let block = steps_per_time_block(&**process, rows / count);
-        let bands = (0..count)
-            .map(|band| Band {
-                own: rows * band / count..rows * (band + 1) / count,
-                memory: Vec::new(),
+        let bands = (0..count).into_par_iter().map(|band| {
+            let own = rows * band / count..rows * (band + 1) / count;
+            Band {
+                rows: own.clone().map(|_| empty(layout)).collect(),
                 above: Vec::new(),
                 below: Vec::new(),
-                chain: Chain::new(&**process, state.layout.columns, block),
-                sums: vec![[0.0; SUMS]; rows * (band + 1) / count - rows * band / count],
-            })
-            .collect();
-        let process = Arc::clone(process);
-        let mut world =
-            Self { process, layout: state.layout, rows, bands, block, owned, columns, shared: state };
-        world.deal_out();
+                chain: Chain::new(&**process, layout.columns, block),
+                sums: vec![[0.0; SUMS]; own.len()],
+                own,
+            }
+        });
+        let (process, bands) = (Arc::clone(process), bands.collect());
+        let mut world = Self { process, layout, rows, bands, block, wanted, columns };
+        world.set_state(state);
         world
     }
 
@@ -74,30 +72,31 @@ impl<P: Process> BandedGrid<P> {
         self.columns = columns;
     }
 
-    /// The memory that holds row `y` with all its planes.
-    pub fn row(&self, y: usize) -> &[f32] {
-        let length = self.layout.row_length();
-        let (memory, y) = match self.bands.iter().find(|band| self.owned && band.own.contains(&y)) {
-            Some(band) => (&band.memory, y - band.own.start),
-            None => (&self.shared.memory, y),
-        };
-        &memory[y * length..][..length]
+    /// The place of row `y`: its band, and its number there.
+    fn place(&self, y: usize) -> (usize, usize) {
+        let band = self.bands.partition_point(|band| band.own.end <= y);
+        (band, y - self.bands[band].own.start)
+    }
+
+    fn row(&self, y: usize) -> &PlaneRow {
+        let (band, row) = self.place(y);
+        &self.bands[band].rows[row]
+    }
+
+    /// Row `y` of one plane.
+    pub fn plane(&self, y: usize, plane: usize) -> &[f32] {
+        self.row(y)[plane].here()
     }
 
     /// The same, to be changed.
-    pub fn row_mut(&mut self, y: usize) -> &mut [f32] {
-        let length = self.layout.row_length();
-        let owned = self.owned;
-        let (memory, y) = match self.bands.iter_mut().find(|band| owned && band.own.contains(&y)) {
-            Some(band) => (&mut band.memory, y - band.own.start),
-            None => (&mut self.shared.memory, y),
-        };
-        &mut memory[y * length..][..length]
+    pub fn plane_mut(&mut self, y: usize, plane: usize) -> &mut [f32] {
+        let (band, row) = self.place(y);
+        self.bands[band].rows[row][plane].here_mut()
     }
 
-    /// How a row lies in memory.
-    pub fn layout(&self) -> Layout {
-        self.layout
+    /// State planes and constant planes.
+    pub fn planes(&self) -> usize {
+        self.layout.planes
     }
 
     /// Columns of which sums are counted.
@@ -105,57 +104,53 @@ impl<P: Process> BandedGrid<P> {
         self.columns.clone()
     }
 
-    /// How many bands own their memory; `None` where they share it.
-    pub fn owners(&self) -> Option<usize> {
-        self.owned.then_some(self.bands.len())
+    /// How many bands were asked for; `None` for one a thread.
+    pub fn wanted(&self) -> Option<usize> {
+        self.wanted
     }
 
     /// Replaces the state; sums stay.
     pub fn set_state(&mut self, state: &Rows) {
-        self.shared.memory.resize(state.memory.len(), 0.0);
-        self.shared.memory.copy_from_slice(&state.memory);
-        self.deal_out();
+        self.bands.par_iter_mut().for_each(|band| {
+            for (row, y) in band.rows.iter_mut().zip(band.own.clone()) {
+                for (plane, segment) in row.iter_mut().enumerate() {
+                    segment.here_mut().copy_from_slice(state.plane(y, plane));
+                }
+            }
+        });
     }
 
     /// Copies the state of all rows over `into`, which has the same layout.
     pub fn copy_state(&self, into: &mut Rows) {
-        let mut rest = into.memory.as_mut_slice();
-        for part in self.parts() {
-            let (mine, others) = rest.split_at_mut(part.len());
-            mine.copy_from_slice(part);
-            rest = others;
-        }
+        let layout = self.layout;
+        into.memory.par_chunks_exact_mut(layout.row_length()).enumerate().for_each(|(y, into)| {
+            for (plane, segment) in self.row(y).iter().enumerate() {
+                layout.plane_mut(into, plane).copy_from_slice(segment.here());
+            }
+        });
     }
 
     /// Adds `factor` times a plane to `sum`, row-major; each cell takes the value of the cell that many columns
     /// east and rows south of it.
     pub fn add_plane_to(&self, plane: usize, from: [usize; 2], factor: f32, sum: &mut [f32]) {
-        for (row, sum) in self.rows().skip(from[1]).zip(sum.chunks_exact_mut(self.layout.columns)) {
-            for (sum, value) in sum.iter_mut().zip(self.layout.plane(row, plane).iter().skip(from[0])) {
+        let rows = sum.par_chunks_exact_mut(self.layout.columns).enumerate();
+        rows.filter(|(y, _)| y + from[1] < self.rows).for_each(|(y, sum)| {
+            for (sum, value) in sum.iter_mut().zip(self.plane(y + from[1], plane).iter().skip(from[0])) {
                 *sum += factor * value;
             }
-        }
+        });
     }
 
     /// Column, row and plane of the first value that is a NaN or an infinity, over the first `planes` planes.
     pub fn first_not_finite(&self, planes: usize) -> Option<[usize; 3]> {
-        first_not_finite(self.layout, self.rows(), planes)
-    }
-
-    /// The memory of all rows, in one part or one a band.
-    fn parts(&self) -> impl Iterator<Item = &[f32]> {
-        let shared = std::iter::once(self.shared.memory.as_slice());
-        shared.chain(self.bands.iter().map(|band| band.memory.as_slice()))
-    }
-
-    fn rows(&self) -> impl Iterator<Item = &[f32]> {
-        self.parts().flat_map(|part| part.chunks_exact(self.layout.row_length()))
+        first_not_finite((0..self.rows).into_par_iter(), planes, |y, plane| self.plane(y, plane))
     }
 
     /// A copy of the state of all rows.
     pub fn state(&self) -> Rows {
-        let memory = self.parts().flatten().copied().collect();
-        Rows { layout: self.layout, memory }
+        let mut state = Rows::new(self.layout, self.rows);
+        self.copy_state(&mut state);
+        state
     }
 
     /// Sums of each row.
@@ -179,84 +174,42 @@ impl<P: Process> BandedGrid<P> {
         }
     }
 
-    fn deal_out(&mut self) {
-        if !self.owned {
-            return;
-        }
-        let length = self.layout.row_length();
-        for band in &mut self.bands {
-            band.memory = self.shared.memory[band.own.start * length..band.own.end * length].to_vec();
-        }
-        self.shared.memory = Vec::new();
-    }
-
     /// Every band gets the rows that its own depend on during the next `steps` steps.
     fn exchange_halos(&mut self, steps: usize) {
-        let (halo, length, rows) = (self.process.reach() * steps, self.layout.row_length(), self.rows);
-        let messages: Vec<_> = self
-            .bands
-            .iter()
-            .map(|band| {
-                let above = band.own.start.saturating_sub(halo)..band.own.start;
-                let below = band.own.end..(band.own.end + halo).min(rows);
-                (self.copy_rows(above, length), self.copy_rows(below, length))
-            })
-            .collect();
-        for (band, (above, below)) in self.bands.iter_mut().zip(messages) {
+        let halo = self.process.reach() * steps;
+        let taken = |band: &mut Band<P>| [&mut band.above, &mut band.below].map(std::mem::take);
+        let mut halos: Vec<_> = self.bands.iter_mut().map(taken).collect();
+        halos.par_iter_mut().zip(&self.bands).for_each(|([above, below], band)| {
+            self.copy_rows(band.own.start.saturating_sub(halo)..band.own.start, above);
+            self.copy_rows(band.own.end..(band.own.end + halo).min(self.rows), below);
+        });
+        for (band, [above, below]) in self.bands.iter_mut().zip(halos) {
             (band.above, band.below) = (above, below);
         }
     }
 
-    fn copy_rows(&self, wanted: Range<usize>, length: usize) -> Vec<f32> {
-        if !self.owned {
-            return self.shared.memory[wanted.start * length..wanted.end * length].to_vec();
-        }
-        let part = |band: &Band<P>| {
-            let start = wanted.start.max(band.own.start);
-            let end = wanted.end.min(band.own.end).max(start);
-            let offset = band.own.start;
-            if end == start {
-                return Vec::new();
+    fn copy_rows(&self, wanted: Range<usize>, into: &mut Vec<PlaneRow>) {
+        into.resize_with(wanted.len(), || empty(self.layout));
+        for (y, row) in wanted.zip(into) {
+            for (copy, segment) in row.iter_mut().zip(self.row(y)) {
+                copy.here_mut().copy_from_slice(segment.here());
             }
-            band.memory[(start - offset) * length..(end - offset) * length].to_vec()
-        };
-        self.bands.iter().flat_map(part).collect()
+        }
     }
 
     fn pass(&mut self, weather: &[P::Weather]) {
-        let (process, layout) = (&*self.process, self.layout);
-        let length = layout.row_length();
-        let mut rest = self.shared.memory.as_mut_slice();
-        let mut work = Vec::with_capacity(self.bands.len());
-        for band in &mut self.bands {
-            let Band { own, memory, above, below, chain, sums } = band;
-            let own_memory = if self.owned {
-                memory.as_mut_slice()
-            } else {
-                let (mine, others) = std::mem::take(&mut rest).split_at_mut(own.len() * length);
-                rest = others;
-                mine
-            };
-            let span = own.start - above.len() / length..own.end + below.len() / length;
-            let first = own.start;
-            work.push((
-                TimeBlock {
-                    process,
-                    layout,
-                    weather,
-                    span,
-                    first,
-                    own: own_memory,
-                    above,
-                    below,
-                    sums,
-                    columns: self.columns.clone(),
-                },
-                chain,
-            ));
-        }
-        work.into_par_iter().for_each(|(passage, chain)| passage.run(chain));
+        let (process, columns) = (&*self.process, &self.columns);
+        self.bands.par_iter_mut().for_each(|band| {
+            let Band { own, rows, above, below, chain, sums } = band;
+            let span = own.start - above.len()..own.end + below.len();
+            let (first, columns) = (own.start, columns.clone());
+            TimeBlock { process, weather, span, first, own: rows, above, below, sums, columns }.run(chain);
+        });
     }
+}
+
+fn empty(layout: Layout) -> PlaneRow {
+    (0..layout.planes).map(|_| Segment::new(layout.columns)).collect()
 }
 
 /// Steps of a time block: four were fastest, or within 3 % of it, for every process on grids from 512² to 4096².

@@ -22,7 +22,7 @@ pub(crate) struct CpuMachine<P: Process> {
 }
 
 impl<P: Process> CpuMachine<P> {
-    /// In one band a thread, or in bands that own their memory.
+    /// In one band a thread, or in so many bands.
     pub(crate) fn new(
         process: &Arc<P>,
         parts: Means<'static>,
@@ -30,7 +30,7 @@ impl<P: Process> CpuMachine<P> {
         bands: Option<usize>,
     ) -> Self {
         let columns = 0..start.state.layout.columns;
-        let mut world = BandedGrid::new(process, start.state.clone(), bands, columns);
+        let mut world = BandedGrid::new(process, &start.state, bands, columns);
         world.set_row_sums(&start.row_sums);
         let (process, copies) = (Arc::clone(process), BTreeMap::new());
         Self { process, world, parts, means: start.means.clone(), kept: start.clone(), copies }
@@ -59,14 +59,13 @@ impl<P: Process> CpuMachine<P> {
 impl<P: Process> Patched for CpuMachine<P> {
     fn patch(&mut self, window: &Window) -> Result<Patch, Error> {
         let sums = self.world.row_sums()[0];
-        Ok(Patch::cut(self.world.layout(), window, sums, |y| self.world.row(y)))
+        Ok(Patch::cut(self.world.planes(), window, sums, |y, plane| self.world.plane(y, plane)))
     }
 
     fn lay(&mut self, patch: &Patch) -> Result<(), Error> {
-        let layout = self.world.layout();
-        for (y, row) in patch.window.rows.clone().enumerate() {
-            patch.put(y, layout, self.world.row_mut(row));
-        }
+        patch.put(|y, plane, x, cells| {
+            self.world.plane_mut(y, plane)[x..][..cells.len()].copy_from_slice(cells);
+        });
         let mut sums = self.world.row_sums();
         sums[0] = patch.sums;
         self.world.set_row_sums(&sums);
@@ -122,8 +121,8 @@ impl<P: Process> Machine<P> for CpuMachine<P> {
 
     fn follow(&mut self, process: &Arc<P>) -> Result<(), Error> {
         let sums = self.world.row_sums();
-        let (owners, columns) = (self.world.owners(), self.world.columns());
-        self.world = BandedGrid::new(process, self.world.state(), owners, columns);
+        let (bands, columns) = (self.world.wanted(), self.world.columns());
+        self.world = BandedGrid::new(process, &self.world.state(), bands, columns);
         self.world.set_row_sums(&sums);
         self.process = Arc::clone(process);
         Ok(())

@@ -94,15 +94,14 @@ impl Snapshot {
 
 impl Patched for Snapshot {
     fn patch(&mut self, window: &Window) -> Result<Patch, Error> {
-        Ok(Patch::cut(self.state.layout, window, self.row_sums[0], |y| self.state.row(y)))
+        let planes = self.state.layout.planes;
+        Ok(Patch::cut(planes, window, self.row_sums[0], |y, plane| self.state.plane(y, plane)))
     }
 
     fn lay(&mut self, patch: &Patch) -> Result<(), Error> {
-        let layout = self.state.layout;
-        let length = layout.row_length();
-        for (y, row) in patch.window.rows.clone().enumerate() {
-            patch.put(y, layout, &mut self.state.memory[row * length..][..length]);
-        }
+        patch.put(|y, plane, x, cells| {
+            self.state.plane_mut(y, plane)[x..][..cells.len()].copy_from_slice(cells);
+        });
         self.row_sums[0] = patch.sums;
         Ok(())
     }

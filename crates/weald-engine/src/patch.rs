@@ -34,24 +34,30 @@ pub struct Patch {
 }
 
 impl Patch {
-    /// All planes of a state over a window; `row` gives a row of it with all its planes.
-    pub fn cut<'a>(layout: Layout, window: &Window, sums: RowSums, row: impl Fn(usize) -> &'a [f32]) -> Self {
-        let inside = Layout { columns: window.columns.len(), planes: layout.planes };
+    /// All planes of a state over a window; `cells` gives a row of it and of a plane.
+    pub fn cut<'a>(
+        planes: usize,
+        window: &Window,
+        sums: RowSums,
+        cells: impl Fn(usize, usize) -> &'a [f32],
+    ) -> Self {
+        let inside = Layout { columns: window.columns.len(), planes };
         let mut rows = Rows::new(inside, window.rows.len());
         for (y, from) in window.rows.clone().enumerate() {
-            for plane in 0..layout.planes {
-                let cells = &layout.plane(row(from), plane)[window.columns.clone()];
+            for plane in 0..planes {
+                let cells = &cells(from, plane)[window.columns.clone()];
                 rows.plane_mut(y, plane).copy_from_slice(cells);
             }
         }
-        Self { window: window.clone(), planes: (0..layout.planes).collect(), rows, sums }
+        Self { window: window.clone(), planes: (0..planes).collect(), rows, sums }
     }
 
-    /// Puts row `y` of the window into the same row of a state.
-    pub fn put(&self, y: usize, layout: Layout, into: &mut [f32]) {
-        for (from, &plane) in self.planes.iter().enumerate() {
-            let cells = &mut layout.plane_mut(into, plane)[self.window.columns.clone()];
-            cells.copy_from_slice(self.rows.plane(y, from));
+    /// Puts all rows into a state, of which `put` is handed the row, the plane, the first column and the cells.
+    pub fn put(&self, mut put: impl FnMut(usize, usize, usize, &[f32])) {
+        for (y, row) in self.window.rows.clone().enumerate() {
+            for (from, &plane) in self.planes.iter().enumerate() {
+                put(row, plane, self.window.columns.start, self.rows.plane(y, from));
+            }
         }
     }
 

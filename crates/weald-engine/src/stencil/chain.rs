@@ -9,7 +9,7 @@
 use std::ops::Range;
 
 use super::ring::Ring;
-use super::rows::Layout;
+use super::segment::PlaneRow;
 use crate::program::Program;
 pub use crate::sums::{RowSums, SUMS};
 use crate::uniform::Uniform;
@@ -20,7 +20,7 @@ pub trait Process: Send + Sync + 'static {
     /// What differs from step to step: rain or sunshine.
     type Weather: Uniform + Copy + Send + Sync + 'static;
     /// Rows in flight within one step.
-    type Scratch: Send;
+    type Scratch: Send + Sync;
 
     /// Planes that steps change.
     fn state_planes(&self) -> usize;
@@ -128,6 +128,7 @@ pub struct Chain<P: Process> {
     /// `between[t]` holds what step `t` takes in; the last one what the passage gives out.
     between: Vec<Vec<Ring>>,
     scratch: Vec<P::Scratch>,
+    row_length: usize,
 }
 
 impl<P: Process> Chain<P> {
@@ -142,6 +143,7 @@ impl<P: Process> Chain<P> {
             constants: rings(process.constant_planes(), passage),
             between: (0..=steps).map(|_| rings(process.state_planes(), window)).collect(),
             scratch: (0..steps).map(|_| process.scratch(columns)).collect(),
+            row_length: columns,
         }
     }
 }
@@ -150,20 +152,18 @@ impl<P: Process> Chain<P> {
 pub struct TimeBlock<'a, P: Process> {
     /// What is computed.
     pub process: &'a P,
-    /// How a row of all state planes lies in memory.
-    pub layout: Layout,
     /// Weather of each step of the passage.
     pub weather: &'a [P::Weather],
     /// Rows to compute, halos included.
     pub span: Range<usize>,
     /// First row of the span that this band owns.
     pub first: usize,
-    /// Memory of the rows that this band owns, changed in place.
-    pub own: &'a mut [f32],
-    /// Copies of the rows above those.
-    pub above: &'a [f32],
-    /// Copies of the rows below those.
-    pub below: &'a [f32],
+    /// The rows that this band owns, changed in place.
+    pub own: &'a mut [PlaneRow],
+    /// Copies of the rows above those, of which nothing is left.
+    pub above: &'a mut [PlaneRow],
+    /// Copies of the rows below those, of which nothing is left.
+    pub below: &'a mut [PlaneRow],
     /// Sums of each row that this band owns.
     pub sums: &'a mut [RowSums],
     /// Columns of which the sums are counted.
@@ -175,11 +175,13 @@ impl<P: Process> TimeBlock<'_, P> {
     pub fn run(mut self, chain: &mut Chain<P>) {
         if cfg!(debug_assertions) {
             // Nothing of an earlier passage is there to be read.
-            *chain = Chain::new(self.process, self.layout.columns, chain.scratch.len());
+            *chain = Chain::new(self.process, chain.row_length, chain.scratch.len());
         }
         let lag = self.process.lag();
         let steps = self.weather.len();
-        for tick in self.span.start..self.span.end + steps * lag {
+        // A step may look at the row before the one that it finishes: that is given out a row later.
+        let behind = steps * lag + self.process.look_back().min(1);
+        for tick in self.span.start..self.span.end + behind {
             if tick < self.span.end {
                 self.take_in(chain, tick);
             }
@@ -189,9 +191,13 @@ impl<P: Process> TimeBlock<'_, P> {
                     self.advance(chain, step, y);
                 }
             }
-            if let Some(done) = tick.checked_sub(steps * lag) {
-                self.give_out(&chain.between[steps], done);
+            if let Some(done) = tick.checked_sub(behind) {
+                self.give_out(&mut chain.between[steps], done);
             }
+        }
+        let depth = chain.constants.first().map_or(0, Ring::depth);
+        for y in self.span.end.saturating_sub(depth).max(self.span.start)..self.span.end {
+            self.give_constants_back(chain, y);
         }
     }
 
@@ -209,33 +215,42 @@ impl<P: Process> TimeBlock<'_, P> {
         });
     }
 
-    fn own_end(&self) -> usize {
-        self.first + self.own.len() / self.layout.row_length()
-    }
-
-    fn take_in(&self, chain: &mut Chain<P>, y: usize) {
-        let (memory, row) = if y < self.first {
-            (self.above, y - self.span.start)
-        } else if y < self.own_end() {
-            (&*self.own, y - self.first)
+    fn row(&mut self, y: usize) -> &mut PlaneRow {
+        let own_end = self.first + self.own.len();
+        if y < self.first {
+            &mut self.above[y - self.span.start]
+        } else if y < own_end {
+            &mut self.own[y - self.first]
         } else {
-            (self.below, y - self.own_end())
-        };
-        let length = self.layout.row_length();
-        let row = &memory[row * length..][..length];
-        for (plane, ring) in chain.between[0].iter_mut().chain(&mut chain.constants).enumerate() {
-            ring.here_mut(y).copy_from_slice(self.layout.plane(row, plane));
+            &mut self.below[y - own_end]
         }
     }
 
-    fn give_out(&mut self, rings: &[Ring], y: usize) {
-        if !(self.first..self.own_end()).contains(&y) {
-            return;
+    /// Rows change hands with their memory: what a ring no longer needs lies in the row's place until the same row
+    /// comes back changed. Constant planes go back to where they were.
+    fn take_in(&mut self, chain: &mut Chain<P>, y: usize) {
+        let depth = chain.constants.first().map_or(0, Ring::depth);
+        if let Some(past) = y.checked_sub(depth).filter(|past| *past >= self.span.start) {
+            self.give_constants_back(chain, past);
         }
-        let length = self.layout.row_length();
-        let row = &mut self.own[(y - self.first) * length..][..length];
-        for (plane, ring) in rings.iter().enumerate() {
-            self.layout.plane_mut(row, plane).copy_from_slice(ring.here(y));
+        let rings = chain.between[0].iter_mut().chain(&mut chain.constants);
+        for (ring, plane) in rings.zip(self.row(y)) {
+            ring.take_in(y, plane);
+        }
+    }
+
+    fn give_constants_back(&mut self, chain: &mut Chain<P>, y: usize) {
+        let state = self.process.state_planes();
+        for (ring, plane) in chain.constants.iter_mut().zip(&mut self.row(y)[state..]) {
+            ring.give_out(y, plane);
+        }
+    }
+
+    fn give_out(&mut self, rings: &mut [Ring], y: usize) {
+        if (self.first..self.first + self.own.len()).contains(&y) {
+            for (ring, plane) in rings.iter_mut().zip(self.row(y)) {
+                ring.give_out(y, plane);
+            }
         }
     }
 }

@@ -4,3 +4,4 @@ pub mod chain;
 pub mod kernel;
 pub mod ring;
 pub mod rows;
+pub mod segment;

@@ -5,58 +5,13 @@
 
 mod watch;
 
+use super::segment::Segment;
 use watch::Watch;
-
-/// Values of one cache line.
-pub const CACHE_LINE: usize = 16;
-
-/// Cells before the first cell of a row, so that the western neighbour of column 0 exists and rows start on
-/// a cache line: vectors that straddle two lines load at half the speed.
-pub const MARGIN: usize = CACHE_LINE;
-
-/// Position of the first value that begins a cache line. It says where to work fast, nothing else: a wrong
-/// one would give the same results.
-pub fn cache_line_start(values: &[f32]) -> usize {
-    values.as_ptr().align_offset(CACHE_LINE * size_of::<f32>()).min(CACHE_LINE)
-}
-
-/// Length of a row in memory: margin, cells, an eastern neighbour, rounded up to whole cache lines.
-pub fn segment(columns: usize) -> usize {
-    MARGIN + (columns + 1).next_multiple_of(16)
-}
-
-/// The cells of a row.
-#[inline]
-pub fn here(row: &[f32], columns: usize) -> &[f32] {
-    &row[MARGIN..][..columns]
-}
-
-/// The cells of a row.
-#[inline]
-pub fn here_mut(row: &mut [f32], columns: usize) -> &mut [f32] {
-    &mut row[MARGIN..][..columns]
-}
-
-/// The western neighbours of the cells of a row.
-#[inline]
-pub fn west(row: &[f32], columns: usize) -> &[f32] {
-    &row[MARGIN - 1..][..columns]
-}
-
-/// The eastern neighbours of the cells of a row.
-#[inline]
-pub fn east(row: &[f32], columns: usize) -> &[f32] {
-    &row[MARGIN + 1..][..columns]
-}
 
 /// The latest `depth` rows of one plane. Row `y` stays until row `y + depth` takes its place.
 #[derive(Clone, Debug)]
 pub struct Ring {
-    cells: Vec<f32>,
-    /// Where the first cache line of `cells` begins.
-    start: usize,
-    columns: usize,
-    depth: usize,
+    rows: Vec<Segment>,
     /// The row that was written last, and its slot: others are found from there, without a division a row.
     latest: usize,
     latest_slot: usize,
@@ -66,9 +21,13 @@ pub struct Ring {
 impl Ring {
     /// A ring of so many rows, all zero.
     pub fn new(columns: usize, depth: usize) -> Self {
-        let cells = vec![0.0_f32; segment(columns) * depth + CACHE_LINE];
-        let start = cache_line_start(&cells);
-        Self { cells, start, columns, depth, latest: 0, latest_slot: 0, watch: Watch::new(depth) }
+        let rows = (0..depth).map(|_| Segment::new(columns)).collect();
+        Self { rows, latest: 0, latest_slot: 0, watch: Watch::new(depth) }
+    }
+
+    /// Rows that it holds.
+    pub fn depth(&self) -> usize {
+        self.rows.len()
     }
 
     /// The row beyond a wall, number 0 of a ring that nothing is written to: all of its cells are 0.
@@ -83,52 +42,66 @@ impl Ring {
     fn slot(&self, y: usize) -> usize {
         match self.latest.checked_sub(y) {
             Some(back) if back <= self.latest_slot => self.latest_slot - back,
-            Some(back) if back < self.depth => self.latest_slot + self.depth - back,
-            _ => y % self.depth,
+            Some(back) if back < self.depth() => self.latest_slot + self.depth() - back,
+            _ => y % self.depth(),
         }
     }
 
     #[inline]
-    fn cells_of(&self, slot: usize) -> std::ops::Range<usize> {
-        let segment = segment(self.columns);
-        let start = self.start + slot * segment;
-        start..start + segment
-    }
-
-    #[inline]
-    fn row(&self, y: usize) -> &[f32] {
+    fn row(&self, y: usize) -> &Segment {
         self.watch.read(y);
-        &self.cells[self.cells_of(self.slot(y))]
+        &self.rows[self.slot(y)]
     }
 
     /// Row `y`.
     #[inline]
     pub fn here(&self, y: usize) -> &[f32] {
-        here(self.row(y), self.columns)
+        self.row(y).here()
     }
 
     /// Western neighbours of row `y`.
     #[inline]
     pub fn west(&self, y: usize) -> &[f32] {
-        west(self.row(y), self.columns)
+        self.row(y).west()
     }
 
     /// Eastern neighbours of row `y`.
     #[inline]
     pub fn east(&self, y: usize) -> &[f32] {
-        east(self.row(y), self.columns)
+        self.row(y).east()
+    }
+
+    /// The slot that row `y` takes as the newest one.
+    #[inline]
+    fn newest(&mut self, y: usize) -> usize {
+        let follows = y == self.latest + 1 && self.latest_slot + 1 < self.depth();
+        self.latest_slot = if follows { self.latest_slot + 1 } else { self.slot(y) };
+        self.latest = y;
+        self.latest_slot
     }
 
     /// Row `y`, to write. It takes the place of row `y - depth`.
     #[inline]
     pub fn here_mut(&mut self, y: usize) -> &mut [f32] {
-        let follows = y == self.latest + 1 && self.latest_slot + 1 < self.depth;
-        self.latest_slot = if follows { self.latest_slot + 1 } else { self.slot(y) };
-        self.latest = y;
-        let cells = self.cells_of(self.latest_slot);
-        let row = here_mut(&mut self.cells[cells], self.columns);
+        let slot = self.newest(y);
+        let row = self.rows[slot].here_mut();
         self.watch.write(y, row);
         row
+    }
+
+    /// Takes in row `y`, as long as the others, which takes the place of row `y - depth`; gives that one's memory for it.
+    pub fn take_in(&mut self, y: usize, row: &mut Segment) {
+        let slot = self.newest(y);
+        std::mem::swap(&mut self.rows[slot], row);
+        self.watch.hold(y);
+    }
+
+    /// Gives out row `y`, which it then has no longer, for other memory.
+    pub fn give_out(&mut self, y: usize, row: &mut Segment) {
+        self.watch.read(y);
+        let slot = self.slot(y);
+        std::mem::swap(&mut self.rows[slot], row);
+        self.watch.forget(y);
     }
 }
 

@@ -3,7 +3,7 @@
 
 use rayon::prelude::*;
 
-use super::ring::{here, here_mut, segment};
+use super::segment::{here, here_mut, stride};
 
 /// How the planes of one row lie in memory.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -15,29 +15,19 @@ pub struct Layout {
 }
 
 impl Layout {
-    /// Distance of two planes of one row. Segments that share an offset within a 4 KiB page would make the
-    /// processor take a load for a later store's neighbour and wait, so they are kept apart.
-    fn plane_stride(self) -> usize {
-        const PAGE: usize = 1024;
-        const APART: usize = 64;
-        let segment = segment(self.columns);
-        let offset = segment % PAGE;
-        if (APART..=PAGE - APART).contains(&offset) { segment } else { segment + 2 * APART }
-    }
-
     /// Length of a whole row of planes.
     pub fn row_length(self) -> usize {
-        self.plane_stride() * self.planes
+        stride(self.columns) * self.planes
     }
 
     /// The cells of a plane within a row of planes.
     pub fn plane(self, row: &[f32], plane: usize) -> &[f32] {
-        here(&row[plane * self.plane_stride()..], self.columns)
+        here(&row[plane * stride(self.columns)..], self.columns)
     }
 
     /// The cells of a plane within a row of planes.
     pub fn plane_mut(self, row: &mut [f32], plane: usize) -> &mut [f32] {
-        here_mut(&mut row[plane * self.plane_stride()..], self.columns)
+        here_mut(&mut row[plane * stride(self.columns)..], self.columns)
     }
 }
 
@@ -80,7 +70,8 @@ impl Rows {
 
     /// Column, row and plane of the first value that is a NaN or an infinity, over the first `planes` planes.
     pub fn first_not_finite(&self, planes: usize) -> Option<[usize; 3]> {
-        first_not_finite(self.layout, self.memory.chunks_exact(self.layout.row_length()), planes)
+        let rows = (0..self.count()).into_par_iter();
+        first_not_finite(rows, planes, |y, plane| self.plane(y, plane))
     }
 
     /// A copy of one plane, row-major without padding.
@@ -96,19 +87,18 @@ impl Rows {
     }
 }
 
-/// Column, row and plane of the first value that is a NaN or an infinity, over the first `planes` planes.
-pub fn first_not_finite<'a>(
-    layout: Layout,
-    rows: impl Iterator<Item = &'a [f32]>,
+/// Column, row and plane of the first value that is a NaN or an infinity, over the first `planes` planes of some rows;
+/// `cells` gives a row of a plane.
+pub(crate) fn first_not_finite<'a>(
+    rows: impl IndexedParallelIterator<Item = usize>,
     planes: usize,
+    cells: impl Fn(usize, usize) -> &'a [f32] + Sync,
 ) -> Option<[usize; 3]> {
     // A fold over all cells, rather than a search, is what the compiler turns into vector code.
     let finite = |row: &[f32]| row.iter().fold(true, |all, value| all & value.is_finite());
-    let wrong = |row: &[f32]| (0..planes).find(|&plane| !finite(layout.plane(row, plane)));
+    let wrong = |y: usize| (0..planes).find(|&plane| !finite(cells(y, plane))).map(|plane| (y, plane));
     // A session looks after every few steps, so that one thread alone would be waited for.
-    let rows: Vec<_> = rows.collect();
-    let y = rows.par_iter().position_first(|row| wrong(row).is_some())?;
-    let plane = wrong(rows[y])?;
-    let x = layout.plane(rows[y], plane).iter().position(|value| !value.is_finite())?;
+    let (y, plane) = rows.map(wrong).find_first(Option::is_some)??;
+    let x = cells(y, plane).iter().position(|value| !value.is_finite())?;
     Some([x, y, plane])
 }

@@ -246,6 +246,11 @@ impl Process for Dissolving {
         Dissolution::LAG
     }
 
+    fn begins(&self) -> usize {
+        // Materials leave as soon as they come.
+        0
+    }
+
     fn scratch(&self, columns: usize) -> DissolvingScratch {
         DissolvingScratch {
             solid: (0..self.planes.materials).map(|_| Ring::new(columns, 1)).collect(),

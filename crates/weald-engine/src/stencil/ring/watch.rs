@@ -29,6 +29,18 @@ impl Watch {
             row.fill(f32::NAN);
         }
     }
+
+    /// Row `y` lies in its slot.
+    pub(super) fn hold(&mut self, y: usize) {
+        let slot = y % self.held.len();
+        self.held[slot] = Some(y);
+    }
+
+    /// Row `y` no longer lies in its slot.
+    pub(super) fn forget(&mut self, y: usize) {
+        let slot = y % self.held.len();
+        self.held[slot] = None;
+    }
 }
 
 #[cfg(not(debug_assertions))]
@@ -43,4 +55,10 @@ impl Watch {
 
     #[inline(always)]
     pub(super) fn write(&mut self, _: usize, _: &mut [f32]) {}
+
+    #[inline(always)]
+    pub(super) fn hold(&mut self, _: usize) {}
+
+    #[inline(always)]
+    pub(super) fn forget(&mut self, _: usize) {}
 }
