@@ -49,7 +49,7 @@ impl Discharge {
         let eastward = 0.5 * ((east + west) + (main - other));
         let southward = 0.5 * ((south + north) + (main + other));
         let squares = |[a, b, c, d]: [f32; 4]| (a * a + b * b) + (c * c + d * d);
-        let energy = 0.5 * (squares(axes) / PIPE_AXIS + squares(diagonals) / PIPE_DIAGONAL);
+        let energy = squares(axes) * (0.5 / PIPE_AXIS) + squares(diagonals) * (0.5 / PIPE_DIAGONAL);
         let square = eastward * eastward + southward * southward;
         let gathered =
             if square > STILL { (energy / square).clamp(1.0, MOST_GATHERED) } else { MOST_GATHERED };
@@ -58,24 +58,38 @@ impl Discharge {
         Self { size: square.sqrt(), gathered, through }
     }
 
-    /// Share of the ground that the channels of this discharge take, at most 1. A sheet gathers in channels that lie
+    /// Share of the ground that the channels of this discharge take, at most 1, and its reciprocal. A sheet gathers in channels that lie
     /// `gathering` cells apart; what has gathered in a cell is one channel, which carries all that runs through and is
     /// as long as its water is displaced: `|q| / through`, 1 along an axis, √2 along a diagonal, 1/√2 in each cell of a
     /// staircase. Its width in cells is `channel_width` times the root of its discharge.
     #[inline(always)]
-    pub(super) fn occupied(&self, gathering: f32, channel_width: f32) -> f32 {
+    pub(super) fn occupied(&self, gathering: f32, channel_width: f32) -> [f32; 2] {
         let single = ((self.gathered - 1.0) * 2.0).clamp(0.0, 1.0);
         let apart = gathering + (1.0 - gathering) * single;
         let carried = self.size + (self.through - self.size) * single;
-        let length = if carried > 0.0 { (self.size / carried).max(SHORTEST) } else { SHORTEST };
-        let width = channel_width * (carried * apart).sqrt();
-        (width * length / apart).clamp(LEAST_OCCUPIED, 1.0)
+        // Width times length, over the distance of the channels: `ground / √square`. It and its reciprocal wait for one
+        // division and one root, which are worked out side by side.
+        let ground = (channel_width * larger(self.size, SHORTEST * carried)).max(LEAST_CARRIED);
+        let square = (carried * apart).max(LEAST_CARRIED);
+        let (root, both) = (square.sqrt(), 1.0 / (square * ground));
+        let share = root * (ground * (ground * both));
+        [share.clamp(LEAST_OCCUPIED, 1.0), (root * (square * both)).clamp(1.0, 1.0 / LEAST_OCCUPIED)]
     }
 }
 
 /// Shortest way of a channel through a cell. Water that springs in it or turns back is hardly displaced, and yet no
 /// knife.
 const SHORTEST: f32 = 0.5;
+
+/// Numbers of water that are as good as none where something is divided by them.
+const LEAST_CARRIED: f32 = 1e-18;
+
+/// The larger of two numbers.
+#[inline(always)]
+pub(super) fn larger(a: f32, b: f32) -> f32 {
+    // Unlike `max` it need not find out which one is not a number, which takes three instructions.
+    if a > b { a } else { b }
+}
 
 /// Least share of the ground that channels take: trickles do not cut like knives.
 const LEAST_OCCUPIED: f32 = 0.01;
@@ -135,25 +149,25 @@ mod tests {
         let along_axis = Discharge::of([1.0, 1.0, 0.0, 0.0], [0.0; 4]);
         let along_diagonal = Discharge::of([0.0; 4], [1.0, 1.0, 0.0, 0.0]);
         assert!((along_axis.gathered - 1.852).abs() < 1e-3 && (along_diagonal.gathered - 2.174).abs() < 1e-3);
-        let shares = [along_axis, along_diagonal].map(|discharge| discharge.occupied(1.0, 0.3));
+        let shares = [along_axis, along_diagonal].map(|discharge| discharge.occupied(1.0, 0.3)[0]);
         let longer = std::f32::consts::SQRT_2;
         assert!((shares[0] - 0.3).abs() < 1e-6 && (shares[1] - 0.3 * longer).abs() < 1e-6, "{shares:?}");
         // In from the west, out to the south; and on to the south-east.
-        let bent = Discharge::of([0.0, 1.0, 1.0, 0.0], [0.0; 4]).occupied(1.0, 0.3);
+        let bent = Discharge::of([0.0, 1.0, 1.0, 0.0], [0.0; 4]).occupied(1.0, 0.3)[0];
         assert!(
             (bent - 0.3 / longer).abs() < 1e-6,
             "two cells of a staircase are as long as a diagonal: {bent}"
         );
         // Out to all sides.
-        let spring = Discharge::of([1.0, -1.0, 1.0, -1.0], [0.0; 4]).occupied(1.0, 0.3);
+        let spring = Discharge::of([1.0, -1.0, 1.0, -1.0], [0.0; 4]).occupied(1.0, 0.3)[0];
         assert!((spring - 0.5 * 0.3 * 2.0_f32.sqrt()).abs() < 1e-6, "{spring}");
-        let between = Discharge::of([0.0, 1.0, 0.0, 0.0], [1.0, 0.0, 0.0, 0.0]).occupied(1.0, 0.3);
+        let between = Discharge::of([0.0, 1.0, 0.0, 0.0], [1.0, 0.0, 0.0, 0.0]).occupied(1.0, 0.3)[0];
         assert!((between - 0.3 * 1.25_f32.sqrt()).abs() < 1e-6, "{between}");
     }
 
     #[test]
     fn still_water_has_neither_discharge_nor_width() {
         let still = Discharge::of([0.0; 4], [0.0; 4]);
-        assert_eq!((still.size, still.occupied(1.0, 1.0)), (0.0, LEAST_OCCUPIED));
+        assert_eq!((still.size, still.occupied(1.0, 1.0)), (0.0, [LEAST_OCCUPIED, 1.0 / LEAST_OCCUPIED]));
     }
 }

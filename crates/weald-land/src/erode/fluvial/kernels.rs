@@ -1,6 +1,6 @@
 //! What one cell becomes in a step of [`super`], which has the equations and their sources.
 
-use super::edges::{AXIS, DIAGONAL, Discharge, PIPE_AXIS, PIPE_DIAGONAL, outflow, power};
+use super::edges::{AXIS, DIAGONAL, Discharge, PIPE_AXIS, PIPE_DIAGONAL, larger, outflow, power};
 use crate::erode::pipes::without_negligible;
 use weald_engine::kernel;
 
@@ -8,8 +8,14 @@ use weald_engine::kernel;
 /// negative: some ten times the rounding error of the eight fluxes.
 pub(super) const RETAINED_SHARE: f32 = 2e-6;
 
+/// Outflow in cells³ up to which a cell gives less than it has.
+const LEAST_OUTFLOW: f32 = 1e-25;
+
 /// Water thinner than this, in cells, does not flow.
 pub(super) const THINNEST: f32 = 1e-8;
+
+/// Discharge that is as good as none where something is divided by it.
+const LEAST_DISCHARGE: f32 = 1e-20;
 
 /// Most of the drop to its receivers that a cell may lose in a step: more would turn the slope round.
 pub(super) const MAX_SHARE_OF_DROP: f32 = 0.25;
@@ -59,13 +65,34 @@ kernel! {
     }
 }
 
-/// Flux through an edge after a step; `here` and `next` are surface, ground and resistance on its two sides.
+/// Depth of the water over an edge; `here` and `next` are surface, ground and resistance on its two sides.
 #[inline(always)]
-fn accelerated(old: f32, here: [f32; 3], next: [f32; 3], conductance: f32, deepest: f32) -> f32 {
-    let depth = (here[0].max(next[0]) - here[1].max(next[1])).min(deepest);
-    let gained = old + conductance * depth * (here[0] - next[0]);
-    let held = 1.0 + 0.5 * (here[2] + next[2]) / (depth * depth);
-    if depth > THINNEST { gained / held } else { 0.0 }
+fn depth_over(here: [f32; 3], next: [f32; 3], deepest: f32) -> f32 {
+    (larger(here[0], next[0]) - larger(here[1], next[1])).min(deepest)
+}
+
+/// Fluxes through two edges after a step, where they had been `old`: `(f + g dt w h ΔH) / (1 + r / h²)`. Both share a
+/// division, which takes as long as ten products: `a / b` and `c / d` are `a d / (b d)` and `c b / (b d)`.
+#[inline(always)]
+fn accelerated(
+    old: [f32; 2],
+    here: [f32; 3],
+    next: [[f32; 3]; 2],
+    conductance: f32,
+    deepest: f32,
+) -> [f32; 2] {
+    let [a, b] = next.map(|next| {
+        let depth = depth_over(here, next, deepest);
+        let square = depth.max(THINNEST) * depth.max(THINNEST);
+        let flows = if depth > THINNEST { square } else { 0.0 };
+        [depth, flows, square + 0.5 * (here[2] + next[2])]
+    });
+    let both = 1.0 / (a[2] * b[2]);
+    let gained = |old: f32, depth: f32, next: [f32; 3]| old + conductance * depth * (here[0] - next[0]);
+    [
+        gained(old[0], a[0], next[0]) * (a[1] * b[2] * both),
+        gained(old[1], b[0], next[1]) * (b[1] * a[2] * both),
+    ]
 }
 
 /// The flux between two cells with data, or the free fall from one of them over an open edge; `valid` and `fall` are
@@ -100,16 +127,15 @@ kernel! {
         let south = [surface_south, ground_south, resistance_before_south];
         let south_east = [surface_south_east, ground_south_east, resistance_before_south_east];
         let south_west = [surface_south_west, ground_south_west, resistance_before_south_west];
-        let flux = accelerated(old_east, here, east, axis, deepest);
+        let [flux, flux_south] = accelerated([old_east, old_south], here, [east, south], axis, deepest);
         wanted_east = through_edge(flux, [valid, valid_east], [fall, fall_east], PIPE_AXIS * open);
-        let flux = accelerated(old_south, here, south, axis, deepest);
-        wanted_south = through_edge(flux, [valid, valid_south], [fall, fall_south], PIPE_AXIS * open);
-        let flux = accelerated(old_diagonal, here, south_east, diagonal, deepest);
+        wanted_south = through_edge(flux_south, [valid, valid_south], [fall, fall_south], PIPE_AXIS * open);
+        let old = [old_diagonal, old_antidiagonal];
+        let [flux, flux_south_west] = accelerated(old, here, [south_east, south_west], diagonal, deepest);
         let (valid_next, fall_next) = (valid_south_east, fall_south_east);
         wanted_diagonal = through_edge(flux, [valid, valid_next], [fall, fall_next], PIPE_DIAGONAL * open);
-        let flux = accelerated(old_antidiagonal, here, south_west, diagonal, deepest);
         let (valid_next, fall_next) = (valid_south_west, fall_south_west);
-        wanted_antidiagonal = through_edge(flux, [valid, valid_next], [fall, fall_next], PIPE_DIAGONAL * open);
+        wanted_antidiagonal = through_edge(flux_south_west, [valid, valid_next], [fall, fall_next], PIPE_DIAGONAL * open);
     }
 }
 
@@ -132,8 +158,10 @@ kernel! {
             ],
         );
         let available = rained * (1.0 - RETAINED_SHARE);
-        share = if out > available { available / out } else { 1.0 };
-        concentration = sediment_before / (rained + thin);
+        let (out, mixed) = (out.max(LEAST_OUTFLOW), rained + thin);
+        let both = 1.0 / (out * mixed);
+        share = if out > available { available * (mixed * both) } else { 1.0 };
+        concentration = sediment_before * (out * both);
     }
 }
 
@@ -153,14 +181,6 @@ kernel! {
         flux_antidiagonal =
             wanted_antidiagonal * if wanted_antidiagonal > 0.0 { share } else { share_south_west };
     }
-}
-
-/// Share of the power that reaches the bed. Water deeper than `deepest` is driven through pipes of that depth by a
-/// steeper surface than it needs: slope goes with the third power of depth.
-#[inline(always)]
-fn reaches_bed(depth: f32, deepest: f32) -> f32 {
-    let shallow = deepest / depth.max(deepest);
-    shallow * shallow * shallow
 }
 
 /// Sediment through an edge, with the concentration of the cell that the flux comes from.
@@ -234,13 +254,22 @@ kernel! {
             [surface_south_east, surface_north_west, surface_south_west, surface_north_east],
         );
         let discharge = Discharge::of(axes, diagonals);
-        let occupied = discharge.occupied(gathering, channel_width);
-        let by_width = power / occupied * reaches_bed(rained, deepest);
+        let [occupied, reciprocal] = discharge.occupied(gathering, channel_width);
+        // Three quotients by one division: each number times the reciprocal of the product of all is the reciprocal of
+        // the others' product.
+        let (size, depth) = (larger(discharge.size, LEAST_DISCHARGE), larger(rained, deepest));
+        let water = size * depth;
+        let all = 1.0 / (discharge.gathered * water);
+        // Share of the power that reaches the bed. Water deeper than `deepest` is driven through pipes of that depth by
+        // a steeper surface than it needs: slope goes with the third power of depth.
+        let shallow = deepest * (discharge.gathered * size * all);
+        let by_width = power * (shallow * shallow * shallow) * reciprocal;
         let wanted = (erodibility * softness * (by_width - threshold)).max(0.0);
-        let drop = if discharge.size > 0.0 { (power / discharge.size).min(MAX_DROP) } else { 0.0 };
+        let drop = power * (discharge.gathered * depth * all);
+        let drop = if discharge.size > 0.0 { drop.min(MAX_DROP) } else { 0.0 };
         entrained = wanted.min(MAX_SHARE_OF_DROP * drop);
         // Friction times discharge; power is slope times discharge.
-        resistance = (friction * discharge.size).max(power) / discharge.gathered * occupied;
+        resistance = larger(friction * discharge.size, power) * (water * all) * occupied;
     }
 }
 
@@ -259,7 +288,7 @@ kernel! {
         let diagonals = (valid_south_east * valid_north_west) * (valid_south_west * valid_north_east);
         // Cells at an open edge hold the base level, at its corners too.
         let may_change = erodible * (1.0 - open * (1.0 - diagonals));
-        let left = (carried + entrained) / (1.0 + settling / (water + thin));
+        let left = (carried + entrained) * ((water + thin) / ((water + thin) + settling));
         let changed = change_before - (left - carried) * may_change;
         let taken = change_before - changed;
         let there = carried + taken >= 0.0;

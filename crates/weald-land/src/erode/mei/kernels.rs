@@ -50,8 +50,9 @@ kernel! {
     fn cell() {
         let eastward = link_east * (ground_east - ground) + link_west * (ground - ground_west);
         let southward = link_south * (ground_south - ground) + link_north * (ground - ground_north);
-        let across = eastward / (link_east + link_west).max(1.0);
-        let along = southward / (link_south + link_north).max(1.0);
+        // The mean of two rises, or the one that there is.
+        let across = eastward * if link_east + link_west > 1.0 { 0.5 } else { 1.0 };
+        let along = southward * if link_south + link_north > 1.0 { 0.5 } else { 1.0 };
         let squared = across * across + along * along;
         tilt = (squared / (1.0 + squared)).sqrt();
     }
