@@ -96,6 +96,14 @@ impl Ring {
         self.watch.hold(y);
     }
 
+    /// Gives row `y`, which it then has no longer, to another ring.
+    pub fn hand_over(&mut self, y: usize, to: &mut Self) {
+        self.watch.read(y);
+        let slot = self.slot(y);
+        to.take_in(y, &mut self.rows[slot]);
+        self.watch.forget(y);
+    }
+
     /// Gives out row `y`, which it then has no longer, for other memory.
     pub fn give_out(&mut self, y: usize, row: &mut Segment) {
         self.watch.read(y);

@@ -21,9 +21,8 @@ pub(crate) use running::{PipelineOutput, PipelineRows, PipelineScratch};
 use std::sync::Arc;
 
 pub(crate) use parts::Pipeline;
-use parts::{Read, Source, State, Twin};
+use parts::{State, Twin};
 use schedule::Rows;
-use weald_engine::kernel;
 use weald_engine::program::Uniforms;
 use weald_engine::stencil::kernel::RowKernel;
 use weald_engine::uniform::Uniform;
@@ -43,17 +42,6 @@ pub(crate) struct Equations {
     pipeline: Pipeline,
     /// Numbers that kernels find by their names; of those with the same name the last.
     numbers: Vec<(&'static str, f32)>,
-}
-
-kernel! {
-    /// A row of the state that other kernels read before it leaves.
-    pub(crate) struct Leave {
-        reads { row }
-        writes { state }
-    }
-    fn cell() {
-        state = row;
-    }
 }
 
 impl Equations {
@@ -76,6 +64,7 @@ impl Equations {
             state: state.iter().map(|&(before, after)| State { before, after }).collect(),
             planes: Vec::new(),
             stages: Vec::new(),
+            leaves: Vec::new(),
             look_back: 0,
             weather: Vec::new(),
             twin: Twin::default(),
@@ -161,10 +150,7 @@ impl Equations {
             let written = pipeline.planes.iter().rposition(|plane| plane.name == state.after);
             let written = written.unwrap_or_else(|| panic!("no kernel writes `{}`", state.after));
             if pipeline.planes[written].oldest.is_some() {
-                let row = Read { source: Source::Plane(written), east: 0, south: 0 };
-                let rows = Rows { reads: vec![row], updates: Vec::new(), changes: vec![state.after] };
-                pipeline.add(Leave::run_on, rows, Default::default());
-                pipeline.planes.last_mut().expect("it was just added").output = Some(number);
+                pipeline.leave(written, number);
             } else {
                 pipeline.planes[written].output = Some(number);
             }

@@ -15,6 +15,8 @@ pub(crate) struct Pipeline {
     pub(super) state: Vec<State>,
     pub(super) planes: Vec<Plane>,
     pub(super) stages: Vec<Stage>,
+    /// Planes that leave when all have read them: the plane, and the one as which it leaves.
+    pub(super) leaves: Vec<[usize; 2]>,
     /// Rows that are looked back at in the input and in the constants.
     pub(super) look_back: usize,
     /// Names of the numbers that differ from step to step.

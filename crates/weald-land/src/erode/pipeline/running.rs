@@ -66,6 +66,12 @@ impl Pipeline {
                 }
             }
         }
+        for &[plane, leaving] in &self.leaves {
+            let Plane { behind, output: place, .. } = self.planes[leaving];
+            if let (Some(y), Some(place)) = (rows.sweep.behind(behind), place) {
+                scratch.rings[plane].hand_over(y, &mut output.planes[place]);
+            }
+        }
     }
 
     fn run<const READS: usize, const CHANGES: usize>(

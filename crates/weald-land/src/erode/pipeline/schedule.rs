@@ -50,6 +50,14 @@ impl Pipeline {
         });
     }
 
+    /// Makes a plane that kernels read the state plane of a number, as soon as all have read it.
+    pub(super) fn leave(&mut self, plane: usize, number: usize) {
+        let Plane { name, behind, oldest, reach, .. } = self.planes[plane];
+        self.leaves.push([plane, self.planes.len()]);
+        let behind = oldest.unwrap_or(behind);
+        self.planes.push(Plane { name, behind, oldest: None, reach, output: Some(number) });
+    }
+
     /// Place of a number among those that differ from step to step.
     pub(super) fn forced(&self, name: &str) -> Option<usize> {
         self.weather.iter().position(|number| *number == name)
