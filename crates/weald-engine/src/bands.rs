@@ -8,7 +8,8 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
-use crate::stencil::chain::{Chain, Process, RowSums, SUMS, TimeBlock};
+use crate::means::Means;
+use crate::stencil::chain::{Chain, Process, RecordedMeans, RowSums, SUMS, TimeBlock};
 use crate::stencil::rows::{Layout, Rows, first_not_finite};
 use crate::stencil::segment::{PlaneRow, Segment};
 
@@ -130,17 +131,6 @@ impl<P: Process> BandedGrid<P> {
         });
     }
 
-    /// Adds `factor` times a plane to `sum`, row-major; each cell takes the value of the cell that many columns
-    /// east and rows south of it.
-    pub fn add_plane_to(&self, plane: usize, from: [usize; 2], factor: f32, sum: &mut [f32]) {
-        let rows = sum.par_chunks_exact_mut(self.layout.columns).enumerate();
-        rows.filter(|(y, _)| y + from[1] < self.rows).for_each(|(y, sum)| {
-            for (sum, value) in sum.iter_mut().zip(self.plane(y + from[1], plane).iter().skip(from[0])) {
-                *sum += factor * value;
-            }
-        });
-    }
-
     /// Column, row and plane of the first value that is a NaN or an infinity, over the first `planes` planes.
     pub fn first_not_finite(&self, planes: usize) -> Option<[usize; 3]> {
         first_not_finite((0..self.rows).into_par_iter(), planes, |y, plane| self.plane(y, plane))
@@ -166,17 +156,18 @@ impl<P: Process> BandedGrid<P> {
         }
     }
 
-    /// Advances all rows by one step for each entry of `weather`, in passages of at most [`BandedGrid::block`].
-    pub fn advance(&mut self, weather: &[P::Weather]) {
+    /// Advances all rows by one step for each entry of `weather`, in passages of at most [`BandedGrid::block`]. Each step
+    /// counts to the `means`, row-major, of these parts.
+    pub fn advance(&mut self, weather: &[P::Weather], parts: Means<'_>, means: &mut [Vec<f32>]) {
+        let south = parts.iter().copied().flatten().map(|part| part.from[1]).max().unwrap_or(0);
         for passage in weather.chunks(self.block) {
-            self.exchange_halos(passage.len());
-            self.pass(passage);
+            self.exchange_halos(self.process.reach() * passage.len() + south);
+            self.pass(passage, parts, means);
         }
     }
 
-    /// Every band gets the rows that its own depend on during the next `steps` steps.
-    fn exchange_halos(&mut self, steps: usize) {
-        let halo = self.process.reach() * steps;
+    /// Every band gets so many rows around its own.
+    fn exchange_halos(&mut self, halo: usize) {
         let taken = |band: &mut Band<P>| [&mut band.above, &mut band.below].map(std::mem::take);
         let mut halos: Vec<_> = self.bands.iter_mut().map(taken).collect();
         halos.par_iter_mut().zip(&self.bands).for_each(|([above, below], band)| {
@@ -197,13 +188,22 @@ impl<P: Process> BandedGrid<P> {
         }
     }
 
-    fn pass(&mut self, weather: &[P::Weather]) {
-        let (process, columns) = (&*self.process, &self.columns);
-        self.bands.par_iter_mut().for_each(|band| {
+    fn pass(&mut self, weather: &[P::Weather], parts: Means<'_>, means: &mut [Vec<f32>]) {
+        let (process, columns, width) = (&*self.process, &self.columns, self.layout.columns);
+        let mut rest: Vec<_> = means.iter_mut().map(Vec::as_mut_slice).collect();
+        let mut sums = Vec::with_capacity(self.bands.len());
+        for band in &self.bands {
+            let cells = band.own.len() * width;
+            let own = rest.iter_mut().map(|rest| rest.split_off_mut(..cells).expect("a sum a cell"));
+            sums.push(own.collect::<Vec<_>>());
+        }
+        self.bands.par_iter_mut().zip(sums).for_each(|(band, means)| {
             let Band { own, rows, above, below, chain, sums } = band;
             let span = own.start - above.len()..own.end + below.len();
             let (first, columns) = (own.start, columns.clone());
-            TimeBlock { process, weather, span, first, own: rows, above, below, sums, columns }.run(chain);
+            let means = RecordedMeans { parts, sums: means };
+            TimeBlock { process, weather, span, first, own: rows, above, below, sums, columns, means }
+                .run(chain);
         });
     }
 }

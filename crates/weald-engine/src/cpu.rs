@@ -46,14 +46,6 @@ impl<P: Process> CpuMachine<P> {
         self.world.count_columns(columns);
         self
     }
-
-    fn add_to_means(&mut self) {
-        for (mean, parts) in self.means.iter_mut().zip(self.parts) {
-            for part in *parts {
-                self.world.add_plane_to(part.plane, part.from, part.factor, mean);
-            }
-        }
-    }
 }
 
 impl<P: Process> Patched for CpuMachine<P> {
@@ -79,14 +71,8 @@ impl<P: Process> Machine<P> for CpuMachine<P> {
     }
 
     fn advance(&mut self, weather: &[P::Weather], recorded: bool) -> Result<(), Error> {
-        if !recorded {
-            self.world.advance(weather);
-            return Ok(());
-        }
-        for weather in weather {
-            self.world.advance(std::slice::from_ref(weather));
-            self.add_to_means();
-        }
+        let parts = if recorded { self.parts } else { &[] };
+        self.world.advance(weather, parts, &mut self.means);
         Ok(())
     }
 

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use crate::device::Window;
+pub use crate::means::{Means, Part};
 use crate::patch::{Patch, Patched};
 use crate::stencil::chain::Process;
 use crate::stencil::rows::Rows;
@@ -106,17 +107,3 @@ impl Patched for Snapshot {
         Ok(())
     }
 }
-
-/// A plane that counts into a mean.
-#[derive(Clone, Copy, Debug)]
-pub struct Part {
-    /// Number of the plane.
-    pub plane: usize,
-    /// Factor that it counts with.
-    pub factor: f32,
-    /// Cells east and south of a cell where its value is taken from; beyond the edge it is 0.
-    pub from: [usize; 2],
-}
-
-/// Parts of each mean.
-pub type Means<'a> = &'a [&'a [Part]];

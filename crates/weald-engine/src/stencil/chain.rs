@@ -8,8 +8,12 @@
 
 use std::ops::Range;
 
+use pulp::{Arch, NullaryFnOnce};
+
 use super::ring::Ring;
 use super::segment::PlaneRow;
+use crate::kernel;
+use crate::means::{Means, Part};
 use crate::program::Program;
 pub use crate::sums::{RowSums, SUMS};
 use crate::uniform::Uniform;
@@ -99,27 +103,62 @@ impl SumsOfRows<'_> {
     /// Adds the sum of `cells` to sum number `which` of row `y`, if this band owns the row.
     pub fn add(&mut self, y: usize, which: usize, cells: &[f32]) {
         if let Some(row) = y.checked_sub(self.first).and_then(|row| self.rows.get_mut(row)) {
-            row[which] += sum_in_lanes(&cells[self.columns.clone()]);
+            row[which] += Arch::new().dispatch(SumOfRow(&cells[self.columns.clone()]));
         }
     }
 }
 
 /// Sum of a row in sixteen interleaved partial sums, an order that vector units of any width keep. Blocks
 /// of 1024 cells go to `f64` one by one, so that long rows lose nothing.
-fn sum_in_lanes(cells: &[f32]) -> f64 {
-    const LANES: usize = 16;
-    let block_sum = |block: &[f32]| {
-        let mut lanes = [0.0_f32; LANES];
-        let (chunks, rest) = block.as_chunks::<LANES>();
-        for chunk in chunks {
-            for (lane, cell) in lanes.iter_mut().zip(chunk) {
-                *lane += cell;
+struct SumOfRow<'a>(&'a [f32]);
+
+impl NullaryFnOnce for SumOfRow<'_> {
+    type Output = f64;
+
+    #[inline(always)]
+    fn call(self) -> f64 {
+        const LANES: usize = 16;
+        let mut sum = 0.0;
+        for block in self.0.chunks(1024) {
+            let mut lanes = [0.0_f32; LANES];
+            let (chunks, rest) = block.as_chunks::<LANES>();
+            for chunk in chunks {
+                for (lane, cell) in lanes.iter_mut().zip(chunk) {
+                    *lane += cell;
+                }
             }
+            let mut of_block = 0.0;
+            for lane in lanes {
+                of_block += f64::from(lane);
+            }
+            let mut of_rest = 0.0;
+            for &cell in rest {
+                of_rest += f64::from(cell);
+            }
+            sum += of_block + of_rest;
         }
-        let lanes: f64 = lanes.iter().map(|&lane| f64::from(lane)).sum();
-        lanes + rest.iter().map(|&cell| f64::from(cell)).sum::<f64>()
-    };
-    cells.chunks(1024).map(block_sum).sum()
+        sum
+    }
+}
+
+kernel! {
+    /// Adds a plane to a sum.
+    struct AddTo {
+        reads { plane }
+        updates { sum }
+        constants { factor: f32 }
+    }
+    fn cell() {
+        sum += factor * plane;
+    }
+}
+
+/// The mean of what, for each of them, and their sums over the rows that a band owns.
+pub struct RecordedMeans<'a> {
+    /// Parts of each mean.
+    pub parts: Means<'a>,
+    /// Sums over the recorded steps, row-major.
+    pub sums: Vec<&'a mut [f32]>,
 }
 
 /// Rows in flight between and within the steps of one time block.
@@ -168,6 +207,8 @@ pub struct TimeBlock<'a, P: Process> {
     pub sums: &'a mut [RowSums],
     /// Columns of which the sums are counted.
     pub columns: Range<usize>,
+    /// Means to which each of the steps counts.
+    pub means: RecordedMeans<'a>,
 }
 
 impl<P: Process> TimeBlock<'_, P> {
@@ -189,6 +230,9 @@ impl<P: Process> TimeBlock<'_, P> {
                 let Some(y) = tick.checked_sub(step * lag) else { continue };
                 if (self.span.start..self.span.end + lag).contains(&y) {
                     self.advance(chain, step, y);
+                    if let Some(done) = y.checked_sub(lag).filter(|done| *done >= self.span.start) {
+                        self.record(&chain.between[step + 1], done);
+                    }
                 }
             }
             if let Some(done) = tick.checked_sub(behind) {
@@ -213,6 +257,23 @@ impl<P: Process> TimeBlock<'_, P> {
             span: self.span.clone(),
             sums: &mut SumsOfRows { first: self.first, rows: self.sums, columns: self.columns.clone() },
         });
+    }
+
+    /// Adds a row that a step has finished to the means. What a mean takes from the row south of its own comes a row
+    /// later, and before the next step adds to it.
+    fn record(&mut self, rings: &[Ring], y: usize) {
+        let RecordedMeans { parts, sums } = &mut self.means;
+        for (sum, parts) in sums.iter_mut().zip(*parts) {
+            for Part { plane, factor, from: [east, south] } in *parts {
+                let row = y.checked_sub(self.first + south).filter(|row| *row < self.own.len());
+                let ring = &rings[*plane];
+                let plane = if *east == 0 { ring.here(y) } else { ring.east(y) };
+                if let Some(row) = row {
+                    let sum = &mut sum[row * plane.len()..][..plane.len()];
+                    AddTo { plane, sum, factor: *factor }.run(Arch::new());
+                }
+            }
+        }
     }
 
     fn row(&mut self, y: usize) -> &mut PlaneRow {
@@ -263,6 +324,6 @@ mod tests {
     fn lanes_sum_what_a_plain_loop_sums() {
         let cells: Vec<f32> = (0..5000).map(|i| ((i * 37) % 101) as f32 - 50.0).collect();
         let plain: f64 = cells.iter().map(|&cell| f64::from(cell)).sum();
-        assert_eq!(sum_in_lanes(&cells), plain);
+        assert_eq!(Arch::new().dispatch(SumOfRow(&cells)), plain);
     }
 }
