@@ -59,7 +59,7 @@ impl<P: Process> BandedGrid<P> {
         });
         let (process, bands) = (Arc::clone(process), bands.collect());
         let mut world = Self { process, layout, rows, bands, block, wanted, columns };
-        world.set_state(state);
+        world.set_state(state, layout.planes);
         world
     }
 
@@ -110,22 +110,22 @@ impl<P: Process> BandedGrid<P> {
         self.wanted
     }
 
-    /// Replaces the state; sums stay.
-    pub fn set_state(&mut self, state: &Rows) {
+    /// Replaces the first planes of the state; sums stay.
+    pub fn set_state(&mut self, state: &Rows, planes: usize) {
         self.bands.par_iter_mut().for_each(|band| {
             for (row, y) in band.rows.iter_mut().zip(band.own.clone()) {
-                for (plane, segment) in row.iter_mut().enumerate() {
+                for (plane, segment) in row.iter_mut().enumerate().take(planes) {
                     segment.here_mut().copy_from_slice(state.plane(y, plane));
                 }
             }
         });
     }
 
-    /// Copies the state of all rows over `into`, which has the same layout.
-    pub fn copy_state(&self, into: &mut Rows) {
+    /// Copies the first planes of all rows over those of `into`, which has the same layout.
+    pub fn copy_state(&self, into: &mut Rows, planes: usize) {
         let layout = self.layout;
         into.memory.par_chunks_exact_mut(layout.row_length()).enumerate().for_each(|(y, into)| {
-            for (plane, segment) in self.row(y).iter().enumerate() {
+            for (plane, segment) in self.row(y).iter().enumerate().take(planes) {
                 layout.plane_mut(into, plane).copy_from_slice(segment.here());
             }
         });
@@ -139,7 +139,7 @@ impl<P: Process> BandedGrid<P> {
     /// A copy of the state of all rows.
     pub fn state(&self) -> Rows {
         let mut state = Rows::new(self.layout, self.rows);
-        self.copy_state(&mut state);
+        self.copy_state(&mut state, self.layout.planes);
         state
     }
 

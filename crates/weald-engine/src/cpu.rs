@@ -81,14 +81,15 @@ impl<P: Process> Machine<P> for CpuMachine<P> {
     }
 
     fn keep(&mut self) -> Result<(), Error> {
-        self.world.copy_state(&mut self.kept.state);
+        // Constant planes do not change but by a person, after which all is kept anew.
+        self.world.copy_state(&mut self.kept.state, self.process.state_planes());
         self.kept.row_sums = self.world.row_sums();
         self.kept.means.clone_from(&self.means);
         Ok(())
     }
 
     fn go_back(&mut self) -> Result<(), Error> {
-        self.world.set_state(&self.kept.state);
+        self.world.set_state(&self.kept.state, self.process.state_planes());
         self.world.set_row_sums(&self.kept.row_sums);
         self.means.clone_from(&self.kept.means);
         Ok(())
@@ -99,7 +100,7 @@ impl<P: Process> Machine<P> for CpuMachine<P> {
     }
 
     fn restore(&mut self, snapshot: &Snapshot) -> Result<(), Error> {
-        self.world.set_state(&snapshot.state);
+        self.world.set_state(&snapshot.state, snapshot.state.layout.planes);
         self.world.set_row_sums(&snapshot.row_sums);
         self.means.clone_from(&snapshot.means);
         self.keep()
@@ -122,7 +123,7 @@ impl<P: Process> Machine<P> for CpuMachine<P> {
 
     fn return_to(&mut self, number: u64) -> Result<(), Error> {
         let copy = self.copies.get(&number).ok_or_else(|| super::machine::never_kept(number))?;
-        self.world.set_state(&copy.state);
+        self.world.set_state(&copy.state, copy.state.layout.planes);
         self.world.set_row_sums(&copy.row_sums);
         self.means.clone_from(&copy.means);
         Ok(())

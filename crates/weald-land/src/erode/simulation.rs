@@ -16,6 +16,10 @@ use weald_engine::stencil::chain::Process;
 use weald_engine::stencil::rows::Rows;
 use weald_engine::{Engine, Job, SavedSimulation, WENT_ON_ON_CPU};
 
+/// Steps after which the state is kept anew. On large grids a look comes every few steps, and a copy of all planes with
+/// each would take as long as they do; who goes back takes as many steps again to find the fault.
+const KEPT_EVERY: u64 = 32;
+
 /// A process and how long it runs.
 pub(crate) struct Simulation<'a, P: Process> {
     pub(crate) numbers: &'a Numbers<P>,
@@ -109,7 +113,7 @@ struct Running<'a, P: Process> {
     pace: Pace,
     done: u64,
     cells: usize,
-    /// Steps at the last look, when all was well.
+    /// Steps when the state was kept, which was well.
     good: u64,
     last: Option<&'a mut Saved>,
     /// Steps after which the edits came that were the last, and what they painted over.
@@ -183,7 +187,7 @@ impl<'a, P: Process> Running<'a, P> {
             }
         }
         self.unedited = Some((self.done, before));
-        self.machine.keep()
+        self.keep()
     }
 
     /// One stretch of steps, and a look at the result.
@@ -198,6 +202,11 @@ impl<'a, P: Process> Running<'a, P> {
             return Err(self.find_the_fault(end)?);
         }
         self.pace.took(begun.elapsed());
+        if self.done - self.good >= KEPT_EVERY { self.keep() } else { Ok(()) }
+    }
+
+    /// Keeps the state, to go back to when something goes wrong later.
+    fn keep(&mut self) -> Result<(), Error> {
         self.good = self.done;
         self.machine.keep()
     }
