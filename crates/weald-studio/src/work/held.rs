@@ -226,6 +226,9 @@ fn stretches(
         path.push((here, action));
         here = before;
     }
+    // Strokes of other branches have numbers around those of this one.
+    let is_here = |stroke: &&Stroke| path.iter().any(|(number, _)| *number == stroke.last);
+    let here: Vec<_> = strokes.iter().filter(is_here).collect();
     let (mut moments, mut steps): (Vec<Moment>, u64) = (Vec::new(), 0);
     let mut stretch = 0;
     for (number, action) in path.into_iter().rev() {
@@ -233,7 +236,7 @@ fn stretches(
         steps += if let Action::Steps(more) = action { *more } else { 0 };
         let moment = Moment { number, steps, label: label(action, stretch), is_steps: stretch > 0, is_past };
         // What was painted while the simulation ran belongs to the stroke, with the steps between.
-        let in_stroke = strokes.iter().any(|stroke| stroke.before < number && number < stroke.last);
+        let in_stroke = here.iter().any(|stroke| stroke.before < number && number < stroke.last);
         match moments.last_mut() {
             _ if in_stroke => {}
             Some(last) if last.is_steps && moment.is_steps => *last = moment,
