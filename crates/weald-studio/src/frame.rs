@@ -138,14 +138,19 @@ impl Studio {
         let rest = COMMANDS.iter().filter(|entry| !has_shift(entry));
         for entry in COMMANDS.iter().filter(has_shift).chain(rest) {
             let Some(keys) = entry.keys.shortcut() else { continue };
-            // A letter alone is typed where text is typed.
-            if types && !keys.modifiers.command {
+            // A letter alone is typed where text is typed, and a question has its own keys.
+            if (types || self.is_asking()) && !keys.modifiers.command {
                 continue;
             }
             if context.input_mut(|input| input.consume_shortcut(&keys)) {
                 self.obey(entry.command, &context);
             }
         }
+    }
+
+    /// Whether a question lies over the window.
+    fn is_asking(&self) -> bool {
+        self.asked.is_some() || self.palette.is_some()
     }
 
     fn take_dropped(&mut self, ui: &Ui) {

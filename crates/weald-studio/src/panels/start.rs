@@ -85,21 +85,20 @@ pub(crate) fn tour(studio: &mut Studio, ui: &Ui) {
         return;
     };
     let mut next = Some(place);
-    Window::new(format!("Tour, {} of {}", place + 1, TOUR.len())).collapsible(false).resizable(false).show(
-        ui.ctx(),
-        |ui| {
-            ui.set_width(340.0);
-            ui.heading(*title);
-            ui.label(*text);
-            ui.horizontal(|ui| {
-                if ui.button("Next").clicked() {
-                    next = Some(place + 1);
-                }
-                if ui.button("End the tour").clicked() {
-                    next = None;
-                }
-            });
-        },
-    );
+    // One window for all pages: it stays where it was moved to.
+    let window = Window::new(format!("Tour, {} of {}", place + 1, TOUR.len())).id(Id::unique("tour"));
+    window.collapsible(false).resizable(false).show(ui.ctx(), |ui| {
+        ui.set_width(340.0);
+        ui.heading(*title);
+        ui.label(*text);
+        ui.horizontal(|ui| {
+            if ui.button("Next").clicked() {
+                next = Some(place + 1);
+            }
+            if ui.button("End the tour").clicked() {
+                next = None;
+            }
+        });
+    });
     studio.tour = next;
 }

@@ -150,6 +150,14 @@ impl Window {
         self.harness.step();
     }
 
+    /// Clicks what may lie further down in a list.
+    pub(crate) fn reach(&mut self, label: &str) {
+        self.harness.get_by_label(label).scroll_to_me();
+        // The list takes some frames to get there.
+        self.harness.run_steps(30);
+        self.click(label);
+    }
+
     pub(crate) fn click(&mut self, label: &str) {
         // What has just come or gone moves what stands beside it, one frame later.
         self.harness.step();

@@ -10,7 +10,7 @@ use super::harness::{Pixels, Window};
 use super::panels::recipe;
 
 /// A window with a landscape in it.
-fn opened() -> (tempfile::TempDir, Window) {
+pub(crate) fn opened() -> (tempfile::TempDir, Window) {
     let (folder, file) = recipe();
     let mut window = Window::open(Some(&file));
     // The steps after the one that is held run once it rests.
@@ -23,7 +23,7 @@ fn opened() -> (tempfile::TempDir, Window) {
 }
 
 impl Window {
-    fn choose(&mut self, list: &str, word: &str) {
+    pub(crate) fn choose(&mut self, list: &str, word: &str) {
         self.harness.get_by_role_and_label(Role::ComboBox, list).click();
         self.harness.step();
         self.harness.step();
@@ -31,7 +31,7 @@ impl Window {
     }
 
     /// What the viewport shows, without what lies over its left third.
-    fn seen(&mut self) -> Pixels {
+    pub(crate) fn seen(&mut self) -> Pixels {
         self.hover([0.98, 0.98]);
         self.drawn();
         let rect = self.harness.get_by_label("Viewport").rect();
@@ -39,12 +39,12 @@ impl Window {
         self.pixels(Rect::from_min_max(from, rect.max))
     }
 
-    fn has(&self, text: &str) -> bool {
+    pub(crate) fn has(&self, text: &str) -> bool {
         self.harness.query_all_by_label_contains(text).next().is_some()
     }
 
     /// The whole label that has this in it.
-    fn label_with(&self, text: &str) -> String {
+    pub(crate) fn label_with(&self, text: &str) -> String {
         let node = self.harness.query_all_by_label_contains(text).next();
         // What is only read has its text as a value.
         let text_of = |node: &egui_kittest::Node<'_>| node.accesskit_node().label().or_else(|| node.value());
