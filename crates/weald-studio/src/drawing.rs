@@ -29,6 +29,9 @@ pub(crate) trait Drawing {
     /// Notes what stands against it.
     fn fail(&mut self, error: &Error);
 
+    /// Waits until all that was submitted is drawn, which only a measurement does.
+    fn wait(&self) {}
+
     /// Orders the scene of a landscape with looks of this number, unless it is the one that was ordered last.
     fn order(&mut self, shown: &Shown, looks: (&View, u64), is_live: bool);
 

@@ -11,6 +11,7 @@ pub mod document;
 mod drawing;
 mod frame;
 pub mod host;
+mod interface;
 mod looks;
 mod navigation;
 mod own_files;

@@ -1,4 +1,5 @@
-//! How soon the window answers: 600 frames of a session that drives itself, each from its input to the frame that shows it.
+//! How soon the window answers: 600 frames of a session that drives itself, each from its input until the device has drawn the
+//! frame that shows it.
 
 use std::fmt;
 use std::path::PathBuf;
@@ -91,6 +92,9 @@ pub fn response(what: Option<PathBuf>) -> Result<Response, Error> {
 
 impl eframe::App for Driven {
     fn raw_input_hook(&mut self, _: &Context, _: &mut RawInput) {
+        if let Some(viewport) = &self.studio.viewport {
+            viewport.wait();
+        }
         let now = Instant::now();
         if let (Some(input), Some(part)) = (self.input, self.part()) {
             let mut measured = self.measured.lock().unwrap_or_else(PoisonError::into_inner);

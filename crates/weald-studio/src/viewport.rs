@@ -1,5 +1,5 @@
-//! The landscape in the window, drawn on the device that the window itself is drawn with: the one file of the studio that
-//! knows the graphics interface.
+//! The landscape in the window, drawn on the device that the window itself is drawn with: with [`interface`](crate::interface)
+//! the one file of the studio that knows the graphics interface.
 //!
 //! Scenes are made on a thread of their own, so that the window never waits for one. Pictures are submitted and not waited
 //! for; while something moves they are so small that they take a slice of time, and become finer when it rests.
@@ -12,13 +12,14 @@ use web_time::Instant;
 use eframe::NativeOptions;
 use eframe::egui::{Context, TextureId};
 use eframe::egui_wgpu::{RenderState, WgpuConfiguration, WgpuSetup, WgpuSetupCreateNew};
-use eframe::wgpu::{Backends, FilterMode};
+use eframe::wgpu::{Backends, FilterMode, PollType};
 use weald::Error;
 use weald::engine::Engine;
 use weald::picture::{Camera, Image, View};
 use weald_gpu::Gpu;
 
 use crate::drawing::Drawing;
+use crate::interface::Interface;
 use crate::scenes::{Order, Scenes, Stage};
 use crate::work::{Shown, Surface};
 
@@ -102,6 +103,9 @@ impl Viewport {
     /// [`Error::Device`] where that was opened with too little, [`Error::Run`] where the system has no thread left.
     pub(crate) fn new(window: &WindowDevice, context: &Context) -> Result<Self, Error> {
         let gpu = Gpu::shared(&window.adapter, &window.device, &window.queue)?;
+        if gpu.is_software() && !window.target_format.is_srgb() {
+            context.add_plugin(Interface::new(window));
+        }
         let told = context.clone();
         let scenes = Scenes::new(gpu.clone(), move || told.request_repaint())?;
         Ok(Self {
@@ -152,6 +156,11 @@ impl Drawing for Viewport {
     fn device(&self) -> String {
         let info = self.window.adapter.get_info();
         format!("{} ({})", info.name, info.backend)
+    }
+
+    fn wait(&self) {
+        // A device that fails says so where it is drawn on.
+        let _ = self.window.device.poll(PollType::wait_indefinitely());
     }
 
     fn seconds(&self) -> f64 {

@@ -115,15 +115,18 @@ pub(crate) fn strays(workspace: &Workspace) -> Vec<String> {
     found
 }
 
-/// The one file of the studio that may know the graphics interface, which it has by way of its window's library.
-const WINDOW: &str = "crates/weald-studio/src/viewport.rs";
+/// What of the studio may know the graphics interface, which it has by way of its window's library: the landscape in the
+/// window, and the controls where software draws them.
+const WINDOW: [&str; 2] = ["crates/weald-studio/src/viewport", "crates/weald-studio/src/interface"];
 
-/// Sources of the studio beside that one that name the graphics interface.
+/// Sources of the studio beside those that name the graphics interface.
 pub(crate) fn graphics_in_the_studio(files: &BTreeMap<String, String>) -> Vec<String> {
     let names_it = |(file, text): &(&String, &String)| {
-        file.starts_with("crates/weald-studio/src/") && *file != WINDOW && text.contains("wgpu")
+        let may = WINDOW.iter().any(|module| lies_in(file, module));
+        file.starts_with("crates/weald-studio/src/") && !may && text.contains("wgpu")
     };
-    files.iter().filter(names_it).map(|(file, _)| format!("{file} names wgpu; only {WINDOW} may")).collect()
+    let told = |file: &String| format!("{file} names wgpu; only {} may", WINDOW.join(" and "));
+    files.iter().filter(names_it).map(|(file, _)| told(file)).collect()
 }
 
 /// Arrows from a stage to another, and from a foundation of the stages to a stage.
