@@ -7,6 +7,7 @@ mod on_thread;
 
 use std::sync::Arc;
 
+use weald::edit::{Area, Canvas};
 use weald::picture::{LitScene, View};
 use weald::{Error, Landscape};
 use weald_gpu::{Gpu, Live, RenderOptions, Renderer, Screen};
@@ -36,6 +37,7 @@ pub(crate) struct Stage {
     pub(crate) live: Option<Live>,
     pub(crate) screen: Screen,
     pub(crate) number: (u64, u64),
+    pub(crate) draws_water: bool,
 }
 
 type Built = (Order, Result<Box<Stage>, Error>);
@@ -49,6 +51,22 @@ impl Stage {
         renderer.plant(&scene, landscape)?;
         let live = is_live.then(|| Live::new(gpu, landscape.domain.size)).transpose()?;
         let screen = renderer.screen([64, 64])?;
-        Ok(Self { scene, renderer, live, screen, number: *number })
+        let mut stage = Self { scene, renderer, live, screen, number: *number, draws_water: view.water };
+        stage.show_water(gpu, landscape)?;
+        Ok(stage)
+    }
+
+    /// Shows all the water of a landscape that a simulation has left, as while it ran: a view by itself shows lakes and rivers,
+    /// and what was poured on a slope is neither.
+    fn show_water(&mut self, gpu: &Gpu, landscape: &Landscape) -> Result<(), Error> {
+        let (Some(live), true) = (&self.live, self.draws_water) else { return Ok(()) };
+        let (Ok(ground), Ok(water)) = (landscape.field("height"), landscape.field("water")) else {
+            return Ok(());
+        };
+        let domain = &landscape.domain;
+        let mut canvas = Canvas::level(Area { first: [0, 0], size: domain.size }, domain.cell, &[]);
+        (canvas.bedrock, canvas.water) = (ground.clone(), water.clone());
+        live.paint(gpu, &canvas)?;
+        self.renderer.follow(&self.scene, live)
     }
 }

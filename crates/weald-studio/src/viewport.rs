@@ -13,9 +13,10 @@ use eframe::NativeOptions;
 use eframe::egui::{Context, TextureId};
 use eframe::egui_wgpu::{RenderState, WgpuConfiguration, WgpuSetup, WgpuSetupCreateNew};
 use eframe::wgpu::{Backends, FilterMode, PollType};
-use weald::Error;
+use weald::edit::Canvas;
 use weald::engine::Engine;
 use weald::picture::{Camera, Image, View};
+use weald::{Error, Field};
 use weald_gpu::Gpu;
 
 use crate::drawing::Drawing;
@@ -235,7 +236,12 @@ impl Drawing for Viewport {
             return Ok(());
         }
         let Some(live) = &stage.live else { return Ok(()) };
-        live.paint(&self.gpu, &surface.canvas)?;
+        if stage.draws_water {
+            live.paint(&self.gpu, &surface.canvas)?;
+        } else {
+            let water = Field::filled(surface.canvas.size(), 0.0);
+            live.paint(&self.gpu, &Canvas { water, ..Canvas::clone(&surface.canvas) })?;
+        }
         stage.renderer.follow(&stage.scene, live)?;
         self.surface = surface.number;
         self.drawn = None;
