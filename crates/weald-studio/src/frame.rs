@@ -4,7 +4,7 @@ use std::time::Duration;
 use web_time::Instant;
 
 use eframe::egui::{
-    self, CentralPanel, Color32, Context, Panel, Pos2, Rect, Sense, Ui, Vec2, ViewportCommand,
+    self, CentralPanel, Color32, Context, Panel, Popup, Pos2, Rect, Sense, Ui, Vec2, ViewportCommand,
 };
 
 use crate::commands::{COMMANDS, Entry, Keys};
@@ -138,8 +138,8 @@ impl Studio {
         let rest = COMMANDS.iter().filter(|entry| !has_shift(entry));
         for entry in COMMANDS.iter().filter(has_shift).chain(rest) {
             let Some(keys) = entry.keys.shortcut() else { continue };
-            // A letter alone is typed where text is typed, and a question has its own keys.
-            if (types || self.is_asking()) && !keys.modifiers.command {
+            // A letter alone is typed where text is typed; questions and lists have keys of their own.
+            if (types || self.is_asking() || Popup::is_any_open(&context)) && !keys.modifiers.command {
                 continue;
             }
             if context.input_mut(|input| input.consume_shortcut(&keys)) {

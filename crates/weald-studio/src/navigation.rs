@@ -92,17 +92,23 @@ pub(crate) fn zoom(camera: Camera, towards: [f32; 3], notches: f32) -> Camera {
 /// Goes so many metres forward, rightward and upward.
 #[must_use]
 pub(crate) fn go(camera: Camera, [forward, right, up]: [f32; 3], mode: Mode) -> Camera {
-    let ahead = match mode {
-        Mode::Walk => {
-            let level = camera.forward[0].hypot(camera.forward[1]).max(1e-6);
-            [camera.forward[0] / level, camera.forward[1] / level, 0.0]
-        }
+    let heading = match mode {
+        Mode::Walk => ahead(&camera),
         Mode::Fly | Mode::Orbit => camera.forward,
     };
     let vertical = [0.0, 0.0, up];
     camera.at(std::array::from_fn(|axis| {
-        camera.eye[axis] + forward * ahead[axis] + right * camera.right[axis] + vertical[axis]
+        camera.eye[axis] + forward * heading[axis] + right * camera.right[axis] + vertical[axis]
     }))
+}
+
+/// Where a camera looks, on the level; upward in its picture where it looks straight down.
+pub(crate) fn ahead(camera: &Camera) -> [f32; 3] {
+    let [east, north, _] = camera.forward;
+    let looks_down = east.hypot(north) < 1e-3;
+    let [east, north] = if looks_down { [camera.up[0], camera.up[1]] } else { [east, north] };
+    let length = east.hypot(north).max(1e-6);
+    [east / length, north / length, 0.0]
 }
 
 /// The camera for a picture of other sides, in which all is that lies within `half`, the tangents of half the angles of the
@@ -127,6 +133,14 @@ fn length(vector: [f32; 3]) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn whoever_looks_straight_down_walks_on_upward_in_the_picture() {
+        let ahead = |forward| ahead(&Camera::looking([0.0; 3], forward, [0.5; 2]));
+        assert_eq!(ahead([3.0, 0.0, -4.0]), [1.0, 0.0, 0.0]);
+        let [east, north, up] = ahead([0.0, 0.0, -1.0]);
+        assert!((east.hypot(north) - 1.0).abs() < 1e-6 && up == 0.0);
+    }
 
     fn camera() -> Camera {
         Camera::looking([500.0, -2000.0, 900.0], [0.0, 0.8, -0.6], [0.4, 0.3])

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use eframe::egui::{Id, Key, Modal, Ui};
+use eframe::egui::{Id, Key, Modal, TextEdit, Ui};
 
 use crate::studio::{Asked, Studio};
 use crate::work::Task;
@@ -39,7 +39,8 @@ pub(crate) fn show(studio: &mut Studio, ui: &Ui) {
         let mut path = None;
         if let Some(text) = text {
             let label = ui.label("Path");
-            let response = ui.text_edit_singleline(text).labelled_by(label.id);
+            let response =
+                ui.add(TextEdit::singleline(text).desired_width(f32::INFINITY)).labelled_by(label.id);
             if !response.has_focus() && !response.lost_focus() {
                 response.request_focus();
             }

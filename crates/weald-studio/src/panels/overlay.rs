@@ -27,9 +27,11 @@ pub(crate) fn show(studio: &mut Studio, ui: &mut Ui, rect: Rect) {
         ring(studio, &painter, rect, place);
     }
     let error = studio.viewport.as_ref().and_then(|viewport| viewport.error());
+    let has_picture = studio.viewport.as_ref().is_none_or(|viewport| viewport.texture().is_some());
     let text = match (&studio.status.shown, error) {
         (_, Some(error)) => error,
         (None, None) => "The landscape is being made …".to_owned(),
+        (Some(_), None) if !has_picture => "Its picture is being made …".to_owned(),
         _ => return,
     };
     let colour = ui.visuals().text_color();

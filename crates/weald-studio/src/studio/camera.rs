@@ -23,7 +23,7 @@ impl Studio {
             Command::Camera(mode) => {
                 self.mode = mode;
                 if mode == Mode::Walk {
-                    self.stand();
+                    self.begin_to_walk(middle);
                 }
                 return;
             }
@@ -144,6 +144,16 @@ impl Studio {
             self.stand();
         }
         ui.ctx().request_repaint();
+    }
+
+    /// Puts the camera on the ground below it, or in the middle of the land where it is beside that, and looks ahead.
+    fn begin_to_walk(&mut self, middle: [f32; 3]) {
+        let (Some(camera), Some(target)) = (self.camera, self.target()) else { return };
+        let [east, north, _] = camera.eye;
+        let is_above_land = target.at([f64::from(east), f64::from(-north)]).is_some();
+        let eye = if is_above_land { camera.eye } else { middle };
+        self.camera = Some(Camera::looking(eye, navigation::ahead(&camera), camera.half));
+        self.stand();
     }
 
     /// Puts the camera on the ground below it.

@@ -128,7 +128,6 @@ fn each_of_the_looks_changes_the_picture_and_can_be_set_back() {
     window.choose("Ground", "as the recipe says");
     assert_eq!(plain.share_that_differs(&window.seen()), 0.0);
     window.click("Water");
-    window.set(Role::SpinButton, "Depth", 40.0);
     window.stroke([0.45, 0.45], [0.6, 0.45]);
     window.until("water", |status| status.moments.len() == 1);
     window.click("Water");
@@ -138,4 +137,21 @@ fn each_of_the_looks_changes_the_picture_and_can_be_set_back() {
     assert!(wet.share_that_differs(&window.seen()) > 0.01, "the water is gone");
     window.click("Draw water");
     assert_eq!(wet.share_that_differs(&window.seen()), 0.0);
+}
+
+#[test]
+fn whoever_walks_stands_on_the_land_and_a_list_is_left_by_escape() {
+    let (_folder, mut window) = opened();
+    let whole = window.seen();
+    window.click("Walk");
+    let standing = window.seen();
+    assert!(whole.share_that_differs(&standing) > 0.3, "from beside the land one is put on it");
+    window.click("Water");
+    window.harness.get_by_role_and_label(Role::ComboBox, "Falloff").click();
+    window.harness.run_steps(3);
+    assert!(window.harness.query_by_label("gaussian").is_some());
+    window.harness.key_press(eframe::egui::Key::Escape);
+    window.harness.run_steps(3);
+    assert!(window.harness.query_by_label("gaussian").is_none(), "the list is gone");
+    assert!(window.offers(Role::SpinButton, "Depth"), "the brush is still there");
 }
