@@ -142,6 +142,14 @@ impl<S: Undoable> History<S> {
         self.names.insert(name.to_owned(), self.tree.here);
     }
 
+    /// Gives the moment of a name another one; where that was another moment's, it no longer is. `false` where nothing has the
+    /// first name.
+    pub fn rename(&mut self, from: &str, to: &str) -> bool {
+        let Some(moment) = self.names.remove(from) else { return false };
+        self.names.insert(to.to_owned(), moment);
+        true
+    }
+
     /// The moments that have names.
     pub fn names(&self) -> &BTreeMap<String, usize> {
         &self.names

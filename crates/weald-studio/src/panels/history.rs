@@ -1,6 +1,6 @@
 //! What was done by hand, stroke by stroke: one click goes there, and what comes after it can be redone.
 
-use eframe::egui::{RichText, TextEdit, Ui};
+use eframe::egui::{Button, RichText, TextEdit, Ui};
 
 use super::cameras::NAME;
 use crate::studio::Studio;
@@ -50,9 +50,20 @@ fn names(studio: &mut Studio, ui: &mut Ui, wanted: &mut Option<usize>) {
             studio.work.ask(Task::Name(std::mem::take(&mut studio.name)));
         }
     });
+    let mut renamed = None;
     for (name, moment) in &studio.status.names {
-        if ui.button(name).on_hover_text("Go to this moment").clicked() {
-            *wanted = Some(*moment);
-        }
+        ui.horizontal(|ui| {
+            if ui.button(name).on_hover_text("Go to this moment").clicked() {
+                *wanted = Some(*moment);
+            }
+            let hover = format!("Give {name} the name that is typed above");
+            let can = !studio.name.is_empty();
+            if ui.add_enabled(can, Button::new("rename").small()).on_hover_text(hover).clicked() {
+                renamed = Some(name.clone());
+            }
+        });
+    }
+    if let Some(from) = renamed {
+        studio.work.ask(Task::Rename { from, to: std::mem::take(&mut studio.name) });
     }
 }

@@ -52,6 +52,13 @@ pub enum Task {
     GoTo(usize),
     /// Gives this moment a name.
     Name(String),
+    /// Gives the moment of a name another name.
+    Rename {
+        /// The name that it has.
+        from: String,
+        /// The one that it is to have.
+        to: String,
+    },
     /// Writes the recipe with all that was done: a text for `weald run`, and its script beside it.
     Save(PathBuf),
     /// Runs the recipe with all that was done, and writes its outputs into a folder.

@@ -133,6 +133,7 @@ impl Worker {
             Task::Redo => drop(held.redo()?),
             Task::GoTo(moment) => held.go_to(moment)?,
             Task::Name(name) => held.session().history().name(&name),
+            Task::Rename { from, to } => drop(held.session().history().rename(&from, &to)),
             Task::Open(_) | Task::Save(_) | Task::Export(_) | Task::End => {}
         }
         self.changed()

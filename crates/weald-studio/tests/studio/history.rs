@@ -58,6 +58,10 @@ fn a_moment_with_a_name_is_come_back_to_from_another_branch() {
     let status = window.until("the named moment", |status| status.steps == 2);
     assert_eq!(status.moments.len(), 3, "{:?}", status.moments);
     assert!(window.harness.query_by_label_contains("smooth").is_none(), "the other branch is left");
+    window.type_over("Name", "dam");
+    window.reach("rename");
+    let status = window.until("another name", |status| status.names.iter().all(|(name, _)| name == "dam"));
+    assert_eq!(status.names.len(), 1, "{:?}", status.names);
 }
 
 #[test]
