@@ -87,7 +87,7 @@ impl Studio {
         {
             self.noted_saved = Some(*state);
             self.project.saved(*state);
-            self.message = Some(("saved".to_owned(), Instant::now()));
+            self.say(self.said_of_saving());
         }
         if self.kept_at.elapsed() >= KEPT_EVERY {
             self.kept_at = Instant::now();

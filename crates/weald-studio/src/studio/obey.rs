@@ -2,6 +2,8 @@
 
 use eframe::egui::{Context, Theme, ViewportCommand};
 
+use weald::error::Diagnostic;
+
 use super::{Asked, Left, Palette, Studio};
 use crate::brushes::Tool;
 use crate::commands::Command;
@@ -97,6 +99,17 @@ impl Studio {
     pub(crate) fn leave(&mut self, context: &Context) {
         self.is_closing = true;
         context.send_viewport_cmd(ViewportCommand::Close);
+    }
+
+    /// What is said once the project is saved.
+    pub(crate) fn said_of_saving(&self) -> String {
+        let Some(wrong) = self.document.diagnostics().first() else { return "saved".to_owned() };
+        let place =
+            if wrong.line == Diagnostic::NO_LINE { String::new() } else { format!("line {}: ", wrong.line) };
+        let what = format!("{place}{}", wrong.message);
+        format!(
+            "saved as it last ran; what is typed now is kept beside it, in typed.toml, for it cannot run: {what}"
+        )
     }
 
     /// Saves the project where it is, or asks where.

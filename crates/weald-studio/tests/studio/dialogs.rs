@@ -84,6 +84,25 @@ fn a_file_is_opened_by_its_path_and_enter_does_as_the_button() {
 }
 
 #[test]
+fn what_is_typed_and_cannot_run_is_kept_when_the_project_is_saved() {
+    let (folder, mut window) = opened();
+    let project = folder.path().join("project");
+    window.click("Cards or text");
+    let text = fs::read_to_string(folder.path().join("valley.toml")).expect("a recipe");
+    let wrong = text.replace("relief = 300.0", "releif = 300.0");
+    window.type_in((Role::MultilineTextInput, "Recipe as text"), &wrong);
+    window.saved_script(&project);
+    window.harness.step();
+    assert!(window.has("in typed.toml, for it cannot run: line 8"), "{}", window.label_with("saved"));
+    window.until("the typed text", |_| project.join("typed.toml").is_file());
+    assert_eq!(fs::read_to_string(project.join("typed.toml")).expect("kept"), wrong);
+    drop(window);
+    let mut again = Window::open(Some(&project));
+    again.harness.run_steps(3);
+    assert!(again.has("releif"), "the next start has what was typed, with what is wrong");
+}
+
+#[test]
 fn who_closes_what_is_not_saved_is_asked_first() {
     let (_folder, mut window) = opened();
     window.click("One step");
