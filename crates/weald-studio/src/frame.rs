@@ -173,6 +173,7 @@ impl Studio {
         self.turn(ui.ctx());
         self.draw(ui, rect);
         overlay::show(self, ui, rect);
+        panels::marks::show(self, ui, rect);
         panels::section::show(self, ui, rect);
     }
 

@@ -8,6 +8,7 @@ pub(crate) mod histogram;
 pub(crate) mod history;
 pub(crate) mod legend;
 pub(crate) mod looks;
+pub(crate) mod marks;
 pub(crate) mod overlay;
 pub(crate) mod palette;
 mod pictures;

@@ -149,7 +149,7 @@ fn shown(node: Option<&Node>, parameter: &Parameter) -> String {
 }
 
 /// A value in TOML notation.
-fn toml(value: &Value) -> String {
+pub(super) fn toml(value: &Value) -> String {
     match value {
         Value::List(items) => {
             let items: Vec<_> = items.iter().map(|item| toml(&item.value)).collect();

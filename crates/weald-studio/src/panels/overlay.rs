@@ -88,12 +88,12 @@ fn outlined(painter: &Painter, points: Vec<Pos2>, width: f32) {
 }
 
 /// The ground, or the water on it.
-fn top_at(studio: &Studio, at: [f64; 2]) -> Option<Place> {
+pub(super) fn top_at(studio: &Studio, at: [f64; 2]) -> Option<Place> {
     let place = studio.target()?.at(at)?;
     Some(Place { ground: place.ground + place.water, ..place })
 }
 
-fn on_screen(studio: &Studio, rect: Rect, place: Place) -> Option<Pos2> {
+pub(super) fn on_screen(studio: &Studio, rect: Rect, place: Place) -> Option<Pos2> {
     let (camera, point) = (studio.camera?, studio.point(place)?);
     let from: [f32; 3] = std::array::from_fn(|axis| point[axis] - camera.eye[axis]);
     let dot = |axis: [f32; 3]| from[0] * axis[0] + from[1] * axis[1] + from[2] * axis[2];

@@ -44,6 +44,11 @@ impl Studio {
         self.target()?.pick(camera, [across, up])
     }
 
+    /// What is under a point of the window, where the viewport has this place in it.
+    pub(crate) fn under_pointer(&self, rect: Rect, at: egui::Pos2) -> Option<Place> {
+        self.under(&self.camera?, rect, at)
+    }
+
     /// Takes what the hand does over the viewport. Gives whether it moved anything.
     pub(crate) fn handle(&mut self, ui: &Ui, response: &Response, rect: Rect) {
         let Some(camera) = self.camera else { return };

@@ -7,6 +7,7 @@ mod harness;
 mod history;
 mod kills;
 mod looking;
+mod marks;
 mod panels;
 mod rays;
 mod remote;
