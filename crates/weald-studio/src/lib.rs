@@ -11,6 +11,7 @@ pub mod document;
 mod drawing;
 mod frame;
 pub mod host;
+#[cfg(not(target_arch = "wasm32"))]
 mod interface;
 mod looks;
 mod navigation;

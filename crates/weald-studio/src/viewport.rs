@@ -20,6 +20,7 @@ use weald::{Error, Field};
 use weald_gpu::Gpu;
 
 use crate::drawing::Drawing;
+#[cfg(not(target_arch = "wasm32"))]
 use crate::interface::Interface;
 use crate::scenes::{Order, Scenes, Stage};
 use crate::work::{Shown, Surface};
@@ -104,6 +105,7 @@ impl Viewport {
     /// [`Error::Device`] where that was opened with too little, [`Error::Run`] where the system has no thread left.
     pub(crate) fn new(window: &WindowDevice, context: &Context) -> Result<Self, Error> {
         let gpu = Gpu::shared(&window.adapter, &window.device, &window.queue)?;
+        #[cfg(not(target_arch = "wasm32"))]
         if gpu.is_software() && !window.target_format.is_srgb() {
             context.add_plugin(Interface::new(window));
         }

@@ -248,11 +248,12 @@ async function tour(kind, address, wanted) {
     same(await visitor.heights(), wanted.heights, "heights after undo are as before the stroke");
     await visitor.page.keyboard.press("b");
     await visitor.drag("Viewport", [0.4, 0.5], [0.5, 0.6]);
-    await visitor.is("another stroke", (state) => state.moments > before.moments && state.idle && state.whole);
+    await visitor.is("another stroke", (state) => state.moments > before.moments);
+    // A stroke is painted piece by piece, and what is not saved is kept every half second.
+    await new Promise((resolve) => setTimeout(resolve, 2500));
+    await visitor.is("the whole stroke", (state) => state.idle && state.whole);
     const mine = await visitor.heights();
     expect(!mine.equals(wanted.heights), "the brush has raised the ground");
-    // What is not saved is kept every half second.
-    await new Promise((resolve) => setTimeout(resolve, 2500));
 
     await visitor.page.reload();
     await visitor.is("what was not saved", (state) => state.columns === 96 && state.steps === 120 && state.idle && state.whole, 240);

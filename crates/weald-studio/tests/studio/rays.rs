@@ -44,8 +44,10 @@ fn picture(harness: &mut Harness<'static, Studio>) -> (Vec<[u8; 4]>, usize) {
     let image = harness.render().expect("a picture");
     let [left, right] = [place.left(), place.right()].map(|side| side as u32);
     let [top, bottom] = [place.top(), place.bottom()].map(|side| side as u32);
-    let pixels: Vec<_> =
-        (top..bottom).flat_map(|y| (left..right).map(move |x| (x, y))).map(|(x, y)| image.get_pixel(x, y).0).collect();
+    let pixels: Vec<_> = (top..bottom)
+        .flat_map(|y| (left..right).map(move |x| (x, y)))
+        .map(|(x, y)| image.get_pixel(x, y).0)
+        .collect();
     let mut colours = pixels.clone();
     colours.sort_unstable();
     colours.dedup();

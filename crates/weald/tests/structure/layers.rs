@@ -129,6 +129,54 @@ pub(crate) fn graphics_in_the_studio(files: &BTreeMap<String, String>) -> Vec<St
     files.iter().filter(names_it).map(|(file, _)| told(file)).collect()
 }
 
+/// Crates that a browser runs too, where the standard library has neither files nor clocks.
+const IN_A_BROWSER: [&str; 9] =
+    ["weald", "core", "engine", "export", "io", "land", "picture", "plants", "studio"];
+
+/// What the standard library refuses there; `files` and `web_time` have it.
+const REFUSED: [&str; 5] =
+    ["std::fs", "path::absolute", ".canonicalize()", "env::current_dir", "process::id"];
+
+/// What is not compiled for browsers, or asks for what is there on some systems only.
+const OF_MACHINES: [&str; 7] = [
+    "core/src/files",
+    "io/src/atomic.rs",
+    "studio/src/response.rs",
+    "studio/src/window.rs",
+    "weald/src/recipe/cache/follows.rs",
+    "weald/src/recipe/memory.rs",
+    "weald/src/recipe/run/work.rs",
+];
+
+/// Sources that would find neither files nor clocks in a browser, beside their tests.
+pub(crate) fn not_in_a_browser(files: &BTreeMap<String, String>) -> Vec<String> {
+    let mut found = Vec::new();
+    for (file, text) in files {
+        let Some(short) =
+            file.strip_prefix("crates/").map(|file| file.strip_prefix("weald-").unwrap_or(file))
+        else {
+            continue;
+        };
+        let runs_there = IN_A_BROWSER.iter().any(|name| short.starts_with(&format!("{name}/src/")));
+        let is_test = short.ends_with("/tests.rs") || short.contains("/tests/");
+        if !runs_there || is_test || OF_MACHINES.iter().any(|of| short.starts_with(of)) {
+            continue;
+        }
+        let code = text.split("#[cfg(test)]\nmod tests {").next().unwrap_or_default();
+        let names_clock = |line: &str| {
+            line.contains("std::time::") && (line.contains("Instant") || line.contains("SystemTime"))
+        };
+        let clock = code.lines().any(names_clock);
+        let refused = REFUSED.iter().find(|word| code.contains(*word)).copied();
+        if let Some(word) = refused.or(clock.then_some("a clock of std::time")) {
+            found.push(format!(
+                "{file} names {word}, which no browser has; weald_core::files and web_time have it"
+            ));
+        }
+    }
+    found
+}
+
 /// Arrows from a stage to another, and from a foundation of the stages to a stage.
 pub(crate) fn forbidden(arrows: &BTreeSet<Arrow>) -> Vec<String> {
     let wrong = |arrow: &&Arrow| {

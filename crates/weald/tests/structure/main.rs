@@ -37,6 +37,7 @@ static READ: LazyLock<Read> = LazyLock::new(|| {
     let mut rules = layers::diagnostics(&workspace, LAYERS);
     rules.extend(layers::strays(&workspace));
     rules.extend(layers::graphics_in_the_studio(&texts));
+    rules.extend(layers::not_in_a_browser(&texts));
     rules.extend(layers::vanished(&files).into_iter().map(|module| format!("there is no {module}")));
     rules.extend(layers::forbidden(&arrows));
     Read {

@@ -9,6 +9,7 @@ use super::super::parameter::{Kind, Parameter, Parameters};
 use super::super::plan::{FractalKeys, LandscapeKeys, MaterialKeys, Recipe};
 use super::super::source::{Node, Table, Value, parse};
 use weald_core::error::Error;
+use weald_core::files;
 use weald_io::write_whole;
 use weald_land::edit::Script;
 use weald_land::erode::interactive::Interactive;
@@ -39,7 +40,7 @@ pub(super) fn write(
 
 fn absolute(path: &Path) -> Result<PathBuf, Error> {
     let path = if path.as_os_str().is_empty() { Path::new(".") } else { path };
-    std::path::absolute(path).map_err(|cause| Error::Run(format!("{}: {cause}", path.display())))
+    files::absolute(path).map_err(|cause| Error::Run(format!("{}: {cause}", path.display())))
 }
 
 /// Gives a step other values of these keys.
