@@ -71,7 +71,7 @@ fn a_layer_is_draped_with_its_legend_and_let_go_again() {
 }
 
 /// Metres east and south under the pointer, as the foot of the window says.
-fn told(window: &mut Window, share: [f32; 2]) -> [f64; 2] {
+pub(crate) fn told(window: &mut Window, share: [f32; 2]) -> [f64; 2] {
     window.hover(share);
     window.harness.step();
     let said = window.label_with("m east");

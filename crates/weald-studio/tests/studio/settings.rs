@@ -7,7 +7,7 @@ use eframe::egui::accesskit::Role;
 use egui_kittest::kittest::Queryable;
 
 use super::harness::Window;
-use super::looking::opened;
+use super::looking::{opened, told};
 
 impl Window {
     fn set(&mut self, role: Role, label: &str, value: f64) {
@@ -145,7 +145,10 @@ fn whoever_walks_stands_on_the_land_and_a_list_is_left_by_escape() {
     let whole = window.seen();
     window.click("Walk");
     let standing = window.seen();
-    assert!(whole.share_that_differs(&standing) > 0.3, "from beside the land one is put on it");
+    assert!(whole.share_that_differs(&standing) > 0.3, "it looks ahead");
+    let [east, south] = told(&mut window, [0.5, 0.97]);
+    let away = (east - 640.0).hypot(south - 640.0);
+    assert!(away < 60.0, "from beside the land one is put into its middle, and not {away} m from there");
     window.click("Water");
     window.harness.get_by_role_and_label(Role::ComboBox, "Falloff").click();
     window.harness.run_steps(3);
