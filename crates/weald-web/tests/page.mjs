@@ -250,8 +250,11 @@ async function tour(kind, address, wanted) {
     await visitor.drag("Viewport", [0.4, 0.5], [0.5, 0.6]);
     await visitor.is("another stroke", (state) => state.moments > before.moments);
     // A stroke is painted piece by piece, and what is not saved is kept every half second.
-    await new Promise((resolve) => setTimeout(resolve, 2500));
-    await visitor.is("the whole stroke", (state) => state.idle && state.whole);
+    for (let last = -1, now = 0; last !== now; ) {
+      last = (await visitor.is("the whole stroke", (state) => state.idle && state.whole)).changes;
+      await new Promise((resolve) => setTimeout(resolve, 3000));
+      now = (await visitor.state()).changes;
+    }
     const mine = await visitor.heights();
     expect(!mine.equals(wanted.heights), "the brush has raised the ground");
 

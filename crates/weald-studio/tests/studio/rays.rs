@@ -18,6 +18,9 @@ relief = 300.0
 [[step]]
 do = "hydraulic"
 iterations = 400
+[[output]]
+layer = "height"
+file = "height.tif"
 "#;
 
 fn opened(recipe: &Path, own: &Path) -> Harness<'static, Studio> {
@@ -67,7 +70,9 @@ fn rays_draw_the_landscape_and_follow_the_simulation() {
     assert!(colours > 500, "{colours} colours: light and shadow on a country");
     harness.get_by_label("Play to the end").click();
     until(&mut harness, "the end", |studio| {
-        studio.status().steps == 400 && studio.status().phase == Phase::Idle
+        let status = studio.status();
+        let is_whole = status.shown.as_ref().is_some_and(|shown| shown.changes == status.changes);
+        status.steps == 400 && status.phase == Phase::Idle && is_whole
     });
     until(&mut harness, "a picture of the end", Studio::is_drawn);
     let (last, _) = picture(&mut harness);

@@ -27,8 +27,13 @@ iterations = 50
 do = "slope"
 [[step]]
 do = "scatter"
-species = "fern"
+plant = "fern"
 count = 30
+spacing = 2.0
+into = "ferns"
+[[output]]
+layer = "height"
+file = "height.tif"
 "#;
 
 fn opening(text: &str) -> Task {
@@ -157,7 +162,7 @@ fn a_worker_elsewhere_shows_what_a_thread_shows() {
 #[test]
 fn surfaces_come_over_as_they_are_and_only_once() {
     let mut apart = Apart::new();
-    apart.work.ask(opening(RECIPE.split("[[step]]\ndo = \"slope\"").next().expect("before it")));
+    apart.work.ask(opening(&RECIPE.replace("[[step]]\ndo = \"slope\"\n", "")));
     apart.work.ask(Task::Advance(3));
     let mut seen = 0;
     for parcel in apart.to_worker.borrow_mut().drain(..) {
