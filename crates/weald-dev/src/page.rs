@@ -46,7 +46,8 @@ pub fn page(into: &Path) -> Result<Vec<PageFile>, Error> {
         let (from, to) = (sources.join(&name), into.join(&name));
         fs::copy(&from, &to).map_err(|cause| Error::write(&to, &cause))?;
     }
-    let names = files_of(into)?.into_iter().filter(|name| !name.ends_with(".br"));
+    let is_packed = |name: &String| Path::new(name).extension().is_some_and(|extension| extension == "br");
+    let names = files_of(into)?.into_iter().filter(|name| !is_packed(name));
     names.map(|name| packed(into, name)).collect()
 }
 

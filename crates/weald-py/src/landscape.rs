@@ -328,7 +328,7 @@ impl Landscape {
     }
 
     /// All that is needed to make it again, to the bit.
-    fn state<'py>(&self, py: Python<'py>) -> PyResult<stored::State<'py>> {
+    fn state<'py>(&self, py: Python<'py>) -> stored::State<'py> {
         let (landscape, origin) = (self.held().clone(), self.origin());
         stored::state(py, &landscape, origin)
     }

@@ -18,14 +18,10 @@ pub(crate) type Origin = (String, String);
 pub(crate) type State<'py> = (Bound<'py, PyBytes>, Materials, Option<Origin>);
 
 /// All that is needed to make a landscape again.
-pub(crate) fn state<'py>(
-    py: Python<'py>,
-    landscape: &Landscape,
-    origin: Option<Origin>,
-) -> PyResult<State<'py>> {
+pub(crate) fn state<'py>(py: Python<'py>, landscape: &Landscape, origin: Option<Origin>) -> State<'py> {
     let bytes = py.detach(|| pack_landscape(landscape));
     let materials = landscape.materials.iter().map(MaterialFields::of).collect();
-    Ok((PyBytes::new(py, &bytes), Materials(materials), origin))
+    (PyBytes::new(py, &bytes), Materials(materials), origin)
 }
 
 /// The landscape of a state.

@@ -50,7 +50,7 @@ impl eframe::App for Studio {
     }
 
     fn ui(&mut self, ui: &mut Ui, _: &mut eframe::Frame) {
-        if self.is_bare {
+        if self.on_page.is_bare {
             CentralPanel::no_frame().show(ui, |ui| self.show_viewport(ui));
             return;
         }

@@ -33,6 +33,7 @@ use crate::viewport::{Viewport, WindowDevice, device_of};
 #[cfg(not(target_arch = "wasm32"))]
 use crate::work::Thread;
 use crate::work::{Remote, Status, Work};
+use hosted::OnPage;
 
 /// What the left side shows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -129,13 +130,7 @@ pub struct Studio {
     /// Revision that was there in the last frame, and when it became another.
     pub(crate) seen: u64,
     pub(crate) changed_at: f64,
-    pub(crate) host: Option<Rc<dyn Host>>,
-    /// Whether a link was asked for.
-    shares: bool,
-    /// Whether the first landscape runs as soon as it is there.
-    plays_first: bool,
-    /// Whether there is only the landscape.
-    pub(crate) is_bare: bool,
+    pub(crate) on_page: OnPage,
     keeps_edits: bool,
     /// What was done, in the order of undoing.
     done: Vec<Did>,
@@ -164,7 +159,7 @@ impl Studio {
 
     /// Shows the controls around the landscape.
     pub fn show_controls(&mut self) {
-        self.is_bare = false;
+        self.on_page.is_bare = false;
     }
 
     /// What was said to the user last.
@@ -263,10 +258,7 @@ impl Studio {
             seen: 0,
             title: String::new(),
             changed_at: 0.0,
-            host: options.host,
-            shares: false,
-            plays_first: options.plays,
-            is_bare: options.plays,
+            on_page: OnPage::new(options.host, options.plays),
             keeps_edits: false,
             done: Vec::new(),
             undone: Vec::new(),

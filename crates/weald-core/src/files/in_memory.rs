@@ -174,11 +174,11 @@ pub fn remove_file(path: impl AsRef<Path>) -> io::Result<()> {
 pub fn remove_dir(path: impl AsRef<Path>) -> io::Result<()> {
     let path = absolute(path.as_ref())?;
     let mut tree = tree();
-    if tree.names_in(&path)?.is_empty() {
-        tree.remove_folder(&path)
-    } else {
-        Err(io::ErrorKind::DirectoryNotEmpty.into())
+    if !tree.names_in(&path)?.is_empty() {
+        return Err(io::ErrorKind::DirectoryNotEmpty.into());
     }
+    tree.remove_folder(&path);
+    Ok(())
 }
 
 /// Removes a folder with all that is in it.
@@ -189,7 +189,8 @@ pub fn remove_dir_all(path: impl AsRef<Path>) -> io::Result<()> {
     let path = absolute(path.as_ref())?;
     let mut tree = tree();
     tree.names_in(&path)?;
-    tree.remove_folder(&path)
+    tree.remove_folder(&path);
+    Ok(())
 }
 
 /// Gives a file or a folder another name, in place of a file that has it.

@@ -67,7 +67,7 @@ impl Studio {
         };
         self.keeps_edits = true;
         self.work.ask(Task::Open(Box::new(opening)));
-        if std::mem::take(&mut self.plays_first) {
+        if std::mem::take(&mut self.on_page.plays_first) {
             self.work.ask(Task::Play(true));
         }
     }

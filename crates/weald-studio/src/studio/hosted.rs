@@ -2,6 +2,7 @@
 
 use std::io::{Cursor, Write};
 use std::path::{Path, PathBuf};
+use std::rc::Rc;
 
 use weald::Error;
 use weald::files;
@@ -9,35 +10,55 @@ use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipWriter};
 
 use super::Studio;
+use crate::host::Host;
 use crate::work::Task;
 
 /// Where what is to be shared is written; none of the folders that a page keeps.
 const SHARED: &str = "/shared/landscape.toml";
 
+/// What a studio on a page has beside all others.
+pub(crate) struct OnPage {
+    /// The page around it, where there is one.
+    host: Option<Rc<dyn Host>>,
+    /// Whether a link was asked for.
+    shares: bool,
+    /// Whether the first landscape runs as soon as it is there.
+    pub(super) plays_first: bool,
+    /// Whether there is only the landscape.
+    pub(crate) is_bare: bool,
+}
+
+impl OnPage {
+    /// Who `plays` begins with a landscape alone.
+    pub(super) fn new(host: Option<Rc<dyn Host>>, plays: bool) -> Self {
+        Self { host, shares: false, plays_first: plays, is_bare: plays }
+    }
+}
+
 impl Studio {
     /// Whether it is in a page.
     pub(crate) fn is_hosted(&self) -> bool {
-        self.host.is_some()
+        self.on_page.host.is_some()
     }
 
     /// Takes what has come, and gives out what is ready.
     pub(crate) fn tend_host(&mut self) {
-        let Some(host) = self.host.clone() else { return };
+        let Some(host) = self.on_page.host.clone() else { return };
         for arrived in host.arrived() {
             match arrived {
                 Ok(path) => self.open(&path),
                 Err(message) => self.say(message),
             }
         }
-        if let Some((recipe, script)) = self.shares.then(shared).flatten() {
-            self.shares = false;
+        if let Some((recipe, script)) = self.on_page.shares.then(shared).flatten() {
+            self.on_page.shares = false;
             host.share(&recipe, &script);
         }
     }
 
     /// Lets the user choose a file.
     pub(crate) fn choose_file(&self) {
-        if let Some(host) = &self.host {
+        if let Some(host) = &self.on_page.host {
             host.choose();
         }
     }
@@ -47,13 +68,13 @@ impl Studio {
         if !self.document.diagnostics().is_empty() {
             return self.say("the recipe cannot run as it is: what is wrong is told beside it");
         }
-        self.shares = true;
+        self.on_page.shares = true;
         self.work.ask(Task::Save(PathBuf::from(SHARED)));
     }
 
     /// Hands the files of a folder out as one, and removes them.
     pub(crate) fn hand_out(&self, folder: &Path) -> Result<(), Error> {
-        let Some(host) = &self.host else { return Ok(()) };
+        let Some(host) = &self.on_page.host else { return Ok(()) };
         let name = folder.file_name().map_or_else(|| "landscape".into(), |name| name.to_string_lossy());
         let packed = zipped(folder).map_err(|cause| Error::Run(format!("{name}.zip: {cause}")))?;
         host.hand_out(&format!("{name}.zip"), &packed);

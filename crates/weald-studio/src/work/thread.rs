@@ -20,7 +20,7 @@ const LONGEST_REST: Duration = Duration::from_hours(1);
 pub struct Thread {
     tasks: Sender<(u64, Task)>,
     shared: Arc<Shared>,
-    thread: Option<JoinHandle<()>>,
+    handle: Option<JoinHandle<()>>,
 }
 
 impl Thread {
@@ -35,7 +35,7 @@ impl Thread {
         let thread =
             std::thread::Builder::new().name("weald-work".to_owned()).spawn(move || run(worker, &receiver));
         let thread = thread.map_err(|cause| Error::Run(format!("no thread for the simulation: {cause}")))?;
-        Ok(Self { tasks, shared, thread: Some(thread) })
+        Ok(Self { tasks, shared, handle: Some(thread) })
     }
 
     /// Asks for something to be done; answers at once.
@@ -53,7 +53,7 @@ impl Thread {
     /// What it shows now.
     pub(super) fn status(&self) -> Status {
         let mut status = self.shared.status().clone();
-        if self.thread.as_ref().is_some_and(JoinHandle::is_finished) {
+        if self.handle.as_ref().is_some_and(JoinHandle::is_finished) {
             status.error.get_or_insert_with(|| "the simulation has ended by a fault of Weald".to_owned());
         }
         status
@@ -63,7 +63,7 @@ impl Thread {
 impl Drop for Thread {
     fn drop(&mut self) {
         self.ask(Task::End);
-        if let Some(thread) = self.thread.take() {
+        if let Some(thread) = self.handle.take() {
             // A panic of the thread has been told by its status.
             let _ = thread.join();
         }

@@ -36,7 +36,7 @@ fn until(harness: &mut Harness<'static, Studio>, what: &str, holds: impl Fn(&Stu
     let begun = Instant::now();
     while !holds(harness.state()) {
         harness.step();
-        assert!(begun.elapsed() < Duration::from_secs(60), "{what} does not come");
+        assert!(begun.elapsed() < Duration::from_mins(1), "{what} does not come");
         std::thread::sleep(Duration::from_millis(2));
     }
 }

@@ -48,7 +48,7 @@ macro_rules! story {
         names.sort();
         told.push(format!("{names:?}"));
         let mut written = BufWriter::new(files::File::create(&two).expect("there"));
-        written.write_all(&[7; 100_000]).expect("written");
+        written.write_all(&vec![7; 100_000]).expect("written");
         written.into_inner().expect("flushed").sync_all().expect("kept");
         let mut bytes = Vec::new();
         BufReader::new(files::File::open(&two).expect("there"))

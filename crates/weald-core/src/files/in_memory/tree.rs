@@ -147,13 +147,12 @@ impl Tree {
         Ok(())
     }
 
-    pub(super) fn remove_folder(&mut self, path: &Path) -> io::Result<()> {
+    pub(super) fn remove_folder(&mut self, path: &Path) {
         for (path, entry) in self.taken(path) {
             if matches!(entry, Entry::File(_)) {
                 self.changed.insert(path);
             }
         }
-        Ok(())
     }
 
     /// Takes a file, or a folder with all that is in it, out of the tree.
