@@ -15,6 +15,7 @@ pub mod host;
 mod interface;
 mod looks;
 mod navigation;
+mod on_page;
 mod own_files;
 mod panels;
 mod pick;

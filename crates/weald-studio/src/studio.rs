@@ -23,6 +23,7 @@ use crate::drawing::Drawing;
 use crate::host::Host;
 use crate::looks::Looks;
 use crate::navigation::Mode;
+use crate::on_page::OnPage;
 use crate::own_files::OwnFiles;
 use crate::pick::Place;
 use crate::project::{Project, Start};
@@ -33,7 +34,6 @@ use crate::viewport::{Viewport, WindowDevice, device_of};
 #[cfg(not(target_arch = "wasm32"))]
 use crate::work::Thread;
 use crate::work::{Remote, Status, Work};
-use hosted::OnPage;
 
 /// What the left side shows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

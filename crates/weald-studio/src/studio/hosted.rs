@@ -2,7 +2,6 @@
 
 use std::io::{Cursor, Write};
 use std::path::{Path, PathBuf};
-use std::rc::Rc;
 
 use weald::Error;
 use weald::files;
@@ -10,30 +9,10 @@ use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipWriter};
 
 use super::Studio;
-use crate::host::Host;
 use crate::work::Task;
 
 /// Where what is to be shared is written; none of the folders that a page keeps.
 const SHARED: &str = "/shared/landscape.toml";
-
-/// What a studio on a page has beside all others.
-pub(crate) struct OnPage {
-    /// The page around it, where there is one.
-    host: Option<Rc<dyn Host>>,
-    /// Whether a link was asked for.
-    shares: bool,
-    /// Whether the first landscape runs as soon as it is there.
-    pub(super) plays_first: bool,
-    /// Whether there is only the landscape.
-    pub(crate) is_bare: bool,
-}
-
-impl OnPage {
-    /// Who `plays` begins with a landscape alone.
-    pub(super) fn new(host: Option<Rc<dyn Host>>, plays: bool) -> Self {
-        Self { host, shares: false, plays_first: plays, is_bare: plays }
-    }
-}
 
 impl Studio {
     /// Whether it is in a page.
