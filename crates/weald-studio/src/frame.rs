@@ -3,14 +3,12 @@
 use std::time::Duration;
 use web_time::Instant;
 
-use eframe::egui::{
-    self, CentralPanel, Color32, Context, Panel, Popup, Pos2, Rect, Sense, Ui, Vec2, ViewportCommand,
-};
+use eframe::egui::{CentralPanel, Color32, Context, Popup, Pos2, Rect, Sense, Ui, Vec2, ViewportCommand};
 
 use crate::commands::{COMMANDS, Entry, Keys};
 use crate::navigation;
-use crate::panels::{self, overlay};
-use crate::studio::{Asked, Left, Studio};
+use crate::panels::{self, arranged, overlay};
+use crate::studio::{Asked, Studio};
 use crate::work::Task;
 
 /// Time between two looks at whether something is to be kept in case that the program is killed.
@@ -56,20 +54,7 @@ impl eframe::App for Studio {
         }
         self.take_keys(ui);
         self.take_dropped(ui);
-        Panel::top("toolbar").show(ui, |ui| panels::toolbar::show(self, ui));
-        Panel::bottom("status").show(ui, |ui| panels::status::show(self, ui));
-        Panel::left("recipe").default_size(340.0).show(ui, |ui| match self.left {
-            Left::Cards => panels::steps::show(self, ui),
-            Left::Text => panels::text::show(self, ui),
-        });
-        Panel::right("simulation").default_size(280.0).show(ui, |ui| {
-            egui::ScrollArea::vertical().show(ui, |ui| {
-                panels::simulation::show(self, ui);
-                panels::brush::show(self, ui);
-                panels::looks::show(self, ui);
-                panels::history::show(self, ui);
-            });
-        });
+        arranged::show(self, ui);
         CentralPanel::no_frame().show(ui, |ui| self.show_viewport(ui));
         panels::start::show(self, ui);
         panels::files::show(self, ui);
@@ -99,7 +84,9 @@ impl Studio {
             self.noted_export = Some(folder.clone());
             let (folder, count) = (folder.clone(), names.len());
             let said = match self.hand_out(&folder) {
-                Ok(()) if self.is_hosted() => format!("{count} files are handed out in one"),
+                Ok(()) if self.is_hosted() => {
+                    format!("outputs are handed out in one archive: {count} of them")
+                }
                 Ok(()) => format!("{count} files are in {}", folder.display()),
                 Err(error) => error.to_string(),
             };

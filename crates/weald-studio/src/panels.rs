@@ -1,5 +1,6 @@
 //! The parts of the window, one file each.
 
+pub(crate) mod arranged;
 pub(crate) mod brush;
 pub(crate) mod cameras;
 pub(crate) mod controls;

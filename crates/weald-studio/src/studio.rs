@@ -45,6 +45,15 @@ pub(crate) enum Left {
     Text,
 }
 
+/// What lies below the landscape on a narrow screen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Part {
+    /// The recipe.
+    Recipe,
+    /// The simulation, brushes, looks and the history.
+    Simulation,
+}
+
 /// What is asked for in a window of its own.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Asked {
@@ -103,6 +112,8 @@ pub struct Studio {
     pub(crate) pointed: Option<Place>,
     pub(crate) selected: Option<usize>,
     pub(crate) left: Left,
+    /// What lies below the landscape on a narrow screen.
+    pub(crate) part: Option<Part>,
     pub(crate) measuring: Measuring,
     /// Share of the viewport's width that what is pinned takes.
     pub(crate) wipe: f32,
@@ -240,6 +251,7 @@ impl Studio {
             pointed: None,
             selected: None,
             left: Left::default(),
+            part: None,
             measuring: Measuring::default(),
             wipe: 0.5,
             turns: false,

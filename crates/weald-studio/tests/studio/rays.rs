@@ -23,12 +23,12 @@ layer = "height"
 file = "height.tif"
 "#;
 
-fn opened(recipe: &Path, own: &Path) -> Harness<'static, Studio> {
+fn opened(recipe: &Path, own: &Path, size: [f32; 2]) -> Harness<'static, Studio> {
     let (what, own_files) = (Some(recipe.to_owned()), Some(own.to_owned()));
     let options = Options { what, own_files, ..Options::default() };
     // A harness that has drawn nothing yet has no device to give.
     Harness::builder()
-        .with_size([700.0, 500.0])
+        .with_size(size)
         .build_eframe(move |context| Studio::of(context, options).unwrap_or_else(|error| panic!("{error}")))
 }
 
@@ -62,7 +62,7 @@ fn rays_draw_the_landscape_and_follow_the_simulation() {
     let folder = tempfile::tempdir().expect("a folder");
     let recipe = folder.path().join("valley.toml");
     std::fs::write(&recipe, RECIPE).expect("written");
-    let mut harness = opened(&recipe, &folder.path().join("own"));
+    let mut harness = opened(&recipe, &folder.path().join("own"), [900.0, 600.0]);
     until(&mut harness, "a picture", Studio::is_drawn);
     assert_eq!(harness.state().drawing_error(), None);
     harness.get_by_label_contains("no graphics card");
@@ -78,4 +78,25 @@ fn rays_draw_the_landscape_and_follow_the_simulation() {
     let (last, _) = picture(&mut harness);
     let changed = first.iter().zip(&last).filter(|(one, other)| one != other).count();
     assert!(changed > first.len() / 20, "{changed} of {} pixels have changed", first.len());
+}
+
+#[test]
+fn on_a_narrow_screen_the_landscape_has_the_width_and_one_part_lies_below() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let recipe = folder.path().join("valley.toml");
+    std::fs::write(&recipe, RECIPE).expect("written");
+    let mut harness = opened(&recipe, &folder.path().join("own"), [390.0, 760.0]);
+    until(&mut harness, "a picture", Studio::is_drawn);
+    let alone = harness.get_by_label("Viewport").rect();
+    assert!(alone.width() > 380.0 && alone.height() > 500.0, "{alone:?}");
+    harness.get_by_label("Simulation").click();
+    harness.run_steps(3);
+    let beside = harness.get_by_label("Viewport").rect();
+    assert!(beside.width() > 380.0 && (200.0..500.0).contains(&beside.height()), "{beside:?}");
+    harness.get_by_label("One step").click();
+    until(&mut harness, "a step", |studio| studio.status().steps == 1);
+    harness.get_by_label("Recipe").click();
+    harness.run_steps(3);
+    assert!(harness.query_by_label("One step").is_none(), "one part at a time");
+    assert!(harness.query_by_label("2. hydraulic").is_some());
 }
