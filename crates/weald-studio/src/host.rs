@@ -4,8 +4,8 @@ use std::path::PathBuf;
 
 /// The page around a studio.
 pub trait Host {
-    /// Files that were dropped on the page or chosen since it was last asked, as they were put among the studio's files; a
-    /// sentence for what could not be taken.
+    /// Files that were dropped on the page or chosen since it was last asked, as they were put among the studio's files; or
+    /// a sentence for the user.
     fn arrived(&self) -> Vec<Result<PathBuf, String>>;
 
     /// Lets the user choose a file, which will arrive.

@@ -31,7 +31,7 @@ function save(name, bytes) {
 async function arrive(file) {
   if (file.size > LONGEST_FILE) {
     const megabytes = Math.round(file.size / 1e6);
-    page.refuse(
+    page.tell(
       `${file.name} has ${megabytes} MB; a page takes ${Math.round(LONGEST_FILE / 1e6)} MB: cut it, or open it in the program`,
     );
     return;
@@ -51,7 +51,7 @@ async function share(recipe, script) {
   if (link.length > LONGEST) {
     save("landscape.toml", recipe);
     if (script) save("landscape.edits.jsonl", script);
-    page.refuse("what was done is too long for a link: it is in two files that can be sent and dropped on the page");
+    page.tell("what was done is too long for a link: it is in two files that can be sent and dropped on the page");
     return;
   }
   history.replaceState(null, "", link);
@@ -59,7 +59,7 @@ async function share(recipe, script) {
     () => true,
     () => false,
   );
-  page.refuse(copied ? "the link is copied, and in the address bar" : "the link is in the address bar");
+  page.tell(copied ? "the link is copied, and in the address bar" : "the link is in the address bar");
 }
 
 // A device that can be asked for: without one, rays are marched on the processor, which is also sooner done than to have

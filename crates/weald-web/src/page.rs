@@ -122,12 +122,12 @@ impl Page {
         let path = files::current_dir().join("arrived").join(name);
         let put = files::create_dir_all(path.parent().unwrap_or(Path::new("/")));
         let put = put.and_then(|()| files::write(&path, bytes.to_vec()));
-        self.say(put.map(|()| path).map_err(|cause| format!("{name}: {cause}")));
+        self.hand_in(put.map(|()| path).map_err(|cause| format!("{name}: {cause}")));
     }
 
-    /// Tells the user why something that was dropped cannot be taken.
-    pub fn refuse(&self, sentence: String) {
-        self.say(Err(sentence));
+    /// Says something to the user, at the foot of the studio.
+    pub fn tell(&self, sentence: String) {
+        self.hand_in(Err(sentence));
     }
 
     /// Shows the controls, after a landscape alone was shown.
@@ -187,7 +187,7 @@ impl Page {
         self.runner.destroy();
     }
 
-    fn say(&self, what: Result<PathBuf, String>) {
+    fn hand_in(&self, what: Result<PathBuf, String>) {
         self.arrived.borrow_mut().push(what);
         self.repaint();
     }
