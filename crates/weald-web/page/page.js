@@ -83,6 +83,8 @@ function watchDevices() {
     made.lost.then(({ message }) => {
       const rays = new URL(location.href);
       rays.searchParams.set("rays", "");
+      rays.searchParams.delete("device");
+      rays.hash = "";
       notice(
         `The graphics device was lost${message ? ` (${message})` : ""}. What you did is kept: load the page again, or go on without it: ${rays.href}`,
       );
