@@ -349,3 +349,23 @@ fn take_surface(sent: SentSurface, shown: Option<&Shown>, arrays: &mut Arrays) -
     };
     Ok(Surface { ground: Arc::new(ground), canvas: Arc::new(canvas), number: sent.number, shown: sent.shown })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use weald::edit::Area;
+    use weald::material::Material;
+
+    #[test]
+    fn a_surface_that_is_known_is_not_sent_again() {
+        let size = Size::square(4).expect("small");
+        let canvas = Canvas::level(Area { first: [0, 0], size }, 10.0, &Material::default_stack());
+        let ground = Arc::new(Field::filled(size, 1.0));
+        let surface = Surface { ground, canvas: Arc::new(canvas), number: 3, shown: 2 };
+        let status = Status { surface: Some(surface), ..Status::default() };
+        let mut known = Known::default();
+        let mut sent = || parcel_of_status(Vec::new(), status.clone(), &mut known).arrays.len();
+        assert!(sent() > 5, "ground, bedrock, water and what lies on it");
+        assert_eq!(sent(), 0);
+    }
+}

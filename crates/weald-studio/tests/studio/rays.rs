@@ -1,6 +1,5 @@
 //! Without a device the landscape is drawn all the same: by rays on the processor.
 
-use std::path::Path;
 use std::time::{Duration, Instant};
 
 use egui_kittest::Harness;
@@ -23,13 +22,19 @@ layer = "height"
 file = "height.tif"
 "#;
 
-fn opened(recipe: &Path, own: &Path, size: [f32; 2]) -> Harness<'static, Studio> {
-    let (what, own_files) = (Some(recipe.to_owned()), Some(own.to_owned()));
+/// A window of that size with the recipe, which is drawn, and the folder of both.
+fn opened(size: [f32; 2]) -> (tempfile::TempDir, Harness<'static, Studio>) {
+    let folder = tempfile::tempdir().expect("a folder");
+    let recipe = folder.path().join("valley.toml");
+    std::fs::write(&recipe, RECIPE).expect("written");
+    let (what, own_files) = (Some(recipe), Some(folder.path().join("own")));
     let options = Options { what, own_files, ..Options::default() };
     // A harness that has drawn nothing yet has no device to give.
-    Harness::builder()
+    let mut harness = Harness::builder()
         .with_size(size)
-        .build_eframe(move |context| Studio::of(context, options).unwrap_or_else(|error| panic!("{error}")))
+        .build_eframe(move |context| Studio::of(context, options).unwrap_or_else(|error| panic!("{error}")));
+    until(&mut harness, "a picture", Studio::is_drawn);
+    (folder, harness)
 }
 
 fn until(harness: &mut Harness<'static, Studio>, what: &str, holds: impl Fn(&Studio) -> bool) {
@@ -59,11 +64,7 @@ fn picture(harness: &mut Harness<'static, Studio>) -> (Vec<[u8; 4]>, usize) {
 
 #[test]
 fn rays_draw_the_landscape_and_follow_the_simulation() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let recipe = folder.path().join("valley.toml");
-    std::fs::write(&recipe, RECIPE).expect("written");
-    let mut harness = opened(&recipe, &folder.path().join("own"), [900.0, 600.0]);
-    until(&mut harness, "a picture", Studio::is_drawn);
+    let (_folder, mut harness) = opened([900.0, 600.0]);
     assert_eq!(harness.state().drawing_error(), None);
     harness.get_by_label_contains("no graphics card");
     let (first, colours) = picture(&mut harness);
@@ -82,11 +83,7 @@ fn rays_draw_the_landscape_and_follow_the_simulation() {
 
 #[test]
 fn on_a_narrow_screen_the_landscape_has_the_width_and_one_part_lies_below() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let recipe = folder.path().join("valley.toml");
-    std::fs::write(&recipe, RECIPE).expect("written");
-    let mut harness = opened(&recipe, &folder.path().join("own"), [390.0, 760.0]);
-    until(&mut harness, "a picture", Studio::is_drawn);
+    let (_folder, mut harness) = opened([390.0, 760.0]);
     let alone = harness.get_by_label("Viewport").rect();
     assert!(alone.width() > 380.0 && alone.height() > 500.0, "{alone:?}");
     harness.get_by_label("Simulation").click();
