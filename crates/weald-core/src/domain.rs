@@ -18,12 +18,14 @@ pub struct Domain {
     /// The finest grid over the same ground on which this landscape is meant to be made. Where it is finer than `size`,
     /// ground is generated on it and a cell has the mean.
     pub finest: Option<Size>,
+    /// Height of the [sea](crate::sea) in metres, where there is one.
+    pub sea_level: Option<f64>,
 }
 
 impl Domain {
-    /// A domain without a georeference and without no-data cells.
+    /// A domain without a georeference, no-data cells and a sea.
     pub fn new(size: Size, cell: f64) -> Self {
-        Self { size, cell, georeference: None, valid: None, finest: None }
+        Self { size, cell, georeference: None, valid: None, finest: None, sea_level: None }
     }
 
     /// Number of cells with data.

@@ -27,6 +27,11 @@ pub const LAYERS: &[(&str, &str)] = &[
     ("lake", "number of the lake, 0 beside lakes"),
     ("lake_level", "level of the lake; the height of the ground beside lakes"),
     ("lake_depth", "depth of the lake; 0 beside lakes"),
+    ("sea_depth", "depth of the sea; 0 on land"),
+    (
+        "exposure",
+        "how open the coast lies to waves: 1 where it faces the wind over the full fetch; 0 beside the coast",
+    ),
     ("watershed", "number of the watershed, the largest first from 1; 0 in none"),
     ("wetness", "topographic wetness index ln(a / tan β), a in metres"),
     ("moisture", "moisture of the soil, 0 dry to 1 wet or water"),

@@ -31,6 +31,7 @@ pub mod material;
 pub mod parameter;
 pub mod plants;
 pub mod random;
+pub mod sea;
 pub mod source;
 pub mod strata;
 pub mod vectors;

@@ -33,6 +33,8 @@ impl WaterBudget {
 pub struct SolidBudget {
     /// Ground at the start.
     pub start: f64,
+    /// Raised by uplift.
+    pub uplifted: f64,
     /// Ground at the end; the bedrock alone where layers are kept apart from it.
     pub ground: f64,
     /// Loose materials and regolith at the end, where they are kept apart.
@@ -46,9 +48,9 @@ pub struct SolidBudget {
 }
 
 impl SolidBudget {
-    /// `start - ground - layers - suspended - out`: what is missing, in cubic metres; below 0 what was made.
+    /// `start + uplifted - ground - layers - suspended - out`: what is missing, in cubic metres; below 0 what was made.
     pub fn lost(&self) -> f64 {
-        self.start - self.ground - self.layers - self.suspended - self.outgoing
+        self.start + self.uplifted - self.ground - self.layers - self.suspended - self.outgoing
     }
 
     /// What is missing, as a share of the solid at the start or of what moved, whichever is more: on flat ground there is

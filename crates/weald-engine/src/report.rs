@@ -64,6 +64,9 @@ pub struct WaterReport {
 pub struct SolidReport {
     /// Ground at the start.
     pub start: f64,
+    /// Raised by uplift.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub uplifted: f64,
     /// Ground at the end.
     pub bedrock: f64,
     /// Loose layers and regolith at the end; 0 where the step does not keep them apart from the ground.
@@ -95,7 +98,13 @@ impl From<WaterBudget> for WaterReport {
 
 impl From<SolidBudget> for SolidReport {
     fn from(solid: SolidBudget) -> Self {
-        let SolidBudget { start, ground, layers, suspended, outgoing, moved } = solid;
-        Self { start, bedrock: ground, layers, suspended, outgoing, moved, error: solid.error() }
+        let SolidBudget { start, uplifted, ground, layers, suspended, outgoing, moved } = solid;
+        Self { start, uplifted, bedrock: ground, layers, suspended, outgoing, moved, error: solid.error() }
     }
+}
+
+/// What most steps have nothing of is left out.
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde passes a reference")]
+fn is_zero(value: &f64) -> bool {
+    *value == 0.0
 }

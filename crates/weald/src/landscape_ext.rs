@@ -106,7 +106,7 @@ impl LandscapeExt for Landscape {
         step.reads().iter().try_for_each(|name| self.layer(name).map(drop))?;
         step.look_ahead(&self.materials, &self.domain)?;
         let outcome = step.run(self, &Job::unwatched(seed))?;
-        written::check(step, self)?;
+        written::finish(step, self)?;
         Ok(outcome)
     }
 

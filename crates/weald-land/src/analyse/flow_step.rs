@@ -4,6 +4,7 @@ use crate::analyse::{ensure_finite, scaled};
 use crate::flow::{
     Depressions, MultipleFlow, Routed, Routing, STAGES, accumulate, accumulate_multiple, route_watched,
 };
+use weald_core::domain::Domain;
 use weald_core::error::Error;
 use weald_core::grid::Field;
 use weald_core::landscape::Landscape;
@@ -62,7 +63,7 @@ parameters! {
         /// Deepest cut of a breach; depressions that need a deeper one are filled. Without it, all are breached.
         deepest_breach: Option<f64> = None, range 0.0..=1.0e6, unit "m", when depressions = "breach";
         /// Height of the sea. Ground no higher that is connected to the border by such ground is sea, in which
-        /// flow ends. Without it there is no sea.
+        /// flow ends. Default: that of the landscape.
         sea_level: Option<f64> = None, range -1.0e6..=1.0e6, unit "m";
         /// Layer of the runoff of each cell in mm/year, whatever unit it says. With it, the layer `discharge` is
         /// written.
@@ -108,7 +109,7 @@ impl Step for FlowStep {
             if job.watcher.cancelled() { Err(Error::Interrupted(String::new())) } else { Ok(()) }
         };
         let ground = landscape.field(&self.of.0)?;
-        let routed = route_watched(ground, domain.valid.as_ref(), &self.routing(), &mut passed)?;
+        let routed = route_watched(ground, domain.valid.as_ref(), &self.routing(domain), &mut passed)?;
         let areas = scaled(size, &self.sums(landscape, &routed, None), area);
         passed()?;
         let weight = self.weight.as_ref().map(|name| landscape.field(&name.0)).transpose()?;
@@ -120,7 +121,7 @@ impl Step for FlowStep {
         }
         let is_valid = |cell: usize| domain.valid.as_ref().is_none_or(|valid| valid.is_valid_at(cell));
         let is_all_sea = (0..size.cells()).all(|cell| !is_valid(cell) || routed.directions.is_sea(cell));
-        let note = self.sea_level.filter(|_| is_all_sea);
+        let note = self.sea_level(domain).filter(|_| is_all_sea);
         let note =
             note.map(|level| format!("all ground is sea: none is above `sea_level`, which is {level} m"));
         landscape.insert("flow_direction", "1", routed.directions.layer());
@@ -136,11 +137,15 @@ impl Step for FlowStep {
 }
 
 impl FlowStep {
-    fn routing(&self) -> Routing {
+    fn sea_level(&self, domain: &Domain) -> Option<f64> {
+        self.sea_level.or(domain.sea_level)
+    }
+
+    fn routing(&self, domain: &Domain) -> Routing {
         Routing {
             depressions: self.depressions,
             deepest_breach: self.deepest_breach.unwrap_or(f64::INFINITY),
-            sea_level: self.sea_level,
+            sea_level: self.sea_level(domain),
         }
     }
 

@@ -54,7 +54,7 @@ parameters! {
         exponent: f64 = 1.1, range 0.0..=20.0;
         /// Gentler slopes count as this one, so that flat ground has an index: a metre in a kilometre.
         min_slope: f64 = 0.001, range 1.0e-6..=1.0;
-        /// Height of the sea, in which flow ends. Without it there is no sea.
+        /// Height of the sea, in which flow ends. Default: that of the landscape.
         sea_level: Option<f64> = None, range -1.0e6..=1.0e6, unit "m";
         /// Layer that is written.
         into: LayerName = LayerName::of("wetness");
@@ -81,7 +81,7 @@ impl Step for Wetness {
     fn run(&self, landscape: &mut Landscape, _: &Job<'_>) -> Result<Outcome, Error> {
         ensure_finite(landscape, &self.of.0)?;
         let domain = &landscape.domain;
-        let routing = Routing { sea_level: self.sea_level, ..Routing::default() };
+        let routing = Routing { sea_level: self.sea_level.or(domain.sea_level), ..Routing::default() };
         let routed = route(landscape.field(&self.of.0)?, domain.valid.as_ref(), &routing);
         let flow = MultipleFlow { routed: &routed, valid: domain.valid.as_ref(), exponent: self.exponent };
         let index = wetness(&flow, domain.cell, self.min_slope);

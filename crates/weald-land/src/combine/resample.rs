@@ -134,7 +134,14 @@ impl<'a> Change<'a> {
             .clone()
             .map(|old| Georeference { pixel: old.pixel.map(|side| side * self.factor), ..old });
         let cell = self.old.cell * self.factor;
-        Domain { size: self.size, cell, georeference, valid, finest: self.old.finest }
+        Domain {
+            size: self.size,
+            cell,
+            georeference,
+            valid,
+            finest: self.old.finest,
+            sea_level: self.old.sea_level,
+        }
     }
 
     fn valid(&self) -> Option<Mask> {

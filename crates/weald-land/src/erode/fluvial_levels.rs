@@ -40,6 +40,14 @@ impl HandedDown {
     }
 }
 
+/// On how many grids a landscape runs with cells of that many metres: `levels` at most, none with cells longer than
+/// `coarsest`.
+pub(crate) fn grids(levels: u32, coarsest: f64, cell: f64) -> u32 {
+    // A cell of a third of 40 m is not longer than it for the rounding.
+    let fits = |level: &u32| cell * f64::from(1 << level) <= coarsest * (1.0 + 1e-9);
+    1 + (1..levels).take_while(fits).count() as u32
+}
+
 /// Share of the time that runs on a level, counted from the finest, 0: an eighth on each but the coarsest, which decides
 /// where valleys lie.
 pub(crate) fn share_of_time(level: u32, levels: u32) -> f64 {
@@ -144,7 +152,8 @@ pub(crate) fn coarsened(
 ) -> Result<Landscape, Error> {
     let Size { columns, rows } = landscape.domain.size;
     let size = Size::new(columns / every, rows / every)?;
-    let mut coarse = Landscape::new(Domain::new(size, landscape.domain.cell * every as f64));
+    let domain = Domain::new(size, landscape.domain.cell * every as f64);
+    let mut coarse = Landscape::new(Domain { sea_level: landscape.domain.sea_level, ..domain });
     coarse.materials.clone_from(&landscape.materials);
     for (name, field) in layers {
         coarse.insert(name, "m", mean(field, size, every));

@@ -116,9 +116,7 @@ pub const ENTRY: Entry = Entry::of::<Fluvial>(
 impl Fluvial {
     /// On how many grids it runs over cells of that many metres.
     pub(super) fn grids(&self, cell: f64) -> u32 {
-        // A cell of a third of 40 m is not longer than it for the rounding.
-        let fits = |level: &u32| cell * f64::from(1 << level) <= self.coarsest * (1.0 + 1e-9);
-        1 + (1..self.levels).take_while(fits).count() as u32
+        levels::grids(self.levels, self.coarsest, cell)
     }
 
     /// Layers with a number a cell.

@@ -8,6 +8,7 @@
 
 mod advection;
 mod advection_rows;
+pub mod coast;
 #[cfg(test)]
 #[path = "../../tests/worked_example/creep.rs"]
 pub mod creep;
@@ -54,6 +55,9 @@ mod stacked_grid;
 mod started;
 mod stava;
 mod stored;
+mod stream_power;
+mod stream_power_run;
+pub mod stream_power_step;
 mod sums;
 mod sweep;
 pub mod thermal;

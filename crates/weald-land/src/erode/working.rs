@@ -9,6 +9,7 @@ use crate::erode::finished::Flows;
 use weald_core::error::Error;
 use weald_core::grid::{Field, Mask, Size};
 use weald_core::landscape::Landscape;
+use weald_core::sea;
 use weald_engine::device::{ShownGround, Window};
 use weald_engine::stencil::rows::{Layout, Rows};
 use weald_engine::{Budget, Engine, SolidBudget, WaterBudget};
@@ -56,6 +57,7 @@ impl WorkingGrid {
     pub(crate) fn within(landscape: &Landscape, layer: &str, extent: &Extent<'_>) -> Result<Self, Error> {
         let start = landscape.field(layer)?.clone();
         let region = extent.region.map(|name| landscape.field(name)).transpose()?;
+        let sea = sea::cells(landscape, &start);
         let domain = &landscape.domain;
         let ring = usize::from(extent.open);
         let window = extent.window(landscape)?;
@@ -67,7 +69,8 @@ impl WorkingGrid {
             window,
             mask: ringed_mask(size, ring, |x, y| {
                 let [x, y] = [x + first[0], y + first[1]];
-                let here = region.is_none_or(|region| region.at(x, y) >= 0.5);
+                let here = region.is_none_or(|region| region.at(x, y) >= 0.5)
+                    && sea.as_ref().is_none_or(|sea| !sea[domain.size.index(x, y)]);
                 here && domain.valid.as_ref().is_none_or(|valid| valid.is_valid(x, y))
             }),
             ring,
@@ -235,6 +238,7 @@ impl WorkingGrid {
             },
             solid: SolidBudget {
                 start: (bedrock + loose_before) * volume,
+                uplifted: 0.0,
                 ground: (bedrock + total(&change)) * volume,
                 layers: loose * volume,
                 suspended: suspended * volume,

@@ -2,18 +2,18 @@
 //! 1980; Tarjan and van Leeuwen 1984, doi 10.1145/62.2160). The root of a set is its lowest number.
 
 /// Sets of basins.
-pub(super) struct DisjointSets {
+pub(crate) struct DisjointSets {
     parent: Vec<u32>,
 }
 
 impl DisjointSets {
     /// Every basin alone.
-    pub(super) fn new(basins: usize) -> Self {
+    pub(crate) fn new(basins: usize) -> Self {
         Self { parent: (0..basins as u32).collect() }
     }
 
     /// The basin that stands for the set of another.
-    pub(super) fn root(&mut self, mut basin: u32) -> u32 {
+    pub(crate) fn root(&mut self, mut basin: u32) -> u32 {
         while self.parent[basin as usize] != basin {
             let above = self.parent[self.parent[basin as usize] as usize];
             self.parent[basin as usize] = above;
@@ -23,14 +23,14 @@ impl DisjointSets {
     }
 
     /// Joins the sets of two basins; false where they are one already.
-    pub(super) fn join(&mut self, basins: [u32; 2]) -> bool {
+    pub(crate) fn join(&mut self, basins: [u32; 2]) -> bool {
         let [a, b] = basins.map(|basin| self.root(basin));
         self.parent[a.max(b) as usize] = a.min(b);
         a != b
     }
 
     /// Makes basins sets of their own again, once all that were joined are listed.
-    pub(super) fn forget(&mut self, basins: [u32; 2]) {
+    pub(crate) fn forget(&mut self, basins: [u32; 2]) {
         for basin in basins {
             self.parent[basin as usize] = basin;
         }

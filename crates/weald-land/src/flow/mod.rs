@@ -29,7 +29,7 @@ mod breach;
 mod codes;
 mod descent;
 pub mod directions;
-mod disjoint_sets;
+pub(crate) mod disjoint_sets;
 mod fill;
 mod flats;
 mod multiple;

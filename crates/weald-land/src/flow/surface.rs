@@ -4,6 +4,7 @@ use rayon::prelude::*;
 
 use crate::flow::directions::STEPS;
 use weald_core::grid::{Field, Mask, Size};
+use weald_core::sea;
 
 /// Level of a cell without data: nothing flows there, and who is beside it can let water out.
 pub(super) const NO_DATA: f32 = f32::INFINITY;
@@ -41,7 +42,7 @@ impl Surface {
         });
         let mut surface = Self { size, stride, level };
         if let Some(sea_level) = sea_level {
-            surface.flood_from_the_border(sea_level as f32);
+            surface.flood(height, valid, sea_level as f32);
         }
         surface
     }
@@ -94,25 +95,13 @@ impl Surface {
         inner
     }
 
-    /// Sea is what is no higher than it and connected to the border of the grid or the data by such cells.
-    fn flood_from_the_border(&mut self, sea_level: f32) {
-        let low = |level: f32| level <= sea_level && level != SEA_LEVEL;
-        let rim: Vec<usize> = (self.stride + 1..self.cells() - self.stride - 1)
-            .filter(|&cell| {
-                low(self.level[cell]) && self.around(cell).iter().any(|&other| !self.has_data(other))
-            })
-            .collect();
-        let mut open = rim;
-        for &cell in &open {
-            self.level[cell] = SEA_LEVEL;
-        }
-        while let Some(cell) = open.pop() {
-            for other in self.around(cell) {
-                if low(self.level[other]) {
-                    self.level[other] = SEA_LEVEL;
-                    open.push(other);
-                }
-            }
+    /// Takes all of the sea to its level.
+    fn flood(&mut self, height: &Field, valid: Option<&Mask>, sea_level: f32) {
+        let has_data = |cell: usize| valid.is_none_or(|valid| valid.is_valid_at(cell));
+        let sea = sea::reach(self.size, |cell| height.values()[cell] <= sea_level, has_data);
+        for (cell, _) in sea.iter().enumerate().filter(|(_, is_sea)| **is_sea) {
+            let (x, y) = (cell % self.size.columns, cell / self.size.columns);
+            self.level[(y + 1) * self.stride + x + 1] = SEA_LEVEL;
         }
     }
 }

@@ -7,6 +7,7 @@ pub mod basin;
 pub mod cone;
 pub mod constant;
 pub mod diamond_square;
+pub mod dome;
 pub mod fault;
 pub mod fbm;
 pub mod hash;

@@ -60,6 +60,8 @@ struct Header {
     georeference: Option<Georeference>,
     masked: bool,
     finest: Option<[usize; 2]>,
+    #[serde(default)]
+    sea_level: Option<f64>,
     /// Names and units.
     layers: Vec<(String, String)>,
     plants: Vec<PlantsHeader>,
@@ -208,7 +210,7 @@ fn read_header(file: &mut HashedReader<'_>) -> Result<Header, String> {
 
 impl Header {
     fn of(recipe: &str, state: &State, simulation: Option<&SavedSimulation>) -> Self {
-        let Domain { size, cell, georeference, valid, finest } = &state.landscape.domain;
+        let Domain { size, cell, georeference, valid, finest, sea_level } = &state.landscape.domain;
         Self {
             version: env!("CARGO_PKG_VERSION").to_owned(),
             recipe: recipe.to_owned(),
@@ -219,6 +221,7 @@ impl Header {
             georeference: georeference.clone(),
             masked: valid.is_some(),
             finest: finest.map(|finest| [finest.columns, finest.rows]),
+            sea_level: *sea_level,
             layers: state
                 .landscape
                 .layers()
@@ -291,7 +294,14 @@ impl Header {
         let valid = if self.masked { Mask::new(size, file.flags(size.cells())?) } else { None };
         let finest = self.finest.map(|[columns, rows]| Size::new(columns, rows).map_err(|e| e.to_string()));
         let finest = finest.transpose()?;
-        let domain = Domain { size, cell: self.cell, georeference: self.georeference, valid, finest };
+        let domain = Domain {
+            size,
+            cell: self.cell,
+            georeference: self.georeference,
+            valid,
+            finest,
+            sea_level: self.sea_level,
+        };
         let mut landscape = Landscape::new(domain);
         for (name, unit) in &self.layers {
             landscape.insert(name, unit, Field::from_values(size, file.singles(size.cells())?));

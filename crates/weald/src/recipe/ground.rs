@@ -10,6 +10,7 @@ use weald_core::domain::Domain;
 use weald_core::error::Error;
 use weald_core::landscape::Landscape;
 use weald_core::material::Material;
+use weald_core::sea;
 use weald_io::Said;
 use weald_plants::Fractal;
 use weald_plants::Vegetation;
@@ -23,6 +24,8 @@ pub(super) fn load(recipe: &Recipe) -> Result<(Landscape, Vec<String>), Error> {
         }
         Ground::File { path, cell, said } => ground_file::read(path, *cell, said)?,
     };
+    landscape.domain.sea_level = recipe.sea_level;
+    sea::stand(&mut landscape)?;
     landscape.materials = materials(recipe);
     landscape.set_fractals(fractals(recipe)?);
     for planned in &recipe.materials {

@@ -16,6 +16,7 @@ use weald_core::domain::Domain;
 use weald_core::error::{Error, Limit, Quantity, bytes_in_words};
 use weald_core::landscape::Landscape;
 use weald_core::material::layer_names;
+use weald_core::sea;
 use weald_engine::step::{Layered, Stage};
 
 /// Bytes of a value of a layer.
@@ -52,6 +53,7 @@ impl Recipe {
     pub fn memory(&self, first: &Domain) -> Memory {
         let mut layers: BTreeSet<String> = BTreeSet::new();
         layers.extend(matches!(self.ground, Ground::File { .. }).then(|| "height".to_owned()));
+        layers.extend(self.sea_level.iter().flat_map(|_| sea::LAYERS.map(str::to_owned)));
         let files = self.materials.iter().filter(|planned| planned.file.is_some());
         layers.extend(files.map(|planned| planned.material.name.clone()));
         self.memory_from(first, 0, layers)

@@ -50,6 +50,8 @@ pub struct Recipe {
     pub file: String,
     /// What the landscape starts from.
     pub ground: Ground,
+    /// Height of the sea in metres, where there is one.
+    pub sea_level: Option<f64>,
     /// Seed of the landscape.
     pub seed: u64,
     /// What the ground is made of, bedrock first.
@@ -157,7 +159,7 @@ impl Recipe {
         }
         let recipe = recipe?;
         if let Ground::Empty { size, cell, .. } = recipe.ground {
-            recipe.check_on(&Domain::new(size, cell))?;
+            recipe.check_on(&Domain { sea_level: recipe.sea_level, ..Domain::new(size, cell) })?;
         }
         Ok(recipe)
     }
@@ -267,7 +269,7 @@ fn check(
         diagnostics.add(1, "a recipe needs an [[output]] table, or its run would leave nothing behind");
     }
     if let (true, Ok(ground)) = (all_understood && materials_understood, &start.ground) {
-        let made = Made { ground, materials: &materials, steps: &steps };
+        let made = Made { ground, sea: start.sea_level.is_some(), materials: &materials, steps: &steps };
         layers::check(&made, &outputs, diagnostics);
         numbers::check(made.steps, &outputs, diagnostics);
     }
@@ -280,6 +282,6 @@ fn check(
     steps::check_sizes(&steps)?;
     let text = format!("{} = {}\n{}", format::KEY, format::NEWEST, canonical::text(recipe));
     let (file, named) = (file.to_owned(), named.into_inner());
-    let (ground, seed) = (start.ground?, start.seed);
-    Ok(Recipe { file, ground, seed, materials, fractals, steps, outputs, named, text })
+    let (ground, seed, sea_level) = (start.ground?, start.seed, start.sea_level);
+    Ok(Recipe { file, ground, sea_level, seed, materials, fractals, steps, outputs, named, text })
 }

@@ -45,7 +45,7 @@ impl Recipe {
         let (mut landscape, _) = ground::load(self)?;
         for planned in &self.steps {
             planned.step.run(&mut landscape, &Job::unwatched(planned.seed(self.seed)))?;
-            written::check(planned.step.as_ref(), &landscape)?;
+            written::finish(planned.step.as_ref(), &mut landscape)?;
         }
         Ok(landscape)
     }
@@ -223,7 +223,7 @@ impl Run<'_> {
         let result = planned.step.run(&mut landscape, &job);
         drop(job);
         let result = result.and_then(|outcome| {
-            written::check(planned.step.as_ref(), &landscape)?;
+            written::finish(planned.step.as_ref(), &mut landscape)?;
             Ok(outcome)
         });
         let outcome = result.map_err(|error| self.explain(error, planned, &desk, resumed_at))?;

@@ -1,6 +1,7 @@
 //! Running steps by their names and keys, as a recipe does.
 
 use crate::recipe::catalog;
+use crate::written;
 use weald_core::error::{Error, RecipeError};
 use weald_core::landscape::Landscape;
 use weald_core::parameter::Diagnostics;
@@ -25,5 +26,6 @@ fn run_step(landscape: &mut Landscape, seed: u64, name: &str, keys: &str) -> Res
     if !diagnostics.found.is_empty() {
         return Err(RecipeError { file: name.to_string(), diagnostics: diagnostics.found }.into());
     }
-    step.run(landscape, &Job::unwatched(seed)).map(|_| ())
+    step.run(landscape, &Job::unwatched(seed))?;
+    written::finish(step.as_ref(), landscape)
 }

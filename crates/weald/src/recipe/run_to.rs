@@ -76,7 +76,7 @@ fn run_step(
     let (seed, watcher) = (planned.seed(recipe.seed), Told(progress));
     let job = Job { seed, engine: engine.clone(), watcher: &watcher, resume: None };
     let outcome = planned.step.run(landscape, &job)?;
-    written::check(planned.step.as_ref(), landscape)?;
+    written::finish(planned.step.as_ref(), landscape)?;
     for note in &outcome.notes {
         progress.note(note);
     }

@@ -17,6 +17,7 @@ use super::run_to::{self, start};
 use super::source::Value;
 use weald_core::error::{Error, RecipeError};
 use weald_core::landscape::Landscape;
+use weald_core::sea;
 use weald_engine::Engine;
 use weald_engine::step::Outcome;
 use weald_land::edit::{Action, Area, Brush, Canvas, Change, Edit, History, Layout, Setting};
@@ -157,7 +158,9 @@ impl Session {
     /// # Errors
     /// [`Error::Device`] where the device fails.
     pub fn landscape(&mut self) -> Result<(Landscape, Outcome), Error> {
-        self.history.simulation_mut().landscape()
+        let (mut landscape, outcome) = self.history.simulation_mut().landscape()?;
+        sea::stand(&mut landscape)?;
+        Ok((landscape, outcome))
     }
 
     /// The landscape after the steps that come after this one.

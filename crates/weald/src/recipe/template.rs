@@ -33,6 +33,16 @@ pub const TEMPLATES: &[Template] = &[
         summary: "a real elevation model under rain",
         text: include_str!("template/dem.toml"),
     },
+    Template {
+        name: "range",
+        summary: "a mountain range that rose for millions of years while rivers cut it",
+        text: include_str!("template/range.toml"),
+    },
+    Template {
+        name: "island",
+        summary: "an island that rose from the sea, with rivers, cliffs and beaches",
+        text: include_str!("template/island.toml"),
+    },
 ];
 
 /// The template of that name; an error says which there are.

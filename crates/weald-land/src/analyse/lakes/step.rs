@@ -62,7 +62,7 @@ parameters! {
         depth: f64 = 1.0, range 0.0..=1.0e6, unit "m";
         /// Least area: smaller lakes are left out. Without it, those of fewer than 12 cells.
         area: Option<f64> = None, range 0.0..=1.0e15, unit "m²";
-        /// Height of the sea, which is no lake. Without it there is no sea.
+        /// Height of the sea, which is no lake. Default: that of the landscape.
         sea_level: Option<f64> = None, range -1.0e6..=1.0e6, unit "m";
     }
 }
@@ -118,7 +118,8 @@ impl LakesStep {
     fn surface(&self, landscape: &Landscape) -> Result<Vec<f32>, Error> {
         let land = landscape.domain.valid.as_ref();
         let ground = landscape.field(&self.of.0)?;
-        let routing = Routing { sea_level: self.sea_level, ..Routing::default() };
+        let routing =
+            Routing { sea_level: self.sea_level.or(landscape.domain.sea_level), ..Routing::default() };
         let routed = route(ground, land, &routing);
         let water = match self.from {
             Source::Depressions => None,

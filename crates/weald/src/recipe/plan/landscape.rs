@@ -21,6 +21,9 @@ weald_core::parameters! {
         /// on it and a cell has the mean, so that a coarse landscape is the mean of a fine one. `--size` and `--preview`
         /// set it to the recipe's own size where they make that coarser.
         finest: Option<Sides> = None, with size;
+        /// Height of the sea. Ground no higher that is connected to the border by such ground is under water: rivers and
+        /// erosion end there, and it stands in the layer `water`. Default: there is no sea.
+        sea_level: Option<f64> = None, range -20_000.0..=20_000.0, unit "m";
         /// Seed of all random numbers. Steps of the same kind draw from different numbers.
         seed: u64 = 0, range 0..=9_007_199_254_740_991_u64;
         /// An elevation model to start from instead of a size, relative to the recipe's folder. It becomes the
@@ -62,6 +65,7 @@ pub enum Ground {
 pub(super) struct Start {
     pub(super) ground: Result<Ground, Error>,
     pub(super) seed: u64,
+    pub(super) sea_level: Option<f64>,
 }
 
 pub(super) fn read(files: Files<'_>, recipe: &Table, diagnostics: &mut Diagnostics) -> Start {
@@ -72,17 +76,25 @@ pub(super) fn read(files: Files<'_>, recipe: &Table, diagnostics: &mut Diagnosti
         Some((other, line)) => {
             diagnostics.add(line, format!("is {}, but must be a table: [landscape]", other.shown()));
             let size = Size { columns: 1, rows: 1 };
-            return Start { ground: Ok(Ground::Empty { size, cell: 1.0, finest: None }), seed: 0 };
+            return Start {
+                ground: Ok(Ground::Empty { size, cell: 1.0, finest: None }),
+                seed: 0,
+                sea_level: None,
+            };
         }
         None if is_needless(recipe) => {
             let size = Size { columns: 1, rows: 1 };
-            return Start { ground: Ok(Ground::Empty { size, cell: 1.0, finest: None }), seed: 0 };
+            return Start {
+                ground: Ok(Ground::Empty { size, cell: 1.0, finest: None }),
+                seed: 0,
+                sea_level: None,
+            };
         }
         None => &absent,
     };
     let table = files.placed(table, &LandscapeKeys::parameters(), diagnostics);
     let keys = LandscapeKeys::read(&table, diagnostics);
-    Start { seed: keys.seed, ground: ground(&table, &keys, diagnostics) }
+    Start { seed: keys.seed, sea_level: keys.sea_level, ground: ground(&table, &keys, diagnostics) }
 }
 
 /// Whether a recipe of fractals alone has nothing to do with a landscape.

@@ -7,11 +7,14 @@ use crate::recipe::plan::words::hint;
 use crate::recipe::written_layers::writer_of;
 use weald_core::material::{BEDROCK, Material, layer_names};
 use weald_core::parameter::Diagnostics;
+use weald_core::sea;
 use weald_engine::step::Layered;
 
 /// All that makes layers.
 pub(super) struct Made<'a> {
     pub(super) ground: &'a Ground,
+    /// Whether there is a sea, which stands in the layer `water`.
+    pub(super) sea: bool,
     pub(super) materials: &'a [PlannedMaterial],
     pub(super) steps: &'a [Planned],
 }
@@ -80,6 +83,12 @@ impl Made<'_> {
         let mut layers = Layers::default();
         if let Ground::File { path, .. } = self.ground {
             layers.write(&format!("`from` ({})", path.display()), &["height".to_owned()]);
+        }
+        if self.sea {
+            layers.write("`sea_level`", &sea::LAYERS.map(str::to_owned));
+            for name in sea::LAYERS {
+                layers.read(name);
+            }
         }
         for planned in self.materials.iter().filter(|planned| planned.file.is_some()) {
             let name = &planned.material.name;

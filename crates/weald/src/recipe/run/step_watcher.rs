@@ -10,6 +10,7 @@ use super::options::{Progress, Run};
 use crate::recipe::checkpoint::{self, State};
 use weald_core::error::Error;
 use weald_core::landscape::Landscape;
+use weald_core::sea;
 use weald_engine::{SavedSimulation, Watcher};
 
 /// Says when the next checkpoint is due. It runs on from step to step: a recipe of many short steps is a long
@@ -110,7 +111,9 @@ impl Watcher for StepWatcher<'_> {
     }
 
     fn look(&self, done: u64, landscape: &Landscape) -> Result<(), Error> {
-        self.lapses.draw(done, landscape)
+        let mut seen = landscape.clone();
+        sea::stand(&mut seen)?;
+        self.lapses.draw(done, &seen)
     }
 
     fn checkpoint(&self, simulation: &SavedSimulation) -> Result<(), Error> {

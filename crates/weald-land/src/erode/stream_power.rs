@@ -1,0 +1,235 @@
+//! Rivers that cut into ground that rises: the stream-power equation with creep and deposits.
+//!
+//! ```text
+//! dh/dt = U − K Aᵐ Sⁿ + G Q / A + D ∇²h
+//! ```
+//!
+//! with uplift U, upslope area A, slope S and the flux Q of sediment (Howard 1994, doi 10.1029/94WR00757; implicit along the
+//! rivers, Braun and Willett 2013, doi 10.1016/j.geomorph.2012.10.008; deposits, Yuan et al. 2019, doi
+//! 10.1029/2018JF004867). Where uplift and rivers are in balance, S = (U (1 + G) / K)^(1/n) A^(−m/n).
+//!
+//! What differs: receivers are found between points that lie off the middles of their cells (`mesh`), rivers run through lakes
+//! (`lakes`), slopes stand at a critical slope at most, and lakes and sea trap sediment (`incise`). A step of time is one pass
+//! through the files: receivers and their order, lakes, area, incision, creep. Its cost is linear in the cells, and its
+//! result the same for any number of threads: they share rows where cells do not depend on each other, and rivers are
+//! followed by one.
+
+mod creep;
+mod incise;
+mod lakes;
+mod mesh;
+mod order;
+mod receivers;
+mod sea;
+#[cfg(test)]
+mod tests;
+
+use rayon::prelude::*;
+
+use incise::{Law, Rivers};
+use mesh::Mesh;
+use order::Order;
+use receivers::Receivers;
+use weald_core::domain::Domain;
+use weald_core::grid::Field;
+
+/// What drives the ground and how it resists.
+#[derive(Clone, Debug)]
+pub(super) struct Conditions {
+    /// Uplift of each cell in a step of time, in metres.
+    pub(super) uplift: Field,
+    /// K dt of each cell, in m^(1 - 2m).
+    pub(super) erodibility: Field,
+    /// m.
+    pub(super) area_exponent: f64,
+    /// n.
+    pub(super) slope_exponent: f64,
+    /// G.
+    pub(super) deposition: f64,
+    /// D dt in m².
+    pub(super) creep: f64,
+    /// Steepest slope that stands, as a tangent.
+    pub(super) critical: f64,
+    /// Height of the sea in metres.
+    pub(super) sea_level: Option<f64>,
+    /// Whether sediment settles in lakes as it does in the sea.
+    pub(super) lakes_fill: bool,
+    /// Distance in which most of what a river carries settles under water, in metres; 0 where nothing does.
+    pub(super) settling: f64,
+}
+
+/// Ground on its way.
+#[derive(Debug)]
+pub(super) struct Evolution {
+    mesh: Mesh,
+    /// Heights in metres, infinite where there is no data.
+    heights: Vec<f64>,
+    spare: Vec<f64>,
+    /// Cells whose height does not change: those at the border of the grid or of the data.
+    base: Vec<bool>,
+    receivers: Receivers,
+    order: Order,
+    area: Vec<f64>,
+    power: Vec<f32>,
+    raised: Vec<f64>,
+    water: Option<Vec<f64>>,
+    volumes: Volumes,
+}
+
+/// What came and went since the start, in metres over all cells together.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Volumes {
+    /// Raised by uplift.
+    pub(super) uplifted: f64,
+    /// Carried or crept over the border.
+    pub(super) outgoing: f64,
+}
+
+impl Evolution {
+    /// From heights in metres, over points up to half of `irregularity` cells off the middles.
+    pub(super) fn new(domain: &Domain, heights: &[f64], irregularity: f64, seed: u64) -> Self {
+        let mesh = Mesh::new(domain, irregularity, seed);
+        let has_data = |x, y| domain.valid.as_ref().is_none_or(|valid| valid.is_valid(x, y));
+        let heights = mesh.ringed(f64::INFINITY, |x, y| {
+            if has_data(x, y) { heights[domain.size.index(x, y)] } else { f64::INFINITY }
+        });
+        let mut base = vec![false; mesh.cells()];
+        for cell in mesh.inner() {
+            base[cell] = mesh.around(cell).iter().any(|&beside| heights[beside].is_infinite());
+        }
+        let cells = mesh.cells();
+        Self {
+            spare: heights.clone(),
+            receivers: Receivers::none(&mesh),
+            order: Order::none(cells),
+            area: vec![0.0; cells],
+            power: vec![0.0; cells],
+            raised: heights.clone(),
+            water: None,
+            volumes: Volumes::default(),
+            mesh,
+            heights,
+            base,
+        }
+    }
+
+    /// A step of time.
+    pub(super) fn step(&mut self, conditions: &Conditions) {
+        self.lead_rivers(conditions.sea_level);
+        self.gather_power(conditions);
+        self.raise(&conditions.uplift);
+        let law = Law {
+            slope_exponent: conditions.slope_exponent,
+            deposition: conditions.deposition,
+            critical: conditions.critical,
+            trapped: trapped(conditions.settling, self.mesh.cell),
+            passing_above: if conditions.lakes_fill {
+                f64::INFINITY
+            } else {
+                conditions.sea_level.unwrap_or(f64::NEG_INFINITY)
+            },
+        };
+        let rivers = Rivers {
+            mesh: &self.mesh,
+            receivers: &self.receivers,
+            order: &self.order,
+            area: &self.area,
+            raised: &self.raised,
+            water: self.water.as_deref(),
+            power: &self.power,
+        };
+        law.incise(&rivers, &mut self.heights);
+        let raised = self.total(&self.raised);
+        creep::creep(&self.mesh, &mut self.heights, &mut self.spare, &self.base, conditions.creep);
+        self.volumes.outgoing += raised - self.total(&self.heights);
+    }
+
+    /// Sum over all cells with data, row by row.
+    fn total(&self, heights: &[f64]) -> f64 {
+        let rows = heights.par_chunks(self.mesh.stride);
+        let of_row = |row: &[f64]| row.iter().filter(|height| height.is_finite()).sum::<f64>();
+        let rows: Vec<f64> = rows.map(of_row).collect();
+        rows.iter().sum()
+    }
+
+    /// Finds where water runs and stands.
+    fn lead_rivers(&mut self, sea_level: Option<f64>) {
+        let Self { mesh, heights, base, receivers, order, .. } = self;
+        receivers.find(mesh, heights, base);
+        order.find(&receivers.of, heights);
+        self.water = lakes::drain(mesh, heights, base, receivers, order);
+        if self.water.is_some() {
+            order.find(&receivers.of, heights);
+        }
+        if let Some(level) = sea_level {
+            let water = self.water.get_or_insert_with(|| vec![f64::NEG_INFINITY; heights.len()]);
+            sea::flood(mesh, heights, level, water);
+        }
+    }
+
+    /// Upslope areas, and K Aᵐ dt.
+    fn gather_power(&mut self, conditions: &Conditions) {
+        let Self { mesh, area, power, order, receivers, .. } = self;
+        area.fill(mesh.area);
+        order.gather(&receivers.of, area);
+        let m = conditions.area_exponent;
+        let rows = power.par_chunks_mut(mesh.stride).zip(area.par_chunks(mesh.stride)).skip(1);
+        rows.take(mesh.size.rows).enumerate().for_each(|(y, (power, area))| {
+            let cells = power[1..].iter_mut().zip(&area[1..]).zip(conditions.erodibility.row(y));
+            for ((power, &area), &erodibility) in cells {
+                let of_area = if m == 0.5 { (area as f32).sqrt() } else { libm::powf(area as f32, m as f32) };
+                *power = erodibility * of_area;
+            }
+        });
+    }
+
+    fn raise(&mut self, uplift: &Field) {
+        let Self { mesh, heights, base, raised, .. } = self;
+        let rows = raised.par_chunks_mut(mesh.stride).zip(heights.par_chunks(mesh.stride)).enumerate();
+        let rows = rows.skip(1).take(mesh.size.rows).map(|(y, (raised, heights))| {
+            let cells = raised[1..].iter_mut().zip(&heights[1..]).zip(&base[y * mesh.stride + 1..]);
+            let mut risen = 0.0;
+            for (((raised, &height), &base), &uplift) in cells.zip(uplift.row(y - 1)) {
+                let uplift = if base || height.is_infinite() { 0.0 } else { f64::from(uplift) };
+                *raised = height + uplift;
+                risen += uplift;
+            }
+            risen
+        });
+        // Gathered in the order of the rows, so that the sum does not depend on the threads.
+        let risen: Vec<f64> = rows.collect();
+        self.volumes.uplifted += risen.iter().sum::<f64>();
+    }
+
+    /// What came and went since the start.
+    pub(super) fn volumes(&self) -> Volumes {
+        self.volumes
+    }
+
+    /// Heights of the grid, row by row; infinite where there is no data.
+    pub(super) fn heights(&self) -> Vec<f64> {
+        self.mesh.inner().map(|cell| self.heights[cell]).collect()
+    }
+
+    /// Goes on from kept heights.
+    pub(super) fn resume(&mut self, heights: &[f64]) {
+        let cells: Vec<_> = self.mesh.inner().collect();
+        for (cell, &height) in cells.into_iter().zip(heights) {
+            self.heights[cell] = height;
+        }
+    }
+
+    /// Depth of the lakes that stand on the ground, in metres; the sea is not among them.
+    pub(super) fn lake_depths(&mut self, sea_level: Option<f64>) -> Vec<f64> {
+        self.lead_rivers(sea_level);
+        let sea = sea_level.unwrap_or(f64::NEG_INFINITY);
+        let level = |cell: usize| self.water.as_ref().map(|water| water[cell]).filter(|&level| level > sea);
+        let depth = |cell: usize| level(cell).map_or(0.0, |level| level - self.heights[cell]);
+        self.mesh.inner().map(|cell| depth(cell).max(0.0)).collect()
+    }
+}
+
+/// Share of the flux that settles in a cell, where 63 % of it do in the settling length.
+fn trapped(settling: f64, cell: f64) -> f64 {
+    if settling > 0.0 { -libm::expm1(-cell / settling) } else { 0.0 }
+}
