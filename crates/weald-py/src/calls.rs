@@ -7,7 +7,7 @@ use weald::error::{Error, RecipeError};
 use weald::recipe::catalog;
 use weald::recipe::parameter::{Diagnostics, Fault};
 use weald::step::{Entry, Layered, Outcome, Step};
-use weald::{Landscape, material};
+use weald::{Landscape, material, sea};
 
 use crate::errors::{exception, usage};
 use crate::values;
@@ -68,6 +68,7 @@ pub(crate) fn run(
         return Err(Error::Interrupted("interrupted".to_owned()));
     }
     check_written(step, landscape)?;
+    sea::stand(landscape)?;
     Ok(outcome)
 }
 
@@ -92,6 +93,11 @@ pub(crate) fn written(step: &dyn Step, landscape: &Landscape) -> Vec<String> {
     let mut names: Vec<_> = step.writes().into_iter().map(|(name, _)| name).collect();
     if step.layered() == Layered::Changes {
         names.extend(material::layer_names(&landscape.materials).map(str::to_owned));
+    }
+    if landscape.domain.sea_level.is_some() {
+        names.extend(
+            sea::LAYERS.iter().filter(|name| landscape.layer(name).is_ok()).map(|&name| name.to_owned()),
+        );
     }
     names
 }

@@ -188,6 +188,30 @@ impl Landscape {
         self.held().domain.cell
     }
 
+    /// Height of the sea in metres; `None` without one.
+    #[getter]
+    fn sea_level(&self) -> Option<f64> {
+        self.held().domain.sea_level
+    }
+
+    /// Gives the landscape a sea of that height in metres, or none; it stands at once in `water` and `sea_depth`.
+    #[setter]
+    fn set_sea_level(&self, py: Python<'_>, level: Option<f64>) -> PyResult<()> {
+        if let Some(level) = level.filter(|level| !level.is_finite()) {
+            return Err(usage(
+                py,
+                format!("`sea_level` is {level}, but must be a height in metres, or None"),
+            ));
+        }
+        self.change(py, || {
+            let mut landscape = self.held().clone();
+            landscape.domain.sea_level = level;
+            weald::sea::stand(&mut landscape).map_err(|error| usage(py, error.to_string()))?;
+            *self.held() = landscape;
+            Ok(())
+        })
+    }
+
     /// EPSG code, origin and pixel; `None` for a landscape that lies nowhere.
     #[getter]
     fn place(&self) -> Option<(Option<u32>, [f64; 2], [f64; 2])> {

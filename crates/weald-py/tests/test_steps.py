@@ -70,6 +70,23 @@ def test_the_example_of_every_stage_runs(hills: weald.Landscape) -> None:
     assert hills.thermal(talus=0.4, iterations=5).iterations == 5
 
 
+def test_a_landscape_with_a_sea_has_its_coast_and_one_without_says_so() -> None:
+    east = np.linspace(-40.0, 80.0, 60, dtype=np.float32)
+    land = weald.Landscape(np.tile(east, (40, 1)), cell=20.0)
+    with pytest.raises(weald.RunError, match="sea_level"):
+        land.coast()
+    assert land.sea_level is None and list(land) == ["height"]
+    land.sea_level = 0.0
+    assert np.array_equal(land["sea_depth"][0] > 0, east < 0) and np.array_equal(land["water"], land["sea_depth"])
+    before = (land["sea_depth"] > 0).sum()
+    report = land.coast(duration=2000.0)
+    assert report.budget is not None and abs(report.budget["solid"]["error"]) < 1e-6
+    assert (land["sea_depth"] > 0).sum() > before, "the coast has retreated"
+    assert land.flow()["flow_direction"][20, 3] == 9, "rivers end in the sea"
+    with pytest.raises((weald.RunError, ValueError, TypeError)):
+        land.sea_level = float("nan")
+
+
 def test_a_step_that_cannot_run_leaves_the_landscape_as_it_was(hills: weald.Landscape) -> None:
     before = hills.copy()
     with pytest.raises(weald.RunError, match="no layer `flow_direction`"):

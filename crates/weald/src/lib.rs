@@ -82,7 +82,7 @@ pub use landscape_ext::LandscapeExt;
 #[doc(inline)]
 pub use weald_core::{
     attachment, condition, domain, error, files, grid, landscape, layer_words, material, parameter, plants,
-    random, strata, vectors,
+    random, sea, strata, vectors,
 };
 #[doc(inline)]
 pub use weald_core::{choices, parameters, variants};

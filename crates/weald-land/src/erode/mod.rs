@@ -8,6 +8,7 @@
 
 mod advection;
 mod advection_rows;
+mod bare_softness;
 pub mod coast;
 #[cfg(test)]
 #[path = "../../tests/worked_example/creep.rs"]

@@ -27,7 +27,7 @@ mod tests;
 use rayon::prelude::*;
 
 use incise::{Law, Rivers};
-use mesh::Mesh;
+pub(super) use mesh::Mesh;
 use order::Order;
 use receivers::Receivers;
 use weald_core::domain::Domain;
@@ -65,7 +65,7 @@ pub(super) struct Evolution {
     /// Heights in metres, infinite where there is no data.
     heights: Vec<f64>,
     spare: Vec<f64>,
-    /// Cells whose height does not change: those at the border of the grid or of the data.
+    /// Cells whose height does not change, at the border of the grid or of the data.
     base: Vec<bool>,
     receivers: Receivers,
     order: Order,
@@ -86,16 +86,21 @@ pub(super) struct Volumes {
 }
 
 impl Evolution {
-    /// From heights in metres, over points up to half of `irregularity` cells off the middles.
-    pub(super) fn new(domain: &Domain, heights: &[f64], irregularity: f64, seed: u64) -> Self {
-        let mesh = Mesh::new(domain, irregularity, seed);
+    /// From heights in metres over a mesh. Rivers leave the grid or the data over those cells of its border where `leave`.
+    pub(super) fn new(
+        domain: &Domain,
+        heights: &[f64],
+        mesh: Mesh,
+        leave: impl Fn(usize, usize) -> bool,
+    ) -> Self {
         let has_data = |x, y| domain.valid.as_ref().is_none_or(|valid| valid.is_valid(x, y));
         let heights = mesh.ringed(f64::INFINITY, |x, y| {
             if has_data(x, y) { heights[domain.size.index(x, y)] } else { f64::INFINITY }
         });
         let mut base = vec![false; mesh.cells()];
-        for cell in mesh.inner() {
-            base[cell] = mesh.around(cell).iter().any(|&beside| heights[beside].is_infinite());
+        for (at, cell) in mesh.inner().enumerate() {
+            let is_border = mesh.around(cell).iter().any(|&beside| heights[beside].is_infinite());
+            base[cell] = is_border && leave(at % domain.size.columns, at / domain.size.columns);
         }
         let cells = mesh.cells();
         Self {
@@ -111,6 +116,11 @@ impl Evolution {
             heights,
             base,
         }
+    }
+
+    /// Whether rivers can leave anywhere.
+    pub(super) fn has_outlet(&self) -> bool {
+        self.base.contains(&true)
     }
 
     /// A step of time.

@@ -2,11 +2,12 @@
 
 use rayon::prelude::*;
 
+use super::bare_softness::BareSoftness;
 use super::fluvial_levels::{self as levels, refined};
 use super::fluvial_materials::StartColumn;
 use super::fluvial_years::{InYears, Years};
-use super::stream_power::{Conditions, Evolution};
-use super::stream_power_step::{Lakes, StreamPower};
+use super::stream_power::{Conditions, Evolution, Mesh};
+use super::stream_power_step::{Lakes, Outlets, StreamPower};
 use weald_core::error::Error;
 use weald_core::grid::Field;
 use weald_core::landscape::Landscape;
@@ -21,26 +22,29 @@ const MILLIMETRE: f64 = 0.001;
 const HEIGHTS: &str = "heights";
 const VOLUMES: &str = "volumes";
 
-/// Runs on all levels, and leaves in the landscape what has become of it.
-pub(super) fn run(step: &StreamPower, landscape: &mut Landscape, job: &Job<'_>) -> Result<Outcome, Error> {
-    let grids = step.grids(landscape.domain.cell);
-    let given = landscape.clone();
-    let mut reached = Reached::default();
-    let coarser = if job.resume.is_some() { 1..1 } else { 1..grids };
-    for level in coarser.rev() {
-        let coarse = coarsened(step, &given, level)?;
-        let finer = |seen: &Landscape| as_seen(&given, seen, (&step.layer.0, level));
-        let years = years(step, level, grids);
-        let watcher = InYears { watcher: job.watcher, years, coarse: Some(&finer) };
-        Level::on(step, &coarse, (level, grids))?.run(&mut reached, &watcher.job(job))?;
-        reached.refine();
+impl StreamPower {
+    /// Runs on all levels, and leaves in the landscape what has become of it.
+    pub(super) fn run_levels(&self, landscape: &mut Landscape, job: &Job<'_>) -> Result<Outcome, Error> {
+        let grids = self.grids(landscape.domain.cell);
+        let given = landscape.clone();
+        let mut reached = Reached::default();
+        // Checkpoints are of the finest grid, which begins with all that coarser ones have come to.
+        let coarser = if job.resume.is_some() { 1..1 } else { 1..grids };
+        for level in coarser.rev() {
+            let coarse = coarsened(self, &given, level)?;
+            let finer = |seen: &Landscape| as_seen(&given, seen, (&self.layer.0, level));
+            let years = years(self, level, grids);
+            let watcher = InYears { watcher: job.watcher, years, coarse: Some(&finer) };
+            Level::on(self, &coarse, (level, grids))?.run(&mut reached, &watcher.job(job))?;
+            reached.refine();
+        }
+        let watcher = InYears { watcher: job.watcher, years: years(self, 0, grids), coarse: None };
+        let level = Level::on(self, &given, (0, grids))?;
+        let evolution = level.run(&mut reached, &watcher.job(job))?;
+        level.store(landscape, evolution, self.duration)?;
+        let budget = level.budget(&reached);
+        Ok(Outcome { iterations: self.steps(0, grids), budget: Some(budget), ..Outcome::default() })
     }
-    let watcher = InYears { watcher: job.watcher, years: years(step, 0, grids), coarse: None };
-    let level = Level::on(step, &given, (0, grids))?;
-    let evolution = level.run(&mut reached, &watcher.job(job))?;
-    level.store(landscape, evolution, step.duration)?;
-    let budget = level.budget(&reached);
-    Ok(Outcome { iterations: step.steps(0, grids), budget: Some(budget), ..Outcome::default() })
 }
 
 /// What the levels have come to.
@@ -105,7 +109,7 @@ struct Level<'a> {
     start: &'a Field,
     /// Uplift in m/a.
     uplift: Field,
-    column: Option<Softness>,
+    column: Option<BareSoftness>,
     /// What makes the seed of this level another one.
     number: u64,
 }
@@ -125,7 +129,7 @@ impl<'a> Level<'a> {
             }
             None => Field::filled(start.size(), rate as f32),
         };
-        let column = step.materials.then(|| Softness::of(landscape, start)).transpose()?;
+        let column = step.materials.then(|| BareSoftness::of(landscape, start)).transpose()?;
         let (years, steps) = (years(step, level, grids), step.steps(level, grids));
         Ok(Self { step, landscape, years, steps, start, uplift, column, number: u64::from(level) })
     }
@@ -135,7 +139,12 @@ impl<'a> Level<'a> {
         let area = self.landscape.domain.cell_area();
         let heights = self.heights_after(reached.change.as_ref());
         let seed = job.seed ^ weald_core::random::splitmix64(self.number);
-        let mut evolution = Evolution::new(&self.landscape.domain, &heights, self.step.irregularity, seed);
+        let mesh = Mesh::new(&self.landscape.domain, self.step.irregularity, seed);
+        let leave = |x, y| self.is_outlet(&heights, x, y);
+        let mut evolution = Evolution::new(&self.landscape.domain, &heights, mesh, leave);
+        if !evolution.has_outlet() {
+            return Err(Error::Run(self.no_outlet()));
+        }
         let mut done = self.resume(&mut evolution, reached, job)?;
         let mut conditions = self.conditions()?;
         self.look(&evolution, done, job.watcher)?;
@@ -159,6 +168,28 @@ impl<'a> Level<'a> {
         );
         reached.change = Some(Field::from_values(self.start.size(), change.collect()));
         Ok(evolution)
+    }
+
+    /// Whether rivers may leave over a cell of the border.
+    fn is_outlet(&self, heights: &[f64], x: usize, y: usize) -> bool {
+        let domain = &self.landscape.domain;
+        match self.step.outlets {
+            Outlets::Border => true,
+            Outlets::Sea => domain.sea_level.is_some_and(|level| heights[domain.size.index(x, y)] <= level),
+            Outlets::North => y == 0,
+            Outlets::East => x + 1 == domain.size.columns,
+            Outlets::South => y + 1 == domain.size.rows,
+            Outlets::West => x == 0,
+        }
+    }
+
+    fn no_outlet(&self) -> String {
+        let place = match (self.step.outlets, self.landscape.domain.sea_level) {
+            (Outlets::Sea, None) => "the landscape has no sea: give `sea_level` in [landscape]".to_owned(),
+            (Outlets::Sea, Some(level)) => format!("no ground at the border is below the sea, at {level} m"),
+            (side, _) => format!("no cell of the {} border holds data", side.word()),
+        };
+        format!("`outlets` is \"{}\", but {place}; rivers must leave somewhere", self.step.outlets.word())
     }
 
     /// Heights of the start with the change that a coarser level hands down.
@@ -192,7 +223,7 @@ impl<'a> Level<'a> {
     }
 
     /// K dt of each cell, by what lies bare there after so many steps.
-    fn erodibility(&self, bare: Option<(&Softness, &Evolution, u64)>) -> Result<Field, Error> {
+    fn erodibility(&self, bare: Option<(&BareSoftness, &Evolution, u64)>) -> Result<Field, Error> {
         let rate = (self.step.erodibility * self.years.a_step) as f32;
         let map = self.step.erodibility_map.as_ref();
         let map = map.map(|LayerName(name)| self.landscape.field(name)).transpose()?;
@@ -312,35 +343,5 @@ impl<'a> Level<'a> {
         }
         solid.moved += reached.outgoing.abs();
         Budget { solid, ..Budget::default() }
-    }
-}
-
-/// How soft the materials under each cell are, relative to the bedrock.
-struct Softness {
-    /// Thickness of each material on the bedrock and its softness, uppermost first.
-    beds: Vec<(Field, f32)>,
-}
-
-impl Softness {
-    fn of(landscape: &Landscape, start: &Field) -> Result<Self, Error> {
-        let column = StartColumn::of(landscape, start)?;
-        let bedrock = landscape.materials.first().map_or(1.0, |bedrock| bedrock.erodibility);
-        let above =
-            landscape.materials.iter().skip(1).map(|material| (material.erodibility / bedrock) as f32);
-        let beds = column.thicknesses.into_iter().zip(above).rev().collect();
-        Ok(Self { beds })
-    }
-
-    /// Of what lies bare where so many metres are worn.
-    fn at(&self, cell: usize, worn: f32) -> f32 {
-        let mut depth = 0.0;
-        for (thickness, softness) in &self.beds {
-            depth += thickness.values()[cell];
-            if worn < depth {
-                return *softness;
-            }
-        }
-        // What has settled on bare rock is the last material as well.
-        self.beds.first().filter(|_| worn < 0.0).map_or(1.0, |(_, softness)| *softness)
     }
 }

@@ -1,7 +1,6 @@
 //! The `stream-power` step: ground rises for millions of years, and rivers cut it into ranges.
 
 use super::fluvial_levels as levels;
-use super::stream_power_run as run;
 use weald_core::choices;
 use weald_core::domain::Domain;
 use weald_core::error::Error;
@@ -22,9 +21,27 @@ choices! {
     }
 }
 
+choices! {
+    /// Where rivers leave the grid.
+    pub enum Outlets {
+        /// Over all borders.
+        Border = "border",
+        /// Where the border lies in the sea.
+        Sea = "sea",
+        /// Over the northern border.
+        North = "north",
+        /// Over the eastern border.
+        East = "east",
+        /// Over the southern border.
+        South = "south",
+        /// Over the western border.
+        West = "west",
+    }
+}
+
 parameters! {
     /// Ground that rises while rivers cut down and slopes creep, over millions of years: what gives a range its trunk
-    /// rivers and ridges. Rivers end at the border of the grid or of the data, whose height stays, or in the sea.
+    /// rivers and ridges. Rivers end at the border of the grid or of the data, whose height stays, and cut no deeper than the sea.
     ///
     /// ```
     /// # use weald_core::{Domain, Error, Field, Landscape, Size};
@@ -65,6 +82,9 @@ parameters! {
         critical_slope_deg: f64 = 40.0, range 1.0..=89.0, unit "deg";
         /// Years of one step of time. Default: a two-hundredth of the duration.
         time_step: Option<f64> = None, range 0.001..=10_000_000_000.0, unit "a";
+        /// Where rivers leave the grid or the data: ground keeps its height there, and rises and wears at other borders as it
+        /// does inside.
+        outlets: Outlets = Outlets::Border;
         /// What becomes of lakes.
         lakes: Lakes = Lakes::Filled;
         /// Distance under water in which 63 % of what a river carries settles, in the sea and in lakes that are filled.
@@ -168,6 +188,6 @@ impl Step for StreamPower {
 
     fn run(&self, landscape: &mut Landscape, job: &Job<'_>) -> Result<Outcome, Error> {
         levels::check(&landscape.domain, self.grids(landscape.domain.cell))?;
-        run::run(self, landscape, job)
+        self.run_levels(landscape, job)
     }
 }

@@ -19,4 +19,5 @@ mod runaway;
 mod same_bits;
 mod scaling;
 mod stava;
+mod stream_power;
 mod transport;

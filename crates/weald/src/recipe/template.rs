@@ -43,6 +43,16 @@ pub const TEMPLATES: &[Template] = &[
         summary: "an island that rose from the sea, with rivers, cliffs and beaches",
         text: include_str!("template/island.toml"),
     },
+    Template {
+        name: "fjord",
+        summary: "a coast of drowned valleys, which rivers cut before the land sank",
+        text: include_str!("template/fjord.toml"),
+    },
+    Template {
+        name: "delta",
+        summary: "mountains by a shallow sea, with a plain and deltas of what rivers brought down",
+        text: include_str!("template/delta.toml"),
+    },
 ];
 
 /// The template of that name; an error says which there are.

@@ -20,7 +20,7 @@ const EDGES: usize = 4;
 
 /// Cells in a ring, and the distances of their points.
 #[derive(Debug)]
-pub(super) struct Mesh {
+pub(in crate::erode) struct Mesh {
     /// Size of the grid within the ring.
     pub(super) size: Size,
     /// Cells in a row, with the ring.
@@ -35,7 +35,7 @@ pub(super) struct Mesh {
 
 impl Mesh {
     /// A mesh whose points lie up to half of `irregularity` cells off the middles, along each axis.
-    pub(super) fn new(domain: &Domain, irregularity: f64, seed: u64) -> Self {
+    pub(in crate::erode) fn new(domain: &Domain, irregularity: f64, seed: u64) -> Self {
         let (size, cell) = (domain.size, domain.cell);
         let stride = size.columns + 2;
         let point = |x: i64, y: i64| {

@@ -1,6 +1,6 @@
 //! What the equation promises: balance with uplift, the time that rivers take to answer, and nothing lost.
 
-use super::{Conditions, Evolution};
+use super::{Conditions, Evolution, Mesh};
 use weald_core::domain::Domain;
 use weald_core::grid::{Field, Mask, Size};
 use weald_core::random::signed2;
@@ -32,7 +32,7 @@ fn rough(domain: &Domain) -> Vec<f64> {
 }
 
 fn evolved(domain: &Domain, conditions: &Conditions, steps: u32) -> Evolution {
-    let mut evolution = Evolution::new(domain, &rough(domain), 0.7, 1);
+    let mut evolution = Evolution::new(domain, &rough(domain), Mesh::new(domain, 0.7, 1), |_, _| true);
     for _ in 0..steps {
         evolution.step(conditions);
     }
@@ -162,7 +162,7 @@ fn rivers_run_through_lakes_and_cut_their_outlets() {
     let bowl =
         |x: f64, y: f64| 100.0 - x - (30.0 - 2.0 * ((x - 20.0).powi(2) + (y - 15.0).powi(2)).sqrt()).max(0.0);
     let heights: Vec<f64> = (0..1200).map(|cell| bowl((cell % 40) as f64, (cell / 40) as f64)).collect();
-    let mut evolution = Evolution::new(&domain, &heights, 0.5, 1);
+    let mut evolution = Evolution::new(&domain, &heights, Mesh::new(&domain, 0.5, 1), |_, _| true);
     let deepest = |evolution: &mut Evolution| evolution.lake_depths(None).into_iter().fold(0.0, f64::max);
     let before = deepest(&mut evolution);
     assert!((14.0..16.0).contains(&before), "{before} m");
@@ -186,7 +186,7 @@ fn rivers_run_through_lakes_and_cut_their_outlets() {
 fn rivers_fill_lakes_and_the_sea_up_to_their_level_where_they_enter() {
     let domain = Domain::new(Size { columns: 60, rows: 40 }, 100.0);
     let slope: Vec<f64> = (0..2400).map(|cell| 60.0 - 3.0 * (cell % 60) as f64).collect();
-    let mut evolution = Evolution::new(&domain, &slope, 0.7, 1);
+    let mut evolution = Evolution::new(&domain, &slope, Mesh::new(&domain, 0.7, 1), |_, _| true);
     let uplift = Field::from_function(domain.size, |x, _| if x < 15 { 5.0 } else { 0.0 });
     let conditions =
         Conditions { uplift, sea_level: Some(0.0), settling: 300.0, ..conditions(domain.size, 5_000.0) };
@@ -227,6 +227,27 @@ fn what_has_no_data_is_a_border_and_stays_out_of_everything() {
 }
 
 #[test]
+fn rivers_leave_over_the_border_that_is_open_and_the_others_rise() {
+    let domain = Domain::new(Size { columns: 50, rows: 40 }, 200.0);
+    let mesh = Mesh::new(&domain, 0.7, 1);
+    let mut evolution = Evolution::new(&domain, &rough(&domain), mesh, |x, _| x == 0);
+    for _ in 0..200 {
+        evolution.step(&conditions(domain.size, 20_000.0));
+    }
+    let west: f64 = (0..40).map(|y| evolution.area[(y + 1) * 52 + 1]).sum();
+    assert!((west - 2000.0 * domain.cell_area()).abs() < 1e-3, "all land drains to the west: {west} m²");
+    let heights = evolution.heights();
+    let column = |x: usize| (0..40).map(|y| heights[domain.size.index(x, y)]).sum::<f64>() / 40.0;
+    assert!(
+        column(0).abs() < 1.0 && column(49) > 2.0 * column(10),
+        "{} {} {}",
+        column(0),
+        column(10),
+        column(49)
+    );
+}
+
+#[test]
 fn nothing_stands_steeper_than_the_critical_slope_and_creep_rounds_ridges() {
     let domain = Domain::new(Size { columns: 60, rows: 60 }, 30.0);
     let slow = Conditions { critical: 0.6, ..conditions(domain.size, 20_000.0) };
@@ -242,4 +263,25 @@ fn nothing_stands_steeper_than_the_critical_slope_and_creep_rounds_ridges() {
     };
     let rounded = evolved(&domain, &Conditions { creep: 0.05 * 20_000.0, ..slow }, 300);
     assert!(curved(&rounded) < 0.5 * curved(&steep), "{} of {}", curved(&rounded), curved(&steep));
+}
+
+/// Slope over area in logarithms, by least squares.
+fn steepness_exponent(evolution: &Evolution) -> f64 {
+    let [mut n, mut x, mut y, mut xx, mut xy] = [0.0; 5];
+    for (slope, area, _) in slopes(evolution).into_iter().filter(|&(slope, ..)| slope > 0.0) {
+        let (a, s) = (area.ln(), slope.ln());
+        (n, x, y, xx, xy) = (n + 1.0, x + a, y + s, xx + a * a, xy + a * s);
+    }
+    (n * xy - x * y) / (n * xx - x * x)
+}
+
+/// By hand, for `CORRECTNESS.md`: `cargo test --release -p weald-land --lib steepness -- --ignored --nocapture`.
+#[test]
+#[ignore = "two minutes"]
+fn the_steepness_exponent_of_two_thousand_cells_a_side_is_that_of_the_law() {
+    let domain = Domain::new(Size { columns: 2048, rows: 2048 }, 100.0);
+    let evolution = evolved(&domain, &conditions(domain.size, 100_000.0), 300);
+    let theta = -steepness_exponent(&evolution);
+    println!("steepness exponent {theta}");
+    assert!((theta - 0.5).abs() < 0.02, "{theta}");
 }

@@ -1,0 +1,175 @@
+//! The `stream-power` step as a recipe runs it: the same bits on any number of threads and after an interruption, one
+//! landscape at every size, materials, and a sea.
+
+use std::sync::Mutex;
+
+use weald_core::domain::Domain;
+use weald_core::error::Error;
+use weald_core::grid::{Field, Size};
+use weald_core::landscape::Landscape;
+use weald_core::material::Material;
+use weald_core::parameter::LayerName;
+use weald_core::random::signed2;
+use weald_engine::step::{Outcome, Step};
+use weald_engine::{Engine, Job, SavedSimulation, Watcher};
+use weald_land::erode::stream_power_step::StreamPower;
+
+/// Low hills of a few kilometres on 12.8 km, with so many cells a side.
+fn hills(side: usize, sea_level: Option<f64>) -> Landscape {
+    let cell = 12_800.0 / side as f64;
+    let domain = Domain { sea_level, ..Domain::new(Size { columns: side, rows: side }, cell) };
+    let mut landscape = Landscape::new(domain);
+    let hill = |x: f64, y: f64| {
+        let wave = |east: f64, south: f64| (east * x + south * y).sin();
+        20.0 * (wave(0.0011, 0.0007) + wave(-0.0008, 0.0013) + wave(0.0021, -0.0017))
+    };
+    let ground = |x: usize, y: usize| hill((x as f64 + 0.5) * cell, (y as f64 + 0.5) * cell) as f32;
+    landscape.insert("height", "m", Field::from_function(landscape.domain.size, ground));
+    landscape
+}
+
+fn step() -> StreamPower {
+    StreamPower { duration: 2_000_000.0, deposition: 0.5, creep: 0.05, ..StreamPower::default() }
+}
+
+fn run(step: &StreamPower, landscape: &mut Landscape) -> Outcome {
+    step.run(landscape, &Job::unwatched(7)).expect("nothing stands against it")
+}
+
+fn heights(landscape: &Landscape) -> Vec<u32> {
+    landscape.field("height").expect("is there").values().iter().map(|height| height.to_bits()).collect()
+}
+
+#[test]
+fn the_bits_are_the_same_on_any_number_of_threads() {
+    let with = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads start");
+        pool.install(|| {
+            let mut landscape = hills(96, Some(-5.0));
+            run(&step(), &mut landscape);
+            heights(&landscape)
+        })
+    };
+    let one = with(1);
+    for threads in [2, 3, 5] {
+        assert!(with(threads) == one, "{threads} threads");
+    }
+}
+
+/// Stops after some steps and keeps the state.
+struct Stopping {
+    after: u64,
+    done: Mutex<u64>,
+    kept: Mutex<Option<SavedSimulation>>,
+}
+
+impl Watcher for Stopping {
+    fn progress(&self, done: u64, _: u64, _: usize) {
+        *self.done.lock().expect("not poisoned") = done;
+    }
+
+    fn cancelled(&self) -> bool {
+        *self.done.lock().expect("not poisoned") >= self.after
+    }
+
+    fn checkpoint(&self, state: &SavedSimulation) -> Result<(), Error> {
+        *self.kept.lock().expect("not poisoned") = Some(state.clone());
+        Ok(())
+    }
+}
+
+#[test]
+fn what_was_interrupted_goes_on_to_the_same_bits() {
+    for levels in [1, 2] {
+        let step = StreamPower { levels, coarsest: 1000.0, ..step() };
+        let mut whole = hills(64, None);
+        let budget = run(&step, &mut whole).budget;
+        let watcher = Stopping { after: 5, done: Mutex::new(0), kept: Mutex::new(None) };
+        let job = Job { seed: 7, engine: Engine::Cpu, watcher: &watcher, resume: None };
+        let stopped = step.run(&mut hills(64, None), &job).expect_err("it is stopped");
+        assert!(matches!(stopped, Error::Interrupted(_)), "{stopped}");
+        let kept = watcher.kept.into_inner().expect("not poisoned");
+        assert_eq!(kept.as_ref().map(|kept| kept.iteration), Some(5));
+        let mut resumed = hills(64, None);
+        let job = Job { resume: kept, ..Job::unwatched(7) };
+        let after = step.run(&mut resumed, &job).expect("it goes on").budget;
+        assert!(heights(&resumed) == heights(&whole), "{levels} levels");
+        assert_eq!(after, budget, "{levels} levels");
+    }
+}
+
+#[test]
+fn landscapes_that_begin_on_the_same_grid_are_alike_at_every_size() {
+    let of_size = |side: usize| {
+        let mut landscape = hills(side, None);
+        let outcome = run(&StreamPower { levels: 8, coarsest: 200.0, ..step() }, &mut landscape);
+        let solid = outcome.budget.expect("is kept").solid;
+        assert!(solid.error().abs() < 1e-6, "{side}: {}", solid.error());
+        landscape.field("height").expect("is there").clone()
+    };
+    let (coarse, fine) = (of_size(64), of_size(256));
+    let relief = f64::from(fine.range(None).map_or(0.0, |(low, high)| high - low));
+    let (mut squares, mut mean) = (0.0, 0.0);
+    for (cell, &height) in coarse.values().iter().enumerate() {
+        let (x, y) = (4 * (cell % 64), 4 * (cell / 64));
+        let same = (0..16).map(|at| f64::from(fine.at(x + at % 4, y + at / 4))).sum::<f64>() / 16.0;
+        squares += (f64::from(height) - same).powi(2);
+        mean += f64::from(height) - same;
+    }
+    let (square, mean) = ((squares / 4096.0).sqrt() / relief, mean / 4096.0 / relief);
+    assert!(relief > 200.0 && square < 0.05 && mean.abs() < 0.02, "{square} and {mean} of {relief} m");
+}
+
+#[test]
+fn soft_beds_wear_faster_and_what_is_left_of_them_lies_where_it_lay() {
+    let with_bed = |erodibility: f64| {
+        let mut landscape = hills(64, None);
+        let rock = Material::built_in("rock").expect("built in");
+        let bed =
+            Material { name: "bed".to_owned(), erodibility: erodibility * rock.erodibility, ..rock.clone() };
+        landscape.materials = vec![rock, bed];
+        let size = landscape.domain.size;
+        landscape.insert("bed", "m", Field::filled(size, 300.0));
+        run(
+            &StreamPower { materials: true, deposition: 0.0, settling_length: 0.0, ..step() },
+            &mut landscape,
+        );
+        landscape
+    };
+    let (hard, soft) = (with_bed(0.3), with_bed(3.0));
+    let highest =
+        |landscape: &Landscape| landscape.field("height").expect("is there").range(None).expect("cells").1;
+    assert!(highest(&hard) > 1.5 * highest(&soft), "{} and {} m", highest(&hard), highest(&soft));
+    for landscape in [hard, soft] {
+        let layer = |name: &str| landscape.field(name).expect("is there").clone();
+        let (height, bedrock, bed) = (layer("height"), layer("bedrock"), layer("bed"));
+        for cell in 0..64 * 64 {
+            let [height, bedrock, bed] = [&height, &bedrock, &bed].map(|field| field.values()[cell]);
+            assert!((height - bedrock - bed).abs() < 1e-2 && bed >= 0.0, "{height} {bedrock} {bed}");
+        }
+    }
+}
+
+#[test]
+fn noise_rises_to_ridges_that_know_no_axis() {
+    // Of all slopes of a range from noise, as much falls along the axes as along the diagonals.
+    let size = Size { columns: 256, rows: 256 };
+    let along_axes = |irregularity: f64| {
+        let mut landscape = Landscape::new(Domain::new(size, 200.0));
+        let noise = |x: usize, y: usize| signed2(5, x as i64, y as i64) as f32;
+        landscape.insert("height", "m", Field::from_function(size, noise));
+        run(&StreamPower { irregularity, creep: 0.1, ..StreamPower::default() }, &mut landscape);
+        let height = landscape.field("height").expect("is there").clone();
+        // Mean of exp(8iθ)'s fourth harmonic over the directions in which ground falls.
+        let (mut cos, mut count) = (0.0, 0.0);
+        for (x, y) in (1..255).flat_map(|y| (1..255).map(move |x| (x, y))) {
+            let at = |x: usize, y: usize| f64::from(height.at(x, y));
+            let (east, south) = (at(x + 1, y) - at(x - 1, y), at(x, y + 1) - at(x, y - 1));
+            cos += (4.0 * south.atan2(east)).cos();
+            count += 1.0;
+        }
+        cos / count
+    };
+    let (regular, irregular) = (along_axes(0.0), along_axes(0.7));
+    assert!(irregular.abs() < 0.06, "fourth harmonic {irregular}, on a regular grid {regular}");
+}
