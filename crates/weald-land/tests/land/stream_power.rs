@@ -8,7 +8,6 @@ use weald_core::error::Error;
 use weald_core::grid::{Field, Size};
 use weald_core::landscape::Landscape;
 use weald_core::material::Material;
-use weald_core::parameter::LayerName;
 use weald_core::random::signed2;
 use weald_engine::step::{Outcome, Step};
 use weald_engine::{Engine, Job, SavedSimulation, Watcher};

@@ -13,11 +13,15 @@ use std::io::Cursor;
 use eframe::egui::{ColorImage, Id, ImageSource, Sense, TextureHandle, TextureOptions, Ui, Vec2};
 
 /// Names of templates with their pictures.
-const PICTURES: [(&str, &[u8]); 4] = [
+const PICTURES: [(&str, &[u8]); 8] = [
     ("highland", include_bytes!("pictures/highland.png")),
     ("fault", include_bytes!("pictures/fault.png")),
     ("layers", include_bytes!("pictures/layers.png")),
     ("dem", include_bytes!("pictures/dem.png")),
+    ("range", include_bytes!("pictures/range.png")),
+    ("island", include_bytes!("pictures/island.png")),
+    ("fjord", include_bytes!("pictures/fjord.png")),
+    ("delta", include_bytes!("pictures/delta.png")),
 ];
 
 /// Size of a picture, in points.
