@@ -9,7 +9,7 @@
 //! 10.1029/2018JF004867). Where uplift and rivers are in balance, S = (U (1 + G) / K)^(1/n) A^(−m/n).
 //!
 //! What differs: receivers are found between points that lie off the middles of their cells (`mesh`), rivers run through lakes
-//! (`lakes`), slopes stand at a critical slope at most, and lakes and sea trap sediment (`incise`). A step of time is one pass
+//! (`lakes`), an area is added to A so that ridges do not depend on the cell, slopes stand at a critical slope at most, and lakes and sea trap sediment (`incise`). A step of time is one pass
 //! through the files: receivers and their order, lakes, area, incision, creep. Its cost is linear in the cells, and its
 //! result the same for any number of threads: they share rows where cells do not depend on each other, and rivers are
 //! followed by one.
@@ -42,6 +42,8 @@ pub(super) struct Conditions {
     pub(super) erodibility: Field,
     /// m.
     pub(super) area_exponent: f64,
+    /// What is added to the upslope area, in m².
+    pub(super) hillslope_area: f64,
     /// n.
     pub(super) slope_exponent: f64,
     /// G.
@@ -73,10 +75,9 @@ pub(super) struct Evolution {
     power: Vec<f32>,
     raised: Vec<f64>,
     water: Option<Vec<f64>>,
-    volumes: Volumes,
 }
 
-/// What came and went since the start, in metres over all cells together.
+/// What came and went in a step of time, in metres over all cells together.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Volumes {
     /// Raised by uplift.
@@ -111,7 +112,6 @@ impl Evolution {
             power: vec![0.0; cells],
             raised: heights.clone(),
             water: None,
-            volumes: Volumes::default(),
             mesh,
             heights,
             base,
@@ -124,10 +124,10 @@ impl Evolution {
     }
 
     /// A step of time.
-    pub(super) fn step(&mut self, conditions: &Conditions) {
+    pub(super) fn step(&mut self, conditions: &Conditions) -> Volumes {
         self.lead_rivers(conditions.sea_level);
         self.gather_power(conditions);
-        self.raise(&conditions.uplift);
+        let uplifted = self.raise(&conditions.uplift);
         let law = Law {
             slope_exponent: conditions.slope_exponent,
             deposition: conditions.deposition,
@@ -151,7 +151,7 @@ impl Evolution {
         law.incise(&rivers, &mut self.heights);
         let raised = self.total(&self.raised);
         creep::creep(&self.mesh, &mut self.heights, &mut self.spare, &self.base, conditions.creep);
-        self.volumes.outgoing += raised - self.total(&self.heights);
+        Volumes { uplifted, outgoing: raised - self.total(&self.heights) }
     }
 
     /// Sum over all cells with data, row by row.
@@ -182,18 +182,20 @@ impl Evolution {
         let Self { mesh, area, power, order, receivers, .. } = self;
         area.fill(mesh.area);
         order.gather(&receivers.of, area);
-        let m = conditions.area_exponent;
+        let (m, hillslope) = (conditions.area_exponent, conditions.hillslope_area);
         let rows = power.par_chunks_mut(mesh.stride).zip(area.par_chunks(mesh.stride)).skip(1);
         rows.take(mesh.size.rows).enumerate().for_each(|(y, (power, area))| {
             let cells = power[1..].iter_mut().zip(&area[1..]).zip(conditions.erodibility.row(y));
             for ((power, &area), &erodibility) in cells {
-                let of_area = if m == 0.5 { (area as f32).sqrt() } else { libm::powf(area as f32, m as f32) };
+                let area = (area + hillslope) as f32;
+                let of_area = if m == 0.5 { area.sqrt() } else { libm::powf(area, m as f32) };
                 *power = erodibility * of_area;
             }
         });
     }
 
-    fn raise(&mut self, uplift: &Field) {
+    /// Gives the metres by which all cells together rise.
+    fn raise(&mut self, uplift: &Field) -> f64 {
         let Self { mesh, heights, base, raised, .. } = self;
         let rows = raised.par_chunks_mut(mesh.stride).zip(heights.par_chunks(mesh.stride)).enumerate();
         let rows = rows.skip(1).take(mesh.size.rows).map(|(y, (raised, heights))| {
@@ -208,12 +210,7 @@ impl Evolution {
         });
         // Gathered in the order of the rows, so that the sum does not depend on the threads.
         let risen: Vec<f64> = rows.collect();
-        self.volumes.uplifted += risen.iter().sum::<f64>();
-    }
-
-    /// What came and went since the start.
-    pub(super) fn volumes(&self) -> Volumes {
-        self.volumes
+        risen.iter().sum()
     }
 
     /// Heights of the grid, row by row; infinite where there is no data.

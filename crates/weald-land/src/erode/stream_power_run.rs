@@ -153,11 +153,9 @@ impl<'a> Level<'a> {
             if let Some(column) = &self.column {
                 conditions.erodibility = self.erodibility(Some((column, &evolution, done)))?;
             }
-            let before = evolution.volumes();
-            evolution.step(&conditions);
-            let after = evolution.volumes();
-            reached.uplifted += (after.uplifted - before.uplifted) * area;
-            reached.outgoing += (after.outgoing - before.outgoing) * area;
+            let volumes = evolution.step(&conditions);
+            reached.uplifted += volumes.uplifted * area;
+            reached.outgoing += volumes.outgoing * area;
             done += 1;
             job.watcher.progress(done, self.steps, self.start.size().cells());
             self.look(&evolution, done, job.watcher)?;
@@ -212,6 +210,7 @@ impl<'a> Level<'a> {
             uplift: Field::from_values(self.uplift.size(), uplift),
             erodibility: self.erodibility(None)?,
             area_exponent: step.area_exponent,
+            hillslope_area: step.hillslope_area,
             slope_exponent: step.slope_exponent,
             deposition: step.deposition,
             creep: step.creep * years,

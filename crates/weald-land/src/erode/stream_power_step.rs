@@ -72,6 +72,9 @@ parameters! {
         materials: bool = false;
         /// Exponent of the upslope area (m). Over that of the slope it is how much flatter rivers become downstream.
         area_exponent: f64 = 0.5, range 0.0..=2.0;
+        /// Area that counts beside the upslope area, and wears ridges: slopes above rivers then do not grow steeper with
+        /// every cell that is smaller. Rivers of much more than it follow the law.
+        hillslope_area: f64 = 50_000.0, range 0.0..=1.0e9, unit "m²";
         /// Exponent of the slope (n).
         slope_exponent: f64 = 1.0, range 0.1..=5.0;
         /// Of what rivers carry, the share that they lay down (G): 0 for bare rock, 1 and more for rivers in their gravel.
