@@ -133,7 +133,12 @@ impl<P: Process> BandedGrid<P> {
 
     /// Column, row and plane of the first value that is a NaN or an infinity, over the first `planes` planes.
     pub fn first_not_finite(&self, planes: usize) -> Option<[usize; 3]> {
-        first_not_finite((0..self.rows).into_par_iter(), planes, |y, plane| self.plane(y, plane))
+        self.first_not_finite_in(0..self.rows, planes)
+    }
+
+    /// The same within some rows.
+    pub fn first_not_finite_in(&self, rows: Range<usize>, planes: usize) -> Option<[usize; 3]> {
+        first_not_finite(rows.into_par_iter(), planes, |y, plane| self.plane(y, plane))
     }
 
     /// A copy of the state of all rows.

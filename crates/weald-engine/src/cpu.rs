@@ -41,6 +41,21 @@ impl<P: Process> CpuMachine<P> {
         Snapshot { state: self.world.state(), row_sums: self.world.row_sums(), means: self.means }
     }
 
+    /// Its rows.
+    pub(crate) fn world(&self) -> &BandedGrid<P> {
+        &self.world
+    }
+
+    /// The same, to be changed.
+    pub(crate) fn world_mut(&mut self) -> &mut BandedGrid<P> {
+        &mut self.world
+    }
+
+    /// Sums over the recorded steps, row-major.
+    pub(crate) fn means(&self) -> &[Vec<f32>] {
+        &self.means
+    }
+
     /// The same, counting the sums of these columns alone.
     pub(crate) fn count_columns(mut self, columns: std::ops::Range<usize>) -> Self {
         self.world.count_columns(columns);

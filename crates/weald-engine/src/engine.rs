@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use crate::device::{Device, ShownGround};
+use crate::ranks::Ranks;
 use weald_core::error::Error;
 use weald_core::grid::Size;
 
@@ -21,6 +22,8 @@ pub enum Engine {
     /// The domain cut into tiles of up to this many columns and rows, one after the other: what a device
     /// does whose memory is too small, without a device.
     Tiles(Size),
+    /// Processes that compute together, each with a band of the domain: all of them run the same steps.
+    Ranks(Arc<dyn Ranks>),
     /// A device; an error where it fails.
     Device(Arc<dyn Device>),
     /// A device, and the CPU from the last checkpoint on where it fails.
@@ -34,7 +37,16 @@ impl Engine {
             Self::Cpu => "cpu",
             Self::Bands(_) => "bands",
             Self::Tiles(_) => "tiles",
+            Self::Ranks(_) => "ranks",
             Self::Device(_) | Self::DeviceElseCpu(_) => "gpu",
+        }
+    }
+
+    /// The ranks, where another one leads than this.
+    pub fn led_by(&self) -> Option<&Arc<dyn Ranks>> {
+        match self {
+            Self::Ranks(ranks) if !ranks.leads() => Some(ranks),
+            _ => None,
         }
     }
 

@@ -1,5 +1,6 @@
 //! Where and how **Weald** computes: [steps](step) and the [jobs](Job) that they are given, [stencils](stencil) over rows,
-//! [programs](program) for devices, and machines for processors, bands, tiles and devices, with the same bits on each
+//! [programs](program) for devices, and machines for processors, bands, tiles, devices and
+//! [ranks], with the same bits on each
 //! processor.
 
 pub mod bands;
@@ -18,6 +19,7 @@ mod means;
 pub mod on_device;
 pub mod patch;
 pub mod program;
+pub mod ranks;
 pub mod report;
 pub mod stencil;
 pub mod step;

@@ -8,10 +8,12 @@ use super::device_tiles::DeviceTiles;
 use super::engine::Engine;
 use super::machine::{Machine, Means, Snapshot};
 use super::tiles::{CpuTiles, Plan, Tiled};
+use crate::ranks::RanksMachine;
 use crate::stencil::chain::Process;
 use weald_core::error::Error;
 
-/// The machine of an engine with `start` as its state.
+/// The machine of an engine with `start` as its state. Over ranks the first one has it, and the others
+/// [`follow`](crate::ranks::follow).
 pub fn start<P: Process>(
     process: &Arc<P>,
     means: Means<'static>,
@@ -26,6 +28,7 @@ pub fn start<P: Process>(
             let plan = Plan::of_own(*own, process.reach());
             Box::new(Tiled::new(CpuTiles { process: Arc::clone(process), means }, start, plan))
         }
+        Engine::Ranks(ranks) => Box::new(RanksMachine::new(process, means, start, ranks)?),
         Engine::Device(device) | Engine::DeviceElseCpu(device) => {
             let program = process.program();
             let most = device_machine::most_cells(&program, &**device);

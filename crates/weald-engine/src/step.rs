@@ -122,6 +122,12 @@ pub trait Step: Debug + Send + Sync {
         12
     }
 
+    /// Whether it is a simulation that runs over ranks: then all of them run the step on the same layers, and the first
+    /// alone has the result. Other steps run on the first rank while the others wait.
+    fn runs_over_ranks(&self) -> bool {
+        false
+    }
+
     /// Runs on a landscape that has all the layers in [`Step::reads`].
     fn run(&self, landscape: &mut Landscape, job: &Job<'_>) -> Result<Outcome, Error>;
 }

@@ -14,6 +14,16 @@ pub trait Uniform {
     fn words(&self) -> Vec<u32>;
 }
 
+/// A [`Uniform`] that comes back from its words, so that one process can tell it another.
+pub trait FromWords: Uniform {
+    /// The struct of these words, as [`Uniform::words`] gives them; words that are missing count as 0.
+    fn from_words(words: &[u32]) -> Self;
+}
+
+impl FromWords for () {
+    fn from_words(_: &[u32]) -> Self {}
+}
+
 /// Nothing to tell.
 impl Uniform for () {
     const NAME: &'static str = "";
@@ -34,6 +44,21 @@ pub trait Words: Copy {
 
     /// Their bits.
     fn words(self) -> Vec<u32>;
+
+    /// The numbers of the first of these bits, which are taken away.
+    fn from_words(words: &mut &[u32]) -> Self;
+}
+
+/// Takes so many words away; those that are missing are 0.
+fn taken<const N: usize>(words: &mut &[u32]) -> [u32; N] {
+    let (these, rest) = words.split_at(words.len().min(N));
+    *words = rest;
+    std::array::from_fn(|at| these.get(at).copied().unwrap_or_default())
+}
+
+/// Vectors of four, one after the other.
+fn vectors<const N: usize>(words: &mut &[u32]) -> [[f32; 4]; N] {
+    std::array::from_fn(|_| taken(words).map(f32::from_bits))
 }
 
 impl Words for f32 {
@@ -42,6 +67,11 @@ impl Words for f32 {
     fn words(self) -> Vec<u32> {
         vec![self.to_bits()]
     }
+
+    fn from_words(words: &mut &[u32]) -> Self {
+        let [word] = taken(words);
+        f32::from_bits(word)
+    }
 }
 
 impl Words for u32 {
@@ -49,6 +79,11 @@ impl Words for u32 {
 
     fn words(self) -> Vec<u32> {
         vec![self]
+    }
+
+    fn from_words(words: &mut &[u32]) -> Self {
+        let [word] = taken(words);
+        word
     }
 }
 
@@ -59,6 +94,10 @@ impl Words for [[f32; 4]; MAX_MATERIALS] {
     fn words(self) -> Vec<u32> {
         self.as_flattened().iter().map(|number| number.to_bits()).collect()
     }
+
+    fn from_words(words: &mut &[u32]) -> Self {
+        vectors(words)
+    }
 }
 
 /// Vectors of four. Uniforms that hold some begin with them.
@@ -68,6 +107,10 @@ impl Words for [f32; 4] {
     fn words(self) -> Vec<u32> {
         self.map(f32::to_bits).to_vec()
     }
+
+    fn from_words(words: &mut &[u32]) -> Self {
+        taken(words).map(f32::from_bits)
+    }
 }
 
 impl Words for [u32; 4] {
@@ -76,6 +119,10 @@ impl Words for [u32; 4] {
     fn words(self) -> Vec<u32> {
         self.to_vec()
     }
+
+    fn from_words(words: &mut &[u32]) -> Self {
+        taken(words)
+    }
 }
 
 impl Words for [[f32; 4]; 6] {
@@ -83,6 +130,10 @@ impl Words for [[f32; 4]; 6] {
 
     fn words(self) -> Vec<u32> {
         self.as_flattened().iter().map(|number| number.to_bits()).collect()
+    }
+
+    fn from_words(words: &mut &[u32]) -> Self {
+        vectors(words)
     }
 }
 
@@ -105,6 +156,13 @@ macro_rules! uniform {
 
             fn words(&self) -> Vec<u32> {
                 [$( $crate::uniform::Words::words(self.$field) ),*].concat()
+            }
+        }
+
+        impl $crate::uniform::FromWords for $Struct {
+            fn from_words(mut words: &[u32]) -> Self {
+                let rest = &mut words;
+                Self { $( $field: <$Type as $crate::uniform::Words>::from_words(rest), )* }
             }
         }
     };

@@ -16,13 +16,13 @@ use crate::kernel;
 use crate::means::{Means, Part};
 use crate::program::Program;
 pub use crate::sums::{RowSums, SUMS};
-use crate::uniform::Uniform;
+use crate::uniform::{FromWords, Uniform};
 use weald_core::grid::Size;
 
 /// A simulation step as a stream of rows.
 pub trait Process: Send + Sync + 'static {
     /// What differs from step to step: rain or sunshine.
-    type Weather: Uniform + Copy + Send + Sync + 'static;
+    type Weather: Uniform + FromWords + Copy + Send + Sync + 'static;
     /// Rows in flight within one step.
     type Scratch: Send + Sync;
 

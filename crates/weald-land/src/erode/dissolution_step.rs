@@ -137,6 +137,10 @@ impl Step for DissolutionStep {
         60
     }
 
+    fn runs_over_ranks(&self) -> bool {
+        true
+    }
+
     fn run(&self, landscape: &mut Landscape, job: &Job<'_>) -> Result<Outcome, Error> {
         loose::run(self, landscape, job)
     }
@@ -175,9 +179,10 @@ impl Loose for DissolutionStep {
         let water = Some(first.state_planes() + first.constant_planes() - 1);
         let painted = PaintedPlanes { water, ..PaintedPlanes::of(&first, column, &working) };
         let names = stack::names(&landscape.materials);
+        let ground = Arc::clone(&working);
         Ok(StartedSimulation {
             plane_names: stack::plane_names(column, &landscape.materials),
-            start: working.state(planes.count(), &[working.water().to_vec()]),
+            start: Box::new(move || ground.state(planes.count(), &[ground.water().to_vec()])),
             numbers: Numbers::new(first, |_| ()),
             remake: Arc::new(move |settings| Ok(Numbers::new(process(settings)?, |_| ()))),
             means: &[],

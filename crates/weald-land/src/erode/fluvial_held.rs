@@ -119,7 +119,7 @@ impl Interactive for Fluvial {
             numbers,
             remake,
             means: fluvial::MEAN_FLUXES,
-            start,
+            start: Box::new(move || start),
             place,
             store: store(flood),
             working: None,

@@ -9,6 +9,7 @@ use super::fluvial_numbers::Steps;
 use super::fluvial_step::Fluvial;
 use super::fluvial_years::{InYears, Years, as_seen};
 use super::hydraulic::Boundary;
+use super::over_ranks::Beginning;
 use super::pipeline::Stepped;
 use super::scripted::{Edits, Numbers as Running};
 use super::simulation::{Record, Simulation};
@@ -43,7 +44,8 @@ impl Fluvial {
         Self { duration, flow_time, steps, ..self.clone() }
     }
 
-    /// Runs on all levels, and leaves in the landscape what has become of it.
+    /// Runs on all levels, and leaves in the landscape what has become of it; over ranks in that of the first, which
+    /// alone has what a level hands down.
     pub(super) fn run_levels(&self, landscape: &mut Landscape, job: &Job<'_>) -> Result<Outcome, Error> {
         let (mut before, mut handed) = (Vec::new(), None);
         let grids = self.grids(landscape.domain.cell);
@@ -56,6 +58,7 @@ impl Fluvial {
             let watcher = InYears { watcher: job.watcher, years: flood.years(years), coarse: Some(&finer) };
             let finished = flood.run(handed.as_ref(), &watcher.job(job), None)?;
             years += flood.step.duration;
+            let Some(finished) = finished else { continue };
             let (budget, down) = flood.handed_down(&finished);
             before.push(budget);
             handed = Some(down.refined());
@@ -64,7 +67,9 @@ impl Fluvial {
         let watcher = InYears { watcher: job.watcher, years: flood.years(years), coarse: None };
         let script = self.script(&given.materials)?;
         let edits = script.map(|script| self.edits_of(script, &flood));
-        let finished = flood.run(handed.as_ref(), &watcher.job(job), edits.as_ref())?;
+        let Some(finished) = flood.run(handed.as_ref(), &watcher.job(job), edits.as_ref())? else {
+            return Ok(Outcome::default());
+        };
         let budget = before.iter().fold(flood.store(landscape, &finished), levels::joined);
         let iterations = flood.step.count(given.domain.cell);
         Ok(Outcome { iterations, budget: Some(budget), notes: finished.notes, ..Outcome::default() })
@@ -208,8 +213,8 @@ impl Flood {
         handed: Option<&HandedDown>,
         job: &Job<'_>,
         edits: Option<&Edits<Stepped<Forcing>>>,
-    ) -> Result<Finished, Error> {
-        let start = self.start(handed)?;
+    ) -> Result<Option<Finished>, Error> {
+        let beginning = Beginning::of(&job.engine, || self.start(handed))?;
         let numbers = self.running();
         let count = self.step.count(self.working.cell);
         let recorded = self.step.mean_over.map_or_else(|| count.div_ceil(RECORDED), u64::from).min(count);
@@ -227,7 +232,7 @@ impl Flood {
             seen: Some(&seen),
         };
         self.working.show(&job.engine)?;
-        simulation.run(start, job)
+        simulation.run(beginning, job)
     }
 
     /// Writes what has become of the landscape.

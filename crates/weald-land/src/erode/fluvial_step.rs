@@ -194,6 +194,10 @@ impl Step for Fluvial {
         300
     }
 
+    fn runs_over_ranks(&self) -> bool {
+        true
+    }
+
     fn run(&self, landscape: &mut Landscape, job: &Job<'_>) -> Result<Outcome, Error> {
         levels::check(&landscape.domain, self.grids(landscape.domain.cell))?;
         let maps = self.maps().into_iter().flatten();

@@ -153,6 +153,10 @@ impl Step for Hydraulic {
         }
     }
 
+    fn runs_over_ranks(&self) -> bool {
+        true
+    }
+
     fn run(&self, landscape: &mut Landscape, job: &Job<'_>) -> Result<Outcome, Error> {
         let told = empty_note(landscape, self.region.as_ref());
         let mut outcome = self.run_model(landscape, job)?;

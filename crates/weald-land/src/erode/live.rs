@@ -47,11 +47,15 @@ pub(super) struct Running<P: Process> {
 
 impl<P: Process> Running<P> {
     pub(super) fn new(begun: StartedSimulation<P>, engine: &Engine) -> Result<Self, Error> {
+        if let Engine::Ranks(_) = engine {
+            let what = "a simulation that is held cannot run over ranks: nobody holds it on the others; take another engine";
+            return Err(Error::Run(what.to_owned()));
+        }
         let StartedSimulation { numbers, remake, plane_names, means, start, place, working, store } = begun;
         if let Some(working) = working.as_deref() {
             working.show(engine)?;
         }
-        let start = Snapshot::start(start, means.len());
+        let start = Snapshot::start(start(), means.len());
         let machine = machine_of_engine::start(&numbers.process, means, &start, engine)?;
         Ok(Self { machine, first: numbers.clone(), numbers, remake, plane_names, place, store })
     }

@@ -38,6 +38,7 @@ mod material_planes;
 mod mei;
 mod on_ground;
 mod outflow_kernels;
+mod over_ranks;
 mod pace;
 mod pipeline;
 mod pipes;

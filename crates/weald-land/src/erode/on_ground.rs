@@ -61,9 +61,10 @@ impl OnGround<'_> {
         let grid = (working.size, working.mask.is_some());
         let process: Stepped = Stepped::new(name, &piped(&[])?, grid);
         let (place, remake) = (self.place(&process, landscape, &working), remake(name, piped, grid));
+        let (planes, ground) = (process.state_names().len(), Arc::clone(&working));
         Ok(StartedSimulation {
             plane_names: process.state_names(),
-            start: working.state(process.state_names().len(), &[]),
+            start: Box::new(move || ground.state(planes, &[])),
             numbers: Numbers::new(process, |_| ()),
             remake,
             means: &[],

@@ -54,6 +54,12 @@ impl<P: Process> Edits<P> {
         earlier.filter_map(|edit| edit.setting().cloned()).collect()
     }
 
+    /// The keys that are set at a step and later, in order.
+    pub(crate) fn settings_from(&self, step: u64) -> Vec<Setting> {
+        let later = self.script.edits().iter().filter(|edit| edit.step >= step);
+        later.filter_map(|edit| edit.setting().cloned()).collect()
+    }
+
     /// The numbers after these keys were set.
     pub(crate) fn numbers(&self, settings: &[Setting], first: &Numbers<P>) -> Result<Numbers<P>, Error> {
         if settings.is_empty() { Ok(first.clone()) } else { (self.remake)(settings) }

@@ -1,9 +1,12 @@
 //! Runs a process for many steps: progress, interruption, checkpoints, the watch for NaN, mean fluxes.
 
+use std::sync::Arc;
+
 use web_time::Instant;
 
 use super::finished::Finished;
 use super::look::{self, Seen};
+use super::over_ranks::{self, Beginning};
 use super::pace::Pace;
 use super::saved::Saved;
 use super::scripted::{Edits, Numbers};
@@ -12,6 +15,7 @@ use weald_core::error::{Error, NotFinite};
 use weald_engine::machine::{Machine, Means, Snapshot};
 use weald_engine::machine_of_engine;
 use weald_engine::patch::{Patch, Patched};
+use weald_engine::ranks::Ranks;
 use weald_engine::stencil::chain::Process;
 use weald_engine::stencil::rows::Rows;
 use weald_engine::{Engine, Job, SavedSimulation, WENT_ON_ON_CPU};
@@ -44,9 +48,32 @@ pub(crate) struct Record {
 }
 
 impl<P: Process> Simulation<'_, P> {
-    /// Runs from `start`, or from where `job` resumes. Where the engine is a device that may be replaced, a
-    /// failure of it is followed by the CPU from the last state that came back.
-    pub(crate) fn run(&self, start: Rows, job: &Job<'_>) -> Result<Finished, Error> {
+    /// Runs from its beginning, or from where `job` resumes. Where the engine is a device that may be replaced, a
+    /// failure of it is followed by the CPU from the last state that came back. Over ranks the end is with the first
+    /// alone.
+    pub(super) fn run(&self, beginning: Beginning<'_>, job: &Job<'_>) -> Result<Option<Finished>, Error> {
+        match beginning {
+            Beginning::With(start) => self.lead(start, job).map(Some),
+            Beginning::Led(ranks) => self.follow(ranks).map(|()| None),
+        }
+    }
+
+    /// Does what the first rank says, to the end of the simulation.
+    fn follow(&self, ranks: &Arc<dyn Ranks>) -> Result<(), Error> {
+        let done = over_ranks::learn(&**ranks)?;
+        let mut settings = self.edits.map(|edits| edits.settings_before(done)).unwrap_or_default();
+        let mut later = self.edits.map(|edits| edits.settings_from(done)).unwrap_or_default().into_iter();
+        let mut has_begun = false;
+        weald_engine::ranks::follow(self.means(), ranks, &mut || {
+            if has_begun {
+                settings.extend(later.next());
+            }
+            has_begun = true;
+            Ok(self.numbers_after(&settings)?.process)
+        })
+    }
+
+    fn lead(&self, start: Rows, job: &Job<'_>) -> Result<Finished, Error> {
         let start = Snapshot::start(start, self.means().len());
         let first = Saved { done: 0, snapshot: start };
         let mut first = match &job.resume {
@@ -101,6 +128,14 @@ impl<P: Process> Simulation<'_, P> {
     fn means(&self) -> Means<'static> {
         self.record.as_ref().map_or(&[], |record| record.means)
     }
+
+    /// What the keys say after some were set.
+    fn numbers_after(&self, settings: &[Setting]) -> Result<Numbers<P>, Error> {
+        match self.edits {
+            Some(edits) => edits.numbers(settings, self.numbers),
+            None => Ok(self.numbers.clone()),
+        }
+    }
 }
 
 struct Running<'a, P: Process> {
@@ -141,10 +176,8 @@ impl<'a, P: Process> Running<'a, P> {
         }
         let cells = from.snapshot.size().cells();
         let settings = simulation.edits.map(|edits| edits.settings_before(from.done)).unwrap_or_default();
-        let numbers = match simulation.edits {
-            Some(edits) => edits.numbers(&settings, simulation.numbers)?,
-            None => simulation.numbers.clone(),
-        };
+        let numbers = simulation.numbers_after(&settings)?;
+        over_ranks::announce(engine, from.done)?;
         let machine = machine_of_engine::start(&numbers.process, simulation.means(), &from.snapshot, engine)?;
         let pace = Pace::new(engine, cells, machine.block());
         Ok(Self {

@@ -125,6 +125,10 @@ impl Step for SlippageStep {
         44
     }
 
+    fn runs_over_ranks(&self) -> bool {
+        true
+    }
+
     fn run(&self, landscape: &mut Landscape, job: &Job<'_>) -> Result<Outcome, Error> {
         loose::run(self, landscape, job)
     }
@@ -163,9 +167,10 @@ impl Loose for SlippageStep {
         let first = process(&[])?;
         let names = stack::names(&landscape.materials);
         let place = Place::of("slippage", &working, names, PaintedPlanes::of(&first, column, &working));
+        let ground = Arc::clone(&working);
         Ok(StartedSimulation {
             plane_names: stack::plane_names(column, &landscape.materials),
-            start: working.state(planes.count(), &[]),
+            start: Box::new(move || ground.state(planes.count(), &[])),
             numbers: Numbers::new(first, |_| ()),
             remake: Arc::new(move |settings| Ok(Numbers::new(process(settings)?, |_| ()))),
             means: &[],

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use super::edits::Place;
 use super::finished::Finished;
+use super::over_ranks::Beginning;
 use super::scripted::{Edits, Numbers, Remake};
 use super::simulation::{Record, Simulation};
 use super::working::WorkingGrid;
@@ -20,6 +21,9 @@ use weald_engine::step::Outcome;
 /// Writes what a simulation of so many iterations leaves.
 pub(crate) type Store = Arc<dyn Fn(&mut Landscape, &Finished, u64) -> Result<Outcome, Error> + Send + Sync>;
 
+/// Makes the state before the first step, of which ranks that another one leads have no need.
+pub(crate) type Start = Box<dyn FnOnce() -> Rows + Send>;
+
 /// What a simulation begins with.
 pub(crate) struct StartedSimulation<P: Process> {
     pub(crate) numbers: Numbers<P>,
@@ -28,7 +32,7 @@ pub(crate) struct StartedSimulation<P: Process> {
     pub(crate) plane_names: Vec<String>,
     /// Parts of each mean that is kept.
     pub(crate) means: Means<'static>,
-    pub(crate) start: Rows,
+    pub(crate) start: Start,
     /// Where strokes fall, where they can.
     pub(crate) place: Option<Arc<Place>>,
     /// Where the ground lies, for those who look on.
@@ -60,7 +64,7 @@ pub(crate) fn unscripted<P: Process>() -> Remake<P> {
 }
 
 impl<P: Process> StartedSimulation<P> {
-    /// Runs it to its end.
+    /// Runs it to its end. Over ranks the landscape of the first alone changes.
     pub(crate) fn run(
         self,
         course: Course,
@@ -86,7 +90,9 @@ impl<P: Process> StartedSimulation<P> {
             edits: edits.as_ref(),
             seen: is_seen.then_some(&seen),
         };
-        let finished = simulation.run(start, job)?;
-        store(landscape, &finished, iterations)
+        match simulation.run(Beginning::of(&job.engine, || Ok(start()))?, job)? {
+            Some(finished) => store(landscape, &finished, iterations),
+            None => Ok(Outcome::default()),
+        }
     }
 }

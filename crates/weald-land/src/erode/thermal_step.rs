@@ -94,6 +94,10 @@ impl Step for Thermal {
         32
     }
 
+    fn runs_over_ranks(&self) -> bool {
+        true
+    }
+
     fn run(&self, landscape: &mut Landscape, job: &Job<'_>) -> Result<Outcome, Error> {
         loose::run(self, landscape, job)
     }

@@ -163,6 +163,10 @@ impl Step for Carry {
         vec![(self.layer.0.clone(), "m")]
     }
 
+    fn runs_over_ranks(&self) -> bool {
+        true
+    }
+
     fn run(&self, landscape: &mut Landscape, job: &Job<'_>) -> Result<Outcome, Error> {
         loose::run(self, landscape, job)
     }
@@ -199,9 +203,10 @@ impl Loose for Carry {
             }
             Ok(Numbers::new(carrying(&changed), |_| ()))
         };
+        let start = self.state(landscape, self.advection(cell))?;
         Ok(StartedSimulation {
             plane_names: vec!["load".to_owned()],
-            start: self.state(landscape, self.advection(cell))?,
+            start: Box::new(move || start),
             numbers: Numbers::new(carrying(self), |_| ()),
             remake: Arc::new(remade),
             means: &[],

@@ -16,6 +16,7 @@ mod layer_output;
 pub mod load;
 mod memory;
 mod migrate;
+mod over_ranks;
 mod overrides;
 mod plan;
 pub mod renamed;
@@ -36,6 +37,7 @@ pub use checkpoint::{CHECKPOINT_FILE, pack_landscape, unpack_landscape};
 pub use fractal::FractalRequest;
 pub use memory::Memory;
 pub use migrate::{Migrated, migrate};
+pub use over_ranks::take_part;
 pub use overrides::Overrides;
 pub use plan::{
     BuiltIn, Content, FILM_EXTENSIONS, Film, FilmKeys, FractalKeys, FractalSource, Ground, LandscapeKeys,

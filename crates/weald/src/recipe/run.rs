@@ -21,6 +21,7 @@ use web_time::Instant;
 use super::cache::KeptSteps;
 use super::checkpoint::{self, CHECKPOINT_FILE, State};
 use super::ground;
+use super::over_ranks;
 use super::plan::{Output, Planned, Recipe};
 use super::report::{OutputReport, REPORT_FILE, Report};
 use crate::written;
@@ -58,6 +59,10 @@ impl Run<'_> {
     /// [`Error::Input`] for a damaged elevation model or checkpoint, [`Error::Run`] where a step or a file
     /// fails, [`Error::Interrupted`] where `progress` says so; the last two name the checkpoint, if any.
     pub fn execute(&self, progress: &dyn Progress) -> Result<Report, Error> {
+        over_ranks::leading(&self.options.engine, || self.execute_on_threads(progress))
+    }
+
+    fn execute_on_threads(&self, progress: &dyn Progress) -> Result<Report, Error> {
         self.recipe.outputs.iter().try_for_each(|output| self.check_drawing(output))?;
         // Where no number is asked for, the threads that there are do it: a browser has one, and can start no others.
         let Some(threads) = self.options.threads.filter(|&threads| threads > 0) else {
@@ -74,11 +79,13 @@ impl Run<'_> {
     /// # Errors
     /// As [`Run::execute`].
     pub fn landscape(&self, progress: &dyn Progress) -> Result<Landscape, Error> {
-        let place = self.prepare(progress)?;
-        let state = self.finish_steps(progress)?;
-        remove_checkpoint(&self.checkpoint())?;
-        drop(place);
-        Ok(state.landscape)
+        over_ranks::leading(&self.options.engine, || {
+            let place = self.prepare(progress)?;
+            let state = self.finish_steps(progress)?;
+            remove_checkpoint(&self.checkpoint())?;
+            drop(place);
+            Ok(state.landscape)
+        })
     }
 
     /// What cannot be drawn is reported before an hour of simulation.
@@ -220,7 +227,9 @@ impl Run<'_> {
         let desk = StepWatcher::new(self, state, progress, clock);
         let seed = planned.seed(self.recipe.seed);
         let job = Job { seed, engine: self.options.engine.clone(), watcher: &desk, resume };
-        let result = planned.step.run(&mut landscape, &job);
+        let result = over_ranks::with_others(&job.engine, (state.done, planned), &state.landscape, || {
+            planned.step.run(&mut landscape, &job)
+        });
         drop(job);
         let result = result.and_then(|outcome| {
             written::finish(planned.step.as_ref(), &mut landscape)?;

@@ -13,6 +13,7 @@ mod ground;
 mod json_schema;
 mod materials;
 mod networks;
+mod over_ranks;
 mod own_grid;
 mod plants;
 #[path = "../../../weald-export/tests/export/programs/mod.rs"]

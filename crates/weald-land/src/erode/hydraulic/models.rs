@@ -159,9 +159,10 @@ impl Hydraulic {
         let process = M::of(self, &OnLand { landscape, filled: &filled, working: &working, painted })?;
         let place = editable.then(|| Arc::new(self.place(&process, landscape, &working, painted)));
         let remake = if editable { self.remake(landscape, &working, painted) } else { unscripted() };
+        let (planes, ground) = (process.state_planes(), Arc::clone(&working));
         Ok(StartedSimulation {
             plane_names: process.plane_names(landscape),
-            start: working.water_state(process.state_planes(), &weather),
+            start: Box::new(move || ground.water_state(planes, &weather)),
             numbers: self.numbers(process, filled),
             remake,
             means: M::MEANS,
@@ -271,7 +272,7 @@ fn seconds_of<M: Scheme>(
     engine: &Engine,
 ) -> Result<f64, Error> {
     let weather: Vec<_> = (0..iterations).map(|step| (begun.numbers.weather)(step)).collect();
-    let start = Snapshot::start(begun.start, 0);
+    let start = Snapshot::start((begun.start)(), 0);
     let mut machine = machine_of_engine::start(&begun.numbers.process, &[], &start, engine)?;
     // The first step compiles, allocates and warms up; the look at the end waits for a device.
     machine.advance(&weather[..1], false)?;

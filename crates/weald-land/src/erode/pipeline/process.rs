@@ -13,7 +13,7 @@ use crate::erode::sweep::Sweep;
 use weald_core::grid::Size;
 use weald_engine::program::Program;
 use weald_engine::stencil::chain::{Flow, Process};
-use weald_engine::uniform::Uniform;
+use weald_engine::uniform::{FromWords, Uniform};
 
 /// A process that is one pipeline, with weather of this kind.
 pub(crate) struct Stepped<W = ()> {
@@ -53,7 +53,7 @@ impl<W> Stepped<W> {
     }
 }
 
-impl<W: Uniform + Copy + Send + Sync + 'static> Process for Stepped<W> {
+impl<W: Uniform + FromWords + Copy + Send + Sync + 'static> Process for Stepped<W> {
     type Weather = W;
     type Scratch = PipelineScratch;
 

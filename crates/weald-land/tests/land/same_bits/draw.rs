@@ -32,9 +32,14 @@ pub(crate) struct Case {
     pub(crate) tiles: Size,
 }
 
-/// The case of that number.
+/// The case of that number, of 300 steps and more.
 pub(crate) fn case(number: u64) -> Case {
-    let mut draw = Draw { case: number, drawn: 0 };
+    case_of(number, 300)
+}
+
+/// The same of so many steps and more.
+pub(crate) fn case_of(number: u64, steps: u64) -> Case {
+    let mut draw = Draw { case: number, drawn: 0, steps };
     let ground = draw.ground();
     let kind = number % KINDS;
     let step: Box<dyn Step> = match kind {
@@ -66,6 +71,8 @@ fn with_rivers(mut ground: Landscape) -> Landscape {
 struct Draw {
     case: u64,
     drawn: i64,
+    /// Fewest steps of a process.
+    steps: u64,
 }
 
 impl Draw {
@@ -93,7 +100,7 @@ impl Draw {
 
     /// More than two seasons.
     fn steps(&mut self) -> u32 {
-        self.among(300..340) as u32
+        self.among(self.steps..self.steps + 40) as u32
     }
 
     /// Rough layered ground. Some of it is so high that several steps go through it in one time block, whatever the

@@ -15,16 +15,16 @@ use crate::common::field;
 const OF_EACH_KIND: u64 = 3;
 
 /// Looks at the drawn steps, takes a checkpoint whenever it can, and stops the run where it is told to.
-struct Looker {
+pub(crate) struct Looker {
     looks: [u64; 2],
     stop: u64,
     done: AtomicU64,
-    seen: Mutex<Vec<(u64, Landscape)>>,
-    saved: Mutex<Option<SavedSimulation>>,
+    pub(crate) seen: Mutex<Vec<(u64, Landscape)>>,
+    pub(crate) saved: Mutex<Option<SavedSimulation>>,
 }
 
 impl Looker {
-    fn new(looks: [u64; 2], stop: u64) -> Self {
+    pub(crate) fn new(looks: [u64; 2], stop: u64) -> Self {
         let (done, seen, saved) = Default::default();
         Self { looks, stop, done, seen, saved }
     }
@@ -73,7 +73,7 @@ fn run_on_threads(
 }
 
 /// What differs first, in words.
-fn difference(expected: &Landscape, got: &Landscape) -> Option<String> {
+pub(crate) fn difference(expected: &Landscape, got: &Landscape) -> Option<String> {
     expected.layers().zip(got.layers()).find_map(|((name, expected), (_, got))| {
         let pairs = expected.field.values().iter().zip(got.field.values());
         let other: Vec<_> = pairs.filter(|(a, b)| a.to_bits() != b.to_bits()).collect();

@@ -3,6 +3,7 @@
 
 mod draw;
 mod drawn;
+mod ranks;
 
 use std::sync::Mutex;
 

@@ -60,7 +60,7 @@ fn build() -> String {
 /// The engine, where bits depend on it.
 fn machine(engine: &Engine) -> String {
     match engine {
-        Engine::Cpu | Engine::Bands(_) | Engine::Tiles(_) => "cpu".to_owned(),
+        Engine::Cpu | Engine::Bands(_) | Engine::Tiles(_) | Engine::Ranks(_) => "cpu".to_owned(),
         Engine::Device(_) | Engine::DeviceElseCpu(_) => engine.adapter().unwrap_or_default(),
     }
 }

@@ -1,0 +1,96 @@
+//! How the rows of a simulation are shared among ranks.
+
+use std::ops::Range;
+
+/// Rows of one rank, and those that it needs around them.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Share {
+    /// Ranks that have rows; those behind them have none.
+    active: usize,
+    rank: usize,
+    /// Rows of the whole.
+    rows: usize,
+    /// Rows that a cell feels in one step.
+    reach: usize,
+    /// Most steps between two exchanges.
+    pub(super) block: usize,
+}
+
+/// Rows beyond the reach that means take values from.
+const SOUTH_OF_MEANS: usize = 1;
+
+impl Share {
+    /// The share of one of `count` ranks. Each that has rows has so many that what it feels lies with its neighbours; on
+    /// grids that are too low for that, the last ranks have none.
+    pub(super) fn of((rank, count): (usize, usize), rows: usize, reach: usize) -> Self {
+        let active = count.clamp(1, (rows / (reach + SOUTH_OF_MEANS)).max(1));
+        // More steps at a time exchange less often and compute more rows twice.
+        let block = (rows / active / (4 * reach)).clamp(1, 4);
+        Self { active, rank, rows, reach, block }
+    }
+
+    /// The same for another rank.
+    pub(super) fn of_rank(&self, rank: usize) -> Self {
+        Self { rank, ..self.clone() }
+    }
+
+    fn own_of(&self, rank: usize) -> Range<usize> {
+        let start = |rank: usize| self.rows * rank.min(self.active) / self.active;
+        start(rank)..start(rank + 1)
+    }
+
+    /// Its own rows.
+    pub(super) fn own(&self) -> Range<usize> {
+        self.own_of(self.rank)
+    }
+
+    /// Its own rows with those around them.
+    pub(super) fn held(&self) -> Range<usize> {
+        let (own, halo) = (self.own(), self.halo(self.block));
+        if own.is_empty() {
+            return own;
+        }
+        own.start.saturating_sub(halo)..(own.end + halo).min(self.rows)
+    }
+
+    /// Rows around its own that it needs for so many steps.
+    pub(super) fn halo(&self, steps: usize) -> usize {
+        self.reach * steps + SOUTH_OF_MEANS
+    }
+
+    /// The rank that has the rows to the north.
+    pub(super) fn north(&self) -> Option<usize> {
+        self.rank.checked_sub(1).filter(|_| self.rank < self.active)
+    }
+
+    /// The rank that has the rows to the south.
+    pub(super) fn south(&self) -> Option<usize> {
+        Some(self.rank + 1).filter(|rank| *rank < self.active)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ranks_have_all_rows_once_and_need_none_beyond_their_neighbours() {
+        for (rows, count, reach) in [(1, 4, 3), (7, 2, 6), (40, 6, 5), (41, 3, 2), (500, 6, 9), (64, 64, 1)] {
+            let whole = Share::of((0, count), rows, reach);
+            let shares: Vec<_> = (0..count).map(|rank| whole.of_rank(rank)).collect();
+            let owned: Vec<_> = shares.iter().flat_map(Share::own).collect();
+            assert_eq!(owned, (0..rows).collect::<Vec<_>>(), "{whole:?}");
+            for share in shares.iter().filter(|share| !share.own().is_empty()) {
+                let (own, held) = (share.own(), share.held());
+                assert!(held.start <= own.start && own.end <= held.end);
+                let first = share.north().map_or(0, |north| share.own_of(north).start);
+                let end = share.south().map_or(rows, |south| share.own_of(south).end);
+                assert!(first <= held.start && held.end <= end, "{share:?} holds {held:?}");
+                assert_eq!(
+                    (own.start == 0, own.end == rows),
+                    (share.north().is_none(), share.south().is_none())
+                );
+            }
+        }
+    }
+}
