@@ -167,3 +167,28 @@ macro_rules! uniform {
         }
     };
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    uniform! {
+        struct Every {
+            vectors: [[f32; 4]; 6],
+            vector: [f32; 4],
+            counts: [u32; 4],
+            single: f32,
+            count: u32,
+        }
+    }
+
+    #[test]
+    fn a_struct_comes_back_from_its_words() {
+        let mut vectors = [[0.5; 4]; 6];
+        vectors[5] = [1.0, -0.0, f32::MAX, 3.25];
+        let every = Every { vectors, vector: [2.0; 4], counts: [1, 2, 3, u32::MAX], single: -7.5, count: 9 };
+        let words = every.words();
+        assert_eq!(words.len(), 34);
+        assert_eq!(Every::from_words(&words), every);
+    }
+}

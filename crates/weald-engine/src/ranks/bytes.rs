@@ -12,7 +12,9 @@ impl Writer {
     }
 
     pub(super) fn counts(&mut self, counts: &[usize]) {
-        counts.iter().for_each(|&count| self.count(count));
+        for &count in counts {
+            self.count(count);
+        }
     }
 
     pub(super) fn singles(&mut self, values: &[f32]) {

@@ -71,7 +71,9 @@ impl Command {
             Self::Advance { recorded, weather } => {
                 let words = weather.first().map_or(0, Vec::len);
                 writer.counts(&[usize::from(*recorded), weather.len(), words]);
-                weather.iter().for_each(|step| writer.words(step));
+                for step in weather {
+                    writer.words(step);
+                }
             }
             Self::Cut(window) => write_window(&mut writer, window),
             Self::Lay(patch) => write_patch(&mut writer, patch),

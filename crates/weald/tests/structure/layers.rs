@@ -9,6 +9,7 @@ use super::workspace::Workspace;
 pub(crate) const LAYERS: &[(&str, &[&str])] = &[
     ("weald-dev", &["weald-gallery", "weald"]),
     ("weald-py", &["weald-gpu", "weald"]),
+    ("weald-mpi", &["weald"]),
     ("weald-web", &["weald-studio", "weald"]),
     ("weald-cli", &["weald-studio", "weald-gallery", "weald-gpu", "weald"]),
     ("weald-studio", &["weald-gpu", "weald"]),
@@ -63,7 +64,7 @@ const STAGES: &[&str] = &[
 const FOUNDATIONS: &[&str] = &["crates/weald-land/src/flow", "crates/weald-land/src/edit"];
 
 /// Dependencies that stay within some crates.
-const CONFINED: &[(&str, &[&str])] = &[("wgpu", &["weald-gpu"])];
+const CONFINED: &[(&str, &[&str])] = &[("mpi", &["weald-mpi"]), ("wgpu", &["weald-gpu"])];
 
 /// What the crates' dependencies have against a table: arrows that it does not have, arrows that it has in vain, and
 /// arrows that lead upward.

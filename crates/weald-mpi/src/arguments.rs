@@ -1,0 +1,70 @@
+//! The command line.
+
+use std::num::NonZeroUsize;
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand};
+use weald::recipe::Overrides;
+
+/// Runs recipes over the processes of a cluster, with the bits of one processor.
+#[derive(Debug, Parser)]
+#[command(name = "weald-mpi", version)]
+pub(crate) struct Arguments {
+    #[command(subcommand)]
+    pub(crate) command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Runs a recipe over all ranks: `mpirun -n 4 weald-mpi run RECIPE.toml`
+    Run(RunArguments),
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct RunArguments {
+    /// The recipe
+    #[arg(value_name = "RECIPE.toml")]
+    pub(crate) recipe: PathBuf,
+    /// Folder of the files [default: out/ and the recipe's name]
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: Option<PathBuf>,
+    /// Cells along the longer side, on the same ground
+    #[arg(long, value_name = "N")]
+    pub(crate) size: Option<u64>,
+    /// Seed of the landscape
+    #[arg(long, value_name = "N")]
+    pub(crate) seed: Option<u64>,
+    /// Sets a key of the recipe, such as step.2.iterations=500; may be repeated
+    #[arg(long, value_name = "KEY=VALUE", value_parser = key_and_value)]
+    pub(crate) set: Vec<(String, String)>,
+    /// Threads of each rank [default: the cores of its machine, shared among the ranks there]
+    #[arg(long, value_name = "N")]
+    pub(crate) threads: Option<NonZeroUsize>,
+    /// Seconds between checkpoints
+    #[arg(long, value_name = "SECONDS", default_value_t = 60)]
+    pub(crate) checkpoint_every: u64,
+    /// Goes on from the checkpoint in the output folder, over any number of ranks
+    #[arg(long)]
+    pub(crate) resume: bool,
+    /// Shows no progress
+    #[arg(long)]
+    pub(crate) quiet: bool,
+}
+
+impl RunArguments {
+    /// What of the recipe is to be otherwise.
+    pub(crate) fn overrides(&self) -> Overrides {
+        Overrides { size: self.size, seed: self.seed, set: self.set.clone(), ..Overrides::default() }
+    }
+
+    /// Where the files go.
+    pub(crate) fn folder(&self) -> PathBuf {
+        let default = || PathBuf::from("out").join(self.recipe.file_stem().unwrap_or_default());
+        self.out.clone().unwrap_or_else(default)
+    }
+}
+
+fn key_and_value(text: &str) -> Result<(String, String), String> {
+    let parts = text.split_once('=').ok_or_else(|| format!("`{text}` has no `=`: write KEY=VALUE"))?;
+    Ok((parts.0.trim().to_owned(), parts.1.trim().to_owned()))
+}

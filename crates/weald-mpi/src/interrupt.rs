@@ -1,0 +1,32 @@
+//! Ctrl-C and SIGTERM: the first rank ends the run after a checkpoint, the others follow it.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use weald::Error;
+
+const INTERRUPTED: i32 = 130;
+
+static ASKED: AtomicBool = AtomicBool::new(false);
+
+/// Listens from now on. A launcher sends the signal to all ranks, also where one of them is lost: then the others wait for
+/// it in vain, and the launcher ends them.
+pub(crate) fn listen(leads: bool) -> Result<(), Error> {
+    let handler = move || {
+        if ASKED.swap(true, Ordering::Relaxed) {
+            std::process::exit(INTERRUPTED);
+        }
+        if leads {
+            eprintln!(
+                "stopping after a checkpoint; if a rank was lost, the last one stands, and the same command with \
+                 --resume goes on from it"
+            );
+        }
+    };
+    let fault = |cause| Error::Run(format!("cannot listen for Ctrl-C and SIGTERM: {cause}"));
+    ctrlc::set_handler(handler).map_err(fault)
+}
+
+/// Whether somebody has asked for an end.
+pub(crate) fn asked() -> bool {
+    ASKED.load(Ordering::Relaxed)
+}
