@@ -96,6 +96,10 @@ impl Step for Creep {
         u64::from(self.iterations)
     }
 
+    fn runs_over_ranks(&self) -> bool {
+        true
+    }
+
     fn run(&self, landscape: &mut Landscape, job: &Job<'_>) -> Result<Outcome, Error> {
         let alone = OnGround { name: "creep", layer: &self.layer.0, iterations: self.iterations };
         alone.run(&equations(self.rate as f32), landscape, job)

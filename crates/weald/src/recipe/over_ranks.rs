@@ -33,7 +33,15 @@ pub(super) fn leading<T>(engine: &Engine, run: impl FnOnce() -> Result<T, Error>
     done
 }
 
-/// Runs a step, with the other ranks where it runs over ranks.
+/// Where a step runs: on the first rank alone, if it does not run over ranks.
+pub(super) fn engine_of(planned: &Planned, engine: &Engine) -> Engine {
+    match engine {
+        Engine::Ranks(_) if !planned.step.runs_over_ranks() => Engine::Cpu,
+        engine => engine.clone(),
+    }
+}
+
+/// Runs a step on its engine, with the other ranks where that is ranks.
 pub(super) fn with_others<T>(
     engine: &Engine,
     (index, planned): (usize, &Planned),
@@ -41,9 +49,6 @@ pub(super) fn with_others<T>(
     run: impl FnOnce() -> Result<T, Error>,
 ) -> Result<T, Error> {
     let Engine::Ranks(ranks) = engine else { return run() };
-    if !planned.step.runs_over_ranks() {
-        return run();
-    }
     let mut message = (index as u64).to_le_bytes().to_vec();
     message.extend(pack_landscape(&read_by(planned, landscape)));
     ranks.tell(message)?;

@@ -226,7 +226,8 @@ impl Run<'_> {
         let started = Instant::now();
         let desk = StepWatcher::new(self, state, progress, clock);
         let seed = planned.seed(self.recipe.seed);
-        let job = Job { seed, engine: self.options.engine.clone(), watcher: &desk, resume };
+        let engine = over_ranks::engine_of(planned, &self.options.engine);
+        let job = Job { seed, engine, watcher: &desk, resume };
         let result = over_ranks::with_others(&job.engine, (state.done, planned), &state.landscape, || {
             planned.step.run(&mut landscape, &job)
         });

@@ -14,6 +14,7 @@ use weald_engine::{Engine, Job, SavedSimulation, Unwatched, Watcher};
 use weald_land::edit::{Brush, Change, Edit, Effect, Falloff, Script, Setting};
 use weald_land::erode::fluvial_step::Fluvial;
 use weald_land::erode::hydraulic::{Boundary, Hydraulic};
+use weald_land::erode::processes;
 
 use super::draw::{Case, KINDS, case_of};
 use super::drawn::{Looker, difference};
@@ -93,6 +94,20 @@ fn whatever_is_drawn_ends_with_the_same_bits_over_ranks() {
     });
     let faults: Vec<_> = faults.collect();
     assert!(faults.is_empty(), "{} cases differ:\n{}", faults.len(), faults.join("\n"));
+}
+
+#[test]
+fn every_variant_of_every_process_runs_over_ranks() {
+    let ground = layered(rough(22, 70, 12.0, 11));
+    for step in processes() {
+        assert!(step.runs_over_ranks(), "computed by the first rank alone: {step:?}");
+        let (expected, outcome) = on_one(&*step, &ground);
+        let moved = ground.layers().any(|(name, layer)| field(&expected, name) != &layer.field);
+        assert!(moved, "nothing moved, so agreement would mean nothing: {step:?}");
+        let (got, sums) = over(3, (&*step, &ground), (&Unwatched, None));
+        assert_eq!(difference(&expected, &got), None, "{step:?}");
+        assert_eq!(sums.expect("it runs"), outcome.expect("it runs"), "{step:?}");
+    }
 }
 
 #[test]
