@@ -21,6 +21,8 @@ pub enum Command {
     SaveAs,
     /// Asks for a folder to write the outputs to.
     Export,
+    /// Makes landscapes of several seeds, to choose one.
+    Seeds,
     /// Takes the last change back.
     Undo,
     /// Makes it again.
@@ -136,6 +138,7 @@ pub const COMMANDS: &[Entry] = &[
     entry(Command::Save, "Save", "saves the project: the recipe and all that was done by hand", Keys::Command(Key::S)),
     entry(Command::SaveAs, "Save as", "saves the project in another folder", Keys::Shift(Key::S)),
     entry(Command::Export, "Export", "runs the recipe with all that was done and writes its outputs", Keys::Command(Key::E)),
+    entry(Command::Seeds, "Many seeds", "makes small landscapes of many seeds beside each other, to choose one", Keys::Shift(Key::E)),
     entry(Command::Undo, "Undo", "takes the last stroke, setting, step or change of the recipe back", Keys::Command(Key::Z)),
     entry(Command::Redo, "Redo", "does again what was undone last", Keys::Shift(Key::Z)),
     entry(Command::Play, "Play or pause", "lets the simulation run, or stands it still", Keys::Alone(Key::Space)),
@@ -164,6 +167,10 @@ pub const COMMANDS: &[Entry] = &[
     entry(Command::Brush(Tool::Rain), "Brush: rain", "changes the rain", Keys::Alone(Key::R)),
     entry(Command::Brush(Tool::Freeze), "Brush: freeze", "holds the simulation still where it touches", Keys::None),
     entry(Command::Brush(Tool::Thaw), "Brush: thaw", "lets the simulation go on where it touches", Keys::None),
+    entry(Command::Brush(Tool::Mask), "Brush: mask", "protects the ground from other brushes, as far as the strength says", Keys::Alone(Key::K)),
+    entry(Command::Brush(Tool::Unmask), "Brush: unmask", "takes that protection away", Keys::Alone(Key::J)),
+    entry(Command::Brush(Tool::Plant), "Brush: plant", "lets grass, ferns or trees stand densely", Keys::Alone(Key::G)),
+    entry(Command::Brush(Tool::Clear), "Brush: clear", "takes grass, ferns or trees away", Keys::Alone(Key::H)),
     entry(Command::Wider, "Wider brush", "a quarter wider", Keys::Alone(Key::CloseBracket)),
     entry(Command::Narrower, "Narrower brush", "a fifth narrower", Keys::Alone(Key::OpenBracket)),
     entry(Command::Stronger, "Stronger brush", "a tenth stronger", Keys::Alone(Key::Quote)),

@@ -1,6 +1,9 @@
 //! A recipe under a person's hands. The text is what counts: cards and controls change it, comments and order stay, and
 //! what is typed into it changes the cards.
 
+mod density;
+mod renaming;
+
 use toml_edit::{ArrayOfTables, DocumentMut, Item, Table as EditedTable};
 use weald::Error;
 use weald::error::Diagnostic;
@@ -251,18 +254,7 @@ impl Document {
     ) -> Result<(), String> {
         self.edit(change, |document| {
             let item = document.entry("step").or_insert(Item::ArrayOfTables(ArrayOfTables::new()));
-            let steps = item.as_array_of_tables_mut().ok_or(NOT_IN_TABLES)?;
-            let mut tables: Vec<EditedTable> = steps.iter().cloned().collect();
-            let mut places: Vec<_> = tables.iter().filter_map(EditedTable::position).collect();
-            how(&mut tables)?;
-            // Tables stand in the text by their positions: the steps share those that they had, the last one with what is new.
-            places.resize(tables.len(), places.last().copied().unwrap_or(isize::MAX));
-            steps.clear();
-            for (mut table, place) in tables.into_iter().zip(places) {
-                table.set_position(Some(place));
-                steps.push(table);
-            }
-            Ok(())
+            rearranged(item.as_array_of_tables_mut().ok_or(NOT_IN_TABLES)?, how)
         })
     }
 
@@ -277,6 +269,24 @@ impl Document {
         self.take(document.to_string(), change);
         Ok(())
     }
+}
+
+/// Changes which tables there are, or their order.
+fn rearranged(
+    steps: &mut ArrayOfTables,
+    how: impl FnOnce(&mut Vec<EditedTable>) -> Result<(), String>,
+) -> Result<(), String> {
+    let mut tables: Vec<EditedTable> = steps.iter().cloned().collect();
+    let mut places: Vec<_> = tables.iter().filter_map(EditedTable::position).collect();
+    how(&mut tables)?;
+    // Tables stand in the text by their positions: the steps share those that they had, the last one with what is new.
+    places.resize(tables.len(), places.last().copied().unwrap_or(isize::MAX));
+    steps.clear();
+    for (mut table, place) in tables.into_iter().zip(places) {
+        table.set_position(Some(place));
+        steps.push(table);
+    }
+    Ok(())
 }
 
 const NOT_IN_TABLES: &str = "the steps are no [[step]] tables; change the text";

@@ -22,6 +22,7 @@ impl eframe::App for Studio {
 
     fn logic(&mut self, context: &Context, _: &mut eframe::Frame) {
         self.status = self.work.status();
+        self.take_refused();
         self.tend_host();
         self.keep();
         self.ask_before_closing(context);
@@ -58,6 +59,7 @@ impl eframe::App for Studio {
         CentralPanel::no_frame().show(ui, |ui| self.show_viewport(ui));
         panels::start::show(self, ui);
         panels::files::show(self, ui);
+        panels::seeds::show(self, ui);
         panels::palette::show(self, ui);
         panels::start::tour(self, ui);
     }
@@ -137,7 +139,7 @@ impl Studio {
 
     /// Whether a question lies over the window.
     fn is_asking(&self) -> bool {
-        self.asked.is_some() || self.palette.is_some()
+        self.asked.is_some() || self.palette.is_some() || self.sheet.is_some()
     }
 
     fn take_dropped(&mut self, ui: &Ui) {
@@ -159,6 +161,7 @@ impl Studio {
         self.handle(ui, &response, rect);
         self.turn(ui.ctx());
         self.draw(ui, rect);
+        panels::masked::show(self, ui, rect);
         overlay::show(self, ui, rect);
         panels::marks::show(self, ui, rect);
         panels::section::show(self, ui, rect);

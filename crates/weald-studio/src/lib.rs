@@ -7,6 +7,7 @@
 mod brushes;
 mod cameras;
 pub mod commands;
+mod dialogs;
 pub mod document;
 mod drawing;
 mod frame;
@@ -19,6 +20,7 @@ mod on_page;
 mod own_files;
 mod panels;
 mod pick;
+mod presets;
 mod project;
 mod rays;
 #[cfg(not(target_arch = "wasm32"))]
@@ -33,6 +35,7 @@ mod window;
 pub mod work;
 
 pub use brushes::Tool;
+pub use dialogs::{Chooser, Wanted};
 pub use navigation::Mode;
 #[cfg(not(target_arch = "wasm32"))]
 pub use response::{Response, response};

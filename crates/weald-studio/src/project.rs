@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 
 use weald::Error;
 use weald::files::{self, File};
-use weald::recipe::Recipe;
 use weald::recipe::template::{self, Template};
+use weald::recipe::{Overrides, Recipe};
 
 use crate::own_files::OwnFiles;
 use crate::state::State;
@@ -30,7 +30,7 @@ const CAMERAS: &str = "cameras.toml";
 const LOCK: &str = "open.lock";
 
 /// Endings of elevation models.
-const MODELS: [&str; 9] = ["asc", "exr", "hgt", "nc", "npy", "png", "tif", "tiff", "zarr"];
+pub(crate) const MODELS: [&str; 9] = ["asc", "exr", "hgt", "nc", "npy", "png", "tif", "tiff", "zarr"];
 
 /// Where a landscape is kept.
 #[derive(Debug, Default)]
@@ -159,6 +159,12 @@ impl Project {
         folder.join("out").display().to_string()
     }
 
+    /// Where pictures of many seeds go.
+    pub(crate) fn seeds_folder(&self) -> String {
+        let folder = self.folder.clone().unwrap_or_else(home);
+        folder.join("seeds").display().to_string()
+    }
+
     /// A name for a picture that no file has yet.
     pub(crate) fn picture_file(&self) -> PathBuf {
         let folder = self.folder.clone().unwrap_or_else(home);
@@ -236,6 +242,22 @@ impl Project {
         self.kept = state;
         let Some(folder) = self.kept_folder(own) else { return Ok(()) };
         weald::io::write_whole(&folder.join(TYPED), text.as_bytes())
+    }
+
+    /// Saves a text that cannot run, and of which nothing has run yet. It is the recipe, unless the folder has one that can run:
+    /// beside that it is kept as what is typed. Gives whether it is the recipe.
+    pub(crate) fn save_text(&mut self, text: &str, state: State) -> Result<bool, Error> {
+        let Some(folder) = self.folder.clone() else { return Ok(false) };
+        let recipe = folder.join(RECIPE);
+        let is_recipe = Recipe::load(&recipe, &Overrides::default()).is_err();
+        if is_recipe {
+            weald::io::write_whole(&recipe, text.as_bytes())?;
+            self.saved(state);
+        } else {
+            self.kept = state;
+            weald::io::write_whole(&folder.join(TYPED), text.as_bytes())?;
+        }
+        Ok(is_recipe)
     }
 
     /// Its folder, or one among those of projects that have none.

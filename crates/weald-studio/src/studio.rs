@@ -18,6 +18,9 @@ use weald::recipe::template::TEMPLATES;
 use weald::{Error, Field};
 
 use crate::brushes::{Settings, Stroke};
+#[cfg(not(target_arch = "wasm32"))]
+use crate::dialogs;
+use crate::dialogs::{Chooser, Dialog};
 use crate::document::Document;
 use crate::drawing::Drawing;
 use crate::host::Host;
@@ -26,6 +29,7 @@ use crate::navigation::Mode;
 use crate::on_page::OnPage;
 use crate::own_files::OwnFiles;
 use crate::pick::Place;
+use crate::presets::Outputs;
 use crate::project::{Project, Start};
 use crate::rays::Rays;
 use crate::section::Measuring;
@@ -33,7 +37,7 @@ use crate::state::{Did, State};
 use crate::viewport::{Viewport, WindowDevice, device_of};
 #[cfg(not(target_arch = "wasm32"))]
 use crate::work::Thread;
-use crate::work::{Remote, Status, Work};
+use crate::work::{Remote, Status, Task, Work};
 
 /// What the left side shows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -69,6 +73,26 @@ pub(crate) enum Asked {
     Leave,
 }
 
+/// Revision of the text, and place of the preset.
+pub(crate) type OfText = (u64, Option<usize>);
+
+/// Which outputs an export writes.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Exporting {
+    /// Place among the presets; those of the recipe where none is chosen.
+    pub(crate) preset: Option<usize>,
+    /// What is written, with what it follows from.
+    pub(crate) known: Option<(OfText, Result<Outputs, String>)>,
+}
+
+/// What is asked of a sheet of many seeds.
+#[derive(Clone, Debug)]
+pub(crate) struct Sheet {
+    pub(crate) first: u64,
+    pub(crate) count: u64,
+    pub(crate) folder: String,
+}
+
 /// How a studio begins.
 #[derive(Clone, Default)]
 pub struct Options {
@@ -81,6 +105,8 @@ pub struct Options {
     pub remote: Option<Rc<Remote>>,
     /// The page around it.
     pub host: Option<Rc<dyn Host>>,
+    /// What lets the user choose a file or a folder, in place of the dialogs of the system.
+    pub chooser: Option<Chooser>,
     /// Whether it begins with a simulation that runs, and no question and no control before [`Studio::show_controls`].
     pub plays: bool,
 }
@@ -109,8 +135,12 @@ pub struct Studio {
     pub(crate) brush: Settings,
     pub(crate) stroke: Option<Stroke>,
     pub(crate) strokes: u64,
+    /// How hard a pen is pressed, 0 to 1, where one that tells it touches.
+    pub(crate) pressure: Option<f64>,
     pub(crate) pointed: Option<Place>,
     pub(crate) selected: Option<usize>,
+    /// The step whose result gets another name, and what is typed for it.
+    pub(crate) renaming: Option<(usize, String)>,
     pub(crate) left: Left,
     /// What lies below the landscape on a narrow screen.
     pub(crate) part: Option<Part>,
@@ -134,6 +164,13 @@ pub struct Studio {
     pub(crate) tour: Option<usize>,
     /// What the window is called.
     pub(crate) title: String,
+    /// The sheet of many seeds, where it is open.
+    pub(crate) sheet: Option<Sheet>,
+    pub(crate) chooser: Option<Chooser>,
+    /// A dialog of the system that is open.
+    pub(crate) dialog: Option<Dialog>,
+    /// Which outputs an export writes.
+    pub(crate) exporting: Exporting,
     /// Something said to the user, and when.
     pub(crate) message: Option<(String, Instant)>,
     /// Revision of the document that was opened last.
@@ -146,6 +183,10 @@ pub struct Studio {
     /// What was done, in the order of undoing.
     done: Vec<Did>,
     undone: Vec<Did>,
+    /// What could be redone before the last thing was done, in case that it is refused.
+    undone_before: Vec<Did>,
+    /// How much that was refused is known of.
+    noted_refused: u64,
     engine: Engine,
     pub(crate) is_closing: bool,
     /// What was saved and exported last, as far as the user was told.
@@ -248,8 +289,10 @@ impl Studio {
             brush: Settings::default(),
             stroke: None,
             strokes: 0,
+            pressure: None,
             pointed: None,
             selected: None,
+            renaming: None,
             left: Left::default(),
             part: None,
             measuring: Measuring::default(),
@@ -265,6 +308,14 @@ impl Studio {
             recent: own.recent(),
             own,
             tour: None,
+            sheet: None,
+            #[cfg(not(target_arch = "wasm32"))]
+            chooser: options.chooser.or_else(|| Some(dialogs::of_system())),
+            // A page has a way of its own to choose files.
+            #[cfg(target_arch = "wasm32")]
+            chooser: options.chooser,
+            dialog: None,
+            exporting: Exporting::default(),
             message: None,
             opened: 0,
             seen: 0,
@@ -274,6 +325,8 @@ impl Studio {
             keeps_edits: false,
             done: Vec::new(),
             undone: Vec::new(),
+            undone_before: Vec::new(),
+            noted_refused: 0,
             engine,
             is_closing: false,
             noted_saved: None,
@@ -301,6 +354,12 @@ impl Studio {
         (self.opened, self.keeps_edits) = (0, false);
         (self.camera, self.selected, self.asked) = (None, None, None);
         (self.done, self.undone, self.set) = (Vec::new(), Vec::new(), Vec::new());
+        self.undone_before = Vec::new();
+        self.brush.material = Settings::default().material;
+        if !self.has_run() {
+            self.work.ask(Task::Close);
+        }
+        self.renaming = None;
         (self.measuring, self.turns) = (Measuring::default(), false);
         self.read_cameras();
         if let Some(note) = start.note {

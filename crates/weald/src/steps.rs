@@ -29,6 +29,7 @@ pub use weald_land::combine::resample::Resample;
 pub use weald_land::combine::smooth::Smooth;
 pub use weald_land::combine::terrace::Terrace;
 pub use weald_land::combine::top_material::TopMaterial;
+pub use weald_land::edit::PaintedLayer as PaintLayer;
 pub use weald_land::erode::coast::Coast;
 pub use weald_land::erode::dissolution_step::DissolutionStep as Dissolution;
 pub use weald_land::erode::fluvial_step::Fluvial;

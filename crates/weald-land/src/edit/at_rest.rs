@@ -64,7 +64,7 @@ fn canvas_of(landscape: &Landscape) -> Result<Canvas, Error> {
 fn unit_of(layer: &str) -> &'static str {
     match layer {
         "source" => "m/iteration",
-        "rain" | "frozen" => "1",
+        "rain" | "frozen" | "painted_mask" => "1",
         _ => "m",
     }
 }

@@ -86,6 +86,17 @@ pub enum Effect {
     Freeze,
     /// Lets it go on there.
     Thaw,
+    /// Protects the ground from later strokes, as far as the weight says; what runs there goes on.
+    Mask,
+    /// Takes that protection away.
+    Unmask,
+}
+
+impl Effect {
+    /// Whether it paints the mask, which limits what all other strokes do.
+    pub(crate) fn masks(&self) -> bool {
+        matches!(self, Self::Mask | Self::Unmask)
+    }
 }
 
 /// A stroke of a brush.

@@ -3,6 +3,9 @@
 use weald_core::grid::{Field, Mask, Size};
 use weald_core::material::{BEDROCK, Material};
 
+/// The layer of the mask that is painted by hand.
+const PAINTED_MASK: &str = "painted_mask";
+
 /// A rectangle of cells of a landscape.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Area {
@@ -35,6 +38,8 @@ pub struct Canvas {
     pub rain: Field,
     /// 1 where the simulation stands still, else 0.
     pub frozen: Field,
+    /// Share, 0 to 1, that strokes leave out: where it is 1, only those change anything that paint the mask itself.
+    pub mask: Field,
 }
 
 impl Canvas {
@@ -52,6 +57,7 @@ impl Canvas {
             source: zero(),
             rain: Field::filled(area.size, 1.0),
             frozen: zero(),
+            mask: zero(),
         }
     }
 
@@ -90,6 +96,7 @@ impl Canvas {
             source: cut(&self.source),
             rain: cut(&self.rain),
             frozen: cut(&self.frozen),
+            mask: cut(&self.mask),
         })
     }
 
@@ -114,6 +121,7 @@ impl Canvas {
             ("source", &self.source),
             ("rain", &self.rain),
             ("frozen", &self.frozen),
+            (PAINTED_MASK, &self.mask),
         ];
         std::iter::once((BEDROCK, &self.bedrock)).chain(thickness).chain(others)
     }
@@ -126,6 +134,7 @@ impl Canvas {
             ("source", &mut self.source),
             ("rain", &mut self.rain),
             ("frozen", &mut self.frozen),
+            (PAINTED_MASK, &mut self.mask),
         ];
         std::iter::once((BEDROCK, &mut self.bedrock)).chain(thickness).chain(others)
     }

@@ -10,7 +10,8 @@ pub const MAX_PLACES: usize = 10_000;
 
 weald_core::parameters! {
     /// The keys of a stroke, beside `do`: add, remove, add-water, remove-water, smooth, flatten, source, drain,
-    /// rain, freeze or thaw. `do = "set"` has others, [`SettingKeys`].
+    /// rain, freeze, thaw, mask or unmask. What is masked is left as it is by all strokes but the last two.
+    /// `do = "set"` has others, [`SettingKeys`].
     pub struct EditKeys {
         /// Iteration before which the stroke happens; 0 is before the first.
         step: u64 = 0, range 0..=9_007_199_254_740_991_u64;
@@ -122,6 +123,8 @@ const EDIT_KINDS: &[EditKind] = &[
     },
     EditKind { word: "freeze", needs: &[], takes: &[], effect: |_| Some(Effect::Freeze) },
     EditKind { word: "thaw", needs: &[], takes: &[], effect: |_| Some(Effect::Thaw) },
+    EditKind { word: "mask", needs: &[], takes: &[], effect: |_| Some(Effect::Mask) },
+    EditKind { word: "unmask", needs: &[], takes: &[], effect: |_| Some(Effect::Unmask) },
 ];
 
 /// Keys that go with some kinds of edits only.
@@ -273,5 +276,7 @@ fn kind_and_keys(effect: &Effect) -> (&'static str, Vec<(&'static str, serde_jso
         Effect::Rain { factor } => ("rain", vec![("factor", (*factor).into())]),
         Effect::Freeze => ("freeze", Vec::new()),
         Effect::Thaw => ("thaw", Vec::new()),
+        Effect::Mask => ("mask", Vec::new()),
+        Effect::Unmask => ("unmask", Vec::new()),
     }
 }

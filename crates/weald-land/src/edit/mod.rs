@@ -32,6 +32,7 @@ mod history;
 mod json_lines;
 mod keys;
 mod paint;
+mod painted_layer;
 mod script;
 
 pub use brush::{Brush, Effect, Falloff};
@@ -40,4 +41,5 @@ pub use change::{Action, Change, Edit, Setting};
 pub use history::{History, Undoable};
 pub use keys::{EditKeys, MAX_PLACES, SettingKeys};
 pub use paint::Volumes;
+pub use painted_layer::{ENTRY as PAINTED_LAYER, PaintedLayer, PaintedStroke};
 pub use script::{Layout, MAX_BYTES, MAX_STROKES, Script};

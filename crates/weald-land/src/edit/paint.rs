@@ -70,13 +70,29 @@ impl Brush {
             Effect::Rain { factor } => blend(&mut canvas.rain, &touched, *factor),
             Effect::Freeze => hold(&mut canvas.frozen, &touched, 1.0),
             Effect::Thaw => hold(&mut canvas.frozen, &touched, 0.0),
+            Effect::Mask => blend(&mut canvas.mask, &touched, 1.0),
+            Effect::Unmask => blend(&mut canvas.mask, &touched, 0.0),
         }
         Ok(volumes.of_cells(canvas.cell * canvas.cell))
     }
 
-    /// The cells that the stroke changes, with its weight in each.
+    /// Brings a field over a whole landscape towards a value, by the weight of the stroke.
+    pub(super) fn blend_into(&self, field: &mut Field, cell: f64, goal: f64) {
+        let Some(area) = self.area(field.size(), cell) else { return };
+        let weights = self.weights(&Canvas::level(area, cell, &[]));
+        for (place, weight) in weights.into_iter().enumerate().filter(|(_, weight)| *weight > 0.0) {
+            let (x, y) = (place % area.size.columns, place / area.size.columns);
+            let value = &mut field.row_mut(area.first[1] + y)[area.first[0] + x];
+            *value = (f64::from(*value) * (1.0 - weight) + goal * weight) as f32;
+        }
+    }
+
+    /// The cells that the stroke changes, with its weight in each: what the mask leaves of it.
     fn touched(&self, canvas: &Canvas) -> Vec<(usize, f64)> {
+        let mask = (!self.effect.masks()).then(|| canvas.mask.values());
+        let left = |cell: usize| mask.map_or(1.0, |mask| 1.0 - f64::from(mask[cell]));
         let weights = self.weights(canvas).into_iter().enumerate();
+        let weights = weights.map(|(cell, weight)| (cell, weight * left(cell)));
         weights.filter(|&(cell, weight)| weight > 0.0 && canvas.is_open(cell)).collect()
     }
 
@@ -117,7 +133,7 @@ impl Effect {
             Self::Flatten { height } => Some(("height", height, true)),
             Self::Source { rate } | Self::Drain { rate } => Some(("rate", rate, false)),
             Self::Rain { factor } => Some(("factor", factor, false)),
-            Self::Smooth { .. } | Self::Freeze | Self::Thaw => None,
+            Self::Smooth { .. } | Self::Freeze | Self::Thaw | Self::Mask | Self::Unmask => None,
         }
     }
 }

@@ -6,6 +6,7 @@
 
 use super::links::mask_planes;
 use super::material_planes::WEATHER_PLANES;
+use super::painted_mask::{MaskBefore, PaintedMask};
 use super::stack::Column;
 use super::sums;
 use super::water_planes as plane;
@@ -17,6 +18,17 @@ use weald_engine::device::Window;
 use weald_engine::patch::{Patch, Patched};
 use weald_engine::stencil::chain::Process;
 use weald_engine::stencil::rows::Rows;
+
+/// What was there before a stroke.
+#[derive(Clone, Debug)]
+pub(crate) enum Before {
+    /// It touched nothing.
+    Nothing,
+    /// A part of the state.
+    State(Patch),
+    /// A part of the mask.
+    Mask(MaskBefore),
+}
 
 /// Where a state lies on the landscape, and what its planes are.
 pub(crate) struct Place {
@@ -80,12 +92,20 @@ impl Place {
         brush.area(self.size, self.cell).is_some()
     }
 
-    /// Paints a stroke on a state; gives what was there before, where it touched anything.
-    pub(crate) fn stroke(&self, brush: &Brush, state: &mut dyn Patched) -> Result<Option<Patch>, Error> {
+    /// Paints a stroke on a state, as far as the mask leaves it, or on the mask; gives what was there before.
+    pub(crate) fn stroke(
+        &self,
+        brush: &Brush,
+        state: &mut dyn Patched,
+        mask: &mut PaintedMask,
+    ) -> Result<Before, Error> {
         self.check(brush).map_err(Error::Run)?;
-        let Some(area) = brush.area(self.size, self.cell) else { return Ok(None) };
+        let Some(area) = brush.area(self.size, self.cell) else { return Ok(Before::Nothing) };
+        if brush.effect.masks() {
+            return self.paint_mask(brush, mask);
+        }
         let before = state.patch(&self.window(area, brush))?;
-        let canvas = self.canvas_of(area, &before);
+        let canvas = Canvas { mask: mask.part(area), ..self.canvas_of(area, &before) };
         let mut painted = canvas.clone();
         brush.paint(&mut painted)?;
         let mut after = before.clone();
@@ -95,11 +115,22 @@ impl Place {
         }
         let changed = before.differs(&after);
         state.lay(&after.only(&changed))?;
-        Ok(Some(before.only(&changed)))
+        Ok(Before::State(before.only(&changed)))
+    }
+
+    /// Paints a stroke of the mask on that alone.
+    pub(crate) fn paint_mask(&self, brush: &Brush, mask: &mut PaintedMask) -> Result<Before, Error> {
+        let Some(area) = brush.area(self.size, self.cell) else { return Ok(Before::Nothing) };
+        mask.stroke(brush, (self.size, self.cell), (area, self.open(area))).map(Before::Mask)
     }
 
     /// A rectangle of the state, in metres.
-    pub(crate) fn canvas(&self, area: Area, state: &mut dyn Patched) -> Result<Canvas, Error> {
+    pub(crate) fn canvas(
+        &self,
+        area: Area,
+        state: &mut dyn Patched,
+        mask: &PaintedMask,
+    ) -> Result<Canvas, Error> {
         let last = [area.first[0] + area.size.columns, area.first[1] + area.size.rows];
         if last[0] > self.size.columns || last[1] > self.size.rows {
             let [x, y] = area.first;
@@ -109,7 +140,8 @@ impl Place {
                 format!("{size} cells from column {x}, row {y} on are not within {columns} × {rows}");
             return Err(Error::Run(message));
         }
-        Ok(self.canvas_of(area, &state.patch(&self.cells(area, 0))?))
+        let canvas = self.canvas_of(area, &state.patch(&self.cells(area, 0))?);
+        Ok(Canvas { mask: mask.part(area), ..canvas })
     }
 
     /// Cells of the state that a stroke reads: those of walls depend on their neighbours.
@@ -163,6 +195,7 @@ impl Place {
             source: or(weather.map(|[_, source]| source), cell, 0.0),
             rain: or(weather.map(|[rain, _]| rain), 1.0, 1.0),
             frozen: self.frozen(area, patch),
+            mask: Field::filled(area.size, 0.0),
         }
     }
 

@@ -6,7 +6,9 @@
 
 use std::collections::BTreeMap;
 
+use super::edits::Before;
 use super::live::{Live, Running};
+use super::painted_mask::PaintedMask;
 use super::started::StartedSimulation;
 use crate::edit::{Action, Area, Brush, Canvas, Change, Script, Setting, Undoable};
 use weald_core::error::Error;
@@ -14,7 +16,6 @@ use weald_core::landscape::Landscape;
 use weald_core::material::Material;
 use weald_core::source::Value;
 use weald_engine::Engine;
-use weald_engine::patch::Patch;
 use weald_engine::stencil::chain::Process;
 use weald_engine::step::{Outcome, Step};
 
@@ -46,8 +47,9 @@ pub struct InteractiveSimulation {
     start: Landscape,
     done: u64,
     settings: Vec<Setting>,
-    /// Steps and settings of the copies that are kept.
-    kept: BTreeMap<u64, (u64, Vec<Setting>)>,
+    mask: PaintedMask,
+    /// Steps, settings and masks of the copies that are kept.
+    kept: BTreeMap<u64, (u64, Vec<Setting>, PaintedMask)>,
 }
 
 impl std::fmt::Debug for InteractiveSimulation {
@@ -62,8 +64,8 @@ pub struct Undo(What);
 
 #[derive(Clone, Debug)]
 enum What {
-    /// What was there before a stroke, where it touched anything.
-    Painted(Option<Patch>),
+    /// What was there before a stroke.
+    Painted(Before),
     /// A setting is the last one.
     Set,
 }
@@ -75,7 +77,8 @@ impl InteractiveSimulation {
         engine: &Engine,
     ) -> Result<Self, Error> {
         let live = Box::new(Running::new(begun, engine)?);
-        Ok(Self { live, start: landscape.clone(), done: 0, settings: Vec::new(), kept: BTreeMap::new() })
+        let (settings, mask, kept) = (Vec::new(), PaintedMask::default(), BTreeMap::new());
+        Ok(Self { live, start: landscape.clone(), done: 0, settings, mask, kept })
     }
 
     /// Steps done.
@@ -99,7 +102,7 @@ impl InteractiveSimulation {
     /// [`Error::Run`] where the rectangle is not within the landscape or there is no ground to see, [`Error::Device`]
     /// where it cannot be read from the device that holds it.
     pub fn canvas(&mut self, area: Area) -> Result<Canvas, Error> {
-        self.live.canvas(area)
+        self.live.canvas(area, &self.mask)
     }
 
     /// The landscape as if the step had ended here, and what the step would report.
@@ -127,7 +130,7 @@ impl InteractiveSimulation {
     /// # Errors
     /// [`Error::Run`] for a stroke that the step cannot follow; nothing has changed then.
     pub fn stroke(&mut self, brush: &Brush) -> Result<Undo, Error> {
-        self.live.stroke(brush).map(|patch| Undo(What::Painted(patch)))
+        self.live.stroke(brush, &mut self.mask).map(|before| Undo(What::Painted(before)))
     }
 
     /// Gives a key of the step another value from here on.
@@ -161,8 +164,12 @@ impl Undoable for InteractiveSimulation {
 
     fn take_back(&mut self, Undo(what): &Undo) -> Result<(), Error> {
         match what {
-            What::Painted(None) => Ok(()),
-            What::Painted(Some(patch)) => self.live.lay(patch),
+            What::Painted(Before::Nothing) => Ok(()),
+            What::Painted(Before::State(patch)) => self.live.lay(patch),
+            What::Painted(Before::Mask(before)) => {
+                self.mask.take_back(before);
+                Ok(())
+            }
             What::Set => {
                 let before = self.settings.split_last().map_or(&[][..], |(_, before)| before).to_vec();
                 self.follow(before)
@@ -172,19 +179,19 @@ impl Undoable for InteractiveSimulation {
 
     fn keep_as(&mut self, number: u64) -> Result<(), Error> {
         self.live.keep_as(number)?;
-        self.kept.insert(number, (self.done, self.settings.clone()));
+        self.kept.insert(number, (self.done, self.settings.clone(), self.mask.clone()));
         Ok(())
     }
 
     fn return_to(&mut self, number: u64) -> Result<(), Error> {
-        let Some((done, settings)) = self.kept.get(&number).cloned() else {
+        let Some((done, settings, mask)) = self.kept.get(&number).cloned() else {
             return Err(Error::Run(format!("copy {number} of the simulation was never kept")));
         };
         if settings != self.settings {
             self.follow(settings)?;
         }
         self.live.return_to(number)?;
-        self.done = done;
+        (self.done, self.mask) = (done, mask);
         Ok(())
     }
 
@@ -199,8 +206,9 @@ impl Undoable for InteractiveSimulation {
 
     fn bytes_of(Undo(what): &Undo) -> u64 {
         match what {
-            What::Painted(Some(patch)) => patch.bytes() as u64,
-            What::Painted(None) | What::Set => size_of::<Setting>() as u64,
+            What::Painted(Before::State(patch)) => patch.bytes() as u64,
+            What::Painted(Before::Mask(before)) => before.bytes(),
+            What::Painted(Before::Nothing) | What::Set => size_of::<Setting>() as u64,
         }
     }
 }

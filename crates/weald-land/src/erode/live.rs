@@ -2,9 +2,10 @@
 
 use std::sync::Arc;
 
-use super::edits::Place;
+use super::edits::{Before, Place};
 use super::finished::Finished;
 use super::look;
+use super::painted_mask::PaintedMask;
 use super::scripted::{Numbers, Remake, nothing_to_paint_on};
 use super::started::{StartedSimulation, Store};
 use crate::edit::{Area, Brush, Canvas, Setting};
@@ -23,10 +24,10 @@ const STRETCH: u64 = 256;
 /// A simulation whatever its process.
 pub(super) trait Live: Send {
     fn advance(&mut self, steps: std::ops::Range<u64>) -> Result<(), Error>;
-    fn stroke(&mut self, brush: &Brush) -> Result<Option<Patch>, Error>;
+    fn stroke(&mut self, brush: &Brush, mask: &mut PaintedMask) -> Result<Before, Error>;
     fn follow(&mut self, settings: &[Setting]) -> Result<(), Error>;
     fn lay(&mut self, patch: &Patch) -> Result<(), Error>;
-    fn canvas(&mut self, area: Area) -> Result<Canvas, Error>;
+    fn canvas(&mut self, area: Area, mask: &PaintedMask) -> Result<Canvas, Error>;
     fn store(&mut self, landscape: &mut Landscape, steps: u64) -> Result<Outcome, Error>;
     fn keep_as(&mut self, number: u64) -> Result<(), Error>;
     fn return_to(&mut self, number: u64) -> Result<(), Error>;
@@ -96,8 +97,8 @@ impl<P: Process> Live for Running<P> {
         self.look(steps.end)
     }
 
-    fn stroke(&mut self, brush: &Brush) -> Result<Option<Patch>, Error> {
-        self.place()?.stroke(brush, &mut *self.machine)
+    fn stroke(&mut self, brush: &Brush, mask: &mut PaintedMask) -> Result<Before, Error> {
+        self.place()?.stroke(brush, &mut *self.machine, mask)
     }
 
     fn follow(&mut self, settings: &[Setting]) -> Result<(), Error> {
@@ -111,8 +112,8 @@ impl<P: Process> Live for Running<P> {
         self.machine.lay(patch)
     }
 
-    fn canvas(&mut self, area: Area) -> Result<Canvas, Error> {
-        self.place()?.canvas(area, &mut *self.machine)
+    fn canvas(&mut self, area: Area, mask: &PaintedMask) -> Result<Canvas, Error> {
+        self.place()?.canvas(area, &mut *self.machine, mask)
     }
 
     fn store(&mut self, landscape: &mut Landscape, steps: u64) -> Result<Outcome, Error> {

@@ -40,6 +40,7 @@ mod on_ground;
 mod outflow_kernels;
 mod over_ranks;
 mod pace;
+mod painted_mask;
 mod pipeline;
 mod pipes;
 mod processes;

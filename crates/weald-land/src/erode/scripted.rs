@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::edits::{Place, stills};
+use super::painted_mask::PaintedMask;
 use crate::edit::{Brush, Change, Edit, Effect, Script, Setting};
 use weald_core::error::Error;
 use weald_core::material::Material;
@@ -100,19 +101,30 @@ impl<P: Process> Edits<P> {
         notes
     }
 
-    /// Paints the weather, and what stands still, again as they were after `done` steps: a checkpoint does not
+    /// Paints the weather, the mask, and what stands still, again as they were after `done` steps: a checkpoint does not
     /// hold them.
     pub(crate) fn catch_up(&self, done: u64, snapshot: &mut Snapshot) -> Result<(), Error> {
+        let mut mask = PaintedMask::default();
         let weather = |effect: &Effect| {
             matches!(effect, Effect::Source { .. } | Effect::Drain { .. } | Effect::Rain { .. })
         };
-        let stays = |brush: &&Brush| weather(&brush.effect) || stills(&brush.effect);
+        let stays = |brush: &&Brush| weather(&brush.effect) || stills(&brush.effect) || brush.effect.masks();
         let earlier = self.script.edits().iter().filter(|edit| edit.step < done);
         let state: &mut dyn Patched = snapshot;
         for brush in earlier.filter_map(Edit::brush).filter(stays) {
-            self.place()?.stroke(brush, state)?;
+            self.place()?.stroke(brush, state, &mut mask)?;
         }
         Ok(())
+    }
+
+    /// The mask as it was painted before a step.
+    pub(crate) fn mask_before(&self, step: u64) -> Result<PaintedMask, Error> {
+        let mut mask = PaintedMask::default();
+        let earlier = self.script.edits().iter().filter(|edit| edit.step < step);
+        for brush in earlier.filter_map(Edit::brush).filter(|brush| brush.effect.masks()) {
+            self.place()?.paint_mask(brush, &mut mask)?;
+        }
+        Ok(mask)
     }
 }
 

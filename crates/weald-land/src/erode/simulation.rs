@@ -4,10 +4,12 @@ use std::sync::Arc;
 
 use web_time::Instant;
 
+use super::edits::Before;
 use super::finished::Finished;
 use super::look::{self, Seen};
 use super::over_ranks::{self, Beginning};
 use super::pace::Pace;
+use super::painted_mask::PaintedMask;
 use super::saved::Saved;
 use super::scripted::{Edits, Numbers};
 use crate::edit::{Change, Setting};
@@ -145,6 +147,7 @@ struct Running<'a, P: Process> {
     /// What the keys say now.
     numbers: Numbers<P>,
     settings: Vec<Setting>,
+    mask: PaintedMask,
     pace: Pace,
     done: u64,
     cells: usize,
@@ -177,6 +180,8 @@ impl<'a, P: Process> Running<'a, P> {
         let cells = from.snapshot.size().cells();
         let settings = simulation.edits.map(|edits| edits.settings_before(from.done)).unwrap_or_default();
         let numbers = simulation.numbers_after(&settings)?;
+        let mask =
+            simulation.edits.map(|edits| edits.mask_before(from.done)).transpose()?.unwrap_or_default();
         over_ranks::announce(engine, from.done)?;
         let machine = machine_of_engine::start(&numbers.process, simulation.means(), &from.snapshot, engine)?;
         let pace = Pace::new(engine, cells, machine.block());
@@ -186,6 +191,7 @@ impl<'a, P: Process> Running<'a, P> {
             machine,
             numbers,
             settings,
+            mask,
             pace,
             done: from.done,
             cells,
@@ -211,7 +217,12 @@ impl<'a, P: Process> Running<'a, P> {
         let mut before = Vec::new();
         for edit in edits.script.before(self.done) {
             match &edit.change {
-                Change::Stroke(brush) => before.extend(edits.place()?.stroke(brush, &mut *self.machine)?),
+                Change::Stroke(brush) => {
+                    let painted = edits.place()?.stroke(brush, &mut *self.machine, &mut self.mask)?;
+                    if let Before::State(patch) = painted {
+                        before.push(patch);
+                    }
+                }
                 Change::Set(setting) => {
                     self.settings.push(setting.clone());
                     self.numbers = (edits.remake)(&self.settings)?;

@@ -197,7 +197,7 @@ class Landscape(Steps, _weald.Landscape):
 
     def paint(self, do: str, path: Sequence[float] | Sequence[Sequence[float]], **keys: Any) -> dict[str, float]:
         """Paints a stroke: `do` is "add", "remove", "add-water", "remove-water", "smooth", "flatten", "source", "drain",
-        "rain", "freeze" or "thaw", `path` a place in metres east and south of the north-western corner, or a list of places.
+        "rain", "freeze", "thaw", "mask" or "unmask" (strokes leave out what is masked), `path` a place in metres east and south of the north-western corner, or a list of places.
         Gives cubic metres.
 
         >>> land = Landscape(np.zeros((40, 40)), cell=5.0)

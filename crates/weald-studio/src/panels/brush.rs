@@ -3,7 +3,7 @@
 use eframe::egui::{ComboBox, DragValue, Slider, Ui};
 use weald::edit::Falloff;
 
-use crate::brushes::{Settings, Tool};
+use crate::brushes::{Pen, Settings, Tool};
 use crate::commands::Command;
 use crate::studio::Studio;
 
@@ -23,17 +23,26 @@ pub(crate) fn show(studio: &mut Studio, ui: &mut Ui) {
         let context = ui.ctx().clone();
         studio.obey(Command::Brush(tool), &context);
     }
-    let (brush, materials) = (&mut studio.brush, &studio.status.materials);
-    if !materials.contains(&brush.material)
-        && let Some(last) = materials.last()
-    {
-        // What settles is the last material.
-        brush.material.clone_from(last);
+    if studio.brush.tool.density().is_some() {
+        plants(studio, ui);
     }
+    let (brush, materials) = (&mut studio.brush, &studio.status.materials);
     slider(ui, "Radius", Slider::new(&mut brush.radius, 0.1..=100_000.0).logarithmic(true).suffix(" m"));
     slider(ui, "Strength", Slider::new(&mut brush.strength, 0.01..=1.0));
     falloff(ui, brush);
+    pen(ui, brush);
     amount(ui, brush, materials);
+}
+
+/// The steps that grow plants, of which the brush is about one.
+fn plants(studio: &mut Studio, ui: &mut Ui) {
+    let growing = studio.document.growing();
+    let Some((_, name)) = growing.get(studio.brush.plants).or_else(|| growing.first()) else { return };
+    ComboBox::from_label("Plants").selected_text(name).show_ui(ui, |ui| {
+        for (place, (_, name)) in growing.iter().enumerate() {
+            ui.selectable_value(&mut studio.brush.plants, place, name);
+        }
+    });
 }
 
 fn slider(ui: &mut Ui, name: &str, slider: Slider<'_>) {
@@ -58,6 +67,15 @@ fn falloff(ui: &mut Ui, brush: &mut Settings) {
     });
 }
 
+fn pen(ui: &mut Ui, brush: &mut Settings) {
+    let name = Pen::ALL.iter().find(|(pen, _)| *pen == brush.pen).map_or("", |(_, name)| name);
+    ComboBox::from_label("Pen pressure").selected_text(name).show_ui(ui, |ui| {
+        for (pen, name) in Pen::ALL {
+            ui.selectable_value(&mut brush.pen, pen, name);
+        }
+    });
+}
+
 /// How much of what, as the tool asks.
 fn amount(ui: &mut Ui, brush: &mut Settings, materials: &[String]) {
     let number = |ui: &mut Ui,
@@ -71,9 +89,12 @@ fn amount(ui: &mut Ui, brush: &mut Settings, materials: &[String]) {
     };
     match brush.tool {
         Tool::Add | Tool::Remove => {
-            ComboBox::from_label("Material").selected_text(&brush.material).show_ui(ui, |ui| {
+            let chosen = brush.material_of(materials).to_owned();
+            ComboBox::from_label("Material").selected_text(&chosen).show_ui(ui, |ui| {
                 for name in materials {
-                    ui.selectable_value(&mut brush.material, name.clone(), name);
+                    if ui.selectable_label(*name == chosen, name).clicked() {
+                        brush.material.clone_from(name);
+                    }
                 }
             });
             number(ui, "Thickness", &mut brush.thickness, (0.0..=10_000.0, 0.1, " m"));
@@ -84,6 +105,14 @@ fn amount(ui: &mut Ui, brush: &mut Settings, materials: &[String]) {
             number(ui, "Depth a step", &mut brush.rate, (0.0..=1_000.0, 0.001, " m"));
         }
         Tool::Rain => number(ui, "Factor on the rain", &mut brush.factor, (0.0..=1_000.0, 0.1, "")),
-        Tool::None | Tool::Smooth | Tool::Level | Tool::Freeze | Tool::Thaw => {}
+        Tool::None
+        | Tool::Smooth
+        | Tool::Level
+        | Tool::Freeze
+        | Tool::Thaw
+        | Tool::Mask
+        | Tool::Unmask
+        | Tool::Plant
+        | Tool::Clear => {}
     }
 }

@@ -4,6 +4,8 @@ use std::path::{Path, PathBuf};
 
 use eframe::egui::{Id, Key, Modal, TextEdit, Ui};
 
+use super::export;
+use crate::dialogs::{self, Dialog, Wanted};
 use crate::studio::{Asked, Studio};
 use crate::work::Task;
 
@@ -21,7 +23,20 @@ enum Answer {
 
 pub(crate) fn show(studio: &mut Studio, ui: &Ui) {
     let Some(mut asked) = studio.asked.take() else { return };
-    let chooses = studio.is_hosted() && matches!(asked, Asked::Open(_));
+    let wanted = match &asked {
+        Asked::Open(_) => Wanted::File,
+        _ => Wanted::Folder,
+    };
+    if let Some(path) = chosen(studio) {
+        if wanted == Wanted::File {
+            return take(studio, &asked, &path);
+        }
+        if let Asked::SaveAs(text) | Asked::Export(text) = &mut asked {
+            *text = path.display().to_string();
+        }
+    }
+    let chooses = if studio.is_hosted() { wanted == Wanted::File } else { studio.chooser.is_some() };
+    let exports = matches!(asked, Asked::Export(_));
     let (title, button, text) = match &mut asked {
         Asked::Start => {
             studio.asked = Some(asked);
@@ -50,11 +65,16 @@ pub(crate) fn show(studio: &mut Studio, ui: &Ui) {
                 answer = path.clone().map(Answer::Path);
             }
         }
+        let has_path = path.is_some();
+        if exports {
+            export::show(studio, ui);
+        }
         ui.horizontal(|ui| {
             if ui.button(button).clicked() {
                 answer = Some(path.map_or(Answer::Leave, Answer::Path));
             }
-            if chooses && ui.button("Choose a file …").clicked() {
+            let choose = if wanted == Wanted::File { "Choose a file …" } else { "Choose a folder …" };
+            if chooses && has_path && ui.button(choose).clicked() {
                 answer = Some(Answer::Choose);
             }
             if ui.button("Cancel").clicked() {
@@ -68,24 +88,44 @@ pub(crate) fn show(studio: &mut Studio, ui: &Ui) {
             let context = ui.ctx().clone();
             studio.leave(&context);
         }
-        Some(Answer::Choose) => studio.choose_file(),
+        Some(Answer::Choose) if studio.is_hosted() => studio.choose_file(),
+        Some(Answer::Choose) => {
+            studio.dialog = studio.chooser.as_ref().map(|chooser| Dialog::open(chooser, wanted));
+            studio.asked = Some(asked);
+        }
         Some(Answer::No) => {}
         _ if modal.should_close() => {}
         _ => studio.asked = Some(asked),
     }
 }
 
+/// The path that was chosen in a dialog of the system, once there is one.
+fn chosen(studio: &mut Studio) -> Option<PathBuf> {
+    let answer = studio.dialog.as_ref()?.answer();
+    if answer != dialogs::Answer::Waits {
+        studio.dialog = None;
+    }
+    match answer {
+        dialogs::Answer::Chosen(path) => return Some(path),
+        dialogs::Answer::NoDialog => {
+            studio.say("this system shows no dialog for files (no desktop portal, no zenity): type the path");
+        }
+        dialogs::Answer::Waits | dialogs::Answer::Left => {}
+    }
+    None
+}
+
 fn take(studio: &mut Studio, asked: &Asked, path: &Path) {
     match asked {
         Asked::Open(_) => studio.open(path),
         Asked::SaveAs(_) => match studio.project.settle(path) {
-            Ok(file) => {
-                studio.work.ask(Task::Save(file));
-                studio.save_cameras();
-            }
+            Ok(file) => studio.save_in(file),
             Err(error) => studio.say(error.to_string()),
         },
-        Asked::Export(_) => studio.work.ask(Task::Export(path.to_owned())),
+        Asked::Export(_) => {
+            let outputs = export::chosen(studio);
+            studio.work.ask(Task::Export { folder: path.to_owned(), outputs });
+        }
         Asked::Start | Asked::Leave => {}
     }
 }

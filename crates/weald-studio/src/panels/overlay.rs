@@ -4,7 +4,6 @@
 use eframe::egui::{Align2, Color32, CursorIcon, FontId, Id, Painter, Pos2, Rect, Sense, Stroke, Ui, Vec2};
 
 use super::legend;
-use crate::brushes::Tool;
 use crate::pick::Place;
 use crate::studio::Studio;
 
@@ -22,8 +21,12 @@ pub(crate) fn show(studio: &mut Studio, ui: &mut Ui, rect: Rect) {
     if let Some(line) = studio.measuring.line {
         measured(studio, &painter, rect, line);
     }
-    let paints = studio.brush.tool != Tool::None && studio.status.held.is_some();
-    if let Some(place) = studio.pointed.filter(|_| paints) {
+    if let Some(stroke) = studio.stroke.as_ref().filter(|stroke| stroke.density().is_some()) {
+        // What grows follows when the stroke ends; until then its line is seen.
+        let points = stroke.path().iter().filter_map(|at| on_screen(studio, rect, top_at(studio, *at)?));
+        outlined(&painter, points.collect(), 2.0);
+    }
+    if let Some(place) = studio.pointed.filter(|_| studio.paints()) {
         ring(studio, &painter, rect, place);
     }
     let error = studio.viewport.as_ref().and_then(|viewport| viewport.error());

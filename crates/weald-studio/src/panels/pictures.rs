@@ -43,7 +43,7 @@ pub(super) fn show(ui: &mut Ui, template: &str) -> bool {
     ui.add(image).clicked()
 }
 
-fn decoded(bytes: &[u8]) -> Option<ColorImage> {
+pub(super) fn decoded(bytes: &[u8]) -> Option<ColorImage> {
     let mut decoder = png::Decoder::new(Cursor::new(bytes));
     decoder.set_transformations(png::Transformations::EXPAND);
     let mut reader = decoder.read_info().ok()?;

@@ -1,6 +1,6 @@
 //! The recipe as a list of cards, a step each, whose controls are made from its declaration.
 
-use eframe::egui::{self, CollapsingHeader, Frame, RichText, ScrollArea, Ui};
+use eframe::egui::{self, CollapsingHeader, Frame, Key, RichText, ScrollArea, TextEdit, Ui};
 use weald::recipe::LandscapeKeys;
 use weald::recipe::catalog::{self, CATALOG};
 use weald::recipe::parameter::Parameters;
@@ -19,6 +19,7 @@ enum Move {
     Remove,
     Switch,
     Show,
+    Rename,
 }
 
 pub(crate) fn show(studio: &mut Studio, ui: &mut Ui) {
@@ -71,7 +72,20 @@ fn card(studio: &mut Studio, ui: &mut Ui, (at, count): (usize, usize), step: &Ta
             let entry = catalog::find(&word);
             let shown = header.show(ui, |ui| {
                 let mut moved = None;
-                ui.horizontal_wrapped(|ui| moved = buttons(ui, (at, count), (is_shown, is_off)));
+                let result = studio.document.result_of(at);
+                ui.horizontal_wrapped(|ui| {
+                    moved = buttons(ui, (at, count), (is_shown, is_off));
+                    if let Some(result) = &result
+                        && ui.small_button("Rename").on_hover_text(format!(
+                            "Give {result}, which step {} makes, another name, here and in all that speaks of it",
+                            at + 1
+                        ))
+                        .clicked()
+                    {
+                        moved = Some(Move::Rename);
+                    }
+                });
+                renaming(studio, ui, at);
                 let turned = entry.and_then(|entry| {
                     controls::controls(ui, step, &(entry.parameters)(), &format!("step {}", at + 1))
                 });
@@ -129,6 +143,10 @@ fn change(
             let is_off = studio.document.steps().get(at).is_some_and(|step| Document::is_off(step));
             studio.document.set_step_key(at, "off", (!is_off).then_some("true"))
         }
+        Some(Move::Rename) => {
+            studio.renaming = studio.document.result_of(at).map(|name| (at, name));
+            return None;
+        }
         Some(Move::Show) => {
             studio.selected = (studio.selected != Some(at)).then_some(at);
             studio.run_again();
@@ -139,6 +157,25 @@ fn change(
             studio.document.set_step_key(at, &key, value.as_deref())
         }
     })
+}
+
+/// The field for another name of what a step makes, where that was asked for.
+fn renaming(studio: &mut Studio, ui: &mut Ui, at: usize) {
+    let Some((_, name)) = studio.renaming.as_mut().filter(|(step, _)| *step == at) else { return };
+    let (mut renames, mut leaves) = (false, false);
+    ui.horizontal(|ui| {
+        let label = ui.label("New name");
+        let field = ui.add(TextEdit::singleline(name).desired_width(140.0)).labelled_by(label.id);
+        renames = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
+        renames |= ui.small_button("Give this name").clicked();
+        leaves = ui.small_button("Leave it").clicked();
+    });
+    if renames {
+        let name = name.trim().to_owned();
+        studio.rename_result(at, &name);
+    } else if leaves {
+        studio.renaming = None;
+    }
 }
 
 /// A list of all steps, found by what is typed.

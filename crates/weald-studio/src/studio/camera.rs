@@ -1,10 +1,10 @@
 //! The pointer and the keys over the viewport: they move the camera, or paint.
 
-use eframe::egui::{self, Key, Modifiers, PointerButton, Rect, Response, Ui};
+use eframe::egui::{self, Key, Modifiers, PointerButton, Rect, Response, TouchPhase, Ui};
 use weald::picture::Camera;
 
 use super::Studio;
-use crate::brushes::{Stroke, Tool};
+use crate::brushes::{Settings, Stroke, Tool};
 use crate::commands::Command;
 use crate::navigation::{self, EYE_HEIGHT, Mode};
 use crate::pick::Place;
@@ -53,7 +53,7 @@ impl Studio {
     pub(crate) fn handle(&mut self, ui: &Ui, response: &Response, rect: Rect) {
         let Some(camera) = self.camera else { return };
         self.pointed = response.hover_pos().and_then(|at| self.under(&camera, rect, at));
-        let paints = self.brush.tool != Tool::None && self.status.held.is_some();
+        let paints = self.paints();
         if paints {
             self.paint(ui, response);
         }
@@ -177,10 +177,18 @@ impl Studio {
     fn paint(&mut self, ui: &Ui, response: &Response) {
         let modifiers: Modifiers = ui.input(|input| input.modifiers);
         let is_down = response.is_pointer_button_down_on() && ui.input(|input| input.pointer.primary_down());
+        self.feel(ui);
         if is_down && self.stroke.is_none() {
             let Some(place) = self.pointed else { return };
-            let stroke = Stroke::new(self.brush.clone(), place.at, place.ground);
-            if let Some(brush) = stroke.whole() {
+            let material = self.brush.material_of(&self.status.materials).to_owned();
+            let settings = Settings { material, ..self.brush.clone() };
+            let mut stroke = Stroke::new(settings, place.at, place.ground);
+            if let Some(pressure) = self.pressure {
+                stroke.press(pressure);
+            }
+            if stroke.density().is_some() {
+                self.stroke = Some(stroke);
+            } else if let Some(brush) = stroke.whole() {
                 self.strokes += 1;
                 self.act(Task::Stroke { brush, stroke: self.strokes, replaces: false });
                 self.stroke = Some(stroke);
@@ -189,11 +197,21 @@ impl Studio {
         }
         let (Some(stroke), Some(place)) = (&mut self.stroke, self.pointed) else {
             if !is_down {
+                self.plant();
                 self.stroke = None;
             }
             return;
         };
+        if let Some(pressure) = self.pressure {
+            stroke.press(pressure);
+        }
         let goes_on = stroke.go_on(place.at, modifiers.shift);
+        if stroke.density().is_some() {
+            if !is_down {
+                self.plant();
+            }
+            return;
+        }
         // Into a running simulation the brush pours on and on; what stands still is touched once, however often the line
         // passes it.
         let runs = self.status.plays;
@@ -204,5 +222,33 @@ impl Studio {
         if !is_down {
             self.stroke = None;
         }
+    }
+
+    /// Whether the pointer paints.
+    pub(crate) fn paints(&self) -> bool {
+        let is_about_plants = self.brush.tool.density().is_some();
+        self.brush.tool != Tool::None && (is_about_plants || self.status.held.is_some())
+    }
+
+    /// Ends a stroke that is about plants: it becomes a part of the recipe, and what grows runs again.
+    fn plant(&mut self) {
+        let Some(stroke) = self.stroke.take_if(|stroke| stroke.density().is_some()) else { return };
+        let (Some(density), Some(brush)) = (stroke.density(), stroke.whole()) else { return };
+        let growing = self.document.growing();
+        let Some((at, _)) = growing.get(self.brush.plants).or_else(|| growing.first()) else { return };
+        let painted = self.document.paint_density(*at, &brush, density);
+        self.edited(painted.map(drop));
+    }
+
+    /// How hard a pen is pressed, as long as it touches.
+    fn feel(&mut self, ui: &Ui) {
+        ui.input(|input| {
+            for event in &input.events {
+                if let egui::Event::Touch { phase, force, .. } = event {
+                    let is_over = matches!(phase, TouchPhase::End | TouchPhase::Cancel);
+                    self.pressure = force.filter(|_| !is_over).map(f64::from);
+                }
+            }
+        });
     }
 }

@@ -14,9 +14,27 @@ impl Studio {
             Ok(()) => {
                 self.done.push(Did::Recipe);
                 self.undone.clear();
+                self.undone_before.clear();
             }
             Err(message) => self.say(message),
         }
+    }
+
+    /// Gives what a step makes another name, in all that speaks of it.
+    pub(crate) fn rename_result(&mut self, at: usize, name: &str) {
+        let before = self.document.result_of(at);
+        if before.as_deref() == Some(name) {
+            self.renaming = None;
+            return;
+        }
+        let renamed = self.document.rename_result(at, name);
+        if renamed.is_ok() {
+            self.renaming = None;
+            if self.looks.layer == before {
+                self.looks.layer = Some(name.to_owned());
+            }
+        }
+        self.edited(renamed);
     }
 
     /// Asks for something to be done to the simulation, to be undone like any other.
@@ -24,9 +42,26 @@ impl Studio {
         let goes_on = matches!(&task, Task::Stroke { stroke, .. } if *stroke != self.strokes);
         if !goes_on {
             self.done.push(Did::Simulation);
-            self.undone.clear();
+            self.undone_before = std::mem::take(&mut self.undone);
         }
         self.work.ask(task);
+    }
+
+    /// What could not be done has no place in what is undone, and takes nothing away that could be redone.
+    pub(crate) fn take_refused(&mut self) {
+        for _ in std::mem::replace(&mut self.noted_refused, self.status.refused)..self.status.refused {
+            if let Some(place) = self.done.iter().rposition(|did| *did == Did::Simulation) {
+                self.done.remove(place);
+            }
+            if self.undone.is_empty() {
+                self.undone = std::mem::take(&mut self.undone_before);
+            }
+        }
+    }
+
+    /// Whether something of this project has run, or is about to.
+    pub(crate) fn has_run(&self) -> bool {
+        self.keeps_edits || self.document.diagnostics().is_empty()
     }
 
     pub(super) fn undo(&mut self) {

@@ -1,10 +1,12 @@
 //! What each command does.
 
+use std::path::PathBuf;
+
 use eframe::egui::{Context, Theme, ViewportCommand};
 
 use weald::error::Diagnostic;
 
-use super::{Asked, Left, Palette, Studio};
+use super::{Asked, Left, Palette, Sheet, Studio};
 use crate::brushes::Tool;
 use crate::commands::Command;
 use crate::project::Start;
@@ -22,6 +24,7 @@ impl Studio {
             Command::Save => self.save(),
             Command::SaveAs => self.asked = Some(Asked::SaveAs(self.project.suggested())),
             Command::Export => self.asked = Some(Asked::Export(self.project.export_folder())),
+            Command::Seeds => self.open_sheet(),
             Command::Undo => self.undo(),
             Command::Redo => self.redo(),
             Command::Play => self.play(!self.status.plays),
@@ -66,7 +69,10 @@ impl Studio {
     }
 
     fn choose(&mut self, tool: Tool) {
-        if tool != Tool::None && self.status.held.is_none() {
+        if tool.density().is_some() && self.document.growing().is_empty() {
+            return self.say("there are no plants: add a step that grows some, `grass` or `scatter`");
+        }
+        if tool != Tool::None && tool.density().is_none() && self.status.held.is_none() {
             return self.say(
                 "there is nothing to paint on: add a step that erodes, such as `hydraulic` or `fluvial`",
             );
@@ -103,10 +109,10 @@ impl Studio {
 
     /// What is said once the project is saved.
     pub(crate) fn said_of_saving(&self) -> String {
-        let Some(wrong) = self.document.diagnostics().first() else { return "saved".to_owned() };
-        let place =
-            if wrong.line == Diagnostic::NO_LINE { String::new() } else { format!("line {}: ", wrong.line) };
-        let what = format!("{place}{}", wrong.message);
+        if self.document.diagnostics().is_empty() {
+            return "saved".to_owned();
+        }
+        let what = self.first_wrong();
         format!(
             "saved as it last ran; what is typed now is kept beside it, in typed.toml, for it cannot run: {what}"
         )
@@ -115,12 +121,43 @@ impl Studio {
     /// Saves the project where it is, or asks where.
     pub(crate) fn save(&mut self) {
         match self.project.recipe_file() {
-            Some(file) => {
-                self.work.ask(Task::Save(file));
-                self.save_cameras();
-            }
+            Some(file) => self.save_in(file),
             None => self.asked = Some(Asked::SaveAs(self.project.suggested())),
         }
+    }
+
+    /// Saves the project, whose recipe is this file.
+    pub(crate) fn save_in(&mut self, file: PathBuf) {
+        if self.has_run() {
+            self.work.ask(Task::Save(file));
+        } else {
+            self.save_typed();
+        }
+        self.save_cameras();
+    }
+
+    /// Saves a text of which nothing has run yet: there is nothing else that could be saved.
+    fn save_typed(&mut self) {
+        let state = self.state();
+        match self.project.save_text(self.document.text(), state) {
+            Ok(true) => self.say(format!("saved as it is typed; it cannot run yet: {}", self.first_wrong())),
+            Ok(false) => self.say(self.said_of_saving()),
+            Err(error) => self.say(error.to_string()),
+        }
+    }
+
+    /// What is wrong with the text first, with its line.
+    fn first_wrong(&self) -> String {
+        let Some(wrong) = self.document.diagnostics().first() else { return String::new() };
+        let place =
+            if wrong.line == Diagnostic::NO_LINE { String::new() } else { format!("line {}: ", wrong.line) };
+        format!("{place}{}", wrong.message)
+    }
+
+    /// Asks which seeds are to be seen beside each other.
+    fn open_sheet(&mut self) {
+        let folder = self.project.seeds_folder();
+        self.sheet = Some(Sheet { first: 1, count: 12, folder });
     }
 
     fn take_picture(&mut self) {

@@ -46,6 +46,15 @@ impl HeldSession {
         }
     }
 
+    /// Takes a recipe that differs only after the step that is held; `false`, and nothing has changed, for any other.
+    pub(super) fn adopt(&mut self, recipe: Recipe, (place, text): (usize, &str)) -> bool {
+        let is_same = self.session.place_among_running() == place && self.session.adopt(recipe);
+        if is_same {
+            text.clone_into(&mut self.text);
+        }
+        is_same
+    }
+
     pub(super) fn session(&mut self) -> &mut Session {
         &mut self.session
     }
@@ -64,30 +73,39 @@ impl HeldSession {
     }
 
     pub(super) fn advance(&mut self, steps: u64) -> Result<(), Error> {
+        self.session.advance(steps)?;
         self.undone.clear();
-        self.session.advance(steps)
+        Ok(())
     }
 
     pub(super) fn set(&mut self, setting: Setting) -> Result<(), Error> {
+        self.session.set(setting)?;
         self.undone.clear();
-        self.session.set(setting)
+        Ok(())
     }
 
     /// Paints more of a stroke of the hand, or all of it in place of what was painted of it.
     pub(super) fn paint(&mut self, brush: Brush, stroke: u64, replaces: bool) -> Result<(), Error> {
-        self.undone.clear();
         let history = self.session.history();
         let here = history.here();
         let goes_on = self.strokes.last_mut().filter(|last| last.number == stroke);
         let Some(last) = goes_on else {
             let last = history.act(Change::Stroke(brush))?;
+            self.undone.clear();
             self.strokes.push(Stroke { number: stroke, before: here, last });
             return Ok(());
         };
         if replaces && last.last == here {
             history.go_to(last.before)?;
         }
-        last.last = history.act(Change::Stroke(brush))?;
+        match history.act(Change::Stroke(brush)) {
+            Ok(moment) => last.last = moment,
+            Err(error) => {
+                // What was painted of it before stays.
+                history.go_to(here)?;
+                return Err(error);
+            }
+        }
         Ok(())
     }
 
@@ -262,6 +280,8 @@ fn label(action: &Action, stretch: u64) -> String {
             Effect::Rain { factor } => format!("rain × {factor}"),
             Effect::Freeze => "freeze".to_owned(),
             Effect::Thaw => "thaw".to_owned(),
+            Effect::Mask => "mask".to_owned(),
+            Effect::Unmask => "unmask".to_owned(),
         },
     }
 }

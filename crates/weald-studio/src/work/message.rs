@@ -103,7 +103,10 @@ enum SentTask {
     Name(String),
     Rename { from: String, to: String },
     Save(PathBuf),
-    Export(PathBuf),
+    Export { folder: PathBuf, outputs: Option<String> },
+    Seeds { folder: PathBuf, first: u64, count: u64 },
+    EndSeeds,
+    Close,
     End,
 }
 
@@ -172,7 +175,10 @@ fn sent_task(task: Task) -> SentTask {
         Task::Name(name) => SentTask::Name(name),
         Task::Rename { from, to } => SentTask::Rename { from, to },
         Task::Save(file) => SentTask::Save(file),
-        Task::Export(folder) => SentTask::Export(folder),
+        Task::Export { folder, outputs } => SentTask::Export { folder, outputs },
+        Task::Seeds { folder, first, count } => SentTask::Seeds { folder, first, count },
+        Task::EndSeeds => SentTask::EndSeeds,
+        Task::Close => SentTask::Close,
         Task::End => SentTask::End,
     }
 }
@@ -206,7 +212,10 @@ impl SentTask {
             Self::Name(name) => Task::Name(name),
             Self::Rename { from, to } => Task::Rename { from, to },
             Self::Save(file) => Task::Save(file),
-            Self::Export(folder) => Task::Export(folder),
+            Self::Export { folder, outputs } => Task::Export { folder, outputs },
+            Self::Seeds { folder, first, count } => Task::Seeds { folder, first, count },
+            Self::EndSeeds => Task::EndSeeds,
+            Self::Close => Task::Close,
             Self::End => Task::End,
         })
     }
@@ -272,9 +281,9 @@ pub(super) fn parcel_of_status(files: Vec<ChangedFile>, mut status: Status, know
 }
 
 fn put_surface(surface: &Surface, arrays: &mut Arrays) -> SentSurface {
-    let Canvas { first, cell, materials, bedrock, thickness, water, source, rain, frozen, .. } =
+    let Canvas { first, cell, materials, bedrock, thickness, water, source, rain, frozen, mask, .. } =
         &*surface.canvas;
-    let around = [&*surface.ground, bedrock, water, source, rain, frozen];
+    let around = [&*surface.ground, bedrock, water, source, rain, frozen, mask];
     for field in around.into_iter().chain(thickness) {
         arrays.push_back(Array::Singles(field.values().to_vec()));
     }
@@ -333,7 +342,7 @@ fn take_surface(sent: SentSurface, shown: Option<&Shown>, arrays: &mut Arrays) -
     let size = Size::new(sent.size[0], sent.size[1]).map_err(|cause| Error::Run(cause.to_string()))?;
     let mut next = || take_singles(arrays).map(|singles| Field::from_values(size, singles));
     let [ground, bedrock, water] = [next()?, next()?, next()?];
-    let [source, rain, frozen] = [next()?, next()?, next()?];
+    let [source, rain, frozen, mask] = [next()?, next()?, next()?, next()?];
     let thickness = sent.materials.iter().skip(1).map(|_| next()).collect::<Result<_, _>>()?;
     let canvas = Canvas {
         first: sent.first,
@@ -346,6 +355,7 @@ fn take_surface(sent: SentSurface, shown: Option<&Shown>, arrays: &mut Arrays) -
         source,
         rain,
         frozen,
+        mask,
     };
     Ok(Surface { ground: Arc::new(ground), canvas: Arc::new(canvas), number: sent.number, shown: sent.shown })
 }

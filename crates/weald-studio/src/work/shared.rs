@@ -49,6 +49,11 @@ impl Shared {
         self.status.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
+    /// Notes that something was asked that could not be done and left nothing to undo.
+    pub(super) fn refuse(&self) {
+        self.status().refused += 1;
+    }
+
     pub(super) fn change(&self, change: impl FnOnce(&mut Status)) {
         change(&mut self.status());
         (self.tell)();

@@ -79,6 +79,23 @@ pub struct Surface {
     pub shown: u64,
 }
 
+/// Landscapes of several seeds.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Seeds {
+    /// Another one each time that some are asked for.
+    pub number: u64,
+    /// Where their pictures are.
+    pub folder: PathBuf,
+    /// How many are asked for.
+    pub count: u64,
+    /// Seeds that are done, with their pictures, or with what went wrong.
+    pub done: Vec<(u64, Result<PathBuf, String>)>,
+    /// All pictures on one sheet, once all are done.
+    pub sheet: Option<PathBuf>,
+    /// Whether more are to come.
+    pub runs: bool,
+}
+
 /// All that the window can know of the work.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct Status {
@@ -116,8 +133,12 @@ pub struct Status {
     pub kept: u64,
     /// How often something was done by hand, so that the window knows what is not yet saved.
     pub changes: u64,
+    /// How many strokes, settings and steps that were asked could not be done, and left nothing to undo.
+    pub refused: u64,
     /// What was written last, of which text of the document and at which of the changes.
     pub saved: Option<(PathBuf, State)>,
+    /// Landscapes of several seeds, where such were asked for.
+    pub seeds: Option<Seeds>,
     /// What was exported last.
     pub exported: Option<(PathBuf, Vec<String>)>,
 }

@@ -61,8 +61,26 @@ pub enum Task {
     },
     /// Writes the recipe with all that was done: a text for `weald run`, and its script beside it.
     Save(PathBuf),
-    /// Runs the recipe with all that was done, and writes its outputs into a folder.
-    Export(PathBuf),
+    /// Runs the recipe with all that was done, and writes its outputs, or others in their place, into a folder.
+    Export {
+        /// The folder.
+        folder: PathBuf,
+        /// `[[output]]` tables in place of those of the recipe.
+        outputs: Option<String>,
+    },
+    /// Makes the landscapes of several seeds, coarse, with a picture of each in a folder, whenever there is nothing else to do.
+    Seeds {
+        /// Where the pictures go.
+        folder: PathBuf,
+        /// The first seed.
+        first: u64,
+        /// How many, one after the other.
+        count: u64,
+    },
+    /// Ends that.
+    EndSeeds,
+    /// Forgets the recipe that was opened last: another is shown that cannot run yet.
+    Close,
     /// Ends the thread.
     End,
 }
@@ -70,6 +88,6 @@ pub enum Task {
 impl Task {
     /// Whether what is being computed now is no longer wanted once this is asked.
     pub(super) fn supersedes(&self) -> bool {
-        matches!(self, Self::Open(_) | Self::End)
+        matches!(self, Self::Open(_) | Self::Close | Self::End)
     }
 }

@@ -1,6 +1,7 @@
 //! The one who works: does what is asked, one task after the other, and lets the simulation run in short slices between them.
 
 mod opening;
+mod seeds;
 
 use std::collections::VecDeque;
 use std::path::Path;
@@ -17,7 +18,9 @@ use super::held::HeldSession;
 use super::shared::{Shared, Told};
 use super::status::{Phase, Surface};
 use super::task::{Opening, Task};
+use crate::presets::with_outputs;
 use crate::state::State;
+use seeds::Batch;
 
 /// How long the simulation runs between two looks at what is asked.
 const SLICE: Duration = Duration::from_millis(20);
@@ -59,6 +62,9 @@ pub(super) struct Worker {
     moments_told: Instant,
     /// Whether the steps after the one that is held have run since it changed.
     is_finished: bool,
+    /// Number of the last stroke of the hand, done or refused.
+    stroke: u64,
+    batch: Option<Batch>,
 }
 
 impl Worker {
@@ -74,6 +80,8 @@ impl Worker {
             surfaced: Instant::now(),
             moments_told: Instant::now(),
             is_finished: true,
+            stroke: 0,
+            batch: None,
         }
     }
 
@@ -84,7 +92,8 @@ impl Worker {
 
     /// How long it has nothing to do.
     pub(super) fn rest(&self) -> Rest {
-        if !self.waiting.is_empty() || self.until.is_some() {
+        let has_seeds = self.is_finished && self.batch.is_some();
+        if !self.waiting.is_empty() || self.until.is_some() || has_seeds {
             Rest::None
         } else if self.is_finished {
             Rest::UntilAsked
@@ -98,6 +107,7 @@ impl Worker {
         let done = match self.waiting.pop_front() {
             Some((number, task)) => self.take(number, task),
             None if self.until.is_some() => self.simulate(),
+            None if self.is_finished && self.batch.is_some() => self.next_seed(),
             None => self.finish(),
         };
         match done {
@@ -115,7 +125,16 @@ impl Worker {
         match task {
             Task::Open(opening) => return self.open(number, *opening),
             Task::Save(file) => return self.save(&file),
-            Task::Export(folder) => return self.export(number, &folder),
+            Task::Export { folder, outputs } => return self.export(number, &folder, outputs.as_deref()),
+            Task::Seeds { folder, first, count } => return self.begin_seeds(folder, first, count),
+            Task::EndSeeds => {
+                self.end_seeds();
+                return Ok(());
+            }
+            Task::Close => {
+                self.close();
+                return Ok(());
+            }
             _ => {}
         }
         if matches!(task, Task::Undo | Task::Redo | Task::GoTo(_)) {
@@ -126,17 +145,37 @@ impl Worker {
         match task {
             Task::Play(plays) => self.until = plays.then_some(u64::MAX),
             Task::PlayToEnd => self.until = Some(held.written_steps()),
-            Task::Advance(steps) => held.advance(steps)?,
-            Task::Set(setting) => held.set(setting)?,
-            Task::Stroke { brush, stroke, replaces } => held.paint(brush, stroke, replaces)?,
+            Task::Advance(steps) => held.advance(steps).inspect_err(|_| self.shared.refuse())?,
+            Task::Set(setting) => held.set(setting).inspect_err(|_| self.shared.refuse())?,
+            Task::Stroke { brush, stroke, replaces } => {
+                let begins = std::mem::replace(&mut self.stroke, stroke) != stroke;
+                // The window counts a stroke once, however many pieces it comes in.
+                held.paint(brush, stroke, replaces).inspect_err(|_| {
+                    if begins {
+                        self.shared.refuse();
+                    }
+                })?;
+            }
             Task::Undo => drop(held.undo()?),
             Task::Redo => drop(held.redo()?),
             Task::GoTo(moment) => held.go_to(moment)?,
             Task::Name(name) => held.session().history().name(&name),
             Task::Rename { from, to } => drop(held.session().history().rename(&from, &to)),
-            Task::Open(_) | Task::Save(_) | Task::Export(_) | Task::End => {}
+            Task::Open(_)
+            | Task::Save(_)
+            | Task::Export { .. }
+            | Task::Seeds { .. }
+            | Task::EndSeeds
+            | Task::Close
+            | Task::End => {}
         }
         self.changed()
+    }
+
+    /// Forgets what is held: it belongs to another project than what the window shows now.
+    fn close(&mut self) {
+        (self.held, self.opening, self.until, self.is_finished) = (None, None, None, true);
+        self.shared.change(|status| status.materials.clear());
     }
 
     /// Tells of a change at once.
@@ -184,6 +223,13 @@ impl Worker {
         Ok(())
     }
 
+    /// Shows the painted mask, which no landscape has, on one that was just published.
+    fn show_mask(&mut self) -> Result<(), Error> {
+        let Some(held) = &mut self.held else { return Ok(()) };
+        let is_masked = held.surface()?.0.mask.values().iter().any(|value| *value > 0.0);
+        if is_masked { self.surface() } else { Ok(()) }
+    }
+
     /// Runs the steps after the one that is held, unless something else is asked meanwhile.
     fn finish(&mut self) -> Result<(), Error> {
         if std::mem::replace(&mut self.is_finished, true) {
@@ -201,7 +247,7 @@ impl Worker {
             return Ok(());
         }
         self.publish(opening, landscape, steps);
-        Ok(())
+        self.show_mask()
     }
 
     fn save(&mut self, file: &Path) -> Result<(), Error> {
@@ -210,7 +256,7 @@ impl Worker {
         match (&mut self.held, &self.opening) {
             (Some(held), _) => held.save(file)?,
             (None, Some(opening)) => weald::io::write_whole(file, opening.text.as_bytes())?,
-            (None, None) => return Ok(()),
+            (None, None) => return Err(nothing_ran()),
         }
         let revision = self.opening.as_ref().map_or(0, |opening| opening.revision);
         self.shared.change(|status| {
@@ -220,16 +266,22 @@ impl Worker {
     }
 
     /// Runs the recipe with all that was done, as `weald run` does.
-    fn export(&mut self, number: u64, folder: &Path) -> Result<(), Error> {
-        let Some(opening) = &self.opening else { return Ok(()) };
+    fn export(&mut self, number: u64, folder: &Path, outputs: Option<&str>) -> Result<(), Error> {
+        let Some(opening) = &self.opening else { return Err(nothing_ran()) };
         files::create_dir_all(folder)
             .map_err(|cause| Error::Run(format!("{} cannot be made: {cause}", folder.display())))?;
         let recipe = if let Some(held) = &mut self.held {
             let file = folder.join("landscape.toml");
             held.save(&file)?;
+            if let Some(outputs) = outputs {
+                // What is written says how it was made, outputs and all.
+                let text = with_outputs(&Recipe::text_of(&file)?, outputs)?;
+                weald::io::write_whole(&file, text.as_bytes())?;
+            }
             Recipe::load(&file, &Overrides::default())?
         } else {
-            Recipe::parse(&opening.file, &opening.text, &Overrides::default())?
+            let text = outputs.map(|outputs| with_outputs(&opening.text, outputs)).transpose()?;
+            Recipe::parse(&opening.file, text.as_ref().unwrap_or(&opening.text), &Overrides::default())?
         };
         let progress = Told { shared: &self.shared, number, watched: &self.shared.superseded };
         let options = Options { engine: opening.engine.clone(), ..Options::into_folder(folder) };
@@ -265,4 +317,8 @@ impl Worker {
             }
         });
     }
+}
+
+fn nothing_ran() -> Error {
+    Error::Run("nothing has run yet, for the recipe cannot run as it is".to_owned())
 }

@@ -162,3 +162,32 @@ fn the_tour_goes_on_page_by_page_and_can_be_ended_at_any() {
     window.click("End the tour");
     assert!(!window.has("Tour, "));
 }
+
+#[test]
+fn a_preset_says_what_it_writes_and_what_is_lost_and_writes_that() {
+    let (folder, mut window) = opened();
+    let out = folder.path().join("out");
+    window.click("Export");
+    assert!(window.has("height: nothing is lost"), "the recipe's own output");
+    window.choose("Preset", "Unity");
+    window.harness.run_steps(20);
+    assert!(window.has("unity/height.raw") && window.has("16-bit heights of 2^n + 1 vertices"));
+    window.choose("Preset", "Everything");
+    window.harness.run_steps(20);
+    assert!(window.has("rounded to a 65,535th") && window.has("Not of this recipe"));
+    window.picture("export");
+    window.choose("Preset", "GIS");
+    window.harness.run_steps(20);
+    window.type_over("Path", &out.display().to_string());
+    window.click_last("Export");
+    let status = window.until("the files", |status| status.exported.is_some());
+    let (_, names) = status.exported.expect("exported");
+    assert!(
+        names.contains(&"gis/height.tif".to_owned()) && names.contains(&"gis/slope.tif".to_owned()),
+        "{names:?}"
+    );
+    assert!(out.join("gis/slope.tif").is_file() && !out.join("height.tif").is_file());
+    let text = fs::read_to_string(out.join("landscape.toml")).expect("how it was made");
+    assert!(text.contains("preset = \"cog\"") && text.contains("do = \"hydraulic\""), "{text}");
+    assert!(!window.harness.state().text().contains("cog"), "the recipe itself stays as it is");
+}

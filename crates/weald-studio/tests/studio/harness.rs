@@ -1,13 +1,15 @@
 //! A studio without a window of the system, drawn on software that acts as a graphics card.
 
 use std::path::Path;
+use std::rc::Rc;
+use std::sync::mpsc::channel;
 use std::time::{Duration, Instant};
 
 use eframe::egui;
 use egui_kittest::kittest::Queryable;
 use egui_kittest::{Harness, HarnessBuilder};
 use weald_studio::work::{Phase, Status};
-use weald_studio::{Options, Studio};
+use weald_studio::{Chooser, Options, Studio};
 
 /// How long anything may take before a test says that it does not happen.
 const TIMEOUT: Duration = Duration::from_secs(40);
@@ -28,8 +30,14 @@ impl Window {
 
     /// The same where this folder has what was kept on the machine.
     pub(crate) fn on_machine(what: Option<&Path>, own: &Path) -> Self {
-        let options =
-            Options { what: what.map(Path::to_owned), own_files: Some(own.to_owned()), ..Options::default() };
+        // The dialogs of a desktop are no part of a test: nobody answers them.
+        let chooser: Chooser = Rc::new(|_| channel().1);
+        let (what, own_files) = (what.map(Path::to_owned), Some(own.to_owned()));
+        Self::with(Options { what, own_files, chooser: Some(chooser), ..Options::default() })
+    }
+
+    /// The same with all options.
+    pub(crate) fn with(options: Options) -> Self {
         let builder: HarnessBuilder<Studio> =
             Harness::builder().with_size([1200.0, 760.0]).wgpu_setup(weald_studio::device_setup());
         let harness = builder.build_eframe(move |context| {

@@ -78,6 +78,8 @@ fn each_brush_asks_for_its_own_amount_only() {
         ("Level", None),
         ("Freeze", None),
         ("Thaw", None),
+        ("Mask", None),
+        ("Unmask", None),
     ] {
         window.click(tool);
         for amount in amounts {
@@ -86,7 +88,7 @@ fn each_brush_asks_for_its_own_amount_only() {
         let has_material = matches!(tool, "Add" | "Remove");
         assert_eq!(window.offers(Role::ComboBox, "Material"), has_material, "{tool}");
     }
-    window.click("Thaw");
+    window.click("Unmask");
     window.stroke([0.4, 0.5], [0.6, 0.5]);
     assert!(window.status().moments.is_empty(), "without a brush the pointer moves the camera");
 }

@@ -2,7 +2,7 @@
 
 use super::load;
 use weald_engine::step::Entry;
-use weald_land::{analyse, combine, erode, generate};
+use weald_land::{analyse, combine, edit, erode, generate};
 use weald_plants as grow;
 
 /// All steps, in the order of `weald steps`.
@@ -30,6 +30,7 @@ pub const CATALOG: &[Entry] = &[
     combine::resample::ENTRY,
     combine::layers::ENTRY,
     combine::top_material::ENTRY,
+    edit::PAINTED_LAYER,
     erode::hydraulic::ENTRY,
     erode::thermal_step::ENTRY,
     erode::transport_step::ENTRY,

@@ -214,6 +214,29 @@ impl Recipe {
         RecipeError { file: self.file.clone(), diagnostics }.into()
     }
 
+    /// Whether another recipe is the same up to a step: ground, materials, and so many steps with their keys and places.
+    pub(super) fn begins_as(&self, other: &Self, steps: usize) -> bool {
+        let start = |recipe: &Self| {
+            let steps = recipe.steps.iter().take(steps);
+            let steps: Vec<_> = steps
+                .map(|planned| {
+                    format!(
+                        "{} {} {} {:?}",
+                        planned.place, planned.occurrence, planned.entry.name, planned.step
+                    )
+                })
+                .collect();
+            // The lines on which things stand are no part of what they are.
+            let materials: Vec<_> =
+                recipe.materials.iter().map(|planned| format!("{:?}", planned.material)).collect();
+            let files: Vec<_> =
+                recipe.materials.iter().map(|planned| format!("{:?}", planned.file)).collect();
+            (recipe.seed, format!("{:?}", recipe.ground), materials, files, steps)
+        };
+        let reads_files = self.steps.iter().take(steps).any(|planned| !planned.step.files().is_empty());
+        self.steps.len() >= steps && other.steps.len() >= steps && !reads_files && start(self) == start(other)
+    }
+
     /// BLAKE3 hash of [`Recipe::effective`], in hexadecimal.
     pub fn hash(&self) -> String {
         blake3::hash(self.text.as_bytes()).to_hex().to_string()

@@ -84,6 +84,16 @@ impl Session {
         Ok(session)
     }
 
+    /// Takes a recipe that is the same up to the step that is held, so that only what comes after it is another; the
+    /// simulation goes on as it is. `false`, and nothing has changed, for a recipe that differs before.
+    pub fn adopt(&mut self, recipe: Recipe) -> bool {
+        let is_same = self.recipe.begins_as(&recipe, self.held + 1);
+        if is_same {
+            self.recipe = recipe;
+        }
+        is_same
+    }
+
     fn replay(&mut self, steps: u64, edits: &[Edit]) -> Result<(), Error> {
         for edit in edits.iter().filter(|edit| edit.step <= steps) {
             self.advance(edit.step - self.steps())?;
@@ -100,6 +110,11 @@ impl Session {
     /// Steps that the one that is held runs as the recipe has it.
     pub fn written_steps(&self) -> u64 {
         self.step.written_steps(self.history.simulation().start())
+    }
+
+    /// Place of the step that is held among those that run, counted from 0.
+    pub fn place_among_running(&self) -> usize {
+        self.held
     }
 
     /// Place of the table of the step that is held.

@@ -145,3 +145,31 @@ fn a_brush_that_is_none_is_refused_and_changes_nothing() {
         assert_eq!(canvas, before);
     }
 }
+
+#[test]
+fn what_is_masked_is_left_as_it_is_by_every_stroke_and_half_of_it_where_the_mask_is_half() {
+    let before = canvas(30, 25);
+    let (half, _) = painted(&Brush { strength: 0.5, falloff: Falloff::Hard, ..dab(Effect::Mask) }, &before);
+    let (masked, volumes) = painted(&Brush { falloff: Falloff::Hard, ..dab(Effect::Mask) }, &before);
+    let middle = before.size().index(15, 12);
+    assert_eq!([half.mask.values()[middle], masked.mask.values()[middle]], [0.5, 1.0]);
+    assert_eq!(
+        (volumes, &masked.bedrock, &masked.water),
+        (Volumes::default(), &before.bedrock, &before.water)
+    );
+    let soil = Effect::Add { material: "soil".to_owned(), thickness: 2.0 };
+    for effect in
+        [soil.clone(), Effect::AddWater { depth: 3.0 }, Effect::Flatten { height: 0.0 }, Effect::Freeze]
+    {
+        let stroke = Brush { falloff: Falloff::Hard, ..dab(effect) };
+        assert!(painted(&stroke, &before).0 != before, "{stroke:?} does something where nothing is masked");
+        assert_eq!(painted(&stroke, &masked).0, masked, "{stroke:?}");
+    }
+    let added = |on: &Canvas| {
+        let (after, _) = painted(&Brush { falloff: Falloff::Hard, ..dab(soil.clone()) }, on);
+        after.thickness[1].values()[middle] - on.thickness[1].values()[middle]
+    };
+    assert!((added(&before) - 2.0).abs() < 1e-5 && (added(&half) - 1.0).abs() < 1e-5);
+    let (bare, _) = painted(&Brush { falloff: Falloff::Hard, ..dab(Effect::Unmask) }, &masked);
+    assert_eq!(bare, before, "the mask is gone, and nothing else has changed");
+}

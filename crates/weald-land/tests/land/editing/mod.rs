@@ -52,6 +52,8 @@ fn any_effect() -> impl Strategy<Value = Effect> {
         amount().prop_map(|factor| Effect::Rain { factor }),
         Just(Effect::Freeze),
         Just(Effect::Thaw),
+        Just(Effect::Mask),
+        Just(Effect::Unmask),
     ]
 }
 

@@ -344,3 +344,26 @@ fn it_can_be_given_to_another_thread() {
     fn is_send<T: Send>() {}
     is_send::<History<InteractiveSimulation>>();
 }
+
+#[test]
+fn a_mask_holds_for_the_strokes_after_it_and_is_undone_and_kept_like_them() {
+    let simulation = hold(&stava());
+    let budget = 8 * simulation.bytes_of_copy();
+    let mut history = History::new(simulation, budget).expect("fits");
+    let dab = |effect| Brush { falloff: Falloff::Hard, ..Brush::dab(effect, [60.0, 50.0], 20.0) };
+    let mask = |history: &mut History<InteractiveSimulation>| whole(history.simulation_mut()).mask.sum();
+    history.act(Change::Stroke(dab(Effect::Mask))).expect("masks");
+    let masked = mask(&mut history);
+    assert!(masked > 10.0, "{masked} cells");
+    let before = whole(history.simulation_mut());
+    history.act(Change::Stroke(dab(Effect::AddWater { depth: 5.0 }))).expect("pours");
+    assert!(whole(history.simulation_mut()) == before, "all of it falls on what is masked");
+    history.act(Action::Steps(40)).expect("runs on");
+    assert_eq!(mask(&mut history), masked, "what runs there does not change it");
+    history.act(Change::Stroke(dab(Effect::Unmask))).expect("unmasks");
+    assert_eq!(mask(&mut history), 0.0);
+    for (moment, expected) in [(3, masked), (0, 0.0), (1, masked), (4, 0.0), (2, masked)] {
+        history.go_to(moment).expect("is there");
+        assert_eq!(mask(&mut history), expected, "at moment {moment}");
+    }
+}

@@ -24,12 +24,23 @@ impl Worker {
             // What the text says was done by hand is among what is done again.
             opening.text = held.without_edits(&opening);
         }
+        if !opening.keeps_edits {
+            // Another project: whatever comes of it, nothing of the one before is saved in its place.
+            (self.held, self.opening) = (None, Some(opening.clone()));
+        }
         let recipe = Recipe::parse(&opening.file, &opening.text, &Overrides::default())?;
         let wanted = opening.steps.unwrap_or(recipe.steps.len());
         let names = interactive_names();
         let can_hold = recipe.steps[..wanted.min(recipe.steps.len())]
             .iter()
             .rposition(|planned| names.contains(&planned.entry.name));
+        if let Some(place) = can_hold
+            && self.adopt(&opening, place)
+        {
+            self.opening = Some(opening);
+            self.is_finished = false;
+            return Ok(());
+        }
         let again = self.again(&opening);
         let progress = Told { shared: &self.shared, number, watched: &self.shared.superseded };
         let Some(place) = can_hold else {
@@ -61,7 +72,17 @@ impl Worker {
         self.publish(&opening, landscape, place + 1);
         self.opening = Some(opening);
         self.is_finished = false;
-        Ok(())
+        self.show_mask()
+    }
+
+    /// Whether the recipe differs only after the step that is held, which then goes on as it is.
+    fn adopt(&mut self, opening: &Opening, place: usize) -> bool {
+        let is_same_file = self.opening.as_ref().is_some_and(|before| before.file == opening.file);
+        let Some(held) = self.held.as_mut().filter(|_| opening.keeps_edits && is_same_file) else {
+            return false;
+        };
+        let recipe = Recipe::parse(&opening.file, &opening.text, &Overrides::default());
+        recipe.is_ok_and(|recipe| held.adopt(recipe, (place, &opening.text)))
     }
 
     /// What is to be done again on the new ground: all, where the same step is held.
