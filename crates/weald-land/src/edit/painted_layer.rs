@@ -19,7 +19,7 @@ use weald_engine::step::{Entry, Outcome, Stage, Step};
 pub const ENTRY: Entry = Entry::of::<PaintedLayer>(
     "paint-layer",
     Stage::Combine,
-    "a layer painted by hand, such as how densely plants stand",
+    "paints a layer by hand, such as how densely plants stand",
     "Weald",
 );
 

@@ -608,6 +608,32 @@ class Steps:
         into: layer name; default "material"
             Layer that is written: 0 for the bedrock, 1 for the material on it, and so on.
         """
+    def paint_layer(
+        self,
+        *,
+        into: str,
+        of: str | None = None,
+        value: float = 1.0,
+        strokes: Sequence[Mapping[str, Any]] = [],
+        seed: int = 0,
+        engine: str = "auto",
+        threads: int | None = None,
+        callback: Callback | None = None,
+        progress: bool | None = None,
+    ) -> StepReport:
+        """Paints a layer by hand, such as how densely plants stand. Source: Weald.
+
+        Writes, by default: ``.
+
+        into: layer name; must be given
+            Layer that is written.
+        of: layer name
+            Layer that is painted on; it stays as it is. Without it, the same value everywhere.
+        value: number, -1000000 to 1000000; default 1.0
+            That value.
+        strokes: list of tables; default []
+            Strokes, the first one lowest: `[{ path = [[400, 300], [900, 320]], radius = 40, value = 0 }, …]`.
+        """
     def hydraulic(
         self,
         *,
@@ -1793,6 +1819,19 @@ class AccessorSteps:
         of: str = "height",
         thinnest: float = 0.01,
         into: str = "material",
+        seed: int = 0,
+        engine: str = "auto",
+        threads: int | None = None,
+        callback: Callback | None = None,
+        progress: bool | None = None,
+    ) -> xarray.DataArray: ...
+    def paint_layer(
+        self,
+        *,
+        into: str,
+        of: str | None = None,
+        value: float = 1.0,
+        strokes: Sequence[Mapping[str, Any]] = [],
         seed: int = 0,
         engine: str = "auto",
         threads: int | None = None,

@@ -7,6 +7,8 @@ use weald::recipe::parameter::Parameters;
 use weald::recipe::source::Table;
 
 use super::controls::{self, Turned};
+use super::toolbar::button;
+use crate::commands::Command;
 use crate::document::Document;
 use crate::studio::Studio;
 
@@ -32,6 +34,10 @@ pub(crate) fn show(studio: &mut Studio, ui: &mut Ui) {
             card(studio, ui, (at, steps.len()), step);
         }
         add(studio, ui);
+        if button(ui, Command::Seeds).is_some() {
+            let context = ui.ctx().clone();
+            studio.obey(Command::Seeds, &context);
+        }
     });
 }
 
@@ -122,7 +128,7 @@ fn buttons(ui: &mut Ui, (at, count): (usize, usize), (is_shown, is_off): (bool, 
         true,
         Move::Switch,
     );
-    let show = if is_shown { "Show all" } else { "Show here" };
+    let show = if is_shown { "Show the end" } else { "Show here" };
     button(ui, show, "Show the landscape as it is after this step", true, Move::Show);
     moved
 }

@@ -7,7 +7,7 @@ use crate::studio::Studio;
 
 /// The buttons, group by group.
 const GROUPS: [&[Command]; 5] = [
-    &[Command::New, Command::Open, Command::Save, Command::Export, Command::Seeds],
+    &[Command::New, Command::Open, Command::Save, Command::Export],
     &[Command::Undo, Command::Redo],
     &[Command::Frame, Command::TopView, Command::Turntable, Command::Picture],
     &[Command::Measure, Command::Pin],

@@ -2,6 +2,7 @@
 
 mod controls;
 mod dialogs;
+mod followed;
 mod guide;
 mod harness;
 mod history;

@@ -28,8 +28,11 @@ fn plants_are_taken_away_and_set_by_the_brush_and_the_simulation_is_not_run_agai
     window.click("One step");
     window.until("a step", |status| status.steps == 1);
     let all = grown(&mut window, 1);
+    window.type_over("Name", "before");
+    window.reach("Keep");
+    window.until("the name", |status| status.names.len() == 1);
     window.drawn();
-    window.click("Clear");
+    window.reach("Clear");
     assert!(window.harness.query_by_role_and_label(Role::ComboBox, "Plants").is_some());
     let slider = window.harness.get_by_role_and_label(Role::Slider, "Radius");
     slider.set_value_accesskit(200.0);
@@ -40,6 +43,7 @@ fn plants_are_taken_away_and_set_by_the_brush_and_the_simulation_is_not_run_agai
     assert!(window.harness.state().text().contains("do = \"paint-layer\""));
     assert_eq!(window.status().steps, 1, "what was simulated stays");
     assert_eq!(window.status().moments.len(), 1);
+    assert_eq!(window.status().names.len(), 1, "it goes on, and does not begin anew");
     window.picture("cleared");
     window.click("Plant");
     window.stroke([0.4, 0.5], [0.6, 0.5]);
