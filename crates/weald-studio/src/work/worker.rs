@@ -1,5 +1,6 @@
 //! The one who works: does what is asked, one task after the other, and lets the simulation run in short slices between them.
 
+mod batch;
 mod opening;
 mod seeds;
 
@@ -20,7 +21,7 @@ use super::status::{Phase, Surface};
 use super::task::{Opening, Task};
 use crate::presets::with_outputs;
 use crate::state::State;
-use seeds::Batch;
+use batch::Batch;
 
 /// How long the simulation runs between two looks at what is asked.
 const SLICE: Duration = Duration::from_millis(20);

@@ -1,30 +1,16 @@
 //! Landscapes of several seeds, one after the other, whenever there is nothing else to do.
 
-use std::collections::VecDeque;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::atomic::Ordering;
 
-use weald::picture::{Image, Pen, Picture, Relief};
+use weald::picture::{Image, Picture, Relief};
 use weald::recipe::{Overrides, Recipe};
 use weald::{Error, files};
 
+use super::batch::{Batch, SIDE, labelled, write_sheet};
 use super::{Worker, nothing_ran};
 use crate::work::shared::Told;
 use crate::work::status::Seeds;
-
-/// Pixels along a picture's longer side, and between two pictures of the sheet.
-const SIDE: u32 = 192;
-const GAP: usize = 8;
-
-/// Name of the sheet.
-const SHEET: &str = "contact-sheet.png";
-
-/// Seeds that wait.
-pub(super) struct Batch {
-    folder: PathBuf,
-    waiting: VecDeque<u64>,
-    images: Vec<Image>,
-}
 
 impl Worker {
     pub(super) fn begin_seeds(&mut self, folder: PathBuf, first: u64, count: u64) -> Result<(), Error> {
@@ -100,21 +86,4 @@ impl Worker {
         });
         Ok(())
     }
-}
-
-/// A picture with its seed written below.
-fn labelled(image: Image, seed: u64) -> Image {
-    let pen = Pen { unit: 1.5, ink: [0.0; 3] };
-    let mut label = Image::paper(image.width, 3 * pen.height() as usize);
-    pen.write(&mut label, &seed.to_string(), [2.0, pen.height()]);
-    Image::below(&[image, label], 0)
-}
-
-/// The sheet is about as wide as it is high.
-fn write_sheet(images: &[Image], folder: &Path) -> Result<PathBuf, Error> {
-    let columns = (images.len() as f64).sqrt().ceil() as usize;
-    let rows: Vec<_> = images.chunks(columns.max(1)).map(|row| Image::beside(row, GAP)).collect();
-    let file = folder.join(SHEET);
-    weald::io::write_whole(&file, &Image::below(&rows, GAP).to_png(&[]))?;
-    Ok(file)
 }
