@@ -239,14 +239,16 @@ impl Worker {
         let (Some(held), Some(opening)) = (&mut self.held, &self.opening) else { return Ok(()) };
         let number = self.shared.asked.load(Ordering::Acquire);
         let progress = Told { shared: &self.shared, number, watched: &self.shared.asked };
-        let (landscape, steps) = match opening.steps {
-            Some(steps) => (held.landscape()?, steps),
-            None => (Arc::new(held.session().finish(&progress)?), usize::MAX),
+        let made = match opening.steps {
+            Some(steps) => held.landscape().map(|landscape| (landscape, steps)),
+            None => held.session().finish(&progress).map(|landscape| (Arc::new(landscape), usize::MAX)),
         };
-        if progress.cancelled() {
+        if progress.cancelled() || matches!(made, Err(Error::Interrupted(_))) {
+            // Whatever was asked meanwhile, saving too, they are still to run.
             self.is_finished = false;
             return Ok(());
         }
+        let (landscape, steps) = made?;
         self.publish(opening, landscape, steps);
         self.show_mask()
     }

@@ -39,8 +39,17 @@ fn a_stroke_that_is_refused_takes_no_place_in_what_is_undone_and_nothing_from_wh
     window.until("the steps again", |status| status.steps == 2);
     window.stroke([0.4, 0.5], [0.55, 0.5]);
     window.until("another refusal", |status| status.refused == 2);
+    // What was done last is the change of the recipe, and not the stroke that left nothing.
+    window.reach("3. slope");
+    window.harness.run_steps(20);
+    window.click_last("Switch off");
+    let off = window.harness.state().text().to_owned();
+    assert!(off.contains("off = true"), "{off}");
+    window.stroke([0.4, 0.5], [0.55, 0.5]);
+    window.until("a third refusal", |status| status.refused == 3);
     window.click("Undo");
-    window.until("the start again", |status| status.steps == 0);
+    assert!(!window.harness.state().text().contains("off = true"), "{}", window.harness.state().text());
+    assert_eq!(window.status().steps, 2, "the steps stay");
 }
 
 #[test]
