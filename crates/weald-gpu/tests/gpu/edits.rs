@@ -44,6 +44,7 @@ fn strokes() -> Vec<Brush> {
         Effect::Drain { rate: 0.1 },
         Effect::Thaw,
         Effect::Rain { factor: 0.2 },
+        Effect::Mask,
     ];
     let brush = |(at, effect)| {
         // What froze thaws.
