@@ -104,6 +104,7 @@ impl Page {
             own_files: None,
             remote: Some(Rc::clone(&remote)),
             host: Some(Rc::new(AroundStudio { arrived: Rc::clone(&arrived) })),
+            chooser: None,
             plays,
         };
         let (shown_in, read_by) = (Rc::clone(&context), labels.clone());
