@@ -61,7 +61,7 @@ fn actions() -> Vec<Action> {
     let mut actions: Vec<_> =
         strokes().into_iter().flat_map(|brush| [Action::Steps(5), brush.into()]).collect();
     actions.insert(9, set("erosion", 5.0).into());
-    actions.push(Action::Steps(15));
+    actions.push(Action::Steps(10));
     actions
 }
 
