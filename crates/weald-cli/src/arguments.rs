@@ -106,6 +106,9 @@ pub(crate) enum Command {
         /// A recipe, an elevation model, or the folder of a project [default: a template]
         #[arg(value_name = "RECIPE|DEM|PROJECT")]
         what: Option<PathBuf>,
+        /// Record what takes time into this file, which ui.perfetto.dev shows
+        #[arg(long, value_name = "FILE.json")]
+        trace: Option<PathBuf>,
     },
     /// Draw a fractal plant or figure, still or in the wind
     Fractal(FractalArguments),

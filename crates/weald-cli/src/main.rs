@@ -42,7 +42,7 @@ fn main() -> ExitCode {
         Command::Bench(arguments) => commands::bench::bench(&arguments),
         Command::Render(arguments) => commands::render::render(&arguments),
         #[cfg(feature = "studio")]
-        Command::Studio { what } => commands::studio::studio(what),
+        Command::Studio { what, trace } => commands::studio::studio(what, trace.as_deref()),
         Command::Web { folder, serve } => commands::web::web(folder, serve),
         Command::Schema => commands::schema::schema(),
         Command::Completions { shell } => commands::completions::completions(shell),

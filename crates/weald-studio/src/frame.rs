@@ -21,6 +21,7 @@ impl eframe::App for Studio {
     }
 
     fn logic(&mut self, context: &Context, _: &mut eframe::Frame) {
+        let _span = tracing::trace_span!("what has happened").entered();
         self.status = self.work.status();
         self.take_refused();
         self.tend_host();
@@ -49,6 +50,7 @@ impl eframe::App for Studio {
     }
 
     fn ui(&mut self, ui: &mut Ui, _: &mut eframe::Frame) {
+        let _span = tracing::trace_span!("interface").entered();
         if self.on_page.is_bare {
             CentralPanel::no_frame().show(ui, |ui| self.show_viewport(ui));
             return;

@@ -29,6 +29,8 @@ mod scenes;
 mod section;
 pub mod state;
 mod studio;
+#[cfg(not(target_arch = "wasm32"))]
+mod trace;
 mod viewport;
 #[cfg(not(target_arch = "wasm32"))]
 mod window;
@@ -40,6 +42,8 @@ pub use navigation::Mode;
 #[cfg(not(target_arch = "wasm32"))]
 pub use response::{Response, response};
 pub use studio::{Options, Studio};
+#[cfg(not(target_arch = "wasm32"))]
+pub use trace::{Trace, record};
 #[doc(hidden)]
 pub use viewport::device_setup;
 #[cfg(target_arch = "wasm32")]

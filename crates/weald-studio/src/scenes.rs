@@ -44,6 +44,7 @@ type Built = (Order, Result<Box<Stage>, Error>);
 
 impl Stage {
     fn new(gpu: &Gpu, order: &Order) -> Result<Self, Error> {
+        let _span = tracing::trace_span!("scene").entered();
         let Order { landscape, view, number, is_live, .. } = order;
         let scene = LitScene::new(view, landscape)?;
         let scene = if *is_live { scene.to_follow() } else { scene };

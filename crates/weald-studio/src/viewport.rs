@@ -251,6 +251,7 @@ impl Drawing for Viewport {
     }
 
     fn draw(&mut self, camera: &Camera, full: [u32; 2]) -> Result<Option<Duration>, Error> {
+        let _span = tracing::trace_span!("picture").entered();
         let Some(stage) = &mut self.stage else { return Ok(None) };
         if let Some(submitted) = self.submitted {
             if stage.screen.in_flight() > 0 {

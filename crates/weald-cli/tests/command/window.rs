@@ -97,7 +97,13 @@ struct Studio<'a> {
 impl<'a> Studio<'a> {
     fn open(display: &'a Display, what: Option<&Path>, own: &Path) -> Self {
         let mut command = display.command(env!("CARGO_BIN_EXE_weald"));
-        command.arg("studio").args(what).env("WEALD_STATE", own).env("XDG_RUNTIME_DIR", own);
+        command
+            .arg("studio")
+            .args(what)
+            .arg("--trace")
+            .arg(own.join("trace.json"))
+            .env("WEALD_STATE", own)
+            .env("XDG_RUNTIME_DIR", own);
         let program = command.stdout(Stdio::null()).spawn().expect("a studio");
         let studio = Self { display, program };
         studio.display.until("the window", |_| {}, |display| display.title().contains("Weald"));
@@ -162,6 +168,11 @@ fn a_template_is_changed_painted_undone_saved_exported_and_run_to_the_same_files
     );
     display.picture("exported");
     studio.close();
+    let trace = text(&own.join("trace.json"));
+    for span in ["interface", "picture", "simulation", "scene", "task"] {
+        assert!(trace.contains(&format!("\"{span}\"")), "no {span} in a trace of {} bytes", trace.len());
+    }
+    assert!(trace.trim_end().ends_with(']'), "the trace is whole");
     assert_same_files(&project, &out, folder.path());
     let again = Studio::open(&display, Some(&project), &own);
     std::thread::sleep(Duration::from_secs(3));

@@ -209,6 +209,11 @@ impl Context {
         let polled = self.poll(wgpu::PollType::Wait { submission_index, timeout: Some(patience) });
         self.check("waiting for the GPU")?;
         match polled {
+            // It took a submission only to refuse it: it is lost, though nobody has been told yet.
+            Some(Err(wgpu::PollError::WrongSubmissionIndex(..))) => {
+                self.faults.lose("it took no more work");
+                self.check("waiting for the GPU")
+            }
             Some(Err(cause)) => Err(self.silent(&cause.to_string())),
             _ => Ok(()),
         }

@@ -168,9 +168,9 @@ impl<'a> Shore<'a> {
         };
         let map = step.erodibility_map.as_ref();
         let softness = map.map(|LayerName(name)| landscape.field(name).cloned()).transpose()?;
-        let is_land =
+        let is_ground =
             |cell: usize| !sea[cell] && domain.valid.as_ref().is_none_or(|valid| valid.is_valid_at(cell));
-        let at_coast = |&cell: &usize| sea[cell] && domain.size.neighbours(cell).any(is_land);
+        let at_coast = |&cell: &usize| sea[cell] && domain.size.neighbours(cell).any(is_ground);
         let coast: Vec<u32> = (0..domain.size.cells()).filter(at_coast).map(|cell| cell as u32).collect();
         if coast.is_empty() {
             return Ok(None);
@@ -187,7 +187,7 @@ impl<'a> Shore<'a> {
         Ok(Some(Self { step, level, coast, exposure, softness, heights: start.clone(), sea, domain }))
     }
 
-    fn is_land(&self, cell: usize) -> bool {
+    fn is_ground(&self, cell: usize) -> bool {
         !self.sea[cell] && self.domain.valid.as_ref().is_none_or(|valid| valid.is_valid_at(cell))
     }
 
@@ -206,18 +206,18 @@ impl<'a> Shore<'a> {
     /// The ground with cliffs and platforms.
     fn cut(&self, start: &Field) -> Field {
         let steepness = libm::tan(self.step.cliff_deg.to_radians());
-        let is_land = |cell: usize| f64::from(u8::from(self.is_land(cell)));
-        let nearest = self.march(f64::INFINITY).follow(is_land).origin;
+        let is_ground = |cell: usize| f64::from(u8::from(self.is_ground(cell)));
+        let nearest = self.march(f64::INFINITY).follow(is_ground).origin;
         // Ground lies as open as the coast that is nearest.
         let speed = |cell: usize| match nearest[cell] {
             March::NOWHERE => 0.0,
-            origin => is_land(cell) * self.speed(cell, self.exposure[origin as usize]),
+            origin => is_ground(cell) * self.speed(cell, self.exposure[origin as usize]),
         };
         // Some way on, for the cliffs behind the front.
         let Reached { time, .. } = self.march(3.0 * self.step.duration).follow(speed);
         let mut after = start.clone();
         for (cell, height) in after.values_mut().iter_mut().enumerate() {
-            if time[cell].is_infinite() || !self.is_land(cell) {
+            if time[cell].is_infinite() || !self.is_ground(cell) {
                 continue;
             }
             // Metres that the front has gone beyond the cell, below 0 before it.

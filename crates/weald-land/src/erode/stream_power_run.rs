@@ -216,7 +216,7 @@ impl<'a> Level<'a> {
             creep: step.creep * years,
             critical: libm::tan(step.critical_slope_deg.to_radians()),
             sea_level: self.landscape.domain.sea_level,
-            lakes_fill: step.lakes == Lakes::Filled,
+            lakes_fill: step.lakes == Lakes::Silted,
             settling: step.settling_length,
         })
     }

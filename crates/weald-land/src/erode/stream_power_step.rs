@@ -17,7 +17,7 @@ choices! {
         /// Sediment passes through them.
         Kept = "kept",
         /// Rivers fill them from where they enter.
-        Filled = "filled",
+        Silted = "filled",
     }
 }
 
@@ -89,7 +89,7 @@ parameters! {
         /// does inside.
         outlets: Outlets = Outlets::Border;
         /// What becomes of lakes.
-        lakes: Lakes = Lakes::Filled;
+        lakes: Lakes = Lakes::Silted;
         /// Distance under water in which 63 % of what a river carries settles, in the sea and in lakes that are filled.
         settling_length: f64 = 1000.0, range 0.0..=1.0e6, unit "m";
         /// How far the points between which rivers run lie off the middles of their cells: 0 for a regular grid, whose
@@ -155,16 +155,16 @@ impl Step for StreamPower {
 
     fn faults(&self) -> Vec<Fault> {
         /// Most steps of time, beyond which a key is more likely wrong than meant.
-        const MOST: f64 = 1e7;
+        const MOST_STEPS: f64 = 1e7;
         let fault = || {
             let message = format!(
-                "`time_step` is {} a, but must be at least {} a: one step in {MOST} of the duration",
+                "`time_step` is {} a, but must be at least {} a: one step in {MOST_STEPS} of the duration",
                 self.step_years(),
-                self.duration / MOST
+                self.duration / MOST_STEPS
             );
             Fault::of("time_step", message)
         };
-        (self.duration / self.step_years() > MOST).then(fault).into_iter().collect()
+        (self.duration / self.step_years() > MOST_STEPS).then(fault).into_iter().collect()
     }
 
     fn writes(&self) -> Vec<(String, &'static str)> {

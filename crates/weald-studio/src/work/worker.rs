@@ -122,6 +122,7 @@ impl Worker {
     }
 
     fn take(&mut self, number: u64, task: Task) -> Result<(), Error> {
+        let _span = tracing::trace_span!("task").entered();
         self.shared.change(|status| status.error = None);
         match task {
             Task::Open(opening) => return self.open(number, *opening),
@@ -197,8 +198,10 @@ impl Worker {
             self.until = None;
             return self.surface();
         }
+        let span = tracing::trace_span!("simulation", steps).entered();
         let began = Instant::now();
         held.advance(steps)?;
+        drop(span);
         self.is_finished = false;
         let took = began.elapsed();
         let pace = steps as f64 / took.as_secs_f64().max(1e-6);
@@ -212,6 +215,7 @@ impl Worker {
 
     /// Shows ground and water as they are.
     fn surface(&mut self) -> Result<(), Error> {
+        let _span = tracing::trace_span!("surface").entered();
         let Some(held) = &mut self.held else { return Ok(()) };
         let (canvas, ground) = held.surface()?;
         let (canvas, ground) = (Arc::new(canvas), Arc::new(ground));
@@ -236,6 +240,7 @@ impl Worker {
         if std::mem::replace(&mut self.is_finished, true) {
             return Ok(());
         }
+        let _span = tracing::trace_span!("later steps").entered();
         let (Some(held), Some(opening)) = (&mut self.held, &self.opening) else { return Ok(()) };
         let number = self.shared.asked.load(Ordering::Acquire);
         let progress = Told { shared: &self.shared, number, watched: &self.shared.asked };

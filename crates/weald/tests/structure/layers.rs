@@ -140,10 +140,11 @@ const REFUSED: [&str; 5] =
     ["std::fs", "path::absolute", ".canonicalize()", "env::current_dir", "process::id"];
 
 /// What is not compiled for browsers, or asks for what is there on some systems only.
-const OF_MACHINES: [&str; 7] = [
+const OF_MACHINES: [&str; 8] = [
     "core/src/files",
     "io/src/atomic.rs",
     "studio/src/response.rs",
+    "studio/src/trace.rs",
     "studio/src/window.rs",
     "weald/src/recipe/cache/follows.rs",
     "weald/src/recipe/memory.rs",

@@ -1,8 +1,8 @@
-//! Lakes: rivers that end in a pit are led on over the lowest way out.
+//! Lakes: rivers that end in a pit are led on over the lowest outlet.
 //!
-//! The cells that drain into one pit are a basin. The lowest passes between basins are those of a minimum spanning tree of
-//! their graph; followed from the base level, it says over which pass each basin spills. The river is then turned from the
-//! pass down to the pit, so that it runs from the pit to the pass, and what lies below the pass is under water (Cordonnier,
+//! The cells that drain into one pit are a basin. The lowest saddles between basins are those of a minimum spanning tree of
+//! their graph; followed from the base level, it says over which saddle each basin spills. The river is then turned from the
+//! saddle down to the pit, so that it runs from the pit to the saddle, and what lies below the saddle is under water (Cordonnier,
 //! Bovy and Braun 2019, doi 10.5194/esurf-7-549-2019, their "carving").
 
 use super::mesh::Mesh;
@@ -13,9 +13,9 @@ use crate::flow::disjoint_sets::DisjointSets;
 /// The basin of all that drains to the base level.
 const DRAINED: u32 = 0;
 
-/// A way between two basins.
+/// A saddle between two basins.
 #[derive(Clone, Copy, Debug)]
-struct Pass {
+struct Saddle {
     height: f64,
     cells: [u32; 2],
 }
@@ -37,8 +37,8 @@ pub(super) fn drain(
     }
     let tree = spanning_tree(mesh, heights, &basin, pits.len() + 1);
     let mut levels = vec![f64::NEG_INFINITY; pits.len() + 1];
-    for (pass, [from, to]) in outward(&tree, &basin, pits.len() + 1) {
-        levels[basin[from as usize] as usize] = levels[basin[to as usize] as usize].max(pass);
+    for (saddle, [from, to]) in outward(&tree, &basin, pits.len() + 1) {
+        levels[basin[from as usize] as usize] = levels[basin[to as usize] as usize].max(saddle);
         turn(mesh, receivers, [from, to]);
     }
     Some(basin.iter().map(|&basin| levels[basin as usize]).collect())
@@ -62,31 +62,31 @@ fn basins(base: &[bool], receivers: &Receivers, order: &Order) -> (Vec<u32>, Vec
     (basin, pits)
 }
 
-/// The passes of the tree, from the lowest up.
-fn spanning_tree(mesh: &Mesh, heights: &[f64], basin: &[u32], basins: usize) -> Vec<Pass> {
-    let mut passes = Vec::new();
+/// The saddles of the tree, from the lowest up.
+fn spanning_tree(mesh: &Mesh, heights: &[f64], basin: &[u32], basins: usize) -> Vec<Saddle> {
+    let mut saddles = Vec::new();
     for cell in mesh.inner().filter(|&cell| heights[cell] < f64::INFINITY) {
         for beside in mesh.around(cell).into_iter().take(4) {
             if basin[cell] != basin[beside] && heights[beside] < f64::INFINITY {
                 let height = heights[cell].max(heights[beside]);
-                passes.push(Pass { height, cells: [cell as u32, beside as u32] });
+                saddles.push(Saddle { height, cells: [cell as u32, beside as u32] });
             }
         }
     }
-    passes.sort_unstable_by(|a, b| a.height.total_cmp(&b.height).then(a.cells.cmp(&b.cells)));
+    saddles.sort_unstable_by(|a, b| a.height.total_cmp(&b.height).then(a.cells.cmp(&b.cells)));
     let mut sets = DisjointSets::new(basins);
-    passes.retain(|pass| sets.join(pass.cells.map(|cell| basin[cell as usize])));
-    passes
+    saddles.retain(|saddle| sets.join(saddle.cells.map(|cell| basin[cell as usize])));
+    saddles
 }
 
-/// The passes in the order in which they are reached from the base level, each with its height and its cells: that of the
+/// The saddles in the order in which they are reached from the base level, each with its height and its cells: that of the
 /// basin that spills, and that into which it spills.
-fn outward(tree: &[Pass], basin: &[u32], basins: usize) -> Vec<(f64, [u32; 2])> {
+fn outward(tree: &[Saddle], basin: &[u32], basins: usize) -> Vec<(f64, [u32; 2])> {
     let mut of_basin = vec![Vec::new(); basins];
-    for pass in tree {
-        let [a, b] = pass.cells;
-        of_basin[basin[a as usize] as usize].push((pass.height, [b, a]));
-        of_basin[basin[b as usize] as usize].push((pass.height, [a, b]));
+    for saddle in tree {
+        let [a, b] = saddle.cells;
+        of_basin[basin[a as usize] as usize].push((saddle.height, [b, a]));
+        of_basin[basin[b as usize] as usize].push((saddle.height, [a, b]));
     }
     let mut reached = vec![false; basins];
     reached[DRAINED as usize] = true;
@@ -104,14 +104,14 @@ fn outward(tree: &[Pass], basin: &[u32], basins: usize) -> Vec<(f64, [u32; 2])> 
     found
 }
 
-/// Turns the river from a cell down to its pit, so that it runs up to the cell and over the pass.
+/// Turns the river from a cell down to its pit, so that it runs up to the cell and over the saddle.
 fn turn(mesh: &Mesh, receivers: &mut Receivers, [from, to]: [u32; 2]) {
     let (mut cell, mut next) = (from, to);
     loop {
         let before = receivers.of[cell as usize];
         receivers.of[cell as usize] = next;
-        let way = mesh.way(cell as usize, next as usize);
-        receivers.inverse[cell as usize] = mesh.inverse(cell as usize, way);
+        let direction = mesh.direction(cell as usize, next as usize);
+        receivers.inverse[cell as usize] = mesh.inverse(cell as usize, direction);
         if before == cell {
             return;
         }

@@ -2,7 +2,7 @@
 //!
 //! On the middles themselves a river knows eight directions only, and ridges, valleys and whole slopes lie along them.
 //! Points that are moved at random have neighbours in all directions, and paths over them are too long by the same share
-//! whatever way they go, as on the irregular meshes of landscape evolution (Braun and Sambridge 1997, doi
+//! whichever direction they take, as on the irregular meshes of landscape evolution (Braun and Sambridge 1997, doi
 //! 10.1046/j.1365-2117.1997.00030.x). A cell keeps its area.
 //!
 //! A ring of cells without data lies around the grid, so that the border of the grid and of the data are one thing.
@@ -65,29 +65,29 @@ impl Mesh {
     }
 
     /// Difference of cell numbers to a neighbour.
-    pub(super) fn offset(&self, way: usize) -> isize {
-        let (east, south) = STEPS[way];
+    pub(super) fn offset(&self, direction: usize) -> isize {
+        let (east, south) = STEPS[direction];
         south * self.stride as isize + east
     }
 
     /// The eight neighbours of a cell within the ring.
     pub(super) fn around(&self, cell: usize) -> [usize; 8] {
-        std::array::from_fn(|way| cell.wrapping_add_signed(self.offset(way)))
+        std::array::from_fn(|direction| cell.wrapping_add_signed(self.offset(direction)))
     }
 
     /// One over the distances of the cells from `first` on to their neighbours in one direction, in 1/m.
-    pub(super) fn inverses(&self, first: usize, way: usize) -> &[f32] {
-        let first = if way < EDGES { first } else { first.wrapping_add_signed(self.offset(way)) };
-        &self.inverse[way % EDGES][first..]
+    pub(super) fn inverses(&self, first: usize, direction: usize) -> &[f32] {
+        let first = if direction < EDGES { first } else { first.wrapping_add_signed(self.offset(direction)) };
+        &self.inverse[direction % EDGES][first..]
     }
 
     /// One over the distance of a cell to a neighbour, in 1/m.
-    pub(super) fn inverse(&self, cell: usize, way: usize) -> f32 {
-        self.inverses(cell, way)[0]
+    pub(super) fn inverse(&self, cell: usize, direction: usize) -> f32 {
+        self.inverses(cell, direction)[0]
     }
 
     /// The direction in which a neighbour lies.
-    pub(super) fn way(&self, from: usize, to: usize) -> usize {
+    pub(super) fn direction(&self, from: usize, to: usize) -> usize {
         self.around(from).iter().position(|&beside| beside == to).expect("neighbours lie beside each other")
     }
 
@@ -116,9 +116,9 @@ mod tests {
         let domain = Domain::new(Size { columns: 90, rows: 80 }, 10.0);
         let mesh = Mesh::new(&domain, 0.8, 5);
         for cell in [200, 3000, 5555] {
-            for (way, beside) in mesh.around(cell).into_iter().enumerate() {
-                assert_eq!(mesh.inverse(cell, way), mesh.inverse(beside, (way + 4) % 8));
-                assert_eq!(mesh.way(cell, beside), way);
+            for (direction, beside) in mesh.around(cell).into_iter().enumerate() {
+                assert_eq!(mesh.inverse(cell, direction), mesh.inverse(beside, (direction + 4) % 8));
+                assert_eq!(mesh.direction(cell, beside), direction);
             }
         }
         let regular = Mesh::new(&domain, 0.0, 5);

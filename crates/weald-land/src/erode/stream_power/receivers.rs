@@ -35,12 +35,15 @@ impl Receivers {
                 for (x, (of, inverse)) in of.iter_mut().zip(inverse).enumerate() {
                     let cell = first + x;
                     let within = x > 0 && x + 1 < stride && !base[cell];
-                    let way = if within { steepest.way[x - 1] } else { NONE };
-                    (*of, *inverse) = match way {
+                    let direction = if within { steepest.direction[x - 1] } else { NONE };
+                    (*of, *inverse) = match direction {
                         NONE => (cell as u32, 0.0),
-                        way => {
-                            let way = usize::from(way);
-                            (cell.wrapping_add_signed(mesh.offset(way)) as u32, mesh.inverse(cell, way))
+                        direction => {
+                            let direction = usize::from(direction);
+                            (
+                                cell.wrapping_add_signed(mesh.offset(direction)) as u32,
+                                mesh.inverse(cell, direction),
+                            )
                         }
                     };
                 }
@@ -55,29 +58,29 @@ const NONE: u8 = u8::MAX;
 /// The steepest descents of a row.
 struct Steepest {
     slope: Vec<f32>,
-    way: Vec<u8>,
+    direction: Vec<u8>,
 }
 
 impl Steepest {
     fn new(stride: usize) -> Self {
-        Self { slope: vec![0.0; stride - 2], way: vec![NONE; stride - 2] }
+        Self { slope: vec![0.0; stride - 2], direction: vec![NONE; stride - 2] }
     }
 
     /// Of the row whose first cell that is. Neighbour by neighbour, so that the cells of a row are worked on side by side.
     fn find(&mut self, mesh: &Mesh, heights: &[f64], first: usize) {
         self.slope.fill(0.0);
-        self.way.fill(NONE);
-        for way in 0..8 {
+        self.direction.fill(NONE);
+        for direction in 0..8 {
             let here = &heights[first..];
-            let there = &heights[first.wrapping_add_signed(mesh.offset(way))..];
-            let inverse = mesh.inverses(first, way);
-            let cells = self.slope.iter_mut().zip(&mut self.way).zip(here).zip(there).zip(inverse);
-            for ((((steepest, steepest_way), &here), &there), &inverse) in cells {
+            let there = &heights[first.wrapping_add_signed(mesh.offset(direction))..];
+            let inverse = mesh.inverses(first, direction);
+            let cells = self.slope.iter_mut().zip(&mut self.direction).zip(here).zip(there).zip(inverse);
+            for ((((steepest, steepest_direction), &here), &there), &inverse) in cells {
                 // Without data on either side the difference is infinite or no number, which is never kept.
                 let slope = (here - there) as f32 * inverse;
                 let steeper = slope > *steepest && slope < f32::INFINITY;
                 *steepest = if steeper { slope } else { *steepest };
-                *steepest_way = if steeper { way as u8 } else { *steepest_way };
+                *steepest_direction = if steeper { direction as u8 } else { *steepest_direction };
             }
         }
     }

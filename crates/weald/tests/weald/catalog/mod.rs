@@ -307,7 +307,10 @@ const INPUT_UNIT: &str = "m";
 /// Ground for a step: the layers it reads, and one that is none of its business.
 fn ground_for(step: &dyn Step, land: Option<Mask>) -> Landscape {
     let size = Size::square(16).expect("small");
-    let mut landscape = Landscape::new(Domain { valid: land, ..Domain::new(size, 10.0) });
+    let domain = Domain { valid: land, ..Domain::new(size, 10.0) };
+    // A step that works at a coast has one.
+    let sea_level = step.check_on(&domain).is_err().then_some(0.3);
+    let mut landscape = Landscape::new(Domain { sea_level, ..domain });
     let names = step.reads().into_iter().chain(["bystander".to_owned()]);
     for (seed, name) in names.enumerate() {
         let random = |x, y| unit(hash2(seed as u64, x as i64, y as i64)) as f32;
