@@ -245,6 +245,44 @@ class Steps:
         into: layer name; default "height"
             Layer that is written.
         """
+    def dome(
+        self,
+        *,
+        rise: float = 1.0,
+        base: float = 0.0,
+        radius: float = 5000.0,
+        radius_across: float | None = None,
+        azimuth_deg: float = 90.0,
+        center_x: float | None = None,
+        center_y: float | None = None,
+        into: str = "height",
+        seed: int = 0,
+        engine: str = "auto",
+        threads: int | None = None,
+        callback: Callback | None = None,
+        progress: bool | None = None,
+    ) -> StepReport:
+        """A smooth dome, round or long, on flat ground. Source: Weald.
+
+        Writes, by default: `height` (m).
+
+        rise: number, -1000000 to 1000000 m; default 1.0
+            Height of its middle above the ground around; below 0, a hollow.
+        base: number, -1000000 to 1000000 m; default 0.0
+            Height of the ground around.
+        radius: number, 0.001 to 1000000000 m; default 5000.0
+            Distance from the middle to the edge along its axis.
+        radius_across: number, 0.001 to 1000000000 m
+            The same across its axis. Without it, as long: the dome is round.
+        azimuth_deg: number, -360 to 360 deg; default 90.0
+            Direction of its axis, clockwise from north.
+        center_x: number, -1000000000 to 1000000000 m
+            Its middle, from the western edge. Without it, that of the landscape.
+        center_y: number, -1000000000 to 1000000000 m
+            Its middle, from the northern edge. Without it, that of the landscape.
+        into: layer name; default "height"
+            Layer that is written.
+        """
     def basin(
         self,
         *,
@@ -921,6 +959,139 @@ class Steps:
         edits: script of edits
             Script of edits, in JSON lines (.jsonl) or TOML: strokes of a brush, and keys that change, between the steps on the finest grid. Its path starts at the folder of the recipe.
         """
+    def stream_power(
+        self,
+        *,
+        duration: float = 5000000.0,
+        uplift: float = 0.5,
+        uplift_map: str | None = None,
+        erodibility: float = 5e-06,
+        erodibility_map: str | None = None,
+        materials: bool = False,
+        area_exponent: float = 0.5,
+        hillslope_area: float = 50000.0,
+        slope_exponent: float = 1.0,
+        deposition: float = 0.0,
+        creep: float = 0.01,
+        critical_slope_deg: float = 40.0,
+        time_step: float | None = None,
+        outlets: Literal["border", "sea", "north", "east", "south", "west"] = "border",
+        lakes: Literal["kept", "filled"] = "filled",
+        settling_length: float = 1000.0,
+        irregularity: float = 0.7,
+        levels: int = 1,
+        coarsest: float = 100.0,
+        layer: str = "height",
+        seed: int = 0,
+        engine: str = "auto",
+        threads: int | None = None,
+        callback: Callback | None = None,
+        progress: bool | None = None,
+    ) -> StepReport:
+        """Lets ground rise and rivers cut it into ranges, over millions of years. Source: Braun and Willett 2013, doi 10.1016/j.geomorph.2012.10.008; Yuan et al. 2019, doi 10.1029/2018JF004867.
+
+        Writes, by default: `height` (m), `erosion` (m), `deposition` (m), `lake_depth` (m).
+
+        duration: number, 0 to 10000000000 a; default 5000000.0
+            Years that pass.
+        uplift: number, 0 to 100 mm/a; default 0.5
+            How fast ground rises (U), but at the border.
+        uplift_map: layer name
+            Layer that multiplies the uplift: 0 where ground stays, below 0 where it sinks. Default: 1 everywhere.
+        erodibility: number, 0 to 1000 m^(1-2m)/a; default 5e-6
+            How fast rivers cut down where the upslope area is 1 m² and the slope 1 (K).
+        erodibility_map: layer name
+            Layer that multiplies the erodibility: 0.1 for hard, 10 for soft ground. Default: 1 everywhere.
+        materials: true or false; default false
+            Whether each material wears in its own way: `erodibility` is then that of the bedrock, and those of the others stand to it as theirs do. What rivers lay down counts as the last material.
+        area_exponent: number, 0 to 2; default 0.5
+            Exponent of the upslope area (m). Over that of the slope it is how much flatter rivers become downstream.
+        hillslope_area: number, 0 to 1000000000 m²; default 50000.0
+            Area that counts beside the upslope area, and wears ridges: slopes above rivers then do not grow steeper with every cell that is smaller. Rivers of much more than it follow the law.
+        slope_exponent: number, 0.1 to 5; default 1.0
+            Exponent of the slope (n).
+        deposition: number, 0 to 10; default 0.0
+            Of what rivers carry, the share that they lay down (G): 0 for bare rock, 1 and more for rivers in their gravel.
+        creep: number, 0 to 1000 m²/a; default 0.01
+            Creep of soil (D), which rounds ridges.
+        critical_slope_deg: number, 1 to 89 deg; default 40.0
+            Steepest slope that stands; what is steeper slides down to it.
+        time_step: number, 0.001 to 10000000000 a
+            Years of one step of time. Default: a two-hundredth of the duration.
+        outlets: "border" | "sea" | "north" | "east" | "south" | "west"; default "border"
+            Where rivers leave the grid or the data: ground keeps its height there, and rises and wears at other borders as it does inside.
+        lakes: "kept" | "filled"; default "filled"
+            What becomes of lakes.
+        settling_length: number, 0 to 1000000 m; default 1000.0
+            Distance under water in which 63 % of what a river carries settles, in the sea and in lakes that are filled.
+        irregularity: number, 0 to 1; default 0.7
+            How far the points between which rivers run lie off the middles of their cells: 0 for a regular grid, whose eight directions show, up to 1 for all over the cell.
+        levels: whole number, 1 to 8; default 1
+            Grids that it runs on at most, each with cells twice as long as those of the next, up to `coarsest`: an eighth of the time passes on each but the coarsest, which has the rest. The numbers of cells must divide, and none may be without data.
+        coarsest: number, 0.001 to 100000 m; default 100.0
+            Longest cells of these grids. On the coarsest it is decided where rivers run: a landscape of any size that begins on the same one has the same rivers.
+        layer: layer name; default "height"
+            Layer to erode.
+        """
+    def coast(
+        self,
+        *,
+        duration: float = 3000.0,
+        wind_from_deg: float = 270.0,
+        wind_spread_deg: float = 40.0,
+        fetch: float = 20000.0,
+        retreat: float = 0.1,
+        high: float = 50.0,
+        erodibility_map: str | None = None,
+        cliff_deg: float = 55.0,
+        platform_slope: float = 0.02,
+        sand: float = 0.3,
+        sheltered: float = 0.35,
+        beach_slope: float = 0.03,
+        beach_top: float = 2.0,
+        widest_beach: float = 300.0,
+        layer: str = "height",
+        seed: int = 0,
+        engine: str = "auto",
+        threads: int | None = None,
+        callback: Callback | None = None,
+        progress: bool | None = None,
+    ) -> StepReport:
+        """Lets waves cut cliffs where a coast lies open, and lay beaches where it is sheltered. Source: Sunamura 1992; Ashton and Murray 2006, doi 10.1029/2005JF000422; Trenhaile 2000, doi 10.1016/S0025-3227(00)00013-X.
+
+        Writes, by default: `height` (m), `exposure`, `erosion` (m), `deposition` (m).
+
+        duration: number, 0 to 10000000 a; default 3000.0
+            Years for which waves work.
+        wind_from_deg: number, -360 to 360 deg; default 270.0
+            Direction from which wind and waves mostly come, clockwise from north; 270 is west.
+        wind_spread_deg: number, 1 to 10000 deg; default 40.0
+            How far the direction varies (standard deviation); 180 and more is from everywhere alike.
+        fetch: number, 1 to 10000000 m; default 20000.0
+            Way over water after which waves grow no more. Beyond the border lies open sea.
+        retreat: number, 0 to 1000 m/a; default 0.1
+            How fast a low coast of bedrock retreats that lies wholly open.
+        high: number, 0.01 to 10000 m; default 50.0
+            Height of a cliff that retreats half as fast.
+        erodibility_map: layer name
+            Layer that multiplies the retreat: 0.1 for hard, 10 for soft ground. Default: 1 everywhere.
+        cliff_deg: number, 5 to 85 deg; default 55.0
+            Steepest cliff that stands.
+        platform_slope: number, 0.0001 to 1; default 0.02
+            Fall of the platform that waves leave under the sea, rise over run.
+        sand: number, 0 to 1; default 0.3
+            Share of what waves cut that is sand and stays.
+        sheltered: number, 0 to 1; default 0.35
+            Exposure, from 0 to 1, below which sand stays.
+        beach_slope: number, 0.001 to 1; default 0.03
+            Fall of beaches, rise over run.
+        beach_top: number, 0 to 100 m; default 2.0
+            Height of the top of a beach above the sea.
+        widest_beach: number, 0 to 1000000 m; default 300.0
+            Widest beach, from the old coast out; sand beyond that is carried off.
+        layer: layer name; default "height"
+            Layer to erode.
+        """
     def slippage(
         self,
         *,
@@ -1271,7 +1442,7 @@ class Steps:
         deepest_breach: number, 0 to 1000000 m
             Deepest cut of a breach; depressions that need a deeper one are filled. Without it, all are breached.
         sea_level: number, -1000000 to 1000000 m
-            Height of the sea. Ground no higher that is connected to the border by such ground is sea, in which flow ends. Without it there is no sea.
+            Height of the sea. Ground no higher that is connected to the border by such ground is sea, in which flow ends. Default: that of the landscape.
         weight: layer name
             Layer of the runoff of each cell in mm/year, whatever unit it says. With it, the layer `discharge` is written.
         filled: layer name
@@ -1351,7 +1522,7 @@ class Steps:
         area: number, 0 to 1000000000000000 m²
             Least area: smaller lakes are left out. Without it, those of fewer than 12 cells.
         sea_level: number, -1000000 to 1000000 m
-            Height of the sea, which is no lake. Without it there is no sea.
+            Height of the sea, which is no lake. Default: that of the landscape.
         """
     def watersheds(
         self,
@@ -1398,7 +1569,7 @@ class Steps:
         min_slope: number, 0.000001 to 1; default 0.001
             Gentler slopes count as this one, so that flat ground has an index: a metre in a kilometre.
         sea_level: number, -1000000 to 1000000 m
-            Height of the sea, in which flow ends. Without it there is no sea.
+            Height of the sea, in which flow ends. Default: that of the landscape.
         into: layer name; default "wetness"
             Layer that is written.
         """
@@ -1633,6 +1804,23 @@ class AccessorSteps:
         peak: float = 100.0,
         base: float = 0.0,
         slope: float = 1.0,
+        center_x: float | None = None,
+        center_y: float | None = None,
+        into: str = "height",
+        seed: int = 0,
+        engine: str = "auto",
+        threads: int | None = None,
+        callback: Callback | None = None,
+        progress: bool | None = None,
+    ) -> xarray.DataArray: ...
+    def dome(
+        self,
+        *,
+        rise: float = 1.0,
+        base: float = 0.0,
+        radius: float = 5000.0,
+        radius_across: float | None = None,
+        azimuth_deg: float = 90.0,
         center_x: float | None = None,
         center_y: float | None = None,
         into: str = "height",
@@ -1945,6 +2133,59 @@ class AccessorSteps:
         initial_water: str | None = None,
         region: str | None = None,
         edits: str | PathLike[str] | None = None,
+        seed: int = 0,
+        engine: str = "auto",
+        threads: int | None = None,
+        callback: Callback | None = None,
+        progress: bool | None = None,
+    ) -> xarray.DataArray: ...
+    def stream_power(
+        self,
+        *,
+        duration: float = 5000000.0,
+        uplift: float = 0.5,
+        uplift_map: str | None = None,
+        erodibility: float = 5e-06,
+        erodibility_map: str | None = None,
+        materials: bool = False,
+        area_exponent: float = 0.5,
+        hillslope_area: float = 50000.0,
+        slope_exponent: float = 1.0,
+        deposition: float = 0.0,
+        creep: float = 0.01,
+        critical_slope_deg: float = 40.0,
+        time_step: float | None = None,
+        outlets: Literal["border", "sea", "north", "east", "south", "west"] = "border",
+        lakes: Literal["kept", "filled"] = "filled",
+        settling_length: float = 1000.0,
+        irregularity: float = 0.7,
+        levels: int = 1,
+        coarsest: float = 100.0,
+        layer: str = "height",
+        seed: int = 0,
+        engine: str = "auto",
+        threads: int | None = None,
+        callback: Callback | None = None,
+        progress: bool | None = None,
+    ) -> xarray.DataArray: ...
+    def coast(
+        self,
+        *,
+        duration: float = 3000.0,
+        wind_from_deg: float = 270.0,
+        wind_spread_deg: float = 40.0,
+        fetch: float = 20000.0,
+        retreat: float = 0.1,
+        high: float = 50.0,
+        erodibility_map: str | None = None,
+        cliff_deg: float = 55.0,
+        platform_slope: float = 0.02,
+        sand: float = 0.3,
+        sheltered: float = 0.35,
+        beach_slope: float = 0.03,
+        beach_top: float = 2.0,
+        widest_beach: float = 300.0,
+        layer: str = "height",
         seed: int = 0,
         engine: str = "auto",
         threads: int | None = None,
