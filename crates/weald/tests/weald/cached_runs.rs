@@ -286,6 +286,20 @@ fn a_changed_file_runs_again() {
 }
 
 #[test]
+fn a_sea_at_another_level_runs_again() {
+    let (own, other) = (tempfile::tempdir().expect("a folder"), tempfile::tempdir().expect("a folder"));
+    let cache = cache(own.path());
+    for level in [40, 150] {
+        let text = RECIPE.replace("seed = 7", &format!("seed = 7\nsea_level = {level}"));
+        let report = run(own.path(), &text, Some(&cache));
+        assert!(ran(&report).contains(&"flow"), "{level} m: {:?}", ran(&report));
+        run(other.path(), &text, None);
+        let bytes = |folder: &Path| files(folder).into_iter().map(|(_, bytes)| bytes).collect::<Vec<_>>();
+        assert!(bytes(own.path()) == bytes(other.path()), "{level} m");
+    }
+}
+
+#[test]
 fn what_is_kept_stays_within_its_limits() {
     let folder = tempfile::tempdir().expect("a folder");
     let folder = folder.path();

@@ -22,7 +22,7 @@ const REGOLITH: &str = "regolith";
 pub(super) struct Follows {
     /// The program and the engine.
     program: String,
-    /// The grid, with its place and its cells without data.
+    /// The grid, with its place, its cells without data and its sea.
     grid: String,
     /// Materials and fractals.
     declared: String,
@@ -68,9 +68,10 @@ fn machine(engine: &Engine) -> String {
 impl Follows {
     /// What a landscape before the first step follows from.
     pub(super) fn start(recipe: &Recipe, landscape: &Landscape, engine: &Engine) -> Result<Self, Error> {
+        let said = format!("{:?}\n{:?}", recipe.ground, recipe.sea_level);
         let ground = match &recipe.ground {
-            Ground::Empty { .. } => hash(&format!("{:?}", recipe.ground)),
-            Ground::File { path, .. } => hash(&format!("{:?}\n{}", recipe.ground, contents(path)?)),
+            Ground::Empty { .. } => hash(&said),
+            Ground::File { path, .. } => hash(&format!("{said}\n{}", contents(path)?)),
         };
         let mut layers = BTreeMap::new();
         for (name, _) in landscape.layers() {
