@@ -12,7 +12,7 @@ use std::time::{Duration, Instant};
 const TIMEOUT: Duration = Duration::from_mins(2);
 
 /// Where the template that is chosen stands in the window, and the controls of size and seed.
-const TEMPLATE: &str = "mousemove 470 258 click 1";
+const TEMPLATE: &str = "mousemove 470 108 click 1";
 const SIZE: &str = "mousemove 126 84 click 1";
 const SEED: &str = "mousemove 81 153 click 1";
 

@@ -41,9 +41,11 @@ impl StreamPower {
         let watcher = InYears { watcher: job.watcher, years: years(self, 0, grids), coarse: None };
         let level = Level::on(self, &given, (0, grids))?;
         let evolution = level.run(&mut reached, &watcher.job(job))?;
+        let notes = if evolution.has_outlet() { Vec::new() } else { vec![level.no_outlet()] };
         level.store(landscape, evolution, self.duration)?;
         let budget = level.budget(&reached);
-        Ok(Outcome { iterations: self.steps(0, grids), budget: Some(budget), ..Outcome::default() })
+        let iterations = self.steps(0, grids);
+        Ok(Outcome { iterations, budget: Some(budget), notes, ..Outcome::default() })
     }
 }
 
@@ -142,9 +144,6 @@ impl<'a> Level<'a> {
         let mesh = Mesh::new(&self.landscape.domain, self.step.irregularity, seed);
         let leave = |x, y| self.is_outlet(&heights, x, y);
         let mut evolution = Evolution::new(&self.landscape.domain, &heights, mesh, leave);
-        if !evolution.has_outlet() {
-            return Err(Error::Run(self.no_outlet()));
-        }
         let mut done = self.resume(&mut evolution, reached, job)?;
         let mut conditions = self.conditions()?;
         self.look(&evolution, done, job.watcher)?;
@@ -183,11 +182,12 @@ impl<'a> Level<'a> {
 
     fn no_outlet(&self) -> String {
         let place = match (self.step.outlets, self.landscape.domain.sea_level) {
-            (Outlets::Sea, None) => "the landscape has no sea: give `sea_level` in [landscape]".to_owned(),
             (Outlets::Sea, Some(level)) => format!("no ground at the border is below the sea, at {level} m"),
             (side, _) => format!("no cell of the {} border holds data", side.word()),
         };
-        format!("`outlets` is \"{}\", but {place}; rivers must leave somewhere", self.step.outlets.word())
+        format!(
+            "{place}: no river leaves, and all of them end in hollows; `outlets` says where they may leave"
+        )
     }
 
     /// Heights of the start with the change that a coarser level hands down.

@@ -182,6 +182,11 @@ impl Step for StreamPower {
     }
 
     fn check_on(&self, domain: &Domain) -> Result<(), Error> {
+        if self.outlets == Outlets::Sea && domain.sea_level.is_none() {
+            let message =
+                "`outlets` is \"sea\", but there is none: give `sea_level` in [landscape], in metres";
+            return Err(Error::Run(message.to_owned()));
+        }
         levels::check(domain, self.grids(domain.cell))
     }
 
@@ -190,7 +195,7 @@ impl Step for StreamPower {
     }
 
     fn run(&self, landscape: &mut Landscape, job: &Job<'_>) -> Result<Outcome, Error> {
-        levels::check(&landscape.domain, self.grids(landscape.domain.cell))?;
+        self.check_on(&landscape.domain)?;
         self.run_levels(landscape, job)
     }
 }

@@ -11,7 +11,7 @@ use weald_core::material::Material;
 use weald_core::random::signed2;
 use weald_engine::step::{Outcome, Step};
 use weald_engine::{Engine, Job, SavedSimulation, Watcher};
-use weald_land::erode::stream_power_step::StreamPower;
+use weald_land::erode::stream_power_step::{Outlets, StreamPower};
 
 /// Low hills of a few kilometres on 12.8 km, with so many cells a side.
 fn hills(side: usize, sea_level: Option<f64>) -> Landscape {
@@ -120,6 +120,18 @@ fn landscapes_that_begin_on_the_same_grid_are_alike_at_every_size() {
     }
     let (square, mean) = ((squares / 16_384.0).sqrt() / relief, mean / 16_384.0 / relief);
     assert!(relief > 200.0 && square < 0.07 && mean.abs() < 0.055, "{square} and {mean} of {relief} m");
+}
+
+#[test]
+fn rivers_without_an_outlet_are_told_of_and_a_sea_that_is_not_there_is_refused() {
+    let step = StreamPower { duration: 100_000.0, outlets: Outlets::Sea, ..step() };
+    let missing = hills(32, None);
+    let refused = step.check_on(&missing.domain).expect_err("there is no sea");
+    assert!(refused.to_string().contains("`sea_level` in [landscape]"), "{refused}");
+    let mut high = hills(32, Some(-5000.0));
+    let notes = run(&step, &mut high).notes;
+    assert!(notes[0].contains("below the sea, at -5000 m: no river leaves"), "{notes:?}");
+    assert_eq!(run(&step, &mut hills(32, Some(-10.0))).notes, [""; 0]);
 }
 
 #[test]

@@ -2,11 +2,16 @@
 
 use std::path::PathBuf;
 
-use eframe::egui::{Id, Modal, RichText, Ui, Window};
+use eframe::egui::{Id, Modal, RichText, ScrollArea, Ui, Window};
 use weald::recipe::template::TEMPLATES;
 
 use super::pictures;
 use crate::studio::{Asked, Studio};
+
+/// Heights in points: of all that the start has beside templates and files, of a file, and of templates at least.
+const OTHERS: f32 = 200.0;
+const ROW: f32 = 24.0;
+const LEAST: f32 = 150.0;
 
 pub(crate) fn show(studio: &mut Studio, ui: &Ui) {
     if studio.asked != Some(Asked::Start) {
@@ -17,17 +22,22 @@ pub(crate) fn show(studio: &mut Studio, ui: &Ui) {
     let modal = Modal::new(Id::unique("start")).show(ui.ctx(), |ui| {
         ui.set_width(460.0);
         ui.heading("Begin with");
-        for one in TEMPLATES {
-            ui.horizontal(|ui| {
-                let is_chosen = pictures::show(ui, one.name);
-                ui.vertical(|ui| {
-                    if ui.button(one.name).clicked() || is_chosen {
-                        template = Some(one.name);
-                    }
-                    ui.label(RichText::new(one.summary).weak());
+        // What stands below them stays within a window of any height.
+        let below = OTHERS + ROW * studio.recent.len() as f32;
+        let most = (ui.ctx().content_rect().height() - below).max(LEAST);
+        ScrollArea::vertical().max_height(most).show(ui, |ui| {
+            for one in TEMPLATES {
+                ui.horizontal(|ui| {
+                    let is_chosen = pictures::show(ui, one.name);
+                    ui.vertical(|ui| {
+                        if ui.button(one.name).clicked() || is_chosen {
+                            template = Some(one.name);
+                        }
+                        ui.label(RichText::new(one.summary).weak());
+                    });
                 });
-            });
-        }
+            }
+        });
         ui.separator();
         ui.label("Or drop a recipe, a GeoTIFF or a PNG onto the window.");
         asks = ui.button("Open a file or a project …").clicked();

@@ -21,11 +21,11 @@ weald_core::parameters! {
         /// on it and a cell has the mean, so that a coarse landscape is the mean of a fine one. `--size` and `--preview`
         /// set it to the recipe's own size where they make that coarser.
         finest: Option<Sides> = None, with size;
+        /// Seed of all random numbers. Steps of the same kind draw from different numbers.
+        seed: u64 = 0, range 0..=9_007_199_254_740_991_u64;
         /// Height of the sea. Ground no higher that is connected to the border by such ground is under water: rivers and
         /// erosion end there, and it stands in the layer `water`. Default: there is no sea.
         sea_level: Option<f64> = None, range -20_000.0..=20_000.0, unit "m";
-        /// Seed of all random numbers. Steps of the same kind draw from different numbers.
-        seed: u64 = 0, range 0..=9_007_199_254_740_991_u64;
         /// An elevation model to start from instead of a size, relative to the recipe's folder. It becomes the
         /// layer `height`; its cell size, georeferencing and no-data cells are kept.
         from: Option<RasterFile> = None;
