@@ -9,6 +9,7 @@ mod grass;
 mod rate;
 mod recipes;
 mod record;
+mod stream_power;
 
 pub use device::run_on;
 pub use fractal::{PointRate, fractals};
@@ -36,7 +37,7 @@ use weald_land::generate::fbm::Fbm;
 /// Cell-steps of one run: long enough to be steady, short enough to be patient with.
 const CELL_STEPS: usize = 250_000_000;
 
-/// Measures erosion at each size and thread count, then the generators and
+/// Measures erosion and ranges that rise at each size and thread count, then the generators and
 /// flow over the ground at the greatest size; `report` is called with each
 /// rate and the bandwidth of memory in bytes per second, as they are known.
 ///
@@ -55,6 +56,7 @@ pub fn run(
             let report = &mut |rate: &Rate| report(rate, bandwidth);
             for &side in sides {
                 erosion(Size::square(side)?, bandwidth, report)?;
+                stream_power::stream_power(Size::square(side)?, bandwidth, report)?;
             }
             let greatest = sides.iter().copied().max().unwrap_or(1024);
             generators(Size::square(greatest)?, report)?;

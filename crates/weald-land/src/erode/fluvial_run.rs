@@ -1,5 +1,6 @@
 //! A flood with the keys of a recipe filled in: its grids, and the levels one after the other.
 
+use super::coarse_landscape::Seen;
 use super::extent::Extent;
 use super::finished::Finished;
 use super::fluvial::{self, Numbers};
@@ -51,8 +52,10 @@ impl Fluvial {
         let grids = self.grids(landscape.domain.cell);
         let given = landscape.clone();
         let mut years = 0.0;
+        let seen = Seen { landscape: &given, ground: &self.layer, materials: self.materials };
         for level in (1..grids).rev() {
-            let coarse = self.coarsened(landscape, level)?;
+            let maps = self.initial_water.iter().chain(self.maps().into_iter().flatten());
+            let coarse = seen.on_level(level, maps)?;
             let mut flood = Flood::on(self.for_level(level, grids), &coarse, false)?;
             let finer = |coarse: &Landscape| as_seen(&given, coarse, (&self.layer.0, level));
             let watcher = InYears { watcher: job.watcher, years: flood.years(years), coarse: Some(&finer) };
@@ -73,21 +76,6 @@ impl Fluvial {
         let budget = before.iter().fold(flood.store(landscape, &finished), levels::joined);
         let iterations = flood.step.count(given.domain.cell);
         Ok(Outcome { iterations, budget: Some(budget), notes: finished.notes, ..Outcome::default() })
-    }
-
-    /// The landscape as a coarser level sees it.
-    fn coarsened(&self, landscape: &Landscape, level: u32) -> Result<Landscape, Error> {
-        let names = [Some(&self.layer), self.initial_water.as_ref()].into_iter().chain(self.maps()).flatten();
-        let mut fields = Vec::new();
-        for LayerName(name) in names {
-            fields.push((name.clone(), landscape.field(name)?.clone()));
-        }
-        if self.materials {
-            let column = StartColumn::of(landscape, landscape.field(&self.layer.0)?)?;
-            let names = landscape.materials.iter().skip(1).map(|material| material.name.clone());
-            fields.extend(names.zip(column.thicknesses));
-        }
-        levels::coarsened(landscape, 1 << level, &fields)
     }
 }
 

@@ -9,6 +9,7 @@
 mod advection;
 mod advection_rows;
 mod bare_softness;
+mod coarse_landscape;
 pub mod coast;
 #[cfg(test)]
 #[path = "../../tests/worked_example/creep.rs"]

@@ -9,10 +9,10 @@
 //! 10.1029/2018JF004867). Where uplift and rivers are in balance, S = (U (1 + G) / K)^(1/n) A^(−m/n).
 //!
 //! What differs: receivers are found between points that lie off the middles of their cells (`mesh`), rivers run through lakes
-//! (`lakes`), an area is added to A so that ridges do not depend on the cell, slopes stand at a critical slope at most, and lakes and sea trap sediment (`incise`). A step of time is one pass
-//! through the files: receivers and their order, lakes, area, incision, creep. Its cost is linear in the cells, and its
-//! result the same for any number of threads: they share rows where cells do not depend on each other, and rivers are
-//! followed by one.
+//! (`lakes`), A is at least that from which on there is a river, so that ridges do not depend on the cell, rivers carry off what
+//! creeps into them (`creep`), slopes stand at a critical slope at most, and lakes and sea trap sediment (`incise`). A step of time is one pass through the files: receivers, lakes, the order of cells
+//! along the rivers with their areas, incision, creep. Its cost is linear in the cells, and its result the same for any number
+//! of threads: they share rows where cells do not depend on each other, and rivers are followed by one.
 
 mod creep;
 mod incise;
@@ -26,7 +26,9 @@ mod tests;
 
 use rayon::prelude::*;
 
+use creep::Slopes;
 use incise::{Law, Rivers};
+use lakes::Lakes;
 pub(super) use mesh::Mesh;
 use order::Order;
 use receivers::Receivers;
@@ -42,7 +44,7 @@ pub(super) struct Conditions {
     pub(super) erodibility: Field,
     /// m.
     pub(super) area_exponent: f64,
-    /// What is added to the upslope area, in m².
+    /// Upslope area from which on there is a river, in m²; slopes with less count as having so much.
     pub(super) hillslope_area: f64,
     /// n.
     pub(super) slope_exponent: f64,
@@ -74,7 +76,9 @@ pub(super) struct Evolution {
     area: Vec<f64>,
     power: Vec<f32>,
     raised: Vec<f64>,
-    water: Option<Vec<f64>>,
+    /// What has crept into each river, in metres over its cell.
+    crept: Vec<f64>,
+    water: Lakes,
 }
 
 /// What came and went in a step of time, in metres over all cells together.
@@ -111,7 +115,8 @@ impl Evolution {
             area: vec![0.0; cells],
             power: vec![0.0; cells],
             raised: heights.clone(),
-            water: None,
+            crept: vec![0.0; cells],
+            water: Lakes::none(&mesh),
             mesh,
             heights,
             base,
@@ -128,6 +133,8 @@ impl Evolution {
         self.lead_rivers(conditions.sea_level);
         self.gather_power(conditions);
         let uplifted = self.raise(&conditions.uplift);
+        let risen = self.total(&self.raised);
+        self.creep(conditions);
         let law = Law {
             slope_exponent: conditions.slope_exponent,
             deposition: conditions.deposition,
@@ -145,13 +152,21 @@ impl Evolution {
             order: &self.order,
             area: &self.area,
             raised: &self.raised,
-            water: self.water.as_deref(),
+            crept: &self.crept,
+            water: self.water.stand.then_some(&self.water.level),
             power: &self.power,
         };
-        law.incise(&rivers, &mut self.heights);
-        let raised = self.total(&self.raised);
-        creep::creep(&self.mesh, &mut self.heights, &mut self.spare, &self.base, conditions.creep);
-        Volumes { uplifted, outgoing: raised - self.total(&self.heights) }
+        law.incise(&rivers, &mut self.heights, &mut self.spare);
+        Volumes { uplifted, outgoing: risen - self.total(&self.heights) }
+    }
+
+    fn creep(&mut self, conditions: &Conditions) {
+        let Self { mesh, base, area, raised, spare, crept, .. } = self;
+        if conditions.creep > 0.0 {
+            crept.fill(0.0);
+            let slopes = Slopes { mesh, base, area, river_from: conditions.hillslope_area };
+            slopes.creep(conditions.creep, (raised, spare), crept);
+        }
     }
 
     /// Sum over all cells with data, row by row.
@@ -162,32 +177,27 @@ impl Evolution {
         rows.iter().sum()
     }
 
-    /// Finds where water runs and stands.
+    /// Finds where water runs and stands, and upslope areas.
     fn lead_rivers(&mut self, sea_level: Option<f64>) {
-        let Self { mesh, heights, base, receivers, order, .. } = self;
+        let Self { mesh, heights, base, receivers, order, area, water, .. } = self;
         receivers.find(mesh, heights, base);
-        order.find(&receivers.of, heights);
-        self.water = lakes::drain(mesh, heights, base, receivers, order);
-        if self.water.is_some() {
-            order.find(&receivers.of, heights);
-        }
+        water.drain(mesh, heights, base, receivers);
+        area.fill(mesh.area);
+        order.find(&receivers.of, heights, area);
         if let Some(level) = sea_level {
-            let water = self.water.get_or_insert_with(|| vec![f64::NEG_INFINITY; heights.len()]);
             sea::flood(mesh, heights, level, water);
         }
     }
 
-    /// Upslope areas, and K Aᵐ dt.
+    /// K Aᵐ dt.
     fn gather_power(&mut self, conditions: &Conditions) {
-        let Self { mesh, area, power, order, receivers, .. } = self;
-        area.fill(mesh.area);
-        order.gather(&receivers.of, area);
+        let Self { mesh, area, power, .. } = self;
         let (m, hillslope) = (conditions.area_exponent, conditions.hillslope_area);
         let rows = power.par_chunks_mut(mesh.stride).zip(area.par_chunks(mesh.stride)).skip(1);
         rows.take(mesh.size.rows).enumerate().for_each(|(y, (power, area))| {
             let cells = power[1..].iter_mut().zip(&area[1..]).zip(conditions.erodibility.row(y));
             for ((power, &area), &erodibility) in cells {
-                let area = (area + hillslope) as f32;
+                let area = area.max(hillslope) as f32;
                 let of_area = if m == 0.5 { area.sqrt() } else { libm::powf(area, m as f32) };
                 *power = erodibility * of_area;
             }
@@ -230,8 +240,9 @@ impl Evolution {
     pub(super) fn lake_depths(&mut self, sea_level: Option<f64>) -> Vec<f64> {
         self.lead_rivers(sea_level);
         let sea = sea_level.unwrap_or(f64::NEG_INFINITY);
-        let level = |cell: usize| self.water.as_ref().map(|water| water[cell]).filter(|&level| level > sea);
-        let depth = |cell: usize| level(cell).map_or(0.0, |level| level - self.heights[cell]);
+        let stands = |cell: usize| self.water.stand && self.water.level[cell] > sea;
+        let depth =
+            |cell: usize| if stands(cell) { self.water.level[cell] - self.heights[cell] } else { 0.0 };
         self.mesh.inner().map(|cell| depth(cell).max(0.0)).collect()
     }
 }

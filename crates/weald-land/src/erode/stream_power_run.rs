@@ -3,6 +3,7 @@
 use rayon::prelude::*;
 
 use super::bare_softness::BareSoftness;
+use super::coarse_landscape::Seen;
 use super::fluvial_levels::{self as levels, refined};
 use super::fluvial_materials::StartColumn;
 use super::fluvial_years::{InYears, Years};
@@ -27,11 +28,12 @@ impl StreamPower {
     pub(super) fn run_levels(&self, landscape: &mut Landscape, job: &Job<'_>) -> Result<Outcome, Error> {
         let grids = self.grids(landscape.domain.cell);
         let given = landscape.clone();
+        let seen = Seen { landscape: &given, ground: &self.layer, materials: self.materials };
         let mut reached = Reached::default();
         // Checkpoints are of the finest grid, which begins with all that coarser ones have come to.
         let coarser = if job.resume.is_some() { 1..1 } else { 1..grids };
         for level in coarser.rev() {
-            let coarse = coarsened(self, &given, level)?;
+            let coarse = seen.on_level(level, self.maps())?;
             let finer = |seen: &Landscape| as_seen(&given, seen, (&self.layer.0, level));
             let years = years(self, level, grids);
             let watcher = InYears { watcher: job.watcher, years, coarse: Some(&finer) };
@@ -71,21 +73,6 @@ fn years(step: &StreamPower, level: u32, grids: u32) -> Years {
     let before = (level + 1..grids).map(share).sum::<f64>() * step.duration;
     let steps = step.steps(level, grids).max(1);
     Years { before, a_step: step.duration * share(level) / steps as f64 }
-}
-
-/// The landscape as a coarser level sees it.
-fn coarsened(step: &StreamPower, landscape: &Landscape, level: u32) -> Result<Landscape, Error> {
-    let names = std::iter::once(&step.layer).chain(&step.uplift_map).chain(&step.erodibility_map);
-    let mut fields = Vec::new();
-    for LayerName(name) in names {
-        fields.push((name.clone(), landscape.field(name)?.clone()));
-    }
-    if step.materials {
-        let column = StartColumn::of(landscape, landscape.field(&step.layer.0)?)?;
-        let names = landscape.materials.iter().skip(1).map(|material| material.name.clone());
-        fields.extend(names.zip(column.thicknesses));
-    }
-    levels::coarsened(landscape, 1 << level, &fields)
 }
 
 /// The landscape of the start as it looks when a coarser one has become `coarse`.

@@ -72,8 +72,8 @@ parameters! {
         materials: bool = false;
         /// Exponent of the upslope area (m). Over that of the slope it is how much flatter rivers become downstream.
         area_exponent: f64 = 0.5, range 0.0..=2.0;
-        /// Area that counts beside the upslope area, and wears ridges: slopes above rivers then do not grow steeper with
-        /// every cell that is smaller. Rivers of much more than it follow the law.
+        /// Upslope area from which on there is a river. With less, slopes stand as steep as with so much, as those of mountains
+        /// do (Stock and Dietrich 2003, doi 10.1029/2001WR001057), and what creeps stays on them; a river carries it off.
         hillslope_area: f64 = 50_000.0, range 0.0..=1.0e9, unit "m²";
         /// Exponent of the slope (n).
         slope_exponent: f64 = 1.0, range 0.1..=5.0;
@@ -116,6 +116,11 @@ pub const ENTRY: Entry = Entry::of::<StreamPower>(
 );
 
 impl StreamPower {
+    /// The layers that it reads beside the ground.
+    pub(super) fn maps(&self) -> impl Iterator<Item = &LayerName> {
+        [&self.uplift_map, &self.erodibility_map].into_iter().flatten()
+    }
+
     /// On how many grids it runs over cells of that many metres.
     pub(super) fn grids(&self, cell: f64) -> u32 {
         levels::grids(self.levels, self.coarsest, cell)
@@ -137,8 +142,7 @@ impl StreamPower {
 
 impl Step for StreamPower {
     fn reads(&self) -> Vec<String> {
-        let maps = [&self.uplift_map, &self.erodibility_map].into_iter().flatten();
-        std::iter::once(&self.layer).chain(maps).map(|name| name.0.clone()).collect()
+        std::iter::once(&self.layer).chain(self.maps()).map(|name| name.0.clone()).collect()
     }
 
     fn layered(&self) -> Layered {

@@ -119,7 +119,7 @@ fn landscapes_that_begin_on_the_same_grid_are_alike_at_every_size() {
         mean += f64::from(height) - same;
     }
     let (square, mean) = ((squares / 16_384.0).sqrt() / relief, mean / 16_384.0 / relief);
-    assert!(relief > 200.0 && square < 0.07 && mean.abs() < 0.055, "{square} and {mean} of {relief} m");
+    assert!(relief > 200.0 && square < 0.07 && mean.abs() < 0.02, "{square} and {mean} of {relief} m");
 }
 
 #[test]

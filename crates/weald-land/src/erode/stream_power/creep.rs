@@ -1,50 +1,102 @@
 //! Creep of soil: dh/dt = D ∇²h, by the nine-point Laplacian that knows no direction to fourth order.
+//!
+//! What creeps into a river the river carries off. It is narrower than its cell, and soil that was laid down over all of the cell
+//! would make it the steeper the smaller the cells are: the banks bring the same, but to less ground (Perron, Dietrich and
+//! Kirchner 2008, doi 10.1029/2007JF000977; Pelletier 2010, doi 10.1016/j.geomorph.2010.06.001).
 
 use rayon::prelude::*;
 
 use super::mesh::Mesh;
+use weald_core::vectors;
 
-/// Share of a cell that each neighbour counts: along the axes, and the diagonals.
-const WEIGHTS: [f64; 8] =
-    [2.0 / 3.0, 1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0];
+/// Share of a cell that each neighbour along the axes counts, and each along the diagonals.
+const ALONG_AXES: f64 = 2.0 / 3.0;
+const ALONG_DIAGONALS: f64 = 1.0 / 6.0;
 
 /// Greatest D dt / cell² of a pass: stable up to 3/8 for what alternates along the axes.
 const MOST_EXCHANGED: f64 = 0.3;
 
-/// Lets the ground creep by `reach` = D dt, in m². Cells of the base level keep their height, and nothing passes to where
-/// there is no data. `spare` is as long as `heights`, of which it takes the place.
-pub(super) fn creep(mesh: &Mesh, heights: &mut Vec<f64>, spare: &mut Vec<f64>, base: &[bool], reach: f64) {
-    let whole = reach / mesh.area;
-    if whole <= 0.0 {
-        return;
+/// Slopes that creep, and the rivers between them.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Slopes<'a> {
+    pub(super) mesh: &'a Mesh,
+    /// Cells whose height does not change.
+    pub(super) base: &'a [bool],
+    /// Upslope area of each cell in m², and how much of it a river has at least.
+    pub(super) area: &'a [f64],
+    pub(super) river_from: f64,
+}
+
+impl Slopes<'_> {
+    /// Lets the ground creep by `reach` = D dt, in m². Cells of the base level keep their height, and nothing passes to where
+    /// there is no data. `spare` is as long as `heights`, of which it takes the place; what creeps into each cell with a river
+    /// is added to `carried_off`, in metres.
+    pub(super) fn creep(
+        &self,
+        reach: f64,
+        (heights, spare): (&mut Vec<f64>, &mut Vec<f64>),
+        carried_off: &mut [f64],
+    ) {
+        let whole = reach / self.mesh.area;
+        let passes = (whole / MOST_EXCHANGED).ceil();
+        for _ in 0..passes as u64 {
+            self.pass(heights, (spare, carried_off), whole / passes);
+            std::mem::swap(heights, spare);
+        }
     }
-    let passes = (whole / MOST_EXCHANGED).ceil();
-    for _ in 0..passes as u64 {
-        pass(mesh, heights, spare, base, whole / passes);
-        std::mem::swap(heights, spare);
+
+    fn pass(&self, heights: &[f64], (after, carried_off): (&mut [f64], &mut [f64]), share: f64) {
+        let stride = self.mesh.stride;
+        let rows = after.par_chunks_mut(stride).zip(carried_off.par_chunks_mut(stride)).enumerate();
+        rows.for_each(|(y, (row, carried_off))| {
+            let first = y * stride;
+            let here = &heights[first..first + stride];
+            row.copy_from_slice(here);
+            if y == 0 || y > self.mesh.size.rows {
+                return;
+            }
+            let around =
+                [&heights[first - stride..first], here, &heights[first + stride..first + 2 * stride]];
+            let area = &self.area[first..first + stride];
+            vectors::widest(
+                #[inline(always)]
+                || {
+                    exchange(around, row, share);
+                    take_away(here, row, (area, self.river_from), carried_off);
+                },
+            );
+            for (x, _) in self.base[first..first + stride].iter().enumerate().filter(|(_, base)| **base) {
+                row[x] = here[x];
+                carried_off[x] = 0.0;
+            }
+        });
     }
 }
 
-fn pass(mesh: &Mesh, heights: &[f64], after: &mut [f64], base: &[bool], share: f64) {
-    let stride = mesh.stride;
-    after.par_chunks_mut(stride).enumerate().for_each(|(y, row)| {
-        let first = y * stride;
-        row.copy_from_slice(&heights[first..first + stride]);
-        if y == 0 || y > mesh.size.rows {
-            return;
-        }
-        let row = &mut row[1..stride - 1];
-        let here = &heights[first + 1..];
-        for (direction, weight) in WEIGHTS.iter().enumerate() {
-            let there = &heights[(first + 1).wrapping_add_signed(mesh.offset(direction))..];
-            for ((after, &here), &there) in row.iter_mut().zip(here).zip(there) {
-                let gain = share * weight * (there - here);
-                *after += if gain.is_finite() { gain } else { 0.0 };
-            }
-        }
-        for ((after, &here), _) in row.iter_mut().zip(here).zip(&base[first + 1..]).filter(|(_, base)| **base)
-        {
-            *after = here;
-        }
-    });
+/// What the cells of a row are after they have given and taken.
+#[inline(always)]
+fn exchange(around: [&[f64]; 3], after: &mut [f64], share: f64) {
+    let cells = after.len() - 2;
+    let [[nw, n, ne], [w, here, e], [sw, s, se]] =
+        around.map(|row| [0, 1, 2].map(|from| &row[from..][..cells]));
+    for (x, after) in after[1..=cells].iter_mut().enumerate() {
+        let gain = |there: &[f64]| {
+            let gain = there[x] - here[x];
+            if gain.is_finite() { gain } else { 0.0 }
+        };
+        let axes = (gain(w) + gain(e)) + (gain(n) + gain(s));
+        let diagonals = (gain(nw) + gain(se)) + (gain(ne) + gain(sw));
+        *after = here[x] + share * (ALONG_AXES * axes + ALONG_DIAGONALS * diagonals);
+    }
+}
+
+/// Gives rivers what the cells of a row have gained.
+#[inline(always)]
+fn take_away(before: &[f64], after: &mut [f64], (area, river_from): (&[f64], f64), carried_off: &mut [f64]) {
+    let cells = after.iter_mut().zip(before).zip(area).zip(carried_off);
+    for (((after, &before), &area), carried_off) in cells {
+        let gained = if area > river_from && *after > before { *after - before } else { 0.0 };
+        *after -= gained;
+        *carried_off += gained;
+    }
 }

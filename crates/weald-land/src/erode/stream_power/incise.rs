@@ -10,9 +10,11 @@
 //! which has a closed form for n = 1 and 2, and one root that Newton's method nears from one side for any other n. What is
 //! steeper than the critical slope slides down to it. Under water nothing is taken up.
 //!
-//! Deposits are those of Yuan, Braun, Guerit, Rouby and Cordonnier 2019 (doi 10.1029/2018JF004867), G Q / A with the flux Q
-//! of all that was taken up upstream: they depend on the new heights, and sweeps over the rivers go on until they agree.
-//! In lakes and in the sea a share of the flux settles in each cell instead, up to the level of the water: deltas grow.
+//! In lakes and in the sea a share of the flux settles in each cell, up to the level of the water: deltas grow. Rivers above
+//! see the level of the water alone, so that one sweep downstream finds it all.
+//!
+//! Deposits of rivers are those of Yuan, Braun, Guerit, Rouby and Cordonnier 2019 (doi 10.1029/2018JF004867), G Q / A with the
+//! flux Q of all that was taken up upstream: they depend on the new heights, and sweeps over the rivers go on until they agree.
 
 use super::mesh::Mesh;
 use super::order::Order;
@@ -41,8 +43,10 @@ pub(super) struct Rivers<'a> {
     pub(super) order: &'a Order,
     /// Upslope area of each cell, with its own, in m².
     pub(super) area: &'a [f64],
-    /// Ground after uplift, in metres.
+    /// Ground after uplift and creep, in metres.
     pub(super) raised: &'a [f64],
+    /// What has crept into each river, in metres over its cell.
+    pub(super) crept: &'a [f64],
     /// Level of lakes and sea over each cell; far below the ground where there is none.
     pub(super) water: Option<&'a [f64]>,
     /// K Aᵐ dt of each cell.
@@ -56,19 +60,18 @@ const MOST_SWEEPS: u32 = 200;
 const CLOSED: f64 = 1e-7;
 
 impl Law {
-    fn lays_down(&self, rivers: &Rivers<'_>) -> bool {
-        self.deposition > 0.0 || (self.trapped > 0.0 && rivers.water.is_some())
-    }
-
-    /// The heights after the step. Gives the number of sweeps.
-    pub(super) fn incise(&self, rivers: &Rivers<'_>, after: &mut [f64]) -> u32 {
+    /// The heights after the step. Gives the number of sweeps. Nothing is kept in `spare`.
+    pub(super) fn incise(&self, rivers: &Rivers<'_>, after: &mut [f64], spare: &mut [f64]) -> u32 {
         rivers.cut(self, None, after);
-        if !self.lays_down(rivers) {
+        if self.deposition == 0.0 {
+            if self.trapped > 0.0 && rivers.water.is_some() {
+                rivers.silt_up(self, after, spare);
+            }
             return 1;
         }
         let mut deposits = vec![0.0; after.len()];
         for sweep in 2..=MOST_SWEEPS {
-            let [change, greatest] = rivers.lay_down(self, after, &mut deposits);
+            let [change, greatest] = rivers.lay_down(self, after, (&mut deposits, spare));
             rivers.cut(self, Some(&deposits), after);
             if change <= CLOSED * greatest {
                 return sweep;
@@ -145,41 +148,58 @@ impl Rivers<'_> {
         below + left.min(law.critical / inverse)
     }
 
-    /// The deposits of what is taken up where the ground becomes `after`; gives the greatest change of one, and the
-    /// greatest.
-    fn lay_down(&self, law: &Law, after: &[f64], deposits: &mut [f64]) -> [f64; 2] {
-        let mut flux: Vec<f64> =
-            self.raised.iter().zip(after).map(|(raised, after)| raised - after).collect();
-        for (flux, raised) in flux.iter_mut().zip(self.raised) {
-            if raised.is_infinite() {
-                *flux = 0.0;
+    /// Lets settle in lakes and sea what the rivers that have cut down bring.
+    fn silt_up(&self, law: &Law, after: &mut [f64], arriving: &mut [f64]) {
+        arriving.fill(0.0);
+        for &cell in &self.order.downstream {
+            let cell = cell as usize;
+            let receiver = self.receivers.of[cell] as usize;
+            if receiver != cell {
+                if let Some(share) = self.share_trapped(law, cell) {
+                    after[cell] = (self.raised[cell] + share * arriving[cell]).min(self.level(cell));
+                }
+                arriving[receiver] += arriving[cell] + self.crept[cell] + self.raised[cell] - after[cell];
             }
         }
-        self.order.gather(&self.receivers.of, &mut flux);
+    }
+
+    /// The deposits of what is taken up where the ground becomes `after`; gives the greatest change of one, and the
+    /// greatest.
+    fn lay_down(&self, law: &Law, after: &[f64], (deposits, arriving): (&mut [f64], &mut [f64])) -> [f64; 2] {
+        arriving.fill(0.0);
         let mut found = [0.0_f64; 2];
         for &cell in &self.order.downstream {
             let cell = cell as usize;
-            if self.receivers.of[cell] as usize == cell {
+            let receiver = self.receivers.of[cell] as usize;
+            if receiver == cell {
                 continue;
             }
-            let own = self.raised[cell] - after[cell];
-            let arriving = (flux[cell] - own).max(0.0);
-            let share = self.share_laid_down(law, cell);
-            // Ground that is higher by some amount all over sends down less, and so much less is laid down that a whole
-            // step would overshoot by this factor.
-            let answer = share * (self.area[cell] / self.mesh.area - 1.0);
-            let change = (arriving * share - deposits[cell]) / (1.0 + answer);
-            deposits[cell] += change;
-            found = [found[0].max(change.abs()), found[1].max(deposits[cell])];
+            let (before, raised) = (deposits[cell], self.raised[cell]);
+            let taken = if let Some(share) = self.share_trapped(law, cell) {
+                deposits[cell] = share * arriving[cell];
+                raised - (raised + deposits[cell]).min(self.level(cell))
+            } else {
+                let share = self.share_laid_down(law, cell);
+                // Ground that is higher by some amount all over sends down less, and so much less is laid down that a
+                // whole step would overshoot by this factor.
+                let answer = share * (self.area[cell] / self.mesh.area - 1.0);
+                deposits[cell] += (arriving[cell].max(0.0) * share - before) / (1.0 + answer);
+                raised - after[cell]
+            };
+            arriving[receiver] += arriving[cell] + self.crept[cell] + taken;
+            found = [found[0].max((deposits[cell] - before).abs()), found[1].max(deposits[cell])];
         }
         found
     }
 
-    fn share_laid_down(&self, law: &Law, cell: usize) -> f64 {
+    /// The share of what arrives that settles, where the ground lies under water.
+    fn share_trapped(&self, law: &Law, cell: usize) -> Option<f64> {
         let level = self.level(cell);
-        if self.raised[cell] < level {
-            return if level > law.passing_above { 0.0 } else { law.trapped };
-        }
+        let share = if level > law.passing_above { 0.0 } else { law.trapped };
+        (self.raised[cell] < level).then_some(share)
+    }
+
+    fn share_laid_down(&self, law: &Law, cell: usize) -> f64 {
         (law.deposition * self.mesh.area / self.area[cell]).min(1.0)
     }
 }

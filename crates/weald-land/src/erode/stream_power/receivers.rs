@@ -3,6 +3,7 @@
 use rayon::prelude::*;
 
 use super::mesh::Mesh;
+use weald_core::vectors;
 
 /// Where each cell drains to.
 #[derive(Debug)]
@@ -24,64 +25,62 @@ impl Receivers {
         let stride = mesh.stride;
         let rows = self.of.par_chunks_mut(stride).zip(self.inverse.par_chunks_mut(stride));
         rows.enumerate().for_each_init(
-            || Steepest::new(stride),
-            |steepest, (y, (of, inverse))| {
+            || vec![0.0; stride],
+            |slopes, (y, (of, inverse))| {
                 let first = y * stride;
-                if y == 0 || y > mesh.size.rows {
-                    of.iter_mut().zip(first..).for_each(|(of, cell)| *of = cell as u32);
-                    return;
+                let drain_nowhere = |of: &mut [u32], inverse: &mut [f32]| {
+                    of.iter_mut().zip(first as u32..).for_each(|(of, cell)| *of = cell);
+                    inverse.fill(0.0);
+                };
+                drain_nowhere(of, inverse);
+                if y > 0 && y <= mesh.size.rows {
+                    slopes.fill(0.0);
+                    let inner = 1..stride - 1;
+                    let (of, inverse) = (&mut of[inner.clone()], &mut inverse[inner.clone()]);
+                    Steepest { slopes: &mut slopes[inner], of, inverse }.find(mesh, heights, first + 1);
                 }
-                steepest.find(mesh, heights, first + 1);
-                for (x, (of, inverse)) in of.iter_mut().zip(inverse).enumerate() {
-                    let cell = first + x;
-                    let within = x > 0 && x + 1 < stride && !base[cell];
-                    let direction = if within { steepest.direction[x - 1] } else { NONE };
-                    (*of, *inverse) = match direction {
-                        NONE => (cell as u32, 0.0),
-                        direction => {
-                            let direction = usize::from(direction);
-                            (
-                                cell.wrapping_add_signed(mesh.offset(direction)) as u32,
-                                mesh.inverse(cell, direction),
-                            )
-                        }
-                    };
+                for (x, _) in base[first..first + stride].iter().enumerate().filter(|(_, base)| **base) {
+                    (of[x], inverse[x]) = ((first + x) as u32, 0.0);
                 }
             },
         );
     }
 }
 
-/// No neighbour is lower.
-const NONE: u8 = u8::MAX;
-
-/// The steepest descents of a row.
-struct Steepest {
-    slope: Vec<f32>,
-    direction: Vec<u8>,
+/// The steepest descents of a row that were met up to now.
+struct Steepest<'a> {
+    slopes: &'a mut [f32],
+    of: &'a mut [u32],
+    inverse: &'a mut [f32],
 }
 
-impl Steepest {
-    fn new(stride: usize) -> Self {
-        Self { slope: vec![0.0; stride - 2], direction: vec![NONE; stride - 2] }
-    }
-
+impl Steepest<'_> {
     /// Of the row whose first cell that is. Neighbour by neighbour, so that the cells of a row are worked on side by side.
     fn find(&mut self, mesh: &Mesh, heights: &[f64], first: usize) {
-        self.slope.fill(0.0);
-        self.direction.fill(NONE);
-        for direction in 0..8 {
-            let here = &heights[first..];
-            let there = &heights[first.wrapping_add_signed(mesh.offset(direction))..];
-            let inverse = mesh.inverses(first, direction);
-            let cells = self.slope.iter_mut().zip(&mut self.direction).zip(here).zip(there).zip(inverse);
-            for ((((steepest, steepest_direction), &here), &there), &inverse) in cells {
-                // Without data on either side the difference is infinite or no number, which is never kept.
-                let slope = (here - there) as f32 * inverse;
-                let steeper = slope > *steepest && slope < f32::INFINITY;
-                *steepest = if steeper { slope } else { *steepest };
-                *steepest_direction = if steeper { direction as u8 } else { *steepest_direction };
-            }
+        vectors::widest(
+            #[inline(always)]
+            || {
+                for direction in 0..8 {
+                    let beside = first.wrapping_add_signed(mesh.offset(direction));
+                    let inverses = mesh.inverses(first, direction);
+                    self.look(&heights[first..], (&heights[beside..], beside as u32), inverses);
+                }
+            },
+        );
+    }
+
+    #[inline(always)]
+    fn look(&mut self, here: &[f64], (there, number): (&[f64], u32), inverses: &[f32]) {
+        let found = self.slopes.iter_mut().zip(&mut *self.of).zip(&mut *self.inverse).zip(number..);
+        for ((((steepest, of), to), number), ((&here, &there), &inverse)) in
+            found.zip(here.iter().zip(there).zip(inverses))
+        {
+            // Without data on either side the difference is infinite or no number, which is never kept.
+            let slope = (here - there) as f32 * inverse;
+            let steeper = slope > *steepest && slope < f32::INFINITY;
+            *steepest = if steeper { slope } else { *steepest };
+            *of = if steeper { number } else { *of };
+            *to = if steeper { inverse } else { *to };
         }
     }
 }

@@ -108,7 +108,10 @@ fn what_is_missing_from_the_ground_is_what_rivers_carry_to_the_border() {
     for (cell, before) in before.iter_mut().enumerate() {
         *before = if before.is_finite() { evolution.raised[cell] - evolution.heights[cell] } else { 0.0 };
     }
-    evolution.order.gather(&evolution.receivers.of, &mut before);
+    for &cell in &evolution.order.downstream {
+        let (cell, receiver) = (cell as usize, evolution.receivers.of[cell as usize] as usize);
+        before[receiver] += if receiver == cell { 0.0 } else { before[cell] };
+    }
     let ends = evolution.mesh.inner().filter(|&cell| evolution.base[cell]);
     let out: f64 = ends.map(|cell| before[cell]).sum();
     assert!((out / counted - 1.0).abs() < 1e-6, "{out} m at the border for {counted} m");
@@ -204,6 +207,23 @@ fn rivers_fill_lakes_and_the_sea_up_to_their_level_where_they_enter() {
 }
 
 #[test]
+fn one_sweep_downstream_finds_in_lakes_and_sea_what_sweeps_over_the_rivers_find() {
+    let domain = Domain::new(Size { columns: 60, rows: 40 }, 100.0);
+    let conditions = Conditions {
+        sea_level: Some(0.3),
+        lakes_fill: true,
+        settling: 500.0,
+        ..conditions(domain.size, 20_000.0)
+    };
+    // So little that rivers lay down nothing to speak of, and yet all sweeps are made.
+    let swept = Conditions { deposition: 1e-30, ..conditions.clone() };
+    let [once, swept] = [conditions, swept].map(|conditions| evolved(&domain, &conditions, 30).heights());
+    let off = once.iter().zip(&swept).map(|(once, swept)| (once - swept).abs()).fold(0.0, f64::max);
+    let highest = once.iter().copied().fold(0.0, f64::max);
+    assert!(highest > 100.0 && off < 1e-5, "{off} m off on ground of {highest} m");
+}
+
+#[test]
 fn what_has_no_data_is_a_border_and_stays_out_of_everything() {
     let size = Size { columns: 50, rows: 40 };
     let round =
@@ -244,7 +264,7 @@ fn rivers_leave_over_the_border_that_is_open_and_the_others_rise() {
 #[test]
 fn nothing_stands_steeper_than_the_critical_slope_and_creep_rounds_ridges() {
     let domain = Domain::new(Size { columns: 60, rows: 60 }, 30.0);
-    let slow = Conditions { critical: 0.6, ..conditions(domain.size, 20_000.0) };
+    let slow = Conditions { critical: 0.6, hillslope_area: 20_000.0, ..conditions(domain.size, 20_000.0) };
     let steep = evolved(&domain, &slow, 300);
     let steepest = slopes(&steep).into_iter().map(|(slope, ..)| slope).fold(0.0, f64::max);
     assert!((0.5999..0.6001).contains(&steepest), "{steepest}");
@@ -256,7 +276,43 @@ fn nothing_stands_steeper_than_the_critical_slope_and_creep_rounds_ridges() {
             .sum::<f64>()
     };
     let rounded = evolved(&domain, &Conditions { creep: 0.05 * 20_000.0, ..slow }, 300);
-    assert!(curved(&rounded) < 0.5 * curved(&steep), "{} of {}", curved(&rounded), curved(&steep));
+    assert!(curved(&rounded) < 0.8 * curved(&steep), "{} of {}", curved(&rounded), curved(&steep));
+}
+
+#[test]
+fn ranges_with_creep_are_as_high_on_cells_half_as_long() {
+    let mean_height = |side: usize| {
+        let cell = 12_800.0 / side as f64;
+        let domain = Domain::new(Size { columns: side, rows: side }, cell);
+        let conditions = Conditions {
+            hillslope_area: 50_000.0,
+            creep: 0.03 * 50_000.0,
+            critical: 1.0,
+            ..conditions(domain.size, 50_000.0)
+        };
+        let heights = evolved(&domain, &conditions, 200).heights();
+        heights.iter().sum::<f64>() / heights.len() as f64
+    };
+    // With soil that stays in rivers they are 278 and 300 m high.
+    let [coarse, fine] = [128, 256].map(mean_height);
+    assert!((coarse / fine - 1.0).abs() < 0.05, "{coarse} and {fine} m");
+}
+
+#[test]
+fn what_creeps_into_rivers_leaves_with_them() {
+    let domain = Domain::new(Size { columns: 64, rows: 48 }, 100.0);
+    let conditions =
+        Conditions { hillslope_area: 50_000.0, creep: 400.0, ..conditions(domain.size, 20_000.0) };
+    let mut evolution = evolved(&domain, &conditions, 100);
+    let before: f64 = evolution.heights().iter().sum();
+    let Volumes { uplifted, outgoing } = evolution.step(&conditions);
+    let after: f64 = evolution.heights().iter().sum();
+    assert!((before + uplifted - outgoing - after).abs() < 1e-7 * before, "nothing is lost");
+    let rivers = evolution.mesh.inner().filter(|&cell| evolution.area[cell] > 50_000.0);
+    let slopes = evolution.mesh.inner().filter(|&cell| evolution.area[cell] <= 50_000.0);
+    let carried: f64 = rivers.map(|cell| evolution.crept[cell]).sum();
+    assert!(carried > 0.01 * uplifted, "{carried} of {uplifted} m");
+    assert!(slopes.into_iter().all(|cell| evolution.crept[cell] == 0.0));
 }
 
 /// Slope over area in logarithms, by least squares.
