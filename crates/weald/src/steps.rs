@@ -47,6 +47,7 @@ pub use weald_land::generate::fault::Fault;
 pub use weald_land::generate::fbm::Fbm;
 pub use weald_land::generate::plane::Plane;
 pub use weald_land::generate::ridged::Ridged;
+pub use weald_land::generate::volcano::Volcano;
 pub use weald_land::generate::warp::Warp;
 pub use weald_plants::grass_step::Grass;
 pub use weald_plants::scatter::Scatter;

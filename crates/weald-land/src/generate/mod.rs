@@ -17,6 +17,7 @@ pub mod octaves;
 pub mod plane;
 pub mod relief;
 pub mod ridged;
+pub mod volcano;
 pub mod warp;
 
 use weald_core::domain::Domain;

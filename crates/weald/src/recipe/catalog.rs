@@ -16,6 +16,7 @@ pub const CATALOG: &[Entry] = &[
     generate::plane::ENTRY,
     generate::cone::ENTRY,
     generate::dome::ENTRY,
+    generate::volcano::ENTRY,
     generate::basin::ENTRY,
     generate::constant::ENTRY,
     load::ENTRY,

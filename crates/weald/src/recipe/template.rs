@@ -53,6 +53,16 @@ pub const TEMPLATES: &[Template] = &[
         summary: "mountains by a shallow sea, with a plain and deltas of what rivers brought down",
         text: include_str!("template/delta.toml"),
     },
+    Template {
+        name: "volcano",
+        summary: "a volcano with a crater, and the gullies that rain has cut into its flanks",
+        text: include_str!("template/volcano.toml"),
+    },
+    Template {
+        name: "canyon",
+        summary: "a plateau of hard and soft beds that rises, and the canyons that its rivers saw into it",
+        text: include_str!("template/canyon.toml"),
+    },
 ];
 
 /// The template of that name; an error says which there are.
