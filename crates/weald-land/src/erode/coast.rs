@@ -158,6 +158,9 @@ struct Shore<'a> {
 /// How many times as steep as above the water sand lies under it, before it meets the floor.
 const FRONT: f64 = 5.0;
 
+/// Metres into the sea as far as which waves plane its floor off.
+const PLANED: f64 = 500.0;
+
 /// Widths of beaches that are tried, each half as far from the last as the one before.
 const TRIALS: u32 = 40;
 
@@ -200,21 +203,19 @@ impl<'a> Shore<'a> {
         self.step.retreat * exposure * softness / (1.0 + cliff / self.step.high)
     }
 
-    /// A front from the coast.
+    /// A front from the coast, which carries its exposure.
     fn march(&self, until: f64) -> March<'_> {
-        March { size: self.domain.size, cell: self.domain.cell, starts: &self.coast, until }
+        let Domain { size, cell, .. } = self.domain;
+        March { size, cell, starts: &self.coast, values: &self.exposure, until }
     }
 
     /// The ground with cliffs and platforms.
     fn cut(&self, start: &Field) -> Field {
         let steepness = libm::tan(self.step.cliff_deg.to_radians());
         let is_ground = |cell: usize| f64::from(u8::from(self.is_ground(cell)));
-        let nearest = self.march(f64::INFINITY).follow(is_ground).origin;
         // Ground lies as open as the coast that is nearest.
-        let speed = |cell: usize| match nearest[cell] {
-            March::NOWHERE => 0.0,
-            origin => is_ground(cell) * self.speed(cell, self.exposure[origin as usize]),
-        };
+        let exposure = self.march(f64::INFINITY).follow(is_ground).value;
+        let speed = |cell: usize| is_ground(cell) * self.speed(cell, exposure[cell]);
         // Some way on, for the cliffs behind the front.
         let Reached { time, .. } = self.march(3.0 * self.step.duration).follow(speed);
         let mut after = start.clone();
@@ -228,7 +229,25 @@ impl<'a> Shore<'a> {
             let cut = self.level + if beyond > 0.0 { platform } else { cliff };
             *height = height.min(cut as f32);
         }
+        self.plane_off(&mut after, speed);
         after
+    }
+
+    /// Lets the platform go on into the sea, where the floor before the old coast stands higher.
+    fn plane_off(&self, ground: &mut Field, speed: impl Fn(usize) -> f64) {
+        let retreat = |&cell: &u32| {
+            let beside = self.domain.size.neighbours(cell as usize);
+            self.step.duration * beside.map(&speed).fold(0.0, f64::max)
+        };
+        let retreat: Vec<f64> = self.coast.iter().map(retreat).collect();
+        let march = March { values: &retreat, ..self.march(PLANED) };
+        let offshore = march.follow(|cell| f64::from(u8::from(self.sea[cell])));
+        for (cell, height) in ground.values_mut().iter_mut().enumerate() {
+            let (distance, retreat) = (offshore.time[cell], offshore.value[cell]);
+            if self.sea[cell] && retreat > 0.0 && distance.is_finite() {
+                *height = height.min((self.level - self.step.platform_slope * (retreat + distance)) as f32);
+            }
+        }
     }
 
     /// Volume in m³ by which the second ground is lower.
@@ -266,7 +285,7 @@ impl<'a> Shore<'a> {
             if !self.sea[cell] || offshore.time[cell].is_infinite() {
                 continue;
             }
-            let shelter = 1.0 - self.exposure[offshore.origin[cell] as usize] / self.step.sheltered.max(1e-9);
+            let shelter = 1.0 - offshore.value[cell] / self.step.sheltered.max(1e-9);
             if shelter > 0.0 {
                 let width = widest * shelter.min(1.0);
                 let inside = width - offshore.time[cell];
@@ -280,8 +299,11 @@ impl<'a> Shore<'a> {
 
     /// Exposure of the coast itself, 0 elsewhere.
     fn exposure_of_land(&self) -> Field {
-        let values = self.exposure.iter().map(|&exposure| exposure.clamp(0.0, 1.0) as f32).collect();
-        Field::from_values(self.domain.size, values)
+        let mut field = Field::filled(self.domain.size, 0.0);
+        for (&cell, &exposure) in self.coast.iter().zip(&self.exposure) {
+            field.values_mut()[cell as usize] = exposure.clamp(0.0, 1.0) as f32;
+        }
+        field
     }
 
     fn budget(&self, start: &Field, after: &Field, outgoing: f64) -> Budget {

@@ -10,6 +10,7 @@ mod edited_runs;
 mod engine_sets;
 mod grass;
 mod ground;
+mod islands;
 mod json_schema;
 mod materials;
 mod networks;

@@ -8,11 +8,15 @@ use weald_core::grid::Size;
 /// Directions in which fetch is measured.
 const DIRECTIONS: u32 = 36;
 
-/// Cells around, in which it is seen where a coast faces.
-const REACH: isize = 4;
+/// Metres around in which it is seen where a coast faces, and cells at least and at most.
+const REACH: f64 = 200.0;
+const REACH_IN_CELLS: [f64; 2] = [4.0, 32.0];
 
-/// Passes in which the exposure of neighbours along the coast is evened out: waves bend round corners.
-const PASSES: usize = 4;
+/// Metres along the coast over which exposure is evened out, as a standard deviation: waves bend round corners.
+const EVENED: f64 = 200.0;
+
+/// Passes of means of three cells of a coast that do so, at least and at most; each adds two thirds of a cell².
+const PASSES: [f64; 2] = [4.0, 1000.0];
 
 /// Wind over the sea.
 pub(super) struct Wind<'a> {
@@ -29,7 +33,7 @@ pub(super) struct Wind<'a> {
 }
 
 impl Wind<'_> {
-    /// Exposure of each cell of `coast`: 1 where it faces the wind over the full fetch, 0 where no waves come.
+    /// Exposure of each cell of `coast`, in their order: 1 where it faces the wind over the full fetch, 0 where no waves come.
     pub(super) fn exposure(&self, coast: &[u32]) -> Vec<f64> {
         let mut exposure = vec![0.0; self.size.cells()];
         let found: Vec<f64> = coast.par_iter().map(|&cell| self.at(cell as usize)).collect();
@@ -38,7 +42,8 @@ impl Wind<'_> {
         for &cell in coast {
             is_coast[cell as usize] = true;
         }
-        for _ in 0..PASSES {
+        let passes = (1.5 * (EVENED / self.cell) * (EVENED / self.cell)).clamp(PASSES[0], PASSES[1]);
+        for _ in 0..passes as usize {
             let even = |&cell: &u32| {
                 let around = self.size.neighbours(cell as usize).chain([cell as usize]);
                 let (sum, count) = around
@@ -49,7 +54,7 @@ impl Wind<'_> {
             let evened: Vec<f64> = coast.iter().map(even).collect();
             coast.iter().zip(evened).for_each(|(&cell, evened)| exposure[cell as usize] = evened);
         }
-        exposure
+        coast.iter().map(|&cell| exposure[cell as usize]).collect()
     }
 
     fn at(&self, cell: usize) -> f64 {
@@ -74,14 +79,15 @@ impl Wind<'_> {
         let Size { columns, rows } = self.size;
         let (x, y) = (cell % columns, cell / columns);
         let (mut east, mut north) = (0.0, 0.0);
+        let reach = (REACH / self.cell).clamp(REACH_IN_CELLS[0], REACH_IN_CELLS[1]) as isize;
         for (right, down) in
-            (-REACH..=REACH).flat_map(|down| (-REACH..=REACH).map(move |right| (right, down)))
+            (-reach..=reach).flat_map(|down| (-reach..=reach).map(move |right| (right, down)))
         {
             let place = x.checked_add_signed(right).zip(y.checked_add_signed(down));
             // Beyond the border lies the sea.
             let is_sea =
                 place.is_none_or(|(x, y)| x >= columns || y >= rows || self.sea[self.size.index(x, y)]);
-            if is_sea && right * right + down * down <= REACH * REACH {
+            if is_sea && right * right + down * down <= reach * reach {
                 (east, north) = (east + right as f64, north - down as f64);
             }
         }

@@ -51,6 +51,9 @@ fn a_round_island_under_wind_from_the_west_has_its_cliffs_there_and_beaches_in_t
     let solid = outcome.budget.expect("is kept").solid;
     assert!((solid.outgoing / 400.0 / (erosion - deposition) - 1.0).abs() < 1e-4, "{} m³", solid.outgoing);
     assert!(solid.error().abs() < 1e-6 && deposition <= 0.3 * erosion * 1.0001, "{solid:?}");
+    let height = landscape.field("height").expect("is there");
+    let falls: Vec<f32> = (1..40).map(|x| height.at(x, 60) - height.at(x - 1, 60)).collect();
+    assert!(falls.iter().all(|fall| *fall >= 0.0), "no bar lies where the coast has been: {falls:?}");
     let exposure = landscape.field("exposure").expect("is written");
     assert!(exposure.at(19, 60) > 0.9 && exposure.at(100, 60) < 0.1, "{}", exposure.at(19, 60));
 }
