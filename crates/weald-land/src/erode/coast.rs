@@ -287,9 +287,10 @@ impl<'a> Shore<'a> {
             }
             let shelter = 1.0 - offshore.value[cell] / self.step.sheltered.max(1e-9);
             if shelter > 0.0 {
-                let width = widest * shelter.min(1.0);
-                let inside = width - offshore.time[cell];
-                let steeper = if inside > 0.0 { 1.0 } else { FRONT };
+                let shelter = shelter.min(1.0);
+                let inside = widest * shelter - offshore.time[cell];
+                // The steeper the less sheltered, so that a beach has no end that stands like a step.
+                let steeper = if inside > 0.0 { 1.0 } else { FRONT / shelter };
                 let above = (self.step.beach_slope * steeper * inside).min(self.step.beach_top);
                 *height = height.max((self.level + above) as f32);
             }
