@@ -1,12 +1,12 @@
-//! `cargo run --release -p weald-dev -- gallery` renews docs/gallery; `-- picture FROM.png TO.webp`, one picture; `-- web`
-//! builds the page for browsers.
+//! `cargo run --release -p weald-dev -- gallery` renews docs/gallery; `-- picture FROM.png TO.webp`, one picture; `-- steps`
+//! the pictures of what steps do; `-- web` builds the page for browsers.
 
 use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 use weald::Error;
-use weald_dev::{PageFile, Renewed, keep, page, renew};
+use weald_dev::{PageFile, Renewed, keep, page, renew, step_pictures};
 
 /// Renews committed pictures: those that look different, as WebP
 #[derive(Debug, Parser)]
@@ -39,6 +39,12 @@ enum Command {
         #[arg(value_name = "TO.webp")]
         into: PathBuf,
     },
+    /// Draw what each step does, for the studio's list of steps
+    Steps {
+        /// The sheet of pictures, a PNG
+        #[arg(value_name = "INTO.png", default_value = "crates/weald-studio/src/panels/pictures/steps.png")]
+        into: PathBuf,
+    },
     /// Build Weald's page for browsers: a folder that any web server serves
     Web {
         /// Folder of the page
@@ -65,6 +71,10 @@ fn run(Arguments { command, all }: &Arguments) -> Result<(), Error> {
         }),
         Command::Picture { from, into } => {
             println!("{} {}", into.display(), keep(from, into, *all)?);
+            Ok(())
+        }
+        Command::Steps { into } => {
+            println!("{}: {} steps", into.display(), step_pictures(into)?);
             Ok(())
         }
         Command::Web { into } => {

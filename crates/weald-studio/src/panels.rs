@@ -20,6 +20,7 @@ pub(crate) mod seeds;
 pub(crate) mod simulation;
 pub(crate) mod start;
 pub(crate) mod status;
+mod step_pictures;
 pub(crate) mod steps;
 pub(crate) mod text;
 pub(crate) mod toolbar;

@@ -7,6 +7,7 @@ use weald::recipe::parameter::Parameters;
 use weald::recipe::source::Table;
 
 use super::controls::{self, Turned};
+use super::step_pictures;
 use super::toolbar::button;
 use crate::commands::Command;
 use crate::document::Document;
@@ -198,11 +199,16 @@ fn add(studio: &mut Studio, ui: &mut Ui) {
                     continue;
                 }
                 let hover = format!("{}\nAfter {}", entry.summary, entry.source);
-                if ui.button(entry.name).on_hover_text(hover).clicked() {
-                    chosen = Some(entry.name);
-                    ui.close();
-                }
-                ui.label(RichText::new(entry.summary).small().weak());
+                ui.horizontal(|ui| {
+                    let pictured = step_pictures::show(ui, entry.name);
+                    ui.vertical(|ui| {
+                        if ui.button(entry.name).on_hover_text(hover).clicked() || pictured {
+                            chosen = Some(entry.name);
+                            ui.close();
+                        }
+                        ui.label(RichText::new(entry.summary).small().weak());
+                    });
+                });
             }
         });
     });
