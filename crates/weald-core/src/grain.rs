@@ -17,7 +17,7 @@ pub struct Grain {
 
 /// Bits of a lattice point: the finaliser `lowbias32` (C. Wellons 2018).
 #[inline(always)]
-fn bits(x: i32, y: i32, seed: u32) -> u32 {
+pub fn bits(x: i32, y: i32, seed: u32) -> u32 {
     let mut h =
         (x as u32).wrapping_mul(0xc13f_a9a9).wrapping_add((y as u32).wrapping_mul(0x91e1_0da5)) ^ seed;
     h = (h ^ (h >> 16)).wrapping_mul(0x7feb_352d);

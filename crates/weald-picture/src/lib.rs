@@ -60,5 +60,5 @@ pub use sheet::fits_on_sheet;
 pub use strokes::{Point as StrokePoint, Strokes};
 pub use view::albedo;
 pub use view::{
-    Camera, Follow, GroundColour, LitScene, Ray, RayMarcher, Rim, SceneTexture, TextureKind, View,
+    Around, Camera, Follow, GroundColour, LitScene, Ray, RayMarcher, Rim, SceneTexture, TextureKind, View,
 };

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use weald::Error;
-use weald::picture::{Camera, Cutout, LitScene, RenderRequest, Rendering, View};
+use weald::picture::{Around, Camera, Cutout, LitScene, RenderRequest, Rendering, View};
 use weald::recipe::{FILM_EXTENSIONS, Film, Frames, Options, Progress, ViewRequest};
 
 use super::run::{default_folder, watched};
@@ -27,7 +27,8 @@ pub(crate) fn render(arguments: &RenderArguments) -> Result<(), Failure> {
     };
     let (recipe, view) = request.recipe()?;
     let [width, height] = files.size;
-    let view = View { width, height, ..view };
+    let around = view.around.or(files.eye.map(|_| Around::Horizon));
+    let view = View { width, height, around, ..view };
     // What cannot be drawn is reported before an hour of simulation.
     let device = drawing(&files.running)?;
     device.check(files.size, files.samples)?;

@@ -1,4 +1,5 @@
-// What lies behind the landscape: the plain on which it stands, and the sky.
+// What lies behind the landscape: the plain on which it stands, or the haze in which all ground around it is lost; and
+// the sky.
 
 fn backdrop_direction(position: vec2<f32>) -> vec3<f32> {
     return normalize(along_at(position));
@@ -12,6 +13,9 @@ fn sky_fragment(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32
 @fragment
 fn plain_fragment(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     let direction = backdrop_direction(position.xy);
+    if HORIZON {
+        return vec4<f32>(limited(sky_radiance(vec3<f32>(direction.xy, 0.0))), 1.0);
+    }
     let ray_length = max((scene.plain.w - frame.eye.z) / direction.z, 0.0);
     let point = frame.eye.xyz + direction * ray_length;
     let sun = sun_seen(point, vec3<f32>(0.0, 0.0, 1.0));

@@ -56,10 +56,12 @@ fn extent(of: &Box3, along: [f32; 3]) -> [f32; 2] {
 }
 
 impl Cascades {
-    /// For a sun in a direction and a landscape within a box.
-    pub(super) fn new(sun: [f32; 3], camera: &Camera, landscape: &Box3) -> Self {
+    /// For a sun in a direction and a landscape within a box, around which ground goes on or not.
+    pub(super) fn new(sun: [f32; 3], camera: &Camera, landscape: &Box3, has_horizon: bool) -> Self {
         let [right, up] = across(sun);
+        let around = if has_horizon { REACHES[CASCADES - 2] } else { 0.0 };
         let [low, high] = extent(landscape, sun);
+        let [low, high] = [low - around, high + around];
         let whole = [extent(landscape, right), extent(landscape, up)];
         let [middle_x, middle_y] = whole.map(|[low, high]| 0.5 * (low + high));
         let [half_x, half_y] = whole.map(|[low, high]| 0.5 * MARGIN * (high - low).max(1e-3));
@@ -115,7 +117,7 @@ mod tests {
         let scene = scene();
         let landscape = [[0.0, -200.0, -10.0], [200.0, 0.0, 400.0]];
         let camera = Camera::looking([50.0, -90.0, 30.0], [0.6, 0.8, 0.0], [0.5, 0.3]);
-        let first = Cascades::new(scene.sun(), &camera, &landscape);
+        let first = Cascades::new(scene.sun(), &camera, &landscape, false);
         let mut moved = 0;
         for step in 1..40_u16 {
             let step = f32::from(step);
@@ -125,7 +127,7 @@ mod tests {
                 [turn.cos(), turn.sin(), 0.0],
                 [0.5, 0.3],
             );
-            let next = Cascades::new(scene.sun(), &camera, &landscape);
+            let next = Cascades::new(scene.sun(), &camera, &landscape, false);
             assert_eq!(next.squares[CASCADES - 1], first.squares[CASCADES - 1], "the last holds all, always");
             for (a, b) in first.squares.iter().zip(&next.squares).take(CASCADES - 1) {
                 assert_eq!(a[2], b[2]);
@@ -141,7 +143,7 @@ mod tests {
     fn the_last_cascade_holds_every_corner_and_depths_begin_at_the_sun() {
         let scene = scene();
         let landscape = [[0.0, -200.0, -10.0], [200.0, 0.0, 400.0]];
-        let cascades = Cascades::new(scene.sun(), &scene.camera(), &landscape);
+        let cascades = Cascades::new(scene.sun(), &scene.camera(), &landscape, false);
         let [x, y, half_x, half_y] = cascades.squares[CASCADES - 1];
         for bits in 0..8_usize {
             let corner: [f32; 3] = std::array::from_fn(|axis| landscape[bits >> axis & 1][axis]);

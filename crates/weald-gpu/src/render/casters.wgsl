@@ -17,6 +17,11 @@ fn ground_caster(@builtin(vertex_index) index: u32, @location(0) patch_of: vec4<
 }
 
 @vertex
+fn beyond_caster(@builtin(vertex_index) index: u32, @location(0) patch_of: vec4<f32>) -> Caster {
+    return cast_shadow(beyond_at_vertex(index, patch_of));
+}
+
+@vertex
 fn side_caster(
     @builtin(vertex_index) index: u32,
     @location(0) patch_of: vec4<f32>,

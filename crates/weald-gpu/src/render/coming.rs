@@ -51,11 +51,12 @@ impl SceneUpdate {
     pub fn of(scene: &LitScene) -> Self {
         let (maps, metres) = (scene.textures(), scene.spacing());
         let top = maps.iter().find(|map| map.name == "top").expect("every scene has a ground");
-        let lattice = Lattice::new(scene.cells().map(|cells| cells as f32), metres);
+        let (cells, beyond) = (scene.cells().map(|cells| cells as f32), scene.beyond());
+        let lattice = Lattice::new(cells, metres).with_horizon(beyond.is_some());
         Self {
             uniforms: scene.uniforms(),
-            heights: Heights::new(top, metres, scene.base()),
-            errors: errors(top, lattice.levels),
+            heights: Heights::new(top, metres, scene.base()).with_beyond(beyond, cells),
+            errors: errors(top, lattice.all_levels()),
             rows: None,
             of_rows: scene.cells()[1],
             maps,

@@ -63,6 +63,8 @@ pub(crate) struct Heights {
     base: f32,
     /// Metres by which heights may have risen or sunk.
     slack: f32,
+    /// Bounds of the heights beyond the border, and the cells within.
+    beyond: Option<([f32; 2], [f32; 2])>,
 }
 
 /// Control points along the side of the smallest square.
@@ -76,7 +78,13 @@ impl Heights {
             let height = top.values[y * columns + x];
             [height, height]
         });
-        Self { levels: coarser(finest), metres, base, slack: 0.0 }
+        Self { levels: coarser(finest), metres, base, slack: 0.0, beyond: None }
+    }
+
+    /// The same, where ground between such heights goes on beyond so many cells.
+    #[must_use]
+    pub(crate) fn with_beyond(self, heights: Option<[f32; 2]>, cells: [f32; 2]) -> Self {
+        Self { beyond: heights.map(|heights| (heights, cells)), ..self }
     }
 
     /// Takes the bounds of all squares of the ground anew, with room for heights to rise and sink by a share of the relief.
@@ -97,7 +105,7 @@ impl Heights {
     /// Ground without heights.
     #[cfg(test)]
     pub(crate) fn flat() -> Self {
-        Self { levels: vec![(1, vec![[0.0; 2]])], metres: [1.0; 2], base: 0.0, slack: 0.0 }
+        Self { levels: vec![(1, vec![[0.0; 2]])], metres: [1.0; 2], base: 0.0, slack: 0.0, beyond: None }
     }
 
     /// The greatest height of all.
@@ -129,6 +137,10 @@ impl Heights {
             for x in (first[0] >> level).min(columns - 1)..=(last[0] >> level).min(columns - 1) {
                 range = union(range, bounds[y * columns + x]);
             }
+        }
+        if let Some((heights, cells)) = self.beyond {
+            let leaves = |axis: usize| corner[axis] < 0.5 || corner[axis] + side > cells[axis] + 0.5;
+            range = if (0..2).any(leaves) { union(range, heights) } else { range };
         }
         let west = (corner[0] - 0.5) * self.metres[0];
         let north = (0.5 - corner[1]) * self.metres[1];

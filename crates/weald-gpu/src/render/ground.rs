@@ -64,6 +64,8 @@ pub(super) struct Parts<'a> {
     pub(super) samples: u32,
     pub(super) has_holes: bool,
     pub(super) has_lawn: bool,
+    /// Whether ground goes on beyond the border.
+    pub(super) has_horizon: bool,
 }
 
 /// A kind of light, the kinds of ground that have it, and whether it is laid over what is there.
@@ -80,6 +82,13 @@ const LIGHTS: [Light; 3] = [
     Light { fragment: "water_fragment", kinds: 2..4, is_laid_over: true },
 ];
 
+/// The same of the ground beyond the border.
+const LIGHTS_BEYOND: [Light; 3] = [
+    Light { fragment: "far_beyond_fragment", kinds: 11..13, is_laid_over: false },
+    Light { fragment: "near_beyond_fragment", kinds: 13..15, is_laid_over: false },
+    Light { fragment: "water_beyond_fragment", kinds: 12..14, is_laid_over: true },
+];
+
 /// What lies behind the landscape.
 const BACKDROP: [Light; 2] = [
     Light { fragment: "sky_fragment", kinds: 9..10, is_laid_over: false },
@@ -93,6 +102,7 @@ const BEHIND_EDGE: u32 = 4;
 #[derive(Debug)]
 pub(super) struct Ground {
     depth: RenderPipeline,
+    beyond: Option<RenderPipeline>,
     kind: RenderPipeline,
     /// With the kinds that each draws.
     lights: Vec<(RenderPipeline, Range<u32>)>,
@@ -102,7 +112,8 @@ pub(super) struct Ground {
 impl Ground {
     pub(super) fn new(parts: Parts<'_>) -> Self {
         let behind: &[bool] = if parts.samples > 1 { &[false, true] } else { &[false] };
-        let lights = LIGHTS.iter().flat_map(|light| {
+        let around: &[Light] = if parts.has_horizon { &LIGHTS_BEYOND } else { &[] };
+        let lights = LIGHTS.iter().chain(around).flat_map(|light| {
             behind.iter().map(|&is_behind| {
                 let further = if is_behind { BEHIND_EDGE } else { 0 };
                 let kinds = light.kinds.start + further..light.kinds.end + further;
@@ -111,7 +122,8 @@ impl Ground {
         });
         let backdrop = BACKDROP.iter().map(|light| (parts.light(light, false), light.kinds.clone()));
         Self {
-            depth: parts.depth(),
+            depth: parts.depth("ground_vertex"),
+            beyond: parts.has_horizon.then(|| parts.depth("beyond_vertex")),
             kind: parts.kind(),
             lights: lights.collect(),
             backdrop: backdrop.collect(),
@@ -122,6 +134,10 @@ impl Ground {
     pub(super) fn draw_depths(&self, pass: &mut RenderPass<'_>, terrain: &Terrain) {
         pass.set_pipeline(&self.depth);
         terrain.draw_ground(pass, 0);
+        if let Some(beyond) = &self.beyond {
+            pass.set_pipeline(beyond);
+            terrain.draw_beyond(pass, 0);
+        }
     }
 
     /// Draws the kind of each pixel.
@@ -172,11 +188,11 @@ const LAID_OVER: BlendState = BlendState {
 };
 
 impl Parts<'_> {
-    fn depth(&self) -> RenderPipeline {
+    fn depth(&self, vertex: &str) -> RenderPipeline {
         self.pipeline(&Drawn {
-            key: format!("depths of the ground {}", self.has_holes),
+            key: format!("depths of {vertex} {}", self.has_holes),
             layout: self.layouts[1],
-            vertex: ("ground_vertex", self.patches),
+            vertex: (vertex, self.patches),
             fragment: self.has_holes.then_some("hole_fragment"),
             constants: &[],
             target: None,
@@ -187,11 +203,11 @@ impl Parts<'_> {
     fn kind(&self) -> RenderPipeline {
         let fragment = if self.samples > 1 { "kind_sampled_fragment" } else { "kind_fragment" };
         self.pipeline(&Drawn {
-            key: fragment.to_owned(),
+            key: format!("{fragment} {}", self.has_horizon),
             layout: self.layouts[0],
             vertex: ("whole_vertex", &[]),
             fragment: Some(fragment),
-            constants: &[("SAMPLED", f64::from(self.samples > 1))],
+            constants: &[("SAMPLED", f64::from(self.samples > 1)), ("HORIZON", f64::from(self.has_horizon))],
             target: None,
             depth: (true, CompareFunction::Always),
         })
@@ -200,7 +216,7 @@ impl Parts<'_> {
     fn light(&self, light: &Light, is_behind: bool) -> RenderPipeline {
         let blend = light.is_laid_over.then_some(LAID_OVER);
         self.pipeline(&Drawn {
-            key: format!("{} {is_behind} {}", light.fragment, self.has_lawn),
+            key: format!("{} {is_behind} {} {}", light.fragment, self.has_lawn, self.has_horizon),
             layout: self.layouts[0],
             vertex: ("whole_vertex", &[]),
             fragment: Some(light.fragment),
@@ -208,6 +224,7 @@ impl Parts<'_> {
                 ("SAMPLED", f64::from(self.samples > 1)),
                 ("IS_BEHIND", f64::from(is_behind)),
                 ("LAWN", f64::from(self.has_lawn)),
+                ("HORIZON", f64::from(self.has_horizon)),
             ],
             target: Some(ColorTargetState { format: LIGHT, blend, write_mask: ColorWrites::ALL }),
             depth: (false, CompareFunction::Equal),

@@ -11,7 +11,10 @@ const NEAR_WET = 3u;
 const NEAR_DRY = 4u;
 const OPEN_SKY = 9u;
 const PLAIN = 10u;
-const KIND = 0.0625;
+const KIND = 0.03125;
+
+// How much further the kinds of ground beyond the border are than those within.
+const BEYOND = 10u;
 
 // How much further the kinds are of samples that are not of the first surface of their pixel: those behind an edge.
 const BEHIND_EDGE = 4u;
@@ -21,6 +24,9 @@ override SAMPLED: bool = false;
 
 // Whether what is drawn lies behind edges.
 override IS_BEHIND: bool = false;
+
+// Whether ground goes on beyond the border.
+override HORIZON: bool = false;
 
 // Whether grass grows somewhere.
 override LAWN: bool = true;
@@ -82,8 +88,13 @@ fn surface_of(position: vec2<f32>, is_behind: bool) -> SeenSurface {
 fn kind_of(surface: SeenSurface) -> u32 {
     let place = place_of(surface.point);
     let is_far = length(surface.point - frame.eye.xyz) * frame.eye.w >= DETAIL_FROM;
-    let is_wet = wet_share(place, spline_at(bed, place)) > 0.0;
-    return select(select(NEAR_DRY, FAR_DRY, is_far), select(NEAR_WET, FAR_WET, is_far), is_wet);
+    var is_wet = wet_share(place, spline_at(bed, place)) > 0.0;
+    var first = 0u;
+    if HORIZON && is_beyond(place) {
+        is_wet = wet_share_beyond(place, ground_beyond(place)) > 0.0;
+        first = BEYOND;
+    }
+    return first + select(select(NEAR_DRY, FAR_DRY, is_far), select(NEAR_WET, FAR_WET, is_far), is_wet);
 }
 
 @fragment
@@ -119,8 +130,19 @@ fn wet_share(place: vec2<f32>, height: f32) -> f32 {
     return select(river, 1.0, lake_depth(place, height) > 0.0);
 }
 
+// The same beyond the border.
+fn wet_share_beyond(place: vec2<f32>, beyond: Beyond) -> f32 {
+    if frame.stand.w > 0.0 {
+        return 0.0;
+    }
+    let drawn = textureSampleLevel(rivers, between, share_of(beyond.place), 0.0).x * river_share_beyond(beyond);
+    let river = select(0.0, drawn, scene.has.w > 0.0);
+    return select(river, 1.0, level_beyond(place, beyond) > beyond.surface.x);
+}
+
 // A point of the ground, and how it is looked at.
 struct Look {
+    // The place of the landscape that it is, or is like.
     place: vec2<f32>,
     direction: vec3<f32>,
     ray_length: f32,
@@ -130,17 +152,43 @@ struct Look {
     above: f32,
     normal: vec3<f32>,
     sun: f32,
+    // The share of water, how it runs, and the normal of its level.
+    wet: f32,
+    running: vec3<f32>,
+    tilt: vec3<f32>,
 }
 
 fn look_at_ground(point: vec3<f32>) -> Look {
-    let relative = point - frame.eye.xyz;
     var look: Look;
     look.place = place_of(point);
+    look.surface = spline_with_slope(bed, look.place);
+    look.above = -lake_depth(look.place, look.surface.x);
+    look.wet = wet_share(look.place, look.surface.x);
+    look.running = smooth_at(flow, look.place).xyz;
+    look.tilt = normal_of(spline_with_slope(top, look.place).yz);
+    return looked_at(point, look);
+}
+
+fn look_beyond(point: vec3<f32>) -> Look {
+    let place = place_of(point);
+    let beyond = ground_beyond(place);
+    var look: Look;
+    look.place = beyond.place;
+    look.surface = beyond.surface;
+    look.above = beyond.surface.x - level_beyond(place, beyond);
+    look.wet = wet_share_beyond(place, beyond);
+    look.tilt = vec3<f32>(0.0, 0.0, 1.0);
+    return looked_at(point, look);
+}
+
+// The look with what follows from its place and surface.
+fn looked_at(point: vec3<f32>, ground: Look) -> Look {
+    let relative = point - frame.eye.xyz;
+    var look = ground;
     look.ray_length = length(relative);
     look.direction = relative / look.ray_length;
     look.footprint = look.ray_length * frame.eye.w;
-    look.surface = spline_with_slope(bed, look.place);
-    look.above = select(-lake_depth(look.place, look.surface.x), 1e9, frame.stand.w > 0.0);
+    look.above = select(look.above, 1e9, frame.stand.w > 0.0);
     look.normal = normal_of(look.surface.yz);
     let smooth_point = vec3<f32>(point.xy, look.surface.x - min(look.above, 0.0));
     look.sun = sun_seen_on(point, smooth_point, look.normal);
@@ -168,38 +216,68 @@ fn skin_light(point: vec3<f32>, look: Look, skin: SurfaceSample) -> vec4<f32> {
 }
 
 // Dry ground from afar.
-fn far_light(point: vec3<f32>) -> vec4<f32> {
-    let look = look_at_ground(point);
-    return skin_light(point, look, ground_skin(look.place, look.surface, look.footprint, look.above));
+fn far_light(point: vec3<f32>, look: Look) -> vec4<f32> {
+    return skin_light(point, look, ground_skin_at(look.place, point.xy, look.surface, look.footprint, look.above));
 }
 
 // Dry ground from close by.
-fn near_light(point: vec3<f32>) -> vec4<f32> {
-    let look = look_at_ground(point);
-    let skin = ground_skin(look.place, look.surface, look.footprint, look.above);
+fn near_light(point: vec3<f32>, look: Look) -> vec4<f32> {
+    let skin = ground_skin_at(look.place, point.xy, look.surface, look.footprint, look.above);
     return skin_light(point, look, with_detail(skin, point, look.normal, look.footprint));
 }
 
 // Water, and its share.
-fn water_light(point: vec3<f32>) -> vec4<f32> {
-    let look = look_at_ground(point);
-    let share = wet_share(look.place, look.surface.x);
-    let depth = select(1.2 * share, -look.above / scene.scale.y, look.above < 0.0);
-    let radiance = water_radiance(look.place, point, look.direction, look.ray_length, depth, look.sun);
-    return vec4<f32>(seen_through_air(radiance, look), share);
+fn water_light(point: vec3<f32>, look: Look) -> vec4<f32> {
+    let depth = select(1.2 * look.wet, -look.above / scene.scale.y, look.above < 0.0);
+    let radiance = water_radiance(point, depth, look);
+    return vec4<f32>(seen_through_air(radiance, look), look.wet);
+}
+
+// The same beyond the border, lost in the haze of the horizon.
+fn lost(light: vec4<f32>, point: vec3<f32>, look: Look) -> vec4<f32> {
+    let horizon = sky_radiance(vec3<f32>(look.direction.xy, 0.0));
+    return vec4<f32>(lost_beyond(place_of(point), light.xyz, horizon), light.w);
+}
+
+fn seen_point(position: vec4<f32>) -> vec3<f32> {
+    return surface_of(floor(position.xy) + 0.5, IS_BEHIND).point;
 }
 
 @fragment
 fn far_fragment(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
-    return far_light(surface_of(floor(position.xy) + 0.5, IS_BEHIND).point);
+    let point = seen_point(position);
+    return far_light(point, look_at_ground(point));
 }
 
 @fragment
 fn near_fragment(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
-    return near_light(surface_of(floor(position.xy) + 0.5, IS_BEHIND).point);
+    let point = seen_point(position);
+    return near_light(point, look_at_ground(point));
 }
 
 @fragment
 fn water_fragment(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
-    return water_light(surface_of(floor(position.xy) + 0.5, IS_BEHIND).point);
+    let point = seen_point(position);
+    return water_light(point, look_at_ground(point));
+}
+
+@fragment
+fn far_beyond_fragment(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
+    let point = seen_point(position);
+    let look = look_beyond(point);
+    return lost(far_light(point, look), point, look);
+}
+
+@fragment
+fn near_beyond_fragment(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
+    let point = seen_point(position);
+    let look = look_beyond(point);
+    return lost(near_light(point, look), point, look);
+}
+
+@fragment
+fn water_beyond_fragment(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
+    let point = seen_point(position);
+    let look = look_beyond(point);
+    return lost(water_light(point, look), point, look);
 }

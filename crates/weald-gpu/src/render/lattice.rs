@@ -38,7 +38,12 @@ pub(crate) struct Lattice {
     pub(crate) metres: [f32; 2],
     /// Levels from the finest to the one whose single square is the whole ground.
     pub(crate) levels: usize,
+    /// Further levels, of squares around the middle of which one quarter holds the whole ground; none where it is a block.
+    around: usize,
 }
+
+/// Further levels of ground that goes on to the horizon: as far as seven of its longer sides.
+const AROUND: usize = 4;
 
 /// From where the ground is looked at.
 #[derive(Clone, Copy, Debug)]
@@ -67,7 +72,34 @@ impl Lattice {
         while Self::side(levels - 1) < longer && levels < MAX_LEVELS {
             levels += 1;
         }
-        Self { cells, metres, levels }
+        Self { cells, metres, levels, around: 0 }
+    }
+
+    /// The same with ground around it.
+    #[must_use]
+    pub(crate) fn with_horizon(self, has_horizon: bool) -> Self {
+        Self { around: if has_horizon { AROUND } else { 0 }, ..self }
+    }
+
+    /// Levels of the ground and of what is around it.
+    pub(crate) fn all_levels(&self) -> usize {
+        self.levels + self.around
+    }
+
+    /// North-western corner of the largest square.
+    fn first_corner(&self) -> [f32; 2] {
+        if self.around == 0 {
+            return [0.5; 2];
+        }
+        [0.5 - 0.5 * Self::side(self.all_levels() - 1); 2]
+    }
+
+    /// Whether a patch lies in part beyond the border, where ground goes on.
+    pub(crate) fn is_beyond(&self, patch: &Patch) -> bool {
+        let side = QUADS as f32 * patch.spacing;
+        let leaves =
+            |axis: usize| patch.corner[axis] < 0.5 || patch.corner[axis] + side > self.cells[axis] + 0.5;
+        self.around > 0 && (0..2).any(leaves)
     }
 
     /// Cells along the side of a square.
@@ -84,7 +116,7 @@ impl Lattice {
         view: &Frustum,
     ) -> Vec<Patch> {
         let mut selection = Selection { lattice: self, ranges, from, heights, view, patches: Vec::new() };
-        selection.square([0.5; 2], self.levels - 1);
+        selection.square(self.first_corner(), self.all_levels() - 1);
         let mut patches = selection.patches;
         patches.sort_by(|a, b| a.0.total_cmp(&b.0));
         patches.into_iter().map(|(_, patch)| patch).collect()
@@ -112,8 +144,8 @@ impl Lattice {
 
 impl Selection<'_> {
     fn is_drawn(&self, corner: [f32; 2], side: f32) -> bool {
-        let inside = (0..2).all(|axis| corner[axis] < self.lattice.cells[axis] + 0.5);
-        inside && {
+        let inside = || (0..2).all(|axis| corner[axis] < self.lattice.cells[axis] + 0.5);
+        (self.lattice.around > 0 || inside()) && {
             let box_of = self.heights.box_of(corner, side);
             self.view.meets(&box_of)
         }
@@ -165,6 +197,31 @@ mod tests {
                 assert_eq!(patches.iter().filter(covers).count(), 1, "({x}, {y})");
             }
         }
+    }
+
+    #[test]
+    fn ground_around_goes_on_for_seven_sides_and_covers_each_place_once() {
+        let lattice = Lattice::new([150.0, 90.0], [10.0; 2]).with_horizon(true);
+        let ranges = Ranges::new(&[3.0; MAX_LEVELS], 1.0, 10.0);
+        let from = Viewpoint { place: [70.0, 40.0], above: 30.0 };
+        let patches = lattice.select(from, &ranges, &Heights::flat(), &Frustum::everything());
+        let mut beyond = 0;
+        for sample in 0..4000_u32 {
+            let [x, y] = [(0.754_877_7, 150.0), (0.569_840_3, 90.0)].map(|(step, side)| {
+                0.5 + side - 7.0 * 150.0 + (14.0 * 150.0 - side) * (sample as f32 * step).fract()
+            });
+            let covers = |patch: &&Patch| {
+                let side = QUADS as f32 * patch.spacing;
+                let [left, top] = patch.corner;
+                (left..left + side).contains(&x) && (top..top + side).contains(&y)
+            };
+            let covering: Vec<_> = patches.iter().filter(covers).collect();
+            assert_eq!(covering.len(), 1, "({x}, {y})");
+            let is_outside = x < 0.5 || y < 0.5 || x > 150.5 || y > 90.5;
+            assert!(!is_outside || lattice.is_beyond(covering[0]), "({x}, {y})");
+            beyond += usize::from(is_outside);
+        }
+        assert!(beyond > 3000);
     }
 
     #[test]

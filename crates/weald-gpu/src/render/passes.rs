@@ -66,6 +66,7 @@ pub(super) struct Passes {
 #[derive(Debug)]
 pub(super) struct Casters {
     ground: RenderPipeline,
+    beyond: Option<RenderPipeline>,
     sides: RenderPipeline,
     rims: RenderPipeline,
 }
@@ -75,6 +76,10 @@ impl Casters {
     pub(super) fn draw(&self, pass: &mut RenderPass<'_>, terrain: &Terrain, view: usize) {
         pass.set_pipeline(&self.ground);
         terrain.draw_ground(pass, view);
+        if let Some(beyond) = &self.beyond {
+            pass.set_pipeline(beyond);
+            terrain.draw_beyond(pass, view);
+        }
         pass.set_pipeline(&self.sides);
         terrain.draw_sides(pass, view);
         pass.set_pipeline(&self.rims);
@@ -106,6 +111,7 @@ struct Maker<'a> {
     samples: u32,
     has_holes: bool,
     has_lawn: bool,
+    has_horizon: bool,
 }
 
 /// What one pipeline is.
@@ -146,6 +152,7 @@ impl Passes {
                 samples,
                 has_holes: scene.has_holes(),
                 has_lawn,
+                has_horizon: scene.beyond().is_some(),
             };
             Ok(Self::of(&maker, depths))
         })
@@ -177,12 +184,14 @@ impl Passes {
                 samples: maker.samples,
                 has_holes: maker.has_holes,
                 has_lawn: maker.has_lawn,
+                has_horizon: maker.has_horizon,
             }),
             depths,
             sides: solid("side", &sides),
             rims: solid("rim", &rims),
             casters: Casters {
                 ground: caster("ground", &patches),
+                beyond: maker.has_horizon.then(|| caster("beyond", &patches)),
                 sides: caster("side", &sides),
                 rims: caster("rim", &rims),
             },

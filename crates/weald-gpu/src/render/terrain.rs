@@ -36,6 +36,8 @@ pub(super) struct Terrain {
     /// What the camera sees, and each cascade of the sun.
     seen: Vec<Seen>,
     rims: Instances<[f32; 8]>,
+    /// Whether ground goes on beyond the border: there are no sides then.
+    has_horizon: bool,
 }
 
 /// A patch with the edge of it that has a wall: 0 to 3 for north, east, south, west.
@@ -50,16 +52,31 @@ struct Side {
 #[derive(Debug)]
 struct Seen {
     patches: Instances<Patch>,
+    /// Those that lie in part beyond the border, where ground goes on.
+    beyond: Instances<Patch>,
     sides: Instances<Side>,
 }
 
 impl Seen {
     fn new(gpu: &Gpu) -> Result<Self, Error> {
-        Ok(Self { patches: Instances::new(gpu, "patches")?, sides: Instances::new(gpu, "sides")? })
+        Ok(Self {
+            patches: Instances::new(gpu, "patches")?,
+            beyond: Instances::new(gpu, "patches beyond the border")?,
+            sides: Instances::new(gpu, "sides")?,
+        })
     }
 
-    fn write(&mut self, into: &mut Upload<'_>, patches: &[Patch], sides: &[Side]) -> Result<(), Error> {
-        self.patches.write(into, patches)?;
+    fn write(
+        &mut self,
+        into: &mut Upload<'_>,
+        lattice: &Lattice,
+        patches: Vec<Patch>,
+        sides: &[Side],
+    ) -> Result<(), Error> {
+        let (beyond, within): (Vec<_>, Vec<_>) =
+            patches.into_iter().partition(|patch| lattice.is_beyond(patch));
+        self.patches.write(into, &within)?;
+        self.beyond.write(into, &beyond)?;
         self.sides.write(into, sides)
     }
 }
@@ -73,16 +90,18 @@ impl Terrain {
     pub(super) fn new(gpu: &Gpu, scene: &LitScene, maps: &[SceneTexture]) -> Result<Self, Error> {
         let top = maps.iter().find(|map| map.name == "top").expect("every scene has a ground");
         let (cells, metres) = (scene.cells().map(|cells| cells as f32), scene.spacing());
-        let lattice = Lattice::new(cells, metres);
+        let beyond = scene.beyond();
+        let lattice = Lattice::new(cells, metres).with_horizon(beyond.is_some());
         Ok(Self {
-            heights: Heights::new(top, metres, scene.base()),
-            errors: errors(top, lattice.levels),
+            heights: Heights::new(top, metres, scene.base()).with_beyond(beyond, cells),
+            errors: errors(top, lattice.all_levels()),
             is_empty: scene.is_empty(),
             sun: scene.sun(),
             grid: Indices::new(gpu, "indices of a patch", &grid(QUADS, QUADS))?,
             wall: Indices::new(gpu, "indices of a wall", &grid(QUADS, 1))?,
             seen: (0..=CASCADES).map(|_| Seen::new(gpu)).collect::<Result<_, _>>()?,
             rims: rims(gpu, scene)?,
+            has_horizon: beyond.is_some(),
             lattice,
         })
     }
@@ -103,7 +122,7 @@ impl Terrain {
         let [width, height] = self.lattice.metres;
         let place = [0.5 + east / width, 0.5 - north / height];
         let stand = Viewpoint { place, above: (up - self.heights.highest()).max(0.0) };
-        let cascades = Cascades::new(self.sun, camera, &self.bounds());
+        let cascades = Cascades::new(self.sun, camera, &self.bounds(), self.has_horizon);
         let columns = (0..CASCADES - 1).map(|cascade| cascades.column(cascade));
         let views: Vec<_> = [Frustum::of(camera)].into_iter().chain(columns).collect();
         for (number, view) in views.iter().enumerate() {
@@ -113,7 +132,7 @@ impl Terrain {
                 self.lattice.select(stand, &ranges, &self.heights, view)
             };
             let sides: Vec<_> = patches.iter().flat_map(|patch| self.sides_of(*patch)).collect();
-            self.seen[number].write(into, &patches, &sides)?;
+            self.seen[number].write(into, &self.lattice, patches, &sides)?;
         }
         Ok(Drawn { stand, slides: ranges.slides(), detail_from, seconds: 0.0, is_dry: false, cascades })
     }
@@ -125,7 +144,7 @@ impl Terrain {
         let level = (0..self.lattice.levels).rev().find(is_fine).unwrap_or(0);
         let patches = if self.is_empty { Vec::new() } else { self.lattice.whole(level) };
         let sides: Vec<_> = patches.iter().flat_map(|patch| self.sides_of(*patch)).collect();
-        self.seen[CASCADES].write(into, &patches, &sides)
+        self.seen[CASCADES].write(into, &self.lattice, patches, &sides)
     }
 
     /// Lets heights rise and sink by a share of the relief.
@@ -162,19 +181,24 @@ impl Terrain {
         let [west, north] = patch.corner.map(|at| at == 0.5);
         let [east, south] = [0, 1].map(|axis| patch.corner[axis] + side >= self.lattice.cells[axis] + 0.5);
         let edges = [north, east, south, west].into_iter().zip(0..);
-        edges.filter(|(is_end, _)| *is_end).map(move |(_, edge)| Side { patch, edge })
+        edges.filter(|(is_end, _)| *is_end && !self.has_horizon).map(move |(_, edge)| Side { patch, edge })
     }
 
     /// Triangles of the last picture.
     pub(super) fn triangles(&self) -> u64 {
-        let Seen { patches, sides } = &self.seen[0];
-        let quads = u64::from(QUADS) * u64::from(patches.count * QUADS + sides.count);
+        let Seen { patches, beyond, sides } = &self.seen[0];
+        let quads = u64::from(QUADS) * u64::from((patches.count + beyond.count) * QUADS + sides.count);
         2 * quads
     }
 
     /// Draws the ground that the camera sees, 0, or a cascade, from 1 on, by the pipeline that is set.
     pub(super) fn draw_ground(&self, pass: &mut RenderPass<'_>, view: usize) {
         self.grid.draw(pass, &self.seen[view].patches);
+    }
+
+    /// Draws the patches of the same that lie in part beyond the border by the pipeline that is set.
+    pub(super) fn draw_beyond(&self, pass: &mut RenderPass<'_>, view: usize) {
+        self.grid.draw(pass, &self.seen[view].beyond);
     }
 
     /// Draws the walls around what has no data by the pipeline that is set.

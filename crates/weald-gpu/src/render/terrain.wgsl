@@ -12,14 +12,17 @@ struct Ground {
 
 // The place of a vertex of a patch: its corner, spacing and level.
 fn vertex_place(patch_of: vec4<f32>, at: vec2<f32>) -> vec2<f32> {
+    return min(sliding_place(patch_of, at), scene.grid.xy + 0.5);
+}
+
+fn sliding_place(patch_of: vec4<f32>, at: vec2<f32>) -> vec2<f32> {
     let start = patch_of.xy + at * patch_of.z;
     let slide = frame.slides[u32(patch_of.w)];
     let away = (start - frame.stand.xy) * scene.grid.zw;
     let distance = length(vec3<f32>(away, frame.stand.z));
     let share = clamp((distance - slide.x) / (slide.y - slide.x), 0.0, 1.0);
     let odd = fract(at * 0.5) * 2.0;
-    let place = start - odd * (share * patch_of.z);
-    return min(place, scene.grid.xy + 0.5);
+    return start - odd * (share * patch_of.z);
 }
 
 fn ground_point(place: vec2<f32>) -> vec3<f32> {
@@ -34,6 +37,23 @@ fn ground_at_vertex(index: u32, patch_of: vec4<f32>) -> vec3<f32> {
 @vertex
 fn ground_vertex(@builtin(vertex_index) index: u32, @location(0) patch_of: vec4<f32>) -> Ground {
     let point = ground_at_vertex(index, patch_of);
+    return Ground(projected(point), point);
+}
+
+// The same of a patch that lies in part beyond the border, where ground goes on.
+fn beyond_at_vertex(index: u32, patch_of: vec4<f32>) -> vec3<f32> {
+    let at = vec2<f32>(f32(index % (QUADS + 1u)), f32(index / (QUADS + 1u)));
+    let place = sliding_place(patch_of, at);
+    if !is_beyond(place) {
+        return ground_point(place);
+    }
+    let beyond = ground_beyond(place);
+    return point_of(place, max(beyond.surface.x, level_beyond(place, beyond)));
+}
+
+@vertex
+fn beyond_vertex(@builtin(vertex_index) index: u32, @location(0) patch_of: vec4<f32>) -> Ground {
+    let point = beyond_at_vertex(index, patch_of);
     return Ground(projected(point), point);
 }
 

@@ -7,9 +7,6 @@ const CARRIED = 2.6;
 // Metres of height lost in a second between which water foams.
 const FOAMS = vec2<f32>(0.5, 4.0);
 
-// Share of light that foam sends back.
-const FOAM = 0.78;
-
 // Octaves of ripples below those that the ray-marched view has, for close by.
 const FINER = 6u;
 
@@ -93,9 +90,23 @@ fn rough_height(place: vec2<f32>) -> f32 {
     return mix(above, below, t.y);
 }
 
+// How far along a ray the landscape begins, for a ray that starts beyond its border; 0 within.
+fn length_to_border(start: vec3<f32>, direction: vec3<f32>) -> f32 {
+    let place = place_of(start);
+    let step = direction.xy * vec2<f32>(1.0, -1.0) / scene.grid.zw;
+    let slow = select(step, vec2<f32>(1e-12), abs(step) < vec2<f32>(1e-12));
+    let low = (vec2<f32>(0.5) - place) / slow;
+    let high = (scene.grid.xy + 0.5 - place) / slow;
+    let enter = min(low, high);
+    return max(max(enter.x, enter.y), 0.0);
+}
+
 // How far along a ray the land lies; negative where it meets none.
 fn land_along(start: vec3<f32>, direction: vec3<f32>) -> f32 {
     var before = 0.5 * scene.scale.w;
+    if HORIZON {
+        before = max(before, length_to_border(start, direction) + 0.01 * scene.scale.w);
+    }
     var ray_length = before;
     for (var look = 0; look < MARCH_STEPS; look++) {
         let point = start + direction * ray_length;
@@ -139,10 +150,14 @@ fn mirrored_light(start: vec3<f32>, direction: vec3<f32>, upward: vec3<f32>, len
     return veil(radiance, start, direction, ray_length);
 }
 
-// The bed below shallow water, with its stones.
-fn bed_albedo(point: vec3<f32>, footprint: f32) -> vec3<f32> {
-    let gravel = SurfaceSample(scene.gravel.xyz, vec2<f32>(0.0), vec4<f32>(0.0, 1.0, 0.0, 0.0));
-    return with_detail(gravel, vec3<f32>(point.xy, 0.0), vec3<f32>(0.0, 0.0, 1.0), footprint).albedo;
+// Share of foam that waves leave at the edge of a lake or the sea.
+fn shore_foam(point: vec3<f32>, look: Look) -> f32 {
+    if look.above >= 0.0 {
+        return 0.0;
+    }
+    let slope = length(look.normal.xy) / max(look.normal.z, 1e-3);
+    let away = -look.above / max(slope, 0.02);
+    return swash(point.xy, away, swash_width(look.surface.x - look.above), frame.moment.x, look.footprint);
 }
 
 // The direction in which water throws a ray: none into itself.
@@ -152,26 +167,22 @@ fn mirrored(direction: vec3<f32>, normal: vec3<f32>, tilt: vec3<f32>) -> vec3<f3
 }
 
 // The light of water of a depth at a place.
-fn water_radiance(
-    place: vec2<f32>,
-    point: vec3<f32>,
-    direction: vec3<f32>,
-    ray_length: f32,
-    depth: f32,
-    sun: f32,
-) -> vec3<f32> {
+fn water_radiance(point: vec3<f32>, depth: f32, look: Look) -> vec3<f32> {
+    let direction = look.direction;
     let back = -direction;
-    let footprint = ray_length * frame.eye.w / sqrt(max(back.z, 0.05));
-    let running = smooth_at(flow, place).xyz;
-    let tilt = normal_of(spline_with_slope(top, place).yz);
+    let sun = look.sun;
+    let running = look.running;
+    let footprint = look.ray_length * frame.eye.w / sqrt(max(back.z, 0.05));
+    let tilt = look.tilt;
     let ripples = flowing(point.xy, tilt, footprint, running.xy);
     let normal = ripples.all;
-    let seen = seen_at(skylight, share_of(place));
+    let seen = seen_at(skylight, share_of(look.place));
     let share = mirrored_share(dot(back, normal));
-    let reflection = mirrored_light(point, mirrored(direction, ripples.broad, tilt), mirrored(direction, normal, tilt), ray_length);
+    let reflection = mirrored_light(point, mirrored(direction, ripples.broad, tilt), mirrored(direction, normal, tilt), look.ray_length);
     let up = vec3<f32>(0.0, 0.0, 1.0);
     let light = scene.sunlight.xyz * (sun * scene.sun.z) + skylight_on(seen, up);
-    let below = water_body(bed_albedo(point, footprint), depth, light);
+    let below = water_body(bed_albedo(point.xy, depth, look.footprint), depth, light);
     let surface = mix(below, reflection, share) + scene.sunlight.xyz * (sun * glint(back, normal, scene.sun.xyz));
-    return mix(surface, FOAM * light / PI, foam_share(point.xy, footprint, running.xy, running.z));
+    let foam = max(foam_share(point.xy, footprint, running.xy, running.z), shore_foam(point, look));
+    return mix(surface, scene.weed.w * light / PI, foam);
 }

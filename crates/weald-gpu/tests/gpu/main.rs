@@ -13,6 +13,7 @@ mod flip;
 mod followed;
 mod goldens;
 mod grass;
+mod horizon;
 mod larger_than_memory;
 mod limits;
 mod live;

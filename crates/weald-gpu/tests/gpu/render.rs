@@ -8,7 +8,7 @@ use weald::picture::{Camera, Drape, Image, LitScene, Oklab, Scale, View, linear_
 use weald::{Error, Landscape};
 use weald_gpu::{Gpu, RenderOptions, Renderer, TestLook, Timings};
 
-fn renderer(gpu: &Gpu, scene: &LitScene, samples: u32) -> Renderer {
+pub(crate) fn renderer(gpu: &Gpu, scene: &LitScene, samples: u32) -> Renderer {
     Renderer::new(gpu, scene, options(samples)).expect("it can be drawn")
 }
 
@@ -17,7 +17,7 @@ fn is_magenta(pixel: [u8; 3]) -> bool {
     r - g > 60 && b - g > 60
 }
 
-fn magenta(image: &Image) -> usize {
+pub(crate) fn magenta(image: &Image) -> usize {
     image.rgb.chunks_exact(3).filter(|pixel| is_magenta([pixel[0], pixel[1], pixel[2]])).count()
 }
 
@@ -131,7 +131,7 @@ fn squares(image: &Image) -> Vec<Oklab> {
 }
 
 /// Distances of a device's picture from the ray-marched one: the mean, and that which one square in twenty passes.
-fn distances(gpu: &Gpu, view: &View, landscape: &Landscape, camera: Option<Camera>) -> (f64, f64) {
+pub(crate) fn distances(gpu: &Gpu, view: &View, landscape: &Landscape, camera: Option<Camera>) -> (f64, f64) {
     let scene = LitScene::new(view, landscape).expect("a scene");
     let camera = camera.unwrap_or_else(|| scene.camera());
     let drawn = renderer(gpu, &scene.seen_from(camera), 4).render(&camera).expect("drawn");

@@ -4,10 +4,12 @@
 //! The fields of the landscape say where each has its place, at the scale of cells. Noise moves the borders by less
 //! than that, so that they are ragged as in nature and not smooth as a field.
 
+use super::rock::{BedSpot, Beds, beds};
 use super::site::Sites;
-use super::vector::{Vector, add, scale};
+use super::snow::{SnowSpot, snow_share};
+use super::vector::{Vector, add, ramp, scale};
 use crate::colour::{Linear, linear_of_hex, mix};
-use weald_core::grain::{Grain, Octaves, grain};
+use weald_core::grain::{Grain, Octaves};
 
 /// A point of the ground that is to be coloured.
 #[derive(Clone, Copy, Debug)]
@@ -114,13 +116,6 @@ pub(super) struct Cover {
     palette: Palette,
 }
 
-/// 0 below `low`, 1 above `high`, smooth between.
-#[inline(always)]
-fn ramp(value: f32, low: f32, high: f32) -> f32 {
-    let share = ((value - low) / (high - low)).clamp(0.0, 1.0);
-    share * share * (3.0 - 2.0 * share)
-}
-
 impl Cover {
     pub(super) fn new(sites: Sites, limits: Limits) -> Self {
         Self { sites, limits, palette: Palette::default() }
@@ -179,17 +174,21 @@ impl Cover {
         // usual soil.
         let steep = spot.slope / self.limits.rock + 0.25 * patchy + 0.55 * streak + 0.4 * (0.4 - soil);
         let pebbles = scale(self.palette.scree, 1.0 + 0.45 * fine.value + 0.4 * streak);
-        let scree = SurfaceSample { albedo: pebbles, bump: texture.rough(0.18) };
-        // Scree lies just below bare rock, never covers all, and less under trees, which hold the soil.
-        let stony = green.mixed(&scree, 0.8 * ramp(steep, 0.97, 1.10) * (1.0 - 0.6 * trees));
-        let rock = SurfaceSample { albedo: self.rock(spot, texture), bump: texture.rough(0.45) };
+        let scree = SurfaceSample { albedo: pebbles, bump: texture.rough(0.28) };
+        // Scree lies just below bare rock, never covers all, and less under trees, which hold the soil; where stones fall
+        // from cliffs it does cover all.
+        let apron = 1.1 * self.sites.fallen(spot.place) + 0.6 * patchy + 0.9 * streak;
+        let apron = 0.9 * ramp(apron, 0.4, 1.15) * ramp(spot.slope, 0.32, 0.55);
+        let scree_share = (0.8 * ramp(steep, 0.97, 1.10) * (1.0 - 0.6 * trees)).max(apron);
+        let stony = green.mixed(&scree, scree_share);
+        let rock = self.rock(spot, texture);
         // Rock begins where scree is whole.
         let ground = stony.mixed(&rock, ramp(steep, 1.08, 1.22));
         let snow = SurfaceSample {
             albedo: scale(self.palette.snow, 1.0 + 0.12 * streak),
             bump: texture.rough(0.10),
         };
-        ground.mixed(&snow, self.snow(spot, patchy))
+        ground.mixed(&snow, self.snow(spot, texture))
     }
 
     /// Noise drawn out along the fall line, as water and stones leave their marks: its mean over points above and
@@ -228,42 +227,69 @@ impl Cover {
         ramp(wood, 0.10, 0.24)
     }
 
-    /// Rock with its beds: light and dark, sunk into cracks.
-    fn rock(&self, spot: &SurfacePoint, texture: &Texture) -> Linear {
-        // Some thirty beds over the relief, folded by about one of their thickness.
-        let bed = 0.035 * self.limits.relief.max(1e-3);
-        let level = spot.point[2] / bed + 1.2 * texture.broad;
-        // Thinner beds between, at no whole ratio, so that they never coincide.
-        let beds = grain([level, 0.4], 0x21).value + 0.6 * grain([2.7 * level, 0.7], 0x22).value;
+    /// Rock with its beds: light and dark, sunk into cracks and joints.
+    fn rock(&self, spot: &SurfacePoint, texture: &Texture) -> SurfaceSample {
+        // Some thirty beds over the relief, folded by about one of their thickness, and thinner ones within them.
+        let thick = 0.035 * self.limits.relief.max(1e-3);
+        let [bed, thin] = Self::bedding(spot, [thick, thick / 5.3], 1.4 * texture.broad, true);
         let [grey, dark, warm] = self.palette.rock;
-        let stone = mix(grey, warm, (0.5 + 1.0 * beds + 0.6 * texture.broad).clamp(0.0, 1.0));
+        let warmth = 0.5 + 0.9 * bed.tone + 0.4 * thin.tone + 0.6 * texture.broad;
+        let stone = mix(grey, warm, warmth.clamp(0.0, 1.0));
+        let stone = scale(stone, 1.0 + 0.5 * bed.tone + 0.3 * thin.tone);
         // A third of a smooth face is dark.
-        let cracks = 0.35 - 0.9 * texture.fine.value - 0.9 * texture.streak;
-        mix(stone, dark, cracks.clamp(0.0, 1.0))
+        let cracks =
+            0.3 - 0.9 * texture.fine.value - 0.7 * texture.streak + 0.5 * bed.joint + 0.3 * thin.joint;
+        let ledge = 0.35 * bed.ledge + 0.2 * thin.ledge;
+        let rough = texture.rough(0.45);
+        SurfaceSample {
+            albedo: mix(stone, dark, cracks.clamp(0.0, 1.0)),
+            bump: [0, 1].map(|axis| rough[axis] - spot.fall[axis] * ledge),
+        }
     }
 
-    /// Snow on gentle ground above its line, and in patches somewhat below it.
-    fn snow(&self, spot: &SurfacePoint, patchy: f32) -> f32 {
-        let above = (spot.point[2] - self.limits.snow) / (0.10 * self.limits.relief).max(1e-3);
+    /// Beds of two thicknesses at a point.
+    fn bedding(spot: &SurfacePoint, thickness: [f32; 2], fold: f32, dips: bool) -> [Beds; 2] {
+        let footprint = spot.footprint * spot.slope;
+        let of = |at: usize| {
+            let spot = BedSpot {
+                point: spot.point,
+                fold: fold * thickness[0] / thickness[at],
+                thickness: thickness[at],
+                footprint,
+            };
+            beds(&spot, dips, 0x21 + at as u32)
+        };
+        [of(0), of(1)]
+    }
+
+    /// Share of snow.
+    fn snow(&self, spot: &SurfacePoint, texture: &Texture) -> f32 {
+        let above = (spot.point[2] - self.limits.snow) / self.limits.relief.max(1e-3);
         if !above.is_finite() {
             return 0.0;
         }
-        // Snow slides off what is a quarter steeper than bare rock.
-        let hold = 1.25 - spot.slope / self.limits.rock;
-        let hollow = self.sites.moisture(spot.place) - 0.5;
-        // A score as that of trees: gentle ground and hollows keep snow below its line.
-        ramp(above + 1.6 * hold.min(0.6) + 1.2 * hollow + 1.1 * patchy, 0.55, 0.95)
+        snow_share(&SnowSpot {
+            above,
+            slope: spot.slope,
+            steepness: spot.slope / self.limits.rock,
+            fall: spot.fall,
+            hollow: self.sites.moisture(spot.place) - 0.5,
+            noise: [texture.broad, texture.fine.value, texture.streak],
+        })
     }
 
     fn of_material(&self, spot: &SurfacePoint, albedo: Linear, texture: &Texture) -> SurfaceSample {
         // From 27° on a face shows its beds, at 50° whole.
         let steep = ramp(spot.slope, 0.5, 1.2);
-        let bed = 0.03 * self.limits.relief.max(1e-3);
-        let level = spot.point[2] / bed + 0.8 * texture.broad;
-        let beds = grain([level, 0.4], 0x21).value + 0.6 * grain([3.1 * level, 0.7], 0x22).value;
-        let fine = (0.3 + 0.3 * steep) * texture.fine.value + 0.6 * texture.streak;
-        let tone = 1.0 + 0.28 * texture.broad + fine + 0.5 * steep * beds;
-        SurfaceSample { albedo: scale(albedo, tone), bump: texture.rough(0.12 + 0.4 * steep) }
+        let thick = 0.03 * self.limits.relief.max(1e-3);
+        let [bed, thin] = Self::bedding(spot, [thick, thick / 4.1], 0.8 * texture.broad, false);
+        let fine = (0.3 + 0.3 * steep) * texture.fine.value + 0.5 * texture.streak;
+        let bedded = 0.5 * bed.tone + 0.35 * thin.tone - 0.3 * bed.joint - 0.15 * thin.joint;
+        let tone = (1.0 + 0.28 * texture.broad + fine + steep * bedded).max(0.2);
+        let (rough, ledge) =
+            (texture.rough(0.12 + 0.4 * steep), steep * (0.3 * bed.ledge + 0.15 * thin.ledge));
+        let bump = [0, 1].map(|axis| rough[axis] - spot.fall[axis] * ledge);
+        SurfaceSample { albedo: scale(albedo, tone), bump }
     }
 
     /// The bed of a lake or a river.

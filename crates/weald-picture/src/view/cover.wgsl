@@ -79,12 +79,13 @@ fn natural(spot: SurfacePoint, texture: Texture) -> SurfaceSample {
     let soil = here.y;
     let steep = spot.slope / scene.limits.x + 0.25 * patchy + 0.55 * texture.streak + 0.4 * (0.4 - soil);
     let pebbles = scene.scree.xyz * (1.0 + 0.45 * fine + 0.4 * texture.streak);
-    let scree = SurfaceSample(pebbles, rough(texture, 0.18), vec4<f32>(0.0, 1.0, 0.0, 0.0));
-    let stony = mixed(green, scree, 0.8 * ramp(steep, 0.97, 1.10) * (1.0 - 0.6 * wooded));
-    let bare = SurfaceSample(rock(spot, texture), rough(texture, 0.45), vec4<f32>(0.0, 0.0, 1.0, 0.0));
-    let ground = mixed(stony, bare, ramp(steep, 1.08, 1.22));
+    let scree = SurfaceSample(pebbles, rough(texture, 0.28), vec4<f32>(0.0, 1.0, 0.0, 0.0));
+    let fallen = 1.1 * here.w + 0.6 * patchy + 0.9 * texture.streak;
+    let apron = 0.9 * ramp(fallen, 0.4, 1.15) * ramp(spot.slope, 0.32, 0.55);
+    let stony = mixed(green, scree, max(0.8 * ramp(steep, 0.97, 1.10) * (1.0 - 0.6 * wooded), apron));
+    let ground = mixed(stony, rock(spot, texture), ramp(steep, 1.08, 1.22));
     let snow = SurfaceSample(scene.snow.xyz * (1.0 + 0.12 * texture.streak), rough(texture, 0.10), vec4<f32>(0.0, 0.0, 0.0, 1.0));
-    return mixed(ground, snow, snow_share(spot, moisture, patchy));
+    return mixed(ground, snow, snow_at(spot, texture, moisture));
 }
 
 // Noise drawn out along the fall line.
@@ -116,34 +117,54 @@ fn trees(spot: SurfacePoint, moisture: f32, patchy: f32) -> f32 {
     return ramp(wood, 0.10, 0.24);
 }
 
-// Rock with its beds: light and dark, sunk into cracks.
-fn rock(spot: SurfacePoint, texture: Texture) -> vec3<f32> {
-    let bed = 0.035 * max(scene.limits.w, 1e-3);
-    let level = spot.point.z / bed + 1.2 * texture.broad;
-    let beds = grain(vec2<f32>(level, 0.4), 0x21u).value + 0.6 * grain(vec2<f32>(2.7 * level, 0.7), 0x22u).value;
-    let warmth = clamp(0.5 + 1.0 * beds + 0.6 * texture.broad, 0.0, 1.0);
-    let stone = mix(scene.rock_grey.xyz, scene.rock_warm.xyz, warmth);
-    let cracks = 0.35 - 0.9 * texture.fine.value - 0.9 * texture.streak;
-    return mix(stone, scene.rock_dark.xyz, clamp(cracks, 0.0, 1.0));
+// Rock with its beds: light and dark, sunk into cracks and joints.
+fn rock(spot: SurfacePoint, texture: Texture) -> SurfaceSample {
+    let thick = 0.035 * max(scene.limits.w, 1e-3);
+    let bedding = bedding_at(spot, vec2<f32>(thick, thick / 5.3), 1.4 * texture.broad, true);
+    let warmth = 0.5 + 0.9 * bedding.thick.tone + 0.4 * bedding.thin.tone + 0.6 * texture.broad;
+    let tone = 1.0 + 0.5 * bedding.thick.tone + 0.3 * bedding.thin.tone;
+    let stone = mix(scene.rock_grey.xyz, scene.rock_warm.xyz, clamp(warmth, 0.0, 1.0)) * tone;
+    let joints = 0.5 * bedding.thick.joint + 0.3 * bedding.thin.joint;
+    let cracks = 0.3 - 0.9 * texture.fine.value - 0.7 * texture.streak + joints;
+    let ledge = 0.35 * bedding.thick.ledge + 0.2 * bedding.thin.ledge;
+    let albedo = mix(stone, scene.rock_dark.xyz, clamp(cracks, 0.0, 1.0));
+    return SurfaceSample(albedo, rough(texture, 0.45) - spot.fall * ledge, vec4<f32>(0.0, 0.0, 1.0, 0.0));
 }
 
-// Snow on gentle ground above its line, and in patches somewhat below it.
-fn snow_share(spot: SurfacePoint, moisture: f32, patchy: f32) -> f32 {
+struct Bedding {
+    thick: Beds,
+    thin: Beds,
+}
+
+// Beds of two thicknesses at a point.
+fn bedding_at(spot: SurfacePoint, thickness: vec2<f32>, fold: f32, dips: bool) -> Bedding {
+    let footprint = spot.footprint * spot.slope;
+    let thin_fold = fold * thickness.x / thickness.y;
+    return Bedding(
+        beds_at(BedSpot(spot.point, fold, thickness.x, footprint), dips, 0x21u),
+        beds_at(BedSpot(spot.point, thin_fold, thickness.y, footprint), dips, 0x22u),
+    );
+}
+
+// Share of snow.
+fn snow_at(spot: SurfacePoint, texture: Texture, moisture: f32) -> f32 {
     if scene.limits.z >= 1e30 {
         return 0.0;
     }
-    let above = (spot.point.z - scene.limits.z) / max(0.10 * scene.limits.w, 1e-3);
-    let hold = 1.25 - spot.slope / scene.limits.x;
-    let hollow = moisture - 0.5;
-    return ramp(above + 1.6 * min(hold, 0.6) + 1.2 * hollow + 1.1 * patchy, 0.55, 0.95);
+    let above = (spot.point.z - scene.limits.z) / max(scene.limits.w, 1e-3);
+    let noise = vec3<f32>(texture.broad, texture.fine.value, texture.streak);
+    return snow_share(SnowSpot(above, spot.slope, spot.slope / scene.limits.x, spot.fall, moisture - 0.5, noise));
 }
 
 fn of_material(spot: SurfacePoint, albedo: vec3<f32>, texture: Texture) -> SurfaceSample {
     let steep = ramp(spot.slope, 0.5, 1.2);
-    let bed = 0.03 * max(scene.limits.w, 1e-3);
-    let level = spot.point.z / bed + 0.8 * texture.broad;
-    let beds = grain(vec2<f32>(level, 0.4), 0x21u).value + 0.6 * grain(vec2<f32>(3.1 * level, 0.7), 0x22u).value;
-    let fine = (0.3 + 0.3 * steep) * texture.fine.value + 0.6 * texture.streak;
-    let tone = 1.0 + 0.28 * texture.broad + fine + 0.5 * steep * beds;
-    return SurfaceSample(albedo * tone, rough(texture, 0.12 + 0.4 * steep), vec4<f32>(0.0, 0.3, 0.7 * steep, 0.0));
+    let thick = 0.03 * max(scene.limits.w, 1e-3);
+    let bedding = bedding_at(spot, vec2<f32>(thick, thick / 4.1), 0.8 * texture.broad, false);
+    let fine = (0.3 + 0.3 * steep) * texture.fine.value + 0.5 * texture.streak;
+    let tones = 0.5 * bedding.thick.tone + 0.35 * bedding.thin.tone;
+    let bedded = tones - 0.3 * bedding.thick.joint - 0.15 * bedding.thin.joint;
+    let tone = max(1.0 + 0.28 * texture.broad + fine + steep * bedded, 0.2);
+    let ledge = steep * (0.3 * bedding.thick.ledge + 0.15 * bedding.thin.ledge);
+    let bump = rough(texture, 0.12 + 0.4 * steep) - spot.fall * ledge;
+    return SurfaceSample(albedo * tone, bump, vec4<f32>(0.0, 0.3, 0.7 * steep, 0.0));
 }

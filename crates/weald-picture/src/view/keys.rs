@@ -1,6 +1,7 @@
 //! The parameters of a perspective view.
 
 use crate::colour_scale::Drape;
+use weald_core::domain::Domain;
 use weald_core::parameter::{LayerName, Nested, Places};
 
 weald_core::choices! {
@@ -10,6 +11,16 @@ weald_core::choices! {
         Natural = "natural",
         /// The materials at the surface.
         Materials = "materials",
+    }
+}
+
+weald_core::choices! {
+    /// What lies around the landscape of a view.
+    pub enum Around {
+        /// Nothing: a block that is cut out of the land, on a plain.
+        Block = "block",
+        /// Land or sea up to the horizon, which goes on as the border begins it.
+        Horizon = "horizon",
     }
 }
 
@@ -42,6 +53,10 @@ weald_core::parameters! {
         /// Turn of the camera about what it looks at, clockwise seen from above: the frames of a turntable
         /// differ in it. Where it is given, the distance by default shows the landscape whole at any turn.
         turn_deg: Option<f64> = None, range -36000.0..=36000.0, unit "deg";
+        /// What lies around the landscape: cut sides on a plain, or land and sea that go on to the horizon; that is made
+        /// up of the landscape's own ground, and cells without data are filled. By default `horizon` with `eye` or where
+        /// the landscape has a sea level, else `block`.
+        around: Option<Around> = None;
         /// Azimuth of the sun, clockwise from north.
         sun_azimuth_deg: f64 = 265.0, range 0.0..=360.0, unit "deg";
         /// Elevation angle of the sun above the horizon.
@@ -75,6 +90,14 @@ weald_core::parameters! {
 }
 
 impl View {
+    /// Whether land and sea go on to the horizon around a landscape.
+    pub(super) fn has_horizon(&self, domain: &Domain) -> bool {
+        match self.around {
+            Some(around) => around == Around::Horizon,
+            None => self.eye.is_some() || domain.sea_level.is_some(),
+        }
+    }
+
     /// The view with its camera further on by a share of a turn, for the frames of a turntable: `share` 0 is the
     /// first of them, 0.25 a quarter of the way round.
     #[must_use]

@@ -84,7 +84,7 @@ impl LitScene {
         let (setting, sites) = Setting::new(view, landscape, low)?;
         let sky = Sky::new(towards(view.sun_azimuth_deg, view.sun_altitude_deg), view.sun_diameter_deg);
         let terrain = &setting.terrain;
-        let camera = Camera::new(view, terrain, setting.exaggeration);
+        let camera = setting.above_ground(Camera::new(view, terrain, setting.exaggeration));
         let cover = Cover::new(sites, setting.limits);
         let (level, plain) = (sky.on_flat_ground(), linear_of_hex(PLAIN));
         let sent_back = |albedo: Linear, share: f32| scale(filter(albedo, level), share * FRAC_1_PI);
@@ -95,7 +95,7 @@ impl LitScene {
             sides: SideLight::new(&sky, sent_back(plain, 1.0)),
             bounce: sent_back(cover.mean(), BOUNCE),
             haze: haze(view.visibility, &camera, setting.centre(), setting.exaggeration),
-            tone: Tone::new(level, view.exposure),
+            tone: Tone::new(&sky, view.exposure),
             is_empty: landscape.domain.valid_cells() == 0,
             visibility: view.visibility,
             plain,
@@ -113,7 +113,7 @@ impl LitScene {
 
     /// The camera of another view of the same landscape.
     pub fn camera_of(&self, view: &View) -> Camera {
-        Camera::new(view, &self.setting.terrain, self.setting.exaggeration)
+        self.setting.above_ground(Camera::new(view, &self.setting.terrain, self.setting.exaggeration))
     }
 
     /// The point in the middle of the landscape, half-way up.
@@ -174,6 +174,11 @@ impl LitScene {
         self.is_empty
     }
 
+    /// Height of the sea as it is drawn.
+    pub(super) fn sea(&self) -> Option<f32> {
+        self.setting.sea
+    }
+
     /// A place in shares of the landscape.
     pub(super) fn share(&self, place: [f32; 2]) -> [f32; 2] {
         let size = self.setting.terrain.top.size();
@@ -193,12 +198,24 @@ impl LitScene {
         terrain.is_valid(place).then(|| terrain.top.at(place))
     }
 
-    /// The point so many metres above the drawn ground at a place in metres eastward and southward; above the plain
-    /// outside the land.
+    /// The point so many metres above the drawn ground at a place in metres eastward and southward; above what is drawn around
+    /// it outside the land.
     pub fn above_ground(&self, place: [f64; 2], metres: f64) -> [f32; 3] {
-        let ground = self.top_at(place).unwrap_or(self.base());
+        let ground = self.top_at(place).unwrap_or_else(|| self.around_at(place));
         let [east, south] = place;
         [east as f32, -south as f32, ground + metres as f32 * self.setting.exaggeration]
+    }
+
+    /// Height of what is drawn around the landscape at such a point: of the plain, or of the ground or water there.
+    fn around_at(&self, [east, south]: [f64; 2]) -> f32 {
+        let place = self.setting.terrain.place([east as f32, -south as f32, 0.0]);
+        self.setting.around.as_ref().map_or(self.base(), |around| self.setting.top_beyond(around, place))
+    }
+
+    /// Least and greatest height of the ground that goes on beyond the border, for seven of the longer sides of the
+    /// landscape; `None` where the landscape is a block.
+    pub fn beyond(&self) -> Option<[f32; 2]> {
+        self.setting.around.as_ref().map(|around| around.bounds)
     }
 
     /// Height of the drawn ground under the water at such a point; `None` outside the land.
@@ -211,8 +228,9 @@ impl LitScene {
     /// Metres along a ray at which it meets the ground or the water on it, as far as that is not changed while it is drawn;
     /// `None` where it meets a cut side, or nothing of the land.
     pub fn met_by(&self, ray: &Ray) -> Option<f32> {
-        let hit = self.setting.terrain.trace(ray, [0.0, f32::INFINITY]).filter(|_| !self.is_empty)?;
-        hit.side.is_none().then_some(hit.ray_length)
+        let hit = self.setting.trace(ray, [0.0, f32::INFINITY]).filter(|_| !self.is_empty)?;
+        let is_beyond = self.setting.around.as_ref().is_some_and(|around| around.is_beyond(hit.place));
+        (hit.side.is_none() && !is_beyond).then_some(hit.ray_length)
     }
 
     /// Height at which an elevation in metres is drawn, above the lowest ground.

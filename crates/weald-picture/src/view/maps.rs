@@ -79,7 +79,7 @@ impl LitScene {
             exact(Some(&self.setting.bed)),
             exact(self.setting.level.as_ref()),
             exact(terrain.land.as_ref()),
-            smooth([Some(&sites.moisture), Some(&sites.soil), None, None]),
+            smooth([Some(&sites.moisture), Some(&sites.soil), None, Some(&sites.fallen)]),
             smooth([red, green, blue, None]),
             of_sky(&self.skylight),
             of_sky(&self.plain_light),

@@ -8,6 +8,7 @@ use super::haze::{self, Haze};
 use super::lit_scene::{CUT_WATER, LitScene};
 use super::side::NORMALS;
 use super::sky::PIECES;
+use super::surroundings::{BEND, DIRECTIONS, JOIN, LEFT_OUT, LOST, TURN, TURNED_TO};
 use super::tone::{self, Tone};
 use super::vector::Vector;
 use super::water;
@@ -33,8 +34,10 @@ impl LitScene {
         let sky = self.sky.table.iter().flat_map(|part| [part.rayleigh, part.mie, part.multiple]);
         let colours = self.setting.strata.materials.iter().map(|&(_, colour)| colour);
         let colours = colours.chain(std::iter::repeat([0.0; 3])).take(MAX_MATERIALS);
-        let tables = sky.chain(self.sides.light).chain(colours).map(|rgb| with(rgb, 0.0));
-        let mut bytes = Vec::with_capacity(BYTES * (SKY_TABLE + 100));
+        let far = self.setting.around.as_ref().map_or([[0.0; 2]; DIRECTIONS], |around| around.far);
+        let far = far.map(|[height, uneven]| [height, uneven, 0.0]);
+        let tables = sky.chain(self.sides.light).chain(colours).chain(far).map(|rgb| with(rgb, 0.0));
+        let mut bytes = Vec::with_capacity(BYTES * (SKY_TABLE + 120));
         for vector in named.chain(tables) {
             bytes.extend(vector.into_iter().flat_map(f32::to_le_bytes));
         }
@@ -49,9 +52,10 @@ impl LitScene {
             fields
         });
         format!(
-            "const SKY_PIECES = {PIECES};\nconst SIDE_NORMALS = {NORMALS};\nstruct LitScene {{\n{fields}    \
+            "const SKY_PIECES = {PIECES};\nconst SIDE_NORMALS = {NORMALS};\nconst FAR_DIRECTIONS = {DIRECTIONS};\n\
+             struct LitScene {{\n{fields}    \
              sky_table: array<vec4<f32>, {SKY_TABLE}>,\n    side_light: array<vec4<f32>, {NORMALS}>,\n    \
-             strata_colours: array<vec4<f32>, {MAX_MATERIALS}>,\n}}\n"
+             strata_colours: array<vec4<f32>, {MAX_MATERIALS}>,\n    far_ground: array<vec4<f32>, {DIRECTIONS}>,\n}}\n"
         )
     }
 
@@ -79,6 +83,8 @@ impl LitScene {
             ("haze_tint", with(haze::TINT, 0.0)),
             ("water", [x, y, 0.0, 0.0]),
             ("water_body", with(water::BODY, 0.0)),
+            ("weed", with(water::WEED, water::FOAM)),
+            ("swash", [water::SWASH[0], water::SWASH[1], self.sea().unwrap_or(-UNREACHABLE_HEIGHT), 0.0]),
             ("water_swallowed", with(water::ABSORPTION, 0.0)),
             ("cut_water", with(linear_of_hex(CUT_WATER), 0.0)),
         ]
@@ -104,7 +110,20 @@ impl LitScene {
             ("strata", [strata.bed, strata.soil_thickness, strata.materials.len() as f32, 0.0]),
             ("strata_bedrock", with(strata.bedrock, 0.0)),
             ("strata_soil", with(strata.soil, 0.0)),
+            ("around", self.of_surroundings()),
+            ("turned", [TURN[0], TURN[1], TURNED_TO[0], TURNED_TO[1]]),
+            ("bend", [BEND[0], BEND[1], LEFT_OUT, 0.0]),
         ]
+    }
+}
+
+impl LitScene {
+    /// Where the ground beyond the border is lost in the haze, the height of the sea, where the border is left behind, and
+    /// the mean ground.
+    fn of_surroundings(&self) -> [f32; 4] {
+        let around = self.setting.around.as_ref();
+        let sea = self.sea().unwrap_or(-UNREACHABLE_HEIGHT);
+        [LOST, sea, JOIN, around.map_or(0.0, |around| around.mean)]
     }
 }
 

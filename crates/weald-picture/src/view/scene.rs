@@ -24,6 +24,29 @@ pub struct RayMarcher {
     pixel_angle: f32,
 }
 
+/// A point of dry ground that is looked at.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct GroundSpot {
+    /// The place of the landscape that it is like.
+    pub(super) place: [f32; 2],
+    /// Height of the smooth ground, and its rise by the cell.
+    pub(super) surface: [f32; 3],
+    pub(super) point: Vector,
+    pub(super) footprint: f32,
+}
+
+/// A point of water that is looked at.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct WaterSpot {
+    pub(super) point: Vector,
+    /// Metres of water, without exaggeration.
+    pub(super) depth: f32,
+    /// Share of foam.
+    pub(super) foam: f32,
+    /// Size of a pixel in metres.
+    pub(super) footprint: f32,
+}
+
 impl Deref for RayMarcher {
     type Target = LitScene;
 
@@ -82,11 +105,17 @@ impl RayMarcher {
 
     /// The light that comes along a ray to the eye.
     fn light(&self, ray: &Ray) -> Vector {
-        if let Some(hit) = self.setting.terrain.trace(ray, [0.0, f32::INFINITY]).filter(|_| !self.is_empty) {
-            return self.haze.veil(self.met(ray, &hit), ray, hit.ray_length, &self.sky);
+        if let Some(hit) = self.setting.trace(ray, [0.0, f32::INFINITY]).filter(|_| !self.is_empty) {
+            let veiled = |radiance| self.haze.veil(radiance, ray, hit.ray_length, &self.sky);
+            return match &self.setting.around {
+                Some(around) if around.is_beyond(hit.place) => {
+                    around.lost(hit.place, veiled(self.beyond(around, ray, &hit)), self.horizon(ray))
+                }
+                _ => veiled(self.met(ray, &hit)),
+            };
         }
         if ray.direction[2] < 0.0 {
-            return self.plain(ray);
+            return if self.setting.around.is_some() { self.horizon(ray) } else { self.plain(ray) };
         }
         self.sky.radiance_with_sun(ray.direction)
     }
@@ -102,17 +131,29 @@ impl RayMarcher {
         let depth =
             self.setting.level.as_ref().map_or(f32::NEG_INFINITY, |level| level.at(hit.place) - ground);
         if depth > 0.0 {
-            return self.lake(ray, hit, point, depth / self.setting.exaggeration);
+            let [_, east, south] = self.setting.bed.with_slope(hit.place);
+            return self.lake(ray, hit, &self.water_spot(point, depth, [east, south]));
         }
         let river = self.setting.rivers.as_ref().map_or(0.0, |rivers| rivers.at(self.share(hit.place)));
-        let land = if river < 1.0 { self.ground(hit.place, point, footprint, -depth) } else { [0.0; 3] };
+        let spot = || GroundSpot {
+            place: hit.place,
+            surface: self.setting.bed.with_slope(hit.place),
+            point,
+            footprint,
+        };
+        let land = if river < 1.0 { self.ground(&spot(), -depth) } else { [0.0; 3] };
         if river <= 0.0 {
             return land;
         }
-        mix(land, self.lake(ray, hit, point, 1.2 * river), river)
+        mix(land, self.lake(ray, hit, &WaterSpot { point, depth: 1.2 * river, foam: 0.0, footprint }), river)
     }
 
-    fn footprint(&self, ray_length: f32) -> f32 {
+    /// The radiance of the horizon in the direction of a ray.
+    fn horizon(&self, ray: &Ray) -> Vector {
+        self.sky.radiance([ray.direction[0], ray.direction[1], 0.0])
+    }
+
+    pub(super) fn footprint(&self, ray_length: f32) -> f32 {
         ray_length * self.pixel_angle
     }
 
@@ -137,8 +178,8 @@ impl RayMarcher {
     }
 
     /// Dry ground, so many metres above the water beside it.
-    fn ground(&self, place: [f32; 2], point: Vector, footprint: f32, above: f32) -> Vector {
-        let [height, east, south] = self.setting.bed.with_slope(place);
+    pub(super) fn ground(&self, spot: &GroundSpot, above: f32) -> Vector {
+        let GroundSpot { place, surface: [height, east, south], point, footprint } = *spot;
         let terrain = &self.setting.terrain;
         let normal = terrain.normal([east, south]);
         let stretch = self.setting.exaggeration;
@@ -146,20 +187,33 @@ impl RayMarcher {
         let fall = [0, 1].map(|axis| normal[axis] / run.max(1e-6));
         let point_of_cover = [point[0], point[1], height / stretch];
         let slope = run / normal[2].max(1e-3) / stretch;
-        let spot = SurfacePoint { place, fall, point: point_of_cover, slope, footprint };
-        let skin = self.cover.at(&spot);
+        let skin = self.cover.at(&SurfacePoint { place, fall, point: point_of_cover, slope, footprint });
         let rough = unit([
             normal[0] - normal[2] * skin.bump[0] * stretch,
             normal[1] - normal[2] * skin.bump[1] * stretch,
             normal[2],
         ]);
-        let albedo = water::wetted(skin.albedo, above, terrain.cell());
+        let width = water::swash_width(height - above, self.sea().unwrap_or(f32::MIN));
+        let albedo = water::wetted(skin.albedo, above, water::wet_reach(width, slope, terrain.cell()));
         let light = self.lit(point, rough, &self.skylight.at(self.share(place)));
         scale(filter(albedo, light), FRAC_1_PI)
     }
 
+    /// A point of a lake or the sea of a drawn depth over a bed that rises so by the cell.
+    pub(super) fn water_spot(&self, point: Vector, depth: f32, rise: [f32; 2]) -> WaterSpot {
+        let normal = self.setting.terrain.normal(rise);
+        let slope = (normal[0] * normal[0] + normal[1] * normal[1]).sqrt() / normal[2].max(1e-3);
+        let eye = self.camera.eye;
+        let away = [0, 1, 2].map(|axis| point[axis] - eye[axis]);
+        let footprint = self.footprint(dot(away, away).sqrt());
+        let width = water::swash_width(point[2], self.sea().unwrap_or(f32::MIN));
+        let foam = water::swash(point, depth / slope.max(0.02), width, [0.0, footprint]);
+        WaterSpot { point, depth: depth / self.setting.exaggeration, foam, footprint }
+    }
+
     /// Water of a depth.
-    fn lake(&self, ray: &Ray, hit: &Hit, point: Vector, depth: f32) -> Vector {
+    pub(super) fn lake(&self, ray: &Ray, hit: &Hit, spot: &WaterSpot) -> Vector {
+        let WaterSpot { point, depth, foam, .. } = *spot;
         let terrain = &self.setting.terrain;
         let back = scale(ray.direction, -1.0);
         let footprint = self.footprint(hit.ray_length) / back[2].max(0.05).sqrt();
@@ -175,9 +229,11 @@ impl RayMarcher {
             skylight::on(&seen, [0.0, 0.0, 1.0], self.bounce),
         );
         let glint = if sun > 0.0 { sun * water::glint(back, normal, self.sky.sun) } else { 0.0 };
-        let below = water::body(self.cover.gravel(), depth, light);
+        let bed = water::bed_albedo(self.cover.gravel(), point, depth, spot.footprint);
+        let below = water::body(bed, depth, light);
         let surface = add(scale(reflection, share), scale(below, 1.0 - share));
-        add(surface, scale(self.sky.sunlight, glint))
+        let surface = add(surface, scale(self.sky.sunlight, glint));
+        mix(surface, scale(light, water::FOAM * FRAC_1_PI), foam)
     }
 
     /// The light that water mirrors: land with its own colours, water on it as the sky that it mirrors.
@@ -188,8 +244,9 @@ impl RayMarcher {
             return self.sky.radiance(ray.direction);
         };
         let point = ray.at(hit.ray_length);
-        let ground =
-            self.ground(hit.place, point, (0.25 * terrain.cell()).max(self.footprint(hit.ray_length)), 1e9);
+        let footprint = (0.25 * terrain.cell()).max(self.footprint(hit.ray_length));
+        let surface = self.setting.bed.with_slope(hit.place);
+        let ground = self.ground(&GroundSpot { place: hit.place, surface, point, footprint }, 1e9);
         self.haze.veil(ground, ray, hit.ray_length, &self.sky)
     }
 

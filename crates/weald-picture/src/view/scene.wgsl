@@ -15,13 +15,25 @@ fn lake_depth(place: vec2<f32>, ground: f32) -> f32 {
 
 // Dry ground on a surface of a height and a rise by the cell, as colour and roughness.
 fn ground_skin(place: vec2<f32>, surface: vec3<f32>, footprint: f32, above: f32) -> SurfaceSample {
+    return ground_skin_at(place, point_of(place, 0.0).xy, surface, footprint, above);
+}
+
+// The same at a point that is like a place of the landscape.
+fn ground_skin_at(
+    place: vec2<f32>,
+    at: vec2<f32>,
+    surface: vec3<f32>,
+    footprint: f32,
+    above: f32,
+) -> SurfaceSample {
     let normal = normal_of(surface.yz);
     let stretch = scene.scale.y;
     let run = length(normal.xy);
-    let point = vec3<f32>(point_of(place, 0.0).xy, surface.x / stretch);
+    let point = vec3<f32>(at, surface.x / stretch);
     let slope = run / max(normal.z, 1e-3) / stretch;
     var skin = cover_at(SurfacePoint(place, point, slope, normal.xy / max(run, 1e-6), footprint));
-    skin.albedo = wetted(skin.albedo, above);
+    let width = swash_width(surface.x - above);
+    skin.albedo = wetted(skin.albedo, above, wet_reach(width, slope));
     return skin;
 }
 

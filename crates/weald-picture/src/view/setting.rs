@@ -6,6 +6,7 @@ use super::keys::{GroundColour, View};
 use super::side::Strata;
 use super::site::{ColouredBy, Sites, names_materials};
 use super::surface::Surface;
+use super::surroundings::Surroundings;
 use super::terrain::Terrain;
 use super::vector::Vector;
 use super::water::{self, Rivers};
@@ -48,6 +49,10 @@ pub(super) struct Setting {
     pub(super) exaggeration: f32,
     /// Elevation of the lowest ground in metres.
     pub(super) low: f32,
+    /// Height of the sea as it is drawn.
+    pub(super) sea: Option<f32>,
+    /// What is around the landscape; `None` where it is a block.
+    pub(super) around: Option<Surroundings>,
 }
 
 impl Setting {
@@ -61,7 +66,11 @@ impl Setting {
         let level = if view.water { water::levels(landscape, field) } else { None };
         let (ground, level) = (frame.raised(field), level.map(|level| frame.raised(&level)));
         let top = level.as_ref().map_or_else(|| ground.clone(), |level| higher(&ground, level));
-        let land = land_share(domain.valid.as_ref(), &frame.sheet);
+        let has_horizon = view.has_horizon(domain);
+        // A horizon has no holes before it: what fills them is drawn.
+        let land = if has_horizon { None } else { land_share(domain.valid.as_ref(), &frame.sheet) };
+        let sea = domain.sea_level.filter(|_| view.water).map(|sea| frame.drawn(sea));
+        let bed = Surface::new(&ground);
         let spacing = frame.spacing(ground.size());
         let base = BASE * (domain.cell * domain.size.columns.max(domain.size.rows) as f64) as f32;
         let limits = limits(view, [low, high], &ground, spacing);
@@ -71,7 +80,7 @@ impl Setting {
             None if wished.unwrap_or_else(|| names_materials(landscape)) => ColouredBy::Materials,
             None => ColouredBy::Natural,
         };
-        let sites = Sites::new(landscape, field, &frame.sheet, coloured_by)?;
+        let sites = Sites::new(landscape, field, &frame.sheet, (spacing, limits.rock), coloured_by)?;
         let terrain = Terrain::new(spacing, &top, land.as_ref(), -base);
         let setting = Self {
             flow: if view.water { Flow::of(landscape, &terrain, &frame.sheet) } else { None },
@@ -79,10 +88,12 @@ impl Setting {
             level: level.as_ref().map(Surface::new),
             rivers: if view.water { Rivers::of(landscape, view.river_width) } else { None },
             strata: strata(landscape, field, &frame.sheet, limits.relief + base / frame.exaggeration)?,
-            bed: Surface::new(&ground),
+            around: has_horizon.then(|| Surroundings::new(&bed, sea)),
+            bed,
             limits,
             exaggeration: frame.exaggeration,
             low,
+            sea,
         };
         Ok((setting, sites))
     }
@@ -121,6 +132,11 @@ impl<'a> Frame<'a> {
             low,
             exaggeration: view.exaggeration as f32,
         })
+    }
+
+    /// The height of an elevation in metres as it is drawn.
+    fn drawn(&self, elevation: f64) -> f32 {
+        (elevation - f64::from(self.low)) as f32 * self.exaggeration
     }
 
     /// Heights above the lowest ground as they are drawn, no finer than the sheet.

@@ -5,6 +5,7 @@
 //! cells, since plants do not follow each thread of water. Soil is the layer `soil_depth`; without it what is deposited,
 //! or stays, on gentle slopes.
 
+use super::scree::fallen;
 use super::surface::Surface;
 use crate::colour::{Linear, linear_of_srgb, mix};
 use crate::colour_scale::Drape;
@@ -39,6 +40,8 @@ pub(super) enum ColouredBy<'a> {
 pub(super) struct Sites {
     pub(super) moisture: Surface,
     pub(super) soil: Surface,
+    /// What has fallen from cliffs.
+    pub(super) fallen: Surface,
     /// Colours of the materials, or of a layer that is draped.
     pub(super) materials: Option<[Surface; 3]>,
     mean: Option<Linear>,
@@ -46,11 +49,13 @@ pub(super) struct Sites {
 }
 
 impl Sites {
-    /// From the layers of a landscape, no finer than the sheet, with the colours that it is to have.
+    /// From the layers of a landscape, no finer than the sheet, on cells of such sides whose rock is bare from a slope on,
+    /// with the colours that it is to have.
     pub(super) fn new(
         landscape: &Landscape,
         ground: &Field,
         sheet: &Sheet,
+        (spacing, rock): ([f32; 2], f32),
         coloured_by: ColouredBy<'_>,
     ) -> Result<Self, Error> {
         let land = landscape.domain.valid.as_ref();
@@ -76,6 +81,7 @@ impl Sites {
         Ok(Self {
             moisture: Surface::new(&moisture),
             soil: Surface::new(&soil),
+            fallen: Surface::new(&fallen(&height, spacing, rock)),
             mean: colours.as_deref().map(mean),
             materials: colours.map(|cells| [0, 1, 2].map(|c| channel(&cells, c))),
             is_draped: matches!(coloured_by, ColouredBy::Drape(_)),
@@ -102,6 +108,12 @@ impl Sites {
     #[inline]
     pub(super) fn soil(&self, place: [f32; 2]) -> f32 {
         self.soil.at(place)
+    }
+
+    /// From 0 to 1, how much has fallen there from cliffs.
+    #[inline]
+    pub(super) fn fallen(&self, place: [f32; 2]) -> f32 {
+        self.fallen.at(place)
     }
 
     /// Colour of the materials at the surface, where they are shown.

@@ -5,7 +5,8 @@
 //! step wide, which is a function of the pixel: gradients of the sky show no bands, and the same picture comes out
 //! each time.
 
-use super::vector::{Vector, luminance};
+use super::sky::Sky;
+use super::vector::{Vector, luminance, ramp, scale, subtract};
 use weald_core::random::{hash2, unit};
 
 /// sRGB to the space of the curve, and back.
@@ -20,8 +21,14 @@ pub(super) const CURVE: [f32; 5] = [0.024_578_6, -0.000_090_537, 0.983_729, 0.43
 /// Radiance, before the curve, of a white surface in full light.
 const WHITE: f32 = 1.5;
 
-/// How far the picture's white follows the colour of the light on flat ground, 0 to 1.
-const ADAPTATION: f32 = 0.75;
+/// How far the picture's white follows the colour of the light on flat ground, 0 to 1: under a low sun, whose light is to
+/// look warm, and under one from a sine of its altitude on.
+const ADAPTATION: [f32; 2] = [0.4, 0.75];
+const HIGH_SUN: f32 = 0.3;
+
+/// Light of the sky on flat ground counts so much at least, as a multiple: under a low sun the sky is far brighter than
+/// the ground, and would be white.
+const OF_SKY: f32 = 3.2;
 
 /// The most, in surfaces that are drawn as white, that one ray counts.
 pub(super) const BRIGHTEST: f32 = 12.0;
@@ -33,11 +40,20 @@ pub(super) struct Tone {
 }
 
 impl Tone {
-    /// The exposure for that light on flat ground, brighter by so many stops.
-    pub(super) fn new(light: Vector, stops: f64) -> Self {
+    /// The exposure for the light on flat ground under that sky, brighter by so many stops.
+    pub(super) fn new(sky: &Sky, stops: f64) -> Self {
+        let light = sky.on_flat_ground();
+        let of_sky = subtract(light, scale(sky.sunlight, sky.sun[2]));
+        let [low, high] = ADAPTATION;
+        let adaptation = low + (high - low) * ramp(sky.sun[2], 0.0, HIGH_SUN);
+        Self::of_light(light, OF_SKY * luminance(of_sky), adaptation, stops)
+    }
+
+    /// The exposure for light of that colour and of at least a brightness.
+    fn of_light(light: Vector, least: f32, adaptation: f32, stops: f64) -> Self {
         let mean = luminance(light).max(1e-6);
-        let exposure = WHITE * std::f32::consts::PI / mean * libm::exp2(stops) as f32;
-        Self { gain: light.map(|channel| exposure * libm::powf(mean / channel.max(1e-6), ADAPTATION)) }
+        let exposure = WHITE * std::f32::consts::PI / mean.max(least) * libm::exp2(stops) as f32;
+        Self { gain: light.map(|channel| exposure * libm::powf(mean / channel.max(1e-6), adaptation)) }
     }
 
     /// The bytes of a radiance at a pixel.
@@ -81,10 +97,26 @@ fn transform(rows: &[Vector; 3], colour: Vector) -> Vector {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::view::vector::towards;
+
+    #[test]
+    fn a_low_sun_leaves_the_sky_its_colours_and_its_light_warm() {
+        let at = |altitude_deg: f64| Sky::new(towards(200.0, altitude_deg), 0.53);
+        let facing_the_sun = |altitude_deg: f64| {
+            let tone = Tone::new(&at(altitude_deg), 0.0);
+            tone.curve(scale(at(altitude_deg).sunlight, 0.3 * std::f32::consts::FRAC_1_PI))
+        };
+        let [high, low] = [35.0, 3.0].map(facing_the_sun);
+        assert!(low[0] - low[2] > high[0] - high[2] + 0.1, "warmer: {low:?} and {high:?}");
+        // Away from the sun, half-way up.
+        let aside = towards(20.0, 45.0);
+        let [red, _, blue] = Tone::new(&at(3.0), 0.0).curve(at(3.0).radiance(aside));
+        assert!(blue < 0.9 && blue > red + 0.02, "the sky is {red} and {blue}");
+    }
 
     #[test]
     fn brighter_light_gives_brighter_bytes_and_never_more_than_white() {
-        let tone = Tone::new([3.0, 2.8, 2.5], 0.0);
+        let tone = Tone::of_light([3.0, 2.8, 2.5], 0.0, 0.75, 0.0);
         let grey = |light: f32| tone.curve([light; 3])[1];
         let ramp: Vec<f32> = (0..200).map(|i| grey(i as f32 * 0.02)).collect();
         assert!(ramp.windows(2).all(|pair| pair[1] >= pair[0]));
@@ -94,7 +126,7 @@ mod tests {
 
     #[test]
     fn dither_keeps_the_mean_of_a_gradient_finer_than_a_byte() {
-        let tone = Tone::new([3.0; 3], 0.0);
+        let tone = Tone::of_light([3.0; 3], 0.0, 0.75, 0.0);
         let mean = |light: f32| {
             (0..4096).map(|p| f64::from(tone.bytes([light; 3], [p % 64, p / 64])[1])).sum::<f64>() / 4096.0
         };

@@ -16,11 +16,14 @@ const LIGHT: [&str; 6] = [
 ];
 
 /// Those of ground and water, which call them.
-const GROUND: [&str; 4] = [
+const GROUND: [&str; 7] = [
+    include_str!("rock.wgsl"),
+    include_str!("snow.wgsl"),
     include_str!("cover.wgsl"),
     include_str!("water.wgsl"),
     include_str!("side.wgsl"),
     include_str!("scene.wgsl"),
+    include_str!("surroundings.wgsl"),
 ];
 
 impl LitScene {

@@ -57,3 +57,10 @@ pub(super) fn towards(azimuth_deg: f64, altitude_deg: f64) -> Vector {
 pub(super) fn luminance(colour: Vector) -> f32 {
     dot(colour, [0.2126, 0.7152, 0.0722])
 }
+
+/// 0 below `low`, 1 above `high`, smooth between.
+#[inline(always)]
+pub(super) fn ramp(value: f32, low: f32, high: f32) -> f32 {
+    let share = ((value - low) / (high - low)).clamp(0.0, 1.0);
+    share * share * (3.0 - 2.0 * share)
+}

@@ -6,7 +6,7 @@
 //! Schlick's approximation of Fresnel's law (1994, doi 10.1111/1467-8659.1330233); what enters comes back from the bed
 //! through twice the depth, or from the water itself.
 
-use super::vector::{Vector, add, dot, filter, scale, unit};
+use super::vector::{Vector, add, dot, filter, ramp, scale, unit};
 use crate::colour::mix;
 use crate::strokes::{Point, Strokes};
 use crate::{lakes, rivers};
@@ -37,6 +37,15 @@ const NORMAL_REFLECTANCE: f32 = 0.02;
 /// Light that clear and deep water sends back, and how fast a metre of it swallows the light of the bed.
 pub(super) const BODY: Vector = [0.016, 0.052, 0.058];
 pub(super) const ABSORPTION: Vector = [0.42, 0.13, 0.11];
+
+/// Colour of what grows on beds.
+pub(super) const WEED: Vector = [0.024, 0.047, 0.042];
+
+/// How far waves run up and down a shore in metres: of a lake, and of the sea.
+pub(super) const SWASH: [f32; 2] = [0.7, 13.0];
+
+/// Share of light that foam sends back.
+pub(super) const FOAM: f32 = 0.78;
 
 /// Mean square of the slopes of ripples too small to be seen.
 const ROUGHNESS: f32 = 0.006;
@@ -176,10 +185,45 @@ pub(super) fn body(bed: Vector, depth: f32, light: Vector) -> Vector {
     scale(filter(add(shallow, deep), light), std::f32::consts::FRAC_1_PI)
 }
 
-/// The colour of ground at a water's edge: wet ground is darker.
-pub(super) fn wetted(albedo: Vector, above: f32, cell: f32) -> Vector {
-    let wet = (1.0 - above / (0.06 * cell)).clamp(0.0, 1.0);
-    mix(albedo, scale(albedo, 0.55), wet)
+/// The bed below water of a depth, of gravel of a colour: sand and stones in patches, and what grows on it where it is
+/// deeper, blurred by the ripples above.
+pub(super) fn bed_albedo(gravel: Vector, point: Vector, depth: f32, footprint: f32) -> Vector {
+    let blurred = footprint + 0.05 * depth;
+    let patches = Octaves { wavelength: 9.0, count: 5, gain: 0.6, seed: 0x5b }.at(point, blurred).value;
+    let grains = Octaves { wavelength: 0.55, count: 5, gain: 0.72, seed: 0x5c }.at(point, blurred).value;
+    let tone = 1.0 + 0.45 * patches + 0.55 * grains;
+    let grown = 0.7 * ramp(patches + 0.1 * depth.min(5.0), 0.1, 0.6);
+    mix(scale(gravel, tone.max(0.2)), WEED, grown)
+}
+
+/// How far waves run up and down a shore in metres: at a lake, and at the sea.
+pub(super) fn swash_width(level: f32, sea: f32) -> f32 {
+    if (level - sea).abs() < 0.5 { SWASH[1] } else { SWASH[0] }
+}
+
+/// Share of foam on water at so many metres from its edge, where waves run up and down over a width: the line of each
+/// moves, and leaves lace behind.
+pub(super) fn swash(point: Vector, away: f32, width: f32, [seconds, footprint]: [f32; 2]) -> f32 {
+    let seen = 1.0 - ramp(footprint / width, 0.2, 0.8);
+    let along = Octaves { wavelength: 6.0 * width, count: 2, gain: 0.5, seed: 0x5d }.at(point, 0.0).value;
+    let lace =
+        Octaves { wavelength: 0.2 * width, count: 4, gain: 0.65, seed: 0x5e }.at(point, footprint).value;
+    let turn = seconds / (2.0 * width.sqrt() + 2.0) + 1.5 * along;
+    let front = 0.42 + 0.36 * libm::sinf(std::f32::consts::TAU * turn) + 0.12 * lace;
+    let behind = front - away / width;
+    let line = libm::expf(-90.0 * behind * behind) * (0.6 + 0.9 * lace);
+    let left = ramp(behind, 0.0, 0.1) * ramp(lace, 0.05, 0.35);
+    seen * (line + 0.6 * left).clamp(0.0, 0.9)
+}
+
+/// The colour of ground at a water's edge: where waves reach, to a height that is drawn so, wet ground is darker.
+pub(super) fn wetted(albedo: Vector, above: f32, reach: f32) -> Vector {
+    mix(albedo, scale(albedo, 0.5), 1.0 - ramp(above / reach, 0.25, 1.0))
+}
+
+/// Height above the water, drawn, up to which ground of a slope is wet, on cells of a side.
+pub(super) fn wet_reach(width: f32, slope: f32, cell: f32) -> f32 {
+    (1.3 * width * slope).clamp(0.008 * cell, 0.06 * cell)
 }
 
 #[cfg(test)]

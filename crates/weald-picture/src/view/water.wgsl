@@ -34,8 +34,40 @@ fn water_body(bed_albedo: vec3<f32>, depth: f32, light: vec3<f32>) -> vec3<f32> 
     return (shallow + deep) * light / PI;
 }
 
-// The colour of ground at a water's edge: wet ground is darker.
-fn wetted(albedo: vec3<f32>, above: f32) -> vec3<f32> {
-    let wet = clamp(1.0 - above / (0.06 * scene.scale.w), 0.0, 1.0);
-    return mix(albedo, 0.55 * albedo, wet);
+// The bed below water of a depth: sand and stones in patches, and what grows on it, blurred by the ripples above.
+fn bed_albedo(point: vec2<f32>, depth: f32, footprint: f32) -> vec3<f32> {
+    let blurred = footprint + 0.05 * depth;
+    let patches = octaves_at(Octaves(9.0, 5u, 0.6, 0x5bu), point, blurred).value;
+    let grains = octaves_at(Octaves(0.55, 5u, 0.72, 0x5cu), point, blurred).value;
+    let tone = 1.0 + 0.45 * patches + 0.55 * grains;
+    let grown = 0.7 * ramp(patches + 0.1 * min(depth, 5.0), 0.1, 0.6);
+    return mix(scene.gravel.xyz * max(tone, 0.2), scene.weed.xyz, grown);
+}
+
+// How far waves run up and down a shore in metres: at a lake, and at the sea.
+fn swash_width(level: f32) -> f32 {
+    return select(scene.swash.x, scene.swash.y, abs(level - scene.swash.z) < 0.5);
+}
+
+// Share of foam on water at so many metres from its edge, where waves run up and down over a width.
+fn swash(point: vec2<f32>, away: f32, width: f32, seconds: f32, footprint: f32) -> f32 {
+    let seen = 1.0 - ramp(footprint / width, 0.2, 0.8);
+    let along = octaves_at(Octaves(6.0 * width, 2u, 0.5, 0x5du), point, 0.0).value;
+    let lace = octaves_at(Octaves(0.2 * width, 4u, 0.65, 0x5eu), point, footprint).value;
+    let turn = seconds / (2.0 * sqrt(width) + 2.0) + 1.5 * along;
+    let front = 0.42 + 0.36 * sin(2.0 * PI * turn) + 0.12 * lace;
+    let behind = front - away / width;
+    let line = exp(-90.0 * behind * behind) * (0.6 + 0.9 * lace);
+    let left = ramp(behind, 0.0, 0.1) * ramp(lace, 0.05, 0.35);
+    return seen * clamp(line + 0.6 * left, 0.0, 0.9);
+}
+
+// The colour of ground at a water's edge: where waves reach, to a height that is drawn so, wet ground is darker.
+fn wetted(albedo: vec3<f32>, above: f32, reach: f32) -> vec3<f32> {
+    return mix(albedo, 0.5 * albedo, 1.0 - ramp(above / reach, 0.25, 1.0));
+}
+
+// Height above the water, drawn, up to which ground of a slope is wet.
+fn wet_reach(width: f32, slope: f32) -> f32 {
+    return clamp(1.3 * width * slope, 0.008 * scene.scale.w, 0.06 * scene.scale.w);
 }

@@ -8,7 +8,7 @@ use weald_core::error::Error;
 use weald_core::grid::{Field, Size};
 use weald_core::landscape::Landscape;
 use weald_core::parameter::Places;
-use weald_picture::{Frame, Image, Render, RenderDevice, RenderKeys, View};
+use weald_picture::{Around, Frame, Image, Render, RenderDevice, RenderKeys, View};
 use weald_plants::Vegetation;
 use weald_plants::grass::{Bend, LEVELS, Maps, Meadow, SPECIES};
 
@@ -62,6 +62,7 @@ fn view(
         visibility: Some(12_000.0),
         tree_line: Some(-100.0),
         exposure: 0.3,
+        around: Some(Around::Block),
         ..View::default()
     }
 }

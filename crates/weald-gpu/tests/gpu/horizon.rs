@@ -1,0 +1,62 @@
+//! Land and sea that go on to the horizon: as the ray-marched view has them, and without an end.
+
+use crate::programs::gpu;
+use crate::render::{distances, magenta, renderer};
+use crate::scenes::{above, lakes, mountains, view};
+use weald::Landscape;
+use weald::picture::{Around, Camera, LitScene, View};
+use weald_gpu::TestLook;
+
+/// A sun overhead, which throws no shadows: the march knows none of those that the ground around throws.
+fn open() -> View {
+    View { around: Some(Around::Horizon), sun_altitude_deg: 90.0, visibility: Some(40_000.0), ..view() }
+}
+
+/// The mountains, of which a sea covers the lowest third.
+fn coast() -> Landscape {
+    let mut landscape = lakes();
+    let (low, high) = landscape.field("height").expect("there").range(None).expect("cells");
+    landscape.domain.sea_level = Some(f64::from(low + 0.35 * (high - low)));
+    landscape
+}
+
+/// Cameras within near the border and beyond it, that look inward and outward.
+fn cameras(scene: &LitScene) -> Vec<Camera> {
+    let inward = above(scene, [1600.0, 3100.0], 150.0, 8.0, 0.0);
+    let outward = above(scene, [1600.0, 3100.0], 150.0, 8.0, 180.0);
+    let beyond = scene.above_ground([1600.0, 5200.0], 250.0);
+    vec![inward, outward, inward.at(beyond), outward.at(beyond), scene.camera()]
+}
+
+#[test]
+fn what_goes_on_to_the_horizon_looks_as_the_ray_marched_view_has_it() {
+    let Some(gpu) = gpu() else { return };
+    for landscape in [mountains(), coast()] {
+        let scene = LitScene::new(&open(), &landscape).expect("a scene");
+        for (number, camera) in cameras(&scene).into_iter().enumerate() {
+            let (mean, worst) = distances(&gpu, &open(), &landscape, Some(camera));
+            assert!(mean < 0.015 && worst < 0.05, "camera {number}: mean {mean}, one in twenty {worst}");
+        }
+    }
+}
+
+#[test]
+fn no_camera_sees_an_end_or_a_crack_of_what_goes_on() {
+    let Some(gpu) = gpu() else { return };
+    for landscape in [mountains(), coast()] {
+        let scene = LitScene::new(&open(), &landscape).expect("a scene");
+        let mut renderer = renderer(&gpu, &scene, 1);
+        let bare = TestLook { bare: true, ..TestLook::default() };
+        for look in 0..12_u16 {
+            let look = f32::from(look);
+            let [east, south] =
+                [(look * 2.4).sin(), (look * 1.7).cos()].map(|at| 1600.0 + 4000.0 * f64::from(at));
+            let (down, turn) = ((25.0 + look).to_radians(), (47.0 * look).to_radians());
+            let forward = [down.cos() * turn.sin(), down.cos() * turn.cos(), -down.sin()];
+            let eye = scene.above_ground([east, south], 40.0 + 20.0 * f64::from(look));
+            let camera = Camera::looking(eye, forward, scene.camera().half);
+            let image = renderer.render_for_a_test(&camera, bare).expect("drawn");
+            assert_eq!(magenta(&image), 0, "from {east}, {south}, camera {look}");
+        }
+    }
+}

@@ -1,0 +1,118 @@
+//! Ground and water beyond the border of a landscape: where rays meet them, and what they look like.
+
+use super::camera::Camera;
+use super::scene::{GroundSpot, RayMarcher, WaterSpot};
+use super::setting::Setting;
+use super::surroundings::{REACH, Surroundings};
+use super::terrain::{Hit, Ray};
+use super::vector::Vector;
+use crate::colour::mix;
+
+/// A step along a ray: the share of its height above the ground, and at least a share of its length so far and of a cell.
+const STEP: f32 = 0.4;
+const MIN_STEP: f32 = 0.008;
+const MIN_CELLS: f32 = 0.5;
+
+/// Halvings between the last step above the ground and the first below it.
+const HALVINGS: usize = 14;
+
+/// Least height of the eye above the ground, in metres.
+const CLEARANCE: f32 = 2.0;
+
+impl Setting {
+    /// What a ray meets between two lengths: of the landscape, or of what goes on around it.
+    pub(super) fn trace(&self, ray: &Ray, [near, far]: [f32; 2]) -> Option<Hit> {
+        let Some(around) = &self.around else { return self.terrain.trace(ray, [near, far]) };
+        let cells = around.cells[0].max(around.cells[1]);
+        let far = far.min(1.5 * REACH * cells * self.terrain.spacing[0].max(self.terrain.spacing[1]));
+        let crossing = self.terrain.line(ray.from, ray.direction).crossing(&self.terrain.top);
+        let crossing = crossing.map(|[enter, leave]| [enter.max(near), leave.min(far)]);
+        let Some([enter, leave]) = crossing.filter(|[enter, leave]| enter < leave) else {
+            return self.march(around, ray, [near, far]);
+        };
+        let within = || self.terrain.trace(ray, [enter, leave]).map(|hit| Hit { side: None, ..hit });
+        self.march(around, ray, [near, enter])
+            .or_else(within)
+            .or_else(|| self.march(around, ray, [leave, far]))
+    }
+
+    /// What a ray meets of the ground around, in steps.
+    fn march(&self, around: &Surroundings, ray: &Ray, span: [f32; 2]) -> Option<Hit> {
+        let [near, far] = below(around.bounds[1], ray, span)?;
+        let above = |ray_length: f32| {
+            ray.at(ray_length)[2] - self.top_beyond(around, self.terrain.place(ray.at(ray_length)))
+        };
+        let (mut before, mut ray_length) = (near, near);
+        while ray_length < far {
+            let height = above(ray_length);
+            if height <= 0.0 {
+                return Some(self.close_in(ray, [before, ray_length], above));
+            }
+            before = ray_length;
+            ray_length += (STEP * height).max(MIN_CELLS * self.terrain.cell() + MIN_STEP * ray_length);
+        }
+        (above(far) <= 0.0).then(|| self.close_in(ray, [before, far], above))
+    }
+
+    fn close_in(&self, ray: &Ray, [mut outside, mut inside]: [f32; 2], above: impl Fn(f32) -> f32) -> Hit {
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (outside + inside);
+            if above(middle) <= 0.0 { inside = middle } else { outside = middle }
+        }
+        Hit { ray_length: inside, place: self.terrain.place(ray.at(inside)), side: None }
+    }
+
+    /// Height of the ground or the water at a place beyond the border.
+    pub(super) fn top_beyond(&self, around: &Surroundings, place: [f32; 2]) -> f32 {
+        let beyond = around.at(&self.bed, place);
+        let cell = self.terrain.cell();
+        let level = self.level.as_ref().map(|level| around.level(level, &beyond, place, cell));
+        level.map_or(beyond.surface[0], |level| level.max(beyond.surface[0]))
+    }
+
+    /// A camera lifted out of the ground around the landscape.
+    pub(super) fn above_ground(&self, mut camera: Camera) -> Camera {
+        let place = self.terrain.place(camera.eye);
+        if let Some(around) = self.around.as_ref().filter(|around| around.is_beyond(place)) {
+            camera.eye[2] = camera.eye[2].max(self.top_beyond(around, place) + CLEARANCE);
+        }
+        camera
+    }
+}
+
+/// The part of a span in which a ray is below a height.
+fn below(highest: f32, ray: &Ray, [mut near, mut far]: [f32; 2]) -> Option<[f32; 2]> {
+    let (height, rise) = (ray.from[2], ray.direction[2]);
+    let to_top = (highest - height) / rise;
+    if rise > 0.0 {
+        far = far.min(to_top);
+    } else if rise < 0.0 {
+        near = near.max(to_top);
+    } else if height > highest {
+        return None;
+    }
+    (near < far).then_some([near, far])
+}
+
+impl RayMarcher {
+    /// The light that starts at what a ray met beyond the border.
+    pub(super) fn beyond(&self, around: &Surroundings, ray: &Ray, hit: &Hit) -> Vector {
+        let (setting, point) = (&self.setting, ray.at(hit.ray_length));
+        let beyond = around.at(&setting.bed, hit.place);
+        let cell = setting.terrain.cell();
+        let level = setting.level.as_ref().map(|level| around.level(level, &beyond, hit.place, cell));
+        let depth = level.map_or(f32::NEG_INFINITY, |level| level - beyond.surface[0]);
+        let like = Hit { place: beyond.place, ..*hit };
+        if depth > 0.0 {
+            let [_, east, south] = beyond.surface;
+            return self.lake(ray, &like, &self.water_spot(point, depth, [east, south]));
+        }
+        let river = setting.rivers.as_ref().map_or(0.0, |rivers| rivers.at(self.share(beyond.place)));
+        let river = river * Surroundings::river_share(&beyond);
+        let footprint = self.footprint(hit.ray_length);
+        let spot = GroundSpot { place: beyond.place, surface: beyond.surface, point, footprint };
+        let land = self.ground(&spot, -depth);
+        let water = || WaterSpot { point, depth: 1.2 * river, foam: 0.0, footprint };
+        if river <= 0.0 { land } else { mix(land, self.lake(ray, &like, &water()), river) }
+    }
+}

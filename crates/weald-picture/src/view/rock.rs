@@ -1,0 +1,88 @@
+//! Beds of rock where they are seen: layers of their own tone with joints between them, which stand out as ledges.
+//!
+//! Beds dip and are folded; each has a tone by chance. Below each is a joint, dark and sunk, and above it a ledge on which
+//! the face lies back. What is finer than a pixel fades out.
+
+use super::vector::ramp;
+use weald_core::grain::bits;
+
+/// How steeply beds dip, as rise over run, and where to, eastward and northward.
+const DIP: f32 = 0.14;
+const DIP_TOWARDS: [f32; 2] = [0.8, -0.6];
+
+/// Height of a bed's face over its thickness; the ledge above it takes the rest.
+const FACE: f32 = 0.72;
+
+/// Beds at a point.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Beds {
+    /// Tone of the bed, from -0.5 to 0.5.
+    pub(super) tone: f32,
+    /// Share of the darkness of a joint.
+    pub(super) joint: f32,
+    /// How much steeper the face is than the slope, or, on ledges, less.
+    pub(super) ledge: f32,
+}
+
+/// What beds are looked at.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct BedSpot {
+    pub(super) point: [f32; 3],
+    /// By how many beds they are folded there.
+    pub(super) fold: f32,
+    /// Thickness of a bed in metres.
+    pub(super) thickness: f32,
+    /// Height of a pixel on the face in metres.
+    pub(super) footprint: f32,
+}
+
+/// The beds at a point; level ones where they do not dip.
+pub(super) fn beds(spot: &BedSpot, dips: bool, seed: u32) -> Beds {
+    let [x, y, z] = spot.point;
+    let dip = if dips { DIP * (DIP_TOWARDS[0] * x + DIP_TOWARDS[1] * y) } else { 0.0 };
+    let level = (z + dip) / spot.thickness + spot.fold;
+    let number = level.floor();
+    let within = level - number;
+    let blur = spot.footprint / spot.thickness;
+    let seen = 1.0 - ramp(blur, 0.25, 0.8);
+    let tone = |bed: f32| (bits(bed as i32, 5, seed) >> 8) as f32 / 16_777_216.0 - 0.5;
+    let edge = ramp(within, 0.0, (1.5 * blur).clamp(0.06, 0.5));
+    let deep = tone(number + 1000.0).abs() + 0.5;
+    Beds {
+        tone: seen * (tone(number - 1.0) * (1.0 - edge) + tone(number) * edge),
+        joint: seen * deep * (1.0 - ramp(within, 0.0, 0.16 + blur)),
+        ledge: seen * (0.4 - 1.4 * ramp(within, FACE - 0.08, FACE + 0.08)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn at(point: [f32; 3], footprint: f32) -> Beds {
+        beds(&BedSpot { point, fold: 0.0, thickness: 10.0, footprint }, true, 7)
+    }
+
+    #[test]
+    fn beds_go_on_along_their_dip_and_change_across_it() {
+        let start = [100.0, 200.0, 63.0];
+        let along = |metres: f32| {
+            let [east, north] = DIP_TOWARDS.map(|part| part * metres);
+            at([start[0] + east, start[1] + north, start[2] - DIP * metres], 0.1)
+        };
+        for metres in [40.0, 300.0, 900.0] {
+            assert!((along(metres).tone - along(0.0).tone).abs() < 1e-2, "{metres} m along the bed");
+        }
+        let tones: Vec<f32> =
+            (0..12).map(|bed| at([100.0, 200.0, 63.0 + 10.0 * bed as f32], 0.1).tone).collect();
+        assert!(tones.iter().any(|tone| (tone - tones[0]).abs() > 0.3), "{tones:?}");
+    }
+
+    #[test]
+    fn each_bed_has_a_steep_face_and_a_ledge_and_none_is_seen_from_afar() {
+        let column = |footprint: f32| (0..100).map(move |step| at([0.0, 0.0, 0.1 * step as f32], footprint));
+        assert!(column(0.1).any(|beds| beds.ledge > 0.3) && column(0.1).any(|beds| beds.ledge < -0.9));
+        assert!(column(0.1).any(|beds| beds.joint > 0.3));
+        assert!(column(50.0).all(|beds| beds.tone == 0.0 && beds.joint == 0.0 && beds.ledge == 0.0));
+    }
+}

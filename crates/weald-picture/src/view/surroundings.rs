@@ -1,0 +1,331 @@
+//! The land and sea around a landscape, where a view has a horizon: ground that goes on beyond the border.
+//!
+//! At the border the ground goes on by point reflection, so that height and slope are those of the landscape and a
+//! valley leads on outward:
+//!
+//! ```text
+//! z = (1 - s) (2 z(b) - z(m)) + s (f + a (z(t) - z̄))
+//! ```
+//!
+//! with the nearest place `b` of the border, the mirrored place `m` within, and the share `s`, which grows smoothly from 0
+//! at the border to 1. From there on it is the ground of another place `t` of the landscape, turned by the golden angle so
+//! that nothing is seen twice side by side, about the height `f` of the border in that direction. Where that lies below
+//! the sea, `a` is 0: the sea goes on.
+
+use super::surface::Surface;
+use crate::colour::mix;
+use weald_core::grain::Octaves;
+
+/// Directions for which the height of the border is known.
+pub(super) const DIRECTIONS: usize = 24;
+
+/// Over how much of the landscape's longer side the ground leaves what the border was like.
+pub(super) const JOIN: f32 = 0.18;
+
+/// How far ground goes on beyond the border, in longer sides of the landscape.
+pub(super) const REACH: f32 = 7.0;
+
+/// Longer sides beyond the border after which two thirds of it are lost in the haze of the horizon.
+pub(super) const LOST: f32 = 2.1;
+
+/// Cosine and sine of the golden angle.
+pub(super) const TURN: [f32; 2] = [-0.737_37, 0.675_49];
+
+/// Where the middle of the landscape comes to lie when the ground is turned, in sides from its corner.
+pub(super) const TURNED_TO: [f32; 2] = [0.618, 0.382];
+
+/// Waves of the turned ground, so that the lines along which it is mirrored are not straight: their length and height, in
+/// sides of the landscape.
+pub(super) const BEND: [f32; 2] = [0.55, 0.04];
+
+/// Share of the landscape at each side that the turned ground leaves out: a border may be a base level, all of one height.
+pub(super) const LEFT_OUT: f32 = 0.12;
+
+/// Share of the relief by which the ground around a sea lies below it at least.
+const SUNK: f32 = 0.02;
+
+/// Share of the relief above the sea from which the ground around is as uneven as the landscape.
+const UNEVEN: f32 = 0.05;
+
+/// The ground around a landscape.
+#[derive(Clone, Debug)]
+pub(super) struct Surroundings {
+    /// Columns and rows of the landscape.
+    pub(super) cells: [f32; 2],
+    /// Height of the sea as it is drawn.
+    pub(super) sea: Option<f32>,
+    /// Mean height of the ground of the landscape.
+    pub(super) mean: f32,
+    /// Height far away by direction, clockwise from north, and how uneven the ground there is.
+    pub(super) far: [[f32; 2]; DIRECTIONS],
+    /// Bounds of all heights beyond the border.
+    pub(super) bounds: [f32; 2],
+}
+
+/// A place beyond the border.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Beyond {
+    /// The place of the landscape that it is like.
+    pub(super) place: [f32; 2],
+    /// Height of the ground, and its rise by the cell eastward and southward.
+    pub(super) surface: [f32; 3],
+    /// How much of the border is left behind: 0 there, 1 far away.
+    pub(super) share: f32,
+}
+
+/// How much is left behind at a place, and how fast that grows by the cell.
+struct Leaving {
+    border: [f32; 2],
+    share: f32,
+    growth: [f32; 2],
+}
+
+/// The place within a rectangle that a place is mirrored to, again and again, and the sign of directions there.
+fn folded(place: [f32; 2], corner: [f32; 2], cells: [f32; 2]) -> ([f32; 2], [f32; 2]) {
+    let fold = |axis: usize| {
+        let turn = (place[axis] - corner[axis]) / (2.0 * cells[axis]);
+        let share = turn - turn.floor();
+        let sign = if share < 0.5 { 1.0 } else { -1.0 };
+        (corner[axis] + cells[axis] * (1.0 - (2.0 * share - 1.0).abs()), sign)
+    };
+    let ([x, across], [y, down]) = (fold(0).into(), fold(1).into());
+    ([x, y], [across, down])
+}
+
+impl Surroundings {
+    /// What is around ground of such a surface and a sea of a height, as they are drawn.
+    pub(super) fn new(bed: &Surface, sea: Option<f32>) -> Self {
+        let size = bed.size();
+        let all = || (0..size.cells()).map(|at| bed.at(centre(at % size.columns, at / size.columns)));
+        let (low, high) = all().fold((f32::MAX, f32::MIN), |(low, high), z| (low.min(z), high.max(z)));
+        let mean = (all().map(f64::from).sum::<f64>() / size.cells() as f64) as f32;
+        let border = border(bed);
+        let far = far(&border, sea, high - low);
+        let edge = border.iter().fold([f32::MAX, f32::MIN], |[a, b], (_, z)| [a.min(*z), b.max(*z)]);
+        let of_far = |[height, uneven]: &[f32; 2], z: f32| height + uneven * (z - mean);
+        let lowest = far.iter().map(|far| of_far(far, low)).fold(2.0 * edge[0] - high, f32::min);
+        let highest = far.iter().map(|far| of_far(far, high)).fold(2.0 * edge[1] - low, f32::max);
+        let highest = highest.max(high).max(sea.unwrap_or(high));
+        let cells = [size.columns as f32, size.rows as f32];
+        Self { cells, sea, mean, far, bounds: [lowest.min(low), highest] }
+    }
+
+    /// Whether a place lies beyond the border.
+    #[inline]
+    pub(super) fn is_beyond(&self, place: [f32; 2]) -> bool {
+        (0..2).any(|axis| place[axis] < 0.5 || place[axis] > self.cells[axis] + 0.5)
+    }
+
+    fn leaving(&self, place: [f32; 2]) -> Leaving {
+        let border = [0, 1].map(|axis| place[axis].clamp(0.5, self.cells[axis] + 0.5));
+        let away = [0, 1].map(|axis| place[axis] - border[axis]);
+        let length = (away[0] * away[0] + away[1] * away[1]).sqrt();
+        let width = JOIN * self.cells[0].max(self.cells[1]);
+        let t = (length / width).min(1.0);
+        let growth = 6.0 * t * (1.0 - t) / (width * length.max(1e-6));
+        Leaving { border, share: t * t * (3.0 - 2.0 * t), growth: away.map(|part| part * growth) }
+    }
+
+    /// Height far away in the direction of a place, and how uneven the ground is there.
+    fn far_at(&self, place: [f32; 2]) -> [f32; 2] {
+        let [east, south] = [0, 1].map(|axis| place[axis] - 0.5 - 0.5 * self.cells[axis]);
+        let turn = libm::atan2f(east, -south) / std::f32::consts::TAU;
+        let at = (turn - turn.floor()) * DIRECTIONS as f32;
+        let (first, t) = (at as usize, at - at.floor());
+        let [one, other] = [first, first + 1].map(|direction| self.far[direction % DIRECTIONS]);
+        let t = t * t * (3.0 - 2.0 * t);
+        [0, 1].map(|part| one[part] + (other[part] - one[part]) * t)
+    }
+
+    fn mirrored(&self, place: [f32; 2]) -> ([f32; 2], [f32; 2]) {
+        folded(place, [0.5; 2], self.cells)
+    }
+
+    /// The place whose ground is far away at another, and what a rise there becomes: eastward and southward here, of those
+    /// there.
+    fn turned(&self, place: [f32; 2]) -> ([f32; 2], [[f32; 2]; 2]) {
+        let [x, y] = [0, 1].map(|axis| place[axis] - 0.5 - 0.5 * self.cells[axis]);
+        let longer = self.cells[0].max(self.cells[1]);
+        let (wave, height) = (std::f32::consts::TAU / (BEND[0] * longer), BEND[1] * longer);
+        let (across, down) = (libm::sincosf(wave * y), libm::sincosf(wave * x));
+        let [u, v] = [x + height * across.0, y + height * down.0];
+        let [bent_x, bent_y] = [across.1, down.1].map(|cosine| height * wave * cosine);
+        let [cosine, sine] = TURN;
+        let turned = [cosine * u - sine * v, sine * u + cosine * v];
+        let at = [0, 1].map(|axis| 0.5 + TURNED_TO[axis] * self.cells[axis] + turned[axis]);
+        let corner = self.cells.map(|cells| 0.5 + LEFT_OUT * cells);
+        let (place, sign) = folded(at, corner, self.cells.map(|cells| (1.0 - 2.0 * LEFT_OUT) * cells));
+        let east = [sign[0] * (cosine - sine * bent_y), sign[1] * (sine + cosine * bent_y)];
+        let south = [sign[0] * (cosine * bent_x - sine), sign[1] * (sine * bent_x + cosine)];
+        (place, [east, south])
+    }
+
+    /// The ground at a place beyond the border, for the surface of the landscape's own.
+    pub(super) fn at(&self, bed: &Surface, place: [f32; 2]) -> Beyond {
+        let Leaving { border, share, growth } = self.leaving(place);
+        let (mirrored, mirror) = self.mirrored(place);
+        let (turned, turns) = self.turned(place);
+        let (edge, within, there) =
+            (bed.with_slope(border), bed.with_slope(mirrored), bed.with_slope(turned));
+        let [height, uneven] = self.far_at(place);
+        let near = 2.0 * edge[0] - within[0];
+        let far = height + uneven * (there[0] - self.mean);
+        let far_rise = turns.map(|[east, south]| east * there[1] + south * there[2]);
+        let rise = |axis: usize| {
+            let along = if place[axis] == border[axis] { 2.0 * edge[1 + axis] } else { 0.0 };
+            let near_rise = along - mirror[axis] * within[1 + axis];
+            near_rise + (uneven * far_rise[axis] - near_rise) * share + (far - near) * growth[axis]
+        };
+        let surface = [near + (far - near) * share, rise(0), rise(1)];
+        Beyond { place: self.likeness(place, share, [mirrored, turned]), surface, share }
+    }
+
+    /// Which of two places a place is like; the border between them is ragged.
+    fn likeness(&self, place: [f32; 2], share: f32, [near, far]: [[f32; 2]; 2]) -> [f32; 2] {
+        let patches =
+            Octaves { wavelength: 0.05 * self.cells[0].max(self.cells[1]), count: 4, gain: 0.55, seed: 0x61 };
+        let patchy = patches.at([place[0], place[1], 0.0], 0.0).value;
+        if share + 0.5 * patchy < 0.5 { near } else { far }
+    }
+
+    /// Level of the water at a place beyond the border, for that of the landscape and the ground there.
+    pub(super) fn level(&self, level: &Surface, beyond: &Beyond, place: [f32; 2], cell: f32) -> f32 {
+        let (mirrored, _) = self.mirrored(place);
+        let far = self.sea.unwrap_or(beyond.surface[0] - cell);
+        level.at(mirrored) + (far - level.at(mirrored)) * beyond.share
+    }
+
+    /// What rivers keep of their width there.
+    pub(super) fn river_share(beyond: &Beyond) -> f32 {
+        (1.0 - 2.0 * beyond.share).abs()
+    }
+
+    /// Radiance of what lies at a place beyond the border, as it is lost in the haze of the horizon.
+    pub(super) fn lost(&self, place: [f32; 2], radiance: [f32; 3], horizon: [f32; 3]) -> [f32; 3] {
+        let away = |axis: usize| place[axis] - place[axis].clamp(0.5, self.cells[axis] + 0.5);
+        let reach = LOST * self.cells[0].max(self.cells[1]);
+        let square = (away(0) * away(0) + away(1) * away(1)) / (reach * reach);
+        mix(radiance, horizon, 1.0 - libm::expf(-square))
+    }
+}
+
+fn centre(x: usize, y: usize) -> [f32; 2] {
+    [x as f32 + 1.0, y as f32 + 1.0]
+}
+
+/// Heights along the border, each with its direction from the middle in turns, clockwise from north.
+fn border(bed: &Surface) -> Vec<(f32, f32)> {
+    let size = bed.size();
+    let (last_x, last_y) = (size.columns - 1, size.rows - 1);
+    let across = (0..size.columns).flat_map(|x| [(x, 0), (x, last_y)]);
+    let down = (0..size.rows).flat_map(|y| [(0, y), (last_x, y)]);
+    let at = |(x, y): (usize, usize)| {
+        let place = centre(x, y);
+        let east = place[0] - 0.5 - 0.5 * size.columns as f32;
+        let south = place[1] - 0.5 - 0.5 * size.rows as f32;
+        (libm::atan2f(east, -south) / std::f32::consts::TAU, bed.at(place))
+    };
+    across.chain(down).map(at).collect()
+}
+
+/// Height far away in each direction, and how uneven the ground is there.
+fn far(border: &[(f32, f32)], sea: Option<f32>, relief: f32) -> [[f32; 2]; DIRECTIONS] {
+    std::array::from_fn(|direction| {
+        let middle = direction as f32 / DIRECTIONS as f32;
+        let (mut sum, mut weights) = (0.0, 0.0);
+        for &(turn, height) in border {
+            let away = turn - middle - (turn - middle).round();
+            // A bell an eighth of a turn wide.
+            let weight = libm::expf(-256.0 * away * away);
+            sum += weight * height;
+            weights += weight;
+        }
+        let mean = sum / weights.max(1e-9);
+        let Some(sea) = sea else { return [mean, 1.0] };
+        let uneven = ((mean - sea) / (UNEVEN * relief).max(1e-6)).clamp(0.0, 1.0);
+        let sunk = sea - SUNK * relief;
+        [if uneven > 0.0 { mean } else { mean.min(sunk) }, uneven]
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use weald_core::grid::{Field, Size};
+    use weald_core::random::{hash2, unit as uniform};
+
+    fn ground(height: impl FnMut(usize, usize) -> f32) -> Surface {
+        Surface::new(&Field::from_function(Size::new(60, 40).expect("small"), height))
+    }
+
+    fn hills(x: usize, y: usize) -> f32 {
+        20.0 * (0.2 * x as f32).sin() * (0.17 * y as f32).cos()
+            + 3.0 * uniform(hash2(5, x as i64, y as i64)) as f32
+    }
+
+    #[test]
+    fn the_ground_goes_on_over_the_border_in_height_and_slope() {
+        let bed = ground(hills);
+        let around = Surroundings::new(&bed, None);
+        for step in 0..200 {
+            let along = 0.5 + 40.0 * step as f32 / 200.0;
+            for border in [[0.5, along], [60.5, along], [0.5 + 1.5 * (along - 0.5), 40.5]] {
+                let (inside, outside) = (bed.with_slope(border), around.at(&bed, border).surface);
+                for (a, b) in inside.into_iter().zip(outside) {
+                    assert!((a - b).abs() < 2e-2, "{border:?}: {inside:?} and {outside:?}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn the_rise_beyond_the_border_is_that_of_its_heights() {
+        let bed = ground(hills);
+        let around = Surroundings::new(&bed, None);
+        let height = |place: [f32; 2]| around.at(&bed, place).surface[0];
+        let mut compared = 0;
+        for step in 0..400 {
+            let place = [0, 1].map(|seed| 240.0 * uniform(hash2(seed, step, 3)) as f32 - 90.0);
+            if !around.is_beyond(place) {
+                continue;
+            }
+            let rise = around.at(&bed, place).surface;
+            let near = 0.02;
+            for axis in [0, 1] {
+                let moved = |by: f32| std::array::from_fn(|at| place[at] + if at == axis { by } else { 0.0 });
+                let expected = (height(moved(near)) - height(moved(-near))) / (2.0 * near);
+                // The height far away turns with the direction, which the rise leaves out.
+                assert!((rise[1 + axis] - expected).abs() < 0.6, "{place:?}: {rise:?} instead of {expected}");
+            }
+            compared += 1;
+        }
+        assert!(compared > 200);
+    }
+
+    #[test]
+    fn a_sea_goes_on_where_it_meets_the_border_and_land_where_land_does() {
+        // Land in the east, a sea floor in the west.
+        let bed = ground(|x, _| if x < 30 { -50.0 } else { 2.0 * (x - 30) as f32 });
+        let around = Surroundings::new(&bed, Some(0.0));
+        let far = |x: f32| around.at(&bed, [x, 20.0]);
+        for away in [15.0, 40.0, 200.0] {
+            assert!(far(-away).surface[0] < 0.0, "{:?}", far(-away));
+        }
+        assert!(far(75.0).surface[0] > 0.0 && around.far_at([400.0, 20.0])[0] > 0.0);
+        assert!((0..DIRECTIONS).all(|at| around.far[at][0] <= around.bounds[1]));
+    }
+
+    #[test]
+    fn no_height_is_beyond_its_bounds() {
+        let bed = ground(hills);
+        for sea in [None, Some(-5.0)] {
+            let around = Surroundings::new(&bed, sea);
+            let [low, high] = around.bounds;
+            for step in 0..2000 {
+                let place = [0, 1].map(|seed| 600.0 * uniform(hash2(seed, step, 9)) as f32 - 270.0);
+                let height = around.at(&bed, place).surface[0];
+                assert!(height >= low - 1e-3 && height <= high + 1e-3, "{height} outside {low} to {high}");
+            }
+        }
+    }
+}
