@@ -11,6 +11,7 @@ mod albedo;
 mod atmosphere;
 mod beyond;
 mod camera;
+mod clouds;
 mod cover;
 mod flow;
 mod follow;

@@ -7,7 +7,9 @@ fn backdrop_direction(position: vec2<f32>) -> vec3<f32> {
 
 @fragment
 fn sky_fragment(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
-    return vec4<f32>(limited(sky_radiance_with_sun(backdrop_direction(position.xy))), 1.0);
+    let direction = backdrop_direction(position.xy);
+    let radiance = sky_radiance_with_sun(direction);
+    return vec4<f32>(limited(with_clouds(frame.eye.xyz, direction, radiance)), 1.0);
 }
 
 @fragment

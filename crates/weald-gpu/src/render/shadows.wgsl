@@ -103,5 +103,5 @@ fn sun_seen_on(point: vec3<f32>, smooth_point: vec3<f32>, normal: vec3<f32>) -> 
             break;
         }
     }
-    return seen + passed;
+    return (seen + passed) * through_clouds(point);
 }

@@ -137,7 +137,7 @@ fn land_along(start: vec3<f32>, direction: vec3<f32>) -> f32 {
 fn mirrored_light(start: vec3<f32>, direction: vec3<f32>, upward: vec3<f32>, length_before: f32) -> vec3<f32> {
     let ray_length = land_along(start, direction);
     if ray_length < 0.0 {
-        return sky_radiance(upward);
+        return with_clouds(start, upward, sky_radiance(upward));
     }
     let point = start + direction * ray_length;
     let place = place_of(point);

@@ -41,6 +41,27 @@ fn what_goes_on_to_the_horizon_looks_as_the_ray_marched_view_has_it() {
 }
 
 #[test]
+fn clouds_and_their_shadows_are_where_the_ray_marched_view_has_them() {
+    let Some(gpu) = gpu() else { return };
+    let landscape = mountains();
+    let clear = LitScene::new(&open(), &landscape).expect("a scene");
+    let upward = Camera {
+        forward: [0.0, 0.8, 0.6],
+        up: [0.0, -0.6, 0.8],
+        ..above(&clear, [1600.0, 3100.0], 150.0, 8.0, 0.0)
+    };
+    for camera in [upward, clear.camera()] {
+        let view = View { clouds: 0.6, ..open() };
+        let (mean, worst) = distances(&gpu, &view, &landscape, Some(camera));
+        assert!(mean < 0.015 && worst < 0.05, "mean {mean}, one in twenty {worst}");
+        let [cloudy, clear] =
+            [&view, &open()].map(|view| view.seen_from(&landscape, camera).expect("marched"));
+        let changed = cloudy.rgb.iter().zip(&clear.rgb).filter(|(a, b)| a.abs_diff(**b) > 12).count();
+        assert!(changed * 10 > cloudy.rgb.len(), "{changed} of {} bytes show clouds", cloudy.rgb.len());
+    }
+}
+
+#[test]
 fn no_camera_sees_an_end_or_a_crack_of_what_goes_on() {
     let Some(gpu) = gpu() else { return };
     for landscape in [mountains(), coast()] {

@@ -3,6 +3,7 @@
 use std::f32::consts::FRAC_1_PI;
 
 use super::camera::{self, Camera};
+use super::clouds::Clouds;
 use super::cover::Cover;
 use super::haze::Haze;
 use super::keys::View;
@@ -52,6 +53,7 @@ pub struct LitScene {
     pub(super) open: Seen,
     pub(super) sides: SideLight,
     pub(super) haze: Haze,
+    pub(super) clouds: Option<Clouds>,
     pub(super) tone: Tone,
     /// Radiance of the ground around that is seen from hidden places.
     pub(super) bounce: Vector,
@@ -95,6 +97,7 @@ impl LitScene {
             sides: SideLight::new(&sky, sent_back(plain, 1.0)),
             bounce: sent_back(cover.mean(), BOUNCE),
             haze: haze(view.visibility, &camera, setting.centre(), setting.exaggeration),
+            clouds: Clouds::new(view.clouds, &sky, [setting.terrain.highest(), setting.exaggeration]),
             tone: Tone::new(&sky, view.exposure),
             is_empty: landscape.domain.valid_cells() == 0,
             visibility: view.visibility,

@@ -52,10 +52,11 @@ impl LitScene {
             fields
         });
         format!(
-            "const SKY_PIECES = {PIECES};\nconst SIDE_NORMALS = {NORMALS};\nconst FAR_DIRECTIONS = {DIRECTIONS};\n\
+            "const SKY_PIECES = {PIECES};\nconst SIDE_NORMALS = {NORMALS};\nconst FAR_DIRECTIONS = {DIRECTIONS};\nconst CLOUDS = {};\n\
              struct LitScene {{\n{fields}    \
              sky_table: array<vec4<f32>, {SKY_TABLE}>,\n    side_light: array<vec4<f32>, {NORMALS}>,\n    \
-             strata_colours: array<vec4<f32>, {MAX_MATERIALS}>,\n    far_ground: array<vec4<f32>, {DIRECTIONS}>,\n}}\n"
+             strata_colours: array<vec4<f32>, {MAX_MATERIALS}>,\n    far_ground: array<vec4<f32>, {DIRECTIONS}>,\n}}\n",
+            self.clouds.is_some()
         )
     }
 
@@ -70,6 +71,7 @@ impl LitScene {
     fn of_light(&self) -> Named {
         let Haze { extinction, scale_height } = self.haze;
         let [x, y] = water::OPTICS;
+        let clouds = self.clouds.as_ref();
         vec![
             ("sun", with(self.sky.sun, self.sky.sun_radius)),
             ("sunlight", with(self.sky.sunlight, 0.0)),
@@ -82,6 +84,14 @@ impl LitScene {
             ("haze", [extinction, scale_height, self.plain_reach(), 0.0]),
             ("haze_tint", with(haze::TINT, 0.0)),
             ("water", [x, y, 0.0, 0.0]),
+            (
+                "clouds",
+                with(
+                    clouds.map_or([0.0; 3], |clouds| clouds.skylight),
+                    clouds.map_or(0.0, |clouds| clouds.share),
+                ),
+            ),
+            ("cloud_height", [clouds.map_or(0.0, |clouds| clouds.height), 0.0, 0.0, 0.0]),
             ("water_body", with(water::BODY, 0.0)),
             ("weed", with(water::WEED, water::FOAM)),
             ("swash", [water::SWASH[0], water::SWASH[1], self.sea().unwrap_or(-UNREACHABLE_HEIGHT), 0.0]),

@@ -117,7 +117,15 @@ impl RayMarcher {
         if ray.direction[2] < 0.0 {
             return if self.setting.around.is_some() { self.horizon(ray) } else { self.plain(ray) };
         }
-        self.sky.radiance_with_sun(ray.direction)
+        self.with_clouds(ray, self.sky.radiance_with_sun(ray.direction))
+    }
+
+    /// The sky along a ray, with the clouds before it.
+    fn with_clouds(&self, ray: &Ray, radiance: Vector) -> Vector {
+        match &self.clouds {
+            Some(clouds) => clouds.before(&self.sky, [ray.from, ray.direction, radiance]),
+            None => radiance,
+        }
     }
 
     /// The light that starts at what a ray met.
@@ -157,7 +165,8 @@ impl RayMarcher {
         ray_length * self.pixel_angle
     }
 
-    /// Share of the sun's disc that is seen from a point: the part of a disc that a straight horizon leaves free.
+    /// Share of the sun's disc that is seen from a point: the part of a disc that a straight horizon leaves free, through the
+    /// clouds.
     fn sun_seen(&self, point: Vector) -> f32 {
         let sun = self.sky.sun;
         let run = (sun[0] * sun[0] + sun[1] * sun[1]).sqrt().max(1e-6);
@@ -167,7 +176,8 @@ impl RayMarcher {
         let limits = [steepness(altitude - radius), steepness(altitude + radius)];
         let horizon = libm::atanf(self.setting.terrain.horizon(point, sun, limits));
         let free = ((altitude - horizon) / radius).clamp(-1.0, 1.0);
-        0.5 + (free * (1.0 - free * free).sqrt() + libm::asinf(free)) * FRAC_1_PI
+        let through = self.clouds.as_ref().map_or(1.0, |clouds| clouds.through(&self.sky, point));
+        through * (0.5 + (free * (1.0 - free * free).sqrt() + libm::asinf(free)) * FRAC_1_PI)
     }
 
     /// Light of sun and sky on a normal.
@@ -241,7 +251,7 @@ impl RayMarcher {
         let terrain = &self.setting.terrain;
         let start = 0.4 * terrain.cell();
         let Some(hit) = terrain.trace(ray, [start, f32::INFINITY]).filter(|hit| hit.side.is_none()) else {
-            return self.sky.radiance(ray.direction);
+            return self.with_clouds(ray, self.sky.radiance(ray.direction));
         };
         let point = ray.at(hit.ray_length);
         let footprint = (0.25 * terrain.cell()).max(self.footprint(hit.ray_length));

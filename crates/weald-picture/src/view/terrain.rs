@@ -7,7 +7,7 @@ use super::pyramid::{Line, Pyramid};
 use super::surface::Surface;
 use super::vector::{Vector, add, scale, unit};
 use crate::texture::smoothed;
-use weald_core::grid::Field;
+use weald_core::grid::{Field, Size};
 
 /// Gaps, in cells, of the smoothings after which an edge shows its direction.
 const OUTLINE: [usize; 4] = [1, 2, 4, 8];
@@ -56,11 +56,23 @@ pub(super) struct Hit {
     pub(super) side: Option<Vector>,
 }
 
+/// The share of land, smoothed, with none beyond the border: where a wedge without data runs out at the border, the edge
+/// goes on along it and does not turn.
+fn outline(land: &Field) -> Field {
+    let (size, margin) = (land.size(), OUTLINE.into_iter().sum::<usize>() + 1);
+    let wider = Size { columns: size.columns + 2 * margin, rows: size.rows + 2 * margin };
+    let padded = Field::from_function(wider, |x, y| {
+        let inside = |at: usize, cells: usize| (margin..margin + cells).contains(&at);
+        let is_inside = inside(x, size.columns) && inside(y, size.rows);
+        if is_inside { land.at(x - margin, y - margin) } else { 0.0 }
+    });
+    let smooth = OUTLINE.into_iter().fold(padded, |land, gap| smoothed(&land, gap));
+    Field::from_function(size, |x, y| smooth.at(x + margin, y + margin))
+}
+
 impl Terrain {
     pub(super) fn new(spacing: [f32; 2], top: &Field, land: Option<&Field>, base: f32) -> Self {
-        let outline = land.map(|land| {
-            Surface::new(&OUTLINE.into_iter().fold(land.clone(), |land, gap| smoothed(&land, gap)))
-        });
+        let outline = land.map(|land| Surface::new(&outline(land)));
         let (top, land) = (Surface::new(top), land.map(Surface::new));
         let is_empty = |x: usize, y: usize| {
             land.as_ref()
@@ -129,7 +141,6 @@ impl Terrain {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use weald_core::grid::Size;
     use weald_core::random::{hash2, unit as uniform};
 
     const CELL: f32 = 10.0;
@@ -260,6 +271,19 @@ mod tests {
             assert!(ground.is_valid(hit.place), "ray {at} met {:?}", hit.place);
         }
         assert!(met > 60 && sides > 10, "{met} met, {sides} of them sides");
+    }
+
+    #[test]
+    fn the_edge_of_a_wedge_without_data_faces_away_from_the_land_up_to_its_tip() {
+        let size = Size::new(120, 60).expect("small");
+        // The northern border, from which a wedge of three cells is cut off, that runs out after 90.
+        let land = Field::from_function(size, |x, y| f32::from(u8::from(y as f32 >= 3.0 - x as f32 / 30.0)));
+        let ground = Terrain::new([CELL; 2], &Field::from_function(size, |_, _| 5.0), Some(&land), -30.0);
+        let outline = ground.outline.expect("there is an edge");
+        for x in [20.0, 45.0, 70.0, 88.0, 95.0] {
+            let [_, east, south] = outline.with_slope([x, 1.0]);
+            assert!(south > 0.0 && east.abs() < 0.2 * south, "at {x} it rises by {east} and {south}");
+        }
     }
 
     #[test]

@@ -96,9 +96,12 @@ fn water_is_darker_and_bluer_than_the_land_beside_it() {
     let image = draw(&above(), &country());
     // The lake fills columns 40 to 60 and rows 30 to 60; the picture shows the whole landscape from above.
     let dry = draw(&View { water: false, ..above() }, &country());
-    let changed: Vec<_> = (0..120 * 120)
-        .filter(|&at| image.pixel(at % 120, at / 120) != dry.pixel(at % 120, at / 120))
-        .collect();
+    // The sky's light changes by a byte here and there on land beside the lake.
+    let differs = |at: &usize| {
+        let [wet, dry] = [&image, &dry].map(|image| image.pixel(at % 120, at / 120));
+        wet.into_iter().zip(dry).any(|(wet, dry)| wet.abs_diff(dry) > 2)
+    };
+    let changed: Vec<_> = (0..120 * 120).filter(differs).collect();
     let blue = changed.iter().filter(|&&at| {
         let ([r, _, b], [dry_r, _, dry_b]) = (image.pixel(at % 120, at / 120), dry.pixel(at % 120, at / 120));
         i32::from(b) - i32::from(r) > i32::from(dry_b) - i32::from(dry_r)
