@@ -29,6 +29,7 @@ pub struct SceneUpdate {
     of_rows: usize,
     heights: Heights,
     errors: Vec<f32>,
+    has_horizon: bool,
 }
 
 /// Some rows of a layer of a map.
@@ -57,6 +58,7 @@ impl SceneUpdate {
             uniforms: scene.uniforms(),
             heights: Heights::new(top, metres, scene.base()).with_beyond(beyond, cells),
             errors: errors(top, lattice.all_levels()),
+            has_horizon: beyond.is_some(),
             rows: None,
             of_rows: scene.cells()[1],
             maps,
@@ -102,12 +104,19 @@ impl Piece {
 }
 
 impl Coming {
-    /// Makes room for maps of other sizes, as of water that there was not before; a ground of another size is refused.
+    /// Makes room for maps of other sizes, as of water that there was not before; a ground of another size is refused, and
+    /// a horizon where the renderer has none, or the other way round.
     pub(super) fn new(
         update: SceneUpdate,
         (gpu, maps): (&Gpu, &mut Maps),
-        is_followed: bool,
+        (is_followed, has_horizon): (bool, bool),
     ) -> Result<Self, Error> {
+        if update.has_horizon != has_horizon {
+            let around = |has_horizon| if has_horizon { "a horizon" } else { "a block" };
+            let (asked, had) = (around(update.has_horizon), around(has_horizon));
+            let message = format!("{asked} cannot take the place of {had}; make another renderer");
+            return Err(DeviceError::new(DeviceErrorKind::Misused, message).into());
+        }
         for map in &update.maps {
             let ([columns, rows], [had, of]) = (map.size, maps.size(map.name));
             if map.name == "top" && [columns, rows] != [had, of] {

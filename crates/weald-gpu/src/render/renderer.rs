@@ -168,10 +168,11 @@ impl Renderer {
     /// What was on its way before is forgotten.
     ///
     /// # Errors
-    /// [`Error::Device`] for a scene of another size, or where the device's memory does not suffice.
+    /// [`Error::Device`] for a scene of another size or with other surroundings, or where the device's memory does not suffice.
     pub fn update(&mut self, update: SceneUpdate) -> Result<(), Error> {
         let maps = (&self.gpu, &mut self.maps);
-        self.coming = Some(Coming::new(update, maps, self.follower.is_some())?);
+        let as_it_is = (self.follower.is_some(), self.terrain.has_horizon());
+        self.coming = Some(Coming::new(update, maps, as_it_is)?);
         Ok(())
     }
 

@@ -147,6 +147,11 @@ impl Terrain {
         self.seen[CASCADES].write(into, &self.lattice, patches, &sides)
     }
 
+    /// Whether ground goes on beyond the border.
+    pub(super) fn has_horizon(&self) -> bool {
+        self.has_horizon
+    }
+
     /// Lets heights rise and sink by a share of the relief.
     pub(super) fn widen(&mut self, share: f32) {
         self.heights.widen(share * (self.heights.highest() - self.heights.lowest()));

@@ -8,7 +8,7 @@ use crate::scenes::{above, lakes};
 use weald::Field;
 use weald::edit::{Area, Brush, Effect};
 use weald::engine::Engine;
-use weald::picture::{Image, LitScene, View};
+use weald::picture::{Around, Image, LitScene, View};
 use weald::recipe::{Overrides, Recipe, Session, SessionOptions, Silent};
 use weald_gpu::{Gpu, Live, RenderOptions, Renderer, SceneUpdate};
 
@@ -145,6 +145,9 @@ fn a_scene_that_was_brought_up_to_date_is_drawn_as_a_new_one() {
     assert_eq!(renderer.render(&scene.camera()).expect("drawn"), wanted, "all of it");
     let other = LitScene::new(&view(), &crate::scenes::meadow()).expect("a scene");
     assert!(renderer.update(SceneUpdate::of(&other)).is_err(), "another size");
+    let around = View { around: Some(Around::Horizon), ..view() };
+    let open = LitScene::new(&around, &after).expect("a scene");
+    assert!(renderer.update(SceneUpdate::of(&open)).is_err(), "another surrounding");
 }
 
 #[test]

@@ -35,5 +35,6 @@ fn through_clouds(point: vec3<f32>) -> f32 {
         return 1.0;
     }
     let reach = max(scene.cloud_height.x - point.z, 0.0) / max(scene.sun.z, 0.05);
-    return 1.0 - CLOUDS_SHADOW * cloud_density(point.xy + scene.sun.xy * reach, CLOUDS_SOFT);
+    let density = cloud_density(point.xy + scene.sun.xy * reach, CLOUDS_SOFT);
+    return select(1.0, 1.0 - CLOUDS_SHADOW * density, scene.clouds.w > 0.0);
 }

@@ -9,7 +9,7 @@ struct Folded {
 fn folded(place: vec2<f32>, corner: vec2<f32>, cells: vec2<f32>) -> Folded {
     let share = fract((place - corner) / (2.0 * cells));
     let within = corner + cells * (1.0 - abs(2.0 * share - 1.0));
-    return Folded(within, select(vec2<f32>(-1.0), vec2<f32>(1.0), share < vec2<f32>(0.5)));
+    return Folded(within, select(vec2<f32>(-1.0), vec2<f32>(1.0), share <= vec2<f32>(0.5)));
 }
 
 fn mirrored_within(place: vec2<f32>) -> Folded {
@@ -55,15 +55,23 @@ fn nearest_within(place: vec2<f32>) -> vec2<f32> {
     return clamp(place, vec2<f32>(0.5), scene.grid.xy + 0.5);
 }
 
-// Height far away in the direction of a place, and how uneven the ground is there.
-fn far_at(place: vec2<f32>) -> vec2<f32> {
+// Height far away in the direction of a place, and how uneven the ground is there; and the rise of both by the cell.
+struct Far {
+    ground: vec2<f32>,
+    east: vec2<f32>,
+    south: vec2<f32>,
+}
+
+fn far_at(place: vec2<f32>) -> Far {
     let away = place - 0.5 - 0.5 * scene.grid.xy;
     let at = fract(atan2(away.x, -away.y) / (2.0 * PI)) * f32(FAR_DIRECTIONS);
     let first = i32(at);
     let t = fract(at);
     let one = scene.far_ground[first % FAR_DIRECTIONS].xy;
     let other = scene.far_ground[(first + 1) % FAR_DIRECTIONS].xy;
-    return mix(one, other, t * t * (3.0 - 2.0 * t));
+    let swing = 6.0 * t * (1.0 - t) * f32(FAR_DIRECTIONS) / (2.0 * PI) / max(dot(away, away), 1e-6);
+    let change = (other - one) * swing;
+    return Far(mix(one, other, t * t * (3.0 - 2.0 * t)), -away.y * change, away.x * change);
 }
 
 // The ground at a place beyond the border.
@@ -80,13 +88,17 @@ fn ground_beyond(place: vec2<f32>) -> Beyond {
     let edge = spline_with_slope(bed, border);
     let within = spline_with_slope(bed, mirrored.place);
     let there = spline_with_slope(bed, turned.place);
-    let far_ground = far_at(place);
+    let around = far_at(place);
+    let uneven = around.ground.y;
+    let unlike = there.x - scene.around.w;
     let near = 2.0 * edge.x - within.x;
-    let far = far_ground.x + far_ground.y * (there.x - scene.around.w);
-    let far_rise = vec2<f32>(dot(turned.east, there.yz), dot(turned.south, there.yz));
+    let far = around.ground.x + uneven * unlike;
+    let turned_rise = vec2<f32>(dot(turned.east, there.yz), dot(turned.south, there.yz));
+    let swing = vec2<f32>(dot(around.east, vec2<f32>(1.0, unlike)), dot(around.south, vec2<f32>(1.0, unlike)));
+    let far_rise = uneven * turned_rise + swing;
     let along = select(vec2<f32>(0.0), 2.0 * edge.yz, place == border);
     let near_rise = along - mirrored.sign * within.yz;
-    let slope = mix(near_rise, far_ground.y * far_rise, share) + (far - near) * growth;
+    let slope = mix(near_rise, far_rise, share) + (far - near) * growth;
     let longer = max(scene.grid.x, scene.grid.y);
     let patchy = octaves_at(Octaves(0.05 * longer, 4u, 0.55, 0x61u), place, 0.0).value;
     let like = select(turned.place, mirrored.place, share + 0.5 * patchy < 0.5);
