@@ -39,7 +39,7 @@ fn gradient(x: i32, y: i32, seed: u32) -> [f32; 2] {
 
 /// The whole number at or below one of less than 2³¹: `f32::floor` is a call where the machine is not known.
 #[inline(always)]
-fn floor(number: f32) -> i32 {
+pub fn floor(number: f32) -> i32 {
     let whole = number as i32;
     whole - i32::from(whole as f32 > number)
 }

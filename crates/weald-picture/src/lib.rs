@@ -60,5 +60,6 @@ pub use sheet::fits_on_sheet;
 pub use strokes::{Point as StrokePoint, Strokes};
 pub use view::albedo;
 pub use view::{
-    Around, Camera, Follow, GroundColour, LitScene, Ray, RayMarcher, Rim, SceneTexture, TextureKind, View,
+    Around, Camera, Follow, GroundColour, LitScene, Ray, RayMarcher, Rim, SPACING_OF_TREES, SceneTexture,
+    TextureKind, Tree, View,
 };

@@ -37,9 +37,11 @@ mod surface;
 mod surroundings;
 mod terrain;
 mod tone;
+mod trees;
 mod twin;
 mod vector;
 mod water;
+mod woods;
 
 pub use albedo::albedo;
 pub use camera::Camera;
@@ -50,6 +52,7 @@ pub use maps::{SceneTexture, TextureKind};
 pub use rim::Rim;
 pub use scene::RayMarcher;
 pub use terrain::Ray;
+pub use woods::{SPACING as SPACING_OF_TREES, Tree};
 
 use rayon::prelude::*;
 

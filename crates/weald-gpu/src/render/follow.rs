@@ -38,7 +38,7 @@ impl Renderer {
         let context = &self.gpu.context;
         let mut encoder = context.device.create_command_encoder(&CommandEncoderDescriptor::default());
         follower.encode(&self.gpu, &mut encoder, &self.maps, live);
-        if let Some(plants) = &self.plants {
+        if let Some(plants) = &mut self.plants {
             plants.stand(&mut encoder, [&self.frame.caster_group, &self.maps.group]);
         }
         context.queue.submit([encoder.finish()]);

@@ -34,6 +34,7 @@ struct Numbers {
     sun_right: [f32; 4],
     sun_up: [f32; 4],
     cascades: [[f32; 4]; CASCADES],
+    woods: [f32; 4],
 }
 
 /// What a camera's ground was selected for.
@@ -48,6 +49,8 @@ pub(super) struct Drawn {
     /// Whether water is left out.
     pub(super) is_dry: bool,
     pub(super) cascades: Cascades,
+    /// How far trees of woods are drawn one by one, in metres.
+    pub(super) woods: f32,
 }
 
 /// The uniforms of a picture on the device, and what shadows are looked up in.
@@ -124,6 +127,7 @@ fn write(into: &mut Upload<'_>, store: &Store, camera: &Camera, width: u32, draw
         sun_right: with(drawn.cascades.right, drawn.cascades.depths[0]),
         sun_up: with(drawn.cascades.up, drawn.cascades.depths[1]),
         cascades: drawn.cascades.squares,
+        woods: [drawn.woods, 0.0, 0.0, 0.0],
     };
     into.write(store, bytemuck::bytes_of(&numbers));
 }

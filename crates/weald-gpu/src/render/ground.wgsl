@@ -192,6 +192,7 @@ fn looked_at(point: vec3<f32>, ground: Look) -> Look {
     look.normal = normal_of(look.surface.yz);
     let smooth_point = vec3<f32>(point.xy, look.surface.x - min(look.above, 0.0));
     look.sun = sun_seen_on(point, smooth_point, look.normal);
+    trees_drawn = drawn_as_trees(point);
     return look;
 }
 

@@ -184,7 +184,7 @@ impl Renderer {
         if self.follower.is_none() {
             let (heights, errors) = coming.shape();
             self.terrain.take(heights, errors);
-            if let Some(plants) = &self.plants {
+            if let Some(plants) = &mut self.plants {
                 plants.stand(encoder, [&self.frame.caster_group, &self.maps.group]);
             }
         }
@@ -282,18 +282,20 @@ impl Renderer {
         }
         let into = &mut Upload { gpu: &self.gpu, encoder };
         let drawn = self.terrain.prepare(into, camera, size, self.look.detail_from)?;
-        let drawn = Drawn { seconds: self.seconds, is_dry: self.is_dry, ..drawn };
+        let from = self.look.detail_from.unwrap_or(camera.eye);
+        let woods = self.plants.as_mut().map_or(0.0, |plants| plants.reach_of_trees(from));
+        let drawn = Drawn { seconds: self.seconds, is_dry: self.is_dry, woods, ..drawn };
         self.frame.write(into, camera, size[0], &drawn);
         if !self.shadows.whole_is_drawn {
             self.terrain.prepare_whole(into, drawn.cascades.last_texel())?;
             self.frame.write_still(into, camera, size[0], &drawn);
         }
         let groups = [&self.frame.caster_group, &self.maps.group];
-        if let Some(plants) = &self.plants {
+        if let Some(plants) = &mut self.plants {
+            plants.grow(encoder, groups, from);
             plants.choose(encoder, groups);
         }
         if let Some(grass) = &mut self.grass {
-            let from = self.look.detail_from.unwrap_or(camera.eye);
             let around = Around { from, look: self.grass_look, viewer: &onto.viewer, waits };
             grass.prepare(&self.gpu, &around)?;
             grass.choose(encoder, groups, self.timer.as_ref());

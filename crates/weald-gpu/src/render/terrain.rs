@@ -134,7 +134,15 @@ impl Terrain {
             let sides: Vec<_> = patches.iter().flat_map(|patch| self.sides_of(*patch)).collect();
             self.seen[number].write(into, &self.lattice, patches, &sides)?;
         }
-        Ok(Drawn { stand, slides: ranges.slides(), detail_from, seconds: 0.0, is_dry: false, cascades })
+        Ok(Drawn {
+            stand,
+            slides: ranges.slides(),
+            detail_from,
+            seconds: 0.0,
+            is_dry: false,
+            cascades,
+            woods: 0.0,
+        })
     }
 
     /// Selects all ground for the sun's last cascade, whatever a camera sees: so finely that texels of so many metres do

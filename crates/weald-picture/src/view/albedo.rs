@@ -14,6 +14,9 @@ use weald_core::landscape::Landscape;
 /// Rivers that are too narrow for a surface of their own.
 const RIVER: u32 = 0x2c_4f57;
 
+/// A sun that throws no shadows.
+const OVERHEAD: [f32; 3] = [0.0, 0.0, 1.0];
+
 /// The ground that a view shows, on a sheet over all cells to their outer edges, `width` pixels wide or as suits the
 /// grid. The beds of lakes are gravel. Cells without data have colours of the nearest land.
 ///
@@ -23,7 +26,7 @@ pub fn albedo(view: &View, landscape: &Landscape, width: Option<u32>) -> Result<
     let sheet = Sheet::new(&landscape.domain, width)?;
     let (setting, sites) = Setting::new(view, landscape, None)?;
     let river = linear_of_hex(RIVER);
-    let above = TopView { cover: Cover::new(sites, setting.limits), setting, sheet, river };
+    let above = TopView { cover: Cover::new(sites, setting.limits, OVERHEAD), setting, sheet, river };
     let mut rgb = vec![0; 3 * sheet.width * sheet.height];
     rgb.par_chunks_mut(3 * sheet.width).enumerate().for_each(|(y, row)| {
         for (x, pixel) in row.chunks_exact_mut(3).enumerate() {
@@ -48,15 +51,16 @@ impl TopView {
         let size = self.setting.bed.size();
         let place = [0.5 + share[0] * size.columns as f32, 0.5 + share[1] * size.rows as f32];
         let [height, east, south] = self.setting.bed.with_slope(place);
-        if self.setting.level.as_ref().is_some_and(|level| level.at(place) > height) {
+        let above = self.setting.level.as_ref().map_or(f32::INFINITY, |level| height - level.at(place));
+        if above < 0.0 {
             return self.cover.gravel();
         }
-        let ground = self.cover.at(&self.spot(place, height, [east, south])).albedo;
+        let ground = self.cover.at(&self.spot(place, [height, above], [east, south])).albedo;
         let river = self.setting.rivers.as_ref().map_or(0.0, |rivers| rivers.at(share));
         mix(ground, self.river, river)
     }
 
-    fn spot(&self, place: [f32; 2], height: f32, rise: [f32; 2]) -> SurfacePoint {
+    fn spot(&self, place: [f32; 2], [height, above]: [f32; 2], rise: [f32; 2]) -> SurfacePoint {
         let terrain = &self.setting.terrain;
         let normal = terrain.normal(rise);
         let run = (normal[0] * normal[0] + normal[1] * normal[1]).sqrt();
@@ -66,6 +70,7 @@ impl TopView {
             slope: run / normal[2].max(1e-3),
             fall: [normal[0], normal[1]].map(|part| part / run.max(1e-6)),
             footprint: self.sheet.metres_per_pixel as f32,
+            above: above / self.setting.exaggeration,
         }
     }
 }

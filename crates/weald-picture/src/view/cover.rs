@@ -8,6 +8,7 @@ use super::rock::{BedSpot, Beds, beds};
 use super::site::Sites;
 use super::snow::{SnowSpot, snow_share};
 use super::vector::{Vector, add, ramp, scale};
+use super::woods::{Canopy, canopy};
 use crate::colour::{Linear, linear_of_hex, mix};
 use weald_core::grain::{Grain, Octaves};
 
@@ -23,6 +24,8 @@ pub(super) struct SurfacePoint {
     pub(super) fall: [f32; 2],
     /// Size of a pixel on the ground in metres.
     pub(super) footprint: f32,
+    /// Height above the water beside it in metres, without exaggeration.
+    pub(super) above: f32,
 }
 
 /// What light falls on.
@@ -55,17 +58,29 @@ struct Texture {
 }
 
 impl Texture {
+    /// Borders wander with patches more than with detail, and by half of the range of moisture.
+    fn patchy(&self) -> f32 {
+        0.6 * self.broad + 0.4 * self.fine.value
+    }
+
     /// Slopes of the fine detail.
     fn rough(&self, strength: f32) -> [f32; 2] {
         self.fine.slope.map(|slope| strength * self.cell * slope)
     }
 }
 
-/// Slope that bumps come near but do not pass: from close by, many octaves would add up to needles.
+/// Slope that bumps come near but do not pass: from close by, many octaves would add up to needles. Crowns are rounder.
 const STEEPEST: f32 = 0.75;
+const STEEPEST_CROWN: f32 = 1.5;
 
-fn no_steeper(bump: [f32; 2]) -> [f32; 2] {
-    let square = (bump[0] * bump[0] + bump[1] * bump[1]) / (STEEPEST * STEEPEST);
+/// Steepness from which rock begins to be bare, and is all that there is.
+const ROCK: [f32; 2] = [1.08, 1.22];
+
+/// Height in metres above the water, and at most that share of a cell, from which trees stand.
+const SHORE: [f32; 2] = [2.5, 0.028];
+
+fn no_steeper(bump: [f32; 2], steepest: f32) -> [f32; 2] {
+    let square = (bump[0] * bump[0] + bump[1] * bump[1]) / (steepest * steepest);
     bump.map(|slope| slope / (1.0 + square).sqrt())
 }
 
@@ -101,7 +116,7 @@ pub(super) struct Palette {
 impl Default for Palette {
     fn default() -> Self {
         let [lush, meadow, dry, alpine] = [0x44_622f, 0x54_6a37, 0x78_7648, 0x62_683f].map(linear_of_hex);
-        let forest = [0x26_341e, 0x44_5330].map(linear_of_hex);
+        let forest = [0x1b_2614, 0x6a_7a3f].map(linear_of_hex);
         let rock = [0x83_7c72, 0x55_4e47, 0x9a_8c7a].map(linear_of_hex);
         let [scree, gravel, snow] = [0x95_8d80, 0xa9_9d86, 0xe4_e8ee].map(linear_of_hex);
         Self { lush, meadow, dry, alpine, forest, rock, scree, gravel, snow }
@@ -114,11 +129,13 @@ pub(super) struct Cover {
     pub(super) sites: Sites,
     pub(super) limits: Limits,
     palette: Palette,
+    /// Direction of the sun, away from which crowns throw their shadows.
+    sun: Vector,
 }
 
 impl Cover {
-    pub(super) fn new(sites: Sites, limits: Limits) -> Self {
-        Self { sites, limits, palette: Palette::default() }
+    pub(super) fn new(sites: Sites, limits: Limits, sun: Vector) -> Self {
+        Self { sites, limits, palette: Palette::default(), sun }
     }
 
     /// The colours of natural ground.
@@ -131,48 +148,55 @@ impl Cover {
         if let Some(albedo) = self.sites.material(spot.place).filter(|_| self.sites.is_draped()) {
             return SurfaceSample { albedo: albedo.map(|c| c.clamp(0.01, 0.9)), bump: [0.0; 2] };
         }
+        let texture = self.texture(spot);
+        let skin = match self.sites.material(spot.place) {
+            Some(albedo) => self.of_material(spot, albedo, &texture),
+            None => self.natural(spot, &texture),
+        };
+        // No ground in nature is darker or lighter: wet peat, fresh snow.
+        SurfaceSample { albedo: skin.albedo.map(|c| c.clamp(0.01, 0.9)), bump: skin.bump }
+    }
+
+    /// How densely trees stand at a point of natural ground, from 0 to 1.
+    pub(super) fn density(&self, spot: &SurfacePoint) -> f32 {
+        let texture = self.texture(spot);
+        let trees = self.trees(spot, self.sites.moisture(spot.place), texture.patchy());
+        let bare = ramp(self.steepness(spot, &texture), ROCK[0], ROCK[1]);
+        trees * (1.0 - bare) * (1.0 - self.snow(spot, &texture))
+    }
+
+    fn texture(&self, spot: &SurfacePoint) -> Texture {
         let cell = self.limits.cell;
         // Lengths are in cells, shares and limits in those of the landscape, so that a finer grid looks finer
         // and not other. All numbers here and below are chosen by eye. Patches of many cells, and detail down
         // to a fiftieth of a cell.
         let broad = Octaves { wavelength: 26.0 * cell, count: 5, gain: 0.55, seed: 0x11 };
         let fine = Octaves { wavelength: 2.4 * cell, count: 7, gain: 0.66, seed: 0x12 };
-        let texture = Texture {
+        Texture {
             broad: broad.at(spot.point, spot.footprint).value,
             fine: fine.at(spot.point, spot.footprint),
             streak: self.streak(spot),
             cell,
-        };
-        let skin = match self.sites.material(spot.place) {
-            Some(albedo) => self.of_material(spot, albedo, &texture),
-            None => self.natural(spot, &texture),
-        };
-        // No ground in nature is darker or lighter: wet peat, fresh snow.
-        SurfaceSample { albedo: skin.albedo.map(|c| c.clamp(0.01, 0.9)), bump: no_steeper(skin.bump) }
+        }
+    }
+
+    /// 1 where rock is bare on the average: earlier in patches, in streaks, and where there is less than usual soil.
+    fn steepness(&self, spot: &SurfacePoint, texture: &Texture) -> f32 {
+        let soil = self.sites.soil(spot.place);
+        spot.slope / self.limits.rock + 0.25 * texture.patchy() + 0.55 * texture.streak + 0.4 * (0.4 - soil)
     }
 
     fn natural(&self, spot: &SurfacePoint, texture: &Texture) -> SurfaceSample {
-        let Texture { broad, fine, streak, .. } = *texture;
-        // Borders wander with patches more than with detail, and by half of the range of moisture.
-        let patchy = 0.6 * broad + 0.4 * fine.value;
+        let Texture { fine, streak, .. } = *texture;
+        let patchy = texture.patchy();
         let moisture = self.sites.moisture(spot.place);
         let high = spot.point[2] / self.limits.relief.max(1e-3);
         let grass = self.grass(moisture + 0.55 * patchy, high + 0.25 * patchy);
         let grass = scale(grass, 1.0 + 0.5 * fine.value + 0.35 * streak);
-        let trees = self.trees(spot, moisture, patchy);
-        // Darker than a meadow on average: crowns shade each other.
-        let crown = (0.4 + 1.1 * fine.value + 0.5 * broad).clamp(0.0, 1.0);
         let meadow = SurfaceSample { albedo: grass, bump: texture.rough(0.16) };
-        let wood = SurfaceSample {
-            albedo: mix(self.palette.forest[0], self.palette.forest[1], crown),
-            bump: texture.rough(0.55),
-        };
-        let green = meadow.mixed(&wood, trees);
+        let trees = self.trees(spot, moisture, patchy);
 
-        let soil = self.sites.soil(spot.place);
-        // 1 where rock is bare on the average: earlier in patches, in streaks, and where there is less than
-        // usual soil.
-        let steep = spot.slope / self.limits.rock + 0.25 * patchy + 0.55 * streak + 0.4 * (0.4 - soil);
+        let steep = self.steepness(spot, texture);
         let pebbles = scale(self.palette.scree, 1.0 + 0.45 * fine.value + 0.4 * streak);
         let scree = SurfaceSample { albedo: pebbles, bump: texture.rough(0.28) };
         // Scree lies just below bare rock, never covers all, and less under trees, which hold the soil; where stones fall
@@ -180,15 +204,34 @@ impl Cover {
         let apron = 1.1 * self.sites.fallen(spot.place) + 0.6 * patchy + 0.9 * streak;
         let apron = 0.9 * ramp(apron, 0.4, 1.15) * ramp(spot.slope, 0.32, 0.55);
         let scree_share = (0.8 * ramp(steep, 0.97, 1.10) * (1.0 - 0.6 * trees)).max(apron);
-        let stony = green.mixed(&scree, scree_share);
+        let stony = meadow.mixed(&scree, scree_share);
         let rock = self.rock(spot, texture);
         // Rock begins where scree is whole.
-        let ground = stony.mixed(&rock, ramp(steep, 1.08, 1.22));
+        let bare = ramp(steep, ROCK[0], ROCK[1]);
+        let ground = stony.mixed(&rock, bare);
         let snow = SurfaceSample {
             albedo: scale(self.palette.snow, 1.0 + 0.12 * streak),
             bump: texture.rough(0.10),
         };
-        ground.mixed(&snow, self.snow(spot, texture))
+        let white = self.snow(spot, texture);
+        let mut open = ground.mixed(&snow, white);
+        open.bump = no_steeper(open.bump, STEEPEST);
+        let density = trees * (1.0 - bare) * (1.0 - white);
+        if density > 0.0 { self.under_trees(spot, &open, density) } else { open }
+    }
+
+    /// Ground with a wood of such a density on it.
+    fn under_trees(&self, spot: &SurfacePoint, open: &SurfaceSample, density: f32) -> SurfaceSample {
+        let [east, north, _] = spot.point;
+        let Canopy { share, tone, slope, open: left } =
+            canopy([east, north], density, spot.footprint, self.sun);
+        let [dark, light] = self.palette.forest;
+        let shaded = SurfaceSample { albedo: scale(open.albedo, left), bump: open.bump };
+        let wood = SurfaceSample {
+            albedo: mix(dark, light, tone.clamp(0.0, 1.0)),
+            bump: no_steeper(slope, STEEPEST_CROWN),
+        };
+        shaded.mixed(&wood, share)
     }
 
     /// Noise drawn out along the fall line, as water and stones leave their marks: its mean over points above and
@@ -217,14 +260,15 @@ impl Cover {
         mix(low, mix(alpine, dry, ramp(moisture, 0.6, 0.2)), ramp(high, 0.35, 0.8))
     }
 
-    /// Share of forest: where it is moist but not boggy, below the tree line, and not too steep.
+    /// How densely trees stand: where it is moist but not boggy, below the tree line, not too steep, and above the shore.
     fn trees(&self, spot: &SurfacePoint, moisture: f32, patchy: f32) -> f32 {
         let line = (self.limits.trees - spot.point[2]) / (0.12 * self.limits.relief).max(1e-3);
-        let steep = ramp(spot.slope / self.limits.rock, 0.85, 1.15);
+        let steep = ramp(spot.slope / self.limits.rock, 0.95, 1.3);
         // A score: moisture first, then patches; height below the tree line helps a little and cannot make up
         // for drought.
-        let wood = 1.1 * (moisture - 0.5) + 0.9 * patchy + 0.4 * line.clamp(-2.0, 0.8) - 0.5 * steep;
-        ramp(wood, 0.10, 0.24)
+        let wood = 1.1 * (moisture - 0.5) + 0.9 * patchy + 0.4 * line.clamp(-8.0, 0.8) - 0.4 * steep;
+        let [metres, share] = SHORE;
+        ramp(wood, 0.02, 0.40) * ramp(spot.above, 0.0, metres.min(share * self.limits.cell))
     }
 
     /// Rock with its beds: light and dark, sunk into cracks and joints.
@@ -288,8 +332,15 @@ impl Cover {
         let tone = (1.0 + 0.28 * texture.broad + fine + steep * bedded).max(0.2);
         let (rough, ledge) =
             (texture.rough(0.12 + 0.4 * steep), steep * (0.3 * bed.ledge + 0.15 * thin.ledge));
-        let bump = [0, 1].map(|axis| rough[axis] - spot.fall[axis] * ledge);
+        let bump = no_steeper([0, 1].map(|axis| rough[axis] - spot.fall[axis] * ledge), STEEPEST);
         SurfaceSample { albedo: scale(albedo, tone), bump }
+    }
+
+    /// Whether ground of this height may bear trees.
+    pub(super) fn has_woods(&self) -> bool {
+        // The score of the best place, at the lowest ground.
+        let line = self.limits.trees / (0.12 * self.limits.relief).max(1e-3);
+        !self.sites.shows_materials() && 1.2 + 0.4 * line.clamp(-8.0, 0.8) > 0.02
     }
 
     /// The bed of a lake or a river.

@@ -2,6 +2,16 @@
 
 // Slope that bumps come near but do not pass.
 const STEEPEST = 0.75;
+const STEEPEST_CROWN = 1.5;
+
+// Steepness from which rock begins to be bare, and is all that there is.
+const ROCK = vec2<f32>(1.08, 1.22);
+
+// Height in metres above the water, and at most that share of a cell, from which trees stand.
+const SHORE = vec2<f32>(2.5, 0.028);
+
+// Share of the trees of the point in question that are drawn as such, and so not on the ground.
+var<private> trees_drawn: f32 = 0.0;
 
 struct SurfacePoint {
     place: vec2<f32>,
@@ -9,6 +19,7 @@ struct SurfacePoint {
     slope: f32,
     fall: vec2<f32>,
     footprint: f32,
+    above: f32,
 }
 
 // With the shares of wood, scree, rock and snow, which have detail of their own from close by.
@@ -36,8 +47,39 @@ fn ramp(value: f32, low: f32, high: f32) -> f32 {
     return share * share * (3.0 - 2.0 * share);
 }
 
+fn no_steeper(bump: vec2<f32>, steepest: f32) -> vec2<f32> {
+    return bump / sqrt(1.0 + dot(bump, bump) / (steepest * steepest));
+}
+
 fn rough(texture: Texture, strength: f32) -> vec2<f32> {
     return strength * scene.scale.x * texture.fine.slope;
+}
+
+fn patchy_of(texture: Texture) -> f32 {
+    return 0.6 * texture.broad + 0.4 * texture.fine.value;
+}
+
+fn texture_of(spot: SurfacePoint) -> Texture {
+    let cell = scene.scale.x;
+    var texture: Texture;
+    texture.broad = octaves_at(Octaves(26.0 * cell, 5u, 0.55, 0x11u), spot.point.xy, spot.footprint).value;
+    texture.fine = octaves_at(Octaves(2.4 * cell, 7u, 0.66, 0x12u), spot.point.xy, spot.footprint);
+    texture.streak = streak(spot);
+    return texture;
+}
+
+// 1 where rock is bare on the average.
+fn steepness(spot: SurfacePoint, texture: Texture, soil: f32) -> f32 {
+    return spot.slope / scene.limits.x + 0.25 * patchy_of(texture) + 0.55 * texture.streak + 0.4 * (0.4 - soil);
+}
+
+// How densely trees stand at a point of natural ground.
+fn wood_density(spot: SurfacePoint) -> f32 {
+    let texture = texture_of(spot);
+    let here = smooth_at(site, spot.place);
+    let wooded = trees(spot, here.x, patchy_of(texture));
+    let bare = ramp(steepness(spot, texture, here.y), ROCK.x, ROCK.y);
+    return wooded * (1.0 - bare) * (1.0 - snow_at(spot, texture, here.x));
 }
 
 // Colour and roughness of a point.
@@ -47,11 +89,7 @@ fn cover_at(spot: SurfacePoint) -> SurfaceSample {
         // The values of a layer, which nothing of the ground's own may hide.
         return SurfaceSample(min(coloured, vec3<f32>(0.9)), vec2<f32>(0.0), vec4<f32>(0.0));
     }
-    let cell = scene.scale.x;
-    var texture: Texture;
-    texture.broad = octaves_at(Octaves(26.0 * cell, 5u, 0.55, 0x11u), spot.point.xy, spot.footprint).value;
-    texture.fine = octaves_at(Octaves(2.4 * cell, 7u, 0.66, 0x12u), spot.point.xy, spot.footprint);
-    texture.streak = streak(spot);
+    let texture = texture_of(spot);
     var skin: SurfaceSample;
     if scene.has.z > 0.0 {
         skin = of_material(spot, coloured, texture);
@@ -59,33 +97,41 @@ fn cover_at(spot: SurfacePoint) -> SurfaceSample {
         skin = natural(spot, texture);
     }
     skin.albedo = clamp(skin.albedo, vec3<f32>(0.01), vec3<f32>(0.9));
-    skin.bump /= sqrt(1.0 + dot(skin.bump, skin.bump) / (STEEPEST * STEEPEST));
     return skin;
 }
 
 fn natural(spot: SurfacePoint, texture: Texture) -> SurfaceSample {
     let fine = texture.fine.value;
-    let patchy = 0.6 * texture.broad + 0.4 * fine;
+    let patchy = patchy_of(texture);
     let here = smooth_at(site, spot.place);
     let moisture = here.x;
     let high = spot.point.z / max(scene.limits.w, 1e-3);
     let turf = grass(moisture + 0.55 * patchy, high + 0.25 * patchy) * (1.0 + 0.5 * fine + 0.35 * texture.streak);
     let wooded = trees(spot, moisture, patchy);
-    let crown = clamp(0.4 + 1.1 * fine + 0.5 * texture.broad, 0.0, 1.0);
     let meadow = SurfaceSample(turf, rough(texture, 0.16), vec4<f32>(0.0));
-    let wood = SurfaceSample(mix(scene.forest_dark.xyz, scene.forest_light.xyz, crown), rough(texture, 0.55), vec4<f32>(1.0, 0.0, 0.0, 0.0));
-    let green = mixed(meadow, wood, wooded);
 
-    let soil = here.y;
-    let steep = spot.slope / scene.limits.x + 0.25 * patchy + 0.55 * texture.streak + 0.4 * (0.4 - soil);
+    let steep = steepness(spot, texture, here.y);
     let pebbles = scene.scree.xyz * (1.0 + 0.45 * fine + 0.4 * texture.streak);
     let scree = SurfaceSample(pebbles, rough(texture, 0.28), vec4<f32>(0.0, 1.0, 0.0, 0.0));
     let fallen = 1.1 * here.w + 0.6 * patchy + 0.9 * texture.streak;
     let apron = 0.9 * ramp(fallen, 0.4, 1.15) * ramp(spot.slope, 0.32, 0.55);
-    let stony = mixed(green, scree, max(0.8 * ramp(steep, 0.97, 1.10) * (1.0 - 0.6 * wooded), apron));
-    let ground = mixed(stony, rock(spot, texture), ramp(steep, 1.08, 1.22));
+    let stony = mixed(meadow, scree, max(0.8 * ramp(steep, 0.97, 1.10) * (1.0 - 0.6 * wooded), apron));
+    let bare = ramp(steep, ROCK.x, ROCK.y);
+    let ground = mixed(stony, rock(spot, texture), bare);
     let snow = SurfaceSample(scene.snow.xyz * (1.0 + 0.12 * texture.streak), rough(texture, 0.10), vec4<f32>(0.0, 0.0, 0.0, 1.0));
-    return mixed(ground, snow, snow_at(spot, texture, moisture));
+    let white = snow_at(spot, texture, moisture);
+    var open = mixed(ground, snow, white);
+    open.bump = no_steeper(open.bump, STEEPEST);
+    return under_trees(spot, open, wooded * (1.0 - bare) * (1.0 - white));
+}
+
+// Ground with a wood of such a density on it.
+fn under_trees(spot: SurfacePoint, open: SurfaceSample, density: f32) -> SurfaceSample {
+    let canopy = canopy_of(spot.point.xy, density, spot.footprint);
+    let shaded = SurfaceSample(open.albedo * mix(1.0, canopy.open, 1.0 - trees_drawn), open.bump, open.kinds);
+    let crown = mix(scene.forest_dark.xyz, scene.forest_light.xyz, clamp(canopy.tone, 0.0, 1.0));
+    let wood = SurfaceSample(crown, no_steeper(canopy.slope, STEEPEST_CROWN), vec4<f32>(1.0, 0.0, 0.0, 0.0));
+    return mixed(shaded, wood, canopy.share * (1.0 - trees_drawn));
 }
 
 // Noise drawn out along the fall line.
@@ -109,12 +155,12 @@ fn grass(moisture: f32, high: f32) -> vec3<f32> {
     return mix(low, mix(scene.alpine.xyz, scene.dry.xyz, ramp(moisture, 0.6, 0.2)), ramp(high, 0.35, 0.8));
 }
 
-// Share of forest.
+// How densely trees stand.
 fn trees(spot: SurfacePoint, moisture: f32, patchy: f32) -> f32 {
     let line = (scene.limits.y - spot.point.z) / max(0.12 * scene.limits.w, 1e-3);
-    let steep = ramp(spot.slope / scene.limits.x, 0.85, 1.15);
-    let wood = 1.1 * (moisture - 0.5) + 0.9 * patchy + 0.4 * clamp(line, -2.0, 0.8) - 0.5 * steep;
-    return ramp(wood, 0.10, 0.24);
+    let steep = ramp(spot.slope / scene.limits.x, 0.95, 1.3);
+    let wood = 1.1 * (moisture - 0.5) + 0.9 * patchy + 0.4 * clamp(line, -8.0, 0.8) - 0.4 * steep;
+    return ramp(wood, 0.02, 0.40) * ramp(spot.above, 0.0, min(SHORE.x, SHORE.y * scene.scale.x));
 }
 
 // Rock with its beds: light and dark, sunk into cracks and joints.
@@ -165,6 +211,6 @@ fn of_material(spot: SurfacePoint, albedo: vec3<f32>, texture: Texture) -> Surfa
     let bedded = tones - 0.3 * bedding.thick.joint - 0.15 * bedding.thin.joint;
     let tone = max(1.0 + 0.28 * texture.broad + fine + steep * bedded, 0.2);
     let ledge = steep * (0.3 * bedding.thick.ledge + 0.15 * bedding.thin.ledge);
-    let bump = rough(texture, 0.12 + 0.4 * steep) - spot.fall * ledge;
+    let bump = no_steeper(rough(texture, 0.12 + 0.4 * steep) - spot.fall * ledge, STEEPEST);
     return SurfaceSample(albedo * tone, bump, vec4<f32>(0.0, 0.3, 0.7 * steep, 0.0));
 }

@@ -87,7 +87,7 @@ impl LitScene {
         let sky = Sky::new(towards(view.sun_azimuth_deg, view.sun_altitude_deg), view.sun_diameter_deg);
         let terrain = &setting.terrain;
         let camera = setting.above_ground(Camera::new(view, terrain, setting.exaggeration));
-        let cover = Cover::new(sites, setting.limits);
+        let cover = Cover::new(sites, setting.limits, sky.sun);
         let (level, plain) = (sky.on_flat_ground(), linear_of_hex(PLAIN));
         let sent_back = |albedo: Linear, share: f32| scale(filter(albedo, level), share * FRAC_1_PI);
         Ok(Self {

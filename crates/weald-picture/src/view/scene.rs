@@ -197,7 +197,9 @@ impl RayMarcher {
         let fall = [0, 1].map(|axis| normal[axis] / run.max(1e-6));
         let point_of_cover = [point[0], point[1], height / stretch];
         let slope = run / normal[2].max(1e-3) / stretch;
-        let skin = self.cover.at(&SurfacePoint { place, fall, point: point_of_cover, slope, footprint });
+        let spot =
+            SurfacePoint { place, fall, point: point_of_cover, slope, footprint, above: above / stretch };
+        let skin = self.cover.at(&spot);
         let rough = unit([
             normal[0] - normal[2] * skin.bump[0] * stretch,
             normal[1] - normal[2] * skin.bump[1] * stretch,

@@ -17,14 +17,16 @@ const LIGHT: [&str; 7] = [
 ];
 
 /// Those of ground and water, which call them.
-const GROUND: [&str; 7] = [
+const GROUND: [&str; 9] = [
     include_str!("rock.wgsl"),
     include_str!("snow.wgsl"),
+    include_str!("woods.wgsl"),
     include_str!("cover.wgsl"),
     include_str!("water.wgsl"),
     include_str!("side.wgsl"),
     include_str!("scene.wgsl"),
     include_str!("surroundings.wgsl"),
+    include_str!("trees.wgsl"),
 ];
 
 impl LitScene {

@@ -2,6 +2,7 @@
 
 use weald::error::{Limit, Quantity};
 use weald::grow::Vegetation;
+use weald::grow::ifs::Ifs;
 use weald::grow::ifs::foliage::{Colours, Habit};
 use weald::grow::ifs::limbs::{Corner, LEVELS, Limb, Limbs};
 use weald::picture::{LitScene, linear_of_srgb};
@@ -49,6 +50,15 @@ pub(super) struct Batch {
     _stores: [Store; 6],
 }
 
+/// What the plants of one kind have in common.
+pub(super) struct Kind<'a> {
+    pub(super) ifs: &'a Ifs,
+    pub(super) colours: Colours,
+    /// How far trees of a wood are drawn, whether they are conifers, and how many squares of it are known along a side;
+    /// nothing for other plants.
+    pub(super) wood: [f32; 3],
+}
+
 impl Batch {
     pub(super) fn new(
         gpu: &Gpu,
@@ -57,9 +67,19 @@ impl Batch {
         groups: &Groups,
     ) -> Result<Self, Error> {
         let fractal = landscape.fractal(&plants.kind)?;
-        let limbs = Limbs::of(&fractal.ifs, Habit::of(&fractal.ifs, None));
         let stood: Vec<_> =
             (0..).zip(&plants.plants).filter_map(|(n, plant)| stood(scene, n, plant)).collect();
+        let kind = Kind { ifs: &fractal.ifs, colours: colours(&plants.kind), wood: [0.0; 3] };
+        Self::of(gpu, &kind, &stood, groups)
+    }
+
+    /// So many places for trees of a wood, in none of which one stands yet.
+    pub(super) fn wood(gpu: &Gpu, kind: &Kind<'_>, places: usize, groups: &Groups) -> Result<Self, Error> {
+        Self::of(gpu, kind, &vec![[0; WORDS]; places], groups)
+    }
+
+    fn of(gpu: &Gpu, of: &Kind<'_>, stood: &[[u32; WORDS]], groups: &Groups) -> Result<Self, Error> {
+        let limbs = Limbs::of(of.ifs, Habit::of(of.ifs, None));
         let count = stood.len().max(1) as u64;
         ensure_bound(gpu, count)?;
         let workgroups = count.div_ceil(u64::from(GROUP));
@@ -68,7 +88,7 @@ impl Batch {
             Store::new(gpu, what, 4 * words, BufferUsages::STORAGE | BufferUsages::COPY_SRC)
         };
         let table = BufferUsages::STORAGE;
-        let kind = filled("a kind of plants", &kind(&limbs), BufferUsages::UNIFORM)?;
+        let kind = filled("a kind of plants", &kind(&limbs, of), BufferUsages::UNIFORM)?;
         let plants = filled("plants", stood.as_flattened(), table)?;
         let kept = room("plants in sight", count * VIEWS as u64)?;
         let starts = room("lists of plants", (VIEWS * LISTS) as u64)?;
@@ -120,6 +140,7 @@ impl Batch {
     pub(super) fn roots(&self, gpu: &Gpu) -> Result<Vec<[f32; 3]>, Error> {
         let words = words(gpu, &self.plants)?;
         let plants = words.chunks_exact(WORDS).map(|plant| [0, 1, 2, 3].map(|at| f32::from_bits(plant[at])));
+        let plants = plants.filter(|[.., size]| *size > 0.0);
         Ok(plants.map(|[east, north, up, size]| [east, north, up + ROOTED * size]).collect())
     }
 }
@@ -151,11 +172,22 @@ fn words(gpu: &Gpu, store: &Store) -> Result<Vec<u32>, Error> {
     Ok(values.into_iter().map(f32::to_bits).collect())
 }
 
-/// Colours in linear light, and how far the plant reaches.
-fn kind(limbs: &Limbs) -> [u32; 8] {
-    let [a, b, c] = linear_of_srgb(Colours::USUAL.leaf);
-    let [d, e, f] = linear_of_srgb(Colours::USUAL.stem);
-    [a, b, c, limbs.radius(), d, e, f, 0.0].map(f32::to_bits)
+/// Colours in linear light, how far the plant reaches, and what there is to say of a wood.
+fn kind(limbs: &Limbs, of: &Kind<'_>) -> [u32; 12] {
+    let [a, b, c] = linear_of_srgb(of.colours.leaf);
+    let [d, e, f] = linear_of_srgb(of.colours.stem);
+    let [reach, is_conifer, side] = of.wood;
+    [a, b, c, limbs.radius(), d, e, f, 0.0, reach, is_conifer, side, 0.0].map(f32::to_bits)
+}
+
+/// Colours of a kind of plants by its name: trees are darker than herbs.
+pub(super) fn colours(kind: &str) -> Colours {
+    let leaf = match kind {
+        "spruce" | "conifer" => [0.30, 0.41, 0.22],
+        "crown" | "tree" => [0.42, 0.52, 0.24],
+        _ => return Colours::USUAL,
+    };
+    Colours { leaf, ..Colours::USUAL }
 }
 
 /// A plant on the ground that is drawn, as the device has it; none where there is no land.

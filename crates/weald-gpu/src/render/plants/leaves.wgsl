@@ -77,7 +77,7 @@ fn colour_of_corner(plant: PlacedPlant, look: u32) -> vec3<f32> {
     let tone = f32(look & 255u) / 255.0;
     // Some plants are older and yellower than others.
     let aged = mix(vec3<f32>(1.0), vec3<f32>(1.5, 1.1, 0.8), 0.5 * plant.chance * plant.chance);
-    return kind.leaf.xyz * mix(0.4, 0.75, tone) * aged;
+    return kind.leaf.xyz * mix(0.5, 0.82, tone) * aged;
 }
 
 // The share of the sun that is seen from a leaf: one look, since the corners of leaves lie closer than the edge of a shadow

@@ -13,6 +13,7 @@
 mod batch;
 mod lists;
 mod pipelines;
+mod wood;
 
 use weald::picture::LitScene;
 use weald::{Error, Landscape};
@@ -23,11 +24,15 @@ use crate::gpu::Gpu;
 use batch::{Batch, DRAW};
 use lists::{LISTS, SEATS, VIEWS};
 use pipelines::Pipelines;
+use wood::{REACH, Wood};
 
-/// All scattered plants of a landscape.
+/// All scattered plants of a landscape, and the trees of its woods.
 #[derive(Debug)]
 pub(super) struct Plants {
     sets: Vec<Batch>,
+    wood: Option<Wood>,
+    /// Whether the trees of woods are drawn one by one for the next camera.
+    has_trees: bool,
     pipelines: Pipelines,
 }
 
@@ -41,12 +46,33 @@ impl Plants {
     ) -> Result<Option<Self>, Error> {
         let grown = landscape.all_plants().filter(|(_, plants)| !plants.plants.is_empty());
         let mut grown = grown.peekable();
-        if grown.peek().is_none() {
+        if grown.peek().is_none() && !scene.has_woods() {
             return Ok(None);
         }
         let pipelines = Pipelines::new(gpu, scene, layouts, samples)?;
         let sets = grown.map(|(_, plants)| Batch::new(gpu, scene, (landscape, plants), &pipelines.groups));
-        Ok(Some(Self { sets: sets.collect::<Result<_, _>>()?, pipelines }))
+        let sets = sets.collect::<Result<_, _>>()?;
+        let wood = if scene.has_woods() { Some(Wood::new(gpu, scene, &pipelines)?) } else { None };
+        Ok(Some(Self { sets, wood, has_trees: false, pipelines }))
+    }
+
+    /// How far the trees of woods are drawn one by one for a camera, in metres: not at all from above all of them.
+    pub(super) fn reach_of_trees(&mut self, eye: [f32; 3]) -> f32 {
+        self.has_trees = self.wood.as_ref().is_some_and(|wood| wood.is_near(eye));
+        if self.has_trees { REACH } else { 0.0 }
+    }
+
+    /// Encodes that the trees of woods stand around a point.
+    pub(super) fn grow(&mut self, encoder: &mut CommandEncoder, groups: [&BindGroup; 2], from: [f32; 3]) {
+        if let Some(wood) = self.wood.as_mut().filter(|_| self.has_trees) {
+            wood.grow(encoder, groups, &self.pipelines, from);
+        }
+    }
+
+    /// What is drawn: scattered plants, and trees of woods where these are.
+    fn drawn(&self) -> impl Iterator<Item = &Batch> {
+        let trees = self.wood.iter().filter(|_| self.has_trees).flat_map(|wood| &wood.kinds);
+        self.sets.iter().chain(trees)
     }
 
     /// Encodes the choice of what is drawn in all views.
@@ -55,7 +81,7 @@ impl Plants {
         for (at, group) in (0..).zip(groups) {
             pass.set_bind_group(at, group, &[]);
         }
-        for set in &self.sets {
+        for set in self.drawn() {
             pass.set_bind_group(2, &set.choose, &[]);
             let views = VIEWS as u32;
             let [count, line_up, place] = &self.pipelines.choose;
@@ -72,7 +98,8 @@ impl Plants {
     }
 
     /// Encodes that all stand on the ground as it is now.
-    pub(super) fn stand(&self, encoder: &mut CommandEncoder, groups: [&BindGroup; 2]) {
+    pub(super) fn stand(&mut self, encoder: &mut CommandEncoder, groups: [&BindGroup; 2]) {
+        self.wood.iter_mut().for_each(Wood::forget);
         let mut pass = encoder.begin_compute_pass(&ComputePassDescriptor::default());
         pass.set_pipeline(&self.pipelines.stand);
         for (at, group) in (0..).zip(groups) {
@@ -106,8 +133,14 @@ impl Plants {
         Ok(self.sets.iter().map(|set| set.roots(gpu)).collect::<Result<Vec<_>, _>>()?.concat())
     }
 
+    /// Where the roots of the trees of woods are that stand around the camera.
+    pub(super) fn trees(&self, gpu: &Gpu) -> Result<Vec<[f32; 3]>, Error> {
+        let kinds = self.wood.iter().flat_map(|wood| &wood.kinds);
+        Ok(kinds.map(|kind| kind.roots(gpu)).collect::<Result<Vec<_>, _>>()?.concat())
+    }
+
     fn draw_view(&self, pass: &mut RenderPass<'_>, view: usize) {
-        for set in &self.sets {
+        for set in self.drawn() {
             pass.set_bind_group(2, &set.draw, &[]);
             pass.set_index_buffer(set.indices.buffer.slice(..), IndexFormat::Uint32);
             for list in 0..LISTS {

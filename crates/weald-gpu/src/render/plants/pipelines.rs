@@ -64,6 +64,8 @@ pub(super) struct Pipelines {
     pub(super) choose: [ComputePipeline; 3],
     pub(super) carry: ComputePipeline,
     pub(super) stand: ComputePipeline,
+    /// Of the trees of woods.
+    pub(super) grow: ComputePipeline,
     pub(super) light: RenderPipeline,
     pub(super) caster: RenderPipeline,
     pub(super) groups: Groups,
@@ -91,10 +93,11 @@ impl Pipelines {
         let numbers = numbers(gpu)?;
         let which_layout = which_layout(gpu);
         let which = which(gpu, &which_layout, &numbers)?;
-        let (choose, carry, stand, light, caster) =
+        let (choose, carry, stand, grow, light, caster) =
             gpu.context.attempt_to_compile("making the pipelines of plants", || {
                 let chosen = module(gpu, scene, &[include_str!("choose.wgsl")]);
                 let standing = module(gpu, scene, &[include_str!("stand.wgsl")]);
+                let grown = module_of(gpu, scene.shader(STAGE_GROUP), &[include_str!("wood.wgsl")]);
                 let swaying = [wind::FUNCTIONS, limbs::FUNCTIONS, include_str!("carried.wgsl")];
                 let carried = [&swaying[..], &[include_str!("carry.wgsl")]].concat();
                 let carried = module(gpu, scene, &carried);
@@ -120,16 +123,22 @@ impl Pipelines {
                     CHOOSE.map(|name| compute(gpu, &chosen, &choosing, name)),
                     compute(gpu, &carried, &carrying, "carry_limbs"),
                     compute(gpu, &standing, &put, "stand"),
+                    compute(gpu, &grown, &put, "grow_wood"),
                     light(gpu, &drawn(&frame.layout, samples)),
                     caster(gpu, &drawn(&frame.caster_layout, 1)),
                 ))
             })?;
-        Ok(Self { choose, carry, stand, light, caster, groups, which, numbers })
+        Ok(Self { choose, carry, stand, grow, light, caster, groups, which, numbers })
     }
 }
 
 /// A module of what all shaders of plants share, and its own parts.
 fn module(gpu: &Gpu, scene: &LitScene, own: &[&str]) -> ShaderModule {
+    module_of(gpu, scene.shader_of_light(STAGE_GROUP), own)
+}
+
+/// The same with such functions of the view.
+fn module_of(gpu: &Gpu, of_view: String, own: &[&str]) -> ShaderModule {
     let texels = format!("const SHADOW_TEXELS = {TEXELS}u;");
     let shared = [
         texels.as_str(),
@@ -138,7 +147,7 @@ fn module(gpu: &Gpu, scene: &LitScene, own: &[&str]) -> ShaderModule {
         include_str!("plants.wgsl"),
     ];
     let parts = shared.iter().chain(own);
-    let text = parts.fold(scene.shader_of_light(STAGE_GROUP), |text, part| text + "\n" + part);
+    let text = parts.fold(of_view, |text, part| text + "\n" + part);
     gpu.context.known.module(&gpu.context.device, "plants", text)
 }
 

@@ -25,6 +25,9 @@ struct Kind {
     leaf: vec4<f32>,
     // Colour of stems.
     stem: vec4<f32>,
+    // Of a wood: how far its trees are drawn, 0 for other plants; whether it is of conifers; squares of its lattice along a
+    // side of what is known of it.
+    wood: vec4<f32>,
 }
 
 struct PlacedPlant {
@@ -43,7 +46,8 @@ struct PlacedPlant {
 // the camera.
 fn pixels_of(view: u32, plant: PlacedPlant) -> f32 {
     let distance = max(length(plant.place - frame.moment.yzw), 0.05);
-    let pixels = plant.size / (distance * frame.eye.w);
+    let standing = select(1.0, drawn_as_trees(plant.place), kind.wood.x > 0.0);
+    let pixels = standing * plant.size / (distance * frame.eye.w);
     if view == 0u {
         return pixels;
     }

@@ -39,7 +39,7 @@ impl Habit {
     pub fn of(ifs: &Ifs, fronds: Option<u32>) -> Self {
         let count = |usual: u32| fronds.unwrap_or(usual);
         match ifs.name() {
-            "fern" | "cyclosorus" | "culcita" | "fishbone" => Self::Arching(count(8)),
+            "fern" | "cyclosorus" | "culcita" | "fishbone" => Self::Arching(count(10)),
             "fern-3d" => Self::Leaning(count(8)),
             _ if ifs.is_planar() => Self::Crossed(count(3)),
             _ => fronds.filter(|&count| count > 1).map_or(Self::Single, Self::Leaning),
@@ -74,8 +74,9 @@ impl Habit {
                 phase: unit(hash2(4, number, 7)),
                 azimuth: turn / f64::from(count) * (number as f64 + 0.3 * random(0)),
                 length: 0.92 + 0.16 * random(1),
-                lean: 0.42 + 0.2 * random(2),
-                arch: 1.25 + 0.35 * random(3),
+                // Every other frond is an outer one, which hangs to the ground.
+                lean: 0.40 + 0.15 * random(2) + if is_grown && number % 2 == 1 { 0.38 } else { 0.0 },
+                arch: 1.65 + 0.3 * random(3),
             }
         };
         (0..i64::from(count)).map(frond).collect()

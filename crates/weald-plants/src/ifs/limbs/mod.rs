@@ -8,6 +8,7 @@
 //! of leaves, so that nothing leaps. Each digit of a branch begins a **limb**, which turns about its joint (`sway.rs`).
 
 mod device;
+mod hull;
 mod leaf;
 mod limb;
 mod outline;

@@ -1,5 +1,6 @@
 //! From parts to vertices in space, by the habit of the plant.
 
+use super::hull::HULLS;
 use super::leaf::{Row, bent, difference, length, lowered, unit};
 use super::limb::{Corner, LEVELS, Limb, Limbs};
 use super::outline::Outline;
@@ -23,6 +24,9 @@ const MIN_OPENNESS: f32 = 0.35;
 
 /// Last level, with few leaves in all.
 const CHEAP: u32 = LEVELS as u32 - 1;
+
+/// Most planes of fronds that are all drawn on the last level.
+const FEW: usize = 12;
 
 /// What a plant is made of.
 pub(super) struct Builder {
@@ -61,17 +65,40 @@ impl Builder {
         for (number, frond) in self.fronds.iter().enumerate() {
             let first_limb = plant.limbs.len() as u32;
             plant.limbs.extend(self.walk.branches.iter().map(|branch| self.limb(branch, frond, first_limb)));
-            for part in &self.walk.parts {
+            for part in self.walk.parts.iter().filter(|part| !self.is_in_hull(part)) {
                 self.part(&mut plant, part, frond, first_limb);
             }
-            if self.fronds.len() < 4 || number % 2 == 0 {
+            let are_few = self.fronds.len() * self.outline.views() <= FEW;
+            if !self.is_hull() && (are_few || number % 2 == 0) {
                 self.cheap(&mut plant, frond, first_limb);
             }
         }
-        even_areas(&mut plant);
+        let leafy = if self.is_hull() { HULLS[0].level } else { LEVELS as u32 };
+        even_areas(&mut plant, leafy);
+        if self.is_hull() {
+            for hull in &HULLS {
+                hull.add(&mut plant, &self.outline, |flat| self.on_frond(&self.fronds[0], flat).0);
+            }
+        }
         bring_to_one_metre(&mut plant);
         open_to_light(&mut plant);
         plant
+    }
+
+    /// Whether coarse levels are hulls: of a crown that is a body and not a few planes.
+    fn is_hull(&self) -> bool {
+        self.habit == Habit::Single && self.outline.views() == 2
+    }
+
+    /// Whether a part is a leaf of those levels alone.
+    fn is_in_hull(&self, part: &Part) -> bool {
+        self.is_hull() && !part.is_stem && part.levels[0] >= HULLS[0].level
+    }
+
+    /// The levels of a part, of which those of hulls have no leaves.
+    fn levels_of(&self, part: &Part) -> [u32; 2] {
+        let [first, last] = part.levels;
+        [first, if self.is_hull() { last.min(HULLS[0].level - 1) } else { last }]
     }
 
     fn placed(&self, frond: &Frond, map: &Map, flat: Point) -> (Point, Point) {
@@ -203,7 +230,7 @@ impl Builder {
             normal: normal.map(|x| x as f32),
             along: self.along(leaf.part.branch, self.shape.share_above_root(within)) as f32,
             limb: leaf.first_limb + leaf.part.branch as u32,
-            levels: leaf.part.levels,
+            levels: self.levels_of(leaf.part),
             is_stem: leaf.part.is_stem,
             tone: unit_of(hash2(leaf.part.key, leaf.frond.number, 12)) as f32,
             open: 1.0,
@@ -271,10 +298,10 @@ fn leaf_triangles(first: u32, rows: u32) -> Vec<[u32; 3]> {
     triangles
 }
 
-/// Makes leaves of each level broader or narrower, so that its area is that of the finest.
-fn even_areas(plant: &mut Limbs) {
+/// Makes leaves of each of so many levels broader or narrower, so that its area is that of the finest.
+fn even_areas(plant: &mut Limbs, levels: u32) {
     let whole = plant.area(0);
-    for level in 1..LEVELS as u32 {
+    for level in 1..levels {
         let shared = plant.area_where(|corner| corner.levels[0] < level && level <= corner.levels[1]);
         let own = plant.area_where(|corner| corner.levels[0] == level);
         let factor = ((whole - shared) / own.max(1e-9)).clamp(BROADER[0], BROADER[1]);

@@ -25,6 +25,7 @@ pub const SHAPES: &[Shape] = &[
     sets::SPIRAL,
     solids::FERN,
     solids::CONIFER,
+    solids::SPRUCE,
     solids::CROWN,
     solids::TETRAHEDRON,
 ];

@@ -19,7 +19,7 @@ pub(super) const FERN: Shape = Shape {
 /// Each whorl turns by the golden angle on the one below, and its three boughs reach out and hang a little.
 pub(super) const CONIFER: Shape = Shape {
     name: "conifer",
-    summary: "a spruce: whorls of hanging boughs that shrink to the top",
+    summary: "an airy conifer: whorls of three hanging boughs that shrink to the top",
     source: "Weald",
     code_digits: 64,
     maps: Maps::Spatial(&[
@@ -32,6 +32,39 @@ pub(super) const CONIFER: Shape = Shape {
         ([[0.0, 0.34, 0.0, 0.0], [-0.26, -0.09, 0.0, 0.1], [0.0, 0.0, 0.3, 0.0]], 0.10, Branch),
         ([[0.0, -0.17, -0.26, 0.0], [-0.26, -0.09, 0.0, 0.1], [0.0, 0.294_4, -0.15, 0.0]], 0.10, Branch),
         ([[0.0, -0.17, 0.26, 0.0], [-0.26, -0.09, 0.0, 0.1], [0.0, -0.294_4, -0.15, 0.0]], 0.10, Branch),
+    ]),
+};
+
+/// Dense whorls of five flat boughs, each of which hangs and bears sprays to both sides.
+pub(super) const SPRUCE: Shape = Shape {
+    name: "spruce",
+    summary: "a dense spruce: whorls of five flat boughs that hang, down to the ground",
+    source: "Weald",
+    code_digits: 64,
+    maps: Maps::Spatial(&[
+        ([[0.02, 0.0, 0.0, 0.0], [0.0, 0.11, 0.0, 0.0], [0.0, 0.0, 0.02, 0.0]], 0.04, Stem),
+        ([[-0.663_5, 0.0, 0.608, 0.0], [0.0, 0.9, 0.0, 0.1], [-0.608, 0.0, -0.663_5, 0.0]], 0.56, Trunk),
+        ([[0.0, 0.33, 0.0, 0.0], [-0.22, -0.12, 0.0, 0.02], [0.0, 0.0, 0.62, 0.0]], 0.08, Branch),
+        (
+            [[0.0, 0.102, 0.589_7, 0.0], [-0.22, -0.12, 0.0, 0.04], [0.0, -0.313_8, 0.191_6, 0.0]],
+            0.08,
+            Branch,
+        ),
+        (
+            [[0.0, -0.267, 0.364_4, 0.0], [-0.22, -0.12, 0.0, 0.06], [0.0, -0.194, -0.501_6, 0.0]],
+            0.08,
+            Branch,
+        ),
+        (
+            [[0.0, -0.267, -0.364_4, 0.0], [-0.22, -0.12, 0.0, 0.05], [0.0, 0.194, -0.501_6, 0.0]],
+            0.08,
+            Branch,
+        ),
+        (
+            [[0.0, 0.102, -0.589_7, 0.0], [-0.22, -0.12, 0.0, 0.03], [0.0, 0.313_8, 0.191_6, 0.0]],
+            0.08,
+            Branch,
+        ),
     ]),
 };
 

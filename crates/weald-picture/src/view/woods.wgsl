@@ -1,0 +1,142 @@
+// Twin of `woods.rs`: where the trees of woods stand, and their crowns as they look from above.
+
+// Metres from one tree to the next where they stand closest.
+const WOOD_SPACING = 7.0;
+
+const WOOD_LAYERS = 4u;
+const WOOD_COARSER = 2.6;
+const WOOD_SEED = 0x41u;
+const CROWN_RADII = vec2<f32>(0.40, 0.62);
+const CROWN_OFF = 0.35;
+const CROWN_STEEP = vec2<f32>(0.55, 0.24);
+const CROWN_SHADE = vec2<f32>(0.7, 1.1);
+
+const TALLEST = 17.0;
+
+struct Tree {
+    place: vec2<f32>,
+    size: f32,
+    rank: f32,
+    chance: f32,
+    turn: f32,
+}
+
+// The tree of a square, whether it stands or not.
+fn tree_of(square: vec2<i32>) -> Tree {
+    let chances = wood_chances(square, WOOD_SEED);
+    return Tree(
+        WOOD_SPACING * wood_centre(square, chances.x), TALLEST * tallness(chances.y), part_of(chances.y, 0u),
+        part_of(chances.y, 24u), 2.0 * PI * part_of(chances.y, 8u),
+    );
+}
+
+// Height of a tree beside that of the tallest.
+fn tallness(more: u32) -> f32 {
+    return 0.55 + 0.45 * part_of(more, 16u);
+}
+
+struct Canopy {
+    share: f32,
+    tone: f32,
+    slope: vec2<f32>,
+    open: f32,
+}
+
+struct Dome {
+    height: f32,
+    slope: vec2<f32>,
+    chance: f32,
+}
+
+// A share from eight bits of a hash.
+fn part_of(hash: u32, shift: u32) -> f32 {
+    return f32((hash >> shift) & 0xffu) * (1.0 / 255.0);
+}
+
+// The random bits of a square: those of its place, and more.
+fn wood_chances(square: vec2<i32>, seed: u32) -> vec2<u32> {
+    let hash = grain_bits(square.x, square.y, seed);
+    return vec2<u32>(hash, grain_bits(i32(hash & 0x7fffu), square.y, seed ^ 0x5bd1u));
+}
+
+// Where the tree of a square stands, in spacings.
+fn wood_centre(square: vec2<i32>, hash: u32) -> vec2<f32> {
+    let off = vec2<f32>(f32(hash & 0xffffu), f32(hash >> 16u)) * (1.0 / 65535.0) - 0.5;
+    return vec2<f32>(square) + 0.5 + 2.0 * CROWN_OFF * off;
+}
+
+// The uppermost of some domes at a place that is counted in spacings, where so large a share of them stand.
+fn dome(place: vec2<f32>, seed: u32, density: f32) -> Dome {
+    let corner = vec2<i32>(floor(place - 0.5));
+    var top = Dome(0.0, vec2<f32>(0.0), 0.0);
+    for (var look = 0; look < 4; look++) {
+        let square = corner + vec2<i32>(look & 1, look >> 1u);
+        let chances = wood_chances(square, seed);
+        if part_of(chances.y, 0u) >= density {
+            continue;
+        }
+        let away = place - wood_centre(square, chances.x);
+        let radius = CROWN_RADII.x + (CROWN_RADII.y - CROWN_RADII.x) * part_of(chances.y, 8u);
+        let below = 1.0 - dot(away, away) / (radius * radius);
+        let tall = tallness(chances.y);
+        if below * tall > top.height {
+            top = Dome(below * tall, -2.0 * tall / (radius * radius) * away, part_of(chances.y, 24u));
+        }
+    }
+    return top;
+}
+
+// What a wood of a density looks like at a point, for a pixel of that footprint.
+fn canopy_of(point: vec2<f32>, wooded: f32, footprint: f32) -> Canopy {
+    // Where there is none, no loop is gone through.
+    let layers = select(1u, WOOD_LAYERS, wooded > 0.0);
+    let single = grain_visible(footprint, 1.4 * WOOD_SPACING);
+    var lumps = 0.0;
+    var slope = vec2<f32>(0.0);
+    var finer = single;
+    var spacing = WOOD_SPACING;
+    for (var layer = 1u; layer < layers; layer++) {
+        spacing *= WOOD_COARSER;
+        let seen = grain_visible(footprint, 1.4 * spacing);
+        if seen <= 0.0 {
+            continue;
+        }
+        let group = dome(point / spacing, WOOD_SEED + layer, 1.0);
+        let weight = seen * (1.0 - 0.55 * finer);
+        finer = seen;
+        lumps += weight * (group.height - 0.45);
+        slope += weight * CROWN_STEEP.y * group.slope;
+    }
+    let density = clamp(wooded + 2.4 * lumps * wooded * (1.0 - wooded), 0.0, 1.0);
+    let between = 0.9 * ramp(density, 0.25, 0.8);
+    let covered = 0.75 * density * (2.0 - density) * 0.9;
+    let far = Canopy(covered + (1.0 - covered) * between, 0.42 + 0.55 * lumps, slope, 1.0 - 0.4 * density);
+    var near = far;
+    let looks = select(0u, 1u, single > 0.0 && density > 0.0);
+    for (var look = 0u; look < looks; look++) {
+        near = crowns(point, density, between);
+        near.tone += 0.3 * lumps;
+        near.slope += slope;
+    }
+    return Canopy(
+        mix(far.share, near.share, single), mix(far.tone, near.tone, single),
+        mix(far.slope, near.slope, single), mix(far.open, near.open, single),
+    );
+}
+
+// Crowns that are seen one by one, with so much dark between them.
+fn crowns(point: vec2<f32>, density: f32, between: f32) -> Canopy {
+    let place = point / WOOD_SPACING;
+    let tree = dome(place, WOOD_SEED, density);
+    let within = min(5.0 * tree.height, 1.0);
+    let run = max(length(scene.sun.xy), 1e-6);
+    let reach = min(CROWN_SHADE.x * run / max(scene.sun.z, 1e-3), CROWN_SHADE.y) / run;
+    let shaded = dome(place + reach * scene.sun.xy, WOOD_SEED, density);
+    let dark = min(4.0 * shaded.height, 1.0) * (1.0 - within);
+    return Canopy(
+        within + (1.0 - within) * between,
+        within * (0.16 + 0.62 * tree.height + 0.3 * (tree.chance - 0.5)),
+        within * CROWN_STEEP.x * tree.slope,
+        1.0 - 0.55 * dark,
+    );
+}
