@@ -53,6 +53,12 @@ impl Renderer {
         chosen
     }
 
+    /// Where the roots of the trees of woods are that stand around the camera of the last picture.
+    #[doc(hidden)]
+    pub fn trees_for_a_test(&self) -> Result<Vec<[f32; 3]>, Error> {
+        self.plants.as_ref().map_or_else(|| Ok(Vec::new()), |plants| plants.trees(&self.gpu))
+    }
+
     /// The list and number of each plant of the last picture, set by set.
     #[doc(hidden)]
     pub fn chosen_for_a_test(&self) -> Result<Vec<Vec<[u32; 2]>>, Error> {

@@ -8,7 +8,7 @@ use std::sync::OnceLock;
 
 use crate::flip::flip;
 use crate::programs::gpu;
-use crate::scenes::{above, lakes, meadow, mountains, options, view};
+use crate::scenes::{above, lakes, meadow, mountains, options, treeless, view};
 use weald::Landscape;
 use weald::grow::Vegetation;
 use weald::grow::grass::Meadow;
@@ -27,6 +27,7 @@ struct Scene {
     landscape: fn() -> Landscape,
     from: ([f64; 2], f32, f32, f32),
     sun_altitude_deg: f64,
+    has_woods: bool,
 }
 
 const MOUNTAINS: Scene = Scene {
@@ -34,19 +35,27 @@ const MOUNTAINS: Scene = Scene {
     landscape: mountains,
     from: ([1500.0, 2700.0], 120.0, 10.0, 20.0),
     sun_altitude_deg: 14.0,
+    has_woods: true,
 };
 const LAKES: Scene = Scene {
     name: "lakes",
     landscape: lakes,
     from: ([1500.0, 2700.0], 250.0, 20.0, 40.0),
     sun_altitude_deg: 28.0,
+    has_woods: true,
 };
-const MEADOW: Scene =
-    Scene { name: "meadow", landscape: meadow, from: ([60.0, 80.0], 1.6, 8.0, 0.0), sun_altitude_deg: 28.0 };
+const MEADOW: Scene = Scene {
+    name: "meadow",
+    landscape: meadow,
+    from: ([60.0, 80.0], 1.6, 8.0, 0.0),
+    sun_altitude_deg: 28.0,
+    has_woods: false,
+};
 
 impl Scene {
     fn view(&self) -> View {
-        View { sun_altitude_deg: self.sun_altitude_deg, ..view() }
+        let view = if self.has_woods { view() } else { treeless() };
+        View { sun_altitude_deg: self.sun_altitude_deg, ..view }
     }
 }
 

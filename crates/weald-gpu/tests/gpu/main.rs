@@ -27,3 +27,4 @@ mod swarms;
 mod tables;
 mod transitions;
 mod window;
+mod woods;

@@ -6,7 +6,7 @@
 
 use crate::flip::{flip, reduced};
 use crate::programs::gpu;
-use crate::scenes::{above, meadow, mountains, view};
+use crate::scenes::{above, meadow, mountains, treeless, view};
 use weald::picture::{Camera, Image, LitScene, View};
 use weald_gpu::{Gpu, RenderOptions, Renderer, TestLook};
 
@@ -17,6 +17,9 @@ const REDUCED: usize = 3;
 /// Most that may be left of the blades of a meadow, and of the ground.
 const MAX_RESIDUE_OF_BLADES: f32 = 0.15;
 const MAX_RESIDUE_OF_GROUND: f32 = 0.07;
+
+/// Most that may be left of the trees of woods.
+const MAX_RESIDUE_OF_TREES: f32 = 0.15;
 
 /// How often a path is halved.
 const CUTS: u32 = 9;
@@ -50,7 +53,7 @@ fn renderer(gpu: &Gpu, scene: &LitScene) -> Renderer {
 /// A meadow through a telescope, so far away.
 fn grassy(gpu: &Gpu, distance: f32, field_of_view_deg: f64) -> (Renderer, Camera) {
     let landscape = meadow();
-    let scene = LitScene::new(&View { field_of_view_deg, ..view() }, &landscape).expect("a scene");
+    let scene = LitScene::new(&View { field_of_view_deg, ..treeless() }, &landscape).expect("a scene");
     let mut renderer = renderer(gpu, &scene);
     renderer.plant(&scene, &landscape).expect("planted");
     let eye = above(&scene, [60.0, 95.0], 1.2, 0.0, 0.0);
@@ -73,11 +76,28 @@ fn blades_become_coarser_and_sets_sink_without_leaps() {
 #[test]
 fn levels_of_the_ground_slide_into_each_other() {
     let Some(gpu) = gpu() else { return };
-    let scene = LitScene::new(&view(), &mountains()).expect("a scene");
+    // Crowns that are painted on the ground would show more of it than its form.
+    let scene = LitScene::new(&treeless(), &mountains()).expect("a scene");
     let mut renderer = renderer(&gpu, &scene);
     let camera = above(&scene, [1600.0, 2600.0], 60.0, 12.0, 5.0);
     let [whole, left] = leap(&mut renderer, &camera, 120.0);
     println!("ground: {left} left of {whole}");
     assert!(whole > 1.3 * MAX_RESIDUE_OF_GROUND, "hardly anything changes: {whole}");
     assert!(left < MAX_RESIDUE_OF_GROUND, "the ground leaps: {left} left of {whole}");
+}
+
+#[test]
+fn trees_of_woods_become_coarser_and_pass_into_the_ground_without_leaps() {
+    let Some(gpu) = gpu() else { return };
+    let landscape = mountains();
+    for (metres, down, angle) in [(40.0, 12.0, 30.0), (150.0, 20.0, 12.0), (300.0, 22.0, 6.0)] {
+        let scene = LitScene::new(&View { field_of_view_deg: angle, ..view() }, &landscape).expect("a scene");
+        let mut renderer = renderer(&gpu, &scene);
+        renderer.plant(&scene, &landscape).expect("planted");
+        let camera = above(&scene, [1600.0, 2600.0], metres, down, 5.0);
+        let [whole, left] = leap(&mut renderer, &camera, 60.0);
+        println!("trees from {metres} m above the ground: {left} left of {whole}");
+        assert!(whole > 1.3 * MAX_RESIDUE_OF_TREES, "from {metres} m hardly anything changes: {whole}");
+        assert!(left < MAX_RESIDUE_OF_TREES, "from {metres} m trees leap: {left} left of {whole}");
+    }
 }

@@ -116,7 +116,7 @@ pub(super) struct Palette {
 impl Default for Palette {
     fn default() -> Self {
         let [lush, meadow, dry, alpine] = [0x44_622f, 0x54_6a37, 0x78_7648, 0x62_683f].map(linear_of_hex);
-        let forest = [0x1b_2614, 0x6a_7a3f].map(linear_of_hex);
+        let forest = [0x22_2e19, 0x66_783e].map(linear_of_hex);
         let rock = [0x83_7c72, 0x55_4e47, 0x9a_8c7a].map(linear_of_hex);
         let [scree, gravel, snow] = [0x95_8d80, 0xa9_9d86, 0xe4_e8ee].map(linear_of_hex);
         Self { lush, meadow, dry, alpine, forest, rock, scree, gravel, snow }
@@ -262,13 +262,18 @@ impl Cover {
 
     /// How densely trees stand: where it is moist but not boggy, below the tree line, not too steep, and above the shore.
     fn trees(&self, spot: &SurfacePoint, moisture: f32, patchy: f32) -> f32 {
-        let line = (self.limits.trees - spot.point[2]) / (0.12 * self.limits.relief).max(1e-3);
+        let line = self.below_tree_line(spot.point[2]);
         let steep = ramp(spot.slope / self.limits.rock, 0.95, 1.3);
         // A score: moisture first, then patches; height below the tree line helps a little and cannot make up
         // for drought.
         let wood = 1.1 * (moisture - 0.5) + 0.9 * patchy + 0.4 * line.clamp(-8.0, 0.8) - 0.4 * steep;
         let [metres, share] = SHORE;
         ramp(wood, 0.02, 0.40) * ramp(spot.above, 0.0, metres.min(share * self.limits.cell))
+    }
+
+    /// How far below the tree line a height is, in widths of the belt in which trees become fewer.
+    pub(super) fn below_tree_line(&self, height: f32) -> f32 {
+        (self.limits.trees - height) / (0.12 * self.limits.relief).max(1e-3)
     }
 
     /// Rock with its beds: light and dark, sunk into cracks and joints.
@@ -339,7 +344,7 @@ impl Cover {
     /// Whether ground of this height may bear trees.
     pub(super) fn has_woods(&self) -> bool {
         // The score of the best place, at the lowest ground.
-        let line = self.limits.trees / (0.12 * self.limits.relief).max(1e-3);
+        let line = self.below_tree_line(0.0);
         !self.sites.shows_materials() && 1.2 + 0.4 * line.clamp(-8.0, 0.8) > 0.02
     }
 

@@ -13,6 +13,9 @@ const SHORE = vec2<f32>(2.5, 0.028);
 // Share of the trees of the point in question that are drawn as such, and so not on the ground.
 var<private> trees_drawn: f32 = 0.0;
 
+// What lies under trees that are drawn as such.
+const LITTER = vec3<f32>(0.034, 0.032, 0.016);
+
 struct SurfacePoint {
     place: vec2<f32>,
     point: vec3<f32>,
@@ -128,7 +131,8 @@ fn natural(spot: SurfacePoint, texture: Texture) -> SurfaceSample {
 // Ground with a wood of such a density on it.
 fn under_trees(spot: SurfacePoint, open: SurfaceSample, density: f32) -> SurfaceSample {
     let canopy = canopy_of(spot.point.xy, density, spot.footprint);
-    let shaded = SurfaceSample(open.albedo * mix(1.0, canopy.open, 1.0 - trees_drawn), open.bump, open.kinds);
+    let littered = mix(open.albedo, LITTER, 0.8 * trees_drawn * ramp(density, 0.1, 0.6));
+    let shaded = SurfaceSample(littered * mix(1.0, canopy.open, 1.0 - trees_drawn), open.bump, open.kinds);
     let crown = mix(scene.forest_dark.xyz, scene.forest_light.xyz, clamp(canopy.tone, 0.0, 1.0));
     let wood = SurfaceSample(crown, no_steeper(canopy.slope, STEEPEST_CROWN), vec4<f32>(1.0, 0.0, 0.0, 0.0));
     return mixed(shaded, wood, canopy.share * (1.0 - trees_drawn));
@@ -155,9 +159,14 @@ fn grass(moisture: f32, high: f32) -> vec3<f32> {
     return mix(low, mix(scene.alpine.xyz, scene.dry.xyz, ramp(moisture, 0.6, 0.2)), ramp(high, 0.35, 0.8));
 }
 
+// How far below the tree line a height is, in widths of the belt in which trees become fewer.
+fn below_tree_line(height: f32) -> f32 {
+    return (scene.limits.y - height) / max(0.12 * scene.limits.w, 1e-3);
+}
+
 // How densely trees stand.
 fn trees(spot: SurfacePoint, moisture: f32, patchy: f32) -> f32 {
-    let line = (scene.limits.y - spot.point.z) / max(0.12 * scene.limits.w, 1e-3);
+    let line = below_tree_line(spot.point.z);
     let steep = ramp(spot.slope / scene.limits.x, 0.95, 1.3);
     let wood = 1.1 * (moisture - 0.5) + 0.9 * patchy + 0.4 * clamp(line, -8.0, 0.8) - 0.4 * steep;
     return ramp(wood, 0.02, 0.40) * ramp(spot.above, 0.0, min(SHORE.x, SHORE.y * scene.scale.x));

@@ -8,11 +8,17 @@ use super::woods::Tree;
 /// Size in metres of a pixel at which a tree is asked whether it stands: smaller patches do not matter to it.
 const FOOTPRINT: f32 = 3.0;
 
+/// Metres by which the drawn ground may lie above the bed, as on a steep shore, whose edge is rounded.
+const LIFTED: f32 = 0.25;
+
 /// Share of a river in which no tree stands.
 const IN_RIVER: f32 = 0.1;
 
-/// Shares of the height of the tree line between which needles take the place of leaves.
-const NEEDLES: [f32; 2] = [0.15, 0.75];
+/// How far below the tree line needles take the place of leaves, in widths of the belt in which trees become fewer.
+const NEEDLES: [f32; 2] = [0.3, 2.2];
+
+/// Greatest share of trees with leaves.
+const MOST_LEAVES: f32 = 0.85;
 
 impl LitScene {
     /// Whether there may be trees on its ground.
@@ -31,7 +37,8 @@ impl LitScene {
         }
         let river = self.setting.rivers.as_ref().map_or(0.0, |rivers| rivers.at(self.share(place)));
         let spot = self.spot(place);
-        let stands = river < IN_RIVER && tree.rank < self.cover.density(&spot);
+        let lifted = terrain.top.at(place) - self.setting.bed.at(place);
+        let stands = river < IN_RIVER && lifted < LIFTED && tree.rank < self.cover.density(&spot);
         stands.then(|| (tree, tree.chance < self.share_of_conifers(spot.point[2])))
     }
 
@@ -54,6 +61,6 @@ impl LitScene {
 
     /// The share of conifers at a height.
     fn share_of_conifers(&self, height: f32) -> f32 {
-        0.15 + 0.85 * ramp(height / self.cover.limits.trees.max(1e-3), NEEDLES[0], NEEDLES[1])
+        1.0 - MOST_LEAVES * ramp(self.cover.below_tree_line(height), NEEDLES[0], NEEDLES[1])
     }
 }

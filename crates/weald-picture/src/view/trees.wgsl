@@ -1,8 +1,10 @@
 // Twin of `trees.rs`: the trees of the woods of a scene, one by one.
 
 const TREE_FOOTPRINT = 3.0;
+const LIFTED = 0.25;
 const IN_RIVER = 0.1;
-const NEEDLES = vec2<f32>(0.15, 0.75);
+const NEEDLES = vec2<f32>(0.3, 2.2);
+const MOST_LEAVES = 0.85;
 
 // A tree that stands or does not, the drawn height of its ground, and whether it is a conifer.
 struct StandingTree {
@@ -26,7 +28,8 @@ fn tree_in(square: vec2<i32>) -> StandingTree {
     let is_land = all(place >= vec2<f32>(0.5)) && all(place <= scene.grid.xy + 0.5) &&
         (scene.has.y == 0.0 || spline_at(land, place) >= 0.5);
     let river = select(0.0, textureSampleLevel(rivers, between, share_of(place), 0.0).x, scene.has.w > 0.0);
-    let stands = is_land && river < IN_RIVER && tree.rank < wood_density(spot);
-    let conifers = 0.15 + 0.85 * ramp(height / max(scene.limits.y, 1e-3), NEEDLES.x, NEEDLES.y);
+    let lifted = spline_at(top, place) - surface.x;
+    let stands = is_land && river < IN_RIVER && lifted < LIFTED && tree.rank < wood_density(spot);
+    let conifers = 1.0 - MOST_LEAVES * ramp(below_tree_line(height), NEEDLES.x, NEEDLES.y);
     return StandingTree(tree, surface.x, stands, tree.chance < conifers);
 }

@@ -13,7 +13,7 @@ use std::io::Cursor;
 use eframe::egui::{ColorImage, Id, ImageSource, Sense, TextureHandle, TextureOptions, Ui, Vec2};
 
 /// Names of templates with their pictures.
-const PICTURES: [(&str, &[u8]); 10] = [
+const PICTURES: [(&str, &[u8]); 11] = [
     ("highland", include_bytes!("pictures/highland.png")),
     ("fault", include_bytes!("pictures/fault.png")),
     ("layers", include_bytes!("pictures/layers.png")),
@@ -24,6 +24,7 @@ const PICTURES: [(&str, &[u8]); 10] = [
     ("delta", include_bytes!("pictures/delta.png")),
     ("volcano", include_bytes!("pictures/volcano.png")),
     ("canyon", include_bytes!("pictures/canyon.png")),
+    ("meadow", include_bytes!("pictures/meadow.png")),
 ];
 
 /// Size of a picture, in points.

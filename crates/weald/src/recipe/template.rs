@@ -63,6 +63,11 @@ pub const TEMPLATES: &[Template] = &[
         summary: "a plateau of hard and soft beds that rises, and the canyons that its rivers saw into it",
         text: include_str!("template/canyon.toml"),
     },
+    Template {
+        name: "meadow",
+        summary: "a meadow by a lake, with grass, ferns and trees where they find what they need",
+        text: include_str!("template/meadow.toml"),
+    },
 ];
 
 /// The template of that name; an error says which there are.

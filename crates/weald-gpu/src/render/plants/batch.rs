@@ -183,8 +183,8 @@ fn kind(limbs: &Limbs, of: &Kind<'_>) -> [u32; 12] {
 /// Colours of a kind of plants by its name: trees are darker than herbs.
 pub(super) fn colours(kind: &str) -> Colours {
     let leaf = match kind {
-        "spruce" | "conifer" => [0.30, 0.41, 0.22],
-        "crown" | "tree" => [0.42, 0.52, 0.24],
+        "spruce" | "conifer" => [0.38, 0.50, 0.27],
+        "crown" | "tree" => [0.46, 0.58, 0.26],
         _ => return Colours::USUAL,
     };
     Colours { leaf, ..Colours::USUAL }

@@ -31,7 +31,7 @@ fn list_of(view: u32, number: u32) -> u32 {
     }
     let plant = plants[number];
     // In a square of a wood there may be no tree, and the sun's last cascade does not know where the camera is.
-    if plant.size <= 0.0 || (kind.wood.x > 0.0 && view == VIEWS - 1u) {
+    if plant.size <= 0.0 || giving_way(plant) <= 0.0 || (kind.wood.x > 0.0 && view == VIEWS - 1u) {
         return NO_LIST;
     }
     let radius = plant.size * kind.leaf.w;

@@ -56,6 +56,13 @@ fn pixels_of(view: u32, plant: PlacedPlant) -> f32 {
     return select(min(shaded, texels), texels, view == VIEWS - 1u);
 }
 
+// How broad the leaves of a tree of a wood are before the eye: one that stands around it gives way.
+fn giving_way(plant: PlacedPlant) -> f32 {
+    let away = plant.place - frame.moment.yzw;
+    let share = clamp((length(away.xy) / plant.size - 0.35) / 0.2, 0.0, 1.0);
+    return select(1.0, share, kind.wood.x > 0.0 && away.z > -1.2 * plant.size);
+}
+
 // Side in metres of a texel of a cascade.
 fn texel_of(cascade: i32) -> f32 {
     let half = frame.cascades[cascade].zw;

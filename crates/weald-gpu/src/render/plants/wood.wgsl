@@ -28,5 +28,5 @@ fn grow_wood(@builtin(global_invocation_id) at: vec3<u32>) {
     let up = found.ground - ROOTED * tree.size;
     let turn = vec2<u32>(word_of(sin(0.5 * tree.turn)) << 16u, word_of(cos(0.5 * tree.turn)) << 16u);
     let size = select(0.0, tree.size, stands);
-    plants[number] = PlacedPlant(vec3<f32>(tree.place, up), size, turn, tree.chance, tree.chance);
+    plants[number] = PlacedPlant(vec3<f32>(tree.place, up), size, turn, tree.chance, fract(5.0 * tree.turn));
 }

@@ -22,6 +22,11 @@ pub(crate) fn view() -> View {
     View { width, height, field_of_view_deg: 50.0, ..View::default() }
 }
 
+/// The view without woods.
+pub(crate) fn treeless() -> View {
+    View { tree_line: Some(-1000.0), ..view() }
+}
+
 pub(crate) fn options(samples: u32) -> RenderOptions {
     RenderOptions { size: SIZE, samples }
 }

@@ -39,7 +39,7 @@ impl Habit {
     pub fn of(ifs: &Ifs, fronds: Option<u32>) -> Self {
         let count = |usual: u32| fronds.unwrap_or(usual);
         match ifs.name() {
-            "fern" | "cyclosorus" | "culcita" | "fishbone" => Self::Arching(count(10)),
+            "fern" | "cyclosorus" | "culcita" | "fishbone" => Self::Arching(count(8)),
             "fern-3d" => Self::Leaning(count(8)),
             _ if ifs.is_planar() => Self::Crossed(count(3)),
             _ => fronds.filter(|&count| count > 1).map_or(Self::Single, Self::Leaning),

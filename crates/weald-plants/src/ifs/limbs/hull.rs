@@ -18,7 +18,7 @@ pub(super) struct Hull {
 
 /// Those of all levels that have one, finest first.
 pub(super) const HULLS: [Hull; 2] = [
-    Hull { level: 3, sides: 7, rings: &[0.07, 0.2, 0.4, 0.62, 0.84] },
+    Hull { level: 3, sides: 7, rings: &[0.07, 0.2, 0.4, 0.62, 0.82, 0.94] },
     Hull { level: 4, sides: 4, rings: &[0.12, 0.4, 0.75] },
 ];
 
@@ -27,6 +27,12 @@ const ROUGH: f64 = 0.22;
 
 /// How much a crown looks upward beside outward.
 const UPWARD: f64 = 0.55;
+
+/// Greatest tone of its corners: the light between leaves is lost, of which a hull has none.
+const DARK: f64 = 0.3;
+
+/// Share of the light of a place that leaves there see, which stand before each other.
+pub(super) const AMONG_LEAVES: f32 = 0.8;
 
 impl Hull {
     /// Adds it to a plant of such an outline; `placed` says where points of the outline are.
@@ -73,7 +79,7 @@ impl Hull {
             limb: 0,
             levels: [self.level; 2],
             is_stem: false,
-            tone: unit_of(hash2(number, i64::from(self.level), 12)) as f32,
+            tone: (DARK * unit_of(hash2(number, i64::from(self.level), 12))) as f32,
             open: 1.0,
         });
     }

@@ -1,6 +1,6 @@
 //! From parts to vertices in space, by the habit of the plant.
 
-use super::hull::HULLS;
+use super::hull::{AMONG_LEAVES, HULLS};
 use super::leaf::{Row, bent, difference, length, lowered, unit};
 use super::limb::{Corner, LEVELS, Limb, Limbs};
 use super::outline::Outline;
@@ -12,6 +12,10 @@ use weald_core::random::{hash2, unit as unit_of};
 
 /// Rows between foot and tip of leaves by their size, the largest first.
 const ROWS: [(f64, usize); 3] = [(0.2, 7), (0.05, 3), (0.0, 1)];
+
+/// Rows of a whole frond as one leaf, of which every other one is so much narrower.
+const TEETH: usize = 13;
+const BETWEEN_TEETH: f64 = 0.25;
 
 /// Least and greatest factor by which leaves of a level are broader, so that all have the same area.
 const BROADER: [f32; 2] = [0.25, 3.0];
@@ -82,6 +86,10 @@ impl Builder {
         }
         bring_to_one_metre(&mut plant);
         open_to_light(&mut plant);
+        if self.is_hull() {
+            let hulls = plant.corners.iter_mut().filter(|corner| corner.levels[0] >= leafy);
+            hulls.for_each(|corner| corner.open *= AMONG_LEAVES);
+        }
         plant
     }
 
@@ -150,10 +158,16 @@ impl Builder {
 
     fn part(&self, plant: &mut Limbs, part: &Part, frond: &Frond, first_limb: u32) {
         let rows = ROWS.iter().find(|(size, _)| part.size > *size).map_or(1, |(_, rows)| *rows);
+        let rows = if self.is_serrated(part) { TEETH } else { rows };
         for view in 0..self.outline.views() {
             let leaf = Leaf { part, frond, first_limb, view, rows };
             if part.is_stem { self.stem(plant, &leaf) } else { self.leaf(plant, &leaf) }
         }
+    }
+
+    /// Whether a part is a whole frond as one leaf, whose edge shows that it is feathery.
+    fn is_serrated(&self, part: &Part) -> bool {
+        self.habit.is_rosette() && part.levels[0] < CHEAP && part.size >= 1.0
     }
 
     /// The whole as one leaf.
@@ -198,8 +212,9 @@ impl Builder {
         let across = if leaf.view == 0 { 0 } else { 2 };
         let found = self.outline.at(leaf.view, along);
         axis[across] = middle(found);
+        let tooth = if self.is_serrated(leaf.part) && number % 2 == 0 { BETWEEN_TEETH } else { 1.0 };
         for (side, x) in sides.iter_mut().zip(found) {
-            side[across] = if is_end { axis[across] } else { x };
+            side[across] = if is_end { axis[across] } else { axis[across] + tooth * (x - axis[across]) };
         }
         let (place, normal) = self.placed(leaf.frond, &leaf.part.map, axis);
         let sides = sides.map(|side| self.placed(leaf.frond, &leaf.part.map, side).0);

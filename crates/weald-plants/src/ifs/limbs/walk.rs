@@ -17,8 +17,9 @@ const OF_CROWNS: [f64; LEVELS - 1] = [0.028, 0.07, 0.2, 1.0];
 const MIN_STEM: f64 = 0.08;
 
 /// How much larger than it is a part counts that goes on along an axis: a tip as one leaf would be seen among the leaves
-/// below it.
+/// below it. That of a crown is its top, which stands before the sky.
 const AXIS: f64 = 2.0;
+const AXIS_OF_CROWNS: f64 = 5.0;
 
 /// Most leaves of the finest level, over all fronds.
 const MAX_LEAVES: usize = 16_384;
@@ -72,6 +73,8 @@ struct Maps<'a> {
     ifs: &'a Ifs,
     /// Whether branches of a flat shape stand off to all sides.
     spreads: bool,
+    /// How much larger than it is a part counts that goes on along an axis.
+    axis: f64,
 }
 
 impl Maps<'_> {
@@ -108,7 +111,8 @@ struct Open {
 impl Walk {
     /// The parts of a fractal that stands so many times in a plant, with leaves as fine as that allows.
     pub(super) fn of(ifs: &Ifs, shape: &Shape, (habit, copies): (Habit, usize)) -> Self {
-        let maps = Maps { ifs, spreads: matches!(habit, Habit::Crossed(_)) };
+        let axis = if habit == Habit::Single { AXIS_OF_CROWNS } else { AXIS };
+        let maps = Maps { ifs, spreads: matches!(habit, Habit::Crossed(_)), axis };
         let mut sizes = if habit.is_rosette() { OF_FRONDS } else { OF_CROWNS };
         loop {
             if let Some(walk) = Self::down_to(&maps, shape, sizes, MAX_LEAVES / copies) {
@@ -186,7 +190,7 @@ impl Walk {
         };
         // Maps that contract in a row but not one by one may lengthen at first.
         let size = map.ratio().min(part.size);
-        let counts = if weighted.role == Role::Trunk { AXIS * size } else { size };
+        let counts = if weighted.role == Role::Trunk { maps.axis * size } else { size };
         Some(Open { map, within, branch, size, counts: counts.min(part.counts), before: part.counts, key })
     }
 }
@@ -199,7 +203,7 @@ mod tests {
     #[test]
     fn as_many_parts_as_are_allowed_are_taken_and_not_one_more() {
         let ifs = shapes::find("fern").expect("built in").ifs();
-        let (shape, maps) = (Shape::of(&ifs), Maps { ifs: &ifs, spreads: false });
+        let (shape, maps) = (Shape::of(&ifs), Maps { ifs: &ifs, spreads: false, axis: AXIS });
         let parts = |most| Walk::down_to(&maps, &shape, OF_FRONDS, most).map(|walk| walk.parts.len());
         let all = parts(usize::MAX).expect("not endless");
         assert_eq!(parts(all), Some(all));
