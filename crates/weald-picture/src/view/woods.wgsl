@@ -135,7 +135,7 @@ fn crowns(point: vec2<f32>, density: f32, between: f32) -> Canopy {
     let dark = min(4.0 * shaded.height, 1.0) * (1.0 - within);
     return Canopy(
         within + (1.0 - within) * between,
-        within * (0.16 + 0.62 * tree.height + 0.3 * (tree.chance - 0.5)),
+        within * (0.22 + 0.66 * tree.height + 0.3 * (tree.chance - 0.5)),
         within * CROWN_STEEP.x * tree.slope,
         1.0 - 0.55 * dark,
     );

@@ -69,14 +69,16 @@ impl Habit {
         let frond = |number: i64| {
             let random =
                 |purpose: u64| if is_grown { 2.0 * unit(hash2(purpose, number, 7)) - 1.0 } else { 0.0 };
+            // Every other frond is an outer one, which lies lower and touches the ground with its tip.
+            let is_outer = is_grown && number % 2 == 1;
+            let (lean, arch) = if is_outer { (0.72, 1.15) } else { (0.40, 1.50) };
             Frond {
                 number,
                 phase: unit(hash2(4, number, 7)),
                 azimuth: turn / f64::from(count) * (number as f64 + 0.3 * random(0)),
                 length: 0.92 + 0.16 * random(1),
-                // Every other frond is an outer one, which hangs to the ground.
-                lean: 0.40 + 0.15 * random(2) + if is_grown && number % 2 == 1 { 0.38 } else { 0.0 },
-                arch: 1.65 + 0.3 * random(3),
+                lean: lean + 0.12 * random(2),
+                arch: arch + 0.2 * random(3),
             }
         };
         (0..i64::from(count)).map(frond).collect()

@@ -104,15 +104,49 @@ fn a_calm_plant_does_not_move() {
 
 #[test]
 fn all_levels_of_a_fern_have_its_area_of_leaves_and_lie_within_its_reach() {
-    for name in ["fern", "culcita", "fern-3d", "shrub", "conifer"] {
+    for name in ["fern", "culcita", "fern-3d", "shrub", "conifer", "spruce", "crown"] {
         let plant = plant(name);
         let whole = plant.area(0);
-        for level in 1..LEVELS as u32 {
+        let leafy = if ["conifer", "spruce", "crown"].contains(&name) { 3 } else { LEVELS as u32 };
+        for level in 1..leafy {
             let share = plant.area(level) / whole;
             assert!((0.7..1.4).contains(&share), "{name}: level {level} has {share} of the area");
         }
         let lowest = plant.corners.iter().map(|corner| corner.rest[1]).fold(f32::INFINITY, f32::min);
         assert!(lowest > -0.15, "{name} reaches {lowest} m into the ground");
+    }
+}
+
+#[test]
+fn the_hull_of_a_crown_is_closed_and_looks_outward_and_reaches_as_far_as_its_leaves() {
+    for name in ["spruce", "crown"] {
+        let plant = plant(name);
+        for level in [LEVELS as u32 - 2, LEVELS as u32 - 1] {
+            let hull: Vec<_> = plant.corners.iter().filter(|corner| corner.levels == [level; 2]).collect();
+            let looks_out = |corner: &&&Corner| {
+                let [out, up] =
+                    [corner.rest[0] * corner.normal[0] + corner.rest[2] * corner.normal[2], corner.normal[1]];
+                out > -1e-6 && (out > 0.0 || up != 0.0)
+            };
+            assert!(hull.len() > 10 && hull.iter().filter(looks_out).count() == hull.len(), "{name} {level}");
+            // Each edge of a closed body is that of two triangles.
+            let mut edges = std::collections::HashMap::new();
+            let own = |triangle: &&[u32; 3]| plant.corners[triangle[0] as usize].levels == [level; 2];
+            for triangle in plant.triangles.iter().filter(own) {
+                for at in 0..3 {
+                    let [a, b] = [triangle[at], triangle[(at + 1) % 3]];
+                    *edges.entry([a.min(b), a.max(b)]).or_insert(0) += 1;
+                }
+            }
+            assert!(edges.values().all(|&count| count == 2), "{name} {level}");
+            let reach = |level: u32| {
+                let of =
+                    plant.corners.iter().filter(move |corner| corner.levels[0] == level && !corner.is_stem);
+                of.map(|corner| corner.rest[0].hypot(corner.rest[2])).fold(0.0, f32::max)
+            };
+            let share = reach(level) / reach(0);
+            assert!((0.6..1.3).contains(&share), "{name}: level {level} reaches {share} times as far");
+        }
     }
 }
 
