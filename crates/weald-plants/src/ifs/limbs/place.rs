@@ -212,7 +212,7 @@ impl Builder {
         let across = if leaf.view == 0 { 0 } else { 2 };
         let found = self.outline.at(leaf.view, along);
         axis[across] = middle(found);
-        let tooth = if self.is_serrated(leaf.part) && number % 2 == 0 { BETWEEN_TEETH } else { 1.0 };
+        let tooth = if self.is_serrated(leaf.part) && number.is_multiple_of(2) { BETWEEN_TEETH } else { 1.0 };
         for (side, x) in sides.iter_mut().zip(found) {
             side[across] = if is_end { axis[across] } else { axis[across] + tooth * (x - axis[across]) };
         }
