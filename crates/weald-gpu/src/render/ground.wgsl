@@ -135,7 +135,7 @@ fn wet_share_beyond(place: vec2<f32>, beyond: Beyond) -> f32 {
     if frame.stand.w > 0.0 {
         return 0.0;
     }
-    let drawn = textureSampleLevel(rivers, between, share_of(beyond.place), 0.0).x * river_share_beyond(beyond);
+    let drawn = textureSampleLevel(rivers, between, share_of(beyond.river), 0.0).x * river_share_beyond(beyond);
     let river = select(0.0, drawn, scene.has.w > 0.0);
     return select(river, 1.0, level_beyond(place, beyond) > beyond.surface.x);
 }

@@ -107,7 +107,7 @@ impl RayMarcher {
             let [_, east, south] = beyond.surface;
             return self.lake(ray, &like, &self.water_spot(point, depth, [east, south]));
         }
-        let river = setting.rivers.as_ref().map_or(0.0, |rivers| rivers.at(self.share(beyond.place)));
+        let river = setting.rivers.as_ref().map_or(0.0, |rivers| rivers.at(self.share(beyond.river)));
         let river = river * Surroundings::river_share(&beyond);
         let footprint = self.footprint(hit.ray_length);
         let spot = GroundSpot { place: beyond.place, surface: beyond.surface, point, footprint };

@@ -205,10 +205,9 @@ impl Cover {
         let apron = 0.9 * ramp(apron, 0.4, 1.15) * ramp(spot.slope, 0.32, 0.55);
         let scree_share = (0.8 * ramp(steep, 0.97, 1.10) * (1.0 - 0.6 * trees)).max(apron);
         let stony = meadow.mixed(&scree, scree_share);
-        let rock = self.rock(spot, texture);
-        // Rock begins where scree is whole.
+        // Rock begins where scree is whole; most ground has none.
         let bare = ramp(steep, ROCK[0], ROCK[1]);
-        let ground = stony.mixed(&rock, bare);
+        let ground = if bare > 0.0 { stony.mixed(&self.rock(spot, texture), bare) } else { stony };
         let snow = SurfaceSample {
             albedo: scale(self.palette.snow, 1.0 + 0.12 * streak),
             bump: texture.rough(0.10),

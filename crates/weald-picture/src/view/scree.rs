@@ -27,24 +27,41 @@ pub(super) fn fallen(height: &Field, spacing: [f32; 2], rock: f32) -> Field {
     };
     let mut fallen: Vec<f32> = (0..size.cells()).into_par_iter().map(steep).collect();
     for _ in 0..ROLLED {
-        fallen =
-            (0..size.cells()).into_par_iter().map(|cell| rolled(cell, (&fallen, height), spacing)).collect();
+        let mut next = fallen.clone();
+        let rows = next.par_chunks_mut(size.columns).enumerate();
+        rows.for_each(|(y, row)| roll(row, y, (&fallen, height), spacing));
+        fallen = next;
     }
     Field::from_values(size, fallen)
 }
 
-/// What lies on a cell when all stones have rolled one cell further.
-fn rolled(cell: usize, (fallen, height): (&[f32], &Field), spacing: [f32; 2]) -> f32 {
+/// Lets stones roll one cell further into a row.
+fn roll(row: &mut [f32], y: usize, (fallen, height): (&[f32], &Field), spacing: [f32; 2]) {
     let size: Size = height.size();
-    let (x, y) = (cell % size.columns, cell / size.columns);
     let heights = height.values();
-    size.neighbours(cell).fold(fallen[cell], |most, other| {
-        let away = [(other % size.columns).abs_diff(x), (other / size.columns).abs_diff(y)];
-        let run = [0, 1].map(|axis| away[axis] as f32 * spacing[axis]);
-        let length = (run[0] * run[0] + run[1] * run[1]).sqrt();
-        let rolls = heights[other] - heights[cell] > ROLLS * length;
-        if rolls { most.max(LEFT * fallen[other]) } else { most }
-    })
+    let [across, down] = spacing;
+    let slant = (across * across + down * down).sqrt();
+    for (x, most) in row.iter_mut().enumerate() {
+        let here = heights[y * size.columns + x];
+        for beside in y.saturating_sub(1)..(y + 2).min(size.rows) {
+            for other in x.saturating_sub(1)..(x + 2).min(size.columns) {
+                let from = beside * size.columns + other;
+                let left = LEFT * fallen[from];
+                // Nothing has fallen on most cells, which is known soonest.
+                if left <= *most {
+                    continue;
+                }
+                let run = match (beside == y, other == x) {
+                    (true, _) => across,
+                    (false, true) => down,
+                    (false, false) => slant,
+                };
+                if heights[from] - here > ROLLS * run {
+                    *most = left;
+                }
+            }
+        }
+    }
 }
 
 #[cfg(test)]

@@ -67,6 +67,8 @@ pub(super) struct Surroundings {
 pub(super) struct Beyond {
     /// The place of the landscape that it is like.
     pub(super) place: [f32; 2],
+    /// The place whose rivers run there.
+    pub(super) river: [f32; 2],
     /// Height of the ground, and its rise by the cell eastward and southward.
     pub(super) surface: [f32; 3],
     /// How much of the border is left behind: 0 there, 1 far away.
@@ -186,7 +188,8 @@ impl Surroundings {
             near_rise + (far_rise[axis] - near_rise) * share + (far - near) * growth[axis]
         };
         let surface = [near + (far - near) * share, rise(0), rise(1)];
-        Beyond { place: self.likeness(place, share, [mirrored, turned]), surface, share }
+        let river = if share < 0.5 { mirrored } else { turned };
+        Beyond { place: self.likeness(place, share, [mirrored, turned]), river, surface, share }
     }
 
     /// Which of two places a place is like; the border between them is ragged.

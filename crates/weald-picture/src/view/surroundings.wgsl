@@ -43,6 +43,8 @@ fn turned_within(place: vec2<f32>) -> Turned {
 // behind.
 struct Beyond {
     place: vec2<f32>,
+    // The place whose rivers run there.
+    river: vec2<f32>,
     surface: vec3<f32>,
     share: f32,
 }
@@ -102,7 +104,8 @@ fn ground_beyond(place: vec2<f32>) -> Beyond {
     let longer = max(scene.grid.x, scene.grid.y);
     let patchy = octaves_at(Octaves(0.05 * longer, 4u, 0.55, 0x61u), place, 0.0).value;
     let like = select(turned.place, mirrored.place, share + 0.5 * patchy < 0.5);
-    return Beyond(like, vec3<f32>(mix(near, far, share), slope), share);
+    let river = select(turned.place, mirrored.place, share < 0.5);
+    return Beyond(like, river, vec3<f32>(mix(near, far, share), slope), share);
 }
 
 // Level of the water at a place beyond the border; far below the ground where a scene has no water.

@@ -25,11 +25,11 @@ fn tree_in(square: vec2<i32>) -> StandingTree {
     let above = -lake_depth(place, surface.x) / scene.scale.y;
     let point = vec3<f32>(tree.place, height);
     let spot = SurfacePoint(place, point, slope, normal.xy / max(run, 1e-6), TREE_FOOTPRINT, above);
-    let is_land = all(place >= vec2<f32>(0.5)) && all(place <= scene.grid.xy + 0.5) &&
+    let is_inside = all(place >= vec2<f32>(0.5)) && all(place <= scene.grid.xy + 0.5) &&
         (scene.has.y == 0.0 || spline_at(land, place) >= 0.5);
     let river = select(0.0, textureSampleLevel(rivers, between, share_of(place), 0.0).x, scene.has.w > 0.0);
     let lifted = spline_at(top, place) - surface.x;
-    let stands = is_land && river < IN_RIVER && lifted < LIFTED && tree.rank < wood_density(spot);
+    let stands = is_inside && river < IN_RIVER && lifted < LIFTED && tree.rank < wood_density(spot);
     let conifers = 1.0 - MOST_LEAVES * ramp(below_tree_line(height), NEEDLES.x, NEEDLES.y);
     return StandingTree(tree, surface.x, stands, tree.chance < conifers);
 }
