@@ -102,12 +102,12 @@ mod tests {
     #[test]
     fn a_low_sun_leaves_the_sky_its_colours_and_its_light_warm() {
         let at = |altitude_deg: f64| Sky::new(towards(200.0, altitude_deg), 0.53);
-        let facing_the_sun = |altitude_deg: f64| {
-            let tone = Tone::new(&at(altitude_deg), 0.0);
-            tone.curve(scale(at(altitude_deg).sunlight, 0.3 * std::f32::consts::FRAC_1_PI))
-        };
-        let [high, low] = [35.0, 3.0].map(facing_the_sun);
-        assert!(low[0] - low[2] > high[0] - high[2] + 0.1, "warmer: {low:?} and {high:?}");
+        let low = at(3.0);
+        let facing_the_sun = |tone: Tone| tone.curve(scale(low.sunlight, 0.3 * std::f32::consts::FRAC_1_PI));
+        let [warm, adapted] =
+            [Tone::new(&low, 0.0), Tone::of_light(low.on_flat_ground(), 0.0, ADAPTATION[1], 0.0)]
+                .map(facing_the_sun);
+        assert!(warm[0] / warm[2] > 1.15 * adapted[0] / adapted[2], "{warm:?} and {adapted:?}");
         // Away from the sun, half-way up.
         let aside = towards(20.0, 45.0);
         let [red, _, blue] = Tone::new(&at(3.0), 0.0).curve(at(3.0).radiance(aside));
