@@ -55,6 +55,8 @@ struct Texture {
     /// Marks along the fall line.
     streak: f32,
     cell: f32,
+    /// Share of the slopes of the fine detail that is left.
+    evenness: f32,
 }
 
 impl Texture {
@@ -65,7 +67,7 @@ impl Texture {
 
     /// Slopes of the fine detail.
     fn rough(&self, strength: f32) -> [f32; 2] {
-        self.fine.slope.map(|slope| strength * self.cell * slope)
+        self.fine.slope.map(|slope| strength * self.evenness * self.cell * slope)
     }
 }
 
@@ -78,6 +80,12 @@ const ROCK: [f32; 2] = [1.08, 1.22];
 
 /// Height in metres above the water, and at most that share of a cell, from which trees stand.
 const SHORE: [f32; 2] = [2.5, 0.028];
+
+/// The share of the slopes of fine detail that is left where a pixel is so many cells wide: each octave is two thirds as high as
+/// the one before and half as long, so that the finest would hide the others from close by under scales.
+fn evenness(footprint: f32) -> f32 {
+    libm::powf((2.0 * footprint).clamp(0.075, 1.0), 0.4)
+}
 
 fn no_steeper(bump: [f32; 2], steepest: f32) -> [f32; 2] {
     let square = (bump[0] * bump[0] + bump[1] * bump[1]) / (steepest * steepest);
@@ -177,6 +185,7 @@ impl Cover {
             fine: fine.at(spot.point, spot.footprint),
             streak: self.streak(spot),
             cell,
+            evenness: evenness(spot.footprint / cell),
         }
     }
 

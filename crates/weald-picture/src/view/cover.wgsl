@@ -36,6 +36,7 @@ struct Texture {
     broad: f32,
     fine: Grain,
     streak: f32,
+    evenness: f32,
 }
 
 fn mixed(skin: SurfaceSample, other: SurfaceSample, share: f32) -> SurfaceSample {
@@ -55,7 +56,7 @@ fn no_steeper(bump: vec2<f32>, steepest: f32) -> vec2<f32> {
 }
 
 fn rough(texture: Texture, strength: f32) -> vec2<f32> {
-    return strength * scene.scale.x * texture.fine.slope;
+    return strength * texture.evenness * scene.scale.x * texture.fine.slope;
 }
 
 fn patchy_of(texture: Texture) -> f32 {
@@ -68,6 +69,7 @@ fn texture_of(spot: SurfacePoint) -> Texture {
     texture.broad = octaves_at(Octaves(26.0 * cell, 5u, 0.55, 0x11u), spot.point.xy, spot.footprint).value;
     texture.fine = octaves_at(Octaves(2.4 * cell, 7u, 0.66, 0x12u), spot.point.xy, spot.footprint);
     texture.streak = streak(spot);
+    texture.evenness = pow(clamp(2.0 * spot.footprint / cell, 0.075, 1.0), 0.4);
     return texture;
 }
 
