@@ -283,6 +283,47 @@ class Steps:
         into: layer name; default "height"
             Layer that is written.
         """
+    def volcano(
+        self,
+        *,
+        rise: float = 1500.0,
+        base: float = 0.0,
+        radius: float = 8000.0,
+        concavity: float = 3.0,
+        crater_radius: float = 300.0,
+        crater_depth: float = 150.0,
+        center_x: float | None = None,
+        center_y: float | None = None,
+        into: str = "height",
+        seed: int = 0,
+        engine: str = "auto",
+        threads: int | None = None,
+        callback: Callback | None = None,
+        progress: bool | None = None,
+    ) -> StepReport:
+        """A cone with a crater, steeper towards its rim, on flat ground. Source: Milne 1878, On the form of volcanoes, Geological Magazine 5.
+
+        Writes, by default: `height` (m).
+
+        rise: number, 0 to 1000000 m; default 1500.0
+            Height of the rim of the crater above the ground around.
+        base: number, -1000000 to 1000000 m; default 0.0
+            Height of the ground around.
+        radius: number, 0.001 to 1000000000 m; default 8000.0
+            Distance from the axis to the foot.
+        concavity: number, 0 to 20; default 3.0
+            How hollow the flanks are (c): 0 for a straight cone; at 3 they are 20 times as steep at the axis as at the foot.
+        crater_radius: number, 0 to 1000000000 m; default 300.0
+            Distance from the axis to the rim of the crater; 0 for a tip.
+        crater_depth: number, 0 to 1000000 m; default 150.0
+            Depth of the crater below its rim.
+        center_x: number, -1000000000 to 1000000000 m
+            The axis, from the western edge. Without it, the middle.
+        center_y: number, -1000000000 to 1000000000 m
+            The axis, from the northern edge. Without it, the middle.
+        into: layer name; default "height"
+            Layer that is written.
+        """
     def basin(
         self,
         *,
@@ -1007,7 +1048,7 @@ class Steps:
         area_exponent: number, 0 to 2; default 0.5
             Exponent of the upslope area (m). Over that of the slope it is how much flatter rivers become downstream.
         hillslope_area: number, 0 to 1000000000 m²; default 50000.0
-            Area that counts beside the upslope area, and wears ridges: slopes above rivers then do not grow steeper with every cell that is smaller. Rivers of much more than it follow the law.
+            Upslope area from which on there is a river. With less, slopes stand as steep as with so much, as those of mountains do (Stock and Dietrich 2003, doi 10.1029/2001WR001057), and what creeps stays on them; a river carries it off.
         slope_exponent: number, 0.1 to 5; default 1.0
             Exponent of the slope (n).
         deposition: number, 0 to 10; default 0.0
@@ -1821,6 +1862,24 @@ class AccessorSteps:
         radius: float = 5000.0,
         radius_across: float | None = None,
         azimuth_deg: float = 90.0,
+        center_x: float | None = None,
+        center_y: float | None = None,
+        into: str = "height",
+        seed: int = 0,
+        engine: str = "auto",
+        threads: int | None = None,
+        callback: Callback | None = None,
+        progress: bool | None = None,
+    ) -> xarray.DataArray: ...
+    def volcano(
+        self,
+        *,
+        rise: float = 1500.0,
+        base: float = 0.0,
+        radius: float = 8000.0,
+        concavity: float = 3.0,
+        crater_radius: float = 300.0,
+        crater_depth: float = 150.0,
         center_x: float | None = None,
         center_y: float | None = None,
         into: str = "height",
