@@ -158,7 +158,7 @@ struct Shore<'a> {
 /// How many times as steep as above the water sand lies under it, before it meets the floor.
 const FRONT: f64 = 5.0;
 
-/// Metres into the sea as far as which waves plane its floor off.
+/// Metres into the sea as far as which waves plane its floor off at most.
 const PLANED: f64 = 500.0;
 
 /// Widths of beaches that are tried, each half as far from the last as the one before.
@@ -244,7 +244,8 @@ impl<'a> Shore<'a> {
         let offshore = march.follow(|cell| f64::from(u8::from(self.sea[cell])));
         for (cell, height) in ground.values_mut().iter_mut().enumerate() {
             let (distance, retreat) = (offshore.time[cell], offshore.value[cell]);
-            if self.sea[cell] && retreat > 0.0 && distance.is_finite() {
+            // No further out than the coast has gone back: the floor of a shallow sea is not all a platform.
+            if self.sea[cell] && distance < retreat {
                 *height = height.min((self.level - self.step.platform_slope * (retreat + distance)) as f32);
             }
         }
