@@ -134,6 +134,7 @@ mod tests {
         let slow = march.follow(|cell| if cell % 61 > 30 { 0.05 } else { 0.5 });
         assert!(slow.time[size.index(60, 30)] > 9.0 * slow.time[size.index(0, 30)]);
     }
+
     #[test]
     fn what_a_front_carries_is_constant_along_its_path_and_not_along_rows_of_cells() {
         // A straight coast that no row or column follows, and a value that grows along it.
