@@ -67,6 +67,11 @@ impl Codecs {
         Ok(Self { is_big, packings: rest.iter().map(packing).collect::<Result<_, _>>()? })
     }
 
+    /// Bytes that sums add to what is encoded; `None` where a codec changes its length in ways of its own.
+    pub(super) fn length_of_sums(&self) -> Option<usize> {
+        self.packings.iter().all(|packing| *packing == Packing::Crc32c).then_some(4 * self.packings.len())
+    }
+
     /// Most bytes that a chunk of `length` bytes has in a file: packing what cannot be packed adds a little.
     pub(super) fn most(length: usize) -> u64 {
         length as u64 + length as u64 / 64 + 4096
@@ -97,7 +102,7 @@ fn name(codec: &Value) -> &str {
 
 fn unread(array: &str, codec: &str) -> Fault {
     Fault::damaged(format!(
-        "`{array}` is packed with codec `{codec}`; bytes, gzip, zlib, zstd, lz4, blosc and crc32c are read: with xarray \
+        "`{array}` is packed with codec `{codec}`; bytes, gzip, zlib, zstd, lz4, blosc, crc32c and shards of these are read: with xarray \
          ds.to_zarr(path, encoding={{'{array}': {{'compressors': None, 'shards': None}}}}), in C order"
     ))
 }

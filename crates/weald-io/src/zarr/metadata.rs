@@ -7,6 +7,7 @@ use super::super::cf::{Attributes, Described};
 use super::super::number::Number;
 use super::attributes;
 use super::codec::Codecs;
+use super::shard::{Sharded, Shards};
 
 /// Name of the description in a group's or an array's folder.
 pub(super) const DESCRIPTION: &str = "zarr.json";
@@ -32,6 +33,8 @@ pub(super) struct Storage {
     /// What stands where no chunk is.
     pub(super) fill: f64,
     pub(super) codecs: Codecs,
+    /// How the chunks lie in files, where each file has many.
+    pub(super) shards: Option<Shards>,
     /// Key of the chunks but for their numbers, and what stands between those.
     keys: (&'static str, &'static str),
 }
@@ -85,11 +88,17 @@ impl Array {
         let chunk = lengths(&grid["configuration"]["chunk_shape"]).filter(|chunk| {
             grid["name"] == "regular" && chunk.len() == self.shape.len() && !chunk.contains(&0)
         });
+        let file = chunk.ok_or_else(|| wrong("chunk_grid"))?;
+        let (chunk, codecs, shards) = match Sharded::of(&self.name, &self.json["codecs"], &file)? {
+            Some(Sharded { chunk, codecs, shards }) => (chunk, codecs, Some(shards)),
+            None => (file, &self.json["codecs"], None),
+        };
         Ok(Storage {
             number,
-            chunk: chunk.ok_or_else(|| wrong("chunk_grid"))?,
+            chunk,
             fill: fill(&self.json["fill_value"], number).ok_or_else(|| wrong("fill_value"))?,
-            codecs: Codecs::of(&self.name, &self.json["codecs"])?,
+            codecs: Codecs::of(&self.name, codecs)?,
+            shards,
             keys: keys(&self.json["chunk_key_encoding"]).ok_or_else(|| wrong("chunk_key_encoding"))?,
         })
     }
@@ -101,7 +110,12 @@ impl Storage {
         self.chunk.iter().try_fold(self.number.bytes, |bytes, length| bytes.checked_mul(*length))
     }
 
-    /// The key of a chunk, such as `c/0/0`.
+    /// Chunks of a file along a dimension.
+    pub(super) fn chunks_of_file(&self, axis: usize) -> usize {
+        self.shards.as_ref().map_or(1, |shards| shards.counts[axis])
+    }
+
+    /// The key of a file of chunks, such as `c/0/0`.
     pub(super) fn key(&self, place: &[usize]) -> String {
         let (prefix, between) = self.keys;
         let numbers: Vec<String> = place.iter().map(usize::to_string).collect();
@@ -115,7 +129,7 @@ fn damaged(name: &str, key: &str, value: &Value) -> Fault {
     Fault::damaged(format!("`{name}`: `{key}` is {shown}, which Zarr does not have or Weald not read"))
 }
 
-fn lengths(list: &Value) -> Option<Vec<usize>> {
+pub(super) fn lengths(list: &Value) -> Option<Vec<usize>> {
     list.as_array()?.iter().map(|length| usize::try_from(length.as_u64()?).ok()).collect()
 }
 

@@ -3,7 +3,8 @@
 //! Written is a group of version 3 with the attributes of `cf` and metadata consolidated, so that xarray opens it
 //! as a dataset; layers in chunks of 256 × 256, little-endian, gzip; chunks without any data are left out, as NaN
 //! fills them. Read is a group or a single array of either version, in regular chunks with the codecs `bytes`,
-//! `gzip`, `zlib`, `zstd`, `lz4`, `blosc` and `crc32c`; other codecs are named in the error.
+//! `gzip`, `zlib`, `zstd`, `lz4`, `blosc` and `crc32c`, each in a file of its own or many in a shard; other codecs are
+//! named in the error.
 //!
 //! Shapes and chunks are checked against the limits before anything is allocated, and a chunk may not unpack to
 //! more than its shape says.
@@ -13,6 +14,7 @@ mod blosc;
 mod codec;
 mod metadata;
 mod read;
+mod shard;
 mod version2;
 mod write;
 

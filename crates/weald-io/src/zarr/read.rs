@@ -101,27 +101,86 @@ impl Source for Folder<'_> {
         let array = found.expect("descriptions are made from the arrays");
         let storage = array.storage()?;
         let length = self.chunk_length(array, &storage)?;
-        let counts: Vec<usize> =
-            array.shape.iter().zip(&storage.chunk).map(|(all, chunk)| all.div_ceil(*chunk)).collect();
-        for number in 0..counts.iter().product() {
-            let at = place(number, &counts);
-            let key = within(&array.name, &storage.key(&at[..counts.len()]));
-            let packed = self.parts.read(&PartName::Inside(key.clone()), Codecs::most(length))?;
-            let chunk = packed.map(|packed| storage.codecs.decode(packed, length)).transpose();
-            let chunk = chunk.map_err(|fault| Fault::damaged(format!("{key}: {fault}")))?;
-            let rows = Rows::of(&array.shape, &storage.chunk, &at);
-            numbers_of(&rows, &storage, chunk.as_deref(), take);
+        let files = storage.files(&array.shape);
+        for number in 0..files.iter().product() {
+            let at = place(number, &files);
+            let key = within(&array.name, &storage.key(&at[..files.len()]));
+            let most = storage.shards.as_ref().map_or(Codecs::most(length), |shards| shards.most(length));
+            let packed = self.parts.read(&PartName::Inside(key.clone()), most)?;
+            let file = File { array, storage: &storage, length, at };
+            let taken = file.each(packed, take);
+            taken.map_err(|fault| Fault::damaged(format!("{key}: {fault}")))?;
         }
         Ok(())
     }
 }
 
+impl Storage {
+    /// Files of chunks along each dimension.
+    fn files(&self, shape: &[usize]) -> Vec<usize> {
+        let chunks = shape.iter().zip(&self.chunk).enumerate();
+        chunks.map(|(axis, (all, chunk))| all.div_ceil(chunk * self.chunks_of_file(axis))).collect()
+    }
+}
+
+/// A file of one chunk or of many.
+struct File<'a> {
+    array: &'a Array,
+    storage: &'a Storage,
+    /// Bytes of a chunk.
+    length: usize,
+    /// Place among the files.
+    at: Place,
+}
+
+impl File<'_> {
+    /// Hands over its numbers, or the fill value where there is no such file.
+    fn each(&self, packed: Option<Vec<u8>>, take: &mut dyn FnMut(usize, f64)) -> Result<(), Fault> {
+        let Some(shards) = &self.storage.shards else {
+            let chunk = packed.map(|packed| self.storage.codecs.decode(packed, self.length)).transpose()?;
+            self.numbers(&self.at, chunk.as_deref(), take);
+            return Ok(());
+        };
+        let places = packed.as_ref().map(|packed| shards.places(packed)).transpose()?;
+        for number in 0..shards.counts.iter().product() {
+            let mut at = place(number, &shards.counts);
+            for (axis, count) in shards.counts.iter().enumerate() {
+                at[axis] += self.at[axis] * count;
+            }
+            let packed = packed.as_ref().zip(places.as_ref().and_then(|places| places[number].clone()));
+            let packed = packed.map(|(shard, place)| shard[place].to_vec());
+            // What lies beyond the array is in no cell, but its chunk may be there.
+            if self.is_within(&at) {
+                let chunk =
+                    packed.map(|packed| self.storage.codecs.decode(packed, self.length)).transpose()?;
+                self.numbers(&at, chunk.as_deref(), take);
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether the chunk at a place has cells of the array.
+    fn is_within(&self, at: &Place) -> bool {
+        let axes = self.array.shape.iter().zip(&self.storage.chunk).zip(at);
+        axes.fold(true, |within, ((all, chunk), at)| within && at * chunk < *all)
+    }
+
+    /// Hands over the numbers of the chunk at a place, or the fill value where there is none.
+    fn numbers(&self, at: &Place, chunk: Option<&[u8]>, take: &mut dyn FnMut(usize, f64)) {
+        let rows = Rows::of(&self.array.shape, &self.storage.chunk, at);
+        numbers_of(&rows, self.storage, chunk, take);
+    }
+}
+
 impl Folder<'_> {
-    /// Bytes of a chunk, as far as they are within the limits.
+    /// Bytes of a chunk, as far as those of all chunks of a file are within the limits.
     fn chunk_length(&self, array: &Array, storage: &Storage) -> Result<usize, Fault> {
         let most = self.limits.cells.saturating_mul(8);
         let bytes = storage.chunk_bytes();
-        bytes.filter(|bytes| *bytes <= most).ok_or_else(|| {
+        let of_file = (0..storage.chunk.len()).try_fold(bytes.unwrap_or(usize::MAX), |bytes, axis| {
+            bytes.checked_mul(storage.chunks_of_file(axis))
+        });
+        bytes.filter(|_| of_file.is_some_and(|bytes| bytes <= most)).ok_or_else(|| {
             let asked = bytes.map(|bytes| bytes as u64);
             let limit = Limit::new(Quantity::MemoryBytes, asked, 0..=most as u64);
             let subject = format!("a chunk of {:?} numbers of `{}`", storage.chunk, array.name);

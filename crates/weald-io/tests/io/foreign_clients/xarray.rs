@@ -118,7 +118,14 @@ zarray('degrees', dataset(cell=.001, west=8, south=46, names=('lat', 'lon')), {}
 zarray('feet', dataset(holes, units='feet'), {}, 2, metres=.3048)
 zarray('bz2', dataset(), {'compressors': numcodecs.BZ2()}, 2, refused='codec `bz2`')
 zarray('delta', dataset(whole.astype('i4')), {'filters': [numcodecs.Delta('i4')]}, 2, refused='codec `delta`')
-zarray('shards', dataset(holes), dict(f4, shards=(20, 32)), refused='sharding_indexed')
+for name, compressors in {'none': None, 'zstd': zarr.codecs.ZstdCodec(), 'gzip': zarr.codecs.GzipCodec()}.items():
+    for dtype in ['i2', 'f4', 'f8']:
+        for shards in [(20, 32), (30, 48), (10, 16)]:
+            zarray(f'shards, {name} {dtype}', dataset(whole.astype(dtype)),
+                {'dtype': dtype, 'chunks': (10, 16), 'shards': shards, 'compressors': compressors})
+zarray('shards with holes', dataset(holes), dict(f4, shards=(20, 32)))
+far = numpy.where(numpy.arange(37) < 16, holes, numpy.nan)
+zarray('shards without some chunks', dataset(far), dict(f4, shards=(20, 48), _FillValue=numpy.nan))
 print(json.dumps(files))
 "#;
 
