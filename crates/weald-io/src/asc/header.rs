@@ -16,7 +16,7 @@ pub(super) struct Header {
 }
 
 /// The number that stands for no-data where the header names none (Esri, "Esri ASCII raster format").
-const USUAL_NO_DATA: f32 = -9999.0;
+pub(super) const USUAL_NO_DATA: f32 = -9999.0;
 
 /// The words as they stand.
 #[derive(Debug, Default)]

@@ -4,6 +4,7 @@ use std::fmt::Write;
 
 use super::super::{Part, Raster};
 use super::crs::{self, CRS_FILE};
+use super::header::USUAL_NO_DATA;
 use weald_core::error::Error;
 
 /// The grid, and its CRS beside it where that can be spelled.
@@ -12,7 +13,10 @@ use weald_core::error::Error;
 /// [`Error::Run`] naming a cell with data that holds a NaN or an infinity.
 pub fn encode(raster: &Raster) -> Result<Vec<Part>, Error> {
     raster.ensure_finite()?;
-    let no_data = raster.valid.as_ref().map(|_| raster.number_for_no_data());
+    // Where no number is declared, readers take the usual one for no-data.
+    let is_usual = |value: &f32| *value == USUAL_NO_DATA;
+    let declares = raster.valid.is_some() || raster.field.values().iter().any(is_usual);
+    let no_data = declares.then(|| raster.number_for_no_data());
     let mut text = header(raster, no_data);
     for (y, row) in raster.field.values().chunks(raster.field.size().columns).enumerate() {
         for (x, value) in row.iter().enumerate() {

@@ -335,6 +335,17 @@ fn ascii_grids_of_other_programs_are_read() {
 }
 
 #[test]
+fn a_height_that_usually_stands_for_no_data_comes_back_from_an_ascii_grid() {
+    let text = "ncols 2\nnrows 1\nxllcorner 0\nyllcorner 0\ncellsize 1\nNODATA_value -1\n-9999 5\n";
+    let raster = grid(text, None).expect("read");
+    assert_eq!((raster.field.values(), &raster.valid), (&[-9999.0, 5.0][..], &None));
+    let again =
+        asc::decode(&InMemory::of("a.asc", asc::encode(&raster).expect("written")), Limits::default());
+    let again = again.expect("read again");
+    assert_eq!((again.field, again.valid), (raster.field, None));
+}
+
+#[test]
 fn faults_of_ascii_grids_say_where() {
     let header = "ncols 2\nnrows 2\nxllcorner 1\nyllcorner 1\ncellsize 1\n";
     let diagnostic = |rest: &str| grid(&format!("{header}{rest}"), None).expect_err("refused").to_string();
