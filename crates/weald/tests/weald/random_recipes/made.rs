@@ -97,9 +97,9 @@ impl Made {
             self.dice.below(1000)
         );
         if self.dice.one_in(4) {
-            for name in ["bedrock", "soil", "sand"].iter().take(1 + self.dice.below(3)) {
+            for name in ["rock", "soil", "sand"].iter().take(1 + self.dice.below(3)) {
                 let _ = writeln!(self.text, "[[material]]\nname = {name:?}");
-                if *name != "bedrock" {
+                if *name != "rock" {
                     let _ = writeln!(self.text, "thickness = {}", self.dice.below(5));
                 }
             }

@@ -1,7 +1,8 @@
 //! Random recipes: what passes the check runs to its end, with the same files for any number of threads.
 //!
 //! `WEALD_RANDOM_RECIPES=1000 cargo test -p weald --test weald random_recipes -- --nocapture` is the long version, whose
-//! figures stand in CORRECTNESS.md; `WEALD_FIRST_RECIPE` is the first, `WEALD_KEEP_RECIPES` a folder for their texts.
+//! figures stand in CORRECTNESS.md; `WEALD_FIRST_RECIPE` is the first, `WEALD_KEEP_RECIPES` a folder for their texts,
+//! `WEALD_RECIPE_SECONDS` how long a run may take.
 
 mod made;
 
@@ -17,15 +18,31 @@ use weald::recipe::{Options, Overrides, Progress, Recipe, Report, Run};
 
 /// Recipes of the short version.
 const FEW: u64 = 40;
-/// Seconds after which a run is ended; it then proves nothing.
+/// Numbers of threads, whose files are compared.
+const THREADS: [usize; 4] = [1, 2, 3, 5];
+/// Seconds after which a run of the short version is ended; it then proves nothing.
 const TIMEOUT: u64 = 5;
 
+fn wanted(name: &str) -> Option<u64> {
+    std::env::var(name).ok().and_then(|text| text.parse().ok())
+}
+
 /// Ends a run that takes too long.
-struct Patience(Instant);
+struct Patience {
+    since: Instant,
+    most: Duration,
+}
+
+impl Patience {
+    fn begins() -> Self {
+        let most = Duration::from_secs(wanted("WEALD_RECIPE_SECONDS").unwrap_or(TIMEOUT));
+        Self { since: Instant::now(), most }
+    }
+}
 
 impl Progress for Patience {
     fn cancelled(&self) -> bool {
-        self.0.elapsed() > Duration::from_secs(TIMEOUT)
+        self.since.elapsed() > self.most
     }
 }
 
@@ -47,7 +64,7 @@ enum End {
 fn run(recipe: &Recipe, threads: usize, out: &Path) -> Result<Report, Error> {
     let options =
         Options { threads: Some(threads), render: Some(Arc::new(RayMarched)), ..Options::into_folder(out) };
-    let progress = Patience(Instant::now());
+    let progress = Patience::begins();
     catch_unwind(AssertUnwindSafe(|| Run { recipe, options }.execute(&progress)))
         .unwrap_or_else(|_| Err(Error::Run("it panicked".to_owned())))
 }
@@ -79,7 +96,7 @@ fn outcome(text: &str) -> Result<End, String> {
         Err(error) => return Err(format!("the check ends with {}: {error}", error.exit_code())),
         Ok(recipe) => recipe,
     };
-    let outs = [1, 3].map(|threads| (threads, tempfile::tempdir().expect("a folder")));
+    let outs = THREADS.map(|threads| (threads, tempfile::tempdir().expect("a folder")));
     for (threads, out) in &outs {
         match run(&recipe, *threads, out.path()) {
             Ok(_) => {}
@@ -93,17 +110,18 @@ fn outcome(text: &str) -> Result<End, String> {
             }
         }
     }
-    let [one, three] = outs.map(|(_, out)| written(out.path()));
-    let names: Vec<_> = one.keys().chain(three.keys()).collect();
-    match names.into_iter().find(|name| one.get(*name) != three.get(*name)) {
-        Some(name) => Err(format!("{name} differs between 1 and 3 threads")),
-        None => Ok(End::Done),
+    let [one, others @ ..] = outs.map(|(threads, out)| (threads, written(out.path())));
+    for (threads, other) in &others {
+        let mut names = one.1.keys().chain(other.keys());
+        if let Some(name) = names.find(|name| one.1.get(*name) != other.get(*name)) {
+            return Err(format!("{name} differs between 1 and {threads} threads"));
+        }
     }
+    Ok(End::Done)
 }
 
 #[test]
 fn what_passes_the_check_runs_to_its_end_with_the_same_files_for_any_number_of_threads() {
-    let wanted = |name: &str| std::env::var(name).ok().and_then(|text| text.parse::<u64>().ok());
     let first = wanted("WEALD_FIRST_RECIPE").unwrap_or(0);
     let count = wanted("WEALD_RANDOM_RECIPES").unwrap_or(FEW);
     let mut ends: BTreeMap<End, u64> = BTreeMap::new();
