@@ -14,7 +14,7 @@ use weald_gallery::figures::{self as gallery, FIGURES};
 
 pub(crate) use self::fractal::FractalArguments;
 pub(crate) use self::render::{RenderArguments, RenderFiles};
-pub(crate) use self::running::{Changes, Running};
+pub(crate) use self::running::{Changes, Running, kept_results};
 use crate::values;
 
 /// Turns a recipe into a living landscape.
@@ -155,6 +155,9 @@ pub(crate) struct CheckArguments {
     pub(crate) recipe: PathBuf,
     #[command(flatten)]
     pub(crate) changes: Changes,
+    /// Threads of the run whose time is estimated [default: all cores]
+    #[arg(long, value_name = "N", value_parser = value_parser!(u16).range(1..=1024))]
+    pub(crate) threads: Option<u16>,
 }
 
 #[derive(Debug, Args)]
@@ -198,6 +201,10 @@ pub(crate) struct BenchArguments {
     /// Threads, with --engine cpu
     #[arg(long, value_name = "N", num_args = 1.., default_values_t = [1, 2])]
     pub(crate) threads: Vec<usize>,
+    /// Run the templates at two small sizes and keep what their steps and outputs take: what `weald check` estimates times
+    /// by, until recipes have runs of their own
+    #[arg(long, conflicts_with_all = ["size", "gpu_memory", "save", "against", "fractals", "render", "recipe", "grass"])]
+    pub(crate) calibrate: bool,
     /// Runs of each recipe of which the best counts, with --recipe
     #[arg(long, value_name = "N", default_value_t = 1, requires = "recipe", value_parser = value_parser!(u32).range(1..))]
     pub(crate) runs: u32,

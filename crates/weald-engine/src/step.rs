@@ -122,6 +122,12 @@ pub trait Step: Debug + Send + Sync {
         12
     }
 
+    /// What it has to do on such a grid, for the estimate of its time.
+    fn work(&self, domain: &Domain) -> Work {
+        let _ = domain;
+        Work::default()
+    }
+
     /// Whether it is a simulation that runs over ranks: then all of them run the step on the same layers, and the first
     /// alone has the result. Other steps run on the first rank while the others wait.
     fn runs_over_ranks(&self) -> bool {
@@ -130,6 +136,35 @@ pub trait Step: Debug + Send + Sync {
 
     /// Runs on a landscape that has all the layers in [`Step::reads`].
     fn run(&self, landscape: &mut Landscape, job: &Job<'_>) -> Result<Outcome, Error>;
+}
+
+/// What a step has to do: its time grows with the cells times the passes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Work {
+    /// Which of its methods does it, where they take unlike times; empty where there is one.
+    pub method: String,
+    /// How often it works on every cell: iterations, directions.
+    pub passes: f64,
+}
+
+impl Work {
+    /// So many passes of the only method.
+    pub fn of(passes: impl Into<f64>) -> Self {
+        Self { method: String::new(), passes: passes.into() }
+    }
+
+    /// The same by that method.
+    #[must_use]
+    pub fn by(self, method: impl Into<String>) -> Self {
+        Self { method: method.into(), ..self }
+    }
+}
+
+impl Default for Work {
+    /// One pass.
+    fn default() -> Self {
+        Self::of(1.0)
+    }
 }
 
 /// What a step does with the layers of the materials: `bedrock`, and the thickness of each material on it.

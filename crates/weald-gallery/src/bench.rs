@@ -2,6 +2,7 @@
 //!
 //! Figures are the best of several runs, since other work on a machine only ever makes a run slower.
 
+mod calibrate;
 mod device;
 mod flow;
 mod fractal;
@@ -11,6 +12,7 @@ mod recipes;
 mod record;
 mod stream_power;
 
+pub use calibrate::calibrate;
 pub use device::run_on;
 pub use fractal::{PointRate, fractals};
 pub use grass::{GrassRate, grass};

@@ -94,7 +94,7 @@ impl Recipe {
     /// Opens the files that it names and gives what a run would tell, and the bytes of memory that it would take.
     fn look_ahead(&self, py: Python<'_>) -> PyResult<(Vec<String>, u64)> {
         let looked = py.detach(|| self.recipe.look_ahead()).map_err(|error| exception(py, error))?;
-        Ok((looked.0, looked.1.bytes))
+        Ok((looked.notes, looked.memory.bytes))
     }
 
     /// Runs it; gives the landscape, unless a run that was done is only looked up, and the report as JSON.

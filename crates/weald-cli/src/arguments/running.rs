@@ -51,16 +51,25 @@ const CACHE_VARIABLE: &str = "WEALD_CACHE";
 impl Running {
     /// Results of steps that earlier runs have left.
     pub(crate) fn cache(&self) -> Option<Arc<Cache>> {
-        let said = std::env::var_os(CACHE_VARIABLE).filter(|folder| !folder.is_empty());
-        if self.no_cache || self.cache.is_none() && said.as_ref().is_some_and(|folder| folder == "off") {
-            return None;
-        }
-        let of_the_system = || dirs::cache_dir().map(|folder| folder.join("weald"));
-        let folder = self.cache.clone().or_else(|| said.map(PathBuf::from)).or_else(of_the_system)?;
         // A run visits each step once, so that nothing needs to stay in memory.
         let limits = CacheLimits { memory: 0, ..CacheLimits::default() };
-        Some(Arc::new(Cache::in_folder(folder, limits)))
+        self.kept_results().map(|folder| Arc::new(Cache::in_folder(folder, limits)))
     }
+
+    /// Folder of what runs leave for later ones.
+    pub(crate) fn kept_results(&self) -> Option<PathBuf> {
+        if self.no_cache { None } else { kept_results(self.cache.clone()) }
+    }
+}
+
+/// That folder of what runs leave for later ones, or the one that is used without word.
+pub(crate) fn kept_results(folder: Option<PathBuf>) -> Option<PathBuf> {
+    let said = std::env::var_os(CACHE_VARIABLE).filter(|folder| !folder.is_empty());
+    if folder.is_none() && said.as_ref().is_some_and(|folder| folder == "off") {
+        return None;
+    }
+    let of_the_system = || dirs::cache_dir().map(|folder| folder.join("weald"));
+    folder.or_else(|| said.map(PathBuf::from)).or_else(of_the_system)
 }
 
 /// Greatest seed: whole numbers beyond it are not all exact where reports are read as JSON.

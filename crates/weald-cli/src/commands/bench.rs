@@ -7,7 +7,7 @@ use weald::engine::device::Device;
 use weald_gallery::bench::{Measured, Record, Records};
 use weald_gpu::{Gpu, PointRates};
 
-use crate::arguments::BenchArguments;
+use crate::arguments::{BenchArguments, kept_results};
 use crate::engine::with_memory;
 use crate::failure::Failure;
 use crate::{interrupt, stdout};
@@ -34,6 +34,9 @@ pub(crate) fn bench(arguments: &BenchArguments) -> Result<(), Failure> {
     if arguments.studio {
         print(&weald_studio::response(None)?);
         return unwritten.map_or(Ok(()), Err);
+    }
+    if arguments.calibrate {
+        return calibrate(&mut print).and_then(|()| unwritten.map_or(Ok(()), Err));
     }
     let then = arguments.against.as_deref().map(Records::read).transpose()?;
     let mut results = Records { version: env!("CARGO_PKG_VERSION").to_owned(), results: Vec::new() };
@@ -69,6 +72,25 @@ pub(crate) fn bench(arguments: &BenchArguments) -> Result<(), Failure> {
         return Err(Failure::run(slower.join("\n")));
     }
     unwritten.map_or(Ok(()), Err)
+}
+
+/// Runs the templates and keeps what they take where runs keep their results, for estimates.
+fn calibrate(print: &mut dyn FnMut(&dyn Display)) -> Result<(), Failure> {
+    let Some(folder) = kept_results(None) else {
+        return Err(Failure::usage(
+            "--calibrate keeps its times where results are kept, and WEALD_CACHE is off",
+        ));
+    };
+    interrupt::end_at_once()?;
+    let out = std::env::temp_dir().join(format!("weald-calibrate-{}", std::process::id()));
+    let done = weald_gallery::bench::calibrate(&folder, &out, &mut |name, seconds| {
+        print(&format!("{name:<24} {seconds:>6.1} s"));
+    });
+    // The folder is of temporary files; that it cannot be removed is no fault of what was measured.
+    let _ = std::fs::remove_dir_all(&out);
+    done?;
+    print(&format!("kept in {}: `weald check` estimates times by them", folder.display()));
+    Ok(())
 }
 
 /// Measures each step and each output of recipes, whose files go into a folder that is removed.

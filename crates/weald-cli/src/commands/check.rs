@@ -2,15 +2,15 @@
 
 use std::fmt::Write;
 
-use weald::recipe::{Ground, Recipe};
+use weald::recipe::{Ground, Machine, Outlook, Recipe, Timings};
 
-use crate::arguments::CheckArguments;
+use crate::arguments::{CheckArguments, kept_results};
 use crate::failure::Failure;
 use crate::stdout;
 
 pub(crate) fn check(arguments: &CheckArguments) -> Result<(), Failure> {
     let recipe = Recipe::load(&arguments.recipe, &arguments.changes.overrides())?;
-    let (notes, memory) = recipe.look_ahead()?;
+    let Outlook { notes, memory, grid } = recipe.look_ahead()?;
     for note in notes {
         eprintln!("note: {note}");
     }
@@ -22,8 +22,22 @@ pub(crate) fn check(arguments: &CheckArguments) -> Result<(), Failure> {
     let (file, seed) = (&recipe.file, recipe.seed);
     let mut text = format!("{file}: good; {ground}, steps: {steps}, outputs: {outputs}, seed: {seed}\n");
     let _ = writeln!(text, "  memory: {memory}");
+    let estimate = recipe.estimate(&grid, &machine(arguments), &timings());
+    for line in estimate.to_string().lines() {
+        let _ = writeln!(text, "  {line}");
+    }
     for name in recipe.names() {
         let _ = writeln!(text, "  {name}");
     }
     stdout::print(&text)
+}
+
+fn machine(arguments: &CheckArguments) -> Machine {
+    let all = || std::thread::available_parallelism().map_or(1, usize::from);
+    Machine { engine: None, threads: arguments.threads.map_or_else(all, usize::from) }
+}
+
+/// What earlier runs took, where results of steps are kept.
+fn timings() -> Timings {
+    kept_results(None).map(|folder| Timings::read(&folder)).unwrap_or_default()
 }

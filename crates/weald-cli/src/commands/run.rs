@@ -47,6 +47,7 @@ pub(super) fn watched<T>(
         resume: running.resume,
         memory: running.memory,
         cache: running.cache(),
+        timings: running.kept_results(),
         render,
         ..options
     };

@@ -2,6 +2,7 @@
 
 mod command;
 mod engine;
+mod estimates;
 mod fractal;
 mod interruption;
 mod kills;

@@ -16,7 +16,7 @@ use weald_core::landscape::Landscape;
 use weald_core::parameter::LayerName;
 use weald_core::parameters;
 use weald_engine::Job;
-use weald_engine::step::{Entry, Outcome, Stage, Step};
+use weald_engine::step::{Entry, Outcome, Stage, Step, Work};
 
 /// The step's declaration.
 pub const ENTRY: Entry = Entry::of::<Occlusion>(
@@ -68,6 +68,10 @@ impl Step for Occlusion {
 
     fn bytes_per_cell(&self) -> u64 {
         48
+    }
+
+    fn work(&self, _: &Domain) -> Work {
+        Work::of(self.directions)
     }
 
     fn run(&self, landscape: &mut Landscape, job: &Job<'_>) -> Result<Outcome, Error> {

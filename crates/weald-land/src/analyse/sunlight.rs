@@ -26,7 +26,7 @@ use weald_core::landscape::Landscape;
 use weald_core::parameter::LayerName;
 use weald_core::parameters;
 use weald_engine::Job;
-use weald_engine::step::{Entry, Outcome, Stage, Step};
+use weald_engine::step::{Entry, Outcome, Stage, Step, Work};
 
 /// The step's declaration.
 pub const ENTRY: Entry = Entry::of::<Sunlight>(
@@ -91,6 +91,10 @@ impl Step for Sunlight {
 
     fn bytes_per_cell(&self) -> u64 {
         52
+    }
+
+    fn work(&self, _: &Domain) -> Work {
+        Work::of(self.directions)
     }
 
     fn run(&self, landscape: &mut Landscape, job: &Job<'_>) -> Result<Outcome, Error> {

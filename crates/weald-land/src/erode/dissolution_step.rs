@@ -30,7 +30,7 @@ use weald_engine::Job;
 use weald_engine::program::{Content, Program};
 use weald_engine::stencil::chain::{Flow, Process};
 use weald_engine::stencil::ring::Ring;
-use weald_engine::step::{Entry, Layered, Outcome, Stage, Step};
+use weald_engine::step::{Entry, Layered, Outcome, Stage, Step, Work};
 
 parameters! {
     /// Dissolution as a step of its own, under water that stands still.
@@ -139,6 +139,10 @@ impl Step for DissolutionStep {
 
     fn runs_over_ranks(&self) -> bool {
         true
+    }
+
+    fn work(&self, _: &Domain) -> Work {
+        Work::of(self.iterations)
     }
 
     fn run(&self, landscape: &mut Landscape, job: &Job<'_>) -> Result<Outcome, Error> {

@@ -15,7 +15,7 @@ use weald_core::material::Material;
 use weald_core::parameter::{Fault, LayerName, Nested, ScriptFile};
 use weald_core::parameters;
 use weald_engine::Job;
-use weald_engine::step::{Entry, Layered, Outcome, Stage, Step};
+use weald_engine::step::{Entry, Layered, Outcome, Stage, Step, Work};
 
 parameters! {
     /// Floods that carve ground over years: rivers, valleys, fans and lakes in metres and time. The grid only says how
@@ -196,6 +196,18 @@ impl Step for Fluvial {
 
     fn runs_over_ranks(&self) -> bool {
         true
+    }
+
+    /// The steps on each grid, as many cells as that has.
+    fn work(&self, domain: &Domain) -> Work {
+        let grids = self.grids(domain.cell);
+        let on = |level: u32| {
+            let there = self.for_level(level, grids);
+            let all = there.steps(domain.cell * f64::from(1 << level)).count;
+            let steps = there.steps.map_or(all, |steps| all.min(u64::from(steps)));
+            steps as f64 / f64::from(1 << (2 * level))
+        };
+        Work::of((0..grids).map(on).sum::<f64>()).by(if self.materials { "materials" } else { "" })
     }
 
     fn run(&self, landscape: &mut Landscape, job: &Job<'_>) -> Result<Outcome, Error> {

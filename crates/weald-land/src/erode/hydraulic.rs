@@ -30,7 +30,7 @@ use weald_core::landscape::Landscape;
 use weald_core::material::Material;
 use weald_core::parameter::{Fault, ScriptFile};
 use weald_core::source::Value;
-use weald_engine::step::{Entry, Layered, Outcome, Stage, Step};
+use weald_engine::step::{Entry, Layered, Outcome, Stage, Step, Work};
 use weald_engine::{Engine, Job};
 
 /// The step's declaration.
@@ -155,6 +155,14 @@ impl Step for Hydraulic {
 
     fn runs_over_ranks(&self) -> bool {
         true
+    }
+
+    fn work(&self, _: &Domain) -> Work {
+        Work::of(self.iterations).by(match self.model {
+            Model::Han(_) => "han",
+            Model::Mei(_) => "mei",
+            Model::Stava(_) => "stava",
+        })
     }
 
     fn run(&self, landscape: &mut Landscape, job: &Job<'_>) -> Result<Outcome, Error> {

@@ -23,7 +23,7 @@ use weald_core::parameter::{Fault, LayerName, ScriptFile};
 use weald_core::parameters;
 use weald_engine::Job;
 use weald_engine::program::Program;
-use weald_engine::step::{Entry, Layered, Outcome, Stage, Step};
+use weald_engine::step::{Entry, Layered, Outcome, Stage, Step, Work};
 
 parameters! {
     /// Slippage as a step of its own.
@@ -127,6 +127,10 @@ impl Step for SlippageStep {
 
     fn runs_over_ranks(&self) -> bool {
         true
+    }
+
+    fn work(&self, _: &Domain) -> Work {
+        Work::of(self.iterations)
     }
 
     fn run(&self, landscape: &mut Landscape, job: &Job<'_>) -> Result<Outcome, Error> {

@@ -9,7 +9,7 @@ use weald_core::material::Material;
 use weald_core::parameter::{Fault, LayerName};
 use weald_core::parameters;
 use weald_engine::Job;
-use weald_engine::step::{Entry, Layered, Outcome, Stage, Step};
+use weald_engine::step::{Entry, Layered, Outcome, Stage, Step, Work};
 
 choices! {
     /// What becomes of lakes.
@@ -196,6 +196,14 @@ impl Step for StreamPower {
 
     fn bytes_per_cell(&self) -> u64 {
         120
+    }
+
+    /// The steps on each grid, as many cells as that has.
+    fn work(&self, domain: &Domain) -> Work {
+        let grids = self.grids(domain.cell);
+        let on = |level: u32| self.steps(level, grids) as f64 / f64::from(1 << (2 * level));
+        let method = if self.deposition > 0.0 { "deposition" } else { "" };
+        Work::of((0..grids).map(on).sum::<f64>()).by(method)
     }
 
     fn run(&self, landscape: &mut Landscape, job: &Job<'_>) -> Result<Outcome, Error> {

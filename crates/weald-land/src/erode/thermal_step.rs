@@ -15,7 +15,7 @@ use weald_core::material::Material;
 use weald_core::parameter::{LayerName, ScriptFile};
 use weald_core::parameters;
 use weald_engine::Job;
-use weald_engine::step::{Entry, Outcome, Stage, Step};
+use weald_engine::step::{Entry, Outcome, Stage, Step, Work};
 
 parameters! {
     /// Thermal weathering as a step of its own.
@@ -96,6 +96,10 @@ impl Step for Thermal {
 
     fn runs_over_ranks(&self) -> bool {
         true
+    }
+
+    fn work(&self, _: &Domain) -> Work {
+        Work::of(self.iterations).by(format!("{:?}", self.scheme))
     }
 
     fn run(&self, landscape: &mut Landscape, job: &Job<'_>) -> Result<Outcome, Error> {

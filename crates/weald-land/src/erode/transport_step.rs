@@ -28,7 +28,7 @@ use weald_engine::program::Program;
 use weald_engine::stencil::chain::{Flow, Process};
 use weald_engine::stencil::ring::Ring;
 use weald_engine::stencil::rows::{Layout, Rows};
-use weald_engine::step::{Entry, Outcome, Stage, Step};
+use weald_engine::step::{Entry, Outcome, Stage, Step, Work};
 
 choices! {
     /// How a layer travels.
@@ -165,6 +165,10 @@ impl Step for Carry {
 
     fn runs_over_ranks(&self) -> bool {
         true
+    }
+
+    fn work(&self, _: &Domain) -> Work {
+        Work::of(self.iterations).by(format!("{:?}", self.scheme))
     }
 
     fn run(&self, landscape: &mut Landscape, job: &Job<'_>) -> Result<Outcome, Error> {

@@ -26,7 +26,7 @@ const A_MATERIAL: u64 = 40;
 /// Fewest bytes for a cell of a step that is a simulation with planes of its own.
 const SIMULATION: u64 = 40;
 /// Most outputs that are made side by side: a thread that waits for a part of one begins another, on the same stack.
-const SIDE_BY_SIDE: usize = 8;
+pub(super) const SIDE_BY_SIDE: usize = 8;
 /// What a run takes on the smallest grid: the program, its threads and their stacks.
 const PROGRAM: u64 = 16 << 20;
 
@@ -197,13 +197,19 @@ impl Output {
 
     /// Bytes whatever the landscape: those of the pixels.
     fn bytes_of_pixels(&self) -> u64 {
-        let pixels = match &self.content {
-            Content::Picture { picture, .. } | Content::Film { picture, .. } => {
-                picture.as_view().map_or(1 << 20, |view| u64::from(view.width) * u64::from(view.height))
-            }
-            _ => 0,
+        16 * self.view_pixels().unwrap_or(0)
+    }
+
+    /// Pixels of a picture on so many cells: a map has one a cell, and as many as it takes to be read on a small grid.
+    pub(super) fn pixels(&self, cells: u64) -> u64 {
+        self.view_pixels().unwrap_or(0).max(cells)
+    }
+
+    fn view_pixels(&self) -> Option<u64> {
+        let (Content::Picture { picture, .. } | Content::Film { picture, .. }) = &self.content else {
+            return None;
         };
-        16 * pixels
+        Some(picture.as_view().map_or(1 << 20, |view| u64::from(view.width) * u64::from(view.height)))
     }
 }
 

@@ -8,6 +8,7 @@ mod canonical;
 pub mod catalog;
 mod checkpoint;
 pub mod describe;
+mod estimate;
 pub mod format;
 mod fractal;
 mod ground;
@@ -29,11 +30,13 @@ mod session;
 pub mod template;
 #[cfg(test)]
 mod testing;
+mod timings;
 mod view_request;
 mod written_layers;
 
 pub use cache::{Cache, CacheLimits};
 pub use checkpoint::{CHECKPOINT_FILE, pack_landscape, unpack_landscape};
+pub use estimate::{Estimate, Machine};
 pub use fractal::FractalRequest;
 pub use memory::Memory;
 pub use migrate::{Migrated, migrate};
@@ -44,9 +47,10 @@ pub use plan::{
     MaterialKeys, Motion, Output, OutputKeys, Planned, PlannedFractal, PlannedMaterial, PlantRole, Recipe,
 };
 pub use report::{OutputReport, REPORT_FILE, Report};
-pub use run::{Frames, Options, Progress, Run, Silent};
+pub use run::{Frames, Options, Outlook, Progress, Run, Silent};
 pub use run_steps::run_steps;
 pub use session::{Session, SessionOptions};
+pub use timings::Timings;
 pub use view_request::ViewRequest;
 pub use weald_core::{parameter, source};
 pub use weald_engine::report::{BudgetReport, SolidReport, StepReport, WaterReport};

@@ -13,6 +13,7 @@ mod video;
 mod work;
 mod writer;
 
+pub use inputs::Outlook;
 pub use options::{Options, Progress, Run, Silent};
 use std::path::PathBuf;
 
@@ -24,11 +25,13 @@ use super::ground;
 use super::over_ranks;
 use super::plan::{Output, Planned, Recipe};
 use super::report::{OutputReport, REPORT_FILE, Report};
+use super::timings::Timings;
 use crate::written;
 use film::TimeLapses;
 use finished::step_report;
 use step_watcher::{CheckpointTimer, StepWatcher};
 pub use video::Frames;
+use weald_core::domain::Domain;
 use weald_core::error::{Error, NotFinite};
 use weald_core::files;
 use weald_core::landscape::Landscape;
@@ -81,7 +84,7 @@ impl Run<'_> {
     pub fn landscape(&self, progress: &dyn Progress) -> Result<Landscape, Error> {
         over_ranks::leading(&self.options.engine, || {
             let place = self.prepare(progress)?;
-            let state = self.finish_steps(progress)?;
+            let (state, _) = self.finish_steps(progress)?;
             remove_checkpoint(&self.checkpoint())?;
             drop(place);
             Ok(state.landscape)
@@ -106,7 +109,8 @@ impl Run<'_> {
             place.leaves = Leaves::Nothing;
             return Report::read(&self.options.out.join(REPORT_FILE));
         }
-        let done = self.finish_steps(progress).and_then(|state| self.write(state, progress));
+        let done = self.finish_steps(progress);
+        let done = done.and_then(|(state, first)| Ok((self.write(state, progress)?, first)));
         // The frames of a time-lapse go with the checkpoint from which the run goes on.
         if done.is_err()
             && self.recipe.outputs.iter().any(Output::lapses)
@@ -114,11 +118,21 @@ impl Run<'_> {
         {
             place.leaves = Leaves::Frames;
         }
-        let report = done?;
+        let (report, first) = done?;
         let files = report.outputs.iter().flat_map(OutputReport::files).collect();
         place.publish(files)?;
         place.leaves = Leaves::Nothing;
+        self.keep_timings(&report, &first, progress);
         Ok(report)
+    }
+
+    /// Leaves what the run took for estimates of later ones. A run that went on from a checkpoint has the times of a part.
+    fn keep_timings(&self, report: &Report, first: &Domain, progress: &dyn Progress) {
+        let Some(folder) = self.options.timings.as_ref().filter(|_| !self.options.resume) else { return };
+        let timings = self.recipe.timings(first, report, rayon::current_num_threads(), &self.options.out);
+        if let Err(error) = Timings::keep(folder, timings) {
+            progress.note(&format!("times of this run are not kept for estimates: {error}"));
+        }
     }
 
     fn prepare(&self, progress: &dyn Progress) -> Result<WorkFolder, Error> {
@@ -129,8 +143,10 @@ impl Run<'_> {
         Ok(place)
     }
 
-    fn finish_steps(&self, progress: &dyn Progress) -> Result<State, Error> {
+    /// Runs all steps that are left; gives what they made, and the grid that this run began on.
+    fn finish_steps(&self, progress: &dyn Progress) -> Result<(State, Domain), Error> {
         let mut state = self.start(progress)?;
+        let first = state.landscape.domain.clone();
         let mut kept = self.kept_steps(&state)?;
         let clock = CheckpointTimer::start(self.options.checkpoint_every);
         while let Some(planned) = self.recipe.steps.get(state.done) {
@@ -142,7 +158,7 @@ impl Run<'_> {
             self.keep_if_due(&state, &clock, progress)?;
         }
         progress.made(&state.landscape, &state.steps);
-        Ok(state)
+        Ok((state, first))
     }
 
     fn checkpoint(&self) -> PathBuf {

@@ -7,6 +7,7 @@ use web_time::SystemTime;
 
 use super::kept::Kept;
 use crate::recipe::checkpoint::{self, State};
+use crate::recipe::timings::TIMINGS_FILE;
 use weald_core::error::Error;
 use weald_core::files;
 
@@ -61,7 +62,10 @@ fn make_room(folder: &Path, limit: u64) {
         let path = entry.path();
         if path.extension().is_some_and(|extension| extension == EXTENSION) {
             results.push((used, about.len(), path));
-        } else if about.is_file() && used.elapsed().is_ok_and(|age| age > ABANDONED) {
+        } else if !path.ends_with(TIMINGS_FILE)
+            && about.is_file()
+            && used.elapsed().is_ok_and(|age| age > ABANDONED)
+        {
             let _ = files::remove_file(path);
         }
     }

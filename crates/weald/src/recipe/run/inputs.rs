@@ -6,20 +6,31 @@ use super::video;
 use crate::recipe::ground;
 use crate::recipe::memory::{Memory, ensure_file};
 use crate::recipe::plan::{Ground, Output, Recipe};
+use weald_core::domain::Domain;
 use weald_core::error::Error;
 use weald_core::files::File;
 use weald_core::landscape::Landscape;
 
+/// What a run would find.
+#[derive(Clone, Debug)]
+pub struct Outlook {
+    /// What it would tell.
+    pub notes: Vec<String>,
+    /// The memory that it would take.
+    pub memory: Memory,
+    /// The grid that it begins on.
+    pub grid: Domain,
+}
+
 impl Recipe {
     /// What only files tell before a run: whether all that the recipe names are there and of use, and whether the steps and
-    /// outputs can work on the grid that the elevation model has. Gives what a run would tell, and the memory that it would
-    /// take.
+    /// outputs can work on the grid that the elevation model has.
     ///
     /// # Errors
     /// [`Error::Input`] for a file, and as [`Recipe::parse`] for what does not go with the grid.
-    pub fn look_ahead(&self) -> Result<(Vec<String>, Memory), Error> {
+    pub fn look_ahead(&self) -> Result<Outlook, Error> {
         let (landscape, notes) = start(self, Some(u64::MAX))?;
-        Ok((notes, self.memory(&landscape.domain)))
+        Ok(Outlook { notes, memory: self.memory(&landscape.domain), grid: landscape.domain })
     }
 }
 

@@ -29,6 +29,8 @@ pub struct Options {
     pub memory: Option<u64>,
     /// Results of steps that earlier runs have left, and that this one leaves.
     pub cache: Option<Arc<Cache>>,
+    /// Folder in which the run leaves what its steps and outputs took, for estimates.
+    pub timings: Option<PathBuf>,
     /// What draws the pictures of kind `render`.
     pub render: Option<Arc<dyn RenderDevice>>,
 }
@@ -46,6 +48,7 @@ impl Options {
             report: true,
             memory: None,
             cache: None,
+            timings: None,
             render: None,
         }
     }

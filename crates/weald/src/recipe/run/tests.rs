@@ -195,8 +195,7 @@ fn cells_without_data_are_written_as_such() {
     let recipe = parse(RECIPE).expect("good");
     let size = weald_core::Size::new(3, 1).expect("small");
     let valid = weald_core::grid::Mask::new(size, vec![true, false, true]);
-    let mut landscape =
-        Landscape::new(weald_core::Domain { valid: valid.clone(), ..weald_core::Domain::new(size, 2.0) });
+    let mut landscape = Landscape::new(Domain { valid: valid.clone(), ..Domain::new(size, 2.0) });
     landscape.insert("height", "m", Field::from_values(size, vec![5.0, f32::NAN, 7.0]));
     let finished =
         Finished { landscape: &landscape, steps: &[], recipe: &recipe.file, hash: "", seed: recipe.seed };
@@ -544,6 +543,6 @@ fn a_run_that_would_take_more_memory_than_is_allowed_does_not_start() {
     assert_eq!(files_in(out.path()), ["deep"], "nothing was made");
     // No machine has the memory of the greatest grid with so many layers in a limited address space.
     let whole = parse(&RECIPE.replace("[9, 7]", "16384")).expect("good");
-    let domain = weald_core::Domain::new(weald_core::Size::square(16384).expect("the greatest"), 1.0);
+    let domain = Domain::new(weald_core::Size::square(16384).expect("the greatest"), 1.0);
     assert!(whole.memory(&domain).bytes > 3 << 30);
 }
