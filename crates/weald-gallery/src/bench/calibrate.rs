@@ -21,13 +21,15 @@ const OTHERS: &str = include_str!("calibrate.toml");
 pub fn calibrate(folder: &Path, out: &Path, report: &mut dyn FnMut(&str, f64)) -> Result<(), Error> {
     let templates = TEMPLATES.iter().map(|template| (template.name, template.text));
     for (name, text) in templates.chain([("others", OTHERS)]) {
+        let file = format!("{name}.toml");
+        let recipe = Recipe::parse(&file, text, &Overrides::default())?;
+        let draws = recipe.outputs.iter().any(|output| output.render().is_some());
+        if draws || !recipe.inputs().is_empty() {
+            continue;
+        }
         for side in SIDES {
             let overrides = Overrides { size: Some(side), ..Overrides::default() };
-            let recipe = Recipe::parse(&format!("{name}.toml"), text, &overrides)?;
-            let draws = recipe.outputs.iter().any(|output| output.render().is_some());
-            if draws || !recipe.inputs().is_empty() {
-                continue;
-            }
+            let recipe = Recipe::parse(&file, text, &overrides)?;
             let started = Instant::now();
             let options = Options { timings: Some(folder.to_owned()), ..Options::into_folder(out) };
             Run { recipe: &recipe, options }.execute(&Silent)?;

@@ -1,5 +1,6 @@
 //! The step `flow`.
 
+use super::stages::Stages;
 use crate::analyse::{ensure_finite, scaled};
 use crate::flow::{
     Depressions, MultipleFlow, Routed, Routing, STAGES, accumulate, accumulate_multiple, route_watched,
@@ -101,23 +102,18 @@ impl Step for FlowStep {
         let domain = &landscape.domain;
         let (area, size) = (domain.cell_area(), domain.size);
         ensure_finite(landscape, &self.of.0)?;
-        let stages = STAGES + 1 + u64::from(self.weight.is_some());
-        let mut done = 0;
-        let mut passed = || {
-            done += 1;
-            job.watcher.progress(done, stages, size.cells());
-            if job.watcher.cancelled() { Err(Error::Interrupted(String::new())) } else { Ok(()) }
-        };
+        let mut stages = Stages::of(job, STAGES + 1 + u64::from(self.weight.is_some()), size.cells());
         let ground = landscape.field(&self.of.0)?;
-        let routed = route_watched(ground, domain.valid.as_ref(), &self.routing(domain), &mut passed)?;
+        let routed =
+            route_watched(ground, domain.valid.as_ref(), &self.routing(domain), &mut || stages.passed())?;
         let areas = scaled(size, &self.sums(landscape, &routed, None), area);
-        passed()?;
+        stages.passed()?;
         let weight = self.weight.as_ref().map(|name| landscape.field(&name.0)).transpose()?;
         let discharge = weight.map(|runoff| {
             scaled(size, &self.sums(landscape, &routed, Some(runoff)), area * MILLIMETRES_PER_YEAR)
         });
         if discharge.is_some() {
-            passed()?;
+            stages.passed()?;
         }
         let is_valid = |cell: usize| domain.valid.as_ref().is_none_or(|valid| valid.is_valid_at(cell));
         let is_all_sea = (0..size.cells()).all(|cell| !is_valid(cell) || routed.directions.is_sea(cell));

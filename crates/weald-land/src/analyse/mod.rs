@@ -24,6 +24,7 @@ pub mod select;
 mod sky;
 pub mod slope;
 pub mod soil;
+mod stages;
 mod sun;
 pub mod sunlight;
 pub mod watersheds;

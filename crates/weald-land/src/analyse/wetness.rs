@@ -13,9 +13,10 @@
 
 use rayon::prelude::*;
 
+use super::stages::Stages;
 use super::{CELLS_PER_TASK, ensure_finite};
 use crate::flow::directions::STEPS;
-use crate::flow::{MultipleFlow, Routed, Routing, accumulate_multiple, route};
+use crate::flow::{MultipleFlow, Routed, Routing, STAGES, accumulate_multiple, route_watched};
 use weald_core::error::Error;
 use weald_core::grid::Field;
 use weald_core::landscape::Landscape;
@@ -78,13 +79,16 @@ impl Step for Wetness {
         32
     }
 
-    fn run(&self, landscape: &mut Landscape, _: &Job<'_>) -> Result<Outcome, Error> {
+    fn run(&self, landscape: &mut Landscape, job: &Job<'_>) -> Result<Outcome, Error> {
         ensure_finite(landscape, &self.of.0)?;
         let domain = &landscape.domain;
+        let mut stages = Stages::of(job, STAGES + 1, domain.size.cells());
         let routing = Routing { sea_level: self.sea_level.or(domain.sea_level), ..Routing::default() };
-        let routed = route(landscape.field(&self.of.0)?, domain.valid.as_ref(), &routing);
+        let (ground, valid) = (landscape.field(&self.of.0)?, domain.valid.as_ref());
+        let routed = route_watched(ground, valid, &routing, &mut || stages.passed())?;
         let flow = MultipleFlow { routed: &routed, valid: domain.valid.as_ref(), exponent: self.exponent };
         let index = wetness(&flow, domain.cell, self.min_slope);
+        stages.passed()?;
         landscape.insert(&self.into.0, "1", index);
         Ok(Outcome { iterations: 1, ..Outcome::default() })
     }
@@ -150,6 +154,7 @@ const MIN_STEP: f64 = 0.25;
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::flow::route;
     use weald_core::grid::Size;
 
     /// Wetness of a plane that falls by `slope` towards an angle, and distance from its top along the fall, in

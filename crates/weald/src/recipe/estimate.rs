@@ -4,6 +4,7 @@
 //! size, its own files say more. Times are those of earlier runs alone, since machines differ by more than any guess is
 //! worth: what has never run here is named.
 
+use std::collections::BTreeSet;
 use std::fmt::{Display, Formatter};
 use std::path::Path;
 
@@ -44,9 +45,13 @@ pub struct Estimate {
 
 impl Display for Estimate {
     fn fmt(&self, formatter: &mut Formatter<'_>) -> std::fmt::Result {
-        let beside = |unknown: &[String]| match unknown {
-            [] => String::new(),
-            some => format!(", beside {}, which no run has shown yet", some.join(", ")),
+        let beside = |unknown: &[String]| {
+            let names: BTreeSet<_> = unknown.iter().map(String::as_str).collect();
+            let names: Vec<_> = names.into_iter().collect();
+            if names.is_empty() {
+                return String::new();
+            }
+            format!(", beside {}, which no run has shown yet", names.join(", "))
         };
         let ((bytes, files), (seconds, parts)) = (&self.disk, &self.time);
         writeln!(formatter, "disk: about {}{}", bytes_in_words(*bytes), beside(files))?;

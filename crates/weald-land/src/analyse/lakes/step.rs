@@ -5,8 +5,9 @@ use std::collections::BTreeMap;
 use rayon::prelude::*;
 
 use super::MAX_LAKES;
+use crate::analyse::stages::Stages;
 use crate::analyse::{CELLS_PER_TASK, ensure_finite};
-use crate::flow::{Routing, route};
+use crate::flow::{Routing, STAGES, route_watched};
 use weald_core::connected::components;
 use weald_core::error::Error;
 use weald_core::grid::Field;
@@ -88,13 +89,15 @@ impl Step for LakesStep {
         })
     }
 
-    fn run(&self, landscape: &mut Landscape, _: &Job<'_>) -> Result<Outcome, Error> {
+    fn run(&self, landscape: &mut Landscape, job: &Job<'_>) -> Result<Outcome, Error> {
         for name in self.reads() {
             ensure_finite(landscape, &name)?;
         }
         let ground = landscape.field(&self.of.0)?;
-        let surface = self.surface(landscape)?;
+        let mut stages = Stages::of(job, STAGES + 1, ground.size().cells());
+        let surface = self.surface(landscape, &mut stages)?;
         let lakes = self.large_enough(landscape, ground, &surface);
+        stages.passed()?;
         let mut number = Field::filled(ground.size(), 0.0);
         let (mut level, mut depth) = (ground.clone(), number.clone());
         for (at, cells) in lakes.iter().enumerate().take(MAX_LAKES as usize) {
@@ -115,12 +118,12 @@ impl Step for LakesStep {
 
 impl LakesStep {
     /// Height of the surface of standing water in each cell; that of the ground where there is none.
-    fn surface(&self, landscape: &Landscape) -> Result<Vec<f32>, Error> {
+    fn surface(&self, landscape: &Landscape, stages: &mut Stages<'_>) -> Result<Vec<f32>, Error> {
         let land = landscape.domain.valid.as_ref();
         let ground = landscape.field(&self.of.0)?;
         let routing =
             Routing { sea_level: self.sea_level.or(landscape.domain.sea_level), ..Routing::default() };
-        let routed = route(ground, land, &routing);
+        let routed = route_watched(ground, land, &routing, &mut || stages.passed())?;
         let water = match self.from {
             Source::Depressions => None,
             Source::Water => Some(landscape.field(&self.water.0)?.values()),
