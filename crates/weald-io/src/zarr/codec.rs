@@ -17,6 +17,8 @@ const WINDOW: u64 = 8 << 20;
 pub(super) struct Codecs {
     /// Whether the most significant byte of a number comes first.
     pub(super) is_big: bool,
+    /// Which axis of a chunk its numbers have at each place, the slowest first, where that is not their own order.
+    pub(super) order: Option<Vec<usize>>,
     /// In the order of encoding.
     packings: Vec<Packing>,
 }
@@ -37,7 +39,18 @@ impl Codecs {
     /// # Errors
     /// [`Fault::Damaged`] naming a codec that is not read, or where `bytes` is not the first.
     pub(super) fn of(array: &str, codecs: &Value) -> Result<Self, Fault> {
-        let listed = codecs.as_array().map(Vec::as_slice).unwrap_or_default();
+        let mut listed = codecs.as_array().map(Vec::as_slice).unwrap_or_default();
+        let order = match listed.split_first() {
+            Some((codec, rest)) if name(codec) == "transpose" => {
+                listed = rest;
+                let order = super::metadata::lengths(&codec["configuration"]["order"]);
+                Some(
+                    order
+                        .ok_or_else(|| Fault::damaged(format!("`{array}`: a transpose without an order")))?,
+                )
+            }
+            _ => None,
+        };
         let [first, rest @ ..] = listed else {
             return Err(Fault::damaged(format!("`{array}` has no codecs; `bytes` is needed at least")));
         };
@@ -64,12 +77,14 @@ impl Codecs {
             "crc32c" => Ok(Packing::Crc32c),
             other => Err(unread(array, other)),
         };
-        Ok(Self { is_big, packings: rest.iter().map(packing).collect::<Result<_, _>>()? })
+        Ok(Self { is_big, order, packings: rest.iter().map(packing).collect::<Result<_, _>>()? })
     }
 
     /// Bytes that sums add to what is encoded; `None` where a codec changes its length in ways of its own.
     pub(super) fn length_of_sums(&self) -> Option<usize> {
-        self.packings.iter().all(|packing| *packing == Packing::Crc32c).then_some(4 * self.packings.len())
+        let is_plain =
+            self.order.is_none() && self.packings.iter().all(|packing| *packing == Packing::Crc32c);
+        is_plain.then_some(4 * self.packings.len())
     }
 
     /// Most bytes that a chunk of `length` bytes has in a file: packing what cannot be packed adds a little.
@@ -102,8 +117,8 @@ fn name(codec: &Value) -> &str {
 
 fn unread(array: &str, codec: &str) -> Fault {
     Fault::damaged(format!(
-        "`{array}` is packed with codec `{codec}`; bytes, gzip, zlib, zstd, lz4, blosc, crc32c and shards of these are read: with xarray \
-         ds.to_zarr(path, encoding={{'{array}': {{'compressors': None, 'shards': None}}}}), in C order"
+        "`{array}` is packed with codec `{codec}`; bytes, gzip, zlib, zstd, lz4, blosc, crc32c, transpose and shards of these are read: with xarray \
+         ds.to_zarr(path, encoding={{'{array}': {{'compressors': None, 'shards': None}}}})"
     ))
 }
 
@@ -180,6 +195,9 @@ mod tests {
     fn codecs_that_are_not_read_are_named() {
         let of = |codecs: Value| Codecs::of("height", &codecs).map_err(|fault| fault.to_string());
         assert!(of(json!([{ "name": "bytes" }, { "name": "gzip" }, "crc32c"])).is_ok());
+        let turned =
+            json!([{ "name": "transpose", "configuration": { "order": [1, 0] } }, { "name": "bytes" }]);
+        assert!(of(turned).is_ok_and(|codecs| codecs.order == Some(vec![1, 0])));
         for codec in ["lzma", "sharding_indexed", "transpose"] {
             let error = of(json!([{ "name": "bytes" }, { "name": codec }])).expect_err("unread");
             assert!(error.contains(&format!("codec `{codec}`")), "{error}");

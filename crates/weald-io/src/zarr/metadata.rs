@@ -110,6 +110,26 @@ impl Storage {
         self.chunk.iter().try_fold(self.number.bytes, |bytes, length| bytes.checked_mul(*length))
     }
 
+    /// How many numbers of a chunk lie from one to the next along each dimension.
+    ///
+    /// # Errors
+    /// [`Fault::Damaged`] for a transpose that is no order of the dimensions.
+    pub(super) fn strides(&self) -> Result<Vec<usize>, Fault> {
+        let axes: Vec<usize> = (0..self.chunk.len()).collect();
+        let order = self.codecs.order.as_ref().unwrap_or(&axes);
+        let mut sorted = order.clone();
+        sorted.sort_unstable();
+        if sorted != axes {
+            return Err(Fault::damaged(format!("a transpose of {} dimensions by {order:?}", axes.len())));
+        }
+        let (mut strides, mut next) = (vec![0; axes.len()], 1);
+        for &axis in order.iter().rev() {
+            strides[axis] = next;
+            next *= self.chunk[axis];
+        }
+        Ok(strides)
+    }
+
     /// Chunks of a file along a dimension.
     pub(super) fn chunks_of_file(&self, axis: usize) -> usize {
         self.shards.as_ref().map_or(1, |shards| shards.counts[axis])

@@ -101,13 +101,13 @@ impl Source for Folder<'_> {
         let array = found.expect("descriptions are made from the arrays");
         let storage = array.storage()?;
         let length = self.chunk_length(array, &storage)?;
-        let files = storage.files(&array.shape);
+        let (files, strides) = (storage.files(&array.shape), storage.strides()?);
         for number in 0..files.iter().product() {
             let at = place(number, &files);
             let key = within(&array.name, &storage.key(&at[..files.len()]));
             let most = storage.shards.as_ref().map_or(Codecs::most(length), |shards| shards.most(length));
             let packed = self.parts.read(&PartName::Inside(key.clone()), most)?;
-            let file = File { array, storage: &storage, length, at };
+            let file = File { array, storage: &storage, strides: &strides, length, at };
             let taken = file.each(packed, take);
             taken.map_err(|fault| Fault::damaged(format!("{key}: {fault}")))?;
         }
@@ -127,6 +127,8 @@ impl Storage {
 struct File<'a> {
     array: &'a Array,
     storage: &'a Storage,
+    /// Numbers of a chunk from one to the next along each dimension.
+    strides: &'a [usize],
     /// Bytes of a chunk.
     length: usize,
     /// Place among the files.
@@ -167,7 +169,7 @@ impl File<'_> {
 
     /// Hands over the numbers of the chunk at a place, or the fill value where there is none.
     fn numbers(&self, at: &Place, chunk: Option<&[u8]>, take: &mut dyn FnMut(usize, f64)) {
-        let rows = Rows::of(&self.array.shape, &self.storage.chunk, at);
+        let rows = Rows::of(&self.array.shape, (&self.storage.chunk, self.strides), at);
         numbers_of(&rows, self.storage, chunk, take);
     }
 }
@@ -192,11 +194,12 @@ impl Folder<'_> {
 /// Hands over the numbers of a chunk, or the fill value where there is none.
 fn numbers_of(rows: &Rows<'_>, storage: &Storage, chunk: Option<&[u8]>, take: &mut dyn FnMut(usize, f64)) {
     let bytes = storage.number.bytes;
+    let step = rows.strides.last().copied().unwrap_or(1);
     for (in_array, in_chunk) in rows.starts() {
-        let row = chunk.map(|chunk| &chunk[in_chunk * bytes..][..rows.length() * bytes]);
         for column in 0..rows.length() {
-            let number = row.map_or(storage.fill, |row| {
-                storage.number.value(&row[column * bytes..][..bytes], storage.codecs.is_big)
+            let number = chunk.map_or(storage.fill, |chunk| {
+                let first = (in_chunk + column * step) * bytes;
+                storage.number.value(&chunk[first..][..bytes], storage.codecs.is_big)
             });
             take(in_array + column, number);
         }
@@ -224,7 +227,8 @@ fn position(place: &Place, shape: &[usize]) -> usize {
 /// The part of a chunk that lies within its array, row by row along the last dimension.
 struct Rows<'a> {
     shape: &'a [usize],
-    chunk: &'a [usize],
+    /// Numbers of the chunk from one to the next along each dimension.
+    strides: &'a [usize],
     /// First element of the chunk.
     origin: Place,
     /// Elements of the chunk within the array along each dimension.
@@ -232,15 +236,15 @@ struct Rows<'a> {
 }
 
 impl<'a> Rows<'a> {
-    /// Of the chunk at `place` among the chunks.
-    fn of(shape: &'a [usize], chunk: &'a [usize], place: &Place) -> Self {
+    /// Of the chunk of that shape and those strides at `place` among the chunks.
+    fn of(shape: &'a [usize], (chunk, strides): (&[usize], &'a [usize]), place: &Place) -> Self {
         let mut origin = [0; MAX_DIMENSIONS];
         for (axis, length) in chunk.iter().enumerate() {
             origin[axis] = place[axis] * length;
         }
         let extent =
             shape.iter().zip(chunk).zip(&origin).map(|((all, chunk), first)| (*chunk).min(all - first));
-        Self { shape, chunk, origin, extent: extent.collect() }
+        Self { shape, strides, origin, extent: extent.collect() }
     }
 
     /// Elements in a row.
@@ -256,7 +260,8 @@ impl<'a> Rows<'a> {
             let inside = place(row, across);
             let mut whole = inside;
             whole.iter_mut().zip(&self.origin).for_each(|(at, first)| *at += first);
-            (position(&whole, self.shape), position(&inside, self.chunk))
+            let in_chunk = inside.iter().zip(self.strides).map(|(at, stride)| at * stride).sum();
+            (position(&whole, self.shape), in_chunk)
         })
     }
 }
@@ -267,15 +272,17 @@ mod tests {
 
     #[test]
     fn a_chunk_at_the_edge_has_only_the_rows_within_the_array() {
-        let rows = Rows::of(&[5, 7], &[3, 4], &place(3, &[2, 2]));
+        let rows = Rows::of(&[5, 7], (&[3, 4], &[4, 1]), &place(3, &[2, 2]));
         assert_eq!(rows.length(), 3);
         // Rows 3 and 4 from column 4.
         assert_eq!(rows.starts().collect::<Vec<_>>(), [(25, 0), (32, 4)]);
+        let turned = Rows::of(&[5, 7], (&[3, 4], &[1, 3]), &place(3, &[2, 2]));
+        assert_eq!(turned.starts().collect::<Vec<_>>(), [(25, 0), (32, 1)], "columns first");
     }
 
     #[test]
     fn a_single_number_is_a_row_of_one() {
-        let rows = Rows::of(&[], &[], &place(0, &[]));
+        let rows = Rows::of(&[], (&[], &[]), &place(0, &[]));
         assert_eq!((rows.length(), rows.starts().collect::<Vec<_>>()), (1, vec![(0, 0)]));
     }
 }

@@ -56,17 +56,14 @@ fn group_of(listed: &Value) -> Result<Value, Fault> {
 /// An array as version 3 describes it.
 fn array_of(array: &Value, attributes: Option<&Value>) -> Result<Value, Fault> {
     let (data_type, endian) = data_type(array["dtype"].as_str().unwrap_or_default());
-    if array["order"] == "F" && array["shape"].as_array().is_some_and(|shape| shape.len() > 1) {
-        return Err(Fault::damaged(
-            "its chunks are in Fortran order (`order` is \"F\"); C order is read: with xarray ds.to_zarr(path)",
-        ));
-    }
+    let dimensions = array["shape"].as_array().map_or(0, Vec::len);
+    let backwards: Vec<usize> = (0..dimensions).rev().collect();
+    let turned = (array["order"] == "F" && dimensions > 1)
+        .then(|| json!({ "name": "transpose", "configuration": { "order": backwards } }));
     let filters = array["filters"].as_array().map(Vec::as_slice).unwrap_or_default();
     let packings = filters.iter().chain(Some(&array["compressor"]).filter(|it| !it.is_null())).map(codec);
-    let codecs: Vec<Value> = [json!({ "name": "bytes", "configuration": { "endian": endian } })]
-        .into_iter()
-        .chain(packings)
-        .collect();
+    let bytes = json!({ "name": "bytes", "configuration": { "endian": endian } });
+    let codecs: Vec<Value> = turned.into_iter().chain([bytes]).chain(packings).collect();
     let separator = array["dimension_separator"].as_str().unwrap_or(".");
     let mut attributes = attributes.cloned().unwrap_or_else(|| json!({}));
     let fill = &array["fill_value"];
@@ -121,8 +118,8 @@ mod tests {
             (&new["codecs"][1]["name"], &new["attributes"]["_FillValue"]),
             (&json!("zlib"), &json!(-7))
         );
-        let turned = json!({ "shape": [5, 7], "order": "F" });
-        assert!(array_of(&turned, None).is_err_and(|fault| fault.to_string().contains("Fortran order")));
+        let turned = array_of(&json!({ "shape": [5, 7], "order": "F", "dtype": "<f4" }), None).expect("read");
+        assert_eq!(turned["codecs"][0]["configuration"]["order"], json!([1, 0]));
         for odd in ["", "<", "é", "|S3", "<f999999999999"] {
             assert_eq!(data_type(odd).0, odd);
         }

@@ -124,6 +124,9 @@ for name, compressors in {'none': None, 'zstd': zarr.codecs.ZstdCodec(), 'gzip':
             zarray(f'shards, {name} {dtype}', dataset(whole.astype(dtype)),
                 {'dtype': dtype, 'chunks': (10, 16), 'shards': shards, 'compressors': compressors})
 zarray('shards with holes', dataset(holes), dict(f4, shards=(20, 32)))
+turn = zarr.codecs.TransposeCodec(order=(1, 0))
+zarray('columns first', dataset(holes), dict(f4, filters=[turn]))
+zarray('columns first, in shards', dataset(holes), dict(f4, shards=(20, 32), filters=[turn]))
 far = numpy.where(numpy.arange(37) < 16, holes, numpy.nan)
 zarray('shards without some chunks', dataset(far), dict(f4, shards=(20, 48), _FillValue=numpy.nan))
 print(json.dumps(files))
