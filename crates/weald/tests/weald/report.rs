@@ -179,3 +179,17 @@ fn a_recipe_for_a_page_writes_the_page_alone() {
     let error = recipe(&without).for_page(Path::new("r.html")).expect_err("no height").to_string();
     assert!(error.contains("a page needs layer `height`"), "{error}");
 }
+
+#[test]
+fn the_heights_of_a_landscape_by_the_sea_are_those_of_its_land() {
+    let median = |page: &str| -> f64 {
+        let (_, rest) = page.split_once("Half of the land lies below ").expect("the caption");
+        rest.split(' ').next().and_then(|word| word.parse().ok()).expect("a number")
+    };
+    let mut by_the_sea = land();
+    let whole = median(&page(&by_the_sea));
+    by_the_sea.domain.sea_level = Some(whole);
+    let page = page(&by_the_sea);
+    assert!(median(&page) > whole + 10.0, "the floor of the sea does not count: {}", median(&page));
+    assert!(page.contains(&format!("the sea at {whole} m covers ")), "it says how much is sea");
+}
