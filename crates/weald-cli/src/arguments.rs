@@ -211,7 +211,7 @@ pub(crate) struct BenchArguments {
     /// File for the results, with --engine cpu
     #[arg(long, value_name = "FILE", conflicts_with_all = ["render", "fractals", "grass"])]
     pub(crate) save: Option<PathBuf>,
-    /// File of earlier results: what became slower since is told, beside the bandwidth of memory in both runs, and the
+    /// File of earlier results: what became slower since is told, beside the pace of the processor in both runs, and the
     /// exit code is 1
     #[arg(long, value_name = "FILE", conflicts_with_all = ["render", "fractals", "grass"])]
     pub(crate) against: Option<PathBuf>,

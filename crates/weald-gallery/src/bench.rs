@@ -41,21 +41,17 @@ const CELL_STEPS: usize = 250_000_000;
 
 /// Measures erosion and ranges that rise at each size and thread count, then the generators and
 /// flow over the ground at the greatest size; `report` is called with each
-/// rate and the bandwidth of memory in bytes per second, as they are known.
+/// rate as it is known, on the threads that it was measured with.
 ///
 /// # Errors
 /// [`Error::Limit`] for sizes that no grid may have, [`Error::Run`] where threads cannot be started.
-pub fn run(
-    sides: &[usize],
-    threads: &[usize],
-    report: &mut (dyn FnMut(&Rate, f64) + Send),
-) -> Result<(), Error> {
+pub fn run(sides: &[usize], threads: &[usize], report: &mut (dyn FnMut(&Rate) + Send)) -> Result<(), Error> {
     for &count in threads {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(count).build();
         let pool = pool.map_err(|cause| Error::Run(format!("cannot start {count} threads: {cause}")))?;
         pool.install(|| {
             let bandwidth = bandwidth();
-            let report = &mut |rate: &Rate| report(rate, bandwidth);
+            let report = &mut *report;
             for &side in sides {
                 erosion(Size::square(side)?, bandwidth, report)?;
                 stream_power::stream_power(Size::square(side)?, bandwidth, report)?;

@@ -49,9 +49,9 @@ pub(crate) fn bench(arguments: &BenchArguments) -> Result<(), Failure> {
     } else {
         if !arguments.fractals && !arguments.grass {
             let sides = given_or(&arguments.size, SIDES);
-            weald_gallery::bench::run(sides, &arguments.threads, &mut |rate, bandwidth| {
+            weald_gallery::bench::run(sides, &arguments.threads, &mut |rate| {
                 print(rate);
-                results.results.extend(Record::of_rate(rate, bandwidth));
+                results.results.extend(Record::of_rate(rate));
             })?;
         }
         if !arguments.grass {

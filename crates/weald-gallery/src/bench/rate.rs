@@ -105,6 +105,30 @@ impl std::fmt::Display for Rate {
     }
 }
 
+/// How fast the processor is at this moment: numbers a second that the threads of this pool put through a fixed loop of
+/// products, roots and divisions within their caches. Clocks and neighbours on a machine change it from minute to minute.
+pub(super) fn pace() -> f64 {
+    const VALUES: usize = 4096;
+    const ROUNDS: usize = 400;
+    const TRIES: usize = 9;
+    let threads = rayon::current_num_threads();
+    let once = || {
+        let started = Instant::now();
+        (0..threads).into_par_iter().with_max_len(1).for_each(|thread| {
+            let mut values = vec![1.0 + thread as f32; VALUES];
+            for _ in 0..ROUNDS {
+                values.iter_mut().for_each(|value| {
+                    *value = 0.5 * *value + (*value * *value + 1.0).sqrt() / (*value + 2.0)
+                });
+            }
+            std::hint::black_box(&values);
+        });
+        started.elapsed().as_secs_f64()
+    };
+    let seconds = (0..TRIES).map(|_| once()).fold(f64::INFINITY, f64::min);
+    (threads * VALUES * ROUNDS) as f64 / seconds
+}
+
 /// Bytes per second that the threads of this pool read and write in place, on arrays far beyond the caches.
 pub fn bandwidth() -> f64 {
     const VALUES: usize = 32 << 20;

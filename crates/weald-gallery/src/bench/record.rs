@@ -1,18 +1,19 @@
 //! Results of a bench that are kept, and what became slower since.
 //!
-//! Machines differ and one machine differs from minute to minute, so that seconds alone say little. Each result has the
-//! bandwidth of memory that the same run measured with as many threads, and what is compared is time in units of that.
+//! Machines differ and one machine differs from minute to minute, so that seconds alone say little. Each result has the pace
+//! of the processor right beside it, with as many threads, and what is compared is time in units of that. The bandwidth
+//! of memory was of no use for it: on a virtual machine it differs by half from one measurement to the next.
 
 use std::fmt::{self, Display, Formatter};
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-use super::rate::Rate;
+use super::rate::{Rate, pace};
 use weald_core::error::Error;
 use weald_io::write_whole;
 
-/// How much slower, in units of the bandwidth, counts as slower: less is what other work on a machine makes of it.
+/// How much slower, in units of the pace, counts as slower: less is what other work on a machine makes of it.
 const SLOWER: f64 = 1.25;
 
 /// Seconds by which that has to be slower as well: what takes less than some milliseconds is not measured well.
@@ -31,16 +32,16 @@ pub struct Record {
     pub amount: f64,
     /// What an amount is of.
     pub of: String,
-    /// Bytes per second that as many threads read and wrote in place, in the same run.
-    pub bandwidth: f64,
+    /// Numbers a second of a fixed loop by as many threads, right before or after.
+    pub pace: f64,
     /// Most bytes that the process had taken by the end, where the system tells it.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub peak_memory: Option<u64>,
 }
 
 impl Record {
-    /// The rate of a process or a generator; `None` on a device, whose memory is another one.
-    pub fn of_rate(rate: &Rate, bandwidth: f64) -> Option<Self> {
+    /// The rate of a process or a generator, measured a moment ago on the threads of this pool; `None` on a device.
+    pub fn of_rate(rate: &Rate) -> Option<Self> {
         let (columns, rows) = (rate.size.columns, rate.size.rows);
         let amount = rate.size.cells() as f64;
         Some(Self {
@@ -49,19 +50,19 @@ impl Record {
             seconds: amount / (rate.millions * 1e6),
             amount,
             of: "cells".to_owned(),
-            bandwidth,
+            pace: pace(),
             peak_memory: None,
         })
     }
 
-    /// Time in which memory could have carried so many bytes.
-    fn bytes_of_bandwidth(&self) -> f64 {
-        self.seconds * self.bandwidth
+    /// Numbers that the loop would have put through meanwhile.
+    pub(super) fn effort(&self) -> f64 {
+        self.seconds * self.pace
     }
 
-    /// How many times as long this took as then, in units of the bandwidth of each run.
+    /// How many times as long this took as then, in units of the pace of each.
     fn ratio(&self, then: &Self) -> f64 {
-        self.bytes_of_bandwidth() / then.bytes_of_bandwidth()
+        self.effort() / then.effort()
     }
 }
 
@@ -111,17 +112,17 @@ impl Records {
     pub fn slower_than(&self, then: &Self) -> Vec<String> {
         let pairs = self.results.iter().filter_map(|now| Some((now, then.same_as(now)?)));
         let slower = pairs.filter(|(now, then)| {
-            let late = now.seconds - then.bytes_of_bandwidth() / now.bandwidth;
+            let late = now.seconds - then.effort() / now.pace;
             now.ratio(then) > SLOWER && late > LEAST_SECONDS
         });
         let line = |(now, then): (&Record, &Record)| {
             let (ratio, Record { name, threads, seconds, .. }) = (now.ratio(then), now);
             format!(
-                "{name}, {threads} thr: {ratio:.2} times as long as then, beside the bandwidth of memory ({seconds:.3} s \
-                 at {:.0} GB/s, then {:.3} s at {:.0} GB/s)",
-                now.bandwidth / 1e9,
+                "{name}, {threads} thr: {ratio:.2} times as long as then, beside the pace of the processor ({seconds:.3} s \
+                 at {:.2} a nanosecond, then {:.3} s at {:.2})",
+                now.pace / 1e9,
                 then.seconds,
-                then.bandwidth / 1e9
+                then.pace / 1e9
             )
         };
         slower.map(line).collect()
@@ -141,14 +142,14 @@ impl Records {
 mod tests {
     use super::*;
 
-    fn results(times: &[(&str, f64)], bandwidth: f64) -> Records {
+    fn results(times: &[(&str, f64)], pace: f64) -> Records {
         let result = |&(name, seconds): &(&str, f64)| Record {
             name: name.to_owned(),
             threads: 2,
             seconds,
             amount: 1e6,
             of: "cells".to_owned(),
-            bandwidth,
+            pace,
             peak_memory: Some(5 << 20),
         };
         Records { version: "0".to_owned(), results: times.iter().map(result).collect() }
