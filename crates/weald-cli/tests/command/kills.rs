@@ -145,18 +145,24 @@ fn runs_that_are_killed_at_random_moments_go_on_to_the_same_files_and_leave_noth
     let whole = Whole::of(&place);
     let started = Instant::now();
     run(&place, SEEDS[0], "parts", false);
-    let long = started.elapsed().as_secs_f64();
+    let mut long = started.elapsed().as_secs_f64();
     let (mut cut, mut resumed, mut journals) = (0, 0, 0);
-    for number in 0..kills {
+    for number in 0..4 * kills {
+        if cut == kills {
+            break;
+        }
         if number % 100 == 0 {
-            println!("{number} of {kills}");
+            println!("{number} runs, {cut} of {kills} killed");
         }
         let seed = SEEDS[(number / 3 % 2) as usize];
         let goes_on = has_checkpoint(&place, seed) && number % 3 != 0;
         let share = weald::random::unit(weald::random::splitmix64(number));
         // The last tenth is where files get their names, which takes little time.
         let share = if number % 4 == 0 { 0.85 + 0.25 * share } else { 1.1 * share };
-        cut += u64::from(kill(&place, seed, goes_on, Duration::from_secs_f64(share * long)));
+        let is_cut = kill(&place, seed, goes_on, Duration::from_secs_f64(share * long));
+        cut += u64::from(is_cut);
+        // How long a run takes changes with what else the machine does: three of four are killed before their end.
+        long *= if is_cut { 1.03 } else { 0.9 };
         resumed += u64::from(goes_on);
         journals += u64::from(place.path("parts/.weald/journal.json").exists());
         whole.assert_is_set(&place);
@@ -178,6 +184,6 @@ fn runs_that_are_killed_at_random_moments_go_on_to_the_same_files_and_leave_noth
             assert_eq!(names, expected, "nothing is left behind");
         }
     }
-    println!("{kills} runs: {cut} killed, {resumed} went on, {journals} were giving files their names");
-    assert!(2 * cut >= kills, "only {cut} of {kills} were killed before their end");
+    println!("{cut} of {kills} killed, {resumed} went on, {journals} were giving files their names");
+    assert_eq!(cut, kills, "most runs ended before they were killed");
 }
