@@ -18,6 +18,33 @@ pub(crate) struct Arguments {
 pub(crate) enum Command {
     /// Runs a recipe over all ranks: `mpirun -n 4 weald-mpi run RECIPE.toml`
     Run(RunArguments),
+    /// Measures steps and messages of the ranks here beside a model of them, and prints what that says of a larger grid
+    Bench(BenchArguments),
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct BenchArguments {
+    /// Model of the simulation
+    #[arg(long, value_name = "MODEL", default_value = "han", value_parser = ["han", "mei"])]
+    pub(crate) model: String,
+    /// Cells a side
+    #[arg(long, value_name = "N", default_value_t = 2048, value_parser = clap::value_parser!(u64).range(64..=16384))]
+    pub(crate) size: u64,
+    /// Steps of the shorter of two runs, whose difference counts
+    #[arg(long, value_name = "N", default_value_t = 40, value_parser = clap::value_parser!(u32).range(4..=1_000_000))]
+    pub(crate) steps: u32,
+    /// Cells a side of the grid for which the model is printed
+    #[arg(long, value_name = "N", default_value_t = 65_536, value_parser = clap::value_parser!(u64).range(64..=1 << 30))]
+    pub(crate) larger: u64,
+    /// Latency between nodes in microseconds, in place of what is measured
+    #[arg(long, value_name = "MICROSECONDS")]
+    pub(crate) latency: Option<f64>,
+    /// Bandwidth between two nodes in gigabytes a second, in place of what is measured
+    #[arg(long, value_name = "GIGABYTES")]
+    pub(crate) bandwidth: Option<f64>,
+    /// Threads of each rank [default: the cores of its machine, shared among the ranks there]
+    #[arg(long, value_name = "N")]
+    pub(crate) threads: Option<NonZeroUsize>,
 }
 
 #[derive(Debug, Args)]

@@ -5,10 +5,12 @@
 //! done, 1 run failed, 2 usage, 3 bad recipe, 4 bad input file, 5 over a stated limit, 130 interrupted.
 
 mod arguments;
+mod bench;
 mod interrupt;
 mod messages;
 mod progress;
 mod run;
+mod scaling;
 
 use std::process::ExitCode;
 use std::sync::Arc;
@@ -37,6 +39,7 @@ fn main() -> ExitCode {
     let ranks: Arc<dyn Ranks> = Arc::new(MpiRanks::new());
     let code = match Arguments::try_parse() {
         Ok(Arguments { command: Command::Run(arguments) }) => run::run(&arguments, &ranks),
+        Ok(Arguments { command: Command::Bench(arguments) }) => run::measure(&arguments, &ranks),
         Err(said) => say_usage(&said, &*ranks),
     };
     drop(universe);

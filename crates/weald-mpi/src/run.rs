@@ -1,5 +1,6 @@
-//! `weald-mpi run`: the first rank runs the recipe, the others take part.
+//! `weald-mpi run`: the first rank runs the recipe, the others take part; and the start of `weald-mpi bench`.
 
+use std::num::NonZeroUsize;
 use std::path::Path;
 use std::sync::Arc;
 use std::time::Duration;
@@ -10,7 +11,8 @@ use weald::engine::Engine;
 use weald::engine::ranks::Ranks;
 use weald::recipe::{Options, OutputReport, REPORT_FILE, Recipe, Report, Run, take_part};
 
-use crate::arguments::RunArguments;
+use crate::arguments::{BenchArguments, RunArguments};
+use crate::bench::bench;
 use crate::interrupt;
 use crate::messages::ranks_of_this_machine;
 use crate::progress::Lines;
@@ -45,7 +47,7 @@ fn lead(arguments: &RunArguments, ranks: &Arc<dyn Ranks>) -> Result<(), Error> {
     // All have the recipe as this rank finds it; without one there is nothing to take part in.
     ranks.tell(text.as_ref().map(|text| text.clone().into_bytes()).unwrap_or_default())?;
     let recipe = parsed(arguments, &text?)?;
-    begin(arguments, ranks)?;
+    begin(arguments.threads, ranks)?;
     let options = Options {
         engine: Engine::Ranks(Arc::clone(ranks)),
         checkpoint_every: Duration::from_secs(arguments.checkpoint_every),
@@ -63,7 +65,7 @@ fn follow(arguments: &RunArguments, ranks: &Arc<dyn Ranks>) -> Result<(), Error>
     let text = ranks.tell(Vec::new())?;
     // What is wrong with the recipe is the same here, and the first rank says it.
     let Ok(recipe) = parsed(arguments, &String::from_utf8_lossy(&text)) else { return Ok(()) };
-    begin(arguments, ranks)?;
+    begin(arguments.threads, ranks)?;
     take_part(&recipe, ranks)
 }
 
@@ -71,11 +73,20 @@ fn parsed(arguments: &RunArguments, text: &str) -> Result<Recipe, Error> {
     Recipe::parse(&arguments.recipe.display().to_string(), text, &arguments.overrides())
 }
 
+/// Measures; gives the exit code of this rank.
+pub(crate) fn measure(arguments: &BenchArguments, ranks: &Arc<dyn Ranks>) -> u8 {
+    let done = begin(arguments.threads, ranks).and_then(|()| bench(arguments, ranks));
+    let Err(error) = done else { return 0 };
+    let code = report_fault(&error, &format!("rank {}: ", ranks.rank()));
+    // The others would wait for this one.
+    mpi::topology::SimpleCommunicator::world().abort(i32::from(code))
+}
+
 /// Starts the threads of this rank, and listens for signals.
-fn begin(arguments: &RunArguments, ranks: &Arc<dyn Ranks>) -> Result<(), Error> {
+fn begin(threads: Option<NonZeroUsize>, ranks: &Arc<dyn Ranks>) -> Result<(), Error> {
     let here = ranks_of_this_machine();
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
-    let threads = arguments.threads.map_or_else(|| (cores / here).max(1), usize::from);
+    let threads = threads.map_or_else(|| (cores / here).max(1), usize::from);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build_global();
     pool.map_err(|cause| Error::Run(format!("cannot start {threads} threads: {cause}")))?;
     interrupt::listen(ranks.leads())

@@ -5,3 +5,4 @@ mod hosts;
 mod launched;
 mod page;
 mod same_bits;
+mod scaling;
