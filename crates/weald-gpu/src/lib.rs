@@ -37,7 +37,7 @@ mod render;
 mod slots;
 mod transfer;
 
-pub use gpu::Gpu;
+pub use gpu::{Gpu, Suspension};
 pub use live::Live;
 pub use point_clouds::{PointCloud, PointRates, Swayed, SwayingPoints, bend_limbs, grow_blades};
 #[doc(hidden)]

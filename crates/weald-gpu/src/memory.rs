@@ -11,6 +11,18 @@ use crate::gpu::budget::Reservation;
 pub(crate) struct Store {
     pub(crate) buffer: wgpu::Buffer,
     _held: Reservation,
+    _destroyed: Option<Destroyed>,
+}
+
+/// A buffer whose memory is free at once when this is dropped: a browser frees it only when it next looks for what
+/// nobody uses.
+#[derive(Debug)]
+struct Destroyed(wgpu::Buffer);
+
+impl Drop for Destroyed {
+    fn drop(&mut self) {
+        self.0.destroy();
+    }
 }
 
 impl Store {
@@ -31,7 +43,9 @@ impl Store {
         let description =
             wgpu::BufferDescriptor { label: Some(what), size: bytes, usage, mapped_at_creation: false };
         let buffer = gpu.context.attempt(what, || Ok(gpu.context.device.create_buffer(&description)))?;
-        Ok(Self { buffer, _held: held })
+        // Who draws may have recorded a use of it that is yet to be submitted; who waits for all that it does has not.
+        let destroyed = gpu.context.waiting.suspends().then(|| Destroyed(buffer.clone()));
+        Ok(Self { buffer, _held: held, _destroyed: destroyed })
     }
 }
 

@@ -100,8 +100,12 @@ impl Pace {
         Ok(())
     }
 
-    /// Waits for all that was submitted.
+    /// Waits for all that was submitted. A program that would be suspended for it waits for results alone: the queue keeps
+    /// their order, and a browser looks after what it stages.
     pub(crate) fn drain(&mut self, gpu: &Gpu) -> Result<(), Error> {
+        if gpu.context.waiting.suspends() {
+            return gpu.context.check("work that was submitted");
+        }
         while !self.flying.is_empty() {
             self.wait_for_oldest(gpu)?;
         }

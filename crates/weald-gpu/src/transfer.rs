@@ -2,7 +2,6 @@
 
 use std::collections::VecDeque;
 use std::ops::Range;
-use std::sync::mpsc;
 
 use weald::Error;
 use weald::engine::uniform::Uniform;
@@ -10,6 +9,7 @@ use weald::error::{DeviceError, DeviceErrorKind};
 use wgpu::{Buffer, BufferUsages, MapMode};
 
 use crate::gpu::Gpu;
+use crate::gpu::context::Submitted;
 use crate::memory::Store;
 use crate::pace::{Load, Pace, WorkKind};
 
@@ -93,10 +93,8 @@ impl Transfer {
     fn take(&self, gpu: &Gpu, length: u64, values: &mut Vec<f32>) -> Result<(), Error> {
         let landing = &self.landing.buffer;
         gpu.context.attempt("reading back", || {
-            let (sender, mapped) = mpsc::channel();
-            landing.map_async(MapMode::Read, 0..length, move |result| drop(sender.send(result)));
-            gpu.context.wait(None)?;
-            mapped.recv().map_err(unreadable)?.map_err(unreadable)?;
+            let mapped = gpu.context.answer(|tell| landing.map_async(MapMode::Read, 0..length, tell))?;
+            mapped.ok_or_else(|| unreadable("it gave no answer"))?.map_err(unreadable)?;
             let view = landing.get_mapped_range(0..length).map_err(unreadable)?;
             values.extend_from_slice(bytemuck::cast_slice(&view));
             drop(view);
@@ -115,9 +113,17 @@ pub(crate) fn write(gpu: &Gpu, into: &Buffer, bytes: &[u8]) -> Result<(), Error>
             gpu.context.queue.write_buffer(into, first, piece);
             Ok(gpu.context.submit([]))
         })?;
-        gpu.context.wait(Some(submission))?;
+        settle(gpu, submission)?;
     }
     Ok(())
+}
+
+/// Waits until the memory is free in which the driver staged what was written; a browser looks after that itself.
+fn settle(gpu: &Gpu, submission: Submitted) -> Result<(), Error> {
+    if gpu.context.waiting.suspends() {
+        return gpu.context.check("writing to the GPU");
+    }
+    gpu.context.wait(Some(submission))
 }
 
 /// Takes stretches that fill so many bytes at most; the last may be cut.
@@ -152,7 +158,7 @@ pub(crate) fn write_runs(gpu: &Gpu, into: &Buffer, runs: &[Range<u64>], bytes: &
             }
             Ok(gpu.context.submit([]))
         })?;
-        gpu.context.wait(Some(submission))?;
+        settle(gpu, submission)?;
     }
     Ok(())
 }

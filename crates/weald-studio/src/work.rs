@@ -17,7 +17,7 @@ use std::rc::Rc;
 
 pub use message::{Array, ChangedFile, Parcel};
 pub use remote::{Keep, Remote};
-pub use served::Served;
+pub use served::{Served, Simulates};
 pub use status::{Moment, Phase, Seeds, Shown, Status, Surface};
 pub use task::{Opening, Task};
 #[cfg(not(target_arch = "wasm32"))]

@@ -62,16 +62,37 @@ async function share(recipe, script) {
   page.tell(copied ? "the link is copied, and in the address bar" : "the link is in the address bar");
 }
 
-// A device that can be asked for: without one, rays are marched on the processor, which is also sooner done than to have
-// software act as a device. `?rays` and `?device` in the address choose.
+// A device that can be asked for, or why there is none. Software that acts as one is used where the address says
+// `?device`: to march rays and to simulate on the processor is sooner done.
 async function device() {
-  if (asked.has("rays") || !navigator.gpu) return null;
+  if (asked.has("rays") && !asked.has("device")) return { why: "the address says ?rays" };
+  if (!navigator.gpu) return { why: "this browser has no WebGPU; Chrome, Edge, Firefox and Safari of 2025 or later have it" };
   try {
     const adapter = await navigator.gpu.requestAdapter();
-    return adapter?.info?.isFallbackAdapter && !asked.has("device") ? null : adapter;
-  } catch {
-    return null;
+    if (!adapter) return { why: "the browser finds no graphics device that it can use" };
+    if (adapter.info?.isFallbackAdapter && !asked.has("device")) {
+      return { why: "the only graphics device is software; ?device in the address uses it all the same" };
+    }
+    return { adapter };
+  } catch (cause) {
+    return { why: `the browser gives no graphics device: ${cause?.message ?? cause}` };
   }
+}
+
+// Where the worker simulates: on that device, unless the address says otherwise.
+function simulating({ adapter, why }) {
+  if (asked.has("processor")) return { why: "the address says ?processor" };
+  return { name: adapter && nameOf(adapter), why, isDemanded: asked.has("device") };
+}
+
+// Browsers tell scripts more of an adapter than they tell the program.
+function nameOf({ info }) {
+  const parts = [info?.vendor, info?.architecture, info?.device, info?.description];
+  return `${parts.filter(Boolean).join(" ") || "a graphics device"} (WebGPU)`;
+}
+
+function tellWithoutDevice(why) {
+  notice(`Simulations run on the processor, and not on the device that the address asks for: ${why}.`);
 }
 
 // A device can be lost at any time: then nothing on the canvas can say so.
@@ -107,12 +128,14 @@ async function open() {
     if (!answer.ok) throw new Error(`weald_web_bg.wasm: ${answer.status}`);
     return WebAssembly.compile(await answer.arrayBuffer());
   });
-  const [module, adapter, store, land] = await Promise.all([compiled, device(), Store.open(notice), shared()]);
+  const [module, found, store, land] = await Promise.all([compiled, device(), Store.open(notice), shared()]);
   const worker = new Worker("worker.js", { type: "module" });
-  worker.postMessage({ module });
+  worker.addEventListener("message", ({ data }) => data.refused && tellWithoutDevice(data.refused));
+  worker.postMessage({ module, device: simulating(found) });
   await init({ module_or_path: module });
   window.weald = { keep: (path, bytes) => store.keep(path, bytes), choose, handOut: save, share, arrive };
-  if (adapter) watchDevices();
+  const draws = Boolean(found.adapter) && !asked.has("rays");
+  if (draws) watchDevices();
   const kept = await store.all();
   for (const [path, bytes] of kept) restore(path, bytes);
   let what = asked.get("open") ?? undefined;
@@ -125,10 +148,10 @@ async function open() {
   all_changed();
   const isNew = kept.length === 0 && !what;
   if (!isNew) unveil();
-  page = await Page.open(document.getElementById("land"), worker, adapter !== null, what, isNew);
+  page = await Page.open(document.getElementById("land"), worker, draws, what, isNew);
   worker.onerror = (event) =>
     page.fail(`The simulation has ended by a fault of Weald (${event.message}); load the page again: what you did is kept.`);
-  Object.assign(window.weald, { page, milliseconds: { ready: performance.now() - began }, device: adapter !== null });
+  Object.assign(window.weald, { page, milliseconds: { ready: performance.now() - began }, device: draws });
   document.body.classList.add("ready");
 }
 

@@ -153,6 +153,7 @@ impl Page {
             "idle": status.phase == Phase::Idle,
             "plays": status.plays,
             "steps": status.steps,
+            "engine": status.engine,
             "pace": status.pace,
             "changes": status.changes,
             "moments": status.moments.iter().filter(|moment| moment.is_past).count(),

@@ -1,13 +1,30 @@
 //! The worker's half: tasks come as messages, and are done in turns between which the browser can bring others.
 
+use std::sync::Arc;
+use std::time::Duration;
+
 use js_sys::Array;
 use wasm_bindgen::prelude::wasm_bindgen;
 use wasm_bindgen::{JsCast, JsValue};
 use weald::engine::Engine;
-use weald_studio::work::{Parcel, Served};
+use weald_gpu::{Gpu, Suspension};
+use weald_studio::work::{Parcel, Served, Simulates};
 use web_sys::DedicatedWorkerGlobalScope;
 
 use crate::parcels::{message_of, parcel_of};
+
+#[wasm_bindgen]
+extern "C" {
+    /// Suspends the program, where the worker has begun it so that it can be; the number that comes says nothing.
+    #[wasm_bindgen(js_namespace = weald, js_name = suspend)]
+    fn suspend_program(milliseconds: f64) -> f64;
+    #[wasm_bindgen(js_namespace = weald, js_name = wake)]
+    fn wake_program();
+}
+
+fn suspend(at_most: Duration) {
+    suspend_program(1000.0 * at_most.as_secs_f64());
+}
 
 /// The worker of a page.
 #[wasm_bindgen]
@@ -17,12 +34,27 @@ pub struct Server {
 
 #[wasm_bindgen]
 impl Server {
-    /// A worker that simulates on the processor.
-    #[wasm_bindgen(constructor)]
-    #[expect(clippy::new_without_default, reason = "made by JavaScript alone")]
-    pub fn new() -> Self {
+    /// A worker that simulates on the processor; `why` it does where a device could be expected to.
+    #[wasm_bindgen(js_name = onProcessor)]
+    pub fn on_processor(why: Option<String>) -> Self {
         console_error_panic_hook::set_once();
-        Self { served: Served::new(Engine::Cpu, post) }
+        let simulates = Simulates { engine: Engine::Cpu, without_device: why };
+        Self { served: Served::new(simulates, post) }
+    }
+
+    /// A worker that simulates on the device of that name. Its turns must be begun so that they can be suspended. Where
+    /// the device fails that was `demanded`, the processor does not take its place.
+    ///
+    /// # Errors
+    /// A sentence where there is no device, or where it cannot be opened.
+    #[wasm_bindgen(js_name = onDevice)]
+    pub async fn on_device(name: String, demanded: bool) -> Result<Self, JsValue> {
+        console_error_panic_hook::set_once();
+        let suspension = Suspension { suspend, wake: wake_program };
+        let gpu = Gpu::suspending(Some(name), suspension).await.map_err(|error| error.to_string())?;
+        let gpu = Arc::new(gpu);
+        let engine = if demanded { Engine::Device(gpu) } else { Engine::DeviceElseCpu(gpu) };
+        Ok(Self { served: Served::new(Simulates { engine, without_device: None }, post) })
     }
 
     /// Takes a message of the page.

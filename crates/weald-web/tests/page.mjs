@@ -1,4 +1,4 @@
-// Drives the page in real browsers as a person does: `node page.mjs FOLDER WEALD PICTURES [chromium|firefox]`.
+// Drives the page in real browsers as a person does: `node page.mjs FOLDER WEALD PICTURES [simulated|device|rays|firefox]`.
 //
 // FOLDER is the page, WEALD the program that serves it and with which heights are compared, PICTURES a folder for what was
 // seen. Everything is found by its label, clicked and typed; the test ends with 0 when all of it was as it should be.
@@ -30,6 +30,22 @@ boundary = "open"
 layer = "height"
 file = "height.npy"
 `;
+
+// Flat ground under floods, on one grid: on steep ground they meet forks where the last digit decides.
+const FLOOD = RECIPE.replace("relief = 400.0", "relief = 25.0").replace(
+  /do = "hydraulic"[^[]*/,
+  `do = "fluvial"
+duration = 20_000.0
+levels = 1
+steps = 120
+mean_over = 1
+boundary = "open"
+`,
+);
+
+// Metres that a device may differ by from the processor in its worst cell, and on average, as in `engines_agree`.
+const WORST = 1e-4;
+const MEAN = 2e-6;
 
 const failures = [];
 function expect(holds, what) {
@@ -68,6 +84,12 @@ class Visitor {
       const state = await this.state();
       return state && test(state) ? state : null;
     }, seconds);
+  }
+
+  // What the page says above the studio.
+  notice() {
+    const read = () => this.page.$eval("#notices p", (line) => line.textContent).catch(() => null);
+    return until(`${this.name}: a notice`, read, 60);
   }
 
   places(label) {
@@ -123,6 +145,49 @@ class Visitor {
     return Buffer.from(letters, "base64");
   }
 
+  // Takes back what was done last, until so many moments are left.
+  async undoTo(moments) {
+    for (let left = (await this.state()).moments; left > moments; ) {
+      await this.page.keyboard.down("Control");
+      await this.page.keyboard.press("z");
+      await this.page.keyboard.up("Control");
+      ({ moments: left } = await this.is("less", (state) => state.moments < left && state.idle && state.whole));
+    }
+  }
+
+  // Has the worker count what it asks its device to compute.
+  async countPasses() {
+    await this.page.workers()[0].evaluate(() => {
+      const dispatch = GPUComputePassEncoder.prototype.dispatchWorkgroups;
+      globalThis.passes = 0;
+      GPUComputePassEncoder.prototype.dispatchWorkgroups = function (...how) {
+        globalThis.passes += 1;
+        return dispatch.apply(this, how);
+      };
+    });
+  }
+
+  passes() {
+    return this.page.workers()[0].evaluate(() => globalThis.passes);
+  }
+
+  // Has the worker give up its device, which it uses just now.
+  async loseSimulation() {
+    await this.page.workers()[0].evaluate(
+      () =>
+        new Promise((resolve) => {
+          const make = GPUDevice.prototype.createCommandEncoder;
+          GPUDevice.prototype.createCommandEncoder = function (...how) {
+            GPUDevice.prototype.createCommandEncoder = make;
+            const encoder = make.apply(this, how);
+            this.destroy();
+            resolve();
+            return encoder;
+          };
+        }),
+    );
+  }
+
   async picture(name) {
     this.count += 1;
     await this.page.screenshot({ path: join(pictures, `${this.name}-${this.count}-${name}.png`) });
@@ -137,23 +202,37 @@ function served() {
   });
 }
 
-// Whether heights are the same; where they are not, how they differ.
-function same(heights, wanted, what) {
+// How heights differ: in how many cells, by how many metres at most, and on average.
+function differences(heights, wanted) {
   const [one, other] = [heights, wanted].map((bytes) => new Float32Array(new Uint8Array(bytes).buffer));
-  let [differing, most] = [Math.abs(one.length - other.length), 0];
+  let [cells, most, sum] = [Math.abs(one.length - other.length), 0, 0];
   one.forEach((metres, cell) => {
-    if (metres !== other[cell]) differing += 1;
-    most = Math.max(most, Math.abs(metres - other[cell]));
+    const metresBetween = Math.abs(metres - other[cell]);
+    if (metresBetween !== 0) cells += 1;
+    most = Math.max(most, metresBetween);
+    sum += metresBetween;
   });
-  expect(differing === 0, what + (differing ? ` (${differing} of ${other.length} differ, by ${most} m at most)` : ""));
+  return { cells, of: other.length, most, mean: sum / other.length };
 }
 
-// What the program makes of the recipe.
-function native() {
+function same(heights, wanted, what) {
+  const { cells, of, most } = differences(heights, wanted);
+  expect(cells === 0, what + (cells ? ` (${cells} of ${of} differ, by ${most} m at most)` : ""));
+}
+
+// Whether a device comes as near to the processor as devices do.
+function near(heights, wanted, what) {
+  const { cells, of, most, mean } = differences(heights, wanted);
+  const isNear = heights.length === wanted.length && most < WORST && mean < MEAN;
+  expect(isNear, `${what} (${cells} of ${of} differ, by ${most} m at most and ${mean} m on average)`);
+}
+
+// What the program makes of a recipe on the processor.
+function native(text) {
   const out = mkdtempSync(join(tmpdir(), "weald-page-"));
   const recipe = join(out, "valley.toml");
-  writeFileSync(recipe, RECIPE);
-  execFileSync(weald, ["run", recipe, "--out", join(out, "out"), "--quiet"], { stdio: "inherit" });
+  writeFileSync(recipe, text);
+  execFileSync(weald, ["run", recipe, "--engine", "cpu", "--out", join(out, "out"), "--quiet"], { stdio: "inherit" });
   const file = readFileSync(join(out, "out", "height.npy"));
   rmSync(out, { recursive: true });
   return { file, heights: file.subarray(file.length - 4 * 96 * 96) };
@@ -175,15 +254,21 @@ function launched(kind) {
   });
 }
 
-async function visit(context, address, name, before) {
+// A new page: `query` is what the address asks for, `before` runs in the page before all else.
+async function visit(context, address, name, { query = "", before, size = [1280, 800] } = {}) {
   const page = await context.newPage();
-  const asked = name.startsWith("device") ? address.replace(/\/(#|$)/, "/?device$1") : address;
-  await page.setViewport({ width: 1280, height: 800 });
+  await page.setViewport({ width: size[0], height: size[1] });
   if (before) await page.evaluateOnNewDocument(before);
   const visitor = new Visitor(page, name);
-  await page.goto(asked);
+  await page.goto(address.replace(/\/(#|$)/, `/${query}$1`));
   return visitor;
 }
+
+// A small window, whose panels are those of a large one.
+const SMALL = [1000, 560];
+
+// What the address of a tour asks for.
+const QUERIES = { device: "?device&processor" };
 
 async function tour(kind, address, wanted) {
   console.log(`\n${kind}`);
@@ -191,7 +276,7 @@ async function tour(kind, address, wanted) {
   const downloads = mkdtempSync(join(tmpdir(), "weald-downloads-"));
   try {
     const began = Date.now();
-    const visitor = await visit(browser, address, kind);
+    const visitor = await visit(browser, address, kind, { query: QUERIES[kind] });
     await until("a first picture of the page", () => visitor.page.$("#try"), 30);
     const first = Date.now() - began;
     await visitor.is("a landscape that is drawn", (state) => state.shown && state.steps > 0, 240);
@@ -212,6 +297,8 @@ async function tour(kind, address, wanted) {
     await visitor.is("the recipe that was dropped", (state) => state.columns === 96 && state.steps === 0 && state.idle);
     await visitor.click("Play to the end");
     await visitor.is("the end of the simulation", (state) => state.steps === 120 && state.idle && state.whole);
+    const { engine } = await visitor.state();
+    expect(/^the processor: ./.test(engine), `simulated by ${engine}`);
     same(await visitor.heights(), wanted.heights, "heights equal those of the program to the bit");
     await visitor.picture("carved");
 
@@ -241,10 +328,7 @@ async function tour(kind, address, wanted) {
     await visitor.drag("Viewport", [0.45, 0.5], [0.6, 0.55]);
     const painted = await visitor.is("a stroke", (state) => state.moments > before.moments && state.idle && state.whole);
     await visitor.picture("painted");
-    await visitor.page.keyboard.down("Control");
-    await visitor.page.keyboard.press("z");
-    await visitor.page.keyboard.up("Control");
-    await visitor.is("no stroke", (state) => state.moments < painted.moments && state.idle && state.whole);
+    await visitor.undoTo(before.moments);
     same(await visitor.heights(), wanted.heights, "heights after undo are as before the stroke");
     await visitor.page.keyboard.press("b");
     await visitor.drag("Viewport", [0.4, 0.5], [0.5, 0.6]);
@@ -266,7 +350,7 @@ async function tour(kind, address, wanted) {
     await visitor.click("Share");
     await until("the link", () => visitor.page.url().includes("#land="));
     const link = visitor.page.url();
-    const other = await visit(await browser.createBrowserContext(), link, `${kind}-shared`);
+    const other = await visit(await browser.createBrowserContext(), link, `${kind}-shared`, { query: QUERIES[kind] });
     await other.is("what was shared", (state) => state.columns === 96 && state.steps === 120 && state.idle && state.whole, 240);
     same(await other.heights(), mine, `a link of ${link.length} letters shows the same in a fresh profile`);
     await other.picture("shared");
@@ -277,6 +361,99 @@ async function tour(kind, address, wanted) {
   } finally {
     await browser.close();
     rmSync(downloads, { recursive: true });
+  }
+}
+
+// Simulations on a device, beside which rays are marched in a small window: software draws all else on the page, and as long
+// as it does the simulation waits.
+async function simulated(address, wanted) {
+  console.log("\nsimulated on a device");
+  const browser = await launched("device");
+  try {
+    const visitor = await visit(browser, address, "simulated", { query: "?rays&device", size: SMALL });
+    await carvedOnDevice(visitor, wanted);
+    await paintedOnDevice(visitor);
+    await lostDevice(visitor);
+    await visitor.page.close();
+
+    const both = await visit(await browser.createBrowserContext(), address, "drawn-and-simulated", { query: "?device", size: SMALL });
+    await both.is("a landscape that is drawn", (state) => state.shown && state.drawn, 240);
+    const { engine } = await both.is("steps beside pictures", (state) => state.steps > 0, 240);
+    expect(/swiftshader/i.test(engine), `a device draws and simulates: ${engine}`);
+    await both.page.close();
+  } finally {
+    await browser.close();
+  }
+  await withoutDevice(address);
+}
+
+async function carvedOnDevice(visitor, wanted) {
+  await visitor.is("a landscape", (state) => state.shown, 240);
+  await visitor.page.click("#try");
+  await visitor.countPasses();
+  for (const [name, text, heights] of [
+    ["a flood", FLOOD, wanted.flood],
+    ["a valley", RECIPE, wanted.heights],
+  ]) {
+    await visitor.drop("valley.toml", text);
+    await visitor.is(`${name} before`, (state) => state.columns === 96 && state.steps === 0 && state.idle && state.text === text);
+    const before = await visitor.passes();
+    await visitor.click("Play to the end");
+    const { engine } = await visitor.is(`${name} after`, (state) => state.steps === 120 && state.idle && state.whole, 300);
+    const passes = (await visitor.passes()) - before;
+    expect(/swiftshader.*WebGPU/i.test(engine) && passes > 120, `${name} is simulated by ${engine} in ${passes} passes`);
+    near(await visitor.heights(), heights, `${name} is near that of the program on its processor`);
+  }
+  await visitor.picture("carved");
+}
+
+// A stroke, another one while it runs, and all of it taken back.
+async function paintedOnDevice(visitor) {
+  const [carved, before] = [await visitor.heights(), await visitor.state()];
+  await visitor.page.keyboard.press("v");
+  await visitor.drag("Viewport", [0.45, 0.5], [0.6, 0.55]);
+  const painted = await visitor.is("a stroke", (state) => state.moments > before.moments && state.idle && state.whole);
+  const raised = await visitor.heights();
+  expect(!raised.equals(carved), `a stroke raises the ground by ${differences(raised, carved).most} m`);
+
+  await visitor.click("Play or pause");
+  await visitor.is("steps after the stroke", (state) => state.plays && state.steps > 125);
+  await visitor.drag("Viewport", [0.4, 0.5], [0.5, 0.6]);
+  const { steps } = await visitor.is("a stroke while it runs", (state) => state.plays && state.moments > painted.moments + 1);
+  await visitor.is("steps after that", (state) => state.plays && state.steps > steps + 5);
+  await visitor.click("Play or pause");
+  const { moments } = await visitor.is("a simulation that stands still", (state) => !state.plays && state.idle && state.whole);
+  expect(moments > painted.moments + 1, `a stroke while it runs, after ${steps} steps`);
+  await visitor.picture("painted");
+
+  await visitor.undoTo(painted.moments);
+  same(await visitor.heights(), raised, "heights are those after the first stroke when all later is undone");
+  await visitor.undoTo(before.moments);
+  same(await visitor.heights(), carved, "heights are those before it when that is undone");
+}
+
+async function lostDevice(visitor) {
+  await visitor.click("Play or pause");
+  await visitor.is("a simulation that runs", (state) => state.plays);
+  await visitor.loseSimulation();
+  const { error, steps } = await visitor.is("a device that is lost", (state) => state.error, 60);
+  expect(/lost.*load the page again.*kept/.test(error), `a device that is lost while it simulates: "${error}"`);
+  await visitor.page.reload();
+  const again = await visitor.is("what was kept", (state) => state.columns === 96 && state.idle && state.whole, 240);
+  expect(again.steps >= 120 && again.steps <= steps, `${again.steps} of ${steps} steps are there when the page is loaded again`);
+}
+
+// Who asks for a device where none can be had is told so, and simulates on the processor.
+async function withoutDevice(address) {
+  const browser = await launched("rays");
+  const unable = () => delete Navigator.prototype.gpu;
+  try {
+    const visitor = await visit(browser, address, "demanded", { query: "?rays&device", before: unable });
+    const notice = await visitor.notice();
+    const { engine } = await visitor.is("a landscape on the processor", (state) => state.shown && state.engine, 240);
+    expect(/on the processor.*WebGPU/.test(notice) && /^the processor: .*WebGPU/.test(engine), `no device that is demanded: "${notice}"`);
+  } finally {
+    await browser.close();
   }
 }
 
@@ -303,29 +480,32 @@ async function faults(kind, browser, address, visitor) {
   expect(/broken\.tif/.test(error), `a broken GeoTIFF: "${error}"`);
 
   const noStore = () => Object.defineProperty(window, "indexedDB", { value: undefined });
-  const forgetful = await visit(await browser.createBrowserContext(), address, `${kind}-no-store`, noStore);
-  const notice = await until("a notice", () => forgetful.page.$eval("#notices p", (line) => line.textContent).catch(() => null), 60);
+  const forgetful = await visit(await browser.createBrowserContext(), address, `${kind}-no-store`, { query: QUERIES[kind], before: noStore });
+  const notice = await forgetful.notice();
   await forgetful.is("a landscape without a store", (state) => state.shown, 240);
   expect(notice.includes("keeps nothing"), `without storage: "${notice}"`);
   await forgetful.page.close();
 
-  const cut = await visit(await browser.createBrowserContext(), `${address}#land=abc`, `${kind}-cut-link`);
-  const sentence = await until("a notice", () => cut.page.$eval("#notices p", (line) => line.textContent).catch(() => null), 60);
+  const cut = await visit(await browser.createBrowserContext(), `${address}#land=abc`, `${kind}-cut-link`, { query: QUERIES[kind] });
+  const sentence = await cut.notice();
   await cut.is("a landscape in its place", (state) => state.shown, 240);
   expect(sentence.includes("cut or damaged"), `a link that is cut: "${sentence}"`);
   await cut.page.close();
 
   if (kind === "device") {
     await visitor.page.evaluate(() => window.weald.loseDevice());
-    const lost = await until("a notice", () => visitor.page.$eval("#notices p", (line) => line.textContent).catch(() => null), 60);
+    const lost = await visitor.notice();
     expect(/load the page again/.test(lost), `a device that is lost: "${lost}"`);
   }
 }
 
 const { server, address } = await served();
-const wanted = native();
+const wanted = { ...native(RECIPE), flood: native(FLOOD).heights };
 try {
-  for (const kind of only ? [only] : ["device", "rays"]) await tour(kind, address, wanted);
+  for (const kind of only ? [only] : ["simulated", "device", "rays"]) {
+    if (kind === "simulated") await simulated(address, wanted);
+    else await tour(kind, address, wanted);
+  }
 } catch (cause) {
   expect(false, cause.message);
 } finally {

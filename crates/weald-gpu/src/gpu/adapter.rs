@@ -7,7 +7,7 @@ use weald::error::{DeviceError, DeviceErrorKind};
 use wgpu::{Adapter, Backend, Backends, DeviceType, Instance, InstanceDescriptor, InstanceFlags};
 
 /// Interfaces with compute passes. OpenGL is left out: to look for it is slow and noisy without a display.
-const BACKENDS: Backends = Backends::VULKAN.union(Backends::METAL).union(Backends::DX12);
+const BACKENDS: Backends = Backends::PRIMARY;
 
 /// Share of the memory that the driver grants, in percent, beyond which it refuses instead of risking to lose
 /// the device.
@@ -45,11 +45,16 @@ pub(crate) fn may_have_a_card() -> bool {
 
 /// All adapters of this machine.
 pub(crate) fn all() -> Vec<Adapter> {
+    pollster::block_on(offered())
+}
+
+/// All adapters of this machine, or the one that a browser offers.
+pub(crate) async fn offered() -> Vec<Adapter> {
     let mut description = InstanceDescriptor::new_without_display_handle();
     description.backends = BACKENDS;
     description.flags = InstanceFlags::empty();
     description.memory_budget_thresholds.for_resource_creation = Some(FULL_PERCENT);
-    pollster::block_on(Instance::new(description).enumerate_adapters(BACKENDS))
+    Instance::new(description).enumerate_adapters(BACKENDS).await
 }
 
 /// The best of these adapters that is wanted: cards of their own first.
@@ -96,6 +101,12 @@ pub(crate) fn none(found: Vec<String>, wanted: Wanted) -> Error {
          a software one (Debian, Ubuntu: mesa-vulkan-drivers), or use --engine cpu"
     );
     DeviceError::new(DeviceErrorKind::NoAdapter { found }, message).into()
+}
+
+/// A browser offers none.
+pub(crate) fn none_in_a_browser() -> Error {
+    let kind = DeviceErrorKind::NoAdapter { found: Vec::new() };
+    DeviceError::new(kind, "the browser gives no graphics device to its workers").into()
 }
 
 /// Nothing draws: what to do.

@@ -46,3 +46,13 @@ pub(crate) const WINDOW: Advice = Advice {
     spent: "make the window smaller, or use a smaller grid",
     large: "use a smaller grid",
 };
+
+/// To those who simulate on a page.
+pub(crate) const PAGE: Advice = Advice {
+    unopened: "close other pages that use it",
+    silent: "load the page again: what you did is kept",
+    lost: "load the page again, or go on without a device by ?rays in its address: what you did is kept",
+    full: "use a smaller grid, or close other pages",
+    spent: "use a smaller grid",
+    large: "use a smaller grid",
+};

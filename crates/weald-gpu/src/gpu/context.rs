@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
+use std::sync::mpsc::{Receiver, RecvTimeoutError};
 use std::sync::{Arc, Mutex};
 use std::time::Duration;
 use web_time::Instant;
@@ -19,12 +19,13 @@ use super::adapter;
 use super::advice::Advice;
 use super::faults::{Faults, explain};
 use super::known::Known;
+use super::waiting::Waiting;
 
 /// Longest wait for a submission, which is made to take a tenth of a second: then the device hangs.
 const TIMEOUT: Duration = Duration::from_mins(2);
 
-/// Time after which it is asked again whether a shared device is done.
-const LOOK_AGAIN: Duration = Duration::from_micros(100);
+/// What fails where a device is lost meanwhile.
+const WAITING: &str = "waiting for the GPU";
 
 /// Memory from which the driver cuts small buffers. Small blocks waste little of a small budget.
 const BLOCK_BYTES: u64 = 4 << 20;
@@ -39,7 +40,7 @@ pub(crate) type Pipelines = HashMap<(String, String), (ComputePipeline, BindGrou
 #[derive(Debug)]
 pub(crate) struct Submitted {
     index: SubmissionIndex,
-    /// Where a shared device says that they are done.
+    /// Where the device says that they are done, if it does.
     done: Option<Receiver<()>>,
 }
 
@@ -59,23 +60,26 @@ pub(crate) struct Context {
     /// What to say where it fails.
     pub(crate) advice: &'static Advice,
     faults: Arc<Faults>,
-    /// Whether a window uses it too, whose thread must not wait for others.
-    is_shared: bool,
+    pub(crate) waiting: Waiting,
 }
 
 impl Context {
     /// Opens a device with its largest buffers, and otherwise with what browsers grant too.
-    pub(crate) fn open(adapter: &wgpu::Adapter, advice: &'static Advice) -> Result<Self, Error> {
+    pub(crate) async fn open(
+        adapter: &wgpu::Adapter,
+        waiting: Waiting,
+        advice: &'static Advice,
+    ) -> Result<Self, Error> {
         let name = adapter::describe(adapter);
-        let opened = pollster::block_on(adapter.request_device(&description(adapter)));
-        let (device, queue) = opened.map_err(|cause| {
+        let (device, queue) = adapter.request_device(&description(adapter)).await.map_err(|cause| {
             let message = format!("{name} cannot be opened: {cause}; {}", advice.unopened);
             DeviceError::new(DeviceErrorKind::NotOpened, message)
         })?;
-        Ok(Self::of(adapter, device, queue, advice))
+        Ok(Self::of(adapter, (device, queue), waiting, advice))
     }
 
-    /// A device that another opened, unless it has less than is needed.
+    /// A device that another opened for a window, whose thread must not wait for others, unless it has less than is
+    /// needed.
     pub(crate) fn shared(
         adapter: &wgpu::Adapter,
         (device, queue): (&wgpu::Device, &wgpu::Queue),
@@ -85,8 +89,8 @@ impl Context {
         let note = |what, needed, has| lacks.push(format!("{what} is {has}, of which {needed} are needed"));
         least(&adapter.limits()).check_limits_with_fail_fn(&device.limits(), false, note);
         if lacks.is_empty() {
-            let context = Self::of(adapter, device.clone(), queue.clone(), advice);
-            return Ok(Self { is_shared: true, ..context });
+            let waiting = if cfg!(target_arch = "wasm32") { Waiting::Never } else { Waiting::Looking };
+            return Ok(Self::of(adapter, (device.clone(), queue.clone()), waiting, advice));
         }
         let message = format!(
             "{} was opened with too little: {}; {}",
@@ -99,8 +103,8 @@ impl Context {
 
     fn of(
         adapter: &wgpu::Adapter,
-        device: wgpu::Device,
-        queue: wgpu::Queue,
+        (device, queue): (wgpu::Device, wgpu::Queue),
+        waiting: Waiting,
         advice: &'static Advice,
     ) -> Self {
         Self {
@@ -111,7 +115,7 @@ impl Context {
             known: Known::default(),
             faults: Faults::of(&device),
             advice,
-            is_shared: false,
+            waiting,
             device,
             queue,
         }
@@ -177,11 +181,9 @@ impl Context {
     /// Submits commands, for which can be waited.
     pub(crate) fn submit(&self, commands: impl IntoIterator<Item = CommandBuffer>) -> Submitted {
         let index = self.queue.submit(commands);
-        let done = self.is_shared.then(|| {
-            let (sender, done) = channel();
-            self.queue.on_submitted_work_done(move || {
-                let _ = sender.send(());
-            });
+        let done = self.waiting.is_told().then(|| {
+            let (tell, done) = self.waiting.told();
+            self.queue.on_submitted_work_done(move || tell(()));
             done
         });
         Submitted { index, done }
@@ -198,37 +200,52 @@ impl Context {
         patience: Duration,
         submission: Option<Submitted>,
     ) -> Result<(), Error> {
-        if cfg!(target_arch = "wasm32") {
-            // Nobody can wait in a browser. What is submitted is done in its order all the same.
-            return self.check("waiting for the GPU");
-        }
-        if self.is_shared {
-            return self.look_until_done(patience, submission.unwrap_or_else(|| self.submit([])));
+        match self.waiting {
+            Waiting::Never => return self.check(WAITING),
+            Waiting::Looking | Waiting::Suspended(_) => {
+                let submission = submission.unwrap_or_else(|| self.submit([]));
+                let Some(done) = submission.done else { return Ok(()) };
+                // What was refused is never done.
+                return self.look_until_told(patience, &done).map(drop);
+            }
+            Waiting::InDriver => {}
         }
         let submission_index = submission.map(|submission| submission.index);
         let polled = self.poll(wgpu::PollType::Wait { submission_index, timeout: Some(patience) });
-        self.check("waiting for the GPU")?;
+        self.check(WAITING)?;
         match polled {
             // It took a submission only to refuse it: it is lost, though nobody has been told yet.
             Some(Err(wgpu::PollError::WrongSubmissionIndex(..))) => {
                 self.faults.lose("it took no more work");
-                self.check("waiting for the GPU")
+                self.check(WAITING)
             }
             Some(Err(cause)) => Err(self.silent(&cause.to_string())),
             _ => Ok(()),
         }
     }
 
-    /// Waits by looking again and again: as long as one thread waits in wgpu 30, no other can present what it drew.
-    fn look_until_done(&self, patience: Duration, submission: Submitted) -> Result<(), Error> {
-        let Some(done) = submission.done else { return Ok(()) };
+    /// Asks the device for what it tells by a call, and waits for that; `None` where it will never tell.
+    pub(crate) fn answer<T: Send + 'static>(
+        &self,
+        ask: impl FnOnce(Box<dyn FnOnce(T) + Send>),
+    ) -> Result<Option<T>, Error> {
+        let (tell, told) = self.waiting.told();
+        ask(Box::new(tell));
+        if self.waiting.suspends() {
+            return self.look_until_told(TIMEOUT, &told);
+        }
+        self.wait(None)?;
+        Ok(told.recv().ok())
+    }
+
+    /// Waits for what is told, by looking again and again; `None` where it never will be.
+    fn look_until_told<T>(&self, patience: Duration, told: &Receiver<T>) -> Result<Option<T>, Error> {
         let begun = Instant::now();
         while begun.elapsed() < patience {
-            self.tend("waiting for the GPU")?;
-            match done.recv_timeout(LOOK_AGAIN) {
+            self.tend(WAITING)?;
+            match self.waiting.next(told) {
                 Err(RecvTimeoutError::Timeout) => {}
-                // What was refused is never done.
-                _ => return self.check("waiting for the GPU"),
+                heard => return self.check(WAITING).map(|()| heard.ok()),
             }
         }
         Err(self.silent("it did not finish in time"))

@@ -10,9 +10,10 @@ use weald::grid::Size;
 use wgpu::{Buffer, DeviceType};
 
 use super::adapter::{self, Wanted};
-use super::advice::{Advice, DRAWING, SIMULATION, WINDOW};
+use super::advice::{Advice, DRAWING, PAGE, SIMULATION, WINDOW};
 use super::budget::{self, Memory};
 use super::context::{self, Context};
+use super::waiting::{Suspension, Waiting};
 
 /// Budget of a card with memory of its own. Drivers do not tell wgpu how much there is; cards with less are
 /// rare.
@@ -119,8 +120,24 @@ impl Gpu {
         Ok(Self::of(Context::shared(adapter, (device, queue), &WINDOW)?, &WINDOW))
     }
 
+    /// The device of a program that must not block, as the worker of a page: wherever it waits for the device it is
+    /// suspended. `name` is that of the adapter where the browser tells it to scripts alone.
+    ///
+    /// # Errors
+    /// [`Error::Device`] where there is none, or where it cannot be opened.
+    pub async fn suspending(name: Option<String>, suspension: Suspension) -> Result<Self, Error> {
+        let adapter = adapter::best(adapter::offered().await, Wanted::Any);
+        let adapter = adapter.ok_or_else(adapter::none_in_a_browser)?;
+        let mut context = Context::open(&adapter, Waiting::Suspended(suspension), &PAGE).await?;
+        if let Some(name) = name {
+            context.adapter = name;
+        }
+        Ok(Self::of(context, &PAGE))
+    }
+
     fn open(adapter: &wgpu::Adapter, advice: &'static Advice) -> Result<Self, Error> {
-        Ok(Self::of(Context::open(adapter, advice)?, advice))
+        let opened = pollster::block_on(Context::open(adapter, Waiting::InDriver, advice));
+        Ok(Self::of(opened?, advice))
     }
 
     fn of(context: Context, advice: &'static Advice) -> Self {

@@ -7,6 +7,8 @@ pub(crate) mod context;
 mod faults;
 mod handle;
 mod known;
+mod waiting;
 
 pub use handle::Gpu;
 pub(crate) use handle::{Shown, Shows};
+pub use waiting::Suspension;

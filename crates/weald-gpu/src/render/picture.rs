@@ -1,6 +1,5 @@
 //! A picture that comes back from the device.
 
-use std::sync::mpsc;
 
 use weald::Error;
 use weald::picture::Image;
@@ -77,10 +76,8 @@ impl Readback {
 /// What is read of a buffer, when all that was submitted is done.
 pub(super) fn read_back<T>(gpu: &Gpu, buffer: &Buffer, read: impl FnOnce(&[u8]) -> T) -> Result<T, Error> {
     gpu.context.attempt("reading back", || {
-        let (sender, mapped) = mpsc::channel();
-        buffer.map_async(MapMode::Read, .., move |result| drop(sender.send(result)));
-        gpu.context.wait(None)?;
-        mapped.recv().map_err(unreadable)?.map_err(unreadable)?;
+        let mapped = gpu.context.answer(|tell| buffer.map_async(MapMode::Read, .., tell))?;
+        mapped.ok_or_else(|| unreadable("it gave no answer"))?.map_err(unreadable)?;
         let bytes = buffer.get_mapped_range(..).map_err(unreadable)?;
         let value = read(&bytes);
         drop(bytes);

@@ -23,6 +23,7 @@ mod programs;
 mod render;
 mod scenes;
 mod sessions;
+mod suspended;
 mod swarms;
 mod tables;
 mod transitions;

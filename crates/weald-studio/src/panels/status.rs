@@ -75,7 +75,8 @@ fn pointed(studio: &Studio, ui: &mut Ui) {
 
 fn pace(studio: &Studio, ui: &mut Ui) {
     if studio.status.pace > 0.0 {
-        ui.label(format!("{:.0} steps/s", studio.status.pace));
+        let engine = format!("simulated by {}", studio.status.engine);
+        ui.label(format!("{:.0} steps/s", studio.status.pace)).on_hover_text(engine);
     }
     if let Some(viewport) = &studio.viewport {
         let device = viewport.device();

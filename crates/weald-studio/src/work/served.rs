@@ -16,6 +16,15 @@ use super::worker::{Rest, Worker};
 /// Least time between two messages on the progress of one task.
 const TOLD_EVERY: Duration = Duration::from_millis(50);
 
+/// Where a worker simulates.
+#[derive(Clone, Debug, Default)]
+pub struct Simulates {
+    /// On the processor, unless there is a device.
+    pub engine: Engine,
+    /// Why no device does, where one could be expected to: goes on from "the processor: ".
+    pub without_device: Option<String>,
+}
+
 /// The worker.
 pub struct Served {
     worker: Worker,
@@ -26,8 +35,9 @@ pub struct Served {
 }
 
 impl Served {
-    /// A worker that simulates on an engine, and sends messages by `post`.
-    pub fn new(engine: Engine, post: impl Fn(Parcel) + Send + Sync + 'static) -> Self {
+    /// A worker that sends messages by `post`.
+    pub fn new(simulates: Simulates, post: impl Fn(Parcel) + Send + Sync + 'static) -> Self {
+        let Simulates { engine, without_device } = simulates;
         let post: Arc<dyn Fn(Parcel) + Send + Sync> = Arc::new(post);
         let (sender, told) = (Arc::clone(&post), Mutex::new(Instant::now()));
         let known = Arc::<Mutex<Known>>::default();
@@ -46,7 +56,7 @@ impl Served {
                 }
             })
         });
-        let worker = Worker::new(Arc::clone(&shared));
+        let worker = Worker::new(Arc::clone(&shared)).without_device(without_device);
         Self { worker, shared, engine, known, post }
     }
 

@@ -123,6 +123,8 @@ pub struct Status {
     pub steps: u64,
     /// Steps that the recipe asks for.
     pub written_steps: u64,
+    /// Where simulations run: an adapter, or the processor, and why there where a device could be expected.
+    pub engine: String,
     /// Steps a second, as of late.
     pub pace: f64,
     /// What was done, oldest first, and what was taken back.

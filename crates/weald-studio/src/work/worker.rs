@@ -60,12 +60,16 @@ pub(super) struct Worker {
     /// Steps that fill a slice.
     slice: u64,
     surfaced: Instant,
+    /// How long the device took to hand a surface over, as of late.
+    handed_over: Duration,
     moments_told: Instant,
     /// Whether the steps after the one that is held have run since it changed.
     is_finished: bool,
     /// Number of the last stroke of the hand, done or refused.
     stroke: u64,
     batch: Option<Batch>,
+    /// Why no device simulates, where one could be expected to.
+    without_device: Option<String>,
 }
 
 impl Worker {
@@ -79,11 +83,18 @@ impl Worker {
             until: None,
             slice: 1,
             surfaced: Instant::now(),
+            handed_over: Duration::ZERO,
             moments_told: Instant::now(),
             is_finished: true,
             stroke: 0,
             batch: None,
+            without_device: None,
         }
+    }
+
+    /// Says why no device simulates, where one could be expected to.
+    pub(super) fn without_device(self, why: Option<String>) -> Self {
+        Self { without_device: why, ..self }
     }
 
     /// Takes a task, to be done after those that it has.
@@ -205,7 +216,9 @@ impl Worker {
         self.is_finished = false;
         let took = began.elapsed();
         let pace = steps as f64 / took.as_secs_f64().max(1e-6);
-        self.slice = ((pace * SLICE.as_secs_f64()) as u64).clamp(1, 4 * steps);
+        // Whatever a device hands over late is asked for seldom: half of the time at least is for steps.
+        let slice = SLICE + 2 * self.handed_over;
+        self.slice = ((pace * slice.as_secs_f64()) as u64).clamp(1, 4 * steps);
         let mut status = self.shared.status();
         status.pace = if status.pace > 0.0 { 0.9 * status.pace + 0.1 * pace } else { pace };
         status.changes += 1;
@@ -217,9 +230,14 @@ impl Worker {
     fn surface(&mut self) -> Result<(), Error> {
         let _span = tracing::trace_span!("surface").entered();
         let Some(held) = &mut self.held else { return Ok(()) };
+        let began = Instant::now();
         let (canvas, ground) = held.surface()?;
         let (canvas, ground) = (Arc::new(canvas), Arc::new(ground));
         self.surfaced = Instant::now();
+        let is_on_device = self.opening.as_ref().is_some_and(|opening| opening.engine.adapter().is_some());
+        // One that is quick between slow ones says little: others who draw on the device come and go.
+        let took = if is_on_device { self.surfaced - began } else { Duration::ZERO };
+        self.handed_over = took.max(3 * self.handed_over / 4);
         self.shared.change(|status| {
             let shown = status.shown.as_ref().map_or(0, |shown| shown.number);
             let number = status.surface.as_ref().map_or(1, |surface| surface.number + 1);

@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 use weald::edit::{Brush, Effect, Falloff, Setting};
 use weald::engine::Engine;
 use weald::recipe::source::Value;
-use weald_studio::work::{Opening, Parcel, Phase, Remote, Served, Status, Task, Thread, Work};
+use weald_studio::work::{Opening, Parcel, Phase, Remote, Served, Simulates, Status, Task, Thread, Work};
 
 const RECIPE: &str = r#"
 [landscape]
@@ -89,7 +89,7 @@ impl Apart {
         let (to_worker, to_page) =
             (Rc::<RefCell<VecDeque<_>>>::default(), Arc::<Mutex<VecDeque<_>>>::default());
         let (sent, shown) = (Rc::clone(&to_worker), Arc::clone(&to_page));
-        let served = Served::new(Engine::Cpu, move |parcel| shown.lock().expect("whole").push_back(parcel));
+        let served = Served::new(Simulates::default(), move |parcel| shown.lock().expect("whole").push_back(parcel));
         let post = move |parcel| sent.borrow_mut().push_back(parcel);
         let remote = Rc::new(Remote::new(post, Box::new(|_, _| {})));
         let work = Work::Remote(Rc::clone(&remote));

@@ -10,7 +10,7 @@ pub(crate) const LAYERS: &[(&str, &[&str])] = &[
     ("weald-dev", &["weald-gallery", "weald"]),
     ("weald-py", &["weald-gpu", "weald"]),
     ("weald-mpi", &["weald"]),
-    ("weald-web", &["weald-studio", "weald"]),
+    ("weald-web", &["weald-studio", "weald-gpu", "weald"]),
     ("weald-cli", &["weald-studio", "weald-gallery", "weald-gpu", "weald"]),
     ("weald-studio", &["weald-gpu", "weald"]),
     (

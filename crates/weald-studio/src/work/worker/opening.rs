@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use weald::edit::Action;
+use weald::engine::Engine;
 use weald::erode::interactive_names;
 use weald::recipe::{Overrides, Recipe, Session, SessionOptions};
 use weald::{Error, Landscape};
@@ -18,6 +19,7 @@ impl Worker {
         self.shared.change(|status| {
             (status.revision, status.notes) = (opening.revision, Vec::new());
             (status.plays, status.pace) = (false, 0.0);
+            status.engine = self.in_words(&opening.engine);
         });
         self.until = None;
         if let Some(held) = self.held.as_ref().filter(|_| opening.keeps_edits) {
@@ -73,6 +75,12 @@ impl Worker {
         self.opening = Some(opening);
         self.is_finished = false;
         self.show_mask()
+    }
+
+    /// Where simulations run.
+    fn in_words(&self, engine: &Engine) -> String {
+        let why = self.without_device.as_ref().map_or_else(String::new, |why| format!(": {why}"));
+        engine.adapter().unwrap_or_else(|| format!("the processor{why}"))
     }
 
     /// Whether the recipe differs only after the step that is held, which then goes on as it is.
