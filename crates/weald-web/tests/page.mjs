@@ -410,7 +410,7 @@ async function carvedOnDevice(visitor, wanted) {
 // A stroke, another one while it runs, and all of it taken back.
 async function paintedOnDevice(visitor) {
   const [carved, before] = [await visitor.heights(), await visitor.state()];
-  await visitor.page.keyboard.press("v");
+  await visitor.page.keyboard.press("b");
   await visitor.drag("Viewport", [0.45, 0.5], [0.6, 0.55]);
   const painted = await visitor.is("a stroke", (state) => state.moments > before.moments && state.idle && state.whole);
   const raised = await visitor.heights();
