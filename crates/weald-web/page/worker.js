@@ -48,7 +48,7 @@ function take({ text, arrays }) {
 async function begun(exports, { name, isDemanded, why }) {
   try {
     if (!name) throw new Error(why);
-    if (!canWait) throw new Error("this browser cannot wait for a device; Chrome and Edge of 2025 or later can");
+    if (!canWait) throw new Error("this browser cannot wait for a device; Chrome and Edge of 2025 and Firefox of 2026 or later can");
     server = await Server.onDevice(name, isDemanded);
     const promising = WebAssembly.promising(exports.server_turn);
     work = () => promising(server.__wbg_ptr);

@@ -1,6 +1,5 @@
 //! A picture that comes back from the device.
 
-
 use weald::Error;
 use weald::picture::Image;
 use wgpu::{

@@ -89,7 +89,8 @@ impl Apart {
         let (to_worker, to_page) =
             (Rc::<RefCell<VecDeque<_>>>::default(), Arc::<Mutex<VecDeque<_>>>::default());
         let (sent, shown) = (Rc::clone(&to_worker), Arc::clone(&to_page));
-        let served = Served::new(Simulates::default(), move |parcel| shown.lock().expect("whole").push_back(parcel));
+        let served =
+            Served::new(Simulates::default(), move |parcel| shown.lock().expect("whole").push_back(parcel));
         let post = move |parcel| sent.borrow_mut().push_back(parcel);
         let remote = Rc::new(Remote::new(post, Box::new(|_, _| {})));
         let work = Work::Remote(Rc::clone(&remote));
