@@ -245,7 +245,7 @@ impl Context {
             self.tend(WAITING)?;
             match self.waiting.next(told) {
                 Err(RecvTimeoutError::Timeout) => {}
-                heard => return self.check(WAITING).map(|()| heard.ok()),
+                known => return self.check(WAITING).map(|()| known.ok()),
             }
         }
         Err(self.silent("it did not finish in time"))
