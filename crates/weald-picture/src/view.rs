@@ -13,6 +13,7 @@ mod beyond;
 mod camera;
 mod clouds;
 mod cover;
+mod crags;
 mod flow;
 mod follow;
 mod haze;

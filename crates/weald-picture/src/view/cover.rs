@@ -4,6 +4,7 @@
 //! The fields of the landscape say where each has its place, at the scale of cells. Noise moves the borders by less
 //! than that, so that they are ragged as in nature and not smooth as a field.
 
+use super::crags::{Crags, crags};
 use super::rock::{BedSpot, Beds, beds};
 use super::site::Sites;
 use super::snow::{SnowSpot, snow_share};
@@ -52,8 +53,8 @@ struct Texture {
     broad: f32,
     /// Detail finer than cells.
     fine: Grain,
-    /// Marks along the fall line.
-    streak: f32,
+    /// Ridges and gullies finer than cells.
+    crags: Crags,
     cell: f32,
     /// Share of the slopes of the fine detail that is left.
     evenness: f32,
@@ -65,9 +66,11 @@ impl Texture {
         0.6 * self.broad + 0.4 * self.fine.value
     }
 
-    /// Slopes of the fine detail.
-    fn rough(&self, strength: f32) -> [f32; 2] {
-        self.fine.slope.map(|slope| strength * self.evenness * self.cell * slope)
+    /// Slopes of the fine detail, and of ridges and gullies.
+    fn rough(&self, strength: f32, craggy: f32) -> [f32; 2] {
+        [0, 1].map(|axis| {
+            self.evenness * (strength * self.cell * self.fine.slope[axis] + craggy * self.crags.slope[axis])
+        })
     }
 }
 
@@ -77,6 +80,9 @@ const STEEPEST_CROWN: f32 = 1.5;
 
 /// Steepness from which rock begins to be bare, and is all that there is.
 const ROCK: [f32; 2] = [1.08, 1.22];
+
+/// Share of the slope of ridges and gullies that counts as that of the ground: rock is bare on their steep sides.
+const CRAGGY: f32 = 1.1;
 
 /// Height in metres above the water, and at most that share of a cell, from which trees stand.
 const SHORE: [f32; 2] = [2.5, 0.028];
@@ -126,7 +132,7 @@ impl Default for Palette {
         let [lush, meadow, dry, alpine] = [0x44_622f, 0x54_6a37, 0x78_7648, 0x62_683f].map(linear_of_hex);
         let forest = [0x22_2e19, 0x66_783e].map(linear_of_hex);
         let rock = [0x83_7c72, 0x55_4e47, 0x9a_8c7a].map(linear_of_hex);
-        let [scree, gravel, snow] = [0x95_8d80, 0xa9_9d86, 0xe4_e8ee].map(linear_of_hex);
+        let [scree, gravel, snow] = [0x87_7f70, 0xa9_9d86, 0xe4_e8ee].map(linear_of_hex);
         Self { lush, meadow, dry, alpine, forest, rock, scree, gravel, snow }
     }
 }
@@ -183,43 +189,48 @@ impl Cover {
         Texture {
             broad: broad.at(spot.point, spot.footprint).value,
             fine: fine.at(spot.point, spot.footprint),
-            streak: self.streak(spot),
+            crags: crags(spot.point, spot.fall.map(|towards| -spot.slope * towards), cell, spot.footprint),
             cell,
             evenness: evenness(spot.footprint / cell),
         }
     }
 
-    /// 1 where rock is bare on the average: earlier in patches, in streaks, and where there is less than usual soil.
+    /// 1 where rock is bare on the average: earlier in patches, on the steep sides of ridges, and where there is less
+    /// than usual soil.
     fn steepness(&self, spot: &SurfacePoint, texture: &Texture) -> f32 {
         let soil = self.sites.soil(spot.place);
-        spot.slope / self.limits.rock + 0.25 * texture.patchy() + 0.55 * texture.streak + 0.4 * (0.4 - soil)
+        let [east, north] = texture.crags.slope;
+        let steeper = CRAGGY * (east * spot.fall[0] + north * spot.fall[1]);
+        (spot.slope - steeper) / self.limits.rock + 0.25 * texture.patchy() + 0.4 * (0.4 - soil)
     }
 
     fn natural(&self, spot: &SurfacePoint, texture: &Texture) -> SurfaceSample {
-        let Texture { fine, streak, .. } = *texture;
+        let Texture { fine, crags, .. } = *texture;
         let patchy = texture.patchy();
         let moisture = self.sites.moisture(spot.place);
         let high = spot.point[2] / self.limits.relief.max(1e-3);
         let grass = self.grass(moisture + 0.55 * patchy, high + 0.25 * patchy);
-        let grass = scale(grass, 1.0 + 0.5 * fine.value + 0.35 * streak);
-        let meadow = SurfaceSample { albedo: grass, bump: texture.rough(0.16) };
+        let grass = scale(grass, 1.0 + 0.5 * fine.value + 0.5 * crags.height);
+        let meadow =
+            SurfaceSample { albedo: grass, bump: texture.rough(0.12, 1.4 * ramp(spot.slope, 0.1, 0.7)) };
         let trees = self.trees(spot, moisture, patchy);
 
         let steep = self.steepness(spot, texture);
-        let pebbles = scale(self.palette.scree, 1.0 + 0.45 * fine.value + 0.4 * streak);
-        let scree = SurfaceSample { albedo: pebbles, bump: texture.rough(0.28) };
+        let pebbles = scale(self.palette.scree, 1.0 + 0.45 * fine.value);
+        let scree = SurfaceSample { albedo: pebbles, bump: texture.rough(0.28, 0.8) };
         // Scree lies just below bare rock, never covers all, and less under trees, which hold the soil; where stones fall
         // from cliffs it does cover all.
-        let apron = 1.1 * self.sites.fallen(spot.place) + 0.6 * patchy + 0.9 * streak;
+        let apron =
+            1.1 * self.sites.fallen(spot.place) + 0.6 * patchy + 0.6 * fine.value - 1.2 * crags.height;
         let apron = 0.9 * ramp(apron, 0.4, 1.15) * ramp(spot.slope, 0.32, 0.55);
-        let scree_share = (0.8 * ramp(steep, 0.97, 1.10) * (1.0 - 0.6 * trees)).max(apron);
+        let scree_share = (0.8 * ramp(steep, 0.97, 1.10) * (1.0 - 0.85 * trees)).max(apron);
         let stony = meadow.mixed(&scree, scree_share);
         // Rock begins where scree is whole; most ground has none.
         let bare = ramp(steep, ROCK[0], ROCK[1]);
         let ground = if bare > 0.0 { stony.mixed(&self.rock(spot, texture), bare) } else { stony };
         let snow = SurfaceSample {
-            albedo: scale(self.palette.snow, 1.0 + 0.12 * streak),
-            bump: texture.rough(0.10),
+            albedo: self.palette.snow,
+            bump: texture.rough(0.08, ramp(spot.slope, 0.2, 0.8)),
         };
         let white = self.snow(spot, texture);
         let mut open = ground.mixed(&snow, white);
@@ -240,25 +251,6 @@ impl Cover {
             bump: no_steeper(slope, STEEPEST_CROWN),
         };
         shaded.mixed(&wood, share)
-    }
-
-    /// Noise drawn out along the fall line, as water and stones leave their marks: its mean over points above and
-    /// below; 0 on gentle ground.
-    fn streak(&self, spot: &SurfacePoint) -> f32 {
-        let steep = ramp(spot.slope / self.limits.rock, 0.35, 0.8);
-        if steep <= 0.0 {
-            return 0.0;
-        }
-        // Five looks over two wavelengths along the fall line draw the noise out some three times.
-        let marks = Octaves { wavelength: 1.1 * self.limits.cell, count: 3, gain: 0.75, seed: 0x13 };
-        let along = |step: i32| {
-            let ray_length = step as f32 * 0.55 * marks.wavelength;
-            let point =
-                [spot.point[0] + ray_length * spot.fall[0], spot.point[1] + ray_length * spot.fall[1], 0.0];
-            marks.at(point, spot.footprint).value
-        };
-        // About the deviation of one look: 1/√5, and more because neighbours are alike.
-        steep * 0.55 * (-2..=2).map(along).sum::<f32>()
     }
 
     fn grass(&self, moisture: f32, high: f32) -> Linear {
@@ -295,9 +287,9 @@ impl Cover {
         let stone = scale(stone, 1.0 + 0.5 * bed.tone + 0.3 * thin.tone);
         // A third of a smooth face is dark.
         let cracks =
-            0.3 - 0.9 * texture.fine.value - 0.7 * texture.streak + 0.5 * bed.joint + 0.3 * thin.joint;
+            0.3 - 0.5 * texture.fine.value - 1.6 * texture.crags.height + 0.5 * bed.joint + 0.3 * thin.joint;
         let ledge = 0.35 * bed.ledge + 0.2 * thin.ledge;
-        let rough = texture.rough(0.45);
+        let rough = texture.rough(0.15, 2.4);
         SurfaceSample {
             albedo: mix(stone, dark, cracks.clamp(0.0, 1.0)),
             bump: [0, 1].map(|axis| rough[axis] - spot.fall[axis] * ledge),
@@ -331,7 +323,7 @@ impl Cover {
             steepness: spot.slope / self.limits.rock,
             fall: spot.fall,
             hollow: self.sites.moisture(spot.place) - 0.5,
-            noise: [texture.broad, texture.fine.value, texture.streak],
+            noise: [texture.broad, texture.fine.value, -texture.crags.height],
         })
     }
 
@@ -340,11 +332,13 @@ impl Cover {
         let steep = ramp(spot.slope, 0.5, 1.2);
         let thick = 0.03 * self.limits.relief.max(1e-3);
         let [bed, thin] = Self::bedding(spot, [thick, thick / 4.1], 0.8 * texture.broad, false);
-        let fine = (0.3 + 0.3 * steep) * texture.fine.value + 0.5 * texture.streak;
+        let fine = (0.3 - 0.15 * steep) * texture.fine.value + 0.8 * steep * texture.crags.height;
         let bedded = 0.5 * bed.tone + 0.35 * thin.tone - 0.3 * bed.joint - 0.15 * thin.joint;
         let tone = (1.0 + 0.28 * texture.broad + fine + steep * bedded).max(0.2);
-        let (rough, ledge) =
-            (texture.rough(0.12 + 0.4 * steep), steep * (0.3 * bed.ledge + 0.15 * thin.ledge));
+        let (rough, ledge) = (
+            texture.rough(0.12 - 0.05 * steep, 0.3 + 2.0 * steep),
+            steep * (0.3 * bed.ledge + 0.15 * thin.ledge),
+        );
         let bump = no_steeper([0, 1].map(|axis| rough[axis] - spot.fall[axis] * ledge), STEEPEST);
         SurfaceSample { albedo: scale(albedo, tone), bump }
     }

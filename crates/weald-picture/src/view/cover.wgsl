@@ -7,6 +7,9 @@ const STEEPEST_CROWN = 1.5;
 // Steepness from which rock begins to be bare, and is all that there is.
 const ROCK = vec2<f32>(1.08, 1.22);
 
+// Share of the slope of crags that counts as that of the ground.
+const CRAGGY = 1.1;
+
 // Height in metres above the water, and at most that share of a cell, from which trees stand.
 const SHORE = vec2<f32>(2.5, 0.028);
 
@@ -35,7 +38,7 @@ struct SurfaceSample {
 struct Texture {
     broad: f32,
     fine: Grain,
-    streak: f32,
+    crags: Crags,
     evenness: f32,
 }
 
@@ -55,8 +58,8 @@ fn no_steeper(bump: vec2<f32>, steepest: f32) -> vec2<f32> {
     return bump / sqrt(1.0 + dot(bump, bump) / (steepest * steepest));
 }
 
-fn rough(texture: Texture, strength: f32) -> vec2<f32> {
-    return strength * texture.evenness * scene.scale.x * texture.fine.slope;
+fn rough(texture: Texture, strength: f32, craggy: f32) -> vec2<f32> {
+    return texture.evenness * (strength * scene.scale.x * texture.fine.slope + craggy * texture.crags.slope);
 }
 
 fn patchy_of(texture: Texture) -> f32 {
@@ -68,14 +71,15 @@ fn texture_of(spot: SurfacePoint) -> Texture {
     var texture: Texture;
     texture.broad = octaves_at(Octaves(26.0 * cell, 5u, 0.55, 0x11u), spot.point.xy, spot.footprint).value;
     texture.fine = octaves_at(Octaves(2.4 * cell, 7u, 0.66, 0x12u), spot.point.xy, spot.footprint);
-    texture.streak = streak(spot);
+    texture.crags = crags_at(spot.point, -spot.slope * spot.fall, cell, spot.footprint);
     texture.evenness = pow(clamp(2.0 * spot.footprint / cell, 0.075, 1.0), 0.4);
     return texture;
 }
 
 // 1 where rock is bare on the average.
 fn steepness(spot: SurfacePoint, texture: Texture, soil: f32) -> f32 {
-    return spot.slope / scene.limits.x + 0.25 * patchy_of(texture) + 0.55 * texture.streak + 0.4 * (0.4 - soil);
+    let steeper = CRAGGY * dot(texture.crags.slope, spot.fall);
+    return (spot.slope - steeper) / scene.limits.x + 0.25 * patchy_of(texture) + 0.4 * (0.4 - soil);
 }
 
 // How densely trees stand at a point of natural ground.
@@ -108,22 +112,23 @@ fn cover_at(spot: SurfacePoint) -> SurfaceSample {
 fn natural(spot: SurfacePoint, texture: Texture) -> SurfaceSample {
     let fine = texture.fine.value;
     let patchy = patchy_of(texture);
+    let ridge = texture.crags.height;
     let here = smooth_at(site, spot.place);
     let moisture = here.x;
     let high = spot.point.z / max(scene.limits.w, 1e-3);
-    let turf = grass(moisture + 0.55 * patchy, high + 0.25 * patchy) * (1.0 + 0.5 * fine + 0.35 * texture.streak);
+    let turf = grass(moisture + 0.55 * patchy, high + 0.25 * patchy) * (1.0 + 0.5 * fine + 0.5 * ridge);
     let wooded = trees(spot, moisture, patchy);
-    let meadow = SurfaceSample(turf, rough(texture, 0.16), vec4<f32>(0.0));
+    let meadow = SurfaceSample(turf, rough(texture, 0.12, 1.4 * ramp(spot.slope, 0.1, 0.7)), vec4<f32>(0.0));
 
     let steep = steepness(spot, texture, here.y);
-    let pebbles = scene.scree.xyz * (1.0 + 0.45 * fine + 0.4 * texture.streak);
-    let scree = SurfaceSample(pebbles, rough(texture, 0.28), vec4<f32>(0.0, 1.0, 0.0, 0.0));
-    let fallen = 1.1 * here.w + 0.6 * patchy + 0.9 * texture.streak;
+    let pebbles = scene.scree.xyz * (1.0 + 0.45 * fine);
+    let scree = SurfaceSample(pebbles, rough(texture, 0.28, 0.8), vec4<f32>(0.0, 1.0, 0.0, 0.0));
+    let fallen = 1.1 * here.w + 0.6 * patchy + 0.6 * fine - 1.2 * ridge;
     let apron = 0.9 * ramp(fallen, 0.4, 1.15) * ramp(spot.slope, 0.32, 0.55);
-    let stony = mixed(meadow, scree, max(0.8 * ramp(steep, 0.97, 1.10) * (1.0 - 0.6 * wooded), apron));
+    let stony = mixed(meadow, scree, max(0.8 * ramp(steep, 0.97, 1.10) * (1.0 - 0.85 * wooded), apron));
     let bare = ramp(steep, ROCK.x, ROCK.y);
     let ground = mixed(stony, rock(spot, texture), bare);
-    let snow = SurfaceSample(scene.snow.xyz * (1.0 + 0.12 * texture.streak), rough(texture, 0.10), vec4<f32>(0.0, 0.0, 0.0, 1.0));
+    let snow = SurfaceSample(scene.snow.xyz, rough(texture, 0.08, ramp(spot.slope, 0.2, 0.8)), vec4<f32>(0.0, 0.0, 0.0, 1.0));
     let white = snow_at(spot, texture, moisture);
     var open = mixed(ground, snow, white);
     open.bump = no_steeper(open.bump, STEEPEST);
@@ -138,21 +143,6 @@ fn under_trees(spot: SurfacePoint, open: SurfaceSample, density: f32) -> Surface
     let crown = mix(scene.forest_dark.xyz, scene.forest_light.xyz, clamp(canopy.tone, 0.0, 1.0));
     let wood = SurfaceSample(crown, no_steeper(canopy.slope, STEEPEST_CROWN), vec4<f32>(1.0, 0.0, 0.0, 0.0));
     return mixed(shaded, wood, canopy.share * (1.0 - trees_drawn));
-}
-
-// Noise drawn out along the fall line.
-fn streak(spot: SurfacePoint) -> f32 {
-    let steep = ramp(spot.slope / scene.limits.x, 0.35, 0.8);
-    if steep <= 0.0 {
-        return 0.0;
-    }
-    let marks = Octaves(1.1 * scene.scale.x, 3u, 0.75, 0x13u);
-    var sum = 0.0;
-    for (var step = -2; step <= 2; step++) {
-        let ray_length = f32(step) * 0.55 * marks.wavelength;
-        sum += octaves_at(marks, spot.point.xy + ray_length * spot.fall, spot.footprint).value;
-    }
-    return steep * 0.55 * sum;
 }
 
 fn grass(moisture: f32, high: f32) -> vec3<f32> {
@@ -182,10 +172,10 @@ fn rock(spot: SurfacePoint, texture: Texture) -> SurfaceSample {
     let tone = 1.0 + 0.5 * bedding.thick.tone + 0.3 * bedding.thin.tone;
     let stone = mix(scene.rock_grey.xyz, scene.rock_warm.xyz, clamp(warmth, 0.0, 1.0)) * tone;
     let joints = 0.5 * bedding.thick.joint + 0.3 * bedding.thin.joint;
-    let cracks = 0.3 - 0.9 * texture.fine.value - 0.7 * texture.streak + joints;
+    let cracks = 0.3 - 0.5 * texture.fine.value - 1.6 * texture.crags.height + joints;
     let ledge = 0.35 * bedding.thick.ledge + 0.2 * bedding.thin.ledge;
     let albedo = mix(stone, scene.rock_dark.xyz, clamp(cracks, 0.0, 1.0));
-    return SurfaceSample(albedo, rough(texture, 0.45) - spot.fall * ledge, vec4<f32>(0.0, 0.0, 1.0, 0.0));
+    return SurfaceSample(albedo, rough(texture, 0.15, 2.4) - spot.fall * ledge, vec4<f32>(0.0, 0.0, 1.0, 0.0));
 }
 
 struct Bedding {
@@ -209,7 +199,7 @@ fn snow_at(spot: SurfacePoint, texture: Texture, moisture: f32) -> f32 {
         return 0.0;
     }
     let above = (spot.point.z - scene.limits.z) / max(scene.limits.w, 1e-3);
-    let noise = vec3<f32>(texture.broad, texture.fine.value, texture.streak);
+    let noise = vec3<f32>(texture.broad, texture.fine.value, -texture.crags.height);
     return snow_share(SnowSpot(above, spot.slope, spot.slope / scene.limits.x, spot.fall, moisture - 0.5, noise));
 }
 
@@ -217,11 +207,11 @@ fn of_material(spot: SurfacePoint, albedo: vec3<f32>, texture: Texture) -> Surfa
     let steep = ramp(spot.slope, 0.5, 1.2);
     let thick = 0.03 * max(scene.limits.w, 1e-3);
     let bedding = bedding_at(spot, vec2<f32>(thick, thick / 4.1), 0.8 * texture.broad, false);
-    let fine = (0.3 + 0.3 * steep) * texture.fine.value + 0.5 * texture.streak;
+    let fine = (0.3 - 0.15 * steep) * texture.fine.value + 0.8 * steep * texture.crags.height;
     let tones = 0.5 * bedding.thick.tone + 0.35 * bedding.thin.tone;
     let bedded = tones - 0.3 * bedding.thick.joint - 0.15 * bedding.thin.joint;
     let tone = max(1.0 + 0.28 * texture.broad + fine + steep * bedded, 0.2);
     let ledge = steep * (0.3 * bedding.thick.ledge + 0.15 * bedding.thin.ledge);
-    let bump = no_steeper(rough(texture, 0.12 + 0.4 * steep) - spot.fall * ledge, STEEPEST);
+    let bump = no_steeper(rough(texture, 0.12 - 0.05 * steep, 0.3 + 2.0 * steep) - spot.fall * ledge, STEEPEST);
     return SurfaceSample(albedo * tone, bump, vec4<f32>(0.0, 0.3, 0.7 * steep, 0.0));
 }

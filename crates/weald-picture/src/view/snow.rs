@@ -26,20 +26,20 @@ pub(super) struct SnowSpot {
     pub(super) fall: [f32; 2],
     /// From -0.5 on crests to 0.5 in hollows.
     pub(super) hollow: f32,
-    /// Noise: patches of many cells, detail finer than a cell, marks along the fall line.
+    /// Noise: patches of many cells, detail finer than a cell, gullies.
     pub(super) noise: [f32; 3],
 }
 
 /// Share of the ground that snow hides.
 pub(super) fn snow_share(spot: &SnowSpot) -> f32 {
-    let [broad, fine, streak] = spot.noise;
+    let [broad, fine, gully] = spot.noise;
     let sloping = ramp(spot.slope, 0.1, 0.6);
     let aspect = sloping * (SUN * spot.fall[1] + WIND * spot.fall[0]);
     // It slides off what is a third steeper than bare rock.
     let hold = (1.3 - spot.steepness).min(0.6);
     let score = spot.above / SCALE + aspect + 1.6 * hold + 1.3 * spot.hollow;
     let whole = ramp(score, -0.2, 2.0);
-    let patches = 4.0 * whole * (1.0 - whole) * (0.45 * broad + 1.0 * fine + 0.5 * streak);
+    let patches = 4.0 * whole * (1.0 - whole) * (0.45 * broad + 1.0 * fine + 0.5 * gully);
     let dusting = 0.35 * ramp(score, -0.2, 1.2) * (0.6 + fine).clamp(0.0, 1.0);
     ramp(whole + patches, 0.38, 0.62).max(dusting)
 }

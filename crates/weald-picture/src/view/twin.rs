@@ -17,7 +17,8 @@ const LIGHT: [&str; 7] = [
 ];
 
 /// Those of ground and water, which call them.
-const GROUND: [&str; 9] = [
+const GROUND: [&str; 10] = [
+    include_str!("crags.wgsl"),
     include_str!("rock.wgsl"),
     include_str!("snow.wgsl"),
     include_str!("woods.wgsl"),

@@ -1,0 +1,127 @@
+//! Ridges and gullies that are finer than cells, on whatever plane the ground faces, so that none is drawn out along cliffs.
+//!
+//! Noise that is folded at 0 has sharp crests: the ridged noise of Musgrave (Ebert and others 2003, "Texturing and Modeling",
+//! chapter 16), summed up in octaves that fade before they could flicker.
+
+use weald_core::grain::{grain, visible};
+
+/// The longest wavelength in cells, the number of octaves, and what each is against the one before, which is twice as long.
+const CELLS: f32 = 5.0;
+const OCTAVES: u32 = 5;
+const GAIN: f32 = 0.55;
+
+/// How round crests are: the square of the value below which noise is not folded.
+const SHARP: f32 = 0.004;
+
+/// The mean of folded noise.
+const MEAN: f32 = 0.21;
+
+/// Share below which a plane is not seen.
+const LEAST: f32 = 0.08;
+
+/// Ridges and gullies at a point.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Crags {
+    /// Height over the side of a cell, from about -0.5 in gullies to 0.3 on ridges.
+    pub(super) height: f32,
+    /// Rise over run, eastward and northward.
+    pub(super) slope: [f32; 2],
+}
+
+/// A plane on which they stand, and how it is looked at.
+struct Plane {
+    place: [f32; 2],
+    /// Share of it that is seen.
+    share: f32,
+    cell: f32,
+    footprint: f32,
+    seed: u32,
+}
+
+/// Height, and slopes along a plane.
+fn crags_on(plane: &Plane) -> [f32; 3] {
+    let mut sum = [0.0; 3];
+    let (mut strength, mut wavelength) = (plane.share, CELLS * plane.cell);
+    let (mut place, mut turn) = (plane.place, [1.0_f32, 0.0]);
+    for octave in 0..OCTAVES {
+        let seen = strength * visible(plane.footprint, wavelength);
+        if seen <= 0.0 {
+            break;
+        }
+        let here = grain(
+            place.map(|metres| metres / wavelength),
+            plane.seed.wrapping_add(octave.wrapping_mul(0x9e37_79b9)),
+        );
+        let sharp = (here.value * here.value + SHARP).sqrt();
+        let [a, b] = here.slope.map(|slope| -seen * here.value * plane.cell / (sharp * wavelength) * slope);
+        sum[0] += seen * (MEAN - sharp);
+        sum[1] += turn[0] * a - turn[1] * b;
+        sum[2] += turn[1] * a + turn[0] * b;
+        place = [0.8 * place[0] + 0.6 * place[1], 0.8 * place[1] - 0.6 * place[0]];
+        turn = [0.8 * turn[0] - 0.6 * turn[1], 0.8 * turn[1] + 0.6 * turn[0]];
+        strength *= GAIN;
+        wavelength *= 0.5;
+    }
+    sum
+}
+
+/// Ridges and gullies on ground that rises so eastward and northward, for a pixel of that footprint; lengths in metres.
+pub(super) fn crags(point: [f32; 3], rise: [f32; 2], cell: f32, footprint: f32) -> Crags {
+    let facing = [rise[0], rise[1], 1.0].map(|part: f32| part * part * part * part);
+    let sum: f32 = facing.iter().sum();
+    let faced = facing.map(|part| (part / sum - LEAST).max(0.0));
+    let whole: f32 = faced.iter().sum();
+    let [x, y, z] = point;
+    let on = |axis: usize, place: [f32; 2]| {
+        crags_on(&Plane { place, share: faced[axis] / whole, cell, footprint, seed: 0x13 + axis as u32 })
+    };
+    let [east, north, level] = [on(0, [y, z]), on(1, [x, z]), on(2, [x, y])];
+    // What stands out of an upright plane is higher by what the ground rises there.
+    let upward = east[2] + north[2];
+    Crags {
+        height: east[0] + north[0] + level[0],
+        slope: [north[1] + level[1] + upward * rise[0], east[1] + level[2] + upward * rise[1]],
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The deviation of the change of height over a metre along a direction, on a face that rises eastward.
+    fn change(rise: f32, [x, y, z]: [f32; 3]) -> f32 {
+        let at = |point: [f32; 3]| crags(point, [rise, 0.0], 10.0, 0.1).height;
+        let squares = (0..2000).map(|step| {
+            let start = [step as f32 * 13.7, step as f32 * -7.9, step as f32 * 3.3];
+            (at([start[0] + x, start[1] + y, start[2] + z]) - at(start)).powi(2)
+        });
+        (squares.sum::<f32>() / 2000.0).sqrt()
+    }
+
+    #[test]
+    fn on_a_cliff_they_are_not_drawn_out_downward() {
+        let along = change(4.0, [0.0, 1.0, 0.0]);
+        let length = (1.0_f32 + 16.0).sqrt();
+        let down = change(4.0, [-1.0 / length, 0.0, -4.0 / length]);
+        assert!((0.8..1.25).contains(&(down / along)), "{down} downward, {along} along");
+    }
+
+    #[test]
+    fn slopes_are_those_of_the_height_on_level_ground() {
+        for step in 0..200 {
+            let point = [step as f32 * 17.3, step as f32 * -9.1, 0.0];
+            let at = |east: f32, north: f32| {
+                10.0 * crags([point[0] + east, point[1] + north, 0.0], [0.0; 2], 10.0, 0.0).height
+            };
+            let measured = [at(0.01, 0.0) - at(-0.01, 0.0), at(0.0, 0.01) - at(0.0, -0.01)];
+            for (slope, rise) in crags(point, [0.0; 2], 10.0, 0.0).slope.iter().zip(measured) {
+                assert!((slope - rise / 0.02).abs() < 0.05, "{slope} for {}", rise / 0.02);
+            }
+        }
+    }
+
+    #[test]
+    fn none_is_seen_from_afar() {
+        assert_eq!(crags([3.0, 4.0, 5.0], [0.5, 0.2], 10.0, 60.0), Crags::default());
+    }
+}
