@@ -202,18 +202,21 @@ pub(super) fn swash_width(level: f32, sea: f32) -> f32 {
 }
 
 /// Share of foam on water at so many metres from its edge, where waves run up and down over a width: the line of each
-/// moves, and leaves lace behind.
+/// moves, and leaves lace behind. Some stretches of a shore lie open and others are sheltered; ponds have next to none.
 pub(super) fn swash(point: Vector, away: f32, width: f32, [seconds, footprint]: [f32; 2]) -> f32 {
     let seen = 1.0 - ramp(footprint / width, 0.2, 0.8);
     let along = Octaves { wavelength: 6.0 * width, count: 2, gain: 0.5, seed: 0x5d }.at(point, 0.0).value;
     let lace =
         Octaves { wavelength: 0.2 * width, count: 4, gain: 0.65, seed: 0x5e }.at(point, footprint).value;
+    let stretch = Octaves { wavelength: 35.0 * width, count: 2, gain: 0.6, seed: 0x5f }.at(point, 0.0).value;
+    let open = ramp(stretch, -0.2, 0.4);
+    let strength = (0.25 * width).clamp(0.0, 1.0) * (0.2 + 0.8 * open);
     let turn = seconds / (2.0 * width.sqrt() + 2.0) + 1.5 * along;
     let front = 0.42 + 0.36 * libm::sinf(std::f32::consts::TAU * turn) + 0.12 * lace;
-    let behind = front - away / width;
+    let behind = front - away / (width * (0.35 + 0.65 * open));
     let line = libm::expf(-90.0 * behind * behind) * (0.6 + 0.9 * lace);
     let left = ramp(behind, 0.0, 0.1) * ramp(lace, 0.05, 0.35);
-    seen * (line + 0.6 * left).clamp(0.0, 0.9)
+    seen * strength * (line + 0.6 * left).clamp(0.0, 0.9)
 }
 
 /// The colour of ground at a water's edge: where waves reach, to a height that is drawn so, wet ground is darker.

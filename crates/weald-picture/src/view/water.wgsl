@@ -54,12 +54,15 @@ fn swash(point: vec2<f32>, away: f32, width: f32, seconds: f32, footprint: f32) 
     let seen = 1.0 - ramp(footprint / width, 0.2, 0.8);
     let along = octaves_at(Octaves(6.0 * width, 2u, 0.5, 0x5du), point, 0.0).value;
     let lace = octaves_at(Octaves(0.2 * width, 4u, 0.65, 0x5eu), point, footprint).value;
+    let stretch = octaves_at(Octaves(35.0 * width, 2u, 0.6, 0x5fu), point, 0.0).value;
+    let open = ramp(stretch, -0.2, 0.4);
+    let strength = clamp(0.25 * width, 0.0, 1.0) * (0.2 + 0.8 * open);
     let turn = seconds / (2.0 * sqrt(width) + 2.0) + 1.5 * along;
     let front = 0.42 + 0.36 * sin(2.0 * PI * turn) + 0.12 * lace;
-    let behind = front - away / width;
+    let behind = front - away / (width * (0.35 + 0.65 * open));
     let line = exp(-90.0 * behind * behind) * (0.6 + 0.9 * lace);
     let left = ramp(behind, 0.0, 0.1) * ramp(lace, 0.05, 0.35);
-    return seen * clamp(line + 0.6 * left, 0.0, 0.9);
+    return seen * strength * clamp(line + 0.6 * left, 0.0, 0.9);
 }
 
 // The colour of ground at a water's edge: where waves reach, to a height that is drawn so, wet ground is darker.
