@@ -200,7 +200,8 @@ impl Cover {
     fn steepness(&self, spot: &SurfacePoint, texture: &Texture) -> f32 {
         let soil = self.sites.soil(spot.place);
         let [east, north] = texture.crags.slope;
-        let steeper = CRAGGY * (east * spot.fall[0] + north * spot.fall[1]);
+        let hilly = ramp(spot.slope / self.limits.rock, 0.35, 0.8);
+        let steeper = CRAGGY * hilly * (east * spot.fall[0] + north * spot.fall[1]);
         (spot.slope - steeper) / self.limits.rock + 0.25 * texture.patchy() + 0.4 * (0.4 - soil)
     }
 
@@ -220,9 +221,9 @@ impl Cover {
         let scree = SurfaceSample { albedo: pebbles, bump: texture.rough(0.28, 0.8) };
         // Scree lies just below bare rock, never covers all, and less under trees, which hold the soil; where stones fall
         // from cliffs it does cover all.
-        let apron =
-            1.1 * self.sites.fallen(spot.place) + 0.6 * patchy + 0.6 * fine.value - 1.2 * crags.height;
-        let apron = 0.9 * ramp(apron, 0.4, 1.15) * ramp(spot.slope, 0.32, 0.55);
+        let fallen = self.sites.fallen(spot.place);
+        let uneven = ramp(fallen, 0.0, 0.2) * (0.6 * patchy + 0.6 * fine.value - 1.2 * crags.height);
+        let apron = 0.9 * ramp(1.1 * fallen + uneven, 0.4, 1.15) * ramp(spot.slope, 0.32, 0.55);
         let scree_share = (0.8 * ramp(steep, 0.97, 1.10) * (1.0 - 0.85 * trees)).max(apron);
         let stony = meadow.mixed(&scree, scree_share);
         // Rock begins where scree is whole; most ground has none.

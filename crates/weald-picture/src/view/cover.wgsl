@@ -78,7 +78,8 @@ fn texture_of(spot: SurfacePoint) -> Texture {
 
 // 1 where rock is bare on the average.
 fn steepness(spot: SurfacePoint, texture: Texture, soil: f32) -> f32 {
-    let steeper = CRAGGY * dot(texture.crags.slope, spot.fall);
+    let hilly = ramp(spot.slope / scene.limits.x, 0.35, 0.8);
+    let steeper = CRAGGY * hilly * dot(texture.crags.slope, spot.fall);
     return (spot.slope - steeper) / scene.limits.x + 0.25 * patchy_of(texture) + 0.4 * (0.4 - soil);
 }
 
@@ -123,7 +124,7 @@ fn natural(spot: SurfacePoint, texture: Texture) -> SurfaceSample {
     let steep = steepness(spot, texture, here.y);
     let pebbles = scene.scree.xyz * (1.0 + 0.45 * fine);
     let scree = SurfaceSample(pebbles, rough(texture, 0.28, 0.8), vec4<f32>(0.0, 1.0, 0.0, 0.0));
-    let fallen = 1.1 * here.w + 0.6 * patchy + 0.6 * fine - 1.2 * ridge;
+    let fallen = 1.1 * here.w + ramp(here.w, 0.0, 0.2) * (0.6 * patchy + 0.6 * fine - 1.2 * ridge);
     let apron = 0.9 * ramp(fallen, 0.4, 1.15) * ramp(spot.slope, 0.32, 0.55);
     let stony = mixed(meadow, scree, max(0.8 * ramp(steep, 0.97, 1.10) * (1.0 - 0.85 * wooded), apron));
     let bare = ramp(steep, ROCK.x, ROCK.y);
