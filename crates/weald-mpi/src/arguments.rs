@@ -39,7 +39,7 @@ pub(crate) struct BenchArguments {
     /// Latency between nodes in microseconds, in place of what is measured
     #[arg(long, value_name = "MICROSECONDS")]
     pub(crate) latency: Option<f64>,
-    /// Bandwidth between two nodes in gigabytes a second, in place of what is measured
+    /// Bandwidth between two nodes in gigabytes per second, in place of what is measured
     #[arg(long, value_name = "GIGABYTES")]
     pub(crate) bandwidth: Option<f64>,
     /// Threads of each rank [default: the cores of its machine, shared among the ranks there]

@@ -138,7 +138,7 @@ fn seconds_a_step(arguments: &BenchArguments, engine: &Engine) -> Result<f64, Er
     Ok((long - short).max(1e-9) / f64::from(arguments.steps))
 }
 
-/// Seconds of a short message, and bytes a second of long ones, between the first two ranks; a rank alone has no messages.
+/// Seconds of a short message, and bytes per second of long ones, between the first two ranks; a rank alone has no messages.
 fn messages(ranks: &dyn Ranks) -> Result<[f64; 2], Error> {
     let (rank, count) = (ranks.rank(), ranks.count());
     let once = |bytes: usize, times: u32| -> Result<f64, Error> {

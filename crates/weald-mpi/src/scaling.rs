@@ -16,7 +16,7 @@ pub(crate) struct Machine {
     pub(crate) rate: f64,
     /// Seconds until a short message is there.
     pub(crate) latency: f64,
-    /// Bytes a second to one neighbour.
+    /// Bytes per second to one neighbour.
     pub(crate) bandwidth: f64,
 }
 

@@ -43,7 +43,7 @@ impl Codecs {
         let order = match listed.split_first() {
             Some((codec, rest)) if name(codec) == "transpose" => {
                 listed = rest;
-                let order = super::metadata::lengths(&codec["configuration"]["order"]);
+                let order = lengths(&codec["configuration"]["order"]);
                 Some(
                     order
                         .ok_or_else(|| Fault::damaged(format!("`{array}`: a transpose without an order")))?,
@@ -108,6 +108,11 @@ impl Codecs {
         }
         Ok(bytes)
     }
+}
+
+/// Numbers of a list, where it is one of lengths.
+pub(super) fn lengths(list: &Value) -> Option<Vec<usize>> {
+    list.as_array()?.iter().map(|length| usize::try_from(length.as_u64()?).ok()).collect()
 }
 
 fn name(codec: &Value) -> &str {

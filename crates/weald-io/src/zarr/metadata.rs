@@ -6,7 +6,7 @@ use super::super::Fault;
 use super::super::cf::{Attributes, Described};
 use super::super::number::Number;
 use super::attributes;
-use super::codec::Codecs;
+use super::codec::{Codecs, lengths};
 use super::shard::{Sharded, Shards};
 
 /// Name of the description in a group's or an array's folder.
@@ -147,10 +147,6 @@ impl Storage {
 fn damaged(name: &str, key: &str, value: &Value) -> Fault {
     let shown: String = value.to_string().chars().take(200).collect();
     Fault::damaged(format!("`{name}`: `{key}` is {shown}, which Zarr does not have or Weald not read"))
-}
-
-pub(super) fn lengths(list: &Value) -> Option<Vec<usize>> {
-    list.as_array()?.iter().map(|length| usize::try_from(length.as_u64()?).ok()).collect()
 }
 
 /// The number behind a `fill_value`: as such, by name, or as the digits of its bits.

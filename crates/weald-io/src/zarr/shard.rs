@@ -8,7 +8,7 @@ use std::ops::Range;
 use serde_json::Value;
 
 use super::super::Fault;
-use super::codec::Codecs;
+use super::codec::{Codecs, lengths};
 
 /// Bytes of a chunk in the index.
 const ENTRY: usize = 16;
@@ -40,7 +40,7 @@ impl<'a> Sharded<'a> {
             return Ok(None);
         }
         let keys = &codec["configuration"];
-        let chunk = super::metadata::lengths(&keys["chunk_shape"]).filter(|chunk| {
+        let chunk = lengths(&keys["chunk_shape"]).filter(|chunk| {
             let fills = |(shard, chunk): (&usize, &usize)| *chunk > 0 && shard.is_multiple_of(*chunk);
             chunk.len() == shard.len() && shard.iter().zip(chunk).all(fills)
         });

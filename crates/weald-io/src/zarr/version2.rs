@@ -25,10 +25,10 @@ pub(super) fn description(parts: &dyn Parts, folder: &str, most: u64) -> Result<
         json.map(Some).map_err(|cause| Fault::damaged(format!("{}: {cause}", within(name))))
     };
     if let Some(array) = read(ARRAY)? {
-        return array_of(&array, read(ATTRIBUTES)?.as_ref()).map(Some);
+        return Ok(Some(array_of(&array, read(ATTRIBUTES)?.as_ref())));
     }
     if let Some(all) = read(ALL)? {
-        return group_of(&all["metadata"]).map(Some);
+        return Ok(Some(group_of(&all["metadata"])));
     }
     let Some(_) = read(".zgroup")? else { return Ok(None) };
     let attributes = read(ATTRIBUTES)?.unwrap_or_else(|| json!({}));
@@ -36,25 +36,25 @@ pub(super) fn description(parts: &dyn Parts, folder: &str, most: u64) -> Result<
 }
 
 /// A group with the arrays that consolidated metadata list.
-fn group_of(listed: &Value) -> Result<Value, Fault> {
+fn group_of(listed: &Value) -> Value {
     let none = Map::new();
     let listed = listed.as_object().unwrap_or(&none);
     let mut nodes = Map::new();
     for (key, array) in listed {
         if let Some(name) = key.strip_suffix(ARRAY).and_then(|name| name.strip_suffix('/')) {
             let attributes = listed.get(&format!("{name}/{ATTRIBUTES}"));
-            nodes.insert(name.to_owned(), array_of(array, attributes)?);
+            nodes.insert(name.to_owned(), array_of(array, attributes));
         }
     }
     let attributes = listed.get(ATTRIBUTES).cloned().unwrap_or_else(|| json!({}));
-    Ok(json!({
+    json!({
         "zarr_format": 2, "node_type": "group", "attributes": attributes,
         "consolidated_metadata": { "metadata": nodes },
-    }))
+    })
 }
 
 /// An array as version 3 describes it.
-fn array_of(array: &Value, attributes: Option<&Value>) -> Result<Value, Fault> {
+fn array_of(array: &Value, attributes: Option<&Value>) -> Value {
     let (data_type, endian) = data_type(array["dtype"].as_str().unwrap_or_default());
     let dimensions = array["shape"].as_array().map_or(0, Vec::len);
     let backwards: Vec<usize> = (0..dimensions).rev().collect();
@@ -71,7 +71,7 @@ fn array_of(array: &Value, attributes: Option<&Value>) -> Result<Value, Fault> {
     if fill.is_number() && attributes.get("_FillValue").is_none() {
         attributes["_FillValue"] = fill.clone();
     }
-    Ok(json!({
+    json!({
         "zarr_format": 2, "node_type": "array",
         "shape": array["shape"], "data_type": data_type,
         "chunk_grid": { "name": "regular", "configuration": { "chunk_shape": array["chunks"] } },
@@ -79,7 +79,7 @@ fn array_of(array: &Value, attributes: Option<&Value>) -> Result<Value, Fault> {
         "fill_value": absent,
         "codecs": codecs,
         "dimension_names": attributes["_ARRAY_DIMENSIONS"], "attributes": attributes,
-    }))
+    })
 }
 
 /// A compressor or filter, `{"id": "zlib", "level": 1}`, under its name.
@@ -111,14 +111,14 @@ mod tests {
         let array = json!({ "shape": [5, 7], "chunks": [2, 3], "dtype": ">i2", "order": "C", "fill_value": -7,
             "compressor": { "id": "zlib", "level": 1 }, "filters": null, "zarr_format": 2 });
         let attributes = json!({ "_ARRAY_DIMENSIONS": ["y", "x"] });
-        let new = array_of(&array, Some(&attributes)).expect("read");
+        let new = array_of(&array, Some(&attributes));
         assert_eq!((&new["data_type"], &new["dimension_names"]), (&json!("int16"), &json!(["y", "x"])));
         assert_eq!(new["codecs"][0]["configuration"]["endian"], "big");
         assert_eq!(
             (&new["codecs"][1]["name"], &new["attributes"]["_FillValue"]),
             (&json!("zlib"), &json!(-7))
         );
-        let turned = array_of(&json!({ "shape": [5, 7], "order": "F", "dtype": "<f4" }), None).expect("read");
+        let turned = array_of(&json!({ "shape": [5, 7], "order": "F", "dtype": "<f4" }), None);
         assert_eq!(turned["codecs"][0]["configuration"]["order"], json!([1, 0]));
         for odd in ["", "<", "é", "|S3", "<f999999999999"] {
             assert_eq!(data_type(odd).0, odd);

@@ -16,7 +16,7 @@ use weald_io::write_whole;
 pub(super) const TIMINGS_FILE: &str = "timings.json";
 
 /// Most times that are kept: the oldest go first.
-const MOST: usize = 4000;
+const MAX_TIMINGS: usize = 4000;
 
 /// Greatest exponent with which time grows with work: more is what noise makes of two times that are close.
 const STEEPEST: f64 = 1.5;
@@ -74,7 +74,7 @@ impl Timings {
         let is_same = |old: &Timing, new: &Timing| old.task == new.task && old.amount == new.amount;
         all.retain(|old| !new.iter().any(|new| is_same(old, new)));
         all.extend(new);
-        let all = all.split_off(all.len().saturating_sub(MOST));
+        let all = all.split_off(all.len().saturating_sub(MAX_TIMINGS));
         let text = serde_json::to_vec(&Self { version: env!("CARGO_PKG_VERSION").to_owned(), all });
         files::create_dir_all(folder)
             .map_err(|cause| Error::Run(format!("{}: {cause}", folder.display())))?;
@@ -190,9 +190,9 @@ mod tests {
         let kept = Timings::read(folder.path());
         assert_eq!(kept.all.len(), 2);
         assert!(near(kept.seconds(&task("a", 2), 1000.0), 2.0), "the later one");
-        let many = (0..MOST).map(|number| took("b", number as f64, 1.0)).collect();
+        let many = (0..MAX_TIMINGS).map(|number| took("b", number as f64, 1.0)).collect();
         Timings::keep(folder.path(), many).expect("written");
-        assert_eq!(Timings::read(folder.path()).all.len(), MOST);
+        assert_eq!(Timings::read(folder.path()).all.len(), MAX_TIMINGS);
         std::fs::write(folder.path().join(TIMINGS_FILE), "[").expect("written");
         assert_eq!(Timings::read(folder.path()), Timings::default());
     }

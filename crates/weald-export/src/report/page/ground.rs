@@ -73,12 +73,12 @@ impl Ground {
 fn heights_of_land(land: &Landscape, height: &Field) -> Vec<f32> {
     let sea = sea::cells(land, height);
     let has_data = |cell: usize| land.domain.valid.as_ref().is_none_or(|mask| mask.is_valid_at(cell));
-    let is_land = |cell: usize| sea.as_ref().is_none_or(|sea| !sea[cell]);
+    let is_dry = |cell: usize| sea.as_ref().is_none_or(|sea| !sea[cell]);
     let those = |wanted: &dyn Fn(usize) -> bool| -> Vec<f32> {
         let cells = height.values().iter().enumerate().filter(|&(cell, _)| wanted(cell));
         cells.map(|(_, &height)| height).collect()
     };
-    let heights = those(&|cell| has_data(cell) && is_land(cell));
+    let heights = those(&|cell| has_data(cell) && is_dry(cell));
     if heights.is_empty() { those(&has_data) } else { heights }
 }
 
