@@ -3,6 +3,7 @@
 //! Hollows inland lie dry, however deep. Where a landscape has a sea level, the sea stands in its layer `water` beside
 //! rivers and lakes, so that whatever asks for water finds it, and alone in `sea_depth`.
 
+use crate::domain::Domain;
 use crate::error::Error;
 use crate::grid::{Field, Size};
 use crate::landscape::Landscape;
@@ -48,7 +49,11 @@ pub fn reach(size: Size, is_low: impl Fn(usize) -> bool, has_data: impl Fn(usize
 
 /// Which cells of a landscape with a sea level are sea, over the ground of `height` in metres; `None` without one.
 pub fn cells(landscape: &Landscape, height: &Field) -> Option<Vec<bool>> {
-    let domain = &landscape.domain;
+    cells_on(&landscape.domain, height)
+}
+
+/// The same on a grid with a sea level.
+pub fn cells_on(domain: &Domain, height: &Field) -> Option<Vec<bool>> {
     let level = domain.sea_level? as f32;
     let has_data = |cell: usize| domain.valid.as_ref().is_none_or(|valid| valid.is_valid_at(cell));
     Some(reach(domain.size, |cell| height.values()[cell] <= level, has_data))

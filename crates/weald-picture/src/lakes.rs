@@ -10,6 +10,7 @@ use super::texture::smoothed;
 use weald_core::connected::components;
 use weald_core::domain::Domain;
 use weald_core::grid::Field;
+use weald_core::sea;
 
 /// Water shallower than this share of a cell's side is a thin sheet of rain, not a lake.
 const SHALLOWEST: f64 = 0.3;
@@ -46,7 +47,7 @@ impl Lakes {
     ) -> Option<Self> {
         let usual = SHALLOWEST * domain.cell;
         let shallowest = shallowest.unwrap_or(usual);
-        let depth = deeper_than(shallowest, water, domain)?;
+        let depth = deeper_than(shallowest, [water, ground], domain)?;
         let level = shores(&depth, ground, shallowest as f32);
         // A shore that follows cells has teeth; water one cell wide is left to the lines of rivers.
         let [level, depth] = [level, depth].map(|field| smoothed(&field, 1));
@@ -70,16 +71,19 @@ impl Lakes {
     }
 }
 
-/// Depths in shallowest depths: 1 and more in lakes, less outside; `None` where there are no lakes.
-pub(super) fn depths(water: &Field, domain: &Domain) -> Option<Field> {
-    deeper_than(SHALLOWEST * domain.cell, water, domain)
+/// Depths of water over the ground in shallowest depths: 1 and more in lakes and in the sea, less outside; `None` where
+/// there are neither.
+pub(super) fn depths(over: [&Field; 2], domain: &Domain) -> Option<Field> {
+    deeper_than(SHALLOWEST * domain.cell, over, domain)
 }
 
-fn deeper_than(shallowest: f64, water: &Field, domain: &Domain) -> Option<Field> {
-    let shallowest = shallowest as f32;
+/// The sea is no sheet of rain however shallow it is: its depth counts from 1.
+fn deeper_than(shallowest: f64, [water, ground]: [&Field; 2], domain: &Domain) -> Option<Field> {
+    let (shallowest, sea) = (shallowest as f32, sea::cells_on(domain, ground));
     let relative = |(cell, &depth): (usize, &f32)| {
         let land = domain.valid.as_ref().is_none_or(|valid| valid.is_valid_at(cell));
-        if land && depth.is_finite() { depth.max(0.0) / shallowest } else { 0.0 }
+        let from = f32::from(u8::from(sea.as_ref().is_some_and(|sea| sea[cell])));
+        if land && depth.is_finite() { from + depth.max(0.0) / shallowest } else { 0.0 }
     };
     let mut depth =
         Field::from_values(water.size(), water.values().iter().enumerate().map(relative).collect());
@@ -212,6 +216,20 @@ mod tests {
         assert!((2..18).all(|x| comb.level.at(x, 11) < 1.0 && comb.level.at(x, 14) > 1.0));
         let straight = lake(|_| 2.0, None).expect("a lake");
         assert!((0..20).all(|x| straight.level.at(x, 9) < 1.0 && straight.level.at(x, 10) > 1.0));
+    }
+
+    #[test]
+    fn a_sea_too_shallow_for_a_lake_reaches_its_shore() {
+        // Two metres in a kilometre, on cells of a hundred: the sea is nowhere as deep as a lake.
+        let flat = Domain::new(Size::square(20).expect("legal"), 100.0);
+        let ground = Field::from_function(flat.size, |_, y| 0.2 * (10.3 - y as f32));
+        let depths = ground.values().iter().map(|height| (-height).max(0.0)).collect();
+        let water = Field::from_values(flat.size, depths);
+        let sheet = Sheet::new(&flat, Some(20)).expect("legal");
+        assert!(Lakes::of([&water, &ground], &flat, &sheet, None).is_none(), "a sheet of rain");
+        let by_the_sea = Domain { sea_level: Some(0.0), ..flat };
+        let sea = Lakes::of([&water, &ground], &by_the_sea, &sheet, None).expect("a sea");
+        assert!((2..18).all(|x| sea.level.at(x, 9) < 1.0 && sea.level.at(x, 12) > 1.0));
     }
 
     #[test]

@@ -117,9 +117,9 @@ pub(super) fn pace() -> f64 {
         (0..threads).into_par_iter().with_max_len(1).for_each(|thread| {
             let mut values = vec![1.0 + thread as f32; VALUES];
             for _ in 0..ROUNDS {
-                values.iter_mut().for_each(|value| {
-                    *value = 0.5 * *value + (*value * *value + 1.0).sqrt() / (*value + 2.0)
-                });
+                for value in &mut values {
+                    *value = 0.5 * *value + (*value * *value + 1.0).sqrt() / (*value + 2.0);
+                }
             }
             std::hint::black_box(&values);
         });

@@ -336,10 +336,8 @@ impl Cover {
         let fine = (0.3 - 0.15 * steep) * texture.fine.value + 0.8 * steep * texture.crags.height;
         let bedded = 0.5 * bed.tone + 0.35 * thin.tone - 0.3 * bed.joint - 0.15 * thin.joint;
         let tone = (1.0 + 0.28 * texture.broad + fine + steep * bedded).max(0.2);
-        let (rough, ledge) = (
-            texture.rough(0.12 - 0.05 * steep, 0.3 + 2.0 * steep),
-            steep * (0.3 * bed.ledge + 0.15 * thin.ledge),
-        );
+        let (rough, ledge) =
+            (texture.rough(0.05, 0.08 + 2.2 * steep), steep * (0.3 * bed.ledge + 0.15 * thin.ledge));
         let bump = no_steeper([0, 1].map(|axis| rough[axis] - spot.fall[axis] * ledge), STEEPEST);
         SurfaceSample { albedo: scale(albedo, tone), bump }
     }

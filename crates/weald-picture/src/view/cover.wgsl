@@ -213,6 +213,6 @@ fn of_material(spot: SurfacePoint, albedo: vec3<f32>, texture: Texture) -> Surfa
     let bedded = tones - 0.3 * bedding.thick.joint - 0.15 * bedding.thin.joint;
     let tone = max(1.0 + 0.28 * texture.broad + fine + steep * bedded, 0.2);
     let ledge = steep * (0.3 * bedding.thick.ledge + 0.15 * bedding.thin.ledge);
-    let bump = no_steeper(rough(texture, 0.12 - 0.05 * steep, 0.3 + 2.0 * steep) - spot.fall * ledge, STEEPEST);
+    let bump = no_steeper(rough(texture, 0.05, 0.08 + 2.2 * steep) - spot.fall * ledge, STEEPEST);
     return SurfaceSample(albedo * tone, bump, vec4<f32>(0.0, 0.3, 0.7 * steep, 0.0));
 }

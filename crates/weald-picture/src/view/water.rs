@@ -57,7 +57,7 @@ pub(super) const OPTICS: [f32; 2] = [NORMAL_REFLECTANCE, ROUGHNESS];
 pub(super) fn levels(landscape: &Landscape, ground: &Field) -> Option<Field> {
     let domain = &landscape.domain;
     let water = landscape.field("water").ok()?;
-    let lakes = lakes::depths(water, domain)?;
+    let lakes = lakes::depths([water, ground], domain)?;
     let (size, cell) = (ground.size(), domain.cell as f32);
     let is_wet = |at: usize| {
         let land = domain.valid.as_ref().is_none_or(|valid| valid.is_valid_at(at));
