@@ -325,9 +325,8 @@ fn assert_files(folder: &Path, script: &str, count: usize) {
 }
 
 /// Files that are not read, and what is said of them.
-const REFUSED: [(&str, &str); 6] = [
+const REFUSED: [(&str, &str); 5] = [
     ("four.nc", "nccopy -k classic"),
-    ("shards.zarr", "codec `sharding_indexed`"),
     ("nameless.nc", "one, other"),
     ("deep.nc", "ds.isel(time=0)"),
     ("uneven.nc", "coordinate 1 of `lon`"),
@@ -339,9 +338,7 @@ fn what_xarray_writes_in_another_way_is_refused_with_a_remedy() {
     let folder = tempfile::tempdir().expect("a folder");
     let script = format!(
         "{DATA}
-shards = {{'topographic__elevation': {{'chunks': (1, 1, 1), 'shards': (1, 2, 3)}}}}
 data.to_netcdf(path + '/four.nc', engine='netcdf4')
-data.to_zarr(path + '/shards.zarr', zarr_format=3, encoding=shards)
 for name, other in {{
     'nameless': data.rename(topographic__elevation='one'),
     'deep': xarray.concat([data, data], 'time'),
