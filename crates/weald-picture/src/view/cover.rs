@@ -175,7 +175,7 @@ impl Cover {
     pub(super) fn density(&self, spot: &SurfacePoint) -> f32 {
         let texture = self.texture(spot);
         let trees = self.trees(spot, self.sites.moisture(spot.place), texture.patchy());
-        let bare = ramp(self.steepness(spot, &texture), ROCK[0], ROCK[1]);
+        let bare = ramp(self.slope_of_cells(spot, &texture), ROCK[0], ROCK[1]);
         trees * (1.0 - bare) * (1.0 - self.snow(spot, &texture))
     }
 
@@ -195,14 +195,19 @@ impl Cover {
         }
     }
 
-    /// 1 where rock is bare on the average: earlier in patches, on the steep sides of ridges, and where there is less
-    /// than usual soil.
-    fn steepness(&self, spot: &SurfacePoint, texture: &Texture) -> f32 {
+    /// 1 where rock is bare on the average: earlier in patches, and where there is less than usual soil. Trees stand by this,
+    /// which is the same from near and from afar.
+    fn slope_of_cells(&self, spot: &SurfacePoint, texture: &Texture) -> f32 {
         let soil = self.sites.soil(spot.place);
+        spot.slope / self.limits.rock + 0.25 * texture.patchy() + 0.4 * (0.4 - soil)
+    }
+
+    /// The same, and more on the steep sides of ridges that are finer than cells.
+    fn steepness(&self, spot: &SurfacePoint, texture: &Texture) -> f32 {
         let [east, north] = texture.crags.slope;
         let hilly = ramp(spot.slope / self.limits.rock, 0.35, 0.8);
         let steeper = CRAGGY * hilly * (east * spot.fall[0] + north * spot.fall[1]);
-        (spot.slope - steeper) / self.limits.rock + 0.25 * texture.patchy() + 0.4 * (0.4 - soil)
+        self.slope_of_cells(spot, texture) - steeper / self.limits.rock
     }
 
     fn natural(&self, spot: &SurfacePoint, texture: &Texture) -> SurfaceSample {
@@ -236,7 +241,8 @@ impl Cover {
         let white = self.snow(spot, texture);
         let mut open = ground.mixed(&snow, white);
         open.bump = no_steeper(open.bump, STEEPEST);
-        let density = trees * (1.0 - bare) * (1.0 - white);
+        let cliff = ramp(self.slope_of_cells(spot, texture), ROCK[0], ROCK[1]);
+        let density = trees * (1.0 - cliff) * (1.0 - white);
         if density > 0.0 { self.under_trees(spot, &open, density) } else { open }
     }
 
@@ -337,7 +343,7 @@ impl Cover {
         let bedded = 0.5 * bed.tone + 0.35 * thin.tone - 0.3 * bed.joint - 0.15 * thin.joint;
         let tone = (1.0 + 0.28 * texture.broad + fine + steep * bedded).max(0.2);
         let (rough, ledge) =
-            (texture.rough(0.05, 0.08 + 2.2 * steep), steep * (0.3 * bed.ledge + 0.15 * thin.ledge));
+            (texture.rough(0.08, 0.14 + 2.14 * steep), steep * (0.3 * bed.ledge + 0.15 * thin.ledge));
         let bump = no_steeper([0, 1].map(|axis| rough[axis] - spot.fall[axis] * ledge), STEEPEST);
         SurfaceSample { albedo: scale(albedo, tone), bump }
     }

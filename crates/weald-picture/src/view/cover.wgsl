@@ -76,11 +76,16 @@ fn texture_of(spot: SurfacePoint) -> Texture {
     return texture;
 }
 
-// 1 where rock is bare on the average.
+// 1 where rock is bare on the average; trees stand by this.
+fn slope_of_cells(spot: SurfacePoint, texture: Texture, soil: f32) -> f32 {
+    return spot.slope / scene.limits.x + 0.25 * patchy_of(texture) + 0.4 * (0.4 - soil);
+}
+
+// The same, and more on the steep sides of ridges that are finer than cells.
 fn steepness(spot: SurfacePoint, texture: Texture, soil: f32) -> f32 {
     let hilly = ramp(spot.slope / scene.limits.x, 0.35, 0.8);
     let steeper = CRAGGY * hilly * dot(texture.crags.slope, spot.fall);
-    return (spot.slope - steeper) / scene.limits.x + 0.25 * patchy_of(texture) + 0.4 * (0.4 - soil);
+    return slope_of_cells(spot, texture, soil) - steeper / scene.limits.x;
 }
 
 // How densely trees stand at a point of natural ground.
@@ -88,7 +93,7 @@ fn wood_density(spot: SurfacePoint) -> f32 {
     let texture = texture_of(spot);
     let here = smooth_at(site, spot.place);
     let wooded = trees(spot, here.x, patchy_of(texture));
-    let bare = ramp(steepness(spot, texture, here.y), ROCK.x, ROCK.y);
+    let bare = ramp(slope_of_cells(spot, texture, here.y), ROCK.x, ROCK.y);
     return wooded * (1.0 - bare) * (1.0 - snow_at(spot, texture, here.x));
 }
 
@@ -133,7 +138,8 @@ fn natural(spot: SurfacePoint, texture: Texture) -> SurfaceSample {
     let white = snow_at(spot, texture, moisture);
     var open = mixed(ground, snow, white);
     open.bump = no_steeper(open.bump, STEEPEST);
-    return under_trees(spot, open, wooded * (1.0 - bare) * (1.0 - white));
+    let cliff = ramp(slope_of_cells(spot, texture, here.y), ROCK.x, ROCK.y);
+    return under_trees(spot, open, wooded * (1.0 - cliff) * (1.0 - white));
 }
 
 // Ground with a wood of such a density on it.
@@ -213,6 +219,6 @@ fn of_material(spot: SurfacePoint, albedo: vec3<f32>, texture: Texture) -> Surfa
     let bedded = tones - 0.3 * bedding.thick.joint - 0.15 * bedding.thin.joint;
     let tone = max(1.0 + 0.28 * texture.broad + fine + steep * bedded, 0.2);
     let ledge = steep * (0.3 * bedding.thick.ledge + 0.15 * bedding.thin.ledge);
-    let bump = no_steeper(rough(texture, 0.05, 0.08 + 2.2 * steep) - spot.fall * ledge, STEEPEST);
+    let bump = no_steeper(rough(texture, 0.08, 0.14 + 2.14 * steep) - spot.fall * ledge, STEEPEST);
     return SurfaceSample(albedo * tone, bump, vec4<f32>(0.0, 0.3, 0.7 * steep, 0.0));
 }
