@@ -84,6 +84,12 @@ pub trait Export: Debug + Send + Sync {
         Ok(())
     }
 
+    /// Bytes that it takes at most while it is made, beside the layers of a landscape of so many cells: as measured, with
+    /// what its files need in memory.
+    fn working_bytes(&self, cells: u64) -> u64 {
+        24 * cells
+    }
+
     /// The files, all of them of [`Export::names`]. `file` is the name of the output, whose extension is one of [`ExportEntry::extensions`].
     ///
     /// # Errors

@@ -40,6 +40,11 @@ impl Export for Page {
         vec![self.of.0.clone()]
     }
 
+    /// A relief and maps, four of them at a time.
+    fn working_bytes(&self, cells: u64) -> u64 {
+        (24 << 20) + 80 * cells
+    }
+
     #[cfg(not(feature = "report"))]
     fn left_out(&self, _: &Path) -> Option<String> {
         Some(weald_core::error::left_out("the HTML report", "report"))

@@ -76,6 +76,10 @@ impl Export for Unreal {
             .collect()
     }
 
+    fn working_bytes(&self, cells: u64) -> u64 {
+        70 * cells
+    }
+
     fn faults(&self) -> Vec<Fault> {
         let size = size_fault("size", self.size, "the sizes that Unreal recommends are", &SIZES);
         let masks = self.masks.iter().zip(1..).filter_map(|(mask, number)| {

@@ -45,6 +45,11 @@ impl Picture for View {
             .collect()
     }
 
+    /// Trees of bounds for rays, normals, and what of the sky each cell sees.
+    fn working_bytes(&self, cells: u64) -> u64 {
+        110 * cells
+    }
+
     fn check_on(&self, _: &Domain) -> Result<(), Error> {
         self.check()
     }
@@ -73,6 +78,10 @@ impl Picture for Render {
 
     fn notes(&self, landscape: &Landscape) -> Vec<String> {
         self.view.notes(landscape)
+    }
+
+    fn working_bytes(&self, cells: u64) -> u64 {
+        self.view.working_bytes(cells)
     }
 
     fn as_render(&self) -> Option<&Render> {

@@ -58,6 +58,11 @@ pub trait Picture: Debug + Send + Sync {
         Ok(())
     }
 
+    /// Bytes that drawing takes at most, beside the layers of a landscape of so many cells and the pixels: as measured.
+    fn working_bytes(&self, cells: u64) -> u64 {
+        8 * cells
+    }
+
     /// Draws a landscape that has all the layers in [`Picture::reads`].
     ///
     /// # Errors

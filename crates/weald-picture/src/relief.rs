@@ -60,6 +60,10 @@ impl Picture for Relief {
         if self.water { ["water", "flux_x", "flux_y"].map(str::to_owned).to_vec() } else { Vec::new() }
     }
 
+    fn working_bytes(&self, cells: u64) -> u64 {
+        16 * cells
+    }
+
     fn check_on(&self, domain: &Domain) -> Result<(), Error> {
         Sheet::new(domain, self.width).map(drop)
     }

@@ -52,6 +52,23 @@ fn the_memory_that_a_check_tells_is_within_a_third_of_what_a_run_takes() {
     }
 }
 
+#[cfg(target_os = "linux")]
+#[test]
+fn the_memory_that_a_check_tells_counts_what_outputs_need() {
+    for output in [
+        "export = \"mesh\"\nerror = 0.05\nfile = \"land.glb\"\n",
+        "export = \"report\"\nfile = \"report.html\"\n",
+        "export = \"unreal\"\nfile = \"unreal/land.png\"\n",
+        "picture = \"relief\"\nfile = \"relief.png\"\n",
+        "picture = \"view\"\nwidth = 160\nheight = 90\nfile = \"view.png\"\n",
+    ] {
+        let place = place(&format!("[[output]]\n{output}"));
+        let ratio = estimated(&place) / taken(&place);
+        println!("{ratio:.2} for {}", output.replace('\n', " "));
+        assert!((0.67..1.5).contains(&ratio), "{ratio} for {output}");
+    }
+}
+
 #[test]
 fn a_run_over_the_memory_that_is_allowed_ends_with_5_before_anything_is_made() {
     let place = place("");

@@ -69,6 +69,11 @@ impl Export for PlantSet {
         vec![self.of.0.clone()]
     }
 
+    /// Textures, and some 2 kB a plant: 20,000 of them are counted.
+    fn working_bytes(&self, cells: u64) -> u64 {
+        (48 << 20) + 8 * cells
+    }
+
     fn notes(&self, finished: &Finished<'_>) -> Vec<String> {
         let Ok(plants) = finished.landscape.plants(&self.of.0) else { return Vec::new() };
         let none = plants.plants.is_empty().then(|| {

@@ -95,10 +95,10 @@ impl Recipe {
         self.groups(VALUE * landscape.layers().count() as u64 * cells, cells)
     }
 
-    /// The same for layers of so many bytes: together a group takes no more than those, or than the largest output. A
-    /// device draws one picture at a time.
+    /// The same for layers of so many bytes: together a group takes no more than those and the largest output. A device
+    /// draws one picture at a time.
     fn groups(&self, kept: u64, cells: u64) -> Vec<Range<usize>> {
-        let room = self.outputs.iter().map(|output| output.bytes(cells)).fold(kept, u64::max);
+        let room = kept + self.outputs.iter().map(|output| output.bytes(cells)).max().unwrap_or_default();
         let (mut groups, mut first, mut taken) = (Vec::new(), 0, 0);
         let is_drawn = |number: usize| self.outputs[number].render().is_some();
         for (number, output) in self.outputs.iter().enumerate() {
@@ -181,18 +181,14 @@ fn has_addresses(bytes: u64) -> bool {
 }
 
 impl Output {
-    /// Bytes for a cell of the landscape, beside its layers.
-    fn bytes_per_cell(&self) -> u64 {
-        match &self.content {
-            Content::Layer { .. } => 16,
-            Content::Picture { .. } | Content::Film { .. } => 24,
-            Content::Export { .. } => 48,
-        }
-    }
-
     /// Bytes on so many cells, beside the layers.
     fn bytes(&self, cells: u64) -> u64 {
-        self.bytes_per_cell() * cells + self.bytes_of_pixels()
+        let working = match &self.content {
+            Content::Layer { .. } => 16 * cells,
+            Content::Picture { picture, .. } | Content::Film { picture, .. } => picture.working_bytes(cells),
+            Content::Export { export, .. } => export.working_bytes(cells),
+        };
+        working + self.bytes_of_pixels()
     }
 
     /// Bytes whatever the landscape: those of the pixels.
