@@ -227,8 +227,9 @@ const TRIES: usize = 12;
 
 /// So many places, and the widest spacing at which they find room, down to the least.
 ///
-/// The number goes with one over the square of the spacing, from which each try follows; what is known to be too wide
-/// or too narrow bounds it.
+/// On wide ground the number goes with one over the square of the spacing, on narrow patches, over whose edges discs stand
+/// out, with a lower power, which two tries tell; each try follows from the last. What is known to be too wide or too
+/// narrow bounds it.
 fn widest(
     count: usize,
     least: f64,
@@ -238,10 +239,16 @@ fn widest(
     const TARGET_SURPLUS: f64 = 1.015;
     let mut spacing = (DENSITY * area / (TARGET_SURPLUS * count as f64)).sqrt().max(least);
     let (mut narrow, mut wide): (Option<(f64, Vec<Place>)>, f64) = (None, f64::INFINITY);
+    let (mut last, mut power): (Option<(f64, f64)>, f64) = (None, 2.0);
     for _ in 0..TRIES {
         let places = at(spacing)?;
         let found = places.len();
-        let next = spacing * (found.max(1) as f64 / (TARGET_SURPLUS * count as f64)).sqrt();
+        let here = (libm::log(spacing), libm::log(found.max(1) as f64));
+        if let Some(before) = last.replace(here).filter(|before| before.0 != here.0) {
+            power = ((before.1 - here.1) / (here.0 - before.0)).clamp(1.0, 2.0);
+        }
+        let surplus = found.max(1) as f64 / (TARGET_SURPLUS * count as f64);
+        let next = spacing * libm::pow(surplus, 1.0 / power);
         if found >= count {
             narrow = Some((spacing, places));
             if found as f64 <= SURPLUS * count as f64 {
