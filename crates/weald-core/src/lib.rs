@@ -29,6 +29,7 @@ pub mod landscape;
 pub mod layer_words;
 pub mod material;
 pub mod parameter;
+pub mod plane;
 pub mod plants;
 pub mod random;
 pub mod sea;

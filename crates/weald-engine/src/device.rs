@@ -1,11 +1,11 @@
 //! What the library asks of a compute device. The crate `weald-gpu` answers; here is no GPU interface.
 
 use std::fmt::Debug;
-use std::ops::Range;
 
 use super::program::Program;
 use weald_core::error::Error;
 use weald_core::grid::{Field, Size};
+pub use weald_core::plane::Window;
 
 /// A device that runs [`Program`]s.
 pub trait Device: Debug + Send + Sync {
@@ -49,27 +49,6 @@ pub struct ShownGround<'a> {
     pub unit: f32,
     /// Elevation in metres that is 0 in the simulation.
     pub lowest: f32,
-}
-
-/// Part of a grid.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Window {
-    /// Columns.
-    pub columns: Range<usize>,
-    /// Rows.
-    pub rows: Range<usize>,
-}
-
-impl Window {
-    /// The whole of a grid.
-    pub fn whole(size: Size) -> Self {
-        Self { columns: 0..size.columns, rows: 0..size.rows }
-    }
-
-    /// Columns and rows.
-    pub fn size(&self) -> Size {
-        Size { columns: self.columns.len(), rows: self.rows.len() }
-    }
 }
 
 /// A program on a device, with its state. All errors are [`Error::Device`].

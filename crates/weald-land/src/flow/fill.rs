@@ -12,25 +12,31 @@ use super::surface::{ROWS_PER_TASK, Surface};
 
 /// Raises the cells of depressions to the height at which they overflow.
 pub(super) fn fill(surface: &mut Surface, basins: &Basins, saddles: &Saddles) {
-    let spills = spills(basins.count(), saddles);
+    let spills = spills(basins.count(), saddles.tree.iter().map(|saddle| (saddle.level, saddle.basins)));
+    raise(surface, basins, &spills);
+}
+
+/// Raises each cell to the height at which its basin overflows. A cell as high keeps its bits, of which zero has two.
+pub(super) fn raise(surface: &mut Surface, basins: &Basins, spills: &[f32]) {
     let cells = surface.level.par_iter_mut().zip(&basins.labels);
     cells.with_min_len(ROWS_PER_TASK * surface.stride).for_each(|(level, &basin)| {
-        *level = level.max(spills[basin as usize]);
+        let spill = spills[basin as usize];
+        *level = if spill > *level { spill } else { *level };
     });
 }
 
-/// The height at which each basin overflows; basin 0 never fills.
-fn spills(count: usize, saddles: &Saddles) -> Vec<f32> {
+/// The height at which each basin overflows, by the saddles of a spanning tree from the lowest up; basin 0 never fills.
+pub(super) fn spills(count: usize, tree: impl Iterator<Item = (f32, [u32; 2])>) -> Vec<f32> {
     let mut spills = vec![f32::NEG_INFINITY; count];
     let mut sets = Sets::new(count);
-    for saddle in &saddles.tree {
-        let [a, b] = saddle.basins.map(|basin| sets.union.root(basin));
+    for (level, basins) in tree {
+        let [a, b] = basins.map(|basin| sets.union.root(basin));
         if a != 0 && b != 0 {
             sets.join(a, b);
             continue;
         }
         let inland = a.max(b);
-        sets.members(inland, |basin| spills[basin as usize] = saddle.level);
+        sets.members(inland, |basin| spills[basin as usize] = level);
         sets.drain(inland);
     }
     spills

@@ -92,6 +92,44 @@ impl Flats {
     }
 }
 
+/// Flat ground as each of its cells sees it.
+pub(super) struct FlatGround<'a> {
+    pub(super) surface: &'a Surface,
+    /// Codes of steepest descent.
+    pub(super) codes: &'a [u8],
+}
+
+impl FlatGround<'_> {
+    /// The direction to a neighbour of the same height that drains.
+    pub(super) fn drain(&self, cell: usize) -> Option<u8> {
+        let level = self.surface.level[cell];
+        STRAIGHT_FIRST.into_iter().find(|&code| {
+            let other = self.surface.neighbour(cell, code);
+            self.codes[other] != FLAT && self.surface.level[other] == level
+        })
+    }
+
+    /// Whether higher ground lies beside a cell.
+    pub(super) fn is_below(&self, cell: usize) -> bool {
+        let level = self.surface.level[cell];
+        let mut around = self.surface.around(cell).into_iter();
+        around.any(|other| self.surface.has_data(other) && self.surface.level[other] > level)
+    }
+
+    /// The direction of a cell, by the distances `T` and `A` of the cells of its flat.
+    pub(super) fn code(&self, cell: usize, distances: impl Fn(usize) -> [u32; 2]) -> u8 {
+        let rank = |&code: &u8| {
+            let [towards, away] = distances(self.surface.neighbour(cell, code)).map(i64::from);
+            2 * towards - away
+        };
+        let members = || {
+            STRAIGHT_FIRST.into_iter().filter(|&code| self.codes[self.surface.neighbour(cell, code)] == FLAT)
+        };
+        let best = || members().min_by_key(rank);
+        self.drain(cell).or_else(best).expect("a cell of a flat has a neighbour that drains")
+    }
+}
+
 /// One flat.
 struct Flat<'a> {
     first: usize,
@@ -104,48 +142,25 @@ struct Flat<'a> {
 impl Flat<'_> {
     fn directions(&self) -> Vec<u8> {
         let places = || 0..self.cells.len() as u32;
-        let towards = self.distances(places().filter(|&place| self.drain(place).is_some()).collect());
-        let away = self.distances(places().filter(|&place| self.is_below(place)).collect());
-        let rank = |place: u32| 2 * i64::from(towards[place as usize]) - i64::from(away[place as usize]);
-        places()
-            .map(|place| {
-                let best = || {
-                    let around =
-                        STRAIGHT_FIRST.into_iter().filter_map(|code| Some((self.member(place, code)?, code)));
-                    around.min_by_key(|&(other, _)| rank(other)).map(|(_, code)| code)
-                };
-                self.drain(place).or_else(best).expect("a cell of a flat has a neighbour that drains")
-            })
-            .collect()
+        let ground = FlatGround { surface: self.surface, codes: self.codes };
+        let cell = |place: u32| self.cells[place as usize] as usize;
+        let towards = self.distances(places().filter(|&place| ground.drain(cell(place)).is_some()).collect());
+        let away = self.distances(places().filter(|&place| ground.is_below(cell(place))).collect());
+        let distances = |other: usize| {
+            let place = self.flats.place[other] as usize - self.first;
+            [towards[place], away[place]]
+        };
+        places().map(|place| ground.code(cell(place), distances)).collect()
     }
 
     fn neighbour(&self, place: u32, code: u8) -> usize {
         self.surface.neighbour(self.cells[place as usize] as usize, code)
     }
 
-    fn level(&self) -> f32 {
-        self.surface.level[self.cells[0] as usize]
-    }
-
     /// The place of a neighbour, if it is of the flat.
     fn member(&self, place: u32, code: u8) -> Option<u32> {
         let other = self.neighbour(place, code);
         (self.codes[other] == FLAT).then(|| self.flats.place[other] - self.first as u32)
-    }
-
-    /// The direction to a neighbour of the same height that drains.
-    fn drain(&self, place: u32) -> Option<u8> {
-        STRAIGHT_FIRST.into_iter().find(|&code| {
-            let other = self.neighbour(place, code);
-            self.codes[other] != FLAT && self.surface.level[other] == self.level()
-        })
-    }
-
-    fn is_below(&self, place: u32) -> bool {
-        self.surface
-            .around(self.cells[place as usize] as usize)
-            .into_iter()
-            .any(|other| self.surface.has_data(other) && self.surface.level[other] > self.level())
     }
 
     /// Steps from the nearest of the starting places, which have 1; 0 where none leads.

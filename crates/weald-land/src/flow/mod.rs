@@ -16,6 +16,7 @@
 //! | `flats` | directions over flat ground |
 //! | `codes` | directions in the numbers of other programs |
 //! | `accumulate`, `multiple` | upslope areas, along D8 or shared among all lower neighbours |
+//! | `tiled` | the same, to the bit, over ground that is read tile by tile |
 //!
 //! What is filled is, to the bit, what priority-flood fills (Barnes, Lehman and Mulla 2014, doi
 //! 10.1016/j.cageo.2013.04.024): the least height that a path to an outlet must pass. But there is no queue of
@@ -37,6 +38,7 @@ mod naive;
 pub(crate) mod priority_flood;
 mod saddles;
 mod surface;
+pub mod tiled;
 
 pub use accumulate::accumulate;
 pub use codes::DirectionCodes;

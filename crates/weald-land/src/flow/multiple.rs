@@ -100,29 +100,60 @@ impl MultipleFlow<'_> {
 pub fn accumulate_multiple(flow: &MultipleFlow<'_>, weight: Option<&Field>) -> Vec<f64> {
     let cells = flow.routed.surface.size().cells();
     let own = CellWeights::new(cells, flow.valid, weight);
-    let (mut receivers, mut totals) = (vec![0; cells], vec![0.0; cells]);
-    let tasks = receivers.par_chunks_mut(CELLS_PER_TASK).zip(totals.par_chunks_mut(CELLS_PER_TASK));
-    tasks.enumerate().for_each(|(task, (receivers, totals))| {
-        vectors::widest(
-            #[inline(always)]
-            || {
-                let links_of = (task * CELLS_PER_TASK..).map(
-                    #[inline(always)]
-                    |cell| links(flow, cell),
-                );
-                for ((receivers, total), found) in receivers.iter_mut().zip(totals.iter_mut()).zip(links_of) {
-                    (*receivers, *total) = found;
-                }
-            },
-        );
-    });
-    let donors: Vec<u8> = (0..cells)
-        .into_par_iter()
-        .with_min_len(CELLS_PER_TASK)
-        .map(|cell| donors(flow, &receivers, cell))
-        .collect();
-    let spread = Spread { flow, own, receivers, totals, donors };
+    let shares = Shares::of(flow);
+    let donors: Vec<u8> =
+        (0..cells).into_par_iter().with_min_len(CELLS_PER_TASK).map(|cell| shares.donors(cell)).collect();
+    let spread = Spread { shares, own, donors };
     spread.sums()
+}
+
+/// What each cell gives to its neighbours.
+pub(super) struct Shares<'a> {
+    flow: &'a MultipleFlow<'a>,
+    /// The ways by which each cell gives, as bits.
+    pub(super) receivers: Vec<u8>,
+    totals: Vec<f64>,
+}
+
+impl<'a> Shares<'a> {
+    pub(super) fn of(flow: &'a MultipleFlow<'a>) -> Self {
+        let cells = flow.routed.surface.size().cells();
+        let (mut receivers, mut totals) = (vec![0; cells], vec![0.0; cells]);
+        let tasks = receivers.par_chunks_mut(CELLS_PER_TASK).zip(totals.par_chunks_mut(CELLS_PER_TASK));
+        tasks.enumerate().for_each(|(task, (receivers, totals))| {
+            vectors::widest(
+                #[inline(always)]
+                || {
+                    let links_of = (task * CELLS_PER_TASK..).map(
+                        #[inline(always)]
+                        |cell| links(flow, cell),
+                    );
+                    let of_cells = receivers.iter_mut().zip(totals.iter_mut());
+                    for ((receivers, total), found) in of_cells.zip(links_of) {
+                        (*receivers, *total) = found;
+                    }
+                },
+            );
+        });
+        Self { flow, receivers, totals }
+    }
+
+    /// The ways from which a cell gets something, as bits.
+    fn donors(&self, cell: usize) -> u8 {
+        let gives = |direction: &u8| {
+            let other = self.flow.neighbour(cell, usize::from(*direction));
+            other.is_some_and(|other| self.receivers[other] >> opposite(*direction) & 1 == 1)
+        };
+        (0..8).filter(gives).fold(0, |bits, direction| bits | 1 << direction)
+    }
+
+    /// The share that a cell gives to the one it lies beside, as seen from there.
+    pub(super) fn share(&self, giver: usize, cell: usize, direction: usize) -> f64 {
+        if self.receivers[giver].is_power_of_two() {
+            return 1.0;
+        }
+        weight(self.flow.descent(giver, cell, direction), self.flow.exponent) / self.totals[giver]
+    }
 }
 
 /// The ways by which a cell gives, and the sum of their weights.
@@ -133,20 +164,10 @@ fn links(flow: &MultipleFlow<'_>, cell: usize) -> (u8, f64) {
     (weights.iter().enumerate().map(bit).fold(0, |bits, bit| bits | bit), weights.iter().sum())
 }
 
-fn donors(flow: &MultipleFlow<'_>, receivers: &[u8], cell: usize) -> u8 {
-    let gives = |direction: &u8| {
-        let other = flow.neighbour(cell, usize::from(*direction));
-        other.is_some_and(|other| receivers[other] >> opposite(*direction) & 1 == 1)
-    };
-    (0..8).filter(gives).fold(0, |bits, direction| bits | 1 << direction)
-}
-
 /// Water on its way.
 struct Spread<'a> {
-    flow: &'a MultipleFlow<'a>,
+    shares: Shares<'a>,
     own: CellWeights<'a>,
-    receivers: Vec<u8>,
-    totals: Vec<f64>,
     donors: Vec<u8>,
 }
 
@@ -172,11 +193,12 @@ impl Spread<'_> {
         let received: f64 = set_directions(self.donors[cell])
             .map(|direction| {
                 let other = self.beside(cell, direction);
-                f64::from_bits(sums[other].load(Ordering::Relaxed)) * self.share(other, cell, direction)
+                f64::from_bits(sums[other].load(Ordering::Relaxed))
+                    * self.shares.share(other, cell, direction)
             })
             .sum();
         sums[cell].store((self.own.at(cell) + received).to_bits(), Ordering::Relaxed);
-        for direction in set_directions(self.receivers[cell]) {
+        for direction in set_directions(self.shares.receivers[cell]) {
             let next = self.beside(cell, direction);
             // The counter hands the sums of those who came before over to the last.
             if waiting[next].fetch_sub(1, Ordering::AcqRel) == 1 {
@@ -185,17 +207,9 @@ impl Spread<'_> {
         }
     }
 
-    /// The share that a cell gives to the one it lies beside, as seen from there.
-    fn share(&self, giver: usize, cell: usize, direction: usize) -> f64 {
-        if self.receivers[giver].is_power_of_two() {
-            return 1.0;
-        }
-        weight(self.flow.descent(giver, cell, direction), self.flow.exponent) / self.totals[giver]
-    }
-
     fn beside(&self, cell: usize, direction: usize) -> usize {
         let (east, south) = STEPS[direction];
-        cell.wrapping_add_signed(south * self.flow.routed.surface.size().columns as isize + east)
+        cell.wrapping_add_signed(south * self.shares.flow.routed.surface.size().columns as isize + east)
     }
 }
 

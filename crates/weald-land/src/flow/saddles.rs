@@ -95,7 +95,7 @@ impl Finder<'_> {
                 found.add([basin, other_basin], packed(level, cell, direction as u64));
             }
         }
-        let at_the_rim = || self.surface.around(cell).iter().any(|&other| !self.surface.has_data(other));
+        let at_the_rim = || self.surface.around(cell).iter().any(|&other| self.surface.lets_out(other));
         // A pit alone can be the lowest cell of its basin at the rim, but so can any other cell.
         if basin != 0 && at_the_rim() {
             found.add([basin, 0], packed(level, cell, OUT));
@@ -129,13 +129,13 @@ fn packed(level: f32, cell: usize, direction: u64) -> u64 {
 }
 
 /// Whole numbers in the order of the heights.
-fn key(level: f32) -> u32 {
+pub(super) fn key(level: f32) -> u32 {
     // Both zeros are one height.
     let bits = (level + 0.0).to_bits();
     if bits >> 31 == 0 { bits | 1 << 31 } else { !bits }
 }
 
-fn number(key: u32) -> f32 {
+pub(super) fn number(key: u32) -> f32 {
     f32::from_bits(if key >> 31 == 1 { key & !(1 << 31) } else { !key })
 }
 

@@ -10,7 +10,7 @@ use weald_core::sea;
 pub(super) const NO_DATA: f32 = f32::INFINITY;
 
 /// Level of a cell of the sea: everything flows there.
-const SEA_LEVEL: f32 = f32::NEG_INFINITY;
+pub(super) const SEA_LEVEL: f32 = f32::NEG_INFINITY;
 
 /// Rows that one task works on; no result depends on it.
 pub(super) const ROWS_PER_TASK: usize = 16;
@@ -24,6 +24,9 @@ pub(super) struct Surface {
     pub(super) stride: usize,
     /// Height of each cell, with the ring.
     pub(super) level: Vec<f32>,
+    /// Of part of a grid: which cells of the ring lie elsewhere and have data, so that no water is lost there. Empty for a
+    /// whole grid.
+    pub(super) elsewhere: Vec<bool>,
 }
 
 impl Surface {
@@ -40,7 +43,7 @@ impl Surface {
                 }
             }
         });
-        let mut surface = Self { size, stride, level };
+        let mut surface = Self { size, stride, level, elsewhere: Vec::new() };
         if let Some(sea_level) = sea_level {
             surface.flood(height, valid, sea_level as f32);
         }
@@ -59,6 +62,12 @@ impl Surface {
 
     pub(super) fn has_data(&self, cell: usize) -> bool {
         self.level[cell] != NO_DATA
+    }
+
+    /// Whether water leaves over this cell from those around it.
+    #[inline]
+    pub(super) fn lets_out(&self, cell: usize) -> bool {
+        !self.has_data(cell) && (self.elsewhere.is_empty() || !self.elsewhere[cell])
     }
 
     pub(super) fn is_sea(&self, cell: usize) -> bool {

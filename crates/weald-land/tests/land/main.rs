@@ -7,6 +7,7 @@ mod displace;
 mod editing;
 mod flow;
 mod flow_peers;
+mod flow_tiled;
 mod fluvial;
 mod fluvial_grid;
 mod fluvial_ground;

@@ -1,0 +1,116 @@
+//! Flow routing over ground that is not in memory: tile by tile, to the bit as [`route`](super::route()) and the sums do it
+//! with the whole.
+//!
+//! That is possible since nothing in the whole depends on an order of cells. The level of a filled cell is the least height
+//! that its way out must pass, whoever finds it. Its direction follows from the levels of its neighbours and, over flat
+//! ground, from two lengths of shortest ways. Its sum adds those of its donors in the order of directions. Tiles are read
+//! one after another, each with the cells around it:
+//!
+//! | file | what is known at the borders of tiles | tiles are read |
+//! |---|---|---|
+//! | `ground` | where the sea is | until it reaches no further |
+//! | `spills` | how high each basin at a border fills, by a graph of saddles (Barnes 2016) | twice |
+//! | `flats` | distances over flat ground | until none is shorter, and once more |
+//! | `sums` | finished sums | until all are finished |
+//!
+//! Barnes, R. 2016, "Parallel priority-flood depression filling for trillion cell DEMs on desktops or clusters", doi
+//! 10.1016/j.cageo.2016.07.001; 2017, "Parallel non-divergent flow accumulation for trillion cell digital elevation models on
+//! desktops or clusters", doi 10.1016/j.envsoft.2017.02.022. Differs: basins are found by descent as in the whole, not by a
+//! queue; flats and sums pass tiles until they settle, since a graph of the distances within a flat is larger than a tile,
+//! and since sums of weights that are no whole numbers depend on their order.
+
+mod flats;
+mod ground;
+mod settle;
+mod spills;
+mod sums;
+mod tiling;
+
+pub use ground::TiledGround;
+pub use sums::{PutSums, TiledFlow, accumulate_tiled};
+pub use tiling::Tiling;
+
+use super::{Depressions, Routing};
+use flats::FlatDistances;
+use ground::Sea;
+use spills::{SpillGraph, TileBasins};
+use weald_core::error::Error;
+use weald_core::plane::Plane;
+
+/// Leads water over the ground, to the bit as [`route`](super::route()): writes the surface without depressions and the codes
+/// of [`directions`](super::directions). `passed` is called after each visit of a tile.
+///
+/// Memory: some 40 bytes for a cell of a tile, and up to 100 for each border cell of all tiles, which is where the graph is.
+/// Each tile is read and its basins found twice; the other visits, of which flats and a sea that cross many tiles need
+/// several, are cheaper.
+///
+/// # Errors
+/// Those of the planes and of `passed`; [`Error::Run`] for a height that is not finite, and for [`Depressions::Breach`], which
+/// cuts channels across any number of tiles.
+pub fn route_tiled(
+    ground: &TiledGround<'_>,
+    routing: &Routing,
+    (filled, directions): (&mut dyn Plane<f32>, &mut dyn Plane<u8>),
+    passed: &mut dyn FnMut() -> Result<(), Error>,
+) -> Result<(), Error> {
+    if routing.depressions == Depressions::Breach {
+        return Err(Error::Run(
+            "channels through the rims of depressions are not cut tile by tile; choose `depressions = \"fill\"`, or a \
+             landscape that fits into memory"
+                .to_owned(),
+        ));
+    }
+    let tiling = ground.tiling;
+    fill(ground, routing, filled, passed)?;
+    let distances = FlatDistances::of(tiling, filled, passed)?;
+    for tile in 0..tiling.count() {
+        directions.write(&tiling.window(tile), &distances.directions(tile, filled)?)?;
+        passed()?;
+    }
+    finish(ground, filled, passed)
+}
+
+/// Writes the levels of all cells, those of the sea and without data as infinite ones.
+fn fill(
+    ground: &TiledGround<'_>,
+    routing: &Routing,
+    filled: &mut dyn Plane<f32>,
+    passed: &mut dyn FnMut() -> Result<(), Error>,
+) -> Result<(), Error> {
+    let tiling = ground.tiling;
+    let sea = routing.sea_level.map(|level| Sea::of(ground, level, passed)).transpose()?;
+    let basins = |tile| ground.surface(tile, sea.as_ref()).map(TileBasins::of);
+    let mut graph = SpillGraph::new(tiling);
+    for tile in 0..tiling.count() {
+        graph.add(tile, &basins(tile)?);
+        passed()?;
+    }
+    let spills = graph.solved();
+    for tile in 0..tiling.count() {
+        let surface = spills.filled(tile, basins(tile)?);
+        filled.write(&tiling.window(tile), &surface.inner(&surface.level, |_, level| level))?;
+        passed()?;
+    }
+    Ok(())
+}
+
+/// Puts heights where levels are infinite.
+fn finish(
+    ground: &TiledGround<'_>,
+    filled: &mut dyn Plane<f32>,
+    passed: &mut dyn FnMut() -> Result<(), Error>,
+) -> Result<(), Error> {
+    for tile in 0..ground.tiling.count() {
+        let window = ground.tiling.window(tile);
+        let mut levels = filled.read(&window)?;
+        if levels.iter().any(|level| level.is_infinite()) {
+            let heights = ground.height.read(&window)?;
+            for (level, height) in levels.iter_mut().zip(heights) {
+                *level = if level.is_infinite() { height } else { *level };
+            }
+            filled.write(&window, &levels)?;
+        }
+        passed()?;
+    }
+    Ok(())
+}
