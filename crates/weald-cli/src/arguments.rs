@@ -158,6 +158,9 @@ pub(crate) struct CheckArguments {
     /// Threads of the run whose time is estimated [default: all cores]
     #[arg(long, value_name = "N", value_parser = value_parser!(u16).range(1..=1024))]
     pub(crate) threads: Option<u16>,
+    /// Look at a run out of core: whether it can be made, and the room that it takes in its folder
+    #[arg(long)]
+    pub(crate) out_of_core: bool,
 }
 
 #[derive(Debug, Args)]
@@ -170,6 +173,10 @@ pub(crate) struct RunArguments {
     /// Folder of the files [default: out/ and the recipe's name]
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
+    /// Run a landscape that is larger than memory: its layers lie in files without names in this folder, which are gone
+    /// when the run ends; the processor takes as much memory as --memory says
+    #[arg(long, value_name = "DIR", conflicts_with = "resume")]
+    pub(crate) out_of_core: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) running: Running,
 }

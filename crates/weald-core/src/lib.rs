@@ -22,6 +22,7 @@ pub mod condition;
 pub mod connected;
 pub mod domain;
 pub mod error;
+pub mod file_plane;
 pub mod files;
 pub mod grain;
 pub mod grid;

@@ -1,10 +1,11 @@
 //! Generators: steps that make ground from nothing, here on the processor or on a device.
 
 use std::fmt::Debug;
+use std::ops::Range;
 
 use weald_core::domain::Domain;
 use weald_core::error::Error;
-use weald_core::grid::Field;
+use weald_core::grid::{Field, Size};
 use weald_core::landscape::Landscape;
 use weald_core::parameter::{Fault, LayerName};
 
@@ -13,6 +14,7 @@ use crate::finest;
 use crate::job::Job;
 use crate::on_device::OnDevice;
 use crate::step::{Outcome, Step};
+use crate::stored::StoredLandscape;
 
 /// A step that makes one layer from nothing but the size of the ground and a seed.
 pub trait Generator: Debug + Send + Sync {
@@ -21,6 +23,12 @@ pub trait Generator: Debug + Send + Sync {
     /// # Errors
     /// [`Error::Run`] where the method cannot work on such a grid.
     fn fill(&self, domain: &Domain, seed: u64) -> Result<Field, Error>;
+
+    /// Heights of some rows alone, to the bit those of [`Generator::fill`]; `None` from a method that needs all of them.
+    fn fill_rows(&self, domain: &Domain, seed: u64, rows: Range<usize>) -> Option<Field> {
+        let _ = (domain, seed, rows);
+        None
+    }
 
     /// The same heights as work for a device; `None` where the CPU makes them.
     fn on_device(&self, domain: &Domain, seed: u64) -> Option<OnDevice> {
@@ -63,6 +71,33 @@ impl<T: Generator> Step for T {
 
     fn faults(&self) -> Vec<Fault> {
         self.contradictions()
+    }
+
+    fn scratch_per_cell(&self) -> Result<u64, String> {
+        let one = Domain::new(Size { columns: 1, rows: 1 }, 1.0);
+        let by_rows = self.fill_rows(&one, 0, 0..1).map(|_| 0);
+        by_rows.ok_or_else(|| "it generates the whole landscape at once".to_owned())
+    }
+
+    fn run_on_disk(&self, landscape: &mut StoredLandscape<'_>, job: &Job<'_>) -> Result<Outcome, Error> {
+        let (seed, name) = (self.own_seed().unwrap_or(job.seed), &self.target().0);
+        let (domain, mut layer) = (&landscape.domain, landscape.plane(name, landscape.domain.size)?);
+        // A row as it is made, and as bytes.
+        let run = (landscape.memory / (16 * domain.size.columns as u64)).clamp(1, 1 << 10) as usize;
+        for first in (0..domain.size.rows).step_by(run) {
+            let rows = first..(first + run).min(domain.size.rows);
+            let whole = || Error::Run(format!("`{name}` is generated as a whole, and not by rows"));
+            let field = self.fill_rows(domain, seed, rows.clone()).ok_or_else(whole)?;
+            layer.set_rows(rows, field.values())?;
+            if job.watcher.cancelled() {
+                return Err(Error::Interrupted(format!(
+                    "interrupted in row {first} of {}",
+                    domain.size.rows
+                )));
+            }
+        }
+        landscape.insert(name, "m", layer);
+        Ok(Outcome { iterations: self.iterations(), ..Outcome::default() })
     }
 
     fn run(&self, landscape: &mut Landscape, job: &Job<'_>) -> Result<Outcome, Error> {

@@ -4,6 +4,7 @@
 //! processor.
 
 pub mod bands;
+pub mod bands_on_disk;
 mod budget;
 mod cpu;
 pub mod device;
@@ -23,6 +24,7 @@ pub mod ranks;
 pub mod report;
 pub mod stencil;
 pub mod step;
+pub mod stored;
 pub mod sums;
 mod tiles;
 pub mod uniform;

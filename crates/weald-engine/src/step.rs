@@ -6,6 +6,7 @@ use std::path::PathBuf;
 
 use crate::budget::Budget;
 use crate::job::Job;
+use crate::stored::StoredLandscape;
 use weald_core::domain::Domain;
 use weald_core::error::Error;
 use weald_core::landscape::Landscape;
@@ -132,6 +133,26 @@ pub trait Step: Debug + Send + Sync {
     /// alone has the result. Other steps run on the first rank while the others wait.
     fn runs_over_ranks(&self) -> bool {
         false
+    }
+
+    /// Bytes for a cell that it takes on disk beside the layers, where it can run on a landscape that does not fit into
+    /// memory.
+    ///
+    /// # Errors
+    /// Why it cannot.
+    fn scratch_per_cell(&self) -> Result<u64, String> {
+        Err("it works on the whole landscape in memory".to_owned())
+    }
+
+    /// Runs on a landscape on disk that has all the layers in [`Step::reads`], to the same bits, within its memory.
+    ///
+    /// # Errors
+    /// As [`Step::run`]; [`Error::Limit`] where the memory is too small; [`Error::Run`] where [`Step::scratch_per_cell`] says
+    /// that it cannot, or where the disk is full.
+    fn run_on_disk(&self, landscape: &mut StoredLandscape<'_>, job: &Job<'_>) -> Result<Outcome, Error> {
+        let _ = (landscape, job);
+        let why = self.scratch_per_cell().err().unwrap_or_default();
+        Err(Error::Run(format!("the step does not run on a landscape on disk: {why}")))
     }
 
     /// Runs on a landscape that has all the layers in [`Step::reads`].

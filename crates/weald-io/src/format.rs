@@ -6,7 +6,9 @@ use super::parts::{Part, PartName, Parts};
 use super::{Classes, Fault, Limits, Raster};
 use weald_core::domain::Georeference;
 use weald_core::error::Error;
+use weald_core::files::File;
 use weald_core::grid::{Field, Size};
+use weald_core::plane::Plane;
 
 /// Turns the bytes of a file into a raster.
 pub type DecodeFile = fn(&[u8], Limits) -> Result<Raster, Fault>;
@@ -27,6 +29,28 @@ pub enum Encode {
     File(fn(&Raster) -> Result<Vec<u8>, Error>),
     /// A file and what lies beside it, or a folder.
     Parts(fn(&Raster) -> Result<Vec<Part>, Error>),
+    /// The same, and also of values that are not in memory.
+    Windows {
+        /// All files of a raster in memory.
+        parts: fn(&Raster) -> Result<Vec<Part>, Error>,
+        /// Writes the file, to the same bytes; gives what lies beside it.
+        write: WriteWindows,
+    },
+}
+
+/// Writes a raster into a file window by window; gives the files beside it.
+pub type WriteWindows = fn(&WindowedRaster<'_>, &mut File) -> Result<Vec<Part>, Error>;
+
+/// A raster whose values are read window by window. Every cell has data.
+pub struct WindowedRaster<'a> {
+    /// All that it is but its values: its field counts for nothing.
+    pub head: &'a Raster,
+    /// The values, all of them finite.
+    pub values: &'a dyn Plane<f32>,
+    /// Least and greatest value.
+    pub range: (f32, f32),
+    /// Makes room on disk for smaller images.
+    pub scratch: &'a dyn Fn(Size) -> Result<Box<dyn Plane<f32>>, Error>,
 }
 
 impl Encode {
@@ -37,7 +61,7 @@ impl Encode {
     pub fn parts(self, raster: &Raster) -> Result<Vec<Part>, Error> {
         match self {
             Self::File(encode) => Ok(vec![Part::own(encode(raster)?)]),
-            Self::Parts(encode) => encode(raster),
+            Self::Parts(encode) | Self::Windows { parts: encode, .. } => encode(raster),
         }
     }
 

@@ -42,7 +42,10 @@ pub use atomic::{
     remove_leftovers, rename, replace_folder, write_parts, write_through, write_whole, write_whole_with,
 };
 pub use classes::{Class, Classes};
-pub use format::{Capabilities, CrsSupport, Decode, DecodeFile, Encode, Format, Metadata, Preset, Values};
+pub use format::{
+    Capabilities, CrsSupport, Decode, DecodeFile, Encode, Format, Metadata, Preset, Values, WindowedRaster,
+    WriteWindows,
+};
 pub use info::{Info, describe};
 pub use limits::{Fault, Limits};
 pub use parts::{InMemory, Part, PartName, Parts, read_at_most};

@@ -115,8 +115,7 @@ impl Raster {
 
     /// A number that no cell with data holds, for no-data cells; NaN where the usual ones are within the range.
     pub(super) fn number_for_no_data(&self) -> f32 {
-        let (low, high) = self.range();
-        NO_DATA.into_iter().find(|number| !(low..=high).contains(number)).unwrap_or(f32::NAN)
+        number_for_no_data(self.range())
     }
 
     /// Whether the values can go into a file of finite numbers.
@@ -132,4 +131,9 @@ impl Raster {
             ))),
         }
     }
+}
+
+/// The same for values of this range.
+pub(super) fn number_for_no_data((low, high): (f32, f32)) -> f32 {
+    NO_DATA.into_iter().find(|number| !(low..=high).contains(number)).unwrap_or(f32::NAN)
 }

@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 
+use weald::error::bytes_in_words;
 use weald::recipe::{Ground, Machine, Outlook, Recipe, Timings};
 
 use crate::arguments::{CheckArguments, kept_results};
@@ -21,7 +22,15 @@ pub(crate) fn check(arguments: &CheckArguments) -> Result<(), Failure> {
     let (steps, outputs) = (recipe.steps.len(), recipe.outputs.len());
     let (file, seed) = (&recipe.file, recipe.seed);
     let mut text = format!("{file}: good; {ground}, steps: {steps}, outputs: {outputs}, seed: {seed}\n");
-    let _ = writeln!(text, "  memory: {memory}");
+    if arguments.out_of_core {
+        let scratch = bytes_in_words(recipe.scratch()?);
+        let _ = writeln!(
+            text,
+            "  out of core: {scratch} in the folder, beside its files; memory as --memory allows"
+        );
+    } else {
+        let _ = writeln!(text, "  memory: {memory}");
+    }
     let estimate = recipe.estimate(&grid, &machine(arguments), &timings());
     for line in estimate.to_string().lines() {
         let _ = writeln!(text, "  {line}");

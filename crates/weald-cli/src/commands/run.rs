@@ -12,6 +12,7 @@ use crate::arguments::{RunArguments, Running};
 use crate::engine::drawing;
 use crate::failure::Failure;
 use crate::progress::ProgressPrinter;
+use crate::values::EngineChoice;
 use crate::{interrupt, stdout};
 
 pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
@@ -21,7 +22,8 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
         // What was made at full size is not lost by a look at a change.
         if arguments.changes.is_preview() { folder.with_added_extension("preview") } else { folder }
     });
-    let report = execute(&recipe, Options::into_folder(&out), &arguments.running)?;
+    let options = Options { out_of_core: arguments.out_of_core.clone(), ..Options::into_folder(&out) };
+    let report = execute(&recipe, options, &arguments.running)?;
     if arguments.running.quiet { Ok(()) } else { stdout::print(&summary(&report, &out)) }
 }
 
@@ -37,7 +39,11 @@ pub(super) fn watched<T>(
     running: &Running,
     work: impl FnOnce(&Run<'_>, &ProgressPrinter) -> Result<T, Error>,
 ) -> Result<T, Failure> {
-    let chosen = running.engine.open(running.gpu_memory)?;
+    let engine = match (&options.out_of_core, running.engine) {
+        (Some(_), EngineChoice::Auto) => EngineChoice::Cpu,
+        (_, engine) => engine,
+    };
+    let chosen = engine.open(running.gpu_memory)?;
     let draws = recipe.outputs.iter().any(|output| output.render().is_some());
     let render = if draws { Some(drawing(running)?) } else { None };
     let options = Options {

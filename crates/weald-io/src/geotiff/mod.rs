@@ -19,6 +19,7 @@ mod overviews;
 mod read;
 mod sample;
 mod tiles;
+mod windows;
 mod write;
 
 pub use read::decode;
@@ -31,12 +32,12 @@ pub(super) const FORMAT: Format = Format {
     name: "GeoTIFF",
     extensions: &["tif", "tiff"],
     decode: Some(Decode::File(decode)),
-    encode: Some(Encode::Parts(write::parts)),
+    encode: Some(Encode::Windows { parts: write::parts, write: windows::plain }),
     holds: Capabilities::ALL,
     presets: &[Preset {
         name: "cog",
         summary: "cloud-optimized, with smaller images of it, which programs show from afar",
-        encode: Encode::Parts(write::cloud_optimized),
+        encode: Encode::Windows { parts: write::cloud_optimized, write: windows::cloud_optimized },
         holds: Capabilities::ALL,
     }],
 };

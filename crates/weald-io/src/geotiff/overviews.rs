@@ -18,7 +18,7 @@ pub(super) fn overviews(raster: &Raster) -> Vec<Raster> {
 }
 
 /// A cell for four: their mean, or of classes the first that holds data. It has data where one of them has.
-fn halved(raster: &Raster) -> Raster {
+pub(super) fn halved(raster: &Raster) -> Raster {
     let old = raster.field.size();
     let size = Size { columns: old.columns.div_ceil(2), rows: old.rows.div_ceil(2) };
     let (mut values, mut has_data) = (Vec::with_capacity(size.cells()), Vec::with_capacity(size.cells()));

@@ -10,6 +10,7 @@ use rayon::prelude::*;
 
 use super::super::Raster;
 use super::super::classes::Whole;
+use super::super::raster::number_for_no_data;
 use super::directory::tag;
 use weald_core::grid::Size;
 
@@ -30,6 +31,14 @@ impl Samples {
         match &raster.classes {
             Some(classes) => Self::Whole(classes.whole()),
             None => Self::Float(raster.number_for_no_data()),
+        }
+    }
+
+    /// The same for values of another range than the raster's.
+    pub(super) fn within(raster: &Raster, range: (f32, f32)) -> Self {
+        match &raster.classes {
+            Some(classes) => Self::Whole(classes.whole()),
+            None => Self::Float(number_for_no_data(range)),
         }
     }
 

@@ -12,6 +12,7 @@ use super::tiles::{Samples, TILE, tiles};
 use super::{legend, metadata};
 use weald_core::domain::GeoKeys;
 use weald_core::error::Error;
+use weald_core::grid::Size;
 
 /// The bytes of a GeoTIFF file.
 ///
@@ -19,7 +20,7 @@ use weald_core::error::Error;
 /// [`Error::Run`] naming a cell with data that holds a NaN or an infinity.
 pub fn encode(raster: &Raster) -> Result<Vec<u8>, Error> {
     raster.ensure_finite()?;
-    Ok(assemble(vec![Image::of(raster, Samples::of(raster))]))
+    assemble(vec![packed(Image::main, raster, Samples::of(raster))])
 }
 
 /// The same, and what its classes mean beside it.
@@ -32,38 +33,83 @@ pub(super) fn cloud_optimized(raster: &Raster) -> Result<Vec<Part>, Error> {
     raster.ensure_finite()?;
     let samples = Samples::of(raster);
     let smaller = overviews(raster);
-    let images = smaller.iter().map(|smaller| Image::overview(smaller, samples));
-    let file = assemble(std::iter::once(Image::of(raster, samples)).chain(images).collect());
+    let images = smaller
+        .iter()
+        .map(|smaller| packed(|_, size, samples| Image::smaller(size, samples), smaller, samples));
+    let file = assemble(std::iter::once(packed(Image::main, raster, samples)).chain(images).collect())?;
     Ok(std::iter::once(Part::own(file)).chain(legend::parts(raster)).collect())
 }
 
 /// An image of the file.
-struct Image {
+pub(super) struct Image {
     /// All tags but those that place the tiles.
     tags: Vec<Entry>,
-    tiles: Vec<Vec<u8>>,
+    /// Bytes of each tile.
+    pub(super) lengths: Vec<u64>,
 }
 
 impl Image {
-    fn of(raster: &Raster, samples: Samples) -> Self {
-        let mut tags = image_tags(raster, samples);
+    /// The image in full of so many cells, with all that a raster says beside its values.
+    pub(super) fn main(raster: &Raster, size: Size, samples: Samples) -> Self {
+        let mut tags = image_tags(size, samples);
         tags.push(Entry::text(tag::SOFTWARE, concat!("Weald ", env!("CARGO_PKG_VERSION"))));
         if let Some(provenance) = &raster.provenance {
             tags.push(Entry::text(tag::IMAGE_DESCRIPTION, &provenance.sentence()));
             tags.push(Entry::text(tag::GDAL_METADATA, &metadata::xml(provenance)));
         }
-        tags.extend(place_tags(raster));
-        Self { tags, tiles: tiles(raster, samples) }
+        tags.extend(place_tags(raster, size));
+        Self { tags, lengths: Vec::new() }
     }
 
-    fn overview(raster: &Raster, samples: Samples) -> Self {
-        let mut tags = image_tags(raster, samples);
+    /// A smaller image.
+    pub(super) fn smaller(size: Size, samples: Samples) -> Self {
+        let mut tags = image_tags(size, samples);
         tags.push(Entry::longs(tag::NEW_SUBFILE_TYPE, &[1]));
-        Self { tags, tiles: tiles(raster, samples) }
+        Self { tags, lengths: Vec::new() }
+    }
+
+    /// All tags in their order, with the tiles from a place of the file on; the places must fit into 32 bits.
+    fn placed(&self, mut next: u64) -> Result<Vec<Entry>, Error> {
+        let mut offsets = Vec::with_capacity(self.lengths.len());
+        for length in &self.lengths {
+            offsets.push(fits(next)?);
+            next += length;
+        }
+        let lengths = self.lengths.iter().map(|&length| fits(length)).collect::<Result<Vec<_>, _>>()?;
+        let mut tags = self.tags.clone();
+        tags.push(Entry::longs(tag::TILE_BYTE_COUNTS, &lengths));
+        tags.push(Entry::longs(tag::TILE_OFFSETS, &offsets));
+        tags.sort_by_key(|entry| entry.tag);
+        Ok(tags)
     }
 }
 
+fn fits(place: u64) -> Result<u32, Error> {
+    u32::try_from(place).map_err(|_| {
+        Error::Run(
+            "the file would be longer than the 4 GiB of a TIFF; choose a smaller size, or .zarr".to_owned(),
+        )
+    })
+}
+
+/// Sides of an image of half the size.
+pub(super) fn halves(size: Size) -> Size {
+    Size { columns: size.columns.div_ceil(2), rows: size.rows.div_ceil(2) }
+}
+
+/// An image with its tiles.
+fn packed(
+    image: impl Fn(&Raster, Size, Samples) -> Image,
+    raster: &Raster,
+    samples: Samples,
+) -> (Image, Vec<Vec<u8>>) {
+    let tiles = tiles(raster, samples);
+    let lengths = tiles.iter().map(|tile| tile.len() as u64).collect();
+    (Image { lengths, ..image(raster, raster.field.size(), samples) }, tiles)
+}
+
 /// A tag with its values in little-endian order.
+#[derive(Clone)]
 struct Entry {
     tag: u16,
     kind: u16,
@@ -94,8 +140,7 @@ impl Entry {
 }
 
 /// What every image says of its values.
-fn image_tags(raster: &Raster, samples: Samples) -> Vec<Entry> {
-    let size = raster.field.size();
+fn image_tags(size: Size, samples: Samples) -> Vec<Entry> {
     vec![
         Entry::longs(tag::IMAGE_WIDTH, &[size.columns as u32]),
         Entry::longs(tag::IMAGE_LENGTH, &[size.rows as u32]),
@@ -113,10 +158,10 @@ fn image_tags(raster: &Raster, samples: Samples) -> Vec<Entry> {
 }
 
 /// Tags of the georeferencing, or of a plain grid in metres with its south-western corner at 0, 0.
-fn place_tags(raster: &Raster) -> Vec<Entry> {
+fn place_tags(raster: &Raster, size: Size) -> Vec<Entry> {
     let (origin, pixel) = match (&raster.georeference, raster.cell) {
         (Some(place), _) => (place.origin, place.pixel),
-        (None, Some(cell)) => ([0.0, cell * raster.field.size().rows as f64], [cell, cell]),
+        (None, Some(cell)) => ([0.0, cell * size.rows as f64], [cell, cell]),
         (None, None) => return Vec::new(),
     };
     let mut tags = vec![
@@ -138,42 +183,47 @@ fn key_tags(keys: &GeoKeys) -> Vec<Entry> {
     tags
 }
 
-/// Header, directories with the values of their tags, tiles, in this order; those of the first image last. The largest
-/// grid there is fits a classic TIFF with its 4 GiB three times over.
-fn assemble(mut images: Vec<Image>) -> Vec<u8> {
-    for Image { tags, tiles } in &mut images {
-        let lengths: Vec<u32> = tiles.iter().map(|tile| tile.len() as u32).collect();
-        tags.push(Entry::longs(tag::TILE_BYTE_COUNTS, &lengths));
-        tags.push(Entry::longs(tag::TILE_OFFSETS, &vec![0; tiles.len()]));
-        tags.sort_by_key(|entry| entry.tag);
+/// Header, directories with the values of their tags, tiles, in this order; those of the first image last.
+fn assemble(images: Vec<(Image, Vec<Vec<u8>>)>) -> Result<Vec<u8>, Error> {
+    let (images, tiles): (Vec<_>, Vec<_>) = images.into_iter().unzip();
+    let mut file = directories(&images)?;
+    file.extend(tiles.iter().rev().flat_map(|tiles| tiles.concat()));
+    Ok(file)
+}
+
+/// Header and directories of images whose tiles have these lengths. The largest grid there is fits a classic TIFF with its
+/// 4 GiB three times over.
+///
+/// # Errors
+/// [`Error::Run`] where it does not.
+pub(super) fn directories(images: &[Image]) -> Result<Vec<u8>, Error> {
+    let mut next = (HEADER.len() + images.iter().map(directory_length).sum::<usize>()) as u64;
+    let mut placed = Vec::with_capacity(images.len());
+    for image in images.iter().rev() {
+        placed.push(image.placed(next)?);
+        next += image.lengths.iter().sum::<u64>();
     }
-    let heads: usize = images.iter().map(|image| directory_length(&image.tags)).sum();
-    let mut next = (HEADER.len() + heads) as u32;
-    for Image { tags, tiles } in images.iter_mut().rev() {
-        let mut offset = |tile: &Vec<u8>| {
-            let end = next + tile.len() as u32;
-            std::mem::replace(&mut next, end)
-        };
-        let offsets: Vec<u32> = tiles.iter().map(&mut offset).collect();
-        for entry in tags.iter_mut().filter(|entry| entry.tag == tag::TILE_OFFSETS) {
-            *entry = Entry::longs(tag::TILE_OFFSETS, &offsets);
-        }
-    }
-    let mut file = HEADER.to_vec();
-    for (number, image) in images.iter().enumerate() {
+    let mut bytes = HEADER.to_vec();
+    for (number, tags) in placed.iter().rev().enumerate() {
         let is_last = number + 1 == images.len();
-        file.extend(directory(&image.tags, file.len(), is_last));
+        bytes.extend(directory(tags, bytes.len(), is_last));
     }
-    file.extend(images.iter().rev().flat_map(|image| image.tiles.concat()));
-    file
+    Ok(bytes)
+}
+
+/// Bytes of the directory of an image and of the values behind it.
+pub(super) fn directory_length(image: &Image) -> usize {
+    let places = vec![0; image.lengths.len()];
+    let places = [tag::TILE_BYTE_COUNTS, tag::TILE_OFFSETS].map(|tag| Entry::longs(tag, &places));
+    length_of(image.tags.iter().chain(&places))
 }
 
 /// The header: little-endian, TIFF, the first directory follows.
-const HEADER: [u8; 8] = *b"II\x2a\0\x08\0\0\0";
+pub(super) const HEADER: [u8; 8] = *b"II\x2a\0\x08\0\0\0";
 
-/// Bytes of a directory and of the values behind it.
-fn directory_length(tags: &[Entry]) -> usize {
-    2 + 12 * tags.len() + 4 + tags.iter().map(outside_length).sum::<usize>()
+/// Bytes of a directory of these tags, and of the values behind it.
+fn length_of<'a>(tags: impl Iterator<Item = &'a Entry>) -> usize {
+    2 + 4 + tags.map(|tag| 12 + outside_length(tag)).sum::<usize>()
 }
 
 /// Bytes that a tag takes behind the directory: none where its values fit in the directory itself.
@@ -202,7 +252,7 @@ fn directory(tags: &[Entry], at: usize, is_last: bool) -> Vec<u8> {
             values_at += length;
         }
     }
-    let next = if is_last { 0 } else { (at + directory_length(tags)) as u32 };
+    let next = if is_last { 0 } else { (at + length_of(tags.iter())) as u32 };
     bytes.extend(next.to_le_bytes());
     bytes.extend(outside);
     bytes

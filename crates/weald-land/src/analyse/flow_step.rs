@@ -1,5 +1,7 @@
 //! The step `flow`.
 
+mod on_disk;
+
 use super::stages::Stages;
 use crate::analyse::{ensure_finite, scaled};
 use crate::flow::{
@@ -13,6 +15,7 @@ use weald_core::parameter::LayerName;
 use weald_core::{choices, parameters};
 use weald_engine::Job;
 use weald_engine::step::{Entry, Outcome, Stage, Step};
+use weald_engine::stored::StoredLandscape;
 
 /// The step's declaration.
 pub const ENTRY: Entry = Entry::of::<FlowStep>(
@@ -98,6 +101,14 @@ impl Step for FlowStep {
         24
     }
 
+    fn scratch_per_cell(&self) -> Result<u64, String> {
+        self.scratch()
+    }
+
+    fn run_on_disk(&self, landscape: &mut StoredLandscape<'_>, job: &Job<'_>) -> Result<Outcome, Error> {
+        self.run_by_tiles(landscape, job)
+    }
+
     fn run(&self, landscape: &mut Landscape, job: &Job<'_>) -> Result<Outcome, Error> {
         let domain = &landscape.domain;
         let (area, size) = (domain.cell_area(), domain.size);
@@ -118,8 +129,6 @@ impl Step for FlowStep {
         let is_valid = |cell: usize| domain.valid.as_ref().is_none_or(|valid| valid.is_valid_at(cell));
         let is_all_sea = (0..size.cells()).all(|cell| !is_valid(cell) || routed.directions.is_sea(cell));
         let note = self.sea_level(domain).filter(|_| is_all_sea);
-        let note =
-            note.map(|level| format!("all ground is sea: none is above `sea_level`, which is {level} m"));
         landscape.insert("flow_direction", "1", routed.directions.layer());
         landscape.insert("accumulation", "m²", areas);
         if let Some(discharge) = discharge {
@@ -128,8 +137,12 @@ impl Step for FlowStep {
         if let Some(name) = &self.filled {
             landscape.insert(&name.0, "m", routed.surface);
         }
-        Ok(Outcome { iterations: 1, notes: note.into_iter().collect(), ..Outcome::default() })
+        Ok(Outcome { iterations: 1, notes: note.map(all_sea).into_iter().collect(), ..Outcome::default() })
     }
+}
+
+fn all_sea(level: f64) -> String {
+    format!("all ground is sea: none is above `sea_level`, which is {level} m")
 }
 
 impl FlowStep {

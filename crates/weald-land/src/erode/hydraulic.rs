@@ -8,6 +8,7 @@ mod defaults;
 mod faults;
 mod keys;
 mod models;
+mod on_disk;
 mod pipe_models;
 mod stava;
 
@@ -31,6 +32,7 @@ use weald_core::material::Material;
 use weald_core::parameter::{Fault, ScriptFile};
 use weald_core::source::Value;
 use weald_engine::step::{Entry, Layered, Outcome, Stage, Step, Work};
+use weald_engine::stored::StoredLandscape;
 use weald_engine::{Engine, Job};
 
 /// The step's declaration.
@@ -163,6 +165,14 @@ impl Step for Hydraulic {
             Model::Mei(_) => "mei",
             Model::Stava(_) => "stava",
         })
+    }
+
+    fn scratch_per_cell(&self) -> Result<u64, String> {
+        self.scratch_on_disk()
+    }
+
+    fn run_on_disk(&self, landscape: &mut StoredLandscape<'_>, job: &Job<'_>) -> Result<Outcome, Error> {
+        self.run_bands_on_disk(landscape, job)
     }
 
     fn run(&self, landscape: &mut Landscape, job: &Job<'_>) -> Result<Outcome, Error> {

@@ -30,12 +30,7 @@ impl WorkingGrid {
         let budget = self.store_with(landscape, layer, finished, &fluxes);
         let mut notes = finished.notes.clone();
         if !kept.conserving {
-            notes.push(format!(
-                "this transport does not conserve sediment: {:.3e} m³ of solid were {}; transport = \"upwind\", or \
-                 \"maccormack\" with `conserve`, conserves it",
-                budget.solid.lost().abs(),
-                if budget.solid.lost() > 0.0 { "lost" } else { "made" },
-            ));
+            notes.push(lost_note(&budget));
         }
         Outcome { iterations: kept.iterations, budget: Some(budget), notes, ..Outcome::default() }
     }
@@ -79,4 +74,14 @@ impl WorkingGrid {
         budget.water = WaterBudget::default();
         Outcome { iterations, budget: Some(budget), notes: finished.notes.clone(), ..Outcome::default() }
     }
+}
+
+/// Tells what a transport lost that does not conserve sediment.
+pub(crate) fn lost_note(budget: &Budget) -> String {
+    format!(
+        "this transport does not conserve sediment: {:.3e} m³ of solid were {}; transport = \"upwind\", or \
+         \"maccormack\" with `conserve`, conserves it",
+        budget.solid.lost().abs(),
+        if budget.solid.lost() > 0.0 { "lost" } else { "made" },
+    )
 }

@@ -220,28 +220,63 @@ impl WorkingGrid {
         rows.map(|row| row.iter().map(|&cell| f64::from(cell)).sum::<f64>()).sum()
     }
 
+    /// Columns and rows, and whether there is a mask.
+    pub(super) fn shape(&self) -> (Size, bool) {
+        (self.size, self.mask.is_some())
+    }
+
     pub(super) fn budget(&self, depth: &[f32], sediment: &[f32], finished: &Finished) -> Budget {
-        let volume = self.cell * self.cell * self.cell;
         let total = |cells: &[f32]| self.total(cells);
-        let flows = Flows::from(finished.sums);
-        let bedrock = total(&self.base);
         let change = finished.state.gather(plane::CHANGE);
-        let [loose_before, loose] = self.loose(finished);
-        let changed: f64 = change.iter().map(|&change| f64::from(change).abs()).sum();
-        let suspended = total(sediment);
-        let moved = changed + (loose - loose_before).abs() + suspended.abs() + flows.solid_out.abs();
+        let totals = Totals {
+            bedrock: total(&self.base),
+            standing: total(&self.water),
+            water: total(depth),
+            change: total(&change),
+            changed: change.iter().map(|&change| f64::from(change).abs()).sum(),
+            suspended: total(sediment),
+            loose: self.loose(finished),
+        };
+        totals.budget(&Flows::from(finished.sums), self.cell)
+    }
+}
+
+/// Sums over all cells of a simulation of water, in cells³.
+#[derive(Default)]
+pub(super) struct Totals {
+    /// The ground of the start above its lowest place, or the bedrock of a stack.
+    pub(super) bedrock: f64,
+    /// Water at the start and at the end.
+    pub(super) standing: f64,
+    pub(super) water: f64,
+    /// Change of the ground, and without its sign.
+    pub(super) change: f64,
+    pub(super) changed: f64,
+    /// Sediment in the water.
+    pub(super) suspended: f64,
+    /// What lay on the bedrock before, and lies there after.
+    pub(super) loose: [f64; 2],
+}
+
+impl Totals {
+    /// Where water and solid went, with cells of so many metres.
+    pub(super) fn budget(&self, flows: &Flows, cell: f64) -> Budget {
+        let volume = cell * cell * cell;
+        let [loose_before, loose] = self.loose;
+        let moved =
+            self.changed + (loose - loose_before).abs() + self.suspended.abs() + flows.solid_out.abs();
         Budget {
             water: WaterBudget {
-                incoming: (flows.rained + total(&self.water)) * volume,
+                incoming: (flows.rained + self.standing) * volume,
                 outgoing: flows.water_out * volume,
-                stored: total(depth) * volume,
+                stored: self.water * volume,
             },
             solid: SolidBudget {
-                start: (bedrock + loose_before) * volume,
+                start: (self.bedrock + loose_before) * volume,
                 uplifted: 0.0,
-                ground: (bedrock + total(&change)) * volume,
+                ground: (self.bedrock + self.change) * volume,
                 layers: loose * volume,
-                suspended: suspended * volume,
+                suspended: self.suspended * volume,
                 outgoing: flows.solid_out * volume,
                 moved: moved * volume,
             },

@@ -1,8 +1,10 @@
 //! Flat ground: the same height everywhere.
 
+use std::ops::Range;
+
 use weald_core::domain::Domain;
 use weald_core::error::Error;
-use weald_core::grid::Field;
+use weald_core::grid::{Field, Size};
 use weald_core::parameter::LayerName;
 use weald_core::parameters;
 use weald_engine::generator::Generator;
@@ -35,6 +37,11 @@ parameters! {
 impl Generator for Constant {
     fn fill(&self, domain: &Domain, _: u64) -> Result<Field, Error> {
         Ok(Field::filled(domain.size, self.height as f32))
+    }
+
+    fn fill_rows(&self, domain: &Domain, _: u64, rows: Range<usize>) -> Option<Field> {
+        let size = Size { columns: domain.size.columns, rows: rows.len() };
+        Some(Field::filled(size, self.height as f32))
     }
 
     fn target(&self) -> &LayerName {

@@ -10,7 +10,10 @@
 //!
 //! Mandelbrot and Van Ness 1968, doi 10.1137/1010093; Musgrave, Kolb, Mace 1989, doi 10.1145/74333.74337.
 
-use super::octaves::{OctavePass, Spectrum, fill_rows, window};
+use std::ops::Range;
+
+use super::noise::Window;
+use super::octaves::{OctavePass, Spectrum, fill_rows, part, window};
 use weald_core::domain::Domain;
 use weald_core::error::Error;
 use weald_core::grid::Field;
@@ -78,20 +81,12 @@ uniform! {
 
 impl Generator for Fbm {
     fn fill(&self, domain: &Domain, seed: u64) -> Result<Field, Error> {
-        let octaves = self.spectrum().over(&window(domain), seed);
-        let FbmConstants { middle, scale, .. } = self.constants(domain);
-        Ok(fill_rows(
-            domain,
-            #[inline(always)]
-            |y, row| {
-                for (octave, amplitude) in &octaves {
-                    octave.add_row(y, *amplitude, row);
-                }
-                for value in row {
-                    *value = middle + scale * *value;
-                }
-            },
-        ))
+        Ok(self.over(domain, &window(domain), seed))
+    }
+
+    fn fill_rows(&self, domain: &Domain, seed: u64, rows: Range<usize>) -> Option<Field> {
+        let (part, window) = part(domain, rows);
+        Some(self.over(&part, &window, seed))
     }
 
     fn on_device(&self, domain: &Domain, seed: u64) -> Option<OnDevice> {
@@ -118,6 +113,23 @@ impl Generator for Fbm {
 }
 
 impl Fbm {
+    fn over(&self, domain: &Domain, window: &Window, seed: u64) -> Field {
+        let octaves = self.spectrum().over(window, seed);
+        let FbmConstants { middle, scale, .. } = self.constants(domain);
+        fill_rows(
+            domain,
+            #[inline(always)]
+            |y, row| {
+                for (octave, amplitude) in &octaves {
+                    octave.add_row(y, *amplitude, row);
+                }
+                for value in row {
+                    *value = middle + scale * *value;
+                }
+            },
+        )
+    }
+
     fn spectrum(&self) -> Spectrum {
         let Self { octaves, wavelength, gain, lacunarity, .. } = *self;
         Spectrum { octaves, wavelength, gain, lacunarity }

@@ -7,11 +7,13 @@ mod program;
 
 pub(crate) use program::OctavePass;
 
+use std::ops::Range;
+
 use rayon::prelude::*;
 
 use super::noise::{Octave, VARIANCE, Window};
 use weald_core::domain::Domain;
-use weald_core::grid::Field;
+use weald_core::grid::{Field, Size};
 use weald_core::vectors;
 
 /// Wavelengths and amplitudes.
@@ -58,6 +60,14 @@ impl Spectrum {
 /// The window that a landscape is.
 pub fn window(domain: &Domain) -> Window {
     Window { first: [0, 0], count: [domain.size.columns, domain.size.rows], cell: domain.cell }
+}
+
+/// Some rows of a landscape as one of their own, and the window that they are.
+pub fn part(domain: &Domain, rows: Range<usize>) -> (Domain, Window) {
+    let size = Size { columns: domain.size.columns, rows: rows.len() };
+    let part = Domain { size, ..Domain::new(size, domain.cell) };
+    let window = Window { first: [0, rows.start as i64], ..window(&part) };
+    (part, window)
 }
 
 /// Rows that one task makes.

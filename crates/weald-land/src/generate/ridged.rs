@@ -9,8 +9,10 @@
 //! offset 1). Heights lie between 0 and `relief` by construction. What differs: amplitudes are given by
 //! `gain` in place of the exponent `H`, as for `fbm`.
 
-use super::noise::Octave;
-use super::octaves::{OctavePass, Spectrum, fill_rows, window};
+use std::ops::Range;
+
+use super::noise::{Octave, Window};
+use super::octaves::{OctavePass, Spectrum, fill_rows, part, window};
 use weald_core::domain::Domain;
 use weald_core::error::Error;
 use weald_core::grid::Field;
@@ -75,21 +77,19 @@ uniform! {
 
 impl Ridged {
     /// The octaves, each with the height of its crests.
-    fn scaled_octaves(&self, domain: &Domain, seed: u64) -> Vec<(Octave, f32)> {
+    fn scaled_octaves(&self, window: &Window, seed: u64) -> Vec<(Octave, f32)> {
         let Self { octaves, wavelength, gain, lacunarity, .. } = *self;
         let spectrum = Spectrum { octaves, wavelength, gain, lacunarity };
         let scale = (self.relief / spectrum.bound()) as f32;
-        let octaves = spectrum.over(&window(domain), seed).into_iter();
+        let octaves = spectrum.over(window, seed).into_iter();
         octaves.map(|(octave, amplitude)| (octave, scale * amplitude)).collect()
     }
-}
 
-impl Generator for Ridged {
-    fn fill(&self, domain: &Domain, seed: u64) -> Result<Field, Error> {
-        let octaves = self.scaled_octaves(domain, seed);
+    fn over(&self, domain: &Domain, window: &Window, seed: u64) -> Field {
+        let octaves = self.scaled_octaves(window, seed);
         let sharpness = self.sharpness as f32;
         let columns = domain.size.columns;
-        Ok(fill_rows(
+        fill_rows(
             domain,
             #[inline(always)]
             |y, row| {
@@ -101,7 +101,18 @@ impl Generator for Ridged {
                     add_crests(&noise, sharpness, *amplitude, &mut weight, row);
                 }
             },
-        ))
+        )
+    }
+}
+
+impl Generator for Ridged {
+    fn fill(&self, domain: &Domain, seed: u64) -> Result<Field, Error> {
+        Ok(self.over(domain, &window(domain), seed))
+    }
+
+    fn fill_rows(&self, domain: &Domain, seed: u64, rows: Range<usize>) -> Option<Field> {
+        let (part, window) = part(domain, rows);
+        Some(self.over(&part, &window, seed))
     }
 
     fn on_device(&self, domain: &Domain, seed: u64) -> Option<OnDevice> {
@@ -114,7 +125,7 @@ impl Generator for Ridged {
             name: "ridged",
             shaders: &[include_str!("ridged.wgsl")],
             constants: Uniforms::of(&constants),
-            octaves: self.scaled_octaves(domain, seed),
+            octaves: self.scaled_octaves(&window(domain), seed),
         };
         Some(pass.on_device(domain))
     }

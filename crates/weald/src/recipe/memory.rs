@@ -158,7 +158,7 @@ impl Recipe {
     }
 
     fn ensure_peak(&self, peak: &Memory, allowed: Option<u64>) -> Result<(), Error> {
-        let there = allowed.or_else(available).unwrap_or(u64::MAX);
+        let there = self::allowed(allowed);
         let has_room = has_addresses(peak.bytes);
         if peak.bytes <= there && has_room {
             return Ok(());
@@ -214,7 +214,7 @@ impl Output {
 /// # Errors
 /// [`Error::Limit`] with the length and what is allowed.
 pub(super) fn ensure_file(path: &Path, bytes: u64, allowed: Option<u64>) -> Result<(), Error> {
-    let there = allowed.or_else(available).unwrap_or(u64::MAX);
+    let there = self::allowed(allowed);
     if bytes <= there {
         return Ok(());
     }
@@ -237,6 +237,11 @@ pub(super) fn taken() -> Option<u64> {
 #[cfg(not(target_os = "linux"))]
 pub(super) fn taken() -> Option<u64> {
     None
+}
+
+/// Memory that a run may take: what it was allowed, else what is free.
+pub(super) fn allowed(asked: Option<u64>) -> u64 {
+    asked.or_else(available).unwrap_or(u64::MAX)
 }
 
 /// Memory that is free or can be freed, in bytes, where the system tells it.

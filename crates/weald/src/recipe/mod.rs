@@ -17,6 +17,7 @@ mod layer_output;
 pub mod load;
 mod memory;
 mod migrate;
+mod on_disk;
 mod over_ranks;
 mod overrides;
 mod plan;

@@ -4,6 +4,7 @@ mod film;
 pub(super) mod finished;
 mod folder;
 pub(super) mod inputs;
+mod on_disk;
 mod options;
 mod outputs;
 mod step_watcher;
@@ -104,6 +105,9 @@ impl Run<'_> {
     }
 
     fn execute_here(&self, progress: &dyn Progress) -> Result<Report, Error> {
+        if let Some(scratch) = &self.options.out_of_core {
+            return self.execute_on_disk(scratch, progress);
+        }
         let mut place = self.prepare(progress)?;
         if self.options.resume && place.has_finished_this() {
             place.leaves = Leaves::Nothing;
@@ -257,7 +261,7 @@ impl Run<'_> {
             progress.note(note);
         }
         let seconds = started.elapsed().as_secs_f64();
-        let report = step_report(planned, &landscape, outcome, seconds, resumed_at);
+        let report = step_report(planned, landscape.domain.size.cells(), outcome, seconds, resumed_at);
         if let Some(kept) = kept {
             kept.keep((self.recipe, planned), (&state.landscape, &landscape), &report, &|note| {
                 progress.note(note);

@@ -61,7 +61,8 @@ pub(super) fn step(
     }
     let (before, started) = (landscape.clone(), Instant::now());
     let outcome = run_step(of, landscape, engine, progress)?;
-    let report = step_report(of.1, landscape, outcome, started.elapsed().as_secs_f64(), None);
+    let report =
+        step_report(of.1, landscape.domain.size.cells(), outcome, started.elapsed().as_secs_f64(), None);
     kept.keep(of, (&before, landscape), &report, &|note| progress.note(note));
     Ok(())
 }

@@ -14,6 +14,7 @@ mod islands;
 mod json_schema;
 mod materials;
 mod networks;
+mod out_of_core;
 mod over_ranks;
 mod own_grid;
 mod plants;

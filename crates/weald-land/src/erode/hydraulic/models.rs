@@ -26,6 +26,7 @@ use crate::erode::stava::Stava;
 use crate::erode::water_planes as plane;
 use crate::erode::working::{RunResult, WorkingGrid};
 use weald_core::error::Error;
+use weald_core::grid::Size;
 use weald_core::landscape::Landscape;
 use weald_engine::machine::{Means, Snapshot};
 use weald_engine::machine_of_engine;
@@ -233,9 +234,9 @@ impl Hydraulic {
         })
     }
 
-    pub(super) fn setting(&self, filled: &ResolvedKeys, working: &WorkingGrid) -> Around {
+    pub(super) fn setting(&self, filled: &ResolvedKeys, (size, is_masked): (Size, bool)) -> Around {
         Around {
-            links: Links::new(working.size, working.mask.is_some()),
+            links: Links::new(size, is_masked),
             open: self.boundary == Boundary::Open,
             advection: self.advection(filled),
             slide: self.slide(),

@@ -26,7 +26,8 @@ impl Scheme for Han {
 
     fn of(step: &Hydraulic, on: &OnLand<'_>) -> Result<Self, Error> {
         let Model::Han(keys) = &step.model else { return Err(another_model(step)) };
-        let (constants, setting) = (han_constants(keys, on.filled), step.setting(on.filled, on.working));
+        let (constants, setting) =
+            (han_constants(keys, on.filled), step.setting(on.filled, on.working.shape()));
         Ok(Self { constants, limiter: keys.limiter, setting })
     }
 
@@ -44,7 +45,8 @@ impl Scheme for Mei {
 
     fn of(step: &Hydraulic, on: &OnLand<'_>) -> Result<Self, Error> {
         let Model::Mei(keys) = &step.model else { return Err(another_model(step)) };
-        let (constants, setting) = (mei_constants(keys, on.filled), step.setting(on.filled, on.working));
+        let (constants, setting) =
+            (mei_constants(keys, on.filled), step.setting(on.filled, on.working.shape()));
         Ok(Self { constants, limiter: keys.limiter, slope: keys.slope, setting })
     }
 
@@ -57,7 +59,7 @@ impl Scheme for Mei {
     }
 }
 
-fn han_constants(keys: &HanKeys, filled: &ResolvedKeys) -> HanConstants {
+pub(super) fn han_constants(keys: &HanKeys, filled: &ResolvedKeys) -> HanConstants {
     let uptake = |law| if keys.law == law { filled.erosion } else { 0.0 };
     HanConstants {
         flow_rate: filled.flow_rate,

@@ -45,7 +45,7 @@ impl Scheme for Stava {
             erosion: keys.digging(landscape, filled)?,
             dissolution: keys.dissolution_in(landscape, filled)?,
             slippage: keys.slippage_in(landscape, column.planes)?,
-            setting: step.setting(filled, working),
+            setting: step.setting(filled, working.shape()),
         })
     }
 

@@ -2,18 +2,16 @@
 
 use crate::recipe::memory;
 use crate::recipe::plan::Planned;
-use weald_core::landscape::Landscape;
 use weald_engine::report::StepReport;
 use weald_engine::step::Outcome;
 
 pub(in crate::recipe) fn step_report(
     planned: &Planned,
-    landscape: &Landscape,
+    cells: usize,
     outcome: Outcome,
     seconds: f64,
     resumed_at: Option<u64>,
 ) -> StepReport {
-    let cells = landscape.domain.size.cells();
     let here = outcome.iterations.saturating_sub(resumed_at.unwrap_or(0));
     let mut notes = outcome.notes;
     if let Some(iteration) = resumed_at {

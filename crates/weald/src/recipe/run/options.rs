@@ -27,6 +27,8 @@ pub struct Options {
     pub report: bool,
     /// Most memory that a run may take, in bytes; all that is free where none is given.
     pub memory: Option<u64>,
+    /// Folder for the layers of a run that keeps them on disk, within that memory; all in memory where none is given.
+    pub out_of_core: Option<PathBuf>,
     /// Results of steps that earlier runs have left, and that this one leaves.
     pub cache: Option<Arc<Cache>>,
     /// Folder in which the run leaves what its steps and outputs took, for estimates.
@@ -47,6 +49,7 @@ impl Options {
             resume: false,
             report: true,
             memory: None,
+            out_of_core: None,
             cache: None,
             timings: None,
             render: None,

@@ -1,0 +1,83 @@
+//! Recipes for landscapes that do not fit into memory: what of them can be made from disk, and the disk that it takes.
+
+use std::collections::BTreeSet;
+
+use super::layer_output::Treatment;
+use super::plan::{Content, Ground, Output, Recipe};
+use weald_core::error::{Diagnostic, Error, RecipeError};
+use weald_core::file_plane::VALUE;
+use weald_io::Encode;
+
+impl Recipe {
+    /// Bytes that a run from disk takes in its scratch folder at its peak, beside its files.
+    ///
+    /// # Errors
+    /// [`Error::Recipe`] naming everything that cannot be made but in memory, each with its line.
+    pub fn scratch(&self) -> Result<u64, Error> {
+        let diagnostics: Vec<_> = self.needs_memory().collect();
+        let (Ground::Empty { size, .. }, true) = (&self.ground, diagnostics.is_empty()) else {
+            return Err(RecipeError { file: self.file.clone(), diagnostics }.into());
+        };
+        let cells = size.columns as u64 * size.rows as u64;
+        let (mut there, mut peak) = (BTreeSet::new(), 0);
+        for (number, planned) in self.steps.iter().enumerate() {
+            let (before, wanted) = (there.len(), self.wanted_after(number + 1));
+            let written = planned.step.writes().into_iter().map(|(name, _)| name);
+            let written: BTreeSet<_> = written.filter(|name| wanted.contains(name)).collect();
+            let own = planned.step.scratch_per_cell().unwrap_or_default();
+            peak = peak.max(cells * (own + VALUE * (before + written.len()) as u64));
+            there.extend(written);
+            there.retain(|name| wanted.contains(name));
+        }
+        // The smaller images of one file, each a quarter of the one before.
+        let outputs = cells * VALUE * there.len() as u64 + cells * VALUE / 3;
+        Ok(peak.max(outputs))
+    }
+
+    /// Layers that are needed after so many steps.
+    pub(super) fn wanted_after(&self, done: usize) -> BTreeSet<String> {
+        let steps = self.steps.iter().skip(done).flat_map(|planned| planned.step.reads());
+        steps.chain(self.outputs.iter().flat_map(Output::reads)).collect()
+    }
+
+    /// What cannot be made from disk.
+    fn needs_memory(&self) -> impl Iterator<Item = Diagnostic> {
+        let whole = "a run out of core cannot make this";
+        let start = [
+            (matches!(self.ground, Ground::File { .. }), "`from`"),
+            (
+                matches!(self.ground, Ground::Empty { finest: Some(_), .. }),
+                "`finest`, which --size and --preview set where they make a recipe coarser,",
+            ),
+            (self.sea_level.is_some(), "`sea_level`"),
+            (self.materials.iter().any(|planned| planned.file.is_some()), "`from` of a material"),
+        ];
+        let start = start.into_iter().filter(|(asked, _)| *asked).map(move |(_, what)| Diagnostic {
+            line: 1,
+            message: format!("{whole}: {what} needs the landscape in memory"),
+        });
+        let steps = self.steps.iter().filter_map(move |planned| {
+            let why = planned.step.scratch_per_cell().err()?;
+            let message = format!("{whole}: the step `{}`: {why}", planned.entry.name);
+            Some(Diagnostic { line: planned.line, message })
+        });
+        let outputs = self.outputs.iter().filter(|output| !is_by_windows(output)).map(move |output| Diagnostic {
+            line: output.line,
+            message: format!(
+                "{whole}: {}; of outputs it writes layers as .tif, by the preset `cog` or without, on the grid and in the \
+                 numbers of the landscape",
+                output.file.display()
+            ),
+        });
+        start.chain(steps).chain(outputs)
+    }
+}
+
+fn is_by_windows(output: &Output) -> bool {
+    match &output.content {
+        Content::Layer { encode: Encode::Windows { .. }, treatment, .. } => {
+            *treatment == Treatment::default()
+        }
+        _ => false,
+    }
+}

@@ -1,0 +1,166 @@
+//! Runs from disk: the files and the report of a run in memory, within little memory, and nothing left behind.
+
+use std::path::Path;
+
+use weald::Error;
+use weald::recipe::{Options, OutputReport, Overrides, Progress, Recipe, Report, Run, Silent};
+
+/// What a run takes beside its steps, as the run from disk counts it.
+const BESIDE: u64 = 64 << 20;
+
+fn recipe(text: &str) -> Recipe {
+    Recipe::parse("land.toml", text, &Overrides::default()).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// Ground, rain on it, and where the water goes; `hydraulic` has more keys.
+fn land(generator: &str, hydraulic: &str) -> Recipe {
+    let output = |layer: &str, file: &str, more: &str| {
+        format!("[[output]]\nlayer = \"{layer}\"\nfile = \"{file}\"\n{more}\n")
+    };
+    let cog = "preset = \"cog\"";
+    let outputs = [
+        output("height", "height.tif", cog),
+        output("flow_direction", "directions.tif", cog),
+        output("accumulation", "areas.tif", ""),
+        output("discharge", "discharge.tif", ""),
+        output("flux_x", "flux.tif", cog),
+        output("water", "water/depth.tif", cog),
+        output("erosion", "erosion.tif", ""),
+    ];
+    recipe(&format!(
+        "[landscape]\nsize = [330, 290]\ncell = 12.0\nseed = 5\n\
+         [[step]]\ndo = \"{generator}\"\nrelief = 400\nwavelength = 900\n\
+         [[step]]\ndo = \"hydraulic\"\niterations = 75\nrain_period = 20\nmodel = \"han\"\ndry_period = 15\n{hydraulic}\n\
+         [[step]]\ndo = \"constant\"\nheight = 0.3\ninto = \"runoff\"\n\
+         [[step]]\ndo = \"flow\"\nweight = \"runoff\"\n{}",
+        outputs.concat()
+    ))
+}
+
+fn run(
+    recipe: &Recipe,
+    out: &Path,
+    disk: Option<(&Path, u64)>,
+    progress: &dyn Progress,
+) -> Result<Report, Error> {
+    let options = Options {
+        out_of_core: disk.map(|(scratch, _)| scratch.to_owned()),
+        memory: disk.map(|(_, memory)| memory),
+        threads: Some(if disk.is_some() { 3 } else { 2 }),
+        ..Options::into_folder(out)
+    };
+    Run { recipe, options }.execute(progress)
+}
+
+/// What a report says beside times and memory.
+fn said(report: &Report) -> Vec<String> {
+    let steps = report.steps.iter().map(|step| {
+        format!(
+            "{} {} {} {:?} {:?} {:?}",
+            step.step, step.cells, step.iterations, step.budget, step.measures, step.notes
+        )
+    });
+    let outputs = report.outputs.iter().map(|output| {
+        format!(
+            "{} {:?} {:?} {:?} {:?} {:?}",
+            output.file, output.layer, output.unit, output.range, output.companions, output.notes
+        )
+    });
+    steps.chain(outputs).chain([report.engine.clone(), report.recipe_blake3.clone()]).collect()
+}
+
+#[test]
+fn a_run_from_disk_gives_the_files_and_the_report_of_one_in_memory() {
+    let thermal =
+        "boundary = \"open\"\nthermal = { talus = 0.6, strength = 0.05 }\ntransport = \"maccormack\"";
+    for (generator, hydraulic, memory) in [
+        ("fbm", "", BESIDE + (5 << 20)),
+        ("ridged", "transport = \"semi-lagrangian\"\nmean_over = 13", BESIDE + (4 << 20)),
+        ("fbm", thermal, BESIDE + (7 << 20)),
+        ("fbm", "boundary = \"open\"", 1 << 30),
+    ] {
+        let recipe = land(generator, hydraulic);
+        let [whole, parts, scratch] = [0; 3].map(|_| tempfile::tempdir().expect("a folder"));
+        let expected = run(&recipe, whole.path(), None, &Silent).unwrap_or_else(|error| panic!("{error}"));
+        let got = run(&recipe, parts.path(), Some((scratch.path(), memory)), &Silent);
+        let got = got.unwrap_or_else(|error| panic!("{error}"));
+        assert_eq!(said(&got), said(&expected), "{generator} {hydraulic}");
+        for file in expected.outputs.iter().flat_map(OutputReport::files) {
+            let [expected, got] = [&whole, &parts]
+                .map(|folder| std::fs::read(folder.path().join(&file)).expect("it was written"));
+            assert!(expected == got, "{} of {generator} {hydraulic}", file.display());
+        }
+        assert_eq!(std::fs::read_dir(scratch.path()).expect("it is there").count(), 0, "nothing is left");
+    }
+}
+
+#[test]
+fn what_needs_memory_is_named_before_anything_runs() {
+    let text = "[landscape]\nsize = 40\nsea_level = 3.0\n\
+                [[step]]\ndo = \"diamond-square\"\n\
+                [[step]]\ndo = \"hydraulic\"\nmodel = \"mei\"\n\
+                [[step]]\ndo = \"flow\"\ndepressions = \"breach\"\n\
+                [[step]]\ndo = \"lakes\"\n\
+                [[output]]\npicture = \"relief\"\nfile = \"r.png\"\n\
+                [[output]]\nlayer = \"height\"\nfile = \"h.npy\"\n";
+    let error = recipe(text).scratch().expect_err("refused").to_string();
+    for words in [
+        "land.toml:1: ",
+        "`sea_level`",
+        "land.toml:4: ",
+        "`diamond-square`: it generates the whole landscape at once",
+        "`hydraulic`: the models `mei` and `stava`",
+        "`flow`: `depressions = \"breach\"`",
+        "`lakes`",
+        "r.png",
+        "h.npy",
+    ] {
+        assert!(error.contains(words), "{words}: {error}");
+    }
+    let out = tempfile::tempdir().expect("a folder");
+    let refused = run(&recipe(text), &out.path().join("out"), Some((out.path(), 1 << 30)), &Silent);
+    assert!(matches!(refused, Err(Error::Recipe(_))));
+    assert!(!out.path().join("out").exists(), "nothing was begun");
+}
+
+#[test]
+fn the_disk_that_a_run_takes_is_told_before() {
+    // Seven planes of the simulation and one that is written, beside the ground before and the layers that are wanted after.
+    let scratch = land("fbm", "").scratch().expect("it can be made");
+    assert_eq!(scratch, 330 * 290 * 4 * (8 + 1 + 4));
+}
+
+#[test]
+fn too_little_memory_is_told_with_what_is_needed() {
+    let out = tempfile::tempdir().expect("a folder");
+    let error = run(&land("fbm", ""), out.path(), Some((out.path(), BESIDE + (1 << 20))), &Silent);
+    let Err(Error::Limit(limit)) = error else { panic!("{error:?}") };
+    assert!(limit.asked > Some(1 << 20) && limit.to_string().contains("330 columns"), "{limit}");
+}
+
+/// Wants the end in the middle of the simulation.
+struct Stops;
+
+impl Progress for Stops {
+    fn cancelled(&self) -> bool {
+        true
+    }
+}
+
+#[test]
+fn an_interruption_leaves_nothing_and_says_so() {
+    let [out, scratch] = [0; 2].map(|_| tempfile::tempdir().expect("a folder"));
+    let error =
+        run(&land("fbm", ""), out.path(), Some((scratch.path(), 1 << 30)), &Stops).expect_err("stopped");
+    assert!(
+        matches!(&error, Error::Interrupted(what) if what.contains("keeps nothing to go on from")),
+        "{error}"
+    );
+    let left = |folder: &Path| std::fs::read_dir(folder).expect("it is there").count();
+    assert_eq!((left(scratch.path()), left(&out.path().join("water"))), (0, 0));
+    assert_eq!(left(out.path()), 1, "the folder of an output, which is empty");
+    let missing = Path::new("/no/such/folder");
+    let out = tempfile::tempdir().expect("a folder");
+    let error = run(&land("fbm", ""), out.path(), Some((missing, 1 << 30)), &Silent).expect_err("no folder");
+    assert!(error.to_string().contains("/no/such/folder"), "{error}");
+}
