@@ -14,6 +14,9 @@ const FINER = 6u;
 const MARCH_STEPS = 44;
 const FURTHER = 1.17;
 
+// Radians over which ripples that are too small to be seen blur what water mirrors.
+const MIRRORED_BLUR = 0.06;
+
 // How far two sets of ripples are carried, and the share of the second.
 struct Carried {
     phases: vec2<f32>,
@@ -137,7 +140,7 @@ fn land_along(start: vec3<f32>, direction: vec3<f32>) -> f32 {
 fn mirrored_light(start: vec3<f32>, direction: vec3<f32>, upward: vec3<f32>, length_before: f32) -> vec3<f32> {
     let ray_length = land_along(start, direction);
     if ray_length < 0.0 {
-        return with_clouds(start, upward, sky_radiance(upward));
+        return with_clouds(start, upward, sky_radiance(upward), MIRRORED_BLUR);
     }
     let point = start + direction * ray_length;
     let place = place_of(point);

@@ -1,19 +1,35 @@
-//! Fair-weather clouds: one layer of noise above the land, lit by the sun through itself, and the shadows that it throws.
+//! Fair-weather clouds: heaps of noise over one level above the land, lit by the sun, and the shadows that they throw.
 //!
-//! The layer is flat: a direction meets it in one place, and how dense it is there says how much of the sky it hides. What
-//! lies towards the sun in it takes light from it. Clouds far away pale as the sky does. All numbers are chosen by eye.
+//! Noise says how far a place lies within a heap, less so further up, where heaps are narrower. A ray is looked at where it
+//! meets levels one above the other, without what is finer than the way from one to the next; between the last without
+//! cloud and the first with it lies the side of a heap. There all of the noise says how dense it is, and how much of it
+//! lies towards the sun. Clouds far away pale as the sky does. All numbers are chosen by eye.
 
 use super::sky::Sky;
 use super::vector::{Vector, add, dot, ramp, scale, subtract};
 use crate::colour::mix;
-use weald_core::grain::Octaves;
+use weald_core::grain::{Grain, Octaves};
 
 /// Metres from one cloud to the next, and of their base above the highest ground.
 const APART: f32 = 2600.0;
 const ABOVE: f32 = 1300.0;
 
+/// Levels at which rays are looked at, and metres from one to the next.
+const SLICES: usize = 16;
+const SLICE: f32 = 32.0;
+
+/// Noise by which the top of a heap is narrower than its base.
+const NARROWER: f32 = 0.36;
+
+/// Ways between two levels that are the least to be seen of a heap's form.
+const COARSE: f32 = 1.4;
+
+/// Noise over which the edge of a heap is soft, and how much softer it is for a radian that is seen as one.
+const EDGE: f32 = 0.2;
+const SOFTER: f32 = 5.0;
+
 /// Metres of cloud through which the sun's light comes to what is seen.
-const THICK: f32 = 380.0;
+const LIT: f32 = 420.0;
 
 /// Metres over which clouds are lost in the haze.
 const LOST: f32 = 28_000.0;
@@ -24,6 +40,22 @@ const SHADOW: f32 = 0.78;
 /// Metres over which the edges of their shadows are soft.
 const SOFT: f32 = 160.0;
 
+/// Where a ray meets a heap.
+struct Met {
+    /// The level, counted from the base.
+    slice: f32,
+    /// How far it is within there, and at most along the ray.
+    within: f32,
+    most: f32,
+    /// How that grows eastward and northward.
+    slope: [f32; 2],
+}
+
+/// The place so many metres along a ray.
+fn along(from: Vector, direction: Vector, reach: f32) -> [f32; 2] {
+    [0, 1].map(|axis| from[axis] + direction[axis] * reach)
+}
+
 /// A layer of clouds.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Clouds {
@@ -33,6 +65,8 @@ pub(super) struct Clouds {
     pub(super) height: f32,
     /// Light of the sky on flat ground.
     pub(super) skylight: Vector,
+    /// Factor on heights.
+    exaggeration: f32,
 }
 
 impl Clouds {
@@ -40,41 +74,73 @@ impl Clouds {
     pub(super) fn new(share: f64, sky: &Sky, [highest, exaggeration]: [f32; 2]) -> Option<Self> {
         let skylight = subtract(sky.on_flat_ground(), scale(sky.sunlight, sky.sun[2]));
         let height = highest + ABOVE * exaggeration;
-        (share > 0.0).then_some(Self { share: share as f32, height, skylight })
+        (share > 0.0).then_some(Self { share: share as f32, height, skylight, exaggeration })
     }
 
-    fn density(&self, [x, y]: [f32; 2], footprint: f32) -> f32 {
+    /// How far a place is within a heap, as noise above what makes cloud there, at a share of its height.
+    fn within(&self, [x, y]: [f32; 2], share: f32, footprint: f32) -> Grain {
         let noise =
             Octaves { wavelength: APART, count: 7, gain: 0.56, seed: 0x71 }.at([x, y, 0.0], footprint);
-        let least = 0.44 - 0.95 * self.share;
-        ramp(noise.value, least, least + 0.34)
+        let least = 0.44 - 0.95 * self.share + NARROWER * share * share;
+        Grain { value: noise.value - least, ..noise }
     }
 
-    /// The radiance of the sky in a direction, with the clouds before it.
-    pub(super) fn before(&self, sky: &Sky, [from, direction, radiance]: [Vector; 3]) -> Vector {
+    /// Metres from one level to the next along a direction.
+    fn spacing(&self, direction: Vector) -> f32 {
+        SLICE * self.exaggeration / direction[2]
+    }
+
+    /// Where a ray meets a heap; `None` where it meets none.
+    fn met(&self, from: Vector, direction: Vector) -> Option<Met> {
+        let (spacing, first) = (self.spacing(direction), (self.height - from[2]) / direction[2]);
+        let (mut met, mut before): (Option<Met>, f32) = (None, -1.0);
+        for slice in 0..SLICES {
+            let at = along(from, direction, first + slice as f32 * spacing);
+            let here = self.within(at, slice as f32 / (SLICES - 1) as f32, COARSE * spacing);
+            match &mut met {
+                Some(met) => met.most = met.most.max(here.value),
+                None if here.value > 0.0 => {
+                    // The base is flat; a side lies between two levels.
+                    let (back, within) = match slice {
+                        0 => (0.0, here.value),
+                        _ => (here.value / (here.value - before), 0.0),
+                    };
+                    met =
+                        Some(Met { slice: slice as f32 - back, within, most: here.value, slope: here.slope });
+                }
+                None => before = here.value,
+            }
+        }
+        met
+    }
+
+    /// The radiance of the sky in a direction, with the clouds before it; `blur` is the angle in radians that is seen as one.
+    pub(super) fn before(&self, sky: &Sky, [from, direction, radiance]: [Vector; 3], blur: f32) -> Vector {
         if direction[2] < 0.01 || from[2] >= self.height {
             return radiance;
         }
-        let length = (self.height - from[2]) / direction[2];
-        let at = [0, 1].map(|axis| from[axis] + direction[axis] * length);
-        let footprint = 0.002 * length;
-        let density = self.density(at, footprint);
-        let nearer = [0, 1].map(|axis| at[axis] + sky.sun[axis] / sky.sun[2].max(0.3) * THICK);
-        let through = libm::expf(-2.4 * self.density(nearer, footprint) * density);
-        let towards = dot(direction, sky.sun).max(0.0);
-        let glow = 0.3 * (1.0 - density) * libm::powf(towards, 12.0);
+        let Some(met) = self.met(from, direction) else { return radiance };
+        let share = met.slice / (SLICES - 1) as f32;
+        let reach = (self.height - from[2]) / direction[2] + met.slice * self.spacing(direction);
+        let footprint = blur * reach / direction[2].sqrt();
+        let fine = self.within(along(from, direction, reach), share, footprint).value - met.within;
+        let density = ramp(met.most + 0.4 * fine, 0.0, EDGE + SOFTER * blur);
+        let sunward = [0, 1].map(|axis| LIT * sky.sun[axis] / sky.sun[2].max(0.3));
+        let uphill = met.slope[0] * sunward[0] + met.slope[1] * sunward[1];
+        let through = libm::expf(-3.4 * (met.within + 0.3 + uphill - 0.7 * fine - 0.25 * share).max(0.0));
+        let glow = 0.3 * (1.0 - density) * libm::powf(dot(direction, sky.sun).max(0.0), 12.0);
         let lit = add(
-            scale(sky.sunlight, 0.06 + 0.15 * through + glow),
-            scale(self.skylight, (1.0 - 0.45 * density) * std::f32::consts::FRAC_1_PI),
+            scale(sky.sunlight, 0.03 + 0.24 * through + glow),
+            scale(self.skylight, (0.45 + 0.5 * share) * std::f32::consts::FRAC_1_PI),
         );
-        mix(radiance, lit, density * libm::expf(-length / LOST))
+        mix(radiance, lit, density * libm::expf(-reach / LOST))
     }
 
     /// Share of the sunlight that comes through them to a point.
     pub(super) fn through(&self, sky: &Sky, point: Vector) -> f32 {
         let length = (self.height - point[2]).max(0.0) / sky.sun[2].max(0.05);
         let at = [0, 1].map(|axis| point[axis] + sky.sun[axis] * length);
-        1.0 - SHADOW * self.density(at, SOFT)
+        1.0 - SHADOW * ramp(self.within(at, 0.0, SOFT).value, 0.0, 0.34)
     }
 }
 
@@ -110,7 +176,7 @@ mod tests {
         let clouds = clouds.expect("some");
         for place in 0..200 {
             let point = [400.0 * place as f32, 90.0 * place as f32, 0.0];
-            let seen = clouds.before(&sky, [point, sky.sun, [0.0; 3]]);
+            let seen = clouds.before(&sky, [point, sky.sun, [0.0; 3]], 0.001);
             let dark = clouds.through(&sky, point) < 0.3;
             assert!(!dark || seen[1] > 0.0, "at {point:?} nothing hides the sun");
         }
@@ -122,7 +188,7 @@ mod tests {
         let clouds = clouds.expect("some");
         let radiance = [0.1, 0.2, 0.3];
         for (from, direction) in [([0.0; 3], [1.0, 0.0, -0.1]), ([0.0, 0.0, 9000.0], [0.0, 0.6, 0.8])] {
-            assert_eq!(clouds.before(&sky, [from, unit(direction), radiance]), radiance);
+            assert_eq!(clouds.before(&sky, [from, unit(direction), radiance], 0.001), radiance);
         }
     }
 }

@@ -15,6 +15,9 @@ use crate::colour::{linear_of_hex, mix};
 use weald_core::error::Error;
 use weald_core::landscape::Landscape;
 
+/// Radians over which ripples that are too small to be seen blur what water mirrors.
+const MIRRORED_BLUR: f32 = 0.06;
+
 /// Marches the rays of pixels through a scene, on the CPU.
 #[derive(Debug)]
 pub struct RayMarcher {
@@ -117,13 +120,13 @@ impl RayMarcher {
         if ray.direction[2] < 0.0 {
             return if self.setting.around.is_some() { self.horizon(ray) } else { self.plain(ray) };
         }
-        self.with_clouds(ray, self.sky.radiance_with_sun(ray.direction))
+        self.with_clouds(ray, self.sky.radiance_with_sun(ray.direction), self.pixel_angle)
     }
 
-    /// The sky along a ray, with the clouds before it.
-    fn with_clouds(&self, ray: &Ray, radiance: Vector) -> Vector {
+    /// The sky along a ray, with the clouds before it, where such an angle in radians is seen as one.
+    fn with_clouds(&self, ray: &Ray, radiance: Vector, blur: f32) -> Vector {
         match &self.clouds {
-            Some(clouds) => clouds.before(&self.sky, [ray.from, ray.direction, radiance]),
+            Some(clouds) => clouds.before(&self.sky, [ray.from, ray.direction, radiance], blur),
             None => radiance,
         }
     }
@@ -253,7 +256,7 @@ impl RayMarcher {
         let terrain = &self.setting.terrain;
         let start = 0.4 * terrain.cell();
         let Some(hit) = terrain.trace(ray, [start, f32::INFINITY]).filter(|hit| hit.side.is_none()) else {
-            return self.with_clouds(ray, self.sky.radiance(ray.direction));
+            return self.with_clouds(ray, self.sky.radiance(ray.direction), MIRRORED_BLUR);
         };
         let point = ray.at(hit.ray_length);
         let footprint = (0.25 * terrain.cell()).max(self.footprint(hit.ray_length));
