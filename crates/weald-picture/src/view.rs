@@ -24,6 +24,7 @@ mod lit_scene;
 mod maps;
 mod numbers;
 mod pyramid;
+mod refined;
 mod rim;
 mod rock;
 mod scene;

@@ -87,7 +87,7 @@ fn recipes(gpu: &Gpu, arguments: &BenchArguments, print: &mut Print<'_>) -> Resu
         let (parsed, view) = request.recipe()?;
         let view = View { width, height, ..view };
         let landscape = parsed.landscape()?;
-        let scene = LitScene::new(&view, &landscape)?;
+        let scene = LitScene::with_crags(&view, &landscape)?;
         let options = RenderOptions { size: SIZE_OF_RECIPES, samples: 1 };
         let mut renderer = Renderer::new(gpu, &scene, options)?;
         renderer.plant(&scene, &landscape)?;

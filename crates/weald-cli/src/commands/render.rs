@@ -34,7 +34,7 @@ pub(crate) fn render(arguments: &RenderArguments) -> Result<(), Failure> {
     device.check(files.size, files.samples)?;
     let options = Options::into_folder(default_folder(&files.recipe));
     let landscape = watched(&recipe, options, &files.running, |run, shown| run.landscape(shown))?;
-    let scene = LitScene::new(&view, &landscape)?;
+    let scene = LitScene::with_crags(&view, &landscape)?;
     let cameras = viewpoint::cameras(files, &view, &scene)?;
     let scene = scene.seen_from(cameras[0]);
     let request = RenderRequest { view: &view, scene: &scene, landscape: &landscape, samples: files.samples };

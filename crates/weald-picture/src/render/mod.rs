@@ -107,7 +107,7 @@ impl Render {
         landscape: &'a Landscape,
         device: &'a dyn RenderDevice,
     ) -> Result<FrameSequence<'a>, Error> {
-        let scene = LitScene::new(&self.view, landscape)?;
+        let scene = LitScene::with_crags(&self.view, landscape)?;
         let camera_path = self.keys.through.as_ref().map(|through| self.camera_path(&scene, through));
         let frame_sequence = FrameSequence { render: self, scene, device, landscape, camera_path };
         let first = frame_sequence.camera(Frame::STILL);

@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use super::cover::{Cover, SurfacePoint};
 use super::keys::View;
-use super::setting::Setting;
+use super::setting::{GroundOf, Setting};
 use crate::Image;
 use crate::colour::{Linear, encode, linear_of_hex, mix};
 use crate::sheet::Sheet;
@@ -24,7 +24,7 @@ const OVERHEAD: [f32; 3] = [0.0, 0.0, 1.0];
 /// [`Error::Limit`] where the sheet would be too large, [`Error::Run`] for a layer that is missing.
 pub fn albedo(view: &View, landscape: &Landscape, width: Option<u32>) -> Result<Image, Error> {
     let sheet = Sheet::new(&landscape.domain, width)?;
-    let (setting, sites) = Setting::new(view, landscape, None)?;
+    let (setting, sites) = Setting::new(view, landscape, GroundOf::default())?;
     let river = linear_of_hex(RIVER);
     let above = TopView { cover: Cover::new(sites, setting.limits, OVERHEAD), setting, sheet, river };
     let mut rgb = vec![0; 3 * sheet.width * sheet.height];

@@ -8,7 +8,7 @@ use super::crags::{Crags, crags};
 use super::rock::{BedSpot, Beds, beds};
 use super::site::Sites;
 use super::snow::{SnowSpot, snow_share};
-use super::vector::{Vector, add, ramp, scale};
+use super::vector::{Vector, add, filter, ramp, scale};
 use super::woods::{Canopy, canopy};
 use crate::colour::{Linear, linear_of_hex, mix};
 use weald_core::grain::{Grain, Octaves};
@@ -66,6 +66,11 @@ impl Texture {
         0.6 * self.broad + 0.4 * self.fine.value
     }
 
+    /// By how many beds the edge of one is ragged.
+    fn torn(&self) -> f32 {
+        0.25 * self.fine.value + 0.9 * self.crags.height
+    }
+
     /// Slopes of the fine detail, and of ridges and gullies.
     fn rough(&self, strength: f32, craggy: f32) -> [f32; 2] {
         [0, 1].map(|axis| {
@@ -81,8 +86,17 @@ const STEEPEST_CROWN: f32 = 1.5;
 /// Steepness from which rock begins to be bare, and is all that there is.
 const ROCK: [f32; 2] = [1.08, 1.22];
 
+/// Steepness from which trees become fewer, and from which there are none.
+const CLIFF: [f32; 2] = [0.9, 1.3];
+
 /// Share of the slope of ridges and gullies that counts as that of the ground: rock is bare on their steep sides.
-const CRAGGY: f32 = 1.1;
+const CRAGGY: f32 = 0.6;
+
+/// How many times smaller than trees bushes and boulders are, how densely they lie at most, and their share of the light that
+/// the ground sends back.
+const SMALLER: f32 = 1.7;
+const SCATTERED: f32 = 0.3;
+const BUSH: Linear = [0.52, 0.6, 0.42];
 
 /// Height in metres above the water, and at most that share of a cell, from which trees stand.
 const SHORE: [f32; 2] = [2.5, 0.028];
@@ -96,6 +110,18 @@ fn evenness(footprint: f32) -> f32 {
 fn no_steeper(bump: [f32; 2], steepest: f32) -> [f32; 2] {
     let square = (bump[0] * bump[0] + bump[1] * bump[1]) / (steepest * steepest);
     bump.map(|slope| slope / (1.0 + square).sqrt())
+}
+
+/// Patches of many cells.
+fn broad(cell: f32) -> Octaves {
+    Octaves { wavelength: 26.0 * cell, count: 5, gain: 0.55, seed: 0x11 }
+}
+
+/// Some thirty beds over the relief, folded by about one of their thickness, at a point.
+pub(super) fn bed_spot(point: Vector, limits: &Limits, is_material: bool, footprint: f32) -> BedSpot {
+    let (thick, fold) = if is_material { (0.03, 0.8) } else { (0.035, 1.4) };
+    let fold = fold * broad(limits.cell).at(point, footprint).value;
+    BedSpot { point, fold, thickness: thick * limits.relief.max(1e-3), footprint }
 }
 
 /// Limits of the kinds of ground.
@@ -175,7 +201,7 @@ impl Cover {
     pub(super) fn density(&self, spot: &SurfacePoint) -> f32 {
         let texture = self.texture(spot);
         let trees = self.trees(spot, self.sites.moisture(spot.place), texture.patchy());
-        let bare = ramp(self.slope_of_cells(spot, &texture), ROCK[0], ROCK[1]);
+        let bare = ramp(self.slope_of_cells(spot, &texture), CLIFF[0], CLIFF[1]);
         trees * (1.0 - bare) * (1.0 - self.snow(spot, &texture))
     }
 
@@ -184,10 +210,9 @@ impl Cover {
         // Lengths are in cells, shares and limits in those of the landscape, so that a finer grid looks finer
         // and not other. All numbers here and below are chosen by eye. Patches of many cells, and detail down
         // to a fiftieth of a cell.
-        let broad = Octaves { wavelength: 26.0 * cell, count: 5, gain: 0.55, seed: 0x11 };
         let fine = Octaves { wavelength: 2.4 * cell, count: 7, gain: 0.66, seed: 0x12 };
         Texture {
-            broad: broad.at(spot.point, spot.footprint).value,
+            broad: broad(cell).at(spot.point, spot.footprint).value,
             fine: fine.at(spot.point, spot.footprint),
             crags: crags(spot.point, spot.fall.map(|towards| -spot.slope * towards), cell, spot.footprint),
             cell,
@@ -241,7 +266,7 @@ impl Cover {
         let white = self.snow(spot, texture);
         let mut open = ground.mixed(&snow, white);
         open.bump = no_steeper(open.bump, STEEPEST);
-        let cliff = ramp(self.slope_of_cells(spot, texture), ROCK[0], ROCK[1]);
+        let cliff = ramp(self.slope_of_cells(spot, texture), CLIFF[0], CLIFF[1]);
         let density = trees * (1.0 - cliff) * (1.0 - white);
         if density > 0.0 { self.under_trees(spot, &open, density) } else { open }
     }
@@ -287,11 +312,12 @@ impl Cover {
     fn rock(&self, spot: &SurfacePoint, texture: &Texture) -> SurfaceSample {
         // Some thirty beds over the relief, folded by about one of their thickness, and thinner ones within them.
         let thick = 0.035 * self.limits.relief.max(1e-3);
-        let [bed, thin] = Self::bedding(spot, [thick, thick / 5.3], 1.4 * texture.broad, true);
+        let fold = 1.4 * texture.broad + texture.torn();
+        let [bed, thin] = Self::bedding(spot, [thick, thick / 5.3], fold, true);
         let [grey, dark, warm] = self.palette.rock;
-        let warmth = 0.5 + 0.9 * bed.tone + 0.4 * thin.tone + 0.6 * texture.broad;
+        let warmth = 0.5 + 0.7 * bed.tone + 0.3 * thin.tone + 0.9 * texture.broad;
         let stone = mix(grey, warm, warmth.clamp(0.0, 1.0));
-        let stone = scale(stone, 1.0 + 0.5 * bed.tone + 0.3 * thin.tone);
+        let stone = scale(stone, 1.0 + 0.3 * bed.tone + 0.2 * thin.tone + 0.3 * texture.broad);
         // A third of a smooth face is dark.
         let cracks =
             0.3 - 0.5 * texture.fine.value - 1.6 * texture.crags.height + 0.5 * bed.joint + 0.3 * thin.joint;
@@ -338,14 +364,26 @@ impl Cover {
         // From 27° on a face shows its beds, at 50° whole.
         let steep = ramp(spot.slope, 0.5, 1.2);
         let thick = 0.03 * self.limits.relief.max(1e-3);
-        let [bed, thin] = Self::bedding(spot, [thick, thick / 4.1], 0.8 * texture.broad, false);
+        let fold = 0.8 * texture.broad + texture.torn();
+        let [bed, thin] = Self::bedding(spot, [thick, thick / 4.1], fold, false);
         let fine = (0.3 - 0.15 * steep) * texture.fine.value + 0.8 * steep * texture.crags.height;
         let bedded = 0.5 * bed.tone + 0.35 * thin.tone - 0.3 * bed.joint - 0.15 * thin.joint;
         let tone = (1.0 + 0.28 * texture.broad + fine + steep * bedded).max(0.2);
         let (rough, ledge) =
             (texture.rough(0.08, 0.14 + 2.14 * steep), steep * (0.3 * bed.ledge + 0.15 * thin.ledge));
         let bump = no_steeper([0, 1].map(|axis| rough[axis] - spot.fall[axis] * ledge), STEEPEST);
-        SurfaceSample { albedo: scale(albedo, tone), bump }
+        let bushes = self.scattered(spot, texture, steep);
+        let bush = filter(BUSH, scale(albedo, 0.35 + bushes.tone));
+        let albedo = mix(scale(albedo, tone * bushes.open), bush, 0.85 * bushes.share);
+        SurfaceSample { albedo, bump }
+    }
+
+    /// Bushes and boulders on gentle ground of materials.
+    fn scattered(&self, spot: &SurfacePoint, texture: &Texture, steep: f32) -> Canopy {
+        let patchy = texture.broad + 0.6 * texture.fine.value;
+        let density = SCATTERED * ramp(patchy, -0.35, 0.5) * (1.0 - steep);
+        let [x, y, _] = spot.point;
+        canopy([SMALLER * x, SMALLER * y], density, SMALLER * spot.footprint, self.sun)
     }
 
     /// Whether ground of this height may bear trees.

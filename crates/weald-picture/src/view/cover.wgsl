@@ -7,8 +7,17 @@ const STEEPEST_CROWN = 1.5;
 // Steepness from which rock begins to be bare, and is all that there is.
 const ROCK = vec2<f32>(1.08, 1.22);
 
+// Steepness from which trees become fewer, and from which there are none.
+const CLIFF = vec2<f32>(0.9, 1.3);
+
 // Share of the slope of crags that counts as that of the ground.
-const CRAGGY = 1.1;
+const CRAGGY = 0.6;
+
+// How many times smaller than trees bushes and boulders are, how densely they lie at most, and their share of the light that
+// the ground sends back.
+const SMALLER = 1.7;
+const SCATTERED = 0.3;
+const BUSH = vec3<f32>(0.52, 0.6, 0.42);
 
 // Height in metres above the water, and at most that share of a cell, from which trees stand.
 const SHORE = vec2<f32>(2.5, 0.028);
@@ -93,7 +102,7 @@ fn wood_density(spot: SurfacePoint) -> f32 {
     let texture = texture_of(spot);
     let here = smooth_at(site, spot.place);
     let wooded = trees(spot, here.x, patchy_of(texture));
-    let bare = ramp(slope_of_cells(spot, texture, here.y), ROCK.x, ROCK.y);
+    let bare = ramp(slope_of_cells(spot, texture, here.y), CLIFF.x, CLIFF.y);
     return wooded * (1.0 - bare) * (1.0 - snow_at(spot, texture, here.x));
 }
 
@@ -138,7 +147,7 @@ fn natural(spot: SurfacePoint, texture: Texture) -> SurfaceSample {
     let white = snow_at(spot, texture, moisture);
     var open = mixed(ground, snow, white);
     open.bump = no_steeper(open.bump, STEEPEST);
-    let cliff = ramp(slope_of_cells(spot, texture, here.y), ROCK.x, ROCK.y);
+    let cliff = ramp(slope_of_cells(spot, texture, here.y), CLIFF.x, CLIFF.y);
     return under_trees(spot, open, wooded * (1.0 - cliff) * (1.0 - white));
 }
 
@@ -174,15 +183,20 @@ fn trees(spot: SurfacePoint, moisture: f32, patchy: f32) -> f32 {
 // Rock with its beds: light and dark, sunk into cracks and joints.
 fn rock(spot: SurfacePoint, texture: Texture) -> SurfaceSample {
     let thick = 0.035 * max(scene.limits.w, 1e-3);
-    let bedding = bedding_at(spot, vec2<f32>(thick, thick / 5.3), 1.4 * texture.broad, true);
-    let warmth = 0.5 + 0.9 * bedding.thick.tone + 0.4 * bedding.thin.tone + 0.6 * texture.broad;
-    let tone = 1.0 + 0.5 * bedding.thick.tone + 0.3 * bedding.thin.tone;
+    let bedding = bedding_at(spot, vec2<f32>(thick, thick / 5.3), 1.4 * texture.broad + torn(texture), true);
+    let warmth = 0.5 + 0.7 * bedding.thick.tone + 0.3 * bedding.thin.tone + 0.9 * texture.broad;
+    let tone = 1.0 + 0.3 * bedding.thick.tone + 0.2 * bedding.thin.tone + 0.3 * texture.broad;
     let stone = mix(scene.rock_grey.xyz, scene.rock_warm.xyz, clamp(warmth, 0.0, 1.0)) * tone;
     let joints = 0.5 * bedding.thick.joint + 0.3 * bedding.thin.joint;
     let cracks = 0.3 - 0.5 * texture.fine.value - 1.6 * texture.crags.height + joints;
     let ledge = 0.35 * bedding.thick.ledge + 0.2 * bedding.thin.ledge;
     let albedo = mix(stone, scene.rock_dark.xyz, clamp(cracks, 0.0, 1.0));
     return SurfaceSample(albedo, rough(texture, 0.15, 2.4) - spot.fall * ledge, vec4<f32>(0.0, 0.0, 1.0, 0.0));
+}
+
+// By how many beds the edge of one is ragged.
+fn torn(texture: Texture) -> f32 {
+    return 0.25 * texture.fine.value + 0.9 * texture.crags.height;
 }
 
 struct Bedding {
@@ -210,15 +224,23 @@ fn snow_at(spot: SurfacePoint, texture: Texture, moisture: f32) -> f32 {
     return snow_share(SnowSpot(above, spot.slope, spot.slope / scene.limits.x, spot.fall, moisture - 0.5, noise));
 }
 
+// Bushes and boulders on gentle ground of materials: the share that they hide, and the light that they leave beside them.
+fn scattered(spot: SurfacePoint, texture: Texture, steep: f32) -> Canopy {
+    let density = SCATTERED * ramp(texture.broad + 0.6 * texture.fine.value, -0.35, 0.5) * (1.0 - steep);
+    return canopy_of(SMALLER * spot.point.xy, density, SMALLER * spot.footprint);
+}
+
 fn of_material(spot: SurfacePoint, albedo: vec3<f32>, texture: Texture) -> SurfaceSample {
     let steep = ramp(spot.slope, 0.5, 1.2);
     let thick = 0.03 * max(scene.limits.w, 1e-3);
-    let bedding = bedding_at(spot, vec2<f32>(thick, thick / 4.1), 0.8 * texture.broad, false);
+    let bedding = bedding_at(spot, vec2<f32>(thick, thick / 4.1), 0.8 * texture.broad + torn(texture), false);
     let fine = (0.3 - 0.15 * steep) * texture.fine.value + 0.8 * steep * texture.crags.height;
     let tones = 0.5 * bedding.thick.tone + 0.35 * bedding.thin.tone;
     let bedded = tones - 0.3 * bedding.thick.joint - 0.15 * bedding.thin.joint;
     let tone = max(1.0 + 0.28 * texture.broad + fine + steep * bedded, 0.2);
     let ledge = steep * (0.3 * bedding.thick.ledge + 0.15 * bedding.thin.ledge);
     let bump = no_steeper(rough(texture, 0.08, 0.14 + 2.14 * steep) - spot.fall * ledge, STEEPEST);
-    return SurfaceSample(albedo * tone, bump, vec4<f32>(0.0, 0.3, 0.7 * steep, 0.0));
+    let bushes = scattered(spot, texture, steep);
+    let hidden = mix(albedo * (tone * bushes.open), BUSH * albedo * (0.35 + bushes.tone), 0.85 * bushes.share);
+    return SurfaceSample(hidden, bump, vec4<f32>(0.0, 0.3, 0.7 * steep, 0.0));
 }

@@ -6,9 +6,9 @@
 use weald_core::grain::{grain, visible};
 
 /// The longest wavelength in cells, the number of octaves, and what each is against the one before, which is twice as long.
-const CELLS: f32 = 5.0;
+const CELLS: f32 = 4.0;
 const OCTAVES: u32 = 5;
-const GAIN: f32 = 0.55;
+const GAIN: f32 = 0.65;
 
 /// How round crests are: the square of the value below which noise is not folded.
 const SHARP: f32 = 0.004;
@@ -22,7 +22,7 @@ const LEAST: f32 = 0.08;
 /// Ridges and gullies at a point.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Crags {
-    /// Height over the side of a cell, from about -0.5 in gullies to 0.3 on ridges.
+    /// Height over the side of a cell, from about -0.6 in gullies to 0.4 on ridges.
     pub(super) height: f32,
     /// Rise over run, eastward and northward.
     pub(super) slope: [f32; 2],

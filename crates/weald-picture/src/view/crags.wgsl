@@ -1,8 +1,8 @@
 // Twin of `crags.rs`: ridges and gullies that are finer than cells.
 
-const CRAG_CELLS = 5.0;
+const CRAG_CELLS = 4.0;
 const CRAG_OCTAVES = 5u;
-const CRAG_GAIN = 0.55;
+const CRAG_GAIN = 0.65;
 const CRAG_SHARP = 0.004;
 const CRAG_MEAN = 0.21;
 const CRAG_LEAST = 0.08;

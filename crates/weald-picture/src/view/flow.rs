@@ -11,7 +11,6 @@
 //! limits, since rivers thinner than a cell have no depth of their own.
 
 use super::surface::Surface;
-use super::terrain::Terrain;
 use crate::ground::drawable;
 use crate::sheet::Sheet;
 use crate::texture::smoothed;
@@ -36,8 +35,9 @@ pub(super) struct Flow {
 }
 
 impl Flow {
-    /// Of the fluxes of a landscape over a terrain of the sheet's size; `None` without them.
-    pub(super) fn of(landscape: &Landscape, terrain: &Terrain, sheet: &Sheet) -> Option<Self> {
+    /// Of the fluxes of a landscape under a top of the sheet's size, of cells of such sides; `None` without them.
+    pub(super) fn of(landscape: &Landscape, top: &Field, spacing: [f32; 2], sheet: &Sheet) -> Option<Self> {
+        let top = Surface::new(top);
         let land = landscape.domain.valid.as_ref();
         let layer = |name: &str| landscape.field(name).ok().map(|field| drawable(field, land, sheet));
         // A thread of water leads from cell to cell; the stream that it stands for is broader.
@@ -53,8 +53,8 @@ impl Flow {
                 return [0.0; 3];
             }
             let along = flux.map(|part| part / length);
-            let [_, rise_east, rise_south] = terrain.top.with_slope([x as f32 + 1.0, y as f32 + 1.0]);
-            let rise = [rise_east / terrain.spacing[0], -rise_south / terrain.spacing[1]];
+            let [_, rise_east, rise_south] = top.with_slope([x as f32 + 1.0, y as f32 + 1.0]);
+            let rise = [rise_east / spacing[0], -rise_south / spacing[1]];
             let fall = -(along[0] * rise[0] + along[1] * rise[1]);
             let depth = depth.as_ref().map_or(0.0, |depth| depth.values()[cell]);
             let speed = speed(depth, fall);
@@ -66,6 +66,15 @@ impl Flow {
             Surface::new(&smoothed(&field, 1))
         };
         Some(Self { velocity: [axis(0), axis(1)], lost: axis(2) })
+    }
+
+    /// The same for places that are counted in finer cells.
+    #[must_use]
+    pub(super) fn on_finer(self, fineness: usize) -> Self {
+        Self {
+            velocity: self.velocity.map(|axis| axis.on_finer(fineness)),
+            lost: self.lost.on_finer(fineness),
+        }
     }
 }
 
@@ -90,9 +99,8 @@ mod tests {
         let height = Field::from_function(size, |x, _| if x < 20 { 40.0 - x as f32 } else { 20.0 });
         landscape.insert("flux_x", "m³/step", Field::filled(size, 3.0));
         landscape.insert("flux_y", "m³/step", Field::filled(size, 0.0));
-        let terrain = Terrain::new([10.0; 2], &height, None, -1.0);
         let sheet = Sheet::new(&landscape.domain, Some(40)).expect("small");
-        let flow = Flow::of(&landscape, &terrain, &sheet).expect("there are fluxes");
+        let flow = Flow::of(&landscape, &height, [10.0; 2], &sheet).expect("there are fluxes");
         let at = |x: f32| flow.velocity.each_ref().map(|axis| axis.at([x, 20.0]));
         let expected = speed(0.0, 0.1);
         assert!((at(10.0)[0] - expected).abs() < 0.01 && expected > 0.5, "{:?} of {expected}", at(10.0));

@@ -7,7 +7,7 @@ use super::clouds::Clouds;
 use super::cover::Cover;
 use super::haze::Haze;
 use super::keys::View;
-use super::setting::Setting;
+use super::setting::{GroundOf, Setting};
 use super::side::SideLight;
 use super::sky::Sky;
 use super::skylight::{self, Seen, Skylight};
@@ -19,9 +19,6 @@ use crate::colour::{Linear, linear_of_hex};
 use weald_core::error::Error;
 use weald_core::grid::{Field, Size};
 use weald_core::landscape::Landscape;
-
-/// Most cells, along the longer side, for which the visible sky is known.
-const SKYLIGHT_CELLS: usize = 1024;
 
 /// Optical depth of the haze between the eye and the middle of the landscape.
 const DEFAULT_HAZE: f32 = 0.13;
@@ -69,7 +66,16 @@ impl LitScene {
     /// # Errors
     /// [`Error::Limit`] where a map of it would be too large, [`Error::Run`] for a layer that is missing.
     pub fn new(view: &View, landscape: &Landscape) -> Result<Self, Error> {
-        Self::counting_from(None, view, landscape)
+        Self::on_ground(GroundOf::default(), view, landscape)
+    }
+
+    /// The scene of a view with crags on what is steep: those are finer than the cells of the landscape, which the scene then
+    /// has more of. For pictures of a landscape that does not change.
+    ///
+    /// # Errors
+    /// As [`LitScene::new`].
+    pub fn with_crags(view: &View, landscape: &Landscape) -> Result<Self, Error> {
+        Self::on_ground(GroundOf { has_crags: true, ..GroundOf::default() }, view, landscape)
     }
 
     /// The scene of the same view when its landscape has changed: heights count from where they did, so that cameras stay
@@ -78,12 +84,13 @@ impl LitScene {
     /// # Errors
     /// As [`LitScene::new`].
     pub fn changed(&self, view: &View, landscape: &Landscape) -> Result<Self, Error> {
-        let scene = Self::counting_from(Some(self.setting.low), view, landscape)?;
+        let ground_of = GroundOf { from: Some(self.setting.low), has_crags: self.setting.has_crags };
+        let scene = Self::on_ground(ground_of, view, landscape)?;
         Ok(Self { haze: self.haze, tone: self.tone, camera: self.camera, ..scene })
     }
 
-    fn counting_from(low: Option<f32>, view: &View, landscape: &Landscape) -> Result<Self, Error> {
-        let (setting, sites) = Setting::new(view, landscape, low)?;
+    fn on_ground(ground_of: GroundOf, view: &View, landscape: &Landscape) -> Result<Self, Error> {
+        let (setting, sites) = Setting::new(view, landscape, ground_of)?;
         let sky = Sky::new(towards(view.sun_azimuth_deg, view.sun_altitude_deg), view.sun_diameter_deg);
         let terrain = &setting.terrain;
         let camera = setting.above_ground(Camera::new(view, terrain, setting.exaggeration));
@@ -91,7 +98,7 @@ impl LitScene {
         let (level, plain) = (sky.on_flat_ground(), linear_of_hex(PLAIN));
         let sent_back = |albedo: Linear, share: f32| scale(filter(albedo, level), share * FRAC_1_PI);
         Ok(Self {
-            skylight: Skylight::new(&sky, &terrain.top, terrain.spacing, SKYLIGHT_CELLS),
+            skylight: Skylight::new(&sky, &terrain.top, terrain.spacing, setting.sky_cells),
             plain_light: light_of_plain(&sky, &setting.terrain),
             open: skylight::open(&sky),
             sides: SideLight::new(&sky, sent_back(plain, 1.0)),

@@ -36,11 +36,16 @@ pub(super) struct BedSpot {
     pub(super) footprint: f32,
 }
 
-/// The beds at a point; level ones where they do not dip.
-pub(super) fn beds(spot: &BedSpot, dips: bool, seed: u32) -> Beds {
+/// Which bed a point lies in, and how far up in it.
+fn level(spot: &BedSpot, dips: bool) -> f32 {
     let [x, y, z] = spot.point;
     let dip = if dips { DIP * (DIP_TOWARDS[0] * x + DIP_TOWARDS[1] * y) } else { 0.0 };
-    let level = (z + dip) / spot.thickness + spot.fold;
+    (z + dip) / spot.thickness + spot.fold
+}
+
+/// The beds at a point; level ones where they do not dip.
+pub(super) fn beds(spot: &BedSpot, dips: bool, seed: u32) -> Beds {
+    let level = level(spot, dips);
     let number = level.floor();
     let within = level - number;
     let blur = spot.footprint / spot.thickness;
@@ -53,6 +58,14 @@ pub(super) fn beds(spot: &BedSpot, dips: bool, seed: u32) -> Beds {
         joint: seen * deep * (1.0 - ramp(within, 0.0, 0.16 + blur)),
         ledge: seen * (0.4 - 1.4 * ramp(within, FACE - 0.08, FACE + 0.08)),
     }
+}
+
+/// How much higher ground stands for the beds there than without them, over the thickness of one: it rises as fast with each
+/// face as it falls back on the ledge above it.
+pub(super) fn stepped(spot: &BedSpot, dips: bool) -> f32 {
+    let level = level(spot, dips);
+    let within = level - level.floor();
+    within.min(1.0 - within) - 0.25
 }
 
 #[cfg(test)]
@@ -76,6 +89,22 @@ mod tests {
         let tones: Vec<f32> =
             (0..12).map(|bed| at([100.0, 200.0, 63.0 + 10.0 * bed as f32], 0.1).tone).collect();
         assert!(tones.iter().any(|tone| (tone - tones[0]).abs() > 0.3), "{tones:?}");
+    }
+
+    #[test]
+    fn ground_rises_with_faces_and_falls_back_on_ledges_and_is_as_high_on_the_average() {
+        let at = |height: f32| {
+            let point = [100.0, 200.0, height];
+            stepped(&BedSpot { point, fold: 0.3, thickness: 10.0, footprint: 0.0 }, false)
+        };
+        let mean = (0..1000).map(|step| at(0.1 * step as f32)).sum::<f32>() / 1000.0;
+        assert!(mean.abs() < 1e-2, "{mean}");
+        let rises =
+            (0..1000).map(|step| 10.0 * (at(0.1 * step as f32 + 0.05) - at(0.1 * step as f32)) / 0.05);
+        let [up, down] = rises.fold([0; 2], |[up, down], rise| {
+            [up + usize::from((rise - 1.0).abs() < 0.1), down + usize::from((rise + 1.0).abs() < 0.1)]
+        });
+        assert!((450..=510).contains(&up) && (450..=510).contains(&down), "{up} up, {down} down");
     }
 
     #[test]

@@ -61,7 +61,7 @@ impl Deref for RayMarcher {
 impl RayMarcher {
     /// The view from its own camera, or from another.
     pub(super) fn new(view: &View, landscape: &Landscape, from: Option<Camera>) -> Result<Self, Error> {
-        let scene = LitScene::new(view, landscape)?;
+        let scene = LitScene::with_crags(view, landscape)?;
         let scene = match from {
             Some(camera) => scene.seen_from(camera),
             None => scene,

@@ -3,6 +3,7 @@
 use super::cover::Limits;
 use super::flow::Flow;
 use super::keys::{GroundColour, View};
+use super::refined::{Coarse, finer};
 use super::side::Strata;
 use super::site::{ColouredBy, Sites, names_materials};
 use super::surface::Surface;
@@ -30,6 +31,9 @@ const BASE: f32 = 0.035;
 const BELOW_ROCK: f64 = 0.90;
 const ROCK_DEG: [f64; 2] = [30.0, 42.0];
 
+/// Least and most cells, along the longer side, for which the visible sky is known.
+const SKY_CELLS: [usize; 2] = [512, 1024];
+
 /// Share of the relief up to which trees grow.
 const TREES: f32 = 0.6;
 
@@ -53,24 +57,30 @@ pub(super) struct Setting {
     pub(super) sea: Option<f32>,
     /// What is around the landscape; `None` where it is a block.
     pub(super) around: Option<Surroundings>,
+    /// Whether crags stand on its ground.
+    pub(super) has_crags: bool,
+    /// Cells along the longer side of the landscape for which the visible sky is known.
+    pub(super) sky_cells: usize,
 }
 
 impl Setting {
-    /// The setting, and what its places are like. Heights count from the lowest ground where not from another elevation.
-    pub(super) fn new(view: &View, landscape: &Landscape, from: Option<f32>) -> Result<(Self, Sites), Error> {
+    /// The setting, and what its places are like.
+    pub(super) fn new(
+        view: &View,
+        landscape: &Landscape,
+        ground_of: GroundOf,
+    ) -> Result<(Self, Sites), Error> {
         let domain = &landscape.domain;
         let field = landscape.field(&view.of.0)?;
         let (low, high) = field.range(domain.valid.as_ref()).unwrap_or((0.0, 0.0));
-        let low = from.unwrap_or(low);
+        let low = ground_of.from.unwrap_or(low);
         let frame = Frame::new(view, landscape, low)?;
         let level = if view.water { water::levels(landscape, field) } else { None };
         let (ground, level) = (frame.raised(field), level.map(|level| frame.raised(&level)));
-        let top = level.as_ref().map_or_else(|| ground.clone(), |level| higher(&ground, level));
         let has_horizon = view.has_horizon(domain);
         // A horizon has no holes before it: what fills them is drawn.
         let land = if has_horizon { None } else { land_share(domain.valid.as_ref(), &frame.sheet) };
         let sea = domain.sea_level.filter(|_| view.water).map(|sea| frame.drawn(sea));
-        let bed = Surface::new(&ground);
         let spacing = frame.spacing(ground.size());
         let base = BASE * (domain.cell * domain.size.columns.max(domain.size.rows) as f64) as f32;
         let limits = limits(view, [low, high], &ground, spacing);
@@ -81,21 +91,42 @@ impl Setting {
             None => ColouredBy::Natural,
         };
         let sites = Sites::new(landscape, field, &frame.sheet, (spacing, limits.rock), coloured_by)?;
-        let terrain = Terrain::new(spacing, &top, land.as_ref(), -base);
+        let flow =
+            view.water.then(|| Flow::of(landscape, &higher(&ground, level.as_ref()), spacing, &frame.sheet));
+        let coarse = Coarse {
+            ground: &ground,
+            level: level.as_ref(),
+            spacing,
+            limits,
+            exaggeration: frame.exaggeration,
+            is_material: matches!(coloured_by, ColouredBy::Materials),
+        };
+        let forms = Forms::new(&coarse, land, ground_of.has_crags);
+        let fineness = forms.fineness;
+        let terrain = Terrain::new(
+            spacing.map(|side| side / fineness as f32),
+            &higher(&forms.ground, forms.level.as_ref()),
+            forms.land.as_ref(),
+            -base,
+        );
+        let bed = Surface::new(&forms.ground);
         let setting = Self {
-            flow: if view.water { Flow::of(landscape, &terrain, &frame.sheet) } else { None },
+            flow: flow.flatten().map(|flow| flow.on_finer(fineness)),
             terrain,
-            level: level.as_ref().map(Surface::new),
+            level: forms.level.as_ref().map(Surface::new),
             rivers: if view.water { Rivers::of(landscape, view.river_width) } else { None },
-            strata: strata(landscape, field, &frame.sheet, limits.relief + base / frame.exaggeration)?,
+            strata: strata(landscape, field, &frame.sheet, limits.relief + base / frame.exaggeration)?
+                .on_finer(fineness),
             around: has_horizon.then(|| Surroundings::new(&bed, sea)),
             bed,
             limits,
             exaggeration: frame.exaggeration,
             low,
             sea,
+            has_crags: ground_of.has_crags,
+            sky_cells: ground.size().columns.max(ground.size().rows).clamp(SKY_CELLS[0], SKY_CELLS[1]),
         };
-        Ok((setting, sites))
+        Ok((setting, sites.on_finer(fineness)))
     }
 
     /// The diagonal of the landscape in metres.
@@ -110,6 +141,15 @@ impl Setting {
         let size = self.terrain.top.size();
         self.terrain.point([0.5 + 0.5 * size.columns as f32, 0.5 + 0.5 * size.rows as f32], 0.0)
     }
+}
+
+/// Which ground is drawn.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct GroundOf {
+    /// Elevation from which heights count; from the lowest ground where it is not given.
+    pub(super) from: Option<f32>,
+    /// Whether crags stand on what is steep; else the ground is as smooth as its cells.
+    pub(super) has_crags: bool,
 }
 
 /// How fields become surfaces of the view.
@@ -166,8 +206,35 @@ fn limits(view: &View, [low, high]: [f32; 2], ground: &Field, spacing: [f32; 2])
     }
 }
 
-fn higher(a: &Field, b: &Field) -> Field {
-    Field::from_values(a.size(), a.values().iter().zip(b.values()).map(|(a, b)| a.max(*b)).collect())
+/// Heights of ground, water and land on the cells that are drawn.
+struct Forms {
+    ground: Field,
+    level: Option<Field>,
+    land: Option<Field>,
+    /// How many of those cells lie along the side of one of the landscape.
+    fineness: usize,
+}
+
+impl Forms {
+    fn new(coarse: &Coarse<'_>, land: Option<Field>, has_crags: bool) -> Self {
+        let crags = if has_crags { coarse.crags() } else { None };
+        let Some((craggy, fineness)) = crags else {
+            return Self { ground: coarse.ground.clone(), level: coarse.level.cloned(), land, fineness: 1 };
+        };
+        Self {
+            ground: coarse.refined(&craggy, fineness),
+            level: coarse.level.map(|level| finer(level, fineness)),
+            land: land.map(|land| finer(&land, fineness)),
+            fineness,
+        }
+    }
+}
+
+/// The ground, or the water on it.
+fn higher(ground: &Field, level: Option<&Field>) -> Field {
+    let Some(level) = level else { return ground.clone() };
+    let top = ground.values().iter().zip(level.values()).map(|(ground, level)| ground.max(*level));
+    Field::from_values(ground.size(), top.collect())
 }
 
 fn strata(landscape: &Landscape, ground: &Field, sheet: &Sheet, relief: f32) -> Result<Strata, Error> {

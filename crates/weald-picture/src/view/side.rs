@@ -70,6 +70,14 @@ impl Strata {
         Self { materials, bedrock, bed: 0.06 * relief.max(1e-3), soil, soil_thickness: 0.012 * relief }
     }
 
+    /// The same for places that are counted in finer cells.
+    #[must_use]
+    pub(super) fn on_finer(self, fineness: usize) -> Self {
+        let materials = self.materials.into_iter();
+        let materials = materials.map(|(thickness, colour)| (thickness.on_finer(fineness), colour)).collect();
+        Self { materials, ..self }
+    }
+
     /// Colour of the ground at a place and a height in metres, whose surface is at `surface`.
     pub(super) fn albedo(&self, place: [f32; 2], point: Vector, [height, surface]: [f32; 2]) -> Linear {
         let mut roof = surface;

@@ -23,7 +23,8 @@ fn bedded(colour: vec3<f32>, point: vec3<f32>, height: f32, seed: u32) -> vec3<f
 
 // Thickness of a material above the bedrock, counted from 0.
 fn strata_thickness(place: vec2<f32>, material: i32) -> f32 {
-    let share = (place + 1.5) / vec2<f32>(textureDimensions(strata));
+    let controls = vec2<f32>(textureDimensions(strata));
+    let share = (share_of(place) * (controls - 4.0) + 2.0) / controls;
     return max(textureSampleLevel(strata, between, share, material / 4, 0.0)[material % 4], 0.0);
 }
 

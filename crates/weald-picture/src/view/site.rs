@@ -88,6 +88,18 @@ impl Sites {
         })
     }
 
+    /// The same for places that are counted in finer cells.
+    #[must_use]
+    pub(super) fn on_finer(self, fineness: usize) -> Self {
+        Self {
+            moisture: self.moisture.on_finer(fineness),
+            soil: self.soil.on_finer(fineness),
+            fallen: self.fallen.on_finer(fineness),
+            materials: self.materials.map(|channels| channels.map(|channel| channel.on_finer(fineness))),
+            ..self
+        }
+    }
+
     /// Whether the materials at the surface are shown.
     pub(super) fn shows_materials(&self) -> bool {
         self.materials.is_some()

@@ -6,7 +6,8 @@
 //! point reflection.
 //!
 //! Places are counted in cells, half a cell more than from the outer corner: the landscape is the rectangle
-//! from 0.5 to columns + 0.5, and the whole part of a place is its patch.
+//! from 0.5 to columns + 0.5, and the whole part of a place is its patch. Where the ground is drawn on finer cells than a
+//! field has, places are counted in those, and the field's surface says how many of its own each is.
 
 use weald_core::grid::{Field, Size};
 
@@ -20,6 +21,8 @@ pub(super) struct Surface {
     size: Size,
     stride: usize,
     pub(super) control: Vec<f32>,
+    /// Cells of the field in a cell by which places are counted.
+    scale: f32,
 }
 
 /// Weights of four successive control points.
@@ -42,6 +45,12 @@ fn slopes(t: f32) -> [f32; 4] {
     [-0.5 * s * s, (1.5 * t - 2.0) * t, (1.0 - 1.5 * t) * t + 0.5, 0.5 * t * t]
 }
 
+/// Weights of the cubic convolution.
+fn keys(t: f32) -> [f32; 4] {
+    let s = 1.0 - t;
+    [-0.5 * t * s * s, 1.0 + t * t * (1.5 * t - 2.5), 1.0 + s * s * (1.5 * s - 2.5), -0.5 * s * t * t]
+}
+
 #[inline(always)]
 fn sum(weights: &[f32; 4], row: &[f32]) -> f32 {
     (weights[0] * row[0] + weights[1] * row[1]) + (weights[2] * row[2] + weights[3] * row[3])
@@ -56,7 +65,13 @@ impl Surface {
         for y in 0..size.rows + 2 * RIM {
             control.extend((0..stride).map(|x| reflected(field, x, y)));
         }
-        Self { size, stride, control }
+        Self { size, stride, control, scale: 1.0 }
+    }
+
+    /// The same surface for places that are counted in cells of which each of its own holds so many along a side.
+    #[must_use]
+    pub(super) fn on_finer(self, fineness: usize) -> Self {
+        Self { scale: 1.0 / fineness as f32, ..self }
     }
 
     /// Columns and rows of the field.
@@ -86,6 +101,7 @@ impl Surface {
     #[inline(always)]
     fn locate(&self, place: [f32; 2]) -> ([usize; 2], [f32; 2]) {
         let [columns, rows] = self.patches();
+        let place = place.map(|at| 0.5 + (at - 0.5) * self.scale);
         let x = (place[0].max(0.0) as usize).min(columns - 1);
         let y = (place[1].max(0.0) as usize).min(rows - 1);
         ([x, y], [(place[0] - x as f32).clamp(0.0, 1.0), (place[1] - y as f32).clamp(0.0, 1.0)])
@@ -99,7 +115,14 @@ impl Surface {
         sum(&weights(s), &self.patch(x, y).map(|row| sum(&across, row)))
     }
 
-    /// The value at a place and its rise by the cell eastward and southward.
+    /// The value at a place by the cubic convolution of Keys 1981: it passes through the values of cells.
+    pub(super) fn keys_at(&self, place: [f32; 2]) -> f32 {
+        let ([x, y], [t, s]) = self.locate(place);
+        let across = keys(t);
+        sum(&keys(s), &self.patch(x, y).map(|row| sum(&across, row)))
+    }
+
+    /// The value at a place and its rise by the cell of places eastward and southward.
     #[inline(always)]
     pub(super) fn with_slope(&self, place: [f32; 2]) -> [f32; 3] {
         let ([x, y], [t, s]) = self.locate(place);
@@ -107,7 +130,7 @@ impl Surface {
         let patch = self.patch(x, y);
         let rows = patch.map(|row| sum(&across, row));
         let rise = patch.map(|row| sum(&slopes(t), row));
-        [sum(&down, &rows), sum(&down, &rise), sum(&slopes(s), &rows)]
+        [sum(&down, &rows), self.scale * sum(&down, &rise), self.scale * sum(&slopes(s), &rows)]
     }
 }
 
@@ -160,6 +183,21 @@ mod tests {
                 assert!((east - 3.0).abs() < 1e-3 && (south + 2.0).abs() < 1e-3);
                 assert_eq!(value, surface.at(place));
             }
+        }
+    }
+
+    #[test]
+    fn on_finer_cells_a_surface_is_the_same_and_rises_less_by_the_cell() {
+        let size = Size::new(9, 7).expect("small");
+        let field = Field::from_function(size, |x, y| ((x * 7 + y * 5) % 11) as f32);
+        let (coarse, fine) = (Surface::new(&field), Surface::new(&field).on_finer(4));
+        for step in 0..50 {
+            let place = [0.6 + 0.17 * step as f32, 0.7 + 0.12 * step as f32];
+            let there = place.map(|at| 0.5 + 4.0 * (at - 0.5));
+            let ([a, east, south], [b, less_east, less_south]) =
+                (coarse.with_slope(place), fine.with_slope(there));
+            assert!((a - b).abs() < 1e-4, "{a} and {b}");
+            assert!((east - 4.0 * less_east).abs() < 1e-3 && (south - 4.0 * less_south).abs() < 1e-3);
         }
     }
 

@@ -71,8 +71,11 @@ struct SplineLooks {
     share: vec2<f32>,
 }
 
-fn spline_looks(place: vec2<f32>, controls: vec2<f32>) -> SplineLooks {
-    let first = spline_patch(place);
+fn spline_looks(scene_place: vec2<f32>, controls: vec2<f32>) -> SplineLooks {
+    // The ground may be drawn on finer cells than the map has.
+    let cells = max(controls - 4.0, vec2<f32>(1.0));
+    let place = 0.5 + (scene_place - 0.5) * (cells / scene.grid.xy);
+    let first = min(floor(max(place, vec2<f32>(0.0))), cells);
     let within = clamp(place - first, vec2<f32>(0.0), vec2<f32>(1.0));
     let x = spline_weights(within.x);
     let y = spline_weights(within.y);

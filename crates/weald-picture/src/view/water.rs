@@ -47,6 +47,9 @@ pub(super) const SWASH: [f32; 2] = [0.7, 13.0];
 /// Share of light that foam sends back.
 pub(super) const FOAM: f32 = 0.78;
 
+/// Share of the light that gravel sends back dry which it sends back wet.
+const WET: f32 = 0.55;
+
 /// Mean square of the slopes of ripples too small to be seen.
 const ROUGHNESS: f32 = 0.006;
 
@@ -193,7 +196,7 @@ pub(super) fn bed_albedo(gravel: Vector, point: Vector, depth: f32, footprint: f
     let grains = Octaves { wavelength: 0.55, count: 5, gain: 0.72, seed: 0x5c }.at(point, blurred).value;
     let tone = 1.0 + 0.45 * patches + 0.55 * grains;
     let grown = 0.7 * ramp(patches + 0.1 * depth.min(5.0), 0.1, 0.6);
-    mix(scale(gravel, tone.max(0.2)), WEED, grown)
+    mix(scale(gravel, WET * tone.max(0.2)), WEED, grown)
 }
 
 /// How far waves run up and down a shore in metres: at a lake, and at the sea.

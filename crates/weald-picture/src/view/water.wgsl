@@ -34,6 +34,9 @@ fn water_body(bed_albedo: vec3<f32>, depth: f32, light: vec3<f32>) -> vec3<f32> 
     return (shallow + deep) * light / PI;
 }
 
+// Share of the light that gravel sends back dry which it sends back wet.
+const BED_WET = 0.55;
+
 // The bed below water of a depth: sand and stones in patches, and what grows on it, blurred by the ripples above.
 fn bed_albedo(point: vec2<f32>, depth: f32, footprint: f32) -> vec3<f32> {
     let blurred = footprint + 0.05 * depth;
@@ -41,7 +44,7 @@ fn bed_albedo(point: vec2<f32>, depth: f32, footprint: f32) -> vec3<f32> {
     let grains = octaves_at(Octaves(0.55, 5u, 0.72, 0x5cu), point, blurred).value;
     let tone = 1.0 + 0.45 * patches + 0.55 * grains;
     let grown = 0.7 * ramp(patches + 0.1 * min(depth, 5.0), 0.1, 0.6);
-    return mix(scene.gravel.xyz * max(tone, 0.2), scene.weed.xyz, grown);
+    return mix(scene.gravel.xyz * (BED_WET * max(tone, 0.2)), scene.weed.xyz, grown);
 }
 
 // How far waves run up and down a shore in metres: at a lake, and at the sea.

@@ -1,0 +1,238 @@
+//! The ground on finer cells than a landscape has: crags stand on what is steep, so that skylines break and ridges and
+//! gullies throw shade. What is gentle, wet or beside water stays as smooth as its cells.
+//!
+//! Between cells, gentle ground is their cubic B-spline; steep ground is the cubic convolution of Keys 1981,
+//! doi 10.1109/TASSP.1981.1163711, which keeps the heights of crests that the spline rounds off.
+
+use rayon::prelude::*;
+
+use super::cover::{Limits, bed_spot};
+use super::crags::crags;
+use super::rock::{BedSpot, stepped};
+use super::surface::Surface;
+use super::vector::ramp;
+use crate::texture::smoothed;
+use weald_core::grid::{Field, Size};
+
+/// Longest side of the finer ground in cells, and most of them along the side of a cell.
+const LONGEST: usize = 2048;
+const FINEST: usize = 4;
+
+/// Slope, as a share of that from which rock is bare, from which crags stand, and stand whole.
+const STANDS: [f32; 2] = [0.75, 1.15];
+
+/// Share of the crags of a cell that a crest beside it has.
+const BESIDE: f32 = 0.85;
+
+/// Height of a crest above its surroundings of some cells, in cells, from which it has crags, and has them whole.
+const CREST: [f32; 2] = [-0.02, 0.1];
+
+/// Height of crags beside that which they are drawn with.
+const HIGH: f32 = 1.3;
+
+/// Beds from one ledge to the next, and the share of its height that ground takes back on a ledge.
+const LEDGES: f32 = 2.0;
+const STEP: f32 = 0.4;
+const STEP_OF_MATERIALS: f32 = 0.75;
+
+/// Finer cells that are as wide as the finest crag is blurred.
+const BLUR: f32 = 1.2;
+
+/// What is refined: heights as they are drawn.
+pub(super) struct Coarse<'a> {
+    pub(super) ground: &'a Field,
+    /// Levels of lakes, below the ground where it is dry.
+    pub(super) level: Option<&'a Field>,
+    pub(super) spacing: [f32; 2],
+    pub(super) limits: Limits,
+    pub(super) exaggeration: f32,
+    /// Whether its rock has the beds of materials, which lie level.
+    pub(super) is_material: bool,
+}
+
+/// A field on finer cells, as smooth as it was.
+pub(super) fn finer(field: &Field, fineness: usize) -> Field {
+    let surface = Surface::new(field);
+    mapped(field.size(), fineness, |place| surface.at(place))
+}
+
+/// A field of finer cells from the places of their middles, counted in cells.
+fn mapped(size: Size, fineness: usize, value: impl Fn([f32; 2]) -> f32 + Sync) -> Field {
+    let fine = Size { columns: size.columns * fineness, rows: size.rows * fineness };
+    let place = |at: usize| 0.5 + (at as f32 + 0.5) / fineness as f32;
+    let mut values = vec![0.0; fine.cells()];
+    values.par_chunks_mut(fine.columns).enumerate().for_each(|(y, row)| {
+        for (x, height) in row.iter_mut().enumerate() {
+            *height = value([place(x), place(y)]);
+        }
+    });
+    Field::from_values(fine, values)
+}
+
+impl Coarse<'_> {
+    /// Share of crags by cell, and on how many cells along the side of one the ground is to be drawn; `None` where there are
+    /// none, or where cells are fine as they are.
+    pub(super) fn crags(&self) -> Option<(Field, usize)> {
+        let size = self.ground.size();
+        let fineness = (LONGEST / size.columns.max(size.rows)).min(FINEST);
+        let craggy = if fineness > 1 { self.craggy() } else { return None };
+        craggy.values().iter().any(|&share| share > 0.0).then_some((craggy, fineness))
+    }
+
+    /// The ground on finer cells, with such shares of crags.
+    pub(super) fn refined(&self, craggy: &Field, fineness: usize) -> Field {
+        let (ground, craggy) = (Surface::new(self.ground), Surface::new(craggy));
+        mapped(self.ground.size(), fineness, |place| {
+            let share = craggy.at(place);
+            let smooth = ground.with_slope(place);
+            if share <= 0.0 { smooth[0] } else { self.crag(&ground, place, smooth, (share, fineness)) }
+        })
+    }
+
+    /// Height of ground of which such a share is crags.
+    fn crag(
+        &self,
+        ground: &Surface,
+        place: [f32; 2],
+        smooth: [f32; 3],
+        (share, fineness): (f32, usize),
+    ) -> f32 {
+        let stretch = self.exaggeration;
+        let [height, east, south] = smooth;
+        let rise = [east / self.spacing[0] / stretch, -south / self.spacing[1] / stretch];
+        let point =
+            [(place[0] - 0.5) * self.spacing[0], (0.5 - place[1]) * self.spacing[1], height / stretch];
+        let cell = self.limits.cell;
+        let stands = crags(point, rise, cell, BLUR * cell / fineness as f32).height;
+        // What stands out of a slope is higher by its steepness.
+        let upward = (1.0 + rise[0] * rise[0] + rise[1] * rise[1]).sqrt();
+        let crest = ground.keys_at(place) - height;
+        let stands = HIGH * stands * cell * upward.min(2.0) + self.ledges(point, fineness);
+        height + share * (crest + stands * stretch)
+    }
+
+    /// How much higher ground stands for the ledges of its beds.
+    fn ledges(&self, point: [f32; 3], fineness: usize) -> f32 {
+        let spot = bed_spot(point, &self.limits, self.is_material, 0.0);
+        let thickness = LEDGES * spot.thickness;
+        let spot = BedSpot { thickness, fold: spot.fold / LEDGES, ..spot };
+        let seen = ramp(thickness * fineness as f32 / self.limits.cell, 2.0, 5.0);
+        let step = if self.is_material { STEP_OF_MATERIALS } else { STEP };
+        step * seen * thickness * stepped(&spot, !self.is_material)
+    }
+
+    /// Share of crags by cell: on what is steep and on crests beside it, not beside water.
+    fn craggy(&self) -> Field {
+        let size = self.ground.size();
+        let mut steep = Field::filled(size, 0.0);
+        steep.values_mut().par_chunks_mut(size.columns).enumerate().for_each(|(y, row)| {
+            for (x, steep) in row.iter_mut().enumerate() {
+                *steep = ramp(self.slope(x, y) / self.limits.rock, STANDS[0], STANDS[1]);
+            }
+        });
+        let beside = spread(&spread(&steep));
+        let mean = smoothed(&smoothed(self.ground, 1), 2);
+        let share = |cell: usize| {
+            let above =
+                (self.ground.values()[cell] - mean.values()[cell]) / (self.limits.cell * self.exaggeration);
+            steep.values()[cell].max(beside.values()[cell] * ramp(above, CREST[0], CREST[1]))
+        };
+        let shares = smoothed(&Field::from_values(size, (0..size.cells()).map(share).collect()), 1);
+        let dry = |(cell, &share): (usize, &f32)| if self.is_wet(cell) { 0.0 } else { share };
+        Field::from_values(size, shares.values().iter().enumerate().map(dry).collect())
+    }
+
+    /// Whether there is water at a cell or beside it.
+    fn is_wet(&self, cell: usize) -> bool {
+        let is_wet =
+            |cell: usize| self.level.is_some_and(|level| level.values()[cell] > self.ground.values()[cell]);
+        is_wet(cell) || self.ground.size().neighbours(cell).any(is_wet)
+    }
+
+    /// Rise over run, without exaggeration.
+    fn slope(&self, x: usize, y: usize) -> f32 {
+        let size = self.ground.size();
+        let rise = |from: [usize; 2], to: [usize; 2], spacing: f32| {
+            let run = (to[0] - from[0] + to[1] - from[1]).max(1) as f32 * spacing;
+            (self.ground.at(to[0], to[1]) - self.ground.at(from[0], from[1])) / run
+        };
+        let east = rise([x.saturating_sub(1), y], [(x + 1).min(size.columns - 1), y], self.spacing[0]);
+        let south = rise([x, y.saturating_sub(1)], [x, (y + 1).min(size.rows - 1)], self.spacing[1]);
+        (east * east + south * south).sqrt() / self.exaggeration
+    }
+}
+
+/// The greatest of each cell and most of those beside it.
+fn spread(field: &Field) -> Field {
+    let size = field.size();
+    let value = |cell: usize| {
+        let beside = size.neighbours(cell).map(|other| BESIDE * field.values()[other]);
+        beside.fold(field.values()[cell], f32::max)
+    };
+    Field::from_values(size, (0..size.cells()).map(value).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const LIMITS: Limits = Limits { rock: 0.7, trees: 500.0, snow: f32::INFINITY, relief: 400.0, cell: 10.0 };
+
+    fn of<'a>(ground: &'a Field, level: Option<&'a Field>) -> Coarse<'a> {
+        Coarse { ground, level, spacing: [10.0; 2], limits: LIMITS, exaggeration: 1.0, is_material: false }
+    }
+
+    /// A plain of 20 columns, then a slope of 45°.
+    fn slope() -> Field {
+        Field::from_function(Size::new(60, 40).expect("small"), |x, _| 10.0 * x.saturating_sub(20) as f32)
+    }
+
+    #[test]
+    fn gentle_ground_has_no_crags_and_fine_grids_stay_as_they_are() {
+        let gentle =
+            Field::from_function(Size::new(30, 30).expect("small"), |x, y| 2.0 * x as f32 + y as f32);
+        assert!(of(&gentle, None).crags().is_none());
+        let fine =
+            Field::from_function(Size::new(LONGEST / 2 + 1, 4).expect("small"), |x, _| 10.0 * x as f32);
+        assert!(of(&fine, None).crags().is_none());
+    }
+
+    #[test]
+    fn crags_stand_on_the_slope_and_not_on_the_plain() {
+        let ground = slope();
+        let (craggy, fineness) = of(&ground, None).crags().expect("it is steep");
+        let [crags, smooth] = [of(&ground, None).refined(&craggy, fineness), finer(&ground, fineness)];
+        let most = |columns: std::ops::Range<usize>| {
+            let off = |x: usize, y: usize| (crags.at(x, y) - smooth.at(x, y)).abs();
+            columns
+                .flat_map(|x| (0..crags.size().rows).map(move |y| (x, y)))
+                .map(|(x, y)| off(x, y))
+                .fold(0.0, f32::max)
+        };
+        assert_eq!((fineness, crags.size().columns), (FINEST, 60 * FINEST));
+        assert_eq!(most(0..13 * FINEST), 0.0);
+        assert!(
+            (3.0..30.0).contains(&most(30 * FINEST..60 * FINEST)),
+            "{} m",
+            most(30 * FINEST..60 * FINEST)
+        );
+    }
+
+    #[test]
+    fn there_are_none_under_water_nor_beside_it() {
+        let ground = slope();
+        let level = Field::filled(ground.size(), 200.0);
+        let (craggy, _) = of(&ground, Some(&level)).crags().expect("it is steep above the water");
+        assert!((0..41).all(|x| craggy.at(x, 20) == 0.0) && craggy.at(50, 20) > 0.9);
+    }
+
+    #[test]
+    fn a_crest_between_steep_sides_has_crags_and_keeps_its_height() {
+        let ridge =
+            Field::from_function(Size::new(60, 40).expect("small"), |x, _| -10.0 * (x as f32 - 30.0).abs());
+        let craggy = of(&ridge, None).craggy();
+        assert!(craggy.at(30, 20) > 0.6, "{}", craggy.at(30, 20));
+        let surface = Surface::new(&ridge);
+        assert!(surface.at([31.0, 20.0]) < -1.0 && surface.keys_at([31.0, 20.0]).abs() < 1e-4);
+    }
+}
