@@ -132,7 +132,7 @@ fn squares(image: &Image) -> Vec<Oklab> {
 
 /// Distances of a device's picture from the ray-marched one: the mean, and that which one square in twenty passes.
 pub(crate) fn distances(gpu: &Gpu, view: &View, landscape: &Landscape, camera: Option<Camera>) -> (f64, f64) {
-    let scene = LitScene::new(view, landscape).expect("a scene");
+    let scene = LitScene::with_crags(view, landscape).expect("a scene");
     let camera = camera.unwrap_or_else(|| scene.camera());
     let drawn = renderer(gpu, &scene.seen_from(camera), 4).render(&camera).expect("drawn");
     let marched = view.seen_from(landscape, camera).expect("marched");

@@ -22,7 +22,7 @@ const SLICE: f32 = 32.0;
 const NARROWER: f32 = 0.36;
 
 /// Ways between two levels that are the least to be seen of a heap's form.
-const COARSE: f32 = 1.4;
+const COARSE: f32 = 1.8;
 
 /// Noise over which the edge of a heap is soft, and how much softer it is for a radian that is seen as one.
 const EDGE: f32 = 0.2;

@@ -27,6 +27,9 @@ const BESIDE: f32 = 0.85;
 /// Height of a crest above its surroundings of some cells, in cells, from which it has crags, and has them whole.
 const CREST: [f32; 2] = [-0.02, 0.1];
 
+/// Side of a cell in metres up to which cells show all crags themselves, and from which they show none.
+const SHOWN: [f32; 2] = [4.0, 12.0];
+
 /// Height of crags beside that which they are drawn with.
 const HIGH: f32 = 1.3;
 
@@ -124,10 +127,11 @@ impl Coarse<'_> {
     /// Share of crags by cell: on what is steep and on crests beside it, not beside water.
     fn craggy(&self) -> Field {
         let size = self.ground.size();
+        let unseen = ramp(self.limits.cell, SHOWN[0], SHOWN[1]);
         let mut steep = Field::filled(size, 0.0);
         steep.values_mut().par_chunks_mut(size.columns).enumerate().for_each(|(y, row)| {
             for (x, steep) in row.iter_mut().enumerate() {
-                *steep = ramp(self.slope(x, y) / self.limits.rock, STANDS[0], STANDS[1]);
+                *steep = unseen * ramp(self.slope(x, y) / self.limits.rock, STANDS[0], STANDS[1]);
             }
         });
         let beside = spread(&spread(&steep));
@@ -176,24 +180,31 @@ fn spread(field: &Field) -> Field {
 mod tests {
     use super::*;
 
-    const LIMITS: Limits = Limits { rock: 0.7, trees: 500.0, snow: f32::INFINITY, relief: 400.0, cell: 10.0 };
+    const LIMITS: Limits = Limits { rock: 0.7, trees: 500.0, snow: f32::INFINITY, relief: 400.0, cell: 20.0 };
 
     fn of<'a>(ground: &'a Field, level: Option<&'a Field>) -> Coarse<'a> {
-        Coarse { ground, level, spacing: [10.0; 2], limits: LIMITS, exaggeration: 1.0, is_material: false }
+        Coarse { ground, level, spacing: [20.0; 2], limits: LIMITS, exaggeration: 1.0, is_material: false }
     }
 
     /// A plain of 20 columns, then a slope of 45°.
     fn slope() -> Field {
-        Field::from_function(Size::new(60, 40).expect("small"), |x, _| 10.0 * x.saturating_sub(20) as f32)
+        Field::from_function(Size::new(60, 40).expect("small"), |x, _| 20.0 * x.saturating_sub(20) as f32)
+    }
+
+    #[test]
+    fn cells_of_a_few_metres_show_their_crags_themselves() {
+        let ground = slope();
+        let limits = Limits { cell: 4.0, ..LIMITS };
+        assert!(Coarse { limits, ..of(&ground, None) }.crags().is_none());
     }
 
     #[test]
     fn gentle_ground_has_no_crags_and_fine_grids_stay_as_they_are() {
         let gentle =
-            Field::from_function(Size::new(30, 30).expect("small"), |x, y| 2.0 * x as f32 + y as f32);
+            Field::from_function(Size::new(30, 30).expect("small"), |x, y| 4.0 * x as f32 + 2.0 * y as f32);
         assert!(of(&gentle, None).crags().is_none());
         let fine =
-            Field::from_function(Size::new(LONGEST / 2 + 1, 4).expect("small"), |x, _| 10.0 * x as f32);
+            Field::from_function(Size::new(LONGEST / 2 + 1, 4).expect("small"), |x, _| 20.0 * x as f32);
         assert!(of(&fine, None).crags().is_none());
     }
 
@@ -212,7 +223,7 @@ mod tests {
         assert_eq!((fineness, crags.size().columns), (FINEST, 60 * FINEST));
         assert_eq!(most(0..13 * FINEST), 0.0);
         assert!(
-            (3.0..30.0).contains(&most(30 * FINEST..60 * FINEST)),
+            (6.0..60.0).contains(&most(30 * FINEST..60 * FINEST)),
             "{} m",
             most(30 * FINEST..60 * FINEST)
         );
@@ -221,7 +232,7 @@ mod tests {
     #[test]
     fn there_are_none_under_water_nor_beside_it() {
         let ground = slope();
-        let level = Field::filled(ground.size(), 200.0);
+        let level = Field::filled(ground.size(), 400.0);
         let (craggy, _) = of(&ground, Some(&level)).crags().expect("it is steep above the water");
         assert!((0..41).all(|x| craggy.at(x, 20) == 0.0) && craggy.at(50, 20) > 0.9);
     }
@@ -229,7 +240,7 @@ mod tests {
     #[test]
     fn a_crest_between_steep_sides_has_crags_and_keeps_its_height() {
         let ridge =
-            Field::from_function(Size::new(60, 40).expect("small"), |x, _| -10.0 * (x as f32 - 30.0).abs());
+            Field::from_function(Size::new(60, 40).expect("small"), |x, _| -20.0 * (x as f32 - 30.0).abs());
         let craggy = of(&ridge, None).craggy();
         assert!(craggy.at(30, 20) > 0.6, "{}", craggy.at(30, 20));
         let surface = Surface::new(&ridge);
