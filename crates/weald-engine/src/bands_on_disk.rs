@@ -203,7 +203,7 @@ impl Cut {
     ) -> Result<Self, Error> {
         // The grid, the constants as they come, means, one plane on its way, and what is kept for the next band.
         let planes = state + 2 * constants + means + 2;
-        // A fifth more, since allocators keep some of what one band gave back from the next, as measured.
+        // A fifth more, since allocators keep some of what one band gave back from the next.
         let row = VALUE * size.columns as u64 * planes as u64 * 6 / 5;
         let thread = ROWS_OF_A_THREAD + 2 * halo(reach, STEPS_OF_A_THREAD) * (state + constants);
         let threads = VALUE * (size.columns * thread * rayon::current_num_threads()) as u64;
