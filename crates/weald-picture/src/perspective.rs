@@ -1,6 +1,7 @@
 //! Perspective views as pictures: on the processor, and as a device draws them.
 
 use super::picture::Picture;
+use super::view::most_cells;
 use super::{Image, Render, View};
 use weald_core::domain::Domain;
 use weald_core::error::Error;
@@ -45,9 +46,9 @@ impl Picture for View {
             .collect()
     }
 
-    /// Trees of bounds for rays, normals, and what of the sky each cell sees.
+    /// Trees of bounds for rays, normals, what of the sky each cell sees, and finer cells where ground is steep.
     fn working_bytes(&self, cells: u64) -> u64 {
-        110 * cells
+        110 * cells + 45 * most_cells(cells)
     }
 
     fn check_on(&self, _: &Domain) -> Result<(), Error> {

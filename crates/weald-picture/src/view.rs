@@ -51,6 +51,7 @@ pub use follow::Follow;
 pub use keys::{Around, GroundColour, View};
 pub use lit_scene::LitScene;
 pub use maps::{SceneTexture, TextureKind};
+pub(crate) use refined::most_cells;
 pub use rim::Rim;
 pub use scene::RayMarcher;
 pub use terrain::Ray;

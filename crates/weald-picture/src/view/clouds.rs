@@ -28,6 +28,9 @@ const COARSE: f32 = 1.8;
 const EDGE: f32 = 0.2;
 const SOFTER: f32 = 5.0;
 
+/// Noise below that of a heap from which a level counts as its side, so that a heap does not begin at a level all at once.
+const SIDE: f32 = 0.12;
+
 /// Metres of cloud through which the sun's light comes to what is seen.
 const LIT: f32 = 420.0;
 
@@ -44,11 +47,10 @@ const SOFT: f32 = 160.0;
 struct Met {
     /// The level, counted from the base.
     slice: f32,
-    /// How far it is within there, and at most along the ray.
+    /// How far it is within there.
     within: f32,
-    most: f32,
-    /// How that grows eastward and northward.
-    slope: [f32; 2],
+    /// How much of it lies along the ray: squares of how far each level is within its side.
+    passed: f32,
 }
 
 /// The place so many metres along a ray.
@@ -97,19 +99,19 @@ impl Clouds {
         for slice in 0..SLICES {
             let at = along(from, direction, first + slice as f32 * spacing);
             let here = self.within(at, slice as f32 / (SLICES - 1) as f32, COARSE * spacing);
-            match &mut met {
-                Some(met) => met.most = met.most.max(here.value),
-                None if here.value > 0.0 => {
-                    // The base is flat; a side lies between two levels.
-                    let (back, within) = match slice {
-                        0 => (0.0, here.value),
-                        _ => (here.value / (here.value - before), 0.0),
-                    };
-                    met =
-                        Some(Met { slice: slice as f32 - back, within, most: here.value, slope: here.slope });
-                }
-                None => before = here.value,
+            let side = here.value + SIDE;
+            if met.is_none() && side > 0.0 {
+                // The base is flat; a side lies between two levels.
+                let (back, within) = match slice {
+                    0 => (0.0, here.value),
+                    _ => (side / (here.value - before), -SIDE),
+                };
+                met = Some(Met { slice: slice as f32 - back, within, passed: 0.0 });
             }
+            if let Some(met) = &mut met {
+                met.passed += side.max(0.0).powi(2);
+            }
+            before = here.value;
         }
         met
     }
@@ -121,12 +123,15 @@ impl Clouds {
         }
         let Some(met) = self.met(from, direction) else { return radiance };
         let share = met.slice / (SLICES - 1) as f32;
-        let reach = (self.height - from[2]) / direction[2] + met.slice * self.spacing(direction);
+        let spacing = self.spacing(direction);
+        let reach = (self.height - from[2]) / direction[2] + met.slice * spacing;
         let footprint = blur * reach / direction[2].sqrt();
-        let fine = self.within(along(from, direction, reach), share, footprint).value - met.within;
-        let density = ramp(met.most + 0.4 * fine, 0.0, EDGE + SOFTER * blur);
+        let at = along(from, direction, reach);
+        let fine = self.within(at, share, footprint).value - met.within;
+        let slope = self.within(at, share, COARSE * spacing).slope;
+        let density = ramp(met.passed.sqrt() - SIDE + 0.4 * fine, 0.0, EDGE + SOFTER * blur);
         let sunward = [0, 1].map(|axis| LIT * sky.sun[axis] / sky.sun[2].max(0.3));
-        let uphill = met.slope[0] * sunward[0] + met.slope[1] * sunward[1];
+        let uphill = slope[0] * sunward[0] + slope[1] * sunward[1];
         let through = libm::expf(-3.4 * (met.within + 0.3 + uphill - 0.7 * fine - 0.25 * share).max(0.0));
         let glow = 0.3 * (1.0 - density) * libm::powf(dot(direction, sky.sun).max(0.0), 12.0);
         let lit = add(

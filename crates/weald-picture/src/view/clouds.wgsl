@@ -6,6 +6,8 @@ const CLOUDS_SLICE = 32.0;
 const CLOUDS_NARROWER = 0.36;
 const CLOUDS_COARSE = 1.8;
 const CLOUDS_EDGE = 0.2;
+const CLOUDS_SOFTER = 5.0;
+const CLOUDS_SIDE = 0.12;
 const CLOUDS_LIT = 420.0;
 const CLOUDS_LOST = 28000.0;
 const CLOUDS_SHADOW = 0.78;
@@ -18,16 +20,15 @@ fn within_cloud(at: vec2<f32>, share: f32, footprint: f32) -> Grain {
     return noise;
 }
 
-// Where a ray meets a heap: the slice, how far it is within there and at most, and the slope of that.
+// Where a ray meets a heap: the slice, how far it is within there, and how much of it lies along the ray.
 struct MetCloud {
     slice: f32,
     within: f32,
-    most: f32,
-    slope: vec2<f32>,
+    passed: f32,
 }
 
 fn met_cloud(start: vec3<f32>, direction: vec3<f32>) -> MetCloud {
-    var met = MetCloud(0.0, -1.0, -1.0, vec2<f32>(0.0));
+    var met = MetCloud(0.0, 0.0, 0.0);
     var before = -1.0;
     let spacing = CLOUDS_SLICE * scene.scale.y / direction.z;
     let first = (scene.cloud_height.x - start.z) / direction.z;
@@ -35,11 +36,12 @@ fn met_cloud(start: vec3<f32>, direction: vec3<f32>) -> MetCloud {
         let reach = first + f32(slice) * spacing;
         let at = start.xy + direction.xy * reach;
         let here = within_cloud(at, f32(slice) / f32(CLOUDS_SLICES - 1), CLOUDS_COARSE * spacing);
-        if met.most <= 0.0 && here.value > 0.0 {
-            let back = select(here.value / (here.value - before), 0.0, slice == 0);
-            met = MetCloud(f32(slice) - back, select(0.0, here.value, slice == 0), here.value, here.slope);
+        let side = max(here.value + CLOUDS_SIDE, 0.0);
+        if met.passed == 0.0 && side > 0.0 {
+            let back = select(side / (here.value - before), 0.0, slice == 0);
+            met = MetCloud(f32(slice) - back, select(-CLOUDS_SIDE, here.value, slice == 0), 0.0);
         }
-        met.most = max(met.most, here.value);
+        met.passed += side * side;
         before = here.value;
     }
     return met;
@@ -51,16 +53,20 @@ fn with_clouds(start: vec3<f32>, direction: vec3<f32>, radiance: vec3<f32>, blur
         return radiance;
     }
     let met = met_cloud(start, direction);
-    if met.most <= 0.0 {
+    if met.passed == 0.0 {
         return radiance;
     }
     let share = met.slice / f32(CLOUDS_SLICES - 1);
-    let reach = (scene.cloud_height.x + met.slice * CLOUDS_SLICE * scene.scale.y - start.z) / direction.z;
+    let spacing = CLOUDS_SLICE * scene.scale.y / direction.z;
+    let reach = (scene.cloud_height.x - start.z) / direction.z + met.slice * spacing;
     let footprint = blur * reach * inverseSqrt(direction.z);
-    let fine = within_cloud(start.xy + direction.xy * reach, share, footprint).value - met.within;
-    let density = smoothstep(0.0, CLOUDS_EDGE + 5.0 * blur, met.most + 0.4 * fine);
+    let at = start.xy + direction.xy * reach;
+    let fine = within_cloud(at, share, footprint).value - met.within;
+    let slope = within_cloud(at, share, CLOUDS_COARSE * spacing).slope;
+    let edge = CLOUDS_EDGE + CLOUDS_SOFTER * blur;
+    let density = smoothstep(0.0, edge, sqrt(met.passed) - CLOUDS_SIDE + 0.4 * fine);
     let sunward = CLOUDS_LIT * scene.sun.xy / max(scene.sun.z, 0.3);
-    let through = exp(-3.4 * max(met.within + 0.3 + 1.0 * dot(met.slope, sunward) - 0.7 * fine - 0.25 * share, 0.0));
+    let through = exp(-3.4 * max(met.within + 0.3 + dot(slope, sunward) - 0.7 * fine - 0.25 * share, 0.0));
     let glow = 0.3 * (1.0 - density) * pow(max(dot(direction, scene.sun.xyz), 0.0), 12.0);
     let lit = scene.sunlight.xyz * (0.03 + 0.24 * through + glow)
         + scene.clouds.xyz * ((0.45 + 0.5 * share) / PI);

@@ -72,6 +72,12 @@ fn mapped(size: Size, fineness: usize, value: impl Fn([f32; 2]) -> f32 + Sync) -
     Field::from_values(fine, values)
 }
 
+/// Most cells that are drawn for a landscape of so many.
+pub(crate) fn most_cells(cells: u64) -> u64 {
+    let fineness = (LONGEST as u64 / cells.isqrt().max(1)).clamp(1, FINEST as u64);
+    cells * fineness * fineness
+}
+
 impl Coarse<'_> {
     /// Share of crags by cell, and on how many cells along the side of one the ground is to be drawn; `None` where there are
     /// none, or where cells are fine as they are.
