@@ -48,7 +48,7 @@ impl Picture for View {
 
     /// Trees of bounds for rays, normals, what of the sky each cell sees, and finer cells where ground is steep.
     fn working_bytes(&self, cells: u64) -> u64 {
-        110 * cells + 45 * most_cells(cells)
+        110 * cells + 16 * most_cells(cells)
     }
 
     fn check_on(&self, _: &Domain) -> Result<(), Error> {
