@@ -1,12 +1,11 @@
 //! `weald-mpi bench`: what ranks do here, beside the model of it, and what the model says of larger grids.
 
 use std::fmt::Write;
-use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex};
 use std::time::Instant;
 
 use weald::engine::Engine;
-use weald::engine::ranks::{Ranks, Swap};
+use weald::engine::ranks::{Counting, Ranks, Swap};
 use weald::recipe::{Options, Overrides, Progress, Recipe, Run, StepReport, take_part};
 use weald::{Error, Landscape};
 
@@ -33,47 +32,6 @@ const RUNS: usize = 3;
 /// Numbers of ranks for which the model is printed.
 const RANKS: [usize; 8] = [1, 2, 4, 8, 16, 32, 64, 128];
 
-/// Ranks that count what they send.
-#[derive(Debug)]
-struct Counting {
-    ranks: Arc<dyn Ranks>,
-    swaps: AtomicU64,
-    bytes: AtomicU64,
-}
-
-impl Ranks for Counting {
-    fn rank(&self) -> usize {
-        self.ranks.rank()
-    }
-
-    fn count(&self) -> usize {
-        self.ranks.count()
-    }
-
-    fn tell(&self, message: Vec<u8>) -> Result<Vec<u8>, Error> {
-        self.ranks.tell(message)
-    }
-
-    fn deal(&self, part: &mut dyn FnMut(usize) -> Vec<u8>) -> Result<Vec<u8>, Error> {
-        self.ranks.deal(part)
-    }
-
-    fn collect(
-        &self,
-        own: Vec<u8>,
-        take: &mut dyn FnMut(usize, Vec<u8>) -> Result<(), Error>,
-    ) -> Result<(), Error> {
-        self.ranks.collect(own, take)
-    }
-
-    fn swap(&self, swaps: &mut [Swap<'_>]) -> Result<(), Error> {
-        let bytes: usize = swaps.iter().map(|swap| size_of_val(swap.give)).sum();
-        self.swaps.fetch_add(swaps.len() as u64, Ordering::Relaxed);
-        self.bytes.fetch_add(bytes as u64, Ordering::Relaxed);
-        self.ranks.swap(swaps)
-    }
-}
-
 /// Seconds of the last step of a run.
 #[derive(Default)]
 struct Watch(Mutex<f64>);
@@ -93,8 +51,7 @@ impl Progress for Watch {
 pub(crate) fn bench(arguments: &BenchArguments, ranks: &Arc<dyn Ranks>) -> Result<(), Error> {
     let alone = if ranks.leads() { seconds_a_step(arguments, &Engine::Cpu)? } else { 0.0 };
     let [latency, bandwidth] = messages(ranks.as_ref())?;
-    let counting =
-        Arc::new(Counting { ranks: Arc::clone(ranks), swaps: AtomicU64::new(0), bytes: AtomicU64::new(0) });
+    let counting = Arc::new(Counting::new(Arc::clone(ranks)));
     let all: Arc<dyn Ranks> = Arc::<Counting>::clone(&counting);
     let together = if ranks.leads() {
         seconds_a_step(arguments, &Engine::Ranks(all))?
@@ -174,9 +131,9 @@ fn messages(ranks: &dyn Ranks) -> Result<[f64; 2], Error> {
 /// What the model asks of messages, and the bytes that were really sent a step and neighbour in both runs together. The
 /// first rank has one neighbour.
 fn traffic(arguments: &BenchArguments, counting: &Counting) -> (Traffic, f64) {
-    let [swaps, bytes] = [&counting.swaps, &counting.bytes].map(|count| count.load(Ordering::Relaxed) as f64);
+    let [exchanges, bytes] = [counting.exchanges(), counting.bytes()].map(|count| count as f64);
     let steps = f64::from(3 * arguments.steps) * RUNS as f64;
-    let block = if swaps > 0.0 { steps / swaps } else { BLOCK };
+    let block = if exchanges > 0.0 { steps / exchanges } else { BLOCK };
     let planes = if arguments.model == "han" { HAN_PLANES } else { MEI_PLANES };
     let values = planes * (REACH * block + 1.0) / block;
     (Traffic { reach: REACH, block, bytes: size_of::<f32>() as f64 * values }, bytes / steps)

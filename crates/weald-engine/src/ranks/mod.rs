@@ -9,12 +9,14 @@
 mod band;
 mod bytes;
 mod command;
+mod counting;
 mod follower;
 mod leader;
 mod messages;
 mod share;
 mod threads;
 
+pub use counting::Counting;
 pub use follower::follow;
 pub(crate) use leader::RanksMachine;
 pub use messages::{Ranks, Swap};

@@ -1,14 +1,13 @@
 //! Every process over 1, 2, 3, 4 and 6 ranks ends with the bits of one processor: layers, budgets and notes.
 
 use std::sync::Arc;
-use std::sync::atomic::{AtomicU64, Ordering};
 
 use rayon::prelude::*;
 use weald_core::grid::Mask;
 use weald_core::material::Material;
 use weald_core::{Error, Landscape};
 use weald_engine::program::Content;
-use weald_engine::ranks::{Ranks, Swap, ranks_in_threads};
+use weald_engine::ranks::{Counting, Ranks, ranks_in_threads};
 use weald_engine::step::{Outcome, Step};
 use weald_engine::{Engine, Job, SavedSimulation, Unwatched, Watcher};
 use weald_land::edit::{Brush, Change, Edit, Effect, Falloff, Script, Setting};
@@ -253,58 +252,17 @@ fn a_simulation_that_a_person_holds_is_refused() {
     assert!(message.contains("cannot run over ranks"), "{message}");
 }
 
-/// Ranks that count the bytes which they send their neighbours.
-#[derive(Debug)]
-struct Counted {
-    ranks: Arc<dyn Ranks>,
-    bytes: AtomicU64,
-}
-
-impl Ranks for Counted {
-    fn rank(&self) -> usize {
-        self.ranks.rank()
-    }
-
-    fn count(&self) -> usize {
-        self.ranks.count()
-    }
-
-    fn tell(&self, message: Vec<u8>) -> Result<Vec<u8>, Error> {
-        self.ranks.tell(message)
-    }
-
-    fn deal(&self, part: &mut dyn FnMut(usize) -> Vec<u8>) -> Result<Vec<u8>, Error> {
-        self.ranks.deal(part)
-    }
-
-    fn collect(
-        &self,
-        own: Vec<u8>,
-        take: &mut dyn FnMut(usize, Vec<u8>) -> Result<(), Error>,
-    ) -> Result<(), Error> {
-        self.ranks.collect(own, take)
-    }
-
-    fn swap(&self, swaps: &mut [Swap<'_>]) -> Result<(), Error> {
-        let bytes: usize = swaps.iter().map(|swap| size_of_val(swap.give)).sum();
-        self.bytes.fetch_add(bytes as u64, Ordering::Relaxed);
-        self.ranks.swap(swaps)
-    }
-}
-
 /// Bytes that the first of two ranks sends the other in so many steps.
 fn bytes_sent(step: &Hydraulic, ground: &Landscape) -> u64 {
-    let counted: Vec<_> = ranks_in_threads(2)
-        .into_iter()
-        .map(|ranks| Arc::new(Counted { ranks, bytes: AtomicU64::new(0) }))
-        .collect();
+    let counted: Vec<_> =
+        ranks_in_threads(2).into_iter().map(|ranks| Arc::new(Counting::new(ranks))).collect();
     std::thread::scope(|scope| {
         for ranks in &counted {
             let engine = Engine::Ranks(Arc::clone(ranks) as Arc<dyn Ranks>);
             scope.spawn(move || run_on(step, ground, &Job { engine, ..Job::unwatched(7) }).1.expect("runs"));
         }
     });
-    counted[0].bytes.load(Ordering::Relaxed)
+    counted[0].bytes()
 }
 
 #[test]
