@@ -4,11 +4,26 @@
 
 use crate::error::{Error, Limit, Quantity};
 
-/// Most cells that one landscape may hold: 2^28 (16384²), one GiB a layer.
+/// Most cells that a landscape may hold in memory: 2^28 (16384²), one GiB a layer.
 pub const MAX_CELLS: usize = 1 << 28;
 
 /// Most cells along one side.
 pub const MAX_SIDE: usize = 1 << 20;
+
+fn subject(columns: usize, rows: usize) -> String {
+    format!("a grid of {columns} × {rows} cells")
+}
+
+fn ensure_sides(columns: usize, rows: usize) -> Result<(), Limit> {
+    let sides = 1..=MAX_SIDE as u64;
+    let wrong = [columns, rows].map(|side| side as u64).into_iter().find(|side| !sides.contains(side));
+    let Some(side) = wrong else { return Ok(()) };
+    let remedy = match side {
+        0 => "choose at least one cell a side".to_owned(),
+        _ => format!("choose a smaller size, of at most {MAX_CELLS} cells in all"),
+    };
+    Err(Limit::new(Quantity::CellsPerSide, side, sides).of(subject(columns, rows)).remedy(remedy))
+}
 
 /// Columns and rows of a grid, both at least 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -33,21 +48,22 @@ impl Size {
     /// # Errors
     /// The side or the cells that are not allowed.
     pub fn within_limits(columns: usize, rows: usize) -> Result<Self, Limit> {
-        let (sides, cells) = (1..=MAX_SIDE as u64, 0..=MAX_CELLS as u64);
-        let subject = || format!("a grid of {columns} × {rows} cells");
-        let wrong = [columns, rows].map(|side| side as u64).into_iter().find(|side| !sides.contains(side));
-        if let Some(side) = wrong {
-            let remedy = match side {
-                0 => "choose at least one cell a side".to_owned(),
-                _ => format!("choose a smaller size, of at most {MAX_CELLS} cells in all"),
-            };
-            return Err(Limit::new(Quantity::CellsPerSide, side, sides).of(subject()).remedy(remedy));
-        }
+        ensure_sides(columns, rows)?;
+        let cells = 0..=MAX_CELLS as u64;
         let whole = columns as u64 * rows as u64;
         if !cells.contains(&whole) {
-            let limit = Limit::new(Quantity::Cells, whole, cells).of(subject());
+            let limit = Limit::new(Quantity::Cells, whole, cells).of(subject(columns, rows));
             return Err(limit.remedy("choose a smaller size"));
         }
+        Ok(Self { columns, rows })
+    }
+
+    /// As [`Size::new`], for a grid that is read window by window: at most [`MAX_SIDE`] a side, however many cells those are.
+    ///
+    /// # Errors
+    /// [`Error::Limit`] with the side that is not allowed.
+    pub fn on_disk(columns: usize, rows: usize) -> Result<Self, Error> {
+        ensure_sides(columns, rows)?;
         Ok(Self { columns, rows })
     }
 

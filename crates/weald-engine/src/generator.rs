@@ -1,5 +1,6 @@
 //! Generators: steps that make ground from nothing, here on the processor or on a device.
 
+use std::collections::BTreeSet;
 use std::fmt::Debug;
 use std::ops::Range;
 
@@ -73,7 +74,7 @@ impl<T: Generator> Step for T {
         self.contradictions()
     }
 
-    fn scratch_per_cell(&self) -> Result<u64, String> {
+    fn scratch_per_cell(&self, _: &BTreeSet<String>) -> Result<u64, String> {
         let one = Domain::new(Size { columns: 1, rows: 1 }, 1.0);
         let by_rows = self.fill_rows(&one, 0, 0..1).map(|_| 0);
         by_rows.ok_or_else(|| "it generates the whole landscape at once".to_owned())

@@ -1,6 +1,6 @@
 //! What a step of a recipe is: it declares the layers that it reads and writes, and runs on a landscape.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Debug;
 use std::path::PathBuf;
 
@@ -135,12 +135,13 @@ pub trait Step: Debug + Send + Sync {
         false
     }
 
-    /// Bytes for a cell that it takes on disk beside the layers, where it can run on a landscape that does not fit into
-    /// memory.
+    /// Bytes for a cell that it takes on disk at its peak beside the layers that are there before and those of these names
+    /// that it writes, where it can run on a landscape that does not fit into memory.
     ///
     /// # Errors
     /// Why it cannot.
-    fn scratch_per_cell(&self) -> Result<u64, String> {
+    fn scratch_per_cell(&self, wanted: &BTreeSet<String>) -> Result<u64, String> {
+        let _ = wanted;
         Err("it works on the whole landscape in memory".to_owned())
     }
 
@@ -151,7 +152,7 @@ pub trait Step: Debug + Send + Sync {
     /// that it cannot, or where the disk is full.
     fn run_on_disk(&self, landscape: &mut StoredLandscape<'_>, job: &Job<'_>) -> Result<Outcome, Error> {
         let _ = (landscape, job);
-        let why = self.scratch_per_cell().err().unwrap_or_default();
+        let why = self.scratch_per_cell(&BTreeSet::new()).err().unwrap_or_default();
         Err(Error::Run(format!("the step does not run on a landscape on disk: {why}")))
     }
 

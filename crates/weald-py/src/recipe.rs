@@ -50,7 +50,7 @@ impl Recipe {
     #[new]
     fn new(py: Python<'_>, file: &str, text: &str, changes: Changes) -> PyResult<Self> {
         let Changes { size, preview, seed, set } = changes;
-        let overrides = Overrides { size, preview, seed, set };
+        let overrides = Overrides { size, preview, seed, set, ..Overrides::default() };
         let recipe = weald::recipe::Recipe::parse(file, text, &overrides);
         recipe.map(Self::of).map_err(|error| exception(py, error))
     }

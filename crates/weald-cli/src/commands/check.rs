@@ -3,15 +3,17 @@
 use std::fmt::Write;
 
 use weald::error::bytes_in_words;
-use weald::recipe::{Ground, Machine, Outlook, Recipe, Timings};
+use weald::recipe::{Ground, Machine, Outlook, Overrides, Recipe, Timings};
 
 use crate::arguments::{CheckArguments, kept_results};
 use crate::failure::Failure;
 use crate::stdout;
 
 pub(crate) fn check(arguments: &CheckArguments) -> Result<(), Failure> {
-    let recipe = Recipe::load(&arguments.recipe, &arguments.changes.overrides())?;
-    let Outlook { notes, memory, grid } = recipe.look_ahead()?;
+    let overrides = Overrides { larger_than_memory: arguments.out_of_core, ..arguments.changes.overrides() };
+    let recipe = Recipe::load(&arguments.recipe, &overrides)?;
+    let outlook = if arguments.out_of_core { recipe.look_ahead_on_disk() } else { recipe.look_ahead() };
+    let Outlook { notes, memory, grid } = outlook?;
     for note in notes {
         eprintln!("note: {note}");
     }

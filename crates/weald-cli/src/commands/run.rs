@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use weald::Error;
 use weald::layer_words::shown_unit;
-use weald::recipe::{Options, OutputReport, Progress, REPORT_FILE, Recipe, Report, Run};
+use weald::recipe::{Options, OutputReport, Overrides, Progress, REPORT_FILE, Recipe, Report, Run};
 
 use crate::arguments::{RunArguments, Running};
 use crate::engine::drawing;
@@ -16,7 +16,9 @@ use crate::values::EngineChoice;
 use crate::{interrupt, stdout};
 
 pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
-    let recipe = Recipe::load(&arguments.recipe, &arguments.changes.overrides())?;
+    let larger_than_memory = arguments.out_of_core.is_some();
+    let overrides = Overrides { larger_than_memory, ..arguments.changes.overrides() };
+    let recipe = Recipe::load(&arguments.recipe, &overrides)?;
     let out = arguments.out.clone().unwrap_or_else(|| {
         let folder = default_folder(&arguments.recipe);
         // What was made at full size is not lost by a look at a change.
@@ -57,7 +59,11 @@ pub(super) fn watched<T>(
         render,
         ..options
     };
-    interrupt::listen()?;
+    if options.out_of_core.is_some() {
+        interrupt::listen_without_checkpoint()?;
+    } else {
+        interrupt::listen()?;
+    }
     let shown = ProgressPrinter::new(running.quiet);
     if let Some(note) = &chosen.note {
         shown.note(note);

@@ -11,6 +11,7 @@
 
 mod compression;
 mod directory;
+mod head;
 mod keys;
 mod layout;
 mod legend;

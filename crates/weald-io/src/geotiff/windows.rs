@@ -4,9 +4,10 @@ use std::io::{BufWriter, Seek, SeekFrom, Write};
 
 use super::super::format::WindowedRaster;
 use super::super::{Part, Raster};
+use super::head::{Image, Variant};
 use super::legend;
 use super::tiles::{Samples, TILE, tiles};
-use super::write::{HEADER, Image, directories, directory_length, halves};
+use super::write::halves;
 use weald_core::error::Error;
 use weald_core::files::File;
 use weald_core::grid::{Field, Size};
@@ -79,10 +80,10 @@ impl<'a> Writing<'a> {
             image.lengths = vec![0; count];
             images.push(image);
         }
-        let heads: usize = images.iter().map(directory_length).sum();
+        let variant = Variant::holding(images.iter().map(|image| image.lengths.len()).sum(), self.samples);
         let mut out = BufWriter::new(file);
         let failed = |cause: std::io::Error| Error::Run(format!("the file cannot be written: {cause}"));
-        out.write_all(&vec![0; HEADER.len() + heads]).map_err(failed)?;
+        out.write_all(&vec![0; variant.length(&images)]).map_err(failed)?;
         for (image, plane) in images.iter_mut().zip(&planes).rev() {
             image.lengths.clear();
             for north in (0..plane.size().rows).step_by(TILE) {
@@ -92,7 +93,7 @@ impl<'a> Writing<'a> {
                 }
             }
         }
-        let head = directories(&images)?;
+        let head = variant.directories(&images)?;
         out.seek(SeekFrom::Start(0))
             .and_then(|_| out.write_all(&head))
             .and_then(|()| out.flush())

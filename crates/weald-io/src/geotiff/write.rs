@@ -7,6 +7,7 @@ use super::super::Part;
 use super::super::Raster;
 use super::super::geokeys::keys_for;
 use super::directory::tag;
+use super::head::{Entry, Image, Variant};
 use super::overviews::overviews;
 use super::tiles::{Samples, TILE, tiles};
 use super::{legend, metadata};
@@ -20,7 +21,8 @@ use weald_core::grid::Size;
 /// [`Error::Run`] naming a cell with data that holds a NaN or an infinity.
 pub fn encode(raster: &Raster) -> Result<Vec<u8>, Error> {
     raster.ensure_finite()?;
-    assemble(vec![packed(Image::main, raster, Samples::of(raster))])
+    let samples = Samples::of(raster);
+    assemble(vec![packed(Image::main, raster, samples)], |tiles| Variant::holding(tiles, samples))
 }
 
 /// The same, and what its classes mean beside it.
@@ -36,16 +38,9 @@ pub(super) fn cloud_optimized(raster: &Raster) -> Result<Vec<Part>, Error> {
     let images = smaller
         .iter()
         .map(|smaller| packed(|_, size, samples| Image::smaller(size, samples), smaller, samples));
-    let file = assemble(std::iter::once(packed(Image::main, raster, samples)).chain(images).collect())?;
+    let images = std::iter::once(packed(Image::main, raster, samples)).chain(images).collect();
+    let file = assemble(images, |tiles| Variant::holding(tiles, samples))?;
     Ok(std::iter::once(Part::own(file)).chain(legend::parts(raster)).collect())
-}
-
-/// An image of the file.
-pub(super) struct Image {
-    /// All tags but those that place the tiles.
-    tags: Vec<Entry>,
-    /// Bytes of each tile.
-    pub(super) lengths: Vec<u64>,
 }
 
 impl Image {
@@ -67,29 +62,6 @@ impl Image {
         tags.push(Entry::longs(tag::NEW_SUBFILE_TYPE, &[1]));
         Self { tags, lengths: Vec::new() }
     }
-
-    /// All tags in their order, with the tiles from a place of the file on; the places must fit into 32 bits.
-    fn placed(&self, mut next: u64) -> Result<Vec<Entry>, Error> {
-        let mut offsets = Vec::with_capacity(self.lengths.len());
-        for length in &self.lengths {
-            offsets.push(fits(next)?);
-            next += length;
-        }
-        let lengths = self.lengths.iter().map(|&length| fits(length)).collect::<Result<Vec<_>, _>>()?;
-        let mut tags = self.tags.clone();
-        tags.push(Entry::longs(tag::TILE_BYTE_COUNTS, &lengths));
-        tags.push(Entry::longs(tag::TILE_OFFSETS, &offsets));
-        tags.sort_by_key(|entry| entry.tag);
-        Ok(tags)
-    }
-}
-
-fn fits(place: u64) -> Result<u32, Error> {
-    u32::try_from(place).map_err(|_| {
-        Error::Run(
-            "the file would be longer than the 4 GiB of a TIFF; choose a smaller size, or .zarr".to_owned(),
-        )
-    })
 }
 
 /// Sides of an image of half the size.
@@ -106,37 +78,6 @@ fn packed(
     let tiles = tiles(raster, samples);
     let lengths = tiles.iter().map(|tile| tile.len() as u64).collect();
     (Image { lengths, ..image(raster, raster.field.size(), samples) }, tiles)
-}
-
-/// A tag with its values in little-endian order.
-#[derive(Clone)]
-struct Entry {
-    tag: u16,
-    kind: u16,
-    count: usize,
-    values: Vec<u8>,
-}
-
-impl Entry {
-    fn shorts(tag: u16, numbers: &[u16]) -> Self {
-        let values = numbers.iter().flat_map(|number| number.to_le_bytes()).collect();
-        Self { tag, kind: 3, count: numbers.len(), values }
-    }
-
-    fn longs(tag: u16, numbers: &[u32]) -> Self {
-        let values = numbers.iter().flat_map(|number| number.to_le_bytes()).collect();
-        Self { tag, kind: 4, count: numbers.len(), values }
-    }
-
-    fn doubles(tag: u16, numbers: &[f64]) -> Self {
-        let values = numbers.iter().flat_map(|number| number.to_le_bytes()).collect();
-        Self { tag, kind: 12, count: numbers.len(), values }
-    }
-
-    fn text(tag: u16, text: &str) -> Self {
-        let values: Vec<u8> = text.bytes().chain([0]).collect();
-        Self { tag, kind: 2, count: values.len(), values }
-    }
 }
 
 /// What every image says of its values.
@@ -184,76 +125,44 @@ fn key_tags(keys: &GeoKeys) -> Vec<Entry> {
 }
 
 /// Header, directories with the values of their tags, tiles, in this order; those of the first image last.
-fn assemble(images: Vec<(Image, Vec<Vec<u8>>)>) -> Result<Vec<u8>, Error> {
+fn assemble(
+    images: Vec<(Image, Vec<Vec<u8>>)>,
+    variant: impl Fn(usize) -> Variant,
+) -> Result<Vec<u8>, Error> {
     let (images, tiles): (Vec<_>, Vec<_>) = images.into_iter().unzip();
-    let mut file = directories(&images)?;
+    let count = images.iter().map(|image| image.lengths.len()).sum();
+    let mut file = variant(count).directories(&images)?;
     file.extend(tiles.iter().rev().flat_map(|tiles| tiles.concat()));
     Ok(file)
 }
 
-/// Header and directories of images whose tiles have these lengths. The largest grid there is fits a classic TIFF with its
-/// 4 GiB three times over.
-///
-/// # Errors
-/// [`Error::Run`] where it does not.
-pub(super) fn directories(images: &[Image]) -> Result<Vec<u8>, Error> {
-    let mut next = (HEADER.len() + images.iter().map(directory_length).sum::<usize>()) as u64;
-    let mut placed = Vec::with_capacity(images.len());
-    for image in images.iter().rev() {
-        placed.push(image.placed(next)?);
-        next += image.lengths.iter().sum::<u64>();
+#[cfg(test)]
+mod tests {
+    use super::super::super::Limits;
+    use super::super::decode;
+    use super::*;
+    use weald_core::grid::Field;
+
+    #[test]
+    fn a_file_of_wide_places_holds_what_one_of_narrow_places_does() {
+        let size = Size { columns: 600, rows: 300 };
+        let values = (0..size.cells()).map(|cell| (cell % 977) as f32 * 0.5).collect();
+        let raster = Raster { cell: Some(2.5), ..Raster::from(Field::from_values(size, values)) };
+        let samples = Samples::of(&raster);
+        let [narrow, wide] = [Variant::Tiff, Variant::BigTiff].map(|variant| {
+            let smaller = overviews(&raster).remove(0);
+            let images = vec![
+                packed(Image::main, &raster, samples),
+                packed(|_, size, samples| Image::smaller(size, samples), &smaller, samples),
+            ];
+            assemble(images, |_| variant).expect("room")
+        });
+        assert_eq!((&narrow[..4], &wide[..4]), (&b"II\x2a\0"[..], &b"II\x2b\0"[..]));
+        let [narrow, wide] = [narrow, wide].map(|file| decode(&file, Limits::default()).expect("whole"));
+        assert_eq!(wide.field, raster.field);
+        assert_eq!(
+            (narrow.field, narrow.cell, narrow.georeference),
+            (wide.field, wide.cell, wide.georeference)
+        );
     }
-    let mut bytes = HEADER.to_vec();
-    for (number, tags) in placed.iter().rev().enumerate() {
-        let is_last = number + 1 == images.len();
-        bytes.extend(directory(tags, bytes.len(), is_last));
-    }
-    Ok(bytes)
-}
-
-/// Bytes of the directory of an image and of the values behind it.
-pub(super) fn directory_length(image: &Image) -> usize {
-    let places = vec![0; image.lengths.len()];
-    let places = [tag::TILE_BYTE_COUNTS, tag::TILE_OFFSETS].map(|tag| Entry::longs(tag, &places));
-    length_of(image.tags.iter().chain(&places))
-}
-
-/// The header: little-endian, TIFF, the first directory follows.
-pub(super) const HEADER: [u8; 8] = *b"II\x2a\0\x08\0\0\0";
-
-/// Bytes of a directory of these tags, and of the values behind it.
-fn length_of<'a>(tags: impl Iterator<Item = &'a Entry>) -> usize {
-    2 + 4 + tags.map(|tag| 12 + outside_length(tag)).sum::<usize>()
-}
-
-/// Bytes that a tag takes behind the directory: none where its values fit in the directory itself.
-fn outside_length(entry: &Entry) -> usize {
-    if entry.values.len() <= 4 { 0 } else { entry.values.len().next_multiple_of(2) }
-}
-
-/// A directory that stands at a place of the file, where the next one follows it unless it is the last.
-fn directory(tags: &[Entry], at: usize, is_last: bool) -> Vec<u8> {
-    let mut values_at = at + 2 + 12 * tags.len() + 4;
-    let mut bytes = (tags.len() as u16).to_le_bytes().to_vec();
-    let mut outside = Vec::new();
-    for entry in tags {
-        bytes.extend(entry.tag.to_le_bytes());
-        bytes.extend(entry.kind.to_le_bytes());
-        bytes.extend((entry.count as u32).to_le_bytes());
-        let length = outside_length(entry);
-        if length == 0 {
-            let mut inline = entry.values.clone();
-            inline.resize(4, 0);
-            bytes.extend(inline);
-        } else {
-            bytes.extend((values_at as u32).to_le_bytes());
-            outside.extend(&entry.values);
-            outside.resize(outside.len().next_multiple_of(2), 0);
-            values_at += length;
-        }
-    }
-    let next = if is_last { 0 } else { (at + length_of(tags.iter())) as u32 };
-    bytes.extend(next.to_le_bytes());
-    bytes.extend(outside);
-    bytes
 }

@@ -2,6 +2,8 @@
 
 mod on_disk;
 
+use std::collections::BTreeSet;
+
 use super::stages::Stages;
 use crate::analyse::{ensure_finite, scaled};
 use crate::flow::{
@@ -101,8 +103,8 @@ impl Step for FlowStep {
         24
     }
 
-    fn scratch_per_cell(&self) -> Result<u64, String> {
-        self.scratch()
+    fn scratch_per_cell(&self, wanted: &BTreeSet<String>) -> Result<u64, String> {
+        self.scratch(wanted)
     }
 
     fn run_on_disk(&self, landscape: &mut StoredLandscape<'_>, job: &Job<'_>) -> Result<Outcome, Error> {

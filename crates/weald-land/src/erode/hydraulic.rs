@@ -14,6 +14,7 @@ mod stava;
 
 pub use super::mei::Slope;
 pub use keys::{Boundary, HanKeys, Hydraulic, MeiKeys, Model, StavaKeys, Transport, UptakeLaw};
+use std::collections::BTreeSet;
 use std::path::PathBuf;
 
 use super::advection::Advection;
@@ -167,8 +168,8 @@ impl Step for Hydraulic {
         })
     }
 
-    fn scratch_per_cell(&self) -> Result<u64, String> {
-        self.scratch_on_disk()
+    fn scratch_per_cell(&self, wanted: &BTreeSet<String>) -> Result<u64, String> {
+        self.scratch_on_disk(wanted)
     }
 
     fn run_on_disk(&self, landscape: &mut StoredLandscape<'_>, job: &Job<'_>) -> Result<Outcome, Error> {

@@ -8,6 +8,7 @@ use super::plan::{FractalSource, Ground, PlannedFractal, Recipe};
 use crate::ground_file;
 use weald_core::domain::Domain;
 use weald_core::error::Error;
+use weald_core::grid::Size;
 use weald_core::landscape::Landscape;
 use weald_core::material::Material;
 use weald_core::sea;
@@ -20,6 +21,8 @@ use weald_plants::ifs::{Ifs, flame};
 pub(super) fn load(recipe: &Recipe) -> Result<(Landscape, Vec<String>), Error> {
     let (mut landscape, mut notes) = match &recipe.ground {
         Ground::Empty { size, cell, finest } => {
+            // A recipe that was read for a run out of core may be larger.
+            Size::new(size.columns, size.rows)?;
             (Landscape::new(Domain { finest: *finest, ..Domain::new(*size, *cell) }), Vec::new())
         }
         Ground::File { path, cell, said } => ground_file::read(path, *cell, said)?,

@@ -24,7 +24,7 @@ impl Recipe {
             let (before, wanted) = (there.len(), self.wanted_after(number + 1));
             let written = planned.step.writes().into_iter().map(|(name, _)| name);
             let written: BTreeSet<_> = written.filter(|name| wanted.contains(name)).collect();
-            let own = planned.step.scratch_per_cell().unwrap_or_default();
+            let own = planned.step.scratch_per_cell(&wanted).unwrap_or_default();
             peak = peak.max(cells * (own + VALUE * (before + written.len()) as u64));
             there.extend(written);
             there.retain(|name| wanted.contains(name));
@@ -57,7 +57,7 @@ impl Recipe {
             message: format!("{whole}: {what} needs the landscape in memory"),
         });
         let steps = self.steps.iter().filter_map(move |planned| {
-            let why = planned.step.scratch_per_cell().err()?;
+            let why = planned.step.scratch_per_cell(&BTreeSet::new()).err()?;
             let message = format!("{whole}: the step `{}`: {why}", planned.entry.name);
             Some(Diagnostic { line: planned.line, message })
         });

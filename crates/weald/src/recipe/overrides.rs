@@ -22,6 +22,8 @@ pub struct Overrides {
     /// Whether the landscape is made on a quarter of the cells a side, at least 256 of them: the same
     /// landscape in a fraction of the time.
     pub preview: bool,
+    /// Whether the landscape may have more cells than one in memory, for a run [out of core](super::Options::out_of_core).
+    pub larger_than_memory: bool,
     /// Seed of the landscape.
     pub seed: Option<u64>,
     /// Paths and values: `landscape.cell`, `material.2.thickness`, `step.2.iterations`, `output.1.file`, or

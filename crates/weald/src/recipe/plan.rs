@@ -41,6 +41,7 @@ use super::source::{self, Table};
 use weald_core::domain::Domain;
 use weald_core::error::{Diagnostic, Error, RecipeError};
 use weald_core::files::File;
+use weald_core::grid::Size;
 use weald_export::{Export, report};
 
 /// A recipe that can run.
@@ -143,10 +144,33 @@ impl Recipe {
         let mut table = source::parse(file, text)?;
         let mut diagnostics = Diagnostics::default();
         overrides.apply(&mut table, &mut diagnostics);
-        Self::checked(vocabulary, file, &table, diagnostics)
+        let recipe = Self::planned(vocabulary, file, &table, diagnostics)?;
+        recipe.check_on_its_grid(overrides.larger_than_memory)?;
+        Ok(recipe)
     }
 
     fn checked(
+        vocabulary: &Vocabulary,
+        file: &str,
+        table: &Table,
+        diagnostics: Diagnostics,
+    ) -> Result<Self, Error> {
+        let recipe = Self::planned(vocabulary, file, table, diagnostics)?;
+        recipe.check_on_its_grid(false)?;
+        Ok(recipe)
+    }
+
+    /// Checks what depends on the grid, where the recipe says it.
+    fn check_on_its_grid(&self, may_be_larger_than_memory: bool) -> Result<(), Error> {
+        let Ground::Empty { size, cell, .. } = self.ground else { return Ok(()) };
+        if !may_be_larger_than_memory {
+            Size::new(size.columns, size.rows)?;
+        }
+        self.check_on(&Domain { sea_level: self.sea_level, ..Domain::new(size, cell) })
+    }
+
+    /// What a table says, before it is known on which grid.
+    fn planned(
         vocabulary: &Vocabulary,
         file: &str,
         table: &Table,
@@ -157,11 +181,7 @@ impl Recipe {
             diagnostics.found.sort_by_key(|diagnostic| diagnostic.line);
             return Err(RecipeError { file: file.to_owned(), diagnostics: diagnostics.found }.into());
         }
-        let recipe = recipe?;
-        if let Ground::Empty { size, cell, .. } = recipe.ground {
-            recipe.check_on(&Domain { sea_level: recipe.sea_level, ..Domain::new(size, cell) })?;
-        }
-        Ok(recipe)
+        recipe
     }
 
     /// Names of all files that a run may write, beside its report: a line for each, and one for all frames of a film.

@@ -74,9 +74,9 @@ fn a_run_from_disk_gives_the_files_and_the_report_of_one_in_memory() {
     let thermal =
         "boundary = \"open\"\nthermal = { talus = 0.6, strength = 0.05 }\ntransport = \"maccormack\"";
     for (generator, hydraulic, memory) in [
-        ("fbm", "", BESIDE + (5 << 20)),
-        ("ridged", "transport = \"semi-lagrangian\"\nmean_over = 13", BESIDE + (4 << 20)),
-        ("fbm", thermal, BESIDE + (7 << 20)),
+        ("fbm", "", BESIDE + (6 << 20)),
+        ("ridged", "transport = \"semi-lagrangian\"\nmean_over = 13", BESIDE + (5 << 20)),
+        ("fbm", thermal, BESIDE + (9 << 20)),
         ("fbm", "boundary = \"open\"", 1 << 30),
     ] {
         let recipe = land(generator, hydraulic);
@@ -125,9 +125,10 @@ fn what_needs_memory_is_named_before_anything_runs() {
 
 #[test]
 fn the_disk_that_a_run_takes_is_told_before() {
-    // Seven planes of the simulation and one that is written, beside the ground before and the layers that are wanted after.
+    // The ground, seven planes of the simulation, and what there is no room for in that of its fluxes when layers are written:
+    // three planes of the state, two of the means, four layers.
     let scratch = land("fbm", "").scratch().expect("it can be made");
-    assert_eq!(scratch, 330 * 290 * 4 * (8 + 1 + 4));
+    assert_eq!(scratch, 330 * 290 * 4 * (1 + 3 + 2 + 4));
 }
 
 #[test]
@@ -163,4 +164,22 @@ fn an_interruption_leaves_nothing_and_says_so() {
     let out = tempfile::tempdir().expect("a folder");
     let error = run(&land("fbm", ""), out.path(), Some((missing, 1 << 30)), &Silent).expect_err("no folder");
     assert!(error.to_string().contains("/no/such/folder"), "{error}");
+}
+
+#[test]
+fn more_cells_than_memory_holds_are_for_runs_from_disk_alone() {
+    let text = "[landscape]\nsize = [40000, 30000]\n[[step]]\ndo = \"fbm\"\n\
+                [[step]]\ndo = \"hydraulic\"\nmodel = \"han\"\n[[step]]\ndo = \"flow\"\n\
+                [[output]]\nlayer = \"accumulation\"\nfile = \"a.tif\"\n";
+    let cells = 40_000 * 30_000;
+    let refused = Recipe::parse("land.toml", text, &Overrides::default()).expect_err("refused");
+    assert!(matches!(&refused, Error::Limit(limit) if limit.asked == Some(cells)), "{refused}");
+    let overrides = Overrides { larger_than_memory: true, ..Overrides::default() };
+    let large = Recipe::parse("land.toml", text, &overrides).expect("good");
+    // The ground and five planes of the state; its means are not wanted. `flow` has four planes beside it.
+    assert_eq!(large.scratch().expect("it can be made"), cells * 4 * (1 + 5));
+    assert_eq!(large.look_ahead_on_disk().expect("it can be made").grid.size.cells() as u64, cells);
+    let out = tempfile::tempdir().expect("a folder");
+    let in_memory = run(&large, out.path(), None, &Silent).expect_err("refused");
+    assert!(matches!(&in_memory, Error::Limit(limit) if limit.asked == Some(cells)), "{in_memory}");
 }

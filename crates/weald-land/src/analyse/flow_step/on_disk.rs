@@ -1,5 +1,7 @@
 //! The step `flow` on a landscape that lies on disk: tile by tile, to the bit as in memory.
 
+use std::collections::BTreeSet;
+
 use super::{FlowStep, MILLIMETRES_PER_YEAR, Method};
 use crate::flow::Depressions;
 use crate::flow::directions::SEA;
@@ -53,11 +55,18 @@ fn tiling(size: Size, memory: u64) -> Result<Tiling, Error> {
 
 impl FlowStep {
     /// Bytes on disk for a cell beside the layers, or what of the keys needs the whole in memory.
-    pub(super) fn scratch(&self) -> Result<u64, String> {
+    pub(super) fn scratch(&self, wanted: &BTreeSet<String>) -> Result<u64, String> {
         match self.depressions {
             Depressions::Breach => Err("`depressions = \"breach\"` needs the landscape in memory".to_owned()),
-            Depressions::Fill if self.filled.is_some() => Ok(0),
-            Depressions::Fill => Ok(VALUE),
+            Depressions::Fill => {
+                // All of them are made, whether or not anything needs them later.
+                let filled = self.filled.as_ref().map(|name| name.0.as_str());
+                let discharge = self.weight.as_ref().map(|_| Some("discharge"));
+                let made =
+                    [filled, Some("flow_direction"), Some("accumulation")].into_iter().chain(discharge);
+                let unwanted = made.filter(|name| name.is_none_or(|name| !wanted.contains(name)));
+                Ok(VALUE * unwanted.count() as u64)
+            }
         }
     }
 

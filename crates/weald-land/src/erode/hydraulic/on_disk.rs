@@ -1,5 +1,6 @@
 //! The model of Han on a landscape that lies on disk: in bands of rows, some steps at a time, to the bit as in memory.
 
+use std::collections::BTreeSet;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -19,28 +20,35 @@ use weald_core::grid::{Mask, Size};
 use weald_core::plane::{Plane, Window};
 use weald_engine::Job;
 use weald_engine::bands_on_disk::BandsOnDisk;
-use weald_engine::step::Outcome;
+use weald_engine::step::{Outcome, Step};
 use weald_engine::stored::StoredLandscape;
 
 /// Names of the state planes.
 const PLANES: [&str; 5] = ["change", "water", "sediment", "flux_east", "flux_south"];
 
-/// Planes on disk beside the layers: the state, the means, and the layer that is being written.
-const SCRATCH_PLANES: u64 = PLANES.len() as u64 + MEAN_FLUXES.len() as u64 + 1;
+/// Layers of the means.
+const MEANS: [&str; 2] = ["flux_x", "flux_y"];
+
+/// State planes that layers are made of, after the simulation.
+const OF_LAYERS: usize = 3;
 
 impl Hydraulic {
     /// Bytes on disk for a cell beside the layers, or what of the keys needs the whole in memory.
-    pub(super) fn scratch_on_disk(&self) -> Result<u64, String> {
+    pub(super) fn scratch_on_disk(&self, wanted: &BTreeSet<String>) -> Result<u64, String> {
         let cannot = [
             (!matches!(self.model, Model::Han(_)), "the models `mei` and `stava`"),
             (self.edits.is_some(), "`edits`"),
             (self.region.is_some(), "`region`"),
             (self.initial_water.is_some(), "`initial_water`"),
         ];
-        match cannot.into_iter().find(|(asked, _)| *asked) {
-            Some((_, what)) => Err(format!("{what} need the landscape in memory")),
-            None => Ok(VALUE * SCRATCH_PLANES),
+        if let Some((_, what)) = cannot.into_iter().find(|(asked, _)| *asked) {
+            return Err(format!("{what} need the landscape in memory"));
         }
+        let written = self.writes().iter().filter(|(name, _)| wanted.contains(name)).count();
+        let means = if MEANS.iter().any(|name| wanted.contains(*name)) { MEAN_FLUXES.len() } else { 0 };
+        // Layers are written when the simulation has ended, and so in the room of the fluxes.
+        let planes = (PLANES.len() + means).saturating_sub(written).max(OF_LAYERS + means);
+        Ok(VALUE * planes as u64)
     }
 
     /// Runs the model on a landscape on disk.
@@ -59,10 +67,15 @@ impl Hydraulic {
         };
         let bytes = landscape.memory;
         let new = || landscape.plane("simulation", ground.size);
-        let mut bands = BandsOnDisk::new(Arc::new(process), (ground.size, MEAN_FLUXES), bytes, &new)?;
-        self.advance_on_disk(&mut bands, (&ground, &filled), job)?;
+        let all = u64::from(self.iterations);
+        let (means, recorded) = if MEANS.iter().any(|name| landscape.wants(name)) {
+            (MEAN_FLUXES, self.recorded(ground.cell))
+        } else {
+            (&[][..], all..all)
+        };
+        let mut bands = BandsOnDisk::new(Arc::new(process), (ground.size, means), bytes, &new)?;
+        self.advance_on_disk(&mut bands, (&ground, &filled), recorded.clone(), job)?;
         let budget = ground.totals(&bands.state)?.budget(&Flows::from(total(&bands.row_sums)), ground.cell);
-        let recorded = self.recorded(ground.cell);
         ground.store(landscape, &self.layer.0, (bands.state, bands.means), recorded.end - recorded.start)?;
         let notes = if self.conserves() { Vec::new() } else { vec![lost_note(&budget)] };
         Ok(Outcome {
@@ -78,9 +91,10 @@ impl Hydraulic {
         &self,
         bands: &mut BandsOnDisk<Han>,
         (ground, filled): (&StartOnDisk, &ResolvedKeys),
+        recorded: Range<u64>,
         job: &Job<'_>,
     ) -> Result<(), Error> {
-        let (all, recorded) = (u64::from(self.iterations), self.recorded(ground.cell));
+        let all = u64::from(self.iterations);
         let mut done = 0;
         while done < all {
             let is_recorded = recorded.contains(&done);
@@ -223,7 +237,7 @@ impl StartOnDisk {
         drop(depth);
         self.write(landscape, ("sediment", "m"), &sediment, |sediment| sediment * cell)?;
         drop(sediment);
-        for (name, mean) in ["flux_x", "flux_y"].into_iter().zip(means) {
+        for (name, mean) in MEANS.into_iter().zip(means) {
             self.write(landscape, (name, "m³/step"), &mean, |sum| (sum * scale) * cubic)?;
         }
         self.write(landscape, ("erosion", "m"), &change, |change| (-change).max(0.0) * cell)?;

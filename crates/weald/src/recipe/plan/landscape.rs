@@ -13,7 +13,7 @@ use weald_io::Said;
 weald_core::parameters! {
     /// The keys of `[landscape]`.
     pub struct LandscapeKeys {
-        /// Cells a side, or [columns, rows]; at most 2^28 cells in all. Not with `from`.
+        /// Cells a side, or [columns, rows]; at most 2^28 cells in all, but for runs out of core. Not with `from`.
         size: Option<Sides> = None;
         /// Side of a cell; 1 m where none is given. With `from`, only for a file that does not say it.
         cell: Option<f64> = None, range 0.001..=100_000.0, unit "m";
@@ -114,7 +114,8 @@ fn ground(table: &Table, keys: &LandscapeKeys, diagnostics: &mut Diagnostics) ->
             diagnostics.add(table.line, "`size` is needed (cells a side, or [columns, rows]), or `from`");
         }
         let sides = keys.size.unwrap_or(Sides { columns: 1, rows: 1 });
-        let size = size_of(sides)?;
+        let [columns, rows] = sides_of(sides);
+        let size = Size::on_disk(columns, rows)?;
         let finest = keys.finest.map(|finest| finest_of(size, finest)).transpose()?;
         if let Some(problem) = finest.and_then(|finest| unfit(size, finest)) {
             diagnostics.add(table.get("finest").map_or(table.line, |node| node.line), problem);
@@ -128,9 +129,8 @@ fn ground(table: &Table, keys: &LandscapeKeys, diagnostics: &mut Diagnostics) ->
     Ok(Ground::File { path: from.path(), cell: keys.cell, said: said(keys.crs, keys.unit, keys.nodata) })
 }
 
-fn size_of(sides: Sides) -> Result<Size, Error> {
-    let side = |side: u64| usize::try_from(side).unwrap_or(usize::MAX);
-    Size::new(side(sides.columns), side(sides.rows))
+fn sides_of(sides: Sides) -> [usize; 2] {
+    [sides.columns, sides.rows].map(|side| usize::try_from(side).unwrap_or(usize::MAX))
 }
 
 /// The finest grid; one number is its longer side.
@@ -142,7 +142,8 @@ fn finest_of(size: Size, finest: Sides) -> Result<Size, Error> {
     } else {
         finest
     };
-    size_of(finest)
+    let [columns, rows] = sides_of(finest);
+    Size::new(columns, rows)
 }
 
 /// What is wrong with a finest grid.

@@ -31,7 +31,7 @@ fn with(old: &str, new: &str) -> String {
 #[test]
 fn a_good_recipe_becomes_a_plan() {
     let recipe = parse(GOOD).expect("good");
-    let size = weald_core::Size::new(8, 4).expect("small");
+    let size = Size::new(8, 4).expect("small");
     assert_eq!(recipe.ground, Ground::Empty { size, cell: 2.5, finest: None });
     assert_eq!(recipe.steps.iter().map(|step| step.entry.name).collect::<Vec<_>>(), ["rough", "wear"]);
     assert_eq!(recipe.outputs[0].file, Path::new("a/height.bits"));

@@ -32,6 +32,19 @@ impl Recipe {
         let (landscape, notes) = start(self, Some(u64::MAX))?;
         Ok(Outlook { notes, memory: self.memory(&landscape.domain), grid: landscape.domain })
     }
+
+    /// The same for a run out of core; the memory is what it would take without.
+    ///
+    /// # Errors
+    /// As [`Recipe::scratch`].
+    pub fn look_ahead_on_disk(&self) -> Result<Outlook, Error> {
+        self.scratch()?;
+        let Ground::Empty { size, cell, .. } = self.ground else { unreachable!("`scratch` refuses files") };
+        let grid = Domain::new(size, cell);
+        let materials = ground::materials(self);
+        self.steps.iter().try_for_each(|planned| planned.step.look_ahead(&materials, &grid))?;
+        Ok(Outlook { notes: Vec::new(), memory: self.memory(&grid), grid })
+    }
 }
 
 /// The landscape before the first step, once all that can be told before it is right; the texts tell the user what had
