@@ -28,8 +28,8 @@ const BESIDE: u64 = 64 << 20;
 
 /// The part of the rest that steps count on. Allocators keep some of what one band or tile gave back from the next: peaks
 /// were up to an eighth above what steps count.
-const COUNTED: u64 = 5;
-const OF: u64 = 6;
+const COUNTED: u64 = 4;
+const OF: u64 = 5;
 
 /// A folder in which files are made that have no name: the system takes them away when the process ends, however it ends.
 #[derive(Debug)]
