@@ -27,6 +27,9 @@ const STEPS_OF_A_THREAD: usize = 4;
 /// Makes the constant planes of some rows, each row-major.
 pub type Constants<'a> = &'a dyn Fn(Range<usize>) -> Result<Vec<Vec<f32>>, Error>;
 
+/// Is told after each band how many rows are done, and ends the pass by an error.
+pub type Passed<'a> = &'a mut dyn FnMut(usize) -> Result<(), Error>;
+
 /// How rows are cut into bands, and steps into passes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Cut {
@@ -77,12 +80,12 @@ impl<P: Process> BandsOnDisk<P> {
     /// plane of the first value that is no number then.
     ///
     /// # Errors
-    /// Those of the disk and of `constants`.
+    /// Those of the disk, of `constants` and of `passed`, after which the state is of no use.
     pub fn advance(
         &mut self,
         weather: &[P::Weather],
         recorded: bool,
-        constants: Constants<'_>,
+        (constants, passed): (Constants<'_>, Passed<'_>),
     ) -> Result<Option<[usize; 3]>, Error> {
         let halo = halo(self.process.reach(), weather.len());
         let (mut kept, mut wrong) = (vec![Vec::new(); self.state.len()], None);
@@ -100,6 +103,7 @@ impl<P: Process> BandsOnDisk<P> {
             }
             self.row_sums[own.clone()].copy_from_slice(&grid.row_sums()[inner.clone()]);
             self.write_back(&grid, &own, &inner, recorded.then_some(&means))?;
+            passed(own.end)?;
         }
         Ok(wrong)
     }

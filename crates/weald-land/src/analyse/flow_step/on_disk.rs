@@ -18,6 +18,9 @@ use weald_engine::stored::StoredLandscape;
 const A_CELL: u64 = 100;
 const A_BORDER_CELL: u64 = 100;
 
+/// Visits that every tile has before the sums: two for basins, one for flats, one for directions, one for heights.
+const VISITS: u64 = 5;
+
 /// Codes of directions as a layer has them.
 struct CodesOnDisk(FilePlane);
 
@@ -78,7 +81,12 @@ impl FlowStep {
     ) -> Result<Outcome, Error> {
         let (domain, size) = (landscape.domain.clone(), landscape.domain.size);
         let tiling = tiling(size, landscape.memory)?;
+        let summed = 1 + u64::from(self.weight.is_some());
+        // Tiles that flats or rivers cross often are visited again, which is not known before.
+        let (all, mut visits) = ((VISITS + summed) * tiling.count() as u64, 0);
         let passed = &mut || {
+            visits += 1;
+            job.watcher.progress(visits.min(all - 1), all, 0);
             if job.watcher.cancelled() {
                 Err(Error::Interrupted("interrupted between two tiles".to_owned()))
             } else {

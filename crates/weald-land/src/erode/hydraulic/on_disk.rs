@@ -102,14 +102,21 @@ impl Hydraulic {
             let end = all.min(done + bands.steps() as u64);
             let end = if border > done { end.min(border) } else { end };
             let weather: Vec<_> = (done..end).map(|step| self.forcing(filled, step)).collect();
-            if let Some(wrong) = bands.advance(&weather, is_recorded, &|rows| ground.constants(rows))? {
+            let passed = &mut |rows: usize| {
+                let share = rows as f64 / ground.size.rows as f64;
+                let steps = ((end - done) as f64 * share) as u64;
+                job.watcher.progress(done + steps, all, ground.size.cells());
+                if job.watcher.cancelled() {
+                    let what = format!("interrupted between the iterations {done} and {end} of {all}");
+                    return Err(Error::Interrupted(what));
+                }
+                Ok(())
+            };
+            let constants = |rows| ground.constants(rows);
+            if let Some(wrong) = bands.advance(&weather, is_recorded, (&constants, passed))? {
                 return Err(not_finite(wrong, done..end));
             }
             done = end;
-            job.watcher.progress(done, all, ground.size.cells());
-            if job.watcher.cancelled() {
-                return Err(Error::Interrupted(format!("interrupted after {done} of {all} steps")));
-            }
         }
         Ok(())
     }
