@@ -8,10 +8,10 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
-use crate::means::Means;
 use crate::stencil::chain::{Chain, Process, RecordedMeans, RowSums, SUMS, TimeBlock};
 use crate::stencil::rows::{Layout, Rows, first_not_finite};
 use crate::stencil::segment::{PlaneRow, Segment};
+use crate::sums::Means;
 
 /// A simulation's rows, bands and sums.
 pub struct BandedGrid<P: Process> {

@@ -8,9 +8,9 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use crate::bands::BandedGrid;
-use crate::means::Means;
 use crate::stencil::chain::{Process, RowSums};
 use crate::stencil::rows::{Layout, Rows};
+use crate::sums::Means;
 use weald_core::error::{Error, Limit, Quantity};
 use weald_core::file_plane::{FilePlane, VALUE};
 use weald_core::grid::Size;

@@ -16,7 +16,6 @@ pub mod generator;
 mod job;
 pub mod machine;
 pub mod machine_of_engine;
-mod means;
 pub mod on_device;
 pub mod patch;
 pub mod program;

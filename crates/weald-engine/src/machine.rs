@@ -3,11 +3,11 @@
 use std::sync::Arc;
 
 use crate::device::Window;
-pub use crate::means::{Means, Part};
 use crate::patch::{Patch, Patched};
 use crate::stencil::chain::Process;
 use crate::stencil::rows::Rows;
 use crate::sums::RowSums;
+pub use crate::sums::{Means, Part};
 use weald_core::error::Error;
 use weald_core::grid::Size;
 

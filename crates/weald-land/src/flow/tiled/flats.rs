@@ -4,8 +4,7 @@
 //! have: they are found when no tile can shorten any, and are then those of the whole.
 
 use super::ground::{cells, place};
-use super::settle::{beside, settle};
-use super::tiling::Tiling;
+use super::tiling::{Tiling, beside, settle};
 use crate::flow::descent::{Descent, FLAT};
 use crate::flow::directions::{OUTLET, SEA};
 use crate::flow::flats::FlatGround;

@@ -1,7 +1,6 @@
 //! The ground of one tile with the cells around it, the sea in it found.
 
-use super::settle::{beside, settle};
-use super::tiling::Tiling;
+use super::tiling::{Tiling, beside, settle};
 use crate::flow::surface::{NO_DATA, SEA_LEVEL, Surface};
 use weald_core::error::Error;
 use weald_core::grid::Size;

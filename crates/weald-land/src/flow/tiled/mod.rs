@@ -21,7 +21,6 @@
 
 mod flats;
 mod ground;
-mod settle;
 mod spills;
 mod sums;
 mod tiling;

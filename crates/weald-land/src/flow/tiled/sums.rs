@@ -5,8 +5,7 @@
 //! finished across its border. So a river that crosses a border many times has its tiles read as often.
 
 use super::ground::cells;
-use super::settle::settle;
-use super::tiling::Tiling;
+use super::tiling::{Tiling, settle};
 use crate::flow::Routed;
 use crate::flow::accumulate::{CellWeights, set_directions};
 use crate::flow::directions::{Directions, OUTLET, SEA, STEPS, opposite};
