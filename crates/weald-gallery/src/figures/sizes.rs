@@ -9,6 +9,7 @@ use weald_engine::Job;
 use weald_engine::step::Step;
 use weald_land::analyse::flow_step::FlowStep;
 use weald_land::erode::fluvial_step::Fluvial;
+use weald_land::flow::DirectionRule;
 use weald_land::generate::diamond_square::DiamondSquare;
 
 pub(super) const FIGURE: Figure = Figure {
@@ -84,7 +85,8 @@ fn country(side: usize, sides: &[usize], job: GalleryJob) -> Result<Landscape, E
     let steps: [&dyn Step; 3] = [
         &DiamondSquare { relief: 1600.0, roughness: 0.95, ..DiamondSquare::default() },
         &flood,
-        &FlowStep::default(),
+        // Channels are counted as in the figures of CORRECTNESS.
+        &FlowStep { directions: DirectionRule::Steepest, ..FlowStep::default() },
     ];
     for step in steps {
         step.run(&mut land, &Job::unwatched(SEED))?;

@@ -7,7 +7,8 @@ use std::collections::BTreeSet;
 use super::stages::Stages;
 use crate::analyse::{ensure_finite, scaled};
 use crate::flow::{
-    Depressions, MultipleFlow, Routed, Routing, STAGES, accumulate, accumulate_multiple, route_watched,
+    Depressions, DirectionRule, MultipleFlow, Routed, Routing, STAGES, accumulate, accumulate_multiple,
+    route_watched,
 };
 use weald_core::domain::Domain;
 use weald_core::error::Error;
@@ -24,7 +25,7 @@ pub const ENTRY: Entry = Entry::of::<FlowStep>(
     "flow",
     Stage::Analyse,
     "leads water over the ground: directions of flow and upslope (drainage) areas",
-    "O'Callaghan and Mark 1984; Freeman 1991; Barnes et al. 2014; Lindsay 2016",
+    "O'Callaghan and Mark 1984; Orlandini et al. 2003; Freeman 1991; Barnes et al. 2014; Lindsay 2016",
 );
 
 /// Seconds of a year of 365.25 days, and millimetres of a metre: mm/year × m² in m³/s.
@@ -33,7 +34,7 @@ pub(in crate::analyse) const MILLIMETRES_PER_YEAR: f64 = 1.0e-3 / 31_557_600.0;
 choices! {
     /// How upslope areas add up.
     pub enum Method {
-        /// Each cell gives all to its steepest neighbour.
+        /// Each cell gives all to the neighbour that it drains to.
         D8 = "d8",
         /// Each cell shares among all lower neighbours.
         Multiple = "mfd",
@@ -58,8 +59,10 @@ parameters! {
     pub struct FlowStep {
         /// Layer of heights.
         of: LayerName = LayerName::of("height");
-        /// How upslope areas add up: along the steepest descent, or shared among all lower neighbours. Directions
-        /// are those of steepest descent for both.
+        /// Which neighbour a cell drains to: the steepest, by which paths favour multiples of 45°, or the one that keeps the
+        /// whole path nearest to the fall line.
+        directions: DirectionRule = DirectionRule::LeastDeviation;
+        /// How upslope areas add up: along the directions, or shared among all lower neighbours.
         method: Method = Method::D8;
         /// Shares are in proportion to slope to this power. 1.1 spreads water over a cone evenly, 4 and
         /// more come near `d8`.
@@ -157,6 +160,7 @@ impl FlowStep {
             depressions: self.depressions,
             deepest_breach: self.deepest_breach.unwrap_or(f64::INFINITY),
             sea_level: self.sea_level(domain),
+            directions: self.directions,
         }
     }
 

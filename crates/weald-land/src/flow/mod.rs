@@ -1,8 +1,8 @@
 //! Flow routing: where the water of each cell goes, and how much land lies above it.
 //!
 //! Depressions are filled to their lowest rims or breached, flat ground is given directions, then each cell
-//! drains to its steepest neighbour (D8, O'Callaghan and Mark 1984, doi 10.1016/S0734-189X(84)80011-0). The
-//! stages, one file each:
+//! drains to its steepest neighbour (D8, O'Callaghan and Mark 1984, doi 10.1016/S0734-189X(84)80011-0), or to the
+//! one that keeps its path nearest to the fall line (D8-LTD). The stages, one file each:
 //!
 //! | file | what |
 //! |---|---|
@@ -14,6 +14,7 @@
 //! | `fill` | the level at which water leaves each basin: what priority-flood gives |
 //! | `breach` | channels through the rims instead |
 //! | `flats` | directions over flat ground |
+//! | `least_deviation` | directions along paths that stay near the fall line |
 //! | `codes` | directions in the numbers of other programs |
 //! | `accumulate`, `multiple` | upslope areas, along D8 or shared among all lower neighbours |
 //! | `tiled` | the same, to the bit, over ground that is read tile by tile |
@@ -33,6 +34,7 @@ pub mod directions;
 pub(crate) mod disjoint_sets;
 mod fill;
 mod flats;
+mod least_deviation;
 mod multiple;
 mod naive;
 pub(crate) mod priority_flood;
@@ -64,6 +66,16 @@ choices! {
     }
 }
 
+choices! {
+    /// Which neighbour a cell drains to.
+    pub enum DirectionRule {
+        /// The one to which the ground drops most by length: a path keeps to multiples of 45° where the fall line does not.
+        Steepest = "d8",
+        /// The one that keeps the path nearest to the fall line.
+        LeastDeviation = "d8-ltd",
+    }
+}
+
 /// How water is led over the ground.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Routing {
@@ -73,11 +85,18 @@ pub struct Routing {
     pub deepest_breach: f64,
     /// Height of the sea in metres: cells no higher, and connected to the border by such cells, are sea.
     pub sea_level: Option<f64>,
+    /// Which neighbour a cell drains to.
+    pub directions: DirectionRule,
 }
 
 impl Default for Routing {
     fn default() -> Self {
-        Self { depressions: Depressions::Fill, deepest_breach: f64::INFINITY, sea_level: None }
+        Self {
+            depressions: Depressions::Fill,
+            deepest_breach: f64::INFINITY,
+            sea_level: None,
+            directions: DirectionRule::Steepest,
+        }
     }
 }
 
@@ -120,6 +139,9 @@ pub fn route_watched(
     let mut descent = Descent::of(&surface);
     passed()?;
     flats::resolve(&surface, &mut descent);
+    if routing.directions == DirectionRule::LeastDeviation {
+        least_deviation::lead(&surface, &mut descent);
+    }
     passed()?;
     let codes = surface.inner(&descent.codes, |cell, code| match code {
         _ if surface.is_sea(cell) => SEA,

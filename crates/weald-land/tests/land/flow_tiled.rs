@@ -8,7 +8,9 @@ use weald_core::plane::{HeldPlane, Plane};
 use weald_core::random::{hash2, unit};
 use weald_core::{Error, Field, Size};
 use weald_land::flow::tiled::{TiledFlow, TiledGround, Tiling, accumulate_tiled, route_tiled};
-use weald_land::flow::{Depressions, MultipleFlow, Routing, accumulate, accumulate_multiple, route};
+use weald_land::flow::{
+    Depressions, DirectionRule, MultipleFlow, Routing, accumulate, accumulate_multiple, route,
+};
 
 /// Ground, what has data on it, and what each cell adds.
 struct Case {
@@ -46,9 +48,15 @@ fn sums(flow: &TiledFlow<'_>) -> Vec<f64> {
 
 /// Compares everything that `flow` gives, whole and by tiles.
 fn assert_same(case: &Case, tile: Size, what: &str) {
+    for directions in [DirectionRule::Steepest, DirectionRule::LeastDeviation] {
+        assert_same_by(directions, case, tile, &format!("{what}, {directions:?}"));
+    }
+}
+
+fn assert_same_by(directions: DirectionRule, case: &Case, tile: Size, what: &str) {
     let size = case.height.size();
     let tiling = Tiling::new(size, tile).expect("legal");
-    let routing = Routing { sea_level: case.sea_level, ..Routing::default() };
+    let routing = Routing { sea_level: case.sea_level, directions, ..Routing::default() };
     let valid = case.valid.as_ref();
     let whole = route(&case.height, valid, &routing);
     let flags =

@@ -6,6 +6,7 @@ mod device_failure;
 mod displace;
 mod editing;
 mod flow;
+mod flow_paths;
 mod flow_peers;
 mod flow_tiled;
 mod fluvial;

@@ -1455,6 +1455,7 @@ class Steps:
         self,
         *,
         of: str = "height",
+        directions: Literal["d8", "d8-ltd"] = "d8-ltd",
         method: Literal["d8", "mfd"] = "d8",
         exponent: float = 1.1,
         depressions: Literal["fill", "breach"] = "fill",
@@ -1468,14 +1469,16 @@ class Steps:
         callback: Callback | None = None,
         progress: bool | None = None,
     ) -> dict[str, Array]:
-        """Leads water over the ground: directions of flow and upslope (drainage) areas. Source: O'Callaghan and Mark 1984; Freeman 1991; Barnes et al. 2014; Lindsay 2016.
+        """Leads water over the ground: directions of flow and upslope (drainage) areas. Source: O'Callaghan and Mark 1984; Orlandini et al. 2003; Freeman 1991; Barnes et al. 2014; Lindsay 2016.
 
         Writes, by default: `flow_direction`, `accumulation` (m²).
 
         of: layer name; default "height"
             Layer of heights.
+        directions: "d8" | "d8-ltd"; default "d8-ltd"
+            Which neighbour a cell drains to: the steepest, by which paths favour multiples of 45°, or the one that keeps the whole path nearest to the fall line.
         method: "d8" | "mfd"; default "d8"
-            How upslope areas add up: along the steepest descent, or shared among all lower neighbours. Directions are those of steepest descent for both.
+            How upslope areas add up: along the directions, or shared among all lower neighbours.
         exponent: number, 0 to 20; default 1.1
             Shares are in proportion to slope to this power. 1.1 spreads water over a cone evenly, 4 and more come near `d8`.
         depressions: "fill" | "breach"; default "fill"
@@ -2405,6 +2408,7 @@ class AccessorSteps:
         self,
         *,
         of: str = "height",
+        directions: Literal["d8", "d8-ltd"] = "d8-ltd",
         method: Literal["d8", "mfd"] = "d8",
         exponent: float = 1.1,
         depressions: Literal["fill", "breach"] = "fill",

@@ -32,8 +32,9 @@ fn analysed(folder: &Path) {
     let outputs = layers
         .map(|layer| format!("[[output]]\nlayer = \"{layer}\"\nfile = \"{layer}.tif\"\ngrid = \"source\"\n"));
     let text = format!(
-        "[landscape]\nfrom = \"{}\"\n[[step]]\ndo = \"slope\"\n[[step]]\ndo = \"flow\"\n[[step]]\ndo = \"rivers\"\n\
-         area = 1.0e6\n{}[[output]]\nlayer = \"flow_direction\"\nfile = \"d8.tif\"\ncodes = \"esri\"\npreset = \"cog\"\n",
+        "[landscape]\nfrom = \"{}\"\n[[step]]\ndo = \"slope\"\n[[step]]\ndo = \"flow\"\n\
+         directions = \"d8\"\n[[step]]\ndo = \"rivers\"\narea = 1.0e6\n{}\
+         [[output]]\nlayer = \"flow_direction\"\nfile = \"d8.tif\"\ncodes = \"esri\"\npreset = \"cog\"\n",
         model().display(),
         outputs.concat()
     );

@@ -3,9 +3,9 @@
 use std::collections::BTreeSet;
 
 use super::{FlowStep, MILLIMETRES_PER_YEAR, Method};
-use crate::flow::Depressions;
 use crate::flow::directions::SEA;
 use crate::flow::tiled::{TiledFlow, TiledGround, Tiling, accumulate_tiled, route_tiled};
+use crate::flow::{Depressions, DirectionRule};
 use weald_core::error::{Error, Limit, Quantity};
 use weald_core::file_plane::{FilePlane, VALUE};
 use weald_core::grid::{MAX_CELLS, Size};
@@ -18,7 +18,8 @@ use weald_engine::stored::StoredLandscape;
 const A_CELL: u64 = 100;
 const A_BORDER_CELL: u64 = 100;
 
-/// Visits that every tile has before the sums: two for basins, one for flats, one for directions, one for heights.
+/// Visits that every tile has before the sums: two for basins, one for flats, one for directions, one for heights; paths of
+/// least deviation have one more.
 const VISITS: u64 = 5;
 
 /// Codes of directions as a layer has them.
@@ -81,9 +82,10 @@ impl FlowStep {
     ) -> Result<Outcome, Error> {
         let (domain, size) = (landscape.domain.clone(), landscape.domain.size);
         let tiling = tiling(size, landscape.memory)?;
-        let summed = 1 + u64::from(self.weight.is_some());
+        let by_paths = u64::from(self.directions == DirectionRule::LeastDeviation);
+        let visits_of_sums = 1 + u64::from(self.weight.is_some());
         // Tiles that flats or rivers cross often are visited again, which is not known before.
-        let (all, mut visits) = ((VISITS + summed) * tiling.count() as u64, 0);
+        let (all, mut visits) = ((VISITS + by_paths + visits_of_sums) * tiling.count() as u64, 0);
         let passed = &mut || {
             visits += 1;
             job.watcher.progress(visits.min(all - 1), all, 0);

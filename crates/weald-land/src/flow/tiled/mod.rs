@@ -3,24 +3,26 @@
 //!
 //! That is possible since nothing in the whole depends on an order of cells. The level of a filled cell is the least height
 //! that its way out must pass, whoever finds it. Its direction follows from the levels of its neighbours and, over flat
-//! ground, from two lengths of shortest ways. Its sum adds those of its donors in the order of directions. Tiles are read
-//! one after another, each with the cells around it:
+//! ground, from two lengths of shortest ways; with least deviation also from the paths that come. Its sum adds those of its
+//! donors in the order of directions. Tiles are read one after another, each with the cells around it:
 //!
 //! | file | what is known at the borders of tiles | tiles are read |
 //! |---|---|---|
 //! | `ground` | where the sea is | until it reaches no further |
 //! | `spills` | how high each basin at a border fills, by a graph of saddles (Barnes 2016) | twice |
 //! | `flats` | distances over flat ground | until none is shorter, and once more |
+//! | `paths` | finished paths of least deviation | until all are finished |
 //! | `sums` | finished sums | until all are finished |
 //!
 //! Barnes, R. 2016, "Parallel priority-flood depression filling for trillion cell DEMs on desktops or clusters", doi
 //! 10.1016/j.cageo.2016.07.001; 2017, "Parallel non-divergent flow accumulation for trillion cell digital elevation models on
 //! desktops or clusters", doi 10.1016/j.envsoft.2017.02.022. Differs: basins are found by descent as in the whole, not by a
-//! queue; flats and sums pass tiles until they settle, since a graph of the distances within a flat is larger than a tile,
+//! queue; flats, paths and sums pass tiles until they settle, since a graph of the distances within a flat is larger than a tile,
 //! and since sums of weights that are no whole numbers depend on their order.
 
 mod flats;
 mod ground;
+mod paths;
 mod spills;
 mod sums;
 mod tiling;
@@ -29,9 +31,10 @@ pub use ground::TiledGround;
 pub use sums::{PutSums, TiledFlow, accumulate_tiled};
 pub use tiling::Tiling;
 
-use super::{Depressions, Routing};
+use super::{Depressions, DirectionRule, Routing};
 use flats::FlatDistances;
 use ground::Sea;
+use paths::TiledPaths;
 use spills::{SpillGraph, TileBasins};
 use weald_core::error::Error;
 use weald_core::plane::Plane;
@@ -62,9 +65,18 @@ pub fn route_tiled(
     let tiling = ground.tiling;
     fill(ground, routing, filled, passed)?;
     let distances = FlatDistances::of(tiling, filled, passed)?;
+    let by_paths = routing.directions == DirectionRule::LeastDeviation;
+    let mut paths = by_paths.then(|| TiledPaths::new(tiling));
     for tile in 0..tiling.count() {
-        directions.write(&tiling.window(tile), &distances.directions(tile, filled)?)?;
+        let codes = distances.directions(tile, filled)?;
+        directions.write(&tiling.window(tile), &codes)?;
+        if let Some(paths) = &mut paths {
+            paths.note(tile, &codes);
+        }
         passed()?;
+    }
+    if let Some(paths) = paths {
+        paths.lead(filled, directions, passed)?;
     }
     finish(ground, filled, passed)
 }

@@ -1,0 +1,178 @@
+//! Directions of least deviation, tile by tile.
+//!
+//! A cell takes its direction when all that may drain to it have theirs. A tile finds what it can by the paths of the cells
+//! around it that are known, and is visited again when one is found across its border, as for sums.
+
+use super::ground::{cells, place};
+use super::tiling::{Tiling, settle};
+use crate::flow::accumulate::set_directions;
+use crate::flow::directions::{OUTLET, SEA, opposite};
+use crate::flow::least_deviation::{Candidates, Path, donors};
+use crate::flow::surface::{NO_DATA, Surface};
+use weald_core::error::Error;
+use weald_core::grid::Size;
+use weald_core::plane::{Plane, Window, read_around};
+
+/// Cells around a tile that are read: one for those that drain to it, one for all to which those may.
+const MARGIN: usize = 2;
+
+/// What is known of the border cells of all tiles.
+pub(super) struct TiledPaths<'a> {
+    tiling: &'a Tiling,
+    steepest: Vec<u8>,
+    found: Vec<Option<(u8, Path)>>,
+}
+
+impl<'a> TiledPaths<'a> {
+    pub(super) fn new(tiling: &'a Tiling) -> Self {
+        let cells = tiling.border_cells();
+        Self { tiling, steepest: vec![OUTLET; cells], found: vec![None; cells] }
+    }
+
+    /// Keeps the directions of steepest descent at the border of a tile.
+    pub(super) fn note(&mut self, tile: usize, codes: &[u8]) {
+        let window = self.tiling.window(tile);
+        for cell in self.tiling.border_of(tile) {
+            self.steepest[self.tiling.border(cell)] = codes[place(&window, 0, cell)];
+        }
+    }
+
+    /// Puts the directions in place of those of steepest descent, of which all borders were noted.
+    pub(super) fn lead(
+        mut self,
+        filled: &dyn Plane<f32>,
+        directions: &mut dyn Plane<u8>,
+        passed: &mut dyn FnMut() -> Result<(), Error>,
+    ) -> Result<(), Error> {
+        let tiling = self.tiling;
+        let mut is_done = vec![false; tiling.count()];
+        settle(tiling, |tile| {
+            if is_done[tile] {
+                return Ok(Vec::new());
+            }
+            let ground = TileOfPaths::read(&self, tile, filled, directions)?;
+            let tile_paths = ground.paths(&self);
+            let mut woken = Vec::new();
+            for cell in tiling.border_of(tile) {
+                let (border, at) = (tiling.border(cell), ground.place(cell));
+                if self.found[border].is_none() && tile_paths.found[at].is_some() {
+                    self.found[border] = tile_paths.found[at];
+                    let tiles = tiling.across_from(cell).map(|other| tiling.tile_of(other));
+                    woken.extend(tiles.filter(|&other| !is_done[other]));
+                }
+            }
+            if tile_paths.open == 0 {
+                is_done[tile] = true;
+                let code = |(x, y)| ground.code(ground.place([x, y]), &tile_paths);
+                directions.write(&ground.window, &cells(&ground.window).map(code).collect::<Vec<_>>())?;
+            }
+            passed()?;
+            Ok(woken)
+        })
+    }
+}
+
+/// A tile and the cells around it.
+struct TileOfPaths {
+    tile: usize,
+    window: Window,
+    surface: Surface,
+    /// Directions of steepest descent, those of the sea included.
+    steepest: Vec<u8>,
+    /// The neighbours to which cells of the tile and those beside it may drain.
+    receivers: Vec<u8>,
+}
+
+/// Directions and paths of a tile and of the cells around it, as far as they are known.
+struct TilePaths {
+    found: Vec<Option<(u8, Path)>>,
+    /// Cells of the tile that wait for others.
+    open: usize,
+}
+
+impl TileOfPaths {
+    fn read(
+        known: &TiledPaths<'_>,
+        tile: usize,
+        filled: &dyn Plane<f32>,
+        directions: &dyn Plane<u8>,
+    ) -> Result<Self, Error> {
+        let window = known.tiling.window(tile);
+        let level = read_around(filled, &window, MARGIN, NO_DATA)?;
+        let Size { columns, rows } = window.size();
+        let size = Size { columns: columns + 2, rows: rows + 2 };
+        let surface = Surface { size, stride: columns + 2 * MARGIN, level, elsewhere: Vec::new() };
+        let (steepest, receivers) = (vec![OUTLET; surface.cells()], vec![0; surface.cells()]);
+        let mut ground = Self { tile, window, surface, steepest, receivers };
+        let own: Vec<_> = cells(&ground.window).zip(directions.read(&ground.window)?).collect();
+        let own = own.into_iter().map(|((x, y), code)| ([x, y], code));
+        let ring = known.tiling.ring_of(tile).into_iter();
+        let ring = ring.map(|cell| (cell, known.steepest[known.tiling.border(cell)]));
+        for (cell, code) in own.chain(ring) {
+            let at = ground.place(cell);
+            ground.steepest[at] = code;
+            ground.receivers[at] = ground.candidates(at).receivers();
+        }
+        Ok(ground)
+    }
+
+    fn place(&self, cell: [usize; 2]) -> usize {
+        place(&self.window, MARGIN, cell)
+    }
+
+    fn candidates(&self, at: usize) -> Candidates {
+        let code = Some(self.steepest[at]).filter(|&code| code != SEA);
+        Candidates::of(&self.surface, at, code.unwrap_or(OUTLET))
+    }
+
+    /// The code as it is written.
+    fn code(&self, at: usize, paths: &TilePaths) -> u8 {
+        let found = paths.found[at].expect("all of the tile are found").0;
+        if self.steepest[at] == SEA { SEA } else { found }
+    }
+
+    /// What is known of the tile, by what is known of the border cells around it.
+    fn paths(&self, known: &TiledPaths<'_>) -> TilePaths {
+        let cells_in_all = self.steepest.len();
+        let mut paths = TilePaths { found: vec![None; cells_in_all], open: self.window.size().cells() };
+        for cell in known.tiling.ring_of(self.tile) {
+            paths.found[self.place(cell)] = known.found[known.tiling.border(cell)];
+        }
+        let (mut waiting, mut ready) = (vec![u8::MAX; cells_in_all], Vec::new());
+        for at in cells(&self.window).map(|(x, y)| self.place([x, y])) {
+            let waits = |&direction: &usize| paths.found[self.beside(at, direction)].is_none();
+            waiting[at] = set_directions(self.donors(at)).filter(waits).count() as u8;
+            ready.extend((waiting[at] == 0).then_some(at));
+        }
+        while let Some(at) = ready.pop() {
+            paths.found[at] = Some(self.through(at, &paths));
+            paths.open -= 1;
+            for next in set_directions(self.receivers[at]).map(|direction| self.beside(at, direction)) {
+                // Cells of other tiles keep their mark.
+                if waiting[next] != u8::MAX {
+                    waiting[next] -= 1;
+                    ready.extend((waiting[next] == 0).then_some(next));
+                }
+            }
+        }
+        paths
+    }
+
+    /// The code and the path of a cell to which all that may drain are known.
+    fn through(&self, at: usize, paths: &TilePaths) -> (u8, Path) {
+        let arriving = set_directions(self.donors(at)).filter_map(|direction| {
+            let donor = self.beside(at, direction);
+            let (code, path) = paths.found[donor]?;
+            (code == opposite(direction as u8) + 1).then_some((path, self.surface.level[donor]))
+        });
+        Path::through(&self.candidates(at), arriving)
+    }
+
+    fn donors(&self, at: usize) -> u8 {
+        donors(&self.surface, &self.receivers, at)
+    }
+
+    fn beside(&self, at: usize, direction: usize) -> usize {
+        self.surface.neighbour(at, direction as u8 + 1)
+    }
+}
