@@ -3,9 +3,10 @@
 //!
 //! The suitability of a place is the product of conditions on layers, each a range with soft edges; it sets how densely
 //! plants stand (`pattern.rs`). Asked for a number of plants, the step looks for the widest spacing at which as many find
-//! room, within three in a hundred, and takes those of the first ranks; so the same number stands as evenly as it can.
+//! room, within some hundredths (`count.rs`), and takes those of the first ranks; so the same number stands evenly.
 
 mod bins;
+mod count;
 mod pattern;
 mod site;
 #[cfg(test)]
@@ -13,7 +14,7 @@ mod tests;
 mod tiles;
 mod window;
 
-use pattern::{DENSITY, Pattern, Place};
+use pattern::{CUTS, DENSITY, Pattern, Place};
 use rayon::prelude::*;
 use site::{Site, unit};
 use weald_core::condition::{self, Condition};
@@ -149,15 +150,17 @@ impl Scatter {
     /// The places of the plants, and the least distance between them.
     fn places(&self, site: &Site<'_>, job: &Job<'_>) -> Result<(f64, Vec<Place>), Error> {
         let area = site.suitable_area();
-        let at = |spacing: f64| Pattern { ground: site, spacing, seed: job.seed }.places(job.watcher);
+        let at = |spacing: f64, cuts: u8| {
+            Pattern { ground: site, spacing, seed: job.seed, cuts }.places(job.watcher)
+        };
         let Some(count) = self.count else {
             if self.r#where.is_empty() {
                 self.ensure_possible(area)?;
             }
             let spacing = self.spacing.max(self.narrowest(area).unwrap_or_default());
-            return Ok((spacing, at(spacing)?));
+            return Ok((spacing, at(spacing, CUTS)?));
         };
-        widest(count as usize, self.spacing, area, at)
+        count::widest(count as usize, self.spacing, area, at)
     }
 
     /// The least spacing on so much ground, where the one that is asked for would set more plants than there may be.
@@ -218,70 +221,6 @@ impl Scatter {
 const SIZE: u64 = 8;
 const TURN: u64 = 9;
 const PHASE: u64 = 10;
-
-/// By how much more places than are asked for a spacing may have, and be the widest.
-const SURPLUS: f64 = 1.03;
-
-/// Spacings that are tried.
-const TRIES: usize = 12;
-
-/// So many places, and the widest spacing at which they find room, down to the least.
-///
-/// On wide ground the number goes with one over the square of the spacing, on narrow patches, over whose edges discs stand
-/// out, with a lower power, which two tries tell; each try follows from the last. What is known to be too wide or too
-/// narrow bounds it.
-fn widest(
-    count: usize,
-    least: f64,
-    area: f64,
-    at: impl Fn(f64) -> Result<Vec<Place>, Error>,
-) -> Result<(f64, Vec<Place>), Error> {
-    const TARGET_SURPLUS: f64 = 1.015;
-    let mut spacing = (DENSITY * area / (TARGET_SURPLUS * count as f64)).sqrt().max(least);
-    let (mut narrow, mut wide): (Option<(f64, Vec<Place>)>, f64) = (None, f64::INFINITY);
-    let (mut last, mut power): (Option<(f64, f64)>, f64) = (None, 2.0);
-    for _ in 0..TRIES {
-        let places = at(spacing)?;
-        let found = places.len();
-        let here = (libm::log(spacing), libm::log(found.max(1) as f64));
-        if let Some(before) = last.replace(here).filter(|before| before.0 != here.0) {
-            power = ((before.1 - here.1) / (here.0 - before.0)).clamp(1.0, 2.0);
-        }
-        let surplus = found.max(1) as f64 / (TARGET_SURPLUS * count as f64);
-        let next = spacing * libm::pow(surplus, 1.0 / power);
-        if found >= count {
-            narrow = Some((spacing, places));
-            if found as f64 <= SURPLUS * count as f64 {
-                break;
-            }
-        } else if spacing <= least {
-            return Ok((spacing, places));
-        } else {
-            wide = spacing;
-        }
-        spacing = match &narrow {
-            None if next < wide => next.max(least),
-            None => 0.5 * (least + wide),
-            Some((narrow, _)) if next > *narrow && next < wide => next,
-            Some((narrow, _)) => 0.5 * (narrow + wide.min(2.0 * narrow)),
-        };
-    }
-    let (spacing, places) = match narrow {
-        Some(found) => found,
-        None => (least, at(least)?),
-    };
-    Ok((spacing, first_ranks(places, count)))
-}
-
-/// The places of the first ranks, in the order in which they came.
-fn first_ranks(mut places: Vec<Place>, count: usize) -> Vec<Place> {
-    if count < places.len() {
-        let mut ranks: Vec<_> = places.iter().map(|place| place.rank).collect();
-        let (_, &mut last, _) = ranks.select_nth_unstable(count - 1);
-        places.retain(|place| place.rank <= last);
-    }
-    places
-}
 
 /// Plants on a square metre of each cell.
 fn density(domain: &Domain, plants: &[Plant]) -> Field {

@@ -36,6 +36,9 @@ pub(super) const SPARSEST: f64 = 1.0 / (WIDEST * WIDEST);
 /// Discs of one diameter that fit on a square as wide as that, when no more have room.
 pub(super) const DENSITY: f64 = 0.695;
 
+/// Cuts after which hardly any room is left: a sixty-fourth of a square of the first round.
+pub(super) const CUTS: u8 = 6;
+
 /// Ground that places look for.
 pub(super) trait Suitability: Sync {
     /// Metres from west to east and from north to south.
@@ -61,6 +64,8 @@ pub(super) struct Pattern<'a> {
     pub(super) spacing: f64,
     /// Another seed, other places.
     pub(super) seed: u64,
+    /// How often squares are cut into four, with a round after each: [`CUTS`], or fewer where not all room is to be found.
+    pub(super) cuts: u8,
 }
 
 /// A place of the pattern.

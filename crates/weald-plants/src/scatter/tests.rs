@@ -1,4 +1,4 @@
-use super::pattern::{Pattern, Place, Suitability, overlap, squared};
+use super::pattern::{CUTS, Pattern, Place, Suitability, overlap, squared};
 use super::*;
 use proptest::prelude::*;
 use weald_core::grid::{Mask, Size};
@@ -51,7 +51,7 @@ fn patchy(side: f64) -> Land<impl Fn([f64; 2]) -> f64 + Sync> {
 }
 
 fn places(ground: &dyn Suitability, spacing: f64, seed: u64) -> Vec<Place> {
-    Pattern { ground, spacing, seed }.places(&Unwatched).expect("nobody interrupts")
+    Pattern { ground, spacing, seed, cuts: CUTS }.places(&Unwatched).expect("nobody interrupts")
 }
 
 /// The nearest distance to another place, for each.
@@ -148,7 +148,7 @@ fn tiles_of_any_size_on_any_number_of_threads_give_the_whole() {
     for (name, ground) in
         [("even", &even(30.0) as &dyn Suitability), ("patchy", &patchy(70.0)), ("fading", &fading(38.0))]
     {
-        let pattern = Pattern { ground, spacing: 1.0, seed: 21 };
+        let pattern = Pattern { ground, spacing: 1.0, seed: 21, cuts: CUTS };
         let whole = pattern.in_tiles(1000, &Unwatched).expect("nobody interrupts");
         assert!(whole.len() > 400, "{name}: {}", whole.len());
         for (tile, threads) in [(6, 1), (7, 2), (16, 3)] {
@@ -296,7 +296,7 @@ proptest! {
     ) {
         let wavy = move |[x, y]: [f64; 2]| suits * (0.55 + 0.45 * libm::sin(x / 5.0 + y / 11.0));
         let ground = Land { extent: [40.0, 35.0], suitability: wavy, steepness: 0.1 };
-        let pattern = Pattern { ground: &ground, spacing, seed };
+        let pattern = Pattern { ground: &ground, spacing, seed, cuts: CUTS };
         let whole = pattern.in_tiles(1000, &Unwatched).expect("nobody interrupts");
         prop_assert_eq!(pattern.in_tiles(tile, &Unwatched).expect("nobody interrupts"), whole);
     }

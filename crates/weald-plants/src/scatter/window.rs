@@ -10,9 +10,6 @@ use super::pattern::{LEVELS, Pattern, Place, Square, overlap, squared};
 /// Rounds before squares are cut for the first time.
 const ROUNDS: u8 = 3;
 
-/// How often squares are cut into four, with a round after each.
-const CUTS: u8 = 6;
-
 /// A rectangle of a pattern.
 pub(super) struct Window<'a> {
     pattern: &'a Pattern<'a>,
@@ -60,14 +57,13 @@ impl<'a> Window<'a> {
     /// The places of the tile; `None` where the margin is too narrow to know them.
     pub(super) fn settled(mut self) -> Option<Vec<Place>> {
         let mut open = self.pattern.squares_in(self.bins[LEVELS - 1].squares());
+        open.retain(|square| self.pattern.least_in(*square).is_some());
         for round in 0..ROUNDS {
             self.draw(&open, round).ok()?;
             open.retain(|square| self.bins[square.level].is_free(*square));
         }
-        open.retain(|square| self.may_hold_more(*square));
-        for cut in 0..CUTS {
-            open = open.into_iter().flat_map(Square::quarters).collect();
-            open.retain(|square| self.may_hold_more(*square));
+        for cut in 0..self.pattern.cuts {
+            open = self.quarters_with_room(&open);
             self.draw(&open, ROUNDS + cut).ok()?;
         }
         self.places.retain(|place| is_in(self.tile, place.at));
@@ -114,33 +110,57 @@ impl<'a> Window<'a> {
         if is_known { Verdict::Place } else { Verdict::Unknown }
     }
 
-    /// Whether a square may hold places, and has room for one.
-    fn may_hold_more(&self, square: Square) -> bool {
-        // Most squares are under a disc of their level already, or soon known to hold none, by rough bounds.
-        self.has_room(square, self.pattern.least(square.level))
-            && self.pattern.least_roughly_in(square).is_some_and(|least| self.has_room(square, least))
-            && self.pattern.least_in(square).is_some_and(|least| self.has_room(square, least))
+    /// The quarters of squares that may hold places, and have room for one.
+    fn quarters_with_room(&self, open: &[Square]) -> Vec<Square> {
+        let (mut around, mut found) = (Vec::new(), Vec::new());
+        for &square in open {
+            self.find_around(square, &mut around);
+            found.extend(
+                square.quarters().into_iter().filter(|quarter| self.may_hold_more(*quarter, &around)),
+            );
+        }
+        found
     }
 
-    /// Whether a square is not unresolved and not so deep under a single disc that no other of that diameter has room.
-    fn has_room(&self, square: Square, diameter: f64) -> bool {
-        let [low, high] = self.pattern.corners(square);
-        let middle = [0, 1].map(|axis| 0.5 * (low[axis] + high[axis]));
-        if self.bins[square.level].is_in_fog_at(middle) {
-            return false;
+    /// The places that may leave a quarter of a square without room. The middle of the square is a corner of each quarter,
+    /// so that a disc which covers a quarter reaches it.
+    fn find_around(&self, square: Square, found: &mut Vec<Place>) {
+        found.clear();
+        let (middle, half) = (self.middle(square), 0.5 * self.pattern.greatest(square.level));
+        for bins in &self.bins {
+            let near = bins.near(middle, bins.reach(half)).filter_map(|bin| bins.place(bin));
+            found.extend(near.map(|place| self.places[place]).filter(|place| {
+                let apart = half + 0.5 * place.diameter;
+                squared(place.at, middle) < apart * apart
+            }));
         }
-        let least = 0.5 * diameter;
+    }
+
+    /// Whether a square may hold places, and has room for one between those around it.
+    fn may_hold_more(&self, square: Square, around: &[Place]) -> bool {
+        // Most squares are under a disc of their level already, or soon known to hold none, by rough bounds.
+        !self.bins[square.level].is_in_fog_at(self.middle(square))
+            && self.has_room(square, self.pattern.least(square.level), around)
+            && self.pattern.least_roughly_in(square).is_some_and(|least| self.has_room(square, least, around))
+            && self.pattern.least_in(square).is_some_and(|least| self.has_room(square, least, around))
+    }
+
+    /// Whether a square is not so deep under a single disc that no other of that diameter has room.
+    fn has_room(&self, square: Square, diameter: f64, around: &[Place]) -> bool {
+        let ([low, high], middle) = (self.pattern.corners(square), self.middle(square));
         let covers = |place: &Place| {
             let at = place.at;
             let farthest = [0, 1].map(|axis| if at[axis] < middle[axis] { high[axis] } else { low[axis] });
-            let apart = least + 0.5 * place.diameter;
+            let apart = 0.5 * (diameter + place.diameter);
             squared(at, farthest) < apart * apart
         };
-        !self.bins.iter().any(|bins| {
-            let reach = bins.reach(least);
-            bins.near(middle, reach)
-                .any(|bin| bins.place(bin).is_some_and(|place| covers(&self.places[place])))
-        })
+        !around.iter().any(covers)
+    }
+
+    /// The middle of a square, in metres.
+    fn middle(&self, square: Square) -> [f64; 2] {
+        let [low, high] = self.pattern.corners(square);
+        [0, 1].map(|axis| 0.5 * (low[axis] + high[axis]))
     }
 }
 
