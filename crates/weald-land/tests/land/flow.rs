@@ -20,7 +20,7 @@ fn breached(height: &Field, valid: Option<&Mask>, deepest_breach: f64) -> Routed
 }
 
 /// Random cells without data.
-pub fn holes(size: Size, seed: u64, one_in: u64) -> Option<Mask> {
+pub(crate) fn holes(size: Size, seed: u64, one_in: u64) -> Option<Mask> {
     Mask::new(
         size,
         (0..size.cells()).map(|cell| !hash2(seed, cell as i64, 5).is_multiple_of(one_in)).collect(),
@@ -60,7 +60,7 @@ fn flooded(height: &Field, valid: Option<&Mask>) -> Vec<f32> {
 }
 
 /// Every cell's water comes to an end, and no way rises.
-pub fn check_paths(routed: &Routed, valid: Option<&Mask>) {
+pub(crate) fn check_paths(routed: &Routed, valid: Option<&Mask>) {
     let (directions, level) = (&routed.directions, routed.surface.values());
     let size = directions.size();
     Directions::of(&directions.layer(), valid).expect("no cycles");

@@ -80,7 +80,6 @@ fn paths_over_a_cone_are_its_radii_outward_and_inward() {
             worst
         };
         let (least, steepest) = (aside(DirectionRule::LeastDeviation), aside(DirectionRule::Steepest));
-        println!("outward {outward}: {least} {steepest}");
         assert!(least < 4.0, "{least} cells aside");
         assert!(steepest > 3.0 * least, "D8 is {steepest} cells aside");
     }
