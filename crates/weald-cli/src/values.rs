@@ -1,4 +1,7 @@
-//! Values of the command line: engines, amounts of memory, places, sizes of pictures.
+//! Values of the command line: engines, places, sizes of pictures.
+
+/// An amount of memory.
+pub(crate) use weald::error::bytes_from_words as memory;
 
 /// An engine that a user can ask for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -26,24 +29,6 @@ pub(crate) fn choice(text: &str) -> Result<EngineChoice, String> {
         (_, _, Some(side @ 1..=65_536)) => Ok(EngineChoice::Tiles(side)),
         _ => Err("the engines are auto, cpu and gpu".to_owned()),
     }
-}
-
-/// Least and most memory that can be given to the GPU engine.
-const MEMORY: std::ops::RangeInclusive<u64> = 1 << 20..=1 << 50;
-
-/// Reads an amount of memory: bytes, or a whole number of KiB, MiB or GiB.
-pub(crate) fn memory(text: &str) -> Result<u64, String> {
-    let digits = text.find(|letter: char| !letter.is_ascii_digit()).unwrap_or(text.len());
-    let unit: u64 = match text[digits..].trim() {
-        "" | "B" => 1,
-        "KiB" => 1 << 10,
-        "MiB" => 1 << 20,
-        "GiB" => 1 << 30,
-        other => return Err(format!("`{other}` is no unit; give bytes, KiB, MiB or GiB, as in 512MiB")),
-    };
-    let number = text[..digits].parse::<u64>().map_err(|_| "it is written as in 512MiB".to_owned())?;
-    let bytes = number.checked_mul(unit).filter(|bytes| MEMORY.contains(bytes));
-    bytes.ok_or_else(|| "it is at least 1MiB and at most 1048576GiB".to_owned())
 }
 
 /// A place in metres east and south of the north-western corner, with an elevation if one was given.
@@ -103,32 +88,6 @@ pub(crate) fn size(text: &str) -> Result<[u32; 2], String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn memory_is_read_in_all_its_units() {
-        assert_eq!(memory("64MiB"), Ok(64 << 20));
-        assert_eq!(memory("2 GiB"), Ok(2 << 30));
-        assert_eq!(memory("2048KiB"), Ok(2 << 20));
-        assert_eq!(memory("1048576"), Ok(1 << 20));
-        assert_eq!(memory("1048577B"), Ok((1 << 20) + 1));
-    }
-
-    #[test]
-    fn memory_that_makes_no_sense_is_refused_with_what_would() {
-        for (text, part) in [
-            ("64MB", "`MB` is no unit"),
-            ("", "as in 512MiB"),
-            ("MiB", "as in 512MiB"),
-            ("-5MiB", "no unit"),
-            ("1.5GiB", "no unit"),
-            ("1000", "at least 1MiB"),
-            ("99999999999GiB", "at most"),
-            ("99999999999999999999999", "as in 512MiB"),
-        ] {
-            let error = memory(text).expect_err("it makes no sense");
-            assert!(error.contains(part), "{text}: {error}");
-        }
-    }
 
     #[test]
     fn engines_for_tests_have_sound_numbers() {

@@ -8,7 +8,7 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 pub use device::{DeviceError, DeviceErrorKind};
-pub use limit::{Limit, Quantity, bytes_in_words};
+pub use limit::{Limit, Quantity, bytes_from_words, bytes_in_words};
 
 /// Everything that can end a run early. [`Error::exit_code`] is the exit code of the command.
 #[derive(Debug, thiserror::Error)]

@@ -169,6 +169,27 @@ impl Quantity {
     }
 }
 
+/// Least and most memory that can be asked for.
+const MEMORY: RangeInclusive<u64> = 1 << 20..=1 << 50;
+
+/// Reads an amount of memory: bytes, or a whole number of KiB, MiB or GiB.
+///
+/// # Errors
+/// What is wrong with the text.
+pub fn bytes_from_words(text: &str) -> Result<u64, String> {
+    let digits = text.find(|letter: char| !letter.is_ascii_digit()).unwrap_or(text.len());
+    let unit: u64 = match text[digits..].trim() {
+        "" | "B" => 1,
+        "KiB" => 1 << 10,
+        "MiB" => 1 << 20,
+        "GiB" => 1 << 30,
+        other => return Err(format!("`{other}` is no unit; give bytes, KiB, MiB or GiB, as in 512MiB")),
+    };
+    let number = text[..digits].parse::<u64>().map_err(|_| "it is written as in 512MiB".to_owned())?;
+    let bytes = number.checked_mul(unit).filter(|bytes| MEMORY.contains(bytes));
+    bytes.ok_or_else(|| "it is at least 1MiB and at most 1048576GiB".to_owned())
+}
+
 /// Bytes as a person reads them.
 pub fn bytes_in_words(bytes: u64) -> String {
     match bytes {
@@ -181,6 +202,32 @@ pub fn bytes_in_words(bytes: u64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn memory_is_read_in_all_its_units() {
+        assert_eq!(bytes_from_words("64MiB"), Ok(64 << 20));
+        assert_eq!(bytes_from_words("2 GiB"), Ok(2 << 30));
+        assert_eq!(bytes_from_words("2048KiB"), Ok(2 << 20));
+        assert_eq!(bytes_from_words("1048576"), Ok(1 << 20));
+        assert_eq!(bytes_from_words("1048577B"), Ok((1 << 20) + 1));
+    }
+
+    #[test]
+    fn memory_that_makes_no_sense_is_refused_with_what_would() {
+        for (text, part) in [
+            ("64MB", "`MB` is no unit"),
+            ("", "as in 512MiB"),
+            ("MiB", "as in 512MiB"),
+            ("-5MiB", "no unit"),
+            ("1.5GiB", "no unit"),
+            ("1000", "at least 1MiB"),
+            ("99999999999GiB", "at most"),
+            ("99999999999999999999999", "as in 512MiB"),
+        ] {
+            let error = bytes_from_words(text).expect_err("it makes no sense");
+            assert!(error.contains(part), "{text}: {error}");
+        }
+    }
 
     #[test]
     fn the_message_says_what_where_the_value_what_is_legal_and_what_to_do() {
