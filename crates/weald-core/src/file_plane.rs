@@ -12,8 +12,8 @@ use crate::plane::{Plane, Window};
 /// Bytes of a value.
 pub const VALUE: u64 = 4;
 
-/// Bytes that are read or written at a time.
-const AT_ONCE: usize = 1 << 20;
+/// Bytes that are worth reading or writing at a time.
+pub const AT_ONCE: usize = 1 << 20;
 
 /// Values in a file of its own, row by row, which no other program reads.
 #[derive(Debug)]

@@ -14,8 +14,9 @@ use crate::engine::Engine;
 use crate::finest;
 use crate::job::Job;
 use crate::on_device::OnDevice;
+use crate::ranks::agreed;
 use crate::step::{Outcome, Step};
-use crate::stored::StoredLandscape;
+use crate::stored::{StoredLandscape, StoredPlane};
 
 /// A step that makes one layer from nothing but the size of the ground and a seed.
 pub trait Generator: Debug + Send + Sync {
@@ -82,21 +83,9 @@ impl<T: Generator> Step for T {
 
     fn run_on_disk(&self, landscape: &mut StoredLandscape<'_>, job: &Job<'_>) -> Result<Outcome, Error> {
         let (seed, name) = (self.own_seed().unwrap_or(job.seed), &self.target().0);
-        let (domain, mut layer) = (&landscape.domain, landscape.plane(name, landscape.domain.size)?);
-        // A row as it is made, and as bytes.
-        let run = (landscape.memory / (16 * domain.size.columns as u64)).clamp(1, 1 << 10) as usize;
-        for first in (0..domain.size.rows).step_by(run) {
-            let rows = first..(first + run).min(domain.size.rows);
-            let whole = || Error::Run(format!("`{name}` is generated as a whole, and not by rows"));
-            let field = self.fill_rows(domain, seed, rows.clone()).ok_or_else(whole)?;
-            layer.set_rows(rows, field.values())?;
-            if job.watcher.cancelled() {
-                return Err(Error::Interrupted(format!(
-                    "interrupted in row {first} of {}",
-                    domain.size.rows
-                )));
-            }
-        }
+        let mut layer = landscape.plane(name)?;
+        let filled = fill_own_rows(self, (landscape, seed), &mut layer, job);
+        agreed(&*landscape.ranks, filled)?;
         landscape.insert(name, "m", layer);
         Ok(Outcome { iterations: self.iterations(), ..Outcome::default() })
     }
@@ -109,6 +98,31 @@ impl<T: Generator> Step for T {
         landscape.insert(&self.target().0, "m", field);
         Ok(Outcome { iterations: self.iterations(), notes, ..Outcome::default() })
     }
+}
+
+/// Makes the own rows of a plane, some at a time.
+fn fill_own_rows(
+    generator: &impl Generator,
+    (landscape, seed): (&StoredLandscape<'_>, u64),
+    layer: &mut StoredPlane,
+    job: &Job<'_>,
+) -> Result<(), Error> {
+    let (domain, own) = (&landscape.domain, layer.own());
+    // A row as it is made, and as bytes.
+    let run = (landscape.memory / (16 * domain.size.columns as u64)).clamp(1, 1 << 10) as usize;
+    for first in own.clone().step_by(run) {
+        let rows = first..(first + run).min(own.end);
+        let whole = || {
+            let name = &generator.target().0;
+            Error::Run(format!("`{name}` is generated as a whole, and not by rows"))
+        };
+        let field = generator.fill_rows(domain, seed, rows.clone()).ok_or_else(whole)?;
+        layer.set_rows(rows, field.values())?;
+        if job.watcher.cancelled() {
+            return Err(Error::Interrupted(format!("interrupted in row {first} of {}", domain.size.rows)));
+        }
+    }
+    Ok(())
 }
 
 /// Heights made where the engine says, and what there is to say about it.

@@ -4,7 +4,6 @@
 //! processor.
 
 pub mod bands;
-pub mod bands_on_disk;
 mod budget;
 mod cpu;
 pub mod device;
@@ -21,9 +20,12 @@ pub mod patch;
 pub mod program;
 pub mod ranks;
 pub mod report;
+pub mod served;
 pub mod stencil;
 pub mod step;
 pub mod stored;
+pub mod stored_bands;
+mod stored_plane;
 pub mod sums;
 mod tiles;
 pub mod uniform;

@@ -1,39 +1,45 @@
-//! A landscape that does not fit into memory: its layers lie on disk, and steps work on parts of them.
+//! A landscape that no process holds as a whole: its layers lie on disk, or each rank has its own rows of them, and steps
+//! work on parts of them.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Debug;
+use std::sync::Arc;
 
+use crate::ranks::{Ranks, SharedRows, agreed, joined};
+pub use crate::stored_plane::{StoredPlane, swap_margins};
 use weald_core::domain::Domain;
 use weald_core::error::{Error, NotFinite};
-use weald_core::file_plane::FilePlane;
 use weald_core::files::File;
-use weald_core::grid::Size;
 
-/// Where planes are made that lie on disk.
+/// Where planes are made.
 pub trait Scratch: Debug + Sync {
-    /// An empty file that is gone when it is closed, however the process ends.
+    /// An empty file that is gone when it is closed, however the process ends; none where planes lie in memory.
     ///
     /// # Errors
     /// [`Error::Run`] where none can be made.
-    fn file(&self) -> Result<File, Error>;
+    fn file(&self) -> Result<Option<File>, Error>;
 }
 
-/// A layer on disk.
+/// A layer.
 #[derive(Debug)]
 pub struct StoredLayer {
     /// Unit of its values.
     pub unit: String,
     /// Its values.
-    pub plane: FilePlane,
+    pub plane: StoredPlane,
 }
 
-/// A landscape whose layers lie on disk.
+/// A landscape of which this process has its own rows.
 #[derive(Debug)]
 pub struct StoredLandscape<'a> {
     /// Its grid, where all cells have data.
     pub domain: Domain,
-    /// Most bytes of memory that a step may take.
+    /// Most bytes of memory that a step may take, the same on all ranks.
     pub memory: u64,
+    /// The ranks that share it; one that is [alone](crate::ranks::Alone) has all rows. Steps call the same collective
+    /// functions on all of them.
+    pub ranks: Arc<dyn Ranks>,
+    rows: SharedRows,
     scratch: &'a dyn Scratch,
     layers: BTreeMap<String, StoredLayer>,
     wanted: BTreeSet<String>,
@@ -41,8 +47,14 @@ pub struct StoredLandscape<'a> {
 
 impl<'a> StoredLandscape<'a> {
     /// A landscape without layers.
-    pub fn new(domain: Domain, memory: u64, scratch: &'a dyn Scratch) -> Self {
-        Self { domain, memory, scratch, layers: BTreeMap::new(), wanted: BTreeSet::new() }
+    pub fn new(domain: Domain, memory: u64, (scratch, ranks): (&'a dyn Scratch, Arc<dyn Ranks>)) -> Self {
+        let rows = SharedRows::of((ranks.rank(), ranks.count()), domain.size.rows);
+        Self { domain, memory, ranks, rows, scratch, layers: BTreeMap::new(), wanted: BTreeSet::new() }
+    }
+
+    /// How its rows are shared.
+    pub fn rows(&self) -> &SharedRows {
+        &self.rows
     }
 
     /// Says which layers are needed from now on; the others are dropped, and none of another name is kept.
@@ -59,9 +71,25 @@ impl<'a> StoredLandscape<'a> {
     /// A new plane of zeros.
     ///
     /// # Errors
+    /// [`Error::Run`] where it cannot be made on any of the ranks, all of which make it together.
+    pub fn plane(&self, name: &str) -> Result<StoredPlane, Error> {
+        self.plane_of(name, (self.domain.size.columns, &self.rows))
+    }
+
+    /// The same on another grid.
+    ///
+    /// # Errors
+    /// As [`StoredLandscape::plane`].
+    pub fn plane_of(&self, name: &str, grid: (usize, &SharedRows)) -> Result<StoredPlane, Error> {
+        agreed(&*self.ranks, self.plane_alone(name, grid))
+    }
+
+    /// The same on this rank alone.
+    ///
+    /// # Errors
     /// [`Error::Run`] where it cannot be made.
-    pub fn plane(&self, name: &str, size: Size) -> Result<FilePlane, Error> {
-        FilePlane::new(name, self.scratch.file()?, size)
+    pub fn plane_alone(&self, name: &str, grid: (usize, &SharedRows)) -> Result<StoredPlane, Error> {
+        StoredPlane::new(name, self.scratch.file()?, grid)
     }
 
     /// A layer.
@@ -69,7 +97,7 @@ impl<'a> StoredLandscape<'a> {
     /// # Errors
     /// [`Error::Run`] where there is none of that name.
     pub fn layer(&self, name: &str) -> Result<&StoredLayer, Error> {
-        self.layers.get(name).ok_or_else(|| Error::Run(format!("the landscape has no layer `{name}`")))
+        self.layers.get(name).ok_or_else(|| missing(name))
     }
 
     /// Takes a layer out.
@@ -78,37 +106,73 @@ impl<'a> StoredLandscape<'a> {
     }
 
     /// Puts in a layer that [is wanted](Self::wants), in place of one of that name.
-    pub fn insert(&mut self, name: &str, unit: &str, plane: FilePlane) {
+    pub fn insert(&mut self, name: &str, unit: &str, plane: StoredPlane) {
         if self.wants(name) {
             self.layers.insert(name.to_owned(), StoredLayer { unit: unit.to_owned(), plane });
         }
     }
 
-    /// Least and greatest value of a layer.
+    /// The same, to be changed.
+    ///
+    /// # Errors
+    /// As [`StoredLandscape::layer`].
+    pub fn layer_mut(&mut self, name: &str) -> Result<&mut StoredLayer, Error> {
+        self.layers.get_mut(name).ok_or_else(|| missing(name))
+    }
+
+    /// Least and greatest value of a layer, over all ranks.
     ///
     /// # Errors
     /// [`Error::NotFinite`] naming the first cell that holds a NaN or an infinity; those of the disk.
     pub fn range(&self, name: &str) -> Result<(f32, f32), Error> {
-        let plane = &self.layer(name)?.plane;
-        let mut range: Option<(f32, f32)> = None;
-        for rows in plane.runs_of_rows() {
-            let values = plane.rows(rows.clone())?;
-            if let Some(at) = values.iter().position(|value| !value.is_finite()) {
-                let columns = self.domain.size.columns;
-                let (cell, value) = ([at % columns, rows.start + at / columns], values[at]);
-                let message = format!(
-                    "layer `{name}` became {value} at column {}, row {}; gentler parameters may help",
-                    cell[0], cell[1]
-                );
-                return Err(
-                    NotFinite { step: None, iteration: None, layer: name.to_owned(), cell, message }.into()
-                );
-            }
-            for value in values {
-                let (low, high) = range.unwrap_or((value, value));
-                range = Some((low.min(value), high.max(value)));
-            }
+        let seen = agreed(&*self.ranks, self.layer(name).and_then(|layer| seen(&layer.plane)))?;
+        let not_finite = match &seen {
+            Seen::NotFinite([x, y], value) => Some([*x as f64, *y as f64, f64::from(*value)]),
+            Seen::Range(_) => None,
+        };
+        if let Some([x, y, value]) = joined(&*self.ranks, not_finite, |first, _| first)? {
+            let cell = [x as usize, y as usize];
+            let message =
+                format!("layer `{name}` became {value} at column {x}, row {y}; gentler parameters may help");
+            let layer = name.to_owned();
+            return Err(NotFinite { step: None, iteration: None, layer, cell, message }.into());
         }
-        Ok(range.unwrap_or_default())
+        let own = match seen {
+            Seen::Range(range) => range.map(|(low, high)| [f64::from(low), f64::from(high)]),
+            Seen::NotFinite(..) => None,
+        };
+        let join = |[low, high]: [f64; 2], [other_low, other_high]: [f64; 2]| {
+            [low.min(other_low), high.max(other_high)]
+        };
+        let range = joined(&*self.ranks, own, join)?;
+        Ok(range.map(|[low, high]| (low as f32, high as f32)).unwrap_or_default())
     }
+}
+
+/// What this rank's own rows of a plane hold.
+enum Seen {
+    /// Column and row of the first value that is no finite number, and that.
+    NotFinite([usize; 2], f32),
+    /// Least and greatest value, where there are rows.
+    Range(Option<(f32, f32)>),
+}
+
+fn seen(plane: &StoredPlane) -> Result<Seen, Error> {
+    let mut range: Option<(f32, f32)> = None;
+    for rows in plane.runs_of_rows() {
+        let values = plane.rows(rows.clone())?;
+        if let Some(at) = values.iter().position(|value| !value.is_finite()) {
+            let columns = values.len() / rows.len();
+            return Ok(Seen::NotFinite([at % columns, rows.start + at / columns], values[at]));
+        }
+        for value in values {
+            let (low, high) = range.unwrap_or((value, value));
+            range = Some((low.min(value), high.max(value)));
+        }
+    }
+    Ok(Seen::Range(range))
+}
+
+fn missing(name: &str) -> Error {
+    Error::Run(format!("the landscape has no layer `{name}`"))
 }

@@ -39,18 +39,18 @@ pub enum Encode {
 }
 
 /// Writes a raster into a file window by window; gives the files beside it.
-pub type WriteWindows = fn(&WindowedRaster<'_>, &mut File) -> Result<Vec<Part>, Error>;
+pub type WriteWindows = fn(&WindowedRaster<'_, '_>, &mut File) -> Result<Vec<Part>, Error>;
 
 /// A raster whose values are read window by window. Every cell has data.
-pub struct WindowedRaster<'a> {
+pub struct WindowedRaster<'a, 'b> {
     /// All that it is but its values: its field counts for nothing.
     pub head: &'a Raster,
     /// The values, all of them finite.
     pub values: &'a dyn Plane<f32>,
     /// Least and greatest value.
     pub range: (f32, f32),
-    /// Makes room on disk for smaller images.
-    pub scratch: &'a dyn Fn(Size) -> Result<Box<dyn Plane<f32>>, Error>,
+    /// Makes room for smaller images.
+    pub scratch: &'a dyn Fn(Size) -> Result<Box<dyn Plane<f32> + 'b>, Error>,
 }
 
 impl Encode {

@@ -73,6 +73,15 @@ pub(crate) struct RunArguments {
     /// Goes on from the checkpoint in the output folder, over any number of ranks
     #[arg(long)]
     pub(crate) resume: bool,
+    /// Each rank holds its own rows of the landscape alone, and none the whole
+    #[arg(long)]
+    pub(crate) distributed: bool,
+    /// The same, with the rows on disk, in a folder that each machine has
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out_of_core: Option<PathBuf>,
+    /// Most memory that a rank may take then, such as 2GiB [default: what is free on its machine, shared among the ranks there]
+    #[arg(long, value_name = "SIZE", value_parser = weald::error::bytes_from_words)]
+    pub(crate) memory: Option<u64>,
     /// Shows no progress
     #[arg(long)]
     pub(crate) quiet: bool,
@@ -81,7 +90,14 @@ pub(crate) struct RunArguments {
 impl RunArguments {
     /// What of the recipe is to be otherwise.
     pub(crate) fn overrides(&self) -> Overrides {
-        Overrides { size: self.size, seed: self.seed, set: self.set.clone(), ..Overrides::default() }
+        let larger_than_memory = self.is_distributed();
+        let set = self.set.clone();
+        Overrides { size: self.size, seed: self.seed, set, larger_than_memory, ..Overrides::default() }
+    }
+
+    /// Whether no rank holds the whole.
+    pub(crate) fn is_distributed(&self) -> bool {
+        self.distributed || self.out_of_core.is_some()
     }
 
     /// Where the files go.

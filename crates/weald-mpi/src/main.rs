@@ -1,7 +1,7 @@
 //! The `weald-mpi` command: `weald run` over the processes that `mpirun` or `srun` starts.
 //!
-//! The first rank runs the recipe and has its files; all ranks compute its simulations, each on a band of rows. Whatever
-//! their number, the files have the bits that `weald run --engine cpu` gives them. Exit codes are those of `weald`: 0
+//! The first rank runs the recipe and has its files; all ranks compute its simulations, each on a band of rows. Of a distributed
+//! run all ranks run the recipe, each on its own rows, and the first writes the files. Whatever their number, the files have the bits that `weald run --engine cpu` gives them. Exit codes are those of `weald`: 0
 //! done, 1 run failed, 2 usage, 3 bad recipe, 4 bad input file, 5 over a stated limit, 130 interrupted.
 
 mod arguments;

@@ -90,21 +90,41 @@ impl Ranks for MpiRanks {
         (1..self.count).try_for_each(|rank| take(rank, receive(&world, rank)))
     }
 
-    /// All messages are under way at the same time.
     fn swap(&self, swaps: &mut [Swap<'_>]) -> Result<(), Error> {
-        let world = SimpleCommunicator::world();
-        mpi::request::scope(|scope| {
-            let (mut coming, mut going) = (Vec::new(), Vec::new());
-            for Swap { with, give, take } in swaps {
-                let other = world.process_at_rank(*with as i32);
-                for piece in take.chunks_mut(PIECE) {
-                    coming.push(WaitGuard::from(other.immediate_receive_into(scope, piece)));
-                }
-                for piece in give.chunks(PIECE) {
-                    going.push(WaitGuard::from(other.immediate_send(scope, piece)));
-                }
-            }
-        });
+        let swaps = swaps.iter_mut().map(|Swap { with, give, take }| (*with, *give, &mut **take));
+        swap_all(&SimpleCommunicator::world(), swaps);
         Ok(())
     }
+
+    fn trade(&self, given: Vec<(usize, Vec<u8>)>) -> Result<Vec<Vec<u8>>, Error> {
+        let world = SimpleCommunicator::world();
+        let lengths: Vec<_> = given.iter().map(|(_, bytes)| [bytes.len() as u64]).collect();
+        let mut coming = vec![[0_u64]; given.len()];
+        let with = given.iter().map(|(with, _)| *with);
+        let counts = with.zip(&lengths).zip(&mut coming);
+        swap_all(&world, counts.map(|((with, give), take)| (with, give.as_slice(), take.as_mut_slice())));
+        let mut taken: Vec<Vec<u8>> = coming.iter().map(|[length]| vec![0; *length as usize]).collect();
+        let bytes = given.iter().zip(&mut taken);
+        swap_all(&world, bytes.map(|((with, give), take)| (*with, give.as_slice(), take.as_mut_slice())));
+        Ok(taken)
+    }
+}
+
+/// Gives and takes; all messages are under way at the same time.
+fn swap_all<'a, T: Equivalence + 'a>(
+    world: &SimpleCommunicator,
+    swaps: impl Iterator<Item = (usize, &'a [T], &'a mut [T])>,
+) {
+    mpi::request::scope(|scope| {
+        let (mut coming, mut going) = (Vec::new(), Vec::new());
+        for (with, give, take) in swaps {
+            let other = world.process_at_rank(with as i32);
+            for piece in take.chunks_mut(PIECE) {
+                coming.push(WaitGuard::from(other.immediate_receive_into(scope, piece)));
+            }
+            for piece in give.chunks(PIECE) {
+                going.push(WaitGuard::from(other.immediate_send(scope, piece)));
+            }
+        }
+    });
 }

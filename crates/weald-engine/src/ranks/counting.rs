@@ -62,4 +62,11 @@ impl Ranks for Counting {
         self.bytes.fetch_add(bytes as u64, Ordering::Relaxed);
         self.ranks.swap(swaps)
     }
+
+    fn trade(&self, given: Vec<(usize, Vec<u8>)>) -> Result<Vec<Vec<u8>>, Error> {
+        let bytes: usize = given.iter().map(|(_, bytes)| bytes.len()).sum();
+        self.exchanges.fetch_add(given.len() as u64, Ordering::Relaxed);
+        self.bytes.fetch_add(bytes as u64, Ordering::Relaxed);
+        self.ranks.trade(given)
+    }
 }

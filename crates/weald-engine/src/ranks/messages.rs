@@ -43,6 +43,10 @@ pub trait Ranks: Debug + Send + Sync {
     /// Swaps numbers with other ranks, each of which swaps as many with this one in the same call. A rank that has
     /// nobody to swap with may leave the call out.
     fn swap(&self, swaps: &mut [Swap<'_>]) -> Result<(), Error>;
+
+    /// Gives bytes to other ranks, each of which gives some to this one in the same call, as many or not; gets theirs in the
+    /// same order. A rank that has nobody to trade with may leave the call out.
+    fn trade(&self, given: Vec<(usize, Vec<u8>)>) -> Result<Vec<Vec<u8>>, Error>;
 }
 
 /// What two ranks give each other.

@@ -1,15 +1,13 @@
-//! How the rows of a simulation are shared among ranks.
+//! How the rows of a simulation in lockstep are shared among ranks.
 
 use std::ops::Range;
+
+use super::shared_rows::SharedRows;
 
 /// Rows of one rank, and those that it needs around them.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Share {
-    /// Ranks that have rows; those behind them have none.
-    active: usize,
-    rank: usize,
-    /// Rows of the whole.
-    rows: usize,
+    rows: SharedRows,
     /// Rows that a cell feels in one step.
     reach: usize,
     /// Most steps between two exchanges.
@@ -22,26 +20,21 @@ const SOUTH_OF_MEANS: usize = 1;
 impl Share {
     /// The share of one of `count` ranks. Each that has rows has so many that what it feels lies with its neighbours; on
     /// grids that are too low for that, the last ranks have none.
-    pub(super) fn of((rank, count): (usize, usize), rows: usize, reach: usize) -> Self {
-        let active = count.clamp(1, (rows / (reach + SOUTH_OF_MEANS)).max(1));
+    pub(super) fn of(rank_and_count: (usize, usize), rows: usize, reach: usize) -> Self {
+        let rows = SharedRows::among(rank_and_count, rows, reach + SOUTH_OF_MEANS);
         // More steps at a time exchange less often and compute more rows twice.
-        let block = (rows / active / (4 * reach)).clamp(1, 4);
-        Self { active, rank, rows, reach, block }
+        let block = (rows.least() / (4 * reach)).clamp(1, 4);
+        Self { rows, reach, block }
     }
 
     /// The same for another rank.
     pub(super) fn of_rank(&self, rank: usize) -> Self {
-        Self { rank, ..self.clone() }
-    }
-
-    fn own_of(&self, rank: usize) -> Range<usize> {
-        let start = |rank: usize| self.rows * rank.min(self.active) / self.active;
-        start(rank)..start(rank + 1)
+        Self { rows: self.rows.of_rank(rank), ..self.clone() }
     }
 
     /// Its own rows.
     pub(super) fn own(&self) -> Range<usize> {
-        self.own_of(self.rank)
+        self.rows.own()
     }
 
     /// Its own rows with those around them.
@@ -50,7 +43,7 @@ impl Share {
         if own.is_empty() {
             return own;
         }
-        own.start.saturating_sub(halo)..(own.end + halo).min(self.rows)
+        own.start.saturating_sub(halo)..(own.end + halo).min(self.rows.count())
     }
 
     /// Rows around its own that it needs for so many steps.
@@ -60,12 +53,12 @@ impl Share {
 
     /// The rank that has the rows to the north.
     pub(super) fn north(&self) -> Option<usize> {
-        self.rank.checked_sub(1).filter(|_| self.rank < self.active)
+        self.rows.north()
     }
 
     /// The rank that has the rows to the south.
     pub(super) fn south(&self) -> Option<usize> {
-        Some(self.rank + 1).filter(|rank| *rank < self.active)
+        self.rows.south()
     }
 }
 
@@ -83,8 +76,8 @@ mod tests {
             for share in shares.iter().filter(|share| !share.own().is_empty()) {
                 let (own, held) = (share.own(), share.held());
                 assert!(held.start <= own.start && own.end <= held.end);
-                let first = share.north().map_or(0, |north| share.own_of(north).start);
-                let end = share.south().map_or(rows, |south| share.own_of(south).end);
+                let first = share.north().map_or(0, |north| share.of_rank(north).own().start);
+                let end = share.south().map_or(rows, |south| share.of_rank(south).own().end);
                 assert!(first <= held.start && held.end <= end, "{share:?} holds {held:?}");
                 assert_eq!(
                     (own.start == 0, own.end == rows),

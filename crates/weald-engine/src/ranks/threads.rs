@@ -119,6 +119,12 @@ impl Ranks for ThreadRank {
         }
         Ok(())
     }
+
+    fn trade(&self, given: Vec<(usize, Vec<u8>)>) -> Result<Vec<Vec<u8>>, Error> {
+        let others: Vec<usize> = given.iter().map(|(with, _)| *with).collect();
+        given.into_iter().try_for_each(|(with, bytes)| self.send(with, Message::Bytes(bytes)))?;
+        others.into_iter().map(|with| self.receive_bytes(with)).collect()
+    }
 }
 
 fn gone(rank: usize) -> Error {
@@ -161,13 +167,18 @@ mod tests {
             if with != ranks.rank() {
                 ranks.swap(&mut [Swap { with, give: &give, take: &mut from }]).expect("both are there");
             }
-            (told, dealt, seen, from[0])
+            let traded =
+                if with == ranks.rank() { Vec::new() } else { vec![(with, vec![own; ranks.rank()])] };
+            let traded = ranks.trade(traded).expect("both are there");
+            (told, dealt, seen, (from[0], traded))
         });
         assert!(got.iter().all(|(told, ..)| told == &[0, 7]), "the first rank's word counts");
         assert_eq!(got.iter().map(|(_, dealt, ..)| dealt[0]).collect::<Vec<_>>(), [10, 11, 12]);
         assert_eq!(got[0].2, [(0, vec![0, 0]), (1, vec![1, 1]), (2, vec![2, 2])]);
         assert!(got[1].2.is_empty() && got[2].2.is_empty());
-        assert_eq!(got.iter().map(|(.., from)| *from).collect::<Vec<_>>(), [1.0, 0.0, 0.0]);
+        assert_eq!(got.iter().map(|(.., (from, _))| *from).collect::<Vec<_>>(), [1.0, 0.0, 0.0]);
+        let traded: Vec<_> = got.iter().map(|(.., (_, traded))| traded.clone()).collect();
+        assert_eq!(traded, [vec![vec![1]], vec![vec![]], vec![]], "of any length");
     }
 
     #[test]

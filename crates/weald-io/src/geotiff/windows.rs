@@ -14,13 +14,13 @@ use weald_core::grid::{Field, Size};
 use weald_core::plane::{Plane, Window};
 
 /// Writes one image; gives the files beside it.
-pub(super) fn plain(raster: &WindowedRaster<'_>, file: &mut File) -> Result<Vec<Part>, Error> {
+pub(super) fn plain(raster: &WindowedRaster<'_, '_>, file: &mut File) -> Result<Vec<Part>, Error> {
     Writing::of(raster, Vec::new()).write(file)
 }
 
 /// The same with smaller images, as a cloud-optimized GeoTIFF.
-pub(super) fn cloud_optimized(raster: &WindowedRaster<'_>, file: &mut File) -> Result<Vec<Part>, Error> {
-    let mut smaller: Vec<Box<dyn Plane<f32>>> = Vec::new();
+pub(super) fn cloud_optimized(raster: &WindowedRaster<'_, '_>, file: &mut File) -> Result<Vec<Part>, Error> {
+    let mut smaller: Vec<Box<dyn Plane<f32> + '_>> = Vec::new();
     while let last = smaller.last().map_or(raster.values, |last| &**last)
         && last.size().columns.max(last.size().rows) > TILE
     {
@@ -31,7 +31,10 @@ pub(super) fn cloud_optimized(raster: &WindowedRaster<'_>, file: &mut File) -> R
 }
 
 /// A cell for four, as the smaller images of a raster in memory have it.
-fn halved(raster: &WindowedRaster<'_>, plane: &dyn Plane<f32>) -> Result<Box<dyn Plane<f32>>, Error> {
+fn halved<'b>(
+    raster: &WindowedRaster<'_, 'b>,
+    plane: &dyn Plane<f32>,
+) -> Result<Box<dyn Plane<f32> + 'b>, Error> {
     let Size { columns, rows } = plane.size();
     let mut half = (raster.scratch)(halves(plane.size()))?;
     for y in 0..rows.div_ceil(2) {
@@ -47,16 +50,16 @@ fn halved(raster: &WindowedRaster<'_>, plane: &dyn Plane<f32>) -> Result<Box<dyn
 }
 
 /// A file in the making.
-struct Writing<'a> {
-    raster: &'a WindowedRaster<'a>,
+struct Writing<'a, 'b> {
+    raster: &'a WindowedRaster<'a, 'b>,
     samples: Samples,
     /// The images, the largest first.
     planes: Vec<&'a dyn Plane<f32>>,
-    smaller: Vec<Box<dyn Plane<f32>>>,
+    smaller: Vec<Box<dyn Plane<f32> + 'b>>,
 }
 
-impl<'a> Writing<'a> {
-    fn of(raster: &'a WindowedRaster<'a>, smaller: Vec<Box<dyn Plane<f32>>>) -> Self {
+impl<'a, 'b> Writing<'a, 'b> {
+    fn of(raster: &'a WindowedRaster<'a, 'b>, smaller: Vec<Box<dyn Plane<f32> + 'b>>) -> Self {
         Self {
             raster,
             samples: Samples::within(raster.head, raster.range),

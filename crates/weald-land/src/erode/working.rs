@@ -233,7 +233,7 @@ impl WorkingGrid {
             standing: total(&self.water),
             water: total(depth),
             change: total(&change),
-            changed: change.iter().map(|&change| f64::from(change).abs()).sum(),
+            changed: total(&change.iter().map(|change| change.abs()).collect::<Vec<_>>()),
             suspended: total(sediment),
             loose: self.loose(finished),
         };

@@ -134,11 +134,13 @@ impl Path {
         (code, Self { cells, aside })
     }
 
-    fn bits(self) -> u64 {
+    /// As one number.
+    pub(super) fn bits(self) -> u64 {
         u64::from(self.cells) << 32 | u64::from(self.aside.to_bits())
     }
 
-    fn from_bits(bits: u64) -> Self {
+    /// From that number.
+    pub(super) fn from_bits(bits: u64) -> Self {
         Self { cells: (bits >> 32) as u32, aside: f32::from_bits(bits as u32) }
     }
 }

@@ -1,13 +1,18 @@
 //! Flow tile by tile: the bits of the whole, however the grid is cut.
 
 use std::path::Path;
+use std::sync::Arc;
 
 use crate::common::rough;
 use weald_core::grid::Mask;
-use weald_core::plane::{HeldPlane, Plane};
+use weald_core::plane::{HeldPlane, Plane, Window};
 use weald_core::random::{hash2, unit};
 use weald_core::{Error, Field, Size};
-use weald_land::flow::tiled::{TiledFlow, TiledGround, Tiling, accumulate_tiled, route_tiled};
+use weald_engine::ranks::{Ranks, SharedRows, ranks_in_threads};
+use weald_engine::stored::StoredPlane;
+use weald_land::flow::tiled::{
+    SharedPlane, StoredCodes, TiledFlow, TiledGround, Tiling, accumulate_tiled, route_tiled,
+};
 use weald_land::flow::{
     Depressions, DirectionRule, MultipleFlow, Routing, accumulate, accumulate_multiple, route,
 };
@@ -129,6 +134,91 @@ fn a_plain_is_drained_by_tiles_as_it_is_whole() {
     }
 }
 
+/// What a rank has in the end of its own rows: levels, codes, and sums of weights and of shares.
+type OwnRows = (Vec<f32>, Vec<u8>, [Vec<f64>; 2]);
+
+/// What each of so many ranks finds of its own rows.
+fn over(count: usize, case: &Case, routing: &Routing, tile: Size) -> Vec<OwnRows> {
+    let size = case.height.size();
+    let flags = case.valid.as_ref().map(|valid| valid.flags().iter().map(|&flag| u8::from(flag)).collect());
+    let flags: Option<Vec<u8>> = flags;
+    let work = |ranks: Arc<dyn Ranks>| {
+        let rows = SharedRows::of((ranks.rank(), count), size.rows);
+        let own = rows.own();
+        let grid = (size.columns, &rows);
+        let new = || StoredPlane::new("plane", None, grid).expect("in memory");
+        let with = |field: &Field| {
+            let mut plane = new();
+            let cells = own.start * size.columns..own.end * size.columns;
+            plane.set_rows(own.clone(), &field.values()[cells]).expect("its own");
+            plane.swap(&*ranks).expect("all are there");
+            plane
+        };
+        let tiling = Tiling::over(grid, tile, &ranks).expect("legal");
+        let flags = flags.as_ref().map(|flags| held(size, flags));
+        let valid = flags.as_ref().map(|flags| flags as &dyn Plane<u8>);
+        let (height, weight) = (with(&case.height), with(&case.weight));
+        let (mut filled, mut codes) = (new(), StoredCodes(new()));
+        let ground = TiledGround { tiling: &tiling, height: &height, valid };
+        route_tiled(&ground, routing, (&mut filled, &mut codes), &mut || Ok(())).expect("it is routed");
+        let sums = [None, Some((&filled as &dyn Plane<f32>, 1.1))].map(|shared| {
+            let flow =
+                TiledFlow { tiling: &tiling, directions: &codes, valid, weight: Some(&weight), shared };
+            let mut sums = vec![f64::NAN; own.len() * size.columns];
+            let put = &mut |window: &Window, values: &[f64]| {
+                for (y, row) in window.rows.clone().zip(values.chunks_exact(window.columns.len())) {
+                    let first = (y - own.start) * size.columns;
+                    sums[first + window.columns.start..first + window.columns.end].copy_from_slice(row);
+                }
+                Ok(())
+            };
+            accumulate_tiled(&flow, put, &mut || Ok(())).expect("no cycle");
+            sums
+        });
+        let whole = Window { columns: 0..size.columns, rows: own.clone() };
+        (filled.rows(own).expect("its own"), codes.read(&whole).expect("its own"), sums)
+    };
+    std::thread::scope(|scope| {
+        let running: Vec<_> =
+            ranks_in_threads(count).into_iter().map(|ranks| scope.spawn(|| work(ranks))).collect();
+        running.into_iter().map(|rank| rank.join().expect("no panic")).collect()
+    })
+}
+
+#[test]
+fn ranks_that_hold_their_own_rows_alone_find_what_the_whole_has() {
+    for seed in 0..20 {
+        let side = |of: i64, least: u64, most: u64| (least + hash2(seed, of, 18) % (most - least)) as usize;
+        let size = Size { columns: side(1, 1, 70), rows: side(2, 20, 230) };
+        let tile = Size { columns: side(3, 1, 40), rows: side(4, 1, 60) };
+        let case = case(seed, size);
+        let valid = case.valid.as_ref();
+        let directions = [DirectionRule::Steepest, DirectionRule::LeastDeviation][seed as usize % 2];
+        let routing = Routing { sea_level: case.sea_level, directions, ..Routing::default() };
+        let whole = route(&case.height, valid, &routing);
+        let multiple = MultipleFlow { routed: &whole, valid, exponent: 1.1 };
+        let sums = [
+            accumulate(&whole.directions, valid, Some(&case.weight)),
+            accumulate_multiple(&multiple, Some(&case.weight)),
+        ];
+        for count in [1, 2, 3, 4, 6] {
+            let (mut levels, mut codes, mut got) = (Vec::new(), Vec::new(), [Vec::new(), Vec::new()]);
+            for (own_levels, own_codes, own_sums) in over(count, &case, &routing, tile) {
+                levels.extend(own_levels.iter().map(|level| level.to_bits()));
+                codes.extend(own_codes);
+                got.iter_mut().zip(own_sums).for_each(|(got, own)| got.extend(bits(&own)));
+            }
+            let what = format!("ground {seed}, {size} by {tile}, {directions:?}, {count} ranks");
+            let expected: Vec<_> = whole.surface.values().iter().map(|level| level.to_bits()).collect();
+            assert!(levels == expected, "levels: {what}");
+            assert!(codes == whole.directions.codes(), "directions: {what}");
+            for (which, (got, expected)) in got.iter().zip(&sums).enumerate() {
+                assert!(*got == bits(expected), "sums {which}: {what}");
+            }
+        }
+    }
+}
+
 #[test]
 fn a_model_of_real_ground_flows_by_tiles_as_it_does_whole() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data/jacksboro_fault_utm16_80m.tif");
@@ -152,7 +242,7 @@ fn what_cannot_be_done_by_tiles_is_refused_by_name() {
         heights[16] = height;
         let height = held(size, &heights);
         let ground = TiledGround { tiling: &tiling, height: &height, valid: None };
-        let planes: (&mut dyn Plane<f32>, &mut dyn Plane<u8>) =
+        let planes: (&mut dyn SharedPlane<f32>, &mut dyn SharedPlane<u8>) =
             (&mut held(size, &[0.0; 30]), &mut held(size, &[0; 30]));
         route_tiled(&ground, routing, planes, &mut || Ok(()))
     };
@@ -170,7 +260,7 @@ fn what_cannot_be_done_by_tiles_is_refused_by_name() {
     assert!(stopped.is_ok());
     let height = held(size, &[1.0; 30]);
     let ground = TiledGround { tiling: &tiling, height: &height, valid: None };
-    let planes: (&mut dyn Plane<f32>, &mut dyn Plane<u8>) =
+    let planes: (&mut dyn SharedPlane<f32>, &mut dyn SharedPlane<u8>) =
         (&mut held(size, &[0.0; 30]), &mut held(size, &[0; 30]));
     let stopped = route_tiled(&ground, &Routing::default(), planes, &mut || {
         visits += 1;

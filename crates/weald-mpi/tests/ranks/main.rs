@@ -1,5 +1,6 @@
 //! `weald-mpi` under a local `mpirun`: files, reports, ends and resumed runs are those of one processor.
 
+mod distributed;
 mod ends;
 mod hosts;
 mod launched;

@@ -24,6 +24,9 @@ fn folder() -> tempfile::TempDir {
     let recipe = "[landscape]\nsize = 64\ncell = 10.0\nseed = 3\n[[step]]\ndo = \"diamond-square\"\nrelief = 90\n\
                   [[step]]\ndo = \"hydraulic\"\niterations = 60\n[[output]]\nlayer = \"height\"\nfile = \"height.npy\"\n";
     std::fs::write(folder.path().join("valley.toml"), recipe).expect("written");
+    let large = "[landscape]\nsize = 200\ncell = 10.0\n[[step]]\ndo = \"fbm\"\n[[step]]\ndo = \"hydraulic\"\nmodel = \"han\"\n\
+                 iterations = 20\n[[step]]\ndo = \"flow\"\n[[output]]\nlayer = \"height\"\nfile = \"height.tif\"\n";
+    std::fs::write(folder.path().join("large.toml"), large).expect("written");
     let script = root().join("crates/weald-mpi/examples/weald.sbatch");
     std::fs::copy(script, folder.path().join("weald.sbatch")).expect("copied");
     std::fs::create_dir(folder.path().join("bin")).expect("made");
@@ -61,13 +64,14 @@ fn shell(folder: &Path, line: &str) -> Output {
 fn every_command_of_the_page_that_starts_ranks_does_what_it_says() {
     let folder = folder();
     let lines = commands("mpirun");
-    assert!(lines.len() >= 4, "{lines:?}");
+    assert!(lines.len() >= 6, "{lines:?}");
     for line in lines {
         let output = shell(folder.path(), &line);
         assert!(output.status.success(), "{line}\n{}", said(&output));
     }
     assert!(folder.path().join("out/valley/height.npy").exists());
     assert!(folder.path().join("out/larger/report.json").exists());
+    assert!(folder.path().join("out/large/height.tif").exists());
 }
 
 #[test]

@@ -241,12 +241,12 @@ pub(super) fn taken() -> Option<u64> {
 
 /// Memory that a run may take: what it was allowed, else what is free.
 pub(super) fn allowed(asked: Option<u64>) -> u64 {
-    asked.or_else(available).unwrap_or(u64::MAX)
+    asked.or_else(free_memory).unwrap_or(u64::MAX)
 }
 
 /// Memory that is free or can be freed, in bytes, where the system tells it.
 #[cfg(target_os = "linux")]
-fn available() -> Option<u64> {
+pub fn free_memory() -> Option<u64> {
     let number = |path: &str| std::fs::read_to_string(path).ok()?.trim().parse::<u64>().ok();
     let text = std::fs::read_to_string("/proc/meminfo").ok()?;
     let line = text.lines().find_map(|line| line.strip_prefix("MemAvailable:"))?;
@@ -257,7 +257,8 @@ fn available() -> Option<u64> {
     Some(left.map_or(free, |left| left.min(free)))
 }
 
+/// Memory that is free or can be freed, in bytes, where the system tells it.
 #[cfg(not(target_os = "linux"))]
-fn available() -> Option<u64> {
+pub fn free_memory() -> Option<u64> {
     None
 }

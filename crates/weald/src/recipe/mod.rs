@@ -39,7 +39,7 @@ pub use cache::{Cache, CacheLimits};
 pub use checkpoint::{CHECKPOINT_FILE, pack_landscape, unpack_landscape};
 pub use estimate::{Estimate, Machine};
 pub use fractal::FractalRequest;
-pub use memory::Memory;
+pub use memory::{Memory, free_memory};
 pub use migrate::{Migrated, migrate};
 pub use over_ranks::take_part;
 pub use overrides::Overrides;

@@ -3,8 +3,8 @@
 mod film;
 pub(super) mod finished;
 mod folder;
+mod in_parts;
 pub(super) mod inputs;
-mod on_disk;
 mod options;
 mod outputs;
 mod step_watcher;
@@ -57,12 +57,16 @@ impl Recipe {
 }
 
 impl Run<'_> {
-    /// Runs the recipe and writes its files, the report last if it is wanted.
+    /// Runs the recipe and writes its files, the report last if it is wanted. Of [distributed](Options::distributed) ranks
+    /// all call it: the first writes, and each gets the report.
     ///
     /// # Errors
     /// [`Error::Input`] for a damaged elevation model or checkpoint, [`Error::Run`] where a step or a file
     /// fails, [`Error::Interrupted`] where `progress` says so; the last two name the checkpoint, if any.
     pub fn execute(&self, progress: &dyn Progress) -> Result<Report, Error> {
+        if self.options.distributed {
+            return self.execute_on_threads(progress);
+        }
         over_ranks::leading(&self.options.engine, || self.execute_on_threads(progress))
     }
 
@@ -105,8 +109,8 @@ impl Run<'_> {
     }
 
     fn execute_here(&self, progress: &dyn Progress) -> Result<Report, Error> {
-        if let Some(scratch) = &self.options.out_of_core {
-            return self.execute_on_disk(scratch, progress);
+        if self.options.out_of_core.is_some() || self.options.distributed {
+            return self.execute_in_parts(progress);
         }
         let mut place = self.prepare(progress)?;
         if self.options.resume && place.has_finished_this() {

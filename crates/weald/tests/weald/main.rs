@@ -5,6 +5,7 @@ mod cached_runs;
 mod catalog;
 #[path = "../../../weald-land/tests/land/common/mod.rs"]
 mod common;
+mod distributed;
 mod documents;
 mod edited_runs;
 mod engine_sets;

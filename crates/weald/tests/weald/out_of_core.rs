@@ -6,18 +6,25 @@ use weald::Error;
 use weald::recipe::{Options, OutputReport, Overrides, Progress, Recipe, Report, Run, Silent};
 
 /// What a run takes beside its steps, as the run from disk counts it.
-const BESIDE: u64 = 64 << 20;
+pub(crate) const BESIDE: u64 = 64 << 20;
 
-fn recipe(text: &str) -> Recipe {
+pub(crate) fn recipe(text: &str) -> Recipe {
     Recipe::parse("land.toml", text, &Overrides::default()).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// Ground, rain on it, and where the water goes; `hydraulic` has more keys.
-fn land(generator: &str, hydraulic: &str) -> Recipe {
+/// Ground, rain on it, and where the water goes; `hydraulic` has more keys, of the model of Han without one of its own. A
+/// `pond` that it mentions is there.
+pub(crate) fn land(generator: &str, hydraulic: &str) -> Recipe {
     let output = |layer: &str, file: &str, more: &str| {
         format!("[[output]]\nlayer = \"{layer}\"\nfile = \"{file}\"\n{more}\n")
     };
     let cog = "preset = \"cog\"";
+    let model = if hydraulic.contains("model = ") { "" } else { "model = \"han\"" };
+    let pond = if hydraulic.contains("pond") {
+        "[[step]]\ndo = \"fbm\"\ninto = \"pond\"\nrelief = 3\nseed = 9\n"
+    } else {
+        ""
+    };
     let outputs = [
         output("height", "height.tif", cog),
         output("flow_direction", "directions.tif", cog),
@@ -29,15 +36,15 @@ fn land(generator: &str, hydraulic: &str) -> Recipe {
     ];
     recipe(&format!(
         "[landscape]\nsize = [330, 290]\ncell = 12.0\nseed = 5\n\
-         [[step]]\ndo = \"{generator}\"\nrelief = 400\nwavelength = 900\n\
-         [[step]]\ndo = \"hydraulic\"\niterations = 75\nrain_period = 20\nmodel = \"han\"\ndry_period = 15\n{hydraulic}\n\
+         [[step]]\ndo = \"{generator}\"\nrelief = 400\nwavelength = 900\n{pond}\
+         [[step]]\ndo = \"hydraulic\"\niterations = 75\nrain_period = 20\n{model}\ndry_period = 15\n{hydraulic}\n\
          [[step]]\ndo = \"constant\"\nheight = 0.3\ninto = \"runoff\"\n\
          [[step]]\ndo = \"flow\"\nweight = \"runoff\"\n{}",
         outputs.concat()
     ))
 }
 
-fn run(
+pub(crate) fn run(
     recipe: &Recipe,
     out: &Path,
     disk: Option<(&Path, u64)>,
@@ -53,7 +60,7 @@ fn run(
 }
 
 /// What a report says beside times and memory.
-fn said(report: &Report) -> Vec<String> {
+pub(crate) fn said(report: &Report) -> Vec<String> {
     let steps = report.steps.iter().map(|step| {
         format!(
             "{} {} {} {:?} {:?} {:?}",
@@ -78,6 +85,9 @@ fn a_run_from_disk_gives_the_files_and_the_report_of_one_in_memory() {
         ("ridged", "transport = \"semi-lagrangian\"\nmean_over = 13", BESIDE + (5 << 20)),
         ("fbm", thermal, BESIDE + (9 << 20)),
         ("fbm", "boundary = \"open\"", 1 << 30),
+        ("fbm", "model = \"mei\"\nslope = \"central\"", BESIDE + (8 << 20)),
+        ("fbm", "model = \"mei\"\nboundary = \"open\"\ninitial_water = \"pond\"", BESIDE + (9 << 20)),
+        ("ridged", "initial_water = \"pond\"", BESIDE + (6 << 20)),
     ] {
         let recipe = land(generator, hydraulic);
         let [whole, parts, scratch] = [0; 3].map(|_| tempfile::tempdir().expect("a folder"));
@@ -98,7 +108,7 @@ fn a_run_from_disk_gives_the_files_and_the_report_of_one_in_memory() {
 fn what_needs_memory_is_named_before_anything_runs() {
     let text = "[landscape]\nsize = 40\nsea_level = 3.0\n\
                 [[step]]\ndo = \"diamond-square\"\n\
-                [[step]]\ndo = \"hydraulic\"\nmodel = \"mei\"\n\
+                [[step]]\ndo = \"hydraulic\"\nmodel = \"stava\"\n\
                 [[step]]\ndo = \"flow\"\ndepressions = \"breach\"\n\
                 [[step]]\ndo = \"lakes\"\n\
                 [[output]]\npicture = \"relief\"\nfile = \"r.png\"\n\
@@ -109,7 +119,7 @@ fn what_needs_memory_is_named_before_anything_runs() {
         "`sea_level`",
         "land.toml:4: ",
         "`diamond-square`: it generates the whole landscape at once",
-        "`hydraulic`: the models `mei` and `stava`",
+        "`hydraulic`: the model `stava`",
         "`flow`: `depressions = \"breach\"`",
         "`lakes`",
         "r.png",

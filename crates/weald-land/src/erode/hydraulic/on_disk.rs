@@ -1,4 +1,5 @@
-//! The model of Han on a landscape that lies on disk: in bands of rows, some steps at a time, to the bit as in memory.
+//! The models of Han and of Mei et al. on a landscape of which this process has its own rows: in bands, some steps at a time, to the bit as in
+//! memory.
 
 use std::collections::BTreeSet;
 use std::ops::Range;
@@ -6,25 +7,24 @@ use std::sync::Arc;
 
 use super::defaults::ResolvedKeys;
 use super::keys::{Boundary, Hydraulic, Model};
-use super::pipe_models::han_constants;
+use super::pipe_models::PipeModel;
 use crate::erode::finished::Flows;
-use crate::erode::han::{Han, MEAN_FLUXES};
+use crate::erode::han::Han;
 use crate::erode::links::mask_planes;
-use crate::erode::look::total;
+use crate::erode::mei::Mei;
 use crate::erode::stored::lost_note;
 use crate::erode::water_planes as plane;
 use crate::erode::working::Totals;
 use weald_core::error::{Error, NotFinite};
-use weald_core::file_plane::{FilePlane, VALUE};
+use weald_core::file_plane::VALUE;
 use weald_core::grid::{Mask, Size};
 use weald_core::plane::{Plane, Window};
 use weald_engine::Job;
-use weald_engine::bands_on_disk::BandsOnDisk;
+use weald_engine::ranks::{SharedRows, agreed, total};
 use weald_engine::step::{Outcome, Step};
-use weald_engine::stored::StoredLandscape;
-
-/// Names of the state planes.
-const PLANES: [&str; 5] = ["change", "water", "sediment", "flux_east", "flux_south"];
+use weald_engine::stored::{StoredLandscape, StoredPlane, swap_margins};
+use weald_engine::stored_bands::{BandsOf, StoredBands};
+use weald_engine::sums::RowSums;
 
 /// Layers of the means.
 const MEANS: [&str; 2] = ["flux_x", "flux_y"];
@@ -36,18 +36,18 @@ impl Hydraulic {
     /// Bytes on disk for a cell beside the layers, or what of the keys needs the whole in memory.
     pub(super) fn scratch_on_disk(&self, wanted: &BTreeSet<String>) -> Result<u64, String> {
         let cannot = [
-            (!matches!(self.model, Model::Han(_)), "the models `mei` and `stava`"),
+            (self.model.stava().is_some(), "the model `stava`"),
             (self.edits.is_some(), "`edits`"),
             (self.region.is_some(), "`region`"),
-            (self.initial_water.is_some(), "`initial_water`"),
         ];
         if let Some((_, what)) = cannot.into_iter().find(|(asked, _)| *asked) {
-            return Err(format!("{what} need the landscape in memory"));
+            return Err(format!("{what} needs the landscape in memory"));
         }
+        let state = if matches!(self.model, Model::Mei(_)) { Mei::PLANES } else { Han::PLANES };
         let written = self.writes().iter().filter(|(name, _)| wanted.contains(name)).count();
-        let means = if MEANS.iter().any(|name| wanted.contains(*name)) { MEAN_FLUXES.len() } else { 0 };
+        let means = if MEANS.iter().any(|name| wanted.contains(*name)) { MEANS.len() } else { 0 };
         // Layers are written when the simulation has ended, and so in the room of the fluxes.
-        let planes = (PLANES.len() + means).saturating_sub(written).max(OF_LAYERS + means);
+        let planes = (state.len() + means).saturating_sub(written).max(OF_LAYERS + means);
         Ok(VALUE * planes as u64)
     }
 
@@ -57,39 +57,76 @@ impl Hydraulic {
         landscape: &mut StoredLandscape<'_>,
         job: &Job<'_>,
     ) -> Result<Outcome, Error> {
-        let Model::Han(keys) = &self.model else { return Err(super::models::another_model(self)) };
+        match &self.model {
+            Model::Han(_) => self.run_pipes::<Han>(landscape, job),
+            Model::Mei(_) => self.run_pipes::<Mei>(landscape, job),
+            Model::Stava(_) => Err(super::models::another_model(self)),
+        }
+    }
+
+    fn run_pipes<M: PipeModel>(
+        &self,
+        landscape: &mut StoredLandscape<'_>,
+        job: &Job<'_>,
+    ) -> Result<Outcome, Error> {
+        let ranks = Arc::clone(&landscape.ranks);
         let filled = self.filled(landscape.domain.cell);
-        let ground = StartOnDisk::of(self, landscape)?;
-        let process = Han {
-            constants: han_constants(keys, &filled),
-            limiter: keys.limiter,
-            setting: self.setting(&filled, (ground.size, ground.is_open())),
-        };
-        let bytes = landscape.memory;
-        let new = || landscape.plane("simulation", ground.size);
-        let all = u64::from(self.iterations);
-        let (means, recorded) = if MEANS.iter().any(|name| landscape.wants(name)) {
-            (MEAN_FLUXES, self.recorded(ground.cell))
-        } else {
-            (&[][..], all..all)
-        };
-        let mut bands = BandsOnDisk::new(Arc::new(process), (ground.size, means), bytes, &new)?;
+        let mut ground = StartOnDisk::of(self, landscape)?;
+        let (mut bands, recorded) = self.bands_on_disk::<M>(landscape, (&ground, &filled))?;
+        swap_margins(&mut [&mut ground.height], bands.margin(), &*ranks)?;
+        let standing = self.pour(landscape, &ground, &mut bands.state[plane::DEPTH])?;
         self.advance_on_disk(&mut bands, (&ground, &filled), recorded.clone(), job)?;
-        let budget = ground.totals(&bands.state)?.budget(&Flows::from(total(&bands.row_sums)), ground.cell);
-        ground.store(landscape, &self.layer.0, (bands.state, bands.means), recorded.end - recorded.start)?;
-        let notes = if self.conserves() { Vec::new() } else { vec![lost_note(&budget)] };
+        let sums = total(&*ranks, &agreed(&*ranks, ground.sums(&bands.state))?)?;
+        let totals = Totals { standing, ..Totals::of(sums) };
+        let budget = totals.budget(&Flows::from(bands.total()?), ground.cell);
+        let layers = (bands.state, bands.means);
+        let stored = ground.store(landscape, &self.layer.0, layers, recorded.end - recorded.start);
+        agreed(&*ranks, stored)?;
         Ok(Outcome {
             iterations: u64::from(self.iterations),
+            notes: if self.conserves() { Vec::new() } else { vec![lost_note(&budget)] },
             budget: Some(budget),
-            notes,
             ..Outcome::default()
         })
     }
 
-    /// All steps, in passes over the disk; those that are recorded and the others apart.
-    fn advance_on_disk(
+    /// The state before the first step, and the steps of which means are taken.
+    fn bands_on_disk<M: PipeModel>(
         &self,
-        bands: &mut BandsOnDisk<Han>,
+        landscape: &StoredLandscape<'_>,
+        (ground, filled): (&StartOnDisk, &ResolvedKeys),
+    ) -> Result<(StoredBands<M>, Range<u64>), Error> {
+        let process = M::around(self, filled, self.setting(filled, (ground.size(), ground.is_open())))?;
+        let all = u64::from(self.iterations);
+        let (means, recorded) = if MEANS.iter().any(|name| landscape.wants(name)) {
+            (M::MEANS, self.recorded(ground.cell))
+        } else {
+            (&[][..], all..all)
+        };
+        let grid = (ground.columns, ground.rows.clone());
+        let plane = || landscape.plane_of("simulation", (ground.columns, &ground.rows));
+        let (memory, ranks) = (landscape.memory, &landscape.ranks);
+        let given = BandsOf { grid, means, memory, plane: &plane, ranks };
+        Ok((StoredBands::new(Arc::new(process), given)?, recorded))
+    }
+
+    /// Lets water stand at the start where the keys say so; gives how much there is of it, in cells³.
+    fn pour(
+        &self,
+        landscape: &StoredLandscape<'_>,
+        ground: &StartOnDisk,
+        depth: &mut StoredPlane,
+    ) -> Result<f64, Error> {
+        let Some(name) = &self.initial_water else { return Ok(0.0) };
+        let poured = landscape.layer(&name.0).and_then(|layer| ground.pour(&layer.plane, depth));
+        let [standing, ..] = total(&*landscape.ranks, &agreed(&*landscape.ranks, poured)?)?;
+        Ok(standing)
+    }
+
+    /// All steps, in passes over the disk; those that are recorded and the others apart.
+    fn advance_on_disk<M: PipeModel>(
+        &self,
+        bands: &mut StoredBands<M>,
         (ground, filled): (&StartOnDisk, &ResolvedKeys),
         recorded: Range<u64>,
         job: &Job<'_>,
@@ -103,9 +140,9 @@ impl Hydraulic {
             let end = if border > done { end.min(border) } else { end };
             let weather: Vec<_> = (done..end).map(|step| self.forcing(filled, step)).collect();
             let passed = &mut |rows: usize| {
-                let share = rows as f64 / ground.size.rows as f64;
+                let share = rows as f64 / ground.rows.own().len() as f64;
                 let steps = ((end - done) as f64 * share) as u64;
-                job.watcher.progress(done + steps, all, ground.size.cells());
+                job.watcher.progress(done + steps, all, ground.columns * ground.rows.count());
                 if job.watcher.cancelled() {
                     let what = format!("interrupted between the iterations {done} and {end} of {all}");
                     return Err(Error::Interrupted(what));
@@ -114,7 +151,7 @@ impl Hydraulic {
             };
             let constants = |rows| ground.constants(rows);
             if let Some(wrong) = bands.advance(&weather, is_recorded, (&constants, passed))? {
-                return Err(not_finite(wrong, done..end));
+                return Err(not_finite((M::PLANES, wrong), done..end));
             }
             done = end;
         }
@@ -122,8 +159,8 @@ impl Hydraulic {
     }
 }
 
-fn not_finite([x, y, plane]: [usize; 3], steps: Range<u64>) -> Error {
-    let (name, Range { start, end }) = (PLANES[plane], steps);
+fn not_finite((names, [x, y, plane]): (&[&str], [usize; 3]), steps: Range<u64>) -> Error {
+    let (name, Range { start, end }) = (names[plane], steps);
     let message = format!(
         "between the iterations {start} and {end}, `{name}` at column {x}, row {y} became no finite number; a lower \
          `flow_rate` or `erosion`, or `limiter = true`, makes the scheme stable"
@@ -133,13 +170,21 @@ fn not_finite([x, y, plane]: [usize; 3], steps: Range<u64>) -> Error {
 
 /// The ground of the start, and how it lies in the planes of the simulation.
 struct StartOnDisk {
-    height: FilePlane,
+    height: StoredPlane,
     /// Columns and rows of the simulation, with the ring of an open border.
-    size: Size,
+    columns: usize,
+    rows: SharedRows,
     /// Width of the ring: 1 around an open domain, else 0.
     ring: usize,
     lowest: f64,
     cell: f64,
+}
+
+impl Totals {
+    /// From the sums of rows that [`StartOnDisk::sums`] gives.
+    fn of([bedrock, change, water, suspended, changed]: RowSums) -> Self {
+        Self { bedrock, water, change, changed, suspended, ..Self::default() }
+    }
 }
 
 impl StartOnDisk {
@@ -147,13 +192,16 @@ impl StartOnDisk {
     fn of(step: &Hydraulic, landscape: &mut StoredLandscape<'_>) -> Result<Self, Error> {
         let (lowest, _) = landscape.range(&step.layer.0)?;
         let ring = usize::from(step.boundary == Boundary::Open);
-        let Size { columns, rows } = landscape.domain.size;
-        let size = Size { columns: columns + 2 * ring, rows: rows + 2 * ring };
+        let (columns, rows) = (landscape.domain.size.columns + 2 * ring, landscape.rows().ringed(ring));
         let cell = landscape.domain.cell;
         let layer = landscape.remove(&step.layer.0);
         let height =
             layer.ok_or_else(|| Error::Run(format!("the landscape has no layer `{}`", step.layer.0)))?;
-        Ok(Self { height: height.plane, size, ring, lowest: f64::from(lowest), cell })
+        Ok(Self { height: height.plane, columns, rows, ring, lowest: f64::from(lowest), cell })
+    }
+
+    fn size(&self) -> Size {
+        Size { columns: self.columns, rows: self.rows.count() }
     }
 
     fn is_open(&self) -> bool {
@@ -168,7 +216,7 @@ impl StartOnDisk {
 
     /// The constant planes of some rows of the simulation.
     fn constants(&self, rows: Range<usize>) -> Result<Vec<Vec<f32>>, Error> {
-        let (columns, inner) = (self.size.columns, self.inner(&rows));
+        let (columns, inner) = (self.columns, self.inner(&rows));
         let mut base = vec![0.0; columns * rows.len()];
         let heights = self.height.rows(inner.clone())?;
         let wide = self.height.size().columns;
@@ -187,7 +235,7 @@ impl StartOnDisk {
 
     /// The planes of the mask, which the rows beside these have a part in.
     fn masks(&self, rows: &Range<usize>) -> impl Iterator<Item = Vec<f32>> + use<> {
-        let Size { columns, rows: all } = self.size;
+        let Size { columns, rows: all } = self.size();
         let around = rows.start.saturating_sub(1)..(rows.end + 1).min(all);
         let is_inner = |x: usize, y: usize| (1..columns - 1).contains(&x) && (1..all - 1).contains(&y);
         let size = Size { columns, rows: around.len() };
@@ -201,29 +249,41 @@ impl StartOnDisk {
         })
     }
 
-    /// Sums over all cells, row by row from the north.
-    fn totals(&self, state: &[FilePlane]) -> Result<Totals, Error> {
-        let mut totals = Totals::default();
-        let row_sum = |row: &[f32]| row.iter().map(|&cell| f64::from(cell)).sum::<f64>();
+    /// Lets the water of a layer stand at the start; gives the sum of each row of the simulation.
+    fn pour(&self, layer: &StoredPlane, depth: &mut StoredPlane) -> Result<Vec<RowSums>, Error> {
+        for rows in layer.runs_of_rows() {
+            let metres = layer.rows(rows.clone())?.into_iter();
+            let depths: Vec<f32> =
+                metres.map(|depth| (f64::from(depth.max(0.0)) / self.cell) as f32).collect();
+            let columns = self.ring..self.ring + layer.size().columns;
+            let rows = rows.start + self.ring..rows.end + self.ring;
+            depth.write(&Window { columns, rows }, &depths)?;
+        }
+        let mut sums = Vec::with_capacity(depth.own().len());
+        for rows in depth.runs_of_rows() {
+            let cells = depth.rows(rows)?;
+            let rows = cells.chunks_exact(self.columns);
+            sums.extend(rows.map(|row| [row.iter().map(|&cell| f64::from(cell)).sum(), 0.0, 0.0, 0.0, 0.0]));
+        }
+        Ok(sums)
+    }
+
+    /// Of each of its own rows the sums that make [`Totals`].
+    fn sums(&self, state: &[StoredPlane]) -> Result<Vec<RowSums>, Error> {
+        let mut sums = Vec::with_capacity(self.rows.own().len());
         for rows in state[plane::CHANGE].runs_of_rows() {
             let base = self.constants(rows.clone())?.swap_remove(0);
-            let change = state[plane::CHANGE].rows(rows.clone())?;
-            let (depth, sediment) =
-                (state[plane::DEPTH].rows(rows.clone())?, state[plane::SEDIMENT].rows(rows)?);
-            let sums = [
-                (&base, &mut totals.bedrock),
-                (&change, &mut totals.change),
-                (&depth, &mut totals.water),
-                (&sediment, &mut totals.suspended),
-            ];
-            for (cells, sum) in sums {
-                cells.chunks_exact(self.size.columns).for_each(|row| *sum += row_sum(row));
-            }
-            for &change in &change {
-                totals.changed += f64::from(change).abs();
+            let of = |at: usize| state[at].rows(rows.clone());
+            let planes = [base, of(plane::CHANGE)?, of(plane::DEPTH)?, of(plane::SEDIMENT)?];
+            for first in (0..rows.len()).map(|y| y * self.columns) {
+                let row = planes.each_ref().map(|plane| &plane[first..first + self.columns]);
+                let [bedrock, change, water, suspended] =
+                    row.map(|cells| cells.iter().map(|&cell| f64::from(cell)).sum());
+                let changed = row[1].iter().map(|&cell| f64::from(cell).abs()).sum();
+                sums.push([bedrock, change, water, suspended, changed]);
             }
         }
-        Ok(totals)
+        Ok(sums)
     }
 
     /// Writes the layers, and lets go of each plane as soon as it is not needed any more.
@@ -231,7 +291,7 @@ impl StartOnDisk {
         self,
         landscape: &mut StoredLandscape<'_>,
         layer: &str,
-        (state, means): (Vec<FilePlane>, Vec<FilePlane>),
+        (state, means): (Vec<StoredPlane>, Vec<StoredPlane>),
         steps: u64,
     ) -> Result<(), Error> {
         let (cell, scale) = (self.cell as f32, 1.0 / steps.max(1) as f32);
@@ -257,13 +317,13 @@ impl StartOnDisk {
         &self,
         landscape: &mut StoredLandscape<'_>,
         (name, unit): (&str, &str),
-        plane: &FilePlane,
+        plane: &StoredPlane,
         convert: impl Fn(f32) -> f32,
     ) -> Result<(), Error> {
         if !landscape.wants(name) {
             return Ok(());
         }
-        let mut layer = landscape.plane(name, self.height.size())?;
+        let mut layer = landscape.plane_alone(name, self.grid())?;
         for rows in layer.runs_of_rows() {
             let values: Vec<f32> = self.read(plane, &rows)?.into_iter().map(&convert).collect();
             layer.set_rows(rows, &values)?;
@@ -277,9 +337,9 @@ impl StartOnDisk {
         &self,
         landscape: &mut StoredLandscape<'_>,
         name: &str,
-        change: &FilePlane,
+        change: &StoredPlane,
     ) -> Result<(), Error> {
-        let mut layer = landscape.plane(name, self.height.size())?;
+        let mut layer = landscape.plane_alone(name, self.grid())?;
         for rows in layer.runs_of_rows() {
             let (start, change) = (self.height.rows(rows.clone())?, self.read(change, &rows)?);
             let raised = start.iter().zip(&change);
@@ -292,8 +352,13 @@ impl StartOnDisk {
         Ok(())
     }
 
+    /// The grid of the landscape.
+    fn grid(&self) -> (usize, &SharedRows) {
+        (self.height.size().columns, self.height.shared())
+    }
+
     /// Rows of the landscape from a plane of the simulation.
-    fn read(&self, plane: &FilePlane, rows: &Range<usize>) -> Result<Vec<f32>, Error> {
+    fn read(&self, plane: &StoredPlane, rows: &Range<usize>) -> Result<Vec<f32>, Error> {
         let columns = self.ring..self.ring + self.height.size().columns;
         plane.read(&Window { columns, rows: rows.start + self.ring..rows.end + self.ring })
     }

@@ -6,6 +6,7 @@ use super::models::{OnLand, Scheme, another_model, named};
 use crate::erode::han::{self, Han, HanConstants};
 use crate::erode::material_planes::Planes;
 use crate::erode::mei::{self, Mei, MeiConstants};
+use crate::erode::setting::Setting;
 use crate::erode::stack::Column;
 use weald_core::error::Error;
 use weald_core::landscape::Landscape;
@@ -25,14 +26,11 @@ impl Scheme for Han {
     const MEANS: Means<'static> = han::MEAN_FLUXES;
 
     fn of(step: &Hydraulic, on: &OnLand<'_>) -> Result<Self, Error> {
-        let Model::Han(keys) = &step.model else { return Err(another_model(step)) };
-        let (constants, setting) =
-            (han_constants(keys, on.filled), step.setting(on.filled, on.working.shape()));
-        Ok(Self { constants, limiter: keys.limiter, setting })
+        Self::around(step, on.filled, step.setting(on.filled, on.working.shape()))
     }
 
     fn plane_names(&self, _: &Landscape) -> Vec<String> {
-        named(&["change", "water", "sediment", "flux_east", "flux_south"])
+        named(Self::PLANES)
     }
 
     fn column(&self) -> Column {
@@ -44,10 +42,7 @@ impl Scheme for Mei {
     const MEANS: Means<'static> = mei::MEAN_FLUXES;
 
     fn of(step: &Hydraulic, on: &OnLand<'_>) -> Result<Self, Error> {
-        let Model::Mei(keys) = &step.model else { return Err(another_model(step)) };
-        let (constants, setting) =
-            (mei_constants(keys, on.filled), step.setting(on.filled, on.working.shape()));
-        Ok(Self { constants, limiter: keys.limiter, slope: keys.slope, setting })
+        Self::around(step, on.filled, step.setting(on.filled, on.working.shape()))
     }
 
     fn plane_names(&self, _: &Landscape) -> Vec<String> {
@@ -59,7 +54,37 @@ impl Scheme for Mei {
     }
 }
 
-pub(super) fn han_constants(keys: &HanKeys, filled: &ResolvedKeys) -> HanConstants {
+/// A model whose state is pipes over one material.
+pub(super) trait PipeModel: Scheme {
+    /// Names of its state planes, which begin with change, depth and sediment.
+    const PLANES: &'static [&'static str];
+
+    /// The process in a setting.
+    fn around(step: &Hydraulic, filled: &ResolvedKeys, setting: Setting) -> Result<Self, Error>
+    where
+        Self: Sized;
+}
+
+impl PipeModel for Han {
+    const PLANES: &'static [&'static str] = &["change", "water", "sediment", "flux_east", "flux_south"];
+
+    fn around(step: &Hydraulic, filled: &ResolvedKeys, setting: Setting) -> Result<Self, Error> {
+        let Model::Han(keys) = &step.model else { return Err(another_model(step)) };
+        Ok(Self { constants: han_constants(keys, filled), limiter: keys.limiter, setting })
+    }
+}
+
+impl PipeModel for Mei {
+    const PLANES: &'static [&'static str] = MEI_PLANES;
+
+    fn around(step: &Hydraulic, filled: &ResolvedKeys, setting: Setting) -> Result<Self, Error> {
+        let Model::Mei(keys) = &step.model else { return Err(another_model(step)) };
+        let (constants, limiter) = (mei_constants(keys, filled), keys.limiter);
+        Ok(Self { constants, limiter, slope: keys.slope, setting })
+    }
+}
+
+fn han_constants(keys: &HanKeys, filled: &ResolvedKeys) -> HanConstants {
     let uptake = |law| if keys.law == law { filled.erosion } else { 0.0 };
     HanConstants {
         flow_rate: filled.flow_rate,

@@ -3,8 +3,11 @@
 //! Distances over a flat are lengths of shortest ways. A tile knows those of its border cells from what the cells around it
 //! have: they are found when no tile can shorten any, and are then those of the whole.
 
+use super::borders::Borders;
 use super::ground::{cells, place};
-use super::tiling::{Tiling, beside, settle};
+use super::planes::MARGIN;
+use super::settle::settle;
+use super::tiling::{Tiling, beside};
 use crate::flow::descent::{Descent, FLAT};
 use crate::flow::directions::{OUTLET, SEA};
 use crate::flow::flats::FlatGround;
@@ -13,16 +16,13 @@ use weald_core::error::Error;
 use weald_core::grid::Size;
 use weald_core::plane::{Plane, Window, read_around};
 
-/// Cells around a tile that are read: one for its neighbours, one for theirs.
-const MARGIN: usize = 2;
-
 /// No way is known.
 const UNKNOWN: u32 = u32::MAX;
 
 /// Distances of the border cells of flats: from those that drain, and from those below higher ground.
 pub(super) struct FlatDistances<'a> {
     tiling: &'a Tiling,
-    of_cells: Vec<[u32; 2]>,
+    of_cells: Borders<[u32; 2]>,
 }
 
 impl<'a> FlatDistances<'a> {
@@ -32,30 +32,29 @@ impl<'a> FlatDistances<'a> {
         filled: &dyn Plane<f32>,
         passed: &mut dyn FnMut() -> Result<(), Error>,
     ) -> Result<Self, Error> {
-        let mut found = Self { tiling, of_cells: vec![[UNKNOWN; 2]; tiling.border_cells()] };
-        settle(tiling, |tile| {
+        let mut found = Borders::filled(tiling, [UNKNOWN; 2]);
+        settle(tiling, &mut found, |tile, found| {
             let ground = TileOfFlats::read(tiling, tile, filled)?;
-            let distances = ground.distances(&found);
+            let distances = ground.distances(tiling, found);
             let mut changed = Vec::new();
             for cell in tiling.border_of(tile) {
-                let at = ground.place(cell);
-                let known = &mut found.of_cells[tiling.border(cell)];
+                let (at, border) = (ground.place(cell), tiling.border(cell));
                 let now = distances.each_ref().map(|of| of.get(at).copied().unwrap_or(UNKNOWN));
-                if ground.codes[at] == FLAT && now != *known {
-                    *known = now;
+                if ground.codes[at] == FLAT && now != found.at(border) {
+                    found.set(border, now);
                     changed.push(cell);
                 }
             }
             passed()?;
             Ok(beside(tiling, changed))
         })?;
-        Ok(found)
+        Ok(Self { tiling, of_cells: found })
     }
 
     /// The directions of a tile, row by row.
     pub(super) fn directions(&self, tile: usize, filled: &dyn Plane<f32>) -> Result<Vec<u8>, Error> {
         let ground = TileOfFlats::read(self.tiling, tile, filled)?;
-        let distances = ground.distances(self);
+        let distances = ground.distances(self.tiling, &self.of_cells);
         let flat = FlatGround { surface: &ground.surface, codes: &ground.codes };
         let known =
             |cell: usize| distances.each_ref().map(|of| if of[cell] == UNKNOWN { 0 } else { of[cell] });
@@ -96,16 +95,16 @@ impl TileOfFlats {
     }
 
     /// Both distances of each cell that belongs to a flat, by what is known of those around the tile; empty without flats.
-    fn distances(&self, known: &FlatDistances<'_>) -> [Vec<u32>; 2] {
+    fn distances(&self, tiling: &Tiling, known: &Borders<[u32; 2]>) -> [Vec<u32>; 2] {
         let flat = FlatGround { surface: &self.surface, codes: &self.codes };
         let inner = cells(&self.window).map(|(x, y)| self.place([x, y]));
         let inner: Vec<usize> = inner.filter(|&cell| self.codes[cell] == FLAT).collect();
         if inner.is_empty() {
             return Default::default();
         }
-        let ring = known.tiling.ring_of(self.tile).into_iter();
+        let ring = tiling.ring_of(self.tile).into_iter();
         let ring: Vec<_> = ring
-            .map(|cell| (known.of_cells[known.tiling.border(cell)], self.place(cell)))
+            .map(|cell| (known.at(tiling.border(cell)), self.place(cell)))
             .filter(|&(_, cell)| self.codes[cell] == FLAT)
             .collect();
         let starts: [&dyn Fn(usize) -> bool; 2] =

@@ -1,6 +1,8 @@
 //! The ground of one tile with the cells around it, the sea in it found.
 
-use super::tiling::{Tiling, beside, settle};
+use super::borders::Borders;
+use super::settle::settle;
+use super::tiling::{Tiling, beside};
 use crate::flow::surface::{NO_DATA, SEA_LEVEL, Surface};
 use weald_core::error::Error;
 use weald_core::grid::Size;
@@ -72,7 +74,7 @@ pub(super) fn cells(window: &Window) -> impl Iterator<Item = (usize, usize)> + u
 /// The sea as far as it is known: which border cells it reaches.
 pub(super) struct Sea {
     level: f32,
-    reached: Vec<bool>,
+    reached: Borders<bool>,
 }
 
 impl Sea {
@@ -82,54 +84,57 @@ impl Sea {
         level: f64,
         passed: &mut dyn FnMut() -> Result<(), Error>,
     ) -> Result<Self, Error> {
-        let tiling = ground.tiling;
-        let mut sea = Self { level: level as f32, reached: vec![false; tiling.border_cells()] };
-        settle(tiling, |tile| {
+        let (tiling, level) = (ground.tiling, level as f32);
+        let mut reached = Borders::filled(tiling, false);
+        settle(tiling, &mut reached, |tile, reached| {
             let window = tiling.window(tile);
             let mut levels = ground.levels(&window)?;
-            sea.flood(tiling, tile, &mut levels);
+            flood((level, reached), tiling, tile, &mut levels);
             let is_new = |&cell: &[usize; 2]| {
-                levels[place(&window, 1, cell)] == SEA_LEVEL && !sea.reached[tiling.border(cell)]
+                levels[place(&window, 1, cell)] == SEA_LEVEL && !reached.at(tiling.border(cell))
             };
             let new: Vec<_> = tiling.border_of(tile).into_iter().filter(is_new).collect();
             for &cell in &new {
-                sea.reached[tiling.border(cell)] = true;
+                reached.set(tiling.border(cell), true);
             }
             passed()?;
             Ok(beside(tiling, new))
         })?;
-        Ok(sea)
+        Ok(Self { level, reached })
     }
 
-    /// Takes what the sea reaches of a tile, and of the cells around it, to its level.
     fn flood(&self, tiling: &Tiling, tile: usize, levels: &mut [f32]) {
-        let window = tiling.window(tile);
-        let Size { columns, rows } = window.size();
-        let stride = columns + 2;
-        let around =
-            |cell: usize| [cell - stride - 1, cell - 1, cell + stride - 1].map(|first| first..first + 3);
-        let is_low = |level: f32| level.is_finite() && level <= self.level;
-        let ring = tiling.ring_of(tile).into_iter();
-        for cell in ring.filter(|&cell| self.reached[tiling.border(cell)]) {
-            levels[place(&window, 1, cell)] = SEA_LEVEL;
-        }
-        let inner = (1..=rows).flat_map(|y| y * stride + 1..y * stride + 1 + columns);
-        let comes_in = |level: &f32| *level == NO_DATA || *level == SEA_LEVEL;
-        let is_shore = |cell: usize| around(cell).into_iter().any(|row| levels[row].iter().any(comes_in));
-        let mut open: Vec<usize> = inner.filter(|&cell| is_low(levels[cell]) && is_shore(cell)).collect();
-        for &cell in &open {
-            levels[cell] = SEA_LEVEL;
-        }
-        let is_inner = |cell: usize| {
-            let (x, y) = (cell % stride, cell / stride);
-            (1..=columns).contains(&x) && (1..=rows).contains(&y)
-        };
-        while let Some(cell) = open.pop() {
-            for other in around(cell).into_iter().flatten() {
-                if is_low(levels[other]) && is_inner(other) {
-                    levels[other] = SEA_LEVEL;
-                    open.push(other);
-                }
+        flood((self.level, &self.reached), tiling, tile, levels);
+    }
+}
+
+/// Takes what the sea reaches of a tile, and of the cells around it, to its level.
+fn flood((sea_level, reached): (f32, &Borders<bool>), tiling: &Tiling, tile: usize, levels: &mut [f32]) {
+    let window = tiling.window(tile);
+    let Size { columns, rows } = window.size();
+    let stride = columns + 2;
+    let around = |cell: usize| [cell - stride - 1, cell - 1, cell + stride - 1].map(|first| first..first + 3);
+    let is_low = |level: f32| level.is_finite() && level <= sea_level;
+    let ring = tiling.ring_of(tile).into_iter();
+    for cell in ring.filter(|&cell| reached.at(tiling.border(cell))) {
+        levels[place(&window, 1, cell)] = SEA_LEVEL;
+    }
+    let inner = (1..=rows).flat_map(|y| y * stride + 1..y * stride + 1 + columns);
+    let comes_in = |level: &f32| *level == NO_DATA || *level == SEA_LEVEL;
+    let is_shore = |cell: usize| around(cell).into_iter().any(|row| levels[row].iter().any(comes_in));
+    let mut open: Vec<usize> = inner.filter(|&cell| is_low(levels[cell]) && is_shore(cell)).collect();
+    for &cell in &open {
+        levels[cell] = SEA_LEVEL;
+    }
+    let is_inner = |cell: usize| {
+        let (x, y) = (cell % stride, cell / stride);
+        (1..=columns).contains(&x) && (1..=rows).contains(&y)
+    };
+    while let Some(cell) = open.pop() {
+        for other in around(cell).into_iter().flatten() {
+            if is_low(levels[other]) && is_inner(other) {
+                levels[other] = SEA_LEVEL;
+                open.push(other);
             }
         }
     }

@@ -14,20 +14,27 @@
 //! | `paths` | finished paths of least deviation | until all are finished |
 //! | `sums` | finished sums | until all are finished |
 //!
+//! Over ranks each visits the tiles of its own rows, with the rows around them from its neighbours. The first has the graph of
+//! all borders, and tells each the levels of its own; what settles goes from rank to rank after each has done what it can.
+//!
 //! Barnes, R. 2016, "Parallel priority-flood depression filling for trillion cell DEMs on desktops or clusters", doi
 //! 10.1016/j.cageo.2016.07.001; 2017, "Parallel non-divergent flow accumulation for trillion cell digital elevation models on
 //! desktops or clusters", doi 10.1016/j.envsoft.2017.02.022. Differs: basins are found by descent as in the whole, not by a
 //! queue; flats, paths and sums pass tiles until they settle, since a graph of the distances within a flat is larger than a tile,
 //! and since sums of weights that are no whole numbers depend on their order.
 
+mod borders;
 mod flats;
 mod ground;
 mod paths;
+mod planes;
+mod settle;
 mod spills;
 mod sums;
 mod tiling;
 
 pub use ground::TiledGround;
+pub use planes::{MARGIN, SharedPlane, StoredCodes};
 pub use sums::{PutSums, TiledFlow, accumulate_tiled};
 pub use tiling::Tiling;
 
@@ -38,9 +45,11 @@ use paths::TiledPaths;
 use spills::{SpillGraph, TileBasins};
 use weald_core::error::Error;
 use weald_core::plane::Plane;
+use weald_engine::ranks::agreed;
 
 /// Leads water over the ground, to the bit as [`route`](super::route()): writes the surface without depressions and the codes
-/// of [`directions`](super::directions). `passed` is called after each visit of a tile.
+/// of [`directions`](super::directions). `passed` is called after each visit of a tile. All ranks that share the tiling call it
+/// together.
 ///
 /// Memory: some 40 bytes for a cell of a tile, and up to 100 for each border cell of all tiles, which is where the graph is.
 /// Each tile is read and its basins found twice; the other visits, of which flats and a sea that cross many tiles need
@@ -52,7 +61,7 @@ use weald_core::plane::Plane;
 pub fn route_tiled(
     ground: &TiledGround<'_>,
     routing: &Routing,
-    (filled, directions): (&mut dyn Plane<f32>, &mut dyn Plane<u8>),
+    (filled, directions): (&mut dyn SharedPlane<f32>, &mut dyn SharedPlane<u8>),
     passed: &mut dyn FnMut() -> Result<(), Error>,
 ) -> Result<(), Error> {
     if routing.depressions == Depressions::Breach {
@@ -62,23 +71,33 @@ pub fn route_tiled(
                 .to_owned(),
         ));
     }
-    let tiling = ground.tiling;
+    let (tiling, ranks) = (ground.tiling, ground.tiling.ranks());
     fill(ground, routing, filled, passed)?;
+    filled.swap(ranks)?;
     let distances = FlatDistances::of(tiling, filled, passed)?;
     let by_paths = routing.directions == DirectionRule::LeastDeviation;
     let mut paths = by_paths.then(|| TiledPaths::new(tiling));
-    for tile in 0..tiling.count() {
+    let led = each_tile(tiling, |tile| {
         let codes = distances.directions(tile, filled)?;
         directions.write(&tiling.window(tile), &codes)?;
         if let Some(paths) = &mut paths {
             paths.note(tile, &codes);
         }
-        passed()?;
-    }
+        passed()
+    });
+    agreed(ranks, led)?;
     if let Some(paths) = paths {
         paths.lead(filled, directions, passed)?;
     }
-    finish(ground, filled, passed)
+    directions.swap(ranks)?;
+    let finished = each_tile(tiling, |tile| finish(ground, tile, filled).and_then(|()| passed()));
+    agreed(ranks, finished)?;
+    filled.swap(ranks)
+}
+
+/// Visits each tile of this rank once.
+fn each_tile(tiling: &Tiling, visit: impl FnMut(usize) -> Result<(), Error>) -> Result<(), Error> {
+    tiling.own().try_for_each(visit)
 }
 
 /// Writes the levels of all cells, those of the sea and without data as infinite ones.
@@ -88,40 +107,34 @@ fn fill(
     filled: &mut dyn Plane<f32>,
     passed: &mut dyn FnMut() -> Result<(), Error>,
 ) -> Result<(), Error> {
-    let tiling = ground.tiling;
+    let (tiling, ranks) = (ground.tiling, ground.tiling.ranks());
     let sea = routing.sea_level.map(|level| Sea::of(ground, level, passed)).transpose()?;
     let basins = |tile| ground.surface(tile, sea.as_ref()).map(TileBasins::of);
     let mut graph = SpillGraph::new(tiling);
-    for tile in 0..tiling.count() {
+    let added = each_tile(tiling, |tile| {
         graph.add(tile, &basins(tile)?);
-        passed()?;
-    }
-    let spills = graph.solved();
-    for tile in 0..tiling.count() {
+        passed()
+    });
+    agreed(ranks, added)?;
+    let spills = graph.solved()?;
+    let written = each_tile(tiling, |tile| {
         let surface = spills.filled(tile, basins(tile)?);
         filled.write(&tiling.window(tile), &surface.inner(&surface.level, |_, level| level))?;
-        passed()?;
-    }
-    Ok(())
+        passed()
+    });
+    agreed(ranks, written)
 }
 
-/// Puts heights where levels are infinite.
-fn finish(
-    ground: &TiledGround<'_>,
-    filled: &mut dyn Plane<f32>,
-    passed: &mut dyn FnMut() -> Result<(), Error>,
-) -> Result<(), Error> {
-    for tile in 0..ground.tiling.count() {
-        let window = ground.tiling.window(tile);
-        let mut levels = filled.read(&window)?;
-        if levels.iter().any(|level| level.is_infinite()) {
-            let heights = ground.height.read(&window)?;
-            for (level, height) in levels.iter_mut().zip(heights) {
-                *level = if level.is_infinite() { height } else { *level };
-            }
-            filled.write(&window, &levels)?;
-        }
-        passed()?;
+/// Puts heights where levels of a tile are infinite.
+fn finish(ground: &TiledGround<'_>, tile: usize, filled: &mut dyn Plane<f32>) -> Result<(), Error> {
+    let window = ground.tiling.window(tile);
+    let mut levels = filled.read(&window)?;
+    if levels.iter().all(|level| level.is_finite()) {
+        return Ok(());
     }
-    Ok(())
+    let heights = ground.height.read(&window)?;
+    for (level, height) in levels.iter_mut().zip(heights) {
+        *level = if level.is_infinite() { height } else { *level };
+    }
+    filled.write(&window, &levels)
 }

@@ -3,8 +3,11 @@
 //! A cell takes its direction when all that may drain to it have theirs. A tile finds what it can by the paths of the cells
 //! around it that are known, and is visited again when one is found across its border, as for sums.
 
+use super::borders::{Borders, Sent};
 use super::ground::{cells, place};
-use super::tiling::{Tiling, settle};
+use super::planes::MARGIN;
+use super::settle::settle;
+use super::tiling::{Tiling, beside};
 use crate::flow::accumulate::set_directions;
 use crate::flow::directions::{OUTLET, SEA, opposite};
 use crate::flow::least_deviation::{Candidates, Path, donors};
@@ -12,28 +15,54 @@ use crate::flow::surface::{NO_DATA, Surface};
 use weald_core::error::Error;
 use weald_core::grid::Size;
 use weald_core::plane::{Plane, Window, read_around};
+use weald_engine::ranks::{Reader, Writer};
 
-/// Cells around a tile that are read: one for those that drain to it, one for all to which those may.
-const MARGIN: usize = 2;
+/// The direction of a cell and the path that leaves it, where they are known.
+type Found = Option<(u8, Path)>;
 
-/// What is known of the border cells of all tiles.
+impl Sent for u8 {
+    fn write(&self, writer: &mut Writer) {
+        writer.words(&[u32::from(*self)]);
+    }
+
+    fn read(reader: &mut Reader<'_>) -> Result<Self, Error> {
+        reader.words(1).map(|words| words[0] as u8)
+    }
+}
+
+/// Only what is known is told.
+impl Sent for Found {
+    fn write(&self, writer: &mut Writer) {
+        let (code, path) = self.unwrap_or_default();
+        let bits = path.bits();
+        writer.words(&[u32::from(self.is_some()), code.into(), (bits >> 32) as u32, bits as u32]);
+    }
+
+    fn read(reader: &mut Reader<'_>) -> Result<Self, Error> {
+        let words = reader.words(4)?;
+        let path = Path::from_bits(u64::from(words[2]) << 32 | u64::from(words[3]));
+        Ok((words[0] == 1).then_some((words[1] as u8, path)))
+    }
+}
+
+/// What is known of the border cells of tiles.
 pub(super) struct TiledPaths<'a> {
     tiling: &'a Tiling,
-    steepest: Vec<u8>,
-    found: Vec<Option<(u8, Path)>>,
+    steepest: Borders<u8>,
+    found: Borders<Found>,
 }
 
 impl<'a> TiledPaths<'a> {
     pub(super) fn new(tiling: &'a Tiling) -> Self {
-        let cells = tiling.border_cells();
-        Self { tiling, steepest: vec![OUTLET; cells], found: vec![None; cells] }
+        let (steepest, found) = (Borders::filled(tiling, OUTLET), Borders::filled(tiling, None));
+        Self { tiling, steepest, found }
     }
 
     /// Keeps the directions of steepest descent at the border of a tile.
     pub(super) fn note(&mut self, tile: usize, codes: &[u8]) {
         let window = self.tiling.window(tile);
         for cell in self.tiling.border_of(tile) {
-            self.steepest[self.tiling.border(cell)] = codes[place(&window, 0, cell)];
+            self.steepest.set(self.tiling.border(cell), codes[place(&window, 0, cell)]);
         }
     }
 
@@ -45,29 +74,29 @@ impl<'a> TiledPaths<'a> {
         passed: &mut dyn FnMut() -> Result<(), Error>,
     ) -> Result<(), Error> {
         let tiling = self.tiling;
+        self.steepest.swap(tiling)?;
         let mut is_done = vec![false; tiling.count()];
-        settle(tiling, |tile| {
+        settle(tiling, &mut self.found, |tile, known| {
             if is_done[tile] {
                 return Ok(Vec::new());
             }
-            let ground = TileOfPaths::read(&self, tile, filled, directions)?;
-            let tile_paths = ground.paths(&self);
-            let mut woken = Vec::new();
+            let ground = TileOfPaths::read((tiling, &self.steepest), tile, filled, directions)?;
+            let paths = ground.paths(tiling, known);
+            let mut changed = Vec::new();
             for cell in tiling.border_of(tile) {
                 let (border, at) = (tiling.border(cell), ground.place(cell));
-                if self.found[border].is_none() && tile_paths.found[at].is_some() {
-                    self.found[border] = tile_paths.found[at];
-                    let tiles = tiling.across_from(cell).map(|other| tiling.tile_of(other));
-                    woken.extend(tiles.filter(|&other| !is_done[other]));
+                if known.at(border).is_none() && paths.found[at].is_some() {
+                    known.set(border, paths.found[at]);
+                    changed.push(cell);
                 }
             }
-            if tile_paths.open == 0 {
+            if paths.open == 0 {
                 is_done[tile] = true;
-                let code = |(x, y)| ground.code(ground.place([x, y]), &tile_paths);
+                let code = |(x, y)| ground.code(ground.place([x, y]), &paths);
                 directions.write(&ground.window, &cells(&ground.window).map(code).collect::<Vec<_>>())?;
             }
             passed()?;
-            Ok(woken)
+            Ok(beside(tiling, changed))
         })
     }
 }
@@ -85,19 +114,19 @@ struct TileOfPaths {
 
 /// Directions and paths of a tile and of the cells around it, as far as they are known.
 struct TilePaths {
-    found: Vec<Option<(u8, Path)>>,
+    found: Vec<Found>,
     /// Cells of the tile that wait for others.
     open: usize,
 }
 
 impl TileOfPaths {
     fn read(
-        known: &TiledPaths<'_>,
+        (tiling, steepest_of_borders): (&Tiling, &Borders<u8>),
         tile: usize,
         filled: &dyn Plane<f32>,
         directions: &dyn Plane<u8>,
     ) -> Result<Self, Error> {
-        let window = known.tiling.window(tile);
+        let window = tiling.window(tile);
         let level = read_around(filled, &window, MARGIN, NO_DATA)?;
         let Size { columns, rows } = window.size();
         let size = Size { columns: columns + 2, rows: rows + 2 };
@@ -106,8 +135,8 @@ impl TileOfPaths {
         let mut ground = Self { tile, window, surface, steepest, receivers };
         let own: Vec<_> = cells(&ground.window).zip(directions.read(&ground.window)?).collect();
         let own = own.into_iter().map(|((x, y), code)| ([x, y], code));
-        let ring = known.tiling.ring_of(tile).into_iter();
-        let ring = ring.map(|cell| (cell, known.steepest[known.tiling.border(cell)]));
+        let ring = tiling.ring_of(tile).into_iter();
+        let ring = ring.map(|cell| (cell, steepest_of_borders.at(tiling.border(cell))));
         for (cell, code) in own.chain(ring) {
             let at = ground.place(cell);
             ground.steepest[at] = code;
@@ -132,11 +161,11 @@ impl TileOfPaths {
     }
 
     /// What is known of the tile, by what is known of the border cells around it.
-    fn paths(&self, known: &TiledPaths<'_>) -> TilePaths {
+    fn paths(&self, tiling: &Tiling, known: &Borders<Found>) -> TilePaths {
         let cells_in_all = self.steepest.len();
         let mut paths = TilePaths { found: vec![None; cells_in_all], open: self.window.size().cells() };
-        for cell in known.tiling.ring_of(self.tile) {
-            paths.found[self.place(cell)] = known.found[known.tiling.border(cell)];
+        for cell in tiling.ring_of(self.tile) {
+            paths.found[self.place(cell)] = known.at(tiling.border(cell));
         }
         let (mut waiting, mut ready) = (vec![u8::MAX; cells_in_all], Vec::new());
         for at in cells(&self.window).map(|(x, y)| self.place([x, y])) {

@@ -5,6 +5,8 @@
 //! saddles between neighbouring tiles these make the graph, whose minimum spanning tree says how high water stands in each
 //! basin at a border. With that level as one more saddle to the outside, a tile alone fills as in the whole.
 
+use std::ops::Range;
+
 use super::ground::place;
 use super::tiling::Tiling;
 use crate::flow::basins::Basins;
@@ -12,6 +14,8 @@ use crate::flow::disjoint_sets::DisjointSets;
 use crate::flow::fill::{raise, spills};
 use crate::flow::saddles::{Saddles, key, number};
 use crate::flow::surface::Surface;
+use weald_core::error::Error;
+use weald_engine::ranks::{Reader, Writer};
 
 /// No node: a basin or a cell that the graph does not have.
 const NONE: u32 = u32::MAX;
@@ -37,9 +41,11 @@ impl TileBasins {
 /// A saddle in the order of its height: the key of its level, and what it joins.
 type Edge = (u32, [u32; 2]);
 
-/// Basins at the borders of tiles, joined by saddles.
+/// Basins at the borders of tiles, joined by saddles: those of this rank's tiles, and then on the first rank those of all.
 pub(super) struct SpillGraph<'a> {
     tiling: &'a Tiling,
+    /// Number of the first border cell.
+    first: usize,
     /// The basin of each border cell.
     nodes: Vec<u32>,
     /// The height of each border cell.
@@ -51,8 +57,13 @@ pub(super) struct SpillGraph<'a> {
 
 impl<'a> SpillGraph<'a> {
     pub(super) fn new(tiling: &'a Tiling) -> Self {
-        let cells = tiling.border_cells();
-        Self { tiling, nodes: vec![NONE; cells], levels: vec![0.0; cells], edges: Vec::new(), count: 1 }
+        Self::of(tiling, &tiling.own())
+    }
+
+    fn of(tiling: &'a Tiling, tiles: &Range<usize>) -> Self {
+        let cells = tiling.borders_of(tiles);
+        let (nodes, levels) = (vec![NONE; cells.len()], vec![0.0; cells.len()]);
+        Self { tiling, first: cells.start, nodes, levels, edges: Vec::new(), count: 1 }
     }
 
     /// Adds a tile.
@@ -61,7 +72,7 @@ impl<'a> SpillGraph<'a> {
         nodes[0] = OUTSIDE;
         let window = self.tiling.window(tile);
         for cell in self.tiling.border_of(tile) {
-            let (at, border) = (place(&window, 1, cell), self.tiling.border(cell));
+            let (at, border) = (place(&window, 1, cell), self.tiling.border(cell) - self.first);
             if ground.surface.has_data(at) {
                 let node = &mut nodes[ground.basins.labels[at] as usize];
                 if *node == NONE {
@@ -88,16 +99,63 @@ impl<'a> SpillGraph<'a> {
         }
     }
 
-    /// The level of each node, from the lowest saddles up.
-    pub(super) fn solved(mut self) -> Spills<'a> {
+    /// The level of each node, from the lowest saddles up: found by the first rank for the tiles of all.
+    ///
+    /// # Errors
+    /// [`Error::Run`] where another rank can no longer be reached.
+    pub(super) fn solved(self) -> Result<Spills<'a>, Error> {
+        let tiling = self.tiling;
+        let ranks = tiling.ranks();
+        let mut whole = if ranks.leads() { Some(Self::of(tiling, &(0..tiling.count()))) } else { None };
+        ranks.collect(self.message(), &mut |rank, message| {
+            whole.iter_mut().try_for_each(|whole| whole.take(rank, &message))
+        })?;
+        let levels = whole.map(Self::levels).unwrap_or_default();
+        let own = ranks.deal(&mut |rank| {
+            let mut writer = Writer::default();
+            writer.singles(&levels[tiling.borders_of(&tiling.own_of(rank))]);
+            writer.0
+        })?;
+        let mut of_cells = vec![0.0; tiling.borders_of(&tiling.own()).len()];
+        Reader(&own).singles(&mut of_cells)?;
+        Ok(Spills { tiling, first: self.first, of_cells })
+    }
+
+    /// The graph of this rank's tiles.
+    fn message(&self) -> Vec<u8> {
+        let mut writer = Writer::default();
+        writer.words(&[self.count]);
+        writer.words(&self.nodes);
+        writer.singles(&self.levels);
+        self.edges.iter().for_each(|&(level, [one, other])| writer.words(&[level, one, other]));
+        writer.0
+    }
+
+    /// Adds that of a rank, whose nodes get numbers of their own.
+    fn take(&mut self, rank: usize, message: &[u8]) -> Result<(), Error> {
+        let cells = self.tiling.borders_of(&self.tiling.own_of(rank));
+        let mut reader = Reader(message);
+        let (count, known) = (reader.words(1)?[0], self.count - 1);
+        let of_all = |node: u32| if node == NONE || node == OUTSIDE { node } else { node + known };
+        for (node, own) in self.nodes[cells.clone()].iter_mut().zip(reader.words(cells.len())?) {
+            *node = of_all(own);
+        }
+        reader.singles(&mut self.levels[cells])?;
+        while !reader.is_empty() {
+            let edge = reader.words(3)?;
+            self.edges.push((edge[0], [of_all(edge[1]), of_all(edge[2])]));
+        }
+        self.count += count - 1;
+        Ok(())
+    }
+
+    /// The level of the basin of each border cell of the whole.
+    fn levels(mut self) -> Vec<f32> {
         self.join_tiles();
         let tree = spanning_tree(self.count as usize, self.edges);
         let levels = spills(self.count as usize, tree);
         let of_cells = self.nodes.into_iter().map(|node| levels.get(node as usize).copied());
-        Spills {
-            tiling: self.tiling,
-            of_cells: of_cells.map(|level| level.unwrap_or(f32::NEG_INFINITY)).collect(),
-        }
+        of_cells.map(|level| level.unwrap_or(f32::NEG_INFINITY)).collect()
     }
 
     /// Adds the saddles between neighbouring cells of two tiles, each once.
@@ -129,6 +187,8 @@ fn spanning_tree(count: usize, mut edges: Vec<Edge>) -> impl Iterator<Item = (f3
 /// How high water stands in the basin of each border cell when it leaves; below everything where it is outside.
 pub(super) struct Spills<'a> {
     tiling: &'a Tiling,
+    /// Number of the first border cell of this rank's tiles.
+    first: usize,
     of_cells: Vec<f32>,
 }
 
@@ -138,7 +198,7 @@ impl Spills<'_> {
         let window = self.tiling.window(tile);
         let out = self.tiling.border_of(tile).into_iter().filter_map(|cell| {
             let basin = ground.basins.labels[place(&window, 1, cell)];
-            (basin != 0).then(|| (key(self.of_cells[self.tiling.border(cell)]), [basin, 0]))
+            (basin != 0).then(|| (key(self.of_cells[self.tiling.border(cell) - self.first]), [basin, 0]))
         });
         let within = ground.saddles.tree.iter().map(|saddle| (key(saddle.level), saddle.basins));
         let edges: Vec<Edge> = out.chain(within).collect();

@@ -4,8 +4,11 @@
 //! A tile finishes what it can by the sums of the cells around it that are finished, and is visited again when one is
 //! finished across its border. So a river that crosses a border many times has its tiles read as often.
 
+use super::borders::Borders;
 use super::ground::cells;
-use super::tiling::{Tiling, settle};
+use super::planes::MARGIN;
+use super::settle::settle;
+use super::tiling::Tiling;
 use crate::flow::Routed;
 use crate::flow::accumulate::{CellWeights, set_directions};
 use crate::flow::directions::{Directions, OUTLET, SEA, STEPS, opposite};
@@ -13,14 +16,12 @@ use crate::flow::multiple::{MultipleFlow, Shares};
 use weald_core::error::Error;
 use weald_core::grid::{Field, Mask, Size};
 use weald_core::plane::{Plane, Window};
+use weald_engine::ranks::agreed;
 
 /// Of a cell of another tile, in place of the number of those for which it waits.
 const ELSEWHERE: u8 = u8::MAX;
 
-/// Cells around a tile that are read: one for those that give to it, one for all to which those give.
-const MARGIN: usize = 2;
-
-/// What sums are made of.
+/// What sums are made of: planes of which [`MARGIN`] rows around the tiles of this rank can be read.
 #[derive(Clone, Copy)]
 pub struct TiledFlow<'a> {
     /// The tiles.
@@ -51,39 +52,37 @@ pub fn accumulate_tiled(
     put: PutSums<'_>,
     passed: &mut dyn FnMut() -> Result<(), Error>,
 ) -> Result<(), Error> {
-    let tiling = flow.tiling;
-    let mut borders = vec![None; tiling.border_cells()];
-    let mut is_done = vec![false; tiling.count()];
-    settle(tiling, |tile| {
+    let (tiling, own) = (flow.tiling, flow.tiling.own());
+    let mut is_done = vec![false; own.len()];
+    settle(tiling, &mut Borders::filled(tiling, None), |tile, borders| {
         let ground = TileOfSums::read(flow, tile)?;
         let multiple = ground.multiple(flow);
         let giving = Giving::of(&ground, multiple.as_ref());
-        let sums = ground.sums(&giving, tiling, &borders);
+        let sums = ground.sums(&giving, tiling, borders);
         let mut woken = Vec::new();
         for cell in tiling.border_of(tile) {
             let (border, at) = (tiling.border(cell), ground.place(cell));
-            if borders[border].is_none() && sums.is_known[at] {
-                borders[border] = Some(sums.sums[at]);
+            if borders.at(border).is_none() && sums.is_known[at] {
+                borders.set(border, Some(sums.sums[at]));
                 let given = set_directions(giving.receivers()[at]);
                 let given = given.map(|direction| tiling.tile_of(ground.cell(ground.beside(at, direction))));
                 woken.extend(given.filter(|&other| other != tile));
             }
         }
-        if sums.open == 0 && !std::mem::replace(&mut is_done[tile], true) {
+        if sums.open == 0 && !std::mem::replace(&mut is_done[tile - own.start], true) {
             let own: Vec<f64> = ground.inner().map(|at| sums.sums[at]).collect();
             put(&ground.own, &own)?;
         }
         passed()?;
         Ok(woken)
     })?;
-    match is_done.iter().position(|is_done| !is_done) {
-        None => Ok(()),
-        Some(tile) => Err(Error::Run(format!(
-            "water flows in a cycle through columns {:?}, rows {:?}; make the directions with the step `flow`",
-            tiling.window(tile).columns,
-            tiling.window(tile).rows
-        ))),
-    }
+    let open = is_done.iter().position(|is_done| !is_done).map(|tile| tiling.window(own.start + tile));
+    let cycle = open.map_or(Ok(()), |Window { columns, rows }| {
+        Err(Error::Run(format!(
+            "water flows in a cycle through columns {columns:?}, rows {rows:?}; make the directions with the step `flow`"
+        )))
+    });
+    agreed(tiling.ranks(), cycle)
 }
 
 /// A tile with the cells around it, as far as the grid goes.
@@ -199,12 +198,12 @@ impl TileOfSums {
     }
 
     /// What is known of the tile, by what is known of the border cells around it.
-    fn sums(&self, giving: &Giving<'_>, tiling: &Tiling, borders: &[Option<f64>]) -> TileSums {
+    fn sums(&self, giving: &Giving<'_>, tiling: &Tiling, borders: &Borders<Option<f64>>) -> TileSums {
         let cells = self.codes.len();
         let own = CellWeights::new(cells, self.valid.as_ref(), self.weight.as_ref());
         let mut found = TileSums { sums: vec![0.0; cells], is_known: vec![false; cells], open: 0 };
         for cell in tiling.ring_of(self.tile) {
-            if let Some(sum) = borders[tiling.border(cell)] {
+            if let Some(sum) = borders.at(tiling.border(cell)) {
                 let at = self.place(cell);
                 (found.sums[at], found.is_known[at]) = (sum, true);
             }

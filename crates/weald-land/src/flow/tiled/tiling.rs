@@ -1,18 +1,24 @@
-//! A grid cut into tiles, the cells on their borders, and visits of tiles until none has news for another.
+//! A grid cut into tiles, which ranks may share, and the cells on their borders.
 
-use std::collections::VecDeque;
+use std::ops::Range;
+use std::sync::Arc;
 
 use weald_core::error::{Error, Limit, Quantity};
 use weald_core::grid::{MAX_CELLS, Size};
 use weald_core::plane::Window;
+use weald_engine::ranks::{Alone, Ranks, SharedRows};
 
-/// A grid cut into tiles of one size; the last of a row or a column of tiles may be smaller.
+/// A grid cut into tiles of one size; the last of a row or a column of tiles may be smaller. No tile has rows of two ranks.
 #[derive(Clone, Debug)]
 pub struct Tiling {
     size: Size,
     tile: Size,
+    /// The first row of each row of tiles, and the end of the last.
+    cuts: Vec<usize>,
     /// The number of the first border cell of each tile, and of all border cells.
     first: Vec<usize>,
+    rows: SharedRows,
+    ranks: Arc<dyn Ranks>,
 }
 
 impl Tiling {
@@ -21,14 +27,34 @@ impl Tiling {
     /// # Errors
     /// [`Error::Limit`] for tiles without cells, or of more than [`MAX_CELLS`].
     pub fn new(size: Size, tile: Size) -> Result<Self, Error> {
-        let tile = Size { columns: tile.columns.min(size.columns), rows: tile.rows.min(size.rows) };
+        Self::over(
+            (size.columns, &SharedRows::of((0, 1), size.rows)),
+            tile,
+            &(Arc::new(Alone) as Arc<dyn Ranks>),
+        )
+    }
+
+    /// The same of a grid whose rows are shared among ranks, each of which visits the tiles of its own.
+    ///
+    /// # Errors
+    /// As [`Tiling::new`].
+    pub fn over(
+        (columns, rows): (usize, &SharedRows),
+        tile: Size,
+        ranks: &Arc<dyn Ranks>,
+    ) -> Result<Self, Error> {
+        let tile = Size { columns: tile.columns.min(columns), rows: tile.rows.min(rows.most()) };
         let cells = tile.columns as u64 * tile.rows as u64;
         let allowed = 1..=MAX_CELLS as u64;
         if !allowed.contains(&cells) {
             let limit = Limit::new(Quantity::Cells, cells, allowed);
             return Err(limit.of(format!("a tile of {tile} cells")).remedy("choose another tile").into());
         }
-        let mut tiling = Self { size, tile, first: Vec::new() };
+        let own = (0..ranks.count()).map(|rank| rows.of_rank(rank).own());
+        let cuts = own.flat_map(|own| own.step_by(tile.rows)).chain([rows.count()]).collect();
+        let size = Size { columns, rows: rows.count() };
+        let (rows, ranks) = (rows.clone(), Arc::clone(ranks));
+        let mut tiling = Self { size, tile, cuts, first: Vec::new(), rows, ranks };
         let mut cells = 0;
         for tile in 0..tiling.count() {
             tiling.first.push(cells);
@@ -38,6 +64,46 @@ impl Tiling {
         Ok(tiling)
     }
 
+    /// The ranks that share the grid.
+    pub(super) fn ranks(&self) -> &dyn Ranks {
+        &*self.ranks
+    }
+
+    /// The tiles of this rank.
+    pub fn own(&self) -> Range<usize> {
+        self.tiles_of(&self.rows)
+    }
+
+    /// The tiles of another rank.
+    pub(super) fn own_of(&self, rank: usize) -> Range<usize> {
+        self.tiles_of(&self.rows.of_rank(rank))
+    }
+
+    fn tiles_of(&self, rows: &SharedRows) -> Range<usize> {
+        let own = rows.own();
+        let band = |row: usize| self.cuts.partition_point(|&cut| cut < row);
+        band(own.start) * self.across()..band(own.end) * self.across()
+    }
+
+    /// Numbers of the border cells of some tiles that follow each other.
+    pub(super) fn borders_of(&self, tiles: &Range<usize>) -> Range<usize> {
+        self.first[tiles.start]..self.first[tiles.end]
+    }
+
+    /// Numbers of the border cells that a rank knows: those of its tiles, and of the tiles beside those.
+    pub(super) fn known(&self) -> Range<usize> {
+        let (own, across) = (self.own(), self.across());
+        self.borders_of(&(own.start.saturating_sub(across)..(own.end + across).min(self.count())))
+    }
+
+    /// The ranks to the north and to the south, each with this rank's row beside its own and with its row beside those.
+    pub(super) fn neighbours(&self) -> impl Iterator<Item = (usize, [usize; 2])> + use<> {
+        let own = self.rows.own();
+        let north = self.rows.north().map(|rank| (rank, [own.start, own.start - 1]));
+        let south = self.rows.south().map(|rank| (rank, [own.end - 1, own.end]));
+        north.into_iter().chain(south)
+    }
+
     /// Columns and rows of the grid.
     pub fn size(&self) -> Size {
         self.size
@@ -45,7 +111,7 @@ impl Tiling {
 
     /// Number of tiles.
     pub fn count(&self) -> usize {
-        self.across() * self.size.rows.div_ceil(self.tile.rows)
+        self.across() * (self.cuts.len() - 1)
     }
 
     /// Number of border cells: those of a tile that lie at its border.
@@ -55,11 +121,10 @@ impl Tiling {
 
     /// Where a tile lies.
     pub fn window(&self, tile: usize) -> Window {
-        let side =
-            |number: usize, length: usize, end: usize| number * length..((number + 1) * length).min(end);
+        let (west, band) = (tile % self.across() * self.tile.columns, tile / self.across());
         Window {
-            columns: side(tile % self.across(), self.tile.columns, self.size.columns),
-            rows: side(tile / self.across(), self.tile.rows, self.size.rows),
+            columns: west..(west + self.tile.columns).min(self.size.columns),
+            rows: self.cuts[band]..self.cuts[band + 1],
         }
     }
 
@@ -70,7 +135,7 @@ impl Tiling {
 
     /// The tile of a cell, given by column and row.
     pub(super) fn tile_of(&self, [x, y]: [usize; 2]) -> usize {
-        y / self.tile.rows * self.across() + x / self.tile.columns
+        (self.cuts.partition_point(|&cut| cut <= y) - 1) * self.across() + x / self.tile.columns
     }
 
     /// The number of a border cell.
@@ -109,25 +174,6 @@ impl Tiling {
         let around = rows.flat_map(move |y| columns.clone().map(move |x| [x, y]));
         around.filter(move |&cell| self.tile_of(cell) != own)
     }
-}
-
-/// Visits every tile, and again each that a later visit of another names, until none is left. A visit gives the tiles for
-/// which something changed.
-pub(super) fn settle(
-    tiling: &Tiling,
-    mut visit: impl FnMut(usize) -> Result<Vec<usize>, Error>,
-) -> Result<(), Error> {
-    let mut queue: VecDeque<usize> = (0..tiling.count()).collect();
-    let mut is_queued = vec![true; tiling.count()];
-    while let Some(tile) = queue.pop_front() {
-        is_queued[tile] = false;
-        for woken in visit(tile)? {
-            if !std::mem::replace(&mut is_queued[woken], true) {
-                queue.push_back(woken);
-            }
-        }
-    }
-    Ok(())
 }
 
 /// The tiles beside which these border cells lie.

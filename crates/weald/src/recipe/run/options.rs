@@ -29,6 +29,9 @@ pub struct Options {
     pub memory: Option<u64>,
     /// Folder for the layers of a run that keeps them on disk, within that memory; all in memory where none is given.
     pub out_of_core: Option<PathBuf>,
+    /// Whether each of the ranks holds its own rows of the landscape alone, in memory or, out of core, on disk. All of them
+    /// call [`Run::execute`] then, within the memory that each may take.
+    pub distributed: bool,
     /// Results of steps that earlier runs have left, and that this one leaves.
     pub cache: Option<Arc<Cache>>,
     /// Folder in which the run leaves what its steps and outputs took, for estimates.
@@ -50,6 +53,7 @@ impl Options {
             report: true,
             memory: None,
             out_of_core: None,
+            distributed: false,
             cache: None,
             timings: None,
             render: None,

@@ -1,0 +1,301 @@
+//! A run whose landscape no process holds as a whole: its layers lie on disk, or each rank has its own rows of them. It gives
+//! the files of a run in memory, to the byte, and keeps no checkpoints.
+//!
+//! Over ranks all run the same program, each on its own rows, and an error of one is one of all. The first writes the files.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use web_time::Instant;
+
+use super::film::make_folder_of;
+use super::finished::step_report;
+use super::options::{Progress, Run};
+use super::work::{Leaves, WorkFolder, new_files};
+use crate::recipe::memory;
+use crate::recipe::plan::{Content, Ground, Output, Planned};
+use crate::recipe::report::{OutputReport, REPORT_FILE, Report};
+use weald_core::domain::Domain;
+use weald_core::error::{Error, Limit, NotFinite, Quantity};
+use weald_core::files::File;
+use weald_core::grid::{Field, Size};
+use weald_engine::ranks::{Alone, Ranks, SharedRows, agreed, greatest, least};
+use weald_engine::report::StepReport;
+use weald_engine::served::served;
+use weald_engine::stored::{Scratch, StoredLandscape};
+use weald_engine::{Engine, Job, Watcher};
+use weald_export::classes::{DIRECTIONS, directions};
+use weald_io::{Capabilities, Encode, Part, Provenance, Raster, WindowedRaster, WriteWindows, write_through};
+use weald_land::flow::DirectionCodes;
+
+/// What the program, its threads and the buffers of files take beside the steps.
+const BESIDE: u64 = 64 << 20;
+
+/// The part of the rest that steps count on. Allocators keep some of what one band or tile gave back from the next: peaks
+/// were up to an eighth above what steps count.
+const COUNTED: u64 = 4;
+const OF: u64 = 5;
+
+/// A folder in which files are made that have no name: the system takes them away when the process ends, however it ends.
+/// Without one planes lie in memory.
+#[derive(Debug)]
+struct ScratchFolder(Option<PathBuf>);
+
+impl Scratch for ScratchFolder {
+    #[cfg(not(target_arch = "wasm32"))]
+    fn file(&self) -> Result<Option<File>, Error> {
+        let made =
+            |folder: &PathBuf| tempfile::tempfile_in(folder).map_err(|cause| Error::write(folder, &cause));
+        self.0.as_ref().map(made).transpose()
+    }
+
+    #[cfg(target_arch = "wasm32")]
+    fn file(&self) -> Result<Option<File>, Error> {
+        match self.0 {
+            Some(_) => Err(Error::Run("a browser has no disk to run from".to_owned())),
+            None => Ok(None),
+        }
+    }
+}
+
+/// What a step tells, and when it is to stop.
+struct ToldOn<'a>(&'a dyn Progress);
+
+impl Watcher for ToldOn<'_> {
+    fn progress(&self, done: u64, total: u64, cells: usize) {
+        self.0.progress(done, total, cells);
+    }
+
+    fn cancelled(&self) -> bool {
+        self.0.cancelled()
+    }
+}
+
+impl Run<'_> {
+    /// Runs the recipe with its layers in a scratch folder, or with those of its own rows.
+    pub(super) fn execute_in_parts(&self, progress: &dyn Progress) -> Result<Report, Error> {
+        let bytes = self.recipe.scratch()?;
+        let ranks = self.sharing()?;
+        let Ground::Empty { size, cell, .. } = self.recipe.ground else {
+            unreachable!("`scratch` refuses files")
+        };
+        let scratch = ScratchFolder(self.options.out_of_core.clone());
+        let memory = self.memory_of_steps(bytes.div_ceil(size.rows as u64), (size.rows, &*ranks))?;
+        let mut place = self.place(&*ranks, progress)?;
+        let mut landscape =
+            StoredLandscape::new(Domain::new(size, cell), memory, (&scratch, Arc::clone(&ranks)));
+        let mut steps = Vec::with_capacity(self.recipe.steps.len());
+        for (number, planned) in self.recipe.steps.iter().enumerate() {
+            progress.step(number + 1, self.recipe.steps.len(), planned.entry.name);
+            steps.push(self.step_in_parts((number, planned), &mut landscape, progress)?);
+        }
+        let outputs = self.outputs_in_parts(&landscape, progress)?;
+        let report = Report {
+            engine: self.options.engine.name().to_owned(),
+            adapter: None,
+            seed: self.recipe.seed,
+            recipe_blake3: self.recipe.hash(),
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+            steps,
+            outputs,
+            notes: Vec::new(),
+        };
+        let published = place.as_mut().map_or(Ok(()), |place| self.publish(place, &report));
+        agreed(&*ranks, published)?;
+        Ok(report)
+    }
+
+    fn publish(&self, place: &mut WorkFolder, report: &Report) -> Result<(), Error> {
+        if self.options.report {
+            report.write(&new_files(&self.options.out, self.recipe).join(REPORT_FILE))?;
+        }
+        place.publish(report.outputs.iter().flat_map(OutputReport::files).collect())?;
+        place.leaves = Leaves::Nothing;
+        Ok(())
+    }
+
+    /// The ranks that share the landscape: this process alone where the engine has no others.
+    fn sharing(&self) -> Result<Arc<dyn Ranks>, Error> {
+        let is_distributed = self.options.distributed;
+        let kind = if is_distributed { "a distributed run" } else { "a run out of core" };
+        if self.options.resume {
+            return Err(Error::Run(format!(
+                "{kind} keeps no checkpoint to go on from; run it without --resume"
+            )));
+        }
+        match &self.options.engine {
+            Engine::Cpu if !is_distributed => Ok(Arc::new(Alone)),
+            Engine::Ranks(ranks) if is_distributed => Ok(Arc::clone(ranks)),
+            Engine::Ranks(_) => {
+                Err(Error::Run(format!("{kind} over ranks is distributed, which was not asked for")))
+            }
+            other => {
+                let (where_it_is, other) =
+                    (if is_distributed { "by ranks" } else { "on the processor" }, other.name());
+                Err(Error::Run(format!("{kind} is made {where_it_is}, and not on the engine `{other}`")))
+            }
+        }
+    }
+
+    /// Memory that a step may count on, the same on all ranks: what is left beside the planes that lie there, which take so
+    /// many bytes for a row.
+    fn memory_of_steps(&self, bytes: u64, (rows, ranks): (usize, &dyn Ranks)) -> Result<u64, Error> {
+        let memory = least(ranks, memory::allowed(self.options.memory))?;
+        let own = SharedRows::of((ranks.rank(), ranks.count()), rows).most() as u64;
+        let planes = if self.options.out_of_core.is_some() { 0 } else { bytes * own };
+        let beside = BESIDE + planes;
+        if planes > 0 && memory <= beside {
+            let limit = Limit::new(Quantity::MemoryBytes, beside, 0..=memory);
+            let remedy =
+                "allow more memory, run over more ranks, or keep the rows on disk with --out-of-core";
+            return Err(limit.of("the rows of one rank").remedy(remedy).into());
+        }
+        Ok(memory.saturating_sub(beside) / OF * COUNTED)
+    }
+
+    /// The output folder, which the first rank takes.
+    fn place(&self, ranks: &dyn Ranks, progress: &dyn Progress) -> Result<Option<WorkFolder>, Error> {
+        agreed(ranks, if ranks.leads() { self.prepare(progress).map(Some) } else { Ok(None) })
+    }
+
+    fn step_in_parts(
+        &self,
+        (number, planned): (usize, &Planned),
+        landscape: &mut StoredLandscape<'_>,
+        progress: &dyn Progress,
+    ) -> Result<StepReport, Error> {
+        let started = Instant::now();
+        let step = &planned.step;
+        // What the step reads is there while it runs, and what it writes only where that is read later.
+        let mut wanted = self.recipe.wanted_after(number + 1);
+        wanted.extend(step.reads());
+        landscape.want(wanted);
+        let watcher = ToldOn(progress);
+        let job = Job {
+            seed: planned.seed(self.recipe.seed),
+            engine: self.options.engine.clone(),
+            watcher: &watcher,
+            resume: None,
+        };
+        let located = |error| located(error, number, planned);
+        let outcome = step.run_on_disk(landscape, &job).map_err(located)?;
+        landscape.want(self.recipe.wanted_after(number + 1));
+        for (name, _) in step.writes() {
+            if landscape.wants(&name) {
+                landscape.range(&name).map_err(located)?;
+            }
+        }
+        outcome.notes.iter().for_each(|note| progress.note(note));
+        let cells = landscape.domain.size.cells();
+        let report = step_report(planned, cells, outcome, started.elapsed().as_secs_f64(), None);
+        Ok(StepReport { peak_memory: peak_memory(&*landscape.ranks)?, ..report })
+    }
+
+    fn outputs_in_parts(
+        &self,
+        landscape: &StoredLandscape<'_>,
+        progress: &dyn Progress,
+    ) -> Result<Vec<OutputReport>, Error> {
+        let outputs = &self.recipe.outputs;
+        let made = outputs.iter().enumerate().map(|(number, output)| {
+            let stopped = || Error::Interrupted("interrupted; no file has changed".to_owned());
+            agreed(&*landscape.ranks, if progress.cancelled() { Err(stopped()) } else { Ok(()) })?;
+            progress.output(number + 1, outputs.len(), &output.file);
+            let Content::Layer { name, encode: Encode::Windows { write, .. }, holds, .. } = &output.content
+            else {
+                unreachable!("`scratch` refuses other outputs");
+            };
+            self.layer_in_parts(output, landscape, (name, *write, *holds))
+        });
+        made.collect()
+    }
+
+    fn layer_in_parts(
+        &self,
+        output: &Output,
+        landscape: &StoredLandscape<'_>,
+        (name, write, holds): (&str, WriteWindows, Capabilities),
+    ) -> Result<OutputReport, Error> {
+        let started = Instant::now();
+        let (layer, range) = (landscape.layer(name)?, landscape.range(name)?);
+        let head = self.head(landscape, name, (&layer.unit, range));
+        let written = served(landscape, &layer.plane, |values, scratch| {
+            let windowed = WindowedRaster { head: &head, values, range, scratch };
+            self.write_windows(output, &windowed, write).map_err(|error| self.by_its_name(error))
+        })?;
+        let companions =
+            written.iter().flatten().map(|part| part.name.path(&output.file).display().to_string());
+        Ok(OutputReport {
+            file: output.file.display().to_string(),
+            seconds: started.elapsed().as_secs_f64(),
+            peak_memory: peak_memory(&*landscape.ranks)?,
+            layer: Some(name.to_owned()),
+            unit: Some(layer.unit.clone()),
+            range: Some((range.0.into(), range.1.into())),
+            companions: companions.collect(),
+            notes: holds.losses(&head),
+            ..OutputReport::default()
+        })
+    }
+
+    /// Writes a file window by window, and what lies beside it.
+    fn write_windows(
+        &self,
+        output: &Output,
+        windowed: &WindowedRaster<'_, '_>,
+        write: WriteWindows,
+    ) -> Result<Vec<Part>, Error> {
+        let path = new_files(&self.options.out, self.recipe).join(&output.file);
+        make_folder_of(&path)?;
+        let mut parts = Vec::new();
+        write_through(&path, |path| {
+            let failed = |cause: std::io::Error| Error::write(path, &cause);
+            let mut file = File::create(path).map_err(failed)?;
+            parts = write(windowed, &mut file)?;
+            file.sync_all().map_err(failed)
+        })?;
+        parts.iter().try_for_each(|part| weald_io::write_whole(&part.name.path(&path), &part.bytes))?;
+        Ok(parts)
+    }
+
+    /// All that a file says of a layer but its values.
+    fn head(&self, landscape: &StoredLandscape<'_>, name: &str, (unit, range): (&str, (f32, f32))) -> Raster {
+        let provenance = Provenance {
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+            recipe_blake3: self.recipe.hash(),
+            seed: self.recipe.seed,
+            layer: name.to_owned(),
+            unit: unit.to_owned(),
+            range: (range.0.into(), range.1.into()),
+            resampled: None,
+        };
+        Raster {
+            provenance: Some(provenance),
+            cell: Some(landscape.domain.cell),
+            classes: (name == DIRECTIONS).then(|| directions(DirectionCodes::Weald)),
+            ..Raster::from(Field::filled(Size { columns: 1, rows: 1 }, range.0))
+        }
+    }
+}
+
+/// The most memory that any of the ranks has taken so far.
+fn peak_memory(ranks: &dyn Ranks) -> Result<Option<u64>, Error> {
+    let most = greatest(ranks, memory::taken().unwrap_or_default())?;
+    Ok(Some(most).filter(|&most| most > 0))
+}
+
+/// Says in which step an error arose, and that nothing is kept of it.
+fn located(error: Error, number: usize, planned: &Planned) -> Error {
+    let step = format!("step {} (`{}`)", number + 1, planned.entry.name);
+    match error {
+        Error::Run(what) => Error::Run(format!("{step}: {what}")),
+        Error::Interrupted(what) => {
+            Error::Interrupted(format!("{step}: {what}; such a run keeps nothing to go on from"))
+        }
+        Error::NotFinite(fault) => {
+            let message = format!("{step}: {}", fault.message);
+            NotFinite { step: Some(planned.entry.name.to_owned()), message, ..fault }.into()
+        }
+        other => other,
+    }
+}
