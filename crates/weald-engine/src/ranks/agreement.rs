@@ -180,7 +180,9 @@ mod tests {
         let row = |y: usize| [1.0e8, 1.0, 0.1, -1.0e8, 3.0].map(|first| first / (y as f64 + 0.7));
         let rows: Vec<RowSums> = (0..13).map(row).collect();
         let mut expected = RowSums::default();
-        rows.iter().for_each(|row| expected.iter_mut().zip(row).for_each(|(total, sum)| *total += sum));
+        for row in &rows {
+            expected.iter_mut().zip(row).for_each(|(total, sum)| *total += sum);
+        }
         for cuts in [vec![0, 13], vec![0, 5, 5, 13], vec![0, 1, 2, 12, 13]] {
             let own = |rank: usize| &rows[cuts[rank]..cuts[rank + 1]];
             let sums = each(cuts.len() - 1, |ranks| total(ranks, own(ranks.rank())).expect("all are there"));
