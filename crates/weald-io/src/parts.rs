@@ -62,6 +62,17 @@ impl PartName {
             Self::Inside(inner) => path.join(inner),
         }
     }
+
+    /// The name, and that in capitals where it is an extension of its own, as programs of Windows write `.PRJ` and `.TFW`.
+    fn spellings(&self) -> impl Iterator<Item = Self> {
+        let in_capitals = |suffix: &str| suffix.starts_with('.').then(|| suffix.to_ascii_uppercase());
+        let other = match self {
+            Self::Beside(suffix) => in_capitals(suffix).map(Self::Beside),
+            Self::Sibling(suffix) => in_capitals(suffix).map(Self::Sibling),
+            Self::Own | Self::Inside(_) => None,
+        };
+        std::iter::once(self.clone()).chain(other)
+    }
 }
 
 /// The path with text added to its name.
@@ -92,11 +103,8 @@ pub(super) struct OnDisk(pub(super) PathBuf);
 
 impl Parts for OnDisk {
     fn read(&self, name: &PartName, most: u64) -> Result<Option<Vec<u8>>, Fault> {
-        let path = name.path(&self.0);
-        if !files::exists(&path) {
-            return Ok(None);
-        }
-        read_at_most(&path, most).map(Some)
+        let path = name.spellings().map(|name| name.path(&self.0)).find(|path| files::exists(path));
+        path.map(|path| read_at_most(&path, most)).transpose()
     }
 
     fn folders(&self) -> Result<Vec<String>, Fault> {

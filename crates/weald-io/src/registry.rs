@@ -75,8 +75,11 @@ pub fn read(path: &Path) -> Result<Raster, Error> {
 }
 
 /// What follows the name of a world file, by the extension of the raster, as GDAL looks for it.
-const WORLD_FILES: [(&str, [&str; 2]); 3] =
-    [("tif", [".tfw", ".wld"]), ("tiff", [".tfw", ".wld"]), ("png", [".pgw", ".wld"])];
+const WORLD_FILES: [(&str, [&str; 3]); 3] = [
+    ("tif", [".tfw", ".tifw", ".wld"]),
+    ("tiff", [".tfw", ".tiffw", ".wld"]),
+    ("png", [".pgw", ".pngw", ".wld"]),
+];
 
 fn with_world_file(raster: Raster, path: &Path) -> Result<Raster, Fault> {
     let extension = path.extension().and_then(|e| e.to_str()).unwrap_or_default().to_ascii_lowercase();

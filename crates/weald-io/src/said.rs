@@ -20,10 +20,13 @@ pub struct Said {
 }
 
 /// Coordinates below these count as degrees where nothing else is known.
-const MOST_DEGREES: [f64; 2] = [180.0, 90.0];
+const MOST_DEGREES: [f64; 2] = [360.0, 90.0];
 
 /// Cells below this side are more likely degrees than metres.
 const LIKELY_DEGREES: f64 = 0.01;
+
+/// So are any by which ground would rise by this much over a metre on the mean: 84°, where no ground stands.
+const TOO_STEEP: f64 = 10.0;
 
 impl Said {
     /// The raster with what is said of it.
@@ -100,25 +103,44 @@ fn in_crs(raster: Raster, code: u32) -> Result<Raster, String> {
 }
 
 impl Raster {
-    /// What to ask the user where coordinates without a CRS look like degrees: cells below a hundredth that lie where
-    /// longitudes and latitudes are.
+    /// What to ask the user where coordinates without a CRS look like degrees: they lie where longitudes and latitudes are, and
+    /// cells are below a hundredth, or the ground would be steeper than any if they were metres.
     pub fn likely_degrees(&self) -> Option<String> {
         let place = self.georeference.as_ref()?;
         let is_told = place.epsg.is_some() || place.keys.as_ref().is_some_and(tell_a_crs);
         let far = place.at([self.field.size().columns as f64, self.field.size().rows as f64]);
         let within =
             |at: [f64; 2]| at.iter().zip(MOST_DEGREES).all(|(at, most)| at.abs() <= most + LIKELY_DEGREES);
+        if is_told || !within(place.origin) || !within(far) {
+            return None;
+        }
         let [width, height] = place.pixel;
-        if is_told || width.max(height) >= LIKELY_DEGREES || !within(place.origin) || !within(far) {
+        let is_fine = width.max(height) < LIKELY_DEGREES;
+        // What Weald wrote without a CRS is in metres, and may be as steep as it was asked for.
+        let steepness = if self.provenance.is_some() { 0.0 } else { self.steepness(width) };
+        if !is_fine && steepness < TOO_STEEP {
             return None;
         }
         let [west, north] = place.origin;
         let metres = format!(", or `cell = {width}` if these are metres");
         let metres = if width >= 0.001 && width == height { metres } else { String::new() };
+        let slope =
+            format!(" (in metres, its ground would stand at {:.1}°)", libm::atan(steepness).to_degrees());
+        let slope = if is_fine { String::new() } else { slope };
         Some(format!(
-            "it names no CRS, and its cells of {width} × {height} at {west}, {north} look like degrees; say `crs = \
+            "it names no CRS, and its cells of {width} × {height} at {west}, {north} look like degrees{slope}; say `crs = \
              \"EPSG:4326\"` for longitude and latitude{metres}"
         ))
+    }
+
+    /// Mean rise from cell to cell over their width.
+    fn steepness(&self, width: f64) -> f64 {
+        let (columns, values) = (self.field.size().columns, self.field.values());
+        let has_data = |cell: &usize| self.is_valid_at(*cell) && self.is_valid_at(*cell + 1);
+        let pairs = (0..values.len().saturating_sub(1)).filter(|cell| (cell + 1) % columns > 0);
+        let rises = pairs.filter(has_data).map(|cell| f64::from((values[cell + 1] - values[cell]).abs()));
+        let (sum, count) = rises.fold((0.0, 0_usize), |(sum, count), rise| (sum + rise, count + 1));
+        sum / count.max(1) as f64 / width
     }
 }
 
@@ -174,5 +196,31 @@ mod tests {
         let mut told = raster(0.005, [10.0, 40.0]);
         told.georeference.as_mut().expect("placed").epsg = Some(32633);
         assert_eq!(told.likely_degrees(), None);
+    }
+
+    #[test]
+    fn ground_that_no_metres_could_hold_looks_like_degrees_whatever_its_cells() {
+        let mountains = |side: f64, origin: [f64; 2]| {
+            let mut raster = raster(side, origin);
+            raster
+                .field
+                .values_mut()
+                .iter_mut()
+                .enumerate()
+                .for_each(|(at, height)| *height = [300.0, 420.0, 360.0][at % 3]);
+            raster
+        };
+        for (side, origin) in [(0.1, [5.0, 48.0]), (0.25, [350.0, 90.0]), (2.0, [-180.0, 10.0])] {
+            let question = mountains(side, origin).likely_degrees().expect("degrees");
+            assert!(
+                question.contains("its ground would stand at 8")
+                    && question.contains(&format!("cell = {side}"))
+            );
+        }
+        assert_eq!(mountains(0.1, [5000.0, 48.0]).likely_degrees(), None, "no longitude");
+        assert_eq!(mountains(30.0, [0.0, 60.0]).likely_degrees(), None, "a steep slope");
+        let valid = Mask::new(Size { columns: 3, rows: 2 }, vec![true, false, true, false, true, false]);
+        let sparse = Raster { valid, ..mountains(0.1, [5.0, 48.0]) };
+        assert_eq!(sparse.likely_degrees(), None, "no two cells beside each other");
     }
 }

@@ -3,6 +3,9 @@
 //! Read are WKT 1 (OGC 01-009), ESRI's dialect of it, and WKT 2 (OGC 18-010r7, ISO 19162). Definitions of EPSG codes come
 //! from the crate `crs-definitions`; a build without the feature `wkt` has none.
 
+use std::collections::BTreeMap;
+use std::sync::{Mutex, PoisonError};
+
 /// Brackets within brackets; a CRS has some ten.
 const MAX_DEPTH: usize = 32;
 
@@ -22,8 +25,16 @@ pub(super) fn wkt_of(_: u32) -> Option<&'static str> {
     None
 }
 
-/// The first definition of any code that has a node like `SPHEROID` with that code of its own.
-pub(super) fn definition_with(keyword: &str, code: u16) -> Option<Definition> {
+/// The first definition of any code that has a node like `SPHEROID` with that code of its own. All of some thousand texts are
+/// looked through once for each code that is asked for.
+pub(super) fn definition_with(keyword: &'static str, code: u16) -> Option<Definition> {
+    type Found = BTreeMap<(&'static str, u16), Option<Definition>>;
+    static FOUND: Mutex<Found> = Mutex::new(Found::new());
+    let mut found = FOUND.lock().unwrap_or_else(PoisonError::into_inner);
+    found.entry((keyword, code)).or_insert_with(|| first_definition_with(keyword, code)).clone()
+}
+
+fn first_definition_with(keyword: &str, code: u16) -> Option<Definition> {
     let (opening, mark) = (format!("{keyword}["), format!("AUTHORITY[\"EPSG\",\"{code}\"]"));
     let candidates = (1..=u32::from(u16::MAX)).filter_map(wkt_of);
     let texts = candidates.filter(|text| text.contains(&opening) && text.contains(&mark));
@@ -78,8 +89,23 @@ pub(super) struct Definition {
 }
 
 impl Definition {
-    /// `None` for what is no WKT of a CRS.
+    /// `None` for what is no WKT of a CRS. A code that the text gives and whose CRS counts otherwise than the text says is not
+    /// its own.
     pub(super) fn of(text: &str) -> Option<Self> {
+        let said = Self::parse(text)?;
+        let epsg = said.epsg.filter(|&code| said.counts_as(code));
+        Some(Self { epsg, ..said })
+    }
+
+    /// Whether the coordinates are in the unit of those of a code, as far as both tell.
+    fn counts_as(&self, epsg: u32) -> bool {
+        let Some(known) = wkt_of(epsg).and_then(Self::parse) else { return true };
+        let is_same = |one: f64, other: f64| (one / other - 1.0).abs() < 1e-6;
+        known.kind == self.kind
+            && self.metres.zip(known.metres).is_none_or(|(one, other)| is_same(one, other))
+    }
+
+    fn parse(text: &str) -> Option<Self> {
         let root = Node::parse(text)?;
         let crs = root.find(&|node| node.kind().is_some())?;
         let kind = crs.kind()?;

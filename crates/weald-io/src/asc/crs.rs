@@ -109,6 +109,17 @@ impl Crs {
         wkt + ",UNIT[\"Meter\",1.0]]"
     }
 
+    /// Whether a definition that has its name or code has coordinates in its unit: metres, or degrees.
+    fn counts_as(&self, definition: &Definition) -> bool {
+        match self.zone {
+            None => definition.kind == Kind::Geographic && definition.is_in_degrees,
+            Some(_) => {
+                let is_metre = definition.metres.is_none_or(|metres| rounded(metres) == 1.0);
+                definition.kind == Kind::Projected && is_metre
+            }
+        }
+    }
+
     /// ESRI's name.
     fn name(&self) -> String {
         match self.zone {
@@ -168,8 +179,11 @@ pub(super) fn read(text: &str) -> Result<Said, Fault> {
     })?;
     definition.epsg = definition.epsg.or_else(|| by_name(text));
     let unit = definition.vertical.map(|metres| name_of(rounded(metres)));
-    if definition.epsg.is_some_and(|code| Crs::of(code).is_some()) {
-        return Ok(Said { epsg: definition.epsg, keys: None, unit });
+    if let Some(crs) = definition.epsg.and_then(Crs::of) {
+        if crs.counts_as(&definition) {
+            return Ok(Said { epsg: definition.epsg, keys: None, unit });
+        }
+        definition.epsg = None;
     }
     if definition.kind == Kind::Projected && definition.metres.is_none() {
         return Err(Fault::damaged(
@@ -225,6 +239,20 @@ mod tests {
         assert_eq!(unit("0.3048006096012192"), Ok(1200.0 / 3937.0));
         assert_eq!(unit("1000.0"), Ok(1000.0), "kilometres");
         assert!(read("hello").is_err_and(|fault| fault.to_string().contains("begins with \"HELLO\"")));
+    }
+
+    #[test]
+    fn a_zone_that_is_counted_in_feet_is_not_the_one_of_its_name_or_its_code() {
+        let zone = Crs::of(32633).expect("listed");
+        let feet = "UNIT[\"Foot_US\",0.3048006096012192]";
+        for text in [zone.text(), zone.wkt()] {
+            let said = read(&text.replace("UNIT[\"Meter\",1.0]", feet)).expect("reads");
+            let metres = super::super::super::geokeys::metres_per_unit(said.keys.as_ref());
+            assert_eq!((said.epsg, metres), (None, Ok(1200.0 / 3937.0)), "{text}");
+        }
+        let grads =
+            Crs::of(4326).expect("listed").text().replace("0.0174532925199433", "0.01570796326794897");
+        assert!(read(&grads).is_err_and(|fault| fault.to_string().contains("not in degrees")));
     }
 
     #[test]

@@ -307,6 +307,22 @@ fn the_description_of_raw_numbers_is_followed_and_checked() {
     assert!(matches!(huge, Fault::Limit(_)), "{huge}");
 }
 
+#[test]
+fn files_beside_are_found_in_capitals_too() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = |name: &str| folder.path().join(name);
+    std::fs::write(path("DEM.ASC"), "ncols 2\nnrows 1\nxllcorner 5000\nyllcorner 7000\ncellsize 30\n1 2\n")
+        .expect("written");
+    assert_eq!(weald_io::read(&path("DEM.ASC")).expect("reads").cell, Some(30.0), "without");
+    std::fs::write(path("DEM.PRJ"), "PROJCS[\"x\",UNIT[\"foot\",0.3048]]").expect("written");
+    assert_eq!(weald_io::read(&path("DEM.ASC")).expect("reads").cell, Some(9.144));
+    let plain = Raster::from(Field::filled(Size::new(2, 1).expect("small"), 7.0));
+    weald_io::write(&path("LAND.PNG"), &plain).expect("written");
+    std::fs::write(path("LAND.PGW"), "30\n0\n0\n-30\n500015\n3999985\n").expect("written");
+    let place = weald_io::read(&path("LAND.PNG")).expect("reads").georeference.expect("placed");
+    assert_eq!(place.origin, [5e5, 4e6]);
+}
+
 fn grid(text: &str, crs: Option<&str>) -> Result<Raster, Fault> {
     let crs = crs.map(|crs| Part::sibling(".prj", crs.as_bytes().to_vec()));
     let parts = [Part::own(text.as_bytes().to_vec())].into_iter().chain(crs).collect();
