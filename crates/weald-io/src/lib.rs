@@ -20,6 +20,7 @@ mod geokeys;
 pub mod geotiff;
 mod info;
 mod limits;
+pub mod memory;
 pub mod netcdf;
 pub mod npy;
 mod number;

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use super::memory::{available, has_addresses};
 use weald_core::error::{Error, Limit, Quantity};
 use weald_core::grid::{MAX_CELLS, Size};
 
@@ -62,6 +63,7 @@ impl Limits {
             let limit = Limit::new(Quantity::Cells, size.cells() as u64, 0..=self.cells as u64);
             return Err(limit.of(format!("a raster of {size} cells")).into());
         }
+        ensure_room(size)?;
         Ok(size)
     }
 
@@ -70,6 +72,30 @@ impl Limits {
     pub(super) fn file_bytes(self) -> u64 {
         self.cells as u64 * 16 + (64 << 20)
     }
+}
+
+/// Bytes of a cell that is read, and the most that readers take for one until all are.
+const A_CELL: u64 = 5;
+const MOST_OF_A_CELL: u64 = 16;
+
+/// Rasters of fewer cells are read without asking for room.
+const MANY: usize = 1 << 20;
+
+/// Refuses a raster for which there is no memory, before any is taken.
+fn ensure_room(size: Size) -> Result<(), Fault> {
+    let cells = size.cells() as u64;
+    if size.cells() < MANY || (is_free(A_CELL * cells) && has_addresses(&[MOST_OF_A_CELL * cells])) {
+        return Ok(());
+    }
+    let needed = MOST_OF_A_CELL * cells;
+    let limit = Limit::new(Quantity::MemoryBytes, needed, 0..=needed - 1);
+    let remedy =
+        "there is not so much, or this process may not have it: free or allow it more, or cut the raster";
+    Err(limit.of(format!("a raster of {size} cells")).remedy(remedy).into())
+}
+
+fn is_free(bytes: u64) -> bool {
+    available().is_none_or(|free| bytes <= free)
 }
 
 /// Whether `packed` bytes can hold `expanded` bytes under a compression that makes at most `times` as many of them.

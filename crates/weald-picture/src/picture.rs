@@ -63,6 +63,11 @@ pub trait Picture: Debug + Send + Sync {
         8 * cells
     }
 
+    /// Bytes beside those where there is a layer that it reads if there is one.
+    fn optional_bytes(&self, _layer: &str, _cells: u64) -> u64 {
+        0
+    }
+
     /// Draws a landscape that has all the layers in [`Picture::reads`].
     ///
     /// # Errors

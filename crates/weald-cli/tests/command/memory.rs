@@ -53,8 +53,6 @@ fn the_memory_that_a_check_tells_is_within_a_third_of_what_a_run_takes() {
 }
 
 #[cfg(target_os = "linux")]
-/// Without views, which take from 80 to 390 bytes for a cell by how much of the ground is steep: no estimate by the grid alone
-/// is that close.
 #[test]
 fn the_memory_that_a_check_tells_counts_what_outputs_need() {
     for output in [
@@ -62,6 +60,7 @@ fn the_memory_that_a_check_tells_counts_what_outputs_need() {
         "export = \"report\"\nfile = \"report.html\"\n",
         "export = \"unreal\"\nfile = \"unreal/land.png\"\n",
         "picture = \"relief\"\nfile = \"relief.png\"\n",
+        "picture = \"view\"\nwidth = 160\nheight = 90\nrock_deg = 8.0\nfile = \"view.png\"\n",
     ] {
         let place = place(&format!("[[output]]\n{output}"));
         let ratio = estimated(&place) / taken(&place);
@@ -104,13 +103,17 @@ fn a_long_file_is_refused_before_it_is_read() {
     assert_ends(&place, &["run", "r.toml", "--memory", "50MiB"], 5, &["long.npy: ", "of memory", "--memory"]);
 }
 
-/// How a run ends in so many kibibytes of addresses, and what it says. A shell limits them.
+/// How a run ends in so many kibibytes of addresses, and what it says.
 #[cfg(target_os = "linux")]
 fn limited(place: &Place, kibibytes: u64) -> (Option<i32>, String) {
+    limited_command(place, kibibytes, "run r.toml --engine cpu --threads 2 --memory 64GiB --quiet")
+}
+
+/// The same for any command. A shell limits the addresses.
+#[cfg(target_os = "linux")]
+fn limited_command(place: &Place, kibibytes: u64, command: &str) -> (Option<i32>, String) {
     let weald = env!("CARGO_BIN_EXE_weald");
-    let script = format!(
-        "ulimit -v {kibibytes}; exec {weald} run r.toml --engine cpu --threads 2 --memory 64GiB --quiet"
-    );
+    let script = format!("ulimit -v {kibibytes}; exec {weald} {command}");
     let mut shell = std::process::Command::new("sh");
     let shell = shell.env("WEALD_CACHE", "off").args(["-c", &script]).current_dir(place.path(""));
     let output = shell.output().expect("a shell");
@@ -147,5 +150,31 @@ fn whatever_addresses_there_are_a_run_ends_with_0_or_5() {
         let wrong = ends.iter().find(|(code, _)| ![Some(0), Some(5)].contains(code));
         assert!(wrong.is_none(), "{wrong:?}");
         assert_eq!(ends.last().map(|(code, _)| *code), Some(Some(0)), "there is room in the end");
+    }
+}
+
+/// Of 2^24 cells, which are many more than fit, a few more, and as many.
+#[cfg(target_os = "linux")]
+#[test]
+fn whatever_addresses_there_are_a_file_is_read_or_refused_with_5() {
+    let place = Place::with(
+        "[landscape]\nfrom = \"land.npy\"\ncell = 5.0\n[[step]]\ndo = \"thermal\"\niterations = 1\n[[output]]\nlayer = \
+         \"height\"\nfile = \"height.npy\"\n",
+    );
+    let mut header =
+        b"\x93NUMPY\x01\0\x76\0{'descr': '|u1', 'fortran_order': False, 'shape': (4096, 4096), }".to_vec();
+    header.resize(127, b' ');
+    header.push(b'\n');
+    std::fs::write(place.path("land.npy"), &header).expect("written");
+    let file = std::fs::File::options().write(true).open(place.path("land.npy")).expect("it is there");
+    file.set_len(128 + (1 << 24)).expect("sparse");
+    for command in
+        ["info land.npy", "convert land.npy other.npy", "check r.toml", "run r.toml --memory 64GiB --quiet"]
+    {
+        let ends: Vec<_> =
+            [90, 130, 200, 300, 450].map(|limit| limited_command(&place, limit << 10, command)).into();
+        println!("{command}: {:?}", ends.iter().map(|(code, _)| code).collect::<Vec<_>>());
+        let wrong = ends.iter().find(|(code, _)| ![Some(0), Some(5)].contains(code));
+        assert!(wrong.is_none(), "{command}: {wrong:?}");
     }
 }

@@ -18,6 +18,7 @@ use weald_core::landscape::Landscape;
 use weald_core::material::layer_names;
 use weald_core::sea;
 use weald_engine::step::{Layered, Stage};
+use weald_io::memory::{available, has_addresses};
 
 /// Bytes of a value of a layer.
 const VALUE: u64 = 4;
@@ -77,10 +78,10 @@ impl Recipe {
         }
         let cells = last.size.cells() as u64;
         let kept = VALUE * layers.len() as u64 * cells;
-        for group in self.groups(kept, cells) {
+        for group in self.groups(&layers, cells) {
             let outputs = &self.outputs[group];
-            let bytes = kept + outputs.iter().map(|output| output.bytes(cells)).sum::<u64>();
-            let largest = outputs.iter().max_by_key(|output| output.bytes(cells));
+            let bytes = kept + outputs.iter().map(|output| output.bytes(&layers, cells)).sum::<u64>();
+            let largest = outputs.iter().max_by_key(|output| output.bytes(&layers, cells));
             let at = largest.map_or_else(String::new, |output| output.file.display().to_string());
             peaks.push(Memory { bytes, at });
         }
@@ -91,23 +92,24 @@ impl Recipe {
 
     /// The outputs in their order, in groups that are made side by side.
     pub(super) fn output_groups(&self, landscape: &Landscape) -> Vec<Range<usize>> {
-        let cells = landscape.domain.size.cells() as u64;
-        self.groups(VALUE * landscape.layers().count() as u64 * cells, cells)
+        let layers = landscape.layers().map(|(name, _)| name.to_owned()).collect();
+        self.groups(&layers, landscape.domain.size.cells() as u64)
     }
 
-    /// The same for layers of so many bytes: together a group takes no more than those and the largest output. A device
-    /// draws one picture at a time.
-    fn groups(&self, kept: u64, cells: u64) -> Vec<Range<usize>> {
-        let room = kept + self.outputs.iter().map(|output| output.bytes(cells)).max().unwrap_or_default();
+    /// The same for these layers: together a group takes no more than those and the largest output. A device draws one picture
+    /// at a time.
+    fn groups(&self, layers: &BTreeSet<String>, cells: u64) -> Vec<Range<usize>> {
+        let bytes: Vec<u64> = self.outputs.iter().map(|output| output.bytes(layers, cells)).collect();
+        let room = VALUE * layers.len() as u64 * cells + bytes.iter().copied().max().unwrap_or_default();
         let (mut groups, mut first, mut taken) = (Vec::new(), 0, 0);
         let is_drawn = |number: usize| self.outputs[number].render().is_some();
-        for (number, output) in self.outputs.iter().enumerate() {
-            let is_full = number - first == SIDE_BY_SIDE || taken + output.bytes(cells) > room;
+        for (number, bytes) in bytes.into_iter().enumerate() {
+            let is_full = number - first == SIDE_BY_SIDE || taken + bytes > room;
             if number > first && (is_full || is_drawn(number) || is_drawn(number - 1)) {
                 groups.push(first..number);
                 (first, taken) = (number, 0);
             }
-            taken += output.bytes(cells);
+            taken += bytes;
         }
         groups.extend((first < self.outputs.len()).then_some(first..self.outputs.len()));
         groups
@@ -159,7 +161,7 @@ impl Recipe {
 
     fn ensure_peak(&self, peak: &Memory, allowed: Option<u64>) -> Result<(), Error> {
         let there = self::allowed(allowed);
-        let has_room = has_addresses(peak.bytes);
+        let has_room = has_addresses(&[peak.bytes, peak.bytes, BESIDE]);
         if peak.bytes <= there && has_room {
             return Ok(());
         }
@@ -170,22 +172,16 @@ impl Recipe {
     }
 }
 
-/// Whether the address space, which may be limited below the memory there is, holds so much and what allocators and threads
-/// take beside it. Rust ends a process that asks for more than there is, so this must be found out before; it takes no
-/// memory.
-fn has_addresses(bytes: u64) -> bool {
-    let mut probes: [Vec<u8>; 3] = Default::default();
-    let sizes = [bytes, bytes, BESIDE];
-    let mut wanted = probes.iter_mut().zip(sizes);
-    wanted.all(|(probe, size)| usize::try_from(size).is_ok_and(|size| probe.try_reserve_exact(size).is_ok()))
-}
-
 impl Output {
-    /// Bytes on so many cells, beside the layers.
-    fn bytes(&self, cells: u64) -> u64 {
+    /// Bytes on so many cells, beside the layers that there are.
+    fn bytes(&self, layers: &BTreeSet<String>, cells: u64) -> u64 {
         let working = match &self.content {
             Content::Layer { .. } => 16 * cells,
-            Content::Picture { picture, .. } | Content::Film { picture, .. } => picture.working_bytes(cells),
+            Content::Picture { picture, .. } | Content::Film { picture, .. } => {
+                let optional = picture.optional().into_iter().filter(|name| layers.contains(name));
+                picture.working_bytes(cells)
+                    + optional.map(|name| picture.optional_bytes(&name, cells)).sum::<u64>()
+            }
             Content::Export { export, .. } => export.working_bytes(cells),
         };
         working + self.bytes_of_pixels()
@@ -241,24 +237,5 @@ pub(super) fn taken() -> Option<u64> {
 
 /// Memory that a run may take: what it was allowed, else what is free.
 pub(super) fn allowed(asked: Option<u64>) -> u64 {
-    asked.or_else(free_memory).unwrap_or(u64::MAX)
-}
-
-/// Memory that is free or can be freed, in bytes, where the system tells it.
-#[cfg(target_os = "linux")]
-pub fn free_memory() -> Option<u64> {
-    let number = |path: &str| std::fs::read_to_string(path).ok()?.trim().parse::<u64>().ok();
-    let text = std::fs::read_to_string("/proc/meminfo").ok()?;
-    let line = text.lines().find_map(|line| line.strip_prefix("MemAvailable:"))?;
-    let free = line.trim().trim_end_matches(" kB").parse::<u64>().ok()? << 10;
-    // A container has less than the machine.
-    let most = number("/sys/fs/cgroup/memory.max").zip(number("/sys/fs/cgroup/memory.current"));
-    let left = most.map(|(most, used)| most.saturating_sub(used));
-    Some(left.map_or(free, |left| left.min(free)))
-}
-
-/// Memory that is free or can be freed, in bytes, where the system tells it.
-#[cfg(not(target_os = "linux"))]
-pub fn free_memory() -> Option<u64> {
-    None
+    asked.or_else(available).unwrap_or(u64::MAX)
 }
