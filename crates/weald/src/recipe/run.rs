@@ -385,12 +385,22 @@ impl Run<'_> {
             return Error::Run(what);
         }
         let path = self.checkpoint();
-        match checkpoint::write(&path, self.recipe.effective(), state, None) {
+        let keep = || checkpoint::write(&path, self.recipe.effective(), state, None);
+        match keep().or_else(|_| self.make_room().and_then(|()| keep())) {
             Ok(()) => Error::Run(format!(
                 "{what}; no file has changed, and the same command with --resume goes on from {}",
                 path.display()
             )),
-            Err(_) => Error::Run(format!("{what}; no file has changed")),
+            Err(_) => Error::Run(format!("{what}; no file has changed, nor was there room for a checkpoint")),
         }
+    }
+
+    /// Removes the files that were made until now, but for the frames with which a run goes on.
+    fn make_room(&self) -> Result<(), Error> {
+        let made = new_files(&self.options.out, self.recipe);
+        if self.recipe.outputs.iter().any(Output::lapses) {
+            return Ok(());
+        }
+        files::remove_dir_all(&made).map_err(|cause| Error::write(&made, &cause))
     }
 }

@@ -1,5 +1,6 @@
 //! The output folder: what can be known to fail is found before an hour of simulation, not after it.
 
+use std::collections::BTreeSet;
 use std::path::Path;
 
 use super::work::WorkFolder;
@@ -16,6 +17,7 @@ pub(super) fn prepare(recipe: &Recipe, out: &Path) -> Result<(WorkFolder, Vec<St
     let mut notes: Vec<_> = place.note().into_iter().collect();
     let mut left = remove_leftovers(out).len();
     let inputs = recipe.inputs();
+    let mut places = BTreeSet::new();
     for name in recipe.outputs.iter().flat_map(|output| output.names(&recipe.steps)) {
         let path = out.join(name.path());
         let folder = path.parent().unwrap_or(out);
@@ -23,6 +25,14 @@ pub(super) fn prepare(recipe: &Recipe, out: &Path) -> Result<(WorkFolder, Vec<St
         ensure_one_disk(out, folder)?;
         left += remove_leftovers(folder).len();
         ensure_free(&name, &path)?;
+        let real =
+            files::canonicalize(folder).ok().map(|folder| folder.join(path.file_name().unwrap_or_default()));
+        if real.is_some_and(|real| !places.insert(real)) {
+            return Err(Error::Run(format!(
+                "{} is where another output is to be: a link leads from one folder to the other; choose another --out folder",
+                path.display()
+            )));
+        }
         if inputs.iter().any(|input| same_file(input, &path)) {
             return Err(Error::Run(format!(
                 "{} is an input of the recipe and would be overwritten; choose another --out folder",

@@ -384,6 +384,31 @@ fn a_run_that_fails_at_its_second_output_leaves_all_files_as_they_were_and_goes_
     assert_eq!(height(out.path()), height(whole.path()));
 }
 
+/// `/dev/full` refuses every byte as a full disk does; a link puts it in the place of the checkpoint that is written first.
+#[cfg(target_os = "linux")]
+#[test]
+fn files_that_are_of_no_use_any_more_make_room_for_the_checkpoint_of_a_finished_landscape() {
+    let out = folder();
+    let temporary = format!("{CHECKPOINT_FILE}.{}.tmp-weald", std::process::id());
+    std::os::unix::fs::symlink("/dev/full", out.path().join(temporary)).expect("linked");
+    let breaks = Breaks { out: out.path(), recipe: RECIPE, entries: &["dot.png"] };
+    let error = run(RECIPE, out.path(), false, &breaks).expect_err("cannot be written").to_string();
+    assert!(error.contains("no file has changed") && error.contains("--resume"), "{error}");
+    run(RECIPE, out.path(), true, &Silent).expect("goes on");
+}
+
+#[cfg(unix)]
+#[test]
+fn outputs_that_a_link_brings_into_one_folder_are_refused_before_anything_runs() {
+    let out = folder();
+    let text = format!("{RECIPE}[[output]]\nlayer = \"height\"\nfile = \"other/height.bits\"\n");
+    std::fs::create_dir(out.path().join("deep")).expect("made");
+    std::os::unix::fs::symlink("deep", out.path().join("other")).expect("linked");
+    let error =
+        run(&text, out.path(), false, &Silent).expect_err("one would overwrite the other").to_string();
+    assert!(error.contains("is where another output is to be"), "{error}");
+}
+
 /// The recipe with a dozen outputs more.
 fn with_many_outputs() -> String {
     let more = (0..12).map(|number| format!("[[output]]\nlayer = \"height\"\nfile = \"h{number}.bits\"\n"));
@@ -455,6 +480,29 @@ fn the_next_run_finishes_what_was_ended_while_files_got_their_names() {
         assert!(bytes(cut.path(), file) == bytes(whole.path(), file), "{file}");
     }
     assert_eq!(files_in(cut.path()), ["deep", "dot.png", "report.json"]);
+}
+
+#[test]
+fn a_journal_that_somebody_sends_moves_nothing_out_of_or_into_other_folders() {
+    let (out, theirs) = (folder(), folder());
+    std::fs::write(theirs.path().join("letter"), "dear").expect("written");
+    let made = out.path().join(".weald/made");
+    std::fs::create_dir_all(&made).expect("made");
+    std::fs::write(made.join("letter"), "new").expect("written");
+    let theirs_file = theirs.path().join("letter");
+    for (made_in, file) in [
+        (theirs.path(), Path::new("letter")),
+        (Path::new("made"), theirs_file.as_path()),
+        (Path::new("made"), Path::new("../letter")),
+        (Path::new("../.weald/made"), Path::new("letter")),
+    ] {
+        let journal = serde_json::json!({ "made_in": made_in, "files": [file] }).to_string();
+        std::fs::write(out.path().join(".weald/journal.json"), journal).expect("written");
+        let error = run(RECIPE, out.path(), false, &Silent).expect_err("refused");
+        assert!(error.to_string().contains("is no name within this folder"), "{error}");
+        assert_eq!(bytes(theirs.path(), "letter"), b"dear");
+        assert_eq!(bytes(&made, "letter"), b"new");
+    }
 }
 
 /// Puts a folder where checkpoints are to be, and hears notes.

@@ -7,7 +7,7 @@
 
 use std::fs::TryLockError;
 use std::io::{Read, Write};
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
@@ -32,6 +32,15 @@ struct Journal {
     /// Folder in the work folder in which they are.
     made_in: String,
     files: Vec<PathBuf>,
+}
+
+impl Journal {
+    /// A name that leads out of the folders: whoever sends somebody an output folder must not move files of theirs.
+    fn outside(&self) -> Option<&Path> {
+        let mut names = self.files.iter().map(PathBuf::as_path).chain([Path::new(&self.made_in)]);
+        let is_within = |part: Component<'_>| matches!(part, Component::Normal(_) | Component::CurDir);
+        names.find(|name| !name.components().all(is_within))
+    }
 }
 
 /// An output folder that belongs to this run until it ends.
@@ -147,10 +156,14 @@ impl WorkFolder {
     fn finish_journal(&self) -> Result<Option<PathBuf>, Error> {
         let path = self.inside(JOURNAL);
         let Ok(text) = files::read(&path) else { return Ok(None) };
-        let journal: Journal = serde_json::from_slice(&text).map_err(|cause| {
+        let damaged = |cause: String| {
             let folder = self.out.join(WORK_FOLDER);
             Error::input(&path, format!("is damaged: {cause}; remove {} and run again", folder.display()))
-        })?;
+        };
+        let journal: Journal = serde_json::from_slice(&text).map_err(|cause| damaged(cause.to_string()))?;
+        if let Some(outside) = journal.outside() {
+            return Err(damaged(format!("{} is no name within this folder", outside.display())));
+        }
         let (made, report) = (self.inside(&journal.made_in), self.out.join(REPORT_FILE));
         if files::exists(&made.join(REPORT_FILE)) && files::exists(&report) {
             files::remove_file(&report).map_err(|cause| Error::write(&report, &cause))?;
