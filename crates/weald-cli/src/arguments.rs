@@ -88,7 +88,6 @@ pub(crate) enum Command {
         #[arg(long, value_name = "DIR", default_value = "out/gallery")]
         out: PathBuf,
     },
-    /// Open a window: run, paint and undo by hand
     /// Serve the studio's page for browsers on this machine, to try it
     ///
     /// The page is a folder that any web server can serve: `web` in the archive of a release; `cargo run --release -p
@@ -101,6 +100,7 @@ pub(crate) enum Command {
         #[arg(long, value_name = "PORT", num_args = 0..=1, default_missing_value = "8080")]
         serve: Option<u16>,
     },
+    /// Open a window: run, paint and undo by hand
     #[cfg(feature = "studio")]
     Studio {
         /// A recipe, an elevation model, or the folder of a project [default: a template]
@@ -258,6 +258,13 @@ mod tests {
     #[test]
     fn the_declaration_of_the_command_line_is_sound() {
         Arguments::command().debug_assert();
+    }
+
+    #[test]
+    fn every_command_says_what_it_does() {
+        let commands = Arguments::command();
+        let silent = commands.get_subcommands().find(|command| command.get_about().is_none());
+        assert_eq!(silent.map(clap::Command::get_name), None);
     }
 
     #[test]
