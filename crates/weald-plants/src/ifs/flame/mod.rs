@@ -57,6 +57,26 @@ pub fn read(path: &Path) -> Result<Vec<Ifs>, Error> {
 /// # Errors
 /// A [`Fault`] that names line, element and attribute, and what is legal.
 pub fn parse(bytes: &[u8]) -> Result<Vec<Ifs>, Fault> {
+    each_flame(bytes, |flame, number| {
+        let (draft, parts) = drafted(flame, number)?;
+        Ifs::new(draft).map_err(|fault| parts.located(flame, &fault))
+    })
+}
+
+/// The same, as fractals that are not yet checked: whether their maps contract, and how far they reach, may take much longer
+/// to find than reading them does.
+///
+/// # Errors
+/// As [`parse`], but for what a check finds.
+pub fn drafts(bytes: &[u8]) -> Result<Vec<Draft>, Fault> {
+    each_flame(bytes, |flame, number| drafted(flame, number).map(|(draft, _)| draft))
+}
+
+/// What becomes of each flame with its number from 1.
+fn each_flame<T>(
+    bytes: &[u8],
+    mut read: impl FnMut(Element<'_>, usize) -> Result<T, Fault>,
+) -> Result<Vec<T>, Fault> {
     if bytes.len() as u64 > MAX_BYTES {
         return Err(Limit::new(Quantity::FileBytes, bytes.len() as u64, 0..=MAX_BYTES).into());
     }
@@ -66,7 +86,7 @@ pub fn parse(bytes: &[u8]) -> Result<Vec<Ifs>, Fault> {
     let options = ParsingOptions { allow_dtd: false, nodes_limit: MAX_NODES, ..ParsingOptions::default() };
     let document = Document::parse_with_options(text, options).map_err(|cause| unreadable(&cause))?;
     let flames = flames(&document)?;
-    flames.iter().enumerate().map(|(number, &flame)| read_flame(Element::of(flame), number + 1)).collect()
+    flames.iter().enumerate().map(|(number, &flame)| read(Element::of(flame), number + 1)).collect()
 }
 
 fn unreadable(cause: &roxmltree::Error) -> Fault {
@@ -94,8 +114,8 @@ fn flames<'a>(document: &'a Document<'_>) -> Result<Vec<Node<'a, 'a>>, Fault> {
     }
 }
 
-/// One flame as a fractal.
-fn read_flame(flame: Element<'_>, number: usize) -> Result<Ifs, Fault> {
+/// One flame as a fractal that is to be checked, and what it is made of.
+fn drafted(flame: Element<'_>, number: usize) -> Result<(Draft, Parts<'_>), Fault> {
     if flame.number("soloxform")?.is_some_and(|xform| xform >= 0.0) {
         return Err(flame.fault("`soloxform` hides all xforms but one; take it out"));
     }
@@ -109,8 +129,7 @@ fn read_flame(flame: Element<'_>, number: usize) -> Result<Ifs, Fault> {
     };
     let shares = symmetry::expanded(&parts.shares()).map_err(|what| flame.fault(&what))?;
     let maps = parts.seen(shares)?;
-    let draft = Draft { name, maps, code_digits: None };
-    Ifs::new(draft).map_err(|fault| parts.located(flame, &fault))
+    Ok((Draft { name, maps, code_digits: None }, parts))
 }
 
 /// What a flame is made of.

@@ -70,6 +70,15 @@ fn flames_are_found_at_any_depth_and_in_their_order() {
 }
 
 #[test]
+fn drafts_are_what_becomes_of_flames() {
+    let [a, b] = ["a", "b"].map(|name| flame(HALF, OTHER, "").replace("mine", name));
+    let text = format!("<all>{a}{b}</all>");
+    let both: Vec<_> = drafts(text.as_bytes()).expect("two").into_iter().map(Ifs::new).collect();
+    let parsed = parse(text.as_bytes()).expect("two");
+    assert_eq!(both, parsed.into_iter().map(Ok).collect::<Vec<_>>());
+}
+
+#[test]
 fn what_no_fractal_can_say_is_refused_by_name() {
     let with = |more: &str| fault(&flame(HALF, &format!("{OTHER} {more}"), ""));
     for (more, said) in [
