@@ -1,13 +1,16 @@
 //! A Zarr array of version 2 whose one chunk is the input, packed as a compressor says.
+//!
+//! The chunk is as small as still has every part: Blosc cuts blocks of 128 numbers and more into streams.
 
 use weald::io::{InMemory, Limits, Part, zarr};
 
 const LIMITS: Limits = Limits { cells: 1 << 16 };
+const SIDE: usize = 16;
 
 /// Any chunk is a raster of finite numbers or a fault.
 pub fn unpack(compressor: &str, bytes: &[u8]) {
     let array = format!(
-        "{{\"zarr_format\": 2, \"shape\": [64, 64], \"chunks\": [64, 64], \"dtype\": \"<f4\", \"compressor\": \
+        "{{\"zarr_format\": 2, \"shape\": [{SIDE}, {SIDE}], \"chunks\": [{SIDE}, {SIDE}], \"dtype\": \"<f4\", \"compressor\": \
          {compressor}, \"fill_value\": null, \"order\": \"C\", \"filters\": null}}"
     );
     let group = "{\"zarr_format\": 2}".as_bytes().to_vec();
@@ -17,5 +20,5 @@ pub fn unpack(compressor: &str, bytes: &[u8]) {
         Part::inside("height/0.0", bytes.to_vec()),
     ];
     let Ok(raster) = zarr::decode(&InMemory::of("a.zarr", parts), LIMITS) else { return };
-    assert_eq!(raster.field.size().cells(), 64 * 64);
+    assert_eq!(raster.field.size().cells(), SIDE * SIDE);
 }

@@ -4,7 +4,7 @@
 use libfuzzer_sys::fuzz_target;
 use weald::io::{Limits, exr};
 
-const LIMITS: Limits = Limits { cells: 1 << 16 };
+const LIMITS: Limits = Limits { cells: 1 << 12 };
 
 fuzz_target!(|bytes: &[u8]| {
     let Ok(raster) = exr::decode(bytes, LIMITS) else { return };

@@ -9,7 +9,7 @@ use libfuzzer_sys::fuzz_target;
 use weald::error::{Limit, Quantity};
 use weald::io::{Fault, InMemory, Limits, PartName, Parts, zarr};
 
-const LIMITS: Limits = Limits { cells: 1 << 16 };
+const LIMITS: Limits = Limits { cells: 1 << 12 };
 
 /// A folder in which every chunk is the same.
 struct Folder<'a> {
