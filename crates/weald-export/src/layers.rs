@@ -94,7 +94,7 @@ fn layer<'a>(finished: &Finished<'a>, name: &str) -> Result<cf::Layer<'a>, Error
         resampled: None,
     };
     let classes = classes(finished.landscape, name)?.map(Cow::Owned);
-    Ok(cf::Layer { field: &layer.field, provenance: Some(provenance), classes })
+    Ok(cf::Layer { field: &layer.field, provenance: Some(provenance), unit: None, classes })
 }
 
 #[cfg(test)]

@@ -36,6 +36,8 @@ pub struct Layer<'a> {
     pub field: &'a Field,
     /// Where it came from.
     pub provenance: Option<Provenance>,
+    /// Unit of its values, where they are not Weald's own.
+    pub unit: Option<String>,
     /// What its values stand for, where they are whole numbers.
     pub classes: Option<Cow<'a, Classes>>,
 }
@@ -50,6 +52,7 @@ impl<'a> Sheet<'a> {
             layers: vec![Layer {
                 field: &raster.field,
                 provenance: raster.provenance.clone(),
+                unit: raster.unit.clone(),
                 classes: raster.classes.as_ref().map(Cow::Borrowed),
             }],
             names,
@@ -310,6 +313,8 @@ fn layer_attributes(layer: &Layer<'_>, is_placed: bool) -> Attributes {
         attributes.add("units", udunits(&provenance.unit));
         let items = provenance.items().into_iter().filter(|(key, _)| OF_LAYER.contains(key));
         items.for_each(|(key, text)| attributes.add(key, text));
+    } else if let Some(unit) = &layer.unit {
+        attributes.add("units", udunits(unit));
     }
     if layer.classes.is_some() {
         attributes.add("_FillValue", Attribute::Integers(vec![NO_CLASS]));

@@ -89,6 +89,14 @@ pub(super) fn xml(provenance: &Provenance) -> String {
     )
 }
 
+/// The unit alone, which counts before that of the heights of the CRS.
+pub(super) fn xml_of_unit(unit: &str) -> String {
+    let unit = escaped(unit);
+    format!(
+        "<GDALMetadata>\n  <Item name=\"UNITTYPE\" sample=\"0\" role=\"unittype\">{unit}</Item>\n</GDALMetadata>\n"
+    )
+}
+
 /// The text of the item of that name.
 fn item(xml: &str, key: &str) -> Option<String> {
     let (_, item) = xml.split_once(&format!("<Item name=\"{key}\""))?;

@@ -51,6 +51,8 @@ impl Image {
         if let Some(provenance) = &raster.provenance {
             tags.push(Entry::text(tag::IMAGE_DESCRIPTION, &provenance.sentence()));
             tags.push(Entry::text(tag::GDAL_METADATA, &metadata::xml(provenance)));
+        } else if let Some(unit) = &raster.unit {
+            tags.push(Entry::text(tag::GDAL_METADATA, &metadata::xml_of_unit(unit)));
         }
         tags.extend(place_tags(raster, size));
         Self { tags, lengths: Vec::new() }

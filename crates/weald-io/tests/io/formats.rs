@@ -5,9 +5,9 @@ use std::path::{Path, PathBuf};
 use crate::rasters::fixture;
 use tempfile::tempdir;
 use weald_core::Error;
-use weald_core::domain::Georeference;
+use weald_core::domain::{GeoKeys, Georeference};
 use weald_core::grid::{Field, Size};
-use weald_io::{Limits, Raster, geotiff, npy, png16};
+use weald_io::{Limits, Raster, geotiff, netcdf, npy, png16};
 
 fn data(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data").join(name)
@@ -153,6 +153,22 @@ fn a_tie_point_in_the_middle_of_its_cell_gives_the_same_corner() {
         assert!((point.origin[axis] - area.origin[axis]).abs() < 1e-12, "{point:?} and {area:?}");
         assert_eq!(point.pixel[axis], area.pixel[axis]);
     }
+}
+
+/// `convert` writes what it has read: heights in metres beside the keys and the code of a CRS with heights in feet.
+#[test]
+fn heights_in_feet_become_metres_once() {
+    let size = Size::new(2, 2).expect("small");
+    let keys = GeoKeys { directory: vec![1, 1, 0, 2, 1024, 0, 1, 1, 4099, 0, 1, 9003], ..GeoKeys::default() };
+    let place = |epsg, keys| Some(Georeference { epsg, origin: [8.0, 48.0], pixel: [0.5; 2], keys });
+    let raster = Raster { unit: Some("m".to_owned()), ..Raster::from(Field::filled(size, 100.0)) };
+    let tif = Raster { georeference: place(None, Some(keys)), ..raster.clone() };
+    let tif = geotiff::decode(&geotiff::encode(&tif).expect("written"), Limits::default()).expect("reads");
+    assert_eq!(tif.field.values(), [100.0; 4]);
+    let geographic = Raster { georeference: place(Some(8724), None), ..raster };
+    let nc =
+        netcdf::decode(&netcdf::encode(&geographic).expect("written"), Limits::default()).expect("reads");
+    assert_eq!(nc.field.values(), [100.0; 4]);
 }
 
 #[test]
