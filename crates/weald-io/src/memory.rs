@@ -1,6 +1,9 @@
 //! Whether there is memory for what is about to be made. Rust ends a process that asks for more than there is, so that this must be
 //! found out before.
 
+#[cfg(target_os = "linux")]
+use weald_core::files;
+
 /// Whether the address space, which may be limited below the memory there is, has room for blocks of so many bytes at once.
 /// It takes no memory.
 pub fn has_addresses(blocks: &[u64]) -> bool {
@@ -12,8 +15,8 @@ pub fn has_addresses(blocks: &[u64]) -> bool {
 /// Memory that is free or can be freed, in bytes, where the system tells it.
 #[cfg(target_os = "linux")]
 pub fn available() -> Option<u64> {
-    let number = |path: &str| std::fs::read_to_string(path).ok()?.trim().parse::<u64>().ok();
-    let text = std::fs::read_to_string("/proc/meminfo").ok()?;
+    let number = |path: &str| files::read_to_string(path).ok()?.trim().parse::<u64>().ok();
+    let text = files::read_to_string("/proc/meminfo").ok()?;
     let line = text.lines().find_map(|line| line.strip_prefix("MemAvailable:"))?;
     let free = line.trim().trim_end_matches(" kB").parse::<u64>().ok()? << 10;
     // A container has less than the machine.

@@ -111,13 +111,11 @@ impl Crs {
 
     /// Whether a definition that has its name or code has coordinates in its unit: metres, or degrees.
     fn counts_as(&self, definition: &Definition) -> bool {
-        match self.zone {
-            None => definition.kind == Kind::Geographic && definition.is_in_degrees,
-            Some(_) => {
-                let is_metre = definition.metres.is_none_or(|metres| rounded(metres) == 1.0);
-                definition.kind == Kind::Projected && is_metre
-            }
+        if self.zone.is_none() {
+            return definition.kind == Kind::Geographic && definition.is_in_degrees;
         }
+        let is_metre = definition.metres.is_none_or(|metres| rounded(metres) == 1.0);
+        definition.kind == Kind::Projected && is_metre
     }
 
     /// ESRI's name.
