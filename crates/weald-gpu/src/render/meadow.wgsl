@@ -82,3 +82,69 @@ fn list_of(tuft: Set, root: vec3<f32>) -> u32 {
 fn place_of_count(list: u32, group: u32, count: u32) -> u32 {
     return list * ((count + GROUP - 1u) / GROUP) + group;
 }
+
+// Sets whose blades are worked out once for all of their vertices; those of the others are for each.
+const KEPT_SETS = 131072u;
+
+// A blade as it is seen: its stem, of which the first point is the root; then in 16 bits each its root and facing, how wide it
+// and its head are, how it tapers and folds, how long its head is and how high it stands, and its two colours.
+struct KeptBlade {
+    low: vec4<f32>,
+    high: vec4<f32>,
+    form: vec4<u32>,
+    look: vec4<u32>,
+}
+
+// Blades of a set that are drawn where its blades are coarsest: the others have sunk into the ground there, beginning at this
+// share of the distance, and those that are left are so much broader.
+const FAR_BLADES = 3u;
+const FROM_SHARE = 0.5;
+const FAR_BROADER = 1.4;
+
+// How high a blade stands beside its set's others, by its number.
+fn blade_share(number: u32, distance: f32) -> f32 {
+    if choice.thinned == 0u || number < FAR_BLADES {
+        return 1.0;
+    }
+    return clamp((MIDDLE - distance) / ((1.0 - FROM_SHARE) * MIDDLE), 0.0, 1.0);
+}
+
+// How many blades of a set a list draws.
+fn blades_of(list: u32) -> u32 {
+    return select(BLADES, FAR_BLADES, list == LISTS - 1u);
+}
+
+// A blade of a set that is so far away. Fewer blades are broader, so that a meadow stays as thick; none is thinner than it can
+// be seen.
+fn seen_blade(species: u32, tuft: Set, number: u32, distance: f32) -> KeptBlade {
+    let blade = blade_of(species, tuft, number);
+    let standing = select(1.0, share(distance), choice.thinned == 1u);
+    let fewer = mix(FAR_BROADER, 1.0, blade_share(BLADES - 1u, distance));
+    let width = fewer * max(blade.width * broader(standing), min(0.8 * distance * frame.eye.w, 0.03));
+    let tall = height_share(rank_of(tuft), distance) * blade_share(number, distance);
+    let leaf = colour_of(species, blade.blend, 0.0);
+    let head = colour_of(species, blade.blend, 1.0);
+    return KeptBlade(
+        vec4<f32>(blade.stem.b, blade.stem.c),
+        vec4<f32>(blade.stem.d, blade.stem.e),
+        vec4<u32>(
+            pack2x16float(blade.root), pack2x16float(blade.facing), pack2x16float(vec2<f32>(width, blade.head_width)),
+            pack2x16float(vec2<f32>(blade.taper, blade.fold)),
+        ),
+        vec4<u32>(
+            pack2x16float(vec2<f32>(blade.head_length, tall)), pack2x16float(leaf.xy),
+            pack2x16float(vec2<f32>(leaf.z, head.z)), pack2x16float(head.xy),
+        ),
+    );
+}
+
+// The blade that was kept.
+fn blade_kept(kept: KeptBlade) -> Blade {
+    let widths = unpack2x16float(kept.form.z);
+    let folds = unpack2x16float(kept.form.w);
+    return Blade(
+        Spline(vec2<f32>(0.0), kept.low.xy, kept.low.zw, kept.high.xy, kept.high.zw),
+        unpack2x16float(kept.form.x), unpack2x16float(kept.form.y), widths.x, folds.x, folds.y,
+        unpack2x16float(kept.look.x).x, widths.y, 0.0,
+    );
+}
