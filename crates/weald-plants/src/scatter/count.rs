@@ -13,7 +13,7 @@ use weald_core::error::Error;
 const SURPLUS: f64 = 1.03;
 
 /// Places beyond those asked for that a try aims at: the middle of what is allowed.
-const AIM: f64 = 1.015;
+const TARGET_SURPLUS: f64 = 1.015;
 
 /// Spacings that are tried.
 const TRIES: usize = 12;
@@ -36,7 +36,7 @@ pub(super) fn widest(
     at: impl Fn(f64, u8) -> Result<Vec<Place>, Error>,
 ) -> Result<(f64, Vec<Place>), Error> {
     let mut search = Search { count: count as f64, least, narrow: None, wide: f64::INFINITY, last: None };
-    let expected = (DENSITY * area / (AIM * search.count)).sqrt().max(least);
+    let expected = (DENSITY * area / (TARGET_SURPLUS * search.count)).sqrt().max(least);
     let found = GAIN * at(expected, 0)?.len() as f64;
     let mut spacing = search.scaled(expected, found, 2.0).max(least);
     for _ in 0..TRIES {
@@ -99,7 +99,7 @@ impl Search {
 
     /// The spacing that has the number aimed at where another one has `found`.
     fn scaled(&self, spacing: f64, found: f64, power: f64) -> f64 {
-        spacing * libm::pow(found.max(1.0) / (AIM * self.count), 1.0 / power)
+        spacing * libm::pow(found.max(1.0) / (TARGET_SURPLUS * self.count), 1.0 / power)
     }
 }
 
