@@ -101,7 +101,13 @@ fn seconds_a_step(arguments: &BenchArguments, engine: &Engine) -> Result<f64, Er
         Ok::<_, Error>(runs.into_iter().fold(f64::INFINITY, f64::min))
     };
     let (short, long) = (fastest(arguments.steps)?, fastest(2 * arguments.steps)?);
-    Ok((long - short).max(1e-9) / f64::from(arguments.steps))
+    if long <= short {
+        return Err(Error::Run(format!(
+            "{} steps took no longer than half as many on this busy machine; a larger `--steps` or `--size` can be measured",
+            2 * arguments.steps
+        )));
+    }
+    Ok((long - short) / f64::from(arguments.steps))
 }
 
 /// Seconds of a short message, and bytes per second of long ones, between the first two ranks; a rank alone has no messages.
