@@ -30,7 +30,6 @@ pub struct SceneUpdate {
     heights: Heights,
     errors: Vec<f32>,
     has_horizon: bool,
-    cover_kind: u32,
 }
 
 /// Some rows of a layer of a map.
@@ -39,32 +38,6 @@ struct Piece {
     map: usize,
     layer: usize,
     rows: [usize; 2],
-}
-
-/// What a renderer was made for, and whether its ground follows a simulation.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct AsItIs {
-    pub(super) is_followed: bool,
-    pub(super) has_horizon: bool,
-    pub(super) cover_kind: u32,
-}
-
-impl AsItIs {
-    /// Refuses what the renderer's pipelines cannot draw.
-    fn ensure_takes(self, update: &SceneUpdate) -> Result<(), Error> {
-        let around = |has_horizon| if has_horizon { "a horizon" } else { "a block" };
-        let shown =
-            |kind: u32| ["natural ground", "materials", "the values of a layer"][kind.min(2) as usize];
-        let (asked, had) = if update.has_horizon != self.has_horizon {
-            (around(update.has_horizon), around(self.has_horizon))
-        } else if update.cover_kind != self.cover_kind {
-            (shown(update.cover_kind), shown(self.cover_kind))
-        } else {
-            return Ok(());
-        };
-        let message = format!("{asked} cannot take the place of {had}; make another renderer");
-        Err(DeviceError::new(DeviceErrorKind::Misused, message).into())
-    }
 }
 
 /// What is still to go over.
@@ -86,7 +59,6 @@ impl SceneUpdate {
             heights: Heights::new(top, metres, scene.base()).with_beyond(beyond, cells),
             errors: errors(top, lattice.all_levels()),
             has_horizon: beyond.is_some(),
-            cover_kind: scene.cover_kind(),
             rows: None,
             of_rows: scene.cells()[1],
             maps,
@@ -132,14 +104,19 @@ impl Piece {
 }
 
 impl Coming {
-    /// Makes room for maps of other sizes, as of water that there was not before. What pipelines were not made for is refused:
-    /// a ground of another size, a horizon where the renderer has none or the other way round, materials on natural ground.
+    /// Makes room for maps of other sizes, as of water that there was not before; a ground of another size is refused, and
+    /// a horizon where the renderer has none, or the other way round.
     pub(super) fn new(
         update: SceneUpdate,
         (gpu, maps): (&Gpu, &mut Maps),
-        as_it_is: AsItIs,
+        (is_followed, has_horizon): (bool, bool),
     ) -> Result<Self, Error> {
-        as_it_is.ensure_takes(&update)?;
+        if update.has_horizon != has_horizon {
+            let around = |has_horizon| if has_horizon { "a horizon" } else { "a block" };
+            let (asked, had) = (around(update.has_horizon), around(has_horizon));
+            let message = format!("{asked} cannot take the place of {had}; make another renderer");
+            return Err(DeviceError::new(DeviceErrorKind::Misused, message).into());
+        }
         for map in &update.maps {
             let ([columns, rows], [had, of]) = (map.size, maps.size(map.name));
             if map.name == "top" && [columns, rows] != [had, of] {
@@ -151,7 +128,7 @@ impl Coming {
             }
             maps.make_room(gpu, map)?;
         }
-        let pieces = update.pieces(as_it_is.is_followed);
+        let pieces = update.pieces(is_followed);
         Ok(Self { update, pieces })
     }
 

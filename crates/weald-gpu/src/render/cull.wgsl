@@ -17,9 +17,8 @@ struct Draw {
 @group(2) @binding(3) var<storage, read_write> kept: array<u32>;
 // What each group counted of each list; then where that begins; one more with the end of all.
 @group(2) @binding(4) var<storage, read_write> starts: array<u32>;
-// The draws of all lists as far as their blades are kept, the dispatch of what lights the sets in them, and the draws of the
-// other sets.
-@group(2) @binding(5) var<storage, read_write> draws: array<Draw, 2u * LISTS + 1u>;
+// The draws of all lists, and the dispatch of what lights the sets in them.
+@group(2) @binding(5) var<storage, read_write> draws: array<Draw, LISTS + 1u>;
 // For each set its list, times the sets of a workgroup, and its place among those of its workgroup and list.
 @group(2) @binding(6) var<storage, read_write> marks: array<u32>;
 
@@ -89,10 +88,7 @@ fn sum(@builtin(local_invocation_index) thread: u32) {
     if thread < LISTS {
         let begin = starts[place_of_count(thread, 0u, count)];
         let end = starts[place_of_count(thread + 1u, 0u, count)];
-        let middle = clamp(KEPT_SETS, begin, end);
-        let vertices = blades_of(thread) * (2u * choice.rows[thread] + 2u);
-        draws[thread] = Draw(vertices, middle - begin, 0u, 0u);
-        draws[LISTS + 1u + thread] = Draw(vertices, end - middle, 0u, 0u);
+        draws[thread] = Draw(2u * choice.rows[thread], (end - begin) * BLADES, 0u, 0u);
     }
 }
 

@@ -90,43 +90,28 @@ fn rock_detail(point: vec2<f32>, footprint: f32) -> Detail {
     return Detail(0.75 * rough.value - 0.45 * shown * crack * crack, 0.3 * cracks.value, 0.16 * rough.slope);
 }
 
-// The planes on which hard ground is looked at, and how much it faces each.
-struct FacedPlanes {
-    planes: array<vec2<f32>, 3>,
-    weights: vec3<f32>,
-}
-
-fn faced_planes(point: vec3<f32>, normal: vec3<f32>) -> FacedPlanes {
+// Detail of an upright plane or the level one, by how much the ground faces it.
+fn hard_detail(point: vec3<f32>, normal: vec3<f32>, footprint: f32, stony: f32) -> Detail {
     var weights = normal * normal;
     weights *= weights;
     weights /= weights.x + weights.y + weights.z;
-    return FacedPlanes(array<vec2<f32>, 3>(point.yz, point.xz + vec2<f32>(31.7, 0.0), point.xy), weights);
-}
-
-// The sum with what is on a plane. Slopes count on the level plane alone; on upright ones the tone shows the form.
-fn with_plane(sum: Detail, here: Detail, weight: f32, plane: i32) -> Detail {
-    let bump = sum.bump + select(0.4, 1.0, plane == 2) * weight * here.bump;
-    return Detail(sum.tone + weight * here.tone, sum.hue + weight * here.hue, bump);
-}
-
-// Stones on ground of which so large a share is stony; where it is none, no plane is gone through.
-fn stones_on(faced: FacedPlanes, footprint: f32, share: f32) -> Detail {
+    let planes = array<vec2<f32>, 3>(point.yz, point.xz + vec2<f32>(31.7, 0.0), point.xy);
     var sum = Detail(0.0, 0.0, vec2<f32>(0.0));
-    for (var plane = select(3, 0, share > 0.0); plane < 3; plane++) {
-        if faced.weights[plane] >= 0.03 {
-            sum = with_plane(sum, stone_detail(faced.planes[plane], footprint), faced.weights[plane], plane);
+    for (var plane = 0; plane < 3; plane++) {
+        let weight = weights[plane];
+        if weight < 0.03 {
+            continue;
         }
-    }
-    return sum;
-}
-
-// The same of bare rock.
-fn rock_on(faced: FacedPlanes, footprint: f32, share: f32) -> Detail {
-    var sum = Detail(0.0, 0.0, vec2<f32>(0.0));
-    for (var plane = select(3, 0, share > 0.0); plane < 3; plane++) {
-        if faced.weights[plane] >= 0.03 {
-            sum = with_plane(sum, rock_detail(faced.planes[plane], footprint), faced.weights[plane], plane);
+        var here: Detail;
+        if stony > 0.5 {
+            here = stone_detail(planes[plane], footprint);
+        } else {
+            here = rock_detail(planes[plane], footprint);
         }
+        sum.tone += weight * here.tone;
+        sum.hue += weight * here.hue;
+        // Slopes count on the level plane alone; on upright ones the tone shows the form.
+        sum.bump += select(0.4, 1.0, plane == 2) * weight * here.bump;
     }
     return sum;
 }
@@ -141,9 +126,12 @@ fn with_detail(skin: SurfaceSample, point: vec3<f32>, normal: vec3<f32>, footpri
         return skin;
     }
     var detail = turf_detail(point.xy, footprint);
-    let faced = faced_planes(point, normal);
-    detail = blended(detail, stones_on(faced, footprint, skin.kinds.y), skin.kinds.y);
-    detail = blended(detail, rock_on(faced, footprint, skin.kinds.z), skin.kinds.z);
+    if skin.kinds.y > 0.0 {
+        detail = blended(detail, hard_detail(point, normal, footprint, 1.0), skin.kinds.y);
+    }
+    if skin.kinds.z > 0.0 {
+        detail = blended(detail, hard_detail(point, normal, footprint, 0.0), skin.kinds.z);
+    }
     let snow = octaves_at(Octaves(0.7, 5u, 0.5, 0x39u), point.xy, footprint);
     detail = blended(detail, Detail(0.12 * snow.value, 0.0, 0.05 * snow.slope), skin.kinds.w);
     let shown = clamp((DETAIL_FROM - footprint) / (0.5 * DETAIL_FROM), 0.0, 1.0);

@@ -4,9 +4,7 @@
 //! comes into another square; all else happens on the device. Three passes (`cull.wgsl`) put those in sight into one of
 //! three lists by distance, of which each is an indirect draw of blades with fewer vertices. The farther, the fewer sets
 //! stand, and the broader are their blades; a set sinks into the ground over a stretch of the way, so that none vanishes
-//! at once (`meadow.wgsl`, of which `weald::grow::grass::choice` is the definition). What all vertices of a blade have in
-//! common is worked out once for each blade that was chosen (`light_sets.wgsl`), of the first 131,072 sets; a set is one
-//! instance, whose blades are one strip.
+//! at once (`meadow.wgsl`, of which `weald::grow::grass::choice` is the definition).
 
 use weald::grow::Vegetation;
 use weald::grow::grass::device::FUNCTIONS;
@@ -39,8 +37,7 @@ pub(super) struct Grass {
     layers: Vec<GrassLayer>,
     choosing: Vec<ComputePipeline>,
     lighting: ComputePipeline,
-    /// Of each list, of blades that are kept and of those that are not.
-    draws: [[RenderPipeline; choice::LISTS]; 2],
+    draws: Vec<RenderPipeline>,
     layouts: [BindGroupLayout; 3],
 }
 
@@ -84,10 +81,14 @@ impl Grass {
             let lighting = lighting(gpu, scene, &whole(&layouts.frame.layout, &own[1]));
             let blades = self::module(gpu, scene, include_str!("blades.wgsl"));
             let layout = whole(&layouts.frame.layout, &own[2]);
-            let draws = [true, false].map(|kept| {
-                LISTS.map(|name| strips(&gpu.context, (&blades, &layout), (name, kept), samples))
-            });
-            Ok(Some(Self { layers, choosing: choosing.to_vec(), lighting, draws, layouts: own.clone() }))
+            let draws = LISTS.map(|name| strips(&gpu.context, (&blades, &layout), name, samples));
+            Ok(Some(Self {
+                layers,
+                choosing: choosing.to_vec(),
+                lighting,
+                draws: draws.to_vec(),
+                layouts: own.clone(),
+            }))
         })
     }
 
@@ -141,11 +142,9 @@ impl Grass {
     pub(super) fn draw(&self, pass: &mut RenderPass<'_>) {
         for loaded in self.loaded() {
             pass.set_bind_group(2, &loaded.draw, &[]);
-            for (first, lists) in [0, LISTS.len() as u64 + 1].into_iter().zip(&self.draws) {
-                for (draw, pipeline) in (first..).zip(lists) {
-                    pass.set_pipeline(pipeline);
-                    pass.draw_indirect(&loaded.draws.buffer, DRAW * draw);
-                }
+            for (list, pipeline) in (0..).zip(&self.draws) {
+                pass.set_pipeline(pipeline);
+                pass.draw_indirect(&loaded.draws.buffer, DRAW * list);
             }
         }
     }
@@ -184,11 +183,11 @@ fn lighting(gpu: &Gpu, scene: &LitScene, layout: &PipelineLayout) -> ComputePipe
 }
 
 /// The stage of a pass, and which of its buffers are only read, after the species, what is shown, and the sets: those that
-/// are kept, where their lists start; then the draws and marks, or the lit sets and their blades.
+/// are kept, where their lists start; then the draws and marks, or the lit sets.
 type Own = (ShaderStages, &'static [bool]);
 const CHOOSES: Own = (ShaderStages::COMPUTE, &[false; 4]);
-const LIGHTS: Own = (ShaderStages::COMPUTE, &[true, true, false, false]);
-const DRAWS: Own = (ShaderStages::VERTEX, &[true; 4]);
+const LIGHTS: Own = (ShaderStages::COMPUTE, &[true, true, false]);
+const DRAWS: Own = (ShaderStages::VERTEX, &[true; 3]);
 
 /// The bindings of a pass.
 fn layout(gpu: &Gpu, (visibility, read_only): Own) -> BindGroupLayout {
@@ -207,4 +206,4 @@ fn layout(gpu: &Gpu, (visibility, read_only): Own) -> BindGroupLayout {
     gpu.context.device.create_bind_group_layout(&description)
 }
 
-const _: () = assert!(BLADES == 6, "as a strip of a set has them");
+const _: () = assert!(BLADES == 6, "as the lists count instances");

@@ -6,7 +6,7 @@ use std::sync::{Arc, Weak};
 use weald::Error;
 use weald::error::{DeviceError, DeviceErrorKind, Limit, Quantity};
 use weald::grow::grass::choice::{Choice, FARTHEST, LISTS};
-use weald::grow::grass::{Area, BLADES, Grasses, Instance, Meadow, Packed};
+use weald::grow::grass::{Area, Grasses, Instance, Meadow, Packed};
 use wgpu::{BindGroup, BindGroupDescriptor, BindGroupEntry, BindGroupLayout, BufferUsages};
 
 use super::grass_look::GrassLook;
@@ -26,10 +26,6 @@ const CHOSEN: u64 = 4;
 
 /// Bytes of what all blades of a chosen set have in common.
 const LIT: u64 = 32;
-
-/// Bytes of a blade that is kept for all of its vertices, and of how many sets they are kept, as `meadow.wgsl` has it.
-const KEPT_BLADE: u64 = 64;
-const KEPT_SETS: u64 = 1 << 17;
 
 /// Bytes of what an indirect draw wants.
 pub(super) const DRAW: u64 = 16;
@@ -91,7 +87,7 @@ pub(super) struct LoadedSets {
     pub(super) light: BindGroup,
     pub(super) draw: BindGroup,
     pub(super) lit: Store,
-    _others: [Store; 3],
+    _others: [Store; 2],
 }
 
 impl GrassLayer {
@@ -279,7 +275,6 @@ struct Stores {
     draws: Store,
     marks: Store,
     lit: Store,
-    blades: Store,
 }
 
 impl Stores {
@@ -293,10 +288,9 @@ impl Stores {
             sets: store("sets of grass", SET * count, storage)?,
             kept: store("grass in sight", CHOSEN * count, storage)?,
             starts: store("starts of the lists of grass", starts, storage)?,
-            draws: store("draws of grass", DRAW * (2 * lists + 1), storage | BufferUsages::INDIRECT)?,
+            draws: store("draws of grass", DRAW * (lists + 1), storage | BufferUsages::INDIRECT)?,
             marks: store("marks of grass", CHOSEN * count, storage)?,
             lit: store("lit grass", LIT * count, storage)?,
-            blades: store("blades of grass", KEPT_BLADE * BLADES as u64 * count.min(KEPT_SETS), storage)?,
         })
     }
 
@@ -307,14 +301,13 @@ impl Stores {
         count: u32,
         [to_choose, to_light, to_draw]: &[BindGroupLayout; 3],
     ) -> Result<LoadedSets, Error> {
-        let Self { choice, sets, kept, starts, draws, marks, lit, blades } = self;
+        let Self { choice, sets, kept, starts, draws, marks, lit } = self;
         let drawn = [grasses, &choice, &sets, &kept, &starts];
         let cull = bind(gpu, to_choose, &[&drawn[..], &[&draws, &marks]].concat())?;
-        let with_lit = [&drawn[..], &[&lit, &blades]].concat();
+        let with_lit = [&drawn[..], &[&lit]].concat();
         let light = bind(gpu, to_light, &with_lit)?;
         let draw = bind(gpu, to_draw, &with_lit)?;
-        let _others = [marks, choice, blades];
-        Ok(LoadedSets { count, sets, kept, starts, draws, cull, light, draw, lit, _others })
+        Ok(LoadedSets { count, sets, kept, starts, draws, cull, light, draw, lit, _others: [marks, choice] })
     }
 }
 

@@ -1,16 +1,10 @@
-// What all blades of a set have in common where it is looked at, and each of them: once for each chosen set, and not for each
-// of its vertices.
+// What all blades of a set have in common where it is looked at: once for each chosen set, and not for each of its vertices.
 
 @group(2) @binding(0) var<uniform> grasses: Grasses;
 @group(2) @binding(2) var<storage, read> sets: array<vec4<u32>>;
 @group(2) @binding(3) var<storage, read> kept: array<u32>;
 @group(2) @binding(4) var<storage, read> starts: array<u32>;
 @group(2) @binding(5) var<storage, read_write> lit_sets: array<LitSet>;
-@group(2) @binding(6) var<storage, read_write> blades: array<KeptBlade>;
-
-fn keep_blade(place: u32, number: u32, instance: Instance, distance: f32) {
-    blades[place * BLADES + number] = seen_blade(instance.species, instance.tuft, number, distance);
-}
 
 @compute @workgroup_size(GROUP)
 fn light_sets(@builtin(global_invocation_id) at: vec3<u32>) {
@@ -23,14 +17,4 @@ fn light_sets(@builtin(global_invocation_id) at: vec3<u32>) {
     let sun = sun_seen(root + vec3<f32>(0.0, 0.0, 0.3), vec3<f32>(0.0, 0.0, 1.0));
     let push = wind_push(instance.place * vec2<f32>(1.0, -1.0), frame.moment.x, phase_of(instance.tuft));
     lit_sets[at.x] = LitSet(root, sun, push, leaves_at(place_of(root)).w, 0.0);
-    if at.x < KEPT_SETS {
-        // One after the other: the compiler of llvmpipe fails at the choices of a blade within a loop.
-        let distance = length(root - frame.moment.yzw);
-        keep_blade(at.x, 0u, instance, distance);
-        keep_blade(at.x, 1u, instance, distance);
-        keep_blade(at.x, 2u, instance, distance);
-        keep_blade(at.x, 3u, instance, distance);
-        keep_blade(at.x, 4u, instance, distance);
-        keep_blade(at.x, 5u, instance, distance);
-    }
 }

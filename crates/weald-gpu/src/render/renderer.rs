@@ -8,7 +8,7 @@ use weald::{Error, Landscape};
 use wgpu::{CommandEncoder, TextureView};
 
 use super::canopy;
-use super::coming::{AsItIs, Coming, SceneUpdate};
+use super::coming::{Coming, SceneUpdate};
 use super::follower::Follower;
 use super::frame::{Drawn, Frame};
 use super::grass::Grass;
@@ -21,7 +21,7 @@ use super::options::{Options, check_camera};
 use super::passes::{Drawing, Passes};
 use super::picking::{LandScale, Picking};
 use super::picture::Readback;
-use super::plants::{Plants, REACH};
+use super::plants::Plants;
 use super::shadows::Shadows;
 use super::terrain::Terrain;
 use super::textures::Canvas;
@@ -75,8 +75,6 @@ pub struct Renderer {
     pub(super) follower: Option<Follower>,
     /// What has become of the scene and is not on the device yet.
     pub(super) coming: Option<Coming>,
-    /// What shows on the ground, for which the pipelines are made.
-    cover_kind: u32,
     pub(super) has_water: bool,
     /// Whether water is left out, to be measured.
     pub(super) is_dry: bool,
@@ -120,7 +118,6 @@ impl Renderer {
             timer: None,
             follower: None,
             coming: None,
-            cover_kind: scene.cover_kind(),
             has_water: scene.has_water(),
             is_dry: false,
             seconds: 0.0,
@@ -171,15 +168,10 @@ impl Renderer {
     /// What was on its way before is forgotten.
     ///
     /// # Errors
-    /// [`Error::Device`] for a scene of another size, with other surroundings or with materials where there
-    /// were none, or where the device's memory does not suffice.
+    /// [`Error::Device`] for a scene of another size or with other surroundings, or where the device's memory does not suffice.
     pub fn update(&mut self, update: SceneUpdate) -> Result<(), Error> {
         let maps = (&self.gpu, &mut self.maps);
-        let as_it_is = AsItIs {
-            is_followed: self.follower.is_some(),
-            has_horizon: self.terrain.has_horizon(),
-            cover_kind: self.cover_kind,
-        };
+        let as_it_is = (self.follower.is_some(), self.terrain.has_horizon());
         self.coming = Some(Coming::new(update, maps, as_it_is)?);
         Ok(())
     }
@@ -291,8 +283,7 @@ impl Renderer {
         let into = &mut Upload { gpu: &self.gpu, encoder };
         let drawn = self.terrain.prepare(into, camera, size, self.look.detail_from)?;
         let from = self.look.detail_from.unwrap_or(camera.eye);
-        let highest = self.terrain.highest_around(from, REACH);
-        let woods = self.plants.as_mut().map_or(0.0, |plants| plants.reach_of_trees(from, highest));
+        let woods = self.plants.as_mut().map_or(0.0, |plants| plants.reach_of_trees(from));
         let drawn = Drawn { seconds: self.seconds, is_dry: self.is_dry, woods, ..drawn };
         self.frame.write(into, camera, size[0], &drawn);
         if !self.shadows.whole_is_drawn {
@@ -302,7 +293,7 @@ impl Renderer {
         let groups = [&self.frame.caster_group, &self.maps.group];
         if let Some(plants) = &mut self.plants {
             plants.grow(encoder, groups, from);
-            plants.choose(encoder, groups, self.shadows.whole_is_drawn);
+            plants.choose(encoder, groups);
         }
         if let Some(grass) = &mut self.grass {
             let around = Around { from, look: self.grass_look, viewer: &onto.viewer, waits };

@@ -54,16 +54,18 @@ fn seen_in_cascade(point: vec3<f32>, normal: vec3<f32>, cascade: i32) -> f32 {
     let range = frame.sun_up.w;
     let depth = min(at.z - 0.5 * texel / range, 1.0);
     let blocker = blocker_depth(place, cascade, depth);
-    // Around a point without anything before it there may still be the start of an edge: one look tells.
-    let looks = select(16, 1, blocker > 1.0);
+    if blocker > 1.0 {
+        // Around a point without anything before it there may still be the start of an edge.
+        return textureSampleCompareLevel(shadow_depths, shadow_between, place, cascade, depth);
+    }
     let width = (depth - blocker) * range * tan(scene.sun.w) / texel;
-    let spacing = select(clamp(width, 0.75, WIDEST) * 0.5, 0.0, looks == 1);
+    let spacing = clamp(width, 0.75, WIDEST) * 0.5;
     var sum = 0.0;
-    for (var look = 0; look < looks; look++) {
+    for (var look = 0; look < 16; look++) {
         let offset = (vec2<f32>(f32(look % 4), f32(look / 4)) - 1.5) * spacing / size;
         sum += textureSampleCompareLevel(shadow_depths, shadow_between, place + offset, cascade, depth);
     }
-    return sum / f32(looks);
+    return sum / 16.0;
 }
 
 // The first cascade that holds a point; as many as there are where none does.

@@ -10,15 +10,13 @@ use super::layouts::depth_state;
 use super::targets::LIGHT;
 use crate::gpu::context::Context;
 
-/// A pipeline of strips without buffers, from a vertex entry point to `blade_fragment`, of blades that are kept or worked out
-/// for each vertex.
+/// A pipeline of strips without buffers, from a vertex entry point to `blade_fragment`.
 pub(super) fn strips(
     context: &Context,
     (module, layout): (&ShaderModule, &PipelineLayout),
-    (vertex, kept): (&str, bool),
+    vertex: &str,
     samples: u32,
 ) -> RenderPipeline {
-    let constants = [("ARE_KEPT", f64::from(kept))];
     let target = ColorTargetState { format: LIGHT, blend: None, write_mask: ColorWrites::ALL };
     let make = || {
         context.device.create_render_pipeline(&RenderPipelineDescriptor {
@@ -27,10 +25,7 @@ pub(super) fn strips(
             vertex: VertexState {
                 module,
                 entry_point: Some(vertex),
-                compilation_options: PipelineCompilationOptions {
-                    constants: &constants,
-                    ..PipelineCompilationOptions::default()
-                },
+                compilation_options: PipelineCompilationOptions::default(),
                 buffers: &[],
             },
             primitive: PrimitiveState {
@@ -49,5 +44,5 @@ pub(super) fn strips(
             cache: None,
         })
     };
-    context.known.drawing((module.clone(), format!("{vertex} {kept} {samples}")), make)
+    context.known.drawing((module.clone(), format!("{vertex} {samples}")), make)
 }

@@ -155,14 +155,6 @@ impl Terrain {
         self.seen[CASCADES].write(into, &self.lattice, patches, &sides)
     }
 
-    /// Height of the highest ground around a point, up to a distance in metres.
-    pub(super) fn highest_around(&self, [east, north, _]: [f32; 3], distance: f32) -> f32 {
-        let [width, height] = self.lattice.metres;
-        let corner = [0.5 + (east - distance) / width, 0.5 - (north + distance) / height];
-        let [_, [_, _, highest]] = self.heights.box_of(corner, 2.0 * distance / width.min(height));
-        highest
-    }
-
     /// Whether ground goes on beyond the border.
     pub(super) fn has_horizon(&self) -> bool {
         self.has_horizon

@@ -22,10 +22,6 @@ const BUSH = vec3<f32>(0.52, 0.6, 0.42);
 // Height in metres above the water, and at most that share of a cell, from which trees stand.
 const SHORE = vec2<f32>(2.5, 0.028);
 
-// What shows on the ground of a scene, `COVER`: what grows and lies there, its materials, or the values of a layer.
-const NATURAL = 0;
-const MATERIALS = 1;
-
 // Share of the trees of the point in question that are drawn as such, and so not on the ground.
 var<private> trees_drawn: f32 = 0.0;
 
@@ -110,18 +106,19 @@ fn wood_density(spot: SurfacePoint) -> f32 {
     return wooded * (1.0 - bare) * (1.0 - snow_at(spot, texture, here.x));
 }
 
-// Colour and roughness of a point. What ground a scene has is a constant: software would work out all of them for each pixel.
+// Colour and roughness of a point.
 fn cover_at(spot: SurfacePoint) -> SurfaceSample {
+    let coloured = clamp(smooth_at(materials, spot.place).xyz, vec3<f32>(0.01), vec3<f32>(0.95));
+    if scene.has.z > 1.0 {
+        // The values of a layer, which nothing of the ground's own may hide.
+        return SurfaceSample(min(coloured, vec3<f32>(0.9)), vec2<f32>(0.0), vec4<f32>(0.0));
+    }
+    let texture = texture_of(spot);
     var skin: SurfaceSample;
-    if COVER == NATURAL {
-        skin = natural(spot, texture_of(spot));
+    if scene.has.z > 0.0 {
+        skin = of_material(spot, coloured, texture);
     } else {
-        let coloured = clamp(smooth_at(materials, spot.place).xyz, vec3<f32>(0.01), vec3<f32>(0.95));
-        // The values of a layer are such that nothing of the ground's own may hide them.
-        skin = SurfaceSample(coloured, vec2<f32>(0.0), vec4<f32>(0.0));
-        if COVER == MATERIALS {
-            skin = of_material(spot, coloured, texture_of(spot));
-        }
+        skin = natural(spot, texture);
     }
     skin.albedo = clamp(skin.albedo, vec3<f32>(0.01), vec3<f32>(0.9));
     return skin;

@@ -131,12 +131,6 @@ impl LitScene {
         camera::middle(&self.setting.terrain)
     }
 
-    /// What shows on the ground: 0 for what grows and lies there, 1 for its materials, 2 for the values of a layer.
-    pub fn cover_kind(&self) -> u32 {
-        let sites = &self.cover.sites;
-        u32::from(sites.shows_materials()) + u32::from(sites.is_draped())
-    }
-
     /// Height of the highest ground.
     pub fn highest(&self) -> f32 {
         self.setting.terrain.highest()

@@ -53,11 +53,10 @@ impl LitScene {
         });
         format!(
             "const SKY_PIECES = {PIECES};\nconst SIDE_NORMALS = {NORMALS};\nconst FAR_DIRECTIONS = {DIRECTIONS};\nconst CLOUDS = {};\n\
-             const COVER = {};\nstruct LitScene {{\n{fields}    \
+             struct LitScene {{\n{fields}    \
              sky_table: array<vec4<f32>, {SKY_TABLE}>,\n    side_light: array<vec4<f32>, {NORMALS}>,\n    \
              strata_colours: array<vec4<f32>, {MAX_MATERIALS}>,\n    far_ground: array<vec4<f32>, {DIRECTIONS}>,\n}}\n",
-            self.clouds.is_some(),
-            self.cover_kind(),
+            self.clouds.is_some()
         )
     }
 
@@ -114,7 +113,7 @@ impl LitScene {
                 [
                     flag(setting.level.is_some()),
                     flag(terrain.land.is_some()),
-                    self.cover_kind() as f32,
+                    flag(self.cover.sites.shows_materials()) + flag(self.cover.sites.is_draped()),
                     flag(setting.rivers.is_some()),
                 ],
             ),

@@ -30,9 +30,6 @@ const WORDS: usize = 8;
 /// Words of how a limb is carried, as `carried.wgsl` has it.
 const CARRIED: u64 = 8;
 
-/// Words of the breeze that a plant feels.
-const LOCAL_WIND: u64 = 4;
-
 /// Distance in metres by which roots reach into the ground, beside the height of the plant, as `stand.wgsl` has it.
 const ROOTED: f32 = 0.01;
 
@@ -50,7 +47,7 @@ pub(super) struct Batch {
     kept: Store,
     starts: Store,
     plants: Store,
-    _stores: [Store; 7],
+    _stores: [Store; 6],
 }
 
 /// What the plants of one kind have in common.
@@ -100,7 +97,6 @@ impl Batch {
         let draws = filled("draws of plants", &templates, table | BufferUsages::INDIRECT)?;
         let indices = filled("corners of leaves", &indices, BufferUsages::INDEX)?;
         let corners: Vec<_> = limbs.corners.iter().map(Corner::packed).collect();
-        let local_winds = room("breeze of plants", LOCAL_WIND * count)?;
         let layers = filled("layers of limbs", &layers(&limbs.limbs), table)?;
         let carried = u64::from(SEATS.iter().sum::<u32>() + SHARED_SEATS) * limbs.limbs.len().max(1) as u64;
         let carried = room("limbs as they are carried", CARRIED * carried)?;
@@ -108,12 +104,10 @@ impl Batch {
         let limbs = filled("limbs of plants", limbs.as_flattened(), table)?;
         let corners = filled("leaves of plants", corners.as_flattened(), table)?;
         let choose = groups.choose(gpu, &[&kind, &plants, &kept, &starts, &draws, &counts])?;
-        let carry =
-            groups.carry(gpu, &[&kind, &plants, &kept, &starts, &limbs, &layers, &carried, &local_winds])?;
-        let draw =
-            groups.draw(gpu, &[&kind, &plants, &kept, &starts, &limbs, &corners, &carried, &local_winds])?;
+        let carry = groups.carry(gpu, &[&kind, &plants, &kept, &starts, &limbs, &layers, &carried])?;
+        let draw = groups.draw(gpu, &[&kind, &plants, &kept, &starts, &limbs, &corners, &carried])?;
         let stand = groups.stand(gpu, &[&kind, &plants])?;
-        let stores = [kind, counts, limbs, corners, layers, carried, local_winds];
+        let stores = [kind, counts, limbs, corners, layers, carried];
         Ok(Self {
             choose,
             carry,

@@ -37,18 +37,6 @@ fn breeze_of(plant: PlacedPlant) -> LocalWind {
     return wind_on(felt.xz, seconds, plant.phase);
 }
 
-// The breeze that a plant feels as it is kept: along x and z of the plant, its push, and its place between shared seats.
-fn kept_breeze(breeze: LocalWind) -> vec4<f32> {
-    let seats = shared_seat(breeze);
-    return vec4<f32>(breeze.wind.x, breeze.wind.z, breeze.push, seats.x + seats.y);
-}
-
-// The same as it was before.
-fn breeze_kept(kept: vec4<f32>, phase: f32) -> LocalWind {
-    let wind = vec3<f32>(kept.x, 0.0, kept.y);
-    return LocalWind(kept.z, wind, vec3<f32>(-wind.z, 0.0, wind.x), frame.moment.x, phase);
-}
-
 // The wind of a shared seat.
 fn shared_breeze(seat: u32) -> LocalWind {
     let turn = f32(seat / STRENGTHS) * (6.2831853 / f32(SIDES));

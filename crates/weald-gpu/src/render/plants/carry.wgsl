@@ -1,5 +1,4 @@
-// The breeze that each plant feels, once for all of its leaves; and how all limbs of the plants that have a seat are carried:
-// limbs on the ground, then those on them, and so on.
+// How all limbs of the plants that have a seat are carried: limbs on the ground, then those on them, and so on.
 
 @group(2) @binding(0) var<uniform> kind: Kind;
 @group(2) @binding(1) var<storage, read> plants: array<PlacedPlant>;
@@ -9,16 +8,8 @@
 // How many layers of limbs there are, where each starts, where the last ends, and all limbs in that order.
 @group(2) @binding(5) var<storage, read> layers: array<u32>;
 @group(2) @binding(6) var<storage, read_write> carried: array<Carried>;
-@group(2) @binding(7) var<storage, read_write> local_winds: array<vec4<f32>>;
 
 const THREADS = 64u;
-
-@compute @workgroup_size(256)
-fn feel_breeze(@builtin(global_invocation_id) at: vec3<u32>) {
-    if at.x < arrayLength(&plants) {
-        local_winds[at.x] = kept_breeze(breeze_of(plants[at.x]));
-    }
-}
 
 @compute @workgroup_size(THREADS)
 fn carry_limbs(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) thread: u32) {

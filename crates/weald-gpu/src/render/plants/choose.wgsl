@@ -22,9 +22,6 @@ const GROUP = 256u;
 
 var<workgroup> tally: array<atomic<u32>, LISTS>;
 var<workgroup> lists: array<u32, GROUP>;
-// Plants of each list in each stretch of so many of the workgroup.
-const STRETCH = 16u;
-var<workgroup> stretches: array<u32, LISTS * (GROUP / STRETCH)>;
 var<workgroup> totals: array<u32, LISTS>;
 
 // The list of a plant in a view.
@@ -98,15 +95,6 @@ fn line_up(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_in
     }
 }
 
-// How many of so many plants of the workgroup are in a list, from one on.
-fn counted(list: u32, first: u32, count: u32) -> u32 {
-    var sum = 0u;
-    for (var at = first; at < first + count; at++) {
-        sum += select(0u, 1u, lists[at] == list);
-    }
-    return sum;
-}
-
 @compute @workgroup_size(256)
 fn place_plants(
     @builtin(workgroup_id) group: vec3<u32>,
@@ -118,17 +106,12 @@ fn place_plants(
     let list = list_of(view, number);
     lists[local] = list;
     workgroupBarrier();
-    if local < LISTS * (GROUP / STRETCH) {
-        stretches[local] = counted(local % LISTS, local / LISTS * STRETCH, STRETCH);
-    }
-    workgroupBarrier();
     if list == NO_LIST {
         return;
     }
-    let stretch = local / STRETCH;
-    var rank = counted(list, stretch * STRETCH, local % STRETCH);
-    for (var before = 0u; before < stretch; before++) {
-        rank += stretches[before * LISTS + list];
+    var rank = 0u;
+    for (var before = 0u; before < local; before++) {
+        rank += select(0u, 1u, lists[before] == list);
     }
     let first = starts[view * LISTS + list] + counts[(view * all.x + group.x) * LISTS + list];
     kept[view * arrayLength(&plants) + first + rank] = number;

@@ -23,7 +23,6 @@ struct Corner {
 @group(2) @binding(4) var<storage, read> limbs: array<Limb>;
 @group(2) @binding(5) var<storage, read> corners: array<Corner>;
 @group(2) @binding(6) var<storage, read> carried: array<Carried>;
-@group(2) @binding(7) var<storage, read> local_winds: array<vec4<f32>>;
 @group(3) @binding(0) var<uniform> which: DrawIndex;
 
 // Share of light that comes through a leaf.
@@ -34,8 +33,8 @@ fn place_of_plant(instance: u32) -> u32 {
     return starts[which.view * LISTS + which.list] + instance;
 }
 
-fn number_of(place: u32) -> u32 {
-    return kept[which.view * arrayLength(&plants) + place];
+fn plant_of(place: u32) -> PlacedPlant {
+    return plants[kept[which.view * arrayLength(&plants) + place]];
 }
 
 // From the axes east, up, south to east, north, up.
@@ -44,12 +43,12 @@ fn of_the_land(v: vec3<f32>) -> vec3<f32> {
 }
 
 // Where a corner of a plant goes in the wind, with a seat of its own or between two that are shared.
-fn swayed(place: u32, corner: Corner, rest: vec3<f32>, breeze: LocalWind, among: f32) -> Bent {
+fn swayed(place: u32, corner: Corner, rest: vec3<f32>, breeze: LocalWind) -> Bent {
     if corner.limb == NO_PARENT {
         return Bent(rest, corner.normal);
     }
     let has_seat = place < seats_of(which.view, starts[which.view * LISTS + SEATED_LISTS]);
-    let seats = select(vec2<f32>(floor(among), fract(among)), vec2<f32>(f32(FIRST_SEATS[which.view] + place), 0.0), has_seat);
+    let seats = select(shared_seat(breeze), vec2<f32>(f32(FIRST_SEATS[which.view] + place), 0.0), has_seat);
     let own = turned_limb(limbs[corner.limb], corner.along, breeze);
     let count = arrayLength(&limbs);
     let seat = u32(seats.x);
@@ -59,19 +58,14 @@ fn swayed(place: u32, corner: Corner, rest: vec3<f32>, breeze: LocalWind, among:
     return Bent(point, rotated(first.turn, corner.normal));
 }
 
-// Where a corner of a plant is without wind, beside its root and as it is turned.
-fn at_rest(plant: PlacedPlant, corner: Corner) -> vec3<f32> {
+// Where a corner of a plant is, and its normal.
+fn corner_of(plant: PlacedPlant, place: u32, corner: Corner) -> Bent {
     let first = f32((corner.look >> 16u) & 7u);
     let last = f32((corner.look >> 19u) & 7u);
     let share = giving_way(plant) * share_of_levels(detail_of(pixels_of(which.view, plant)), first, last);
-    return corner.axis + share * (corner.rest - corner.axis);
-}
-
-// Where a corner of a plant is, and its normal.
-fn corner_of(plant: PlacedPlant, number: u32, place: u32, corner: Corner) -> Bent {
     let turn = turn_of(plant);
-    let felt = local_winds[number];
-    let found = swayed(place, corner, at_rest(plant, corner), breeze_kept(felt, plant.phase), felt.w);
+    let rest = corner.axis + share * (corner.rest - corner.axis);
+    let found = swayed(place, corner, rest, breeze_of(plant));
     let point = plant.place + of_the_land(rotated(turn, found.point * plant.size));
     return Bent(point, of_the_land(rotated(turn, found.normal)));
 }
@@ -114,10 +108,9 @@ fn sun_on_leaf(point: vec3<f32>) -> f32 {
 @vertex
 fn leaf_vertex(@builtin(vertex_index) vertex: u32, @builtin(instance_index) instance: u32) -> Leaf {
     let place = place_of_plant(instance);
-    let number = number_of(place);
-    let plant = plants[number];
+    let plant = plant_of(place);
     let corner = corners[vertex];
-    let found = corner_of(plant, number, place, corner);
+    let found = corner_of(plant, place, corner);
     let sun = sun_on_leaf(found.point);
     let open = f32((corner.look >> 8u) & 255u) / 255.0;
     return Leaf(
@@ -136,28 +129,13 @@ fn leaf_fragment(in: Leaf) -> @location(0) vec4<f32> {
 }
 
 // As the sun sees them. What stands higher than all ground is not cut off.
-fn cast_by_leaf(point: vec3<f32>) -> vec4<f32> {
-    let at = in_cascade(point, i32(which.view) - 1);
-    return vec4<f32>(at.xy, max(at.z, 0.0), 1.0);
-}
-
 @vertex
 fn leaf_caster(
     @builtin(vertex_index) vertex: u32,
     @builtin(instance_index) instance: u32,
 ) -> @builtin(position) vec4<f32> {
     let place = place_of_plant(instance);
-    let number = number_of(place);
-    return cast_by_leaf(corner_of(plants[number], number, place, corners[vertex]).point);
-}
-
-// The same in a cascade whose texels are wider than leaves sway.
-@vertex
-fn still_leaf_caster(
-    @builtin(vertex_index) vertex: u32,
-    @builtin(instance_index) instance: u32,
-) -> @builtin(position) vec4<f32> {
-    let plant = plants[number_of(place_of_plant(instance))];
-    let rest = at_rest(plant, corners[vertex]);
-    return cast_by_leaf(plant.place + of_the_land(rotated(turn_of(plant), rest * plant.size)));
+    let found = corner_of(plant_of(place), place, corners[vertex]);
+    let at = in_cascade(found.point, i32(which.view) - 1);
+    return vec4<f32>(at.xy, max(at.z, 0.0), 1.0);
 }

@@ -11,8 +11,5 @@ pub(super) const LISTS: usize = 2 * weald::grow::ifs::limbs::LEVELS;
 /// Plants of each view whose limbs are carried once for all of their leaves, as the shader has it.
 pub(super) const SEATS: [u32; VIEWS] = [96, 48, 48, 0, 0];
 
-/// The view that stands for the seats that plants share where limbs are carried, as the shader has it.
-pub(super) const SHARED_VIEW: u32 = 3;
-
 /// Seats that all other plants share: winds from eight sides of four strengths.
 pub(super) const SHARED_SEATS: u32 = 32;

@@ -6,8 +6,8 @@
 //! broader and the others narrower (`plants.wgsl`). A list is one indirect draw. Leaves bend in the wind limb by limb
 //! (`leaves.wgsl`).
 //!
-//! A plant takes 69 bytes of a device: itself, its place in the lists of five views, its share of what counts them, and the
-//! breeze that it feels. A kind of plant takes 4 MB or so, and 32 bytes for each limb of the plants that are seen largest, which are carried once
+//! A plant takes 53 bytes of a device: itself, its place in the lists of five views, and its share of what counts them. A
+//! kind of plant takes 4 MB or so, and 32 bytes for each limb of the plants that are seen largest, which are carried once
 //! for all of their leaves (`carry.wgsl`): 80 MB for ferns.
 
 mod batch;
@@ -22,10 +22,9 @@ use wgpu::{BindGroup, CommandEncoder, ComputePassDescriptor, IndexFormat, Render
 use super::layouts::Layouts;
 use crate::gpu::Gpu;
 use batch::{Batch, DRAW};
-use lists::{LISTS, SEATS, SHARED_VIEW, VIEWS};
+use lists::{LISTS, SEATS, VIEWS};
 use pipelines::Pipelines;
-pub(super) use wood::REACH;
-use wood::Wood;
+use wood::{REACH, Wood};
 
 /// All scattered plants of a landscape, and the trees of its woods.
 #[derive(Debug)]
@@ -53,14 +52,13 @@ impl Plants {
         let pipelines = Pipelines::new(gpu, scene, layouts, samples)?;
         let sets = grown.map(|(_, plants)| Batch::new(gpu, scene, (landscape, plants), &pipelines.groups));
         let sets = sets.collect::<Result<_, _>>()?;
-        let wood = if scene.has_woods() { Some(Wood::new(gpu, &pipelines)?) } else { None };
+        let wood = if scene.has_woods() { Some(Wood::new(gpu, scene, &pipelines)?) } else { None };
         Ok(Some(Self { sets, wood, has_trees: false, pipelines }))
     }
 
-    /// How far the trees of woods are drawn one by one for a camera, in metres: not at all from above all of those around it,
-    /// whose ground is at most so high.
-    pub(super) fn reach_of_trees(&mut self, eye: [f32; 3], highest: f32) -> f32 {
-        self.has_trees = self.wood.is_some() && eye[2] < highest + REACH;
+    /// How far the trees of woods are drawn one by one for a camera, in metres: not at all from above all of them.
+    pub(super) fn reach_of_trees(&mut self, eye: [f32; 3]) -> f32 {
+        self.has_trees = self.wood.as_ref().is_some_and(|wood| wood.is_near(eye));
         if self.has_trees { REACH } else { 0.0 }
     }
 
@@ -77,15 +75,15 @@ impl Plants {
         self.sets.iter().chain(trees)
     }
 
-    /// Encodes the choice of what is drawn in all views; in the sun's last cascade only where that is to be drawn.
-    pub(super) fn choose(&self, encoder: &mut CommandEncoder, groups: [&BindGroup; 2], whole_is_drawn: bool) {
+    /// Encodes the choice of what is drawn in all views.
+    pub(super) fn choose(&self, encoder: &mut CommandEncoder, groups: [&BindGroup; 2]) {
         let mut pass = encoder.begin_compute_pass(&ComputePassDescriptor::default());
         for (at, group) in (0..).zip(groups) {
             pass.set_bind_group(at, group, &[]);
         }
         for set in self.drawn() {
             pass.set_bind_group(2, &set.choose, &[]);
-            let views = VIEWS as u32 - u32::from(whole_is_drawn);
+            let views = VIEWS as u32;
             let [count, line_up, place] = &self.pipelines.choose;
             for (pipeline, [across, down]) in
                 [(count, [set.groups, views]), (line_up, [views, 1]), (place, [set.groups, views])]
@@ -95,9 +93,7 @@ impl Plants {
             }
             pass.set_bind_group(2, &set.carry, &[]);
             pass.set_pipeline(&self.pipelines.carry);
-            pass.dispatch_workgroups(SEATS.into_iter().max().unwrap_or(0), SHARED_VIEW + 1, 1);
-            pass.set_pipeline(&self.pipelines.feel);
-            pass.dispatch_workgroups(set.groups, 1, 1);
+            pass.dispatch_workgroups(SEATS.into_iter().max().unwrap_or(0), views, 1);
         }
     }
 
@@ -123,7 +119,7 @@ impl Plants {
 
     /// Draws what throws shadows into a cascade, 0 for the first.
     pub(super) fn cast(&self, pass: &mut RenderPass<'_>, cascade: usize) {
-        pass.set_pipeline(&self.pipelines.casters[usize::from(cascade > 0)]);
+        pass.set_pipeline(&self.pipelines.caster);
         self.draw_view(pass, 1 + cascade);
     }
 

@@ -22,9 +22,6 @@ use crate::slots::Slots;
 /// Entry points that sort plants into lists, in their order.
 const CHOOSE: [&str; 3] = ["count_plants", "line_up", "place_plants"];
 
-/// Entry points of what throws shadows, with wind and without.
-const CASTERS: [&str; 2] = ["leaf_caster", "still_leaf_caster"];
-
 /// The layouts of what a set of plants is bound to.
 #[derive(Debug)]
 pub(super) struct Groups {
@@ -38,8 +35,8 @@ impl Groups {
     fn new(gpu: &Gpu) -> Self {
         Self {
             choose: layout(gpu, ShaderStages::COMPUTE, &[true, false, false, false, false]),
-            carry: layout(gpu, ShaderStages::COMPUTE, &[true, true, true, true, true, false, false]),
-            draw: layout(gpu, ShaderStages::VERTEX_FRAGMENT, &[true; 7]),
+            carry: layout(gpu, ShaderStages::COMPUTE, &[true, true, true, true, true, false]),
+            draw: layout(gpu, ShaderStages::VERTEX_FRAGMENT, &[true; 6]),
             stand: layout(gpu, ShaderStages::COMPUTE, &[false]),
         }
     }
@@ -66,13 +63,11 @@ impl Groups {
 pub(super) struct Pipelines {
     pub(super) choose: [ComputePipeline; 3],
     pub(super) carry: ComputePipeline,
-    pub(super) feel: ComputePipeline,
     pub(super) stand: ComputePipeline,
     /// Of the trees of woods.
     pub(super) grow: ComputePipeline,
     pub(super) light: RenderPipeline,
-    /// What throws shadows: in the first cascade, and in those in which nothing sways.
-    pub(super) casters: [RenderPipeline; 2],
+    pub(super) caster: RenderPipeline,
     pub(super) groups: Groups,
     /// Numbers of all views and lists, of which a draw is bound to one.
     pub(super) which: BindGroup,
@@ -98,7 +93,7 @@ impl Pipelines {
         let numbers = numbers(gpu)?;
         let which_layout = which_layout(gpu);
         let which = which(gpu, &which_layout, &numbers)?;
-        let (choose, [carry, feel], stand, grow, light, casters) =
+        let (choose, carry, stand, grow, light, caster) =
             gpu.context.attempt_to_compile("making the pipelines of plants", || {
                 let chosen = module(gpu, scene, &[include_str!("choose.wgsl")]);
                 let standing = module(gpu, scene, &[include_str!("stand.wgsl")]);
@@ -126,14 +121,14 @@ impl Pipelines {
                 };
                 Ok((
                     CHOOSE.map(|name| compute(gpu, &chosen, &choosing, name)),
-                    ["carry_limbs", "feel_breeze"].map(|name| compute(gpu, &carried, &carrying, name)),
+                    compute(gpu, &carried, &carrying, "carry_limbs"),
                     compute(gpu, &standing, &put, "stand"),
                     compute(gpu, &grown, &put, "grow_wood"),
                     light(gpu, &drawn(&frame.layout, samples)),
-                    CASTERS.map(|name| caster(gpu, &drawn(&frame.caster_layout, 1), name)),
+                    caster(gpu, &drawn(&frame.caster_layout, 1)),
                 ))
             })?;
-        Ok(Self { choose, carry, feel, stand, grow, light, casters, groups, which, numbers })
+        Ok(Self { choose, carry, stand, grow, light, caster, groups, which, numbers })
     }
 }
 
@@ -230,8 +225,8 @@ fn light(gpu: &Gpu, drawn: &Drawn<'_>) -> RenderPipeline {
     pipeline(gpu, drawn, ("leaf_vertex", CompareFunction::Greater), Some(fragment))
 }
 
-fn caster(gpu: &Gpu, drawn: &Drawn<'_>, vertex: &str) -> RenderPipeline {
-    pipeline(gpu, drawn, (vertex, CompareFunction::Less), None)
+fn caster(gpu: &Gpu, drawn: &Drawn<'_>) -> RenderPipeline {
+    pipeline(gpu, drawn, ("leaf_caster", CompareFunction::Less), None)
 }
 
 fn pipeline(

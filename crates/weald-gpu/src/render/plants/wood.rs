@@ -6,7 +6,7 @@
 
 use weald::Error;
 use weald::grow::ifs::shapes;
-use weald::picture::SPACING_OF_TREES;
+use weald::picture::{LitScene, SPACING_OF_TREES};
 use wgpu::{BindGroup, CommandEncoder, ComputePassDescriptor};
 
 use super::batch::{Batch, Kind, colours};
@@ -32,10 +32,12 @@ pub(super) struct Wood {
     pub(super) kinds: Vec<Batch>,
     /// The middle of what is known, and whether the ground has changed since.
     known: Option<[i64; 2]>,
+    /// Height above all trees.
+    highest: f32,
 }
 
 impl Wood {
-    pub(super) fn new(gpu: &Gpu, pipelines: &Pipelines) -> Result<Self, Error> {
+    pub(super) fn new(gpu: &Gpu, scene: &LitScene, pipelines: &Pipelines) -> Result<Self, Error> {
         let kinds = KINDS.map(|(name, is_conifer)| {
             let ifs = shapes::find(name).expect("a built-in shape").ifs();
             let wood = [REACH, f32::from(is_conifer), SIDE as f32];
@@ -43,7 +45,12 @@ impl Wood {
             Batch::wood(gpu, &kind, (SIDE * SIDE) as usize, &pipelines.groups)
         });
         let kinds = kinds.into_iter().collect::<Result<_, _>>()?;
-        Ok(Self { kinds, known: None })
+        Ok(Self { kinds, known: None, highest: scene.highest() })
+    }
+
+    /// Whether a camera may see trees one by one.
+    pub(super) fn is_near(&self, eye: [f32; 3]) -> bool {
+        eye[2] < self.highest + REACH
     }
 
     /// Has the trees stand anew for the next camera.
