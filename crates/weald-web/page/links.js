@@ -4,8 +4,19 @@ const KEY = "land=";
 // Longer addresses are cut by programs through which people send them.
 export const LONGEST = 16000;
 
-const through = async (bytes, stream) =>
-  new Uint8Array(await new Response(new Blob([bytes]).stream().pipeThrough(stream)).arrayBuffer());
+// What comes out of a stream. Both ends fail when the bytes are broken: whoever waits for one alone leaves an error to the page.
+async function through(bytes, stream) {
+  const parts = [];
+  const read = async () => {
+    for (const reader = stream.readable.getReader(); ; ) {
+      const { done, value } = await reader.read();
+      if (done) return;
+      parts.push(value);
+    }
+  };
+  await Promise.all([read(), new Blob([bytes]).stream().pipeTo(stream.writable)]);
+  return new Uint8Array(await new Blob(parts).arrayBuffer());
+}
 
 export async function linkOf(recipe, script) {
   const text = new TextEncoder().encode(JSON.stringify({ recipe, script }));
