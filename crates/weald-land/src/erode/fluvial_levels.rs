@@ -48,11 +48,28 @@ pub(crate) fn grids(levels: u32, coarsest: f64, cell: f64) -> u32 {
     1 + (1..levels).take_while(fits).count() as u32
 }
 
-/// Share of the time that runs on a level, counted from the finest, 0: an eighth on each but the coarsest, which decides
-/// where valleys lie.
-pub(crate) fn share_of_time(level: u32, levels: u32) -> f64 {
-    const FINER: f64 = 0.125;
-    if level + 1 < levels { FINER } else { 1.0 - FINER * f64::from(levels - 1) }
+/// Shares of the time that pass on the finest grid and on each between it and the coarsest, which decides where valleys
+/// lie and has the rest.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Shares {
+    pub(crate) finest: f64,
+    pub(crate) between: f64,
+}
+
+impl Shares {
+    /// Those of floods. What a grid does in its time is its own: the less of it, the more alike are landscapes of 512 and
+    /// of 2048 cells. With eighths their heights differed by 0.50 % of the relief, with these by 0.37 %, and relief at 2
+    /// to 8 cells was 1 % lower.
+    pub(crate) const FLOOD: Self = Self { finest: 0.1, between: 0.03 };
+
+    /// Those of rivers that keep pace with uplift.
+    pub(crate) const UPLIFT: Self = Self { finest: 0.125, between: 0.125 };
+
+    /// Share of the time on one of so many levels, counted from the finest, 0.
+    pub(crate) fn of(self, level: u32, levels: u32) -> f64 {
+        let finer = |level: u32| if level == 0 { self.finest } else { self.between };
+        if level + 1 < levels { finer(level) } else { 1.0 - (0..levels - 1).map(finer).sum::<f64>() }
+    }
 }
 
 /// Passes in which detail wears: enough that what is four cells long vanishes where ground has changed by much more.
@@ -204,11 +221,13 @@ mod tests {
     }
 
     #[test]
-    fn all_time_passes_and_an_eighth_of_it_on_the_finest_level() {
-        for levels in 1..8 {
-            let shares: Vec<_> = (0..levels).map(|level| share_of_time(level, levels)).collect();
+    fn all_time_passes_and_a_tenth_of_it_at_least_on_the_finest_level() {
+        for (kind, levels) in
+            [Shares::FLOOD, Shares::UPLIFT].into_iter().flat_map(|kind| (1..=8).map(move |n| (kind, n)))
+        {
+            let shares: Vec<_> = (0..levels).map(|level| kind.of(level, levels)).collect();
             assert!((shares.iter().sum::<f64>() - 1.0).abs() < 1e-12, "{shares:?}");
-            assert!(levels == 1 || (shares[0] - 0.125).abs() < 1e-12);
+            assert!(levels == 1 || shares[0] == kind.finest && kind.finest >= 0.1);
             assert!(shares[1..].iter().all(|share| *share > 0.0), "{shares:?}");
         }
     }

@@ -38,7 +38,7 @@ const ROCK: usize = fluvial::PLANES;
 impl Fluvial {
     /// The same for the time that passes on a level.
     pub(super) fn for_level(&self, level: u32, grids: u32) -> Self {
-        let share = levels::share_of_time(level, grids);
+        let share = levels::Shares::FLOOD.of(level, grids);
         let (duration, flow_time) = (self.duration * share, self.flow_time * share);
         // Those that are said are of the finest grid.
         let steps = self.steps.filter(|_| level == 0);

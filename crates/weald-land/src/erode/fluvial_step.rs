@@ -65,8 +65,9 @@ parameters! {
         settling: f64 = 0.0005, range 0.0..=10.0, unit "m/s";
         /// Width of a channel in which 1 m³/s flows; others are wider with the root of their discharge.
         channel_width: f64 = 4.0, range 0.01..=1000.0, unit "m";
-        /// Distance of the channels in which water gathers that runs down a slope as a sheet.
-        gathering: f64 = 20.0, range 0.01..=10_000.0, unit "m";
+        /// Distance of the channels in which water gathers that runs down a slope as a sheet. Where cells are longer than that, what
+        /// has gathered in a cell wears more than it would on finer ones: `coarsest` should be no longer.
+        gathering: f64 = 40.0, range 0.01..=10_000.0, unit "m";
         /// Friction of the bed (c_f, an eighth of the factor of Darcy and Weisbach): 0.003 for smooth, 0.1 for rough
         /// beds.
         friction: f64 = 0.01, range 0.0001..=10.0;
@@ -79,9 +80,9 @@ parameters! {
         talus: f64 = 0.7, range 0.0..=10.0, unit "(a tangent: 35° is 0.7)";
         /// How fast steeper ground slides.
         slide: f64 = 1.0, range 0.0..=10_000.0, unit "m²/a";
-        /// Grids that it runs on at most, each with cells twice as long as those of the next, up to `coarsest`: an eighth
-        /// of the time passes on each but the coarsest, which has the rest. They hand ground, water and sediment down;
-        /// three are some five times as fast as one. The numbers of cells must divide, and none may be without data.
+        /// Grids that it runs on at most, each with cells twice as long as those of the next, up to `coarsest`: a tenth
+        /// of the time passes on the finest, three hundredths on each between, and the rest on the coarsest. They hand ground,
+        /// water and sediment down; three are some seven times as fast as one. The numbers of cells must divide, and none may be without data.
         levels: u32 = 1, range 1..=8;
         /// Longest cells of these grids. On the coarsest it is decided where valleys lie: a landscape of any size that
         /// begins on the same one has the same valleys.

@@ -69,7 +69,7 @@ impl Reached {
 }
 
 fn years(step: &StreamPower, level: u32, grids: u32) -> Years {
-    let share = |level| levels::share_of_time(level, grids);
+    let share = |level| levels::Shares::UPLIFT.of(level, grids);
     let before = (level + 1..grids).map(share).sum::<f64>() * step.duration;
     let steps = step.steps(level, grids).max(1);
     Years { before, a_step: step.duration * share(level) / steps as f64 }

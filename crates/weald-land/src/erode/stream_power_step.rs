@@ -135,7 +135,7 @@ impl StreamPower {
 
     /// Steps of time on one of so many grids, counted from the finest, 0.
     pub(super) fn steps(&self, level: u32, grids: u32) -> u64 {
-        let years = self.duration * levels::share_of_time(level, grids);
+        let years = self.duration * levels::Shares::UPLIFT.of(level, grids);
         if years > 0.0 { (years / self.step_years() - 1e-9).ceil().max(1.0) as u64 } else { 0 }
     }
 }

@@ -169,6 +169,24 @@ fn nothing_is_lost_and_nothing_negative_in_thousands_of_steps() {
 }
 
 #[test]
+fn discharge_on_steep_ground_comes_to_rest() {
+    // Friction ends a flow within a small part of a step there.
+    let fluxes = |steps: u32| -> Vec<f64> {
+        let bumps = rough(48, 48, 60.0, 2);
+        let mut land = land(square(48), 40.0, |x, y| 12.0 * x as f64 + f64::from(bumps.at(x, y)));
+        run(&Fluvial { steps: Some(steps), mean_over: Some(1), ..water_alone() }, &mut land);
+        let along = ["flux_x", "flux_y"].map(|layer| field(&land, layer).clone());
+        along.iter().flat_map(|flux| flux.values().iter().map(|&value| f64::from(value))).collect()
+    };
+    let [before, after] = [600, 601].map(fluxes);
+    let squares = |values: &mut dyn Iterator<Item = f64>| values.map(|value| value * value).sum::<f64>();
+    let changed = squares(&mut before.iter().zip(&after).map(|(a, b)| b - a));
+    let change = (changed / squares(&mut after.iter().copied())).sqrt();
+    println!("discharge changes by {change} of itself in a step");
+    assert!(change < 0.02, "discharge changes by {change} of itself in a step");
+}
+
+#[test]
 fn a_lake_at_rest_stays_at_rest() {
     // Multiples of 1/64 m, so that ground and depth add up to the level without rounding.
     let bowl = |x: usize, y: usize| ((x as i64 - 16).pow(2) + (y as i64 - 16).pow(2)) as f64 / 16.0;

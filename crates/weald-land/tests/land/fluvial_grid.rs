@@ -33,9 +33,10 @@ pub(crate) fn hills(side: usize) -> Landscape {
     })
 }
 
-/// A flood with coarse sediment, over ground that creeps: changes are small beside the relief.
+/// A flood with coarse sediment, over ground that creeps: changes are small beside the relief. Channels lie as far apart
+/// as the longest cells are long.
 fn gentle() -> Fluvial {
-    Fluvial { settling: 0.002, creep: 0.03, ..Fluvial::default() }
+    Fluvial { settling: 0.002, creep: 0.03, gathering: 160.0, ..Fluvial::default() }
 }
 
 #[test]

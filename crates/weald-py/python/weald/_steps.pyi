@@ -918,7 +918,7 @@ class Steps:
         threshold: float = 0.002,
         settling: float = 0.0005,
         channel_width: float = 4.0,
-        gathering: float = 20.0,
+        gathering: float = 40.0,
         friction: float = 0.01,
         deepest: float = 2.0,
         creep: float = 0.01,
@@ -969,8 +969,8 @@ class Steps:
             Speed at which sediment falls to the bed (v_s): the faster, the sooner it settles again. Fine sand and silt leave mountains with 0.0005; gravel, with 0.005, fills their valleys.
         channel_width: number, 0.01 to 1000 m; default 4.0
             Width of a channel in which 1 m³/s flows; others are wider with the root of their discharge.
-        gathering: number, 0.01 to 10000 m; default 20.0
-            Distance of the channels in which water gathers that runs down a slope as a sheet.
+        gathering: number, 0.01 to 10000 m; default 40.0
+            Distance of the channels in which water gathers that runs down a slope as a sheet. Where cells are longer than that, what has gathered in a cell wears more than it would on finer ones: `coarsest` should be no longer.
         friction: number, 0.0001 to 10; default 0.01
             Friction of the bed (c_f, an eighth of the factor of Darcy and Weisbach): 0.003 for smooth, 0.1 for rough beds.
         deepest: number, 0.01 to 1000 m; default 2.0
@@ -982,7 +982,7 @@ class Steps:
         slide: number, 0 to 10000 m²/a; default 1.0
             How fast steeper ground slides.
         levels: whole number, 1 to 8; default 1
-            Grids that it runs on at most, each with cells twice as long as those of the next, up to `coarsest`: an eighth of the time passes on each but the coarsest, which has the rest. They hand ground, water and sediment down; three are some five times as fast as one. The numbers of cells must divide, and none may be without data.
+            Grids that it runs on at most, each with cells twice as long as those of the next, up to `coarsest`: a tenth of the time passes on the finest, three hundredths on each between, and the rest on the coarsest. They hand ground, water and sediment down; three are some seven times as fast as one. The numbers of cells must divide, and none may be without data.
         coarsest: number, 0.001 to 100000 m; default 40.0
             Longest cells of these grids. On the coarsest it is decided where valleys lie: a landscape of any size that begins on the same one has the same valleys.
         steps: whole number, 0 to 100000000
@@ -2180,7 +2180,7 @@ class AccessorSteps:
         threshold: float = 0.002,
         settling: float = 0.0005,
         channel_width: float = 4.0,
-        gathering: float = 20.0,
+        gathering: float = 40.0,
         friction: float = 0.01,
         deepest: float = 2.0,
         creep: float = 0.01,

@@ -80,6 +80,6 @@ fn flow(@builtin(global_invocation_id) invocation: vec3<u32>) {
     if (inside(cell)) {
         fluxes[at] = vec4<f32>(axes.x, axes.z, diagonals.x, diagonals.z);
         carried[at] = vec4<f32>(found * kept, entrained, flowed * kept, 0.0);
-        resistance[at] = held / discharge.gathered * occupied;
+        resistance[at] = 0.5 * (resistance[at] + held / discharge.gathered * occupied);
     }
 }

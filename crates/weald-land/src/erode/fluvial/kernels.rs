@@ -229,10 +229,13 @@ kernel! {
     /// What the power of the flow would take up, and how much the bed will hold it back in the next step: friction a
     /// unit of depth². On slopes steeper than its friction water would run faster than its waves and break up in
     /// surges; the beds of steep streams form steps until it does not (Grant 1997, doi 10.1029/96WR03134).
-    /// `softness` is what the ground's erodibility is to `erodibility`.
+    /// `softness` is what the ground's erodibility is to `erodibility`. The resistance is the mean of that of the step before
+    /// and of what the new discharge finds. On steep ground friction ends a flow within a part of a step, so that with the
+    /// latter alone too much and too little would flow by turns; with the mean discharge goes to the root that balances
+    /// friction as by Heron's rule.
     pub(crate) struct Uptake {
         reads {
-            softness, rained, flux_east, flux_east_west, flux_south, flux_south_north,
+            softness, resistance_before, rained, flux_east, flux_east_west, flux_south, flux_south_north,
             flux_diagonal, flux_diagonal_north_west, flux_antidiagonal, flux_antidiagonal_north_east,
             surface, surface_east, surface_west, surface_south, surface_north,
             surface_south_east, surface_north_west, surface_south_west, surface_north_east,
@@ -269,7 +272,8 @@ kernel! {
         let drop = if discharge.size > 0.0 { drop.min(MAX_DROP) } else { 0.0 };
         entrained = wanted.min(MAX_SHARE_OF_DROP * drop);
         // Friction times discharge; power is slope times discharge.
-        resistance = larger(friction * discharge.size, power) * (water * all) * occupied;
+        let found = larger(friction * discharge.size, power) * (water * all) * occupied;
+        resistance = 0.5 * (resistance_before + found);
     }
 }
 
