@@ -27,17 +27,11 @@ use super::descent::Descent;
 use super::surface::{NO_DATA, Surface};
 use crate::flow::directions::{CELLS_PER_TASK, OUTLET, opposite};
 
-/// Codes of the straight and the diagonal neighbour of each triangle, and the side on which the diagonal one lies.
-const TRIANGLES: [(u8, u8, f64); 8] = [
-    (1, 2, 1.0),
-    (1, 8, -1.0),
-    (3, 4, 1.0),
-    (3, 2, -1.0),
-    (5, 6, 1.0),
-    (5, 4, -1.0),
-    (7, 8, 1.0),
-    (7, 6, -1.0),
-];
+/// Codes of the straight and the diagonal neighbour of each triangle.
+const TRIANGLES: [(u8, u8); 8] = [(1, 2), (1, 8), (3, 4), (3, 2), (5, 6), (5, 4), (7, 8), (7, 6)];
+
+/// Bits of the straight neighbours.
+const STRAIGHT: u8 = 0b0101_0101;
 
 /// The neighbours to which a cell may drain: their codes, and how far each lies aside of the fall line. A second code of 0
 /// is none.
@@ -56,33 +50,55 @@ impl Candidates {
         if steepest == OUTLET {
             return only(OUTLET, true);
         }
-        let (here, next) = (surface.level[cell], surface.neighbour(cell, steepest));
-        if surface.is_sea(next) || surface.level[next] == here {
+        let next = surface.neighbour(cell, steepest);
+        if surface.is_sea(next) || surface.level[next] == surface.level[cell] {
             return only(steepest, true);
         }
-        let drop = |code| {
-            let there = surface.level[surface.neighbour(cell, code)];
-            if there == NO_DATA { f64::NEG_INFINITY } else { f64::from(here) - f64::from(there) }
-        };
-        let mut best = (0.0, only(steepest, false));
-        for (straight, diagonal, side) in TRIANGLES {
-            let (to_straight, to_diagonal) = (drop(straight), drop(diagonal));
+        let drops: [f64; 8] = std::array::from_fn(|at| drop(surface, cell, at as u8 + 1));
+        let mut best = (0.0, [steepest, 0]);
+        for (straight, diagonal) in TRIANGLES {
+            let (to_straight, to_diagonal) = (drops[straight as usize - 1], drops[diagonal as usize - 1]);
             let beyond = to_diagonal - to_straight;
             let found = if beyond > 0.0 && to_straight > beyond {
-                let steepness = to_straight * to_straight + beyond * beyond;
-                let length = steepness.sqrt();
-                let aside = [side * beyond / length, -side * (to_straight - beyond) / length];
-                (steepness, Self { codes: [straight, diagonal], aside, is_flat: false })
+                (to_straight * to_straight + beyond * beyond, [straight, diagonal])
             } else if beyond > 0.0 {
-                (0.5 * to_diagonal * to_diagonal.max(0.0), only(diagonal, false))
+                (0.5 * to_diagonal * to_diagonal.max(0.0), [diagonal, 0])
             } else {
-                (to_straight * to_straight.max(0.0), only(straight, false))
+                (to_straight * to_straight.max(0.0), [straight, 0])
             };
             if found.0 > best.0 {
                 best = found;
             }
         }
-        best.1
+        Self::on_slope(surface, cell, best.1)
+    }
+
+    /// Those of a cell for which `receivers` have been found.
+    fn again(surface: &Surface, cell: usize, steepest: u8, receivers: u8) -> Self {
+        let is_flat = steepest == OUTLET || {
+            let next = surface.neighbour(cell, steepest);
+            surface.is_sea(next) || surface.level[next] == surface.level[cell]
+        };
+        if is_flat {
+            return Self { codes: [steepest, 0], aside: [0.0; 2], is_flat };
+        }
+        let code = |bits: u8| if bits == 0 { 0 } else { bits.trailing_zeros() as u8 + 1 };
+        let [straight, diagonal] = [code(receivers & STRAIGHT), code(receivers & !STRAIGHT)];
+        Self::on_slope(surface, cell, if straight == 0 { [diagonal, 0] } else { [straight, diagonal] })
+    }
+
+    /// Of a cell that is higher than these neighbours, the straight one first if there are two.
+    fn on_slope(surface: &Surface, cell: usize, codes: [u8; 2]) -> Self {
+        let [straight, diagonal] = codes;
+        if diagonal == 0 {
+            return Self { codes, aside: [0.0; 2], is_flat: false };
+        }
+        let [to_straight, to_diagonal] = codes.map(|code| drop(surface, cell, code));
+        let beyond = to_diagonal - to_straight;
+        let length = (to_straight * to_straight + beyond * beyond).sqrt();
+        let side = if diagonal == straight + 1 { 1.0 } else { -1.0 };
+        let aside = [side * beyond / length, -side * (to_straight - beyond) / length];
+        Self { codes, aside, is_flat: false }
     }
 
     /// The neighbours to which the cell may drain, as bits.
@@ -102,6 +118,12 @@ impl Candidates {
             (self.codes[1], second as f32)
         }
     }
+}
+
+/// Fall to a neighbour; to those without data there is none.
+fn drop(surface: &Surface, cell: usize, code: u8) -> f64 {
+    let there = surface.level[surface.neighbour(cell, code)];
+    if there == NO_DATA { f64::NEG_INFINITY } else { f64::from(surface.level[cell]) - f64::from(there) }
 }
 
 /// What leaves a cell.
@@ -202,7 +224,7 @@ impl<'a> Walk<'a> {
             let path = Path::from_bits(found.paths[donor].load(Ordering::Relaxed));
             comes.then_some((path, self.surface.level[donor]))
         });
-        let candidates = Candidates::of(self.surface, cell, self.steepest[cell]);
+        let candidates = Candidates::again(self.surface, cell, self.steepest[cell], self.receivers[cell]);
         let (code, path) = Path::through(&candidates, arriving);
         found.codes[cell].store(code, Ordering::Relaxed);
         found.paths[cell].store(path.bits(), Ordering::Relaxed);
