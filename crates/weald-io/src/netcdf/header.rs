@@ -1,5 +1,7 @@
 //! The header: dimensions, attributes, and where each variable lies in the file.
 
+use std::collections::BTreeSet;
+
 use super::super::Fault;
 use super::super::cf::{Attribute, Attributes};
 use super::cursor::Cursor;
@@ -58,6 +60,7 @@ impl Header {
         let attributes = attributes(&mut cursor)?;
         let mut variables =
             list(&mut cursor, tag::VARIABLES, |cursor| Variable::of(cursor, version, &dimensions))?;
+        ensure_names_differ(&variables)?;
         lay_out_records(&mut variables, &dimensions)?;
         for variable in &variables {
             variable.ensure_within(bytes.len())?;
@@ -162,6 +165,15 @@ impl Variable {
                 self.name, self.records, self.record, self.begin
             ))),
         }
+    }
+}
+
+/// Variables are found by their names.
+fn ensure_names_differ(variables: &[Variable]) -> Result<(), Fault> {
+    let mut names = BTreeSet::new();
+    match variables.iter().find(|variable| !names.insert(variable.name.as_str())) {
+        Some(variable) => Err(Fault::damaged(format!("two variables are called `{}`", variable.name))),
+        None => Ok(()),
     }
 }
 

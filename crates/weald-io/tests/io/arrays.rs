@@ -280,6 +280,18 @@ fn headers_that_lie_are_refused_before_memory_is_taken() {
 }
 
 #[test]
+fn two_variables_of_one_name_are_refused() {
+    // The coordinates of seven rows are called as those of five columns.
+    let mut bytes = netcdf::encode(&placed(any_raster(5, 7, 2), 2)).expect("finite");
+    let name = b"\0\0\0\x01y\0\0\0";
+    let places: Vec<_> = (0..bytes.len()).filter(|at| bytes[*at..].starts_with(name)).collect();
+    // The first is the dimension's.
+    bytes[places[1] + 4] = b'x';
+    let fault = netcdf::decode(&bytes, LIMITS).expect_err("which is meant?").to_string();
+    assert!(fault.contains("two variables are called `x`"), "{fault}");
+}
+
+#[test]
 fn other_kinds_of_files_are_named() {
     let of = |bytes: &[u8]| netcdf::decode(bytes, LIMITS).expect_err("unread").to_string();
     assert!(of(b"\x89HDF\r\n\x1a\n").contains("nccopy -k classic"));
