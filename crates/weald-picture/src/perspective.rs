@@ -12,6 +12,16 @@ use weald_core::parameter::{Nested, Places};
 const FAR_EYE: f64 = 10.0;
 const FAR_TARGET: f64 = 1.0;
 
+/// Least cells for which the visible sky is known where ground is steep, and most.
+const SKY_OF_STEEP: u64 = 512 * 512;
+const SKY_MOST: u64 = 1024 * 1024;
+
+/// What to count of the bytes that a view takes only where some ground is steep, which is drawn on finer cells. Only the ground
+/// that a run makes tells whether any is: with so much of them the sum is within a third either way.
+fn if_steep(bytes: u64) -> u64 {
+    2 * bytes / 5
+}
+
 impl Picture for View {
     fn reads(&self) -> Vec<String> {
         let drape = self.drape.iter().map(|Nested(drape)| drape.of.0.clone());
@@ -46,16 +56,17 @@ impl Picture for View {
             .collect()
     }
 
-    /// Trees of bounds for rays, normals, what of the sky each cell sees, and finer cells, since some ground is steep: as
-    /// measured, on ground that is nowhere steep half of it.
+    /// Trees of bounds for rays, surfaces, what of the sky each cell sees, and what steep ground takes more.
     fn working_bytes(&self, cells: u64) -> u64 {
-        64 * cells + 14 * most_cells(cells)
+        let finer = most_cells(cells) - cells;
+        let more_sky = if finer > 0 { SKY_OF_STEEP.saturating_sub(cells) } else { 0 };
+        21 * cells + 57 * cells.min(SKY_MOST) + if_steep(8 * finer + 57 * more_sky)
     }
 
     fn optional_bytes(&self, layer: &str, cells: u64) -> u64 {
         match layer {
-            "water" => 30 * cells + 3 * most_cells(cells),
-            "soil_depth" | "moisture" | "deposition" => 23 * cells,
+            "water" => 50 * cells + if_steep(2 * (most_cells(cells) - cells)),
+            "soil_depth" | "moisture" | "deposition" => 11 * cells,
             _ => 0,
         }
     }

@@ -6,9 +6,16 @@ use crate::place::{Place, assert_ends, stdout};
 
 /// A recipe of a million cells with these steps.
 fn place(steps: &str) -> Place {
+    place_of((1024, 300.0), steps)
+}
+
+/// A recipe of a square of 20 km with so many cells a side, so many metres from its lowest to its highest point, and these
+/// steps.
+fn place_of((size, relief): (u32, f64), steps: &str) -> Place {
+    let cell = 20_480.0 / f64::from(size);
     Place::with(&format!(
-        "[landscape]\nsize = 1024\ncell = 20.0\n[[step]]\ndo = \"fbm\"\nrelief = 300.0\n{steps}[[output]]\nlayer = \
-         \"height\"\nfile = \"height.npy\"\n"
+        "[landscape]\nsize = {size}\ncell = {cell:?}\n[[step]]\ndo = \"fbm\"\nrelief = {relief:?}\n{steps}[[output]]\n\
+         layer = \"height\"\nfile = \"height.npy\"\n"
     ))
 }
 
@@ -66,6 +73,19 @@ fn the_memory_that_a_check_tells_counts_what_outputs_need() {
         let ratio = estimated(&place) / taken(&place);
         println!("{ratio:.2} for {}", output.replace('\n', " "));
         assert!((0.67..1.5).contains(&ratio), "{ratio} for {output}");
+    }
+}
+
+/// Steep ground is drawn on finer cells; whether any is no check can tell.
+#[cfg(target_os = "linux")]
+#[test]
+fn the_memory_that_a_check_tells_of_a_view_holds_for_gentle_and_for_steep_ground() {
+    let view = "[[output]]\npicture = \"view\"\nwidth = 160\nheight = 90\nsamples = 1\nfile = \"view.png\"\n";
+    for (size, relief) in [(256, 50.0), (256, 8000.0), (512, 50.0), (512, 8000.0)] {
+        let place = place_of((size, relief), view);
+        let ratio = estimated(&place) / taken(&place);
+        println!("{ratio:.2} for {size} cells, {relief} m");
+        assert!((0.67..1.5).contains(&ratio), "{ratio} for {size} cells, {relief} m");
     }
 }
 

@@ -253,6 +253,9 @@ pub(super) fn samples(count: u32) -> Vec<[f32; 2]> {
 
 #[cfg(test)]
 mod tests {
+    use std::sync::Arc;
+
+    use super::super::surface::Surface;
     use super::*;
     use proptest::prelude::*;
     use weald_core::grid::{Field, Size};
@@ -262,7 +265,7 @@ mod tests {
         let size = Size::new(columns, rows).expect("small");
         let height =
             Field::from_function(size, |x, y| relief * uniform(hash2(seed, x as i64, y as i64)) as f32);
-        Terrain::new([cell; 2], &height, None, -0.05 * cell * columns as f32)
+        Terrain::new([cell; 2], Arc::new(Surface::new(&height)), None, -0.05 * cell * columns as f32)
     }
 
     proptest! {

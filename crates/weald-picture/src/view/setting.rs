@@ -1,5 +1,7 @@
 //! A landscape made ready for a view: surfaces, water, limits of the kinds of ground.
 
+use std::sync::Arc;
+
 use super::cover::Limits;
 use super::flow::Flow;
 use super::keys::{GroundColour, View};
@@ -42,7 +44,7 @@ const TREES: f32 = 0.6;
 pub(super) struct Setting {
     pub(super) terrain: Terrain,
     /// The ground itself, under the water.
-    pub(super) bed: Surface,
+    pub(super) bed: Arc<Surface>,
     /// Levels of lakes, below the ground where it is dry.
     pub level: Option<Surface>,
     pub(super) rivers: Option<Rivers>,
@@ -101,19 +103,19 @@ impl Setting {
             exaggeration: frame.exaggeration,
             is_material: matches!(coloured_by, ColouredBy::Materials),
         };
-        let forms = Forms::new(&coarse, land, ground_of.has_crags);
+        let longer = ground.size().columns.max(ground.size().rows);
+        let crags = if ground_of.has_crags { coarse.crags() } else { None };
+        let forms = match crags {
+            Some(crags) => Forms::refined(&coarse, &crags, land),
+            None => Forms { ground, level, land, fineness: 1 },
+        };
         let fineness = forms.fineness;
-        let terrain = Terrain::new(
-            spacing.map(|side| side / fineness as f32),
-            &higher(&forms.ground, forms.level.as_ref()),
-            forms.land.as_ref(),
-            -base,
-        );
-        let bed = Surface::new(&forms.ground);
+        let Surfaces { top, bed, level } = Surfaces::of(forms.ground, forms.level);
+        let terrain = Terrain::new(spacing.map(|side| side / fineness as f32), top, forms.land, -base);
         let setting = Self {
             flow: flow.flatten().map(|flow| flow.on_finer(fineness)),
             terrain,
-            level: forms.level.as_ref().map(Surface::new),
+            level,
             rivers: if view.water { Rivers::of(landscape, view.river_width) } else { None },
             strata: strata(landscape, field, &frame.sheet, limits.relief + base / frame.exaggeration)?
                 .on_finer(fineness),
@@ -124,7 +126,7 @@ impl Setting {
             low,
             sea,
             has_crags: ground_of.has_crags,
-            sky_cells: ground.size().columns.max(ground.size().rows).clamp(SKY_CELLS[0], SKY_CELLS[1]),
+            sky_cells: longer.clamp(SKY_CELLS[0], SKY_CELLS[1]),
         };
         Ok((setting, sites.on_finer(fineness)))
     }
@@ -216,17 +218,35 @@ struct Forms {
 }
 
 impl Forms {
-    fn new(coarse: &Coarse<'_>, land: Option<Field>, has_crags: bool) -> Self {
-        let crags = if has_crags { coarse.crags() } else { None };
-        let Some((craggy, fineness)) = crags else {
-            return Self { ground: coarse.ground.clone(), level: coarse.level.cloned(), land, fineness: 1 };
-        };
+    /// On finer cells, with such shares of crags.
+    fn refined(coarse: &Coarse<'_>, (craggy, fineness): &(Field, usize), land: Option<Field>) -> Self {
+        let fineness = *fineness;
         Self {
-            ground: coarse.refined(&craggy, fineness),
+            ground: coarse.refined(craggy, fineness),
             level: coarse.level.map(|level| finer(level, fineness)),
             land: land.map(|land| finer(&land, fineness)),
             fineness,
         }
+    }
+}
+
+/// Surfaces of ground and water. Where there is no water one surface serves as ground and as what light falls on.
+struct Surfaces {
+    top: Arc<Surface>,
+    bed: Arc<Surface>,
+    level: Option<Surface>,
+}
+
+impl Surfaces {
+    /// The fields go as soon as their surfaces are there: of fine cells there are many.
+    fn of(ground: Field, level: Option<Field>) -> Self {
+        let of = |field: Field| Surface::new(&field);
+        let Some(level) = level else {
+            let bed = Arc::new(of(ground));
+            return Self { top: Arc::clone(&bed), bed, level: None };
+        };
+        let top = Arc::new(of(higher(&ground, Some(&level))));
+        Self { top, bed: Arc::new(of(ground)), level: Some(of(level)) }
     }
 }
 

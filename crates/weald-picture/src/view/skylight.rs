@@ -96,13 +96,13 @@ struct Averages {
 }
 
 impl Averages {
-    fn new(height: &Field) -> Self {
-        let mut levels = vec![height.clone()];
+    fn new(height: Field) -> Self {
+        let highest = height.values().iter().copied().fold(f32::NEG_INFINITY, f32::max);
+        let mut levels = vec![height];
         while let Some(finer) = levels.last().filter(|field| field.size().columns.min(field.size().rows) > 3)
         {
             levels.push(halved(finer));
         }
-        let highest = height.values().iter().copied().fold(f32::NEG_INFINITY, f32::max);
         Self { levels, highest }
     }
 
@@ -159,7 +159,7 @@ impl Skylight {
         let centre = |cell: usize, axis: usize| 0.5 + (cell as f32 + 0.5) * stretch[axis];
         let height = Field::from_function(size, |x, y| top.at([centre(x, 0), centre(y, 1)]));
         let spacing = [spacing[0] * stretch[0], spacing[1] * stretch[1]];
-        let (averages, sectors) = (Averages::new(&height), Sectors::new(sky));
+        let (averages, sectors) = (Averages::new(height), Sectors::new(sky));
         let cells = (0..size.cells()).into_par_iter();
         let seen = cells.map(|cell| {
             let (x, y) = (cell % size.columns, cell / size.columns);
@@ -258,7 +258,7 @@ mod tests {
     fn heights_lie_between_the_middles_of_cells_and_there_are_none_beyond_the_border() {
         assert_eq!(neighbours(2.75, 10), (2, 3, 0.25));
         assert_eq!((neighbours(0.1, 10), neighbours(9.9, 10)), ((0, 1, 0.0), (9, 9, 0.0)));
-        let heights = Averages::new(&Field::filled(Size::square(4).expect("small"), 7.0));
+        let heights = Averages::new(Field::filled(Size::square(4).expect("small"), 7.0));
         assert_eq!([[0.0, 0.0], [4.0, 4.0]].map(|place| heights.at(place, 0)), [Some(7.0); 2]);
         for beyond in [[-0.1, 1.0], [1.0, -0.1], [4.1, 1.0], [1.0, 4.1]] {
             assert_eq!(heights.at(beyond, 0), None, "{beyond:?}");

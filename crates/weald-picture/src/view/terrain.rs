@@ -3,6 +3,8 @@
 //! World coordinates are metres: east and north of the north-western corner, and up from the lowest ground, heights
 //! times the exaggeration. What a ray meets is found on the very surface that is shaded.
 
+use std::sync::Arc;
+
 use super::pyramid::{Line, Pyramid};
 use super::surface::Surface;
 use super::vector::{Vector, add, scale, unit};
@@ -18,7 +20,7 @@ pub(super) struct Terrain {
     /// Side of a cell eastward and southward, in metres.
     pub(super) spacing: [f32; 2],
     /// What light falls on: the ground, or the lake over it.
-    pub(super) top: Surface,
+    pub(super) top: Arc<Surface>,
     /// Share of land; `None` where all is land.
     pub(super) land: Option<Surface>,
     /// The same, smoothed: sides that follow the steps of a slanted edge are lit as one.
@@ -71,9 +73,9 @@ fn outline(land: &Field) -> Field {
 }
 
 impl Terrain {
-    pub(super) fn new(spacing: [f32; 2], top: &Field, land: Option<&Field>, base: f32) -> Self {
-        let outline = land.map(|land| Surface::new(&outline(land)));
-        let (top, land) = (Surface::new(top), land.map(Surface::new));
+    pub(super) fn new(spacing: [f32; 2], top: Arc<Surface>, land: Option<Field>, base: f32) -> Self {
+        let outline = land.as_ref().map(|land| Surface::new(&outline(land)));
+        let land = land.map(|land| Surface::new(&land));
         let is_empty = |x: usize, y: usize| {
             land.as_ref()
                 .is_some_and(|land| land.patch(x, y).into_iter().flatten().all(|&share| share <= 0.0))
@@ -145,9 +147,13 @@ mod tests {
 
     const CELL: f32 = 10.0;
 
-    fn terrain(side: usize, height: impl FnMut(usize, usize) -> f32, land: Option<&Field>) -> Terrain {
+    fn surface(size: Size, height: impl FnMut(usize, usize) -> f32) -> Arc<Surface> {
+        Arc::new(Surface::new(&Field::from_function(size, height)))
+    }
+
+    fn terrain(side: usize, height: impl FnMut(usize, usize) -> f32, land: Option<Field>) -> Terrain {
         let size = Size::square(side).expect("small");
-        Terrain::new([CELL; 2], &Field::from_function(size, height), land, -30.0)
+        Terrain::new([CELL; 2], surface(size, height), land, -30.0)
     }
 
     fn random(seed: u64, at: i64) -> f32 {
@@ -262,7 +268,7 @@ mod tests {
         let is_valid =
             |x: usize, y: usize| (x as f32 - 11.5).hypot(y as f32 - 11.5) < 8.0 && (x, y) != (12, 12);
         let land = Field::from_function(size, |x, y| f32::from(u8::from(is_valid(x, y))));
-        let ground = terrain(24, |x, y| 60.0 * random(9, (24 * y + x) as i64), Some(&land));
+        let ground = terrain(24, |x, y| 60.0 * random(9, (24 * y + x) as i64), Some(land));
         let (mut met, mut sides) = (0, 0);
         for at in 0..400 {
             let Some(hit) = ground.trace(&ray(24, at), [0.0, f32::INFINITY]) else { continue };
@@ -278,7 +284,7 @@ mod tests {
         let size = Size::new(120, 60).expect("small");
         // The northern border, from which a wedge of three cells is cut off, that runs out after 90.
         let land = Field::from_function(size, |x, y| f32::from(u8::from(y as f32 >= 3.0 - x as f32 / 30.0)));
-        let ground = Terrain::new([CELL; 2], &Field::from_function(size, |_, _| 5.0), Some(&land), -30.0);
+        let ground = Terrain::new([CELL; 2], surface(size, |_, _| 5.0), Some(land), -30.0);
         let outline = ground.outline.expect("there is an edge");
         for x in [20.0, 45.0, 70.0, 88.0, 95.0] {
             let [_, east, south] = outline.with_slope([x, 1.0]);
