@@ -11,6 +11,7 @@ mod plants;
 mod points;
 mod registry;
 pub mod report;
+pub mod shades;
 mod terrain3d;
 mod terrain_tiles;
 mod unity;

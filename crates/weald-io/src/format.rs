@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use super::parts::{Part, PartName, Parts};
-use super::{Classes, Fault, Limits, Raster};
+use super::{Classes, Fault, Limits, Raster, Shades, Spread};
 use weald_core::domain::Georeference;
 use weald_core::error::Error;
 use weald_core::files::File;
@@ -53,6 +53,17 @@ pub struct WindowedRaster<'a, 'b> {
     pub scratch: &'a dyn Fn(Size) -> Result<Box<dyn Plane<f32> + 'b>, Error>,
 }
 
+/// What a raster says of how it is drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Drawn {
+    /// Nothing.
+    Plain,
+    /// Its values may stand for things.
+    Classes,
+    /// Its values are measures, with colours.
+    Shades,
+}
+
 impl Encode {
     /// All files of the raster.
     ///
@@ -65,13 +76,15 @@ impl Encode {
         }
     }
 
-    /// Names of all files that it may write of a raster of numbers, or of `classes`: those of two small ones, with a CRS
+    /// Names of all files that it may write of a raster that is drawn in such a way: those of two small ones, with a CRS
     /// and without, so that no format has to say them a second time.
-    pub fn names(self, classes: bool) -> Vec<PartName> {
+    pub fn names(self, drawn: Drawn) -> Vec<PartName> {
         let small = |georeference| Raster {
             georeference,
             cell: Some(1.0),
-            classes: classes.then(|| Classes { named: Vec::new(), greatest: 2 }),
+            classes: (drawn == Drawn::Classes).then(|| Classes { named: Vec::new(), greatest: 2 }),
+            shades: (drawn == Drawn::Shades)
+                .then(|| Shades { spread: Spread::Even, colours: vec![[0; 3], [255; 3]] }),
             ..Raster::from(Field::from_function(Size { columns: 2, rows: 2 }, |x, y| (x + y) as f32))
         };
         let place = Georeference { epsg: Some(32633), origin: [5.0e5, 4.0e6], pixel: [1.0; 2], keys: None };

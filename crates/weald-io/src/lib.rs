@@ -33,6 +33,7 @@ pub mod raw;
 mod registry;
 mod regrid;
 mod said;
+mod shades;
 mod square;
 mod unit;
 mod web_mercator;
@@ -44,8 +45,8 @@ pub use atomic::{
 };
 pub use classes::{Class, Classes};
 pub use format::{
-    Capabilities, CrsSupport, Decode, DecodeFile, Encode, Format, Metadata, Preset, Values, WindowedRaster,
-    WriteWindows,
+    Capabilities, CrsSupport, Decode, DecodeFile, Drawn, Encode, Format, Metadata, Preset, Values,
+    WindowedRaster, WriteWindows,
 };
 pub use info::{Info, describe};
 pub use limits::{Fault, Limits};
@@ -55,5 +56,6 @@ pub use raster::Raster;
 pub use registry::{FORMATS, format_of, read, write};
 pub use regrid::{Grid, Resampling, regrid};
 pub use said::Said;
+pub use shades::{Shades, Spread};
 pub use square::square;
 pub use unit::metres_in;

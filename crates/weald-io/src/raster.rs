@@ -5,7 +5,7 @@ use weald_core::error::Error;
 use weald_core::grid::{Field, Mask, Size};
 
 use super::unit::Measure;
-use super::{Classes, Fault, Provenance};
+use super::{Classes, Fault, Provenance, Shades};
 
 /// Numbers that may stand for no-data, in the order in which they are tried before NaN.
 const NO_DATA: [f32; 2] = [-9999.0, -99999.0];
@@ -30,6 +30,8 @@ pub struct Raster {
     /// What the values stand for, where all are whole numbers that stand for things; formats that have whole numbers then
     /// store such.
     pub classes: Option<Classes>,
+    /// How other programs are to draw its measures.
+    pub shades: Option<Shades>,
     /// Unit of the values of a file that Weald did not write: `m` where it has a length in any unit, or what it says;
     /// `None` where it says none.
     pub unit: Option<String>,
@@ -49,6 +51,7 @@ impl From<Field> for Raster {
             georeference: None,
             provenance: None,
             classes: None,
+            shades: None,
             unit: None,
             stored: "float32",
             notes: Vec::new(),

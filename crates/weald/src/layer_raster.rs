@@ -3,6 +3,7 @@
 use weald_core::error::Error;
 use weald_core::landscape::Landscape;
 use weald_export::classes::classes;
+use weald_export::shades::shades;
 use weald_io::Raster;
 
 /// The layer with 0 in its no-data cells.
@@ -16,6 +17,7 @@ pub(crate) fn raster(landscape: &Landscape, name: &str) -> Result<Raster, Error>
     }
     Ok(Raster {
         classes: classes(landscape, name)?,
+        shades: shades(name),
         valid: domain.valid.clone(),
         cell: Some(domain.cell),
         georeference: domain.georeference.clone(),

@@ -1,18 +1,23 @@
-//! What classes mean, in files beside a GeoTIFF, which has no place for it: names as GDAL keeps them (`.aux.xml`) and a style
-//! by which QGIS draws the file when it opens it (`.qml`).
+//! What classes mean and how measures are drawn, in files beside a GeoTIFF, which has no place for it: names as GDAL keeps
+//! them (`.aux.xml`) and a style by which QGIS draws the file when it opens it (`.qml`).
 
 use super::super::classes::Classes;
-use super::super::{Part, Raster};
+use super::super::{Part, Raster, Shades};
 use super::metadata::escaped;
 
 /// Most classes that have a colour and a name of their own.
 const MAX_CLASSES: usize = 4096;
 
-/// The files beside a raster of classes; none beside another one.
+/// The files beside a raster of classes or of measures with colours; none beside another one.
 pub(super) fn parts(raster: &Raster) -> Vec<Part> {
-    let Some(classes) = raster.classes.as_ref().filter(|classes| classes.named.len() <= MAX_CLASSES) else {
-        return Vec::new();
-    };
+    match (&raster.classes, &raster.shades) {
+        (Some(classes), _) if classes.named.len() <= MAX_CLASSES => parts_of_classes(classes),
+        (None, Some(shades)) => vec![Part::sibling(".qml", style_of_shades(shades, raster).into_bytes())],
+        _ => Vec::new(),
+    }
+}
+
+fn parts_of_classes(classes: &Classes) -> Vec<Part> {
     let mut parts = vec![Part::sibling(".qml", style(classes).into_bytes())];
     // GDAL counts names from 0, so that numbers far apart would need as many lines between them.
     if classes.greatest < MAX_CLASSES as u32 {
@@ -45,12 +50,67 @@ fn style(classes: &Classes) -> String {
             escaped(&class.name)
         )
     });
+    renderer(
+        "paletted",
+        "",
+        &format!("      <colorPalette>\n{}      </colorPalette>\n", entries.collect::<String>()),
+    )
+}
+
+/// A style of QGIS: colours between values.
+fn style_of_shades(shades: &Shades, raster: &Raster) -> String {
+    let (unit, range) = unit_and_range(raster);
+    let stops = shades.stops(range);
+    let [first, last] = [stops.first(), stops.last()].map(|stop| stop.map_or(0.0, |stop| stop.0));
+    let items = stops.iter().map(|&(value, [red, green, blue])| {
+        format!(
+            "          <item value=\"{value}\" color=\"#{red:02x}{green:02x}{blue:02x}\" alpha=\"255\" label=\"{}\"/>\n",
+            escaped(&label(value, unit))
+        )
+    });
+    let bounds = format!(" classificationMin=\"{first}\" classificationMax=\"{last}\"");
+    let shader = format!(
+        "      <rastershader>\n        <colorrampshader colorRampType=\"INTERPOLATED\" classificationMode=\"1\" clip=\"0\" \
+         minimumValue=\"{first}\" maximumValue=\"{last}\">\n{}        </colorrampshader>\n      </rastershader>\n",
+        items.collect::<String>()
+    );
+    renderer("singlebandpseudocolor", &bounds, &shader)
+}
+
+/// As a file says them, or as the values are.
+fn unit_and_range(raster: &Raster) -> (&str, (f64, f64)) {
+    if let Some(provenance) = &raster.provenance {
+        return (&provenance.unit, provenance.range);
+    }
+    let (low, high) = raster.field.range(raster.valid.as_ref()).unwrap_or_default();
+    (raster.unit.as_deref().unwrap_or_default(), (low.into(), high.into()))
+}
+
+/// A value of three digits with its unit.
+fn label(value: f64, unit: &str) -> String {
+    let magnitude = value.abs();
+    let number = if value == 0.0 || (0.01..1e6).contains(&magnitude) {
+        let digits = if magnitude >= 100.0 || value == 0.0 {
+            0
+        } else if magnitude >= 10.0 {
+            1
+        } else {
+            3
+        };
+        format!("{value:.digits$}")
+    } else {
+        format!("{value:.2e}")
+    };
+    if unit.is_empty() || unit == "1" { number } else { format!("{number} {unit}") }
+}
+
+/// A style of one renderer.
+fn renderer(kind: &str, attributes: &str, inside: &str) -> String {
     format!(
         "<!DOCTYPE qgis PUBLIC 'http://mrcc.com/qgis.dtd' 'SYSTEM'>\n\
          <qgis version=\"3.22\" styleCategories=\"Symbology\">\n  <pipe>\n    \
-         <rasterrenderer type=\"paletted\" band=\"1\" opacity=\"1\" alphaBand=\"-1\" nodataColor=\"\">\n      \
-         <rasterTransparency/>\n      <colorPalette>\n{}      </colorPalette>\n    </rasterrenderer>\n  </pipe>\n  \
-         <blendMode>0</blendMode>\n</qgis>\n",
-        entries.collect::<String>()
+         <rasterrenderer type=\"{kind}\" band=\"1\" opacity=\"1\" alphaBand=\"-1\" nodataColor=\"\"{attributes}>\n      \
+         <rasterTransparency/>\n{inside}    </rasterrenderer>\n  </pipe>\n  \
+         <blendMode>0</blendMode>\n</qgis>\n"
     )
 }

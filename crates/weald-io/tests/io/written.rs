@@ -1,5 +1,7 @@
 //! What Weald writes it reads back to the bit.
 
+use std::collections::BTreeMap;
+
 use crate::formats::read;
 use crate::rasters::any_raster;
 use proptest::prelude::*;
@@ -9,8 +11,8 @@ use weald_core::domain::Georeference;
 use weald_core::grid::{Field, Mask, Size};
 use weald_core::random::hash2;
 use weald_io::{
-    Class, Classes, InMemory, Limits, PartName, Provenance, Raster, format_of, geotiff, netcdf, npy, png16,
-    zarr,
+    Class, Classes, InMemory, Limits, Part, PartName, Provenance, Raster, Shades, Spread, format_of, geotiff,
+    netcdf, npy, png16, zarr,
 };
 
 #[test]
@@ -166,11 +168,11 @@ fn classes_are_whole_numbers_and_come_back_with_their_no_data() {
             let again = geotiff::decode(&parts[0].bytes, Limits::default()).expect("our own file");
             assert_eq!((&again.field, &again.valid), (&raster.field, &raster.valid), "{greatest} {preset:?}");
             assert_eq!((again.stored, again.notes.len()), (stored, 0));
-            let style = parts.iter().find(|part| part.name == PartName::Sibling(".qml".to_owned()));
-            let style = String::from_utf8_lossy(&style.expect("beside it").bytes).into_owned();
-            assert!(
-                style.contains("value=\"0\" color=\"#0102ff\"") && style.contains("no lake &amp; none"),
-                "{style}"
+            let style = style_beside(&parts).expect("beside it");
+            let first = elements_of(&style, "paletted", &["colorPalette"]).remove(0);
+            assert_eq!(
+                ["value", "color", "label"].map(|key| first[key].as_str()),
+                ["0", "#0102ff", "no lake & none"]
             );
         }
         let packed = geotiff::encode(&raster).expect("written").len();
@@ -181,6 +183,80 @@ fn classes_are_whole_numbers_and_come_back_with_their_no_data() {
         let parts = InMemory::of("a.zarr", zarr::encode(&raster).expect("written"));
         let again = zarr::decode(&parts, Limits::default()).expect("ours");
         assert_eq!((&again.field, &again.valid, again.stored), (&raster.field, &raster.valid, "int32"));
+    }
+}
+
+/// The style of QGIS among the files of a raster.
+fn style_beside(parts: &[Part]) -> Option<String> {
+    let style = parts.iter().find(|part| part.name == PartName::Sibling(".qml".to_owned()))?;
+    Some(String::from_utf8(style.bytes.clone()).expect("text"))
+}
+
+/// The attributes of the elements in which QGIS looks for values and colours: those within `path` below the one renderer.
+fn elements_of(style: &str, kind: &str, path: &[&str]) -> Vec<BTreeMap<String, String>> {
+    let options = roxmltree::ParsingOptions { allow_dtd: true, ..Default::default() };
+    let document = roxmltree::Document::parse_with_options(style, options).expect("XML");
+    let mut node = document.root_element();
+    assert_eq!(node.tag_name().name(), "qgis");
+    for name in ["pipe", "rasterrenderer"].iter().chain(path) {
+        let mut children = node.children().filter(|child| child.has_tag_name(*name));
+        let next = children.next().unwrap_or_else(|| panic!("no <{name}> in {style}"));
+        if *name == "rasterrenderer" {
+            assert_eq!((next.attribute("type"), next.attribute("band")), (Some(kind), Some("1")), "{style}");
+        }
+        assert!(children.next().is_none(), "one <{name}>: {style}");
+        node = next;
+    }
+    let attributes = |node: roxmltree::Node<'_, '_>| {
+        node.attributes().map(|it| (it.name().to_owned(), it.value().to_owned())).collect()
+    };
+    node.children().filter(roxmltree::Node::is_element).map(attributes).collect()
+}
+
+/// That colours of a style rise from at most the least to at least the greatest value, as QGIS expects them.
+fn assert_covers(style: &str, (low, high): (f32, f32)) {
+    let kind = "singlebandpseudocolor";
+    let shader = elements_of(style, kind, &["rastershader"]).remove(0);
+    assert_eq!(shader["colorRampType"], "INTERPOLATED");
+    let items = elements_of(style, kind, &["rastershader", "colorrampshader"]);
+    let number = |text: &String| text.parse::<f64>().expect("a number");
+    let values: Vec<f64> = items.iter().map(|item| number(&item["value"])).collect();
+    assert!(values.windows(2).all(|pair| pair[0] < pair[1]), "{style}");
+    let ends = [values[0], values[values.len() - 1]];
+    assert!(ends[0] <= f64::from(low) && ends[1] >= f64::from(high), "{low} to {high}: {style}");
+    assert_eq!(["minimumValue", "maximumValue"].map(|key| number(&shader[key])), ends);
+    let is_colour = |text: &str| text.len() == 7 && u32::from_str_radix(&text[1..], 16).is_ok();
+    assert!(items.iter().all(|item| is_colour(&item["color"]) && !item["label"].is_empty()), "{style}");
+    assert_eq!(items[items.len() - 1]["color"], "#01021e");
+}
+
+#[test]
+fn measures_have_a_style_whose_colours_cover_what_the_file_holds() {
+    let size = Size { columns: 40, rows: 30 };
+    for spread in [Spread::Even, Spread::Logarithmic, Spread::Centred, Spread::Compass] {
+        let value = |share: f32| match spread {
+            Spread::Even => 3.0 + 40.0 * share,
+            Spread::Logarithmic => 25.0 * 1e6_f32.powf(share),
+            Spread::Centred => 0.3 * share - 0.1,
+            Spread::Compass => {
+                if share < 0.1 {
+                    -1.0
+                } else {
+                    359.0 * share
+                }
+            }
+        };
+        let field = Field::from_function(size, |x, y| value((x * size.rows + y) as f32 / 1199.0));
+        let range = field.range(None).expect("it has cells");
+        let shades = Shades { spread, colours: vec![[250, 240, 230], [120, 130, 140], [1, 2, 30]] };
+        let raster = Raster { shades: Some(shades), ..Raster::from(field) };
+        for preset in [None, Some("cog")] {
+            let (encode, _) =
+                format_of("a.tif".as_ref()).and_then(|format| format.writing(preset)).expect("there");
+            let parts = encode.parts(&raster).expect("written");
+            assert_eq!(parts.len(), 2);
+            assert_covers(&style_beside(&parts).expect("beside it"), range);
+        }
     }
 }
 

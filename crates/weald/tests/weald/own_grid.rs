@@ -154,6 +154,12 @@ fn gdal_finds_the_grid_the_classes_and_the_smaller_images() {
     assert!(directions.values().iter().all(|value| legal.contains(value)), "only numbers of ESRI's");
     let style = std::fs::read_to_string(folder.path().join("river.qml")).expect("a style beside it");
     assert!(style.contains("type=\"paletted\"") && style.contains("label=\"river\""), "{style}");
+    // Areas on the grid that came in, whose greatest the style has last.
+    let areas = io::read(&folder.path().join("accumulation.tif")).expect("written").field;
+    let most = f64::from(areas.range(None).expect("it has cells").1);
+    let style = std::fs::read_to_string(folder.path().join("accumulation.qml")).expect("a style beside it");
+    assert!(style.contains("type=\"singlebandpseudocolor\""), "{style}");
+    assert!(style.contains(&format!("classificationMax=\"{most}\"")), "{most}: {style}");
 }
 
 #[test]
@@ -168,6 +174,7 @@ fn what_lies_beside_classes_is_told_and_kept_apart() {
     let classes = names(&output("flow_direction", "d.tif")).expect("good");
     assert!(classes.iter().any(|name| name == "d.qml"), "{classes:?}");
     assert_eq!(names(&output("height", "h.tif")).expect("good"), ["h.tif"]);
+    assert_eq!(names(&output("accumulation", "a.tif")).expect("good"), ["a.tif", "a.qml"]);
     let both = output("flow_direction", "d.tif")
         + &output("flow_direction", "d.nc.tif").replace("d.nc.tif", "d.tiff");
     let message = names(&both).expect_err("both have d.qml").to_string();

@@ -11,6 +11,8 @@ use super::steps::Planned;
 use crate::recipe::{CHECKPOINT_FILE, REPORT_FILE};
 use weald_core::parameter::Diagnostics;
 use weald_export::classes::is_of_classes;
+use weald_export::shades::shades;
+use weald_io::Drawn;
 use weald_io::PartName;
 
 /// Folder inside the output folder in which a run makes its files before it gives them their names.
@@ -91,12 +93,21 @@ fn frame_at(film: &Path, count: u64, path: &Path) -> Option<PathBuf> {
     })
 }
 
+/// What a file of a layer says of how it is drawn.
+fn drawn(layer: &str) -> Drawn {
+    match shades(layer) {
+        Some(_) => Drawn::Shades,
+        None if is_of_classes(layer) => Drawn::Classes,
+        None => Drawn::Plain,
+    }
+}
+
 impl Output {
     /// Everything that it may write, which the steps decide for a time-lapse.
     pub(in crate::recipe) fn names(&self, steps: &[Planned]) -> Vec<Name> {
         let own = || Name::File(self.file.clone());
         match &self.content {
-            Content::Layer { name, encode, .. } => self.parts(&encode.names(is_of_classes(name))),
+            Content::Layer { name, encode, .. } => self.parts(&encode.names(drawn(name))),
             Content::Export { export, .. } => self.parts(&export.names(&self.file)),
             Content::Picture { .. } => vec![own()],
             Content::Film { film, .. } => {

@@ -25,6 +25,7 @@ use weald_engine::served::served;
 use weald_engine::stored::{Scratch, StoredLandscape};
 use weald_engine::{Engine, Job, Watcher};
 use weald_export::classes::{DIRECTIONS, directions};
+use weald_export::shades::shades;
 use weald_io::{Capabilities, Encode, Part, Provenance, Raster, WindowedRaster, WriteWindows, write_through};
 use weald_land::flow::DirectionCodes;
 
@@ -273,6 +274,7 @@ impl Run<'_> {
             provenance: Some(provenance),
             cell: Some(landscape.domain.cell),
             classes: (name == DIRECTIONS).then(|| directions(DirectionCodes::Weald)),
+            shades: shades(name),
             ..Raster::from(Field::filled(Size { columns: 1, rows: 1 }, range.0))
         }
     }

@@ -1,0 +1,75 @@
+//! In which colours measures are drawn by programs that open their files.
+
+use weald_io::{Shades, Spread};
+use weald_picture::{Scale, encode};
+
+use super::classes::is_of_classes;
+
+/// Colours of a ramp that a file holds.
+const COLOURS: usize = 9;
+
+/// Quantities that reach over many orders of magnitude.
+const LOGARITHMIC: [&str; 2] = ["accumulation", "discharge"];
+
+/// Quantities of both signs.
+const SIGNED: [&str; 8] = [
+    "curvature_profile",
+    "curvature_plan",
+    "curvature_tangential",
+    "curvature_mean",
+    "northness",
+    "eastness",
+    "flux_x",
+    "flux_y",
+];
+
+/// Amounts of water, which is blue.
+const WATER: [&str; 7] = ["water", "wet", "wetness", "moisture", "lake_depth", "river_width", "river_depth"];
+
+/// Amounts that are worn off.
+const WORN: [&str; 1] = ["erosion"];
+
+/// The colours of a layer of measures; `None` for heights, whose shades of grey are every program's own, and for numbers of
+/// things.
+pub fn shades(layer: &str) -> Option<Shades> {
+    let is_one_of = |names: &[&str]| names.contains(&layer);
+    let (spread, scale) = match layer {
+        "height" => return None,
+        _ if is_of_classes(layer) => return None,
+        "aspect" => (Spread::Compass, Scale::Compass),
+        _ if is_one_of(&LOGARITHMIC) => (Spread::Logarithmic, Scale::Water),
+        _ if is_one_of(&SIGNED) => (Spread::Centred, Scale::Balance),
+        _ if is_one_of(&WATER) => (Spread::Even, Scale::Water),
+        _ if is_one_of(&WORN) => (Spread::Even, Scale::Ember),
+        _ => (Spread::Even, Scale::Meadow),
+    };
+    let ramp = scale.ramp();
+    let colour = |at: usize| encode(ramp.at(at as f32 / (COLOURS - 1) as f32));
+    Some(Shades { spread, colours: (0..COLOURS).map(colour).collect() })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_layer_has_classes_or_shades_but_heights_have_neither() {
+        for layer in ["slope", "accumulation", "aspect", "curvature_mean", "sand"] {
+            assert!(shades(layer).is_some() && !is_of_classes(layer), "{layer}");
+        }
+        for layer in ["river", "flow_direction", "height"] {
+            assert!(shades(layer).is_none(), "{layer}");
+        }
+    }
+
+    #[test]
+    fn directions_end_where_they_begin_and_bends_are_pale_where_there_is_none() {
+        let colours = |layer: &str| shades(layer).expect("it is a measure").colours;
+        let aspect = colours("aspect");
+        let is_near = |[one, other]: [[u8; 3]; 2]| one.iter().zip(other).all(|(a, b)| a.abs_diff(b) < 4);
+        assert!(is_near([aspect[0], aspect[COLOURS - 1]]), "{aspect:?}");
+        let bend = colours("curvature_plan");
+        assert!(bend[COLOURS / 2].iter().all(|&channel| channel > 220), "{bend:?}");
+        assert!(bend[0][2] > bend[0][0] && bend[COLOURS - 1][0] > bend[COLOURS - 1][2], "{bend:?}");
+    }
+}
