@@ -1,6 +1,8 @@
 //! What a running step knows of the world: seed, engine, progress, interruption, checkpoints.
 
 use crate::engine::Engine;
+use crate::stored::StoredLandscape;
+use crate::stored_state::StoredState;
 use weald_core::error::Error;
 use weald_core::landscape::Landscape;
 
@@ -12,7 +14,8 @@ pub struct Job<'a> {
     pub engine: Engine,
     /// Receives progress, keeps checkpoints, says when to stop.
     pub watcher: &'a dyn Watcher,
-    /// State to go on from, where this step was interrupted before.
+    /// State to go on from, where this step was interrupted before; of one on a stored landscape that [has
+    /// it](StoredLandscape::resumed).
     pub resume: Option<SavedSimulation>,
 }
 
@@ -64,6 +67,16 @@ pub trait Watcher: Sync {
     /// [`Error::Run`] where the state cannot be written.
     fn checkpoint(&self, state: &SavedSimulation) -> Result<(), Error> {
         let _ = state;
+        Ok(())
+    }
+
+    /// Keeps the state of a running simulation on a stored landscape, with what that holds beside it. All ranks call it
+    /// together.
+    ///
+    /// # Errors
+    /// As [`Watcher::checkpoint`], on all ranks.
+    fn keep(&self, landscape: &StoredLandscape<'_>, state: &StoredState<'_>) -> Result<(), Error> {
+        let _ = (landscape, state);
         Ok(())
     }
 }

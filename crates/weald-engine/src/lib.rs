@@ -26,6 +26,7 @@ pub mod step;
 pub mod stored;
 pub mod stored_bands;
 mod stored_plane;
+pub mod stored_state;
 pub mod sums;
 mod tiles;
 pub mod uniform;

@@ -7,6 +7,7 @@ use std::sync::Arc;
 
 use crate::ranks::{Ranks, SharedRows, agreed, joined};
 pub use crate::stored_plane::{StoredPlane, swap_margins};
+use crate::stored_state::ResumedState;
 use weald_core::domain::Domain;
 use weald_core::error::{Error, NotFinite};
 use weald_core::files::File;
@@ -43,13 +44,16 @@ pub struct StoredLandscape<'a> {
     scratch: &'a dyn Scratch,
     layers: BTreeMap<String, StoredLayer>,
     wanted: BTreeSet<String>,
+    /// Where the step that runs next goes on, if it was interrupted before.
+    pub resumed: Option<ResumedState>,
 }
 
 impl<'a> StoredLandscape<'a> {
     /// A landscape without layers.
     pub fn new(domain: Domain, memory: u64, (scratch, ranks): (&'a dyn Scratch, Arc<dyn Ranks>)) -> Self {
         let rows = SharedRows::of((ranks.rank(), ranks.count()), domain.size.rows);
-        Self { domain, memory, ranks, rows, scratch, layers: BTreeMap::new(), wanted: BTreeSet::new() }
+        let (layers, wanted) = (BTreeMap::new(), BTreeSet::new());
+        Self { domain, memory, ranks, rows, scratch, layers, wanted, resumed: None }
     }
 
     /// How its rows are shared.
@@ -98,6 +102,11 @@ impl<'a> StoredLandscape<'a> {
     /// [`Error::Run`] where there is none of that name.
     pub fn layer(&self, name: &str) -> Result<&StoredLayer, Error> {
         self.layers.get(name).ok_or_else(|| missing(name))
+    }
+
+    /// All layers by their names.
+    pub fn layers(&self) -> impl Iterator<Item = (&str, &StoredLayer)> {
+        self.layers.iter().map(|(name, layer)| (name.as_str(), layer))
     }
 
     /// Takes a layer out.

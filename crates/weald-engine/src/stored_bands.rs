@@ -97,6 +97,29 @@ impl<P: Process> StoredBands<P> {
         halo(self.process.reach(), self.cut.steps)
     }
 
+    /// Sums of each of its own rows.
+    pub fn row_sums(&self) -> &[RowSums] {
+        &self.row_sums
+    }
+
+    /// Goes on from planes and sums that another run has kept.
+    ///
+    /// # Errors
+    /// [`Error::Run`] where they are not of this simulation.
+    pub fn go_on(&mut self, planes: Vec<StoredPlane>, row_sums: Vec<RowSums>) -> Result<(), Error> {
+        let states = self.state.len();
+        let is_of_this = planes.len() == states + self.means.len()
+            && row_sums.len() == self.row_sums.len()
+            && planes.iter().zip(self.state.iter().cycle()).all(|(kept, own)| kept.is_shared_as(own));
+        if !is_of_this {
+            return Err(Error::Run("the state that was kept is not of this simulation".to_owned()));
+        }
+        self.state = planes;
+        self.means = self.state.split_off(states);
+        self.row_sums = row_sums;
+        Ok(())
+    }
+
     /// Sums of all rows, from north to south.
     ///
     /// # Errors

@@ -46,9 +46,19 @@ impl StoredPlane {
         self.rows.own()
     }
 
+    /// Columns.
+    pub fn columns(&self) -> usize {
+        self.columns
+    }
+
     /// How rows are shared.
     pub fn shared(&self) -> &SharedRows {
         &self.rows
+    }
+
+    /// Whether another plane has the same grid, whose rows are shared alike.
+    pub fn is_shared_as(&self, other: &Self) -> bool {
+        (self.columns, &self.rows) == (other.columns, &other.rows)
     }
 
     /// The values of whole rows.

@@ -67,9 +67,9 @@ pub(crate) struct RunArguments {
     /// Threads of each rank [default: the cores of its machine, shared among the ranks there]
     #[arg(long, value_name = "N")]
     pub(crate) threads: Option<NonZeroUsize>,
-    /// Seconds between checkpoints
-    #[arg(long, value_name = "SECONDS", default_value_t = 60)]
-    pub(crate) checkpoint_every: u64,
+    /// Seconds between checkpoints [default: 60; of a distributed run none but where it is ended]
+    #[arg(long, value_name = "SECONDS")]
+    pub(crate) checkpoint_every: Option<u64>,
     /// Goes on from the checkpoint in the output folder, over any number of ranks
     #[arg(long)]
     pub(crate) resume: bool,

@@ -47,7 +47,7 @@ fn lead(arguments: &RunArguments, ranks: &Arc<dyn Ranks>) -> Result<(), Error> {
     // All have the recipe as this rank finds it; without one there is nothing to take part in.
     ranks.tell(text.as_ref().map(|text| text.clone().into_bytes()).unwrap_or_default())?;
     // A recipe is read when the threads are there: names of files are found by writing small ones, which takes threads.
-    begin(arguments.threads, ranks, arguments.is_distributed())?;
+    begin(arguments.threads, ranks)?;
     let recipe = parsed(arguments, &text?)?;
     let options = options(arguments, ranks);
     let report = Run { recipe: &recipe, options }.execute(&Lines::new(arguments.quiet))?;
@@ -59,7 +59,7 @@ fn lead(arguments: &RunArguments, ranks: &Arc<dyn Ranks>) -> Result<(), Error> {
 
 fn follow(arguments: &RunArguments, ranks: &Arc<dyn Ranks>) -> Result<(), Error> {
     let text = ranks.tell(Vec::new())?;
-    begin(arguments.threads, ranks, arguments.is_distributed())?;
+    begin(arguments.threads, ranks)?;
     // What is wrong with the recipe is the same here, and the first rank says it.
     let Ok(recipe) = parsed(arguments, &String::from_utf8_lossy(&text)) else { return Ok(()) };
     if !arguments.is_distributed() {
@@ -73,9 +73,10 @@ fn follow(arguments: &RunArguments, ranks: &Arc<dyn Ranks>) -> Result<(), Error>
 fn options(arguments: &RunArguments, ranks: &Arc<dyn Ranks>) -> Options {
     let share = || free_memory().map(|free| free / ranks_of_this_machine() as u64);
     let distributed = arguments.is_distributed();
+    let default = if distributed { Duration::MAX } else { Duration::from_mins(1) };
     Options {
         engine: Engine::Ranks(Arc::clone(ranks)),
-        checkpoint_every: Duration::from_secs(arguments.checkpoint_every),
+        checkpoint_every: arguments.checkpoint_every.map_or(default, Duration::from_secs),
         resume: arguments.resume,
         memory: if distributed { arguments.memory.or_else(share) } else { None },
         out_of_core: arguments.out_of_core.clone(),
@@ -90,21 +91,21 @@ fn parsed(arguments: &RunArguments, text: &str) -> Result<Recipe, Error> {
 
 /// Measures; gives the exit code of this rank.
 pub(crate) fn measure(arguments: &BenchArguments, ranks: &Arc<dyn Ranks>) -> u8 {
-    let done = begin(arguments.threads, ranks, false).and_then(|()| bench(arguments, ranks));
+    let done = begin(arguments.threads, ranks).and_then(|()| bench(arguments, ranks));
     let Err(error) = done else { return 0 };
     let code = report_fault(&error, &format!("rank {}: ", ranks.rank()));
     // The others would wait for this one.
     mpi::topology::SimpleCommunicator::world().abort(i32::from(code))
 }
 
-/// Starts the threads of this rank, and listens for signals; a distributed run keeps nothing to go on from.
-fn begin(threads: Option<NonZeroUsize>, ranks: &Arc<dyn Ranks>, is_distributed: bool) -> Result<(), Error> {
+/// Starts the threads of this rank, and listens for signals.
+fn begin(threads: Option<NonZeroUsize>, ranks: &Arc<dyn Ranks>) -> Result<(), Error> {
     let here = ranks_of_this_machine();
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     let threads = threads.map_or_else(|| (cores / here).max(1), usize::from);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build_global();
     pool.map_err(|cause| Error::Run(format!("cannot start {threads} threads: {cause}")))?;
-    interrupt::listen(ranks.leads(), is_distributed)
+    interrupt::listen(ranks.leads())
 }
 
 /// Prints the files that were written.

@@ -34,9 +34,9 @@ pub(crate) struct Running {
     /// Go on from the checkpoint of an interrupted run
     #[arg(long)]
     pub(crate) resume: bool,
-    /// Seconds between checkpoints of a running simulation
-    #[arg(long, value_name = "SECONDS", default_value_t = 60)]
-    pub(crate) checkpoint_every: u64,
+    /// Seconds between checkpoints of a running simulation [default: 60; out of core none but where the run is ended]
+    #[arg(long, value_name = "SECONDS")]
+    pub(crate) checkpoint_every: Option<u64>,
     /// Draw pictures of kind `render` on the processor where there is no graphics device: view, which is ray-marched
     #[arg(long, value_name = "PICTURE", value_parser = ["view"])]
     pub(crate) fallback: Option<String>,

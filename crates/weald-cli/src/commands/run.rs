@@ -24,7 +24,10 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
         // What was made at full size is not lost by a look at a change.
         if arguments.changes.is_preview() { folder.with_added_extension("preview") } else { folder }
     });
-    let options = Options { out_of_core: arguments.out_of_core.clone(), ..Options::into_folder(&out) };
+    let options = match &arguments.out_of_core {
+        Some(scratch) => Options::from_disk(&out, scratch),
+        None => Options::into_folder(&out),
+    };
     let report = execute(&recipe, options, &arguments.running)?;
     if arguments.running.quiet { Ok(()) } else { stdout::print(&summary(&report, &out)) }
 }
@@ -51,7 +54,7 @@ pub(super) fn watched<T>(
     let options = Options {
         engine: chosen.engine,
         threads: running.threads.map(usize::from),
-        checkpoint_every: Duration::from_secs(running.checkpoint_every),
+        checkpoint_every: running.checkpoint_every.map_or(options.checkpoint_every, Duration::from_secs),
         resume: running.resume,
         memory: running.memory,
         cache: running.cache(),
@@ -59,11 +62,7 @@ pub(super) fn watched<T>(
         render,
         ..options
     };
-    if options.out_of_core.is_some() {
-        interrupt::listen_without_checkpoint()?;
-    } else {
-        interrupt::listen()?;
-    }
+    interrupt::listen()?;
     let shown = ProgressPrinter::new(running.quiet);
     if let Some(note) = &chosen.note {
         shown.note(note);

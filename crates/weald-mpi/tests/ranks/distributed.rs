@@ -3,6 +3,7 @@
 use std::fmt::Write;
 use std::path::Path;
 
+use crate::ends::{children, end_of, signal, under_way};
 use crate::launched::{assert_same, on_one, report, run, said};
 
 const COUNTS: [usize; 5] = [1, 2, 3, 4, 6];
@@ -78,6 +79,32 @@ fn what_needs_the_whole_is_refused_once_and_before_anything_runs() {
 }
 
 #[test]
+fn a_distributed_run_that_is_killed_or_told_to_end_goes_on_over_another_number_of_ranks() {
+    let folder = tempfile::tempdir().expect("a folder");
+    write_recipe(folder.path(), [160, 200], "iterations = 1600\nboundary = \"open\"");
+    let expected = on_one(folder.path());
+    let running = under_way(3, folder.path(), &["--distributed"]);
+    signal("KILL", children(running.id())[1]);
+    assert!(!end_of(running).success());
+    std::fs::create_dir(folder.path().join("scratch")).expect("made");
+    let on_disk = ["--out-of-core", "scratch", "--memory", "72MiB", "--resume"];
+    let running = under_way(2, folder.path(), &on_disk);
+    for rank in children(running.id()) {
+        signal("TERM", rank);
+    }
+    let status = end_of(running);
+    let said_by_run = std::fs::read_to_string(folder.path().join("stderr")).expect("read");
+    assert_eq!(status.code(), Some(130), "{said_by_run}");
+    assert!(said_by_run.contains("the same command with --resume goes on"), "{said_by_run}");
+    assert!(!folder.path().join("parts/height.tif").exists(), "no half of a result");
+    let output = run(4, folder.path(), "parts", &["--distributed", "--resume"]);
+    assert!(output.status.success(), "{}", said(&output));
+    assert!(said(&output).contains("going on after 1 steps"), "{}", said(&output));
+    assert_same(folder.path(), &expected, "parts");
+    assert!(!folder.path().join("parts/checkpoint.parts").exists(), "nothing is left");
+}
+
+#[test]
 fn a_disk_that_one_run_has_not_ends_all_ranks_with_what_to_do() {
     let folder = tempfile::tempdir().expect("a folder");
     write_recipe(folder.path(), [64, 100], "iterations = 4");
@@ -85,5 +112,5 @@ fn a_disk_that_one_run_has_not_ends_all_ranks_with_what_to_do() {
     assert_eq!(output.status.code(), Some(1), "{}", said(&output));
     assert!(said(&output).contains("step 1 (`fbm`): cannot write missing"), "{}", said(&output));
     let resumed = run(2, folder.path(), "out", &["--distributed", "--resume"]);
-    assert!(said(&resumed).contains("keeps no checkpoint to go on from"), "{}", said(&resumed));
+    assert!(said(&resumed).contains("there is no checkpoint; run without --resume"), "{}", said(&resumed));
 }

@@ -40,7 +40,7 @@ fn wait_until(what: &str, mut is_so: impl FnMut() -> bool) {
 }
 
 /// A run in the background that keeps a checkpoint as often as it can, after its first one.
-fn under_way(count: usize, folder: &Path, more: &[&str]) -> Child {
+pub(crate) fn under_way(count: usize, folder: &Path, more: &[&str]) -> Child {
     let stderr = std::fs::File::create(folder.join("stderr")).expect("a file");
     let before = checkpoint_of(folder);
     let child = mpirun(count)
@@ -70,7 +70,7 @@ fn checkpoint(folder: &Path) -> PathBuf {
 }
 
 /// Processes that a process has started.
-fn children(parent: u32) -> Vec<u32> {
+pub(crate) fn children(parent: u32) -> Vec<u32> {
     let folders = std::fs::read_dir("/proc").expect("a system that lists processes").flatten();
     let numbers = folders.filter_map(|entry| entry.file_name().to_str()?.parse::<u32>().ok());
     let mut found: Vec<_> = numbers

@@ -4,7 +4,10 @@
 //! no-data mask, one byte a cell, where there is one; each layer as `f32`; each plant as its numbers; the maps of
 //! all grass; each plane as `f32`; each sum as `f64`; the BLAKE3 hash of all of that.
 
+mod belongs;
 mod grown;
+mod manifest;
+mod parts;
 mod planted;
 mod stream;
 
@@ -14,7 +17,11 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
+pub use belongs::CHECKPOINT_FILE;
+use belongs::{MAGIC, MAGIC_OF_PARTS, MAX_HEADER, fits};
 use grown::MeadowHeader;
+pub(super) use manifest::{Manifest, PARTS_FOLDER};
+pub(super) use parts::{KeptParts, remove_stale_parts};
 use planted::PlantsHeader;
 use stream::{HASH_BYTES, HashedReader, HashedWriter};
 use weald_core::domain::{Domain, Georeference};
@@ -25,13 +32,6 @@ use weald_engine::SavedSimulation;
 use weald_engine::report::StepReport;
 use weald_io::write_whole_with;
 use weald_plants::Vegetation;
-
-/// Name of the checkpoint in the output folder.
-pub const CHECKPOINT_FILE: &str = "checkpoint.weald";
-
-const MAGIC: &[u8; 8] = b"WEALDCP1";
-/// Most bytes of a header: a recipe of the greatest length and ample room for reports.
-const MAX_HEADER: u64 = 64 << 20;
 
 /// How far a run has come.
 #[derive(Clone, Debug, PartialEq)]
@@ -183,7 +183,7 @@ fn read_from(
     wrong: &impl Fn(String) -> Error,
 ) -> Result<State, Error> {
     let header = read_header(&mut file).map_err(wrong)?;
-    header.fits(recipe).map_err(wrong)?;
+    fits(&header.version, &header.recipe, recipe).map_err(wrong)?;
     accept(&header.head().map_err(wrong)?)?;
     let state = header.read_state(&mut file).map_err(wrong)?;
     file.finish().map_err(wrong)?;
@@ -191,7 +191,13 @@ fn read_from(
 }
 
 fn read_header(file: &mut HashedReader<'_>) -> Result<Header, String> {
-    if file.bytes(MAGIC.len())? != MAGIC {
+    let magic = file.bytes(MAGIC.len())?;
+    if magic == MAGIC_OF_PARTS {
+        let what = "is the manifest of a checkpoint by parts; go on with --distributed or --out-of-core as its run \
+                    had, or run without --resume";
+        return Err(what.to_owned());
+    }
+    if magic != MAGIC {
         return Err("is not a checkpoint of this version of Weald".to_owned());
     }
     let length = file.bytes(8)?.try_into().map(u64::from_le_bytes).expect("eight bytes were asked for");
@@ -264,29 +270,6 @@ impl Header {
             + meadows
             + self.simulation.as_ref().map_or(0, SimulationHeader::bytes)
             + u128::from(HASH_BYTES))
-    }
-
-    /// Whether the checkpoint belongs to this recipe and version; if not, what differs.
-    fn fits(&self, recipe: &str) -> Result<(), String> {
-        let version = env!("CARGO_PKG_VERSION");
-        if self.version != version {
-            let old = &self.version;
-            return Err(format!("was written by Weald {old}; this is {version}, whose bits may differ"));
-        }
-        if self.recipe == recipe {
-            return Ok(());
-        }
-        let (mut old, mut new) = (self.recipe.lines(), recipe.lines());
-        loop {
-            let lines = (old.next(), new.next());
-            if lines.0 != lines.1 {
-                let [old, new] = [lines.0, lines.1].map(|line| line.unwrap_or("nothing"));
-                return Err(format!(
-                    "belongs to another recipe: it has `{old}` where this run has `{new}`; give the same \
-                     recipe and options, or run without --resume"
-                ));
-            }
-        }
     }
 
     fn read_state(self, file: &mut HashedReader<'_>) -> Result<State, String> {

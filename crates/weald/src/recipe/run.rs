@@ -5,6 +5,7 @@ pub(super) mod finished;
 mod folder;
 mod in_parts;
 pub(super) mod inputs;
+mod kept_parts;
 mod options;
 mod outputs;
 mod step_watcher;

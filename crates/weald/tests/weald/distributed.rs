@@ -17,17 +17,27 @@ fn over(
     (disk, memory): (Option<&Path>, u64),
     progress: &(dyn Progress + Sync),
 ) -> Vec<Result<Report, Error>> {
+    // The folder is the first rank's alone.
+    let of_rank = |rank| if rank == 0 { out.to_owned() } else { out.join("never-made") };
+    let options = |rank| Options {
+        out_of_core: disk.map(Path::to_owned),
+        memory: Some(memory),
+        ..Options::into_folder(of_rank(rank))
+    };
+    over_with(count, recipe, &options, progress)
+}
+
+/// The same with the options of each rank.
+pub(crate) fn over_with(
+    count: usize,
+    recipe: &Recipe,
+    options: &(dyn Fn(usize) -> Options + Sync),
+    progress: &(dyn Progress + Sync),
+) -> Vec<Result<Report, Error>> {
     let work = |ranks: Arc<dyn Ranks>| {
-        // The folder is the first rank's alone.
-        let out = if ranks.leads() { out.to_owned() } else { out.join("never-made") };
-        let options = Options {
-            engine: Engine::Ranks(ranks),
-            distributed: true,
-            out_of_core: disk.map(Path::to_owned),
-            memory: Some(memory),
-            threads: Some(2),
-            ..Options::into_folder(out)
-        };
+        let options = options(ranks.rank());
+        let engine = Engine::Ranks(ranks);
+        let options = Options { engine, distributed: true, threads: Some(2), ..options };
         Run { recipe, options }.execute(progress)
     };
     std::thread::scope(|scope| {
@@ -115,17 +125,8 @@ fn what_one_rank_cannot_do_ends_all_and_is_named() {
     assert!(!out.path().join("out/height.tif").exists(), "nothing is half written");
 }
 
-/// Wants the end from the start.
-struct Stops;
-
-impl Progress for Stops {
-    fn cancelled(&self) -> bool {
-        true
-    }
-}
-
 #[test]
-fn an_interruption_a_limit_and_what_is_refused_end_all_ranks_alike() {
+fn a_limit_and_what_is_refused_end_all_ranks_alike() {
     let [out, scratch] = [0; 2].map(|_| tempfile::tempdir().expect("a folder"));
     let land = land("fbm", "");
     let said = |recipe: &Recipe, given: (Option<&Path>, u64), progress: &(dyn Progress + Sync)| {
@@ -135,8 +136,6 @@ fn an_interruption_a_limit_and_what_is_refused_end_all_ranks_alike() {
         assert!(said.iter().all(|end| end.0 == said[0].0), "{said:?}");
         said[0].clone()
     };
-    let stopped = said(&land, (None, 1 << 30), &Stops);
-    assert!(stopped.0 == 130 && stopped.1.contains("keeps nothing to go on from"), "{stopped:?}");
     let narrow = said(&land, (None, BESIDE + (1 << 19)), &Silent);
     assert!(narrow.0 == 5 && narrow.1.contains("the rows of one rank"), "{narrow:?}");
     let narrow = said(&land, (Some(scratch.path()), BESIDE + (1 << 20)), &Silent);
@@ -153,7 +152,7 @@ fn an_interruption_a_limit_and_what_is_refused_end_all_ranks_alike() {
 }
 
 #[test]
-fn an_engine_that_has_no_ranks_and_a_checkpoint_are_refused() {
+fn an_engine_that_has_no_ranks_is_refused() {
     let out = tempfile::tempdir().expect("a folder");
     let land = land("fbm", "");
     let refused =
@@ -165,8 +164,6 @@ fn an_engine_that_has_no_ranks_and_a_checkpoint_are_refused() {
     };
     assert!(refused(into()).contains("made by ranks, and not on the engine `cpu`"));
     let alone = || ranks_in_threads(1).remove(0);
-    let resumed = refused(Options { engine: Engine::Ranks(alone()), resume: true, ..into() });
-    assert!(resumed.contains("keeps no checkpoint"), "{resumed}");
     let undistributed = Options { distributed: false, out_of_core: Some(out.path().to_owned()), ..into() };
     let undistributed = refused(Options { engine: Engine::Ranks(alone()), ..undistributed });
     assert!(undistributed.contains("is distributed"), "{undistributed}");

@@ -13,6 +13,7 @@ mod grass;
 mod ground;
 mod islands;
 mod json_schema;
+mod kept_parts;
 mod materials;
 mod networks;
 mod out_of_core;

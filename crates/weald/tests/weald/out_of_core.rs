@@ -149,27 +149,8 @@ fn too_little_memory_is_told_with_what_is_needed() {
     assert!(limit.asked > Some(1 << 20) && limit.to_string().contains("330 columns"), "{limit}");
 }
 
-/// Wants the end in the middle of the simulation.
-struct Stops;
-
-impl Progress for Stops {
-    fn cancelled(&self) -> bool {
-        true
-    }
-}
-
 #[test]
-fn an_interruption_leaves_nothing_and_says_so() {
-    let [out, scratch] = [0; 2].map(|_| tempfile::tempdir().expect("a folder"));
-    let error =
-        run(&land("fbm", ""), out.path(), Some((scratch.path(), 1 << 30)), &Stops).expect_err("stopped");
-    assert!(
-        matches!(&error, Error::Interrupted(what) if what.contains("keeps nothing to go on from")),
-        "{error}"
-    );
-    let left = |folder: &Path| std::fs::read_dir(folder).expect("it is there").count();
-    assert_eq!((left(scratch.path()), left(&out.path().join("water"))), (0, 0));
-    assert_eq!(left(out.path()), 1, "the folder of an output, which is empty");
+fn a_folder_for_layers_that_is_not_there_is_named() {
     let missing = Path::new("/no/such/folder");
     let out = tempfile::tempdir().expect("a folder");
     let error = run(&land("fbm", ""), out.path(), Some((missing, 1 << 30)), &Silent).expect_err("no folder");

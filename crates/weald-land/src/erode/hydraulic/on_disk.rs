@@ -1,33 +1,30 @@
 //! The models of Han and of Mei et al. on a landscape of which this process has its own rows: in bands, some steps at a time, to the bit as in
 //! memory.
 
+mod start;
+
 use std::collections::BTreeSet;
 use std::ops::Range;
 use std::sync::Arc;
 
 use super::defaults::ResolvedKeys;
-use super::keys::{Boundary, Hydraulic, Model};
+use super::keys::{Hydraulic, Model};
 use super::pipe_models::PipeModel;
 use crate::erode::finished::Flows;
 use crate::erode::han::Han;
-use crate::erode::links::mask_planes;
 use crate::erode::mei::Mei;
 use crate::erode::stored::lost_note;
 use crate::erode::water_planes as plane;
 use crate::erode::working::Totals;
+use start::{MEANS, StartOnDisk};
 use weald_core::error::{Error, NotFinite};
 use weald_core::file_plane::VALUE;
-use weald_core::grid::{Mask, Size};
-use weald_core::plane::{Plane, Window};
 use weald_engine::Job;
-use weald_engine::ranks::{SharedRows, agreed, total};
+use weald_engine::ranks::{agreed, any, total};
 use weald_engine::step::{Outcome, Step};
 use weald_engine::stored::{StoredLandscape, StoredPlane, swap_margins};
 use weald_engine::stored_bands::{BandsOf, StoredBands};
-use weald_engine::sums::RowSums;
-
-/// Layers of the means.
-const MEANS: [&str; 2] = ["flux_x", "flux_y"];
+use weald_engine::stored_state::StoredState;
 
 /// State planes that layers are made of, after the simulation.
 const OF_LAYERS: usize = 3;
@@ -75,7 +72,9 @@ impl Hydraulic {
         let (mut bands, recorded) = self.bands_on_disk::<M>(landscape, (&ground, &filled))?;
         swap_margins(&mut [&mut ground.height], bands.margin(), &*ranks)?;
         let standing = self.pour(landscape, &ground, &mut bands.state[plane::DEPTH])?;
-        self.advance_on_disk(&mut bands, (&ground, &filled), recorded.clone(), job)?;
+        let done = go_on(&mut bands, landscape)?;
+        let steps = (done, recorded.clone());
+        self.advance_on_disk(&mut bands, (&ground, &filled), steps, (landscape, job))?;
         let sums = total(&*ranks, &agreed(&*ranks, ground.sums(&bands.state))?)?;
         let totals = Totals { standing, ..Totals::of(sums) };
         let budget = totals.budget(&Flows::from(bands.total()?), ground.cell);
@@ -128,11 +127,10 @@ impl Hydraulic {
         &self,
         bands: &mut StoredBands<M>,
         (ground, filled): (&StartOnDisk, &ResolvedKeys),
-        recorded: Range<u64>,
-        job: &Job<'_>,
+        (mut done, recorded): (u64, Range<u64>),
+        (landscape, job): (&StoredLandscape<'_>, &Job<'_>),
     ) -> Result<(), Error> {
         let all = u64::from(self.iterations);
-        let mut done = 0;
         while done < all {
             let is_recorded = recorded.contains(&done);
             let border = if is_recorded { recorded.end } else { recorded.start };
@@ -143,10 +141,6 @@ impl Hydraulic {
                 let share = rows as f64 / ground.rows.own().len() as f64;
                 let steps = ((end - done) as f64 * share) as u64;
                 job.watcher.progress(done + steps, all, ground.columns * ground.rows.count());
-                if job.watcher.cancelled() {
-                    let what = format!("interrupted between the iterations {done} and {end} of {all}");
-                    return Err(Error::Interrupted(what));
-                }
                 Ok(())
             };
             let constants = |rows| ground.constants(rows);
@@ -154,9 +148,45 @@ impl Hydraulic {
                 return Err(not_finite((M::PLANES, wrong), done..end));
             }
             done = end;
+            if done < all {
+                self.keep_if_asked(bands, ground, done, (landscape, job))?;
+            }
         }
         Ok(())
     }
+
+    /// Keeps the state between two passes where it is time for it, and where the run is to end.
+    fn keep_if_asked<M: PipeModel>(
+        &self,
+        bands: &StoredBands<M>,
+        ground: &StartOnDisk,
+        iteration: u64,
+        (landscape, job): (&StoredLandscape<'_>, &Job<'_>),
+    ) -> Result<(), Error> {
+        // A signal may have come to some ranks alone by now, and clocks differ.
+        let ends = any(&*landscape.ranks, job.watcher.cancelled())?;
+        if !any(&*landscape.ranks, ends || job.watcher.checkpoint_due())? {
+            return Ok(());
+        }
+        let taken = (self.layer.0.as_str(), "m", &ground.height);
+        let state = M::PLANES.iter().map(|&name| name.to_owned()).zip(&bands.state);
+        let means = MEANS.iter().map(|name| format!("sum of {name}")).zip(&bands.means);
+        let planes = state.chain(means).collect();
+        let row_sums = bands.row_sums();
+        job.watcher.keep(landscape, &StoredState { iteration, taken, planes, row_sums })?;
+        if ends { Err(Error::Interrupted(format!("after {iteration} iterations"))) } else { Ok(()) }
+    }
+}
+
+/// Goes on from the state that an earlier run has kept, where there is one; gives the steps done.
+fn go_on<M: PipeModel>(
+    bands: &mut StoredBands<M>,
+    landscape: &mut StoredLandscape<'_>,
+) -> Result<u64, Error> {
+    let Some(kept) = landscape.resumed.take() else { return Ok(0) };
+    let planes = kept.planes.into_iter().map(|(_, plane)| plane).collect();
+    bands.go_on(planes, kept.row_sums)?;
+    Ok(kept.iteration)
 }
 
 fn not_finite((names, [x, y, plane]): (&[&str], [usize; 3]), steps: Range<u64>) -> Error {
@@ -166,200 +196,4 @@ fn not_finite((names, [x, y, plane]): (&[&str], [usize; 3]), steps: Range<u64>) 
          `flow_rate` or `erosion`, or `limiter = true`, makes the scheme stable"
     );
     NotFinite { step: None, iteration: Some(end), layer: name.to_owned(), cell: [x, y], message }.into()
-}
-
-/// The ground of the start, and how it lies in the planes of the simulation.
-struct StartOnDisk {
-    height: StoredPlane,
-    /// Columns and rows of the simulation, with the ring of an open border.
-    columns: usize,
-    rows: SharedRows,
-    /// Width of the ring: 1 around an open domain, else 0.
-    ring: usize,
-    lowest: f64,
-    cell: f64,
-}
-
-impl Totals {
-    /// From the sums of rows that [`StartOnDisk::sums`] gives.
-    fn of([bedrock, change, water, suspended, changed]: RowSums) -> Self {
-        Self { bedrock, water, change, changed, suspended, ..Self::default() }
-    }
-}
-
-impl StartOnDisk {
-    /// Takes the ground out of the landscape, which gets it back as it has become.
-    fn of(step: &Hydraulic, landscape: &mut StoredLandscape<'_>) -> Result<Self, Error> {
-        let (lowest, _) = landscape.range(&step.layer.0)?;
-        let ring = usize::from(step.boundary == Boundary::Open);
-        let (columns, rows) = (landscape.domain.size.columns + 2 * ring, landscape.rows().ringed(ring));
-        let cell = landscape.domain.cell;
-        let layer = landscape.remove(&step.layer.0);
-        let height =
-            layer.ok_or_else(|| Error::Run(format!("the landscape has no layer `{}`", step.layer.0)))?;
-        Ok(Self { height: height.plane, columns, rows, ring, lowest: f64::from(lowest), cell })
-    }
-
-    fn size(&self) -> Size {
-        Size { columns: self.columns, rows: self.rows.count() }
-    }
-
-    fn is_open(&self) -> bool {
-        self.ring > 0
-    }
-
-    /// The rows of the landscape among those of the simulation.
-    fn inner(&self, rows: &Range<usize>) -> Range<usize> {
-        let last = self.height.size().rows;
-        rows.start.saturating_sub(self.ring).min(last)..rows.end.saturating_sub(self.ring).min(last)
-    }
-
-    /// The constant planes of some rows of the simulation.
-    fn constants(&self, rows: Range<usize>) -> Result<Vec<Vec<f32>>, Error> {
-        let (columns, inner) = (self.columns, self.inner(&rows));
-        let mut base = vec![0.0; columns * rows.len()];
-        let heights = self.height.rows(inner.clone())?;
-        let wide = self.height.size().columns;
-        for (y, heights) in inner.zip(heights.chunks_exact(wide)) {
-            let first = (y + self.ring - rows.start) * columns + self.ring;
-            for (base, &height) in base[first..first + wide].iter_mut().zip(heights) {
-                *base = ((f64::from(height) - self.lowest) / self.cell) as f32;
-            }
-        }
-        let mut planes = vec![base];
-        if self.is_open() {
-            planes.extend(self.masks(&rows));
-        }
-        Ok(planes)
-    }
-
-    /// The planes of the mask, which the rows beside these have a part in.
-    fn masks(&self, rows: &Range<usize>) -> impl Iterator<Item = Vec<f32>> + use<> {
-        let Size { columns, rows: all } = self.size();
-        let around = rows.start.saturating_sub(1)..(rows.end + 1).min(all);
-        let is_inner = |x: usize, y: usize| (1..columns - 1).contains(&x) && (1..all - 1).contains(&y);
-        let size = Size { columns, rows: around.len() };
-        let flags = around.clone().flat_map(|y| (0..columns).map(move |x| is_inner(x, y))).collect();
-        let cells = (rows.start - around.start) * columns..(rows.end - around.start) * columns;
-        let planes = mask_planes(&Mask::always(size, flags), true);
-        planes.into_iter().map(move |mut plane| {
-            plane.truncate(cells.end);
-            plane.drain(..cells.start);
-            plane
-        })
-    }
-
-    /// Lets the water of a layer stand at the start; gives the sum of each row of the simulation.
-    fn pour(&self, layer: &StoredPlane, depth: &mut StoredPlane) -> Result<Vec<RowSums>, Error> {
-        for rows in layer.runs_of_rows() {
-            let metres = layer.rows(rows.clone())?.into_iter();
-            let depths: Vec<f32> =
-                metres.map(|depth| (f64::from(depth.max(0.0)) / self.cell) as f32).collect();
-            let columns = self.ring..self.ring + layer.size().columns;
-            let rows = rows.start + self.ring..rows.end + self.ring;
-            depth.write(&Window { columns, rows }, &depths)?;
-        }
-        let mut sums = Vec::with_capacity(depth.own().len());
-        for rows in depth.runs_of_rows() {
-            let cells = depth.rows(rows)?;
-            let rows = cells.chunks_exact(self.columns);
-            sums.extend(rows.map(|row| [row.iter().map(|&cell| f64::from(cell)).sum(), 0.0, 0.0, 0.0, 0.0]));
-        }
-        Ok(sums)
-    }
-
-    /// Of each of its own rows the sums that make [`Totals`].
-    fn sums(&self, state: &[StoredPlane]) -> Result<Vec<RowSums>, Error> {
-        let mut sums = Vec::with_capacity(self.rows.own().len());
-        for rows in state[plane::CHANGE].runs_of_rows() {
-            let base = self.constants(rows.clone())?.swap_remove(0);
-            let of = |at: usize| state[at].rows(rows.clone());
-            let planes = [base, of(plane::CHANGE)?, of(plane::DEPTH)?, of(plane::SEDIMENT)?];
-            for first in (0..rows.len()).map(|y| y * self.columns) {
-                let row = planes.each_ref().map(|plane| &plane[first..first + self.columns]);
-                let [bedrock, change, water, suspended] =
-                    row.map(|cells| cells.iter().map(|&cell| f64::from(cell)).sum());
-                let changed = row[1].iter().map(|&cell| f64::from(cell).abs()).sum();
-                sums.push([bedrock, change, water, suspended, changed]);
-            }
-        }
-        Ok(sums)
-    }
-
-    /// Writes the layers, and lets go of each plane as soon as it is not needed any more.
-    fn store(
-        self,
-        landscape: &mut StoredLandscape<'_>,
-        layer: &str,
-        (state, means): (Vec<StoredPlane>, Vec<StoredPlane>),
-        steps: u64,
-    ) -> Result<(), Error> {
-        let (cell, scale) = (self.cell as f32, 1.0 / steps.max(1) as f32);
-        let cubic = cell * cell * cell;
-        let mut state = state.into_iter();
-        let mut next = || state.next().ok_or_else(|| Error::Run("a simulation lost a plane".to_owned()));
-        let [change, depth, sediment] = [next()?, next()?, next()?];
-        drop(state);
-        self.write(landscape, ("water", "m"), &depth, |depth| depth * cell)?;
-        drop(depth);
-        self.write(landscape, ("sediment", "m"), &sediment, |sediment| sediment * cell)?;
-        drop(sediment);
-        for (name, mean) in MEANS.into_iter().zip(means) {
-            self.write(landscape, (name, "m³/step"), &mean, |sum| (sum * scale) * cubic)?;
-        }
-        self.write(landscape, ("erosion", "m"), &change, |change| (-change).max(0.0) * cell)?;
-        self.write(landscape, ("deposition", "m"), &change, |change| change.max(0.0) * cell)?;
-        self.write_ground(landscape, layer, &change)
-    }
-
-    /// Writes a layer from a plane of the simulation, if it is wanted.
-    fn write(
-        &self,
-        landscape: &mut StoredLandscape<'_>,
-        (name, unit): (&str, &str),
-        plane: &StoredPlane,
-        convert: impl Fn(f32) -> f32,
-    ) -> Result<(), Error> {
-        if !landscape.wants(name) {
-            return Ok(());
-        }
-        let mut layer = landscape.plane_alone(name, self.grid())?;
-        for rows in layer.runs_of_rows() {
-            let values: Vec<f32> = self.read(plane, &rows)?.into_iter().map(&convert).collect();
-            layer.set_rows(rows, &values)?;
-        }
-        landscape.insert(name, unit, layer);
-        Ok(())
-    }
-
-    /// Writes the ground: the start stays to the bit where nothing changed.
-    fn write_ground(
-        &self,
-        landscape: &mut StoredLandscape<'_>,
-        name: &str,
-        change: &StoredPlane,
-    ) -> Result<(), Error> {
-        let mut layer = landscape.plane_alone(name, self.grid())?;
-        for rows in layer.runs_of_rows() {
-            let (start, change) = (self.height.rows(rows.clone())?, self.read(change, &rows)?);
-            let raised = start.iter().zip(&change);
-            let raised: Vec<f32> = raised
-                .map(|(&start, &change)| (f64::from(start) + f64::from(change) * self.cell) as f32)
-                .collect();
-            layer.set_rows(rows, &raised)?;
-        }
-        landscape.insert(name, "m", layer);
-        Ok(())
-    }
-
-    /// The grid of the landscape.
-    fn grid(&self) -> (usize, &SharedRows) {
-        (self.height.size().columns, self.height.shared())
-    }
-
-    /// Rows of the landscape from a plane of the simulation.
-    fn read(&self, plane: &StoredPlane, rows: &Range<usize>) -> Result<Vec<f32>, Error> {
-        let columns = self.ring..self.ring + self.height.size().columns;
-        plane.read(&Window { columns, rows: rows.start + self.ring..rows.end + self.ring })
-    }
 }

@@ -50,6 +50,11 @@ impl<W: Write> HashedWriter<W> {
         })
     }
 
+    /// The hash of all that was written.
+    pub(super) fn hash(&self) -> blake3::Hash {
+        self.hasher.finalize()
+    }
+
     /// Appends the hash of all that was written.
     pub(super) fn finish(mut self) -> std::io::Result<()> {
         self.inner.write_all(self.hasher.finalize().as_bytes())
@@ -117,6 +122,11 @@ impl<'a> HashedReader<'a> {
             items.extend(bytes.as_chunks().0.iter().map(|&chunk| from_bytes(chunk)));
         }
         Ok(items)
+    }
+
+    /// The hash of all that was read.
+    pub(super) fn hash(&self) -> blake3::Hash {
+        self.hasher.finalize()
     }
 
     /// Compares the hash at the end of the file with that of all that was read.

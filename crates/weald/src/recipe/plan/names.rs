@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 use super::films::{Film, Motion};
 use super::outputs::{Content, Output, lower, same_file};
 use super::steps::Planned;
+use crate::recipe::checkpoint::PARTS_FOLDER;
 use crate::recipe::{CHECKPOINT_FILE, REPORT_FILE};
 use weald_core::parameter::Diagnostics;
 use weald_export::classes::is_of_classes;
@@ -218,7 +219,7 @@ fn clash(output: &Output, (earlier, theirs): (&Output, &[Name]), names: &[Name])
 fn fault(name: &Name) -> Option<String> {
     let path = name.path();
     let shown = path.display();
-    let own = [REPORT_FILE, CHECKPOINT_FILE, WORK_FOLDER];
+    let own = [REPORT_FILE, CHECKPOINT_FILE, PARTS_FOLDER, WORK_FOLDER];
     let top = path.components().next().map(|first| lower(Path::new(first.as_os_str())));
     if top.is_some_and(|top| own.iter().any(|own| top == Path::new(own))) {
         return Some(format!("would write {shown}, a name that every run uses itself"));

@@ -1,5 +1,5 @@
 //! A run whose landscape no process holds as a whole: its layers lie on disk, or each rank has its own rows of them. It gives
-//! the files of a run in memory, to the byte, and keeps no checkpoints.
+//! the files of a run in memory, to the byte.
 //!
 //! Over ranks all run the same program, each on its own rows, and an error of one is one of all. The first writes the files.
 
@@ -10,20 +10,22 @@ use web_time::Instant;
 
 use super::film::make_folder_of;
 use super::finished::step_report;
+use super::kept_parts::PartsWatcher;
 use super::options::{Progress, Run};
+use super::step_watcher::CheckpointTimer;
 use super::work::{Leaves, WorkFolder, new_files};
 use crate::recipe::memory;
 use crate::recipe::plan::{Content, Ground, Output, Planned};
 use crate::recipe::report::{OutputReport, REPORT_FILE, Report};
 use weald_core::domain::Domain;
-use weald_core::error::{Error, Limit, NotFinite, Quantity};
+use weald_core::error::{Error, Limit, Quantity};
 use weald_core::files::File;
 use weald_core::grid::{Field, Size};
-use weald_engine::ranks::{Alone, Ranks, SharedRows, agreed, greatest, least};
+use weald_engine::ranks::{Alone, Ranks, SharedRows, agreed, any, greatest, least};
 use weald_engine::report::StepReport;
 use weald_engine::served::served;
 use weald_engine::stored::{Scratch, StoredLandscape};
-use weald_engine::{Engine, Job, Watcher};
+use weald_engine::{Engine, Job};
 use weald_export::classes::{DIRECTIONS, directions};
 use weald_export::shades::shades;
 use weald_io::{Capabilities, Encode, Part, Provenance, Raster, WindowedRaster, WriteWindows, write_through};
@@ -59,19 +61,6 @@ impl Scratch for ScratchFolder {
     }
 }
 
-/// What a step tells, and when it is to stop.
-struct ToldOn<'a>(&'a dyn Progress);
-
-impl Watcher for ToldOn<'_> {
-    fn progress(&self, done: u64, total: u64, cells: usize) {
-        self.0.progress(done, total, cells);
-    }
-
-    fn cancelled(&self) -> bool {
-        self.0.cancelled()
-    }
-}
-
 impl Run<'_> {
     /// Runs the recipe with its layers in a scratch folder, or with those of its own rows.
     pub(super) fn execute_in_parts(&self, progress: &dyn Progress) -> Result<Report, Error> {
@@ -83,23 +72,33 @@ impl Run<'_> {
         let scratch = ScratchFolder(self.options.out_of_core.clone());
         let memory = self.memory_of_steps(bytes.div_ceil(size.rows as u64), (size.rows, &*ranks))?;
         let mut place = self.place(&*ranks, progress)?;
+        let finished = place.as_ref().is_some_and(WorkFolder::has_finished_this);
+        if self.options.resume && any(&*ranks, finished)? {
+            return self.finished_before(&mut place, &*ranks);
+        }
         let mut landscape =
             StoredLandscape::new(Domain::new(size, cell), memory, (&scratch, Arc::clone(&ranks)));
-        let mut steps = Vec::with_capacity(self.recipe.steps.len());
-        for (number, planned) in self.recipe.steps.iter().enumerate() {
-            progress.step(number + 1, self.recipe.steps.len(), planned.entry.name);
-            steps.push(self.step_in_parts((number, planned), &mut landscape, progress)?);
+        let mut so_far = self.start_in_parts(&mut landscape, progress)?;
+        let clock = CheckpointTimer::start(self.options.checkpoint_every);
+        while let Some(planned) = self.recipe.steps.get(so_far.done()) {
+            progress.step(so_far.done() + 1, self.recipe.steps.len(), planned.entry.name);
+            let watcher = PartsWatcher::new(self, &so_far, (progress, &clock));
+            let report = self.step_in_parts(planned, &mut landscape, &watcher);
+            let report = report.map_err(|error| self.explain_in_parts(error, &landscape, &watcher))?;
+            so_far.steps.push(report);
+            self.keep_between_steps(&landscape, &so_far, (progress, &clock))?;
         }
-        let outputs = self.outputs_in_parts(&landscape, progress)?;
+        let outputs = self.outputs_in_parts(&landscape, progress);
+        let outputs = outputs.map_err(|error| self.with_rows_kept(error, &landscape, &so_far))?;
         let report = Report {
             engine: self.options.engine.name().to_owned(),
             adapter: None,
             seed: self.recipe.seed,
             recipe_blake3: self.recipe.hash(),
             version: env!("CARGO_PKG_VERSION").to_owned(),
-            steps,
+            steps: so_far.steps,
             outputs,
-            notes: Vec::new(),
+            notes: so_far.notes,
         };
         let published = place.as_mut().map_or(Ok(()), |place| self.publish(place, &report));
         agreed(&*ranks, published)?;
@@ -119,11 +118,6 @@ impl Run<'_> {
     fn sharing(&self) -> Result<Arc<dyn Ranks>, Error> {
         let is_distributed = self.options.distributed;
         let kind = if is_distributed { "a distributed run" } else { "a run out of core" };
-        if self.options.resume {
-            return Err(Error::Run(format!(
-                "{kind} keeps no checkpoint to go on from; run it without --resume"
-            )));
-        }
         match &self.options.engine {
             Engine::Cpu if !is_distributed => Ok(Arc::new(Alone)),
             Engine::Ranks(ranks) if is_distributed => Ok(Arc::clone(ranks)),
@@ -159,36 +153,45 @@ impl Run<'_> {
         agreed(ranks, if ranks.leads() { self.prepare(progress).map(Some) } else { Ok(None) })
     }
 
+    /// What a run has left that was killed when all its files were whole.
+    fn finished_before(&self, place: &mut Option<WorkFolder>, ranks: &dyn Ranks) -> Result<Report, Error> {
+        if let Some(place) = place {
+            place.leaves = Leaves::Nothing;
+        }
+        let read = || {
+            let report = Report::read(&self.options.out.join(REPORT_FILE))?;
+            Ok(serde_json::to_vec(&report).expect("it was read as JSON"))
+        };
+        let report = ranks.tell(agreed(ranks, if ranks.leads() { read() } else { Ok(Vec::new()) })?)?;
+        serde_json::from_slice(&report)
+            .map_err(|error| Error::Run(format!("the first rank told of no report: {error}")))
+    }
+
     fn step_in_parts(
         &self,
-        (number, planned): (usize, &Planned),
+        planned: &Planned,
         landscape: &mut StoredLandscape<'_>,
-        progress: &dyn Progress,
+        watcher: &PartsWatcher<'_>,
     ) -> Result<StepReport, Error> {
         let started = Instant::now();
-        let step = &planned.step;
+        let (step, done) = (&planned.step, watcher.so_far.done());
         // What the step reads is there while it runs, and what it writes only where that is read later.
-        let mut wanted = self.recipe.wanted_after(number + 1);
+        let mut wanted = self.recipe.wanted_after(done + 1);
         wanted.extend(step.reads());
         landscape.want(wanted);
-        let watcher = ToldOn(progress);
-        let job = Job {
-            seed: planned.seed(self.recipe.seed),
-            engine: self.options.engine.clone(),
-            watcher: &watcher,
-            resume: None,
-        };
-        let located = |error| located(error, number, planned);
-        let outcome = step.run_on_disk(landscape, &job).map_err(located)?;
-        landscape.want(self.recipe.wanted_after(number + 1));
+        let resumed_at = landscape.resumed.as_ref().map(|resumed| resumed.iteration);
+        let engine = self.options.engine.clone();
+        let job = Job { seed: planned.seed(self.recipe.seed), engine, watcher, resume: None };
+        let outcome = step.run_on_disk(landscape, &job)?;
+        landscape.want(self.recipe.wanted_after(done + 1));
         for (name, _) in step.writes() {
             if landscape.wants(&name) {
-                landscape.range(&name).map_err(located)?;
+                landscape.range(&name)?;
             }
         }
-        outcome.notes.iter().for_each(|note| progress.note(note));
+        outcome.notes.iter().for_each(|note| watcher.progress.note(note));
         let cells = landscape.domain.size.cells();
-        let report = step_report(planned, cells, outcome, started.elapsed().as_secs_f64(), None);
+        let report = step_report(planned, cells, outcome, started.elapsed().as_secs_f64(), resumed_at);
         Ok(StepReport { peak_memory: peak_memory(&*landscape.ranks)?, ..report })
     }
 
@@ -284,20 +287,4 @@ impl Run<'_> {
 fn peak_memory(ranks: &dyn Ranks) -> Result<Option<u64>, Error> {
     let most = greatest(ranks, memory::taken().unwrap_or_default())?;
     Ok(Some(most).filter(|&most| most > 0))
-}
-
-/// Says in which step an error arose, and that nothing is kept of it.
-fn located(error: Error, number: usize, planned: &Planned) -> Error {
-    let step = format!("step {} (`{}`)", number + 1, planned.entry.name);
-    match error {
-        Error::Run(what) => Error::Run(format!("{step}: {what}")),
-        Error::Interrupted(what) => {
-            Error::Interrupted(format!("{step}: {what}; such a run keeps nothing to go on from"))
-        }
-        Error::NotFinite(fault) => {
-            let message = format!("{step}: {}", fault.message);
-            NotFinite { step: Some(planned.entry.name.to_owned()), message, ..fault }.into()
-        }
-        other => other,
-    }
 }

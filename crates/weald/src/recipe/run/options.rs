@@ -19,7 +19,8 @@ pub struct Options {
     pub engine: Engine,
     /// Threads; all cores where none are given.
     pub threads: Option<usize>,
-    /// Time between checkpoints.
+    /// Time between checkpoints. One of a landscape that no process holds takes its layers and the state once more on the disk
+    /// of the output folder, and twice while the next is written.
     pub checkpoint_every: Duration,
     /// Whether to go on from the checkpoint in the folder.
     pub resume: bool,
@@ -58,6 +59,12 @@ impl Options {
             timings: None,
             render: None,
         }
+    }
+
+    /// From a folder for layers on disk, with a checkpoint where the run is ended early alone: its size is that of the disk.
+    pub fn from_disk(out: impl Into<PathBuf>, scratch: impl Into<PathBuf>) -> Self {
+        let (checkpoint_every, out_of_core) = (Duration::MAX, Some(scratch.into()));
+        Self { checkpoint_every, out_of_core, ..Self::into_folder(out) }
     }
 }
 

@@ -11,6 +11,7 @@ use std::path::{Component, Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
+use crate::recipe::checkpoint::remove_stale_parts;
 use crate::recipe::plan::{Recipe, WORK_FOLDER};
 use crate::recipe::{CHECKPOINT_FILE, REPORT_FILE};
 use weald_core::error::Error;
@@ -84,6 +85,7 @@ impl WorkFolder {
         if !files::exists(&out.join(CHECKPOINT_FILE)) {
             this.remove_all_made()?;
         }
+        remove_stale_parts(out)?;
         this.leaves = Leaves::Others;
         Ok(this)
     }
@@ -173,6 +175,7 @@ impl WorkFolder {
             self.name(&made, file, &target).map_err(|cause| Error::write(&target, &cause))?;
         }
         remove_checkpoint(&self.out.join(CHECKPOINT_FILE))?;
+        remove_stale_parts(&self.out)?;
         files::remove_file(&path).map_err(|cause| Error::write(&path, &cause))?;
         Ok(Some(made))
     }
