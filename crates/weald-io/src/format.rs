@@ -1,6 +1,9 @@
 //! What a raster format is: how it is read and written, and what it can hold.
 
 use std::collections::BTreeSet;
+use std::fmt::Debug;
+use std::ops::Range;
+use std::path::Path;
 
 use super::parts::{Part, PartName, Parts};
 use super::{Classes, Fault, Limits, Raster, Shades, Spread};
@@ -18,8 +21,33 @@ pub type DecodeFile = fn(&[u8], Limits) -> Result<Raster, Fault>;
 pub enum Decode {
     /// From the bytes of one file.
     File(DecodeFile),
+    /// The same, and also some rows of it without the others.
+    Rows {
+        /// From the bytes of one file.
+        whole: DecodeFile,
+        /// Opens the file.
+        open: fn(&Path) -> Result<Box<dyn RowsOfFile>, Fault>,
+    },
     /// From a file and what lies beside it, or from a folder.
     Parts(fn(&dyn Parts, Limits) -> Result<Raster, Fault>),
+}
+
+/// A raster file of which rows are read as they are needed.
+pub trait RowsOfFile: Debug + Send + Sync {
+    /// Columns and rows of the whole.
+    fn size(&self) -> Size;
+
+    /// Rows that are decoded together: windows that begin and end with them decode none twice.
+    fn rows_at_once(&self) -> usize;
+
+    /// Most bytes of memory that reading those takes.
+    fn bytes_at_once(&self) -> u64;
+
+    /// Some rows, to the bit as in the whole, with all that the file says; the place is that of the whole.
+    ///
+    /// # Errors
+    /// As the reader of the whole, where these rows show it.
+    fn rows(&self, rows: Range<usize>) -> Result<Raster, Fault>;
 }
 
 /// How a raster becomes a file.

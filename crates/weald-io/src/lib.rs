@@ -45,15 +45,15 @@ pub use atomic::{
 };
 pub use classes::{Class, Classes};
 pub use format::{
-    Capabilities, CrsSupport, Decode, DecodeFile, Drawn, Encode, Format, Metadata, Preset, Values,
-    WindowedRaster, WriteWindows,
+    Capabilities, CrsSupport, Decode, DecodeFile, Drawn, Encode, Format, Metadata, Preset, RowsOfFile,
+    Values, WindowedRaster, WriteWindows,
 };
 pub use info::{Info, describe};
 pub use limits::{Fault, Limits};
 pub use parts::{InMemory, Part, PartName, Parts, read_at_most};
 pub use provenance::Provenance;
 pub use raster::Raster;
-pub use registry::{FORMATS, format_of, read, write};
+pub use registry::{FORMATS, format_of, open_rows, read, write};
 pub use regrid::{Grid, Resampling, regrid};
 pub use said::Said;
 pub use shades::{Shades, Spread};

@@ -71,11 +71,22 @@ impl Raster {
         valid: Vec<bool>,
         stored: &'static str,
     ) -> Result<Self, Fault> {
+        Self::from_rows((size, 0), values, valid, stored)
+    }
+
+    /// The same for rows of a file from one of them on.
+    pub(super) fn from_rows(
+        (size, first): (Size, usize),
+        values: Vec<f32>,
+        valid: Vec<bool>,
+        stored: &'static str,
+    ) -> Result<Self, Fault> {
         let (field, valid) = (Field::from_values(size, values), Mask::new(size, valid));
         if let Some((x, y)) = field.first_not_finite(valid.as_ref()) {
             return Err(Fault::Damaged(format!(
-                "column {x}, row {y} holds {}, which is no height; declare it as no-data (for a GeoTIFF: \
+                "column {x}, row {} holds {}, which is no height; declare it as no-data (for a GeoTIFF: \
                  gdal_translate -a_nodata inf) or mend the file",
+                first + y,
                 field.at(x, y)
             )));
         }

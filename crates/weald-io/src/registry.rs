@@ -7,7 +7,8 @@ use super::beside::{self, BESIDE};
 use super::exr;
 use super::parts::{OnDisk, PartName, Parts, read_at_most};
 use super::{
-    Decode, Fault, Format, Limits, Raster, asc, geotiff, netcdf, npy, png16, raw, write_parts, zarr,
+    Decode, Fault, Format, Limits, Raster, RowsOfFile, asc, geotiff, netcdf, npy, png16, raw, write_parts,
+    zarr,
 };
 use weald_core::error::{Error, left_out};
 
@@ -59,7 +60,7 @@ pub fn read(path: &Path) -> Result<Raster, Error> {
     let format = format_of(path).map_err(|what| Error::input(path, what))?;
     let limits = Limits::default();
     let raster = match format.decode {
-        Some(Decode::File(decode)) => {
+        Some(Decode::File(decode) | Decode::Rows { whole: decode, .. }) => {
             read_at_most(path, limits.file_bytes()).and_then(|bytes| decode(&bytes, limits))
         }
         Some(Decode::Parts(decode)) => decode(&OnDisk(path.to_owned()), limits),
@@ -74,6 +75,37 @@ pub fn read(path: &Path) -> Result<Raster, Error> {
     whole.map_err(|fault| fault.of(path))
 }
 
+/// Opens a file to read rows of it as they are needed.
+///
+/// # Errors
+/// [`Error::Input`] for a file that is missing or damaged, of a format that is read as a whole alone, or that has a file
+/// beside it which says more of it.
+pub fn open_rows(path: &Path) -> Result<Box<dyn RowsOfFile>, Error> {
+    let format = format_of(path).map_err(|what| Error::input(path, what))?;
+    let Some(Decode::Rows { open, .. }) = format.decode else {
+        let name = format.name;
+        let what =
+            format!("{name} is read as a whole, which needs it in memory; rows are read of GeoTIFF: .tif");
+        return Err(Error::input(path, what));
+    };
+    let place = OnDisk(path.to_owned());
+    let worlds = world_files(path).map(|suffix| PartName::Sibling(suffix.to_owned()));
+    for name in worlds.chain([PartName::Beside(BESIDE.to_owned())]) {
+        if place.read(&name, BESIDE_BYTES).map_err(|fault| fault.of(path))?.is_some() {
+            let beside = name.path(path);
+            return Err(Error::input(
+                path,
+                format!(
+                    "{} says more of it, which goes with the whole in memory alone; put it into the file: gdal_translate \
+                     in.tif out.tif",
+                    beside.display()
+                ),
+            ));
+        }
+    }
+    open(path).map_err(|fault| fault.of(path))
+}
+
 /// What follows the name of a world file, by the extension of the raster, as GDAL looks for it.
 const WORLD_FILES: [(&str, [&str; 3]); 3] = [
     ("tif", [".tfw", ".tifw", ".wld"]),
@@ -81,11 +113,16 @@ const WORLD_FILES: [(&str, [&str; 3]); 3] = [
     ("png", [".pgw", ".pngw", ".wld"]),
 ];
 
-fn with_world_file(raster: Raster, path: &Path) -> Result<Raster, Fault> {
+/// What may follow the name of its world file.
+fn world_files(path: &Path) -> impl Iterator<Item = &'static str> + use<> {
     let extension = path.extension().and_then(|e| e.to_str()).unwrap_or_default().to_ascii_lowercase();
     let known = WORLD_FILES.iter().find(|(raster, _)| *raster == extension);
-    for suffix in known.iter().flat_map(|(_, suffixes)| suffixes) {
-        let name = PartName::Sibling((*suffix).to_owned());
+    known.into_iter().flat_map(|(_, suffixes)| *suffixes)
+}
+
+fn with_world_file(raster: Raster, path: &Path) -> Result<Raster, Fault> {
+    for suffix in world_files(path) {
+        let name = PartName::Sibling(suffix.to_owned());
         if let Some(text) = OnDisk(path.to_owned()).read(&name, BESIDE_BYTES)? {
             return beside::with_world(raster, &String::from_utf8_lossy(&text));
         }

@@ -6,7 +6,7 @@ use super::unit::{Measure, metres_in};
 use super::wkt::{Definition, wkt_of};
 use weald_core::domain::Georeference;
 use weald_core::error::left_out;
-use weald_core::grid::Mask;
+use weald_core::grid::{Mask, Size};
 
 /// What is said of a file; nothing by default.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -102,16 +102,21 @@ fn in_crs(raster: Raster, code: u32) -> Result<Raster, String> {
     Ok(Raster { cell, georeference: Some(place), ..raster })
 }
 
+/// Whether a raster of that size and place without a CRS lies where longitudes and latitudes do.
+fn may_be_degrees(place: &Georeference, size: Size) -> bool {
+    let is_told = place.epsg.is_some() || place.keys.as_ref().is_some_and(tell_a_crs);
+    let far = place.at([size.columns as f64, size.rows as f64]);
+    let within =
+        |at: [f64; 2]| at.iter().zip(MOST_DEGREES).all(|(at, most)| at.abs() <= most + LIKELY_DEGREES);
+    !is_told && within(place.origin) && within(far)
+}
+
 impl Raster {
     /// What to ask the user where coordinates without a CRS look like degrees: they lie where longitudes and latitudes are, and
     /// cells are below a hundredth, or the ground would be steeper than any if they were metres.
     pub fn likely_degrees(&self) -> Option<String> {
         let place = self.georeference.as_ref()?;
-        let is_told = place.epsg.is_some() || place.keys.as_ref().is_some_and(tell_a_crs);
-        let far = place.at([self.field.size().columns as f64, self.field.size().rows as f64]);
-        let within =
-            |at: [f64; 2]| at.iter().zip(MOST_DEGREES).all(|(at, most)| at.abs() <= most + LIKELY_DEGREES);
-        if is_told || !within(place.origin) || !within(far) {
+        if !may_be_degrees(place, self.field.size()) {
             return None;
         }
         let [width, height] = place.pixel;
@@ -133,6 +138,20 @@ impl Raster {
         ))
     }
 
+    /// What to ask of rows of a raster of that size: that of [`Raster::likely_degrees`] but where steepness would tell, of which
+    /// rows do not know enough.
+    pub fn possible_degrees(&self, whole: Size) -> Option<String> {
+        let place = self.georeference.as_ref()?;
+        let [width, height] = place.pixel;
+        let is_told = self.provenance.is_some() && width.max(height) >= LIKELY_DEGREES;
+        (may_be_degrees(place, whole) && !is_told).then(|| {
+            format!(
+                "it names no CRS, and its cells of {width} × {height} may be degrees; say `crs = \"EPSG:4326\"` for longitude \
+                 and latitude, or `cell = {width}` if these are metres"
+            )
+        })
+    }
+
     /// Mean rise from cell to cell over their width.
     fn steepness(&self, width: f64) -> f64 {
         let (columns, values) = (self.field.size().columns, self.field.values());
@@ -147,7 +166,7 @@ impl Raster {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use weald_core::grid::{Field, Size};
+    use weald_core::grid::Field;
 
     fn raster(pixel: f64, origin: [f64; 2]) -> Raster {
         let size = Size { columns: 3, rows: 2 };

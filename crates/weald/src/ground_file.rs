@@ -1,34 +1,24 @@
 //! A raster file that becomes the ground of a landscape.
 
-use std::path::Path;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
 
 use weald_core::domain::Domain;
-use weald_core::error::Error;
+use weald_core::error::{Error, Limit, Quantity};
 use weald_core::grid::Mask;
 use weald_core::landscape::Landscape;
-use weald_io::{self as io, Raster, Said};
+use weald_io::{self as io, Raster, RowsOfFile, Said};
 
 /// The landscape whose layer `height` is a raster file, in square cells of metres, and texts that tell the user what had
 /// to be done to it. `cell` is the width of the cells in metres and `said` is more, for a file that does not say it.
 pub(crate) fn read(path: &Path, cell: Option<f64>, said: &Said) -> Result<(Landscape, Vec<String>), Error> {
-    let wrong = |what: String| Error::input(path, what);
-    let mut raster = said.of(io::read(path)?).map_err(wrong)?;
-    if let Some(question) = raster.likely_degrees().filter(|_| cell.is_none()) {
-        return Err(wrong(question + ", in [landscape]"));
-    }
-    if let Some(unit) = raster.unit().filter(|unit| !["m", "1"].contains(unit)) {
-        let remedy = "give their unit, as `unit = \"m\"` in [landscape], if the file is wrong";
-        return Err(wrong(format!("its values are in {unit}, which are no heights; {remedy}")));
-    }
-    let mut notes = std::mem::take(&mut raster.notes);
-    set_cell(&mut raster, cell).map_err(wrong)?;
+    let (raster, mut notes) = of_heights(path, (cell, said), io::read(path)?, Raster::likely_degrees)?;
     let (raster, note) = io::square(raster).map_err(|error| match error {
         Error::Run(what) => Error::input(path, what),
         other => other,
     })?;
     notes.extend(note);
-    let side = raster.cell.filter(|side| side.is_finite() && *side > 0.0);
-    let side = side.ok_or_else(|| Error::input(path, "has no cell size; give `cell` in [landscape]"))?;
+    let side = side_of(path, &raster)?;
     if raster.valid.as_ref().map_or(0, Mask::valid_cells) == 0 && raster.valid.is_some() {
         return Err(Error::input(path, "has no cell with data, so there is no ground to work on"));
     }
@@ -38,6 +28,120 @@ pub(crate) fn read(path: &Path, cell: Option<f64>, said: &Said) -> Result<(Lands
     let mut landscape = Landscape::new(domain);
     landscape.insert("height", "m", raster.field);
     Ok((landscape, notes))
+}
+
+fn side_of(path: &Path, raster: &Raster) -> Result<f64, Error> {
+    let side = raster.cell.filter(|side| side.is_finite() && *side > 0.0);
+    side.ok_or_else(|| Error::input(path, "has no cell size; give `cell` in [landscape]"))
+}
+
+/// A raster, or rows of it, as heights in metres, and what had to be done to it.
+fn of_heights(
+    path: &Path,
+    (cell, said): (Option<f64>, &Said),
+    raster: Raster,
+    may_be_degrees: impl Fn(&Raster) -> Option<String>,
+) -> Result<(Raster, Vec<String>), Error> {
+    let wrong = |what: String| Error::input(path, what);
+    let mut raster = said.of(raster).map_err(wrong)?;
+    if let Some(question) = may_be_degrees(&raster).filter(|_| cell.is_none()) {
+        return Err(wrong(question + ", in [landscape]"));
+    }
+    if let Some(unit) = raster.unit().filter(|unit| !["m", "1"].contains(unit)) {
+        let remedy = "give their unit, as `unit = \"m\"` in [landscape], if the file is wrong";
+        return Err(wrong(format!("its values are in {unit}, which are no heights; {remedy}")));
+    }
+    let notes = std::mem::take(&mut raster.notes);
+    set_cell(&mut raster, cell).map_err(wrong)?;
+    Ok((raster, notes))
+}
+
+/// A raster file of which the ground is read row by row, as it becomes in [`read`].
+#[derive(Debug)]
+pub(crate) struct GroundRows {
+    path: PathBuf,
+    cell: Option<f64>,
+    said: Said,
+    file: Box<dyn RowsOfFile>,
+    /// Its grid, where all cells have data.
+    pub(crate) domain: Domain,
+    /// What had to be done to it.
+    pub(crate) notes: Vec<String>,
+}
+
+impl GroundRows {
+    /// Opens a file of square cells of metres.
+    ///
+    /// # Errors
+    /// As [`read`], as far as the first row shows it; [`Error::Input`] where the whole would be needed.
+    pub(crate) fn open(path: &Path, cell: Option<f64>, said: &Said) -> Result<Self, Error> {
+        let file = io::open_rows(path)?;
+        let (path, said, domain) = (path.to_owned(), said.clone(), Domain::new(file.size(), 1.0));
+        let mut this = Self { path, cell, said, file, domain, notes: Vec::new() };
+        let (raster, notes) = this.read(0..1)?;
+        let side = side_of(&this.path, &raster)?;
+        this.domain = Domain { georeference: raster.georeference, ..Domain::new(this.domain.size, side) };
+        this.notes = notes;
+        Ok(this)
+    }
+
+    /// Rows that are worth reading at a time, from these on.
+    pub(crate) fn runs_of_rows(&self, rows: Range<usize>) -> impl Iterator<Item = Range<usize>> + use<> {
+        let (high, mut first) = (self.file.rows_at_once(), rows.start);
+        std::iter::from_fn(move || {
+            let run = first..((first / high + 1) * high).min(rows.end);
+            first = run.end;
+            (!run.is_empty()).then_some(run)
+        })
+    }
+
+    /// Heights of some rows.
+    ///
+    /// # Errors
+    /// [`Error::Input`] for rows that are damaged or hold cells without data; [`Error::Limit`] where the memory is too little.
+    pub(crate) fn heights(&self, rows: Range<usize>, memory: u64) -> Result<Vec<f32>, Error> {
+        let needed = self.file.bytes_at_once();
+        if needed > memory {
+            let limit = Limit::new(Quantity::MemoryBytes, needed, 0..=memory);
+            let rows = format!(
+                "{}: {} rows, which are packed together",
+                self.path.display(),
+                self.file.rows_at_once()
+            );
+            let remedy = "allow more memory, or write it in tiles: gdal_translate -co TILED=YES";
+            return Err(limit.of(rows).remedy(remedy).into());
+        }
+        let (raster, _) = self.read(rows.clone())?;
+        let Some(valid) = &raster.valid else { return Ok(raster.field.values().to_vec()) };
+        let columns = self.domain.size.columns;
+        let at = valid.flags().iter().position(|&valid| !valid).unwrap_or_default();
+        Err(Error::input(
+            &self.path,
+            format!(
+                "column {}, row {} has no data, which a landscape on disk or over ranks cannot have: fill it, as with \
+                 gdal_fillnodata.py",
+                at % columns,
+                rows.start + at / columns
+            ),
+        ))
+    }
+
+    fn read(&self, rows: Range<usize>) -> Result<(Raster, Vec<String>), Error> {
+        let raster = self.file.rows(rows).map_err(|fault| fault.of(&self.path))?;
+        let whole = self.file.size();
+        let degrees = |raster: &Raster| raster.possible_degrees(whole);
+        let (raster, notes) = of_heights(&self.path, (self.cell, &self.said), raster, degrees)?;
+        let resampled = |what: String| {
+            let remedy = "which needs the whole in memory: gdalwarp it to square cells of metres";
+            Error::input(&self.path, format!("{what}; {remedy}"))
+        };
+        match io::square(raster) {
+            Ok((raster, None)) => Ok((raster, notes)),
+            Ok((_, Some(note))) => Err(resampled(note)),
+            Err(Error::Run(what)) => Err(resampled(what)),
+            Err(other) => Err(other),
+        }
+    }
 }
 
 /// Takes the width of the cells from the recipe, where the file leaves it open.

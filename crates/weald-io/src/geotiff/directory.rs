@@ -62,6 +62,17 @@ impl Order {
     }
 }
 
+impl Order {
+    /// Puts a number into 1 to 8 bytes.
+    fn put(self, bytes: &mut [u8], number: u64) {
+        let width = bytes.len();
+        match self {
+            Self::Little => bytes.copy_from_slice(&number.to_le_bytes()[..width]),
+            Self::Big => bytes.copy_from_slice(&number.to_be_bytes()[8 - width..]),
+        }
+    }
+}
+
 /// One tag: type of the values, their count, and their bytes in the file.
 #[derive(Debug)]
 struct Entry<'a> {
@@ -189,6 +200,77 @@ impl<'a> Directory<'a> {
             Some((kind, _)) => Err(wrong_type(tag, kind, "text")),
         }
     }
+}
+
+/// Most bytes of directories with the values of their tags.
+const MOST_OF_HEAD: u64 = 1 << 30;
+
+/// Reads bytes from a place of a file, as many as are asked for.
+type ReadAt<'a> = &'a mut dyn FnMut(u64, u64) -> Result<Vec<u8>, Fault>;
+
+/// The directories of a file that is not in memory, with the values of their tags, as a file of their own. What places chunks
+/// in it is as it was. Damage behind the first directory ends the list, as of [`Directory::others`].
+pub(super) fn relocated(read: ReadAt<'_>) -> Result<Vec<u8>, Fault> {
+    let mut head = read(0, 8)?;
+    let (order, widths) = header(&head)?;
+    if widths.offset == 8 {
+        head.extend(read(8, 8)?);
+    }
+    let mut pointer = widths.first;
+    for number in 0..=MAX_DIRECTORIES {
+        let start = order.number(&head[pointer..pointer + widths.offset]);
+        order.put(&mut head[pointer..pointer + widths.offset], 0);
+        if number > 0 && start == 0 {
+            break;
+        }
+        match table(start, (order, widths), read) {
+            Ok(table) => {
+                let place = head.len() as u64;
+                order.put(&mut head[pointer..pointer + widths.offset], place);
+                pointer = head.len() + table.len() - widths.offset;
+                let first = head.len() + widths.entries;
+                head.extend(table);
+                for row in (first..pointer).step_by(4 + 2 * widths.offset) {
+                    bring_values(&mut head, row, (order, widths), read);
+                }
+            }
+            Err(fault) if number == 0 => return Err(fault),
+            Err(_) => break,
+        }
+    }
+    Ok(head)
+}
+
+/// A directory with its count of tags and the place of the next one.
+fn table(start: u64, (order, widths): (Order, &'static Widths), read: ReadAt<'_>) -> Result<Vec<u8>, Fault> {
+    let count = order.number(&read(start, widths.entries as u64)?);
+    let length = count.checked_mul(4 + 2 * widths.offset as u64);
+    let length = length.and_then(|length| length.checked_add((widths.entries + widths.offset) as u64));
+    let length = length.filter(|&length| length <= MOST_OF_HEAD);
+    let claims = || Fault::damaged(format!("the directory at byte {start} claims {count} tags"));
+    read(start, length.ok_or_else(claims)?)
+}
+
+/// Puts the values of a tag behind all else; those that lie outside the file lie outside here too.
+fn bring_values(head: &mut Vec<u8>, row: usize, (order, widths): (Order, &'static Widths), read: ReadAt<'_>) {
+    let kind = order.number(&head[row + 2..row + 4]) as u16;
+    let field = row + 4 + widths.offset..row + 4 + 2 * widths.offset;
+    let count = order.number(&head[row + 4..field.start]);
+    let length = count.checked_mul(value_width(kind));
+    if length.is_some_and(|length| length <= widths.offset as u64) {
+        return;
+    }
+    let start = order.number(&head[field.clone()]);
+    let room = MOST_OF_HEAD.saturating_sub(head.len() as u64);
+    let place = match length.filter(|&length| length <= room).map(|length| read(start, length)) {
+        Some(Ok(values)) => {
+            let place = head.len() as u64;
+            head.extend(values);
+            place
+        }
+        _ => u64::MAX,
+    };
+    order.put(&mut head[field], place);
 }
 
 fn header(bytes: &[u8]) -> Result<(Order, &'static Widths), Fault> {

@@ -1,10 +1,11 @@
 //! How the cells of a file are cut into chunks: strips of whole rows, or tiles.
 
+use super::super::Fault;
 use super::super::limits::ensure_can_hold;
-use super::super::{Fault, Limits};
+use super::chunks::ensure_within;
 use super::compression::Compression;
+use super::directory::Directory;
 use super::directory::tag;
-use super::directory::{Directory, field};
 use super::sample::Sample;
 use weald_core::grid::Size;
 
@@ -20,6 +21,9 @@ pub(super) struct Layout {
     offsets: Vec<u64>,
     lengths: Vec<u64>,
 }
+
+/// A size in a header, once it is known to be allowed.
+pub(super) type CheckedSize<'a> = &'a dyn Fn(usize, usize) -> Result<Size, Fault>;
 
 /// The tags that place chunks.
 struct Tags {
@@ -39,16 +43,14 @@ impl Layout {
         directory: &Directory<'_>,
         sample: Sample,
         compression: Compression,
-        limits: Limits,
+        (file, checked): (u64, CheckedSize<'_>),
     ) -> Result<Self, Fault> {
         let columns = directory.needed(tag::IMAGE_WIDTH)? as usize;
         let rows = directory.needed(tag::IMAGE_LENGTH)? as usize;
-        let size = limits.size(columns, rows)?;
+        let size = checked(columns, rows)?;
         let tile_width = directory.number(tag::TILE_WIDTH)?;
         let (chunk, tags) = match tile_width {
-            Some(width) => {
-                (limits.size(width as usize, directory.needed(tag::TILE_LENGTH)? as usize)?, TILES)
-            }
+            Some(width) => (checked(width as usize, directory.needed(tag::TILE_LENGTH)? as usize)?, TILES),
             None => (strip(directory, size)?, STRIPS),
         };
         let offsets = directory.numbers(tags.offsets)?.unwrap_or_default();
@@ -56,7 +58,7 @@ impl Layout {
         let (sample_bits, expansion) = (sample.bits(), compression.expansion());
         let layout = Self { size, chunk, sample_bits, expansion, offsets, lengths };
         layout.ensure_complete()?;
-        layout.ensure_chunks(directory.bytes)?;
+        layout.ensure_chunks(file)?;
         Ok(layout)
     }
 
@@ -90,21 +92,22 @@ impl Layout {
         (self.chunk.columns * self.sample_bits).div_ceil(8)
     }
 
-    /// The bytes of a chunk; `None` for one that a sparse file leaves out, all of it no-data.
-    pub(super) fn packed<'a>(&self, file: &'a [u8], index: usize) -> Result<Option<&'a [u8]>, Fault> {
+    /// Where the bytes of a chunk begin in a file of so many, and how many they are; `None` for one that a sparse file leaves
+    /// out, all of it no-data.
+    pub(super) fn packed(&self, file: u64, index: usize) -> Result<Option<(u64, usize)>, Fault> {
         let (offset, length) = (self.offsets[index], self.lengths[index]);
         if offset == 0 && length == 0 {
             return Ok(None);
         }
         let named = |fault: Fault| Fault::Damaged(format!("chunk {index}: {fault}"));
+        ensure_within(file, offset, length).map_err(named)?;
         let length = usize::try_from(length).unwrap_or(usize::MAX);
-        let bytes = field(file, offset, length).map_err(named)?;
-        ensure_can_hold(bytes.len(), self.expanded_bytes(index), self.expansion).map_err(named)?;
-        Ok(Some(bytes))
+        ensure_can_hold(length, self.expanded_bytes(index), self.expansion).map_err(named)?;
+        Ok(Some((offset, length)))
     }
 
     /// Whether every chunk lies in the file and can hold its cells, before memory for the cells is taken.
-    fn ensure_chunks(&self, file: &[u8]) -> Result<(), Fault> {
+    fn ensure_chunks(&self, file: u64) -> Result<(), Fault> {
         (0..self.offsets.len()).try_for_each(|index| self.packed(file, index).map(|_| ()))
     }
 }

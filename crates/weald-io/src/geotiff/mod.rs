@@ -6,9 +6,12 @@
 //! with smaller images by the preset `cog`. No-data is GDAL's tag 42113 and NaN; scale, offset,
 //! unit and provenance are its tag 42112.
 //!
+//! Rows are also read alone, from a file of which no more is read than the chunks that hold them.
+//!
 //! The tag directory is parsed here rather than by a general TIFF library, so that every size is checked
 //! against the limits and the file before anything is allocated, and tiles decode on all cores.
 
+mod chunks;
 mod compression;
 mod directory;
 mod head;
@@ -18,6 +21,7 @@ mod legend;
 mod metadata;
 mod overviews;
 mod read;
+mod rows;
 mod sample;
 mod tiles;
 mod windows;
@@ -32,7 +36,7 @@ use super::{Capabilities, Decode, Encode, Format, Preset};
 pub(super) const FORMAT: Format = Format {
     name: "GeoTIFF",
     extensions: &["tif", "tiff"],
-    decode: Some(Decode::File(decode)),
+    decode: Some(Decode::Rows { whole: decode, open: rows::open }),
     encode: Some(Encode::Windows { parts: write::parts, write: windows::plain }),
     holds: Capabilities::ALL,
     presets: &[Preset {

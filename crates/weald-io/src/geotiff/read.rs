@@ -1,45 +1,29 @@
 //! Reading: bands of chunks are decoded on all cores, each into its own rows of the grid.
 
+use std::ops::Range;
+
 use rayon::prelude::*;
 
 use super::super::unit::Measure;
 use super::super::{Fault, Limits, Raster};
+use super::chunks::{Chunks, Whole};
 use super::compression::Compression;
 use super::directory::Directory;
 use super::directory::tag;
-use super::layout::{Layout, sample_of};
+use super::layout::{CheckedSize, Layout, sample_of};
 use super::sample::{Predictor, Sample};
 use super::{keys, metadata};
+use weald_core::file_plane::VALUE;
+use weald_core::grid::Size;
 
 /// Reads the first image of a file.
 ///
 /// # Errors
 /// [`Fault`] for a file that is damaged, of a kind that is not read, or over the limits.
 pub fn decode(bytes: &[u8], limits: Limits) -> Result<Raster, Fault> {
-    let directory = Directory::parse(bytes)?;
-    metadata::ensure_no_mask(&directory)?;
-    let sample = sample_of(&directory)?;
-    let no_data = metadata::no_data(&directory)?.map(|number| sample.nearest(number));
-    let compression = Compression::of(directory.number(tag::COMPRESSION)?.unwrap_or(1))?;
-    let place = keys::place(&directory)?;
-    let coding = Coding {
-        layout: Layout::of(&directory, sample, compression, limits)?,
-        measure: metadata::measure(&directory, place.vertical)?,
-        compression,
-        predictor: Predictor::of(directory.number(tag::PREDICTOR)?.unwrap_or(1), sample)?,
-        sample,
-        no_data,
-        directory,
-    };
-    let (mut values, mut valid) = coding.cells()?;
-    if place.is_south_up {
-        turn(&mut values, coding.layout.size.columns);
-        turn(&mut valid, coding.layout.size.columns);
-    }
-    let raster =
-        Raster::from_file(coding.layout.size, values, valid, sample.name())?.measured(&coding.measure);
-    let raster = raster.with_source(metadata::provenance(&coding.directory)?);
-    Ok(Raster { cell: place.cell, georeference: place.georeference, ..raster })
+    let chunks = Whole(bytes);
+    let coding = Coding::of(Directory::parse(bytes)?, &chunks, &|columns, rows| limits.size(columns, rows))?;
+    coding.raster(0..coding.layout.size.rows)
 }
 
 /// Puts the last row first.
@@ -52,8 +36,10 @@ fn turn<T>(cells: &mut [T], columns: usize) {
 }
 
 /// All that it takes to turn the chunks of a file into values.
-struct Coding<'a> {
+pub(super) struct Coding<'a> {
     directory: Directory<'a>,
+    chunks: &'a dyn Chunks,
+    place: keys::Place,
     layout: Layout,
     compression: Compression,
     predictor: Predictor,
@@ -69,19 +55,84 @@ struct Band<'a> {
     valid: &'a mut [bool],
 }
 
-impl Coding<'_> {
-    fn cells(&self) -> Result<(Vec<f32>, Vec<bool>), Fault> {
-        let size = self.layout.size;
-        let (mut values, mut valid) = (vec![0.0; size.cells()], vec![true; size.cells()]);
-        let band_cells = size.columns * self.layout.chunk.rows;
+impl<'a> Coding<'a> {
+    /// What the directory of a file says of its chunks.
+    pub(super) fn of(
+        directory: Directory<'a>,
+        chunks: &'a dyn Chunks,
+        checked: CheckedSize<'_>,
+    ) -> Result<Self, Fault> {
+        metadata::ensure_no_mask(&directory)?;
+        let sample = sample_of(&directory)?;
+        let no_data = metadata::no_data(&directory)?.map(|number| sample.nearest(number));
+        let compression = Compression::of(directory.number(tag::COMPRESSION)?.unwrap_or(1))?;
+        let place = keys::place(&directory)?;
+        Ok(Self {
+            layout: Layout::of(&directory, sample, compression, (chunks.length(), checked))?,
+            measure: metadata::measure(&directory, place.vertical.clone())?,
+            compression,
+            predictor: Predictor::of(directory.number(tag::PREDICTOR)?.unwrap_or(1), sample)?,
+            sample,
+            no_data,
+            directory,
+            chunks,
+            place,
+        })
+    }
+
+    pub(super) fn size(&self) -> Size {
+        self.layout.size
+    }
+
+    /// Rows of a chunk.
+    pub(super) fn rows_at_once(&self) -> usize {
+        self.layout.chunk.rows
+    }
+
+    /// Bytes of memory for a row of chunks: values, flags, and the chunks of all threads, packed and not.
+    pub(super) fn bytes_at_once(&self) -> u64 {
+        let cells = self.layout.size.columns as u64 * self.layout.chunk.rows as u64;
+        let chunk = self.layout.row_bytes() as u64 * self.layout.chunk.rows as u64;
+        cells * (VALUE + 1) + 2 * chunk * rayon::current_num_threads() as u64
+    }
+
+    /// Some rows, from north to south.
+    pub(super) fn raster(&self, rows: Range<usize>) -> Result<Raster, Fault> {
+        let (all, columns) = (self.layout.size.rows, self.layout.size.columns);
+        let in_file = if self.place.is_south_up { all - rows.end..all - rows.start } else { rows.clone() };
+        let (mut values, mut valid) = self.cells(in_file)?;
+        if self.place.is_south_up {
+            turn(&mut values, columns);
+            turn(&mut valid, columns);
+        }
+        let size = Size { columns, rows: rows.len() };
+        let raster = Raster::from_rows((size, rows.start), values, valid, self.sample.name())?;
+        let raster = raster.measured(&self.measure).with_source(metadata::provenance(&self.directory)?);
+        Ok(Raster { cell: self.place.cell, georeference: self.place.georeference.clone(), ..raster })
+    }
+
+    /// Values and flags of some rows of the file; those of the chunks in which they lie are decoded.
+    fn cells(&self, rows: Range<usize>) -> Result<(Vec<f32>, Vec<bool>), Fault> {
+        let (columns, high) = (self.layout.size.columns, self.layout.chunk.rows);
+        let first_band = rows.start / high;
+        let held = first_band * high..rows.end.next_multiple_of(high).min(self.layout.size.rows);
+        let (mut values, mut valid) = (vec![0.0; held.len() * columns], vec![true; held.len() * columns]);
+        let band_cells = columns * high;
         let results: Vec<Result<(), Fault>> = values
             .par_chunks_mut(band_cells)
             .zip(valid.par_chunks_mut(band_cells))
             .enumerate()
-            .map(|(index, (values, valid))| self.read_band(&mut Band { index, values, valid }))
+            .map(|(band, (values, valid))| {
+                self.read_band(&mut Band { index: first_band + band, values, valid })
+            })
             .collect();
         // The first fault in the order of the file, whichever thread met one first.
         results.into_iter().collect::<Result<(), Fault>>()?;
+        let wanted = (rows.start - held.start) * columns..(rows.end - held.start) * columns;
+        if wanted.len() < values.len() {
+            values = values[wanted.clone()].to_vec();
+            valid = valid[wanted].to_vec();
+        }
         Ok((values, valid))
     }
 
@@ -89,13 +140,13 @@ impl Coding<'_> {
         let mut expanded = Vec::new();
         for across in 0..self.layout.across() {
             let index = band.index * self.layout.across() + across;
-            let Some(packed) = self.layout.packed(self.directory.bytes, index)? else {
+            let Some((start, length)) = self.layout.packed(self.chunks.length(), index)? else {
                 self.leave_out(band, across);
                 continue;
             };
             expanded.resize(self.layout.expanded_bytes(index), 0);
             self.compression
-                .expand(packed, &mut expanded)
+                .expand(&self.chunks.bytes(start, length)?, &mut expanded)
                 .map_err(|cause| Fault::damaged(format!("chunk {index} is damaged: {cause}")))?;
             for (y, row) in expanded.chunks_exact_mut(self.layout.row_bytes()).enumerate() {
                 self.read_row(band, self.cells_of_chunk(across, y), row);
@@ -105,14 +156,14 @@ impl Coding<'_> {
     }
 
     /// Positions in a band of row `y` of a chunk.
-    fn cells_of_chunk(&self, across: usize, y: usize) -> std::ops::Range<usize> {
+    fn cells_of_chunk(&self, across: usize, y: usize) -> Range<usize> {
         let columns = self.layout.size.columns;
         let first = across * self.layout.chunk.columns;
         let last = (first + self.layout.chunk.columns).min(columns);
         y * columns + first..y * columns + last
     }
 
-    fn read_row(&self, band: &mut Band<'_>, cells: std::ops::Range<usize>, row: &mut [u8]) {
+    fn read_row(&self, band: &mut Band<'_>, cells: Range<usize>, row: &mut [u8]) {
         let values = &mut band.values[cells.clone()];
         let valid = &mut band.valid[cells];
         self.predictor.undo(row, self.sample, self.directory.order, |x, value| {

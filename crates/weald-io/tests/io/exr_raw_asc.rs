@@ -149,7 +149,9 @@ fn known(raster: Raster) -> Raster {
 fn through(encode: Encode, decode: Decode, file: &str, raster: &Raster) -> Raster {
     let parts = encode.parts(raster).expect("finite");
     let again = match decode {
-        Decode::File(decode) => decode(&parts[0].bytes, Limits::default()),
+        Decode::File(decode) | Decode::Rows { whole: decode, .. } => {
+            decode(&parts[0].bytes, Limits::default())
+        }
         Decode::Parts(decode) => decode(&InMemory::of(file, parts), Limits::default()),
     };
     again.expect("our own file")

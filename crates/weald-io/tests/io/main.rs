@@ -8,4 +8,5 @@ mod exr_raw_asc;
 mod foreign_clients;
 mod formats;
 mod rasters;
+mod rows;
 mod written;

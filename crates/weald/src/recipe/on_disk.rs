@@ -4,22 +4,48 @@ use std::collections::BTreeSet;
 
 use super::layer_output::Treatment;
 use super::plan::{Content, Ground, Output, Recipe};
+use crate::ground_file::GroundRows;
+use weald_core::domain::Domain;
 use weald_core::error::{Diagnostic, Error, RecipeError};
 use weald_core::file_plane::VALUE;
+use weald_core::grid::Size;
 use weald_io::Encode;
 
 impl Recipe {
     /// Bytes that a run from disk takes in its scratch folder at its peak, beside its files.
     ///
     /// # Errors
-    /// [`Error::Recipe`] naming everything that cannot be made but in memory, each with its line.
+    /// [`Error::Recipe`] naming everything that cannot be made but in memory, each with its line; [`Error::Input`] for a file of
+    /// the ground.
     pub fn scratch(&self) -> Result<u64, Error> {
+        self.start_on_disk().map(|(domain, _)| self.scratch_on(domain.size))
+    }
+
+    /// The grid of a run from disk, and the file of its ground, where it has one.
+    ///
+    /// # Errors
+    /// As [`Recipe::scratch`].
+    pub(super) fn start_on_disk(&self) -> Result<(Domain, Option<GroundRows>), Error> {
         let diagnostics: Vec<_> = self.needs_memory().collect();
-        let (Ground::Empty { size, .. }, true) = (&self.ground, diagnostics.is_empty()) else {
+        if !diagnostics.is_empty() {
             return Err(RecipeError { file: self.file.clone(), diagnostics }.into());
-        };
+        }
+        match &self.ground {
+            Ground::Empty { size, cell, .. } => Ok((Domain::new(*size, *cell), None)),
+            Ground::File { path, cell, said } => {
+                let rows = GroundRows::open(path, *cell, said)?;
+                self.check_on(&rows.domain)?;
+                Ok((rows.domain.clone(), Some(rows)))
+            }
+        }
+    }
+
+    /// [`Recipe::scratch`] on a grid.
+    pub(super) fn scratch_on(&self, size: Size) -> u64 {
         let cells = size.columns as u64 * size.rows as u64;
-        let (mut there, mut peak) = (BTreeSet::new(), 0);
+        let of_file = matches!(self.ground, Ground::File { .. }).then(|| "height".to_owned());
+        let mut there: BTreeSet<_> = of_file.into_iter().collect();
+        let mut peak = 0;
         for (number, planned) in self.steps.iter().enumerate() {
             let (before, wanted) = (there.len(), self.wanted_after(number + 1));
             let written = planned.step.writes().into_iter().map(|(name, _)| name);
@@ -31,7 +57,7 @@ impl Recipe {
         }
         // The smaller images of one file, each a quarter of the one before.
         let outputs = cells * VALUE * there.len() as u64 + cells * VALUE / 3;
-        Ok(peak.max(outputs))
+        peak.max(outputs)
     }
 
     /// Layers that are needed after so many steps.
@@ -44,7 +70,6 @@ impl Recipe {
     fn needs_memory(&self) -> impl Iterator<Item = Diagnostic> {
         let whole = "a run out of core cannot make this";
         let start = [
-            (matches!(self.ground, Ground::File { .. }), "`from`"),
             (
                 matches!(self.ground, Ground::Empty { finest: Some(_), .. }),
                 "`finest`, which --size and --preview set where they make a recipe coarser,",

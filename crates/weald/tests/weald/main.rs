@@ -11,6 +11,7 @@ mod edited_runs;
 mod engine_sets;
 mod grass;
 mod ground;
+mod ground_by_rows;
 mod islands;
 mod json_schema;
 mod kept_parts;

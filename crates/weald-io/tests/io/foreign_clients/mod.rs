@@ -11,6 +11,8 @@ use std::path::PathBuf;
 
 use weald_io::Raster;
 
+use crate::rows::difference_of_rows;
+
 /// What must come of a file.
 #[derive(Clone, Debug)]
 pub(crate) enum Verdict {
@@ -47,7 +49,11 @@ impl Theirs {
 impl Foreign {
     /// What is wrong with our reading, beside theirs; nothing where all is well.
     pub(crate) fn fault(&self, theirs: &Result<Theirs, String>) -> Option<String> {
-        let ours = weald_io::read(&self.path).map_err(|error| error.to_string());
+        let ours = weald_io::read(&self.path);
+        if let Some(difference) = difference_of_rows(&self.path, &ours) {
+            return Some(format!("{} {}: {difference}", self.group, self.name));
+        }
+        let ours = ours.map_err(|error| error.to_string());
         let fault = match (&ours, &self.verdict) {
             (Err(error), Verdict::Refused(words)) if error.contains(words.as_str()) => None,
             (Err(error), _) => Some(format!("refused: {error}")),

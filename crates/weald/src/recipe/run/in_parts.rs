@@ -15,9 +15,8 @@ use super::options::{Progress, Run};
 use super::step_watcher::CheckpointTimer;
 use super::work::{Leaves, WorkFolder, new_files};
 use crate::recipe::memory;
-use crate::recipe::plan::{Content, Ground, Output, Planned};
+use crate::recipe::plan::{Content, Output, Planned};
 use crate::recipe::report::{OutputReport, REPORT_FILE, Report};
-use weald_core::domain::Domain;
 use weald_core::error::{Error, Limit, Quantity};
 use weald_core::files::File;
 use weald_core::grid::{Field, Size};
@@ -64,11 +63,9 @@ impl Scratch for ScratchFolder {
 impl Run<'_> {
     /// Runs the recipe with its layers in a scratch folder, or with those of its own rows.
     pub(super) fn execute_in_parts(&self, progress: &dyn Progress) -> Result<Report, Error> {
-        let bytes = self.recipe.scratch()?;
         let ranks = self.sharing()?;
-        let Ground::Empty { size, cell, .. } = self.recipe.ground else {
-            unreachable!("`scratch` refuses files")
-        };
+        let (domain, file) = agreed(&*ranks, self.recipe.start_on_disk())?;
+        let (size, bytes) = (domain.size, self.recipe.scratch_on(domain.size));
         let scratch = ScratchFolder(self.options.out_of_core.clone());
         let memory = self.memory_of_steps(bytes.div_ceil(size.rows as u64), (size.rows, &*ranks))?;
         let mut place = self.place(&*ranks, progress)?;
@@ -76,9 +73,8 @@ impl Run<'_> {
         if self.options.resume && any(&*ranks, finished)? {
             return self.finished_before(&mut place, &*ranks);
         }
-        let mut landscape =
-            StoredLandscape::new(Domain::new(size, cell), memory, (&scratch, Arc::clone(&ranks)));
-        let mut so_far = self.start_in_parts(&mut landscape, progress)?;
+        let mut landscape = StoredLandscape::new(domain, memory, (&scratch, Arc::clone(&ranks)));
+        let mut so_far = self.start_in_parts(&mut landscape, file.as_ref(), progress)?;
         let clock = CheckpointTimer::start(self.options.checkpoint_every);
         while let Some(planned) = self.recipe.steps.get(so_far.done()) {
             progress.step(so_far.done() + 1, self.recipe.steps.len(), planned.entry.name);
@@ -276,6 +272,7 @@ impl Run<'_> {
         Raster {
             provenance: Some(provenance),
             cell: Some(landscape.domain.cell),
+            georeference: landscape.domain.georeference.clone(),
             classes: (name == DIRECTIONS).then(|| directions(DirectionCodes::Weald)),
             shades: shades(name),
             ..Raster::from(Field::filled(Size { columns: 1, rows: 1 }, range.0))

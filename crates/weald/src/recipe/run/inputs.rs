@@ -38,12 +38,11 @@ impl Recipe {
     /// # Errors
     /// As [`Recipe::scratch`].
     pub fn look_ahead_on_disk(&self) -> Result<Outlook, Error> {
-        self.scratch()?;
-        let Ground::Empty { size, cell, .. } = self.ground else { unreachable!("`scratch` refuses files") };
-        let grid = Domain::new(size, cell);
+        let (grid, file) = self.start_on_disk()?;
         let materials = ground::materials(self);
         self.steps.iter().try_for_each(|planned| planned.step.look_ahead(&materials, &grid))?;
-        Ok(Outlook { notes: Vec::new(), memory: self.memory(&grid), grid })
+        let notes = file.map(|file| file.notes).unwrap_or_default();
+        Ok(Outlook { notes, memory: self.memory(&grid), grid })
     }
 }
 

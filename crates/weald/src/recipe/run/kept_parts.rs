@@ -5,6 +5,7 @@ use std::sync::{Mutex, PoisonError};
 
 use super::options::{Progress, Run};
 use super::step_watcher::{CheckpointTimer, note_failure};
+use crate::ground_file::GroundRows;
 use crate::recipe::checkpoint::{KeptParts, Manifest};
 use weald_core::error::{Error, NotFinite};
 use weald_engine::Watcher;
@@ -98,6 +99,7 @@ impl Run<'_> {
     pub(super) fn start_in_parts(
         &self,
         landscape: &mut StoredLandscape<'_>,
+        ground: Option<&GroundRows>,
         progress: &dyn Progress,
     ) -> Result<SoFar, Error> {
         let path = self.checkpoint();
@@ -106,7 +108,10 @@ impl Run<'_> {
                 let path = path.display();
                 progress.note(&format!("starting anew; the checkpoint {path} is used with --resume only"));
             }
-            return Ok(SoFar::default());
+            let Some(ground) = ground else { return Ok(SoFar::default()) };
+            self.read_ground(ground, landscape)?;
+            ground.notes.iter().for_each(|note| progress.note(note));
+            return Ok(SoFar { notes: ground.notes.clone(), ..SoFar::default() });
         }
         let ranks = landscape.ranks.clone();
         let read = || Manifest::to_go_on(&self.options.out, self.recipe.effective(), landscape.domain.size);
@@ -117,6 +122,19 @@ impl Run<'_> {
         let (done, iterations) = (manifest.steps.len(), manifest.iteration.unwrap_or_default());
         progress.note(&format!("going on after {done} steps and {iterations} iterations"));
         Ok(SoFar { steps: manifest.steps, notes: manifest.notes })
+    }
+
+    /// Reads this rank's rows of the ground.
+    fn read_ground(&self, ground: &GroundRows, landscape: &mut StoredLandscape<'_>) -> Result<(), Error> {
+        landscape.want(self.recipe.wanted_after(0));
+        let mut height = landscape.plane("height")?;
+        let memory = landscape.memory;
+        let read = ground
+            .runs_of_rows(height.own())
+            .try_for_each(|rows| height.set_rows(rows.clone(), &ground.heights(rows, memory)?));
+        agreed(&*landscape.ranks, read)?;
+        landscape.insert("height", "m", height);
+        Ok(())
     }
 
     /// Keeps the layers between two steps where it is time for it, and where the run is to end.
