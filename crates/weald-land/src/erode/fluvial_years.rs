@@ -84,7 +84,13 @@ impl Watcher for InYears<'_> {
         let finer = self.coarse.map(|finer| finer(landscape)).transpose()?;
         let landscape = finer.as_ref().unwrap_or(landscape);
         let mut next = self.watcher.next_look(self.years.first_after(done));
+        let mut is_first = true;
         while let Some(year) = next.filter(|&year| self.years.step_of(year) <= done) {
+            // A step of many years is seen as often: who wants it to end need not wait for the last of them.
+            if !is_first && self.watcher.cancelled() {
+                return Err(Error::Interrupted(format!("interrupted before year {year} was seen")));
+            }
+            is_first = false;
             self.watcher.look(year, landscape)?;
             next = self.watcher.next_look(year + 1);
         }
@@ -124,7 +130,41 @@ pub(super) fn as_seen(
 
 #[cfg(test)]
 mod tests {
+    use std::sync::atomic::{AtomicU64, Ordering};
+
     use super::*;
+    use weald_core::Domain;
+    use weald_core::grid::Size;
+
+    /// Looks every year, and wants to end after so many looks.
+    struct Impatient(AtomicU64, u64);
+
+    impl Watcher for Impatient {
+        fn cancelled(&self) -> bool {
+            self.0.load(Ordering::Relaxed) >= self.1
+        }
+
+        fn next_look(&self, done: u64) -> Option<u64> {
+            Some(done)
+        }
+
+        fn look(&self, _: u64, _: &Landscape) -> Result<(), Error> {
+            self.0.fetch_add(1, Ordering::Relaxed);
+            Ok(())
+        }
+    }
+
+    #[test]
+    fn a_step_of_many_years_is_left_between_two_of_them() {
+        let landscape = Landscape::new(Domain::new(Size::square(4).expect("small"), 1.0));
+        let years = Years { before: 0.0, a_step: 1000.0 };
+        for (patience, seen) in [(3, 3), (1, 1), (5000, 1000)] {
+            let watcher = Impatient(AtomicU64::new(0), patience);
+            let done = InYears { watcher: &watcher, years, coarse: None }.look(1, &landscape);
+            assert_eq!(watcher.0.load(Ordering::Relaxed), seen);
+            assert_eq!(matches!(done, Err(Error::Interrupted(_))), patience < 1000, "{done:?}");
+        }
+    }
 
     #[test]
     fn every_year_is_seen_once_on_one_of_the_levels() {
