@@ -51,11 +51,12 @@ def test_a_run_has_the_bits_of_the_command(
             case _:
                 keywords[option[2:]] = int(value)
     result = weald.run(tmp_path / "land.toml", tmp_path / "ours", engine="cpu", **keywords)
-    for name in ["accumulation.tif", "height.npy", "relief.png"]:
+    names = ["accumulation.qml", "accumulation.tif", "height.npy", "relief.png"]
+    for name in names:
         assert (tmp_path / "ours" / name).read_bytes() == (tmp_path / "theirs" / name).read_bytes(), name
     assert result.landscape is not None
     assert np.array_equal(np.load(tmp_path / "theirs/height.npy").astype("f4"), result.landscape["height"])
-    assert sorted(file.name for file in result.files) == ["accumulation.tif", "height.npy", "relief.png"]
+    assert sorted(file.name for file in result.files) == names
     assert all(file.exists() for file in result.files)
 
 

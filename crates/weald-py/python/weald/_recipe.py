@@ -29,7 +29,7 @@ class Recipe(_weald.Recipe):
     ...     "output": [{"layer": "slope", "file": "slope.tif"}],
     ... })
     >>> recipe.steps, recipe.files
-    (['fbm', 'slope'], ['slope.tif'])
+    (['fbm', 'slope'], ['slope.tif', 'slope.qml'])
     """
 
     def __new__(
