@@ -63,13 +63,16 @@ mod tests {
     }
 
     #[test]
-    fn directions_end_where_they_begin_and_bends_are_pale_where_there_is_none() {
+    fn directions_end_where_they_begin_and_no_curvature_is_pale() {
         let colours = |layer: &str| shades(layer).expect("it is a measure").colours;
         let aspect = colours("aspect");
         let is_near = |[one, other]: [[u8; 3]; 2]| one.iter().zip(other).all(|(a, b)| a.abs_diff(b) < 4);
         assert!(is_near([aspect[0], aspect[COLOURS - 1]]), "{aspect:?}");
-        let bend = colours("curvature_plan");
-        assert!(bend[COLOURS / 2].iter().all(|&channel| channel > 220), "{bend:?}");
-        assert!(bend[0][2] > bend[0][0] && bend[COLOURS - 1][0] > bend[COLOURS - 1][2], "{bend:?}");
+        let curvature = colours("curvature_plan");
+        assert!(curvature[COLOURS / 2].iter().all(|&channel| channel > 220), "{curvature:?}");
+        assert!(
+            curvature[0][2] > curvature[0][0] && curvature[COLOURS - 1][0] > curvature[COLOURS - 1][2],
+            "{curvature:?}"
+        );
     }
 }

@@ -101,12 +101,12 @@ mod tests {
     }
 
     #[test]
-    fn areas_rise_by_equal_factors_and_bends_lie_about_0() {
+    fn areas_rise_by_equal_factors_and_curvatures_lie_about_0() {
         let areas = values(Spread::Logarithmic, (4.0e3, 4.0e8));
         let factor = libm::pow(1e5, 0.125);
         assert!(areas.windows(2).all(|pair| (pair[1] / pair[0] - factor).abs() < 1e-9), "{areas:?}");
         assert_eq!(values(Spread::Logarithmic, (0.0, 4.0e8))[..2], [0.0, 400.0]);
-        let bends = values(Spread::Centred, (-0.02, 0.08));
-        assert_eq!((bends[0], bends[4], bends[8]), (-0.08, 0.0, 0.08));
+        let curvatures = values(Spread::Centred, (-0.02, 0.08));
+        assert_eq!((curvatures[0], curvatures[4], curvatures[8]), (-0.08, 0.0, 0.08));
     }
 }

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 use std::path::Path;
 
-use crate::ends::{children, end_of, signal, under_way};
+use crate::ends::{children, end_of, ends_with_a_checkpoint_when_told, signal, under_way};
 use crate::launched::{assert_same, on_one, report, run, said};
 
 const COUNTS: [usize; 5] = [1, 2, 3, 4, 6];
@@ -89,13 +89,7 @@ fn a_distributed_run_that_is_killed_or_told_to_end_goes_on_over_another_number_o
     std::fs::create_dir(folder.path().join("scratch")).expect("made");
     let on_disk = ["--out-of-core", "scratch", "--memory", "72MiB", "--resume"];
     let running = under_way(2, folder.path(), &on_disk);
-    for rank in children(running.id()) {
-        signal("TERM", rank);
-    }
-    let status = end_of(running);
-    let said_by_run = std::fs::read_to_string(folder.path().join("stderr")).expect("read");
-    assert_eq!(status.code(), Some(130), "{said_by_run}");
-    assert!(said_by_run.contains("the same command with --resume goes on"), "{said_by_run}");
+    ends_with_a_checkpoint_when_told(running, folder.path());
     assert!(!folder.path().join("parts/height.tif").exists(), "no half of a result");
     let output = run(4, folder.path(), "parts", &["--distributed", "--resume"]);
     assert!(output.status.success(), "{}", said(&output));

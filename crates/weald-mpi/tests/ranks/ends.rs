@@ -92,6 +92,17 @@ pub(crate) fn end_of(mut child: Child) -> ExitStatus {
     status.expect("it has ended")
 }
 
+/// As `srun` and `scancel` do: all ranks get the signal, and the launcher none.
+pub(crate) fn ends_with_a_checkpoint_when_told(running: Child, folder: &Path) {
+    for rank in children(running.id()) {
+        signal("TERM", rank);
+    }
+    let status = end_of(running);
+    let said_by_run = std::fs::read_to_string(folder.join("stderr")).expect("read");
+    assert_eq!(status.code(), Some(130), "{said_by_run}");
+    assert!(said_by_run.contains("the same command with --resume goes on"), "{said_by_run}");
+}
+
 pub(crate) fn signal(name: &str, process: u32) {
     let sent = Command::new("kill").args([&format!("-{name}"), &process.to_string()]).status();
     assert!(sent.is_ok_and(|status| status.success()), "{name} to {process}");
@@ -129,14 +140,7 @@ fn a_signal_of_the_scheduler_makes_a_checkpoint_from_which_another_number_of_ran
     let folder = long(1);
     let expected = on_one(folder.path());
     let running = under_way(3, folder.path(), &[]);
-    // As `srun` and `scancel` do: all ranks get it, and the launcher none.
-    for rank in children(running.id()) {
-        signal("TERM", rank);
-    }
-    let status = end_of(running);
-    let said_by_run = std::fs::read_to_string(folder.path().join("stderr")).expect("read");
-    assert_eq!(status.code(), Some(130), "{said_by_run}");
-    assert!(said_by_run.contains("the same command with --resume goes on"), "{said_by_run}");
+    ends_with_a_checkpoint_when_told(running, folder.path());
     let output = run(2, folder.path(), "parts", &["--resume"]);
     assert!(output.status.success(), "{}", said(&output));
     assert_same(folder.path(), &expected, "parts");

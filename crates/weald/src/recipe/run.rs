@@ -1,5 +1,6 @@
 //! Runs a checked recipe: ground, steps, files, report.
 
+mod explained;
 mod film;
 pub(super) mod finished;
 mod folder;
@@ -34,7 +35,7 @@ use finished::step_report;
 use step_watcher::{CheckpointTimer, StepWatcher};
 pub use video::Frames;
 use weald_core::domain::Domain;
-use weald_core::error::{Error, NotFinite};
+use weald_core::error::Error;
 use weald_core::files;
 use weald_core::landscape::Landscape;
 use weald_engine::Job;
@@ -229,14 +230,6 @@ impl Run<'_> {
         }
     }
 
-    fn interrupted(&self, place: &str) -> Error {
-        let checkpoint = self.checkpoint();
-        Error::Interrupted(format!(
-            "interrupted {place}; the same command with --resume goes on from {}",
-            checkpoint.display()
-        ))
-    }
-
     /// Runs one step on a copy of the landscape, so that a checkpoint can hold what the step began with.
     fn advance(
         &self,
@@ -308,42 +301,6 @@ impl Run<'_> {
         state.steps.push(report);
         state.done += 1;
         true
-    }
-
-    /// Says in which step an error arose and where the last state is.
-    fn explain(
-        &self,
-        error: Error,
-        planned: &Planned,
-        desk: &StepWatcher<'_>,
-        resumed_at: Option<u64>,
-    ) -> Error {
-        let step = format!("step {} (`{}`)", desk.number(), planned.entry.name);
-        let kept = desk.kept().or(resumed_at);
-        match error {
-            Error::Interrupted(_) => match (kept, desk.keep_start_unless(kept.is_some())) {
-                (_, Err(error)) => error,
-                (Some(iteration), Ok(())) => {
-                    self.interrupted(&format!("in {step} after {iteration} iterations"))
-                }
-                (None, Ok(())) => self.interrupted(&format!("in {step}, which will start again")),
-            },
-            Error::Run(what) => Error::Run(self.located(&step, &what, kept)),
-            Error::NotFinite(fault) => {
-                let message = self.located(&step, &fault.message, kept);
-                NotFinite { step: Some(planned.entry.name.to_owned()), message, ..fault }.into()
-            }
-            other => other,
-        }
-    }
-
-    /// A fault with the step before it and, where one was kept, the last good state behind it.
-    fn located(&self, step: &str, what: &str, kept: Option<u64>) -> String {
-        let state = kept.map_or_else(String::new, |iteration| {
-            let checkpoint = self.checkpoint();
-            format!("; the last good state, after {iteration} iterations, is in {}", checkpoint.display())
-        });
-        format!("{step}: {what}{state}")
     }
 
     /// Makes all outputs, and the report when they are whole. Where that fails, the landscape is kept.

@@ -1,13 +1,13 @@
 //! Checkpoints of a run whose landscape no process holds as a whole: when they are kept, and how a run goes on from one. All
 //! ranks come here together.
 
-use std::sync::{Mutex, PoisonError};
+use std::sync::Mutex;
 
 use super::options::{Progress, Run};
-use super::step_watcher::{CheckpointTimer, note_failure};
+use super::step_watcher::{CheckpointTimer, locked, note_failure};
 use crate::ground_file::GroundRows;
 use crate::recipe::checkpoint::{KeptParts, Manifest};
-use weald_core::error::{Error, NotFinite};
+use weald_core::error::Error;
 use weald_engine::Watcher;
 use weald_engine::ranks::{agreed, any};
 use weald_engine::report::StepReport;
@@ -65,7 +65,7 @@ impl Watcher for PartsWatcher<'_> {
 
     fn keep(&self, landscape: &StoredLandscape<'_>, state: &StoredState<'_>) -> Result<(), Error> {
         if self.run.keep_parts(landscape, (self.so_far, Some(state)), (self.progress, self.clock))? {
-            *self.kept.lock().unwrap_or_else(PoisonError::into_inner) = Some(state.iteration);
+            *locked(&self.kept) = Some(state.iteration);
         }
         Ok(())
     }
@@ -165,7 +165,7 @@ impl Run<'_> {
     ) -> Error {
         let done = watcher.so_far.done();
         let step = format!("step {} (`{}`)", done + 1, self.recipe.steps[done].entry.name);
-        let kept = *watcher.kept.lock().unwrap_or_else(PoisonError::into_inner);
+        let kept = *locked(&watcher.kept);
         let is_stopped = are_all(landscape, matches!(error, Error::Interrupted(_)));
         match (error, kept) {
             (Error::Interrupted(_), Some(iteration)) => {
@@ -177,13 +177,7 @@ impl Run<'_> {
                     Err(error) => error,
                 }
             }
-            (Error::Run(what), kept) => Error::Run(self.located(&step, &what, kept)),
-            (Error::NotFinite(fault), kept) => {
-                let message = self.located(&step, &fault.message, kept);
-                NotFinite { step: Some(self.recipe.steps[done].entry.name.to_owned()), message, ..fault }
-                    .into()
-            }
-            (other, _) => other,
+            (other, kept) => self.in_step(other, (&step, self.recipe.steps[done].entry.name), kept),
         }
     }
 

@@ -89,7 +89,7 @@ pub(super) fn note_failure(written: Result<(), Error>, progress: &dyn Progress) 
 }
 
 /// A panic elsewhere leaves what is locked here whole, since it is only ever replaced.
-fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+pub(super) fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
