@@ -16,7 +16,7 @@ fn sky_fragment(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32
 fn plain_fragment(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     let direction = backdrop_direction(position.xy);
     if HORIZON {
-        return vec4<f32>(limited(sky_radiance(vec3<f32>(direction.xy, 0.0))), 1.0);
+        return vec4<f32>(farthest_radiance(direction), 1.0);
     }
     let ray_length = max((scene.plain.w - frame.eye.z) / direction.z, 0.0);
     let point = frame.eye.xyz + direction * ray_length;

@@ -34,6 +34,9 @@ override LAWN: bool = true;
 // Samples of a pixel that lie so near to each other, as a share of their distance, are one surface.
 const SAME_SURFACE = 0.02;
 
+// Metres of water in which no bed is seen.
+const OPEN_SEA = 1000.0;
+
 // All of the picture, where its kind is that of the instance.
 @vertex
 fn whole_vertex(
@@ -164,6 +167,8 @@ fn look_at_ground(point: vec3<f32>) -> Look {
     look.surface = spline_with_slope(bed, look.place);
     look.above = -lake_depth(look.place, look.surface.x);
     look.wet = wet_share(look.place, look.surface.x);
+    // No tree stands in a river, and its banks are wet.
+    look.above = select(look.above, min(look.above, 0.0), look.wet > 0.0);
     look.running = smooth_at(flow, look.place).xyz;
     look.tilt = normal_of(spline_with_slope(top, look.place).yz);
     return looked_at(point, look);
@@ -234,10 +239,36 @@ fn water_light(point: vec3<f32>, look: Look) -> vec4<f32> {
     return vec4<f32>(seen_through_air(radiance, look), look.wet);
 }
 
-// The same beyond the border, lost in the haze of the horizon.
+// The same beyond the border, lost before what lies farthest; the sea goes on to the horizon.
 fn lost(light: vec4<f32>, point: vec3<f32>, look: Look) -> vec4<f32> {
-    let horizon = sky_radiance(vec3<f32>(look.direction.xy, 0.0));
-    return vec4<f32>(lost_beyond(place_of(point), light.xyz, horizon), light.w);
+    if is_at_sea(point.z) {
+        return light;
+    }
+    return vec4<f32>(lost_beyond(place_of(point), light.xyz, farthest_radiance(look.direction)), light.w);
+}
+
+// The light along a direction below the horizon that meets nothing of what is drawn: of the open sea, or of even land.
+fn farthest_radiance(direction: vec3<f32>) -> vec3<f32> {
+    let reach = scene.bend.w * max(scene.grid.x, scene.grid.y) * scene.scale.w;
+    let far = place_of(frame.eye.xyz + direction * reach);
+    let height = far_at(far).ground.x;
+    let is_sea = height < scene.around.y;
+    let ray_length = max((select(height, scene.around.y, is_sea) - frame.eye.z) / min(direction.z, -1e-6), 0.0);
+    var radiance = scene.plain.xyz * lit(vec3<f32>(0.0, 0.0, 1.0), open_sky(), 1.0) / PI;
+    if is_sea {
+        let point = frame.eye.xyz + direction * ray_length;
+        var look: Look;
+        look.place = nearest_within(far);
+        look.direction = direction;
+        look.ray_length = ray_length;
+        look.footprint = ray_length * frame.eye.w;
+        look.surface = vec3<f32>(scene.around.y - OPEN_SEA, 0.0, 0.0);
+        look.above = -OPEN_SEA;
+        look.tilt = vec3<f32>(0.0, 0.0, 1.0);
+        look.sun = sun_seen(point, look.tilt);
+        radiance = water_radiance(point, OPEN_SEA, look);
+    }
+    return limited(veil(radiance, frame.eye.xyz, direction, ray_length));
 }
 
 fn seen_point(position: vec4<f32>) -> vec3<f32> {

@@ -140,7 +140,8 @@ fn land_along(start: vec3<f32>, direction: vec3<f32>) -> f32 {
 fn mirrored_light(start: vec3<f32>, direction: vec3<f32>, upward: vec3<f32>, length_before: f32) -> vec3<f32> {
     let ray_length = land_along(start, direction);
     if ray_length < 0.0 {
-        return with_clouds(start, upward, sky_radiance(upward), MIRRORED_BLUR);
+        let sky = rippled_upward(upward);
+        return with_clouds(start, sky, sky_radiance(sky), MIRRORED_BLUR);
     }
     let point = start + direction * ray_length;
     let place = place_of(point);
@@ -160,7 +161,7 @@ fn shore_foam(point: vec3<f32>, look: Look) -> f32 {
     }
     let slope = length(look.normal.xy) / max(look.normal.z, 1e-3);
     let away = -look.above / max(slope, 0.02);
-    return swash(point.xy, away, swash_width(look.surface.x - look.above), frame.moment.x, look.footprint);
+    return breaking(slope) * swash(point.xy, away, swash_width(look.surface.x - look.above), frame.moment.x, look.footprint);
 }
 
 // The direction in which water throws a ray: none into itself.

@@ -5,8 +5,9 @@ use super::scene::{GroundSpot, RayMarcher, WaterSpot};
 use super::setting::Setting;
 use super::surroundings::{REACH, Surroundings};
 use super::terrain::{Hit, Ray};
-use super::vector::Vector;
+use super::vector::{Vector, filter, scale};
 use crate::colour::mix;
+use std::f32::consts::FRAC_1_PI;
 
 /// A step along a ray: the share of its height above the ground, and at least a share of its length so far and of a cell.
 const STEP: f32 = 0.4;
@@ -15,6 +16,9 @@ const MIN_CELLS: f32 = 0.5;
 
 /// Halvings between the last step above the ground and the first below it.
 const HALVINGS: usize = 14;
+
+/// Metres of water in which no bed is seen.
+const OPEN_SEA: f32 = 1000.0;
 
 /// Least height of the eye above the ground, in metres.
 const CLEARANCE: f32 = 2.0;
@@ -95,8 +99,34 @@ fn below(highest: f32, ray: &Ray, [mut near, mut far]: [f32; 2]) -> Option<[f32;
 }
 
 impl RayMarcher {
+    /// The light that comes to the eye from what a ray met beyond the border.
+    pub(super) fn met_beyond(&self, around: &Surroundings, ray: &Ray, hit: &Hit) -> Vector {
+        let veiled = self.haze.veil(self.beyond(around, ray, hit), ray, hit.ray_length, &self.sky);
+        if around.is_at_sea(ray.at(hit.ray_length)[2]) {
+            return veiled;
+        }
+        around.lost(hit.place, veiled, self.farthest(around, ray))
+    }
+
+    /// The light along a ray below the horizon that meets nothing of what is drawn: of the open sea, or of even land.
+    pub(super) fn farthest(&self, around: &Surroundings, ray: &Ray) -> Vector {
+        let reach = REACH * around.cells[0].max(around.cells[1]) * self.setting.terrain.cell();
+        let far = self.setting.terrain.place(ray.at(reach));
+        let (height, is_sea) = around.plain_at(far);
+        let ray_length = ((height - ray.from[2]) / ray.direction[2].min(-1e-6)).max(0.0);
+        let radiance = if is_sea {
+            let point = ray.at(ray_length);
+            let place = [0, 1].map(|axis| far[axis].clamp(0.5, around.cells[axis] + 0.5));
+            let spot = WaterSpot { point, depth: OPEN_SEA, foam: 0.0, footprint: self.footprint(ray_length) };
+            self.lake(ray, &Hit { ray_length, place, side: None }, &spot)
+        } else {
+            scale(filter(self.plain, self.sky.on_flat_ground()), FRAC_1_PI)
+        };
+        self.haze.veil(radiance, ray, ray_length, &self.sky)
+    }
+
     /// The light that starts at what a ray met beyond the border.
-    pub(super) fn beyond(&self, around: &Surroundings, ray: &Ray, hit: &Hit) -> Vector {
+    fn beyond(&self, around: &Surroundings, ray: &Ray, hit: &Hit) -> Vector {
         let (setting, point) = (&self.setting, ray.at(hit.ray_length));
         let beyond = around.at(&setting.bed, hit.place);
         let cell = setting.terrain.cell();

@@ -7,7 +7,8 @@
 //! Koschmieder 1924: at the distance `visibility` 2 % of the contrast are left. `L_h` is the radiance of the horizon
 //! in that direction, which is brighter and warmer near the sun. Two fifths of `β` belong to molecules and scatter
 //! blue more than red; the rest belongs to droplets, which are all the same to them. Haze thins with height, by the
-//! factor e every [`SCALE_HEIGHT`] metres, and the sum over a straight ray is taken exactly.
+//! factor e every [`SCALE_HEIGHT`] metres, and the sum over a straight ray is taken exactly. Where land and sea go on to
+//! the horizon, a ray leads through no more air than up to there: the Earth is round, though the ground is drawn even.
 
 use super::sky::Sky;
 use super::terrain::Ray;
@@ -22,30 +23,44 @@ pub(super) const TINT: Vector = [0.77, 1.0, 1.58];
 /// Height over which the haze thins by the factor e, in metres.
 const SCALE_HEIGHT: f32 = 1800.0;
 
+/// Radius of the Earth in metres.
+const EARTH: f32 = 6.36e6;
+
+/// Least distance of the horizon: land that is higher is seen beyond that of even ground.
+const NEAREST_HORIZON: f32 = 60_000.0;
+
 /// Haze over a landscape.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Haze {
     /// Extinction of green at the lowest ground, a metre.
     pub(super) extinction: f32,
     pub(super) scale_height: f32,
+    /// Metres after which a ray meets no more of it.
+    pub(super) reach: f32,
 }
 
 impl Haze {
     /// Haze through which one sees so many metres, over heights that are drawn so many times higher.
     pub(super) fn new(visibility: f64, exaggeration: f32) -> Self {
-        Self { extinction: CONTRAST / visibility as f32, scale_height: SCALE_HEIGHT * exaggeration }
+        let scale_height = SCALE_HEIGHT * exaggeration;
+        Self { extinction: CONTRAST / visibility as f32, scale_height, reach: f32::INFINITY }
     }
 
     /// Haze that takes so much, as an optical depth, from light on its way along a ray.
     pub(super) fn of_depth(depth: f32, ray: &Ray, ray_length: f32, exaggeration: f32) -> Self {
-        let unit = Self { extinction: 1.0, scale_height: SCALE_HEIGHT * exaggeration };
+        let unit = Self { extinction: 1.0, ..Self::new(1.0, exaggeration) };
         Self { extinction: depth / unit.column(ray, ray_length).max(1e-3), ..unit }
+    }
+
+    /// The same up to the horizon of an eye so many metres above the ground.
+    pub(super) fn up_to_the_horizon(self, height: f32) -> Self {
+        Self { reach: (2.0 * EARTH * height.max(0.0)).sqrt().max(NEAREST_HORIZON), ..self }
     }
 
     /// The light that arrives at the start of a ray, of `radiance` that starts `ray_length` metres along it.
     #[inline]
     pub(super) fn veil(self, radiance: Vector, ray: &Ray, ray_length: f32, sky: &Sky) -> Vector {
-        let depth = self.extinction * self.column(ray, ray_length);
+        let depth = self.extinction * self.column(ray, ray_length.min(self.reach));
         let through = TINT.map(|tint| libm::expf(-tint * depth));
         let horizon = sky.radiance([ray.direction[0], ray.direction[1], 0.0]);
         let lost = through.map(|through| 1.0 - through);
@@ -78,6 +93,18 @@ mod tests {
         let horizon = Sky::new(towards(90.0, 30.0), 0.53).radiance([0.0, 1.0, 0.0]);
         let share = level(20_000.0, 20_000.0)[1] / horizon[1];
         assert!((share - 0.98).abs() < 1e-3, "{share}");
+    }
+
+    #[test]
+    fn a_level_ray_meets_no_more_haze_than_up_to_the_horizon() {
+        let (ray, sky) = (
+            Ray { from: [0.0, 0.0, 1000.0], direction: [0.0, 1.0, 0.0] },
+            Sky::new(towards(90.0, 30.0), 0.53),
+        );
+        let haze = Haze::new(90_000.0, 1.0).up_to_the_horizon(1000.0);
+        let seen = |ray_length: f32| haze.veil([0.0; 3], &ray, ray_length, &sky)[1];
+        // From 1000 m the sea ends at 113 km.
+        assert!(seen(112_000.0) < seen(112_500.0) && seen(113_000.0) == seen(1e6));
     }
 
     #[test]

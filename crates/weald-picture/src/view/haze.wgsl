@@ -13,7 +13,7 @@ fn haze_column(from_height: f32, rise: f32, ray_length: f32) -> f32 {
 
 // The light that arrives at `eye`, of `radiance` that starts `ray_length` metres along a direction.
 fn veil(radiance: vec3<f32>, eye: vec3<f32>, direction: vec3<f32>, ray_length: f32) -> vec3<f32> {
-    let depth = scene.haze.x * haze_column(eye.z, direction.z, ray_length);
+    let depth = scene.haze.x * haze_column(eye.z, direction.z, min(ray_length, scene.haze.w));
     let through = exp(-scene.haze_tint.xyz * depth);
     let horizon = sky_radiance(vec3<f32>(direction.xy, 0.0));
     return radiance * through + horizon * (1.0 - through);

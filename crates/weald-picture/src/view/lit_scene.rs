@@ -27,7 +27,7 @@ const DEFAULT_HAZE: f32 = 0.13;
 const PLAIN_REACH: f32 = 2.6;
 
 /// Share of the light on flat ground that sunlit ground around sends into shadows.
-const BOUNCE: f32 = 0.5;
+const BOUNCE: f32 = 0.8;
 
 /// Colour of the plain.
 const PLAIN: u32 = 0xd0_c6b4;
@@ -54,6 +54,7 @@ pub struct LitScene {
     pub(super) tone: Tone,
     /// Radiance of the ground around that is seen from hidden places.
     pub(super) bounce: Vector,
+    /// Colour of the plain, or of the last ground before the horizon.
     pub(super) plain: Linear,
     pub(super) is_empty: bool,
     /// How far one sees at the lowest ground, where the view says so.
@@ -95,7 +96,9 @@ impl LitScene {
         let terrain = &setting.terrain;
         let camera = setting.above_ground(Camera::new(view, terrain, setting.exaggeration));
         let cover = Cover::new(sites, setting.limits, sky.sun);
-        let (level, plain) = (sky.on_flat_ground(), linear_of_hex(PLAIN));
+        // Where ground goes on to the horizon, the last of it is like the landscape.
+        let plain = if setting.around.is_some() { cover.mean() } else { linear_of_hex(PLAIN) };
+        let level = sky.on_flat_ground();
         let sent_back = |albedo: Linear, share: f32| scale(filter(albedo, level), share * FRAC_1_PI);
         Ok(Self {
             skylight: Skylight::new(&sky, &terrain.top, terrain.spacing, setting.sky_cells),
@@ -103,7 +106,7 @@ impl LitScene {
             open: skylight::open(&sky),
             sides: SideLight::new(&sky, sent_back(plain, 1.0)),
             bounce: sent_back(cover.mean(), BOUNCE),
-            haze: haze(view.visibility, &camera, setting.centre(), setting.exaggeration),
+            haze: haze(view.visibility, &camera, &setting),
             clouds: Clouds::new(view.clouds, &sky, [setting.terrain.highest(), setting.exaggeration]),
             tone: Tone::new(&sky, view.exposure),
             is_empty: landscape.domain.valid_cells() == 0,
@@ -144,7 +147,7 @@ impl LitScene {
     }
 
     pub(super) fn look_from(&mut self, camera: Camera) {
-        self.haze = haze(self.visibility, &camera, self.setting.centre(), self.setting.exaggeration);
+        self.haze = haze(self.visibility, &camera, &self.setting);
         self.camera = camera;
     }
 
@@ -249,15 +252,20 @@ impl LitScene {
     }
 }
 
-/// The haze of a view whose camera looks over the landscape around `centre`.
-fn haze(visibility: Option<f64>, camera: &Camera, centre: Vector, exaggeration: f32) -> Haze {
-    if let Some(visibility) = visibility {
-        return Haze::new(visibility, exaggeration);
-    }
-    let away = subtract(centre, camera.eye);
-    let ray_length = dot(away, away).sqrt().max(1e-3);
-    let ray = Ray { from: camera.eye, direction: scale(away, 1.0 / ray_length) };
-    Haze::of_depth(DEFAULT_HAZE, &ray, ray_length, exaggeration)
+/// The haze of a view whose camera looks over the landscape.
+fn haze(visibility: Option<f64>, camera: &Camera, setting: &Setting) -> Haze {
+    let stretch = setting.exaggeration;
+    let haze = match visibility {
+        Some(visibility) => Haze::new(visibility, stretch),
+        None => {
+            let away = subtract(setting.centre(), camera.eye);
+            let ray_length = dot(away, away).sqrt().max(1e-3);
+            let ray = Ray { from: camera.eye, direction: scale(away, 1.0 / ray_length) };
+            Haze::of_depth(DEFAULT_HAZE, &ray, ray_length, stretch)
+        }
+    };
+    let height = (camera.eye[2] - setting.sea.unwrap_or(0.0)) / stretch;
+    if setting.around.is_some() { haze.up_to_the_horizon(height) } else { haze }
 }
 
 /// The sky that is seen from the plain, three times as wide as the landscape.

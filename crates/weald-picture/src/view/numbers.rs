@@ -8,7 +8,7 @@ use super::haze::{self, Haze};
 use super::lit_scene::{CUT_WATER, LitScene};
 use super::side::NORMALS;
 use super::sky::PIECES;
-use super::surroundings::{BEND, DIRECTIONS, JOIN, LEFT_OUT, LOST, TURN, TURNED_TO};
+use super::surroundings::{BEND, DIRECTIONS, JOIN, LEFT_OUT, LOST, REACH, TURN, TURNED_TO};
 use super::tone::{self, Tone};
 use super::vector::Vector;
 use super::water;
@@ -69,7 +69,7 @@ impl LitScene {
     }
 
     fn of_light(&self) -> Named {
-        let Haze { extinction, scale_height } = self.haze;
+        let Haze { extinction, scale_height, reach } = self.haze;
         let [x, y] = water::OPTICS;
         let clouds = self.clouds.as_ref();
         vec![
@@ -81,7 +81,7 @@ impl LitScene {
             ("open_green", with(self.open[1], 0.0)),
             ("open_blue", with(self.open[2], 0.0)),
             ("open_even", with(self.open[3], 0.0)),
-            ("haze", [extinction, scale_height, self.plain_reach(), 0.0]),
+            ("haze", [extinction, scale_height, self.plain_reach(), reach.min(UNREACHABLE_HEIGHT)]),
             ("haze_tint", with(haze::TINT, 0.0)),
             ("water", [x, y, 0.0, 0.0]),
             (
@@ -121,8 +121,9 @@ impl LitScene {
             ("strata_bedrock", with(strata.bedrock, 0.0)),
             ("strata_soil", with(strata.soil, 0.0)),
             ("around", self.of_surroundings()),
+            ("far_highest", [setting.around.as_ref().map_or(1.0, |around| around.highest), 0.0, 0.0, 0.0]),
             ("turned", [TURN[0], TURN[1], TURNED_TO[0], TURNED_TO[1]]),
-            ("bend", [BEND[0], BEND[1], LEFT_OUT, 0.0]),
+            ("bend", [BEND[0], BEND[1], LEFT_OUT, REACH]),
         ]
     }
 }

@@ -18,6 +18,9 @@ use weald_core::landscape::Landscape;
 /// Radians over which ripples that are too small to be seen blur what water mirrors.
 const MIRRORED_BLUR: f32 = 0.06;
 
+/// Pixels of the shortest waves that are seen one by one.
+const SEEN_WAVES: f32 = 2.0;
+
 /// Marches the rays of pixels through a scene, on the CPU.
 #[derive(Debug)]
 pub struct RayMarcher {
@@ -108,17 +111,15 @@ impl RayMarcher {
 
     /// The light that comes along a ray to the eye.
     fn light(&self, ray: &Ray) -> Vector {
+        let around = self.setting.around.as_ref();
         if let Some(hit) = self.setting.trace(ray, [0.0, f32::INFINITY]).filter(|_| !self.is_empty) {
-            let veiled = |radiance| self.haze.veil(radiance, ray, hit.ray_length, &self.sky);
-            return match &self.setting.around {
-                Some(around) if around.is_beyond(hit.place) => {
-                    around.lost(hit.place, veiled(self.beyond(around, ray, &hit)), self.horizon(ray))
-                }
-                _ => veiled(self.met(ray, &hit)),
+            return match around {
+                Some(around) if around.is_beyond(hit.place) => self.met_beyond(around, ray, &hit),
+                _ => self.haze.veil(self.met(ray, &hit), ray, hit.ray_length, &self.sky),
             };
         }
         if ray.direction[2] < 0.0 {
-            return if self.setting.around.is_some() { self.horizon(ray) } else { self.plain(ray) };
+            return around.map_or_else(|| self.plain(ray), |around| self.farthest(around, ray));
         }
         self.with_clouds(ray, self.sky.radiance_with_sun(ray.direction), self.pixel_angle)
     }
@@ -152,16 +153,13 @@ impl RayMarcher {
             point,
             footprint,
         };
-        let land = if river < 1.0 { self.ground(&spot(), -depth) } else { [0.0; 3] };
+        // No tree stands in a river, and its banks are wet.
+        let above = if river > 0.0 { 0.0 } else { -depth };
+        let land = if river < 1.0 { self.ground(&spot(), above) } else { [0.0; 3] };
         if river <= 0.0 {
             return land;
         }
         mix(land, self.lake(ray, hit, &WaterSpot { point, depth: 1.2 * river, foam: 0.0, footprint }), river)
-    }
-
-    /// The radiance of the horizon in the direction of a ray.
-    fn horizon(&self, ray: &Ray) -> Vector {
-        self.sky.radiance([ray.direction[0], ray.direction[1], 0.0])
     }
 
     pub(super) fn footprint(&self, ray_length: f32) -> f32 {
@@ -222,7 +220,8 @@ impl RayMarcher {
         let away = [0, 1, 2].map(|axis| point[axis] - eye[axis]);
         let footprint = self.footprint(dot(away, away).sqrt());
         let width = water::swash_width(point[2], self.sea().unwrap_or(f32::MIN));
-        let foam = water::swash(point, depth / slope.max(0.02), width, [0.0, footprint]);
+        let away = depth / slope.max(0.02);
+        let foam = water::breaking(slope) * water::swash(point, away, width, [0.0, footprint]);
         WaterSpot { point, depth: depth / self.setting.exaggeration, foam, footprint }
     }
 
@@ -232,7 +231,9 @@ impl RayMarcher {
         let terrain = &self.setting.terrain;
         let back = scale(ray.direction, -1.0);
         let footprint = self.footprint(hit.ray_length) / back[2].max(0.05).sqrt();
-        let normal = water::ripples(point, (0.25 * terrain.cell()).min(6.0), footprint);
+        // From afar the waves that are seen are longer ones, as steep: what is mirrored is drawn out, up and down most.
+        let length = (0.25 * terrain.cell()).min(6.0).max(SEEN_WAVES * footprint);
+        let normal = water::ripples(point, length, footprint);
         let seen = self.skylight.at(self.share(hit.place));
         let share = water::mirrored_share(dot(back, normal));
         let mut direction = mirrored(ray.direction, normal);
@@ -256,7 +257,8 @@ impl RayMarcher {
         let terrain = &self.setting.terrain;
         let start = 0.4 * terrain.cell();
         let Some(hit) = terrain.trace(ray, [start, f32::INFINITY]).filter(|hit| hit.side.is_none()) else {
-            return self.with_clouds(ray, self.sky.radiance(ray.direction), MIRRORED_BLUR);
+            let upward = Ray { direction: water::upward(ray.direction), ..*ray };
+            return self.with_clouds(&upward, self.sky.radiance(upward.direction), MIRRORED_BLUR);
         };
         let point = ray.at(hit.ray_length);
         let footprint = (0.25 * terrain.cell()).max(self.footprint(hit.ray_length));
@@ -355,6 +357,32 @@ mod tests {
         let cliff = from([-1.0, 0.0, 0.2]);
         let [mirrored, sky] = [marcher.mirrored_light(&cliff), marcher.sky.radiance(cliff.direction)];
         assert!(mirrored[2] < 0.7 * sky[2], "{mirrored:?} before a sky of {sky:?}");
+    }
+
+    #[test]
+    fn the_sea_goes_on_without_a_leap_and_ends_in_a_line_before_the_sky() {
+        let size = Size::square(48).expect("small");
+        let mut landscape = Landscape::new(Domain { sea_level: Some(0.0), ..Domain::new(size, 40.0) });
+        let away = |x: usize, y: usize| (x as f32 - 24.0).hypot(y as f32 - 24.0);
+        let ground = Field::from_function(size, |x, y| 300.0 - 40.0 * away(x, y));
+        let depths = ground.values().iter().map(|ground| (-ground).max(0.0)).collect();
+        landscape.insert("water", "m", Field::from_values(size, depths));
+        landscape.insert("height", "m", ground);
+        let places = |at: [f64; 2]| Some(weald_core::parameter::Places(vec![at]));
+        let (eye, target) = (places([1900.0, 1000.0]), places([4000.0, 1000.0]));
+        let view = View { eye, target, eye_height: 800.0, visibility: Some(2e5), ..View::default() };
+        let marcher = RayMarcher::new(&view, &landscape, None).expect("it can be drawn");
+        // The mean of some directions, beside which waves are small.
+        let up = |rise: f32| {
+            let direction = |at: u8| unit([1.0, 0.02 * f32::from(at), rise]);
+            let light = |at| marcher.light(&Ray { from: marcher.camera.eye, direction: direction(at) })[1];
+            (0..60).map(light).sum::<f32>() / 60.0
+        };
+        let sea: Vec<f32> = (0..120).map(|at| up(-0.15 * 0.95_f32.powi(at))).collect();
+        let leap = sea.windows(2).map(|pair| (pair[1] / pair[0] - 1.0).abs()).fold(0.0, f32::max);
+        assert!(leap < 0.06, "neighbours differ by {leap}");
+        let line = up(0.001) / up(-0.001);
+        assert!(line > 1.05, "the sky is {line} times as bright as the sea below it");
     }
 
     #[test]

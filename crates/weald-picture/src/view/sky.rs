@@ -6,6 +6,10 @@ use super::vector::{Vector, add, dot, scale};
 /// Pieces of the table over the elevation.
 pub(super) const PIECES: usize = 96;
 
+/// Sine of the elevation below which the sky is all alike: over ground that is drawn even, its brightest third of a degree
+/// would be a bright line.
+const LOWEST: f32 = 0.006;
+
 /// How strongly haze scatters forward: the glow around the sun.
 const FORWARD: f32 = 0.76;
 
@@ -37,7 +41,7 @@ impl Sky {
     /// Radiance of a direction without the sun's disc; below the horizon that of the horizon.
     #[inline]
     pub(super) fn radiance(&self, direction: Vector) -> Vector {
-        let place = direction[2].clamp(0.0, 1.0).sqrt() * PIECES as f32;
+        let place = direction[2].clamp(LOWEST, 1.0).sqrt() * PIECES as f32;
         let piece = (place as usize).min(PIECES - 1);
         let share = place - piece as f32;
         let (low, high) = (&self.table[piece], &self.table[piece + 1]);

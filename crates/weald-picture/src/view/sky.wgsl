@@ -5,6 +5,9 @@ const PI = 3.14159265358979;
 // How strongly haze scatters forward: the glow around the sun.
 const FORWARD = 0.76;
 
+// Sine of the elevation below which the sky is all alike.
+const LOWEST = 0.006;
+
 fn rayleigh_phase(cosine: f32) -> f32 {
     return 3.0 / (16.0 * PI) * (1.0 + cosine * cosine);
 }
@@ -18,7 +21,7 @@ fn mie_phase(cosine: f32) -> f32 {
 
 // Radiance of a direction without the sun's disc; below the horizon that of the horizon.
 fn sky_radiance(direction: vec3<f32>) -> vec3<f32> {
-    let place = sqrt(clamp(direction.z, 0.0, 1.0)) * f32(SKY_PIECES);
+    let place = sqrt(clamp(direction.z, LOWEST, 1.0)) * f32(SKY_PIECES);
     let piece = min(i32(place), SKY_PIECES - 1);
     let share = place - f32(piece);
     let cosine = dot(direction, scene.sun.xyz);

@@ -4,13 +4,14 @@
 //! valley leads on outward:
 //!
 //! ```text
-//! z = (1 - s) (2 z(b) - z(m)) + s (f + a (z(t) - z̄))
+//! z = (1 - s) (2 z(b) - z(m)) + s (f + a l(z(t) - z̄))      l(d) = d / (1 + d / d₀) for d > 0, else d
 //! ```
 //!
 //! with the nearest place `b` of the border, the mirrored place `m` within, and the share `s`, which grows smoothly from 0
 //! at the border to 1. From there on it is the ground of another place `t` of the landscape, turned by the golden angle so
-//! that nothing is seen twice side by side, about the height `f` of the border in that direction. Where that lies below
-//! the sea, `a` is 0: the sea goes on.
+//! that nothing is seen twice side by side, about the height `f` of the border in that direction; what stands far above the
+//! others is lowered by `l`, or a lone mountain would stand there again and again. Where `f` lies below the sea, `a` is 0:
+//! the sea goes on.
 
 use super::surface::Surface;
 use crate::colour::mix;
@@ -25,7 +26,7 @@ pub(super) const JOIN: f32 = 0.18;
 /// How far ground goes on beyond the border, in longer sides of the landscape.
 pub(super) const REACH: f32 = 7.0;
 
-/// Longer sides beyond the border after which two thirds of it are lost in the haze of the horizon.
+/// Longer sides beyond the border after which two thirds of the land are lost before what lies farthest.
 pub(super) const LOST: f32 = 2.1;
 
 /// Cosine and sine of the golden angle.
@@ -40,6 +41,12 @@ pub(super) const BEND: [f32; 2] = [0.55, 0.04];
 
 /// Share of the landscape at each side that the turned ground leaves out: a border may be a base level, all of one height.
 pub(super) const LEFT_OUT: f32 = 0.12;
+
+/// Metres off its level, as it is drawn, up to which a height is that of the sea.
+const AT_SEA: f32 = 0.5;
+
+/// The height `d₀` above the mean that no ground far away reaches, in root mean squares of heights about it.
+const HIGHEST: f32 = 2.5;
 
 /// Share of the relief by which the ground around a sea lies below it at least.
 const SUNK: f32 = 0.02;
@@ -56,6 +63,8 @@ pub(super) struct Surroundings {
     pub(super) sea: Option<f32>,
     /// Mean height of the ground of the landscape.
     pub(super) mean: f32,
+    /// Height above that which no ground far away reaches.
+    pub(super) highest: f32,
     /// Height far away by direction, clockwise from north, and how uneven the ground there is.
     pub(super) far: [[f32; 2]; DIRECTIONS],
     /// Bounds of all heights beyond the border.
@@ -104,12 +113,15 @@ impl Surroundings {
         let border = border(bed);
         let far = far(&border, sea, high - low);
         let edge = border.iter().fold([f32::MAX, f32::MIN], |[a, b], (_, z)| [a.min(*z), b.max(*z)]);
-        let of_far = |[height, uneven]: &[f32; 2], z: f32| height + uneven * (z - mean);
+        let squares = all().map(|z| f64::from(z - mean) * f64::from(z - mean)).sum::<f64>();
+        let highest_far = HIGHEST * ((squares / size.cells() as f64).sqrt() as f32).max(1e-3);
+        let of_far =
+            |[height, uneven]: &[f32; 2], z: f32| height + uneven * lowered(z - mean, highest_far)[0];
         let lowest = far.iter().map(|far| of_far(far, low)).fold(2.0 * edge[0] - high, f32::min);
         let highest = far.iter().map(|far| of_far(far, high)).fold(2.0 * edge[1] - low, f32::max);
         let highest = highest.max(high).max(sea.unwrap_or(high));
         let cells = [size.columns as f32, size.rows as f32];
-        Self { cells, sea, mean, far, bounds: [lowest.min(low), highest] }
+        Self { cells, sea, mean, highest: highest_far, far, bounds: [lowest.min(low), highest] }
     }
 
     /// Whether a place lies beyond the border.
@@ -176,11 +188,12 @@ impl Surroundings {
             (bed.with_slope(border), bed.with_slope(mirrored), bed.with_slope(turned));
         let ([height, uneven], swings) = self.far_at(place);
         let near = 2.0 * edge[0] - within[0];
-        let far = height + uneven * (there[0] - self.mean);
+        let [unlike, steep] = lowered(there[0] - self.mean, self.highest);
+        let far = height + uneven * unlike;
         let far_rise = [0, 1].map(|axis| {
             let [east, south] = turns[axis];
             let [of_height, of_uneven] = swings[axis];
-            uneven * (east * there[1] + south * there[2]) + of_height + of_uneven * (there[0] - self.mean)
+            uneven * steep * (east * there[1] + south * there[2]) + of_height + of_uneven * unlike
         });
         let rise = |axis: usize| {
             let along = if place[axis] == border[axis] { 2.0 * edge[1 + axis] } else { 0.0 };
@@ -212,13 +225,33 @@ impl Surroundings {
         (1.0 - 2.0 * beyond.share).abs()
     }
 
-    /// Radiance of what lies at a place beyond the border, as it is lost in the haze of the horizon.
-    pub(super) fn lost(&self, place: [f32; 2], radiance: [f32; 3], horizon: [f32; 3]) -> [f32; 3] {
+    /// Whether a height is that of the sea.
+    pub(super) fn is_at_sea(&self, height: f32) -> bool {
+        self.sea.is_some_and(|sea| (height - sea).abs() < AT_SEA)
+    }
+
+    /// Height of what lies beyond all that is drawn in the direction of a place, and whether it is the sea.
+    pub(super) fn plain_at(&self, place: [f32; 2]) -> (f32, bool) {
+        let ([height, _], _) = self.far_at(place);
+        match self.sea {
+            Some(sea) if height < sea => (sea, true),
+            _ => (height, false),
+        }
+    }
+
+    /// Radiance of what lies at a place beyond the border, as it is lost before what lies farthest.
+    pub(super) fn lost(&self, place: [f32; 2], radiance: [f32; 3], farthest: [f32; 3]) -> [f32; 3] {
         let away = |axis: usize| place[axis] - place[axis].clamp(0.5, self.cells[axis] + 0.5);
         let reach = LOST * self.cells[0].max(self.cells[1]);
         let square = (away(0) * away(0) + away(1) * away(1)) / (reach * reach);
-        mix(radiance, horizon, 1.0 - libm::expf(-square))
+        mix(radiance, farthest, 1.0 - libm::expf(-square))
     }
+}
+
+/// How far ground stands off the mean that is so far off it in the landscape, and how much of its slope is left.
+fn lowered(unlike: f32, highest: f32) -> [f32; 2] {
+    let lower = 1.0 + unlike.max(0.0) / highest;
+    if unlike > 0.0 { [unlike / lower, 1.0 / (lower * lower)] } else { [unlike, 1.0] }
 }
 
 fn centre(x: usize, y: usize) -> [f32; 2] {
@@ -288,6 +321,21 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn a_lone_mountain_does_not_stand_again_around_itself_and_even_hills_do() {
+        let highest = |bed: &Surface| {
+            let around = Surroundings::new(bed, None);
+            let places =
+                (0..4000).map(|at| [0, 1].map(|seed| 600.0 * uniform(hash2(seed, at, 4)) as f32 - 300.0));
+            let far = places.filter(|place| around.leaving(*place).share == 1.0);
+            far.map(|place| around.at(bed, place).surface[0]).fold(f32::MIN, f32::max)
+        };
+        let lone = |x: usize, y: usize| (400.0 - 40.0 * (x as f32 - 30.0).hypot(y as f32 - 20.0)).max(0.0);
+        let [lone, hilly] = [highest(&ground(lone)), highest(&ground(hills))];
+        assert!(lone < 220.0, "{lone} m of 400");
+        assert!(hilly > 10.0, "{hilly} m of 23");
     }
 
     #[test]

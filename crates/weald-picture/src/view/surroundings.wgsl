@@ -92,12 +92,15 @@ fn ground_beyond(place: vec2<f32>) -> Beyond {
     let there = spline_with_slope(bed, turned.place);
     let around = far_at(place);
     let uneven = around.ground.y;
-    let unlike = there.x - scene.around.w;
+    let off = there.x - scene.around.w;
+    let lower = 1.0 + max(off, 0.0) / scene.far_highest.x;
+    let unlike = off / lower;
+    let steep = 1.0 / (lower * lower);
     let near = 2.0 * edge.x - within.x;
     let far = around.ground.x + uneven * unlike;
     let turned_rise = vec2<f32>(dot(turned.east, there.yz), dot(turned.south, there.yz));
     let swing = vec2<f32>(dot(around.east, vec2<f32>(1.0, unlike)), dot(around.south, vec2<f32>(1.0, unlike)));
-    let far_rise = uneven * turned_rise + swing;
+    let far_rise = uneven * steep * turned_rise + swing;
     let along = select(vec2<f32>(0.0), 2.0 * edge.yz, place == border);
     let near_rise = along - mirrored.sign * within.yz;
     let slope = mix(near_rise, far_rise, share) + (far - near) * growth;
@@ -123,8 +126,16 @@ fn river_share_beyond(beyond: Beyond) -> f32 {
     return abs(1.0 - 2.0 * beyond.share);
 }
 
-// Radiance of what lies at a place beyond the border, as it is lost in the haze of the horizon.
-fn lost_beyond(place: vec2<f32>, radiance: vec3<f32>, horizon: vec3<f32>) -> vec3<f32> {
+// Metres off its level, as it is drawn, up to which a height is that of the sea.
+const AT_SEA = 0.5;
+
+// Whether a height is that of the sea.
+fn is_at_sea(height: f32) -> bool {
+    return abs(height - scene.around.y) < AT_SEA;
+}
+
+// Radiance of what lies at a place beyond the border, as it is lost before what lies farthest.
+fn lost_beyond(place: vec2<f32>, radiance: vec3<f32>, farthest: vec3<f32>) -> vec3<f32> {
     let away = (place - nearest_within(place)) / (scene.around.x * max(scene.grid.x, scene.grid.y));
-    return mix(radiance, horizon, 1.0 - exp(-dot(away, away)));
+    return mix(radiance, farthest, 1.0 - exp(-dot(away, away)));
 }

@@ -31,6 +31,9 @@ const RIVER_SIDE: usize = 4096;
 const BANKFULL: f32 = 2.7;
 const BANKFULL_GROWTH: f32 = 0.4;
 
+/// Cells by which a river winds about its line.
+const WINDING: f32 = 0.6;
+
 /// Share of light that water mirrors at right angles.
 const NORMAL_REFLECTANCE: f32 = 0.02;
 
@@ -44,6 +47,9 @@ pub(super) const WEED: Vector = [0.024, 0.047, 0.042];
 /// How far waves run up and down a shore in metres: of a lake, and of the sea.
 pub(super) const SWASH: [f32; 2] = [0.7, 13.0];
 
+/// Slope of a bed over which no waves break, and from which all do.
+const FLATS: [f32; 2] = [0.004, 0.02];
+
 /// Share of light that foam sends back.
 pub(super) const FOAM: f32 = 0.78;
 
@@ -52,6 +58,9 @@ const WET: f32 = 0.55;
 
 /// Mean square of the slopes of ripples too small to be seen.
 const ROUGHNESS: f32 = 0.006;
+
+/// Rise over run of what the horizon's rays are thrown to by ripples too small to be seen: half of twice their slopes.
+const STEEP_RIPPLES: f32 = 0.12;
 
 /// Share of light that is mirrored at right angles, and roughness, as shaders get them.
 pub(super) const OPTICS: [f32; 2] = [NORMAL_REFLECTANCE, ROUGHNESS];
@@ -130,8 +139,9 @@ impl Rivers {
             // Where springs feed it, a river may carry more than all of the land would: it is drawn as draining that.
             let area = reach.area.min(domain.size.cells() as f32) * square_kilometres;
             let metres = BANKFULL * libm::powf(area, BANKFULL_GROWTH) * broader as f32;
-            let width = metres / domain.cell as f32 * scale;
-            Point { x: reach.place[0] * scale, y: reach.place[1] * scale, width, opacity: 1.0 }
+            let width = metres / domain.cell as f32 * scale * unevenly_wide(reach.place);
+            let [x, y] = winding(reach.place).map(|along| along * scale);
+            Point { x, y, width, opacity: 1.0 }
         })?;
         Some(Self { strokes, width, height })
     }
@@ -151,6 +161,22 @@ impl Rivers {
     }
 }
 
+/// Noise along rivers at a place in cells.
+fn along_rivers([x, y]: [f32; 2], seed: u32) -> f32 {
+    Octaves { wavelength: 5.0, count: 3, gain: 0.6, seed }.at([x, y, 0.0], 0.0).value
+}
+
+/// Width of a river there over that which is usual: it has narrows and pools.
+fn unevenly_wide(place: [f32; 2]) -> f32 {
+    (1.0 + 1.3 * along_rivers(place, 0x62)).clamp(0.5, 1.9)
+}
+
+/// Where a river runs whose line leads by a place, in cells: bends that are finer than cells. All rivers wind alike where
+/// they meet, so that none ends beside another.
+fn winding(place: [f32; 2]) -> [f32; 2] {
+    [0, 1].map(|axis| place[axis] + WINDING * along_rivers(place, 0x63 + axis as u32))
+}
+
 /// The normal of rippled water at a point, for a pixel of that footprint; waves are `length` metres long.
 pub(super) fn ripples(point: Vector, length: f32, footprint: f32) -> Vector {
     let calm = Octaves { wavelength: 30.0 * length, count: 2, gain: 0.5, seed: 0x51 }.at(point, 0.0).value;
@@ -167,6 +193,14 @@ pub(super) fn mirrored_share(cosine: f32) -> f32 {
     // Seen from low down, the sides of ripples that face the eye mirror less than level water would.
     let fresnel = NORMAL_REFLECTANCE + (1.0 - NORMAL_REFLECTANCE) * square * square * grazing;
     fresnel / (1.0 + 9.0 * ROUGHNESS.sqrt() * square * square)
+}
+
+/// The direction of the sky that ripples too small to be seen mirror, in place of that which even water would: from low
+/// down only those of their sides are seen that face the eye.
+pub(super) fn upward(direction: Vector) -> Vector {
+    let [x, y, z] = direction;
+    let steeper = 0.5 * z + STEEP_RIPPLES;
+    if z < steeper { unit([x, y, steeper]) } else { direction }
 }
 
 /// Radiance of the sun in ripples, over the sunlight: Beckmann's distribution of their slopes, as Cox and Munk 1954
@@ -222,6 +256,11 @@ pub(super) fn swash(point: Vector, away: f32, width: f32, [seconds, footprint]: 
     seen * strength * (line + 0.6 * left).clamp(0.0, 0.9)
 }
 
+/// Share of the waves' foam over a bed of a slope: over flats they have broken far out.
+pub(super) fn breaking(slope: f32) -> f32 {
+    ramp(slope, FLATS[0], FLATS[1])
+}
+
 /// The colour of ground at a water's edge: where waves reach, to a height that is drawn so, wet ground is darker.
 pub(super) fn wetted(albedo: Vector, above: f32, reach: f32) -> Vector {
     mix(albedo, scale(albedo, 0.5), 1.0 - ramp(above / reach, 0.25, 1.0))
@@ -270,8 +309,14 @@ mod tests {
         landscape.insert("flux_x", "m³/step", Field::from_function(size, east));
         landscape.insert("flux_y", "m³/step", Field::from_function(size, south));
         let rivers = Rivers::of(&landscape, 4.0).expect("a river");
-        let along = |y: f32| rivers.at([32.5 / 64.0, y / 64.0]);
+        let across = |y: f32| (0..64).map(move |x| [(31.0 + x as f32 / 20.0) / 64.0, y / 64.0]);
+        let along = |y: f32| across(y).map(|place| rivers.at(place)).fold(0.0, f32::max);
         assert!(along(40.0) > 0.9 && along(60.0) > 0.9, "{} and {}", along(40.0), along(60.0));
+        let width = |y: f32| across(y).map(|place| rivers.at(place)).sum::<f32>();
+        let widths: Vec<f32> = (30..60).map(|y| width(y as f32)).collect();
+        let [least, most] =
+            widths.iter().fold([f32::MAX, 0.0], |[a, b], &width| [a.min(width), b.max(width)]);
+        assert!(most > 1.3 * least, "narrows and pools: {widths:?}");
         assert_eq!([8.0, 24.0, 40.0, 56.0].map(|x| rivers.at([x / 64.0, 40.0 / 64.0])), [0.0; 4]);
     }
 }

@@ -16,6 +16,11 @@ fn mirrored_share(cosine: f32) -> f32 {
     return fresnel / (1.0 + 9.0 * sqrt(scene.water.y) * square * square);
 }
 
+// The direction of the sky that ripples too small to be seen mirror, in place of that which even water would.
+fn rippled_upward(direction: vec3<f32>) -> vec3<f32> {
+    return normalize(vec3<f32>(direction.xy, max(direction.z, 0.5 * direction.z + 0.12)));
+}
+
 // Radiance of the sun in ripples, over the sunlight.
 fn glint(towards_eye: vec3<f32>, normal: vec3<f32>, sun: vec3<f32>) -> f32 {
     let half = normalize(towards_eye + sun);
@@ -45,6 +50,11 @@ fn bed_albedo(point: vec2<f32>, depth: f32, footprint: f32) -> vec3<f32> {
     let tone = 1.0 + 0.45 * patches + 0.55 * grains;
     let grown = 0.7 * ramp(patches + 0.1 * min(depth, 5.0), 0.1, 0.6);
     return mix(scene.gravel.xyz * (BED_WET * max(tone, 0.2)), scene.weed.xyz, grown);
+}
+
+// Share of the waves' foam over a bed of a slope: over flats they have broken far out.
+fn breaking(slope: f32) -> f32 {
+    return ramp(slope, 0.004, 0.02);
 }
 
 // How far waves run up and down a shore in metres: at a lake, and at the sea.
