@@ -92,6 +92,14 @@ const CLIFF: [f32; 2] = [0.9, 1.3];
 /// Share of the slope of ridges and gullies that counts as that of the ground: rock is bare on their steep sides.
 const CRAGGY: f32 = 0.6;
 
+/// What the highest ground adds to its steepness, and shares of the relief between which that grows.
+const BARE: f32 = 0.4;
+const BARREN: [f32; 2] = [0.45, 0.95];
+
+/// What crests add and hollows take there, times how dry they are, and shares of the relief between which that grows.
+const CRESTS: f32 = 1.1;
+const SCOURED: [f32; 2] = [0.2, 0.6];
+
 /// How many times smaller than trees bushes and boulders are, how densely they lie at most, and their share of the light that
 /// the ground sends back.
 const SMALLER: f32 = 1.7;
@@ -227,12 +235,16 @@ impl Cover {
         spot.slope / self.limits.rock + 0.25 * texture.patchy() + 0.4 * (0.4 - soil)
     }
 
-    /// The same, and more on the steep sides of ridges that are finer than cells.
-    fn steepness(&self, spot: &SurfacePoint, texture: &Texture) -> f32 {
+    /// The same, and more on the steep sides of ridges that are finer than cells, and on high ground, where soil is thin, most
+    /// on its crests.
+    fn steepness(&self, spot: &SurfacePoint, texture: &Texture, moisture: f32) -> f32 {
         let [east, north] = texture.crags.slope;
         let hilly = ramp(spot.slope / self.limits.rock, 0.35, 0.8);
         let steeper = CRAGGY * hilly * (east * spot.fall[0] + north * spot.fall[1]);
-        self.slope_of_cells(spot, texture) - steeper / self.limits.rock
+        let high = spot.point[2] / self.limits.relief.max(1e-3) + 0.25 * texture.patchy();
+        let barren = BARE * ramp(high, BARREN[0], BARREN[1])
+            + CRESTS * (0.5 - moisture) * ramp(high, SCOURED[0], SCOURED[1]);
+        self.slope_of_cells(spot, texture) - steeper / self.limits.rock + barren
     }
 
     fn natural(&self, spot: &SurfacePoint, texture: &Texture) -> SurfaceSample {
@@ -241,12 +253,12 @@ impl Cover {
         let moisture = self.sites.moisture(spot.place);
         let high = spot.point[2] / self.limits.relief.max(1e-3);
         let grass = self.grass(moisture + 0.55 * patchy, high + 0.25 * patchy);
-        let grass = scale(grass, 1.0 + 0.5 * fine.value + 0.5 * crags.height);
+        let grass = scale(grass, 1.0 + 0.3 * fine.value + 0.3 * crags.height);
         let meadow =
             SurfaceSample { albedo: grass, bump: texture.rough(0.12, 1.4 * ramp(spot.slope, 0.1, 0.7)) };
         let trees = self.trees(spot, moisture, patchy);
 
-        let steep = self.steepness(spot, texture);
+        let steep = self.steepness(spot, texture, moisture);
         let pebbles = scale(self.palette.scree, 1.0 + 0.45 * fine.value);
         let scree = SurfaceSample { albedo: pebbles, bump: texture.rough(0.28, 0.8) };
         // Scree lies just below bare rock, never covers all, and less under trees, which hold the soil; where stones fall
@@ -317,7 +329,7 @@ impl Cover {
         let [grey, dark, warm] = self.palette.rock;
         let warmth = 0.5 + 0.7 * bed.tone + 0.3 * thin.tone + 0.9 * texture.broad;
         let stone = mix(grey, warm, warmth.clamp(0.0, 1.0));
-        let stone = scale(stone, 1.0 + 0.3 * bed.tone + 0.2 * thin.tone + 0.3 * texture.broad);
+        let stone = scale(stone, 0.92 + 0.55 * bed.tone + 0.35 * thin.tone + 0.4 * texture.broad);
         // A third of a smooth face is dark.
         let cracks =
             0.3 - 0.5 * texture.fine.value - 1.6 * texture.crags.height + 0.5 * bed.joint + 0.3 * thin.joint;
@@ -367,7 +379,7 @@ impl Cover {
         let fold = 0.8 * texture.broad + texture.torn();
         let [bed, thin] = Self::bedding(spot, [thick, thick / 4.1], fold, false);
         let fine = (0.3 - 0.15 * steep) * texture.fine.value + 0.8 * steep * texture.crags.height;
-        let bedded = 0.5 * bed.tone + 0.35 * thin.tone - 0.3 * bed.joint - 0.15 * thin.joint;
+        let bedded = 0.75 * bed.tone + 0.5 * thin.tone - 0.35 * bed.joint - 0.2 * thin.joint;
         let tone = (1.0 + 0.28 * texture.broad + fine + steep * bedded).max(0.2);
         let (rough, ledge) =
             (texture.rough(0.08, 0.14 + 2.14 * steep), steep * (0.3 * bed.ledge + 0.15 * thin.ledge));

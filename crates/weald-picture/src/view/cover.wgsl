@@ -13,6 +13,14 @@ const CLIFF = vec2<f32>(0.9, 1.3);
 // Share of the slope of crags that counts as that of the ground.
 const CRAGGY = 0.6;
 
+// What the highest ground adds to its steepness, and shares of the relief between which that grows.
+const BARE = 0.4;
+const BARREN = vec2<f32>(0.45, 0.95);
+
+// What crests add and hollows take there, times how dry they are, and shares of the relief between which that grows.
+const CRESTS = 1.1;
+const SCOURED = vec2<f32>(0.2, 0.6);
+
 // How many times smaller than trees bushes and boulders are, how densely they lie at most, and their share of the light that
 // the ground sends back.
 const SMALLER = 1.7;
@@ -91,10 +99,12 @@ fn slope_of_cells(spot: SurfacePoint, texture: Texture, soil: f32) -> f32 {
 }
 
 // The same, and more on the steep sides of ridges that are finer than cells.
-fn steepness(spot: SurfacePoint, texture: Texture, soil: f32) -> f32 {
+fn steepness(spot: SurfacePoint, texture: Texture, here: vec2<f32>) -> f32 {
     let hilly = ramp(spot.slope / scene.limits.x, 0.35, 0.8);
     let steeper = CRAGGY * hilly * dot(texture.crags.slope, spot.fall);
-    return slope_of_cells(spot, texture, soil) - steeper / scene.limits.x;
+    let high = spot.point.z / max(scene.limits.w, 1e-3) + 0.25 * patchy_of(texture);
+    let barren = BARE * ramp(high, BARREN.x, BARREN.y) + CRESTS * (0.5 - here.x) * ramp(high, SCOURED.x, SCOURED.y);
+    return slope_of_cells(spot, texture, here.y) - steeper / scene.limits.x + barren;
 }
 
 // How densely trees stand at a point of natural ground.
@@ -131,11 +141,11 @@ fn natural(spot: SurfacePoint, texture: Texture) -> SurfaceSample {
     let here = smooth_at(site, spot.place);
     let moisture = here.x;
     let high = spot.point.z / max(scene.limits.w, 1e-3);
-    let turf = grass(moisture + 0.55 * patchy, high + 0.25 * patchy) * (1.0 + 0.5 * fine + 0.5 * ridge);
+    let turf = grass(moisture + 0.55 * patchy, high + 0.25 * patchy) * (1.0 + 0.3 * fine + 0.3 * ridge);
     let wooded = trees(spot, moisture, patchy);
     let meadow = SurfaceSample(turf, rough(texture, 0.12, 1.4 * ramp(spot.slope, 0.1, 0.7)), vec4<f32>(0.0));
 
-    let steep = steepness(spot, texture, here.y);
+    let steep = steepness(spot, texture, here.xy);
     let pebbles = scene.scree.xyz * (1.0 + 0.45 * fine);
     let scree = SurfaceSample(pebbles, rough(texture, 0.28, 0.8), vec4<f32>(0.0, 1.0, 0.0, 0.0));
     let fallen = 1.1 * here.w + ramp(here.w, 0.0, 0.2) * (0.6 * patchy + 0.6 * fine - 1.2 * ridge);
@@ -185,7 +195,7 @@ fn rock(spot: SurfacePoint, texture: Texture) -> SurfaceSample {
     let thick = 0.035 * max(scene.limits.w, 1e-3);
     let bedding = bedding_at(spot, vec2<f32>(thick, thick / 5.3), 1.4 * texture.broad + torn(texture), true);
     let warmth = 0.5 + 0.7 * bedding.thick.tone + 0.3 * bedding.thin.tone + 0.9 * texture.broad;
-    let tone = 1.0 + 0.3 * bedding.thick.tone + 0.2 * bedding.thin.tone + 0.3 * texture.broad;
+    let tone = 0.92 + 0.55 * bedding.thick.tone + 0.35 * bedding.thin.tone + 0.4 * texture.broad;
     let stone = mix(scene.rock_grey.xyz, scene.rock_warm.xyz, clamp(warmth, 0.0, 1.0)) * tone;
     let joints = 0.5 * bedding.thick.joint + 0.3 * bedding.thin.joint;
     let cracks = 0.3 - 0.5 * texture.fine.value - 1.6 * texture.crags.height + joints;
@@ -235,8 +245,8 @@ fn of_material(spot: SurfacePoint, albedo: vec3<f32>, texture: Texture) -> Surfa
     let thick = 0.03 * max(scene.limits.w, 1e-3);
     let bedding = bedding_at(spot, vec2<f32>(thick, thick / 4.1), 0.8 * texture.broad + torn(texture), false);
     let fine = (0.3 - 0.15 * steep) * texture.fine.value + 0.8 * steep * texture.crags.height;
-    let tones = 0.5 * bedding.thick.tone + 0.35 * bedding.thin.tone;
-    let bedded = tones - 0.3 * bedding.thick.joint - 0.15 * bedding.thin.joint;
+    let tones = 0.75 * bedding.thick.tone + 0.5 * bedding.thin.tone;
+    let bedded = tones - 0.35 * bedding.thick.joint - 0.2 * bedding.thin.joint;
     let tone = max(1.0 + 0.28 * texture.broad + fine + steep * bedded, 0.2);
     let ledge = steep * (0.3 * bedding.thick.ledge + 0.15 * bedding.thin.ledge);
     let bump = no_steeper(rough(texture, 0.08, 0.14 + 2.14 * steep) - spot.fall * ledge, STEEPEST);

@@ -30,13 +30,14 @@ const CREST: [f32; 2] = [-0.02, 0.1];
 /// Side of a cell in metres up to which cells show all crags themselves, and from which they show none.
 const SHOWN: [f32; 2] = [4.0, 12.0];
 
-/// Height of crags beside that which they are drawn with.
+/// Height of crags beside that which they are drawn with; level beds stand as walls, which crags hardly flute.
 const HIGH: f32 = 1.3;
+const HIGH_OF_MATERIALS: f32 = 0.6;
 
 /// Beds from one ledge to the next, and the share of its height that ground takes back on a ledge.
 const LEDGES: f32 = 2.0;
 const STEP: f32 = 0.4;
-const STEP_OF_MATERIALS: f32 = 0.75;
+const STEP_OF_MATERIALS: f32 = 1.0;
 
 /// Finer cells that are as wide as the finest crag is blurred.
 const BLUR: f32 = 1.2;
@@ -116,7 +117,8 @@ impl Coarse<'_> {
         // What stands out of a slope is higher by its steepness.
         let upward = (1.0 + rise[0] * rise[0] + rise[1] * rise[1]).sqrt();
         let crest = ground.keys_at(place) - height;
-        let stands = HIGH * stands * cell * upward.min(2.0) + self.ledges(point, fineness);
+        let high = if self.is_material { HIGH_OF_MATERIALS } else { HIGH };
+        let stands = high * stands * cell * upward.min(2.0) + self.ledges(point, fineness);
         height + share * (crest + stands * stretch)
     }
 

@@ -2,13 +2,13 @@
 //!
 //! A score adds up what keeps snow and what takes it: height above the line, hollows that hold it, slopes that it slides
 //! off, the sun on slopes that face south, and wind from the west that carries it over crests onto their eastern sides.
-//! Over a fifth of the relief the score goes from none to all; between them, noise says which places are white already.
+//! Over a third of the relief the score goes from none to all; between them, noise says which places are white already.
 //! All numbers are chosen by eye.
 
 use super::vector::ramp;
 
 /// Share of the relief that a score of 1 is.
-const SCALE: f32 = 0.10;
+const SCALE: f32 = 0.16;
 
 /// What a slope that faces south loses to one that faces north, and one that faces west to one that faces east: half of it.
 const SUN: f32 = 0.8;

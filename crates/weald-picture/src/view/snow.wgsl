@@ -1,6 +1,6 @@
 // Twin of `snow.rs`: how much snow lies at a point.
 
-const SNOW_SCALE = 0.10;
+const SNOW_SCALE = 0.16;
 const SNOW_SUN = 0.8;
 const SNOW_WIND = 0.35;
 

@@ -30,6 +30,9 @@ const OFF: f32 = 0.35;
 /// Height of the dome of a crown beside its radius, and of a group of them.
 const STEEP: [f32; 2] = [0.55, 0.24];
 
+/// How much lighter or darker one group of crowns is than another.
+const UNLIKE: f32 = 0.5;
+
 /// Height in spacings from which crowns throw their shadows, and their greatest length.
 const SHADE: [f32; 2] = [0.7, 1.1];
 
@@ -89,6 +92,12 @@ struct Dome {
     chance: f32,
 }
 
+/// A place, or the direction that was eastward, on a lattice that is turned by 37°.
+#[inline(always)]
+fn turned([x, y]: [f32; 2]) -> [f32; 2] {
+    [0.8 * x + 0.6 * y, 0.8 * y - 0.6 * x]
+}
+
 /// A share from eight bits of a hash.
 #[inline(always)]
 fn part(hash: u32, shift: u32) -> f32 {
@@ -144,18 +153,25 @@ fn centre([x, y]: [i32; 2], hash: u32) -> [f32; 2] {
 pub(super) fn canopy(point: [f32; 2], density: f32, footprint: f32, sun: Vector) -> Canopy {
     let single = visible(footprint, 1.4 * SPACING);
     let (mut lumps, mut slope, mut finer, mut spacing) = (0.0, [0.0; 2], single, SPACING);
+    let (mut place, mut turn) = (point, [1.0_f32, 0.0]);
     for layer in 1..LAYERS {
         spacing *= COARSER;
+        // Each lattice is turned against the one before, or all would stand in rows.
+        (place, turn) = (turned(place), turned(turn));
         let seen = visible(footprint, 1.4 * spacing);
         if seen <= 0.0 {
             continue;
         }
-        let group = dome(point.map(|metres| metres / spacing), SEED + layer, 1.0);
+        let group = dome(place.map(|metres| metres / spacing), SEED + layer, 1.0);
         // The finest that is seen counts most.
         let weight = seen * (1.0 - 0.55 * finer);
         finer = seen;
-        lumps += weight * (group.height - 0.45);
-        slope = [0, 1].map(|axis| slope[axis] + weight * STEEP[1] * group.slope[axis]);
+        lumps += weight * (group.height - 0.45 + UNLIKE * (group.chance - 0.5));
+        let along = [
+            turn[0] * group.slope[0] + turn[1] * group.slope[1],
+            turn[0] * group.slope[1] - turn[1] * group.slope[0],
+        ];
+        slope = [0, 1].map(|axis| slope[axis] + weight * STEEP[1] * along[axis]);
     }
     // Edges break up into groups before they do into trees.
     let density = (density + 2.4 * lumps * density * (1.0 - density)).clamp(0.0, 1.0);

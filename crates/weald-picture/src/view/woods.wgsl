@@ -86,6 +86,14 @@ fn dome(place: vec2<f32>, seed: u32, density: f32) -> Dome {
     return top;
 }
 
+// How much lighter or darker one group of crowns is than another.
+const WOOD_UNLIKE = 0.5;
+
+// A place, or the direction that was eastward, on a lattice that is turned by 37 degrees.
+fn turned_lattice(place: vec2<f32>) -> vec2<f32> {
+    return vec2<f32>(0.8 * place.x + 0.6 * place.y, 0.8 * place.y - 0.6 * place.x);
+}
+
 // What a wood of a density looks like at a point, for a pixel of that footprint.
 fn canopy_of(point: vec2<f32>, wooded: f32, footprint: f32) -> Canopy {
     // Where there is none, no loop is gone through.
@@ -95,17 +103,22 @@ fn canopy_of(point: vec2<f32>, wooded: f32, footprint: f32) -> Canopy {
     var slope = vec2<f32>(0.0);
     var finer = single;
     var spacing = WOOD_SPACING;
+    var place = point;
+    var turn = vec2<f32>(1.0, 0.0);
     for (var layer = 1u; layer < layers; layer++) {
         spacing *= WOOD_COARSER;
+        place = turned_lattice(place);
+        turn = turned_lattice(turn);
         let seen = grain_visible(footprint, 1.4 * spacing);
         if seen <= 0.0 {
             continue;
         }
-        let group = dome(point / spacing, WOOD_SEED + layer, 1.0);
+        let group = dome(place / spacing, WOOD_SEED + layer, 1.0);
         let weight = seen * (1.0 - 0.55 * finer);
         finer = seen;
-        lumps += weight * (group.height - 0.45);
-        slope += weight * CROWN_STEEP.y * group.slope;
+        lumps += weight * (group.height - 0.45 + WOOD_UNLIKE * (group.chance - 0.5));
+        let along = vec2<f32>(dot(turn, group.slope), turn.x * group.slope.y - turn.y * group.slope.x);
+        slope += weight * CROWN_STEEP.y * along;
     }
     let density = clamp(wooded + 2.4 * lumps * wooded * (1.0 - wooded), 0.0, 1.0);
     let between = 0.9 * ramp(density, 0.25, 0.8);
