@@ -255,14 +255,13 @@ impl LitScene {
 /// The haze of a view whose camera looks over the landscape.
 fn haze(visibility: Option<f64>, camera: &Camera, setting: &Setting) -> Haze {
     let stretch = setting.exaggeration;
-    let haze = match visibility {
-        Some(visibility) => Haze::new(visibility, stretch),
-        None => {
-            let away = subtract(setting.centre(), camera.eye);
-            let ray_length = dot(away, away).sqrt().max(1e-3);
-            let ray = Ray { from: camera.eye, direction: scale(away, 1.0 / ray_length) };
-            Haze::of_depth(DEFAULT_HAZE, &ray, ray_length, stretch)
-        }
+    let haze = if let Some(visibility) = visibility {
+        Haze::new(visibility, stretch)
+    } else {
+        let away = subtract(setting.centre(), camera.eye);
+        let ray_length = dot(away, away).sqrt().max(1e-3);
+        let ray = Ray { from: camera.eye, direction: scale(away, 1.0 / ray_length) };
+        Haze::of_depth(DEFAULT_HAZE, &ray, ray_length, stretch)
     };
     let height = (camera.eye[2] - setting.sea.unwrap_or(0.0)) / stretch;
     if setting.around.is_some() { haze.up_to_the_horizon(height) } else { haze }
