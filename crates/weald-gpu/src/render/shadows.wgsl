@@ -48,7 +48,7 @@ fn seen_in_cascade(point: vec3<f32>, normal: vec3<f32>, cascade: i32) -> f32 {
     let texel = 2.0 * max(square.z, square.w) / size;
     let facing = clamp(dot(normal, scene.sun.xyz), 0.0, 1.0);
     // Off the surface by as much as it may rise within the looks.
-    let lifted = point + normal * texel * (0.5 + 2.0 * sqrt(1.0 - facing * facing));
+    let lifted = point + normal * texel * (0.3 + 1.2 * sqrt(1.0 - facing * facing));
     let at = in_cascade(lifted, cascade);
     let place = at.xy * vec2<f32>(0.5, -0.5) + 0.5;
     let range = frame.sun_up.w;
