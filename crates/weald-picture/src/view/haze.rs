@@ -60,26 +60,27 @@ impl Haze {
     /// The light that arrives at the start of a ray, of `radiance` that starts `ray_length` metres along it.
     #[inline]
     pub(super) fn veil(self, radiance: Vector, ray: &Ray, ray_length: f32, sky: &Sky) -> Vector {
-        let depth = self.extinction * self.column(ray, ray_length.min(self.reach));
+        let depth = self.extinction * self.column(ray, ray_length);
         let through = TINT.map(|tint| libm::expf(-tint * depth));
         let horizon = sky.radiance([ray.direction[0], ray.direction[1], 0.0]);
         let lost = through.map(|through| 1.0 - through);
         add(filter(radiance, through), filter(horizon, lost))
     }
 
-    /// Length of the air at the lowest ground that would veil as much.
+    /// Length of the air at the lowest ground that would veil as much. A ray that goes on beyond the horizon has come down
+    /// to the ground there already: its air is that of the same heights in as much shorter a way.
     fn column(self, ray: &Ray, ray_length: f32) -> f32 {
         let start = libm::expf(-ray.from[2].max(0.0) / self.scale_height);
         let climb = ray.direction[2] * ray_length / self.scale_height;
         // (1 - e^-x) / x, which is 1 - x/2 for level rays.
         let mean = if climb.abs() < 1e-3 { 1.0 - 0.5 * climb } else { -libm::expm1f(-climb) / climb };
-        start * mean * ray_length
+        start * mean * ray_length.min(self.reach)
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::vector::towards;
+    use super::super::vector::{towards, unit};
     use super::*;
 
     fn level(ray_length: f32, visibility: f64) -> Vector {
@@ -105,6 +106,21 @@ mod tests {
         let seen = |ray_length: f32| haze.veil([0.0; 3], &ray, ray_length, &sky)[1];
         // From 1000 m the sea ends at 113 km.
         assert!(seen(112_000.0) < seen(112_500.0) && seen(113_000.0) == seen(1e6));
+    }
+
+    #[test]
+    fn even_ground_pales_up_to_the_horizon_from_any_height() {
+        let sky = Sky::new(towards(90.0, 30.0), 0.53);
+        for height in [10.0, 300.0, 2000.0, 12_000.0] {
+            let haze = Haze::new(150_000.0, 1.0).up_to_the_horizon(height);
+            let dark = |distance: f32| {
+                let direction = unit([0.0, distance, -height]);
+                let ray = Ray { from: [0.0, 0.0, height], direction };
+                haze.veil([0.0; 3], &ray, distance.hypot(height), &sky)[1]
+            };
+            let paler: Vec<f32> = (0..40).map(|at| dark(1000.0 * 1.3_f32.powi(at))).collect();
+            assert!(paler.windows(2).all(|pair| pair[1] >= 0.999 * pair[0]), "{height} m: {paler:?}");
+        }
     }
 
     #[test]
