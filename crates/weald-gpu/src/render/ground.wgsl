@@ -34,6 +34,9 @@ override LAWN: bool = true;
 // Samples of a pixel that lie so near to each other, as a share of their distance, are one surface.
 const SAME_SURFACE = 0.02;
 
+// Metres of water in the middle of a river that is drawn as a line.
+const RIVER_DEPTH = 1.2;
+
 // Metres of water in which no bed is seen.
 const OPEN_SEA = 1000.0;
 
@@ -155,8 +158,9 @@ struct Look {
     above: f32,
     normal: vec3<f32>,
     sun: f32,
-    // The share of water, how it runs, and the normal of its level.
+    // The share of water, the depth of a river, how it runs, and the normal of its level.
     wet: f32,
+    river_depth: f32,
     running: vec3<f32>,
     tilt: vec3<f32>,
 }
@@ -193,6 +197,9 @@ fn looked_at(point: vec3<f32>, ground: Look) -> Look {
     look.ray_length = length(relative);
     look.direction = relative / look.ray_length;
     look.footprint = look.ray_length * frame.eye.w;
+    let pixel = scene.grid.x * scene.grid.z / f32(textureDimensions(rivers).x);
+    look.river_depth = RIVER_DEPTH * look.wet;
+    look.wet = with_banks(look.wet, look.footprint * inverseSqrt(max(-look.direction.z, 0.05)) / pixel);
     look.above = select(look.above, 1e9, frame.stand.w > 0.0);
     look.normal = normal_of(look.surface.yz);
     let smooth_point = vec3<f32>(point.xy, look.surface.x - min(look.above, 0.0));
@@ -234,7 +241,7 @@ fn near_light(point: vec3<f32>, look: Look) -> vec4<f32> {
 
 // Water, and its share.
 fn water_light(point: vec3<f32>, look: Look) -> vec4<f32> {
-    let depth = select(1.2 * look.wet, -look.above / scene.scale.y, look.above < 0.0);
+    let depth = select(look.river_depth, -look.above / scene.scale.y, look.above < 0.0);
     let radiance = water_radiance(point, depth, look);
     return vec4<f32>(seen_through_air(radiance, look), look.wet);
 }

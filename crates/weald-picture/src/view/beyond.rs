@@ -137,12 +137,12 @@ impl RayMarcher {
             let [_, east, south] = beyond.surface;
             return self.lake(ray, &like, &self.water_spot(point, depth, [east, south]));
         }
-        let river = setting.rivers.as_ref().map_or(0.0, |rivers| rivers.at(self.share(beyond.river)));
-        let river = river * Surroundings::river_share(&beyond);
+        let there = Hit { place: beyond.river, ..*hit };
+        let (river, river_depth) = self.river(ray, &there, Surroundings::river_share(&beyond));
         let footprint = self.footprint(hit.ray_length);
         let spot = GroundSpot { place: beyond.place, surface: beyond.surface, point, footprint };
         let land = self.ground(&spot, -depth);
-        let water = || WaterSpot { point, depth: 1.2 * river, foam: 0.0, footprint };
+        let water = || WaterSpot { point, depth: river_depth, foam: 0.0, footprint };
         if river <= 0.0 { land } else { mix(land, self.lake(ray, &like, &water()), river) }
     }
 }

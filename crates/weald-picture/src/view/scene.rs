@@ -146,7 +146,7 @@ impl RayMarcher {
             let [_, east, south] = self.setting.bed.with_slope(hit.place);
             return self.lake(ray, hit, &self.water_spot(point, depth, [east, south]));
         }
-        let river = self.setting.rivers.as_ref().map_or(0.0, |rivers| rivers.at(self.share(hit.place)));
+        let (river, river_depth) = self.river(ray, hit, 1.0);
         let spot = || GroundSpot {
             place: hit.place,
             surface: self.setting.bed.with_slope(hit.place),
@@ -154,12 +154,22 @@ impl RayMarcher {
             footprint,
         };
         // No tree stands in a river, and its banks are wet.
-        let above = if river > 0.0 { 0.0 } else { -depth };
+        let above = if river_depth > 0.0 { 0.0 } else { -depth };
         let land = if river < 1.0 { self.ground(&spot(), above) } else { [0.0; 3] };
         if river <= 0.0 {
             return land;
         }
-        mix(land, self.lake(ray, hit, &WaterSpot { point, depth: 1.2 * river, foam: 0.0, footprint }), river)
+        let water = WaterSpot { point, depth: river_depth, foam: 0.0, footprint };
+        mix(land, self.lake(ray, hit, &water), river)
+    }
+
+    /// The share of river at a place that a ray met, and its depth in metres, where a share is kept of what the map has.
+    pub(super) fn river(&self, ray: &Ray, hit: &Hit, kept: f32) -> (f32, f32) {
+        let Some(rivers) = &self.setting.rivers else { return (0.0, 0.0) };
+        let terrain = &self.setting.terrain;
+        let pixel = terrain.spacing[0] * terrain.top.size().columns as f32 / rivers.width as f32;
+        let footprint = self.footprint(hit.ray_length) / (-ray.direction[2]).max(0.05).sqrt();
+        water::with_banks(kept * rivers.at(self.share(hit.place)), footprint / pixel)
     }
 
     pub(super) fn footprint(&self, ray_length: f32) -> f32 {

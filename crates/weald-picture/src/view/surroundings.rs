@@ -48,6 +48,10 @@ const AT_SEA: f32 = 0.5;
 /// The height `d₀` above the mean that no ground far away reaches, in root mean squares of heights about it.
 const HIGHEST: f32 = 2.5;
 
+/// Most by which ground beyond the border stands off the border's height, as a share of that: peaks on the border would
+/// become spikes.
+const NEAR: f32 = 0.4;
+
 /// Share of the relief by which the ground around a sea lies below it at least.
 const SUNK: f32 = 0.02;
 
@@ -187,7 +191,8 @@ impl Surroundings {
         let (edge, within, there) =
             (bed.with_slope(border), bed.with_slope(mirrored), bed.with_slope(turned));
         let ([height, uneven], swings) = self.far_at(place);
-        let near = 2.0 * edge[0] - within[0];
+        let [off, kept] = held(edge[0] - within[0], NEAR * self.highest);
+        let near = edge[0] + off;
         let [unlike, steep] = lowered(there[0] - self.mean, self.highest);
         let far = height + uneven * unlike;
         let far_rise = [0, 1].map(|axis| {
@@ -196,8 +201,8 @@ impl Surroundings {
             uneven * steep * (east * there[1] + south * there[2]) + of_height + of_uneven * unlike
         });
         let rise = |axis: usize| {
-            let along = if place[axis] == border[axis] { 2.0 * edge[1 + axis] } else { 0.0 };
-            let near_rise = along - mirror[axis] * within[1 + axis];
+            let along = if place[axis] == border[axis] { (1.0 + kept) * edge[1 + axis] } else { 0.0 };
+            let near_rise = along - kept * mirror[axis] * within[1 + axis];
             near_rise + (far_rise[axis] - near_rise) * share + (far - near) * growth[axis]
         };
         let surface = [near + (far - near) * share, rise(0), rise(1)];
@@ -246,6 +251,12 @@ impl Surroundings {
         let square = (away(0) * away(0) + away(1) * away(1)) / (reach * reach);
         mix(radiance, farthest, 1.0 - libm::expf(-square))
     }
+}
+
+/// A height off another that comes no nearer than to `most`, above and below, and how much of its slope is left.
+fn held(off: f32, most: f32) -> [f32; 2] {
+    let lower = 1.0 + off.abs() / most;
+    [off / lower, 1.0 / (lower * lower)]
 }
 
 /// How far ground stands off the mean that is so far off it in the landscape, and how much of its slope is left.

@@ -76,6 +76,9 @@ fn far_at(place: vec2<f32>) -> Far {
     return Far(mix(one, other, t * t * (3.0 - 2.0 * t)), -away.y * change, away.x * change);
 }
 
+// Most by which ground beyond the border stands off the border's height, as a share of the greatest height above the mean.
+const NEAR = 0.4;
+
 // The ground at a place beyond the border.
 fn ground_beyond(place: vec2<f32>) -> Beyond {
     let border = nearest_within(place);
@@ -96,13 +99,16 @@ fn ground_beyond(place: vec2<f32>) -> Beyond {
     let lower = 1.0 + max(off, 0.0) / scene.far_highest.x;
     let unlike = off / lower;
     let steep = 1.0 / (lower * lower);
-    let near = 2.0 * edge.x - within.x;
+    let off_edge = edge.x - within.x;
+    let held = 1.0 + abs(off_edge) / (NEAR * scene.far_highest.x);
+    let near = edge.x + off_edge / held;
+    let kept = 1.0 / (held * held);
     let far = around.ground.x + uneven * unlike;
     let turned_rise = vec2<f32>(dot(turned.east, there.yz), dot(turned.south, there.yz));
     let swing = vec2<f32>(dot(around.east, vec2<f32>(1.0, unlike)), dot(around.south, vec2<f32>(1.0, unlike)));
     let far_rise = uneven * steep * turned_rise + swing;
-    let along = select(vec2<f32>(0.0), 2.0 * edge.yz, place == border);
-    let near_rise = along - mirrored.sign * within.yz;
+    let along = select(vec2<f32>(0.0), (1.0 + kept) * edge.yz, place == border);
+    let near_rise = along - kept * mirrored.sign * within.yz;
     let slope = mix(near_rise, far_rise, share) + (far - near) * growth;
     let longer = max(scene.grid.x, scene.grid.y);
     let patchy = octaves_at(Octaves(0.05 * longer, 4u, 0.55, 0x61u), place, 0.0).value;

@@ -31,6 +31,14 @@ const RIVER_SIDE: usize = 4096;
 const BANKFULL: f32 = 2.7;
 const BANKFULL_GROWTH: f32 = 0.4;
 
+/// Metres of water in the middle of a river that is drawn as a line.
+const RIVER_DEPTH: f32 = 1.2;
+
+/// Least width of a river's edge in pixels of the map, and the share of water at which the bank lies then: a thread that is
+/// thinner is none from close by.
+const SHARPEST: f32 = 0.2;
+const BANK: f32 = 0.3;
+
 /// Cells by which a river winds about its line.
 const WINDING: f32 = 0.6;
 
@@ -159,6 +167,14 @@ impl Rivers {
         };
         row(above) * (1.0 - down) + row(below) * down
     }
+}
+
+/// The share of water of a river and its depth in metres, where the map says such a share and a pixel of the picture is so
+/// many of the map: from close by a bank is an edge, where the map passes over from water to land in the course of a pixel.
+pub(super) fn with_banks(share: f32, pixels: f32) -> (f32, f32) {
+    let softness = pixels.clamp(SHARPEST, 1.0);
+    let bank = BANK + (0.5 - BANK) * (softness - SHARPEST) / (1.0 - SHARPEST);
+    (((share - bank) / softness + 0.5).clamp(0.0, 1.0), RIVER_DEPTH * share)
 }
 
 /// Noise along rivers at a place in cells.
@@ -318,5 +334,17 @@ mod tests {
             widths.iter().fold([f32::MAX, 0.0], |[a, b], &width| [a.min(width), b.max(width)]);
         assert!(most > 1.3 * least, "narrows and pools: {widths:?}");
         assert_eq!([8.0, 24.0, 40.0, 56.0].map(|x| rivers.at([x / 64.0, 40.0 / 64.0])), [0.0; 4]);
+    }
+
+    #[test]
+    fn banks_are_edges_from_close_by_and_what_the_map_says_from_afar() {
+        let shares: Vec<f32> = (0_u8..=100).map(|at| f32::from(at) / 100.0).collect();
+        assert!(shares.iter().all(|&share| (with_banks(share, 1.5).0 - share).abs() < 1e-6));
+        let soft = |pixels: f32| {
+            let between = shares.iter().filter(|&&share| (0.01..0.99).contains(&with_banks(share, pixels).0));
+            between.count()
+        };
+        assert!(soft(0.01) < 22 && soft(0.5) > 40, "{} and {}", soft(0.01), soft(0.5));
+        assert_eq!((with_banks(0.0, 0.01).0, with_banks(1.0, 0.01)), (0.0, (1.0, RIVER_DEPTH)));
     }
 }

@@ -52,6 +52,13 @@ fn bed_albedo(point: vec2<f32>, depth: f32, footprint: f32) -> vec3<f32> {
     return mix(scene.gravel.xyz * (BED_WET * max(tone, 0.2)), scene.weed.xyz, grown);
 }
 
+// The share of water of a river where the map says such a share and a pixel of the picture is so many of the map.
+fn with_banks(share: f32, pixels: f32) -> f32 {
+    let softness = clamp(pixels, 0.2, 1.0);
+    let bank = mix(0.3, 0.5, (softness - 0.2) / 0.8);
+    return clamp((share - bank) / softness + 0.5, 0.0, 1.0);
+}
+
 // Share of the waves' foam over a bed of a slope: over flats they have broken far out.
 fn breaking(slope: f32) -> f32 {
     return ramp(slope, 0.004, 0.02);
