@@ -45,6 +45,16 @@ fn fill(field: &Field, land: &Mask) -> Field {
     filled
 }
 
+/// The land without the cells beside those without data, which an open edge holds where they are while the ground within
+/// is worn; all of it where no other land is.
+pub(super) fn within_rim(land: &Mask) -> Mask {
+    let (size, flags) = (land.size(), land.flags());
+    let within = |cell: usize| flags[cell] && size.neighbours(cell).all(|neighbour| flags[neighbour]);
+    let flags: Vec<bool> = (0..size.cells()).map(within).collect();
+    let is_left = flags.contains(&true);
+    Some(flags).filter(|_| is_left).and_then(|flags| Mask::new(size, flags)).unwrap_or_else(|| land.clone())
+}
+
 fn touches(size: Size, known: &[bool], cell: usize) -> bool {
     size.neighbours(cell).any(|neighbour| known[neighbour])
 }
@@ -146,5 +156,15 @@ mod tests {
         let land = Mask::new(size, (0..45).map(|cell| cell % 9 < 4).collect()).expect("some no-data");
         let field = Field::from_function(size, |x, _| if x < 4 { 100.0 } else { 0.0 });
         assert!(fill(&field, &land).values().iter().all(|&height| height == 100.0));
+    }
+
+    #[test]
+    fn a_rim_over_worn_ground_does_not_go_on() {
+        let size = Size::new(9, 5).expect("legal");
+        let land = Mask::always(size, (0..45).map(|cell| cell % 9 < 4).collect());
+        let field = Field::from_function(size, |x, _| if x < 3 { 40.0 } else { 100.0 });
+        assert!(fill(&field, &within_rim(&land)).values().iter().all(|&height| height == 40.0));
+        let thread = Mask::always(size, (0..45).map(|cell| cell % 9 == 4).collect());
+        assert_eq!(within_rim(&thread), thread, "no other land");
     }
 }

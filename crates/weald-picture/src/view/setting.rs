@@ -14,11 +14,11 @@ use super::terrain::Terrain;
 use super::vector::Vector;
 use super::water::{self, Rivers};
 use crate::colour::linear_of_srgb;
-use crate::ground::{drawable, land_share};
+use crate::ground::{drawable, land_share, within_rim};
 use crate::sheet::Sheet;
 use weald_core::domain::Domain;
 use weald_core::error::Error;
-use weald_core::grid::{Field, Size};
+use weald_core::grid::{Field, Mask, Size};
 use weald_core::landscape::Landscape;
 use weald_core::parameter::Nested;
 use weald_core::strata::stack;
@@ -158,6 +158,8 @@ pub(super) struct GroundOf {
 struct Frame<'a> {
     domain: &'a Domain,
     sheet: Sheet,
+    /// Cells whose heights are drawn.
+    land: Option<Mask>,
     /// Lowest ground in metres.
     low: f32,
     exaggeration: f32,
@@ -168,9 +170,13 @@ impl<'a> Frame<'a> {
         let domain = &landscape.domain;
         let longer = domain.size.columns.max(domain.size.rows) as u64;
         let width = (longer.min(LONGEST) * domain.size.columns as u64 / longer).max(1);
+        let valid = domain.valid.as_ref();
+        // What goes on beyond a rim that stands over worn ground would be a wall of teeth.
+        let land = if view.has_horizon(domain) { valid.map(within_rim) } else { valid.cloned() };
         Ok(Self {
             domain,
             sheet: Sheet::new(domain, Some(width as u32))?,
+            land,
             low,
             exaggeration: view.exaggeration as f32,
         })
@@ -183,7 +189,7 @@ impl<'a> Frame<'a> {
 
     /// Heights above the lowest ground as they are drawn, no finer than the sheet.
     fn raised(&self, field: &Field) -> Field {
-        let mut field = drawable(field, self.domain.valid.as_ref(), &self.sheet);
+        let mut field = drawable(field, self.land.as_ref(), &self.sheet);
         field.values_mut().iter_mut().for_each(|height| *height = (*height - self.low) * self.exaggeration);
         field
     }
