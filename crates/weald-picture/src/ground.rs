@@ -21,8 +21,12 @@ pub(super) fn land_share(land: Option<&Mask>, sheet: &Sheet) -> Option<Field> {
     Some(shrink(&Field::from_values(land.size(), flags), sheet))
 }
 
+/// Rings of filled cells that are evened out, and how often.
+const EVENED: usize = 24;
+
 /// Rings of no-data cells take the mean of their known neighbours, from the shore outward, so that slopes at
-/// the shore are those of the land.
+/// the shore are those of the land. Where the shore has a step, heights of both its sides would go on side by side for ever,
+/// as a cliff along the diagonal: the rings next to the shore are evened out.
 fn fill(field: &Field, land: &Mask) -> Field {
     let size = field.size();
     let mut filled = field.clone();
@@ -32,8 +36,18 @@ fn fill(field: &Field, land: &Mask) -> Field {
     if ring.is_empty() {
         filled.values_mut().fill(0.0);
     }
-    while !ring.is_empty() {
-        let means: Vec<f32> = ring.iter().map(|&cell| known_mean(&filled, &known, cell)).collect();
+    let mut evened = Vec::new();
+    for rings in 0.. {
+        if ring.is_empty() {
+            break;
+        }
+        if rings < EVENED {
+            evened.extend_from_slice(&ring);
+        }
+        let means: Vec<f32> = ring
+            .iter()
+            .map(|&cell| mean_of_neighbours(&filled, |neighbour| known[neighbour], cell))
+            .collect();
         for (&cell, mean) in ring.iter().zip(means) {
             filled.values_mut()[cell] = mean;
             known[cell] = true;
@@ -42,26 +56,36 @@ fn fill(field: &Field, land: &Mask) -> Field {
         ring.sort_unstable();
         ring.dedup();
     }
+    for _ in 0..EVENED {
+        let mean = |cell: &usize| mean_of_neighbours(&filled, |_| true, *cell);
+        let means: Vec<f32> = evened.par_iter().map(mean).collect();
+        evened.iter().zip(means).for_each(|(&cell, mean)| filled.values_mut()[cell] = mean);
+    }
     filled
 }
 
-/// The land without the cells beside those without data, which an open edge holds where they are while the ground within
-/// is worn; all of it where no other land is.
+/// Rings of cells along those without data whose heights tell little of the land: an open edge holds the first where it is,
+/// while water that leaves along it wears the next.
+const RIM: usize = 3;
+
+/// The land within the rim of what has no data; all of it where no other land is.
 pub(super) fn within_rim(land: &Mask) -> Mask {
-    let (size, flags) = (land.size(), land.flags());
-    let within = |cell: usize| flags[cell] && size.neighbours(cell).all(|neighbour| flags[neighbour]);
-    let flags: Vec<bool> = (0..size.cells()).map(within).collect();
-    let is_left = flags.contains(&true);
-    Some(flags).filter(|_| is_left).and_then(|flags| Mask::new(size, flags)).unwrap_or_else(|| land.clone())
+    let size = land.size();
+    let mut flags = land.flags().to_vec();
+    for _ in 0..RIM {
+        let within = |cell: usize| flags[cell] && size.neighbours(cell).all(|neighbour| flags[neighbour]);
+        flags = (0..size.cells()).map(within).collect();
+    }
+    if flags.contains(&true) { Mask::always(size, flags) } else { land.clone() }
 }
 
 fn touches(size: Size, known: &[bool], cell: usize) -> bool {
     size.neighbours(cell).any(|neighbour| known[neighbour])
 }
 
-fn known_mean(field: &Field, known: &[bool], cell: usize) -> f32 {
+fn mean_of_neighbours(field: &Field, is_known: impl Fn(usize) -> bool, cell: usize) -> f32 {
     let (mut sum, mut count) = (0.0, 0.0);
-    for neighbour in field.size().neighbours(cell).filter(|&neighbour| known[neighbour]) {
+    for neighbour in field.size().neighbours(cell).filter(|&neighbour| is_known(neighbour)) {
         sum += field.values()[neighbour];
         count += 1.0;
     }
@@ -159,9 +183,21 @@ mod tests {
     }
 
     #[test]
+    fn a_step_of_the_shore_does_not_go_on_as_a_cliff() {
+        let size = Size::new(60, 40).expect("legal");
+        let shore = |x: usize| if x < 30 { 30 } else { 29 };
+        let land = Mask::always(size, (0..2400).map(|cell| cell / 60 >= shore(cell % 60)).collect());
+        let field = Field::from_function(size, |x, _| if x < 30 { 0.0 } else { 100.0 });
+        let filled = fill(&field, &land);
+        let cliff =
+            |y: usize| (1..60).map(|x| (filled.at(x, y) - filled.at(x - 1, y)).abs()).fold(0.0, f32::max);
+        assert!(cliff(10) < 12.0 && cliff(29) > 30.0, "{} and {}", cliff(10), cliff(29));
+    }
+
+    #[test]
     fn a_rim_over_worn_ground_does_not_go_on() {
         let size = Size::new(9, 5).expect("legal");
-        let land = Mask::always(size, (0..45).map(|cell| cell % 9 < 4).collect());
+        let land = Mask::always(size, (0..45).map(|cell| cell % 9 < 6).collect());
         let field = Field::from_function(size, |x, _| if x < 3 { 40.0 } else { 100.0 });
         assert!(fill(&field, &within_rim(&land)).values().iter().all(|&height| height == 40.0));
         let thread = Mask::always(size, (0..45).map(|cell| cell % 9 == 4).collect());
