@@ -5,6 +5,7 @@ use weald_core::grid::Field;
 use weald_core::landscape::Landscape;
 use weald_io::{Class, Classes};
 use weald_land::flow::DirectionCodes;
+use weald_picture::{Scale, encode};
 
 /// The layer of directions of flow.
 pub const DIRECTIONS: &str = "flow_direction";
@@ -26,7 +27,7 @@ pub fn classes(landscape: &Landscape, layer: &str) -> Result<Option<Classes>, Er
     let named = match layer {
         DIRECTIONS => return Ok((greatest <= 9).then(|| directions(DirectionCodes::Weald))),
         "river" => vec![class(0, "no river", [240, 240, 235]), class(1, "river", [40, 110, 200])],
-        "strahler" => counted(greatest, "no river", "order"),
+        "strahler" => orders(greatest),
         "lake" => counted(greatest, "no lake", "lake"),
         "watershed" => counted(greatest, "no watershed", "watershed"),
         "material" => {
@@ -94,6 +95,17 @@ fn counted(greatest: u32, none: &str, thing: &str) -> Vec<Class> {
     std::iter::once(class(0, none, [240, 240, 235])).chain(things).collect()
 }
 
+/// Orders of rivers, the darker the higher.
+fn orders(greatest: u32) -> Vec<Class> {
+    let ramp = Scale::Water.ramp();
+    let mut named = counted(greatest, "no river", "order");
+    for class in &mut named[1..] {
+        // Not from the paper white that stands for none.
+        class.colour = encode(ramp.at(0.3 + 0.7 * class.number as f32 / greatest as f32));
+    }
+    named
+}
+
 fn class(number: u32, name: &str, colour: [u8; 3]) -> Class {
     Class { number, name: name.to_owned(), colour }
 }
@@ -131,6 +143,7 @@ mod tests {
         let field = |values: [f32; 3]| Field::from_values(size, values.to_vec());
         landscape.insert("lake", "1", field([0.0, 300.0, f32::NAN]));
         landscape.insert("river", "1", field([0.0, 0.5, 0.0]));
+        landscape.insert("strahler", "1", field([0.0, 3.0, 0.0]));
         landscape.insert(DIRECTIONS, "1", field([1.0, 9.0, 0.0]));
         landscape.insert("material", "1", field([0.0, 1.0, 0.0]));
         landscape.insert("height", "m", field([1.0, 2.0, 3.0]));
@@ -138,6 +151,9 @@ mod tests {
         let lake = of("lake").expect("numbers");
         assert_eq!((lake.greatest, lake.named.len(), lake.named[300].name.as_str()), (300, 301, "lake 300"));
         assert_eq!((of("river"), of("height")), (None, None), "halves of a river are no classes");
+        let orders = of("strahler").expect("numbers").named;
+        let light = |class: &Class| class.colour.map(u32::from).iter().sum::<u32>();
+        assert!(orders.windows(2).all(|pair| light(&pair[0]) > light(&pair[1])), "{orders:?}");
         let material = of("material").expect("numbers");
         assert_eq!(material.named[1].name, landscape.materials[1].name);
         let esri = directions(DirectionCodes::Esri);

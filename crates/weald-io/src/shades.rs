@@ -10,6 +10,8 @@ pub enum Spread {
     Logarithmic,
     /// About 0, which has the middle colour, equally far to both sides; the nearer 0, the finer.
     Centred,
+    /// The same, finer still, where a few values lie hundreds of times as far from 0 as most.
+    CentredFar,
     /// Round the compass in degrees, the last colour being the first; values below 0 have no direction.
     Compass,
 }
@@ -35,10 +37,8 @@ impl Shades {
         match self.spread {
             Spread::Even => self.evenly([low, if high > low { high } else { low + 1.0 }]),
             Spread::Logarithmic => self.by_logarithm([low, if high > 0.0 { high } else { 1.0 }]),
-            Spread::Centred => {
-                let most = low.abs().max(high.abs());
-                self.about_0(if most > 0.0 { most } else { 1.0 })
-            }
+            Spread::Centred => self.about_0([low, high], 2),
+            Spread::CentredFar => self.about_0([low, high], 4),
             Spread::Compass => {
                 let nowhere = (low < 0.0).then_some((low, NO_DIRECTION));
                 nowhere.into_iter().chain(self.evenly([0.0, 360.0])).collect()
@@ -59,10 +59,12 @@ impl Shades {
         below.into_iter().chain(self.placed(value)).collect()
     }
 
-    fn about_0(&self, most: f64) -> Vec<(f64, [u8; 3])> {
+    fn about_0(&self, [low, high]: [f64; 2], power: i32) -> Vec<(f64, [u8; 3])> {
+        let farthest = low.abs().max(high.abs());
+        let most = if farthest > 0.0 { farthest } else { 1.0 };
         self.placed(|share| {
             let side = 2.0 * share - 1.0;
-            most * side * side.abs()
+            most * side.signum() * side.abs().powi(power)
         })
     }
 
@@ -89,7 +91,7 @@ mod tests {
     fn stops_rise_and_cover_whatever_a_raster_holds() {
         let ranges =
             [(0.0, 0.0), (0.0, 1.0), (-3.0, 8.0), (5.0, 5.0), (-2.0, -1.0), (400.0, 2.5e8), (1e-9, 3e-9)];
-        for spread in [Spread::Even, Spread::Logarithmic, Spread::Centred] {
+        for spread in [Spread::Even, Spread::Logarithmic, Spread::Centred, Spread::CentredFar] {
             for range in ranges {
                 let values = values(spread, range);
                 let (first, last) = (values[0], values[values.len() - 1]);
@@ -108,5 +110,7 @@ mod tests {
         assert_eq!(values(Spread::Logarithmic, (0.0, 4.0e8))[..2], [0.0, 400.0]);
         let curvatures = values(Spread::Centred, (-0.02, 0.08));
         assert_eq!((curvatures[0], curvatures[4], curvatures[8]), (-0.08, 0.0, 0.08));
+        let far = values(Spread::CentredFar, (-0.02, 0.08));
+        assert_eq!((far[0], far[4], far[6], far[8]), (-0.08, 0.0, 0.08 / 16.0, 0.08));
     }
 }

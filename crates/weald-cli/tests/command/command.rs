@@ -364,7 +364,7 @@ fn a_check_tells_a_missing_input_and_what_does_not_go_with_the_ground_of_a_file(
     assert_ends(&square, &["check", "r.toml"], 3, &["r.toml:3: resample: ", "would not be square", "rows"]);
     let good = from_file("jacksboro_fault_utm16_80m.tif", "");
     let said = stdout(&good.weald(&["check", "r.toml"]));
-    assert!(said.contains(": good; ") && said.ends_with("  height.tif\n"), "{said}");
+    assert!(said.contains(": good; ") && said.ends_with("  height.tif\n  height.qml\n"), "{said}");
 }
 
 #[test]

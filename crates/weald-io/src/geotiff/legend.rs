@@ -4,9 +4,14 @@
 use super::super::classes::Classes;
 use super::super::{Part, Raster, Shades};
 use super::metadata::escaped;
+use weald_core::layer_words::shown_unit;
 
 /// Most classes that have a colour and a name of their own.
 const MAX_CLASSES: usize = 4096;
+
+/// That a legend has a line a colour, with its value and unit: a band of colours would have the least and the greatest value alone,
+/// and that between them evenly, which areas are not.
+const LINES: &str = "          <rampLegendSettings useContinuousLegend=\"0\"/>\n";
 
 /// The files beside a raster of classes or of measures with colours; none beside another one.
 pub(super) fn parts(raster: &Raster) -> Vec<Part> {
@@ -71,7 +76,7 @@ fn style_of_shades(shades: &Shades, raster: &Raster) -> String {
     let bounds = format!(" classificationMin=\"{first}\" classificationMax=\"{last}\"");
     let shader = format!(
         "      <rastershader>\n        <colorrampshader colorRampType=\"INTERPOLATED\" classificationMode=\"1\" clip=\"0\" \
-         minimumValue=\"{first}\" maximumValue=\"{last}\">\n{}        </colorrampshader>\n      </rastershader>\n",
+         minimumValue=\"{first}\" maximumValue=\"{last}\">\n{}{LINES}        </colorrampshader>\n      </rastershader>\n",
         items.collect::<String>()
     );
     renderer("singlebandpseudocolor", &bounds, &shader)
@@ -101,7 +106,8 @@ fn label(value: f64, unit: &str) -> String {
     } else {
         format!("{value:.2e}")
     };
-    if unit.is_empty() || unit == "1" { number } else { format!("{number} {unit}") }
+    let unit = shown_unit(unit);
+    if unit.is_empty() { number } else { format!("{number} {unit}") }
 }
 
 /// A style of one renderer.

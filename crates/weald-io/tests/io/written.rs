@@ -218,7 +218,9 @@ fn assert_covers(style: &str, (low, high): (f32, f32)) {
     let kind = "singlebandpseudocolor";
     let shader = elements_of(style, kind, &["rastershader"]).remove(0);
     assert_eq!(shader["colorRampType"], "INTERPOLATED");
-    let items = elements_of(style, kind, &["rastershader", "colorrampshader"]);
+    let mut items = elements_of(style, kind, &["rastershader", "colorrampshader"]);
+    let legend = items.pop().expect("the last one says how the legend is");
+    assert_eq!(legend["useContinuousLegend"], "0", "a line a colour");
     let number = |text: &String| text.parse::<f64>().expect("a number");
     let values: Vec<f64> = items.iter().map(|item| number(&item["value"])).collect();
     assert!(values.windows(2).all(|pair| pair[0] < pair[1]), "{style}");
@@ -233,11 +235,11 @@ fn assert_covers(style: &str, (low, high): (f32, f32)) {
 #[test]
 fn measures_have_a_style_whose_colours_cover_what_the_file_holds() {
     let size = Size { columns: 40, rows: 30 };
-    for spread in [Spread::Even, Spread::Logarithmic, Spread::Centred, Spread::Compass] {
+    for spread in [Spread::Even, Spread::Logarithmic, Spread::Centred, Spread::CentredFar, Spread::Compass] {
         let value = |share: f32| match spread {
             Spread::Even => 3.0 + 40.0 * share,
             Spread::Logarithmic => 25.0 * 1e6_f32.powf(share),
-            Spread::Centred => 0.3 * share - 0.1,
+            Spread::Centred | Spread::CentredFar => 0.3 * share - 0.1,
             Spread::Compass => {
                 if share < 0.1 {
                     -1.0

@@ -60,10 +60,10 @@ fn export_writes_the_outputs_of_the_recipe_and_says_how_many() {
     window.click_last("Export");
     let status = window.until("the files", |status| status.exported.is_some());
     let (there, names) = status.exported.expect("exported");
-    assert_eq!((there, names), (out.clone(), vec!["height.tif".to_owned()]));
+    assert_eq!((there, names), (out.clone(), ["height.tif", "height.qml"].map(str::to_owned).to_vec()));
     assert!(out.join("height.tif").is_file());
     window.harness.step();
-    assert!(window.has("1 files are in"), "the foot of the window says so");
+    assert!(window.has("2 files are in"), "the foot of the window says so");
 }
 
 #[test]

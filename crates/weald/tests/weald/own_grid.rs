@@ -173,7 +173,7 @@ fn what_lies_beside_classes_is_told_and_kept_apart() {
     let output = |layer: &str, file: &str| format!("[[output]]\nlayer = \"{layer}\"\nfile = \"{file}\"\n");
     let classes = names(&output("flow_direction", "d.tif")).expect("good");
     assert!(classes.iter().any(|name| name == "d.qml"), "{classes:?}");
-    assert_eq!(names(&output("height", "h.tif")).expect("good"), ["h.tif"]);
+    assert_eq!(names(&output("height", "h.tif")).expect("good"), ["h.tif", "h.qml"]);
     assert_eq!(names(&output("accumulation", "a.tif")).expect("good"), ["a.tif", "a.qml"]);
     let both = output("flow_direction", "d.tif")
         + &output("flow_direction", "d.nc.tif").replace("d.nc.tif", "d.tiff");
