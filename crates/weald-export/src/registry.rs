@@ -14,7 +14,7 @@ pub const EXPORTS: &[ExportEntry] = &[
     ExportEntry::of::<LakeAreas>("lakes", &["geojson", "json"], "lakes as areas with level, depth and volume, placed as those of `rivers`", "Weald; RFC 7946"),
     ExportEntry::of::<Layers>("layers", layers::EXTENSIONS, "several layers in one file: NetCDF or Zarr", "CF conventions 1.11, Zarr 3.0"),
     ExportEntry::of::<Points>("points", points::EXTENSIONS, "the points of a fractal with their codes", "Barnsley 1988; PLY 1.0, NumPy's NEP 1"),
-    ExportEntry::of::<PlantSet>("plants", &["glb", "csv", "ply"], "plants with their places, leaning, sizes and phases in the wind: as instances of a mesh, placed as `mesh` is (.glb), a table, placed as `rivers` are (.csv), or a cloud of points from the middle, x east, y north, z up (.ply)", "glTF 2.0 with EXT_mesh_gpu_instancing; RFC 4180; Turk 1994, The PLY polygon file format"),
+    ExportEntry::of::<PlantSet>("plants", &["glb", "csv", "geojson", "ply"], "plants with their places, leaning, sizes and phases in the wind: as instances of a mesh, placed as `mesh` is (.glb), a table or points of a map, placed as `rivers` are (.csv, .geojson), or a cloud of points from the middle, x east, y north, z up (.ply)", "glTF 2.0 with EXT_mesh_gpu_instancing; RFC 4180; RFC 7946; Turk 1994, The PLY polygon file format"),
     ExportEntry::of::<GrassSets>("grass", &["glb"], "grass as instances of a tuft of each species, with the soil, light and wind of each, placed as `mesh` is", "glTF 2.0 with EXT_mesh_gpu_instancing"),
     unreal::ENTRY,
     unity::ENTRY,

@@ -205,7 +205,8 @@ fn gis(made: &Made) -> Vec<String> {
         .map(|name| format!("layer = \"{name}\"\npreset = \"cog\"\nfile = \"gis/{name}.tif\""));
     let vectors =
         ["rivers", "lakes"].map(|name| format!("export = \"{name}\"\nfile = \"gis/{name}.geojson\""));
-    let plants = made.plants.iter().map(|name| grown("plants", name, &format!("gis/{name}.csv")));
+    // A layer of the same name has its style, too.
+    let plants = made.plants.iter().map(|name| grown("plants", name, &format!("gis/{name}-points.geojson")));
     layers.chain(vectors).chain(plants).collect()
 }
 

@@ -1,16 +1,19 @@
-//! Plants for other programs: as instances of a mesh, as a table, as a cloud of points.
+//! Plants for other programs: as instances of a mesh, as a table, as points of a map, as a cloud of points.
 //!
 //! The extension says which. A `.glb` has the axes and the origin of the exported ground, so that plants stand on it; a
-//! `.ply` the same with z up and y north; a `.csv` the coordinates of the CRS where there is one.
+//! `.ply` the same with z up and y north; a `.csv` and a `.geojson` the coordinates of the CRS where there is one.
 
 mod cloud;
+mod features;
 mod instances;
 mod table;
 
 use std::path::Path;
 use std::sync::Arc;
 
+use super::vector::geojson::Edition;
 use super::vector::place::Place;
+use super::vector::style;
 use super::{Export, Finished, Mesh};
 use weald_core::domain::Domain;
 use weald_core::error::Error;
@@ -39,6 +42,9 @@ weald_core::parameters! {
         leaf: Colour = Colour(foliage::Colours::USUAL.leaf), for "glb";
         /// Colour of stems.
         stem: Colour = Colour(foliage::Colours::USUAL.stem), for "glb";
+        /// Whether a `.geojson` is of RFC 7946: longitude and latitude in WGS 84, without heights of its points and without the
+        /// member `crs`. The landscape must be in EPSG:4326.
+        rfc7946: bool = false, for "geojson";
     }
 }
 
@@ -53,6 +59,7 @@ pub(super) const NODES: &str = ".nodes.glb";
 enum Kind {
     Instances,
     Table,
+    Features,
     Cloud,
 }
 
@@ -91,19 +98,30 @@ impl Export for PlantSet {
     }
 
     fn names(&self, file: &Path) -> Vec<PartName> {
-        let nodes = matches!(kind(file), Kind::Instances).then(|| PartName::Sibling(NODES.to_owned()));
-        std::iter::once(PartName::Own).chain(nodes).collect()
+        let beside = match kind(file) {
+            Kind::Instances => Some(PartName::Sibling(NODES.to_owned())),
+            Kind::Features => Some(style::name()),
+            Kind::Table | Kind::Cloud => None,
+        };
+        std::iter::once(PartName::Own).chain(beside).collect()
     }
 
     fn check_on(&self, domain: &Domain, file: &Path) -> Result<(), Error> {
+        Edition::of(self.rfc7946, Place(domain))?;
         self.on.iter().try_for_each(|Nested(mesh)| mesh.check_on(domain, file))
     }
 
     fn parts(&self, finished: &Finished<'_>, file: &Path) -> Result<Vec<Part>, Error> {
         let plants = &self.standing(finished.landscape)?;
+        let place = Place(&finished.landscape.domain);
         match kind(file) {
             Kind::Instances => self.meshes(finished, plants),
-            Kind::Table => Ok(vec![Part::own(table::of(plants, Place(&finished.landscape.domain)))]),
+            Kind::Table => Ok(vec![Part::own(table::of(plants, place))]),
+            Kind::Features => {
+                let edition = Edition::of(self.rfc7946, place)?;
+                let points = features::of(plants, (&self.of.0, edition), place, finished);
+                Ok(vec![Part::own(points), style::of_plants()])
+            }
             Kind::Cloud => Ok(vec![Part::own(cloud::of(plants, finished))]),
         }
     }
@@ -111,11 +129,8 @@ impl Export for PlantSet {
 
 fn kind(file: &Path) -> Kind {
     let is = |wanted: &str| file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case(wanted));
-    match (is("csv"), is("ply")) {
-        (true, _) => Kind::Table,
-        (_, true) => Kind::Cloud,
-        _ => Kind::Instances,
-    }
+    let others = [("csv", Kind::Table), ("geojson", Kind::Features), ("ply", Kind::Cloud)];
+    others.into_iter().find(|(extension, _)| is(extension)).map_or(Kind::Instances, |(_, kind)| kind)
 }
 
 impl PlantSet {

@@ -1,10 +1,10 @@
-//! Lines and areas with properties as `GeoJSON`.
+//! Points, lines and areas with properties as `GeoJSON`.
 //!
 //! Butler et al., "The `GeoJSON` format", RFC 7946 (2016), doi:10.17487/RFC7946: shores run anticlockwise, islands
 //! clockwise, and rings end where they begin. RFC 7946 knows longitude and latitude in WGS 84 alone, and heights above its
 //! ellipsoid. Ours are heights above the zero of the model, so that files name their CRS by the member `crs` of the format's
-//! first edition (2008), which GDAL and what stands on it read: without it GDAL takes points with heights for EPSG:4979. `null`
-//! there says that there is no CRS. A file of RFC 7946 has neither that member nor heights.
+//! first edition (2008), which GDAL and what stands on it read: without it, or with `null`, GDAL takes points with heights for
+//! EPSG:4979 and so metres for degrees. Metres from a corner therefore have a CRS of their own there, by its text. A file of RFC 7946 has neither that member nor heights.
 
 use serde_json::{Map, Value, json};
 
@@ -15,23 +15,29 @@ use weald_core::error::Error;
 /// Longitude and latitude in WGS 84, which needs no mention.
 const WGS_84: u32 = 4326;
 
-/// A point: east, north and height in metres.
-pub(super) type Position = [f64; 3];
+/// Metres from the corner of a model without georeferencing, as ISO 19162 spells it.
+const METRES: &str = "ENGCRS[\"metres from the south-western corner\",EDATUM[\"south-western corner\"],CS[Cartesian,2],\
+                      AXIS[\"x\",east],AXIS[\"y\",north],LENGTHUNIT[\"metre\",1]]";
 
-/// A line or areas with what is known of them.
+/// A point: east, north and height in metres.
+pub(crate) type Position = [f64; 3];
+
+/// A point, a line or areas with what is known of them.
 #[derive(Clone, Debug)]
-pub(super) struct Feature {
+pub(crate) struct Feature {
     /// Its number.
-    pub(super) id: u64,
+    pub(crate) id: u64,
     /// Where it is.
-    pub(super) geometry: Geometry,
+    pub(crate) geometry: Geometry,
     /// What is known of it.
-    pub(super) properties: Map<String, Value>,
+    pub(crate) properties: Map<String, Value>,
 }
 
 /// The shape of a feature.
 #[derive(Clone, Debug)]
-pub(super) enum Geometry {
+pub(crate) enum Geometry {
+    /// One point.
+    Point(Position),
     /// A line of two or more points.
     Line(Vec<Position>),
     /// Areas, each a shore and islands.
@@ -40,7 +46,7 @@ pub(super) enum Geometry {
 
 /// Which edition of the format is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Edition {
+pub(crate) enum Edition {
     /// That of 2008, with a CRS and heights.
     WithCrs,
     /// RFC 7946: longitude and latitude in WGS 84.
@@ -50,7 +56,7 @@ pub(super) enum Edition {
 impl Edition {
     /// # Errors
     /// [`Error::Run`] for RFC 7946 in another CRS than WGS 84.
-    pub(super) fn of(rfc7946: bool, place: Place<'_>) -> Result<Self, Error> {
+    pub(crate) fn of(rfc7946: bool, place: Place<'_>) -> Result<Self, Error> {
         if !rfc7946 {
             return Ok(Self::WithCrs);
         }
@@ -65,11 +71,11 @@ impl Edition {
     }
 }
 
-/// A file of features, one a line.
-pub(super) fn write(
+/// A file of features, one a line, each of which is made when it is written: there may be millions.
+pub(crate) fn write(
     name: &str,
     (place, edition): (Place<'_>, Edition),
-    features: &[Feature],
+    features: impl Iterator<Item = Feature>,
     finished: &Finished<'_>,
 ) -> Vec<u8> {
     let mut members =
@@ -78,18 +84,24 @@ pub(super) fn write(
         members.push(format!("\"crs\": {}", crs(place)));
     }
     members.push(format!("\"weald\": {}", provenance(finished)));
-    let features: Vec<_> =
-        features.iter().map(|feature| feature.json(place.digits(), edition).to_string()).collect();
-    members.push(format!("\"features\": [\n{}\n]", features.join(",\n")));
-    let text = format!("{{\n{}\n}}\n", members.join(",\n"));
+    let mut text = format!("{{\n{},\n\"features\": [", members.join(",\n"));
+    for (at, feature) in features.enumerate() {
+        text.push_str(if at == 0 { "\n" } else { ",\n" });
+        text.push_str(&feature.json(place.digits(), edition).to_string());
+    }
+    text.push_str("\n]\n}\n");
     text.into_bytes()
 }
 
 fn crs(place: Place<'_>) -> Value {
-    let Some(code) = place.epsg() else { return Value::Null };
-    // EPSG:4326 has the latitude first, and GeoJSON the longitude, as OGC's CRS84 has.
-    let name = if code == WGS_84 { "OGC:1.3:CRS84".to_owned() } else { format!("EPSG::{code}") };
-    json!({ "type": "name", "properties": { "name": format!("urn:ogc:def:crs:{name}") } })
+    let name = match place.epsg() {
+        // EPSG:4326 has the latitude first, and GeoJSON the longitude, as OGC's CRS84 has.
+        Some(WGS_84) => "urn:ogc:def:crs:OGC:1.3:CRS84".to_owned(),
+        Some(code) => format!("urn:ogc:def:crs:EPSG::{code}"),
+        None if place.0.georeference.is_none() => METRES.to_owned(),
+        None => return Value::Null,
+    };
+    json!({ "type": "name", "properties": { "name": name } })
 }
 
 fn provenance(finished: &Finished<'_>) -> Value {
@@ -108,6 +120,7 @@ impl Feature {
             Edition::Rfc7946 => json!([rounded(x, digits), rounded(y, digits)]),
         };
         let geometry = match &self.geometry {
+            Geometry::Point(at) => json!({ "type": "Point", "coordinates": position(at) }),
             Geometry::Line(points) => {
                 json!({ "type": "LineString", "coordinates": points.iter().map(position).collect::<Vec<_>>() })
             }

@@ -6,10 +6,11 @@ use serde_json::{Map, Value, json};
 
 use super::geojson::{Edition, Feature, Geometry, Position, rounded, write};
 use super::place::Place;
+use super::style;
 use crate::{Export, Finished};
 use weald_core::domain::Domain;
 use weald_core::error::Error;
-use weald_io::Part;
+use weald_io::{Part, PartName};
 use weald_land::analyse::lakes::{Lake, Lakes, Polygon};
 
 weald_core::parameters! {
@@ -17,7 +18,7 @@ weald_core::parameters! {
     ///
     /// A point is a corner of the shore at the height of the water. A feature has its number in the layer `lake` as
     /// `id`, its `level` and greatest `depth` in metres, `area` in m², `volume` in m³, and `outlet`, where the cell that
-    /// it drains over has its middle, as a list of two coordinates.
+    /// it drains over has its middle, as a list of two coordinates. A style for QGIS lies beside the file.
     pub struct LakeAreas {
         /// Smaller lakes are left out.
         smallest: f64 = 0.0, range 0.0..=1.0e15, unit "m²";
@@ -40,6 +41,10 @@ impl Export for LakeAreas {
         Place(&finished.landscape.domain).note().into_iter().collect()
     }
 
+    fn names(&self, _: &Path) -> Vec<PartName> {
+        vec![PartName::Own, style::name()]
+    }
+
     fn check_on(&self, domain: &Domain, _: &Path) -> Result<(), Error> {
         Edition::of(self.rfc7946, Place(domain)).map(drop)
     }
@@ -49,9 +54,9 @@ impl Export for LakeAreas {
         let place = Place(domain);
         let lakes = Lakes::of(finished.landscape)?.lakes;
         let written = lakes.iter().filter(|lake| lake.area >= self.smallest);
-        let features: Vec<_> = written.map(|lake| feature(place, domain.cell, lake)).collect();
+        let features = written.map(|lake| feature(place, domain.cell, lake));
         let edition = Edition::of(self.rfc7946, place)?;
-        Ok(vec![Part::own(write("lakes", (place, edition), &features, finished))])
+        Ok(vec![Part::own(write("lakes", (place, edition), features, finished)), style::of_lakes()])
     }
 }
 

@@ -36,7 +36,7 @@ impl Place<'_> {
             }
             None => {
                 "the landscape is not georeferenced; coordinates are metres from its south-western corner, y \
-                 northward; GDAL takes them for degrees unless it is set otherwise"
+                 northward, and the file says so in words that GDAL and QGIS read"
             }
         };
         Some(text.to_owned())

@@ -6,10 +6,11 @@ use serde_json::{Map, Value, json};
 
 use super::geojson::{Edition, Feature, Geometry, rounded, write};
 use super::place::Place;
+use super::style;
 use crate::{Export, Finished};
 use weald_core::domain::Domain;
 use weald_core::error::Error;
-use weald_io::Part;
+use weald_io::{Part, PartName};
 use weald_land::analyse::rivers::{End, Reach, RiverPoint, Rivers, Start};
 
 weald_core::parameters! {
@@ -20,7 +21,7 @@ weald_core::parameters! {
     /// `upstream_area` in m²; its `length` in metres; where it begins (`start`: "head", "confluence" or "lake") and ends (`end`: "outlet", "lake", "sea" or
     /// "confluence"), with the numbers of the lakes `from_lake` and `to_lake`; `downstream`, the `id` of the reach that
     /// carries its water on; and `river`, the same number for all reaches of one river from its head to its mouth, 0
-    /// for the longest.
+    /// for the longest. A style for QGIS lies beside the file, by which rivers are the wider the higher their order is.
     pub struct RiverLines {
         /// Least Strahler order of the reaches that are written.
         order: u32 = 1, range 1..=20;
@@ -53,6 +54,10 @@ impl Export for RiverLines {
         Place(&finished.landscape.domain).note().into_iter().collect()
     }
 
+    fn names(&self, _: &Path) -> Vec<PartName> {
+        vec![PartName::Own, style::name()]
+    }
+
     fn check_on(&self, domain: &Domain, _: &Path) -> Result<(), Error> {
         Edition::of(self.rfc7946, Place(domain)).map(drop)
     }
@@ -62,12 +67,13 @@ impl Export for RiverLines {
         let place = Place(&finished.landscape.domain);
         let stems = stem_of_each(&rivers);
         let reaches = rivers.reaches.iter().zip(stems).enumerate();
-        let features: Vec<_> = reaches
+        let features = reaches
             .filter(|(_, (reach, _))| reach.order >= self.order)
-            .map(|(id, (reach, stem))| feature(place, id, reach, stem))
-            .collect();
+            .map(|(id, (reach, stem))| feature(place, id, reach, stem));
         let edition = Edition::of(self.rfc7946, place)?;
-        Ok(vec![Part::own(write("rivers", (place, edition), &features, finished))])
+        let greatest = rivers.reaches.iter().map(|reach| reach.order).fold(self.order, u32::max);
+        let style = style::of_rivers(self.order..=greatest);
+        Ok(vec![Part::own(write("rivers", (place, edition), features, finished)), style])
     }
 }
 
