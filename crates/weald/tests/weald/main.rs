@@ -23,6 +23,7 @@ mod own_grid;
 mod plants;
 #[path = "../../../weald-export/tests/export/programs/mod.rs"]
 mod programs;
+mod qgis;
 mod random_recipes;
 mod recipes;
 mod report;
