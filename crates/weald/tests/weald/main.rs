@@ -30,4 +30,5 @@ mod report;
 mod rivers;
 mod sessions;
 mod shaders;
+mod told_before;
 mod vectors;
