@@ -124,6 +124,9 @@ impl Sides {
         match self.ellipsoid {
             None => " on the ellipsoid of WGS 84, since the file names none".to_owned(),
             Some(usual) if is_usual(usual) => String::new(),
+            Some(Ellipsoid { semi_major, inverse_flattening: 0.0 }) => {
+                format!(" on a sphere of {semi_major} m")
+            }
             Some(Ellipsoid { semi_major, inverse_flattening }) => {
                 format!(" on an ellipsoid of {semi_major} m, flattened by 1/{inverse_flattening}")
             }
@@ -270,14 +273,18 @@ mod tests {
         let lengths = metres_per_degree(60.0, Some(moon));
         assert!((lengths.1 - degree).abs() < 1e-6 && (lengths.0 - 0.5 * degree).abs() < 1e-6, "{lengths:?}");
         let size = Size { columns: 4, rows: 4 };
-        let mut raster = placed(plane(size, 1.0, 1.0), [0.01, 0.01], 4326);
-        let keys =
-            super::super::geokeys::keys_on(Ellipsoid::of(3_396_190.0, 169.894_447_223_612).expect("Mars"));
-        raster.georeference =
-            raster.georeference.map(|place| Georeference { epsg: None, keys: Some(keys), ..place });
-        let (mars, note) = square(raster).expect("square");
-        assert!(mars.cell.is_some_and(|cell| (440.0..470.0).contains(&cell)), "{:?}", mars.cell);
-        assert!(note.expect("degrees").contains("on an ellipsoid of 3396190 m"));
+        let squared_on = |figure: Ellipsoid| {
+            let mut raster = placed(plane(size, 1.0, 1.0), [0.01, 0.01], 4326);
+            let keys = Some(super::super::geokeys::keys_on(figure));
+            raster.georeference = raster.georeference.map(|place| Georeference { epsg: None, keys, ..place });
+            let (squared, note) = square(raster).expect("square");
+            (squared.cell.expect("square"), note.expect("degrees"))
+        };
+        let (cell, note) = squared_on(Ellipsoid::of(3_396_190.0, 169.894_447_223_612).expect("Mars"));
+        assert!((440.0..470.0).contains(&cell), "{cell}");
+        assert!(note.contains("on an ellipsoid of 3396190 m, flattened by 1/169.894"), "{note}");
+        let (_, note) = squared_on(moon);
+        assert!(note.contains("on a sphere of 1737400 m"), "{note}");
     }
 
     #[test]
