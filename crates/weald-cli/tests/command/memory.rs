@@ -68,6 +68,7 @@ fn the_memory_that_a_check_tells_counts_what_outputs_need() {
         "export = \"unreal\"\nfile = \"unreal/land.png\"\n",
         "picture = \"relief\"\nfile = \"relief.png\"\n",
         "picture = \"view\"\nwidth = 160\nheight = 90\nrock_deg = 8.0\nfile = \"view.png\"\n",
+        "export = \"plants\"\non = { error = 0.05 }\nfile = \"plants.csv\"\n[[step]]\ndo = \"scatter\"\ncount = 2000\n",
     ] {
         let place = place(&format!("[[output]]\n{output}"));
         let ratio = estimated(&place) / taken(&place);
