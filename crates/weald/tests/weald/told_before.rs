@@ -47,6 +47,12 @@ fn outputs_that_would_write_one_file_are_told_whatever_their_kinds() {
 }
 
 #[test]
+fn the_height_of_flat_ground_is_asked_for_by_the_word_of_a_plane() {
+    let message = told(&step("do = \"constant\"\nvalue = 3.0"));
+    assert!(message.contains("constant: `value` is now called `height`"), "{message}");
+}
+
+#[test]
 fn sizes_that_grid_and_limits_forbid_are_told() {
     let saved = output("layer = \"height\"\nfile = \"h.npy\"");
     let of_step = |keys: &str| step(keys) + &saved;
