@@ -179,6 +179,15 @@ fn is_gone(path: &Path, _: u32) -> bool {
     changed.ok().and_then(|at| at.elapsed().ok()).is_some_and(|age| age.as_secs() > 3600)
 }
 
+/// Writes files into a folder that others write into as well, and that has no name yet by which anyone knows it: each is on
+/// disk when this returns, and has its name from the start.
+///
+/// # Errors
+/// [`Error::Run`] naming the folder and the cause.
+pub fn write_into(folder: &Path, parts: &[Part]) -> Result<(), Error> {
+    fill(folder, parts).map_err(|cause| Error::write(folder, &cause))
+}
+
 fn fill(folder: &Path, parts: &[Part]) -> std::io::Result<()> {
     files::create_dir_all(folder)?;
     for part in parts {

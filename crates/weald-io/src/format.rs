@@ -64,17 +64,46 @@ pub enum Encode {
         /// Writes the file, to the same bytes; gives what lies beside it.
         write: WriteWindows,
     },
+    /// A folder, of which several can write files at the same time, each those of its own rows.
+    Strips {
+        /// All files of a raster in memory.
+        parts: fn(&Raster) -> Result<Vec<Part>, Error>,
+        /// The same files, some rows at a time.
+        by_strips: ByStrips,
+    },
+}
+
+/// How a raster becomes a folder some rows at a time.
+#[derive(Clone, Copy, Debug)]
+pub struct ByStrips {
+    /// Rows of a strip: those from a multiple of it up to the next share files, and none with others.
+    pub rows: usize,
+    /// The files without values of a raster of so many columns and rows, whose own field counts for nothing.
+    pub descriptions: fn(&Raster, Size) -> Result<Vec<Part>, Error>,
+    /// The files of a strip.
+    pub strip: fn(&Raster, StripPlace) -> Result<Vec<Part>, Error>,
+}
+
+/// Where a raster lies that is a strip of another.
+#[derive(Clone, Copy, Debug)]
+pub struct StripPlace {
+    /// Columns and rows of the whole.
+    pub whole: Size,
+    /// Its first row in the whole.
+    pub first: usize,
 }
 
 /// Writes a raster into a file window by window; gives the files beside it.
 pub type WriteWindows = fn(&WindowedRaster<'_, '_>, &mut File) -> Result<Vec<Part>, Error>;
 
-/// A raster whose values are read window by window. Every cell has data.
+/// A raster whose values are read window by window.
 pub struct WindowedRaster<'a, 'b> {
-    /// All that it is but its values: its field counts for nothing.
+    /// All that it is but its values: its field and mask count for nothing.
     pub head: &'a Raster,
-    /// The values, all of them finite.
+    /// The values, all of them finite where there are data.
     pub values: &'a dyn Plane<f32>,
+    /// 1 in cells with data, else 0; all have without it.
+    pub valid: Option<&'a dyn Plane<f32>>,
     /// Least and greatest value.
     pub range: (f32, f32),
     /// Makes room for smaller images.
@@ -100,7 +129,9 @@ impl Encode {
     pub fn parts(self, raster: &Raster) -> Result<Vec<Part>, Error> {
         match self {
             Self::File(encode) => Ok(vec![Part::own(encode(raster)?)]),
-            Self::Parts(encode) | Self::Windows { parts: encode, .. } => encode(raster),
+            Self::Parts(encode)
+            | Self::Windows { parts: encode, .. }
+            | Self::Strips { parts: encode, .. } => encode(raster),
         }
     }
 

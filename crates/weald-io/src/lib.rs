@@ -41,12 +41,13 @@ mod wkt;
 pub mod zarr;
 
 pub use atomic::{
-    remove_leftovers, rename, replace_folder, write_parts, write_through, write_whole, write_whole_with,
+    remove_leftovers, rename, replace_folder, write_into, write_parts, write_through, write_whole,
+    write_whole_with,
 };
 pub use classes::{Class, Classes};
 pub use format::{
-    Capabilities, CrsSupport, Decode, DecodeFile, Drawn, Encode, Format, Metadata, Preset, RowsOfFile,
-    Values, WindowedRaster, WriteWindows,
+    ByStrips, Capabilities, CrsSupport, Decode, DecodeFile, Drawn, Encode, Format, Metadata, Preset,
+    RowsOfFile, StripPlace, Values, WindowedRaster, WriteWindows,
 };
 pub use info::{Info, describe};
 pub use limits::{Fault, Limits};

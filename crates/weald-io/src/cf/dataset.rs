@@ -178,8 +178,16 @@ impl<'a> Dataset<'a> {
     /// # Errors
     /// [`Error::Run`] naming a cell with data that holds a NaN or an infinity.
     pub fn of(sheet: &Sheet<'a>) -> Result<Self, Error> {
+        Self::on(sheet, sheet.size())
+    }
+
+    /// The same of layers that are some rows of a grid of so many columns and rows.
+    ///
+    /// # Errors
+    /// As [`Dataset::of`].
+    pub fn on(sheet: &Sheet<'a>, size: Size) -> Result<Self, Error> {
         sheet.ensure_finite()?;
-        let mut variables = coordinates(sheet);
+        let mut variables = coordinates(sheet, size);
         let grid_mapping = sheet.georeference.map(|place| Variable {
             name: GRID_MAPPING.to_owned(),
             attributes: crs::attributes(place),
@@ -201,7 +209,7 @@ impl<'a> Dataset<'a> {
             }),
         });
         variables.extend(cells);
-        Ok(Self { size: sheet.size(), attributes: file_attributes(sheet), variables })
+        Ok(Self { size, attributes: file_attributes(sheet), variables })
     }
 }
 
@@ -253,8 +261,7 @@ impl Cells<'_> {
 }
 
 /// The centres of the cells, where the corner and the side of a cell are known.
-fn coordinates<'a>(sheet: &Sheet<'_>) -> Vec<Variable<'a>> {
-    let size = sheet.size();
+fn coordinates<'a>(sheet: &Sheet<'_>, size: Size) -> Vec<Variable<'a>> {
     let local = sheet.cell.map(|cell| Georeference {
         epsg: None,
         origin: [0.0, cell * size.rows as f64],

@@ -179,7 +179,7 @@ fn lz4(bytes: &[u8], most: u64) -> Result<Vec<u8>, Fault> {
 }
 
 /// Castagnoli's cyclic redundancy check (RFC 3720, appendix B.4), reflected.
-fn crc32c(bytes: &[u8]) -> u32 {
+pub(super) fn crc32c(bytes: &[u8]) -> u32 {
     let step = |sum: u32, _| if sum & 1 == 1 { sum >> 1 ^ 0x82f6_3b78 } else { sum >> 1 };
     !bytes.iter().fold(u32::MAX, |sum, byte| (0..8).fold(sum ^ u32::from(*byte), step))
 }

@@ -5,10 +5,10 @@
 
 use std::ops::Range;
 
-use serde_json::Value;
+use serde_json::{Value, json};
 
 use super::super::Fault;
-use super::codec::{Codecs, lengths};
+use super::codec::{Codecs, crc32c, lengths};
 
 /// Bytes of a chunk in the index.
 const ENTRY: usize = 16;
@@ -62,6 +62,32 @@ impl<'a> Sharded<'a> {
         })?;
         Ok(Some(Self { chunk, codecs: &keys["codecs"], shards }))
     }
+}
+
+/// The codecs of an array of shards, which are written with the index at the end.
+pub(super) fn codecs(chunk: &Value, packed: &Value) -> Value {
+    json!([{ "name": "sharding_indexed", "configuration": {
+        "chunk_shape": chunk,
+        "codecs": packed,
+        "index_codecs": [{ "name": "bytes", "configuration": { "endian": "little" } }, { "name": "crc32c" }],
+        "index_location": "end",
+    } }])
+}
+
+/// The bytes of a shard with room for so many chunks, of which these are the first; `None` where there are none.
+pub(super) fn joined(chunks: &[Option<Vec<u8>>], room: usize) -> Option<Vec<u8>> {
+    let mut bytes = chunks.iter().flatten().flatten().copied().collect::<Vec<u8>>();
+    let mut index = Vec::with_capacity(room * ENTRY);
+    let mut first = 0;
+    for chunk in (0..room).map(|place| chunks.get(place).and_then(Option::as_ref)) {
+        let length = chunk.map_or(0, Vec::len) as u64;
+        let entry = if chunk.is_some() { [first, length] } else { [u64::MAX; 2] };
+        index.extend(entry.iter().flat_map(|number| number.to_le_bytes()));
+        first += length;
+    }
+    let sum = crc32c(&index).to_le_bytes();
+    bytes.extend(index.into_iter().chain(sum));
+    chunks.iter().any(Option::is_some).then_some(bytes)
 }
 
 impl Shards {

@@ -220,6 +220,31 @@ print(json.dumps({
     assert_eq!(found["corner"], 200.0);
 }
 
+/// A grid of three shards of several chunks, some of them without data.
+#[test]
+fn xarray_and_zarr_python_read_every_cell_of_shards() {
+    let size = Size { columns: 900, rows: 600 };
+    let valid = Mask::new(size, (0..size.cells()).map(|cell| cell % 900 > 300 || cell / 900 > 300).collect());
+    let value =
+        |x: usize, y: usize| if x > 300 || y > 300 { (x * 3) as f32 - (y * y) as f32 / 7.0 } else { 0.0 };
+    let raster = Raster { valid, cell: Some(5.0), ..Raster::from(Field::from_function(size, value)) };
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("height.zarr");
+    let format = weald_io::format_of(&path).expect("Zarr");
+    let (encode, _) = format.writing(Some("sharded")).expect("a preset");
+    weald_io::write_parts(&path, &encode.parts(&raster).expect("finite")).expect("written");
+    let raw = folder.path().join("raw");
+    let script = "
+layer = zarr.open_group(path, mode='r')['layer']
+values = xarray.open_dataset(path, engine='zarr')['layer'].values
+assert numpy.array_equal(values, layer[:], equal_nan=True)
+values.astype('<f4').tofile(sys.argv[2])
+print(json.dumps([layer.chunks, layer.shards]))";
+    let found = python(script, &[shown(&path), shown(&raw)]);
+    assert_eq!(found, json!([[256, 256], [256, 1024]]));
+    assert_values(&raster, &std::fs::read(raw).expect("xarray wrote it"));
+}
+
 #[test]
 fn weald_reads_what_gdal_writes_as_netcdf() {
     let model = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data/jacksboro_fault_utm16_80m.tif");

@@ -9,7 +9,9 @@ use serde_json::{Value, json};
 use weald_core::domain::{GeoKeys, Georeference};
 use weald_core::grid::{Field, Mask, Size};
 use weald_core::random::hash2;
-use weald_io::{Encode, Fault, Format, InMemory, Limits, Provenance, Raster, format_of, netcdf, zarr};
+use weald_io::{
+    Encode, Fault, Format, InMemory, Limits, Provenance, Raster, StripPlace, format_of, netcdf, zarr,
+};
 
 const LIMITS: Limits = Limits { cells: 1 << 16 };
 
@@ -350,5 +352,69 @@ fn a_group_is_written_to_disk_and_read_from_there() {
     weald_io::write(&path, &raster).expect("written");
     assert!(path.join("zarr.json").is_file() && path.join("layer/c/1/1").is_file());
     assert_eq!(weald_io::read(&path).expect("reads"), raster);
-    assert!(matches!(format("a.zarr").encode, Some(Encode::Parts(_))));
+    assert!(matches!(format("a.zarr").encode, Some(Encode::Strips { .. })));
+}
+
+/// Rows of a raster from one of them on.
+fn rows_of(raster: &Raster, rows: std::ops::Range<usize>) -> Raster {
+    let columns = raster.field.size().columns;
+    let (cells, size) = (rows.start * columns..rows.end * columns, Size { columns, rows: rows.len() });
+    let valid =
+        raster.valid.as_ref().and_then(|valid| Mask::new(size, valid.flags()[cells.clone()].to_vec()));
+    let field = Field::from_values(size, raster.field.values()[cells].to_vec());
+    Raster { field, valid, ..raster.clone() }
+}
+
+#[test]
+fn strips_and_descriptions_are_the_files_of_the_whole_each_once() {
+    let wide = Size { columns: 17_000, rows: 3 };
+    let wide = Raster { cell: Some(2.0), ..Raster::from(Field::from_function(wide, |x, y| (x ^ y) as f32)) };
+    for raster in [any_raster(700, 530, 3), any_raster(300, 90, 4), any_raster(3, 1, 5), wide] {
+        let raster = Raster { provenance: Some(provenance()), ..raster };
+        for preset in [None, Some("sharded")] {
+            let (encode, _) = format("a.zarr").writing(preset).expect("a preset");
+            let Encode::Strips { by_strips, .. } = encode else { panic!("by strips") };
+            let whole = raster.field.size();
+            let head = Raster {
+                field: Field::filled(Size { columns: 1, rows: 1 }, 0.0),
+                valid: None,
+                ..raster.clone()
+            };
+            let mut parts = (by_strips.descriptions)(&head, whole).expect("finite");
+            for first in (0..whole.rows).step_by(by_strips.rows) {
+                let strip = rows_of(&raster, first..(first + by_strips.rows).min(whole.rows));
+                parts.extend((by_strips.strip)(&strip, StripPlace { whole, first }).expect("finite"));
+            }
+            let count = parts.len();
+            let strips = InMemory::of("a.zarr", parts);
+            assert_eq!(strips.files.len(), count, "no file is written twice");
+            assert!(strips.files == InMemory::of("a.zarr", encode.parts(&raster).expect("finite")).files);
+            let again = zarr::decode(&strips, Limits::default()).expect("our own folder");
+            assert_eq!(bits(&again), bits(&raster), "{preset:?}");
+            assert_eq!(again.valid, raster.valid);
+        }
+    }
+}
+
+#[test]
+fn shards_make_few_files_of_many_chunks_and_leave_out_those_without_data() {
+    let size = Size { columns: 1300, rows: 600 };
+    let valid =
+        Mask::new(size, (0..size.cells()).map(|cell| cell / 1300 < 256 && cell % 1300 > 256).collect());
+    let raster = Raster { valid, ..Raster::from(Field::filled(size, 3.0)) };
+    let (encode, _) = format("a.zarr").writing(Some("sharded")).expect("a preset");
+    let parts = encode.parts(&Raster { valid: None, ..raster.clone() }).expect("finite");
+    let shards = |parts: &[weald_io::Part]| {
+        let paths = parts.iter().map(|part| part.name.path(Path::new("")));
+        paths.filter(|path| path.starts_with("layer/c")).collect::<Vec<_>>()
+    };
+    assert_eq!(shards(&parts), ["layer/c/0/0", "layer/c/1/0", "layer/c/2/0"].map(PathBuf::from));
+    let parts = encode.parts(&raster).expect("finite");
+    assert_eq!(shards(&parts), [PathBuf::from("layer/c/0/0")]);
+    let zeros = Raster {
+        field: Field::from_function(size, |x, y| if y < 256 && x > 256 { 3.0 } else { 0.0 }),
+        ..raster
+    };
+    let again = zarr::decode(&InMemory::of("a.zarr", parts), Limits::default()).expect("our own folder");
+    assert_eq!((again.field, again.valid), (zeros.field, zeros.valid));
 }
