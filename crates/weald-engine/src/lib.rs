@@ -27,6 +27,7 @@ pub mod stored;
 pub mod stored_bands;
 mod stored_plane;
 pub mod stored_state;
+pub mod strips;
 pub mod sums;
 mod tiles;
 pub mod uniform;

@@ -58,15 +58,15 @@ impl Request {
 /// Makes a plane of zeros, whose rows lie with the ranks as well.
 pub type MakePlane<'a> = &'a dyn Fn(Size) -> Result<Box<dyn Plane<f32> + 'a>, Error>;
 
-/// Lets `work` read a plane on the first rank, and make and use others of any size; the other ranks serve it. All ranks call
+/// Lets `work` read planes on the first rank, and make and use others of any size; the other ranks serve it. All ranks call
 /// it together; what `work` gives is there on the first alone.
 ///
 /// # Errors
 /// Those of `work`, and of the disk of any rank, on all.
 pub fn served<T>(
     landscape: &StoredLandscape<'_>,
-    plane: &StoredPlane,
-    work: impl FnOnce(&dyn Plane<f32>, MakePlane<'_>) -> Result<T, Error>,
+    given: &[&StoredPlane],
+    work: impl FnOnce(&[&dyn Plane<f32>], MakePlane<'_>) -> Result<T, Error>,
 ) -> Result<Option<T>, Error> {
     let ranks = &*landscape.ranks;
     if ranks.count() == 1 {
@@ -75,19 +75,22 @@ pub fn served<T>(
             let plane = landscape.plane_alone("smaller image", (size.columns, &rows))?;
             Ok(Box::new(plane) as Box<dyn Plane<f32> + '_>)
         };
-        return work(plane, &make).map(Some);
+        let given: Vec<_> = given.iter().map(|&plane| plane as &dyn Plane<f32>).collect();
+        return work(&given, &make).map(Some);
     }
-    let planes = RefCell::new(Planes { landscape, first: plane, made: Vec::new() });
+    let planes = RefCell::new(Planes { landscape, given, made: Vec::new() });
     if !ranks.leads() {
         return agreed(ranks, serve(ranks, &planes)).map(|()| None);
     }
     let of = |number: usize, size: Size| Served { ranks, planes: &planes, number, size };
     let make = |size: Size| {
         ask(ranks, &planes, &Request::Make(size), &[])?;
-        let number = planes.borrow().made.len();
+        let number = given.len() + planes.borrow().made.len() - 1;
         Ok(Box::new(of(number, size)) as Box<dyn Plane<f32> + '_>)
     };
-    let done = work(&of(0, plane.size()), &make);
+    let read: Vec<_> = given.iter().enumerate().map(|(number, plane)| of(number, plane.size())).collect();
+    let read: Vec<_> = read.iter().map(|plane| plane as &dyn Plane<f32>).collect();
+    let done = work(&read, &make);
     ranks.tell(Request::End.message().0)?;
     agreed(ranks, done.map(Some))
 }
@@ -95,7 +98,7 @@ pub fn served<T>(
 /// This rank's rows of the planes that are served.
 struct Planes<'a> {
     landscape: &'a StoredLandscape<'a>,
-    first: &'a StoredPlane,
+    given: &'a [&'a StoredPlane],
     made: Vec<StoredPlane>,
 }
 
@@ -110,14 +113,16 @@ impl Planes<'_> {
                 Ok(Vec::new())
             }
             Request::Read(number, window) => {
-                let plane = self.made.get(number.wrapping_sub(1)).unwrap_or(self.first);
+                let made = number.checked_sub(self.given.len()).and_then(|made| self.made.get(made));
+                let given = || self.given.get(*number).copied();
+                let plane = made.or_else(given).ok_or_else(missing)?;
                 let rows = common(&plane.own(), &window.rows);
                 let part = Window { columns: window.columns.clone(), rows };
                 if part.rows.is_empty() { Ok(Vec::new()) } else { plane.read(&part) }
             }
             Request::Write(number, window) => {
-                let missing = || Error::Run("a plane was to be written that was never made".to_owned());
-                let plane = self.made.get_mut(number.wrapping_sub(1)).ok_or_else(missing)?;
+                let made = number.checked_sub(self.given.len()).and_then(|made| self.made.get_mut(made));
+                let plane = made.ok_or_else(missing)?;
                 let mut all = vec![0.0; window.size().cells()];
                 values.singles(&mut all)?;
                 let (rows, columns) = (common(&plane.own(), &window.rows), window.columns.len());
@@ -132,6 +137,10 @@ impl Planes<'_> {
             Request::End => Ok(Vec::new()),
         }
     }
+}
+
+fn missing() -> Error {
+    Error::Run("a plane was asked for that was never made".to_owned())
 }
 
 /// Serves the first rank until that wants nothing more.

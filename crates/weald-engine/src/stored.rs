@@ -33,7 +33,7 @@ pub struct StoredLayer {
 /// A landscape of which this process has its own rows.
 #[derive(Debug)]
 pub struct StoredLandscape<'a> {
-    /// Its grid, where all cells have data.
+    /// Its grid; which of its cells have data, [`StoredLandscape::valid`] tells.
     pub domain: Domain,
     /// Most bytes of memory that a step may take, the same on all ranks.
     pub memory: u64,
@@ -44,6 +44,7 @@ pub struct StoredLandscape<'a> {
     scratch: &'a dyn Scratch,
     layers: BTreeMap<String, StoredLayer>,
     wanted: BTreeSet<String>,
+    valid: Option<Arc<StoredPlane>>,
     /// Where the step that runs next goes on, if it was interrupted before.
     pub resumed: Option<ResumedState>,
 }
@@ -53,7 +54,30 @@ impl<'a> StoredLandscape<'a> {
     pub fn new(domain: Domain, memory: u64, (scratch, ranks): (&'a dyn Scratch, Arc<dyn Ranks>)) -> Self {
         let rows = SharedRows::of((ranks.rank(), ranks.count()), domain.size.rows);
         let (layers, wanted) = (BTreeMap::new(), BTreeSet::new());
-        Self { domain, memory, ranks, rows, scratch, layers, wanted, resumed: None }
+        Self { domain, memory, ranks, rows, scratch, layers, wanted, valid: None, resumed: None }
+    }
+
+    /// Which cells have data, as 1 and 0; `None` where all have.
+    pub fn valid(&self) -> Option<&StoredPlane> {
+        self.valid.as_deref()
+    }
+
+    /// Says which cells have data, on all ranks.
+    pub fn set_valid(&mut self, valid: Option<StoredPlane>) {
+        self.valid = valid.map(Arc::new);
+    }
+
+    /// The same with so many rows around its own, for a step that lets go of it before another asks. All ranks call it
+    /// together.
+    ///
+    /// # Errors
+    /// As [`swap_margins`].
+    pub fn valid_around(&mut self, margin: usize) -> Result<Option<Arc<StoredPlane>>, Error> {
+        if let Some(valid) = &mut self.valid {
+            let valid = Arc::get_mut(valid).expect("no step holds it that has ended");
+            swap_margins(&mut [valid], margin, &*self.ranks)?;
+        }
+        Ok(self.valid.clone())
     }
 
     /// How its rows are shared.
@@ -129,12 +153,12 @@ impl<'a> StoredLandscape<'a> {
         self.layers.get_mut(name).ok_or_else(|| missing(name))
     }
 
-    /// Least and greatest value of a layer, over all ranks.
+    /// Least and greatest value of the cells of a layer that have data, over all ranks.
     ///
     /// # Errors
     /// [`Error::NotFinite`] naming the first cell that holds a NaN or an infinity; those of the disk.
     pub fn range(&self, name: &str) -> Result<(f32, f32), Error> {
-        let seen = agreed(&*self.ranks, self.layer(name).and_then(|layer| seen(&layer.plane)))?;
+        let seen = agreed(&*self.ranks, self.layer(name).and_then(|layer| seen(&layer.plane, self.valid())))?;
         let not_finite = match &seen {
             Seen::NotFinite([x, y], value) => Some([*x as f64, *y as f64, f64::from(*value)]),
             Seen::Range(_) => None,
@@ -166,15 +190,17 @@ enum Seen {
     Range(Option<(f32, f32)>),
 }
 
-fn seen(plane: &StoredPlane) -> Result<Seen, Error> {
+fn seen(plane: &StoredPlane, valid: Option<&StoredPlane>) -> Result<Seen, Error> {
     let mut range: Option<(f32, f32)> = None;
     for rows in plane.runs_of_rows() {
         let values = plane.rows(rows.clone())?;
-        if let Some(at) = values.iter().position(|value| !value.is_finite()) {
-            let columns = values.len() / rows.len();
-            return Ok(Seen::NotFinite([at % columns, rows.start + at / columns], values[at]));
-        }
-        for value in values {
+        let valid = valid.map(|valid| valid.rows(rows.clone())).transpose()?;
+        let has_data = |at: usize| valid.as_ref().is_none_or(|valid| valid[at] > 0.0);
+        for (at, &value) in values.iter().enumerate().filter(|&(at, _)| has_data(at)) {
+            if !value.is_finite() {
+                let columns = values.len() / rows.len();
+                return Ok(Seen::NotFinite([at % columns, rows.start + at / columns], value));
+            }
             let (low, high) = range.unwrap_or((value, value));
             range = Some((low.min(value), high.max(value)));
         }

@@ -306,7 +306,8 @@ impl Cut {
         if rows.is_whole() {
             return MOST_STEPS;
         }
-        let there = rows.least().saturating_sub(1) / reach;
+        // A mask is read one row further than the state.
+        let there = rows.least().saturating_sub(2) / reach;
         let worth = (4 * rows.least() / reach).isqrt();
         there.min(worth).clamp(1, MOST_STEPS)
     }

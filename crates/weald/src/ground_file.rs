@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use weald_core::domain::Domain;
 use weald_core::error::{Error, Limit, Quantity};
-use weald_core::grid::Mask;
+use weald_core::grid::{Field, Mask};
 use weald_core::landscape::Landscape;
 use weald_io::{self as io, Raster, RowsOfFile, Said};
 
@@ -20,7 +20,7 @@ pub(crate) fn read(path: &Path, cell: Option<f64>, said: &Said) -> Result<(Lands
     notes.extend(note);
     let side = side_of(path, &raster)?;
     if raster.valid.as_ref().map_or(0, Mask::valid_cells) == 0 && raster.valid.is_some() {
-        return Err(Error::input(path, "has no cell with data, so there is no ground to work on"));
+        return Err(without_data(path));
     }
     let size = raster.field.size();
     let (georeference, valid) = (raster.georeference, raster.valid);
@@ -28,6 +28,10 @@ pub(crate) fn read(path: &Path, cell: Option<f64>, said: &Said) -> Result<(Lands
     let mut landscape = Landscape::new(domain);
     landscape.insert("height", "m", raster.field);
     Ok((landscape, notes))
+}
+
+fn without_data(path: &Path) -> Error {
+    Error::input(path, "has no cell with data, so there is no ground to work on")
 }
 
 fn side_of(path: &Path, raster: &Raster) -> Result<f64, Error> {
@@ -63,7 +67,7 @@ pub(crate) struct GroundRows {
     cell: Option<f64>,
     said: Said,
     file: Box<dyn RowsOfFile>,
-    /// Its grid, where all cells have data.
+    /// Its grid; rows tell which of their cells have data.
     pub(crate) domain: Domain,
     /// What had to be done to it.
     pub(crate) notes: Vec<String>,
@@ -95,11 +99,11 @@ impl GroundRows {
         })
     }
 
-    /// Heights of some rows.
+    /// Heights of some rows, and which cells have data; `None` where all have.
     ///
     /// # Errors
-    /// [`Error::Input`] for rows that are damaged or hold cells without data; [`Error::Limit`] where the memory is too little.
-    pub(crate) fn heights(&self, rows: Range<usize>, memory: u64) -> Result<Vec<f32>, Error> {
+    /// [`Error::Input`] for rows that are damaged; [`Error::Limit`] where the memory is too little.
+    pub(crate) fn heights(&self, rows: Range<usize>, memory: u64) -> Result<(Field, Option<Mask>), Error> {
         let needed = self.file.bytes_at_once();
         if needed > memory {
             let limit = Limit::new(Quantity::MemoryBytes, needed, 0..=memory);
@@ -111,19 +115,13 @@ impl GroundRows {
             let remedy = "allow more memory, or write it in tiles: gdal_translate -co TILED=YES";
             return Err(limit.of(rows).remedy(remedy).into());
         }
-        let (raster, _) = self.read(rows.clone())?;
-        let Some(valid) = &raster.valid else { return Ok(raster.field.values().to_vec()) };
-        let columns = self.domain.size.columns;
-        let at = valid.flags().iter().position(|&valid| !valid).unwrap_or_default();
-        Err(Error::input(
-            &self.path,
-            format!(
-                "column {}, row {} has no data, which a landscape on disk or over ranks cannot have: fill it, as with \
-                 gdal_fillnodata.py",
-                at % columns,
-                rows.start + at / columns
-            ),
-        ))
+        let (raster, _) = self.read(rows)?;
+        Ok((raster.field, raster.valid))
+    }
+
+    /// That there is no cell with data.
+    pub(crate) fn without_data(&self) -> Error {
+        without_data(&self.path)
     }
 
     fn read(&self, rows: Range<usize>) -> Result<(Raster, Vec<String>), Error> {

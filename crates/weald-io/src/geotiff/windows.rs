@@ -1,6 +1,7 @@
 //! Writing a raster whose values are not in memory: window by window, to the bytes that the whole gives.
 
 use std::io::{BufWriter, Seek, SeekFrom, Write};
+use std::ops::Range;
 
 use super::super::format::WindowedRaster;
 use super::super::{Part, Raster};
@@ -10,7 +11,7 @@ use super::tiles::{Samples, TILE, tiles};
 use super::write::halves;
 use weald_core::error::Error;
 use weald_core::files::File;
-use weald_core::grid::{Field, Size};
+use weald_core::grid::{Field, Mask};
 use weald_core::plane::{Plane, Window};
 
 /// Writes one image; gives the files beside it.
@@ -20,9 +21,10 @@ pub(super) fn plain(raster: &WindowedRaster<'_, '_>, file: &mut File) -> Result<
 
 /// The same with smaller images, as a cloud-optimized GeoTIFF.
 pub(super) fn cloud_optimized(raster: &WindowedRaster<'_, '_>, file: &mut File) -> Result<Vec<Part>, Error> {
-    let mut smaller: Vec<Box<dyn Plane<f32> + '_>> = Vec::new();
-    while let last = smaller.last().map_or(raster.values, |last| &**last)
-        && last.size().columns.max(last.size().rows) > TILE
+    let mut smaller: Vec<Smaller<'_>> = Vec::new();
+    let first = ImagePlanes { values: raster.values, valid: raster.valid };
+    while let last = smaller.last().map_or(first, Smaller::planes)
+        && last.values.size().columns.max(last.values.size().rows) > TILE
     {
         let half = halved(raster, last)?;
         smaller.push(half);
@@ -30,50 +32,74 @@ pub(super) fn cloud_optimized(raster: &WindowedRaster<'_, '_>, file: &mut File) 
     Writing::of(raster, smaller).write(file)
 }
 
-/// A cell for four, as the smaller images of a raster in memory have it.
-fn halved<'b>(
-    raster: &WindowedRaster<'_, 'b>,
-    plane: &dyn Plane<f32>,
-) -> Result<Box<dyn Plane<f32> + 'b>, Error> {
-    let Size { columns, rows } = plane.size();
-    let mut half = (raster.scratch)(halves(plane.size()))?;
-    for y in 0..rows.div_ceil(2) {
-        let window = Window { columns: 0..columns, rows: 2 * y..(2 * y + 2).min(rows) };
-        let pair = Raster {
-            classes: raster.head.classes.clone(),
-            ..Raster::from(Field::from_values(window.size(), plane.read(&window)?))
-        };
-        let row = super::overviews::halved(&pair).field;
-        half.write(&Window { columns: 0..row.size().columns, rows: y..y + 1 }, row.values())?;
+/// The planes of an image.
+#[derive(Clone, Copy)]
+struct ImagePlanes<'a> {
+    values: &'a dyn Plane<f32>,
+    valid: Option<&'a dyn Plane<f32>>,
+}
+
+/// The planes of a smaller image.
+struct Smaller<'b> {
+    values: Box<dyn Plane<f32> + 'b>,
+    valid: Option<Box<dyn Plane<f32> + 'b>>,
+}
+
+impl Smaller<'_> {
+    fn planes(&self) -> ImagePlanes<'_> {
+        ImagePlanes { values: &*self.values, valid: self.valid.as_ref().map(|valid| &**valid as _) }
     }
-    Ok(half)
+}
+
+impl ImagePlanes<'_> {
+    /// Some of its rows.
+    fn rows(&self, rows: Range<usize>) -> Result<Raster, Error> {
+        let window = Window { columns: 0..self.values.size().columns, rows };
+        let valid = self.valid.map(|valid| valid.read(&window)).transpose()?;
+        let flags = valid.map(|valid| valid.into_iter().map(|flag| flag > 0.0).collect());
+        Ok(Raster {
+            valid: flags.and_then(|flags| Mask::new(window.size(), flags)),
+            ..Raster::from(Field::from_values(window.size(), self.values.read(&window)?))
+        })
+    }
+}
+
+/// A cell for four, as the smaller images of a raster in memory have it.
+fn halved<'b>(raster: &WindowedRaster<'_, 'b>, image: ImagePlanes<'_>) -> Result<Smaller<'b>, Error> {
+    let size = image.values.size();
+    let mut values = (raster.scratch)(halves(size))?;
+    let mut valid = image.valid.map(|_| (raster.scratch)(halves(size))).transpose()?;
+    for y in 0..size.rows.div_ceil(2) {
+        let pair = image.rows(2 * y..(2 * y + 2).min(size.rows))?;
+        let row = super::overviews::halved(&Raster { classes: raster.head.classes.clone(), ..pair });
+        let window = Window { columns: 0..row.field.size().columns, rows: y..y + 1 };
+        values.write(&window, row.field.values())?;
+        if let Some(valid) = &mut valid {
+            let flag = |x: usize| f32::from(u8::from(row.is_valid_at(x)));
+            valid.write(&window, &window.columns.clone().map(flag).collect::<Vec<_>>())?;
+        }
+    }
+    Ok(Smaller { values, valid })
 }
 
 /// A file in the making.
 struct Writing<'a, 'b> {
     raster: &'a WindowedRaster<'a, 'b>,
     samples: Samples,
-    /// The images, the largest first.
-    planes: Vec<&'a dyn Plane<f32>>,
-    smaller: Vec<Box<dyn Plane<f32> + 'b>>,
+    smaller: Vec<Smaller<'b>>,
 }
 
 impl<'a, 'b> Writing<'a, 'b> {
-    fn of(raster: &'a WindowedRaster<'a, 'b>, smaller: Vec<Box<dyn Plane<f32> + 'b>>) -> Self {
-        Self {
-            raster,
-            samples: Samples::within(raster.head, raster.range),
-            planes: vec![raster.values],
-            smaller,
-        }
+    fn of(raster: &'a WindowedRaster<'a, 'b>, smaller: Vec<Smaller<'b>>) -> Self {
+        Self { raster, samples: Samples::within(raster.head, raster.range), smaller }
     }
 
     fn write(&self, file: &mut File) -> Result<Vec<Part>, Error> {
-        let planes: Vec<_> =
-            self.planes.iter().copied().chain(self.smaller.iter().map(|plane| &**plane)).collect();
+        let first = ImagePlanes { values: self.raster.values, valid: self.raster.valid };
+        let planes: Vec<_> = std::iter::once(first).chain(self.smaller.iter().map(Smaller::planes)).collect();
         let mut images: Vec<Image> = Vec::new();
         for plane in &planes {
-            let size = plane.size();
+            let size = plane.values.size();
             let mut image = if images.is_empty() {
                 Image::main(self.raster.head, size, self.samples)
             } else {
@@ -89,8 +115,8 @@ impl<'a, 'b> Writing<'a, 'b> {
         out.write_all(&vec![0; variant.length(&images)]).map_err(failed)?;
         for (image, plane) in images.iter_mut().zip(&planes).rev() {
             image.lengths.clear();
-            for north in (0..plane.size().rows).step_by(TILE) {
-                for tile in self.tiles(*plane, north)? {
+            for north in (0..plane.values.size().rows).step_by(TILE) {
+                for tile in self.tiles(plane, north)? {
                     image.lengths.push(tile.len() as u64);
                     out.write_all(&tile).map_err(failed)?;
                 }
@@ -105,10 +131,8 @@ impl<'a, 'b> Writing<'a, 'b> {
     }
 
     /// A row of tiles.
-    fn tiles(&self, plane: &dyn Plane<f32>, north: usize) -> Result<Vec<Vec<u8>>, Error> {
-        let Size { columns, rows } = plane.size();
-        let window = Window { columns: 0..columns, rows: north..(north + TILE).min(rows) };
-        let rows = Raster::from(Field::from_values(window.size(), plane.read(&window)?));
+    fn tiles(&self, image: &ImagePlanes<'_>, north: usize) -> Result<Vec<Vec<u8>>, Error> {
+        let rows = image.rows(north..(north + TILE).min(image.values.size().rows))?;
         rows.ensure_finite()?;
         Ok(tiles(&rows, self.samples))
     }

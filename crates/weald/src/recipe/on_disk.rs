@@ -43,7 +43,8 @@ impl Recipe {
     /// [`Recipe::scratch`] on a grid.
     pub(super) fn scratch_on(&self, size: Size) -> u64 {
         let cells = size.columns as u64 * size.rows as u64;
-        let of_file = matches!(self.ground, Ground::File { .. }).then(|| "height".to_owned());
+        let is_of_file = matches!(self.ground, Ground::File { .. });
+        let of_file = is_of_file.then(|| "height".to_owned());
         let mut there: BTreeSet<_> = of_file.into_iter().collect();
         let mut peak = 0;
         for (number, planned) in self.steps.iter().enumerate() {
@@ -57,7 +58,9 @@ impl Recipe {
         }
         // The smaller images of one file, each a quarter of the one before.
         let outputs = cells * VALUE * there.len() as u64 + cells * VALUE / 3;
-        peak.max(outputs)
+        // Which cells have data, that of a smaller image among them.
+        let valid = if is_of_file { cells * VALUE + cells * VALUE / 3 } else { 0 };
+        peak.max(outputs) + valid
     }
 
     /// Layers that are needed after so many steps.
@@ -89,8 +92,8 @@ impl Recipe {
         let outputs = self.outputs.iter().filter(|output| !is_by_windows(output)).map(move |output| Diagnostic {
             line: output.line,
             message: format!(
-                "{whole}: {}; of outputs it writes layers as .tif, by the preset `cog` or without, on the grid and in the \
-                 numbers of the landscape",
+                "{whole}: {}; of outputs it writes layers as .tif and .zarr, by the presets `cog` and `sharded` or without, on \
+                 the grid and in the numbers of the landscape",
                 output.file.display()
             ),
         });
@@ -100,7 +103,7 @@ impl Recipe {
 
 fn is_by_windows(output: &Output) -> bool {
     match &output.content {
-        Content::Layer { encode: Encode::Windows { .. }, treatment, .. } => {
+        Content::Layer { encode: Encode::Windows { .. } | Encode::Strips { .. }, treatment, .. } => {
             *treatment == Treatment::default()
         }
         _ => false,

@@ -4,11 +4,13 @@ mod explained;
 mod film;
 pub(super) mod finished;
 mod folder;
+mod ground_in_parts;
 mod in_parts;
 pub(super) mod inputs;
 mod kept_parts;
 mod options;
 mod outputs;
+mod outputs_in_parts;
 mod step_watcher;
 #[cfg(test)]
 mod tests;

@@ -6,9 +6,9 @@ use std::sync::Arc;
 use weald::Error;
 use weald::engine::Engine;
 use weald::engine::ranks::{Ranks, ranks_in_threads};
-use weald::recipe::{Options, OutputReport, Progress, Recipe, Report, Run, Silent};
+use weald::recipe::{Options, Progress, Recipe, Report, Run, Silent};
 
-use crate::out_of_core::{BESIDE, land, recipe, run, said};
+use crate::out_of_core::{BESIDE, assert_same_files, land, recipe, run, said};
 
 /// A run over ranks, each of which calls it: what the first says, and the others.
 fn over(
@@ -67,11 +67,7 @@ fn assert_same(
         assert_eq!(steps, first, "{what}");
         assert_eq!(report.engine, "ranks");
     }
-    for file in expected.outputs.iter().flat_map(OutputReport::files) {
-        let [expected, got] =
-            [whole, parts].map(|folder| std::fs::read(folder.join(&file)).expect("it was written"));
-        assert!(expected == got, "{} of {what}", file.display());
-    }
+    assert_same_files(expected, [whole, parts], what);
     assert!(!parts.join("never-made").exists(), "only the first rank has a folder");
 }
 

@@ -6,12 +6,11 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
 
 use weald::Error;
-use weald::recipe::{
-    CHECKPOINT_FILE, Options, OutputReport, Overrides, Progress, Recipe, Report, Run, Silent,
-};
+use weald::recipe::{CHECKPOINT_FILE, Options, Overrides, Progress, Recipe, Report, Run, Silent};
 
 use crate::distributed::over_with;
-use crate::out_of_core::{BESIDE, land, run, said};
+use crate::ground_by_rows::{ground_with_holes, with_holes};
+use crate::out_of_core::{BESIDE, assert_same_files, land, run, said};
 
 /// Wants the end when one of the steps of a name has told so often where it is.
 struct StopsIn<'a> {
@@ -109,11 +108,7 @@ fn assert_same(expected: &Report, (whole, out): (&Path, &Path), got: &Report) {
         said(&report)
     };
     assert_eq!(without_going_on(got), without_going_on(expected));
-    for file in expected.outputs.iter().flat_map(OutputReport::files) {
-        let [expected, got] =
-            [whole, out].map(|folder| std::fs::read(folder.join(&file)).expect("it was written"));
-        assert!(expected == got, "{}", file.display());
-    }
+    assert_same_files(expected, [whole, out], "a run that went on");
     assert!(!out.join(CHECKPOINT_FILE).exists() && !out.join("checkpoint.parts").exists());
 }
 
@@ -273,4 +268,22 @@ impl StopsIn<'_> {
     fn at_once(self) -> Self {
         Self { told: AtomicU64::new(self.after + 1), ..self }
     }
+}
+
+#[test]
+fn cells_without_data_are_kept_with_the_rest() {
+    let [folder, whole, out] = [0; 3].map(|_| tempfile::tempdir().expect("a folder"));
+    let file = ground_with_holes(folder.path());
+    let recipe = with_holes(&file, "model = \"han\"\nboundary = \"open\"");
+    let expected = run(&recipe, whole.path(), None, &Silent).unwrap_or_else(|error| panic!("{error}"));
+    for ((step, after), lies) in
+        [(("hydraulic", 1), Lies::Memory(3)), (("flow", 2), Lies::Alone), (("water.zarr", 0), Lies::Disk(4))]
+    {
+        let ended = go(&recipe, (out.path(), lies), Duration::MAX, &StopsIn::new(step, after));
+        assert!(matches!(ended, Err(Error::Interrupted(_))), "{step}: {ended:?}");
+        assert!(!parts(out.path()).is_empty(), "{step}");
+    }
+    let got = go(&recipe, (out.path(), Lies::Memory(2)), Duration::MAX, &Silent);
+    let got = got.unwrap_or_else(|error| panic!("{error}"));
+    assert_same(&expected, (whole.path(), out.path()), &got);
 }

@@ -9,6 +9,7 @@ mod distributed;
 mod documents;
 mod edited_runs;
 mod engine_sets;
+mod folders_by_ranks;
 mod grass;
 mod ground;
 mod ground_by_rows;

@@ -1,6 +1,6 @@
 //! Runs from disk: the files and the report of a run in memory, within little memory, and nothing left behind.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use weald::Error;
 use weald::recipe::{Options, OutputReport, Overrides, Progress, Recipe, Report, Run, Silent};
@@ -76,6 +76,32 @@ pub(crate) fn said(report: &Report) -> Vec<String> {
     steps.chain(outputs).chain([report.engine.clone(), report.recipe_blake3.clone()]).collect()
 }
 
+/// That all files of a run are in another folder too, to the byte, and those of folders with no others beside them.
+pub(crate) fn assert_same_files(expected: &Report, [whole, parts]: [&Path; 2], what: &str) {
+    for file in expected.outputs.iter().flat_map(OutputReport::files) {
+        let [expected, got] = [whole, parts].map(|folder| contents(&folder.join(&file)));
+        let names = [&expected, &got].map(|files| files.iter().map(|(name, _)| name).collect::<Vec<_>>());
+        assert_eq!(names[0], names[1], "{} of {what}", file.display());
+        let other = expected.iter().zip(&got).find(|(expected, got)| expected != got);
+        assert!(other.is_none(), "{} of {} of {what}", other.expect("one").0.0.display(), file.display());
+    }
+}
+
+/// A file, or all in a folder, by paths within it.
+fn contents(path: &Path) -> Vec<(PathBuf, Vec<u8>)> {
+    if path.is_file() {
+        return vec![(PathBuf::new(), std::fs::read(path).expect("it was written"))];
+    }
+    let mut all = Vec::new();
+    for entry in std::fs::read_dir(path).unwrap_or_else(|cause| panic!("{}: {cause}", path.display())) {
+        let name = PathBuf::from(entry.expect("one").file_name());
+        let inside = contents(&path.join(&name)).into_iter();
+        all.extend(inside.map(|(inner, bytes)| (name.join(inner), bytes)));
+    }
+    all.sort();
+    all
+}
+
 #[test]
 fn a_run_from_disk_gives_the_files_and_the_report_of_one_in_memory() {
     let thermal =
@@ -95,11 +121,8 @@ fn a_run_from_disk_gives_the_files_and_the_report_of_one_in_memory() {
         let got = run(&recipe, parts.path(), Some((scratch.path(), memory)), &Silent);
         let got = got.unwrap_or_else(|error| panic!("{error}"));
         assert_eq!(said(&got), said(&expected), "{generator} {hydraulic}");
-        for file in expected.outputs.iter().flat_map(OutputReport::files) {
-            let [expected, got] = [&whole, &parts]
-                .map(|folder| std::fs::read(folder.path().join(&file)).expect("it was written"));
-            assert!(expected == got, "{} of {generator} {hydraulic}", file.display());
-        }
+        let what = format!("{generator} {hydraulic}");
+        assert_same_files(&expected, [whole.path(), parts.path()], &what);
         assert_eq!(std::fs::read_dir(scratch.path()).expect("it is there").count(), 0, "nothing is left");
     }
 }

@@ -6,7 +6,8 @@ use std::sync::Arc;
 use super::{FlowStep, MILLIMETRES_PER_YEAR, Method};
 use crate::flow::directions::SEA;
 use crate::flow::tiled::{
-    SharedPlane, StoredCodes, TiledFlow, TiledGround, Tiling, accumulate_tiled, route_tiled,
+    MARGIN, SharedPlane, StoredCodes, StoredFlags, TiledFlow, TiledGround, Tiling, accumulate_tiled,
+    route_tiled,
 };
 use crate::flow::{Depressions, DirectionRule};
 use weald_core::error::{Error, Limit, Quantity};
@@ -88,13 +89,16 @@ impl FlowStep {
         for name in self.reads() {
             landscape.layer_mut(&name)?.plane.swap(&*ranks)?;
         }
+        let flags = landscape.valid_around(MARGIN)?;
+        let flags = flags.as_deref().map(StoredFlags);
+        let valid = flags.as_ref().map(|flags| flags as &dyn Plane<u8>);
         let mut filled = landscape.plane("filled")?;
         let mut codes = StoredCodes(landscape.plane("flow_direction")?);
         let height = &landscape.layer(&self.of.0)?.plane;
-        let ground = TiledGround { tiling: &tiling, height, valid: None };
+        let ground = TiledGround { tiling: &tiling, height, valid };
         route_tiled(&ground, &self.routing(&landscape.domain), (&mut filled, &mut codes), passed)?;
         let shared = (self.method == Method::Multiple).then_some((&filled as &dyn Plane<f32>, self.exponent));
-        let flow = TiledFlow { tiling: &tiling, directions: &codes, valid: None, weight: None, shared };
+        let flow = TiledFlow { tiling: &tiling, directions: &codes, valid, weight: None, shared };
         let area = landscape.domain.cell_area();
         let areas = summed_layer(landscape, ("accumulation", area), &flow, passed)?;
         let discharge = match &self.weight {
@@ -125,7 +129,7 @@ impl FlowStep {
     ) -> Result<Option<String>, Error> {
         let Some(level) = self.sea_level(&landscape.domain) else { return Ok(None) };
         let ranks = &*landscape.ranks;
-        let has_land = any(ranks, agreed(ranks, has_land(codes))?)?;
+        let has_land = any(ranks, agreed(ranks, has_land(codes, landscape.valid()))?)?;
         Ok((!has_land).then(|| super::all_sea(level)))
     }
 }
@@ -146,9 +150,12 @@ fn summed_layer(
 }
 
 /// Whether any of its own cells is no sea.
-fn has_land(codes: &StoredPlane) -> Result<bool, Error> {
+fn has_land(codes: &StoredPlane, valid: Option<&StoredPlane>) -> Result<bool, Error> {
     for rows in codes.runs_of_rows() {
-        if codes.rows(rows)?.iter().any(|&code| code != f32::from(SEA)) {
+        let valid = valid.map(|valid| valid.rows(rows.clone())).transpose()?;
+        let has_data = |at: usize| valid.as_ref().is_none_or(|valid| valid[at] > 0.0);
+        let mut codes = codes.rows(rows)?.into_iter().enumerate();
+        if codes.any(|(at, code)| has_data(at) && code != f32::from(SEA)) {
             return Ok(true);
         }
     }

@@ -22,7 +22,7 @@ use weald_core::file_plane::VALUE;
 use weald_engine::Job;
 use weald_engine::ranks::{agreed, any, total};
 use weald_engine::step::{Outcome, Step};
-use weald_engine::stored::{StoredLandscape, StoredPlane, swap_margins};
+use weald_engine::stored::{StoredLandscape, StoredPlane};
 use weald_engine::stored_bands::{BandsOf, StoredBands};
 use weald_engine::stored_state::StoredState;
 
@@ -70,7 +70,7 @@ impl Hydraulic {
         let filled = self.filled(landscape.domain.cell);
         let mut ground = StartOnDisk::of(self, landscape)?;
         let (mut bands, recorded) = self.bands_on_disk::<M>(landscape, (&ground, &filled))?;
-        swap_margins(&mut [&mut ground.height], bands.margin(), &*ranks)?;
+        ground.swap(bands.margin(), landscape)?;
         let standing = self.pour(landscape, &ground, &mut bands.state[plane::DEPTH])?;
         let done = go_on(&mut bands, landscape)?;
         let steps = (done, recorded.clone());
@@ -95,7 +95,8 @@ impl Hydraulic {
         landscape: &StoredLandscape<'_>,
         (ground, filled): (&StartOnDisk, &ResolvedKeys),
     ) -> Result<(StoredBands<M>, Range<u64>), Error> {
-        let process = M::around(self, filled, self.setting(filled, (ground.size(), ground.is_open())))?;
+        let process =
+            M::around(self, filled, self.setting(filled, (ground.size(), ground.is_masked(landscape))))?;
         let all = u64::from(self.iterations);
         let (means, recorded) = if MEANS.iter().any(|name| landscape.wants(name)) {
             (M::MEANS, self.recorded(ground.cell))

@@ -34,7 +34,7 @@ mod sums;
 mod tiling;
 
 pub use ground::TiledGround;
-pub use planes::{MARGIN, SharedPlane, StoredCodes};
+pub use planes::{MARGIN, SharedPlane, StoredCodes, StoredFlags};
 pub use sums::{PutSums, TiledFlow, accumulate_tiled};
 pub use tiling::Tiling;
 

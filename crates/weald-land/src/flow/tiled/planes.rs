@@ -34,6 +34,24 @@ impl<T: Copy> SharedPlane<T> for HeldPlane<T> {
     }
 }
 
+/// Flags as they are stored, 1 and 0, to be read.
+#[derive(Debug)]
+pub struct StoredFlags<'a>(pub &'a StoredPlane);
+
+impl Plane<u8> for StoredFlags<'_> {
+    fn size(&self) -> Size {
+        self.0.size()
+    }
+
+    fn read(&self, window: &Window) -> Result<Vec<u8>, Error> {
+        Ok(self.0.read(window)?.into_iter().map(|flag| flag as u8).collect())
+    }
+
+    fn write(&mut self, _: &Window, _: &[u8]) -> Result<(), Error> {
+        Err(Error::Run("which cells have data does not change".to_owned()))
+    }
+}
+
 /// Codes of directions as a layer has them.
 #[derive(Debug)]
 pub struct StoredCodes(pub StoredPlane);

@@ -30,6 +30,8 @@ pub(super) const SUMS: usize = size_of::<RowSums>() / size_of::<f64>();
 pub(super) enum Role {
     /// A layer of the landscape.
     Layer,
+    /// Which cells have data, as 1 and 0.
+    Valid,
     /// A plane of the simulation that runs.
     State,
     /// Sums of the rows of that simulation, of double precision.
@@ -91,7 +93,7 @@ impl PlaneHeader {
         let ring = self.ring(grid);
         let columns = if self.role == Role::Sums { SUMS } else { grid.columns + 2 * ring };
         ring <= 1
-            && (self.role != Role::Layer || ring == 0)
+            && (![Role::Layer, Role::Valid].contains(&self.role) || ring == 0)
             && self.rows == grid.rows + 2 * ring
             && self.columns == columns
     }

@@ -99,7 +99,9 @@ impl KeptParts<'_> {
             let header = PlaneHeader { role: Role::Sums, name, unit, columns: SUMS, rows: shared.count() };
             Some((header, Rows::Sums(shared.own(), state.row_sums)))
         });
-        layers.chain(states).chain(sums).collect()
+        let valid = self.landscape.valid();
+        let valid = valid.map(|valid| (plane(Role::Valid, "cells with data", "", valid), Rows::Plane(valid)));
+        layers.chain(valid).chain(states).chain(sums).collect()
     }
 }
 
@@ -192,6 +194,7 @@ impl Manifest {
                 (Loaded::Plane(plane), _) if header.role == Role::Layer => {
                     landscape.insert(&header.name, &header.unit, plane);
                 }
+                (Loaded::Plane(plane), _) if header.role == Role::Valid => landscape.set_valid(Some(plane)),
                 (Loaded::Plane(plane), Some(resumed)) => resumed.planes.push((header.name.clone(), plane)),
                 (Loaded::Sums(_, sums), Some(resumed)) => resumed.row_sums = sums,
                 _ => {}

@@ -8,27 +8,20 @@ use std::sync::Arc;
 
 use web_time::Instant;
 
-use super::film::make_folder_of;
 use super::finished::step_report;
 use super::kept_parts::PartsWatcher;
 use super::options::{Progress, Run};
 use super::step_watcher::CheckpointTimer;
 use super::work::{Leaves, WorkFolder, new_files};
 use crate::recipe::memory;
-use crate::recipe::plan::{Content, Output, Planned};
+use crate::recipe::plan::Planned;
 use crate::recipe::report::{OutputReport, REPORT_FILE, Report};
 use weald_core::error::{Error, Limit, Quantity};
 use weald_core::files::File;
-use weald_core::grid::{Field, Size};
 use weald_engine::ranks::{Alone, Ranks, SharedRows, agreed, any, greatest, least};
 use weald_engine::report::StepReport;
-use weald_engine::served::served;
 use weald_engine::stored::{Scratch, StoredLandscape};
 use weald_engine::{Engine, Job};
-use weald_export::classes::{DIRECTIONS, directions};
-use weald_export::shades::shades;
-use weald_io::{Capabilities, Encode, Part, Provenance, Raster, WindowedRaster, WriteWindows, write_through};
-use weald_land::flow::DirectionCodes;
 
 /// What the program, its threads and the buffers of files take beside the steps.
 const BESIDE: u64 = 64 << 20;
@@ -190,98 +183,10 @@ impl Run<'_> {
         let report = step_report(planned, cells, outcome, started.elapsed().as_secs_f64(), resumed_at);
         Ok(StepReport { peak_memory: peak_memory(&*landscape.ranks)?, ..report })
     }
-
-    fn outputs_in_parts(
-        &self,
-        landscape: &StoredLandscape<'_>,
-        progress: &dyn Progress,
-    ) -> Result<Vec<OutputReport>, Error> {
-        let outputs = &self.recipe.outputs;
-        let made = outputs.iter().enumerate().map(|(number, output)| {
-            let stopped = || Error::Interrupted("interrupted; no file has changed".to_owned());
-            agreed(&*landscape.ranks, if progress.cancelled() { Err(stopped()) } else { Ok(()) })?;
-            progress.output(number + 1, outputs.len(), &output.file);
-            let Content::Layer { name, encode: Encode::Windows { write, .. }, holds, .. } = &output.content
-            else {
-                unreachable!("`scratch` refuses other outputs");
-            };
-            self.layer_in_parts(output, landscape, (name, *write, *holds))
-        });
-        made.collect()
-    }
-
-    fn layer_in_parts(
-        &self,
-        output: &Output,
-        landscape: &StoredLandscape<'_>,
-        (name, write, holds): (&str, WriteWindows, Capabilities),
-    ) -> Result<OutputReport, Error> {
-        let started = Instant::now();
-        let (layer, range) = (landscape.layer(name)?, landscape.range(name)?);
-        let head = self.head(landscape, name, (&layer.unit, range));
-        let written = served(landscape, &layer.plane, |values, scratch| {
-            let windowed = WindowedRaster { head: &head, values, range, scratch };
-            self.write_windows(output, &windowed, write).map_err(|error| self.by_its_name(error))
-        })?;
-        let companions =
-            written.iter().flatten().map(|part| part.name.path(&output.file).display().to_string());
-        Ok(OutputReport {
-            file: output.file.display().to_string(),
-            seconds: started.elapsed().as_secs_f64(),
-            peak_memory: peak_memory(&*landscape.ranks)?,
-            layer: Some(name.to_owned()),
-            unit: Some(layer.unit.clone()),
-            range: Some((range.0.into(), range.1.into())),
-            companions: companions.collect(),
-            notes: holds.losses(&head),
-            ..OutputReport::default()
-        })
-    }
-
-    /// Writes a file window by window, and what lies beside it.
-    fn write_windows(
-        &self,
-        output: &Output,
-        windowed: &WindowedRaster<'_, '_>,
-        write: WriteWindows,
-    ) -> Result<Vec<Part>, Error> {
-        let path = new_files(&self.options.out, self.recipe).join(&output.file);
-        make_folder_of(&path)?;
-        let mut parts = Vec::new();
-        write_through(&path, |path| {
-            let failed = |cause: std::io::Error| Error::write(path, &cause);
-            let mut file = File::create(path).map_err(failed)?;
-            parts = write(windowed, &mut file)?;
-            file.sync_all().map_err(failed)
-        })?;
-        parts.iter().try_for_each(|part| weald_io::write_whole(&part.name.path(&path), &part.bytes))?;
-        Ok(parts)
-    }
-
-    /// All that a file says of a layer but its values.
-    fn head(&self, landscape: &StoredLandscape<'_>, name: &str, (unit, range): (&str, (f32, f32))) -> Raster {
-        let provenance = Provenance {
-            version: env!("CARGO_PKG_VERSION").to_owned(),
-            recipe_blake3: self.recipe.hash(),
-            seed: self.recipe.seed,
-            layer: name.to_owned(),
-            unit: unit.to_owned(),
-            range: (range.0.into(), range.1.into()),
-            resampled: None,
-        };
-        Raster {
-            provenance: Some(provenance),
-            cell: Some(landscape.domain.cell),
-            georeference: landscape.domain.georeference.clone(),
-            classes: (name == DIRECTIONS).then(|| directions(DirectionCodes::Weald)),
-            shades: shades(name),
-            ..Raster::from(Field::filled(Size { columns: 1, rows: 1 }, range.0))
-        }
-    }
 }
 
 /// The most memory that any of the ranks has taken so far.
-fn peak_memory(ranks: &dyn Ranks) -> Result<Option<u64>, Error> {
+pub(super) fn peak_memory(ranks: &dyn Ranks) -> Result<Option<u64>, Error> {
     let most = greatest(ranks, memory::taken().unwrap_or_default())?;
     Ok(Some(most).filter(|&most| most > 0))
 }

@@ -3,6 +3,7 @@
 
 use std::sync::Mutex;
 
+use super::ground_in_parts;
 use super::options::{Progress, Run};
 use super::step_watcher::{CheckpointTimer, locked, note_failure};
 use crate::ground_file::GroundRows;
@@ -109,7 +110,8 @@ impl Run<'_> {
                 progress.note(&format!("starting anew; the checkpoint {path} is used with --resume only"));
             }
             let Some(ground) = ground else { return Ok(SoFar::default()) };
-            self.read_ground(ground, landscape)?;
+            landscape.want(self.recipe.wanted_after(0));
+            ground_in_parts::read(ground, landscape)?;
             ground.notes.iter().for_each(|note| progress.note(note));
             return Ok(SoFar { notes: ground.notes.clone(), ..SoFar::default() });
         }
@@ -122,19 +124,6 @@ impl Run<'_> {
         let (done, iterations) = (manifest.steps.len(), manifest.iteration.unwrap_or_default());
         progress.note(&format!("going on after {done} steps and {iterations} iterations"));
         Ok(SoFar { steps: manifest.steps, notes: manifest.notes })
-    }
-
-    /// Reads this rank's rows of the ground.
-    fn read_ground(&self, ground: &GroundRows, landscape: &mut StoredLandscape<'_>) -> Result<(), Error> {
-        landscape.want(self.recipe.wanted_after(0));
-        let mut height = landscape.plane("height")?;
-        let memory = landscape.memory;
-        let read = ground
-            .runs_of_rows(height.own())
-            .try_for_each(|rows| height.set_rows(rows.clone(), &ground.heights(rows, memory)?));
-        agreed(&*landscape.ranks, read)?;
-        landscape.insert("height", "m", height);
-        Ok(())
     }
 
     /// Keeps the layers between two steps where it is time for it, and where the run is to end.

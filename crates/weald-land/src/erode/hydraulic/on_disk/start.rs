@@ -1,6 +1,7 @@
 //! The ground with which a simulation on a stored landscape starts, and the layers that it leaves.
 
 use std::ops::Range;
+use std::sync::Arc;
 
 use super::super::keys::{Boundary, Hydraulic};
 use crate::erode::links::mask_planes;
@@ -10,7 +11,7 @@ use weald_core::error::Error;
 use weald_core::grid::{Mask, Size};
 use weald_core::plane::{Plane, Window};
 use weald_engine::ranks::SharedRows;
-use weald_engine::stored::{StoredLandscape, StoredPlane};
+use weald_engine::stored::{StoredLandscape, StoredPlane, swap_margins};
 use weald_engine::sums::RowSums;
 
 /// Layers of the means.
@@ -19,6 +20,8 @@ pub(super) const MEANS: [&str; 2] = ["flux_x", "flux_y"];
 /// The ground of the start, and how it lies in the planes of the simulation.
 pub(super) struct StartOnDisk {
     pub(super) height: StoredPlane,
+    /// Which cells have data, as 1 and 0; `None` where all have.
+    valid: Option<Arc<StoredPlane>>,
     /// Columns and rows of the simulation, with the ring of an open border.
     pub(super) columns: usize,
     pub(super) rows: SharedRows,
@@ -45,15 +48,28 @@ impl StartOnDisk {
         let layer = landscape.remove(&step.layer.0);
         let height =
             layer.ok_or_else(|| Error::Run(format!("the landscape has no layer `{}`", step.layer.0)))?;
-        Ok(Self { height: height.plane, columns, rows, ring, lowest: f64::from(lowest), cell })
+        Ok(Self { height: height.plane, valid: None, columns, rows, ring, lowest: f64::from(lowest), cell })
+    }
+
+    /// Gets so many rows around its own from the neighbours, and with them which cells have data.
+    pub(super) fn swap(&mut self, margin: usize, landscape: &mut StoredLandscape<'_>) -> Result<(), Error> {
+        swap_margins(&mut [&mut self.height], margin, &*landscape.ranks)?;
+        // What a cell does depends on whether there are data beside it.
+        self.valid = landscape.valid_around(margin + 1)?;
+        Ok(())
     }
 
     pub(super) fn size(&self) -> Size {
         Size { columns: self.columns, rows: self.rows.count() }
     }
 
-    pub(super) fn is_open(&self) -> bool {
+    fn is_open(&self) -> bool {
         self.ring > 0
+    }
+
+    /// Whether there are cells without data, or a ring of such.
+    pub(super) fn is_masked(&self, landscape: &StoredLandscape<'_>) -> bool {
+        self.is_open() || landscape.valid().is_some()
     }
 
     /// The rows of the landscape among those of the simulation.
@@ -66,43 +82,63 @@ impl StartOnDisk {
     pub(super) fn constants(&self, rows: Range<usize>) -> Result<Vec<Vec<f32>>, Error> {
         let (columns, inner) = (self.columns, self.inner(&rows));
         let mut base = vec![0.0; columns * rows.len()];
-        let heights = self.height.rows(inner.clone())?;
+        let mut heights = self.height.rows(inner.clone())?;
+        for height in &mut heights {
+            *height = ((f64::from(*height) - self.lowest) / self.cell) as f32;
+        }
+        self.clear_without_data(&inner, &mut heights)?;
         let wide = self.height.size().columns;
         for (y, heights) in inner.zip(heights.chunks_exact(wide)) {
             let first = (y + self.ring - rows.start) * columns + self.ring;
-            for (base, &height) in base[first..first + wide].iter_mut().zip(heights) {
-                *base = ((f64::from(height) - self.lowest) / self.cell) as f32;
-            }
+            base[first..first + wide].copy_from_slice(heights);
         }
         let mut planes = vec![base];
-        if self.is_open() {
-            planes.extend(self.masks(&rows));
+        if self.is_open() || self.valid.is_some() {
+            planes.extend(self.masks(&rows)?);
         }
         Ok(planes)
     }
 
     /// The planes of the mask, which the rows beside these have a part in.
-    fn masks(&self, rows: &Range<usize>) -> impl Iterator<Item = Vec<f32>> + use<> {
-        let Size { columns, rows: all } = self.size();
-        let around = rows.start.saturating_sub(1)..(rows.end + 1).min(all);
-        let is_inner = |x: usize, y: usize| (1..columns - 1).contains(&x) && (1..all - 1).contains(&y);
-        let size = Size { columns, rows: around.len() };
-        let flags = around.clone().flat_map(|y| (0..columns).map(move |x| is_inner(x, y))).collect();
+    fn masks(&self, rows: &Range<usize>) -> Result<impl Iterator<Item = Vec<f32>> + use<>, Error> {
+        let (columns, wide) = (self.columns, self.height.size().columns);
+        let around = rows.start.saturating_sub(1)..(rows.end + 1).min(self.rows.count());
+        let inner = self.inner(&around);
+        let valid = self.valid.as_ref().map(|valid| valid.rows(inner.clone())).transpose()?;
+        let has_data = |at: usize| valid.as_ref().is_none_or(|valid| valid[at] > 0.0);
+        let mut flags = vec![false; columns * around.len()];
+        for y in inner.clone() {
+            let first = (y + self.ring - around.start) * columns + self.ring;
+            for x in 0..wide {
+                flags[first + x] = has_data((y - inner.start) * wide + x);
+            }
+        }
         let cells = (rows.start - around.start) * columns..(rows.end - around.start) * columns;
-        let planes = mask_planes(&Mask::always(size, flags), true);
-        planes.into_iter().map(move |mut plane| {
+        let mask = Mask::always(Size { columns, rows: around.len() }, flags);
+        let planes = mask_planes(&mask, self.is_open());
+        Ok(planes.into_iter().map(move |mut plane| {
             plane.truncate(cells.end);
             plane.drain(..cells.start);
             plane
-        })
+        }))
+    }
+
+    /// Puts 0 into the cells without data of some rows of the landscape.
+    fn clear_without_data(&self, rows: &Range<usize>, values: &mut [f32]) -> Result<(), Error> {
+        let Some(valid) = &self.valid else { return Ok(()) };
+        for (value, has_data) in values.iter_mut().zip(valid.rows(rows.clone())?) {
+            *value = if has_data > 0.0 { *value } else { 0.0 };
+        }
+        Ok(())
     }
 
     /// Lets the water of a layer stand at the start; gives the sum of each row of the simulation.
     pub(super) fn pour(&self, layer: &StoredPlane, depth: &mut StoredPlane) -> Result<Vec<RowSums>, Error> {
         for rows in layer.runs_of_rows() {
             let metres = layer.rows(rows.clone())?.into_iter();
-            let depths: Vec<f32> =
+            let mut depths: Vec<f32> =
                 metres.map(|depth| (f64::from(depth.max(0.0)) / self.cell) as f32).collect();
+            self.clear_without_data(&rows, &mut depths)?;
             let columns = self.ring..self.ring + layer.size().columns;
             let rows = rows.start + self.ring..rows.end + self.ring;
             depth.write(&Window { columns, rows }, &depths)?;
@@ -205,9 +241,12 @@ impl StartOnDisk {
         (self.height.size().columns, self.height.shared())
     }
 
-    /// Rows of the landscape from a plane of the simulation.
+    /// Rows of the landscape from a plane of the simulation, 0 in cells without data.
     fn read(&self, plane: &StoredPlane, rows: &Range<usize>) -> Result<Vec<f32>, Error> {
         let columns = self.ring..self.ring + self.height.size().columns;
-        plane.read(&Window { columns, rows: rows.start + self.ring..rows.end + self.ring })
+        let window = Window { columns, rows: rows.start + self.ring..rows.end + self.ring };
+        let mut values = plane.read(&window)?;
+        self.clear_without_data(rows, &mut values)?;
+        Ok(values)
     }
 }
