@@ -85,8 +85,8 @@ impl<'a> TiledPaths<'a> {
             let mut changed = Vec::new();
             for cell in tiling.border_of(tile) {
                 let (border, at) = (tiling.border(cell), ground.place(cell));
-                if known.at(border).is_none() && paths.found[at].is_some() {
-                    known.set(border, paths.found[at]);
+                if known.at(border).is_none() && paths.at(at).is_some() {
+                    known.set(border, paths.at(at));
                     changed.push(cell);
                 }
             }
@@ -114,9 +114,26 @@ struct TileOfPaths {
 
 /// Directions and paths of a tile and of the cells around it, as far as they are known.
 struct TilePaths {
-    found: Vec<Found>,
+    /// [`UNKNOWN`] where a cell has none yet.
+    codes: Vec<u8>,
+    paths: Vec<Path>,
     /// Cells of the tile that wait for others.
     open: usize,
+}
+
+/// In place of the code of a cell that waits for others.
+const UNKNOWN: u8 = u8::MAX;
+
+impl TilePaths {
+    fn at(&self, at: usize) -> Found {
+        (self.codes[at] != UNKNOWN).then(|| (self.codes[at], self.paths[at]))
+    }
+
+    fn set(&mut self, at: usize, found: Found) {
+        if let Some((code, path)) = found {
+            (self.codes[at], self.paths[at]) = (code, path);
+        }
+    }
 }
 
 impl TileOfPaths {
@@ -132,9 +149,8 @@ impl TileOfPaths {
         let size = Size { columns: columns + 2, rows: rows + 2 };
         let surface = Surface { size, stride: columns + 2 * MARGIN, level, elsewhere: Vec::new() };
         let (steepest, receivers) = (vec![OUTLET; surface.cells()], vec![0; surface.cells()]);
+        let own = cells(&window).map(|(x, y)| [x, y]).zip(directions.read(&window)?);
         let mut ground = Self { tile, window, surface, steepest, receivers };
-        let own: Vec<_> = cells(&ground.window).zip(directions.read(&ground.window)?).collect();
-        let own = own.into_iter().map(|((x, y), code)| ([x, y], code));
         let ring = tiling.ring_of(tile).into_iter();
         let ring = ring.map(|cell| (cell, steepest_of_borders.at(tiling.border(cell))));
         for (cell, code) in own.chain(ring) {
@@ -156,25 +172,25 @@ impl TileOfPaths {
 
     /// The code as it is written.
     fn code(&self, at: usize, paths: &TilePaths) -> u8 {
-        let found = paths.found[at].expect("all of the tile are found").0;
-        if self.steepest[at] == SEA { SEA } else { found }
+        if self.steepest[at] == SEA { SEA } else { paths.codes[at] }
     }
 
     /// What is known of the tile, by what is known of the border cells around it.
     fn paths(&self, tiling: &Tiling, known: &Borders<Found>) -> TilePaths {
         let cells_in_all = self.steepest.len();
-        let mut paths = TilePaths { found: vec![None; cells_in_all], open: self.window.size().cells() };
+        let (codes, open) = (vec![UNKNOWN; cells_in_all], self.window.size().cells());
+        let mut paths = TilePaths { codes, paths: vec![Path::default(); cells_in_all], open };
         for cell in tiling.ring_of(self.tile) {
-            paths.found[self.place(cell)] = known.at(tiling.border(cell));
+            paths.set(self.place(cell), known.at(tiling.border(cell)));
         }
         let (mut waiting, mut ready) = (vec![u8::MAX; cells_in_all], Vec::new());
         for at in cells(&self.window).map(|(x, y)| self.place([x, y])) {
-            let waits = |&direction: &usize| paths.found[self.beside(at, direction)].is_none();
+            let waits = |&direction: &usize| paths.codes[self.beside(at, direction)] == UNKNOWN;
             waiting[at] = set_directions(self.donors(at)).filter(waits).count() as u8;
             ready.extend((waiting[at] == 0).then_some(at));
         }
         while let Some(at) = ready.pop() {
-            paths.found[at] = Some(self.through(at, &paths));
+            paths.set(at, Some(self.through(at, &paths)));
             paths.open -= 1;
             for next in set_directions(self.receivers[at]).map(|direction| self.beside(at, direction)) {
                 // Cells of other tiles keep their mark.
@@ -191,7 +207,7 @@ impl TileOfPaths {
     fn through(&self, at: usize, paths: &TilePaths) -> (u8, Path) {
         let arriving = set_directions(self.donors(at)).filter_map(|direction| {
             let donor = self.beside(at, direction);
-            let (code, path) = paths.found[donor]?;
+            let (code, path) = paths.at(donor)?;
             (code == opposite(direction as u8) + 1).then_some((path, self.surface.level[donor]))
         });
         Path::through(&self.candidates(at), arriving)
