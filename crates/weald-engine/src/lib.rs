@@ -13,6 +13,7 @@ mod engine;
 mod finest;
 pub mod generator;
 mod job;
+pub mod local;
 pub mod machine;
 pub mod machine_of_engine;
 pub mod on_device;

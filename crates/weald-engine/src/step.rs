@@ -6,6 +6,7 @@ use std::path::PathBuf;
 
 use crate::budget::Budget;
 use crate::job::Job;
+use crate::local::{self, LocalWork, Reach};
 use crate::stored::StoredLandscape;
 use weald_core::domain::Domain;
 use weald_core::error::Error;
@@ -60,6 +61,15 @@ pub trait Step: Debug + Send + Sync {
     /// Those of the files.
     fn look_ahead(&self, materials: &[Material], domain: &Domain) -> Result<(), Error> {
         let _ = (materials, domain);
+        Ok(())
+    }
+
+    /// The same of files of which a landscape on disk or over ranks reads some rows at a time.
+    ///
+    /// # Errors
+    /// Those of the files, also where they would have to be read as a whole.
+    fn look_ahead_by_rows(&self, domain: &Domain) -> Result<(), Error> {
+        let _ = domain;
         Ok(())
     }
 
@@ -135,6 +145,12 @@ pub trait Step: Debug + Send + Sync {
         false
     }
 
+    /// How far it looks from each cell, where what it writes there depends on the cells so near and on nothing else, neither on
+    /// the place nor on the whole, and where it says nothing of the whole. Such a step runs on some rows at a time.
+    fn reach(&self) -> Option<Reach> {
+        None
+    }
+
     /// Bytes for a cell that it takes on disk at its peak beside the layers that are there before and those of these names
     /// that it writes, where it can run on a landscape that does not fit into memory.
     ///
@@ -142,7 +158,7 @@ pub trait Step: Debug + Send + Sync {
     /// Why it cannot.
     fn scratch_per_cell(&self, wanted: &BTreeSet<String>) -> Result<u64, String> {
         let _ = wanted;
-        Err("it works on the whole landscape in memory".to_owned())
+        self.reach().map(|_| 0).ok_or_else(|| "it works on the whole landscape in memory".to_owned())
     }
 
     /// Runs on a landscape on disk that has all the layers in [`Step::reads`], to the same bits, within its memory.
@@ -151,7 +167,18 @@ pub trait Step: Debug + Send + Sync {
     /// As [`Step::run`]; [`Error::Limit`] where the memory is too small; [`Error::Run`] where [`Step::scratch_per_cell`] says
     /// that it cannot, or where the disk is full.
     fn run_on_disk(&self, landscape: &mut StoredLandscape<'_>, job: &Job<'_>) -> Result<Outcome, Error> {
-        let _ = (landscape, job);
+        if let Some(reach) = self.reach() {
+            let run = |part: &mut Landscape| self.run(part, job);
+            let (reads, bytes_per_cell) = (self.reads(), self.bytes_per_cell());
+            let writes = self.writes().into_iter().map(|(name, _)| name).collect();
+            let done =
+                local::run(&LocalWork { reads, writes, reach, bytes_per_cell, run: &run }, landscape, job)?;
+            // A rank without rows has done nothing, and reports what the first does.
+            let iterations = done.unwrap_or_default().iterations;
+            let told = landscape.ranks.tell(iterations.to_le_bytes().to_vec())?;
+            let iterations = told.try_into().map_or(iterations, u64::from_le_bytes);
+            return Ok(Outcome { iterations, ..Outcome::default() });
+        }
         let why = self.scratch_per_cell(&BTreeSet::new()).err().unwrap_or_default();
         Err(Error::Run(format!("the step does not run on a landscape on disk: {why}")))
     }

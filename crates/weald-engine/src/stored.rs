@@ -3,6 +3,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Debug;
+use std::ops::Range;
 use std::sync::Arc;
 
 use crate::ranks::{Ranks, SharedRows, agreed, joined};
@@ -11,6 +12,7 @@ use crate::stored_state::ResumedState;
 use weald_core::domain::Domain;
 use weald_core::error::{Error, NotFinite};
 use weald_core::files::File;
+use weald_core::grid::{Mask, Size};
 
 /// Where planes are made.
 pub trait Scratch: Debug + Sync {
@@ -60,6 +62,16 @@ impl<'a> StoredLandscape<'a> {
     /// Which cells have data, as 1 and 0; `None` where all have.
     pub fn valid(&self) -> Option<&StoredPlane> {
         self.valid.as_deref()
+    }
+
+    /// Which cells of some rows have data; `None` where all have.
+    ///
+    /// # Errors
+    /// Those of the disk.
+    pub fn valid_rows(&self, rows: Range<usize>) -> Result<Option<Mask>, Error> {
+        let Some(valid) = self.valid() else { return Ok(None) };
+        let size = Size { columns: self.domain.size.columns, rows: rows.len() };
+        Ok(Mask::new(size, valid.rows(rows)?.into_iter().map(|flag| flag > 0.0).collect()))
     }
 
     /// Says which cells have data, on all ranks.

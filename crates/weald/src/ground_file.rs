@@ -3,8 +3,9 @@
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
+use crate::file_rows;
 use weald_core::domain::Domain;
-use weald_core::error::{Error, Limit, Quantity};
+use weald_core::error::Error;
 use weald_core::grid::{Field, Mask};
 use weald_core::landscape::Landscape;
 use weald_io::{self as io, Raster, RowsOfFile, Said};
@@ -91,12 +92,7 @@ impl GroundRows {
 
     /// Rows that are worth reading at a time, from these on.
     pub(crate) fn runs_of_rows(&self, rows: Range<usize>) -> impl Iterator<Item = Range<usize>> + use<> {
-        let (high, mut first) = (self.file.rows_at_once(), rows.start);
-        std::iter::from_fn(move || {
-            let run = first..((first / high + 1) * high).min(rows.end);
-            first = run.end;
-            (!run.is_empty()).then_some(run)
-        })
+        file_rows::runs_of_rows(&*self.file, rows)
     }
 
     /// Heights of some rows, and which cells have data; `None` where all have.
@@ -104,17 +100,7 @@ impl GroundRows {
     /// # Errors
     /// [`Error::Input`] for rows that are damaged; [`Error::Limit`] where the memory is too little.
     pub(crate) fn heights(&self, rows: Range<usize>, memory: u64) -> Result<(Field, Option<Mask>), Error> {
-        let needed = self.file.bytes_at_once();
-        if needed > memory {
-            let limit = Limit::new(Quantity::MemoryBytes, needed, 0..=memory);
-            let rows = format!(
-                "{}: {} rows, which are packed together",
-                self.path.display(),
-                self.file.rows_at_once()
-            );
-            let remedy = "allow more memory, or write it in tiles: gdal_translate -co TILED=YES";
-            return Err(limit.of(rows).remedy(remedy).into());
-        }
+        file_rows::ensure_memory(&self.path, &*self.file, memory)?;
         let (raster, _) = self.read(rows)?;
         Ok((raster.field, raster.valid))
     }

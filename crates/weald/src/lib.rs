@@ -69,6 +69,7 @@
 //! Row 0 is north, `x` counts columns eastward and `y` rows southward. Heights and lengths are in metres unless
 //! a name says otherwise, angles in degrees carry the suffix `_deg`. [`Error`] is sorted by who must act.
 
+mod file_rows;
 mod ground_file;
 mod landscape_ext;
 mod layer_raster;

@@ -13,13 +13,14 @@
 //! doi 10.1016/j.earscirev.2020.103414). On a sphere of radius R that bulges upward profile, tangential and mean
 //! are 1/R, and plan is 1 over the radius of the contour.
 
-use super::quadric::{Quadric, Surface, window};
+use super::quadric::{LOOKS, Quadric, Surface, window};
 use weald_core::domain::Domain;
 use weald_core::error::Error;
 use weald_core::landscape::Landscape;
 use weald_core::parameter::LayerName;
 use weald_core::parameters;
 use weald_engine::Job;
+use weald_engine::local::Reach;
 use weald_engine::step::{Entry, Outcome, Stage, Step};
 
 /// The step's declaration.
@@ -75,6 +76,10 @@ impl Step for Curvature {
 
     fn check_on(&self, domain: &Domain) -> Result<(), Error> {
         window(domain, self.scale).map(drop)
+    }
+
+    fn reach(&self) -> Option<Reach> {
+        Some(Reach { metres: self.scale, cells: LOOKS })
     }
 
     fn run(&self, landscape: &mut Landscape, _: &Job<'_>) -> Result<Outcome, Error> {

@@ -21,6 +21,9 @@ const WIDEST: usize = 32;
 /// Cells by which a window is widened at most, where too little of it has data.
 const WIDENING: usize = 2;
 
+/// Cells beside the metres of a window that it looks at: the least of it, and those by which it is widened.
+pub(super) const LOOKS: usize = 1 + WIDENING;
+
 /// Part of a pivot below which a term counts as not determined. The matrices hold small whole numbers, so that
 /// one that is not determined leaves nothing but rounding.
 const UNDETERMINED: f64 = 1e-9;

@@ -22,7 +22,7 @@
 //! (1 - exp(-h / rooting)) · moisture, from `dry` over 1 to `wet` · nutrients, from `old` to 1 with fresh deposits
 //! ```
 
-use super::quadric::{Quadric, Surface, window};
+use super::quadric::{LOOKS, Quadric, Surface, window};
 use weald_core::domain::Domain;
 use weald_core::error::Error;
 use weald_core::grid::Field;
@@ -30,6 +30,7 @@ use weald_core::landscape::Landscape;
 use weald_core::parameter::LayerName;
 use weald_core::parameters;
 use weald_engine::Job;
+use weald_engine::local::Reach;
 use weald_engine::step::{Entry, Outcome, Stage, Step};
 
 /// The step's declaration.
@@ -120,6 +121,10 @@ impl Step for Soil {
 
     fn check_on(&self, domain: &Domain) -> Result<(), Error> {
         window(domain, self.scale).map(drop)
+    }
+
+    fn reach(&self) -> Option<Reach> {
+        Some(Reach { metres: self.scale, cells: LOOKS })
     }
 
     fn run(&self, landscape: &mut Landscape, _: &Job<'_>) -> Result<Outcome, Error> {

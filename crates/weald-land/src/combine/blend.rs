@@ -8,6 +8,7 @@ use weald_core::landscape::Landscape;
 use weald_core::parameter::LayerName;
 use weald_core::parameters;
 use weald_engine::Job;
+use weald_engine::local::Reach;
 use weald_engine::step::{Entry, Outcome, Stage, Step};
 
 /// The step's declaration.
@@ -48,6 +49,10 @@ impl Step for Blend {
 
     fn writes(&self) -> Vec<(String, &'static str)> {
         written(self.into.as_ref(), &self.layer)
+    }
+
+    fn reach(&self) -> Option<Reach> {
+        Some(Reach::default())
     }
 
     fn run(&self, landscape: &mut Landscape, _: &Job<'_>) -> Result<Outcome, Error> {

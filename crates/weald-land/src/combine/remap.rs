@@ -12,6 +12,7 @@ use weald_core::landscape::Landscape;
 use weald_core::parameter::{Fault, LayerName};
 use weald_core::parameters;
 use weald_engine::Job;
+use weald_engine::local::Reach;
 use weald_engine::step::{Entry, Outcome, Stage, Step};
 
 /// The step's declaration.
@@ -103,6 +104,11 @@ impl Step for Remap {
         ];
         let broken = rules.into_iter().filter(|(_, broken, _)| *broken);
         broken.map(|(key, _, sentence)| Fault::of(key, sentence)).collect()
+    }
+
+    fn reach(&self) -> Option<Reach> {
+        // Without it the range is that of the whole.
+        (self.from.len() == 2).then(Reach::default)
     }
 
     fn run(&self, landscape: &mut Landscape, _: &Job<'_>) -> Result<Outcome, Error> {

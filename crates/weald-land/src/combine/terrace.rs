@@ -10,6 +10,7 @@ use weald_core::landscape::Landscape;
 use weald_core::parameter::LayerName;
 use weald_core::parameters;
 use weald_engine::Job;
+use weald_engine::local::Reach;
 use weald_engine::step::{Entry, Outcome, Stage, Step};
 
 /// The step's declaration.
@@ -47,6 +48,10 @@ impl Step for Terrace {
 
     fn writes(&self) -> Vec<(String, &'static str)> {
         written(self.into.as_ref(), &self.layer)
+    }
+
+    fn reach(&self) -> Option<Reach> {
+        Some(Reach::default())
     }
 
     fn run(&self, landscape: &mut Landscape, _: &Job<'_>) -> Result<Outcome, Error> {

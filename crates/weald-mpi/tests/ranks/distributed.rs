@@ -20,6 +20,7 @@ fn write_recipe(folder: &Path, size: [usize; 2], hydraulic: &str) {
     {
         let _ = write!(text, "[[output]]\nlayer = \"{layer}\"\nfile = \"{layer}.tif\"\n{more}\n");
     }
+    text += "[[output]]\nlayer = \"flow_direction\"\nfile = \"directions.zarr\"\n";
     std::fs::write(folder.join("r.toml"), text).expect("written");
 }
 

@@ -47,8 +47,7 @@ pub(crate) fn assert_same(folder: &Path, expected: &Report, out: &str) {
     let names: Vec<_> = expected.outputs.iter().map(|output| output.file.clone()).collect();
     assert!(!names.is_empty(), "a run without files shows nothing");
     for name in names {
-        let [ours, theirs] =
-            ["one", out].map(|run| std::fs::read(folder.join(run).join(&name)).expect("written"));
+        let [ours, theirs] = ["one", out].map(|run| contents(&folder.join(run).join(&name)));
         assert!(ours == theirs, "{out}: {name} differs");
     }
     for (ours, theirs) in expected.steps.iter().zip(&got.steps) {
@@ -61,4 +60,19 @@ pub(crate) fn assert_same(folder: &Path, expected: &Report, out: &str) {
         assert_eq!(all(ours), all(theirs), "{out}");
     }
     assert_eq!((expected.steps.len(), got.engine.as_str()), (got.steps.len(), "ranks"));
+}
+
+/// A file, or all in a folder, by names within it.
+fn contents(path: &Path) -> Vec<(String, Vec<u8>)> {
+    if path.is_file() {
+        return vec![(String::new(), std::fs::read(path).expect("written"))];
+    }
+    let mut all = Vec::new();
+    for entry in std::fs::read_dir(path).expect("written") {
+        let name = entry.expect("one").file_name().into_string().expect("plain names");
+        let inside = contents(&path.join(&name)).into_iter();
+        all.extend(inside.map(|(inner, bytes)| (format!("{name}/{inner}"), bytes)));
+    }
+    all.sort();
+    all
 }

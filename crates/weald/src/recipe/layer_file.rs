@@ -1,12 +1,14 @@
 //! A raster file that becomes a layer on ground which is there already.
 
+use std::ops::Range;
 use std::path::PathBuf;
 
+use crate::file_rows;
 use weald_core::domain::{Domain, Georeference};
 use weald_core::error::Error;
 use weald_core::grid::{Field, Mask, Size};
 use weald_core::parameter::{Choice, CrsCode};
-use weald_io::{self as io, Raster, Said};
+use weald_io::{self as io, Raster, RowsOfFile, Said};
 use weald_land::combine::resample::resampled;
 
 weald_core::choices! {
@@ -74,22 +76,61 @@ impl LayerFile {
 
     /// The layer, and texts that tell the user what had to be done to it.
     pub(super) fn read(&self, domain: &Domain) -> Result<(Field, Vec<String>), Error> {
-        let mut raster =
-            self.said.of(io::read(&self.path)?).map_err(|what| Error::input(&self.path, what))?;
-        let mut notes = std::mem::take(&mut raster.notes);
-        self.ensure_unit(raster.unit())?;
+        let (mut raster, mut notes) = self.known(io::read(&self.path)?)?;
         if raster.georeference.is_some() {
             let (square, note) = io::square(raster).map_err(|error| self.of_this_file(error))?;
             raster = square;
             notes.extend(note);
         }
-        notes.extend(self.elsewhere(&raster, domain)?);
-        let (mut field, valid) = self.fitted(raster, domain)?;
+        notes.extend(self.elsewhere((&raster, raster.field.size()), domain)?);
+        let (field, valid) = self.fitted(raster, domain)?;
+        Ok((self.metres(field, valid.as_ref(), (domain.valid.as_ref(), 0))?, notes))
+    }
+
+    /// Opens the file, of as many square cells as the landscape, to read rows of it.
+    ///
+    /// # Errors
+    /// As [`LayerFile::read`], as far as the first row shows it; [`Error::Input`] where the whole would be needed.
+    pub(super) fn rows(&self, domain: &Domain) -> Result<LayerRows<'_>, Error> {
+        let mut rows = LayerRows { of: self, file: io::open_rows(&self.path)?, notes: Vec::new() };
+        let size = rows.file.size();
+        if size != domain.size {
+            let Size { columns, rows } = domain.size;
+            return Err(Error::input(
+                &self.path,
+                format!(
+                    "has {size} cells, but the landscape has {}; on disk or over ranks it must have as many: gdalwarp -ts \
+                     {columns} {rows}",
+                    domain.size
+                ),
+            ));
+        }
+        let (raster, notes) = rows.read(0..1)?;
+        rows.notes = notes;
+        rows.notes.extend(self.elsewhere((&raster, size), domain)?);
+        Ok(rows)
+    }
+
+    /// What a file holds, with what the recipe says of it.
+    fn known(&self, raster: Raster) -> Result<(Raster, Vec<String>), Error> {
+        let mut raster = self.said.of(raster).map_err(|what| Error::input(&self.path, what))?;
+        let notes = std::mem::take(&mut raster.notes);
+        self.ensure_unit(raster.unit())?;
+        Ok((raster, notes))
+    }
+
+    /// Rows of the layer, from one of the landscape on, in metres.
+    fn metres(
+        &self,
+        mut field: Field,
+        data: Option<&Mask>,
+        (valid, first): (Option<&Mask>, usize),
+    ) -> Result<Field, Error> {
         for value in field.values_mut() {
             *value = (f64::from(*value) * self.scale + self.offset) as f32;
         }
-        self.fill(&mut field, valid.as_ref(), domain.valid.as_ref())?;
-        Ok((field, notes))
+        self.fill(&mut field, data, (valid, first))?;
+        Ok(field)
     }
 
     /// Refuses values that are neither lengths nor numbers alone, unless the recipe says what they stand for.
@@ -134,7 +175,12 @@ impl LayerFile {
     }
 
     /// Gives cells without data their value, where the landscape has any.
-    fn fill(&self, field: &mut Field, data: Option<&Mask>, valid: Option<&Mask>) -> Result<(), Error> {
+    fn fill(
+        &self,
+        field: &mut Field,
+        data: Option<&Mask>,
+        (valid, first): (Option<&Mask>, usize),
+    ) -> Result<(), Error> {
         let Some(data) = data else { return Ok(()) };
         let columns = field.size().columns;
         for (cell, value) in field.values_mut().iter_mut().enumerate() {
@@ -143,7 +189,7 @@ impl LayerFile {
             }
             *value = self.no_data.unwrap_or(0.0) as f32;
             if self.no_data.is_none() && valid.is_none_or(|valid| valid.is_valid_at(cell)) {
-                let (x, y) = (cell % columns, cell / columns);
+                let (x, y) = (cell % columns, first + cell / columns);
                 return Err(Error::input(
                     &self.path,
                     format!(
@@ -157,13 +203,13 @@ impl LayerFile {
     }
 
     /// Where the file lies elsewhere on Earth than the landscape: an error, or a note where that is wanted.
-    fn elsewhere(&self, raster: &Raster, domain: &Domain) -> Result<Option<String>, Error> {
+    fn elsewhere(&self, (raster, size): (&Raster, Size), domain: &Domain) -> Result<Option<String>, Error> {
         let (Some(there), Some(here)) = (&raster.georeference, &domain.georeference) else { return Ok(None) };
         let corners = |place: &Georeference, size: Size| {
             let far = [size.columns as f64, size.rows as f64];
             [place.at([0.0; 2]), place.at(far)].concat()
         };
-        let (theirs, ours) = (corners(there, raster.field.size()), corners(here, domain.size));
+        let (theirs, ours) = (corners(there, size), corners(here, domain.size));
         let apart = |axis: usize| (theirs[axis] - ours[axis]).abs() > 0.5 * here.pixel[axis % 2];
         let crs = other_crs(Some(there), domain);
         // A grid of no place, as Weald writes it.
@@ -185,6 +231,52 @@ impl LayerFile {
              which lays it on the landscape cell by cell"
         );
         Err(Error::input(&self.path, format!("{told}: {remedy}")))
+    }
+}
+
+/// A file of which rows become those of a layer.
+pub(super) struct LayerRows<'a> {
+    of: &'a LayerFile,
+    file: Box<dyn RowsOfFile>,
+    /// What the user should know of the file.
+    pub(super) notes: Vec<String>,
+}
+
+impl LayerRows<'_> {
+    /// Some rows in runs that are worth reading at a time.
+    pub(super) fn runs_of_rows(&self, rows: Range<usize>) -> impl Iterator<Item = Range<usize>> + use<> {
+        file_rows::runs_of_rows(&*self.file, rows)
+    }
+
+    /// Rows of the layer, of which these cells have data in the landscape.
+    ///
+    /// # Errors
+    /// As [`LayerFile::read`], where these rows show it; [`Error::Limit`] where the memory is too little.
+    pub(super) fn values(
+        &self,
+        rows: Range<usize>,
+        valid: Option<&Mask>,
+        memory: u64,
+    ) -> Result<Field, Error> {
+        file_rows::ensure_memory(&self.of.path, &*self.file, memory)?;
+        let first = rows.start;
+        let (raster, _) = self.read(rows)?;
+        self.of.metres(raster.field, raster.valid.as_ref(), (valid, first))
+    }
+
+    fn read(&self, rows: Range<usize>) -> Result<(Raster, Vec<String>), Error> {
+        let path = &self.of.path;
+        let (raster, notes) = self.of.known(self.file.rows(rows).map_err(|fault| fault.of(path))?)?;
+        if raster.georeference.is_none() {
+            return Ok((raster, notes));
+        }
+        match io::square(raster).map_err(|error| self.of.of_this_file(error))? {
+            (raster, None) => Ok((raster, notes)),
+            (_, Some(note)) => {
+                let remedy = "which needs the whole in memory: gdalwarp it to square cells of metres";
+                Err(Error::input(path, format!("{note}; {remedy}")))
+            }
+        }
     }
 }
 

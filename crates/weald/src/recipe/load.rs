@@ -2,6 +2,7 @@
 //!
 //! It stands beside [`catalog`](super::catalog) and not among the stages, which know no files.
 
+use std::collections::BTreeSet;
 use std::path::PathBuf;
 
 use super::layer_file::{FileUnit, LayerFile, said};
@@ -12,7 +13,9 @@ use weald_core::landscape::Landscape;
 use weald_core::material::Material;
 use weald_core::parameters;
 use weald_engine::Job;
+use weald_engine::ranks::agreed;
 use weald_engine::step::{Entry, Outcome, Stage, Step};
+use weald_engine::stored::StoredLandscape;
 
 /// The step's declaration.
 pub const ENTRY: Entry = Entry::of::<Load>("load", Stage::Load, "loads a layer from a raster file", "Weald");
@@ -75,6 +78,32 @@ impl Step for Load {
 
     fn look_ahead(&self, _: &[Material], domain: &Domain) -> Result<(), Error> {
         self.layer_file().read(domain).map(drop)
+    }
+
+    fn look_ahead_by_rows(&self, domain: &Domain) -> Result<(), Error> {
+        self.layer_file().rows(domain).map(drop)
+    }
+
+    fn scratch_per_cell(&self, _: &BTreeSet<String>) -> Result<u64, String> {
+        if self.resample { Err("`resample = true` needs the whole file in memory".to_owned()) } else { Ok(0) }
+    }
+
+    fn run_on_disk(&self, landscape: &mut StoredLandscape<'_>, job: &Job<'_>) -> Result<Outcome, Error> {
+        let file = self.layer_file();
+        let file = agreed(&*landscape.ranks, file.rows(&landscape.domain))?;
+        let mut layer = landscape.plane(&self.into.0)?;
+        let read = file.runs_of_rows(layer.own()).try_for_each(|rows| {
+            if job.watcher.cancelled() {
+                let all = landscape.domain.size.rows;
+                return Err(Error::Interrupted(format!("interrupted in row {} of {all}", rows.start)));
+            }
+            let valid = landscape.valid_rows(rows.clone())?;
+            let values = file.values(rows.clone(), valid.as_ref(), landscape.memory)?;
+            layer.set_rows(rows, values.values())
+        });
+        agreed(&*landscape.ranks, read)?;
+        landscape.insert(&self.into.0, "m", layer);
+        Ok(Outcome { iterations: 1, notes: file.notes, ..Outcome::default() })
     }
 
     fn run(&self, landscape: &mut Landscape, _: &Job<'_>) -> Result<Outcome, Error> {

@@ -30,14 +30,16 @@ impl Recipe {
         if !diagnostics.is_empty() {
             return Err(RecipeError { file: self.file.clone(), diagnostics }.into());
         }
-        match &self.ground {
-            Ground::Empty { size, cell, .. } => Ok((Domain::new(*size, *cell), None)),
+        let (domain, rows) = match &self.ground {
+            Ground::Empty { size, cell, .. } => (Domain::new(*size, *cell), None),
             Ground::File { path, cell, said } => {
                 let rows = GroundRows::open(path, *cell, said)?;
                 self.check_on(&rows.domain)?;
-                Ok((rows.domain.clone(), Some(rows)))
+                (rows.domain.clone(), Some(rows))
             }
-        }
+        };
+        self.steps.iter().try_for_each(|planned| planned.step.look_ahead_by_rows(&domain))?;
+        Ok((domain, rows))
     }
 
     /// [`Recipe::scratch`] on a grid.

@@ -16,6 +16,8 @@ mod ground_by_rows;
 mod islands;
 mod json_schema;
 mod kept_parts;
+mod load_by_rows;
+mod local_steps;
 mod materials;
 mod networks;
 mod out_of_core;

@@ -16,6 +16,7 @@ use super::work::{Leaves, WorkFolder, new_files};
 use crate::recipe::memory;
 use crate::recipe::plan::Planned;
 use crate::recipe::report::{OutputReport, REPORT_FILE, Report};
+use weald_core::domain::Domain;
 use weald_core::error::{Error, Limit, Quantity};
 use weald_core::files::File;
 use weald_engine::ranks::{Alone, Ranks, SharedRows, agreed, any, greatest, least};
@@ -58,6 +59,7 @@ impl Run<'_> {
     pub(super) fn execute_in_parts(&self, progress: &dyn Progress) -> Result<Report, Error> {
         let ranks = self.sharing()?;
         let (domain, file) = agreed(&*ranks, self.recipe.start_on_disk())?;
+        self.ensure_neighbours_suffice(&domain, &*ranks)?;
         let (size, bytes) = (domain.size, self.recipe.scratch_on(domain.size));
         let scratch = ScratchFolder(self.options.out_of_core.clone());
         let memory = self.memory_of_steps(bytes.div_ceil(size.rows as u64), (size.rows, &*ranks))?;
@@ -119,6 +121,21 @@ impl Run<'_> {
                 Err(Error::Run(format!("{kind} is made {where_it_is}, and not on the engine `{other}`")))
             }
         }
+    }
+
+    /// Whether each step finds the rows around those of a rank with its neighbours.
+    fn ensure_neighbours_suffice(&self, domain: &Domain, ranks: &dyn Ranks) -> Result<(), Error> {
+        let rows = SharedRows::of((ranks.rank(), ranks.count()), domain.size.rows);
+        for (number, planned) in self.recipe.steps.iter().enumerate() {
+            let around = planned.step.reach().map_or(0, |reach| reach.rows(domain.cell));
+            if !rows.is_whole() && around > rows.least() {
+                let (number, name, least) = (number + 1, planned.entry.name, rows.least());
+                return Err(Error::Run(format!(
+                    "step {number} (`{name}`) looks {around} rows far, and a rank has {least}; run over fewer ranks"
+                )));
+            }
+        }
+        Ok(())
     }
 
     /// Memory that a step may count on, the same on all ranks: what is left beside the planes that lie there, which take so
