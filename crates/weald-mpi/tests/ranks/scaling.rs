@@ -1,6 +1,16 @@
 //! `weald-mpi bench`: what it measures, and the model beside it.
 
+use std::process::Output;
+
 use crate::launched::{mpirun, said};
+
+/// The bench over two ranks, run again where other work on the machine left nothing to measure.
+fn bench(arguments: &[&str]) -> Output {
+    let run = || mpirun(2).args(arguments).output().expect("mpirun is installed");
+    let is_measured = |output: &Output| !said(output).contains("on this busy machine");
+    let again = std::iter::repeat_with(run).take(4).find(is_measured);
+    again.unwrap_or_else(run)
+}
 
 /// The number before a word in the line that begins so.
 fn number(text: &str, line: &str, word: &str) -> f64 {
@@ -16,8 +26,7 @@ fn a_bench_counts_the_bytes_of_the_formula_and_prints_the_model_of_a_larger_grid
     for (model, planes) in [("han", 5.0), ("mei", 7.0)] {
         // So many steps take longer than what a busy machine adds to half as many.
         let arguments = ["bench", "--model", model, "--size", "256", "--steps", "128", "--threads", "1"];
-        let output =
-            mpirun(2).args(arguments).args(["--larger", "4096"]).output().expect("mpirun is installed");
+        let output = bench(&[&arguments[..], &["--larger", "4096"]].concat());
         assert!(output.status.success(), "{}", said(&output));
         let text = String::from_utf8(output.stdout).expect("text");
         println!("{text}");

@@ -30,7 +30,8 @@ weald_core::parameters! {
         /// Write a layer as one reader wants it: `blender` (.exr with channels R, G and B, since Blender shows others as
         /// black), `terrain3d` (.exr with one channel R of floats, as Godot loads), `hterrain` (.exr with one channel R of
         /// half floats, as Zylann's HTerrain for Godot loads), `landlab` (.nc or .zarr with landlab's names, rows from
-        /// the south), `cog` (.tif that is cloud-optimized, with smaller images for programs that show it from afar).
+        /// the south), `sharded` (.zarr with up to 64 chunks in a file, for large grids), `cog` (.tif that is
+        /// cloud-optimized, with smaller images for programs that show it from afar).
         preset: Option<String> = None, with layer;
         /// Grid on which a layer is written: that of the landscape, in square cells of metres, or that of the file from
         /// which the ground came, with its size, origin, cells and CRS.
