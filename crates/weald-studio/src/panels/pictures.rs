@@ -1,9 +1,10 @@
 //! Pictures of the templates.
 //!
-//! They are views of the templates' landscapes, 160 × 90 pixels with a palette:
+//! They are the views that templates draw, of a real model over a ridge of its own, or else what a render shows of them,
+//! 160 × 90 pixels with a palette:
 //!
 //! ```text
-//! weald render highland.toml --width 640 --height 360 highland.png
+//! weald render highland.toml --size 640x360 --output highland.png
 //! ffmpeg -i highland.png small.png -vf \
 //!     "scale=160:90:flags=lanczos,split[a][b];[a]palettegen=reserve_transparent=0[p];[b][p]paletteuse"
 //! ```
