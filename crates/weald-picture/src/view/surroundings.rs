@@ -4,14 +4,15 @@
 //! valley leads on outward:
 //!
 //! ```text
-//! z = (1 - s) (2 z(b) - z(m)) + s (f + a l(z(t) - z̄))      l(d) = d / (1 + d / d₀) for d > 0, else d
+//! z = (1 - s) (z(b) + h(z(b) - z(m))) + s (f + a l(z(t) - z̄))
+//! h(d) = d / (1 + |d| / h₀)      l(d) = d / (1 + d / d₀) for d > 0, else d
 //! ```
 //!
 //! with the nearest place `b` of the border, the mirrored place `m` within, and the share `s`, which grows smoothly from 0
-//! at the border to 1. From there on it is the ground of another place `t` of the landscape, turned by the golden angle so
-//! that nothing is seen twice side by side, about the height `f` of the border in that direction; what stands far above the
-//! others is lowered by `l`, or a lone mountain would stand there again and again. Where `f` lies below the sea, `a` is 0:
-//! the sea goes on.
+//! at the border to 1; `h` holds it near the border's height, or peaks on the border would become spikes. From there on it is
+//! the ground of another place `t` of the landscape, turned by the golden angle so that nothing is seen twice side by side,
+//! about the height `f` of the border in that direction; what stands far above the others is lowered by `l`, or a lone
+//! mountain would stand there again and again. Where `f` lies below the sea, `a` is 0: the sea goes on.
 
 use super::surface::Surface;
 use crate::colour::mix;
