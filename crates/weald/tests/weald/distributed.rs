@@ -165,3 +165,22 @@ fn an_engine_that_has_no_ranks_is_refused() {
     assert!(undistributed.contains("is distributed"), "{undistributed}");
     assert!(!out.path().join("out").exists());
 }
+
+/// Runs by rows, over so many ranks each or from disk (0), beside one in memory: same report and same files.
+pub(crate) fn assert_same_by_rows(recipe: &Recipe, counts: &[usize], what: &str) {
+    let [whole, scratch] = [0; 2].map(|_| tempfile::tempdir().expect("a folder"));
+    let expected = run(recipe, whole.path(), None, &Silent).unwrap_or_else(|error| panic!("{error}"));
+    for &count in counts {
+        let out = tempfile::tempdir().expect("a folder");
+        let got = if count == 0 {
+            run(recipe, out.path(), Some((scratch.path(), BESIDE + (8 << 20))), &Silent)
+        } else {
+            let options = |_| Options { memory: Some(1 << 30), ..Options::into_folder(out.path()) };
+            over_with(count, recipe, &options, &Silent).swap_remove(0)
+        };
+        let got = got.unwrap_or_else(|error| panic!("{what} over {count}: {error}"));
+        let what = format!("{what} over {count}");
+        assert_eq!(said(&Report { engine: "cpu".to_owned(), ..got }), said(&expected), "{what}");
+        assert_same_files(&expected, [whole.path(), out.path()], &what);
+    }
+}

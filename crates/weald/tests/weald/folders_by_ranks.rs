@@ -1,8 +1,8 @@
 //! Folders that ranks write side by side: those of a run in memory, to the byte, and of one output folder.
 
-use crate::distributed::over_with;
-use crate::out_of_core::{BESIDE, assert_same_files, recipe, run, said};
-use weald::recipe::{Options, Recipe, Report, Silent};
+use crate::distributed::{assert_same_by_rows, over_with};
+use crate::out_of_core::recipe;
+use weald::recipe::{Options, Recipe, Silent};
 
 /// Generated ground with rows of chunks that lie with several ranks.
 fn land() -> Recipe {
@@ -24,21 +24,7 @@ fn land() -> Recipe {
 
 #[test]
 fn ranks_write_the_zarr_of_a_run_in_memory_side_by_side() {
-    let recipe = land();
-    let [whole, scratch] = [0; 2].map(|_| tempfile::tempdir().expect("a folder"));
-    let expected = run(&recipe, whole.path(), None, &Silent).unwrap_or_else(|error| panic!("{error}"));
-    for count in [0, 1, 2, 3, 4, 6] {
-        let out = tempfile::tempdir().expect("a folder");
-        let got = if count == 0 {
-            run(&recipe, out.path(), Some((scratch.path(), BESIDE + (8 << 20))), &Silent)
-        } else {
-            let options = |_| Options { memory: Some(1 << 30), ..Options::into_folder(out.path()) };
-            over_with(count, &recipe, &options, &Silent).swap_remove(0)
-        };
-        let got = got.unwrap_or_else(|error| panic!("over {count}: {error}"));
-        assert_eq!(said(&Report { engine: "cpu".to_owned(), ..got }), said(&expected), "over {count}");
-        assert_same_files(&expected, [whole.path(), out.path()], &format!("over {count}"));
-    }
+    assert_same_by_rows(&land(), &[0, 1, 2, 3, 4, 6], "folders");
 }
 
 #[test]

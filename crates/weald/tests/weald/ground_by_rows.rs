@@ -7,7 +7,7 @@ use weald::io::{Raster, write};
 use weald::recipe::{Options, Overrides, Recipe, Silent};
 use weald::{Field, Size};
 
-use crate::distributed::over_with;
+use crate::distributed::{assert_same_by_rows, over_with};
 use crate::out_of_core::{BESIDE, assert_same_files, run, said};
 
 /// A recipe on the ground of a file, with more keys of the landscape.
@@ -183,21 +183,6 @@ fn cells_without_data_are_those_of_a_run_in_memory_to_the_bit() {
     ];
     for (hydraulic, counts) in kinds {
         let recipe = with_holes(&file, hydraulic);
-        let [whole, scratch] = [0; 2].map(|_| tempfile::tempdir().expect("a folder"));
-        let expected = run(&recipe, whole.path(), None, &Silent).unwrap_or_else(|error| panic!("{error}"));
-        for count in counts {
-            let out = tempfile::tempdir().expect("a folder");
-            let got = if count == 0 {
-                run(&recipe, out.path(), Some((scratch.path(), BESIDE + (8 << 20))), &Silent)
-            } else {
-                let options = |_| Options { memory: Some(1 << 30), ..Options::into_folder(out.path()) };
-                over_with(count, &recipe, &options, &Silent).swap_remove(0)
-            };
-            let got = got.unwrap_or_else(|error| panic!("{hydraulic} over {count}: {error}"));
-            let got = weald::recipe::Report { engine: "cpu".to_owned(), ..got };
-            let what = format!("{hydraulic} over {count}");
-            assert_eq!(said(&got), said(&expected), "{what}");
-            assert_same_files(&expected, [whole.path(), out.path()], &what);
-        }
+        assert_same_by_rows(&recipe, &counts, hydraulic);
     }
 }
