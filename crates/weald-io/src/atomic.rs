@@ -1,5 +1,6 @@
 //! Files that are whole or not there.
 
+use std::collections::BTreeSet;
 use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 
@@ -42,7 +43,10 @@ pub fn write_whole_with(
 /// As [`write_whole`], and those of `write`.
 pub fn write_through(path: &Path, write: impl FnOnce(&Path) -> Result<(), Error>) -> Result<(), Error> {
     let temporary = temporary_name(path);
-    let renamed = || rename(&temporary, path).map_err(|cause| Error::write(path, &cause));
+    // The other program has closed its file, and may have left the bytes to the system.
+    let synced = || File::options().write(true).open(&temporary)?.sync_all();
+    let renamed =
+        || synced().and_then(|()| rename(&temporary, path)).map_err(|cause| Error::write(path, &cause));
     write(&temporary).and_then(|()| renamed()).inspect_err(|_| {
         // The write has failed already; that there may be no leftover to remove adds nothing.
         let _ = files::remove_file(&temporary);
@@ -131,11 +135,25 @@ pub fn rename(from: &Path, to: &Path) -> std::io::Result<()> {
     sync_folder_of(to)
 }
 
-/// Brings the names in the folder of a file to disk: a power cut could undo a rename that is only in memory.
-#[cfg(unix)]
+/// Makes a folder and those in which it lies, where they are not there: their names are on disk when this returns.
+///
+/// # Errors
+/// Those of the file system.
+pub fn make_folders(path: &Path) -> std::io::Result<()> {
+    let is_missing = |folder: &&Path| !folder.as_os_str().is_empty() && !files::exists(folder);
+    let made: Vec<_> = path.ancestors().take_while(is_missing).collect();
+    files::create_dir_all(path)?;
+    made.into_iter().rev().try_for_each(sync_folder_of)
+}
+
 fn sync_folder_of(path: &Path) -> std::io::Result<()> {
+    sync_folder(path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new(".")))
+}
+
+/// Brings the names in a folder to disk: a power cut could undo a rename that is only in memory.
+#[cfg(unix)]
+fn sync_folder(folder: &Path) -> std::io::Result<()> {
     use std::io::ErrorKind::{InvalidInput, Unsupported};
-    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     match File::open(folder)?.sync_all() {
         // Some file systems of networks cannot, and keep names by themselves.
         Err(cause) if [InvalidInput, Unsupported].contains(&cause.kind()) => Ok(()),
@@ -145,7 +163,7 @@ fn sync_folder_of(path: &Path) -> std::io::Result<()> {
 
 /// Other systems have no such call.
 #[cfg(not(unix))]
-fn sync_folder_of(_: &Path) -> std::io::Result<()> {
+fn sync_folder(_: &Path) -> std::io::Result<()> {
     Ok(())
 }
 
@@ -189,15 +207,17 @@ pub fn write_into(folder: &Path, parts: &[Part]) -> Result<(), Error> {
 }
 
 fn fill(folder: &Path, parts: &[Part]) -> std::io::Result<()> {
-    files::create_dir_all(folder)?;
+    make_folders(folder)?;
+    let mut folders = BTreeSet::new();
     for part in parts {
         let path = part.name.path(folder);
         if let Some(parent) = path.parent() {
-            files::create_dir_all(parent)?;
+            make_folders(parent)?;
+            folders.insert(parent.to_owned());
         }
         write_and_sync(&path, |file| file.write_all(&part.bytes))?;
     }
-    Ok(())
+    folders.iter().try_for_each(|folder| sync_folder(folder))
 }
 
 fn write_and_sync(

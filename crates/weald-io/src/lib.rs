@@ -41,8 +41,8 @@ mod wkt;
 pub mod zarr;
 
 pub use atomic::{
-    remove_leftovers, rename, replace_folder, write_into, write_parts, write_through, write_whole,
-    write_whole_with,
+    make_folders, remove_leftovers, rename, replace_folder, write_into, write_parts, write_through,
+    write_whole, write_whole_with,
 };
 pub use classes::{Class, Classes};
 pub use format::{

@@ -15,7 +15,7 @@ const FEW: u64 = 20;
 /// Seeds of two recipes that take turns in one folder.
 const SEEDS: [&str; 2] = ["1", "2"];
 
-const RECIPE: &str = "\
+pub(crate) const RECIPE: &str = "\
 [landscape]
 size = 48
 cell = 10.0

@@ -9,5 +9,7 @@ mod kills;
 mod memory;
 mod place;
 mod render;
+#[cfg(target_os = "linux")]
+mod synced;
 #[cfg(all(feature = "studio", target_os = "linux"))]
 mod window;

@@ -17,7 +17,7 @@ use weald_engine::report::StepReport;
 use weald_engine::stored::{StoredLandscape, StoredPlane};
 use weald_engine::stored_state::{ResumedState, StoredState};
 use weald_engine::sums::RowSums;
-use weald_io::write_whole_with;
+use weald_io::{make_folders, write_whole_with};
 
 /// What a checkpoint by parts keeps.
 pub(in crate::recipe) struct KeptParts<'a> {
@@ -107,7 +107,7 @@ impl KeptParts<'_> {
 
 /// The number of the next checkpoint, in a folder that is there then.
 fn next_number(folder: &Path) -> Result<u64, Error> {
-    files::create_dir_all(folder).map_err(|cause| Error::write(folder, &cause))?;
+    make_folders(folder).map_err(|cause| Error::write(folder, &cause))?;
     Ok(part_files(folder).filter_map(|(name, _)| number_of(&name)).max().map_or(0, |number| number + 1))
 }
 

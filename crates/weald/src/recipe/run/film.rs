@@ -10,7 +10,7 @@ use weald_core::error::Error;
 use weald_core::files;
 use weald_core::landscape::Landscape;
 use weald_engine::step::Step;
-use weald_io::write_whole;
+use weald_io::{make_folders, write_whole};
 use weald_picture::{Cutout, Frame, Image, Picture, RenderDevice, Watch};
 
 /// A time-lapse of a recipe.
@@ -95,7 +95,7 @@ impl<'a> TimeLapses<'a> {
 /// Makes the folder in which a file is to lie.
 pub(super) fn make_folder_of(path: &Path) -> Result<(), Error> {
     let folder = path.parent().unwrap_or(Path::new("."));
-    files::create_dir_all(folder).map_err(|cause| Error::write(folder, &cause))
+    make_folders(folder).map_err(|cause| Error::write(folder, &cause))
 }
 
 /// A picture of what is there now, by the processor or by a device.

@@ -7,7 +7,7 @@ use super::work::WorkFolder;
 use crate::recipe::plan::{Name, Recipe};
 use weald_core::error::Error;
 use weald_core::files;
-use weald_io::remove_leftovers;
+use weald_io::{make_folders, remove_leftovers};
 
 /// Makes the folder and those of the outputs, takes it for this run, and tries to write into each. The texts say what
 /// an earlier run had left.
@@ -63,9 +63,7 @@ fn ensure_free(name: &Name, path: &Path) -> Result<(), Error> {
 
 /// Makes a folder that can be written to.
 fn make(folder: &Path) -> Result<(), Error> {
-    files::create_dir_all(folder)
-        .and_then(|()| try_to_write(folder))
-        .map_err(|cause| Error::write(folder, &cause))
+    make_folders(folder).and_then(|()| try_to_write(folder)).map_err(|cause| Error::write(folder, &cause))
 }
 
 /// Makes a file that never has a name.

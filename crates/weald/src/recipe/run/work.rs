@@ -16,7 +16,7 @@ use crate::recipe::plan::{Recipe, WORK_FOLDER};
 use crate::recipe::{CHECKPOINT_FILE, REPORT_FILE};
 use weald_core::error::Error;
 use weald_core::files::{self, File};
-use weald_io::{rename, replace_folder, write_whole};
+use weald_io::{make_folders, rename, replace_folder, write_whole};
 
 const LOCK: &str = "lock";
 const OLD: &str = "old";
@@ -187,7 +187,7 @@ impl WorkFolder {
             return Ok(());
         }
         if let Some(folder) = target.parent() {
-            files::create_dir_all(folder)?;
+            make_folders(folder)?;
         }
         if !files::is_dir(&made) {
             return rename(&made, target);
@@ -196,7 +196,7 @@ impl WorkFolder {
         if files::exists(&stale) {
             files::remove_dir_all(&stale)?;
         }
-        files::create_dir_all(stale.parent().unwrap_or(&self.out))?;
+        make_folders(stale.parent().unwrap_or(&self.out))?;
         replace_folder(&made, target, &stale)
     }
 }
@@ -231,7 +231,7 @@ fn locked(out: &Path) -> Result<File, Error> {
     let folder = out.join(WORK_FOLDER);
     let path = folder.join(LOCK);
     loop {
-        files::create_dir_all(&folder).map_err(|cause| Error::write(out, &cause))?;
+        make_folders(&folder).map_err(|cause| Error::write(out, &cause))?;
         let opened = File::options().read(true).write(true).create(true).truncate(false).open(&path);
         let mut file = match opened {
             // Another run has just ended and taken its folder away.
