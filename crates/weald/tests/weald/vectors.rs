@@ -155,7 +155,9 @@ fn rfc_7946_has_longitude_and_latitude_alone_and_is_refused_elsewhere() {
         assert!(file.get("crs").is_none() && !features(&file).is_empty());
         let said = ogrinfo(&bytes);
         assert!(
-            said.contains("ID[\"EPSG\",4326]") && said.contains("Geometry: ") && !said.contains("Geometry: 3D"),
+            said.contains("ID[\"EPSG\",4326]")
+                && said.contains("Geometry: ")
+                && !said.contains("Geometry: 3D"),
             "{said}"
         );
         let elsewhere = country(Some(utm()));

@@ -2,7 +2,8 @@
 //!
 //! `WEALD_RANDOM_RECIPES=1000 cargo test -p weald --test weald random_recipes -- --nocapture` is the long version, whose
 //! figures stand in CORRECTNESS.md; `WEALD_FIRST_RECIPE` is the first, `WEALD_KEEP_RECIPES` a folder for their texts,
-//! `WEALD_RECIPE_SECONDS` how long a run may take.
+//! `WEALD_RECIPE_SECONDS` how long a run may take, and `WEALD_RECIPES=7,31` are some of them alone, such as those that took too
+//! long.
 
 mod made;
 
@@ -120,19 +121,33 @@ fn outcome(text: &str) -> Result<End, String> {
     Ok(End::Done)
 }
 
+/// The numbers of the recipes to run.
+fn numbers() -> Vec<u64> {
+    if let Ok(some) = std::env::var("WEALD_RECIPES") {
+        return some.split(',').map(|number| number.parse().expect("a number of a recipe")).collect();
+    }
+    let first = wanted("WEALD_FIRST_RECIPE").unwrap_or(0);
+    (first..first + wanted("WEALD_RANDOM_RECIPES").unwrap_or(FEW)).collect()
+}
+
 #[test]
 fn what_passes_the_check_runs_to_its_end_with_the_same_files_for_any_number_of_threads() {
-    let first = wanted("WEALD_FIRST_RECIPE").unwrap_or(0);
-    let count = wanted("WEALD_RANDOM_RECIPES").unwrap_or(FEW);
+    let numbers = numbers();
+    let count = numbers.len() as u64;
     let mut ends: BTreeMap<End, u64> = BTreeMap::new();
     let mut faults = Vec::new();
-    for seed in first..first + count {
+    for seed in numbers {
         let text = made::recipe(seed);
         if let Some(folder) = std::env::var_os("WEALD_KEEP_RECIPES") {
             std::fs::write(Path::new(&folder).join(format!("r{seed}.toml")), &text).expect("written");
         }
         match outcome(&text) {
-            Ok(end) => *ends.entry(end).or_default() += 1,
+            Ok(end) => {
+                if end == End::TooLong {
+                    println!("recipe {seed}: took too long");
+                }
+                *ends.entry(end).or_default() += 1;
+            }
             Err(fault) => {
                 if count > FEW {
                     println!("recipe {seed}: {fault}");
