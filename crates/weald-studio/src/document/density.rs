@@ -8,7 +8,8 @@ use weald::edit::Brush;
 use weald::recipe::catalog;
 use weald::recipe::source::{Node, Table, Value};
 
-use super::{Document, NOT_IN_TABLES, no_step, put, step_of};
+use super::Document;
+use super::changes::{NOT_IN_TABLES, no_step, put, rearranged, step_of};
 
 /// The step whose strokes are painted.
 const PAINT: &str = "paint-layer";
@@ -149,7 +150,7 @@ fn look_at(text: &mut DocumentMut, at: usize, step: &Table, name: &str) -> Resul
 /// Puts a step before the one at a place.
 fn insert(text: &mut DocumentMut, at: usize, table: EditedTable) -> Result<(), String> {
     let steps: Option<&mut ArrayOfTables> = text.get_mut("step").and_then(Item::as_array_of_tables_mut);
-    super::rearranged(steps.ok_or(NOT_IN_TABLES)?, |tables| {
+    rearranged(steps.ok_or(NOT_IN_TABLES)?, |tables| {
         tables.insert(at.min(tables.len()), table);
         Ok(())
     })

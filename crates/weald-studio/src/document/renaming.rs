@@ -8,7 +8,8 @@ use weald::recipe::source::{Node, Table, Value};
 use weald::recipe::{FilmKeys, Output, OutputKeys, Overrides, Recipe, catalog};
 use weald::step::Step;
 
-use super::{Document, NOT_IN_TABLES, no_step, put, step_of};
+use super::Document;
+use super::changes::{NOT_IN_TABLES, no_step, put, step_of};
 
 /// The key that names what a step makes.
 const INTO: &str = "into";
