@@ -8,5 +8,6 @@ pub mod analyse;
 pub mod combine;
 pub mod edit;
 pub mod erode;
+mod exponential;
 pub mod flow;
 pub mod generate;

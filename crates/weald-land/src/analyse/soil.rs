@@ -12,7 +12,10 @@
 //!
 //! ```text
 //! u(T) = u(0) eᵃ + (P T / h₀) (eᵃ - 1) / a          a = g T / h₀
+//! h(T) / h₀ = max(a, 0) + ln(exp(h(0) / h₀ + min(a, 0)) + (P T / h₀) (1 - e⁻ⁿ) / n)          n = |a|
 //! ```
+//!
+//! The second is the first without numbers that grow beyond bounds; it is worked out for rows of cells in vectors.
 //!
 //! Ridges and worn ground come to the depth h₀ ln(P / -g), or to bare rock where -g exceeds P; hollows and
 //! flood plains gather soil. Ground at or beyond its critical slope bears none. Fertility is Weald's own product of
@@ -22,13 +25,18 @@
 //! (1 - exp(-h / rooting)) · moisture, from `dry` over 1 to `wet` · nutrients, from `old` to 1 with fresh deposits
 //! ```
 
+use std::f64::consts::{LN_2, LOG2_E};
+
+use super::cells::fields_by_rows;
 use super::quadric::{LOOKS, Quadric, Surface, window};
+use crate::exponential::{exp2, log2};
 use weald_core::domain::Domain;
 use weald_core::error::Error;
 use weald_core::grid::Field;
 use weald_core::landscape::Landscape;
 use weald_core::parameter::LayerName;
 use weald_core::parameters;
+use weald_core::vectors;
 use weald_engine::Job;
 use weald_engine::local::Reach;
 use weald_engine::step::{Entry, Outcome, Stage, Step};
@@ -129,18 +137,24 @@ impl Step for Soil {
 
     fn run(&self, landscape: &mut Landscape, _: &Job<'_>) -> Result<Outcome, Error> {
         let domain = &landscape.domain;
-        let surface = Surface::new(landscape.field(&self.of.0)?, domain).reaching(self.scale)?;
-        let layer = |name: &Option<LayerName>| {
-            name.as_ref().map(|name| landscape.field(&name.0)).transpose().map(Given)
-        };
-        let (erosion, deposition) = (layer(&self.erosion)?, layer(&self.deposition)?);
-        let (moisture, loose) = (layer(&self.moisture)?, layer(&self.loose)?);
         let ground = Ground::of(self);
-        let [depth, fertility] = surface.fields(|[x, y], shape| {
-            let deposit = deposition.at(x, y);
-            let gain = deposit.unwrap_or(0.0) - self.recent_erosion * erosion.at(x, y).unwrap_or(0.0);
-            let depth = ground.depth(shape, loose.at(x, y).unwrap_or(0.0), gain);
-            [depth, self.fertility(depth, moisture.at(x, y), deposit)]
+        let surface = Surface::new(landscape.field(&self.of.0)?, domain).reaching(self.scale)?;
+        let [crept] = surface.fields(
+            #[inline(always)]
+            |_, shape| [ground.crept(shape)],
+        );
+        let given = self.given(landscape)?;
+        let [depth, fertility] = fields_by_rows(domain.size, |y, [depth, fertility]| {
+            let rows = given.each_ref().map(|given| given.row(y));
+            vectors::widest(
+                #[inline(always)]
+                || ground.row(crept.row(y), rows, depth, fertility),
+            );
+            if let Some(valid) = &domain.valid {
+                for x in (0..domain.size.columns).filter(|&x| !valid.is_valid(x, y)) {
+                    (depth[x], fertility[x]) = (0.0, 0.0);
+                }
+            }
         });
         landscape.insert("soil_depth", "m", depth);
         landscape.insert("fertility", "1", fertility);
@@ -148,60 +162,107 @@ impl Step for Soil {
     }
 }
 
-/// A layer that a recipe may leave out.
-struct Given<'a>(Option<&'a Field>);
+impl Soil {
+    /// Loose ground, erosion, deposits and moisture. Where a recipe leaves one out it is what changes nothing.
+    fn given<'a>(&self, landscape: &'a Landscape) -> Result<[Given<'a>; 4], Error> {
+        let layer = |name: &Option<LayerName>, otherwise: f64| -> Result<Given<'a>, Error> {
+            let field = name.as_ref().map(|name| landscape.field(&name.0)).transpose()?;
+            let columns = if field.is_none() { landscape.domain.size.columns } else { 0 };
+            Ok(Given { field, otherwise: vec![otherwise as f32; columns] })
+        };
+        Ok([
+            layer(&self.loose, 0.0)?,
+            layer(&self.erosion, 0.0)?,
+            layer(&self.deposition, 0.0)?,
+            layer(&self.moisture, self.best_moisture)?,
+        ])
+    }
+}
+
+/// A layer, or a row that stands for all of those of one that is left out.
+struct Given<'a> {
+    field: Option<&'a Field>,
+    otherwise: Vec<f32>,
+}
 
 impl Given<'_> {
-    fn at(&self, x: usize, y: usize) -> Option<f64> {
-        self.0.map(|field| f64::from(field.at(x, y)))
+    fn row(&self, y: usize) -> &[f32] {
+        self.field.map_or(&self.otherwise, |field| field.row(y))
     }
 }
 
 /// What of a soil is the same everywhere.
 struct Ground<'a> {
     soil: &'a Soil,
-    /// Tangent of the critical slope.
+    /// Square of the tangent of the critical slope.
     critical: f64,
-    /// Logarithm of the depths of weathering that weather from bare rock in the age of the soil.
+    /// What weathers from bare rock in the age of the soil, by the depth of weathering.
     weathered: f64,
+    /// Factor of fertility where there are no fresh deposits; 1 where nothing is known of deposits.
+    old: f64,
 }
 
 impl<'a> Ground<'a> {
     fn of(soil: &'a Soil) -> Self {
-        let critical = libm::tan(soil.critical_slope_deg.to_radians());
-        let weathered = libm::log(soil.weathering * soil.age / soil.weathering_depth);
-        Self { soil, critical, weathered }
+        let tangent = libm::tan(soil.critical_slope_deg.to_radians());
+        let weathered = soil.weathering * soil.age / soil.weathering_depth;
+        let old = if soil.deposition.is_some() { soil.old } else { 1.0 };
+        Self { soil, critical: tangent * tangent, weathered, old }
     }
 
-    /// Depth in metres on ground of that shape, from what lay there and what came and went, both in metres.
-    fn depth(&self, surface: Quadric, loose: f64, gain: f64) -> f64 {
-        let Self { soil, critical, .. } = *self;
-        let steepness = surface.steepness() / (critical * critical);
-        if steepness >= 1.0 {
-            return 0.0;
+    /// What creep brings to a cell, in m/yr: on ground at its critical slope or beyond it takes all away.
+    #[inline(always)]
+    fn crept(&self, shape: Quadric) -> f64 {
+        let steepness = shape.steepness() / self.critical;
+        let rate = self.soil.creep * gathering(shape, steepness, self.critical);
+        if steepness < 1.0 { rate } else { f64::NEG_INFINITY }
+    }
+
+    /// Depth and fertility of a row, from what creep brings and the rows of [`Soil::given`].
+    #[inline(always)]
+    fn row(&self, crept: &[f32], given: [&[f32]; 4], depth: &mut [f32], fertility: &mut [f32]) {
+        let [loose, erosion, deposition, moisture] = given;
+        let cells = depth.iter_mut().zip(fertility).zip(crept);
+        let given = loose.iter().zip(erosion).zip(deposition).zip(moisture);
+        for (((depth, fertility), &crept), (((&loose, &erosion), &deposit), &moisture)) in cells.zip(given) {
+            let gain = f64::from(deposit) - self.soil.recent_erosion * f64::from(erosion);
+            let deep = self.depth(f64::from(crept), f64::from(loose), gain);
+            *depth = deep as f32;
+            *fertility = self.fertility(deep, f64::from(moisture), f64::from(deposit)) as f32;
         }
-        let rate = soil.creep * gathering(surface, steepness, critical) + gain / soil.age;
-        self.grown(loose.max(0.0), rate).clamp(0.0, soil.deepest)
+    }
+
+    /// Depth in metres where creep brings so much, from what lay there and what came and went, both in metres.
+    #[inline(always)]
+    fn depth(&self, crept: f64, loose: f64, gain: f64) -> f64 {
+        self.grown(loose.max(0.0), crept + gain / self.soil.age).max(0.0).min(self.soil.deepest)
     }
 
     /// The solution of the equation of depth after the age of the soil, from a depth at the start and a rate of all
     /// but weathering, in m/yr.
+    #[inline(always)]
     fn grown(&self, start: f64, rate: f64) -> f64 {
         let scale = self.soil.weathering_depth;
         let a = rate * self.soil.age / scale;
-        scale * log_of_sum(start / scale + a, self.weathered + log_mean_growth(a))
+        let kept = start / scale + a.min(0.0);
+        let sum = exp2(kept * LOG2_E) + self.weathered * mean_decay(a.abs());
+        // Beyond what `exp2` reaches what was kept is all there is.
+        scale * (log2(sum) * LN_2 + (kept - MOST).max(0.0) + a.max(0.0))
+    }
+
+    #[inline(always)]
+    fn fertility(&self, depth: f64, moisture: f64, deposit: f64) -> f64 {
+        let rooted = 1.0 - exp2(-depth / self.soil.rooting * LOG2_E);
+        let fed = 1.0 - (1.0 - self.old) * exp2(-deposit.max(0.0) / ENRICHING * LOG2_E);
+        (rooted * self.soil.watered(moisture.clamp(0.0, 1.0)) * fed).clamp(0.0, 1.0)
     }
 }
 
-impl Soil {
-    fn fertility(&self, depth: f64, moisture: Option<f64>, deposit: Option<f64>) -> f64 {
-        let rooted = 1.0 - libm::exp(-depth / self.rooting);
-        let watered = moisture.map_or(1.0, |moisture| self.watered(moisture.clamp(0.0, 1.0)));
-        let fed =
-            deposit.map_or(1.0, |deposit| 1.0 - (1.0 - self.old) * libm::exp(-deposit.max(0.0) / ENRICHING));
-        (rooted * watered * fed).clamp(0.0, 1.0)
-    }
+/// Exponent from which on [`exp2`] is the same, as a natural one.
+const MOST: f64 = 1000.0 * LN_2;
 
+impl Soil {
+    #[inline(always)]
     fn watered(&self, moisture: f64) -> f64 {
         let best = self.best_moisture;
         let (end, fraction) = if moisture < best {
@@ -213,26 +274,22 @@ impl Soil {
     }
 }
 
-/// `∇·(f ∇z)` with `f = 1 / (1 - steepness)`, in 1/m: what creep brings to a cell, for K = 1.
+/// `∇·(f ∇z)` with `f = 1 / (1 - steepness)`, in 1/m: what creep brings to a cell, for K = 1. `critical` is the square of the
+/// critical slope.
+#[inline(always)]
 fn gathering(Quadric { p, q, r, s, t }: Quadric, steepness: f64, critical: f64) -> f64 {
     let faster = 1.0 / (1.0 - steepness);
     let along = p * p * r + 2.0 * p * q * s + q * q * t;
-    faster * (r + t) + 2.0 * faster * faster / (critical * critical) * along
+    faster * (r + t) + 2.0 * faster * faster / critical * along
 }
 
-/// `ln((eᵃ - 1) / a)`, whatever the size of `a`.
-fn log_mean_growth(a: f64) -> f64 {
-    let size = a.abs();
-    // (1 - e^-size) / size is within 0 and 1; a growing `a` is e^a times that.
-    let mean = if size < 1e-9 { 1.0 } else { -libm::expm1(-size) / size };
-    // For a decaying `a` it is the mean itself.
-    libm::log(mean) + a.max(0.0)
-}
-
-/// `ln(eˣ + eʸ)`, whatever the size of `x` and `y`.
-fn log_of_sum(x: f64, y: f64) -> f64 {
-    let (low, high) = (x.min(y), x.max(y));
-    high + libm::log1p(libm::exp(low - high))
+/// `(1 - e⁻ⁿ) / n`, whatever the size of `n`, which is not negative.
+#[inline(always)]
+fn mean_decay(n: f64) -> f64 {
+    let series = 1.0 - n * (0.5 - n * (1.0 / 6.0));
+    let closed = (1.0 - exp2(-n * LOG2_E)) / n;
+    // Where the difference has few digits left; the next term of the series is a twenty-fourth of n³.
+    if n < 1e-3 { series } else { closed }
 }
 
 #[cfg(test)]
@@ -241,6 +298,11 @@ mod tests {
 
     fn bent(r: f64) -> Quadric {
         Quadric { r, ..Quadric::default() }
+    }
+
+    fn depth(soil: &Soil, shape: Quadric, loose: f64, gain: f64) -> f64 {
+        let ground = Ground::of(soil);
+        ground.depth(ground.crept(shape), loose, gain)
     }
 
     /// The depth by small steps of the equation itself.
@@ -269,40 +331,56 @@ mod tests {
         let soil = Soil { age: 1.0e7, ..Soil::default() };
         let curvature = -0.01;
         let expected = soil.weathering_depth * (soil.weathering / (soil.creep * 0.01)).ln();
-        let found = Ground::of(&soil).depth(bent(curvature), 0.0, 0.0);
+        let found = depth(&soil, bent(curvature), 0.0, 0.0);
         assert!(expected > 0.3 && (found - expected).abs() < 1e-6, "{found} instead of {expected}");
     }
 
     #[test]
     fn sharp_ridges_steep_walls_and_worn_ground_are_bare_and_hollows_are_deep() {
         let soil = Soil::default();
-        assert_eq!(Ground::of(&soil).depth(bent(-0.1), 0.0, 0.0), 0.0);
-        assert_eq!(Ground::of(&soil).depth(Quadric { p: 2.0, ..Quadric::default() }, 5.0, 0.0), 0.0);
-        assert_eq!(Ground::of(&soil).depth(bent(0.0), 0.0, -50.0), 0.0);
-        let [level, hollow, plain] = [(0.0, 0.0), (0.01, 0.0), (0.0, 3.0)]
-            .map(|(bend, gain)| Ground::of(&soil).depth(bent(bend), 0.0, gain));
+        assert_eq!(depth(&soil, bent(-0.1), 0.0, 0.0), 0.0);
+        assert_eq!(depth(&soil, Quadric { p: 2.0, ..Quadric::default() }, 5.0, 0.0), 0.0);
+        assert_eq!(depth(&soil, bent(0.0), 0.0, -50.0), 0.0);
+        let [level, hollow, plain] =
+            [(0.0, 0.0), (0.01, 0.0), (0.0, 3.0)].map(|(bend, gain)| depth(&soil, bent(bend), 0.0, gain));
         assert!(level > 0.3 && hollow > level && plain > 3.0, "{level} {hollow} {plain}");
-        assert_eq!(Ground::of(&soil).depth(bent(0.0), 0.0, 1.0e6), soil.deepest);
+        assert_eq!(depth(&soil, bent(0.0), 0.0, 1.0e6), soil.deepest);
+        let buried = Soil { deepest: 1000.0, weathering_depth: 0.01, ..soil };
+        assert!(
+            (depth(&buried, bent(0.0), 900.0, -300.0) - 600.0).abs() < 1e-6,
+            "beyond what exponentials reach"
+        );
     }
 
     #[test]
     fn creep_is_faster_the_nearer_the_ground_is_to_its_critical_slope() {
         let soil = Soil::default();
-        let shoulder = |p: f64| Ground::of(&soil).depth(Quadric { p, ..bent(-0.004) }, 0.0, 0.0);
+        let shoulder = |p: f64| depth(&soil, Quadric { p, ..bent(-0.004) }, 0.0, 0.0);
         assert!(shoulder(0.0) > shoulder(0.5) && shoulder(0.5) > shoulder(0.8), "{}", shoulder(0.5));
     }
 
     #[test]
     fn fertility_is_greatest_on_deep_moist_fresh_soil() {
-        let soil = Soil::default();
-        let best = soil.fertility(10.0, Some(0.6), Some(10.0));
+        let soil = Soil { deposition: Some(LayerName::of("deposition")), ..Soil::default() };
+        let ground = Ground::of(&soil);
+        let best = ground.fertility(10.0, 0.6, 10.0);
         assert!((best - 1.0).abs() < 1e-6, "{best}");
         for (depth, moisture, deposit) in
             [(0.1, 0.6, 10.0), (10.0, 0.0, 10.0), (10.0, 1.0, 10.0), (10.0, 0.6, 0.0)]
         {
-            assert!(soil.fertility(depth, Some(moisture), Some(deposit)) < 0.7);
+            assert!(ground.fertility(depth, moisture, deposit) < 0.7);
         }
-        assert_eq!(soil.fertility(0.0, None, None), 0.0);
-        assert!(soil.fertility(10.0, None, None) > 0.99);
+        let unknown = Soil::default();
+        let ground = Ground::of(&unknown);
+        assert_eq!(ground.fertility(0.0, unknown.best_moisture, 0.0), 0.0);
+        assert!(ground.fertility(10.0, unknown.best_moisture, 0.0) > 0.99);
+    }
+
+    #[test]
+    fn the_mean_of_a_decay_is_that_of_the_library() {
+        for n in [0.0, 1e-9, 9.9e-4, 1.01e-3, 0.3, 7.0, 800.0, f64::INFINITY] {
+            let exact = if n == 0.0 { 1.0 } else { -libm::expm1(-n) / n };
+            assert!((mean_decay(n) - exact).abs() < 1e-8 * exact.max(1e-12), "{n}: {}", mean_decay(n));
+        }
     }
 }
