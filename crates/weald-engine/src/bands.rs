@@ -3,6 +3,9 @@
 //! Each band owns its memory and receives the rows around its edges as messages before each time block: what the ranks
 //! of a cluster do. Any number of bands gives the same bits.
 
+mod cut;
+mod inside_first;
+
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -12,6 +15,8 @@ use crate::stencil::chain::{Chain, Process, RecordedMeans, RowSums, SUMS, TimeBl
 use crate::stencil::rows::{Layout, Rows, first_not_finite};
 use crate::stencil::segment::{PlaneRow, Segment};
 use crate::sums::Means;
+use cut::Cut;
+pub(crate) use inside_first::Edges;
 
 /// A simulation's rows, bands and sums.
 pub struct BandedGrid<P: Process> {
@@ -19,6 +24,8 @@ pub struct BandedGrid<P: Process> {
     layout: Layout,
     rows: usize,
     bands: Vec<Band<P>>,
+    /// Whether the first and the last band can advance after the others.
+    edges: [bool; 2],
     /// Most steps of one time block.
     block: usize,
     /// How many bands there are to be; `None` for one a thread.
@@ -38,29 +45,78 @@ struct Band<P: Process> {
     sums: Vec<RowSums>,
 }
 
+impl<P: Process> Band<P> {
+    fn new(own: Range<usize>, (rows, sums): (Vec<PlaneRow>, Vec<RowSums>), chain: Chain<P>) -> Self {
+        Self { own, rows, above: Vec::new(), below: Vec::new(), chain, sums }
+    }
+}
+
+/// A band, and its part of each mean.
+type BandWithMeans<'a, P> = (&'a mut Band<P>, Vec<&'a mut [f32]>);
+
+/// What all bands do in one time block.
+struct BandWork<'a, P: Process> {
+    process: &'a P,
+    weather: &'a [P::Weather],
+    parts: Means<'a>,
+    columns: Range<usize>,
+}
+
+impl<P: Process> BandWork<'_, P> {
+    /// Advances the rows of a band, and counts to its part of the means.
+    fn run(&self, (band, means): BandWithMeans<'_, P>) {
+        let Band { own, rows, above, below, chain, sums } = band;
+        let Self { process, weather, parts, ref columns } = *self;
+        let span = own.start - above.len()..own.end + below.len();
+        let (first, columns) = (own.start, columns.clone());
+        let means = RecordedMeans { parts, sums: means };
+        TimeBlock { process, weather, span, first, own: rows, above, below, sums, columns, means }.run(chain);
+    }
+}
+
 impl<P: Process> BandedGrid<P> {
     /// A world over `state`, whose layout holds state planes and then constant planes: in that many bands, or one a
     /// thread. Sums count the cells of `columns` alone.
     pub fn new(process: &Arc<P>, state: &Rows, wanted: Option<usize>, columns: Range<usize>) -> Self {
-        let (rows, layout) = (state.count(), state.layout);
-        let most = wanted.unwrap_or_else(rayon::current_num_threads);
-        let count = most.clamp(1, (rows / process.reach()).max(1));
-        let block = steps_per_time_block(&**process, rows / count);
-        let bands = (0..count).into_par_iter().map(|band| {
-            let own = rows * band / count..rows * (band + 1) / count;
-            Band {
-                rows: own.clone().map(|_| empty(layout)).collect(),
-                above: Vec::new(),
-                below: Vec::new(),
-                chain: Chain::new(&**process, layout.columns, block),
-                sums: vec![[0.0; SUMS]; own.len()],
-                own,
-            }
-        });
-        let (process, bands) = (Arc::clone(process), bands.collect());
-        let mut world = Self { process, layout, rows, bands, block, wanted, columns };
+        let (rows, layout, process) = (state.count(), state.layout, Arc::clone(process));
+        let (bands, edges) = (Vec::new(), [false; 2]);
+        let mut world = Self { process, layout, rows, bands, edges, block: 1, wanted, columns };
+        let count = world.even_count();
+        let cut = Cut::even(rows, count);
+        world.block = steps_per_time_block(&*world.process, rows / count);
+        world.bands = cut
+            .bands
+            .into_par_iter()
+            .map(|own| {
+                let rows = own.clone().map(|_| empty(layout)).collect();
+                let sums = vec![[0.0; SUMS]; own.len()];
+                Band::new(own, (rows, sums), Chain::new(&*world.process, layout.columns, world.block))
+            })
+            .collect();
         world.set_state(state, layout.planes);
         world
+    }
+
+    /// How many bands there are without edges.
+    fn even_count(&self) -> usize {
+        let most = self.wanted.unwrap_or_else(rayon::current_num_threads);
+        most.clamp(1, (self.rows / self.process.reach()).max(1))
+    }
+
+    /// Cuts the rows into other bands, for time blocks of at most so many steps. No row is copied.
+    fn cut_anew(&mut self, cut: &Cut, steps: usize) {
+        let (mut rows, mut sums) = (Vec::with_capacity(self.rows), Vec::with_capacity(self.rows));
+        for band in self.bands.drain(..) {
+            rows.extend(band.rows);
+            sums.extend(band.sums);
+        }
+        let (mut rows, mut sums) = (rows.into_iter(), sums.into_iter());
+        for own in &cut.bands {
+            let taken = (rows.by_ref().take(own.len()).collect(), sums.by_ref().take(own.len()).collect());
+            let chain = Chain::new(&*self.process, self.layout.columns, steps);
+            self.bands.push(Band::new(own.clone(), taken, chain));
+        }
+        (self.edges, self.block) = (cut.edges, steps);
     }
 
     /// Steps that one time block can do.
@@ -164,11 +220,17 @@ impl<P: Process> BandedGrid<P> {
     /// Advances all rows by one step for each entry of `weather`, in passages of at most [`BandedGrid::block`]. Each step
     /// counts to the `means`, row-major, of these parts.
     pub fn advance(&mut self, weather: &[P::Weather], parts: Means<'_>, means: &mut [Vec<f32>]) {
-        let south = parts.iter().copied().flatten().map(|part| part.from[1]).max().unwrap_or(0);
         for passage in weather.chunks(self.block) {
-            self.exchange_halos(self.process.reach() * passage.len() + south);
-            self.pass(passage, parts, means);
+            self.exchange_halos(self.halo(passage.len(), parts));
+            let (work, bands) = self.work(passage, parts, means);
+            bands.into_par_iter().for_each(|band| work.run(band));
         }
+    }
+
+    /// Rows around its own that a band needs for so many steps.
+    fn halo(&self, steps: usize, parts: Means<'_>) -> usize {
+        let south = parts.iter().copied().flatten().map(|part| part.from[1]).max().unwrap_or(0);
+        self.process.reach() * steps + south
     }
 
     /// Every band gets so many rows around its own.
@@ -193,23 +255,23 @@ impl<P: Process> BandedGrid<P> {
         }
     }
 
-    fn pass(&mut self, weather: &[P::Weather], parts: Means<'_>, means: &mut [Vec<f32>]) {
-        let (process, columns, width) = (&*self.process, &self.columns, self.layout.columns);
+    /// A time block, and each band with its part of the means.
+    fn work<'a>(
+        &'a mut self,
+        weather: &'a [P::Weather],
+        parts: Means<'a>,
+        means: &'a mut [Vec<f32>],
+    ) -> (BandWork<'a, P>, Vec<BandWithMeans<'a, P>>) {
+        let width = self.layout.columns;
         let mut rest: Vec<_> = means.iter_mut().map(Vec::as_mut_slice).collect();
-        let mut sums = Vec::with_capacity(self.bands.len());
-        for band in &self.bands {
+        let with_means = |band: &'a mut Band<P>| {
             let cells = band.own.len() * width;
             let own = rest.iter_mut().map(|rest| rest.split_off_mut(..cells).expect("a sum a cell"));
-            sums.push(own.collect::<Vec<_>>());
-        }
-        self.bands.par_iter_mut().zip(sums).for_each(|(band, means)| {
-            let Band { own, rows, above, below, chain, sums } = band;
-            let span = own.start - above.len()..own.end + below.len();
-            let (first, columns) = (own.start, columns.clone());
-            let means = RecordedMeans { parts, sums: means };
-            TimeBlock { process, weather, span, first, own: rows, above, below, sums, columns, means }
-                .run(chain);
-        });
+            let own = own.collect::<Vec<_>>();
+            (band, own)
+        };
+        let bands = self.bands.iter_mut().map(with_means).collect();
+        (BandWork { process: &self.process, weather, parts, columns: self.columns.clone() }, bands)
     }
 }
 

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use super::bands::BandedGrid;
+use super::bands::{BandedGrid, Edges};
 use super::device::Window;
 use super::machine::{Machine, Means, Snapshot};
 use super::patch::{Patch, Patched};
@@ -49,6 +49,17 @@ impl<P: Process> CpuMachine<P> {
     /// The same, to be changed.
     pub(crate) fn world_mut(&mut self) -> &mut BandedGrid<P> {
         &mut self.world
+    }
+
+    /// One time block, of which the inner bands are computed while `arrive` waits for the rows beyond the edges.
+    pub(crate) fn advance_inside_first(
+        &mut self,
+        weather: &[P::Weather],
+        recorded: bool,
+        arrive: impl FnOnce(&mut Edges<'_, P>) -> Result<(), Error>,
+    ) -> Result<(), Error> {
+        let parts = if recorded { self.parts } else { &[] };
+        self.world.advance_inside_first(weather, (parts, &mut self.means), arrive)
     }
 
     /// Sums over the recorded steps, row-major.

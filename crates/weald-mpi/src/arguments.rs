@@ -3,7 +3,8 @@
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
-use clap::{Args, Parser, Subcommand};
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use weald::engine::ranks::Overlap;
 use weald::recipe::Overrides;
 
 /// Runs recipes over the processes of a cluster, with the bits of one processor.
@@ -42,9 +43,30 @@ pub(crate) struct BenchArguments {
     /// Bandwidth between two nodes in gigabytes per second, in place of what is measured
     #[arg(long, value_name = "GIGABYTES")]
     pub(crate) bandwidth: Option<f64>,
+    /// When ranks compute their inside while rows of their neighbours are on their way; `measured` takes what is faster
+    #[arg(long, value_name = "WHEN", value_enum, default_value_t = Inside::Measured)]
+    pub(crate) inside_first: Inside,
     /// Threads of each rank [default: the cores of its machine, shared among the ranks there]
     #[arg(long, value_name = "N")]
     pub(crate) threads: Option<NonZeroUsize>,
+}
+
+/// When ranks compute their inside first.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(crate) enum Inside {
+    Always,
+    Never,
+    Measured,
+}
+
+impl From<Inside> for Overlap {
+    fn from(inside: Inside) -> Self {
+        match inside {
+            Inside::Always => Self::Always,
+            Inside::Never => Self::Never,
+            Inside::Measured => Self::Measured,
+        }
+    }
 }
 
 #[derive(Debug, Args)]
@@ -82,6 +104,9 @@ pub(crate) struct RunArguments {
     /// Most memory that a rank may take then, such as 2GiB [default: what is free on its machine, shared among the ranks there]
     #[arg(long, value_name = "SIZE", value_parser = weald::error::bytes_from_words)]
     pub(crate) memory: Option<u64>,
+    /// When ranks compute their inside while rows of their neighbours are on their way; `measured` takes what is faster
+    #[arg(long, value_name = "WHEN", value_enum, default_value_t = Inside::Measured)]
+    pub(crate) inside_first: Inside,
     /// Shows no progress
     #[arg(long)]
     pub(crate) quiet: bool,

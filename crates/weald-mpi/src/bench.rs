@@ -68,7 +68,7 @@ pub(crate) fn bench(arguments: &BenchArguments, ranks: &Arc<dyn Ranks>) -> Resul
         let machine = Machine { rate: cells / alone, latency, bandwidth };
         let (traffic, sent) = traffic(arguments, &counting);
         if ranks.count() > 1 {
-            print!("{}", beside(arguments, ranks.count(), (machine, traffic), (together, sent)));
+            print!("{}", beside(arguments, ranks.count(), (machine, traffic), (together, sent, &counting)));
         }
         print!("{}", larger(arguments, machine, traffic));
     }
@@ -150,7 +150,7 @@ fn beside(
     arguments: &BenchArguments,
     count: usize,
     (machine, traffic): (Machine, Traffic),
-    (together, sent): (f64, f64),
+    (together, sent, counting): (f64, f64, &Counting),
 ) -> String {
     let BenchArguments { size, model, .. } = arguments;
     let (alone, threads) = ((size * size) as f64 / machine.rate, rayon::current_num_threads());
@@ -170,6 +170,8 @@ fn beside(
     );
     let faster = alone / together;
     let _ = writeln!(text, "all ranks, measured {together:.6} s a step, {faster:.2} times as fast as one");
+    let (aside, all) = (counting.aside(), counting.exchanges());
+    let _ = writeln!(text, "inside first        in {aside} of {all} exchanges of the first rank");
     let ratio = predicted / together;
     let _ = writeln!(text, "all ranks, model    {predicted:.6} s a step: {ratio:.2} of what was measured\n");
     text

@@ -20,7 +20,7 @@ use mpi::Threading;
 use mpi::traits::Communicator;
 use weald::engine::ranks::Ranks;
 
-use arguments::{Arguments, Command};
+use arguments::{Arguments, Command, Inside};
 use messages::MpiRanks;
 
 /// Exit code of a usage error.
@@ -36,11 +36,15 @@ fn main() -> ExitCode {
         return ExitCode::FAILURE;
     };
     end_all_on_panic();
-    let ranks: Arc<dyn Ranks> = Arc::new(MpiRanks::new());
+    let ranks = |inside: Inside| -> Arc<dyn Ranks> { Arc::new(MpiRanks::new(inside.into())) };
     let code = match Arguments::try_parse() {
-        Ok(Arguments { command: Command::Run(arguments) }) => run::run(&arguments, &ranks),
-        Ok(Arguments { command: Command::Bench(arguments) }) => run::measure(&arguments, &ranks),
-        Err(said) => say_usage(&said, &*ranks),
+        Ok(Arguments { command: Command::Run(arguments) }) => {
+            run::run(&arguments, &ranks(arguments.inside_first))
+        }
+        Ok(Arguments { command: Command::Bench(arguments) }) => {
+            run::measure(&arguments, &ranks(arguments.inside_first))
+        }
+        Err(said) => say_usage(&said, &*ranks(Inside::Measured)),
     };
     drop(universe);
     ExitCode::from(code)

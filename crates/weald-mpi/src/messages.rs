@@ -1,28 +1,33 @@
 //! Messages between ranks by MPI. An error of MPI ends the program on all ranks, which is what MPI does with errors.
 
+use std::time::Duration;
+
 use mpi::collective::Root;
 use mpi::point_to_point::{Destination, Source};
-use mpi::request::WaitGuard;
 use mpi::topology::SimpleCommunicator;
 use mpi::traits::{Communicator, Equivalence};
 use weald::Error;
-use weald::engine::ranks::{Ranks, Swap};
+use weald::engine::ranks::{Overlap, Ranks, Swap};
 
 /// Most values of one message: MPI counts them in 31 bits.
 const PIECE: usize = 1 << 28;
+
+/// How long a rank that computes sleeps before it looks again for what has come.
+const LOOKS_EVERY: Duration = Duration::from_micros(50);
 
 /// The processes that were started together.
 #[derive(Debug)]
 pub(crate) struct MpiRanks {
     rank: usize,
     count: usize,
+    overlap: Overlap,
 }
 
 impl MpiRanks {
     /// MPI has been initialised.
-    pub(crate) fn new() -> Self {
+    pub(crate) fn new(overlap: Overlap) -> Self {
         let world = SimpleCommunicator::world();
-        Self { rank: world.rank() as usize, count: world.size() as usize }
+        Self { rank: world.rank() as usize, count: world.size() as usize, overlap }
     }
 }
 
@@ -91,9 +96,17 @@ impl Ranks for MpiRanks {
     }
 
     fn swap(&self, swaps: &mut [Swap<'_>]) -> Result<(), Error> {
-        let swaps = swaps.iter_mut().map(|Swap { with, give, take }| (*with, *give, &mut **take));
-        swap_all(&SimpleCommunicator::world(), swaps);
+        swap_all(&SimpleCommunicator::world(), buffers(swaps), false);
         Ok(())
+    }
+
+    fn swap_aside(&self, swaps: &mut [Swap<'_>]) -> Result<(), Error> {
+        swap_all(&SimpleCommunicator::world(), buffers(swaps), true);
+        Ok(())
+    }
+
+    fn overlap(&self) -> Overlap {
+        self.overlap
     }
 
     fn trade(&self, given: Vec<(usize, Vec<u8>)>) -> Result<Vec<Vec<u8>>, Error> {
@@ -102,29 +115,51 @@ impl Ranks for MpiRanks {
         let mut coming = vec![[0_u64]; given.len()];
         let with = given.iter().map(|(with, _)| *with);
         let counts = with.zip(&lengths).zip(&mut coming);
-        swap_all(&world, counts.map(|((with, give), take)| (with, give.as_slice(), take.as_mut_slice())));
+        swap_all(
+            &world,
+            counts.map(|((with, give), take)| (with, give.as_slice(), take.as_mut_slice())),
+            false,
+        );
         let mut taken: Vec<Vec<u8>> = coming.iter().map(|[length]| vec![0; *length as usize]).collect();
         let bytes = given.iter().zip(&mut taken);
-        swap_all(&world, bytes.map(|((with, give), take)| (*with, give.as_slice(), take.as_mut_slice())));
+        swap_all(
+            &world,
+            bytes.map(|((with, give), take)| (*with, give.as_slice(), take.as_mut_slice())),
+            false,
+        );
         Ok(taken)
     }
 }
 
-/// Gives and takes; all messages are under way at the same time.
+fn buffers<'a>(swaps: &'a mut [Swap<'_>]) -> impl Iterator<Item = (usize, &'a [f32], &'a mut [f32])> {
+    swaps.iter_mut().map(|Swap { with, give, take }| (*with, *give, &mut **take))
+}
+
+/// Gives and takes; all messages are under way at the same time. `aside` of what other threads compute, it looks now and then
+/// what has come, since MPI may move a message only then, and a wait would take a processor from them.
 fn swap_all<'a, T: Equivalence + 'a>(
     world: &SimpleCommunicator,
     swaps: impl Iterator<Item = (usize, &'a [T], &'a mut [T])>,
+    aside: bool,
 ) {
     mpi::request::scope(|scope| {
-        let (mut coming, mut going) = (Vec::new(), Vec::new());
+        let (mut pending, mut going) = (Vec::new(), Vec::new());
         for (with, give, take) in swaps {
             let other = world.process_at_rank(with as i32);
             for piece in take.chunks_mut(PIECE) {
-                coming.push(WaitGuard::from(other.immediate_receive_into(scope, piece)));
+                pending.push(other.immediate_receive_into(scope, piece));
             }
             for piece in give.chunks(PIECE) {
-                going.push(WaitGuard::from(other.immediate_send(scope, piece)));
+                going.push(other.immediate_send(scope, piece));
             }
         }
+        pending.extend(going);
+        while aside && !pending.is_empty() {
+            pending = pending.into_iter().filter_map(|request| request.test().err()).collect();
+            std::thread::sleep(LOOKS_EVERY);
+        }
+        pending.into_iter().for_each(|request| {
+            request.wait();
+        });
     });
 }

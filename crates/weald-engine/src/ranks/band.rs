@@ -3,8 +3,12 @@
 use std::ops::Range;
 use std::sync::Arc;
 
+use web_time::Instant;
+
+use super::border::Border;
 use super::bytes::{Reader, Writer};
-use super::messages::{Ranks, Swap};
+use super::messages::Ranks;
+use super::overlap::{Overlap, Trial};
 use super::share::Share;
 use crate::cpu::CpuMachine;
 use crate::device::Window;
@@ -24,9 +28,8 @@ pub(super) struct Band<P: Process> {
     state_planes: usize,
     /// Its rows and those around them; none on a rank without rows.
     machine: Option<CpuMachine<P>>,
-    /// What goes to the north and the south, and what comes from there.
-    given: [Vec<f32>; 2],
-    taken: [Vec<f32>; 2],
+    border: Border,
+    trial: Trial,
 }
 
 impl<P: Process> Band<P> {
@@ -40,20 +43,16 @@ impl<P: Process> Band<P> {
     ) -> Result<Self, Error> {
         let start = read_part(&mut Reader(part), &share, layout, means.len())?;
         // Its process has the rows around its own: with fewer, walls would stand between ranks.
-        let machine = (!share.own().is_empty()).then(|| {
+        let mut machine = (!share.own().is_empty()).then(|| {
             let process = Arc::new(process.sized(Size { columns: layout.columns, rows: share.held().len() }));
             CpuMachine::new(&process, means, &start, None)
         });
-        let (ranks, state_planes) = (Arc::clone(ranks), process.state_planes());
-        Ok(Self {
-            ranks,
-            share,
-            layout,
-            state_planes,
-            machine,
-            given: Default::default(),
-            taken: Default::default(),
-        })
+        if let (Overlap::Always, Some(machine)) = (ranks.overlap(), &mut machine) {
+            machine.world_mut().cut_with_edges(share.edges(), share.block);
+        }
+        let (state_planes, trial) = (process.state_planes(), Trial::of(ranks.overlap()));
+        let border = Border::new(share.clone(), (layout.columns, state_planes));
+        Ok(Self { ranks: Arc::clone(ranks), share, layout, state_planes, machine, border, trial })
     }
 
     pub(super) fn share(&self) -> &Share {
@@ -67,48 +66,50 @@ impl<P: Process> Band<P> {
     /// One step for each entry of `weather`.
     pub(super) fn advance(&mut self, weather: &[P::Weather], recorded: bool) -> Result<(), Error> {
         for passage in weather.chunks(self.share.block) {
-            self.exchange(self.share.halo(passage.len()))?;
-            if let Some(machine) = &mut self.machine {
-                machine.advance(passage, recorded)?;
+            let begun = Instant::now();
+            let waited = self.passage(passage, recorded)?;
+            if self.trial.is_running() && passage.len() == self.share.block {
+                self.look_at(waited, begun.elapsed().as_secs_f64());
             }
         }
         Ok(())
     }
 
-    /// Gets so many rows around its own from the neighbours, as they are now.
-    fn exchange(&mut self, halo: usize) -> Result<(), Error> {
-        let Some(machine) = &mut self.machine else { return Ok(()) };
-        let (own, first) = (self.share.own(), self.share.held().start);
-        let sides = [
-            (self.share.north(), own.start..own.start + halo, own.start.saturating_sub(halo)..own.start),
-            (self.share.south(), own.end.saturating_sub(halo)..own.end, own.end..own.end + halo),
-        ];
-        let columns = self.layout.columns;
-        let places = |rows: &Range<usize>| {
-            let rows = rows.start - first..rows.end - first;
-            let planes = self.state_planes;
-            rows.flat_map(move |y| (0..planes).map(move |plane| (y, plane)))
+    /// Steps between two exchanges; gives the seconds for which nothing was done but to wait for messages.
+    fn passage(&mut self, weather: &[P::Weather], recorded: bool) -> Result<f64, Error> {
+        let Some(machine) = &mut self.machine else { return Ok(0.0) };
+        let halo = self.share.halo(weather.len());
+        self.border.give(halo, |y, plane| machine.world().plane(y, plane));
+        if machine.world().has_edges() {
+            let (border, ranks) = (&mut self.border, &self.ranks);
+            machine.advance_inside_first(weather, recorded, |edges| {
+                border.swap(halo, |swaps| ranks.swap_aside(swaps))?;
+                border.take(halo, |y, plane, cells| edges.plane_mut(y, plane).copy_from_slice(cells));
+                Ok(())
+            })?;
+            return Ok(0.0);
+        }
+        let begun = Instant::now();
+        self.border.swap(halo, |swaps| self.ranks.swap(swaps))?;
+        let waited = begun.elapsed().as_secs_f64();
+        let world = machine.world_mut();
+        self.border.take(halo, |y, plane, cells| world.plane_mut(y, plane).copy_from_slice(cells));
+        machine.advance(weather, recorded)?;
+        Ok(waited)
+    }
+
+    /// Takes the order of inside and messages that is faster.
+    fn look_at(&mut self, waited: f64, took: f64) {
+        let (edges, block) = (self.share.edges(), self.share.block);
+        let Some(machine) = &mut self.machine else { return };
+        let Some(cost) = machine.world().cost_of_edges(edges, block).filter(|_| edges != [0; 2]) else {
+            return;
         };
-        let mut swaps = Vec::with_capacity(2);
-        let buffers = self.given.iter_mut().zip(&mut self.taken);
-        for ((with, ours, theirs), (give, take)) in sides.iter().zip(buffers) {
-            let Some(with) = *with else { continue };
-            give.clear();
-            places(ours).for_each(|(y, plane)| give.extend_from_slice(machine.world().plane(y, plane)));
-            take.resize(theirs.len() * self.state_planes * columns, 0.0);
-            swaps.push(Swap { with, give, take });
+        match self.trial.passed(waited, took, cost) {
+            Some(true) => machine.world_mut().cut_with_edges(edges, block),
+            Some(false) => machine.world_mut().cut_without_edges(),
+            None => {}
         }
-        if !swaps.is_empty() {
-            self.ranks.swap(&mut swaps)?;
-        }
-        for ((with, _, theirs), take) in sides.iter().zip(&self.taken) {
-            if with.is_some() {
-                for ((y, plane), cells) in places(theirs).zip(take.chunks_exact(columns)) {
-                    machine.world_mut().plane_mut(y, plane).copy_from_slice(cells);
-                }
-            }
-        }
-        Ok(())
     }
 
     /// Column, row of the whole and plane of the first value in its own rows that is no number.

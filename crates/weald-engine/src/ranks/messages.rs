@@ -2,6 +2,7 @@
 
 use std::fmt::Debug;
 
+use super::overlap::Overlap;
 use weald_core::error::Error;
 
 /// This process among those that compute a simulation together, and how it speaks with the others.
@@ -43,6 +44,17 @@ pub trait Ranks: Debug + Send + Sync {
     /// Swaps numbers with other ranks, each of which swaps as many with this one in the same call. A rank that has
     /// nobody to swap with may leave the call out.
     fn swap(&self, swaps: &mut [Swap<'_>]) -> Result<(), Error>;
+
+    /// The same while other threads of this process compute: it waits without taking a processor from them. Others may call
+    /// either.
+    fn swap_aside(&self, swaps: &mut [Swap<'_>]) -> Result<(), Error> {
+        self.swap(swaps)
+    }
+
+    /// When this rank computes its inside while rows of its neighbours are on their way.
+    fn overlap(&self) -> Overlap {
+        Overlap::Measured
+    }
 
     /// Gives bytes to other ranks, each of which gives some to this one in the same call, as many or not; gets theirs in the
     /// same order. A rank that has nobody to trade with may leave the call out.

@@ -51,6 +51,13 @@ impl Share {
         self.reach * steps + SOUTH_OF_MEANS
     }
 
+    /// Rows at the northern and the southern end of those that it holds that feel those of a neighbour in the steps of a block.
+    pub(super) fn edges(&self) -> [usize; 2] {
+        let (own, held, halo) = (self.own(), self.held(), self.halo(self.block));
+        let edge = |neighbour: Option<usize>, theirs: usize| neighbour.map_or(0, |_| theirs + halo);
+        [edge(self.north(), own.start - held.start), edge(self.south(), held.end - own.end)]
+    }
+
     /// The rank that has the rows to the north.
     pub(super) fn north(&self) -> Option<usize> {
         self.rows.north()

@@ -35,6 +35,11 @@ const WITH_HOLES: &str = "from = \"ground.asc\"";
 
 /// Runs a recipe of these steps on a ground, with these layers as its files.
 fn assert_same_over_ranks(ground: &str, steps: &[&str], layers: &[&str]) {
+    assert_same_with(&[], (ground, steps, layers));
+}
+
+/// The same with more options of the command.
+fn assert_same_with(options: &[&str], (ground, steps, layers): (&str, &[&str], &[&str])) {
     let folder = tempfile::tempdir().expect("a folder");
     write_ground(folder.path());
     std::fs::write(folder.path().join("s.jsonl"), STROKES).expect("written");
@@ -49,7 +54,7 @@ fn assert_same_over_ranks(ground: &str, steps: &[&str], layers: &[&str]) {
     let expected = on_one(folder.path());
     for count in COUNTS {
         let out = format!("over-{count}");
-        let output = run(count, folder.path(), &out, &[]);
+        let output = run(count, folder.path(), &out, options);
         assert!(output.status.success(), "{count} ranks: {}", said(&output));
         assert_same(folder.path(), &expected, &out);
     }
@@ -84,6 +89,17 @@ fn floods_on_several_grids() {
     ];
     let layers = ["height", "water", "flux_x", "flux_y"];
     assert_same_over_ranks("size = [28, 48]\ncell = 4.0", &steps, &layers);
+}
+
+#[test]
+fn rows_that_are_computed_while_messages_are_on_their_way() {
+    let steps = [
+        "do = \"fbm\"\nrelief = 80\nwavelength = 300",
+        "do = \"hydraulic\"\niterations = 200\nboundary = \"open\"\nrain_period = 30",
+        "do = \"hydraulic\"\nmodel = \"stava\"\niterations = 100\nslippage = {}\ndissolution = {}",
+    ];
+    let layers = ["height", "sand", "water", "sediment", "flux_x"];
+    assert_same_with(&["--inside-first", "always"], ("size = [40, 290]\ncell = 4.0", &steps, &layers));
 }
 
 #[test]

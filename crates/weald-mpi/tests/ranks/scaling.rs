@@ -49,6 +49,18 @@ fn a_bench_counts_the_bytes_of_the_formula_and_prints_the_model_of_a_larger_grid
 }
 
 #[test]
+fn a_bench_says_in_how_many_exchanges_the_inside_came_first() {
+    let arguments = ["bench", "--size", "256", "--steps", "128", "--threads", "1", "--inside-first"];
+    for (when, always) in [("always", true), ("never", false)] {
+        let output = bench(&[&arguments[..], &[when]].concat());
+        assert!(output.status.success(), "{}", said(&output));
+        let text = String::from_utf8(output.stdout).expect("text");
+        let [first, all] = ["of", "exchanges"].map(|word| number(&text, "inside first", word));
+        assert!(all > 100.0 && first == if always { all } else { 0.0 }, "{when}: {text}");
+    }
+}
+
+#[test]
 fn a_rank_alone_has_no_messages_and_a_model_all_the_same() {
     let arguments = ["bench", "--size", "128", "--steps", "8", "--latency", "2", "--bandwidth", "12"];
     let output = mpirun(1).args(arguments).output().expect("mpirun is installed");

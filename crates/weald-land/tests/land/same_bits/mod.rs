@@ -3,6 +3,7 @@
 
 mod draw;
 mod drawn;
+mod inside_first;
 mod ranks;
 
 use std::sync::Mutex;

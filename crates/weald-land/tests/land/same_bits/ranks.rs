@@ -19,13 +19,13 @@ use super::draw::{Case, KINDS, case_of};
 use super::drawn::{Looker, difference};
 use crate::common::{field, hydraulic, landscape, layered, mei, rough, stava, with};
 
-const COUNTS: [usize; 5] = [1, 2, 3, 4, 6];
+pub(super) const COUNTS: [usize; 5] = [1, 2, 3, 4, 6];
 
 /// Steps that every process runs at least.
 const STEPS: u64 = 500;
 
 /// What a step leaves and reports.
-type End = (Landscape, Result<Outcome, Error>);
+pub(super) type End = (Landscape, Result<Outcome, Error>);
 
 fn run_on(step: &dyn Step, ground: &Landscape, job: &Job<'_>) -> End {
     let mut land = ground.clone();
@@ -33,13 +33,18 @@ fn run_on(step: &dyn Step, ground: &Landscape, job: &Job<'_>) -> End {
     (land, outcome)
 }
 
-fn on_one(step: &dyn Step, ground: &Landscape) -> End {
+pub(super) fn on_one(step: &dyn Step, ground: &Landscape) -> End {
     run_on(step, ground, &Job::unwatched(7))
 }
 
 /// What the first of so many ranks has in the end. The watcher and the saved state are its alone.
-fn over(
-    count: usize,
+fn over(count: usize, what: (&dyn Step, &Landscape), with: (&dyn Watcher, Option<SavedSimulation>)) -> End {
+    over_these(ranks_in_threads(count), what, with)
+}
+
+/// The same of these ranks.
+pub(super) fn over_these(
+    ranks: Vec<Arc<dyn Ranks>>,
     (step, ground): (&dyn Step, &Landscape),
     (watcher, resume): (&dyn Watcher, Option<SavedSimulation>),
 ) -> End {
@@ -49,7 +54,7 @@ fn over(
         let job = Job { seed: 7, engine: Engine::Ranks(ranks), watcher, resume };
         pool.install(|| run_on(step, ground, &job))
     };
-    let mut ranks = ranks_in_threads(count).into_iter();
+    let mut ranks = ranks.into_iter();
     let first = ranks.next().expect("at least one");
     std::thread::scope(|scope| {
         let others: Vec<_> = ranks.map(|other| scope.spawn(|| rank(other, &Unwatched, None))).collect();
@@ -163,7 +168,7 @@ fn script() -> Script {
 }
 
 /// A simulation that a script edits, and the folder where that lies.
-fn edited() -> (Hydraulic, Landscape, tempfile::TempDir) {
+pub(super) fn edited() -> (Hydraulic, Landscape, tempfile::TempDir) {
     let folder = tempfile::tempdir().expect("a folder");
     let file = folder.path().join("s.jsonl");
     script().save(&file).expect("written");
