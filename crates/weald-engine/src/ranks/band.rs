@@ -81,6 +81,11 @@ impl<P: Process> Band<P> {
         let halo = self.share.halo(weather.len());
         self.border.give(halo, |y, plane| machine.world().plane(y, plane));
         if machine.world().has_edges() {
+            if cfg!(debug_assertions) {
+                // What reads rows before they have come gets no number, and is seen by that.
+                let world = machine.world_mut();
+                self.border.spoil(|y, plane| world.plane_mut(y, plane).fill(f32::NAN));
+            }
             let (border, ranks) = (&mut self.border, &self.ranks);
             machine.advance_inside_first(weather, recorded, |edges| {
                 border.swap(halo, |swaps| ranks.swap_aside(swaps))?;

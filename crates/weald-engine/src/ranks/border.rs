@@ -76,6 +76,14 @@ impl Border {
         if swaps.is_empty() { Ok(()) } else { swap(&mut swaps) }
     }
 
+    /// Goes over all rows of others that are held, a row of a plane at a time.
+    pub(super) fn spoil(&self, mut spoil: impl FnMut(usize, usize)) {
+        let (own, held) = (self.share.own(), self.share.held());
+        for y in (held.start..own.start).chain(own.end..held.end) {
+            (0..self.planes).for_each(|plane| spoil(y - held.start, plane));
+        }
+    }
+
     /// Puts what has come, a row of a plane at a time.
     pub(super) fn take(&self, halo: usize, mut put: impl FnMut(usize, usize, &[f32])) {
         for (side, take) in self.sides(halo).iter().zip(&self.taken) {

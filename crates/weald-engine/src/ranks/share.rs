@@ -86,6 +86,11 @@ mod tests {
                 let first = share.north().map_or(0, |north| share.of_rank(north).own().start);
                 let end = share.south().map_or(rows, |south| share.of_rank(south).own().end);
                 assert!(first <= held.start && held.end <= end, "{share:?} holds {held:?}");
+                let [north, south] = share.edges();
+                let inside = held.start + north..held.end - south;
+                let felt = |neighbour: Option<usize>| neighbour.map_or(0, |_| reach * share.block);
+                assert!(own.start + felt(share.north()) <= inside.start, "{share:?}: {inside:?}");
+                assert!(inside.end + felt(share.south()) <= own.end, "{share:?}: {inside:?}");
                 assert_eq!(
                     (own.start == 0, own.end == rows),
                     (share.north().is_none(), share.south().is_none())

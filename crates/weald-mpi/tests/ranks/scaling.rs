@@ -4,9 +4,9 @@ use std::process::Output;
 
 use crate::launched::{mpirun, said};
 
-/// The bench over two ranks, run again where other work on the machine left nothing to measure.
-fn bench(arguments: &[&str]) -> Output {
-    let run = || mpirun(2).args(arguments).output().expect("mpirun is installed");
+/// The bench over so many ranks, run again where other work on the machine left nothing to measure.
+fn bench(count: usize, arguments: &[&str]) -> Output {
+    let run = || mpirun(count).args(arguments).output().expect("mpirun is installed");
     let is_measured = |output: &Output| !said(output).contains("on this busy machine");
     let again = std::iter::repeat_with(run).take(4).find(is_measured);
     again.unwrap_or_else(run)
@@ -26,7 +26,7 @@ fn a_bench_counts_the_bytes_of_the_formula_and_prints_the_model_of_a_larger_grid
     for (model, planes) in [("han", 5.0), ("mei", 7.0)] {
         // So many steps take longer than what a busy machine adds to half as many.
         let arguments = ["bench", "--model", model, "--size", "256", "--steps", "128", "--threads", "1"];
-        let output = bench(&[&arguments[..], &["--larger", "4096"]].concat());
+        let output = bench(2, &[&arguments[..], &["--larger", "4096"]].concat());
         assert!(output.status.success(), "{}", said(&output));
         let text = String::from_utf8(output.stdout).expect("text");
         println!("{text}");
@@ -52,7 +52,7 @@ fn a_bench_counts_the_bytes_of_the_formula_and_prints_the_model_of_a_larger_grid
 fn a_bench_says_in_how_many_exchanges_the_inside_came_first() {
     let arguments = ["bench", "--size", "256", "--steps", "128", "--threads", "1", "--inside-first"];
     for (when, always) in [("always", true), ("never", false)] {
-        let output = bench(&[&arguments[..], &[when]].concat());
+        let output = bench(2, &[&arguments[..], &[when]].concat());
         assert!(output.status.success(), "{}", said(&output));
         let text = String::from_utf8(output.stdout).expect("text");
         let [first, all] = ["of", "exchanges"].map(|word| number(&text, "inside first", word));
@@ -62,8 +62,8 @@ fn a_bench_says_in_how_many_exchanges_the_inside_came_first() {
 
 #[test]
 fn a_rank_alone_has_no_messages_and_a_model_all_the_same() {
-    let arguments = ["bench", "--size", "128", "--steps", "8", "--latency", "2", "--bandwidth", "12"];
-    let output = mpirun(1).args(arguments).output().expect("mpirun is installed");
+    let arguments = ["bench", "--size", "128", "--steps", "64", "--latency", "2", "--bandwidth", "12"];
+    let output = bench(1, &arguments);
     assert!(output.status.success(), "{}", said(&output));
     let text = String::from_utf8(output.stdout).expect("text");
     assert!(
