@@ -94,8 +94,8 @@ impl Recipe {
         let outputs = self.outputs.iter().filter(|output| !is_by_windows(output)).map(move |output| Diagnostic {
             line: output.line,
             message: format!(
-                "{whole}: {}; of outputs it writes layers as .tif and .zarr, by the presets `cog` and `sharded` or without, on \
-                 the grid and in the numbers of the landscape",
+                "{whole}: {}; of outputs it writes layers as .tif and .zarr, by the presets `cog` and `sharded` or without, and as \
+                 .raw, .r16 and .r32, on the grid and in the numbers of the landscape",
                 output.file.display()
             ),
         });
