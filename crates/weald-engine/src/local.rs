@@ -34,27 +34,41 @@ impl Reach {
 }
 
 /// What a step does, as far as rows need to know.
-pub(crate) struct LocalWork<'a, T> {
+#[derive(Debug)]
+pub struct LocalWork {
     /// Layers that it reads.
-    pub(crate) reads: Vec<String>,
+    reads: Vec<String>,
     /// Layers that it writes.
-    pub(crate) writes: Vec<String>,
+    writes: Vec<String>,
     /// How far it looks.
-    pub(crate) reach: Reach,
+    reach: Reach,
     /// Bytes of memory for a cell beside these layers.
-    pub(crate) bytes_per_cell: u64,
-    /// Runs it on a landscape of these layers.
-    pub(crate) run: &'a dyn Fn(&mut Landscape) -> Result<T, Error>,
+    bytes_per_cell: u64,
 }
+
+impl LocalWork {
+    /// That of a step which reads and writes these layers.
+    pub fn of(
+        (reads, writes): (Vec<String>, Vec<(String, &'static str)>),
+        (reach, bytes_per_cell): (Reach, u64),
+    ) -> Self {
+        let writes = writes.into_iter().map(|(name, _)| name).collect();
+        Self { reads, writes, reach, bytes_per_cell }
+    }
+}
+
+/// Runs on a landscape of some rows.
+type OnRows<'a, T> = &'a dyn Fn(&mut Landscape) -> Result<T, Error>;
 
 /// Runs a step on the rows of all ranks, which call it together; gives what it says of the last of them.
 ///
 /// # Errors
 /// Those of the step and of the disk on any rank; [`Error::Limit`] where the memory holds no row with those around it.
-pub(crate) fn run<T>(
-    work: &LocalWork<'_, T>,
+pub fn run<T>(
+    work: &LocalWork,
     landscape: &mut StoredLandscape<'_>,
     job: &Job<'_>,
+    on_rows: OnRows<'_, T>,
 ) -> Result<Option<T>, Error> {
     let ranks = Arc::clone(&landscape.ranks);
     let margin = work.reach.rows(landscape.domain.cell);
@@ -65,7 +79,7 @@ pub(crate) fn run<T>(
     let wanted = work.writes.iter().filter(|name| landscape.wants(name));
     let mut made =
         wanted.map(|name| Ok((name.as_str(), landscape.plane(name)?))).collect::<Result<Vec<_>, Error>>()?;
-    let mut bands = Bands { work, landscape, margin, units: Vec::new() };
+    let mut bands = Bands { work, on_rows, landscape, margin, units: Vec::new() };
     let said = agreed(&*ranks, bands.run(&mut made, job))?;
     let units = ranks.tell(bands.units.join("\n").into_bytes())?;
     let units = String::from_utf8_lossy(&units).into_owned();
@@ -77,7 +91,8 @@ pub(crate) fn run<T>(
 
 /// A step on its way over the rows of this rank.
 struct Bands<'a, 'b, T> {
-    work: &'a LocalWork<'a, T>,
+    work: &'a LocalWork,
+    on_rows: OnRows<'a, T>,
     landscape: &'a StoredLandscape<'b>,
     /// Rows around each that it looks at.
     margin: usize,
@@ -129,7 +144,7 @@ impl<T> Bands<'_, '_, T> {
             let layer = self.landscape.layer(name)?;
             part.insert(name, &layer.unit, Field::from_values(size, layer.plane.rows(held.clone())?));
         }
-        let said = (self.work.run)(&mut part)?;
+        let said = (self.on_rows)(&mut part)?;
         let inner = (rows.start - held.start) * columns..(rows.end - held.start) * columns;
         self.units.clear();
         for (name, plane) in made {

@@ -146,7 +146,8 @@ pub trait Step: Debug + Send + Sync {
     }
 
     /// How far it looks from each cell, where what it writes there depends on the cells so near and on nothing else, neither on
-    /// the place nor on the whole, and where it says nothing of the whole. Such a step runs on some rows at a time.
+    /// the place nor on the whole, and where it says nothing of the whole: such a step runs on some rows at a time. One that
+    /// knows or says something of the whole has a [`Step::run_on_disk`] of its own, which does so [by rows](local::run).
     fn reach(&self) -> Option<Reach> {
         None
     }
@@ -168,11 +169,8 @@ pub trait Step: Debug + Send + Sync {
     /// that it cannot, or where the disk is full.
     fn run_on_disk(&self, landscape: &mut StoredLandscape<'_>, job: &Job<'_>) -> Result<Outcome, Error> {
         if let Some(reach) = self.reach() {
-            let run = |part: &mut Landscape| self.run(part, job);
-            let (reads, bytes_per_cell) = (self.reads(), self.bytes_per_cell());
-            let writes = self.writes().into_iter().map(|(name, _)| name).collect();
-            let done =
-                local::run(&LocalWork { reads, writes, reach, bytes_per_cell, run: &run }, landscape, job)?;
+            let work = LocalWork::of((self.reads(), self.writes()), (reach, self.bytes_per_cell()));
+            let done = local::run(&work, landscape, job, &|part| self.run(part, job))?;
             // A rank without rows has done nothing, and reports what the first does.
             let iterations = done.unwrap_or_default().iterations;
             let told = landscape.ranks.tell(iterations.to_le_bytes().to_vec())?;

@@ -4,6 +4,8 @@
 //! greatest, "not" is 1 - m (Zadeh 1965, doi 10.1016/S0019-9958(65)90241-X), which keeps the laws of De Morgan and
 //! leaves a mask met with itself as it is.
 
+use std::cell::Cell;
+
 use super::cells::field_of;
 use weald_core::condition::{self, Condition, turned};
 use weald_core::error::Error;
@@ -12,7 +14,10 @@ use weald_core::landscape::Landscape;
 use weald_core::parameter::{Fault, LayerName, Nested};
 use weald_core::{choices, parameters};
 use weald_engine::Job;
+use weald_engine::local::{self, LocalWork, Reach};
+use weald_engine::ranks::any;
 use weald_engine::step::{Entry, Outcome, Stage, Step};
+use weald_engine::stored::StoredLandscape;
 
 /// The step's declaration.
 pub const ENTRY: Entry = Entry::of::<Select>(
@@ -82,7 +87,29 @@ impl Step for Select {
         none.into_iter().chain(condition::faults(&self.r#where)).collect()
     }
 
+    fn reach(&self) -> Option<Reach> {
+        Some(Reach::default())
+    }
+
+    fn run_on_disk(&self, landscape: &mut StoredLandscape<'_>, job: &Job<'_>) -> Result<Outcome, Error> {
+        let work = LocalWork::of((self.reads(), self.writes()), (Reach::default(), self.bytes_per_cell()));
+        let found = Cell::new(false);
+        let select = |part: &mut Landscape| {
+            found.set(found.get() | self.select(part)?);
+            Ok(())
+        };
+        local::run(&work, landscape, job, &select)?;
+        Ok(self.outcome(any(&*landscape.ranks, found.get())?))
+    }
+
     fn run(&self, landscape: &mut Landscape, _: &Job<'_>) -> Result<Outcome, Error> {
+        self.select(landscape).map(|found| self.outcome(found))
+    }
+}
+
+impl Select {
+    /// Writes the mask; says whether any cell is selected.
+    fn select(&self, landscape: &mut Landscape) -> Result<bool, Error> {
         let conditions: Vec<(&Condition, &Field)> = self
             .r#where
             .iter()
@@ -92,11 +119,14 @@ impl Step for Select {
             let masks = conditions.iter().map(|(condition, field)| condition.mask(f64::from(field.at(x, y))));
             turned(self.combine.of(masks), self.not)
         });
-        let is_empty = mask.values().iter().all(|&share| share == 0.0);
-        let note = format!("nothing is selected: `{}` is 0 in every cell", self.into.0);
+        let found = mask.values().iter().any(|&share| share != 0.0);
         landscape.insert(&self.into.0, "1", mask);
-        let notes = is_empty.then_some(note).into_iter().collect();
-        Ok(Outcome { iterations: 1, notes, ..Outcome::default() })
+        Ok(found)
+    }
+
+    fn outcome(&self, found: bool) -> Outcome {
+        let note = format!("nothing is selected: `{}` is 0 in every cell", self.into.0);
+        Outcome { iterations: 1, notes: (!found).then_some(note).into_iter().collect(), ..Outcome::default() }
     }
 }
 

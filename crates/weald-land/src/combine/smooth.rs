@@ -11,6 +11,7 @@
 use rayon::prelude::*;
 
 use super::{store, written};
+use weald_core::domain::Domain;
 use weald_core::error::Error;
 use weald_core::grid::{Field, Mask};
 use weald_core::landscape::Landscape;
@@ -18,7 +19,9 @@ use weald_core::parameter::LayerName;
 use weald_core::parameters;
 use weald_core::vectors;
 use weald_engine::Job;
+use weald_engine::local::{self, LocalWork, Reach};
 use weald_engine::step::{Entry, Outcome, Stage, Step};
+use weald_engine::stored::StoredLandscape;
 
 /// The step's declaration.
 pub const ENTRY: Entry =
@@ -60,14 +63,39 @@ impl Step for Smooth {
         written(self.into.as_ref(), &self.layer)
     }
 
+    fn reach(&self) -> Option<Reach> {
+        // The radius in cells is rounded before it is multiplied.
+        Some(Reach { metres: REACH * self.radius, cells: 1 })
+    }
+
+    fn run_on_disk(&self, landscape: &mut StoredLandscape<'_>, job: &Job<'_>) -> Result<Outcome, Error> {
+        let (low, weights) = (landscape.range(&self.layer.0)?.0, self.weights_on(&landscape.domain));
+        let reach = Reach { metres: 0.0, cells: weights.len() - 1 };
+        let work = LocalWork::of((self.reads(), self.writes()), (reach, self.bytes_per_cell()));
+        local::run(&work, landscape, job, &|part| self.run_above(low, &weights, part))?;
+        Ok(Outcome::default())
+    }
+
     fn run(&self, landscape: &mut Landscape, _: &Job<'_>) -> Result<Outcome, Error> {
         let domain = &landscape.domain;
-        let field = landscape.field(&self.layer.0)?;
-        let longest = domain.size.columns.max(domain.size.rows);
-        let weights = weights(self.radius / domain.cell, longest);
-        let smooth = smoothed(field, domain.valid.as_ref(), &weights);
-        store(landscape, &self.layer, self.into.as_ref(), smooth)?;
+        let low = landscape.field(&self.layer.0)?.range(domain.valid.as_ref()).map_or(0.0, |(low, _)| low);
+        let weights = self.weights_on(domain);
+        self.run_above(low, &weights, landscape)?;
         Ok(Outcome::default())
+    }
+}
+
+impl Smooth {
+    /// Weights of the cells of such a grid by their distance.
+    fn weights_on(&self, domain: &Domain) -> Vec<f32> {
+        weights(self.radius / domain.cell, domain.size.columns.max(domain.size.rows))
+    }
+
+    /// Blurs above the lowest value of the whole.
+    fn run_above(&self, low: f32, weights: &[f32], landscape: &mut Landscape) -> Result<(), Error> {
+        let field = landscape.field(&self.layer.0)?;
+        let smooth = smoothed(field, low, landscape.domain.valid.as_ref(), weights);
+        store(landscape, &self.layer, self.into.as_ref(), smooth)
     }
 }
 
@@ -81,9 +109,8 @@ fn weights(radius: f64, longest: usize) -> Vec<f32> {
     (0..=reach).map(weight).collect()
 }
 
-fn smoothed(field: &Field, valid: Option<&Mask>, weights: &[f32]) -> Field {
-    // Heights are blurred above the lowest, so that a high plateau loses no digits and flat ground is exact.
-    let low = field.range(valid).map_or(0.0, |(low, _)| low);
+/// Heights are blurred above the lowest, so that a high plateau loses no digits and flat ground is exact.
+fn smoothed(field: &Field, low: f32, valid: Option<&Mask>, weights: &[f32]) -> Field {
     let share = |index: usize| if valid.is_none_or(|valid| valid.is_valid_at(index)) { 1.0 } else { 0.0 };
     let cells = 0..field.values().len();
     let size = field.size();

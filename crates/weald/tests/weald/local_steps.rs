@@ -9,7 +9,7 @@ use crate::out_of_core::{BESIDE, assert_same_files, recipe, run, said};
 use weald::recipe::{Options, Recipe, Report, Silent};
 
 /// Layers that the steps leave.
-const LAYERS: [&str; 9] = [
+const LAYERS: [&str; 13] = [
     "height",
     "slope",
     "aspect",
@@ -19,9 +19,13 @@ const LAYERS: [&str; 9] = [
     "fertility",
     "steps",
     "mask",
+    "blurred",
+    "flattened",
+    "steep",
+    "nowhere",
 ];
 
-/// Every local step on a ground, with windows of several widths.
+/// Every local step on a ground, with windows of several widths; some layers also as bare numbers.
 fn land(landscape: &str) -> Recipe {
     let steps = [
         "do = \"slope\"",
@@ -35,6 +39,11 @@ fn land(landscape: &str) -> Recipe {
         "do = \"max\"\nwith = \"steps\"",
         "do = \"min\"\nlayer = \"steps\"\nwith = \"height\"",
         "do = \"soil\"\nscale = 50\nmoisture = \"mask\"",
+        "do = \"smooth\"\nradius = 37\ninto = \"blurred\"",
+        "do = \"smooth\"\nlayer = \"steps\"\nradius = 5\ninto = \"flattened\"",
+        "do = \"smooth\"\nradius = 21",
+        "do = \"select\"\nwhere = [{ layer = \"slope\", above = 9, soft = 3 }, { layer = \"mask\", below = 0.7 }]\ninto = \"steep\"",
+        "do = \"select\"\nwhere = [{ layer = \"height\", above = 9000 }]\ninto = \"nowhere\"",
     ];
     let mut text = landscape.to_owned();
     for step in steps {
@@ -42,6 +51,9 @@ fn land(landscape: &str) -> Recipe {
     }
     for layer in LAYERS {
         let _ = write!(text, "[[output]]\nlayer = \"{layer}\"\nfile = \"{layer}.tif\"\n");
+    }
+    for (layer, file) in [("height", "bare.r16"), ("slope", "bare.r32"), ("mask", "bare/mask.raw")] {
+        let _ = write!(text, "[[output]]\nlayer = \"{layer}\"\nfile = \"{file}\"\n");
     }
     recipe(&text)
 }

@@ -144,7 +144,7 @@ fn every_step_takes_its_defaults_unsaid_and_said() {
 }
 
 /// Steps that `docs/commands.md` names, in the order of the catalogue, without `flow`; `hydraulic` by two of its models.
-const BY_ROWS: [&str; 15] = [
+const BY_ROWS: [&str; 17] = [
     "fbm",
     "ridged",
     "constant",
@@ -154,12 +154,14 @@ const BY_ROWS: [&str; 15] = [
     "min",
     "blend",
     "terrace",
+    "smooth",
     "hydraulic",
     "hydraulic",
     "slope",
     "aspect",
     "curvature",
     "soil",
+    "select",
 ];
 
 #[test]
