@@ -158,8 +158,8 @@ fn swap_all<'a, T: Equivalence + 'a>(
             pending = pending.into_iter().filter_map(|request| request.test().err()).collect();
             std::thread::sleep(LOOKS_EVERY);
         }
-        pending.into_iter().for_each(|request| {
+        for request in pending {
             request.wait();
-        });
+        }
     });
 }

@@ -56,7 +56,8 @@ fn a_bench_says_in_how_many_exchanges_the_inside_came_first() {
         assert!(output.status.success(), "{}", said(&output));
         let text = String::from_utf8(output.stdout).expect("text");
         let [first, all] = ["of", "exchanges"].map(|word| number(&text, "inside first", word));
-        assert!(all > 100.0 && first == if always { all } else { 0.0 }, "{when}: {text}");
+        let expected = if always { all } else { 0.0 };
+        assert!(all > 100.0 && (first - expected).abs() < 0.5, "{when}: {text}");
     }
 }
 
