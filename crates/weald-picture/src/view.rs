@@ -9,6 +9,7 @@
 
 mod albedo;
 mod atmosphere;
+mod bare_rock;
 mod beyond;
 mod camera;
 mod clouds;
@@ -16,6 +17,7 @@ mod cover;
 mod crags;
 mod flow;
 mod follow;
+mod fractures;
 mod haze;
 mod horizon;
 mod intersection;
@@ -35,6 +37,7 @@ mod site;
 mod sky;
 mod skylight;
 mod snow;
+mod solid_grain;
 mod surface;
 mod surroundings;
 mod terrain;

@@ -34,9 +34,6 @@ override LAWN: bool = true;
 // Samples of a pixel that lie so near to each other, as a share of their distance, are one surface.
 const SAME_SURFACE = 0.02;
 
-// Metres of water in the middle of a river that is drawn as a line.
-const RIVER_DEPTH = 1.2;
-
 // Metres of water in which no bed is seen.
 const OPEN_SEA = 1000.0;
 
@@ -171,8 +168,6 @@ fn look_at_ground(point: vec3<f32>) -> Look {
     look.surface = spline_with_slope(bed, look.place);
     look.above = -lake_depth(look.place, look.surface.x);
     look.wet = wet_share(look.place, look.surface.x);
-    // No tree stands in a river, and its banks are wet.
-    look.above = select(look.above, min(look.above, 0.0), look.wet > 0.0);
     look.running = smooth_at(flow, look.place).xyz;
     look.tilt = normal_of(spline_with_slope(top, look.place).yz);
     return looked_at(point, look);
@@ -197,14 +192,31 @@ fn looked_at(point: vec3<f32>, ground: Look) -> Look {
     look.ray_length = length(relative);
     look.direction = relative / look.ray_length;
     look.footprint = look.ray_length * frame.eye.w;
-    let pixel = scene.grid.x * scene.grid.z / f32(textureDimensions(rivers).x);
-    look.river_depth = RIVER_DEPTH * look.wet;
-    look.wet = with_banks(look.wet, look.footprint * inverseSqrt(max(-look.direction.z, 0.05)) / pixel);
     look.above = select(look.above, 1e9, frame.stand.w > 0.0);
     look.normal = normal_of(look.surface.yz);
+    look = with_edge(point.xy, look);
     let smooth_point = vec3<f32>(point.xy, look.surface.x - min(look.above, 0.0));
     look.sun = sun_seen_on(point, smooth_point, look.normal);
     trees_drawn = drawn_as_trees(point);
+    return look;
+}
+
+// The look with the edge of its water, as sharp as the pixel: of a lake, or of a river that the map has.
+fn with_edge(point: vec2<f32>, ground: Look) -> Look {
+    var look = ground;
+    if look.above < 0.0 {
+        let slope = length(look.normal.xy) / max(look.normal.z, 1e-3);
+        let width = swash_width(look.surface.x - look.above);
+        look.wet = shore(point, -look.above / scene.scale.y, slope, width, look.footprint);
+        return look;
+    }
+    let pixel = scene.grid.x * scene.grid.z / f32(textureDimensions(rivers).x);
+    let footprint = look.footprint * inverseSqrt(max(-look.direction.z, 0.05));
+    let river = with_banks(look.wet, point, pixel, footprint);
+    look.wet = river.share;
+    look.river_depth = river.depth;
+    // No tree stands in a river, and its banks are wet.
+    look.above = min(look.above, river.above * scene.scale.y);
     return look;
 }
 

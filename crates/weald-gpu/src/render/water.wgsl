@@ -185,7 +185,8 @@ fn water_radiance(point: vec3<f32>, depth: f32, look: Look) -> vec3<f32> {
     let reflection = mirrored_light(point, mirrored(direction, ripples.broad, tilt), mirrored(direction, normal, tilt), look.ray_length);
     let up = vec3<f32>(0.0, 0.0, 1.0);
     let light = scene.sunlight.xyz * (sun * scene.sun.z) + skylight_on(seen, up);
-    let below = water_body(bed_albedo(point.xy, depth, look.footprint), depth, light);
+    let turbid = select(turbidity(1e30), turbidity(look.surface.x - look.above), look.above < 0.0);
+    let below = water_body(bed_albedo(point.xy, depth, look.footprint), depth, turbid, light);
     let surface = mix(below, reflection, share) + scene.sunlight.xyz * (sun * glint(back, normal, scene.sun.xyz));
     let foam = max(foam_share(point.xy, footprint, running.xy, running.z), shore_foam(point, look));
     return mix(surface, scene.weed.w * light / PI, foam);

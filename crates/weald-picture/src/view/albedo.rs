@@ -71,6 +71,7 @@ impl TopView {
             fall: [normal[0], normal[1]].map(|part| part / run.max(1e-6)),
             footprint: self.sheet.metres_per_pixel as f32,
             above: above / self.setting.exaggeration,
+            beach: 0.0,
         }
     }
 }

@@ -117,7 +117,8 @@ impl RayMarcher {
         let radiance = if is_sea {
             let point = ray.at(ray_length);
             let place = [0, 1].map(|axis| far[axis].clamp(0.5, around.cells[axis] + 0.5));
-            let spot = WaterSpot { point, depth: OPEN_SEA, foam: 0.0, footprint: self.footprint(ray_length) };
+            let footprint = self.footprint(ray_length);
+            let spot = WaterSpot { point, depth: OPEN_SEA, share: 1.0, foam: 0.0, footprint };
             self.lake(ray, &Hit { ray_length, place, side: None }, &spot)
         } else {
             scale(filter(self.plain, self.sky.on_flat_ground()), FRAC_1_PI)
@@ -133,16 +134,18 @@ impl RayMarcher {
         let level = setting.level.as_ref().map(|level| around.level(level, &beyond, hit.place, cell));
         let depth = level.map_or(f32::NEG_INFINITY, |level| level - beyond.surface[0]);
         let like = Hit { place: beyond.place, ..*hit };
-        if depth > 0.0 {
-            let [_, east, south] = beyond.surface;
-            return self.lake(ray, &like, &self.water_spot(point, depth, [east, south]));
-        }
-        let there = Hit { place: beyond.river, ..*hit };
-        let (river, river_depth) = self.river(ray, &there, Surroundings::river_share(&beyond));
         let footprint = self.footprint(hit.ray_length);
         let spot = GroundSpot { place: beyond.place, surface: beyond.surface, point, footprint };
-        let land = self.ground(&spot, -depth);
-        let water = || WaterSpot { point, depth: river_depth, foam: 0.0, footprint };
-        if river <= 0.0 { land } else { mix(land, self.lake(ray, &like, &water()), river) }
+        if depth > 0.0 {
+            return self.shore(ray, &like, &spot, depth);
+        }
+        let there = Hit { place: beyond.river, ..*hit };
+        let river = self.river(ray, &there, Surroundings::river_share(&beyond));
+        let land = self.ground(&spot, (-depth).min(river.above * setting.exaggeration));
+        if river.share <= 0.0 {
+            return land;
+        }
+        let water = WaterSpot { point, depth: river.depth, share: river.share, foam: 0.0, footprint };
+        mix(land, self.lake(ray, &like, &water), river.share)
     }
 }

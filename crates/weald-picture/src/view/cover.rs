@@ -5,7 +5,8 @@
 //! than that, so that they are ragged as in nature and not smooth as a field.
 
 use super::crags::{Crags, crags};
-use super::rock::{BedSpot, Beds, beds};
+use super::fractures::Fractures;
+use super::rock::BedSpot;
 use super::site::Sites;
 use super::snow::{SnowSpot, snow_share};
 use super::vector::{Vector, add, filter, ramp, scale};
@@ -27,6 +28,8 @@ pub(super) struct SurfacePoint {
     pub(super) footprint: f32,
     /// Height above the water beside it in metres, without exaggeration.
     pub(super) above: f32,
+    /// Height above it up to which waves throw sand and stones.
+    pub(super) beach: f32,
 }
 
 /// What light falls on.
@@ -48,14 +51,14 @@ impl SurfaceSample {
 
 /// Noise at a point.
 #[derive(Clone, Copy, Debug)]
-struct Texture {
+pub(super) struct Texture {
     /// Patches of many cells.
-    broad: f32,
+    pub(super) broad: f32,
     /// Detail finer than cells.
-    fine: Grain,
+    pub(super) fine: Grain,
     /// Ridges and gullies finer than cells.
-    crags: Crags,
-    cell: f32,
+    pub(super) crags: Crags,
+    pub(super) cell: f32,
     /// Share of the slopes of the fine detail that is left.
     evenness: f32,
 }
@@ -72,7 +75,7 @@ impl Texture {
     }
 
     /// Slopes of the fine detail, and of ridges and gullies.
-    fn rough(&self, strength: f32, craggy: f32) -> [f32; 2] {
+    pub(super) fn rough(&self, strength: f32, craggy: f32) -> [f32; 2] {
         [0, 1].map(|axis| {
             self.evenness * (strength * self.cell * self.fine.slope[axis] + craggy * self.crags.slope[axis])
         })
@@ -86,11 +89,29 @@ const STEEPEST_CROWN: f32 = 1.5;
 /// Steepness from which rock begins to be bare, and is all that there is.
 const ROCK: [f32; 2] = [1.08, 1.22];
 
+/// Light that a strand sends back beside dry gravel: sand is damp.
+const STRAND: f32 = 0.78;
+
+/// Thickness of a bed of natural rock over the relief.
+pub(super) const THICK: f32 = 0.035;
+
+/// By how much rock is bare sooner on one of its blocks than on another.
+const BLOCKY: f32 = 0.16;
+
+/// Slope that bumps of bare rock come near: its faces are sharp.
+const STEEPEST_ROCK: f32 = 1.3;
+
+/// Share of a ledge that plants hide, and shares of the relief over which they vanish.
+const GREEN: f32 = 0.8;
+const GREEN_UP_TO: [f32; 2] = [0.55, 0.9];
+
 /// Steepness from which trees become fewer, and from which there are none.
 const CLIFF: [f32; 2] = [0.9, 1.3];
 
-/// Share of the slope of ridges and gullies that counts as that of the ground: rock is bare on their steep sides.
+/// Share of the slope of ridges and gullies that counts as that of the ground: rock is bare on their steep sides; and sides of
+/// a cell in metres from which it counts, and counts whole: finer cells have theirs.
 const CRAGGY: f32 = 0.6;
+const CRAGGY_FROM: [f32; 2] = [4.0, 12.0];
 
 /// What the highest ground adds to its steepness, and shares of the relief between which that grows.
 const BARE: f32 = 0.4;
@@ -105,6 +126,15 @@ const SCOURED: [f32; 2] = [0.2, 0.6];
 const SMALLER: f32 = 1.7;
 const SCATTERED: f32 = 0.3;
 const BUSH: Linear = [0.52, 0.6, 0.42];
+
+/// Light that needles and leaves send back beside that of a wood.
+const NEEDLES: Linear = [0.62, 0.76, 0.95];
+const LEAVES: Linear = [1.18, 1.12, 0.86];
+
+/// How far below the tree line leaves take the place of needles, in widths of the belt in which trees become fewer, and the
+/// greatest share of trees with leaves.
+const LEAVED: [f32; 2] = [0.3, 2.2];
+const MOST_LEAVES: f32 = 0.85;
 
 /// Height in metres above the water, and at most that share of a cell, from which trees stand.
 const SHORE: [f32; 2] = [2.5, 0.028];
@@ -127,7 +157,7 @@ fn broad(cell: f32) -> Octaves {
 
 /// Some thirty beds over the relief, folded by about one of their thickness, at a point.
 pub(super) fn bed_spot(point: Vector, limits: &Limits, is_material: bool, footprint: f32) -> BedSpot {
-    let (thick, fold) = if is_material { (0.03, 0.8) } else { (0.035, 1.4) };
+    let (thick, fold) = if is_material { (0.03, 0.8) } else { (THICK, 1.4) };
     let fold = fold * broad(limits.cell).at(point, footprint).value;
     BedSpot { point, fold, thickness: thick * limits.relief.max(1e-3), footprint }
 }
@@ -165,7 +195,7 @@ impl Default for Palette {
     fn default() -> Self {
         let [lush, meadow, dry, alpine] = [0x44_622f, 0x54_6a37, 0x78_7648, 0x62_683f].map(linear_of_hex);
         let forest = [0x22_2e19, 0x66_783e].map(linear_of_hex);
-        let rock = [0x83_7c72, 0x55_4e47, 0x9a_8c7a].map(linear_of_hex);
+        let rock = [0x7e_7973, 0x4b_4641, 0x93_8778].map(linear_of_hex);
         let [scree, gravel, snow] = [0x87_7f70, 0xa9_9d86, 0xe4_e8ee].map(linear_of_hex);
         Self { lush, meadow, dry, alpine, forest, rock, scree, gravel, snow }
     }
@@ -176,7 +206,7 @@ impl Default for Palette {
 pub(super) struct Cover {
     pub(super) sites: Sites,
     pub(super) limits: Limits,
-    palette: Palette,
+    pub(super) palette: Palette,
     /// Direction of the sun, away from which crowns throw their shadows.
     sun: Vector,
 }
@@ -205,12 +235,20 @@ impl Cover {
         SurfaceSample { albedo: skin.albedo.map(|c| c.clamp(0.01, 0.9)), bump: skin.bump }
     }
 
-    /// How densely trees stand at a point of natural ground, from 0 to 1.
-    pub(super) fn density(&self, spot: &SurfacePoint) -> f32 {
+    /// How densely trees stand at a point of natural ground, from 0 to 1, and the share of conifers among them.
+    pub(super) fn wood(&self, spot: &SurfacePoint) -> [f32; 2] {
         let texture = self.texture(spot);
         let trees = self.trees(spot, self.sites.moisture(spot.place), texture.patchy());
         let bare = ramp(self.slope_of_cells(spot, &texture), CLIFF[0], CLIFF[1]);
-        trees * (1.0 - bare) * (1.0 - self.snow(spot, &texture))
+        let [sand, washed] = Self::beach(spot, &texture);
+        let density =
+            trees * (1.0 - bare) * (1.0 - self.snow(spot, &texture)) * (1.0 - sand) * (1.0 - washed);
+        [density, self.share_of_conifers(spot.point[2])]
+    }
+
+    /// The share of conifers at a height.
+    fn share_of_conifers(&self, height: f32) -> f32 {
+        1.0 - MOST_LEAVES * ramp(self.below_tree_line(height), LEAVED[0], LEAVED[1])
     }
 
     fn texture(&self, spot: &SurfacePoint) -> Texture {
@@ -218,7 +256,7 @@ impl Cover {
         // Lengths are in cells, shares and limits in those of the landscape, so that a finer grid looks finer
         // and not other. All numbers here and below are chosen by eye. Patches of many cells, and detail down
         // to a fiftieth of a cell.
-        let fine = Octaves { wavelength: 2.4 * cell, count: 7, gain: 0.66, seed: 0x12 };
+        let fine = Octaves { wavelength: 2.4 * cell, count: 8, gain: 0.6, seed: 0x12 };
         Texture {
             broad: broad(cell).at(spot.point, spot.footprint).value,
             fine: fine.at(spot.point, spot.footprint),
@@ -239,7 +277,8 @@ impl Cover {
     /// on its crests.
     fn steepness(&self, spot: &SurfacePoint, texture: &Texture, moisture: f32) -> f32 {
         let [east, north] = texture.crags.slope;
-        let hilly = ramp(spot.slope / self.limits.rock, 0.35, 0.8);
+        let hilly = ramp(spot.slope / self.limits.rock, 0.35, 0.8)
+            * ramp(self.limits.cell, CRAGGY_FROM[0], CRAGGY_FROM[1]);
         let steeper = CRAGGY * hilly * (east * spot.fall[0] + north * spot.fall[1]);
         let high = spot.point[2] / self.limits.relief.max(1e-3) + 0.25 * texture.patchy();
         let barren = BARE * ramp(high, BARREN[0], BARREN[1])
@@ -258,7 +297,8 @@ impl Cover {
             SurfaceSample { albedo: grass, bump: texture.rough(0.12, 1.4 * ramp(spot.slope, 0.1, 0.7)) };
         let trees = self.trees(spot, moisture, patchy);
 
-        let steep = self.steepness(spot, texture, moisture);
+        let [sand, washed] = Self::beach(spot, texture);
+        let steep = self.steepness(spot, texture, moisture).max(ROCK[1] * washed);
         let pebbles = scale(self.palette.scree, 1.0 + 0.45 * fine.value);
         let scree = SurfaceSample { albedo: pebbles, bump: texture.rough(0.28, 0.8) };
         // Scree lies just below bare rock, never covers all, and less under trees, which hold the soil; where stones fall
@@ -267,31 +307,50 @@ impl Cover {
         let uneven = ramp(fallen, 0.0, 0.2) * (0.6 * patchy + 0.6 * fine.value - 1.2 * crags.height);
         let apron = 0.9 * ramp(1.1 * fallen + uneven, 0.4, 1.15) * ramp(spot.slope, 0.32, 0.55);
         let scree_share = (0.8 * ramp(steep, 0.97, 1.10) * (1.0 - 0.85 * trees)).max(apron);
-        let stony = meadow.mixed(&scree, scree_share);
+        let strand = SurfaceSample {
+            albedo: scale(self.palette.gravel, STRAND + 0.35 * fine.value),
+            bump: texture.rough(0.1, 0.1),
+        };
+        let stony = meadow.mixed(&scree, scree_share).mixed(&strand, sand);
         // Rock begins where scree is whole; most ground has none.
-        let bare = ramp(steep, ROCK[0], ROCK[1]);
-        let ground = if bare > 0.0 { stony.mixed(&self.rock(spot, texture), bare) } else { stony };
+        let blocks =
+            if steep > ROCK[0] - BLOCKY { self.fractures(spot, texture) } else { Fractures::default() };
+        let bare = ramp(steep + BLOCKY * blocks.tone, ROCK[0], ROCK[1]);
+        let ground = if bare > 0.0 {
+            let rock = self.rock(spot, texture, &blocks);
+            let green = GREEN * blocks.ledge * (1.0 - ramp(high, GREEN_UP_TO[0], GREEN_UP_TO[1]));
+            stony.mixed(&rock.mixed(&meadow, green), bare)
+        } else {
+            stony
+        };
         let snow = SurfaceSample {
             albedo: self.palette.snow,
             bump: texture.rough(0.08, ramp(spot.slope, 0.2, 0.8)),
         };
         let white = self.snow(spot, texture);
         let mut open = ground.mixed(&snow, white);
-        open.bump = no_steeper(open.bump, STEEPEST);
+        open.bump = no_steeper(open.bump, STEEPEST + (STEEPEST_ROCK - STEEPEST) * bare * (1.0 - white));
         let cliff = ramp(self.slope_of_cells(spot, texture), CLIFF[0], CLIFF[1]);
-        let density = trees * (1.0 - cliff) * (1.0 - white);
-        if density > 0.0 { self.under_trees(spot, &open, density) } else { open }
+        let density = trees * (1.0 - cliff) * (1.0 - white) * (1.0 - sand) * (1.0 - washed);
+        let conifers = self.share_of_conifers(spot.point[2]);
+        if density > 0.0 { self.under_trees(spot, &open, [density, conifers]) } else { open }
     }
 
-    /// Ground with a wood of such a density on it.
-    fn under_trees(&self, spot: &SurfacePoint, open: &SurfaceSample, density: f32) -> SurfaceSample {
+    /// Ground with a wood of such a density and share of conifers on it.
+    fn under_trees(
+        &self,
+        spot: &SurfacePoint,
+        open: &SurfaceSample,
+        [density, conifers]: [f32; 2],
+    ) -> SurfaceSample {
         let [east, north, _] = spot.point;
-        let Canopy { share, tone, slope, open: left } =
+        let Canopy { share, tone, slope, open: left, chance } =
             canopy([east, north], density, spot.footprint, self.sun);
         let [dark, light] = self.palette.forest;
         let shaded = SurfaceSample { albedo: scale(open.albedo, left), bump: open.bump };
+        let kind = mix(LEAVES, NEEDLES, ramp(conifers - chance, -0.08, 0.08));
         let wood = SurfaceSample {
-            albedo: mix(dark, light, tone.clamp(0.0, 1.0)),
+            albedo: filter(kind, mix(dark, light, tone.clamp(0.0, 1.0))),
             bump: no_steeper(slope, STEEPEST_CROWN),
         };
         shaded.mixed(&wood, share)
@@ -318,42 +377,6 @@ impl Cover {
     /// How far below the tree line a height is, in widths of the belt in which trees become fewer.
     pub(super) fn below_tree_line(&self, height: f32) -> f32 {
         (self.limits.trees - height) / (0.12 * self.limits.relief).max(1e-3)
-    }
-
-    /// Rock with its beds: light and dark, sunk into cracks and joints.
-    fn rock(&self, spot: &SurfacePoint, texture: &Texture) -> SurfaceSample {
-        // Some thirty beds over the relief, folded by about one of their thickness, and thinner ones within them.
-        let thick = 0.035 * self.limits.relief.max(1e-3);
-        let fold = 1.4 * texture.broad + texture.torn();
-        let [bed, thin] = Self::bedding(spot, [thick, thick / 5.3], fold, true);
-        let [grey, dark, warm] = self.palette.rock;
-        let warmth = 0.5 + 0.7 * bed.tone + 0.3 * thin.tone + 0.9 * texture.broad;
-        let stone = mix(grey, warm, warmth.clamp(0.0, 1.0));
-        let stone = scale(stone, 0.92 + 0.55 * bed.tone + 0.35 * thin.tone + 0.4 * texture.broad);
-        // A third of a smooth face is dark.
-        let cracks =
-            0.3 - 0.5 * texture.fine.value - 1.6 * texture.crags.height + 0.5 * bed.joint + 0.3 * thin.joint;
-        let ledge = 0.35 * bed.ledge + 0.2 * thin.ledge;
-        let rough = texture.rough(0.15, 2.4);
-        SurfaceSample {
-            albedo: mix(stone, dark, cracks.clamp(0.0, 1.0)),
-            bump: [0, 1].map(|axis| rough[axis] - spot.fall[axis] * ledge),
-        }
-    }
-
-    /// Beds of two thicknesses at a point.
-    fn bedding(spot: &SurfacePoint, thickness: [f32; 2], fold: f32, dips: bool) -> [Beds; 2] {
-        let footprint = spot.footprint * spot.slope;
-        let of = |at: usize| {
-            let spot = BedSpot {
-                point: spot.point,
-                fold: fold * thickness[0] / thickness[at],
-                thickness: thickness[at],
-                footprint,
-            };
-            beds(&spot, dips, 0x21 + at as u32)
-        };
-        [of(0), of(1)]
     }
 
     /// Share of snow.

@@ -7,11 +7,43 @@ const STEEPEST_CROWN = 1.5;
 // Steepness from which rock begins to be bare, and is all that there is.
 const ROCK = vec2<f32>(1.08, 1.22);
 
+// Slopes between which waves of the sea leave no sand, but bare rock, and heights of a beach between which those are; how
+// uneven a beach is, by patches and by detail; and what is worn bare of soil above one of rock.
+const SANDY = vec2<f32>(0.2, 0.4);
+const OF_THE_SEA = vec2<f32>(0.3, 1.5);
+const UNEVEN = vec2<f32>(0.9, 0.9);
+const WASHED = 1.8;
+
+// Light that a strand sends back beside dry gravel.
+const STRAND = 0.78;
+
+// Thickness of a bed of natural rock over the relief.
+const THICK = 0.035;
+
+// By how much rock is bare sooner on one of its blocks than on another.
+const BLOCKY = 0.16;
+
+// How ragged beds and joints are, by the fine detail and by crags.
+const RAGGED = vec2<f32>(0.12, 0.3);
+const BENT = vec2<f32>(0.5, 0.8);
+
+// Slope of the facets of blocks on flat ground, and the least upward part of a normal by which it grows on walls.
+const FACETS = 0.42;
+const UPRIGHT = 0.4;
+
+// Slope that bumps of bare rock come near.
+const STEEPEST_ROCK = 1.3;
+
+// Share of a ledge that plants hide, and shares of the relief over which they vanish.
+const GREEN = 0.8;
+const GREEN_UP_TO = vec2<f32>(0.55, 0.9);
+
 // Steepness from which trees become fewer, and from which there are none.
 const CLIFF = vec2<f32>(0.9, 1.3);
 
 // Share of the slope of crags that counts as that of the ground.
 const CRAGGY = 0.6;
+const CRAGGY_FROM = vec2<f32>(4.0, 12.0);
 
 // What the highest ground adds to its steepness, and shares of the relief between which that grows.
 const BARE = 0.4;
@@ -26,6 +58,14 @@ const SCOURED = vec2<f32>(0.2, 0.6);
 const SMALLER = 1.7;
 const SCATTERED = 0.3;
 const BUSH = vec3<f32>(0.52, 0.6, 0.42);
+
+// Light that needles and leaves send back beside that of a wood.
+const NEEDLES = vec3<f32>(0.62, 0.76, 0.95);
+const LEAVES = vec3<f32>(1.18, 1.12, 0.86);
+
+// How far below the tree line leaves take the place of needles, and the greatest share of leaves.
+const LEAVED = vec2<f32>(0.3, 2.2);
+const MOST_LEAVES = 0.85;
 
 // Height in metres above the water, and at most that share of a cell, from which trees stand.
 const SHORE = vec2<f32>(2.5, 0.028);
@@ -43,6 +83,7 @@ struct SurfacePoint {
     fall: vec2<f32>,
     footprint: f32,
     above: f32,
+    beach: f32,
 }
 
 // With the shares of wood, scree, rock and snow, which have detail of their own from close by.
@@ -87,7 +128,7 @@ fn texture_of(spot: SurfacePoint) -> Texture {
     let cell = scene.scale.x;
     var texture: Texture;
     texture.broad = octaves_at(Octaves(26.0 * cell, 5u, 0.55, 0x11u), spot.point.xy, spot.footprint).value;
-    texture.fine = octaves_at(Octaves(2.4 * cell, 7u, 0.66, 0x12u), spot.point.xy, spot.footprint);
+    texture.fine = octaves_at(Octaves(2.4 * cell, 8u, 0.6, 0x12u), spot.point.xy, spot.footprint);
     texture.crags = crags_at(spot.point, -spot.slope * spot.fall, cell, spot.footprint);
     texture.evenness = pow(clamp(2.0 * spot.footprint / cell, 0.075, 1.0), 0.4);
     return texture;
@@ -100,20 +141,28 @@ fn slope_of_cells(spot: SurfacePoint, texture: Texture, soil: f32) -> f32 {
 
 // The same, and more on the steep sides of ridges that are finer than cells.
 fn steepness(spot: SurfacePoint, texture: Texture, here: vec2<f32>) -> f32 {
-    let hilly = ramp(spot.slope / scene.limits.x, 0.35, 0.8);
+    let hilly = ramp(spot.slope / scene.limits.x, 0.35, 0.8) * ramp(scene.scale.x, CRAGGY_FROM.x, CRAGGY_FROM.y);
     let steeper = CRAGGY * hilly * dot(texture.crags.slope, spot.fall);
     let high = spot.point.z / max(scene.limits.w, 1e-3) + 0.25 * patchy_of(texture);
     let barren = BARE * ramp(high, BARREN.x, BARREN.y) + CRESTS * (0.5 - here.x) * ramp(high, SCOURED.x, SCOURED.y);
     return slope_of_cells(spot, texture, here.y) - steeper / scene.limits.x + barren;
 }
 
-// How densely trees stand at a point of natural ground.
-fn wood_density(spot: SurfacePoint) -> f32 {
+// The share of conifers at a height.
+fn share_of_conifers(height: f32) -> f32 {
+    return 1.0 - MOST_LEAVES * ramp(below_tree_line(height), LEAVED.x, LEAVED.y);
+}
+
+// How densely trees stand at a point of natural ground, and the share of conifers among them.
+fn wood_at(spot: SurfacePoint) -> vec2<f32> {
     let texture = texture_of(spot);
     let here = smooth_at(site, spot.place);
     let wooded = trees(spot, here.x, patchy_of(texture));
     let bare = ramp(slope_of_cells(spot, texture, here.y), CLIFF.x, CLIFF.y);
-    return wooded * (1.0 - bare) * (1.0 - snow_at(spot, texture, here.x));
+    let strand = beach_at(spot, texture);
+    let dry = (1.0 - strand.x) * (1.0 - strand.y);
+    let density = wooded * (1.0 - bare) * (1.0 - snow_at(spot, texture, here.x)) * dry;
+    return vec2<f32>(density, share_of_conifers(spot.point.z));
 }
 
 // Colour and roughness of a point.
@@ -145,28 +194,49 @@ fn natural(spot: SurfacePoint, texture: Texture) -> SurfaceSample {
     let wooded = trees(spot, moisture, patchy);
     let meadow = SurfaceSample(turf, rough(texture, 0.12, 1.4 * ramp(spot.slope, 0.1, 0.7)), vec4<f32>(0.0));
 
-    let steep = steepness(spot, texture, here.xy);
+    let strand = beach_at(spot, texture);
+    let steep = max(steepness(spot, texture, here.xy), ROCK.y * strand.y);
     let pebbles = scene.scree.xyz * (1.0 + 0.45 * fine);
     let scree = SurfaceSample(pebbles, rough(texture, 0.28, 0.8), vec4<f32>(0.0, 1.0, 0.0, 0.0));
     let fallen = 1.1 * here.w + ramp(here.w, 0.0, 0.2) * (0.6 * patchy + 0.6 * fine - 1.2 * ridge);
     let apron = 0.9 * ramp(fallen, 0.4, 1.15) * ramp(spot.slope, 0.32, 0.55);
-    let stony = mixed(meadow, scree, max(0.8 * ramp(steep, 0.97, 1.10) * (1.0 - 0.85 * wooded), apron));
-    let bare = ramp(steep, ROCK.x, ROCK.y);
-    let ground = mixed(stony, rock(spot, texture), bare);
+    let fallen_over = mixed(meadow, scree, max(0.8 * ramp(steep, 0.97, 1.10) * (1.0 - 0.85 * wooded), apron));
+    let gravel = scene.gravel.xyz * (STRAND + 0.35 * fine);
+    let sand = SurfaceSample(gravel, rough(texture, 0.1, 0.1), vec4<f32>(0.0, 1.0, 0.0, 0.0));
+    let stony = mixed(fallen_over, sand, strand.x);
+    var blocks = Fractures(0.0, 0.0, vec2<f32>(0.0), 0.0);
+    if steep > ROCK.x - BLOCKY {
+        blocks = rock_fractures(spot, texture);
+    }
+    let bare = ramp(steep + BLOCKY * blocks.tone, ROCK.x, ROCK.y);
+    let green = GREEN * blocks.ledge * (1.0 - ramp(high, GREEN_UP_TO.x, GREEN_UP_TO.y));
+    let ground = mixed(stony, mixed(rock(spot, texture, blocks), meadow, green), bare);
     let snow = SurfaceSample(scene.snow.xyz, rough(texture, 0.08, ramp(spot.slope, 0.2, 0.8)), vec4<f32>(0.0, 0.0, 0.0, 1.0));
     let white = snow_at(spot, texture, moisture);
     var open = mixed(ground, snow, white);
-    open.bump = no_steeper(open.bump, STEEPEST);
+    open.bump = no_steeper(open.bump, mix(STEEPEST, STEEPEST_ROCK, bare * (1.0 - white)));
     let cliff = ramp(slope_of_cells(spot, texture, here.y), CLIFF.x, CLIFF.y);
-    return under_trees(spot, open, wooded * (1.0 - cliff) * (1.0 - white));
+    let density = wooded * (1.0 - cliff) * (1.0 - white) * (1.0 - strand.x) * (1.0 - strand.y);
+    return under_trees(spot, open, density, share_of_conifers(spot.point.z));
 }
 
-// Ground with a wood of such a density on it.
-fn under_trees(spot: SurfacePoint, open: SurfaceSample, density: f32) -> SurfaceSample {
+// Shares of sand, and of rock that is washed bare, at the edge of water.
+fn beach_at(spot: SurfacePoint, texture: Texture) -> vec2<f32> {
+    let uneven = 1.0 + UNEVEN.x * texture.broad + UNEVEN.y * texture.fine.value;
+    let up = spot.above / max(spot.beach * max(uneven, 0.2), 1e-3);
+    // Some stretches of a shore have sand, and others rock.
+    let rocky = ramp(spot.slope - 0.6 * texture.broad, SANDY.x, SANDY.y);
+    let steep = rocky * ramp(spot.beach, OF_THE_SEA.x, OF_THE_SEA.y);
+    return vec2<f32>((1.0 - ramp(up, 0.9, 1.1)) * (1.0 - steep), (1.0 - ramp(up / WASHED, 0.8, 1.1)) * steep);
+}
+
+// Ground with a wood of such a density and share of conifers on it.
+fn under_trees(spot: SurfacePoint, open: SurfaceSample, density: f32, conifers: f32) -> SurfaceSample {
     let canopy = canopy_of(spot.point.xy, density, spot.footprint);
     let littered = mix(open.albedo, LITTER, 0.8 * trees_drawn * ramp(density, 0.1, 0.6));
     let shaded = SurfaceSample(littered * mix(1.0, canopy.open, 1.0 - trees_drawn), open.bump, open.kinds);
-    let crown = mix(scene.forest_dark.xyz, scene.forest_light.xyz, clamp(canopy.tone, 0.0, 1.0));
+    let kind = mix(LEAVES, NEEDLES, ramp(conifers - canopy.chance, -0.08, 0.08));
+    let crown = kind * mix(scene.forest_dark.xyz, scene.forest_light.xyz, clamp(canopy.tone, 0.0, 1.0));
     let wood = SurfaceSample(crown, no_steeper(canopy.slope, STEEPEST_CROWN), vec4<f32>(1.0, 0.0, 0.0, 0.0));
     return mixed(shaded, wood, canopy.share * (1.0 - trees_drawn));
 }
@@ -190,18 +260,40 @@ fn trees(spot: SurfacePoint, moisture: f32, patchy: f32) -> f32 {
     return ramp(wood, 0.02, 0.40) * ramp(spot.above, 0.0, min(SHORE.x, SHORE.y * scene.scale.x));
 }
 
-// Rock with its beds: light and dark, sunk into cracks and joints.
-fn rock(spot: SurfacePoint, texture: Texture) -> SurfaceSample {
-    let thick = 0.035 * max(scene.limits.w, 1e-3);
-    let bedding = bedding_at(spot, vec2<f32>(thick, thick / 5.3), 1.4 * texture.broad + torn(texture), true);
-    let warmth = 0.5 + 0.7 * bedding.thick.tone + 0.3 * bedding.thin.tone + 0.9 * texture.broad;
-    let tone = 0.92 + 0.55 * bedding.thick.tone + 0.35 * bedding.thin.tone + 0.4 * texture.broad;
-    let stone = mix(scene.rock_grey.xyz, scene.rock_warm.xyz, clamp(warmth, 0.0, 1.0)) * tone;
-    let joints = 0.5 * bedding.thick.joint + 0.3 * bedding.thin.joint;
-    let cracks = 0.3 - 0.5 * texture.fine.value - 1.6 * texture.crags.height + joints;
+fn rock_thickness() -> f32 {
+    return THICK * max(scene.limits.w, 1e-3);
+}
+
+// The blocks of rock at a point.
+fn rock_fractures(spot: SurfacePoint, texture: Texture) -> Fractures {
+    let thickness = rock_thickness();
+    let bend = BENT * min(scene.scale.x, thickness) * vec2<f32>(texture.fine.value, texture.crags.height);
+    let level = spot.point.z + bed_dip(spot.point.xy) + thickness * rock_fold(texture);
+    let normal = vec3<f32>(spot.slope * spot.fall, 1.0) * inverseSqrt(1.0 + spot.slope * spot.slope);
+    return fractures_at(Face(spot.point.xy + bend, level, normal, thickness, spot.footprint));
+}
+
+// By how many beds natural rock is folded: broadly, and a little by what is ragged.
+fn rock_fold(texture: Texture) -> f32 {
+    let ragged = RAGGED.x * texture.fine.value + RAGGED.y * texture.crags.height;
+    return 1.4 * texture.broad + ragged * min(scene.scale.x / rock_thickness(), 1.0);
+}
+
+// Rock with its beds and blocks: light and dark, sunk into cracks and joints.
+fn rock(spot: SurfacePoint, texture: Texture, blocks: Fractures) -> SurfaceSample {
+    let thick = rock_thickness();
+    let bedding = bedding_at(spot, vec2<f32>(thick, thick / 5.3), rock_fold(texture), true);
+    let tones = vec3<f32>(bedding.thick.tone, bedding.thin.tone, blocks.tone);
+    let warmth = 0.4 + dot(vec3<f32>(0.7, 0.3, 0.3), tones) + 0.9 * texture.broad;
+    let tone = 0.92 + dot(vec3<f32>(0.45, 0.3, 0.55), tones) + 0.4 * texture.broad;
+    let stone = mix(scene.rock_grey.xyz, scene.rock_warm.xyz, clamp(warmth, 0.0, 1.0)) * max(tone, 0.3);
+    let joints = 0.5 * bedding.thick.joint + 0.3 * bedding.thin.joint + 0.9 * blocks.crack;
+    let cracks = 0.22 - 0.4 * texture.fine.value - 1.2 * texture.crags.height + joints;
     let ledge = 0.35 * bedding.thick.ledge + 0.2 * bedding.thin.ledge;
     let albedo = mix(stone, scene.rock_dark.xyz, clamp(cracks, 0.0, 1.0));
-    return SurfaceSample(albedo, rough(texture, 0.15, 2.4) - spot.fall * ledge, vec4<f32>(0.0, 0.0, 1.0, 0.0));
+    let facets = FACETS * min(sqrt(1.0 + spot.slope * spot.slope), 1.0 / UPRIGHT);
+    let bump = rough(texture, 0.15, 1.7) - spot.fall * ledge + facets * blocks.facet;
+    return SurfaceSample(albedo, bump, vec4<f32>(0.0, 0.0, 1.0, 0.0));
 }
 
 // By how many beds the edge of one is ragged.

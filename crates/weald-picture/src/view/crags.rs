@@ -1,23 +1,25 @@
-//! Ridges and gullies that are finer than cells, on whatever plane the ground faces, so that none is drawn out along cliffs.
+//! Ridges and gullies that are finer than cells: noise in space, of which the ground is a slice, so that none is drawn out
+//! down slopes or along cliffs.
 //!
 //! Noise that is folded at 0 has sharp crests: the ridged noise of Musgrave (Ebert and others 2003, "Texturing and Modeling",
 //! chapter 16), summed up in octaves that fade before they could flicker.
 
-use weald_core::grain::{grain, visible};
+use super::solid_grain::solid_grain;
+use weald_core::grain::visible;
 
 /// The longest wavelength in cells, the number of octaves, and what each is against the one before, which is twice as long.
 const CELLS: f32 = 4.0;
 const OCTAVES: u32 = 5;
 const GAIN: f32 = 0.65;
 
+/// What makes them another than other noise.
+const SEED: u32 = 0x13;
+
 /// How round crests are: the square of the value below which noise is not folded.
 const SHARP: f32 = 0.004;
 
 /// The mean of folded noise.
-const MEAN: f32 = 0.21;
-
-/// Share below which a plane is not seen.
-const LEAST: f32 = 0.08;
+const MEAN: f32 = 0.18;
 
 /// Ridges and gullies at a point.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -28,60 +30,33 @@ pub(super) struct Crags {
     pub(super) slope: [f32; 2],
 }
 
-/// A plane on which they stand, and how it is looked at.
-struct Plane {
-    place: [f32; 2],
-    /// Share of it that is seen.
-    share: f32,
-    cell: f32,
-    footprint: f32,
-    seed: u32,
-}
-
-/// Height, and slopes along a plane.
-fn crags_on(plane: &Plane) -> [f32; 3] {
-    let mut sum = [0.0; 3];
-    let (mut strength, mut wavelength) = (plane.share, CELLS * plane.cell);
-    let (mut place, mut turn) = (plane.place, [1.0_f32, 0.0]);
+/// Ridges and gullies on ground that rises so eastward and northward, for a pixel of that footprint; lengths in metres.
+pub(super) fn crags(point: [f32; 3], rise: [f32; 2], cell: f32, footprint: f32) -> Crags {
+    let mut sum = Crags::default();
+    let (mut strength, mut wavelength) = (1.0, CELLS * cell);
+    // Each octave is turned by the angle of the 3-4-5 triangle, so that lattices do not align.
+    let (mut place, mut turn) = (point, [1.0_f32, 0.0]);
     for octave in 0..OCTAVES {
-        let seen = strength * visible(plane.footprint, wavelength);
+        let seen = strength * visible(footprint, wavelength);
         if seen <= 0.0 {
             break;
         }
-        let here = grain(
+        let here = solid_grain(
             place.map(|metres| metres / wavelength),
-            plane.seed.wrapping_add(octave.wrapping_mul(0x9e37_79b9)),
+            SEED.wrapping_add(octave.wrapping_mul(0x9e37_79b9)),
         );
         let sharp = (here.value * here.value + SHARP).sqrt();
-        let [a, b] = here.slope.map(|slope| -seen * here.value * plane.cell / (sharp * wavelength) * slope);
-        sum[0] += seen * (MEAN - sharp);
-        sum[1] += turn[0] * a - turn[1] * b;
-        sum[2] += turn[1] * a + turn[0] * b;
-        place = [0.8 * place[0] + 0.6 * place[1], 0.8 * place[1] - 0.6 * place[0]];
+        let [a, b, upward] = here.slope.map(|slope| -seen * here.value * cell / (sharp * wavelength) * slope);
+        sum.height += seen * (MEAN - sharp);
+        // Along the ground one comes to other heights.
+        sum.slope[0] += turn[0] * a - turn[1] * b + upward * rise[0];
+        sum.slope[1] += turn[1] * a + turn[0] * b + upward * rise[1];
+        place = [0.8 * place[0] + 0.6 * place[1], 0.8 * place[1] - 0.6 * place[0], place[2]];
         turn = [0.8 * turn[0] - 0.6 * turn[1], 0.8 * turn[1] + 0.6 * turn[0]];
         strength *= GAIN;
         wavelength *= 0.5;
     }
     sum
-}
-
-/// Ridges and gullies on ground that rises so eastward and northward, for a pixel of that footprint; lengths in metres.
-pub(super) fn crags(point: [f32; 3], rise: [f32; 2], cell: f32, footprint: f32) -> Crags {
-    let facing = [rise[0], rise[1], 1.0].map(|part: f32| part * part * part * part);
-    let sum: f32 = facing.iter().sum();
-    let faced = facing.map(|part| (part / sum - LEAST).max(0.0));
-    let whole: f32 = faced.iter().sum();
-    let [x, y, z] = point;
-    let on = |axis: usize, place: [f32; 2]| {
-        crags_on(&Plane { place, share: faced[axis] / whole, cell, footprint, seed: 0x13 + axis as u32 })
-    };
-    let [east, north, level] = [on(0, [y, z]), on(1, [x, z]), on(2, [x, y])];
-    // What stands out of an upright plane is higher by what the ground rises there.
-    let upward = east[2] + north[2];
-    Crags {
-        height: east[0] + north[0] + level[0],
-        slope: [north[1] + level[1] + upward * rise[0], east[1] + level[2] + upward * rise[1]],
-    }
 }
 
 #[cfg(test)]

@@ -36,11 +36,15 @@ pub(super) struct BedSpot {
     pub(super) footprint: f32,
 }
 
+/// How much deeper in the pile of beds that dip a place is, in metres, than the north-western corner.
+pub(super) fn dip([x, y]: [f32; 2]) -> f32 {
+    DIP * (DIP_TOWARDS[0] * x + DIP_TOWARDS[1] * y)
+}
+
 /// Which bed a point lies in, and how far up in it.
 fn level(spot: &BedSpot, dips: bool) -> f32 {
     let [x, y, z] = spot.point;
-    let dip = if dips { DIP * (DIP_TOWARDS[0] * x + DIP_TOWARDS[1] * y) } else { 0.0 };
-    (z + dip) / spot.thickness + spot.fold
+    (z + if dips { dip([x, y]) } else { 0.0 }) / spot.thickness + spot.fold
 }
 
 /// The beds at a point; level ones where they do not dip.

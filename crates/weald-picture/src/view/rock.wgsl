@@ -21,9 +21,14 @@ fn bed_tone(bed: f32, seed: u32) -> f32 {
     return f32(grain_bits(i32(bed), 5, seed) >> 8u) / 16777216.0 - 0.5;
 }
 
+// How much deeper in the pile of beds that dip a place is, in metres.
+fn bed_dip(place: vec2<f32>) -> f32 {
+    return BED_DIP * dot(BED_DIP_TOWARDS, place);
+}
+
 // The beds at a point; level ones where they do not dip.
 fn beds_at(spot: BedSpot, dips: bool, seed: u32) -> Beds {
-    let dip = select(0.0, BED_DIP * dot(BED_DIP_TOWARDS, spot.point.xy), dips);
+    let dip = select(0.0, bed_dip(spot.point.xy), dips);
     let level = (spot.point.z + dip) / spot.thickness + spot.fold;
     let number = floor(level);
     let within = level - number;

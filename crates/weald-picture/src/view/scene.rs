@@ -10,7 +10,7 @@ use super::lit_scene::{CUT_WATER, LitScene};
 use super::skylight::{self, Seen};
 use super::terrain::{Hit, Ray};
 use super::vector::{Vector, add, dot, filter, mirrored, scale, unit};
-use super::water;
+use super::water::{self, RiverSpot};
 use crate::colour::{linear_of_hex, mix};
 use weald_core::error::Error;
 use weald_core::landscape::Landscape;
@@ -47,6 +47,8 @@ pub(super) struct WaterSpot {
     pub(super) point: Vector,
     /// Metres of water, without exaggeration.
     pub(super) depth: f32,
+    /// Share of water: less than all where stones stand out of it.
+    pub(super) share: f32,
     /// Share of foam.
     pub(super) foam: f32,
     /// Size of a pixel in metres.
@@ -142,34 +144,44 @@ impl RayMarcher {
         let ground = self.setting.bed.at(hit.place);
         let depth =
             self.setting.level.as_ref().map_or(f32::NEG_INFINITY, |level| level.at(hit.place) - ground);
-        if depth > 0.0 {
-            let [_, east, south] = self.setting.bed.with_slope(hit.place);
-            return self.lake(ray, hit, &self.water_spot(point, depth, [east, south]));
-        }
-        let (river, river_depth) = self.river(ray, hit, 1.0);
         let spot = || GroundSpot {
             place: hit.place,
             surface: self.setting.bed.with_slope(hit.place),
             point,
             footprint,
         };
+        if depth > 0.0 {
+            return self.shore(ray, hit, &spot(), depth);
+        }
+        let river = self.river(ray, hit, 1.0);
         // No tree stands in a river, and its banks are wet.
-        let above = if river_depth > 0.0 { 0.0 } else { -depth };
-        let land = if river < 1.0 { self.ground(&spot(), above) } else { [0.0; 3] };
-        if river <= 0.0 {
+        let above = (-depth).min(river.above * self.setting.exaggeration);
+        let land = if river.share < 1.0 { self.ground(&spot(), above) } else { [0.0; 3] };
+        if river.share <= 0.0 {
             return land;
         }
-        let water = WaterSpot { point, depth: river_depth, foam: 0.0, footprint };
-        mix(land, self.lake(ray, hit, &water), river)
+        let water = WaterSpot { point, depth: river.depth, share: river.share, foam: 0.0, footprint };
+        mix(land, self.lake(ray, hit, &water), river.share)
     }
 
-    /// The share of river at a place that a ray met, and its depth in metres, where a share is kept of what the map has.
-    pub(super) fn river(&self, ray: &Ray, hit: &Hit, kept: f32) -> (f32, f32) {
-        let Some(rivers) = &self.setting.rivers else { return (0.0, 0.0) };
+    /// A lake or the sea of a drawn depth, out of whose edge stones stand.
+    pub(super) fn shore(&self, ray: &Ray, hit: &Hit, spot: &GroundSpot, depth: f32) -> Vector {
+        let [_, east, south] = spot.surface;
+        let water = self.water_spot(spot.point, depth, [east, south]);
+        let land = if water.share < 1.0 { self.ground(spot, -depth) } else { [0.0; 3] };
+        if water.share > 0.0 { mix(land, self.lake(ray, hit, &water), water.share) } else { land }
+    }
+
+    /// The river at a place that a ray met, where a share is kept of what the map has.
+    pub(super) fn river(&self, ray: &Ray, hit: &Hit, kept: f32) -> RiverSpot {
+        let Some(rivers) = &self.setting.rivers else {
+            return RiverSpot { above: f32::INFINITY, ..RiverSpot::default() };
+        };
         let terrain = &self.setting.terrain;
         let pixel = terrain.spacing[0] * terrain.top.size().columns as f32 / rivers.width as f32;
         let footprint = self.footprint(hit.ray_length) / (-ray.direction[2]).max(0.05).sqrt();
-        water::with_banks(kept * rivers.at(self.share(hit.place)), footprint / pixel)
+        let share = kept * rivers.at(self.share(hit.place));
+        water::with_banks(share, ray.at(hit.ray_length), [pixel, footprint])
     }
 
     pub(super) fn footprint(&self, ray_length: f32) -> f32 {
@@ -208,15 +220,17 @@ impl RayMarcher {
         let fall = [0, 1].map(|axis| normal[axis] / run.max(1e-6));
         let point_of_cover = [point[0], point[1], height / stretch];
         let slope = run / normal[2].max(1e-3) / stretch;
+        let [level, sea] = [height - above, self.sea().unwrap_or(f32::MIN)];
+        let (above_water, beach) = (above / stretch, water::beach(level, sea));
         let spot =
-            SurfacePoint { place, fall, point: point_of_cover, slope, footprint, above: above / stretch };
+            SurfacePoint { place, fall, point: point_of_cover, slope, footprint, above: above_water, beach };
         let skin = self.cover.at(&spot);
         let rough = unit([
             normal[0] - normal[2] * skin.bump[0] * stretch,
             normal[1] - normal[2] * skin.bump[1] * stretch,
             normal[2],
         ]);
-        let width = water::swash_width(height - above, self.sea().unwrap_or(f32::MIN));
+        let width = water::swash_width(level, sea);
         let albedo = water::wetted(skin.albedo, above, water::wet_reach(width, slope, terrain.cell()));
         let light = self.lit(point, rough, &self.skylight.at(self.share(place)));
         scale(filter(albedo, light), FRAC_1_PI)
@@ -230,9 +244,10 @@ impl RayMarcher {
         let away = [0, 1, 2].map(|axis| point[axis] - eye[axis]);
         let footprint = self.footprint(dot(away, away).sqrt());
         let width = water::swash_width(point[2], self.sea().unwrap_or(f32::MIN));
+        let share = water::shore(point, depth / self.setting.exaggeration, slope, [width, footprint]);
         let away = depth / slope.max(0.02);
         let foam = water::breaking(slope) * water::swash(point, away, width, [0.0, footprint]);
-        WaterSpot { point, depth: depth / self.setting.exaggeration, foam, footprint }
+        WaterSpot { point, depth: depth / self.setting.exaggeration, share, foam, footprint }
     }
 
     /// Water of a depth.
@@ -256,7 +271,8 @@ impl RayMarcher {
         );
         let glint = if sun > 0.0 { sun * water::glint(back, normal, self.sky.sun) } else { 0.0 };
         let bed = water::bed_albedo(self.cover.gravel(), point, depth, spot.footprint);
-        let below = water::body(bed, depth, light);
+        let turbid = water::turbidity(point[2], self.sea().unwrap_or(f32::MIN));
+        let below = water::body(bed, depth, turbid, light);
         let surface = add(scale(reflection, share), scale(below, 1.0 - share));
         let surface = add(surface, scale(self.sky.sunlight, glint));
         mix(surface, scale(light, water::FOAM * FRAC_1_PI), foam)

@@ -31,7 +31,9 @@ fn ground_skin_at(
     let run = length(normal.xy);
     let point = vec3<f32>(at, surface.x / stretch);
     let slope = run / max(normal.z, 1e-3) / stretch;
-    var skin = cover_at(SurfacePoint(place, point, slope, normal.xy / max(run, 1e-6), footprint, above / stretch));
+    let fall = normal.xy / max(run, 1e-6);
+    let beach = beach_height(surface.x - above);
+    var skin = cover_at(SurfacePoint(place, point, slope, fall, footprint, above / stretch, beach));
     let width = swash_width(surface.x - above);
     skin.albedo = wetted(skin.albedo, above, wet_reach(width, slope));
     return skin;

@@ -2,7 +2,7 @@
 
 use super::cover::SurfacePoint;
 use super::lit_scene::LitScene;
-use super::vector::ramp;
+use super::water;
 use super::woods::Tree;
 
 /// Size in metres of a pixel at which a tree is asked whether it stands: smaller patches do not matter to it.
@@ -13,12 +13,6 @@ const LIFTED: f32 = 0.25;
 
 /// Share of a river in which no tree stands.
 const IN_RIVER: f32 = 0.1;
-
-/// How far below the tree line needles take the place of leaves, in widths of the belt in which trees become fewer.
-const NEEDLES: [f32; 2] = [0.3, 2.2];
-
-/// Greatest share of trees with leaves.
-const MOST_LEAVES: f32 = 0.85;
 
 impl LitScene {
     /// Whether there may be trees on its ground.
@@ -38,8 +32,9 @@ impl LitScene {
         let river = self.setting.rivers.as_ref().map_or(0.0, |rivers| rivers.at(self.share(place)));
         let spot = self.spot(place);
         let lifted = terrain.top.at(place) - self.setting.bed.at(place);
-        let stands = river < IN_RIVER && lifted < LIFTED && tree.rank < self.cover.density(&spot);
-        stands.then(|| (tree, tree.chance < self.share_of_conifers(spot.point[2])))
+        let [density, conifers] = self.cover.wood(&spot);
+        let stands = river < IN_RIVER && lifted < LIFTED && tree.rank < density;
+        stands.then_some((tree, tree.chance < conifers))
     }
 
     /// The ground under a tree.
@@ -49,6 +44,7 @@ impl LitScene {
         let normal = terrain.normal([east, south]);
         let run = (normal[0] * normal[0] + normal[1] * normal[1]).sqrt();
         let above = self.setting.level.as_ref().map_or(f32::INFINITY, |level| height - level.at(place));
+        let beach = water::beach(height - above, self.sea().unwrap_or(f32::MIN));
         SurfacePoint {
             place,
             point: terrain.point(place, height / stretch),
@@ -56,11 +52,7 @@ impl LitScene {
             fall: [normal[0], normal[1]].map(|part| part / run.max(1e-6)),
             footprint: FOOTPRINT,
             above: above / stretch,
+            beach,
         }
-    }
-
-    /// The share of conifers at a height.
-    fn share_of_conifers(&self, height: f32) -> f32 {
-        1.0 - MOST_LEAVES * ramp(self.cover.below_tree_line(height), NEEDLES[0], NEEDLES[1])
     }
 }

@@ -17,9 +17,11 @@ const LIGHT: [&str; 7] = [
 ];
 
 /// Those of ground and water, which call them.
-const GROUND: [&str; 10] = [
+const GROUND: [&str; 12] = [
+    include_str!("solid_grain.wgsl"),
     include_str!("crags.wgsl"),
     include_str!("rock.wgsl"),
+    include_str!("fractures.wgsl"),
     include_str!("snow.wgsl"),
     include_str!("woods.wgsl"),
     include_str!("cover.wgsl"),

@@ -36,8 +36,26 @@ const RIVER_DEPTH: f32 = 1.2;
 
 /// Least width of a river's edge in pixels of the map, and the share of water at which the bank lies then: a thread that is
 /// thinner is none from close by.
-const SHARPEST: f32 = 0.2;
+const SHARPEST: f32 = 0.05;
 const BANK: f32 = 0.3;
+
+/// How ragged banks are: by how much the share of water differs, and the longest wavelength in pixels of the map.
+const RAGGED: f32 = 0.35;
+const RAGGED_LENGTH: f32 = 1.6;
+
+/// Height above the water, in metres, of ground at the outermost of what the map has of a river.
+const BANK_HEIGHT: f32 = 3.0;
+
+/// Height of the stones and cusps of a shore, and their longest wavelength, in metres: what all have, and what comes with each
+/// metre that waves run up.
+const STONES: [f32; 2] = [0.07, 0.03];
+const STONES_LENGTH: [f32; 2] = [2.0, 1.2];
+
+/// Height of a beach in metres, of a lake and of the sea.
+const BEACH: [f32; 2] = [0.1, 3.0];
+
+/// How much more turbid lakes and rivers are than the sea.
+const TURBID: f32 = 3.0;
 
 /// Cells by which a river winds about its line.
 const WINDING: f32 = 0.6;
@@ -62,7 +80,7 @@ const FLATS: [f32; 2] = [0.004, 0.02];
 pub(super) const FOAM: f32 = 0.78;
 
 /// Share of the light that gravel sends back dry which it sends back wet.
-const WET: f32 = 0.55;
+const WET: f32 = 0.45;
 
 /// Mean square of the slopes of ripples too small to be seen.
 const ROUGHNESS: f32 = 0.006;
@@ -169,12 +187,57 @@ impl Rivers {
     }
 }
 
-/// The share of water of a river and its depth in metres, where the map says such a share and a pixel of the picture is so
-/// many of the map: from close by a bank is an edge, where the map passes over from water to land in the course of a pixel.
-pub(super) fn with_banks(share: f32, pixels: f32) -> (f32, f32) {
-    let softness = pixels.clamp(SHARPEST, 1.0);
+/// What a river that is drawn as a line is at a place.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct RiverSpot {
+    /// Share of water.
+    pub(super) share: f32,
+    /// Depth in metres.
+    pub(super) depth: f32,
+    /// Height of the ground above it in metres; infinite where there is no river.
+    pub(super) above: f32,
+}
+
+/// The river at a point where the map, whose pixels are so many metres wide, says such a share, for a pixel of the picture of
+/// that footprint: from close by a bank is an edge, ragged and no blur of the map's.
+pub(super) fn with_banks(share: f32, point: Vector, [pixel, footprint]: [f32; 2]) -> RiverSpot {
+    if share <= 0.0 {
+        return RiverSpot { above: f32::INFINITY, ..RiverSpot::default() };
+    }
+    let ragged = Octaves { wavelength: RAGGED_LENGTH * pixel, count: 6, gain: 0.6, seed: 0x66 };
+    let off = RAGGED * 4.0 * share * (1.0 - share) * ragged.at(point, footprint).value;
+    let share = (share + off).clamp(0.0, 1.0);
+    let softness = (footprint / pixel).clamp(SHARPEST, 1.0);
     let bank = BANK + (0.5 - BANK) * (softness - SHARPEST) / (1.0 - SHARPEST);
-    (((share - bank) / softness + 0.5).clamp(0.0, 1.0), RIVER_DEPTH * share)
+    let out = (1.0 - share / bank).max(0.0);
+    RiverSpot {
+        share: ((share - bank) / softness + 0.5).clamp(0.0, 1.0),
+        depth: RIVER_DEPTH * share,
+        above: BANK_HEIGHT * out * out,
+    }
+}
+
+/// Share of water at a point of a lake or the sea of a depth in metres, whose bed rises so by the metre and whose waves run up
+/// a width: stones and cusps of sand stand out where it is shallow, so that its edge is as sharp as the pixel and no line.
+pub(super) fn shore(point: Vector, depth: f32, slope: f32, [width, footprint]: [f32; 2]) -> f32 {
+    let stands = STONES[0] + STONES[1] * width;
+    if depth > stands {
+        return 1.0;
+    }
+    let wavelength = STONES_LENGTH[0] + STONES_LENGTH[1] * width;
+    let stones = Octaves { wavelength, count: 7, gain: 0.62, seed: 0x67 }.at(point, footprint).value;
+    let over = depth - stands * (0.3 + stones).clamp(0.0, 0.9);
+    (over / (footprint * slope).max(0.004) + 0.5).clamp(0.0, 1.0)
+}
+
+/// Height above the water, in metres, up to which waves throw sand and stones at a level.
+pub(super) fn beach(level: f32, sea: f32) -> f32 {
+    if (level - sea).abs() < 0.5 { BEACH[1] } else { BEACH[0] }
+}
+
+/// How turbid water is at a height, beside the sea.
+pub(super) fn turbidity(level: f32, sea: f32) -> f32 {
+    if (level - sea).abs() < 0.5 { 1.0 } else { TURBID }
 }
 
 /// Noise along rivers at a place in cells.
@@ -230,22 +293,22 @@ pub(super) fn glint(towards_eye: Vector, normal: Vector, sun: Vector) -> f32 {
     density * mirrored_share(dot(half, towards_eye)) / (4.0 * dot(towards_eye, normal).max(0.08))
 }
 
-/// Light that comes out of water of a depth over a bed, for the light that falls on it.
-pub(super) fn body(bed: Vector, depth: f32, light: Vector) -> Vector {
-    let through = ABSORPTION.map(|swallowed| libm::expf(-2.0 * swallowed * depth));
+/// Light that comes out of water of a depth over a bed, so much more turbid than the sea, for the light that falls on it.
+pub(super) fn body(bed: Vector, depth: f32, turbid: f32, light: Vector) -> Vector {
+    let through = ABSORPTION.map(|swallowed| libm::expf(-2.0 * swallowed * turbid * depth));
     let shallow = filter(scale(bed, 0.7), through);
-    let deep = filter(BODY, through.map(|through| 1.0 - through));
+    let deep = filter(scale(BODY, 1.5 / (0.5 + turbid)), through.map(|through| 1.0 - through));
     scale(filter(add(shallow, deep), light), std::f32::consts::FRAC_1_PI)
 }
 
-/// The bed below water of a depth, of gravel of a colour: sand and stones in patches, and what grows on it where it is
-/// deeper, blurred by the ripples above.
+/// The bed below water of a depth, of gravel of a colour: sand, stones, and what grows on it in patches with an edge, most
+/// where it is deeper, blurred by the ripples above.
 pub(super) fn bed_albedo(gravel: Vector, point: Vector, depth: f32, footprint: f32) -> Vector {
     let blurred = footprint + 0.05 * depth;
-    let patches = Octaves { wavelength: 9.0, count: 5, gain: 0.6, seed: 0x5b }.at(point, blurred).value;
+    let patches = Octaves { wavelength: 9.0, count: 7, gain: 0.66, seed: 0x5b }.at(point, blurred).value;
     let grains = Octaves { wavelength: 0.55, count: 5, gain: 0.72, seed: 0x5c }.at(point, blurred).value;
-    let tone = 1.0 + 0.45 * patches + 0.55 * grains;
-    let grown = 0.7 * ramp(patches + 0.1 * depth.min(5.0), 0.1, 0.6);
+    let tone = 1.0 + 0.35 * patches + 0.9 * grains;
+    let grown = 0.8 * ramp(patches + 0.3 * grains + 0.1 * depth.min(5.0), 0.22, 0.36);
     mix(scale(gravel, WET * tone.max(0.2)), WEED, grown)
 }
 
@@ -257,7 +320,7 @@ pub(super) fn swash_width(level: f32, sea: f32) -> f32 {
 /// Share of foam on water at so many metres from its edge, where waves run up and down over a width: the line of each
 /// moves, and leaves lace behind. Some stretches of a shore lie open and others are sheltered; ponds have next to none.
 pub(super) fn swash(point: Vector, away: f32, width: f32, [seconds, footprint]: [f32; 2]) -> f32 {
-    let seen = 1.0 - ramp(footprint / width, 0.2, 0.8);
+    let seen = 1.0 - ramp(footprint / width, 0.5, 2.0);
     let along = Octaves { wavelength: 6.0 * width, count: 2, gain: 0.5, seed: 0x5d }.at(point, 0.0).value;
     let lace =
         Octaves { wavelength: 0.2 * width, count: 4, gain: 0.65, seed: 0x5e }.at(point, footprint).value;
@@ -337,14 +400,29 @@ mod tests {
     }
 
     #[test]
-    fn banks_are_edges_from_close_by_and_what_the_map_says_from_afar() {
+    fn banks_are_ragged_edges_from_close_by_and_what_the_map_says_from_afar() {
         let shares: Vec<f32> = (0_u8..=100).map(|at| f32::from(at) / 100.0).collect();
-        assert!(shares.iter().all(|&share| (with_banks(share, 1.5).0 - share).abs() < 1e-6));
+        let at =
+            |share: f32, pixels: f32| with_banks(share, [300.0 * share, 70.0, 0.0], [10.0, 10.0 * pixels]);
+        assert!(shares.iter().all(|&share| (at(share, 1.5).share - share).abs() < 1e-6));
         let soft = |pixels: f32| {
-            let between = shares.iter().filter(|&&share| (0.01..0.99).contains(&with_banks(share, pixels).0));
+            let between = shares.iter().filter(|&&share| (0.01..0.99).contains(&at(share, pixels).share));
             between.count()
         };
-        assert!(soft(0.01) < 22 && soft(0.5) > 40, "{} and {}", soft(0.01), soft(0.5));
-        assert_eq!((with_banks(0.0, 0.01).0, with_banks(1.0, 0.01)), (0.0, (1.0, RIVER_DEPTH)));
+        assert!(soft(0.01) < 12 && soft(0.5) > 40, "{} and {}", soft(0.01), soft(0.5));
+        let [none, whole] = [0.0, 1.0].map(|share| at(share, 0.01));
+        assert_eq!((none.share, whole), (0.0, RiverSpot { share: 1.0, depth: RIVER_DEPTH, above: 0.0 }));
+        let edge = |along: u8| with_banks(BANK, [f32::from(along), 40.0, 0.0], [10.0, 0.1]).share > 0.5;
+        let wet = (0..200).filter(|&along| edge(along)).count();
+        assert!((40..160).contains(&wet), "{wet} of 200 metres of a bank are wet");
+    }
+
+    #[test]
+    fn a_shore_is_as_sharp_as_the_pixel_and_stones_stand_out_of_shallow_water_alone() {
+        let at = |along: u16, depth: f32| shore([f32::from(along) * 0.37, 9.0, 0.0], depth, 0.1, [0.7, 0.02]);
+        let wet = |depth: f32| (0..500).filter(|&along| at(along, depth) > 0.5).count();
+        assert!(wet(0.0) < wet(0.03) && wet(0.03) < 500 && wet(0.2) == 500, "{} {}", wet(0.0), wet(0.03));
+        let between = (0..500).filter(|&along| (0.05..0.95).contains(&at(along, 0.03))).count();
+        assert!(between < 120, "{between} of 500 are neither");
     }
 }

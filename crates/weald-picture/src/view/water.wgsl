@@ -31,32 +31,81 @@ fn glint(towards_eye: vec3<f32>, normal: vec3<f32>, sun: vec3<f32>) -> f32 {
     return density * mirrored_share(dot(half, towards_eye)) / (4.0 * max(dot(towards_eye, normal), 0.08));
 }
 
-// Light that comes out of water of a depth over a bed, for the light that falls on it.
-fn water_body(bed_albedo: vec3<f32>, depth: f32, light: vec3<f32>) -> vec3<f32> {
-    let through = exp(-2.0 * scene.water_swallowed.xyz * depth);
+// How much more turbid lakes and rivers are than the sea, whose beaches are higher.
+const TURBID = 3.0;
+const BEACH = vec2<f32>(0.1, 3.0);
+
+fn turbidity(level: f32) -> f32 {
+    return select(TURBID, 1.0, abs(level - scene.swash.z) < 0.5);
+}
+
+// Height above the water, in metres, up to which waves throw sand and stones at a level.
+fn beach_height(level: f32) -> f32 {
+    return select(BEACH.x, BEACH.y, abs(level - scene.swash.z) < 0.5);
+}
+
+// Light that comes out of water of a depth over a bed, so much more turbid than the sea, for the light that falls on it.
+fn water_body(bed_albedo: vec3<f32>, depth: f32, turbid: f32, light: vec3<f32>) -> vec3<f32> {
+    let through = exp(-2.0 * scene.water_swallowed.xyz * turbid * depth);
     let shallow = 0.7 * bed_albedo * through;
-    let deep = scene.water_body.xyz * (1.0 - through);
+    let deep = scene.water_body.xyz * (1.5 / (0.5 + turbid)) * (1.0 - through);
     return (shallow + deep) * light / PI;
 }
 
 // Share of the light that gravel sends back dry which it sends back wet.
-const BED_WET = 0.55;
+const BED_WET = 0.45;
 
-// The bed below water of a depth: sand and stones in patches, and what grows on it, blurred by the ripples above.
+// The bed below water of a depth: sand, stones, and what grows on it in patches, blurred by the ripples above.
 fn bed_albedo(point: vec2<f32>, depth: f32, footprint: f32) -> vec3<f32> {
     let blurred = footprint + 0.05 * depth;
-    let patches = octaves_at(Octaves(9.0, 5u, 0.6, 0x5bu), point, blurred).value;
+    let patches = octaves_at(Octaves(9.0, 7u, 0.66, 0x5bu), point, blurred).value;
     let grains = octaves_at(Octaves(0.55, 5u, 0.72, 0x5cu), point, blurred).value;
-    let tone = 1.0 + 0.45 * patches + 0.55 * grains;
-    let grown = 0.7 * ramp(patches + 0.1 * min(depth, 5.0), 0.1, 0.6);
+    let tone = 1.0 + 0.35 * patches + 0.9 * grains;
+    let grown = 0.8 * ramp(patches + 0.3 * grains + 0.1 * min(depth, 5.0), 0.22, 0.36);
     return mix(scene.gravel.xyz * (BED_WET * max(tone, 0.2)), scene.weed.xyz, grown);
 }
 
-// The share of water of a river where the map says such a share and a pixel of the picture is so many of the map.
-fn with_banks(share: f32, pixels: f32) -> f32 {
-    let softness = clamp(pixels, 0.2, 1.0);
-    let bank = mix(0.3, 0.5, (softness - 0.2) / 0.8);
-    return clamp((share - bank) / softness + 0.5, 0.0, 1.0);
+const RIVER_SHARPEST = 0.05;
+const RIVER_BANK = 0.3;
+const BANK_RAGGED = 0.35;
+const BANK_LENGTH = 1.6;
+const BANK_HEIGHT = 3.0;
+const STONES_STAND = vec2<f32>(0.07, 0.03);
+const STONES_LENGTH = vec2<f32>(2.0, 1.2);
+
+// Metres of water in the middle of a river that is drawn as a line.
+const RIVER_DEPTH = 1.2;
+
+// What a river that is drawn as a line is at a place: share of water, depth, and height of the ground above it.
+struct RiverSpot {
+    share: f32,
+    depth: f32,
+    above: f32,
+}
+
+// The river where the map, whose pixels are so many metres wide, says such a share, for a pixel of that footprint.
+fn with_banks(mapped: f32, point: vec2<f32>, pixel: f32, footprint: f32) -> RiverSpot {
+    if mapped <= 0.0 {
+        return RiverSpot(0.0, 0.0, 1e9);
+    }
+    let ragged = octaves_at(Octaves(BANK_LENGTH * pixel, 6u, 0.6, 0x66u), point, footprint).value;
+    let share = clamp(mapped + BANK_RAGGED * 4.0 * mapped * (1.0 - mapped) * ragged, 0.0, 1.0);
+    let softness = clamp(footprint / pixel, RIVER_SHARPEST, 1.0);
+    let bank = mix(RIVER_BANK, 0.5, (softness - RIVER_SHARPEST) / (1.0 - RIVER_SHARPEST));
+    let out = max(1.0 - share / bank, 0.0);
+    return RiverSpot(clamp((share - bank) / softness + 0.5, 0.0, 1.0), RIVER_DEPTH * share, BANK_HEIGHT * out * out);
+}
+
+// Share of water at a point of a lake or the sea of a depth, whose bed rises so and whose waves run up a width.
+fn shore(point: vec2<f32>, depth: f32, slope: f32, width: f32, footprint: f32) -> f32 {
+    let stands = STONES_STAND.x + STONES_STAND.y * width;
+    if depth > stands {
+        return 1.0;
+    }
+    let wavelength = STONES_LENGTH.x + STONES_LENGTH.y * width;
+    let stones = octaves_at(Octaves(wavelength, 7u, 0.62, 0x67u), point, footprint).value;
+    let over = depth - stands * clamp(0.3 + stones, 0.0, 0.9);
+    return clamp(over / max(footprint * slope, 0.004) + 0.5, 0.0, 1.0);
 }
 
 // Share of the waves' foam over a bed of a slope: over flats they have broken far out.
@@ -71,7 +120,7 @@ fn swash_width(level: f32) -> f32 {
 
 // Share of foam on water at so many metres from its edge, where waves run up and down over a width.
 fn swash(point: vec2<f32>, away: f32, width: f32, seconds: f32, footprint: f32) -> f32 {
-    let seen = 1.0 - ramp(footprint / width, 0.2, 0.8);
+    let seen = 1.0 - ramp(footprint / width, 0.5, 2.0);
     let along = octaves_at(Octaves(6.0 * width, 2u, 0.5, 0x5du), point, 0.0).value;
     let lace = octaves_at(Octaves(0.2 * width, 4u, 0.65, 0x5eu), point, footprint).value;
     let stretch = octaves_at(Octaves(35.0 * width, 2u, 0.6, 0x5fu), point, 0.0).value;

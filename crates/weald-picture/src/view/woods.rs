@@ -6,7 +6,7 @@
 //! and dark hollows at any distance; each layer fades before its domes become smaller than pixels.
 
 use super::vector::{Vector, ramp};
-use weald_core::grain::{bits, floor, visible};
+use weald_core::grain::{Grain, Octaves, bits, floor, visible};
 
 /// Metres from one tree to the next where they stand closest.
 pub const SPACING: f32 = 7.0;
@@ -20,15 +20,21 @@ const COARSER: f32 = 2.6;
 /// What makes the first layer another than other noise; each further layer has the next.
 const SEED: u32 = 0x41;
 
-/// Least and greatest radius of a crown, in spacings.
-const RADII: [f32; 2] = [0.40, 0.62];
+/// Least and greatest radius of a crown, in spacings; broad ones are many.
+const RADII: [f32; 2] = [0.24, 0.64];
 
 /// How far a crown may stand off the middle of its square, in spacings; with the greatest radius no more than 1, so that
 /// the four nearest squares hold all crowns over a place.
 const OFF: f32 = 0.35;
 
 /// Height of the dome of a crown beside its radius, and of a group of them.
-const STEEP: [f32; 2] = [0.55, 0.24];
+const STEEP: [f32; 2] = [0.45, 0.24];
+
+/// Boughs, by which the rims of crowns are ragged: their longest wavelength in metres, how far a rim is moved by their slope,
+/// and what they add to the tone and the slope of a crown.
+const BOUGHS: f32 = 4.5;
+const MOVED: f32 = 1.9;
+const LEAFY: [f32; 2] = [0.45, 0.35];
 
 /// How much lighter or darker one group of crowns is than another.
 const UNLIKE: f32 = 0.5;
@@ -79,6 +85,8 @@ pub(super) struct Canopy {
     pub(super) slope: [f32; 2],
     /// Share of light that shadows of crowns leave to what lies beside them.
     pub(super) open: f32,
+    /// The number of its own, 0 to 1, of the tree or the group there, by which its kind is chosen.
+    pub(super) chance: f32,
 }
 
 /// The uppermost dome over a place.
@@ -116,7 +124,7 @@ fn dome(place: [f32; 2], seed: u32, density: f32) -> Dome {
         }
         let centre = centre(square, hash);
         let away = [place[0] - centre[0], place[1] - centre[1]];
-        let radius = RADII[0] + (RADII[1] - RADII[0]) * part(more, 8);
+        let radius = RADII[0] + (RADII[1] - RADII[0]) * part(more, 8).sqrt();
         let below = 1.0 - (away[0] * away[0] + away[1] * away[1]) / (radius * radius);
         let tall = tallness(more);
         if below * tall > top.height {
@@ -153,6 +161,7 @@ fn centre([x, y]: [i32; 2], hash: u32) -> [f32; 2] {
 pub(super) fn canopy(point: [f32; 2], density: f32, footprint: f32, sun: Vector) -> Canopy {
     let single = visible(footprint, 1.4 * SPACING);
     let (mut lumps, mut slope, mut finer, mut spacing) = (0.0, [0.0; 2], single, SPACING);
+    let mut chance = 0.5;
     let (mut place, mut turn) = (point, [1.0_f32, 0.0]);
     for layer in 1..LAYERS {
         spacing *= COARSER;
@@ -167,6 +176,7 @@ pub(super) fn canopy(point: [f32; 2], density: f32, footprint: f32, sun: Vector)
         let weight = seen * (1.0 - 0.55 * finer);
         finer = seen;
         lumps += weight * (group.height - 0.45 + UNLIKE * (group.chance - 0.5));
+        chance += weight * 0.7 * (group.chance - 0.5);
         let along = [
             turn[0] * group.slope[0] + turn[1] * group.slope[1],
             turn[0] * group.slope[1] - turn[1] * group.slope[0],
@@ -178,34 +188,39 @@ pub(super) fn canopy(point: [f32; 2], density: f32, footprint: f32, sun: Vector)
     let floor = 0.9 * ramp(density, 0.25, 0.8);
     let covered = 0.75 * density * (2.0 - density) * 0.9;
     let share = covered + (1.0 - covered) * floor;
-    let far = Canopy { share, tone: 0.42 + 0.55 * lumps, slope, open: 1.0 - 0.4 * density };
+    let far = Canopy { share, tone: 0.42 + 0.55 * lumps, slope, open: 1.0 - 0.4 * density, chance };
     if single <= 0.0 {
         return far;
     }
-    let near = crowns(point, density, floor, sun);
+    let near = crowns(point, [density, floor], footprint, sun);
     let mixed = |near: f32, far: f32| far + single * (near - far);
     Canopy {
         share: mixed(near.share, far.share),
         tone: mixed(near.tone + 0.3 * lumps, far.tone),
         slope: [0, 1].map(|axis| slope[axis] + single * near.slope[axis]),
         open: mixed(near.open, far.open),
+        chance: mixed(near.chance, far.chance),
     }
 }
 
-/// Crowns that are seen one by one, with so much dark between them.
-fn crowns(point: [f32; 2], density: f32, floor: f32, sun: Vector) -> Canopy {
-    let place = point.map(|metres| metres / SPACING);
+/// Crowns of a density that are seen one by one, with so much dark between them.
+fn crowns(point: [f32; 2], [density, floor]: [f32; 2], footprint: f32, sun: Vector) -> Canopy {
+    let boughs = Octaves { wavelength: BOUGHS, count: 3, gain: 0.65, seed: SEED + LAYERS };
+    let Grain { value, slope } = boughs.at([point[0], point[1], 0.0], footprint);
+    let place = [0, 1].map(|axis| (point[axis] + MOVED * slope[axis]) / SPACING);
     let tree = dome(place, SEED, density);
     let within = (5.0 * tree.height).min(1.0);
     let run = (sun[0] * sun[0] + sun[1] * sun[1]).sqrt().max(1e-6);
     let length = (SHADE[0] * run / sun[2].max(1e-3)).min(SHADE[1]) / run;
     let shaded = dome([place[0] + length * sun[0], place[1] + length * sun[1]], SEED, density);
     let dark = (4.0 * shaded.height).min(1.0) * (1.0 - within);
+    let tone = 0.32 + 0.44 * tree.height + 0.3 * (tree.chance - 0.5) + LEAFY[0] * value;
     Canopy {
         share: within + (1.0 - within) * floor,
-        tone: within * (0.22 + 0.66 * tree.height + 0.3 * (tree.chance - 0.5)),
-        slope: tree.slope.map(|slope| within * STEEP[0] * slope),
+        tone: within * tone,
+        slope: [0, 1].map(|axis| within * (STEEP[0] * tree.slope[axis] + LEAFY[1] * slope[axis])),
         open: 1.0 - 0.55 * dark,
+        chance: tree.chance,
     }
 }
 

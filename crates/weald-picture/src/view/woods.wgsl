@@ -6,10 +6,13 @@ const WOOD_SPACING = 7.0;
 const WOOD_LAYERS = 4u;
 const WOOD_COARSER = 2.6;
 const WOOD_SEED = 0x41u;
-const CROWN_RADII = vec2<f32>(0.40, 0.62);
+const CROWN_RADII = vec2<f32>(0.24, 0.64);
 const CROWN_OFF = 0.35;
-const CROWN_STEEP = vec2<f32>(0.55, 0.24);
+const CROWN_STEEP = vec2<f32>(0.45, 0.24);
 const CROWN_SHADE = vec2<f32>(0.7, 1.1);
+const BOUGHS = 4.5;
+const BOUGHS_MOVED = 1.9;
+const LEAFY = vec2<f32>(0.45, 0.35);
 
 const TALLEST = 17.0;
 
@@ -40,6 +43,7 @@ struct Canopy {
     tone: f32,
     slope: vec2<f32>,
     open: f32,
+    chance: f32,
 }
 
 struct Dome {
@@ -76,7 +80,7 @@ fn dome(place: vec2<f32>, seed: u32, density: f32) -> Dome {
             continue;
         }
         let away = place - wood_centre(square, chances.x);
-        let radius = CROWN_RADII.x + (CROWN_RADII.y - CROWN_RADII.x) * part_of(chances.y, 8u);
+        let radius = CROWN_RADII.x + (CROWN_RADII.y - CROWN_RADII.x) * sqrt(part_of(chances.y, 8u));
         let below = 1.0 - dot(away, away) / (radius * radius);
         let tall = tallness(chances.y);
         if below * tall > top.height {
@@ -105,6 +109,7 @@ fn canopy_of(point: vec2<f32>, wooded: f32, footprint: f32) -> Canopy {
     var spacing = WOOD_SPACING;
     var place = point;
     var turn = vec2<f32>(1.0, 0.0);
+    var chance = 0.5;
     for (var layer = 1u; layer < layers; layer++) {
         spacing *= WOOD_COARSER;
         place = turned_lattice(place);
@@ -117,29 +122,32 @@ fn canopy_of(point: vec2<f32>, wooded: f32, footprint: f32) -> Canopy {
         let weight = seen * (1.0 - 0.55 * finer);
         finer = seen;
         lumps += weight * (group.height - 0.45 + WOOD_UNLIKE * (group.chance - 0.5));
+        chance += weight * 0.7 * (group.chance - 0.5);
         let along = vec2<f32>(dot(turn, group.slope), turn.x * group.slope.y - turn.y * group.slope.x);
         slope += weight * CROWN_STEEP.y * along;
     }
     let density = clamp(wooded + 2.4 * lumps * wooded * (1.0 - wooded), 0.0, 1.0);
     let between = 0.9 * ramp(density, 0.25, 0.8);
     let covered = 0.75 * density * (2.0 - density) * 0.9;
-    let far = Canopy(covered + (1.0 - covered) * between, 0.42 + 0.55 * lumps, slope, 1.0 - 0.4 * density);
+    let far = Canopy(covered + (1.0 - covered) * between, 0.42 + 0.55 * lumps, slope, 1.0 - 0.4 * density, chance);
     var near = far;
     let looks = select(0u, 1u, single > 0.0 && density > 0.0);
     for (var look = 0u; look < looks; look++) {
-        near = crowns(point, density, between);
+        near = crowns(point, density, between, footprint);
         near.tone += 0.3 * lumps;
         near.slope += slope;
     }
     return Canopy(
         mix(far.share, near.share, single), mix(far.tone, near.tone, single),
         mix(far.slope, near.slope, single), mix(far.open, near.open, single),
+        mix(far.chance, near.chance, single),
     );
 }
 
 // Crowns that are seen one by one, with so much dark between them.
-fn crowns(point: vec2<f32>, density: f32, between: f32) -> Canopy {
-    let place = point / WOOD_SPACING;
+fn crowns(point: vec2<f32>, density: f32, between: f32, footprint: f32) -> Canopy {
+    let boughs = octaves_at(Octaves(BOUGHS, 3u, 0.65, WOOD_SEED + WOOD_LAYERS), point, footprint);
+    let place = (point + BOUGHS_MOVED * boughs.slope) / WOOD_SPACING;
     let tree = dome(place, WOOD_SEED, density);
     let within = min(5.0 * tree.height, 1.0);
     let run = max(length(scene.sun.xy), 1e-6);
@@ -148,8 +156,9 @@ fn crowns(point: vec2<f32>, density: f32, between: f32) -> Canopy {
     let dark = min(4.0 * shaded.height, 1.0) * (1.0 - within);
     return Canopy(
         within + (1.0 - within) * between,
-        within * (0.22 + 0.66 * tree.height + 0.3 * (tree.chance - 0.5)),
-        within * CROWN_STEEP.x * tree.slope,
+        within * (0.32 + 0.44 * tree.height + 0.3 * (tree.chance - 0.5) + LEAFY.x * boughs.value),
+        within * (CROWN_STEEP.x * tree.slope + LEAFY.y * boughs.slope),
         1.0 - 0.55 * dark,
+        tree.chance,
     );
 }

@@ -1,0 +1,96 @@
+//! Bare rock of natural ground: its beds, the blocks into which joints break them, and where waves wash it bare.
+
+use super::cover::{Cover, SurfacePoint, SurfaceSample, THICK, Texture};
+use super::fractures::{Face, Fractures, fractures};
+use super::rock::{BedSpot, Beds, beds, dip};
+use super::vector::{ramp, scale};
+use crate::colour::mix;
+
+/// How ragged beds and joints are, by the fine detail and by crags, in the lesser of a cell and the thickness of a bed.
+const RAGGED: [f32; 2] = [0.12, 0.3];
+const BENT: [f32; 2] = [0.5, 0.8];
+
+/// Slope of the facets of blocks on flat ground, and the least upward part of a normal by which it grows on walls.
+const FACETS: f32 = 0.42;
+const UPRIGHT: f32 = 0.4;
+
+/// Slopes between which waves of the sea leave no sand, but bare rock, and heights of a beach between which those are; how uneven a beach is, by patches and by detail; and what is worn
+/// bare of soil above one of rock.
+const SANDY: [f32; 2] = [0.2, 0.4];
+const OF_THE_SEA: [f32; 2] = [0.3, 1.5];
+const UNEVEN: [f32; 2] = [0.9, 0.9];
+const WASHED: f32 = 1.8;
+
+impl Cover {
+    /// The blocks of rock at a point.
+    pub(super) fn fractures(&self, spot: &SurfacePoint, texture: &Texture) -> Fractures {
+        let [x, y, z] = spot.point;
+        let thickness = THICK * self.limits.relief.max(1e-3);
+        let bend = texture.cell.min(thickness);
+        let [fine, craggy] = [texture.fine.value, texture.crags.height];
+        let long = 1.0 / (1.0 + spot.slope * spot.slope).sqrt();
+        fractures(&Face {
+            place: [x + BENT[0] * bend * fine, y + BENT[1] * bend * craggy],
+            level: z + dip([x, y]) + thickness * self.rock_fold(texture),
+            normal: [long * spot.slope * spot.fall[0], long * spot.slope * spot.fall[1], long],
+            thickness,
+            footprint: spot.footprint,
+        })
+    }
+
+    /// By how many beds natural rock is folded: broadly, and a little by what is ragged.
+    fn rock_fold(&self, texture: &Texture) -> f32 {
+        let thickness = THICK * self.limits.relief.max(1e-3);
+        let ragged = RAGGED[0] * texture.fine.value + RAGGED[1] * texture.crags.height;
+        1.4 * texture.broad + ragged * (texture.cell / thickness).min(1.0)
+    }
+
+    /// Rock with its beds and blocks: light and dark, sunk into cracks and joints.
+    pub(super) fn rock(&self, spot: &SurfacePoint, texture: &Texture, blocks: &Fractures) -> SurfaceSample {
+        // Some thirty beds over the relief, folded by about one of their thickness, and thinner ones within them.
+        let thick = THICK * self.limits.relief.max(1e-3);
+        let [bed, thin] = Self::bedding(spot, [thick, thick / 5.3], self.rock_fold(texture), true);
+        let [grey, dark, warm] = self.palette.rock;
+        let warmth = 0.4 + 0.7 * bed.tone + 0.3 * thin.tone + 0.9 * texture.broad + 0.3 * blocks.tone;
+        let stone = mix(grey, warm, warmth.clamp(0.0, 1.0));
+        let tone = 0.92 + 0.45 * bed.tone + 0.3 * thin.tone + 0.4 * texture.broad + 0.55 * blocks.tone;
+        let stone = scale(stone, tone.max(0.3));
+        // A quarter of a smooth face is dark.
+        let cracks = 0.22 - 0.4 * texture.fine.value - 1.2 * texture.crags.height
+            + 0.5 * bed.joint
+            + 0.3 * thin.joint
+            + 0.9 * blocks.crack;
+        let ledge = 0.35 * bed.ledge + 0.2 * thin.ledge;
+        let rough = texture.rough(0.15, 1.7);
+        let facets = FACETS * (1.0 + spot.slope * spot.slope).sqrt().min(1.0 / UPRIGHT);
+        SurfaceSample {
+            albedo: mix(stone, dark, cracks.clamp(0.0, 1.0)),
+            bump: [0, 1].map(|axis| rough[axis] - spot.fall[axis] * ledge + facets * blocks.facet[axis]),
+        }
+    }
+
+    /// Beds of two thicknesses at a point.
+    pub(super) fn bedding(spot: &SurfacePoint, thickness: [f32; 2], fold: f32, dips: bool) -> [Beds; 2] {
+        let footprint = spot.footprint * spot.slope;
+        let of = |at: usize| {
+            let spot = BedSpot {
+                point: spot.point,
+                fold: fold * thickness[0] / thickness[at],
+                thickness: thickness[at],
+                footprint,
+            };
+            beds(&spot, dips, 0x21 + at as u32)
+        };
+        [of(0), of(1)]
+    }
+
+    /// Shares of sand, and of rock that is washed bare, at the edge of water.
+    pub(super) fn beach(spot: &SurfacePoint, texture: &Texture) -> [f32; 2] {
+        let uneven = 1.0 + UNEVEN[0] * texture.broad + UNEVEN[1] * texture.fine.value;
+        let up = spot.above / (spot.beach * uneven.max(0.2)).max(1e-3);
+        // Some stretches of a shore have sand, and others rock.
+        let steep = ramp(spot.slope - 0.6 * texture.broad, SANDY[0], SANDY[1])
+            * ramp(spot.beach, OF_THE_SEA[0], OF_THE_SEA[1]);
+        [(1.0 - ramp(up, 0.9, 1.1)) * (1.0 - steep), (1.0 - ramp(up / WASHED, 0.8, 1.1)) * steep]
+    }
+}

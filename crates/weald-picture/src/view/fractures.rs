@@ -1,0 +1,196 @@
+//! Joints of rock: beds are broken into blocks that stand out of a face or have fallen from it, each with a tone and a facet
+//! of its own, from tens of metres down to the pixel.
+//!
+//! Blocks fill space: a bed is cut by two sets of upright joints, which are the same for a whole landscape, as stress opens
+//! them. A face is a slice through them, so that walls show courses of blocks and crests show slabs, drawn out along none.
+//! Each layer of blocks lies within those of the one before and fades before its blocks become smaller than pixels.
+
+use super::vector::{Vector, ramp};
+use weald_core::grain::{bits, floor, visible};
+
+/// Height of the largest blocks over the thickness of a bed, and of those of a layer over that of the one before.
+const LARGEST: f32 = 0.434;
+const SMALLER: f32 = 0.434;
+
+/// Layers of blocks.
+const LAYERS: u32 = 6;
+
+/// Sides of a block beside its height.
+const SIDES: [f32; 2] = [1.5, 2.3];
+
+/// Directions across the two sets of joints, eastward and northward.
+const ACROSS: [[f32; 2]; 2] = [[0.92, 0.39], [-0.47, 0.88]];
+
+/// Width of an open joint over the height of a block.
+const OPEN: f32 = 0.09;
+
+/// Pixels of the picture that count as one: blocks go before their edges would be torn by single pixels.
+const PIXELS: f32 = 1.6;
+
+/// Share of a layer that is left where the next is seen.
+const LEFT: f32 = 0.6;
+
+/// Height in a bed from which a block's top is a ledge.
+const TOP: f32 = 0.72;
+
+/// Least sine of the angle between a face and a joint: flatter cuts would be as wide as blocks.
+const FLATTEST: f32 = 0.2;
+
+/// Blocks at a point of a face.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Fractures {
+    /// Tone of the blocks, about -0.5 to 0.5.
+    pub(super) tone: f32,
+    /// Share of the darkness of an open joint.
+    pub(super) crack: f32,
+    /// Rise of the facets beside that of the face, eastward and northward.
+    pub(super) facet: [f32; 2],
+    /// Share of a ledge on which soil lies.
+    pub(super) ledge: f32,
+}
+
+/// A point of a face.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Face {
+    /// Eastward and northward, as far as joints bend, in metres.
+    pub(super) place: [f32; 2],
+    /// Height in the pile of beds in metres.
+    pub(super) level: f32,
+    pub(super) normal: Vector,
+    /// Thickness of a bed in metres.
+    pub(super) thickness: f32,
+    pub(super) footprint: f32,
+}
+
+/// A share from eight bits of a hash.
+#[inline(always)]
+fn part(hash: u32, shift: u32) -> f32 {
+    ((hash >> shift) & 0xff) as f32 * (1.0 / 255.0)
+}
+
+/// Sine of the angle between a face and a plane whose normal has such a cosine with its own.
+fn sine(cosine: f32) -> f32 {
+    (1.0 - cosine * cosine).max(FLATTEST * FLATTEST).sqrt()
+}
+
+/// Blocks of one height.
+fn blocks(face: &Face, height: f32, seed: u32) -> Fractures {
+    let along = |axis: usize| {
+        let [east, north] = ACROSS[axis];
+        (face.place[0] * east + face.place[1] * north) / (SIDES[axis] * height)
+    };
+    let up = face.level / height;
+    let bed = floor(up);
+    // Neither do joints go on from bed to bed, nor across the other set.
+    let in_bed = bits(bed, 11, seed);
+    let first = along(0) + part(in_bed, 0);
+    let row = floor(first);
+    let in_row = bits(row, bed, seed ^ 0x5bd1);
+    let second = along(1) + part(in_row, 0);
+    let column = floor(second);
+    let hash = bits(column, row.wrapping_add(bed.wrapping_mul(57)), seed ^ 0x91e1);
+
+    let [nx, ny, nz] = face.normal;
+    let sines = [
+        sine(nx * ACROSS[0][0] + ny * ACROSS[0][1]) / SIDES[0],
+        sine(nx * ACROSS[1][0] + ny * ACROSS[1][1]) / SIDES[1],
+        sine(nz),
+    ];
+    let blur = face.footprint / height;
+    let wide = OPEN.max(0.8 * blur);
+    let open = |within: f32, axis: usize, deep: f32| {
+        let away = within.min(1.0 - within) / sines[axis];
+        deep * (1.0 - ramp(away, 0.25 * wide, wide))
+    };
+    let within = [first - row as f32, second - column as f32, up - bed as f32];
+    // Some joints are open and others closed.
+    let crack = open(within[0], 0, part(in_row, 8)).max(open(within[1], 1, part(hash, 0))).max(open(
+        within[2],
+        2,
+        0.35 + 0.65 * part(in_bed, 8),
+    ));
+    let [a, b] = [part(hash, 8), part(hash, 16)].map(|chance| 2.0 * chance - 1.0);
+    let soft = (0.8 * blur * sines[2]).clamp(0.03, 0.25);
+    let lies = if part(hash, 24) < 0.5 { 1.0 } else { 0.0 };
+    Fractures {
+        tone: part(hash, 16) - 0.5,
+        crack: crack * (2.5 * OPEN / blur.max(1e-6)).min(1.0),
+        facet: [0, 1].map(|axis| a * ACROSS[0][axis] + b * ACROSS[1][axis]),
+        ledge: lies * ramp(within[2], TOP - soft, TOP + soft),
+    }
+}
+
+/// The blocks at a point of a face.
+pub(super) fn fractures(face: &Face) -> Fractures {
+    let mut sum = Fractures::default();
+    let mut height = LARGEST * face.thickness;
+    let pixel = PIXELS * face.footprint;
+    let mut seen = visible(pixel, height);
+    for layer in 0..LAYERS {
+        if seen <= 0.0 {
+            break;
+        }
+        let smaller = SMALLER * height;
+        let next = if layer + 1 < LAYERS { visible(pixel, smaller) } else { 0.0 };
+        let here = blocks(face, height, 0x2b + layer);
+        let weight = seen * (1.0 - (1.0 - LEFT) * next);
+        sum.tone += weight * here.tone;
+        sum.crack = sum.crack.max(weight * here.crack);
+        sum.facet = [0, 1].map(|axis| sum.facet[axis] + weight * here.facet[axis]);
+        sum.ledge = sum.ledge.max(weight * here.ledge);
+        (height, seen) = (smaller, next);
+    }
+    sum
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const WALL: Vector = [0.0, -0.98, 0.2];
+    const LEVEL: Vector = [0.0, 0.0, 1.0];
+
+    /// Along a face whose normal is such: east, and up a wall or north on flat ground.
+    fn along(normal: Vector, [east, on]: [f32; 2], footprint: f32) -> Fractures {
+        let [north, up] = if normal == LEVEL { [on, 3.7] } else { [7.0, on] };
+        fractures(&Face { place: [east, north], level: up, normal, thickness: 20.0, footprint })
+    }
+
+    #[test]
+    fn faces_are_made_of_blocks_with_edges() {
+        for normal in [WALL, LEVEL] {
+            let tones: Vec<f32> = (0..4000)
+                .map(|step| along(normal, [0.05 * step as f32, 0.031 * step as f32], 0.8).tone)
+                .collect();
+            let leaps = tones.windows(2).filter(|pair| (pair[0] - pair[1]).abs() > 0.02).count();
+            let even = tones.windows(2).filter(|pair| pair[0] == pair[1]).count();
+            assert!(leaps > 20 && even > 3000, "{leaps} edges, {even} of 4000 steps within blocks");
+        }
+    }
+
+    #[test]
+    fn joints_are_as_wide_on_level_rock_as_on_walls() {
+        let share = |normal: Vector| {
+            let dark = (0..20_000).filter(|&at| {
+                let place = [(at % 200) as f32 * 0.71, (at / 200) as f32 * 0.53];
+                along(normal, place, 0.3).crack > 0.4
+            });
+            dark.count() as f32 / 20_000.0
+        };
+        let [wall, level] = [WALL, LEVEL].map(share);
+        assert!(wall > 0.02 && wall < 0.4, "{wall} of a wall is joints");
+        assert!((0.25..4.0).contains(&(level / wall)), "{level} of level rock, {wall} of a wall");
+    }
+
+    #[test]
+    fn blocks_are_seen_from_close_by_and_none_from_afar() {
+        let deviation = |footprint: f32| {
+            let tones = (0..2000).map(|at| along(WALL, [at as f32 * 1.3, at as f32 * 0.7], footprint).tone);
+            (tones.map(|tone| tone * tone).sum::<f32>() / 2000.0).sqrt()
+        };
+        for footprint in [0.02, 0.1, 0.5, 2.0] {
+            assert!((0.1..0.6).contains(&deviation(footprint)), "{} at {footprint} m", deviation(footprint));
+        }
+        assert_eq!(along(WALL, [5.0, 6.0], 20.0), Fractures::default());
+    }
+}

@@ -1,0 +1,93 @@
+// Twin of `fractures.rs`: joints of rock, and the blocks between them.
+
+const BLOCKS_LARGEST = 0.434;
+const BLOCKS_SMALLER = 0.434;
+const BLOCK_LAYERS = 6u;
+const BLOCK_SIDES = vec2<f32>(1.5, 2.3);
+const JOINT_FIRST = vec2<f32>(0.92, 0.39);
+const JOINT_SECOND = vec2<f32>(-0.47, 0.88);
+const JOINT_OPEN = 0.09;
+const BLOCK_PIXELS = 1.6;
+const BLOCKS_LEFT = 0.6;
+const BLOCK_TOP = 0.72;
+const JOINT_FLATTEST = 0.2;
+
+struct Fractures {
+    tone: f32,
+    crack: f32,
+    facet: vec2<f32>,
+    ledge: f32,
+}
+
+struct Face {
+    place: vec2<f32>,
+    level: f32,
+    normal: vec3<f32>,
+    thickness: f32,
+    footprint: f32,
+}
+
+// Share of the darkness of a joint at a distance from its middle, which a face cuts at an angle of that sine.
+fn joint(within: f32, sine: f32, deep: f32, wide: f32) -> f32 {
+    return deep * (1.0 - ramp(min(within, 1.0 - within) / sine, 0.25 * wide, wide));
+}
+
+// Blocks of one height.
+fn blocks_at(face: Face, height: f32, seed: u32) -> Fractures {
+    let along = vec2<f32>(dot(face.place, JOINT_FIRST), dot(face.place, JOINT_SECOND)) / (BLOCK_SIDES * height);
+    let up = face.level / height;
+    let bed = floor(up);
+    // Neither do joints go on from bed to bed, nor across the other set.
+    let in_bed = grain_bits(i32(bed), 11, seed);
+    let first = along.x + part_of(in_bed, 0u);
+    let row = floor(first);
+    let in_row = grain_bits(i32(row), i32(bed), seed ^ 0x5bd1u);
+    let second = along.y + part_of(in_row, 0u);
+    let column = floor(second);
+    let hash = grain_bits(i32(column), i32(row) + i32(bed) * 57, seed ^ 0x91e1u);
+    let within = vec3<f32>(first - row, second - column, up - bed);
+
+    let cosines = vec3<f32>(dot(face.normal.xy, JOINT_FIRST), dot(face.normal.xy, JOINT_SECOND), face.normal.z);
+    let least = vec3<f32>(JOINT_FLATTEST * JOINT_FLATTEST);
+    let sines = sqrt(max(1.0 - cosines * cosines, least)) / vec3<f32>(BLOCK_SIDES, 1.0);
+    let blur = face.footprint / height;
+    let wide = max(JOINT_OPEN, 0.8 * blur);
+    // Some joints are open and others closed.
+    let upright = max(
+        joint(within.x, sines.x, part_of(in_row, 8u), wide), joint(within.y, sines.y, part_of(hash, 0u), wide),
+    );
+    let crack = max(upright, joint(within.z, sines.z, 0.35 + 0.65 * part_of(in_bed, 8u), wide));
+    let turns = 2.0 * vec2<f32>(part_of(hash, 8u), part_of(hash, 16u)) - 1.0;
+    let soft = clamp(0.8 * blur * sines.z, 0.03, 0.25);
+    let lies = select(0.0, 1.0, part_of(hash, 24u) < 0.5);
+    return Fractures(
+        part_of(hash, 16u) - 0.5,
+        crack * min(2.5 * JOINT_OPEN / max(blur, 1e-6), 1.0),
+        turns.x * JOINT_FIRST + turns.y * JOINT_SECOND,
+        lies * ramp(within.z, BLOCK_TOP - soft, BLOCK_TOP + soft),
+    );
+}
+
+// The blocks at a point of a face.
+fn fractures_at(face: Face) -> Fractures {
+    var sum = Fractures(0.0, 0.0, vec2<f32>(0.0), 0.0);
+    var height = BLOCKS_LARGEST * face.thickness;
+    let pixel = BLOCK_PIXELS * face.footprint;
+    var seen = grain_visible(pixel, height);
+    for (var layer = 0u; layer < BLOCK_LAYERS; layer++) {
+        if seen <= 0.0 {
+            break;
+        }
+        let smaller = BLOCKS_SMALLER * height;
+        let next = select(0.0, grain_visible(pixel, smaller), layer + 1u < BLOCK_LAYERS);
+        let here = blocks_at(face, height, 0x2bu + layer);
+        let weight = seen * (1.0 - (1.0 - BLOCKS_LEFT) * next);
+        sum.tone += weight * here.tone;
+        sum.crack = max(sum.crack, weight * here.crack);
+        sum.facet += weight * here.facet;
+        sum.ledge = max(sum.ledge, weight * here.ledge);
+        height = smaller;
+        seen = next;
+    }
+    return sum;
+}
