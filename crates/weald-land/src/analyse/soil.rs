@@ -247,7 +247,7 @@ impl<'a> Ground<'a> {
         let kept = start / scale + a.min(0.0);
         let sum = exp2(kept * LOG2_E) + self.weathered * mean_decay(a.abs());
         // Beyond what `exp2` reaches what was kept is all there is.
-        scale * (log2(sum) * LN_2 + (kept - MOST).max(0.0) + a.max(0.0))
+        scale * (log2(sum) * LN_2 + (kept - MAX_EXPONENT).max(0.0) + a.max(0.0))
     }
 
     #[inline(always)]
@@ -259,7 +259,7 @@ impl<'a> Ground<'a> {
 }
 
 /// Exponent from which on [`exp2`] is the same, as a natural one.
-const MOST: f64 = 1000.0 * LN_2;
+const MAX_EXPONENT: f64 = 1000.0 * LN_2;
 
 impl Soil {
     #[inline(always)]

@@ -10,6 +10,7 @@ mod header;
 mod manifest;
 mod parts;
 mod planted;
+mod state;
 mod stream;
 
 use std::io::Write;
@@ -21,28 +22,13 @@ pub(super) use header::Head;
 use header::{Header, read_header};
 pub(super) use manifest::{Manifest, PARTS_FOLDER};
 pub(super) use parts::{KeptParts, remove_stale_parts};
+pub(super) use state::State;
 use stream::{HashedReader, HashedWriter};
 use weald_core::error::Error;
 use weald_core::landscape::Landscape;
 use weald_engine::SavedSimulation;
-use weald_engine::report::StepReport;
 use weald_io::write_whole_with;
 use weald_plants::Vegetation;
-
-/// How far a run has come.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct State {
-    /// The landscape as it was before the step that runs now.
-    pub(super) landscape: Landscape,
-    /// Steps done.
-    pub(super) done: usize,
-    /// Where the step that runs now is, if it can go on from there.
-    pub(super) simulation: Option<SavedSimulation>,
-    /// What the steps done have to report.
-    pub(super) steps: Vec<StepReport>,
-    /// What there is to say of the input.
-    pub(super) notes: Vec<String>,
-}
 
 /// Writes the state, with `simulation` in place of the state's own.
 pub(super) fn write(

@@ -4,10 +4,10 @@ use std::collections::BTreeSet;
 
 use serde::{Deserialize, Serialize};
 
-use super::State;
 use super::belongs::{MAGIC, MAGIC_OF_PARTS, MAX_HEADER};
 use super::grown::MeadowHeader;
 use super::planted::PlantsHeader;
+use super::state::State;
 use super::stream::{HASH_BYTES, HashedReader};
 use weald_core::domain::{Domain, Georeference};
 use weald_core::grid::{Field, Mask, Size};

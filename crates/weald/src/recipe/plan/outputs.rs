@@ -10,13 +10,13 @@ use super::treatments;
 use crate::recipe::layer_output::{OutputGrid, Treatment};
 use crate::recipe::plan::words::{Vocabulary, tables};
 use crate::recipe::{CHECKPOINT_FILE, REPORT_FILE};
-use content::content_of;
+pub use content::Content;
+use content::{content_of, line_of};
 use weald_core::parameter::{Diagnostics, LayerName};
 use weald_core::source::{Node, Table, Value};
-use weald_export::Export;
-use weald_io::{Capabilities, Encode, Resampling};
+use weald_io::Resampling;
 use weald_land::flow::DirectionCodes;
-use weald_picture::{Picture, Render};
+use weald_picture::Render;
 
 weald_core::parameters! {
     /// The keys of an `[[output]]`, beside those of its picture or export.
@@ -56,45 +56,6 @@ pub struct Output {
     pub file: PathBuf,
     /// What is in it.
     pub content: Content,
-}
-
-/// What an output shows.
-#[derive(Debug)]
-pub enum Content {
-    /// The values of a layer.
-    Layer {
-        /// Its name.
-        name: String,
-        /// How it is written.
-        encode: Encode,
-        /// What of it the file holds.
-        holds: Capabilities,
-        /// What is done to it before.
-        treatment: Treatment,
-    },
-    /// A picture.
-    Picture {
-        /// Its kind.
-        name: &'static str,
-        /// The picture, ready to be drawn.
-        picture: Box<dyn Picture>,
-    },
-    /// Pictures in a row.
-    Film {
-        /// Their kind.
-        name: &'static str,
-        /// What each shows.
-        picture: Box<dyn Picture>,
-        /// How it moves.
-        film: Film,
-    },
-    /// Files for other programs.
-    Export {
-        /// Its kind.
-        name: &'static str,
-        /// The export, ready to be written.
-        export: Box<dyn Export>,
-    },
 }
 
 impl Output {
@@ -195,10 +156,6 @@ pub(super) fn same_file(a: &Path, b: &Path) -> bool {
 /// A path as file systems compare it that do not tell `A` from `a`.
 pub(super) fn lower(path: &Path) -> PathBuf {
     PathBuf::from(path.to_string_lossy().to_lowercase())
-}
-
-fn line_of(table: &Table, key: &str) -> usize {
-    table.get(key).map_or(table.line, |node| node.line)
 }
 
 /// The file name, which must stay inside the output folder.

@@ -2,15 +2,55 @@
 
 use std::path::Path;
 
-use super::{Content, line_of};
-use crate::recipe::plan::films::{self, FilmKeys, Moves};
+use crate::recipe::layer_output::Treatment;
+use crate::recipe::plan::films::{self, Film, FilmKeys, Moves};
 use crate::recipe::plan::treatments;
 use crate::recipe::plan::unknown_keys::{self, KindOfOutput};
 use crate::recipe::plan::words::{Vocabulary, hint};
 use weald_core::parameter::{Diagnostics, LayerName, Legal, Parameter, Parameters, check_file, read_key};
 use weald_core::source::{Node, Table, Value};
-use weald_export::ExportEntry;
-use weald_picture::PictureEntry;
+use weald_export::{Export, ExportEntry};
+use weald_io::{Capabilities, Encode};
+use weald_picture::{Picture, PictureEntry};
+
+/// What an output shows.
+#[derive(Debug)]
+pub enum Content {
+    /// The values of a layer.
+    Layer {
+        /// Its name.
+        name: String,
+        /// How it is written.
+        encode: Encode,
+        /// What of it the file holds.
+        holds: Capabilities,
+        /// What is done to it before.
+        treatment: Treatment,
+    },
+    /// A picture.
+    Picture {
+        /// Its kind.
+        name: &'static str,
+        /// The picture, ready to be drawn.
+        picture: Box<dyn Picture>,
+    },
+    /// Pictures in a row.
+    Film {
+        /// Their kind.
+        name: &'static str,
+        /// What each shows.
+        picture: Box<dyn Picture>,
+        /// How it moves.
+        film: Film,
+    },
+    /// Files for other programs.
+    Export {
+        /// Its kind.
+        name: &'static str,
+        /// The export, ready to be written.
+        export: Box<dyn Export>,
+    },
+}
 
 /// What the file of a table shows; `None` where that is told as a fault.
 pub(super) fn content_of(
@@ -43,6 +83,11 @@ pub(super) fn content_of(
             None
         }
     }
+}
+
+/// Line of a key, or of its table where it is left out.
+pub(super) fn line_of(table: &Table, key: &str) -> usize {
+    table.get(key).map_or(table.line, |node| node.line)
 }
 
 /// Keys of which an output has one.
