@@ -24,6 +24,9 @@ use super::waiting::Waiting;
 /// Longest wait for a submission, which is made to take a tenth of a second: then the device hangs.
 const TIMEOUT: Duration = Duration::from_mins(2);
 
+/// The same of software, which draws a meadow in minutes and shares the processor with all else.
+const TIMEOUT_OF_SOFTWARE: Duration = Duration::from_mins(20);
+
 /// What fails where a device is lost meanwhile.
 const WAITING: &str = "waiting for the GPU";
 
@@ -191,7 +194,11 @@ impl Context {
 
     /// Waits until a submission is done, or all of them.
     pub(crate) fn wait(&self, submission: Option<Submitted>) -> Result<(), Error> {
-        self.wait_at_most(TIMEOUT, submission)
+        self.wait_at_most(self.patience(), submission)
+    }
+
+    fn patience(&self) -> Duration {
+        if self.kind == DeviceType::Cpu { TIMEOUT_OF_SOFTWARE } else { TIMEOUT }
     }
 
     /// As [`Context::wait`], for what may take longer than all else.
@@ -232,7 +239,7 @@ impl Context {
         let (tell, told) = self.waiting.told();
         ask(Box::new(tell));
         if self.waiting.suspends() {
-            return self.look_until_told(TIMEOUT, &told);
+            return self.look_until_told(self.patience(), &told);
         }
         self.wait(None)?;
         Ok(told.recv().ok())
