@@ -10,8 +10,13 @@ use crate::colour::mix;
 const RAGGED: [f32; 2] = [0.12, 0.3];
 const BENT: [f32; 2] = [0.5, 0.8];
 
+/// Share of its blocks that massive rock shows, and values of the broad noise between which rock becomes broken: no face has joints
+/// of one pitch all over.
+const MASSIVE: f32 = 0.3;
+const BROKEN: [f32; 2] = [-0.25, 0.35];
+
 /// Slope of the facets of blocks on flat ground, and the least upward part of a normal by which it grows on walls.
-const FACETS: f32 = 0.42;
+const FACETS: f32 = 0.36;
 const UPRIGHT: f32 = 0.4;
 
 /// Slopes between which waves of the sea leave no sand, but bare rock, and heights of a beach between which those are; how uneven a beach is, by patches and by detail; and what is worn
@@ -29,13 +34,20 @@ impl Cover {
         let bend = texture.cell.min(thickness);
         let [fine, craggy] = [texture.fine.value, texture.crags.height];
         let long = 1.0 / (1.0 + spot.slope * spot.slope).sqrt();
-        fractures(&Face {
+        let found = fractures(&Face {
             place: [x + BENT[0] * bend * fine, y + BENT[1] * bend * craggy],
             level: z + dip([x, y]) + thickness * self.rock_fold(texture),
             normal: [long * spot.slope * spot.fall[0], long * spot.slope * spot.fall[1], long],
             thickness,
             footprint: spot.footprint,
-        })
+        });
+        let broken = MASSIVE + (1.0 - MASSIVE) * ramp(texture.broad, BROKEN[0], BROKEN[1]);
+        Fractures {
+            tone: broken * found.tone,
+            crack: broken * found.crack,
+            facet: found.facet.map(|rise| broken * rise),
+            ledge: broken * found.ledge,
+        }
     }
 
     /// By how many beds natural rock is folded: broadly, and a little by what is ragged.
@@ -53,13 +65,13 @@ impl Cover {
         let [grey, dark, warm] = self.palette.rock;
         let warmth = 0.4 + 0.7 * bed.tone + 0.3 * thin.tone + 0.9 * texture.broad + 0.3 * blocks.tone;
         let stone = mix(grey, warm, warmth.clamp(0.0, 1.0));
-        let tone = 0.92 + 0.45 * bed.tone + 0.3 * thin.tone + 0.4 * texture.broad + 0.55 * blocks.tone;
+        let tone = 0.92 + 0.45 * bed.tone + 0.3 * thin.tone + 0.4 * texture.broad + 0.4 * blocks.tone;
         let stone = scale(stone, tone.max(0.3));
         // A quarter of a smooth face is dark.
         let cracks = 0.22 - 0.4 * texture.fine.value - 1.2 * texture.crags.height
             + 0.5 * bed.joint
             + 0.3 * thin.joint
-            + 0.9 * blocks.crack;
+            + 0.7 * blocks.crack;
         let ledge = 0.35 * bed.ledge + 0.2 * thin.ledge;
         let rough = texture.rough(0.15, 1.7);
         let facets = FACETS * (1.0 + spot.slope * spot.slope).sqrt().min(1.0 / UPRIGHT);

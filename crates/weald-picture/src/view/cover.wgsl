@@ -28,7 +28,9 @@ const RAGGED = vec2<f32>(0.12, 0.3);
 const BENT = vec2<f32>(0.5, 0.8);
 
 // Slope of the facets of blocks on flat ground, and the least upward part of a normal by which it grows on walls.
-const FACETS = 0.42;
+const FACETS = 0.36;
+const MASSIVE = 0.3;
+const BROKEN = vec2<f32>(-0.25, 0.35);
 const UPRIGHT = 0.4;
 
 // Slope that bumps of bare rock come near.
@@ -270,7 +272,9 @@ fn rock_fractures(spot: SurfacePoint, texture: Texture) -> Fractures {
     let bend = BENT * min(scene.scale.x, thickness) * vec2<f32>(texture.fine.value, texture.crags.height);
     let level = spot.point.z + bed_dip(spot.point.xy) + thickness * rock_fold(texture);
     let normal = vec3<f32>(spot.slope * spot.fall, 1.0) * inverseSqrt(1.0 + spot.slope * spot.slope);
-    return fractures_at(Face(spot.point.xy + bend, level, normal, thickness, spot.footprint));
+    let found = fractures_at(Face(spot.point.xy + bend, level, normal, thickness, spot.footprint));
+    let broken = MASSIVE + (1.0 - MASSIVE) * ramp(texture.broad, BROKEN.x, BROKEN.y);
+    return Fractures(broken * found.tone, broken * found.crack, broken * found.facet, broken * found.ledge);
 }
 
 // By how many beds natural rock is folded: broadly, and a little by what is ragged.
@@ -285,9 +289,9 @@ fn rock(spot: SurfacePoint, texture: Texture, blocks: Fractures) -> SurfaceSampl
     let bedding = bedding_at(spot, vec2<f32>(thick, thick / 5.3), rock_fold(texture), true);
     let tones = vec3<f32>(bedding.thick.tone, bedding.thin.tone, blocks.tone);
     let warmth = 0.4 + dot(vec3<f32>(0.7, 0.3, 0.3), tones) + 0.9 * texture.broad;
-    let tone = 0.92 + dot(vec3<f32>(0.45, 0.3, 0.55), tones) + 0.4 * texture.broad;
+    let tone = 0.92 + dot(vec3<f32>(0.45, 0.3, 0.4), tones) + 0.4 * texture.broad;
     let stone = mix(scene.rock_grey.xyz, scene.rock_warm.xyz, clamp(warmth, 0.0, 1.0)) * max(tone, 0.3);
-    let joints = 0.5 * bedding.thick.joint + 0.3 * bedding.thin.joint + 0.9 * blocks.crack;
+    let joints = 0.5 * bedding.thick.joint + 0.3 * bedding.thin.joint + 0.7 * blocks.crack;
     let cracks = 0.22 - 0.4 * texture.fine.value - 1.2 * texture.crags.height + joints;
     let ledge = 0.35 * bedding.thick.ledge + 0.2 * bedding.thin.ledge;
     let albedo = mix(stone, scene.rock_dark.xyz, clamp(cracks, 0.0, 1.0));

@@ -22,7 +22,7 @@ const SIDES: [f32; 2] = [1.5, 2.3];
 const ACROSS: [[f32; 2]; 2] = [[0.92, 0.39], [-0.47, 0.88]];
 
 /// Width of an open joint over the height of a block.
-const OPEN: f32 = 0.09;
+const OPEN: f32 = 0.06;
 
 /// Pixels of the picture that count as one: blocks go before their edges would be torn by single pixels.
 const PIXELS: f32 = 1.6;
@@ -103,12 +103,9 @@ fn blocks(face: &Face, height: f32, seed: u32) -> Fractures {
         deep * (1.0 - ramp(away, 0.25 * wide, wide))
     };
     let within = [first - row as f32, second - column as f32, up - bed as f32];
-    // Some joints are open and others closed.
-    let crack = open(within[0], 0, part(in_row, 8)).max(open(within[1], 1, part(hash, 0))).max(open(
-        within[2],
-        2,
-        0.35 + 0.65 * part(in_bed, 8),
-    ));
+    // Few joints are open and most are closed.
+    let deep = [part(in_row, 8), part(hash, 0), part(in_bed, 8)].map(|chance| chance * chance);
+    let crack = (0..3).map(|axis| open(within[axis], axis, deep[axis])).fold(0.0, f32::max);
     let [a, b] = [part(hash, 8), part(hash, 16)].map(|chance| 2.0 * chance - 1.0);
     let soft = (0.8 * blur * sines[2]).clamp(0.03, 0.25);
     let lies = if part(hash, 24) < 0.5 { 1.0 } else { 0.0 };

@@ -6,7 +6,7 @@ const BLOCK_LAYERS = 6u;
 const BLOCK_SIDES = vec2<f32>(1.5, 2.3);
 const JOINT_FIRST = vec2<f32>(0.92, 0.39);
 const JOINT_SECOND = vec2<f32>(-0.47, 0.88);
-const JOINT_OPEN = 0.09;
+const JOINT_OPEN = 0.06;
 const BLOCK_PIXELS = 1.6;
 const BLOCKS_LEFT = 0.6;
 const BLOCK_TOP = 0.72;
@@ -52,11 +52,11 @@ fn blocks_at(face: Face, height: f32, seed: u32) -> Fractures {
     let sines = sqrt(max(1.0 - cosines * cosines, least)) / vec3<f32>(BLOCK_SIDES, 1.0);
     let blur = face.footprint / height;
     let wide = max(JOINT_OPEN, 0.8 * blur);
-    // Some joints are open and others closed.
-    let upright = max(
-        joint(within.x, sines.x, part_of(in_row, 8u), wide), joint(within.y, sines.y, part_of(hash, 0u), wide),
-    );
-    let crack = max(upright, joint(within.z, sines.z, 0.35 + 0.65 * part_of(in_bed, 8u), wide));
+    // Few joints are open and most are closed.
+    let chances = vec3<f32>(part_of(in_row, 8u), part_of(hash, 0u), part_of(in_bed, 8u));
+    let deep = chances * chances;
+    let upright = max(joint(within.x, sines.x, deep.x, wide), joint(within.y, sines.y, deep.y, wide));
+    let crack = max(upright, joint(within.z, sines.z, deep.z, wide));
     let turns = 2.0 * vec2<f32>(part_of(hash, 8u), part_of(hash, 16u)) - 1.0;
     let soft = clamp(0.8 * blur * sines.z, 0.03, 0.25);
     let lies = select(0.0, 1.0, part_of(hash, 24u) < 0.5);

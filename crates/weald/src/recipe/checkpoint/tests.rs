@@ -3,8 +3,8 @@ use proptest::prelude::*;
 use std::path::PathBuf;
 use weald_core::domain::{Domain, GeoKeys, Georeference};
 use weald_core::grid::{Field, Mask, Size};
-use weald_engine::report::StepReport;
 use weald_core::plants::{Plant, Plants};
+use weald_engine::report::StepReport;
 use weald_plants::grass::{Bend, Maps, Meadow, SPECIES, Species};
 
 fn state() -> State {
