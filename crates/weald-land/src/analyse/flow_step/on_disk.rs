@@ -75,11 +75,13 @@ impl FlowStep {
         let tiling = tiling(landscape)?;
         let by_paths = u64::from(self.directions == DirectionRule::LeastDeviation);
         let summed = 1 + u64::from(self.weight.is_some());
-        // Tiles that flats or rivers cross often are visited again, which is not known before.
-        let (all, mut visits) = ((VISITS + by_paths + summed) * tiling.own().len() as u64, 0);
+        let tiles = tiling.own().len() as u64;
+        let (least, mut visits) = ((VISITS + by_paths + summed) * tiles, 0);
         let passed = &mut || {
             visits += 1;
-            job.watcher.progress(visits.min(all - 1), all, 0);
+            // Tiles that flats or rivers cross often are visited again, how often is not known before: then all seem to be left once more.
+            let all = if visits < least { least } else { visits + tiles };
+            job.watcher.progress(visits, all, 0);
             if job.watcher.cancelled() {
                 Err(Error::Interrupted("interrupted between two tiles".to_owned()))
             } else {
