@@ -6,8 +6,8 @@ use std::sync::Arc;
 use super::{FlowStep, MILLIMETRES_PER_YEAR, Method};
 use crate::flow::directions::SEA;
 use crate::flow::tiled::{
-    MARGIN, SharedPlane, StoredCodes, StoredFlags, TiledFlow, TiledGround, Tiling, accumulate_tiled,
-    route_tiled,
+    MARGIN, Passed, SMALL_TILE, SharedPlane, StoredCodes, StoredFlags, TiledFlow, TiledGround, Tiling,
+    accumulate_tiled, route_tiled,
 };
 use crate::flow::{Depressions, DirectionRule};
 use weald_core::error::{Error, Limit, Quantity};
@@ -23,9 +23,15 @@ use weald_engine::stored::{StoredLandscape, StoredPlane};
 const A_CELL: u64 = 100;
 const A_BORDER_CELL: u64 = 100;
 
-/// Visits that every tile has before the sums: two for basins, one for flats, one for directions, one for heights; paths of
-/// least deviation have one more.
+/// Bytes for a border cell of small tiles.
+const A_SMALL_BORDER_CELL: u64 = 40;
+
+/// Visits that every cell has before the sums: two for basins, one for flats, one for directions, one for heights.
 const VISITS: u64 = 5;
+
+/// Visits that cells have for paths of least deviation and for each sum, in small tiles: as measured on eroded ground.
+const VISITS_OF_PATHS: u64 = 9;
+const VISITS_OF_SUMS: u64 = 6;
 
 /// Square tiles as large as the memory holds them, with the borders of all.
 fn tiling(landscape: &StoredLandscape<'_>) -> Result<Tiling, Error> {
@@ -40,6 +46,8 @@ fn tiling(landscape: &StoredLandscape<'_>) -> Result<Tiling, Error> {
     let side = ((memory / (2 * A_CELL)).min(MAX_CELLS as u64) as f64).sqrt() as usize;
     let tiling = of(Size { columns: side.max(1), rows: side.max(1) })?;
     let needed = A_CELL * (side * side) as u64 + A_BORDER_CELL * tiling.border_cells() as u64;
+    // Large tiles are done when small ones are visited.
+    let needed = needed.max(A_SMALL_BORDER_CELL * tiling.finer().border_cells() as u64);
     if needed <= memory {
         return Ok(tiling);
     }
@@ -75,13 +83,15 @@ impl FlowStep {
         let tiling = tiling(landscape)?;
         let by_paths = u64::from(self.directions == DirectionRule::LeastDeviation);
         let summed = 1 + u64::from(self.weight.is_some());
-        let tiles = tiling.own().len() as u64;
-        let (least, mut visits) = ((VISITS + by_paths + summed) * tiles, 0);
-        let passed = &mut || {
-            visits += 1;
-            // Tiles that flats or rivers cross often are visited again, how often is not known before: then all seem to be left once more.
-            let all = if visits < least { least } else { visits + tiles };
-            job.watcher.progress(visits, all, 0);
+        let own = (landscape.domain.size.columns * landscape.rows().own().len()) as u64;
+        let (least, mut visits) = ((VISITS + VISITS_OF_PATHS * by_paths + VISITS_OF_SUMS * summed) * own, 0);
+        let passed = &mut |cells: usize| {
+            visits += cells as u64;
+            // Tiles that flats or rivers cross often are visited again, how often is not known before: then all seem to be
+            // left once more.
+            let all = if visits < least { least } else { visits + own };
+            let small_tiles = |cells: u64| cells.div_ceil((SMALL_TILE * SMALL_TILE) as u64);
+            job.watcher.progress(small_tiles(visits), small_tiles(all), 0);
             if job.watcher.cancelled() {
                 Err(Error::Interrupted("interrupted between two tiles".to_owned()))
             } else {
@@ -93,20 +103,21 @@ impl FlowStep {
         }
         let flags = landscape.valid_around(MARGIN)?;
         let flags = flags.as_deref().map(StoredFlags);
-        let valid = flags.as_ref().map(|flags| flags as &dyn Plane<u8>);
+        let valid = flags.as_ref().map(|flags| flags as &(dyn Plane<u8> + Sync));
         let mut filled = landscape.plane("filled")?;
         let mut codes = StoredCodes(landscape.plane("flow_direction")?);
         let height = &landscape.layer(&self.of.0)?.plane;
         let ground = TiledGround { tiling: &tiling, height, valid };
         route_tiled(&ground, &self.routing(&landscape.domain), (&mut filled, &mut codes), passed)?;
-        let shared = (self.method == Method::Multiple).then_some((&filled as &dyn Plane<f32>, self.exponent));
+        let shared =
+            (self.method == Method::Multiple).then_some((&filled as &(dyn Plane<f32> + Sync), self.exponent));
         let flow = TiledFlow { tiling: &tiling, directions: &codes, valid, weight: None, shared };
         let area = landscape.domain.cell_area();
         let areas = summed_layer(landscape, ("accumulation", area), &flow, passed)?;
         let discharge = match &self.weight {
             None => None,
             Some(runoff) => {
-                let weight = Some(&landscape.layer(&runoff.0)?.plane as &dyn Plane<f32>);
+                let weight = Some(&landscape.layer(&runoff.0)?.plane as &(dyn Plane<f32> + Sync));
                 let unit = area * MILLIMETRES_PER_YEAR;
                 Some(summed_layer(landscape, ("discharge", unit), &TiledFlow { weight, ..flow }, passed)?)
             }
@@ -141,7 +152,7 @@ fn summed_layer(
     landscape: &StoredLandscape<'_>,
     (name, unit): (&str, f64),
     flow: &TiledFlow<'_>,
-    passed: &mut dyn FnMut() -> Result<(), Error>,
+    passed: Passed<'_>,
 ) -> Result<StoredPlane, Error> {
     let mut layer = landscape.plane(name)?;
     let put = &mut |window: &Window, sums: &[f64]| {

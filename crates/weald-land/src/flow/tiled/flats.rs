@@ -6,7 +6,7 @@
 use super::borders::Borders;
 use super::ground::{cells, place};
 use super::planes::MARGIN;
-use super::settle::settle;
+use super::settle::{Passed, settle};
 use super::tiling::{Tiling, beside};
 use crate::flow::descent::{Descent, FLAT};
 use crate::flow::directions::{OUTLET, SEA};
@@ -27,11 +27,7 @@ pub(super) struct FlatDistances<'a> {
 
 impl<'a> FlatDistances<'a> {
     /// Those of a surface without depressions.
-    pub(super) fn of(
-        tiling: &'a Tiling,
-        filled: &dyn Plane<f32>,
-        passed: &mut dyn FnMut() -> Result<(), Error>,
-    ) -> Result<Self, Error> {
+    pub(super) fn of(tiling: &'a Tiling, filled: &dyn Plane<f32>, passed: Passed<'_>) -> Result<Self, Error> {
         let mut found = Borders::filled(tiling, [UNKNOWN; 2]);
         settle(tiling, &mut found, |tile, found| {
             let ground = TileOfFlats::read(tiling, tile, filled)?;
@@ -45,7 +41,7 @@ impl<'a> FlatDistances<'a> {
                     changed.push(cell);
                 }
             }
-            passed()?;
+            passed(ground.window.size().cells())?;
             Ok(beside(tiling, changed))
         })?;
         Ok(Self { tiling, of_cells: found })

@@ -1,7 +1,7 @@
 //! The ground of one tile with the cells around it, the sea in it found.
 
 use super::borders::Borders;
-use super::settle::settle;
+use super::settle::{Passed, settle};
 use super::tiling::{Tiling, beside};
 use crate::flow::surface::{NO_DATA, SEA_LEVEL, Surface};
 use weald_core::error::Error;
@@ -16,7 +16,7 @@ pub struct TiledGround<'a> {
     /// Heights in metres, of the size of the tiling.
     pub height: &'a dyn Plane<f32>,
     /// 0 where a cell has no data; every cell has without it.
-    pub valid: Option<&'a dyn Plane<u8>>,
+    pub valid: Option<&'a (dyn Plane<u8> + Sync)>,
 }
 
 impl TiledGround<'_> {
@@ -79,11 +79,7 @@ pub(super) struct Sea {
 
 impl Sea {
     /// Lets the sea in from the borders of the grid and of the data, tile by tile.
-    pub(super) fn of(
-        ground: &TiledGround<'_>,
-        level: f64,
-        passed: &mut dyn FnMut() -> Result<(), Error>,
-    ) -> Result<Self, Error> {
+    pub(super) fn of(ground: &TiledGround<'_>, level: f64, passed: Passed<'_>) -> Result<Self, Error> {
         let (tiling, level) = (ground.tiling, level as f32);
         let mut reached = Borders::filled(tiling, false);
         settle(tiling, &mut reached, |tile, reached| {
@@ -97,7 +93,7 @@ impl Sea {
             for &cell in &new {
                 reached.set(tiling.border(cell), true);
             }
-            passed()?;
+            passed(window.size().cells())?;
             Ok(beside(tiling, new))
         })?;
         Ok(Self { level, reached })

@@ -1,12 +1,12 @@
 //! Directions of least deviation, tile by tile.
 //!
 //! A cell takes its direction when all that may drain to it have theirs. A tile finds what it can by the paths of the cells
-//! around it that are known, and is visited again when one is found across its border, as for sums.
+//! around it that are known, and is visited again when one is found across its border, as for sums and in tiles as small.
 
 use super::borders::{Borders, Sent};
 use super::ground::{cells, place};
-use super::planes::MARGIN;
-use super::settle::settle;
+use super::planes::{MARGIN, SharedPlane};
+use super::settle::{Passed, Visited, settle_side_by_side};
 use super::tiling::{Tiling, beside};
 use crate::flow::accumulate::set_directions;
 use crate::flow::directions::{OUTLET, SEA, opposite};
@@ -14,8 +14,8 @@ use crate::flow::least_deviation::{Candidates, Path, donors};
 use crate::flow::surface::{NO_DATA, Surface};
 use weald_core::error::Error;
 use weald_core::grid::Size;
-use weald_core::plane::{Plane, Window, read_around};
-use weald_engine::ranks::{Reader, Writer};
+use weald_core::plane::{Window, read_around};
+use weald_engine::ranks::{Reader, Writer, agreed};
 
 /// The direction of a cell and the path that leaves it, where they are known.
 type Found = Option<(u8, Path)>;
@@ -45,60 +45,60 @@ impl Sent for Found {
     }
 }
 
-/// What is known of the border cells of tiles.
-pub(super) struct TiledPaths<'a> {
-    tiling: &'a Tiling,
-    steepest: Borders<u8>,
-    found: Borders<Found>,
-}
-
-impl<'a> TiledPaths<'a> {
-    pub(super) fn new(tiling: &'a Tiling) -> Self {
-        let (steepest, found) = (Borders::filled(tiling, OUTLET), Borders::filled(tiling, None));
-        Self { tiling, steepest, found }
-    }
-
-    /// Keeps the directions of steepest descent at the border of a tile.
-    pub(super) fn note(&mut self, tile: usize, codes: &[u8]) {
-        let window = self.tiling.window(tile);
-        for cell in self.tiling.border_of(tile) {
-            self.steepest.set(self.tiling.border(cell), codes[place(&window, 0, cell)]);
+/// Puts directions of least deviation in place of those of steepest descent.
+pub(super) fn lead(
+    tiling: &Tiling,
+    filled: &dyn SharedPlane<f32>,
+    mut directions: &mut dyn SharedPlane<u8>,
+    passed: Passed<'_>,
+) -> Result<(), Error> {
+    let mut steepest = Borders::filled(tiling, OUTLET);
+    let noted = tiling.own().try_for_each(|tile| {
+        let window = tiling.window(tile);
+        let codes = directions.read(&window)?;
+        for cell in tiling.border_of(tile) {
+            steepest.set(tiling.border(cell), codes[place(&window, 0, cell)]);
         }
-    }
-
-    /// Puts the directions in place of those of steepest descent, of which all borders were noted.
-    pub(super) fn lead(
-        mut self,
-        filled: &dyn Plane<f32>,
-        directions: &mut dyn Plane<u8>,
-        passed: &mut dyn FnMut() -> Result<(), Error>,
-    ) -> Result<(), Error> {
-        let tiling = self.tiling;
-        self.steepest.swap(tiling)?;
-        let mut is_done = vec![false; tiling.count()];
-        settle(tiling, &mut self.found, |tile, known| {
-            if is_done[tile] {
-                return Ok(Vec::new());
-            }
-            let ground = TileOfPaths::read((tiling, &self.steepest), tile, filled, directions)?;
-            let paths = ground.paths(tiling, known);
+        passed(window.size().cells())
+    });
+    agreed(tiling.ranks(), noted)?;
+    steepest.swap(tiling)?;
+    // The directions of a tile stay those of steepest descent until it is done.
+    let look = |tile, known: &Borders<Found>, directions: &&mut dyn SharedPlane<u8>| {
+        let codes = directions.read(&tiling.window(tile))?;
+        let ground = TileOfPaths::read((tiling, &steepest), tile, filled, codes)?;
+        Ok(ground.seen(tiling, known))
+    };
+    let mut found = Borders::filled(tiling, None);
+    settle_side_by_side(
+        (tiling, &mut found, &mut directions),
+        look,
+        |tile, seen: Seen, known, directions| {
             let mut changed = Vec::new();
-            for cell in tiling.border_of(tile) {
-                let (border, at) = (tiling.border(cell), ground.place(cell));
-                if known.at(border).is_none() && paths.at(at).is_some() {
-                    known.set(border, paths.at(at));
+            for (cell, found) in tiling.border_of(tile).into_iter().zip(seen.border) {
+                let border = tiling.border(cell);
+                if known.at(border).is_none() && found.is_some() {
+                    known.set(border, found);
                     changed.push(cell);
                 }
             }
-            if paths.open == 0 {
-                is_done[tile] = true;
-                let code = |(x, y)| ground.code(ground.place([x, y]), &paths);
-                directions.write(&ground.window, &cells(&ground.window).map(code).collect::<Vec<_>>())?;
+            let window = tiling.window(tile);
+            if let Some(codes) = &seen.codes {
+                directions.write(&window, codes)?;
             }
-            passed()?;
-            Ok(beside(tiling, changed))
-        })
-    }
+            passed(window.size().cells())?;
+            Ok(Visited { woken: beside(tiling, changed), is_done: seen.codes.is_some() })
+        },
+    )?;
+    Ok(())
+}
+
+/// What a look at a tile finds.
+struct Seen {
+    /// Of its border cells, in their order.
+    border: Vec<Found>,
+    /// Its codes, where all are known.
+    codes: Option<Vec<u8>>,
 }
 
 /// A tile and the cells around it.
@@ -140,8 +140,8 @@ impl TileOfPaths {
     fn read(
         (tiling, steepest_of_borders): (&Tiling, &Borders<u8>),
         tile: usize,
-        filled: &dyn Plane<f32>,
-        directions: &dyn Plane<u8>,
+        filled: &dyn SharedPlane<f32>,
+        codes: Vec<u8>,
     ) -> Result<Self, Error> {
         let window = tiling.window(tile);
         let level = read_around(filled, &window, MARGIN, NO_DATA)?;
@@ -149,7 +149,7 @@ impl TileOfPaths {
         let size = Size { columns: columns + 2, rows: rows + 2 };
         let surface = Surface { size, stride: columns + 2 * MARGIN, level, elsewhere: Vec::new() };
         let (steepest, receivers) = (vec![OUTLET; surface.cells()], vec![0; surface.cells()]);
-        let own = cells(&window).map(|(x, y)| [x, y]).zip(directions.read(&window)?);
+        let own = cells(&window).map(|(x, y)| [x, y]).zip(codes);
         let mut ground = Self { tile, window, surface, steepest, receivers };
         let ring = tiling.ring_of(tile).into_iter();
         let ring = ring.map(|cell| (cell, steepest_of_borders.at(tiling.border(cell))));
@@ -168,6 +168,14 @@ impl TileOfPaths {
     fn candidates(&self, at: usize) -> Candidates {
         let code = Some(self.steepest[at]).filter(|&code| code != SEA);
         Candidates::of(&self.surface, at, code.unwrap_or(OUTLET))
+    }
+
+    fn seen(&self, tiling: &Tiling, known: &Borders<Found>) -> Seen {
+        let paths = self.paths(tiling, known);
+        let border = tiling.border_of(self.tile).into_iter().map(|cell| paths.at(self.place(cell)));
+        let code = |(x, y)| self.code(self.place([x, y]), &paths);
+        let codes = (paths.open == 0).then(|| cells(&self.window).map(code).collect());
+        Seen { border: border.collect(), codes }
     }
 
     /// The code as it is written.

@@ -9,8 +9,8 @@ use weald_engine::stored::{StoredPlane, swap_margins};
 /// Cells around a tile that are read: one for its neighbours, one for theirs.
 pub const MARGIN: usize = 2;
 
-/// A plane that ranks share.
-pub trait SharedPlane<T>: Plane<T> {
+/// A plane that ranks share, and of which threads read several windows at once.
+pub trait SharedPlane<T>: Plane<T> + Sync {
     /// Gets the rows around its own as they are now, so that [`MARGIN`] cells around each tile can be read. All ranks call it
     /// together.
     ///
@@ -25,7 +25,7 @@ impl SharedPlane<f32> for StoredPlane {
     }
 }
 
-impl<T: Copy> SharedPlane<T> for HeldPlane<T> {
+impl<T: Copy + Sync> SharedPlane<T> for HeldPlane<T> {
     fn swap(&mut self, ranks: &dyn Ranks) -> Result<(), Error> {
         if ranks.count() == 1 {
             return Ok(());

@@ -3,10 +3,15 @@
 use std::collections::VecDeque;
 use std::ops::Range;
 
+use rayon::prelude::*;
+
 use super::borders::{Borders, Sent};
 use super::tiling::{Tiling, beside};
 use weald_core::error::Error;
 use weald_engine::ranks::{agreed, any};
+
+/// Called after each visit of a tile with the number of its cells; an error ends the work.
+pub type Passed<'a> = &'a mut dyn FnMut(usize) -> Result<(), Error>;
 
 /// Tiles of this rank that are to be visited, each once at a time.
 struct Queue {
@@ -50,6 +55,57 @@ pub(super) fn settle<T: Copy + PartialEq + Sent>(
         queue.add(beside(tiling, known.swap(tiling)?));
         if !any(tiling.ranks(), !queue.tiles.is_empty())? {
             return Ok(());
+        }
+    }
+}
+
+/// What a visit of a tile has found.
+pub(super) struct Visited {
+    /// The tiles for which something changed.
+    pub(super) woken: Vec<usize>,
+    /// Whether no visit of the tile will find more.
+    pub(super) is_done: bool,
+}
+
+/// Tiles that are looked at side by side. More know less of each other, and are visited again.
+const SIDE_BY_SIDE: usize = 16;
+
+/// As [`settle`], for small tiles: several look side by side at a `plane` and at what is known before, and what each has
+/// seen is then taken one after another. So what is found must not depend on when a tile is visited. Gives which tiles of this
+/// rank are done.
+pub(super) fn settle_side_by_side<T, P, S>(
+    (tiling, known, plane): (&Tiling, &mut Borders<T>, &mut P),
+    look: impl Fn(usize, &Borders<T>, &P) -> Result<S, Error> + Sync,
+    mut take: impl FnMut(usize, S, &mut Borders<T>, &mut P) -> Result<Visited, Error>,
+) -> Result<Vec<bool>, Error>
+where
+    T: Copy + PartialEq + Sent + Send + Sync,
+    P: Sync + ?Sized,
+    S: Send,
+{
+    let own = tiling.own();
+    let (mut queue, mut is_done) = (Queue::of(own.clone()), vec![false; own.len()]);
+    let mut visit = |tiles: Vec<usize>, queue: &mut Queue, known: &mut Borders<T>| {
+        let is_open = |tile: &usize| !is_done[tile - own.start];
+        let tiles: Vec<usize> = tiles.into_iter().filter(is_open).collect();
+        let seen: Vec<_> = tiles.par_iter().map(|&tile| look(tile, known, plane)).collect();
+        for (tile, seen) in tiles.into_iter().zip(seen) {
+            let visited = take(tile, seen?, known, plane)?;
+            is_done[tile - own.start] = visited.is_done;
+            queue.add(visited.woken);
+        }
+        Ok(())
+    };
+    loop {
+        let mut visited = Ok(());
+        while visited.is_ok() && !queue.tiles.is_empty() {
+            let tiles = std::iter::from_fn(|| queue.next()).take(SIDE_BY_SIDE).collect();
+            visited = visit(tiles, &mut queue, known);
+        }
+        agreed(tiling.ranks(), visited)?;
+        queue.add(beside(tiling, known.swap(tiling)?));
+        if !any(tiling.ranks(), !queue.tiles.is_empty())? {
+            return Ok(is_done);
         }
     }
 }

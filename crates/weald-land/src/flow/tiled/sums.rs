@@ -2,12 +2,13 @@
 //!
 //! A cell is finished when all that give to it are, and its sum adds them in the order of directions, as in the whole.
 //! A tile finishes what it can by the sums of the cells around it that are finished, and is visited again when one is
-//! finished across its border. So a river that crosses a border many times has its tiles read as often.
+//! finished across its border. A river that crosses a border many times has its tiles read as often, so that they are small
+//! ([`Tiling::finer`]), and several are looked at side by side.
 
 use super::borders::Borders;
 use super::ground::cells;
 use super::planes::MARGIN;
-use super::settle::settle;
+use super::settle::{Passed, Visited, settle_side_by_side};
 use super::tiling::Tiling;
 use crate::flow::Routed;
 use crate::flow::accumulate::{CellWeights, set_directions};
@@ -27,13 +28,13 @@ pub struct TiledFlow<'a> {
     /// The tiles.
     pub tiling: &'a Tiling,
     /// Directions as [`route_tiled`](super::route_tiled) writes them.
-    pub directions: &'a dyn Plane<u8>,
+    pub directions: &'a (dyn Plane<u8> + Sync),
     /// 0 where a cell has no data; every cell has without it.
-    pub valid: Option<&'a dyn Plane<u8>>,
+    pub valid: Option<&'a (dyn Plane<u8> + Sync)>,
     /// What each cell adds; 1 without it.
-    pub weight: Option<&'a dyn Plane<f32>>,
+    pub weight: Option<&'a (dyn Plane<f32> + Sync)>,
     /// The surface without depressions and the exponent, where each cell shares among all lower neighbours.
-    pub shared: Option<(&'a dyn Plane<f32>, f64)>,
+    pub shared: Option<(&'a (dyn Plane<f32> + Sync), f64)>,
 }
 
 /// Takes the sums of a tile.
@@ -41,41 +42,37 @@ pub type PutSums<'a> = &'a mut dyn FnMut(&Window, &[f64]) -> Result<(), Error>;
 
 /// Sums over all cells above each cell, to the bit those of [`accumulate`](crate::flow::accumulate()) or, where they are
 /// shared, of [`accumulate_multiple`](crate::flow::accumulate_multiple). `put` gets each tile once, in no certain order;
-/// `passed` is called after each visit of a tile.
+/// `passed` is called after each visit.
 ///
-/// Memory: some 40 bytes for a cell of a tile, 90 with shares, and 16 for each border cell of all tiles.
+/// Memory: some bytes for a cell of the grid in [`SMALL_TILE`](super::SMALL_TILE), and 16 for each border cell of all tiles.
 ///
 /// # Errors
 /// Those of the planes, of `put` and of `passed`; [`Error::Run`] where water flows in a cycle.
-pub fn accumulate_tiled(
-    flow: &TiledFlow<'_>,
-    put: PutSums<'_>,
-    passed: &mut dyn FnMut() -> Result<(), Error>,
-) -> Result<(), Error> {
-    let (tiling, own) = (flow.tiling, flow.tiling.own());
-    let mut is_done = vec![false; own.len()];
-    settle(tiling, &mut Borders::filled(tiling, None), |tile, borders| {
-        let ground = TileOfSums::read(flow, tile)?;
+pub fn accumulate_tiled(flow: &TiledFlow<'_>, put: PutSums<'_>, passed: Passed<'_>) -> Result<(), Error> {
+    let (tiling, own) = (&flow.tiling.finer(), flow.tiling.finer().own());
+    let look = |tile, borders: &Borders<Option<f64>>, _: &()| {
+        let ground = TileOfSums::read(flow, tiling, tile)?;
         let multiple = ground.multiple(flow);
-        let giving = Giving::of(&ground, multiple.as_ref());
-        let sums = ground.sums(&giving, tiling, borders);
-        let mut woken = Vec::new();
-        for cell in tiling.border_of(tile) {
-            let (border, at) = (tiling.border(cell), ground.place(cell));
-            if borders.at(border).is_none() && sums.is_known[at] {
-                borders.set(border, Some(sums.sums[at]));
-                let given = set_directions(giving.receivers()[at]);
-                let given = given.map(|direction| tiling.tile_of(ground.cell(ground.beside(at, direction))));
-                woken.extend(given.filter(|&other| other != tile));
+        Ok(ground.seen(&Giving::of(&ground, multiple.as_ref()), tiling, borders))
+    };
+    let mut borders = Borders::filled(tiling, None);
+    let is_done =
+        settle_side_by_side((tiling, &mut borders, &mut ()), look, |tile, seen: Seen, borders, ()| {
+            let mut woken = Vec::new();
+            for (cell, sum, given) in seen.border {
+                let border = tiling.border(cell);
+                if borders.at(border).is_none() {
+                    borders.set(border, Some(sum));
+                    woken.extend(given.into_iter().map(|cell| tiling.tile_of(cell)));
+                }
             }
-        }
-        if sums.open == 0 && !std::mem::replace(&mut is_done[tile - own.start], true) {
-            let own: Vec<f64> = ground.inner().map(|at| sums.sums[at]).collect();
-            put(&ground.own, &own)?;
-        }
-        passed()?;
-        Ok(woken)
-    })?;
+            let window = tiling.window(tile);
+            if let Some(sums) = &seen.sums {
+                put(&window, sums)?;
+            }
+            passed(window.size().cells())?;
+            Ok(Visited { woken, is_done: seen.sums.is_some() })
+        })?;
     let open = is_done.iter().position(|is_done| !is_done).map(|tile| tiling.window(own.start + tile));
     let cycle = open.map_or(Ok(()), |Window { columns, rows }| {
         Err(Error::Run(format!(
@@ -128,6 +125,14 @@ impl<'a> Giving<'a> {
     }
 }
 
+/// What a look at a tile finds.
+struct Seen {
+    /// Of its border cells that are finished: the cell, its sum, and the cells of other tiles to which it gives.
+    border: Vec<([usize; 2], f64, Vec<[usize; 2]>)>,
+    /// All sums, where all are finished.
+    sums: Option<Vec<f64>>,
+}
+
 /// Sums of a tile and of the cells around it, as far as they are known.
 struct TileSums {
     sums: Vec<f64>,
@@ -137,9 +142,9 @@ struct TileSums {
 }
 
 impl TileOfSums {
-    fn read(flow: &TiledFlow<'_>, tile: usize) -> Result<Self, Error> {
-        let own = flow.tiling.window(tile);
-        let held = own.grown(MARGIN, flow.tiling.size());
+    fn read(flow: &TiledFlow<'_>, tiling: &Tiling, tile: usize) -> Result<Self, Error> {
+        let own = tiling.window(tile);
+        let held = own.grown(MARGIN, tiling.size());
         let size = held.size();
         let valid = flow.valid.map(|valid| valid.read(&held)).transpose()?;
         let weight = flow.weight.map(|weight| weight.read(&held)).transpose()?;
@@ -195,6 +200,20 @@ impl TileOfSums {
                 && receivers[self.beside(at, usize::from(direction))] >> opposite(direction) & 1 == 1
         };
         (0..8).filter(gives).fold(0, |bits, direction| bits | 1 << direction)
+    }
+
+    fn seen(&self, giving: &Giving<'_>, tiling: &Tiling, borders: &Borders<Option<f64>>) -> Seen {
+        let found = self.sums(giving, tiling, borders);
+        let given = |at: usize| {
+            let given =
+                set_directions(giving.receivers()[at]).map(|direction| self.cell(self.beside(at, direction)));
+            given.filter(|[x, y]| !self.own.columns.contains(x) || !self.own.rows.contains(y)).collect()
+        };
+        let finished = tiling.border_of(self.tile).into_iter().map(|cell| (cell, self.place(cell)));
+        let finished = finished.filter(|&(_, at)| found.is_known[at]);
+        let border = finished.map(|(cell, at)| (cell, found.sums[at], given(at))).collect();
+        let sums = (found.open == 0).then(|| self.inner().map(|at| found.sums[at]).collect());
+        Seen { border, sums }
     }
 
     /// What is known of the tile, by what is known of the border cells around it.

@@ -8,6 +8,9 @@ use weald_core::grid::{MAX_CELLS, Size};
 use weald_core::plane::Window;
 use weald_engine::ranks::{Alone, Ranks, SharedRows};
 
+/// Cells on a side of the tiles of [`Tiling::finer`].
+pub const SMALL_TILE: usize = 256;
+
 /// A grid cut into tiles of one size; the last of a row or a column of tiles may be smaller. No tile has rows of two ranks.
 #[derive(Clone, Debug)]
 pub struct Tiling {
@@ -62,6 +65,20 @@ impl Tiling {
         }
         tiling.first.push(cells);
         Ok(tiling)
+    }
+
+    /// The same grid and ranks in tiles for what passes tiles until it settles; as it is where a rank has one tile.
+    ///
+    /// A river that crosses a border has the tiles on both sides visited once for each crossing. The number of visits of a tile
+    /// hardly depends on its size, and small ones fit into the caches of a processor.
+    pub fn finer(&self) -> Self {
+        if self.count() == self.ranks.count() {
+            return self.clone();
+        }
+        let side = |of: usize| of.min(SMALL_TILE);
+        let tile = Size { columns: side(self.tile.columns), rows: side(self.tile.rows) };
+        Self::over((self.size.columns, &self.rows), tile, &self.ranks)
+            .expect("smaller than those that were legal")
     }
 
     /// The ranks that share the grid.
