@@ -28,8 +28,11 @@ use crate::work::{Shown, Surface};
 /// What a picture may take while something moves.
 const SLICE: f64 = 0.025;
 
-/// What a picture took at most, when all rests, for a finer one to follow it.
-const AT_REST: f64 = 2.0;
+/// What a finer picture may take when all rests: controls that are touched meanwhile wait for it on software.
+const AT_REST: f64 = 1.5;
+
+/// How long a click may take on software, where what a hand does is seen only after a picture.
+const LONGEST_CLICK: f64 = 5.0;
 
 /// Parts of the full width and height that pictures are drawn at, coarse to fine.
 const SCALES: [f32; 5] = [0.125, 0.25, 0.5, 0.75, 1.0];
@@ -108,6 +111,9 @@ impl Viewport {
         #[cfg(not(target_arch = "wasm32"))]
         if gpu.is_software() && !window.target_format.is_srgb() {
             context.add_plugin(Interface::new(window));
+        }
+        if gpu.is_software() {
+            context.options_mut(|options| options.input_options.max_click_duration = LONGEST_CLICK);
         }
         let told = context.clone();
         let scenes = Scenes::new(gpu.clone(), move || told.request_repaint())?;
@@ -272,7 +278,8 @@ impl Drawing for Viewport {
         let rests = self.stale.is_none_or(|since| since.elapsed() > REST);
         // What rests becomes finer step by step.
         let next = self.drawn.map_or(self.moving, |(_, drawn)| {
-            if self.seconds <= AT_REST { (drawn + 1).min(SCALES.len() - 1) } else { drawn }
+            let finer = (drawn + 1).min(SCALES.len() - 1);
+            if self.seconds * growth(drawn, finer) <= AT_REST { finer } else { drawn }
         });
         let scale = if rests { next } else { self.moving };
         let is_finer = rests && self.drawn.is_some_and(|(_, drawn)| scale > drawn);

@@ -2,6 +2,7 @@
 //! changed, the land looked at, simulated, painted with soil and water, all of it undone and redone, saved, exported, closed
 //! and opened again, and `weald run` gives the same files.
 
+use std::cell::Cell;
 use std::fs;
 use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
@@ -9,7 +10,10 @@ use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
 /// How long anything may take before the test says that it does not happen.
-const TIMEOUT: Duration = Duration::from_mins(2);
+const TIMEOUT: Duration = Duration::from_mins(5);
+
+/// How many times longer than at first the hand waits between keys at most, after it was too fast for a slow window.
+const SLOWEST: u32 = 8;
 
 /// Where the template that is chosen stands in the window, and the controls of size and seed.
 const TEMPLATE: &str = "mousemove 470 108 click 1";
@@ -20,6 +24,8 @@ const SEED: &str = "mousemove 81 153 click 1";
 struct Display {
     server: Child,
     name: String,
+    /// How many times longer than at first the hand waits.
+    pace: Cell<u32>,
 }
 
 impl Drop for Display {
@@ -38,7 +44,7 @@ impl Display {
             command.stdout(Stdio::piped()).stderr(Stdio::null()).spawn().expect("Xvfb is installed");
         let mut line = String::new();
         BufReader::new(server.stdout.take().expect("piped")).read_line(&mut line).expect("a number");
-        Self { server, name: format!(":{}", line.trim()) }
+        Self { server, name: format!(":{}", line.trim()), pace: Cell::new(1) }
     }
 
     fn command(&self, program: &str) -> Command {
@@ -47,9 +53,15 @@ impl Display {
         command
     }
 
-    /// Keys and mouse, by xdotool.
+    /// Keys and mouse, by xdotool. What it sleeps is as much longer as the window was too slow before.
     fn act(&self, words: &str) {
-        let done = self.command("xdotool").args(words.split(' ')).status().expect("xdotool is installed");
+        let mut sleeps = false;
+        let words_in_time =
+            words.split(' ').map(|word| match std::mem::replace(&mut sleeps, word == "sleep") {
+                true => (word.parse::<f64>().expect("seconds") * f64::from(self.pace.get())).to_string(),
+                false => word.to_owned(),
+            });
+        let done = self.command("xdotool").args(words_in_time).status().expect("xdotool is installed");
         assert!(done.success(), "xdotool {words}");
     }
 
@@ -64,12 +76,14 @@ impl Display {
         String::from_utf8_lossy(&found.expect("xdotool is installed").stdout).into_owned()
     }
 
-    /// Does something again and again until it has had its effect.
+    /// Does something again and again, each time slower, until it has had its effect.
     fn until(&self, what: &str, mut act: impl FnMut(&Self), holds: impl Fn(&Self) -> bool) {
         let begun = Instant::now();
+        self.pace.set(1);
         while !holds(self) {
             assert!(begun.elapsed() < TIMEOUT, "{what} does not come; the title is {:?}", self.title());
             act(self);
+            self.pace.set((self.pace.get() + 1).min(SLOWEST));
             for _ in 0..20 {
                 std::thread::sleep(Duration::from_millis(100));
                 if holds(self) {
