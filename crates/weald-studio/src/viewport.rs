@@ -29,7 +29,7 @@ use crate::work::{Shown, Surface};
 const SLICE: f64 = 0.025;
 
 /// What a finer picture may take when all rests: controls that are touched meanwhile wait for it on software.
-const AT_REST: f64 = 1.5;
+const AT_REST: f64 = 4.0;
 
 /// How long a click may take on software, where what a hand does is seen only after a picture.
 const LONGEST_CLICK: f64 = 5.0;

@@ -55,12 +55,16 @@ impl Display {
 
     /// Keys and mouse, by xdotool. What it sleeps is as much longer as the window was too slow before.
     fn act(&self, words: &str) {
-        let mut sleeps = false;
-        let words_in_time =
-            words.split(' ').map(|word| match std::mem::replace(&mut sleeps, word == "sleep") {
-                true => (word.parse::<f64>().expect("seconds") * f64::from(self.pace.get())).to_string(),
-                false => word.to_owned(),
-            });
+        let slower = |seconds: &str| {
+            let seconds: f64 = seconds.parse().expect("seconds");
+            (seconds * f64::from(self.pace.get())).to_string()
+        };
+        let mut words_in_time: Vec<String> = words.split(' ').map(str::to_owned).collect();
+        for at in 1..words_in_time.len() {
+            if words_in_time[at - 1] == "sleep" {
+                words_in_time[at] = slower(&words_in_time[at]);
+            }
+        }
         let done = self.command("xdotool").args(words_in_time).status().expect("xdotool is installed");
         assert!(done.success(), "xdotool {words}");
     }

@@ -50,7 +50,7 @@ pub type PutSums<'a> = &'a mut dyn FnMut(&Window, &[f64]) -> Result<(), Error>;
 /// Those of the planes, of `put` and of `passed`; [`Error::Run`] where water flows in a cycle.
 pub fn accumulate_tiled(flow: &TiledFlow<'_>, put: PutSums<'_>, passed: Passed<'_>) -> Result<(), Error> {
     let (tiling, own) = (&flow.tiling.finer(), flow.tiling.finer().own());
-    let look = |tile, borders: &Borders<Option<f64>>, _: &()| {
+    let look = |tile, borders: &Borders<Option<f64>>, (): &()| {
         let ground = TileOfSums::read(flow, tiling, tile)?;
         let multiple = ground.multiple(flow);
         Ok(ground.seen(&Giving::of(&ground, multiple.as_ref()), tiling, borders))

@@ -71,6 +71,7 @@ impl Tiling {
     ///
     /// A river that crosses a border has the tiles on both sides visited once for each crossing. The number of visits of a tile
     /// hardly depends on its size, and small ones fit into the caches of a processor.
+    #[must_use]
     pub fn finer(&self) -> Self {
         if self.count() == self.ranks.count() {
             return self.clone();

@@ -154,7 +154,8 @@ impl Made {
                     if self.dice.one_in(5) {
                         let films = ["png", "apng"];
                         extension = films[self.dice.below(2)];
-                        let key = ["frames = 3", "every = 2"][self.dice.below(2)];
+                        // A picture of every second step is hundreds of the same kind.
+                        let key = ["frames = 3", "every = 50"][self.dice.below(2)];
                         let _ = writeln!(text, "{key}");
                     }
                     self.keys(&mut text, &(entry.parameters)(), attempt);
