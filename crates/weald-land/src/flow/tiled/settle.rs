@@ -49,14 +49,11 @@ pub(super) fn settle<T: Copy + PartialEq + Sent>(
     known: &mut Borders<T>,
     mut visit: impl FnMut(usize, &mut Borders<T>) -> Result<Vec<usize>, Error>,
 ) -> Result<(), Error> {
-    let mut queue = Queue::of(tiling.own());
-    loop {
-        agreed(tiling.ranks(), visit_all(&mut queue, |tile| visit(tile, known)))?;
-        queue.add(beside(tiling, known.swap(tiling)?));
-        if !any(tiling.ranks(), !queue.tiles.is_empty())? {
-            return Ok(());
-        }
-    }
+    until_settled(tiling, known, |queue, known| {
+        let Some(tile) = queue.next() else { return Ok(()) };
+        queue.add(visit(tile, known)?);
+        Ok(())
+    })
 }
 
 /// What a visit of a tile has found.
@@ -67,7 +64,8 @@ pub(super) struct Visited {
     pub(super) is_done: bool,
 }
 
-/// Tiles that are looked at side by side. More know less of each other, and are visited again.
+/// Tiles that are looked at side by side, together no larger than a large one. More know less of each other, and are visited
+/// again.
 const SIDE_BY_SIDE: usize = 16;
 
 /// As [`settle`], for small tiles: several look side by side at a `plane` and at what is known before, and what each has
@@ -84,10 +82,10 @@ where
     S: Send,
 {
     let own = tiling.own();
-    let (mut queue, mut is_done) = (Queue::of(own.clone()), vec![false; own.len()]);
-    let mut visit = |tiles: Vec<usize>, queue: &mut Queue, known: &mut Borders<T>| {
-        let is_open = |tile: &usize| !is_done[tile - own.start];
-        let tiles: Vec<usize> = tiles.into_iter().filter(is_open).collect();
+    let mut is_done = vec![false; own.len()];
+    until_settled(tiling, known, |queue, known| {
+        let next = std::iter::from_fn(|| queue.next()).filter(|tile| !is_done[tile - own.start]);
+        let tiles: Vec<usize> = next.take(SIDE_BY_SIDE).collect();
         let seen: Vec<_> = tiles.par_iter().map(|&tile| look(tile, known, plane)).collect();
         for (tile, seen) in tiles.into_iter().zip(seen) {
             let visited = take(tile, seen?, known, plane)?;
@@ -95,27 +93,26 @@ where
             queue.add(visited.woken);
         }
         Ok(())
-    };
+    })?;
+    Ok(is_done)
+}
+
+/// Lets tiles be visited until no rank has any left.
+fn until_settled<T: Copy + PartialEq + Sent>(
+    tiling: &Tiling,
+    known: &mut Borders<T>,
+    mut visit: impl FnMut(&mut Queue, &mut Borders<T>) -> Result<(), Error>,
+) -> Result<(), Error> {
+    let mut queue = Queue::of(tiling.own());
     loop {
         let mut visited = Ok(());
         while visited.is_ok() && !queue.tiles.is_empty() {
-            let tiles = std::iter::from_fn(|| queue.next()).take(SIDE_BY_SIDE).collect();
-            visited = visit(tiles, &mut queue, known);
+            visited = visit(&mut queue, known);
         }
         agreed(tiling.ranks(), visited)?;
         queue.add(beside(tiling, known.swap(tiling)?));
         if !any(tiling.ranks(), !queue.tiles.is_empty())? {
-            return Ok(is_done);
+            return Ok(());
         }
     }
-}
-
-fn visit_all(
-    queue: &mut Queue,
-    mut visit: impl FnMut(usize) -> Result<Vec<usize>, Error>,
-) -> Result<(), Error> {
-    while let Some(tile) = queue.next() {
-        queue.add(visit(tile)?);
-    }
-    Ok(())
 }

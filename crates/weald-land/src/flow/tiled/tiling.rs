@@ -8,7 +8,7 @@ use weald_core::grid::{MAX_CELLS, Size};
 use weald_core::plane::Window;
 use weald_engine::ranks::{Alone, Ranks, SharedRows};
 
-/// Cells on a side of the tiles of [`Tiling::finer`].
+/// Cells on a side of the tiles of [`Tiling::finer`], at most.
 pub const SMALL_TILE: usize = 256;
 
 /// A grid cut into tiles of one size; the last of a row or a column of tiles may be smaller. No tile has rows of two ranks.
@@ -76,7 +76,8 @@ impl Tiling {
         if self.count() == self.ranks.count() {
             return self.clone();
         }
-        let side = |of: usize| of.min(SMALL_TILE);
+        // Sixteen of them are no larger than one of the others.
+        let side = |of: usize| (of / 4).clamp(1, SMALL_TILE);
         let tile = Size { columns: side(self.tile.columns), rows: side(self.tile.rows) };
         Self::over((self.size.columns, &self.rows), tile, &self.ranks)
             .expect("smaller than those that were legal")
