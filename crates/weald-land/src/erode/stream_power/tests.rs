@@ -1,6 +1,6 @@
 //! What the equation promises: balance with uplift, the time that rivers take to answer, and nothing lost.
 
-use super::{Conditions, Evolution, Mesh, Volumes};
+use super::{Conditions, Evolution, Mesh, Slopes, Volumes};
 use weald_core::domain::Domain;
 use weald_core::grid::{Field, Mask, Size};
 use weald_core::random::signed2;
@@ -313,6 +313,28 @@ fn what_creeps_into_rivers_leaves_with_them() {
     let carried: f64 = rivers.map(|cell| evolution.crept[cell]).sum();
     assert!(carried > 0.01 * uplifted, "{carried} of {uplifted} m");
     assert!(slopes.into_iter().all(|cell| evolution.crept[cell] == 0.0));
+}
+
+/// Soil that would take 1.3e7 passes on these cells lies flat after hundreds or thousands, whether all, some or no cells are rivers.
+#[test]
+fn ground_that_has_crept_flat_is_left_to_lie() {
+    let domain = Domain::new(Size { columns: 9, rows: 7 }, 0.05);
+    let ground: Vec<f64> = rough(&domain).iter().map(|height| 900.0 + height).collect();
+    for river_from in [0.0, 0.02, f64::INFINITY] {
+        let Evolution { mesh, mut heights, mut spare, base, mut area, mut crept, .. } =
+            Evolution::new(&domain, &ground, Mesh::new(&domain, 0.7, 1), |_, _| false);
+        let before: f64 = mesh.inner().map(|cell| heights[cell]).sum();
+        area.iter_mut().enumerate().for_each(|(cell, area)| *area = 0.01 * (cell % 5) as f64);
+        let slopes = Slopes { mesh: &mesh, base: &base, area: &area, river_from };
+        let passes = slopes.creep(1e4, (&mut heights, &mut spare), &mut crept);
+        let (lowest, highest) = mesh.inner().fold((f64::INFINITY, 0.0), |(low, high): (f64, f64), cell| {
+            (low.min(heights[cell]), high.max(heights[cell]))
+        });
+        assert!(highest - lowest < 1e-9, "rivers from {river_from} m2: {lowest} to {highest} m");
+        let after: f64 = mesh.inner().map(|cell| heights[cell] + crept[cell]).sum();
+        assert!((after - before).abs() < 1e-9, "rivers from {river_from} m2: {} m", after - before);
+        assert!(passes < 5_000, "rivers from {river_from} m2: {passes}");
+    }
 }
 
 /// Slope over area in logarithms, by least squares.
