@@ -8,7 +8,7 @@ fn backdrop_direction(position: vec2<f32>) -> vec3<f32> {
 @fragment
 fn sky_fragment(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     let direction = backdrop_direction(position.xy);
-    let radiance = sky_radiance_with_sun(direction);
+    let radiance = veil_before_sky(sky_radiance_with_sun(direction), frame.eye.xyz, direction);
     return vec4<f32>(limited(with_clouds(frame.eye.xyz, direction, radiance, frame.eye.w)), 1.0);
 }
 

@@ -17,6 +17,9 @@ const FURTHER = 1.17;
 // Radians over which ripples that are too small to be seen blur what water mirrors.
 const MIRRORED_BLUR = 0.06;
 
+// Metres over which ripples draw out what water mirrors, for each metre that it is away.
+const DRAWN_OUT = 0.02;
+
 // How far two sets of ripples are carried, and the share of the second.
 struct Carried {
     phases: vec2<f32>,
@@ -147,7 +150,8 @@ fn mirrored_light(start: vec3<f32>, direction: vec3<f32>, upward: vec3<f32>, len
     let place = place_of(point);
     let surface = spline_with_slope(bed, place);
     let normal = normal_of(surface.yz);
-    let footprint = max(0.25 * scene.scale.w, (ray_length + length_before) * frame.eye.w);
+    let sharp = max(0.25 * scene.scale.w, (ray_length + length_before) * frame.eye.w);
+    let footprint = max(sharp, DRAWN_OUT * ray_length);
     let skin = ground_skin(place, surface, footprint, 1e9);
     let sun = sun_seen(point + normal * 0.1 * scene.scale.w, normal);
     let radiance = skin.albedo * lit(roughened(normal, skin.bump), seen_at(skylight, share_of(place)), sun) / PI;

@@ -21,9 +21,9 @@ const UPRIGHT: f32 = 0.4;
 
 /// Slopes between which waves of the sea leave no sand, but bare rock, and heights of a beach between which those are; how uneven a beach is, by patches and by detail; and what is worn
 /// bare of soil above one of rock.
-const SANDY: [f32; 2] = [0.2, 0.4];
+const SANDY: [f32; 2] = [0.1, 0.28];
 const OF_THE_SEA: [f32; 2] = [0.3, 1.5];
-const UNEVEN: [f32; 2] = [0.9, 0.9];
+const UNEVEN: [f32; 2] = [1.6, 1.1];
 const WASHED: f32 = 1.8;
 
 impl Cover {
@@ -99,7 +99,7 @@ impl Cover {
     /// Shares of sand, and of rock that is washed bare, at the edge of water.
     pub(super) fn beach(spot: &SurfacePoint, texture: &Texture) -> [f32; 2] {
         let uneven = 1.0 + UNEVEN[0] * texture.broad + UNEVEN[1] * texture.fine.value;
-        let up = spot.above / (spot.beach * uneven.max(0.2)).max(1e-3);
+        let up = spot.above / (spot.beach * uneven.max(0.05)).max(1e-3);
         // Some stretches of a shore have sand, and others rock.
         let steep = ramp(spot.slope - 0.6 * texture.broad, SANDY[0], SANDY[1])
             * ramp(spot.beach, OF_THE_SEA[0], OF_THE_SEA[1]);

@@ -84,13 +84,13 @@ impl Texture {
 
 /// Slope that bumps come near but do not pass: from close by, many octaves would add up to needles. Crowns are rounder.
 const STEEPEST: f32 = 0.75;
-const STEEPEST_CROWN: f32 = 1.5;
+const STEEPEST_CROWN: f32 = 0.95;
 
 /// Steepness from which rock begins to be bare, and is all that there is.
 const ROCK: [f32; 2] = [1.08, 1.22];
 
 /// Light that a strand sends back beside dry gravel: sand is damp.
-const STRAND: f32 = 0.78;
+const STRAND: f32 = 0.66;
 
 /// Thickness of a bed of natural rock over the relief.
 pub(super) const THICK: f32 = 0.035;
@@ -135,6 +135,9 @@ const LEAVES: Linear = [1.18, 1.12, 0.86];
 /// greatest share of trees with leaves.
 const LEAVED: [f32; 2] = [0.3, 2.2];
 const MOST_LEAVES: f32 = 0.85;
+
+/// How densely lone trees stand before a wood.
+const LONE: f32 = 0.05;
 
 /// Height in metres above the water, and at most that share of a cell, from which trees stand.
 const SHORE: [f32; 2] = [2.5, 0.028];
@@ -194,8 +197,8 @@ pub(super) struct Palette {
 impl Default for Palette {
     fn default() -> Self {
         let [lush, meadow, dry, alpine] = [0x44_622f, 0x54_6a37, 0x78_7648, 0x62_683f].map(linear_of_hex);
-        let forest = [0x22_2e19, 0x66_783e].map(linear_of_hex);
-        let rock = [0x7e_7973, 0x4b_4641, 0x93_8778].map(linear_of_hex);
+        let forest = [0x28_3520, 0x66_783e].map(linear_of_hex);
+        let rock = [0x74_7270, 0x3e_3c3a, 0x88_7d70].map(linear_of_hex);
         let [scree, gravel, snow] = [0x87_7f70, 0xa9_9d86, 0xe4_e8ee].map(linear_of_hex);
         Self { lush, meadow, dry, alpine, forest, rock, scree, gravel, snow }
     }
@@ -294,7 +297,7 @@ impl Cover {
         let grass = self.grass(moisture + 0.55 * patchy, high + 0.25 * patchy);
         let grass = scale(grass, 1.0 + 0.3 * fine.value + 0.3 * crags.height);
         let meadow =
-            SurfaceSample { albedo: grass, bump: texture.rough(0.12, 1.4 * ramp(spot.slope, 0.1, 0.7)) };
+            SurfaceSample { albedo: grass, bump: texture.rough(0.12, 0.8 * ramp(spot.slope, 0.1, 0.7)) };
         let trees = self.trees(spot, moisture, patchy);
 
         let [sand, washed] = Self::beach(spot, texture);
@@ -371,7 +374,9 @@ impl Cover {
         // for drought.
         let wood = 1.1 * (moisture - 0.5) + 0.9 * patchy + 0.4 * line.clamp(-8.0, 0.8) - 0.4 * steep;
         let [metres, share] = SHORE;
-        ramp(wood, 0.02, 0.40) * ramp(spot.above, 0.0, metres.min(share * self.limits.cell))
+        // Woods thin out at their edges, and a few trees stand far off.
+        let density = ramp(wood, 0.02, 0.52).max(LONE * ramp(wood, -0.45, 0.1));
+        density * ramp(spot.above, 0.0, metres.min(share * self.limits.cell))
     }
 
     /// How far below the tree line a height is, in widths of the belt in which trees become fewer.

@@ -2,20 +2,23 @@
 
 // Slope that bumps come near but do not pass.
 const STEEPEST = 0.75;
-const STEEPEST_CROWN = 1.5;
+const STEEPEST_CROWN = 0.95;
 
 // Steepness from which rock begins to be bare, and is all that there is.
 const ROCK = vec2<f32>(1.08, 1.22);
 
 // Slopes between which waves of the sea leave no sand, but bare rock, and heights of a beach between which those are; how
 // uneven a beach is, by patches and by detail; and what is worn bare of soil above one of rock.
-const SANDY = vec2<f32>(0.2, 0.4);
+const SANDY = vec2<f32>(0.1, 0.28);
 const OF_THE_SEA = vec2<f32>(0.3, 1.5);
-const UNEVEN = vec2<f32>(0.9, 0.9);
+const UNEVEN = vec2<f32>(1.6, 1.1);
 const WASHED = 1.8;
 
+// How densely lone trees stand before a wood.
+const LONE = 0.05;
+
 // Light that a strand sends back beside dry gravel.
-const STRAND = 0.78;
+const STRAND = 0.66;
 
 // Thickness of a bed of natural rock over the relief.
 const THICK = 0.035;
@@ -194,7 +197,7 @@ fn natural(spot: SurfacePoint, texture: Texture) -> SurfaceSample {
     let high = spot.point.z / max(scene.limits.w, 1e-3);
     let turf = grass(moisture + 0.55 * patchy, high + 0.25 * patchy) * (1.0 + 0.3 * fine + 0.3 * ridge);
     let wooded = trees(spot, moisture, patchy);
-    let meadow = SurfaceSample(turf, rough(texture, 0.12, 1.4 * ramp(spot.slope, 0.1, 0.7)), vec4<f32>(0.0));
+    let meadow = SurfaceSample(turf, rough(texture, 0.12, 0.8 * ramp(spot.slope, 0.1, 0.7)), vec4<f32>(0.0));
 
     let strand = beach_at(spot, texture);
     let steep = max(steepness(spot, texture, here.xy), ROCK.y * strand.y);
@@ -225,7 +228,7 @@ fn natural(spot: SurfacePoint, texture: Texture) -> SurfaceSample {
 // Shares of sand, and of rock that is washed bare, at the edge of water.
 fn beach_at(spot: SurfacePoint, texture: Texture) -> vec2<f32> {
     let uneven = 1.0 + UNEVEN.x * texture.broad + UNEVEN.y * texture.fine.value;
-    let up = spot.above / max(spot.beach * max(uneven, 0.2), 1e-3);
+    let up = spot.above / max(spot.beach * max(uneven, 0.05), 1e-3);
     // Some stretches of a shore have sand, and others rock.
     let rocky = ramp(spot.slope - 0.6 * texture.broad, SANDY.x, SANDY.y);
     let steep = rocky * ramp(spot.beach, OF_THE_SEA.x, OF_THE_SEA.y);
@@ -259,7 +262,8 @@ fn trees(spot: SurfacePoint, moisture: f32, patchy: f32) -> f32 {
     let line = below_tree_line(spot.point.z);
     let steep = ramp(spot.slope / scene.limits.x, 0.95, 1.3);
     let wood = 1.1 * (moisture - 0.5) + 0.9 * patchy + 0.4 * clamp(line, -8.0, 0.8) - 0.4 * steep;
-    return ramp(wood, 0.02, 0.40) * ramp(spot.above, 0.0, min(SHORE.x, SHORE.y * scene.scale.x));
+    let density = max(ramp(wood, 0.02, 0.52), LONE * ramp(wood, -0.45, 0.1));
+    return density * ramp(spot.above, 0.0, min(SHORE.x, SHORE.y * scene.scale.x));
 }
 
 fn rock_thickness() -> f32 {

@@ -29,6 +29,15 @@ const EARTH: f32 = 6.36e6;
 /// Least distance of the horizon: land that is higher is seen beyond that of even ground.
 const NEAREST_HORIZON: f32 = 60_000.0;
 
+/// Sine of the elevation below which the haze before the sky is all alike, as the sky is.
+const LOWEST: f32 = 0.006;
+
+/// Scale heights above which there is no haze to speak of.
+const ALL_OF_IT: f32 = 6.0;
+
+/// By how much the haze before ground beyond the horizon grows with the logarithm of its distance.
+const BEYOND: f32 = 0.5;
+
 /// Haze over a landscape.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Haze {
@@ -67,14 +76,24 @@ impl Haze {
         add(filter(radiance, through), filter(horizon, lost))
     }
 
+    /// The light that arrives at the start of a ray that leads into the open sky, of `radiance` beyond the haze.
+    #[inline]
+    pub(super) fn before_sky(self, radiance: Vector, ray: &Ray, sky: &Sky) -> Vector {
+        let out =
+            Ray { direction: [ray.direction[0], ray.direction[1], ray.direction[2].max(LOWEST)], ..*ray };
+        self.veil(radiance, &out, ALL_OF_IT * self.scale_height / out.direction[2], sky)
+    }
+
     /// Length of the air at the lowest ground that would veil as much. A ray that goes on beyond the horizon has come down
-    /// to the ground there already: its air is that of the same heights in as much shorter a way.
+    /// to the ground there already: its air is that of the same heights in a shorter way, which grows with its logarithm, so that
+    /// ground that the Earth would hide still pales.
     fn column(self, ray: &Ray, ray_length: f32) -> f32 {
         let start = libm::expf(-ray.from[2].max(0.0) / self.scale_height);
         let climb = ray.direction[2] * ray_length / self.scale_height;
         // (1 - e^-x) / x, which is 1 - x/2 for level rays.
         let mean = if climb.abs() < 1e-3 { 1.0 - 0.5 * climb } else { -libm::expm1f(-climb) / climb };
-        start * mean * ray_length.min(self.reach)
+        let beyond = (ray_length / self.reach).max(1.0);
+        start * mean * ray_length.min(self.reach) * (1.0 + BEYOND * libm::logf(beyond))
     }
 }
 
@@ -97,7 +116,7 @@ mod tests {
     }
 
     #[test]
-    fn a_level_ray_meets_no_more_haze_than_up_to_the_horizon() {
+    fn a_level_ray_meets_little_more_haze_than_up_to_the_horizon() {
         let (ray, sky) = (
             Ray { from: [0.0, 0.0, 1000.0], direction: [0.0, 1.0, 0.0] },
             Sky::new(towards(90.0, 30.0), 0.53),
@@ -105,7 +124,26 @@ mod tests {
         let haze = Haze::new(90_000.0, 1.0).up_to_the_horizon(1000.0);
         let seen = |ray_length: f32| haze.veil([0.0; 3], &ray, ray_length, &sky)[1];
         // From 1000 m the sea ends at 113 km.
-        assert!(seen(112_000.0) < seen(112_500.0) && seen(113_000.0) == seen(1e6));
+        let depth = |ray_length: f32| haze.column(&ray, ray_length);
+        assert_eq!(depth(100_000.0), 2.0 * depth(50_000.0));
+        assert!((1.1..1.5).contains(&(depth(200_000.0) / depth(113_000.0))) && seen(113_000.0) < seen(1e6));
+    }
+
+    #[test]
+    fn the_sky_pales_towards_the_horizon_without_a_step() {
+        let sky = Sky::new(towards(90.0, 30.0), 0.53);
+        let haze = Haze::new(60_000.0, 1.0).up_to_the_horizon(2000.0);
+        let ray = |rise: f32| Ray { from: [0.0, 0.0, 2000.0], direction: unit([0.0, 1.0, rise]) };
+        let bare = |rise: f32| sky.radiance(ray(rise).direction)[0];
+        let seen = |rise: f32| haze.before_sky(sky.radiance(ray(rise).direction), &ray(rise), &sky)[0];
+        let plain = sky.radiance([0.0, 1.0, 0.0])[0];
+        assert!((seen(0.001) / plain - 1.0).abs() < 0.01, "{} of {plain}", seen(0.001));
+        let steepest = |of: &dyn Fn(f32) -> f32| {
+            let steps = (1..60_u8).map(|at| 0.002 * f32::from(at));
+            steps.map(|rise| 1.0 - of(rise + 0.002) / of(rise)).fold(0.0, f32::max)
+        };
+        let [hazy, clear] = [steepest(&seen), steepest(&bare)];
+        assert!(hazy < 0.6 * clear, "by steps of {hazy}, not {clear}");
     }
 
     #[test]

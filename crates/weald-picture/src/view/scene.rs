@@ -15,6 +15,9 @@ use crate::colour::{linear_of_hex, mix};
 use weald_core::error::Error;
 use weald_core::landscape::Landscape;
 
+/// Metres over which ripples draw out what water mirrors, for each metre that it is away.
+const DRAWN_OUT: f32 = 0.02;
+
 /// Radians over which ripples that are too small to be seen blur what water mirrors.
 const MIRRORED_BLUR: f32 = 0.06;
 
@@ -123,7 +126,8 @@ impl RayMarcher {
         if ray.direction[2] < 0.0 {
             return around.map_or_else(|| self.plain(ray), |around| self.farthest(around, ray));
         }
-        self.with_clouds(ray, self.sky.radiance_with_sun(ray.direction), self.pixel_angle)
+        let radiance = self.haze.before_sky(self.sky.radiance_with_sun(ray.direction), ray, &self.sky);
+        self.with_clouds(ray, radiance, self.pixel_angle)
     }
 
     /// The sky along a ray, with the clouds before it, where such an angle in radians is seen as one.
@@ -287,7 +291,8 @@ impl RayMarcher {
             return self.with_clouds(&upward, self.sky.radiance(upward.direction), MIRRORED_BLUR);
         };
         let point = ray.at(hit.ray_length);
-        let footprint = (0.25 * terrain.cell()).max(self.footprint(hit.ray_length));
+        let footprint =
+            (0.25 * terrain.cell()).max(self.footprint(hit.ray_length)).max(DRAWN_OUT * hit.ray_length);
         let surface = self.setting.bed.with_slope(hit.place);
         let ground = self.ground(&GroundSpot { place: hit.place, surface, point, footprint }, 1e9);
         self.haze.veil(ground, ray, hit.ray_length, &self.sky)

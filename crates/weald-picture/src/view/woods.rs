@@ -20,15 +20,18 @@ const COARSER: f32 = 2.6;
 /// What makes the first layer another than other noise; each further layer has the next.
 const SEED: u32 = 0x41;
 
-/// Least and greatest radius of a crown, in spacings; broad ones are many.
+/// Least and greatest radius of a crown, in spacings.
 const RADII: [f32; 2] = [0.24, 0.64];
+
+/// Share of the squares with a tree where a wood is densest: through the others one sees down to what grows below.
+const FULL: f32 = 0.9;
 
 /// How far a crown may stand off the middle of its square, in spacings; with the greatest radius no more than 1, so that
 /// the four nearest squares hold all crowns over a place.
 const OFF: f32 = 0.35;
 
 /// Height of the dome of a crown beside its radius, and of a group of them.
-const STEEP: [f32; 2] = [0.45, 0.24];
+const STEEP: [f32; 2] = [0.36, 0.24];
 
 /// Boughs, by which the rims of crowns are ragged: their longest wavelength in metres, how far a rim is moved by their slope,
 /// and what they add to the tone and the slope of a crown.
@@ -37,7 +40,23 @@ const MOVED: f32 = 1.9;
 const LEAFY: [f32; 2] = [0.45, 0.35];
 
 /// How much lighter or darker one group of crowns is than another.
-const UNLIKE: f32 = 0.5;
+const UNLIKE: f32 = 0.4;
+
+/// Tone of what grows below crowns, where one sees down to it.
+const BELOW: f32 = 0.26;
+
+/// By how much more than evenly broad crowns are many in a stand of a middle age.
+const MIDDLE_AGE: f32 = 1.35;
+
+/// Density and age of groups of crowns, of which some are missing, so that their lattice does not show.
+const GROUPS: [f32; 2] = [0.8, 1.5];
+
+/// Stands, of other kinds and other ages than those beside them: their longest wavelength in metres, and what they add to the
+/// tone, to the size of crowns and to the number by which the kind of a tree is chosen.
+const STANDS: f32 = 310.0;
+const OF_TONE: f32 = 0.8;
+const OF_SIZE: f32 = 1.1;
+const OF_KIND: f32 = 0.9;
 
 /// Height in spacings from which crowns throw their shadows, and their greatest length.
 const SHADE: [f32; 2] = [0.7, 1.1];
@@ -113,18 +132,18 @@ fn part(hash: u32, shift: u32) -> f32 {
 }
 
 /// The uppermost dome at a place that is counted in spacings, where so large a share of them stand.
-fn dome(place: [f32; 2], seed: u32, density: f32) -> Dome {
+fn dome(place: [f32; 2], seed: u32, [density, age]: [f32; 2]) -> Dome {
     let corner = place.map(|along| floor(along - 0.5));
     let mut top = Dome::default();
     for look in 0..4 {
         let square = [corner[0] + (look & 1), corner[1] + (look >> 1)];
         let (hash, more) = chances(square, seed);
-        if part(more, 0) >= density {
+        if part(more, 0) >= density.min(FULL) {
             continue;
         }
         let centre = centre(square, hash);
         let away = [place[0] - centre[0], place[1] - centre[1]];
-        let radius = RADII[0] + (RADII[1] - RADII[0]) * part(more, 8).sqrt();
+        let radius = RADII[0] + (RADII[1] - RADII[0]) * (age * part(more, 8)).min(1.0);
         let below = 1.0 - (away[0] * away[0] + away[1] * away[1]) / (radius * radius);
         let tall = tallness(more);
         if below * tall > top.height {
@@ -161,7 +180,8 @@ fn centre([x, y]: [i32; 2], hash: u32) -> [f32; 2] {
 pub(super) fn canopy(point: [f32; 2], density: f32, footprint: f32, sun: Vector) -> Canopy {
     let single = visible(footprint, 1.4 * SPACING);
     let (mut lumps, mut slope, mut finer, mut spacing) = (0.0, [0.0; 2], single, SPACING);
-    let mut chance = 0.5;
+    let stand = stand(point, footprint);
+    let mut chance = 0.5 + OF_KIND * stand;
     let (mut place, mut turn) = (point, [1.0_f32, 0.0]);
     for layer in 1..LAYERS {
         spacing *= COARSER;
@@ -171,7 +191,7 @@ pub(super) fn canopy(point: [f32; 2], density: f32, footprint: f32, sun: Vector)
         if seen <= 0.0 {
             continue;
         }
-        let group = dome(place.map(|metres| metres / spacing), SEED + layer, 1.0);
+        let group = dome(place.map(|metres| metres / spacing), SEED + layer, GROUPS);
         // The finest that is seen counts most.
         let weight = seen * (1.0 - 0.55 * finer);
         finer = seen;
@@ -184,6 +204,7 @@ pub(super) fn canopy(point: [f32; 2], density: f32, footprint: f32, sun: Vector)
         slope = [0, 1].map(|axis| slope[axis] + weight * STEEP[1] * along[axis]);
     }
     // Edges break up into groups before they do into trees.
+    lumps += OF_TONE * stand;
     let density = (density + 2.4 * lumps * density * (1.0 - density)).clamp(0.0, 1.0);
     let floor = 0.9 * ramp(density, 0.25, 0.8);
     let covered = 0.75 * density * (2.0 - density) * 0.9;
@@ -192,35 +213,41 @@ pub(super) fn canopy(point: [f32; 2], density: f32, footprint: f32, sun: Vector)
     if single <= 0.0 {
         return far;
     }
-    let near = crowns(point, [density, floor], footprint, sun);
+    let near = crowns(point, [density, floor], (MIDDLE_AGE + OF_SIZE * stand, footprint), sun);
     let mixed = |near: f32, far: f32| far + single * (near - far);
     Canopy {
         share: mixed(near.share, far.share),
-        tone: mixed(near.tone + 0.3 * lumps, far.tone),
+        tone: mixed(near.tone + 0.45 * lumps, far.tone),
         slope: [0, 1].map(|axis| slope[axis] + single * near.slope[axis]),
         open: mixed(near.open, far.open),
         chance: mixed(near.chance, far.chance),
     }
 }
 
+/// What a stand is beside others, about from -0.5 to 0.5.
+fn stand(point: [f32; 2], footprint: f32) -> f32 {
+    let stands = Octaves { wavelength: STANDS, count: 4, gain: 0.6, seed: SEED + LAYERS + 1 };
+    stands.at([point[0], point[1], 0.0], footprint).value
+}
+
 /// Crowns of a density that are seen one by one, with so much dark between them.
-fn crowns(point: [f32; 2], [density, floor]: [f32; 2], footprint: f32, sun: Vector) -> Canopy {
+fn crowns(point: [f32; 2], [density, floor]: [f32; 2], (age, footprint): (f32, f32), sun: Vector) -> Canopy {
     let boughs = Octaves { wavelength: BOUGHS, count: 3, gain: 0.65, seed: SEED + LAYERS };
     let Grain { value, slope } = boughs.at([point[0], point[1], 0.0], footprint);
     let place = [0, 1].map(|axis| (point[axis] + MOVED * slope[axis]) / SPACING);
-    let tree = dome(place, SEED, density);
+    let tree = dome(place, SEED, [density, age]);
     let within = (5.0 * tree.height).min(1.0);
     let run = (sun[0] * sun[0] + sun[1] * sun[1]).sqrt().max(1e-6);
     let length = (SHADE[0] * run / sun[2].max(1e-3)).min(SHADE[1]) / run;
-    let shaded = dome([place[0] + length * sun[0], place[1] + length * sun[1]], SEED, density);
+    let shaded = dome([place[0] + length * sun[0], place[1] + length * sun[1]], SEED, [density, age]);
     let dark = (4.0 * shaded.height).min(1.0) * (1.0 - within);
     let tone = 0.32 + 0.44 * tree.height + 0.3 * (tree.chance - 0.5) + LEAFY[0] * value;
     Canopy {
         share: within + (1.0 - within) * floor,
-        tone: within * tone,
+        tone: within * tone + (1.0 - within) * BELOW,
         slope: [0, 1].map(|axis| within * (STEEP[0] * tree.slope[axis] + LEAFY[1] * slope[axis])),
         open: 1.0 - 0.55 * dark,
-        chance: tree.chance,
+        chance: tree.chance + 0.5 * OF_KIND * (age - MIDDLE_AGE) / OF_SIZE,
     }
 }
 

@@ -8,13 +8,30 @@ const WOOD_COARSER = 2.6;
 const WOOD_SEED = 0x41u;
 const CROWN_RADII = vec2<f32>(0.24, 0.64);
 const CROWN_OFF = 0.35;
-const CROWN_STEEP = vec2<f32>(0.45, 0.24);
+const WOOD_FULL = 0.9;
+const CROWN_STEEP = vec2<f32>(0.36, 0.24);
 const CROWN_SHADE = vec2<f32>(0.7, 1.1);
 const BOUGHS = 4.5;
 const BOUGHS_MOVED = 1.9;
 const LEAFY = vec2<f32>(0.45, 0.35);
 
 const TALLEST = 17.0;
+
+// Tone of what grows below crowns, where one sees down to it.
+const WOOD_BELOW = 0.26;
+
+// By how much more than evenly broad crowns are many, in a stand of a middle age.
+const MIDDLE_AGE = 1.35;
+
+// Density and age of groups of crowns, of which some are missing.
+const GROUPS = vec2<f32>(0.8, 1.5);
+
+// Stands: their longest wavelength in metres, and what they add to the tone, to the size of crowns and to the number by which
+// the kind of a tree is chosen.
+const STANDS = 310.0;
+const STANDS_TONE = 0.8;
+const STANDS_SIZE = 1.1;
+const STANDS_KIND = 0.9;
 
 struct Tree {
     place: vec2<f32>,
@@ -70,17 +87,17 @@ fn wood_centre(square: vec2<i32>, hash: u32) -> vec2<f32> {
 }
 
 // The uppermost of some domes at a place that is counted in spacings, where so large a share of them stand.
-fn dome(place: vec2<f32>, seed: u32, density: f32) -> Dome {
+fn dome(place: vec2<f32>, seed: u32, density: f32, age: f32) -> Dome {
     let corner = vec2<i32>(floor(place - 0.5));
     var top = Dome(0.0, vec2<f32>(0.0), 0.0);
     for (var look = 0; look < 4; look++) {
         let square = corner + vec2<i32>(look & 1, look >> 1u);
         let chances = wood_chances(square, seed);
-        if part_of(chances.y, 0u) >= density {
+        if part_of(chances.y, 0u) >= min(density, WOOD_FULL) {
             continue;
         }
         let away = place - wood_centre(square, chances.x);
-        let radius = CROWN_RADII.x + (CROWN_RADII.y - CROWN_RADII.x) * sqrt(part_of(chances.y, 8u));
+        let radius = CROWN_RADII.x + (CROWN_RADII.y - CROWN_RADII.x) * min(age * part_of(chances.y, 8u), 1.0);
         let below = 1.0 - dot(away, away) / (radius * radius);
         let tall = tallness(chances.y);
         if below * tall > top.height {
@@ -91,7 +108,7 @@ fn dome(place: vec2<f32>, seed: u32, density: f32) -> Dome {
 }
 
 // How much lighter or darker one group of crowns is than another.
-const WOOD_UNLIKE = 0.5;
+const WOOD_UNLIKE = 0.4;
 
 // A place, or the direction that was eastward, on a lattice that is turned by 37 degrees.
 fn turned_lattice(place: vec2<f32>) -> vec2<f32> {
@@ -109,7 +126,8 @@ fn canopy_of(point: vec2<f32>, wooded: f32, footprint: f32) -> Canopy {
     var spacing = WOOD_SPACING;
     var place = point;
     var turn = vec2<f32>(1.0, 0.0);
-    var chance = 0.5;
+    let stand = stand_at(point, footprint, wooded);
+    var chance = 0.5 + STANDS_KIND * stand;
     for (var layer = 1u; layer < layers; layer++) {
         spacing *= WOOD_COARSER;
         place = turned_lattice(place);
@@ -118,7 +136,7 @@ fn canopy_of(point: vec2<f32>, wooded: f32, footprint: f32) -> Canopy {
         if seen <= 0.0 {
             continue;
         }
-        let group = dome(place / spacing, WOOD_SEED + layer, 1.0);
+        let group = dome(place / spacing, WOOD_SEED + layer, GROUPS.x, GROUPS.y);
         let weight = seen * (1.0 - 0.55 * finer);
         finer = seen;
         lumps += weight * (group.height - 0.45 + WOOD_UNLIKE * (group.chance - 0.5));
@@ -126,6 +144,7 @@ fn canopy_of(point: vec2<f32>, wooded: f32, footprint: f32) -> Canopy {
         let along = vec2<f32>(dot(turn, group.slope), turn.x * group.slope.y - turn.y * group.slope.x);
         slope += weight * CROWN_STEEP.y * along;
     }
+    lumps += STANDS_TONE * stand;
     let density = clamp(wooded + 2.4 * lumps * wooded * (1.0 - wooded), 0.0, 1.0);
     let between = 0.9 * ramp(density, 0.25, 0.8);
     let covered = 0.75 * density * (2.0 - density) * 0.9;
@@ -133,8 +152,8 @@ fn canopy_of(point: vec2<f32>, wooded: f32, footprint: f32) -> Canopy {
     var near = far;
     let looks = select(0u, 1u, single > 0.0 && density > 0.0);
     for (var look = 0u; look < looks; look++) {
-        near = crowns(point, density, between, footprint);
-        near.tone += 0.3 * lumps;
+        near = crowns(point, density, between, MIDDLE_AGE + STANDS_SIZE * stand, footprint);
+        near.tone += 0.45 * lumps;
         near.slope += slope;
     }
     return Canopy(
@@ -144,21 +163,30 @@ fn canopy_of(point: vec2<f32>, wooded: f32, footprint: f32) -> Canopy {
     );
 }
 
+// What a stand is beside others; nothing where there is no wood.
+fn stand_at(point: vec2<f32>, footprint: f32, wooded: f32) -> f32 {
+    if wooded <= 0.0 {
+        return 0.0;
+    }
+    return octaves_at(Octaves(STANDS, 4u, 0.6, WOOD_SEED + WOOD_LAYERS + 1u), point, footprint).value;
+}
+
 // Crowns that are seen one by one, with so much dark between them.
-fn crowns(point: vec2<f32>, density: f32, between: f32, footprint: f32) -> Canopy {
+fn crowns(point: vec2<f32>, density: f32, between: f32, age: f32, footprint: f32) -> Canopy {
     let boughs = octaves_at(Octaves(BOUGHS, 3u, 0.65, WOOD_SEED + WOOD_LAYERS), point, footprint);
     let place = (point + BOUGHS_MOVED * boughs.slope) / WOOD_SPACING;
-    let tree = dome(place, WOOD_SEED, density);
+    let tree = dome(place, WOOD_SEED, density, age);
     let within = min(5.0 * tree.height, 1.0);
     let run = max(length(scene.sun.xy), 1e-6);
     let reach = min(CROWN_SHADE.x * run / max(scene.sun.z, 1e-3), CROWN_SHADE.y) / run;
-    let shaded = dome(place + reach * scene.sun.xy, WOOD_SEED, density);
+    let shaded = dome(place + reach * scene.sun.xy, WOOD_SEED, density, age);
     let dark = min(4.0 * shaded.height, 1.0) * (1.0 - within);
     return Canopy(
         within + (1.0 - within) * between,
-        within * (0.32 + 0.44 * tree.height + 0.3 * (tree.chance - 0.5) + LEAFY.x * boughs.value),
+        within * (0.32 + 0.44 * tree.height + 0.3 * (tree.chance - 0.5) + LEAFY.x * boughs.value) +
+            (1.0 - within) * WOOD_BELOW,
         within * (CROWN_STEEP.x * tree.slope + LEAFY.y * boughs.slope),
         1.0 - 0.55 * dark,
-        tree.chance,
+        tree.chance + 0.5 * STANDS_KIND * (age - MIDDLE_AGE) / STANDS_SIZE,
     );
 }

@@ -23,8 +23,12 @@ const BROADER: [f32; 2] = [0.25, 3.0];
 /// Share of a frond of a rosette that bears no leaves.
 const STIPE: f64 = 0.08;
 
-/// How open to the light a place at the root is.
+/// How open to the light a place at the root is, and a stem at least below a crown: the light comes in from all sides there.
 const MIN_OPENNESS: f32 = 0.35;
+const OF_STEMS: f32 = 0.8;
+
+/// Greatest breadth of a leaf of a crown beside its length, however broad the crown is.
+const LEAF_BREADTH: f64 = 0.62;
 
 /// Last level, with few leaves in all.
 const CHEAP: u32 = LEVELS as u32 - 1;
@@ -60,7 +64,8 @@ impl Builder {
         let outline = Outline::of(ifs, &shape);
         let fronds = habit.fronds();
         let stipe = if habit.is_rosette() { STIPE } else { 0.0 };
-        let walk = Walk::of(ifs, &shape, (habit, fronds.len() * outline.views()));
+        let copies = if is_crown(habit, &outline) { 1 } else { fronds.len() * outline.views() };
+        let walk = Walk::of(ifs, &shape, (habit, copies));
         Self { habit, shape, outline, walk, fronds, stipe }
     }
 
@@ -95,12 +100,18 @@ impl Builder {
 
     /// Whether coarse levels are hulls: of a crown that is a body and not a few planes.
     fn is_hull(&self) -> bool {
-        self.habit == Habit::Single && self.outline.views() == 2
+        is_crown(self.habit, &self.outline)
     }
 
     /// Whether a part is a leaf of those levels alone.
     fn is_in_hull(&self, part: &Part) -> bool {
         self.is_hull() && !part.is_stem && part.levels[0] >= HULLS[0].level
+    }
+
+    /// Breadth of a leaf of a crown beside that of the outline of the whole.
+    fn narrowed(&self) -> f64 {
+        let [left, right] = self.outline.at(0, self.outline.broadest());
+        (LEAF_BREADTH / (right - left).max(1e-9)).min(1.0)
     }
 
     /// The levels of a part, of which those of hulls have no leaves.
@@ -159,7 +170,9 @@ impl Builder {
     fn part(&self, plant: &mut Limbs, part: &Part, frond: &Frond, first_limb: u32) {
         let rows = ROWS.iter().find(|(size, _)| part.size > *size).map_or(1, |(_, rows)| *rows);
         let rows = if self.is_serrated(part) { TEETH } else { rows };
-        for view in 0..self.outline.views() {
+        // A crown has so many leaves that each needs no more than one blade, which looks to the front or aside by chance.
+        let only = (self.is_hull() && !part.is_stem).then_some((part.key >> 7) as usize % 2);
+        for view in (0..self.outline.views()).filter(|view| only.is_none_or(|only| only == *view)) {
             let leaf = Leaf { part, frond, first_limb, view, rows };
             if part.is_stem { self.stem(plant, &leaf) } else { self.leaf(plant, &leaf) }
         }
@@ -213,6 +226,7 @@ impl Builder {
         let found = self.outline.at(leaf.view, along);
         axis[across] = middle(found);
         let tooth = if self.is_serrated(leaf.part) && number.is_multiple_of(2) { BETWEEN_TEETH } else { 1.0 };
+        let tooth = if self.is_hull() { self.narrowed() * tooth } else { tooth };
         for (side, x) in sides.iter_mut().zip(found) {
             side[across] = if is_end { axis[across] } else { axis[across] + tooth * (x - axis[across]) };
         }
@@ -291,6 +305,11 @@ impl Builder {
     }
 }
 
+/// Whether a plant is a crown that is a body, and not a few planes.
+fn is_crown(habit: Habit, outline: &Outline) -> bool {
+    habit == Habit::Single && outline.views() == 2
+}
+
 /// The normal of a row, on the side of that of its shape.
 fn facing(sides: [Point; 2], ahead: Point, above: Point) -> Point {
     let normal = unit(cross(difference(sides[1], sides[0]), ahead));
@@ -345,6 +364,9 @@ fn open_to_light(plant: &mut Limbs) {
     for corner in &mut plant.corners {
         let share = length(corner.rest) / radius;
         corner.open = MIN_OPENNESS + (1.0 - MIN_OPENNESS) * share * (2.0 - share);
+        if corner.is_stem {
+            corner.open = corner.open.max(OF_STEMS);
+        }
     }
 }
 

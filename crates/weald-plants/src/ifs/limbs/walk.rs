@@ -21,8 +21,9 @@ const MIN_STEM: f64 = 0.08;
 const AXIS: f64 = 2.0;
 const AXIS_OF_CROWNS: f64 = 5.0;
 
-/// Most leaves of the finest level, over all fronds.
+/// Most leaves of the finest level, over all fronds, and of a crown.
 const MAX_LEAVES: usize = 16_384;
+const MAX_OF_CROWNS: usize = 32_000;
 
 /// Factor by which leaves become larger until they are few enough.
 const COARSER: f64 = 1.2;
@@ -75,6 +76,8 @@ struct Maps<'a> {
     spreads: bool,
     /// How much larger than it is a part counts that goes on along an axis.
     axis: f64,
+    /// Size up to which a part moves with the branch that bears it: the leaves of crowns would be too many limbs.
+    still: f64,
 }
 
 impl Maps<'_> {
@@ -112,10 +115,13 @@ impl Walk {
     /// The parts of a fractal that stands so many times in a plant, with leaves as fine as that allows.
     pub(super) fn of(ifs: &Ifs, shape: &Shape, (habit, copies): (Habit, usize)) -> Self {
         let axis = if habit == Habit::Single { AXIS_OF_CROWNS } else { AXIS };
-        let maps = Maps { ifs, spreads: matches!(habit, Habit::Crossed(_)), axis };
+        let spreads = matches!(habit, Habit::Crossed(_));
+        let most = if habit == Habit::Single { MAX_OF_CROWNS } else { MAX_LEAVES };
         let mut sizes = if habit.is_rosette() { OF_FRONDS } else { OF_CROWNS };
         loop {
-            if let Some(walk) = Self::down_to(&maps, shape, sizes, MAX_LEAVES / copies) {
+            let still = if habit == Habit::Single { sizes[0] } else { 0.0 };
+            let maps = Maps { ifs, spreads, axis, still };
+            if let Some(walk) = Self::down_to(&maps, shape, sizes, most / copies) {
                 return walk;
             }
             sizes[0] *= COARSER;
@@ -181,6 +187,7 @@ impl Walk {
         let (within, branch) = match weighted.role {
             Role::Stem => return None,
             Role::Trunk => (part.within.after(&own), part.branch),
+            Role::Branch if map.ratio() <= maps.still => (part.within.after(&own), part.branch),
             Role::Branch => {
                 let along = shape.share_above_root(part.within.at(own.at(maps.ifs.root())));
                 let order = self.branches[part.branch].order + 1;
@@ -203,7 +210,7 @@ mod tests {
     #[test]
     fn as_many_parts_as_are_allowed_are_taken_and_not_one_more() {
         let ifs = shapes::find("fern").expect("built in").ifs();
-        let (shape, maps) = (Shape::of(&ifs), Maps { ifs: &ifs, spreads: false, axis: AXIS });
+        let (shape, maps) = (Shape::of(&ifs), Maps { ifs: &ifs, spreads: false, axis: AXIS, still: 0.0 });
         let parts = |most| Walk::down_to(&maps, &shape, OF_FRONDS, most).map(|walk| walk.parts.len());
         let all = parts(usize::MAX).expect("not endless");
         assert_eq!(parts(all), Some(all));

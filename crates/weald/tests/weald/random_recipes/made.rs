@@ -154,9 +154,11 @@ impl Made {
                     if self.dice.one_in(5) {
                         let films = ["png", "apng"];
                         extension = films[self.dice.below(2)];
-                        // A picture of every second step is hundreds of the same kind.
-                        let key = ["frames = 3", "every = 50"][self.dice.below(2)];
-                        let _ = writeln!(text, "{key}");
+                        // A picture of every second step is hundreds of the same kind, and one of every fifty years of
+                        // five million are hundreds of thousands.
+                        let every = if self.text.contains("\"stream-power\"") { 2_000_000 } else { 50 };
+                        let key = ["frames = 3".to_owned(), format!("every = {every}")];
+                        let _ = writeln!(text, "{}", key[self.dice.below(2)]);
                     }
                     self.keys(&mut text, &(entry.parameters)(), attempt);
                     // Views have many pixels by default.
