@@ -34,7 +34,7 @@ fn drawn_as_blades(distance: f32) -> f32 {
 
 // Tone of grass that is seen as a whole: tufts and patches, and how they catch the light.
 fn tufts(point: vec2<f32>, footprint: f32) -> Grain {
-    return octaves_at(Octaves(7.0, 7u, 0.62, 0x3bu), point, footprint);
+    return octaves_at(Octaves(7.0, 10u, 0.68, 0x3bu), point, footprint);
 }
 
 // The light of grass that is seen as a whole.

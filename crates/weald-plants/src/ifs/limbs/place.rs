@@ -30,6 +30,9 @@ const OF_STEMS: f32 = 0.8;
 /// Greatest breadth of a leaf of a crown beside its length, however broad the crown is.
 const LEAF_BREADTH: f64 = 0.62;
 
+/// Length of the finest leaves of such a broad crown beside that of the part that each is: one sees through between them.
+const LEAF_LENGTH: f64 = 0.66;
+
 /// Last level, with few leaves in all.
 const CHEAP: u32 = LEVELS as u32 - 1;
 
@@ -112,6 +115,11 @@ impl Builder {
     fn narrowed(&self) -> f64 {
         let [left, right] = self.outline.at(0, self.outline.broadest());
         (LEAF_BREADTH / (right - left).max(1e-9)).min(1.0)
+    }
+
+    /// Length of a leaf beside that of its part.
+    fn long(&self, part: &Part) -> f64 {
+        if self.is_hull() && self.narrowed() < 1.0 && part.levels[0] == 0 { LEAF_LENGTH } else { 1.0 }
     }
 
     /// The levels of a part, of which those of hulls have no leaves.
@@ -230,6 +238,8 @@ impl Builder {
         for (side, x) in sides.iter_mut().zip(found) {
             side[across] = if is_end { axis[across] } else { axis[across] + tooth * (x - axis[across]) };
         }
+        let long = self.long(leaf.part);
+        let (axis, sides) = (axis.map(|x| long * x), sides.map(|side| side.map(|x| long * x)));
         let (place, normal) = self.placed(leaf.frond, &leaf.part.map, axis);
         let sides = sides.map(|side| self.placed(leaf.frond, &leaf.part.map, side).0);
         Row { axis: place, sides, normal: facing(sides, self.ahead(leaf, axis), normal), along }
