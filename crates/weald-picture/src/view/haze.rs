@@ -35,6 +35,10 @@ const LOWEST: f32 = 0.006;
 /// Scale heights above which there is no haze to speak of.
 const ALL_OF_IT: f32 = 6.0;
 
+/// Metres through which one sees at least in the haze before the sky: thicker haze lies near the ground, or the sky would be grey
+/// over a small landscape.
+const ABOVE: f32 = 80_000.0;
+
 /// By how much the haze before ground beyond the horizon grows with the logarithm of its distance.
 const BEYOND: f32 = 0.5;
 
@@ -81,7 +85,8 @@ impl Haze {
     pub(super) fn before_sky(self, radiance: Vector, ray: &Ray, sky: &Sky) -> Vector {
         let out =
             Ray { direction: [ray.direction[0], ray.direction[1], ray.direction[2].max(LOWEST)], ..*ray };
-        self.veil(radiance, &out, ALL_OF_IT * self.scale_height / out.direction[2], sky)
+        let above = Self { extinction: self.extinction.min(CONTRAST / ABOVE), ..self };
+        above.veil(radiance, &out, ALL_OF_IT * self.scale_height / out.direction[2], sky)
     }
 
     /// Length of the air at the lowest ground that would veil as much. A ray that goes on beyond the horizon has come down
