@@ -18,6 +18,8 @@ mod crags;
 mod flow;
 mod follow;
 mod fractures;
+mod ground_kinds;
+mod ground_noise;
 mod haze;
 mod horizon;
 mod intersection;
@@ -46,6 +48,7 @@ mod trees;
 mod twin;
 mod vector;
 mod water;
+mod wooded;
 mod woods;
 
 pub use albedo::albedo;

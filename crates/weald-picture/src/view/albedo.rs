@@ -2,7 +2,8 @@
 
 use rayon::prelude::*;
 
-use super::cover::{Cover, SurfacePoint};
+use super::cover::Cover;
+use super::ground_kinds::SurfacePoint;
 use super::keys::View;
 use super::setting::{GroundOf, Setting};
 use crate::Image;

@@ -1,7 +1,9 @@
 //! Bare rock of natural ground: its beds, the blocks into which joints break them, and where waves wash it bare.
 
-use super::cover::{Cover, SurfacePoint, SurfaceSample, THICK, Texture};
+use super::cover::Cover;
 use super::fractures::{Face, Fractures, fractures};
+use super::ground_kinds::{SurfacePoint, SurfaceSample};
+use super::ground_noise::{THICK, Texture};
 use super::rock::{BedSpot, Beds, beds, dip};
 use super::vector::{ramp, scale};
 use crate::colour::mix;

@@ -3,7 +3,7 @@
 
 use std::fmt::Write;
 
-use super::cover::Palette;
+use super::ground_kinds::Palette;
 use super::haze::{self, Haze};
 use super::lit_scene::{CUT_WATER, LitScene};
 use super::side::NORMALS;

@@ -6,8 +6,9 @@
 
 use rayon::prelude::*;
 
-use super::cover::{Limits, bed_spot};
 use super::crags::crags;
+use super::ground_kinds::Limits;
+use super::ground_noise::bed_spot;
 use super::rock::{BedSpot, stepped};
 use super::surface::Surface;
 use super::vector::ramp;

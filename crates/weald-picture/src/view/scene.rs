@@ -4,7 +4,7 @@ use std::f32::consts::FRAC_1_PI;
 use std::ops::Deref;
 
 use super::camera::{self, Camera};
-use super::cover::SurfacePoint;
+use super::ground_kinds::SurfacePoint;
 use super::keys::View;
 use super::lit_scene::{CUT_WATER, LitScene};
 use super::skylight::{self, Seen};

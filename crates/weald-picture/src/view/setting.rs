@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use super::cover::Limits;
 use super::flow::Flow;
+use super::ground_kinds::Limits;
 use super::keys::{GroundColour, View};
 use super::refined::{Coarse, finer};
 use super::side::Strata;

@@ -1,6 +1,6 @@
 //! The trees of the woods of a scene, one by one, for those who draw them as such.
 
-use super::cover::SurfacePoint;
+use super::ground_kinds::SurfacePoint;
 use super::lit_scene::LitScene;
 use super::water;
 use super::woods::Tree;
