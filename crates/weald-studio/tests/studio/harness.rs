@@ -12,7 +12,7 @@ use weald_studio::work::{Phase, Status};
 use weald_studio::{Chooser, Options, Studio};
 
 /// How long anything may take before a test says that it does not happen.
-const TIMEOUT: Duration = Duration::from_secs(180);
+const TIMEOUT: Duration = Duration::from_mins(3);
 
 pub(crate) struct Window {
     pub(crate) harness: Harness<'static, Studio>,
