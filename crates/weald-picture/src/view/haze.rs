@@ -10,7 +10,7 @@
 //! factor e every [`SCALE_HEIGHT`] metres, and the sum over a straight ray is taken exactly. Where land and sea go on to
 //! the horizon, a ray leads through no more air than up to there: the Earth is round, though the ground is drawn even.
 
-use super::sky::Sky;
+use super::sky::{LOWEST, Sky};
 use super::terrain::Ray;
 use super::vector::{Vector, add, filter};
 
@@ -28,9 +28,6 @@ const EARTH: f32 = 6.36e6;
 
 /// Least distance of the horizon: land that is higher is seen beyond that of even ground.
 const NEAREST_HORIZON: f32 = 60_000.0;
-
-/// Sine of the elevation below which the haze before the sky is all alike, as the sky is.
-const LOWEST: f32 = 0.006;
 
 /// Scale heights above which there is no haze to speak of.
 const ALL_OF_IT: f32 = 6.0;

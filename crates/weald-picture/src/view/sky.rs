@@ -8,7 +8,7 @@ pub(super) const PIECES: usize = 96;
 
 /// Sine of the elevation below which the sky is all alike: over ground that is drawn even, its brightest third of a degree
 /// would be a bright line.
-const LOWEST: f32 = 0.006;
+pub(super) const LOWEST: f32 = 0.006;
 
 /// How strongly haze scatters forward: the glow around the sun.
 const FORWARD: f32 = 0.76;

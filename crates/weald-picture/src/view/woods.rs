@@ -52,7 +52,7 @@ const MIDDLE_AGE: f32 = 1.35;
 const GROUPS: [f32; 2] = [0.8, 1.5];
 
 /// Stands, of other kinds and other ages than those beside them: their longest wavelength in metres, and what they add to the
-/// tone, to the size of crowns and to the number by which the kind of a tree is chosen.
+/// tone, to the size of crowns, and to the number by which the kind of a group is chosen.
 const STANDS: f32 = 310.0;
 const OF_TONE: f32 = 0.8;
 const OF_SIZE: f32 = 1.1;
@@ -213,7 +213,7 @@ pub(super) fn canopy(point: [f32; 2], density: f32, footprint: f32, sun: Vector)
     if single <= 0.0 {
         return far;
     }
-    let near = crowns(point, [density, floor], (MIDDLE_AGE + OF_SIZE * stand, footprint), sun);
+    let near = crowns(point, [density, floor], (stand, footprint), sun);
     let mixed = |near: f32, far: f32| far + single * (near - far);
     Canopy {
         share: mixed(near.share, far.share),
@@ -231,10 +231,16 @@ fn stand(point: [f32; 2], footprint: f32) -> f32 {
 }
 
 /// Crowns of a density that are seen one by one, with so much dark between them.
-fn crowns(point: [f32; 2], [density, floor]: [f32; 2], (age, footprint): (f32, f32), sun: Vector) -> Canopy {
+fn crowns(
+    point: [f32; 2],
+    [density, floor]: [f32; 2],
+    (stand, footprint): (f32, f32),
+    sun: Vector,
+) -> Canopy {
     let boughs = Octaves { wavelength: BOUGHS, count: 3, gain: 0.65, seed: SEED + LAYERS };
     let Grain { value, slope } = boughs.at([point[0], point[1], 0.0], footprint);
     let place = [0, 1].map(|axis| (point[axis] + MOVED * slope[axis]) / SPACING);
+    let age = MIDDLE_AGE + OF_SIZE * stand;
     let tree = dome(place, SEED, [density, age]);
     let within = (5.0 * tree.height).min(1.0);
     let run = (sun[0] * sun[0] + sun[1] * sun[1]).sqrt().max(1e-6);
@@ -247,7 +253,7 @@ fn crowns(point: [f32; 2], [density, floor]: [f32; 2], (age, footprint): (f32, f
         tone: within * tone + (1.0 - within) * BELOW,
         slope: [0, 1].map(|axis| within * (STEEP[0] * tree.slope[axis] + LEAFY[1] * slope[axis])),
         open: 1.0 - 0.55 * dark,
-        chance: tree.chance + 0.5 * OF_KIND * (age - MIDDLE_AGE) / OF_SIZE,
+        chance: tree.chance,
     }
 }
 

@@ -27,7 +27,7 @@ const MIDDLE_AGE = 1.35;
 const GROUPS = vec2<f32>(0.8, 1.5);
 
 // Stands: their longest wavelength in metres, and what they add to the tone, to the size of crowns and to the number by which
-// the kind of a tree is chosen.
+// the kind of a group is chosen.
 const STANDS = 310.0;
 const STANDS_TONE = 0.8;
 const STANDS_SIZE = 1.1;
@@ -152,7 +152,7 @@ fn canopy_of(point: vec2<f32>, wooded: f32, footprint: f32) -> Canopy {
     var near = far;
     let looks = select(0u, 1u, single > 0.0 && density > 0.0);
     for (var look = 0u; look < looks; look++) {
-        near = crowns(point, density, between, MIDDLE_AGE + STANDS_SIZE * stand, footprint);
+        near = crowns(point, density, between, stand, footprint);
         near.tone += 0.45 * lumps;
         near.slope += slope;
     }
@@ -172,9 +172,10 @@ fn stand_at(point: vec2<f32>, footprint: f32, wooded: f32) -> f32 {
 }
 
 // Crowns that are seen one by one, with so much dark between them.
-fn crowns(point: vec2<f32>, density: f32, between: f32, age: f32, footprint: f32) -> Canopy {
+fn crowns(point: vec2<f32>, density: f32, between: f32, stand: f32, footprint: f32) -> Canopy {
     let boughs = octaves_at(Octaves(BOUGHS, 3u, 0.65, WOOD_SEED + WOOD_LAYERS), point, footprint);
     let place = (point + BOUGHS_MOVED * boughs.slope) / WOOD_SPACING;
+    let age = MIDDLE_AGE + STANDS_SIZE * stand;
     let tree = dome(place, WOOD_SEED, density, age);
     let within = min(5.0 * tree.height, 1.0);
     let run = max(length(scene.sun.xy), 1e-6);
@@ -187,6 +188,6 @@ fn crowns(point: vec2<f32>, density: f32, between: f32, age: f32, footprint: f32
             (1.0 - within) * WOOD_BELOW,
         within * (CROWN_STEEP.x * tree.slope + LEAFY.y * boughs.slope),
         1.0 - 0.55 * dark,
-        tree.chance + 0.5 * STANDS_KIND * (age - MIDDLE_AGE) / STANDS_SIZE,
+        tree.chance,
     );
 }

@@ -40,7 +40,8 @@ pub(super) struct Slopes<'a> {
 impl Slopes<'_> {
     /// Lets the ground creep by `reach` = D dt, in m². Cells of the base level keep their height, and nothing passes to where
     /// there is no data. `spare` is as long as `heights`, of which it takes the place; what creeps into each cell with a river
-    /// is added to `carried_off`, in metres. Ground that has come to rest is left so: small cells may ask for millions of passes. Gives how many were made.
+    /// is added to `carried_off`, in metres. Ground that has come to rest is left so: small cells may ask for millions of
+    /// passes. Gives how many were made.
     pub(super) fn creep(
         &self,
         reach: f64,

@@ -48,6 +48,8 @@ pub(super) struct Builder {
     fronds: Vec<Frond>,
     /// Share of a frond below its first leaves.
     stipe: f64,
+    /// Breadth of a leaf beside that of the outline of the whole.
+    narrowed: f64,
 }
 
 /// A leaf to be put in space.
@@ -69,7 +71,8 @@ impl Builder {
         let stipe = if habit.is_rosette() { STIPE } else { 0.0 };
         let copies = if is_crown(habit, &outline) { 1 } else { fronds.len() * outline.views() };
         let walk = Walk::of(ifs, &shape, (habit, copies));
-        Self { habit, shape, outline, walk, fronds, stipe }
+        let narrowed = if is_crown(habit, &outline) { narrowed(&outline) } else { 1.0 };
+        Self { habit, shape, outline, walk, fronds, stipe, narrowed }
     }
 
     pub(super) fn plant(&self) -> Limbs {
@@ -81,20 +84,20 @@ impl Builder {
                 self.part(&mut plant, part, frond, first_limb);
             }
             let are_few = self.fronds.len() * self.outline.views() <= FEW;
-            if !self.is_hull() && (are_few || number % 2 == 0) {
+            if !self.is_crown() && (are_few || number % 2 == 0) {
                 self.cheap(&mut plant, frond, first_limb);
             }
         }
-        let leafy = if self.is_hull() { HULLS[0].level } else { LEVELS as u32 };
+        let leafy = if self.is_crown() { HULLS[0].level } else { LEVELS as u32 };
         even_areas(&mut plant, leafy);
-        if self.is_hull() {
+        if self.is_crown() {
             for hull in &HULLS {
                 hull.add(&mut plant, &self.outline, |flat| self.on_frond(&self.fronds[0], flat).0);
             }
         }
         bring_to_one_metre(&mut plant);
         open_to_light(&mut plant);
-        if self.is_hull() {
+        if self.is_crown() {
             let hulls = plant.corners.iter_mut().filter(|corner| corner.levels[0] >= leafy);
             hulls.for_each(|corner| corner.open *= AMONG_LEAVES);
         }
@@ -102,30 +105,24 @@ impl Builder {
     }
 
     /// Whether coarse levels are hulls: of a crown that is a body and not a few planes.
-    fn is_hull(&self) -> bool {
+    fn is_crown(&self) -> bool {
         is_crown(self.habit, &self.outline)
     }
 
     /// Whether a part is a leaf of those levels alone.
     fn is_in_hull(&self, part: &Part) -> bool {
-        self.is_hull() && !part.is_stem && part.levels[0] >= HULLS[0].level
-    }
-
-    /// Breadth of a leaf of a crown beside that of the outline of the whole.
-    fn narrowed(&self) -> f64 {
-        let [left, right] = self.outline.at(0, self.outline.broadest());
-        (LEAF_BREADTH / (right - left).max(1e-9)).min(1.0)
+        self.is_crown() && !part.is_stem && part.levels[0] >= HULLS[0].level
     }
 
     /// Length of a leaf beside that of its part.
     fn long(&self, part: &Part) -> f64 {
-        if self.is_hull() && self.narrowed() < 1.0 && part.levels[0] == 0 { LEAF_LENGTH } else { 1.0 }
+        if self.narrowed < 1.0 && part.levels[0] == 0 { LEAF_LENGTH } else { 1.0 }
     }
 
     /// The levels of a part, of which those of hulls have no leaves.
     fn levels_of(&self, part: &Part) -> [u32; 2] {
         let [first, last] = part.levels;
-        [first, if self.is_hull() { last.min(HULLS[0].level - 1) } else { last }]
+        [first, if self.is_crown() { last.min(HULLS[0].level - 1) } else { last }]
     }
 
     fn placed(&self, frond: &Frond, map: &Map, flat: Point) -> (Point, Point) {
@@ -179,7 +176,7 @@ impl Builder {
         let rows = ROWS.iter().find(|(size, _)| part.size > *size).map_or(1, |(_, rows)| *rows);
         let rows = if self.is_serrated(part) { TEETH } else { rows };
         // A crown has so many leaves that each needs no more than one blade, which looks to the front or aside by chance.
-        let only = (self.is_hull() && !part.is_stem).then_some((part.key >> 7) as usize % 2);
+        let only = (self.is_crown() && !part.is_stem).then_some((part.key >> 7) as usize % 2);
         for view in (0..self.outline.views()).filter(|view| only.is_none_or(|only| only == *view)) {
             let leaf = Leaf { part, frond, first_limb, view, rows };
             if part.is_stem { self.stem(plant, &leaf) } else { self.leaf(plant, &leaf) }
@@ -234,7 +231,7 @@ impl Builder {
         let found = self.outline.at(leaf.view, along);
         axis[across] = middle(found);
         let tooth = if self.is_serrated(leaf.part) && number.is_multiple_of(2) { BETWEEN_TEETH } else { 1.0 };
-        let tooth = if self.is_hull() { self.narrowed() * tooth } else { tooth };
+        let tooth = self.narrowed * tooth;
         for (side, x) in sides.iter_mut().zip(found) {
             side[across] = if is_end { axis[across] } else { axis[across] + tooth * (x - axis[across]) };
         }
@@ -318,6 +315,12 @@ impl Builder {
 /// Whether a plant is a crown that is a body, and not a few planes.
 fn is_crown(habit: Habit, outline: &Outline) -> bool {
     habit == Habit::Single && outline.views() == 2
+}
+
+/// Breadth of a leaf of a crown of such an outline beside that of the outline.
+fn narrowed(outline: &Outline) -> f64 {
+    let [left, right] = outline.at(0, outline.broadest());
+    (LEAF_BREADTH / (right - left).max(1e-9)).min(1.0)
 }
 
 /// The normal of a row, on the side of that of its shape.
