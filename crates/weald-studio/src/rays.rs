@@ -96,12 +96,14 @@ pub(crate) struct Rays {
     is_behind: bool,
     textures: [Option<TextureHandle>; 2],
     seconds: f64,
+    /// Seconds that a finer picture may take when all rests.
+    at_rest: f64,
     error: Option<String>,
 }
 
 impl Rays {
-    /// In the window of a context.
-    pub(crate) fn new(context: &Context) -> Self {
+    /// In the window of a context, with pictures at rest that are as fine as their place, or as the processor is quick.
+    pub(crate) fn new(context: &Context, finest: bool) -> Self {
         Self {
             context: context.clone(),
             wanted: None,
@@ -115,6 +117,7 @@ impl Rays {
             is_behind: false,
             textures: [None, None],
             seconds: 0.0,
+            at_rest: if finest { f64::INFINITY } else { AT_REST },
             error: None,
         }
     }
@@ -160,7 +163,7 @@ impl Rays {
         let finer = |part: usize| f64::from(PARTS[part] / PARTS[picture.part]).powi(2) * picture.seconds;
         self.moving = (0..PARTS.len()).rev().find(|&part| finer(part) < MOVING).unwrap_or(0);
         let next = picture.part + 1;
-        if next < PARTS.len() && finer(next) < AT_REST {
+        if next < PARTS.len() && finer(next) < self.at_rest {
             self.picture = Some(Picture::begin(next, full));
         }
     }

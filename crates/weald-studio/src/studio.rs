@@ -109,6 +109,8 @@ pub struct Options {
     pub chooser: Option<Chooser>,
     /// Whether it begins with a simulation that runs, and no question and no control before [`Studio::show_controls`].
     pub plays: bool,
+    /// Whether a picture at rest becomes as fine as its place, however long that takes: who compares pictures wants it.
+    pub finest: bool,
 }
 
 /// What is typed to find a command, and which of those found is chosen.
@@ -265,10 +267,10 @@ impl Studio {
             #[cfg(target_arch = "wasm32")]
             None => return Err(Error::Run("a page has a worker".to_owned())),
         };
-        let on_device = window.map(|window| Viewport::new(window, context)).transpose()?;
+        let on_device = window.map(|window| Viewport::new(window, context, options.finest)).transpose()?;
         let viewport: Box<dyn Drawing> = match on_device {
             Some(viewport) => Box::new(viewport),
-            None => Box::new(Rays::new(context)),
+            None => Box::new(Rays::new(context, options.finest)),
         };
         let start = what.map(Project::open).transpose()?;
         let start = start.or_else(|| own.left_behind().into_iter().find_map(Project::left_in));

@@ -98,15 +98,17 @@ pub(crate) struct Viewport {
     moving: usize,
     /// Seconds that the last picture took.
     seconds: f64,
+    /// Seconds that a finer picture may take when all rests.
+    at_rest: f64,
     error: Option<String>,
 }
 
 impl Viewport {
-    /// On the device of a window.
+    /// On the device of a window, with pictures at rest that are as fine as their place, or as the device is quick.
     ///
     /// # Errors
     /// [`Error::Device`] where that was opened with too little, [`Error::Run`] where the system has no thread left.
-    pub(crate) fn new(window: &WindowDevice, context: &Context) -> Result<Self, Error> {
+    pub(crate) fn new(window: &WindowDevice, context: &Context, finest: bool) -> Result<Self, Error> {
         let gpu = Gpu::shared(&window.adapter, &window.device, &window.queue)?;
         #[cfg(not(target_arch = "wasm32"))]
         if gpu.is_software() && !window.target_format.is_srgb() {
@@ -133,6 +135,7 @@ impl Viewport {
             submitted: None,
             moving: 0,
             seconds: 0.0,
+            at_rest: if finest { f64::INFINITY } else { AT_REST },
             error: None,
         })
     }
@@ -279,7 +282,7 @@ impl Drawing for Viewport {
         // What rests becomes finer step by step.
         let next = self.drawn.map_or(self.moving, |(_, drawn)| {
             let finer = (drawn + 1).min(SCALES.len() - 1);
-            if self.seconds * growth(drawn, finer) <= AT_REST { finer } else { drawn }
+            if self.seconds * growth(drawn, finer) <= self.at_rest { finer } else { drawn }
         });
         let scale = if rests { next } else { self.moving };
         let is_finer = rests && self.drawn.is_some_and(|(_, drawn)| scale > drawn);

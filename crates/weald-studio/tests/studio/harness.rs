@@ -38,6 +38,8 @@ impl Window {
 
     /// The same with all options.
     pub(crate) fn with(options: Options) -> Self {
+        // How fine a picture is must not hang on how busy the machine is.
+        let options = Options { finest: true, ..options };
         let builder: HarnessBuilder<Studio> =
             Harness::builder().with_size([1200.0, 760.0]).wgpu_setup(weald_studio::device_setup());
         let harness = builder.build_eframe(move |context| {
