@@ -232,7 +232,7 @@ pub(crate) struct BenchArguments {
     #[arg(long, value_name = "N", requires = "render", value_parser = value_parser!(u32).range(1..))]
     pub(crate) sets: Option<u32>,
     /// Recipes that are measured in place of all else: each step and each output; with --render their first view, of 640 ×
-    /// 360 pixels with one sample
+    /// 360 pixels with one sample, still and from a camera that moves
     #[arg(long, value_name = "RECIPE.toml", num_args = 1.., conflicts_with_all = ["sets", "fractals", "grass"])]
     pub(crate) recipe: Vec<PathBuf>,
     /// Where a person stands who looks at their middles from 1.7 m above the ground, with --recipe

@@ -77,7 +77,7 @@ fn recipes(gpu: &Gpu, arguments: &BenchArguments, print: &mut Print<'_>) -> Resu
     let [width, height] = SIZE_OF_RECIPES;
     print(&format!(
         "milliseconds of {width} × {height} pixels with one sample, the least of {TIMES_OF_RECIPES}\n\n{:<38}{PARTS}  \
-         marched  marched/picture",
+         moving  marched  marched/moving",
         "recipe"
     ));
     let keys = arguments.standing.map_or_else(Vec::new, standing);
@@ -93,15 +93,18 @@ fn recipes(gpu: &Gpu, arguments: &BenchArguments, print: &mut Print<'_>) -> Resu
         renderer.plant(&scene, &landscape)?;
         let camera = scene.camera();
         renderer.render(&camera)?;
+        let cameras = moving(&scene, arguments.standing.is_some());
+        let pace = renderer.pace(&cameras)?.div_f64(cameras.len() as f64);
         let timings = renderer.measure(&camera, TIMES_OF_RECIPES)?;
         let begun = Instant::now();
         view.seen_from(&landscape, camera)?;
         let marched = begun.elapsed();
-        let ratio = marched.as_secs_f64() / timings.picture.as_secs_f64().max(1e-9);
+        let ratio = marched.as_secs_f64() / pace.as_secs_f64().max(1e-9);
         print(&format!(
-            "{:<38}{} {:>8.0} {ratio:>16.1}",
+            "{:<38}{} {:>8.2} {:>8.0} {ratio:>16.1}",
             recipe.display().to_string(),
             parts(&timings),
+            milliseconds(pace),
             milliseconds(marched)
         ));
     }
@@ -111,6 +114,36 @@ fn recipes(gpu: &Gpu, arguments: &BenchArguments, print: &mut Print<'_>) -> Resu
 /// Size of the pictures of recipes, and how many of each are drawn.
 const SIZE_OF_RECIPES: [u32; 2] = [640, 360];
 const TIMES_OF_RECIPES: u32 = 5;
+
+/// How a camera moves: seconds from one picture to the next, degrees that it turns in a second, metres that it walks in one at
+/// least, and seconds to where it looks.
+const APART: f64 = 0.1;
+const TURN_DEG: f64 = 5.0;
+const WALK: f64 = 1.4;
+const FLIGHT: f64 = 60.0;
+
+/// Pictures of a camera that moves.
+const MOVED: u32 = 30;
+
+/// Cameras along a way that begins at that of a scene: what pictures have in common is drawn once. A person walks over the
+/// ground; others fly to what the camera looks at within a minute.
+fn moving(scene: &LitScene, walks: bool) -> Vec<Camera> {
+    let camera = scene.camera();
+    let [east, north] = [0, 1].map(|axis| f64::from(scene.middle()[axis] - camera.eye[axis]));
+    let speed = if walks { WALK } else { (east.hypot(north) / FLIGHT).max(WALK) };
+    let run = f64::from(camera.forward[0].hypot(camera.forward[1])).max(1e-6);
+    let ground =
+        |[east, north, _]: [f32; 3]| scene.top_at([f64::from(east), -f64::from(north)]).unwrap_or_default();
+    let at = |number: u32| {
+        let way = (f64::from(number) * APART * speed / run) as f32;
+        let [east, north, up] = camera.eye;
+        let eye = [east + way * camera.forward[0], north + way * camera.forward[1], up];
+        let rise = if walks { ground(eye) - ground(camera.eye) } else { 0.0 };
+        let eye = [eye[0], eye[1], up + rise];
+        camera.at(eye).turned(eye, f64::from(number) * TURN_DEG * APART)
+    };
+    (1..=MOVED).map(at).collect()
+}
 
 /// The keys of a person's view from there.
 fn standing(Point { east, south, .. }: Point) -> Vec<(String, String)> {

@@ -13,9 +13,10 @@ fn leaf(list: u32, vertex: u32, instance_number: u32) -> Leaf {
     let known = lit_sets[place];
     let root = known.root;
     let distance = length(root - frame.moment.yzw);
+    let as_counted = counted(distance);
     let tall = height_share(rank_of(instance.tuft), distance);
     let row = vertex / 2u;
-    let along = (f32(row) - f32(row % 2u) * row_slide(list, distance)) / f32(choice.rows[list] - 1u);
+    let along = (f32(row) - f32(row % 2u) * row_slide(list, as_counted)) / f32(choice.rows[list] - 1u);
     let side = f32(vertex % 2u) * 2.0 - 1.0;
     var blade = blade_of(instance.species, instance.tuft, instance_number % BLADES);
     // Fewer blades are broader, so that a meadow stays as thick; none is thinner than it can be seen.

@@ -2,7 +2,9 @@
 //!
 //! Each cascade is a square across the sun's rays around the sphere that holds what the camera sees up to a distance, so
 //! that it neither turns nor grows with the camera; its middle moves by whole texels, so that the edges of shadows stay
-//! where they are (Valient 2008, "Stable rendering of cascaded shadow maps", Shader X6). The last holds all.
+//! where they are (Valient 2008, "Stable rendering of cascaded shadow maps", Shader X6). What differs: it moves by an eighth
+//! of its side at once, and what is drawn into it is chosen from a point that moves by steps as well, so that a cascade is
+//! drawn once for many pictures of a camera that moves. The last holds all.
 
 use weald::picture::Camera;
 
@@ -17,6 +19,13 @@ pub(super) const TEXELS: u32 = 2048;
 /// Distances from the camera, in metres, up to which all but the last reach.
 const REACHES: [f32; CASCADES - 1] = [36.0, 300.0, 2400.0];
 
+/// How many times the middle of a cascade moves along its side.
+const STRIDES: f32 = 8.0;
+
+/// Metres by which the point moves from which is chosen what all but the last hold, and how finely; among trees, whose shadows
+/// would leap, it is the camera's.
+const EYE_STRIDES: [f32; CASCADES - 1] = [0.5, 8.0, 32.0];
+
 /// Share by which the last is wider than the landscape.
 const MARGIN: f32 = 1.02;
 
@@ -30,6 +39,8 @@ pub(super) struct Cascades {
     pub(super) depths: [f32; 2],
     /// Middle and half the sides of each.
     pub(super) squares: [[f32; 4]; CASCADES],
+    /// From where is chosen what all but the last hold; with how far the eye is from there at most.
+    pub(super) froms: [[f32; 4]; CASCADES - 1],
 }
 
 fn dot(a: [f32; 3], b: [f32; 3]) -> f32 {
@@ -57,7 +68,12 @@ fn extent(of: &Box3, along: [f32; 3]) -> [f32; 2] {
 
 impl Cascades {
     /// For a sun in a direction and a landscape within a box, around which ground goes on or not.
-    pub(super) fn new(sun: [f32; 3], camera: &Camera, landscape: &Box3, has_horizon: bool) -> Self {
+    pub(super) fn new(
+        sun: [f32; 3],
+        (camera, detail_from, is_among_trees): (&Camera, [f32; 3], bool),
+        landscape: &Box3,
+        has_horizon: bool,
+    ) -> Self {
         let [right, up] = across(sun);
         let around = if has_horizon { REACHES[CASCADES - 2] } else { 0.0 };
         let [low, high] = extent(landscape, sun);
@@ -69,7 +85,15 @@ impl Cascades {
         let squares = std::array::from_fn(|cascade| {
             near.get(cascade).copied().unwrap_or([middle_x, middle_y, half_x, half_y])
         });
-        Self { right, up, depths: [high, (high - low).max(1e-3)], squares }
+        let froms = EYE_STRIDES.map(|stride| {
+            if is_among_trees {
+                let [x, y, z] = detail_from;
+                return [x, y, z, 0.0];
+            }
+            let [x, y, z] = detail_from.map(|at| (at / stride).round() * stride);
+            [x, y, z, 0.5 * stride * 3.0_f32.sqrt()]
+        });
+        Self { right, up, depths: [high, (high - low).max(1e-3)], squares, froms }
     }
 
     /// Metres of a texel of the last, which holds all.
@@ -94,9 +118,11 @@ fn square(camera: &Camera, axes: [[f32; 3]; 2], reach: f32) -> [f32; 4] {
         (reach, reach * spread)
     };
     let middle: [f32; 3] = std::array::from_fn(|axis| camera.eye[axis] + ahead * camera.forward[axis]);
-    let texel = 2.0 * radius / TEXELS as f32;
-    let [x, y] = axes.map(|axis| (dot(middle, axis) / texel).round() * texel);
-    [x, y, radius, radius]
+    // As much wider as its middle may lie off.
+    let half = radius / (1.0 - 1.0 / STRIDES);
+    let stride = 2.0 * half / STRIDES;
+    let [x, y] = axes.map(|axis| (dot(middle, axis) / stride).round() * stride);
+    [x, y, half, half]
 }
 
 #[cfg(test)]
@@ -117,7 +143,7 @@ mod tests {
         let scene = scene();
         let landscape = [[0.0, -200.0, -10.0], [200.0, 0.0, 400.0]];
         let camera = Camera::looking([50.0, -90.0, 30.0], [0.6, 0.8, 0.0], [0.5, 0.3]);
-        let first = Cascades::new(scene.sun(), &camera, &landscape, false);
+        let first = Cascades::new(scene.sun(), (&camera, camera.eye, false), &landscape, false);
         let mut moved = 0;
         for step in 1..40_u16 {
             let step = f32::from(step);
@@ -127,7 +153,7 @@ mod tests {
                 [turn.cos(), turn.sin(), 0.0],
                 [0.5, 0.3],
             );
-            let next = Cascades::new(scene.sun(), &camera, &landscape, false);
+            let next = Cascades::new(scene.sun(), (&camera, camera.eye, false), &landscape, false);
             assert_eq!(next.squares[CASCADES - 1], first.squares[CASCADES - 1], "the last holds all, always");
             for (a, b) in first.squares.iter().zip(&next.squares).take(CASCADES - 1) {
                 assert_eq!(a[2], b[2]);
@@ -143,7 +169,7 @@ mod tests {
     fn the_last_cascade_holds_every_corner_and_depths_begin_at_the_sun() {
         let scene = scene();
         let landscape = [[0.0, -200.0, -10.0], [200.0, 0.0, 400.0]];
-        let cascades = Cascades::new(scene.sun(), &scene.camera(), &landscape, false);
+        let cascades = Cascades::new(scene.sun(), (&scene.camera(), [0.0; 3], false), &landscape, false);
         let [x, y, half_x, half_y] = cascades.squares[CASCADES - 1];
         for bits in 0..8_usize {
             let corner: [f32; 3] = std::array::from_fn(|axis| landscape[bits >> axis & 1][axis]);

@@ -45,7 +45,11 @@ fn mark(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
     var chosen = LISTS;
     if number < count {
         let instance = unpack(sets[number]);
-        chosen = list_of(instance.tuft, grass_root(instance.place));
+        // A loop of one turn or none: software would look up all heights in a condition.
+        let looks = select(0u, 1u, may_be_drawn(instance.tuft, instance.place));
+        for (var look = 0u; look < looks; look++) {
+            chosen = list_of(instance.tuft, grass_root(instance.place));
+        }
     }
     // The counts of three lists at once, ten bits each: none exceeds the 256 sets of a workgroup.
     let one = select(0u, 1u << (10u * chosen), chosen < LISTS);

@@ -33,7 +33,7 @@ impl Renderer {
             self.follower = Some(Follower::new(&self.gpu, scene, &self.maps, self.terrain.squares())?);
         }
         self.renew_bounds()?;
-        self.shadows.whole_is_drawn = false;
+        self.shadows.forget();
         let Some(follower) = &mut self.follower else { return Ok(()) };
         let context = &self.gpu.context;
         let mut encoder = context.device.create_command_encoder(&CommandEncoderDescriptor::default());

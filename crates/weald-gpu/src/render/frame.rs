@@ -34,7 +34,9 @@ struct Numbers {
     sun_right: [f32; 4],
     sun_up: [f32; 4],
     cascades: [[f32; 4]; CASCADES],
+    casters_from: [[f32; 4]; CASCADES - 1],
     woods: [f32; 4],
+    stale: [f32; CASCADES],
 }
 
 /// What a camera's ground was selected for.
@@ -51,6 +53,8 @@ pub(super) struct Drawn {
     pub(super) cascades: Cascades,
     /// How far trees of woods are drawn one by one, in metres.
     pub(super) woods: f32,
+    /// The cascades that are drawn anew.
+    pub(super) stale: [bool; CASCADES],
 }
 
 /// The uniforms of a picture on the device, and what shadows are looked up in.
@@ -61,10 +65,10 @@ pub(super) struct Frame {
     /// The numbers alone, for what throws shadows.
     pub(super) caster_layout: BindGroupLayout,
     pub(super) caster_group: BindGroup,
-    /// Those of the sun's last cascade, which no camera changes.
-    pub(super) still_group: BindGroup,
+    /// The numbers by which each cascade of the sun is drawn: the last, which no camera changes, has none of a camera.
+    pub(super) cascade_groups: [BindGroup; CASCADES],
     numbers: Store,
-    still: Store,
+    of_cascades: [Store; CASCADES],
     sampler: Sampler,
 }
 
@@ -72,7 +76,8 @@ impl Frame {
     pub(super) fn new(gpu: &Gpu, shadows: &Canvas, canopy: &Canvas) -> Result<Self, Error> {
         let usage = BufferUsages::UNIFORM | BufferUsages::COPY_DST;
         let store = || Store::new(gpu, "the numbers of a picture", size_of::<Numbers>() as u64, usage);
-        let (numbers, still) = (store()?, store()?);
+        let numbers = store()?;
+        let of_cascades = [store()?, store()?, store()?, store()?];
         let device = &gpu.context.device;
         let layout = |entries: &[BindGroupLayoutEntry]| {
             device.create_bind_group_layout(&BindGroupLayoutDescriptor { label: Some("frame"), entries })
@@ -90,8 +95,10 @@ impl Frame {
             let entry = BindGroupEntry { binding: 0, resource: numbers.buffer.as_entire_binding() };
             bound(gpu, &caster_layout, &[entry])
         };
-        let (caster_group, still_group) = (alone(&numbers)?, alone(&still)?);
-        Ok(Self { layout, group, caster_layout, caster_group, still_group, numbers, still, sampler })
+        let caster_group = alone(&numbers)?;
+        let [a, b, c, d] = &of_cascades;
+        let cascade_groups = [alone(a)?, alone(b)?, alone(c)?, alone(d)?];
+        Ok(Self { layout, group, caster_layout, caster_group, cascade_groups, numbers, of_cascades, sampler })
     }
 
     /// Takes another canopy.
@@ -105,10 +112,21 @@ impl Frame {
         write(into, &self.numbers, camera, width, drawn);
     }
 
-    /// Sets those of the sun's last cascade: nothing slides, and no wind blows.
-    pub(super) fn write_still(&self, into: &mut Upload<'_>, camera: &Camera, width: u32, drawn: &Drawn) {
-        let slides = [[1e30, 2e30, 0.0, 0.0]; MAX_LEVELS];
-        write(into, &self.still, camera, width, &Drawn { slides, seconds: 0.0, ..*drawn });
+    /// Sets those of a cascade of the sun, whose detail is chosen from a viewpoint; of the last nothing slides, and no wind
+    /// blows there.
+    pub(super) fn write_cascade(
+        &self,
+        into: &mut Upload<'_>,
+        (number, stand): (usize, Viewpoint),
+        (camera, width): (&Camera, u32),
+        drawn: &Drawn,
+    ) {
+        let own = if let Some([x, y, z, _]) = drawn.cascades.froms.get(number) {
+            Drawn { stand, detail_from: [*x, *y, *z], ..*drawn }
+        } else {
+            Drawn { slides: [[1e30, 2e30, 0.0, 0.0]; MAX_LEVELS], seconds: 0.0, ..*drawn }
+        };
+        write(into, &self.of_cascades[number], camera, width, &own);
     }
 }
 
@@ -127,7 +145,9 @@ fn write(into: &mut Upload<'_>, store: &Store, camera: &Camera, width: u32, draw
         sun_right: with(drawn.cascades.right, drawn.cascades.depths[0]),
         sun_up: with(drawn.cascades.up, drawn.cascades.depths[1]),
         cascades: drawn.cascades.squares,
+        casters_from: drawn.cascades.froms,
         woods: [drawn.woods, 0.0, 0.0, 0.0],
+        stale: drawn.stale.map(f32::from),
     };
     into.write(store, bytemuck::bytes_of(&numbers));
 }

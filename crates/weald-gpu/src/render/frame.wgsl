@@ -18,16 +18,25 @@ struct Frame {
     sun_up: vec4<f32>,
     // Middle and half the sides of each cascade, along those directions.
     cascades: array<vec4<f32>, 4>,
+    // From where is chosen what all cascades but the last hold; with how far the eye is from there at most.
+    casters_from: array<vec4<f32>, 3>,
     // How far trees of woods are drawn one by one, in metres; 0 where none are.
     woods: vec4<f32>,
+    // 1 for each cascade that is drawn anew.
+    stale: vec4<f32>,
 }
 
 @group(0) @binding(0) var<uniform> frame: Frame;
 
 // The share of the trees of woods that are drawn one by one around a point: the others are on its ground alone.
 fn drawn_as_trees(point: vec3<f32>) -> f32 {
+    return drawn_as_trees_at(length(point - frame.moment.yzw));
+}
+
+// The same at a distance.
+fn drawn_as_trees_at(distance: f32) -> f32 {
     let reach = frame.woods.x;
-    return clamp((reach - length(point - frame.moment.yzw)) / max(0.4 * reach, 1e-3), 0.0, 1.0);
+    return clamp((reach - distance) / max(0.4 * reach, 1e-3), 0.0, 1.0);
 }
 
 // Depth is 1 at the nearest distance and 0 infinitely far, which is what keeps all digits of floating point.

@@ -3,6 +3,7 @@
 
 use std::ops::Range;
 
+use weald::picture::Camera;
 use wgpu::{
     BindGroup, BindGroupDescriptor, BindGroupEntry, BindGroupLayout, BindGroupLayoutDescriptor,
     BindGroupLayoutEntry, BindingResource, BindingType, BlendComponent, BlendFactor, BlendOperation,
@@ -22,10 +23,14 @@ use crate::gpu::context::Context;
 pub(super) const DEPTHS_GROUP: u32 = 2;
 const DEPTHS_BINDING: u32 = 1;
 
+/// Binding of the depths of what is nearest.
+const FRONT_BINDING: u32 = 4;
+
 /// How the depths are declared in a shader, for pictures of so many samples.
 pub(super) fn declaration(samples: u32) -> String {
     let kind = if samples > 1 { "texture_depth_multisampled_2d" } else { "texture_depth_2d" };
-    format!("@group({DEPTHS_GROUP}) @binding({DEPTHS_BINDING}) var ground_depths: {kind};")
+    let declared = |binding, name| format!("@group({DEPTHS_GROUP}) @binding({binding}) var {name}: {kind};");
+    declared(DEPTHS_BINDING, "ground_depths") + "\n" + &declared(FRONT_BINDING, "front_depths")
 }
 
 /// The binding of depths of so many samples.
@@ -40,15 +45,19 @@ pub(super) fn depths_entry(samples: u32, visibility: ShaderStages) -> BindGroupL
 
 /// The layout of what holds the depths.
 pub(super) fn depths_layout(gpu: &Gpu, samples: u32) -> BindGroupLayout {
-    let entry = depths_entry(samples, ShaderStages::FRAGMENT);
-    let description = BindGroupLayoutDescriptor { label: Some("depths"), entries: &[entry] };
+    let ground = depths_entry(samples, ShaderStages::FRAGMENT);
+    let entries = [ground, BindGroupLayoutEntry { binding: FRONT_BINDING, ..ground }];
+    let description = BindGroupLayoutDescriptor { label: Some("depths"), entries: &entries };
     gpu.context.device.create_bind_group_layout(&description)
 }
 
 /// The depths of a picture.
 pub(super) fn depths_group(gpu: &Gpu, layout: &BindGroupLayout, targets: &Targets) -> BindGroup {
-    let resource = BindingResource::TextureView(&targets.depth.view);
-    let entries = [BindGroupEntry { binding: DEPTHS_BINDING, resource }];
+    let bound = [(DEPTHS_BINDING, &targets.ground), (FRONT_BINDING, &targets.depth)];
+    let entries = bound.map(|(binding, canvas)| {
+        let resource = BindingResource::TextureView(&canvas.view);
+        BindGroupEntry { binding, resource }
+    });
     let description = BindGroupDescriptor { label: Some("depths"), layout, entries: &entries };
     gpu.context.device.create_bind_group(&description)
 }
@@ -98,15 +107,45 @@ const BACKDROP: [Light; 2] = [
 /// How much further the kinds behind edges are numbered, as the shader has it.
 const BEHIND_EDGE: u32 = 4;
 
+/// The first kind that is seen from close by, and the first beyond the border; with the footprint in metres of a pixel from
+/// which on there is none, as `detail.wgsl` has it.
+const FIRST_NEAR: u32 = 3;
+const FIRST_BEYOND: u32 = 11;
+const DETAIL_FROM: f32 = 0.30;
+
+/// What a camera may see at all: what it does not see costs a look at each pixel.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct InSight {
+    /// Whether some ground is close by.
+    is_near: bool,
+    sky: bool,
+    /// What lies below the horizon behind all ground.
+    plain: bool,
+}
+
+impl InSight {
+    /// Of a camera that is so high above all ground, for pixels of such an angle.
+    pub(super) fn of(camera: &Camera, above: f32, pixel_angle: f32) -> Self {
+        let Camera { forward, right, up, half, .. } = camera;
+        let aside = (half[0] * right[2]).abs() + (half[1] * up[2]).abs();
+        // A hundredth for what a device rounds otherwise.
+        Self {
+            is_near: above * pixel_angle < 1.01 * DETAIL_FROM,
+            sky: forward[2] + aside > -0.01,
+            plain: forward[2] - aside < 0.01,
+        }
+    }
+}
+
 /// The pipelines of the ground.
 #[derive(Debug)]
 pub(super) struct Ground {
     depth: RenderPipeline,
     beyond: Option<RenderPipeline>,
     kind: RenderPipeline,
-    /// With the kinds that each draws.
-    lights: Vec<(RenderPipeline, Range<u32>)>,
-    backdrop: Vec<(RenderPipeline, Range<u32>)>,
+    /// With the kinds that each draws, and those of them where nothing is close by.
+    lights: Vec<(RenderPipeline, [Range<u32>; 2])>,
+    backdrop: [RenderPipeline; 2],
 }
 
 impl Ground {
@@ -117,16 +156,17 @@ impl Ground {
             behind.iter().map(|&is_behind| {
                 let further = if is_behind { BEHIND_EDGE } else { 0 };
                 let kinds = light.kinds.start + further..light.kinds.end + further;
-                (parts.light(light, is_behind), kinds)
+                let first = if kinds.start >= FIRST_BEYOND { FIRST_BEYOND - 1 } else { 0 };
+                let far = kinds.start..kinds.end.min(first + FIRST_NEAR + further);
+                (parts.light(light, is_behind), [kinds, far])
             })
         });
-        let backdrop = BACKDROP.iter().map(|light| (parts.light(light, false), light.kinds.clone()));
         Self {
             depth: parts.depth("ground_vertex"),
             beyond: parts.has_horizon.then(|| parts.depth("beyond_vertex")),
             kind: parts.kind(),
             lights: lights.collect(),
-            backdrop: backdrop.collect(),
+            backdrop: [0, 1].map(|which| parts.light(&BACKDROP[which], false)),
         }
     }
 
@@ -148,21 +188,26 @@ impl Ground {
     }
 
     /// Draws the light of every pixel that has a depth.
-    pub(super) fn draw_light(&self, pass: &mut RenderPass<'_>, depths: &BindGroup) {
-        draw(&self.lights, pass, depths);
+    pub(super) fn draw_light(&self, pass: &mut RenderPass<'_>, depths: &BindGroup, in_sight: InSight) {
+        pass.set_bind_group(DEPTHS_GROUP, depths, &[]);
+        for (pipeline, [all, far]) in &self.lights {
+            let kinds = if in_sight.is_near { all } else { far };
+            if !kinds.is_empty() {
+                pass.set_pipeline(pipeline);
+                pass.draw(0..3, kinds.clone());
+            }
+        }
     }
 
     /// Draws the light of every pixel that has none.
-    pub(super) fn draw_backdrop(&self, pass: &mut RenderPass<'_>, depths: &BindGroup) {
-        draw(&self.backdrop, pass, depths);
-    }
-}
-
-fn draw(lights: &[(RenderPipeline, Range<u32>)], pass: &mut RenderPass<'_>, depths: &BindGroup) {
-    pass.set_bind_group(DEPTHS_GROUP, depths, &[]);
-    for (pipeline, kinds) in lights {
-        pass.set_pipeline(pipeline);
-        pass.draw(0..3, kinds.clone());
+    pub(super) fn draw_backdrop(&self, pass: &mut RenderPass<'_>, depths: &BindGroup, in_sight: InSight) {
+        pass.set_bind_group(DEPTHS_GROUP, depths, &[]);
+        for (which, is_seen) in [in_sight.sky, in_sight.plain].into_iter().enumerate() {
+            if is_seen {
+                pass.set_pipeline(&self.backdrop[which]);
+                pass.draw(0..3, BACKDROP[which].kinds.clone());
+            }
+        }
     }
 }
 

@@ -57,6 +57,15 @@ fn point_at(position: vec2<f32>, depth: f32) -> vec3<f32> {
     return frame.eye.xyz + along_at(position) * (frame.forward.w / depth);
 }
 
+// What something else hides.
+const HIDDEN = 0u;
+
+// Whether something hides a sample of the ground, or of what lies behind it.
+fn is_hidden(position: vec2<f32>, sample: i32) -> bool {
+    let pixel = vec2<i32>(position);
+    return textureLoad(front_depths, pixel, sample) > textureLoad(ground_depths, pixel, sample);
+}
+
 // The kind of what is behind the ground at a place of the picture.
 fn backdrop_at(position: vec2<f32>) -> u32 {
     return select(PLAIN, OPEN_SKY, along_at(position).z >= 0.0);
@@ -103,7 +112,8 @@ fn kind_of(surface: SeenSurface) -> u32 {
 @fragment
 fn kind_fragment(@builtin(position) position: vec4<f32>) -> @builtin(frag_depth) f32 {
     let surface = surface_of(position.xy, false);
-    return f32(select(backdrop_at(position.xy), kind_of(surface), surface.samples != 0u)) * KIND;
+    let kind = select(backdrop_at(position.xy), kind_of(surface), surface.samples != 0u);
+    return f32(select(kind, HIDDEN, is_hidden(position.xy, 0))) * KIND;
 }
 
 @fragment
@@ -121,12 +131,13 @@ fn kind_sampled_fragment(
         surface = behind;
     }
     let kind = kind_of(surface) + select(0u, BEHIND_EDGE, is_behind);
-    return f32(select(backdrop_at(middle), kind, (surface.samples & bit) != 0u)) * KIND;
+    let seen = select(backdrop_at(middle), kind, (surface.samples & bit) != 0u);
+    return f32(select(seen, HIDDEN, is_hidden(middle, i32(sample)))) * KIND;
 }
 
 // The share of water at a place whose ground is so high: all in lakes, less in rivers that are thinner than cells.
 fn wet_share(place: vec2<f32>, height: f32) -> f32 {
-    if frame.stand.w > 0.0 {
+    if is_above(frame.stand.w, 0.0, place.x + FAR_AWAY) {
         return 0.0;
     }
     let river = select(0.0, textureSampleLevel(rivers, between, share_of(place), 0.0).x, scene.has.w > 0.0);
@@ -135,7 +146,7 @@ fn wet_share(place: vec2<f32>, height: f32) -> f32 {
 
 // The same beyond the border.
 fn wet_share_beyond(place: vec2<f32>, beyond: Beyond) -> f32 {
-    if frame.stand.w > 0.0 {
+    if is_above(frame.stand.w, 0.0, place.x + FAR_AWAY) {
         return 0.0;
     }
     let drawn = textureSampleLevel(rivers, between, share_of(beyond.river), 0.0).x * river_share_beyond(beyond);

@@ -53,7 +53,7 @@ fn height_share(rank: f32, distance: f32) -> f32 {
     return clamp((share(distance) * (1.0 + SINKING) - rank) / SINKING, 0.0, 1.0);
 }
 
-// How far every second row of a list's blades has slid onto the one before it.
+// How far every second row of a list's blades has slid onto the one before it, at a distance as it counts.
 fn row_slide(list: u32, distance: f32) -> f32 {
     if choice.thinned == 0u || list > 1u {
         return 0.0;
@@ -70,12 +70,32 @@ fn list(distance: f32) -> u32 {
     return select(select(2u, 1u, distance < MIDDLE), 0u, distance < NEAR);
 }
 
+// Whether a set at a place may be drawn, whatever the height of the ground there, which is not looked up for all others.
+fn may_be_drawn(tuft: Set, place: vec2<f32>) -> bool {
+    let away = vec2<f32>(place.x, -place.y) - frame.moment.yz;
+    if choice.culled == 1u {
+        let from_eye = vec2<f32>(place.x, -place.y) - frame.eye.xy;
+        // Ground lies between 0 and the highest of all; a simulation that is followed may dig and heap up.
+        let slack = 0.5 * scene.scale.z + 50.0;
+        let heights = vec2<f32>(-slack, scene.scale.z + slack) - frame.eye.z;
+        let ahead = frame.forward.z * heights;
+        let depth = dot(from_eye, frame.forward.xy) + max(ahead.x, ahead.y);
+        let tilted = abs(frame.right.z) * max(abs(heights.x), abs(heights.y));
+        let aside = abs(dot(from_eye, frame.right.xy)) - tilted;
+        let spread = sqrt(1.0 + frame.right.w * frame.right.w);
+        if depth < -AROUND || aside > depth * frame.right.w + AROUND * spread {
+            return false;
+        }
+    }
+    return height_share(rank_of(tuft), length(away)) > 0.0;
+}
+
 // The list in which a set is drawn whose root is there; as many as there are where it is not.
 fn list_of(tuft: Set, root: vec3<f32>) -> u32 {
     let distance = length(root - frame.moment.yzw);
     let stands = height_share(rank_of(tuft), distance) > 0.0;
     let seen = choice.culled == 0u || is_in_sight(root - frame.eye.xyz, AROUND);
-    return select(LISTS, list(distance), stands && seen);
+    return select(LISTS, list(counted(distance)), stands && seen);
 }
 
 // Where in `starts` what a workgroup counts of a list stands, for so many sets.

@@ -3,6 +3,7 @@
 //! Water is shaded with the ground. How long it takes is how much longer the ground does than in the same picture without
 //! water, which is drawn as well.
 
+use std::sync::Arc;
 use std::time::Duration;
 
 use weald::Error;
@@ -10,7 +11,7 @@ use weald::picture::Camera;
 use web_time::Instant;
 
 use super::picture::Readback;
-use super::renderer::Renderer;
+use super::renderer::{Renderer, Shot};
 use super::timing::{Timer, Timings};
 
 /// Longest wait for a picture that is measured: software draws a million sets blade by blade in minutes.
@@ -30,6 +31,28 @@ impl Renderer {
         let Some(dry) = wet.1 else { return Ok(wet.0) };
         let water = wet.0.ground.saturating_sub(dry.ground);
         Ok(Timings { ground: wet.0.ground.min(dry.ground), water, ..wet.0 })
+    }
+
+    /// Draws the pictures of some cameras one after the other, each when the one before is done, as a window does: grass around
+    /// a camera that has come far is sown meanwhile. Says how long all take by the clock of the processor.
+    ///
+    /// # Errors
+    /// As [`Renderer::render`].
+    pub fn pace(&mut self, cameras: &[Camera]) -> Result<Duration, Error> {
+        let landing = Readback::new(&self.gpu, self.own.options.size)?;
+        let (context, onto) = (self.gpu.context.clone(), Arc::clone(&self.own));
+        let begun = Instant::now();
+        for camera in cameras {
+            context.attempt("drawing", || {
+                let description = wgpu::CommandEncoderDescriptor::default();
+                let mut encoder = context.device.create_command_encoder(&description);
+                let shot = Shot { onto: &onto, camera, target: &landing.view, waits: false };
+                self.draw_shot(&mut encoder, &shot, None)?;
+                context.queue.submit([encoder.finish()]);
+                context.wait_at_most(TIMEOUT, None)
+            })?;
+        }
+        Ok(begun.elapsed())
     }
 
     /// The least times with water, and without where there is some.

@@ -1,9 +1,10 @@
 //! Draws a landscape in real time, offscreen or into a window, by the same passes.
 //!
 //! What is drawn is a [`LitScene`](weald::picture::LitScene) of the library: its surfaces, colours, light and air, which the
-//! ray-marched view draws as well, become textures and numbers once; each picture then takes a camera. The passes: ground
-//! by level of detail ([`lattice`]), cut sides, plain and sky, all into linear light of 16-bit floats with depth reversed;
-//! then tone mapping brings light to the numbers of a picture. [`renderer`] has their order.
+//! ray-marched view draws as well, become textures and numbers once; each picture then takes a camera. The passes: what
+//! throws shadows, where a cascade has become another one; depths of the ground by level of detail ([`lattice`]); cut sides,
+//! grass and plants; then the light of what of the ground, the plain and the sky they leave in sight, all of it linear in
+//! 16-bit floats with depth reversed. Tone mapping brings light to the numbers of a picture. [`renderer`] has their order.
 
 mod canopy;
 mod cascades;

@@ -11,7 +11,7 @@ use wgpu::{
 };
 
 use super::grass::Grass;
-use super::ground::{self, Ground};
+use super::ground::{self, Ground, InSight};
 use super::layouts::{Layouts, STAGE_GROUP, depth_state};
 use super::picking;
 use super::plants::Plants;
@@ -97,6 +97,7 @@ pub(super) struct Drawing<'a> {
     pub(super) bare: bool,
     /// Whether nothing throws shadows.
     pub(super) casts_nothing: bool,
+    pub(super) in_sight: InSight,
     pub(super) timer: Option<&'a Timer>,
 }
 
@@ -239,37 +240,39 @@ impl Passes {
         bind(&mut pass, groups);
         self.ground.draw_depths(&mut pass, drawing.terrain);
         drop(pass);
+        targets.keep_ground(encoder);
+        let mut pass = targets.walls_pass(encoder);
+        bind(&mut pass, groups);
+        self.draw_walls(&mut pass, drawing.terrain);
+        if let Some(timer) = timer {
+            timer.note(&mut pass, Timestamp::Depths);
+        }
+        drop(pass);
+        if let Some(pick) = pick {
+            pick(encoder);
+        }
+        if drawing.grass.is_some() || drawing.plants.is_some() || timer.is_some() {
+            let mut pass = targets.growth_pass(encoder, timer);
+            bind(&mut pass, groups);
+            draw_what_grows(&mut pass, drawing);
+        }
+        // What is hidden by now is not lit.
         let mut pass = targets.kind_pass(encoder);
         bind(&mut pass, groups);
         self.ground.draw_kinds(&mut pass, depths);
         drop(pass);
         let mut pass = targets.ground_pass(encoder);
         bind(&mut pass, groups);
-        self.ground.draw_light(&mut pass, depths);
+        self.ground.draw_light(&mut pass, depths, drawing.in_sight);
         if let Some(timer) = timer {
             timer.note(&mut pass, Timestamp::Ground);
         }
         if !drawing.bare {
-            self.ground.draw_backdrop(&mut pass, depths);
-        }
-        drop(pass);
-        let is_asked = pick.is_some();
-        if let Some(pick) = pick {
-            let mut pass = targets.walls_pass(encoder);
-            bind(&mut pass, groups);
-            self.draw_walls(&mut pass, drawing.terrain);
-            drop(pass);
-            pick(encoder);
-        }
-        let mut pass = targets.light_pass(encoder, timer);
-        bind(&mut pass, groups);
-        if !is_asked {
-            self.draw_walls(&mut pass, drawing.terrain);
+            self.ground.draw_backdrop(&mut pass, depths, drawing.in_sight);
         }
         if let Some(timer) = timer {
             timer.note(&mut pass, Timestamp::Behind);
         }
-        draw_what_grows(&mut pass, drawing);
     }
 
     /// Draws the cut sides.

@@ -8,12 +8,14 @@ use weald::{Error, Landscape};
 use wgpu::{CommandEncoder, TextureView};
 
 use super::canopy;
+use super::cascades::CASCADES;
 use super::coming::{Coming, SceneUpdate};
 use super::follower::Follower;
 use super::frame::{Drawn, Frame};
 use super::grass::Grass;
 use super::grass_layer::Around;
 use super::grass_look::GrassLook;
+use super::ground::InSight;
 use super::layouts::Layouts;
 use super::maps::Maps;
 use super::onto::Onto;
@@ -22,7 +24,7 @@ use super::passes::{Drawing, Passes};
 use super::picking::{LandScale, Picking};
 use super::picture::Readback;
 use super::plants::Plants;
-use super::shadows::Shadows;
+use super::shadows::{Cast, Shadows};
 use super::terrain::Terrain;
 use super::textures::Canvas;
 use super::timing::Timer;
@@ -159,7 +161,7 @@ impl Renderer {
         let grown = (scene, landscape);
         self.grass = Grass::new(&self.gpu, grown, layouts, samples)?;
         self.plants = Plants::new(&self.gpu, grown, layouts, samples)?;
-        self.shadows.whole_is_drawn = false;
+        self.shadows.forget();
         Ok(())
     }
 
@@ -180,7 +182,7 @@ impl Renderer {
     fn send_coming(&mut self, waits: bool, encoder: &mut CommandEncoder) {
         let is_there = self.coming.as_mut().is_some_and(|coming| coming.send(&self.gpu, &self.maps, waits));
         let Some(coming) = self.coming.take_if(|_| is_there) else { return };
-        self.shadows.whole_is_drawn = false;
+        self.shadows.forget();
         if self.follower.is_none() {
             let (heights, errors) = coming.shape();
             self.terrain.take(heights, errors);
@@ -242,9 +244,7 @@ impl Renderer {
     ) -> Result<(), Error> {
         let Shot { onto, target, .. } = *shot;
         self.send_coming(shot.waits, encoder);
-        self.aim((onto, shot.waits), shot.camera, encoder)?;
-        let groups =
-            [&self.frame.caster_group, &self.frame.still_group].map(|numbers| [numbers, &self.maps.group]);
+        let (wanted, in_sight) = self.aim((onto, shot.waits), shot.camera, encoder)?;
         let timer = self.timer.as_ref();
         let drawing = Drawing {
             terrain: &self.terrain,
@@ -252,9 +252,14 @@ impl Renderer {
             plants: self.plants.as_ref(),
             bare: self.look.bare,
             casts_nothing: self.look.casts_nothing,
+            in_sight,
             timer,
         };
-        self.shadows.draw(encoder, groups, &self.passes.casters, drawing);
+        if let Some(timer) = timer {
+            timer.begin_shadows(encoder);
+        }
+        let groups = (&self.frame.cascade_groups, &self.maps.group);
+        self.shadows.draw(encoder, groups, (&self.passes.casters, &wanted), drawing);
         let groups = [&self.frame.group, &self.maps.group];
         if let Some(grass) = &self.grass {
             grass.light(encoder, groups);
@@ -268,27 +273,36 @@ impl Renderer {
         self.film.develop(&self.gpu, encoder, (&onto.light, &self.maps, timer), target)
     }
 
-    /// Selects what a camera sees, and encodes the choice of its grass and plants.
+    /// Selects what a camera sees, and encodes the choice of its grass and plants; says what cascades are to hold, and what is
+    /// in sight.
     pub(super) fn aim(
         &mut self,
         (onto, waits): (&Onto, bool),
         camera: &Camera,
         encoder: &mut CommandEncoder,
-    ) -> Result<(), Error> {
+    ) -> Result<([Cast; CASCADES], InSight), Error> {
         let size = onto.options.size;
         check_camera(camera)?;
         if let Some(timer) = &self.timer {
             timer.begin(encoder);
         }
         let into = &mut Upload { gpu: &self.gpu, encoder };
-        let drawn = self.terrain.prepare(into, camera, size, self.look.detail_from)?;
         let from = self.look.detail_from.unwrap_or(camera.eye);
         let woods = self.plants.as_mut().map_or(0.0, |plants| plants.reach_of_trees(from));
-        let drawn = Drawn { seconds: self.seconds, is_dry: self.is_dry, woods, ..drawn };
+        let drawn = self.terrain.prepare(into, camera, size, (from, woods))?;
+        let mut drawn = Drawn { seconds: self.seconds, is_dry: self.is_dry, ..drawn };
+        let pixel_angle = camera.pixel_angle(size[0] as usize);
+        let wanted = Cast::of(&drawn, pixel_angle);
+        drawn.stale = self.shadows.stale(&wanted);
         self.frame.write(into, camera, size[0], &drawn);
-        if !self.shadows.whole_is_drawn {
-            self.terrain.prepare_whole(into, drawn.cascades.last_texel())?;
-            self.frame.write_still(into, camera, size[0], &drawn);
+        for number in (0..CASCADES).filter(|&number| drawn.stale[number]) {
+            let stand = if number == CASCADES - 1 {
+                self.terrain.prepare_whole(into, drawn.cascades.last_texel())?;
+                drawn.stand
+            } else {
+                self.terrain.prepare_cascade(into, number, (camera, size), &drawn.cascades)?
+            };
+            self.frame.write_cascade(into, (number, stand), (camera, size[0]), &drawn);
         }
         let groups = [&self.frame.caster_group, &self.maps.group];
         if let Some(plants) = &mut self.plants {
@@ -302,7 +316,7 @@ impl Renderer {
         } else if let Some(timer) = &self.timer {
             timer.skip_choice(encoder);
         }
-        Ok(())
+        Ok((wanted, InSight::of(camera, drawn.stand.above, pixel_angle)))
     }
 
     /// How many triangles the ground of a camera takes.
@@ -314,7 +328,7 @@ impl Renderer {
         let device = &self.gpu.context.device;
         let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         let mut into = Upload { gpu: &self.gpu, encoder: &mut encoder };
-        self.terrain.prepare(&mut into, camera, self.own.options.size, None)?;
+        self.terrain.prepare(&mut into, camera, self.own.options.size, (camera.eye, 0.0))?;
         Ok(self.terrain.triangles())
     }
 }

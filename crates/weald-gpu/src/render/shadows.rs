@@ -1,4 +1,4 @@
-//! The sun's depths: what throws shadows, drawn into each cascade.
+//! The sun's depths: what throws shadows, drawn into each cascade when that has become another one.
 
 use weald::Error;
 use wgpu::{
@@ -9,15 +9,41 @@ use wgpu::{
 };
 
 use super::cascades::{CASCADES, TEXELS};
+use super::frame::Drawn;
 use super::passes::{Casters, Drawing};
 use super::targets::DEPTH;
 use super::textures::{Canvas, Shape};
-use super::timing::Timestamp;
 use crate::gpu::Gpu;
 use crate::memory::Store;
 
 /// Bytes from the number of one cascade to that of the next, as bindings want it.
 const APART: usize = 256;
+
+/// What a cascade hangs on beside the landscape, which is forgotten with [`Shadows::forget`]: where it is, from where and for
+/// pixels of which angle its detail is chosen, how far trees of woods stand, and the moment by which plants sway.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Cast {
+    square: [f32; 4],
+    depths: [f32; 2],
+    from: [f32; 4],
+    pixel_angle: f32,
+    woods: f32,
+    seconds: f32,
+}
+
+impl Cast {
+    /// Of each cascade in a picture; no camera changes the last.
+    pub(super) fn of(drawn: &Drawn, pixel_angle: f32) -> [Self; CASCADES] {
+        let Drawn { cascades, woods, seconds, .. } = *drawn;
+        std::array::from_fn(|number| {
+            let (square, depths) = (cascades.squares[number], cascades.depths);
+            match cascades.froms.get(number) {
+                Some(&from) => Self { square, depths, from, pixel_angle, woods, seconds },
+                None => Self { square, depths, from: [0.0; 4], pixel_angle: 0.0, woods: 0.0, seconds: 0.0 },
+            }
+        })
+    }
+}
 
 /// The cascades on the device.
 #[derive(Debug)]
@@ -25,8 +51,10 @@ pub(super) struct Shadows {
     pub(super) canvas: Canvas,
     pub(super) layout: BindGroupLayout,
     layers: Vec<(TextureView, BindGroup)>,
-    /// Whether the last cascade, which no camera changes, is drawn.
-    pub(super) whole_is_drawn: bool,
+    /// What is drawn into each.
+    drawn: [Option<Cast>; CASCADES],
+    /// Whether that is nothing.
+    is_empty: [bool; CASCADES],
     _numbers: Store,
 }
 
@@ -57,24 +85,43 @@ impl Shadows {
             .device
             .create_bind_group_layout(&BindGroupLayoutDescriptor { label, entries: &[entry] });
         let layers = (0..CASCADES).map(|cascade| layer(gpu, &canvas, (&layout, &numbers), cascade)).collect();
-        Ok(Self { canvas, layout, layers, whole_is_drawn: false, _numbers: numbers })
+        Ok(Self {
+            canvas,
+            layout,
+            layers,
+            drawn: [None; CASCADES],
+            is_empty: [false; CASCADES],
+            _numbers: numbers,
+        })
     }
 
-    /// Draws what throws shadows into all cascades; into the last, of which the groups are the second ones, once.
+    /// Has all cascades drawn anew for the next picture: what throws shadows has changed.
+    pub(super) fn forget(&mut self) {
+        self.drawn = [None; CASCADES];
+    }
+
+    /// The cascades that are not as a picture wants them.
+    pub(super) fn stale(&self, wanted: &[Cast; CASCADES]) -> [bool; CASCADES] {
+        std::array::from_fn(|number| self.drawn[number] != Some(wanted[number]))
+    }
+
+    /// Draws what throws shadows into cascades, by their numbers and those of the landscape.
     pub(super) fn draw(
         &mut self,
         encoder: &mut CommandEncoder,
-        groups: [[&BindGroup; 2]; 2],
-        casters: &Casters,
+        (numbers, maps): (&[BindGroup; CASCADES], &BindGroup),
+        (casters, wanted): (&Casters, &[Cast; CASCADES]),
         drawing: Drawing<'_>,
     ) {
-        if !self.whole_is_drawn {
-            self.draw_cascade(encoder, groups[1], (casters, CASCADES - 1), drawing);
+        let stale = self.stale(wanted);
+        for number in (0..CASCADES).filter(|&number| stale[number]) {
+            let is_empty = drawing.terrain.is_nothing_in(number);
+            if !(is_empty && self.is_empty[number]) {
+                self.draw_cascade(encoder, [&numbers[number], maps], (casters, number), drawing);
+            }
+            self.is_empty[number] = is_empty;
+            self.drawn[number] = Some(wanted[number]).filter(|_| !drawing.casts_nothing);
         }
-        self.whole_is_drawn = !drawing.casts_nothing;
-        (0..CASCADES - 1).for_each(|cascade| {
-            self.draw_cascade(encoder, groups[0], (casters, cascade), drawing);
-        });
     }
 
     fn draw_cascade(
@@ -82,7 +129,7 @@ impl Shadows {
         encoder: &mut CommandEncoder,
         groups: [&BindGroup; 2],
         (casters, number): (&Casters, usize),
-        Drawing { terrain, plants, casts_nothing, timer, .. }: Drawing<'_>,
+        Drawing { terrain, plants, casts_nothing, .. }: Drawing<'_>,
     ) {
         let (view, cascade) = &self.layers[number];
         let depth = Operations { load: LoadOp::Clear(1.0), store: StoreOp::Store };
@@ -93,9 +140,6 @@ impl Shadows {
                 depth_ops: Some(depth),
                 stencil_ops: None,
             }),
-            timestamp_writes: timer
-                .filter(|_| number == 0)
-                .map(|timer| timer.around(Timestamp::Shadows, [true, false])),
             ..RenderPassDescriptor::default()
         });
         if casts_nothing {

@@ -24,7 +24,9 @@ const MAGENTA: Color = Color { r: 0.1, g: 0.0, b: 0.1, a: 1.0 };
 /// The canvases of a picture.
 #[derive(Debug)]
 pub(super) struct Targets {
+    /// Of what is nearest, and of the ground alone.
     pub(super) depth: Canvas,
+    pub(super) ground: Canvas,
     /// Of which kind the ground of each sample is.
     kinds: Canvas,
     /// With samples; `None` where a pixel has one.
@@ -37,13 +39,18 @@ impl Targets {
     pub(super) fn new(gpu: &Gpu, options: Options) -> Result<Self, Error> {
         let Options { size, samples } = options;
         let attachment = TextureUsages::RENDER_ATTACHMENT;
+        let seen = TextureUsages::TEXTURE_BINDING;
         let depth =
-            Shape { samples, ..Shape::flat(size, DEPTH, attachment | TextureUsages::TEXTURE_BINDING) };
+            Shape { samples, ..Shape::flat(size, DEPTH, attachment | seen | TextureUsages::COPY_SRC) };
+        // An attachment as well, as all textures with samples must be.
+        let ground =
+            Shape { samples, ..Shape::flat(size, DEPTH, attachment | seen | TextureUsages::COPY_DST) };
         let kinds = Shape { samples, ..Shape::flat(size, DEPTH, attachment) };
         let sampled = Shape { samples, ..Shape::flat(size, LIGHT, attachment) };
         let light = Shape::flat(size, LIGHT, attachment | TextureUsages::TEXTURE_BINDING);
         Ok(Self {
             depth: Canvas::new(gpu, "depth", depth)?,
+            ground: Canvas::new(gpu, "depth of the ground", ground)?,
             kinds: Canvas::new(gpu, "kinds of ground", kinds)?,
             sampled: if samples > 1 { Some(Canvas::new(gpu, "light with samples", sampled)?) } else { None },
             light: Canvas::new(gpu, "light", light)?,
@@ -59,6 +66,16 @@ impl Targets {
         })
     }
 
+    /// Keeps the depths of the ground, before others hide them.
+    pub(super) fn keep_ground(&self, encoder: &mut CommandEncoder) {
+        let whole = self.depth.texture.size();
+        encoder.copy_texture_to_texture(
+            self.depth.texture.as_image_copy(),
+            self.ground.texture.as_image_copy(),
+            whole,
+        );
+    }
+
     /// The pass that draws of which kind the ground is.
     pub(super) fn kind_pass<'a>(&self, encoder: &'a mut CommandEncoder) -> RenderPass<'a> {
         encoder.begin_render_pass(&RenderPassDescriptor {
@@ -70,34 +87,35 @@ impl Targets {
 
     /// The pass that draws the light of the ground and of what lies behind it.
     pub(super) fn ground_pass<'a>(&self, encoder: &'a mut CommandEncoder) -> RenderPass<'a> {
-        let ops = Operations { load: LoadOp::Clear(MAGENTA), store: StoreOp::Store };
-        let attachment = self.light(ops, false);
+        let ops = Operations { load: LoadOp::Load, store: StoreOp::Store };
+        let attachment = self.light(ops, true);
         encoder.begin_render_pass(&RenderPassDescriptor {
             depth_stencil_attachment: Some(depths(&self.kinds, LoadOp::Load, StoreOp::Discard)),
             ..described("ground", &[Some(attachment)], None)
         })
     }
 
-    /// The pass that draws the light of what hides the ground for good, and keeps its depths.
+    /// The pass that draws the light of cut sides, the first of a picture.
     pub(super) fn walls_pass<'a>(&self, encoder: &'a mut CommandEncoder) -> RenderPass<'a> {
-        let attachment = self.light(Operations { load: LoadOp::Load, store: StoreOp::Store }, false);
+        let ops = Operations { load: LoadOp::Clear(MAGENTA), store: StoreOp::Store };
+        let attachment = self.light(ops, false);
         encoder.begin_render_pass(&RenderPassDescriptor {
             depth_stencil_attachment: Some(depths(&self.depth, LoadOp::Load, StoreOp::Store)),
             ..described("walls", &[Some(attachment)], None)
         })
     }
 
-    /// The pass that draws the light of all else, in front of the ground or behind it.
-    pub(super) fn light_pass<'a>(
+    /// The pass that draws the light of what grows.
+    pub(super) fn growth_pass<'a>(
         &self,
         encoder: &'a mut CommandEncoder,
         timer: Option<&Timer>,
     ) -> RenderPass<'a> {
-        let attachment = self.light(Operations { load: LoadOp::Load, store: StoreOp::Store }, true);
-        let writes = timer.map(|timer| timer.around(Timestamp::Light, [true; 2]));
+        let attachment = self.light(Operations { load: LoadOp::Load, store: StoreOp::Store }, false);
+        let writes = timer.map(|timer| timer.around(Timestamp::Plants, [true; 2]));
         encoder.begin_render_pass(&RenderPassDescriptor {
-            depth_stencil_attachment: Some(depths(&self.depth, LoadOp::Load, StoreOp::Discard)),
-            ..described("light", &[Some(attachment)], writes)
+            depth_stencil_attachment: Some(depths(&self.depth, LoadOp::Load, StoreOp::Store)),
+            ..described("what grows", &[Some(attachment)], writes)
         })
     }
 

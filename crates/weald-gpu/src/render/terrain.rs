@@ -106,43 +106,74 @@ impl Terrain {
         })
     }
 
-    /// Selects what a camera sees for a picture of such a size.
+    /// Selects what a camera sees for a picture of such a size: with detail as from a point, and trees of woods up to a distance.
     pub(super) fn prepare(
         &mut self,
         into: &mut Upload<'_>,
         camera: &Camera,
         size: [u32; 2],
-        detail_from: Option<[f32; 3]>,
+        (detail_from, woods): ([f32; 3], f32),
     ) -> Result<Drawn, Error> {
-        let cell = self.lattice.metres[0].max(self.lattice.metres[1]);
-        let reach = 1.0 / (ERROR * camera.pixel_angle(size[0] as usize));
-        let ranges = Ranges::new(&self.errors, reach, cell);
-        let detail_from = detail_from.unwrap_or(camera.eye);
-        let [east, north, up] = detail_from;
-        let [width, height] = self.lattice.metres;
-        let place = [0.5 + east / width, 0.5 - north / height];
-        let stand = Viewpoint { place, above: (up - self.heights.highest()).max(0.0) };
-        let cascades = Cascades::new(self.sun, camera, &self.bounds(), self.has_horizon);
-        let columns = (0..CASCADES - 1).map(|cascade| cascades.column(cascade));
-        let views: Vec<_> = [Frustum::of(camera)].into_iter().chain(columns).collect();
-        for (number, view) in views.iter().enumerate() {
-            let patches = if self.is_empty {
-                Vec::new()
-            } else {
-                self.lattice.select(stand, &ranges, &self.heights, view)
-            };
-            let sides: Vec<_> = patches.iter().flat_map(|patch| self.sides_of(*patch)).collect();
-            self.seen[number].write(into, &self.lattice, patches, &sides)?;
-        }
+        let stand = self.viewpoint(detail_from);
+        let ranges = self.ranges(camera, size);
+        self.select(into, (0, &Frustum::of(camera)), stand, &ranges)?;
         Ok(Drawn {
             stand,
             slides: ranges.slides(),
             detail_from,
             seconds: 0.0,
             is_dry: false,
-            cascades,
-            woods: 0.0,
+            cascades: Cascades::new(
+                self.sun,
+                (camera, detail_from, woods > 0.0),
+                &self.bounds(),
+                self.has_horizon,
+            ),
+            woods,
+            stale: [true; CASCADES],
         })
+    }
+
+    /// Selects what a cascade of a picture holds that a camera changes, and says from where.
+    pub(super) fn prepare_cascade(
+        &mut self,
+        into: &mut Upload<'_>,
+        number: usize,
+        (camera, size): (&Camera, [u32; 2]),
+        cascades: &Cascades,
+    ) -> Result<Viewpoint, Error> {
+        let [x, y, z, _] = cascades.froms[number];
+        let (stand, ranges) = (self.viewpoint([x, y, z]), self.ranges(camera, size));
+        self.select(into, (number + 1, &cascades.column(number)), stand, &ranges)?;
+        Ok(stand)
+    }
+
+    /// The distances up to which levels of detail reach in a picture.
+    fn ranges(&self, camera: &Camera, size: [u32; 2]) -> Ranges {
+        let cell = self.lattice.metres[0].max(self.lattice.metres[1]);
+        let reach = 1.0 / (ERROR * camera.pixel_angle(size[0] as usize));
+        Ranges::new(&self.errors, reach, cell)
+    }
+
+    /// A point from which detail is chosen.
+    fn viewpoint(&self, [east, north, up]: [f32; 3]) -> Viewpoint {
+        let [width, height] = self.lattice.metres;
+        let place = [0.5 + east / width, 0.5 - north / height];
+        Viewpoint { place, above: (up - self.heights.highest()).max(0.0) }
+    }
+
+    /// Selects what is seen in a view.
+    fn select(
+        &mut self,
+        into: &mut Upload<'_>,
+        (number, view): (usize, &Frustum),
+        stand: Viewpoint,
+        ranges: &Ranges,
+    ) -> Result<(), Error> {
+        let patches =
+            if self.is_empty { Vec::new() } else { self.lattice.select(stand, ranges, &self.heights, view) };
+        let sides: Vec<_> = patches.iter().flat_map(|patch| self.sides_of(*patch)).collect();
+        self.seen[number].write(into, &self.lattice, patches, &sides)
     }
 
     /// Selects all ground for the sun's last cascade, whatever a camera sees: so finely that texels of so many metres do
@@ -195,6 +226,12 @@ impl Terrain {
         let [east, south] = [0, 1].map(|axis| patch.corner[axis] + side >= self.lattice.cells[axis] + 0.5);
         let edges = [north, east, south, west].into_iter().zip(0..);
         edges.filter(|(is_end, _)| *is_end && !self.has_horizon).map(move |(_, edge)| Side { patch, edge })
+    }
+
+    /// Whether a cascade holds no ground, and so nothing that throws shadows.
+    pub(super) fn is_nothing_in(&self, cascade: usize) -> bool {
+        let Seen { patches, beyond, sides } = &self.seen[cascade + 1];
+        patches.count + beyond.count + sides.count == 0
     }
 
     /// Triangles of the last picture.

@@ -25,15 +25,16 @@ pub(super) enum Timestamp {
     Begin,
     Choice,
     Shadows,
+    Depths,
+    Grass,
+    Plants,
     Ground,
     Behind,
-    Grass,
-    Light,
     ToneMapping,
 }
 
 /// How many timestamps there are, with their spare ones.
-const TIMESTAMPS: u32 = 16;
+const TIMESTAMPS: u32 = 18;
 
 /// Bytes of a timestamp.
 const BYTES: u64 = 8;
@@ -56,15 +57,15 @@ pub struct Timings {
     /// What is chosen of scattered plants, what throws shadows, into all cascades, and what all blades of a set have in
     /// common.
     pub shadows: Duration,
-    /// The ground, without water.
+    /// The ground and its cut sides, without water.
     pub ground: Duration,
     /// By how much longer the ground takes with the water on it.
     pub water: Duration,
-    /// Cut sides, plain and sky.
+    /// Plain and sky.
     pub behind: Duration,
     /// Blades of grass.
     pub grass: Duration,
-    /// Scattered plants, and bringing the samples of all pixels together.
+    /// Scattered plants.
     pub plants: Duration,
     /// From light to the numbers of a picture.
     pub tone_mapping: Duration,
@@ -141,6 +142,19 @@ impl Timer {
         drop(encoder.begin_compute_pass(&ComputePassDescriptor { label: None, timestamp_writes }));
     }
 
+    /// Notes the beginning of the shadows, of which there may be none to draw.
+    pub(super) fn begin_shadows(&self, encoder: &mut CommandEncoder) {
+        let writes = ComputePassTimestampWrites {
+            query_set: &self.timestamps,
+            beginning_of_pass_write_index: Some(Timestamp::Shadows.spare()),
+            end_of_pass_write_index: None,
+        };
+        drop(
+            encoder
+                .begin_compute_pass(&ComputePassDescriptor { label: None, timestamp_writes: Some(writes) }),
+        );
+    }
+
     /// Notes the end of the shadows.
     pub(super) fn end_shadows(&self, encoder: &mut CommandEncoder) {
         let writes = ComputePassTimestampWrites {
@@ -178,11 +192,11 @@ impl Timer {
         Ok(Timings {
             choice: until(Timestamp::Choice),
             shadows: until(Timestamp::Shadows),
-            ground: until(Timestamp::Ground),
+            ground: until(Timestamp::Depths) + until(Timestamp::Ground),
             water: Duration::ZERO,
             behind: until(Timestamp::Behind),
             grass: until(Timestamp::Grass),
-            plants: until(Timestamp::Light),
+            plants: until(Timestamp::Plants),
             tone_mapping: until(Timestamp::ToneMapping),
             picture,
         })

@@ -139,12 +139,37 @@ fn land_along(start: vec3<f32>, direction: vec3<f32>) -> f32 {
     return -1.0;
 }
 
+// Shares of light that water mirrors between which land is looked for along the mirrored ray: below, as much of it is mirrored
+// as hides the sky there.
+const MARCHED = vec2<f32>(0.12, 0.24);
+
+// The light that water mirrors where it mirrors such a share.
+fn reflected_light(point: vec3<f32>, look: Look, ripples: Ripples, share: f32, seen: Seen) -> vec3<f32> {
+    let upward = mirrored(look.direction, ripples.all, look.tilt);
+    let open = clamp(seen.even.z / PI, 0.0, 1.0);
+    let rough = mix(scene.bounce.xyz, mirrored_sky(point, upward), open);
+    let sharp = ramp(share, MARCHED.x, MARCHED.y);
+    var light = rough;
+    // A loop of one turn or none: software would go through what a condition leaves out.
+    let looks = select(0u, 1u, sharp > 0.0);
+    for (var turn = 0u; turn < looks; turn++) {
+        let broad = mirrored(look.direction, ripples.broad, look.tilt);
+        light = mix(rough, mirrored_light(point, broad, upward, look.ray_length), sharp);
+    }
+    return light;
+}
+
+// The sky that water mirrors, blurred by ripples that are too small to be seen.
+fn mirrored_sky(start: vec3<f32>, upward: vec3<f32>) -> vec3<f32> {
+    let sky = rippled_upward(upward);
+    return with_clouds(start, sky, sky_radiance(sky), MIRRORED_BLUR);
+}
+
 // The light that water mirrors: land with its own colours in a direction, or the sky in another.
 fn mirrored_light(start: vec3<f32>, direction: vec3<f32>, upward: vec3<f32>, length_before: f32) -> vec3<f32> {
     let ray_length = land_along(start, direction);
     if ray_length < 0.0 {
-        let sky = rippled_upward(upward);
-        return with_clouds(start, sky, sky_radiance(sky), MIRRORED_BLUR);
+        return mirrored_sky(start, upward);
     }
     let point = start + direction * ray_length;
     let place = place_of(point);
@@ -186,7 +211,7 @@ fn water_radiance(point: vec3<f32>, depth: f32, look: Look) -> vec3<f32> {
     let normal = ripples.all;
     let seen = seen_at(skylight, share_of(look.place));
     let share = mirrored_share(dot(back, normal));
-    let reflection = mirrored_light(point, mirrored(direction, ripples.broad, tilt), mirrored(direction, normal, tilt), look.ray_length);
+    let reflection = reflected_light(point, look, ripples, share, seen);
     let up = vec3<f32>(0.0, 0.0, 1.0);
     let light = scene.sunlight.xyz * (sun * scene.sun.z) + skylight_on(seen, up);
     let turbid = select(turbidity(1e30), turbidity(look.surface.x - look.above), look.above < 0.0);

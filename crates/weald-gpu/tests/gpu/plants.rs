@@ -119,6 +119,31 @@ fn plants_stand_before_the_ground_and_sway() {
 }
 
 #[test]
+fn a_camera_that_moves_sees_what_one_does_that_comes_from_nowhere() {
+    let Some(gpu) = gpu() else { return };
+    let landscape = ferns(600, [0.8, 1.2]);
+    let scene = LitScene::new(&view(), &landscape).expect("a scene");
+    let planted = || {
+        let mut renderer = renderer(&gpu, &scene);
+        renderer.plant(&scene, &landscape).expect("planted");
+        renderer
+    };
+    // Its shadows are drawn for where it was, until they would have to be others.
+    let mut renderer = planted();
+    for step in 0..12_u8 {
+        let camera = above(&scene, [60.0 + 0.17 * f64::from(step), 70.0], 1.7, 15.0);
+        let seconds = if step < 8 { 0.0 } else { 0.8 };
+        renderer.set_time(seconds);
+        let moved = renderer.render(&camera).expect("drawn");
+        if step % 3 == 1 {
+            let mut fresh = planted();
+            fresh.set_time(seconds);
+            assert!(fresh.render(&camera).expect("drawn") == moved, "step {step}");
+        }
+    }
+}
+
+#[test]
 fn a_plant_throws_its_shadow_where_it_is_not_itself_seen() {
     let Some(gpu) = gpu() else { return };
     let landscape = ferns(12, [3.0, 3.0]);

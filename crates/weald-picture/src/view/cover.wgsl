@@ -173,13 +173,13 @@ fn wood_at(spot: SurfacePoint) -> vec2<f32> {
 // Colour and roughness of a point.
 fn cover_at(spot: SurfacePoint) -> SurfaceSample {
     let coloured = clamp(smooth_at(materials, spot.place).xyz, vec3<f32>(0.01), vec3<f32>(0.95));
-    if scene.has.z > 1.0 {
+    if is_above(scene.has.z, 1.0, spot.footprint) {
         // The values of a layer, which nothing of the ground's own may hide.
         return SurfaceSample(min(coloured, vec3<f32>(0.9)), vec2<f32>(0.0), vec4<f32>(0.0));
     }
     let texture = texture_of(spot);
     var skin: SurfaceSample;
-    if scene.has.z > 0.0 {
+    if is_above(scene.has.z, 0.0, spot.footprint) {
         skin = of_material(spot, coloured, texture);
     } else {
         skin = natural(spot, texture);
@@ -324,9 +324,12 @@ fn bedding_at(spot: SurfacePoint, thickness: vec2<f32>, fold: f32, dips: bool) -
     );
 }
 
+// From which line on there is no snow at all.
+const NO_SNOW = 9e29;
+
 // Share of snow.
 fn snow_at(spot: SurfacePoint, texture: Texture, moisture: f32) -> f32 {
-    if scene.limits.z >= 1e30 {
+    if is_above(scene.limits.z, NO_SNOW, spot.footprint) {
         return 0.0;
     }
     let above = (spot.point.z - scene.limits.z) / max(scene.limits.w, 1e-3);

@@ -7,7 +7,7 @@ fn lit(normal: vec3<f32>, seen: Seen, sun: f32) -> vec3<f32> {
 
 // Whether a place lies under a lake, how deep, or so far above it in negative numbers.
 fn lake_depth(place: vec2<f32>, ground: f32) -> f32 {
-    if scene.has.x == 0.0 {
+    if !is_above(scene.has.x, 0.0, place.x + FAR_AWAY) {
         return -1e9;
     }
     return spline_at(level, place) - ground;

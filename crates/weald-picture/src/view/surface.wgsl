@@ -16,6 +16,15 @@ fn spline_slopes(t: f32) -> vec4<f32> {
     return vec4<f32>(-0.5 * s * s, (1.5 * t - 2.0) * t, (1.0 - 1.5 * t) * t + 0.5, 0.5 * t * t);
 }
 
+// Whether a number that all pixels share is above another. Software (lavapipe) copies the whole shader at each draw in which a
+// condition hangs on such numbers alone, to work it out beforehand: one that is never negative keeps it from that.
+fn is_above(number: f32, bound: f32, never_negative: f32) -> bool {
+    return number + min(never_negative, 0.0) > bound;
+}
+
+// Cells from which no place is as far.
+const FAR_AWAY = 1e30;
+
 // The patch of a place, and where in it the place lies.
 fn spline_patch(place: vec2<f32>) -> vec2<f32> {
     return min(floor(max(place, vec2<f32>(0.0))), scene.grid.xy);

@@ -119,7 +119,7 @@ fn ground_beyond(place: vec2<f32>) -> Beyond {
 
 // Level of the water at a place beyond the border; far below the ground where a scene has no water.
 fn level_beyond(place: vec2<f32>, beyond: Beyond) -> f32 {
-    if scene.has.x == 0.0 {
+    if !is_above(scene.has.x, 0.0, place.x + FAR_AWAY) {
         return -1e9;
     }
     let dry = beyond.surface.x - scene.scale.w;

@@ -8,8 +8,10 @@
 //! with W = 10 m, up to which all stand, and F = 96 m, beyond which none does. A set whose turn it is to be left out sinks
 //! into the ground over a fifth of the ranks, so that none vanishes at once. Those that stand are drawn at one of three
 //! levels of detail, each with its list, of blades with fewer and fewer rows of vertices; before the level changes every
-//! second row has slid onto its neighbour, so that the blade is that of the next level already. A device does the same in `meadow.wgsl`, which has the
-//! same names; it keeps each list in the order of the sets, so that a picture is the same each time.
+//! second row has slid onto its neighbour, so that the blade is that of the next level already. Where pixels are larger than a
+//! thousandth of a radian, levels end as many times as near as they are larger ([`coarser`]): what a pixel does not show is not
+//! drawn. A device does the same in `meadow.wgsl`, which has the same names; it keeps each list in the order of the sets, so
+//! that a picture is the same each time.
 
 use super::blade::{Set, rows};
 use weald_engine::uniform;
@@ -37,6 +39,13 @@ const SINKING: f32 = 0.25;
 /// Share of a list's farthest distance at which its rows begin to slide.
 const SLIDE: f32 = 0.6;
 
+/// Angle of a pixel in radians up to which distances count as they are for the shape of blades: that of a picture of 1,150
+/// pixels across for 60°.
+const PIXEL: f32 = 1e-3;
+
+/// Most times as far away as they are blades count: those of a small picture bend too.
+const COARSEST: f32 = 2.0;
+
 /// A ball around a set's root in metres that holds its blades.
 pub const AROUND: f32 = 2.0;
 
@@ -63,6 +72,8 @@ pub struct ViewCone {
     pub half: [f32; 2],
     /// The point from which distances count: the eye, but in tests.
     pub detail_from: [f32; 3],
+    /// How many times as far away blades count, as [`coarser`] says.
+    pub coarser: f32,
 }
 
 impl Choice {
@@ -81,7 +92,7 @@ impl Choice {
         let distance = length(minus(root, sight.detail_from));
         let stands = self.height_share(tuft.rank(), distance) > 0.0;
         let seen = self.culled == 0 || sight.is_in_sight(minus(root, sight.eye), AROUND);
-        (stands && seen).then(|| self.list(distance))
+        (stands && seen).then(|| self.list(sight.coarser * distance))
     }
 
     /// How high a set of a rank stands at a distance, as a share: 0 where it is left out.
@@ -92,7 +103,7 @@ impl Choice {
         ((share(distance) * (1.0 + SINKING) - rank) / SINKING).clamp(0.0, 1.0)
     }
 
-    /// How far every second row of a list's blades has slid onto the one before it.
+    /// How far every second row of a list's blades has slid onto the one before it, at a distance as it counts.
     pub fn row_slide(&self, list: usize, distance: f32) -> f32 {
         let Some(end) = [NEAR, MIDDLE].get(list).filter(|_| self.thinned == 1) else { return 0.0 };
         ((distance - SLIDE * end) / ((1.0 - SLIDE) * end)).clamp(0.0, 1.0)
@@ -107,6 +118,11 @@ impl Choice {
             _ => 2,
         }
     }
+}
+
+/// How many times as far away as they are blades count for their shape in a picture whose pixels have such an angle in radians.
+pub fn coarser(pixel_angle: f32) -> f32 {
+    (pixel_angle / PIXEL).clamp(1.0, COARSEST)
 }
 
 /// How many of the sets stand at a distance.
@@ -146,6 +162,7 @@ mod tests {
         axes: [[0.0, 1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]],
         half: [1.0, 0.5],
         detail_from: [0.0; 3],
+        coarser: 1.0,
     };
 
     fn distances() -> impl Iterator<Item = f32> {

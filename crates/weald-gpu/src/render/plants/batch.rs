@@ -91,7 +91,7 @@ impl Batch {
         let kind = filled("a kind of plants", &kind(&limbs, of), BufferUsages::UNIFORM)?;
         let plants = filled("plants", stood.as_flattened(), table)?;
         let kept = room("plants in sight", count * VIEWS as u64)?;
-        let starts = room("lists of plants", (VIEWS * LISTS) as u64)?;
+        let starts = room("lists of plants", (VIEWS * (LISTS + 1)) as u64)?;
         let counts = room("counts of plants", workgroups * (VIEWS * LISTS) as u64)?;
         let (indices, templates) = lists(&limbs);
         let draws = filled("draws of plants", &templates, table | BufferUsages::INDIRECT)?;

@@ -11,12 +11,22 @@
 
 const THREADS = 64u;
 
+// Whether some view has more plants than seats.
+fn some_share() -> bool {
+    for (var view = 0u; view < VIEWS; view++) {
+        if is_drawn(view) && starts[VIEWS * LISTS + view] > seats_of(view, starts[view * LISTS + SEATED_LISTS]) {
+            return true;
+        }
+    }
+    return false;
+}
+
 @compute @workgroup_size(THREADS)
 fn carry_limbs(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) thread: u32) {
     let view = group.y;
     let is_shared = view == SHARED_VIEW;
     let seats = select(seats_of(view, starts[view * LISTS + SEATED_LISTS]), SIDES * STRENGTHS, is_shared);
-    if group.x >= seats {
+    if group.x >= seats || select(!is_drawn(view), !some_share(), is_shared) {
         return;
     }
     var breeze: LocalWind;

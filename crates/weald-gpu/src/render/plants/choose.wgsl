@@ -13,6 +13,7 @@ struct Draw {
 @group(2) @binding(0) var<uniform> kind: Kind;
 @group(2) @binding(1) var<storage, read> plants: array<PlacedPlant>;
 @group(2) @binding(2) var<storage, read_write> kept: array<u32>;
+// Where each list of each view starts; then how many plants each view has.
 @group(2) @binding(3) var<storage, read_write> starts: array<u32>;
 @group(2) @binding(4) var<storage, read_write> draws: array<Draw>;
 // Plants of each list in each workgroup of each view, then how many are before them.
@@ -31,7 +32,7 @@ fn list_of(view: u32, number: u32) -> u32 {
     }
     let plant = plants[number];
     // In a square of a wood there may be no tree, and the sun's last cascade does not know where the camera is.
-    if plant.size <= 0.0 || giving_way(plant) <= 0.0 || (kind.wood.x > 0.0 && view == VIEWS - 1u) {
+    if plant.size <= 0.0 || giving_way(view, plant) <= 0.0 || (kind.wood.x > 0.0 && view == VIEWS - 1u) {
         return NO_LIST;
     }
     let radius = plant.size * kind.leaf.w;
@@ -60,6 +61,9 @@ fn count_plants(
     @builtin(num_workgroups) all: vec3<u32>,
     @builtin(local_invocation_index) local: u32,
 ) {
+    if !is_drawn(group.y) {
+        return;
+    }
     let list = list_of(group.y, group.x * GROUP + local);
     if list < LISTS {
         atomicAdd(&tally[list], 1u);
@@ -73,6 +77,9 @@ fn count_plants(
 @compute @workgroup_size(16)
 fn line_up(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) list: u32) {
     let view = group.x;
+    if !is_drawn(view) {
+        return;
+    }
     let groups = arrayLength(&counts) / (VIEWS * LISTS);
     if list < LISTS {
         var sum = 0u;
@@ -86,6 +93,13 @@ fn line_up(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_in
         draws[view * LISTS + list].instances = sum;
     }
     workgroupBarrier();
+    if list == 0u {
+        var all = 0u;
+        for (var each = 0u; each < LISTS; each++) {
+            all += totals[each];
+        }
+        starts[VIEWS * LISTS + view] = all;
+    }
     if list < LISTS {
         var start = 0u;
         for (var before = 0u; before < list; before++) {
@@ -102,6 +116,9 @@ fn place_plants(
     @builtin(local_invocation_index) local: u32,
 ) {
     let view = group.y;
+    if !is_drawn(view) {
+        return;
+    }
     let number = group.x * GROUP + local;
     let list = list_of(view, number);
     lists[local] = list;

@@ -62,7 +62,7 @@ fn swayed(place: u32, corner: Corner, rest: vec3<f32>, breeze: LocalWind) -> Ben
 fn corner_of(plant: PlacedPlant, place: u32, corner: Corner) -> Bent {
     let first = f32((corner.look >> 16u) & 7u);
     let last = f32((corner.look >> 19u) & 7u);
-    let share = giving_way(plant) * share_of_levels(detail_of(pixels_of(which.view, plant)), first, last);
+    let share = giving_way(which.view, plant) * share_of_levels(detail_of(pixels_of(which.view, plant)), first, last);
     let turn = turn_of(plant);
     let rest = corner.axis + share * (corner.rest - corner.axis);
     let found = swayed(place, corner, rest, breeze_of(plant));

@@ -42,11 +42,25 @@ struct PlacedPlant {
     chance: f32,
 }
 
+// Whether a view is drawn: cascades that are as they were keep their lists too.
+fn is_drawn(view: u32) -> bool {
+    return view == 0u || frame.stale[max(view, 1u) - 1u] > 0.0;
+}
+
+// How far a plant is at least from the eye, or from what stands for it in a cascade.
+fn distance_in(view: u32, plant: PlacedPlant) -> f32 {
+    if view == 0u || view == VIEWS - 1u {
+        return length(plant.place - frame.moment.yzw);
+    }
+    let chosen = frame.casters_from[view - 1u];
+    return max(length(plant.place - chosen.xyz) - chosen.w, 0.0);
+}
+
 // Height of a plant in pixels, or in what texels of a cascade are worth where that is less; the last cascade does not know
 // the camera.
 fn pixels_of(view: u32, plant: PlacedPlant) -> f32 {
-    let distance = max(length(plant.place - frame.moment.yzw), 0.05);
-    let standing = select(1.0, drawn_as_trees(plant.place), kind.wood.x > 0.0);
+    let distance = max(distance_in(view, plant), 0.05);
+    let standing = select(1.0, drawn_as_trees_at(distance), kind.wood.x > 0.0);
     let pixels = standing * plant.size / (distance * frame.eye.w);
     if view == 0u {
         return pixels;
@@ -57,8 +71,10 @@ fn pixels_of(view: u32, plant: PlacedPlant) -> f32 {
 }
 
 // How broad the leaves of a tree of a wood are before the eye: one that stands around it gives way.
-fn giving_way(plant: PlacedPlant) -> f32 {
-    let away = plant.place - frame.moment.yzw;
+fn giving_way(view: u32, plant: PlacedPlant) -> f32 {
+    let is_of_the_camera = view == 0u || view == VIEWS - 1u;
+    let chosen = select(frame.casters_from[min(max(view, 1u), VIEWS - 2u) - 1u].xyz, frame.moment.yzw, is_of_the_camera);
+    let away = plant.place - chosen;
     let share = clamp((length(away.xy) / plant.size - 0.35) / 0.2, 0.0, 1.0);
     return select(1.0, share, kind.wood.x > 0.0 && away.z > -1.2 * plant.size);
 }
