@@ -125,7 +125,7 @@ const FLIGHT: f64 = 60.0;
 /// Pictures of a camera that moves.
 const MOVED: u32 = 30;
 
-/// Cameras along a way that begins at that of a scene: what pictures have in common is drawn once. A person walks over the
+/// Cameras along a path that begins at that of a scene: what pictures have in common is drawn once. A person walks over the
 /// ground; others fly to what the camera looks at within a minute.
 fn moving(scene: &LitScene, walks: bool) -> Vec<Camera> {
     let camera = scene.camera();
@@ -135,9 +135,9 @@ fn moving(scene: &LitScene, walks: bool) -> Vec<Camera> {
     let ground =
         |[east, north, _]: [f32; 3]| scene.top_at([f64::from(east), -f64::from(north)]).unwrap_or_default();
     let at = |number: u32| {
-        let way = (f64::from(number) * APART * speed / run) as f32;
+        let gone = (f64::from(number) * APART * speed / run) as f32;
         let [east, north, up] = camera.eye;
-        let eye = [east + way * camera.forward[0], north + way * camera.forward[1], up];
+        let eye = [east + gone * camera.forward[0], north + gone * camera.forward[1], up];
         let rise = if walks { ground(eye) - ground(camera.eye) } else { 0.0 };
         let eye = [eye[0], eye[1], up + rise];
         camera.at(eye).turned(eye, f64::from(number) * TURN_DEG * APART)
