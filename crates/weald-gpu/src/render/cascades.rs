@@ -40,7 +40,7 @@ pub(super) struct Cascades {
     /// Middle and half the sides of each.
     pub(super) squares: [[f32; 4]; CASCADES],
     /// From where is chosen what all but the last hold; with how far the eye is from there at most.
-    pub(super) froms: [[f32; 4]; CASCADES - 1],
+    pub(super) detail_points: [[f32; 4]; CASCADES - 1],
 }
 
 fn dot(a: [f32; 3], b: [f32; 3]) -> f32 {
@@ -85,7 +85,7 @@ impl Cascades {
         let squares = std::array::from_fn(|cascade| {
             near.get(cascade).copied().unwrap_or([middle_x, middle_y, half_x, half_y])
         });
-        let froms = EYE_STRIDES.map(|stride| {
+        let detail_points = EYE_STRIDES.map(|stride| {
             if is_among_trees {
                 let [x, y, z] = detail_from;
                 return [x, y, z, 0.0];
@@ -93,7 +93,7 @@ impl Cascades {
             let [x, y, z] = detail_from.map(|at| (at / stride).round() * stride);
             [x, y, z, 0.5 * stride * 3.0_f32.sqrt()]
         });
-        Self { right, up, depths: [high, (high - low).max(1e-3)], squares, froms }
+        Self { right, up, depths: [high, (high - low).max(1e-3)], squares, detail_points }
     }
 
     /// Metres of a texel of the last, which holds all.

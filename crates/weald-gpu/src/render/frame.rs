@@ -34,7 +34,7 @@ struct Numbers {
     sun_right: [f32; 4],
     sun_up: [f32; 4],
     cascades: [[f32; 4]; CASCADES],
-    casters_from: [[f32; 4]; CASCADES - 1],
+    detail_points: [[f32; 4]; CASCADES - 1],
     woods: [f32; 4],
     stale: [f32; CASCADES],
 }
@@ -121,7 +121,7 @@ impl Frame {
         (camera, width): (&Camera, u32),
         drawn: &Drawn,
     ) {
-        let own = if let Some([x, y, z, _]) = drawn.cascades.froms.get(number) {
+        let own = if let Some([x, y, z, _]) = drawn.cascades.detail_points.get(number) {
             Drawn { stand, detail_from: [*x, *y, *z], ..*drawn }
         } else {
             Drawn { slides: [[1e30, 2e30, 0.0, 0.0]; MAX_LEVELS], seconds: 0.0, ..*drawn }
@@ -145,7 +145,7 @@ fn write(into: &mut Upload<'_>, store: &Store, camera: &Camera, width: u32, draw
         sun_right: with(drawn.cascades.right, drawn.cascades.depths[0]),
         sun_up: with(drawn.cascades.up, drawn.cascades.depths[1]),
         cascades: drawn.cascades.squares,
-        casters_from: drawn.cascades.froms,
+        detail_points: drawn.cascades.detail_points,
         woods: [drawn.woods, 0.0, 0.0, 0.0],
         stale: drawn.stale.map(f32::from),
     };

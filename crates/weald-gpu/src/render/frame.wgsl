@@ -19,7 +19,7 @@ struct Frame {
     // Middle and half the sides of each cascade, along those directions.
     cascades: array<vec4<f32>, 4>,
     // From where is chosen what all cascades but the last hold; with how far the eye is from there at most.
-    casters_from: array<vec4<f32>, 3>,
+    detail_points: array<vec4<f32>, 3>,
     // How far trees of woods are drawn one by one, in metres; 0 where none are.
     woods: vec4<f32>,
     // 1 for each cascade that is drawn anew.

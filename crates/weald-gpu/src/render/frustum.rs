@@ -113,6 +113,11 @@ impl Heights {
         self.levels.last().map_or(0.0, |(_, bounds)| bounds[0][1]) + self.slack
     }
 
+    /// The greatest height of all and of what goes on beyond the border.
+    pub(crate) fn highest_around(&self) -> f32 {
+        self.beyond.map_or(self.highest(), |([_, high], _)| high.max(self.highest()))
+    }
+
     /// The least height of all.
     pub(crate) fn lowest(&self) -> f32 {
         self.levels.last().map_or(0.0, |(_, bounds)| bounds[0][0]) - self.slack
@@ -204,7 +209,13 @@ mod tests {
             values: values.clone(),
         };
         let heights = Heights::new(&top, [2.0; 2], -5.0);
-        assert_eq!(heights.highest(), 100.0);
+        assert_eq!((heights.highest(), heights.highest_around()), (100.0, 100.0));
+        let around = Heights::new(&top, [2.0; 2], -5.0).with_beyond(Some([-3.0, 140.0]), [37.0, 27.0]);
+        assert_eq!(
+            (around.highest(), around.highest_around()),
+            (100.0, 140.0),
+            "beyond the border it is higher"
+        );
         for (corner, side) in [([0.5, 0.5], 4.0), ([8.5, 16.5], 8.0), ([0.5, 0.5], 64.0), ([30.5, 20.5], 2.0)]
         {
             let [low, high] = heights.box_of(corner, side);

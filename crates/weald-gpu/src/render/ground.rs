@@ -310,3 +310,31 @@ impl Parts<'_> {
         self.context.known.drawing((self.module.clone(), key), make)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use weald::random::{splitmix64, unit};
+
+    #[test]
+    fn what_a_pixel_shows_is_in_sight() {
+        let (mut with_sky, mut with_plain) = (0, 0);
+        for number in 0..4000_u64 {
+            let random = |purpose: u64| 2.0 * unit(splitmix64(number ^ splitmix64(purpose))) as f32 - 1.0;
+            let camera = Camera::looking([0.0; 3], unit_of([0, 1, 2].map(random)), [0.6, 0.4]);
+            let in_sight = InSight::of(&camera, 50.0, 1e-3);
+            let rises = camera.ray([random(3), random(4)]).direction[2];
+            assert!(in_sight.is_near && (in_sight.sky || rises < 0.0) && (in_sight.plain || rises >= 0.0));
+            with_sky += u32::from(in_sight.sky);
+            with_plain += u32::from(in_sight.plain);
+        }
+        assert!((1500..3900).contains(&with_sky) && (1500..3900).contains(&with_plain));
+        let camera = Camera::looking([0.0; 3], [1.0, 0.0, 0.0], [0.6, 0.4]);
+        assert!(InSight::of(&camera, 299.0, 1e-3).is_near && !InSight::of(&camera, 304.0, 1e-3).is_near);
+    }
+
+    fn unit_of(v: [f32; 3]) -> [f32; 3] {
+        let length = v.iter().map(|part| part * part).sum::<f32>().sqrt();
+        v.map(|part| part / length)
+    }
+}

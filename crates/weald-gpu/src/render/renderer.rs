@@ -24,7 +24,7 @@ use super::passes::{Drawing, Passes};
 use super::picking::{LandScale, Picking};
 use super::picture::Readback;
 use super::plants::Plants;
-use super::shadows::{Cast, Shadows};
+use super::shadows::{CascadeContent, Shadows};
 use super::terrain::Terrain;
 use super::textures::Canvas;
 use super::timing::Timer;
@@ -280,7 +280,7 @@ impl Renderer {
         (onto, waits): (&Onto, bool),
         camera: &Camera,
         encoder: &mut CommandEncoder,
-    ) -> Result<([Cast; CASCADES], InSight), Error> {
+    ) -> Result<([CascadeContent; CASCADES], InSight), Error> {
         let size = onto.options.size;
         check_camera(camera)?;
         if let Some(timer) = &self.timer {
@@ -292,7 +292,7 @@ impl Renderer {
         let drawn = self.terrain.prepare(into, camera, size, (from, woods))?;
         let mut drawn = Drawn { seconds: self.seconds, is_dry: self.is_dry, ..drawn };
         let pixel_angle = camera.pixel_angle(size[0] as usize);
-        let wanted = Cast::of(&drawn, pixel_angle);
+        let wanted = CascadeContent::of(&drawn, pixel_angle);
         drawn.stale = self.shadows.stale(&wanted);
         self.frame.write(into, camera, size[0], &drawn);
         for number in (0..CASCADES).filter(|&number| drawn.stale[number]) {
@@ -316,7 +316,7 @@ impl Renderer {
         } else if let Some(timer) = &self.timer {
             timer.skip_choice(encoder);
         }
-        Ok((wanted, InSight::of(camera, drawn.stand.above, pixel_angle)))
+        Ok((wanted, InSight::of(camera, self.terrain.above_all(camera), pixel_angle)))
     }
 
     /// How many triangles the ground of a camera takes.

@@ -22,7 +22,7 @@ const APART: usize = 256;
 /// What a cascade hangs on beside the landscape, which is forgotten with [`Shadows::forget`]: where it is, from where and for
 /// pixels of which angle its detail is chosen, how far trees of woods stand, and the moment by which plants sway.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Cast {
+pub(super) struct CascadeContent {
     square: [f32; 4],
     depths: [f32; 2],
     from: [f32; 4],
@@ -31,13 +31,13 @@ pub(super) struct Cast {
     seconds: f32,
 }
 
-impl Cast {
+impl CascadeContent {
     /// Of each cascade in a picture; no camera changes the last.
     pub(super) fn of(drawn: &Drawn, pixel_angle: f32) -> [Self; CASCADES] {
         let Drawn { cascades, woods, seconds, .. } = *drawn;
         std::array::from_fn(|number| {
             let (square, depths) = (cascades.squares[number], cascades.depths);
-            match cascades.froms.get(number) {
+            match cascades.detail_points.get(number) {
                 Some(&from) => Self { square, depths, from, pixel_angle, woods, seconds },
                 None => Self { square, depths, from: [0.0; 4], pixel_angle: 0.0, woods: 0.0, seconds: 0.0 },
             }
@@ -52,7 +52,7 @@ pub(super) struct Shadows {
     pub(super) layout: BindGroupLayout,
     layers: Vec<(TextureView, BindGroup)>,
     /// What is drawn into each.
-    drawn: [Option<Cast>; CASCADES],
+    drawn: [Option<CascadeContent>; CASCADES],
     /// Whether that is nothing.
     is_empty: [bool; CASCADES],
     _numbers: Store,
@@ -101,7 +101,7 @@ impl Shadows {
     }
 
     /// The cascades that are not as a picture wants them.
-    pub(super) fn stale(&self, wanted: &[Cast; CASCADES]) -> [bool; CASCADES] {
+    pub(super) fn stale(&self, wanted: &[CascadeContent; CASCADES]) -> [bool; CASCADES] {
         std::array::from_fn(|number| self.drawn[number] != Some(wanted[number]))
     }
 
@@ -110,7 +110,7 @@ impl Shadows {
         &mut self,
         encoder: &mut CommandEncoder,
         (numbers, maps): (&[BindGroup; CASCADES], &BindGroup),
-        (casters, wanted): (&Casters, &[Cast; CASCADES]),
+        (casters, wanted): (&Casters, &[CascadeContent; CASCADES]),
         drawing: Drawing<'_>,
     ) {
         let stale = self.stale(wanted);

@@ -142,7 +142,7 @@ impl Terrain {
         (camera, size): (&Camera, [u32; 2]),
         cascades: &Cascades,
     ) -> Result<Viewpoint, Error> {
-        let [x, y, z, _] = cascades.froms[number];
+        let [x, y, z, _] = cascades.detail_points[number];
         let (stand, ranges) = (self.viewpoint([x, y, z]), self.ranges(camera, size));
         self.select(into, (number + 1, &cascades.column(number)), stand, &ranges)?;
         Ok(stand)
@@ -160,6 +160,11 @@ impl Terrain {
         let [width, height] = self.lattice.metres;
         let place = [0.5 + east / width, 0.5 - north / height];
         Viewpoint { place, above: (up - self.heights.highest()).max(0.0) }
+    }
+
+    /// Height in metres of a camera above all ground, that beyond the border too.
+    pub(super) fn above_all(&self, camera: &Camera) -> f32 {
+        (camera.eye[2] - self.heights.highest_around()).max(0.0)
     }
 
     /// Selects what is seen in a view.

@@ -52,7 +52,7 @@ fn distance_in(view: u32, plant: PlacedPlant) -> f32 {
     if view == 0u || view == VIEWS - 1u {
         return length(plant.place - frame.moment.yzw);
     }
-    let chosen = frame.casters_from[view - 1u];
+    let chosen = frame.detail_points[view - 1u];
     return max(length(plant.place - chosen.xyz) - chosen.w, 0.0);
 }
 
@@ -73,7 +73,7 @@ fn pixels_of(view: u32, plant: PlacedPlant) -> f32 {
 // How broad the leaves of a tree of a wood are before the eye: one that stands around it gives way.
 fn giving_way(view: u32, plant: PlacedPlant) -> f32 {
     let is_of_the_camera = view == 0u || view == VIEWS - 1u;
-    let chosen = select(frame.casters_from[min(max(view, 1u), VIEWS - 2u) - 1u].xyz, frame.moment.yzw, is_of_the_camera);
+    let chosen = select(frame.detail_points[min(max(view, 1u), VIEWS - 2u) - 1u].xyz, frame.moment.yzw, is_of_the_camera);
     let away = plant.place - chosen;
     let share = clamp((length(away.xy) / plant.size - 0.35) / 0.2, 0.0, 1.0);
     return select(1.0, share, kind.wood.x > 0.0 && away.z > -1.2 * plant.size);
