@@ -163,6 +163,7 @@ fn sync_folder(folder: &Path) -> std::io::Result<()> {
 
 /// Other systems have no such call.
 #[cfg(not(unix))]
+#[expect(clippy::unnecessary_wraps, reason = "as where there is one")]
 fn sync_folder(_: &Path) -> std::io::Result<()> {
     Ok(())
 }

@@ -30,6 +30,7 @@ pub(crate) trait Drawing {
     fn fail(&mut self, error: &Error);
 
     /// Waits until all that was submitted is drawn, which only a measurement does.
+    #[cfg(not(target_arch = "wasm32"))]
     fn wait(&self) {}
 
     /// Orders the scene of a landscape with looks of this number, unless it is the one that was ordered last.

@@ -70,6 +70,7 @@ fn usual_folder() -> Option<PathBuf> {
 
 /// Among what the browser keeps.
 #[cfg(target_arch = "wasm32")]
+#[expect(clippy::unnecessary_wraps, reason = "as where there may be none")]
 fn usual_folder() -> Option<PathBuf> {
     Some(files::current_dir().join(".weald"))
 }

@@ -12,7 +12,7 @@ use web_time::Instant;
 use eframe::NativeOptions;
 use eframe::egui::{Context, TextureId};
 use eframe::egui_wgpu::{RenderState, WgpuConfiguration, WgpuSetup, WgpuSetupCreateNew};
-use eframe::wgpu::{Backends, FilterMode, PollType};
+use eframe::wgpu::{Backends, FilterMode};
 use weald::edit::Canvas;
 use weald::engine::Engine;
 use weald::picture::{Camera, Image, View};
@@ -170,9 +170,10 @@ impl Drawing for Viewport {
         format!("{} ({})", info.name, info.backend)
     }
 
+    #[cfg(not(target_arch = "wasm32"))]
     fn wait(&self) {
         // A device that fails says so where it is drawn on.
-        let _ = self.window.device.poll(PollType::wait_indefinitely());
+        let _ = self.window.device.poll(eframe::wgpu::PollType::wait_indefinitely());
     }
 
     fn seconds(&self) -> f64 {

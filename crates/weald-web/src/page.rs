@@ -26,7 +26,7 @@ extern "C" {
     #[wasm_bindgen(js_namespace = weald, js_name = choose)]
     fn choose_file();
     #[wasm_bindgen(js_namespace = weald, js_name = handOut)]
-    fn hand_out_file(name: &str, bytes: Uint8Array);
+    fn hand_out_file(name: &str, bytes: &Uint8Array);
     #[wasm_bindgen(js_namespace = weald, js_name = share)]
     fn share_link(recipe: &str, script: &str);
 }
@@ -48,7 +48,7 @@ impl Host for AroundStudio {
     }
 
     fn hand_out(&self, name: &str, bytes: &[u8]) {
-        hand_out_file(name, Uint8Array::from(bytes));
+        hand_out_file(name, &Uint8Array::from(bytes));
     }
 
     fn share(&self, recipe: &str, script: &str) {
@@ -101,11 +101,10 @@ impl Page {
         };
         let options = Options {
             what,
-            own_files: None,
             remote: Some(Rc::clone(&remote)),
             host: Some(Rc::new(AroundStudio { arrived: Rc::clone(&arrived) })),
-            chooser: None,
             plays,
+            ..Options::default()
         };
         let (shown_in, read_by) = (Rc::clone(&context), labels.clone());
         let make = Box::new(move |creation: &CreationContext<'_>| {
@@ -118,7 +117,7 @@ impl Page {
     }
 
     /// Takes a file that was dropped on the page or chosen, and opens it.
-    pub fn arrive(&self, name: &str, bytes: Uint8Array) {
+    pub fn arrive(&self, name: &str, bytes: &Uint8Array) {
         let name = name.rsplit(['/', '\\']).next().unwrap_or(name);
         let path = files::current_dir().join("arrived").join(name);
         let put = files::create_dir_all(path.parent().unwrap_or(Path::new("/")));
@@ -203,7 +202,7 @@ impl Page {
 
 /// Puts a file that the browser has kept among those of the studio, before that begins.
 #[wasm_bindgen]
-pub fn restore(path: &str, bytes: Uint8Array) {
+pub fn restore(path: &str, bytes: &Uint8Array) {
     files::take_over(vec![(PathBuf::from(path), Some(bytes.to_vec()))]);
 }
 

@@ -167,6 +167,7 @@ impl Context {
 
     /// A browser tells of errors only after the program has returned to it: the next call hears of them.
     #[cfg(target_arch = "wasm32")]
+    #[expect(clippy::unused_self, reason = "as where errors are caught")]
     fn caught<T>(&self, work: impl FnOnce() -> T) -> (T, Option<wgpu::Error>) {
         (work(), None)
     }

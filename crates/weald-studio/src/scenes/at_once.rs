@@ -15,6 +15,7 @@ pub(crate) struct Scenes {
 
 impl Scenes {
     /// On a device. Nobody needs to be told when a scene is made.
+    #[expect(clippy::unnecessary_wraps, reason = "as where a thread has to start")]
     pub(crate) fn new(gpu: Gpu, _: impl Fn() + Send + 'static) -> Result<Self, Error> {
         Ok(Self { gpu, orders: RefCell::default() })
     }

@@ -74,6 +74,7 @@ fn try_to_write(folder: &Path) -> std::io::Result<()> {
 
 /// Memory can be written to.
 #[cfg(target_arch = "wasm32")]
+#[expect(clippy::unnecessary_wraps, reason = "as where there is one")]
 fn try_to_write(_: &Path) -> std::io::Result<()> {
     Ok(())
 }
@@ -91,6 +92,7 @@ fn ensure_one_disk(out: &Path, folder: &Path) -> Result<(), Error> {
 }
 
 #[cfg(not(unix))]
+#[expect(clippy::unnecessary_wraps, reason = "as where there is one")]
 fn ensure_one_disk(_: &Path, _: &Path) -> Result<(), Error> {
     Ok(())
 }
