@@ -1,6 +1,7 @@
 //! Ground and water beyond the border of a landscape: where rays meet them, and what they look like.
 
 use super::camera::Camera;
+use super::intersection::{CLOSE, close_in};
 use super::scene::{GroundSpot, RayMarcher, WaterSpot};
 use super::setting::Setting;
 use super::surroundings::{REACH, Surroundings};
@@ -13,9 +14,6 @@ use std::f32::consts::FRAC_1_PI;
 const STEP: f32 = 0.4;
 const MIN_STEP: f32 = 0.008;
 const MIN_CELLS: f32 = 0.5;
-
-/// Halvings between the last step above the ground and the first below it.
-const HALVINGS: usize = 14;
 
 /// Metres of water in which no bed is seen.
 const OPEN_SEA: f32 = 1000.0;
@@ -46,32 +44,28 @@ impl Setting {
         let above = |ray_length: f32| {
             ray.at(ray_length)[2] - self.top_beyond(around, self.terrain.place(ray.at(ray_length)))
         };
-        let (mut before, mut ray_length) = (near, near);
-        while ray_length < far {
-            let height = above(ray_length);
-            if height <= 0.0 {
-                return Some(self.close_in(ray, [before, ray_length], above));
+        let (mut before, mut ray_length) = ((near, 0.0), near);
+        loop {
+            let here = (ray_length, above(ray_length));
+            if here.1 <= 0.0 {
+                let ray_length = close_in([before, here], CLOSE * self.terrain.cell(), above);
+                return Some(Hit { ray_length, place: self.terrain.place(ray.at(ray_length)), side: None });
             }
-            before = ray_length;
-            ray_length += (STEP * height).max(MIN_CELLS * self.terrain.cell() + MIN_STEP * ray_length);
+            if ray_length >= far {
+                return None;
+            }
+            before = here;
+            let step = (STEP * here.1).max(MIN_CELLS * self.terrain.cell() + MIN_STEP * ray_length);
+            ray_length = (ray_length + step).min(far);
         }
-        (above(far) <= 0.0).then(|| self.close_in(ray, [before, far], above))
-    }
-
-    fn close_in(&self, ray: &Ray, [mut outside, mut inside]: [f32; 2], above: impl Fn(f32) -> f32) -> Hit {
-        for _ in 0..HALVINGS {
-            let middle = 0.5 * (outside + inside);
-            if above(middle) <= 0.0 { inside = middle } else { outside = middle }
-        }
-        Hit { ray_length: inside, place: self.terrain.place(ray.at(inside)), side: None }
     }
 
     /// Height of the ground or the water at a place beyond the border.
     pub(super) fn top_beyond(&self, around: &Surroundings, place: [f32; 2]) -> f32 {
-        let beyond = around.at(&self.bed, place);
+        let [height, share] = around.height(&self.bed, place);
         let cell = self.terrain.cell();
-        let level = self.level.as_ref().map(|level| around.level(level, &beyond, place, cell));
-        level.map_or(beyond.surface[0], |level| level.max(beyond.surface[0]))
+        let level = self.level.as_ref().map(|level| around.level(level, [height, share], place, cell));
+        level.map_or(height, |level| level.max(height))
     }
 
     /// A camera lifted out of the ground around the landscape.
@@ -131,7 +125,8 @@ impl RayMarcher {
         let (setting, point) = (&self.setting, ray.at(hit.ray_length));
         let beyond = around.at(&setting.bed, hit.place);
         let cell = setting.terrain.cell();
-        let level = setting.level.as_ref().map(|level| around.level(level, &beyond, hit.place, cell));
+        let ground = [beyond.surface[0], beyond.share];
+        let level = setting.level.as_ref().map(|level| around.level(level, ground, hit.place, cell));
         let depth = level.map_or(f32::NEG_INFINITY, |level| level - beyond.surface[0]);
         let like = Hit { place: beyond.place, ..*hit };
         let footprint = self.footprint(hit.ray_length);

@@ -9,7 +9,7 @@ use super::terrain::{Hit, Ray, Terrain};
 use super::vector::{Vector, unit};
 
 /// Error of a hit, as a share of the side of a cell.
-const CLOSE: f32 = 5e-4;
+pub(super) const CLOSE: f32 = 5e-4;
 
 /// Most steps of false position.
 const STEPS: usize = 24;
@@ -131,29 +131,6 @@ impl RayIntersection<'_> {
         (above <= 0.0).then_some((ray_length, above))
     }
 
-    /// The root between two ways by false position.
-    fn close_in(&self, [mut near, mut far]: [(f32, f32); 2]) -> f32 {
-        let tolerance = CLOSE * self.terrain.cell();
-        for _ in 0..STEPS {
-            if near.1 - far.1 <= 0.0 {
-                break;
-            }
-            let ray_length = near.0 + (far.0 - near.0) * near.1 / (near.1 - far.1);
-            let above = self.above(ray_length);
-            if above.abs() < tolerance {
-                return ray_length;
-            }
-            if above > 0.0 {
-                near = (ray_length, above);
-                far.1 *= 0.5;
-            } else {
-                far = (ray_length, above);
-                near.1 *= 0.5;
-            }
-        }
-        far.0
-    }
-
     fn is_inside(&self, ray_length: f32) -> bool {
         self.above(ray_length) <= 0.0 && self.terrain.has_data(self.line.at(ray_length))
     }
@@ -182,6 +159,34 @@ impl RayIntersection<'_> {
     }
 }
 
+/// The root between a length above the ground and one below it by false position, each with its height; so close that the
+/// height there is less than a tolerance.
+#[inline(always)]
+pub(super) fn close_in(
+    [mut near, mut far]: [(f32, f32); 2],
+    tolerance: f32,
+    above: impl Fn(f32) -> f32,
+) -> f32 {
+    for _ in 0..STEPS {
+        if near.1 - far.1 <= 0.0 {
+            break;
+        }
+        let ray_length = near.0 + (far.0 - near.0) * near.1 / (near.1 - far.1);
+        let height = above(ray_length);
+        if height.abs() < tolerance {
+            return ray_length;
+        }
+        if height > 0.0 {
+            near = (ray_length, height);
+            far.1 *= 0.5;
+        } else {
+            far = (ray_length, height);
+            near.1 *= 0.5;
+        }
+    }
+    far.0
+}
+
 impl LineSearch for RayIntersection<'_> {
     #[inline(always)]
     fn may_find(&self, [near, far]: [f32; 2], highest: f32) -> bool {
@@ -197,7 +202,8 @@ impl LineSearch for RayIntersection<'_> {
             return true;
         }
         let Some(bracket) = self.bracket(span) else { return false };
-        let ray_length = self.close_in(bracket);
+        let tolerance = CLOSE * self.terrain.cell();
+        let ray_length = close_in(bracket, tolerance, |ray_length| self.above(ray_length));
         self.hit = Some(Hit { ray_length, place: self.line.at(ray_length), side: None });
         true
     }

@@ -123,7 +123,7 @@ impl Level {
             let at = |x: usize, y: usize| self.highest[y * self.columns + x];
             at(x, y).max(at(right, y)).max(at(x, below).max(at(right, below)))
         };
-        Self { columns, rows, highest: (0..columns * rows).map(four).collect() }
+        Self { columns, rows, highest: (0..columns * rows).into_par_iter().map(four).collect() }
     }
 }
 

@@ -10,7 +10,7 @@ use super::crags::crags;
 use super::ground_kinds::Limits;
 use super::ground_noise::bed_spot;
 use super::rock::{BedSpot, stepped};
-use super::surface::Surface;
+use super::surface::{FinerCells, Surface, middle};
 use super::vector::ramp;
 use crate::texture::smoothed;
 use weald_core::grid::{Field, Size};
@@ -58,19 +58,20 @@ pub(super) struct Coarse<'a> {
 /// A field on finer cells, as smooth as it was.
 pub(super) fn finer(field: &Field, fineness: usize) -> Field {
     let surface = Surface::new(field);
-    mapped(field.size(), fineness, |place| surface.at(place))
+    let cells = FinerCells::of(&surface, fineness);
+    by_rows(field.size(), fineness, |y, values| {
+        let row = cells.row(&surface, y);
+        for (x, value) in values.iter_mut().enumerate() {
+            *value = cells.at(&row, x);
+        }
+    })
 }
 
-/// A field of finer cells from the places of their middles, counted in cells.
-fn mapped(size: Size, fineness: usize, value: impl Fn([f32; 2]) -> f32 + Sync) -> Field {
+/// A field of finer cells than there are of a size, whose rows are filled one by one.
+fn by_rows(size: Size, fineness: usize, fill: impl Fn(usize, &mut [f32]) + Sync) -> Field {
     let fine = Size { columns: size.columns * fineness, rows: size.rows * fineness };
-    let place = |at: usize| 0.5 + (at as f32 + 0.5) / fineness as f32;
     let mut values = vec![0.0; fine.cells()];
-    values.par_chunks_mut(fine.columns).enumerate().for_each(|(y, row)| {
-        for (x, height) in row.iter_mut().enumerate() {
-            *height = value([place(x), place(y)]);
-        }
-    });
+    values.par_chunks_mut(fine.columns).enumerate().for_each(|(y, row)| fill(y, row));
     Field::from_values(fine, values)
 }
 
@@ -93,10 +94,18 @@ impl Coarse<'_> {
     /// The ground on finer cells, with such shares of crags.
     pub(super) fn refined(&self, craggy: &Field, fineness: usize) -> Field {
         let (ground, craggy) = (Surface::new(self.ground), Surface::new(craggy));
-        mapped(self.ground.size(), fineness, |place| {
-            let share = craggy.at(place);
-            let smooth = ground.with_slope(place);
-            if share <= 0.0 { smooth[0] } else { self.crag(&ground, place, smooth, (share, fineness)) }
+        let cells = FinerCells::of(&ground, fineness);
+        by_rows(self.ground.size(), fineness, |y, heights| {
+            let (shares, row) = (cells.row(&craggy, y), cells.row(&ground, y));
+            for (x, height) in heights.iter_mut().enumerate() {
+                let share = cells.at(&shares, x);
+                *height = if share <= 0.0 {
+                    cells.at(&row, x)
+                } else {
+                    let place = [x, y].map(|cell| middle(cell, fineness));
+                    self.crag(&ground, place, cells.with_slope(&row, x), (share, fineness))
+                };
+            }
         })
     }
 

@@ -7,6 +7,7 @@ use super::camera::{self, Camera};
 use super::ground_kinds::SurfacePoint;
 use super::keys::View;
 use super::lit_scene::{CUT_WATER, LitScene};
+use super::pixel_mean::PixelMean;
 use super::skylight::{self, Seen};
 use super::terrain::{Hit, Ray};
 use super::vector::{Vector, add, dot, filter, mirrored, scale, unit};
@@ -101,17 +102,20 @@ impl RayMarcher {
         (0..self.pixels[0]).flat_map(|x| self.pixel([x, y])).collect()
     }
 
-    /// The bytes of a pixel, counted from the top left.
+    /// The bytes of a pixel, counted from the top left. No more rays are marched than its mean needs.
     pub(super) fn pixel(&self, [x, y]: [usize; 2]) -> [u8; 3] {
-        let mut sum = [0.0; 3];
+        let mut mean = PixelMean::default();
         for offset in &self.samples {
             let across = 2.0 * (x as f32 + 0.5 + offset[0]) / self.pixels[0] as f32 - 1.0;
             let up = 1.0 - 2.0 * (y as f32 + 0.5 + offset[1]) / self.pixels[1] as f32;
             // One ray into the sun must not outshine all others of its pixel.
             let light = self.tone.limited(self.light(&self.camera.ray([across, up])));
-            sum = add(sum, light);
+            mean.add(light, self.tone.brightness(light));
+            if mean.is_known() {
+                break;
+            }
         }
-        self.tone.bytes(scale(sum, 1.0 / self.samples.len() as f32), [x, y])
+        self.tone.bytes(mean.light(), [x, y])
     }
 
     /// The light that comes along a ray to the eye.

@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use rayon::prelude::*;
+
 use super::flow::Flow;
 use super::ground_kinds::Limits;
 use super::keys::{GroundColour, View};
@@ -259,7 +261,7 @@ impl Surfaces {
 /// The ground, or the water on it.
 fn higher(ground: &Field, level: Option<&Field>) -> Field {
     let Some(level) = level else { return ground.clone() };
-    let top = ground.values().iter().zip(level.values()).map(|(ground, level)| ground.max(*level));
+    let top = ground.values().par_iter().zip(level.values()).map(|(ground, level)| ground.max(*level));
     Field::from_values(ground.size(), top.collect())
 }
 

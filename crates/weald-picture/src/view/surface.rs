@@ -9,6 +9,7 @@
 //! from 0.5 to columns + 0.5, and the whole part of a place is its patch. Where the ground is drawn on finer cells than a
 //! field has, places are counted in those, and the field's surface says how many of its own each is.
 
+use rayon::prelude::*;
 use weald_core::grid::{Field, Size};
 
 /// Control points beyond each border.
@@ -61,10 +62,9 @@ impl Surface {
     pub(super) fn new(field: &Field) -> Self {
         let size = field.size();
         let stride = size.columns + 2 * RIM;
-        let mut control = Vec::with_capacity(stride * (size.rows + 2 * RIM));
-        for y in 0..size.rows + 2 * RIM {
-            control.extend((0..stride).map(|x| reflected(field, x, y)));
-        }
+        let mut control = vec![0.0; stride * (size.rows + 2 * RIM)];
+        let down = |y: usize| Reflection::of(y, size.rows);
+        control.par_chunks_mut(stride).enumerate().for_each(|(y, row)| fill_row(row, field, &down(y)));
         Self { size, stride, control, scale: 1.0 }
     }
 
@@ -134,11 +134,78 @@ impl Surface {
     }
 }
 
-/// The control point of a column and a row, both counted from the rim.
-fn reflected(field: &Field, x: usize, y: usize) -> f32 {
-    let size = field.size();
-    let (across, down) = (Reflection::of(x, size.columns), Reflection::of(y, size.rows));
-    down.of_values(|row| across.of_values(|column| field.at(column, row)))
+/// Where a row of finer cells lies on the surface of a field: for each cell the first of its four columns of control points,
+/// and their weights.
+pub(super) struct FinerCells {
+    fineness: usize,
+    columns: Vec<FinerColumn>,
+}
+
+struct FinerColumn {
+    first: usize,
+    weights: [f32; 4],
+    slopes: [f32; 4],
+}
+
+/// Values along a row of finer cells, and their rises by the cell of the field.
+pub(super) struct FinerRow {
+    control: [Vec<f32>; 2],
+}
+
+impl FinerCells {
+    /// So many finer cells along the side of each of a surface.
+    pub(super) fn of(surface: &Surface, fineness: usize) -> Self {
+        let column = |x: usize| {
+            let ([first, _], [t, _]) = surface.locate([middle(x, fineness), 1.0]);
+            FinerColumn { first, weights: weights(t), slopes: slopes(t) }
+        };
+        Self { fineness, columns: (0..surface.size.columns * fineness).map(column).collect() }
+    }
+
+    /// A row of a surface, of as many columns as that of these cells.
+    pub(super) fn row(&self, surface: &Surface, y: usize) -> FinerRow {
+        let ([_, first], [_, s]) = surface.locate([1.0, middle(y, self.fineness)]);
+        let rows =
+            [0, 1, 2, 3].map(|row| &surface.control[(first + row) * surface.stride..][..surface.stride]);
+        let down = |w: [f32; 4]| {
+            let above = rows[0].iter().zip(rows[1]).map(|(a, b)| w[0] * a + w[1] * b);
+            let below = rows[2].iter().zip(rows[3]).map(|(a, b)| w[2] * a + w[3] * b);
+            above.zip(below).map(|(a, b)| a + b).collect()
+        };
+        FinerRow { control: [down(weights(s)), down(slopes(s))] }
+    }
+
+    /// The value of a row at a column.
+    #[inline(always)]
+    pub(super) fn at(&self, row: &FinerRow, x: usize) -> f32 {
+        let FinerColumn { first, weights, .. } = &self.columns[x];
+        sum(weights, &row.control[0][*first..*first + 4])
+    }
+
+    /// The same, and its rise by the cell of the field eastward and southward.
+    pub(super) fn with_slope(&self, row: &FinerRow, x: usize) -> [f32; 3] {
+        let FinerColumn { first, weights, slopes } = &self.columns[x];
+        let [values, rises] = [0, 1].map(|of| &row.control[of][*first..*first + 4]);
+        [sum(weights, values), sum(slopes, values), sum(weights, rises)]
+    }
+}
+
+/// The place of the middle of a finer cell.
+pub(super) fn middle(cell: usize, fineness: usize) -> f32 {
+    0.5 + (cell as f32 + 0.5) / fineness as f32
+}
+
+/// The control points of a row, which is made of rows of the field as is said.
+fn fill_row(row: &mut [f32], field: &Field, down: &Reflection) {
+    let columns = field.size().columns;
+    let of_field = |y: usize| &field.values()[y * columns..(y + 1) * columns];
+    let (edge, inside) = (of_field(down.edge), of_field(down.inside));
+    for ((control, edge), inside) in row[RIM..].iter_mut().zip(edge).zip(inside) {
+        *control = edge + down.beyond * (edge - inside);
+    }
+    for x in (0..RIM).chain(RIM + columns..row.len()) {
+        row[x] = Reflection::of(x, columns).of_values(|column| row[RIM + column]);
+    }
 }
 
 /// What a control point beyond the border is made of: its border cell and what lies as far inside of that.
@@ -198,6 +265,27 @@ mod tests {
                 (coarse.with_slope(place), fine.with_slope(there));
             assert!((a - b).abs() < 1e-4, "{a} and {b}");
             assert!((east - 4.0 * less_east).abs() < 1e-3 && (south - 4.0 * less_south).abs() < 1e-3);
+        }
+    }
+
+    #[test]
+    fn rows_of_finer_cells_are_the_surface_at_their_middles() {
+        let size = Size::new(9, 7).expect("small");
+        let surface = Surface::new(&Field::from_function(size, |x, y| ((x * 7 + y * 5) % 11) as f32));
+        for fineness in [1, 2, 3, 4] {
+            let cells = FinerCells::of(&surface, fineness);
+            for y in 0..7 * fineness {
+                let row = cells.row(&surface, y);
+                for x in 0..9 * fineness {
+                    let there = surface.with_slope([middle(x, fineness), middle(y, fineness)]);
+                    let here = cells.with_slope(&row, x);
+                    assert!(
+                        here.iter().zip(there).all(|(a, b)| (a - b).abs() < 1e-4),
+                        "{here:?} for {there:?}"
+                    );
+                    assert_eq!(here[0], cells.at(&row, x));
+                }
+            }
         }
     }
 

@@ -14,6 +14,8 @@
 //! about the height `f` of the border in that direction; what stands far above the others is lowered by `l`, or a lone
 //! mountain would stand there again and again. Where `f` lies below the sea, `a` is 0: the sea goes on.
 
+use rayon::prelude::*;
+
 use super::surface::Surface;
 use crate::colour::mix;
 use weald_core::grain::Octaves;
@@ -112,13 +114,21 @@ impl Surroundings {
     /// What is around ground of such a surface and a sea of a height, as they are drawn.
     pub(super) fn new(bed: &Surface, sea: Option<f32>) -> Self {
         let size = bed.size();
-        let all = || (0..size.cells()).map(|at| bed.at(centre(at % size.columns, at / size.columns)));
-        let (low, high) = all().fold((f32::MAX, f32::MIN), |(low, high), z| (low.min(z), high.max(z)));
-        let mean = (all().map(f64::from).sum::<f64>() / size.cells() as f64) as f32;
+        let row = |y: usize| (0..size.columns).map(move |x| bed.at(centre(x, y)));
+        let [low, high, mean] = of_rows(size.rows, |y| {
+            let add = |[low, high, sum]: [f64; 3], z: f32| {
+                [low.min(z.into()), high.max(z.into()), sum + f64::from(z)]
+            };
+            row(y).fold(NOTHING, add)
+        });
+        let (low, high, mean) = (low as f32, high as f32, (mean / size.cells() as f64) as f32);
         let border = border(bed);
         let far = far(&border, sea, high - low);
         let edge = border.iter().fold([f32::MAX, f32::MIN], |[a, b], (_, z)| [a.min(*z), b.max(*z)]);
-        let squares = all().map(|z| f64::from(z - mean) * f64::from(z - mean)).sum::<f64>();
+        let [_, _, squares] = of_rows(size.rows, |y| {
+            let square = |z: f32| f64::from(z - mean) * f64::from(z - mean);
+            [0.0, 0.0, row(y).map(square).sum()]
+        });
         let highest_far = HIGHEST * ((squares / size.cells() as f64).sqrt() as f32).max(1e-3);
         let of_far =
             |[height, uneven]: &[f32; 2], z: f32| height + uneven * lowered(z - mean, highest_far)[0];
@@ -184,6 +194,23 @@ impl Surroundings {
         (place, [east, south])
     }
 
+    /// Height of the ground at a place beyond the border, as [`Surroundings::at`] has it, and how much of the border is left
+    /// behind there. Rays ask for it at each step.
+    pub(super) fn height(&self, bed: &Surface, place: [f32; 2]) -> [f32; 2] {
+        let Leaving { border, share, .. } = self.leaving(place);
+        let far = || {
+            let ([height, uneven], _) = self.far_at(place);
+            let (turned, _) = self.turned(place);
+            height + uneven * lowered(bed.at(turned) - self.mean, self.highest)[0]
+        };
+        if share >= 1.0 {
+            return [far(), share];
+        }
+        let edge = bed.at(border);
+        let near = edge + held(edge - bed.at(self.mirrored(place).0), NEAR * self.highest)[0];
+        [if share > 0.0 { near + (far() - near) * share } else { near }, share]
+    }
+
     /// The ground at a place beyond the border, for the surface of the landscape's own.
     pub(super) fn at(&self, bed: &Surface, place: [f32; 2]) -> Beyond {
         let Leaving { border, share, growth } = self.leaving(place);
@@ -219,11 +246,21 @@ impl Surroundings {
         if share + 0.5 * patchy < 0.5 { near } else { far }
     }
 
-    /// Level of the water at a place beyond the border, for that of the landscape and the ground there.
-    pub(super) fn level(&self, level: &Surface, beyond: &Beyond, place: [f32; 2], cell: f32) -> f32 {
-        let (mirrored, _) = self.mirrored(place);
-        let far = self.sea.unwrap_or(beyond.surface[0] - cell);
-        level.at(mirrored) + (far - level.at(mirrored)) * beyond.share
+    /// Level of the water at a place beyond the border, for that of the landscape, and the height of the ground there and how
+    /// much of the border is left behind.
+    pub(super) fn level(
+        &self,
+        level: &Surface,
+        [height, share]: [f32; 2],
+        place: [f32; 2],
+        cell: f32,
+    ) -> f32 {
+        let far = self.sea.unwrap_or(height - cell);
+        if share >= 1.0 {
+            return far;
+        }
+        let near = level.at(self.mirrored(place).0);
+        near + (far - near) * share
     }
 
     /// What rivers keep of their width there.
@@ -252,6 +289,17 @@ impl Surroundings {
         let square = (away(0) * away(0) + away(1) * away(1)) / (reach * reach);
         mix(radiance, farthest, 1.0 - libm::expf(-square))
     }
+}
+
+/// Of no values at all: the least, the greatest, and the sum.
+const NOTHING: [f64; 3] = [f64::INFINITY, f64::NEG_INFINITY, 0.0];
+
+/// The least, the greatest and the sum of what rows have, the same whatever the threads.
+fn of_rows(rows: usize, of_row: impl Fn(usize) -> [f64; 3] + Send + Sync) -> [f64; 3] {
+    let parts: Vec<[f64; 3]> = (0..rows).into_par_iter().map(of_row).collect();
+    parts
+        .into_iter()
+        .fold(NOTHING, |[low, high, sum], part| [low.min(part[0]), high.max(part[1]), sum + part[2]])
 }
 
 /// A height off another that comes no nearer than to `most`, above and below, and how much of its slope is left.

@@ -81,6 +81,11 @@ impl Tone {
         std::array::from_fn(|c| radiance[c].min(BRIGHTEST / self.gain[c]))
     }
 
+    /// How bright a radiance looks on the screen, 0 to 1: about as bytes are encoded.
+    pub(super) fn brightness(&self, radiance: Vector) -> f32 {
+        luminance(self.curve(radiance)).max(0.0).sqrt()
+    }
+
     /// Linear light on the screen, 0 to 1.
     fn curve(&self, radiance: Vector) -> Vector {
         let exposed = std::array::from_fn(|c| radiance[c].max(0.0) * self.gain[c]);
