@@ -3,6 +3,8 @@
 //! Gradient noise after Perlin 2002, doi 10.1145/566654.566636, with hashed directions, and its exact slope. It is a
 //! function of the place alone. Octaves finer than the footprint of a pixel fade out before they could flicker.
 
+use crate::vectors;
+
 /// The twin of this noise for shaders.
 pub const SHADER: &str = include_str!("grain.wgsl");
 
@@ -100,6 +102,32 @@ pub struct Octaves {
 }
 
 impl Octaves {
+    /// The values of the sum at many points, for pixels of one footprint in metres, as [`Octaves::at`] has them; the points,
+    /// eastward and northward, are used up.
+    pub fn values(&self, [east, north]: [&mut [f32]; 2], footprint: f32) -> Vec<f32> {
+        let mut sums = vec![0.0; east.len()];
+        let (mut strength, mut wavelength) = (1.0, self.wavelength);
+        for octave in 0..self.count {
+            let seen = strength * visible(footprint, wavelength);
+            if seen <= 0.0 {
+                break;
+            }
+            let seed = self.seed.wrapping_add(octave.wrapping_mul(0x9e37_79b9));
+            vectors::widest(
+                #[inline(always)]
+                || {
+                    for ((sum, x), y) in sums.iter_mut().zip(&mut *east).zip(&mut *north) {
+                        *sum += seen * grain([*x / wavelength, *y / wavelength], seed).value;
+                        [*x, *y] = [0.8 * *x + 0.6 * *y, 0.8 * *y - 0.6 * *x];
+                    }
+                },
+            );
+            strength *= self.gain;
+            wavelength *= 0.5;
+        }
+        sums
+    }
+
     /// The sum at a point, for a pixel of that footprint in metres; the slope is a metre.
     pub fn at(&self, point: [f32; 3], footprint: f32) -> Grain {
         let (mut sum, mut strength, mut wavelength) = (Grain::default(), 1.0, self.wavelength);
@@ -131,6 +159,20 @@ impl Octaves {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn many_points_have_the_bits_of_each() {
+        let octaves = Octaves { wavelength: 40.0, count: 6, gain: 0.55, seed: 7 };
+        let points: Vec<[f32; 2]> = (0..77).map(|i| [i as f32 * 3.7 - 90.0, i as f32 * -1.9]).collect();
+        for footprint in [0.0, 3.0, 12.0, 100.0] {
+            let mut axes = [0, 1].map(|axis| points.iter().map(|point| point[axis]).collect::<Vec<_>>());
+            let [east, north] = &mut axes;
+            let values = octaves.values([east, north], footprint);
+            for (value, [x, y]) in values.into_iter().zip(&points) {
+                assert_eq!(value, octaves.at([*x, *y, 0.0], footprint).value);
+            }
+        }
+    }
 
     #[test]
     fn the_slope_is_that_of_the_value() {

@@ -6,6 +6,7 @@
 
 use super::solid_grain::solid_grain;
 use weald_core::grain::visible;
+use weald_core::vectors;
 
 /// The longest wavelength in cells, the number of octaves, and what each is against the one before, which is twice as long.
 const CELLS: f32 = 4.0;
@@ -59,6 +60,32 @@ pub(super) fn crags(point: [f32; 3], rise: [f32; 2], cell: f32, footprint: f32) 
     sum
 }
 
+/// The heights of crags at many points, for pixels of one footprint, as [`crags`] has them; the points are used up.
+pub(super) fn heights([east, north, up]: [&mut [f32]; 3], cell: f32, footprint: f32) -> Vec<f32> {
+    let mut sums = vec![0.0; east.len()];
+    let (mut strength, mut wavelength) = (1.0, CELLS * cell);
+    for octave in 0..OCTAVES {
+        let seen = strength * visible(footprint, wavelength);
+        if seen <= 0.0 {
+            break;
+        }
+        let seed = SEED.wrapping_add(octave.wrapping_mul(0x9e37_79b9));
+        vectors::widest(
+            #[inline(always)]
+            || {
+                for (((sum, x), y), z) in sums.iter_mut().zip(&mut *east).zip(&mut *north).zip(&*up) {
+                    let value = solid_grain([*x / wavelength, *y / wavelength, *z / wavelength], seed).value;
+                    *sum += seen * (MEAN - (value * value + SHARP).sqrt());
+                    [*x, *y] = [0.8 * *x + 0.6 * *y, 0.8 * *y - 0.6 * *x];
+                }
+            },
+        );
+        strength *= GAIN;
+        wavelength *= 0.5;
+    }
+    sums
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -91,6 +118,19 @@ mod tests {
             let measured = [at(0.01, 0.0) - at(-0.01, 0.0), at(0.0, 0.01) - at(0.0, -0.01)];
             for (slope, rise) in crags(point, [0.0; 2], 10.0, 0.0).slope.iter().zip(measured) {
                 assert!((slope - rise / 0.02).abs() < 0.05, "{slope} for {}", rise / 0.02);
+            }
+        }
+    }
+
+    #[test]
+    fn many_points_have_the_bits_of_each() {
+        let points: Vec<[f32; 3]> =
+            (0..77).map(|i| [3.7, -1.9, 0.8].map(|pace: f32| pace * i as f32)).collect();
+        for footprint in [0.0, 3.0, 60.0] {
+            let mut axes = [0, 1, 2].map(|axis| points.iter().map(|point| point[axis]).collect::<Vec<_>>());
+            let [east, north, up] = &mut axes;
+            for (height, point) in heights([east, north, up], 10.0, footprint).into_iter().zip(&points) {
+                assert_eq!(height, crags(*point, [0.4, 0.2], 10.0, footprint).height);
             }
         }
     }

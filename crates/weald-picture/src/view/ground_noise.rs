@@ -77,9 +77,13 @@ fn broad(cell: f32) -> Octaves {
     Octaves { wavelength: 26.0 * cell, count: 5, gain: 0.55, seed: 0x11 }
 }
 
-/// Some thirty beds over the relief, folded by about one of their thickness, at a point.
-pub(super) fn bed_spot(point: Vector, limits: &Limits, is_material: bool, footprint: f32) -> BedSpot {
+/// Patches of many cells at many points, which are used up.
+pub(super) fn broad_values(places: [&mut [f32]; 2], cell: f32) -> Vec<f32> {
+    broad(cell).values(places, 0.0)
+}
+
+/// Some thirty beds over the relief, folded by about one of their thickness, at a point where patches have such a value.
+pub(super) fn bed_spot(point: Vector, limits: &Limits, is_material: bool, broad: f32) -> BedSpot {
     let (thick, fold) = if is_material { (0.03, 0.8) } else { (THICK, 1.4) };
-    let fold = fold * broad(limits.cell).at(point, footprint).value;
-    BedSpot { point, fold, thickness: thick * limits.relief.max(1e-3), footprint }
+    BedSpot { point, fold: fold * broad, thickness: thick * limits.relief.max(1e-3), footprint: 0.0 }
 }

@@ -6,9 +6,9 @@
 
 use rayon::prelude::*;
 
-use super::crags::crags;
+use super::crags;
 use super::ground_kinds::Limits;
-use super::ground_noise::bed_spot;
+use super::ground_noise::{bed_spot, broad_values};
 use super::rock::{BedSpot, stepped};
 use super::surface::{FinerCells, Surface, middle};
 use super::vector::ramp;
@@ -55,6 +55,19 @@ pub(super) struct Coarse<'a> {
     pub(super) is_material: bool,
 }
 
+/// A finer cell of which a share is crags.
+struct Steep {
+    /// Its column.
+    x: usize,
+    /// Height without crags, as it is drawn.
+    height: f32,
+    /// Rise over run eastward and northward.
+    rise: [f32; 2],
+    share: f32,
+    /// How much the spline rounds off there.
+    crest: f32,
+}
+
 /// A field on finer cells, as smooth as it was.
 pub(super) fn finer(field: &Field, fineness: usize) -> Field {
     let surface = Surface::new(field);
@@ -97,44 +110,60 @@ impl Coarse<'_> {
         let cells = FinerCells::of(&ground, fineness);
         by_rows(self.ground.size(), fineness, |y, heights| {
             let (shares, row) = (cells.row(&craggy, y), cells.row(&ground, y));
+            let mut steep = Vec::new();
             for (x, height) in heights.iter_mut().enumerate() {
+                *height = cells.at(&row, x);
                 let share = cells.at(&shares, x);
-                *height = if share <= 0.0 {
-                    cells.at(&row, x)
-                } else {
-                    let place = [x, y].map(|cell| middle(cell, fineness));
-                    self.crag(&ground, place, cells.with_slope(&row, x), (share, fineness))
-                };
+                if share > 0.0 {
+                    let [_, east, south] = cells.with_slope(&row, x);
+                    let [along, down] = [x, y].map(|cell| middle(cell, fineness));
+                    let crest = ground.keys_at([along, down]) - *height;
+                    steep.push(Steep { x, height: *height, rise: self.rise([east, south]), share, crest });
+                }
+            }
+            let points = self.points(&steep, y, fineness);
+            for (steep, stands) in steep.iter().zip(self.stand(&steep, &points, fineness)) {
+                heights[steep.x] = steep.height + steep.share * (steep.crest + stands * self.exaggeration);
             }
         })
     }
 
-    /// Height of ground of which such a share is crags.
-    fn crag(
-        &self,
-        ground: &Surface,
-        place: [f32; 2],
-        smooth: [f32; 3],
-        (share, fineness): (f32, usize),
-    ) -> f32 {
-        let stretch = self.exaggeration;
-        let [height, east, south] = smooth;
-        let rise = [east / self.spacing[0] / stretch, -south / self.spacing[1] / stretch];
-        let point =
-            [(place[0] - 0.5) * self.spacing[0], (0.5 - place[1]) * self.spacing[1], height / stretch];
-        let cell = self.limits.cell;
-        let stands = crags(point, rise, cell, BLUR * cell / fineness as f32).height;
-        // What stands out of a slope is higher by its steepness.
-        let upward = (1.0 + rise[0] * rise[0] + rise[1] * rise[1]).sqrt();
-        let crest = ground.keys_at(place) - height;
-        let high = if self.is_material { HIGH_OF_MATERIALS } else { HIGH };
-        let stands = high * stands * cell * upward.min(2.0) + self.ledges(point, fineness);
-        height + share * (crest + stands * stretch)
+    /// Rise over run eastward and northward of ground that rises so by the cell.
+    fn rise(&self, [east, south]: [f32; 2]) -> [f32; 2] {
+        [east / self.spacing[0] / self.exaggeration, -south / self.spacing[1] / self.exaggeration]
     }
 
-    /// How much higher ground stands for the ledges of its beds.
-    fn ledges(&self, point: [f32; 3], fineness: usize) -> f32 {
-        let spot = bed_spot(point, &self.limits, self.is_material, 0.0);
+    /// The points of finer cells of a row, in metres eastward, northward and up.
+    fn points(&self, steep: &[Steep], y: usize, fineness: usize) -> Vec<[f32; 3]> {
+        let north = (0.5 - middle(y, fineness)) * self.spacing[1];
+        let point = |steep: &Steep| {
+            let east = (middle(steep.x, fineness) - 0.5) * self.spacing[0];
+            [east, north, steep.height / self.exaggeration]
+        };
+        steep.iter().map(point).collect()
+    }
+
+    /// How much higher ground stands for its crags and the ledges of its beds.
+    fn stand(&self, steep: &[Steep], points: &[[f32; 3]], fineness: usize) -> Vec<f32> {
+        let axes = || [0, 1, 2].map(|axis| points.iter().map(|point| point[axis]).collect::<Vec<f32>>());
+        let cell = self.limits.cell;
+        let [mut east, mut north, mut up] = axes();
+        let crags = crags::heights([&mut east, &mut north, &mut up], cell, BLUR * cell / fineness as f32);
+        let [mut east, mut north, _] = axes();
+        let broad = broad_values([&mut east, &mut north], cell);
+        let high = if self.is_material { HIGH_OF_MATERIALS } else { HIGH };
+        let stands = |at: usize| {
+            let [east, north] = steep[at].rise;
+            // What stands out of a slope is higher by its steepness.
+            let upward = (1.0 + east * east + north * north).sqrt();
+            high * crags[at] * cell * upward.min(2.0) + self.ledges(points[at], broad[at], fineness)
+        };
+        (0..steep.len()).map(stands).collect()
+    }
+
+    /// How much higher ground stands for the ledges of its beds, where patches have such a value.
+    fn ledges(&self, point: [f32; 3], broad: f32, fineness: usize) -> f32 {
+        let spot = bed_spot(point, &self.limits, self.is_material, broad);
         let thickness = LEDGES * spot.thickness;
         let spot = BedSpot { thickness, fold: spot.fold / LEDGES, ..spot };
         let seen = ramp(thickness * fineness as f32 / self.limits.cell, 2.0, 5.0);

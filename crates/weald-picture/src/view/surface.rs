@@ -52,6 +52,12 @@ fn keys(t: f32) -> [f32; 4] {
     [-0.5 * t * s * s, 1.0 + t * t * (1.5 * t - 2.5), 1.0 + s * s * (1.5 * s - 2.5), -0.5 * s * t * t]
 }
 
+/// The sum of each row, weighed.
+#[inline(always)]
+fn sums(weights: &[f32; 4], [a, b, c, d]: &[&[f32]; 4]) -> [f32; 4] {
+    [sum(weights, a), sum(weights, b), sum(weights, c), sum(weights, d)]
+}
+
 #[inline(always)]
 fn sum(weights: &[f32; 4], row: &[f32]) -> f32 {
     (weights[0] * row[0] + weights[1] * row[1]) + (weights[2] * row[2] + weights[3] * row[3])
@@ -92,10 +98,10 @@ impl Surface {
     /// The rows of four control points of a patch.
     #[inline(always)]
     pub(super) fn patch(&self, x: usize, y: usize) -> [&[f32]; 4] {
-        [0, 1, 2, 3].map(|row| {
-            let start = (y + row) * self.stride + x;
-            &self.control[start..start + 4]
-        })
+        // Not `map`, which is not inlined everywhere.
+        let start = y * self.stride + x;
+        let row = |row: usize| &self.control[start + row * self.stride..][..4];
+        [row(0), row(1), row(2), row(3)]
     }
 
     #[inline(always)]
@@ -112,14 +118,14 @@ impl Surface {
     pub(super) fn at(&self, place: [f32; 2]) -> f32 {
         let ([x, y], [t, s]) = self.locate(place);
         let across = weights(t);
-        sum(&weights(s), &self.patch(x, y).map(|row| sum(&across, row)))
+        sum(&weights(s), &sums(&across, &self.patch(x, y)))
     }
 
     /// The value at a place by the cubic convolution of Keys 1981: it passes through the values of cells.
     pub(super) fn keys_at(&self, place: [f32; 2]) -> f32 {
         let ([x, y], [t, s]) = self.locate(place);
         let across = keys(t);
-        sum(&keys(s), &self.patch(x, y).map(|row| sum(&across, row)))
+        sum(&keys(s), &sums(&across, &self.patch(x, y)))
     }
 
     /// The value at a place and its rise by the cell of places eastward and southward.
@@ -128,8 +134,8 @@ impl Surface {
         let ([x, y], [t, s]) = self.locate(place);
         let (across, down) = (weights(t), weights(s));
         let patch = self.patch(x, y);
-        let rows = patch.map(|row| sum(&across, row));
-        let rise = patch.map(|row| sum(&slopes(t), row));
+        let rows = sums(&across, &patch);
+        let rise = sums(&slopes(t), &patch);
         [sum(&down, &rows), self.scale * sum(&down, &rise), self.scale * sum(&slopes(s), &rows)]
     }
 }
