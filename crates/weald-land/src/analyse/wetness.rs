@@ -11,11 +11,15 @@
 //! neighbours by their shares, and falls by `h`, the mean of the falls. So `a = A |d| / cell²` and `tan β = h / |d|`:
 //! both are those of the plane on planes along the axes and the diagonals.
 
+use std::f64::consts::LN_2;
+
 use rayon::prelude::*;
 
+use super::ensure_finite;
 use super::stages::Stages;
-use super::{CELLS_PER_TASK, ensure_finite};
+use crate::exponential::log2;
 use crate::flow::directions::STEPS;
+use crate::flow::row_weights::{RowOutflow, RowWeights};
 use crate::flow::{MultipleFlow, Routed, Routing, STAGES, accumulate_multiple, route_watched};
 use weald_core::error::Error;
 use weald_core::grid::Field;
@@ -97,20 +101,18 @@ impl Step for Wetness {
 /// The index of each cell, for cells of `cell` metres; slopes below `least_slope` count as that.
 pub fn wetness(flow: &MultipleFlow<'_>, cell: f64, least_slope: f64) -> Field {
     let upslope = accumulate_multiple(flow, None);
-    let mut values = vec![0.0; upslope.len()];
-    let tasks = values.par_chunks_mut(CELLS_PER_TASK).zip(upslope.par_chunks(CELLS_PER_TASK));
-    tasks.enumerate().for_each(|(task, (values, upslope))| {
+    let (columns, mut values) = (flow.routed.surface.size().columns, vec![0.0; upslope.len()]);
+    let by_rows = values.par_chunks_mut(columns).zip(upslope.par_chunks(columns));
+    by_rows.enumerate().for_each(|(y, (values, upslope))| {
+        let outflows = Outflow::of_row(flow, y);
         vectors::widest(
             #[inline(always)]
             || {
-                let cells = (task * CELLS_PER_TASK..).zip(upslope);
-                for (value, (at, &cells)) in
-                    values.iter_mut().zip(cells).filter(|(_, (_, cells))| **cells != 0.0)
-                {
-                    let outflow = Outflow::of(flow, at);
+                for ((value, &cells), outflow) in values.iter_mut().zip(upslope).zip(&outflows) {
                     let by_contour = cells * outflow.step * cell;
                     let slope = (outflow.fall / (outflow.step * cell)).max(least_slope);
-                    *value = libm::log(by_contour / slope) as f32;
+                    let index = (LN_2 * log2(by_contour / slope)) as f32;
+                    *value = if cells == 0.0 { 0.0 } else { index };
                 }
             },
         );
@@ -127,7 +129,26 @@ struct Outflow {
 }
 
 impl Outflow {
-    #[inline(always)]
+    /// Those of the cells of a row.
+    fn of_row(flow: &MultipleFlow<'_>, y: usize) -> Vec<Self> {
+        let columns = flow.routed.surface.size().columns;
+        let of_cell = |x: usize| Self::of(flow, y * columns + x);
+        let Some(weights) = RowWeights::of(flow, y) else { return (0..columns).map(of_cell).collect() };
+        let RowOutflow { to: [east, south], fall } = weights.outflow(flow, y);
+        let inner = |at: usize| Self { step: Self::step([east[at], south[at]]), fall: fall[at] };
+        let of = |x: usize| {
+            let is_inner = x > 0 && x + 1 < columns && weights.totals()[x - 1] > 0.0;
+            let is_steep = is_inner && flow.routed.directions.downstream(y * columns + x).is_some();
+            if is_steep { inner(x - 1) } else { of_cell(x) }
+        };
+        (0..columns).map(of).collect()
+    }
+
+    /// How far water moves on that goes so far eastward and southward.
+    fn step(to: [f64; 2]) -> f64 {
+        (to[0] * to[0] + to[1] * to[1]).sqrt().max(MIN_STEP)
+    }
+
     fn of(flow: &MultipleFlow<'_>, cell: usize) -> Self {
         let Routed { surface, directions } = flow.routed;
         if directions.downstream(cell).is_none() {
@@ -143,7 +164,7 @@ impl Outflow {
             let other = cell.wrapping_add_signed(south * columns + east);
             fall += share * (f64::from(surface.values()[cell]) - f64::from(surface.values()[other]));
         }
-        Self { step: (to[0] * to[0] + to[1] * to[1]).sqrt().max(MIN_STEP), fall }
+        Self { step: Self::step(to), fall }
     }
 }
 

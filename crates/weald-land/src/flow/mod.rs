@@ -38,6 +38,7 @@ mod least_deviation;
 mod multiple;
 mod naive;
 pub(crate) mod priority_flood;
+pub(crate) mod row_weights;
 mod saddles;
 mod surface;
 pub mod tiled;

@@ -15,6 +15,7 @@ use rayon::prelude::*;
 
 use super::Routed;
 use super::accumulate::{CellWeights, set_directions};
+use super::row_weights::RowWeights;
 use crate::exponential::power;
 use crate::flow::directions::{CELLS_PER_TASK, STEPS, opposite};
 use weald_core::grid::{Field, Mask, Size};
@@ -36,10 +37,13 @@ impl MultipleFlow<'_> {
     /// sea.
     #[inline(always)]
     pub fn shares(&self, cell: usize) -> [f64; 8] {
-        let weights = self.weights(cell);
+        let mut weights = self.weights(cell);
         let sum: f64 = weights.iter().sum();
         if sum > 0.0 {
-            return weights.map(|weight| weight / sum);
+            // Not `map`, which is a call for each.
+            for weight in &mut weights {
+                *weight /= sum;
+            }
         }
         weights
     }
@@ -50,7 +54,8 @@ impl MultipleFlow<'_> {
         if self.routed.directions.downstream(cell).is_none() {
             return [0.0; 8];
         }
-        let mut weights = self.descents(cell).map(|descent| weight(descent, self.exponent));
+        let mut weights = self.descents(cell);
+        weigh(&mut weights, self.exponent);
         if weights.iter().all(|&weight| weight == 0.0) {
             weights[usize::from(self.routed.directions.codes()[cell]) - 1] = 1.0;
         }
@@ -63,24 +68,26 @@ impl MultipleFlow<'_> {
         let Size { columns, rows } = self.routed.surface.size();
         let [x, y] = [cell % columns, cell / columns];
         let is_inside = x > 0 && y > 0 && x + 1 < columns && y + 1 < rows && self.valid.is_none();
-        std::array::from_fn(|direction| {
-            if is_inside {
-                let (east, south) = STEPS[direction];
-                return self.descent(
-                    cell,
-                    cell.wrapping_add_signed(south * columns as isize + east),
-                    direction,
-                );
-            }
-            self.neighbour(cell, direction).map_or(0.0, |other| self.descent(cell, other, direction))
-        })
+        let mut descents = [0.0; 8];
+        for (direction, descent) in descents.iter_mut().enumerate() {
+            let (east, south) = STEPS[direction];
+            let beside = cell.wrapping_add_signed(south * columns as isize + east);
+            let other = if is_inside { Some(beside) } else { self.neighbour(cell, direction) };
+            *descent = other.map_or(0.0, |other| self.descent(cell, other, direction));
+        }
+        descents
     }
 
     #[inline(always)]
     fn descent(&self, cell: usize, other: usize, direction: usize) -> f64 {
         let level = self.routed.surface.values();
-        let nearness = if direction % 2 == 1 { std::f64::consts::FRAC_1_SQRT_2 } else { 1.0 };
-        (f64::from(level[cell]) - f64::from(level[other])) * nearness
+        (f64::from(level[cell]) - f64::from(level[other])) * Self::nearness(direction)
+    }
+
+    /// One over the distance to a neighbour in a direction, in cells.
+    #[inline(always)]
+    pub(super) fn nearness(direction: usize) -> f64 {
+        if direction % 2 == 1 { std::f64::consts::FRAC_1_SQRT_2 } else { 1.0 }
     }
 
     fn neighbour(&self, cell: usize, direction: usize) -> Option<usize> {
@@ -118,23 +125,21 @@ pub(super) struct Shares<'a> {
 
 impl<'a> Shares<'a> {
     pub(super) fn of(flow: &'a MultipleFlow<'a>) -> Self {
-        let cells = flow.routed.surface.size().cells();
-        let (mut receivers, mut totals) = (vec![0; cells], vec![0.0; cells]);
-        let tasks = receivers.par_chunks_mut(CELLS_PER_TASK).zip(totals.par_chunks_mut(CELLS_PER_TASK));
-        tasks.enumerate().for_each(|(task, (receivers, totals))| {
-            vectors::widest(
-                #[inline(always)]
-                || {
-                    let links_of = (task * CELLS_PER_TASK..).map(
-                        #[inline(always)]
-                        |cell| links(flow, cell),
-                    );
-                    let of_cells = receivers.iter_mut().zip(totals.iter_mut());
-                    for ((receivers, total), found) in of_cells.zip(links_of) {
-                        (*receivers, *total) = found;
-                    }
-                },
-            );
+        let Size { columns, rows } = flow.routed.surface.size();
+        let (mut receivers, mut totals) = (vec![0; columns * rows], vec![0.0; columns * rows]);
+        let by_rows = receivers.par_chunks_mut(columns).zip(totals.par_chunks_mut(columns));
+        by_rows.enumerate().for_each(|(y, (receivers, totals))| {
+            if let Some(weights) = RowWeights::of(flow, y) {
+                receivers[1..columns - 1].copy_from_slice(&weights.receivers());
+                totals[1..columns - 1].copy_from_slice(weights.totals());
+            }
+            for x in 0..columns {
+                // Outlets give nothing, though there may be lower ground in a sea; flat ground gives by its direction.
+                let cell = y * columns + x;
+                if totals[x] == 0.0 || flow.routed.directions.downstream(cell).is_none() {
+                    (receivers[x], totals[x]) = links(flow, cell);
+                }
+            }
         });
         Self { flow, receivers, totals }
     }
@@ -150,10 +155,12 @@ impl<'a> Shares<'a> {
 
     /// The share that a cell gives to the one it lies beside, as seen from there.
     pub(super) fn share(&self, giver: usize, cell: usize, direction: usize) -> f64 {
-        if self.receivers[giver].is_power_of_two() {
-            return 1.0;
-        }
-        weight(self.flow.descent(giver, cell, direction), self.flow.exponent) / self.totals[giver]
+        self.share_of(giver, || weight(self.flow.descent(giver, cell, direction), self.flow.exponent))
+    }
+
+    /// The same by the weight of that neighbour, which one that gives to no other has whole.
+    fn share_of(&self, giver: usize, weight: impl Fn() -> f64) -> f64 {
+        if self.receivers[giver].is_power_of_two() { 1.0 } else { weight() / self.totals[giver] }
     }
 }
 
@@ -191,13 +198,7 @@ impl Spread<'_> {
 
     /// Finishes a cell, and finds those for which it was the last to wait for.
     fn pass(&self, cell: usize, sums: &[AtomicU64], waiting: &[AtomicU8], open: &mut Vec<usize>) {
-        let received: f64 = set_directions(self.donors[cell])
-            .map(|direction| {
-                let other = self.beside(cell, direction);
-                f64::from_bits(sums[other].load(Ordering::Relaxed))
-                    * self.shares.share(other, cell, direction)
-            })
-            .sum();
+        let received = self.received(cell, sums);
         sums[cell].store((self.own.at(cell) + received).to_bits(), Ordering::Relaxed);
         for direction in set_directions(self.shares.receivers[cell]) {
             let next = self.beside(cell, direction);
@@ -208,15 +209,41 @@ impl Spread<'_> {
         }
     }
 
+    /// What comes to a cell from all that give to it, whose sums are known.
+    fn received(&self, cell: usize, sums: &[AtomicU64]) -> f64 {
+        let (flow, mut weights) = (self.shares.flow, [0.0; 8]);
+        for direction in set_directions(self.donors[cell]) {
+            weights[direction] = flow.descent(self.beside(cell, direction), cell, direction);
+        }
+        vectors::widest(
+            #[inline(always)]
+            || weigh(&mut weights, flow.exponent),
+        );
+        let of_giver = |direction: usize| {
+            let giver = self.beside(cell, direction);
+            let sum = f64::from_bits(sums[giver].load(Ordering::Relaxed));
+            sum * self.shares.share_of(giver, || weights[direction])
+        };
+        set_directions(self.donors[cell]).map(of_giver).sum()
+    }
+
     fn beside(&self, cell: usize, direction: usize) -> usize {
         let (east, south) = STEPS[direction];
         cell.wrapping_add_signed(south * self.shares.flow.routed.surface.size().columns as isize + east)
     }
 }
 
+/// Weights in place of the drops to all neighbours over their distances.
+#[inline(always)]
+fn weigh(descents: &mut [f64; 8], exponent: f64) {
+    for descent in descents {
+        *descent = weight(*descent, exponent);
+    }
+}
+
 /// What the share of a neighbour is in proportion to, by the drop to it over the distance.
 #[inline(always)]
-fn weight(descent: f64, exponent: f64) -> f64 {
+pub(super) fn weight(descent: f64, exponent: f64) -> f64 {
     let weight = power(descent, exponent);
     if descent > 0.0 { weight } else { 0.0 }
 }
