@@ -201,7 +201,7 @@ mod tests {
             (diagonal - libm::log(61.0 * 10.0 * std::f64::consts::SQRT_2 / 0.2)).abs() < 0.15,
             "{diagonal}"
         );
-        assert!((on_a_plane(0.0, 0.1) - straight - std::f64::consts::LN_2).abs() < 0.02);
+        assert!((on_a_plane(0.0, 0.1) - straight - LN_2).abs() < 0.02);
     }
 
     #[test]

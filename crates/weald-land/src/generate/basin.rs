@@ -45,9 +45,9 @@ impl Generator for Basin {
         let shorter = domain.size.columns.min(domain.size.rows) as f64 * domain.cell;
         let rim_radius = self.radius.unwrap_or(shorter / 2.0);
         let distance = super::distance_from(domain, [self.center_x, self.center_y]);
-        Ok(Field::from_function(domain.size, |x, y| {
+        Ok(super::by_cells(domain.size, |x, y| {
             let share = (distance(x, y) / rim_radius).min(1.0);
-            (self.rim - self.depth * (1.0 - share * share)) as f32
+            self.rim - self.depth * (1.0 - share * share)
         }))
     }
 

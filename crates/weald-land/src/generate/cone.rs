@@ -43,9 +43,7 @@ parameters! {
 impl Generator for Cone {
     fn fill(&self, domain: &Domain, _: u64) -> Result<Field, Error> {
         let radius = super::distance_from(domain, [self.center_x, self.center_y]);
-        Ok(Field::from_function(domain.size, |x, y| {
-            (self.peak - self.slope * radius(x, y)).max(self.base) as f32
-        }))
+        Ok(super::by_cells(domain.size, |x, y| (self.peak - self.slope * radius(x, y)).max(self.base)))
     }
 
     fn target(&self) -> &LayerName {

@@ -54,13 +54,13 @@ impl Generator for Dome {
         let [width, length] = domain.extent();
         let (middle_x, middle_y) =
             (self.center_x.unwrap_or(0.5 * width), self.center_y.unwrap_or(0.5 * length));
-        Ok(Field::from_function(domain.size, |x, y| {
+        Ok(super::by_cells(domain.size, |x, y| {
             let off_east = (x as f64 + 0.5) * domain.cell - middle_x;
             let off_north = middle_y - (y as f64 + 0.5) * domain.cell;
             let on_axis = (off_east * east + off_north * north) / self.radius;
             let beside = (off_east * north - off_north * east) / across;
             let inside = (1.0 - on_axis * on_axis - beside * beside).max(0.0);
-            (self.base + self.rise * inside * inside) as f32
+            self.base + self.rise * inside * inside
         }))
     }
 

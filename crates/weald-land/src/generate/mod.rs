@@ -20,8 +20,10 @@ pub mod ridged;
 pub mod volcano;
 pub mod warp;
 
+use rayon::prelude::*;
+
 use weald_core::domain::Domain;
-use weald_core::grid::Size;
+use weald_core::grid::{Field, Size};
 pub use weald_engine::generator::Generator;
 use weald_engine::program::Program;
 
@@ -36,6 +38,17 @@ pub fn programs() -> Vec<Program> {
         diamond_square::DiamondSquare::default().on_device(&domain, 1),
     ];
     made.into_iter().flatten().map(|work| work.program).collect()
+}
+
+/// A field by column and row, in metres, made on all cores.
+fn by_cells(size: Size, height: impl Fn(usize, usize) -> f64 + Sync) -> Field {
+    let mut field = Field::filled(size, 0.0);
+    field.values_mut().par_chunks_mut(size.columns).enumerate().for_each(|(y, row)| {
+        for (x, value) in row.iter_mut().enumerate() {
+            *value = height(x, y) as f32;
+        }
+    });
+    field
 }
 
 /// Distance in metres of a cell's centre from a point given in metres from the western and the northern edge;

@@ -49,9 +49,9 @@ impl Generator for Plane {
         let (east, south) = (libm::sin(azimuth), -libm::cos(azimuth));
         let fall = self.slope * domain.cell;
         let [middle_x, middle_y] = [domain.size.columns, domain.size.rows].map(|n| (n as f64 - 1.0) / 2.0);
-        Ok(Field::from_function(domain.size, |x, y| {
+        Ok(super::by_cells(domain.size, |x, y| {
             let downhill = east * (x as f64 - middle_x) + south * (y as f64 - middle_y);
-            (self.height - fall * downhill) as f32
+            self.height - fall * downhill
         }))
     }
 

@@ -80,7 +80,7 @@ impl Volcano {
 impl Generator for Volcano {
     fn fill(&self, domain: &Domain, _: u64) -> Result<Field, Error> {
         let distance = super::distance_from(domain, [self.center_x, self.center_y]);
-        Ok(Field::from_function(domain.size, |x, y| self.height(distance(x, y)) as f32))
+        Ok(super::by_cells(domain.size, |x, y| self.height(distance(x, y))))
     }
 
     fn target(&self) -> &LayerName {

@@ -82,9 +82,8 @@ impl Horizons {
         let mut there = vec![0.0; columns];
         for look in looks {
             let Some(seen) = self.averages.row(look, y, &mut there) else { break };
-            let cells =
-                Cells { heights, there: &there, steepest: &mut steepest, ray_length: look.ray_length };
-            if !cells.of(seen).raise(self.averages.highest) {
+            let row = [&heights[seen.clone()], &there[seen.clone()]];
+            if !raise(&mut steepest[seen], row, look.ray_length, self.averages.highest) {
                 break;
             }
         }
@@ -92,41 +91,21 @@ impl Horizons {
     }
 }
 
-/// Cells of a row that look as far, and what they see.
-struct Cells<'a> {
-    heights: &'a [f32],
-    there: &'a [f32],
-    steepest: &'a mut [f32],
-    ray_length: f32,
-}
-
-impl<'a> Cells<'a> {
-    fn of(self, seen: std::ops::Range<usize>) -> Self {
-        let Self { heights, there, steepest, ray_length } = self;
-        Self {
-            heights: &heights[seen.clone()],
-            there: &there[seen.clone()],
-            steepest: &mut steepest[seen],
-            ray_length,
-        }
-    }
-
-    /// Raises horizons to what is seen. Says whether the highest ground of all could still stand above one further away.
-    fn raise(self, highest: f32) -> bool {
-        let Self { heights, there, steepest, ray_length } = self;
-        let (closer, mut higher) = (1.0 / ray_length, 0);
-        vectors::widest(
-            #[inline(always)]
-            || {
-                for ((steepest, height), there) in steepest.iter_mut().zip(heights).zip(there) {
-                    let rise = (there - height) * closer;
-                    *steepest = if rise > *steepest { rise } else { *steepest };
-                    higher |= u32::from(highest - height >= *steepest * ray_length);
-                }
-            },
-        );
-        higher > 0
-    }
+/// Raises the horizons of cells of such heights to what they see so far away. Says whether the highest ground of all could
+/// still stand above one further away.
+fn raise(steepest: &mut [f32], [heights, there]: [&[f32]; 2], ray_length: f32, highest: f32) -> bool {
+    let (closer, mut higher) = (1.0 / ray_length, 0);
+    vectors::widest(
+        #[inline(always)]
+        || {
+            for ((steepest, height), there) in steepest.iter_mut().zip(heights).zip(there) {
+                let rise = (there - height) * closer;
+                *steepest = if rise > *steepest { rise } else { *steepest };
+                higher |= u32::from(highest - height >= *steepest * ray_length);
+            }
+        },
+    );
+    higher > 0
 }
 
 /// Heights averaged over squares of 1, 2, 4 … cells.
@@ -222,7 +201,7 @@ mod tests {
             let seen = averages.row(&look, 10, &mut there).expect("some");
             let field = &averages.levels[level];
             let side = (1 << level) as f32;
-            for x in 0..37 {
+            for (x, there) in there.iter().enumerate() {
                 let place = [x as f32 + 0.5 + away[0], 10.5 + away[1]];
                 assert_eq!(seen.contains(&x), (0.0..=37.0).contains(&place[0]), "{x} {away:?}");
                 if seen.contains(&x) {
@@ -230,7 +209,7 @@ mod tests {
                     let (above, below, down) = neighbours(place[1] / side, field.size().rows);
                     let along = |y| field.at(left, y) * (1.0 - across) + field.at(right, y) * across;
                     let expected = along(above) * (1.0 - down) + along(below) * down;
-                    assert!((there[x] - expected).abs() < 1e-3, "{} for {expected} at {x}", there[x]);
+                    assert!((there - expected).abs() < 1e-3, "{there} for {expected} at {x}");
                 }
             }
         }

@@ -43,3 +43,35 @@ impl PixelMean {
         scale(self.sum, 1.0 / self.rays as f32)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// How many rays of those brightnesses are marched.
+    fn rays(brightnesses: &[f32]) -> usize {
+        let mut mean = PixelMean::default();
+        let known = |&brightness: &f32| {
+            mean.add([brightness; 3], brightness);
+            mean.is_known()
+        };
+        brightnesses.iter().position(known).map_or(brightnesses.len(), |last| last + 1)
+    }
+
+    #[test]
+    fn an_even_pixel_takes_three_rays_and_an_edge_all() {
+        assert_eq!(rays(&[0.5; 6]), 3);
+        assert_eq!(rays(&[0.50, 0.51, 0.49, 0.5, 0.5, 0.5]), 3, "noise of a step of bytes or two");
+        assert_eq!(rays(&[0.2, 0.2, 0.6, 0.6, 0.2, 0.6]), 6);
+        assert_eq!(rays(&[0.50, 0.54, 0.50, 0.50, 0.50, 0.50]), 5, "what was seen once fades among more");
+    }
+
+    #[test]
+    fn the_light_is_the_mean_of_all_that_were_marched() {
+        let mut mean = PixelMean::default();
+        for light in [[1.0, 0.0, 0.5], [0.0, 1.0, 0.5], [0.5, 0.5, 0.5]] {
+            mean.add(light, 0.5);
+        }
+        assert_eq!(mean.light(), [0.5; 3]);
+    }
+}

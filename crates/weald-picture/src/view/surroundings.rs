@@ -409,7 +409,12 @@ mod tests {
             if !around.is_beyond(place) {
                 continue;
             }
-            let rise = around.at(&bed, place).surface;
+            let Beyond { surface: rise, share, .. } = around.at(&bed, place);
+            let [alone, left_behind] = around.height(&bed, place);
+            assert!(
+                (alone - rise[0]).abs() < 1e-3 && left_behind == share,
+                "{place:?}: {alone} m and {rise:?}"
+            );
             let near = 0.02;
             for axis in [0, 1] {
                 let moved = |by: f32| std::array::from_fn(|at| place[at] + if at == axis { by } else { 0.0 });
