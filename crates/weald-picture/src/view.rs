@@ -11,6 +11,7 @@ mod albedo;
 mod atmosphere;
 mod bare_rock;
 mod beyond;
+mod border;
 mod camera;
 mod clouds;
 mod cover;

@@ -36,6 +36,7 @@ mod fill;
 mod flats;
 mod least_deviation;
 mod multiple;
+mod multiple_sums;
 mod naive;
 pub(crate) mod priority_flood;
 pub(crate) mod row_weights;
@@ -45,7 +46,8 @@ pub mod tiled;
 
 pub use accumulate::accumulate;
 pub use codes::DirectionCodes;
-pub use multiple::{MultipleFlow, accumulate_multiple};
+pub use multiple::MultipleFlow;
+pub use multiple_sums::accumulate_multiple;
 pub use naive::naive;
 
 use basins::Basins;

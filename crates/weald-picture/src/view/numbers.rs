@@ -3,12 +3,13 @@
 
 use std::fmt::Write;
 
+use super::border::DIRECTIONS;
 use super::ground_kinds::Palette;
 use super::haze::{self, Haze};
 use super::lit_scene::{CUT_WATER, LitScene};
 use super::side::NORMALS;
 use super::sky::PIECES;
-use super::surroundings::{BEND, DIRECTIONS, JOIN, LEFT_OUT, LOST, REACH, TURN, TURNED_TO};
+use super::surroundings::{BEND, JOIN, LEFT_OUT, LOST, REACH, TURN, TURNED_TO};
 use super::tone::{self, Tone};
 use super::vector::Vector;
 use super::water;

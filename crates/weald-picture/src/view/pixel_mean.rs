@@ -8,7 +8,7 @@
 use super::vector::{Vector, add, scale};
 
 /// Rays before which nothing is known of their spread.
-const FEWEST: u32 = 3;
+const LEAST_RAYS: u32 = 3;
 
 /// Standard error of a mean that is good enough, as a share of white: less than the noise that bytes are dithered with.
 const ERROR: f32 = 0.01;
@@ -35,7 +35,7 @@ impl PixelMean {
     pub(super) fn is_known(&self) -> bool {
         let rays = self.rays as f32;
         let spread = (self.squares - self.brightness * self.brightness / rays).max(0.0) / (rays - 1.0);
-        self.rays >= FEWEST && spread <= rays * ERROR * ERROR
+        self.rays >= LEAST_RAYS && spread <= rays * ERROR * ERROR
     }
 
     /// The light of all rays alike.

@@ -14,14 +14,10 @@
 //! about the height `f` of the border in that direction; what stands far above the others is lowered by `l`, or a lone
 //! mountain would stand there again and again. Where `f` lies below the sea, `a` is 0: the sea goes on.
 
-use rayon::prelude::*;
-
+use super::border::{DIRECTIONS, Heights, border, far};
 use super::surface::Surface;
 use crate::colour::mix;
 use weald_core::grain::Octaves;
-
-/// Directions for which the height of the border is known.
-pub(super) const DIRECTIONS: usize = 24;
 
 /// Over how much of the landscape's longer side the ground leaves what the border was like.
 pub(super) const JOIN: f32 = 0.18;
@@ -54,12 +50,6 @@ const HIGHEST: f32 = 2.5;
 /// Most by which ground beyond the border stands off the border's height, as a share of that: peaks on the border would
 /// become spikes.
 const NEAR: f32 = 0.4;
-
-/// Share of the relief by which the ground around a sea lies below it at least.
-const SUNK: f32 = 0.02;
-
-/// Share of the relief above the sea from which the ground around is as uneven as the landscape.
-const UNEVEN: f32 = 0.05;
 
 /// The ground around a landscape.
 #[derive(Clone, Debug)]
@@ -114,22 +104,11 @@ impl Surroundings {
     /// What is around ground of such a surface and a sea of a height, as they are drawn.
     pub(super) fn new(bed: &Surface, sea: Option<f32>) -> Self {
         let size = bed.size();
-        let row = |y: usize| (0..size.columns).map(move |x| bed.at(centre(x, y)));
-        let [low, high, mean] = of_rows(size.rows, |y| {
-            let add = |[low, high, sum]: [f64; 3], z: f32| {
-                [low.min(z.into()), high.max(z.into()), sum + f64::from(z)]
-            };
-            row(y).fold(NOTHING, add)
-        });
-        let (low, high, mean) = (low as f32, high as f32, (mean / size.cells() as f64) as f32);
+        let Heights { low, high, mean, deviation } = Heights::of(bed);
         let border = border(bed);
         let far = far(&border, sea, high - low);
         let edge = border.iter().fold([f32::MAX, f32::MIN], |[a, b], (_, z)| [a.min(*z), b.max(*z)]);
-        let [_, _, squares] = of_rows(size.rows, |y| {
-            let square = |z: f32| f64::from(z - mean) * f64::from(z - mean);
-            [0.0, 0.0, row(y).map(square).sum()]
-        });
-        let highest_far = HIGHEST * ((squares / size.cells() as f64).sqrt() as f32).max(1e-3);
+        let highest_far = HIGHEST * deviation.max(1e-3);
         let of_far =
             |[height, uneven]: &[f32; 2], z: f32| height + uneven * lowered(z - mean, highest_far)[0];
         let lowest = far.iter().map(|far| of_far(far, low)).fold(2.0 * edge[0] - high, f32::min);
@@ -291,17 +270,6 @@ impl Surroundings {
     }
 }
 
-/// Of no values at all: the least, the greatest, and the sum.
-const NOTHING: [f64; 3] = [f64::INFINITY, f64::NEG_INFINITY, 0.0];
-
-/// The least, the greatest and the sum of what rows have, the same whatever the threads.
-fn of_rows(rows: usize, of_row: impl Fn(usize) -> [f64; 3] + Send + Sync) -> [f64; 3] {
-    let parts: Vec<[f64; 3]> = (0..rows).into_par_iter().map(of_row).collect();
-    parts
-        .into_iter()
-        .fold(NOTHING, |[low, high, sum], part| [low.min(part[0]), high.max(part[1]), sum + part[2]])
-}
-
 /// A height off another that comes no nearer than to `most`, above and below, and how much of its slope is left.
 fn held(off: f32, most: f32) -> [f32; 2] {
     let lower = 1.0 + off.abs() / most;
@@ -312,45 +280,6 @@ fn held(off: f32, most: f32) -> [f32; 2] {
 fn lowered(unlike: f32, highest: f32) -> [f32; 2] {
     let lower = 1.0 + unlike.max(0.0) / highest;
     if unlike > 0.0 { [unlike / lower, 1.0 / (lower * lower)] } else { [unlike, 1.0] }
-}
-
-fn centre(x: usize, y: usize) -> [f32; 2] {
-    [x as f32 + 1.0, y as f32 + 1.0]
-}
-
-/// Heights along the border, each with its direction from the middle in turns, clockwise from north.
-fn border(bed: &Surface) -> Vec<(f32, f32)> {
-    let size = bed.size();
-    let (last_x, last_y) = (size.columns - 1, size.rows - 1);
-    let across = (0..size.columns).flat_map(|x| [(x, 0), (x, last_y)]);
-    let down = (0..size.rows).flat_map(|y| [(0, y), (last_x, y)]);
-    let at = |(x, y): (usize, usize)| {
-        let place = centre(x, y);
-        let east = place[0] - 0.5 - 0.5 * size.columns as f32;
-        let south = place[1] - 0.5 - 0.5 * size.rows as f32;
-        (libm::atan2f(east, -south) / std::f32::consts::TAU, bed.at(place))
-    };
-    across.chain(down).map(at).collect()
-}
-
-/// Height far away in each direction, and how uneven the ground is there.
-fn far(border: &[(f32, f32)], sea: Option<f32>, relief: f32) -> [[f32; 2]; DIRECTIONS] {
-    std::array::from_fn(|direction| {
-        let middle = direction as f32 / DIRECTIONS as f32;
-        let (mut sum, mut weights) = (0.0, 0.0);
-        for &(turn, height) in border {
-            let away = turn - middle - (turn - middle).round();
-            // A bell an eighth of a turn wide.
-            let weight = libm::expf(-256.0 * away * away);
-            sum += weight * height;
-            weights += weight;
-        }
-        let mean = sum / weights.max(1e-9);
-        let Some(sea) = sea else { return [mean, 1.0] };
-        let uneven = ((mean - sea) / (UNEVEN * relief).max(1e-6)).clamp(0.0, 1.0);
-        let sunk = sea - SUNK * relief;
-        [if uneven > 0.0 { mean } else { mean.min(sunk) }, uneven]
-    })
 }
 
 #[cfg(test)]
