@@ -33,7 +33,7 @@ weald_core::parameters! {
         width: u32 = 1600, range 16..=16384, unit "px";
         /// Height of the picture.
         height: u32 = 900, range 16..=16384, unit "px";
-        /// Rays per pixel; with 1, edges are aliased.
+        /// Most rays per pixel; an even one takes three. With 1, edges are aliased.
         samples: u32 = 6, range 1..=64;
         /// Azimuth at which the camera stands (yaw), clockwise from north, seen from what it looks at.
         azimuth_deg: f64 = 205.0, range 0.0..=360.0, unit "deg", without eye;
