@@ -111,27 +111,18 @@ fn weights(radius: f64, longest: usize) -> Vec<f32> {
 
 /// Heights are blurred above the lowest, so that a high plateau loses no digits and flat ground is exact.
 fn smoothed(field: &Field, low: f32, valid: Option<&Mask>, weights: &[f32]) -> Field {
+    let share = |index: usize| if valid.is_none_or(|valid| valid.is_valid_at(index)) { 1.0 } else { 0.0 };
+    let cells = 0..field.values().len();
     let size = field.size();
-    let is_valid = |x: usize, y: usize| valid.is_none_or(|valid| valid.is_valid_at(size.index(x, y)));
-    let by_cells = |value: &(dyn Fn(usize, usize) -> f32 + Sync)| {
-        by_rows(field, |y, row| row.iter_mut().enumerate().for_each(|(x, cell)| *cell = value(x, y)))
+    let values =
+        cells.clone().map(|index| if share(index) > 0.0 { field.values()[index] - low } else { 0.0 });
+    let heights = blurred(&Field::from_values(size, values.collect()), weights);
+    let shares = blurred(&Field::from_values(size, cells.clone().map(share).collect()), weights);
+    let value = |index: usize| {
+        let old = field.values()[index];
+        if share(index) > 0.0 { low + heights.values()[index] / shares.values()[index] } else { old }
     };
-    let above = by_cells(&|x, y| if is_valid(x, y) { field.at(x, y) - low } else { 0.0 });
-    let heights = blurred(&above, weights);
-    if valid.is_none() {
-        // What there is of the weights is that along the row, of what there is across it.
-        let [along, down] = [size.columns, size.rows].map(|count| present(count, weights));
-        return by_cells(&|x, y| low + heights.at(x, y) / (along[x] * down[y]));
-    }
-    let shares = blurred(&by_cells(&|x, y| f32::from(u8::from(is_valid(x, y)))), weights);
-    by_cells(&|x, y| if is_valid(x, y) { low + heights.at(x, y) / shares.at(x, y) } else { field.at(x, y) })
-}
-
-/// The sum of the weights within a row of so many cells, by cell.
-fn present(count: usize, weights: &[f32]) -> Vec<f32> {
-    let mut sums = vec![0.0; count];
-    blur_along(&vec![1.0; count], weights, &mut sums);
-    sums
+    Field::from_values(size, cells.map(value).collect())
 }
 
 fn blurred(field: &Field, weights: &[f32]) -> Field {
