@@ -106,11 +106,11 @@ impl Setting {
             is_material: matches!(coloured_by, ColouredBy::Materials),
         };
         let longer = ground.size().columns.max(ground.size().rows);
-        let crags = || if ground_of.has_crags { coarse.crags() } else { None };
-        let refined = || crags().map(|crags| Forms::refined(&coarse, &crags, land.as_ref()));
-        let rivers = || if view.water { Rivers::of(landscape, view.river_width) } else { None };
-        let (refined, rivers) = rayon::join(refined, rivers);
-        let forms = refined.unwrap_or(Forms { ground, level, land, fineness: 1 });
+        let crags = if ground_of.has_crags { coarse.crags() } else { None };
+        let forms = match crags {
+            Some(crags) => Forms::refined(&coarse, &crags, land.as_ref()),
+            None => Forms { ground, level, land, fineness: 1 },
+        };
         let fineness = forms.fineness;
         let Surfaces { top, bed, level } = Surfaces::of(forms.ground, forms.level);
         let terrain = Terrain::new(spacing.map(|side| side / fineness as f32), top, forms.land, -base);
@@ -118,7 +118,7 @@ impl Setting {
             flow: flow.flatten().map(|flow| flow.on_finer(fineness)),
             terrain,
             level,
-            rivers,
+            rivers: if view.water { Rivers::of(landscape, view.river_width) } else { None },
             strata: strata(landscape, field, &frame.sheet, limits.relief + base / frame.exaggeration)?
                 .on_finer(fineness),
             around: has_horizon.then(|| Surroundings::new(&bed, sea)),
