@@ -27,6 +27,7 @@ mod horizons;
 mod intersection;
 mod keys;
 mod lit_scene;
+mod lit_water;
 mod maps;
 mod numbers;
 mod pixel_mean;
