@@ -101,3 +101,49 @@ fn levels<'a>(flow: &MultipleFlow<'a>, y: usize, direction: usize) -> [&'a [f32]
     let beside = first.wrapping_add_signed(south * columns as isize + east);
     [first, beside].map(|start| &flow.routed.surface.values()[start..start + columns - 2])
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::flow::{Routing, route};
+    use weald_core::grid::Field;
+
+    #[test]
+    fn rows_give_what_each_of_their_cells_does() {
+        let size = Size::new(23, 17).expect("small");
+        let rough = Field::from_function(size, |x, y| {
+            3.0 * x as f32 + 0.7 * y as f32 + ((x * 7 + y * 13) % 11) as f32
+        });
+        let routed = route(&rough, None, &Routing::default());
+        let flow = MultipleFlow { routed: &routed, valid: None, exponent: 1.1 };
+        let mut compared = 0;
+        for y in 1..16 {
+            let row = RowWeights::of(&flow, y).expect("an inner row");
+            let (outflow, receivers) = (row.outflow(&flow, y), row.receivers());
+            for at in (0..21).filter(|&at| row.totals()[at] > 0.0) {
+                let (cell, shares) = (y * 23 + at + 1, flow.shares(y * 23 + at + 1));
+                let mut expected = [0.0; 3];
+                for (share, (east, south)) in shares.into_iter().zip(STEPS).filter(|(share, _)| *share > 0.0)
+                {
+                    let other = cell.wrapping_add_signed(south * 23 + east);
+                    let fall =
+                        f64::from(routed.surface.values()[cell]) - f64::from(routed.surface.values()[other]);
+                    let parts = [east as f64, south as f64, fall];
+                    expected = std::array::from_fn(|part| expected[part] + share * parts[part]);
+                }
+                assert_eq!(
+                    [outflow.to[0][at], outflow.to[1][at], outflow.fall[at]],
+                    expected,
+                    "cell {at} of row {y}"
+                );
+                let bits = (0..8)
+                    .filter(|&direction| shares[direction] > 0.0)
+                    .fold(0, |bits, direction| bits | 1 << direction);
+                assert_eq!(receivers[at], bits);
+                compared += 1;
+            }
+        }
+        assert!(compared > 250, "{compared}");
+        assert!([0, 16].iter().all(|&y| RowWeights::of(&flow, y).is_none()));
+    }
+}
