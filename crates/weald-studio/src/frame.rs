@@ -106,7 +106,7 @@ impl Studio {
             if self.opened == state.revision
                 && let Some(file) = self.project.keep(&self.own, state)
             {
-                self.work.ask(Task::Save(file));
+                self.work.ask(Task::Keep(file));
             }
         } else if let Err(error) = self.project.keep_text(&self.own, state, self.document.text()) {
             self.say(error.to_string());

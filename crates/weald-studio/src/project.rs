@@ -225,9 +225,14 @@ impl Project {
         state != self.saved
     }
 
+    /// Whether nothing has changed since it was last saved or kept.
+    pub(crate) fn is_kept(&self, state: State) -> bool {
+        !self.is_unsaved(state) || state == self.kept
+    }
+
     /// The file for what is not saved, where that has changed since it was last kept.
     pub(crate) fn keep(&mut self, own: &OwnFiles, state: State) -> Option<PathBuf> {
-        if !self.is_unsaved(state) || state == self.kept {
+        if self.is_kept(state) {
             return None;
         }
         self.kept = state;
@@ -236,7 +241,7 @@ impl Project {
 
     /// Keeps a text that cannot run yet.
     pub(crate) fn keep_text(&mut self, own: &OwnFiles, state: State, text: &str) -> Result<(), Error> {
-        if !self.is_unsaved(state) || state == self.kept {
+        if self.is_kept(state) {
             return Ok(());
         }
         self.kept = state;

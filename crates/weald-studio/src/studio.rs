@@ -37,7 +37,7 @@ use crate::state::{Did, State};
 use crate::viewport::{Viewport, WindowDevice, device_of};
 #[cfg(not(target_arch = "wasm32"))]
 use crate::work::Thread;
-use crate::work::{Remote, Status, Task, Work};
+use crate::work::{Phase, Remote, Status, Task, Work};
 
 /// What the left side shows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -233,6 +233,20 @@ impl Studio {
     pub fn heights(&self) -> Option<(&Field, bool)> {
         let shown = self.status.shown.as_ref()?;
         Some((shown.landscape.field("height").ok()?, shown.changes == self.status.changes))
+    }
+
+    /// Whether all that the hand did so far has been done, and is seen in the status.
+    #[doc(hidden)]
+    pub fn is_settled(&self) -> bool {
+        let runs = self.document.diagnostics().is_empty() && self.opened != self.document.revision();
+        let waits = self.stroke.is_some() || runs || self.work.asked() != self.status.done;
+        self.status.phase == Phase::Idle && !waits
+    }
+
+    /// Whether what is not saved would be there if the program were killed.
+    #[doc(hidden)]
+    pub fn is_kept(&self) -> bool {
+        self.is_settled() && self.project.is_kept(self.state())
     }
 
     /// Whether the landscape that there is now is drawn, as finely as it will be.

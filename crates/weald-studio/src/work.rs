@@ -43,6 +43,15 @@ impl Work {
         }
     }
 
+    /// How many tasks were asked: all are done once [`Status::done`] is as large.
+    pub fn asked(&self) -> u64 {
+        match self {
+            #[cfg(not(target_arch = "wasm32"))]
+            Self::Thread(thread) => thread.asked(),
+            Self::Remote(remote) => remote.asked(),
+        }
+    }
+
     /// What it shows now.
     pub fn status(&self) -> Status {
         match self {

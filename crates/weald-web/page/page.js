@@ -133,7 +133,7 @@ async function open() {
   worker.addEventListener("message", ({ data }) => data.refused && tellWithoutDevice(data.refused));
   worker.postMessage({ module, device: simulating(found) });
   await init({ module_or_path: module });
-  window.weald = { keep: (path, bytes) => store.keep(path, bytes), choose, handOut: save, share, arrive };
+  window.weald = { keep: (path, bytes) => store.keep(path, bytes), written: () => store.written(), choose, handOut: save, share, arrive };
   const draws = Boolean(found.adapter) && !asked.has("rays");
   if (draws) watchDevices();
   const kept = await store.all();

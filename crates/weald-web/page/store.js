@@ -15,6 +15,8 @@ function open() {
 export class Store {
   #database = null;
   #failed = null;
+  // Writing that goes on.
+  #writes = new Set();
 
   // Opens the store; `failed` is told once in a sentence where nothing can be kept.
   static async open(failed) {
@@ -47,6 +49,11 @@ export class Store {
     return paths.map((path, place) => [path, bytes[place]]);
   }
 
+  // Waits until all that was given to it so far is written.
+  async written() {
+    await Promise.all(this.#writes);
+  }
+
   // Keeps a file, or forgets it where there are no bytes.
   keep(path, bytes) {
     if (!this.#database) return;
@@ -55,6 +62,9 @@ export class Store {
       if (bytes) done.objectStore(FILES).put(bytes, path);
       else done.objectStore(FILES).delete(path);
       done.onerror = done.onabort = () => this.#lose(done.error);
+      const whole = new Promise((resolve) => ["complete", "error", "abort"].forEach((end) => done.addEventListener(end, resolve)));
+      this.#writes.add(whole);
+      whole.then(() => this.#writes.delete(whole));
     } catch (cause) {
       this.#lose(cause);
     }

@@ -11,7 +11,7 @@ use wasm_bindgen::prelude::{Closure, wasm_bindgen};
 use wasm_bindgen::{JsCast, JsValue};
 use weald::files;
 use weald_studio::host::Host;
-use weald_studio::work::{Phase, Remote};
+use weald_studio::work::Remote;
 use weald_studio::{Options, Studio, page_options};
 use web_sys::{HtmlCanvasElement, MessageEvent, Worker};
 
@@ -149,7 +149,8 @@ impl Page {
         let Some(studio) = self.runner.app_mut::<Studio>() else { return "null".to_owned() };
         let status = studio.status();
         let state = serde_json::json!({
-            "idle": status.phase == Phase::Idle,
+            "idle": studio.is_settled() && self.arrived.borrow().is_empty(),
+            "kept": studio.is_kept(),
             "plays": status.plays,
             "steps": status.steps,
             "engine": status.engine,

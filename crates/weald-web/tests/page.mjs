@@ -90,7 +90,7 @@ class Visitor {
   // What the page says above the studio.
   notice() {
     const read = () => this.page.$eval("#notices p", (line) => line.textContent).catch(() => null);
-    return until(`${this.name}: a notice`, read, 60);
+    return until(`${this.name}: a notice`, read);
   }
 
   places(label) {
@@ -101,7 +101,7 @@ class Visitor {
     const [place] = await until(`${this.name}: "${label}"`, async () => {
       const places = await this.places(label);
       return places.length ? places : null;
-    }, 30);
+    });
     await this.page.mouse.move((place[0] + place[2]) / 2, (place[1] + place[3]) / 2);
     await new Promise((resolve) => setTimeout(resolve, 120));
     await this.page.mouse.down();
@@ -293,7 +293,7 @@ async function tour(kind, address, wanted) {
   try {
     const began = Date.now();
     const visitor = await visit(browser, address, kind, { query: QUERIES[kind] });
-    await until("a first picture of the page", () => visitor.page.$("#try"), 30);
+    await until("a first picture of the page", () => visitor.page.$("#try"));
     const first = Date.now() - began;
     await visitor.is("a landscape that is drawn", (state) => state.shown && state.steps > 0, 240);
     const land = Date.now() - began;
@@ -349,12 +349,8 @@ async function tour(kind, address, wanted) {
     await visitor.page.keyboard.press("b");
     await visitor.drag("Viewport", [0.4, 0.5], [0.5, 0.6]);
     await visitor.is("another stroke", (state) => state.moments > before.moments);
-    // A stroke is painted piece by piece, and what is not saved is kept every half second.
-    for (let last = -1, now = 0; last !== now; ) {
-      last = (await visitor.is("the whole stroke", (state) => state.idle && state.whole)).changes;
-      await new Promise((resolve) => setTimeout(resolve, 3000));
-      now = (await visitor.state()).changes;
-    }
+    await visitor.is("the whole stroke, which is kept", (state) => state.idle && state.whole && state.kept);
+    await visitor.page.evaluate(() => window.weald.written());
     const mine = await visitor.heights();
     expect(!mine.equals(wanted.heights), "the brush has raised the ground");
 
@@ -452,7 +448,7 @@ async function lostDevice(visitor) {
   await visitor.click("Play or pause");
   await visitor.is("a simulation that runs", (state) => state.plays);
   await visitor.loseSimulation();
-  const { error, steps } = await visitor.is("a device that is lost", (state) => state.error, 60);
+  const { error, steps } = await visitor.is("a device that is lost", (state) => state.error);
   expect(/lost.*load the page again.*kept/.test(error), `a device that is lost while it simulates: "${error}"`);
   await visitor.page.reload();
   const again = await visitor.is("what was kept", (state) => state.columns === 96 && state.idle && state.whole, 240);
@@ -484,7 +480,7 @@ async function documented(visitor) {
 
 async function faults(kind, browser, address, visitor) {
   const told = async (what, words) => {
-    const { message } = await visitor.is(what, (state) => words.every((word) => state.message?.includes(word)), 30);
+    const { message } = await visitor.is(what, (state) => words.every((word) => state.message?.includes(word)));
     expect(true, `${what}: "${message}"`);
   };
   await visitor.drop("letter.txt", "Dear Weald,");
@@ -492,7 +488,7 @@ async function faults(kind, browser, address, visitor) {
   await visitor.drop("earth.tif", "II*", 1e9);
   await told("a file of 1 GB", ["1000 MB", "open it in the program"]);
   await visitor.drop("broken.tif", "II*\0 no picture");
-  const { error } = await visitor.is("a broken GeoTIFF", (state) => state.error, 60);
+  const { error } = await visitor.is("a broken GeoTIFF", (state) => state.error);
   expect(/broken\.tif/.test(error), `a broken GeoTIFF: "${error}"`);
 
   const noStore = () => Object.defineProperty(window, "indexedDB", { value: undefined });

@@ -1,6 +1,6 @@
 //! The work as a page sees it that has a worker.
 
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::path::Path;
 
 use super::message::{Parcel, parcel_of_task, take_status};
@@ -14,6 +14,8 @@ pub type Keep = Box<dyn Fn(&Path, Option<&[u8]>)>;
 /// A worker that is somewhere else.
 pub struct Remote {
     status: RefCell<Status>,
+    /// How many tasks were asked.
+    asked: Cell<u64>,
     post: Box<dyn Fn(Parcel)>,
     keep: Keep,
 }
@@ -27,7 +29,7 @@ impl std::fmt::Debug for Remote {
 impl Remote {
     /// A worker that gets messages by `post`. `keep` is given every file that changes on either side.
     pub fn new(post: impl Fn(Parcel) + 'static, keep: Keep) -> Self {
-        Self { status: RefCell::default(), post: Box::new(post), keep }
+        Self { status: RefCell::default(), asked: Cell::default(), post: Box::new(post), keep }
     }
 
     /// Takes a message of the worker.
@@ -50,7 +52,12 @@ impl Remote {
     }
 
     pub(super) fn ask(&self, task: Task) {
+        self.asked.update(|asked| asked + 1);
         self.send(Some(task));
+    }
+
+    pub(super) fn asked(&self) -> u64 {
+        self.asked.get()
     }
 
     pub(super) fn status(&self) -> Status {

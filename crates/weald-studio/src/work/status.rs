@@ -103,6 +103,8 @@ pub struct Status {
     pub phase: Phase,
     /// Revision of the document that was opened last, whole or not.
     pub revision: u64,
+    /// Number of the last task that was done or refused, counted from 1 in the order of asking.
+    pub done: u64,
     /// What went wrong last, until something else is asked.
     pub error: Option<String>,
     /// What the user should know.

@@ -61,6 +61,8 @@ pub enum Task {
     },
     /// Writes the recipe with all that was done: a text for `weald run`, and its script beside it.
     Save(PathBuf),
+    /// Writes the same in case that the program is killed. Nobody asked for it: what went wrong last is still told.
+    Keep(PathBuf),
     /// Runs the recipe with all that was done, and writes its outputs, or others in their place, into a folder.
     Export {
         /// The folder.

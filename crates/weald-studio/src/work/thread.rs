@@ -1,6 +1,7 @@
 //! The one who works, on a thread of its own.
 
 use std::sync::Arc;
+use std::sync::atomic::Ordering;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::thread::JoinHandle;
 use std::time::Duration;
@@ -48,6 +49,11 @@ impl Thread {
                 .error
                 .get_or_insert_with(|| "the simulation has ended by a fault of Weald".to_owned());
         }
+    }
+
+    /// How many tasks were asked.
+    pub(super) fn asked(&self) -> u64 {
+        self.shared.asked.load(Ordering::Acquire)
     }
 
     /// What it shows now.

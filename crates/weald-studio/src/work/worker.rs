@@ -116,7 +116,9 @@ impl Worker {
 
     /// Does the next task, or a slice of what is to be done without being asked.
     pub(super) fn work(&mut self) {
-        let done = match self.waiting.pop_front() {
+        let asked = self.waiting.pop_front();
+        let number = asked.as_ref().map(|(number, _)| *number);
+        let done = match asked {
             Some((number, task)) => self.take(number, task),
             None if self.until.is_some() => self.simulate(),
             None if self.is_finished && self.batch.is_some() => self.next_seed(),
@@ -129,11 +131,14 @@ impl Worker {
                 self.shared.change(|status| status.error = Some(error.to_string()));
             }
         }
-        self.show();
+        self.show(number);
     }
 
     fn take(&mut self, number: u64, task: Task) -> Result<(), Error> {
         let _span = tracing::trace_span!("task").entered();
+        if let Task::Keep(file) = task {
+            return self.save(&file);
+        }
         self.shared.change(|status| status.error = None);
         match task {
             Task::Open(opening) => return self.open(number, *opening),
@@ -176,6 +181,7 @@ impl Worker {
             Task::Rename { from, to } => drop(held.session().history().rename(&from, &to)),
             Task::Open(_)
             | Task::Save(_)
+            | Task::Keep(_)
             | Task::Export { .. }
             | Task::Seeds { .. }
             | Task::EndSeeds
@@ -317,8 +323,8 @@ impl Worker {
         Ok(())
     }
 
-    /// Brings what the window sees of the history up to date.
-    fn show(&mut self) {
+    /// Brings what the window sees of the history up to date, with the number of a task that is done.
+    fn show(&mut self, done: Option<u64>) {
         let until = self.until;
         // The way here grows with every slice; it need not be told more often than the surface.
         let is_due = until.is_none() || self.moments_told.elapsed() >= MOMENTS_EVERY;
@@ -331,6 +337,7 @@ impl Worker {
             (held.place(), held.steps(), held.written_steps(), names, held.session().history().used())
         });
         self.shared.change(|status| {
+            status.done = done.unwrap_or(status.done);
             status.plays = until.is_some();
             status.phase = if until.is_some() { Phase::Simulating } else { Phase::Idle };
             if let Some(moments) = moments {

@@ -1,6 +1,7 @@
 //! What cannot be done, or cannot run, leaves no trace and is said.
 
 use std::fs;
+use std::time::{Duration, Instant};
 
 use eframe::egui::accesskit::Role;
 use egui_kittest::kittest::Queryable;
@@ -50,6 +51,22 @@ fn a_stroke_that_is_refused_takes_no_place_in_what_is_undone_and_nothing_from_wh
     window.click("Undo");
     assert!(!window.harness.state().text().contains("off = true"), "{}", window.harness.state().text());
     assert_eq!(window.status().steps, 2, "the steps stay");
+}
+
+#[test]
+fn what_went_wrong_is_still_told_when_what_is_not_saved_has_been_kept() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("broken.tif");
+    fs::write(&file, b"II*\0 no picture").expect("written");
+    let mut window = Window::open(Some(&file));
+    window.until("the error", |status| status.error.is_some());
+    let begun = Instant::now();
+    while !window.harness.state().is_kept() {
+        window.harness.step();
+        assert!(begun.elapsed() < Duration::from_mins(1), "nothing is kept");
+    }
+    let error = window.status().error.expect("it is still told");
+    assert!(error.contains("broken.tif"), "{error}");
 }
 
 #[test]
