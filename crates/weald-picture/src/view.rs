@@ -49,6 +49,7 @@ mod surroundings;
 mod terrain;
 mod tone;
 mod trees;
+mod turf;
 mod twin;
 mod vector;
 mod water;

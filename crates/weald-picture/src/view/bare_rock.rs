@@ -29,8 +29,13 @@ const UNEVEN: [f32; 2] = [1.6, 1.1];
 const WASHED: f32 = 1.8;
 
 impl Cover {
-    /// The blocks of rock at a point.
-    pub(super) fn fractures(&self, spot: &SurfacePoint, texture: &Texture) -> Fractures {
+    /// Slope of the facets of blocks on ground of such a slope.
+    pub(super) fn facets(spot: &SurfacePoint) -> f32 {
+        FACETS * (1.0 + spot.slope * spot.slope).sqrt().min(1.0 / UPRIGHT)
+    }
+
+    /// The blocks of rock at a point, in beds that dip or are level.
+    pub(super) fn fractures(&self, spot: &SurfacePoint, texture: &Texture, dips: bool) -> Fractures {
         let [x, y, z] = spot.point;
         let thickness = THICK * self.limits.relief.max(1e-3);
         let bend = texture.cell.min(thickness);
@@ -38,7 +43,7 @@ impl Cover {
         let long = 1.0 / (1.0 + spot.slope * spot.slope).sqrt();
         let found = fractures(&Face {
             place: [x + BENT[0] * bend * fine, y + BENT[1] * bend * craggy],
-            level: z + dip([x, y]) + thickness * self.rock_fold(texture),
+            level: z + if dips { dip([x, y]) } else { 0.0 } + thickness * self.rock_fold(texture),
             normal: [long * spot.slope * spot.fall[0], long * spot.slope * spot.fall[1], long],
             thickness,
             footprint: spot.footprint,
@@ -76,7 +81,7 @@ impl Cover {
             + 0.7 * blocks.crack;
         let ledge = 0.35 * bed.ledge + 0.2 * thin.ledge;
         let rough = texture.rough(0.15, 1.7);
-        let facets = FACETS * (1.0 + spot.slope * spot.slope).sqrt().min(1.0 / UPRIGHT);
+        let facets = Self::facets(spot);
         SurfaceSample {
             albedo: mix(stone, dark, cracks.clamp(0.0, 1.0)),
             bump: [0, 1].map(|axis| rough[axis] - spot.fall[axis] * ledge + facets * blocks.facet[axis]),

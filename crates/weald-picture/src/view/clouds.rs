@@ -1,38 +1,77 @@
-//! Fair-weather clouds: heaps of noise over one level above the land, lit by the sun, and the shadows that they throw.
+//! Fair-weather clouds: heaps of noise above the land, lit by the sun, and the shadows that they throw.
 //!
-//! Noise says how far a place lies within a heap, less so further up, where heaps are narrower. A ray is looked at where it
-//! meets levels one above the other, without what is finer than the way from one to the next; between the last without
-//! cloud and the first with it lies the side of a heap. There all of the noise says how dense it is, and how much of it
-//! lies towards the sun. Clouds far away pale as the sky does. All numbers are chosen by eye.
+//! Broad noise says how far a place lies within a heap, less so further up, where heaps are narrower: their bases are flat.
+//! Folded noise in space breaks their sides into puffs, where those are near. A ray is looked at where it meets levels one above
+//! the other, without what is finer than the metres from one to the next: noise says how dense a heap is there, and what lies
+//! towards the sun how much light comes to it. Clouds far away pale as the sky does. All numbers are chosen by eye.
 
 use super::sky::Sky;
+use super::solid_grain::solid_grain;
 use super::vector::{Vector, add, dot, ramp, scale, subtract};
 use crate::colour::mix;
-use weald_core::grain::{Grain, Octaves};
+use weald_core::grain::{Octaves, visible};
 
 /// Metres from one cloud to the next, and of their base above the highest ground.
-const APART: f32 = 2600.0;
+const APART: f32 = 2200.0;
 const ABOVE: f32 = 1300.0;
 
-/// Levels at which rays are looked at, and metres from one to the next.
-const SLICES: usize = 16;
-const SLICE: f32 = 32.0;
+/// Octaves of the broad noise, and what each is against the one before.
+const BROAD: (u32, f32) = (2, 0.55);
+
+/// Thickness of the layer in metres.
+const THICK: f32 = 700.0;
+
+/// Levels at which rays are looked at: at least so many, more where that would be farther apart along the ray than so many
+/// metres, and at most so many more, fewer where clouds are lost in the haze or such an angle in radians is seen as one.
+const SLICES: [f32; 2] = [24.0, 72.0];
+const STEP: f32 = 55.0;
+const BLURRED: f32 = 0.02;
+
+/// About the most by which noise changes in a metre: so far from where puffs may be levels are passed over.
+const STEEPEST: f32 = 0.0018;
+
+/// Share of what lies behind heaps that is no longer looked for.
+const UNSEEN: f32 = 0.02;
 
 /// Noise by which the top of a heap is narrower than its base.
-const NARROWER: f32 = 0.36;
+const NARROWER: f32 = 0.42;
 
-/// Ways between two levels that are the least to be seen of a heap's form.
-const COARSE: f32 = 1.8;
+/// Puffs: their longest wavelength in metres, the number of octaves, what each is against the one before, how much they add to
+/// the noise, the mean of folded noise, and how near to a side puffs are looked for.
+const PUFFS: f32 = 800.0;
+const PUFF_OCTAVES: u32 = 5;
+const PUFF_GAIN: f32 = 0.66;
+const PUFFY: f32 = 0.8;
+const PUFF_MEAN: f32 = 0.2;
+const NEAR: f32 = 0.45;
+const PUFF_SEED: u32 = 0x77;
 
-/// Noise over which the edge of a heap is soft, and how much softer it is for a radian that is seen as one.
-const EDGE: f32 = 0.2;
-const SOFTER: f32 = 5.0;
+/// Distances between two levels that are the least to be seen of a heap's form.
+const COARSE: f32 = 0.7;
 
-/// Noise below that of a heap from which a level counts as its side, so that a heap does not begin at a level all at once.
-const SIDE: f32 = 0.12;
+/// What a metre of a heap hides for each unit of noise above that of its side.
+const DENSE: f32 = 0.12;
 
-/// Metres of cloud through which the sun's light comes to what is seen.
-const LIT: f32 = 420.0;
+/// Share of the sunlight that comes through from a sun behind.
+const GLOW: f32 = 0.05;
+
+/// How much paler a heap is for a radian that is seen as one, as the exponent of e: waves mirror clear sky beside it.
+const PALER: f32 = 8.0;
+
+/// Metres towards the sun at which is looked how much of the heap lies there, and how much of the light that takes.
+const SUNWARD: [f32; 2] = [70.0, 260.0];
+const TAKEN: [f32; 2] = [3.6, 3.2];
+
+/// What all that lies above a base takes of it, and the share of the height over which that ends.
+const BASE: [f32; 2] = [2.2, 0.4];
+
+/// Share of the sunlight that a heap's sunny side sends to the eye, and what comes through all of it.
+const SUNNY: f32 = 0.3;
+const THROUGH: f32 = 0.035;
+
+/// Shares of the sunlight and of the light of the sky on flat ground that a mean direction of clouds sends to the ground, a
+/// steradian.
+const MEAN: [f32; 2] = [0.11, 0.22];
 
 /// Metres over which clouds are lost in the haze.
 const LOST: f32 = 28_000.0;
@@ -42,21 +81,6 @@ const SHADOW: f32 = 0.78;
 
 /// Metres over which the edges of their shadows are soft.
 const SOFT: f32 = 160.0;
-
-/// Where a ray meets a heap.
-struct Met {
-    /// The level, counted from the base.
-    slice: f32,
-    /// How far it is within there.
-    within: f32,
-    /// How much of it lies along the ray: squares of how far each level is within its side.
-    passed: f32,
-}
-
-/// The place so many metres along a ray.
-fn along(from: Vector, direction: Vector, reach: f32) -> [f32; 2] {
-    [0, 1].map(|axis| from[axis] + direction[axis] * reach)
-}
 
 /// A layer of clouds.
 #[derive(Clone, Copy, Debug)]
@@ -79,41 +103,55 @@ impl Clouds {
         (share > 0.0).then_some(Self { share: share as f32, height, skylight, exaggeration })
     }
 
-    /// How far a place is within a heap, as noise above what makes cloud there, at a share of its height.
-    fn within(&self, [x, y]: [f32; 2], share: f32, footprint: f32) -> Grain {
-        let noise =
-            Octaves { wavelength: APART, count: 7, gain: 0.56, seed: 0x71 }.at([x, y, 0.0], footprint);
-        let least = 0.44 - 0.95 * self.share + NARROWER * share * share;
-        Grain { value: noise.value - least, ..noise }
+    /// The sky as it lights the ground, with the clouds in it.
+    pub(super) fn over_ground(&self, sky: &Sky) -> Sky {
+        let mean = add(scale(sky.sunlight, MEAN[0]), scale(self.skylight, MEAN[1]));
+        sky.behind_clouds(self.share, mean)
     }
 
-    /// Metres from one level to the next along a direction.
-    fn spacing(&self, direction: Vector) -> f32 {
-        SLICE * self.exaggeration / direction[2]
+    /// How far a place is within a heap without its puffs, as noise above what makes cloud there, at a share of its height.
+    fn heap(&self, [x, y]: [f32; 2], share: f32, footprint: f32) -> f32 {
+        let (count, gain) = BROAD;
+        let noise = Octaves { wavelength: APART, count, gain, seed: 0x71 }.at([x, y, 0.0], footprint);
+        noise.value - (0.44 - 0.95 * self.share + NARROWER * share * share)
     }
 
-    /// Where a ray meets a heap; `None` where it meets none.
-    fn met(&self, from: Vector, direction: Vector) -> Option<Met> {
-        let (spacing, first) = (self.spacing(direction), (self.height - from[2]) / direction[2]);
-        let (mut met, mut before): (Option<Met>, f32) = (None, -1.0);
-        for slice in 0..SLICES {
-            let at = along(from, direction, first + slice as f32 * spacing);
-            let here = self.within(at, slice as f32 / (SLICES - 1) as f32, COARSE * spacing);
-            let side = here.value + SIDE;
-            if met.is_none() && side > 0.0 {
-                // The base is flat; a side lies between two levels.
-                let (back, within) = match slice {
-                    0 => (0.0, here.value),
-                    _ => (side / (here.value - before), -SIDE),
-                };
-                met = Some(Met { slice: slice as f32 - back, within, passed: 0.0 });
-            }
-            if let Some(met) = &mut met {
-                met.passed += side.max(0.0).powi(2);
-            }
-            before = here.value;
+    /// The same of a point, with its puffs.
+    fn within(&self, [x, y, z]: Vector, footprint: f32) -> f32 {
+        let up = (z - self.height) / self.exaggeration;
+        let share = up / THICK;
+        let heap = self.heap([x, y], share.max(0.0), footprint);
+        if heap.abs() > NEAR {
+            return heap;
         }
-        met
+        // Bases are flat, and sides fade where they end.
+        let puffs = ramp(share, 0.0, 0.25) * ramp(heap.abs(), NEAR, 0.5 * NEAR);
+        heap + PUFFY * puffs * puff([x, y, up], footprint)
+    }
+
+    /// How many levels a ray is looked at along a direction, and metres from one to the next, where so many are to the first and
+    /// such an angle is seen as one. It is no whole number, which would show as lines where it changes.
+    fn levels(&self, direction: Vector, [first, blur]: [f32; 2]) -> [f32; 2] {
+        let length = THICK * self.exaggeration / direction[2];
+        let most = SLICES[0] + SLICES[1] * (1.0 - blur / BLURRED).max(0.0) * libm::expf(-first / LOST);
+        let count = (length / STEP).clamp(SLICES[0], most);
+        [count, length / (count - 1.0)]
+    }
+
+    /// The light that a point of a heap sends along a direction.
+    fn lit(&self, sky: &Sky, at: Vector, direction: Vector, footprint: f32) -> Vector {
+        let level = ((at[2] - self.height) / (THICK * self.exaggeration)).clamp(0.0, 1.0);
+        let towards = |step: usize| {
+            let there = add(at, scale(sky.sun, SUNWARD[step]));
+            TAKEN[step] * (self.within(there, footprint.max(0.3 * SUNWARD[step]))).max(0.0)
+        };
+        let below = BASE[0] * (1.0 - ramp(level, 0.0, BASE[1]));
+        let through = libm::expf(-(towards(0) + towards(1) + below));
+        let glow = GLOW * libm::powf(dot(direction, sky.sun).max(0.0), 12.0);
+        add(
+            scale(sky.sunlight, THROUGH + SUNNY * through + glow),
+            scale(self.skylight, (0.45 + 0.5 * level) * std::f32::consts::FRAC_1_PI),
+        )
     }
 
     /// The radiance of the sky in a direction, with the clouds before it; `blur` is the angle in radians that is seen as one.
@@ -121,32 +159,66 @@ impl Clouds {
         if direction[2] < 0.01 || from[2] >= self.height {
             return radiance;
         }
-        let Some(met) = self.met(from, direction) else { return radiance };
-        let share = met.slice / (SLICES - 1) as f32;
-        let spacing = self.spacing(direction);
-        let reach = (self.height - from[2]) / direction[2] + met.slice * spacing;
-        let footprint = blur * reach / direction[2].sqrt();
-        let at = along(from, direction, reach);
-        let fine = self.within(at, share, footprint).value - met.within;
-        let slope = self.within(at, share, COARSE * spacing).slope;
-        let density = ramp(met.passed.sqrt() - SIDE + 0.4 * fine, 0.0, EDGE + SOFTER * blur);
-        let sunward = [0, 1].map(|axis| LIT * sky.sun[axis] / sky.sun[2].max(0.3));
-        let uphill = slope[0] * sunward[0] + slope[1] * sunward[1];
-        let through = libm::expf(-3.4 * (met.within + 0.3 + uphill - 0.7 * fine - 0.25 * share).max(0.0));
-        let glow = 0.3 * (1.0 - density) * libm::powf(dot(direction, sky.sun).max(0.0), 12.0);
-        let lit = add(
-            scale(sky.sunlight, 0.03 + 0.24 * through + glow),
-            scale(self.skylight, (0.45 + 0.5 * share) * std::f32::consts::FRAC_1_PI),
-        );
-        mix(radiance, lit, density * libm::expf(-reach / LOST))
+        let first = (self.height - from[2]) / direction[2];
+        let [count, spacing] = self.levels(direction, [first, blur]);
+        let (mut sum, mut left, mut slice, mut before) = ([0.0; 3], 1.0, 0.0, 0.0);
+        while slice <= count - 1.0 && left > UNSEEN {
+            let reach = first + slice * spacing;
+            let footprint = (COARSE * spacing).max(blur * reach);
+            let here = self.within(add(from, scale(direction, reach)), footprint);
+            // Of the metres since the level before, those within a heap: were all of them or none, levels would show as lines.
+            let [within, middle] = if slice > 0.0 { inside(before, here) } else { [0.0; 2] };
+            let hidden = left * (1.0 - libm::expf(-DENSE * spacing * within));
+            if hidden > UNSEEN {
+                let at = add(from, scale(direction, reach - middle * spacing));
+                let light = self.lit(sky, at, direction, footprint);
+                let seen = libm::expf(-reach / LOST - PALER * blur);
+                sum = add(sum, scale(mix(radiance, light, seen), hidden));
+                left -= hidden;
+            }
+            before = here;
+            // Nothing is met over so many levels, whatever lies between.
+            slice += 1.0 + ((-NEAR - here).max(0.0) / (STEEPEST * spacing)).floor();
+        }
+        add(sum, scale(radiance, left))
     }
 
     /// Share of the sunlight that comes through them to a point.
     pub(super) fn through(&self, sky: &Sky, point: Vector) -> f32 {
         let length = (self.height - point[2]).max(0.0) / sky.sun[2].max(0.05);
         let at = [0, 1].map(|axis| point[axis] + sky.sun[axis] * length);
-        1.0 - SHADOW * ramp(self.within(at, 0.0, SOFT).value, 0.0, 0.34)
+        1.0 - SHADOW * ramp(self.heap(at, 0.0, SOFT), 0.0, 0.34)
     }
+}
+
+/// How far the stretch from one value to another lies above 0, on the average over all of it, and how far before its end the
+/// middle of that part is.
+fn inside(before: f32, here: f32) -> [f32; 2] {
+    if before > 0.0 && here > 0.0 {
+        return [0.5 * (before + here), 0.5];
+    }
+    let share = before.max(here).max(0.0) / (before - here).abs().max(1e-6);
+    [0.5 * share * before.max(here).max(0.0), if here > 0.0 { 0.5 * share } else { 1.0 - 0.5 * share }]
+}
+
+/// Puffs at a point, round outward and sharp inward: folded noise about its mean.
+fn puff(point: Vector, footprint: f32) -> f32 {
+    let (mut sum, mut strength, mut wavelength) = (0.0, 1.0, PUFFS);
+    // Each octave is turned by the angle of the 3-4-5 triangle, so that lattices do not align.
+    let mut place = point;
+    for octave in 0..PUFF_OCTAVES {
+        let seen = strength * visible(footprint, wavelength);
+        if seen <= 0.0 {
+            break;
+        }
+        let seed = PUFF_SEED.wrapping_add(octave.wrapping_mul(0x9e37_79b9));
+        let here = solid_grain(place.map(|metres| metres / wavelength), seed);
+        sum += seen * (here.value.abs() - PUFF_MEAN);
+        place = [0.8 * place[0] + 0.6 * place[1], 0.8 * place[1] - 0.6 * place[0], place[2]];
+        strength *= PUFF_GAIN;
+        wavelength *= 0.5;
+    }
+    sum
 }
 
 #[cfg(test)]

@@ -1,50 +1,110 @@
-// Twin of `clouds.rs`: heaps of cloud over one level, and their shadows. Where there are none, `CLOUDS` leaves all of it out.
+// Twin of `clouds.rs`: heaps of cloud above the land, and their shadows. Where there are none, `CLOUDS` leaves all of it out.
 
-const CLOUDS_APART = 2600.0;
-const CLOUDS_SLICES = 16;
-const CLOUDS_SLICE = 32.0;
-const CLOUDS_NARROWER = 0.36;
-const CLOUDS_COARSE = 1.8;
-const CLOUDS_EDGE = 0.2;
-const CLOUDS_SOFTER = 5.0;
-const CLOUDS_SIDE = 0.12;
-const CLOUDS_LIT = 420.0;
+const CLOUDS_APART = 2200.0;
+const CLOUDS_BROAD = 2u;
+const CLOUDS_GAIN = 0.55;
+const CLOUDS_THICK = 700.0;
+const CLOUDS_SLICES = vec2<f32>(24.0, 72.0);
+const CLOUDS_STEP = 55.0;
+const CLOUDS_BLURRED = 0.02;
+const CLOUDS_STEEPEST = 0.0018;
+const CLOUDS_UNSEEN = 0.02;
+const CLOUDS_NARROWER = 0.42;
+const CLOUDS_PUFFS = 800.0;
+const CLOUDS_PUFF_OCTAVES = 5u;
+const CLOUDS_PUFF_GAIN = 0.66;
+const CLOUDS_PUFFY = 0.8;
+const CLOUDS_PUFF_MEAN = 0.2;
+const CLOUDS_NEAR = 0.45;
+const CLOUDS_PUFF_SEED = 0x77u;
+const CLOUDS_COARSE = 0.7;
+const CLOUDS_DENSE = 0.12;
+const CLOUDS_GLOW = 0.05;
+const CLOUDS_PALER = 8.0;
+const CLOUDS_SUNWARD = vec2<f32>(70.0, 260.0);
+const CLOUDS_TAKEN = vec2<f32>(3.6, 3.2);
+const CLOUDS_BASE = vec2<f32>(2.2, 0.4);
+const CLOUDS_SUNNY = 0.3;
+const CLOUDS_THROUGH = 0.035;
 const CLOUDS_LOST = 28000.0;
 const CLOUDS_SHADOW = 0.78;
 const CLOUDS_SOFT = 160.0;
 
-// How far a place is within a heap, as noise above what makes cloud there; for a share of its height.
-fn within_cloud(at: vec2<f32>, share: f32, footprint: f32) -> Grain {
-    var noise = octaves_at(Octaves(CLOUDS_APART, 7u, 0.56, 0x71u), at, footprint);
-    noise.value -= 0.44 - 0.95 * scene.clouds.w + CLOUDS_NARROWER * share * share;
-    return noise;
+// How far a place is within a heap without its puffs, as noise above what makes cloud there, at a share of its height.
+fn heap_of_cloud(at: vec2<f32>, share: f32, footprint: f32) -> f32 {
+    let noise = octaves_at(Octaves(CLOUDS_APART, CLOUDS_BROAD, CLOUDS_GAIN, 0x71u), at, footprint);
+    return noise.value - (0.44 - 0.95 * scene.clouds.w + CLOUDS_NARROWER * share * share);
 }
 
-// Where a ray meets a heap: the slice, how far it is within there, and how much of it lies along the ray.
-struct MetCloud {
-    slice: f32,
-    within: f32,
-    passed: f32,
-}
-
-fn met_cloud(start: vec3<f32>, direction: vec3<f32>) -> MetCloud {
-    var met = MetCloud(0.0, 0.0, 0.0);
-    var before = -1.0;
-    let spacing = CLOUDS_SLICE * scene.scale.y / direction.z;
-    let first = (scene.cloud_height.x - start.z) / direction.z;
-    for (var slice = 0; slice < CLOUDS_SLICES; slice++) {
-        let reach = first + f32(slice) * spacing;
-        let at = start.xy + direction.xy * reach;
-        let here = within_cloud(at, f32(slice) / f32(CLOUDS_SLICES - 1), CLOUDS_COARSE * spacing);
-        let side = max(here.value + CLOUDS_SIDE, 0.0);
-        if met.passed == 0.0 && side > 0.0 {
-            let back = select(side / (here.value - before), 0.0, slice == 0);
-            met = MetCloud(f32(slice) - back, select(-CLOUDS_SIDE, here.value, slice == 0), 0.0);
+// Puffs at a point, round outward and sharp inward: folded noise about its mean.
+fn cloud_puff(point: vec3<f32>, footprint: f32) -> f32 {
+    var sum = 0.0;
+    var strength = 1.0;
+    var wavelength = CLOUDS_PUFFS;
+    var place = point;
+    for (var octave = 0u; octave < CLOUDS_PUFF_OCTAVES; octave++) {
+        let seen = strength * grain_visible(footprint, wavelength);
+        if seen <= 0.0 {
+            break;
         }
-        met.passed += side * side;
-        before = here.value;
+        let here = solid_grain(place / wavelength, CLOUDS_PUFF_SEED + octave * 0x9e3779b9u);
+        sum += seen * (abs(here.value) - CLOUDS_PUFF_MEAN);
+        place = vec3<f32>(0.8 * place.x + 0.6 * place.y, 0.8 * place.y - 0.6 * place.x, place.z);
+        strength *= CLOUDS_PUFF_GAIN;
+        wavelength *= 0.5;
     }
-    return met;
+    return sum;
+}
+
+// How far a point is within a heap, with its puffs.
+fn within_cloud(point: vec3<f32>, footprint: f32) -> f32 {
+    let up = (point.z - scene.cloud_height.x) / scene.scale.y;
+    let share = up / CLOUDS_THICK;
+    let heap = heap_of_cloud(point.xy, max(share, 0.0), footprint);
+    let aside = abs(heap);
+    if aside > CLOUDS_NEAR {
+        return heap;
+    }
+    // Bases are flat, and sides fade where they end.
+    let puffs = smoothstep(0.0, 0.25, share) * (1.0 - smoothstep(0.5 * CLOUDS_NEAR, CLOUDS_NEAR, aside));
+    return heap + CLOUDS_PUFFY * puffs * cloud_puff(vec3<f32>(point.xy, up), footprint);
+}
+
+// How many levels a ray is looked at along a direction, and metres from one to the next, where so many are to the first and such
+// an angle is seen as one.
+fn cloud_levels(direction: vec3<f32>, first: f32, blur: f32) -> vec2<f32> {
+    let length = CLOUDS_THICK * scene.scale.y / direction.z;
+    let most = CLOUDS_SLICES.x + CLOUDS_SLICES.y * max(1.0 - blur / CLOUDS_BLURRED, 0.0) * exp(-first / CLOUDS_LOST);
+    let count = clamp(length / CLOUDS_STEP, CLOUDS_SLICES.x, most);
+    return vec2<f32>(count, length / (count - 1.0));
+}
+
+// What so many metres of the way to the sun take of its light.
+fn cloud_taken(at: vec3<f32>, footprint: f32, sunward: f32, taken: f32) -> f32 {
+    let there = at + scene.sun.xyz * sunward;
+    return taken * max(within_cloud(there, max(footprint, 0.3 * sunward)), 0.0);
+}
+
+// How far the stretch from one value to another lies above 0, on the average over all of it, and how far before its end the middle
+// of that part is.
+fn inside_cloud(before: f32, here: f32) -> vec2<f32> {
+    if before > 0.0 && here > 0.0 {
+        return vec2<f32>(0.5 * (before + here), 0.5);
+    }
+    let most = max(max(before, here), 0.0);
+    let share = most / max(abs(before - here), 1e-6);
+    return vec2<f32>(0.5 * share * most, select(1.0 - 0.5 * share, 0.5 * share, here > 0.0));
+}
+
+// The light that a point of a heap sends along a direction.
+fn lit_cloud(at: vec3<f32>, direction: vec3<f32>, footprint: f32) -> vec3<f32> {
+    let level = clamp((at.z - scene.cloud_height.x) / (CLOUDS_THICK * scene.scale.y), 0.0, 1.0);
+    let taken = cloud_taken(at, footprint, CLOUDS_SUNWARD.x, CLOUDS_TAKEN.x)
+        + cloud_taken(at, footprint, CLOUDS_SUNWARD.y, CLOUDS_TAKEN.y)
+        + CLOUDS_BASE.x * (1.0 - smoothstep(0.0, CLOUDS_BASE.y, level));
+    let glow = CLOUDS_GLOW * pow(max(dot(direction, scene.sun.xyz), 0.0), 12.0);
+    return scene.sunlight.xyz * (CLOUDS_THROUGH + CLOUDS_SUNNY * exp(-taken) + glow)
+        + scene.clouds.xyz * ((0.45 + 0.5 * level) / PI);
 }
 
 // The radiance of the sky in a direction, with the clouds before it; `blur` is the angle in radians that is seen as one.
@@ -52,25 +112,30 @@ fn with_clouds(start: vec3<f32>, direction: vec3<f32>, radiance: vec3<f32>, blur
     if !CLOUDS || direction.z < 0.01 || start.z >= scene.cloud_height.x {
         return radiance;
     }
-    let met = met_cloud(start, direction);
-    if met.passed == 0.0 {
-        return radiance;
+    var sum = vec3<f32>(0.0);
+    var left = 1.0;
+    let first = (scene.cloud_height.x - start.z) / direction.z;
+    let levels = cloud_levels(direction, first, blur);
+    var slice = 0.0;
+    var before = 0.0;
+    while slice <= levels.x - 1.0 && left > CLOUDS_UNSEEN {
+        let reach = first + slice * levels.y;
+        let footprint = max(CLOUDS_COARSE * levels.y, blur * reach);
+        let here = within_cloud(start + direction * reach, footprint);
+        // Of the metres since the level before, those within a heap: were all of them or none, levels would show as lines.
+        let part = select(vec2<f32>(0.0), inside_cloud(before, here), slice > 0.0);
+        let hidden = left * (1.0 - exp(-CLOUDS_DENSE * levels.y * part.x));
+        if hidden > CLOUDS_UNSEEN {
+            let at = start + direction * (reach - part.y * levels.y);
+            let seen = exp(-reach / CLOUDS_LOST - CLOUDS_PALER * blur);
+            sum += hidden * mix(radiance, lit_cloud(at, direction, footprint), seen);
+            left -= hidden;
+        }
+        before = here;
+        // Nothing is met over so many levels, whatever lies between.
+        slice += 1.0 + floor(max(-CLOUDS_NEAR - here, 0.0) / (CLOUDS_STEEPEST * levels.y));
     }
-    let share = met.slice / f32(CLOUDS_SLICES - 1);
-    let spacing = CLOUDS_SLICE * scene.scale.y / direction.z;
-    let reach = (scene.cloud_height.x - start.z) / direction.z + met.slice * spacing;
-    let footprint = blur * reach * inverseSqrt(direction.z);
-    let at = start.xy + direction.xy * reach;
-    let fine = within_cloud(at, share, footprint).value - met.within;
-    let slope = within_cloud(at, share, CLOUDS_COARSE * spacing).slope;
-    let edge = CLOUDS_EDGE + CLOUDS_SOFTER * blur;
-    let density = smoothstep(0.0, edge, sqrt(met.passed) - CLOUDS_SIDE + 0.4 * fine);
-    let sunward = CLOUDS_LIT * scene.sun.xy / max(scene.sun.z, 0.3);
-    let through = exp(-3.4 * max(met.within + 0.3 + dot(slope, sunward) - 0.7 * fine - 0.25 * share, 0.0));
-    let glow = 0.3 * (1.0 - density) * pow(max(dot(direction, scene.sun.xyz), 0.0), 12.0);
-    let lit = scene.sunlight.xyz * (0.03 + 0.24 * through + glow)
-        + scene.clouds.xyz * ((0.45 + 0.5 * share) / PI);
-    return mix(radiance, lit, density * exp(-reach / CLOUDS_LOST));
+    return sum + left * radiance;
 }
 
 // Share of the sunlight that comes through them to a point.
@@ -79,7 +144,7 @@ fn through_clouds(point: vec3<f32>) -> f32 {
         return 1.0;
     }
     let reach = max(scene.cloud_height.x - point.z, 0.0) / max(scene.sun.z, 0.05);
-    let within = within_cloud(point.xy + scene.sun.xy * reach, 0.0, CLOUDS_SOFT).value;
+    let within = heap_of_cloud(point.xy + scene.sun.xy * reach, 0.0, CLOUDS_SOFT);
     let density = smoothstep(0.0, 0.34, within);
     return select(1.0, 1.0 - CLOUDS_SHADOW * density, scene.clouds.w > 0.0);
 }

@@ -9,6 +9,7 @@ use super::ground_kinds::{Limits, Palette, SurfacePoint, SurfaceSample};
 use super::ground_noise::{STEEPEST, Texture, no_steeper};
 use super::site::Sites;
 use super::snow::{SnowSpot, snow_share};
+use super::turf::{Turf, turf};
 use super::vector::{Vector, add, ramp, scale};
 use crate::colour::{Linear, mix};
 
@@ -20,6 +21,9 @@ const STRAND: f32 = 0.66;
 
 /// By how much rock is bare sooner on one of its blocks than on another.
 const BLOCKY: f32 = 0.16;
+
+/// What blocks of a material and the cracks between them add to its tone.
+const BLOCKS: [f32; 2] = [0.35, 0.55];
 
 /// Slope that bumps of bare rock come near: its faces are sharp.
 const STEEPEST_ROCK: f32 = 1.3;
@@ -100,10 +104,7 @@ impl Cover {
         let patchy = texture.patchy();
         let moisture = self.sites.moisture(spot.place);
         let high = spot.point[2] / self.limits.relief.max(1e-3);
-        let grass = self.grass(moisture + 0.55 * patchy, high + 0.25 * patchy);
-        let grass = scale(grass, 1.0 + 0.3 * fine.value + 0.3 * crags.height);
-        let meadow =
-            SurfaceSample { albedo: grass, bump: texture.rough(0.12, 0.8 * ramp(spot.slope, 0.1, 0.7)) };
+        let meadow = self.meadow(spot, texture, moisture);
         let trees = self.trees(spot, moisture, patchy);
 
         let [sand, washed] = Self::beach(spot, texture);
@@ -115,7 +116,7 @@ impl Cover {
         let fallen = self.sites.fallen(spot.place);
         let uneven = ramp(fallen, 0.0, 0.2) * (0.6 * patchy + 0.6 * fine.value - 1.2 * crags.height);
         let apron = 0.9 * ramp(1.1 * fallen + uneven, 0.4, 1.15) * ramp(spot.slope, 0.32, 0.55);
-        let scree_share = (0.8 * ramp(steep, 0.97, 1.10) * (1.0 - 0.85 * trees)).max(apron);
+        let scree_share = (0.8 * ramp(steep, 0.97, 1.10) * (1.0 - 0.9 * ramp(trees, 0.0, 0.2))).max(apron);
         let strand = SurfaceSample {
             albedo: scale(self.palette.gravel, STRAND + 0.35 * fine.value),
             bump: texture.rough(0.1, 0.1),
@@ -123,7 +124,7 @@ impl Cover {
         let stony = meadow.mixed(&scree, scree_share).mixed(&strand, sand);
         // Rock begins where scree is whole; most ground has none.
         let blocks =
-            if steep > ROCK[0] - BLOCKY { self.fractures(spot, texture) } else { Fractures::default() };
+            if steep > ROCK[0] - BLOCKY { self.fractures(spot, texture, true) } else { Fractures::default() };
         let bare = ramp(steep + BLOCKY * blocks.tone, ROCK[0], ROCK[1]);
         let ground = if bare > 0.0 {
             let rock = self.rock(spot, texture, &blocks);
@@ -142,6 +143,17 @@ impl Cover {
         let density = trees * self.off_cliffs(spot, texture) * (1.0 - white) * (1.0 - sand) * (1.0 - washed);
         let conifers = self.share_of_conifers(spot.point[2]);
         if density > 0.0 { self.under_trees(spot, &open, [density, conifers]) } else { open }
+    }
+
+    /// Ground with grass on it.
+    fn meadow(&self, spot: &SurfacePoint, texture: &Texture, moisture: f32) -> SurfaceSample {
+        let patchy = texture.patchy();
+        let high = spot.point[2] / self.limits.relief.max(1e-3);
+        let grass = self.grass(moisture + 0.55 * patchy, high + 0.25 * patchy);
+        let grass = scale(grass, 1.0 + 0.3 * texture.fine.value + 0.3 * texture.crags.height);
+        let Turf { albedo, slope } = turf(spot.point, spot.footprint, [grass, self.palette.dry]);
+        let bump = texture.rough(0.12, 0.8 * ramp(spot.slope, 0.1, 0.7));
+        SurfaceSample { albedo, bump: [0, 1].map(|axis| bump[axis] + slope[axis]) }
     }
 
     fn grass(&self, moisture: f32, high: f32) -> Linear {
@@ -174,11 +186,15 @@ impl Cover {
         let fold = 0.8 * texture.broad + texture.torn();
         let [bed, thin] = Self::bedding(spot, [thick, thick / 4.1], fold, false);
         let fine = (0.3 - 0.15 * steep) * texture.fine.value + 0.8 * steep * texture.crags.height;
+        let blocks = if steep > 0.0 { self.fractures(spot, texture, false) } else { Fractures::default() };
+        let broken = BLOCKS[0] * blocks.tone - BLOCKS[1] * blocks.crack;
         let bedded = 0.75 * bed.tone + 0.5 * thin.tone - 0.35 * bed.joint - 0.2 * thin.joint;
-        let tone = (1.0 + 0.28 * texture.broad + fine + steep * bedded).max(0.2);
+        let tone = (1.0 + 0.28 * texture.broad + fine + steep * (bedded + broken)).max(0.2);
         let (rough, ledge) =
             (texture.rough(0.08, 0.14 + 2.14 * steep), steep * (0.3 * bed.ledge + 0.15 * thin.ledge));
-        let bump = no_steeper([0, 1].map(|axis| rough[axis] - spot.fall[axis] * ledge), STEEPEST);
+        let facets = steep * Self::facets(spot);
+        let bump = [0, 1].map(|axis| rough[axis] - spot.fall[axis] * ledge + facets * blocks.facet[axis]);
+        let bump = no_steeper(bump, STEEPEST + (STEEPEST_ROCK - STEEPEST) * steep);
         SurfaceSample { albedo: self.with_bushes(spot, texture, steep, [albedo, scale(albedo, tone)]), bump }
     }
 

@@ -36,6 +36,9 @@ const MASSIVE = 0.3;
 const BROKEN = vec2<f32>(-0.25, 0.35);
 const UPRIGHT = 0.4;
 
+// What blocks of a material and the cracks between them add to its tone.
+const BLOCKS = vec2<f32>(0.35, 0.55);
+
 // Slope that bumps of bare rock come near.
 const STEEPEST_ROCK = 1.3;
 
@@ -195,9 +198,11 @@ fn natural(spot: SurfacePoint, texture: Texture) -> SurfaceSample {
     let here = smooth_at(site, spot.place);
     let moisture = here.x;
     let high = spot.point.z / max(scene.limits.w, 1e-3);
-    let turf = grass(moisture + 0.55 * patchy, high + 0.25 * patchy) * (1.0 + 0.3 * fine + 0.3 * ridge);
+    let green_ground = grass(moisture + 0.55 * patchy, high + 0.25 * patchy) * (1.0 + 0.3 * fine + 0.3 * ridge);
+    let turf = turf_at(spot.point, spot.footprint, green_ground, scene.dry.xyz);
     let wooded = trees(spot, moisture, patchy);
-    let meadow = SurfaceSample(turf, rough(texture, 0.12, 0.8 * ramp(spot.slope, 0.1, 0.7)), vec4<f32>(0.0));
+    let tufts = rough(texture, 0.12, 0.8 * ramp(spot.slope, 0.1, 0.7)) + turf.slope;
+    let meadow = SurfaceSample(turf.albedo, tufts, vec4<f32>(0.0));
 
     let strand = beach_at(spot, texture);
     let steep = max(steepness(spot, texture, here.xy), ROCK.y * strand.y);
@@ -205,13 +210,13 @@ fn natural(spot: SurfacePoint, texture: Texture) -> SurfaceSample {
     let scree = SurfaceSample(pebbles, rough(texture, 0.28, 0.8), vec4<f32>(0.0, 1.0, 0.0, 0.0));
     let fallen = 1.1 * here.w + ramp(here.w, 0.0, 0.2) * (0.6 * patchy + 0.6 * fine - 1.2 * ridge);
     let apron = 0.9 * ramp(fallen, 0.4, 1.15) * ramp(spot.slope, 0.32, 0.55);
-    let fallen_over = mixed(meadow, scree, max(0.8 * ramp(steep, 0.97, 1.10) * (1.0 - 0.85 * wooded), apron));
+    let fallen_over = mixed(meadow, scree, max(0.8 * ramp(steep, 0.97, 1.10) * (1.0 - 0.9 * ramp(wooded, 0.0, 0.2)), apron));
     let gravel = scene.gravel.xyz * (STRAND + 0.35 * fine);
     let sand = SurfaceSample(gravel, rough(texture, 0.1, 0.1), vec4<f32>(0.0, 1.0, 0.0, 0.0));
     let stony = mixed(fallen_over, sand, strand.x);
     var blocks = Fractures(0.0, 0.0, vec2<f32>(0.0), 0.0);
     if steep > ROCK.x - BLOCKY {
-        blocks = rock_fractures(spot, texture);
+        blocks = rock_fractures(spot, texture, true);
     }
     let bare = ramp(steep + BLOCKY * blocks.tone, ROCK.x, ROCK.y);
     let green = GREEN * blocks.ledge * (1.0 - ramp(high, GREEN_UP_TO.x, GREEN_UP_TO.y));
@@ -271,10 +276,10 @@ fn rock_thickness() -> f32 {
 }
 
 // The blocks of rock at a point.
-fn rock_fractures(spot: SurfacePoint, texture: Texture) -> Fractures {
+fn rock_fractures(spot: SurfacePoint, texture: Texture, dips: bool) -> Fractures {
     let thickness = rock_thickness();
     let bend = BENT * min(scene.scale.x, thickness) * vec2<f32>(texture.fine.value, texture.crags.height);
-    let level = spot.point.z + bed_dip(spot.point.xy) + thickness * rock_fold(texture);
+    let level = spot.point.z + select(0.0, bed_dip(spot.point.xy), dips) + thickness * rock_fold(texture);
     let normal = vec3<f32>(spot.slope * spot.fall, 1.0) * inverseSqrt(1.0 + spot.slope * spot.slope);
     let found = fractures_at(Face(spot.point.xy + bend, level, normal, thickness, spot.footprint));
     let broken = MASSIVE + (1.0 - MASSIVE) * ramp(texture.broad, BROKEN.x, BROKEN.y);
@@ -285,6 +290,11 @@ fn rock_fractures(spot: SurfacePoint, texture: Texture) -> Fractures {
 fn rock_fold(texture: Texture) -> f32 {
     let ragged = RAGGED.x * texture.fine.value + RAGGED.y * texture.crags.height;
     return 1.4 * texture.broad + ragged * min(scene.scale.x / rock_thickness(), 1.0);
+}
+
+// Slope of the facets of blocks.
+fn facets_of(spot: SurfacePoint) -> f32 {
+    return FACETS * min(sqrt(1.0 + spot.slope * spot.slope), 1.0 / UPRIGHT);
 }
 
 // Rock with its beds and blocks: light and dark, sunk into cracks and joints.
@@ -299,7 +309,7 @@ fn rock(spot: SurfacePoint, texture: Texture, blocks: Fractures) -> SurfaceSampl
     let cracks = 0.22 - 0.4 * texture.fine.value - 1.2 * texture.crags.height + joints;
     let ledge = 0.35 * bedding.thick.ledge + 0.2 * bedding.thin.ledge;
     let albedo = mix(stone, scene.rock_dark.xyz, clamp(cracks, 0.0, 1.0));
-    let facets = FACETS * min(sqrt(1.0 + spot.slope * spot.slope), 1.0 / UPRIGHT);
+    let facets = facets_of(spot);
     let bump = rough(texture, 0.15, 1.7) - spot.fall * ledge + facets * blocks.facet;
     return SurfaceSample(albedo, bump, vec4<f32>(0.0, 0.0, 1.0, 0.0));
 }
@@ -350,9 +360,15 @@ fn of_material(spot: SurfacePoint, albedo: vec3<f32>, texture: Texture) -> Surfa
     let fine = (0.3 - 0.15 * steep) * texture.fine.value + 0.8 * steep * texture.crags.height;
     let tones = 0.75 * bedding.thick.tone + 0.5 * bedding.thin.tone;
     let bedded = tones - 0.35 * bedding.thick.joint - 0.2 * bedding.thin.joint;
-    let tone = max(1.0 + 0.28 * texture.broad + fine + steep * bedded, 0.2);
+    var blocks = Fractures(0.0, 0.0, vec2<f32>(0.0), 0.0);
+    if steep > 0.0 {
+        blocks = rock_fractures(spot, texture, false);
+    }
+    let broken = BLOCKS.x * blocks.tone - BLOCKS.y * blocks.crack;
+    let tone = max(1.0 + 0.28 * texture.broad + fine + steep * (bedded + broken), 0.2);
     let ledge = steep * (0.3 * bedding.thick.ledge + 0.15 * bedding.thin.ledge);
-    let bump = no_steeper(rough(texture, 0.08, 0.14 + 2.14 * steep) - spot.fall * ledge, STEEPEST);
+    let slope = rough(texture, 0.08, 0.14 + 2.14 * steep) - spot.fall * ledge + steep * facets_of(spot) * blocks.facet;
+    let bump = no_steeper(slope, mix(STEEPEST, STEEPEST_ROCK, steep));
     let bushes = scattered(spot, texture, steep);
     let hidden = mix(albedo * (tone * bushes.open), BUSH * albedo * (0.35 + bushes.tone), 0.85 * bushes.share);
     return SurfaceSample(hidden, bump, vec4<f32>(0.0, 0.3, 0.7 * steep, 0.0));

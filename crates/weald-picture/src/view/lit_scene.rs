@@ -98,16 +98,18 @@ impl LitScene {
         let cover = Cover::new(sites, setting.limits, sky.sun);
         // Where ground goes on to the horizon, the last of it is like the landscape.
         let plain = if setting.around.is_some() { cover.mean() } else { linear_of_hex(PLAIN) };
-        let level = sky.on_flat_ground();
+        let clouds = Clouds::new(view.clouds, &sky, [terrain.highest(), setting.exaggeration]);
+        let lighting = clouds.map_or_else(|| sky.clone(), |clouds| clouds.over_ground(&sky));
+        let level = lighting.on_flat_ground();
         let sent_back = |albedo: Linear, share: f32| scale(filter(albedo, level), share * FRAC_1_PI);
         Ok(Self {
-            skylight: Skylight::new(&sky, &terrain.top, terrain.spacing, setting.sky_cells),
-            plain_light: light_of_plain(&sky, &setting.terrain),
-            open: skylight::open(&sky),
-            sides: SideLight::new(&sky, sent_back(plain, 1.0)),
+            skylight: Skylight::new(&lighting, &terrain.top, terrain.spacing, setting.sky_cells),
+            plain_light: light_of_plain(&lighting, &setting.terrain),
+            open: skylight::open(&lighting),
+            sides: SideLight::new(&lighting, sent_back(plain, 1.0)),
             bounce: sent_back(cover.mean(), BOUNCE),
             haze: haze(view.visibility, &camera, &setting),
-            clouds: Clouds::new(view.clouds, &sky, [setting.terrain.highest(), setting.exaggeration]),
+            clouds,
             tone: Tone::new(&sky, view.exposure),
             is_empty: landscape.domain.valid_cells() == 0,
             visibility: view.visibility,

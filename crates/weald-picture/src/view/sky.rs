@@ -14,7 +14,7 @@ pub(super) const LOWEST: f32 = 0.006;
 const FORWARD: f32 = 0.76;
 
 /// A sky.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Sky {
     /// Direction of the sun.
     pub(super) sun: Vector,
@@ -36,6 +36,17 @@ impl Sky {
         };
         let sun_radius = (0.5 * diameter_deg).to_radians() as f32;
         Self { sun, sunlight: air.sunlight(), sun_radius, table: (0..=PIECES).map(elevation).collect() }
+    }
+
+    /// The sky as it lights the ground where clouds of a radiance hide a share of it.
+    pub(super) fn behind_clouds(&self, share: f32, radiance: Vector) -> Self {
+        let clear = 1.0 - share;
+        let veiled = |piece: &Scattered| Scattered {
+            rayleigh: scale(piece.rayleigh, clear),
+            mie: scale(piece.mie, clear),
+            multiple: add(scale(piece.multiple, clear), scale(radiance, share)),
+        };
+        Self { table: self.table.iter().map(veiled).collect(), ..self.clone() }
     }
 
     /// Radiance of a direction without the sun's disc; below the horizon that of the horizon.

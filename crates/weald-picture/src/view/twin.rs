@@ -6,9 +6,10 @@ use super::lit_scene::LitScene;
 use super::maps::TextureKind;
 
 /// The twins of place, light and air, each after those that it calls.
-const LIGHT: [&str; 7] = [
+const LIGHT: [&str; 8] = [
     include_str!("surface.wgsl"),
     weald_core::grain::SHADER,
+    include_str!("solid_grain.wgsl"),
     include_str!("sky.wgsl"),
     include_str!("clouds.wgsl"),
     include_str!("haze.wgsl"),
@@ -18,12 +19,12 @@ const LIGHT: [&str; 7] = [
 
 /// Those of ground and water, which call them.
 const GROUND: [&str; 12] = [
-    include_str!("solid_grain.wgsl"),
     include_str!("crags.wgsl"),
     include_str!("rock.wgsl"),
     include_str!("fractures.wgsl"),
     include_str!("snow.wgsl"),
     include_str!("woods.wgsl"),
+    include_str!("turf.wgsl"),
     include_str!("cover.wgsl"),
     include_str!("water.wgsl"),
     include_str!("side.wgsl"),

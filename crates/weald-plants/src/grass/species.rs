@@ -128,7 +128,7 @@ pub static SPECIES: [Species; 5] = [
         head_width: 0.02,
         good: [0.196, 0.274, 0.073],
         bad: [0.477, 0.393, 0.179],
-        head: [0.787, 0.748, 0.604],
+        head: [0.58, 0.53, 0.4],
     },
     // The tall grass of hay meadows, lush on deep soil, with a loose golden panicle.
     Species {
