@@ -52,6 +52,9 @@ const COARSE: f32 = 0.7;
 /// What a metre of a heap hides for each unit of noise above that of its side.
 const DENSE: f32 = 0.12;
 
+/// How many times less dense a heap is for a radian that is seen as one: its edges are as soft as what mirrors it is rough.
+const SOFTER: f32 = 80.0;
+
 /// Share of the sunlight that comes through from a sun behind.
 const GLOW: f32 = 0.05;
 
@@ -161,6 +164,7 @@ impl Clouds {
         }
         let first = (self.height - from[2]) / direction[2];
         let [count, spacing] = self.levels(direction, [first, blur]);
+        let dense = DENSE * spacing / (1.0 + SOFTER * blur);
         let (mut sum, mut left, mut slice, mut before) = ([0.0; 3], 1.0, 0.0, 0.0);
         while slice <= count - 1.0 && left > UNSEEN {
             let reach = first + slice * spacing;
@@ -168,7 +172,7 @@ impl Clouds {
             let here = self.within(add(from, scale(direction, reach)), footprint);
             // Of the metres since the level before, those within a heap: were all of them or none, levels would show as lines.
             let [within, middle] = if slice > 0.0 { inside(before, here) } else { [0.0; 2] };
-            let hidden = left * (1.0 - libm::expf(-DENSE * spacing * within));
+            let hidden = left * (1.0 - libm::expf(-dense * within));
             if hidden > UNSEEN {
                 let at = add(from, scale(direction, reach - middle * spacing));
                 let light = self.lit(sky, at, direction, footprint);

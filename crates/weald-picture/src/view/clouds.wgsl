@@ -19,6 +19,7 @@ const CLOUDS_NEAR = 0.45;
 const CLOUDS_PUFF_SEED = 0x77u;
 const CLOUDS_COARSE = 0.7;
 const CLOUDS_DENSE = 0.12;
+const CLOUDS_SOFTER = 80.0;
 const CLOUDS_GLOW = 0.05;
 const CLOUDS_PALER = 8.0;
 const CLOUDS_SUNWARD = vec2<f32>(70.0, 260.0);
@@ -116,6 +117,7 @@ fn with_clouds(start: vec3<f32>, direction: vec3<f32>, radiance: vec3<f32>, blur
     var left = 1.0;
     let first = (scene.cloud_height.x - start.z) / direction.z;
     let levels = cloud_levels(direction, first, blur);
+    let dense = CLOUDS_DENSE * levels.y / (1.0 + CLOUDS_SOFTER * blur);
     var slice = 0.0;
     var before = 0.0;
     while slice <= levels.x - 1.0 && left > CLOUDS_UNSEEN {
@@ -124,7 +126,7 @@ fn with_clouds(start: vec3<f32>, direction: vec3<f32>, radiance: vec3<f32>, blur
         let here = within_cloud(start + direction * reach, footprint);
         // Of the metres since the level before, those within a heap: were all of them or none, levels would show as lines.
         let part = select(vec2<f32>(0.0), inside_cloud(before, here), slice > 0.0);
-        let hidden = left * (1.0 - exp(-CLOUDS_DENSE * levels.y * part.x));
+        let hidden = left * (1.0 - exp(-dense * part.x));
         if hidden > CLOUDS_UNSEEN {
             let at = start + direction * (reach - part.y * levels.y);
             let seen = exp(-reach / CLOUDS_LOST - CLOUDS_PALER * blur);
