@@ -37,17 +37,18 @@ const UNSEEN: f32 = 0.02;
 const NARROWER: f32 = 0.42;
 
 /// Puffs: their longest wavelength in metres, the number of octaves, what each is against the one before, how much they add to
-/// the noise, the mean of folded noise, and how near to a side puffs are looked for.
+/// the noise, the mean of folded noise, how near to a side puffs are looked for, and between which noise of heaps they stand out.
 const PUFFS: f32 = 800.0;
 const PUFF_OCTAVES: u32 = 5;
-const PUFF_GAIN: f32 = 0.66;
-const PUFFY: f32 = 0.8;
+const PUFF_GAIN: f32 = 0.72;
+const PUFFY: f32 = 1.0;
 const PUFF_MEAN: f32 = 0.2;
 const NEAR: f32 = 0.45;
+const HELD: [f32; 2] = [-0.2, 0.1];
 const PUFF_SEED: u32 = 0x77;
 
 /// Distances between two levels that are the least to be seen of a heap's form.
-const COARSE: f32 = 0.7;
+const COARSE: f32 = 1.0;
 
 /// What a metre of a heap hides for each unit of noise above that of its side.
 const DENSE: f32 = 0.12;
@@ -77,7 +78,7 @@ const THROUGH: f32 = 0.035;
 const MEAN: [f32; 2] = [0.11, 0.22];
 
 /// Metres over which clouds are lost in the haze.
-const LOST: f32 = 28_000.0;
+const LOST: f32 = 22_000.0;
 
 /// Share of the sunlight that the densest cloud keeps off.
 const SHADOW: f32 = 0.78;
@@ -129,7 +130,10 @@ impl Clouds {
         }
         // Bases are flat, and sides fade where they end.
         let puffs = ramp(share, 0.0, 0.25) * ramp(heap.abs(), NEAR, 0.5 * NEAR);
-        heap + PUFFY * puffs * puff([x, y, up], footprint)
+        let puff = puff([x, y, up], footprint);
+        // Far outside a heap they would be crumbs that float alone.
+        let held = if puff > 0.0 { ramp(heap, HELD[0], HELD[1]) } else { 1.0 };
+        heap + PUFFY * puffs * held * puff
     }
 
     /// How many levels a ray is looked at along a direction, and metres from one to the next, where so many are to the first and

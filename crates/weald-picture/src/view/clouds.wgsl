@@ -12,12 +12,13 @@ const CLOUDS_UNSEEN = 0.02;
 const CLOUDS_NARROWER = 0.42;
 const CLOUDS_PUFFS = 800.0;
 const CLOUDS_PUFF_OCTAVES = 5u;
-const CLOUDS_PUFF_GAIN = 0.66;
-const CLOUDS_PUFFY = 0.8;
+const CLOUDS_PUFF_GAIN = 0.72;
+const CLOUDS_PUFFY = 1.0;
 const CLOUDS_PUFF_MEAN = 0.2;
 const CLOUDS_NEAR = 0.45;
+const CLOUDS_HELD = vec2<f32>(-0.2, 0.1);
 const CLOUDS_PUFF_SEED = 0x77u;
-const CLOUDS_COARSE = 0.7;
+const CLOUDS_COARSE = 1.0;
 const CLOUDS_DENSE = 0.12;
 const CLOUDS_SOFTER = 80.0;
 const CLOUDS_GLOW = 0.05;
@@ -27,7 +28,7 @@ const CLOUDS_TAKEN = vec2<f32>(3.6, 3.2);
 const CLOUDS_BASE = vec2<f32>(2.2, 0.4);
 const CLOUDS_SUNNY = 0.3;
 const CLOUDS_THROUGH = 0.035;
-const CLOUDS_LOST = 28000.0;
+const CLOUDS_LOST = 22000.0;
 const CLOUDS_SHADOW = 0.78;
 const CLOUDS_SOFT = 160.0;
 
@@ -68,7 +69,10 @@ fn within_cloud(point: vec3<f32>, footprint: f32) -> f32 {
     }
     // Bases are flat, and sides fade where they end.
     let puffs = smoothstep(0.0, 0.25, share) * (1.0 - smoothstep(0.5 * CLOUDS_NEAR, CLOUDS_NEAR, aside));
-    return heap + CLOUDS_PUFFY * puffs * cloud_puff(vec3<f32>(point.xy, up), footprint);
+    let puff = cloud_puff(vec3<f32>(point.xy, up), footprint);
+    // Far outside a heap they would be crumbs that float alone.
+    let held = select(1.0, smoothstep(CLOUDS_HELD.x, CLOUDS_HELD.y, heap), puff > 0.0);
+    return heap + CLOUDS_PUFFY * puffs * held * puff;
 }
 
 // How many levels a ray is looked at along a direction, and metres from one to the next, where so many are to the first and such
