@@ -90,7 +90,7 @@ class Visitor {
   // What the page says above the studio.
   notice() {
     const read = () => this.page.$eval("#notices p", (line) => line.textContent).catch(() => null);
-    return until(`${this.name}: a notice`, read);
+    return until(`${this.name}: a notice`, read, 240);
   }
 
   places(label) {
@@ -273,6 +273,8 @@ async function firefox(downloads) {
 // A new page: `query` is what the address asks for, `before` runs in the page before all else.
 async function visit(context, address, name, { query = "", before, size = [1280, 800] } = {}) {
   const page = await context.newPage();
+  // Another page that draws by software leaves this one little.
+  page.setDefaultNavigationTimeout(240_000);
   await page.setViewport({ width: size[0], height: size[1] });
   if (before) await page.evaluateOnNewDocument(before);
   const visitor = new Visitor(page, name);
