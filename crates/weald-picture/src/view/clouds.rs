@@ -36,19 +36,15 @@ const UNSEEN: f32 = 0.02;
 /// Noise by which the top of a heap is narrower than its base.
 const NARROWER: f32 = 0.42;
 
-/// Puffs: their longest wavelength in metres, the number of octaves, what each is against the one before, how much they add to
-/// the noise, the mean of folded noise, how near to a side puffs are looked for, and between which noise of heaps they stand out.
+/// Puffs: their longest wavelength in metres, the number of octaves, what each is against the one before, the mean of folded
+/// noise, how near to a side puffs are looked for, and between which noise of heaps they stand out.
 const PUFFS: f32 = 800.0;
 const PUFF_OCTAVES: u32 = 5;
 const PUFF_GAIN: f32 = 0.72;
-const PUFFY: f32 = 1.0;
 const PUFF_MEAN: f32 = 0.2;
 const NEAR: f32 = 0.45;
 const HELD: [f32; 2] = [-0.2, 0.1];
 const PUFF_SEED: u32 = 0x77;
-
-/// Distances between two levels that are the least to be seen of a heap's form.
-const COARSE: f32 = 1.0;
 
 /// What a metre of a heap hides for each unit of noise above that of its side.
 const DENSE: f32 = 0.12;
@@ -133,7 +129,7 @@ impl Clouds {
         let puff = puff([x, y, up], footprint);
         // Far outside a heap they would be crumbs that float alone.
         let held = if puff > 0.0 { ramp(heap, HELD[0], HELD[1]) } else { 1.0 };
-        heap + PUFFY * puffs * held * puff
+        heap + puffs * held * puff
     }
 
     /// How many levels a ray is looked at along a direction, and metres from one to the next, where so many are to the first and
@@ -150,7 +146,7 @@ impl Clouds {
         let level = ((at[2] - self.height) / (THICK * self.exaggeration)).clamp(0.0, 1.0);
         let towards = |step: usize| {
             let there = add(at, scale(sky.sun, SUNWARD[step]));
-            TAKEN[step] * (self.within(there, footprint.max(0.3 * SUNWARD[step]))).max(0.0)
+            TAKEN[step] * self.within(there, footprint.max(0.3 * SUNWARD[step])).max(0.0)
         };
         let below = BASE[0] * (1.0 - ramp(level, 0.0, BASE[1]));
         let through = libm::expf(-(towards(0) + towards(1) + below));
@@ -172,7 +168,7 @@ impl Clouds {
         let (mut sum, mut left, mut slice, mut before) = ([0.0; 3], 1.0, 0.0, 0.0);
         while slice <= count - 1.0 && left > UNSEEN {
             let reach = first + slice * spacing;
-            let footprint = (COARSE * spacing).max(blur * reach);
+            let footprint = spacing.max(blur * reach);
             let here = self.within(add(from, scale(direction, reach)), footprint);
             // Of the metres since the level before, those within a heap: were all of them or none, levels would show as lines.
             let [within, middle] = if slice > 0.0 { inside(before, here) } else { [0.0; 2] };
@@ -199,14 +195,15 @@ impl Clouds {
     }
 }
 
-/// How far the stretch from one value to another lies above 0, on the average over all of it, and how far before its end the
-/// middle of that part is.
+/// For a value that changes evenly from one level to the next: the mean of what it has above 0, and how far before the second level
+/// the middle of that part lies, as a share of their distance.
 fn inside(before: f32, here: f32) -> [f32; 2] {
     if before > 0.0 && here > 0.0 {
         return [0.5 * (before + here), 0.5];
     }
-    let share = before.max(here).max(0.0) / (before - here).abs().max(1e-6);
-    [0.5 * share * before.max(here).max(0.0), if here > 0.0 { 0.5 * share } else { 1.0 - 0.5 * share }]
+    let most = before.max(here).max(0.0);
+    let share = most / (before - here).abs().max(1e-6);
+    [0.5 * share * most, if here > 0.0 { 0.5 * share } else { 1.0 - 0.5 * share }]
 }
 
 /// Puffs at a point, round outward and sharp inward: folded noise about its mean.
@@ -246,6 +243,21 @@ mod tests {
         let clouds = clouds.expect("some");
         let at = |place: usize| [150.0 * (place % 100) as f32, 170.0 * (place / 100) as f32, 0.0];
         (0..10_000).filter(|&place| clouds.through(&sky, at(place)) < 0.6).count() as f32 / 10_000.0
+    }
+
+    #[test]
+    fn of_a_stretch_between_levels_what_lies_within_a_heap_counts() {
+        for (before, here) in [(-1.0, 1.0), (1.0, -1.0), (-0.3, 0.1), (0.4, 0.2), (-0.2, -0.1), (0.0, 0.0)] {
+            let at = |step: i32| before + (here - before) * (step as f32 + 0.5) / 1000.0;
+            let mean = (0..1000).map(|step| at(step).max(0.0)).sum::<f32>() / 1000.0;
+            let inside: Vec<_> = (0..1000).filter(|&step| at(step) > 0.0).collect();
+            let [found, middle] = super::inside(before, here);
+            assert!((found - mean).abs() < 1e-3, "{before} to {here}: {found} for {mean}");
+            if let (Some(first), Some(last)) = (inside.first(), inside.last()) {
+                let expected = 1.0 - (first + last) as f32 / 2000.0;
+                assert!((middle - expected).abs() < 2e-3, "{before} to {here}: {middle} for {expected}");
+            }
+        }
     }
 
     #[test]

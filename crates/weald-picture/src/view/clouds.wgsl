@@ -13,12 +13,10 @@ const CLOUDS_NARROWER = 0.42;
 const CLOUDS_PUFFS = 800.0;
 const CLOUDS_PUFF_OCTAVES = 5u;
 const CLOUDS_PUFF_GAIN = 0.72;
-const CLOUDS_PUFFY = 1.0;
 const CLOUDS_PUFF_MEAN = 0.2;
 const CLOUDS_NEAR = 0.45;
 const CLOUDS_HELD = vec2<f32>(-0.2, 0.1);
 const CLOUDS_PUFF_SEED = 0x77u;
-const CLOUDS_COARSE = 1.0;
 const CLOUDS_DENSE = 0.12;
 const CLOUDS_SOFTER = 80.0;
 const CLOUDS_GLOW = 0.05;
@@ -72,7 +70,7 @@ fn within_cloud(point: vec3<f32>, footprint: f32) -> f32 {
     let puff = cloud_puff(vec3<f32>(point.xy, up), footprint);
     // Far outside a heap they would be crumbs that float alone.
     let held = select(1.0, smoothstep(CLOUDS_HELD.x, CLOUDS_HELD.y, heap), puff > 0.0);
-    return heap + CLOUDS_PUFFY * puffs * held * puff;
+    return heap + puffs * held * puff;
 }
 
 // How many levels a ray is looked at along a direction, and metres from one to the next, where so many are to the first and such
@@ -90,8 +88,8 @@ fn cloud_taken(at: vec3<f32>, footprint: f32, sunward: f32, taken: f32) -> f32 {
     return taken * max(within_cloud(there, max(footprint, 0.3 * sunward)), 0.0);
 }
 
-// How far the stretch from one value to another lies above 0, on the average over all of it, and how far before its end the middle
-// of that part is.
+// For a value that changes evenly from one level to the next: the mean of what it has above 0, and how far before the second level
+// the middle of that part lies, as a share of their distance.
 fn inside_cloud(before: f32, here: f32) -> vec2<f32> {
     if before > 0.0 && here > 0.0 {
         return vec2<f32>(0.5 * (before + here), 0.5);
@@ -126,7 +124,7 @@ fn with_clouds(start: vec3<f32>, direction: vec3<f32>, radiance: vec3<f32>, blur
     var before = 0.0;
     while slice <= levels.x - 1.0 && left > CLOUDS_UNSEEN {
         let reach = first + slice * levels.y;
-        let footprint = max(CLOUDS_COARSE * levels.y, blur * reach);
+        let footprint = max(levels.y, blur * reach);
         let here = within_cloud(start + direction * reach, footprint);
         // Of the metres since the level before, those within a heap: were all of them or none, levels would show as lines.
         let part = select(vec2<f32>(0.0), inside_cloud(before, here), slice > 0.0);
