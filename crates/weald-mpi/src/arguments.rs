@@ -31,7 +31,7 @@ pub(crate) struct BenchArguments {
     /// Cells a side
     #[arg(long, value_name = "N", default_value_t = 2048, value_parser = clap::value_parser!(u64).range(64..=16384))]
     pub(crate) size: u64,
-    /// Steps of the shorter of two runs, whose difference counts
+    /// Steps of the shorter of two runs, whose difference counts; more where a busy machine hides it
     #[arg(long, value_name = "N", default_value_t = 40, value_parser = clap::value_parser!(u32).range(4..=1_000_000))]
     pub(crate) steps: u32,
     /// Cells a side of the grid for which the model is printed

@@ -29,6 +29,13 @@ const LONG: usize = 8 << 20;
 /// Runs of each length, of which the fastest counts: others on the machine only make them slower.
 const RUNS: usize = 3;
 
+/// How often runs are made twice as long, until other work on the machine hides their difference no more.
+const ROUNDS: u32 = 8;
+
+/// What the longer of two runs, of twice the steps, takes at least, by the shorter. Steps alone would make it 2; less of
+/// it than a quarter more is start and end, or other work on the machine.
+const LONGER: f64 = 1.25;
+
 /// Numbers of ranks for which the model is printed.
 const RANKS: [usize; 8] = [1, 2, 4, 8, 16, 32, 64, 128];
 
@@ -49,26 +56,22 @@ impl Progress for Watch {
 /// # Errors
 /// Those of a run.
 pub(crate) fn bench(arguments: &BenchArguments, ranks: &Arc<dyn Ranks>) -> Result<(), Error> {
-    let alone = if ranks.leads() { seconds_a_step(arguments, &Engine::Cpu)? } else { 0.0 };
+    let alone = if ranks.leads() { measure(arguments, &Engine::Cpu, None)?.seconds } else { 0.0 };
     let [latency, bandwidth] = messages(ranks.as_ref())?;
     let counting = Arc::new(Counting::new(Arc::clone(ranks)));
     let all: Arc<dyn Ranks> = Arc::<Counting>::clone(&counting);
     let together = if ranks.leads() {
-        seconds_a_step(arguments, &Engine::Ranks(all))?
+        measure(arguments, &Engine::Ranks(Arc::clone(&all)), Some(&all))?
     } else {
-        for steps in [arguments.steps, 2 * arguments.steps] {
-            for _ in 0..RUNS {
-                take_part(&recipe(arguments, steps)?, &all)?;
-            }
-        }
-        0.0
+        follow(arguments, &all)?;
+        Measured::default()
     };
     if ranks.leads() {
         let cells = (arguments.size * arguments.size) as f64;
         let machine = Machine { rate: cells / alone, latency, bandwidth };
-        let (traffic, sent) = traffic(arguments, &counting);
+        let (traffic, sent) = traffic(arguments, &counting, together.steps);
         if ranks.count() > 1 {
-            print!("{}", beside(arguments, ranks.count(), (machine, traffic), (together, sent, &counting)));
+            print!("{}", beside(arguments, ranks.count(), (machine, traffic), (together.seconds, sent, &counting)));
         }
         print!("{}", larger(arguments, machine, traffic));
     }
@@ -84,9 +87,63 @@ fn recipe(arguments: &BenchArguments, steps: u32) -> Result<Recipe, Error> {
     Recipe::parse("bench.toml", &text, &Overrides::default())
 }
 
-/// What a step takes: the difference of a run of so many and one of twice as many, so that start and end do not count.
-fn seconds_a_step(arguments: &BenchArguments, engine: &Engine) -> Result<f64, Error> {
-    let seconds = |steps: u32| -> Result<f64, Error> {
+/// What a step takes, and how many steps were run to find it.
+#[derive(Clone, Copy, Default)]
+struct Measured {
+    seconds: f64,
+    steps: f64,
+}
+
+/// What a step takes: the difference of a run of so many and one of twice as many, so that start and end do not count. Runs
+/// become longer until there is a difference, and the other ranks are told each time whether there is.
+fn measure(
+    arguments: &BenchArguments,
+    engine: &Engine,
+    others: Option<&Arc<dyn Ranks>>,
+) -> Result<Measured, Error> {
+    let mut run = 0.0;
+    for steps in rounds(arguments) {
+        let (short, long) = (fastest(arguments, steps, engine)?, fastest(arguments, 2 * steps, engine)?);
+        run += f64::from(3 * steps) * RUNS as f64;
+        let is_measured = long > LONGER * short;
+        if let Some(ranks) = others {
+            ranks.tell(vec![u8::from(is_measured)])?;
+        }
+        if is_measured {
+            return Ok(Measured { seconds: (long - short) / f64::from(steps), steps: run });
+        }
+    }
+    let steps = arguments.steps << ROUNDS;
+    Err(Error::Run(format!(
+        "{steps} steps took no longer than half as many on this busy machine; a larger `--steps` or `--size` can be measured"
+    )))
+}
+
+/// What the other ranks do while the first measures.
+fn follow(arguments: &BenchArguments, ranks: &Arc<dyn Ranks>) -> Result<(), Error> {
+    for steps in rounds(arguments) {
+        for steps in [steps, 2 * steps] {
+            for _ in 0..RUNS {
+                take_part(&recipe(arguments, steps)?, ranks)?;
+            }
+        }
+        if ranks.tell(Vec::new())? == [u8::from(true)] {
+            break;
+        }
+    }
+    Ok(())
+}
+
+/// Steps of the shorter run of each round.
+fn rounds(arguments: &BenchArguments) -> impl Iterator<Item = u32> {
+    let steps = arguments.steps;
+    (0..ROUNDS).map(move |round| steps << round)
+}
+
+/// Seconds of the fastest of some runs.
+fn fastest(arguments: &BenchArguments, steps: u32, engine: &Engine) -> Result<f64, Error> {
+    let mut fastest = f64::INFINITY;
+    for _ in 0..RUNS {
         let (recipe, watch) = (recipe(arguments, steps)?, Watch::default());
         let folder = std::env::temp_dir().join(format!("weald-mpi-bench-{}", std::process::id()));
         let options = Options { engine: engine.clone(), ..Options::into_folder(&folder) };
@@ -94,20 +151,9 @@ fn seconds_a_step(arguments: &BenchArguments, engine: &Engine) -> Result<f64, Er
         // The folder holds nothing but a lock that has gone; that it cannot be removed is no fault of the measurement.
         let _ = std::fs::remove_dir_all(&folder);
         done?;
-        Ok(watch.0.into_inner().unwrap_or_default())
-    };
-    let fastest = |steps: u32| {
-        let runs = (0..RUNS).map(|_| seconds(steps)).collect::<Result<Vec<_>, _>>()?;
-        Ok::<_, Error>(runs.into_iter().fold(f64::INFINITY, f64::min))
-    };
-    let (short, long) = (fastest(arguments.steps)?, fastest(2 * arguments.steps)?);
-    if long <= short {
-        return Err(Error::Run(format!(
-            "{} steps took no longer than half as many on this busy machine; a larger `--steps` or `--size` can be measured",
-            2 * arguments.steps
-        )));
+        fastest = fastest.min(watch.0.into_inner().unwrap_or(f64::INFINITY));
     }
-    Ok((long - short) / f64::from(arguments.steps))
+    Ok(fastest)
 }
 
 /// Seconds of a short message, and bytes per second of long ones, between the first two ranks; a rank alone has no messages.
@@ -134,11 +180,10 @@ fn messages(ranks: &dyn Ranks) -> Result<[f64; 2], Error> {
     Ok([latency, LONG as f64 / once(LONG, 30)?])
 }
 
-/// What the model asks of messages, and the bytes that were really sent a step and neighbour in both runs together. The
+/// What the model asks of messages, and the bytes that were really sent a step and neighbour in all runs together. The
 /// first rank has one neighbour.
-fn traffic(arguments: &BenchArguments, counting: &Counting) -> (Traffic, f64) {
+fn traffic(arguments: &BenchArguments, counting: &Counting, steps: f64) -> (Traffic, f64) {
     let [exchanges, bytes] = [counting.exchanges(), counting.bytes()].map(|count| count as f64);
-    let steps = f64::from(3 * arguments.steps) * RUNS as f64;
     let block = if exchanges > 0.0 { steps / exchanges } else { BLOCK };
     let planes = if arguments.model == "han" { HAN_PLANES } else { MEI_PLANES };
     let values = planes * (REACH * block + 1.0) / block;
