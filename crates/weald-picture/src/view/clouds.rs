@@ -2,8 +2,9 @@
 //!
 //! Broad noise says how far a place lies within a heap, less so further up, where heaps are narrower: their bases are flat.
 //! Folded noise in space breaks their sides into puffs, where those are near. A ray is looked at where it meets levels one above
-//! the other, without what is finer than the metres from one to the next: noise says how dense a heap is there, and what lies
-//! towards the sun how much light comes to it. Clouds far away pale as the sky does. All numbers are chosen by eye.
+//! the other, and at more between them where a side is near, without what is finer than the metres from one to the next: noise
+//! says how dense a heap is there, and what lies towards the sun how much light comes to it. Clouds far
+//! away pale as the sky does. All numbers are chosen by eye.
 
 use super::sky::Sky;
 use super::solid_grain::solid_grain;
@@ -26,6 +27,10 @@ const THICK: f32 = 700.0;
 const SLICES: [f32; 2] = [24.0, 72.0];
 const STEP: f32 = 55.0;
 const BLURRED: f32 = 0.02;
+
+/// Where noise says that a side may be near, so many more levels are looked at between two, and how much below a side that is.
+const FINER: f32 = 4.0;
+const SIDE: f32 = 0.1;
 
 /// About the most by which noise changes in a metre: so far from where puffs may be levels are passed over.
 const STEEPEST: f32 = 0.0018;
@@ -164,25 +169,36 @@ impl Clouds {
         }
         let first = (self.height - from[2]) / direction[2];
         let [count, spacing] = self.levels(direction, [first, blur]);
-        let dense = DENSE * spacing / (1.0 + SOFTER * blur);
-        let (mut sum, mut left, mut slice, mut before) = ([0.0; 3], 1.0, 0.0, 0.0);
+        let dense = DENSE / (1.0 + SOFTER * blur);
+        let (mut sum, mut left, mut slice, mut before, mut finer) = ([0.0; 3], 1.0, 0.0, 0.0, 1.0);
         while slice <= count - 1.0 && left > UNSEEN {
-            let reach = first + slice * spacing;
-            let footprint = spacing.max(blur * reach);
+            let (reach, apart) = (first + slice * spacing, spacing / finer);
+            let footprint = apart.max(blur * reach);
             let here = self.within(add(from, scale(direction, reach)), footprint);
+            if here > -SIDE && finer < FINER {
+                // The side is looked for from the level before, in small steps.
+                finer = FINER;
+                slice = (slice - 1.0 + 1.0 / FINER).max(0.0);
+                continue;
+            }
             // Of the metres since the level before, those within a heap: were all of them or none, levels would show as lines.
             let [within, middle] = if slice > 0.0 { inside(before, here) } else { [0.0; 2] };
-            let hidden = left * (1.0 - libm::expf(-dense * within));
-            if hidden > UNSEEN {
-                let at = add(from, scale(direction, reach - middle * spacing));
-                let light = self.lit(sky, at, direction, footprint);
+            let hidden = left * (1.0 - libm::expf(-dense * apart * within));
+            if hidden > UNSEEN / FINER {
+                let light =
+                    self.lit(sky, add(from, scale(direction, reach - middle * apart)), direction, footprint);
                 let seen = libm::expf(-reach / LOST - PALER * blur);
                 sum = add(sum, scale(mix(radiance, light, seen), hidden));
                 left -= hidden;
             }
             before = here;
-            // Nothing is met over so many levels, whatever lies between.
-            slice += 1.0 + ((-NEAR - here).max(0.0) / (STEEPEST * spacing)).floor();
+            if here > -SIDE || slice.fract() > 0.0 {
+                slice += 1.0 / finer;
+            } else {
+                // Nothing is met over so many levels, whatever lies between.
+                finer = 1.0;
+                slice += 1.0 + ((-NEAR - here).max(0.0) / (STEEPEST * spacing)).floor();
+            }
         }
         add(sum, scale(radiance, left))
     }

@@ -7,6 +7,8 @@ const CLOUDS_THICK = 700.0;
 const CLOUDS_SLICES = vec2<f32>(24.0, 72.0);
 const CLOUDS_STEP = 55.0;
 const CLOUDS_BLURRED = 0.02;
+const CLOUDS_FINER = 4.0;
+const CLOUDS_SIDE = 0.1;
 const CLOUDS_STEEPEST = 0.0018;
 const CLOUDS_UNSEEN = 0.02;
 const CLOUDS_NARROWER = 0.42;
@@ -119,25 +121,38 @@ fn with_clouds(start: vec3<f32>, direction: vec3<f32>, radiance: vec3<f32>, blur
     var left = 1.0;
     let first = (scene.cloud_height.x - start.z) / direction.z;
     let levels = cloud_levels(direction, first, blur);
-    let dense = CLOUDS_DENSE * levels.y / (1.0 + CLOUDS_SOFTER * blur);
+    let dense = CLOUDS_DENSE / (1.0 + CLOUDS_SOFTER * blur);
     var slice = 0.0;
     var before = 0.0;
+    var finer = 1.0;
     while slice <= levels.x - 1.0 && left > CLOUDS_UNSEEN {
         let reach = first + slice * levels.y;
-        let footprint = max(levels.y, blur * reach);
+        let apart = levels.y / finer;
+        let footprint = max(apart, blur * reach);
         let here = within_cloud(start + direction * reach, footprint);
+        if here > -CLOUDS_SIDE && finer < CLOUDS_FINER {
+            // The side is looked for from the level before, in small steps.
+            finer = CLOUDS_FINER;
+            slice = max(slice - 1.0 + 1.0 / CLOUDS_FINER, 0.0);
+            continue;
+        }
         // Of the metres since the level before, those within a heap: were all of them or none, levels would show as lines.
         let part = select(vec2<f32>(0.0), inside_cloud(before, here), slice > 0.0);
-        let hidden = left * (1.0 - exp(-dense * part.x));
-        if hidden > CLOUDS_UNSEEN {
-            let at = start + direction * (reach - part.y * levels.y);
+        let hidden = left * (1.0 - exp(-dense * apart * part.x));
+        if hidden > CLOUDS_UNSEEN / CLOUDS_FINER {
+            let at = start + direction * (reach - part.y * apart);
             let seen = exp(-reach / CLOUDS_LOST - CLOUDS_PALER * blur);
             sum += hidden * mix(radiance, lit_cloud(at, direction, footprint), seen);
             left -= hidden;
         }
         before = here;
-        // Nothing is met over so many levels, whatever lies between.
-        slice += 1.0 + floor(max(-CLOUDS_NEAR - here, 0.0) / (CLOUDS_STEEPEST * levels.y));
+        if here > -CLOUDS_SIDE || fract(slice) > 0.0 {
+            slice += 1.0 / finer;
+        } else {
+            // Nothing is met over so many levels, whatever lies between.
+            finer = 1.0;
+            slice += 1.0 + floor(max(-CLOUDS_NEAR - here, 0.0) / (CLOUDS_STEEPEST * levels.y));
+        }
     }
     return sum + left * radiance;
 }
