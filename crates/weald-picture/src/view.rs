@@ -16,6 +16,7 @@ mod camera;
 mod clouds;
 mod cover;
 mod crags;
+mod crown_relief;
 mod flow;
 mod follow;
 mod fractures;

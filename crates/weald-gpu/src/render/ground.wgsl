@@ -209,6 +209,7 @@ fn looked_at(point: vec3<f32>, ground: Look) -> Look {
     let smooth_point = vec3<f32>(point.xy, look.surface.x - min(look.above, 0.0));
     look.sun = sun_seen_on(point, smooth_point, look.normal);
     trees_drawn = drawn_as_trees(point);
+    sight = -look.direction / vec3<f32>(1.0, 1.0, scene.scale.y);
     return look;
 }
 

@@ -177,6 +177,7 @@ fn mirrored_light(start: vec3<f32>, direction: vec3<f32>, upward: vec3<f32>, len
     let normal = normal_of(surface.yz);
     let sharp = max(0.25 * scene.scale.w, (ray_length + length_before) * frame.eye.w);
     let footprint = max(sharp, DRAWN_OUT * ray_length);
+    sight = -direction / vec3<f32>(1.0, 1.0, scene.scale.y);
     let skin = ground_skin(place, surface, footprint, 1e9);
     let sun = sun_seen(point + normal * 0.1 * scene.scale.w, normal);
     let radiance = skin.albedo * lit(roughened(normal, skin.bump), seen_at(skylight, share_of(place)), sun) / PI;

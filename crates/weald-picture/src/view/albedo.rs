@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::cover::Cover;
-use super::ground_kinds::SurfacePoint;
+use super::ground_kinds::{SurfacePoint, UPRIGHT};
 use super::keys::View;
 use super::setting::{GroundOf, Setting};
 use crate::Image;
@@ -71,6 +71,7 @@ impl TopView {
             slope: run / normal[2].max(1e-3),
             fall: [normal[0], normal[1]].map(|part| part / run.max(1e-6)),
             footprint: self.sheet.metres_per_pixel as f32,
+            sight: UPRIGHT,
             above: above / self.setting.exaggeration,
             beach: 0.0,
         }

@@ -28,6 +28,14 @@ const BLOCKS: [f32; 2] = [0.35, 0.55];
 /// Slope that bumps of bare rock come near: its faces are sharp.
 const STEEPEST_ROCK: f32 = 1.3;
 
+/// Heath on open ground: its colour from that of withered grass to that of dark crowns, between which noise and with what share
+/// of crags it grows, its greatest share, and how wet ground is on which it becomes less.
+const HEATH: f32 = 0.6;
+const HEATH_PATCHES: [f32; 2] = [0.04, 0.16];
+const HEATH_RIDGES: f32 = 0.6;
+const HEATH_MOST: f32 = 0.6;
+const HEATH_WET: [f32; 2] = [0.5, 0.9];
+
 /// Share of a ledge that plants hide, and shares of the relief over which they vanish.
 const GREEN: f32 = 0.8;
 const GREEN_UP_TO: [f32; 2] = [0.55, 0.9];
@@ -149,11 +157,22 @@ impl Cover {
     fn meadow(&self, spot: &SurfacePoint, texture: &Texture, moisture: f32) -> SurfaceSample {
         let patchy = texture.patchy();
         let high = spot.point[2] / self.limits.relief.max(1e-3);
-        let grass = self.grass(moisture + 0.55 * patchy, high + 0.25 * patchy);
+        let wet = moisture + 0.55 * patchy;
+        let grass = self.grass(wet, high + 0.25 * patchy);
         let grass = scale(grass, 1.0 + 0.3 * texture.fine.value + 0.3 * texture.crags.height);
+        let heath = mix(self.palette.dry, self.palette.forest[0], HEATH);
+        let grass = mix(grass, heath, self.heath(texture, wet));
         let Turf { albedo, slope } = turf(spot.point, spot.footprint, [grass, self.palette.dry]);
         let bump = texture.rough(0.12, 0.8 * ramp(spot.slope, 0.1, 0.7));
         SurfaceSample { albedo, bump: [0, 1].map(|axis| bump[axis] + slope[axis]) }
+    }
+
+    /// Share of heath on open ground that is so wet.
+    fn heath(&self, texture: &Texture, wet: f32) -> f32 {
+        let noise = texture.fine.value + HEATH_RIDGES * texture.crags.height;
+        let coarse = ramp(self.limits.cell, CRAGGY_FROM[0], CRAGGY_FROM[1]);
+        let uneven = ramp(noise, HEATH_PATCHES[0], HEATH_PATCHES[1]) * coarse;
+        HEATH_MOST * uneven * (1.0 - ramp(wet, HEATH_WET[0], HEATH_WET[1]))
     }
 
     fn grass(&self, moisture: f32, high: f32) -> Linear {

@@ -42,6 +42,14 @@ const BLOCKS = vec2<f32>(0.35, 0.55);
 // Slope that bumps of bare rock come near.
 const STEEPEST_ROCK = 1.3;
 
+// Heath on open ground: its colour from that of withered grass to that of dark crowns, between which noise and with what share of
+// crags it grows, its greatest share, and how wet ground is on which it becomes less.
+const HEATH = 0.6;
+const HEATH_PATCHES = vec2<f32>(0.04, 0.16);
+const HEATH_RIDGES = 0.6;
+const HEATH_MOST = 0.6;
+const HEATH_WET = vec2<f32>(0.5, 0.9);
+
 // Share of a ledge that plants hide, and shares of the relief over which they vanish.
 const GREEN = 0.8;
 const GREEN_UP_TO = vec2<f32>(0.55, 0.9);
@@ -68,8 +76,8 @@ const SCATTERED = 0.3;
 const BUSH = vec3<f32>(0.52, 0.6, 0.42);
 
 // Light that needles and leaves send back beside that of a wood.
-const NEEDLES = vec3<f32>(0.62, 0.76, 0.95);
-const LEAVES = vec3<f32>(1.18, 1.12, 0.86);
+const NEEDLES = vec3<f32>(0.66, 0.79, 0.95);
+const LEAVES = vec3<f32>(1.08, 1.05, 0.84);
 
 // How far below the tree line leaves take the place of needles, and the greatest share of leaves.
 const LEAVED = vec2<f32>(0.3, 2.2);
@@ -83,6 +91,12 @@ var<private> trees_drawn: f32 = 0.0;
 
 // What lies under trees that are drawn as such.
 const LITTER = vec3<f32>(0.034, 0.032, 0.016);
+
+// Towards the eye from the point in question, without exaggeration; of any length.
+var<private> sight: vec3<f32> = vec3<f32>(0.0, 0.0, 1.0);
+
+// Height of an eye above the ground as a share of its distance, from which crowns are seen from no lower.
+const LOWEST_SIGHT = 0.25;
 
 struct SurfacePoint {
     place: vec2<f32>,
@@ -198,7 +212,9 @@ fn natural(spot: SurfacePoint, texture: Texture) -> SurfaceSample {
     let here = smooth_at(site, spot.place);
     let moisture = here.x;
     let high = spot.point.z / max(scene.limits.w, 1e-3);
-    let green_ground = grass(moisture + 0.55 * patchy, high + 0.25 * patchy) * (1.0 + 0.3 * fine + 0.3 * ridge);
+    let wet = moisture + 0.55 * patchy;
+    let grassy = grass(wet, high + 0.25 * patchy) * (1.0 + 0.3 * fine + 0.3 * ridge);
+    let green_ground = mix(grassy, mix(scene.dry.xyz, scene.forest_dark.xyz, HEATH), heath(spot, texture, wet));
     let turf = turf_at(spot.point, spot.footprint, green_ground, scene.dry.xyz);
     let wooded = trees(spot, moisture, patchy);
     let tufts = rough(texture, 0.12, 0.8 * ramp(spot.slope, 0.1, 0.7)) + turf.slope;
@@ -242,7 +258,8 @@ fn beach_at(spot: SurfacePoint, texture: Texture) -> vec2<f32> {
 
 // Ground with a wood of such a density and share of conifers on it.
 fn under_trees(spot: SurfacePoint, open: SurfaceSample, density: f32, conifers: f32) -> SurfaceSample {
-    let canopy = canopy_of(spot.point.xy, density, spot.footprint);
+    let seen = seen_crown(spot.point.xy, density, spot.footprint, aslant(spot));
+    let canopy = canopy_of(seen, density, spot.footprint);
     let littered = mix(open.albedo, LITTER, 0.8 * trees_drawn * ramp(density, 0.1, 0.6));
     let shaded = SurfaceSample(littered * mix(1.0, canopy.open, 1.0 - trees_drawn), open.bump, open.kinds);
     let kind = mix(LEAVES, NEEDLES, ramp(conifers - canopy.chance, -0.08, 0.08));
@@ -255,6 +272,19 @@ fn grass(moisture: f32, high: f32) -> vec3<f32> {
     let parched = mix(scene.dry.xyz, scene.meadow.xyz, ramp(moisture, 0.15, 0.5));
     let low = mix(parched, scene.lush.xyz, ramp(moisture, 0.5, 0.85));
     return mix(low, mix(scene.alpine.xyz, scene.dry.xyz, ramp(moisture, 0.6, 0.2)), ramp(high, 0.35, 0.8));
+}
+
+// Share of heath on open ground that is so wet.
+fn heath(spot: SurfacePoint, texture: Texture, wet: f32) -> f32 {
+    let noise = texture.fine.value + HEATH_RIDGES * texture.crags.height;
+    let uneven = ramp(noise, HEATH_PATCHES.x, HEATH_PATCHES.y) * ramp(scene.scale.x, CRAGGY_FROM.x, CRAGGY_FROM.y);
+    return HEATH_MOST * uneven * (1.0 - ramp(wet, HEATH_WET.x, HEATH_WET.y));
+}
+
+// How far the line of sight goes aside for each metre that it comes nearer to the ground, from the eye's side.
+fn aslant(spot: SurfacePoint) -> vec2<f32> {
+    let rising = sight.z + spot.slope * dot(spot.fall, sight.xy);
+    return sight.xy / max(rising, LOWEST_SIGHT * length(sight));
 }
 
 // How far below the tree line a height is, in widths of the belt in which trees become fewer.

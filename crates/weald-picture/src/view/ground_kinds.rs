@@ -3,6 +3,12 @@
 use super::vector::Vector;
 use crate::colour::{Linear, linear_of_hex, mix};
 
+/// Height of an eye above the ground as a share of its distance, from which crowns are seen from no lower.
+const LOWEST_SIGHT: f32 = 0.25;
+
+/// A sight from straight above.
+pub(super) const UPRIGHT: Vector = [0.0, 0.0, 1.0];
+
 /// A point of the ground that is to be coloured.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SurfacePoint {
@@ -15,6 +21,8 @@ pub(super) struct SurfacePoint {
     pub(super) fall: [f32; 2],
     /// Size of a pixel on the ground in metres.
     pub(super) footprint: f32,
+    /// Towards the eye, without exaggeration; of any length.
+    pub(super) sight: Vector,
     /// Height above the water beside it in metres, without exaggeration.
     pub(super) above: f32,
     /// Height above it up to which waves throw sand and stones.
@@ -28,6 +36,17 @@ pub(super) struct SurfaceSample {
     pub(super) albedo: Linear,
     /// Slope of what is too small for the grid, eastward and northward.
     pub(super) bump: [f32; 2],
+}
+
+impl SurfacePoint {
+    /// How far the line of sight goes aside for each metre that it comes nearer to the ground, from the eye's side: eastward and
+    /// northward, no more than from [`LOWEST_SIGHT`].
+    pub(super) fn aslant(&self) -> [f32; 2] {
+        let [east, north, up] = self.sight;
+        let rising = up + self.slope * (self.fall[0] * east + self.fall[1] * north);
+        let least = LOWEST_SIGHT * (east * east + north * north + up * up).sqrt();
+        [east, north].map(|along| along / rising.max(least))
+    }
 }
 
 impl SurfaceSample {

@@ -34,6 +34,8 @@ pub(super) struct GroundSpot {
     pub(super) surface: [f32; 3],
     pub(super) point: Vector,
     pub(super) footprint: f32,
+    /// Direction in which it is looked at.
+    pub(super) direction: Vector,
 }
 
 /// A point of water that is looked at.
@@ -148,6 +150,7 @@ impl RayMarcher {
             surface: self.setting.bed.with_slope(hit.place),
             point,
             footprint,
+            direction: ray.direction,
         };
         if depth > 0.0 {
             return self.shore(ray, hit, &spot(), depth);
@@ -191,18 +194,26 @@ impl RayMarcher {
 
     /// Dry ground, so many metres above the water beside it.
     pub(super) fn ground(&self, spot: &GroundSpot, above: f32) -> Vector {
-        let GroundSpot { place, surface: [height, east, south], point, footprint } = *spot;
+        let GroundSpot { place, surface: [height, east, south], point, footprint, direction } = *spot;
         let terrain = &self.setting.terrain;
         let normal = terrain.normal([east, south]);
         let stretch = self.setting.exaggeration;
         let run = (normal[0] * normal[0] + normal[1] * normal[1]).sqrt();
         let fall = [0, 1].map(|axis| normal[axis] / run.max(1e-6));
-        let point_of_cover = [point[0], point[1], height / stretch];
         let slope = run / normal[2].max(1e-3) / stretch;
         let [level, sea] = [height - above, self.sea().unwrap_or(f32::MIN)];
-        let (above_water, beach) = (above / stretch, water::beach(level, sea));
-        let spot =
-            SurfacePoint { place, fall, point: point_of_cover, slope, footprint, above: above_water, beach };
+        let beach = water::beach(level, sea);
+        let sight = [-direction[0], -direction[1], -direction[2] / stretch];
+        let spot = SurfacePoint {
+            place,
+            point: [point[0], point[1], height / stretch],
+            slope,
+            fall,
+            footprint,
+            sight,
+            above: above / stretch,
+            beach,
+        };
         let skin = self.cover.at(&spot);
         let rough = unit([
             normal[0] - normal[2] * skin.bump[0] * stretch,

@@ -1,6 +1,6 @@
 //! The trees of the woods of a scene, one by one, for those who draw them as such.
 
-use super::ground_kinds::SurfacePoint;
+use super::ground_kinds::{SurfacePoint, UPRIGHT};
 use super::lit_scene::LitScene;
 use super::water;
 use super::woods::Tree;
@@ -51,6 +51,7 @@ impl LitScene {
             slope: run / normal[2].max(1e-3) / stretch,
             fall: [normal[0], normal[1]].map(|part| part / run.max(1e-6)),
             footprint: FOOTPRINT,
+            sight: UPRIGHT,
             above: above / stretch,
             beach,
         }

@@ -18,12 +18,13 @@ const LIGHT: [&str; 8] = [
 ];
 
 /// Those of ground and water, which call them.
-const GROUND: [&str; 12] = [
+const GROUND: [&str; 13] = [
     include_str!("crags.wgsl"),
     include_str!("rock.wgsl"),
     include_str!("fractures.wgsl"),
     include_str!("snow.wgsl"),
     include_str!("woods.wgsl"),
+    include_str!("crown_relief.wgsl"),
     include_str!("turf.wgsl"),
     include_str!("cover.wgsl"),
     include_str!("water.wgsl"),

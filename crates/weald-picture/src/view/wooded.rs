@@ -1,6 +1,7 @@
 //! Where trees of natural ground stand, how densely and of which kind, and bushes on ground of materials.
 
 use super::cover::Cover;
+use super::crown_relief::seen_crown;
 use super::ground_kinds::{SurfacePoint, SurfaceSample};
 use super::ground_noise::{STEEPEST_CROWN, Texture, no_steeper};
 use super::vector::{filter, ramp, scale};
@@ -17,8 +18,8 @@ const SCATTERED: f32 = 0.3;
 const BUSH: Linear = [0.52, 0.6, 0.42];
 
 /// Light that needles and leaves send back beside that of a wood.
-const NEEDLES: Linear = [0.62, 0.76, 0.95];
-const LEAVES: Linear = [1.18, 1.12, 0.86];
+const NEEDLES: Linear = [0.66, 0.79, 0.95];
+const LEAVES: Linear = [1.08, 1.05, 0.84];
 
 /// How far below the tree line leaves take the place of needles, in widths of the belt in which trees become fewer, and the
 /// greatest share of trees with leaves.
@@ -63,8 +64,12 @@ impl Cover {
         [density, conifers]: [f32; 2],
     ) -> SurfaceSample {
         let [east, north, _] = spot.point;
-        let Canopy { share, tone, slope, open: left, chance } =
-            canopy([east, north], density, spot.footprint, self.sun);
+        let Canopy { share, tone, slope, open: left, chance } = canopy(
+            seen_crown([east, north], [density, spot.footprint], spot.aslant()),
+            density,
+            spot.footprint,
+            self.sun,
+        );
         let [dark, light] = self.palette.forest;
         let shaded = SurfaceSample { albedo: scale(open.albedo, left), bump: open.bump };
         let kind = mix(LEAVES, NEEDLES, ramp(conifers - chance, -0.08, 0.08));

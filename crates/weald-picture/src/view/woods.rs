@@ -12,13 +12,13 @@ use weald_core::grain::{Grain, Octaves, bits, floor, visible};
 pub const SPACING: f32 = 7.0;
 
 /// Layers of domes: crowns, groups of crowns, and so on.
-const LAYERS: u32 = 4;
+pub(super) const LAYERS: u32 = 4;
 
 /// How many times as far apart the domes of a layer stand as those of the one before.
-const COARSER: f32 = 2.6;
+pub(super) const COARSER: f32 = 2.6;
 
 /// What makes the first layer another than other noise; each further layer has the next.
-const SEED: u32 = 0x41;
+pub(super) const SEED: u32 = 0x41;
 
 /// Least and greatest radius of a crown, in spacings.
 const RADII: [f32; 2] = [0.24, 0.64];
@@ -39,6 +39,9 @@ const BOUGHS: f32 = 4.5;
 const MOVED: f32 = 1.9;
 const LEAFY: [f32; 2] = [0.45, 0.35];
 
+/// Wavelength in spacings by which crowns are told from each other: where one is a pixel or two, woods would be speckled.
+pub(super) const SINGLE: f32 = 0.9;
+
 /// How much lighter or darker one group of crowns is than another.
 const UNLIKE: f32 = 0.4;
 
@@ -46,10 +49,10 @@ const UNLIKE: f32 = 0.4;
 const BELOW: f32 = 0.26;
 
 /// By how much more than evenly broad crowns are many in a stand of a middle age.
-const MIDDLE_AGE: f32 = 1.35;
+pub(super) const MIDDLE_AGE: f32 = 1.35;
 
 /// Density and age of groups of crowns, of which some are missing, so that their lattice does not show.
-const GROUPS: [f32; 2] = [0.8, 1.5];
+pub(super) const GROUPS: [f32; 2] = [0.8, 1.5];
 
 /// Stands, of other kinds and other ages than those beside them: their longest wavelength in metres, and what they add to the
 /// tone, to the size of crowns, and to the number by which the kind of a group is chosen.
@@ -110,9 +113,9 @@ pub(super) struct Canopy {
 
 /// The uppermost dome over a place.
 #[derive(Clone, Copy, Debug, Default)]
-struct Dome {
+pub(super) struct Dome {
     /// From 0 at its rim to 1 at the top of the highest.
-    height: f32,
+    pub(super) height: f32,
     /// Rise of the height by one spacing.
     slope: [f32; 2],
     /// A number of its own, 0 to 1.
@@ -121,7 +124,7 @@ struct Dome {
 
 /// A place, or the direction that was eastward, on a lattice that is turned by 37°.
 #[inline(always)]
-fn turned([x, y]: [f32; 2]) -> [f32; 2] {
+pub(super) fn turned([x, y]: [f32; 2]) -> [f32; 2] {
     [0.8 * x + 0.6 * y, 0.8 * y - 0.6 * x]
 }
 
@@ -132,7 +135,7 @@ fn part(hash: u32, shift: u32) -> f32 {
 }
 
 /// The uppermost dome at a place that is counted in spacings, where so large a share of them stand.
-fn dome(place: [f32; 2], seed: u32, [density, age]: [f32; 2]) -> Dome {
+pub(super) fn dome(place: [f32; 2], seed: u32, [density, age]: [f32; 2]) -> Dome {
     let corner = place.map(|along| floor(along - 0.5));
     let mut top = Dome::default();
     for look in 0..4 {
@@ -178,7 +181,7 @@ fn centre([x, y]: [i32; 2], hash: u32) -> [f32; 2] {
 /// What a wood of a density, from 0 to 1, looks like at a point in metres, for a pixel of that footprint under a sun in
 /// such a direction.
 pub(super) fn canopy(point: [f32; 2], density: f32, footprint: f32, sun: Vector) -> Canopy {
-    let single = visible(footprint, 1.4 * SPACING);
+    let single = visible(footprint, SINGLE * SPACING);
     let (mut lumps, mut slope, mut finer, mut spacing) = (0.0, [0.0; 2], single, SPACING);
     let stand = stand(point, footprint);
     let mut chance = 0.5 + OF_KIND * stand;

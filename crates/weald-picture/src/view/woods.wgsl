@@ -1,6 +1,7 @@
 // Twin of `woods.rs`: where the trees of woods stand, and their crowns as they look from above.
 
 // Metres from one tree to the next where they stand closest.
+const WOOD_SINGLE = 0.9;
 const WOOD_SPACING = 7.0;
 
 const WOOD_LAYERS = 4u;
@@ -119,7 +120,7 @@ fn turned_lattice(place: vec2<f32>) -> vec2<f32> {
 fn canopy_of(point: vec2<f32>, wooded: f32, footprint: f32) -> Canopy {
     // Where there is none, no loop is gone through.
     let layers = select(1u, WOOD_LAYERS, wooded > 0.0);
-    let single = grain_visible(footprint, 1.4 * WOOD_SPACING);
+    let single = grain_visible(footprint, WOOD_SINGLE * WOOD_SPACING);
     var lumps = 0.0;
     var slope = vec2<f32>(0.0);
     var finer = single;
