@@ -4,7 +4,7 @@ use crate::programs::gpu;
 use crate::scenes::{above, lakes, meadow, mountains, options, view};
 use weald::grid::Mask;
 use weald::parameter::Nested;
-use weald::picture::{Camera, Drape, Image, LitScene, Oklab, Scale, View, linear_of_hex};
+use weald::picture::{Camera, Drape, GroundColour, Image, LitScene, Oklab, Scale, View, linear_of_hex};
 use weald::{Error, Landscape};
 use weald_gpu::{Gpu, RenderOptions, Renderer, TestLook, Timings};
 
@@ -155,6 +155,24 @@ fn ground_sky_and_sides_have_the_colours_of_the_ray_marched_view() {
         let (mean, worst) = distances(&gpu, &view, &landscape, camera);
         // 0.02 is about the least difference that the eye sees.
         assert!(mean < 0.006 && worst < 0.02, "mean {mean}, one in twenty {worst}");
+    }
+}
+
+#[test]
+fn walls_and_bushes_of_materials_have_the_colours_of_the_ray_marched_view() {
+    let Some(gpu) = gpu() else { return };
+    let landscape = mountains();
+    for sun_altitude_deg in [90.0, 50.0] {
+        let view = View { sun_altitude_deg, ground: Some(GroundColour::Materials), ..view() };
+        let scene = LitScene::new(&view, &landscape).expect("a scene");
+        let low = above(&scene, [1500.0, 2700.0], 90.0, 4.0, 0.0);
+        for camera in [None, Some(low)] {
+            let (mean, worst) = distances(&gpu, &view, &landscape, camera);
+            assert!(
+                mean < 0.006 && worst < 0.02,
+                "sun at {sun_altitude_deg}°: mean {mean}, one in twenty {worst}"
+            );
+        }
     }
 }
 

@@ -61,7 +61,7 @@ const SOFTER: f32 = 80.0;
 const GLOW: f32 = 0.05;
 
 /// How much paler a heap is for a radian that is seen as one, as the exponent of e: waves mirror clear sky beside it.
-const PALER: f32 = 8.0;
+const PALER: f32 = 20.0;
 
 /// Metres towards the sun at which is looked how much of the heap lies there, and how much of the light that takes.
 const SUNWARD: [f32; 2] = [70.0, 260.0];

@@ -31,9 +31,9 @@ const STEEPEST_ROCK: f32 = 1.3;
 /// Heath on open ground: its colour from that of withered grass to that of dark crowns, between which noise and with what share
 /// of crags it grows, its greatest share, and how wet ground is on which it becomes less.
 const HEATH: f32 = 0.6;
-const HEATH_PATCHES: [f32; 2] = [0.04, 0.16];
+const HEATH_PATCHES: [f32; 2] = [-0.04, 0.26];
 const HEATH_RIDGES: f32 = 0.6;
-const HEATH_MOST: f32 = 0.6;
+const HEATH_MOST: f32 = 0.5;
 const HEATH_WET: [f32; 2] = [0.5, 0.9];
 
 /// Share of a ledge that plants hide, and shares of the relief over which they vanish.

@@ -45,9 +45,9 @@ const STEEPEST_ROCK = 1.3;
 // Heath on open ground: its colour from that of withered grass to that of dark crowns, between which noise and with what share of
 // crags it grows, its greatest share, and how wet ground is on which it becomes less.
 const HEATH = 0.6;
-const HEATH_PATCHES = vec2<f32>(0.04, 0.16);
+const HEATH_PATCHES = vec2<f32>(-0.04, 0.26);
 const HEATH_RIDGES = 0.6;
-const HEATH_MOST = 0.6;
+const HEATH_MOST = 0.5;
 const HEATH_WET = vec2<f32>(0.5, 0.9);
 
 // Share of a ledge that plants hide, and shares of the relief over which they vanish.
@@ -55,7 +55,7 @@ const GREEN = 0.8;
 const GREEN_UP_TO = vec2<f32>(0.55, 0.9);
 
 // Steepness from which trees become fewer, and from which there are none.
-const CLIFF = vec2<f32>(0.9, 1.3);
+const CLIFF = vec2<f32>(0.72, 1.08);
 
 // Share of the slope of crags that counts as that of the ground.
 const CRAGGY = 0.6;
@@ -71,9 +71,9 @@ const SCOURED = vec2<f32>(0.2, 0.6);
 
 // How many times smaller than trees bushes and boulders are, how densely they lie at most, and their share of the light that
 // the ground sends back.
-const SMALLER = 1.7;
-const SCATTERED = 0.3;
-const BUSH = vec3<f32>(0.52, 0.6, 0.42);
+const SMALLER = 1.1;
+const SCATTERED = 0.6;
+const BUSH = vec3<f32>(0.34, 0.42, 0.28);
 
 // Light that needles and leaves send back beside that of a wood.
 const NEEDLES = vec3<f32>(0.66, 0.79, 0.95);

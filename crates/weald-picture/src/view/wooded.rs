@@ -9,13 +9,13 @@ use super::woods::{Canopy, canopy};
 use crate::colour::{Linear, mix};
 
 /// Steepness from which trees become fewer, and from which there are none.
-const CLIFF: [f32; 2] = [0.9, 1.3];
+const CLIFF: [f32; 2] = [0.72, 1.08];
 
 /// How many times smaller than trees bushes and boulders are, how densely they lie at most, and their share of the light that
 /// the ground sends back.
-const SMALLER: f32 = 1.7;
-const SCATTERED: f32 = 0.3;
-const BUSH: Linear = [0.52, 0.6, 0.42];
+const SMALLER: f32 = 1.1;
+const SCATTERED: f32 = 0.6;
+const BUSH: Linear = [0.34, 0.42, 0.28];
 
 /// Light that needles and leaves send back beside that of a wood.
 const NEEDLES: Linear = [0.66, 0.79, 0.95];
