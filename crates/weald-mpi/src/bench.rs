@@ -71,7 +71,10 @@ pub(crate) fn bench(arguments: &BenchArguments, ranks: &Arc<dyn Ranks>) -> Resul
         let machine = Machine { rate: cells / alone, latency, bandwidth };
         let (traffic, sent) = traffic(arguments, &counting, together.steps);
         if ranks.count() > 1 {
-            print!("{}", beside(arguments, ranks.count(), (machine, traffic), (together.seconds, sent, &counting)));
+            print!(
+                "{}",
+                beside(arguments, ranks.count(), (machine, traffic), (together.seconds, sent, &counting))
+            );
         }
         print!("{}", larger(arguments, machine, traffic));
     }
@@ -115,7 +118,8 @@ fn measure(
     }
     let steps = arguments.steps << ROUNDS;
     Err(Error::Run(format!(
-        "{steps} steps took no longer than half as many on this busy machine; a larger `--steps` or `--size` can be measured"
+        "{steps} steps took less than {LONGER} times as long as half as many on this busy machine; a larger `--steps` or \
+         `--size` can be measured"
     )))
 }
 

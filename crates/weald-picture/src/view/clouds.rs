@@ -3,8 +3,8 @@
 //! Broad noise says how far a place lies within a heap, less so further up, where heaps are narrower: their bases are flat.
 //! Folded noise in space breaks their sides into puffs, where those are near. A ray is looked at where it meets levels one above
 //! the other, and at more between them where a side is near, without what is finer than the metres from one to the next: noise
-//! says how dense a heap is there, and what lies towards the sun how much light comes to it. Clouds far
-//! away pale as the sky does. All numbers are chosen by eye.
+//! says how dense a heap is there, and what lies towards the sun how much light comes to it. Clouds far away pale as the sky
+//! does. All numbers are chosen by eye.
 
 use super::sky::Sky;
 use super::solid_grain::solid_grain;

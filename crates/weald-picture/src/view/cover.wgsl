@@ -92,12 +92,6 @@ var<private> trees_drawn: f32 = 0.0;
 // What lies under trees that are drawn as such.
 const LITTER = vec3<f32>(0.034, 0.032, 0.016);
 
-// Towards the eye from the point in question, without exaggeration; of any length.
-var<private> sight: vec3<f32> = vec3<f32>(0.0, 0.0, 1.0);
-
-// Height of an eye above the ground as a share of its distance, from which crowns are seen from no lower.
-const LOWEST_SIGHT = 0.25;
-
 struct SurfacePoint {
     place: vec2<f32>,
     point: vec3<f32>,
@@ -279,12 +273,6 @@ fn heath(spot: SurfacePoint, texture: Texture, wet: f32) -> f32 {
     let noise = texture.fine.value + HEATH_RIDGES * texture.crags.height;
     let uneven = ramp(noise, HEATH_PATCHES.x, HEATH_PATCHES.y) * ramp(scene.scale.x, CRAGGY_FROM.x, CRAGGY_FROM.y);
     return HEATH_MOST * uneven * (1.0 - ramp(wet, HEATH_WET.x, HEATH_WET.y));
-}
-
-// How far the line of sight goes aside for each metre that it comes nearer to the ground, from the eye's side.
-fn aslant(spot: SurfacePoint) -> vec2<f32> {
-    let rising = sight.z + spot.slope * dot(spot.fall, sight.xy);
-    return sight.xy / max(rising, LOWEST_SIGHT * length(sight));
 }
 
 // How far below the tree line a height is, in widths of the belt in which trees become fewer.

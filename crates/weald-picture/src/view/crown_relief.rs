@@ -4,8 +4,7 @@
 //! sight comes down to the domes of crowns in a few steps, and the wood is looked up where it meets them instead of where it meets
 //! the ground. It is the finest layer of domes that is seen which has a height, and the next where that one fades.
 
-use super::woods::{COARSER, GROUPS, LAYERS, MIDDLE_AGE, SEED, SINGLE, SPACING, dome, turned};
-use weald_core::grain::visible;
+use super::woods::{COARSER, GROUPS, LAYERS, MIDDLE_AGE, SEED, SPACING, dome, seen_of_layer, turned};
 
 /// Height of the crowns of a layer beside their spacing, at most so many metres, and the steps in which a line of sight comes down
 /// to them.
@@ -38,7 +37,7 @@ fn reliefs(footprint: f32) -> impl Iterator<Item = (u32, f32, f32)> {
     (0..LAYERS).map(move |layer| {
         let spacing = next;
         next *= COARSER;
-        let seen = visible(footprint, if layer == 0 { SINGLE } else { 1.4 } * spacing);
+        let seen = seen_of_layer(layer, spacing, footprint);
         let share = seen.max(finer) - finer;
         finer = seen.max(finer);
         (layer, spacing, share)

@@ -6,29 +6,49 @@ const WOOD_RISE = 0.5;
 const WOOD_MOST_RISE = 12.0;
 const WOOD_STEPS = 4u;
 
-// Height of the crowns at a point in metres, where woods are so dense; of domes that are all as high as the highest where `flat`
-// is 1.
-fn crown_height(point: vec2<f32>, density: f32, footprint: f32, flat: f32) -> f32 {
+// Towards the eye from the point in question, without exaggeration; of any length.
+var<private> sight: vec3<f32> = vec3<f32>(0.0, 0.0, 1.0);
+
+// Height of an eye above the ground as a share of its distance, from which crowns are seen from no lower.
+const LOWEST_SIGHT = 0.25;
+
+// How far the line of sight goes aside for each metre that it comes nearer to the ground, from the eye's side.
+fn aslant(spot: SurfacePoint) -> vec2<f32> {
+    let rising = sight.z + spot.slope * dot(spot.fall, sight.xy);
+    return sight.xy / max(rising, LOWEST_SIGHT * length(sight));
+}
+
+// Metres above the ground that no crown is higher than.
+fn highest_crown(footprint: f32) -> f32 {
+    var sum = 0.0;
+    var spacing = WOOD_SPACING;
+    var finer = 0.0;
+    for (var layer = 0u; layer < WOOD_LAYERS; layer++) {
+        let seen = max(seen_of_layer(layer, spacing, footprint), finer);
+        sum += (seen - finer) * min(WOOD_RISE * spacing, WOOD_MOST_RISE);
+        finer = seen;
+        spacing *= WOOD_COARSER;
+    }
+    return sum;
+}
+
+// Height of the crowns at a point in metres, where woods are so dense.
+fn crown_height(point: vec2<f32>, density: f32, footprint: f32) -> f32 {
     var sum = 0.0;
     var place = point;
     var spacing = WOOD_SPACING;
     var finer = 0.0;
+    var stands = vec2<f32>(density, MIDDLE_AGE);
     for (var layer = 0u; layer < WOOD_LAYERS; layer++) {
-        let single = layer == 0u;
-        spacing *= select(WOOD_COARSER, 1.0, single);
-        place = select(turned_lattice(place), place, single);
-        let seen = grain_visible(footprint, select(1.4, WOOD_SINGLE, single) * spacing);
-        let share = max(seen, finer) - finer;
-        finer = max(seen, finer);
-        let looks = select(0u, 1u, share > 0.0);
-        for (var look = 0u; look < looks; look++) {
-            let stands = select(GROUPS, vec2<f32>(density, MIDDLE_AGE), single);
-            var height = 1.0;
-            if flat < 1.0 {
-                height = dome(place / spacing, WOOD_SEED + layer, stands.x, stands.y).height;
-            }
-            sum += share * min(WOOD_RISE * spacing, WOOD_MOST_RISE) * height;
+        let seen = max(seen_of_layer(layer, spacing, footprint), finer);
+        if seen > finer {
+            let height = dome(place / spacing, WOOD_SEED + layer, stands.x, stands.y).height;
+            sum += (seen - finer) * min(WOOD_RISE * spacing, WOOD_MOST_RISE) * height;
         }
+        finer = seen;
+        spacing *= WOOD_COARSER;
+        place = turned_lattice(place);
+        stands = GROUPS;
     }
     return sum;
 }
@@ -36,14 +56,14 @@ fn crown_height(point: vec2<f32>, density: f32, footprint: f32, flat: f32) -> f3
 // Where a line of sight to a point of the ground meets the crowns of a wood, as a point to look at from straight above: relief
 // mapping (Policarpo, Oliveira and Comba 2005).
 fn seen_crown(point: vec2<f32>, density: f32, footprint: f32, aslant: vec2<f32>) -> vec2<f32> {
-    let top = crown_height(point, density, footprint, 1.0);
+    let top = highest_crown(footprint);
     var found = 0.0;
     var above = vec2<f32>(top, 0.0);
     // Where there is no wood nothing is looked for.
     let steps = select(0u, WOOD_STEPS + 1u, density > 0.0);
     for (var step = 0u; step < steps; step++) {
         let up = top * (1.0 - f32(step) / f32(WOOD_STEPS));
-        let left = up - crown_height(point + up * aslant, density, footprint, 0.0);
+        let left = up - crown_height(point + up * aslant, density, footprint);
         if step > 0u && left <= 0.0 {
             found = above.x + above.y / max(above.y - left, 1e-6) * (up - above.x);
             break;

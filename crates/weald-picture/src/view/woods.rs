@@ -39,8 +39,9 @@ const BOUGHS: f32 = 4.5;
 const MOVED: f32 = 1.9;
 const LEAFY: [f32; 2] = [0.45, 0.35];
 
-/// Wavelength in spacings by which crowns are told from each other: where one is a pixel or two, woods would be speckled.
-pub(super) const SINGLE: f32 = 0.9;
+/// Wavelengths in spacings by which crowns and groups of them are told from each other: where a crown is a pixel or two, woods
+/// would be speckled.
+const TOLD: [f32; 2] = [0.9, 1.4];
 
 /// How much lighter or darker one group of crowns is than another.
 const UNLIKE: f32 = 0.4;
@@ -122,6 +123,11 @@ pub(super) struct Dome {
     chance: f32,
 }
 
+/// How much a layer of domes, which are so far apart, is seen of in a pixel of that footprint.
+pub(super) fn seen_of_layer(layer: u32, spacing: f32, footprint: f32) -> f32 {
+    visible(footprint, TOLD[usize::from(layer > 0)] * spacing)
+}
+
 /// A place, or the direction that was eastward, on a lattice that is turned by 37°.
 #[inline(always)]
 pub(super) fn turned([x, y]: [f32; 2]) -> [f32; 2] {
@@ -181,7 +187,7 @@ fn centre([x, y]: [i32; 2], hash: u32) -> [f32; 2] {
 /// What a wood of a density, from 0 to 1, looks like at a point in metres, for a pixel of that footprint under a sun in
 /// such a direction.
 pub(super) fn canopy(point: [f32; 2], density: f32, footprint: f32, sun: Vector) -> Canopy {
-    let single = visible(footprint, SINGLE * SPACING);
+    let single = seen_of_layer(0, SPACING, footprint);
     let (mut lumps, mut slope, mut finer, mut spacing) = (0.0, [0.0; 2], single, SPACING);
     let stand = stand(point, footprint);
     let mut chance = 0.5 + OF_KIND * stand;
@@ -190,7 +196,7 @@ pub(super) fn canopy(point: [f32; 2], density: f32, footprint: f32, sun: Vector)
         spacing *= COARSER;
         // Each lattice is turned against the one before, or all would stand in rows.
         (place, turn) = (turned(place), turned(turn));
-        let seen = visible(footprint, 1.4 * spacing);
+        let seen = seen_of_layer(layer, spacing, footprint);
         if seen <= 0.0 {
             continue;
         }

@@ -1,8 +1,10 @@
 // Twin of `woods.rs`: where the trees of woods stand, and their crowns as they look from above.
 
 // Metres from one tree to the next where they stand closest.
-const WOOD_SINGLE = 0.9;
 const WOOD_SPACING = 7.0;
+
+// Wavelengths in spacings by which crowns and groups of them are told from each other.
+const WOOD_TOLD = vec2<f32>(0.9, 1.4);
 
 const WOOD_LAYERS = 4u;
 const WOOD_COARSER = 2.6;
@@ -116,11 +118,16 @@ fn turned_lattice(place: vec2<f32>) -> vec2<f32> {
     return vec2<f32>(0.8 * place.x + 0.6 * place.y, 0.8 * place.y - 0.6 * place.x);
 }
 
+// How much a layer of domes, which are so far apart, is seen of in a pixel of that footprint.
+fn seen_of_layer(layer: u32, spacing: f32, footprint: f32) -> f32 {
+    return grain_visible(footprint, select(WOOD_TOLD.x, WOOD_TOLD.y, layer > 0u) * spacing);
+}
+
 // What a wood of a density looks like at a point, for a pixel of that footprint.
 fn canopy_of(point: vec2<f32>, wooded: f32, footprint: f32) -> Canopy {
     // Where there is none, no loop is gone through.
     let layers = select(1u, WOOD_LAYERS, wooded > 0.0);
-    let single = grain_visible(footprint, WOOD_SINGLE * WOOD_SPACING);
+    let single = seen_of_layer(0u, WOOD_SPACING, footprint);
     var lumps = 0.0;
     var slope = vec2<f32>(0.0);
     var finer = single;
@@ -133,7 +140,7 @@ fn canopy_of(point: vec2<f32>, wooded: f32, footprint: f32) -> Canopy {
         spacing *= WOOD_COARSER;
         place = turned_lattice(place);
         turn = turned_lattice(turn);
-        let seen = grain_visible(footprint, 1.4 * spacing);
+        let seen = seen_of_layer(layer, spacing, footprint);
         if seen <= 0.0 {
             continue;
         }
