@@ -158,6 +158,18 @@ fn ground_sky_and_sides_have_the_colours_of_the_ray_marched_view() {
     }
 }
 
+#[test]
+fn crowns_of_far_woods_hide_those_behind_them_as_in_the_ray_marched_view() {
+    let Some(gpu) = gpu() else { return };
+    let landscape = mountains();
+    // Through a telescope squares of the pictures are smaller than crowns, and no tree is so near that it is drawn as such.
+    let view = View { sun_altitude_deg: 60.0, field_of_view_deg: 4.0, ..view() };
+    let scene = LitScene::new(&view, &landscape).expect("a scene");
+    let far = above(&scene, [1600.0, 3100.0], 250.0, 8.0, 0.0);
+    let (mean, worst) = distances(&gpu, &view, &landscape, Some(far));
+    assert!(mean < 0.004 && worst < 0.015, "mean {mean}, one in twenty {worst}");
+}
+
 /// Metres east and south of the steepest cell that is not near the border, and the angle from north of what lies uphill.
 fn steepest(landscape: &Landscape) -> ([f64; 2], f32) {
     let (height, cell) = (landscape.field("height").expect("there"), landscape.domain.cell);
