@@ -8,7 +8,7 @@
 
 fn leaf(list: u32, vertex: u32, instance_number: u32) -> Leaf {
     let count = arrayLength(&sets);
-    let place = starts[place_of_count(list, 0u, count)] + instance_number / BLADES;
+    let place = starts[place_of_run(list, 0u, count)] + instance_number / BLADES;
     let instance = unpack(sets[kept[place]]);
     let known = lit_sets[place];
     let root = known.root;

@@ -64,7 +64,7 @@ impl Chosen {
     fn of(gpu: &Gpu, loaded: &LoadedSets) -> Result<Self, Error> {
         let (kept, starts) = (words(gpu, &loaded.kept)?, words(gpu, &loaded.starts)?);
         let sets = words(gpu, &loaded.sets)?;
-        let begin = |list: usize| starts[list * loaded.groups() as usize] as usize;
+        let begin = |list: usize| starts[list * loaded.runs() as usize] as usize;
         Ok(Self {
             sets: sets.chunks_exact(4).map(|set| [set[0], set[1], set[2], set[3]]).collect(),
             lists: std::array::from_fn(|list| kept[begin(list)..begin(list + 1)].to_vec()),

@@ -1,6 +1,7 @@
 // Which sets of grass are drawn, in three lists of the order of the sets, whatever the order in which threads run: each
-// workgroup counts its sets of each list (`mark`), a running sum over all groups and lists says where each begins (`sum`),
-// and each set is put there (`gather`). The lists lie one behind the other.
+// thread counts the sets of each list in a run of them (`mark`), a running sum over all runs and lists says where each begins
+// (`sum`), and each set is put there (`gather`). The lists lie one behind the other. Only the sum has barriers, which software
+// pays for dearly.
 //
 // Blelloch 1990, "Prefix sums and their applications"; within a workgroup by Hillis and Steele 1986.
 
@@ -15,11 +16,11 @@ struct Draw {
 @group(2) @binding(0) var<uniform> grasses: Grasses;
 @group(2) @binding(2) var<storage, read> sets: array<vec4<u32>>;
 @group(2) @binding(3) var<storage, read_write> kept: array<u32>;
-// What each group counted of each list; then where that begins; one more with the end of all.
+// What each run counted of each list; then where that begins; one more with the end of all.
 @group(2) @binding(4) var<storage, read_write> starts: array<u32>;
 // The draws of all lists, and the dispatch of what lights the sets in them.
 @group(2) @binding(5) var<storage, read_write> draws: array<Draw, LISTS + 1u>;
-// For each set its list, times the sets of a workgroup, and its place among those of its workgroup and list.
+// For each run the lists of its sets, two bits each.
 @group(2) @binding(6) var<storage, read_write> marks: array<u32>;
 
 var<workgroup> sums: array<u32, GROUP>;
@@ -38,30 +39,45 @@ fn summed(thread: u32, value: u32) -> u32 {
     return sum;
 }
 
-@compute @workgroup_size(GROUP)
-fn mark(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) thread: u32) {
-    let count = arrayLength(&sets);
-    let number = group.x * GROUP + thread;
+// The list of a set in sight, as `list_of` has it, unless ground hides it.
+fn chosen_list(number: u32) -> u32 {
+    let instance = unpack(sets[number]);
     var chosen = LISTS;
-    if number < count {
-        let instance = unpack(sets[number]);
-        // A loop of one turn or none: software would look up all heights in a condition.
-        let looks = select(0u, 1u, may_be_drawn(instance.tuft, instance.place));
-        for (var look = 0u; look < looks; look++) {
-            chosen = list_of(instance.tuft, grass_root(instance.place));
-        }
+    var root = vec3<f32>(0.0);
+    // A loop of one turn or none: software would look up all heights in a condition.
+    let looks = select(0u, 1u, may_be_drawn(instance.tuft, instance.place));
+    for (var look = 0u; look < looks; look++) {
+        root = grass_root(instance.place);
+        chosen = list_of(instance.tuft, root);
     }
-    // The counts of three lists at once, ten bits each: none exceeds the 256 sets of a workgroup.
-    let one = select(0u, 1u << (10u * chosen), chosen < LISTS);
-    let upto = summed(thread, one);
-    if number < count {
-        let before = ((upto - one) >> (10u * min(chosen, 2u))) & 1023u;
-        marks[number] = chosen * GROUP + min(before, GROUP - 1u);
+    let searches = looks_for_ground(chosen);
+    for (var look = 0u; look < searches; look++) {
+        chosen = select(chosen, LISTS, is_below_ground(look, instance.species, root));
     }
-    if thread == GROUP - 1u {
-        for (var each = 0u; each < LISTS; each++) {
-            starts[place_of_count(each, group.x, count)] = (upto >> (10u * each)) & 1023u;
+    return chosen;
+}
+
+@compute @workgroup_size(GROUP)
+fn mark(@builtin(global_invocation_id) at: vec3<u32>) {
+    let count = arrayLength(&sets);
+    let first = at.x * RUN;
+    if first >= count {
+        return;
+    }
+    var lists = 0u;
+    // Five bits for each list.
+    var counts = 0u;
+    for (var number = first; number < first + RUN; number++) {
+        var chosen = LISTS;
+        if number < count {
+            chosen = chosen_list(number);
         }
+        lists |= chosen << (2u * (number - first));
+        counts += select(0u, 1u << (5u * chosen), chosen < LISTS);
+    }
+    marks[at.x] = lists;
+    for (var each = 0u; each < LISTS; each++) {
+        starts[place_of_run(each, at.x, count)] = (counts >> (5u * each)) & 31u;
     }
 }
 
@@ -69,7 +85,7 @@ fn mark(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
 @compute @workgroup_size(GROUP)
 fn sum(@builtin(local_invocation_index) thread: u32) {
     let count = arrayLength(&sets);
-    let all = place_of_count(LISTS, 0u, count);
+    let all = place_of_run(LISTS, 0u, count);
     let stretch = (all + GROUP - 1u) / GROUP;
     let first = min(thread * stretch, all);
     let end = min(first + stretch, all);
@@ -90,8 +106,8 @@ fn sum(@builtin(local_invocation_index) thread: u32) {
     }
     storageBarrier();
     if thread < LISTS {
-        let begin = starts[place_of_count(thread, 0u, count)];
-        let end = starts[place_of_count(thread + 1u, 0u, count)];
+        let begin = starts[place_of_run(thread, 0u, count)];
+        let end = starts[place_of_run(thread + 1u, 0u, count)];
         draws[thread] = Draw(2u * choice.rows[thread], (end - begin) * BLADES, 0u, 0u);
     }
 }
@@ -99,12 +115,22 @@ fn sum(@builtin(local_invocation_index) thread: u32) {
 @compute @workgroup_size(GROUP)
 fn gather(@builtin(global_invocation_id) at: vec3<u32>) {
     let count = arrayLength(&sets);
-    if at.x >= count {
+    let first = at.x * RUN;
+    if first >= count {
         return;
     }
-    let chosen = marks[at.x] / GROUP;
-    if chosen < LISTS {
-        let begin = starts[place_of_count(chosen, at.x / GROUP, count)];
-        kept[begin + marks[at.x] % GROUP] = at.x;
+    let lists = marks[at.x];
+    var next = vec3<u32>(
+        starts[place_of_run(0u, at.x, count)],
+        starts[place_of_run(1u, at.x, count)],
+        starts[place_of_run(2u, at.x, count)],
+    );
+    for (var number = first; number < min(first + RUN, count); number++) {
+        let chosen = vec3<u32>((lists >> (2u * (number - first))) & 3u);
+        let is_in = chosen == vec3<u32>(0u, 1u, 2u);
+        if any(is_in) {
+            kept[select(select(next.z, next.y, is_in.y), next.x, is_in.x)] = number;
+        }
+        next += select(vec3<u32>(0u), vec3<u32>(1u), is_in);
     }
 }

@@ -49,7 +49,8 @@ impl Grass {
         layouts: Layouts<'_>,
         samples: u32,
     ) -> Result<Option<Self>, Error> {
-        let layers = landscape.all_meadows().map(|(_, meadow)| GrassLayer::new(gpu, &meadow));
+        let has_holes = scene.has_holes();
+        let layers = landscape.all_meadows().map(|(_, meadow)| GrassLayer::new(gpu, &meadow, has_holes));
         let layers = layers.collect::<Result<Vec<_>, _>>()?;
         if layers.is_empty() {
             return Ok(None);

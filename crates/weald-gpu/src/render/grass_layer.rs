@@ -20,9 +20,10 @@ const SQUARE: f64 = 16.0;
 /// Most sets at once: 128 MiB of instances.
 const MAX_SETS: f64 = (1_u32 << 23) as f64;
 
-/// Bytes of a set, and of what choosing takes beside it: its mark, and its place in a list.
+/// Bytes of a set, of its place in a list, and of the marks of a run.
 const SET: u64 = 16;
 const CHOSEN: u64 = 4;
+const MARKS: u64 = 4;
 
 /// Bytes of what all blades of a chosen set have in common.
 const LIT: u64 = 32;
@@ -30,7 +31,8 @@ const LIT: u64 = 32;
 /// Bytes of what an indirect draw wants.
 pub(super) const DRAW: u64 = 16;
 
-/// Sets of a workgroup that chooses, as `meadow.wgsl` has it.
+/// Sets of a thread that chooses, and threads of a workgroup, as `meadow.wgsl` has them.
+const RUN: u32 = 16;
 const GROUP: u32 = 256;
 
 /// One grass of a landscape.
@@ -47,6 +49,8 @@ pub(super) struct GrassLayer {
 struct Seeds {
     meadow: Arc<Meadow>,
     grasses: Arc<Store>,
+    /// Whether some of the land has no data, so that no ground is drawn there.
+    has_holes: bool,
 }
 
 /// From where grass is looked at.
@@ -91,9 +95,9 @@ pub(super) struct LoadedSets {
 }
 
 impl GrassLayer {
-    pub(super) fn new(gpu: &Gpu, meadow: &Arc<Meadow>) -> Result<Self, Error> {
+    pub(super) fn new(gpu: &Gpu, meadow: &Arc<Meadow>, has_holes: bool) -> Result<Self, Error> {
         let grasses = uniform(gpu, "the species of grass", &Grasses::new(&meadow.species, meadow.bend))?;
-        let seeds = Seeds { meadow: Arc::clone(meadow), grasses: Arc::new(grasses) };
+        let seeds = Seeds { meadow: Arc::clone(meadow), grasses: Arc::new(grasses), has_holes };
         Ok(Self { seeds, views: Vec::new(), current: 0 })
     }
 
@@ -213,6 +217,7 @@ impl Seeds {
             u64::from(count),
             Choice {
                 culled: u32::from(look.culled),
+                hides: u32::from(look.culled && !self.has_holes),
                 ..if look.thinned { Choice::of_a_picture() } else { Choice::of_all(level) }
             },
         )?;
@@ -224,7 +229,12 @@ impl Seeds {
 impl LoadedSets {
     /// Workgroups that choose.
     pub(super) fn groups(&self) -> u32 {
-        self.count.div_ceil(GROUP)
+        self.runs().div_ceil(GROUP)
+    }
+
+    /// Runs of sets.
+    pub(super) fn runs(&self) -> u32 {
+        self.count.div_ceil(RUN)
     }
 }
 
@@ -282,14 +292,15 @@ impl Stores {
         let storage = BufferUsages::STORAGE | BufferUsages::COPY_DST | BufferUsages::COPY_SRC;
         let store = |what, bytes, usage| Store::new(gpu, what, bytes, usage);
         let lists = LISTS as u64;
-        let starts = 4 * (lists * count.div_ceil(u64::from(GROUP)) + 1);
+        let runs = count.div_ceil(u64::from(RUN));
+        let starts = 4 * (lists * runs + 1);
         Ok(Self {
             choice: uniform(gpu, "what is shown of grass", &choice)?,
             sets: store("sets of grass", SET * count, storage)?,
             kept: store("grass in sight", CHOSEN * count, storage)?,
             starts: store("starts of the lists of grass", starts, storage)?,
             draws: store("draws of grass", DRAW * (lists + 1), storage | BufferUsages::INDIRECT)?,
-            marks: store("marks of grass", CHOSEN * count, storage)?,
+            marks: store("marks of grass", MARKS * runs, storage)?,
             lit: store("lit grass", LIT * count, storage)?,
         })
     }

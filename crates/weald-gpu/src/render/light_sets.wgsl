@@ -9,7 +9,7 @@
 @compute @workgroup_size(GROUP)
 fn light_sets(@builtin(global_invocation_id) at: vec3<u32>) {
     let count = arrayLength(&sets);
-    if at.x >= starts[place_of_count(LISTS, 0u, count)] {
+    if at.x >= starts[place_of_run(LISTS, 0u, count)] {
         return;
     }
     let instance = unpack(sets[kept[at.x]]);

@@ -7,7 +7,10 @@ const MIDDLE = 28.0;
 // Lists by distance.
 const LISTS = 3u;
 
-// Sets of a workgroup that chooses.
+// Sets that one thread chooses from, one after the other.
+const RUN = 16u;
+
+// Threads of a workgroup.
 const GROUP = 256u;
 
 // Share of ranks over which a set that is left out sinks away, so that none vanishes at once.
@@ -19,6 +22,11 @@ const SLIDE = 0.6;
 // A ball around a set's root that holds its blades.
 const AROUND = 2.0;
 
+// Places between the eye and a set at which ground may hide it, and metres above the tips of its blades from which it counts
+// as seen.
+const LOOKS = 5u;
+const SPARE = 0.1;
+
 // Share of light that comes through a blade.
 const THROUGH = 0.45;
 
@@ -26,6 +34,7 @@ struct Choice {
     rows: vec4<u32>,
     culled: u32,
     thinned: u32,
+    hides: u32,
 }
 
 @group(2) @binding(1) var<uniform> choice: Choice;
@@ -90,6 +99,25 @@ fn may_be_drawn(tuft: Set, place: vec2<f32>) -> bool {
     return height_share(rank_of(tuft), length(away)) > 0.0;
 }
 
+// Metres above its root that no blade of a species exceeds, nor lies aside of it.
+fn tallest(species: u32) -> f32 {
+    return row_of(species, 0u).w * max(row_of(species, 6u).w, 1.0) + row_of(species, 2u).z;
+}
+
+// At how many places on the way to a set of a list ground is looked at that may hide it.
+fn looks_for_ground(list: u32) -> u32 {
+    return select(0u, LOOKS, (choice.hides == 1u) & (list < LISTS));
+}
+
+// Whether ground is higher at one of them than the way from the eye to a point above the root.
+fn is_below_ground(look: u32, species: u32, root: vec3<f32>) -> bool {
+    let top_of_set = root + vec3<f32>(0.0, 0.0, tallest(species) + SPARE);
+    let on_the_way = mix(frame.eye.xyz, top_of_set, (f32(look) + 0.5) / f32(LOOKS));
+    let place = place_of(on_the_way);
+    let is_within = all(place >= vec2<f32>(0.5)) & all(place <= scene.grid.xy + 0.5);
+    return is_within & (spline_at(bed, place) > on_the_way.z);
+}
+
 // The list in which a set is drawn whose root is there; as many as there are where it is not.
 fn list_of(tuft: Set, root: vec3<f32>) -> u32 {
     let distance = length(root - frame.moment.yzw);
@@ -98,7 +126,7 @@ fn list_of(tuft: Set, root: vec3<f32>) -> u32 {
     return select(LISTS, list(counted(distance)), stands && seen);
 }
 
-// Where in `starts` what a workgroup counts of a list stands, for so many sets.
-fn place_of_count(list: u32, group: u32, count: u32) -> u32 {
-    return list * ((count + GROUP - 1u) / GROUP) + group;
+// Where in `starts` what a run counts of a list stands, for so many sets.
+fn place_of_run(list: u32, run: u32, count: u32) -> u32 {
+    return list * ((count + RUN - 1u) / RUN) + run;
 }

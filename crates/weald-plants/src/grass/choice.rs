@@ -10,10 +10,12 @@
 //! levels of detail, each with its list, of blades with fewer and fewer rows of vertices; before the level changes every
 //! second row has slid onto its neighbour, so that the blade is that of the next level already. Where pixels are larger than a
 //! thousandth of a radian, levels end as many times as near as they are larger ([`coarser`]): what a pixel does not show is not
-//! drawn. A device does the same in `meadow.wgsl`, which has the same names; it keeps each list in the order of the sets, so
-//! that a picture is the same each time.
+//! drawn. Nor is a set that ground hides, which is looked for at a few places on the way to it. A device does the same in
+//! `meadow.wgsl`, which has the same names; it keeps each list in the order of the sets, so that a picture is the same each
+//! time.
 
 use super::blade::{Set, rows};
+use super::species::Species;
 use weald_engine::uniform;
 
 /// Distances in metres up to which blades have their finest and middle shapes, and beyond which there is none.
@@ -49,6 +51,13 @@ const COARSEST: f32 = 2.0;
 /// A ball around a set's root in metres that holds its blades.
 pub const AROUND: f32 = 2.0;
 
+/// Places between the eye and a set at which ground may hide it.
+const LOOKS: u16 = 5;
+
+/// Metres above the tips of its blades from which a set counts as seen: they sway, and the ground that is drawn is not quite
+/// the smooth one.
+const SPARE: f32 = 0.1;
+
 uniform! {
     /// What a picture shows of its sets.
     pub struct Choice {
@@ -58,6 +67,8 @@ uniform! {
         pub culled: u32,
         /// 1 where sets become fewer and coarser with the distance, 0 where all stand in the first list.
         pub thinned: u32,
+        /// 1 where ground may hide sets: all that is culled, but where some of the land has no data and none is drawn.
+        pub hides: u32,
     }
 }
 
@@ -79,12 +90,12 @@ pub struct ViewCone {
 impl Choice {
     /// What a picture shows: sets in sight, fewer and coarser with the distance.
     pub fn of_a_picture() -> Self {
-        Self { rows: [ROWS[0], ROWS[1], ROWS[2], 0], culled: 1, thinned: 1 }
+        Self { rows: [ROWS[0], ROWS[1], ROWS[2], 0], culled: 1, thinned: 1, hides: 1 }
     }
 
     /// All sets of a level of growth, in sight or not, with as many rows as the source draws.
     pub fn of_all(level: f32) -> Self {
-        Self { rows: [rows(level) as u32, 0, 0, 0], culled: 0, thinned: 0 }
+        Self { rows: [rows(level) as u32, 0, 0, 0], culled: 0, thinned: 0, hides: 0 }
     }
 
     /// The level of detail, and with it the list, in which a set is drawn whose root is there; `None` where it is not.
@@ -93,6 +104,24 @@ impl Choice {
         let stands = self.height_share(tuft.rank(), distance) > 0.0;
         let seen = self.culled == 0 || sight.is_in_sight(minus(root, sight.eye), AROUND);
         (stands && seen).then(|| self.list(sight.coarser * distance))
+    }
+
+    /// Whether ground hides all blades of a set: at a few places on the way from the eye to a point above its root it is higher
+    /// than that way. `ground` gives the height of it at a place, east and north; `None` where there is none.
+    pub fn is_hidden(
+        &self,
+        eye: [f32; 3],
+        (species, root): (&Species, [f32; 3]),
+        ground: impl Fn([f32; 2]) -> Option<f32>,
+    ) -> bool {
+        let above = tallest(species) + SPARE;
+        let away = [root[0] - eye[0], root[1] - eye[1], root[2] + above - eye[2]];
+        let is_below_ground = |look: u16| {
+            let share = (f32::from(look) + 0.5) / f32::from(LOOKS);
+            let [east, north, up] = [0, 1, 2].map(|axis| eye[axis] + share * away[axis]);
+            ground([east, north]).is_some_and(|height| height > up)
+        };
+        self.hides == 1 && (0..LOOKS).any(is_below_ground)
     }
 
     /// How high a set of a rank stands at a distance, as a share: 0 where it is left out.
@@ -123,6 +152,11 @@ impl Choice {
 /// How many times as far away as they are blades count for their shape in a picture whose pixels have such an angle in radians.
 pub fn coarser(pixel_angle: f32) -> f32 {
     (pixel_angle / PIXEL).clamp(1.0, COARSEST)
+}
+
+/// Metres above its root that no blade of a species exceeds, nor lies aside of it.
+fn tallest(species: &Species) -> f32 {
+    species.height * species.stalk.max(1.0) + species.spread
 }
 
 /// How many of the sets stand at a distance.
@@ -204,5 +238,30 @@ mod tests {
             assert_eq!(all.list_of(&AHEAD, &tuft, root), Some(0), "{root:?}");
         }
         assert_eq!((all.rows[0], Choice::of_all(1.0).rows[0]), (20, 5), "two vertices a row: 40 at level 4");
+    }
+
+    #[test]
+    fn a_ridge_hides_what_lies_behind_it_but_not_what_looks_over_it_nor_what_is_before_it() {
+        let ryegrass = &super::super::species::SPECIES[0];
+        let eye = [0.0, 0.0, 1.5];
+        // 3 m high from 20 m to 30 m ahead, on land that ends at 50 m.
+        let ground = |[_, north]: [f32; 2]| {
+            (north < 50.0).then(|| if (20.0..30.0).contains(&north) { 3.0 } else { 0.0 })
+        };
+        let hidden = |choice: Choice, at: [f32; 3]| choice.is_hidden(eye, (ryegrass, at), ground);
+        let picture = Choice::of_a_picture();
+        for (root, is_hidden) in [
+            ([0.0, 40.0, 0.0], true),
+            ([9.0, 40.0, 2.0], true),
+            ([0.0, 40.0, 4.0], false),
+            ([0.0, 25.0, 3.0], false),
+            ([0.0, 15.0, 0.0], false),
+        ] {
+            assert_eq!(hidden(picture, root), is_hidden, "{root:?}");
+            assert!(!hidden(Choice::of_all(4.0), root), "{root:?}");
+        }
+        // Seen from beyond the end of the land, where there is no ground on the way.
+        let from_outside = picture.is_hidden([0.0, 90.0, 1.5], (ryegrass, [0.0, 45.0, 0.0]), ground);
+        assert!(!from_outside);
     }
 }

@@ -61,6 +61,11 @@ pub(crate) fn lakes() -> Landscape {
 
 /// A gentle meadow, 120 m wide.
 pub(crate) fn meadow() -> Landscape {
+    meadow_with("relief = 6.0")
+}
+
+/// The same on hills of which these keys of `fbm` tell.
+pub(crate) fn meadow_with(hills: &str) -> Landscape {
     let constant = |layer: &str, value: f64| {
         format!("[[step]]\ndo = \"constant\"\nheight = {value}\ninto = \"{layer}\"\n")
     };
@@ -70,7 +75,7 @@ pub(crate) fn meadow() -> Landscape {
         .collect::<Vec<_>>()
         .concat();
     let text = format!(
-        "[landscape]\nsize = 60\ncell = 2.0\nseed = 5\n[[step]]\ndo = \"fbm\"\nrelief = 6.0\n{maps}\
+        "[landscape]\nsize = 60\ncell = 2.0\nseed = 5\n[[step]]\ndo = \"fbm\"\n{hills}\n{maps}\
          [[step]]\ndo = \"grass\"\nsets = 20.0\n[[output]]\nlayer = \"height\"\nfile = \"a.tif\"\n"
     );
     let recipe = Recipe::parse("meadow.toml", &text, &Overrides::default()).expect("a recipe");
