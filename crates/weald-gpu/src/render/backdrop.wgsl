@@ -5,11 +5,48 @@ fn backdrop_direction(position: vec2<f32>) -> vec3<f32> {
     return normalize(along_at(position));
 }
 
+// The light of clouds and the share of the sky between them, in half as many columns and rows as the picture has: clouds are
+// soft, and dear.
+@group(2) @binding(5) var cloud_light: texture_2d<f32>;
+
+// The sky in a direction, without its clouds.
+fn clear_sky(direction: vec3<f32>) -> vec3<f32> {
+    return veil_before_sky(sky_radiance_with_sun(direction), frame.eye.xyz, direction);
+}
+
+// Whether nothing hides the sky from some pixel on which a texel of clouds has a part.
+fn meets_sky(texel: vec2<f32>) -> bool {
+    let last = vec2<i32>(textureDimensions(front_depths)) - 1;
+    var farthest = 1.0;
+    for (var look = 0; look < 16; look++) {
+        let pixel = 2 * vec2<i32>(texel) + vec2<i32>(look % 4, look / 4) - 1;
+        for (var sample = 0; sample < select(1, 4, SAMPLED); sample++) {
+            farthest = min(farthest, textureLoad(front_depths, clamp(pixel, vec2<i32>(0), last), sample));
+        }
+    }
+    return farthest <= 0.0;
+}
+
+@fragment
+fn clouds_fragment(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
+    var clouds = vec4<f32>(0.0, 0.0, 0.0, 1.0);
+    // A loop of one turn or none: software would look for clouds in a condition.
+    for (var look = 0u; look < select(0u, 1u, meets_sky(position.xy)); look++) {
+        let direction = backdrop_direction(2.0 * position.xy);
+        clouds = clouds_before(frame.eye.xyz, direction, clear_sky(direction), frame.eye.w);
+    }
+    return vec4<f32>(limited(clouds.xyz), clouds.w);
+}
+
 @fragment
 fn sky_fragment(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
-    let direction = backdrop_direction(position.xy);
-    let radiance = veil_before_sky(sky_radiance_with_sun(direction), frame.eye.xyz, direction);
-    return vec4<f32>(limited(with_clouds(frame.eye.xyz, direction, radiance, frame.eye.w)), 1.0);
+    var radiance = clear_sky(backdrop_direction(position.xy));
+    if CLOUDS {
+        let place = 0.5 * position.xy / vec2<f32>(textureDimensions(cloud_light));
+        let clouds = textureSampleLevel(cloud_light, between, place, 0.0);
+        radiance = clouds.xyz + clouds.w * radiance;
+    }
+    return vec4<f32>(limited(radiance), 1.0);
 }
 
 @fragment

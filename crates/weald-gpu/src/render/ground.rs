@@ -6,25 +6,22 @@ use std::ops::Range;
 use weald::picture::Camera;
 use wgpu::{
     BindGroup, BindGroupDescriptor, BindGroupEntry, BindGroupLayout, BindGroupLayoutDescriptor,
-    BindGroupLayoutEntry, BindingResource, BindingType, BlendComponent, BlendFactor, BlendOperation,
-    BlendState, ColorTargetState, ColorWrites, CompareFunction, FragmentState, MultisampleState,
-    PipelineCompilationOptions, PipelineLayout, PrimitiveState, RenderPass, RenderPipeline,
-    RenderPipelineDescriptor, ShaderModule, ShaderStages, TextureSampleType, TextureViewDimension,
-    VertexBufferLayout, VertexState,
+    BindGroupLayoutEntry, BindingResource, BindingType, RenderPass, RenderPipeline, ShaderStages,
+    TextureSampleType, TextureViewDimension,
 };
 
-use super::layouts::depth_state;
-use super::targets::{LIGHT, Targets};
+use super::ground_pipelines::{Light, Parts};
+use super::targets::Targets;
 use super::terrain::Terrain;
 use crate::gpu::Gpu;
-use crate::gpu::context::Context;
 
 /// Group and binding of the depths.
 pub(super) const DEPTHS_GROUP: u32 = 2;
 const DEPTHS_BINDING: u32 = 1;
 
-/// Binding of the depths of what is nearest.
+/// Bindings of the depths of what is nearest, and of the light of clouds.
 const FRONT_BINDING: u32 = 4;
+const CLOUDS_BINDING: u32 = 5;
 
 /// How the depths are declared in a shader, for pictures of so many samples.
 pub(super) fn declaration(samples: u32) -> String {
@@ -43,45 +40,41 @@ pub(super) fn depths_entry(samples: u32, visibility: ShaderStages) -> BindGroupL
     BindGroupLayoutEntry { binding: DEPTHS_BINDING, visibility, ty, count: None }
 }
 
-/// The layout of what holds the depths.
-pub(super) fn depths_layout(gpu: &Gpu, samples: u32) -> BindGroupLayout {
+/// The layouts of what holds the depths, and of the same with the light of clouds.
+pub(super) fn depths_layouts(gpu: &Gpu, samples: u32) -> [BindGroupLayout; 2] {
     let ground = depths_entry(samples, ShaderStages::FRAGMENT);
-    let entries = [ground, BindGroupLayoutEntry { binding: FRONT_BINDING, ..ground }];
-    let description = BindGroupLayoutDescriptor { label: Some("depths"), entries: &entries };
-    gpu.context.device.create_bind_group_layout(&description)
+    let ty = BindingType::Texture {
+        sample_type: TextureSampleType::Float { filterable: true },
+        view_dimension: TextureViewDimension::D2,
+        multisampled: false,
+    };
+    let entries = [
+        ground,
+        BindGroupLayoutEntry { binding: FRONT_BINDING, ..ground },
+        BindGroupLayoutEntry { binding: CLOUDS_BINDING, ty, ..ground },
+    ];
+    [2, 3].map(|count| {
+        let description = BindGroupLayoutDescriptor { label: Some("depths"), entries: &entries[..count] };
+        gpu.context.device.create_bind_group_layout(&description)
+    })
 }
 
-/// The depths of a picture.
-pub(super) fn depths_group(gpu: &Gpu, layout: &BindGroupLayout, targets: &Targets) -> BindGroup {
-    let bound = [(DEPTHS_BINDING, &targets.ground), (FRONT_BINDING, &targets.depth)];
+/// The depths of a picture, without and with the light of its clouds.
+pub(super) fn depths_groups(gpu: &Gpu, layouts: &[BindGroupLayout; 2], targets: &Targets) -> [BindGroup; 2] {
+    let bound = [
+        (DEPTHS_BINDING, &targets.ground),
+        (FRONT_BINDING, &targets.depth),
+        (CLOUDS_BINDING, &targets.clouds),
+    ];
     let entries = bound.map(|(binding, canvas)| {
         let resource = BindingResource::TextureView(&canvas.view);
         BindGroupEntry { binding, resource }
     });
-    let description = BindGroupDescriptor { label: Some("depths"), layout, entries: &entries };
-    gpu.context.device.create_bind_group(&description)
-}
-
-/// What the pipelines of the ground are made of.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Parts<'a> {
-    pub(super) context: &'a Context,
-    pub(super) module: &'a ShaderModule,
-    /// With the depths, and without.
-    pub(super) layouts: [&'a PipelineLayout; 2],
-    pub(super) patches: &'a [Option<VertexBufferLayout<'a>>],
-    pub(super) samples: u32,
-    pub(super) has_holes: bool,
-    pub(super) has_lawn: bool,
-    /// Whether ground goes on beyond the border.
-    pub(super) has_horizon: bool,
-}
-
-/// A kind of light, the kinds of ground that have it, and whether it is laid over what is there.
-struct Light {
-    fragment: &'static str,
-    kinds: Range<u32>,
-    is_laid_over: bool,
+    [0, 1].map(|which| {
+        let (layout, entries) = (&layouts[which], &entries[..which + 2]);
+        let description = BindGroupDescriptor { label: Some("depths"), layout, entries };
+        gpu.context.device.create_bind_group(&description)
+    })
 }
 
 /// In the order in which they are drawn, with the kinds as `ground.wgsl` numbers them.
@@ -143,6 +136,8 @@ pub(super) struct Ground {
     depth: RenderPipeline,
     beyond: Option<RenderPipeline>,
     kind: RenderPipeline,
+    /// The light of clouds; `None` where there are none.
+    clouds: Option<RenderPipeline>,
     /// With the kinds that each draws, and those of them where nothing is close by.
     lights: Vec<(RenderPipeline, [Range<u32>; 2])>,
     backdrop: [RenderPipeline; 2],
@@ -151,7 +146,7 @@ pub(super) struct Ground {
 impl Ground {
     pub(super) fn new(parts: Parts<'_>) -> Self {
         let behind: &[bool] = if parts.samples > 1 { &[false, true] } else { &[false] };
-        let around: &[Light] = if parts.has_horizon { &LIGHTS_BEYOND } else { &[] };
+        let around: &[Light] = if parts.has.horizon { &LIGHTS_BEYOND } else { &[] };
         let lights = LIGHTS.iter().chain(around).flat_map(|light| {
             behind.iter().map(|&is_behind| {
                 let further = if is_behind { BEHIND_EDGE } else { 0 };
@@ -163,10 +158,11 @@ impl Ground {
         });
         Self {
             depth: parts.depth("ground_vertex"),
-            beyond: parts.has_horizon.then(|| parts.depth("beyond_vertex")),
+            beyond: parts.has.horizon.then(|| parts.depth("beyond_vertex")),
             kind: parts.kind(),
+            clouds: parts.has.clouds.then(|| parts.clouds()),
             lights: lights.collect(),
-            backdrop: [0, 1].map(|which| parts.light(&BACKDROP[which], false)),
+            backdrop: [parts.sky(&BACKDROP[0]), parts.light(&BACKDROP[1], false)],
         }
     }
 
@@ -178,6 +174,20 @@ impl Ground {
             pass.set_pipeline(beyond);
             terrain.draw_beyond(pass, 0);
         }
+    }
+
+    /// Draws the light of clouds where the sky is in sight; nothing where there are none.
+    pub(super) fn draw_clouds(&self, pass: &mut RenderPass<'_>, depths: &BindGroup) {
+        if let Some(clouds) = &self.clouds {
+            pass.set_bind_group(DEPTHS_GROUP, depths, &[]);
+            pass.set_pipeline(clouds);
+            pass.draw(0..3, 0..1);
+        }
+    }
+
+    /// Whether a picture has clouds.
+    pub(super) fn has_clouds(&self, in_sight: InSight) -> bool {
+        self.clouds.is_some() && in_sight.sky
     }
 
     /// Draws the kind of each pixel.
@@ -199,115 +209,20 @@ impl Ground {
         }
     }
 
-    /// Draws the light of every pixel that has none.
-    pub(super) fn draw_backdrop(&self, pass: &mut RenderPass<'_>, depths: &BindGroup, in_sight: InSight) {
-        pass.set_bind_group(DEPTHS_GROUP, depths, &[]);
+    /// Draws the light of every pixel that has none, from the depths with the light of clouds and without.
+    pub(super) fn draw_backdrop(
+        &self,
+        pass: &mut RenderPass<'_>,
+        depths: &[BindGroup; 2],
+        in_sight: InSight,
+    ) {
         for (which, is_seen) in [in_sight.sky, in_sight.plain].into_iter().enumerate() {
             if is_seen {
+                pass.set_bind_group(DEPTHS_GROUP, &depths[1 - which], &[]);
                 pass.set_pipeline(&self.backdrop[which]);
                 pass.draw(0..3, BACKDROP[which].kinds.clone());
             }
         }
-    }
-}
-
-/// What tells the pipelines of the ground from each other.
-struct Drawn<'a> {
-    key: String,
-    layout: &'a PipelineLayout,
-    vertex: (&'a str, &'a [Option<VertexBufferLayout<'a>>]),
-    fragment: Option<&'a str>,
-    constants: &'a [(&'a str, f64)],
-    target: Option<ColorTargetState>,
-    depth: (bool, CompareFunction),
-}
-
-/// What is laid over what is there, by its own share.
-const LAID_OVER: BlendState = BlendState {
-    color: BlendComponent {
-        src_factor: BlendFactor::SrcAlpha,
-        dst_factor: BlendFactor::OneMinusSrcAlpha,
-        operation: BlendOperation::Add,
-    },
-    alpha: BlendComponent::OVER,
-};
-
-impl Parts<'_> {
-    fn depth(&self, vertex: &str) -> RenderPipeline {
-        self.pipeline(&Drawn {
-            key: format!("depths of {vertex} {}", self.has_holes),
-            layout: self.layouts[1],
-            vertex: (vertex, self.patches),
-            fragment: self.has_holes.then_some("hole_fragment"),
-            constants: &[],
-            target: None,
-            depth: (true, CompareFunction::Greater),
-        })
-    }
-
-    fn kind(&self) -> RenderPipeline {
-        let fragment = if self.samples > 1 { "kind_sampled_fragment" } else { "kind_fragment" };
-        self.pipeline(&Drawn {
-            key: format!("{fragment} {}", self.has_horizon),
-            layout: self.layouts[0],
-            vertex: ("whole_vertex", &[]),
-            fragment: Some(fragment),
-            constants: &[("SAMPLED", f64::from(self.samples > 1)), ("HORIZON", f64::from(self.has_horizon))],
-            target: None,
-            depth: (true, CompareFunction::Always),
-        })
-    }
-
-    fn light(&self, light: &Light, is_behind: bool) -> RenderPipeline {
-        let blend = light.is_laid_over.then_some(LAID_OVER);
-        self.pipeline(&Drawn {
-            key: format!("{} {is_behind} {} {}", light.fragment, self.has_lawn, self.has_horizon),
-            layout: self.layouts[0],
-            vertex: ("whole_vertex", &[]),
-            fragment: Some(light.fragment),
-            constants: &[
-                ("SAMPLED", f64::from(self.samples > 1)),
-                ("IS_BEHIND", f64::from(is_behind)),
-                ("LAWN", f64::from(self.has_lawn)),
-                ("HORIZON", f64::from(self.has_horizon)),
-            ],
-            target: Some(ColorTargetState { format: LIGHT, blend, write_mask: ColorWrites::ALL }),
-            depth: (false, CompareFunction::Equal),
-        })
-    }
-
-    fn pipeline(&self, drawn: &Drawn<'_>) -> RenderPipeline {
-        let targets = drawn.target.clone().map(|target| [Some(target)]);
-        let (depth_write, compare) = drawn.depth;
-        let fragment = drawn.fragment.map(|name| FragmentState {
-            module: self.module,
-            entry_point: Some(name),
-            compilation_options: PipelineCompilationOptions {
-                constants: drawn.constants,
-                ..PipelineCompilationOptions::default()
-            },
-            targets: targets.as_ref().map_or(&[], |targets| targets.as_slice()),
-        });
-        let make = || {
-            self.context.device.create_render_pipeline(&RenderPipelineDescriptor {
-                label: Some(&drawn.key),
-                layout: Some(drawn.layout),
-                vertex: VertexState {
-                    module: self.module,
-                    entry_point: Some(drawn.vertex.0),
-                    compilation_options: PipelineCompilationOptions::default(),
-                    buffers: drawn.vertex.1,
-                },
-                primitive: PrimitiveState::default(),
-                depth_stencil: Some(depth_state(depth_write, compare)),
-                multisample: MultisampleState { count: self.samples, ..MultisampleState::default() },
-                fragment,
-                multiview_mask: None,
-                cache: None,
-            })
-        };
-        let key = format!("{} {}", drawn.key, self.samples);
-        self.context.known.drawing((self.module.clone(), key), make)
     }
 }
 

@@ -100,20 +100,35 @@ fn surface_of(position: vec2<f32>, is_behind: bool) -> SeenSurface {
 fn kind_of(surface: SeenSurface) -> u32 {
     let place = place_of(surface.point);
     let is_far = length(surface.point - frame.eye.xyz) * frame.eye.w >= DETAIL_FROM;
-    var is_wet = wet_share(place, spline_at(bed, place)) > 0.0;
-    var first = 0u;
-    if HORIZON && is_beyond(place) {
-        is_wet = wet_share_beyond(place, ground_beyond(place)) > 0.0;
-        first = BEYOND;
+    let goes_on = HORIZON && is_beyond(place);
+    var is_wet = false;
+    // Loops of one turn or none: software would look up both in a condition.
+    for (var look = 0u; look < select(1u, 0u, goes_on); look++) {
+        is_wet = wet_share(place, spline_at(bed, place)) > 0.0;
     }
+    for (var look = 0u; look < select(0u, 1u, goes_on); look++) {
+        is_wet = wet_share_beyond(place, ground_beyond(place)) > 0.0;
+    }
+    let first = select(0u, BEYOND, goes_on);
     return first + select(select(NEAR_DRY, FAR_DRY, is_far), select(NEAR_WET, FAR_WET, is_far), is_wet);
+}
+
+// The kind of what is seen at a place of the picture: of a surface, or of what is behind the ground where it has no samples.
+fn kind_seen(position: vec2<f32>, surface: SeenSurface) -> u32 {
+    var kind = backdrop_at(position);
+    for (var look = 0u; look < select(0u, 1u, surface.samples != 0u); look++) {
+        kind = kind_of(surface);
+    }
+    return kind;
 }
 
 @fragment
 fn kind_fragment(@builtin(position) position: vec4<f32>) -> @builtin(frag_depth) f32 {
-    let surface = surface_of(position.xy, false);
-    let kind = select(backdrop_at(position.xy), kind_of(surface), surface.samples != 0u);
-    return f32(select(kind, HIDDEN, is_hidden(position.xy, 0))) * KIND;
+    var kind = HIDDEN;
+    for (var look = 0u; look < select(1u, 0u, is_hidden(position.xy, 0)); look++) {
+        kind = kind_seen(position.xy, surface_of(position.xy, false));
+    }
+    return f32(kind) * KIND;
 }
 
 @fragment

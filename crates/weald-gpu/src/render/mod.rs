@@ -20,6 +20,7 @@ mod grass;
 mod grass_layer;
 mod grass_look;
 mod ground;
+mod ground_pipelines;
 mod lattice;
 mod layouts;
 mod levels;

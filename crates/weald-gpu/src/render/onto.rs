@@ -5,7 +5,7 @@ use std::sync::Arc;
 use weald::Error;
 use wgpu::BindGroup;
 
-use super::ground::depths_group;
+use super::ground::depths_groups;
 use super::options::Options;
 use super::passes::Passes;
 use super::targets::Targets;
@@ -17,8 +17,8 @@ use crate::gpu::Gpu;
 pub(super) struct Onto {
     pub(super) options: Options,
     pub(super) targets: Targets,
-    /// The depths of the ground, as its light is drawn from them.
-    pub(super) depths: BindGroup,
+    /// The depths of the ground, as its light is drawn from them, without and with the light of clouds.
+    pub(super) depths: [BindGroup; 2],
     /// The light, as a picture is made from it.
     pub(super) light: BindGroup,
     /// What grass around a camera is kept for: it lives as long as the view does, whatever its size.
@@ -34,7 +34,7 @@ impl Onto {
     ) -> Result<Self, Error> {
         options.check(gpu)?;
         let targets = Targets::new(gpu, options)?;
-        let depths = depths_group(gpu, &passes.depths, &targets);
+        let depths = depths_groups(gpu, &passes.depths, &targets);
         let light = film.light_of(gpu, &targets);
         Ok(Self { options, targets, depths, light, viewer })
     }

@@ -12,6 +12,7 @@ use wgpu::{
 
 use super::grass::Grass;
 use super::ground::{self, Ground, InSight};
+use super::ground_pipelines::{Parts, SceneParts};
 use super::layouts::{Layouts, STAGE_GROUP, depth_state};
 use super::picking;
 use super::plants::Plants;
@@ -54,8 +55,8 @@ pub(super) struct Passes {
     ground: Ground,
     sides: RenderPipeline,
     rims: RenderPipeline,
-    /// Of the depths of the ground.
-    pub(super) depths: BindGroupLayout,
+    /// Of the depths of the ground, without and with the light of clouds.
+    pub(super) depths: [BindGroupLayout; 2],
     pub(super) casters: Casters,
     module: ShaderModule,
     picks: (PipelineLayout, BindGroupLayout),
@@ -106,13 +107,12 @@ struct Maker<'a> {
     context: &'a Context,
     module: ShaderModule,
     layout: PipelineLayout,
-    with_depths: PipelineLayout,
+    with_depths: [PipelineLayout; 2],
     casters: PipelineLayout,
     picks: (PipelineLayout, BindGroupLayout),
     samples: u32,
-    has_holes: bool,
+    has: SceneParts,
     has_lawn: bool,
-    has_horizon: bool,
 }
 
 /// What one pipeline is.
@@ -141,25 +141,26 @@ impl Passes {
                     immediate_size: 0,
                 })
             };
-            let depths = ground::depths_layout(gpu, samples);
+            let depths = ground::depths_layouts(gpu, samples);
             let picks = picking::layout(gpu, samples);
             let maker = Maker {
                 context: &gpu.context,
                 module: gpu.context.known.module(&gpu.context.device, "picture", text),
                 layout: whole(&[Some(&frame.layout), Some(&maps.layout)]),
-                with_depths: whole(&[Some(&frame.layout), Some(&maps.layout), Some(&depths)]),
+                with_depths: depths
+                    .each_ref()
+                    .map(|depths| whole(&[Some(&frame.layout), Some(&maps.layout), Some(depths)])),
                 casters: whole(&[Some(&frame.caster_layout), Some(&maps.layout), Some(cascade)]),
                 picks: (whole(&[Some(&frame.layout), Some(&maps.layout), Some(&picks)]), picks),
                 samples,
-                has_holes: scene.has_holes(),
+                has: SceneParts::of(scene),
                 has_lawn,
-                has_horizon: scene.beyond().is_some(),
             };
             Ok(Self::of(&maker, depths))
         })
     }
 
-    fn of(maker: &Maker<'_>, depths: BindGroupLayout) -> Self {
+    fn of(maker: &Maker<'_>, depths: [BindGroupLayout; 2]) -> Self {
         let instances = |bytes, attributes| VertexBufferLayout {
             array_stride: bytes,
             step_mode: VertexStepMode::Instance,
@@ -177,22 +178,21 @@ impl Passes {
             maker.caster(&Pipeline { name, buffers, depth })
         };
         Self {
-            ground: Ground::new(ground::Parts {
+            ground: Ground::new(Parts {
                 context: maker.context,
                 module: &maker.module,
-                layouts: [&maker.with_depths, &maker.layout],
+                layouts: [&maker.with_depths[0], &maker.layout, &maker.with_depths[1]],
                 patches: &patches,
                 samples: maker.samples,
-                has_holes: maker.has_holes,
+                has: maker.has,
                 has_lawn: maker.has_lawn,
-                has_horizon: maker.has_horizon,
             }),
             depths,
             sides: solid("side", &sides),
             rims: solid("rim", &rims),
             casters: Casters {
                 ground: caster("ground", &patches),
-                beyond: maker.has_horizon.then(|| caster("beyond", &patches)),
+                beyond: maker.has.horizon.then(|| caster("beyond", &patches)),
                 sides: caster("side", &sides),
                 rims: caster("rim", &rims),
             },
@@ -230,7 +230,7 @@ impl Passes {
     pub(super) fn draw(
         &self,
         encoder: &mut CommandEncoder,
-        (targets, depths): (&Targets, &BindGroup),
+        (targets, depths): (&Targets, &[BindGroup; 2]),
         groups: [&BindGroup; 2],
         drawing: Drawing<'_>,
         pick: Option<impl FnOnce(&mut CommandEncoder)>,
@@ -259,14 +259,22 @@ impl Passes {
         // What is hidden by now is not lit.
         let mut pass = targets.kind_pass(encoder);
         bind(&mut pass, groups);
-        self.ground.draw_kinds(&mut pass, depths);
+        self.ground.draw_kinds(&mut pass, &depths[0]);
         drop(pass);
         let mut pass = targets.ground_pass(encoder);
         bind(&mut pass, groups);
-        self.ground.draw_light(&mut pass, depths, drawing.in_sight);
+        self.ground.draw_light(&mut pass, &depths[0], drawing.in_sight);
         if let Some(timer) = timer {
             timer.note(&mut pass, Timestamp::Ground);
         }
+        drop(pass);
+        if !drawing.bare && self.ground.has_clouds(drawing.in_sight) {
+            let mut pass = targets.cloud_pass(encoder);
+            bind(&mut pass, groups);
+            self.ground.draw_clouds(&mut pass, &depths[0]);
+        }
+        let mut pass = targets.backdrop_pass(encoder);
+        bind(&mut pass, groups);
         if !drawing.bare {
             self.ground.draw_backdrop(&mut pass, depths, drawing.in_sight);
         }
@@ -308,7 +316,7 @@ impl Maker<'_> {
     fn light(&self, pipeline: &Pipeline<'_>) -> RenderPipeline {
         let target = ColorTargetState { format: LIGHT, blend: None, write_mask: ColorWrites::ALL };
         let names = ["vertex", "fragment"].map(|part| format!("{}_{part}", pipeline.name));
-        let holes = [("HOLES", f64::from(self.has_holes))];
+        let holes = [("HOLES", f64::from(self.has.holes))];
         let compilation_options =
             PipelineCompilationOptions { constants: &holes, ..PipelineCompilationOptions::default() };
         let fragment = FragmentState {
@@ -329,7 +337,7 @@ impl Maker<'_> {
             targets: &[],
         };
         let name = format!("{}_caster", pipeline.name);
-        self.pipeline(pipeline, &name, (&self.casters, 1), self.has_holes.then_some(fragment))
+        self.pipeline(pipeline, &name, (&self.casters, 1), self.has.holes.then_some(fragment))
     }
 
     fn pipeline(
@@ -358,7 +366,7 @@ impl Maker<'_> {
                 cache: None,
             })
         };
-        let key = format!("{vertex} {samples} {}", self.has_holes);
+        let key = format!("{vertex} {samples} {}", self.has.holes);
         self.context.known.drawing((self.module.clone(), key), make)
     }
 }

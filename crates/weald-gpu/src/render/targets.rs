@@ -29,6 +29,8 @@ pub(super) struct Targets {
     pub(super) ground: Canvas,
     /// Of which kind the ground of each sample is.
     kinds: Canvas,
+    /// The light of clouds before the sky, in half as many columns and rows.
+    pub(super) clouds: Canvas,
     /// With samples; `None` where a pixel has one.
     pub(super) sampled: Option<Canvas>,
     /// Without.
@@ -47,11 +49,13 @@ impl Targets {
             Shape { samples, ..Shape::flat(size, DEPTH, attachment | seen | TextureUsages::COPY_DST) };
         let kinds = Shape { samples, ..Shape::flat(size, DEPTH, attachment) };
         let sampled = Shape { samples, ..Shape::flat(size, LIGHT, attachment) };
-        let light = Shape::flat(size, LIGHT, attachment | TextureUsages::TEXTURE_BINDING);
+        let light = Shape::flat(size, LIGHT, attachment | seen);
+        let clouds = Shape::flat(size.map(|side| side.div_ceil(2)), LIGHT, attachment | seen);
         Ok(Self {
             depth: Canvas::new(gpu, "depth", depth)?,
             ground: Canvas::new(gpu, "depth of the ground", ground)?,
             kinds: Canvas::new(gpu, "kinds of ground", kinds)?,
+            clouds: Canvas::new(gpu, "light of clouds", clouds)?,
             sampled: if samples > 1 { Some(Canvas::new(gpu, "light with samples", sampled)?) } else { None },
             light: Canvas::new(gpu, "light", light)?,
         })
@@ -85,14 +89,41 @@ impl Targets {
         })
     }
 
-    /// The pass that draws the light of the ground and of what lies behind it.
+    /// The pass that draws the light of the ground.
     pub(super) fn ground_pass<'a>(&self, encoder: &'a mut CommandEncoder) -> RenderPass<'a> {
-        let ops = Operations { load: LoadOp::Load, store: StoreOp::Store };
-        let attachment = self.light(ops, true);
+        self.pass_by_kinds(encoder, "ground", false)
+    }
+
+    /// The pass that draws what lies behind it, the last.
+    pub(super) fn backdrop_pass<'a>(&self, encoder: &'a mut CommandEncoder) -> RenderPass<'a> {
+        self.pass_by_kinds(encoder, "backdrop", true)
+    }
+
+    /// A pass that draws the light of pixels of some kinds.
+    fn pass_by_kinds<'a>(
+        &self,
+        encoder: &'a mut CommandEncoder,
+        label: &'static str,
+        is_last: bool,
+    ) -> RenderPass<'a> {
+        let attachment = self.light(Operations { load: LoadOp::Load, store: StoreOp::Store }, is_last);
+        let store = if is_last { StoreOp::Discard } else { StoreOp::Store };
         encoder.begin_render_pass(&RenderPassDescriptor {
-            depth_stencil_attachment: Some(depths(&self.kinds, LoadOp::Load, StoreOp::Discard)),
-            ..described("ground", &[Some(attachment)], None)
+            depth_stencil_attachment: Some(depths(&self.kinds, LoadOp::Load, store)),
+            ..described(label, &[Some(attachment)], None)
         })
+    }
+
+    /// The pass that draws the light of clouds.
+    pub(super) fn cloud_pass<'a>(&self, encoder: &'a mut CommandEncoder) -> RenderPass<'a> {
+        let ops = Operations { load: LoadOp::Clear(Color::TRANSPARENT), store: StoreOp::Store };
+        let attachment = RenderPassColorAttachment {
+            view: &self.clouds.view,
+            depth_slice: None,
+            resolve_target: None,
+            ops,
+        };
+        encoder.begin_render_pass(&described("clouds", &[Some(attachment)], None))
     }
 
     /// The pass that draws the light of cut sides, the first of a picture.

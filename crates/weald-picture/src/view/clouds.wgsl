@@ -114,8 +114,14 @@ fn lit_cloud(at: vec3<f32>, direction: vec3<f32>, footprint: f32) -> vec3<f32> {
 
 // The radiance of the sky in a direction, with the clouds before it; `blur` is the angle in radians that is seen as one.
 fn with_clouds(start: vec3<f32>, direction: vec3<f32>, radiance: vec3<f32>, blur: f32) -> vec3<f32> {
+    let clouds = clouds_before(start, direction, radiance, blur);
+    return clouds.xyz + clouds.w * radiance;
+}
+
+// The light of the clouds before a sky of such a radiance, and the share of the sky that is seen.
+fn clouds_before(start: vec3<f32>, direction: vec3<f32>, radiance: vec3<f32>, blur: f32) -> vec4<f32> {
     if !CLOUDS || direction.z < 0.01 || start.z >= scene.cloud_height.x {
-        return radiance;
+        return vec4<f32>(0.0, 0.0, 0.0, 1.0);
     }
     var sum = vec3<f32>(0.0);
     var left = 1.0;
@@ -154,7 +160,7 @@ fn with_clouds(start: vec3<f32>, direction: vec3<f32>, radiance: vec3<f32>, blur
             slice += 1.0 + floor(max(-CLOUDS_NEAR - here, 0.0) / (CLOUDS_STEEPEST * levels.y));
         }
     }
-    return sum + left * radiance;
+    return vec4<f32>(sum, left);
 }
 
 // Share of the sunlight that comes through them to a point.

@@ -169,6 +169,11 @@ impl LitScene {
         self.setting.terrain.base
     }
 
+    /// Whether clouds drift above it.
+    pub fn has_clouds(&self) -> bool {
+        self.clouds.is_some()
+    }
+
     /// Whether some of it has no data.
     pub fn has_holes(&self) -> bool {
         self.setting.terrain.land.is_some()

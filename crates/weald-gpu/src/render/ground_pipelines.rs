@@ -1,0 +1,181 @@
+//! How the pipelines of the ground and of what lies behind it are made.
+
+use std::ops::Range;
+
+use weald::picture::LitScene;
+use wgpu::{
+    BlendComponent, BlendFactor, BlendOperation, BlendState, ColorTargetState, ColorWrites, CompareFunction,
+    FragmentState, MultisampleState, PipelineCompilationOptions, PipelineLayout, PrimitiveState,
+    RenderPipeline, RenderPipelineDescriptor, ShaderModule, VertexBufferLayout, VertexState,
+};
+
+use super::layouts::depth_state;
+use super::targets::LIGHT;
+use crate::gpu::context::Context;
+
+/// A kind of light, the kinds of ground that have it, and whether it is laid over what is there.
+pub(super) struct Light {
+    pub(super) fragment: &'static str,
+    pub(super) kinds: Range<u32>,
+    pub(super) is_laid_over: bool,
+}
+
+/// What a scene has, without which shaders leave out what draws it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct SceneParts {
+    /// Cells without data.
+    pub(super) holes: bool,
+    pub(super) clouds: bool,
+    /// Ground that goes on beyond the border.
+    pub(super) horizon: bool,
+}
+
+impl SceneParts {
+    /// What a scene has.
+    pub(super) fn of(scene: &LitScene) -> Self {
+        Self { holes: scene.has_holes(), clouds: scene.has_clouds(), horizon: scene.beyond().is_some() }
+    }
+}
+
+/// What the pipelines of the ground are made of.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Parts<'a> {
+    pub(super) context: &'a Context,
+    pub(super) module: &'a ShaderModule,
+    /// With the depths, without, and with the light of clouds as well.
+    pub(super) layouts: [&'a PipelineLayout; 3],
+    pub(super) patches: &'a [Option<VertexBufferLayout<'a>>],
+    pub(super) samples: u32,
+    pub(super) has: SceneParts,
+    pub(super) has_lawn: bool,
+}
+
+/// What tells the pipelines of the ground from each other.
+struct Drawn<'a> {
+    key: String,
+    layout: &'a PipelineLayout,
+    samples: u32,
+    vertex: (&'a str, &'a [Option<VertexBufferLayout<'a>>]),
+    fragment: Option<&'a str>,
+    constants: &'a [(&'a str, f64)],
+    target: Option<ColorTargetState>,
+    /// Whether it is kept, and how it is compared; `None` without depth.
+    depth: Option<(bool, CompareFunction)>,
+}
+
+/// What is laid over what is there, by its own share.
+const LAID_OVER: BlendState = BlendState {
+    color: BlendComponent {
+        src_factor: BlendFactor::SrcAlpha,
+        dst_factor: BlendFactor::OneMinusSrcAlpha,
+        operation: BlendOperation::Add,
+    },
+    alpha: BlendComponent::OVER,
+};
+
+impl Parts<'_> {
+    /// The depths of triangles of the ground.
+    pub(super) fn depth(&self, vertex: &str) -> RenderPipeline {
+        self.pipeline(&Drawn {
+            key: format!("depths of {vertex} {}", self.has.holes),
+            layout: self.layouts[1],
+            samples: self.samples,
+            vertex: (vertex, self.patches),
+            fragment: self.has.holes.then_some("hole_fragment"),
+            constants: &[],
+            target: None,
+            depth: Some((true, CompareFunction::Greater)),
+        })
+    }
+
+    /// The kind of each pixel.
+    pub(super) fn kind(&self) -> RenderPipeline {
+        let fragment = if self.samples > 1 { "kind_sampled_fragment" } else { "kind_fragment" };
+        self.pipeline(&Drawn {
+            key: format!("{fragment} {}", self.has.horizon),
+            layout: self.layouts[0],
+            samples: self.samples,
+            vertex: ("whole_vertex", &[]),
+            fragment: Some(fragment),
+            constants: &[("SAMPLED", f64::from(self.samples > 1)), ("HORIZON", f64::from(self.has.horizon))],
+            target: None,
+            depth: Some((true, CompareFunction::Always)),
+        })
+    }
+
+    /// The light of the kinds of ground that have it.
+    pub(super) fn light(&self, light: &Light, is_behind: bool) -> RenderPipeline {
+        self.light_from(self.layouts[0], light, is_behind)
+    }
+
+    /// The light of the sky, with that of its clouds.
+    pub(super) fn sky(&self, light: &Light) -> RenderPipeline {
+        self.light_from(self.layouts[2], light, false)
+    }
+
+    fn light_from(&self, layout: &PipelineLayout, light: &Light, is_behind: bool) -> RenderPipeline {
+        let blend = light.is_laid_over.then_some(LAID_OVER);
+        self.pipeline(&Drawn {
+            key: format!("{} {is_behind} {} {}", light.fragment, self.has_lawn, self.has.horizon),
+            layout,
+            samples: self.samples,
+            vertex: ("whole_vertex", &[]),
+            fragment: Some(light.fragment),
+            constants: &[
+                ("SAMPLED", f64::from(self.samples > 1)),
+                ("IS_BEHIND", f64::from(is_behind)),
+                ("LAWN", f64::from(self.has_lawn)),
+                ("HORIZON", f64::from(self.has.horizon)),
+            ],
+            target: Some(ColorTargetState { format: LIGHT, blend, write_mask: ColorWrites::ALL }),
+            depth: Some((false, CompareFunction::Equal)),
+        })
+    }
+
+    /// The light of clouds, of one sample.
+    pub(super) fn clouds(&self) -> RenderPipeline {
+        self.pipeline(&Drawn {
+            key: format!("clouds {}", self.samples),
+            layout: self.layouts[0],
+            samples: 1,
+            vertex: ("whole_vertex", &[]),
+            fragment: Some("clouds_fragment"),
+            constants: &[("SAMPLED", f64::from(self.samples > 1))],
+            target: Some(ColorTargetState { format: LIGHT, blend: None, write_mask: ColorWrites::ALL }),
+            depth: None,
+        })
+    }
+
+    fn pipeline(&self, drawn: &Drawn<'_>) -> RenderPipeline {
+        let targets = drawn.target.clone().map(|target| [Some(target)]);
+        let fragment = drawn.fragment.map(|name| FragmentState {
+            module: self.module,
+            entry_point: Some(name),
+            compilation_options: PipelineCompilationOptions {
+                constants: drawn.constants,
+                ..PipelineCompilationOptions::default()
+            },
+            targets: targets.as_ref().map_or(&[], |targets| targets.as_slice()),
+        });
+        let make = || {
+            self.context.device.create_render_pipeline(&RenderPipelineDescriptor {
+                label: Some(&drawn.key),
+                layout: Some(drawn.layout),
+                vertex: VertexState {
+                    module: self.module,
+                    entry_point: Some(drawn.vertex.0),
+                    compilation_options: PipelineCompilationOptions::default(),
+                    buffers: drawn.vertex.1,
+                },
+                primitive: PrimitiveState::default(),
+                depth_stencil: drawn.depth.map(|(depth_write, compare)| depth_state(depth_write, compare)),
+                multisample: MultisampleState { count: drawn.samples, ..MultisampleState::default() },
+                fragment,
+                multiview_mask: None,
+                cache: None,
+            })
+        };
+        let key = format!("{} {}", drawn.key, drawn.samples);
+        self.context.known.drawing((self.module.clone(), key), make)
+    }
+}
