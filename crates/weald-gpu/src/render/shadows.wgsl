@@ -42,6 +42,35 @@ fn blocker_depth(place: vec2<f32>, cascade: i32, depth: f32) -> f32 {
     return select(2.0, sum / max(count, 1.0), count > 0.0);
 }
 
+// The weights of two neighbouring texels, so far away, in the mean of four looks so far apart, each between two texels.
+fn look_weights(away: vec2<f32>, spacing: f32) -> vec2<f32> {
+    var sum = vec2<f32>(0.0);
+    for (var look = 0; look < 4; look++) {
+        sum += max(1.0 - abs(away + (f32(look) - 1.5) * spacing), vec2<f32>(0.0));
+    }
+    return 0.25 * sum;
+}
+
+// The share of sixteen looks, four by four and so many texels apart, from which a depth is open to the sun: texels lie closer
+// than looks do, so that four of them at a time serve several looks.
+fn open_share(place: vec2<f32>, cascade: i32, depth: f32, spacing: f32) -> f32 {
+    let size = vec2<f32>(textureDimensions(shadow_depths));
+    let middle = place * size - 0.5;
+    let first = floor(middle - 1.5 * spacing);
+    let end = floor(middle + 1.5 * spacing) + 2.0;
+    var sum = 0.0;
+    for (var south = first.y; south < end.y; south += 2.0) {
+        let down = look_weights(vec2<f32>(south, south + 1.0) - middle.y, spacing);
+        for (var east = first.x; east < end.x; east += 2.0) {
+            let across = look_weights(vec2<f32>(east, east + 1.0) - middle.x, spacing);
+            let corner = (vec2<f32>(east, south) + 1.0) / size;
+            let open = textureGatherCompare(shadow_depths, shadow_between, corner, cascade, depth);
+            sum += down.x * dot(across, open.wz) + down.y * dot(across, open.xy);
+        }
+    }
+    return sum;
+}
+
 fn seen_in_cascade(point: vec3<f32>, normal: vec3<f32>, cascade: i32) -> f32 {
     let square = frame.cascades[cascade];
     let size = f32(textureDimensions(shadow_depths).x);
@@ -60,12 +89,7 @@ fn seen_in_cascade(point: vec3<f32>, normal: vec3<f32>, cascade: i32) -> f32 {
     }
     let width = (depth - blocker) * range * tan(scene.sun.w) / texel;
     let spacing = clamp(width, 0.75, WIDEST) * 0.5;
-    var sum = 0.0;
-    for (var look = 0; look < 16; look++) {
-        let offset = (vec2<f32>(f32(look % 4), f32(look / 4)) - 1.5) * spacing / size;
-        sum += textureSampleCompareLevel(shadow_depths, shadow_between, place + offset, cascade, depth);
-    }
-    return sum / 16.0;
+    return open_share(place, cascade, depth, spacing);
 }
 
 // The first cascade that holds a point; as many as there are where none does.

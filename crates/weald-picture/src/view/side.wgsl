@@ -31,7 +31,8 @@ fn strata_thickness(place: vec2<f32>, material: i32) -> f32 {
 // Colour of the ground at a place and a height in metres, whose surface is at `surface`.
 fn strata_albedo(place: vec2<f32>, point: vec3<f32>, height: f32, surface: f32) -> vec3<f32> {
     var roof = surface;
-    let count = i32(scene.strata.z);
+    // As `is_above` has it: what hangs on the number alone would have software copy the shader.
+    let count = i32(scene.strata.z + min(place.x + FAR_AWAY, 0.0));
     for (var material = count - 1; material >= 0; material--) {
         roof -= strata_thickness(place, material);
         if height >= roof {
