@@ -5,8 +5,8 @@ fn backdrop_direction(position: vec2<f32>) -> vec3<f32> {
     return normalize(along_at(position));
 }
 
-// The light of clouds and the share of the sky between them, in half as many columns and rows as the picture has: clouds are
-// soft, and dear.
+// The light of clouds and the share of the sky between them, in half as many columns and rows as the picture has: clouds have
+// soft edges, and marching through them takes longer than all else of the sky.
 @group(2) @binding(5) var cloud_light: texture_2d<f32>;
 
 // The sky in a direction, without its clouds.
@@ -14,7 +14,7 @@ fn clear_sky(direction: vec3<f32>) -> vec3<f32> {
     return veil_before_sky(sky_radiance_with_sun(direction), frame.eye.xyz, direction);
 }
 
-// Whether nothing hides the sky from some pixel on which a texel of clouds has a part.
+// Whether the sky is seen in some pixel whose clouds are interpolated from a texel.
 fn meets_sky(texel: vec2<f32>) -> bool {
     let last = vec2<i32>(textureDimensions(front_depths)) - 1;
     var farthest = 1.0;

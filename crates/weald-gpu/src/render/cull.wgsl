@@ -1,7 +1,7 @@
 // Which sets of grass are drawn, in three lists of the order of the sets, whatever the order in which threads run: each
 // thread counts the sets of each list in a run of them (`mark`), a running sum over all runs and lists says where each begins
-// (`sum`), and each set is put there (`gather`). The lists lie one behind the other. Only the sum has barriers, which software
-// pays for dearly.
+// (`sum`), and each set is put there (`gather`). The lists lie one behind the other. Only the sum has barriers, which are
+// slow in software.
 //
 // Blelloch 1990, "Prefix sums and their applications"; within a workgroup by Hillis and Steele 1986.
 

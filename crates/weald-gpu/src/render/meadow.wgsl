@@ -54,7 +54,8 @@ fn grass_root(place: vec2<f32>) -> vec3<f32> {
     return vec3<f32>(point.xy, spline_at(bed, place_of(point)));
 }
 
-// How high a set of a rank stands at a distance, as a share: 0 where it is left out.
+// How high a set of a rank stands at a distance, as a share: 0 where it is left out. Here and below what hangs on `choice` alone
+// is a condition: with `select` in their place software (lavapipe of Mesa 22.3) crashes in what chooses.
 fn height_share(rank: f32, distance: f32) -> f32 {
     if choice.thinned == 0u {
         return 1.0;
